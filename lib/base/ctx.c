@@ -1,0 +1,224 @@
+#include "base/ctx.h"
+
+#include <time.h>
+#include <unistd.h>
+
+/*
+ * The arena: a stack of blocks, the newest on top.  Small requests share a
+ * block; a large one gets a block of its own, whose memory goes back to the
+ * system as soon as it is released.
+ */
+enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15 };
+
+struct mr_block {
+	struct mr_block *below;
+	size_t size, used; /* of the bytes behind the header */
+	char pad[ALIGN - sizeof(struct mr_block *) - 2 * sizeof(size_t)];
+};
+
+void
+mr_ctx_init(mr_ctx *ctx, unsigned threads)
+{
+	*ctx = (mr_ctx){ 0 };
+	if (threads == 0) {
+		long cores = sysconf(_SC_NPROCESSORS_ONLN);
+		threads = cores > 0 ? (unsigned)cores : 1;
+	}
+	ctx->threads = threads;
+}
+
+void
+mr_ctx_free(mr_ctx *ctx)
+{
+	mr_mark_release(ctx, (mr_mark){ NULL, 0 });
+}
+
+mr_status
+mr_fail(mr_ctx *ctx, mr_status status, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	vsnprintf(ctx->error, sizeof ctx->error, format, args);
+	va_end(args);
+	return status;
+}
+
+mr_status
+mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...)
+{
+	char sentence[MR_ERROR_MAX];
+	va_list args;
+	size_t n;
+
+	if (status >= 0)
+		return status;
+	memcpy(sentence, ctx->error, sizeof sentence);
+	va_start(args, format);
+	vsnprintf(ctx->error, sizeof ctx->error, format, args);
+	va_end(args);
+	n = strlen(ctx->error);
+	snprintf(ctx->error + n, sizeof ctx->error - n, ": %s", sentence);
+	return status;
+}
+
+void
+mr_note(mr_ctx *ctx, const char *format, ...)
+{
+	char text[MR_ERROR_MAX];
+	va_list args;
+
+	if (!ctx->note)
+		return;
+	va_start(args, format);
+	vsnprintf(text, sizeof text, format, args);
+	va_end(args);
+	ctx->note(ctx->user, text);
+}
+
+void
+mr_progress(mr_ctx *ctx, const char *what, double share)
+{
+	if (ctx->progress)
+		ctx->progress(ctx->user, what, share);
+}
+
+void
+mr_stat_set(mr_ctx *ctx, const char *name, double value)
+{
+	mr_stat *s = ctx->stats, *end = s + ctx->stat_count;
+
+	while (s < end && strcmp(s->name, name))
+		s++;
+	if (s == end) {
+		if (ctx->stat_count == MR_STATS_MAX)
+			return;
+		ctx->stat_count++;
+		snprintf(s->name, sizeof s->name, "%s", name);
+	}
+	s->value = value;
+}
+
+double
+mr_seconds(void)
+{
+	struct timespec t;
+
+	clock_gettime(CLOCK_MONOTONIC, &t);
+	return (double)t.tv_sec + 1e-9 * (double)t.tv_nsec;
+}
+
+static void *
+bytes_of(mr_block *b)
+{
+	return (char *)b + sizeof *b;
+}
+
+/* The size in bytes of count objects, rounded up to whole lines of ALIGN; false when it overflows. */
+static bool
+product(size_t count, size_t size, size_t *bytes)
+{
+	if (__builtin_mul_overflow(count, size, bytes) || *bytes > SIZE_MAX / 2)
+		return false;
+	*bytes = (*bytes + ALIGN - 1) / ALIGN * ALIGN;
+	return true;
+}
+
+static bool
+told_to_fail(mr_ctx *ctx)
+{
+	return ctx->fail_at && --ctx->fail_at == 0;
+}
+
+static void *
+no_memory(mr_ctx *ctx, size_t count, size_t size)
+{
+	mr_fail(ctx, MR_EMEM, "no memory for %zu objects of %zu bytes", count, size);
+	return NULL;
+}
+
+static mr_block *
+block_new(mr_ctx *ctx, size_t size)
+{
+	void *memory;
+	mr_block *b;
+
+	if (posix_memalign(&memory, ALIGN, sizeof *b + size))
+		return NULL;
+	b = memory;
+	*b = (mr_block){ .below = ctx->top, .size = size };
+	return ctx->top = b;
+}
+
+void *
+mr_alloc(mr_ctx *ctx, size_t count, size_t size)
+{
+	mr_block *b = ctx->top;
+	size_t bytes;
+	void *p;
+
+	if (!product(count, size, &bytes) || told_to_fail(ctx))
+		return no_memory(ctx, count, size);
+	if (!b || b->size - b->used < bytes) {
+		b = block_new(ctx, bytes > LARGE ? bytes : SHARED);
+		if (!b)
+			return no_memory(ctx, count, size);
+	}
+	p = (char *)bytes_of(b) + b->used;
+	b->used += bytes;
+	return p;
+}
+
+void *
+mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size)
+{
+	void *p = mr_alloc(ctx, count, size);
+
+	return p ? memset(p, 0, count * size) : NULL;
+}
+
+void *
+mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size)
+{
+	void *p = mr_alloc(ctx, count, size);
+
+	if (p && used)
+		memcpy(p, old, used * size);
+	return p;
+}
+
+char *
+mr_format(mr_ctx *ctx, const char *format, ...)
+{
+	va_list args;
+	char *text;
+	int n;
+
+	va_start(args, format);
+	n = vsnprintf(NULL, 0, format, args);
+	va_end(args);
+	if (n < 0 || !(text = mr_alloc(ctx, (size_t)n + 1, 1)))
+		return NULL;
+	va_start(args, format);
+	vsnprintf(text, (size_t)n + 1, format, args);
+	va_end(args);
+	return text;
+}
+
+mr_mark
+mr_mark_take(const mr_ctx *ctx)
+{
+	return (mr_mark){ ctx->top, ctx->top ? ctx->top->used : 0 };
+}
+
+void
+mr_mark_release(mr_ctx *ctx, mr_mark mark)
+{
+	while (ctx->top != mark.block) {
+		mr_block *b = ctx->top;
+		ctx->top = b->below;
+		free(b);
+	}
+	if (mark.block)
+		mark.block->used = mark.used;
+}

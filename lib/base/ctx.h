@@ -1,0 +1,126 @@
+/*
+ * ctx.h -- status codes and the context every library function takes first.
+ *
+ * Contract: the library never prints and never exits.  A function returns an
+ * mr_status; on failure it has put one sentence with the numbers in it into the
+ * context by mr_fail, and its outputs are unchanged.
+ *
+ * Memory: everything is allocated from the context's arena and stays until the
+ * arena is released below it: callers free nothing.  A function that needs
+ * workspace allocates its outputs first, takes a mark, and releases to it.
+ *
+ * Layer rule: base includes nothing but the C library and POSIX.
+ */
+#ifndef MR_CTX_H
+#define MR_CTX_H
+
+#include "base/banned.h"
+
+#include <stdarg.h>
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#define MR_WARN_UNUSED __attribute__((warn_unused_result))
+#define MR_PRINTF(f, a) __attribute__((format(printf, f, a)))
+
+typedef enum mr_status {
+	MR_OK = 0,
+	MR_END = 1,        /* a reader has nothing more: not a failure */
+	MR_EMEM = -1,      /* memory could not be had */
+	MR_EIO = -2,       /* the system could not read or write */
+	MR_EFORMAT = -3,   /* bytes break the format they claim */
+	MR_ERANGE = -4,    /* a number, an index or a size is outside its range */
+	MR_EMESH = -5,     /* a mesh or cloud that the algorithm cannot work on */
+	MR_ENUMERIC = -6,  /* singular, not positive definite, not converged */
+	MR_EMISSING = -7,  /* a layer or column is not there, or of another shape */
+	MR_EUSAGE = -8     /* a wrong option value, found late: the command exits 2 */
+} mr_status;
+
+/* Returns from the calling function when `expr` fails; MR_OK and MR_END go on. */
+#define MR_TRY(expr)                                                                                         \
+	do {                                                                                                 \
+		mr_status try_status_ = (expr);                                                              \
+		if (try_status_ < 0)                                                                         \
+			return try_status_;                                                                  \
+	} while (0)
+
+/* One figure a tool measured; a command writes them as a JSON object per frame. */
+typedef struct mr_stat {
+	char name[40];
+	double value;
+} mr_stat;
+
+enum { MR_STATS_MAX = 96, MR_ERROR_MAX = 512 };
+
+typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
+
+typedef struct mr_ctx {
+	unsigned threads;                                      /* at least 1 */
+	void (*note)(void *user, const char *text);            /* a remark for -v; NULL: dropped */
+	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1; NULL: none */
+	void *user;                                            /* passed to both */
+	uint64_t fail_at;                                      /* tests: the allocation that fails, 1 the next; 0 none */
+	char error[MR_ERROR_MAX];                              /* the sentence of the last failure */
+	mr_stat stats[MR_STATS_MAX];
+	size_t stat_count;
+	mr_block *top;                                         /* newest block of the arena */
+} mr_ctx;
+
+/* A place in the arena, to release to. */
+typedef struct mr_mark {
+	mr_block *block;
+	size_t used;
+} mr_mark;
+
+/* Initialises a context with `threads` threads (0: all cores) and an empty arena. */
+void mr_ctx_init(mr_ctx *ctx, unsigned threads);
+
+/* Frees all memory of the context.  Accepts a context that was only zeroed. */
+void mr_ctx_free(mr_ctx *ctx);
+
+/* Stores the sentence and returns `status`, for `return mr_fail(...)`. */
+mr_status mr_fail(mr_ctx *ctx, mr_status status, const char *format, ...) MR_PRINTF(3, 4);
+
+/* Puts "text: " before the sentence of the last failure and returns `status` unchanged; good ones pass. */
+mr_status mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...) MR_PRINTF(3, 4);
+
+/* A remark for the user who asked for them. */
+void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
+
+/* Reports that a share (0 to 1) of `what` is done. */
+void mr_progress(mr_ctx *ctx, const char *what, double share);
+
+/* Records a figure under `name` (39 bytes at most); the same name again replaces it.  More than MR_STATS_MAX are dropped. */
+void mr_stat_set(mr_ctx *ctx, const char *name, double value);
+
+/* Seconds of a monotonic clock, for figures only: no result may depend on it. */
+double mr_seconds(void);
+
+/*
+ * Memory for `count` objects of `size` bytes, 64-byte aligned, not initialised;
+ * never NULL for a count of 0.  NULL, with the sentence set, when the product
+ * overflows or memory cannot be had: `return MR_EMEM`.
+ */
+void *mr_alloc(mr_ctx *ctx, size_t count, size_t size) MR_WARN_UNUSED;
+
+/* The same, zeroed. */
+void *mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size) MR_WARN_UNUSED;
+
+/*
+ * Grows `old`, which holds `used` objects and came from mr_alloc of this arena
+ * (or is NULL), to `count` objects.  The old place stays until it is released,
+ * so grow by a factor.
+ */
+void *mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size) MR_WARN_UNUSED;
+
+#define MR_NEW(ctx, count, type) ((type *)mr_alloc((ctx), (count), sizeof(type)))
+#define MR_NEW_ZERO(ctx, count, type) ((type *)mr_alloc_zero((ctx), (count), sizeof(type)))
+
+/* A formatted string in the arena; NULL when memory cannot be had. */
+char *mr_format(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
+
+mr_mark mr_mark_take(const mr_ctx *ctx);
+void mr_mark_release(mr_ctx *ctx, mr_mark mark);
+
+#endif

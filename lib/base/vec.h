@@ -1,0 +1,170 @@
+/* vec.h -- vectors of three doubles, boxes, and affine maps.  Layer rule: base. */
+#ifndef MR_VEC_H
+#define MR_VEC_H
+
+#include "base/ctx.h"
+
+#include <math.h>
+
+typedef struct mr_v3 {
+	double x, y, z;
+} mr_v3;
+
+/* An affine map: 3x4, row-major, acting on (x, y, z, 1). */
+typedef struct mr_affine {
+	double m[12];
+} mr_affine;
+
+typedef struct mr_box {
+	mr_v3 min, max;
+} mr_box;
+
+static const double MR_PI = 3.14159265358979323846;
+
+static inline mr_v3
+mr_vec(double x, double y, double z)
+{
+	return (mr_v3){ x, y, z };
+}
+
+static inline mr_v3
+mr_add(mr_v3 a, mr_v3 b)
+{
+	return (mr_v3){ a.x + b.x, a.y + b.y, a.z + b.z };
+}
+
+static inline mr_v3
+mr_sub(mr_v3 a, mr_v3 b)
+{
+	return (mr_v3){ a.x - b.x, a.y - b.y, a.z - b.z };
+}
+
+static inline mr_v3
+mr_mul(double s, mr_v3 a)
+{
+	return (mr_v3){ s * a.x, s * a.y, s * a.z };
+}
+
+/* y + s a */
+static inline mr_v3
+mr_axpy(double s, mr_v3 a, mr_v3 y)
+{
+	return (mr_v3){ y.x + s * a.x, y.y + s * a.y, y.z + s * a.z };
+}
+
+static inline double
+mr_dot(mr_v3 a, mr_v3 b)
+{
+	return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+static inline mr_v3
+mr_cross(mr_v3 a, mr_v3 b)
+{
+	return (mr_v3){ a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x };
+}
+
+static inline double
+mr_norm2(mr_v3 a)
+{
+	return mr_dot(a, a);
+}
+
+static inline double
+mr_norm(mr_v3 a)
+{
+	return sqrt(mr_dot(a, a));
+}
+
+static inline double
+mr_dist(mr_v3 a, mr_v3 b)
+{
+	return mr_norm(mr_sub(a, b));
+}
+
+/* a / |a|; the zero vector stays zero. */
+static inline mr_v3
+mr_unit(mr_v3 a)
+{
+	double n = mr_norm(a);
+	return n > 0 ? mr_mul(1 / n, a) : a;
+}
+
+static inline mr_v3
+mr_lerp(double t, mr_v3 a, mr_v3 b)
+{
+	return mr_axpy(t, mr_sub(b, a), a);
+}
+
+/* The point with barycentric coordinates w over the triangle a b c. */
+static inline mr_v3
+mr_bary_point(mr_v3 w, mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	return mr_axpy(w.x, a, mr_axpy(w.y, b, mr_mul(w.z, c)));
+}
+
+static inline bool
+mr_finite(mr_v3 a)
+{
+	return isfinite(a.x) && isfinite(a.y) && isfinite(a.z);
+}
+
+/* T a */
+static inline mr_v3
+mr_apply(const mr_affine *t, mr_v3 a)
+{
+	const double *m = t->m;
+	return (mr_v3){ m[0] * a.x + m[1] * a.y + m[2] * a.z + m[3],
+		m[4] * a.x + m[5] * a.y + m[6] * a.z + m[7],
+		m[8] * a.x + m[9] * a.y + m[10] * a.z + m[11] };
+}
+
+static inline mr_affine
+mr_identity(void)
+{
+	return (mr_affine){ { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 } };
+}
+
+/* a after b: the map x -> a(b(x)) */
+static inline mr_affine
+mr_compose(const mr_affine *a, const mr_affine *b)
+{
+	mr_affine c;
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 4; j++)
+			c.m[4 * i + j] = a->m[4 * i] * b->m[j] + a->m[4 * i + 1] * b->m[4 + j] +
+			    a->m[4 * i + 2] * b->m[8 + j] + (j == 3 ? a->m[4 * i + 3] : 0);
+	return c;
+}
+
+static inline mr_box
+mr_box_empty(void)
+{
+	return (mr_box){ { INFINITY, INFINITY, INFINITY }, { -INFINITY, -INFINITY, -INFINITY } };
+}
+
+static inline void
+mr_box_add(mr_box *b, mr_v3 p)
+{
+	b->min = mr_vec(p.x < b->min.x ? p.x : b->min.x, p.y < b->min.y ? p.y : b->min.y, p.z < b->min.z ? p.z : b->min.z);
+	b->max = mr_vec(p.x > b->max.x ? p.x : b->max.x, p.y > b->max.y ? p.y : b->max.y, p.z > b->max.z ? p.z : b->max.z);
+}
+
+/* The bounding box of n points; empty (min > max) for none. */
+static inline mr_box
+mr_box_of(const mr_v3 *p, size_t n)
+{
+	mr_box b = mr_box_empty();
+	for (size_t i = 0; i < n; i++)
+		mr_box_add(&b, p[i]);
+	return b;
+}
+
+/* Length of the diagonal: the unit of every relative length and error; 0 for an empty box. */
+static inline double
+mr_box_diagonal(mr_box b)
+{
+	return b.min.x <= b.max.x ? mr_dist(b.min, b.max) : 0;
+}
+
+#endif

@@ -1,0 +1,109 @@
+/*
+ * mesh.h -- triangle meshes as flat arrays, and their connectivity.
+ *
+ * Contract: an mr_mesh is a read-only view of arrays that somebody else keeps
+ * (a frame, the arena); algorithms build new arrays.  A mesh that came through
+ * mesh/layers.h has valid indices and finite positions; it may be non-manifold,
+ * which the functions here report.
+ * Layer rule: mesh includes base, stream and itself.
+ */
+#ifndef MR_MESH_H
+#define MR_MESH_H
+
+#include "base/vec.h"
+
+#define MR_NONE UINT32_MAX
+
+typedef struct mr_tri {
+	uint32_t v[3]; /* counter-clockwise, seen from outside */
+} mr_tri;
+
+typedef struct mr_mesh {
+	const char *name;    /* of the layer, for sentences */
+	const mr_v3 *p;      /* nv positions */
+	const mr_tri *t;     /* nf triangles */
+	size_t nv, nf;       /* both below 2^32 - 1; 3 nf below 2^32 - 1 */
+} mr_mesh;
+
+/*
+ * Half-edges.  Half-edge 3 f + i runs from t[f].v[i] to t[f].v[(i + 1) % 3].
+ * twin[h] is the opposite one, MR_NONE on the boundary.  out[v] is a half-edge
+ * that leaves v: on a boundary vertex the boundary half-edge (the first in
+ * counter-clockwise order), MR_NONE for an isolated vertex.
+ */
+typedef struct mr_topology {
+	uint32_t *twin; /* 3 nf */
+	uint32_t *out;  /* nv */
+} mr_topology;
+
+static inline uint32_t
+mr_he_next(uint32_t h)
+{
+	return h % 3 == 2 ? h - 2 : h + 1;
+}
+
+static inline uint32_t
+mr_he_prev(uint32_t h)
+{
+	return h % 3 == 0 ? h + 2 : h - 1;
+}
+
+static inline uint32_t
+mr_he_from(const mr_mesh *m, uint32_t h)
+{
+	return m->t[h / 3].v[h % 3];
+}
+
+static inline uint32_t
+mr_he_to(const mr_mesh *m, uint32_t h)
+{
+	return m->t[h / 3].v[(h + 1) % 3];
+}
+
+/* The next half-edge leaving the same vertex, counter-clockwise; MR_NONE at the boundary. */
+static inline uint32_t
+mr_he_ccw(const mr_topology *topo, uint32_t h)
+{
+	return topo->twin[mr_he_prev(h)];
+}
+
+/*
+ * The half-edges of an oriented manifold mesh, boundary allowed, in the arena.
+ * MR_EMESH with a sentence that names the edge or vertex: an edge with three faces,
+ * two neighbours of opposite orientation, a vertex whose faces form two fans, a
+ * face with a vertex twice.  Isolated vertices are allowed.
+ */
+mr_status mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo);
+
+/* Neighbours of each vertex, sorted, each once, of any mesh: adj[start[i]] to adj[start[i + 1]]; start has nv + 1 entries. */
+typedef struct mr_adjacency {
+	size_t *start;
+	uint32_t *adj;
+} mr_adjacency;
+mr_status mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a);
+
+/* Faces around each vertex, by index, of any mesh: face[start[i]] to face[start[i + 1]]. */
+typedef struct mr_incidence {
+	size_t *start;
+	uint32_t *face;
+} mr_incidence;
+mr_status mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a);
+
+/* Twice the area times the unit normal of face f. */
+static inline mr_v3
+mr_face_cross(const mr_mesh *m, size_t f)
+{
+	mr_v3 a = m->p[m->t[f].v[0]];
+	return mr_cross(mr_sub(m->p[m->t[f].v[1]], a), mr_sub(m->p[m->t[f].v[2]], a));
+}
+
+double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
+double mr_mesh_diagonal(const mr_mesh *m);
+
+/* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
+double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
+
+/* Unit vertex normals weighted by angle; zero where a vertex has no face of positive area.  normal: nv, the caller's. */
+mr_status mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, mr_v3 *normal);
+
+#endif

@@ -1,0 +1,77 @@
+/*
+ * frame.h -- a frame: named layers of named, typed columns (man/mr-stream.5).
+ *
+ * Contract: a column's bytes belong to the reader that read it, or, for a
+ * column put by a tool, to the tool, which keeps them until the frame is
+ * written (the arena does).  Data are read-only.  Order of columns is kept.
+ * This layer knows records, not geometry: shapes are checked against what the
+ * caller asks for; what a layer means stands in mesh/layers.h.
+ *
+ * Layer rule: stream includes base and itself.
+ */
+#ifndef MR_FRAME_H
+#define MR_FRAME_H
+
+#include "base/ctx.h"
+
+enum { MR_LAYER_MAX = 16, MR_COLUMN_MAX = 24, MR_HEADER = 64 };
+
+/* What a column holds: `element` v, f or -; `type` d, u, b or t; components per row. */
+typedef struct mr_shape {
+	char element, type;
+	uint8_t components;
+} mr_shape;
+
+typedef struct mr_column {
+	char layer[MR_LAYER_MAX + 1];  /* empty: belongs to no layer */
+	char name[MR_COLUMN_MAX + 1];
+	mr_shape shape;
+	uint64_t rows;
+	uint64_t serial;               /* of the reader's payload; 0 for a column that the tool put */
+	const void *data;              /* rows x components values; NULL: stored, not decoded yet */
+	const unsigned char *record;   /* header and stored payload as read; NULL for a column that the tool put */
+	struct mr_stored *stored;      /* the reader's record of it: stream/reader.c */
+} mr_column;
+
+typedef struct mr_frame {
+	const char *name;
+	bool key;            /* a key frame; else a delta */
+	uint64_t number;     /* from 1, over all streams read */
+	mr_column *columns;
+	size_t count, room;
+} mr_frame;
+
+/* Bytes of one value of a type: 8, 4 or 1. */
+size_t mr_type_size(char type);
+
+/* An empty key frame, in the arena. */
+mr_status mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame);
+
+/* The column, or NULL.  Not decoded: for its shape and rows. */
+const mr_column *mr_frame_find(const mr_frame *frame, const char *layer, const char *name);
+
+/* True where the frame has any column of the layer. */
+bool mr_frame_has_layer(const mr_frame *frame, const char *layer);
+
+/*
+ * The column's values, decoded and its checksum verified.  MR_EMISSING with a sentence
+ * where it is absent or of another shape; MR_EFORMAT where its bytes are damaged.
+ * data: rows x components values, the frame's.
+ */
+mr_status mr_frame_get(
+    mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape, const void **data, size_t *rows);
+
+/* Decodes and verifies one column, whatever it is. */
+mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
+
+/* Puts or replaces a column (in its old place); the bytes are borrowed until the frame is written. */
+mr_status mr_frame_put(
+    mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape, const void *data, size_t rows);
+
+/* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of that element. */
+void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
+
+/* Appends one line to the frame's history. */
+mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);
+
+#endif
