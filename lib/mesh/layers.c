@@ -1,0 +1,250 @@
+#include "mesh/layers.h"
+
+/* The one table of what the columns are.  Extend it with each new column; man/mr.7 shows it. */
+const mr_column_info mr_columns[] = {
+	{ NULL, "position", { 'v', 'd', 3 }, "where the vertex is" },
+	{ NULL, "triangles", { 'f', 'u', 3 }, "corners, counter-clockwise seen from outside" },
+	{ NULL, "normal", { 'v', 'd', 3 }, "unit normal" },
+	{ NULL, "color", { 'v', 'b', 4 }, "red, green, blue, alpha" },
+	{ NULL, "texcoord", { 'v', 'd', 2 }, "texture coordinates" },
+	{ NULL, "group", { 'f', 'u', 1 }, "index into groups" },
+	{ NULL, "groups", { '-', 't', 1 }, "names of the groups, one a line" },
+	{ NULL, "region", { 'v', 'u', 1 }, "0 fixed, 1 free, 2 + N handle N" },
+	{ "mesh", "detail_face", { 'v', 'u', 1 }, "base triangle below the vertex" },
+	{ "mesh", "detail_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
+	{ "mesh", "detail_height", { 'v', 'd', 1 }, "height along the base's Phong normal" },
+	{ "mesh", "detail_offset", { 'v', 'd', 3 }, "offset in the base's frame, where there is no height" },
+	{ "base", "source_face", { 'v', 'u', 1 }, "triangle of mesh that the vertex lies on" },
+	{ "base", "source_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
+	{ "base", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
+	{ "base", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
+	{ "base", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
+	{ "control", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
+	{ "control", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
+	{ "handles", "transform", { 'v', 'd', 12 }, "3x4 affine map, row-major, on the rest position" },
+	{ "displacement", "height", { 'v', 'd', 1 }, "height along the limit normal" },
+	{ "displacement", "level", { '-', 'u', 1 }, "subdivision level" },
+	{ NULL, NULL, { 0, 0, 0 }, NULL },
+};
+
+/* What goes stale when a layer's connectivity changes: columns elsewhere whose numbers refer to it. */
+static const struct {
+	const char *changed, *layer, *name;
+} dependents[] = {
+	{ "base", "mesh", "detail_face" },
+	{ "base", "mesh", "detail_bary" },
+	{ "base", "mesh", "detail_height" },
+	{ "base", "mesh", "detail_offset" },
+	{ "base", "base", "response" },
+	{ "mesh", "base", "source_face" },
+	{ "mesh", "base", "source_bary" },
+	{ "control", "displacement", NULL },
+};
+
+static const mr_column_info *
+info_of(const char *layer, const char *name)
+{
+	for (const mr_column_info *c = mr_columns; c->name; c++)
+		if ((!c->layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name))
+			return c;
+	return NULL;
+}
+
+bool
+mr_layer_has(const mr_frame *f, const char *layer, const char *name)
+{
+	return mr_frame_find(f, layer, name) != NULL;
+}
+
+static mr_status
+unknown(mr_ctx *ctx, const char *layer, const char *name)
+{
+	return mr_fail(ctx, MR_EMISSING, "%s: no column by convention is called %s", layer, name);
+}
+
+mr_status
+mr_layer_get(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void **data, size_t *rows)
+{
+	const mr_column_info *c = info_of(layer, name);
+	const mr_column *column = mr_frame_find(f, layer, name);
+	mr_shape shape;
+
+	if (!c)
+		return unknown(ctx, layer, name);
+	shape = c->shape;
+	if (shape.components == 0 && column)
+		shape.components = column->shape.components;
+	return mr_frame_get(ctx, f, layer, name, shape, data, rows);
+}
+
+mr_status
+mr_layer_get_rows(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, size_t rows, const void **data)
+{
+	const void *values;
+	size_t n;
+
+	MR_TRY(mr_layer_get(ctx, f, layer, name, &values, &n));
+	if (n != rows)
+		return mr_fail(ctx, MR_ERANGE, "%s: column %s has %zu rows, not %zu", layer, name, n, rows);
+	*data = values;
+	return MR_OK;
+}
+
+mr_status
+mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void *data, size_t rows)
+{
+	const mr_column_info *c = info_of(layer, name);
+
+	return c ? mr_frame_put(ctx, f, layer, name, c->shape, data, rows) : unknown(ctx, layer, name);
+}
+
+mr_status
+mr_layer_put_wide(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, uint8_t components,
+    const void *data, size_t rows)
+{
+	const mr_column_info *c = info_of(layer, name);
+
+	if (!c)
+		return unknown(ctx, layer, name);
+	return mr_frame_put(
+	    ctx, f, layer, name, (mr_shape){ c->shape.element, c->shape.type, components }, data, rows);
+}
+
+static mr_status
+check_finite(mr_ctx *ctx, const mr_mesh *m)
+{
+	for (size_t i = 0; i < m->nv; i++)
+		if (!mr_finite(m->p[i]))
+			return mr_fail(ctx, MR_ERANGE, "%s: position %zu (%g %g %g) is not finite", m->name,
+			    i, m->p[i].x, m->p[i].y, m->p[i].z);
+	return MR_OK;
+}
+
+static mr_status
+check_indices(mr_ctx *ctx, const mr_mesh *m)
+{
+	for (size_t f = 0; f < m->nf; f++)
+		for (int i = 0; i < 3; i++)
+			if (m->t[f].v[i] >= m->nv)
+				return mr_fail(ctx, MR_ERANGE, "%s: face %zu has vertex %u of %zu", m->name,
+				    f, m->t[f].v[i], m->nv);
+	return MR_OK;
+}
+
+mr_status
+mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+{
+	mr_mesh r = { .name = layer };
+	const void *p;
+
+	if (!mr_frame_has_layer(f, layer))
+		return mr_fail(ctx, MR_EMISSING, "no layer %s", layer);
+	MR_TRY(mr_layer_get(ctx, f, layer, "position", &p, &r.nv));
+	r.p = p;
+	if (r.nv >= MR_NONE)
+		return mr_fail(ctx, MR_ERANGE, "%s: %zu vertices are more than %u", layer, r.nv, MR_NONE - 1);
+	MR_TRY(check_finite(ctx, &r));
+	*m = r;
+	return MR_OK;
+}
+
+mr_status
+mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+{
+	mr_mesh r;
+	const void *t;
+
+	MR_TRY(mr_layer_points(ctx, f, layer, &r));
+	MR_TRY(mr_layer_get(ctx, f, layer, "triangles", &t, &r.nf));
+	r.t = t;
+	if (r.nf == 0)
+		return mr_fail(ctx, MR_EMESH, "%s: the mesh has no faces", layer);
+	if (r.nf > (MR_NONE - 1) / 3)
+		return mr_fail(
+		    ctx, MR_ERANGE, "%s: %zu faces are more than %u", layer, r.nf, (MR_NONE - 1) / 3);
+	MR_TRY(check_indices(ctx, &r));
+	*m = r;
+	return MR_OK;
+}
+
+/* Drops what refers to the connectivity of `layer` from elsewhere. */
+static void
+drop_dependents(mr_frame *f, const char *layer)
+{
+	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++)
+		if (!strcmp(dependents[i].changed, layer))
+			mr_frame_drop(f, dependents[i].layer, dependents[i].name, 0);
+}
+
+/* True where the layer's triangles are the given ones. */
+static bool
+same_triangles(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
+{
+	const mr_column *column = mr_frame_find(f, layer, "triangles");
+	const void *t;
+	size_t nf;
+
+	if (!column || mr_layer_get(ctx, f, layer, "triangles", &t, &nf) != MR_OK)
+		return false;
+	return nf == m->nf && (t == m->t || !memcmp(t, m->t, nf * sizeof *m->t));
+}
+
+mr_status
+mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
+{
+	const mr_column *p = mr_frame_find(f, layer, "position");
+
+	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m)) {
+		mr_frame_drop(f, layer, NULL, 'v');
+		mr_frame_drop(f, layer, NULL, 'f');
+		drop_dependents(f, layer);
+	}
+	MR_TRY(mr_layer_put(ctx, f, layer, "position", m->p, m->nv));
+	return mr_layer_put(ctx, f, layer, "triangles", m->t, m->nf);
+}
+
+mr_status
+mr_layer_put_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_v3 *p, size_t nv)
+{
+	return mr_layer_put(ctx, f, layer, "position", p, nv);
+}
+
+mr_status
+mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region)
+{
+	enum { MOST = 65536 };
+	const void *data;
+	const uint32_t *r;
+
+	MR_TRY(mr_layer_get_rows(ctx, f, layer, "region", nv, &data));
+	r = data;
+	for (size_t i = 0; i < nv; i++)
+		if (r[i] >= MR_REGION_HANDLE + MOST)
+			return mr_fail(ctx, MR_ERANGE, "%s: vertex %zu has region %u of %d", layer, i, r[i],
+			    MR_REGION_HANDLE + MOST);
+	*region = r;
+	return MR_OK;
+}
+
+mr_status
+mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer)
+{
+	char names[128];
+	size_t n = 0;
+
+	if (only) {
+		if (!mr_frame_has_layer(f, only))
+			return mr_fail(ctx, MR_EMISSING, "no layer %s", only);
+		*layer = only;
+		return MR_OK;
+	}
+	for (size_t i = 0; layers[i]; i++) {
+		if (mr_frame_has_layer(f, layers[i])) {
+			*layer = layers[i];
+			return MR_OK;
+		}
+		n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", i ? " nor " : "", layers[i]);
+	}
+	return mr_fail(ctx, MR_EMISSING, "no layer %s", names);
+}

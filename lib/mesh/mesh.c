@@ -1,0 +1,313 @@
+#include "mesh/mesh.h"
+
+#include "base/parallel.h"
+
+/* A half-edge as seen from the vertex it leaves. */
+typedef struct spoke {
+	uint32_t to, he;
+} spoke;
+
+/* The spokes of each vertex v, by `to`, then `he`: spoke[start[v]] to spoke[start[v + 1]]. */
+typedef struct spokes {
+	uint32_t *start;
+	spoke *spoke;
+} spokes;
+
+static int
+compare_spokes(const void *a, const void *b)
+{
+	const spoke *x = a, *y = b;
+
+	return x->to != y->to ? (x->to > y->to) - (x->to < y->to) : (x->he > y->he) - (x->he < y->he);
+}
+
+static void
+sort_spokes(spoke *s, size_t n)
+{
+	if (n > 32) {
+		qsort(s, n, sizeof *s, compare_spokes);
+		return;
+	}
+	for (size_t i = 1; i < n; i++) {
+		spoke x = s[i];
+		size_t j = i;
+		for (; j > 0 && compare_spokes(&s[j - 1], &x) > 0; j--)
+			s[j] = s[j - 1];
+		s[j] = x;
+	}
+}
+
+static mr_status
+spokes_build(mr_ctx *ctx, const mr_mesh *m, spokes *out)
+{
+	spokes s = { MR_NEW_ZERO(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, spoke) };
+
+	if (!s.start || !s.spoke)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++)
+		for (int i = 0; i < 3; i++)
+			s.start[m->t[f].v[i] + 2]++;
+	for (size_t v = 0; v <= m->nv; v++)
+		s.start[v + 1] += s.start[v];
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		s.spoke[s.start[mr_he_from(m, h) + 1]++] = (spoke){ mr_he_to(m, h), h };
+	for (size_t v = 0; v < m->nv; v++)
+		sort_spokes(s.spoke + s.start[v], s.start[v + 1] - s.start[v]);
+	*out = s;
+	return MR_OK;
+}
+
+/* How many spokes of a end in b; *first is the first of them. */
+static uint32_t
+spokes_find(const spokes *s, uint32_t a, uint32_t b, const spoke **first)
+{
+	uint32_t low = s->start[a], end = s->start[a + 1], high = end, n = 0;
+
+	while (low < high) {
+		uint32_t middle = low + (high - low) / 2;
+		if (s->spoke[middle].to < b)
+			low = middle + 1;
+		else
+			high = middle;
+	}
+	*first = s->spoke + low;
+	while (low + n < end && s->spoke[low + n].to == b)
+		n++;
+	return n;
+}
+
+static mr_status
+check_corners(mr_ctx *ctx, const mr_mesh *m)
+{
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+			return mr_fail(ctx, MR_EMESH, "%s: face %zu (%u %u %u) has a vertex twice", m->name,
+			    f, v[0], v[1], v[2]);
+	}
+	return MR_OK;
+}
+
+static mr_status
+match_twins(mr_ctx *ctx, const mr_mesh *m, const spokes *s, uint32_t *twin)
+{
+	for (uint32_t h = 0; h < 3 * m->nf; h++) {
+		uint32_t a = mr_he_from(m, h), b = mr_he_to(m, h);
+		const spoke *along, *against;
+		uint32_t same = spokes_find(s, a, b, &along), opposite = spokes_find(s, b, a, &against);
+
+		if (same + opposite > 2)
+			return mr_fail(
+			    ctx, MR_EMESH, "%s: edge %u-%u has %u faces", m->name, a, b, same + opposite);
+		if (same > 1)
+			return mr_fail(ctx, MR_EMESH,
+			    "%s: the two faces at edge %u-%u have opposite orientations", m->name, a, b);
+		twin[h] = opposite ? against->he : MR_NONE;
+	}
+	return MR_OK;
+}
+
+/* The number of faces met by turning counter-clockwise from h, once around or to the boundary. */
+static uint32_t
+fan_size(const mr_topology *topo, uint32_t h)
+{
+	uint32_t n = 0, g = h;
+
+	do {
+		n++;
+		g = mr_he_ccw(topo, g);
+	} while (g != MR_NONE && g != h);
+	return n;
+}
+
+/* Picks the half-edge that each vertex keeps, and finds vertices whose faces form several fans. */
+static mr_status
+choose_out(mr_ctx *ctx, const mr_mesh *m, const spokes *s, mr_topology *topo)
+{
+	for (uint32_t v = 0; v < m->nv; v++) {
+		uint32_t degree = s->start[v + 1] - s->start[v], h = MR_NONE;
+		for (uint32_t i = s->start[v]; i < s->start[v + 1]; i++) {
+			uint32_t g = s->spoke[i].he;
+			if (h == MR_NONE || (topo->twin[g] == MR_NONE && topo->twin[h] != MR_NONE))
+				h = g;
+		}
+		topo->out[v] = h;
+		if (degree && fan_size(topo, h) != degree)
+			return mr_fail(ctx, MR_EMESH, "%s: the %u faces at vertex %u form more than one fan",
+			    m->name, degree, v);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo)
+{
+	mr_topology r = { MR_NEW(ctx, 3 * m->nf, uint32_t), MR_NEW(ctx, m->nv, uint32_t) };
+	mr_mark mark = mr_mark_take(ctx);
+	spokes s;
+
+	if (!r.twin || !r.out)
+		return MR_EMEM;
+	MR_TRY(check_corners(ctx, m));
+	MR_TRY(spokes_build(ctx, m, &s));
+	MR_TRY(match_twins(ctx, m, &s, r.twin));
+	MR_TRY(choose_out(ctx, m, &s, &r));
+	mr_mark_release(ctx, mark);
+	*topo = r;
+	return MR_OK;
+}
+
+mr_status
+mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a)
+{
+	size_t *start = MR_NEW_ZERO(ctx, m->nv + 2, size_t);
+	uint32_t *face = MR_NEW(ctx, 3 * m->nf, uint32_t);
+
+	if (!start || !face)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++)
+		for (int i = 0; i < 3; i++)
+			start[m->t[f].v[i] + 2]++;
+	for (size_t v = 0; v <= m->nv; v++)
+		start[v + 1] += start[v];
+	for (uint32_t f = 0; f < m->nf; f++)
+		for (int i = 0; i < 3; i++)
+			face[start[m->t[f].v[i] + 1]++] = f;
+	*a = (mr_incidence){ start, face };
+	return MR_OK;
+}
+
+static void
+sort_small(uint32_t *a, size_t n)
+{
+	for (size_t i = 1; i < n; i++) {
+		uint32_t x = a[i];
+		size_t j = i;
+		for (; j > 0 && a[j - 1] > x; j--)
+			a[j] = a[j - 1];
+		a[j] = x;
+	}
+}
+
+static int
+compare_u32(const void *a, const void *b)
+{
+	uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
+	return (x > y) - (x < y);
+}
+
+/* Sorts and drops repetitions; returns how many are left. */
+static size_t
+sort_unique(uint32_t *a, size_t n)
+{
+	size_t kept = 0;
+
+	if (n <= 32)
+		sort_small(a, n);
+	else
+		qsort(a, n, sizeof *a, compare_u32);
+	for (size_t i = 0; i < n; i++)
+		if (i == 0 || a[i] != a[i - 1])
+			a[kept++] = a[i];
+	return kept;
+}
+
+mr_status
+mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
+{
+	size_t *start = MR_NEW(ctx, m->nv + 1, size_t), n = 0;
+	uint32_t *adj = MR_NEW(ctx, 6 * m->nf, uint32_t);
+	mr_mark mark = mr_mark_take(ctx);
+	mr_incidence inc;
+
+	if (!start || !adj)
+		return MR_EMEM;
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	for (uint32_t v = 0; v < m->nv; v++) {
+		size_t first = n;
+		start[v] = first;
+		for (size_t i = inc.start[v]; i < inc.start[v + 1]; i++)
+			for (int k = 0; k < 3; k++) {
+				uint32_t w = m->t[inc.face[i]].v[k];
+				if (w != v)
+					adj[n++] = w;
+			}
+		n = first + sort_unique(adj + first, n - first);
+	}
+	start[m->nv] = n;
+	mr_mark_release(ctx, mark);
+	*a = (mr_adjacency){ start, adj };
+	return MR_OK;
+}
+
+static double
+face_area(void *arg, size_t f)
+{
+	return 0.5 * mr_norm(mr_face_cross(arg, f));
+}
+
+double
+mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m)
+{
+	mr_mesh copy = *m;
+
+	return mr_parallel_sum(ctx, m->nf, face_area, &copy);
+}
+
+double
+mr_mesh_diagonal(const mr_mesh *m)
+{
+	return mr_box_diagonal(mr_box_of(m->p, m->nv));
+}
+
+double
+mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m)
+{
+	return m->nf ? sqrt(4 * mr_mesh_area(ctx, m) / (sqrt(3) * (double)m->nf)) : 0;
+}
+
+typedef struct normals_job {
+	const mr_mesh *m;
+	const mr_incidence *inc;
+	mr_v3 *normal;
+} normals_job;
+
+/* Interior angle at corner k of face f; 0 where an edge there has no length. */
+static double
+corner_angle(const mr_mesh *m, uint32_t f, int k)
+{
+	const uint32_t *v = m->t[f].v;
+	mr_v3 a = mr_sub(m->p[v[(k + 1) % 3]], m->p[v[k]]), b = mr_sub(m->p[v[(k + 2) % 3]], m->p[v[k]]);
+
+	return atan2(mr_norm(mr_cross(a, b)), mr_dot(a, b));
+}
+
+static void
+normals_of(void *arg, size_t begin, size_t end)
+{
+	normals_job *j = arg;
+
+	for (size_t v = begin; v < end; v++) {
+		mr_v3 sum = { 0, 0, 0 };
+		for (size_t i = j->inc->start[v]; i < j->inc->start[v + 1]; i++) {
+			uint32_t f = j->inc->face[i];
+			const uint32_t *c = j->m->t[f].v;
+			int k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
+			sum = mr_axpy(corner_angle(j->m, f, k), mr_unit(mr_face_cross(j->m, f)), sum);
+		}
+		j->normal[v] = mr_unit(sum);
+	}
+}
+
+mr_status
+mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, mr_v3 *normal)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_incidence inc;
+	normals_job j = { m, &inc, normal };
+
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	mr_parallel(ctx, m->nv, 4096, normals_of, &j);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
