@@ -1,0 +1,58 @@
+/*
+ * bvh.h -- a bounding volume hierarchy over the triangles of a mesh: nearest point, first hit of a ray.
+ *
+ * Contract: exact (no tolerance, every triangle that could win is looked at), in
+ * doubles, and deterministic: of several nearest triangles the one with the
+ * lowest index is returned, however many threads built the tree.  The tree lives
+ * in the arena; the mesh must outlive it.  Queries only read: any number of
+ * threads may ask at once.
+ * Layer rule: mesh.
+ */
+#ifndef MR_BVH_H
+#define MR_BVH_H
+
+#include "mesh/mesh.h"
+
+typedef struct mr_bvh mr_bvh;
+
+/* The point of a surface nearest to a query: bary are its barycentric coordinates on the face. */
+typedef struct mr_closest {
+	uint32_t face; /* MR_NONE: nothing found */
+	mr_v3 bary;
+	mr_v3 point;
+	double dist2; /* squared distance; infinite where nothing was found */
+} mr_closest;
+
+/* Where a ray origin + t dir meets a face; t in units of |dir|. */
+typedef struct mr_ray_hit {
+	uint32_t face;
+	double t;
+	mr_v3 bary;
+} mr_ray_hit;
+
+/* Builds the tree over all faces of m (finite positions, valid indices; degenerate faces allowed). */
+mr_status mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **bvh);
+
+/* The nearest point of the surface; face MR_NONE where the mesh has no face.  Ties: the lowest face. */
+mr_closest mr_bvh_closest(const mr_bvh *bvh, mr_v3 q);
+
+/* The same, where it is nearer than sqrt(dist2); else face MR_NONE. */
+mr_closest mr_bvh_closest_within(const mr_bvh *bvh, mr_v3 q, double dist2);
+
+/*
+ * The first hit with tmin <= t <= tmax, from either side of a face; ties: the lowest face.  dir need not have
+ * unit length.  The intersection is watertight over shared edges and vertices: a ray that meets an edge hits
+ * one of its faces. True where there is one; *hit is written only then.
+ */
+bool mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit);
+
+/*
+ * Calls visit(arg, face) for every face whose bounding box meets the box, in an order fixed by the tree,
+ * until visit returns false.  False where it did.
+ */
+bool mr_bvh_overlap(const mr_bvh *bvh, mr_box box, bool (*visit)(void *arg, uint32_t face), void *arg);
+
+/* The nearest point of a triangle, which may be degenerate (a segment, a point); face is 0. */
+mr_closest mr_triangle_closest(mr_v3 q, mr_v3 a, mr_v3 b, mr_v3 c);
+
+#endif
