@@ -1,21 +1,29 @@
 # mr -- streaming tools for multiresolution geometry
 #
 #	make            the tools, in $(BUILD)/bin
-#	make setup      the packages they need (Debian and its kin), where missing
-#	make check      the tests; SAN=1 runs them under the address and undefined-behaviour sanitizers
+#	make setup      the packages they need; the other targets see to that by themselves
+#	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
+#	make bless      the command tests' outputs become the expected ones; T=PATTERN
 #	make demo       the main job on real models: pictures and a table, in demo/
 #	make bench      speed and memory beside the peers'
+#	make readme     the generated parts of README.md
 #	make install    to $(DESTDIR)$(PREFIX)
 #	make clean
 
 PREFIX  ?= /usr/local
 DESTDIR ?=
+DATA    ?= $(abspath $(wildcard ../shared/data))
 BUILD   ?= $(if $(SAN),build/san,build)
 CC      ?= cc
 CXX     ?= c++
 CFLAGS  ?= $(if $(SAN),-O1 -fsanitize=address$(,)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer,-O3) -g
 LDFLAGS ?=
 VERSION := 1.0
+JOBS    ?= $(shell nproc 2>/dev/null || echo 2)
+T       ?=
+
+
+MAKEFLAGS += -j$(JOBS)
 
 , := ,
 WARN     := -Wall -Wextra -Wpedantic -Wshadow -Wconversion
@@ -27,10 +35,15 @@ LIBS     := -Wl,--as-needed -lcholmod -lumfpack -lflann -ltinyobjloader_double -
 TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
 OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c formats/*.c formats/*.cc))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
+BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
+PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
+NEEDS   := build $(if $(filter setup check bless units,$(MAKECMDGOALS)),check) $(filter bench,$(MAKECMDGOALS))
+COMPS   := share/bash-completion/completions
+RUN     := BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
 all: $(TOOLS)
 
-$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(BUILD)/cmd/cmd.c.o $(BUILD)/libmr.a
+$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(BUILD)/cmd/cmd.c.o $(BUILD)/cmd/options.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
 
@@ -38,15 +51,24 @@ $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS) -lcmocka
 
+$(BUILD)/bench/%: $(BUILD)/tests/bench/%.c.o $(BUILD)/libmr.a
+	@mkdir -p $(@D)
+	$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+# The peers' templates are theirs: no warnings.
+$(BUILD)/bench/%: tests/bench/%.cc $(BUILD)/flags | setup
+	@mkdir -p $(@D)
+	$(CXX) -std=c++17 -O3 -DNDEBUG -w -I/usr/include/eigen3 $(INCLUDE) -pthread -o $@ $< -lgmp -lmpfr -lcholmod -lm
+
 $(BUILD)/libmr.a: $(OBJECTS)
 	@rm -f $@
 	$(AR) rcs $@ $^
 
-$(BUILD)/%.c.o: %.c $(BUILD)/flags
+$(BUILD)/%.c.o: %.c $(BUILD)/flags | setup
 	@mkdir -p $(@D)
 	$(CC) $(ALL_C) -MMD -MP -c -o $@ $<
 
-$(BUILD)/%.cc.o: %.cc $(BUILD)/flags
+$(BUILD)/%.cc.o: %.cc $(BUILD)/flags | setup
 	@mkdir -p $(@D)
 	$(CXX) $(ALL_CXX) -MMD -MP -c -o $@ $<
 
@@ -57,10 +79,36 @@ $(BUILD)/flags: FORCE
 
 units: $(UNITS)
 
+setup:
+	@CC='$(CC)' .ci/setup $(NEEDS)
+
+check: $(TOOLS) $(UNITS)
+	@$(RUN) tests/run $(T)
+
+bless: $(TOOLS)
+	@$(RUN) tests/run --bless $(T)
+
+demo: $(TOOLS)
+	@$(RUN) examples/demo.sh demo
+
+bench: $(TOOLS) $(BENCHES) $(PEERS)
+	@$(RUN) tests/bench/run $(T)
+
+readme:
+	@tests/readme >$(BUILD)/README.md && cat $(BUILD)/README.md >README.md
+
+# The completions are made from what each tool says of itself.
+install: $(TOOLS)
+	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1 share/man/man5 share/man/man7 $(COMPS))
+	install $(TOOLS) $(DESTDIR)$(PREFIX)/bin
+	for n in 1 5 7; do install -m 644 man/*.$$n $(DESTDIR)$(PREFIX)/share/man/man$$n || exit; done
+	for t in $(TOOLS); do n=$${t##*/}; echo "complete -o default -W '"$$($$t --help | grep -o -- \
+		'--[a-z][a-z-]*' | sort -u)"' $$n" >$(DESTDIR)$(PREFIX)/$(COMPS)/$$n || exit; done
+
 clean:
 	rm -rf build
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units clean FORCE
+.PHONY: all units setup check bless demo bench readme install clean FORCE
 .SECONDARY:
