@@ -1,0 +1,531 @@
+#include "cmd.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { EXIT_GOOD = 0, EXIT_DATA = 1, EXIT_USAGE = 2 };
+
+struct cmd_state {
+	mr_ctx long_lived; /* the command line's memory */
+	size_t threads;
+	const char *input; /* of a sink: -i */
+	const char *stats_path;
+	bool help, version, no_history;
+
+	char *history; /* the line this command adds */
+	mr_writer *writer;
+	int out;            /* descriptor of the stream */
+	char *unfinished;   /* the file beside the output, renamed to it at the end; NULL: written directly */
+	FILE *text, *stats; /* a sink's output; --stats */
+
+	uint64_t frame; /* number of the frame at work, from 1 */
+	const char *frame_name;
+	bool lost_key;         /* the key failed: its deltas go with it */
+	uint64_t failed, lost; /* frames left out: that failed, that depended on one that failed */
+	double started, shown; /* when the frame began; when progress was last shown, 0: never */
+};
+
+static void
+say(const cmd *c, const char *format, ...)
+{
+	va_list args;
+
+	fprintf(stderr, "%s: ", c->name);
+	va_start(args, format);
+	vfprintf(stderr, format, args);
+	va_end(args);
+	fputc('\n', stderr);
+}
+
+static void
+clear_progress(cmd *c)
+{
+	if (c->state->shown > 0)
+		fputs("\r\033[K", stderr);
+	c->state->shown = 0;
+}
+
+/* The sentence of a failure, with the frame in front where there is one. */
+static void
+say_failure(cmd *c)
+{
+	const char *sentence = *c->ctx.error ? c->ctx.error : c->keep.error;
+
+	clear_progress(c);
+	if (c->state->frame_name)
+		say(c, "frame %llu (%s): %s", (unsigned long long)c->state->frame, c->state->frame_name,
+		    sentence);
+	else
+		say(c, "%s", sentence);
+}
+
+static _Noreturn void
+leave(cmd *c, int code)
+{
+	if (c->state->unfinished)
+		unlink(c->state->unfinished);
+	exit(code);
+}
+
+static _Noreturn void
+die(cmd *c, mr_status status)
+{
+	say_failure(c);
+	if (status == MR_EUSAGE)
+		fprintf(stderr, "Try '%s --help'.\n", c->name);
+	leave(c, status == MR_EUSAGE ? EXIT_USAGE : EXIT_DATA);
+}
+
+static void
+try(cmd *c, mr_status status)
+{
+	if (status < 0)
+		die(c, status);
+}
+
+static mr_status
+fail_system(cmd *c, const char *what)
+{
+	return mr_fail(&c->ctx, MR_EIO, "%s: %s", what, strerror(errno));
+}
+
+/* Remarks and progress */
+
+static void
+show_note(void *user, const char *text)
+{
+	cmd *c = user;
+
+	clear_progress(c);
+	if (c->state->frame_name)
+		say(c, "frame %llu (%s): %s", (unsigned long long)c->state->frame, c->state->frame_name,
+		    text);
+	else
+		say(c, "%s", text);
+}
+
+/* After a second of work, at most ten times a second. */
+static void
+show_progress(void *user, const char *what, double share)
+{
+	cmd *c = user;
+	struct cmd_state *s = c->state;
+	double now = mr_seconds();
+
+	if (now - s->started < 1 || now - s->shown < 0.1)
+		return;
+	s->shown = now;
+	fprintf(stderr, "\r\033[K%s: %s: %s %.0f %%", c->name, s->frame_name ? s->frame_name : "", what,
+	    100 * share);
+}
+
+/* The command line */
+
+static const char *
+base_name(const char *path)
+{
+	const char *slash = strrchr(path, '/');
+
+	return slash ? slash + 1 : path;
+}
+
+static bool
+is_filter_or_sink_of_streams(const cmd_tool *tool)
+{
+	return !tool->source && !tool->operands;
+}
+
+static void
+print_help(const cmd *c, const cmd_opt *standard)
+{
+	const cmd_tool *tool = c->tool;
+
+	printf("usage: %s [options] %s\n%s\n\n", c->name, tool->operands ? tool->operands : "[FILE...]",
+	    tool->summary);
+	cmd_print_options(stdout, tool->options);
+	if (tool->options)
+		putchar('\n');
+	cmd_print_options(stdout, standard);
+	printf("\nSee also: man %s, man 7 mr\n", c->name);
+}
+
+/* Adds a word to the line, in quotes where a shell would need them. */
+static char *
+append_word(mr_ctx *ctx, const char *line, const char *word)
+{
+	static const char plain[] =
+	    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+:,./%@";
+	bool quote = !*word || word[strspn(word, plain)] != '\0';
+
+	return mr_format(ctx, quote ? "%s '%s'" : "%s %s", line, word);
+}
+
+/* Control characters would break the line: they become '?'. */
+static void
+make_line(char *text)
+{
+	for (; *text; text++)
+		if ((unsigned char)*text < ' ' || *text == 127)
+			*text = '?';
+}
+
+/*
+ * "mr 1.0: mr-smooth -t 20".  Options that all tools share stay out of it: they
+ * do not change the result, and -j must not change a byte.
+ */
+static mr_status
+compose_history(cmd *c, const cmd_args *args)
+{
+	mr_ctx *ctx = &c->state->long_lived;
+	char *line = mr_format(ctx, "mr " MR_VERSION ": %s", c->name);
+
+	for (size_t i = 0; line && i < args->typed_count; i++)
+		line = append_word(ctx, line, args->typed[i]);
+	if (!line)
+		return MR_EMEM;
+	make_line(line);
+	c->state->history = line;
+	return MR_OK;
+}
+
+static void
+parse_command_line(cmd *c, int argc, char **argv)
+{
+	struct cmd_state *s = c->state;
+	const cmd_opt standard[] = {
+		{ 'o', "output", CMD_TEXT, &c->output, 0, 0, "FILE", "write there instead of stdout", NULL },
+		{ 'l', "layer", CMD_TEXT, &c->layer, 0, 0, "NAME", "the layer to work on", NULL },
+		{ 'j', "threads", CMD_COUNT, &s->threads, 0, 1024, "N",
+		    "threads; the result is the same for any number (default all cores)", NULL },
+		{ 'k', "keep-going", CMD_FLAG, &c->keep_going, 0, 0, "",
+		    "leave out a frame that fails, exit 1 at the end", NULL },
+		{ 0, "stats", CMD_TEXT, &s->stats_path, 0, 0, "FILE",
+		    "write one JSON object per frame: what was measured", NULL },
+		{ 0, "no-history", CMD_FLAG, &s->no_history, 0, 0, "", "add no line to the frames' history",
+		    NULL },
+		{ 'v', "verbose", CMD_FLAG, &c->verbose, 0, 0, "", "say what is being done", NULL },
+		{ 'q', "quiet", CMD_FLAG, &c->quiet, 0, 0, "", "show no progress", NULL },
+		{ 'h', "help", CMD_FLAG, &s->help, 0, 0, "", "print this and exit", NULL },
+		{ 'V', "version", CMD_FLAG, &s->version, 0, 0, "", "print the version and exit", NULL },
+		{ 'i', "input", CMD_TEXT, &s->input, 0, 0, "FILE", "read that stream (default stdin)", NULL },
+		{ 0 },
+	};
+	/* Only a sink whose operands are its own needs -i: it is the last entry. */
+	const cmd_opt *end = &standard[sizeof standard / sizeof *standard - 2];
+	cmd_opt without_input[sizeof standard / sizeof *standard] = { { 0 } };
+	const cmd_opt *const tables[2] = { c->tool->options,
+		c->tool->sink && c->tool->operands ? standard : without_input };
+	cmd_args args;
+
+	memcpy(without_input, standard, (size_t)(end - standard) * sizeof *standard);
+	for (int i = 1; i < argc && strcmp(argv[i], "--"); i++) { /* before a mistake elsewhere can hide it */
+		s->help |= !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h");
+		s->version |= !strcmp(argv[i], "--version") || !strcmp(argv[i], "-V");
+	}
+	if (s->help)
+		print_help(c, tables[1]);
+	else if (s->version)
+		printf("%s (mr) %s\n", c->name, MR_VERSION);
+	if (s->help || s->version)
+		exit(fflush(stdout) || ferror(stdout) ? EXIT_DATA : EXIT_GOOD);
+	try(c, cmd_parse(&c->ctx, argc, argv, tables, &args));
+	try(c, compose_history(c, &args));
+	c->operands = args.operands;
+	c->operand_count = args.operand_count;
+}
+
+/* Opening and closing the outputs */
+
+/* The output as a descriptor: stdout, or -o, written beside its place unless that is a device or a pipe. */
+static void
+open_output(cmd *c)
+{
+	struct cmd_state *s = c->state;
+	struct stat st;
+
+	s->out = STDOUT_FILENO;
+	if (!c->output || !strcmp(c->output, "-"))
+		return;
+	if (stat(c->output, &st) || S_ISREG(st.st_mode)) {
+		s->unfinished = mr_format(&s->long_lived, "%s.%ld~", c->output, (long)getpid());
+		if (!s->unfinished)
+			die(c, mr_fail(&c->ctx, MR_EMEM, "no memory"));
+		s->out = open(s->unfinished, O_WRONLY | O_CREAT | O_EXCL, 0666);
+		if (s->out < 0)
+			s->unfinished = NULL;
+	} else {
+		s->out = open(c->output, O_WRONLY);
+	}
+	if (s->out < 0)
+		die(c, fail_system(c, c->output));
+}
+
+static void
+open_writer(cmd *c)
+{
+	open_output(c);
+	if (c->state->out == STDOUT_FILENO && isatty(STDOUT_FILENO))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE,
+			   "a stream is binary and is not written to a terminal: pipe it on, or name a file "
+			   "by -o"));
+	try(c, mr_writer_open(&c->ctx, c->state->out, c->packing, &c->state->writer));
+}
+
+static void
+open_text(cmd *c)
+{
+	open_output(c);
+	c->state->text = c->state->out == STDOUT_FILENO ? stdout : fdopen(c->state->out, "w");
+	if (!c->state->text)
+		die(c, fail_system(c, c->output));
+}
+
+static void
+open_stats(cmd *c)
+{
+	struct cmd_state *s = c->state;
+
+	if (!s->stats_path)
+		return;
+	s->stats = !strcmp(s->stats_path, "-") ? stderr : fopen(s->stats_path, "w");
+	if (!s->stats)
+		die(c, fail_system(c, s->stats_path));
+}
+
+/* Closing stdout is part of success. */
+static void
+close_outputs(cmd *c)
+{
+	struct cmd_state *s = c->state;
+
+	if (s->stats && (ferror(s->stats) || (s->stats != stderr && fclose(s->stats))))
+		die(c, fail_system(c, s->stats_path));
+	if (s->writer)
+		try(c, mr_writer_end(&c->ctx, s->writer));
+	if (s->text ? ferror(s->text) || fclose(s->text) : close(s->out))
+		die(c, fail_system(c, c->output ? c->output : "stdout"));
+	if (s->unfinished && rename(s->unfinished, c->output))
+		die(c, fail_system(c, c->output));
+	s->unfinished = NULL;
+}
+
+void
+cmd_print(cmd *c, const char *format, ...)
+{
+	va_list args;
+
+	va_start(args, format);
+	vfprintf(c->state->text, format, args);
+	va_end(args);
+}
+
+/* Figures */
+
+static void
+print_json_text(FILE *out, const char *text)
+{
+	fputc('"', out);
+	for (; *text; text++) {
+		if (*text == '"' || *text == '\\')
+			fputc('\\', out);
+		fputc(*text, out);
+	}
+	fputc('"', out);
+}
+
+static void
+print_json_number(FILE *out, double x)
+{
+	if (isfinite(x))
+		fprintf(out, "%.17g", x);
+	else
+		fputs("null", out);
+}
+
+static void
+print_stats(cmd *c, double seconds)
+{
+	FILE *out = c->state->stats;
+	struct rusage usage;
+
+	if (!out)
+		return;
+	getrusage(RUSAGE_SELF, &usage);
+	fprintf(
+	    out, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)c->state->frame);
+	print_json_text(out, c->state->frame_name ? c->state->frame_name : "");
+	fprintf(out, ",\"seconds\":%.6f,\"peak_bytes\":%lld", seconds, (long long)usage.ru_maxrss * 1024);
+	for (size_t i = 0; i < c->ctx.stat_count; i++) {
+		fputc(',', out);
+		print_json_text(out, c->ctx.stats[i].name);
+		fputc(':', out);
+		print_json_number(out, c->ctx.stats[i].value);
+	}
+	fputs("}\n", out);
+	fflush(out);
+}
+
+/* Frames */
+
+mr_status
+cmd_send(cmd *c, const mr_frame *f)
+{
+	mr_frame with_history = *f;
+
+	if (c->tool->source) {
+		c->state->frame++;
+		c->state->frame_name = f->name;
+		if (!c->state->no_history)
+			MR_TRY(mr_frame_add_history(&c->ctx, &with_history, c->state->history));
+	}
+	MR_TRY(mr_writer_put(&c->ctx, c->state->writer, &with_history));
+	if (c->tool->source) {
+		print_stats(c, mr_seconds() - c->state->started);
+		c->state->started = mr_seconds();
+		c->state->frame_name = NULL;
+		c->ctx.stat_count = 0;
+	}
+	return MR_OK;
+}
+
+static mr_status
+work_on(cmd *c, mr_frame *f)
+{
+	const cmd_tool *tool = c->tool;
+
+	if (!tool->sink && !c->state->no_history)
+		MR_TRY(mr_frame_add_history(&c->ctx, f, c->state->history));
+	MR_TRY(tool->frame(c, f));
+	return tool->sink || tool->sends ? MR_OK : cmd_send(c, f);
+}
+
+static void
+leave_out(cmd *c, const mr_frame *f)
+{
+	say_failure(c);
+	if (c->state->writer)
+		mr_writer_skipped(c->state->writer);
+	c->state->lost_key = f->key;
+	c->state->failed++;
+}
+
+static void
+one_frame(cmd *c, mr_frame *f)
+{
+	struct cmd_state *s = c->state;
+	mr_mark mark = mr_mark_take(&c->ctx);
+	mr_status status;
+
+	s->frame++;
+	if (s->lost_key && !f->key) {
+		s->lost++;
+		return;
+	}
+	s->lost_key = false;
+	s->frame_name = f->name;
+	s->started = mr_seconds();
+	c->ctx.stat_count = 0;
+	*c->ctx.error = *c->keep.error = '\0';
+	status = work_on(c, f);
+	clear_progress(c);
+	if (status >= 0)
+		print_stats(c, mr_seconds() - s->started);
+	else if (c->keep_going && status != MR_EUSAGE)
+		leave_out(c, f);
+	else
+		die(c, status);
+	s->frame_name = NULL;
+	mr_mark_release(&c->ctx, mark);
+}
+
+static void
+read_stream(cmd *c, const char *path)
+{
+	bool from_stdin = !strcmp(path, "-");
+	int fd = from_stdin ? STDIN_FILENO : open(path, O_RDONLY);
+	const char *name = from_stdin ? "stdin" : path;
+	mr_reader *reader;
+	mr_frame *frame;
+	mr_status status;
+
+	if (fd < 0)
+		die(c, fail_system(c, path));
+	if (isatty(fd))
+		die(c,
+		    mr_fail(&c->ctx, MR_EUSAGE, "%s is a terminal: pipe a stream in, or name a FILE", name));
+	try(c, mr_prefix(&c->ctx, mr_reader_open(&c->ctx, fd, &reader), "%s", name));
+	while ((status = mr_reader_next(&c->ctx, reader, &frame)) == MR_OK)
+		one_frame(c, frame);
+	try(c, mr_prefix(&c->ctx, status, "%s", name));
+	mr_reader_free(reader);
+	if (!from_stdin)
+		close(fd);
+}
+
+static void
+read_streams(cmd *c)
+{
+	if (!is_filter_or_sink_of_streams(c->tool))
+		read_stream(c, c->state->input ? c->state->input : "-");
+	else if (c->operand_count == 0)
+		read_stream(c, "-");
+	else
+		for (size_t i = 0; i < c->operand_count; i++)
+			read_stream(c, c->operands[i]);
+}
+
+/* With -k: what was left out; the exit code. */
+static int
+account(const cmd *c)
+{
+	const struct cmd_state *s = c->state;
+
+	if (!s->failed)
+		return EXIT_GOOD;
+	say(c, "%llu of %llu frames failed, and %llu deltas were left out with them",
+	    (unsigned long long)s->failed, (unsigned long long)s->frame, (unsigned long long)s->lost);
+	return EXIT_DATA;
+}
+
+int
+cmd_main(int argc, char **argv, const cmd_tool *tool)
+{
+	struct cmd_state state = { .out = -1 };
+	cmd c = { .tool = tool, .name = base_name(argv[0]), .state = &state };
+	int code;
+
+	mr_ctx_init(&c.ctx, 0);
+	mr_ctx_init(&state.long_lived, 0);
+	parse_command_line(&c, argc, argv);
+	if (state.threads)
+		c.ctx.threads = (unsigned)state.threads;
+	c.ctx.user = &c;
+	c.ctx.note = c.verbose ? show_note : NULL;
+	c.ctx.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
+	c.keep = c.ctx;
+	c.keep.top = NULL;
+	if (tool->prepare)
+		try(&c, tool->prepare(&c));
+	if (tool->sink)
+		open_text(&c);
+	else
+		open_writer(&c);
+	open_stats(&c);
+	state.started = mr_seconds();
+	if (tool->source)
+		try(&c, tool->source(&c));
+	else
+		read_streams(&c);
+	if (tool->finish)
+		try(&c, tool->finish(&c));
+	close_outputs(&c);
+	code = account(&c);
+	mr_writer_free(state.writer);
+	mr_ctx_free(&c.ctx);
+	mr_ctx_free(&c.keep);
+	mr_ctx_free(&state.long_lived);
+	return code;
+}

@@ -1,0 +1,303 @@
+#include "options.h"
+
+#include <errno.h>
+#include <limits.h>
+
+double
+cmd_length_of(cmd_length l, double diagonal)
+{
+	return l.relative ? l.value * diagonal : l.value;
+}
+
+/* Parses a finite number at the start of `text`; *end is what follows it. */
+static bool
+number_at(const char *text, char **end, double *value)
+{
+	*value = strtod(text, end);
+	return *end != text && isfinite(*value) && strspn(text, " \t\n") == 0;
+}
+
+static mr_status
+fail_range(mr_ctx *ctx, const char *what, const char *text, double min, double max)
+{
+	return mr_fail(ctx, MR_EUSAGE, "%s: %s is not between %.15g and %.15g", what, text, min, max);
+}
+
+mr_status
+cmd_parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double max, double *value)
+{
+	char *end;
+	double x;
+
+	if (!number_at(text, &end, &x) || *end)
+		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is not a number", what, text);
+	if (x < min || x > max)
+		return fail_range(ctx, what, text, min, max);
+	*value = x;
+	return MR_OK;
+}
+
+mr_status
+cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value)
+{
+	unsigned long long n;
+	char *end;
+
+	errno = 0;
+	n = strtoull(text, &end, 10);
+	if (*text < '0' || *text > '9' || *end)
+		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is not a whole number", what, text);
+	if (errno || n < min || n > max)
+		return fail_range(ctx, what, text, (double)min, (double)max);
+	*value = (size_t)n;
+	return MR_OK;
+}
+
+mr_status
+cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, double *values)
+{
+	const char *at = text;
+
+	for (size_t i = 0; i < count; i++) {
+		char *end;
+		if (!number_at(at, &end, &values[i]) || *end != (i + 1 < count ? ',' : '\0'))
+			return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is not %zu numbers with commas between them",
+			    what, text, count);
+		at = end + 1;
+	}
+	return MR_OK;
+}
+
+static mr_status
+parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
+{
+	size_t n = strlen(text);
+	bool relative = n > 1 && text[n - 1] == '%';
+	char *number = mr_format(ctx, "%.*s", (int)(relative ? n - 1 : n), text);
+	double x;
+
+	if (!number)
+		return MR_EMEM;
+	MR_TRY(cmd_parse_real(ctx, what, number, o->min, o->max, &x));
+	*(cmd_length *)o->value = (cmd_length){ relative ? x / 100 : x, relative };
+	return MR_OK;
+}
+
+static mr_status
+parse_choice(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
+{
+	size_t n = strlen(text);
+	const char *word = o->metavar;
+
+	for (int i = 0;; i++) {
+		size_t length = strcspn(word, "|");
+		if (n == length && !memcmp(word, text, n)) {
+			*(int *)o->value = i;
+			return MR_OK;
+		}
+		if (!word[length])
+			return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is none of %s", what, text, o->metavar);
+		word += length + 1;
+	}
+}
+
+static mr_status
+parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
+{
+	char what[48];
+
+	snprintf(what, sizeof what, "--%s", o->name);
+	switch (o->kind) {
+	case CMD_FLAG:
+		*(bool *)o->value = true;
+		return MR_OK;
+	case CMD_REAL:
+		return cmd_parse_real(ctx, what, text, o->min, o->max, o->value);
+	case CMD_COUNT:
+		return cmd_parse_count(ctx, what, text, (size_t)o->min, (size_t)o->max, o->value);
+	case CMD_CHOICE:
+		return parse_choice(ctx, o, what, text);
+	case CMD_TEXT:
+		*(const char **)o->value = text;
+		return MR_OK;
+	case CMD_LENGTH:
+		return parse_length(ctx, o, what, text);
+	case CMD_VECTOR: {
+		double v[3];
+		MR_TRY(cmd_parse_reals(ctx, what, text, 3, v));
+		*(mr_v3 *)o->value = mr_vec(v[0], v[1], v[2]);
+		return MR_OK;
+	}
+	case CMD_CALL:
+		return mr_prefix(ctx, o->call(ctx, text), "%s=%s", what, text);
+	}
+	return MR_OK;
+}
+
+static const cmd_opt *
+find_short(const cmd_opt *const tables[2], char letter, int *table)
+{
+	for (*table = 0; *table < 2; ++*table)
+		for (const cmd_opt *o = tables[*table]; o && o->name; o++)
+			if (o->letter == letter)
+				return o;
+	return NULL;
+}
+
+static const cmd_opt *
+find_long(const cmd_opt *const tables[2], const char *name, size_t length, int *table)
+{
+	for (*table = 0; *table < 2; ++*table)
+		for (const cmd_opt *o = tables[*table]; o && o->name; o++)
+			if (strlen(o->name) == length && !memcmp(o->name, name, length))
+				return o;
+	return NULL;
+}
+
+typedef struct parser {
+	mr_ctx *ctx;
+	int argc, at;
+	char **argv;
+	const cmd_opt *const *tables;
+	cmd_args *args;
+} parser;
+
+static void
+note_typed(parser *p, int table, int first)
+{
+	for (int i = first; table == 0 && i <= p->at; i++)
+		p->args->typed[p->args->typed_count++] = p->argv[i];
+}
+
+/* Gives the option its argument: the `attached` text where there is one, else the next word. */
+static mr_status
+take_value(parser *p, const cmd_opt *o, const char *attached)
+{
+	if (o->kind == CMD_FLAG && attached)
+		return mr_fail(p->ctx, MR_EUSAGE, "--%s takes no argument", o->name);
+	if (o->kind != CMD_FLAG && !attached) {
+		if (++p->at >= p->argc)
+			return mr_fail(p->ctx, MR_EUSAGE, "--%s needs an argument: %s", o->name, o->metavar);
+		attached = p->argv[p->at];
+	}
+	return parse_value(p->ctx, o, attached);
+}
+
+static mr_status
+parse_long(parser *p)
+{
+	const char *name = p->argv[p->at] + 2, *equals = strchr(name, '=');
+	size_t length = equals ? (size_t)(equals - name) : strlen(name);
+	int table, first = p->at;
+	const cmd_opt *o = find_long(p->tables, name, length, &table);
+
+	if (!o)
+		return mr_fail(p->ctx, MR_EUSAGE, "no option is called --%.*s", (int)length, name);
+	MR_TRY(take_value(p, o, equals ? equals + 1 : NULL));
+	note_typed(p, table, first);
+	return MR_OK;
+}
+
+/* A word of short options: flags may share it, the last may take the rest as its argument. */
+static mr_status
+parse_short(parser *p)
+{
+	const char *letters = p->argv[p->at] + 1;
+	int table = 1, first = p->at, own = 1;
+
+	while (*letters) {
+		const cmd_opt *o = find_short(p->tables, *letters, &table);
+		if (!o)
+			return mr_fail(p->ctx, MR_EUSAGE, "no option is called -%c", *letters);
+		letters++;
+		own = table == 0 ? 0 : own;
+		if (o->kind != CMD_FLAG) {
+			MR_TRY(take_value(p, o, *letters ? letters : NULL));
+			break;
+		}
+		MR_TRY(take_value(p, o, NULL));
+	}
+	note_typed(p, own, first);
+	return MR_OK;
+}
+
+mr_status
+cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tables[2], cmd_args *args)
+{
+	parser p = { ctx, argc, 1, argv, tables, args };
+	bool options = true;
+
+	*args = (cmd_args){ .operands = MR_NEW(ctx, (size_t)argc, char *),
+		.typed = MR_NEW(ctx, (size_t)argc, char *) };
+	if (!args->operands || !args->typed)
+		return MR_EMEM;
+	for (; p.at < argc; p.at++) {
+		char *word = argv[p.at];
+		if (options && !strcmp(word, "--")) {
+			options = false;
+		} else if (options && word[0] == '-' && word[1] == '-') {
+			MR_TRY(parse_long(&p));
+		} else if (options && word[0] == '-' && word[1]) {
+			MR_TRY(parse_short(&p));
+		} else {
+			args->operands[args->operand_count++] = word;
+			note_typed(&p, 0, p.at);
+		}
+	}
+	return MR_OK;
+}
+
+static void
+print_default(FILE *out, const cmd_opt *o)
+{
+	const char *word = o->metavar;
+
+	switch (o->kind) {
+	case CMD_REAL:
+		fprintf(out, " (default %.6g)", *(double *)o->value);
+		break;
+	case CMD_COUNT:
+		fprintf(out, " (default %zu)", *(size_t *)o->value);
+		break;
+	case CMD_CHOICE:
+		for (int i = *(int *)o->value; i > 0; i--)
+			word += strcspn(word, "|") + 1;
+		fprintf(out, " (default %.*s)", (int)strcspn(word, "|"), word);
+		break;
+	case CMD_TEXT:
+		if (*(const char **)o->value)
+			fprintf(out, " (default %s)", *(const char **)o->value);
+		break;
+	case CMD_LENGTH: {
+		cmd_length l = *(cmd_length *)o->value;
+		fprintf(out, l.relative ? " (default %.6g%%)" : " (default %.6g)",
+		    l.relative ? 100 * l.value : l.value);
+		break;
+	}
+	case CMD_VECTOR: {
+		mr_v3 v = *(mr_v3 *)o->value;
+		fprintf(out, " (default %.6g,%.6g,%.6g)", v.x, v.y, v.z);
+		break;
+	}
+	case CMD_FLAG:
+	case CMD_CALL:
+		break;
+	}
+}
+
+/* A table may say in `help` itself what stands for the default, as "(default ...)". */
+void
+cmd_print_options(FILE *out, const cmd_opt *table)
+{
+	for (const cmd_opt *o = table; o && o->name; o++) {
+		char usage[128];
+		snprintf(usage, sizeof usage, "%c%c%s --%s%s%s", o->letter ? '-' : ' ',
+		    o->letter ? o->letter : ' ', o->letter ? "," : " ", o->name,
+		    o->kind == CMD_FLAG ? "" : " ", o->kind == CMD_FLAG ? "" : o->metavar);
+		fprintf(out, strlen(usage) < 30 ? "  %-30s%s" : "  %s\n                                %s",
+		    usage, o->help);
+		if (!strstr(o->help, "(default"))
+			print_default(out, o);
+		fputc('\n', out);
+	}
+}

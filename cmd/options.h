@@ -1,0 +1,66 @@
+/*
+ * options.h -- one table of options yields the parser, the range checks and --help.
+ *
+ * Layer rule: cmd; includes base only.
+ */
+#ifndef OPTIONS_H
+#define OPTIONS_H
+
+#include "base/vec.h"
+
+typedef enum cmd_kind {
+	CMD_FLAG,   /* bool */
+	CMD_REAL,   /* double in [min, max] */
+	CMD_COUNT,  /* size_t in [min, max] */
+	CMD_CHOICE, /* int: the index of the argument in `metavar`, "implicit|explicit|taubin" */
+	CMD_TEXT,   /* const char * */
+	CMD_LENGTH, /* cmd_length: a number, or a number and % of the diagonal */
+	CMD_VECTOR, /* mr_v3: three numbers x,y,z */
+	CMD_CALL    /* given to `call`, in the order of the command line; may come several times */
+} cmd_kind;
+
+/* A length as given: in units of the model, or relative to the bounding-box diagonal. */
+typedef struct cmd_length {
+	double value;  /* already divided by 100 where relative */
+	bool relative;
+} cmd_length;
+
+/* The length in units of the model. */
+double cmd_length_of(cmd_length l, double diagonal);
+
+/* --help shows the value that `value` points to before parsing as the default. */
+typedef struct cmd_opt {
+	char letter;          /* 0: only the long name */
+	const char *name;     /* NULL ends the table */
+	cmd_kind kind;
+	void *value;
+	double min, max;
+	const char *metavar, *help;
+	mr_status (*call)(mr_ctx *ctx, const char *argument); /* CMD_CALL: MR_EUSAGE with a sentence refuses */
+} cmd_opt;
+
+/* What stood on a command line: pointers into argv. */
+typedef struct cmd_args {
+	char **operands;
+	size_t operand_count;
+	char **typed; /* the operands, and the options of the first table with their arguments, as typed */
+	size_t typed_count;
+} cmd_args;
+
+/*
+ * Parses argv[1..] by the two tables, of which the first wins.  Options and operands
+ * may be mixed; `--` ends the options.  MR_EUSAGE with a sentence.  args: in the arena.
+ */
+mr_status cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tables[2], cmd_args *args);
+
+/* Prints one table for --help, its defaults read from the values. */
+void cmd_print_options(FILE *out, const cmd_opt *table);
+
+/* Parses the whole of `text` as a finite number in [min, max]: MR_EUSAGE with a sentence that begins with `what`. */
+mr_status cmd_parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double max, double *value);
+mr_status cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value);
+
+/* Parses `count` numbers with commas between them. */
+mr_status cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, double *values);
+
+#endif
