@@ -1,0 +1,26 @@
+# The library neither prints nor exits nor asks for the time of day; calls that lose an error or a bound are nowhere.
+cd "$TOP" || exit
+fail=0
+
+# grep, in the sources without their comments and strings
+search() { # pattern, directories
+	pattern=$1
+	shift
+	for file in $(find "$@" -name '*.[ch]' ! -name banned.h -o -name '*.cc'); do
+		hits=$(sed -E 's/"([^"\\]|\\.)*"/""/g' "$file" | sed -E 's,//.*,,; s,/\*.*\*/,,; /^[ \t]*\/\*/,/\*\//d; s,/\*.*,,' |
+		    grep -nE "(^|[^a-zA-Z0-9_])($pattern)[ \t]*\(")
+		[ -z "$hits" ] || echo "$file: $hits"
+	done
+}
+
+bad=$(search 'atoi|atol|atoll|atof|sprintf|vsprintf|strcpy|strcat|gets|strtok|scanf|sscanf|alloca' lib formats cmd)
+[ -z "$bad" ] || { echo "banned:"; echo "$bad"; fail=1; }
+bad=$(search 'printf|vprintf|puts|putchar|perror|exit|_exit|abort|assert|signal|longjmp|setjmp' lib formats)
+[ -z "$bad" ] || { echo "the library prints or exits:"; echo "$bad"; fail=1; }
+bad=$(search 'rand|srand|random|drand48|time|gettimeofday|getenv|setlocale' lib formats)
+[ -z "$bad" ] || { echo "a result may depend on these:"; echo "$bad"; fail=1; }
+bad=$(search 'malloc|calloc|realloc|free|sqrt|sin|cos|exit|atexit' cmd | grep -E '^cmd/mr-')
+[ -z "$bad" ] || { echo "commands compute, allocate or exit:"; echo "$bad"; fail=1; }
+bad=$(grep -rnE 'TODO|FIXME|XXX|HACK' lib formats cmd tests/unit man Makefile README.md | grep -v banned.sh)
+[ -z "$bad" ] || { echo "unfinished:"; echo "$bad"; fail=1; }
+exit $fail

@@ -1,0 +1,9 @@
+# Every script of examples/ runs, on a small model, in an empty directory.
+fail=0
+for script in "$TOP"/examples/*.sh; do
+	name=$(basename "$script" .sh)
+	mkdir "$name"
+	(cd "$name" && MR_SMALL=1 sh -e "$script" >../out 2>../err) || { echo "$name fails:"; cat out err; fail=1; }
+	[ -n "$(find "$name" -type f -size +0)" ] || { echo "$name made nothing"; fail=1; }
+done
+exit $fail

@@ -1,0 +1,57 @@
+# A layer of the library includes itself and the layers below it, nothing else; a foreign library has one place.
+cd "$TOP" || exit
+fail=0
+
+# file:include, for each include of the sources
+includes() {
+	grep -rnE '^[ \t]*#[ \t]*include[ \t]*[<"]' --include='*.c' --include='*.h' --include='*.cc' "$@" |
+	    sed -E 's/^([^:]*):[0-9]*:[^<"]*[<"]([^>"]*)[>"].*/\1:\2/'
+}
+
+# Layers: what each may include of the house.
+house='(base|stream|mesh|op|solve|alg|formats|cmd)/'
+check() { # directory, pattern of what it may include
+	bad=$(includes "$1" | grep -E ":($house|cmd\.h|options\.h)" | grep -vE ":($2)")
+	[ -z "$bad" ] || { echo "$1 includes what is above it:"; echo "$bad"; fail=1; }
+}
+below=
+for layer in base stream mesh op solve alg; do
+	below="$below${below:+|}$layer/"
+	check lib/$layer "$below"
+done
+check formats "$below|formats/"
+
+# Quoted includes name their layer, so that the rule can be seen: no file beside the file, no climbing.
+bad=$(grep -rnE '^[ \t]*#[ \t]*include[ \t]*"' --include='*.[ch]' --include='*.cc' lib formats | grep -vE '"(base|stream|mesh|op|solve|alg|formats)/[a-z0-9_]+\.(h|inc)"')
+[ -z "$bad" ] || { echo "an include that does not name its layer:"; echo "$bad"; fail=1; }
+
+# Foreign libraries: header, where it may be included.
+foreign() {
+	bad=$(includes lib formats cmd | grep -E ":($1)" | grep -vE "^($2):")
+	[ -z "$bad" ] || { echo "$1 belongs to $2:"; echo "$bad"; fail=1; }
+	places=$(includes lib formats cmd | grep -cE ":($1)")
+	[ "$places" -le "$3" ] || { echo "$1 is included in $places places, not $3"; fail=1; }
+}
+foreign 'cholmod.*' 'lib/solve/[a-z_]+\.[ch]' 1
+foreign 'umfpack.*' 'lib/solve/[a-z_]+\.[ch]' 1
+foreign 'flann/.*' 'lib/mesh/near\.[ch]' 1
+foreign 'zlib\.h' 'lib/stream/[a-z_]+\.[ch]|formats/[a-z_]+\.[ch]' 3
+foreign 'png\.h' '(lib/alg|formats)/[a-z_]+\.[ch]' 1
+foreign 'tiny_obj_loader\.h' 'formats/obj_shim\.cc' 1
+
+# The shim is the only C++ of the tools; and nothing outside the tests is in another language.
+for f in $(find lib formats cmd -name '*.cc' -o -name '*.cpp' -o -name '*.cxx' -o -name '*.hpp'); do
+	[ "$f" = formats/obj_shim.cc ] || { echo "$f: C++"; fail=1; }
+done
+
+# The top level is the house's.
+extra=$(git ls-files 2>/dev/null | cut -d/ -f1 | sort -u |
+    grep -vxE 'Makefile|cmd|lib|formats|tests|examples|man|README\.md|LICENSE|\..*')
+[ -z "$extra" ] || { echo "top level: $extra"; fail=1; }
+
+# Files that a person can hold in mind.
+long=$(find lib formats cmd tests -name '*.[ch]' -exec wc -l {} + | awk '$2 != "total" && $1 > 900')
+[ -z "$long" ] || { echo "over 900 lines: $long"; fail=1; }
+long=$(wc -l cmd/mr-*.c | awk '$2 != "total" && $1 > 200')
+[ -z "$long" ] || { echo "a command with more than options and calls in it: $long"; fail=1; }
+exit $fail

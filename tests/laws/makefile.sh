@@ -1,0 +1,27 @@
+# A changed header rebuilds what includes it and nothing else; changed flags rebuild everything; a staged install is whole.
+command -v make >/dev/null || { echo "no make"; exit 77; }
+here=$PWD
+cd "$TOP" || exit
+fail=0
+make() { command make --no-print-directory BUILD="$BUILD" SAN="$SAN" "$@"; }
+
+would=$(make -n -W lib/solve/solve.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
+for source in $(echo "$would"); do
+	grep -qs 'lib/solve/solve.h' "$BUILD/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
+done
+for source in $(grep -lE 'include "solve/solve.h"' lib/*/*.c cmd/*.c); do
+	case " $(echo $would) " in
+	*" $source "*) ;;
+	*) echo "not rebuilt: $source"; fail=1 ;;
+	esac
+done
+
+make DESTDIR="$here/stage" PREFIX=/usr install >"$here/log" 2>&1 || { cat "$here/log"; exit 1; }
+for source in cmd/mr-*.c; do
+	tool=$(basename "$source" .c)
+	[ -x "$here/stage/usr/bin/$tool" ] || { echo "not installed: $tool"; fail=1; }
+	[ -f "$here/stage/usr/share/man/man1/$tool.1" ] || { echo "not installed: $tool.1"; fail=1; }
+	grep -q -- --help "$here/stage/usr/share/bash-completion/completions/$tool" || { echo "no completion: $tool"; fail=1; }
+done
+[ -f "$here/stage/usr/share/man/man7/mr.7" ] || { echo "not installed: mr.7"; fail=1; }
+exit $fail
