@@ -12,6 +12,8 @@ mr_voronoi_corners(mr_v3 a, mr_v3 b, mr_v3 c, double part[3])
 	double dot[3] = { -mr_dot(ab, ca), -mr_dot(bc, ab), -mr_dot(ca, bc) };
 
 	part[0] = part[1] = part[2] = twice / 8; /* obtuse somewhere else */
+	if (!(twice > 0))
+		return;
 	for (int i = 0; i < 3; i++)
 		if (dot[i] <= 0) {
 			part[i] = twice / 4;

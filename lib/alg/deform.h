@@ -1,0 +1,76 @@
+/*
+ * deform.h -- boundary-constraint modelling: D^k p = 0 on free vertices, fixed and handle vertices given.
+ *
+ * Contract: the system is assembled and factored once, on the rest positions; every
+ * solve after that changes right-hand sides only.  Regions are those of
+ * mesh/layers.h.  A free component without a constrained vertex is left as it is.
+ * Layer rule: alg includes base, mesh, op, solve.
+ */
+#ifndef MR_DEFORM_H
+#define MR_DEFORM_H
+
+#include "mesh/mesh.h"
+#include "solve/solver.h"
+
+typedef enum mr_areas {
+	MR_AREAS_VORONOI, /* each vertex its own */
+	MR_AREAS_MEAN     /* all the same: Botsch, Kobbelt 2004, section 4.2 */
+} mr_areas;
+
+typedef struct mr_deform_opts {
+	size_t order; /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
+	int areas;    /* mr_areas */
+	bool
+	    unsymmetric; /* the system as the paper writes it, by LU; else a row scaling of it, by Cholesky */
+	double tol;      /* relative residual above which a solution is refined */
+} mr_deform_opts;
+
+#define MR_DEFORM_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		.order = 2, .areas = MR_AREAS_VORONOI, .unsymmetric = false, .tol = 1e-12                    \
+	}
+
+typedef struct mr_deform mr_deform;
+
+/*
+ * Assembles and factors the system on the mesh `rest` with one region per vertex.  MR_EMESH where
+ * there is no free or no constrained vertex, MR_ENUMERIC where the matrix is not positive definite.
+ * *deform borrows nothing; its memory is the arena's and the solver's: free it before the arena goes.
+ * Records figures: free, fixed, handles, nnz_matrix, nnz_factor, seconds_*, rcond, ...
+ */
+mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region, const mr_deform_opts *opts,
+    mr_deform **deform) MR_WARN_UNUSED;
+
+/* Accepts NULL. */
+void mr_deform_free(mr_deform *d);
+
+/* The highest handle that some vertex has, plus one. */
+size_t mr_deform_handles(const mr_deform *d);
+
+/* The undeformed solve: constrained vertices stay at p, free ones go to the solution.  out: nv, the caller's,
+ * may be p. */
+mr_status mr_deform_relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out);
+
+/*
+ * Poses p0 by the handles' affine maps t (as many as `count`; those missing are the identity):
+ * p = T p0 + z, D^k z = 0 on the free vertices.  MR_ERANGE where a map has no vertex to move.
+ * out: nv, the caller's, may be p0.
+ */
+mr_status
+mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, size_t count, mr_v3 *out);
+
+/*
+ * The response of every vertex to the handles' affine maps, for mr_pose_by_response.
+ * response: nv rows of 4 mr_deform_handles values, the caller's.
+ */
+mr_status mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response);
+
+/*
+ * p = p0 + sum over handles h of W_h (T_h - I), W_h the n x 4 block of the response; equal to
+ * mr_deform_pose with the same maps.  The identity gives p0 bit for bit.  response: n rows of
+ * 4 handles values.  out: n, the caller's, may be p0.
+ */
+mr_status mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
+    const mr_affine *t, mr_v3 *out);
+
+#endif

@@ -1,0 +1,21 @@
+/*
+ * sparse.h -- sparse matrices by rows.
+ *
+ * Contract: the indices of a row are ascending, each once.  Row numbers and indices
+ * are int, as the direct solvers have them: a matrix has fewer than 2^31 entries.
+ * Layer rule: op.
+ */
+#ifndef MR_SPARSE_H
+#define MR_SPARSE_H
+
+#include "base/ctx.h"
+
+/* Row i: the columns index[k] and values value[k] for k from start[i] to start[i + 1]. */
+typedef struct mr_sparse {
+	int n;      /* rows */
+	int *start; /* n + 1 */
+	int *index;
+	double *value;
+} mr_sparse;
+
+#endif
