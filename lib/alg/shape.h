@@ -1,0 +1,63 @@
+/*
+ * shape.h -- generated surfaces with known geometry, samples of a surface, and noise.
+ *
+ * Contract: every shape is an oriented manifold, outward; closed but for the plane
+ * and the open cylinder.  Positions depend on the options only (and on libm's last bit).
+ *
+ *	sphere    radius 1; a geodesic icosahedron of frequency f: 10 f^2 + 2 vertices
+ *	torus     radii 1 and 0.4 about the z axis
+ *	cube      [-1, 1]^3, s^2 squares a side: 6 s^2 + 2 vertices
+ *	plane     [-1, 1]^2 at z = 0, upward: (s + 1)^2 vertices
+ *	cylinder  radius 1 about the z axis, |z| <= 2, closed unless `open`
+ *	knot      tube of radius 0.2 around the (2, 3) knot on a torus of radii 1 and 0.45
+ *	bumpy     a creature with limbs and a scaly skin, y upward: 10 f^2 + 2 vertices, f at least 8
+ *	boxes     a slab of 2 g + 1 by 3 by 1 unit cells without every other inner one: genus g
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_SHAPE_H
+#define MR_SHAPE_H
+
+#include "mesh/mesh.h"
+
+typedef enum mr_solid {
+	MR_SPHERE,
+	MR_TORUS,
+	MR_CUBE,
+	MR_PLANE,
+	MR_CYLINDER,
+	MR_KNOT,
+	MR_BUMPY,
+	MR_BOXES,
+	MR_SOLIDS
+} mr_solid;
+
+/* Their names, in that order. */
+extern const char *const mr_solid_names[MR_SOLIDS];
+
+typedef struct mr_solid_opts {
+	mr_solid solid;
+	size_t vertices; /* about how many; 0: 10,000, and 30,000 for bumpy */
+	size_t genus;    /* of boxes */
+	bool open;       /* cylinder: without its caps */
+} mr_solid_opts;
+
+#define MR_SOLID_DEFAULTS                                                                                    \
+	{                                                                                                    \
+		.solid = MR_SPHERE, .vertices = 0, .genus = 2, .open = false                                 \
+	}
+
+/* The shape, in the arena; its name is the solid's. */
+mr_status mr_solid_make(mr_ctx *ctx, const mr_solid_opts *opts, mr_mesh *m);
+
+/*
+ * `count` points drawn uniformly by area with the seed, in the arena, each with the
+ * unit normal of its face.  MR_EMESH where the surface has no area.
+ */
+mr_status mr_surface_sample(
+    mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr_v3 **points, mr_v3 **normals);
+
+/* Moves n points along their normals by Gaussian distances of standard deviation `deviation`. */
+void mr_add_noise(mr_v3 *p, const mr_v3 *normal, size_t n, double deviation, uint64_t seed);
+
+#endif

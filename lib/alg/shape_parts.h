@@ -1,0 +1,42 @@
+/*
+ * shape_parts.h -- what the files of shape.h share: building a mesh vertex by vertex.  Layer rule: alg,
+ * private to shape*.c.
+ */
+#ifndef MR_SHAPE_PARTS_H
+#define MR_SHAPE_PARTS_H
+
+#include "alg/shape.h"
+
+/* A mesh under construction: room for exactly the vertices and faces it will have. */
+typedef struct build {
+	mr_v3 *p;
+	mr_tri *t;
+	size_t nv, nf;
+} build;
+
+mr_status mr_build_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b);
+
+/* The face a b c, and the two faces of the quadrangle a b c d, counter-clockwise. */
+void mr_build_face(build *b, uint32_t i, uint32_t j, uint32_t k);
+void mr_build_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
+
+/* Vertices by key: open addressing, at most half full. */
+typedef struct weld {
+	uint64_t *key; /* plus 1; 0: empty */
+	uint32_t *vertex;
+	size_t mask;
+} weld;
+
+mr_status mr_weld_begin(mr_ctx *ctx, size_t nv, weld *w);
+
+/* The slot of the key; *is_new where it was not there: the caller stores the vertex in it. */
+uint32_t *mr_weld_slot(weld *w, uint64_t key, bool *is_new);
+
+/* The frequency of a geodesic sphere of about n vertices, and the sphere of a frequency. */
+size_t mr_geodesic_frequency(size_t n);
+mr_status mr_geodesic(mr_ctx *ctx, size_t frequency, build *b);
+
+/* The bumpy creature of about n vertices: shape_bumpy.c. */
+mr_status mr_bumpy(mr_ctx *ctx, size_t n, build *b);
+
+#endif
