@@ -1,0 +1,228 @@
+#include "stream/frame.h"
+
+#include "stream/stored.h"
+
+enum { ROOM = 16 };
+
+mr_status
+mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame)
+{
+	mr_frame *f;
+	char *copy;
+
+	if (!mr_frame_name_valid(name, strlen(name)))
+		return mr_fail(ctx, MR_ERANGE, "a frame cannot be called '%s'", name);
+	f = MR_NEW(ctx, 1, mr_frame);
+	copy = mr_format(ctx, "%s", name);
+	if (!f || !copy)
+		return MR_EMEM;
+	*f = (mr_frame){ .name = copy, .key = true, .columns = MR_NEW(ctx, ROOM, mr_column), .room = ROOM };
+	if (!f->columns)
+		return MR_EMEM;
+	*frame = f;
+	return MR_OK;
+}
+
+static mr_column *
+find(const mr_frame *f, const char *layer, const char *name)
+{
+	for (mr_column *c = f->columns; c < f->columns + f->count; c++)
+		if (!strcmp(c->name, name) && !strcmp(c->layer, layer))
+			return c;
+	return NULL;
+}
+
+const mr_column *
+mr_frame_find(const mr_frame *frame, const char *layer, const char *name)
+{
+	return frame->count ? find(frame, layer, name) : NULL;
+}
+
+bool
+mr_frame_has_layer(const mr_frame *frame, const char *layer)
+{
+	for (size_t i = 0; i < frame->count; i++)
+		if (!strcmp(frame->columns[i].layer, layer))
+			return true;
+	return false;
+}
+
+static mr_status
+missing(mr_ctx *ctx, const char *layer, const char *name)
+{
+	return *layer ? mr_fail(ctx, MR_EMISSING, "%s: no column %s", layer, name)
+	              : mr_fail(ctx, MR_EMISSING, "no column %s", name);
+}
+
+mr_status
+mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape,
+    const void **data, size_t *rows)
+{
+	mr_column *c = frame->count ? find(frame, layer, name) : NULL;
+
+	if (!c)
+		return missing(ctx, layer, name);
+	if (c->shape.element != shape.element || c->shape.type != shape.type ||
+	    c->shape.components != shape.components)
+		return mr_fail(ctx, MR_EMISSING, "%s%scolumn %s is %c %c%u, not %c %c%u", layer,
+		    *layer ? ": " : "", name, c->shape.element, c->shape.type, c->shape.components,
+		    shape.element, shape.type, shape.components);
+	MR_TRY(mr_column_decode(ctx, c));
+	*data = c->data;
+	*rows = (size_t)c->rows;
+	return MR_OK;
+}
+
+static mr_status
+inflate_stored(mr_ctx *ctx, mr_stored *s)
+{
+	void *data = mr_heap(ctx, NULL, (size_t)s->head.size);
+	mr_status status;
+
+	if (!data)
+		return MR_EMEM;
+	status = mr_unpack(ctx, &s->head, s->record + MR_HEADER, data);
+	if (status != MR_OK) {
+		free(data);
+		return mr_prefix(ctx, status, "byte %llu", (unsigned long long)s->offset);
+	}
+	s->data = s->inflated = data;
+	return MR_OK;
+}
+
+mr_status
+mr_column_decode(mr_ctx *ctx, mr_column *column)
+{
+	mr_stored *s = column->stored;
+
+	if (column->data)
+		return MR_OK;
+	if (!s->data) {
+		MR_TRY(mr_record_verify(
+		    ctx, s->record, s->record + MR_HEADER, (size_t)s->head.stored, s->offset));
+		if (s->head.codec == MR_PACKED)
+			MR_TRY(inflate_stored(ctx, s));
+		else
+			s->data = s->record + MR_HEADER;
+	}
+	column->data = s->data;
+	return MR_OK;
+}
+
+/* A new column at the end; its fields are the caller's to set. */
+static mr_status
+append(mr_ctx *ctx, mr_frame *f, mr_column **column)
+{
+	mr_column *grown;
+
+	if (f->count == MR_FRAME_COLUMNS)
+		return mr_fail(ctx, MR_ERANGE, "a frame has no more than %d columns", MR_FRAME_COLUMNS);
+	if (f->count == f->room) {
+		grown = mr_grow(ctx, f->columns, f->count, 2 * f->room + ROOM, sizeof *grown);
+		if (!grown)
+			return MR_EMEM;
+		f->columns = grown;
+		f->room = 2 * f->room + ROOM;
+	}
+	*column = &f->columns[f->count++];
+	return MR_OK;
+}
+
+mr_status
+mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape,
+    const void *data, size_t rows)
+{
+	static const double nothing;
+	mr_column *c, put = { .shape = shape, .rows = rows, .data = data ? data : &nothing };
+	uint64_t size;
+
+	if (*layer && !mr_name_valid(layer, MR_LAYER_MAX))
+		return mr_fail(ctx, MR_ERANGE, "a layer cannot be called '%s'", layer);
+	if (!mr_name_valid(name, MR_COLUMN_MAX))
+		return mr_fail(ctx, MR_ERANGE, "a column cannot be called '%s'", name);
+	if (!mr_shape_size(shape, rows, &size) || size > SIZE_MAX / 2)
+		return mr_fail(ctx, MR_ERANGE, "%s: column %s: no such shape: %c %c%u, %zu rows", layer, name,
+		    shape.element, shape.type, shape.components, rows);
+	snprintf(put.layer, sizeof put.layer, "%s", layer);
+	snprintf(put.name, sizeof put.name, "%s", name);
+	c = frame->count ? find(frame, layer, name) : NULL;
+	if (!c)
+		MR_TRY(append(ctx, frame, &c));
+	*c = put;
+	return MR_OK;
+}
+
+void
+mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element)
+{
+	size_t kept = 0;
+
+	for (size_t i = 0; i < frame->count; i++) {
+		const mr_column *c = &frame->columns[i];
+		if (strcmp(c->layer, layer) || (name && strcmp(c->name, name)) ||
+		    (element && c->shape.element != element))
+			frame->columns[kept++] = *c;
+	}
+	frame->count = kept;
+}
+
+/* Copies a line of text and ends it; what is no character of a line, a control or a stray byte, becomes '?'.
+ */
+static size_t
+clean_line(char *to, const char *line)
+{
+	const unsigned char *s = (const unsigned char *)line;
+	size_t n = strlen(line), used = 0, step;
+	uint32_t code;
+
+	for (size_t i = 0; i < n; i += step ? step : 1) {
+		step = mr_utf8(s + i, n - i, &code);
+		if (step == 0 || code < ' ' || (code >= 0x7f && code < 0xa0)) {
+			to[used++] = '?';
+		} else {
+			memcpy(to + used, s + i, step);
+			used += step;
+		}
+	}
+	to[used++] = '\n';
+	return used;
+}
+
+mr_status
+mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
+{
+	const mr_shape text_shape = { '-', 't', 1 };
+	const void *old = NULL;
+	size_t n = 0;
+	char *text;
+
+	if (mr_frame_find(frame, "", "history"))
+		MR_TRY(mr_frame_get(ctx, frame, "", "history", text_shape, &old, &n));
+	text = mr_alloc(ctx, n + strlen(line) + 2, 1);
+	if (!text)
+		return MR_EMEM;
+	if (n)
+		memcpy(text, old, n);
+	if (n && text[n - 1] != '\n')
+		text[n++] = '\n';
+	n += clean_line(text + n, line);
+	return mr_frame_put(ctx, frame, "", "history", text_shape, text, n);
+}
+
+mr_status
+mr_frame_check_rows(mr_ctx *ctx, const mr_frame *frame, mr_status status)
+{
+	for (const mr_column *c = frame->columns; c < frame->columns + frame->count; c++) {
+		const mr_column *first = frame->columns;
+		if (c->shape.element == '-')
+			continue;
+		while (first->shape.element != c->shape.element || strcmp(first->layer, c->layer))
+			first++;
+		if (first->rows != c->rows)
+			return mr_fail(ctx, status,
+			    "%s: column %s has %llu rows, but %s, also of element %c, has %llu", c->layer,
+			    c->name, (unsigned long long)c->rows, first->name, c->shape.element,
+			    (unsigned long long)first->rows);
+	}
+	return MR_OK;
+}

@@ -1,0 +1,228 @@
+#include "stream/stored.h"
+
+#include <limits.h>
+#include <zlib.h>
+
+/*
+ * Codec 1: smooth data differ little from row to row, and then the high bytes
+ * of the differences are alike.  A block of 32,768 rows is turned into planes:
+ * for each component, for each byte of its differences, the least significant
+ * first, that byte of all rows.  deflate, level 1, does the rest.
+ */
+enum { ROWS = 32768 };
+
+static uint64_t
+load(const unsigned char *p, size_t size)
+{
+	uint32_t u;
+	uint64_t d;
+
+	if (size == 1)
+		return *p;
+	if (size == 4) {
+		memcpy(&u, p, 4);
+		return u;
+	}
+	memcpy(&d, p, 8);
+	return d;
+}
+
+/* Component after component of n rows: differences of its values, their bytes in planes. */
+static void
+split(const unsigned char *rows, size_t n, size_t components, size_t size, unsigned char *planes)
+{
+	for (size_t c = 0; c < components; c++, planes += n * size) {
+		uint64_t before = 0;
+		for (size_t i = 0; i < n; i++) {
+			uint64_t v = load(rows + (i * components + c) * size, size), d = v - before;
+			for (size_t b = 0; b < size; b++)
+				planes[b * n + i] = (unsigned char)(d >> 8 * b);
+			before = v;
+		}
+	}
+}
+
+/* The inverse: sums of what the planes hold. */
+static void
+join(const unsigned char *planes, size_t n, size_t components, size_t size, unsigned char *rows)
+{
+	for (size_t c = 0; c < components; c++, planes += n * size) {
+		uint64_t v = 0;
+		for (size_t i = 0; i < n; i++) {
+			uint64_t d = 0;
+			for (size_t b = 0; b < size; b++)
+				d |= (uint64_t)planes[b * n + i] << 8 * b;
+			v += d;
+			memcpy(rows + (i * components + c) * size, &v, size); /* little-endian, as the wire */
+		}
+	}
+}
+
+/* zlib's memory is had from the heap like all other. */
+static voidpf
+z_alloc(voidpf ctx, uInt count, uInt size)
+{
+	return mr_heap(ctx, NULL, (size_t)count * size);
+}
+
+static void
+z_free(voidpf ctx, voidpf p)
+{
+	(void)ctx;
+	free(p);
+}
+
+static mr_status
+z_failed(mr_ctx *ctx, const char *what, int code)
+{
+	return code == Z_MEM_ERROR ? MR_EMEM /* mr_heap has set the sentence */
+	                           : mr_fail(ctx, MR_EFORMAT, "%s: zlib says %d", what, code);
+}
+
+static uInt
+piece(size_t n)
+{
+	return n < UINT_MAX ? (uInt)n : UINT_MAX;
+}
+
+/* Deflates n bytes into what is left of `out`; false when that does not hold them. */
+static bool
+deflate_all(z_stream *z, const unsigned char *in, size_t n, size_t *room, int flush)
+{
+	uInt had;
+	int code = Z_OK;
+
+	z->next_in = (unsigned char *)(uintptr_t)in;
+	z->avail_in = (uInt)n;
+	while (z->avail_in || (flush == Z_FINISH && code != Z_STREAM_END)) {
+		if (*room == 0)
+			return false;
+		had = z->avail_out = piece(*room);
+		code = deflate(z, flush);
+		*room -= had - z->avail_out;
+	}
+	return true;
+}
+
+/* All blocks of the column through one deflate stream. */
+static bool
+deflate_blocks(
+    z_stream *z, const mr_record *h, const unsigned char *data, unsigned char *planes, size_t *room)
+{
+	size_t size = mr_type_size(h->shape.type), row = size * h->shape.components;
+
+	for (uint64_t first = 0; first < h->rows; first += ROWS) {
+		size_t n = h->rows - first < ROWS ? (size_t)(h->rows - first) : ROWS;
+		split(data + first * row, n, h->shape.components, size, planes);
+		if (!deflate_all(z, planes, n * row, room, Z_NO_FLUSH))
+			return false;
+	}
+	return deflate_all(z, planes, 0, room, Z_FINISH);
+}
+
+static size_t
+block_bytes(const mr_record *h)
+{
+	return (size_t)(h->rows < ROWS ? h->rows : ROWS) * h->shape.components * mr_type_size(h->shape.type);
+}
+
+mr_status
+mr_pack(mr_ctx *ctx, const mr_record *h, const void *data, const void **packed, size_t *size)
+{
+	z_stream z = { .zalloc = z_alloc, .zfree = z_free, .opaque = ctx };
+	size_t room = (size_t)h->size;
+	unsigned char *out = MR_NEW(ctx, room, unsigned char), *planes;
+	mr_mark mark = mr_mark_take(ctx);
+	bool fits;
+	int code;
+
+	if (!out || !(planes = MR_NEW(ctx, block_bytes(h), unsigned char)))
+		return MR_EMEM;
+	code = deflateInit(&z, 1);
+	if (code != Z_OK) {
+		mr_mark_release(ctx, mark);
+		return z_failed(ctx, "packing", code);
+	}
+	z.next_out = out;
+	fits = deflate_blocks(&z, h, data, planes, &room);
+	deflateEnd(&z);
+	mr_mark_release(ctx, mark);
+	*packed = out;
+	*size = fits && room > 0 ? (size_t)h->size - room : 0;
+	return MR_OK;
+}
+
+/* Inflates n bytes exactly; code is zlib's last. */
+static bool
+inflate_all(z_stream *z, size_t *left, unsigned char *out, size_t n, int *code)
+{
+	uInt had;
+
+	z->next_out = out;
+	z->avail_out = (uInt)n;
+	while (z->avail_out) {
+		had = z->avail_in = piece(*left);
+		*code = inflate(z, Z_NO_FLUSH);
+		*left -= had - z->avail_in;
+		if (*code != Z_OK)
+			break;
+	}
+	return z->avail_out == 0;
+}
+
+/* True where the stream ends here: no more bytes come out of it, and none are left over. */
+static bool
+at_end(z_stream *z, size_t *left, int *code)
+{
+	unsigned char more;
+
+	if (*code == Z_OK)
+		inflate_all(z, left, &more, 1, code);
+	else
+		z->avail_out = 1;
+	return *code == Z_STREAM_END && z->avail_out == 1 && *left == 0;
+}
+
+static mr_status
+inflate_blocks(mr_ctx *ctx, z_stream *z, const mr_record *h, unsigned char *planes, unsigned char *data)
+{
+	size_t size = mr_type_size(h->shape.type), row = size * h->shape.components, left = (size_t)h->stored;
+	int code = Z_OK;
+
+	for (uint64_t first = 0; first < h->rows; first += ROWS) {
+		size_t n = h->rows - first < ROWS ? (size_t)(h->rows - first) : ROWS;
+		if (!inflate_all(z, &left, planes, n * row, &code))
+			return code == Z_MEM_ERROR
+			           ? MR_EMEM
+			           : mr_fail(ctx, MR_EFORMAT,
+					 "%s%s%s: packed bytes break off or are damaged in row %llu of %llu",
+					 h->layer, *h->layer ? ": " : "", h->name, (unsigned long long)first,
+					 (unsigned long long)h->rows);
+		join(planes, n, h->shape.components, size, data + first * row);
+	}
+	if (!at_end(z, &left, &code))
+		return mr_fail(ctx, MR_EFORMAT, "%s%s%s: packed bytes do not end with row %llu", h->layer,
+		    *h->layer ? ": " : "", h->name, (unsigned long long)h->rows);
+	return MR_OK;
+}
+
+mr_status
+mr_unpack(mr_ctx *ctx, const mr_record *h, const void *packed, void *data)
+{
+	z_stream z = { .zalloc = z_alloc,
+		.zfree = z_free,
+		.opaque = ctx,
+		.next_in = (unsigned char *)(uintptr_t)packed };
+	mr_mark mark = mr_mark_take(ctx);
+	unsigned char *planes = MR_NEW(ctx, block_bytes(h), unsigned char);
+	mr_status status;
+	int code;
+
+	if (!planes)
+		return MR_EMEM;
+	code = inflateInit(&z);
+	status = code == Z_OK ? inflate_blocks(ctx, &z, h, planes, data) : z_failed(ctx, "unpacking", code);
+	inflateEnd(&z);
+	mr_mark_release(ctx, mark);
+	return status;
+}

@@ -1,0 +1,21 @@
+/*
+ * print.h -- a fingerprint of bytes: 128 bits by which a writer knows that it has sent a column before.
+ *
+ * Contract: equal bytes have equal prints; others differ but for a chance of
+ * about 2^-64.  Not for use against an adversary.  The value is the same on
+ * all machines, but is written nowhere.
+ * Layer rule: stream, private to it.
+ */
+#ifndef MR_PRINT_H
+#define MR_PRINT_H
+
+#include "base/ctx.h"
+
+typedef struct mr_print {
+	uint64_t a, b;
+} mr_print;
+
+/* The print of n bytes. */
+mr_print mr_print_of(const void *data, size_t n);
+
+#endif

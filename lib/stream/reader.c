@@ -1,0 +1,366 @@
+#include "stream/stored.h"
+
+struct mr_reader {
+	mr_input in;
+	uint64_t serial, number; /* payloads and frames so far */
+	mr_stored **stored;      /* the merged frame, in order */
+	size_t count, room;
+	mr_column *view; /* what the frame handed out shows of it */
+	size_t view_room;
+	mr_frame frame;
+	char name[MR_NAME_MAX + 1];
+	bool inside, fresh, ended,
+	    failed; /* inside a stream; before its first frame; one has ended; an error came */
+};
+
+/* A record just read: `heap` is to be freed unless somebody keeps it. */
+typedef struct piece {
+	mr_record head;
+	uint64_t offset;
+	const unsigned char *record;
+	void *heap;
+} piece;
+
+mr_status
+mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader)
+{
+	mr_reader *r = mr_heap(ctx, NULL, sizeof *r);
+	mr_status status;
+
+	if (!r)
+		return MR_EMEM;
+	*r = (mr_reader){ 0 };
+	status = mr_input_open(ctx, fd, &r->in);
+	if (status != MR_OK)
+		free(r);
+	else
+		*reader = r;
+	return status;
+}
+
+static void
+stored_free(mr_stored *s)
+{
+	free(s->heap);
+	free(s->inflated);
+	free(s);
+}
+
+static void
+drop_all(mr_reader *r)
+{
+	while (r->count)
+		stored_free(r->stored[--r->count]);
+}
+
+void
+mr_reader_free(mr_reader *r)
+{
+	if (!r)
+		return;
+	drop_all(r);
+	mr_input_close(&r->in);
+	free(r->stored);
+	free(r->view);
+	free(r);
+}
+
+static mr_status
+cut_off(mr_ctx *ctx, const mr_reader *r)
+{
+	return mr_fail(ctx, MR_EFORMAT,
+	    "stream ends without END: the previous tool failed or was cut off, at byte %llu",
+	    (unsigned long long)r->in.offset);
+}
+
+static mr_status
+check_padding(mr_ctx *ctx, const piece *p)
+{
+	const unsigned char *payload = p->record + MR_HEADER;
+
+	for (uint64_t i = p->head.stored; i < mr_record_padded(p->head.stored); i++)
+		if (payload[i])
+			return mr_fail(ctx, MR_EFORMAT, "byte %llu: the padding of %s is not zero",
+			    (unsigned long long)(p->offset + MR_HEADER + i), p->head.name);
+	return MR_OK;
+}
+
+/* What can be said against a record once it is there. */
+static mr_status
+check_piece(mr_ctx *ctx, const piece *p)
+{
+	MR_TRY(check_padding(ctx, p));
+	if (p->head.kind == MR_COLUMN)
+		return MR_OK; /* verified by whoever decodes it */
+	return mr_record_verify(ctx, p->record, p->record + MR_HEADER, (size_t)p->head.stored, p->offset);
+}
+
+/* The first bytes of something that is no stream, however short. */
+static bool
+stranger(const mr_reader *r, const unsigned char *header, size_t got)
+{
+	static const char magic[] = "mrmesh1\n";
+	size_t n = got < sizeof magic - 1 ? got : sizeof magic - 1;
+
+	return !r->inside && memcmp(header, magic, n) != 0;
+}
+
+/* One record.  MR_END: the input ends where a stream may end. */
+static mr_status
+read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
+{
+	unsigned char header[MR_HEADER];
+	mr_status status;
+	size_t got;
+
+	*p = (piece){ .offset = r->in.offset };
+	MR_TRY(mr_input_header(ctx, &r->in, header, &got));
+	if (got == 0 && r->ended && !r->inside)
+		return MR_END;
+	if (stranger(r, header, got))
+		return mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here",
+		    (unsigned long long)p->offset);
+	if (got < MR_HEADER)
+		return cut_off(ctx, r);
+	MR_TRY(mr_record_parse(ctx, header, p->offset, &p->head));
+	status = mr_input_payload(
+	    ctx, &r->in, header, mr_record_padded(p->head.stored), &p->record, &p->heap);
+	if (status == MR_END)
+		return cut_off(ctx, r);
+	MR_TRY(status);
+	status = check_piece(ctx, p);
+	if (status != MR_OK)
+		free(p->heap);
+	return status;
+}
+
+static mr_status
+misplaced(mr_ctx *ctx, const piece *p, const char *where)
+{
+	return mr_fail(
+	    ctx, MR_EFORMAT, "byte %llu: %s %s", (unsigned long long)p->offset, p->head.name, where);
+}
+
+/* FRAME: its payload is "key NAME" or "delta NAME". */
+static mr_status
+begin_frame(mr_ctx *ctx, mr_reader *r, const piece *p)
+{
+	const char *text = (const char *)p->record + MR_HEADER;
+	size_t n = (size_t)p->head.stored, skip;
+	bool key = n > 4 && !memcmp(text, "key ", 4);
+
+	if (!key && !(n > 6 && !memcmp(text, "delta ", 6)))
+		return misplaced(ctx, p, "says neither 'key NAME' nor 'delta NAME'");
+	skip = key ? 4 : 6;
+	if (!mr_frame_name_valid(text + skip, n - skip))
+		return misplaced(
+		    ctx, p, "has a bad name: 1 to 255 bytes of UTF-8 without control characters and '/'");
+	if (!key && r->fresh)
+		return misplaced(ctx, p, "begins a stream with a delta, which follows nothing");
+	memcpy(r->name, text + skip, n - skip);
+	r->name[n - skip] = 0;
+	if (key)
+		drop_all(r);
+	r->frame.key = key;
+	r->fresh = false;
+	r->number++;
+	return MR_OK;
+}
+
+/* What stands between frames, up to the next FRAME.  MR_END: all streams have ended. */
+static mr_status
+next_frame(mr_ctx *ctx, mr_reader *r)
+{
+	mr_status status;
+	piece p;
+
+	for (;;) {
+		status = read_piece(ctx, r, &p);
+		if (status != MR_OK)
+			return status;
+		if (!r->inside) { /* read_piece has seen to it that this is START */
+			r->inside = r->fresh = true;
+		} else if (p.head.kind == MR_STOP) {
+			r->inside = false;
+			r->ended = true;
+		} else {
+			break;
+		}
+		free(p.heap);
+	}
+	status = p.head.kind == MR_FRAME ? begin_frame(ctx, r, &p)
+	                                 : misplaced(ctx, &p, "stands outside of a frame");
+	free(p.heap);
+	return status;
+}
+
+static size_t
+position_of(const mr_reader *r, const char *layer, const char *name)
+{
+	size_t i = 0;
+
+	while (i < r->count &&
+	       (strcmp(r->stored[i]->head.name, name) || strcmp(r->stored[i]->head.layer, layer)))
+		i++;
+	return i;
+}
+
+static mr_status
+room_for_one(mr_ctx *ctx, mr_reader *r)
+{
+	size_t room = 2 * r->room + 16;
+	mr_stored **grown;
+
+	if (r->count < r->room)
+		return MR_OK;
+	if (r->count == MR_FRAME_COLUMNS)
+		return mr_fail(ctx, MR_EFORMAT, "byte %llu: a frame has no more than %d columns",
+		    (unsigned long long)r->in.offset, MR_FRAME_COLUMNS);
+	grown = mr_heap(ctx, r->stored, room * sizeof(mr_stored *));
+	if (!grown)
+		return MR_EMEM;
+	r->stored = grown;
+	r->room = room;
+	return MR_OK;
+}
+
+/* A column takes its old place, or the last. */
+static mr_status
+keep(mr_ctx *ctx, mr_reader *r, const piece *p)
+{
+	size_t i = position_of(r, p->head.layer, p->head.name);
+	mr_stored *s;
+
+	if (i < r->count && r->stored[i]->frame == r->number)
+		return misplaced(ctx, p, "comes twice in a frame");
+	if (p->head.size > SIZE_MAX / 2)
+		return misplaced(ctx, p, "is too large for this machine");
+	MR_TRY(room_for_one(ctx, r));
+	s = mr_heap(ctx, NULL, sizeof *s);
+	if (!s)
+		return MR_EMEM;
+	*s = (mr_stored){ .head = p->head,
+		.owner = r,
+		.serial = ++r->serial,
+		.offset = p->offset,
+		.frame = r->number,
+		.record = p->record,
+		.heap = p->heap };
+	if (i < r->count)
+		stored_free(r->stored[i]);
+	else
+		r->count++;
+	r->stored[i] = s;
+	return MR_OK;
+}
+
+/* DROP: its payload is a column's name, or empty for the whole layer. */
+static mr_status
+drop(mr_ctx *ctx, mr_reader *r, const piece *p)
+{
+	char name[MR_COLUMN_MAX + 1] = "";
+	size_t kept = 0, dropped = 0;
+
+	memcpy(name, p->record + MR_HEADER, (size_t)p->head.stored);
+	for (size_t i = 0; i < r->count; i++) {
+		mr_stored *s = r->stored[i];
+		bool named = !strcmp(s->head.layer, p->head.layer) &&
+		             (!p->head.stored || !strcmp(s->head.name, name));
+		if (named && s->frame < r->number) {
+			stored_free(s);
+			dropped++;
+		} else {
+			r->stored[kept++] = s;
+		}
+	}
+	r->count = kept;
+	if (dropped == 0)
+		return mr_fail(ctx, MR_EFORMAT,
+		    "byte %llu: DROP of column '%s' of layer '%s': the frame before has none",
+		    (unsigned long long)p->offset, name, p->head.layer);
+	return MR_OK;
+}
+
+/* The records of a frame behind FRAME, with ENDFRAME. */
+static mr_status
+read_columns(mr_ctx *ctx, mr_reader *r)
+{
+	mr_status status = MR_OK;
+	piece p;
+
+	do {
+		MR_TRY(read_piece(ctx, r, &p));
+		if (p.head.kind == MR_COLUMN) {
+			status = keep(ctx, r, &p);
+			if (status == MR_OK)
+				continue; /* it keeps the memory */
+		} else if (p.head.kind == MR_DROP) {
+			status = drop(ctx, r, &p);
+		} else if (p.head.kind != MR_ENDFRAME) {
+			status = misplaced(ctx, &p, "stands within a frame");
+		}
+		free(p.heap);
+	} while (status == MR_OK && p.head.kind != MR_ENDFRAME);
+	return status;
+}
+
+/* The frame that shows what is stored, with room for some more columns. */
+static mr_status
+show(mr_ctx *ctx, mr_reader *r)
+{
+	size_t room = r->count + 16;
+	mr_column *grown;
+
+	if (r->view_room < room) {
+		grown = mr_heap(ctx, r->view, 2 * room * sizeof *grown);
+		if (!grown)
+			return MR_EMEM;
+		r->view = grown;
+		r->view_room = 2 * room;
+	}
+	for (size_t i = 0; i < r->count; i++) {
+		mr_stored *s = r->stored[i];
+		mr_column *c = &r->view[i];
+		*c = (mr_column){ .shape = s->head.shape,
+			.rows = s->head.rows,
+			.serial = s->serial,
+			.data = s->data,
+			.record = s->record,
+			.stored = s };
+		memcpy(c->layer, s->head.layer, sizeof c->layer);
+		memcpy(c->name, s->head.name, sizeof c->name);
+	}
+	r->frame = (mr_frame){ .name = r->name,
+		.key = r->frame.key,
+		.number = r->number,
+		.columns = r->view,
+		.count = r->count,
+		.room = r->view_room };
+	return mr_prefix(ctx, mr_frame_check_rows(ctx, &r->frame, MR_EFORMAT), "before byte %llu",
+	    (unsigned long long)r->in.offset);
+}
+
+static mr_status
+read_frame(mr_ctx *ctx, mr_reader *r)
+{
+	mr_status status = next_frame(ctx, r);
+
+	if (status != MR_OK)
+		return status;
+	MR_TRY(read_columns(ctx, r));
+	return show(ctx, r);
+}
+
+mr_status
+mr_reader_next(mr_ctx *ctx, mr_reader *r, mr_frame **frame)
+{
+	mr_status status;
+
+	if (r->failed)
+		return mr_fail(ctx, MR_EFORMAT, "nothing can be read behind an error");
+	status = read_frame(ctx, r);
+	r->failed = status < 0;
+	if (status == MR_OK)
+		*frame = &r->frame;
+	return status;
+}

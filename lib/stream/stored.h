@@ -1,0 +1,75 @@
+/*
+ * stored.h -- bytes that outlive a frame: the input of a reader, and the columns it keeps.
+ *
+ * Contract: this memory is of the heap, not the context's arena, which the
+ * command releases between frames; it is had through one function, so that
+ * tests can make it fail.
+ * Layer rule: stream, private to it.
+ */
+#ifndef MR_STORED_H
+#define MR_STORED_H
+
+#include "stream/record.h"
+#include "stream/stream.h"
+
+/* A column as the reader keeps it until it is replaced or dropped. */
+typedef struct mr_stored {
+	mr_record head;
+	const mr_reader *owner;
+	uint64_t serial; /* from 1; another for every payload of the owner */
+	uint64_t offset; /* of the header in the input */
+	uint64_t frame;  /* number of the frame that sent it */
+	const unsigned char
+	    *record;      /* header, payload and padding, 64-byte aligned, in the map or in `heap` */
+	void *heap;       /* NULL where mapped */
+	const void *data; /* the values, once verified */
+	void *inflated;   /* the memory of `data` where it was packed */
+} mr_stored;
+
+/* realloc; the sentence is set where it fails.  Counts as an allocation for ctx->fail_at. */
+void *mr_heap(mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
+
+/* Memory aligned to MR_ALIGN that keeps its contents as it grows. */
+typedef struct mr_bytes {
+	void *heap;
+	unsigned char *p;
+	size_t room;
+} mr_bytes;
+
+/* Makes room for at least `room` bytes; the first `used` are kept. */
+mr_status mr_bytes_reserve(mr_ctx *ctx, mr_bytes *b, size_t used, size_t room);
+
+/* Bytes from a descriptor: a map of a regular file, or blocks. */
+typedef struct mr_input {
+	int fd;
+	uint64_t offset;          /* of the next byte, in the file, or from the first byte read */
+	const unsigned char *map; /* NULL: not mapped */
+	size_t size;              /* of the map */
+	mr_bytes block;           /* bytes read and not yet taken: begin to end */
+	size_t begin, end;
+} mr_input;
+
+mr_status mr_input_open(mr_ctx *ctx, int fd, mr_input *in);
+void mr_input_close(mr_input *in);
+
+/* The next header.  *got: its bytes; less than MR_HEADER only where the input ends. */
+mr_status mr_input_header(mr_ctx *ctx, mr_input *in, unsigned char header[MR_HEADER], size_t *got);
+
+/*
+ * The `n` bytes behind the header just taken.  *record: header and bytes, in the map or in *heap, which is
+ * the caller's to free.  MR_END where the input ends before.
+ */
+mr_status mr_input_payload(mr_ctx *ctx, mr_input *in, const unsigned char header[MR_HEADER], uint64_t n,
+    const unsigned char **record, void **heap) MR_WARN_UNUSED;
+
+/* Codec 1.  Packs `head->size` bytes of values; *size 0 where that would not make them fewer.  *packed: in
+ * the arena. */
+mr_status mr_pack(mr_ctx *ctx, const mr_record *head, const void *data, const void **packed, size_t *size);
+
+/* Unpacks head->stored bytes into `data`, which has room for head->size. */
+mr_status mr_unpack(mr_ctx *ctx, const mr_record *head, const void *packed, void *data);
+
+/* The first v (f) column of a layer fixes the rows of all: `status` with a sentence where columns differ. */
+mr_status mr_frame_check_rows(mr_ctx *ctx, const mr_frame *frame, mr_status status);
+
+#endif
