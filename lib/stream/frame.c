@@ -152,6 +152,19 @@ mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 	return MR_OK;
 }
 
+mr_status
+mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column)
+{
+	mr_column *c = NULL;
+
+	if (mr_frame_find(frame, column->layer, column->name))
+		return mr_fail(ctx, MR_ERANGE, "%s%scolumn %s is there already", column->layer,
+		    *column->layer ? ": " : "", column->name);
+	MR_TRY(append(ctx, frame, &c));
+	*c = *column;
+	return MR_OK;
+}
+
 void
 mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element)
 {

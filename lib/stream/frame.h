@@ -30,7 +30,7 @@ typedef struct mr_column {
 	uint64_t serial;               /* of the reader's payload; 0 for a column that the tool put */
 	const void *data;              /* rows x components values; NULL: stored, not decoded yet */
 	const unsigned char *record;   /* header and stored payload as read; NULL for a column that the tool put */
-	struct mr_stored *stored;      /* the reader's record of it: stream/reader.c */
+	struct mr_stored *stored;      /* the reader's record of it: stream/stored.h; NULL for one that the tool put */
 } mr_column;
 
 typedef struct mr_frame {
@@ -44,7 +44,7 @@ typedef struct mr_frame {
 /* Bytes of one value of a type: 8, 4 or 1. */
 size_t mr_type_size(char type);
 
-/* An empty key frame, in the arena. */
+/* An empty key frame, in the arena.  MR_ERANGE for a name that the format forbids. */
 mr_status mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame);
 
 /* The column, or NULL.  Not decoded: for its shape and rows. */
@@ -64,14 +64,23 @@ mr_status mr_frame_get(
 /* Decodes and verifies one column, whatever it is. */
 mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
 
-/* Puts or replaces a column (in its old place); the bytes are borrowed until the frame is written. */
+/*
+ * Puts or replaces a column (in its old place); the bytes are borrowed until the frame is written.  data: rows x
+ * components values.  MR_ERANGE for names and shapes that the format forbids.
+ */
 mr_status mr_frame_put(
     mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape, const void *data, size_t rows);
+
+/*
+ * Appends a column of another frame as it is, decoded or not; its bytes stay where they are, and must be there until
+ * this frame is written.  MR_ERANGE where this frame has a column of that layer and name.
+ */
+mr_status mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column);
 
 /* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of that element. */
 void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
 
-/* Appends one line to the frame's history. */
+/* Appends one line to the frame's history; control characters and bytes that are not UTF-8 become '?'. */
 mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);
 
 #endif
