@@ -1,0 +1,15 @@
+/* geodesic.h -- distances over a surface.  Layer rule: alg. */
+#ifndef MR_GEODESIC_H
+#define MR_GEODESIC_H
+
+#include "mesh/mesh.h"
+
+/*
+ * The distance over the surface from the surface's point nearest to p, for each vertex that is not
+ * farther than reach; infinite for the others.  Works on any mesh.  Exact where the surface unfolds
+ * into the plane with nothing in the way; on curved surfaces good to about 1 % of the distance.
+ * distance: nv, the caller's.
+ */
+mr_status mr_geodesic(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance);
+
+#endif

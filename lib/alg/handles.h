@@ -1,0 +1,86 @@
+/*
+ * handles.h -- where handles go: affine maps, their sequences, and scripts of them.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_HANDLES_H
+#define MR_HANDLES_H
+
+#include "mesh/layers.h"
+
+/* Translation, rotation and scaling about a centre. */
+typedef struct mr_pose {
+	mr_v3 translate;
+	mr_v3 axis; /* of the rotation, of any length but zero where degrees is not */
+	double degrees;
+	mr_v3 scale; /* along x, y, z */
+	bool centered;
+	mr_v3 center; /* where centered; else the centroid of the handle's vertices, as posed so far */
+} mr_pose;
+
+#define MR_POSE_REST                                                                                         \
+	{                                                                                                    \
+		.axis = { 0, 0, 1 }, .scale = { 1, 1, 1 }                                                    \
+	}
+
+/*
+ * Sets the part `what` ("translate", "rotate", "scale", "center") from its text: x,y,z; ax,ay,az,degrees;
+ * s or sx,sy,sz; x,y,z.  MR_EUSAGE with a sentence.
+ */
+mr_status mr_pose_set(mr_ctx *ctx, mr_pose *pose, const char *what, const char *text);
+
+/* MR_EUSAGE where a part of the way (0 < share < 1) is not defined: a scale that is not positive. */
+mr_status mr_pose_check_shares(mr_ctx *ctx, const mr_pose *pose);
+
+/* T = C translate rotate scale C^-1, a share of the way from rest: of the translation, of the angle, as power
+ * of the scale. */
+mr_affine mr_pose_map(const mr_pose *pose, mr_v3 center, double share);
+
+/* The handles of a layer, by number; count 0: the number is not in use. */
+typedef struct mr_handles {
+	size_t n; /* highest number in use, and one */
+	size_t *count;
+	mr_v3 *centroid;
+} mr_handles;
+
+/* Finds the handles among the regions of nv vertices.  MR_EMISSING where there is none. */
+mr_status mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region, mr_handles *h);
+
+/*
+ * The frame's maps (column handles.transform), at least n of them: those that are absent are the identity.
+ * MR_ERANGE where one is not finite.  row: *rows maps in the arena, to be changed.
+ */
+mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_affine **row, size_t *rows);
+
+/*
+ * row[handle] = T row[handle].  MR_EMISSING where no vertex is of the handle.  row: at least h->n.
+ */
+mr_status mr_handles_pose(
+    mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_affine *row);
+
+/*
+ * A script of poses, one frame after another:
+ *
+ *	frame
+ *	0 translate=0,0,0.1 rotate=0,0,1,15
+ *	1 scale=1.1
+ *	frame
+ *	...
+ *
+ * The word `frame` begins a frame; every other line names a handle and says where it is in that frame,
+ * counted from rest, in the words of mr_pose_set.  Several lines for one handle apply in order.  What
+ * follows a # is left out.
+ */
+typedef struct mr_script {
+	struct mr_script_line *line;
+	size_t n, frames;
+} mr_script;
+
+/* MR_EIO, or MR_EFORMAT with file and line.  In the arena. */
+mr_status mr_script_read(mr_ctx *ctx, const char *path, mr_script *script);
+
+/* Applies frame `number`, from 1; 0 is rest, and behind the last frame the last one stays. */
+mr_status
+mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_affine *row);
+
+#endif

@@ -1,0 +1,21 @@
+/* lines.h -- small text files that options name: lists of vertices, scripts of poses.  Layer rule: alg. */
+#ifndef MR_LINES_H
+#define MR_LINES_H
+
+#include "base/ctx.h"
+
+/*
+ * Reads the file and cuts it into lines, without what follows a # and without white space at
+ * either end; an empty line stays, so line[i] is line i + 1 of the file.  In the arena.
+ * MR_EIO where it cannot be read, MR_EFORMAT where it holds a zero byte.
+ */
+mr_status mr_lines_read(mr_ctx *ctx, const char *path, char ***line, size_t *count);
+
+/* Reads n finite numbers with commas between them at *at, which moves behind them; false where they are not
+ * there. */
+bool mr_numbers(const char **at, size_t n, double *x);
+
+/* Reads a whole number of at most `most` at *at, which moves behind it. */
+bool mr_whole(const char **at, uint64_t most, uint64_t *x);
+
+#endif

@@ -1,0 +1,46 @@
+/*
+ * phong.h -- a triangle mesh with the continuous normal field of Phong shading.
+ *
+ * Contract: over a face, b is the point with barycentric coordinates w, N(w) the
+ * same combination of the vertex normals, n = N / |N|.  n is continuous over
+ * edges and turns with the mesh, so p = b + h n(b) is a displacement that follows
+ * whatever the mesh is deformed into (Kobbelt, Vorsatz, Seidel 1999).
+ * Layer rule: alg.
+ */
+#ifndef MR_PHONG_H
+#define MR_PHONG_H
+
+#include "mesh/mesh.h"
+
+typedef struct mr_phong {
+	const mr_mesh *m;
+	const mr_v3 *normal; /* nv, unit; zero where a vertex has no face of positive area */
+} mr_phong;
+
+/* An orthonormal frame: n the Phong normal, t1 and t2 tangents. */
+typedef struct mr_tangent_frame {
+	mr_v3 n, t1, t2;
+} mr_tangent_frame;
+
+/*
+ * Unit vertex normals weighted by angle: what mr_vertex_normals computes, with the
+ * incidence of the mesh given, which outlives a change of positions.  normal: nv,
+ * the caller's.
+ */
+mr_status mr_phong_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal);
+
+static inline mr_v3
+mr_phong_point(const mr_phong *s, uint32_t face, mr_v3 w)
+{
+	const uint32_t *v = s->m->t[face].v;
+
+	return mr_bary_point(w, s->m->p[v[0]], s->m->p[v[1]], s->m->p[v[2]]);
+}
+
+/* n at the point w of the face; the face's own normal where the vertices' cancel. */
+mr_v3 mr_phong_normal(const mr_phong *s, uint32_t face, mr_v3 w);
+
+/* The frame there: t1 is the face's edge 0-1 without its part along n, t2 = n x t1. */
+mr_tangent_frame mr_phong_frame(const mr_phong *s, uint32_t face, mr_v3 w);
+
+#endif

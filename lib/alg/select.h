@@ -1,0 +1,56 @@
+/*
+ * select.h -- regions of vertices, chosen by predicates.
+ *
+ * A predicate is one word: terms joined by '+', all of which must hold; "not:" turns a
+ * term round.  Lengths may be relative to the bounding-box diagonal, as "5%".
+ *
+ *	all                     every vertex
+ *	sphere:x,y,z,r          no farther than r from the point
+ *	box:x0,y0,z0,x1,y1,z1   inside the box
+ *	halfspace:nx,ny,nz,d    n . x >= d
+ *	above:z,0.8  below:z,0.2  axis, and fraction of the bounding box along it
+ *	geodesic:x,y,z,r        no farther than r over the surface from its point nearest to x,y,z
+ *	rings:V,K               at most K edges from vertex V
+ *	component:x,y,z         connected with the vertex nearest to the point
+ *	group:NAME              at a face of the group
+ *	boundary                at an edge of one face
+ *	grow:K                  the region that the rule gives, and the fixed vertices up to K edges from it
+ *	vertices:FILE           the indices in the file, one a line
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_SELECT_H
+#define MR_SELECT_H
+
+#include "mesh/mesh.h"
+
+/* Rules in the order of the command line; starts zeroed. */
+typedef struct mr_selection {
+	struct mr_rule *rule;
+	size_t n, room;
+} mr_selection;
+
+/* The mesh's named groups of faces; `group` NULL: none. */
+typedef struct mr_groups {
+	const uint32_t *group; /* nf: index into the names */
+	const char *names;     /* one a line */
+	size_t length;
+} mr_groups;
+
+/*
+ * Appends the rule that vertices for which `predicate` holds are of `region`.  `option` is what
+ * the rule is called in sentences; both texts are kept by pointer.  MR_EUSAGE where it does not parse;
+ * MR_EIO, MR_EFORMAT where a file of vertices cannot be read.
+ */
+mr_status
+mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *option, const char *predicate);
+
+/*
+ * Applies the rules in order: later ones win.  region: nv, in and out.  A rule that selects no vertex, a
+ * vertex or a group that is not there: a sentence.
+ * Figures: fixed, free, handles, handle_N.
+ */
+mr_status
+mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s, uint32_t *region);
+
+#endif
