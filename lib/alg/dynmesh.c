@@ -1,0 +1,446 @@
+#include "alg/dynmesh.h"
+
+static const double CORNER_COSINE = 0.6427876096865394; /* of 50 degrees */
+
+/* Unit direction of half-edge h. */
+static mr_v3
+direction(const mr_dyn *d, uint32_t h)
+{
+	return mr_unit(mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]));
+}
+
+/* True where the faces at h and g meet at more than an angle of the given cosine. */
+static bool
+is_sharp(const mr_dyn *d, uint32_t h, uint32_t g, double cosine)
+{
+	return mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)), mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine;
+}
+
+static void
+mark_curves(mr_dyn *d, double feature)
+{
+	double cosine = cos(feature * MR_PI / 180);
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++) {
+		uint32_t g = d->twin[h];
+		bool curve = g == MR_NONE || (feature < 180 && is_sharp(d, h, g, cosine));
+		d->curve[h] = curve ? h : MR_NONE;
+	}
+}
+
+/* The kind of v by the curve edges that meet there; directions point away from v. */
+static mr_kind
+kind_of(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+	mr_v3 way[2] = { { 0, 0, 0 }, { 0, 0, 0 } };
+	unsigned curves = 0;
+
+	do {
+		uint32_t p = mr_he_prev(h);
+		if (mr_dyn_on_curve(d, h) && curves++ < 2)
+			way[curves - 1] = direction(d, h);
+		if (d->twin[p] == MR_NONE && curves++ < 2)
+			way[curves - 1] = mr_mul(-1, direction(d, p));
+		h = d->twin[p];
+	} while (h != MR_NONE && h != d->out[v]);
+	if (curves == 0)
+		return MR_SMOOTH;
+	return curves == 2 && mr_dot(way[0], way[1]) < -CORNER_COSINE ? MR_CURVE : MR_CORNER;
+}
+
+/* A place on the source for a vertex to begin with: a face at it, or a curve half-edge. */
+static uint32_t
+first_place(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+
+	if (d->kind[v] == MR_SMOOTH)
+		return h / 3;
+	do {
+		if (mr_dyn_on_curve(d, h))
+			return h;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return d->out[v];
+}
+
+static mr_status
+make_room_v(mr_ctx *ctx, mr_dyn *d, size_t room)
+{
+	mr_v3 *p = mr_grow(ctx, d->p, d->nv, room, sizeof *p);
+	uint32_t *out = mr_grow(ctx, d->out, d->nv, room, sizeof *out);
+	uint32_t *at = mr_grow(ctx, d->at, d->nv, room, sizeof *at);
+	uint8_t *kind = mr_grow(ctx, d->kind, d->nv, room, sizeof *kind);
+
+	if (!p || !out || !at || !kind)
+		return MR_EMEM;
+	d->p = p;
+	d->out = out;
+	d->at = at;
+	d->kind = kind;
+	d->room_v = room;
+	return MR_OK;
+}
+
+static mr_status
+make_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
+{
+	uint32_t *v = mr_grow(ctx, d->v, 3 * d->nf, 3 * room, sizeof *v);
+	uint32_t *twin = mr_grow(ctx, d->twin, 3 * d->nf, 3 * room, sizeof *twin);
+	uint32_t *curve = mr_grow(ctx, d->curve, 3 * d->nf, 3 * room, sizeof *curve);
+
+	if (!v || !twin || !curve)
+		return MR_EMEM;
+	if (room > (MR_NONE - 1) / 3)
+		return mr_fail(
+		    ctx, MR_ERANGE, "remeshing would take more than %zu faces", (size_t)(MR_NONE - 1) / 6);
+	d->v = v;
+	d->twin = twin;
+	d->curve = curve;
+	d->room_f = room;
+	return MR_OK;
+}
+
+mr_status
+mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *out)
+{
+	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
+
+	MR_TRY(make_room_v(ctx, &d, m->nv + m->nv / 4 + 16));
+	MR_TRY(make_room_f(ctx, &d, m->nf + m->nf / 4 + 32));
+	d.nv = m->nv;
+	d.nf = m->nf;
+	memcpy(d.p, m->p, m->nv * sizeof *d.p);
+	memcpy(d.out, topo->out, m->nv * sizeof *d.out);
+	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
+	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
+	mark_curves(&d, feature);
+	for (uint32_t v = 0; v < m->nv; v++) {
+		if (d.out[v] == MR_NONE) {
+			d.kind[v] = MR_DEAD; /* an isolated vertex: not part of the surface */
+			continue;
+		}
+		d.kind[v] = (uint8_t)kind_of(&d, v);
+		d.at[v] = first_place(&d, v);
+	}
+	*out = d;
+	return MR_OK;
+}
+
+unsigned
+mr_dyn_valence(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+	unsigned n = 0;
+
+	do {
+		n++;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return n + (h == MR_NONE);
+}
+
+static void
+link_twins(mr_dyn *d, uint32_t h, uint32_t g)
+{
+	if (h != MR_NONE)
+		d->twin[h] = g;
+	if (g != MR_NONE)
+		d->twin[g] = h;
+}
+
+static mr_status
+new_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
+{
+	if (d->free_v != MR_NONE) {
+		*v = d->free_v;
+		d->free_v = d->out[*v];
+		return MR_OK;
+	}
+	if (d->nv == d->room_v)
+		MR_TRY(make_room_v(ctx, d, 2 * d->room_v));
+	*v = (uint32_t)d->nv++;
+	return MR_OK;
+}
+
+static mr_status
+new_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
+{
+	if (d->free_f != MR_NONE) {
+		*f = d->free_f;
+		d->free_f = d->twin[3 * *f];
+		return MR_OK;
+	}
+	if (d->nf == d->room_f)
+		MR_TRY(make_room_f(ctx, d, 2 * d->room_f));
+	*f = (uint32_t)d->nf++;
+	return MR_OK;
+}
+
+/*
+ * Cuts the face of h = a -> b at the new vertex m: it becomes (a, m, c), and face
+ * f becomes (m, b, c).  The halves of h are linked by the caller.
+ */
+static void
+cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
+{
+	uint32_t n = mr_he_next(h), b = d->v[n], c = d->v[mr_he_next(n)];
+	uint32_t mb = 3 * f, bc = 3 * f + 1, cm = 3 * f + 2;
+
+	d->v[mb] = m;
+	d->v[bc] = b;
+	d->v[cm] = c;
+	link_twins(d, bc, d->twin[n]);
+	d->curve[mb] = d->curve[h];
+	d->curve[bc] = d->curve[n];
+	d->curve[cm] = MR_NONE;
+	d->v[n] = m;
+	link_twins(d, n, cm);
+	d->curve[n] = MR_NONE;
+	if (d->out[b] == n)
+		d->out[b] = bc;
+}
+
+/* A face of the source at or near vertex v. */
+static uint32_t
+place_of(const mr_dyn *d, uint32_t v)
+{
+	return d->kind[v] == MR_SMOOTH ? d->at[v] : d->at[v] / 3;
+}
+
+mr_status
+mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
+{
+	uint32_t g = d->twin[h], a = d->v[h], m, f, e = MR_NONE;
+
+	MR_TRY(new_vertex(ctx, d, &m));
+	MR_TRY(new_face(ctx, d, &f));
+	if (g != MR_NONE)
+		MR_TRY(new_face(ctx, d, &e));
+	d->p[m] = p;
+	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
+	d->at[m] = mr_dyn_on_curve(d, h) ? d->curve[h] : place_of(d, a);
+	cut_face(d, h, m, f);
+	d->out[m] = 3 * f;
+	if (g == MR_NONE) {
+		d->twin[3 * f] = MR_NONE;
+	} else {
+		cut_face(d, g, m, e); /* g = b -> a becomes b -> m, and 3 e is m -> a */
+		link_twins(d, 3 * f, g);
+		link_twins(d, h, 3 * e);
+	}
+	*middle = m;
+	return MR_OK;
+}
+
+/* Stamps the neighbours of v. */
+static void
+stamp_ring(const mr_dyn *d, uint32_t v, uint32_t *mark, uint32_t stamp)
+{
+	uint32_t h = d->out[v];
+
+	do {
+		mark[mr_dyn_to(d, h)] = stamp;
+		mark[mr_dyn_apex(d, h)] = stamp;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+}
+
+static unsigned
+count_stamped(const mr_dyn *d, uint32_t v, const uint32_t *mark, uint32_t stamp)
+{
+	uint32_t h = d->out[v];
+	unsigned n = 0;
+
+	do {
+		n += mark[mr_dyn_to(d, h)] == stamp;
+		if (mr_dyn_ccw(d, h) == MR_NONE)
+			n += mark[mr_dyn_apex(d, h)] == stamp;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return n;
+}
+
+/* True where removing the face of h leaves its apex with enough faces. */
+static bool
+apex_can_lose(const mr_dyn *d, uint32_t h)
+{
+	uint32_t c = mr_dyn_apex(d, h);
+	bool left = d->twin[mr_he_next(h)] != MR_NONE, right = d->twin[mr_he_prev(h)] != MR_NONE;
+
+	return (left || right) && (mr_dyn_on_boundary(d, c) || mr_dyn_valence(d, c) > 3);
+}
+
+/* True where both other sides of h's face are on curves. */
+static bool
+between_curves(const mr_dyn *d, uint32_t h)
+{
+	return mr_dyn_on_curve(d, mr_he_next(h)) && mr_dyn_on_curve(d, mr_he_prev(h));
+}
+
+/* The link condition (Dey et al. 1999): the ends share just the apexes of the edge's faces. */
+bool
+mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint32_t *mark, uint32_t stamp)
+{
+	uint32_t g = d->twin[h], a = d->v[h], b = mr_dyn_to(d, h);
+
+	if (d->kind[a] == MR_CORNER || (d->kind[a] == MR_CURVE && !mr_dyn_on_curve(d, h)))
+		return false;
+	if (g != MR_NONE && mr_dyn_on_boundary(d, a) && mr_dyn_on_boundary(d, b))
+		return false;
+	if (!apex_can_lose(d, h) || (g != MR_NONE && !apex_can_lose(d, g)))
+		return false;
+	/* Two curve edges would fall into one. */
+	if (between_curves(d, h) || (g != MR_NONE && between_curves(d, g)))
+		return false;
+	stamp_ring(d, a, mark, stamp);
+	return count_stamped(d, b, mark, stamp) == (g == MR_NONE ? 1 : 2);
+}
+
+/* Makes h, which leaves v, or the boundary half-edge clockwise of it, the one that v keeps. */
+static void
+keep_out(mr_dyn *d, uint32_t v, uint32_t h)
+{
+	uint32_t g = h;
+
+	while (d->twin[g] != MR_NONE) {
+		g = mr_he_next(d->twin[g]);
+		if (g == h)
+			break;
+	}
+	d->out[v] = g;
+}
+
+/* Takes out the face of h = a -> b, closing it: b-c and c-a become one edge. */
+static void
+close_face(mr_dyn *d, uint32_t h)
+{
+	uint32_t n = mr_he_next(h), p = mr_he_prev(h), f = h / 3, c = d->v[p];
+	uint32_t cb = d->twin[n], ac = d->twin[p];
+	uint32_t curve = mr_dyn_on_curve(d, n) ? d->curve[n] : d->curve[p];
+
+	link_twins(d, cb, ac);
+	if (cb != MR_NONE)
+		d->curve[cb] = curve;
+	if (ac != MR_NONE)
+		d->curve[ac] = curve;
+	if (d->out[c] == p)
+		d->out[c] = cb;
+	d->v[3 * f] = MR_NONE;
+	d->twin[3 * f] = d->free_f;
+	d->free_f = f;
+}
+
+void
+mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p)
+{
+	uint32_t g = d->twin[h], a = d->v[h], b = mr_dyn_to(d, h);
+	uint32_t cb = d->twin[mr_he_next(h)], ac = d->twin[mr_he_prev(h)];
+	uint32_t e = d->out[a];
+
+	do {
+		d->v[e] = b;
+		e = mr_dyn_ccw(d, e);
+	} while (e != MR_NONE && e != d->out[a]);
+	close_face(d, h);
+	if (g != MR_NONE)
+		close_face(d, g);
+	keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
+	d->p[b] = p;
+	d->kind[a] = MR_DEAD;
+	d->out[a] = d->free_v;
+	d->free_v = a;
+}
+
+bool
+mr_dyn_can_flip(const mr_dyn *d, uint32_t h)
+{
+	uint32_t g = d->twin[h], c, other, e;
+
+	if (g == MR_NONE || mr_dyn_on_curve(d, h))
+		return false;
+	c = mr_dyn_apex(d, h);
+	other = mr_dyn_apex(d, g);
+	e = d->out[c];
+	do {
+		if (mr_dyn_to(d, e) == other || mr_dyn_apex(d, e) == other)
+			return false;
+		e = mr_dyn_ccw(d, e);
+	} while (e != MR_NONE && e != d->out[c]);
+	return true;
+}
+
+void
+mr_dyn_flip(mr_dyn *d, uint32_t h)
+{
+	/* Faces (a b c) and (b a e) become (a e c) and (b c e). */
+	uint32_t g = d->twin[h], hn = mr_he_next(h), gn = mr_he_next(g);
+	uint32_t a = d->v[h], b = d->v[g], c = mr_dyn_apex(d, h), e = mr_dyn_apex(d, g);
+
+	d->v[hn] = e;
+	d->v[gn] = c;
+	link_twins(d, h, d->twin[gn]);
+	link_twins(d, g, d->twin[hn]);
+	d->curve[h] = d->curve[gn];
+	d->curve[g] = d->curve[hn];
+	link_twins(d, hn, gn);
+	d->curve[hn] = d->curve[gn] = MR_NONE;
+	if (d->out[b] == hn)
+		d->out[b] = g;
+	if (d->out[a] == gn)
+		d->out[a] = h;
+}
+
+mr_status
+mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *vertex = MR_NEW(ctx, d->nv, uint32_t), *face = MR_NEW(ctx, d->nf, uint32_t);
+	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
+	uint32_t *out = MR_NEW(ctx, d->nv, uint32_t), *at = MR_NEW(ctx, d->nv, uint32_t);
+	uint8_t *kind = MR_NEW(ctx, d->nv, uint8_t);
+	uint32_t nv = 0, nf = 0;
+
+	if (!vertex || !face || !p || !out || !at || !kind)
+		return MR_EMEM;
+	memset(vertex, 0xff, d->nv * sizeof *vertex);
+	for (uint32_t f = 0; f < d->nf; f++) {
+		if (mr_dyn_face_dead(d, f))
+			continue;
+		face[f] = nf++;
+		for (int i = 0; i < 3; i++)
+			if (vertex[d->v[3 * f + (uint32_t)i]] == MR_NONE)
+				vertex[d->v[3 * f + (uint32_t)i]] = nv++;
+	}
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (vertex[v] != MR_NONE) {
+			uint32_t w = vertex[v];
+			p[w] = d->p[v];
+			out[w] = 3 * face[d->out[v] / 3] + d->out[v] % 3;
+			at[w] = d->at[v];
+			kind[w] = d->kind[v];
+		}
+	for (uint32_t f = 0; f < d->nf; f++)
+		for (uint32_t i = 0; i < 3 && !mr_dyn_face_dead(d, f); i++) {
+			uint32_t h = 3 * f + i, k = 3 * face[f] + i, g = d->twin[h];
+			d->v[k] = vertex[d->v[h]];
+			d->twin[k] = g == MR_NONE ? MR_NONE : 3 * face[g / 3] + g % 3;
+			d->curve[k] = d->curve[h];
+		}
+	memcpy(d->p, p, nv * sizeof *p);
+	memcpy(d->out, out, nv * sizeof *out);
+	memcpy(d->at, at, nv * sizeof *at);
+	memcpy(d->kind, kind, nv * sizeof *kind);
+	d->nv = nv;
+	d->nf = nf;
+	d->free_v = d->free_f = MR_NONE;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_mesh
+mr_dyn_view(const mr_dyn *d, const char *name)
+{
+	return (mr_mesh){ name, d->p, (const mr_tri *)(const void *)d->v, d->nv, d->nf };
+}

@@ -1,0 +1,115 @@
+/*
+ * dynmesh.h -- an oriented manifold triangle mesh under local change: split, collapse, flip.
+ *
+ * Contract: numbering as in mesh/mesh.h (half-edge 3 f + i).  Faces and vertices
+ * that a collapse removes leave holes in the numbering, which splits fill again;
+ * mr_dyn_compact closes them.  Curves (boundary and feature edges) are marked on
+ * their half-edges and survive every change.
+ * Layer rule: alg.
+ */
+#ifndef MR_DYNMESH_H
+#define MR_DYNMESH_H
+
+#include "mesh/mesh.h"
+
+typedef enum mr_kind {
+	MR_SMOOTH, /* free on the surface */
+	MR_CURVE,  /* on a curve: slides along it */
+	MR_CORNER, /* stays */
+	MR_DEAD    /* a hole in the numbering */
+} mr_kind;
+
+typedef struct mr_dyn {
+	mr_v3 *p;
+	uint32_t *out; /* as in mr_topology */
+	uint32_t *at;  /* place on the source surface: a face, or on a curve a half-edge (alg/project.h) */
+	uint8_t *kind; /* mr_kind */
+	size_t nv, room_v;
+	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
+	uint32_t *v, *twin;
+	uint32_t *curve; /* of each half-edge: a source half-edge of the curve that it is part of; MR_NONE: of
+	                    none */
+	size_t nf, room_f;
+	uint32_t free_f; /* first hole, chained through twin[3 f] */
+} mr_dyn;
+
+static inline bool
+mr_dyn_face_dead(const mr_dyn *d, size_t f)
+{
+	return d->v[3 * f] == MR_NONE;
+}
+
+static inline uint32_t
+mr_dyn_to(const mr_dyn *d, uint32_t h)
+{
+	return d->v[mr_he_next(h)];
+}
+
+static inline bool
+mr_dyn_on_curve(const mr_dyn *d, uint32_t h)
+{
+	return d->curve[h] != MR_NONE;
+}
+
+/* The third vertex of h's face. */
+static inline uint32_t
+mr_dyn_apex(const mr_dyn *d, uint32_t h)
+{
+	return d->v[mr_he_prev(h)];
+}
+
+/* The next half-edge leaving the same vertex, counter-clockwise; MR_NONE at the boundary. */
+static inline uint32_t
+mr_dyn_ccw(const mr_dyn *d, uint32_t h)
+{
+	return d->twin[mr_he_prev(h)];
+}
+
+static inline bool
+mr_dyn_on_boundary(const mr_dyn *d, uint32_t v)
+{
+	return d->twin[d->out[v]] == MR_NONE;
+}
+
+/* Twice the area times the unit normal of face f, with the vertices at p. */
+static inline mr_v3
+mr_dyn_cross(const mr_dyn *d, const mr_v3 *p, size_t f)
+{
+	mr_v3 a = p[d->v[3 * f]];
+	return mr_cross(mr_sub(p[d->v[3 * f + 1]], a), mr_sub(p[d->v[3 * f + 2]], a));
+}
+
+/*
+ * Copies m, whose half-edges are topo, into the arena.  Edges whose faces meet at more than
+ * `feature` degrees are curves, and so is the boundary.  A curve vertex is a corner
+ * where other than two curve edges meet or the curve turns by more than 50 degrees.
+ */
+mr_status mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *d);
+
+/* Number of edges at v. */
+unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v);
+
+/* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
+ */
+mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
+
+/* True where the start of h can be merged into its end and the mesh stays a manifold of the same topology. */
+bool mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint32_t *mark, uint32_t stamp);
+
+/* Merges the start of h into its end, which moves to p.  Only where mr_dyn_can_collapse. */
+void mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p);
+
+/* True where the edge has two faces, is no curve, and its opposite vertices are not joined yet. */
+bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
+
+/* Replaces the edge of h by the one between its opposite vertices: mr_he_next(h).  Only where
+ * mr_dyn_can_flip. */
+void mr_dyn_flip(mr_dyn *d, uint32_t h);
+
+/* Closes the holes; vertices are numbered in the order of the faces that use them. */
+mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
+
+/* The mesh as it is, sharing the arrays; only after mr_dyn_compact. */
+mr_mesh mr_dyn_view(const mr_dyn *d, const char *name);
+
+#endif

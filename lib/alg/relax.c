@@ -1,0 +1,238 @@
+#include "alg/relax.h"
+
+#include "alg/project.h"
+#include "base/parallel.h"
+
+enum { GRAIN = 2048 };
+
+typedef struct pass {
+	const mr_dyn *d;
+	const mr_surface *s;
+	const mr_relax_opts *o;
+	double *gravity; /* of each vertex */
+	mr_v3 *p;        /* where the vertices go */
+	uint32_t *at;
+	uint8_t *turned; /* of each face: 1 where it would turn over */
+} pass;
+
+double
+mr_surface_length(const mr_surface *s, const mr_dyn *d, uint32_t v)
+{
+	uint32_t at = d->at[v];
+	const uint32_t *t;
+
+	if (!s->length)
+		return s->uniform;
+	t = s->m->t[d->kind[v] == MR_SMOOTH ? at : at / 3].v;
+	return (s->length[t[0]] + s->length[t[1]] + s->length[t[2]]) / 3;
+}
+
+/*
+ * The part of triangle (a, b, c) that belongs to a: circumcentric, or half or a quarter of
+ * an obtuse one.  b and c are given relative to a.
+ */
+static double
+voronoi_part(mr_v3 b, mr_v3 c)
+{
+	double bb = mr_norm2(b), cc = mr_norm2(c), bc = mr_dot(b, c);
+	double at_b = bb - bc, at_c = cc - bc; /* edge dot edge at b and c */
+	double twice = mr_norm(mr_cross(b, c));
+
+	if (bc < 0)
+		return twice / 4;
+	if (at_b < 0 || at_c < 0)
+		return twice / 8;
+	return twice > 0 ? (bb * at_c + cc * at_b) / (8 * twice) : 0;
+}
+
+static double
+area_of(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+	mr_v3 p = d->p[v];
+	double area = 0;
+
+	do {
+		area += voronoi_part(mr_sub(d->p[mr_dyn_to(d, h)], p), mr_sub(d->p[mr_dyn_apex(d, h)], p));
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return area;
+}
+
+typedef struct areas_job {
+	const mr_dyn *d;
+	double *area;
+} areas_job;
+
+static void
+areas_body(void *arg, size_t begin, size_t end)
+{
+	areas_job *j = arg;
+
+	for (size_t v = begin; v < end; v++)
+		j->area[v] = j->d->kind[v] == MR_DEAD ? 0 : area_of(j->d, (uint32_t)v);
+}
+
+void
+mr_dyn_areas(const mr_ctx *ctx, const mr_dyn *d, double *area)
+{
+	mr_parallel(ctx, d->nv, GRAIN, areas_body, &(areas_job){ d, area });
+}
+
+/* The mass by which a vertex draws its neighbours: its area, in units of the target, to a power. */
+static void
+gravity_body(void *arg, size_t begin, size_t end)
+{
+	pass *w = arg;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++) {
+		double l, a;
+		if (w->d->kind[v] == MR_DEAD)
+			continue;
+		l = mr_surface_length(w->s, w->d, v);
+		a = area_of(w->d, v) / (l * l);
+		if (mr_dyn_on_boundary(w->d, v))
+			a *= 2; /* it has about half the area of an inner one */
+		w->gravity[v] = w->o->gravity == 1.5 ? a * sqrt(a) : pow(a, w->o->gravity);
+	}
+}
+
+/* p + lambda (I - n n^T) (g - p) */
+static mr_v3
+tangential_move(const pass *w, uint32_t v)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+	mr_v3 p = d->p[v], n = { 0, 0, 0 }, g = { 0, 0, 0 }, move;
+	double mass = 0;
+
+	do {
+		uint32_t b = mr_dyn_to(d, h), c = mr_dyn_apex(d, h);
+		double gb = w->gravity ? w->gravity[b] : 1;
+		n = mr_add(n, mr_cross(mr_sub(d->p[b], p), mr_sub(d->p[c], p)));
+		g = mr_axpy(gb, d->p[b], g);
+		mass += gb;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	if (!(mass > 0))
+		return p;
+	n = mr_unit(n);
+	move = mr_sub(mr_mul(1 / mass, g), p);
+	return mr_axpy(w->o->damping, mr_axpy(-mr_dot(move, n), n, move), p);
+}
+
+/* Along the curve: towards the middle between the two neighbours on it. */
+static mr_v3
+curve_move(const pass *w, uint32_t v)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+	mr_v3 sum = { 0, 0, 0 };
+	double n = 0;
+
+	do {
+		uint32_t p = mr_he_prev(h);
+		if (mr_dyn_on_curve(d, h)) {
+			sum = mr_add(sum, d->p[mr_dyn_to(d, h)]);
+			n++;
+		}
+		if (d->twin[p] == MR_NONE) {
+			sum = mr_add(sum, d->p[d->v[p]]);
+			n++;
+		}
+		h = d->twin[p];
+	} while (h != MR_NONE && h != d->out[v]);
+	return n > 0 ? mr_lerp(w->o->damping, d->p[v], mr_mul(1 / n, sum)) : d->p[v];
+}
+
+static void
+move_body(void *arg, size_t begin, size_t end)
+{
+	pass *w = arg;
+	const mr_surface *s = w->s;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++) {
+		mr_v3 p = w->d->p[v];
+		uint32_t at = w->d->at[v];
+		switch ((mr_kind)w->d->kind[v]) {
+		case MR_SMOOTH:
+			p = tangential_move(w, v);
+			if (w->o->project) {
+				mr_closest c = mr_project_walk(s->m, s->topo, at, p);
+				p = c.point;
+				at = c.face;
+			}
+			break;
+		case MR_CURVE: /* a curve is kept as it is: always on the source */
+			p = mr_project_curve(s->m, s->topo, s->curve, at, curve_move(w, v), &at).point;
+			break;
+		case MR_CORNER:
+		case MR_DEAD:
+			break;
+		}
+		w->p[v] = p;
+		w->at[v] = at;
+	}
+}
+
+static void
+turned_body(void *arg, size_t begin, size_t end)
+{
+	pass *w = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		w->turned[f] = 0;
+		if (mr_dyn_face_dead(w->d, f))
+			continue;
+		mr_v3 before = mr_dyn_cross(w->d, w->d->p, f), after = mr_dyn_cross(w->d, w->p, f);
+		double nn = mr_norm2(before);
+		/* more than 60 degrees, or to less than a tenth of its area */
+		w->turned[f] = nn > 0 && (mr_dot(before, after) < 0.5 * sqrt(nn * mr_norm2(after)) ||
+					     mr_norm2(after) < 0.01 * nn);
+	}
+}
+
+/* Vertices of faces that turn go back to where they were; true where there was one. */
+static bool
+hold_back(pass *w)
+{
+	const mr_dyn *d = w->d;
+	bool any = false;
+
+	for (size_t f = 0; f < d->nf; f++) {
+		if (!w->turned[f])
+			continue;
+		for (size_t i = 0; i < 3; i++) {
+			uint32_t v = d->v[3 * f + i];
+			if (memcmp(&w->p[v], &d->p[v], sizeof *w->p) == 0)
+				continue;
+			w->p[v] = d->p[v];
+			w->at[v] = d->at[v];
+			any = true;
+		}
+	}
+	return any;
+}
+
+mr_status
+mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	pass w = { d, s, o, NULL, MR_NEW(ctx, d->nv, mr_v3), MR_NEW(ctx, d->nv, uint32_t),
+		MR_NEW(ctx, d->nf, uint8_t) };
+
+	if (o->gravity > 0 && !(w.gravity = MR_NEW(ctx, d->nv, double)))
+		return MR_EMEM;
+	if (!w.p || !w.at || !w.turned)
+		return MR_EMEM;
+	if (w.gravity)
+		mr_parallel(ctx, d->nv, GRAIN, gravity_body, &w);
+	mr_parallel(ctx, d->nv, GRAIN, move_body, &w);
+	do {
+		mr_parallel(ctx, d->nf, GRAIN, turned_body, &w);
+	} while (hold_back(&w));
+	memcpy(d->p, w.p, d->nv * sizeof *d->p);
+	memcpy(d->at, w.at, d->nv * sizeof *d->at);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

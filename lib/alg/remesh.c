@@ -1,0 +1,313 @@
+#include "alg/remesh.h"
+
+#include "alg/project.h"
+#include "alg/relax.h"
+
+/* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
+static const double LONG = 4.0 / 3, SHORT = 4.0 / 5;
+
+typedef struct remesher {
+	mr_ctx *ctx;
+	const mr_remesh_opts *o;
+	mr_surface source;
+	mr_dyn d;
+	uint32_t *mark; /* stamps for the link condition; room for the vertices of one sweep */
+	uint32_t stamp;
+	size_t splits, collapses, flips;
+} remesher;
+
+static double
+edge_length2(const mr_dyn *d, uint32_t h)
+{
+	return mr_norm2(mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]));
+}
+
+/* The target length of the edge of h: of its finer end. */
+static double
+target(const remesher *r, uint32_t h)
+{
+	double a, b;
+
+	if (!r->source.length)
+		return r->source.uniform;
+	a = mr_surface_length(&r->source, &r->d, r->d.v[h]);
+	b = mr_surface_length(&r->source, &r->d, mr_dyn_to(&r->d, h));
+	return a < b ? a : b;
+}
+
+/* One half-edge of each edge that lives. */
+static bool
+is_edge(const mr_dyn *d, uint32_t h)
+{
+	return !mr_dyn_face_dead(d, h / 3) && (d->twin[h] == MR_NONE || h < d->twin[h]);
+}
+
+static double
+square(double x)
+{
+	return x * x;
+}
+
+/* The longest edge of h's face, h itself among equals. */
+static uint32_t
+longest_side(const mr_dyn *d, uint32_t h)
+{
+	uint32_t n = mr_he_next(h), p = mr_he_prev(h);
+	double lh = edge_length2(d, h), ln = edge_length2(d, n), lp = edge_length2(d, p);
+
+	if (ln > lh)
+		return lp > ln ? p : n;
+	return lp > lh ? p : h;
+}
+
+/*
+ * An edge at or near h that is the longest of both its faces (Rivara 1984): bisecting only
+ * such edges keeps the angles from collapsing.  Lengths grow on the way, so it ends.
+ */
+static uint32_t
+locally_longest(const mr_dyn *d, uint32_t h)
+{
+	for (;;) {
+		uint32_t g = longest_side(d, h);
+		if (g == h && d->twin[h] != MR_NONE) {
+			g = longest_side(d, d->twin[h]);
+			if (g == d->twin[h])
+				return h;
+		}
+		if (g == h)
+			return h;
+		h = g;
+	}
+}
+
+/* 1. Split all edges that are longer than 4/3 l at their midpoint. */
+static mr_status
+split_long(remesher *r)
+{
+	mr_dyn *d = &r->d;
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		while (is_edge(d, h) && edge_length2(d, h) > square(LONG * target(r, h))) {
+			uint32_t g = locally_longest(d, h), m;
+			mr_v3 middle = mr_lerp(0.5, d->p[d->v[g]], d->p[mr_dyn_to(d, g)]);
+			MR_TRY(mr_dyn_split(r->ctx, d, g, middle, &m));
+			r->splits++;
+		}
+	return MR_OK;
+}
+
+/*
+ * True where moving v to p turns no face around v that stays (those with vertex `gone` do not),
+ * makes none needle-like and no edge longer than `longest`.
+ */
+static bool
+move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest2)
+{
+	uint32_t h = d->out[v];
+
+	do {
+		uint32_t b = mr_dyn_to(d, h), c = mr_dyn_apex(d, h);
+		mr_v3 pb = d->p[b], pc = d->p[c];
+		if (b != gone && c != gone) {
+			mr_v3 before = mr_cross(mr_sub(pb, d->p[v]), mr_sub(pc, d->p[v]));
+			mr_v3 after = mr_cross(mr_sub(pb, p), mr_sub(pc, p));
+			double nn = mr_norm2(before), mm = mr_norm2(after), l2 = mr_norm2(mr_sub(pb, pc));
+			double far2 = fmax(mr_norm2(mr_sub(pb, p)), mr_norm2(mr_sub(pc, p)));
+			if (far2 > longest2 || mm < 0.01 * square(fmax(l2, far2)))
+				return false;
+			if (nn > 0 && mr_dot(before, after) < 0.5 * sqrt(nn * mm))
+				return false;
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return true;
+}
+
+/* Where the merged vertex goes: the midpoint, or the end that must stay. */
+static mr_v3
+merged_position(const mr_dyn *d, uint32_t a, uint32_t b)
+{
+	if (d->kind[a] == d->kind[b])
+		return mr_lerp(0.5, d->p[a], d->p[b]);
+	return d->p[b];
+}
+
+static bool
+try_collapse(remesher *r, uint32_t h, double longest2)
+{
+	mr_dyn *d = &r->d;
+	uint32_t a, b;
+	mr_v3 p;
+
+	if (d->twin[h] != MR_NONE && d->kind[d->v[h]] > d->kind[mr_dyn_to(d, h)])
+		h = d->twin[h]; /* the one that is more bound stays */
+	a = d->v[h];
+	b = mr_dyn_to(d, h);
+	if (!mr_dyn_can_collapse(d, h, r->mark, ++r->stamp))
+		return false;
+	p = merged_position(d, a, b);
+	if (!move_is_good(d, a, b, p, longest2) || !move_is_good(d, b, a, p, longest2))
+		return false;
+	mr_dyn_collapse(d, h, p);
+	r->collapses++;
+	return true;
+}
+
+static mr_status
+begin_marks(remesher *r)
+{
+	r->mark = MR_NEW_ZERO(r->ctx, r->d.nv, uint32_t);
+	r->stamp = 0;
+	return r->mark ? MR_OK : MR_EMEM;
+}
+
+/* 2. Collapse all edges that are shorter than 4/5 l into their midpoint. */
+static mr_status
+collapse_short(remesher *r)
+{
+	mr_dyn *d = &r->d;
+	mr_mark mark = mr_mark_take(r->ctx);
+
+	MR_TRY(begin_marks(r));
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (is_edge(d, h)) {
+			double l = target(r, h);
+			if (edge_length2(d, h) < square(SHORT * l))
+				try_collapse(r, h, square(LONG * l));
+		}
+	mr_mark_release(r->ctx, mark);
+	return MR_OK;
+}
+
+/* The valence a vertex should have: 6, or 4 on the boundary. */
+static int
+excess(const mr_dyn *d, uint32_t v)
+{
+	return (int)mr_dyn_valence(d, v) - (mr_dyn_on_boundary(d, v) ? 4 : 6);
+}
+
+/* True where the two faces after the flip of h face the way those before did, and are no needles. */
+static bool
+flip_is_good(const mr_dyn *d, uint32_t h)
+{
+	uint32_t g = d->twin[h];
+	mr_v3 a = d->p[d->v[h]], b = d->p[mr_dyn_to(d, h)], c = d->p[mr_dyn_apex(d, h)],
+	      e = d->p[mr_dyn_apex(d, g)];
+	mr_v3 n0 = mr_cross(mr_sub(b, a), mr_sub(c, a)), n1 = mr_cross(mr_sub(a, b), mr_sub(e, b));
+	mr_v3 n = mr_add(n0, n1), m0 = mr_cross(mr_sub(e, a), mr_sub(c, a)),
+	      m1 = mr_cross(mr_sub(c, b), mr_sub(e, b));
+	double l2 = mr_norm2(mr_sub(c, e)), nn = mr_norm2(n);
+
+	return mr_dot(m0, n) > 0.5 * sqrt(nn * mr_norm2(m0)) &&
+	       mr_dot(m1, n) > 0.5 * sqrt(nn * mr_norm2(m1)) && mr_norm2(m0) > 0.01 * square(l2) &&
+	       mr_norm2(m1) > 0.01 * square(l2);
+}
+
+/* By how much flipping h lowers the sum of squared deviations of the valences. */
+static int
+flip_gain(const mr_dyn *d, uint32_t h)
+{
+	int a = excess(d, d->v[h]), b = excess(d, mr_dyn_to(d, h));
+	int c = excess(d, mr_dyn_apex(d, h)), e = excess(d, mr_dyn_apex(d, d->twin[h]));
+
+	/* a^2 - (a - 1)^2 + ... */
+	return (2 * a - 1) + (2 * b - 1) - (2 * c + 1) - (2 * e + 1);
+}
+
+/* 3. Flip edges where that lowers the deviation from valence 6 (4 on boundaries). */
+static size_t
+flip_valences(remesher *r)
+{
+	mr_dyn *d = &r->d;
+	size_t flips = 0;
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (is_edge(d, h) && d->twin[h] != MR_NONE && flip_gain(d, h) > 0 && mr_dyn_can_flip(d, h) &&
+		    flip_is_good(d, h)) {
+			mr_dyn_flip(d, h);
+			flips++;
+		}
+	r->flips += flips;
+	return flips;
+}
+
+static mr_status
+equalize_areas(remesher *r)
+{
+	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity };
+
+	for (size_t i = 0; i < r->o->area_passes; i++) {
+		o.project = r->o->project && (i % 4 == 3 || i + 1 == r->o->area_passes);
+		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
+		flip_valences(r);
+	}
+	return MR_OK;
+}
+
+static mr_status
+one_round(remesher *r)
+{
+	mr_relax_opts o = { .damping = 0.8, .gravity = r->o->gravity, .project = r->o->project };
+
+	MR_TRY(split_long(r));
+	MR_TRY(collapse_short(r));
+	flip_valences(r);
+	for (int i = 0; i < 2; i++)
+		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
+	return MR_OK;
+}
+
+static mr_status
+run(remesher *r)
+{
+	for (size_t i = 0; i < r->o->rounds; i++) {
+		MR_TRY(one_round(r));
+		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
+	}
+	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
+	return equalize_areas(r);
+}
+
+/* Where each vertex lies on the source: on its face the nearest point, which without projection may be
+ * elsewhere. */
+static mr_status
+map_to_source(remesher *r, mr_source_map *map)
+{
+	const mr_dyn *d = &r->d;
+	const mr_surface *s = &r->source;
+	uint32_t *face = MR_NEW(r->ctx, d->nv, uint32_t);
+	mr_v3 *bary = MR_NEW(r->ctx, d->nv, mr_v3);
+
+	if (!face || !bary)
+		return MR_EMEM;
+	for (size_t v = 0; v < d->nv; v++) {
+		uint32_t f = d->kind[v] == MR_SMOOTH ? d->at[v] : d->at[v] / 3;
+		mr_closest c = mr_project_walk(s->m, s->topo, f, d->p[v]);
+		face[v] = c.face;
+		bary[v] = c.bary;
+	}
+	*map = (mr_source_map){ face, bary };
+	return MR_OK;
+}
+
+mr_status
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_source_map *map)
+{
+	remesher r = { .ctx = ctx, .o = o };
+	mr_topology topo;
+	uint32_t *curve;
+
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	MR_TRY(mr_dyn_build(ctx, m, &topo, o->feature, &r.d));
+	curve = MR_NEW(ctx, 3 * m->nf, uint32_t);
+	if (!curve)
+		return MR_EMEM;
+	memcpy(curve, r.d.curve, 3 * m->nf * sizeof *curve);
+	r.source = (mr_surface){ m, &topo, curve, NULL,
+		o->length > 0 ? o->length : o->ratio * mr_mesh_edge_scale(ctx, m) };
+	MR_TRY(run(&r));
+	MR_TRY(mr_dyn_compact(ctx, &r.d));
+	MR_TRY(map_to_source(&r, map));
+	*out = mr_dyn_view(&r.d, m->name);
+	return MR_OK;
+}

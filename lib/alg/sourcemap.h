@@ -1,0 +1,36 @@
+/*
+ * sourcemap.h -- where the vertices of a base lie on the mesh it came from: the columns base.source_*.
+ *
+ * The parameterization through which regions and details find their way (Botsch, Kobbelt 2004, section 4).
+ * Layer rule: alg.
+ */
+#ifndef MR_SOURCEMAP_H
+#define MR_SOURCEMAP_H
+
+#include "mesh/layers.h"
+
+typedef struct mr_source_map {
+	const uint32_t *face; /* triangle of the mesh */
+	const mr_v3 *bary;    /* barycentric coordinates in it */
+} mr_source_map;
+
+/* The identity: each vertex of m at a corner of its lowest face; MR_EMESH where one has no face.  map: in the
+ * arena. */
+mr_status mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *map);
+
+/*
+ * Composes maps: `over` places n vertices on the base, `base_map` those of the base on the mesh;
+ * *map places the n vertices on the mesh.  Where base and mesh have the same triangles and base_map is
+ * the identity, so is the composition; else the point between the corners' points, drawn
+ * to the mesh by a walk from the nearest corner.  map: in the arena.
+ */
+mr_status mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base,
+    const mr_source_map *base_map, const mr_source_map *over, size_t n, mr_source_map *map);
+
+/* The map of the frame's base, faces checked against the mesh.  MR_EMISSING without one. */
+mr_status
+mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_source_map *map);
+
+mr_status mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_source_map *map, size_t base_nv);
+
+#endif
