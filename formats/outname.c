@@ -1,0 +1,60 @@
+#include "formats/outname.h"
+
+/* Reads "%05d" from behind the per cent: its width, and the first byte behind it; NULL where it is none. */
+static const char *
+number_format(const char *s, int *width)
+{
+	int w = 0;
+
+	if (*s == '0') {
+		s++;
+		if (*s < '1' || *s > '9')
+			return NULL;
+		w = *s++ - '0';
+	}
+	*width = w;
+	return *s == 'd' ? s + 1 : NULL;
+}
+
+mr_status
+mr_outname(mr_ctx *ctx, const char *pattern, const char *frame, uint64_t number, char **name)
+{
+	char *made = mr_format(ctx, "%s", "");
+
+	for (const char *s = pattern; made && *s;) {
+		size_t plain = strcspn(s, "%");
+		const char *after;
+		int width;
+
+		made = mr_format(ctx, "%s%.*s", made, (int)plain, s);
+		s += plain;
+		if (!made || !*s)
+			break;
+		if (s[1] == '%') {
+			made = mr_format(ctx, "%s%%", made);
+			s += 2;
+		} else if (s[1] == 's') {
+			made = mr_format(ctx, "%s%s", made, frame);
+			s += 2;
+		} else if ((after = number_format(s + 1, &width))) {
+			made = mr_format(ctx, "%s%0*llu", made, width, (unsigned long long)number);
+			s = after;
+		} else {
+			return mr_fail(
+			    ctx, MR_EUSAGE, "%s: only %%s, %%d, %%03d and %%%% are known in a name", pattern);
+		}
+	}
+	if (!made)
+		return MR_EMEM;
+	*name = made;
+	return MR_OK;
+}
+
+bool
+mr_outname_varies(const char *pattern)
+{
+	for (const char *s = strchr(pattern, '%'); s && s[1]; s = strchr(s + 2, '%'))
+		if (s[1] != '%')
+			return true;
+	return false;
+}

@@ -1,0 +1,13 @@
+/* png.h -- writing PNG pictures; libpng only here.  Layer rule: formats includes lib. */
+#ifndef MR_PNG_H
+#define MR_PNG_H
+
+#include "alg/canvas.h"
+
+/*
+ * Writes the image to a temporary file beside `path` and renames it, so that a
+ * half picture is never seen; "-" is stdout.  The same image gives the same bytes.  MR_EIO.
+ */
+mr_status mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image);
+
+#endif

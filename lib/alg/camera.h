@@ -1,0 +1,49 @@
+/*
+ * camera.h -- from space to the pixels of a panel.
+ *
+ * Contract: look (directions), box and aim (where the eye stands), cover and fit (where in
+ * the panel the picture lies), in this order; box and cover may be called for several models.
+ * Layer rule: alg.
+ */
+#ifndef MR_CAMERA_H
+#define MR_CAMERA_H
+
+#include "base/vec.h"
+
+typedef struct mr_camera {
+	mr_v3 right, up, toward; /* orthonormal; `toward` points from the scene to the eye */
+	mr_v3 center;            /* what the eye looks at */
+	double distance;         /* of the eye from the centre; INFINITY: parallel projection */
+	double scale;            /* pixels per unit at the centre */
+	double x, y;             /* pixel of the centre, from the panel's upper left corner, y downwards */
+} mr_camera;
+
+/* A point as the camera sees it: pixels, the factor by which perspective enlarges it, and the height towards
+ * the eye. */
+typedef struct mr_seen {
+	double x, y, enlarged, z;
+} mr_seen;
+
+/*
+ * A camera whose eye stands in the direction `from`, with `up` upwards in the picture (any
+ * direction at right angles where the two are parallel).  MR_EUSAGE where `from` or `up` is zero.
+ */
+mr_status mr_camera_look(mr_ctx *ctx, mr_v3 from, mr_v3 up, mr_camera *c);
+
+/* The box of n points along the camera's axes: x right, y up, z towards the eye. */
+void mr_camera_box(const mr_camera *c, const mr_v3 *p, size_t n, mr_box *box);
+
+/* Puts the centre into the middle of the box; the eye at four half diagonals, or infinitely far for a
+ * `parallel` one. */
+void mr_camera_aim(mr_camera *c, mr_box box, bool parallel);
+
+/* Grows the rectangle (x, y of the box) that n points cover in the picture at a scale of 1. */
+void mr_camera_cover(const mr_camera *c, const mr_v3 *p, size_t n, mr_box *covered);
+
+/* Sets scale and place so that the covered rectangle, times `zoom`, fills the middle of w by h pixels at
+ * (left, top). */
+void mr_camera_fit(mr_camera *c, mr_box covered, double zoom, double left, double top, double w, double h);
+
+mr_seen mr_camera_see(const mr_camera *c, mr_v3 p);
+
+#endif
