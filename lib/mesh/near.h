@@ -21,7 +21,7 @@ size_t mr_near_distinct(const mr_near *near);
 
 /*
  * The k nearest points of each of nq queries, nearest first, equal distances by index (of several at the k-th
- * distance, which one is returned is fixed, not by index).  index and dist2 (squared (squared distances): nq
+ * distance, which one is returned is fixed, not by index).  index and dist2 (squared distances): nq
  * x k, the caller's; where k exceeds the distinct points, the rest is MR_NONE (UINT32_MAX) at infinite
  * distance.  dist2 may be NULL.
  */

@@ -1,0 +1,41 @@
+/*
+ * edges.h -- the edges of any mesh, manifold or not, each with all its half-edges.
+ *
+ * Contract: faces that have a vertex twice are left out.
+ * Layer rule: mesh.
+ */
+#ifndef MR_EDGES_H
+#define MR_EDGES_H
+
+#include "mesh/mesh.h"
+
+/*
+ * Edge e has the half-edges he[start[e]] to he[start[e + 1]], by index; edges are in the
+ * order of their lower, then their higher vertex.
+ */
+typedef struct mr_edges {
+	size_t count;
+	uint32_t *start; /* count + 1 */
+	uint32_t *he;
+} mr_edges;
+
+/* The edges of m, in the arena. */
+mr_status mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *edges);
+
+/* Whether face f has a vertex twice. */
+static inline bool
+mr_face_repeats(const mr_mesh *m, size_t f)
+{
+	const uint32_t *v = m->t[f].v;
+
+	return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+}
+
+/* Faces of edge e. */
+static inline uint32_t
+mr_edge_faces(const mr_edges *edges, size_t e)
+{
+	return edges->start[e + 1] - edges->start[e];
+}
+
+#endif
