@@ -2,6 +2,7 @@
 
 #include "alg/project.h"
 #include "alg/relax.h"
+#include "alg/valence.h"
 
 /* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
 static const double LONG = 4.0 / 3, SHORT = 4.0 / 5;
@@ -179,80 +180,47 @@ collapse_short(remesher *r)
 	return MR_OK;
 }
 
-/* The valence a vertex should have: 6, or 4 on the boundary. */
-static int
-excess(const mr_dyn *d, uint32_t v)
+/* 3. Flip edges to lower the deviation from valence 6 (4 on boundaries). */
+static mr_status
+regularize(remesher *r, unsigned reach)
 {
-	return (int)mr_dyn_valence(d, v) - (mr_dyn_on_boundary(d, v) ? 4 : 6);
-}
+	size_t flips;
 
-/* True where the two faces after the flip of h face the way those before did, and are no needles. */
-static bool
-flip_is_good(const mr_dyn *d, uint32_t h)
-{
-	uint32_t g = d->twin[h];
-	mr_v3 a = d->p[d->v[h]], b = d->p[mr_dyn_to(d, h)], c = d->p[mr_dyn_apex(d, h)],
-	      e = d->p[mr_dyn_apex(d, g)];
-	mr_v3 n0 = mr_cross(mr_sub(b, a), mr_sub(c, a)), n1 = mr_cross(mr_sub(a, b), mr_sub(e, b));
-	mr_v3 n = mr_add(n0, n1), m0 = mr_cross(mr_sub(e, a), mr_sub(c, a)),
-	      m1 = mr_cross(mr_sub(c, b), mr_sub(e, b));
-	double l2 = mr_norm2(mr_sub(c, e)), nn = mr_norm2(n);
-
-	return mr_dot(m0, n) > 0.5 * sqrt(nn * mr_norm2(m0)) &&
-	       mr_dot(m1, n) > 0.5 * sqrt(nn * mr_norm2(m1)) && mr_norm2(m0) > 0.01 * square(l2) &&
-	       mr_norm2(m1) > 0.01 * square(l2);
-}
-
-/* By how much flipping h lowers the sum of squared deviations of the valences. */
-static int
-flip_gain(const mr_dyn *d, uint32_t h)
-{
-	int a = excess(d, d->v[h]), b = excess(d, mr_dyn_to(d, h));
-	int c = excess(d, mr_dyn_apex(d, h)), e = excess(d, mr_dyn_apex(d, d->twin[h]));
-
-	/* a^2 - (a - 1)^2 + ... */
-	return (2 * a - 1) + (2 * b - 1) - (2 * c + 1) - (2 * e + 1);
-}
-
-/* 3. Flip edges where that lowers the deviation from valence 6 (4 on boundaries). */
-static size_t
-flip_valences(remesher *r)
-{
-	mr_dyn *d = &r->d;
-	size_t flips = 0;
-
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (is_edge(d, h) && d->twin[h] != MR_NONE && flip_gain(d, h) > 0 && mr_dyn_can_flip(d, h) &&
-		    flip_is_good(d, h)) {
-			mr_dyn_flip(d, h);
-			flips++;
-		}
+	MR_TRY(mr_regularize(r->ctx, &r->d, reach, &flips));
 	r->flips += flips;
-	return flips;
+	return MR_OK;
 }
 
+/* At most `area_passes` passes of area-based smoothing; flips and projection keep up with it. */
 static mr_status
 equalize_areas(remesher *r)
 {
+	enum { EVERY = 5 };
 	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity };
 
-	for (size_t i = 0; i < r->o->area_passes; i++) {
-		o.project = r->o->project && (i % 4 == 3 || i + 1 == r->o->area_passes);
+	for (size_t i = 1; i <= r->o->area_passes; i++) {
+		o.project = r->o->project && (i % EVERY == 0 || i == r->o->area_passes);
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
-		flip_valences(r);
+		if (i % EVERY == 0)
+			MR_TRY(regularize(r, 0));
 	}
 	return MR_OK;
 }
 
+/*
+ * One round of the paper's four steps.  In step 3 dislocations glide; the reach is short, since a long
+ * glide shears the rows it passes more than the next relaxation can undo.
+ */
 static mr_status
 one_round(remesher *r)
 {
-	mr_relax_opts o = { .damping = 0.8, .gravity = r->o->gravity, .project = r->o->project };
+	enum { REACH = 3, RELAX = 3 };
+	mr_relax_opts o = { .damping = 1, .gravity = 0, .project = r->o->project };
 
 	MR_TRY(split_long(r));
 	MR_TRY(collapse_short(r));
-	flip_valences(r);
-	for (int i = 0; i < 2; i++)
+	MR_TRY(regularize(r, REACH));
+	for (int i = 0; i < RELAX; i++)
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	return MR_OK;
 }

@@ -1,0 +1,20 @@
+/*
+ * valence.h -- regular connectivity by flips: step 3 of the remeshing, and beyond it the gliding of
+ * dislocations.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_VALENCE_H
+#define MR_VALENCE_H
+
+#include "alg/dynmesh.h"
+
+/*
+ * Flips every edge whose flip lowers the sum of squared deviations from valence 6 (4 on the
+ * boundary), then lets each dislocation, an adjacent pair of a 5- and a 7-valent vertex,
+ * glide for up to `reach` flips that keep the sum, if at the end of them one lowers it.  No flip turns
+ * a face over or makes a needle.  *flips: how many, those of glides that came to nothing not counted.
+ */
+mr_status mr_regularize(mr_ctx *ctx, mr_dyn *d, unsigned reach, size_t *flips);
+
+#endif
