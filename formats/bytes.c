@@ -1,0 +1,359 @@
+#define _XOPEN_SOURCE 700 /* realpath */
+
+#include "formats/bytes.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <zlib.h>
+
+enum { CHUNK = 1 << 18 };
+
+static mr_status
+failed(mr_ctx *ctx, const char *path, const char *what)
+{
+	return mr_fail(ctx, MR_EIO, "%s: %s: %s", path, what, strerror(errno));
+}
+
+static const char *
+shown(const char *path, const char *standard)
+{
+	return strcmp(path, "-") ? path : standard;
+}
+
+void
+mr_bytes_free(mr_bytes *b)
+{
+	free(b->memory);
+	if (b->map)
+		munmap(b->map, b->mapped);
+	*b = (mr_bytes){ 0 };
+}
+
+/* Makes room for more, by doubling; false where memory cannot be had. */
+static bool
+widen(unsigned char **memory, size_t *room, size_t least)
+{
+	size_t wanted = *room > SIZE_MAX / 2 ? SIZE_MAX : 2 * *room;
+	unsigned char *p;
+
+	if (wanted < least)
+		wanted = least;
+	p = realloc(*memory, wanted);
+	if (!p)
+		return false;
+	*memory = p;
+	*room = wanted;
+	return true;
+}
+
+static mr_status
+read_all(mr_ctx *ctx, const char *path, int fd, mr_bytes *b)
+{
+	unsigned char *memory = NULL;
+	size_t size = 0, room = 0;
+
+	for (;;) {
+		ssize_t n;
+		if (room - size < CHUNK && !widen(&memory, &room, size + CHUNK)) {
+			free(memory);
+			return mr_fail(ctx, MR_EMEM, "%s: no memory for more than %zu bytes", path, size);
+		}
+		n = read(fd, memory + size, room - size);
+		if (n == 0)
+			break;
+		if (n < 0 && errno == EINTR)
+			continue;
+		if (n < 0) {
+			free(memory);
+			return failed(ctx, path, "cannot read");
+		}
+		size += (size_t)n;
+	}
+	*b = (mr_bytes){ .data = memory, .size = size, .memory = memory };
+	return MR_OK;
+}
+
+/* Maps what a regular file has from here on; false where it is none, is empty or cannot be mapped. */
+static bool
+map_all(int fd, mr_bytes *b)
+{
+	struct stat st;
+	off_t here = lseek(fd, 0, SEEK_CUR);
+	size_t size;
+	void *map;
+
+	if (fstat(fd, &st) || !S_ISREG(st.st_mode) || here < 0 || st.st_size <= here)
+		return false;
+	size = (size_t)st.st_size;
+	map = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
+	if (map == MAP_FAILED)
+		return false;
+	*b = (mr_bytes){
+		.data = (unsigned char *)map + here, .size = size - (size_t)here, .map = map, .mapped = size
+	};
+	return true;
+}
+
+/* The size that the trailer of the last member claims, where deflate could have made so much of these bytes.
+ */
+static size_t
+claimed_size(const mr_bytes *b)
+{
+	const unsigned char *e = b->data + b->size;
+	size_t n = b->size < 18
+	               ? 0
+	               : (size_t)e[-4] | (size_t)e[-3] << 8 | (size_t)e[-2] << 16 | (size_t)e[-1] << 24;
+
+	return n / 1032 <= b->size ? n : 0;
+}
+
+static mr_status
+inflate_members(
+    mr_ctx *ctx, const char *path, z_stream *z, const mr_bytes *in, unsigned char **memory, size_t *size)
+{
+	size_t room = 0, given = 0, done = 0;
+
+	if (!widen(memory, &room, claimed_size(in) + 64))
+		return mr_fail(ctx, MR_EMEM, "%s: no memory for %zu bytes", path, claimed_size(in));
+	for (;;) {
+		uInt piece = in->size - given > CHUNK ? CHUNK : (uInt)(in->size - given);
+		uInt space;
+		int r;
+
+		if (room == done && !widen(memory, &room, 0))
+			return mr_fail(ctx, MR_EMEM, "%s: no memory for more than %zu bytes", path, done);
+		space = room - done > CHUNK ? CHUNK : (uInt)(room - done);
+		z->next_in = (unsigned char *)(uintptr_t)(in->data + given);
+		z->avail_in = piece;
+		z->next_out = *memory + done;
+		z->avail_out = space;
+		r = inflate(z, Z_NO_FLUSH);
+		given += piece - z->avail_in;
+		done += space - z->avail_out;
+		*size = done;
+		if (r == Z_STREAM_END) {
+			/* Another member may follow; anything else behind the last one is not gzip's. */
+			if (in->size - given < 2 || in->data[given] != 0x1f || in->data[given + 1] != 0x8b)
+				return MR_OK;
+			inflateReset(z);
+		} else if (r == Z_BUF_ERROR && given == in->size) {
+			return mr_fail(
+			    ctx, MR_EFORMAT, "%s: gzip data end early, after %zu bytes", path, in->size);
+		} else if (r != Z_OK && r != Z_BUF_ERROR) {
+			return mr_fail(ctx, MR_EFORMAT, "%s: byte %zu: damaged gzip data (%s)", path, given,
+			    z->msg ? z->msg : "unknown error");
+		}
+	}
+}
+
+static mr_status
+gunzip(mr_ctx *ctx, const char *path, mr_bytes *b)
+{
+	z_stream z = { 0 };
+	unsigned char *memory = NULL;
+	size_t size = 0;
+	mr_status status;
+
+	if (inflateInit2(&z, 15 + 16) != Z_OK)
+		return mr_fail(ctx, MR_EMEM, "%s: no memory to inflate", path);
+	status = inflate_members(ctx, path, &z, b, &memory, &size);
+	inflateEnd(&z);
+	mr_bytes_free(b);
+	if (status < 0)
+		free(memory);
+	else
+		*b = (mr_bytes){ .data = memory, .size = size, .memory = memory };
+	return status;
+}
+
+mr_status
+mr_bytes_read(mr_ctx *ctx, const char *path, mr_bytes *b)
+{
+	const char *name = shown(path, "stdin");
+	int fd = strcmp(path, "-") ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
+	mr_bytes got = { 0 };
+	mr_status status = MR_OK;
+
+	if (fd < 0)
+		return failed(ctx, path, "cannot open");
+	if (!map_all(fd, &got))
+		status = read_all(ctx, name, fd, &got);
+	if (fd != STDIN_FILENO)
+		close(fd);
+	MR_TRY(status);
+	if (got.size >= 3 && got.data[0] == 0x1f && got.data[1] == 0x8b && got.data[2] == 8)
+		MR_TRY(gunzip(ctx, name, &got));
+	*b = got;
+	return MR_OK;
+}
+
+/* ---- out ---- */
+
+static void
+write_all(mr_sink *s, const void *data, size_t bytes)
+{
+	const char *p = data;
+
+	while (bytes && s->status == MR_OK) {
+		ssize_t n = write(s->fd, p, bytes);
+		if (n < 0 && errno != EINTR)
+			s->status = failed(s->ctx, s->path, "cannot write");
+		if (n > 0) {
+			p += n;
+			bytes -= (size_t)n;
+		}
+	}
+}
+
+/* Deflates `bytes` and writes what comes out; with Z_FINISH all that is left. */
+static void
+deflate_all(mr_sink *s, void *data, size_t bytes, int flush)
+{
+	unsigned char out[CHUNK / 4];
+	z_stream *z = s->gz;
+
+	z->next_in = data;
+	z->avail_in = (uInt)bytes;
+	do {
+		z->next_out = out;
+		z->avail_out = sizeof out;
+		deflate(z, flush);
+		write_all(s, out, sizeof out - z->avail_out);
+	} while (z->avail_out == 0 && s->status == MR_OK);
+}
+
+void
+mr_sink_flush(mr_sink *s)
+{
+	if (s->gz)
+		deflate_all(s, s->buffer, s->used, Z_NO_FLUSH);
+	else
+		write_all(s, s->buffer, s->used);
+	s->used = 0;
+}
+
+void
+mr_put(mr_sink *s, const void *data, size_t bytes)
+{
+	const char *p = data;
+
+	while (bytes) {
+		char *to = mr_sink_room(s);
+		size_t n = bytes < MR_SINK_ROOM ? bytes : MR_SINK_ROOM;
+		memcpy(to, p, n);
+		mr_sink_fill(s, to + n);
+		p += n;
+		bytes -= n;
+	}
+}
+
+void
+mr_print(mr_sink *s, const char *format, ...)
+{
+	char *to = mr_sink_room(s);
+	va_list args;
+	int n;
+
+	va_start(args, format);
+	n = vsnprintf(to, MR_SINK_ROOM, format, args);
+	va_end(args);
+	if (n > 0)
+		mr_sink_fill(s, to + (n < MR_SINK_ROOM ? n : MR_SINK_ROOM - 1));
+}
+
+/* A new file beside `target`, with the mode that creating the target would have given, or that it has. */
+static mr_status
+open_beside(mr_sink *s, const char *target, const struct stat *old)
+{
+	mode_t mask = umask(0);
+
+	umask(mask);
+	s->target = mr_format(s->ctx, "%s", target);
+	s->temporary = mr_format(s->ctx, "%s.XXXXXX", target);
+	if (!s->target || !s->temporary)
+		return MR_EMEM;
+	s->fd = mkstemp(s->temporary);
+	if (s->fd < 0)
+		return failed(s->ctx, s->path, "cannot create");
+	if (fchmod(s->fd, old ? old->st_mode & 07777 : 0666 & ~mask))
+		mr_note(s->ctx, "%s: cannot set its mode: %s", s->path, strerror(errno));
+	return MR_OK;
+}
+
+static mr_status
+open_target(mr_sink *s)
+{
+	struct stat st;
+	bool there;
+	char *real;
+	mr_status status;
+
+	if (!strcmp(s->path, "-")) {
+		s->path = "stdout";
+		s->fd = STDOUT_FILENO;
+		return MR_OK;
+	}
+	there = !stat(s->path, &st);
+	if (there && !S_ISREG(st.st_mode)) { /* a device or a pipe is written where it is */
+		s->fd = open(s->path, O_WRONLY | O_CLOEXEC);
+		return s->fd < 0 ? failed(s->ctx, s->path, "cannot open") : MR_OK;
+	}
+	real = there ? realpath(s->path, NULL) : NULL; /* a link keeps pointing to it */
+	status = open_beside(s, real ? real : s->path, there ? &st : NULL);
+	free(real);
+	return status;
+}
+
+static mr_status
+start_gzip(mr_sink *s)
+{
+	z_stream *z = calloc(1, sizeof *z);
+
+	if (!z ||
+	    deflateInit2(z, Z_DEFAULT_COMPRESSION, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK) {
+		free(z);
+		return mr_fail(s->ctx, MR_EMEM, "%s: no memory to compress", s->path);
+	}
+	s->gz = z;
+	return MR_OK;
+}
+
+mr_status
+mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
+{
+	mr_sink new = { .ctx = ctx, .path = path, .fd = -1 };
+
+	if (!(new.buffer = mr_alloc(ctx, MR_SINK_BUFFER, 1)))
+		return MR_EMEM;
+	MR_TRY(open_target(&new));
+	*s = new;
+	if (!compress)
+		return MR_OK;
+	s->status = start_gzip(s);
+	return s->status < 0 ? mr_sink_close(s, s->status) : MR_OK;
+}
+
+mr_status
+mr_sink_close(mr_sink *s, mr_status status)
+{
+	if (s->status == MR_OK)
+		s->status = status;
+	if (s->status == MR_OK)
+		mr_sink_flush(s);
+	if (s->gz) {
+		if (s->status == MR_OK)
+			deflate_all(s, NULL, 0, Z_FINISH);
+		deflateEnd(s->gz);
+		free(s->gz);
+	}
+	if (s->fd != STDOUT_FILENO && close(s->fd) && s->status == MR_OK)
+		s->status = failed(s->ctx, s->path, "cannot close");
+	if (s->temporary && s->status == MR_OK && rename(s->temporary, s->target))
+		s->status = failed(s->ctx, s->path, "cannot rename into place");
+	if (s->temporary && s->status < 0)
+		unlink(s->temporary);
+	return s->status;
+}

@@ -1,0 +1,65 @@
+/*
+ * bytes.h -- whole files in, buffered files out; gzip on both sides.  Layer rule: formats.
+ */
+#ifndef MR_BYTES_H
+#define MR_BYTES_H
+
+#include "base/ctx.h"
+
+/* The bytes of a file: mapped, or read and inflated into memory of their own. */
+typedef struct mr_bytes {
+	const unsigned char *data;
+	size_t size;
+	void *memory; /* to free; NULL: mapped or empty */
+	void *map;    /* to unmap */
+	size_t mapped;
+} mr_bytes;
+
+/* Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  Free with mr_bytes_free. */
+mr_status mr_bytes_read(mr_ctx *ctx, const char *path, mr_bytes *b) MR_WARN_UNUSED;
+
+/* Accepts a zeroed one. */
+void mr_bytes_free(mr_bytes *b);
+
+/* Where a writer puts its bytes.  The first failure is kept and reported by mr_sink_close. */
+typedef struct mr_sink {
+	mr_ctx *ctx;
+	const char *path;         /* as named by the user */
+	char *target, *temporary; /* a regular file is renamed from the one to the other; else NULL */
+	int fd;
+	void *gz; /* the compressor, or NULL */
+	char *buffer;
+	size_t used;
+	mr_status status;
+} mr_sink;
+
+enum { MR_SINK_BUFFER = 1 << 16, MR_SINK_ROOM = 4096 };
+
+/* Opens a file ("-": stdout), beside its place if it is regular.  `compress`: gzip. */
+mr_status mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s) MR_WARN_UNUSED;
+
+/* Ends the file and renames it into its place; after a failure, of `status` or on the way, removes it. */
+mr_status mr_sink_close(mr_sink *s, mr_status status) MR_WARN_UNUSED;
+
+void mr_sink_flush(mr_sink *s);
+void mr_put(mr_sink *s, const void *data, size_t bytes);
+
+/* Formatted text of less than MR_SINK_ROOM bytes. */
+void mr_print(mr_sink *s, const char *format, ...) MR_PRINTF(2, 3);
+
+/* A place for up to MR_SINK_ROOM bytes; mr_sink_fill tells where they ended. */
+static inline char *
+mr_sink_room(mr_sink *s)
+{
+	if (s->used > MR_SINK_BUFFER - MR_SINK_ROOM)
+		mr_sink_flush(s);
+	return s->buffer + s->used;
+}
+
+static inline void
+mr_sink_fill(mr_sink *s, const char *end)
+{
+	s->used = (size_t)(end - s->buffer);
+}
+
+#endif

@@ -1,0 +1,151 @@
+/*
+ * format.h -- the table of formats, and what each one's file gives to it.
+ *
+ * Contract: `sniff` looks at bytes only; `read` fails with "line N: ..." or "byte N: ...",
+ * before which mr_model_read puts the file's name; `write` leaves failures to the sink.
+ * Layer rule: formats.
+ */
+#ifndef MR_FORMAT_H
+#define MR_FORMAT_H
+
+#include "formats/build.h"
+#include "formats/bytes.h"
+#include "formats/text.h"
+
+typedef struct mr_file_format {
+	const char *name;
+	const char *suffixes; /* in lower case with blanks around each; NULL: chosen by name only */
+	bool binary;          /* what is written is not for a terminal */
+	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by name or suffix only */
+	mr_status (*read)(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+	mr_status (*write)(mr_sink *s, const mr_model *m); /* NULL: read only */
+} mr_file_format;
+
+bool mr_obj_sniff(const unsigned char *data, size_t size);
+mr_status mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+mr_status mr_obj_write(mr_sink *s, const mr_model *m);
+
+bool mr_ply_sniff(const unsigned char *data, size_t size);
+mr_status mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+mr_status mr_ply_write_little(mr_sink *s, const mr_model *m);
+mr_status mr_ply_write_big(mr_sink *s, const mr_model *m);
+mr_status mr_ply_write_ascii(mr_sink *s, const mr_model *m);
+
+bool mr_stl_sniff(const unsigned char *data, size_t size);
+mr_status mr_stl_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+mr_status mr_stl_write(mr_sink *s, const mr_model *m);
+mr_status mr_stl_write_ascii(mr_sink *s, const mr_model *m);
+
+bool mr_off_sniff(const unsigned char *data, size_t size);
+mr_status mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+mr_status mr_off_write(mr_sink *s, const mr_model *m);
+mr_status mr_off_write_binary(mr_sink *s, const mr_model *m);
+
+bool mr_xyz_sniff(const unsigned char *data, size_t size);
+mr_status mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+mr_status mr_xyz_write(mr_sink *s, const mr_model *m);
+mr_status mr_pts_write(mr_sink *s, const mr_model *m);
+mr_status mr_pwn_write(mr_sink *s, const mr_model *m);
+
+bool mr_ptx_sniff(const unsigned char *data, size_t size);
+mr_status mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+
+bool mr_pcd_sniff(const unsigned char *data, size_t size);
+mr_status mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+
+bool mr_las_sniff(const unsigned char *data, size_t size);
+mr_status mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+
+/* A text over the bytes. */
+static inline mr_text
+mr_text_of(mr_ctx *ctx, const unsigned char *data, size_t size)
+{
+	const char *p = (const char *)data;
+
+	return (mr_text){ ctx, p, p, p + size };
+}
+
+/* Writes numbers with a blank between them, then `end`. */
+void mr_put_reals(mr_sink *s, const double *x, size_t n, char end);
+
+/* Says and counts what a format leaves out: the columns of the model that the flags do not name. */
+enum {
+	MR_KEEPS_NORMAL = 1,
+	MR_KEEPS_COLOR = 2,
+	MR_KEEPS_TEXCOORD = 4,
+	MR_KEEPS_GROUP = 8,
+	MR_KEEPS_FACES = 16
+};
+void mr_note_lost(mr_ctx *ctx, const mr_model *m, unsigned keeps);
+
+/* Says and counts the positions that do not survive in float32; MR_ERANGE where one overflows it. */
+mr_status mr_note_rounded(mr_ctx *ctx, const mr_model *m);
+
+/* A little- or big-endian value in memory. */
+static inline uint32_t
+mr_load32(const unsigned char *p, bool big)
+{
+	uint32_t v;
+	memcpy(&v, p, 4);
+	return big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap32(v);
+}
+
+static inline uint64_t
+mr_load64(const unsigned char *p, bool big)
+{
+	uint64_t v;
+	memcpy(&v, p, 8);
+	return big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap64(v);
+}
+
+static inline uint16_t
+mr_load16(const unsigned char *p, bool big)
+{
+	return (uint16_t)(big ? p[0] << 8 | p[1] : p[1] << 8 | p[0]);
+}
+
+static inline float
+mr_load_float(const unsigned char *p, bool big)
+{
+	uint32_t v = mr_load32(p, big);
+	float f;
+	memcpy(&f, &v, 4);
+	return f;
+}
+
+static inline double
+mr_load_double(const unsigned char *p, bool big)
+{
+	uint64_t v = mr_load64(p, big);
+	double d;
+	memcpy(&d, &v, 8);
+	return d;
+}
+
+static inline char *
+mr_store32(char *to, uint32_t v, bool big)
+{
+	v = big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap32(v);
+	memcpy(to, &v, 4);
+	return to + 4;
+}
+
+static inline char *
+mr_store_float(char *to, float f, bool big)
+{
+	uint32_t v;
+	memcpy(&v, &f, 4);
+	return mr_store32(to, v, big);
+}
+
+static inline char *
+mr_store_double(char *to, double d, bool big)
+{
+	uint64_t v;
+	memcpy(&v, &d, 8);
+	v = big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap64(v);
+	memcpy(to, &v, 8);
+	return to + 8;
+}
+
+#endif

@@ -1,0 +1,283 @@
+#include "formats/formats.h"
+#include "formats/format.h"
+
+/* In the order of sniffing: what has a signature first, plain columns of numbers last. */
+static const mr_file_format formats[] = {
+	{ "ply", " ply ", true, mr_ply_sniff, mr_ply_read, mr_ply_write_little },
+	{ "ply-big", NULL, true, NULL, mr_ply_read, mr_ply_write_big },
+	{ "ply-ascii", NULL, false, NULL, mr_ply_read, mr_ply_write_ascii },
+	{ "las", " las ", true, mr_las_sniff, mr_las_read, NULL },
+	{ "stl", " stl ", true, mr_stl_sniff, mr_stl_read, mr_stl_write },
+	{ "stl-ascii", NULL, false, NULL, mr_stl_read, mr_stl_write_ascii },
+	{ "off", " off coff noff stoff cnoff ", false, mr_off_sniff, mr_off_read, mr_off_write },
+	{ "off-binary", NULL, true, NULL, mr_off_read, mr_off_write_binary },
+	{ "pcd", " pcd ", true, mr_pcd_sniff, mr_pcd_read, NULL },
+	{ "obj", " obj ", false, mr_obj_sniff, mr_obj_read, mr_obj_write },
+	{ "ptx", " ptx ", false, mr_ptx_sniff, mr_ptx_read, NULL },
+	{ "xyz", " xyz txt csv asc xyzn xyzrgb ", false, mr_xyz_sniff, mr_xyz_read, mr_xyz_write },
+	{ "pts", " pts ", false, NULL, mr_xyz_read, mr_pts_write },
+	{ "pwn", " pwn ", false, NULL, mr_xyz_read, mr_pwn_write },
+};
+
+enum { FORMATS = sizeof formats / sizeof *formats };
+
+/* ---- names ---- */
+
+static bool
+ends_in_gz(const char *path)
+{
+	size_t n = strlen(path);
+
+	return n > 3 && !strcmp(path + n - 3, ".gz");
+}
+
+/* The file's name without folder, and in *bytes its length without .gz. */
+static const char *
+file_of(const char *path, size_t *bytes)
+{
+	const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
+
+	*bytes = strlen(file) - (ends_in_gz(file) ? 3 : 0);
+	return file;
+}
+
+static const mr_file_format *
+by_suffix(const char *path)
+{
+	size_t bytes, at;
+	const char *file = file_of(path, &bytes);
+	char word[24];
+
+	for (at = bytes; at > 0 && file[at - 1] != '.'; at--)
+		;
+	if (at == 0 || bytes - at > sizeof word / 2)
+		return NULL;
+	word[0] = ' ';
+	for (size_t i = at; i < bytes; i++)
+		word[i - at + 1] = (char)(file[i] >= 'A' && file[i] <= 'Z' ? file[i] + ('a' - 'A') : file[i]);
+	snprintf(word + 1 + bytes - at, 2, " ");
+	for (size_t i = 0; i < FORMATS; i++)
+		if (formats[i].suffixes && strstr(formats[i].suffixes, word))
+			return &formats[i];
+	return NULL;
+}
+
+static const mr_file_format *
+by_name(const char *name)
+{
+	for (size_t i = 0; i < FORMATS; i++)
+		if (!strcmp(formats[i].name, name))
+			return &formats[i];
+	return NULL;
+}
+
+const char *
+mr_format_names(mr_ctx *ctx, bool writable)
+{
+	const char *names = "";
+
+	for (size_t i = 0; i < FORMATS && names; i++)
+		if (!writable || formats[i].write)
+			names = mr_format(ctx, "%s%s%s", names, *names ? ", " : "", formats[i].name);
+	return names;
+}
+
+static mr_status
+find_writer(mr_ctx *ctx, const char *path, const char *format, const mr_file_format **f)
+{
+	const mr_file_format *found = format ? by_name(format) : by_suffix(path);
+	const char *names = mr_format_names(ctx, true);
+
+	if (!names)
+		return MR_EMEM;
+	if (format && !found)
+		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names);
+	if (!found)
+		return mr_fail(ctx, MR_EUSAGE, "%s: its name tells no format; -f does: %s", path, names);
+	if (!found->write)
+		return mr_fail(
+		    ctx, MR_EUSAGE, "%s is only read, not written; there are %s", found->name, names);
+	*f = found;
+	return MR_OK;
+}
+
+mr_status
+mr_format_check(mr_ctx *ctx, const char *path, const char *format, bool writable, bool *binary)
+{
+	const mr_file_format *f = format ? by_name(format) : NULL;
+
+	if (writable)
+		MR_TRY(find_writer(ctx, path, format, &f));
+	else if (format && !f) {
+		const char *names = mr_format_names(ctx, false);
+		return names ? mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names)
+		             : MR_EMEM;
+	}
+	*binary = f && (f->binary || ends_in_gz(path));
+	return MR_OK;
+}
+
+const char *
+mr_format_stem(mr_ctx *ctx, const char *path)
+{
+	size_t bytes;
+	const char *file = file_of(path, &bytes);
+	char *name;
+
+	if (!strcmp(path, "-"))
+		return "stdin";
+	for (size_t i = bytes; i > 1; i--)
+		if (file[i - 1] == '.') {
+			bytes = i - 1;
+			break;
+		}
+	name = mr_alloc(ctx, bytes + 1, 1);
+	if (name && mr_clean_name(name, file, bytes, true) == 0)
+		return "model";
+	return name;
+}
+
+/* ---- reading ---- */
+
+/* Text whose lines end in CR alone gets newlines; the rest is left as it is. */
+static mr_status
+normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
+{
+	size_t head = size < 65536 ? size : 65536;
+	unsigned char *copy;
+
+	if (!memchr(*data, '\r', head) || memchr(*data, '\n', head) || memchr(*data, 0, head))
+		return MR_OK;
+	copy = mr_alloc(ctx, size, 1);
+	if (!copy)
+		return MR_EMEM;
+	for (size_t i = 0; i < size; i++)
+		copy[i] = (*data)[i] == '\r' ? '\n' : (*data)[i];
+	*data = copy;
+	return MR_OK;
+}
+
+static mr_status
+find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size,
+    const mr_file_format **f)
+{
+	const char *names = mr_format_names(ctx, false);
+	const mr_file_format *found = format ? by_name(format) : NULL;
+
+	if (!names)
+		return MR_EMEM;
+	if (format && !found)
+		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names);
+	if (size == 0)
+		return mr_fail(ctx, MR_EFORMAT, "the file is empty");
+	if (size >= 2 && ((data[0] == 0xfe && data[1] == 0xff) || (data[0] == 0xff && data[1] == 0xfe)))
+		return mr_fail(ctx, MR_EFORMAT, "byte 0: UTF-16 text is not read; iconv makes UTF-8 of it");
+	for (size_t i = 0; i < FORMATS && !found; i++)
+		if (formats[i].sniff && formats[i].sniff(data, size))
+			found = &formats[i];
+	if (!found)
+		found = by_suffix(path); /* its reader says what is wrong */
+	if (!found)
+		return mr_fail(
+		    ctx, MR_EFORMAT, "no format is recognised in its bytes; -f names one of %s", names);
+	*f = found;
+	return MR_OK;
+}
+
+static mr_status
+read_bytes(mr_ctx *ctx, const char *path, const char *format, const mr_bytes *bytes, mr_model *m)
+{
+	const unsigned char *data = bytes->data;
+	size_t size = bytes->size;
+	const mr_file_format *f = NULL;
+	mr_model got = { 0 };
+
+	if (size >= 3 && data[0] == 0xef && data[1] == 0xbb &&
+	    data[2] == 0xbf) { /* the mark that begins UTF-8 */
+		data += 3;
+		size -= 3;
+	}
+	if (size)
+		MR_TRY(normalise_lines(ctx, &data, size));
+	MR_TRY(find_reader(ctx, path, format, data, size, &f));
+	MR_TRY(f->read(ctx, data, size, &got));
+	if (got.nv == 0)
+		return mr_fail(ctx, MR_EMESH, "%s without a vertex", f->name);
+	mr_note(ctx, "%s: %zu vertices, %zu triangles", f->name, got.nv, got.nf);
+	*m = got;
+	return MR_OK;
+}
+
+mr_status
+mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
+{
+	mr_bytes bytes = { 0 };
+	mr_status status;
+
+	MR_TRY(mr_bytes_read(ctx, path, &bytes));
+	status = read_bytes(ctx, path, format, &bytes, m);
+	mr_bytes_free(&bytes);
+	if (status == MR_EUSAGE)
+		return status;
+	return mr_prefix(ctx, status, "%s", strcmp(path, "-") ? path : "stdin");
+}
+
+/* ---- writing ---- */
+
+mr_status
+mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m)
+{
+	const mr_file_format *f = NULL;
+	mr_sink sink;
+
+	MR_TRY(find_writer(ctx, path, format, &f));
+	MR_TRY(mr_sink_open(ctx, path, ends_in_gz(path), &sink));
+	return mr_sink_close(&sink, f->write(&sink, m));
+}
+
+void
+mr_put_reals(mr_sink *s, const double *x, size_t n, char end)
+{
+	char *to = mr_sink_room(s);
+
+	for (size_t i = 0; i < n; i++) {
+		to = mr_real_write(to, x[i]);
+		*to++ = i + 1 < n ? ' ' : end;
+	}
+	mr_sink_fill(s, to);
+}
+
+void
+mr_note_lost(mr_ctx *ctx, const mr_model *m, unsigned keeps)
+{
+	static const char why[] = "the format has no place for them";
+
+	if (m->normal && !(keeps & MR_KEEPS_NORMAL))
+		mr_build_dropped(ctx, "normals", why);
+	if (m->color && !(keeps & MR_KEEPS_COLOR))
+		mr_build_dropped(ctx, "colors", why);
+	if (m->texcoord && !(keeps & MR_KEEPS_TEXCOORD))
+		mr_build_dropped(ctx, "texcoords", why);
+	if (m->group && !(keeps & MR_KEEPS_GROUP))
+		mr_build_dropped(ctx, "groups", why);
+	if (m->nf && !(keeps & MR_KEEPS_FACES))
+		mr_build_dropped(ctx, "faces", why);
+}
+
+mr_status
+mr_note_rounded(mr_ctx *ctx, const mr_model *m)
+{
+	size_t changed = 0;
+
+	for (size_t i = 0; i < m->nv; i++) {
+		mr_v3 p = m->p[i], q = { (float)p.x, (float)p.y, (float)p.z };
+		if (!mr_finite(q))
+			return mr_fail(ctx, MR_ERANGE, "position %zu (%g %g %g) is too large for float32", i,
+			    p.x, p.y, p.z);
+		changed += q.x != p.x || q.y != p.y || q.z != p.z;
+	}
+	mr_stat_set(ctx, "rounded_positions", (double)changed);
+	if (changed)
+		mr_note(ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
+	return MR_OK;
+}

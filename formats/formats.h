@@ -1,0 +1,54 @@
+/*
+ * formats.h -- models in the formats of the outside world.
+ *
+ * Contract: a file is recognised by its bytes, never by its name alone; `.gz`
+ * of any format is read from a file or a pipe.  Every index is checked and every
+ * position is finite, so a model that was read is a valid layer.  Text numbers
+ * are read and written so that doubles survive bit for bit.  What a format
+ * cannot hold is said by a note and counted in the figures.
+ * Layer rule: formats include base, mesh and themselves; zlib in bytes.c, tinyobj
+ * in obj_shim.cc.
+ */
+#ifndef MR_FORMATS_H
+#define MR_FORMATS_H
+
+#include "mesh/mesh.h"
+
+/* A mesh, or where nf is 0 a cloud of points.  What the file does not have is NULL. */
+typedef struct mr_model {
+	const mr_v3 *p;             /* nv */
+	const mr_v3 *normal;        /* nv, as the file has them: not made unit */
+	const unsigned char *color; /* 4 nv: red, green, blue, alpha */
+	const double *texcoord;     /* 2 nv */
+	const mr_tri *t;            /* nf */
+	const uint32_t *group;      /* nf, each a line of groups */
+	const char *groups;         /* names, each followed by a newline but the last */
+	size_t nv, nf, groups_bytes;
+} mr_model;
+
+/*
+ * Reads a file ("-": stdin) into the arena.  `format` is a name of mr_format_names,
+ * or NULL: by the bytes and, where no format knows them, by the suffix.  Vertices of
+ * STL are joined where equal; polygons are triangulated; isolated vertices, degenerate,
+ * duplicate and non-manifold faces are kept.  MR_EMESH for a model without vertices.
+ */
+mr_status mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m) MR_WARN_UNUSED;
+
+/*
+ * Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.
+ * A regular file is written beside its place and renamed into it, so it is seen whole or not at all.
+ */
+mr_status mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m) MR_WARN_UNUSED;
+
+/* The names of the formats with commas between: those that can be written, or all that can be read. */
+const char *mr_format_names(mr_ctx *ctx, bool writable);
+
+/* MR_EUSAGE, naming those there are, where the format is unknown or cannot be written.  `binary`: not for a
+ * terminal. */
+mr_status mr_format_check(
+    mr_ctx *ctx, const char *path, const char *format, bool writable, bool *binary) MR_WARN_UNUSED;
+
+/* The file's name without folder, `.gz` and suffix, made fit for a frame's name ("stdin" for "-"). */
+const char *mr_format_stem(mr_ctx *ctx, const char *path);
+
+#endif

@@ -1,0 +1,105 @@
+/*
+ * LAS, airborne scans: ASPRS LAS specification 1.4, 2019, and before.  Whole coordinates with a scale and an
+ * offset; colours of 16 bits in some of the point formats.  Compressed files (LAZ) are refused.
+ */
+#include "formats/format.h"
+
+enum { SHORTEST_HEADER = 227, FORMATS = 11 };
+
+/* Per point format, the bytes of a point at least, and where its colour stands (0: none). */
+static const struct {
+	unsigned char bytes, color;
+} formats[FORMATS] = { { 20, 0 }, { 28, 0 }, { 26, 20 }, { 34, 28 }, { 57, 0 }, { 63, 28 }, { 30, 0 },
+	{ 36, 30 }, { 38, 30 }, { 59, 0 }, { 67, 30 } };
+
+typedef struct las {
+	size_t offset, record;
+	uint64_t points;
+	unsigned color;
+	mr_v3 scale, origin;
+} las;
+
+static mr_v3
+three(const unsigned char *p)
+{
+	return mr_vec(mr_load_double(p, false), mr_load_double(p + 8, false), mr_load_double(p + 16, false));
+}
+
+static mr_status
+read_header(mr_ctx *ctx, const unsigned char *d, size_t size, las *l)
+{
+	unsigned format;
+
+	if (size < SHORTEST_HEADER)
+		return mr_fail(ctx, MR_EFORMAT, "byte %zu: the file ends in its header", size);
+	format = d[104];
+	if (format & 0xc0)
+		return mr_fail(ctx, MR_EFORMAT, "byte 104: compressed points (LAZ) are not read");
+	if (format >= FORMATS)
+		return mr_fail(ctx, MR_EFORMAT, "byte 104: point format %u is not known", format);
+	*l = (las){ .offset = mr_load32(d + 96, false),
+		.record = mr_load16(d + 105, false),
+		.points = mr_load32(d + 107, false),
+		.color = formats[format].color,
+		.scale = three(d + 131),
+		.origin = three(d + 155) };
+	if (d[25] >= 4 && size >= 255 && mr_load64(d + 247, false))
+		l->points = mr_load64(d + 247, false);
+	if (l->record < formats[format].bytes)
+		return mr_fail(ctx, MR_EFORMAT, "byte 105: points of %zu bytes, where format %u has %u",
+		    l->record, format, (unsigned)formats[format].bytes);
+	if (l->offset < SHORTEST_HEADER || l->offset > size || l->points > (size - l->offset) / l->record)
+		return mr_fail(ctx, MR_EFORMAT,
+		    "byte 96: %llu points of %zu bytes at %zu, where the file has %zu bytes",
+		    (unsigned long long)l->points, l->record, l->offset, size);
+	if (!mr_finite(l->scale) || !mr_finite(l->origin))
+		return mr_fail(ctx, MR_EFORMAT, "byte 131: scale or offset is not finite");
+	return MR_OK;
+}
+
+/* 16 bits by the specification; many files have 8 in them. */
+static unsigned
+color_shift(const unsigned char *d, const las *l)
+{
+	for (uint64_t i = 0; i < l->points; i++)
+		for (unsigned k = 0; k < 3; k++)
+			if (d[l->offset + i * l->record + l->color + 2 * k + 1])
+				return 8;
+	return 0;
+}
+
+mr_status
+mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	unsigned char *color = NULL;
+	unsigned shift;
+	mr_v3 *p;
+	las l = { 0 };
+
+	MR_TRY(read_header(ctx, data, size, &l));
+	p = MR_NEW(ctx, (size_t)l.points, mr_v3);
+	if (!p || (l.color && !(color = mr_alloc(ctx, (size_t)l.points, 4))))
+		return MR_EMEM;
+	shift = l.color ? color_shift(data, &l) : 0;
+	for (size_t i = 0; i < l.points; i++) {
+		const unsigned char *d = data + l.offset + i * l.record;
+		p[i] = mr_vec(l.scale.x * (int32_t)mr_load32(d, false) + l.origin.x,
+		    l.scale.y * (int32_t)mr_load32(d + 4, false) + l.origin.y,
+		    l.scale.z * (int32_t)mr_load32(d + 8, false) + l.origin.z);
+		if (!mr_finite(p[i]))
+			return mr_fail(
+			    ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", l.offset + i * l.record);
+		for (unsigned k = 0; color && k < 4; k++)
+			color[4 * i + k] = (unsigned char)(k == 3 ? 255
+								  : mr_load16(d + l.color + 2 * k, false) >>
+									shift);
+	}
+	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color };
+	return MR_OK;
+}
+
+bool
+mr_las_sniff(const unsigned char *data, size_t size)
+{
+	return size >= 4 && !memcmp(data, "LASF", 4);
+}

@@ -1,0 +1,724 @@
+/*
+ * Stanford PLY, read: G. Turk, The PLY polygon file format, 1994.  Text and both byte orders, properties of
+ * any type in any order, lists, triangle strips; unknown elements and properties are passed over.
+ */
+#include "formats/format.h"
+
+typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
+
+static const struct {
+	const char *name, *alias;
+	unsigned char bytes;
+} types[TYPES] = { { "char", "int8", 1 }, { "uchar", "uint8", 1 }, { "short", "int16", 2 },
+	{ "ushort", "uint16", 2 }, { "int", "int32", 4 }, { "uint", "uint32", 4 }, { "float", "float32", 4 },
+	{ "double", "float64", 8 } };
+
+/* What a property is to us. */
+typedef enum role {
+	NONE,
+	X,
+	Y,
+	Z,
+	NX,
+	NY,
+	NZ,
+	RED,
+	GREEN,
+	BLUE,
+	ALPHA,
+	U,
+	V,
+	INDICES,
+	UVS,
+	GROUP,
+	ROLES
+} role;
+
+typedef struct property {
+	bool list;
+	type count, value; /* of a list: of its length and of its items */
+	role role;
+} property;
+
+typedef enum kind { OTHER, VERTEX, FACE, STRIPS } kind;
+
+typedef struct element {
+	kind kind;
+	char name[MR_SHOWN];
+	uint64_t rows;
+	property *property;
+	size_t properties, room;
+} element;
+
+typedef struct ply {
+	mr_ctx *ctx;
+	const unsigned char *data, *end;
+	mr_text text;           /* the header, then the rows of a text file */
+	const unsigned char *p; /* the rows of a binary file */
+	bool ascii, big;
+	element *element;
+	size_t elements, room;
+	mr_builder b;
+	bool has_uv;       /* of vertices: then those of corners are not needed */
+	uint32_t *indices; /* of the list at hand */
+	double *uvs;
+	size_t indices_count, indices_room, uvs_count, uvs_room;
+	const char **group_name; /* of the comments "group NAME" */
+	size_t *group_bytes;
+	size_t groups, groups_room;
+	bool odd_uv;
+} ply;
+
+/* ---- failures ---- */
+
+static mr_status MR_PRINTF(3, 4) bad(ply *f, const void *where, const char *format, ...)
+{
+	char sentence[MR_ERROR_MAX / 2];
+	va_list args;
+
+	va_start(args, format);
+	vsnprintf(sentence, sizeof sentence, format, args);
+	va_end(args);
+	if (f->ascii)
+		return mr_text_fail(&f->text, where, "%s", sentence);
+	return mr_fail(
+	    f->ctx, MR_EFORMAT, "byte %zu: %s", (size_t)((const unsigned char *)where - f->data), sentence);
+}
+
+static mr_status
+early(ply *f, const element *e, uint64_t row)
+{
+	return bad(f, f->ascii ? (const void *)f->text.end : f->end,
+	    "the file ends in row %llu of %llu of element %s", (unsigned long long)row + 1,
+	    (unsigned long long)e->rows, e->name);
+}
+
+/* Where the next value stands. */
+static const void *
+here(ply *f)
+{
+	if (!f->ascii)
+		return f->p;
+	mr_skip_space(&f->text);
+	return f->text.p;
+}
+
+/* ---- the header ---- */
+
+static bool
+is_word(const char *w, size_t n, const char *word)
+{
+	return n == strlen(word) && !memcmp(w, word, n);
+}
+
+static mr_status
+header_type(ply *f, mr_text *line, type *t)
+{
+	char shown[MR_SHOWN];
+	const char *w;
+	size_t n;
+
+	if (!mr_text_word(line, &w, &n))
+		return mr_text_fail(&f->text, line->p, "a property lacks its type");
+	for (*t = 0; *t < TYPES; ++*t)
+		if (is_word(w, n, types[*t].name) || is_word(w, n, types[*t].alias))
+			return MR_OK;
+	return mr_text_fail(&f->text, w, "'%s' is no type of PLY", mr_word_shown(w, n, shown));
+}
+
+static role
+role_of(kind k, bool list, const char *w, size_t n)
+{
+	static const struct {
+		kind kind;
+		bool list;
+		role role;
+		const char *name;
+	} roles[] = { { VERTEX, false, X, "x" }, { VERTEX, false, Y, "y" }, { VERTEX, false, Z, "z" },
+		{ VERTEX, false, NX, "nx" }, { VERTEX, false, NY, "ny" }, { VERTEX, false, NZ, "nz" },
+		{ VERTEX, false, RED, "red" }, { VERTEX, false, GREEN, "green" },
+		{ VERTEX, false, BLUE, "blue" }, { VERTEX, false, ALPHA, "alpha" },
+		{ VERTEX, false, RED, "r" }, { VERTEX, false, GREEN, "g" }, { VERTEX, false, BLUE, "b" },
+		{ VERTEX, false, ALPHA, "a" }, { VERTEX, false, RED, "diffuse_red" },
+		{ VERTEX, false, GREEN, "diffuse_green" }, { VERTEX, false, BLUE, "diffuse_blue" },
+		{ VERTEX, false, U, "s" }, { VERTEX, false, V, "t" }, { VERTEX, false, U, "u" },
+		{ VERTEX, false, V, "v" }, { VERTEX, false, U, "texture_u" },
+		{ VERTEX, false, V, "texture_v" }, { VERTEX, false, U, "texture_s" },
+		{ VERTEX, false, V, "texture_t" }, { FACE, true, INDICES, "vertex_indices" },
+		{ FACE, true, INDICES, "vertex_index" }, { FACE, true, UVS, "texcoord" },
+		{ FACE, false, GROUP, "group" }, { STRIPS, true, INDICES, "vertex_indices" },
+		{ STRIPS, true, INDICES, "vertex_index" } };
+
+	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
+		if (roles[i].kind == k && roles[i].list == list && is_word(w, n, roles[i].name))
+			return roles[i].role;
+	return NONE;
+}
+
+static mr_status
+header_property(ply *f, mr_text *line)
+{
+	element *e = f->elements ? &f->element[f->elements - 1] : NULL;
+	property p = { 0 };
+	const char *w;
+	size_t n;
+
+	if (!e)
+		return mr_text_fail(&f->text, line->p, "a property before any element");
+	p.list = mr_text_accept(line, "list");
+	if (p.list) {
+		MR_TRY(header_type(f, line, &p.count));
+		if (p.count >= FLOAT)
+			return mr_text_fail(&f->text, line->p, "the length of a list is not of a whole type");
+	}
+	MR_TRY(header_type(f, line, &p.value));
+	if (!mr_text_word(line, &w, &n))
+		return mr_text_fail(&f->text, line->p, "a property lacks its name");
+	p.role = role_of(e->kind, p.list, w, n);
+	for (size_t i = 0; i < e->properties && p.role != NONE; i++)
+		if (e->property[i].role == p.role)
+			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */
+	if (p.role == INDICES && p.value >= FLOAT)
+		return mr_text_fail(&f->text, w, "indices are not of a whole type");
+	if (e->properties == e->room) {
+		e->room = 2 * e->room + 8;
+		e->property = mr_grow(f->ctx, e->property, e->properties, e->room, sizeof p);
+		if (!e->property)
+			return MR_EMEM;
+	}
+	e->property[e->properties++] = p;
+	return MR_OK;
+}
+
+static mr_status
+header_element(ply *f, mr_text *line)
+{
+	element e = { 0 };
+	const char *w;
+	size_t n;
+
+	if (!mr_text_word(line, &w, &n))
+		return mr_text_fail(&f->text, line->p, "an element lacks its name");
+	mr_word_shown(w, n, e.name);
+	MR_TRY(mr_text_count(line, "the number of an element", UINT64_MAX / 16, &e.rows));
+	e.kind = is_word(w, n, "vertex")      ? VERTEX
+	         : is_word(w, n, "face")      ? FACE
+	         : is_word(w, n, "tristrips") ? STRIPS
+	                                      : OTHER;
+	for (size_t i = 0; i < f->elements; i++)
+		if (e.kind != OTHER && f->element[i].kind == e.kind)
+			return mr_text_fail(&f->text, w, "element %s is there twice", e.name);
+	if (f->elements == f->room) {
+		f->room = 2 * f->room + 4;
+		f->element = mr_grow(f->ctx, f->element, f->elements, f->room, sizeof e);
+		if (!f->element)
+			return MR_EMEM;
+	}
+	f->element[f->elements++] = e;
+	return MR_OK;
+}
+
+static mr_status
+header_format(ply *f, mr_text *line, bool *seen)
+{
+	char shown[MR_SHOWN];
+	const char *w;
+	size_t n;
+
+	if (!mr_text_word(line, &w, &n))
+		return mr_text_fail(&f->text, line->p, "the format lacks its name");
+	f->ascii = is_word(w, n, "ascii");
+	f->big = is_word(w, n, "binary_big_endian");
+	if (!f->ascii && !f->big && !is_word(w, n, "binary_little_endian"))
+		return mr_text_fail(&f->text, w, "'%s' is no format of PLY", mr_word_shown(w, n, shown));
+	if (!mr_text_accept(line, "1.0"))
+		return mr_text_fail(&f->text, line->p, "the format's version is not 1.0");
+	*seen = true;
+	return MR_OK;
+}
+
+/* A comment "group NAME" names the next group, as mr_ply_write has it. */
+static mr_status
+header_comment(ply *f, mr_text *line)
+{
+	if (!mr_text_accept(line, "group"))
+		return MR_OK;
+	if (f->groups == f->groups_room) {
+		f->groups_room = 2 * f->groups_room + 16;
+		f->group_name = mr_grow(
+		    f->ctx, f->group_name, f->groups, f->groups_room, sizeof *f->group_name);
+		f->group_bytes = mr_grow(
+		    f->ctx, f->group_bytes, f->groups, f->groups_room, sizeof *f->group_bytes);
+		if (!f->group_name || !f->group_bytes)
+			return MR_EMEM;
+	}
+	f->group_name[f->groups] = line->p;
+	f->group_bytes[f->groups++] = (size_t)(line->end - line->p);
+	return MR_OK;
+}
+
+static mr_status
+read_header(ply *f)
+{
+	char shown[MR_SHOWN];
+	bool format = false, first = true;
+	mr_text line;
+	const char *w;
+	size_t n;
+
+	while (mr_text_line(&f->text, &line)) {
+		if (mr_text_accept(&line, "end_header")) {
+			if (!format)
+				return mr_text_fail(&f->text, line.p, "the header lacks its format");
+			f->p = (const unsigned char *)f->text.p;
+			return MR_OK;
+		}
+		if (first && !mr_text_accept(&line, "ply"))
+			return mr_text_fail(&f->text, line.p, "the file does not begin with 'ply'");
+		if (!first && mr_text_accept(&line, "format"))
+			MR_TRY(header_format(f, &line, &format));
+		else if (mr_text_accept(&line, "element"))
+			MR_TRY(header_element(f, &line));
+		else if (mr_text_accept(&line, "property"))
+			MR_TRY(header_property(f, &line));
+		else if (mr_text_accept(&line, "comment"))
+			MR_TRY(header_comment(f, &line));
+		else if (!mr_text_accept(&line, "obj_info") && f->elements > 0 && mr_text_word(&line, &w, &n))
+			return mr_text_fail(
+			    &f->text, w, "'%s' begins no line of a PLY header", mr_word_shown(w, n, shown));
+		first = false;
+	}
+	return mr_text_fail(&f->text, f->text.end, "the header has no end_header");
+}
+
+/* ---- values ---- */
+
+static double
+binary_value(const unsigned char *p, type t, bool big)
+{
+	switch (t) {
+	case CHAR:
+		return (signed char)*p;
+	case UCHAR:
+		return *p;
+	case SHORT:
+		return (int16_t)mr_load16(p, big);
+	case USHORT:
+		return mr_load16(p, big);
+	case INT:
+		return (int32_t)mr_load32(p, big);
+	case UINT:
+		return mr_load32(p, big);
+	case FLOAT:
+		return (double)mr_load_float(p, big);
+	default:
+		return mr_load_double(p, big);
+	}
+}
+
+/* The next value; in a binary file its bytes are known to be there. */
+static mr_status
+next_value(ply *f, type t, double *x)
+{
+	if (f->ascii)
+		return mr_text_real(&f->text, "a value", x); /* all its digits, even of a float */
+	*x = binary_value(f->p, t, f->big);
+	f->p += types[t].bytes;
+	return MR_OK;
+}
+
+/* The length of a list, whose items are then known to be there as far as bytes can tell. */
+static mr_status
+next_length(ply *f, const property *p, size_t *n)
+{
+	const void *where = here(f);
+	double x = 0;
+	size_t left, each = f->ascii ? 2 : types[p->value].bytes;
+
+	if (!f->ascii && (size_t)(f->end - f->p) < types[p->count].bytes)
+		return bad(f, f->end, "the file ends before the length of a list");
+	MR_TRY(next_value(f, p->count, &x));
+	left = f->ascii ? (size_t)(f->text.end - f->text.p) + 1 : (size_t)(f->end - f->p);
+	if (!(x >= 0) || x != floor(x))
+		return bad(f, where, "a list of length %g", x);
+	if (x > (double)(left / each))
+		return bad(f, where, "a list of length %.17g, beyond the end of the file", x);
+	*n = (size_t)x;
+	return MR_OK;
+}
+
+/* ---- vertices ---- */
+
+/* Bytes of a row without its lists' items: at least so many a row takes. */
+static size_t
+row_bytes(const element *e, bool ascii)
+{
+	size_t bytes = 0;
+
+	for (size_t i = 0; i < e->properties; i++)
+		bytes += ascii
+		             ? 2
+		             : types[e->property[i].list ? e->property[i].count : e->property[i].value].bytes;
+	return bytes;
+}
+
+/* Refuses a number of rows that the rest of the file cannot hold, before anything is allocated for them. */
+static mr_status
+check_rows(ply *f, const element *e)
+{
+	size_t left = f->ascii ? (size_t)(f->text.end - f->text.p) + 1 : (size_t)(f->end - f->p);
+	size_t bytes = row_bytes(e, f->ascii);
+
+	if (e->rows && bytes && e->rows > left / bytes)
+		return bad(f, here(f), "%llu rows of element %s cannot be in the %zu bytes that are left",
+		    (unsigned long long)e->rows, e->name, left);
+	return MR_OK;
+}
+
+static bool
+has(const element *e, role r)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		if (e->property[i].role == r)
+			return true;
+	return false;
+}
+
+static type
+type_of(const element *e, role r)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		if (e->property[i].role == r)
+			return e->property[i].value;
+	return DOUBLE;
+}
+
+static mr_status
+vertex_arrays(ply *f, const element *e)
+{
+	MR_TRY(mr_build_vertices(&f->b, e->rows));
+	if (has(e, NX) && has(e, NY) && has(e, NZ) && !(f->b.normal = MR_NEW(f->ctx, f->b.nv, mr_v3)))
+		return MR_EMEM;
+	if (has(e, RED) && has(e, GREEN) && has(e, BLUE) && !(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
+		return MR_EMEM;
+	f->has_uv = has(e, U) && has(e, V);
+	if (f->has_uv && !(f->b.texcoord = MR_NEW(f->ctx, 2 * f->b.nv, double)))
+		return MR_EMEM;
+	return MR_OK;
+}
+
+/* Floats are shares of one, whole types of their own range. */
+static unsigned char
+color_byte(double x, type t)
+{
+	double v = t >= FLOAT           ? 255 * x
+	           : t >= INT           ? x
+	           : t >= SHORT         ? x / 257
+	           : t == CHAR && x < 0 ? x + 256
+	                                : x;
+
+	return (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
+}
+
+static mr_status
+pass_list(ply *f, const property *p)
+{
+	double x;
+	size_t n;
+
+	MR_TRY(next_length(f, p, &n));
+	if (!f->ascii) {
+		f->p += n * types[p->value].bytes;
+		return MR_OK;
+	}
+	while (n-- > 0)
+		MR_TRY(mr_text_real(&f->text, "an item of a list", &x));
+	return MR_OK;
+}
+
+/* Reads a row's values by role; lists are passed over. */
+static mr_status
+read_row(ply *f, const element *e, uint64_t row, double value[ROLES])
+{
+	if (!f->ascii && (size_t)(f->end - f->p) < row_bytes(e, false))
+		return early(f, e, row);
+	for (size_t i = 0; i < e->properties; i++) {
+		const property *p = &e->property[i];
+		if (p->list)
+			MR_TRY(pass_list(f, p));
+		else if (!f->ascii && (size_t)(f->end - f->p) < types[p->value].bytes)
+			return early(f, e, row);
+		else
+			MR_TRY(next_value(f, p->value, &value[p->role]));
+	}
+	return MR_OK;
+}
+
+static mr_status
+read_vertices(ply *f, const element *e)
+{
+	type color = type_of(e, RED), alpha = type_of(e, ALPHA);
+	bool odd_normal = false, odd_color = false;
+	double v[ROLES] = { 0 };
+
+	if (!has(e, X) || !has(e, Y) || !has(e, Z))
+		return bad(f, here(f), "element vertex lacks x, y or z");
+	MR_TRY(check_rows(f, e));
+	MR_TRY(vertex_arrays(f, e));
+	v[ALPHA] = alpha >= FLOAT ? 1 : 255;
+	if (!has(e, ALPHA))
+		v[ALPHA] = 1;
+	for (size_t i = 0; i < f->b.nv; i++) {
+		const void *where = here(f);
+		MR_TRY(read_row(f, e, i, v));
+		f->b.p[i] = mr_vec(v[X], v[Y], v[Z]);
+		if (!mr_finite(f->b.p[i]))
+			return bad(f, where, "position %zu (%g %g %g) is not finite", i, v[X], v[Y], v[Z]);
+		if (f->b.normal) {
+			f->b.normal[i] = mr_vec(v[NX], v[NY], v[NZ]);
+			odd_normal |= !mr_finite(f->b.normal[i]);
+		}
+		if (f->b.color) {
+			unsigned char *c = f->b.color + 4 * i;
+			odd_color |= isnan(v[RED] + v[GREEN] + v[BLUE] + v[ALPHA]);
+			c[0] = color_byte(v[RED], color);
+			c[1] = color_byte(v[GREEN], color);
+			c[2] = color_byte(v[BLUE], color);
+			c[3] = has(e, ALPHA) ? color_byte(v[ALPHA], alpha) : 255;
+		}
+		if (f->b.texcoord) {
+			f->b.texcoord[2 * i] = v[U];
+			f->b.texcoord[2 * i + 1] = v[V];
+			f->odd_uv |= !isfinite(v[U]) || !isfinite(v[V]);
+		}
+	}
+	if (odd_normal) {
+		mr_build_dropped(f->ctx, "normals", "one is not a finite number");
+		f->b.normal = NULL;
+	}
+	if (odd_color) {
+		mr_build_dropped(f->ctx, "colors", "one is not a number");
+		f->b.color = NULL;
+	}
+	return MR_OK;
+}
+
+/* ---- faces ---- */
+
+/* A list of indices; -1 ends a strip. */
+static mr_status
+read_indices(ply *f, const property *p, bool strips)
+{
+	size_t n, size = types[p->value].bytes;
+
+	MR_TRY(next_length(f, p, &n));
+	if (n > f->indices_room) {
+		f->indices_room = n + n / 2;
+		f->indices = MR_NEW(f->ctx, f->indices_room, uint32_t);
+		if (!f->indices)
+			return MR_EMEM;
+	}
+	f->indices_count = n;
+	for (size_t i = 0; i < n; i++) {
+		const void *where = here(f);
+		uint64_t at;
+		double x = 0;
+		if (!f->ascii && (p->value == INT || p->value == UINT)) {
+			uint32_t raw = mr_load32(f->p, f->big); /* the usual case */
+			f->p += size;
+			if (raw < f->b.nv) {
+				f->indices[i] = raw;
+				continue;
+			}
+			x = p->value == INT ? (double)(int32_t)raw : (double)raw;
+		} else if (f->ascii && mr_is_digit(*(const char *)where)) {
+			MR_TRY(mr_text_count(&f->text, "an index", UINT32_MAX, &at));
+			x = (double)at;
+		} else
+			MR_TRY(next_value(f, p->value, &x));
+		if (strips && x == -1)
+			f->indices[i] = MR_NONE;
+		else if (x >= 0 && x < (double)f->b.nv && x == floor(x))
+			f->indices[i] = (uint32_t)x;
+		else
+			return bad(f, where, "vertex %.17g of %zu", x, f->b.nv);
+	}
+	return MR_OK;
+}
+
+static mr_status
+read_uvs(ply *f, const property *p)
+{
+	size_t n;
+
+	MR_TRY(next_length(f, p, &n));
+	if (n > f->uvs_room) {
+		f->uvs_room = n + n / 2;
+		f->uvs = MR_NEW(f->ctx, f->uvs_room, double);
+		if (!f->uvs)
+			return MR_EMEM;
+	}
+	f->uvs_count = n;
+	for (size_t i = 0; i < n; i++) {
+		MR_TRY(next_value(f, p->value, &f->uvs[i]));
+		f->odd_uv |= !isfinite(f->uvs[i]);
+	}
+	return MR_OK;
+}
+
+/* The triangles of strips; those that name a vertex twice only join strips. */
+static mr_status
+add_strips(ply *f)
+{
+	const uint32_t *s = f->indices;
+	size_t length = 0;
+
+	for (size_t i = 0; i < f->indices_count; i++) {
+		bool odd;
+		uint32_t t[3];
+		length = s[i] == MR_NONE ? 0 : length + 1;
+		if (length < 3)
+			continue;
+		odd = (length & 1) == 0; /* every other one is turned over */
+		t[0] = s[i - 2 + odd], t[1] = s[i - 1 - odd], t[2] = s[i];
+		if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
+			MR_TRY(mr_build_face(&f->b, t, 3));
+	}
+	return MR_OK;
+}
+
+static mr_status
+set_group(ply *f, double x, const void *where)
+{
+	char name[32];
+	size_t g = (size_t)x;
+
+	if (!(x >= 0 && x < 4294967296.0 && x == floor(x)))
+		return bad(f, where, "group %g", x);
+	if (g < f->groups)
+		return mr_build_group(&f->b, f->group_name[g], f->group_bytes[g]);
+	snprintf(name, sizeof name, "group%zu", g);
+	return mr_build_group(&f->b, name, strlen(name));
+}
+
+static mr_status
+add_face(ply *f, kind k)
+{
+	const uint32_t *c = f->indices;
+
+	if (k == STRIPS)
+		return add_strips(f);
+	if (f->uvs_count == 2 * f->indices_count && !f->has_uv)
+		for (size_t i = 0; i < f->indices_count; i++)
+			MR_TRY(mr_build_texcoord(&f->b, c[i], f->uvs[2 * i], f->uvs[2 * i + 1]));
+	if (f->indices_count == 3 && mr_build_triangle(&f->b, c[0], c[1], c[2]))
+		return MR_OK;
+	return mr_build_face(&f->b, c, f->indices_count);
+}
+
+static mr_status
+read_faces(ply *f, const element *e)
+{
+	MR_TRY(check_rows(f, e));
+	if (e->rows && !has(e, INDICES))
+		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
+	MR_TRY(mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0));
+	for (uint64_t row = 0; row < e->rows; row++) {
+		double group = -1;
+		f->uvs_count = 0;
+		for (size_t i = 0; i < e->properties; i++) {
+			const property *p = &e->property[i];
+			if (p->role == INDICES)
+				MR_TRY(read_indices(f, p, e->kind == STRIPS));
+			else if (p->role == UVS)
+				MR_TRY(read_uvs(f, p));
+			else if (p->list)
+				MR_TRY(pass_list(f, p));
+			else if (!f->ascii && (size_t)(f->end - f->p) < types[p->value].bytes)
+				return early(f, e, row);
+			else {
+				const void *where = here(f);
+				double x = 0;
+				MR_TRY(next_value(f, p->value, &x));
+				if (p->role == GROUP)
+					MR_TRY(set_group(f, group = x, where));
+			}
+		}
+		MR_TRY(add_face(f, e->kind));
+	}
+	return MR_OK;
+}
+
+static mr_status
+pass_rows(ply *f, const element *e)
+{
+	double v[ROLES];
+
+	MR_TRY(check_rows(f, e));
+	for (uint64_t row = 0; e->properties && row < e->rows; row++)
+		MR_TRY(read_row(f, e, row, v));
+	return MR_OK;
+}
+
+/* ---- the file ---- */
+
+/* Elements as they come; faces that stand before the vertices are passed over and read when these are known.
+ */
+static mr_status
+read_elements(ply *f)
+{
+	const element *before = NULL;
+	const unsigned char *binary = NULL;
+	const char *text = NULL;
+	bool vertices = false;
+
+	for (size_t i = 0; i < f->elements; i++) {
+		const element *e = &f->element[i];
+		if (e->kind == VERTEX) {
+			MR_TRY(read_vertices(f, e));
+			vertices = true;
+		} else if (e->kind != OTHER && vertices)
+			MR_TRY(read_faces(f, e));
+		else {
+			if (e->kind != OTHER && !before) {
+				before = e;
+				binary = f->p;
+				text = f->text.p;
+			}
+			MR_TRY(pass_rows(f, e));
+		}
+	}
+	if (!vertices)
+		return mr_fail(f->ctx, MR_EMESH, "ply without a vertex");
+	if (!before)
+		return MR_OK;
+	f->p = binary;
+	f->text.p = text;
+	return read_faces(f, before);
+}
+
+mr_status
+mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	ply f = { .ctx = ctx,
+		.data = data,
+		.end = data + size,
+		.text = mr_text_of(ctx, data, size),
+		.ascii = true,
+		.b = { .ctx = ctx } };
+
+	MR_TRY(read_header(&f));
+	MR_TRY(read_elements(&f));
+	if (f.odd_uv) {
+		mr_build_dropped(ctx, "texcoords", "one is not a finite number");
+		f.b.texcoord = NULL;
+		f.b.corner_seen = NULL;
+	}
+	return mr_build_finish(&f.b, m);
+}
+
+bool
+mr_ply_sniff(const unsigned char *data, size_t size)
+{
+	return size >= 4 && !memcmp(data, "ply", 3) && (data[3] == '\n' || data[3] == '\r' || data[3] == ' ');
+}

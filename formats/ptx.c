@@ -1,0 +1,163 @@
+/*
+ * PTX, Leica's text of scans: columns, rows, the scanner's position and axes (seven lines), a matrix of four
+ * rows, by which each point is multiplied from the left, then columns x rows lines x y z intensity [r g b].
+ * A ray without an answer is 0 0 0, and left out.
+ */
+#include "formats/format.h"
+
+typedef struct ptx {
+	mr_ctx *ctx;
+	mr_text text;
+	mr_v3 *p;
+	unsigned char *color;
+	size_t count, room;
+	size_t colored, empty;
+} ptx;
+
+typedef struct scan {
+	uint64_t points;
+	double matrix[16]; /* by rows: x' = x matrix */
+} scan;
+
+static mr_status
+numbers_of_line(ptx *f, double *x, size_t most, size_t *count)
+{
+	mr_text line;
+	size_t n = 0;
+
+	if (!mr_text_line(&f->text, &line))
+		return mr_text_fail(&f->text, f->text.end, "the file ends inside a scan");
+	for (mr_skip_blanks(&line); line.p < line.end; mr_skip_blanks(&line)) {
+		if (n == most)
+			return mr_text_fail(&f->text, line.p, "more than %zu numbers", most);
+		MR_TRY(mr_text_real(&line, "a number", &x[n++]));
+	}
+	*count = n;
+	return MR_OK;
+}
+
+static mr_status
+exactly(ptx *f, double *x, size_t wanted)
+{
+	const char *where = f->text.p;
+	size_t n = 0;
+
+	MR_TRY(numbers_of_line(f, x, wanted, &n));
+	if (n < wanted)
+		return mr_text_fail(&f->text, where, "%zu numbers, not %zu", n, wanted);
+	for (size_t i = 0; i < n; i++)
+		if (!isfinite(x[i]))
+			return mr_text_fail(&f->text, where, "a number is not finite");
+	return MR_OK;
+}
+
+static mr_status
+read_head(ptx *f, scan *s)
+{
+	const char *where = f->text.p;
+	uint64_t columns, rows;
+	double skipped[3];
+
+	MR_TRY(mr_text_count(&f->text, "the number of columns", UINT32_MAX, &columns));
+	MR_TRY(mr_text_count(&f->text, "the number of rows", UINT32_MAX, &rows));
+	mr_skip_blanks(&f->text);
+	if (f->text.p < f->text.end)
+		f->text.p++;
+	for (int i = 0; i < 4; i++)
+		MR_TRY(exactly(f, skipped, 3));
+	for (int i = 0; i < 4; i++)
+		MR_TRY(exactly(f, s->matrix + 4 * i, 4));
+	s->points = columns * rows; /* below 2^64 */
+	if (s->points > (size_t)(f->text.end - f->text.p) / 8 + 1)
+		return mr_text_fail(&f->text, where, "%llu x %llu points, beyond the end of the file",
+		    (unsigned long long)columns, (unsigned long long)rows);
+	return MR_OK;
+}
+
+static mr_status
+make_room(ptx *f, size_t more)
+{
+	size_t room = f->count + more;
+
+	if (room <= f->room)
+		return MR_OK;
+	f->p = mr_grow(f->ctx, f->p, f->count, room, sizeof *f->p);
+	f->color = mr_grow(f->ctx, f->color, f->count, room, 4);
+	f->room = room;
+	return f->p && f->color ? MR_OK : MR_EMEM;
+}
+
+static mr_status
+read_point(ptx *f, const scan *s)
+{
+	const char *where = f->text.p;
+	const double *m = s->matrix;
+	double x[7] = { 0 };
+	size_t n = 0;
+
+	MR_TRY(numbers_of_line(f, x, 7, &n));
+	if (n != 3 && n != 4 && n != 7)
+		return mr_text_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
+	if (x[0] == 0 && x[1] == 0 && x[2] == 0) {
+		f->empty++;
+		return MR_OK;
+	}
+	f->p[f->count] = mr_vec(m[0] * x[0] + m[4] * x[1] + m[8] * x[2] + m[12],
+	    m[1] * x[0] + m[5] * x[1] + m[9] * x[2] + m[13],
+	    m[2] * x[0] + m[6] * x[1] + m[10] * x[2] + m[14]);
+	if (!mr_finite(f->p[f->count]))
+		return mr_text_fail(&f->text, where, "a coordinate is not finite");
+	for (size_t k = 0; k < 4; k++) {
+		double v = n < 7 || k == 3 ? 255 : x[4 + k];
+		f->color[4 * f->count + k] = (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
+	}
+	f->colored += n == 7;
+	f->count++;
+	return MR_OK;
+}
+
+mr_status
+mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	ptx f = { .ctx = ctx, .text = mr_text_of(ctx, data, size) };
+	scan s;
+
+	for (mr_skip_space(&f.text); f.text.p < f.text.end; mr_skip_space(&f.text)) {
+		MR_TRY(read_head(&f, &s));
+		MR_TRY(make_room(&f, (size_t)s.points));
+		for (uint64_t i = 0; i < s.points; i++)
+			MR_TRY(read_point(&f, &s));
+	}
+	if (f.empty)
+		mr_note(ctx, "%zu rays without an answer left out", f.empty);
+	*m = (mr_model){ .p = f.p, .nv = f.count, .color = f.colored ? f.color : NULL };
+	return MR_OK;
+}
+
+/* How many numbers the line has; 0 where it has anything else. */
+static size_t
+count_numbers(mr_text *text)
+{
+	mr_text line;
+	size_t n = 0;
+	double x;
+
+	if (!mr_text_line(text, &line))
+		return 0;
+	for (mr_skip_blanks(&line); line.p < line.end; mr_skip_blanks(&line), n++)
+		if (!(line.p = mr_real_read(line.p, line.end, &x)))
+			return 0;
+	return n;
+}
+
+bool
+mr_ptx_sniff(const unsigned char *data, size_t size)
+{
+	static const size_t expected[] = { 1, 1, 3, 3, 3, 3, 4, 4, 4, 4 };
+	mr_text text = mr_text_of(NULL, data, size);
+
+	for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
+		if (count_numbers(&text) != expected[i])
+			return false;
+	return true;
+}

@@ -1,0 +1,285 @@
+/*
+ * Stereolithography: triangles without connectivity, whose corners are joined where equal.  A binary file may
+ * begin with "solid", as a text does: its size tells, 84 bytes and 50 for each triangle.
+ */
+#include "formats/format.h"
+#include "mesh/repair.h"
+
+enum { HEADER = 84, RECORD = 50 };
+
+/* ---- what both have in common ---- */
+
+/* Joins equal corners; corner[] then holds the numbers of the vertices that are left in p. */
+static mr_status
+join_corners(mr_ctx *ctx, mr_v3 *p, size_t n, uint32_t *corner, size_t *nv)
+{
+	size_t next = 0;
+
+	MR_TRY(mr_weld(ctx, p, n, 0, corner, nv));
+	for (size_t i = 0; i < n; i++)
+		if (corner[i] == next)
+			p[next++] = p[i]; /* the first of its number; next <= i */
+	return MR_OK;
+}
+
+/* ---- binary ---- */
+
+static bool
+is_binary(const unsigned char *data, size_t size)
+{
+	return size >= HEADER && (size - HEADER) % RECORD == 0 &&
+	       (size - HEADER) / RECORD == mr_load32(data + 80, false);
+}
+
+static mr_status
+read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	size_t n = mr_load32(data + 80, false);
+	uint32_t *corner;
+	mr_v3 *p;
+
+	if (n > (size - HEADER) / RECORD)
+		return mr_fail(ctx, MR_EFORMAT,
+		    "byte 80: %zu triangles cannot be in the %zu bytes that follow", n, size - HEADER);
+	if (n > (MR_NONE - 1) / 3)
+		return mr_fail(ctx, MR_ERANGE, "%zu triangles are more than indices can name", n);
+	if (size - HEADER > n * RECORD)
+		mr_note(ctx, "%zu bytes behind the last triangle left out", size - HEADER - n * RECORD);
+	corner = MR_NEW(ctx, 3 * n, uint32_t);
+	p = MR_NEW(ctx, 3 * n, mr_v3);
+	if (!corner || !p)
+		return MR_EMEM;
+	for (size_t i = 0; i < 3 * n; i++) {
+		size_t at = HEADER + i / 3 * RECORD + 12 + i % 3 * 12;
+		p[i] = mr_vec((double)mr_load_float(data + at, false),
+		    (double)mr_load_float(data + at + 4, false), (double)mr_load_float(data + at + 8, false));
+		if (!mr_finite(p[i]))
+			return mr_fail(ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", at);
+	}
+	MR_TRY(join_corners(ctx, p, 3 * n, corner, &m->nv));
+	m->p = p;
+	m->t = (const mr_tri *)corner;
+	m->nf = n;
+	return MR_OK;
+}
+
+/* ---- text ---- */
+
+typedef struct ascii {
+	mr_text text;
+	mr_builder b;
+	mr_v3 *p; /* corners of all facets */
+	size_t corners, room;
+	size_t first;     /* corner of the facet at hand */
+	size_t solids;    /* so far */
+	const char *name; /* of the solid at hand */
+	size_t name_bytes;
+} ascii;
+
+/* Corners are vertices of their own until all are there; a facet is a face of them. */
+static mr_status
+end_facet(ascii *a, const mr_text *line)
+{
+	size_t n = a->corners - a->first;
+	uint32_t small[16], *c = small;
+
+	if (n < 3)
+		return mr_text_fail(&a->text, line->p, "a facet of %zu vertices", n);
+	if (n > 16 && !(c = MR_NEW(a->text.ctx, n, uint32_t)))
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		c[i] = (uint32_t)(a->first + i);
+	return mr_build_face(&a->b, c, n);
+}
+
+static mr_status
+add_vertex(ascii *a, mr_text *line)
+{
+	if (a->corners == a->room)
+		return mr_text_fail(&a->text, line->p, "more vertices than were counted");
+	return mr_text_position(line, &a->p[a->corners++]);
+}
+
+/* The statement of one line; *state is how deep it stands: 0 outside, 1 in a solid, 2 in a facet, 3 in a
+ * loop. */
+static mr_status
+statement(ascii *a, mr_text *line, int *state)
+{
+	static const struct {
+		const char *word;
+		int from, to;
+	} steps[] = { { "vertex", 3, 3 }, { "facet", 1, 2 }, { "outer", 2, 3 }, { "endloop", 3, 2 },
+		{ "endfacet", 2, 1 }, { "endsolid", 1, 0 }, { "solid", 0, 1 } };
+	char shown[MR_SHOWN];
+	const char *w = line->p;
+	size_t n = 0;
+
+	for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
+		if (!mr_text_accept(line, steps[i].word))
+			continue;
+		if (*state != steps[i].from)
+			return mr_text_fail(&a->text, line->p, "'%s' stands where it may not", steps[i].word);
+		*state = steps[i].to;
+		switch (i) {
+		case 0:
+			return add_vertex(a, line);
+		case 2:
+			a->first = a->corners;
+			return MR_OK;
+		case 3:
+			return end_facet(a, line);
+		case 6:
+			mr_skip_blanks(line);
+			a->solids++;
+			return a->solids > 1 || line->p < line->end
+			           ? mr_build_group(&a->b, line->p, (size_t)(line->end - line->p))
+			           : MR_OK;
+		default:
+			return MR_OK;
+		}
+	}
+	return mr_text_word(line, &w, &n)
+	           ? mr_text_fail(&a->text, w, "'%s' begins no statement of STL", mr_word_shown(w, n, shown))
+	           : MR_OK;
+}
+
+/* How many vertices there can be, by the word that begins each. */
+static size_t
+count_vertices(const mr_text *t)
+{
+	mr_text text = *t, line;
+	size_t n = 0;
+
+	while (mr_text_line(&text, &line))
+		n += mr_text_accept(&line, "vertex");
+	return n;
+}
+
+static mr_status
+read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	ascii a = { .text = mr_text_of(ctx, data, size), .b = { .ctx = ctx } };
+	uint32_t *map;
+	mr_text line;
+	int state = 0;
+	size_t nv;
+
+	a.room = count_vertices(&a.text);
+	MR_TRY(mr_build_vertices(&a.b, a.room));
+	MR_TRY(mr_build_reserve(&a.b, a.room / 3));
+	a.p = a.b.p;
+	while (mr_text_line(&a.text, &line))
+		MR_TRY(statement(&a, &line, &state));
+	if (state)
+		return mr_text_fail(&a.text, a.text.end, "the file ends inside a solid");
+	if (!(map = MR_NEW(ctx, a.corners, uint32_t)))
+		return MR_EMEM;
+	MR_TRY(join_corners(ctx, a.p, a.corners, map, &nv));
+	for (size_t i = 0; i < a.b.corners; i++)
+		a.b.corner[i] = map[a.b.corner[i]];
+	a.b.nv = nv;
+	if (a.solids < 2)
+		a.b.has_groups = false; /* one name for all says nothing of the faces */
+	return mr_build_finish(&a.b, m);
+}
+
+/* ---- the table's ---- */
+
+/* A text: "solid", and in the first lines a facet or the end. */
+static bool
+is_text(const unsigned char *data, size_t size)
+{
+	mr_text text = mr_text_of(NULL, data, size), line;
+
+	if (memchr(data, 0, size < 256 ? size : 256) || !mr_text_accept(&text, "solid"))
+		return false;
+	mr_text_line(&text, &line);
+	return mr_text_accept(&text, "facet") || mr_text_accept(&text, "endsolid") ||
+	       mr_text_accept(&text, "solid");
+}
+
+bool
+mr_stl_sniff(const unsigned char *data, size_t size)
+{
+	return is_binary(data, size) || is_text(data, size);
+}
+
+mr_status
+mr_stl_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	mr_text text = mr_text_of(ctx, data, size);
+
+	if (!is_binary(data, size) &&
+	    (is_text(data, size) || (mr_text_accept(&text, "solid") && !memchr(data, 0, size))))
+		return read_ascii(ctx, data, size, m);
+	if (size < HEADER)
+		return mr_fail(
+		    ctx, MR_EFORMAT, "byte %zu: the file ends in its header of %d bytes", size, (int)HEADER);
+	return read_binary(ctx, data, size, m);
+}
+
+static mr_v3
+unit_normal(const mr_model *m, size_t f)
+{
+	const uint32_t *v = m->t[f].v;
+	mr_v3 a = m->p[v[0]], n = mr_unit(mr_cross(mr_sub(m->p[v[1]], a), mr_sub(m->p[v[2]], a)));
+
+	return mr_finite(n) ? n : mr_vec(0, 0, 0);
+}
+
+static mr_status
+need_faces(mr_sink *s, const mr_model *m)
+{
+	mr_note_lost(s->ctx, m, MR_KEEPS_FACES);
+	return m->nf ? MR_OK
+	             : mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
+}
+
+static char *
+put_floats(char *to, mr_v3 a)
+{
+	to = mr_store_float(to, (float)a.x, false);
+	to = mr_store_float(to, (float)a.y, false);
+	return mr_store_float(to, (float)a.z, false);
+}
+
+mr_status
+mr_stl_write(mr_sink *s, const mr_model *m)
+{
+	char header[80] = "binary STL";
+
+	MR_TRY(need_faces(s, m));
+	MR_TRY(mr_note_rounded(s->ctx, m));
+	mr_put(s, header, sizeof header);
+	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)m->nf, false));
+	for (size_t f = 0; f < m->nf; f++) {
+		char *to = put_floats(mr_sink_room(s), unit_normal(m, f));
+		for (int k = 0; k < 3; k++)
+			to = put_floats(to, m->p[m->t[f].v[k]]);
+		*to++ = 0;
+		*to++ = 0;
+		mr_sink_fill(s, to);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_stl_write_ascii(mr_sink *s, const mr_model *m)
+{
+	MR_TRY(need_faces(s, m));
+	mr_print(s, "solid mr\n");
+	for (size_t f = 0; f < m->nf; f++) {
+		mr_v3 n = unit_normal(m, f);
+		mr_print(s, "facet normal ");
+		mr_put_reals(
+		    s, (double[]){ (double)(float)n.x, (double)(float)n.y, (double)(float)n.z }, 3, '\n');
+		mr_print(s, "outer loop\n");
+		for (int k = 0; k < 3; k++) {
+			mr_put(s, "vertex ", 7);
+			mr_put_reals(s, &m->p[m->t[f].v[k]].x, 3, '\n');
+		}
+		mr_print(s, "endloop\nendfacet\n");
+	}
+	mr_print(s, "endsolid mr\n");
+	return MR_OK;
+}

@@ -1,0 +1,413 @@
+/*
+ * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  Columns are told apart by names where
+ * there are any, else by their number: 3 position; 4, 5 position and what we do not know; 6 normal, or colour
+ * where all are whole numbers of 0 to 255 and some beyond 1; 7 intensity and colour, or colour and something;
+ * 9 and more colour and normal in either order.  A first line with one whole number is the number of points;
+ * twice as many rows of three are points, then normals.
+ */
+#include "formats/format.h"
+
+typedef enum role { SKIP, X, Y, Z, NX, NY, NZ, RED, GREEN, BLUE, ALPHA, ROLES } role;
+
+enum { COLUMNS = 64 };
+
+typedef struct table {
+	mr_ctx *ctx;
+	mr_text text;
+	bool named;      /* a line of names gave the roles */
+	bool in_comment; /* and was a comment: it may speak of something else */
+	bool counted;
+	uint64_t count; /* as the file claims */
+	size_t columns, rows;
+	role role[COLUMNS];
+	bool byte[COLUMNS]; /* every value a whole number of 0 to 255 */
+	bool beyond_one[COLUMNS];
+	const char *first_row; /* for sentences */
+} table;
+
+static bool
+separates(char c)
+{
+	return mr_is_blank(c) || c == ',' || c == ';';
+}
+
+static void
+skip_separators(mr_text *line)
+{
+	while (line->p < line->end && separates(*line->p))
+		line->p++;
+}
+
+static bool
+is_comment(const mr_text *line)
+{
+	return line->p == line->end || *line->p == '#' || *line->p == '%' || *line->p == '!' ||
+	       (line->end - line->p >= 2 && line->p[0] == '/' && line->p[1] == '/');
+}
+
+/* The next line that says something, without leading blanks. */
+static bool
+next_row(mr_text *text, mr_text *line)
+{
+	while (mr_text_line(text, line)) {
+		mr_skip_blanks(line);
+		if (!is_comment(line))
+			return true;
+	}
+	return false;
+}
+
+/* ---- a line of names ---- */
+
+static role
+role_of(const char *w, size_t n)
+{
+	static const struct {
+		const char *name;
+		role role;
+	} roles[] = { { "x", X }, { "y", Y }, { "z", Z }, { "nx", NX }, { "ny", NY }, { "nz", NZ },
+		{ "normalx", NX }, { "normaly", NY }, { "normalz", NZ }, { "normal_x", NX },
+		{ "normal_y", NY }, { "normal_z", NZ }, { "r", RED }, { "g", GREEN }, { "b", BLUE },
+		{ "a", ALPHA }, { "red", RED }, { "green", GREEN }, { "blue", BLUE }, { "alpha", ALPHA } };
+	char lower[16];
+
+	if (n >= sizeof lower)
+		return SKIP;
+	for (size_t i = 0; i < n; i++)
+		lower[i] = (char)(w[i] >= 'A' && w[i] <= 'Z' ? w[i] + ('a' - 'A') : w[i]);
+	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
+		if (strlen(roles[i].name) == n && !memcmp(lower, roles[i].name, n))
+			return roles[i].role;
+	return SKIP;
+}
+
+/* Reads names with or without quotes; the number of columns, or 0 where x, y and z are not all there. */
+static size_t
+names(mr_text line, role r[COLUMNS])
+{
+	bool there[ROLES] = { false };
+	size_t n = 0;
+
+	for (skip_separators(&line); line.p < line.end && n < COLUMNS; skip_separators(&line)) {
+		const char *w = line.p, *e;
+		if (*w == '"') {
+			w++;
+			e = memchr(w, '"', (size_t)(line.end - w));
+			if (!e)
+				return 0;
+			line.p = e + 1;
+		} else {
+			while (line.p < line.end && !separates(*line.p))
+				line.p++;
+			e = line.p;
+		}
+		r[n] = role_of(w, (size_t)(e - w));
+		if (there[r[n]])
+			r[n] = SKIP; /* the first of a name counts */
+		there[r[n++]] = true;
+	}
+	return there[X] && there[Y] && there[Z] ? n : 0;
+}
+
+/* ---- rows ---- */
+
+static mr_status
+bad_word(const table *t, const mr_text *line)
+{
+	char shown[MR_SHOWN];
+	const char *e = line->p;
+
+	while (e < line->end && !separates(*e))
+		e++;
+	return mr_text_fail(
+	    &t->text, line->p, "'%s' is not a number", mr_word_shown(line->p, (size_t)(e - line->p), shown));
+}
+
+/* The numbers of a row; NAN for words such as nan. */
+static mr_status
+row_values(const table *t, mr_text *line, double x[COLUMNS], size_t *count)
+{
+	size_t n = 0;
+
+	for (skip_separators(line); line->p < line->end && *line->p != '#'; skip_separators(line)) {
+		double value;
+		const char *e = mr_real_read(line->p, line->end, &value);
+		if (!e || (e < line->end && !separates(*e))) {
+			for (e = line->p; e < line->end && !separates(*e); e++)
+				;
+			if (!mr_word_not_finite(line->p, (size_t)(e - line->p)))
+				return bad_word(t, line);
+			value = NAN;
+		}
+		if (n == COLUMNS)
+			return mr_text_fail(&t->text, line->p, "more than %d columns", (int)COLUMNS);
+		x[n++] = value;
+		line->p = e;
+	}
+	*count = n;
+	return MR_OK;
+}
+
+static bool
+is_one_count(mr_text line, uint64_t *n)
+{
+	uint64_t value = 0;
+	const char *p = line.p;
+
+	while (line.p < line.end && mr_is_digit(*line.p) && value < UINT64_MAX / 16)
+		value = 10 * value + (uint64_t)(*line.p++ - '0');
+	if (line.p == p)
+		return false;
+	mr_skip_blanks(&line);
+	if (line.p < line.end)
+		return false;
+	*n = value;
+	return true;
+}
+
+/* The lines before the rows: comments that name columns, names, a count. */
+static mr_status
+read_head(table *t)
+{
+	mr_text ahead = t->text, line;
+
+	while (mr_text_line(&ahead, &line)) {
+		mr_skip_blanks(&line);
+		if (is_comment(&line)) {
+			mr_text rest = line;
+			while (rest.p < rest.end && (*rest.p == '#' || *rest.p == '/'))
+				rest.p++;
+			t->columns = names(rest, t->role);
+			t->named = t->in_comment = t->columns > 0;
+			if (!t->named) {
+				t->text.p = ahead.p;
+				continue;
+			}
+		} else if (is_one_count(line, &t->count))
+			t->counted = true;
+		else if ((t->columns = names(line, t->role)) > 0)
+			t->named = true;
+		else
+			return MR_OK;
+		t->text.p = ahead.p;
+		if (t->named)
+			return MR_OK;
+	}
+	return MR_OK;
+}
+
+/* Looks at all rows: how many, of how many columns, and which could be colours. */
+static mr_status
+survey(table *t)
+{
+	mr_text text = t->text, line;
+	double x[COLUMNS];
+	size_t n = 0;
+
+	for (size_t i = 0; i < COLUMNS; i++)
+		t->byte[i] = true;
+	while (next_row(&text, &line)) {
+		const char *where = line.p;
+		MR_TRY(row_values(t, &line, x, &n));
+		if (t->rows == 0) {
+			t->first_row = where;
+			if (n < 3)
+				return mr_text_fail(
+				    &t->text, where, "%zu columns, where a point has 3 at least", n);
+			if (t->in_comment && n != t->columns)
+				t->named = false;
+			if (t->named && n != t->columns)
+				return mr_text_fail(
+				    &t->text, where, "%zu columns, where %zu are named", n, t->columns);
+			t->columns = n;
+		}
+		if (n != t->columns)
+			return mr_text_fail(&t->text, where, "%zu columns, where line %zu has %zu", n,
+			    mr_text_number(&t->text, t->first_row), t->columns);
+		for (size_t i = 3; i < n; i++) {
+			t->byte[i] = t->byte[i] && x[i] >= 0 && x[i] <= 255 && x[i] == floor(x[i]);
+			t->beyond_one[i] = t->beyond_one[i] || x[i] > 1;
+		}
+		t->rows++;
+	}
+	if (t->counted && t->rows < t->count)
+		return mr_text_fail(&t->text, t->text.end, "the file ends after %zu of %llu points", t->rows,
+		    (unsigned long long)t->count);
+	return MR_OK;
+}
+
+static bool
+could_be_color(const table *t, size_t i)
+{
+	return t->byte[i] && t->byte[i + 1] && t->byte[i + 2] &&
+	       (t->beyond_one[i] || t->beyond_one[i + 1] || t->beyond_one[i + 2]);
+}
+
+static void
+assign(table *t, size_t at, role first)
+{
+	for (size_t k = 0; k < 3; k++)
+		t->role[at + k] = (role)(first + (role)k);
+}
+
+/* What the columns are, where no names tell. */
+static void
+guess_roles(table *t)
+{
+	size_t n = t->columns;
+
+	memset(t->role, 0, sizeof t->role);
+	assign(t, 0, X);
+	if (n == 6)
+		assign(t, 3, could_be_color(t, 3) ? RED : NX);
+	else if (n == 7 && (t->counted ? t->byte[4] && t->byte[5] && t->byte[6]
+				       : could_be_color(t, 4) && !could_be_color(t, 3)))
+		assign(t, 4, RED);
+	else if (n == 7 && could_be_color(t, 3))
+		assign(t, 3, RED);
+	else if (n >= 9 && could_be_color(t, 3)) {
+		assign(t, 3, RED);
+		assign(t, 6, NX);
+	} else if (n >= 9) {
+		assign(t, 3, NX);
+		if (could_be_color(t, 6))
+			assign(t, 6, RED);
+	}
+}
+
+/* ---- the model ---- */
+
+static size_t
+column_of(const table *t, role r)
+{
+	for (size_t i = 0; i < t->columns; i++)
+		if (t->role[i] == r)
+			return i;
+	return COLUMNS;
+}
+
+static bool
+has_three(const table *t, role first)
+{
+	return column_of(t, first) < COLUMNS && column_of(t, (role)(first + 1)) < COLUMNS &&
+	       column_of(t, (role)(first + 2)) < COLUMNS;
+}
+
+/* In 255ths where the columns are whole, else in shares of one. */
+static unsigned char
+color_byte(const table *t, const double *x, role r)
+{
+	size_t red = column_of(t, RED), at = column_of(t, r);
+	bool shares = !(t->byte[red] && t->byte[column_of(t, GREEN)] && t->byte[column_of(t, BLUE)]) &&
+	              !(t->beyond_one[red] || t->beyond_one[column_of(t, GREEN)] ||
+			  t->beyond_one[column_of(t, BLUE)]);
+	double v = at == COLUMNS ? 255 : shares ? 255 * x[at] : x[at];
+
+	return (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
+}
+
+static mr_v3
+three(const table *t, const double *x, role first)
+{
+	return mr_vec(
+	    x[column_of(t, first)], x[column_of(t, (role)(first + 1))], x[column_of(t, (role)(first + 2))]);
+}
+
+/* Twice as many rows of three as counted: the second half are normals. */
+static bool
+halves(const table *t)
+{
+	return t->counted && t->columns == 3 && t->count > 0 && t->rows == 2 * t->count;
+}
+
+static bool
+useful(const mr_v3 *n, size_t count, mr_ctx *ctx)
+{
+	bool any = false;
+
+	for (size_t i = 0; i < count; i++) {
+		if (!mr_finite(n[i])) {
+			mr_build_dropped(ctx, "normals", "one is not a finite number");
+			return false;
+		}
+		any |= mr_norm2(n[i]) > 0;
+	}
+	if (!any)
+		mr_build_dropped(ctx, "normals", "all are zero");
+	return any;
+}
+
+static mr_status
+fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
+{
+	mr_text text = t->text, line;
+	double x[COLUMNS];
+	size_t n = 0;
+
+	for (size_t i = 0; next_row(&text, &line); i++) {
+		const char *where = line.p;
+		MR_TRY(row_values(t, &line, x, &n));
+		p[i] = three(t, x, X);
+		if (!mr_finite(p[i]))
+			return mr_text_fail(&t->text, where, "a coordinate is not finite");
+		if (normal)
+			normal[i] = three(t, x, NX);
+		for (size_t k = 0; color && k < 4; k++)
+			color[4 * i + k] = color_byte(t, x, (role)(RED + (role)k));
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	table t = { .ctx = ctx, .text = mr_text_of(ctx, data, size) };
+	mr_v3 *p, *normal = NULL;
+	unsigned char *color = NULL;
+	size_t n;
+
+	MR_TRY(read_head(&t));
+	MR_TRY(survey(&t));
+	if (!t.named)
+		guess_roles(&t);
+	p = MR_NEW(ctx, t.rows, mr_v3);
+	if (!p || (has_three(&t, NX) && !(normal = MR_NEW(ctx, t.rows, mr_v3))) ||
+	    (has_three(&t, RED) && !(color = mr_alloc(ctx, t.rows, 4))))
+		return MR_EMEM;
+	MR_TRY(fill(&t, p, normal, color));
+	n = halves(&t) ? t.rows / 2 : t.rows;
+	if (halves(&t))
+		normal = p + n;
+	else if (t.counted && t.rows > t.count)
+		mr_note(ctx, "%zu points, where the file counts %llu", t.rows, (unsigned long long)t.count);
+	if (normal && n && !useful(normal, n, ctx))
+		normal = NULL;
+	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color };
+	return MR_OK;
+}
+
+/* The first line that says something is numbers, one or three and more, or names with x, y and z among them.
+ */
+bool
+mr_xyz_sniff(const unsigned char *data, size_t size)
+{
+	mr_text text = mr_text_of(NULL, data, size), line;
+	role r[COLUMNS];
+	size_t n = 0;
+	uint64_t count;
+
+	if (memchr(data, 0, size < 4096 ? size : 4096) || !next_row(&text, &line))
+		return false;
+	if (is_one_count(line, &count) && !next_row(&text, &line))
+		return false;
+	if (names(line, r))
+		return true;
+	for (skip_separators(&line); line.p < line.end; n++, skip_separators(&line)) {
+		double x;
+		const char *e = mr_real_read(line.p, line.end, &x);
+		if (!e || (e < line.end && !separates(*e)))
+			return false;
+		line.p = e;
+	}
+	return n >= 3;
+}

@@ -1,0 +1,54 @@
+/* Points in columns, written: XYZ (position, normal, colour), PTS (a count, position, intensity, colour), PWN
+ * (position, normal). */
+#include "formats/format.h"
+
+static void
+put_color(mr_sink *s, const unsigned char *c)
+{
+	mr_print(s, "%d %d %d\n", c[0], c[1], c[2]);
+}
+
+/* Colours are announced by a line of names, since columns of whole numbers may be anything. */
+mr_status
+mr_xyz_write(mr_sink *s, const mr_model *m)
+{
+	mr_note_lost(s->ctx, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
+	if (m->color)
+		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
+	for (size_t i = 0; i < m->nv; i++) {
+		mr_put_reals(s, &m->p[i].x, 3, m->normal || m->color ? ' ' : '\n');
+		if (m->normal)
+			mr_put_reals(s, &m->normal[i].x, 3, m->color ? ' ' : '\n');
+		if (m->color)
+			put_color(s, m->color + 4 * i);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_pts_write(mr_sink *s, const mr_model *m)
+{
+	mr_note_lost(s->ctx, m, MR_KEEPS_COLOR);
+	mr_print(s, "%zu\n", m->nv);
+	for (size_t i = 0; i < m->nv; i++) {
+		mr_put_reals(s, &m->p[i].x, 3, m->color ? ' ' : '\n');
+		if (m->color) {
+			mr_put(s, "0 ", 2);
+			put_color(s, m->color + 4 * i);
+		}
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_pwn_write(mr_sink *s, const mr_model *m)
+{
+	if (!m->normal)
+		return mr_fail(s->ctx, MR_EMISSING, "pwn is points with normals, and there are no normals");
+	mr_note_lost(s->ctx, m, MR_KEEPS_NORMAL);
+	for (size_t i = 0; i < m->nv; i++) {
+		mr_put_reals(s, &m->p[i].x, 3, ' ');
+		mr_put_reals(s, &m->normal[i].x, 3, '\n');
+	}
+	return MR_OK;
+}

@@ -1,0 +1,289 @@
+/*
+ * Ear clipping: G. H. Meisters, Polygons have ears, American Mathematical Monthly 82, 1975; only reflex
+ * corners can lie in an ear (D. Eberly, Triangulation by ear clipping), and a grid over them keeps polygons
+ * of many corners quick.  The polygon is seen along the axis nearest to its Newell normal: coordinates are
+ * dropped, not rotated, so that no sign is spoilt by rounding them.
+ */
+#include "mesh/polygon.h"
+
+typedef struct point {
+	double x, y;
+} point;
+
+typedef struct grid {
+	uint32_t *start;  /* cells + 1 */
+	uint32_t *member; /* corners of each cell, by index */
+	size_t nx, ny;
+	double x0, y0, sx, sy; /* cells per unit */
+} grid;
+
+typedef struct polygon {
+	const uint32_t *corner;
+	size_t n;
+	point *q;              /* projected, counter-clockwise */
+	uint32_t *next, *prev; /* of the corners not clipped yet */
+	bool *reflex;          /* reflex or straight, and not clipped */
+	grid g;
+} polygon;
+
+/* Twice the signed area of a b c. */
+static double
+cross(point a, point b, point c)
+{
+	return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/* The sum of cross products of successive corners, seen from the first: twice area times normal. */
+static mr_v3
+newell(const mr_v3 *p, const uint32_t *corner, size_t n)
+{
+	mr_v3 sum = { 0, 0, 0 }, o = p[corner[0]];
+
+	for (size_t i = 1; i + 1 < n; i++)
+		sum = mr_add(sum, mr_cross(mr_sub(p[corner[i]], o), mr_sub(p[corner[i + 1]], o)));
+	return sum;
+}
+
+/* Drops the coordinate along which the normal is longest, keeping the polygon counter-clockwise. */
+static void
+project(polygon *g, const mr_v3 *p, mr_v3 normal)
+{
+	double x = fabs(normal.x), y = fabs(normal.y), z = fabs(normal.z);
+
+	for (size_t i = 0; i < g->n; i++) {
+		mr_v3 a = p[g->corner[i]];
+		double s = a.x, t = a.y;
+		bool flip = normal.z < 0;
+		if (x > y && x > z) {
+			s = a.y, t = a.z;
+			flip = normal.x < 0;
+		} else if (y > z) {
+			s = a.z, t = a.x;
+			flip = normal.y < 0;
+		}
+		g->q[i] = flip ? (point){ t, s } : (point){ s, t };
+	}
+}
+
+static void
+emit(const polygon *g, mr_tri *t, size_t i, size_t j, size_t k)
+{
+	*t = (mr_tri){ { g->corner[i], g->corner[j], g->corner[k] } };
+}
+
+static void
+fan(const polygon *g, size_t first, mr_tri *t)
+{
+	for (size_t i = 1; i + 1 < g->n; i++)
+		emit(g, t++, first, (first + i) % g->n, (first + i + 1) % g->n);
+}
+
+/* The first corner whose fan has triangles of positive area only, all corners being convex; n where there is
+ * none. */
+static size_t
+fan_corner(const polygon *g)
+{
+	size_t n = g->n;
+
+	for (size_t i = 0; i < n; i++)
+		if (cross(g->q[i], g->q[(i + 1) % n], g->q[(i + 2) % n]) < 0)
+			return n;
+	for (size_t first = 0; first < n && first < 4; first++) {
+		size_t i = 1;
+		while (i + 1 < n && cross(g->q[first], g->q[(first + i) % n], g->q[(first + i + 1) % n]) > 0)
+			i++;
+		if (i + 1 == n)
+			return first;
+	}
+	return n;
+}
+
+static size_t
+cell_of(double v, double origin, double scale, size_t cells)
+{
+	double c = (v - origin) * scale;
+
+	return !(c > 0) ? 0 : c >= (double)cells ? cells - 1 : (size_t)c;
+}
+
+/* Sorts the reflex corners into cells, about one to a cell. */
+static mr_status
+grid_build(mr_ctx *ctx, polygon *g)
+{
+	point low = g->q[0], high = g->q[0];
+	size_t reflex = 0, cells;
+	grid *h = &g->g;
+
+	for (size_t i = 0; i < g->n; i++) {
+		point a = g->q[i];
+		low = (point){ a.x < low.x ? a.x : low.x, a.y < low.y ? a.y : low.y };
+		high = (point){ a.x > high.x ? a.x : high.x, a.y > high.y ? a.y : high.y };
+		reflex += g->reflex[i];
+	}
+	h->nx = h->ny = 1 + (size_t)sqrt((double)reflex);
+	cells = h->nx * h->ny;
+	h->x0 = low.x, h->y0 = low.y;
+	h->sx = high.x > low.x ? (double)h->nx / (high.x - low.x) : 0;
+	h->sy = high.y > low.y ? (double)h->ny / (high.y - low.y) : 0;
+	h->start = MR_NEW_ZERO(ctx, cells + 1, uint32_t);
+	h->member = MR_NEW(ctx, reflex, uint32_t);
+	if (!h->start || !h->member)
+		return MR_EMEM;
+	for (int pass = 0; pass < 2; pass++) {
+		for (size_t i = g->n; i-- > 0;) {
+			size_t c;
+			if (!g->reflex[i])
+				continue;
+			c = cell_of(g->q[i].y, h->y0, h->sy, h->ny) * h->nx +
+			    cell_of(g->q[i].x, h->x0, h->sx, h->nx);
+			if (pass == 0)
+				h->start[c]++;
+			else
+				h->member[--h->start[c]] = (uint32_t)i;
+		}
+		for (size_t c = 0; pass == 0 && c < cells; c++)
+			h->start[c + 1] += h->start[c];
+	}
+	return MR_OK;
+}
+
+static bool
+same(point a, point b)
+{
+	return a.x == b.x && a.y == b.y;
+}
+
+/* True where a reflex corner lies in the closed triangle, other than at its corners. */
+static bool
+holds_corner(const polygon *g, point a, point b, point c)
+{
+	const grid *h = &g->g;
+	double x0 = fmin(a.x, fmin(b.x, c.x)), x1 = fmax(a.x, fmax(b.x, c.x));
+	double y0 = fmin(a.y, fmin(b.y, c.y)), y1 = fmax(a.y, fmax(b.y, c.y));
+	size_t i0 = cell_of(x0, h->x0, h->sx, h->nx), i1 = cell_of(x1, h->x0, h->sx, h->nx);
+	size_t j1 = cell_of(y1, h->y0, h->sy, h->ny);
+
+	for (size_t j = cell_of(y0, h->y0, h->sy, h->ny); j <= j1; j++) {
+		uint32_t end = h->start[j * h->nx + i1 + 1];
+		for (uint32_t m = h->start[j * h->nx + i0]; m < end; m++) {
+			point q = g->q[h->member[m]];
+			if (g->reflex[h->member[m]] && q.x >= x0 && q.x <= x1 && q.y >= y0 && q.y <= y1 &&
+			    cross(a, b, q) >= 0 && cross(b, c, q) >= 0 && cross(c, a, q) >= 0 &&
+			    !same(q, a) && !same(q, b) && !same(q, c))
+				return true;
+		}
+	}
+	return false;
+}
+
+static bool
+is_ear(const polygon *g, size_t i)
+{
+	point a = g->q[g->prev[i]], b = g->q[i], c = g->q[g->next[i]];
+
+	return cross(a, b, c) > 0 && !holds_corner(g, a, b, c);
+}
+
+static void
+clip(polygon *g, size_t i, mr_tri *t)
+{
+	uint32_t a = g->prev[i], c = g->next[i];
+
+	emit(g, t, a, i, c);
+	g->next[a] = c;
+	g->prev[c] = a;
+	g->reflex[i] = false;
+	if (g->reflex[a])
+		g->reflex[a] = cross(g->q[g->prev[a]], g->q[a], g->q[c]) <= 0;
+	if (g->reflex[c])
+		g->reflex[c] = cross(g->q[a], g->q[c], g->q[g->next[c]]) <= 0;
+}
+
+/* The corner left that turns least. */
+static size_t
+flattest(const polygon *g, size_t i, size_t left)
+{
+	size_t best = i;
+	double least = INFINITY;
+
+	for (; left > 0; left--, i = g->next[i]) {
+		double turn = fabs(cross(g->q[g->prev[i]], g->q[i], g->q[g->next[i]]));
+		if (turn < least) {
+			least = turn;
+			best = i;
+		}
+	}
+	return best;
+}
+
+/*
+ * Clips ears, skipping a corner after each so that they do not all share one.  Where a whole round finds
+ * none, the polygon is not simple: then the corner that turns least goes, and after some of these the rest
+ * becomes a fan.
+ */
+static void
+clip_ears(polygon *g, mr_tri *t)
+{
+	enum { PATIENCE = 64 };
+	size_t since = 0, forced = 0, i = 0;
+
+	for (size_t left = g->n; left > 3;) {
+		size_t ear = i;
+		if (forced == PATIENCE)
+			ear = g->next[i];
+		else if (!is_ear(g, i)) {
+			i = g->next[i];
+			if (++since <= left)
+				continue;
+			forced++;
+			ear = flattest(g, i, left);
+		}
+		i = forced == PATIENCE ? i : g->next[g->next[ear]];
+		clip(g, ear, t++);
+		left--;
+		since = 0;
+	}
+	emit(g, t, g->prev[i], i, g->next[i]);
+}
+
+static mr_status
+ears(mr_ctx *ctx, polygon *g, mr_tri *t)
+{
+	size_t n = g->n;
+
+	g->next = MR_NEW(ctx, n, uint32_t);
+	g->prev = MR_NEW(ctx, n, uint32_t);
+	g->reflex = MR_NEW(ctx, n, bool);
+	if (!g->next || !g->prev || !g->reflex)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		g->next[i] = (uint32_t)((i + 1) % n);
+		g->prev[i] = (uint32_t)((i + n - 1) % n);
+		g->reflex[i] = cross(g->q[(i + n - 1) % n], g->q[i], g->q[(i + 1) % n]) <= 0;
+	}
+	MR_TRY(grid_build(ctx, g));
+	clip_ears(g, t);
+	return MR_OK;
+}
+
+mr_status
+mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t)
+{
+	point small[32];
+	polygon g = { .corner = corner, .n = n, .q = small };
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 normal = newell(p, corner, n);
+	mr_status status = MR_OK;
+	size_t first;
+
+	if (n > sizeof small / sizeof *small && !(g.q = MR_NEW(ctx, n, point)))
+		return MR_EMEM;
+	project(&g, p, normal);
+	first = mr_norm2(normal) > 0 ? fan_corner(&g) : 0;
+	if (first < n)
+		fan(&g, first, t);
+	else
+		status = ears(ctx, &g, t);
+	mr_mark_release(ctx, mark);
+	return status;
+}

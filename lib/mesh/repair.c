@@ -1,0 +1,498 @@
+/*
+ * A manifold of any set of triangles, by cutting: A. Gueziec, G. Taubin, F. Lazarus, B. Horn, Cutting and
+ * stitching: converting sets of polygons to manifold surfaces, IEEE TVCG 7(2), 2001.  Half-edges are paired
+ * where the surface goes on across an edge; the corners of a vertex that pairs connect are one vertex of the
+ * result.
+ */
+#include "mesh/repair.h"
+
+typedef struct surface {
+	mr_ctx *ctx;
+	const mr_mesh *m;
+	mr_tri *t;         /* faces that are kept, turned as the result has them */
+	uint32_t *face_of; /* and where they come from */
+	size_t nf;
+	uint32_t *pair; /* 3 nf: the half-edge across, in either direction; MR_NONE at a border */
+	uint32_t *edge; /* 3 nf half-edges, those of an edge beside each other, in order of index */
+	uint32_t *root; /* 3 nf: union-find of corners */
+	mr_repair_report r;
+} surface;
+
+static uint32_t
+from(const surface *s, uint32_t h)
+{
+	return s->t[h / 3].v[h % 3];
+}
+
+static uint32_t
+to(const surface *s, uint32_t h)
+{
+	return s->t[h / 3].v[(h + 1) % 3];
+}
+
+/* ---- faces to keep ---- */
+
+static bool
+degenerate(const mr_mesh *m, size_t f)
+{
+	const uint32_t *v = m->t[f].v;
+
+	return v[0] == v[1] || v[1] == v[2] || v[2] == v[0] || mr_norm2(mr_face_cross(m, f)) == 0;
+}
+
+/* The three vertices in order. */
+static mr_tri
+sorted(mr_tri t)
+{
+	uint32_t a = t.v[0], b = t.v[1], c = t.v[2], x;
+
+	if (a > b)
+		x = a, a = b, b = x;
+	if (b > c)
+		x = b, b = c, c = x;
+	if (a > b)
+		x = a, a = b, b = x;
+	return (mr_tri){ { a, b, c } };
+}
+
+static size_t
+hash3(mr_tri t)
+{
+	uint64_t h = (uint64_t)t.v[0] << 32 | t.v[1];
+
+	h = (h ^ h >> 31) * 0x9e3779b97f4a7c15u;
+	h = (h ^ t.v[2] ^ h >> 29) * 0xbf58476d1ce4e5b9u;
+	return (size_t)(h ^ h >> 32);
+}
+
+static mr_status
+keep_faces(surface *s)
+{
+	size_t mask = 64;
+	uint32_t *slot;
+	mr_mark mark;
+
+	s->t = MR_NEW(s->ctx, s->m->nf, mr_tri);
+	s->face_of = MR_NEW(s->ctx, s->m->nf, uint32_t);
+	mark = mr_mark_take(s->ctx);
+	while (mask < 2 * s->m->nf)
+		mask *= 2;
+	slot = MR_NEW_ZERO(s->ctx, mask--, uint32_t); /* number of a kept face + 1 */
+	if (!s->t || !s->face_of || !slot)
+		return MR_EMEM;
+	for (size_t f = 0; f < s->m->nf; f++) {
+		mr_tri key = sorted(s->m->t[f]), other;
+		size_t at = hash3(key) & mask;
+		if (degenerate(s->m, f)) {
+			s->r.degenerate++;
+			continue;
+		}
+		for (; slot[at]; at = (at + 1) & mask) {
+			other = sorted(s->t[slot[at] - 1]);
+			if (!memcmp(&other, &key, sizeof key))
+				break;
+		}
+		if (slot[at]) {
+			s->r.duplicate++;
+			continue;
+		}
+		s->t[s->nf] = s->m->t[f];
+		s->face_of[s->nf++] = (uint32_t)f;
+		slot[at] = (uint32_t)s->nf;
+	}
+	mr_mark_release(s->ctx, mark);
+	return MR_OK;
+}
+
+/* ---- edges ---- */
+
+static uint32_t
+low_end(const surface *s, uint32_t h)
+{
+	uint32_t a = from(s, h), b = to(s, h);
+
+	return a < b ? a : b;
+}
+
+static uint32_t
+high_end(const surface *s, uint32_t h)
+{
+	uint32_t a = from(s, h), b = to(s, h);
+
+	return a < b ? b : a;
+}
+
+/* Sorts half-edges by an end, keeping the order of equals; `old` NULL: in order of index. */
+static void
+sort_pass(const surface *s, const uint32_t *old, uint32_t *new, uint32_t *start, size_t nv,
+    uint32_t (*end)(const surface *, uint32_t))
+{
+	size_t n = 3 * s->nf;
+
+	memset(start, 0, (nv + 1) * sizeof *start);
+	for (uint32_t h = 0; h < n; h++)
+		start[end(s, h) + 1]++;
+	for (size_t i = 0; i < nv; i++)
+		start[i + 1] += start[i];
+	for (uint32_t i = 0; i < n; i++) {
+		uint32_t h = old ? old[i] : i;
+		new[start[end(s, h)]++] = h;
+	}
+}
+
+static mr_status
+sort_edges(surface *s, size_t nv)
+{
+	mr_mark mark = mr_mark_take(s->ctx);
+	uint32_t *first = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
+	uint32_t *start = MR_NEW(s->ctx, nv + 1, uint32_t);
+
+	if (!first || !start)
+		return MR_EMEM;
+	sort_pass(s, NULL, first, start, nv, high_end);
+	sort_pass(s, first, s->edge, start, nv, low_end);
+	mr_mark_release(s->ctx, mark);
+	return MR_OK;
+}
+
+/* The end of the half-edges that share the edge of edge[i]. */
+static size_t
+edge_end(const surface *s, size_t i)
+{
+	size_t j = i + 1;
+
+	while (j < 3 * s->nf && low_end(s, s->edge[j]) == low_end(s, s->edge[i]) &&
+	       high_end(s, s->edge[j]) == high_end(s, s->edge[i]))
+		j++;
+	return j;
+}
+
+static void
+join(surface *s, uint32_t h, uint32_t g)
+{
+	s->pair[h] = g;
+	s->pair[g] = h;
+}
+
+typedef struct leaf {
+	double angle;
+	uint32_t h;
+} leaf;
+
+static int
+by_angle(const void *a, const void *b)
+{
+	const leaf *x = a, *y = b;
+
+	if (x->angle != y->angle)
+		return x->angle < y->angle ? -1 : 1;
+	return x->h < y->h ? -1 : x->h > y->h;
+}
+
+/*
+ * Faces around an edge by angle, seen along it: where they are turned by turns one way and the other, the
+ * solid lies between one that runs along the edge and, going round against it, the next; these two are
+ * joined.
+ */
+static mr_status
+join_wedges(surface *s, size_t i, size_t j)
+{
+	mr_mark mark = mr_mark_take(s->ctx);
+	size_t n = j - i;
+	leaf *l = MR_NEW(s->ctx, n, leaf);
+	uint32_t a = low_end(s, s->edge[i]);
+	mr_v3 o = s->m->p[a], axis = mr_unit(mr_sub(s->m->p[high_end(s, s->edge[i])], o)), x = { 0, 0, 0 }, y;
+	bool by_turns = n % 2 == 0;
+
+	if (!l)
+		return MR_EMEM;
+	for (size_t k = 0; k < n; k++) {
+		uint32_t h = s->edge[i + k];
+		mr_v3 d = mr_sub(s->m->p[s->t[h / 3].v[(h + 2) % 3]], o);
+		d = mr_axpy(-mr_dot(d, axis), axis, d);
+		if (k == 0) {
+			x = mr_unit(d);
+			y = mr_cross(axis, x);
+		}
+		l[k] = (leaf){ k == 0 ? 0 : atan2(mr_dot(d, y), mr_dot(d, x)), h };
+		if (l[k].angle < 0)
+			l[k].angle += 2 * MR_PI;
+	}
+	qsort(l, n, sizeof *l, by_angle);
+	for (size_t k = 0; k < n && by_turns; k++)
+		by_turns = (from(s, l[k].h) == a) != (from(s, l[(k + 1) % n].h) == a) &&
+		           l[k].angle != l[(k + 1) % n].angle;
+	/* A face a -> b has its outside towards greater angles: the solid is on the side of the next smaller.
+	 */
+	for (size_t k = 0; k < n && by_turns; k++)
+		if (from(s, l[k].h) == a)
+			join(s, l[k].h, l[(k + n - 1) % n].h);
+	mr_mark_release(s->ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+pair_edges(surface *s)
+{
+	for (size_t i = 0; i < 3 * s->nf; i++)
+		s->pair[i] = MR_NONE;
+	for (size_t i = 0, j; i < 3 * s->nf; i = j) {
+		j = edge_end(s, i);
+		if (j - i == 2)
+			join(s, s->edge[i], s->edge[i + 1]);
+		else if (j - i > 2) {
+			s->r.split_edges++;
+			MR_TRY(join_wedges(s, i, j));
+		}
+	}
+	return MR_OK;
+}
+
+/* ---- orientation ---- */
+
+static void
+cut(surface *s, uint32_t h)
+{
+	s->pair[s->pair[h]] = MR_NONE;
+	s->pair[h] = MR_NONE;
+	s->r.cut_edges++;
+}
+
+/*
+ * Six times the volume below the faces, seen from the first one: its sign tells inside from outside of a
+ * closed component. `turned`: as the faces will be.
+ */
+static double
+volume(const surface *s, const uint32_t *face, size_t n, const bool *turned)
+{
+	mr_v3 o = s->m->p[s->t[face[0]].v[0]];
+	double sum = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		const uint32_t *v = s->t[face[i]].v;
+		double six = mr_dot(
+		    mr_sub(s->m->p[v[0]], o), mr_cross(mr_sub(s->m->p[v[1]], o), mr_sub(s->m->p[v[2]], o)));
+		sum += turned[face[i]] ? -six : six;
+	}
+	return sum;
+}
+
+/* Visits the component of queue[0]; turned[] is decided against that face, what cannot agree is cut. */
+static size_t
+spread(surface *s, uint32_t *queue, bool *seen, bool *turned, bool *closed)
+{
+	size_t n = 1;
+
+	*closed = true;
+	seen[queue[0]] = true;
+	for (size_t i = 0; i < n; i++)
+		for (uint32_t h = 3 * queue[i]; h < 3 * queue[i] + 3; h++) {
+			uint32_t g = s->pair[h], f;
+			bool same;
+			if (g == MR_NONE) {
+				*closed = false;
+				continue;
+			}
+			f = g / 3;
+			same = from(s, h) == from(s, g); /* both run the same way: one must turn */
+			if (!seen[f]) {
+				seen[f] = true;
+				turned[f] = turned[queue[i]] != same;
+				queue[n++] = f;
+			} else if ((turned[f] != turned[queue[i]]) != same) {
+				cut(s, h);
+				*closed = false;
+			}
+		}
+	return n;
+}
+
+/* Turns a face over, keeping its first vertex; half-edges 3 f and 3 f + 2 change places. */
+static void
+turn(surface *s, uint32_t f)
+{
+	uint32_t *v = s->t[f].v, a = v[1], h = s->pair[3 * f], g = s->pair[3 * f + 2];
+
+	v[1] = v[2];
+	v[2] = a;
+	s->pair[3 * f] = g;
+	s->pair[3 * f + 2] = h;
+	if (g != MR_NONE)
+		s->pair[g] = 3 * f;
+	if (h != MR_NONE)
+		s->pair[h] = 3 * f + 2;
+	s->r.flipped++;
+}
+
+static mr_status
+orient(surface *s)
+{
+	mr_mark mark = mr_mark_take(s->ctx);
+	uint32_t *queue = MR_NEW(s->ctx, s->nf, uint32_t);
+	bool *seen = MR_NEW_ZERO(s->ctx, s->nf, bool), *turned = MR_NEW_ZERO(s->ctx, s->nf, bool), closed;
+
+	if (!queue || !seen || !turned)
+		return MR_EMEM;
+	for (uint32_t f = 0; f < s->nf; f++) {
+		size_t n, count = 0;
+		bool other;
+		if (seen[f])
+			continue;
+		queue[0] = f;
+		n = spread(s, queue, seen, turned, &closed);
+		for (size_t i = 0; i < n; i++)
+			count += turned[queue[i]];
+		other = closed && count > 0 ? volume(s, queue, n, turned) < 0 : 2 * count > n;
+		for (size_t i = 0; i < n; i++)
+			turned[queue[i]] = turned[queue[i]] != other;
+	}
+	for (uint32_t f = 0; f < s->nf; f++)
+		if (turned[f])
+			turn(s, f);
+	mr_mark_release(s->ctx, mark);
+	return MR_OK;
+}
+
+/* ---- vertices ---- */
+
+static uint32_t
+root_of(uint32_t *root, uint32_t c)
+{
+	while (root[c] != c)
+		c = root[c] = root[root[c]];
+	return c;
+}
+
+static void
+unite(uint32_t *root, uint32_t a, uint32_t b)
+{
+	a = root_of(root, a);
+	b = root_of(root, b);
+	if (a < b)
+		root[b] = a;
+	else
+		root[a] = b;
+}
+
+/* Corners that pairs connect get the same root, the least of them. */
+static void
+connect(surface *s)
+{
+	for (uint32_t h = 0; h < 3 * s->nf; h++)
+		s->root[h] = h;
+	for (uint32_t h = 0; h < 3 * s->nf; h++)
+		if (s->pair[h] != MR_NONE) {
+			uint32_t g = s->pair[h];
+			unite(s->root, h, mr_he_next(g));
+			unite(s->root, mr_he_next(h), g);
+		}
+	for (uint32_t h = 0; h < 3 * s->nf; h++)
+		s->root[h] = root_of(s->root, h);
+}
+
+static bool
+same_edge(const surface *s, uint32_t h, uint32_t g)
+{
+	uint32_t a = s->root[h], b = s->root[mr_he_next(h)], c = s->root[g], d = s->root[mr_he_next(g)];
+
+	return (a == c && b == d) || (a == d && b == c);
+}
+
+/*
+ * Half-edges that are not a pair but would be copies of one edge, since both their ends are still connected
+ * around it: the later one's face is cut loose.  Returns how many faces were.
+ */
+static size_t
+part_copies(surface *s)
+{
+	size_t loose = 0;
+
+	for (size_t i = 0, j; i < 3 * s->nf; i = j) {
+		j = edge_end(s, i);
+		for (size_t k = i + 1; k < j; k++)
+			for (size_t l = i; l < k; l++) {
+				uint32_t g = s->edge[k], h = s->edge[l], f = g / 3;
+				if (s->pair[g] == h || !same_edge(s, g, h))
+					continue;
+				for (uint32_t e = 3 * f; e < 3 * f + 3; e++)
+					if (s->pair[e] != MR_NONE)
+						cut(s, e);
+				loose++;
+				break;
+			}
+	}
+	return loose;
+}
+
+/* Numbers the roots in order of the vertices they come from, then of corners. */
+static mr_status
+number(surface *s, mr_mesh *out, const uint32_t **vertex_of)
+{
+	size_t nv = 0, n = 3 * s->nf, used = 0;
+	uint32_t *count = MR_NEW_ZERO(s->ctx, s->m->nv + 1, uint32_t), *name = MR_NEW(s->ctx, n, uint32_t),
+		 *of;
+	mr_v3 *p;
+
+	if (!count || !name)
+		return MR_EMEM;
+	for (uint32_t h = 0; h < n; h++)
+		if (s->root[h] == h) {
+			count[from(s, h) + 1]++;
+			nv++;
+		}
+	for (size_t i = 0; i < s->m->nv; i++) {
+		used += count[i + 1] > 0;
+		count[i + 1] += count[i];
+	}
+	p = MR_NEW(s->ctx, nv, mr_v3);
+	of = MR_NEW(s->ctx, nv, uint32_t);
+	if (!p || !of)
+		return MR_EMEM;
+	for (uint32_t h = 0; h < n; h++)
+		if (s->root[h] == h) {
+			name[h] = count[from(s, h)]++;
+			of[name[h]] = from(s, h);
+			p[name[h]] = s->m->p[from(s, h)];
+		}
+	for (uint32_t h = 0; h < n; h++)
+		s->t[h / 3].v[h % 3] = name[s->root[h]];
+	s->r.isolated = s->m->nv - used;
+	s->r.split_vertices = nv - used;
+	*out = (mr_mesh){ .name = s->m->name, .p = p, .t = s->t, .nv = nv, .nf = s->nf };
+	*vertex_of = of;
+	return MR_OK;
+}
+
+static mr_status
+repair(surface *s, mr_mesh *out, const uint32_t **vertex_of)
+{
+	s->pair = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
+	s->edge = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
+	s->root = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
+	if (!s->pair || !s->edge || !s->root)
+		return MR_EMEM;
+	MR_TRY(sort_edges(s, s->m->nv));
+	MR_TRY(pair_edges(s));
+	MR_TRY(orient(s));
+	MR_TRY(sort_edges(s, s->m->nv)); /* turning moved half-edges */
+	do
+		connect(s);
+	while (part_copies(s));
+	return number(s, out, vertex_of);
+}
+
+mr_status
+mr_repair(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out, const uint32_t **vertex_of, const uint32_t **face_of,
+    mr_repair_report *report)
+{
+	surface s = { .ctx = ctx, .m = m };
+
+	MR_TRY(keep_faces(&s));
+	if (s.nf == 0)
+		return mr_fail(
+		    ctx, MR_EMESH, "%s: none of %zu faces is left: all are degenerate", m->name, m->nf);
+	MR_TRY(repair(&s, out, vertex_of));
+	*face_of = s.face_of;
+	*report = s.r;
+	return MR_OK;
+}

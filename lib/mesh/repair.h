@@ -1,0 +1,40 @@
+/*
+ * repair.h -- joining equal vertices; making a manifold of any set of triangles.  Layer rule: mesh.
+ */
+#ifndef MR_REPAIR_H
+#define MR_REPAIR_H
+
+#include "mesh/mesh.h"
+
+/*
+ * Joins vertices that are equal (eps 0; -0 equals 0) or within eps: in order of index, a vertex joins the
+ * lowest earlier one that stands for itself and is no further away, else stands for itself. map: n new
+ * numbers, in order of first use, the caller's; *count: how many.  Time O(n) for eps below the spacing.
+ */
+mr_status
+mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count) MR_WARN_UNUSED;
+
+/* What a repair did. */
+typedef struct mr_repair_report {
+	size_t degenerate;     /* faces dropped: a vertex twice, or no area */
+	size_t duplicate;      /* faces dropped: the vertices of an earlier one */
+	size_t isolated;       /* vertices dropped: in no face */
+	size_t split_edges;    /* edges of three faces or more, taken apart */
+	size_t split_vertices; /* vertices added where fans were taken apart */
+	size_t flipped;        /* faces turned over */
+	size_t cut_edges; /* edges cut because the surface is one-sided there, or to keep copies of an edge
+	                     apart */
+} mr_repair_report;
+
+/*
+ * An oriented manifold with boundary of the triangles of `m`: faces that are degenerate or duplicate go; at
+ * an edge of more than two faces those that bound the same wedge of the solid stay together where
+ * orientations tell, else all are parted; components are oriented consistently, a closed one that was not
+ * outwards, others as most of their faces were; fans at a vertex are parted. out: arrays of the arena;
+ * vertex_of, face_of: for each vertex and face of `out`, the one of `m` that it comes from. MR_EMESH where no
+ * face is left.
+ */
+mr_status mr_repair(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out, const uint32_t **vertex_of,
+    const uint32_t **face_of, mr_repair_report *report) MR_WARN_UNUSED;
+
+#endif
