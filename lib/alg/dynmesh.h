@@ -80,6 +80,20 @@ mr_dyn_cross(const mr_dyn *d, const mr_v3 *p, size_t f)
 }
 
 /*
+ * Shape of a triangle, height over longest edge: 0.87 for an equilateral one, 0 for a segment.  Below
+ * MR_NEEDLE its normal says little and no operation may leave it worse.
+ */
+static const double MR_NEEDLE = 0.1;
+
+static inline double
+mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	double ab = mr_norm2(mr_sub(b, a)), bc = mr_norm2(mr_sub(c, b)), ca = mr_norm2(mr_sub(a, c));
+	double longest = ab > bc ? (ab > ca ? ab : ca) : (bc > ca ? bc : ca);
+	return longest > 0 ? mr_norm(mr_cross(mr_sub(b, a), mr_sub(c, a))) / longest : 0;
+}
+
+/*
  * Copies m, whose half-edges are topo, into the arena.  Edges whose faces meet at more than
  * `feature` degrees are curves, and so is the boundary.  A curve vertex is a corner
  * where other than two curve edges meet or the curve turns by more than 50 degrees.

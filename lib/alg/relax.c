@@ -175,21 +175,44 @@ move_body(void *arg, size_t begin, size_t end)
 	}
 }
 
+/* Normal of the source where face f of the mesh lies. */
+static mr_v3
+source_normal(const pass *w, size_t f)
+{
+	uint32_t v = w->d->v[3 * f], at = w->d->at[v];
+
+	return mr_face_cross(w->s->m, w->d->kind[v] == MR_SMOOTH ? at : at / 3);
+}
+
+/*
+ * True where the move turns face f by more than 60 degrees, or leaves it a worse needle than before.
+ * What way a needle faces is told by the source.
+ */
+static bool
+turns(const pass *w, size_t f)
+{
+	const uint32_t *v = &w->d->v[3 * f];
+	const mr_v3 *p = w->d->p, *q = w->p;
+	double shape = mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]),
+	       moved = mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]);
+	mr_v3 after = mr_dyn_cross(w->d, q, f);
+
+	if (moved < MR_NEEDLE && moved < shape)
+		return true;
+	if (shape < MR_NEEDLE)
+		return mr_dot(after, source_normal(w, f)) < 0 &&
+		       mr_dot(mr_dyn_cross(w->d, p, f), source_normal(w, f)) >= 0;
+	mr_v3 before = mr_dyn_cross(w->d, p, f);
+	return mr_dot(before, after) < 0.5 * sqrt(mr_norm2(before) * mr_norm2(after));
+}
+
 static void
 turned_body(void *arg, size_t begin, size_t end)
 {
 	pass *w = arg;
 
-	for (size_t f = begin; f < end; f++) {
-		w->turned[f] = 0;
-		if (mr_dyn_face_dead(w->d, f))
-			continue;
-		mr_v3 before = mr_dyn_cross(w->d, w->d->p, f), after = mr_dyn_cross(w->d, w->p, f);
-		double nn = mr_norm2(before);
-		/* more than 60 degrees, or to less than a tenth of its area */
-		w->turned[f] = nn > 0 && (mr_dot(before, after) < 0.5 * sqrt(nn * mr_norm2(after)) ||
-					     mr_norm2(after) < 0.01 * nn);
-	}
+	for (size_t f = begin; f < end; f++)
+		w->turned[f] = !mr_dyn_face_dead(w->d, f) && turns(w, f);
 }
 
 /* Vertices of faces that turn go back to where they were; true where there was one. */

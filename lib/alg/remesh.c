@@ -2,6 +2,7 @@
 
 #include "alg/project.h"
 #include "alg/relax.h"
+#include "alg/sizing.h"
 #include "alg/valence.h"
 
 /* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
@@ -15,6 +16,9 @@ typedef struct remesher {
 	uint32_t *mark; /* stamps for the link condition; room for the vertices of one sweep */
 	uint32_t stamp;
 	size_t splits, collapses, flips;
+	double
+	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
+	double seconds_rounds, seconds_areas;
 } remesher;
 
 static double
@@ -98,8 +102,8 @@ split_long(remesher *r)
 }
 
 /*
- * True where moving v to p turns no face around v that stays (those with vertex `gone` do not),
- * makes none needle-like and no edge longer than `longest`.
+ * True where moving v to p turns no face around v that stays (those with vertex `gone` do not) by
+ * more than 60 degrees, makes no needle worse and no edge longer than `longest`.
  */
 static bool
 move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest2)
@@ -108,15 +112,17 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest
 
 	do {
 		uint32_t b = mr_dyn_to(d, h), c = mr_dyn_apex(d, h);
-		mr_v3 pb = d->p[b], pc = d->p[c];
+		mr_v3 pb = d->p[b], pc = d->p[c], pv = d->p[v];
 		if (b != gone && c != gone) {
-			mr_v3 before = mr_cross(mr_sub(pb, d->p[v]), mr_sub(pc, d->p[v]));
-			mr_v3 after = mr_cross(mr_sub(pb, p), mr_sub(pc, p));
-			double nn = mr_norm2(before), mm = mr_norm2(after), l2 = mr_norm2(mr_sub(pb, pc));
-			double far2 = fmax(mr_norm2(mr_sub(pb, p)), mr_norm2(mr_sub(pc, p)));
-			if (far2 > longest2 || mm < 0.01 * square(fmax(l2, far2)))
+			mr_v3 before = mr_cross(mr_sub(pb, pv), mr_sub(pc, pv)),
+			      after = mr_cross(mr_sub(pb, p), mr_sub(pc, p));
+			double shape = mr_dyn_shape(pv, pb, pc), moved = mr_dyn_shape(p, pb, pc);
+			if (mr_norm2(mr_sub(pb, p)) > longest2 || mr_norm2(mr_sub(pc, p)) > longest2)
 				return false;
-			if (nn > 0 && mr_dot(before, after) < 0.5 * sqrt(nn * mm))
+			if (moved < MR_NEEDLE && moved <= shape)
+				return false;
+			if (shape >= MR_NEEDLE &&
+			    mr_dot(before, after) < 0.5 * sqrt(mr_norm2(before) * mr_norm2(after)))
 				return false;
 		}
 		h = mr_dyn_ccw(d, h);
@@ -180,6 +186,48 @@ collapse_short(remesher *r)
 	return MR_OK;
 }
 
+/* Merges the ends of a side of h's face, the shortest first; true where one could be. */
+static bool
+collapse_a_side(remesher *r, uint32_t h)
+{
+	uint32_t side[3] = { h, mr_he_next(h), mr_he_prev(h) };
+
+	for (int i = 0; i < 3; i++)
+		for (int j = 2; j > i; j--)
+			if (edge_length2(&r->d, side[j]) < edge_length2(&r->d, side[j - 1])) {
+				uint32_t swap = side[j];
+				side[j] = side[j - 1];
+				side[j - 1] = swap;
+			}
+	for (int i = 0; i < 3; i++)
+		if (try_collapse(r, side[i], square(2 * target(r, side[i]))))
+			return true;
+	return false;
+}
+
+/* Needles that the steps of the paper left: flips the longest side away, or takes the face out. */
+static mr_status
+mend_needles(remesher *r)
+{
+	mr_dyn *d = &r->d;
+	mr_mark mark = mr_mark_take(r->ctx);
+
+	MR_TRY(begin_marks(r));
+	for (uint32_t f = 0; f < d->nf; f++) {
+		const uint32_t *v = &d->v[3 * f];
+		uint32_t longest;
+		if (mr_dyn_face_dead(d, f) || mr_dyn_shape(d->p[v[0]], d->p[v[1]], d->p[v[2]]) >= MR_NEEDLE)
+			continue;
+		longest = longest_side(d, longest_side(d, 3 * f));
+		if (mr_dyn_can_flip(d, longest) && mr_flip_is_good(d, longest))
+			mr_dyn_flip(d, longest);
+		else
+			collapse_a_side(r, 3 * f);
+	}
+	mr_mark_release(r->ctx, mark);
+	return MR_OK;
+}
+
 /* 3. Flip edges to lower the deviation from valence 6 (4 on boundaries). */
 static mr_status
 regularize(remesher *r, unsigned reach)
@@ -215,25 +263,57 @@ static mr_status
 one_round(remesher *r)
 {
 	enum { REACH = 3, RELAX = 3 };
-	mr_relax_opts o = { .damping = 1, .gravity = 0, .project = r->o->project };
+	mr_relax_opts o = { .damping = 1, .gravity = r->source.length ? 1 : 0, .project = r->o->project };
 
 	MR_TRY(split_long(r));
 	MR_TRY(collapse_short(r));
+	MR_TRY(mend_needles(r));
 	MR_TRY(regularize(r, REACH));
 	for (int i = 0; i < RELAX; i++)
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	return MR_OK;
 }
 
+/* Variance over squared mean of the areas of the inner vertices, in units of their squared lengths. */
+static mr_status
+area_variance(remesher *r, double *variance)
+{
+	const mr_dyn *d = &r->d;
+	mr_mark mark = mr_mark_take(r->ctx);
+	double *area = MR_NEW(r->ctx, d->nv, double), sum = 0, squares = 0, n = 0;
+
+	if (!area)
+		return MR_EMEM;
+	mr_dyn_areas(r->ctx, d, area);
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
+			double a = area[v] / square(mr_surface_length(&r->source, d, v));
+			sum += a;
+			squares += a * a;
+			n++;
+		}
+	*variance = sum > 0 ? n * squares / (sum * sum) - 1 : 0;
+	mr_mark_release(r->ctx, mark);
+	return MR_OK;
+}
+
 static mr_status
 run(remesher *r)
 {
+	double start = mr_seconds(), middle;
+
 	for (size_t i = 0; i < r->o->rounds; i++) {
 		MR_TRY(one_round(r));
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
 	}
 	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
-	return equalize_areas(r);
+	middle = mr_seconds();
+	r->seconds_rounds = middle - start;
+	MR_TRY(area_variance(r, &r->variance[0]));
+	MR_TRY(equalize_areas(r));
+	MR_TRY(area_variance(r, &r->variance[1]));
+	r->seconds_areas = mr_seconds() - middle;
+	return MR_OK;
 }
 
 /* Where each vertex lies on the source: on its face the nearest point, which without projection may be
@@ -258,24 +338,61 @@ map_to_source(remesher *r, mr_source_map *map)
 	return MR_OK;
 }
 
+/* How much finer and coarser than the uniform length adapted lengths may be. */
+static const double ADAPTIVE_RANGE = 5;
+
+static mr_status
+set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
+{
+	uint32_t *curve;
+	double *length = NULL,
+	       uniform = r->o->length > 0 ? r->o->length : r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
+
+	if (!(uniform > 0))
+		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
+	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
+	curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
+	if (!curve)
+		return MR_EMEM;
+	memcpy(curve, r->d.curve, 3 * m->nf * sizeof *curve);
+	if (r->o->adaptive > 0) {
+		length = MR_NEW(r->ctx, m->nv, double);
+		if (!length)
+			return MR_EMEM;
+		MR_TRY(mr_sizing_field(
+		    r->ctx, m, r->o->adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
+	}
+	r->source = (mr_surface){ m, topo, curve, length, uniform };
+	return MR_OK;
+}
+
+static void
+report(const remesher *r)
+{
+	mr_stat_set(r->ctx, "length", r->source.uniform);
+	mr_stat_set(r->ctx, "splits", (double)r->splits);
+	mr_stat_set(r->ctx, "collapses", (double)r->collapses);
+	mr_stat_set(r->ctx, "flips", (double)r->flips);
+	mr_stat_set(r->ctx, "vertices", (double)r->d.nv);
+	mr_stat_set(r->ctx, "faces", (double)r->d.nf);
+	mr_stat_set(r->ctx, "area_variance_before", r->variance[0]);
+	mr_stat_set(r->ctx, "area_variance_after", r->variance[1]);
+	mr_stat_set(r->ctx, "seconds_rounds", r->seconds_rounds);
+	mr_stat_set(r->ctx, "seconds_areas", r->seconds_areas);
+}
+
 mr_status
 mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_source_map *map)
 {
 	remesher r = { .ctx = ctx, .o = o };
 	mr_topology topo;
-	uint32_t *curve;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
-	MR_TRY(mr_dyn_build(ctx, m, &topo, o->feature, &r.d));
-	curve = MR_NEW(ctx, 3 * m->nf, uint32_t);
-	if (!curve)
-		return MR_EMEM;
-	memcpy(curve, r.d.curve, 3 * m->nf * sizeof *curve);
-	r.source = (mr_surface){ m, &topo, curve, NULL,
-		o->length > 0 ? o->length : o->ratio * mr_mesh_edge_scale(ctx, m) };
+	MR_TRY(set_up(&r, m, &topo));
 	MR_TRY(run(&r));
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
 	MR_TRY(map_to_source(&r, map));
+	report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
 	return MR_OK;
 }

@@ -19,22 +19,18 @@ excess_body(void *arg, size_t begin, size_t end)
 			w->excess[v] = (int)mr_dyn_valence(w->d, v) - (mr_dyn_on_boundary(w->d, v) ? 4 : 6);
 }
 
-/*
- * True where the two faces after the flip of h face the way those before did, within 60
- * degrees, and are no needles.
- */
-static bool
-is_good(const mr_dyn *d, uint32_t h)
+bool
+mr_flip_is_good(const mr_dyn *d, uint32_t h)
 {
 	mr_v3 a = d->p[d->v[h]], b = d->p[mr_dyn_to(d, h)];
 	mr_v3 c = d->p[mr_dyn_apex(d, h)], e = d->p[mr_dyn_apex(d, d->twin[h])];
 	mr_v3 n = mr_add(mr_cross(mr_sub(b, a), mr_sub(c, a)), mr_cross(mr_sub(a, b), mr_sub(e, b)));
 	mr_v3 m0 = mr_cross(mr_sub(e, a), mr_sub(c, a)), m1 = mr_cross(mr_sub(c, b), mr_sub(e, b));
-	double nn = mr_norm2(n), ce2 = mr_norm2(mr_sub(c, e));
+	double nn = mr_norm2(n);
 
 	return mr_dot(m0, n) > 0.5 * sqrt(nn * mr_norm2(m0)) &&
-	       mr_dot(m1, n) > 0.5 * sqrt(nn * mr_norm2(m1)) && mr_norm2(m0) > 0.01 * ce2 * ce2 &&
-	       mr_norm2(m1) > 0.01 * ce2 * ce2;
+	       mr_dot(m1, n) > 0.5 * sqrt(nn * mr_norm2(m1)) && mr_dyn_shape(a, e, c) > MR_NEEDLE &&
+	       mr_dyn_shape(b, c, e) > MR_NEEDLE;
 }
 
 /* By how much flipping h would lower the sum of squared excesses: a^2 - (a - 1)^2 + ... */
@@ -69,7 +65,7 @@ flip_gaining(flipper *w)
 
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (!mr_dyn_face_dead(d, h / 3) && d->twin[h] != MR_NONE && h < d->twin[h] &&
-		    gain_of(w, h) > 0 && mr_dyn_can_flip(d, h) && is_good(d, h)) {
+		    gain_of(w, h) > 0 && mr_dyn_can_flip(d, h) && mr_flip_is_good(d, h)) {
 			flip(w, h);
 			flips++;
 		}
@@ -91,7 +87,7 @@ glide(flipper *w, uint32_t h, bool seven_at_end, unsigned reach, size_t *flips)
 	while (n < reach && h != MR_NONE && d->twin[h] != MR_NONE) {
 		int gain = gain_of(w, h);
 		uint32_t g = d->twin[h];
-		if (gain < 0 || !mr_dyn_can_flip(d, h) || !is_good(d, h))
+		if (gain < 0 || !mr_dyn_can_flip(d, h) || !mr_flip_is_good(d, h))
 			break;
 		flip(w, h);
 		made[n++] = mr_he_next(h);

@@ -214,7 +214,7 @@ mr_status
 mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region)
 {
 	enum { MOST = 65536 };
-	const void *data;
+	const void *data = NULL;
 	const uint32_t *r;
 
 	MR_TRY(mr_layer_get_rows(ctx, f, layer, "region", nv, &data));

@@ -1,0 +1,20 @@
+/*
+ * sizing.h -- edge lengths adapted to curvature (Dunyach, Vanderhaeghe, Barthe, Botsch 2013, section 3).
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_SIZING_H
+#define MR_SIZING_H
+
+#include "mesh/mesh.h"
+
+/*
+ * The length of an edge at each vertex whose middle is `error` away from a surface of the vertex's largest
+ * absolute curvature, within [shortest, longest] and growing by at most half of the way along
+ * edges.  Curvatures are those of Meyer et al. 2003; boundary vertices take the least of their neighbours'
+ * lengths.  length: nv, the caller's, in units of the model.
+ */
+mr_status
+mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, double error, double shortest, double longest, double *length);
+
+#endif
