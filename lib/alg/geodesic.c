@@ -84,18 +84,20 @@ behind_edge(mr_v3 a, mr_v3 b, mr_v3 c, double da, double db)
 
 typedef struct march {
 	const mr_mesh *m;
+	mr_v3 source;
 	double *distance;
-	double reach;
 	front front;
 } march;
 
+/* Gives v the distance d if that is nearer by more than `step` of the way it came over, |way|. */
 static mr_status
-relax(mr_ctx *ctx, march *j, uint32_t v, double d)
+relax(mr_ctx *ctx, march *j, uint32_t v, double d, double way)
 {
-	const double gain =
-	    1e-12; /* less is rounding: without it two faces could improve each other for long */
+	const double step = 1e-4; /* less does not pay: it would run on through all that lies behind */
 
-	if (!(d <= j->reach) || !(d < j->distance[v] * (1 - gain)))
+	/* corners that are not settled yet can put the source too near: space is the shortest way of all */
+	d = fmax(d, mr_dist(j->m->p[v], j->source));
+	if (!(d < j->distance[v] - step * way))
 		return MR_OK;
 	j->distance[v] = d;
 	return push(ctx, &j->front, (entry){ d, v });
@@ -110,8 +112,9 @@ relax_face(mr_ctx *ctx, march *j, uint32_t v, const uint32_t c[3])
 
 	for (int k = 0; k < 3; k++) {
 		uint32_t a = c[k], b = c[(k + 1) % 3], third = c[(k + 2) % 3];
+		double way = fmin(mr_dist(p[a], p[third]), mr_dist(p[b], p[third]));
 		if (third != v)
-			MR_TRY(relax(ctx, j, third, behind_edge(p[a], p[b], p[third], d[a], d[b])));
+			MR_TRY(relax(ctx, j, third, behind_edge(p[a], p[b], p[third], d[a], d[b]), way));
 	}
 	return MR_OK;
 }
@@ -133,11 +136,11 @@ nearest_point(const mr_mesh *m, mr_v3 p)
 }
 
 mr_status
-mr_geodesic(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance)
+mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	march j = { m, distance, reach, { 0 } };
 	mr_closest source = nearest_point(m, p);
+	march j = { m, source.point, distance, { 0 } };
 	mr_incidence inc;
 
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
@@ -145,15 +148,20 @@ mr_geodesic(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distan
 		distance[v] = INFINITY;
 	for (int k = 0; k < 3 && source.face != MR_NONE; k++) {
 		uint32_t v = m->t[source.face].v[k];
-		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source.point)));
+		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source.point), 0));
 	}
 	while (j.front.n > 0) {
 		entry e = pop(&j.front);
+		if (e.distance > reach)
+			break;
 		if (e.distance > distance[e.vertex])
 			continue;
 		for (size_t i = inc.start[e.vertex]; i < inc.start[e.vertex + 1]; i++)
 			MR_TRY(relax_face(ctx, &j, e.vertex, m->t[inc.face[i]].v));
 	}
+	for (size_t v = 0; v < m->nv; v++)
+		if (distance[v] > reach)
+			distance[v] = INFINITY;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -6,10 +6,10 @@
 
 /*
  * The distance over the surface from the surface's point nearest to p, for each vertex that is not
- * farther than reach; infinite for the others.  Works on any mesh.  Exact where the surface unfolds
- * into the plane with nothing in the way; on curved surfaces good to about 1 % of the distance.
+ * farther than reach; infinite for the others.  Works on any mesh.  Good to 1e-4 of the distance where
+ * the surface unfolds into the plane, to a few thousandths where it is curved.
  * distance: nv, the caller's.
  */
-mr_status mr_geodesic(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance);
+mr_status mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance);
 
 #endif

@@ -47,8 +47,8 @@ typedef struct predicate {
 static mr_status
 parse_nothing(mr_ctx *ctx, const char *text, term *t)
 {
-	(void)t;
-	return *text ? mr_fail(ctx, MR_EUSAGE, "'%s' follows a predicate that takes nothing", text) : MR_OK;
+	(void)ctx, (void)text, (void)t;
+	return MR_OK;
 }
 
 static mr_status
@@ -245,7 +245,7 @@ eval_geodesic(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 
 	if (!distance)
 		return MR_EMEM;
-	MR_TRY(mr_geodesic(ctx, s->m, point_of(t), r, distance));
+	MR_TRY(mr_geodesic_distances(ctx, s->m, point_of(t), r, distance));
 	for (size_t v = 0; v < s->m->nv; v++)
 		in[v] = distance[v] <= r;
 	mr_mark_release(ctx, mark);
@@ -436,14 +436,14 @@ parse_term(mr_ctx *ctx, const char *text, term *t)
 	for (; !strncmp(text, "not:", 4); text += 4)
 		t->negate = !t->negate;
 	t->predicate = find_predicate(text);
-	if (!t->predicate)
+	if (!t->predicate || text[strlen(t->predicate->name)] == '+')
 		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a predicate", text);
 	colon = strchr(text, ':');
-	if (!colon && t->predicate->parse != parse_nothing)
-		return mr_fail(ctx, MR_EUSAGE, "%s lacks what it needs: %s:...", text, text);
-	return mr_prefix(ctx,
-	    t->predicate->parse(ctx, colon ? colon + 1 : text + strlen(t->predicate->name), t), "%s",
-	    t->predicate->name);
+	if ((colon != NULL) == (t->predicate->parse == parse_nothing))
+		return mr_fail(ctx, MR_EUSAGE,
+		    colon ? "%s takes nothing: no colon" : "%s takes something: %s:...", t->predicate->name,
+		    t->predicate->name);
+	return mr_prefix(ctx, t->predicate->parse(ctx, colon ? colon + 1 : "", t), "%s", t->predicate->name);
 }
 
 static mr_status

@@ -1,0 +1,395 @@
+/* Detail over a base: nothing is lost, heights are true, the detail follows the base. */
+#include "alg/detail.h"
+#include "alg/shape.h"
+#include "base/random.h"
+#include "mesh/bvh.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+static mr_mesh
+solid(mr_ctx *ctx, mr_solid what, size_t n)
+{
+	mr_mesh m;
+
+	assert_int_equal(mr_solid_make(ctx, &(mr_solid_opts){ .solid = what, .vertices = n }, &m), MR_OK);
+	return m;
+}
+
+/* The mesh with other positions. */
+static mr_mesh
+with_positions(mr_mesh m, const mr_v3 *p, const char *name)
+{
+	m.p = p;
+	m.name = name;
+	return m;
+}
+
+/* The umbrella smoothing of m, half a step at a time. */
+static mr_mesh
+smoothed(mr_ctx *ctx, mr_mesh m, int passes)
+{
+	mr_v3 *p = MR_NEW(ctx, m.nv, mr_v3), *q = MR_NEW(ctx, m.nv, mr_v3);
+	mr_adjacency a;
+
+	assert_int_equal(mr_adjacency_build(ctx, &m, &a), MR_OK);
+	memcpy(p, m.p, m.nv * sizeof *p);
+	for (int i = 0; i < passes; i++) {
+		for (size_t v = 0; v < m.nv; v++) {
+			mr_v3 sum = { 0, 0, 0 };
+			for (size_t k = a.start[v]; k < a.start[v + 1]; k++)
+				sum = mr_add(sum, p[a.adj[k]]);
+			q[v] = mr_lerp(0.5, p[v], mr_mul(1 / (double)(a.start[v + 1] - a.start[v]), sum));
+		}
+		memcpy(p, q, m.nv * sizeof *p);
+	}
+	return with_positions(m, p, "base");
+}
+
+/* The source map of a base with the mesh's own numbering. */
+static mr_source
+identity_map(mr_ctx *ctx, mr_mesh m)
+{
+	uint32_t *face = MR_NEW(ctx, m.nv, uint32_t);
+	mr_v3 *bary = MR_NEW(ctx, m.nv, mr_v3);
+
+	for (uint32_t f = 0; f < m.nf; f++)
+		for (int k = 0; k < 3; k++) {
+			face[m.t[f].v[k]] = f;
+			bary[m.t[f].v[k]] = mr_vec(k == 0, k == 1, k == 2);
+		}
+	return (mr_source){ face, bary };
+}
+
+/* The source map of any base: the mesh's nearest points. */
+static mr_source
+nearest_map(mr_ctx *ctx, mr_mesh mesh, mr_mesh base)
+{
+	uint32_t *face = MR_NEW(ctx, base.nv, uint32_t);
+	mr_v3 *bary = MR_NEW(ctx, base.nv, mr_v3);
+	mr_bvh *bvh;
+
+	assert_int_equal(mr_bvh_build(ctx, &mesh, &bvh), MR_OK);
+	for (size_t i = 0; i < base.nv; i++) {
+		mr_closest c = mr_bvh_closest(bvh, base.p[i]);
+		face[i] = c.face;
+		bary[i] = c.bary;
+	}
+	return (mr_source){ face, bary };
+}
+
+static const mr_v3 *
+decoded(mr_ctx *ctx, mr_mesh base, const mr_detail *d, double gain)
+{
+	mr_v3 *p = MR_NEW(ctx, d->n, mr_v3);
+	mr_incidence inc;
+
+	assert_int_equal(mr_incidence_build(ctx, &base, &inc), MR_OK);
+	assert_int_equal(mr_decode(ctx, &base, &inc, d, gain, p), MR_OK);
+	return p;
+}
+
+static double
+farthest(const mr_v3 *a, const mr_v3 *b, size_t n)
+{
+	double most = 0;
+
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, mr_dist(a[i], b[i]));
+	return most;
+}
+
+static double
+figure(const mr_ctx *ctx, const char *name)
+{
+	for (size_t i = 0; i < ctx->stat_count; i++)
+		if (!strcmp(ctx->stats[i].name, name))
+			return ctx->stats[i].value;
+	fail_msg("no figure %s", name);
+	return NAN;
+}
+
+/* Every vertex has a height, on a point of a face, and comes back. */
+static void
+check_heights(mr_ctx *ctx, mr_mesh mesh, mr_mesh base, const mr_source *source)
+{
+	double diagonal = mr_mesh_diagonal(&mesh);
+	mr_detail d;
+
+	assert_int_equal(mr_encode(ctx, &mesh, &base, source, &d), MR_OK);
+	assert_int_equal(mr_detail_check(ctx, &d, &base), MR_OK);
+	assert_null(d.offset);
+	assert_true(figure(ctx, "heights") == (double)mesh.nv);
+	assert_true(figure(ctx, "residual_max") < 1e-14);
+	for (size_t i = 0; i < d.n; i++) {
+		mr_v3 w = d.bary[i];
+		assert_true(fmin(w.x, fmin(w.y, w.z)) > -1e-8 && fabs(w.x + w.y + w.z - 1) < 1e-14);
+	}
+	assert_true(farthest(decoded(ctx, base, &d, 1), mesh.p, mesh.nv) < 1e-14 * diagonal);
+}
+
+static void
+normals_are_those_of_the_mesh(void **state)
+{
+	mr_ctx ctx;
+	mr_mesh m;
+	mr_incidence inc;
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	m = solid(&ctx, MR_BUMPY, 3000);
+	mr_v3 *a = MR_NEW(&ctx, m.nv, mr_v3), *b = MR_NEW(&ctx, m.nv, mr_v3);
+	assert_int_equal(mr_incidence_build(&ctx, &m, &inc), MR_OK);
+	assert_int_equal(mr_vertex_normals(&ctx, &m, a), MR_OK);
+	assert_int_equal(mr_phong_normals(&ctx, &m, &inc, b), MR_OK);
+	assert_true(farthest(a, b, m.nv) < 1e-14);
+	mr_ctx_free(&ctx);
+}
+
+static void
+nothing_is_lost(void **state)
+{
+	const mr_solid solids[] = { MR_SPHERE, MR_TORUS, MR_KNOT, MR_BUMPY };
+
+	(void)state;
+	for (size_t i = 0; i < sizeof solids / sizeof *solids; i++) {
+		mr_ctx ctx;
+		mr_ctx_init(&ctx, 2);
+		mr_mesh m = solid(&ctx, solids[i], 4000), base = smoothed(&ctx, m, 15);
+		mr_source map = identity_map(&ctx, m);
+		assert_int_equal(mr_source_check(&ctx, &m, &base, &map), MR_OK);
+		check_heights(&ctx, m, base, &map);
+		check_heights(&ctx, m, base, NULL);
+		mr_ctx_free(&ctx);
+	}
+}
+
+static void
+the_base_may_have_other_vertices(void **state)
+{
+	mr_ctx ctx;
+	mr_random r = { 5 };
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	for (size_t n = 200; n <= 20000; n *= 10) {
+		mr_mesh m = solid(&ctx, MR_SPHERE, 3000), base = solid(&ctx, MR_SPHERE, n);
+		mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+		for (size_t i = 0; i < m.nv; i++)
+			p[i] = mr_mul(1 + 0.1 * mr_random_real(&r), m.p[i]);
+		m = with_positions(m, p, "mesh");
+		mr_source map = nearest_map(&ctx, m, base);
+		check_heights(&ctx, m, base, &map);
+		check_heights(&ctx, m, base, NULL);
+	}
+	mr_ctx_free(&ctx);
+}
+
+/* Two copies of a plane, the second `apart` above the first, both moved up by `lift`. */
+static mr_mesh
+two_sheets(mr_ctx *ctx, double apart, double lift, const char *name)
+{
+	mr_mesh one = solid(ctx, MR_PLANE, 400);
+	mr_v3 *p = MR_NEW(ctx, 2 * one.nv, mr_v3);
+	mr_tri *t = MR_NEW(ctx, 2 * one.nf, mr_tri);
+
+	for (size_t i = 0; i < 2 * one.nv; i++)
+		p[i] = mr_add(one.p[i % one.nv], mr_vec(0, 0, lift + (i < one.nv ? 0 : apart)));
+	for (size_t i = 0; i < 2 * one.nf; i++)
+		for (int k = 0; k < 3; k++)
+			t[i].v[k] = one.t[i % one.nf].v[k] + (i < one.nf ? 0 : (uint32_t)one.nv);
+	return (mr_mesh){ name, p, t, 2 * one.nv, 2 * one.nf };
+}
+
+static void
+a_vertex_stays_on_its_sheet(void **state)
+{
+	mr_ctx ctx;
+	mr_detail d;
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	mr_mesh m = two_sheets(&ctx, 0.05, 0, "mesh"), base = two_sheets(&ctx, 0.05, 0.08, "base");
+	mr_source map = identity_map(&ctx, m);
+	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d), MR_OK);
+	for (size_t i = 0; i < d.n; i++) {
+		assert_int_equal(d.face[i] < base.nf / 2, i < m.nv / 2);
+		assert_true(fabs(d.height[i] + 0.08) < 1e-15);
+	}
+	assert_int_equal(mr_encode(&ctx, &m, &base, NULL, &d), MR_OK); /* by nearness alone it cannot */
+	assert_true(d.face[m.nv / 2] < base.nf / 2);
+	mr_ctx_free(&ctx);
+}
+
+static void
+beyond_the_boundary_offsets_serve(void **state)
+{
+	mr_ctx ctx;
+	mr_detail d;
+	size_t offsets = 0;
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	mr_mesh base = solid(&ctx, MR_PLANE, 900), m = base;
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	for (size_t i = 0; i < m.nv; i++) /* a wavy plane that reaches beyond the base on every side */
+		p[i] = mr_vec(1.2 * m.p[i].x, 1.2 * m.p[i].y, 0.1 * sin(5 * m.p[i].x));
+	m = with_positions(m, p, "mesh");
+	mr_source map = identity_map(&ctx, m);
+	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d), MR_OK);
+	assert_non_null(d.offset);
+	for (size_t i = 0; i < d.n; i++) {
+		bool out = fmax(fabs(p[i].x), fabs(p[i].y)) > 1 + 1e-12, has = mr_norm(d.offset[i]) > 0;
+		assert_int_equal(has, out);
+		assert_true(!has || d.height[i] == 0);
+		offsets += has;
+	}
+	assert_true(figure(&ctx, "offsets") == (double)offsets);
+	assert_true(farthest(decoded(&ctx, base, &d, 1), p, m.nv) < 1e-14);
+	mr_ctx_free(&ctx);
+}
+
+static void
+the_detail_follows_the_base(void **state)
+{
+	const double c = cos(0.7), s = sin(0.7);
+	const mr_affine turn = { { c, -s, 0, 3, s, c, 0, -2, 0, 0, 1, 5 } };
+	mr_ctx ctx;
+	mr_detail d;
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	mr_mesh m = solid(&ctx, MR_BUMPY, 3000), base = smoothed(&ctx, m, 30), moved;
+	mr_source map = identity_map(&ctx, m);
+	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d), MR_OK);
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *offset = MR_NEW_ZERO(&ctx, m.nv, mr_v3);
+	d.offset = offset; /* some of which serve beside the heights: the frame must turn, too */
+	for (size_t i = 0; i < m.nv; i += 3)
+		offset[i] = mr_vec(0.1, 0.2, 0.3);
+	for (size_t i = 0; i < base.nv; i++)
+		p[i] = mr_apply(&turn, base.p[i]);
+	moved = with_positions(base, p, "base");
+	const mr_v3 *plain = decoded(&ctx, base, &d, 1);
+	for (size_t i = 0; i < m.nv; i++)
+		q[i] = mr_apply(&turn, plain[i]);
+	assert_true(farthest(decoded(&ctx, moved, &d, 1), q, m.nv) < 1e-13);
+
+	const mr_v3 *none = decoded(&ctx, base, &d, 0), *twice = decoded(&ctx, base, &d, 2);
+	for (size_t i = 0; i < m.nv; i++)
+		q[i] = mr_lerp(2, none[i], plain[i]);
+	assert_true(farthest(twice, q, m.nv) < 1e-14);
+	assert_true(mr_norm(offset[1]) == 0 && fabs(mr_dist(plain[1], none[1]) - fabs(d.height[1])) < 1e-14);
+	mr_ctx_free(&ctx);
+}
+
+static void
+threads_do_not_matter(void **state)
+{
+	mr_ctx one, four;
+	mr_detail a, b;
+
+	(void)state;
+	mr_ctx_init(&one, 1);
+	mr_ctx_init(&four, 4);
+	mr_mesh m = solid(&one, MR_BUMPY, 6000), base = smoothed(&one, m, 60);
+	mr_source map = identity_map(&one, m);
+	assert_int_equal(mr_encode(&one, &m, &base, &map, &a), MR_OK);
+	assert_int_equal(mr_encode(&four, &m, &base, &map, &b), MR_OK);
+	assert_memory_equal(a.face, b.face, a.n * sizeof *a.face);
+	assert_memory_equal(a.bary, b.bary, a.n * sizeof *a.bary);
+	assert_memory_equal(a.height, b.height, a.n * sizeof *a.height);
+	assert_memory_equal(decoded(&one, base, &a, 1), decoded(&four, base, &b, 1), a.n * sizeof(mr_v3));
+	mr_ctx_free(&one);
+	mr_ctx_free(&four);
+}
+
+static void
+degenerate_bases_lose_nothing_either(void **state)
+{
+	mr_ctx ctx;
+	mr_detail d;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	mr_mesh m = solid(&ctx, MR_TORUS, 300);
+	mr_v3 *flat = MR_NEW(&ctx, m.nv, mr_v3), *point = MR_NEW_ZERO(&ctx, m.nv, mr_v3);
+	for (size_t i = 0; i < m.nv; i++)
+		flat[i] = mr_vec(m.p[i].x, m.p[i].y, 0); /* two layers, folded at their rims */
+	mr_mesh bases[] = { with_positions(m, flat, "base"), with_positions(m, point, "base") };
+	mr_source map = identity_map(&ctx, m);
+	for (size_t i = 0; i < 2; i++) {
+		assert_int_equal(mr_encode(&ctx, &m, &bases[i], &map, &d), MR_OK);
+		assert_int_equal(mr_detail_check(&ctx, &d, &bases[i]), MR_OK);
+		assert_true(farthest(decoded(&ctx, bases[i], &d, 1), m.p, m.nv) < 1e-14);
+	}
+	mr_ctx_free(&ctx);
+}
+
+static void
+bad_columns_are_refused(void **state)
+{
+	mr_ctx ctx;
+	uint32_t face[4] = { 0, 1, 0, 9 };
+	mr_v3 bary[4] = { { 1, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 }, { 1, 0, 0 } };
+	double height[4] = { 0, 0, NAN, 0 };
+	mr_mesh m;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	m = solid(&ctx, MR_PLANE, 4);
+	m.name = "base";
+	mr_detail d = { 4, face, bary, height, NULL };
+	assert_int_equal(mr_detail_check(&ctx, &d, &m), MR_ERANGE);
+	assert_string_equal(ctx.error, "the detail of vertex 2 is not finite");
+	height[2] = 0;
+	assert_int_equal(mr_detail_check(&ctx, &d, &m), MR_ERANGE);
+	assert_string_equal(ctx.error, "vertex 3 stands on face 9 of base, which has 2");
+	mr_source map = { face, bary };
+	assert_int_equal(mr_source_check(&ctx, &m, &m, &map), MR_ERANGE);
+	assert_string_equal(ctx.error, "base: vertex 3 lies on face 9 of base, which has 2");
+	mr_ctx_free(&ctx);
+}
+
+static void
+every_allocation_may_fail(void **state)
+{
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	mr_mesh m = solid(&ctx, MR_TORUS, 200), base = smoothed(&ctx, m, 5);
+	mr_status status = MR_EMEM;
+	for (uint64_t k = 1; status == MR_EMEM; k++) {
+		mr_detail d = { .n = 12345 };
+		ctx.fail_at = k;
+		status = mr_encode(&ctx, &m, &base, NULL, &d);
+		ctx.fail_at = 0;
+		assert_true(status == MR_OK || (status == MR_EMEM && d.n == 12345));
+		assert_true(k < 100);
+	}
+	assert_int_equal(status, MR_OK);
+	mr_ctx_free(&ctx);
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(normals_are_those_of_the_mesh),
+		cmocka_unit_test(nothing_is_lost),
+		cmocka_unit_test(the_base_may_have_other_vertices),
+		cmocka_unit_test(a_vertex_stays_on_its_sheet),
+		cmocka_unit_test(beyond_the_boundary_offsets_serve),
+		cmocka_unit_test(the_detail_follows_the_base),
+		cmocka_unit_test(threads_do_not_matter),
+		cmocka_unit_test(degenerate_bases_lose_nothing_either),
+		cmocka_unit_test(bad_columns_are_refused),
+		cmocka_unit_test(every_allocation_may_fail),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
