@@ -15,12 +15,14 @@ search() { # pattern, directories
 
 bad=$(search 'atoi|atol|atoll|atof|sprintf|vsprintf|strcpy|strcat|gets|strtok|scanf|sscanf|alloca' lib formats cmd)
 [ -z "$bad" ] || { echo "banned:"; echo "$bad"; fail=1; }
-bad=$(search 'printf|vprintf|puts|putchar|perror|exit|_exit|abort|assert|signal|longjmp|setjmp' lib formats)
+bad=$(search 'printf|vprintf|puts|putchar|perror|exit|_exit|abort|assert|signal' lib formats)
 [ -z "$bad" ] || { echo "the library prints or exits:"; echo "$bad"; fail=1; }
+bad=$(search 'longjmp|setjmp' lib formats cmd | grep -v '^formats/png.c:') # libpng's way to fail
+[ -z "$bad" ] || { echo "jumps:"; echo "$bad"; fail=1; }
 bad=$(search 'rand|srand|random|drand48|time|gettimeofday|getenv|setlocale' lib formats)
 [ -z "$bad" ] || { echo "a result may depend on these:"; echo "$bad"; fail=1; }
 bad=$(search 'malloc|calloc|realloc|free|sqrt|sin|cos|exit|atexit' cmd | grep -E '^cmd/mr-')
 [ -z "$bad" ] || { echo "commands compute, allocate or exit:"; echo "$bad"; fail=1; }
-bad=$(grep -rnE 'TODO|FIXME|XXX|HACK' lib formats cmd tests/unit man Makefile README.md | grep -v banned.sh)
+bad=$(grep -rnE '\b(TODO|FIXME|XXX|HACK)\b' lib formats cmd tests/unit man Makefile README.md )
 [ -z "$bad" ] || { echo "unfinished:"; echo "$bad"; fail=1; }
 exit $fail

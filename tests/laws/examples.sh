@@ -3,7 +3,7 @@ fail=0
 for script in "$TOP"/examples/*.sh; do
 	name=$(basename "$script" .sh)
 	mkdir "$name"
-	(cd "$name" && MR_SMALL=1 sh -e "$script" >../out 2>../err) || { echo "$name fails:"; cat out err; fail=1; }
+	(cd "$name" && MR_SMALL=2000 sh -e "$script" >../out 2>../err) || { echo "$name fails:"; cat out err; fail=1; }
 	[ -n "$(find "$name" -type f -size +0)" ] || { echo "$name made nothing"; fail=1; }
 done
 exit $fail

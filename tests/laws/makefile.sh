@@ -5,11 +5,11 @@ cd "$TOP" || exit
 fail=0
 make() { command make --no-print-directory BUILD="$BUILD" SAN="$SAN" "$@"; }
 
-would=$(make -n -W lib/solve/solve.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
+would=$(make -n -W lib/mesh/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
 for source in $(echo "$would"); do
-	grep -qs 'lib/solve/solve.h' "$BUILD/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
+	grep -qs 'lib/mesh/bvh.h' "$BUILD/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
 done
-for source in $(grep -lE 'include "solve/solve.h"' lib/*/*.c cmd/*.c); do
+for source in $(grep -lE 'include "mesh/bvh.h"' lib/*/*.c cmd/*.c); do
 	case " $(echo $would) " in
 	*" $source "*) ;;
 	*) echo "not rebuilt: $source"; fail=1 ;;

@@ -6,11 +6,12 @@ fail=0
 documented() {
 	awk '/^\.Sh/ { on = /OPTIONS/ } on && /^\.It / {
 		gsub(/\\-/, "-")
-		for (i = 1; i < NF; i++)
-			if ($i == "Fl") {
-				n = $(i + 1)
-				print "-" n
-			}
+		flag = 0
+		for (i = 2; i <= NF; i++)
+			if ($i ~ /^[A-Z][a-z]$/)
+				flag = $i == "Fl"
+			else if (flag && $i != "," && $i != "|")
+				print "-" $i
 	}' "$1" | sort -u
 }
 
