@@ -10,7 +10,7 @@
 
 #include "formats/build.h"
 #include "formats/bytes.h"
-#include "formats/text.h"
+#include "formats/scan.h"
 
 typedef struct mr_file_format {
 	const char *name;
@@ -57,12 +57,12 @@ bool mr_las_sniff(const unsigned char *data, size_t size);
 mr_status mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 
 /* A text over the bytes. */
-static inline mr_text
-mr_text_of(mr_ctx *ctx, const unsigned char *data, size_t size)
+static inline mr_scan
+mr_scan_of(mr_ctx *ctx, const unsigned char *data, size_t size)
 {
 	const char *p = (const char *)data;
 
-	return (mr_text){ ctx, p, p, p + size };
+	return (mr_scan){ ctx, p, p, p + size };
 }
 
 /* Writes numbers with a blank between them, then `end`. */

@@ -11,7 +11,7 @@ static const uint32_t UNSET = 0x7fffffff, SEVERAL = 0x80000000;
 
 typedef struct obj {
 	mr_ctx *ctx;
-	mr_text text; /* of the whole file */
+	mr_scan text; /* of the whole file */
 	mr_builder b;
 	const char *line; /* the line at hand, for errors */
 	char *joined;     /* continued lines, put together, and lines that need a newline */
@@ -45,7 +45,7 @@ continues(const char *begin, const char *end)
 
 /* Puts a line that goes on behind a backslash together with what follows. */
 static mr_status
-join(obj *o, mr_text *line)
+join(obj *o, mr_scan *line)
 {
 	size_t n = 0;
 	bool more = true;
@@ -65,19 +65,19 @@ join(obj *o, mr_text *line)
 		n += bytes;
 		if (more)
 			o->joined[n - 1] = ' ';
-		more = more && mr_text_line(&o->text, line);
+		more = more && mr_scan_line(&o->text, line);
 	}
 	o->joined[n] = '\n';
-	*line = (mr_text){ o->ctx, o->joined, o->joined, o->joined + n };
+	*line = (mr_scan){ o->ctx, o->joined, o->joined, o->joined + n };
 	return MR_OK;
 }
 
 /* The next line, without leading blanks and joined where it goes on; MR_END at the end. */
 static mr_status
-next_line(obj *o, mr_text *line)
+next_line(obj *o, mr_scan *line)
 {
 	o->line = o->text.p < o->text.end ? o->text.p : o->line;
-	if (!mr_text_line(&o->text, line))
+	if (!mr_scan_line(&o->text, line))
 		return MR_END;
 	mr_skip_blanks(line);
 	return continues(line->p, line->end) ? join(o, line) : MR_OK;
@@ -92,11 +92,11 @@ static mr_status MR_PRINTF(2, 3) bad(obj *o, const char *format, ...)
 	va_start(args, format);
 	vsnprintf(sentence, sizeof sentence, format, args);
 	va_end(args);
-	return mr_text_fail(&o->text, o->line, "%s", sentence);
+	return mr_scan_fail(&o->text, o->line, "%s", sentence);
 }
 
 static bool
-begins(const mr_text *line, const char *word)
+begins(const mr_scan *line, const char *word)
 {
 	size_t n = strlen(word);
 
@@ -108,13 +108,13 @@ begins(const mr_text *line, const char *word)
 
 /* A word that is no number: NAN where it is one such as nan. */
 static mr_status
-odd_number(obj *o, mr_text *line, const char *what, double *x)
+odd_number(obj *o, mr_scan *line, const char *what, double *x)
 {
 	char shown[MR_SHOWN];
 	const char *w;
 	size_t n;
 
-	mr_text_word(line, &w, &n);
+	mr_scan_word(line, &w, &n);
 	*x = NAN;
 	return mr_word_not_finite(w, n)
 	           ? MR_OK
@@ -123,7 +123,7 @@ odd_number(obj *o, mr_text *line, const char *what, double *x)
 
 /* The numbers of a line into x, which has a place more than `most`. */
 static mr_status
-numbers(obj *o, mr_text *line, const char *what, size_t least, size_t most, double *x, size_t *count)
+numbers(obj *o, mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count)
 {
 	size_t n = 0;
 
@@ -168,7 +168,7 @@ set_color(obj *o, const double *c)
 
 /* v x y z [w | r g b [a]]: with four numbers the last is a weight, with six or seven there is a colour. */
 static mr_status
-position(obj *o, mr_text *line)
+position(obj *o, mr_scan *line)
 {
 	double x[8];
 	size_t n = 0;
@@ -187,7 +187,7 @@ position(obj *o, mr_text *line)
 }
 
 static mr_status
-texcoord(obj *o, mr_text *line)
+texcoord(obj *o, mr_scan *line)
 {
 	double x[4] = { 0 };
 	size_t n;
@@ -202,7 +202,7 @@ texcoord(obj *o, mr_text *line)
 }
 
 static mr_status
-normal(obj *o, mr_text *line)
+normal(obj *o, mr_scan *line)
 {
 	double x[4];
 	size_t n;
@@ -249,18 +249,18 @@ corner_end(const char *p, const char *end, bool *open)
 static mr_status
 bad_corner(obj *o, const char *p, const char *end)
 {
-	mr_text rest = { o->ctx, p, p, end };
+	mr_scan rest = { o->ctx, p, p, end };
 	char shown[MR_SHOWN];
 	const char *w;
 	size_t n;
 
-	mr_text_word(&rest, &w, &n);
+	mr_scan_word(&rest, &w, &n);
 	return bad(
 	    o, "'%s' is not a corner: v, v/vt, v//vn or v/vt/vn, counted from 1", mr_word_shown(w, n, shown));
 }
 
 static mr_status
-check_face(obj *o, mr_text *line)
+check_face(obj *o, mr_scan *line)
 {
 	const char *p = line->p + 1;
 
@@ -403,7 +403,7 @@ take_name(obj *o)
 
 /* Statements whose loss changes no surface of vertices and faces. */
 static bool
-known(const mr_text *line)
+known(const mr_scan *line)
 {
 	static const char *const words[] = { "s", "mtllib", "vp", "vw", "cstype", "deg", "bmat", "step",
 		"curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "mg", "bevel",
@@ -417,19 +417,19 @@ known(const mr_text *line)
 }
 
 static mr_status
-unknown_statement(obj *o, mr_text *line)
+unknown_statement(obj *o, mr_scan *line)
 {
 	char shown[MR_SHOWN];
 	const char *w;
 	size_t n;
 
-	mr_text_word(line, &w, &n);
+	mr_scan_word(line, &w, &n);
 	return bad(o, "'%s' begins no statement of OBJ", mr_word_shown(w, n, shown));
 }
 
 /* Reads one line here; *pass where tinyobj is to see it. */
 static mr_status
-one_line(obj *o, mr_text *line, bool *pass)
+one_line(obj *o, mr_scan *line, bool *pass)
 {
 	size_t left = (size_t)(line->end - line->p);
 	char c = left ? *line->p : '#', d = left > 1 ? line->p[1] : ' ';
@@ -459,7 +459,7 @@ one_line(obj *o, mr_text *line, bool *pass)
  * with nothing behind it: there tinyobj takes the next corner's index.
  */
 static mr_status
-hand_over(obj *o, const mr_text *line, const char **begin, const char **end)
+hand_over(obj *o, const mr_scan *line, const char **begin, const char **end)
 {
 	size_t n = (size_t)(line->end - line->p);
 	bool whole = line->end < o->text.end && *line->end == '\n' && line->p != o->joined && n > 1 &&
@@ -493,7 +493,7 @@ hand_over(obj *o, const mr_text *line, const char **begin, const char **end)
 static mr_status
 next_for_tinyobj(obj *o, const char **begin, const char **end)
 {
-	mr_text line;
+	mr_scan line;
 	bool pass = false;
 
 	MR_TRY(take_name(o));
@@ -520,7 +520,7 @@ line_call(void *user, const char **begin, const char **end)
 static mr_status
 count_lines(obj *o)
 {
-	mr_text start = o->text, line;
+	mr_scan start = o->text, line;
 	bool groups = false, objects = false;
 	mr_status status;
 
@@ -630,7 +630,7 @@ finish(obj *o, mr_model *m)
 mr_status
 mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	obj o = { .ctx = ctx, .text = mr_text_of(ctx, data, size), .b = { .ctx = ctx } };
+	obj o = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 	mr_obj_calls calls = { line_call, face_call, name_call, &o };
 
 	MR_TRY(count_lines(&o));
@@ -653,11 +653,11 @@ mr_obj_sniff(const unsigned char *data, size_t size)
 {
 	static const char *const words[] = { "v", "vn", "vt", "vp", "f", "g", "o", "s", "l", "p", "usemtl",
 		"mtllib", NULL };
-	mr_text text = mr_text_of(NULL, data, size), line;
+	mr_scan text = mr_scan_of(NULL, data, size), line;
 
 	if (memchr(data, 0, size < 4096 ? size : 4096))
 		return false;
-	while (mr_text_line(&text, &line)) {
+	while (mr_scan_line(&text, &line)) {
 		mr_skip_blanks(&line);
 		if (line.p == line.end || *line.p == '#')
 			continue;

@@ -8,7 +8,7 @@
 
 typedef struct off {
 	mr_ctx *ctx;
-	mr_text text;
+	mr_scan text;
 	bool normals, colors, texcoords, binary;
 	mr_builder b;
 	uint64_t nv, nf;
@@ -24,7 +24,7 @@ typedef struct off {
 
 /* Skips what is not to be read: blanks, empty lines, comments. */
 static void
-skip_comments(mr_text *t)
+skip_comments(mr_scan *t)
 {
 	for (mr_skip_space(t); t->p < t->end && *t->p == '#'; mr_skip_space(t)) {
 		const char *e = memchr(t->p, '\n', (size_t)(t->end - t->p));
@@ -33,7 +33,7 @@ skip_comments(mr_text *t)
 }
 
 static bool
-take(mr_text *t, const char *s)
+take(mr_scan *t, const char *s)
 {
 	size_t n = strlen(s);
 
@@ -47,7 +47,7 @@ take(mr_text *t, const char *s)
 static bool
 keyword(off *f, bool *dimensions)
 {
-	mr_text t = f->text;
+	mr_scan t = f->text;
 
 	skip_comments(&t);
 	f->texcoords = take(&t, "ST");
@@ -61,9 +61,9 @@ keyword(off *f, bool *dimensions)
 	f->text.p = t.p;
 	mr_skip_blanks(&t);
 	if (take(&t, "BINARY")) {
-		mr_text rest = t, line;
+		mr_scan rest = t, line;
 		f->binary = true;
-		mr_text_line(&rest, &line);
+		mr_scan_line(&rest, &line);
 		f->text.p = rest.p;
 	}
 	return true;
@@ -72,7 +72,7 @@ keyword(off *f, bool *dimensions)
 bool
 mr_off_sniff(const unsigned char *data, size_t size)
 {
-	off f = { .text = mr_text_of(NULL, data, size) };
+	off f = { .text = mr_scan_of(NULL, data, size) };
 	bool dimensions;
 
 	return keyword(&f, &dimensions);
@@ -143,8 +143,8 @@ line_rest(off *f, double *x, size_t most, size_t *count)
 	     mr_skip_blanks(&f->text)) {
 		const char *p = f->text.p;
 		if (n == most)
-			return mr_text_fail(&f->text, p, "more numbers than a vertex can have");
-		MR_TRY(mr_text_real(&f->text, "a number of a vertex", &x[n++]));
+			return mr_scan_fail(&f->text, p, "more numbers than a vertex can have");
+		MR_TRY(mr_scan_real(&f->text, "a number of a vertex", &x[n++]));
 		if (!looks_whole(p, f->text.p))
 			f->whole_colors = false;
 	}
@@ -163,14 +163,14 @@ text_vertex(off *f, size_t i)
 
 	skip_comments(&f->text);
 	where = f->text.p;
-	MR_TRY(mr_text_position(&f->text, &f->b.p[i]));
+	MR_TRY(mr_scan_position(&f->text, &f->b.p[i]));
 	for (int k = 0; f->normals && k < 3; k++)
-		MR_TRY(mr_text_real(&f->text, "a normal", &normal[k]));
+		MR_TRY(mr_scan_real(&f->text, "a normal", &normal[k]));
 	if (f->normals)
 		set_normal(f, i, normal);
 	MR_TRY(line_rest(f, x, 8, &n));
 	if (f->texcoords && n < 2)
-		return mr_text_fail(&f->text, where, "a vertex lacks its texture coordinates");
+		return mr_scan_fail(&f->text, where, "a vertex lacks its texture coordinates");
 	colors = n - (f->texcoords ? 2 : 0);
 	if (f->texcoords)
 		set_texcoord(f, i, x + colors);
@@ -182,7 +182,7 @@ text_vertex(off *f, size_t i)
 	if (f->texcoords)
 		f->whole_colors = whole && x[0] == floor(x[0]) && x[1] == floor(x[1]) && x[2] == floor(x[2]);
 	if (colors != 3 && colors != 4)
-		return mr_text_fail(
+		return mr_scan_fail(
 		    &f->text, where, "a vertex with %zu colour components, not 3 or 4", colors);
 	return set_color(f, i, x, colors);
 }
@@ -245,15 +245,15 @@ text_face(off *f)
 
 	skip_comments(&f->text);
 	where = f->text.p;
-	MR_TRY(mr_text_count(&f->text, "the number of corners of a face", UINT32_MAX, &n));
+	MR_TRY(mr_scan_count(&f->text, "the number of corners of a face", UINT32_MAX, &n));
 	if (n > (size_t)(f->text.end - f->text.p) / 2 + 1)
-		return mr_text_fail(&f->text, where, "a face of %llu corners, beyond the end of the file",
+		return mr_scan_fail(&f->text, where, "a face of %llu corners, beyond the end of the file",
 		    (unsigned long long)n);
 	MR_TRY(corner_room(f, (size_t)n));
 	for (size_t i = 0; i < n; i++) {
-		MR_TRY(mr_text_count(&f->text, "a corner of a face", UINT32_MAX, &v));
+		MR_TRY(mr_scan_count(&f->text, "a corner of a face", UINT32_MAX, &v));
 		if (v >= f->nv)
-			return mr_text_fail(&f->text, where, "vertex %llu of %llu", (unsigned long long)v,
+			return mr_scan_fail(&f->text, where, "vertex %llu of %llu", (unsigned long long)v,
 			    (unsigned long long)f->nv);
 		f->corner[i] = (uint32_t)v;
 	}
@@ -274,14 +274,14 @@ text_counts(off *f)
 
 	skip_comments(&f->text);
 	where = f->text.p;
-	MR_TRY(mr_text_count(&f->text, "the number of vertices", UINT64_MAX / 16, &f->nv));
-	MR_TRY(mr_text_count(&f->text, "the number of faces", UINT64_MAX / 16, &f->nf));
+	MR_TRY(mr_scan_count(&f->text, "the number of vertices", UINT64_MAX / 16, &f->nv));
+	MR_TRY(mr_scan_count(&f->text, "the number of faces", UINT64_MAX / 16, &f->nf));
 	mr_skip_blanks(&f->text);
 	if (f->text.p < f->text.end && *f->text.p != '\n' && *f->text.p != '#')
-		MR_TRY(mr_text_count(&f->text, "the number of edges", UINT64_MAX / 16, &edges));
+		MR_TRY(mr_scan_count(&f->text, "the number of edges", UINT64_MAX / 16, &edges));
 	left = (size_t)(f->text.end - f->text.p) + 1;
 	if (f->nv > left / 6 || f->nf > left / 2)
-		return mr_text_fail(&f->text, where,
+		return mr_scan_fail(&f->text, where,
 		    "%llu vertices and %llu faces cannot be in the %zu bytes that follow",
 		    (unsigned long long)f->nv, (unsigned long long)f->nf, left - 1);
 	return MR_OK;
@@ -417,10 +417,10 @@ read_binary(off *f, mr_model *m)
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	off f = { .ctx = ctx, .text = mr_text_of(ctx, data, size), .b = { .ctx = ctx } };
+	off f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 	bool dimensions;
 
 	if (keyword(&f, &dimensions) && dimensions)
-		return mr_text_fail(&f.text, f.text.p, "only vertices in three dimensions are read");
+		return mr_scan_fail(&f.text, f.text.p, "only vertices in three dimensions are read");
 	return f.binary ? read_binary(&f, m) : read_text(&f, m);
 }

@@ -15,7 +15,7 @@ typedef struct field {
 
 typedef struct pcd {
 	mr_ctx *ctx;
-	mr_text text;
+	mr_scan text;
 	field field[FIELDS];
 	size_t fields, sizes, kinds, counts, stride;
 	uint64_t width, height, points;
@@ -26,7 +26,7 @@ typedef struct pcd {
 /* ---- the header ---- */
 
 static mr_status
-field_names(pcd *f, mr_text *line)
+field_names(pcd *f, mr_scan *line)
 {
 	static const struct {
 		const char *name;
@@ -36,9 +36,9 @@ field_names(pcd *f, mr_text *line)
 	const char *w;
 	size_t n;
 
-	for (f->fields = 0; mr_text_word(line, &w, &n); f->fields++) {
+	for (f->fields = 0; mr_scan_word(line, &w, &n); f->fields++) {
 		if (f->fields == FIELDS)
-			return mr_text_fail(&f->text, w, "more than %d fields", (int)FIELDS);
+			return mr_scan_fail(&f->text, w, "more than %d fields", (int)FIELDS);
 		f->field[f->fields] = (field){ .type = 'F', .size = 4, .count = 1 };
 		for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
 			if (strlen(roles[i].name) == n && !memcmp(roles[i].name, w, n))
@@ -48,54 +48,54 @@ field_names(pcd *f, mr_text *line)
 }
 
 static mr_status
-field_sizes(pcd *f, mr_text *line)
+field_sizes(pcd *f, mr_scan *line)
 {
 	uint64_t n;
 
 	for (size_t i = 0; i < f->fields; i++) {
-		MR_TRY(mr_text_count(line, "a field's size", 8, &n));
+		MR_TRY(mr_scan_count(line, "a field's size", 8, &n));
 		if (n != 1 && n != 2 && n != 4 && n != 8)
-			return mr_text_fail(&f->text, line->p, "a field of %u bytes", (unsigned)n);
+			return mr_scan_fail(&f->text, line->p, "a field of %u bytes", (unsigned)n);
 		f->field[i].size = (unsigned)n;
 	}
 	return MR_OK;
 }
 
 static mr_status
-field_types(pcd *f, mr_text *line)
+field_types(pcd *f, mr_scan *line)
 {
 	const char *w;
 	size_t n;
 
 	for (size_t i = 0; i < f->fields; i++) {
-		if (!mr_text_word(line, &w, &n) || n != 1 || !strchr("IUF", *w))
-			return mr_text_fail(&f->text, line->p, "a field's type is not I, U or F");
+		if (!mr_scan_word(line, &w, &n) || n != 1 || !strchr("IUF", *w))
+			return mr_scan_fail(&f->text, line->p, "a field's type is not I, U or F");
 		f->field[i].type = *w;
 	}
 	return MR_OK;
 }
 
 static mr_status
-field_counts(pcd *f, mr_text *line)
+field_counts(pcd *f, mr_scan *line)
 {
 	uint64_t n;
 
 	for (size_t i = 0; i < f->fields; i++) {
-		MR_TRY(mr_text_count(line, "a field's count", 1 << 20, &n));
+		MR_TRY(mr_scan_count(line, "a field's count", 1 << 20, &n));
 		f->field[i].count = (unsigned)n;
 	}
 	return MR_OK;
 }
 
 static mr_status
-data_kind(pcd *f, mr_text *line)
+data_kind(pcd *f, mr_scan *line)
 {
-	if (mr_text_accept(line, "binary"))
+	if (mr_scan_accept(line, "binary"))
 		f->binary = true;
-	else if (mr_text_accept(line, "binary_compressed"))
-		return mr_text_fail(&f->text, line->p, "compressed PCD is not read");
-	else if (!mr_text_accept(line, "ascii"))
-		return mr_text_fail(&f->text, line->p, "DATA is neither ascii nor binary");
+	else if (mr_scan_accept(line, "binary_compressed"))
+		return mr_scan_fail(&f->text, line->p, "compressed PCD is not read");
+	else if (!mr_scan_accept(line, "ascii"))
+		return mr_scan_fail(&f->text, line->p, "DATA is neither ascii nor binary");
 	return MR_OK;
 }
 
@@ -112,17 +112,17 @@ check_header(pcd *f)
 		if (d->role == SKIP || d->count != 1 || f->of[d->role])
 			continue;
 		if (d->type == 'F' && d->size < 4)
-			return mr_text_fail(&f->text, f->text.p, "a field of type F and %u bytes", d->size);
+			return mr_scan_fail(&f->text, f->text.p, "a field of type F and %u bytes", d->size);
 		f->of[d->role] = d;
 	}
 	if (f->binary)
 		f->stride = offset;
 	if (!f->of[X] || !f->of[Y] || !f->of[Z])
-		return mr_text_fail(&f->text, f->text.p, "the fields lack x, y or z");
+		return mr_scan_fail(&f->text, f->text.p, "the fields lack x, y or z");
 	if (!f->has_points)
 		f->points = f->width * f->height;
 	if (f->points > (size_t)(f->text.end - f->text.p) / (f->binary ? f->stride : 2) + 1)
-		return mr_text_fail(&f->text, f->text.p, "%llu points, beyond the end of the file",
+		return mr_scan_fail(&f->text, f->text.p, "%llu points, beyond the end of the file",
 		    (unsigned long long)f->points);
 	return MR_OK;
 }
@@ -131,40 +131,40 @@ static mr_status
 read_header(pcd *f)
 {
 	char shown[MR_SHOWN];
-	mr_text line;
+	mr_scan line;
 	const char *w;
 	size_t n;
 
-	while (mr_text_line(&f->text, &line)) {
+	while (mr_scan_line(&f->text, &line)) {
 		mr_skip_blanks(&line);
 		if (line.p == line.end || *line.p == '#')
 			continue;
-		if (mr_text_accept(&line, "DATA")) {
+		if (mr_scan_accept(&line, "DATA")) {
 			MR_TRY(data_kind(f, &line));
 			return check_header(f);
 		}
-		if (mr_text_accept(&line, "FIELDS") || mr_text_accept(&line, "COLUMNS"))
+		if (mr_scan_accept(&line, "FIELDS") || mr_scan_accept(&line, "COLUMNS"))
 			MR_TRY(field_names(f, &line));
-		else if (mr_text_accept(&line, "SIZE"))
+		else if (mr_scan_accept(&line, "SIZE"))
 			MR_TRY(field_sizes(f, &line));
-		else if (mr_text_accept(&line, "TYPE"))
+		else if (mr_scan_accept(&line, "TYPE"))
 			MR_TRY(field_types(f, &line));
-		else if (mr_text_accept(&line, "COUNT"))
+		else if (mr_scan_accept(&line, "COUNT"))
 			MR_TRY(field_counts(f, &line));
-		else if (mr_text_accept(&line, "WIDTH"))
-			MR_TRY(mr_text_count(&line, "WIDTH", UINT32_MAX, &f->width));
-		else if (mr_text_accept(&line, "HEIGHT"))
-			MR_TRY(mr_text_count(&line, "HEIGHT", UINT32_MAX, &f->height));
-		else if (mr_text_accept(&line, "POINTS")) {
-			MR_TRY(mr_text_count(&line, "POINTS", UINT64_MAX / 16, &f->points));
+		else if (mr_scan_accept(&line, "WIDTH"))
+			MR_TRY(mr_scan_count(&line, "WIDTH", UINT32_MAX, &f->width));
+		else if (mr_scan_accept(&line, "HEIGHT"))
+			MR_TRY(mr_scan_count(&line, "HEIGHT", UINT32_MAX, &f->height));
+		else if (mr_scan_accept(&line, "POINTS")) {
+			MR_TRY(mr_scan_count(&line, "POINTS", UINT64_MAX / 16, &f->points));
 			f->has_points = true;
-		} else if (!mr_text_accept(&line, "VERSION") && !mr_text_accept(&line, "VIEWPOINT")) {
-			mr_text_word(&line, &w, &n);
-			return mr_text_fail(
+		} else if (!mr_scan_accept(&line, "VERSION") && !mr_scan_accept(&line, "VIEWPOINT")) {
+			mr_scan_word(&line, &w, &n);
+			return mr_scan_fail(
 			    &f->text, w, "'%s' begins no line of a PCD header", mr_word_shown(w, n, shown));
 		}
 	}
-	return mr_text_fail(&f->text, f->text.end, "the header has no DATA");
+	return mr_scan_fail(&f->text, f->text.end, "the header has no DATA");
 }
 
 /* ---- points ---- */
@@ -201,7 +201,7 @@ static mr_status
 read_row(pcd *f, double value[ROLES], uint32_t *rgb)
 {
 	size_t column = 0;
-	mr_text line;
+	mr_scan line;
 
 	if (f->binary) {
 		const unsigned char *p = (const unsigned char *)f->text.p;
@@ -217,13 +217,13 @@ read_row(pcd *f, double value[ROLES], uint32_t *rgb)
 		return MR_OK;
 	}
 	do
-		if (!mr_text_line(&f->text, &line))
-			return mr_text_fail(&f->text, f->text.end, "the file ends before its last point");
+		if (!mr_scan_line(&f->text, &line))
+			return mr_scan_fail(&f->text, f->text.end, "the file ends before its last point");
 	while (mr_skip_blanks(&line), line.p == line.end);
 	for (size_t i = 0; i < f->fields; i++)
 		for (unsigned k = 0; k < f->field[i].count; k++, column++) {
 			double x = 0;
-			MR_TRY(mr_text_real(&line, "a number of a point", &x));
+			MR_TRY(mr_scan_real(&line, "a number of a point", &x));
 			if (f->of[f->field[i].role] == &f->field[i])
 				value[f->field[i].role] = x;
 		}
@@ -235,7 +235,7 @@ read_row(pcd *f, double value[ROLES], uint32_t *rgb)
 mr_status
 mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	pcd f = { .ctx = ctx, .text = mr_text_of(ctx, data, size), .height = 1 };
+	pcd f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .height = 1 };
 	mr_v3 *p, *normal = NULL;
 	unsigned char *color = NULL;
 	double v[ROLES] = { 0 };
@@ -276,9 +276,9 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 bool
 mr_pcd_sniff(const unsigned char *data, size_t size)
 {
-	mr_text text = mr_text_of(NULL, data, size), line;
+	mr_scan text = mr_scan_of(NULL, data, size), line;
 
-	if (mr_text_accept(&text, "VERSION"))
+	if (mr_scan_accept(&text, "VERSION"))
 		return true;
-	return mr_text_line(&text, &line) && mr_text_accept(&line, "#") && mr_text_accept(&line, ".PCD");
+	return mr_scan_line(&text, &line) && mr_scan_accept(&line, "#") && mr_scan_accept(&line, ".PCD");
 }

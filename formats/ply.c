@@ -53,7 +53,7 @@ typedef struct element {
 typedef struct ply {
 	mr_ctx *ctx;
 	const unsigned char *data, *end;
-	mr_text text;           /* the header, then the rows of a text file */
+	mr_scan text;           /* the header, then the rows of a text file */
 	const unsigned char *p; /* the rows of a binary file */
 	bool ascii, big;
 	element *element;
@@ -80,7 +80,7 @@ static mr_status MR_PRINTF(3, 4) bad(ply *f, const void *where, const char *form
 	vsnprintf(sentence, sizeof sentence, format, args);
 	va_end(args);
 	if (f->ascii)
-		return mr_text_fail(&f->text, where, "%s", sentence);
+		return mr_scan_fail(&f->text, where, "%s", sentence);
 	return mr_fail(
 	    f->ctx, MR_EFORMAT, "byte %zu: %s", (size_t)((const unsigned char *)where - f->data), sentence);
 }
@@ -112,18 +112,18 @@ is_word(const char *w, size_t n, const char *word)
 }
 
 static mr_status
-header_type(ply *f, mr_text *line, type *t)
+header_type(ply *f, mr_scan *line, type *t)
 {
 	char shown[MR_SHOWN];
 	const char *w;
 	size_t n;
 
-	if (!mr_text_word(line, &w, &n))
-		return mr_text_fail(&f->text, line->p, "a property lacks its type");
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "a property lacks its type");
 	for (*t = 0; *t < TYPES; ++*t)
 		if (is_word(w, n, types[*t].name) || is_word(w, n, types[*t].alias))
 			return MR_OK;
-	return mr_text_fail(&f->text, w, "'%s' is no type of PLY", mr_word_shown(w, n, shown));
+	return mr_scan_fail(&f->text, w, "'%s' is no type of PLY", mr_word_shown(w, n, shown));
 }
 
 static role
@@ -156,7 +156,7 @@ role_of(kind k, bool list, const char *w, size_t n)
 }
 
 static mr_status
-header_property(ply *f, mr_text *line)
+header_property(ply *f, mr_scan *line)
 {
 	element *e = f->elements ? &f->element[f->elements - 1] : NULL;
 	property p = { 0 };
@@ -164,22 +164,22 @@ header_property(ply *f, mr_text *line)
 	size_t n;
 
 	if (!e)
-		return mr_text_fail(&f->text, line->p, "a property before any element");
-	p.list = mr_text_accept(line, "list");
+		return mr_scan_fail(&f->text, line->p, "a property before any element");
+	p.list = mr_scan_accept(line, "list");
 	if (p.list) {
 		MR_TRY(header_type(f, line, &p.count));
 		if (p.count >= FLOAT)
-			return mr_text_fail(&f->text, line->p, "the length of a list is not of a whole type");
+			return mr_scan_fail(&f->text, line->p, "the length of a list is not of a whole type");
 	}
 	MR_TRY(header_type(f, line, &p.value));
-	if (!mr_text_word(line, &w, &n))
-		return mr_text_fail(&f->text, line->p, "a property lacks its name");
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "a property lacks its name");
 	p.role = role_of(e->kind, p.list, w, n);
 	for (size_t i = 0; i < e->properties && p.role != NONE; i++)
 		if (e->property[i].role == p.role)
 			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */
 	if (p.role == INDICES && p.value >= FLOAT)
-		return mr_text_fail(&f->text, w, "indices are not of a whole type");
+		return mr_scan_fail(&f->text, w, "indices are not of a whole type");
 	if (e->properties == e->room) {
 		e->room = 2 * e->room + 8;
 		e->property = mr_grow(f->ctx, e->property, e->properties, e->room, sizeof p);
@@ -191,23 +191,23 @@ header_property(ply *f, mr_text *line)
 }
 
 static mr_status
-header_element(ply *f, mr_text *line)
+header_element(ply *f, mr_scan *line)
 {
 	element e = { 0 };
 	const char *w;
 	size_t n;
 
-	if (!mr_text_word(line, &w, &n))
-		return mr_text_fail(&f->text, line->p, "an element lacks its name");
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "an element lacks its name");
 	mr_word_shown(w, n, e.name);
-	MR_TRY(mr_text_count(line, "the number of an element", UINT64_MAX / 16, &e.rows));
+	MR_TRY(mr_scan_count(line, "the number of an element", UINT64_MAX / 16, &e.rows));
 	e.kind = is_word(w, n, "vertex")      ? VERTEX
 	         : is_word(w, n, "face")      ? FACE
 	         : is_word(w, n, "tristrips") ? STRIPS
 	                                      : OTHER;
 	for (size_t i = 0; i < f->elements; i++)
 		if (e.kind != OTHER && f->element[i].kind == e.kind)
-			return mr_text_fail(&f->text, w, "element %s is there twice", e.name);
+			return mr_scan_fail(&f->text, w, "element %s is there twice", e.name);
 	if (f->elements == f->room) {
 		f->room = 2 * f->room + 4;
 		f->element = mr_grow(f->ctx, f->element, f->elements, f->room, sizeof e);
@@ -219,29 +219,29 @@ header_element(ply *f, mr_text *line)
 }
 
 static mr_status
-header_format(ply *f, mr_text *line, bool *seen)
+header_format(ply *f, mr_scan *line, bool *seen)
 {
 	char shown[MR_SHOWN];
 	const char *w;
 	size_t n;
 
-	if (!mr_text_word(line, &w, &n))
-		return mr_text_fail(&f->text, line->p, "the format lacks its name");
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "the format lacks its name");
 	f->ascii = is_word(w, n, "ascii");
 	f->big = is_word(w, n, "binary_big_endian");
 	if (!f->ascii && !f->big && !is_word(w, n, "binary_little_endian"))
-		return mr_text_fail(&f->text, w, "'%s' is no format of PLY", mr_word_shown(w, n, shown));
-	if (!mr_text_accept(line, "1.0"))
-		return mr_text_fail(&f->text, line->p, "the format's version is not 1.0");
+		return mr_scan_fail(&f->text, w, "'%s' is no format of PLY", mr_word_shown(w, n, shown));
+	if (!mr_scan_accept(line, "1.0"))
+		return mr_scan_fail(&f->text, line->p, "the format's version is not 1.0");
 	*seen = true;
 	return MR_OK;
 }
 
 /* A comment "group NAME" names the next group, as mr_ply_write has it. */
 static mr_status
-header_comment(ply *f, mr_text *line)
+header_comment(ply *f, mr_scan *line)
 {
-	if (!mr_text_accept(line, "group"))
+	if (!mr_scan_accept(line, "group"))
 		return MR_OK;
 	if (f->groups == f->groups_room) {
 		f->groups_room = 2 * f->groups_room + 16;
@@ -262,33 +262,33 @@ read_header(ply *f)
 {
 	char shown[MR_SHOWN];
 	bool format = false, first = true;
-	mr_text line;
+	mr_scan line;
 	const char *w;
 	size_t n;
 
-	while (mr_text_line(&f->text, &line)) {
-		if (mr_text_accept(&line, "end_header")) {
+	while (mr_scan_line(&f->text, &line)) {
+		if (mr_scan_accept(&line, "end_header")) {
 			if (!format)
-				return mr_text_fail(&f->text, line.p, "the header lacks its format");
+				return mr_scan_fail(&f->text, line.p, "the header lacks its format");
 			f->p = (const unsigned char *)f->text.p;
 			return MR_OK;
 		}
-		if (first && !mr_text_accept(&line, "ply"))
-			return mr_text_fail(&f->text, line.p, "the file does not begin with 'ply'");
-		if (!first && mr_text_accept(&line, "format"))
+		if (first && !mr_scan_accept(&line, "ply"))
+			return mr_scan_fail(&f->text, line.p, "the file does not begin with 'ply'");
+		if (!first && mr_scan_accept(&line, "format"))
 			MR_TRY(header_format(f, &line, &format));
-		else if (mr_text_accept(&line, "element"))
+		else if (mr_scan_accept(&line, "element"))
 			MR_TRY(header_element(f, &line));
-		else if (mr_text_accept(&line, "property"))
+		else if (mr_scan_accept(&line, "property"))
 			MR_TRY(header_property(f, &line));
-		else if (mr_text_accept(&line, "comment"))
+		else if (mr_scan_accept(&line, "comment"))
 			MR_TRY(header_comment(f, &line));
-		else if (!mr_text_accept(&line, "obj_info") && f->elements > 0 && mr_text_word(&line, &w, &n))
-			return mr_text_fail(
+		else if (!mr_scan_accept(&line, "obj_info") && f->elements > 0 && mr_scan_word(&line, &w, &n))
+			return mr_scan_fail(
 			    &f->text, w, "'%s' begins no line of a PLY header", mr_word_shown(w, n, shown));
 		first = false;
 	}
-	return mr_text_fail(&f->text, f->text.end, "the header has no end_header");
+	return mr_scan_fail(&f->text, f->text.end, "the header has no end_header");
 }
 
 /* ---- values ---- */
@@ -321,7 +321,7 @@ static mr_status
 next_value(ply *f, type t, double *x)
 {
 	if (f->ascii)
-		return mr_text_real(&f->text, "a value", x); /* all its digits, even of a float */
+		return mr_scan_real(&f->text, "a value", x); /* all its digits, even of a float */
 	*x = binary_value(f->p, t, f->big);
 	f->p += types[t].bytes;
 	return MR_OK;
@@ -432,7 +432,7 @@ pass_list(ply *f, const property *p)
 		return MR_OK;
 	}
 	while (n-- > 0)
-		MR_TRY(mr_text_real(&f->text, "an item of a list", &x));
+		MR_TRY(mr_scan_real(&f->text, "an item of a list", &x));
 	return MR_OK;
 }
 
@@ -532,7 +532,7 @@ read_indices(ply *f, const property *p, bool strips)
 			}
 			x = p->value == INT ? (double)(int32_t)raw : (double)raw;
 		} else if (f->ascii && mr_is_digit(*(const char *)where)) {
-			MR_TRY(mr_text_count(&f->text, "an index", UINT32_MAX, &at));
+			MR_TRY(mr_scan_count(&f->text, "an index", UINT32_MAX, &at));
 			x = (double)at;
 		} else
 			MR_TRY(next_value(f, p->value, &x));
@@ -703,7 +703,7 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	ply f = { .ctx = ctx,
 		.data = data,
 		.end = data + size,
-		.text = mr_text_of(ctx, data, size),
+		.text = mr_scan_of(ctx, data, size),
 		.ascii = true,
 		.b = { .ctx = ctx } };
 

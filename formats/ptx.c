@@ -7,7 +7,7 @@
 
 typedef struct ptx {
 	mr_ctx *ctx;
-	mr_text text;
+	mr_scan text;
 	mr_v3 *p;
 	unsigned char *color;
 	size_t count, room;
@@ -22,15 +22,15 @@ typedef struct scan {
 static mr_status
 numbers_of_line(ptx *f, double *x, size_t most, size_t *count)
 {
-	mr_text line;
+	mr_scan line;
 	size_t n = 0;
 
-	if (!mr_text_line(&f->text, &line))
-		return mr_text_fail(&f->text, f->text.end, "the file ends inside a scan");
+	if (!mr_scan_line(&f->text, &line))
+		return mr_scan_fail(&f->text, f->text.end, "the file ends inside a scan");
 	for (mr_skip_blanks(&line); line.p < line.end; mr_skip_blanks(&line)) {
 		if (n == most)
-			return mr_text_fail(&f->text, line.p, "more than %zu numbers", most);
-		MR_TRY(mr_text_real(&line, "a number", &x[n++]));
+			return mr_scan_fail(&f->text, line.p, "more than %zu numbers", most);
+		MR_TRY(mr_scan_real(&line, "a number", &x[n++]));
 	}
 	*count = n;
 	return MR_OK;
@@ -44,10 +44,10 @@ exactly(ptx *f, double *x, size_t wanted)
 
 	MR_TRY(numbers_of_line(f, x, wanted, &n));
 	if (n < wanted)
-		return mr_text_fail(&f->text, where, "%zu numbers, not %zu", n, wanted);
+		return mr_scan_fail(&f->text, where, "%zu numbers, not %zu", n, wanted);
 	for (size_t i = 0; i < n; i++)
 		if (!isfinite(x[i]))
-			return mr_text_fail(&f->text, where, "a number is not finite");
+			return mr_scan_fail(&f->text, where, "a number is not finite");
 	return MR_OK;
 }
 
@@ -58,8 +58,8 @@ read_head(ptx *f, scan *s)
 	uint64_t columns, rows;
 	double skipped[3];
 
-	MR_TRY(mr_text_count(&f->text, "the number of columns", UINT32_MAX, &columns));
-	MR_TRY(mr_text_count(&f->text, "the number of rows", UINT32_MAX, &rows));
+	MR_TRY(mr_scan_count(&f->text, "the number of columns", UINT32_MAX, &columns));
+	MR_TRY(mr_scan_count(&f->text, "the number of rows", UINT32_MAX, &rows));
 	mr_skip_blanks(&f->text);
 	if (f->text.p < f->text.end)
 		f->text.p++;
@@ -69,7 +69,7 @@ read_head(ptx *f, scan *s)
 		MR_TRY(exactly(f, s->matrix + 4 * i, 4));
 	s->points = columns * rows; /* below 2^64 */
 	if (s->points > (size_t)(f->text.end - f->text.p) / 8 + 1)
-		return mr_text_fail(&f->text, where, "%llu x %llu points, beyond the end of the file",
+		return mr_scan_fail(&f->text, where, "%llu x %llu points, beyond the end of the file",
 		    (unsigned long long)columns, (unsigned long long)rows);
 	return MR_OK;
 }
@@ -97,7 +97,7 @@ read_point(ptx *f, const scan *s)
 
 	MR_TRY(numbers_of_line(f, x, 7, &n));
 	if (n != 3 && n != 4 && n != 7)
-		return mr_text_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
+		return mr_scan_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
 	if (x[0] == 0 && x[1] == 0 && x[2] == 0) {
 		f->empty++;
 		return MR_OK;
@@ -106,7 +106,7 @@ read_point(ptx *f, const scan *s)
 	    m[1] * x[0] + m[5] * x[1] + m[9] * x[2] + m[13],
 	    m[2] * x[0] + m[6] * x[1] + m[10] * x[2] + m[14]);
 	if (!mr_finite(f->p[f->count]))
-		return mr_text_fail(&f->text, where, "a coordinate is not finite");
+		return mr_scan_fail(&f->text, where, "a coordinate is not finite");
 	for (size_t k = 0; k < 4; k++) {
 		double v = n < 7 || k == 3 ? 255 : x[4 + k];
 		f->color[4 * f->count + k] = (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
@@ -119,7 +119,7 @@ read_point(ptx *f, const scan *s)
 mr_status
 mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ptx f = { .ctx = ctx, .text = mr_text_of(ctx, data, size) };
+	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size) };
 	scan s;
 
 	for (mr_skip_space(&f.text); f.text.p < f.text.end; mr_skip_space(&f.text)) {
@@ -136,13 +136,13 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 /* How many numbers the line has; 0 where it has anything else. */
 static size_t
-count_numbers(mr_text *text)
+count_numbers(mr_scan *text)
 {
-	mr_text line;
+	mr_scan line;
 	size_t n = 0;
 	double x;
 
-	if (!mr_text_line(text, &line))
+	if (!mr_scan_line(text, &line))
 		return 0;
 	for (mr_skip_blanks(&line); line.p < line.end; mr_skip_blanks(&line), n++)
 		if (!(line.p = mr_real_read(line.p, line.end, &x)))
@@ -154,7 +154,7 @@ bool
 mr_ptx_sniff(const unsigned char *data, size_t size)
 {
 	static const size_t expected[] = { 1, 1, 3, 3, 3, 3, 4, 4, 4, 4 };
-	mr_text text = mr_text_of(NULL, data, size);
+	mr_scan text = mr_scan_of(NULL, data, size);
 
 	for (size_t i = 0; i < sizeof expected / sizeof *expected; i++)
 		if (count_numbers(&text) != expected[i])

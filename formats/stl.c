@@ -66,7 +66,7 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 /* ---- text ---- */
 
 typedef struct ascii {
-	mr_text text;
+	mr_scan text;
 	mr_builder b;
 	mr_v3 *p; /* corners of all facets */
 	size_t corners, room;
@@ -78,13 +78,13 @@ typedef struct ascii {
 
 /* Corners are vertices of their own until all are there; a facet is a face of them. */
 static mr_status
-end_facet(ascii *a, const mr_text *line)
+end_facet(ascii *a, const mr_scan *line)
 {
 	size_t n = a->corners - a->first;
 	uint32_t small[16], *c = small;
 
 	if (n < 3)
-		return mr_text_fail(&a->text, line->p, "a facet of %zu vertices", n);
+		return mr_scan_fail(&a->text, line->p, "a facet of %zu vertices", n);
 	if (n > 16 && !(c = MR_NEW(a->text.ctx, n, uint32_t)))
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
@@ -93,17 +93,17 @@ end_facet(ascii *a, const mr_text *line)
 }
 
 static mr_status
-add_vertex(ascii *a, mr_text *line)
+add_vertex(ascii *a, mr_scan *line)
 {
 	if (a->corners == a->room)
-		return mr_text_fail(&a->text, line->p, "more vertices than were counted");
-	return mr_text_position(line, &a->p[a->corners++]);
+		return mr_scan_fail(&a->text, line->p, "more vertices than were counted");
+	return mr_scan_position(line, &a->p[a->corners++]);
 }
 
 /* The statement of one line; *state is how deep it stands: 0 outside, 1 in a solid, 2 in a facet, 3 in a
  * loop. */
 static mr_status
-statement(ascii *a, mr_text *line, int *state)
+statement(ascii *a, mr_scan *line, int *state)
 {
 	static const struct {
 		const char *word;
@@ -115,10 +115,10 @@ statement(ascii *a, mr_text *line, int *state)
 	size_t n = 0;
 
 	for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
-		if (!mr_text_accept(line, steps[i].word))
+		if (!mr_scan_accept(line, steps[i].word))
 			continue;
 		if (*state != steps[i].from)
-			return mr_text_fail(&a->text, line->p, "'%s' stands where it may not", steps[i].word);
+			return mr_scan_fail(&a->text, line->p, "'%s' stands where it may not", steps[i].word);
 		*state = steps[i].to;
 		switch (i) {
 		case 0:
@@ -138,29 +138,29 @@ statement(ascii *a, mr_text *line, int *state)
 			return MR_OK;
 		}
 	}
-	return mr_text_word(line, &w, &n)
-	           ? mr_text_fail(&a->text, w, "'%s' begins no statement of STL", mr_word_shown(w, n, shown))
+	return mr_scan_word(line, &w, &n)
+	           ? mr_scan_fail(&a->text, w, "'%s' begins no statement of STL", mr_word_shown(w, n, shown))
 	           : MR_OK;
 }
 
 /* How many vertices there can be, by the word that begins each. */
 static size_t
-count_vertices(const mr_text *t)
+count_vertices(const mr_scan *t)
 {
-	mr_text text = *t, line;
+	mr_scan text = *t, line;
 	size_t n = 0;
 
-	while (mr_text_line(&text, &line))
-		n += mr_text_accept(&line, "vertex");
+	while (mr_scan_line(&text, &line))
+		n += mr_scan_accept(&line, "vertex");
 	return n;
 }
 
 static mr_status
 read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ascii a = { .text = mr_text_of(ctx, data, size), .b = { .ctx = ctx } };
+	ascii a = { .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 	uint32_t *map;
-	mr_text line;
+	mr_scan line;
 	int state = 0;
 	size_t nv;
 
@@ -168,10 +168,10 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(mr_build_vertices(&a.b, a.room));
 	MR_TRY(mr_build_reserve(&a.b, a.room / 3));
 	a.p = a.b.p;
-	while (mr_text_line(&a.text, &line))
+	while (mr_scan_line(&a.text, &line))
 		MR_TRY(statement(&a, &line, &state));
 	if (state)
-		return mr_text_fail(&a.text, a.text.end, "the file ends inside a solid");
+		return mr_scan_fail(&a.text, a.text.end, "the file ends inside a solid");
 	if (!(map = MR_NEW(ctx, a.corners, uint32_t)))
 		return MR_EMEM;
 	MR_TRY(join_corners(ctx, a.p, a.corners, map, &nv));
@@ -189,13 +189,13 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 static bool
 is_text(const unsigned char *data, size_t size)
 {
-	mr_text text = mr_text_of(NULL, data, size), line;
+	mr_scan text = mr_scan_of(NULL, data, size), line;
 
-	if (memchr(data, 0, size < 256 ? size : 256) || !mr_text_accept(&text, "solid"))
+	if (memchr(data, 0, size < 256 ? size : 256) || !mr_scan_accept(&text, "solid"))
 		return false;
-	mr_text_line(&text, &line);
-	return mr_text_accept(&text, "facet") || mr_text_accept(&text, "endsolid") ||
-	       mr_text_accept(&text, "solid");
+	mr_scan_line(&text, &line);
+	return mr_scan_accept(&text, "facet") || mr_scan_accept(&text, "endsolid") ||
+	       mr_scan_accept(&text, "solid");
 }
 
 bool
@@ -207,10 +207,10 @@ mr_stl_sniff(const unsigned char *data, size_t size)
 mr_status
 mr_stl_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	mr_text text = mr_text_of(ctx, data, size);
+	mr_scan text = mr_scan_of(ctx, data, size);
 
 	if (!is_binary(data, size) &&
-	    (is_text(data, size) || (mr_text_accept(&text, "solid") && !memchr(data, 0, size))))
+	    (is_text(data, size) || (mr_scan_accept(&text, "solid") && !memchr(data, 0, size))))
 		return read_ascii(ctx, data, size, m);
 	if (size < HEADER)
 		return mr_fail(

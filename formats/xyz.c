@@ -13,7 +13,7 @@ enum { COLUMNS = 64 };
 
 typedef struct table {
 	mr_ctx *ctx;
-	mr_text text;
+	mr_scan text;
 	bool named;      /* a line of names gave the roles */
 	bool in_comment; /* and was a comment: it may speak of something else */
 	bool counted;
@@ -32,14 +32,14 @@ separates(char c)
 }
 
 static void
-skip_separators(mr_text *line)
+skip_separators(mr_scan *line)
 {
 	while (line->p < line->end && separates(*line->p))
 		line->p++;
 }
 
 static bool
-is_comment(const mr_text *line)
+is_comment(const mr_scan *line)
 {
 	return line->p == line->end || *line->p == '#' || *line->p == '%' || *line->p == '!' ||
 	       (line->end - line->p >= 2 && line->p[0] == '/' && line->p[1] == '/');
@@ -47,9 +47,9 @@ is_comment(const mr_text *line)
 
 /* The next line that says something, without leading blanks. */
 static bool
-next_row(mr_text *text, mr_text *line)
+next_row(mr_scan *text, mr_scan *line)
 {
-	while (mr_text_line(text, line)) {
+	while (mr_scan_line(text, line)) {
 		mr_skip_blanks(line);
 		if (!is_comment(line))
 			return true;
@@ -83,7 +83,7 @@ role_of(const char *w, size_t n)
 
 /* Reads names with or without quotes; the number of columns, or 0 where x, y and z are not all there. */
 static size_t
-names(mr_text line, role r[COLUMNS])
+names(mr_scan line, role r[COLUMNS])
 {
 	bool there[ROLES] = { false };
 	size_t n = 0;
@@ -112,20 +112,20 @@ names(mr_text line, role r[COLUMNS])
 /* ---- rows ---- */
 
 static mr_status
-bad_word(const table *t, const mr_text *line)
+bad_word(const table *t, const mr_scan *line)
 {
 	char shown[MR_SHOWN];
 	const char *e = line->p;
 
 	while (e < line->end && !separates(*e))
 		e++;
-	return mr_text_fail(
+	return mr_scan_fail(
 	    &t->text, line->p, "'%s' is not a number", mr_word_shown(line->p, (size_t)(e - line->p), shown));
 }
 
 /* The numbers of a row; NAN for words such as nan. */
 static mr_status
-row_values(const table *t, mr_text *line, double x[COLUMNS], size_t *count)
+row_values(const table *t, mr_scan *line, double x[COLUMNS], size_t *count)
 {
 	size_t n = 0;
 
@@ -140,7 +140,7 @@ row_values(const table *t, mr_text *line, double x[COLUMNS], size_t *count)
 			value = NAN;
 		}
 		if (n == COLUMNS)
-			return mr_text_fail(&t->text, line->p, "more than %d columns", (int)COLUMNS);
+			return mr_scan_fail(&t->text, line->p, "more than %d columns", (int)COLUMNS);
 		x[n++] = value;
 		line->p = e;
 	}
@@ -149,7 +149,7 @@ row_values(const table *t, mr_text *line, double x[COLUMNS], size_t *count)
 }
 
 static bool
-is_one_count(mr_text line, uint64_t *n)
+is_one_count(mr_scan line, uint64_t *n)
 {
 	uint64_t value = 0;
 	const char *p = line.p;
@@ -169,12 +169,12 @@ is_one_count(mr_text line, uint64_t *n)
 static mr_status
 read_head(table *t)
 {
-	mr_text ahead = t->text, line;
+	mr_scan ahead = t->text, line;
 
-	while (mr_text_line(&ahead, &line)) {
+	while (mr_scan_line(&ahead, &line)) {
 		mr_skip_blanks(&line);
 		if (is_comment(&line)) {
-			mr_text rest = line;
+			mr_scan rest = line;
 			while (rest.p < rest.end && (*rest.p == '#' || *rest.p == '/'))
 				rest.p++;
 			t->columns = names(rest, t->role);
@@ -200,7 +200,7 @@ read_head(table *t)
 static mr_status
 survey(table *t)
 {
-	mr_text text = t->text, line;
+	mr_scan text = t->text, line;
 	double x[COLUMNS];
 	size_t n = 0;
 
@@ -212,18 +212,18 @@ survey(table *t)
 		if (t->rows == 0) {
 			t->first_row = where;
 			if (n < 3)
-				return mr_text_fail(
+				return mr_scan_fail(
 				    &t->text, where, "%zu columns, where a point has 3 at least", n);
 			if (t->in_comment && n != t->columns)
 				t->named = false;
 			if (t->named && n != t->columns)
-				return mr_text_fail(
+				return mr_scan_fail(
 				    &t->text, where, "%zu columns, where %zu are named", n, t->columns);
 			t->columns = n;
 		}
 		if (n != t->columns)
-			return mr_text_fail(&t->text, where, "%zu columns, where line %zu has %zu", n,
-			    mr_text_number(&t->text, t->first_row), t->columns);
+			return mr_scan_fail(&t->text, where, "%zu columns, where line %zu has %zu", n,
+			    mr_line_number(&t->text, t->first_row), t->columns);
 		for (size_t i = 3; i < n; i++) {
 			t->byte[i] = t->byte[i] && x[i] >= 0 && x[i] <= 255 && x[i] == floor(x[i]);
 			t->beyond_one[i] = t->beyond_one[i] || x[i] > 1;
@@ -231,7 +231,7 @@ survey(table *t)
 		t->rows++;
 	}
 	if (t->counted && t->rows < t->count)
-		return mr_text_fail(&t->text, t->text.end, "the file ends after %zu of %llu points", t->rows,
+		return mr_scan_fail(&t->text, t->text.end, "the file ends after %zu of %llu points", t->rows,
 		    (unsigned long long)t->count);
 	return MR_OK;
 }
@@ -340,7 +340,7 @@ useful(const mr_v3 *n, size_t count, mr_ctx *ctx)
 static mr_status
 fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
 {
-	mr_text text = t->text, line;
+	mr_scan text = t->text, line;
 	double x[COLUMNS];
 	size_t n = 0;
 
@@ -349,7 +349,7 @@ fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
 		MR_TRY(row_values(t, &line, x, &n));
 		p[i] = three(t, x, X);
 		if (!mr_finite(p[i]))
-			return mr_text_fail(&t->text, where, "a coordinate is not finite");
+			return mr_scan_fail(&t->text, where, "a coordinate is not finite");
 		if (normal)
 			normal[i] = three(t, x, NX);
 		for (size_t k = 0; color && k < 4; k++)
@@ -361,7 +361,7 @@ fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
 mr_status
 mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	table t = { .ctx = ctx, .text = mr_text_of(ctx, data, size) };
+	table t = { .ctx = ctx, .text = mr_scan_of(ctx, data, size) };
 	mr_v3 *p, *normal = NULL;
 	unsigned char *color = NULL;
 	size_t n;
@@ -391,7 +391,7 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 bool
 mr_xyz_sniff(const unsigned char *data, size_t size)
 {
-	mr_text text = mr_text_of(NULL, data, size), line;
+	mr_scan text = mr_scan_of(NULL, data, size), line;
 	role r[COLUMNS];
 	size_t n = 0;
 	uint64_t count;

@@ -190,9 +190,9 @@ by_angle(const void *a, const void *b)
 }
 
 /*
- * Faces around an edge by angle, seen along it: where they are turned by turns one way and the other, the
- * solid lies between one that runs along the edge and, going round against it, the next; these two are
- * joined.
+ * Faces around an edge by angle, seen along it: the solid lies between a face that runs along the edge and,
+ * going round against it, the next, where that one runs the other way; these two are joined.  What is left
+ * over gets a border.
  */
 static mr_status
 join_wedges(surface *s, size_t i, size_t j)
@@ -202,7 +202,6 @@ join_wedges(surface *s, size_t i, size_t j)
 	leaf *l = MR_NEW(s->ctx, n, leaf);
 	uint32_t a = low_end(s, s->edge[i]);
 	mr_v3 o = s->m->p[a], axis = mr_unit(mr_sub(s->m->p[high_end(s, s->edge[i])], o)), x = { 0, 0, 0 }, y;
-	bool by_turns = n % 2 == 0;
 
 	if (!l)
 		return MR_EMEM;
@@ -219,14 +218,13 @@ join_wedges(surface *s, size_t i, size_t j)
 			l[k].angle += 2 * MR_PI;
 	}
 	qsort(l, n, sizeof *l, by_angle);
-	for (size_t k = 0; k < n && by_turns; k++)
-		by_turns = (from(s, l[k].h) == a) != (from(s, l[(k + 1) % n].h) == a) &&
-		           l[k].angle != l[(k + 1) % n].angle;
 	/* A face a -> b has its outside towards greater angles: the solid is on the side of the next smaller.
 	 */
-	for (size_t k = 0; k < n && by_turns; k++)
-		if (from(s, l[k].h) == a)
-			join(s, l[k].h, l[(k + n - 1) % n].h);
+	for (size_t k = 0; k < n; k++) {
+		leaf before = l[(k + n - 1) % n];
+		if (from(s, l[k].h) == a && from(s, before.h) != a && before.angle != l[k].angle)
+			join(s, l[k].h, before.h);
+	}
 	mr_mark_release(s->ctx, mark);
 	return MR_OK;
 }
@@ -398,9 +396,18 @@ same_edge(const surface *s, uint32_t h, uint32_t g)
 	return (a == c && b == d) || (a == d && b == c);
 }
 
+static void
+cut_loose(surface *s, uint32_t f)
+{
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+		if (s->pair[h] != MR_NONE)
+			cut(s, h);
+}
+
 /*
  * Half-edges that are not a pair but would be copies of one edge, since both their ends are still connected
- * around it: the later one's face is cut loose.  Returns how many faces were.
+ * around it: the face of one is cut loose, of the one without a pair, or else of the later.  Returns how many
+ * were.
  */
 static size_t
 part_copies(surface *s)
@@ -411,12 +418,10 @@ part_copies(surface *s)
 		j = edge_end(s, i);
 		for (size_t k = i + 1; k < j; k++)
 			for (size_t l = i; l < k; l++) {
-				uint32_t g = s->edge[k], h = s->edge[l], f = g / 3;
+				uint32_t g = s->edge[k], h = s->edge[l];
 				if (s->pair[g] == h || !same_edge(s, g, h))
 					continue;
-				for (uint32_t e = 3 * f; e < 3 * f + 3; e++)
-					if (s->pair[e] != MR_NONE)
-						cut(s, e);
+				cut_loose(s, s->pair[g] != MR_NONE && s->pair[h] == MR_NONE ? h / 3 : g / 3);
 				loose++;
 				break;
 			}

@@ -1,4 +1,4 @@
-#include "formats/text.h"
+#include "formats/scan.h"
 
 #include <inttypes.h>
 #include <math.h>
@@ -250,7 +250,7 @@ mr_real_write(char *to, double x)
 /* ---- the cursor ---- */
 
 size_t
-mr_text_number(const mr_text *t, const char *where)
+mr_line_number(const mr_scan *t, const char *where)
 {
 	size_t lines = 1;
 
@@ -260,7 +260,7 @@ mr_text_number(const mr_text *t, const char *where)
 }
 
 mr_status
-mr_text_fail(const mr_text *t, const char *where, const char *format, ...)
+mr_scan_fail(const mr_scan *t, const char *where, const char *format, ...)
 {
 	char sentence[MR_ERROR_MAX / 2];
 	va_list args;
@@ -268,18 +268,18 @@ mr_text_fail(const mr_text *t, const char *where, const char *format, ...)
 	va_start(args, format);
 	vsnprintf(sentence, sizeof sentence, format, args);
 	va_end(args);
-	return mr_fail(t->ctx, MR_EFORMAT, "line %zu: %s", mr_text_number(t, where), sentence);
+	return mr_fail(t->ctx, MR_EFORMAT, "line %zu: %s", mr_line_number(t, where), sentence);
 }
 
 bool
-mr_text_line(mr_text *t, mr_text *line)
+mr_scan_line(mr_scan *t, mr_scan *line)
 {
 	const char *e;
 
 	if (t->p == t->end)
 		return false;
 	e = memchr(t->p, '\n', (size_t)(t->end - t->p));
-	*line = (mr_text){ t->ctx, t->start, t->p, e ? e : t->end };
+	*line = (mr_scan){ t->ctx, t->start, t->p, e ? e : t->end };
 	t->p = e ? e + 1 : t->end;
 	if (line->end > line->p && line->end[-1] == '\r')
 		line->end--;
@@ -287,7 +287,7 @@ mr_text_line(mr_text *t, mr_text *line)
 }
 
 bool
-mr_text_word(mr_text *t, const char **word, size_t *bytes)
+mr_scan_word(mr_scan *t, const char **word, size_t *bytes)
 {
 	mr_skip_space(t);
 	*word = t->p;
@@ -304,13 +304,13 @@ lower(char c)
 }
 
 bool
-mr_text_accept(mr_text *t, const char *word)
+mr_scan_accept(mr_scan *t, const char *word)
 {
-	mr_text ahead = *t;
+	mr_scan ahead = *t;
 	const char *w;
 	size_t n;
 
-	if (!mr_text_word(&ahead, &w, &n) || n != strlen(word))
+	if (!mr_scan_word(&ahead, &w, &n) || n != strlen(word))
 		return false;
 	for (size_t i = 0; i < n; i++)
 		if (lower(w[i]) != lower(word[i]))
@@ -353,7 +353,7 @@ ends_word(const char *p, const char *end)
 }
 
 mr_status
-mr_text_real(mr_text *t, const char *what, double *x)
+mr_scan_real(mr_scan *t, const char *what, double *x)
 {
 	char shown[MR_SHOWN];
 	const char *w, *e;
@@ -365,16 +365,16 @@ mr_text_real(mr_text *t, const char *what, double *x)
 		t->p = e;
 		return MR_OK;
 	}
-	if (!mr_text_word(t, &w, &n))
-		return mr_text_fail(t, t->p, "%s is missing", what);
+	if (!mr_scan_word(t, &w, &n))
+		return mr_scan_fail(t, t->p, "%s is missing", what);
 	if (!mr_word_not_finite(w, n))
-		return mr_text_fail(t, w, "%s is '%s', not a number", what, mr_word_shown(w, n, shown));
+		return mr_scan_fail(t, w, "%s is '%s', not a number", what, mr_word_shown(w, n, shown));
 	*x = NAN;
 	return MR_OK;
 }
 
 mr_status
-mr_text_count(mr_text *t, const char *what, uint64_t most, uint64_t *n)
+mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n)
 {
 	char shown[MR_SHOWN];
 	const char *p, *w;
@@ -389,25 +389,25 @@ mr_text_count(mr_text *t, const char *what, uint64_t most, uint64_t *n)
 		*n = value;
 		return MR_OK;
 	}
-	if (!mr_text_word(t, &w, &bytes))
-		return mr_text_fail(t, t->p, "%s is missing", what);
-	return mr_text_fail(t, w, "%s is '%s', not a whole number from 0 to %" PRIu64, what,
+	if (!mr_scan_word(t, &w, &bytes))
+		return mr_scan_fail(t, t->p, "%s is missing", what);
+	return mr_scan_fail(t, w, "%s is '%s', not a whole number from 0 to %" PRIu64, what,
 	    mr_word_shown(w, bytes, shown), most);
 }
 
 mr_status
-mr_text_position(mr_text *t, mr_v3 *p)
+mr_scan_position(mr_scan *t, mr_v3 *p)
 {
 	const char *where;
 	mr_v3 q;
 
 	mr_skip_space(t);
 	where = t->p;
-	MR_TRY(mr_text_real(t, "a coordinate", &q.x));
-	MR_TRY(mr_text_real(t, "a coordinate", &q.y));
-	MR_TRY(mr_text_real(t, "a coordinate", &q.z));
+	MR_TRY(mr_scan_real(t, "a coordinate", &q.x));
+	MR_TRY(mr_scan_real(t, "a coordinate", &q.y));
+	MR_TRY(mr_scan_real(t, "a coordinate", &q.z));
 	if (!mr_finite(q))
-		return mr_text_fail(t, where, "a coordinate is not finite");
+		return mr_scan_fail(t, where, "a coordinate is not finite");
 	*p = q;
 	return MR_OK;
 }

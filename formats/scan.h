@@ -1,21 +1,21 @@
 /*
- * text.h -- numbers as text, exactly, and a cursor over text in memory.
+ * scan.h -- numbers as text, exactly, and a cursor over text in memory.
  *
  * Contract: reading rounds correctly, as strtod does, bit for bit; writing gives
  * the shortest decimal that reads back as the same double.  Nothing looks behind
  * `end`, and no text needs a terminating NUL.
  * Layer rule: formats.
  */
-#ifndef MR_TEXT_H
-#define MR_TEXT_H
+#ifndef MR_SCAN_H
+#define MR_SCAN_H
 
 #include "base/vec.h"
 
 /* A place in a text; the line number is found when an error needs it. */
-typedef struct mr_text {
+typedef struct mr_scan {
 	mr_ctx *ctx;
 	const char *start, *p, *end;
-} mr_text;
+} mr_scan;
 
 /* Returns the place behind the number that begins at p, or NULL where none does. */
 const char *mr_real_read(const char *p, const char *end, double *x);
@@ -39,7 +39,7 @@ mr_is_digit(char c)
 
 /* Skips blanks of the line. */
 static inline void
-mr_skip_blanks(mr_text *t)
+mr_skip_blanks(mr_scan *t)
 {
 	while (t->p < t->end && mr_is_blank(*t->p))
 		t->p++;
@@ -47,7 +47,7 @@ mr_skip_blanks(mr_text *t)
 
 /* Skips blanks and line ends. */
 static inline void
-mr_skip_space(mr_text *t)
+mr_skip_space(mr_scan *t)
 {
 	while (t->p < t->end && (mr_is_blank(*t->p) || *t->p == '\n'))
 		t->p++;
@@ -55,25 +55,25 @@ mr_skip_space(mr_text *t)
 
 /* The line that begins at t->p, without its end, as a text of its own with the same start; t goes on behind
  * it. */
-bool mr_text_line(mr_text *t, mr_text *line);
+bool mr_scan_line(mr_scan *t, mr_scan *line);
 
 /* The next word of the text, of non-blanks; false at the end.  Crosses lines where the text has any. */
-bool mr_text_word(mr_text *t, const char **word, size_t *bytes);
+bool mr_scan_word(mr_scan *t, const char **word, size_t *bytes);
 
 /* True, and skips it, where the next word is this one, in either case of letters. */
-bool mr_text_accept(mr_text *t, const char *word);
+bool mr_scan_accept(mr_scan *t, const char *word);
 
 /*
  * The next word as a number; "nan", "inf" and their kin are not finite numbers.
  * MR_EFORMAT with the line where the word is something else or missing; `what` is for the sentence.
  */
-mr_status mr_text_real(mr_text *t, const char *what, double *x);
+mr_status mr_scan_real(mr_scan *t, const char *what, double *x);
 
 /* The next word as a whole number of at most `most`. */
-mr_status mr_text_count(mr_text *t, const char *what, uint64_t most, uint64_t *n);
+mr_status mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n);
 
 /* Three finite numbers. */
-mr_status mr_text_position(mr_text *t, mr_v3 *p);
+mr_status mr_scan_position(mr_scan *t, mr_v3 *p);
 
 /* True for "nan", "-nan(ind)", "inf", "Infinity", "1.#QNAN" and the like. */
 bool mr_word_not_finite(const char *word, size_t bytes);
@@ -83,9 +83,9 @@ enum { MR_SHOWN = 40 };
 const char *mr_word_shown(const char *word, size_t bytes, char text[MR_SHOWN]);
 
 /* "line N: sentence" for the line of `where`. */
-mr_status mr_text_fail(const mr_text *t, const char *where, const char *format, ...) MR_PRINTF(3, 4);
+mr_status mr_scan_fail(const mr_scan *t, const char *where, const char *format, ...) MR_PRINTF(3, 4);
 
 /* The number of the line, from 1. */
-size_t mr_text_number(const mr_text *t, const char *where);
+size_t mr_line_number(const mr_scan *t, const char *where);
 
 #endif

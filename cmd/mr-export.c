@@ -1,0 +1,72 @@
+/* mr-export -- write a layer of each frame to a file.  See man/mr-export.1. */
+#include "cmd.h"
+#include "formats/model.h"
+#include "formats/outname.h"
+
+#include <unistd.h>
+
+static const char *format;
+static uint64_t written;
+
+static const cmd_opt table[] = {
+	{ 'f', "format", CMD_TEXT, &format, 0, 0, "FORMAT",
+	    "write this format (default: by the suffix of OUT)", NULL },
+	{ 0 },
+};
+
+static mr_status
+check(cmd *c)
+{
+	const char *out = c->operands[0];
+	bool binary;
+	char *name;
+
+	if (c->operand_count != 1)
+		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT is expected, not %zu", c->operand_count);
+	if (!strcmp(out, "-") && !format)
+		return mr_fail(&c->ctx, MR_EUSAGE, "OUT is stdout: -f FORMAT is needed");
+	MR_TRY(mr_format_check(&c->ctx, out, format, true, &binary));
+	if (!strcmp(out, "-") && binary && isatty(STDOUT_FILENO))
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s is binary and stdout is a terminal", format);
+	return mr_outname(&c->ctx, out, "", 1, &name);
+}
+
+static mr_status
+export_frame(cmd *c, mr_frame *f)
+{
+	static const char *const layers[] = { "mesh", "control", "points", NULL };
+	const char *layer, *out = c->operands[0];
+	char *path;
+	mr_model m;
+
+	if (written && !mr_outname_varies(out))
+		return mr_fail(
+		    &c->ctx, MR_EUSAGE, "%s holds the frame before: OUT needs %%s or %%d for several", out);
+	MR_TRY(mr_layer_choose(&c->ctx, f, c->layer, layers, &layer));
+	MR_TRY(mr_model_get(&c->ctx, f, layer, &m));
+	MR_TRY(mr_outname(&c->ctx, out, f->name, f->number, &path));
+	MR_TRY(mr_model_write(&c->ctx, path, format, &m));
+	written++;
+	return MR_OK;
+}
+
+static mr_status
+finish(cmd *c)
+{
+	if (written == 0 && !mr_outname_varies(c->operands[0]))
+		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame to write");
+	return MR_OK;
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "write a layer of each frame to a file",
+		.operands = "OUT",
+		.options = table,
+		.prepare = check,
+		.frame = export_frame,
+		.finish = finish,
+		.sink = true });
+}
