@@ -1,0 +1,32 @@
+/*
+ * text.h -- a text that grows in the arena, and JSON in it.
+ *
+ * Contract: a failed allocation is remembered and told by mr_text_done, so a
+ * report is written without a check on every line.
+ * Layer rule: base.
+ */
+#ifndef MR_TEXT_H
+#define MR_TEXT_H
+
+#include "base/ctx.h"
+
+typedef struct mr_text {
+	mr_ctx *ctx;
+	char *s; /* NUL-terminated; NULL while empty */
+	size_t n, room;
+	bool failed;
+} mr_text;
+
+/* Appends, as by printf. */
+void mr_text_add(mr_text *t, const char *format, ...) MR_PRINTF(2, 3);
+
+/* Appends n bytes as a JSON string, quotes and all; bytes that are not UTF-8 become U+FFFD. */
+void mr_text_json(mr_text *t, const char *s, size_t n);
+
+/* Appends a number with all its digits, or null where it is not finite. */
+void mr_text_number(mr_text *t, double x);
+
+/* MR_EMEM where any of it was lost. */
+mr_status mr_text_done(const mr_text *t) MR_WARN_UNUSED;
+
+#endif

@@ -1,0 +1,21 @@
+/*
+ * laws.h -- what must hold of the layers of a frame.
+ *
+ * Contract: every column decodes, has the shape that convention gives it, as many
+ * rows as its layer, and finite numbers; indices and regions are in range,
+ * barycentric coordinates have the sum 1, and what refers to another layer finds it.
+ * Layer rule: mesh.
+ */
+#ifndef MR_LAWS_H
+#define MR_LAWS_H
+
+#include "mesh/layers.h"
+
+/*
+ * Calls broken(user, sentence) for each law that the frame breaks.  MR_OK whatever they are;
+ * only want of memory fails.
+ */
+mr_status
+mr_check_frame(mr_ctx *ctx, mr_frame *f, void (*broken)(void *user, const char *sentence), void *user);
+
+#endif
