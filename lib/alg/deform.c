@@ -1,0 +1,278 @@
+/*
+ * Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4; the symmetric form
+ * with true areas is ours.
+ */
+#include "alg/deform_parts.h"
+#include "op/area.h"
+#include "op/laplace.h"
+
+/* Regions */
+
+static void
+count_regions(mr_deform *d)
+{
+	d->lowest = UINT32_MAX;
+	for (size_t v = 0; v < d->nv; v++) {
+		uint32_t r = d->region[v];
+		d->free += r == MR_REGION_FREE;
+		d->fixed += r == MR_REGION_FIXED;
+		d->handled += r >= MR_REGION_HANDLE;
+		if (r >= MR_REGION_HANDLE && r - MR_REGION_HANDLE >= d->handles)
+			d->handles = r - MR_REGION_HANDLE + 1;
+		if (r != MR_REGION_FREE && r < d->lowest)
+			d->lowest = r;
+	}
+}
+
+static uint32_t
+root_of(uint32_t *parent, uint32_t v)
+{
+	while (parent[v] != v)
+		v = parent[v] = parent[parent[v]];
+	return v;
+}
+
+/* Joins the free vertices of each face; the lower number is the root. */
+static void
+join_free(const mr_mesh *m, const uint32_t *region, uint32_t *parent)
+{
+	for (uint32_t v = 0; v < m->nv; v++)
+		parent[v] = v;
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
+			if (region[a] != MR_REGION_FREE || region[b] != MR_REGION_FREE)
+				continue;
+			a = root_of(parent, a);
+			b = root_of(parent, b);
+			parent[a > b ? a : b] = a > b ? b : a;
+		}
+}
+
+/* The free vertices whose component has a constrained neighbour: the others would make K singular. */
+static mr_status
+find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *parent = MR_NEW(ctx, d->nv, uint32_t);
+	bool *root_anchored = MR_NEW_ZERO(ctx, d->nv, bool);
+
+	if (!parent || !root_anchored)
+		return MR_EMEM;
+	join_free(m, d->region, parent);
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
+			if (d->region[a] != MR_REGION_FREE || d->region[b] != MR_REGION_FREE)
+				root_anchored[root_of(parent, a)] = root_anchored[root_of(parent, b)] = true;
+		}
+	for (uint32_t v = 0; v < d->nv; v++) {
+		anchored[v] = d->region[v] == MR_REGION_FREE && root_anchored[root_of(parent, v)];
+		if (d->region[v] == MR_REGION_FREE && !anchored[v]) {
+			d->loose_vertices++;
+			d->loose += parent[v] == v;
+		}
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Counts the constrained vertices beside free ones with no constrained vertex k rings deep within k rings. */
+static mr_status
+count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint8_t k = (uint8_t)d->opts.order, *depth = MR_NEW(ctx, d->nv, uint8_t);
+	uint8_t *back = MR_NEW(ctx, d->nv, uint8_t);
+	bool *deep = MR_NEW(ctx, d->nv, bool);
+
+	if (!depth || !back || !deep)
+		return MR_EMEM;
+	mr_patch_levels(m, anchored, k, depth);
+	for (size_t v = 0; v < d->nv; v++)
+		deep[v] = depth[v] >= k && d->region[v] != MR_REGION_FREE;
+	mr_patch_levels(m, deep, k, back);
+	for (size_t v = 0; v < d->nv; v++)
+		d->narrow += depth[v] == 1 && d->region[v] != MR_REGION_FREE && back[v] > k;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Assembly */
+
+/*
+ * W, made free of units by the mean.  An area below a hundred-millionth of the mean (a vertex
+ * whose faces have none) counts as that much: W stays finite.
+ */
+static mr_status
+weigh(mr_ctx *ctx, mr_deform *d)
+{
+	static const double smallest = 1e-8;
+	size_t n = d->patch.mesh.nv;
+	double mean = 0;
+
+	d->w = MR_NEW(ctx, n, double);
+	if (!d->w)
+		return MR_EMEM;
+	MR_TRY(mr_voronoi_areas(ctx, &d->patch.mesh, d->w));
+	for (size_t i = 0; i < n; i++)
+		mean += d->w[i] / (double)n;
+	for (size_t i = 0; i < n; i++)
+		d->w[i] = d->opts.areas == MR_AREAS_MEAN || !(mean > 0) ? 1
+		                                                        : 1 / fmax(d->w[i] / mean, smallest);
+	return MR_OK;
+}
+
+/* A row without any weight (all its faces are single points) asks for nothing: its vertex stays. */
+static void
+hold_empty_rows(mr_sparse *k)
+{
+	for (int i = 0; i < k->n; i++)
+		for (int e = k->start[i]; e < k->start[i + 1]; e++)
+			if (k->index[e] == i && k->value[e] == 0)
+				k->value[e] = 1;
+}
+
+/* The rows of the true D^k: scaled by M_f^-1. */
+static void
+scale_rows(mr_sparse *k, const double *w)
+{
+	for (int i = 0; i < k->n; i++)
+		for (int e = k->start[i]; e < k->start[i + 1]; e++)
+			k->value[e] *= w[i];
+}
+
+static mr_status
+factor(mr_ctx *ctx, mr_deform *d, double started)
+{
+	bool symmetric = !d->opts.unsymmetric;
+	mr_sparse k;
+	mr_status status;
+
+	MR_TRY(mr_laplace_power(ctx, &d->l, d->w, d->opts.order, d->patch.end[0], symmetric, &k));
+	hold_empty_rows(&k);
+	if (!symmetric)
+		scale_rows(&k, d->w);
+	d->nnz = (size_t)k.start[k.n];
+	d->seconds_assemble = mr_seconds() - started;
+	status = mr_solver_new(ctx, symmetric ? MR_CHOLESKY : MR_LU, &k, &d->solver);
+	if (status == MR_ENUMERIC)
+		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
+		    d->patch.mesh.name, d->opts.order, d->patch.end[0],
+		    d->opts.order > 1 ? " has no solution in doubles (a lower -k may have)" : "");
+	return status;
+}
+
+static mr_status
+check_regions(mr_ctx *ctx, const mr_deform *d, const char *name)
+{
+	if (d->free == 0)
+		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
+		    name, d->nv);
+	if (d->free == d->nv)
+		return mr_fail(ctx, MR_EMESH,
+		    "%s: all %zu vertices are free: nothing holds the surface; select some as fixed or "
+		    "handle",
+		    name, d->nv);
+	return MR_OK;
+}
+
+static mr_status
+set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
+{
+	double started = mr_seconds();
+	bool *anchored = MR_NEW(ctx, d->nv, bool);
+	mr_mark mark;
+
+	if (!anchored)
+		return MR_EMEM;
+	count_regions(d);
+	MR_TRY(check_regions(ctx, d, rest->name));
+	MR_TRY(find_anchored(ctx, d, rest, anchored));
+	MR_TRY(count_narrow(ctx, d, rest, anchored));
+	MR_TRY(mr_patch_build(ctx, rest, anchored, d->opts.order, &d->patch));
+	MR_TRY(mr_laplace_build(ctx, &d->patch.mesh, &d->l));
+	MR_TRY(weigh(ctx, d));
+	if (d->patch.end[0] == 0)
+		return MR_OK;
+	mark = mr_mark_take(ctx);
+	MR_TRY(factor(ctx, d, started));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_deform_new(
+    mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region, const mr_deform_opts *opts, mr_deform **deform)
+{
+	mr_deform *d = MR_NEW_ZERO(ctx, 1, mr_deform);
+
+	if (!d)
+		return MR_EMEM;
+	d->opts = *opts;
+	d->nv = rest->nv;
+	d->region = MR_NEW(ctx, d->nv, uint32_t);
+	if (!d->region)
+		return MR_EMEM;
+	memcpy(d->region, region, d->nv * sizeof *region);
+	MR_TRY(set_up(ctx, d, rest));
+	*deform = d;
+	return MR_OK;
+}
+
+void
+mr_deform_free(mr_deform *d)
+{
+	if (d)
+		mr_solver_free(d->solver);
+}
+
+size_t
+mr_deform_handles(const mr_deform *d)
+{
+	return d->handles;
+}
+
+/* Figures */
+
+static void
+report_solver(mr_ctx *ctx, const mr_deform *d)
+{
+	static const double worst = 1e-13;
+	mr_solver_report r = mr_solver_reported(d->solver);
+
+	mr_stat_set(ctx, "nnz_factor", r.nnz_factor);
+	mr_stat_set(ctx, "seconds_analyse", r.seconds_analyse);
+	mr_stat_set(ctx, "seconds_factor", r.seconds_factor);
+	mr_stat_set(ctx, "rcond", r.rcond);
+	if (r.rcond < worst)
+		mr_note(ctx, "warning: the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order,
+		    r.rcond);
+}
+
+void
+mr_deform_report(mr_ctx *ctx, const mr_deform *d)
+{
+	mr_stat_set(ctx, "free", (double)d->patch.end[0]);
+	mr_stat_set(ctx, "fixed", (double)d->fixed);
+	mr_stat_set(ctx, "handle_vertices", (double)d->handled);
+	mr_stat_set(ctx, "handles", (double)d->handles);
+	mr_stat_set(ctx, "isolated_components", (double)d->loose);
+	mr_stat_set(ctx, "isolated_vertices", (double)d->loose_vertices);
+	mr_stat_set(ctx, "narrow_strip_vertices", (double)d->narrow);
+	mr_stat_set(ctx, "nnz_matrix", (double)d->nnz);
+	mr_stat_set(ctx, "seconds_assemble", d->seconds_assemble);
+	mr_stat_set(ctx, "seconds_solve", d->seconds_solve);
+	mr_stat_set(ctx, "residual", d->residual);
+	mr_stat_set(ctx, "refinements", (double)d->refinements);
+	if (d->solver)
+		report_solver(ctx, d);
+	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", d->patch.end[0], d->fixed,
+	    d->handled, d->residual);
+	if (d->loose)
+		mr_note(ctx, "%zu free components (%zu vertices) have no constrained vertex and stay",
+		    d->loose, d->loose_vertices);
+	if (d->narrow)
+		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
+		    d->narrow, d->opts.order);
+}

@@ -1,0 +1,34 @@
+/*
+ * deform_parts.h -- what deform.c sets up and deform_solve.c solves with.
+ *
+ * With L the cotangent Laplacian and M the areas, D = -M^-1 L and, for free rows f, (D^k)_ff =
+ * (-1)^k M_f^-1 [L (M^-1 L)^(k-1)]_ff: a row scaling of a symmetric matrix, called K.  Multiplying
+ * comes before restricting, so K reaches k rings into the constraints.
+ * Layer rule: alg; only these two include it.
+ */
+#ifndef MR_DEFORM_PARTS_H
+#define MR_DEFORM_PARTS_H
+
+#include "alg/deform.h"
+#include "alg/patch.h"
+#include "mesh/layers.h"
+
+struct mr_deform {
+	mr_deform_opts opts;
+	size_t nv;
+	uint32_t *region;  /* nv */
+	mr_patch patch;    /* the free vertices that are solved for, and k rings */
+	mr_sparse l;       /* of the patch */
+	double *w;         /* mean area by area, per vertex of the patch: W = M^-1 */
+	mr_solver *solver; /* NULL where nothing is to be solved */
+	uint32_t lowest;   /* region that moves the whole: fixed, or the lowest handle's */
+	size_t handles;
+	size_t free, fixed, handled;  /* vertices */
+	size_t loose, loose_vertices; /* free components without a constraint, their vertices */
+	size_t narrow;                /* constrained vertices with less than k rings behind them */
+	size_t nnz;
+	double seconds_assemble, seconds_solve, residual;
+	size_t refinements;
+};
+
+#endif

@@ -1,0 +1,343 @@
+/*
+ * Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4; posing by displacement
+ * is ours.
+ */
+#include "alg/deform_parts.h"
+#include "op/laplace.h"
+
+enum { WIDTH = 4 }; /* right-hand sides solved together, at most */
+
+/* A field over the patch: `width` values per vertex, next to each other. */
+typedef struct field {
+	double *u;        /* end[k] rows: on the constraints given, on the free vertices to be solved for */
+	double *stage[2]; /* workspace of as many rows */
+	double *r;        /* end[0] values per column, one column after another */
+	size_t width;
+} field;
+
+static mr_status
+field_new(mr_ctx *ctx, const mr_deform *d, size_t width, field *f)
+{
+	size_t n = d->patch.mesh.nv * width;
+
+	*f = (field){ .u = MR_NEW_ZERO(ctx, n, double),
+		.stage = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) },
+		.r = MR_NEW(ctx, d->patch.end[0] * width, double),
+		.width = width };
+	return f->u && f->stage[0] && f->stage[1] && f->r ? MR_OK : MR_EMEM;
+}
+
+/* r = -(K u)_f, K applied as L, then k - 1 times L W, each on one ring less. */
+static void
+residual(const mr_ctx *ctx, const mr_deform *d, field *f)
+{
+	size_t k = d->opts.order, n = d->patch.end[0];
+	const double *x = f->u;
+
+	for (size_t step = 1; step <= k; step++) {
+		double *y = f->stage[step % 2];
+		const double *w = step < k || d->opts.unsymmetric ? d->w : NULL;
+		mr_sparse_apply(ctx, &d->l, w, d->patch.end[k - step], f->width, x, y);
+		x = y;
+	}
+	for (size_t c = 0; c < f->width; c++)
+		for (size_t i = 0; i < n; i++)
+			f->r[c * n + i] = -x[i * f->width + c];
+}
+
+static double
+norm_of(const double *r, size_t n)
+{
+	double sum = 0;
+
+	for (size_t i = 0; i < n; i++)
+		sum += r[i] * r[i];
+	return sqrt(sum);
+}
+
+/* u_f += sign r */
+static void
+add_free(const mr_deform *d, field *f, double sign)
+{
+	size_t n = d->patch.end[0];
+
+	for (size_t c = 0; c < f->width; c++)
+		for (size_t i = 0; i < n; i++)
+			f->u[i * f->width + c] += sign * f->r[c * n + i];
+}
+
+/*
+ * Solves K u = 0 on the free vertices, from what u_f is; its residual is relative to that of u_f = 0, which
+ * is `scale`. A residual above the tolerance is solved for again, as long as that halves it.
+ */
+static mr_status
+solve_field(mr_ctx *ctx, mr_deform *d, field *f, double scale)
+{
+	enum { MOST = 3 };
+	size_t n = d->patch.end[0] * f->width;
+	double before = INFINITY, after;
+	double *last;
+
+	last = MR_NEW(ctx, n, double);
+	if (!last)
+		return MR_EMEM;
+	for (int step = 0;; step++) {
+		MR_TRY(mr_solver_solve(ctx, d->solver, f->r, f->width));
+		memcpy(last, f->r, n * sizeof *last);
+		add_free(d, f, 1);
+		residual(ctx, d, f);
+		after = norm_of(f->r, n);
+		if (!(after < before)) { /* rounding is all that is left: undo */
+			memcpy(f->r, last, n * sizeof *last);
+			add_free(d, f, -1);
+			break;
+		}
+		d->refinements = (size_t)step;
+		d->residual = scale > 0 ? after / scale : 0;
+		if (after <= d->opts.tol * scale || after > 0.5 * before || step == MOST)
+			break;
+		before = after;
+	}
+	return MR_OK;
+}
+
+/* The undeformed surface */
+
+static void
+set_points(const mr_deform *d, field *f, const mr_v3 *p, mr_v3 origin, size_t begin, size_t end)
+{
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 x = mr_sub(p[d->patch.vertex[i]], origin);
+		f->u[3 * i] = x.x;
+		f->u[3 * i + 1] = x.y;
+		f->u[3 * i + 2] = x.z;
+	}
+}
+
+/* The correction of p is solved for, which is small where p is smooth already. */
+static mr_status
+relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out)
+{
+	size_t n = d->patch.end[0];
+	mr_box box = mr_box_of(p, d->nv);
+	mr_v3 origin = mr_lerp(0.5, box.min, box.max);
+	double scale;
+	field f;
+
+	MR_TRY(field_new(ctx, d, 3, &f));
+	set_points(d, &f, p, origin, n, d->patch.mesh.nv);
+	residual(ctx, d, &f);
+	scale = norm_of(f.r, 3 * n);
+	set_points(d, &f, p, origin, 0, n);
+	residual(ctx, d, &f);
+	MR_TRY(solve_field(ctx, d, &f, scale));
+	memmove(out, p, d->nv * sizeof *out);
+	for (size_t i = 0; i < n; i++)
+		out[d->patch.vertex[i]] = mr_add(mr_vec(f.u[3 * i], f.u[3 * i + 1], f.u[3 * i + 2]), origin);
+	return MR_OK;
+}
+
+mr_status
+mr_deform_relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double started = mr_seconds();
+
+	if (d->solver)
+		MR_TRY(relax(ctx, d, p, out));
+	else
+		memmove(out, p, d->nv * sizeof *out);
+	mr_mark_release(ctx, mark);
+	d->seconds_solve = mr_seconds() - started;
+	return MR_OK;
+}
+
+/* Posing */
+
+static bool
+is_identity(const mr_affine *t)
+{
+	mr_affine identity = mr_identity();
+
+	for (int i = 0; i < 12; i++)
+		if (t->m[i] != identity.m[i])
+			return false;
+	return true;
+}
+
+/* The maps of all regions from fixed on: fixed and free are at rest, absent handles too. */
+typedef struct pose {
+	const mr_affine *t;
+	size_t count;
+	mr_affine whole; /* T: what moves the whole surface */
+} pose;
+
+static mr_affine
+map_of(const pose *q, uint32_t region)
+{
+	return region >= MR_REGION_HANDLE && region - MR_REGION_HANDLE < q->count
+	           ? q->t[region - MR_REGION_HANDLE]
+	           : mr_identity();
+}
+
+/* T p, every bit kept by the identity, the sign of a zero too. */
+static mr_v3
+move(const mr_affine *t, mr_v3 p)
+{
+	return is_identity(t) ? p : mr_apply(t, p);
+}
+
+static mr_status
+check_maps(mr_ctx *ctx, const mr_deform *d, const mr_affine *t, size_t count)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	bool *present = MR_NEW_ZERO(ctx, d->handles, bool);
+
+	if (!present)
+		return MR_EMEM;
+	for (size_t v = 0; v < d->nv; v++)
+		if (d->region[v] >= MR_REGION_HANDLE)
+			present[d->region[v] - MR_REGION_HANDLE] = true;
+	for (size_t h = 0; h < count; h++)
+		if (!is_identity(&t[h]) && (h >= d->handles || !present[h]))
+			return mr_fail(ctx, MR_ERANGE, "handles: handle %zu has no vertex of %s to move", h,
+			    d->patch.mesh.name);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* z = T_v p0 - T p0 on the constraints of the patch; 0 elsewhere. */
+static void
+set_displacements(const mr_deform *d, const pose *q, const mr_v3 *p0, field *f)
+{
+	for (size_t i = d->patch.end[0]; i < d->patch.mesh.nv; i++) {
+		uint32_t v = d->patch.vertex[i];
+		mr_affine t = map_of(q, d->region[v]);
+		mr_v3 z = mr_sub(move(&t, p0[v]), move(&q->whole, p0[v]));
+		f->u[3 * i] = z.x;
+		f->u[3 * i + 1] = z.y;
+		f->u[3 * i + 2] = z.z;
+	}
+}
+
+static double
+moved(double x, double by)
+{
+	return by == 0 ? x : x + by;
+}
+
+static mr_status
+solve_displacements(mr_ctx *ctx, mr_deform *d, const pose *q, const mr_v3 *p0, mr_v3 *out)
+{
+	size_t n = d->patch.end[0];
+	field f;
+
+	MR_TRY(field_new(ctx, d, 3, &f));
+	set_displacements(d, q, p0, &f);
+	residual(ctx, d, &f);
+	MR_TRY(solve_field(ctx, d, &f, norm_of(f.r, 3 * n)));
+	for (size_t i = 0; i < n; i++) {
+		uint32_t v = d->patch.vertex[i];
+		mr_v3 p = move(&q->whole, p0[v]);
+		const double *z = f.u + 3 * i;
+		out[v] = mr_vec(moved(p.x, z[0]), moved(p.y, z[1]), moved(p.z, z[2]));
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, size_t count, mr_v3 *out)
+{
+	pose q = { t, count, mr_identity() };
+	double started = mr_seconds();
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
+
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(check_maps(ctx, d, t, count));
+	q.whole = map_of(&q, d->lowest);
+	for (size_t v = 0; v < d->nv; v++) { /* free ones too, for those of loose components */
+		mr_affine map = map_of(&q, d->region[v]);
+		p[v] = move(&map, p0[v]);
+	}
+	if (d->solver)
+		MR_TRY(solve_displacements(ctx, d, &q, p0, p));
+	memcpy(out, p, d->nv * sizeof *out);
+	mr_mark_release(ctx, mark);
+	d->seconds_solve = mr_seconds() - started;
+	return MR_OK;
+}
+
+/* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5.
+ */
+
+static void
+row_of(mr_v3 p, double row[4])
+{
+	row[0] = p.x;
+	row[1] = p.y;
+	row[2] = p.z;
+	row[3] = 1;
+}
+
+/* The responses to handle h: (x, y, z, 1) of its own vertices, 0 of the other constraints. */
+static mr_status
+respond_to(mr_ctx *ctx, mr_deform *d, size_t h, const mr_v3 *p0, double *response)
+{
+	size_t n = d->patch.end[0];
+	field f;
+
+	MR_TRY(field_new(ctx, d, WIDTH, &f));
+	for (size_t i = n; i < d->patch.mesh.nv; i++)
+		if (d->region[d->patch.vertex[i]] == MR_REGION_HANDLE + h)
+			row_of(p0[d->patch.vertex[i]], f.u + WIDTH * i);
+	residual(ctx, d, &f);
+	MR_TRY(solve_field(ctx, d, &f, norm_of(f.r, WIDTH * n)));
+	for (size_t i = 0; i < n; i++)
+		memcpy(response + WIDTH * (d->handles * d->patch.vertex[i] + h), f.u + WIDTH * i,
+		    WIDTH * sizeof *response);
+	return MR_OK;
+}
+
+/*
+ * Where nothing is fixed the lowest handle moves the whole, p = T p0 + z: its response is
+ * what the others leave of (x, y, z, 1).
+ */
+static void
+respond_to_whole(const mr_deform *d, const mr_v3 *p0, double *response)
+{
+	size_t lowest = d->lowest - MR_REGION_HANDLE;
+
+	for (size_t i = 0; i < d->patch.end[0]; i++) {
+		uint32_t v = d->patch.vertex[i];
+		double *row = response + WIDTH * d->handles * v, rest[WIDTH];
+		row_of(p0[v], rest);
+		for (size_t h = 0; h < d->handles; h++)
+			for (size_t c = 0; h != lowest && c < WIDTH; c++)
+				rest[c] -= row[WIDTH * h + c];
+		memcpy(row + WIDTH * lowest, rest, sizeof rest);
+	}
+}
+
+mr_status
+mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double started = mr_seconds();
+
+	memset(response, 0, d->nv * d->handles * WIDTH * sizeof *response);
+	for (size_t v = 0; v < d->nv; v++)
+		if (d->region[v] >= MR_REGION_HANDLE)
+			row_of(p0[v], response + WIDTH * (d->handles * v + d->region[v] - MR_REGION_HANDLE));
+	for (size_t h = 0; d->solver && h < d->handles; h++) {
+		mr_progress(ctx, "basis", (double)h / (double)d->handles);
+		if (MR_REGION_HANDLE + h != d->lowest)
+			MR_TRY(respond_to(ctx, d, h, p0, response));
+		mr_mark_release(ctx, mark);
+	}
+	if (d->solver && d->lowest >= MR_REGION_HANDLE)
+		respond_to_whole(d, p0, response);
+	d->seconds_solve = mr_seconds() - started;
+	return MR_OK;
+}

@@ -1,0 +1,149 @@
+/*
+ * Sparse Cholesky: Chen, Davis, Hager, Rajamanickam 2008: Algorithm 887: CHOLMOD.  The only file that knows
+ * it.
+ */
+#include "solve/serial.h"
+#include "solve/solver_type.h"
+
+#include <cholmod.h>
+
+typedef struct cholesky {
+	cholmod_common common;
+	cholmod_factor *factor;
+	cholmod_dense *x, *y, *e; /* workspace of a solve, kept from one to the next */
+} cholesky;
+
+/* CHOLMOD's status as ours.  Its functions return true for a matrix that is not positive definite. */
+static mr_status
+check(mr_ctx *ctx, const cholesky *c)
+{
+	switch (c->common.status) {
+	case CHOLMOD_OK:
+	case CHOLMOD_DSMALL:
+		return MR_OK;
+	case CHOLMOD_NOT_POSDEF:
+		return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite (row %zu of %zu)",
+		    c->factor->minor, c->factor->n);
+	case CHOLMOD_OUT_OF_MEMORY:
+		return mr_fail(ctx, MR_EMEM, "no memory for the factor");
+	case CHOLMOD_TOO_LARGE:
+		return mr_fail(ctx, MR_ERANGE, "the factor is too large");
+	default:
+		return mr_fail(ctx, MR_ENUMERIC, "CHOLMOD fails with status %d", c->common.status);
+	}
+}
+
+static void
+cholesky_free(void *data)
+{
+	cholesky *c = data;
+
+	cholmod_free_dense(&c->x, &c->common);
+	cholmod_free_dense(&c->y, &c->common);
+	cholmod_free_dense(&c->e, &c->common);
+	cholmod_free_factor(&c->factor, &c->common);
+	cholmod_finish(&c->common);
+	free(c);
+}
+
+static mr_status
+analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a)
+{
+	c->common.supernodal = CHOLMOD_SUPERNODAL;
+	c->common.print = 0;
+	c->common.nmethods = 1;
+	c->common.method[0].ordering = CHOLMOD_AMD;
+
+	c->common.method[0].ordering = CHOLMOD_METIS;
+
+	c->common.method[0].ordering = CHOLMOD_NATURAL;
+	c->common.postorder = 1;
+	c->factor = cholmod_analyze(a, &c->common);
+	return check(ctx, c);
+}
+
+static mr_status
+factorize(mr_ctx *ctx, cholesky *c, cholmod_sparse *a)
+{
+	cholmod_factorize(a, c->factor, &c->common);
+	return check(ctx, c); /* at once: the next call resets the status */
+}
+
+/* A row of the lower triangle is a column of the upper one: the same arrays. */
+static cholmod_sparse
+as_upper(const mr_sparse *a)
+{
+	return (cholmod_sparse){ .nrow = (size_t)a->n,
+		.ncol = (size_t)a->n,
+		.nzmax = (size_t)a->start[a->n],
+		.p = a->start,
+		.i = a->index,
+		.x = a->value,
+		.stype = 1,
+		.itype = CHOLMOD_INT,
+		.xtype = CHOLMOD_REAL,
+		.dtype = CHOLMOD_DOUBLE,
+		.sorted = 1,
+		.packed = 1 };
+}
+
+static mr_status
+set_up(mr_ctx *ctx, cholesky *c, const mr_sparse *a, mr_solver_report *report)
+{
+	cholmod_sparse upper = as_upper(a);
+	double start = mr_seconds(), analysed;
+
+	MR_TRY(analyse(ctx, c, &upper));
+	analysed = mr_seconds();
+	MR_TRY(factorize(ctx, c, &upper));
+	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
+		.seconds_factor = mr_seconds() - analysed,
+		.rcond = cholmod_rcond(c->factor, &c->common),
+		.nnz_factor = c->common.lnz };
+	return MR_OK;
+}
+
+static mr_status
+cholesky_setup(mr_ctx *ctx, const mr_sparse *a, void **data, mr_solver_report *report)
+{
+	cholesky *c = calloc(1, sizeof *c);
+	mr_status status;
+	int threads;
+
+	if (!c)
+		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
+	threads = mr_serial_begin();
+	cholmod_start(&c->common);
+	status = set_up(ctx, c, a, report);
+	mr_serial_end(threads);
+	if (status < 0)
+		cholesky_free(c);
+	else
+		*data = c;
+	return status;
+}
+
+static mr_status
+cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns)
+{
+	cholesky *c = data;
+	size_t n = c->factor->n;
+	cholmod_dense right = { .nrow = n,
+		.ncol = columns,
+		.nzmax = n * columns,
+		.d = n,
+		.x = b,
+		.xtype = CHOLMOD_REAL,
+		.dtype = CHOLMOD_DOUBLE };
+	int threads = mr_serial_begin();
+	mr_status status;
+
+	cholmod_solve2(CHOLMOD_A, c->factor, &right, NULL, &c->x, NULL, &c->y, &c->e, &c->common);
+	mr_serial_end(threads);
+	status = check(ctx, c);
+	if (status == MR_OK)
+		memcpy(b, c->x->x, n * columns * sizeof *b);
+	return status;
+}
+
+const mr_solver_type mr_cholesky_type = { "cholesky", cholesky_setup, cholesky_solve, cholesky_free };

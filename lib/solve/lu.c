@@ -1,0 +1,127 @@
+/*
+ * Sparse LU: Davis 2004: Algorithm 832: UMFPACK.  The only file that knows it.
+ */
+#include "solve/serial.h"
+#include "solve/solver_type.h"
+
+#include <umfpack.h>
+
+typedef struct lu {
+	void *numeric;
+	mr_sparse a; /* UMFPACK refines its solutions and needs the matrix for it */
+	double control[UMFPACK_CONTROL];
+} lu;
+
+static mr_status
+check(mr_ctx *ctx, int status)
+{
+	switch (status) {
+	case UMFPACK_OK:
+		return MR_OK;
+	case UMFPACK_WARNING_singular_matrix:
+		return mr_fail(ctx, MR_ENUMERIC, "the matrix is singular");
+	case UMFPACK_ERROR_out_of_memory:
+		return mr_fail(ctx, MR_EMEM, "no memory for the factors");
+	default:
+		return mr_fail(ctx, MR_ENUMERIC, "UMFPACK fails with status %d", status);
+	}
+}
+
+static void
+lu_free(void *data)
+{
+	lu *l = data;
+
+	umfpack_di_free_numeric(&l->numeric);
+	free(l->a.start);
+	free(l->a.index);
+	free(l->a.value);
+	free(l);
+}
+
+static void *
+duplicate(const void *from, size_t count, size_t size)
+{
+	void *p = malloc(count * size);
+
+	return p ? memcpy(p, from, count * size) : NULL;
+}
+
+static mr_status
+copy_matrix(mr_ctx *ctx, const mr_sparse *a, mr_sparse *copy)
+{
+	size_t nnz = (size_t)a->start[a->n];
+
+	copy->n = a->n;
+	copy->start = duplicate(a->start, (size_t)a->n + 1, sizeof *a->start);
+	copy->index = duplicate(a->index, nnz, sizeof *a->index);
+	copy->value = duplicate(a->value, nnz, sizeof *a->value);
+	if (!copy->start || !copy->index || !copy->value)
+		return mr_fail(ctx, MR_EMEM, "no memory for a matrix of %zu entries", nnz);
+	return MR_OK;
+}
+
+/* Our rows are UMFPACK's columns: it factors the transpose. */
+static mr_status
+set_up(mr_ctx *ctx, lu *l, const mr_sparse *a, mr_solver_report *report)
+{
+	double start = mr_seconds(), analysed, info[UMFPACK_INFO];
+	void *symbolic = NULL;
+	int status;
+
+	MR_TRY(copy_matrix(ctx, a, &l->a));
+	a = &l->a;
+	umfpack_di_defaults(l->control);
+	status = umfpack_di_symbolic(a->n, a->n, a->start, a->index, a->value, &symbolic, l->control, info);
+	analysed = mr_seconds();
+	if (status == UMFPACK_OK)
+		status = umfpack_di_numeric(
+		    a->start, a->index, a->value, symbolic, &l->numeric, l->control, info);
+	umfpack_di_free_symbolic(&symbolic);
+	MR_TRY(check(ctx, status));
+	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
+		.seconds_factor = mr_seconds() - analysed,
+		.rcond = info[UMFPACK_RCOND],
+		.nnz_factor = info[UMFPACK_LNZ] + info[UMFPACK_UNZ] };
+	return MR_OK;
+}
+
+static mr_status
+lu_setup(mr_ctx *ctx, const mr_sparse *a, void **data, mr_solver_report *report)
+{
+	lu *l = calloc(1, sizeof *l);
+	mr_status status;
+	int threads;
+
+	if (!l)
+		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
+	threads = mr_serial_begin();
+	status = set_up(ctx, l, a, report);
+	mr_serial_end(threads);
+	if (status < 0)
+		lu_free(l);
+	else
+		*data = l;
+	return status;
+}
+
+static mr_status
+lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns)
+{
+	lu *l = data;
+	size_t n = (size_t)l->a.n;
+	mr_mark mark = mr_mark_take(ctx);
+	double *x = MR_NEW(ctx, n, double), info[UMFPACK_INFO];
+
+	if (!x)
+		return MR_EMEM;
+	for (size_t c = 0; c < columns; c++, b += n) {
+		MR_TRY(check(ctx, umfpack_di_solve(UMFPACK_At, l->a.start, l->a.index, l->a.value, x, b,
+				      l->numeric, l->control, info)));
+		memcpy(b, x, n * sizeof *b);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+const mr_solver_type mr_lu_type = { "lu", lu_setup, lu_solve, lu_free };

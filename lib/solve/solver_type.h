@@ -1,0 +1,22 @@
+/*
+ * solver_type.h -- what a solver provides to solver.c.
+ *
+ * Contract: `setup` returns the solver's own data, over memory of its own, and fills the report;
+ * `free` accepts whatever setup returned.
+ * Layer rule: solve; only files of this folder include it.
+ */
+#ifndef MR_SOLVER_TYPE_H
+#define MR_SOLVER_TYPE_H
+
+#include "solve/solver.h"
+
+typedef struct mr_solver_type {
+	const char *name;
+	mr_status (*setup)(mr_ctx *ctx, const mr_sparse *a, void **data, mr_solver_report *report);
+	mr_status (*solve)(mr_ctx *ctx, void *data, double *b, size_t columns);
+	void (*free)(void *data);
+} mr_solver_type;
+
+extern const mr_solver_type mr_cholesky_type, mr_lu_type;
+
+#endif

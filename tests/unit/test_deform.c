@@ -1,0 +1,643 @@
+/* Boundary-constraint modelling against a dense solve of the paper's own definition, and its invariants. */
+#include "alg/deform.h"
+#include "base/random.h"
+#include "mesh/layers.h"
+#include "op/area.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+enum { FREE = MR_REGION_FREE, FIXED = MR_REGION_FIXED, HANDLE = MR_REGION_HANDLE };
+
+static mr_ctx ctx;
+
+static int
+setup(void **state)
+{
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	return 0;
+}
+
+static int
+teardown(void **state)
+{
+	(void)state;
+	mr_ctx_free(&ctx);
+	return 0;
+}
+
+/* Meshes */
+
+/* An n x n grid over the unit square, its inner vertices moved by up to `noise` edges. */
+static mr_mesh
+grid(uint32_t n, double noise, double (*height)(double x, double y))
+{
+	mr_v3 *p = MR_NEW(&ctx, (size_t)n * n, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * (size_t)(n - 1) * (n - 1), mr_tri);
+	mr_random r = { 7 };
+	size_t f = 0;
+
+	for (uint32_t i = 0; i < n; i++)
+		for (uint32_t j = 0; j < n; j++) {
+			bool inner = i > 0 && j > 0 && i < n - 1 && j < n - 1;
+			double s = inner ? noise : 0, x = (j + s * (mr_random_real(&r) - 0.5)) / (n - 1);
+			double y = (i + s * (mr_random_real(&r) - 0.5)) / (n - 1);
+			p[i * n + j] = mr_vec(x, y, height(x, y));
+		}
+	for (uint32_t i = 0; i + 1 < n; i++)
+		for (uint32_t j = 0; j + 1 < n; j++) {
+			uint32_t a = i * n + j;
+			t[f++] = (mr_tri){ { a, a + 1, a + n + 1 } };
+			t[f++] = (mr_tri){ { a, a + n + 1, a + n } };
+		}
+	return (mr_mesh){ "base", p, t, (size_t)n * n, f };
+}
+
+static double
+flat(double x, double y)
+{
+	(void)x;
+	(void)y;
+	return 0;
+}
+
+static double
+wavy(double x, double y)
+{
+	return 0.2 * sin(5 * x) * cos(4 * y) + 0.1 * x;
+}
+
+/* A torus of a x b quads, perturbed. */
+static mr_mesh
+torus(uint32_t a, uint32_t b, double noise)
+{
+	mr_v3 *p = MR_NEW(&ctx, (size_t)a * b, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * (size_t)a * b, mr_tri);
+	mr_random r = { 11 };
+	size_t f = 0;
+
+	for (uint32_t i = 0; i < a; i++)
+		for (uint32_t j = 0; j < b; j++) {
+			double u = 2 * MR_PI * (i + noise * mr_random_real(&r)) / a;
+			double v = 2 * MR_PI * (j + noise * mr_random_real(&r)) / b;
+			uint32_t k = (i + 1) % a, l = (j + 1) % b;
+			p[i * b + j] = mr_vec((3 + cos(v)) * cos(u), (3 + cos(v)) * sin(u), sin(v));
+			t[f++] = (mr_tri){ { i * b + j, k * b + j, k * b + l } };
+			t[f++] = (mr_tri){ { i * b + j, k * b + l, i * b + l } };
+		}
+	return (mr_mesh){ "base", p, t, (size_t)a * b, f };
+}
+
+/* Below `low` along an axis fixed (or handle 1), above `high` handle 0, free between. */
+static uint32_t *
+bands(const mr_mesh *m, int axis, double low, double high, uint32_t below)
+{
+	uint32_t *region = MR_NEW(&ctx, m->nv, uint32_t);
+	mr_box box = mr_box_of(m->p, m->nv);
+	const double *min = &box.min.x, *max = &box.max.x;
+
+	for (size_t v = 0; v < m->nv; v++) {
+		double x = ((&m->p[v].x)[axis] - min[axis]) / (max[axis] - min[axis]);
+		region[v] = x < low ? below : x > high ? HANDLE : FREE;
+	}
+	return region;
+}
+
+/* A frame around a grid is constrained: `width` vertices wide. */
+static uint32_t *
+framed(uint32_t n, uint32_t width)
+{
+	uint32_t *region = MR_NEW(&ctx, (size_t)n * n, uint32_t);
+
+	for (uint32_t i = 0; i < n; i++)
+		for (uint32_t j = 0; j < n; j++)
+			region[i * n + j] = i >= width && j >= width && i + width < n && j + width < n
+			                        ? FREE
+			                        : FIXED;
+	return region;
+}
+
+/* The literal definition, dense */
+
+static double
+cot_at(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	mr_v3 u = mr_sub(b, a), v = mr_sub(c, a);
+	return 1 / tan(atan2(mr_norm(mr_cross(u, v)), mr_dot(u, v)));
+}
+
+/* D, row-major: (D p)_i = 1/A_i sum_j w_ij (p_j - p_i). */
+static double *
+dense_operator(const mr_mesh *m, bool mean_areas)
+{
+	size_t n = m->nv;
+	double *d = MR_NEW_ZERO(&ctx, n * n, double), *area = MR_NEW(&ctx, n, double);
+
+	assert_int_equal(mr_voronoi_areas(&ctx, m, area), MR_OK);
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			size_t i = m->t[f].v[k], j = m->t[f].v[(k + 1) % 3], l = m->t[f].v[(k + 2) % 3];
+			double w = cot_at(m->p[l], m->p[i], m->p[j]) / 2;
+			d[i * n + j] += w;
+			d[j * n + i] += w;
+			d[i * n + i] -= w;
+			d[j * n + j] -= w;
+		}
+	for (size_t i = 0; i < n; i++)
+		for (size_t j = 0; j < n && !mean_areas; j++)
+			d[i * n + j] /= area[i];
+	return d;
+}
+
+static double *
+dense_power(const double *d, size_t n, size_t k)
+{
+	double *r = MR_NEW(&ctx, n * n, double);
+
+	memcpy(r, d, n * n * sizeof *r);
+	for (size_t step = 1; step < k; step++) {
+		double *q = MR_NEW_ZERO(&ctx, n * n, double);
+		for (size_t i = 0; i < n; i++)
+			for (size_t l = 0; l < n; l++)
+				for (size_t j = 0; j < n && d[i * n + l] != 0; j++)
+					q[i * n + j] += d[i * n + l] * r[l * n + j];
+		r = q;
+	}
+	return r;
+}
+
+/* Gauss with partial pivoting: a (n x n) and the right-hand sides b (n x 3), solved in place. */
+static void
+dense_solve(double *a, double *b, size_t n)
+{
+	for (size_t c = 0; c < n; c++) {
+		size_t pivot = c;
+		for (size_t i = c + 1; i < n; i++)
+			if (fabs(a[i * n + c]) > fabs(a[pivot * n + c]))
+				pivot = i;
+		for (size_t j = 0; j < n; j++) {
+			double x = a[c * n + j];
+			a[c * n + j] = a[pivot * n + j];
+			a[pivot * n + j] = x;
+		}
+		for (size_t j = 0; j < 3; j++) {
+			double x = b[c * 3 + j];
+			b[c * 3 + j] = b[pivot * 3 + j];
+			b[pivot * 3 + j] = x;
+		}
+		for (size_t i = c + 1; i < n; i++) {
+			double s = a[i * n + c] / a[c * n + c];
+			for (size_t j = c; j < n && s != 0; j++)
+				a[i * n + j] -= s * a[c * n + j];
+			for (size_t j = 0; j < 3; j++)
+				b[i * 3 + j] -= s * b[c * 3 + j];
+		}
+	}
+	for (size_t i = n; i-- > 0;)
+		for (size_t j = 0; j < 3; j++) {
+			for (size_t l = i + 1; l < n; l++)
+				b[i * 3 + j] -= a[i * n + l] * b[l * 3 + j];
+			b[i * 3 + j] /= a[i * n + i];
+		}
+}
+
+/* D^k p = 0 on the free vertices; the others as in p. */
+static void
+dense_deform(const mr_mesh *m, const uint32_t *region, size_t k, bool mean_areas, const mr_v3 *p, mr_v3 *out)
+{
+	size_t n = m->nv, free = 0, row = 0;
+	double *d = dense_power(dense_operator(m, mean_areas), n, k);
+	double *a = MR_NEW(&ctx, n * n, double), *b = MR_NEW_ZERO(&ctx, 3 * n, double);
+
+	for (size_t i = 0; i < n; i++)
+		free += region[i] == FREE;
+	for (size_t i = 0; i < n; i++) {
+		size_t column = 0;
+		for (size_t j = 0; j < n && region[i] == FREE; j++) {
+			double x = d[i * n + j];
+			if (region[j] == FREE) {
+				a[row * free + column++] = x;
+				continue;
+			}
+			b[3 * row] -= x * p[j].x;
+			b[3 * row + 1] -= x * p[j].y;
+			b[3 * row + 2] -= x * p[j].z;
+		}
+		row += region[i] == FREE;
+	}
+	dense_solve(a, b, free);
+	row = 0;
+	for (size_t i = 0; i < n; i++) {
+		out[i] = region[i] == FREE ? mr_vec(b[3 * row], b[3 * row + 1], b[3 * row + 2]) : p[i];
+		row += region[i] == FREE;
+	}
+}
+
+/* Comparing */
+
+static mr_deform *
+deform_of(const mr_mesh *m, const uint32_t *region, mr_deform_opts opts)
+{
+	mr_deform *d = NULL;
+	mr_status status = mr_deform_new(&ctx, m, region, &opts, &d);
+
+	if (status != MR_OK)
+		fail_msg("%s", ctx.error);
+	return d;
+}
+
+static double
+largest_distance(const mr_v3 *a, const mr_v3 *b, size_t n)
+{
+	double most = 0;
+
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, mr_dist(a[i], b[i]));
+	return most;
+}
+
+static void
+assert_same(const mr_mesh *m, const mr_v3 *a, const mr_v3 *b, double tolerance)
+{
+	double d = largest_distance(a, b, m->nv) / mr_mesh_diagonal(m);
+
+	if (!(d <= tolerance))
+		fail_msg("%g diagonals apart, more than %g", d, tolerance);
+}
+
+static mr_affine
+screw(double turn, double dx, double scale)
+{
+	return (mr_affine){ { scale * cos(turn), -sin(turn), 0, dx, sin(turn), scale * cos(turn), 0, 0.3 * dx,
+	    0, 0, 1, -dx } };
+}
+
+/* Tests */
+
+typedef struct sample {
+	mr_mesh m;
+	uint32_t *region;
+} sample;
+
+static void
+samples(sample out[4])
+{
+	out[0].m = torus(20, 10, 0);
+	out[0].region = bands(&out[0].m, 1, 0.2, 0.8, FIXED);
+	out[1].m = torus(22, 9, 0.35);
+	out[1].region = bands(&out[1].m, 0, 0.15, 0.85, HANDLE + 1);
+	out[2].m = grid(15, 0.5, wavy);
+	out[2].region = framed(15, 2);
+	out[3].m = grid(14, 0.6, wavy); /* free up to the mesh's own boundary */
+	out[3].region = bands(&out[3].m, 1, 0.3, 0.75, FIXED);
+}
+
+static void
+test_relax_is_the_dense_solution(void **state)
+{
+	sample s[4];
+
+	(void)state;
+	samples(s);
+	for (int i = 0; i < 4; i++)
+		for (size_t k = 1; k <= 3; k++)
+			for (int areas = MR_AREAS_VORONOI; areas <= MR_AREAS_MEAN; areas++)
+				for (int lu = 0; lu < 2; lu++) {
+					mr_deform *d = deform_of(&s[i].m, s[i].region,
+					    (mr_deform_opts){ k, areas, lu != 0, 1e-12 });
+					mr_v3 *p = MR_NEW(&ctx, s[i].m.nv, mr_v3);
+					mr_v3 *q = MR_NEW(&ctx, s[i].m.nv, mr_v3);
+					assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p), MR_OK);
+					dense_deform(
+					    &s[i].m, s[i].region, k, areas == MR_AREAS_MEAN, s[i].m.p, q);
+					assert_same(&s[i].m, p, q, 1e-9);
+					mr_deform_free(d);
+				}
+}
+
+/* p = T p0 + z is the paper's absolute solve where p0 is a solution itself. */
+static void
+test_pose_is_the_dense_solution(void **state)
+{
+	mr_affine t[2] = { screw(0.7, 0.5, 1.2), screw(-0.4, -0.3, 1) };
+	sample s[4];
+
+	(void)state;
+	samples(s);
+	for (int i = 0; i < 4; i++)
+		for (size_t k = 1; k <= 3; k++) {
+			size_t n = s[i].m.nv;
+			mr_deform *d = deform_of(
+			    &s[i].m, s[i].region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+			mr_v3 *p0 = MR_NEW(&ctx, n, mr_v3), *p = MR_NEW(&ctx, n, mr_v3);
+			mr_v3 *q = MR_NEW(&ctx, n, mr_v3);
+			assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p0), MR_OK);
+			for (size_t v = 0; v < n; v++)
+				q[v] = s[i].region[v] >= HANDLE ? mr_apply(&t[s[i].region[v] - HANDLE], p0[v])
+				                                : p0[v];
+			dense_deform(&s[i].m, s[i].region, k, false, q, q);
+			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, mr_deform_handles(d), p), MR_OK);
+			assert_same(&s[i].m, p, q, 1e-9);
+			mr_deform_free(d);
+		}
+}
+
+/* A linear function is harmonic at every order, on any triangulation of the plane. */
+static void
+test_plane_is_reproduced(void **state)
+{
+	mr_mesh m = grid(21, 0.7, flat);
+	mr_v3 *q = MR_NEW(&ctx, m.nv, mr_v3), *p = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	for (size_t k = 1; k <= 3; k++) {
+		const uint32_t *region = framed(21, 3);
+		mr_deform *d = deform_of(&m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+		for (size_t v = 0; v < m.nv; v++) {
+			mr_v3 x = m.p[v];
+			p[v] = mr_vec(x.x, x.y, 0.5 * x.x - 2 * x.y + 3);
+			q[v] = region[v] == FREE ? mr_vec(0.1, x.y * x.y, 7 * x.x) : p[v];
+		}
+		assert_int_equal(mr_deform_relax(&ctx, d, q, q), MR_OK);
+		assert_same(&m, p, q, 1e-11);
+		mr_deform_free(d);
+	}
+}
+
+static void
+test_symmetric_is_unsymmetric(void **state)
+{
+	mr_mesh m = torus(120, 40, 0.4);
+	uint32_t *region = bands(&m, 0, 0.2, 0.9, FIXED);
+	mr_affine t = screw(1, 0.5, 1.1);
+
+	(void)state;
+	for (size_t k = 1; k <= 3; k++) {
+		mr_v3 *p[2];
+		for (int lu = 0; lu < 2; lu++) {
+			mr_deform *d = deform_of(
+			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, lu != 0, 1e-12 });
+			p[lu] = MR_NEW(&ctx, m.nv, mr_v3);
+			assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p[lu]), MR_OK);
+			mr_deform_free(d);
+		}
+		assert_same(&m, p[0], p[1], 1e-9);
+	}
+}
+
+static void
+test_identity_keeps_every_bit(void **state)
+{
+	mr_mesh m = torus(30, 12, 0.4);
+	mr_affine t[2] = { mr_identity(), mr_identity() };
+	mr_v3 *p0 = MR_NEW(&ctx, m.nv, mr_v3), *p = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	memcpy(p0, m.p, m.nv * sizeof *p0);
+	p0[0].z = -0.0;
+	m.p = p0;
+	for (int handles_only = 0; handles_only < 2; handles_only++)
+		for (size_t k = 1; k <= 3; k++) {
+			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
+			mr_deform *d = deform_of(
+			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+			size_t h = mr_deform_handles(d);
+			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
+			assert_int_equal(h, handles_only ? 2 : 1);
+			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, h, p), MR_OK);
+			assert_memory_equal(p, p0, m.nv * sizeof *p);
+			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, 0, p), MR_OK);
+			assert_memory_equal(p, p0, m.nv * sizeof *p);
+			assert_int_equal(mr_deform_basis(&ctx, d, p0, response), MR_OK);
+			assert_int_equal(mr_pose_by_response(&ctx, p0, m.nv, response, h, t, p), MR_OK);
+			assert_memory_equal(p, p0, m.nv * sizeof *p);
+			mr_deform_free(d);
+		}
+}
+
+/* All constraints by one rigid motion: the surface follows, whether or not it is a solution. */
+static void
+test_rigid_motion_is_followed(void **state)
+{
+	mr_mesh m = torus(60, 25, 0.4);
+	uint32_t *region = bands(&m, 1, 0.2, 0.8, HANDLE + 1);
+	mr_affine t[2] = { screw(1.1, 2, 1), screw(1.1, 2, 1) };
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	for (size_t v = 0; v < m.nv; v++)
+		q[v] = mr_apply(t, m.p[v]);
+	for (size_t k = 1; k <= 3; k++) {
+		mr_deform *d = deform_of(&m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+		double *response = MR_NEW(&ctx, 8 * m.nv, double);
+		assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 2, p), MR_OK);
+		assert_same(&m, p, q, 1e-15);
+		assert_int_equal(mr_deform_basis(&ctx, d, m.p, response), MR_OK);
+		assert_int_equal(mr_pose_by_response(&ctx, m.p, m.nv, response, 2, t, p), MR_OK);
+		assert_same(&m, p, q, 1e-13);
+		mr_deform_free(d);
+	}
+}
+
+static void
+test_basis_is_the_pose(void **state)
+{
+	mr_mesh m = torus(60, 25, 0.4);
+	mr_affine t[2] = { screw(0.5, 1, 1.3), screw(-0.8, 0.2, 0.9) };
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p0 = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	for (int handles_only = 0; handles_only < 2; handles_only++)
+		for (size_t k = 1; k <= 3; k++) {
+			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
+			mr_deform *d = deform_of(
+			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+			size_t h = mr_deform_handles(d);
+			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
+			assert_int_equal(mr_deform_relax(&ctx, d, m.p, p0), MR_OK);
+			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, h, p), MR_OK);
+			assert_int_equal(mr_deform_basis(&ctx, d, p0, response), MR_OK);
+			assert_int_equal(mr_pose_by_response(&ctx, p0, m.nv, response, h, t, q), MR_OK);
+			assert_same(&m, p, q, 1e-9);
+			mr_deform_free(d);
+		}
+}
+
+/* A second torus, free and without a constraint, and an isolated free vertex: both stay, at any pose. */
+static void
+test_loose_components_stay(void **state)
+{
+	mr_mesh one = torus(20, 10, 0.3);
+	mr_v3 *p = MR_NEW(&ctx, 2 * one.nv + 1, mr_v3), *q = MR_NEW(&ctx, 2 * one.nv + 1, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * one.nf, mr_tri);
+	mr_mesh two = { "base", p, t, 2 * one.nv + 1, 2 * one.nf };
+	uint32_t *region = MR_NEW(&ctx, two.nv, uint32_t), *band = bands(&one, 0, 0.2, 0.8, HANDLE + 1);
+	mr_affine maps[2] = { screw(1, 1, 1), screw(0.5, 1, 1) };
+	mr_deform *d;
+
+	(void)state;
+	for (size_t v = 0; v < one.nv; v++) {
+		p[v] = one.p[v];
+		p[one.nv + v] = mr_add(one.p[v], mr_vec(0, 0, 5));
+		region[v] = band[v];
+		region[one.nv + v] = FREE;
+	}
+	p[2 * one.nv] = mr_vec(1, 2, 3);
+	region[2 * one.nv] = FREE;
+	for (size_t f = 0; f < one.nf; f++) {
+		t[f] = one.t[f];
+		for (int k = 0; k < 3; k++)
+			t[one.nf + f].v[k] = one.t[f].v[k] + (uint32_t)one.nv;
+	}
+	d = deform_of(&two, region, (mr_deform_opts){ 2, MR_AREAS_VORONOI, false, 1e-12 });
+	assert_int_equal(mr_deform_pose(&ctx, d, p, maps, 2, q), MR_OK);
+	assert_memory_equal(p + one.nv, q + one.nv, (one.nv + 1) * sizeof *p);
+	assert_true(largest_distance(p, q, one.nv) > 0.1);
+	mr_deform_report(&ctx, d);
+	for (size_t i = 0; i < ctx.stat_count; i++)
+		if (!strcmp(ctx.stats[i].name, "isolated_components"))
+			assert_int_equal(ctx.stats[i].value, 2);
+	mr_deform_free(d);
+}
+
+/* Folded, needle, zero-area and repeated faces: finite results, or a sentence. */
+static void
+test_degenerate_faces_give_no_nan(void **state)
+{
+	mr_mesh m = grid(16, 0.4, wavy);
+	mr_tri *t = MR_NEW(&ctx, m.nf + 3, mr_tri);
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	uint32_t *region = framed(16, 3);
+
+	(void)state;
+	memcpy(t, m.t, m.nf * sizeof *t);
+	memcpy(p, m.p, m.nv * sizeof *p);
+	p[16 * 8 + 8] = p[16 * 8 + 9];                              /* a zero edge */
+	p[16 * 5 + 5] = mr_lerp(0.5, p[16 * 5 + 4], p[16 * 5 + 6]); /* a straight angle */
+	t[m.nf++] = (mr_tri){ { 100, 100, 101 } };
+	t[m.nf++] = (mr_tri){ { 100, 100, 100 } };
+	t[m.nf++] = t[3];
+	m.t = t;
+	m.p = p;
+	for (size_t k = 1; k <= 3; k++) {
+		mr_deform_opts opts = { k, MR_AREAS_VORONOI, false, 1e-12 };
+		mr_deform *d = NULL;
+		mr_status status = mr_deform_new(&ctx, &m, region, &opts, &d);
+		if (status == MR_ENUMERIC && k > 1)
+			continue;
+		assert_int_equal(status, MR_OK);
+		assert_int_equal(mr_deform_relax(&ctx, d, p, q), MR_OK);
+		for (size_t v = 0; v < m.nv; v++)
+			assert_true(mr_finite(q[v]));
+		mr_deform_free(d);
+	}
+}
+
+static void
+test_refusals(void **state)
+{
+	mr_mesh m = torus(12, 8, 0);
+	uint32_t *region = MR_NEW_ZERO(&ctx, m.nv, uint32_t);
+	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
+	mr_affine t[3] = { mr_identity(), mr_identity(), screw(1, 1, 1) };
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_deform *d = NULL;
+
+	(void)state;
+	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_EMESH);
+	assert_non_null(strstr(ctx.error, "no free vertex"));
+	for (size_t v = 0; v < m.nv; v++)
+		region[v] = FREE;
+	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_EMESH);
+	assert_non_null(strstr(ctx.error, "nothing holds"));
+	region[5] = HANDLE;
+	region[6] = HANDLE + 4;
+	d = deform_of(&m, region, opts);
+	assert_int_equal(mr_deform_handles(d), 5);
+	assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 3, p), MR_ERANGE);
+	assert_non_null(strstr(ctx.error, "handle 2 has no vertex"));
+	assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 2, p), MR_OK);
+	mr_deform_free(d);
+	mr_deform_free(NULL);
+}
+
+static void
+test_threads_and_runs_change_nothing(void **state)
+{
+	mr_mesh m = torus(150, 60, 0.4);
+	uint32_t *region = bands(&m, 1, 0.2, 0.8, FIXED);
+	mr_affine t = screw(0.7, 1, 1);
+	mr_v3 *first = MR_NEW(&ctx, m.nv, mr_v3), *p = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	for (unsigned run = 0; run < 4; run++) {
+		mr_deform *d;
+		ctx.threads = run % 2 ? 3 : 1;
+		d = deform_of(&m, region, (mr_deform_opts)MR_DEFORM_DEFAULTS);
+		assert_int_equal(mr_deform_relax(&ctx, d, m.p, p), MR_OK);
+		assert_int_equal(mr_deform_pose(&ctx, d, p, &t, 1, p), MR_OK);
+		if (run == 0)
+			memcpy(first, p, m.nv * sizeof *p);
+		assert_memory_equal(p, first, m.nv * sizeof *p);
+		mr_deform_free(d);
+	}
+}
+
+static void
+test_memory_failures_are_reported(void **state)
+{
+	mr_mesh m = torus(12, 8, 0.2);
+	uint32_t *region = bands(&m, 1, 0.3, 0.7, HANDLE + 1);
+	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
+	mr_affine t[2] = { screw(1, 1, 1), mr_identity() };
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	double *response = MR_NEW(&ctx, 8 * m.nv, double);
+
+	(void)state;
+	for (uint64_t k = 1;; k++) {
+		mr_mark mark = mr_mark_take(&ctx);
+		mr_deform *d = NULL;
+		mr_status status;
+		ctx.fail_at = k;
+		status = mr_deform_new(&ctx, &m, region, &opts, &d);
+		if (status == MR_OK)
+			status = mr_deform_relax(&ctx, d, m.p, p);
+		if (status == MR_OK)
+			status = mr_deform_pose(&ctx, d, m.p, t, 2, p);
+		if (status == MR_OK)
+			status = mr_deform_basis(&ctx, d, m.p, response);
+		mr_deform_free(d);
+		mr_mark_release(&ctx, mark);
+		if (status == MR_OK)
+			break;
+		assert_int_equal(status, MR_EMEM);
+		assert_true(k < 200);
+	}
+	ctx.fail_at = 0;
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_relax_is_the_dense_solution, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_pose_is_the_dense_solution, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_plane_is_reproduced, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_symmetric_is_unsymmetric, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_identity_keeps_every_bit, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_rigid_motion_is_followed, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_basis_is_the_pose, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_loose_components_stay, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_degenerate_faces_give_no_nan, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_refusals, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_threads_and_runs_change_nothing, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_memory_failures_are_reported, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
