@@ -47,6 +47,12 @@ mr_frame_has_layer(const mr_frame *frame, const char *layer)
 	return false;
 }
 
+static bool
+same_shape(mr_shape a, mr_shape b)
+{
+	return a.element == b.element && a.type == b.type && a.components == b.components;
+}
+
 static mr_status
 missing(mr_ctx *ctx, const char *layer, const char *name)
 {
@@ -62,8 +68,7 @@ mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 
 	if (!c)
 		return missing(ctx, layer, name);
-	if (c->shape.element != shape.element || c->shape.type != shape.type ||
-	    c->shape.components != shape.components)
+	if (!same_shape(c->shape, shape))
 		return mr_fail(ctx, MR_EMISSING, "%s%scolumn %s is %c %c%u, not %c %c%u", layer,
 		    *layer ? ": " : "", name, c->shape.element, c->shape.type, c->shape.components,
 		    shape.element, shape.type, shape.components);
@@ -146,6 +151,8 @@ mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 	snprintf(put.layer, sizeof put.layer, "%s", layer);
 	snprintf(put.name, sizeof put.name, "%s", name);
 	c = frame->count ? find(frame, layer, name) : NULL;
+	if (c && c->data == data && c->rows == rows && same_shape(c->shape, shape))
+		return MR_OK; /* what was read is put back: it stays as it is stored */
 	if (!c)
 		MR_TRY(append(ctx, frame, &c));
 	*c = put;

@@ -23,20 +23,22 @@ typedef struct mr_shape {
 } mr_shape;
 
 typedef struct mr_column {
-	char layer[MR_LAYER_MAX + 1];  /* empty: belongs to no layer */
+	char layer[MR_LAYER_MAX + 1]; /* empty: belongs to no layer */
 	char name[MR_COLUMN_MAX + 1];
 	mr_shape shape;
 	uint64_t rows;
-	uint64_t serial;               /* of the reader's payload; 0 for a column that the tool put */
-	const void *data;              /* rows x components values; NULL: stored, not decoded yet */
-	const unsigned char *record;   /* header and stored payload as read; NULL for a column that the tool put */
-	struct mr_stored *stored;      /* the reader's record of it: stream/stored.h; NULL for one that the tool put */
+	uint64_t serial;  /* of the reader's payload; 0 for a column that the tool put */
+	const void *data; /* rows x components values; NULL: stored, not decoded yet */
+	const unsigned char
+	    *record; /* header and stored payload as read; NULL for a column that the tool put */
+	struct mr_stored
+	    *stored; /* the reader's record of it: stream/stored.h; NULL for one that the tool put */
 } mr_column;
 
 typedef struct mr_frame {
 	const char *name;
-	bool key;            /* a key frame; else a delta */
-	uint64_t number;     /* from 1, over all streams read */
+	bool key;        /* a key frame; else a delta */
+	uint64_t number; /* from 1, over all streams read */
 	mr_column *columns;
 	size_t count, room;
 } mr_frame;
@@ -58,26 +60,27 @@ bool mr_frame_has_layer(const mr_frame *frame, const char *layer);
  * where it is absent or of another shape; MR_EFORMAT where its bytes are damaged.
  * data: rows x components values, the frame's.
  */
-mr_status mr_frame_get(
-    mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape, const void **data, size_t *rows);
+mr_status mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape,
+    const void **data, size_t *rows);
 
 /* Decodes and verifies one column, whatever it is. */
 mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
 
 /*
- * Puts or replaces a column (in its old place); the bytes are borrowed until the frame is written.  data: rows x
- * components values.  MR_ERANGE for names and shapes that the format forbids.
+ * Puts or replaces a column (in its old place); the bytes are borrowed until the frame is written.  data:
+ * rows x components values.  MR_ERANGE for names and shapes that the format forbids.
  */
-mr_status mr_frame_put(
-    mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape, const void *data, size_t rows);
+mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape,
+    const void *data, size_t rows);
 
 /*
- * Appends a column of another frame as it is, decoded or not; its bytes stay where they are, and must be there until
- * this frame is written.  MR_ERANGE where this frame has a column of that layer and name.
+ * Appends a column of another frame as it is, decoded or not; its bytes stay where they are, and must be
+ * there until this frame is written.  MR_ERANGE where this frame has a column of that layer and name.
  */
 mr_status mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column);
 
-/* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of that element. */
+/* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of
+ * that element. */
 void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
 
 /* Appends one line to the frame's history; control characters and bytes that are not UTF-8 become '?'. */

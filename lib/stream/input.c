@@ -87,6 +87,13 @@ mr_input_open(mr_ctx *ctx, int fd, mr_input *in)
 }
 
 void
+mr_input_end(const mr_input *in)
+{
+	if (in->map)
+		lseek(in->fd, (off_t)in->offset, SEEK_SET);
+}
+
+void
 mr_input_close(mr_input *in)
 {
 	if (in->map)

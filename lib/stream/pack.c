@@ -11,25 +11,19 @@
  */
 enum { ROWS = 32768 };
 
-static uint64_t
+/* One value, widened.  `size` is a constant wherever this is inlined, and so it is below. */
+static inline uint64_t
 load(const unsigned char *p, size_t size)
 {
-	uint32_t u;
-	uint64_t d;
+	uint64_t v = 0;
 
-	if (size == 1)
-		return *p;
-	if (size == 4) {
-		memcpy(&u, p, 4);
-		return u;
-	}
-	memcpy(&d, p, 8);
-	return d;
+	memcpy(&v, p, size); /* little-endian, as the wire */
+	return v;
 }
 
 /* Component after component of n rows: differences of its values, their bytes in planes. */
-static void
-split(const unsigned char *rows, size_t n, size_t components, size_t size, unsigned char *planes)
+static inline void
+split_sized(const unsigned char *rows, size_t n, size_t components, unsigned char *planes, size_t size)
 {
 	for (size_t c = 0; c < components; c++, planes += n * size) {
 		uint64_t before = 0;
@@ -43,8 +37,8 @@ split(const unsigned char *rows, size_t n, size_t components, size_t size, unsig
 }
 
 /* The inverse: sums of what the planes hold. */
-static void
-join(const unsigned char *planes, size_t n, size_t components, size_t size, unsigned char *rows)
+static inline void
+join_sized(const unsigned char *planes, size_t n, size_t components, unsigned char *rows, size_t size)
 {
 	for (size_t c = 0; c < components; c++, planes += n * size) {
 		uint64_t v = 0;
@@ -53,9 +47,31 @@ join(const unsigned char *planes, size_t n, size_t components, size_t size, unsi
 			for (size_t b = 0; b < size; b++)
 				d |= (uint64_t)planes[b * n + i] << 8 * b;
 			v += d;
-			memcpy(rows + (i * components + c) * size, &v, size); /* little-endian, as the wire */
+			memcpy(rows + (i * components + c) * size, &v, size);
 		}
 	}
+}
+
+static void
+split(const unsigned char *rows, size_t n, size_t components, size_t size, unsigned char *planes)
+{
+	if (size == 8)
+		split_sized(rows, n, components, planes, 8);
+	else if (size == 4)
+		split_sized(rows, n, components, planes, 4);
+	else
+		split_sized(rows, n, components, planes, 1);
+}
+
+static void
+join(const unsigned char *planes, size_t n, size_t components, size_t size, unsigned char *rows)
+{
+	if (size == 8)
+		join_sized(planes, n, components, rows, 8);
+	else if (size == 4)
+		join_sized(planes, n, components, rows, 4);
+	else
+		join_sized(planes, n, components, rows, 1);
 }
 
 /* zlib's memory is had from the heap like all other. */

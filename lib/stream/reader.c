@@ -115,8 +115,10 @@ read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
 
 	*p = (piece){ .offset = r->in.offset };
 	MR_TRY(mr_input_header(ctx, &r->in, header, &got));
-	if (got == 0 && r->ended && !r->inside)
+	if (got == 0 && r->ended && !r->inside) {
+		mr_input_end(&r->in);
 		return MR_END;
+	}
 	if (stranger(r, header, got))
 		return mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here",
 		    (unsigned long long)p->offset);

@@ -50,6 +50,9 @@ typedef struct mr_input {
 } mr_input;
 
 mr_status mr_input_open(mr_ctx *ctx, int fd, mr_input *in);
+
+/* Leaves the descriptor behind what was read, mapped or not. */
+void mr_input_end(const mr_input *in);
 void mr_input_close(mr_input *in);
 
 /* The next header.  *got: its bytes; less than MR_HEADER only where the input ends. */

@@ -15,14 +15,14 @@ typedef struct mr_reader mr_reader;
 typedef struct mr_writer mr_writer;
 
 /*
- * Reads from a descriptor, which stays the caller's, from where it stands; a regular file is mapped and must not be
- * cut meanwhile.  Free with mr_reader_free.
+ * Reads from a descriptor, which stays the caller's, from where it stands; a regular file is mapped and must
+ * not be cut meanwhile.  Free with mr_reader_free.
  */
 mr_status mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader) MR_WARN_UNUSED;
 
 /*
- * MR_OK: *frame is the next one; MR_END: all streams have ended well, and the last frame stays valid; else failed,
- * and every further call fails.
+ * MR_OK: *frame is the next one; MR_END: all streams have ended well, and the last frame stays valid; else
+ * failed, and every further call fails.
  */
 mr_status mr_reader_next(mr_ctx *ctx, mr_reader *reader, mr_frame **frame) MR_WARN_UNUSED;
 

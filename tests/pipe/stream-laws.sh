@@ -28,6 +28,8 @@ mr-cat --no-history a.mrs b.mrs | cmp - all.mrs || bad 'cat and mr-cat differ'
 [ $? -eq 1 ] && grep -q 'byte 64' err || bad "a place within a file is not counted: $(cat err)"
 printf 'abc' | cat - a.mrs >shifted
 { dd bs=3 count=1 of=/dev/null 2>/dev/null; mr-cat --no-history; } <shifted | cmp - a.mrs || bad 'a shifted stream differs'
+{ mr-cat --no-history | cmp - a.mrs; mr-cat; } <a.mrs >out 2>err
+[ $? -eq 1 ] && [ ! -s out ] && grep -q 'without END' err || bad 'a file is read twice through one descriptor'
 
 # Cut anywhere, from a file or a pipe: exit 1, one sentence, no END.
 size=$(wc -c <a.mrs)

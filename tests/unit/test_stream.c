@@ -390,6 +390,41 @@ changes_stay_in_their_frame(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* What was read and is put back is passed on as it was stored: packed here, and known by its serial. */
+static void
+put_back(void **state)
+{
+	const void *t, *p;
+	size_t nt, np, n, m;
+	mr_ctx ctx;
+	mr_frame *f;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	int in = animation(&ctx, MR_PACK), out = new_file();
+	mr_reader *r = rewound(&ctx, in);
+	mr_writer *w = writer_on(&ctx, out, MR_KEEP);
+	for (int k = 0; k < 3; k++) {
+		f = next(&ctx, r);
+		ok(&ctx, mr_frame_get(&ctx, f, "mesh", "triangles", TRIANGLES, &t, &nt));
+		ok(&ctx, mr_frame_get(&ctx, f, "mesh", "position", POSITION, &p, &np));
+		ok(&ctx, mr_frame_put(&ctx, f, "mesh", "triangles", TRIANGLES, t, nt));
+		ok(&ctx, mr_frame_put(&ctx, f, "mesh", "position", POSITION, p, np));
+		ok(&ctx, mr_writer_put(&ctx, w, f));
+	}
+	expect_end(&ctx, r);
+	ok(&ctx, mr_writer_end(&ctx, w));
+	mr_writer_free(w);
+	unsigned char *before = bytes_of(in, &n), *after = bytes_of(out, &m);
+	assert_int_equal(n, m);
+	assert_memory_equal(before, after, n);
+	free(before);
+	free(after);
+	close(in);
+	close(out);
+	mr_ctx_free(&ctx);
+}
+
 static void
 histories(void **state)
 {
@@ -549,6 +584,7 @@ main(void)
 		cmocka_unit_test(whole_frames),
 		cmocka_unit_test(merged_is_the_frame),
 		cmocka_unit_test(changes_stay_in_their_frame),
+		cmocka_unit_test(put_back),
 		cmocka_unit_test(histories),
 		cmocka_unit_test(refusals),
 		cmocka_unit_test(sequences),
