@@ -3,10 +3,19 @@
 #include "alg/project.h"
 #include "alg/relax.h"
 #include "alg/sizing.h"
+#include "alg/tips.h"
 #include "alg/valence.h"
 
 /* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
 static const double LONG = 4.0 / 3, SHORT = 4.0 / 5;
+
+/*
+ * Beyond the paper: a strained lattice (a grid of right angles, say) has valence 6 everywhere and no edge
+ * beyond those thresholds, so nothing would move it.  Its strain shows in the angles opposite its edges:
+ * edges longer or shorter than these are split or merged too where both angles are that far from 60.
+ */
+static const double STRETCHED = 1.05, SQUEEZED = 0.95;
+static const double WIDE = 0.2588190451025207, NARROW = 0.7071067811865476; /* cosines of 75 and 45 degrees */
 
 typedef struct remesher {
 	mr_ctx *ctx;
@@ -15,7 +24,7 @@ typedef struct remesher {
 	mr_dyn d;
 	uint32_t *mark; /* stamps for the link condition; room for the vertices of one sweep */
 	uint32_t stamp;
-	size_t splits, collapses, flips;
+	size_t splits, collapses, flips, tips;
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 	double seconds_rounds, seconds_areas;
@@ -85,6 +94,39 @@ locally_longest(const mr_dyn *d, uint32_t h)
 	}
 }
 
+/* Cosine of the angle opposite h in its face. */
+static double
+opposite_cosine(const mr_dyn *d, uint32_t h)
+{
+	mr_v3 c = d->p[mr_dyn_apex(d, h)], a = mr_sub(d->p[d->v[h]], c), b = mr_sub(d->p[mr_dyn_to(d, h)], c);
+
+	return mr_dot(a, b) / sqrt(mr_norm2(a) * mr_norm2(b));
+}
+
+static bool
+too_long(const remesher *r, uint32_t h)
+{
+	const mr_dyn *d = &r->d;
+	double l = target(r, h), l2 = edge_length2(d, h);
+
+	if (l2 > square(LONG * l))
+		return true;
+	return l2 > square(STRETCHED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) < WIDE &&
+	       opposite_cosine(d, d->twin[h]) < WIDE;
+}
+
+static bool
+too_short(const remesher *r, uint32_t h)
+{
+	const mr_dyn *d = &r->d;
+	double l = target(r, h), l2 = edge_length2(d, h);
+
+	if (l2 < square(SHORT * l))
+		return true;
+	return l2 < square(SQUEEZED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) > NARROW &&
+	       opposite_cosine(d, d->twin[h]) > NARROW;
+}
+
 /* 1. Split all edges that are longer than 4/3 l at their midpoint. */
 static mr_status
 split_long(remesher *r)
@@ -92,7 +134,7 @@ split_long(remesher *r)
 	mr_dyn *d = &r->d;
 
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		while (is_edge(d, h) && edge_length2(d, h) > square(LONG * target(r, h))) {
+		while (is_edge(d, h) && too_long(r, h)) {
 			uint32_t g = locally_longest(d, h), m;
 			mr_v3 middle = mr_lerp(0.5, d->p[d->v[g]], d->p[mr_dyn_to(d, g)]);
 			MR_TRY(mr_dyn_split(r->ctx, d, g, middle, &m));
@@ -177,11 +219,8 @@ collapse_short(remesher *r)
 
 	MR_TRY(begin_marks(r));
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (is_edge(d, h)) {
-			double l = target(r, h);
-			if (edge_length2(d, h) < square(SHORT * l))
-				try_collapse(r, h, square(LONG * l));
-		}
+		if (is_edge(d, h) && too_short(r, h))
+			try_collapse(r, h, square(LONG * target(r, h)));
 	mr_mark_release(r->ctx, mark);
 	return MR_OK;
 }
@@ -307,6 +346,8 @@ run(remesher *r)
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
 	}
 	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
+	if (r->o->project)
+		MR_TRY(mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips));
 	middle = mr_seconds();
 	r->seconds_rounds = middle - start;
 	MR_TRY(area_variance(r, &r->variance[0]));
@@ -373,6 +414,7 @@ report(const remesher *r)
 	mr_stat_set(r->ctx, "splits", (double)r->splits);
 	mr_stat_set(r->ctx, "collapses", (double)r->collapses);
 	mr_stat_set(r->ctx, "flips", (double)r->flips);
+	mr_stat_set(r->ctx, "tips", (double)r->tips);
 	mr_stat_set(r->ctx, "vertices", (double)r->d.nv);
 	mr_stat_set(r->ctx, "faces", (double)r->d.nf);
 	mr_stat_set(r->ctx, "area_variance_before", r->variance[0]);

@@ -1,0 +1,339 @@
+/* Laws of remeshing: topology, regularity, the source map, and the operations it is made of. */
+#include "alg/dynmesh.h"
+#include "alg/remesh.h"
+#include "alg/shape.h"
+#include "base/random.h"
+#include "op/area.h"
+
+#include <setjmp.h>
+
+#include <cmocka.h>
+
+static mr_ctx ctx;
+
+static int
+set_up(void **state)
+{
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	return 0;
+}
+
+static int
+tear_down(void **state)
+{
+	(void)state;
+	mr_ctx_free(&ctx);
+	return 0;
+}
+
+static mr_mesh
+shape(mr_solid solid, size_t n)
+{
+	mr_mesh m;
+	mr_solid_opts o = MR_SOLID_DEFAULTS;
+
+	o.solid = solid;
+	o.vertices = n;
+	assert_int_equal(mr_solid_make(&ctx, &o, &m), MR_OK);
+	return m;
+}
+
+typedef struct census {
+	long euler;
+	size_t boundary, valence6, inner;
+	double area_error, angle_error, smallest_angle;
+	size_t folds;
+} census;
+
+static double
+angle(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	mr_v3 x = mr_sub(b, a), y = mr_sub(c, a);
+	return atan2(mr_norm(mr_cross(x, y)), mr_dot(x, y)) * 180 / MR_PI;
+}
+
+static census
+count(const mr_mesh *m)
+{
+	census c = { .smallest_angle = 180 };
+	mr_topology topo;
+	double *area = MR_NEW(&ctx, m->nv, double), sum = 0;
+
+	assert_int_equal(mr_topology_build(&ctx, m, &topo), MR_OK);
+	assert_int_equal(mr_voronoi_areas(&ctx, m, area), MR_OK);
+	size_t half = 0;
+	for (uint32_t h = 0; h < 3 * m->nf; h++) {
+		uint32_t g = topo.twin[h];
+		half += g == MR_NONE ? 2 : 1;
+		c.boundary += g == MR_NONE;
+		if (g != MR_NONE && h < g)
+			c.folds += mr_dot(mr_unit(mr_face_cross(m, h / 3)),
+				       mr_unit(mr_face_cross(m, g / 3))) < -0.5;
+	}
+	c.euler = (long)m->nv - (long)half / 2 + (long)m->nf;
+	for (uint32_t v = 0; v < m->nv; v++) {
+		uint32_t h = topo.out[v];
+		unsigned n = 0;
+		do {
+			n++;
+			h = mr_he_ccw(&topo, h);
+		} while (h != MR_NONE && h != topo.out[v]);
+		if (h == MR_NONE)
+			continue;
+		c.inner++;
+		c.valence6 += n == 6;
+		sum += area[v];
+	}
+	for (uint32_t v = 0; v < m->nv; v++)
+		if (topo.twin[topo.out[v]] != MR_NONE)
+			c.area_error += fabs(area[v] * (double)c.inner / sum - 1) / (double)c.inner;
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			const uint32_t *v = m->t[f].v;
+			double x = angle(m->p[v[k]], m->p[v[(k + 1) % 3]], m->p[v[(k + 2) % 3]]);
+			c.angle_error += fabs(x - 60) / (3 * (double)m->nf);
+			if (x < c.smallest_angle)
+				c.smallest_angle = x;
+		}
+	return c;
+}
+
+static mr_mesh
+remeshed(const mr_mesh *m, const mr_remesh_opts *o, mr_source_map *map)
+{
+	mr_mesh out;
+
+	assert_int_equal(mr_remesh(&ctx, m, o, &out, map), MR_OK);
+	return out;
+}
+
+static void
+closed_shapes_keep_their_topology_and_become_regular(void **state)
+{
+	static const struct {
+		mr_solid solid;
+		long euler;
+		double area_error, angle_error;
+	} shapes[] = {
+		{ MR_SPHERE, 2, 0.08, 1.5 }, /* its facets were of several sizes, and regular: they stay so */
+		{ MR_TORUS, 0, 0.05, 5.3 }, { MR_KNOT, 0, 0.05, 5.3 },
+		{ MR_BUMPY, 2, 0.055, 5.5 }, /* as it is, not smoothed */
+	};
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_source_map map;
+
+	(void)state;
+	for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+		mr_mesh m = shape(shapes[i].solid, 22000), r = remeshed(&m, &o, &map);
+		census c = count(&r);
+		assert_int_equal(c.euler, shapes[i].euler);
+		assert_int_equal(c.boundary, 0);
+		assert_int_equal(c.folds, 0);
+		assert_true(c.area_error < shapes[i].area_error);
+		assert_true(c.angle_error < shapes[i].angle_error);
+		assert_true((double)c.valence6 > 0.8 * (double)c.inner);
+		assert_true(c.smallest_angle > 3);
+		mr_ctx_free(&ctx);
+	}
+}
+
+static void
+source_map_points_at_the_vertices(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_TORUS, 5000), r;
+	mr_source_map map;
+
+	(void)state;
+	r = remeshed(&m, &o, &map);
+	for (size_t v = 0; v < r.nv; v++) {
+		const uint32_t *t = m.t[map.face[v]].v;
+		mr_v3 w = map.bary[v];
+		assert_true(map.face[v] < m.nf);
+		assert_true(w.x >= 0 && w.y >= 0 && w.z >= 0 && fabs(w.x + w.y + w.z - 1) < 1e-12);
+		assert_true(mr_dist(mr_bary_point(w, m.p[t[0]], m.p[t[1]], m.p[t[2]]), r.p[v]) < 1e-12);
+	}
+}
+
+/* The boundary of the unit square keeps its four corners and its straight sides. */
+static void
+boundary_stays_where_it_is(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_PLANE, 3000), r;
+	mr_topology topo;
+	mr_source_map map;
+	mr_box before = mr_box_of(m.p, m.nv), after;
+
+	(void)state;
+	r = remeshed(&m, &o, &map);
+	after = mr_box_of(r.p, r.nv);
+	assert_true(mr_dist(before.min, after.min) < 1e-12 && mr_dist(before.max, after.max) < 1e-12);
+	assert_true(fabs(mr_mesh_area(&ctx, &r) - mr_mesh_area(&ctx, &m)) < 1e-10);
+	assert_int_equal(mr_topology_build(&ctx, &r, &topo), MR_OK);
+	assert_int_equal(count(&r).euler, 1);
+}
+
+/* The edges of a cube survive with --feature: volume and area are the cube's. */
+static void
+features_survive(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_CUBE, 3000), r;
+	mr_source_map map;
+
+	(void)state;
+	o.feature = 40;
+	r = remeshed(&m, &o, &map);
+	assert_true(fabs(mr_mesh_area(&ctx, &r) / mr_mesh_area(&ctx, &m) - 1) < 1e-9);
+	assert_int_equal(count(&r).euler, 2);
+}
+
+static void
+lengths_adapt_to_curvature(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_BUMPY, 20000), coarse, fine;
+	mr_source_map map;
+
+	(void)state;
+	o.adaptive = 0.002 * mr_mesh_diagonal(&m);
+	coarse = remeshed(&m, &o, &map);
+	o.adaptive /= 4;
+	fine = remeshed(&m, &o, &map);
+	assert_int_equal(count(&coarse).euler, 2);
+	assert_true(
+	    fine.nv > 2 * coarse.nv && fine.nv < 8 * coarse.nv); /* lengths go with the root of the error */
+}
+
+static void
+threads_and_runs_do_not_change_a_byte(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_KNOT, 8000), a, b;
+	mr_source_map map;
+
+	(void)state;
+	a = remeshed(&m, &o, &map);
+	ctx.threads = 1;
+	b = remeshed(&m, &o, &map);
+	assert_int_equal(a.nv, b.nv);
+	assert_memory_equal(a.p, b.p, a.nv * sizeof *a.p);
+	assert_memory_equal(a.t, b.t, a.nf * sizeof *a.t);
+}
+
+/* Twins agree, out half-edges leave their vertices, boundary ones first. */
+static void
+assert_valid(const mr_dyn *d)
+{
+	for (uint32_t h = 0; h < 3 * d->nf; h++) {
+		uint32_t g = d->twin[h];
+		if (mr_dyn_face_dead(d, h / 3) || g == MR_NONE)
+			continue;
+		assert_int_equal(d->twin[g], h);
+		assert_int_equal(d->v[g], mr_dyn_to(d, h));
+		assert_int_equal(mr_dyn_to(d, g), d->v[h]);
+		assert_true((d->curve[h] == MR_NONE) == (d->curve[g] == MR_NONE));
+	}
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (d->kind[v] != MR_DEAD)
+			assert_int_equal(d->v[d->out[v]], v);
+}
+
+static void
+random_operations_keep_a_manifold(void **state)
+{
+	static const mr_solid solids[] = { MR_TORUS, MR_PLANE };
+	mr_random random = { 7 };
+
+	(void)state;
+	for (size_t i = 0; i < 2; i++) {
+		mr_mesh m = shape(solids[i], 200), r;
+		mr_topology topo;
+		mr_dyn d;
+		assert_int_equal(mr_topology_build(&ctx, &m, &topo), MR_OK);
+		assert_int_equal(mr_dyn_build(&ctx, &m, &topo, 180, &d), MR_OK);
+		uint32_t *mark = MR_NEW_ZERO(&ctx, 100000, uint32_t), middle;
+		for (uint32_t step = 1; step < 6000; step++) {
+			uint32_t h = (uint32_t)(mr_random_bits(&random) % (3 * d.nf));
+			if (mr_dyn_face_dead(&d, h / 3))
+				continue;
+			switch (mr_random_bits(&random) % 3) {
+			case 0:
+				assert_int_equal(mr_dyn_split(&ctx, &d, h, d.p[d.v[h]], &middle), MR_OK);
+				break;
+			case 1:
+				if (mr_dyn_can_collapse(&d, h, mark, step))
+					mr_dyn_collapse(&d, h, d.p[mr_dyn_to(&d, h)]);
+				break;
+			default:
+				if (mr_dyn_can_flip(&d, h))
+					mr_dyn_flip(&d, h);
+			}
+		}
+		assert_valid(&d);
+		long before = count(&m).euler;
+		assert_int_equal(mr_dyn_compact(&ctx, &d), MR_OK);
+		assert_valid(&d);
+		r = mr_dyn_view(&d, "dyn");
+		assert_int_equal(count(&r).euler, before);
+	}
+}
+
+static void
+failing_memory_is_reported_at_every_place(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_SPHERE, 200), r;
+	mr_source_map map;
+	mr_mark mark = mr_mark_take(&ctx);
+	uint64_t k = 1;
+
+	(void)state;
+	for (;; k++) {
+		mr_status s;
+		ctx.fail_at = k;
+		s = mr_remesh(&ctx, &m, &o, &r, &map);
+		if (ctx.fail_at > 0)
+			break; /* it was never reached */
+		assert_int_equal(s, MR_EMEM);
+		mr_mark_release(&ctx, mark);
+	}
+	ctx.fail_at = 0;
+	assert_true(k > 20);
+}
+
+static void
+what_is_no_manifold_is_refused_by_name(void **state)
+{
+	static const mr_v3 p[5] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 }, { 0, 0, 1 } };
+	static const mr_tri t[3] = { { { 0, 1, 2 } }, { { 1, 0, 3 } }, { { 0, 1, 4 } } };
+	mr_mesh m = { "base", p, t, 5, 3 }, r;
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_source_map map;
+
+	(void)state;
+	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map), MR_EMESH);
+	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces");
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(
+		    closed_shapes_keep_their_topology_and_become_regular, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(source_map_points_at_the_vertices, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(boundary_stays_where_it_is, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(features_survive, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(lengths_adapt_to_curvature, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(threads_and_runs_do_not_change_a_byte, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(failing_memory_is_reported_at_every_place, set_up, tear_down),
+		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, set_up, tear_down),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
