@@ -149,7 +149,7 @@ size_of(const mr_column *c)
 static sent
 identify(const mr_column *c)
 {
-	sent s = { .shape = c->shape, .rows = c->rows };
+	sent s = { .shape = c->shape };
 
 	memcpy(s.layer, c->layer, sizeof s.layer);
 	memcpy(s.name, c->name, sizeof s.name);
@@ -172,8 +172,8 @@ static bool
 same_values(const sent *a, const sent *b)
 {
 	return a->shape.element == b->shape.element && a->shape.type == b->shape.type &&
-	       a->shape.components == b->shape.components && a->rows == b->rows && a->owner == b->owner &&
-	       a->serial == b->serial && a->print.a == b->print.a && a->print.b == b->print.b;
+	       a->shape.components == b->shape.components && a->owner == b->owner && a->serial == b->serial &&
+	       a->print.a == b->print.a && a->print.b == b->print.b;
 }
 
 /*

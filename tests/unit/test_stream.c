@@ -2,6 +2,8 @@
  */
 #include "tests/unit/stream.h"
 
+#include "stream/stored.h"
+
 #include <math.h>
 
 enum { VERTICES = 40000, SMALL = 50 };
@@ -425,6 +427,71 @@ put_back(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* Columns of two readers are told apart, though each reader counts its own. */
+static void
+two_readers(void **state)
+{
+	mr_ctx ctx;
+	mr_reader *r[2];
+	mr_frame *f;
+	int fd[2], out = new_file();
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	mr_writer *w = writer_on(&ctx, out, MR_KEEP);
+	for (int i = 0; i < 2; i++) {
+		fd[i] = new_file();
+		mr_writer *source = writer_on(&ctx, fd[i], MR_KEEP);
+		ok(&ctx, mr_frame_new(&ctx, "x", &f));
+		ok(&ctx, mr_frame_put(&ctx, f, "mesh", "position", POSITION, position + i, SMALL));
+		ok(&ctx, mr_writer_put(&ctx, source, f));
+		ok(&ctx, mr_writer_end(&ctx, source));
+		mr_writer_free(source);
+		r[i] = rewound(&ctx, fd[i]);
+		f = next(&ctx, r[i]);
+		f->key = i == 0;
+		ok(&ctx, mr_writer_put(&ctx, w, f));
+	}
+	ok(&ctx, mr_writer_end(&ctx, w));
+	mr_writer_free(w);
+	mr_reader *merged = rewound(&ctx, out);
+	for (int i = 0; i < 2; i++) {
+		expect(&ctx, next(&ctx, merged), "mesh", "position", POSITION, position + i, SMALL);
+		mr_reader_free(r[i]);
+		close(fd[i]);
+	}
+	expect_end(&ctx, merged);
+	close(out);
+	mr_ctx_free(&ctx);
+}
+
+/* Memory that grows keeps its bytes and its alignment, wherever the heap puts it. */
+static void
+growing_bytes(void **state)
+{
+	void *between[40];
+	mr_bytes b = { 0 };
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	for (size_t k = 0; k < 40; k++) {
+		size_t used = b.room;
+		ok(&ctx, mr_bytes_reserve(&ctx, &b, used, used + 100));
+		between[k] = malloc(16); /* so that it moves */
+		assert_true(b.room >= used + 100);
+		assert_int_equal((uintptr_t)b.p % 64, 0);
+		for (size_t i = 0; i < used; i++)
+			assert_int_equal(b.p[i], (unsigned char)(i * 7));
+		for (size_t i = used; i < b.room; i++)
+			b.p[i] = (unsigned char)(i * 7);
+	}
+	for (size_t k = 0; k < 40; k++)
+		free(between[k]);
+	free(b.heap);
+	mr_ctx_free(&ctx);
+}
+
 static void
 histories(void **state)
 {
@@ -567,6 +634,8 @@ full_disk(void **state)
 	put_small(&ctx, f, "mesh");
 	assert_int_equal(mr_writer_put(&ctx, w, f), MR_EIO);
 	assert_string_equal(ctx.error, "cannot write: No space left on device");
+	assert_true(
+	    dup2(new_file(), fileno(full)) >= 0); /* there is room again, but a hole before it */
 	assert_int_equal(mr_writer_put(&ctx, w, f), MR_EIO);
 	assert_int_equal(mr_writer_end(&ctx, w), MR_EIO);
 	mr_writer_free(w);
@@ -585,6 +654,8 @@ main(void)
 		cmocka_unit_test(merged_is_the_frame),
 		cmocka_unit_test(changes_stay_in_their_frame),
 		cmocka_unit_test(put_back),
+		cmocka_unit_test(two_readers),
+		cmocka_unit_test(growing_bytes),
 		cmocka_unit_test(histories),
 		cmocka_unit_test(refusals),
 		cmocka_unit_test(sequences),

@@ -403,6 +403,36 @@ wrong_deltas(void **state)
 	expect_failure(&b, "DROP of column 'region' of layer 'mesh': the frame before has none");
 }
 
+/* A packed payload inflates to its rows exactly, and nothing stands behind it. */
+static void
+wrong_packing(void **state)
+{
+	static const unsigned char values[1000];
+	unsigned char packed[100] = { 0 };
+	unsigned long n = sizeof packed;
+
+	(void)state;
+	assert_int_equal(compress(packed, &n, values, sizeof values), Z_OK);
+	for (int k = 0; k < 4; k++) {
+		script b;
+		open_frame(&b, "key x");
+		b.n += record(b.s + b.n, "mesh", "x", "vb", 1, 1,
+		    k == 1   ? 999
+		    : k == 2 ? 1001
+			     : 1000,
+		    packed, n + (k == 3));
+		close_frame(&b);
+		if (k == 0) {
+			mr_ctx ctx;
+			mr_ctx_init(&ctx, 1);
+			assert_int_equal(read_bytes(&ctx, b.s, b.n, true).status, MR_END);
+			mr_ctx_free(&ctx);
+		} else {
+			expect_failure(&b, k == 2 ? "break off or are damaged" : "do not end with row");
+		}
+	}
+}
+
 /* A header that promises 2^50 bytes costs no memory, from a pipe or a file. */
 static void
 promises(void **state)
@@ -432,6 +462,7 @@ main(void)
 		cmocka_unit_test(wrong_columns),
 		cmocka_unit_test(wrong_frames),
 		cmocka_unit_test(wrong_deltas),
+		cmocka_unit_test(wrong_packing),
 		cmocka_unit_test(promises),
 	};
 
