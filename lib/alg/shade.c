@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 
-static const mr_rgb PLAIN = { 206, 198, 187 }, INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
+static const mr_rgb PLAIN = { 212, 204, 193 }, INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
 
 enum { LEVELS = 4096 };
 
@@ -152,10 +152,10 @@ light_on(mr_v3 n)
 {
 	static const mr_v3 key = { -0.478, 0.640, 0.602 }, fill = { 0.800, 0.100, 0.592 },
 			   rim = { 0.350, 0.550, -0.758 };
-	double sky = 0.26 + 0.10 * n.y;
+	double sky = 0.30 + 0.10 * n.y;
 	double a = (mr_dot(n, key) + 0.12) / 1.12, b = mr_dot(n, fill), c = mr_dot(n, rim);
 
-	return sky + 0.74 * (a > 0 ? a : 0) + 0.16 * (b > 0 ? b : 0) + 0.22 * (c > 0 ? c : 0);
+	return sky + 0.80 * (a > 0 ? a : 0) + 0.16 * (b > 0 ? b : 0) + 0.22 * (c > 0 ? c : 0);
 }
 
 /* A soft gleam of the key light (Blinn 1977). */

@@ -6,7 +6,7 @@ const char *const mr_solid_names[MR_SOLIDS] = { "sphere", "torus", "cube", "plan
 	"bumpy", "boxes" };
 
 mr_status
-mr_build_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b)
+mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b)
 {
 	build r = { .nv = 0 };
 
@@ -28,16 +28,16 @@ add_vertex(build *b, mr_v3 p)
 }
 
 void
-mr_build_face(build *b, uint32_t i, uint32_t j, uint32_t k)
+mr_solid_add_face(build *b, uint32_t i, uint32_t j, uint32_t k)
 {
 	b->t[b->nf++] = (mr_tri){ { i, j, k } };
 }
 
 void
-mr_build_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
+mr_solid_add_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
 {
-	mr_build_face(b, i, j, k);
-	mr_build_face(b, i, k, l);
+	mr_solid_add_face(b, i, j, k);
+	mr_solid_add_face(b, i, k, l);
 }
 
 mr_status
@@ -141,9 +141,9 @@ geodesic_face(geodesic *g, const uint32_t abc[3], uint32_t *rows)
 		for (uint32_t i = 0; i < f - j; i++)
 			next[i] = geodesic_vertex(g, abc, i, j + 1);
 		for (uint32_t i = 0; i < f - j; i++) {
-			mr_build_face(g->b, row[i], row[i + 1], next[i]);
+			mr_solid_add_face(g->b, row[i], row[i + 1], next[i]);
 			if (i + 1 < f - j)
-				mr_build_face(g->b, row[i + 1], next[i + 1], next[i]);
+				mr_solid_add_face(g->b, row[i + 1], next[i + 1], next[i]);
 		}
 		row = next;
 		next = swap;
@@ -170,7 +170,7 @@ mr_geodesic(mr_ctx *ctx, size_t f, build *b)
 
 	if (f >= 1 << 14)
 		return mr_fail(ctx, MR_ERANGE, "a geodesic sphere of frequency %zu is too large", f);
-	MR_TRY(mr_build_begin(ctx, 10 * f * f + 2, 20 * f * f, b));
+	MR_TRY(mr_solid_begin(ctx, 10 * f * f + 2, 20 * f * f, b));
 	mark = mr_mark_take(ctx);
 	MR_TRY(mr_weld_begin(ctx, 10 * f * f + 2, &g.w));
 	rows = MR_NEW(ctx, 2 * (f + 1), uint32_t);
@@ -193,14 +193,14 @@ mr_geodesic(mr_ctx *ctx, size_t f, build *b)
 static mr_status
 periodic_grid(mr_ctx *ctx, size_t nu, size_t nv, mr_v3 (*at)(double u, double v), build *b)
 {
-	MR_TRY(mr_build_begin(ctx, nu * nv, 2 * nu * nv, b));
+	MR_TRY(mr_solid_begin(ctx, nu * nv, 2 * nu * nv, b));
 	for (size_t i = 0; i < nu; i++)
 		for (size_t j = 0; j < nv; j++)
 			add_vertex(b, at((double)i / (double)nu, (double)j / (double)nv));
 	for (size_t i = 0; i < nu; i++) {
 		for (size_t j = 0; j < nv; j++) {
 			size_t k = (i + 1) % nu, l = (j + 1) % nv;
-			mr_build_quad(b, (uint32_t)(i * nv + j), (uint32_t)(k * nv + j),
+			mr_solid_add_quad(b, (uint32_t)(i * nv + j), (uint32_t)(k * nv + j),
 			    (uint32_t)(k * nv + l), (uint32_t)(i * nv + l));
 		}
 	}
@@ -262,7 +262,7 @@ plane(mr_ctx *ctx, size_t n, build *b)
 {
 	size_t s = whole(sqrt((double)n) - 1, 1);
 
-	MR_TRY(mr_build_begin(ctx, (s + 1) * (s + 1), 2 * s * s, b));
+	MR_TRY(mr_solid_begin(ctx, (s + 1) * (s + 1), 2 * s * s, b));
 	for (size_t i = 0; i <= s; i++)
 		for (size_t j = 0; j <= s; j++)
 			add_vertex(
@@ -270,7 +270,7 @@ plane(mr_ctx *ctx, size_t n, build *b)
 	for (size_t i = 0; i < s; i++) {
 		for (size_t j = 0; j < s; j++) {
 			uint32_t a = (uint32_t)(i * (s + 1) + j), c = (uint32_t)(a + s + 1);
-			mr_build_quad(b, a, a + 1, c + 1, c);
+			mr_solid_add_quad(b, a, a + 1, c + 1, c);
 		}
 	}
 	return MR_OK;
@@ -304,9 +304,9 @@ join_rings(build *b, uint32_t outer, size_t m, uint32_t inner, size_t n, bool fl
 
 		d = step ? outer + (uint32_t)(++i % m) : inner + (uint32_t)(++j % n);
 		if (flip)
-			mr_build_face(b, a, c, d);
+			mr_solid_add_face(b, a, c, d);
 		else
-			mr_build_face(b, a, d, c);
+			mr_solid_add_face(b, a, d, c);
 	}
 }
 
@@ -320,7 +320,7 @@ cylinder(mr_ctx *ctx, size_t n, bool open, build *b)
 	size_t side = 6 * k * (h + 1), cap = open ? 0 : 1 + 3 * k * (k - 1);
 	uint32_t bottom = 0, top = 0;
 
-	MR_TRY(mr_build_begin(ctx, side + 2 * cap, 12 * k * h + (open ? 0 : 12 * k * k), b));
+	MR_TRY(mr_solid_begin(ctx, side + 2 * cap, 12 * k * h + (open ? 0 : 12 * k * k), b));
 	for (size_t i = 0; i <= h; i++)
 		top = add_ring(b, 6 * k, 1, 4 * (double)i / (double)h - 2);
 	for (size_t i = 0; i < h; i++)
@@ -386,7 +386,7 @@ cells_side(cells *c, const size_t i[3], int axis, bool upper)
 				at[v] = i[v] * c->s + d + (k >= 2);
 				q[upper ? k : 3 - k] = cells_vertex(c, at);
 			}
-			mr_build_quad(c->b, q[0], q[1], q[2], q[3]);
+			mr_solid_add_quad(c->b, q[0], q[1], q[2], q[3]);
 		}
 	}
 }
@@ -415,7 +415,7 @@ cells_make(mr_ctx *ctx, cells *c, size_t sides, size_t genus, size_t n)
 	c->s = whole(sqrt(squares > 0 ? squares / (double)sides : 0), 1);
 	if ((c->count[0] > c->count[1] ? c->count[0] : c->count[1]) * c->s >= 1 << 21)
 		return mr_fail(ctx, MR_ERANGE, "%zu vertices are too many", n);
-	MR_TRY(mr_build_begin(ctx, sides * c->s * c->s + 2 - 2 * genus, 2 * sides * c->s * c->s, c->b));
+	MR_TRY(mr_solid_begin(ctx, sides * c->s * c->s + 2 - 2 * genus, 2 * sides * c->s * c->s, c->b));
 	mark = mr_mark_take(ctx);
 	MR_TRY(mr_weld_begin(ctx, sides * c->s * c->s + 2, &c->w));
 	for (size_t i = 0; i < c->count[0]; i++)

@@ -10,7 +10,7 @@
  *	plane     [-1, 1]^2 at z = 0, upward: (s + 1)^2 vertices
  *	cylinder  radius 1 about the z axis, |z| <= 2, closed unless `open`
  *	knot      tube of radius 0.2 around the (2, 3) knot on a torus of radii 1 and 0.45
- *	bumpy     a creature with limbs and a scaly skin, y upward: 10 f^2 + 2 vertices, f at least 8
+ *	bumpy     a creature with limbs and a scaly skin, y upward: at least 5,000 vertices
  *	boxes     a slab of 2 g + 1 by 3 by 1 unit cells without every other inner one: genus g
  *
  * Layer rule: alg.

@@ -1,66 +1,98 @@
 /*
- * The bumpy creature: a smooth star-shaped body with limbs, twisted, under a skin of
- * scales.  A geodesic sphere is laid over the body coarsely, relaxed until its edges
- * are about equal, and refined by halving edges.
+ * The bumpy creature: a smooth implicit body around a skeleton, polygonised and relaxed
+ * until its edges are about equal, refined by halving edges, under a skin of scales.
  */
 #include "alg/shape_parts.h"
 
 #include "base/parallel.h"
 #include "base/random.h"
 
-/* radius(d) = core + sum height exp(-sharpness (1 - d . axis)) for a direction d */
-typedef struct limb {
-	mr_v3 axis;
-	double height, sharpness;
-} limb;
+/* A round cone from a to b. */
+typedef struct bone {
+	mr_v3 a, b;
+	double ra, rb;
+} bone;
 
-static const limb limbs[] = {
-	{ { 0.000, 0.970, 0.243 }, 0.62, 7 },                                             /* head */
-	{ { 0.450, 0.880, 0.150 }, 0.50, 60 },                                            /* ears */
-	{ { -0.450, 0.880, 0.150 }, 0.50, 60 }, { { 0.000, 0.690, 0.724 }, 0.28, 40 },    /* snout */
-	{ { 0.890, 0.190, 0.414 }, 0.95, 22 },                                            /* arms */
-	{ { -0.890, 0.190, 0.414 }, 0.95, 22 }, { { 0.480, -0.850, 0.217 }, 0.95, 22 },   /* legs */
-	{ { -0.480, -0.850, 0.217 }, 0.95, 22 }, { { 0.000, -0.430, -0.903 }, 1.10, 26 }, /* tail */
+static const bone bones[] = {
+	{ { 0.00, -0.10, 0.00 }, { 0.00, 0.48, 0.05 }, 0.56, 0.40 }, /* trunk */
+	{ { 0.00, 0.60, 0.08 }, { 0.00, 1.06, 0.22 }, 0.27, 0.38 },  /* neck and head */
+	{ { 0.00, 1.00, 0.35 }, { 0.00, 0.94, 0.74 }, 0.25, 0.17 },  /* snout */
+	{ { 0.24, 1.32, 0.12 }, { 0.42, 1.68, 0.00 }, 0.16, 0.10 },  /* ears */
+	{ { -0.24, 1.32, 0.12 }, { -0.42, 1.68, 0.00 }, 0.16, 0.10 },
+	{ { 0.38, 0.45, 0.05 }, { 0.90, 0.32, 0.18 }, 0.20, 0.16 }, /* one arm is raised */
+	{ { 0.90, 0.32, 0.18 }, { 1.24, 0.82, 0.40 }, 0.16, 0.19 },
+	{ { -0.38, 0.45, 0.05 }, { -0.86, 0.14, 0.16 }, 0.20, 0.16 }, /* one points ahead */
+	{ { -0.86, 0.14, 0.16 }, { -1.02, 0.12, 0.72 }, 0.16, 0.19 },
+	{ { 0.28, -0.40, 0.00 }, { 0.46, -0.82, 0.16 }, 0.31, 0.23 }, /* legs */
+	{ { 0.46, -0.82, 0.16 }, { 0.48, -1.24, 0.02 }, 0.20, 0.18 },
+	{ { 0.48, -1.26, 0.02 }, { 0.53, -1.28, 0.36 }, 0.19, 0.15 },
+	{ { -0.28, -0.40, 0.00 }, { -0.46, -0.82, 0.16 }, 0.31, 0.23 },
+	{ { -0.46, -0.82, 0.16 }, { -0.48, -1.24, 0.02 }, 0.20, 0.18 },
+	{ { -0.48, -1.26, 0.02 }, { -0.53, -1.28, 0.36 }, 0.19, 0.15 },
+	{ { 0.00, -0.32, -0.25 }, { 0.06, -0.72, -0.84 }, 0.34, 0.23 }, /* tail */
+	{ { 0.06, -0.72, -0.84 }, { 0.34, -0.82, -1.32 }, 0.22, 0.16 },
+	{ { 0.34, -0.82, -1.32 }, { 0.82, -0.50, -1.54 }, 0.16, 0.11 },
 };
-enum { LIMBS = sizeof limbs / sizeof *limbs };
+enum { BONES = sizeof bones / sizeof *bones };
 
-static const double CORE = 0.62, TWIST = 0.35, CELL = 0.15, DEPTH = 0.045;
+static const double BLEND = 14, CELL = 0.16, DEPTH = 0.045, AREA = 14.6;
+static const mr_box SPACE = { { -1.35, -1.65, -1.85 }, { 1.55, 1.95, 1.1 } };
 
-/* The body's point in the direction x. */
-static mr_v3
-body_point(mr_v3 x)
+/* The distance of x from a bone, and the direction from it. */
+static double
+bone_distance(const bone *b, mr_v3 x, mr_v3 *direction)
 {
-	mr_v3 d = mr_unit(x);
-	double r = CORE;
+	mr_v3 along = mr_sub(b->b, b->a), d = mr_sub(x, b->a);
+	double t = fmin(fmax(mr_dot(d, along) / mr_norm2(along), 0), 1), length;
 
-	for (size_t i = 0; i < LIMBS; i++)
-		r += limbs[i].height * exp(-limbs[i].sharpness * (1 - mr_dot(d, mr_unit(limbs[i].axis))));
-	return mr_mul(r, d);
+	d = mr_axpy(-t, along, d);
+	length = mr_norm(d);
+	*direction = length > 0 ? mr_mul(1 / length, d) : d;
+	return length - b->ra - t * (b->rb - b->ra);
 }
 
-/* Its unit normal there: the gradient of |x| - radius(x / |x|). */
-static mr_v3
-body_normal(mr_v3 x)
+/* The body is where this is negative: a smooth minimum of the distances from bones, with its gradient. */
+static double
+body(mr_v3 x, mr_v3 *gradient)
 {
-	double r = mr_norm(x);
-	mr_v3 d = mr_mul(1 / r, x), n = d;
+	double distance[BONES], least = INFINITY, sum = 0;
+	mr_v3 direction[BONES], g = mr_vec(0, 0, 0);
 
-	for (size_t i = 0; i < LIMBS; i++) {
-		mr_v3 axis = mr_unit(limbs[i].axis);
-		double along = mr_dot(d, axis), k = limbs[i].sharpness;
-		double slope = limbs[i].height * k * exp(-k * (1 - along));
-		n = mr_axpy(-slope / r, mr_axpy(-along, d, axis), n);
+	for (size_t i = 0; i < BONES; i++) {
+		distance[i] = bone_distance(&bones[i], x, &direction[i]);
+		least = fmin(least, distance[i]);
 	}
-	return mr_unit(n);
+	for (size_t i = 0; i < BONES; i++) {
+		double w = BLEND * (distance[i] - least);
+		if (w > 30)
+			continue;
+		w = exp(-w);
+		g = mr_axpy(w, direction[i], g);
+		sum += w;
+	}
+	*gradient = mr_mul(1 / sum, g);
+	return least - log(sum) / BLEND;
 }
 
-/* Turns x about the y axis by an angle that grows with y. */
-static mr_v3
-twist(mr_v3 x, double rate)
+static double
+body_field(void *arg, mr_v3 x)
 {
-	double c = cos(rate * x.y), s = sin(rate * x.y);
+	mr_v3 gradient;
 
-	return mr_vec(c * x.x + s * x.z, x.y, c * x.z - s * x.x);
+	(void)arg;
+	return body(x, &gradient);
+}
+
+/* x brought to the body by Newton steps along the gradient. */
+static mr_v3
+project(mr_v3 x, int steps)
+{
+	for (int i = 0; i < steps; i++) {
+		mr_v3 g;
+		double f = body(x, &g);
+		x = mr_axpy(-f / fmax(mr_norm2(g), 0.25), g, x);
+	}
+	return x;
 }
 
 /* The seed point of a cell of the lattice that the scales grow from. */
@@ -93,7 +125,7 @@ scales(mr_v3 x)
 static double
 skin(mr_v3 x)
 {
-	double dome = 1 - exp(-3.5 * scales(x));
+	double groove = scales(x), dome = 1 - exp(-9 * groove * groove);
 	double waves = sin(31 * x.x + 2 * sin(9 * x.y)) * sin(29 * x.y) * sin(33 * x.z + 2 * sin(7 * x.x));
 
 	return DEPTH * (dome - 0.5) + 0.2 * DEPTH * waves;
@@ -102,7 +134,10 @@ skin(mr_v3 x)
 static mr_v3
 skin_point(mr_v3 x)
 {
-	return mr_axpy(skin(x), body_normal(x), x);
+	mr_v3 gradient;
+
+	body(x, &gradient);
+	return mr_axpy(skin(x), mr_unit(gradient), x);
 }
 
 /* Splits each face in four, with new vertices in the middles of edges. */
@@ -112,7 +147,7 @@ refine(mr_ctx *ctx, const build *old, build *b)
 	mr_mark mark;
 	weld w;
 
-	MR_TRY(mr_build_begin(ctx, 4 * old->nv - 6, 4 * old->nf, b)); /* V + E, with E = 3 V - 6 */
+	MR_TRY(mr_solid_begin(ctx, 4 * old->nv - 6, 4 * old->nf, b)); /* V + E, with E = 3 V - 6 */
 	mark = mr_mark_take(ctx);
 	MR_TRY(mr_weld_begin(ctx, 3 * old->nv, &w));
 	for (; b->nv < old->nv; b->nv++)
@@ -132,8 +167,8 @@ refine(mr_ctx *ctx, const build *old, build *b)
 			m[i] = *slot;
 		}
 		for (int i = 0; i < 3; i++)
-			mr_build_face(b, v[i], m[i], m[(i + 2) % 3]);
-		mr_build_face(b, m[0], m[1], m[2]);
+			mr_solid_add_face(b, v[i], m[i], m[(i + 2) % 3]);
+		mr_solid_add_face(b, m[0], m[1], m[2]);
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -145,19 +180,22 @@ typedef struct relaxing {
 	mr_v3 *to;
 } relaxing;
 
-/* Moves vertices to the mean of their neighbours, and back to the twisted body. */
+/* Moves vertices towards their neighbours, the more the farther those are, and back to the body. */
 static void
 relax_body(void *arg, size_t begin, size_t end)
 {
 	const relaxing *r = arg;
 
 	for (size_t i = begin; i < end; i++) {
-		mr_v3 mean = mr_vec(0, 0, 0);
-		size_t first = r->a->start[i], last = r->a->start[i + 1];
-		for (size_t k = first; k < last; k++)
-			mean = mr_add(mean, r->from[r->a->adj[k]]);
-		mean = mr_mul(1 / (double)(last - first), mean);
-		r->to[i] = twist(body_point(twist(mr_lerp(0.7, r->from[i], mean), -TWIST)), TWIST);
+		mr_v3 here = r->from[i], sum = mr_vec(0, 0, 0);
+		double weight = 0;
+		for (size_t k = r->a->start[i]; k < r->a->start[i + 1]; k++) {
+			mr_v3 edge = mr_sub(r->from[r->a->adj[k]], here);
+			double w = mr_norm(edge);
+			sum = mr_axpy(w, edge, sum);
+			weight += w;
+		}
+		r->to[i] = project(mr_axpy(weight > 0 ? 0.45 / weight : 0, sum, here), 1);
 	}
 }
 
@@ -186,36 +224,24 @@ clothe_body(void *arg, size_t begin, size_t end)
 	mr_v3 *p = arg;
 
 	for (size_t i = begin; i < end; i++)
-		p[i] = twist(skin_point(twist(p[i], -TWIST)), TWIST);
-}
-
-static void
-project_body(void *arg, size_t begin, size_t end)
-{
-	mr_v3 *p = arg;
-
-	for (size_t i = begin; i < end; i++)
-		p[i] = twist(body_point(p[i]), TWIST);
+		p[i] = skin_point(project(p[i], 3));
 }
 
 mr_status
 mr_bumpy(mr_ctx *ctx, size_t n, build *b)
 {
-	enum { LEAST = 8, COARSE = 16, ROUNDS = 100, MORE = 8 };
-	size_t f = mr_geodesic_frequency(n), levels = 0;
+	enum { LEAST = 5000, MOST = 80000 };
+	double vertices = n > LEAST ? (double)n : LEAST; /* fewer would cut off the ears */
+	int levels = 0;
 
-	if (f < LEAST) /* a coarser sphere would slip off the limbs and shrink away */
-		f = LEAST;
-	while (f >> levels >= COARSE)
+	for (; vertices > MOST; vertices /= 4)
 		levels++;
-	f = (f + (1u << levels) / 2) >> levels; /* frequencies f 2^levels: within 7 % of the one asked for */
-	MR_TRY(mr_geodesic(ctx, f, b));
-	mr_parallel(ctx, b->nv, 1024, project_body, b->p);
-	MR_TRY(relax(ctx, b, ROUNDS));
-	for (size_t i = 0; i < levels; i++) {
+	MR_TRY(mr_march(ctx, body_field, NULL, SPACE, sqrt(4.49 * AREA / vertices), b));
+	MR_TRY(relax(ctx, b, 5));
+	for (int i = 0; i < levels; i++) {
 		build old = *b;
 		MR_TRY(refine(ctx, &old, b));
-		MR_TRY(relax(ctx, b, MORE));
+		MR_TRY(relax(ctx, b, 1));
 	}
 	mr_parallel(ctx, b->nv, 1024, clothe_body, b->p);
 	return MR_OK;

@@ -14,11 +14,11 @@ typedef struct build {
 	size_t nv, nf;
 } build;
 
-mr_status mr_build_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b);
+mr_status mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b);
 
 /* The face a b c, and the two faces of the quadrangle a b c d, counter-clockwise. */
-void mr_build_face(build *b, uint32_t i, uint32_t j, uint32_t k);
-void mr_build_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
+void mr_solid_add_face(build *b, uint32_t i, uint32_t j, uint32_t k);
+void mr_solid_add_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
 
 /* Vertices by key: open addressing, at most half full. */
 typedef struct weld {
@@ -35,6 +35,15 @@ uint32_t *mr_weld_slot(weld *w, uint64_t key, bool *is_new);
 /* The frequency of a geodesic sphere of about n vertices, and the sphere of a frequency. */
 size_t mr_geodesic_frequency(size_t n);
 mr_status mr_geodesic(mr_ctx *ctx, size_t frequency, build *b);
+
+/* A function of space, negative inside. */
+typedef double (*mr_field)(void *arg, mr_v3 x);
+
+/*
+ * The surface where the field is zero, from its values at points `step` apart in the box,
+ * outside of which it must be positive: some 4.5 vertices per squared step of area.  shape_march.c.
+ */
+mr_status mr_march(mr_ctx *ctx, mr_field field, void *arg, mr_box box, double step, build *b);
 
 /* The bumpy creature of about n vertices: shape_bumpy.c. */
 mr_status mr_bumpy(mr_ctx *ctx, size_t n, build *b);
