@@ -21,6 +21,10 @@ typedef struct mr_file_format {
 	mr_status (*write)(mr_sink *s, const mr_model *m); /* NULL: read only */
 } mr_file_format;
 
+/* mr_model_read of bytes in memory; `path` is for its suffix and `format` may be NULL. */
+mr_status mr_model_parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data,
+    size_t size, mr_model *m) MR_WARN_UNUSED;
+
 bool mr_obj_sniff(const unsigned char *data, size_t size);
 mr_status mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_obj_write(mr_sink *s, const mr_model *m);

@@ -184,11 +184,10 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	return MR_OK;
 }
 
-static mr_status
-read_bytes(mr_ctx *ctx, const char *path, const char *format, const mr_bytes *bytes, mr_model *m)
+mr_status
+mr_model_parse(
+    mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size, mr_model *m)
 {
-	const unsigned char *data = bytes->data;
-	size_t size = bytes->size;
 	const mr_file_format *f = NULL;
 	mr_model got = { 0 };
 
@@ -215,7 +214,7 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 	mr_status status;
 
 	MR_TRY(mr_bytes_read(ctx, path, &bytes));
-	status = read_bytes(ctx, path, format, &bytes, m);
+	status = mr_model_parse(ctx, path, format, bytes.data, bytes.size, m);
 	mr_bytes_free(&bytes);
 	if (status == MR_EUSAGE)
 		return status;

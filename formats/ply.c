@@ -366,10 +366,10 @@ row_bytes(const element *e, bool ascii)
 static mr_status
 check_rows(ply *f, const element *e)
 {
-	size_t left = f->ascii ? (size_t)(f->text.end - f->text.p) + 1 : (size_t)(f->end - f->p);
+	size_t left = f->ascii ? (size_t)(f->text.end - f->text.p) : (size_t)(f->end - f->p);
 	size_t bytes = row_bytes(e, f->ascii);
 
-	if (e->rows && bytes && e->rows > left / bytes)
+	if (e->rows && bytes && e->rows > (left + f->ascii) / bytes)
 		return bad(f, here(f), "%llu rows of element %s cannot be in the %zu bytes that are left",
 		    (unsigned long long)e->rows, e->name, left);
 	return MR_OK;
@@ -531,7 +531,7 @@ read_indices(ply *f, const property *p, bool strips)
 				continue;
 			}
 			x = p->value == INT ? (double)(int32_t)raw : (double)raw;
-		} else if (f->ascii && mr_is_digit(*(const char *)where)) {
+		} else if (f->ascii && f->text.p < f->text.end && mr_is_digit(*f->text.p)) {
 			MR_TRY(mr_scan_count(&f->text, "an index", UINT32_MAX, &at));
 			x = (double)at;
 		} else

@@ -8,8 +8,10 @@
 
 /*
  * Joins vertices that are equal (eps 0; -0 equals 0) or within eps: in order of index, a vertex joins the
- * lowest earlier one that stands for itself and is no further away, else stands for itself. map: n new
- * numbers, in order of first use, the caller's; *count: how many.  Time O(n) for eps below the spacing.
+ * lowest earlier one that stands for itself and is no further away, else stands for itself.
+ *
+ * map: n new numbers, in order of first use, the caller's; *count: how many.  Time O(n) for eps below the
+ * spacing.
  */
 mr_status
 mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count) MR_WARN_UNUSED;
@@ -27,12 +29,13 @@ typedef struct mr_repair_report {
 } mr_repair_report;
 
 /*
- * An oriented manifold with boundary of the triangles of `m`: faces that are degenerate or duplicate go; at
- * an edge of more than two faces those that bound the same wedge of the solid stay together where
- * orientations tell, else all are parted; components are oriented consistently, a closed one that was not
- * outwards, others as most of their faces were; fans at a vertex are parted. out: arrays of the arena;
- * vertex_of, face_of: for each vertex and face of `out`, the one of `m` that it comes from. MR_EMESH where no
- * face is left.
+ * An oriented manifold with boundary of the triangles of `m`.  Faces that are degenerate or duplicate go.  At
+ * an edge of more than two faces those that bound the same wedge of the solid, by their orientations, stay
+ * together; the others are parted.  Components are oriented consistently: a closed one that was not,
+ * outwards; others as most of their faces were.  Fans at a vertex are parted.
+ *
+ * out: arrays of the arena.  vertex_of, face_of: for each vertex and face of `out`, the one of `m` that it
+ * comes from.  MR_EMESH where no face is left.
  */
 mr_status mr_repair(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out, const uint32_t **vertex_of,
     const uint32_t **face_of, mr_repair_report *report) MR_WARN_UNUSED;

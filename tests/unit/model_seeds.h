@@ -1,0 +1,146 @@
+/* model_seeds.h -- small models in every format, for tests that read, damage and write them. */
+#ifndef MODEL_SEEDS_H
+#define MODEL_SEEDS_H
+
+#include "base/random.h"
+#include "formats/format.h"
+
+/* A surface with every attribute, its coordinates floats where `single`. */
+static inline mr_model
+make_model(mr_ctx *ctx, size_t nv, size_t nf, bool single)
+{
+	mr_random r = { nv + 7 * nf };
+	mr_v3 *p = MR_NEW(ctx, nv, mr_v3), *normal = MR_NEW(ctx, nv, mr_v3);
+	unsigned char *color = MR_NEW(ctx, 4 * nv, unsigned char);
+	double *uv = MR_NEW(ctx, 2 * nv, double);
+	mr_tri *t = MR_NEW(ctx, nf, mr_tri);
+	uint32_t *group = MR_NEW(ctx, nf, uint32_t);
+	static const char groups[] = "left leg\n\303\244rm\nhead";
+
+	for (size_t i = 0; i < nv; i++) {
+		p[i] = mr_vec(mr_random_real(&r) - 0.5, 1e5 * mr_random_real(&r), 1e-7 * mr_random_real(&r));
+		normal[i] = mr_unit(mr_vec(mr_random_real(&r), mr_random_real(&r) - 0.5, mr_random_real(&r)));
+		if (single) {
+			p[i] = mr_vec((double)(float)p[i].x, (double)(float)p[i].y, (double)(float)p[i].z);
+			normal[i] = mr_vec((double)(float)normal[i].x, (double)(float)normal[i].y,
+			    (double)(float)normal[i].z);
+		}
+		for (size_t k = 0; k < 4; k++)
+			color[4 * i + k] = (unsigned char)(k < 3 ? mr_random_bits(&r) : 255);
+		for (size_t k = 0; k < 2; k++)
+			uv[2 * i + k] = (double)(float)mr_random_real(&r);
+	}
+	for (size_t f = 0; f < nf; f++) {
+		for (int k = 0; k < 3; k++)
+			t[f].v[k] = (uint32_t)((f + (size_t)k) % nv);
+		group[f] = (uint32_t)(f < 3 ? f : 3 * f / nf);
+	}
+	return (mr_model){ .p = p,
+		.nv = nv,
+		.t = nf ? t : NULL,
+		.nf = nf,
+		.normal = normal,
+		.color = color,
+		.texcoord = uv,
+		.group = nf ? group : NULL,
+		.groups = nf ? groups : NULL,
+		.groups_bytes = nf ? sizeof groups - 1 : 0 };
+}
+
+typedef struct seed {
+	const char *format; /* NULL: to be recognised */
+	const char *text;
+	size_t bytes;  /* 0: of the text */
+	size_t nv, nf; /* as they should be read */
+} seed;
+
+#define LE32(n)  (char)((n)&255), (char)((n) >> 8 & 255), (char)((n) >> 16 & 255), (char)((n) >> 24 & 255)
+#define ZEROS16  0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0
+#define REAL_ONE 0, 0, 0, 0, 0, 0, (char)0xf0, 0x3f
+
+/* LAS 1.2, point format 2, two points: header of 227 bytes. */
+static const char las_seed[227 + 2 * 26] = { 'L', 'A', 'S',
+	'F', [24] = 1, [25] = 2, [94] = (char)227, [96] = (char)227, [104] = 2, [105] = 26, [107] = 2,
+	[131] = REAL_ONE, [139] = REAL_ONE, [147] = REAL_ONE, [227] = LE32(10), LE32(20), LE32(30), [247] = 0,
+	1, 0, 2, 0, 3, [253] = LE32(11), LE32(21), LE32(31) };
+
+/* Little-endian, as some programs write it: one triangle, no number of colours. */
+static const char off_seed[] = { 'O', 'F', 'F', ' ', 'B', 'I', 'N', 'A', 'R', 'Y', '\n', LE32(3), LE32(1),
+	LE32(0), ZEROS16, LE32(0x3f800000), ZEROS16, LE32(3), LE32(0), LE32(1), LE32(2) };
+
+static const char strips_seed[] =
+    "ply\nformat binary_little_endian 1.0\nelement vertex 4\nproperty float x\nproperty "
+    "float y\nproperty float z\nelement tristrips 1\nproperty list int int "
+    "vertex_indices\nend_header\n"
+    "\0\0\0\0\0\0\0\0\0\0\0\0"
+    "\0\0\x80\x3f\0\0\0\0\0\0\0\0"
+    "\0\0\0\0\0\0\x80\x3f\0\0\0\0"
+    "\0\0\x80\x3f\0\0\x80\x3f\0\0\0\0"
+    "\x08\0\0\0"
+    "\0\0\0\0\x01\0\0\0\x02\0\0\0\x03\0\0\0\xff\xff\xff\xff\0\0\0\0\x01\0\0\0\x02\0\0";
+
+static const char pcd_seed[] =
+    "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nDATA "
+    "binary\n\0\0\x80\x3f\0\0\0\0\0\0\0";
+
+static const seed seeds[] = {
+	{ NULL, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 0, 3, 1 },
+	{ NULL,
+	    "# a\n\no box\ng\nusemtl m\nv 0 0 0 1 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvn 0 0 1\n"
+	    "f 1/1/1 2/1/1 3//1 \\\n 4\ng a b\nf -1/-1 -2// -3\nl 1 2 3\np 1\ns off\n",
+	    0, 4, 3 },
+	{ NULL,
+	    "ply\nformat ascii 1.0\ncomment group a\nelement vertex 4\nproperty double x\nproperty float "
+	    "y\nproperty "
+	    "int z\nproperty uchar red\nproperty uchar green\nproperty uchar blue\nelement edge 1\nproperty "
+	    "int "
+	    "a\nproperty list uchar float b\nelement face 2\nproperty list uchar int "
+	    "vertex_indices\nproperty uint "
+	    "group\nend_header\n0 0 0 1 2 3\n1 0 0 4 5 6\n1 1 0 7 8 9\n0 1 0 10 11 12\n5 2 0.5 0.25\n4 0 1 2 "
+	    "3 0\n3 0 "
+	    "1 2 0\n",
+	    0, 4, 3 },
+	{ NULL,
+	    "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nelement vertex "
+	    "3\nproperty float "
+	    "x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n",
+	    0, 3, 1 },
+	{ NULL, strips_seed, sizeof strips_seed, 4, 3 },
+	{ NULL,
+	    "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 "
+	    "0\nendloop\nendfacet\nendsolid a\nsolid\nfacet normal nan nan nan\nouter loop\nvertex -0 0 "
+	    "0\nvertex 1 0 "
+	    "0\nvertex 0 -1 0\nendloop\nendfacet\nendsolid\n",
+	    0, 4, 2 },
+	{ NULL, "# c\nOFF\n4 2 0\n0 0 0 # d\n1 0 0\n\n1 1 0\n0 1 0\n3 0 1 2 255 0 0\n3 0 2 3\n", 0, 4, 2 },
+	{ NULL,
+	    "STCNOFF\n3 1 0\n0 0 0 0 0 1 255 0 0 255 0 0\n1 0 0 0 0 1 0 255 0 255 1 0\n0 1 0 0 0 1 0 0 255 "
+	    "255 0 1\n3 0 1 2\n",
+	    0, 3, 1 },
+	{ NULL, off_seed, sizeof off_seed, 3, 1 },
+	{ NULL, "0 0 0\n1 0 0\n0 1 0\n", 0, 3, 0 },
+	{ NULL, "2\n0 0 0 10 1 2 3\n1 0 0 20 4 5 6\n", 0, 2, 0 },
+	{ NULL, "2\n0 0 0\n1 0 0\n0 0 1\n0 0 1\n", 0, 2, 0 },
+	{ NULL, "\"X\",\"Y\",\"Z\",\"Time\"\n0,1,2,3\n4,5,6,7\n", 0, 2, 0 },
+	{ NULL,
+	    "2\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n1 2 3 0.5 1 2 3\n0 0 0 0 "
+	    "0 0 0\n",
+	    0, 1, 0 },
+	{ NULL,
+	    "# .PCD v.7\nVERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH "
+	    "2\nHEIGHT 1\nPOINTS "
+	    "2\nDATA ascii\n0 0 0 16711680\nnan 0 0 1\n",
+	    0, 1, 0 },
+	{ NULL, pcd_seed, sizeof pcd_seed, 1, 0 },
+	{ NULL, las_seed, sizeof las_seed, 2, 0 },
+};
+
+enum { SEEDS = sizeof seeds / sizeof *seeds };
+
+static inline size_t
+seed_size(const seed *s)
+{
+	return s->bytes ? s->bytes : strlen(s->text);
+}
+
+#endif

@@ -1,0 +1,359 @@
+/* Formats: what is written is read back bit for bit; what is read is what the file says; gzip; names. */
+#include "model_seeds.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+enum { N = 1, C = 2, T = 4, G = 8, F = 16, SINGLE = 32 }; /* what a format keeps; SINGLE: floats only */
+
+static const struct {
+	const char *format, *path;
+	unsigned keeps;
+} written[] = {
+	{ NULL, "m.obj", N | C | T | G | F },
+	{ NULL, "m.ply", N | C | T | G | F },
+	{ "ply-big", "m.ply", N | C | T | G | F },
+	{ "ply-ascii", "m.ply", N | C | T | G | F },
+	{ NULL, "m.off", N | C | T | F },
+	{ "off-binary", "m.off", N | C | T | F | SINGLE },
+	{ NULL, "m.xyz", N | C },
+	{ NULL, "m.pts", C },
+	{ NULL, "m.pwn", N },
+	{ NULL, "m.obj.gz", N | C | T | G | F },
+	{ NULL, "m.ply.gz", N | C | T | G | F },
+	{ NULL, "m.pts.gz", C },
+};
+
+static void
+ok(mr_ctx *ctx, mr_status status)
+{
+	if (status < 0)
+		print_message("# %s\n", ctx->error);
+	assert_int_equal(status, MR_OK);
+}
+
+static mr_model
+restrict_to(mr_model m, unsigned keeps)
+{
+	if (!(keeps & N))
+		m.normal = NULL;
+	if (!(keeps & C))
+		m.color = NULL;
+	if (!(keeps & T))
+		m.texcoord = NULL;
+	if (!(keeps & G))
+		m.group = NULL;
+	if (!(keeps & F))
+		m.nf = 0;
+	return m;
+}
+
+/* The name of face f's group. */
+static size_t
+group_name(const mr_model *m, size_t f, const char **name)
+{
+	const char *p = m->groups, *end = p + m->groups_bytes, *e;
+
+	for (uint32_t g = m->group[f]; g > 0; g--)
+		p = (const char *)memchr(p, '\n', (size_t)(end - p)) + 1;
+	e = memchr(p, '\n', (size_t)(end - p));
+	*name = p;
+	return (size_t)((e ? e : end) - p);
+}
+
+static void
+same_groups(const mr_model *a, const mr_model *b)
+{
+	for (size_t f = 0; f < a->nf; f++) {
+		const char *x, *y;
+		size_t n = group_name(a, f, &x);
+		assert_int_equal(group_name(b, f, &y), n);
+		assert_memory_equal(x, y, n);
+	}
+}
+
+static void
+same_model(const mr_model *a, const mr_model *b)
+{
+	assert_int_equal(a->nv, b->nv);
+	assert_int_equal(a->nf, b->nf);
+	assert_memory_equal(a->p, b->p, a->nv * sizeof *a->p);
+	assert_true(!a->normal == !b->normal);
+	assert_true(!a->color == !b->color);
+	assert_true(!a->texcoord == !b->texcoord);
+	assert_true(!a->group == !b->group);
+	if (a->nf)
+		assert_memory_equal(a->t, b->t, a->nf * sizeof *a->t);
+	if (a->normal)
+		assert_memory_equal(a->normal, b->normal, a->nv * sizeof *a->normal);
+	if (a->color)
+		assert_memory_equal(a->color, b->color, 4 * a->nv);
+	if (a->texcoord)
+		assert_memory_equal(a->texcoord, b->texcoord, 2 * a->nv * sizeof(double));
+	if (a->group)
+		same_groups(a, b);
+}
+
+/* Every set of attributes that the format keeps goes out and comes back. */
+static void
+round_trips(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < sizeof written / sizeof *written; i++)
+		for (unsigned with = 0; with < 32; with++) {
+			mr_ctx ctx;
+			mr_model m, back;
+			unsigned keeps = written[i].keeps;
+			if ((with & keeps) != with || ((with & (T | G)) && !(with & F)) ||
+			    (strstr(written[i].path, "pwn") && !(with & N)))
+				continue;
+			mr_ctx_init(&ctx, 1);
+			m = restrict_to(make_model(&ctx, 40, 60, keeps & SINGLE), with);
+			ok(&ctx, mr_model_write(&ctx, written[i].path, written[i].format, &m));
+			ok(&ctx, mr_model_read(&ctx, written[i].path, NULL, &back));
+			same_model(&m, &back);
+			mr_ctx_free(&ctx);
+		}
+}
+
+/* STL keeps triangles in their order, each corner where it was; equal corners are one vertex. */
+static void
+stl_round_trip(void **state)
+{
+	(void)state;
+	for (int ascii = 0; ascii < 2; ascii++) {
+		mr_ctx ctx;
+		mr_model m, back;
+		mr_ctx_init(&ctx, 1);
+		m = make_model(&ctx, 40, 60, !ascii);
+		ok(&ctx, mr_model_write(&ctx, "m.stl", ascii ? "stl-ascii" : NULL, &m));
+		ok(&ctx, mr_model_read(&ctx, "m.stl", NULL, &back));
+		assert_int_equal(back.nf, m.nf);
+		assert_int_equal(back.nv, m.nv);
+		for (size_t f = 0; f < m.nf; f++)
+			for (int k = 0; k < 3; k++)
+				assert_memory_equal(
+				    &m.p[m.t[f].v[k]], &back.p[back.t[f].v[k]], sizeof(mr_v3));
+		mr_ctx_free(&ctx);
+	}
+}
+
+static mr_status
+parse(mr_ctx *ctx, const char *path, const char *text, mr_model *m)
+{
+	return mr_model_parse(ctx, path, NULL, (const unsigned char *)text, strlen(text), m);
+}
+
+/* The sentence holds `part`, and the model is not touched. */
+static void
+refused(const char *path, const char *text, const char *part)
+{
+	mr_ctx ctx;
+	mr_model m = { .nv = 4711 };
+
+	mr_ctx_init(&ctx, 1);
+	assert_true(parse(&ctx, path, text, &m) < 0);
+	if (!strstr(ctx.error, part))
+		print_message("# '%s' lacks '%s'\n", ctx.error, part);
+	assert_non_null(strstr(ctx.error, part));
+	assert_int_equal(m.nv, 4711);
+	mr_ctx_free(&ctx);
+}
+
+static void
+recognised(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < SEEDS; i++) {
+		mr_ctx ctx;
+		mr_model m;
+		mr_ctx_init(&ctx, 1);
+		ok(&ctx, mr_model_parse(
+			     &ctx, "", NULL, (const unsigned char *)seeds[i].text, seed_size(&seeds[i]), &m));
+		if (m.nv != seeds[i].nv || m.nf != seeds[i].nf)
+			print_message("# seed %zu: %zu %zu\n", i, m.nv, m.nf);
+		assert_int_equal(m.nv, seeds[i].nv);
+		assert_int_equal(m.nf, seeds[i].nf);
+		mr_ctx_free(&ctx);
+	}
+}
+
+#define TRIANGLE "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
+#define PLY      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+#define FACE     "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+#define SOLID    "solid a\nfacet normal 0 0 1\nouter loop\n"
+
+static void
+refusals(void **state)
+{
+	(void)state;
+	refused("", "", "the file is empty");
+	refused("", "\377\376v\0", "UTF-16");
+	refused("", "hello world\n", "no format is recognised");
+	refused("a.obj", "# nothing\n", "obj without a vertex");
+	refused("", TRIANGLE "f 1 2 4\n", "line 4: vertex 4 of 3");
+	refused("", TRIANGLE "f 1 2 -4\n", "line 4: vertex -4 of 3");
+	refused("", TRIANGLE "f 1 2 0\n", "line 4: '0' is not a corner");
+	refused("", TRIANGLE "f 1 2 x\n", "line 4: 'x' is not a corner");
+	refused("", TRIANGLE "f 1 2 3/0\n", "line 4: '3/0' is not a corner");
+	refused("", TRIANGLE "f 1 2 4294967299\n", "line 4: '4294967299' is not a corner");
+	refused("", TRIANGLE "f 1 2 1,5\n", "line 4: '1,5' is not a corner");
+	refused("", TRIANGLE "f 1 2\n", "none of the 1 faces has three corners");
+	refused("", "v 0 0\n", "line 1: a vertex has 2 numbers");
+	refused("", "v 0 0 0\nv 1,5 0 0\n", "line 2: a vertex has '1,5' for a number");
+	refused("", "v 0 0 0\nv nan 0 0\n", "line 2: a coordinate is not finite");
+	refused("", "v 0 0 0\nv 0 -inf 0\n", "line 2: a coordinate is not finite");
+	refused("", "v 0 0 0\nv 1e999 0 0\n", "line 2: a coordinate is not finite");
+	refused("", "v 0 0 0\n\nfoo 1 2\n", "line 3: 'foo' begins no statement of OBJ");
+	refused("", "v 0 0 0\nv 0 \\\n 0 \\\n x\n", "line 2: a vertex has 'x' for a number");
+	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 13: vertex 3 of 3");
+	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 13: vertex -1 of 3");
+	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 14: ");
+	refused("", PLY FACE "0 0 0\n1 0 inf\n0 1 0\n3 0 1 2\n", "line 11: position 1");
+	refused("",
+	    PLY "element face 3000000000\nproperty list uchar int vertex_indices\nend_header\n0 0 0\n1 0 "
+		"0\n0 1 0\n",
+	    "3000000000 rows of element face cannot be in the");
+	refused("",
+	    "ply\nformat ascii 1.0\nelement vertex 99999999999999\nproperty float x\nproperty float "
+	    "y\nproperty float "
+	    "z\nend_header\n0 0 0\n",
+	    "rows of element vertex cannot be in the 6 bytes");
+	refused("", "ply\nformat ascii 2.0\n", "line 2: the format's version is not 1.0");
+	refused("", "ply\nformat ascii 1.0\nelement vertex 1\nproperty foo x\n",
+	    "line 4: 'foo' is no type of PLY");
+	refused("", PLY, "the header has no end_header");
+	refused("", SOLID "vertex 0 0 0\nvertex 1 0 0\nendloop\nendfacet\nendsolid\n",
+	    "line 6: a facet of 2 vertices");
+	refused(
+	    "", SOLID "vertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n", "the file ends inside a solid");
+	refused("", SOLID "vertex 0 0 nan\n", "line 4: a coordinate is not finite");
+	refused("", SOLID "facet\n", "line 4: 'facet' stands where it may not");
+	refused("", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 6: vertex 3 of 3");
+	refused("", "OFF\n3 1 0\n0.000 0.000 0.000\n1.000 0.000 0.000\n", "line 5: a coordinate is missing");
+	refused("", "OFF\n999999999 1 0\n0 0 0\n", "line 2: 999999999 vertices and 1 faces cannot be");
+	refused("", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000 0 1 2\n", "line 6: a face of 4000000 corners");
+	refused("", "4OFF\n1 0 0\n0 0 0 1\n", "three dimensions");
+	refused("", "OFF BINARY\nabcdefghijklmnop", "byte 11");
+	refused("", "0 0 0\n1 2\n", "line 2: 2 columns, where line 1 has 3");
+	refused("", "0 0 0\n1 2 x\n", "line 2: 'x' is not a number");
+	refused("", "0 0 0\n1 2 nan\n", "line 2: a coordinate is not finite");
+	refused("", "5\n0 0 0\n1 2 3\n", "ends after 2 of 5 points");
+}
+
+/* What stands in a file beside positions and faces. */
+static void
+details(void **state)
+{
+	mr_ctx ctx;
+	mr_model m;
+	const char *name;
+	size_t n;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	ok(&ctx, parse(&ctx, "", "\357\273\277v 0 0 0 1 0.5 0\rv 1 0 0 0 0 1\rv 0 1 0 0 0 0\rf 1 2 3\r",
+		     &m)); /* BOM, CR */
+	assert_memory_equal(m.color, "\377\200\0\377\0\0\377\377\0\0\0\377", 12);
+	ok(&ctx, parse(&ctx, "", TRIANGLE "g a  b\nf 1 2 3\ng\nf 3 2 1\n", &m));
+	n = group_name(&m, 0, &name);
+	assert_true(n == 3 && !memcmp(name, "a b", 3));
+	n = group_name(&m, 1, &name);
+	assert_true(n == 7 && !memcmp(name, "default", 7));
+	ok(&ctx,
+	    parse(&ctx, "", TRIANGLE "vt 0 0\nvt 1 0\nvt 0 1\nvt 9 9\nf 1/1 2/2 3/3\nf 3/4 2/2 1/1\n", &m));
+	assert_true(m.texcoord[4] == 0 && m.texcoord[5] == 1); /* of a seam, the first */
+	assert_int_equal(m.nv, 3);
+	ok(&ctx, parse(&ctx, "", TRIANGLE "vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 3//2 2//2 1//2\n", &m));
+	assert_null(m.normal); /* several at a vertex */
+	ok(&ctx, parse(&ctx, "", TRIANGLE "vn 0 0 1\nf 1//1 2//1 3//1\n", &m));
+	assert_true(m.normal[2].z == 1);
+	ok(&ctx, parse(&ctx, "", TRIANGLE "f 1// 2// 3//\nf 1/ 2/ 3/\n", &m));
+	assert_int_equal(m.nf, 2);
+	ok(&ctx, parse(&ctx, "", "1 2 3 10 20 30\n4 5 6 255 0 7\n", &m));
+	assert_memory_equal(m.color, "\12\24\36\377\377\0\7\377", 8);
+	assert_null(m.normal);
+	ok(&ctx, parse(&ctx, "", "1 2 3 0 0 1\n4 5 6 0 1 0\n", &m));
+	assert_null(m.color);
+	assert_true(m.normal[0].z == 1);
+	ok(&ctx, parse(&ctx, "", "1 2 3 0 0 0\n4 5 6 0 0 0\n", &m));
+	assert_null(m.normal); /* all zero: not known */
+	mr_ctx_free(&ctx);
+}
+
+/* Faces of a quad and of a polygon with a repeated corner; a triangle with one stays. */
+static void
+polygons(void **state)
+{
+	mr_ctx ctx;
+	mr_model m;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	ok(&ctx, parse(&ctx, "", TRIANGLE "v 1 1 0\nf 1 2 4 3\nf 1 2 2\nf 1 2 2 4\nf 1 2\n", &m));
+	assert_int_equal(m.nf, 4);
+	mr_ctx_free(&ctx);
+}
+
+static void
+names(void **state)
+{
+	static const struct {
+		const char *path, *stem;
+	} cases[] = { { "bunny.ply", "bunny" }, { "/a/b.c/bunny.ply.gz", "bunny" }, { "-", "stdin" },
+		{ "a.b.obj", "a.b" }, { "noext", "noext" }, { ".hidden", ".hidden" }, { "x\ny.obj", "x_y" },
+		{ "\377.obj", "_" } };
+	mr_ctx ctx;
+	bool binary;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++)
+		assert_string_equal(mr_format_stem(&ctx, cases[i].path), cases[i].stem);
+	assert_int_equal(mr_format_check(&ctx, "a.foo", NULL, true, &binary), MR_EUSAGE);
+	assert_int_equal(mr_format_check(&ctx, "a.obj", "foo", true, &binary), MR_EUSAGE);
+	assert_int_equal(mr_format_check(&ctx, "a.las", NULL, true, &binary), MR_EUSAGE);
+	assert_int_equal(mr_format_check(&ctx, "-", "ply", true, &binary), MR_OK);
+	assert_true(binary);
+	assert_int_equal(mr_format_check(&ctx, "A.OBJ", NULL, true, &binary), MR_OK);
+	assert_false(binary);
+	mr_ctx_free(&ctx);
+}
+
+/* A failure leaves the old file as it was, and no other. */
+static void
+whole_or_not(void **state)
+{
+	mr_ctx ctx;
+	mr_model m, none, back;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	m = make_model(&ctx, 10, 10, false);
+	none = restrict_to(m, 0);
+	ok(&ctx, mr_model_write(&ctx, "old.pwn", NULL, &m));
+	assert_int_equal(mr_model_write(&ctx, "old.pwn", NULL, &none), MR_EMISSING);
+	ok(&ctx, mr_model_read(&ctx, "old.pwn", NULL, &back));
+	assert_int_equal(back.nv, 10);
+	assert_int_equal(mr_model_write(&ctx, "new.pwn", NULL, &none), MR_EMISSING);
+	assert_int_equal(access("new.pwn", F_OK), -1);
+	assert_int_equal(mr_model_write(&ctx, "/dev/full", "ply", &m), MR_EIO);
+	assert_int_equal(mr_model_write(&ctx, "no/such/folder/a.ply", NULL, &m), MR_EIO);
+	mr_ctx_free(&ctx);
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = { cmocka_unit_test(round_trips), cmocka_unit_test(stl_round_trip),
+		cmocka_unit_test(recognised), cmocka_unit_test(refusals), cmocka_unit_test(details),
+		cmocka_unit_test(polygons), cmocka_unit_test(names), cmocka_unit_test(whole_or_not) };
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,248 @@
+/*
+ * Damaged files: every prefix, every byte changed, pieces cut out and put in twice, and memory that fails at
+ * every allocation.  A reader gives a valid model or a sentence; a sanitizer watches the rest.
+ */
+#include "model_seeds.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <unistd.h>
+
+#include <cmocka.h>
+
+static size_t accepted, rejected;
+
+static void
+check_model(const mr_model *m)
+{
+	assert_true(m->nv > 0);
+	for (size_t i = 0; i < m->nv; i++)
+		assert_true(mr_finite(m->p[i]));
+	for (size_t i = 0; m->normal && i < m->nv; i++)
+		assert_true(mr_finite(m->normal[i]));
+	for (size_t i = 0; m->texcoord && i < 2 * m->nv; i++)
+		assert_true(isfinite(m->texcoord[i]));
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			assert_true(m->t[f].v[k] < m->nv);
+	for (size_t f = 0; m->group && f < m->nf; f++) {
+		size_t lines = 1;
+		for (size_t i = 0; i < m->groups_bytes; i++)
+			lines += m->groups[i] == '\n';
+		assert_true(m->group[f] < lines);
+	}
+}
+
+/* Reads from memory of exactly its size; by the bytes, and by the name of the format that they were. */
+static void
+feed(const char *format, const unsigned char *data, size_t size)
+{
+	unsigned char *copy = malloc(size ? size : 1);
+
+	assert_non_null(copy);
+	memcpy(copy, data, size);
+	for (int named = 0; named < (format ? 2 : 1); named++) {
+		mr_ctx ctx;
+		mr_model m;
+		mr_ctx_init(&ctx, 1);
+		if (mr_model_parse(&ctx, "", named ? format : NULL, copy, size, &m) == MR_OK) {
+			check_model(&m);
+			accepted++;
+		} else {
+			assert_true(ctx.error[0] != 0);
+			rejected++;
+		}
+		mr_ctx_free(&ctx);
+	}
+	free(copy);
+}
+
+static void
+damage(const char *format, const unsigned char *data, size_t size)
+{
+	static const unsigned char marks[] = { 0x01, 0x80, 0xff, 0x10, 0x40 };
+	static const char *const words[] = { "4294967295", "-1", "1e400", "nan", "\n", " ", "#", "/", "\\",
+		"\0" };
+	unsigned char *copy = malloc(size + 16);
+
+	assert_non_null(copy);
+	for (size_t n = 0; n <= size; n++)
+		feed(format, data, n);
+	for (size_t i = 0; i < size; i++)
+		for (size_t k = 0; k < sizeof marks; k++) {
+			memcpy(copy, data, size);
+			copy[i] = (unsigned char)(data[i] ^ marks[k]);
+			feed(format, copy, size);
+		}
+	for (size_t i = 0; i < size; i++)
+		for (size_t k = 0; k < sizeof words / sizeof *words; k++) {
+			size_t n = strlen(words[k]) + (words[k][0] == 0);
+			memcpy(copy, data, i);
+			memcpy(copy + i, words[k], n);
+			memcpy(copy + i + n, data + i, size - i);
+			feed(format, copy, size + n);
+		}
+	for (size_t i = 0; i + 4 <= size; i++) { /* a piece is missing; a count is huge */
+		memcpy(copy, data, i);
+		memcpy(copy + i, data + i + 4, size - i - 4);
+		feed(format, copy, size - 4);
+		memcpy(copy, data, size);
+		memset(copy + i, 0xff, 4);
+		feed(format, copy, size);
+		copy[i + 3] = 0x7f;
+		feed(format, copy, size);
+	}
+	free(copy);
+}
+
+static void
+seeds_damaged(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < SEEDS; i++)
+		damage(NULL, (const unsigned char *)seeds[i].text, seed_size(&seeds[i]));
+	print_message("# %zu accepted, %zu refused\n", accepted, rejected);
+	assert_true(accepted > 1000 && rejected > 1000);
+}
+
+static void
+read_back(const char *path, mr_bytes *b)
+{
+	mr_ctx ctx;
+
+	mr_ctx_init(&ctx, 1);
+	assert_int_equal(mr_bytes_read(&ctx, path, b), MR_OK);
+	mr_ctx_free(&ctx);
+}
+
+/* What the writers write, damaged. */
+static void
+written_damaged(void **state)
+{
+	static const char *const names[] = { "obj", "ply", "ply-big", "ply-ascii", "stl", "stl-ascii", "off",
+		"off-binary", "xyz", "pts", "pwn" };
+
+	(void)state;
+	for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
+		mr_ctx ctx;
+		mr_model m;
+		mr_bytes b = { 0 };
+		mr_ctx_init(&ctx, 1);
+		m = make_model(&ctx, 4, 3, true);
+		assert_int_equal(mr_model_write(&ctx, "fuzz", names[i], &m), MR_OK);
+		read_back("fuzz", &b);
+		damage(names[i], b.data, b.size);
+		mr_bytes_free(&b);
+		mr_ctx_free(&ctx);
+	}
+}
+
+static void
+put_file(const char *path, const unsigned char *data, size_t size)
+{
+	FILE *f = fopen(path, "wb");
+
+	assert_non_null(f);
+	assert_int_equal(fwrite(data, 1, size, f), size);
+	assert_int_equal(fclose(f), 0);
+}
+
+/* gzip: every prefix and every byte changed; two members are one text. */
+static void
+gzip_damaged(void **state)
+{
+	mr_ctx ctx;
+	mr_model m, back;
+	mr_bytes b = { 0 };
+	unsigned char raw[4096], twice[8192];
+	size_t size, accepted_here = 0;
+	FILE *f;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	m = make_model(&ctx, 6, 0, true);
+	m.normal = NULL;
+	m.color = NULL;
+	assert_int_equal(mr_model_write(&ctx, "fuzz.xyz.gz", NULL, &m), MR_OK);
+	f = fopen("fuzz.xyz.gz", "rb");
+	assert_non_null(f);
+	size = fread(raw, 1, sizeof raw, f);
+	fclose(f);
+	for (size_t n = 0; n < size; n++) {
+		put_file("cut.gz", raw, n);
+		assert_true(mr_bytes_read(&ctx, "cut.gz", &b) < 0 ||
+			    n < 3); /* shorter than the signature: other bytes */
+		mr_bytes_free(&b);
+	}
+	for (size_t i = 0; i < size; i++) {
+		raw[i] ^= 0x55;
+		put_file("cut.gz", raw, size);
+		accepted_here += mr_model_read(&ctx, "cut.gz", NULL, &back) == MR_OK;
+		raw[i] ^= 0x55;
+	}
+	assert_true(accepted_here <= 10); /* of the header, its time and the like may be anything */
+	memcpy(twice, raw, size);
+	memcpy(twice + size, raw, size);
+	put_file("twice.gz", twice, 2 * size);
+	assert_int_equal(mr_model_read(&ctx, "twice.gz", NULL, &back), MR_OK);
+	assert_int_equal(back.nv, 12);
+	mr_ctx_free(&ctx);
+}
+
+/* The k-th allocation fails, for every k: a sentence, and no leak. */
+static void
+memory_fails(void **state)
+{
+	(void)state;
+	for (size_t i = 0; i < SEEDS; i++)
+		for (uint64_t k = 1;; k++) {
+			mr_ctx ctx;
+			mr_model m;
+			mr_status status;
+			mr_ctx_init(&ctx, 1);
+			ctx.fail_at = k;
+			status = mr_model_parse(
+			    &ctx, "", NULL, (const unsigned char *)seeds[i].text, seed_size(&seeds[i]), &m);
+			if (status < 0)
+				assert_int_equal(status, MR_EMEM);
+			mr_ctx_free(&ctx);
+			if (status == MR_OK)
+				break;
+		}
+}
+
+static void
+memory_fails_writing(void **state)
+{
+	static const char *const names[] = { "obj", "ply", "stl", "off", "xyz", "ply-ascii" };
+	(void)state;
+	for (size_t i = 0; i < sizeof names / sizeof *names; i++)
+		for (uint64_t k = 1;; k++) {
+			mr_ctx ctx;
+			mr_model m;
+			mr_status status;
+			mr_ctx_init(&ctx, 1);
+			m = make_model(&ctx, 10, 10, true);
+			ctx.fail_at = k;
+			unlink("memory.gz");
+			status = mr_model_write(&ctx, "memory.gz", names[i], &m);
+			assert_true(status == MR_OK || status == MR_EMEM);
+			assert_int_equal(access("memory.gz", F_OK), status == MR_OK ? 0 : -1);
+			mr_ctx_free(&ctx);
+			if (status == MR_OK)
+				break;
+		}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = { cmocka_unit_test(seeds_damaged),
+		cmocka_unit_test(written_damaged), cmocka_unit_test(gzip_damaged),
+		cmocka_unit_test(memory_fails), cmocka_unit_test(memory_fails_writing) };
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
