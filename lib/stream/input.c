@@ -1,4 +1,4 @@
-#define _GNU_SOURCE /* F_SETPIPE_SZ */
+#define _GNU_SOURCE /* F_SETPIPE_SZ, MADV_DONTNEED */
 
 #include "stream/stored.h"
 
@@ -84,6 +84,21 @@ mr_input_open(mr_ctx *ctx, int fd, mr_input *in)
 	}
 	*in = i;
 	return MR_OK;
+}
+
+void
+mr_input_forget(const unsigned char *record, uint64_t n)
+{
+#ifdef MADV_DONTNEED
+	const uintptr_t page = 65536, begin = ((uintptr_t)record + page - 1) / page * page;
+	const uintptr_t end = ((uintptr_t)record + (uintptr_t)n) / page * page;
+
+	if (begin < end) /* what is read all the same comes from the file again */
+		madvise((void *)begin, end - begin, MADV_DONTNEED);
+#else
+	(void)record;
+	(void)n;
+#endif
 }
 
 void

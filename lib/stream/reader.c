@@ -41,6 +41,8 @@ mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader)
 static void
 stored_free(mr_stored *s)
 {
+	if (!s->heap)
+		mr_input_forget(s->record, MR_HEADER + mr_record_padded(s->head.stored));
 	free(s->heap);
 	free(s->inflated);
 	free(s);

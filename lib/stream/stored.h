@@ -51,6 +51,9 @@ typedef struct mr_input {
 
 mr_status mr_input_open(mr_ctx *ctx, int fd, mr_input *in);
 
+/* Says that a record in the map is not needed any more: a long stream does not pile up in memory. */
+void mr_input_forget(const unsigned char *record, uint64_t n);
+
 /* Leaves the descriptor behind what was read, mapped or not. */
 void mr_input_end(const mr_input *in);
 void mr_input_close(mr_input *in);
