@@ -118,6 +118,10 @@ compare(cmd *c, mr_frame *f)
 	MR_TRY(surface_or_cloud(c, f, a, &ma));
 	MR_TRY(surface_or_cloud(c, second, b, &mb));
 	MR_TRY(mr_compare(&c->ctx, &ma, &mb, &opts, &r));
+	mr_stat_set(&c->ctx, "max", r.both.max);
+	mr_stat_set(&c->ctx, "max_bound", r.both.max_bound);
+	mr_stat_set(&c->ctx, "mean", r.both.mean);
+	mr_stat_set(&c->ctx, "rms", r.both.rms);
 	mr_report_comparison(&r, f, a, b, json, &text);
 	MR_TRY(mr_text_done(&text));
 	cmd_print(c, "%s", text.s);

@@ -1,5 +1,6 @@
 #include "alg/report.h"
 
+#include "alg/figures.h"
 #include "alg/measure.h"
 #include "mesh/laws.h"
 
@@ -85,85 +86,47 @@ columns(const report *r, const char *layer)
 
 /* ---- figures ---- */
 
-enum kind { COUNT, SIGNED, REAL, TRUTH };
-
-typedef struct figure {
-	const char *name;
-	enum kind kind;
-	size_t offset;
-} figure;
-
-#define AT(type, field) offsetof(type, field)
-
-static const figure surface_figures[] = {
-	{ "edges", COUNT, AT(mr_surface, census.edges) },
-	{ "components", COUNT, AT(mr_surface, census.components) },
-	{ "euler", SIGNED, AT(mr_surface, census.euler) },
-	{ "oriented", TRUTH, AT(mr_surface, census.oriented) },
-	{ "manifold", TRUTH, AT(mr_surface, census.manifold) },
-	{ "boundary_edges", COUNT, AT(mr_surface, census.boundary_edges) },
-	{ "boundary_loops", COUNT, AT(mr_surface, census.boundary_loops) },
-	{ "nonmanifold_edges", COUNT, AT(mr_surface, census.nonmanifold_edges) },
-	{ "nonmanifold_vertices", COUNT, AT(mr_surface, census.nonmanifold_vertices) },
-	{ "inconsistent_edges", COUNT, AT(mr_surface, census.inconsistent_edges) },
-	{ "degenerate_faces", COUNT, AT(mr_surface, census.degenerate_faces) },
-	{ "duplicate_faces", COUNT, AT(mr_surface, census.duplicate_faces) },
-	{ "isolated_vertices", COUNT, AT(mr_surface, census.isolated_vertices) },
-	{ "folded_edges", COUNT, AT(mr_surface, census.folded_edges) },
-	{ "diagonal", REAL, AT(mr_surface, geometry.diagonal) },
-	{ "area", REAL, AT(mr_surface, geometry.area) },
-	{ "volume", REAL, AT(mr_surface, geometry.volume) },
-	{ "edge_min", REAL, AT(mr_surface, geometry.edge.min) },
-	{ "edge_mean", REAL, AT(mr_surface, geometry.edge.mean) },
-	{ "edge_max", REAL, AT(mr_surface, geometry.edge.max) },
-	{ "edge_deviation", REAL, AT(mr_surface, geometry.edge.deviation) },
-	{ "angle_min", REAL, AT(mr_surface, geometry.angle_min) },
-	{ "angle_max", REAL, AT(mr_surface, geometry.angle_max) },
-	{ "angle_error", REAL, AT(mr_surface, geometry.angle_error) },
-	{ "valence6", REAL, AT(mr_surface, geometry.valence6) },
-	{ "interior_vertices", COUNT, AT(mr_surface, evenness.vertices) },
-	{ "voronoi_mean", REAL, AT(mr_surface, evenness.mean) },
-	{ "voronoi_error", REAL, AT(mr_surface, evenness.error) },
-	{ "voronoi_variance", REAL, AT(mr_surface, evenness.variance) },
+static const mr_figure surface_figures[] = {
+	{ "edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.edges) },
+	{ "components", MR_FIGURE_COUNT, offsetof(mr_surface, census.components) },
+	{ "euler", MR_FIGURE_SIGNED, offsetof(mr_surface, census.euler) },
+	{ "oriented", MR_FIGURE_TRUTH, offsetof(mr_surface, census.oriented) },
+	{ "manifold", MR_FIGURE_TRUTH, offsetof(mr_surface, census.manifold) },
+	{ "boundary_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.boundary_edges) },
+	{ "boundary_loops", MR_FIGURE_COUNT, offsetof(mr_surface, census.boundary_loops) },
+	{ "nonmanifold_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.nonmanifold_edges) },
+	{ "nonmanifold_vertices", MR_FIGURE_COUNT, offsetof(mr_surface, census.nonmanifold_vertices) },
+	{ "inconsistent_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.inconsistent_edges) },
+	{ "degenerate_faces", MR_FIGURE_COUNT, offsetof(mr_surface, census.degenerate_faces) },
+	{ "duplicate_faces", MR_FIGURE_COUNT, offsetof(mr_surface, census.duplicate_faces) },
+	{ "isolated_vertices", MR_FIGURE_COUNT, offsetof(mr_surface, census.isolated_vertices) },
+	{ "folded_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.folded_edges) },
+	{ "diagonal", MR_FIGURE_REAL, offsetof(mr_surface, geometry.diagonal) },
+	{ "area", MR_FIGURE_REAL, offsetof(mr_surface, geometry.area) },
+	{ "volume", MR_FIGURE_REAL, offsetof(mr_surface, geometry.volume) },
+	{ "edge_min", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.min) },
+	{ "edge_mean", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.mean) },
+	{ "edge_max", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.max) },
+	{ "edge_deviation", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.deviation) },
+	{ "angle_min", MR_FIGURE_REAL, offsetof(mr_surface, geometry.angle_min) },
+	{ "angle_max", MR_FIGURE_REAL, offsetof(mr_surface, geometry.angle_max) },
+	{ "angle_error", MR_FIGURE_REAL, offsetof(mr_surface, geometry.angle_error) },
+	{ "valence6", MR_FIGURE_REAL, offsetof(mr_surface, geometry.valence6) },
+	{ "interior_vertices", MR_FIGURE_COUNT, offsetof(mr_surface, evenness.vertices) },
+	{ "voronoi_mean", MR_FIGURE_REAL, offsetof(mr_surface, evenness.mean) },
+	{ "voronoi_error", MR_FIGURE_REAL, offsetof(mr_surface, evenness.error) },
+	{ "voronoi_variance", MR_FIGURE_REAL, offsetof(mr_surface, evenness.variance) },
 };
 
-static const figure cloud_figures[] = {
-	{ "not_finite", COUNT, AT(mr_cloud, not_finite) },
-	{ "duplicates", COUNT, AT(mr_cloud, duplicates) },
-	{ "diagonal", REAL, AT(mr_cloud, diagonal) },
-	{ "spacing_min", REAL, AT(mr_cloud, spacing.min) },
-	{ "spacing_mean", REAL, AT(mr_cloud, spacing.mean) },
-	{ "spacing_max", REAL, AT(mr_cloud, spacing.max) },
-	{ "spacing_deviation", REAL, AT(mr_cloud, spacing.deviation) },
+static const mr_figure cloud_figures[] = {
+	{ "not_finite", MR_FIGURE_COUNT, offsetof(mr_cloud, not_finite) },
+	{ "duplicates", MR_FIGURE_COUNT, offsetof(mr_cloud, duplicates) },
+	{ "diagonal", MR_FIGURE_REAL, offsetof(mr_cloud, diagonal) },
+	{ "spacing_min", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.min) },
+	{ "spacing_mean", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.mean) },
+	{ "spacing_max", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.max) },
+	{ "spacing_deviation", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.deviation) },
 };
-
-static const figure distance_figures[] = {
-	{ "min", REAL, AT(mr_distance, min) },
-	{ "max", REAL, AT(mr_distance, max) },
-	{ "max_bound", REAL, AT(mr_distance, max_bound) },
-	{ "mean", REAL, AT(mr_distance, mean) },
-	{ "rms", REAL, AT(mr_distance, rms) },
-	{ "samples", COUNT, AT(mr_distance, samples) },
-};
-
-#define LENGTH(array) (sizeof(array) / sizeof *(array))
-
-static void
-figures_json(mr_text *t, const figure *table, size_t n, const void *values)
-{
-	for (size_t i = 0; i < n; i++) {
-		const void *x = (const char *)values + table[i].offset;
-		mr_text_add(t, ",\"%s\":", table[i].name);
-		if (table[i].kind == COUNT)
-			mr_text_add(t, "%zu", *(const size_t *)x);
-		else if (table[i].kind == SIGNED)
-			mr_text_add(t, "%lld", (long long)*(const int64_t *)x);
-		else if (table[i].kind == TRUTH)
-			mr_text_add(t, *(const bool *)x ? "true" : "false");
-		else
-			mr_text_number(t, *(const double *)x);
-	}
-}
 
 /* Nothing has no box. */
 static void
@@ -185,6 +148,13 @@ box_text(mr_text *t, const mr_box *b, double diagonal)
 		return;
 	mr_text_add(t, "    box            %.6g %.6g %.6g to %.6g %.6g %.6g, diagonal %.6g\n", b->min.x,
 	    b->min.y, b->min.z, b->max.x, b->max.y, b->max.z, diagonal);
+}
+
+/* What is rounding of a ratio is zero to people. */
+static double
+tidy(double ratio)
+{
+	return fabs(ratio) < 1e-12 ? 0 : ratio;
 }
 
 static const char *
@@ -269,7 +239,7 @@ surface_text(const report *r, const mr_mesh *m, const mr_surface *s)
 		mr_text_add(t,
 		    "    Voronoi areas  mean %.6g, mean relative deviation %.4g %%, variance %.4g of the "
 		    "squared mean\n",
-		    s->evenness.mean, 100 * s->evenness.error, s->evenness.variance);
+		    s->evenness.mean, 100 * tidy(s->evenness.error), tidy(s->evenness.variance));
 }
 
 static void
@@ -278,7 +248,7 @@ surface_json(const report *r, const mr_mesh *m, const mr_surface *s)
 	mr_text *t = r->t;
 
 	mr_text_add(t, "\"kind\":\"surface\",\"vertices\":%zu,\"faces\":%zu", m->nv, m->nf);
-	figures_json(t, surface_figures, LENGTH(surface_figures), s);
+	mr_figures_json(t, surface_figures, MR_LENGTH(surface_figures), s);
 	mr_text_add(t, ",\"genus\":");
 	if (s->census.oriented && s->census.manifold)
 		mr_text_add(t, "%lld", (long long)s->census.genus);
@@ -308,7 +278,7 @@ static void
 cloud_json(const report *r, const mr_cloud *c)
 {
 	mr_text_add(r->t, "\"kind\":\"cloud\",\"points\":%zu", c->points);
-	figures_json(r->t, cloud_figures, LENGTH(cloud_figures), c);
+	mr_figures_json(r->t, cloud_figures, MR_LENGTH(cloud_figures), c);
 	box_json(r->t, &c->box);
 }
 
@@ -372,17 +342,16 @@ report_layer(const report *r, const char *layer)
 
 	if (r->opts->json) {
 		mr_text_json(r->t, layer, strlen(layer));
-		mr_text_add(r->t, ":{");
+		mr_text_add(r->t, ":{\"columns\":{");
+		columns(r, layer);
+		mr_text_add(r->t, "},");
 	}
 	if (!positions)
 		plain_layer(r, layer, NULL);
 	else if ((status = faces && faces->rows ? report_surface(r, layer) : report_cloud(r, layer)) < 0)
 		plain_layer(r, layer, r->ctx->error);
-	if (r->opts->json) {
-		mr_text_add(r->t, ",\"columns\":{");
-		columns(r, layer);
-		mr_text_add(r->t, "}}");
-	}
+	if (r->opts->json)
+		mr_text_add(r->t, "}");
 	return status == MR_EMEM ? status : MR_OK;
 }
 
@@ -506,105 +475,4 @@ mr_report_frame(mr_ctx *ctx, mr_frame *f, const mr_report_opts *opts, mr_text *t
 	if (broken)
 		*broken = r.first;
 	return mr_text_done(text);
-}
-
-/* ---- comparisons ---- */
-
-static void
-distance_json(mr_text *t, const char *name, const mr_distance *d)
-{
-	mr_text_add(t, ",\"%s\":{\"hausdorff\":", name);
-	mr_text_number(t, d->max);
-	figures_json(t, distance_figures, LENGTH(distance_figures), d);
-	mr_text_add(t, "}");
-}
-
-static mr_distance
-relative(const mr_distance *d, double diagonal)
-{
-	mr_distance r = { d->min / diagonal, d->max / diagonal, d->max_bound / diagonal, d->mean / diagonal,
-		d->rms / diagonal, d->samples };
-
-	return r;
-}
-
-static void
-deviation_json(mr_text *t, const mr_deviation *d, double diagonal)
-{
-	const double values[] = { d->max, d->mean, d->rms, d->max / diagonal, d->stretch_min, d->stretch_mean,
-		d->stretch_max };
-	static const char *const names[] = { "vertex_max", "vertex_mean", "vertex_rms", "vertex_max_relative",
-		"stretch_min", "stretch_mean", "stretch_max" };
-
-	for (size_t i = 0; i < LENGTH(values); i++) {
-		mr_text_add(t, ",\"%s\":", names[i]);
-		mr_text_number(t, values[i]);
-	}
-	mr_text_add(t, ",\"vertex_worst\":%u", d->vertex);
-}
-
-static void
-comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const char *b, mr_text *t)
-{
-	const mr_distance *d[3] = { &c->ab, &c->ba, &c->both };
-	static const char *const names[2][3] = { { "a_to_b", "b_to_a", "both" },
-		{ "a_to_b_relative", "b_to_a_relative", "both_relative" } };
-
-	mr_text_add(t, "{\"frame\":%llu,\"name\":", (unsigned long long)f->number);
-	mr_text_json(t, f->name, strlen(f->name));
-	mr_text_add(t, ",\"a\":");
-	mr_text_json(t, a, strlen(a));
-	mr_text_add(t, ",\"b\":");
-	mr_text_json(t, b, strlen(b));
-	mr_text_add(t, ",\"diagonal\":");
-	mr_text_number(t, c->diagonal);
-	for (int i = 0; i < 3; i++)
-		distance_json(t, names[0][i], d[i]);
-	for (int i = 0; i < 3; i++) {
-		mr_distance x = relative(d[i], c->diagonal);
-		distance_json(t, names[1][i], &x);
-	}
-	mr_text_add(t, ",\"corresponds\":%s", c->corresponds ? "true" : "false");
-	if (c->corresponds)
-		deviation_json(t, &c->deviation, c->diagonal);
-	mr_text_add(t, "}\n");
-}
-
-static void
-distance_text(mr_text *t, const char *name, const mr_distance *d, double unit)
-{
-	mr_text_add(t, "  %-12s", name);
-	mr_text_add(t, " %12.6g %12.6g %12.6g %12.6g %12.6g\n", d->min / unit, d->mean / unit, d->rms / unit,
-	    d->max / unit, d->max_bound / unit);
-}
-
-static void
-comparison_text(const mr_comparison *c, const mr_frame *f, const char *a, const char *b, mr_text *t)
-{
-	mr_text_add(t, "%s: frame %llu, a: %s, b: %s, diagonal of b %.6g\n", f->name,
-	    (unsigned long long)f->number, a, b, c->diagonal);
-	mr_text_add(
-	    t, "  %-12s %12s %12s %12s %12s %12s\n", "distance", "min", "mean", "rms", "max", "at most");
-	distance_text(t, "a to b", &c->ab, 1);
-	distance_text(t, "b to a", &c->ba, 1);
-	distance_text(t, "both", &c->both, 1);
-	if (c->diagonal > 0)
-		distance_text(t, "both, %", &c->both, c->diagonal / 100);
-	if (!c->corresponds)
-		return;
-	mr_text_add(t, "  vertex       max %.6g (vertex %u), mean %.6g, rms %.6g\n", c->deviation.max,
-	    c->deviation.vertex, c->deviation.mean, c->deviation.rms);
-	if (!isnan(c->deviation.stretch_mean))
-		mr_text_add(t, "  edge stretch min %.6g, mean %.6g, max %.6g\n", c->deviation.stretch_min,
-		    c->deviation.stretch_mean, c->deviation.stretch_max);
-}
-
-void
-mr_report_comparison(
-    const mr_comparison *c, const mr_frame *f, const char *a, const char *b, bool json, mr_text *text)
-{
-	if (json)
-		comparison_json(c, f, a, b, text);
-	else
-		comparison_text(c, f, a, b, text);
 }

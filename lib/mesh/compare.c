@@ -447,7 +447,7 @@ measure_deviation(const mr_mesh *a, const mr_mesh *b, mr_deviation *d)
 		double x = mr_dist(a->p[i], b->p[i]);
 		if (x > d->max) {
 			d->max = x;
-			d->vertex = (uint32_t)i;
+			d->vertex = i;
 		}
 		sum += x;
 		square += x * x;

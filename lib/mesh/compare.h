@@ -40,7 +40,7 @@ typedef struct mr_distance {
  * is none. */
 typedef struct mr_deviation {
 	double max, mean, rms; /* distances between a vertex of a and of b */
-	uint32_t vertex;       /* where the greatest is */
+	size_t vertex;         /* where the greatest is */
 	double stretch_min, stretch_mean, stretch_max;
 } mr_deviation;
 

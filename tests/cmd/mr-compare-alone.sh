@@ -1,0 +1,1 @@
+mr-make plane -n 9 | mr-compare

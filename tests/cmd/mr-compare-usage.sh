@@ -1,0 +1,1 @@
+mr-compare a.mrs b.mrs </dev/null

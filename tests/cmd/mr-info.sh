@@ -1,0 +1,34 @@
+# The report of surfaces whose figures are known, for people and as JSON.
+figure() { # FILE NAME: a figure of the layer mesh
+	mr-info --json "$1" | sed "s/.*\"mesh\":{//; s/.*\"$2\":\([^,}]*\).*/\1/"
+}
+near() { # WHAT VALUE EXPECTED TOLERANCE
+	awk -v w="$1" -v x="$2" -v y="$3" -v t="$4" 'BEGIN {
+		d = x - y; print w, (x != "" && d <= t && -d <= t) ? "ok" : "bad: " x " is not " y }'
+}
+
+mr-make sphere -n 10000 >sphere.mrs
+near "sphere area" "$(figure sphere.mrs area)" 12.566370614 0.01
+near "sphere volume" "$(figure sphere.mrs volume)" 4.188790205 0.005
+near "sphere diagonal" "$(figure sphere.mrs diagonal)" 3.4641016 0.001
+echo "sphere $(figure sphere.mrs genus) $(figure sphere.mrs euler) $(figure sphere.mrs intersecting_pairs)"
+mr-make torus >torus.mrs
+near "torus area" "$(figure torus.mrs area)" 15.791367042 0.02
+near "torus volume" "$(figure torus.mrs volume)" 3.158273408 0.01
+echo "torus $(figure torus.mrs genus) $(figure torus.mrs euler) $(figure torus.mrs valence6)"
+mr-make boxes --genus 5 >boxes.mrs
+echo "boxes $(figure boxes.mrs genus) $(figure boxes.mrs boundary_loops) $(figure boxes.mrs components)"
+mr-make cylinder --open >tube.mrs
+echo "tube $(figure tube.mrs euler) $(figure tube.mrs boundary_loops) $(figure tube.mrs volume)"
+mr-make plane -n 100 >plane.mrs
+mr-info plane.mrs
+echo "without a search: $(mr-info --no-intersections --json torus.mrs | grep -c '"intersecting_pairs":null')"
+
+# a frame a line; a delta reports what it holds
+mr-cat sphere.mrs torus.mrs | mr-info --json | grep -c '^{"frame":[12],"name":"[a-z]*","key":true,.*}$'
+mr-make sphere -n 12 --points 3 | mr-info | sed 's/[0-9.e-]*[0-9]\.[0-9e.-]*/#/g'
+
+# the same bytes for any number of threads
+mr-info -j1 --json sphere.mrs >one
+mr-info -j2 --json sphere.mrs >two
+cmp one two && echo "threads ok"
