@@ -17,12 +17,13 @@ static const cmd_opt table[] = {
 static mr_status
 check(cmd *c)
 {
-	const char *out = c->operands[0];
+	const char *out;
 	bool binary;
 	char *name;
 
 	if (c->operand_count != 1)
 		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT is expected, not %zu", c->operand_count);
+	out = c->operands[0];
 	if (!strcmp(out, "-") && !format)
 		return mr_fail(&c->ctx, MR_EUSAGE, "OUT is stdout: -f FORMAT is needed");
 	MR_TRY(mr_format_check(&c->ctx, out, format, true, &binary));

@@ -2,6 +2,8 @@
 #include "cmd.h"
 #include "formats/model.h"
 
+#include <unistd.h>
+
 static const char *format;
 static bool points, repair;
 static cmd_length weld = { -1, false };
@@ -20,6 +22,8 @@ check(cmd *c)
 {
 	bool binary;
 
+	if (c->operand_count == 0 && isatty(STDIN_FILENO))
+		return mr_fail(&c->ctx, MR_EUSAGE, "stdin is a terminal: pipe a file in, or name a FILE");
 	return mr_format_check(&c->ctx, "", format, false, &binary);
 }
 

@@ -157,6 +157,29 @@ normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 	return MR_OK;
 }
 
+/* Text of 16-bit units, by the mark it begins with: what is not ASCII becomes '_', which can only be in
+ * names. */
+static mr_status
+narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
+{
+	bool big = *size >= 2 && (*data)[0] == 0xfe && (*data)[1] == 0xff;
+	bool little = *size >= 2 && (*data)[0] == 0xff && (*data)[1] == 0xfe;
+	unsigned char *copy;
+
+	if (!big && !little)
+		return MR_OK;
+	copy = mr_alloc(ctx, *size / 2, 1);
+	if (!copy)
+		return MR_EMEM;
+	*size = *size / 2 - 1;
+	for (size_t i = 0; i < *size; i++) {
+		unsigned unit = mr_load16(*data + 2 + 2 * i, big);
+		copy[i] = (unsigned char)(unit < 128 ? unit : '_');
+	}
+	*data = copy;
+	return MR_OK;
+}
+
 static mr_status
 find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size,
     const mr_file_format **f)
@@ -170,8 +193,6 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names);
 	if (size == 0)
 		return mr_fail(ctx, MR_EFORMAT, "the file is empty");
-	if (size >= 2 && ((data[0] == 0xfe && data[1] == 0xff) || (data[0] == 0xff && data[1] == 0xfe)))
-		return mr_fail(ctx, MR_EFORMAT, "byte 0: UTF-16 text is not read; iconv makes UTF-8 of it");
 	for (size_t i = 0; i < FORMATS && !found; i++)
 		if (formats[i].sniff && formats[i].sniff(data, size))
 			found = &formats[i];
@@ -196,6 +217,7 @@ mr_model_parse(
 		data += 3;
 		size -= 3;
 	}
+	MR_TRY(narrow(ctx, &data, &size));
 	if (size)
 		MR_TRY(normalise_lines(ctx, &data, size));
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));

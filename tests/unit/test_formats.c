@@ -193,7 +193,7 @@ refusals(void **state)
 {
 	(void)state;
 	refused("", "", "the file is empty");
-	refused("", "\377\376v\0", "UTF-16");
+	refused("", "\377\376v", "the file is empty");
 	refused("", "hello world\n", "no format is recognised");
 	refused("a.obj", "# nothing\n", "obj without a vertex");
 	refused("", TRIANGLE "f 1 2 4\n", "line 4: vertex 4 of 3");
@@ -260,6 +260,9 @@ details(void **state)
 	ok(&ctx, parse(&ctx, "", "\357\273\277v 0 0 0 1 0.5 0\rv 1 0 0 0 0 1\rv 0 1 0 0 0 0\rf 1 2 3\r",
 		     &m)); /* BOM, CR */
 	assert_memory_equal(m.color, "\377\200\0\377\0\0\377\377\0\0\0\377", 12);
+	ok(&ctx, mr_model_parse(&ctx, "", NULL,
+		     (const unsigned char *)"\376\377\0v\0 \0001\0 \0002\0 \0003\0\n", 18, &m));
+	assert_true(m.nv == 1 && m.p[0].z == 3); /* UTF-16 */
 	ok(&ctx, parse(&ctx, "", TRIANGLE "g a  b\nf 1 2 3\ng\nf 3 2 1\n", &m));
 	n = group_name(&m, 0, &name);
 	assert_true(n == 3 && !memcmp(name, "a b", 3));

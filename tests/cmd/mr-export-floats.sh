@@ -1,0 +1,11 @@
+# What a format cannot hold is said under -v and counted under --stats.
+printf 'v 0.1 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\ng a\nf 1/1 2/2 3/3\n' >a.obj
+mr-import a.obj -o a.mrs
+for format in stl stl-ascii off off-binary obj ply xyz pts; do
+	echo "-- $format"
+	mr-export -v -i a.mrs -f $format --stats stats out 2>&1
+	sed 's/"seconds":[^,]*,"peak_bytes":[0-9]*//' stats
+done
+printf 'v 1e300 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' | mr-import | mr-export -f stl never
+echo "exit $?"
+ls never 2>/dev/null

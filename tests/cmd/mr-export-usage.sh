@@ -1,0 +1,16 @@
+# Wrong command lines: exit 2, nothing on stdout.
+mr-make cube -n 100 -o cube.mrs
+export_cube() {
+	mr-export -i cube.mrs "$@"
+	echo "exit $?" >&2
+}
+export_cube
+export_cube a.obj b.obj
+export_cube a.nonsense
+export_cube a
+export_cube -f nonsense a.obj
+export_cube a.las
+export_cube -
+export_cube 'a%x.obj'
+mr-cat cube.mrs cube.mrs | mr-export two.obj
+echo "exit $?" >&2

@@ -1,0 +1,41 @@
+# A file that is not what it says: one sentence with the line or the byte, exit 1, no END.
+refuse() { # what printf makes
+	printf "$@" >file
+	mr-import file >out 2>err
+	code=$?
+	lines=$(wc -l <err)
+	tail -c 64 out | grep -q END && echo 'bad: END'
+	[ "$lines" -eq 1 ] || echo "bad: $lines lines"
+	echo "$code $(cat err)"
+}
+v='v 0 0 0\nv 1 0 0\nv 0 1 0\n'
+refuse ''
+refuse 'hello, world\n'
+refuse '# only a comment\n'
+refuse "${v}f 1 2 4\n"
+refuse "${v}f 1 2 -4\n"
+refuse "${v}f 0 1 2\n"
+refuse "${v}f 1 2 99999999999\n"
+refuse "${v}f 1 2\n"
+refuse 'v 0 0 0\nv 1,5 0 0\n'
+refuse 'v 0 0 0\nv 0 nan 0\n'
+refuse 'v 0 0 0\nv 0 0\n'
+refuse 'ply\nformat ascii 1.0\nelement vertex 1000000000000\nproperty float x\nproperty float y\nproperty float z\nend_header\n0 0 0\n'
+refuse 'ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n\0\0\0\0'
+refuse 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n'
+refuse 'ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n'
+refuse 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n'
+refuse 'OFF\n4000000000 4000000000 0\n'
+refuse 'OFF BINARY\n\1\0\0\0\1\0\0\0\0\0\0\0'
+refuse 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n'
+refuse 'solid a\nendsolid a\n'
+refuse '0 0 0\n1 2\n'
+refuse '7\n0 0 0\n1 2 3\n'
+refuse '0 0 0\n0 0 inf\n'
+printf '\037\213\010\0' >file
+mr-import file
+echo $?
+mr-import no-such-file
+echo $?
+mr-import .
+echo $?

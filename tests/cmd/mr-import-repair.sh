@@ -1,0 +1,42 @@
+# --weld and --repair, and what they say they did.
+count() { # vertices and faces of a stream
+	mr-export -f obj - | awk '/^v / { v++ } /^f / { f++ } END { print v + 0, f + 0 }'
+}
+echo '-- three faces at an edge, one of them twice, one without area'
+cat >bad.obj <<'X'
+v 0 0 0
+v 1 0 0
+v 0 1 0
+v 0 -1 0
+v 0 0 1
+v 9 9 9
+f 1 2 3
+f 2 1 4
+f 1 2 5
+f 3 1 2
+f 1 1 2
+X
+mr-import bad.obj | count
+mr-import -v --repair bad.obj 2>&1 >good.mrs | grep repair
+count <good.mrs
+
+echo '-- a tetrahedron with a face inside out'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 4 3\nf 1 4 3\n' >in.obj
+mr-import --repair --stats stats in.obj | mr-export -f obj - | grep f
+grep -o '"repair_flipped":[0-9]*' stats
+
+echo '-- repaired, any shape of mr-make stays as it is, and its soup comes together again'
+for shape in sphere torus knot cube; do
+	mr-make $shape -n 2000 | mr-export $shape.ply
+	mr-import $shape.ply | mr-export -f ply-ascii - >before
+	mr-import --repair $shape.ply | mr-export -f ply-ascii - | cmp - before && echo "ok $shape"
+	mr-import $shape.ply | mr-export $shape.stl
+	[ "$(mr-import $shape.stl | count)" = "$(mr-import $shape.ply | count)" ] && echo "ok $shape.stl"
+done
+
+echo '-- welding within a length, and a share of the diagonal'
+printf '0 0 0\n0 0 0.001\n1 0 0\n1 0 0\n3 4 0\n' >p.xyz
+mr-import p.xyz | mr-export -f xyz - | wc -l
+mr-import --weld 0 p.xyz | mr-export -f xyz - | wc -l
+mr-import --weld 0.01 p.xyz | mr-export -f xyz - | wc -l
+mr-import --weld 20% p.xyz | mr-export -f xyz - | wc -l
