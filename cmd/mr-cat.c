@@ -76,61 +76,15 @@ advance(cmd *c, struct side *s, uint64_t number)
 	return MR_OK;
 }
 
-static bool
-is_history(const mr_column *c)
-{
-	return !*c->layer && !strcmp(c->name, "history");
-}
-
-/* The lines of the side's history follow those that are there. */
-static mr_status
-join_history(cmd *c, mr_frame *f, mr_frame *from)
-{
-	const mr_shape shape = { '-', 't', 1 };
-	const void *old = "", *more;
-	size_t n = 0, m;
-	char *text;
-
-	MR_TRY(mr_frame_get(&c->ctx, from, "", "history", shape, &more, &m));
-	if (mr_frame_find(f, "", "history"))
-		MR_TRY(mr_frame_get(&c->ctx, f, "", "history", shape, &old, &n));
-	text = mr_alloc(&c->ctx, n + m, 1);
-	if (!text)
-		return MR_EMEM;
-	memcpy(text, old, n);
-	memcpy(text + n, more, m);
-	return mr_frame_put(&c->ctx, f, "", "history", shape, text, n + m);
-}
-
-/* Adds what a side has at this frame; a layer belongs to one FILE alone. */
-static mr_status
-merge_side(cmd *c, mr_frame *f, struct side *s)
-{
-	size_t before = f->count;
-
-	f->key |= s->frame->key && s->frame->number == f->number;
-	for (size_t i = 0; i < s->frame->count; i++) {
-		const mr_column *column = &s->frame->columns[i];
-		mr_frame own = { .columns = f->columns, .count = before };
-		if (is_history(column)) {
-			MR_TRY(join_history(c, f, s->frame));
-			continue;
-		}
-		if (*column->layer && mr_frame_has_layer(&own, column->layer))
-			return mr_fail(&c->ctx, MR_ERANGE, "%s: layer %s is in a file before it, too",
-			    s->path, column->layer);
-		MR_TRY(mr_prefix(&c->ctx, mr_frame_pass(&c->ctx, f, column), "%s", s->path));
-	}
-	return MR_OK;
-}
-
 static mr_status
 cat_frame(cmd *c, mr_frame *f)
 {
 	frames = f->number;
 	for (size_t i = 0; i < side_count; i++) {
-		MR_TRY(advance(c, &sides[i], f->number));
-		MR_TRY(merge_side(c, f, &sides[i]));
+		struct side *s = &sides[i];
+		MR_TRY(advance(c, s, f->number));
+		MR_TRY(mr_prefix(&c->ctx, mr_frame_merge(&c->ctx, f, s->frame), "%s", s->path));
+		f->key |= s->frame->key && s->frame->number == f->number;
 	}
 	return MR_OK;
 }

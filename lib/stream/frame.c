@@ -4,6 +4,8 @@
 
 enum { ROOM = 16 };
 
+static const mr_shape TEXT = { '-', 't', 1 };
+
 mr_status
 mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame)
 {
@@ -208,16 +210,25 @@ clean_line(char *to, const char *line)
 	return used;
 }
 
+/* The frame's history, or an empty one. */
+static mr_status
+history_of(mr_ctx *ctx, mr_frame *frame, const void **text, size_t *n)
+{
+	*text = "";
+	*n = 0;
+	if (!mr_frame_find(frame, "", "history"))
+		return MR_OK;
+	return mr_frame_get(ctx, frame, "", "history", TEXT, text, n);
+}
+
 mr_status
 mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
 {
-	const mr_shape text_shape = { '-', 't', 1 };
-	const void *old = NULL;
-	size_t n = 0;
+	const void *old;
+	size_t n;
 	char *text;
 
-	if (mr_frame_find(frame, "", "history"))
-		MR_TRY(mr_frame_get(ctx, frame, "", "history", text_shape, &old, &n));
+	MR_TRY(history_of(ctx, frame, &old, &n));
 	text = mr_alloc(ctx, n + strlen(line) + 2, 1);
 	if (!text)
 		return MR_EMEM;
@@ -226,7 +237,38 @@ mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
 	if (n && text[n - 1] != '\n')
 		text[n++] = '\n';
 	n += clean_line(text + n, line);
-	return mr_frame_put(ctx, frame, "", "history", text_shape, text, n);
+	return mr_frame_put(ctx, frame, "", "history", TEXT, text, n);
+}
+
+static mr_status
+merge_history(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
+{
+	const void *old, *more;
+	size_t n, m;
+	char *text;
+
+	MR_TRY(history_of(ctx, frame, &old, &n));
+	MR_TRY(history_of(ctx, from, &more, &m));
+	text = mr_alloc(ctx, n + m, 1);
+	if (!text)
+		return MR_EMEM;
+	memcpy(text, old, n);
+	memcpy(text + n, more, m);
+	return mr_frame_put(ctx, frame, "", "history", TEXT, text, n + m);
+}
+
+mr_status
+mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
+{
+	for (size_t i = 0; i < from->count; i++)
+		if (*from->columns[i].layer && mr_frame_has_layer(frame, from->columns[i].layer))
+			return mr_fail(ctx, MR_ERANGE, "layer %s is there already", from->columns[i].layer);
+	for (size_t i = 0; i < from->count; i++) {
+		const mr_column *c = &from->columns[i];
+		bool history = !*c->layer && !strcmp(c->name, "history");
+		MR_TRY(history ? merge_history(ctx, frame, from) : mr_frame_pass(ctx, frame, c));
+	}
+	return MR_OK;
 }
 
 mr_status

@@ -79,6 +79,12 @@ mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const ch
  */
 mr_status mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column);
 
+/*
+ * Passes on all columns of another frame; its history follows the one that is there.  MR_ERANGE where a
+ * layer, or a column of no layer, is in both.
+ */
+mr_status mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from);
+
 /* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of
  * that element. */
 void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
