@@ -53,10 +53,6 @@ analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a)
 	c->common.print = 0;
 	c->common.nmethods = 1;
 	c->common.method[0].ordering = CHOLMOD_AMD;
-
-	c->common.method[0].ordering = CHOLMOD_METIS;
-
-	c->common.method[0].ordering = CHOLMOD_NATURAL;
 	c->common.postorder = 1;
 	c->factor = cholmod_analyze(a, &c->common);
 	return check(ctx, c);
