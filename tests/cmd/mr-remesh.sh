@@ -1,0 +1,22 @@
+# Remeshing keeps the topology and evens the areas; what it cannot work on is refused by name.
+figure() { # name, file: a number of a line of JSON
+	sed "s/.*\"$1\":\([^,}]*\).*/\1/" "$2"
+}
+for shape in torus knot bumpy boxes plane; do
+	mr-make $shape -n 6000 | mr-smooth -t 2 -o in.mrs && mr-remesh --stats stats.json in.mrs -o out.mrs || exit
+	mr-info --json -l mesh in.mrs >before.json && mr-info --json -l base out.mrs >after.json || exit
+	for name in euler boundary_loops components nonmanifold_edges degenerate_faces folded_edges; do
+		b=$(figure $name before.json) a=$(figure $name after.json)
+		[ "$a" = "$b" ] && echo "$shape: $name: ok" || echo "$shape: $name: $b became $a"
+	done
+	awk -v b="$(figure area_variance_before stats.json)" -v a="$(figure area_variance_after stats.json)" -v s=$shape \
+	    'BEGIN { print s ": area variance", (a < b / 2 ? "ok" : "bad: " b " " a) }'
+done
+echo 'the source map lies on the mesh'
+mr-info --check out.mrs >/dev/null && echo ok
+echo 'twice, coarser: the maps compose'
+mr-make bumpy -n 6000 | mr-smooth | mr-remesh | mr-remesh -r 2 -o twice.mrs && mr-info --check twice.mrs >/dev/null && echo ok
+echo 'not a manifold'
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >fan.off
+mr-import fan.off | mr-remesh >out.mrs
+echo $?
