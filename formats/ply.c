@@ -622,6 +622,8 @@ read_faces(ply *f, const element *e)
 	MR_TRY(check_rows(f, e));
 	if (e->rows && !has(e, INDICES))
 		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
+	for (size_t i = 0; has(e, GROUP) && i < f->groups; i++) /* in their order, with faces or without */
+		MR_TRY(mr_build_group(&f->b, f->group_name[i], f->group_bytes[i]));
 	MR_TRY(mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0));
 	for (uint64_t row = 0; row < e->rows; row++) {
 		double group = -1;

@@ -1,0 +1,24 @@
+# Real models: out and in again, in text and in binary, every bit of every column comes back.
+[ -d "$DATA/meshes" ] || exit 77
+differ() { # file, file
+	! cmp -s "$1" "$2" && echo "$format: ${file##*/} differs"
+}
+for file in "$DATA"/meshes/*.* "$DATA"/points/*.*; do
+	[ "$(wc -c <"$file")" -lt 1000000 ] || continue
+	case $file in
+	*.mtl) continue ;;
+	esac
+	mr-import "$file" -o a.mrs || continue
+	mr-export -i a.mrs -f ply a
+	for format in ply-ascii ply-big; do
+		mr-export -i a.mrs -f $format b
+		mr-import b | mr-export -f ply c
+		differ a c
+	done
+	format=obj # has no alpha, and no groups without faces: compared by what OFF keeps
+	mr-export -i a.mrs -f obj b
+	mr-export -i a.mrs -f off a
+	mr-import b | mr-export -f off c
+	differ a c
+done
+echo done
