@@ -4,6 +4,8 @@
 #include "formats/outname.h"
 #include "formats/png.h"
 
+#include <unistd.h>
+
 enum { UP_X, UP_Y, UP_Z };
 
 static mr_gallery_opts opts = MR_GALLERY_DEFAULTS;
@@ -110,6 +112,8 @@ prepare(cmd *c)
 	opts.raster.flat = flat;
 	opts.raster.occlusion = !plain;
 	kept = mr_mark_take(&c->keep);
+	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
+		return mr_fail(&c->ctx, MR_EUSAGE, "a picture is not written to a terminal");
 	MR_TRY(mr_outname(&c->ctx, c->operands[0], "", 0, &path));
 	MR_TRY(parse_size(&c->ctx));
 	MR_TRY(parse_view(&c->ctx));

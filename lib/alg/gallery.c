@@ -60,6 +60,26 @@ take_mesh(mr_ctx *ctx, mr_ctx *keep, const mr_gallery *g, mr_frame *frame, mr_pa
 	return MR_OK;
 }
 
+/* Normals of points: a surface makes its own. */
+static mr_status
+take_normals(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_panel *p)
+{
+	size_t nv = p->subject.mesh.nv;
+	const void *data;
+	mr_v3 *normal;
+
+	if (p->subject.mesh.nf || !mr_layer_has(frame, p->layer, "normal"))
+		return MR_OK;
+	MR_TRY(mr_layer_get_rows(ctx, frame, p->layer, "normal", nv, &data));
+	normal = copy_of(keep, data, nv, sizeof *normal);
+	if (!normal)
+		return no_memory(ctx, keep);
+	for (size_t i = 0; i < nv; i++)
+		normal[i] = mr_finite(normal[i]) ? mr_unit(normal[i]) : mr_vec(0, 0, 0);
+	p->subject.normal = normal;
+	return MR_OK;
+}
+
 /* A row of a column as one number: its only value, or the length of several. */
 static double
 number_at(const mr_column *c, size_t row)
@@ -187,6 +207,7 @@ add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char 
 	if (!p.layer || !p.frame)
 		return no_memory(ctx, keep);
 	MR_TRY(take_mesh(ctx, keep, g, frame, &p));
+	MR_TRY(take_normals(ctx, keep, frame, &p));
 	if (opts->color)
 		MR_TRY(take_column(ctx, keep, frame, opts->color, &p, colored));
 	return push_panel(ctx, keep, g, &p);

@@ -224,7 +224,7 @@ count_text(char *text, size_t size, size_t n)
 static void
 draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several, const mr_gallery_opts *o)
 {
-	double unit = text_unit(o), edge = 5 * unit;
+	double unit = text_unit(o), edge = 8 * unit;
 	strip s = { image, edge, (double)o->width - edge, (double)o->height - 12 * unit, unit };
 	char name[256], number[32], size[64];
 

@@ -222,7 +222,7 @@ covering_radius(const view *v)
 	mr_camera_cover(v->camera, v->subject->mesh.p, v->subject->mesh.nv, &covered);
 	area = (covered.max.x - covered.min.x) * (covered.max.y - covered.min.y);
 	area *= v->camera->scale * v->camera->scale;
-	return fmin(fmax(0.8 * sqrt(area / (double)v->subject->mesh.nv), 1), 6);
+	return fmin(fmax(1.1 * sqrt(area / (double)v->subject->mesh.nv), 1), 8);
 }
 
 mr_status

@@ -15,6 +15,7 @@
 /* What is drawn: a surface, or, where the mesh has no faces, its points as small balls. */
 typedef struct mr_subject {
 	mr_mesh mesh;
+	const mr_v3 *normal; /* nv, unit, of points, where known; else NULL */
 	const mr_rgb *color; /* one a vertex, or a face where `per_face`; NULL: a plain warm grey */
 	bool per_face;
 	bool nearest; /* colours are kinds: each place has its nearest vertex's, no mixture */
@@ -38,7 +39,7 @@ typedef struct mr_raster_opts {
  * Draws the subject over what the image shows.  Workspace: about 32 bytes a pixel, 8 a sample,
  * 50 a vertex and 20 a face, released.
  */
-mr_status mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, const mr_raster_opts *opts,
-    mr_image *image);
+mr_status mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera,
+    const mr_raster_opts *opts, mr_image *image);
 
 #endif

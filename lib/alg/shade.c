@@ -10,7 +10,7 @@
 
 static const mr_rgb PLAIN = { 212, 204, 193 }, INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
 
-enum { LEVELS = 4096 };
+enum { LEVELS = 4096, TAPS = 16, TURN = 4 };
 
 /* What a pixel has gathered from its samples. */
 typedef struct gathered {
@@ -27,9 +27,11 @@ typedef struct shading {
 	bool *creased;       /* vertices with faces that are not shaded as one */
 	double crease;       /* cosine */
 	gathered *pixel;
-	float *open;          /* share of the sky that a pixel sees, before smoothing */
-	double linear[256];   /* of an sRGB value */
-	uint8_t srgb[LEVELS]; /* of a linear value, in LEVELS steps */
+	double reach;                    /* how far hollows are looked for, in pixels */
+	float *open;                     /* share of the sky that a pixel sees, before smoothing */
+	float tap[TURN * TURN][TAPS][2]; /* offsets to look at, in pixels, in each of 4 by 4 pixels */
+	double linear[256];              /* of an sRGB value */
+	uint8_t srgb[LEVELS];            /* of a linear value, in LEVELS steps */
 } shading;
 
 static void
@@ -56,6 +58,22 @@ static uint8_t
 to_srgb(const shading *s, double c)
 {
 	return s->srgb[c > 0 ? c < 1 ? (size_t)(c * LEVELS) : LEVELS - 1 : 0];
+}
+
+/* Places on a spiral, which turns within a square of 4 by 4 pixels: smoothing averages over it. */
+static void
+prepare_taps(shading *s, double reach)
+{
+	static const uint8_t order[TURN * TURN] = { 0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5 };
+
+	for (int i = 0; i < TURN * TURN; i++) {
+		for (int k = 0; k < TAPS; k++) {
+			double r = reach * (k + 0.5) / TAPS,
+			       a = 2 * MR_PI * order[i] / (TURN * TURN) + 6.24 * k;
+			s->tap[i][k][0] = (float)(r * cos(a));
+			s->tap[i][k][1] = (float)(r * sin(a));
+		}
+	}
 }
 
 /* Normals of vertices, from their faces weighted by area, and whether a face is far from them. */
@@ -136,7 +154,8 @@ set_up_face(const shading *s, uint32_t face, facet *f)
 	f->back = f->area > 0; /* y points down */
 	for (int i = 0; i < 3; i++) {
 		const placed *a = &f->p[(i + 1) % 3], *b = &f->p[(i + 2) % 3];
-		f->length[i] = hypot(b->x - a->x, b->y - a->y);
+		f->length[i] = sqrt(
+		    (double)(b->x - a->x) * (b->x - a->x) + (double)(b->y - a->y) * (b->y - a->y));
 		longest = fmax(longest, f->length[i]);
 		if (f->back && !s->v->subject->color)
 			f->color[i] = to_linear(s, INSIDE);
@@ -152,7 +171,7 @@ light_on(mr_v3 n)
 {
 	static const mr_v3 key = { -0.478, 0.640, 0.602 }, fill = { 0.800, 0.100, 0.592 },
 			   rim = { 0.350, 0.550, -0.758 };
-	double sky = 0.30 + 0.10 * n.y;
+	double sky = 0.27 + 0.10 * n.y;
 	double a = (mr_dot(n, key) + 0.12) / 1.12, b = mr_dot(n, fill), c = mr_dot(n, rim);
 
 	return sky + 0.80 * (a > 0 ? a : 0) + 0.16 * (b > 0 ? b : 0) + 0.22 * (c > 0 ? c : 0);
@@ -243,18 +262,29 @@ shade_face_sample(const shading *s, facet *f, size_t at, size_t x, size_t y, gat
 	    height_of(c, s->v->near[at]), line, to_linear(s, LINE));
 }
 
+/* A ball; where the surface's normal is known, mostly lit as the surface is. */
 static void
 shade_point_sample(const shading *s, size_t at, size_t x, size_t y, gathered *g)
 {
+	const mr_camera *c = s->v->camera;
 	uint32_t point = s->v->item[at];
 	const placed *p = &s->v->at[point];
-	double r = s->v->radius * (is_parallel(s->v->camera) ? 1 : p->near);
+	double r = s->v->radius * (is_parallel(c) ? 1 : p->near);
 	double a = ((double)x + 0.5 - (double)p->x / STEP) / r,
 	       b = ((double)y + 0.5 - (double)p->y / STEP) / r;
 	double rest = 1 - a * a - b * b;
+	mr_v3 n = mr_vec(a, -b, sqrt(rest > 0 ? rest : 0)), color = item_color(s, point, 0);
 
-	gather(g, item_color(s, point, 0), mr_vec(a, -b, sqrt(rest > 0 ? rest : 0)),
-	    height_of(s->v->camera, s->v->near[at]), 0, mr_vec(0, 0, 0));
+	if (s->v->subject->normal) {
+		mr_v3 known = s->v->subject->normal[point];
+		known = mr_vec(mr_dot(known, c->right), mr_dot(known, c->up), mr_dot(known, c->toward));
+		if (known.z < -0.25) { /* the inside of the far surface, seen through a gap */
+			known = mr_mul(-1, known);
+			color = mr_lerp(s->v->subject->color ? 0.5 : 1, color, to_linear(s, INSIDE));
+		}
+		n = mr_lerp(0.3, known, n);
+	}
+	gather(g, color, n, height_of(c, s->v->near[at]), 0, mr_vec(0, 0, 0));
 }
 
 static void
@@ -293,32 +323,19 @@ place_of(const shading *s, size_t x, size_t y)
 	return mr_vec(((double)x - c->x) / scale, (c->y - (double)y) / scale, z);
 }
 
-enum { TAPS = 16, TURN = 4 };
-
-/* How the taps turn in a square of 4 by 4 pixels, which smoothing averages. */
-static double
-turn_of(size_t x, size_t y)
-{
-	static const uint8_t order[TURN][TURN] = { { 0, 8, 2, 10 }, { 12, 4, 14, 6 }, { 3, 11, 1, 9 },
-		{ 15, 7, 13, 5 } };
-
-	return 2 * MR_PI * order[y % TURN][x % TURN] / (TURN * TURN);
-}
-
 /* The share of the sky that is open over a pixel: 1 where nothing is in front. */
 static double
 openness(const shading *s, size_t x, size_t y)
 {
 	const size_t width = s->v->image->width, height = s->v->image->height;
 	const gathered *g = &s->pixel[y * width + x];
-	const double reach = 0.055 * (double)(width < height ? width : height),
-		     unit = s->v->camera->scale / reach;
+	const float(*tap)[2] = s->tap[y % TURN * TURN + x % TURN];
+	const double unit = s->v->camera->scale / s->reach;
 	mr_v3 p = place_of(s, x, y), n = mr_vec(g->nx, g->ny, g->nz);
-	double sum = 0, turn = turn_of(x, y);
+	double sum = 0;
 
 	for (int k = 0; k < TAPS; k++) {
-		double r = reach * (k + 0.5) / TAPS, a = turn + 2.399963 * k * 2.6;
-		double tx = (double)x + 0.5 + r * cos(a), ty = (double)y + 0.5 + r * sin(a), along;
+		double tx = (double)x + 0.5 + tap[k][0], ty = (double)y + 0.5 + tap[k][1], along;
 		const gathered *o;
 		mr_v3 d;
 		if (tx < 0 || ty < 0 || tx >= (double)width || ty >= (double)height)
@@ -412,6 +429,8 @@ mr_shade(mr_ctx *ctx, const view *v)
 	if (!s.pixel || (v->opts->occlusion && !s.open))
 		return MR_EMEM;
 	prepare_tables(&s);
+	s.reach = 0.055 * (double)(v->image->width < v->image->height ? v->image->width : v->image->height);
+	prepare_taps(&s, s.reach);
 	if (v->subject->mesh.nf && !v->opts->flat)
 		MR_TRY(prepare_normals(ctx, &s));
 	mr_parallel(ctx, v->image->height, ROWS, gather_rows, &s);

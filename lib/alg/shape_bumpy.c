@@ -35,7 +35,7 @@ static const bone bones[] = {
 };
 enum { BONES = sizeof bones / sizeof *bones };
 
-static const double BLEND = 14, CELL = 0.16, DEPTH = 0.045, AREA = 14.6;
+static const double BLEND = 14, CELL = 0.16, DEPTH = 0.05, AREA = 14.6;
 static const mr_box SPACE = { { -1.35, -1.65, -1.85 }, { 1.55, 1.95, 1.1 } };
 
 /* The distance of x from a bone, and the direction from it. */
@@ -125,7 +125,7 @@ scales(mr_v3 x)
 static double
 skin(mr_v3 x)
 {
-	double groove = scales(x), dome = 1 - exp(-9 * groove * groove);
+	double groove = scales(x), dome = 1 - exp(-5 * groove * sqrt(groove));
 	double waves = sin(31 * x.x + 2 * sin(9 * x.y)) * sin(29 * x.y) * sin(33 * x.z + 2 * sin(7 * x.x));
 
 	return DEPTH * (dome - 0.5) + 0.2 * DEPTH * waves;
@@ -237,7 +237,7 @@ mr_bumpy(mr_ctx *ctx, size_t n, build *b)
 	for (; vertices > MOST; vertices /= 4)
 		levels++;
 	MR_TRY(mr_march(ctx, body_field, NULL, SPACE, sqrt(4.49 * AREA / vertices), b));
-	MR_TRY(relax(ctx, b, 5));
+	MR_TRY(relax(ctx, b, 8));
 	for (int i = 0; i < levels; i++) {
 		build old = *b;
 		MR_TRY(refine(ctx, &old, b));
