@@ -15,6 +15,8 @@ static const double LONG = 4.0 / 3, SHORT = 4.0 / 5;
  * edges longer or shorter than these are split or merged too where both angles are that far from 60.
  */
 static const double STRETCHED = 1.05, SQUEEZED = 0.95;
+/* Shape of a face so thin that its normal is rounding. */
+static const double HAIR = 1e-6;
 static const double WIDE = 0.2588190451025207, NARROW = 0.7071067811865476; /* cosines of 75 and 45 degrees */
 
 typedef struct remesher {
@@ -161,9 +163,9 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest
 			double shape = mr_dyn_shape(pv, pb, pc), moved = mr_dyn_shape(p, pb, pc);
 			if (mr_norm2(mr_sub(pb, p)) > longest2 || mr_norm2(mr_sub(pc, p)) > longest2)
 				return false;
-			if (moved < MR_NEEDLE && moved <= shape)
+			if (moved < MR_NEEDLE && moved < 0.2 * shape)
 				return false;
-			if (shape >= MR_NEEDLE &&
+			if (shape >= HAIR &&
 			    mr_dot(before, after) < 0.5 * sqrt(mr_norm2(before) * mr_norm2(after)))
 				return false;
 		}

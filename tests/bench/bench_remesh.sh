@@ -6,7 +6,7 @@ median() {
 	sort -g | sed -n 2p
 }
 describe() { # who, file with one line of mr-info --json
-	for name in area_deviation angle_deviation angle_min valence6_share; do
+	for name in voronoi_error angle_error angle_min valence6; do
 		echo "$model-$name $1 $(figure $name "$2") -"
 	done
 }
