@@ -145,17 +145,17 @@ scale_rows(mr_sparse *k, const double *w)
 static mr_status
 factor(mr_ctx *ctx, mr_deform *d, double started)
 {
-	bool symmetric = !d->opts.unsymmetric;
+	bool lower = d->opts.solver == MR_CHOLESKY;
 	mr_sparse k;
 	mr_status status;
 
-	MR_TRY(mr_laplace_power(ctx, &d->l, d->w, d->opts.order, d->patch.end[0], symmetric, &k));
+	MR_TRY(mr_laplace_power(ctx, &d->l, d->w, d->opts.order, d->patch.end[0], lower, &k));
 	hold_empty_rows(&k);
-	if (!symmetric)
+	if (d->opts.unsymmetric)
 		scale_rows(&k, d->w);
 	d->nnz = (size_t)k.start[k.n];
 	d->seconds_assemble = mr_seconds() - started;
-	status = mr_solver_new(ctx, symmetric ? MR_CHOLESKY : MR_LU, &k, &d->solver);
+	status = mr_solver_new(ctx, (mr_solver_kind)d->opts.solver, &k, &d->solver);
 	if (status == MR_ENUMERIC)
 		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
 		    d->patch.mesh.name, d->opts.order, d->patch.end[0],
@@ -164,16 +164,21 @@ factor(mr_ctx *ctx, mr_deform *d, double started)
 }
 
 static mr_status
-check_regions(mr_ctx *ctx, const mr_deform *d, const char *name)
+check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 {
+	for (size_t v = 0; v < d->nv; v++)
+		if (!mr_finite(rest->p[v]))
+			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
+	if (d->opts.unsymmetric && d->opts.solver == MR_CHOLESKY)
+		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
 	if (d->free == 0)
 		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
-		    name, d->nv);
+		    rest->name, d->nv);
 	if (d->free == d->nv)
 		return mr_fail(ctx, MR_EMESH,
 		    "%s: all %zu vertices are free: nothing holds the surface; select some as fixed or "
 		    "handle",
-		    name, d->nv);
+		    rest->name, d->nv);
 	return MR_OK;
 }
 
@@ -187,7 +192,7 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	if (!anchored)
 		return MR_EMEM;
 	count_regions(d);
-	MR_TRY(check_regions(ctx, d, rest->name));
+	MR_TRY(check_problem(ctx, d, rest));
 	MR_TRY(find_anchored(ctx, d, rest, anchored));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
 	MR_TRY(mr_patch_build(ctx, rest, anchored, d->opts.order, &d->patch));

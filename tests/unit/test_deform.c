@@ -307,7 +307,8 @@ test_relax_is_the_dense_solution(void **state)
 			for (int areas = MR_AREAS_VORONOI; areas <= MR_AREAS_MEAN; areas++)
 				for (int lu = 0; lu < 2; lu++) {
 					mr_deform *d = deform_of(&s[i].m, s[i].region,
-					    (mr_deform_opts){ k, areas, lu != 0, 1e-12 });
+					    (mr_deform_opts){
+						k, areas, lu != 0, lu ? MR_LU : MR_CHOLESKY, 1e-12 });
 					mr_v3 *p = MR_NEW(&ctx, s[i].m.nv, mr_v3);
 					mr_v3 *q = MR_NEW(&ctx, s[i].m.nv, mr_v3);
 					assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p), MR_OK);
@@ -330,8 +331,8 @@ test_pose_is_the_dense_solution(void **state)
 	for (int i = 0; i < 4; i++)
 		for (size_t k = 1; k <= 3; k++) {
 			size_t n = s[i].m.nv;
-			mr_deform *d = deform_of(
-			    &s[i].m, s[i].region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+			mr_deform *d = deform_of(&s[i].m, s[i].region,
+			    (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
 			mr_v3 *p0 = MR_NEW(&ctx, n, mr_v3), *p = MR_NEW(&ctx, n, mr_v3);
 			mr_v3 *q = MR_NEW(&ctx, n, mr_v3);
 			assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p0), MR_OK);
@@ -355,7 +356,8 @@ test_plane_is_reproduced(void **state)
 	(void)state;
 	for (size_t k = 1; k <= 3; k++) {
 		const uint32_t *region = framed(21, 3);
-		mr_deform *d = deform_of(&m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+		mr_deform *d = deform_of(
+		    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
 		for (size_t v = 0; v < m.nv; v++) {
 			mr_v3 x = m.p[v];
 			p[v] = mr_vec(x.x, x.y, 0.5 * x.x - 2 * x.y + 3);
@@ -378,8 +380,9 @@ test_symmetric_is_unsymmetric(void **state)
 	for (size_t k = 1; k <= 3; k++) {
 		mr_v3 *p[2];
 		for (int lu = 0; lu < 2; lu++) {
-			mr_deform *d = deform_of(
-			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, lu != 0, 1e-12 });
+			mr_deform *d = deform_of(&m, region,
+			    (mr_deform_opts){
+				k, MR_AREAS_VORONOI, lu != 0, lu ? MR_LU : MR_CHOLESKY, 1e-12 });
 			p[lu] = MR_NEW(&ctx, m.nv, mr_v3);
 			assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p[lu]), MR_OK);
 			mr_deform_free(d);
@@ -403,7 +406,7 @@ test_identity_keeps_every_bit(void **state)
 		for (size_t k = 1; k <= 3; k++) {
 			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
 			mr_deform *d = deform_of(
-			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
 			size_t h = mr_deform_handles(d);
 			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
 			assert_int_equal(h, handles_only ? 2 : 1);
@@ -431,7 +434,8 @@ test_rigid_motion_is_followed(void **state)
 	for (size_t v = 0; v < m.nv; v++)
 		q[v] = mr_apply(t, m.p[v]);
 	for (size_t k = 1; k <= 3; k++) {
-		mr_deform *d = deform_of(&m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+		mr_deform *d = deform_of(
+		    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
 		double *response = MR_NEW(&ctx, 8 * m.nv, double);
 		assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 2, p), MR_OK);
 		assert_same(&m, p, q, 1e-15);
@@ -455,7 +459,7 @@ test_basis_is_the_pose(void **state)
 		for (size_t k = 1; k <= 3; k++) {
 			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
 			mr_deform *d = deform_of(
-			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, 1e-12 });
+			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
 			size_t h = mr_deform_handles(d);
 			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
 			assert_int_equal(mr_deform_relax(&ctx, d, m.p, p0), MR_OK);
@@ -493,7 +497,7 @@ test_loose_components_stay(void **state)
 		for (int k = 0; k < 3; k++)
 			t[one.nf + f].v[k] = one.t[f].v[k] + (uint32_t)one.nv;
 	}
-	d = deform_of(&two, region, (mr_deform_opts){ 2, MR_AREAS_VORONOI, false, 1e-12 });
+	d = deform_of(&two, region, (mr_deform_opts){ 2, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
 	assert_int_equal(mr_deform_pose(&ctx, d, p, maps, 2, q), MR_OK);
 	assert_memory_equal(p + one.nv, q + one.nv, (one.nv + 1) * sizeof *p);
 	assert_true(largest_distance(p, q, one.nv) > 0.1);
@@ -524,7 +528,7 @@ test_degenerate_faces_give_no_nan(void **state)
 	m.t = t;
 	m.p = p;
 	for (size_t k = 1; k <= 3; k++) {
-		mr_deform_opts opts = { k, MR_AREAS_VORONOI, false, 1e-12 };
+		mr_deform_opts opts = { k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 };
 		mr_deform *d = NULL;
 		mr_status status = mr_deform_new(&ctx, &m, region, &opts, &d);
 		if (status == MR_ENUMERIC && k > 1)
@@ -548,6 +552,9 @@ test_refusals(void **state)
 	mr_deform *d = NULL;
 
 	(void)state;
+	opts.unsymmetric = true;
+	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_EUSAGE);
+	opts.unsymmetric = false;
 	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_EMESH);
 	assert_non_null(strstr(ctx.error, "no free vertex"));
 	for (size_t v = 0; v < m.nv; v++)

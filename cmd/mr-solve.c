@@ -1,0 +1,132 @@
+/* mr-solve -- move the free vertices of a base to where its constraints have them.  See man/mr-solve.1. */
+#include "alg/deform_cache.h"
+#include "alg/handles.h"
+#include "cmd.h"
+
+static mr_deform_opts opts = MR_DEFORM_DEFAULTS;
+static enum { AUTO, CHOLESKY, LU } solver;
+static bool basis;
+
+static const cmd_opt table[] = {
+	{ 'k', "order", CMD_COUNT, &opts.order, 1, 3, "K",
+	    "1 membrane, 2 thin plate, 3 minimal variation of curvature", NULL },
+	{ 's', "solver", CMD_CHOICE, &solver, 0, 0, "auto|cholesky|lu",
+	    "auto: cholesky, or lu for --unsymmetric", NULL },
+	{ 0, "areas", CMD_CHOICE, &opts.areas, 0, 0, "voronoi|mean",
+	    "each vertex its own area, or all the mean", NULL },
+	{ 0, "unsymmetric", CMD_FLAG, &opts.unsymmetric, 0, 0, "", "solve the system as the paper writes it",
+	    NULL },
+	{ 0, "basis", CMD_FLAG, &basis, 0, 0, "", "also write the response to every handle", NULL },
+	{ 0, "tol", CMD_REAL, &opts.tol, 0, 1, "T", "refine a solution of a larger relative residual", NULL },
+	{ 0 },
+};
+
+static mr_status
+prepare(cmd *c)
+{
+	if (opts.unsymmetric && solver == CHOLESKY)
+		return mr_fail(&c->ctx, MR_EUSAGE, "--unsymmetric has no Cholesky factor: -s lu");
+	opts.solver = solver == LU || opts.unsymmetric ? MR_LU : MR_CHOLESKY;
+	return MR_OK;
+}
+
+/* Outlives the frame. */
+static mr_deform_cache kept;
+
+static mr_status
+put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, const mr_v3 *p0)
+{
+	enum { MOST = 63 }; /* a row has at most 255 components */
+	size_t handles = mr_deform_handles(d);
+	double *response;
+
+	if (handles == 0)
+		return mr_fail(
+		    ctx, MR_EMESH, "%s: no handle to respond to: select one by mr-select --handle", m->name);
+	if (handles > MOST)
+		return mr_fail(ctx, MR_ERANGE, "%s: %zu handles are more than a response holds, %d", m->name,
+		    handles, MOST);
+	response = MR_NEW(ctx, 4 * handles * m->nv, double);
+	if (!response)
+		return MR_EMEM;
+	MR_TRY(mr_deform_basis(ctx, d, p0, response));
+	return mr_layer_put_wide(ctx, f, m->name, "response", (uint8_t)(4 * handles), response, m->nv);
+}
+
+static mr_status
+relax(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
+{
+	mr_deform *d;
+
+	MR_TRY(mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, m, "position", &opts, &d));
+	MR_TRY(mr_deform_relax(&c->ctx, d, m->p, p));
+	mr_frame_drop(f, m->name, "response", 0);
+	if (basis)
+		MR_TRY(put_basis(&c->ctx, f, m, d, p));
+	mr_deform_report(&c->ctx, d);
+	return mr_layer_put(&c->ctx, f, m->name, "rest", m->p, m->nv);
+}
+
+static mr_status
+pose(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
+{
+	mr_mesh rest = *m;
+	const void *positions;
+	mr_affine *t;
+	mr_deform *d;
+	size_t n;
+
+	if (basis)
+		return mr_fail(&c->ctx, MR_EUSAGE,
+		    "--basis is for the undeformed solve, but the frame has handles already: use it before "
+		    "mr-pose");
+	if (!mr_layer_has(f, m->name, "rest"))
+		return mr_fail(&c->ctx, MR_EMISSING,
+		    "%s has handles but no rest positions: run mr-solve before mr-pose too", m->name);
+	MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "rest", m->nv, &positions));
+	rest.p = positions;
+	MR_TRY(mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, &rest, "rest", &opts, &d));
+	MR_TRY(mr_handles_rows(&c->ctx, f, mr_deform_handles(d), &t, &n));
+	MR_TRY(mr_deform_pose(&c->ctx, d, m->p, t, n, p));
+	mr_frame_drop(f, "handles", NULL, 0);
+	mr_frame_drop(f, m->name, "response", 0);
+	mr_deform_report(&c->ctx, d);
+	return MR_OK;
+}
+
+static mr_status
+solve_frame(cmd *c, mr_frame *f)
+{
+	static const char *const reads[] = { "base", "control", NULL };
+	bool posing = mr_layer_has(f, "handles", "transform");
+	const char *layer;
+	mr_mesh m;
+	mr_v3 *p;
+
+	MR_TRY(mr_layer_choose(&c->ctx, f, c->layer, reads, &layer));
+	MR_TRY(mr_layer_mesh(&c->ctx, f, layer, &m));
+	p = MR_NEW(&c->ctx, m.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(posing ? pose(c, f, &m, p) : relax(c, f, &m, p));
+	mr_frame_drop(f, layer, "normal", 0);
+	return mr_layer_put_positions(&c->ctx, f, layer, p, m.nv);
+}
+
+static mr_status
+finish(cmd *c)
+{
+	mr_deform_cache_free(&kept, &c->keep);
+	return MR_OK;
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "move the free vertices of a base to where its constraints have them",
+		.options = table,
+		.prepare = prepare,
+		.frame = solve_frame,
+		.finish = finish });
+}
