@@ -22,7 +22,9 @@ typedef struct polygon {
 	size_t n;
 	point *q;              /* projected, counter-clockwise */
 	uint32_t *next, *prev; /* of the corners not clipped yet */
-	bool *reflex;          /* reflex or straight, and not clipped */
+	uint32_t *queue;       /* 3 n: corners to try */
+	bool *clipped;
+	bool *reflex; /* reflex or straight, and not clipped */
 	grid g;
 } polygon;
 
@@ -193,6 +195,7 @@ clip(polygon *g, size_t i, mr_tri *t)
 	g->next[a] = c;
 	g->prev[c] = a;
 	g->reflex[i] = false;
+	g->clipped[i] = true;
 	if (g->reflex[a])
 		g->reflex[a] = cross(g->q[g->prev[a]], g->q[a], g->q[c]) <= 0;
 	if (g->reflex[c])
@@ -216,32 +219,45 @@ flattest(const polygon *g, size_t i, size_t left)
 	return best;
 }
 
+/* All corners that are left, from corner i on, wait to be tried. */
+static size_t
+line_up(polygon *g, size_t i, size_t left)
+{
+	for (size_t k = 0; k < left; k++, i = g->next[i])
+		g->queue[k] = (uint32_t)i;
+	return left;
+}
+
 /*
- * Clips ears, skipping a corner after each so that they do not all share one.  Where a whole round finds
- * none, the polygon is not simple: then the corner that turns least goes, and after some of these the rest
+ * Clips ears in turn.  Clipping one can make ears of its two neighbours only, which line up again, at the
+ * end, so that the triangles do not all share a corner.  Where none is left the polygon is not simple, or
+ * rounding hides an ear: the corner that turns least goes and all line up again; after some of these the rest
  * becomes a fan.
  */
 static void
 clip_ears(polygon *g, mr_tri *t)
 {
 	enum { PATIENCE = 64 };
-	size_t since = 0, forced = 0, i = 0;
+	size_t i = 0, at = 0, forced = 0, waiting = line_up(g, 0, g->n);
 
-	for (size_t left = g->n; left > 3;) {
-		size_t ear = i;
-		if (forced == PATIENCE)
-			ear = g->next[i];
-		else if (!is_ear(g, i)) {
-			i = g->next[i];
-			if (++since <= left)
-				continue;
+	for (size_t left = g->n; left > 3; left--) {
+		while (at < waiting && (g->clipped[g->queue[at]] || !is_ear(g, g->queue[at])))
+			at++;
+		if (at < waiting) {
+			size_t ear = g->queue[at++];
+			i = g->next[ear];
+			g->queue[waiting++] = g->prev[ear];
+			g->queue[waiting++] = g->next[ear];
+			clip(g, ear, t++);
+		} else if (forced < PATIENCE) {
+			size_t flat = flattest(g, i, left);
 			forced++;
-			ear = flattest(g, i, left);
-		}
-		i = forced == PATIENCE ? i : g->next[g->next[ear]];
-		clip(g, ear, t++);
-		left--;
-		since = 0;
+			i = g->next[flat];
+			clip(g, flat, t++);
+			waiting = line_up(g, i, left - 1);
+			at = 0;
+		} else
+			clip(g, g->next[i], t++);
 	}
 	emit(g, t, g->prev[i], i, g->next[i]);
 }
@@ -253,8 +269,10 @@ ears(mr_ctx *ctx, polygon *g, mr_tri *t)
 
 	g->next = MR_NEW(ctx, n, uint32_t);
 	g->prev = MR_NEW(ctx, n, uint32_t);
+	g->queue = MR_NEW(ctx, 3 * n, uint32_t);
+	g->clipped = MR_NEW_ZERO(ctx, n, bool);
 	g->reflex = MR_NEW(ctx, n, bool);
-	if (!g->next || !g->prev || !g->reflex)
+	if (!g->next || !g->prev || !g->queue || !g->clipped || !g->reflex)
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		g->next[i] = (uint32_t)((i + 1) % n);
