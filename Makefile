@@ -22,7 +22,6 @@ VERSION := 1.0
 JOBS    ?= $(shell nproc 2>/dev/null || echo 2)
 T       ?=
 
-
 MAKEFLAGS += -j$(JOBS)
 
 , := ,
@@ -73,9 +72,10 @@ $(BUILD)/%.cc.o: %.cc $(BUILD)/flags | setup
 	$(CXX) $(ALL_CXX) -MMD -MP -c -o $@ $<
 
 # Other compilers or flags rebuild everything.
-$(BUILD)/flags: FORCE
-	@mkdir -p $(@D)
-	@echo '$(CC) $(CXX) $(ALL_C)' | cmp -s - $@ || echo '$(CC) $(CXX) $(ALL_C)' >$@
+FLAGS := $(CC) $(CXX) $(ALL_C) $(LDFLAGS)
+ifneq ($(file <$(BUILD)/flags),$(FLAGS))
+$(shell mkdir -p $(BUILD))$(file >$(BUILD)/flags,$(FLAGS))
+endif
 
 units: $(UNITS)
 
@@ -110,5 +110,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units setup check bless demo bench readme install clean FORCE
+.PHONY: all units setup check bless demo bench readme install clean
 .SECONDARY:

@@ -18,6 +18,7 @@ arguments() {
 	mr-import) echo plain.off ;;
 	mr-make) echo sphere -n 500 ;;
 	mr-select) echo $regions ;;
+	mr-pose) echo -H 1 --scale 2 ;;
 	mr-export) echo out.ply ;;
 	mr-render) echo out.png ;;
 	esac
