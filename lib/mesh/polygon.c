@@ -219,45 +219,35 @@ flattest(const polygon *g, size_t i, size_t left)
 	return best;
 }
 
-/* All corners that are left, from corner i on, wait to be tried. */
-static size_t
-line_up(polygon *g, size_t i, size_t left)
-{
-	for (size_t k = 0; k < left; k++, i = g->next[i])
-		g->queue[k] = (uint32_t)i;
-	return left;
-}
-
 /*
  * Clips ears in turn.  Clipping one can make ears of its two neighbours only, which line up again, at the
  * end, so that the triangles do not all share a corner.  Where none is left the polygon is not simple, or
- * rounding hides an ear: the corner that turns least goes and all line up again; after some of these the rest
- * becomes a fan.
+ * rounding hides an ear: the corner that turns least goes, and after some of these the rest becomes a fan.
  */
 static void
 clip_ears(polygon *g, mr_tri *t)
 {
 	enum { PATIENCE = 64 };
-	size_t i = 0, at = 0, forced = 0, waiting = line_up(g, 0, g->n);
+	size_t i = 0, at = 0, forced = 0, waiting = g->n;
 
+	for (size_t k = 0; k < g->n; k++)
+		g->queue[k] = (uint32_t)k;
 	for (size_t left = g->n; left > 3; left--) {
+		size_t ear;
 		while (at < waiting && (g->clipped[g->queue[at]] || !is_ear(g, g->queue[at])))
 			at++;
-		if (at < waiting) {
-			size_t ear = g->queue[at++];
-			i = g->next[ear];
+		if (at < waiting)
+			ear = g->queue[at++];
+		else if (forced++ < PATIENCE)
+			ear = flattest(g, i, left);
+		else
+			ear = g->next[i];
+		if (forced <= PATIENCE) {
 			g->queue[waiting++] = g->prev[ear];
 			g->queue[waiting++] = g->next[ear];
-			clip(g, ear, t++);
-		} else if (forced < PATIENCE) {
-			size_t flat = flattest(g, i, left);
-			forced++;
-			i = g->next[flat];
-			clip(g, flat, t++);
-			waiting = line_up(g, i, left - 1);
-			at = 0;
-		} else
-			clip(g, g->next[i], t++);
+			i = g->next[ear];
+		}
+		clip(g, ear, t++);
 	}
 	emit(g, t, g->prev[i], i, g->next[i]);
 }
