@@ -45,7 +45,7 @@ import(cmd *c, const char *path)
 	if (repair)
 		MR_TRY(mr_prefix(&c->ctx, mr_model_repair(&c->ctx, &m), "%s", path));
 	MR_TRY(mr_frame_new(&c->ctx, name, &f));
-	MR_TRY(mr_model_put(&c->ctx, f, &m));
+	MR_TRY(mr_model_put(&c->ctx, f, c->layer, &m));
 	return cmd_send(c, f);
 }
 

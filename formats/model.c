@@ -171,11 +171,13 @@ mr_model_repair(mr_ctx *ctx, mr_model *m)
 /* ---- layers ---- */
 
 mr_status
-mr_model_put(mr_ctx *ctx, mr_frame *f, const mr_model *m)
+mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
-	const char *layer = m->nf ? "mesh" : "points";
-	mr_mesh mesh = { .name = layer, .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
+	mr_mesh mesh = { .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
 
+	if (!layer)
+		layer = m->nf ? "mesh" : "points";
+	mesh.name = layer;
 	if (m->nf)
 		MR_TRY(mr_layer_put_mesh(ctx, f, layer, &mesh));
 	else

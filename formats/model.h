@@ -19,8 +19,11 @@ mr_status mr_model_weld(mr_ctx *ctx, double eps, mr_model *m) MR_WARN_UNUSED;
 /* mr_repair, attributes carried along.  Points stay as they are.  Says and counts what was done. */
 mr_status mr_model_repair(mr_ctx *ctx, mr_model *m) MR_WARN_UNUSED;
 
-/* Puts the model as layer `mesh`, or `points` where it has no faces; the frame borrows its arrays. */
-mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const mr_model *m) MR_WARN_UNUSED;
+/*
+ * Puts the model as this layer, or, where `layer` is NULL, as `mesh`, without faces as `points`; the frame
+ * borrows its arrays.
+ */
+mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m) MR_WARN_UNUSED;
 
 /* The layer as a model: positions, and triangles, normals, colours, texture coordinates and groups where it
  * has them. */

@@ -4,7 +4,7 @@
 cat >table <<'X'
 assimp_OutOfMemory.off|line 2: 353535235358 vertices and 6 faces cannot be in the 289 bytes that follow
 assimp_box_UTF16BE.obj|8 12
-assimp_box_longline.obj|8 478
+assimp_box_longline.obj|8 790
 assimp_box_without_lineending.obj|8 12
 assimp_crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply|line 7: '???' is no type of PLY
 assimp_cube_binary_header_with_RN_newline.ply|8 12

@@ -77,3 +77,6 @@ cp square.obj a.b.obj
 gzip -c square.obj >c.obj.gz
 mr-import a.b.obj c.obj.gz - <square.obj | mr-export '%d-%s.obj'
 ls *-*.obj
+
+echo '-- as another layer'
+mr-import -l control square.obj | mr-export -l control -f obj - | head -n 1
