@@ -12,8 +12,9 @@ enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15 };
 
 struct mr_block {
 	struct mr_block *below;
+	uint64_t serial;   /* from 1, growing towards the top */
 	size_t size, used; /* of the bytes behind the header */
-	char pad[ALIGN - sizeof(struct mr_block *) - 2 * sizeof(size_t)];
+	char pad[ALIGN - sizeof(struct mr_block *) - sizeof(uint64_t) - 2 * sizeof(size_t)];
 };
 
 void
@@ -30,7 +31,7 @@ mr_ctx_init(mr_ctx *ctx, unsigned threads)
 void
 mr_ctx_free(mr_ctx *ctx)
 {
-	mr_mark_release(ctx, (mr_mark){ NULL, 0 });
+	mr_mark_release(ctx, (mr_mark){ 0, 0 });
 }
 
 mr_status
@@ -146,7 +147,7 @@ block_new(mr_ctx *ctx, size_t size)
 	if (posix_memalign(&memory, ALIGN, sizeof *b + size))
 		return NULL;
 	b = memory;
-	*b = (mr_block){ .below = ctx->top, .size = size };
+	*b = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = size };
 	return ctx->top = b;
 }
 
@@ -177,6 +178,21 @@ mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size)
 	return p ? memset(p, 0, count * size) : NULL;
 }
 
+/* Frees the block that holds `memory` and nothing else, if there is one. */
+static void
+free_alone(mr_ctx *ctx, const void *memory)
+{
+	for (mr_block **b = &ctx->top; *b; b = &(*b)->below)
+		if (bytes_of(*b) == memory) {
+			mr_block *found = *b;
+			if (found->size > LARGE && found->size != SHARED) {
+				*b = found->below;
+				free(found);
+			}
+			return;
+		}
+}
+
 void *
 mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size)
 {
@@ -184,6 +200,8 @@ mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size)
 
 	if (p && used)
 		memcpy(p, old, used * size);
+	if (p && old)
+		free_alone(ctx, old);
 	return p;
 }
 
@@ -208,17 +226,18 @@ mr_format(mr_ctx *ctx, const char *format, ...)
 mr_mark
 mr_mark_take(const mr_ctx *ctx)
 {
-	return (mr_mark){ ctx->top, ctx->top ? ctx->top->used : 0 };
+	return ctx->top ? (mr_mark){ ctx->top->serial, ctx->top->used } : (mr_mark){ 0, 0 };
 }
 
+/* The block of the mark may have gone with what grew out of it: then there is nothing of it to release. */
 void
 mr_mark_release(mr_ctx *ctx, mr_mark mark)
 {
-	while (ctx->top != mark.block) {
+	while (ctx->top && ctx->top->serial > mark.serial) {
 		mr_block *b = ctx->top;
 		ctx->top = b->below;
 		free(b);
 	}
-	if (mark.block)
-		mark.block->used = mark.used;
+	if (ctx->top && ctx->top->serial == mark.serial)
+		ctx->top->used = mark.used;
 }

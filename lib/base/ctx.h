@@ -21,20 +21,20 @@
 #include <stddef.h>
 #include <stdint.h>
 
-#define MR_WARN_UNUSED __attribute__((warn_unused_result))
+#define MR_WARN_UNUSED  __attribute__((warn_unused_result))
 #define MR_PRINTF(f, a) __attribute__((format(printf, f, a)))
 
 typedef enum mr_status {
 	MR_OK = 0,
-	MR_END = 1,        /* a reader has nothing more: not a failure */
-	MR_EMEM = -1,      /* memory could not be had */
-	MR_EIO = -2,       /* the system could not read or write */
-	MR_EFORMAT = -3,   /* bytes break the format they claim */
-	MR_ERANGE = -4,    /* a number, an index or a size is outside its range */
-	MR_EMESH = -5,     /* a mesh or cloud that the algorithm cannot work on */
-	MR_ENUMERIC = -6,  /* singular, not positive definite, not converged */
-	MR_EMISSING = -7,  /* a layer or column is not there, or of another shape */
-	MR_EUSAGE = -8     /* a wrong option value, found late: the command exits 2 */
+	MR_END = 1,       /* a reader has nothing more: not a failure */
+	MR_EMEM = -1,     /* memory could not be had */
+	MR_EIO = -2,      /* the system could not read or write */
+	MR_EFORMAT = -3,  /* bytes break the format they claim */
+	MR_ERANGE = -4,   /* a number, an index or a size is outside its range */
+	MR_EMESH = -5,    /* a mesh or cloud that the algorithm cannot work on */
+	MR_ENUMERIC = -6, /* singular, not positive definite, not converged */
+	MR_EMISSING = -7, /* a layer or column is not there, or of another shape */
+	MR_EUSAGE = -8    /* a wrong option value, found late: the command exits 2 */
 } mr_status;
 
 /* Returns from the calling function when `expr` fails; MR_OK and MR_END go on. */
@@ -56,21 +56,22 @@ enum { MR_STATS_MAX = 96, MR_ERROR_MAX = 512 };
 typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
 
 typedef struct mr_ctx {
-	unsigned threads;                                      /* at least 1 */
-	void (*note)(void *user, const char *text);            /* a remark for -v; NULL: dropped */
+	unsigned threads;                                             /* at least 1 */
+	void (*note)(void *user, const char *text);                   /* a remark for -v; NULL: dropped */
 	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1; NULL: none */
-	void *user;                                            /* passed to both */
-	uint64_t fail_at;                                      /* tests: the allocation that fails, 1 the next; 0 none */
-	char error[MR_ERROR_MAX];                              /* the sentence of the last failure */
+	void *user;                                                   /* passed to both */
+	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
+	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_stat stats[MR_STATS_MAX];
 	size_t stat_count;
-	mr_block *top;                                         /* newest block of the arena */
+	mr_block *top;   /* newest block of the arena */
+	uint64_t blocks; /* how many the arena ever had */
 } mr_ctx;
 
 /* A place in the arena, to release to. */
 typedef struct mr_mark {
-	mr_block *block;
-	size_t used;
+	uint64_t serial; /* of the newest block; 0: none */
+	size_t used;     /* of it */
 } mr_mark;
 
 /* Initialises a context with `threads` threads (0: all cores) and an empty arena. */
@@ -91,7 +92,8 @@ void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 /* Reports that a share (0 to 1) of `what` is done. */
 void mr_progress(mr_ctx *ctx, const char *what, double share);
 
-/* Records a figure under `name` (39 bytes at most); the same name again replaces it.  More than MR_STATS_MAX are dropped. */
+/* Records a figure under `name` (39 bytes at most); the same name again replaces it.  More than MR_STATS_MAX
+ * are dropped. */
 void mr_stat_set(mr_ctx *ctx, const char *name, double value);
 
 /* Seconds of a monotonic clock, for figures only: no result may depend on it. */
@@ -109,12 +111,12 @@ void *mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size) MR_WARN_UNUSED;
 
 /*
  * Grows `old`, which holds `used` objects and came from mr_alloc of this arena
- * (or is NULL), to `count` objects.  The old place stays until it is released,
- * so grow by a factor.
+ * (or is NULL), to `count` objects.  The old place is not to be used again: where it
+ * was large it is freed, else it stays until it is released.
  */
 void *mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size) MR_WARN_UNUSED;
 
-#define MR_NEW(ctx, count, type) ((type *)mr_alloc((ctx), (count), sizeof(type)))
+#define MR_NEW(ctx, count, type)      ((type *)mr_alloc((ctx), (count), sizeof(type)))
 #define MR_NEW_ZERO(ctx, count, type) ((type *)mr_alloc_zero((ctx), (count), sizeof(type)))
 
 /* A formatted string in the arena; NULL when memory cannot be had. */

@@ -1,0 +1,144 @@
+/* The arena, errors, parallel loops and sums. */
+#include "base/ctx.h"
+#include "base/parallel.h"
+
+#include <setjmp.h>
+
+#include <cmocka.h>
+
+static void
+memory_is_aligned_and_released_in_order(void **state)
+{
+	mr_ctx ctx;
+	mr_mark mark;
+	char *kept, *again;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	kept = MR_NEW(&ctx, 100, char);
+	memset(kept, 7, 100);
+	mark = mr_mark_take(&ctx);
+	for (size_t n = 1; n < 5000000; n *= 3)
+		assert_int_equal((uintptr_t)MR_NEW_ZERO(&ctx, n, char) % 64, 0);
+	mr_mark_release(&ctx, mark);
+	again = MR_NEW(&ctx, 1, char);
+	assert_ptr_equal(again, kept + 128); /* what was released is used again */
+	assert_int_equal(kept[99], 7);
+	mr_ctx_free(&ctx);
+}
+
+/* An array that grows past large sizes frees its old places; marks taken meanwhile stay good. */
+static void
+growing_keeps_contents_and_marks(void **state)
+{
+	mr_ctx ctx;
+	uint32_t *a = NULL;
+	mr_mark first, inner;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	first = mr_mark_take(&ctx);
+	for (size_t n = 1, used = 0; n < 3000000; used = n, n *= 2) {
+		a = mr_grow(&ctx, a, used, n, sizeof *a);
+		assert_non_null(a);
+		for (size_t i = used; i < n; i++)
+			a[i] = (uint32_t)i;
+		inner = mr_mark_take(&ctx);
+		assert_non_null(MR_NEW(&ctx, 100000, char));
+		mr_mark_release(&ctx, inner);
+		for (size_t i = 0; i < n; i += 997)
+			assert_int_equal(a[i], i);
+	}
+	inner = mr_mark_take(&ctx);
+	a = mr_grow(&ctx, a, 1000, 4000000, sizeof *a); /* the block of the mark goes */
+	assert_non_null(MR_NEW(&ctx, 100000, char));
+	mr_mark_release(&ctx, inner);
+	assert_non_null(MR_NEW(&ctx, 100000, char));
+	mr_mark_release(&ctx, first);
+	assert_null(ctx.top);
+	mr_ctx_free(&ctx);
+}
+
+static void
+impossible_sizes_are_refused(void **state)
+{
+	mr_ctx ctx;
+	void *p = &ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	assert_null(mr_alloc(&ctx, SIZE_MAX / 4, 8));
+	assert_non_null(strstr(ctx.error, "no memory"));
+	assert_null(mr_alloc_zero(&ctx, SIZE_MAX, 1));
+	ctx.fail_at = 2;
+	assert_non_null(p = mr_alloc(&ctx, 1, 1));
+	assert_null(mr_grow(&ctx, p, 1, 2, 1));
+	assert_non_null(mr_alloc(&ctx, 1, 1));
+	mr_ctx_free(&ctx);
+}
+
+static void
+sentences_keep_their_status_and_take_prefixes(void **state)
+{
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	assert_int_equal(mr_fail(&ctx, MR_ERANGE, "face %u has vertex %u of %u", 1, 2, 3), MR_ERANGE);
+	assert_int_equal(mr_prefix(&ctx, MR_ERANGE, "frame %d", 4), MR_ERANGE);
+	assert_string_equal(ctx.error, "frame 4: face 1 has vertex 2 of 3");
+	assert_int_equal(mr_prefix(&ctx, MR_END, "frame %d", 5), MR_END);
+	assert_string_equal(ctx.error, "frame 4: face 1 has vertex 2 of 3");
+	mr_ctx_free(&ctx);
+}
+
+static void
+increment(void *arg, size_t begin, size_t end)
+{
+	for (size_t i = begin; i < end; i++)
+		((unsigned char *)arg)[i]++;
+}
+
+static double
+term(void *arg, size_t i)
+{
+	(void)arg;
+	return 1.0 / (double)(i * i + 1);
+}
+
+static void
+loops_visit_each_index_once_and_sums_do_not_depend_on_threads(void **state)
+{
+	enum { N = 3000001 };
+	mr_ctx ctx;
+	unsigned char *seen;
+	double one;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	one = mr_parallel_sum(&ctx, N, term, NULL);
+	seen = MR_NEW_ZERO(&ctx, N, unsigned char);
+	for (ctx.threads = 1; ctx.threads < 9; ctx.threads++) {
+		mr_parallel(&ctx, N, 1000, increment, seen);
+		assert_true(mr_parallel_sum(&ctx, N, term, NULL) == one);
+	}
+	for (size_t i = 0; i < N; i++)
+		assert_int_equal(seen[i], 8);
+	mr_parallel(&ctx, 0, 10, increment, NULL);
+	mr_ctx_free(&ctx);
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(memory_is_aligned_and_released_in_order),
+		cmocka_unit_test(growing_keeps_contents_and_marks),
+		cmocka_unit_test(impossible_sizes_are_refused),
+		cmocka_unit_test(sentences_keep_their_status_and_take_prefixes),
+		cmocka_unit_test(loops_visit_each_index_once_and_sums_do_not_depend_on_threads),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
