@@ -56,7 +56,7 @@ start_at_vertex(const encoder *e, mr_v3 p, uint32_t vertex)
 	mr_v3 corner = mr_vec(
 	    c[0] == vertex, c[0] != vertex && c[1] == vertex, c[0] != vertex && c[1] != vertex);
 
-	return (start){ face, corner, 1.000001 * mr_dist(p, base->p[vertex]) + e->ground.tolerance };
+	return (start){ face, corner, 1.1 * mr_dist(p, base->p[vertex]) + e->ground.tolerance };
 }
 
 static start

@@ -180,15 +180,18 @@ mr_foot_walk(
 	return false;
 }
 
-/* A part of the surface, in the order in which it was reached. */
+/* A part of the surface: faces in the order in which they were reached, until they are sorted. */
 enum { PATCH = 4096 };
 
+typedef struct near_face {
+	double dist2; /* squared distance from the point */
+	uint32_t face;
+} near_face;
+
 typedef struct patch {
-	size_t n;
-	uint32_t face[PATCH];
-	double dist2[PATCH];      /* squared distance of the face from the point */
+	size_t n, met;
+	near_face face[PATCH];
 	uint32_t slot[2 * PATCH]; /* hash table of the faces met, kept or not: no more than half full */
-	size_t met;
 } patch;
 
 /* Enters the face into the table; false where it is there already, or the table has its fill. */
@@ -228,11 +231,19 @@ take(const mr_ground *g, mr_v3 p, uint32_t face, double radius, patch *s)
 	dist2 = closest_on(g, face, p).dist2;
 	if (s->n > 0 && !(dist2 <= radius * radius))
 		return;
-	s->face[s->n] = face;
-	s->dist2[s->n++] = dist2;
+	s->face[s->n++] = (near_face){ dist2, face };
 }
 
-/* The faces that hang together with `face` inside the ball of `radius` around p, nearest rings first. */
+static int
+nearer(const void *a, const void *b)
+{
+	const near_face *x = a, *y = b;
+
+	return x->dist2 != y->dist2 ? (x->dist2 > y->dist2) - (x->dist2 < y->dist2)
+	                            : (x->face > y->face) - (x->face < y->face);
+}
+
+/* The faces that hang together with `face` inside the ball of `radius` around p, nearest first. */
 static void
 flood(const mr_ground *g, mr_v3 p, uint32_t face, double radius, patch *s)
 {
@@ -241,22 +252,11 @@ flood(const mr_ground *g, mr_v3 p, uint32_t face, double radius, patch *s)
 	take(g, p, face, radius, s);
 	for (size_t next = 0; next < s->n; next++)
 		for (int k = 0; k < 3; k++) {
-			uint32_t v = g->surface.m->t[s->face[next]].v[k];
+			uint32_t v = g->surface.m->t[s->face[next].face].v[k];
 			for (size_t i = g->inc->start[v]; i < g->inc->start[v + 1]; i++)
 				take(g, p, g->inc->face[i], radius, s);
 		}
-}
-
-static uint32_t
-nearest_face(const patch *s)
-{
-	size_t best = 0;
-
-	for (size_t i = 1; i < s->n; i++)
-		if (s->dist2[i] < s->dist2[best] ||
-		    (s->dist2[i] == s->dist2[best] && s->face[i] < s->face[best]))
-			best = i;
-	return s->face[best];
+	qsort(s->face, s->n, sizeof *s->face, nearer);
 }
 
 static double
@@ -354,13 +354,13 @@ mr_foot_search(const mr_ground *g, mr_v3 p, uint32_t face, mr_foot *foot)
 	patch s;
 
 	flood(g, p, face, sqrt(closest_on(g, face, p).dist2), &s);
-	face = nearest_face(&s);
+	face = s.face[0].face;
 	near = closest_on(g, face, p);
 	*foot = (mr_foot){ face, near.bary, 0 };
 	limit = reach * sqrt(near.dist2) + g->tolerance;
 	flood(g, p, face, limit, &s);
-	for (size_t i = 0; i < s.n; i++)
-		if (s.dist2[i] <= limit * limit && foot_on_face(g, p, s.face[i], limit, foot)) {
+	for (size_t i = 0; i < s.n && s.face[i].dist2 <= limit * limit; i++)
+		if (foot_on_face(g, p, s.face[i].face, limit, foot)) {
 			limit = fabs(foot->height);
 			found = true;
 		}

@@ -1,0 +1,95 @@
+# The detail on its base, on other bases, exaggerated; posing by the base's response.
+compare() { # file, file, tolerance relative to the diagonal: mesh.position of their last frames
+	python3 - "$@" <<'END'
+import struct, sys
+def positions(path):
+    data, at, found = open(path, 'rb').read(), 0, None
+    while at < len(data):
+        size, = struct.unpack_from('<Q', data, at + 56)
+        if data[at:at + 40].replace(b'\0', b'') == b'meshposition':
+            found = struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
+        at += 64 + (size + 63) // 64 * 64
+    return found
+a, b = map(positions, sys.argv[1:3])
+diagonal = sum((max(a[k::3]) - min(a[k::3])) ** 2 for k in range(3)) ** .5
+far = max(map(lambda x, y: abs(x - y), a, b)) / diagonal
+print('equal' if len(a) == len(b) and far <= float(sys.argv[3]) else 'differ by %g' % far)
+END
+}
+mr-make bumpy -n 5000 | mr-smooth | mr-remesh -o base.mrs || exit
+mr-encode base.mrs -o detail.mrs
+
+echo 'on the base as it was'
+mr-decode detail.mrs -o back.mrs
+compare base.mrs back.mrs 1e-13
+mr-decode --no-history back.mrs >again.mrs # decoding is a function of base and detail alone
+mr-decode --no-history detail.mrs | cmp -s - again.mrs || compare back.mrs again.mrs 0
+
+echo 'gains are linear, and 0 is on the base'
+for gain in 0 1 3; do
+	mr-decode --gain $gain detail.mrs -o gain$gain.mrs
+done
+python3 - gain0.mrs gain1.mrs gain3.mrs <<'END'
+import struct, sys
+def positions(path):
+    data, at = open(path, 'rb').read(), 0
+    while at < len(data):
+        size, = struct.unpack_from('<Q', data, at + 56)
+        if data[at:at + 40].replace(b'\0', b'') == b'meshposition':
+            return struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
+        at += 64 + (size + 63) // 64 * 64
+a, b, c = map(positions, sys.argv[1:])
+print('ok' if max(abs(x + 3 * (y - x) - z) for x, y, z in zip(a, b, c)) < 1e-13 else 'bad')
+END
+mr-encode --stats flat.json gain0.mrs -o flat.mrs
+sed 's/.*"height_max":\([^,}]*\).*/\1/' flat.json | awk '{ print $1 < 1e-13 ? "ok" : "bad" }'
+
+echo 'by the response: at rest, moved rigidly, as by mr-solve'
+mr-select --free all --fixed below:y,0.2 --handle 0=above:y,0.8 base.mrs -o regions.mrs
+mr-solve --basis regions.mrs | mr-encode -o basis.mrs || exit
+mr-pose basis.mrs | mr-decode -o rest.mrs
+compare base.mrs rest.mrs 1e-12
+mr-pose --rotate 1,2,3,40 --translate 0.2,0.3,0 basis.mrs -o posed.mrs
+mr-decode posed.mrs -o fast.mrs
+mr-solve posed.mrs | mr-decode -o slow.mrs
+compare fast.mrs slow.mrs 1e-9
+mr-info fast.mrs | grep -c 'handles\|response'
+
+mr-select --free all --handle 0=below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr-solve --basis | mr-encode |
+    mr-pose --rotate 1,1,0,70 --center 0,0,0 | mr-pose -H 1 --rotate 1,1,0,70 --center 0,0,0 | mr-decode -o turned.mrs
+mr-select --free all --handle 0=below:y,0.2 base.mrs | mr-pose --rotate 1,1,0,70 --center 0,0,0 >turn.mrs
+python3 - base.mrs turn.mrs turned.mrs <<'END'
+import struct, sys
+def column(path, name):
+    data, at = open(path, 'rb').read(), 0
+    while at < len(data):
+        size, = struct.unpack_from('<Q', data, at + 56)
+        if data[at:at + 40].replace(b'\0', b'') == name:
+            return struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
+        at += 64 + (size + 63) // 64 * 64
+p, t, q = column(sys.argv[1], b'meshposition'), column(sys.argv[2], b'handlestransform'), column(sys.argv[3], b'meshposition')
+far = 0
+for i in range(0, len(p), 3):
+    for k in range(3):
+        x = sum(t[4 * k + j] * p[i + j] for j in range(3)) + t[4 * k + 3]
+        far = max(far, abs(x - q[i + k]))
+print('rigid motion:', 'ok' if far < 3e-9 else far)
+END
+
+echo 'an animation is its poses one by one'
+mr-pose --rotate 1,2,3,40 --frames 4 basis.mrs | mr-decode -o film.mrs
+mr-pose --rotate 1,2,3,40 basis.mrs | mr-decode -o last.mrs
+compare film.mrs last.mrs 0
+mr-pose --rotate 1,2,3,40 --frames 4 basis.mrs | mr-decode -j 1 | cmp - film.mrs && echo same
+
+echo 'refusals'
+refused() {
+	mr-decode "$@" >out
+	echo "exit $?, $(wc -c <out) bytes"
+}
+refused base.mrs
+mr-pose regions.mrs | mr-encode -o lost.mrs
+refused lost.mrs
+refused --gain x detail.mrs
+mr-make sphere -n 42 -o sphere.mrs
+refused sphere.mrs

@@ -1,0 +1,58 @@
+# Detail over a base: all of it is there, and nothing is lost.
+figure() { # name, file: a figure of --stats
+	sed "s/.*\"$1\":\([^,}]*\).*/\1/" "$2"
+}
+check() { # model: the share of true heights, what comes back
+	mr-encode --stats stats.json "$1.mrs" -o "$1-detail.mrs" && mr-decode "$1-detail.mrs" -o "$1-back.mrs" || return
+	awk -v h="$(figure heights stats.json)" -v o="$(figure offsets stats.json)" \
+	    -v r="$(figure residual_max stats.json)" -v least="$2" -v name="$1" 'BEGIN {
+		print name ": " (h >= least * (h + o) ? "ok" : "bad: " h " heights, " o " offsets"),
+		    (r < 1e-14 ? "ok" : "bad: residual " r)
+	}'
+}
+# What mr-decode wrote lies where the mesh lay, to 1e-12 of the diagonal.
+back() { # model
+	python3 - "$1.mrs" "$1-back.mrs" <<'END'
+import struct, sys
+def positions(path):
+    data, at = open(path, 'rb').read(), 0
+    while at < len(data):
+        size, = struct.unpack_from('<Q', data, at + 56)
+        if data[at:at + 40].replace(b'\0', b'') == b'meshposition':
+            return struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
+        at += 64 + (size + 63) // 64 * 64
+a, b = map(positions, sys.argv[1:])
+diagonal = sum((max(a[k::3]) - min(a[k::3])) ** 2 for k in range(3)) ** .5
+print('back:', 'ok' if len(a) == len(b) and max(map(lambda x, y: abs(x - y), a, b)) < 1e-12 * diagonal else 'bad')
+END
+}
+for shape in bumpy knot torus sphere; do
+	mr-make $shape -n 5000 | mr-smooth | mr-remesh -o $shape.mrs || exit
+	check $shape 0.999 && back $shape
+done
+echo 'without remeshing; with a much coarser base'
+mr-make bumpy -n 5000 | mr-smooth -o bumpy.mrs
+check bumpy 0.999 && back bumpy
+mr-make bumpy -n 5000 | mr-smooth | mr-remesh -r 3 -o bumpy.mrs
+check bumpy 0.99 && back bumpy
+echo 'an open surface has offsets at its rim'
+mr-make cylinder -n 3000 --open --noise 0.5% | mr-smooth | mr-remesh -o open.mrs
+check open 0.9 && back open
+mr-info open-detail.mrs | grep -o 'detail_[a-z]* *v .[0-9]'
+
+echo 'the same bytes for any number of threads'
+mr-encode -j 1 bumpy.mrs >one.mrs
+mr-encode -j 3 bumpy.mrs | cmp - one.mrs && echo same
+
+echo 'remarks'
+mr-make sphere -n 162 | mr-smooth | mr-encode -v 2>&1 >out.mrs
+
+echo 'refusals'
+mr-make sphere -n 42 | mr-encode >out
+echo "exit $?, $(wc -c <out) bytes"
+mr-encode --gain 2 bumpy.mrs >out
+echo "exit $?, $(wc -c <out) bytes"
+for name in ${DATA:+bunny00.off armadillo.off horse.ply igea.ply}; do
+	mr-import "$DATA/meshes/$name.gz" | mr-smooth | mr-remesh -o data.mrs &&
+	    check data 0.99 >verdict && back data >>verdict && ! grep bad verdict || echo "$name: bad: $(cat verdict)"
+done

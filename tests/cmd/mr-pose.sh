@@ -1,0 +1,85 @@
+# Where handles go: single poses, chains, sequences, scripts.
+cat >values.py <<'END'
+# What each frame of a stream sends of handles.transform, rounded; - for a frame that sends nothing of it.
+import struct, sys
+data, at, name = sys.stdin.buffer.read(), 0, None
+while at < len(data):
+    layer, column = data[at:at + 16].rstrip(b'\0'), data[at + 16:at + 40].rstrip(b'\0')
+    size, = struct.unpack_from('<Q', data, at + 56)
+    body = data[at + 64:at + 64 + size]
+    if column == b'FRAME':
+        print(body.decode() + ':', end='')
+    elif column == b'ENDFRAME':
+        print()
+    elif (layer, column) == (b'handles', b'transform'):
+        for x in struct.unpack('<%dd' % (size // 8), body):
+            print('', format(round(x, 6) + 0, 'g'), end='')
+    at += 64 + (size + 63) // 64 * 64
+END
+values() {
+	python3 values.py
+}
+echo 0 >corner
+mr-make cube -n 8 | mr-select --free all --handle 0=above:z,1 --handle 2=vertices:corner -o cube.mrs
+
+echo 'moved, turned, scaled'
+mr-pose --translate 1,2,3 cube.mrs | values
+mr-pose --rotate 0,0,2,90 cube.mrs | values # about (0, 0, 1)
+mr-pose --scale 2 cube.mrs | values
+mr-pose -H 2 --scale 1,2,3 --center 0,0,0 cube.mrs | values
+mr-pose cube.mrs | values # to rest: the identity
+
+echo 'in a chain'
+mr-pose --translate 1,0,0 cube.mrs | mr-pose --rotate 1,0,0,90 | mr-pose -H 2 --scale 3 --center 0,0,0 | values
+mr-pose --translate 1,0,0 --rotate 1,0,0,90 cube.mrs | mr-pose -H 2 --scale 3 --center 0,0,0 | values
+
+echo 'in a sequence'
+mr-pose --translate 0,0,4 --scale 16 --center 0,0,0 --frames 4 cube.mrs | values
+echo 'two handles, the second in half of the time'
+mr-pose --translate 0,0,4 --frames 4 cube.mrs | mr-pose -H 2 --translate 1,0,0 --frames 2 | values
+echo 'a frame of a sequence is the same as alone'
+mr-pose --rotate 1,2,3,50 --frames 2 cube.mrs | values | sed -n 's/.*0001://p' >middle
+mr-pose --rotate 1,2,3,25 cube.mrs | values | sed 's/.*cube://' | cmp - middle && echo same
+echo 'all of an input sequence is posed, the key too'
+mr-pose --translate 0,0,2 --frames 2 cube.mrs | mr-pose --translate 1,0,0 | values
+echo 'every key begins a sequence'
+mr-cat cube.mrs cube.mrs | mr-pose --translate 0,0,2 --frames 2 | values
+
+echo 'by script'
+cat >script <<'END'
+# up, and then back
+frame
+0 translate=0,0,1   # up
+2 scale=2 center=0,0,0
+frame
+frame
+0 translate=0,0,1 rotate=0,0,1,180 center=0,0,0
+0 translate=5,0,0
+END
+mr-pose --script script cube.mrs | values
+mr-pose --script script cube.mrs | mr-pose --script script | values | tail -n 1
+
+echo 'refusals'
+refused() {
+	mr-pose "$@" cube.mrs >out 2>err
+	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+}
+refused -H 1 --scale 2
+refused -H 3 --scale 2
+refused -H x
+refused --rotate 0,0,0,30
+refused --rotate 0,0,1
+refused --scale 1,2
+refused --translate 1,2,3,4
+refused --scale 0 --frames 3
+refused --script script --frames 3
+refused --script absent
+echo '0 scale=2' >wrong
+refused --script wrong
+printf 'frame\n0 grow=2\n' >wrong
+refused --script wrong
+printf 'frame\n1 scale=2\n' >wrong
+mr-pose --script wrong cube.mrs >out
+echo "exit $?"
+mr-make cube -n 8 | mr-pose --scale 2 >out
+mr-make cube -n 8 | mr-select --free all | mr-pose --scale 2 >out
