@@ -16,16 +16,43 @@ is_sharp(const mr_dyn *d, uint32_t h, uint32_t g, double cosine)
 	return mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)), mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine;
 }
 
-static void
-mark_curves(mr_dyn *d, double feature)
+/* True where h is on the boundary, or on an edge sharper than `feature` degrees. */
+static bool
+makes_curve(const mr_dyn *d, uint32_t h, double feature)
 {
-	double cosine = cos(feature * MR_PI / 180);
+	uint32_t g = d->twin[h];
 
-	for (uint32_t h = 0; h < 3 * d->nf; h++) {
-		uint32_t g = d->twin[h];
-		bool curve = g == MR_NONE || (feature < 180 && is_sharp(d, h, g, cosine));
-		d->curve[h] = curve ? h : MR_NONE;
-	}
+	return g == MR_NONE || (feature < 180 && is_sharp(d, h, g, cos(feature * MR_PI / 180)));
+}
+
+static mr_status
+mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
+{
+	uint32_t first = 0;
+
+	while (first < 3 * d->nf && !makes_curve(d, first, feature))
+		first++;
+	if (first == 3 * d->nf)
+		return MR_OK;
+	d->curve = MR_NEW(ctx, 3 * d->room_f, uint32_t);
+	if (!d->curve)
+		return MR_EMEM;
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		d->curve[h] = h >= first && makes_curve(d, h, feature) ? h : MR_NONE;
+	return MR_OK;
+}
+
+static uint32_t
+curve_of(const mr_dyn *d, uint32_t h)
+{
+	return d->curve ? d->curve[h] : MR_NONE;
+}
+
+static void
+set_curve(mr_dyn *d, uint32_t h, uint32_t curve)
+{
+	if (d->curve)
+		d->curve[h] = curve;
 }
 
 /* The kind of v by the curve edges that meet there; directions point away from v. */
@@ -88,9 +115,11 @@ make_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
 {
 	uint32_t *v = mr_grow(ctx, d->v, 3 * d->nf, 3 * room, sizeof *v);
 	uint32_t *twin = mr_grow(ctx, d->twin, 3 * d->nf, 3 * room, sizeof *twin);
-	uint32_t *curve = mr_grow(ctx, d->curve, 3 * d->nf, 3 * room, sizeof *curve);
+	uint32_t *curve = d->curve;
 
-	if (!v || !twin || !curve)
+	if (!v || !twin)
+		return MR_EMEM;
+	if (curve && !(curve = mr_grow(ctx, curve, 3 * d->nf, 3 * room, sizeof *curve)))
 		return MR_EMEM;
 	if (room > (MR_NONE - 1) / 3)
 		return mr_fail(
@@ -115,7 +144,7 @@ mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feat
 	memcpy(d.out, topo->out, m->nv * sizeof *d.out);
 	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
 	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
-	mark_curves(&d, feature);
+	MR_TRY(mark_curves(ctx, &d, feature));
 	for (uint32_t v = 0; v < m->nv; v++) {
 		if (d.out[v] == MR_NONE) {
 			d.kind[v] = MR_DEAD; /* an isolated vertex: not part of the surface */
@@ -159,7 +188,7 @@ new_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 		return MR_OK;
 	}
 	if (d->nv == d->room_v)
-		MR_TRY(make_room_v(ctx, d, 2 * d->room_v));
+		MR_TRY(make_room_v(ctx, d, d->room_v + d->room_v / 2));
 	*v = (uint32_t)d->nv++;
 	return MR_OK;
 }
@@ -173,7 +202,7 @@ new_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 		return MR_OK;
 	}
 	if (d->nf == d->room_f)
-		MR_TRY(make_room_f(ctx, d, 2 * d->room_f));
+		MR_TRY(make_room_f(ctx, d, d->room_f + d->room_f / 2));
 	*f = (uint32_t)d->nf++;
 	return MR_OK;
 }
@@ -192,12 +221,12 @@ cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 	d->v[bc] = b;
 	d->v[cm] = c;
 	link_twins(d, bc, d->twin[n]);
-	d->curve[mb] = d->curve[h];
-	d->curve[bc] = d->curve[n];
-	d->curve[cm] = MR_NONE;
+	set_curve(d, mb, curve_of(d, h));
+	set_curve(d, bc, curve_of(d, n));
+	set_curve(d, cm, MR_NONE);
 	d->v[n] = m;
 	link_twins(d, n, cm);
-	d->curve[n] = MR_NONE;
+	set_curve(d, n, MR_NONE);
 	if (d->out[b] == n)
 		d->out[b] = bc;
 }
@@ -220,7 +249,7 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 		MR_TRY(new_face(ctx, d, &e));
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
-	d->at[m] = mr_dyn_on_curve(d, h) ? d->curve[h] : place_of(d, a);
+	d->at[m] = mr_dyn_on_curve(d, h) ? curve_of(d, h) : place_of(d, a);
 	cut_face(d, h, m, f);
 	d->out[m] = 3 * f;
 	if (g == MR_NONE) {
@@ -318,13 +347,13 @@ close_face(mr_dyn *d, uint32_t h)
 {
 	uint32_t n = mr_he_next(h), p = mr_he_prev(h), f = h / 3, c = d->v[p];
 	uint32_t cb = d->twin[n], ac = d->twin[p];
-	uint32_t curve = mr_dyn_on_curve(d, n) ? d->curve[n] : d->curve[p];
+	uint32_t curve = mr_dyn_on_curve(d, n) ? curve_of(d, n) : curve_of(d, p);
 
 	link_twins(d, cb, ac);
 	if (cb != MR_NONE)
-		d->curve[cb] = curve;
+		set_curve(d, cb, curve);
 	if (ac != MR_NONE)
-		d->curve[ac] = curve;
+		set_curve(d, ac, curve);
 	if (d->out[c] == p)
 		d->out[c] = cb;
 	d->v[3 * f] = MR_NONE;
@@ -382,10 +411,11 @@ mr_dyn_flip(mr_dyn *d, uint32_t h)
 	d->v[gn] = c;
 	link_twins(d, h, d->twin[gn]);
 	link_twins(d, g, d->twin[hn]);
-	d->curve[h] = d->curve[gn];
-	d->curve[g] = d->curve[hn];
+	set_curve(d, h, curve_of(d, gn));
+	set_curve(d, g, curve_of(d, hn));
 	link_twins(d, hn, gn);
-	d->curve[hn] = d->curve[gn] = MR_NONE;
+	set_curve(d, hn, MR_NONE);
+	set_curve(d, gn, MR_NONE);
 	if (d->out[b] == hn)
 		d->out[b] = g;
 	if (d->out[a] == gn)
@@ -426,7 +456,7 @@ mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
 			uint32_t h = 3 * f + i, k = 3 * face[f] + i, g = d->twin[h];
 			d->v[k] = vertex[d->v[h]];
 			d->twin[k] = g == MR_NONE ? MR_NONE : 3 * face[g / 3] + g % 3;
-			d->curve[k] = d->curve[h];
+			set_curve(d, k, curve_of(d, h));
 		}
 	memcpy(d->p, p, nv * sizeof *p);
 	memcpy(d->out, out, nv * sizeof *out);

@@ -27,8 +27,8 @@ typedef struct mr_dyn {
 	size_t nv, room_v;
 	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
 	uint32_t *v, *twin;
-	uint32_t *curve; /* of each half-edge: a source half-edge of the curve that it is part of; MR_NONE: of
-	                    none */
+	uint32_t *curve; /* of each half-edge: a source half-edge of its curve, or MR_NONE; NULL: no curves at
+	                    all */
 	size_t nf, room_f;
 	uint32_t free_f; /* first hole, chained through twin[3 f] */
 } mr_dyn;
@@ -48,7 +48,7 @@ mr_dyn_to(const mr_dyn *d, uint32_t h)
 static inline bool
 mr_dyn_on_curve(const mr_dyn *d, uint32_t h)
 {
-	return d->curve[h] != MR_NONE;
+	return d->curve && d->curve[h] != MR_NONE;
 }
 
 /* The third vertex of h's face. */

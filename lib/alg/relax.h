@@ -14,7 +14,7 @@
 typedef struct mr_surface {
 	const mr_mesh *m;
 	const mr_topology *topo;
-	const uint32_t *curve; /* of each half-edge: not MR_NONE on the curves that mr_dyn_build found */
+	const uint32_t *curve; /* as in mr_dyn, as the source was */
 	const double *length;  /* target edge length at each vertex; NULL: uniform */
 	double uniform;
 } mr_surface;

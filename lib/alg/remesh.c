@@ -387,17 +387,19 @@ static const double ADAPTIVE_RANGE = 5;
 static mr_status
 set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 {
-	uint32_t *curve;
+	uint32_t *curve = NULL;
 	double *length = NULL,
 	       uniform = r->o->length > 0 ? r->o->length : r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 
 	if (!(uniform > 0))
 		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
-	curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
-	if (!curve)
-		return MR_EMEM;
-	memcpy(curve, r->d.curve, 3 * m->nf * sizeof *curve);
+	if (r->d.curve) {
+		curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
+		if (!curve)
+			return MR_EMEM;
+		memcpy(curve, r->d.curve, 3 * m->nf * sizeof *curve);
+	}
 	if (r->o->adaptive > 0) {
 		length = MR_NEW(r->ctx, m->nv, double);
 		if (!length)

@@ -234,7 +234,7 @@ assert_valid(const mr_dyn *d)
 		assert_int_equal(d->twin[g], h);
 		assert_int_equal(d->v[g], mr_dyn_to(d, h));
 		assert_int_equal(mr_dyn_to(d, g), d->v[h]);
-		assert_true((d->curve[h] == MR_NONE) == (d->curve[g] == MR_NONE));
+		assert_true(mr_dyn_on_curve(d, h) == mr_dyn_on_curve(d, g));
 	}
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (d->kind[v] != MR_DEAD)
