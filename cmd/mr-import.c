@@ -24,6 +24,8 @@ check(cmd *c)
 
 	if (c->operand_count == 0 && isatty(STDIN_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "stdin is a terminal: pipe a file in, or name a FILE");
+	if (c->layer && !*c->layer)
+		return mr_fail(&c->ctx, MR_EUSAGE, "--layer: a layer needs a name");
 	return mr_format_check(&c->ctx, "", format, false, &binary);
 }
 
