@@ -39,4 +39,8 @@ mr_status mr_laplace_power(
 void mr_sparse_apply(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
     const double *x, double *y);
 
+/* The same in extended precision: for residuals that rounding would drown. */
+void mr_sparse_apply_long(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
+    const long double *x, long double *y);
+
 #endif

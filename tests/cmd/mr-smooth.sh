@@ -1,0 +1,38 @@
+# Diffusion of spheres has a closed form; the map of a new base is the identity; -j changes nothing.
+radius() { # of the layer base: mean distance from the origin over that of the mesh
+	for layer in mesh base; do
+		mr-export -f off -l $layer - <"$1" | awk -v n="$2" 'NR == 2 { nv = $1 }
+			NR > 2 && NR <= nv + 2 { s += sqrt($1 * $1 + $2 * $2 + $3 * $3) } END { print s / nv }'
+	done | awk '{ r[NR] = $1 } END { print r[2] / r[1] }'
+}
+mr-make sphere -n 10000 -o sphere.mrs
+mr-info sphere.mrs | awk '/edge lengths/ { print $6 + 0 }' >edge # mean h, of a unit sphere
+for t in 10 100; do
+	mr-smooth -t $t sphere.mrs -o out.mrs # p' = p / (1 + 2 t h^2)
+	radius out.mrs | awk -v t=$t -v h="$(cat edge)" '{ x = 1 / (1 + 2 * t * h * h); e = $1 / x - 1
+		print "implicit", t, (e * e < 1e-6 ? "ok" : "bad " e) }'
+	mr-smooth -m explicit -t $t sphere.mrs -o out.mrs # p' = exp(-2 t h^2) p
+	radius out.mrs | awk -v t=$t -v h="$(cat edge)" '{ x = exp(-2 * t * h * h); e = $1 / x - 1
+		print "explicit", t, (e * e < 1e-6 ? "ok" : "bad " e) }'
+	mr-smooth -m taubin -t $t sphere.mrs -o out.mrs # stays
+	radius out.mrs | awk -v t=$t '{ e = $1 - 1; print "taubin", t, (e * e < 4e-4 ? "ok" : "bad " e) }'
+done
+
+# Noise goes: the area comes near that of the sphere, 12.566.
+mr-make sphere -n 5000 --noise 0.02 -o noisy.mrs
+for m in implicit explicit taubin; do
+	mr-smooth -m $m -t 3 noisy.mrs -o out.mrs
+	mr-info -l base out.mrs | awk -v m=$m '$1 == "area" { print m, ($2 > 12 && $2 < 12.7 ? "smooth" : "bad " $2) }'
+	mr-smooth -m $m -t 3 -j 1 noisy.mrs | cmp - out.mrs && echo same for -j 1
+done
+
+# The boundary stays, and a second smoothing works on the base and keeps its map.
+mr-make plane -n 400 --noise 0.02 -o plane.mrs
+mr-smooth -t 50 plane.mrs | mr-smooth -t 50 -o out.mrs
+mr-info out.mrs | grep -c source_ # face and bary
+mr-info -l base out.mrs | sed -n 's/^ *topology *//p'
+
+# A time of 0 changes no byte.
+mr-smooth -t 0 plane.mrs -o out.mrs
+mr-export -f off -l base - <out.mrs >base.off
+mr-export -f off -l mesh - <out.mrs | cmp - base.off && echo unchanged

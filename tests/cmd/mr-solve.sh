@@ -1,0 +1,54 @@
+# Undeformed solves and poses through the pipe: what must be exact is, and shortcuts change nothing.
+mr-make bumpy -n 3000 | mr-smooth -t 20 | mr-select --free above:z,0.2 --handle 0=above:z,0.85 -o s.mrs
+off() { mr-export -f off -l "$2" - <"$1"; }
+far() { # the largest difference of two OFF files, against a tolerance
+	paste "$1" "$2" | awk -v tol="$3" 'NR > 2 && NF == 6 { for (i = 1; i <= 3; i++) {
+		d = $i - $(i + 3); if (d < 0) d = -d; if (d > most) most = d } n += NF == 6 }
+		END { print (n > 100 && most <= tol ? "ok" : "bad " most) }'
+}
+for k in 1 2 3; do
+	mr-solve -k $k --stats stats.json s.mrs -o p0.mrs
+	sed 's/.*"residual":\([^,]*\).*/\1/' stats.json | awk -v k=$k '{ print "order", k, "residual", ($1 < 1e-9 ? "ok" : "bad") }'
+	off p0.mrs base >p0.off
+
+	# Handles at rest: no bit changes.
+	mr-pose p0.mrs | mr-solve -k $k -o q.mrs
+	off q.mrs base | cmp - p0.off && echo "rest is rest"
+
+	# The system as the paper has it, and LU of ours.
+	mr-pose --translate 0.2,0.1,0.3 --rotate 0,0,1,40 p0.mrs -o posed.mrs
+	mr-solve -k $k posed.mrs -o q.mrs
+	off q.mrs base >q.off
+	for other in --unsymmetric '-s lu'; do
+		mr-solve -k $k $other posed.mrs -o r.mrs
+		off r.mrs base >r.off
+		far q.off r.off 1e-9
+	done
+
+	# By the basis.
+	mr-solve -k $k --basis s.mrs | mr-encode | mr-pose --translate 0.2,0.1,0.3 --rotate 0,0,1,40 | mr-decode -o r.mrs
+	off r.mrs base >r.off
+	far q.off r.off 1e-9
+done
+mr-info q.mrs | grep -c 'handles\|response' # used up
+
+# Nothing fixed, both handles moved alike: the whole moves along.
+mr-select --handle 1=below:z,0.2 s.mrs | mr-solve -o p0.mrs
+off p0.mrs base | awk 'NR < 3 || NF != 3 { print; next } { printf "%.17g %.17g %.17g\n", $1 + 1, $2 + 2, $3 + 3 }' >q.off
+mr-pose -H 0 --translate 1,2,3 p0.mrs | mr-pose -H 1 --translate 1,2,3 | mr-solve -o r.mrs
+off r.mrs base >r.off
+far q.off r.off 1e-12
+
+# A sequence of deltas, by one factorization, is the same poses one by one.
+mr-solve --no-history s.mrs | mr-pose --translate 0,0,0.5 --rotate 1,0,0,30 --frames 3 | mr-solve --stats stats.json -o all.mrs
+mr-export -f off -l base 'all-%d.off' <all.mrs
+for i in 1 2 3; do
+	turn=$((10 * i))
+	mr-solve --no-history s.mrs | mr-pose --translate 0,0,$(awk "BEGIN { printf \"%.17g\", $i / 3 * 0.5 }") --rotate 1,0,0,$turn |
+		mr-solve -j 1 | mr-export -f off -l base - | cmp - all-$((i + 1)).off && echo "frame $i is itself"
+done
+
+# What -v says.
+mr-make sphere -n 200 -o sphere.mrs
+mr-select -l mesh --free above:z,0.5 --handle 0=above:z,0.95 sphere.mrs | mr-smooth -t 1 |
+	mr-solve -v 2>&1 >out.mrs | sed 's/residual.*//'

@@ -1,0 +1,198 @@
+/* Smoothing against its own equations, and what must stay. */
+#include "alg/smooth.h"
+#include "base/random.h"
+#include "op/area.h"
+#include "op/laplace.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+enum { SIDE = 20, N = SIDE * SIDE };
+
+static mr_ctx ctx;
+
+static int
+setup(void **state)
+{
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	return 0;
+}
+
+static int
+teardown(void **state)
+{
+	(void)state;
+	mr_ctx_free(&ctx);
+	return 0;
+}
+
+static bool
+on_boundary(size_t v)
+{
+	return v % SIDE == 0 || v % SIDE == SIDE - 1 || v < SIDE || v >= N - SIDE;
+}
+
+static mr_mesh
+bumpy_sheet(void)
+{
+	mr_v3 *p = MR_NEW(&ctx, N + 1, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * (SIDE - 1) * (SIDE - 1), mr_tri);
+	mr_random r = { 2 };
+	size_t f = 0;
+
+	for (uint32_t i = 0; i < SIDE; i++)
+		for (uint32_t j = 0; j < SIDE; j++)
+			p[i * SIDE + j] = mr_vec(
+			    j + 0.6 * mr_random_real(&r), i + 0.6 * mr_random_real(&r), mr_random_real(&r));
+	p[N] = mr_vec(3, 3, 3); /* isolated */
+	for (uint32_t i = 0; i + 1 < SIDE; i++)
+		for (uint32_t j = 0; j + 1 < SIDE; j++) {
+			uint32_t a = i * SIDE + j;
+			t[f++] = (mr_tri){ { a, a + 1, a + SIDE + 1 } };
+			t[f++] = (mr_tri){ { a, a + SIDE + 1, a + SIDE } };
+		}
+	return (mr_mesh){ "mesh", p, t, N + 1, f };
+}
+
+static double
+mean_edge_of(void)
+{
+	for (size_t i = 0; i < ctx.stat_count; i++)
+		if (!strcmp(ctx.stats[i].name, "mean_edge"))
+			return ctx.stats[i].value;
+	return NAN;
+}
+
+static double
+energy(const mr_sparse *l, const mr_v3 *p)
+{
+	mr_v3 *lp = MR_NEW(&ctx, (size_t)l->n, mr_v3);
+	double sum = 0;
+
+	mr_sparse_apply(&ctx, l, NULL, (size_t)l->n, 3, &p->x, &lp->x);
+	for (int i = 0; i < l->n; i++)
+		sum += mr_dot(p[i], lp[i]);
+	return sum;
+}
+
+/* (M + t L) p' = M p inside, pass after pass. */
+static void
+test_implicit_solves_its_equation(void **state)
+{
+	mr_mesh m = bumpy_sheet();
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3), *lq = MR_NEW(&ctx, m.nv, mr_v3);
+	double *area = MR_NEW(&ctx, m.nv, double), t;
+	mr_sparse l;
+
+	(void)state;
+	assert_int_equal(mr_smooth(&ctx, &m, &(mr_smooth_opts){ MR_SMOOTH_IMPLICIT, 3, 1 }, p), MR_OK);
+	assert_int_equal(mr_smooth(&ctx, &m, &(mr_smooth_opts){ MR_SMOOTH_IMPLICIT, 6, 2 }, q), MR_OK);
+	assert_int_equal(mr_laplace_build(&ctx, &m, &l), MR_OK);
+	assert_int_equal(mr_voronoi_areas(&ctx, &m, area), MR_OK);
+	t = 3 * mean_edge_of() * mean_edge_of();
+	for (int pass = 0; pass < 2; pass++) {
+		const mr_v3 *before = pass ? p : m.p, *after = pass ? q : p;
+		mr_sparse_apply(&ctx, &l, NULL, m.nv, 3, &after->x, &lq->x);
+		for (size_t v = 0; v < N; v++)
+			if (!on_boundary(v))
+				assert_true(mr_norm(mr_axpy(area[v], mr_sub(after[v], before[v]),
+						mr_mul(t, lq[v]))) < 1e-10);
+	}
+}
+
+static void
+test_boundary_and_isolated_stay(void **state)
+{
+	mr_mesh m = bumpy_sheet();
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	double before;
+	mr_sparse l;
+
+	(void)state;
+	assert_int_equal(mr_laplace_build(&ctx, &m, &l), MR_OK);
+	before = energy(&l, m.p);
+	for (int method = MR_SMOOTH_IMPLICIT; method <= MR_SMOOTH_TAUBIN; method++) {
+		double after;
+		assert_int_equal(mr_smooth(&ctx, &m, &(mr_smooth_opts){ method, 5, 0 }, p), MR_OK);
+		for (size_t v = 0; v <= N; v++)
+			if (v == N || on_boundary(v))
+				assert_memory_equal(&p[v], &m.p[v], sizeof *p);
+		after = energy(&l, p);
+		assert_true(after < before && after > 0.3 * before);
+	}
+}
+
+/* Many small explicit steps are the implicit ones in the limit. */
+static void
+test_methods_meet(void **state)
+{
+	mr_mesh m = bumpy_sheet();
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	double most = 0;
+
+	(void)state;
+	assert_int_equal(mr_smooth(&ctx, &m, &(mr_smooth_opts){ MR_SMOOTH_IMPLICIT, 1, 2000 }, p), MR_OK);
+	assert_int_equal(mr_smooth(&ctx, &m, &(mr_smooth_opts){ MR_SMOOTH_EXPLICIT, 1, 2000 }, q), MR_OK);
+	for (size_t v = 0; v < m.nv; v++)
+		most = fmax(most, mr_dist(p[v], q[v]));
+	assert_true(most < 2e-3);
+}
+
+static void
+test_nothing_to_do(void **state)
+{
+	mr_v3 p[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } }, q[3];
+	mr_tri t = { { 0, 1, 2 } };
+	mr_mesh one = { "mesh", p, &t, 3, 1 };
+
+	(void)state;
+	for (int method = MR_SMOOTH_IMPLICIT; method <= MR_SMOOTH_TAUBIN; method++) {
+		assert_int_equal(mr_smooth(&ctx, &one, &(mr_smooth_opts){ method, 2, 0 }, q), MR_OK);
+		assert_memory_equal(p, q, sizeof p);
+	}
+	p[1] = p[2] = p[0]; /* no edge has a length */
+	assert_int_equal(mr_smooth(&ctx, &one, &(mr_smooth_opts)MR_SMOOTH_DEFAULTS, q), MR_OK);
+	assert_memory_equal(p, q, sizeof p);
+	assert_int_equal(
+	    mr_smooth(&ctx, &one, &(mr_smooth_opts){ MR_SMOOTH_EXPLICIT, 10, 39 }, q), MR_EUSAGE);
+}
+
+static void
+test_memory_failures_are_reported(void **state)
+{
+	mr_mesh m = bumpy_sheet();
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	for (int method = MR_SMOOTH_IMPLICIT; method <= MR_SMOOTH_TAUBIN; method++)
+		for (uint64_t k = 1;; k++) {
+			mr_mark mark = mr_mark_take(&ctx);
+			mr_status status;
+			ctx.fail_at = k;
+			status = mr_smooth(&ctx, &m, &(mr_smooth_opts){ method, 2, 0 }, p);
+			ctx.fail_at = 0;
+			mr_mark_release(&ctx, mark);
+			if (status == MR_OK)
+				break;
+			assert_int_equal(status, MR_EMEM);
+			assert_true(k < 100);
+		}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_implicit_solves_its_equation, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_boundary_and_isolated_stay, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_methods_meet, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_nothing_to_do, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_memory_failures_are_reported, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}

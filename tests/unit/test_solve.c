@@ -1,0 +1,156 @@
+/* The solvers: right solutions, and sentences for matrices that have none. */
+#include "base/random.h"
+#include "solve/solver.h"
+
+#include <math.h>
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+enum { SIDE = 30, N = SIDE * SIDE };
+
+static mr_ctx ctx;
+
+static int
+setup(void **state)
+{
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	return 0;
+}
+
+static int
+teardown(void **state)
+{
+	(void)state;
+	mr_ctx_free(&ctx);
+	return 0;
+}
+
+/* The five-point Laplacian of a grid plus `shift` on the diagonal, all of it or the lower triangle, with a
+ * drift. */
+static mr_sparse
+grid_matrix(double shift, double drift, bool lower)
+{
+	mr_sparse a = { N, MR_NEW(&ctx, N + 1, int), MR_NEW(&ctx, 5 * N, int), MR_NEW(&ctx, 5 * N, double) };
+	int n = 0;
+
+	for (int i = 0; i < N; i++) {
+		const int at[5] = { i - SIDE, i - 1, i, i + 1, i + SIDE };
+		const bool inside[5] = { i >= SIDE, i % SIDE > 0, true, i % SIDE < SIDE - 1, i + SIDE < N };
+		a.start[i] = n;
+		for (int k = 0; k < (lower ? 3 : 5); k++)
+			if (inside[k]) {
+				a.index[n] = at[k];
+				a.value[n++] = k == 2  ? shift + inside[0] + inside[1] + inside[3] + inside[4]
+				               : k < 2 ? -1 - drift
+				                       : -1 + drift;
+			}
+	}
+	a.start[N] = n;
+	return a;
+}
+
+static void
+apply(const mr_sparse *a, const double *x, double *y)
+{
+	for (int i = 0; i < a->n; i++) {
+		y[i] = 0;
+		for (int e = a->start[i]; e < a->start[i + 1]; e++)
+			y[i] += a->value[e] * x[a->index[e]];
+	}
+}
+
+static void
+check_solver(mr_solver_kind kind, double drift)
+{
+	mr_sparse full = grid_matrix(0.1, drift, false), given = grid_matrix(0.1, drift, kind == MR_CHOLESKY);
+	double *x = MR_NEW(&ctx, 3 * N, double), *b = MR_NEW(&ctx, 3 * N, double);
+	mr_random r = { 1 };
+	mr_solver *s = NULL;
+	mr_solver_report report;
+
+	for (int i = 0; i < 3 * N; i++)
+		x[i] = mr_random_real(&r) - 0.5;
+	assert_int_equal(mr_solver_new(&ctx, kind, &given, &s), MR_OK);
+	memset(given.value, 0,
+	    (size_t)given.start[N] * sizeof *given.value); /* it need not outlive the set-up */
+	for (int run = 0; run < 2; run++) {                /* any number of times, any number of columns */
+		size_t columns = run ? 1 : 3;
+		for (size_t c = 0; c < columns; c++)
+			apply(&full, x + c * N, b + c * N);
+		assert_int_equal(mr_solver_solve(&ctx, s, b, columns), MR_OK);
+		for (size_t i = 0; i < columns * N; i++)
+			if (!(fabs(b[i] - x[i]) < 1e-12))
+				fail_msg("x[%zu] is off by %g", i, b[i] - x[i]);
+	}
+	report = mr_solver_reported(s);
+	assert_true(report.nnz_factor >= 3 * N && report.rcond > 1e-6 && report.rcond <= 1);
+	mr_solver_free(s);
+}
+
+static void
+test_cholesky(void **state)
+{
+	(void)state;
+	check_solver(MR_CHOLESKY, 0);
+}
+
+static void
+test_lu(void **state)
+{
+	(void)state;
+	check_solver(MR_LU, 0);
+	check_solver(MR_LU, 0.3);
+}
+
+static void
+test_what_has_no_solution(void **state)
+{
+	mr_sparse indefinite = grid_matrix(-1, 0, true), singular = grid_matrix(0, 0, false);
+	mr_solver *s = NULL;
+
+	(void)state;
+	assert_int_equal(mr_solver_new(&ctx, MR_CHOLESKY, &indefinite, &s), MR_ENUMERIC);
+	assert_non_null(strstr(ctx.error, "not positive definite"));
+	assert_null(s);
+	for (int e = singular.start[5]; e < singular.start[6]; e++)
+		singular.value[e] = 0;
+	assert_int_equal(mr_solver_new(&ctx, MR_LU, &singular, &s), MR_ENUMERIC);
+	assert_non_null(strstr(ctx.error, "singular"));
+	assert_null(s);
+	mr_solver_free(NULL);
+}
+
+static void
+test_one_unknown(void **state)
+{
+	int start[2] = { 0, 1 }, index[1] = { 0 };
+	double value[1] = { 4 };
+	mr_sparse a = { 1, start, index, value };
+
+	(void)state;
+	for (int kind = MR_CHOLESKY; kind <= MR_LU; kind++) {
+		double b[2] = { 8, -2 };
+		mr_solver *s = NULL;
+		assert_int_equal(mr_solver_new(&ctx, (mr_solver_kind)kind, &a, &s), MR_OK);
+		assert_int_equal(mr_solver_solve(&ctx, s, b, 2), MR_OK);
+		assert_true(b[0] == 2 && b[1] == -0.5);
+		mr_solver_free(s);
+	}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_cholesky, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_lu, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_what_has_no_solution, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_one_unknown, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
