@@ -69,6 +69,16 @@ mr_scan_of(mr_ctx *ctx, const unsigned char *data, size_t size)
 	return (mr_scan){ ctx, p, p, p + size };
 }
 
+/* x as a float holds it.  By way of memory: GCC 12 loses pairs of these conversions where it vectorises them.
+ */
+static inline double
+mr_as_float(double x)
+{
+	volatile float f = (float)x;
+
+	return (double)f;
+}
+
 /* Writes numbers with a blank between them, then `end`. */
 void mr_put_reals(mr_sink *s, const double *x, size_t n, char end);
 

@@ -291,7 +291,7 @@ mr_note_rounded(mr_ctx *ctx, const mr_model *m)
 	size_t changed = 0;
 
 	for (size_t i = 0; i < m->nv; i++) {
-		mr_v3 p = m->p[i], q = { (float)p.x, (float)p.y, (float)p.z };
+		mr_v3 p = m->p[i], q = { mr_as_float(p.x), mr_as_float(p.y), mr_as_float(p.z) };
 		if (!mr_finite(q))
 			return mr_fail(ctx, MR_ERANGE, "position %zu (%g %g %g) is too large for float32", i,
 			    p.x, p.y, p.z);

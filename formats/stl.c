@@ -271,8 +271,7 @@ mr_stl_write_ascii(mr_sink *s, const mr_model *m)
 	for (size_t f = 0; f < m->nf; f++) {
 		mr_v3 n = unit_normal(m, f);
 		mr_print(s, "facet normal ");
-		mr_put_reals(
-		    s, (double[]){ (double)(float)n.x, (double)(float)n.y, (double)(float)n.z }, 3, '\n');
+		mr_put_reals(s, (double[]){ mr_as_float(n.x), mr_as_float(n.y), mr_as_float(n.z) }, 3, '\n');
 		mr_print(s, "outer loop\n");
 		for (int k = 0; k < 3; k++) {
 			mr_put(s, "vertex ", 7);

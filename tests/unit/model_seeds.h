@@ -21,14 +21,14 @@ make_model(mr_ctx *ctx, size_t nv, size_t nf, bool single)
 		p[i] = mr_vec(mr_random_real(&r) - 0.5, 1e5 * mr_random_real(&r), 1e-7 * mr_random_real(&r));
 		normal[i] = mr_unit(mr_vec(mr_random_real(&r), mr_random_real(&r) - 0.5, mr_random_real(&r)));
 		if (single) {
-			p[i] = mr_vec((double)(float)p[i].x, (double)(float)p[i].y, (double)(float)p[i].z);
-			normal[i] = mr_vec((double)(float)normal[i].x, (double)(float)normal[i].y,
-			    (double)(float)normal[i].z);
+			p[i] = mr_vec(mr_as_float(p[i].x), mr_as_float(p[i].y), mr_as_float(p[i].z));
+			normal[i] = mr_vec(
+			    mr_as_float(normal[i].x), mr_as_float(normal[i].y), mr_as_float(normal[i].z));
 		}
 		for (size_t k = 0; k < 4; k++)
 			color[4 * i + k] = (unsigned char)(k < 3 ? mr_random_bits(&r) : 255);
 		for (size_t k = 0; k < 2; k++)
-			uv[2 * i + k] = (double)(float)mr_random_real(&r);
+			uv[2 * i + k] = mr_as_float(mr_random_real(&r));
 	}
 	for (size_t f = 0; f < nf; f++) {
 		for (int k = 0; k < 3; k++)
