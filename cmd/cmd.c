@@ -2,6 +2,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -490,6 +491,15 @@ account(const cmd *c)
 	return EXIT_DATA;
 }
 
+/* Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones. */
+static void
+return_memory(void)
+{
+#ifdef M_MMAP_THRESHOLD
+	mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
+}
+
 int
 cmd_main(int argc, char **argv, const cmd_tool *tool)
 {
@@ -497,6 +507,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	cmd c = { .tool = tool, .name = base_name(argv[0]), .state = &state };
 	int code;
 
+	return_memory();
 	mr_ctx_init(&c.ctx, 0);
 	mr_ctx_init(&state.long_lived, 0);
 	parse_command_line(&c, argc, argv);

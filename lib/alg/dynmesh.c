@@ -422,46 +422,53 @@ mr_dyn_flip(mr_dyn *d, uint32_t h)
 		d->out[a] = h;
 }
 
+/* The new numbers of what lives, in the old order; returns how many. */
+static uint32_t
+number_vertices(const mr_dyn *d, uint32_t *number)
+{
+	uint32_t n = 0;
+
+	for (size_t v = 0; v < d->nv; v++)
+		number[v] = d->kind[v] == MR_DEAD ? MR_NONE : n++;
+	return n;
+}
+
+static uint32_t
+number_faces(const mr_dyn *d, uint32_t *number)
+{
+	uint32_t n = 0;
+
+	for (size_t f = 0; f < d->nf; f++)
+		number[f] = mr_dyn_face_dead(d, f) ? MR_NONE : n++;
+	return n;
+}
+
+/* Numbers only fall, so everything can move in place. */
 mr_status
 mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *vertex = MR_NEW(ctx, d->nv, uint32_t), *face = MR_NEW(ctx, d->nf, uint32_t);
-	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
-	uint32_t *out = MR_NEW(ctx, d->nv, uint32_t), *at = MR_NEW(ctx, d->nv, uint32_t);
-	uint8_t *kind = MR_NEW(ctx, d->nv, uint8_t);
-	uint32_t nv = 0, nf = 0;
+	uint32_t *vertex = MR_NEW(ctx, d->nv, uint32_t), *face = MR_NEW(ctx, d->nf, uint32_t), nv, nf;
 
-	if (!vertex || !face || !p || !out || !at || !kind)
+	if (!vertex || !face)
 		return MR_EMEM;
-	memset(vertex, 0xff, d->nv * sizeof *vertex);
-	for (uint32_t f = 0; f < d->nf; f++) {
-		if (mr_dyn_face_dead(d, f))
-			continue;
-		face[f] = nf++;
-		for (int i = 0; i < 3; i++)
-			if (vertex[d->v[3 * f + (uint32_t)i]] == MR_NONE)
-				vertex[d->v[3 * f + (uint32_t)i]] = nv++;
-	}
+	nv = number_vertices(d, vertex);
+	nf = number_faces(d, face);
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (vertex[v] != MR_NONE) {
-			uint32_t w = vertex[v];
-			p[w] = d->p[v];
-			out[w] = 3 * face[d->out[v] / 3] + d->out[v] % 3;
-			at[w] = d->at[v];
-			kind[w] = d->kind[v];
+			uint32_t w = vertex[v], h = d->out[v];
+			d->p[w] = d->p[v];
+			d->out[w] = 3 * face[h / 3] + h % 3;
+			d->at[w] = d->at[v];
+			d->kind[w] = d->kind[v];
 		}
-	for (uint32_t f = 0; f < d->nf; f++)
-		for (uint32_t i = 0; i < 3 && !mr_dyn_face_dead(d, f); i++) {
-			uint32_t h = 3 * f + i, k = 3 * face[f] + i, g = d->twin[h];
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (face[h / 3] != MR_NONE) {
+			uint32_t k = 3 * face[h / 3] + h % 3, g = d->twin[h];
 			d->v[k] = vertex[d->v[h]];
 			d->twin[k] = g == MR_NONE ? MR_NONE : 3 * face[g / 3] + g % 3;
 			set_curve(d, k, curve_of(d, h));
 		}
-	memcpy(d->p, p, nv * sizeof *p);
-	memcpy(d->out, out, nv * sizeof *out);
-	memcpy(d->at, at, nv * sizeof *at);
-	memcpy(d->kind, kind, nv * sizeof *kind);
 	d->nv = nv;
 	d->nf = nf;
 	d->free_v = d->free_f = MR_NONE;

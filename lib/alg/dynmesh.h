@@ -120,7 +120,7 @@ bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
  * mr_dyn_can_flip. */
 void mr_dyn_flip(mr_dyn *d, uint32_t h);
 
-/* Closes the holes; vertices are numbered in the order of the faces that use them. */
+/* Closes the holes; what is left keeps its order. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 
 /* The mesh as it is, sharing the arrays; only after mr_dyn_compact. */

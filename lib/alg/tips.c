@@ -1,8 +1,9 @@
 #include "alg/tips.h"
 
+#include "alg/project.h"
 #include "base/parallel.h"
 
-static const double FAR = 0.5; /* of the target length */
+static const double FAR = 0.5, TOO_FAR = 3; /* of the target length */
 
 typedef struct tip {
 	double dist2;
@@ -12,9 +13,40 @@ typedef struct tip {
 typedef struct search {
 	const mr_dyn *d;
 	const mr_surface *s;
-	const mr_bvh *bvh;
-	tip *tip; /* of each source vertex */
+	mr_mesh view; /* of d */
+	mr_topology topo;
+	uint32_t *start; /* of each source vertex: a vertex of d that is near it on the surface, or MR_NONE */
+	tip *tip;        /* of each source vertex */
 } search;
+
+/*
+ * A vertex of d for each source vertex: those that lie on its faces, then by sweeps those of its
+ * neighbours.  What is left without one is isolated.
+ */
+static void
+find_starts(search *w)
+{
+	const mr_mesh *m = w->s->m;
+	bool spread = true;
+
+	memset(w->start, 0xff, m->nv * sizeof *w->start);
+	for (uint32_t v = 0; v < w->d->nv; v++) {
+		uint32_t f = w->d->kind[v] == MR_SMOOTH ? w->d->at[v] : w->d->at[v] / 3;
+		for (int k = 0; k < 3; k++)
+			w->start[m->t[f].v[k]] = v;
+	}
+	while (spread) {
+		spread = false;
+		for (size_t f = 0; f < m->nf; f++)
+			for (int k = 0; k < 3; k++) {
+				uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
+				if (w->start[a] != MR_NONE && w->start[b] == MR_NONE) {
+					w->start[b] = w->start[a];
+					spread = true;
+				}
+			}
+	}
+}
 
 /* The corner of face f that is nearest to the point. */
 static uint32_t
@@ -37,11 +69,10 @@ search_body(void *arg, size_t begin, size_t end)
 
 	for (uint32_t i = (uint32_t)begin; i < end; i++) {
 		mr_v3 p = w->s->m->p[i];
-		if (w->s->topo->out[i] == MR_NONE) {
-			w->tip[i] = (tip){ 0, i, 0 };
+		w->tip[i] = (tip){ 0, i, 0 };
+		if (w->start[i] == MR_NONE)
 			continue;
-		}
-		mr_closest c = mr_bvh_closest(w->bvh, p);
+		mr_closest c = mr_project_walk(&w->view, &w->topo, w->d->out[w->start[i]] / 3, p);
 		w->tip[i] = (tip){ c.dist2, i, nearest_corner(w->d, c.face, p) };
 	}
 }
@@ -79,19 +110,17 @@ mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, size_t *pinned)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t n = 0, nv = s->m->nv;
-	search w = { d, s, NULL, MR_NEW(ctx, nv, tip) };
-	mr_mesh view = mr_dyn_view(d, s->m->name);
-	mr_bvh *bvh;
+	search w = { d, s, mr_dyn_view(d, s->m->name), { d->twin, d->out }, MR_NEW(ctx, nv, uint32_t),
+		MR_NEW(ctx, nv, tip) };
 
-	if (!w.tip)
+	if (!w.start || !w.tip)
 		return MR_EMEM;
-	MR_TRY(mr_bvh_build(ctx, &view, &bvh));
-	w.bvh = bvh;
+	find_starts(&w);
 	mr_parallel(ctx, nv, 1024, search_body, &w);
 	*pinned = 0;
 	for (size_t i = 0; i < nv; i++) {
 		double l = mr_surface_length(s, d, w.tip[i].vertex);
-		if (w.tip[i].dist2 > FAR * FAR * l * l)
+		if (w.tip[i].dist2 > FAR * FAR * l * l && w.tip[i].dist2 < TOO_FAR * TOO_FAR * l * l)
 			w.tip[n++] = w.tip[i];
 	}
 	qsort(w.tip, n, sizeof *w.tip, farthest_first);

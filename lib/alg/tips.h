@@ -9,7 +9,6 @@
 #define MR_TIPS_H
 
 #include "alg/relax.h"
-#include "mesh/bvh.h"
 
 /*
  * Moves the nearest vertex of d to each vertex of the source that is more than half the target
