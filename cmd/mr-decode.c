@@ -43,6 +43,7 @@ pose_base(mr_ctx *ctx, mr_frame *f, mr_mesh *base)
 	const mr_column *column = mr_frame_find(f, "base", "response");
 	mr_v3 *p = MR_NEW(ctx, base->nv, mr_v3);
 	const void *response;
+	mr_mesh posed;
 	mr_affine *t;
 	size_t n;
 
@@ -61,11 +62,13 @@ pose_base(mr_ctx *ctx, mr_frame *f, mr_mesh *base)
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_pose_by_response(ctx, base->p, base->nv, response, n, t, p));
-	base->p = p;
 	mr_frame_drop(f, "handles", NULL, 0);
 	mr_frame_drop(f, "base", "response", 0);
 	mr_frame_drop(f, "base", "normal", 0);
-	return mr_layer_put_positions(ctx, f, "base", p, base->nv);
+	MR_TRY(mr_layer_put_positions(ctx, f, "base", p, base->nv));
+	MR_TRY(mr_layer_points(ctx, f, "base", &posed)); /* a response that is not finite shows here */
+	base->p = posed.p;
+	return MR_OK;
 }
 
 static mr_status
