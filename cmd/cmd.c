@@ -404,13 +404,31 @@ work_on(cmd *c, mr_frame *f)
 }
 
 static void
-leave_out(cmd *c, const mr_frame *f)
+leave_out(cmd *c)
 {
 	say_failure(c);
 	if (c->state->writer)
 		mr_writer_skipped(c->state->writer);
-	c->state->lost_key = f->key;
 	c->state->failed++;
+}
+
+mr_status
+cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand))
+{
+	size_t count = c->operand_count ? c->operand_count : 1;
+
+	for (size_t i = 0; i < count; i++) {
+		mr_mark mark = mr_mark_take(&c->ctx);
+		mr_status status = one(c, c->operand_count ? c->operands[i] : "-");
+		if (status < 0 && (!c->keep_going || status == MR_EUSAGE))
+			return status;
+		if (status < 0) {
+			c->state->frame++;
+			leave_out(c);
+		}
+		mr_mark_release(&c->ctx, mark);
+	}
+	return MR_OK;
 }
 
 static void
@@ -425,7 +443,6 @@ one_frame(cmd *c, mr_frame *f)
 		s->lost++;
 		return;
 	}
-	s->lost_key = false;
 	s->frame_name = f->name;
 	s->started = mr_seconds();
 	c->ctx.stat_count = 0;
@@ -435,9 +452,10 @@ one_frame(cmd *c, mr_frame *f)
 	if (status >= 0)
 		print_stats(c, mr_seconds() - s->started);
 	else if (c->keep_going && status != MR_EUSAGE)
-		leave_out(c, f);
+		leave_out(c);
 	else
 		die(c, status);
+	s->lost_key = status < 0 && f->key;
 	s->frame_name = NULL;
 	mr_mark_release(&c->ctx, mark);
 }
@@ -486,8 +504,10 @@ account(const cmd *c)
 
 	if (!s->failed)
 		return EXIT_GOOD;
-	say(c, "%llu of %llu frames failed, and %llu deltas were left out with them",
-	    (unsigned long long)s->failed, (unsigned long long)s->frame, (unsigned long long)s->lost);
+	say(c, "%llu of %llu frames failed", (unsigned long long)s->failed, (unsigned long long)s->frame);
+	if (s->lost)
+		say(c, "%llu more were deltas of those and were left out with them",
+		    (unsigned long long)s->lost);
 	return EXIT_DATA;
 }
 

@@ -61,6 +61,12 @@ int cmd_main(int argc, char **argv, const cmd_tool *tool);
 mr_status cmd_send(cmd *c, const mr_frame *f);
 
 /*
+ * A source that makes a frame of each operand ("-" where there are none): calls `one` for each, in
+ * an arena of its own; with -k one that fails is reported and left out.
+ */
+mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand));
+
+/*
  * Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end.
  */
 void cmd_print(cmd *c, const char *format, ...) MR_PRINTF(2, 3);

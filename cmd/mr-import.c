@@ -54,16 +54,7 @@ import(cmd *c, const char *path)
 static mr_status
 import_all(cmd *c)
 {
-	static char standard[] = "-", *only[] = { standard };
-	char **path = c->operand_count ? c->operands : only;
-	size_t count = c->operand_count ? c->operand_count : 1;
-
-	for (size_t i = 0; i < count; i++) {
-		mr_mark mark = mr_mark_take(&c->ctx);
-		MR_TRY(import(c, path[i]));
-		mr_mark_release(&c->ctx, mark);
-	}
-	return MR_OK;
+	return cmd_each_operand(c, import);
 }
 
 int
