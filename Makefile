@@ -38,38 +38,40 @@ BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
 NEEDS   := build $(if $(filter setup check bless units,$(MAKECMDGOALS)),check) $(filter bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
-RUN     := BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
+RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
+
+# V=1 shows the commands.
+say = $(if $(V),,@echo "  $(1) $@";)
 
 all: $(TOOLS)
 
 $(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(BUILD)/cmd/cmd.c.o $(BUILD)/cmd/options.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
-	$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
+	$(call say,link   )$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
-	$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS) -lcmocka
+	$(call say,link   )$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS) -lcmocka
 
 $(BUILD)/bench/%: $(BUILD)/tests/bench/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
-	$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
+	$(call say,link   )$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 # The peers' templates are theirs: no warnings.
 $(BUILD)/bench/%: tests/bench/%.cc $(BUILD)/flags | setup
 	@mkdir -p $(@D)
-	$(CXX) -std=c++17 -O3 -DNDEBUG -w -I/usr/include/eigen3 $(INCLUDE) -pthread -o $@ $< -lgmp -lmpfr -lcholmod -lm
+	$(call say,link   )$(CXX) -std=c++17 -O3 -DNDEBUG -w -I/usr/include/eigen3 $(INCLUDE) -pthread -o $@ $< -lgmp -lmpfr -lcholmod -lm
 
 $(BUILD)/libmr.a: $(OBJECTS)
-	@rm -f $@
-	$(AR) rcs $@ $^
+	$(call say,archive)rm -f $@ && $(AR) rcs $@ $^
 
 $(BUILD)/%.c.o: %.c $(BUILD)/flags | setup
 	@mkdir -p $(@D)
-	$(CC) $(ALL_C) -MMD -MP -c -o $@ $<
+	$(call say,compile)$(CC) $(ALL_C) -MMD -MP -c -o $@ $<
 
 $(BUILD)/%.cc.o: %.cc $(BUILD)/flags | setup
 	@mkdir -p $(@D)
-	$(CXX) $(ALL_CXX) -MMD -MP -c -o $@ $<
+	$(call say,compile)$(CXX) $(ALL_CXX) -MMD -MP -c -o $@ $<
 
 # Other compilers or flags rebuild everything.
 FLAGS := $(CC) $(CXX) $(ALL_C) $(LDFLAGS)
