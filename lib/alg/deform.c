@@ -4,6 +4,7 @@
  */
 #include "alg/deform_parts.h"
 #include "op/area.h"
+#include "op/dissect.h"
 #include "op/laplace.h"
 
 /* Regions */
@@ -145,21 +146,26 @@ scale_rows(mr_sparse *k, const double *w)
 static mr_status
 factor(mr_ctx *ctx, mr_deform *d, double started)
 {
+	size_t n = d->patch.end[0], k = d->opts.order;
 	bool lower = d->opts.solver == MR_CHOLESKY;
-	mr_sparse k;
+	int *part = MR_NEW(ctx, n, int);
+	mr_sparse a;
 	mr_status status;
 
-	MR_TRY(mr_laplace_power(ctx, &d->l, d->w, d->opts.order, d->patch.end[0], lower, &k));
-	hold_empty_rows(&k);
+	if (!part)
+		return MR_EMEM;
+	MR_TRY(mr_laplace_power(ctx, &d->l, d->w, k, n, lower, &a));
+	hold_empty_rows(&a);
 	if (d->opts.unsymmetric)
-		scale_rows(&k, d->w);
-	d->nnz = (size_t)k.start[k.n];
+		scale_rows(&a, d->w);
+	MR_TRY(mr_dissect(ctx, &d->l, d->patch.mesh.p, n, k, part));
+	d->nnz = (size_t)a.start[n];
 	d->seconds_assemble = mr_seconds() - started;
-	status = mr_solver_new(ctx, (mr_solver_kind)d->opts.solver, &k, &d->solver);
+	status = mr_solver_new(ctx, (mr_solver_kind)d->opts.solver, &a, part, &d->solver);
 	if (status == MR_ENUMERIC)
 		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
-		    d->patch.mesh.name, d->opts.order, d->patch.end[0],
-		    d->opts.order > 1 ? " has no solution in doubles (a lower -k may have)" : "");
+		    d->patch.mesh.name, k, n,
+		    k > 1 ? " has no solution in doubles (a lower -k may have)" : "");
 	return status;
 }
 

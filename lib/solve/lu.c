@@ -87,12 +87,13 @@ set_up(mr_ctx *ctx, lu *l, const mr_sparse *a, mr_solver_report *report)
 }
 
 static mr_status
-lu_setup(mr_ctx *ctx, const mr_sparse *a, void **data, mr_solver_report *report)
+lu_setup(mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr_solver_report *report)
 {
 	lu *l = calloc(1, sizeof *l);
 	mr_status status;
 	int threads;
 
+	(void)part; /* UMFPACK orders columns by itself */
 	if (!l)
 		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
 	threads = mr_serial_begin();

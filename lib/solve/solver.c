@@ -10,7 +10,7 @@ struct mr_solver {
 };
 
 mr_status
-mr_solver_new(mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, mr_solver **solver)
+mr_solver_new(mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, const int *part, mr_solver **solver)
 {
 	mr_solver *s = calloc(1, sizeof *s);
 	mr_status status;
@@ -18,7 +18,7 @@ mr_solver_new(mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, mr_solver **
 	if (!s)
 		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
 	s->type = types[kind];
-	status = s->type->setup(ctx, a, &s->data, &s->report);
+	status = s->type->setup(ctx, a, part, &s->data, &s->report);
 	if (status < 0) {
 		free(s);
 		return mr_prefix(ctx, status, "%s", types[kind]->name);

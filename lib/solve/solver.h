@@ -26,11 +26,12 @@ typedef struct mr_solver_report {
 } mr_solver_report;
 
 /*
- * Sets up a solver for A, which is copied or factored: it need not outlive the call.
- * MR_ENUMERIC where A is singular or, for MR_CHOLESKY, not positive definite.
+ * Sets up a solver for A, which is copied or factored: it need not outlive the call.  part: for each row the
+ * part of a dissection that it is in (op/dissect.h), which a factorization eliminates in ascending order, or
+ * NULL. MR_ENUMERIC where A is singular or, for MR_CHOLESKY, not positive definite.
  */
-mr_status
-mr_solver_new(mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, mr_solver **solver) MR_WARN_UNUSED;
+mr_status mr_solver_new(
+    mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, const int *part, mr_solver **solver) MR_WARN_UNUSED;
 
 /* Replaces the right-hand sides b (`columns` of them, one after another, n values each) by the solutions x.
  */

@@ -12,7 +12,8 @@
 
 typedef struct mr_solver_type {
 	const char *name;
-	mr_status (*setup)(mr_ctx *ctx, const mr_sparse *a, void **data, mr_solver_report *report);
+	mr_status (*setup)(
+	    mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr_solver_report *report);
 	mr_status (*solve)(mr_ctx *ctx, void *data, double *b, size_t columns);
 	void (*free)(void *data);
 } mr_solver_type;

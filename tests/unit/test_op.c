@@ -1,6 +1,7 @@
 /* Areas, the cotangent Laplacian and its powers against their definitions. */
 #include "base/random.h"
 #include "op/area.h"
+#include "op/dissect.h"
 #include "op/laplace.h"
 
 #include <setjmp.h>
@@ -268,6 +269,46 @@ test_extended_precision_agrees(void **state)
 		assert_near(y[i], (double)yl[i], 1e-14);
 }
 
+/* Parts that meet no lower part within `reach` edges are apart from each other: most vertices are in such. */
+static void
+test_dissection_separates(void **state)
+{
+	enum { MOST = 100 };
+	mr_mesh m = sheet(140, 0.5);
+	size_t n = m.nv - 200; /* the last rows are not to be cut */
+	int *part = MR_NEW(&ctx, n, int), *again = MR_NEW(&ctx, n, int);
+	double *w = MR_NEW(&ctx, m.nv, double);
+	mr_sparse l, power;
+
+	(void)state;
+	for (size_t i = 0; i < m.nv; i++)
+		w[i] = 1;
+	assert_int_equal(mr_laplace_build(&ctx, &m, &l), MR_OK);
+	for (size_t reach = 1; reach <= 3; reach++) {
+		bool meets_lower[MOST] = { false };
+		size_t count[MOST] = { 0 }, apart = 0, parts = 0;
+		ctx.threads = 2;
+		assert_int_equal(mr_dissect(&ctx, &l, m.p, n, reach, part), MR_OK);
+		ctx.threads = 1;
+		assert_int_equal(mr_dissect(&ctx, &l, m.p, n, reach, again), MR_OK);
+		assert_memory_equal(part, again, n * sizeof *part);
+		assert_int_equal(mr_laplace_power(&ctx, &l, w, reach, n, false, &power), MR_OK);
+		for (size_t i = 0; i < n; i++) {
+			assert_in_range(part[i], 0, MOST - 1);
+			count[part[i]]++;
+			for (int e = power.start[i]; e < power.start[i + 1]; e++)
+				meets_lower[part[i]] |= part[power.index[e]] < part[i];
+		}
+		for (int k = 0; k < MOST; k++)
+			if (count[k] && !meets_lower[k]) {
+				assert_true(count[k] <= 2000);
+				apart += count[k];
+				parts++;
+			}
+		assert_true(parts >= 10 && 10 * apart > 8 * n);
+	}
+}
+
 int
 main(void)
 {
@@ -280,6 +321,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_cotangents_of_flat_triangles, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_powers_are_products, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_extended_precision_agrees, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_dissection_separates, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
