@@ -123,6 +123,12 @@ void mr_dyn_flip(mr_dyn *d, uint32_t h);
 /* Closes the holes; what is left keeps its order. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 
+/*
+ * Renumbers vertices along a space-filling curve, faces by their lowest vertex: neighbours come close in
+ * memory.  Only after mr_dyn_compact.
+ */
+mr_status mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
+
 /* The mesh as it is, sharing the arrays; only after mr_dyn_compact. */
 mr_mesh mr_dyn_view(const mr_dyn *d, const char *name);
 

@@ -338,6 +338,14 @@ area_variance(remesher *r, double *variance)
 	return MR_OK;
 }
 
+/* Neighbours close together in memory. */
+static mr_status
+tidy(remesher *r)
+{
+	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
+	return mr_dyn_order(r->ctx, &r->d);
+}
+
 static mr_status
 run(remesher *r)
 {
@@ -345,9 +353,11 @@ run(remesher *r)
 
 	for (size_t i = 0; i < r->o->rounds; i++) {
 		MR_TRY(one_round(r));
+		if (i == 0)
+			MR_TRY(tidy(r)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
 	}
-	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
+	MR_TRY(tidy(r));
 	if (r->o->project)
 		MR_TRY(mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips));
 	middle = mr_seconds();

@@ -1,0 +1,155 @@
+/* Numbers along the Z curve (Morton 1966). */
+#include "alg/dynmesh.h"
+
+enum { BITS = 10, BUCKETS = 1 << BITS };
+
+typedef struct item {
+	uint32_t key, index;
+} item;
+
+/* The lowest BITS bits of x, two zeros between each. */
+static uint32_t
+spread(uint32_t x)
+{
+	x = (x | x << 16) & 0x030000ff;
+	x = (x | x << 8) & 0x0300f00f;
+	x = (x | x << 4) & 0x030c30c3;
+	return (x | x << 2) & 0x09249249;
+}
+
+static uint32_t
+cell(double x, double low, double scale)
+{
+	double c = (x - low) * scale;
+
+	return c < 1 ? 0 : c > BUCKETS - 1 ? BUCKETS - 1 : (uint32_t)c;
+}
+
+static uint32_t
+morton(mr_v3 p, mr_v3 low, double scale)
+{
+	return spread(cell(p.x, low.x, scale)) | spread(cell(p.y, low.y, scale)) << 1 |
+	       spread(cell(p.z, low.z, scale)) << 2;
+}
+
+/* Sorts by key, stably, BITS bits at a time; with an even number of passes the result is in a. */
+static void
+sort_items(item *a, item *other, size_t n, int passes)
+{
+	for (int pass = 0; pass < passes; pass++) {
+		size_t start[BUCKETS + 1] = { 0 };
+		item *swap = a;
+		for (size_t i = 0; i < n; i++)
+			start[(a[i].key >> (pass * BITS) & (BUCKETS - 1)) + 1]++;
+		for (size_t i = 0; i < BUCKETS; i++)
+			start[i + 1] += start[i];
+		for (size_t i = 0; i < n; i++)
+			other[start[a[i].key >> (pass * BITS) & (BUCKETS - 1)]++] = a[i];
+		a = other;
+		other = swap;
+	}
+}
+
+/* Applies a permutation to an array of n objects: new[number[i]] = old[i]. */
+static mr_status
+permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	char *copy = mr_alloc(ctx, n, size), *to = array;
+
+	if (!copy)
+		return MR_EMEM;
+	memcpy(copy, array, n * size);
+	for (size_t i = 0; i < n; i++)
+		memcpy(to + number[i] * size, copy + i * size, size);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The place of item i in the order of keys: number[i].  other: workspace for n. */
+static void
+rank(item *a, item *other, size_t n, uint32_t *number)
+{
+	enum { PASSES = 4 };
+
+	sort_items(a, other, n, PASSES);
+	for (uint32_t i = 0; i < n; i++)
+		number[a[i].index] = i;
+}
+
+static mr_status
+number_vertices(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	item *a = MR_NEW(ctx, d->nv, item), *other = MR_NEW(ctx, d->nv, item);
+	mr_box box = mr_box_of(d->p, d->nv);
+	mr_v3 size = mr_sub(box.max, box.min);
+	double longest = fmax(size.x, fmax(size.y, size.z));
+
+	if (!a || !other)
+		return MR_EMEM;
+	for (uint32_t v = 0; v < d->nv; v++)
+		a[v] = (item){ morton(d->p[v], box.min, longest > 0 ? BUCKETS / longest : 0), v };
+	rank(a, other, d->nv, number);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	item *a = MR_NEW(ctx, d->nf, item), *other = MR_NEW(ctx, d->nf, item);
+
+	if (!a || !other)
+		return MR_EMEM;
+	for (uint32_t f = 0; f < d->nf; f++) {
+		const uint32_t *v = d->v + 3 * f;
+		uint32_t low = v[0] < v[1] ? v[0] : v[1];
+		a[f] = (item){ low < v[2] ? low : v[2], f };
+	}
+	rank(a, other, d->nf, number);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+permute_vertices(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
+{
+	MR_TRY(permute(ctx, d->p, d->nv, sizeof *d->p, number));
+	MR_TRY(permute(ctx, d->out, d->nv, sizeof *d->out, number));
+	MR_TRY(permute(ctx, d->at, d->nv, sizeof *d->at, number));
+	MR_TRY(permute(ctx, d->kind, d->nv, sizeof *d->kind, number));
+	for (size_t h = 0; h < 3 * d->nf; h++)
+		d->v[h] = number[d->v[h]];
+	return MR_OK;
+}
+
+static mr_status
+permute_faces(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
+{
+	for (size_t h = 0; h < 3 * d->nf; h++)
+		if (d->twin[h] != MR_NONE)
+			d->twin[h] = 3 * number[d->twin[h] / 3] + d->twin[h] % 3;
+	for (size_t v = 0; v < d->nv; v++)
+		d->out[v] = 3 * number[d->out[v] / 3] + d->out[v] % 3;
+	MR_TRY(permute(ctx, d->v, d->nf, 3 * sizeof *d->v, number));
+	MR_TRY(permute(ctx, d->twin, d->nf, 3 * sizeof *d->twin, number));
+	return d->curve ? permute(ctx, d->curve, d->nf, 3 * sizeof *d->curve, number) : MR_OK;
+}
+
+mr_status
+mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *number = MR_NEW(ctx, d->nv > d->nf ? d->nv : d->nf, uint32_t);
+
+	if (!number)
+		return MR_EMEM;
+	MR_TRY(number_vertices(ctx, d, number));
+	MR_TRY(permute_vertices(ctx, d, number));
+	MR_TRY(number_faces(ctx, d, number));
+	MR_TRY(permute_faces(ctx, d, number));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
