@@ -3,7 +3,7 @@ command -v make >/dev/null || { echo "no make"; exit 77; }
 here=$PWD
 cd "$TOP" || exit
 fail=0
-make() { command make --no-print-directory BUILD="$BUILD" SAN="$SAN" "$@"; }
+make() { command make --no-print-directory BUILD="${BUILD#"$TOP"/}" SAN="$SAN" "$@"; }
 
 would=$(make -n -W lib/mesh/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
 for source in $(echo "$would"); do
