@@ -86,11 +86,25 @@ mr_dyn_cross(const mr_dyn *d, const mr_v3 *p, size_t f)
 static const double MR_NEEDLE = 0.1;
 
 static inline double
-mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
+mr_dyn_longest2(mr_v3 a, mr_v3 b, mr_v3 c)
 {
 	double ab = mr_norm2(mr_sub(b, a)), bc = mr_norm2(mr_sub(c, b)), ca = mr_norm2(mr_sub(a, c));
-	double longest = ab > bc ? (ab > ca ? ab : ca) : (bc > ca ? bc : ca);
-	return longest > 0 ? mr_norm(mr_cross(mr_sub(b, a), mr_sub(c, a))) / longest : 0;
+	return ab > bc ? (ab > ca ? ab : ca) : (bc > ca ? bc : ca);
+}
+
+static inline double
+mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	double longest2 = mr_dyn_longest2(a, b, c);
+	return longest2 > 0 ? mr_norm(mr_cross(mr_sub(b, a), mr_sub(c, a))) / longest2 : 0;
+}
+
+/* mr_dyn_shape(a, b, c) < MR_NEEDLE, where cross is that of its edges. */
+static inline bool
+mr_dyn_is_needle(mr_v3 cross, mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	double least = MR_NEEDLE * mr_dyn_longest2(a, b, c);
+	return mr_norm2(cross) < least * least || least == 0;
 }
 
 /*

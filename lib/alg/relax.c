@@ -184,6 +184,15 @@ source_normal(const pass *w, size_t f)
 	return mr_face_cross(w->s->m, w->d->kind[v] == MR_SMOOTH ? at : at / 3);
 }
 
+/* True where the two vectors are more than 60 degrees apart. */
+static bool
+apart(mr_v3 a, mr_v3 b)
+{
+	double ab = mr_dot(a, b);
+
+	return ab < 0 || ab * ab < 0.25 * mr_norm2(a) * mr_norm2(b);
+}
+
 /*
  * True where the move turns face f by more than 60 degrees, or leaves it a worse needle than before.
  * What way a needle faces is told by the source.
@@ -193,17 +202,15 @@ turns(const pass *w, size_t f)
 {
 	const uint32_t *v = &w->d->v[3 * f];
 	const mr_v3 *p = w->d->p, *q = w->p;
-	double shape = mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]),
-	       moved = mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]);
-	mr_v3 after = mr_dyn_cross(w->d, q, f);
+	mr_v3 before = mr_dyn_cross(w->d, p, f), after = mr_dyn_cross(w->d, q, f), normal;
 
-	if (moved < MR_NEEDLE && moved < shape)
+	if (mr_dyn_is_needle(after, q[v[0]], q[v[1]], q[v[2]]) &&
+	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
 		return true;
-	if (shape < MR_NEEDLE)
-		return mr_dot(after, source_normal(w, f)) < 0 &&
-		       mr_dot(mr_dyn_cross(w->d, p, f), source_normal(w, f)) >= 0;
-	mr_v3 before = mr_dyn_cross(w->d, p, f);
-	return mr_dot(before, after) < 0.5 * sqrt(mr_norm2(before) * mr_norm2(after));
+	if (!mr_dyn_is_needle(before, p[v[0]], p[v[1]], p[v[2]]))
+		return apart(before, after);
+	normal = source_normal(w, f);
+	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
 }
 
 static void
