@@ -189,6 +189,20 @@ check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 }
 
 static mr_status
+make_workspace(mr_ctx *ctx, mr_deform *d)
+{
+	size_t n = d->patch.mesh.nv * WIDTH;
+	field f = { .u = MR_NEW(ctx, n, double),
+		.stage = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) },
+		.r = MR_NEW(ctx, d->patch.end[0] * WIDTH, double) };
+
+	if (!f.u || !f.stage[0] || !f.stage[1] || !f.r)
+		return MR_EMEM;
+	d->work = f;
+	return MR_OK;
+}
+
+static mr_status
 set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 {
 	double started = mr_seconds();
@@ -204,6 +218,7 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	MR_TRY(mr_patch_build(ctx, rest, anchored, d->opts.order, &d->patch));
 	MR_TRY(mr_laplace_build(ctx, &d->patch.mesh, &d->l));
 	MR_TRY(weigh(ctx, d));
+	MR_TRY(make_workspace(ctx, d));
 	if (d->patch.end[0] == 0)
 		return MR_OK;
 	mark = mr_mark_take(ctx);

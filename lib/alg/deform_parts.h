@@ -13,6 +13,16 @@
 #include "alg/patch.h"
 #include "mesh/layers.h"
 
+enum { WIDTH = 4 }; /* right-hand sides solved together, at most */
+
+/* A field over the patch: `width` values per vertex, next to each other. */
+typedef struct field {
+	double *u;        /* on the constraints given, on the free vertices to be solved for */
+	double *stage[2]; /* workspace of as many rows */
+	double *r;        /* of the free vertices, one column after another */
+	size_t width;
+} field;
+
 struct mr_deform {
 	mr_deform_opts opts;
 	size_t nv;
@@ -21,6 +31,7 @@ struct mr_deform {
 	mr_sparse l;       /* of the patch */
 	double *w;         /* mean area by area, per vertex of the patch: W = M^-1 */
 	mr_solver *solver; /* NULL where nothing is to be solved */
+	field work;        /* kept from solve to solve: fresh pages cost as much as the arithmetic */
 	uint32_t lowest;   /* region that moves the whole: fixed, or the lowest handle's */
 	size_t handles;
 	size_t free, fixed, handled;  /* vertices */

@@ -5,26 +5,15 @@
 #include "alg/deform_parts.h"
 #include "op/laplace.h"
 
-enum { WIDTH = 4 }; /* right-hand sides solved together, at most */
-
-/* A field over the patch: `width` values per vertex, next to each other. */
-typedef struct field {
-	double *u;        /* end[k] rows: on the constraints given, on the free vertices to be solved for */
-	double *stage[2]; /* workspace of as many rows */
-	double *r;        /* end[0] values per column, one column after another */
-	size_t width;
-} field;
-
-static mr_status
-field_new(mr_ctx *ctx, const mr_deform *d, size_t width, field *f)
+/* The workspace as a field of this width, all 0. */
+static field
+field_of(const mr_deform *d, size_t width)
 {
-	size_t n = d->patch.mesh.nv * width;
+	field f = d->work;
 
-	*f = (field){ .u = MR_NEW_ZERO(ctx, n, double),
-		.stage = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) },
-		.r = MR_NEW(ctx, d->patch.end[0] * width, double),
-		.width = width };
-	return f->u && f->stage[0] && f->stage[1] && f->r ? MR_OK : MR_EMEM;
+	f.width = width;
+	memset(f.u, 0, d->patch.mesh.nv * width * sizeof *f.u);
+	return f;
 }
 
 /* r = -(K u)_f, K applied as L, then k - 1 times L W, each on one ring less. */
@@ -167,9 +156,8 @@ relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out)
 	mr_box box = mr_box_of(p, d->nv);
 	mr_v3 origin = mr_lerp(0.5, box.min, box.max);
 	double scale;
-	field f;
+	field f = field_of(d, 3);
 
-	MR_TRY(field_new(ctx, d, 3, &f));
 	set_points(d, &f, p, origin, n, d->patch.mesh.nv);
 	residual(ctx, d, &f);
 	scale = norm_of(f.r, 3 * n);
@@ -275,9 +263,8 @@ static mr_status
 solve_displacements(mr_ctx *ctx, mr_deform *d, const pose *q, const mr_v3 *p0, mr_v3 *out)
 {
 	size_t n = d->patch.end[0];
-	field f;
+	field f = field_of(d, 3);
 
-	MR_TRY(field_new(ctx, d, 3, &f));
 	set_displacements(d, q, p0, &f);
 	residual(ctx, d, &f);
 	MR_TRY(solve_field(ctx, d, &f, norm_of(f.r, 3 * n)));
@@ -331,9 +318,8 @@ static mr_status
 respond_to(mr_ctx *ctx, mr_deform *d, size_t h, const mr_v3 *p0, double *response)
 {
 	size_t n = d->patch.end[0];
-	field f;
+	field f = field_of(d, WIDTH);
 
-	MR_TRY(field_new(ctx, d, WIDTH, &f));
 	for (size_t i = n; i < d->patch.mesh.nv; i++)
 		if (d->region[d->patch.vertex[i]] == MR_REGION_HANDLE + h)
 			row_of(p0[d->patch.vertex[i]], f.u + WIDTH * i);
