@@ -1,5 +1,6 @@
 #include "alg/remesh.h"
 
+#include "alg/iron.h"
 #include "alg/project.h"
 #include "alg/relax.h"
 #include "alg/sizing.h"
@@ -293,6 +294,7 @@ equalize_areas(remesher *r)
 		if (i % EVERY == 0)
 			MR_TRY(regularize(r, 0));
 	}
+	mr_iron(&r->d);
 	return MR_OK;
 }
 
@@ -353,13 +355,10 @@ run(remesher *r)
 
 	for (size_t i = 0; i < r->o->rounds; i++) {
 		MR_TRY(one_round(r));
-		if (i == 0)
+		if (i == 0 || i + 1 == r->o->rounds)
 			MR_TRY(tidy(r)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
 	}
-	MR_TRY(tidy(r));
-	if (r->o->project)
-		MR_TRY(mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips));
 	middle = mr_seconds();
 	r->seconds_rounds = middle - start;
 	MR_TRY(area_variance(r, &r->variance[0]));
@@ -418,7 +417,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		    r->ctx, m, r->o->adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
 	}
 	r->source = (mr_surface){ m, topo, curve, length, uniform };
-	return MR_OK;
+	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
 }
 
 static void
