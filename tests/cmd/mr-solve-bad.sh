@@ -25,7 +25,7 @@ mr-solve s.mrs | mr-pose | try --basis
 echo '-- a basis without a handle'
 mr-select --reset --free above:z,0.5 base.mrs | try --basis
 echo '-- a handle too small for the base'
-mr-make sphere -n 500 | mr-remesh -r 6 | mr-select --free above:z,0.5 --handle 3=sphere:0,0,1,0.1 | try
+mr-make sphere -n 500 | mr-remesh -r 6 | mr-select --free above:z,0.5 --handle 3=rings:100,0 | try
 echo '-- a handle that no vertex has'
 mr-solve s.mrs | mr-pose --translate 0,0,1 | mr-select --reset --free above:z,0.5 | try
 echo '-- regions without a map, parts without a constraint'
