@@ -5,6 +5,10 @@ cd "$TOP" || exit
 fail=0
 make() { command make --no-print-directory BUILD="${BUILD#"$TOP"/}" SAN="$SAN" "$@"; }
 
+if make -n all | grep -q ' -c -o '; then
+	echo "the sources have changed since they were built"
+	exit 77
+fi
 would=$(make -n -W lib/mesh/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
 for source in $(echo "$would"); do
 	grep -qs 'lib/mesh/bvh.h' "$BUILD/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
