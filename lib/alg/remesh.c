@@ -312,8 +312,10 @@ one_round(remesher *r)
 	MR_TRY(collapse_short(r));
 	MR_TRY(mend_needles(r));
 	MR_TRY(regularize(r, REACH));
-	for (int i = 0; i < RELAX; i++)
+	for (int i = 1; i <= RELAX; i++) {
+		o.project = r->o->project && i == RELAX;
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
+	}
 	return MR_OK;
 }
 
