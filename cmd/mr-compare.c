@@ -1,10 +1,7 @@
 /* mr-compare -- measure how far two surfaces or clouds are apart.  See man/mr-compare.1. */
 #include "alg/report.h"
 #include "cmd.h"
-
-#include <errno.h>
-#include <fcntl.h>
-#include <unistd.h>
+#include "stream/side.h"
 
 static mr_compare_opts opts = MR_COMPARE_DEFAULTS;
 static const char *layer_a, *layer_b;
@@ -24,55 +21,19 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-/* The stream FILE_B, frame by frame beside the first. */
-static mr_reader *other;
-static mr_frame *other_frame;
-static unsigned long long other_count;
-static bool other_ended;
+static mr_side other; /* the stream FILE_B; all zero without one */
 
 static mr_status
 open_other(cmd *c)
 {
-	const char *path;
-	int fd;
-
 	if (c->operand_count > 1)
 		return mr_fail(
 		    &c->ctx, MR_EUSAGE, "at most one FILE_B is expected, not %zu", c->operand_count);
 	if (c->operand_count == 0)
 		return MR_OK;
-	path = c->operands[0];
-	if (!strcmp(path, "-"))
+	if (!strcmp(c->operands[0], "-"))
 		return mr_fail(&c->ctx, MR_EUSAGE, "FILE_B must be a file: stdin is the first stream");
-	fd = open(path, O_RDONLY);
-	if (fd < 0)
-		return mr_fail(&c->ctx, MR_EIO, "%s: %s", path, strerror(errno));
-	return mr_prefix(&c->ctx, mr_reader_open(&c->keep, fd, &other), "%s", path);
-}
-
-static mr_status
-next_other(cmd *c)
-{
-	mr_status status = mr_reader_next(&c->ctx, other, &other_frame);
-
-	other_ended = status == MR_END;
-	other_count += status == MR_OK;
-	return mr_prefix(&c->ctx, status, "%s", c->operands[0]);
-}
-
-/* The frame that goes with f: that of the same number in FILE_B, or its only one. */
-static mr_status
-second_frame(cmd *c, mr_frame *f, mr_frame **second)
-{
-	*second = f;
-	if (!other)
-		return MR_OK;
-	if (!other_ended)
-		MR_TRY(next_other(c));
-	if (other_count == 0 || (other_ended && other_count > 1))
-		return mr_fail(&c->ctx, MR_ERANGE, "%s has only %llu frames", c->operands[0], other_count);
-	*second = other_frame;
-	return MR_OK;
+	return mr_side_open(&c->ctx, c->operands[0], &other);
 }
 
 static mr_status
@@ -96,27 +57,21 @@ choose_layers(cmd *c, mr_frame *f, mr_frame *second, const char **a, const char 
 }
 
 static mr_status
-surface_or_cloud(cmd *c, mr_frame *f, const char *layer, mr_mesh *m)
-{
-	const mr_column *faces = mr_frame_find(f, layer, "triangles");
-
-	return faces && faces->rows ? mr_layer_mesh(&c->ctx, f, layer, m)
-	                            : mr_layer_points(&c->ctx, f, layer, m);
-}
-
-static mr_status
 compare(cmd *c, mr_frame *f)
 {
 	mr_text text = { .ctx = &c->ctx };
 	const char *a, *b;
-	mr_frame *second;
+	mr_frame *second = f;
 	mr_comparison r;
 	mr_mesh ma, mb;
 
-	MR_TRY(second_frame(c, f, &second));
+	if (other.reader) {
+		MR_TRY(mr_side_take(&c->ctx, &other, f->number));
+		second = other.frame;
+	}
 	MR_TRY(choose_layers(c, f, second, &a, &b));
-	MR_TRY(surface_or_cloud(c, f, a, &ma));
-	MR_TRY(surface_or_cloud(c, second, b, &mb));
+	MR_TRY(mr_layer_surface_or_points(&c->ctx, f, a, &ma));
+	MR_TRY(mr_layer_surface_or_points(&c->ctx, second, b, &mb));
 	MR_TRY(mr_compare(&c->ctx, &ma, &mb, &opts, &r));
 	mr_stat_set(&c->ctx, "max", r.both.max);
 	mr_stat_set(&c->ctx, "max_bound", r.both.max_bound);
@@ -128,19 +83,10 @@ compare(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-/* Drains FILE_B: it must end well, and hold no more frames than the first stream. */
 static mr_status
 finish(cmd *c)
 {
-	unsigned long long compared = other_count;
-
-	while (other && !other_ended)
-		MR_TRY(next_other(c));
-	mr_reader_free(other);
-	if (other_count > compared)
-		return mr_fail(&c->ctx, MR_ERANGE, "%s has %llu frames, the first stream %llu",
-		    c->operands[0], other_count, compared);
-	return MR_OK;
+	return other.reader ? mr_side_end(&c->ctx, &other) : MR_OK;
 }
 
 int

@@ -34,19 +34,15 @@ panel_before(const mr_gallery *g, const char *layer)
 static mr_status
 take_mesh(mr_ctx *ctx, mr_ctx *keep, const mr_gallery *g, mr_frame *frame, mr_panel *p)
 {
-	const mr_column *triangles = mr_frame_find(frame, p->layer, "triangles");
 	const mr_panel *before = panel_before(g, p->layer);
 	mr_mesh *m = &p->subject.mesh;
 
-	if (triangles && triangles->rows)
-		MR_TRY(mr_layer_mesh(ctx, frame, p->layer, m));
-	else
-		MR_TRY(mr_layer_points(ctx, frame, p->layer, m));
+	MR_TRY(mr_layer_surface_or_points(ctx, frame, p->layer, m));
 	if (m->nv == 0)
 		return mr_fail(ctx, MR_EMESH, "%s: the layer has no vertices to draw", p->layer);
 	m->name = p->layer;
 	p->position = mr_frame_find(frame, p->layer, "position")->serial;
-	p->triangles = m->nf ? triangles->serial : 0;
+	p->triangles = m->nf ? mr_frame_find(frame, p->layer, "triangles")->serial : 0;
 	if (before && p->position && p->position == before->position)
 		m->p = before->subject.mesh.p;
 	else

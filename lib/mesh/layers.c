@@ -169,6 +169,14 @@ mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 	return MR_OK;
 }
 
+mr_status
+mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+{
+	const mr_column *faces = mr_frame_find(f, layer, "triangles");
+
+	return faces && faces->rows ? mr_layer_mesh(ctx, f, layer, m) : mr_layer_points(ctx, f, layer, m);
+}
+
 /* Drops what refers to the connectivity of `layer` from elsewhere. */
 static void
 drop_dependents(mr_frame *f, const char *layer)

@@ -46,6 +46,9 @@ mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 /* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */
 mr_status mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 
+/* The layer's surface, or its positions where it has no faces. */
+mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
+
 /*
  * Puts positions and triangles.  Where the vertices or triangles are not those
  * that were there, drops the layer's v or f columns and what refers to them from
