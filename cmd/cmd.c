@@ -1,5 +1,7 @@
 #include "cmd.h"
 
+#include "base/text.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
@@ -49,18 +51,22 @@ clear_progress(cmd *c)
 	c->state->shown = 0;
 }
 
-/* The sentence of a failure, with the frame in front where there is one. */
+/* A sentence, with the frame in front where there is one. */
 static void
-say_failure(cmd *c)
+say_of_frame(cmd *c, const char *sentence)
 {
-	const char *sentence = *c->ctx.error ? c->ctx.error : c->keep.error;
-
 	clear_progress(c);
 	if (c->state->frame_name)
 		say(c, "frame %llu (%s): %s", (unsigned long long)c->state->frame, c->state->frame_name,
 		    sentence);
 	else
 		say(c, "%s", sentence);
+}
+
+static void
+say_failure(cmd *c)
+{
+	say_of_frame(c, *c->ctx.error ? c->ctx.error : c->keep.error);
 }
 
 static _Noreturn void
@@ -98,14 +104,7 @@ fail_system(cmd *c, const char *what)
 static void
 show_note(void *user, const char *text)
 {
-	cmd *c = user;
-
-	clear_progress(c);
-	if (c->state->frame_name)
-		say(c, "frame %llu (%s): %s", (unsigned long long)c->state->frame, c->state->frame_name,
-		    text);
-	else
-		say(c, "%s", text);
+	say_of_frame(user, text);
 }
 
 /* After a second of work, at most ten times a second. */
@@ -325,48 +324,35 @@ cmd_print(cmd *c, const char *format, ...)
 
 /* Figures */
 
-static void
-print_json_text(FILE *out, const char *text)
-{
-	fputc('"', out);
-	for (; *text; text++) {
-		if (*text == '"' || *text == '\\')
-			fputc('\\', out);
-		fputc(*text, out);
-	}
-	fputc('"', out);
-}
-
-static void
-print_json_number(FILE *out, double x)
-{
-	if (isfinite(x))
-		fprintf(out, "%.17g", x);
-	else
-		fputs("null", out);
-}
-
-static void
+/* One line of --stats: a JSON object. */
+static mr_status
 print_stats(cmd *c, double seconds)
 {
-	FILE *out = c->state->stats;
+	const struct cmd_state *s = c->state;
+	const char *name = s->frame_name ? s->frame_name : "";
+	mr_text line = { .ctx = &c->ctx };
 	struct rusage usage;
 
-	if (!out)
-		return;
+	if (!s->stats)
+		return MR_OK;
 	getrusage(RUSAGE_SELF, &usage);
-	fprintf(
-	    out, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)c->state->frame);
-	print_json_text(out, c->state->frame_name ? c->state->frame_name : "");
-	fprintf(out, ",\"seconds\":%.6f,\"peak_bytes\":%lld", seconds, (long long)usage.ru_maxrss * 1024);
+	mr_text_add(
+	    &line, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)s->frame);
+	mr_text_json(&line, name, strlen(name));
+	mr_text_add(
+	    &line, ",\"seconds\":%.6f,\"peak_bytes\":%lld", seconds, (long long)usage.ru_maxrss * 1024);
 	for (size_t i = 0; i < c->ctx.stat_count; i++) {
-		fputc(',', out);
-		print_json_text(out, c->ctx.stats[i].name);
-		fputc(':', out);
-		print_json_number(out, c->ctx.stats[i].value);
+		const mr_stat *stat = &c->ctx.stats[i];
+		mr_text_add(&line, ",");
+		mr_text_json(&line, stat->name, strlen(stat->name));
+		mr_text_add(&line, ":");
+		mr_text_number(&line, stat->value);
 	}
-	fputs("}\n", out);
-	fflush(out);
+	mr_text_add(&line, "}\n");
+	MR_TRY(mr_text_done(&line));
+	fputs(line.s, s->stats);
+	fflush(s->stats);
+	return MR_OK;
 }
 
 /* Frames */
@@ -384,7 +370,7 @@ cmd_send(cmd *c, const mr_frame *f)
 	}
 	MR_TRY(mr_writer_put(&c->ctx, c->state->writer, &with_history));
 	if (c->tool->source) {
-		print_stats(c, mr_seconds() - c->state->started);
+		MR_TRY(print_stats(c, mr_seconds() - c->state->started));
 		c->state->started = mr_seconds();
 		c->state->frame_name = NULL;
 		c->ctx.stat_count = 0;
@@ -450,7 +436,7 @@ one_frame(cmd *c, mr_frame *f)
 	status = work_on(c, f);
 	clear_progress(c);
 	if (status >= 0)
-		print_stats(c, mr_seconds() - s->started);
+		try(c, print_stats(c, mr_seconds() - s->started));
 	else if (c->keep_going && status != MR_EUSAGE)
 		leave_out(c);
 	else
