@@ -222,26 +222,41 @@ turned_body(void *arg, size_t begin, size_t end)
 		w->turned[f] = !mr_dyn_face_dead(w->d, f) && turns(w, f);
 }
 
-/* Vertices of faces that turn go back to where they were; true where there was one. */
-static bool
-hold_back(pass *w)
+/* Puts a vertex back where it was; the faces around it that turn because of that go onto the stack. */
+static size_t
+put_back(pass *w, uint32_t v, uint32_t *stack, size_t n)
 {
 	const mr_dyn *d = w->d;
-	bool any = false;
+	uint32_t h = d->out[v];
 
-	for (size_t f = 0; f < d->nf; f++) {
-		if (!w->turned[f])
-			continue;
-		for (size_t i = 0; i < 3; i++) {
-			uint32_t v = d->v[3 * f + i];
-			if (memcmp(&w->p[v], &d->p[v], sizeof *w->p) == 0)
-				continue;
-			w->p[v] = d->p[v];
-			w->at[v] = d->at[v];
-			any = true;
+	if (memcmp(&w->p[v], &d->p[v], sizeof *w->p) == 0)
+		return n;
+	w->p[v] = d->p[v];
+	w->at[v] = d->at[v];
+	do {
+		if (!w->turned[h / 3] && turns(w, h / 3)) {
+			w->turned[h / 3] = 1;
+			stack[n++] = h / 3;
 		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return n;
+}
+
+/* Vertices of faces that turn go back to where they were, and so on until no face turns.  stack: nf. */
+static void
+hold_back(pass *w, uint32_t *stack)
+{
+	size_t n = 0;
+
+	for (uint32_t f = 0; f < w->d->nf; f++)
+		if (w->turned[f])
+			stack[n++] = f;
+	while (n > 0) {
+		uint32_t f = stack[--n];
+		for (uint32_t i = 0; i < 3; i++)
+			n = put_back(w, w->d->v[3 * f + i], stack, n);
 	}
-	return any;
 }
 
 mr_status
@@ -250,17 +265,18 @@ mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
 	mr_mark mark = mr_mark_take(ctx);
 	pass w = { d, s, o, NULL, MR_NEW(ctx, d->nv, mr_v3), MR_NEW(ctx, d->nv, uint32_t),
 		MR_NEW(ctx, d->nf, uint8_t) };
+	uint32_t *stack;
 
 	if (o->gravity > 0 && !(w.gravity = MR_NEW(ctx, d->nv, double)))
 		return MR_EMEM;
-	if (!w.p || !w.at || !w.turned)
+	stack = MR_NEW(ctx, d->nf, uint32_t);
+	if (!w.p || !w.at || !w.turned || !stack)
 		return MR_EMEM;
 	if (w.gravity)
 		mr_parallel(ctx, d->nv, GRAIN, gravity_body, &w);
 	mr_parallel(ctx, d->nv, GRAIN, move_body, &w);
-	do {
-		mr_parallel(ctx, d->nf, GRAIN, turned_body, &w);
-	} while (hold_back(&w));
+	mr_parallel(ctx, d->nf, GRAIN, turned_body, &w);
+	hold_back(&w, stack);
 	memcpy(d->p, w.p, d->nv * sizeof *d->p);
 	memcpy(d->at, w.at, d->nv * sizeof *d->at);
 	mr_mark_release(ctx, mark);
