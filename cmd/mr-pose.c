@@ -10,46 +10,22 @@ static mr_pose pose = MR_POSE_REST;
 static bool posed; /* by options, not by a script */
 
 static mr_status
-set(mr_ctx *ctx, const char *what, const char *text)
+set_pose(mr_ctx *ctx, const cmd_opt *o, const char *text)
 {
 	posed = true;
-	return mr_pose_set(ctx, &pose, what, text);
-}
-
-static mr_status
-set_translate(mr_ctx *ctx, const char *text)
-{
-	return set(ctx, "translate", text);
-}
-
-static mr_status
-set_rotate(mr_ctx *ctx, const char *text)
-{
-	return set(ctx, "rotate", text);
-}
-
-static mr_status
-set_scale(mr_ctx *ctx, const char *text)
-{
-	return set(ctx, "scale", text);
-}
-
-static mr_status
-set_center(mr_ctx *ctx, const char *text)
-{
-	return set(ctx, "center", text);
+	return mr_pose_set(ctx, &pose, o->name, text);
 }
 
 static const cmd_opt table[] = {
 	{ 'H', "handle", CMD_COUNT, &handle, 0, 65535, "N", "the handle to pose", NULL },
-	{ 't', "translate", CMD_CALL, NULL, 0, 0, "X,Y,Z", "move it (default 0,0,0)", set_translate },
+	{ 't', "translate", CMD_CALL, NULL, 0, 0, "X,Y,Z", "move it (default 0,0,0)", set_pose },
 	{ 'r', "rotate", CMD_CALL, NULL, 0, 0, "AX,AY,AZ,DEG",
-	    "turn it about this axis, by DEG degrees (default 0,0,1,0)", set_rotate },
-	{ 's', "scale", CMD_CALL, NULL, 0, 0, "S|SX,SY,SZ", "scale it (default 1)", set_scale },
+	    "turn it about this axis, by DEG degrees (default 0,0,1,0)", set_pose },
+	{ 's', "scale", CMD_CALL, NULL, 0, 0, "S|SX,SY,SZ", "scale it (default 1)", set_pose },
 	{ 'c', "center", CMD_CALL, NULL, 0, 0, "X,Y,Z",
 	    "turn and scale about this point (default: the centroid of the handle's vertices, as posed so "
 	    "far)",
-	    set_center },
+	    set_pose },
 	{ 'F', "frames", CMD_COUNT, &frames, 0, 1e6, "F",
 	    "go there in F frames behind one at rest (default 0: at once)", NULL },
 	{ 'S', "script", CMD_TEXT, &script_path, 0, 0, "FILE", "take a sequence of poses from FILE", NULL },

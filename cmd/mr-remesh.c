@@ -5,7 +5,6 @@
 
 static mr_remesh_opts opts = MR_REMESH_DEFAULTS;
 static cmd_length length, adaptive;
-static bool no_project;
 
 static const cmd_opt table[] = {
 	{ 'L', "length", CMD_LENGTH, &length, 0, 1e300, "LENGTH", "target edge length; 0: by --ratio", NULL },
@@ -21,7 +20,7 @@ static const cmd_opt table[] = {
 	    "keep edges whose faces meet at more; 180: none", NULL },
 	{ 0, "adaptive", CMD_LENGTH, &adaptive, 0, 1e300, "DISTANCE",
 	    "lengths by curvature: how far an edge may be from the surface; 0: uniform", NULL },
-	{ 0, "no-project", CMD_FLAG, &no_project, 0, 0, "", "let the vertices leave the surface", NULL },
+	{ 0, "no-project", CMD_OFF, &opts.project, 0, 0, "", "let the vertices leave the surface", NULL },
 	{ 0 },
 };
 
@@ -53,7 +52,6 @@ remesh_frame(cmd *c, mr_frame *f)
 	MR_TRY(mr_layer_mesh(&c->ctx, f, layer, &m));
 	opts.length = cmd_length_of(length, mr_mesh_diagonal(&m));
 	opts.adaptive = cmd_length_of(adaptive, mr_mesh_diagonal(&m));
-	opts.project = !no_project;
 	MR_TRY(mr_remesh(&c->ctx, &m, &opts, &out, &over));
 	mapped = !strcmp(layer, "mesh") ||
 	         (mr_layer_has(f, "base", "source_face") && mr_layer_has(f, "mesh", "position"));

@@ -8,24 +8,27 @@ static bool reset;
 static mr_selection selection;
 
 static mr_status
-add_free(mr_ctx *ctx, const char *predicate)
+add_free(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
 {
+	(void)o;
 	return mr_selection_add(ctx, &selection, MR_REGION_FREE, "--free ", predicate);
 }
 
 static mr_status
-add_fixed(mr_ctx *ctx, const char *predicate)
+add_fixed(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
 {
+	(void)o;
 	return mr_selection_add(ctx, &selection, MR_REGION_FIXED, "--fixed ", predicate);
 }
 
 static mr_status
-add_handle(mr_ctx *ctx, const char *text)
+add_handle(mr_ctx *ctx, const cmd_opt *o, const char *text)
 {
 	const char *at = text;
 	uint64_t handle;
 	char *option;
 
+	(void)o;
 	if (!mr_whole(&at, 65535, &handle) || *at++ != '=')
 		return mr_fail(
 		    ctx, MR_EUSAGE, "'%s' is not a handle from 0 to 65535, = and a predicate", text);

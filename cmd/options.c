@@ -84,6 +84,34 @@ parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 }
 
 static mr_status
+parse_size(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
+{
+	const char *x = strchr(text, 'x');
+	char width[16];
+	cmd_size s;
+
+	if (!x || x - text >= (int)sizeof width)
+		return mr_fail(ctx, MR_EUSAGE, "%s: %s is not of the form WxH", what, text);
+	snprintf(width, sizeof width, "%.*s", (int)(x - text), text);
+	MR_TRY(cmd_parse_count(ctx, what, width, (size_t)o->min, (size_t)o->max, &s.width));
+	MR_TRY(cmd_parse_count(ctx, what, x + 1, (size_t)o->min, (size_t)o->max, &s.height));
+	*(cmd_size *)o->value = s;
+	return MR_OK;
+}
+
+static mr_status
+parse_range(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
+{
+	double v[2];
+
+	MR_TRY(cmd_parse_reals(ctx, what, text, 2, v));
+	if (!(v[0] < v[1]))
+		return mr_fail(ctx, MR_EUSAGE, "%s: %g is not below %g", what, v[0], v[1]);
+	*(cmd_range *)o->value = (cmd_range){ true, v[0], v[1] };
+	return MR_OK;
+}
+
+static mr_status
 parse_choice(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 {
 	size_t n = strlen(text);
@@ -109,7 +137,8 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 	snprintf(what, sizeof what, "--%s", o->name);
 	switch (o->kind) {
 	case CMD_FLAG:
-		*(bool *)o->value = true;
+	case CMD_OFF:
+		*(bool *)o->value = o->kind == CMD_FLAG;
 		return MR_OK;
 	case CMD_REAL:
 		return cmd_parse_real(ctx, what, text, o->min, o->max, o->value);
@@ -128,8 +157,12 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 		*(mr_v3 *)o->value = mr_vec(v[0], v[1], v[2]);
 		return MR_OK;
 	}
+	case CMD_SIZE:
+		return parse_size(ctx, o, what, text);
+	case CMD_RANGE:
+		return parse_range(ctx, o, what, text);
 	case CMD_CALL:
-		return mr_prefix(ctx, o->call(ctx, text), "%s=%s", what, text);
+		return mr_prefix(ctx, o->call(ctx, o, text), "%s=%s", what, text);
 	}
 	return MR_OK;
 }
@@ -169,13 +202,19 @@ note_typed(parser *p, int table, int first)
 		p->args->typed[p->args->typed_count++] = p->argv[i];
 }
 
+static bool
+takes_argument(const cmd_opt *o)
+{
+	return o->kind != CMD_FLAG && o->kind != CMD_OFF;
+}
+
 /* Gives the option its argument: the `attached` text where there is one, else the next word. */
 static mr_status
 take_value(parser *p, const cmd_opt *o, const char *attached)
 {
-	if (o->kind == CMD_FLAG && attached)
+	if (!takes_argument(o) && attached)
 		return mr_fail(p->ctx, MR_EUSAGE, "--%s takes no argument", o->name);
-	if (o->kind != CMD_FLAG && !attached) {
+	if (takes_argument(o) && !attached) {
 		if (++p->at >= p->argc)
 			return mr_fail(p->ctx, MR_EUSAGE, "--%s needs an argument: %s", o->name, o->metavar);
 		attached = p->argv[p->at];
@@ -211,7 +250,7 @@ parse_short(parser *p)
 			return mr_fail(p->ctx, MR_EUSAGE, "no option is called -%c", *letters);
 		letters++;
 		own = table == 0 ? 0 : own;
-		if (o->kind != CMD_FLAG) {
+		if (takes_argument(o)) {
 			MR_TRY(take_value(p, o, *letters ? letters : NULL));
 			break;
 		}
@@ -279,7 +318,13 @@ print_default(FILE *out, const cmd_opt *o)
 		fprintf(out, " (default %.6g,%.6g,%.6g)", v.x, v.y, v.z);
 		break;
 	}
+	case CMD_SIZE:
+		fprintf(
+		    out, " (default %zux%zu)", ((cmd_size *)o->value)->width, ((cmd_size *)o->value)->height);
+		break;
 	case CMD_FLAG:
+	case CMD_OFF:
+	case CMD_RANGE:
 	case CMD_CALL:
 		break;
 	}
@@ -292,8 +337,8 @@ cmd_print_options(FILE *out, const cmd_opt *table)
 	for (const cmd_opt *o = table; o && o->name; o++) {
 		char usage[128];
 		snprintf(usage, sizeof usage, "%c%c%s --%s%s%s", o->letter ? '-' : ' ',
-		    o->letter ? o->letter : ' ', o->letter ? "," : " ", o->name,
-		    o->kind == CMD_FLAG ? "" : " ", o->kind == CMD_FLAG ? "" : o->metavar);
+		    o->letter ? o->letter : ' ', o->letter ? "," : " ", o->name, takes_argument(o) ? " " : "",
+		    takes_argument(o) ? o->metavar : "");
 		fprintf(out, strlen(usage) < 30 ? "  %-30s%s" : "  %s\n                                %s",
 		    usage, o->help);
 		if (!strstr(o->help, "(default"))

@@ -9,13 +9,16 @@
 #include "base/vec.h"
 
 typedef enum cmd_kind {
-	CMD_FLAG,   /* bool */
+	CMD_FLAG,   /* bool: set */
+	CMD_OFF,    /* bool: cleared */
 	CMD_REAL,   /* double in [min, max] */
 	CMD_COUNT,  /* size_t in [min, max] */
 	CMD_CHOICE, /* int: the index of the argument in `metavar`, "implicit|explicit|taubin" */
 	CMD_TEXT,   /* const char * */
 	CMD_LENGTH, /* cmd_length: a number, or a number and % of the diagonal */
 	CMD_VECTOR, /* mr_v3: three numbers x,y,z */
+	CMD_SIZE,   /* cmd_size: WxH, both in [min, max] */
+	CMD_RANGE,  /* cmd_range: LOW,HIGH */
 	CMD_CALL    /* given to `call`, in the order of the command line; may come several times */
 } cmd_kind;
 
@@ -28,6 +31,17 @@ typedef struct cmd_length {
 /* The length in units of the model. */
 double cmd_length_of(cmd_length l, double diagonal);
 
+/* Pixels. */
+typedef struct cmd_size {
+	size_t width, height;
+} cmd_size;
+
+/* Numbers from low to high, which is greater. */
+typedef struct cmd_range {
+	bool given;
+	double low, high;
+} cmd_range;
+
 /* --help shows the value that `value` points to before parsing as the default. */
 typedef struct cmd_opt {
 	char letter;          /* 0: only the long name */
@@ -36,7 +50,8 @@ typedef struct cmd_opt {
 	void *value;
 	double min, max;
 	const char *metavar, *help;
-	mr_status (*call)(mr_ctx *ctx, const char *argument); /* CMD_CALL: MR_EUSAGE with a sentence refuses */
+	/* CMD_CALL: MR_EUSAGE with a sentence refuses. */
+	mr_status (*call)(mr_ctx *ctx, const struct cmd_opt *option, const char *argument);
 } cmd_opt;
 
 /* What stood on a command line: pointers into argv. */

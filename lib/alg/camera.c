@@ -1,5 +1,24 @@
 #include "alg/camera.h"
 
+bool
+mr_camera_view(const char *name, mr_v3 up, mr_v3 *from)
+{
+	static const struct {
+		const char *name;
+		mr_v3 from; /* of a model that stands on y and looks along z */
+	} views[] = { { "front", { 0, 0, 1 } }, { "back", { 0, 0, -1 } }, { "left", { -1, 0, 0 } },
+		{ "right", { 1, 0, 0 } }, { "top", { 0, 1, 0 } }, { "bottom", { 0, -1, 0 } },
+		{ "iso", { 1, 1, 1 } }, { "quarter", { 0.5, 0.35, 1 } } };
+
+	for (size_t i = 0; i < sizeof views / sizeof *views; i++)
+		if (!strcmp(name, views[i].name)) {
+			mr_v3 f = views[i].from;
+			*from = up.y > 0 ? f : up.z > 0 ? mr_vec(f.x, -f.z, f.y) : mr_vec(f.y, f.z, f.x);
+			return true;
+		}
+	return false;
+}
+
 mr_status
 mr_camera_look(mr_ctx *ctx, mr_v3 from, mr_v3 up, mr_camera *c)
 {

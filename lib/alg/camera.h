@@ -18,6 +18,12 @@ typedef struct mr_camera {
 	double x, y;             /* pixel of the centre, from the panel's upper left corner, y downwards */
 } mr_camera;
 
+/*
+ * Where the eye stands in a view called front, back, left, right, top, bottom, iso or quarter, of a model
+ * that stands upright on the axis `up` (1 along x, y or z).  False: no view is called that.
+ */
+bool mr_camera_view(const char *name, mr_v3 up, mr_v3 *from);
+
 /* A point as the camera sees it: pixels, the factor by which perspective enlarges it, and the height towards
  * the eye. */
 typedef struct mr_seen {

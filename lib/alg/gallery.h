@@ -24,6 +24,8 @@ typedef struct mr_gallery_opts {
 	bool ranged;          /* numbers low to high span the colours; else least to greatest of the shot */
 	double low, high;
 	const char *title; /* over a whole picture; NULL: none */
+	bool same;         /* a sheet is one shot; else each key frame begins one */
+	size_t columns;    /* of a sheet; 0: so that it is about 3 by 2 */
 	mr_raster_opts raster;
 } mr_gallery_opts;
 
@@ -89,8 +91,7 @@ mr_status mr_shot_aim(
 mr_status mr_shot_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i,
     const mr_gallery_opts *opts, mr_image *image);
 
-/* Draws all frames into one picture, `columns` in a row (0: so that it is about 3 by 2). */
-mr_status mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shots, size_t count, size_t columns,
-    const mr_gallery_opts *opts, mr_image *image);
+/* Draws all frames, at least one, into one picture.  image: in the arena. */
+mr_status mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_gallery_opts *opts, mr_image *image);
 
 #endif

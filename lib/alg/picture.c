@@ -318,28 +318,53 @@ choose_columns(size_t cells, double w, double h)
 	return best;
 }
 
-mr_status
-mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shots, size_t count, size_t columns,
-    const mr_gallery_opts *o, mr_image *image)
+/* How a sheet is divided into cells of one frame each. */
+typedef struct cells {
+	size_t columns, rows, width, height, top; /* width, height and what is above them: pixels */
+} cells;
+
+static cells
+divide_sheet(const mr_gallery *g, const mr_gallery_opts *o)
 {
-	size_t widest = 1, rows, done = 0;
-	mr_image r;
+	cells s = { .width = o->width, .height = o->height, .top = title_height(o), .columns = o->columns };
 
 	for (size_t i = 0; i < g->frames; i++)
-		widest = g->frame[i].count > widest ? g->frame[i].count : widest;
-	if (columns == 0)
-		columns = choose_columns(g->frames, (double)(widest * o->width), (double)o->height);
-	columns = columns < g->frames ? columns : g->frames;
-	rows = (g->frames + columns - 1) / columns;
-	MR_TRY(mr_image_new(ctx, columns * widest * o->width, rows * o->height + title_height(o), PAPER, &r));
+		if (g->frame[i].count * o->width > s.width)
+			s.width = g->frame[i].count * o->width;
+	if (s.columns == 0)
+		s.columns = choose_columns(g->frames, (double)s.width, (double)s.height);
+	if (s.columns > g->frames)
+		s.columns = g->frames;
+	s.rows = (g->frames + s.columns - 1) / s.columns;
+	return s;
+}
+
+/* Aims at the frames from `first` to the next shot. */
+static mr_status
+next_shot(mr_ctx *ctx, const mr_gallery *g, size_t first, const mr_gallery_opts *o, mr_shot *shot)
+{
+	size_t end = first + 1;
+
+	while (end < g->frames && (o->same || !g->frame[end].key))
+		end++;
+	return mr_shot_aim(ctx, g, first, end - first, o, shot);
+}
+
+mr_status
+mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_gallery_opts *o, mr_image *image)
+{
+	cells s = divide_sheet(g, o);
+	mr_shot shot = { 0 };
+	mr_image r;
+
+	MR_TRY(mr_image_new(ctx, s.columns * s.width, s.rows * s.height + s.top, PAPER, &r));
 	draw_title(&r, o);
-	for (size_t s = 0; s < count; s++) {
-		for (size_t i = shots[s].first; i < shots[s].first + shots[s].count; i++, done++) {
-			size_t x = i % columns * widest * o->width,
-			       y = i / columns * o->height + title_height(o);
-			mr_progress(ctx, "drawing", (double)done / (double)g->frames);
-			MR_TRY(draw_frame(ctx, g, &shots[s], &g->frame[i], x, y, o, &r));
-		}
+	for (size_t i = 0; i < g->frames; i++) {
+		size_t x = i % s.columns * s.width, y = i / s.columns * s.height + s.top;
+		if (i == shot.first + shot.count)
+			MR_TRY(next_shot(ctx, g, i, o, &shot));
+		mr_progress(ctx, "drawing", (double)i / (double)g->frames);
+		MR_TRY(draw_frame(ctx, g, &shot, &g->frame[i], x, y, o, &r));
 	}
 	*image = r;
 	return MR_OK;
