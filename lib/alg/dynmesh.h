@@ -107,6 +107,14 @@ mr_dyn_is_needle(mr_v3 cross, mr_v3 a, mr_v3 b, mr_v3 c)
 	return mr_norm2(cross) < least * least || least == 0;
 }
 
+/* True where the faces with these normals, of any length, meet at more than 150 degrees: a fold. */
+static inline bool
+mr_dyn_folds(mr_v3 m, mr_v3 n)
+{
+	double mn = mr_dot(m, n);
+	return mn < 0 && mn * mn > 0.75 * mr_norm2(m) * mr_norm2(n);
+}
+
 /*
  * Copies m, whose half-edges are topo, into the arena.  Edges whose faces meet at more than
  * `feature` degrees are curves, and so is the boundary.  A curve vertex is a corner

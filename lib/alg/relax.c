@@ -193,9 +193,34 @@ apart(mr_v3 a, mr_v3 b)
 	return ab < 0 || ab * ab < 0.25 * mr_norm2(a) * mr_norm2(b);
 }
 
+/* True where the two vectors are less than 45 degrees apart. */
+static bool
+faces(mr_v3 a, mr_v3 b)
+{
+	double ab = mr_dot(a, b);
+
+	return ab > 0 && ab * ab > 0.5 * mr_norm2(a) * mr_norm2(b);
+}
+
+/* True where the move folds face f against a neighbour that it was not folded against. */
+static bool
+folds_anew(const pass *w, size_t f, mr_v3 before, mr_v3 after)
+{
+	const mr_dyn *d = w->d;
+
+	for (size_t h = 3 * f; h < 3 * f + 3; h++) {
+		uint32_t g = d->twin[h];
+		if (g != MR_NONE && mr_dyn_folds(after, mr_dyn_cross(d, w->p, g / 3)) &&
+		    !mr_dyn_folds(before, mr_dyn_cross(d, d->p, g / 3)))
+			return true;
+	}
+	return false;
+}
+
 /*
- * True where the move turns face f by more than 60 degrees, or leaves it a worse needle than before.
- * What way a needle faces is told by the source.
+ * True where the move turns face f by more than 60 degrees, folds it, or leaves it a worse needle than
+ * before.  Folds are looked for where the face leaves the source's direction, which also tells what
+ * way a needle faces.
  */
 static bool
 turns(const pass *w, size_t f)
@@ -207,9 +232,11 @@ turns(const pass *w, size_t f)
 	if (mr_dyn_is_needle(after, q[v[0]], q[v[1]], q[v[2]]) &&
 	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
 		return true;
+	normal = source_normal(w, f);
+	if (!faces(after, normal) && folds_anew(w, f, before, after))
+		return true;
 	if (!mr_dyn_is_needle(before, p[v[0]], p[v[1]], p[v[2]]))
 		return apart(before, after);
-	normal = source_normal(w, f);
 	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
 }
 

@@ -148,10 +148,10 @@ split_long(remesher *r)
 
 /*
  * True where moving v to p turns no face around v that stays (those with vertex `gone` do not) by
- * more than 60 degrees, makes no needle worse and no edge longer than `longest`.
+ * more than 60 degrees or away from `facing`, makes no needle worse and no edge longer than `longest`.
  */
 static bool
-move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest2)
+move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, double longest2)
 {
 	uint32_t h = d->out[v];
 
@@ -165,6 +165,8 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest
 			if (mr_norm2(mr_sub(pb, p)) > longest2 || mr_norm2(mr_sub(pc, p)) > longest2)
 				return false;
 			if (moved < MR_NEEDLE && moved < 0.2 * shape)
+				return false;
+			if (mr_dot(after, facing) <= 0 && mr_dot(before, facing) > 0)
 				return false;
 			if (shape >= HAIR &&
 			    mr_dot(before, after) < 0.5 * sqrt(mr_norm2(before) * mr_norm2(after)))
@@ -184,12 +186,26 @@ merged_position(const mr_dyn *d, uint32_t a, uint32_t b)
 	return d->p[b];
 }
 
+/* The sum of the faces' normals around v, by area. */
+static mr_v3
+normal_around(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+	mr_v3 sum = { 0, 0, 0 };
+
+	do {
+		sum = mr_add(sum, mr_dyn_cross(d, d->p, h / 3));
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return sum;
+}
+
 static bool
 try_collapse(remesher *r, uint32_t h, double longest2)
 {
 	mr_dyn *d = &r->d;
 	uint32_t a, b;
-	mr_v3 p;
+	mr_v3 p, facing;
 
 	if (d->twin[h] != MR_NONE && d->kind[d->v[h]] > d->kind[mr_dyn_to(d, h)])
 		h = d->twin[h]; /* the one that is more bound stays */
@@ -198,7 +214,8 @@ try_collapse(remesher *r, uint32_t h, double longest2)
 	if (!mr_dyn_can_collapse(d, h, r->mark, ++r->stamp))
 		return false;
 	p = merged_position(d, a, b);
-	if (!move_is_good(d, a, b, p, longest2) || !move_is_good(d, b, a, p, longest2))
+	facing = mr_add(normal_around(d, a), normal_around(d, b));
+	if (!move_is_good(d, a, b, p, facing, longest2) || !move_is_good(d, b, a, p, facing, longest2))
 		return false;
 	mr_dyn_collapse(d, h, p);
 	r->collapses++;
@@ -316,6 +333,7 @@ one_round(remesher *r)
 		o.project = r->o->project && i == RELAX;
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	}
+	mr_iron(&r->d);
 	return MR_OK;
 }
 

@@ -19,6 +19,16 @@ excess_body(void *arg, size_t begin, size_t end)
 			w->excess[v] = (int)mr_dyn_valence(w->d, v) - (mr_dyn_on_boundary(w->d, v) ? 4 : 6);
 }
 
+/* True where a face with that normal would be folded against the one beyond side h or g. */
+static bool
+folds_beside(const mr_dyn *d, mr_v3 normal, uint32_t h, uint32_t g)
+{
+	uint32_t th = d->twin[h], tg = d->twin[g];
+
+	return (th != MR_NONE && mr_dyn_folds(normal, mr_dyn_cross(d, d->p, th / 3))) ||
+	       (tg != MR_NONE && mr_dyn_folds(normal, mr_dyn_cross(d, d->p, tg / 3)));
+}
+
 bool
 mr_flip_is_good(const mr_dyn *d, uint32_t h)
 {
@@ -30,7 +40,9 @@ mr_flip_is_good(const mr_dyn *d, uint32_t h)
 
 	return mr_dot(m0, n) > 0.5 * sqrt(nn * mr_norm2(m0)) &&
 	       mr_dot(m1, n) > 0.5 * sqrt(nn * mr_norm2(m1)) && mr_dyn_shape(a, e, c) > MR_NEEDLE &&
-	       mr_dyn_shape(b, c, e) > MR_NEEDLE;
+	       mr_dyn_shape(b, c, e) > MR_NEEDLE &&
+	       !folds_beside(d, m0, mr_he_next(d->twin[h]), mr_he_prev(h)) &&
+	       !folds_beside(d, m1, mr_he_next(h), mr_he_prev(d->twin[h]));
 }
 
 /* By how much flipping h would lower the sum of squared excesses: a^2 - (a - 1)^2 + ... */
