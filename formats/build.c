@@ -1,4 +1,6 @@
 #include "formats/build.h"
+
+#include "base/utf8.h"
 #include "mesh/polygon.h"
 
 static const size_t MOST_TRIANGLES = (MR_NONE - 1) / 3;
@@ -181,49 +183,21 @@ name_number(mr_ctx *ctx, mr_names *n, const char *s, size_t bytes, uint32_t *num
 	return MR_OK;
 }
 
-/* Bytes of the UTF-8 character that begins at s, or 0 where none does. */
-static size_t
-utf8(const char *s, size_t left)
-{
-	const unsigned char *c = (const unsigned char *)s;
-	size_t n = c[0] < 0x80   ? 1
-	           : c[0] < 0xc2 ? 0
-	           : c[0] < 0xe0 ? 2
-	           : c[0] < 0xf0 ? 3
-	           : c[0] < 0xf5 ? 4
-	                         : 0;
-
-	if (n > left)
-		return 0;
-	for (size_t i = 1; i < n; i++)
-		if ((c[i] & 0xc0) != 0x80)
-			return 0;
-	if (n > 2) {
-		unsigned second = c[1];
-		if ((c[0] == 0xe0 && second < 0xa0) || (c[0] == 0xed && second > 0x9f) ||
-		    (c[0] == 0xf0 && second < 0x90) || (c[0] == 0xf4 && second > 0x8f))
-			return 0;
-	}
-	return n;
-}
-
 size_t
 mr_clean_name(char *to, const char *from, size_t bytes, bool no_slash)
 {
-	size_t n = 0;
+	const unsigned char *s = (const unsigned char *)from;
+	size_t n = 0, step;
+	uint32_t code;
 
-	for (size_t i = 0; i < bytes;) {
-		size_t c = utf8(from + i, bytes - i);
-		unsigned char first = (unsigned char)from[i];
-		bool bad = c == 0 || first < ' ' || first == 127 || (no_slash && first == '/') ||
-		           (c == 2 && first == 0xc2 && (unsigned char)from[i + 1] < 0xa0); /* C1 controls */
-		if (bad)
+	for (size_t i = 0; i < bytes; i += step ? step : 1) {
+		step = mr_utf8(s + i, bytes - i, &code);
+		if (step == 0 || mr_is_control(code) || (no_slash && code == '/')) {
 			to[n++] = '_';
-		else {
-			memcpy(to + n, from + i, c);
-			n += c;
+		} else {
+			memcpy(to + n, from + i, step);
+			n += step;
 		}
-		i += c ? c : 1;
 	}
 	to[n] = 0;
 	return n;

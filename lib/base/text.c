@@ -1,5 +1,7 @@
 #include "base/text.h"
 
+#include "base/utf8.h"
+
 #include <math.h>
 
 static bool
@@ -45,40 +47,15 @@ mr_text_add(mr_text *t, const char *format, ...)
 	va_end(args);
 }
 
-/* Bytes of the UTF-8 character that begins here; 0: none does. */
-static size_t
-character(const unsigned char *s, size_t n)
-{
-	static const uint32_t least[] = { 0, 0, 0x80, 0x800, 0x10000 };
-	size_t length = s[0] < 0x80   ? 1
-	                : s[0] < 0xc2 ? 0
-	                : s[0] < 0xe0 ? 2
-	                : s[0] < 0xf0 ? 3
-	                : s[0] < 0xf5 ? 4
-	                              : 0;
-	uint32_t code;
-
-	if (length < 2)
-		return length;
-	if (length > n)
-		return 0;
-	code = s[0] & (0x7fu >> length);
-	for (size_t i = 1; i < length; i++) {
-		if ((s[i] & 0xc0) != 0x80)
-			return 0;
-		code = code << 6 | (s[i] & 0x3fu);
-	}
-	return code < least[length] || code > 0x10ffff || (code >= 0xd800 && code < 0xe000) ? 0 : length;
-}
-
 void
 mr_text_json(mr_text *t, const char *s, size_t n)
 {
 	const unsigned char *p = (const unsigned char *)s;
+	uint32_t code;
 
 	add_bytes(t, "\"", 1);
 	for (size_t i = 0, length; i < n; i += length) {
-		length = character(p + i, n - i);
+		length = mr_utf8(p + i, n - i, &code);
 		if (length == 0) {
 			add_bytes(t, "\\ufffd", 6);
 			length = 1;

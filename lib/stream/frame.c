@@ -1,5 +1,6 @@
 #include "stream/frame.h"
 
+#include "base/utf8.h"
 #include "stream/stored.h"
 
 enum { ROOM = 16 };
@@ -199,7 +200,7 @@ clean_line(char *to, const char *line)
 
 	for (size_t i = 0; i < n; i += step ? step : 1) {
 		step = mr_utf8(s + i, n - i, &code);
-		if (step == 0 || code < ' ' || (code >= 0x7f && code < 0xa0)) {
+		if (step == 0 || mr_is_control(code)) {
 			to[used++] = '?';
 		} else {
 			memcpy(to + used, s + i, step);

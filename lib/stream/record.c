@@ -1,5 +1,7 @@
 #include "stream/record.h"
 
+#include "base/utf8.h"
+
 #include <zlib.h>
 
 /* Where the fields of a header stand. */
@@ -83,33 +85,6 @@ mr_name_valid(const char *name, size_t most)
 	return n > 0 && n <= most && printable(name) && (most == MR_LAYER_MAX || kind_of(name) == MR_COLUMN);
 }
 
-size_t
-mr_utf8(const unsigned char *s, size_t n, uint32_t *code)
-{
-	static const uint32_t least[] = { 0, 0, 0x80, 0x800, 0x10000 };
-	size_t length = n == 0        ? 0
-	                : s[0] < 0x80 ? 1
-	                : s[0] < 0xc0 ? 0
-	                : s[0] < 0xe0 ? 2
-	                : s[0] < 0xf0 ? 3
-	                : s[0] < 0xf8 ? 4
-	                              : 0;
-	uint32_t c;
-
-	if (length == 0 || length > n)
-		return 0;
-	c = length == 1 ? s[0] : s[0] & (0x7fu >> length);
-	for (size_t i = 1; i < length; i++) {
-		if ((s[i] & 0xc0) != 0x80)
-			return 0;
-		c = c << 6 | (s[i] & 0x3f);
-	}
-	if (c < least[length] || c > 0x10ffff || (c >= 0xd800 && c < 0xe000))
-		return 0;
-	*code = c;
-	return length;
-}
-
 bool
 mr_frame_name_valid(const char *name, size_t length)
 {
@@ -122,7 +97,7 @@ mr_frame_name_valid(const char *name, size_t length)
 		return false;
 	for (size_t i = 0; i < length; i += step) {
 		step = mr_utf8(s + i, length - i, &c);
-		if (step == 0 || c < ' ' || c == '/' || (c >= 0x7f && c < 0xa0))
+		if (step == 0 || mr_is_control(c) || c == '/')
 			return false;
 	}
 	return true;

@@ -62,8 +62,4 @@ bool mr_name_valid(const char *name, size_t most);
 /* True for 1 to MR_NAME_MAX bytes of UTF-8 without control characters and '/', neither "." nor "..". */
 bool mr_frame_name_valid(const char *name, size_t length);
 
-/* Bytes of the UTF-8 character at `s`, of `n` bytes that are there; 0 where it is none.  `code`: the
- * character. */
-size_t mr_utf8(const unsigned char *s, size_t n, uint32_t *code);
-
 #endif
