@@ -1,42 +1,11 @@
 #include "mesh/measure.h"
 
 #include "base/parallel.h"
+#include "base/sets.h"
 #include "mesh/intersect.h"
 #include "mesh/near.h"
 
 static const double FOLD_COSINE = -0.98480775301220806; /* of 170 degrees */
-
-/* ---- sets joined pairwise ---- */
-
-static uint32_t
-find(uint32_t *parent, uint32_t x)
-{
-	while (parent[x] != x)
-		x = parent[x] = parent[parent[x]];
-	return x;
-}
-
-/* The lower root stays: the forest does not depend on the order of joins within a set. */
-static void
-join(uint32_t *parent, uint32_t a, uint32_t b)
-{
-	a = find(parent, a);
-	b = find(parent, b);
-	if (a < b)
-		parent[b] = a;
-	else
-		parent[a] = b;
-}
-
-static uint32_t *
-singletons(mr_ctx *ctx, size_t n)
-{
-	uint32_t *parent = MR_NEW(ctx, n, uint32_t);
-
-	for (size_t i = 0; parent && i < n; i++)
-		parent[i] = (uint32_t)i;
-	return parent;
-}
 
 /* ---- counts ---- */
 
@@ -51,7 +20,7 @@ static mr_status
 count_components(mr_ctx *ctx, const mr_mesh *m, mr_census *c, size_t *used)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *parent = singletons(ctx, m->nv);
+	uint32_t *parent = mr_sets_new(ctx, m->nv);
 	unsigned char *state = MR_NEW_ZERO(ctx, m->nv, unsigned char); /* 1: in a face; 2: in a proper one */
 
 	if (!parent || !state)
@@ -62,14 +31,14 @@ count_components(mr_ctx *ctx, const mr_mesh *m, mr_census *c, size_t *used)
 		for (int i = 0; i < 3; i++)
 			state[v[i]] = proper || state[v[i]] == 2 ? 2 : 1;
 		if (proper) {
-			join(parent, v[0], v[1]);
-			join(parent, v[1], v[2]);
+			mr_sets_join(parent, v[0], v[1]);
+			mr_sets_join(parent, v[1], v[2]);
 		}
 	}
 	for (uint32_t v = 0; v < m->nv; v++) {
 		*used += state[v] == 2;
 		c->isolated_vertices += state[v] == 0;
-		c->components += state[v] == 2 && find(parent, v) == v;
+		c->components += state[v] == 2 && mr_sets_root(parent, v) == v;
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -81,8 +50,8 @@ join_corners(const mr_mesh *m, const mr_edges *edges, uint32_t *fan)
 	for (size_t e = 0; e < edges->count; e++) {
 		uint32_t h = edges->he[edges->start[e]], a = mr_he_from(m, h), b = mr_he_to(m, h);
 		for (uint32_t i = edges->start[e] + 1; i < edges->start[e + 1]; i++) {
-			join(fan, h, corner_at(m, edges->he[i], a));
-			join(fan, mr_he_next(h), corner_at(m, edges->he[i], b));
+			mr_sets_join(fan, h, corner_at(m, edges->he[i], a));
+			mr_sets_join(fan, mr_he_next(h), corner_at(m, edges->he[i], b));
 		}
 	}
 }
@@ -107,7 +76,8 @@ static mr_status
 count_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *fan, mr_census *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *first = MR_NEW(ctx, 3 * m->nf, uint32_t), *loop = singletons(ctx, c->boundary_edges), n = 0;
+	uint32_t *first = MR_NEW(ctx, 3 * m->nf, uint32_t), *loop = mr_sets_new(ctx, c->boundary_edges),
+		 n = 0;
 
 	if (!first || !loop)
 		return MR_EMEM;
@@ -117,15 +87,15 @@ count_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *fan,
 		if (mr_edge_faces(edges, e) != 1)
 			continue;
 		for (int i = 0; i < 2; i++) {
-			uint32_t root = find(fan, corner[i]);
+			uint32_t root = mr_sets_root(fan, corner[i]);
 			if (first[root] == MR_NONE)
 				first[root] = n;
-			join(loop, first[root], n);
+			mr_sets_join(loop, first[root], n);
 		}
 		n++;
 	}
 	for (uint32_t i = 0; i < n; i++)
-		c->boundary_loops += find(loop, i) == i;
+		c->boundary_loops += mr_sets_root(loop, i) == i;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -134,7 +104,7 @@ static mr_status
 count_fans_and_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *fan = singletons(ctx, 3 * m->nf);
+	uint32_t *fan = mr_sets_new(ctx, 3 * m->nf);
 
 	if (!fan)
 		return MR_EMEM;

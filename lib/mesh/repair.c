@@ -6,6 +6,8 @@
  */
 #include "mesh/repair.h"
 
+#include "base/sets.h"
+
 typedef struct surface {
 	mr_ctx *ctx;
 	const mr_mesh *m;
@@ -353,39 +355,19 @@ orient(surface *s)
 
 /* ---- vertices ---- */
 
-static uint32_t
-root_of(uint32_t *root, uint32_t c)
-{
-	while (root[c] != c)
-		c = root[c] = root[root[c]];
-	return c;
-}
-
-static void
-unite(uint32_t *root, uint32_t a, uint32_t b)
-{
-	a = root_of(root, a);
-	b = root_of(root, b);
-	if (a < b)
-		root[b] = a;
-	else
-		root[a] = b;
-}
-
 /* Corners that pairs connect get the same root, the least of them. */
 static void
 connect(surface *s)
 {
-	for (uint32_t h = 0; h < 3 * s->nf; h++)
-		s->root[h] = h;
+	mr_sets_begin(s->root, 3 * s->nf);
 	for (uint32_t h = 0; h < 3 * s->nf; h++)
 		if (s->pair[h] != MR_NONE) {
 			uint32_t g = s->pair[h];
-			unite(s->root, h, mr_he_next(g));
-			unite(s->root, mr_he_next(h), g);
+			mr_sets_join(s->root, h, mr_he_next(g));
+			mr_sets_join(s->root, mr_he_next(h), g);
 		}
 	for (uint32_t h = 0; h < 3 * s->nf; h++)
-		s->root[h] = root_of(s->root, h);
+		s->root[h] = mr_sets_root(s->root, h);
 }
 
 static bool
