@@ -5,8 +5,8 @@
 #include "alg/canvas.h"
 
 /*
- * Writes the image to a temporary file beside `path` and renames it, so that a
- * half picture is never seen; "-" is stdout.  The same image gives the same bytes.  MR_EIO.
+ * Writes the image beside `path` and renames it, so that a half picture is never seen; a device, a pipe or
+ * "-", stdout, directly.  The same image gives the same bytes.  MR_EIO.
  */
 mr_status mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image);
 

@@ -29,6 +29,13 @@ done
 mr-select --free all --handle 0=above:z,0.8 torus.mrs | mr-pose --frames 3 --translate 1,0,0 >poses.mrs
 mr-render -s 80x60 'pose-%d.png' <poses.mrs && ls pose-*.png
 
+# A pipe is written where it is, and a link stays one.
+mkfifo pipe
+mr-render -s 120x80 -i torus.mrs pipe & cat pipe >read.png
+wait; [ -p pipe ] && cmp one.png read.png && echo 'same through a pipe'
+ln -s real.png link.png; : >real.png
+mr-render -s 120x80 -i torus.mrs link.png && [ -L link.png ] && cmp one.png real.png && echo 'same behind a link'
+
 # A failure leaves no picture behind.
 mr-render -s 100x90 none.png <two.mrs 2>err; echo "exit $?: $(head -n 1 err)"
 mr-render --color nothing none.png <torus.mrs 2>err; echo "exit $?: $(head -n 1 err)"
