@@ -20,9 +20,10 @@ struct cmd_state {
 
 	char *history; /* the line this command adds */
 	mr_writer *writer;
-	int out;            /* descriptor of the stream */
-	char *unfinished;   /* the file beside the output, renamed to it at the end; NULL: written directly */
-	FILE *text, *stats; /* a sink's output; --stats */
+	int out;          /* descriptor of the stream */
+	char *unfinished; /* the file beside the output, renamed to it at the end; NULL: written directly */
+	const char *held, *place; /* a file, and what it is to be called at the end; NULL: none */
+	FILE *text, *stats;       /* a sink's output; --stats */
 
 	uint64_t frame; /* number of the frame at work, from 1 */
 	const char *frame_name;
@@ -74,6 +75,8 @@ leave(cmd *c, int code)
 {
 	if (c->state->unfinished)
 		unlink(c->state->unfinished);
+	if (c->state->held)
+		unlink(c->state->held);
 	exit(code);
 }
 
@@ -310,6 +313,24 @@ close_outputs(cmd *c)
 	if (s->unfinished && rename(s->unfinished, c->output))
 		die(c, fail_system(c, c->output));
 	s->unfinished = NULL;
+	if (s->held && rename(s->held, s->place))
+		die(c, fail_system(c, s->place));
+	s->held = NULL;
+}
+
+mr_status
+cmd_hold(cmd *c, const char *file, const char *place)
+{
+	struct cmd_state *s = c->state;
+
+	if (!file)
+		return MR_OK;
+	s->place = mr_format(&s->long_lived, "%s", place);
+	s->held = mr_format(&s->long_lived, "%s", file);
+	if (s->held && s->place)
+		return MR_OK;
+	unlink(file);
+	return MR_EMEM;
 }
 
 void

@@ -67,6 +67,12 @@ mr_status cmd_send(cmd *c, const mr_frame *f);
 mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand));
 
 /*
+ * A file that is whole (NULL: there is none) gets its name `place` at the end, if all goes well; else it is
+ * removed.  One at most; not for a tool that heeds -o.
+ */
+mr_status cmd_hold(cmd *c, const char *file, const char *place) MR_WARN_UNUSED;
+
+/*
  * Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end.
  */
 void cmd_print(cmd *c, const char *format, ...) MR_PRINTF(2, 3);

@@ -351,7 +351,7 @@ mr_sink_close(mr_sink *s, mr_status status)
 	}
 	if (s->fd != STDOUT_FILENO && close(s->fd) && s->status == MR_OK)
 		s->status = failed(s->ctx, s->path, "cannot close");
-	if (s->temporary && s->status == MR_OK && rename(s->temporary, s->target))
+	if (s->temporary && !s->hold && s->status == MR_OK && rename(s->temporary, s->target))
 		s->status = failed(s->ctx, s->path, "cannot rename into place");
 	if (s->temporary && s->status < 0)
 		unlink(s->temporary);

@@ -27,7 +27,8 @@ typedef struct mr_sink {
 	const char *path;         /* as named by the user */
 	char *target, *temporary; /* a regular file is renamed from the one to the other; else NULL */
 	int fd;
-	void *gz; /* the compressor, or NULL */
+	bool hold; /* set by the caller: the file stays where it is, for the caller to rename */
+	void *gz;  /* the compressor, or NULL */
 	char *buffer;
 	size_t used;
 	mr_status status;
@@ -38,7 +39,8 @@ enum { MR_SINK_BUFFER = 1 << 16, MR_SINK_ROOM = 4096 };
 /* Opens a file ("-": stdout), beside its place if it is regular.  `compress`: gzip. */
 mr_status mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s) MR_WARN_UNUSED;
 
-/* Ends the file and renames it into its place; after a failure, of `status` or on the way, removes it. */
+/* Ends the file and renames it into its place, if not on hold; after a failure, of `status` or on the way,
+ * removes it. */
 mr_status mr_sink_close(mr_sink *s, mr_status status) MR_WARN_UNUSED;
 
 void mr_sink_flush(mr_sink *s);

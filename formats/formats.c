@@ -246,14 +246,24 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 /* ---- writing ---- */
 
 mr_status
-mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m)
+mr_model_write_held(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held)
 {
 	const mr_file_format *f = NULL;
 	mr_sink sink;
 
 	MR_TRY(find_writer(ctx, path, format, &f));
 	MR_TRY(mr_sink_open(ctx, path, ends_in_gz(path), &sink));
-	return mr_sink_close(&sink, f->write(&sink, m));
+	sink.hold = held != NULL;
+	MR_TRY(mr_sink_close(&sink, f->write(&sink, m)));
+	if (held)
+		*held = (mr_held){ .file = sink.temporary, .place = sink.target };
+	return MR_OK;
+}
+
+mr_status
+mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m)
+{
+	return mr_model_write_held(ctx, path, format, m, NULL);
 }
 
 void

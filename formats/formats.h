@@ -40,6 +40,17 @@ mr_status mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_mo
  */
 mr_status mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m) MR_WARN_UNUSED;
 
+/* A file that is whole but not in its place: to be renamed, or removed.  NULLs for one that is written
+ * directly.
+ */
+typedef struct mr_held {
+	const char *file, *place; /* in the arena */
+} mr_held;
+
+/* The same, but for the renaming, where `held` is not NULL. */
+mr_status mr_model_write_held(
+    mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held) MR_WARN_UNUSED;
+
 /* The names of the formats with commas between: those that can be written, or all that can be read. */
 const char *mr_format_names(mr_ctx *ctx, bool writable);
 

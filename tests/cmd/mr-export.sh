@@ -43,6 +43,14 @@ ls new.pwn* 2>/dev/null
 mr-cat torus.mrs | head -c 3000 | mr-export cut.obj 2>/dev/null
 echo "exit $?"
 ls cut.obj* 2>/dev/null
+head -c -64 torus.mrs >endless.mrs # all of the frame, but no END
+mr-export -i endless.mrs cut.obj 2>/dev/null
+echo "exit $?"
+mr-export -i endless.mrs old.pwn 2>/dev/null
+mr-cat torus.mrs torus.mrs | mr-export cut.obj 2>/dev/null
+echo "exit $?"
+ls cut.obj* 2>/dev/null
+cat old.pwn
 mr-export -i points.mrs points.stl
 echo "exit $?"
 mr-export -i torus.mrs -l control x.obj
