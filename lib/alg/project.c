@@ -24,33 +24,14 @@ on_side(const mr_mesh *m, uint32_t f, int k, mr_v3 q)
 	return (mr_closest){ f, { w[0], w[1], w[2] }, point, mr_norm2(mr_sub(q, point)) };
 }
 
-mr_closest
-mr_project_face(const mr_mesh *m, uint32_t f, mr_v3 q)
+static mr_closest
+on_face(const mr_mesh *m, uint32_t f, mr_v3 q)
 {
 	const uint32_t *v = m->t[f].v;
-	mr_v3 a = m->p[v[0]], b = m->p[v[1]], c = m->p[v[2]];
-	mr_v3 n = mr_cross(mr_sub(b, a), mr_sub(c, a));
-	double area = mr_norm2(n), w[3];
-	mr_closest best = { .dist2 = INFINITY };
+	mr_closest c = mr_triangle_closest(q, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
 
-	/* w n.n = the areas of the parts of the triangle, signed */
-	w[0] = mr_dot(n, mr_cross(mr_sub(c, b), mr_sub(q, b)));
-	w[1] = mr_dot(n, mr_cross(mr_sub(a, c), mr_sub(q, c)));
-	w[2] = mr_dot(n, mr_cross(mr_sub(b, a), mr_sub(q, a)));
-	if (w[0] > 0 && w[1] > 0 && w[2] > 0) {
-		double s = 1 / (w[0] + w[1] + w[2]);
-		mr_v3 bary = { s * w[0], s * w[1], s * w[2] };
-		mr_v3 point = mr_bary_point(bary, a, b, c);
-		return (mr_closest){ f, bary, point, mr_norm2(mr_sub(q, point)) };
-	}
-	for (int k = 0; k < 3; k++) {
-		if (w[(k + 2) % 3] > 0 && area > 0)
-			continue; /* on the inner side of this side */
-		mr_closest p = on_side(m, f, k, q);
-		if (p.dist2 < best.dist2)
-			best = p;
-	}
-	return best;
+	c.face = f;
+	return c;
 }
 
 /* The corner that the place stands on, or -1. */
@@ -75,7 +56,7 @@ nearest_around(const mr_mesh *m, const mr_topology *topo, uint32_t v, mr_v3 q)
 	mr_closest best = { .dist2 = INFINITY };
 
 	do {
-		mr_closest p = mr_project_face(m, h / 3, q);
+		mr_closest p = on_face(m, h / 3, q);
 		if (p.dist2 < best.dist2)
 			best = p;
 		h = mr_he_ccw(topo, h);
@@ -86,7 +67,7 @@ nearest_around(const mr_mesh *m, const mr_topology *topo, uint32_t v, mr_v3 q)
 mr_closest
 mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
 {
-	mr_closest at = mr_project_face(m, f, q);
+	mr_closest at = on_face(m, f, q);
 
 	for (;;) {
 		mr_closest next = at;
@@ -96,7 +77,7 @@ mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
 		} else if (side >= 0) {
 			uint32_t g = topo->twin[3 * at.face + (uint32_t)side];
 			if (g != MR_NONE)
-				next = mr_project_face(m, g / 3, q);
+				next = on_face(m, g / 3, q);
 		}
 		if (!(next.dist2 < at.dist2))
 			return at;

@@ -11,9 +11,6 @@
 
 #include "mesh/bvh.h"
 
-/* The nearest point of face f; a barycentric coordinate is exactly 0 where it lies on that side. */
-mr_closest mr_project_face(const mr_mesh *m, uint32_t f, mr_v3 q);
-
 /* The nearest point met by walking from face f over edges and vertices. */
 mr_closest mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q);
 

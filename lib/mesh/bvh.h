@@ -52,7 +52,10 @@ bool mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double 
  */
 bool mr_bvh_overlap(const mr_bvh *bvh, mr_box box, bool (*visit)(void *arg, uint32_t face), void *arg);
 
-/* The nearest point of a triangle, which may be degenerate (a segment, a point); face is 0. */
+/*
+ * The nearest point of a triangle, which may be degenerate (a segment, a point); face is 0.  On a side, the
+ * barycentric coordinate of the corner opposite is exactly 0.
+ */
 mr_closest mr_triangle_closest(mr_v3 q, mr_v3 a, mr_v3 b, mr_v3 c);
 
 #endif
