@@ -16,8 +16,8 @@ keep_interior(const mr_mesh *m, const mr_edges *edges, bool *boundary, double *a
 	return n;
 }
 
-mr_status
-mr_measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenness *out)
+static mr_status
+measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenness *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *area = MR_NEW(ctx, m->nv, double), error = 0;
@@ -60,7 +60,7 @@ mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface
 	MR_TRY(mr_edges_build(ctx, m, &edges));
 	MR_TRY(mr_take_census(ctx, m, &edges, &s.census));
 	MR_TRY(mr_measure_geometry(ctx, m, &edges, &s.geometry));
-	MR_TRY(mr_measure_evenness(ctx, m, &edges, &s.evenness));
+	MR_TRY(measure_evenness(ctx, m, &edges, &s.evenness));
 	mr_mark_release(ctx, mark);
 	if (intersections)
 		MR_TRY(count_intersections(ctx, m, &s.intersections));

@@ -17,8 +17,6 @@ typedef struct mr_evenness {
 	double variance; /* variance / mean^2 */
 } mr_evenness;
 
-mr_status mr_measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenness *evenness);
-
 typedef struct mr_surface {
 	mr_census census;
 	mr_geometry geometry;

@@ -1,72 +1,7 @@
 #include "alg/shape_parts.h"
 
-#include "base/random.h"
-
 const char *const mr_solid_names[MR_SOLIDS] = { "sphere", "torus", "cube", "plane", "cylinder", "knot",
 	"bumpy", "boxes" };
-
-mr_status
-mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b)
-{
-	build r = { .nv = 0 };
-
-	if (nv >= MR_NONE || nf > (MR_NONE - 1) / 3)
-		return mr_fail(ctx, MR_ERANGE, "%zu vertices and %zu faces are too many", nv, nf);
-	r.p = MR_NEW(ctx, nv, mr_v3);
-	r.t = MR_NEW(ctx, nf, mr_tri);
-	if (!r.p || !r.t)
-		return MR_EMEM;
-	*b = r;
-	return MR_OK;
-}
-
-static uint32_t
-add_vertex(build *b, mr_v3 p)
-{
-	b->p[b->nv] = p;
-	return (uint32_t)b->nv++;
-}
-
-void
-mr_solid_add_face(build *b, uint32_t i, uint32_t j, uint32_t k)
-{
-	b->t[b->nf++] = (mr_tri){ { i, j, k } };
-}
-
-void
-mr_solid_add_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
-{
-	mr_solid_add_face(b, i, j, k);
-	mr_solid_add_face(b, i, k, l);
-}
-
-mr_status
-mr_weld_begin(mr_ctx *ctx, size_t nv, weld *w)
-{
-	weld r = { .mask = 15 };
-
-	while (r.mask < 2 * nv)
-		r.mask = 2 * r.mask + 1;
-	r.key = MR_NEW_ZERO(ctx, r.mask + 1, uint64_t);
-	r.vertex = MR_NEW(ctx, r.mask + 1, uint32_t);
-	if (!r.key || !r.vertex)
-		return MR_EMEM;
-	*w = r;
-	return MR_OK;
-}
-
-uint32_t *
-mr_weld_slot(weld *w, uint64_t key, bool *is_new)
-{
-	mr_random hash = { key };
-	size_t i = (size_t)mr_random_bits(&hash) & w->mask;
-
-	while (w->key[i] && w->key[i] != key + 1)
-		i = (i + 1) & w->mask;
-	*is_new = w->key[i] == 0;
-	w->key[i] = key + 1;
-	return &w->vertex[i];
-}
 
 /* The nearest whole number, at least `least`. */
 static size_t
@@ -124,7 +59,7 @@ geodesic_vertex(geodesic *g, const uint32_t abc[3], uint32_t i, uint32_t j)
 		mr_v3 p = mr_vec(0, 0, 0);
 		for (int k = 0; k < 3; k++)
 			p = mr_axpy(c[k].weight, g->corner[c[k].corner], p);
-		*slot = add_vertex(g->b, mr_unit(p));
+		*slot = mr_solid_add_vertex(g->b, mr_unit(p));
 	}
 	return *slot;
 }
@@ -150,14 +85,14 @@ geodesic_face(geodesic *g, const uint32_t abc[3], uint32_t *rows)
 	}
 }
 
-size_t
-mr_geodesic_frequency(size_t n)
+static size_t
+geodesic_frequency(size_t n)
 {
 	return whole(sqrt((double)(n > 2 ? n - 2 : 0) / 10), 1);
 }
 
-mr_status
-mr_geodesic(mr_ctx *ctx, size_t f, build *b)
+static mr_status
+geodesic_sphere(mr_ctx *ctx, size_t f, build *b)
 {
 	static const uint32_t face[20][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 1 },
 		{ 1, 6, 2 }, { 2, 7, 3 }, { 3, 8, 4 }, { 4, 9, 5 }, { 5, 10, 1 }, { 6, 7, 2 }, { 7, 8, 3 },
@@ -196,7 +131,7 @@ periodic_grid(mr_ctx *ctx, size_t nu, size_t nv, mr_v3 (*at)(double u, double v)
 	MR_TRY(mr_solid_begin(ctx, nu * nv, 2 * nu * nv, b));
 	for (size_t i = 0; i < nu; i++)
 		for (size_t j = 0; j < nv; j++)
-			add_vertex(b, at((double)i / (double)nu, (double)j / (double)nv));
+			mr_solid_add_vertex(b, at((double)i / (double)nu, (double)j / (double)nv));
 	for (size_t i = 0; i < nu; i++) {
 		for (size_t j = 0; j < nv; j++) {
 			size_t k = (i + 1) % nu, l = (j + 1) % nv;
@@ -265,7 +200,7 @@ plane(mr_ctx *ctx, size_t n, build *b)
 	MR_TRY(mr_solid_begin(ctx, (s + 1) * (s + 1), 2 * s * s, b));
 	for (size_t i = 0; i <= s; i++)
 		for (size_t j = 0; j <= s; j++)
-			add_vertex(
+			mr_solid_add_vertex(
 			    b, mr_vec(2 * (double)j / (double)s - 1, 2 * (double)i / (double)s - 1, 0));
 	for (size_t i = 0; i < s; i++) {
 		for (size_t j = 0; j < s; j++) {
@@ -284,10 +219,10 @@ add_ring(build *b, size_t count, double radius, double z)
 
 	for (size_t i = 0; i < count; i++) {
 		double a = 2 * MR_PI * (double)i / (double)count;
-		add_vertex(b, mr_vec(radius * cos(a), radius * sin(a), z));
+		mr_solid_add_vertex(b, mr_vec(radius * cos(a), radius * sin(a), z));
 	}
 	if (count == 0)
-		add_vertex(b, mr_vec(0, 0, z));
+		mr_solid_add_vertex(b, mr_vec(0, 0, z));
 	return first;
 }
 
@@ -365,7 +300,8 @@ cells_vertex(cells *c, const size_t at[3])
 		double x[3], s = (double)c->s;
 		for (int k = 0; k < 3; k++)
 			x[k] = (double)at[k] / s - 0.5 * (double)c->count[k];
-		*slot = add_vertex(c->b, mr_vec(c->size.x * x[0], c->size.y * x[1], c->size.z * x[2]));
+		*slot = mr_solid_add_vertex(
+		    c->b, mr_vec(c->size.x * x[0], c->size.y * x[1], c->size.z * x[2]));
 	}
 	return *slot;
 }
@@ -451,7 +387,7 @@ make(mr_ctx *ctx, const mr_solid_opts *o, size_t n, build *b)
 {
 	switch (o->solid) {
 	case MR_SPHERE:
-		return mr_geodesic(ctx, mr_geodesic_frequency(n), b);
+		return geodesic_sphere(ctx, geodesic_frequency(n), b);
 	case MR_TORUS:
 		return tube(ctx, n, 1 / 0.4, 3, torus_point, b);
 	case MR_CUBE:
@@ -482,73 +418,4 @@ mr_solid_make(mr_ctx *ctx, const mr_solid_opts *o, mr_mesh *m)
 	MR_TRY(make(ctx, o, o->vertices ? o->vertices : o->solid == MR_BUMPY ? 30000 : 10000, &b));
 	*m = (mr_mesh){ .name = mr_solid_names[o->solid], .p = b.p, .t = b.t, .nv = b.nv, .nf = b.nf };
 	return MR_OK;
-}
-
-/* The first face whose running sum of areas is above x. */
-static size_t
-face_at(const double *sum, size_t nf, double x)
-{
-	size_t low = 0, high = nf - 1;
-
-	while (low < high) {
-		size_t middle = low + (high - low) / 2;
-		if (sum[middle] > x)
-			high = middle;
-		else
-			low = middle + 1;
-	}
-	return low;
-}
-
-/* Uniform in the triangle (Osada, Funkhouser, Chazelle, Dobkin 2002, section 4). */
-static mr_v3
-sample_face(const mr_mesh *m, size_t f, mr_random *r)
-{
-	const uint32_t *v = m->t[f].v;
-	double a = sqrt(mr_random_real(r)), b = mr_random_real(r);
-
-	return mr_bary_point(mr_vec(1 - a, a * (1 - b), a * b), m->p[v[0]], m->p[v[1]], m->p[v[2]]);
-}
-
-mr_status
-mr_surface_sample(mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr_v3 **points, mr_v3 **normals)
-{
-	mr_v3 *p = MR_NEW(ctx, count, mr_v3), *normal = MR_NEW(ctx, count, mr_v3);
-	mr_mark mark = mr_mark_take(ctx);
-	double *sum = MR_NEW(ctx, m->nf, double), total = 0;
-	mr_random r = { seed };
-
-	if (!p || !normal || !sum)
-		return MR_EMEM;
-	for (size_t f = 0; f < m->nf; f++)
-		sum[f] = total += mr_norm(mr_face_cross(m, f));
-	if (!(total > 0))
-		return mr_fail(ctx, MR_EMESH, "%s: the %zu faces have no area to sample", m->name, m->nf);
-	for (size_t i = 0; i < count; i++) {
-		size_t f = face_at(sum, m->nf, mr_random_real(&r) * total);
-		p[i] = sample_face(m, f, &r);
-		normal[i] = mr_unit(mr_face_cross(m, f));
-	}
-	mr_mark_release(ctx, mark);
-	*points = p;
-	*normals = normal;
-	return MR_OK;
-}
-
-/* A Gaussian deviate (Box, Muller 1958). */
-static double
-gaussian(mr_random *r)
-{
-	double u = 1 - mr_random_real(r), v = mr_random_real(r);
-
-	return sqrt(-2 * log(u)) * cos(2 * MR_PI * v);
-}
-
-void
-mr_add_noise(mr_v3 *p, const mr_v3 *normal, size_t n, double deviation, uint64_t seed)
-{
-	mr_random r = { seed };
-
-	for (size_t i = 0; i < n; i++)
-		p[i] = mr_axpy(deviation * gaussian(&r), normal[i], p[i]);
 }

@@ -160,10 +160,8 @@ refine(mr_ctx *ctx, const build *old, build *b)
 			bool is_new;
 			uint32_t *slot = mr_weld_slot(
 			    &w, a < c ? (uint64_t)a << 32 | c : (uint64_t)c << 32 | a, &is_new);
-			if (is_new) {
-				b->p[b->nv] = mr_lerp(0.5, old->p[a], old->p[c]);
-				*slot = (uint32_t)b->nv++;
-			}
+			if (is_new)
+				*slot = mr_solid_add_vertex(b, mr_lerp(0.5, old->p[a], old->p[c]));
 			m[i] = *slot;
 		}
 		for (int i = 0; i < 3; i++)

@@ -66,10 +66,9 @@ edge_vertex(march *m, const site *p, const site *q)
 	bool is_new;
 	uint32_t *slot = mr_weld_slot(&m->w, (uint64_t)low->index << 3 | way, &is_new);
 
-	if (is_new) {
-		*slot = (uint32_t)m->b->nv;
-		m->b->p[m->b->nv++] = mr_lerp(a / (a - b), place_of(l, low->x), place_of(l, high->x));
-	}
+	if (is_new)
+		*slot = mr_solid_add_vertex(
+		    m->b, mr_lerp(a / (a - b), place_of(l, low->x), place_of(l, high->x)));
 	return *slot;
 }
 

@@ -14,9 +14,13 @@ typedef struct build {
 	size_t nv, nf;
 } build;
 
+/* shape_build.c does what follows. */
 mr_status mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b);
 
-/* The face a b c, and the two faces of the quadrangle a b c d, counter-clockwise. */
+/* The number of the new vertex. */
+uint32_t mr_solid_add_vertex(build *b, mr_v3 p);
+
+/* The face i j k, and the two faces of the quadrangle i j k l, counter-clockwise. */
 void mr_solid_add_face(build *b, uint32_t i, uint32_t j, uint32_t k);
 void mr_solid_add_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l);
 
@@ -31,10 +35,6 @@ mr_status mr_weld_begin(mr_ctx *ctx, size_t nv, weld *w);
 
 /* The slot of the key; *is_new where it was not there: the caller stores the vertex in it. */
 uint32_t *mr_weld_slot(weld *w, uint64_t key, bool *is_new);
-
-/* The frequency of a geodesic sphere of about n vertices, and the sphere of a frequency. */
-size_t mr_geodesic_frequency(size_t n);
-mr_status mr_geodesic(mr_ctx *ctx, size_t frequency, build *b);
 
 /* A function of space, negative inside. */
 typedef double (*mr_field)(void *arg, mr_v3 x);
