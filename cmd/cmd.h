@@ -16,7 +16,8 @@
  *	int
  *	main(int argc, char **argv)
  *	{
- *		return cmd_main(argc, argv, &(cmd_tool){ .summary = "...", .options = table, .frame = smooth_frame });
+ *		return cmd_main(argc, argv,
+ *		    &(cmd_tool){ .summary = "...", .options = table, .frame = smooth_frame });
  *	}
  *
  * Only this file prints and exits: 0 good, 1 data or I/O, 2 usage.
@@ -31,27 +32,36 @@ typedef struct cmd cmd;
 
 typedef struct cmd_tool {
 	const char *summary;
-	const char *operands;       /* usage of the operands; NULL: [FILE...], streams to read */
-	const cmd_opt *options;     /* NULL: none of its own */
-	mr_status (*prepare)(cmd *c); /* after parsing, before anything is read: check options; may be NULL */
-	mr_status (*frame)(cmd *c, mr_frame *f); /* a filter or sink: once per frame, then the frame is sent */
-	mr_status (*source)(cmd *c);  /* a source: makes and sends frames itself, by cmd_send; instead of `frame` */
-	mr_status (*finish)(cmd *c);  /* after the last frame; may be NULL */
-	bool sink;                  /* writes no stream; with operands of its own it reads -i FILE or stdin */
-	bool sends;                 /* `frame` sends by cmd_send itself */
+	const char *operands;   /* usage of the operands; NULL: [FILE...], streams to read */
+	const cmd_opt *options; /* NULL: none of its own */
+
+	/* After parsing, before anything is read: checks options; may be NULL. */
+	mr_status (*prepare)(cmd *c);
+
+	/* A filter or sink: once per frame, then the frame is sent. */
+	mr_status (*frame)(cmd *c, mr_frame *f);
+
+	/* A source, instead of `frame`: makes and sends frames itself, by cmd_send. */
+	mr_status (*source)(cmd *c);
+
+	/* After the last frame; may be NULL. */
+	mr_status (*finish)(cmd *c);
+
+	bool sink;  /* writes no stream; with operands of its own it reads -i FILE or stdin */
+	bool sends; /* `frame` sends by cmd_send itself */
 } cmd_tool;
 
 struct cmd {
-	mr_ctx ctx;                 /* its arena lasts until the next frame */
-	mr_ctx keep;                /* its arena lasts over frames: for what a tool caches, which the tool releases */
+	mr_ctx ctx;  /* its arena lasts until the next frame */
+	mr_ctx keep; /* its arena lasts over frames: for what a tool caches, which the tool releases */
 	const cmd_tool *tool;
-	const char *name;           /* mr-smooth */
-	const char *layer;          /* -l, or NULL */
-	const char *output;         /* -o, or NULL */
-	char **operands;            /* of a source or a sink */
+	const char *name;   /* mr-smooth */
+	const char *layer;  /* -l, or NULL */
+	const char *output; /* -o, or NULL */
+	char **operands;    /* of a source or a sink */
 	size_t operand_count;
 	bool verbose, quiet, keep_going;
-	mr_packing packing;         /* what the writer does with columns; mr-cat sets it in prepare */
+	mr_packing packing; /* what the writer does with columns; mr-cat sets it in prepare */
 	struct cmd_state *state;
 };
 

@@ -24,7 +24,7 @@ typedef enum cmd_kind {
 
 /* A length as given: in units of the model, or relative to the bounding-box diagonal. */
 typedef struct cmd_length {
-	double value;  /* already divided by 100 where relative */
+	double value; /* already divided by 100 where relative */
 	bool relative;
 } cmd_length;
 
@@ -44,8 +44,8 @@ typedef struct cmd_range {
 
 /* --help shows the value that `value` points to before parsing as the default. */
 typedef struct cmd_opt {
-	char letter;          /* 0: only the long name */
-	const char *name;     /* NULL ends the table */
+	char letter;      /* 0: only the long name */
+	const char *name; /* NULL ends the table */
 	cmd_kind kind;
 	void *value;
 	double min, max;
@@ -71,9 +71,12 @@ mr_status cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tab
 /* Prints one table for --help, its defaults read from the values. */
 void cmd_print_options(FILE *out, const cmd_opt *table);
 
-/* Parses the whole of `text` as a finite number in [min, max]: MR_EUSAGE with a sentence that begins with `what`. */
-mr_status cmd_parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double max, double *value);
-mr_status cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value);
+/* Parses the whole of `text` as a finite number in [min, max]: MR_EUSAGE with a sentence that begins with
+ * `what`. */
+mr_status
+cmd_parse_real(mr_ctx *ctx, const char *what, const char *text, double min, double max, double *value);
+mr_status
+cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value);
 
 /* Parses `count` numbers with commas between them. */
 mr_status cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, double *values);

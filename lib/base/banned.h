@@ -1,4 +1,8 @@
-/* banned.h -- calls that lose an error or a bound.  Layer rule: base; every header of the library includes it through ctx.h. */
+/*
+ * banned.h -- calls that lose an error or a bound.
+ *
+ * Layer rule: base; every header of the library includes it through ctx.h.
+ */
 #ifndef MR_BANNED_H
 #define MR_BANNED_H
 

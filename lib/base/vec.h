@@ -115,8 +115,7 @@ mr_apply(const mr_affine *t, mr_v3 a)
 {
 	const double *m = t->m;
 	return (mr_v3){ m[0] * a.x + m[1] * a.y + m[2] * a.z + m[3],
-		m[4] * a.x + m[5] * a.y + m[6] * a.z + m[7],
-		m[8] * a.x + m[9] * a.y + m[10] * a.z + m[11] };
+		m[4] * a.x + m[5] * a.y + m[6] * a.z + m[7], m[8] * a.x + m[9] * a.y + m[10] * a.z + m[11] };
 }
 
 static inline mr_affine
@@ -133,7 +132,7 @@ mr_compose(const mr_affine *a, const mr_affine *b)
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 4; j++)
 			c.m[4 * i + j] = a->m[4 * i] * b->m[j] + a->m[4 * i + 1] * b->m[4 + j] +
-			    a->m[4 * i + 2] * b->m[8 + j] + (j == 3 ? a->m[4 * i + 3] : 0);
+			                 a->m[4 * i + 2] * b->m[8 + j] + (j == 3 ? a->m[4 * i + 3] : 0);
 	return c;
 }
 
@@ -146,8 +145,10 @@ mr_box_empty(void)
 static inline void
 mr_box_add(mr_box *b, mr_v3 p)
 {
-	b->min = mr_vec(p.x < b->min.x ? p.x : b->min.x, p.y < b->min.y ? p.y : b->min.y, p.z < b->min.z ? p.z : b->min.z);
-	b->max = mr_vec(p.x > b->max.x ? p.x : b->max.x, p.y > b->max.y ? p.y : b->max.y, p.z > b->max.z ? p.z : b->max.z);
+	b->min = mr_vec(p.x < b->min.x ? p.x : b->min.x, p.y < b->min.y ? p.y : b->min.y,
+	    p.z < b->min.z ? p.z : b->min.z);
+	b->max = mr_vec(p.x > b->max.x ? p.x : b->max.x, p.y > b->max.y ? p.y : b->max.y,
+	    p.z > b->max.z ? p.z : b->max.z);
 }
 
 /* The bounding box of n points; empty (min > max) for none. */

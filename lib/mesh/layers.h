@@ -28,19 +28,21 @@ extern const mr_column_info mr_columns[];
 bool mr_layer_has(const mr_frame *f, const char *layer, const char *name);
 
 /* A column of the table, its shape checked.  MR_EMISSING where it is absent. */
-mr_status mr_layer_get(
-    mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void **data, size_t *rows);
+mr_status
+mr_layer_get(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void **data, size_t *rows);
 
 /* The same, where it must have `rows` rows. */
 mr_status mr_layer_get_rows(
     mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, size_t rows, const void **data);
 
 /* Puts a column of the table; the shape is the table's (components where the table has 0 there). */
-mr_status mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void *data, size_t rows);
-mr_status mr_layer_put_wide(
-    mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, uint8_t components, const void *data, size_t rows);
+mr_status
+mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void *data, size_t rows);
+mr_status mr_layer_put_wide(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, uint8_t components,
+    const void *data, size_t rows);
 
-/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH without a face. */
+/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH without a face.
+ */
 mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 
 /* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */
@@ -62,7 +64,9 @@ mr_status mr_layer_put_positions(mr_ctx *ctx, mr_frame *f, const char *layer, co
 /* The layer's regions, rows checked against nv, values below 2 + 65536. */
 mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region);
 
-/* The first of the layers (a NULL-terminated list) that is in the frame, or `only` where not NULL.  MR_EMISSING names them all. */
-mr_status mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer);
+/* The first of the layers (a NULL-terminated list) that is in the frame, or `only` where not NULL.
+ * MR_EMISSING names them all. */
+mr_status
+mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer);
 
 #endif

@@ -19,10 +19,10 @@ typedef struct mr_tri {
 } mr_tri;
 
 typedef struct mr_mesh {
-	const char *name;    /* of the layer, for sentences */
-	const mr_v3 *p;      /* nv positions */
-	const mr_tri *t;     /* nf triangles */
-	size_t nv, nf;       /* both below 2^32 - 1; 3 nf below 2^32 - 1 */
+	const char *name; /* of the layer, for sentences */
+	const mr_v3 *p;   /* nv positions */
+	const mr_tri *t;  /* nf triangles */
+	size_t nv, nf;    /* both below 2^32 - 1; 3 nf below 2^32 - 1 */
 } mr_mesh;
 
 /*
@@ -75,7 +75,8 @@ mr_he_ccw(const mr_topology *topo, uint32_t h)
  */
 mr_status mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo);
 
-/* Neighbours of each vertex, sorted, each once, of any mesh: adj[start[i]] to adj[start[i + 1]]; start has nv + 1 entries. */
+/* Neighbours of each vertex, sorted, each once, of any mesh: adj[start[i]] to adj[start[i + 1]]; start has nv
+ * + 1 entries. */
 typedef struct mr_adjacency {
 	size_t *start;
 	uint32_t *adj;
@@ -103,7 +104,8 @@ double mr_mesh_diagonal(const mr_mesh *m);
 /* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
 double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
 
-/* Unit vertex normals weighted by angle; zero where a vertex has no face of positive area.  normal: nv, the caller's. */
+/* Unit vertex normals weighted by angle; zero where a vertex has no face of positive area.  normal: nv, the
+ * caller's. */
 mr_status mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, mr_v3 *normal);
 
 #endif

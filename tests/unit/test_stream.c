@@ -634,8 +634,7 @@ full_disk(void **state)
 	put_small(&ctx, f, "mesh");
 	assert_int_equal(mr_writer_put(&ctx, w, f), MR_EIO);
 	assert_string_equal(ctx.error, "cannot write: No space left on device");
-	assert_true(
-	    dup2(new_file(), fileno(full)) >= 0); /* there is room again, but a hole before it */
+	assert_true(dup2(new_file(), fileno(full)) >= 0); /* there is room again, but a hole before it */
 	assert_int_equal(mr_writer_put(&ctx, w, f), MR_EIO);
 	assert_int_equal(mr_writer_end(&ctx, w), MR_EIO);
 	mr_writer_free(w);
