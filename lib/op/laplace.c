@@ -308,20 +308,35 @@ typedef struct apply_job {
 	double *y;
 } apply_job;
 
-static void
-apply_rows(void *arg, size_t begin, size_t end)
+static inline void
+apply_width(const apply_job *j, size_t width, size_t begin, size_t end)
 {
-	apply_job *j = arg;
 	const mr_sparse *a = j->a;
 
 	for (size_t i = begin; i < end; i++) {
 		double sum[4] = { 0 };
-		for (int e = a->start[i]; e < a->start[i + 1]; e++)
-			for (size_t c = 0; c < j->width; c++)
-				sum[c] += a->value[e] * j->x[(size_t)a->index[e] * j->width + c];
-		for (size_t c = 0; c < j->width; c++)
-			j->y[i * j->width + c] = j->w ? j->w[i] * sum[c] : sum[c];
+		for (int e = a->start[i]; e < a->start[i + 1]; e++) {
+			const double *x = j->x + (size_t)a->index[e] * width;
+			for (size_t c = 0; c < width; c++)
+				sum[c] += a->value[e] * x[c];
+		}
+		for (size_t c = 0; c < width; c++)
+			j->y[i * width + c] = j->w ? j->w[i] * sum[c] : sum[c];
 	}
+}
+
+/* Loops of a known length are faster. */
+static void
+apply_rows(void *arg, size_t begin, size_t end)
+{
+	apply_job *j = arg;
+
+	if (j->width == 3)
+		apply_width(j, 3, begin, end);
+	else if (j->width == 4)
+		apply_width(j, 4, begin, end);
+	else
+		apply_width(j, j->width, begin, end);
 }
 
 void

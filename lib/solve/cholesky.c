@@ -4,13 +4,14 @@
  */
 #include "solve/serial.h"
 #include "solve/solver_type.h"
+#include "solve/supernodal.h"
 
 #include <cholmod.h>
 
 typedef struct cholesky {
 	cholmod_common common;
 	cholmod_factor *factor;
-	cholmod_dense *x, *y, *e; /* workspace of a solve, kept from one to the next */
+	mr_supernodal *solve;
 } cholesky;
 
 /* CHOLMOD's status as ours.  Its functions return true for a matrix that is not positive definite. */
@@ -38,9 +39,7 @@ cholesky_free(void *data)
 {
 	cholesky *c = data;
 
-	cholmod_free_dense(&c->x, &c->common);
-	cholmod_free_dense(&c->y, &c->common);
-	cholmod_free_dense(&c->e, &c->common);
+	mr_supernodal_free(c->solve);
 	cholmod_free_factor(&c->factor, &c->common);
 	cholmod_finish(&c->common);
 	free(c);
@@ -98,15 +97,31 @@ as_upper(const mr_sparse *a)
 		.packed = 1 };
 }
 
+static mr_panels
+panels_of(const cholmod_factor *f)
+{
+	return (mr_panels){ .n = f->n,
+		.count = f->nsuper,
+		.first = f->super,
+		.row_at = f->pi,
+		.value_at = f->px,
+		.row = f->s,
+		.value = f->x,
+		.permutation = f->Perm };
+}
+
 static mr_status
 set_up(mr_ctx *ctx, cholesky *c, const mr_sparse *a, const int *part, mr_solver_report *report)
 {
 	cholmod_sparse upper = as_upper(a);
 	double start = mr_seconds(), analysed;
+	mr_panels panels;
 
 	MR_TRY(analyse(ctx, c, &upper, part));
 	analysed = mr_seconds();
 	MR_TRY(factorize(ctx, c, &upper));
+	panels = panels_of(c->factor);
+	MR_TRY(mr_supernodal_new(ctx, &panels, &c->solve));
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
 		.seconds_factor = mr_seconds() - analysed,
 		.rcond = cholmod_rcond(c->factor, &c->common),
@@ -138,23 +153,9 @@ static mr_status
 cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns)
 {
 	cholesky *c = data;
-	size_t n = c->factor->n;
-	cholmod_dense right = { .nrow = n,
-		.ncol = columns,
-		.nzmax = n * columns,
-		.d = n,
-		.x = b,
-		.xtype = CHOLMOD_REAL,
-		.dtype = CHOLMOD_DOUBLE };
-	int threads = mr_serial_begin();
-	mr_status status;
 
-	cholmod_solve2(CHOLMOD_A, c->factor, &right, NULL, &c->x, NULL, &c->y, &c->e, &c->common);
-	mr_serial_end(threads);
-	status = check(ctx, c);
-	if (status == MR_OK)
-		memcpy(b, c->x->x, n * columns * sizeof *b);
-	return status;
+	mr_supernodal_solve(ctx, c->solve, b, columns);
+	return MR_OK;
 }
 
 const mr_solver_type mr_cholesky_type = { "cholesky", cholesky_setup, cholesky_solve, cholesky_free };

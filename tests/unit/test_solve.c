@@ -31,14 +31,17 @@ teardown(void **state)
 /* The five-point Laplacian of a grid plus `shift` on the diagonal, all of it or the lower triangle, with a
  * drift. */
 static mr_sparse
-grid_matrix(double shift, double drift, bool lower)
+grid_of_side(int side, double shift, double drift, bool lower)
 {
-	mr_sparse a = { N, MR_NEW(&ctx, N + 1, int), MR_NEW(&ctx, 5 * N, int), MR_NEW(&ctx, 5 * N, double) };
-	int n = 0;
+	int rows = side * side, n = 0;
+	size_t most = 5 * (size_t)rows;
+	mr_sparse a = { rows, MR_NEW(&ctx, (size_t)rows + 1, int), MR_NEW(&ctx, most, int),
+		MR_NEW(&ctx, most, double) };
 
-	for (int i = 0; i < N; i++) {
-		const int at[5] = { i - SIDE, i - 1, i, i + 1, i + SIDE };
-		const bool inside[5] = { i >= SIDE, i % SIDE > 0, true, i % SIDE < SIDE - 1, i + SIDE < N };
+	for (int i = 0; i < rows; i++) {
+		const int at[5] = { i - side, i - 1, i, i + 1, i + side };
+		const bool inside[5] = { i >= side, i % side > 0, true, i % side < side - 1,
+			i + side < rows };
 		a.start[i] = n;
 		for (int k = 0; k < (lower ? 3 : 5); k++)
 			if (inside[k]) {
@@ -48,8 +51,14 @@ grid_matrix(double shift, double drift, bool lower)
 				                       : -1 + drift;
 			}
 	}
-	a.start[N] = n;
+	a.start[rows] = n;
 	return a;
+}
+
+static mr_sparse
+grid_matrix(double shift, double drift, bool lower)
+{
+	return grid_of_side(SIDE, shift, drift, lower);
 }
 
 static void
@@ -102,6 +111,36 @@ test_cholesky(void **state)
 	check_solver(MR_CHOLESKY, 0, part);
 }
 
+/* A factor of many subtrees, more right-hand sides than are solved together, and any number of threads. */
+static void
+test_subtrees(void **state)
+{
+	enum { LARGE = 250, ROWS = LARGE * LARGE, COLUMNS = 6 };
+	mr_sparse full = grid_of_side(LARGE, 1e-3, 0, false), lower = grid_of_side(LARGE, 1e-3, 0, true);
+	double *x = MR_NEW(&ctx, COLUMNS * ROWS, double), *first = MR_NEW(&ctx, COLUMNS * ROWS, double);
+	double *b = MR_NEW(&ctx, COLUMNS * ROWS, double);
+	mr_random r = { 1 };
+	mr_solver *s = NULL;
+
+	(void)state;
+	for (int i = 0; i < COLUMNS * ROWS; i++)
+		x[i] = mr_random_real(&r) - 0.5;
+	assert_int_equal(mr_solver_new(&ctx, MR_CHOLESKY, &lower, NULL, &s), MR_OK);
+	for (unsigned threads = 1; threads <= 4; threads++) {
+		ctx.threads = threads;
+		for (size_t c = 0; c < COLUMNS; c++)
+			apply(&full, x + c * ROWS, b + c * ROWS);
+		assert_int_equal(mr_solver_solve(&ctx, s, b, COLUMNS), MR_OK);
+		if (threads == 1)
+			memcpy(first, b, COLUMNS * ROWS * sizeof *b);
+		assert_memory_equal(b, first, COLUMNS * ROWS * sizeof *b);
+	}
+	for (size_t i = 0; i < COLUMNS * ROWS; i++)
+		if (!(fabs(b[i] - x[i]) < 1e-10))
+			fail_msg("x[%zu] is off by %g", i, b[i] - x[i]);
+	mr_solver_free(s);
+}
+
 static void
 test_lu(void **state)
 {
@@ -151,6 +190,7 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_cholesky, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_subtrees, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_lu, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_what_has_no_solution, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_one_unknown, setup, teardown),
