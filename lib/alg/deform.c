@@ -253,6 +253,12 @@ mr_deform_free(mr_deform *d)
 		mr_solver_free(d->solver);
 }
 
+const uint32_t *
+mr_deform_region(const mr_deform *d)
+{
+	return d->region;
+}
+
 size_t
 mr_deform_handles(const mr_deform *d)
 {

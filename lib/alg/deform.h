@@ -47,6 +47,9 @@ void mr_deform_free(mr_deform *d);
 /* Records the figures of the set-up and of the last solve; remarks on what the user should know. */
 void mr_deform_report(mr_ctx *ctx, const mr_deform *d);
 
+/* The regions: one per vertex, d's. */
+const uint32_t *mr_deform_region(const mr_deform *d);
+
 /* The highest handle that some vertex has, plus one. */
 size_t mr_deform_handles(const mr_deform *d);
 

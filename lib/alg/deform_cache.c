@@ -50,5 +50,7 @@ mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame 
 		memcpy(cache->part, part, sizeof part);
 	}
 	*deform = cache->deform;
-	return MR_OK;
+	if (!mr_transfer_applies(f, rest->name))
+		return MR_OK;
+	return mr_layer_put(ctx, f, rest->name, "region", mr_deform_region(cache->deform), rest->nv);
 }

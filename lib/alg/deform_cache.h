@@ -21,8 +21,8 @@ typedef struct mr_deform_cache {
 
 /*
  * The system on the mesh `rest`, the frame's layer with the positions of column `column`, under the regions
- * that mr_transfer_get finds.  keep: the arena that outlives frames; only the cache releases what it has
- * there.
+ * that mr_transfer_get finds; those that are the mesh's become columns of the layer too.  keep: the arena
+ * that outlives frames; only the cache releases what it has there.
  */
 mr_status mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame *f,
     const mr_mesh *rest, const char *column, const mr_deform_opts *opts, mr_deform **deform);

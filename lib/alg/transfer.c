@@ -82,6 +82,12 @@ mr_transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, co
 	return check_handles(ctx, region, mesh->nv, out, base->nv, base->name);
 }
 
+bool
+mr_transfer_applies(const mr_frame *f, const char *layer)
+{
+	return !strcmp(layer, "base") && mr_frame_find(f, "mesh", "region");
+}
+
 mr_status
 mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **region)
 {
@@ -91,7 +97,7 @@ mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **
 	uint32_t *r;
 	bool mapped = mr_layer_has(f, "base", "source_face");
 
-	if (strcmp(base->name, "base") || !mr_layer_has(f, "mesh", "region")) {
+	if (!mr_transfer_applies(f, base->name)) {
 		if (!mr_layer_has(f, base->name, "region"))
 			return mr_fail(
 			    ctx, MR_EMISSING, "%s has no regions: select some by mr-select", base->name);

@@ -17,6 +17,9 @@
 mr_status mr_transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region,
     const mr_source_map *map, const mr_mesh *base, uint32_t *out);
 
+/* True where the regions of the frame's layer are those of the mesh, not its own. */
+bool mr_transfer_applies(const mr_frame *f, const char *layer);
+
 /*
  * The regions of a layer of the frame: its own, or where that is a base and the mesh has regions, the mesh's
  * by the base's source map.  region: one per vertex of `base`, whose positions a map that is missing asks

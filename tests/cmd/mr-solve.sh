@@ -52,3 +52,13 @@ done
 mr-make sphere -n 200 -o sphere.mrs
 mr-select -l mesh --free above:z,0.5 --handle 0=above:z,0.95 sphere.mrs | mr-smooth -t 1 |
 	mr-solve -v 2>&1 >out.mrs | sed 's/residual.*//'
+
+# The regions of base are there to see, once for a key frame and its deltas; those of mesh decide.
+mr-solve s.mrs -o p0.mrs
+mr-info -l base --check p0.mrs | grep -o 'region  *v u1'
+grep -ao region all.mrs | wc -l # mesh's and base's
+mr-select --reset --free above:z,0.5 --handle 0=above:z,0.9 p0.mrs | mr-solve --stats stats.json -o q.mrs
+mr-select --reset --free above:z,0.5 --handle 0=above:z,0.9 s.mrs | mr-solve --stats other.json -o r.mrs
+grep -o '"free":[0-9]*' stats.json >one
+grep -o '"free":[0-9]*' other.json | cmp - one && echo "mesh decides"
+mr-render -l base -c region --size 40x30 -i p0.mrs p0.png && [ -s p0.png ] && echo drawn
