@@ -2,12 +2,39 @@
 
 #include "alg/project.h"
 #include "base/parallel.h"
+#include "mesh/bvh.h"
 
 /* The unit vector of corner k. */
 static mr_v3
 at_corner(int k)
 {
 	return mr_vec(k == 0, k == 1, k == 2);
+}
+
+/* Gives the vertices without a face the nearest point of the surface. */
+static mr_status
+place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_bvh *bvh = NULL;
+	size_t isolated = 0;
+
+	for (size_t v = 0; v < m->nv; v++) {
+		mr_closest c;
+		if (face[v] != MR_NONE)
+			continue;
+		if (!bvh)
+			MR_TRY(mr_bvh_build(ctx, m, &bvh));
+		c = mr_bvh_closest(bvh, m->p[v]);
+		face[v] = c.face;
+		bary[v] = c.bary;
+		isolated++;
+	}
+	if (isolated)
+		mr_note(ctx, "%s: %zu vertices have no face: they stay, over the nearest point", m->name,
+		    isolated);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 mr_status
@@ -27,25 +54,26 @@ mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *map)
 			face[v] = f;
 			bary[v] = at_corner(k);
 		}
-	for (size_t v = 0; v < m->nv; v++)
-		if (face[v] == MR_NONE)
-			return mr_fail(ctx, MR_EMESH, "%s: vertex %zu has no face", m->name, v);
+	MR_TRY(place_isolated(ctx, m, face, bary));
 	*map = (mr_source_map){ face, bary };
 	return MR_OK;
 }
 
+/* True where each corner of the base is the same corner of the mesh: vertices without a face do not count. */
 static bool
 is_identity(const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *map)
 {
 	if (mesh->nf != base->nf || mesh->nv != base->nv ||
 	    memcmp(mesh->t, base->t, mesh->nf * sizeof *mesh->t))
 		return false;
-	for (size_t v = 0; v < base->nv; v++) {
-		mr_v3 w = map->bary[v];
-		const uint32_t *t = mesh->t[map->face[v]].v;
-		if (!((w.x == 1 && t[0] == v) || (w.y == 1 && t[1] == v) || (w.z == 1 && t[2] == v)))
-			return false;
-	}
+	for (size_t f = 0; f < base->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t v = base->t[f].v[k];
+			mr_v3 w = map->bary[v];
+			const uint32_t *t = mesh->t[map->face[v]].v;
+			if (!((w.x == 1 && t[0] == v) || (w.y == 1 && t[1] == v) || (w.z == 1 && t[2] == v)))
+				return false;
+		}
 	return true;
 }
 

@@ -14,8 +14,8 @@ typedef struct mr_source_map {
 	const mr_v3 *bary;    /* barycentric coordinates in it */
 } mr_source_map;
 
-/* The identity: each vertex of m at a corner of its lowest face; MR_EMESH where one has no face.  map: in the
- * arena. */
+/* The identity: each vertex of m at a corner of its lowest face; one without a face at the nearest point of
+ * the surface.  map: in the arena. */
 mr_status mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *map);
 
 /*

@@ -9,8 +9,6 @@ refuse() {
 	mr-import "$1" | mr-smooth >out 2>err
 	echo "exit $?: $(cat err)"
 }
-printf 'OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n5 5 5\n3 0 1 2\n' >isolated.off
-refuse isolated.off
 printf '0 0 0\n1 0 0\n0 1 0\n' >cloud.xyz
 refuse cloud.xyz
 
