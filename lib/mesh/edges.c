@@ -1,15 +1,11 @@
 #include "mesh/edges.h"
 
 #include "base/parallel.h"
-
-/* A half-edge as seen from the lower of its vertices. */
-typedef struct spoke {
-	uint32_t high, he;
-} spoke;
+#include "mesh/spoke.h"
 
 typedef struct table {
-	uint32_t *start; /* nv + 1: the spokes of each vertex */
-	spoke *spoke;
+	uint32_t *start; /* nv + 1: the spokes of each vertex, the lower of an edge */
+	mr_spoke *spoke;
 } table;
 
 static uint32_t
@@ -28,38 +24,13 @@ high(const mr_mesh *m, uint32_t h)
 	return a < b ? b : a;
 }
 
-static int
-compare(const void *a, const void *b)
-{
-	const spoke *x = a, *y = b;
-
-	return x->high != y->high ? (x->high > y->high) - (x->high < y->high)
-	                          : (x->he > y->he) - (x->he < y->he);
-}
-
-static void
-sort(spoke *s, size_t n)
-{
-	if (n > 32) {
-		qsort(s, n, sizeof *s, compare);
-		return;
-	}
-	for (size_t i = 1; i < n; i++) {
-		spoke x = s[i];
-		size_t j = i;
-		for (; j > 0 && compare(&s[j - 1], &x) > 0; j--)
-			s[j] = s[j - 1];
-		s[j] = x;
-	}
-}
-
 static void
 sort_vertices(void *arg, size_t begin, size_t end)
 {
 	table *t = arg;
 
 	for (size_t v = begin; v < end; v++)
-		sort(t->spoke + t->start[v], t->start[v + 1] - t->start[v]);
+		mr_spokes_sort(t->spoke + t->start[v], t->start[v + 1] - t->start[v]);
 }
 
 /* A counting sort of the half-edges by their lower vertex. */
@@ -75,7 +46,7 @@ fill(const mr_mesh *m, table *t)
 	for (size_t f = 0; f < m->nf; f++)
 		for (uint32_t i = 0; i < 3 && !mr_face_repeats(m, f); i++) {
 			uint32_t h = (uint32_t)(3 * f) + i;
-			t->spoke[t->start[low(m, h) + 1]++] = (spoke){ high(m, h), h };
+			t->spoke[t->start[low(m, h) + 1]++] = (mr_spoke){ high(m, h), h };
 		}
 }
 
@@ -83,7 +54,7 @@ fill(const mr_mesh *m, table *t)
 static bool
 begins(const table *t, size_t v, uint32_t i)
 {
-	return i == t->start[v] || t->spoke[i].high != t->spoke[i - 1].high;
+	return i == t->start[v] || t->spoke[i].to != t->spoke[i - 1].to;
 }
 
 mr_status
@@ -92,7 +63,7 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 	mr_edges e = { 0, NULL, MR_NEW(ctx, 3 * m->nf, uint32_t) };
 	uint32_t *start = MR_NEW(ctx, 3 * m->nf + 1, uint32_t);
 	mr_mark mark = mr_mark_take(ctx);
-	table t = { MR_NEW(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, spoke) };
+	table t = { MR_NEW(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, mr_spoke) };
 
 	if (!e.he || !start || !t.start || !t.spoke)
 		return MR_EMEM;

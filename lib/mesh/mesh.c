@@ -1,46 +1,18 @@
 #include "mesh/mesh.h"
 
 #include "base/parallel.h"
-
-/* A half-edge as seen from the vertex it leaves. */
-typedef struct spoke {
-	uint32_t to, he;
-} spoke;
+#include "mesh/spoke.h"
 
 /* The spokes of each vertex v, by `to`, then `he`: spoke[start[v]] to spoke[start[v + 1]]. */
 typedef struct spokes {
 	uint32_t *start;
-	spoke *spoke;
+	mr_spoke *spoke;
 } spokes;
-
-static int
-compare_spokes(const void *a, const void *b)
-{
-	const spoke *x = a, *y = b;
-
-	return x->to != y->to ? (x->to > y->to) - (x->to < y->to) : (x->he > y->he) - (x->he < y->he);
-}
-
-static void
-sort_spokes(spoke *s, size_t n)
-{
-	if (n > 32) {
-		qsort(s, n, sizeof *s, compare_spokes);
-		return;
-	}
-	for (size_t i = 1; i < n; i++) {
-		spoke x = s[i];
-		size_t j = i;
-		for (; j > 0 && compare_spokes(&s[j - 1], &x) > 0; j--)
-			s[j] = s[j - 1];
-		s[j] = x;
-	}
-}
 
 static mr_status
 spokes_build(mr_ctx *ctx, const mr_mesh *m, spokes *out)
 {
-	spokes s = { MR_NEW_ZERO(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, spoke) };
+	spokes s = { MR_NEW_ZERO(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, mr_spoke) };
 
 	if (!s.start || !s.spoke)
 		return MR_EMEM;
@@ -50,16 +22,16 @@ spokes_build(mr_ctx *ctx, const mr_mesh *m, spokes *out)
 	for (size_t v = 0; v <= m->nv; v++)
 		s.start[v + 1] += s.start[v];
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		s.spoke[s.start[mr_he_from(m, h) + 1]++] = (spoke){ mr_he_to(m, h), h };
+		s.spoke[s.start[mr_he_from(m, h) + 1]++] = (mr_spoke){ mr_he_to(m, h), h };
 	for (size_t v = 0; v < m->nv; v++)
-		sort_spokes(s.spoke + s.start[v], s.start[v + 1] - s.start[v]);
+		mr_spokes_sort(s.spoke + s.start[v], s.start[v + 1] - s.start[v]);
 	*out = s;
 	return MR_OK;
 }
 
 /* How many spokes of a end in b; *first is the first of them. */
 static uint32_t
-spokes_find(const spokes *s, uint32_t a, uint32_t b, const spoke **first)
+spokes_find(const spokes *s, uint32_t a, uint32_t b, const mr_spoke **first)
 {
 	uint32_t low = s->start[a], end = s->start[a + 1], high = end, n = 0;
 
@@ -93,7 +65,7 @@ match_twins(mr_ctx *ctx, const mr_mesh *m, const spokes *s, uint32_t *twin)
 {
 	for (uint32_t h = 0; h < 3 * m->nf; h++) {
 		uint32_t a = mr_he_from(m, h), b = mr_he_to(m, h);
-		const spoke *along, *against;
+		const mr_spoke *along, *against;
 		uint32_t same = spokes_find(s, a, b, &along), opposite = spokes_find(s, b, a, &against);
 
 		if (same + opposite > 2)
