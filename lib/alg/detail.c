@@ -141,7 +141,7 @@ spread_labels(mr_ctx *ctx, const mr_mesh *m, size_t labelled, uint32_t *label)
  * on its faces, or, where none does, that of the neighbours nearest in connectivity.
  */
 static mr_status
-find_starts(mr_ctx *ctx, const encoder *e, const mr_source *source, uint32_t *near)
+find_starts(mr_ctx *ctx, const encoder *e, const mr_source_map *source, uint32_t *near)
 {
 	const mr_mesh *mesh = e->mesh, *base = e->ground.surface.m;
 	mr_mark mark = mr_mark_take(ctx);
@@ -244,7 +244,7 @@ tolerance_for(const mr_mesh *mesh, double diagonal)
 }
 
 mr_status
-mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source *source, mr_detail *d)
+mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d)
 {
 	size_t n = mesh->nv;
 	double diagonal = mr_mesh_diagonal(mesh);
@@ -271,19 +271,6 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source
 	report(ctx, &e, diagonal);
 	*d = (mr_detail){ n, e.face, e.bary, e.height, any_offset(&e) ? e.offset : NULL };
 	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
-mr_status
-mr_source_check(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source *source)
-{
-	for (size_t i = 0; i < base->nv; i++) {
-		if (source->face[i] >= mesh->nf)
-			return mr_fail(ctx, MR_ERANGE, "%s: vertex %zu lies on face %u of %s, which has %zu",
-			    base->name, i, source->face[i], mesh->name, mesh->nf);
-		if (!mr_finite(source->bary[i]))
-			return mr_fail(ctx, MR_ERANGE, "%s: source_bary %zu is not finite", base->name, i);
-	}
 	return MR_OK;
 }
 

@@ -9,6 +9,7 @@
 #define MR_DETAIL_H
 
 #include "alg/phong.h"
+#include "alg/sourcemap.h"
 
 /*
  * The columns mesh.detail_*: vertex i is b + h n + t1 o.x + t2 o.y + n o.z, where b is the point
@@ -23,15 +24,6 @@ typedef struct mr_detail {
 	const mr_v3 *offset; /* NULL: every vertex has a height */
 } mr_detail;
 
-/* The columns base.source_*: where each vertex of the base lies on the mesh. */
-typedef struct mr_source {
-	const uint32_t *face;
-	const mr_v3 *bary;
-} mr_source;
-
-/* MR_ERANGE where a face of the source map is not one of the mesh's, or a coordinate is not finite. */
-mr_status mr_source_check(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source *source);
-
 /*
  * Encodes the mesh over the base.  source: checked; NULL where there is none: then the base's point
  * nearest to each vertex takes its place.  d: the arena's.
@@ -39,7 +31,7 @@ mr_status mr_source_check(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base,
  * to the mesh's diagonal).
  */
 mr_status
-mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source *source, mr_detail *d);
+mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d);
 
 /* MR_ERANGE where a face is not one of the base's, or a number is not finite. */
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);

@@ -138,6 +138,21 @@ mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, con
 }
 
 mr_status
+mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_source_map *map)
+{
+	for (size_t v = 0; v < base_nv; v++) {
+		if (map->face[v] >= mesh->nf)
+			return mr_fail(ctx, MR_ERANGE,
+			    "base: vertex %zu lies on face %u of %s, which has %zu", v, map->face[v],
+			    mesh->name, mesh->nf);
+		if (!mr_finite(map->bary[v]))
+			return mr_fail(ctx, MR_ERANGE,
+			    "base: the barycentric coordinates of vertex %zu are not finite", v);
+	}
+	return MR_OK;
+}
+
+mr_status
 mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_source_map *map)
 {
 	const void *face, *bary;
@@ -146,14 +161,7 @@ mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv,
 	MR_TRY(mr_layer_get_rows(ctx, f, "base", "source_face", base_nv, &face));
 	MR_TRY(mr_layer_get_rows(ctx, f, "base", "source_bary", base_nv, &bary));
 	r = (mr_source_map){ face, bary };
-	for (size_t v = 0; v < base_nv; v++) {
-		if (r.face[v] >= mesh->nf)
-			return mr_fail(ctx, MR_ERANGE, "base: vertex %zu lies on face %u of %zu of %s", v,
-			    r.face[v], mesh->nf, mesh->name);
-		if (!mr_finite(r.bary[v]))
-			return mr_fail(ctx, MR_ERANGE,
-			    "base: the barycentric coordinates of vertex %zu are not finite", v);
-	}
+	MR_TRY(mr_source_map_check(ctx, mesh, base_nv, &r));
 	*map = r;
 	return MR_OK;
 }

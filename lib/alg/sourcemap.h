@@ -27,7 +27,13 @@ mr_status mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *m
 mr_status mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base,
     const mr_source_map *base_map, const mr_source_map *over, size_t n, mr_source_map *map);
 
-/* The map of the frame's base, faces checked against the mesh.  MR_EMISSING without one. */
+/*
+ * MR_ERANGE where a face of the map, of base_nv vertices, is not one of the mesh's, or a coordinate is not
+ * finite.
+ */
+mr_status mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_source_map *map);
+
+/* The map of the frame's base, checked against the mesh.  MR_EMISSING without one. */
 mr_status
 mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_source_map *map);
 

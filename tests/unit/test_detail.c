@@ -49,7 +49,7 @@ smoothed(mr_ctx *ctx, mr_mesh m, int passes)
 }
 
 /* The source map of a base with the mesh's own numbering. */
-static mr_source
+static mr_source_map
 identity_map(mr_ctx *ctx, mr_mesh m)
 {
 	uint32_t *face = MR_NEW(ctx, m.nv, uint32_t);
@@ -60,11 +60,11 @@ identity_map(mr_ctx *ctx, mr_mesh m)
 			face[m.t[f].v[k]] = f;
 			bary[m.t[f].v[k]] = mr_vec(k == 0, k == 1, k == 2);
 		}
-	return (mr_source){ face, bary };
+	return (mr_source_map){ face, bary };
 }
 
 /* The source map of any base: the mesh's nearest points. */
-static mr_source
+static mr_source_map
 nearest_map(mr_ctx *ctx, mr_mesh mesh, mr_mesh base)
 {
 	uint32_t *face = MR_NEW(ctx, base.nv, uint32_t);
@@ -77,7 +77,7 @@ nearest_map(mr_ctx *ctx, mr_mesh mesh, mr_mesh base)
 		face[i] = c.face;
 		bary[i] = c.bary;
 	}
-	return (mr_source){ face, bary };
+	return (mr_source_map){ face, bary };
 }
 
 static const mr_v3 *
@@ -113,7 +113,7 @@ figure(const mr_ctx *ctx, const char *name)
 
 /* Every vertex has a height, on a point of a face, and comes back. */
 static void
-check_heights(mr_ctx *ctx, mr_mesh mesh, mr_mesh base, const mr_source *source)
+check_heights(mr_ctx *ctx, mr_mesh mesh, mr_mesh base, const mr_source_map *source)
 {
 	double diagonal = mr_mesh_diagonal(&mesh);
 	mr_detail d;
@@ -158,8 +158,8 @@ nothing_is_lost(void **state)
 		mr_ctx ctx;
 		mr_ctx_init(&ctx, 2);
 		mr_mesh m = solid(&ctx, solids[i], 4000), base = smoothed(&ctx, m, 15);
-		mr_source map = identity_map(&ctx, m);
-		assert_int_equal(mr_source_check(&ctx, &m, &base, &map), MR_OK);
+		mr_source_map map = identity_map(&ctx, m);
+		assert_int_equal(mr_source_map_check(&ctx, &m, base.nv, &map), MR_OK);
 		check_heights(&ctx, m, base, &map);
 		check_heights(&ctx, m, base, NULL);
 		mr_ctx_free(&ctx);
@@ -180,7 +180,7 @@ the_base_may_have_other_vertices(void **state)
 		for (size_t i = 0; i < m.nv; i++)
 			p[i] = mr_mul(1 + 0.1 * mr_random_real(&r), m.p[i]);
 		m = with_positions(m, p, "mesh");
-		mr_source map = nearest_map(&ctx, m, base);
+		mr_source_map map = nearest_map(&ctx, m, base);
 		check_heights(&ctx, m, base, &map);
 		check_heights(&ctx, m, base, NULL);
 	}
@@ -212,7 +212,7 @@ a_vertex_stays_on_its_sheet(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 2);
 	mr_mesh m = two_sheets(&ctx, 0.05, 0, "mesh"), base = two_sheets(&ctx, 0.05, 0.08, "base");
-	mr_source map = identity_map(&ctx, m);
+	mr_source_map map = identity_map(&ctx, m);
 	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d), MR_OK);
 	for (size_t i = 0; i < d.n; i++) {
 		assert_int_equal(d.face[i] < base.nf / 2, i < m.nv / 2);
@@ -237,7 +237,7 @@ beyond_the_boundary_offsets_serve(void **state)
 	for (size_t i = 0; i < m.nv; i++) /* a wavy plane that reaches beyond the base on every side */
 		p[i] = mr_vec(1.2 * m.p[i].x, 1.2 * m.p[i].y, 0.1 * sin(5 * m.p[i].x));
 	m = with_positions(m, p, "mesh");
-	mr_source map = identity_map(&ctx, m);
+	mr_source_map map = identity_map(&ctx, m);
 	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d), MR_OK);
 	assert_non_null(d.offset);
 	for (size_t i = 0; i < d.n; i++) {
@@ -262,7 +262,7 @@ the_detail_follows_the_base(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 2);
 	mr_mesh m = solid(&ctx, MR_BUMPY, 3000), base = smoothed(&ctx, m, 30), moved;
-	mr_source map = identity_map(&ctx, m);
+	mr_source_map map = identity_map(&ctx, m);
 	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d), MR_OK);
 	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
 	mr_v3 *offset = MR_NEW_ZERO(&ctx, m.nv, mr_v3);
@@ -295,7 +295,7 @@ threads_do_not_matter(void **state)
 	mr_ctx_init(&one, 1);
 	mr_ctx_init(&four, 4);
 	mr_mesh m = solid(&one, MR_BUMPY, 6000), base = smoothed(&one, m, 60);
-	mr_source map = identity_map(&one, m);
+	mr_source_map map = identity_map(&one, m);
 	assert_int_equal(mr_encode(&one, &m, &base, &map, &a), MR_OK);
 	assert_int_equal(mr_encode(&four, &m, &base, &map, &b), MR_OK);
 	assert_memory_equal(a.face, b.face, a.n * sizeof *a.face);
@@ -319,7 +319,7 @@ degenerate_bases_lose_nothing_either(void **state)
 	for (size_t i = 0; i < m.nv; i++)
 		flat[i] = mr_vec(m.p[i].x, m.p[i].y, 0); /* two layers, folded at their rims */
 	mr_mesh bases[] = { with_positions(m, flat, "base"), with_positions(m, point, "base") };
-	mr_source map = identity_map(&ctx, m);
+	mr_source_map map = identity_map(&ctx, m);
 	for (size_t i = 0; i < 2; i++) {
 		assert_int_equal(mr_encode(&ctx, &m, &bases[i], &map, &d), MR_OK);
 		assert_int_equal(mr_detail_check(&ctx, &d, &bases[i]), MR_OK);
@@ -347,8 +347,8 @@ bad_columns_are_refused(void **state)
 	height[2] = 0;
 	assert_int_equal(mr_detail_check(&ctx, &d, &m), MR_ERANGE);
 	assert_string_equal(ctx.error, "vertex 3 stands on face 9 of base, which has 2");
-	mr_source map = { face, bary };
-	assert_int_equal(mr_source_check(&ctx, &m, &m, &map), MR_ERANGE);
+	mr_source_map map = { face, bary };
+	assert_int_equal(mr_source_map_check(&ctx, &m, m.nv, &map), MR_ERANGE);
 	assert_string_equal(ctx.error, "base: vertex 3 lies on face 9 of base, which has 2");
 	mr_ctx_free(&ctx);
 }
