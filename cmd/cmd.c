@@ -216,11 +216,13 @@ parse_command_line(cmd *c, int argc, char **argv)
 		{ 'i', "input", CMD_TEXT, &s->input, 0, 0, "FILE", "read that stream (default stdin)", NULL },
 		{ 0 },
 	};
-	/* Only a sink whose operands are its own needs -i: it is the last entry. */
+	/* Only a sink whose operands are its own needs -i: it is the last entry.  -o is the first. */
 	const cmd_opt *end = &standard[sizeof standard / sizeof *standard - 2];
 	cmd_opt without_input[sizeof standard / sizeof *standard] = { { 0 } };
-	const cmd_opt *const tables[2] = { c->tool->options,
-		c->tool->sink && c->tool->operands ? standard : without_input };
+	const cmd_opt *const tables[2] = { c->tool->options, c->tool->names_output ? standard + 1
+							     : c->tool->sink && c->tool->operands
+								 ? standard
+								 : without_input };
 	cmd_args args;
 
 	memcpy(without_input, standard, (size_t)(end - standard) * sizeof *standard);

@@ -47,8 +47,9 @@ typedef struct cmd_tool {
 	/* After the last frame; may be NULL. */
 	mr_status (*finish)(cmd *c);
 
-	bool sink;  /* writes no stream; with operands of its own it reads -i FILE or stdin */
-	bool sends; /* `frame` sends by cmd_send itself */
+	bool sink;         /* writes no stream; with operands of its own it reads -i FILE or stdin */
+	bool names_output; /* a sink that names its output by an operand: it has no -o */
+	bool sends;        /* `frame` sends by cmd_send itself */
 } cmd_tool;
 
 struct cmd {

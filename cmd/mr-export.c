@@ -72,5 +72,6 @@ main(int argc, char **argv)
 		.prepare = check,
 		.frame = export_frame,
 		.finish = finish,
-		.sink = true });
+		.sink = true,
+		.names_output = true });
 }

@@ -147,5 +147,6 @@ main(int argc, char **argv)
 		.prepare = prepare,
 		.frame = render_frame,
 		.finish = finish,
-		.sink = true });
+		.sink = true,
+		.names_output = true });
 }

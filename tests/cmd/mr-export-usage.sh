@@ -12,5 +12,7 @@ export_cube -f nonsense a.obj
 export_cube a.las
 export_cube -
 export_cube 'a%x.obj'
+export_cube -o a.obj -f obj -
+ls a.obj 2>/dev/null
 mr-cat cube.mrs cube.mrs | mr-export two.obj
 echo "exit $?" >&2
