@@ -150,11 +150,13 @@ bool
 mr_foot_walk(
     const mr_ground *g, mr_v3 p, uint32_t face, mr_v3 bary, double limit, mr_foot *foot, mr_walk *walk)
 {
-	enum { STEPS = 64, STUCK = 3 };
+	enum { STEPS = 256, STUCK = 3, PATIENCE = 16 };
+	const double less = 0.99; /* by so much the squared residual is to fall within PATIENCE steps */
 	field f = field_of(&g->surface, face);
 	place at = { bary.y, bary.z, 0 };
 	mr_v3 r = residual(&f, p, at), n = normal_at(&f, at);
-	int stuck = 0;
+	int stuck = 0, last = 0;
+	double least = INFINITY, r2;
 
 	at.t = mr_dot(r, n) / mr_norm2(n);
 	for (int step = 0; step < STEPS && isfinite(at.t); step++) {
@@ -163,6 +165,13 @@ mr_foot_walk(
 		int corner;
 
 		r = residual(&f, p, at);
+		r2 = mr_norm2(r);
+		if (r2 < less * least) {
+			least = r2;
+			last = step;
+		} else if (step - last > PATIENCE) { /* to and fro over a crease */
+			return false;
+		}
 		det = newton_step(&f, r, &at);
 		walk->steps++;
 		corner = first_exit(from, at, &share);
@@ -180,7 +189,7 @@ mr_foot_walk(
 	return false;
 }
 
-/* A part of the surface: faces in the order in which they were reached, until they are sorted. */
+/* The part of the surface that a search has met: a heap of faces to be looked at, the nearest first. */
 enum { PATCH = 4096 };
 
 typedef struct near_face {
@@ -189,14 +198,47 @@ typedef struct near_face {
 } near_face;
 
 typedef struct patch {
-	size_t n, met;
-	near_face face[PATCH];
-	uint32_t slot[2 * PATCH]; /* hash table of the faces met, kept or not: no more than half full */
+	size_t waiting, met;
+	near_face heap[PATCH];
+	uint32_t slot[2 * PATCH]; /* hash table of the faces met: no more than half full */
 } patch;
+
+static bool
+nearer(near_face a, near_face b)
+{
+	return a.dist2 != b.dist2 ? a.dist2 < b.dist2 : a.face < b.face;
+}
+
+static void
+push(patch *s, near_face x)
+{
+	size_t i = s->waiting++;
+
+	for (; i > 0 && nearer(x, s->heap[(i - 1) / 2]); i = (i - 1) / 2)
+		s->heap[i] = s->heap[(i - 1) / 2];
+	s->heap[i] = x;
+}
+
+static near_face
+pop(patch *s)
+{
+	near_face first = s->heap[0], last = s->heap[--s->waiting];
+	size_t i = 0, child;
+
+	for (; (child = 2 * i + 1) < s->waiting; i = child) {
+		if (child + 1 < s->waiting && nearer(s->heap[child + 1], s->heap[child]))
+			child++;
+		if (!nearer(s->heap[child], last))
+			break;
+		s->heap[i] = s->heap[child];
+	}
+	s->heap[i] = last;
+	return first;
+}
 
 /* Enters the face into the table; false where it is there already, or the table has its fill. */
 static bool
-meet(patch *s, uint32_t face)
+enter(patch *s, uint32_t face)
 {
 	size_t i = face * 2654435761u % (2 * PATCH);
 
@@ -222,41 +264,20 @@ closest_on(const mr_ground *g, uint32_t face, mr_v3 p)
 }
 
 static void
-take(const mr_ground *g, mr_v3 p, uint32_t face, double radius, patch *s)
+meet(const mr_ground *g, mr_v3 p, uint32_t face, patch *s)
 {
-	double dist2;
-
-	if (!meet(s, face))
-		return;
-	dist2 = closest_on(g, face, p).dist2;
-	if (s->n > 0 && !(dist2 <= radius * radius))
-		return;
-	s->face[s->n++] = (near_face){ dist2, face };
+	if (enter(s, face))
+		push(s, (near_face){ closest_on(g, face, p).dist2, face });
 }
 
-static int
-nearer(const void *a, const void *b)
-{
-	const near_face *x = a, *y = b;
-
-	return x->dist2 != y->dist2 ? (x->dist2 > y->dist2) - (x->dist2 < y->dist2)
-	                            : (x->face > y->face) - (x->face < y->face);
-}
-
-/* The faces that hang together with `face` inside the ball of `radius` around p, nearest first. */
 static void
-flood(const mr_ground *g, mr_v3 p, uint32_t face, double radius, patch *s)
+meet_neighbours(const mr_ground *g, mr_v3 p, uint32_t face, patch *s)
 {
-	s->n = s->met = 0;
-	memset(s->slot, 0xff, sizeof s->slot);
-	take(g, p, face, radius, s);
-	for (size_t next = 0; next < s->n; next++)
-		for (int k = 0; k < 3; k++) {
-			uint32_t v = g->surface.m->t[s->face[next].face].v[k];
-			for (size_t i = g->inc->start[v]; i < g->inc->start[v + 1]; i++)
-				take(g, p, g->inc->face[i], radius, s);
-		}
-	qsort(s->face, s->n, sizeof *s->face, nearer);
+	for (int k = 0; k < 3; k++) {
+		uint32_t v = g->surface.m->t[face].v[k];
+		for (size_t i = g->inc->start[v]; i < g->inc->start[v + 1]; i++)
+			meet(g, p, g->inc->face[i], s);
+	}
 }
 
 static double
@@ -265,37 +286,46 @@ cubic_at(const double c[4], double t)
 	return c[0] + t * (c[1] + t * (c[2] + t * c[3]));
 }
 
-/* The root in [a, b], where the cubic is monotonic; false where it has none. */
+/* The root in [a, b], where the cubic is monotonic, by Newton's method inside of it; false where it has none.
+ */
 static bool
 root_between(const double c[4], double a, double b, double *root)
 {
-	double fa = cubic_at(c, a), fb = cubic_at(c, b);
+	enum { STEPS = 50 };
+	const double enough = 1e-12;
+	double fa = cubic_at(c, a), fb = cubic_at(c, b), width = b - a, t = 0.5 * (a + b);
 
 	if ((fa > 0) == (fb > 0) && fa != 0 && fb != 0)
 		return false;
-	for (int i = 0; i < 50; i++) {
-		double t = 0.5 * (a + b), ft = cubic_at(c, t);
+	for (int i = 0; i < STEPS; i++) {
+		double ft = cubic_at(c, t), slope = c[1] + t * (2 * c[2] + t * 3 * c[3]),
+		       next = t - ft / slope;
 		if ((ft > 0) == (fa > 0))
 			a = t;
 		else
 			b = t;
+		if (!(next > a && next < b))
+			next = 0.5 * (a + b);
+		if (fabs(next - t) <= enough * width)
+			break;
+		t = next;
 	}
-	*root = 0.5 * (a + b);
+	*root = t;
 	return true;
 }
 
-/* The roots in [-reach, reach], at most three. */
+/* The roots in the range, at most three. */
 static int
-cubic_roots(const double c[4], double reach, double root[3])
+cubic_roots(const double c[4], const double range[2], double root[3])
 {
-	double cut[4] = { -reach, reach, reach, reach };
+	double cut[4] = { range[0], range[1], range[1], range[1] };
 	double half = c[2], disc = half * half - 3 * c[3] * c[1]; /* of 3 c3 t^2 + 2 c2 t + c1 */
 	int n = 0;
 
 	if (disc > 0) {
 		double q = -(half + copysign(sqrt(disc), half)), t1 = q / (3 * c[3]), t2 = c[1] / q;
-		cut[1] = fmax(-reach, fmin(reach, fmin(t1, t2)));
-		cut[2] = fmax(-reach, fmin(reach, fmax(t1, t2)));
+		cut[1] = fmax(range[0], fmin(range[1], fmin(t1, t2)));
+		cut[2] = fmax(range[0], fmin(range[1], fmax(t1, t2)));
 	}
 	for (int i = 0; i < 3; i++)
 		if (cut[i] < cut[i + 1] && root_between(c, cut[i], cut[i + 1], &root[n]))
@@ -314,22 +344,55 @@ place_in_plane(const field *f, mr_v3 p, double t)
 	return (place){ mr_dot(mr_cross(q, b), n) / n2, mr_dot(mr_cross(a, q), n) / n2, t };
 }
 
+/*
+ * Where t may lie for a foot of p on the face, not higher than limit; false: nowhere.  With c the
+ * centre, r the farthest that a corner is from it, a the mean of the normals and s the farthest that
+ * one is from it, p - b = t N says
+ *
+ *	p - c = t a + e,	|e| <= r + |t| s.
+ */
+static bool
+range_of_foot(const field *f, mr_v3 p, double limit, double range[2])
+{
+	const double third = 1. / 3, safe = 1 + 1e-6, shortest = 0.25; /* |N| that is looked at */
+	mr_v3 e = mr_mul(third, mr_add(f->e1, f->e2)), m = mr_mul(third, mr_add(f->m1, f->m2));
+	mr_v3 q = mr_sub(p, mr_add(f->p0, e)), a = mr_add(f->n0, m);
+	double r2 = fmax(mr_norm2(e), fmax(mr_norm2(mr_sub(f->e1, e)), mr_norm2(mr_sub(f->e2, e))));
+	double s2 = fmax(mr_norm2(m), fmax(mr_norm2(mr_sub(f->m1, m)), mr_norm2(mr_sub(f->m2, m))));
+	double r = safe * sqrt(r2), s = safe * sqrt(s2), length = mr_norm(a);
+	double along = length > 0 ? mr_dot(q, a) / length : 0, most = limit / fmax(length - s, shortest);
+
+	range[0] = -most, range[1] = most;
+	if (mr_norm2(q) - along * along > (r + most * s) * (r + most * s))
+		return false;
+	if (s < length && fabs(along) > r) { /* t has the sign of along */
+		double low = (fabs(along) - r) / (length + s),
+		       high = fmin(most, (fabs(along) + r) / (length - s));
+		range[0] = along > 0 ? low : -high;
+		range[1] = along > 0 ? high : -low;
+	}
+	return range[0] <= range[1];
+}
+
 /* The lowest foot of p on one face, not higher than limit. */
 static bool
 foot_on_face(const mr_ground *g, mr_v3 p, uint32_t face, double limit, mr_foot *foot)
 {
 	enum { POLISH = 4 };
-	const double rough = 1e-3, shortest = 0.25; /* shortest |N| that is looked at: t = h / |N| */
+	const double rough = 1e-3;
 	field f = field_of(&g->surface, face);
 	mr_v3 q = mr_sub(p, f.p0), c0 = mr_cross(f.e1, f.e2), c2 = mr_cross(f.m1, f.m2);
 	mr_v3 c1 = mr_add(mr_cross(f.e1, f.m2), mr_cross(f.m1, f.e2));
 	/* det(e1 + t m1, e2 + t m2, q - t n0) = 0 */
 	double cubic[4] = { mr_dot(c0, q), mr_dot(c1, q) - mr_dot(c0, f.n0), mr_dot(c2, q) - mr_dot(c1, f.n0),
 		-mr_dot(c2, f.n0) };
-	double root[3];
-	int n = cubic_roots(cubic, limit / shortest, root);
+	double range[2], root[3];
 	bool found = false;
+	int n;
 
+	if (!range_of_foot(&f, p, limit, range))
+		return false;
+	n = cubic_roots(cubic, range, root);
 	for (int i = 0; i < n; i++) {
 		place at = place_in_plane(&f, p, root[i]);
 		if (!inside(at, rough))
@@ -344,25 +407,33 @@ foot_on_face(const mr_ground *g, mr_v3 p, uint32_t face, double limit, mr_foot *
 	return found;
 }
 
+/* Of the faces met the nearest is looked at next, until it is farther than the lowest foot may be. */
 bool
 mr_foot_search(const mr_ground *g, mr_v3 p, uint32_t face, mr_foot *foot)
 {
 	const double reach = 2; /* highest foot, in distances from the sheet */
-	mr_closest near;
-	double limit;
+	double near2 = INFINITY, limit = INFINITY;
 	bool found = false;
 	patch s;
 
-	flood(g, p, face, sqrt(closest_on(g, face, p).dist2), &s);
-	face = s.face[0].face;
-	near = closest_on(g, face, p);
-	*foot = (mr_foot){ face, near.bary, 0 };
-	limit = reach * sqrt(near.dist2) + g->tolerance;
-	flood(g, p, face, limit, &s);
-	for (size_t i = 0; i < s.n && s.face[i].dist2 <= limit * limit; i++)
-		if (foot_on_face(g, p, s.face[i].face, limit, foot)) {
+	s.waiting = s.met = 0;
+	memset(s.slot, 0xff, sizeof s.slot);
+	meet(g, p, face, &s);
+	while (s.waiting > 0 && s.heap[0].dist2 <= limit * limit) {
+		near_face next = pop(&s);
+		if (next.dist2 < near2) {
+			near2 = next.dist2;
+			face = next.face;
+			limit = fmin(limit, reach * sqrt(near2) + g->tolerance);
+		}
+		if (foot_on_face(g, p, next.face, limit, foot)) {
 			limit = fabs(foot->height);
 			found = true;
 		}
-	return found;
+		meet_neighbours(g, p, next.face, &s);
+	}
+	if (found && fabs(foot->height) <= reach * sqrt(near2) + g->tolerance)
+		return true;
+	*foot = (mr_foot){ face, closest_on(g, face, p).bary, 0 };
+	return false;
 }

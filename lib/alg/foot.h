@@ -36,10 +36,11 @@ bool mr_foot_walk(
     const mr_ground *g, mr_v3 p, uint32_t face, mr_v3 bary, double limit, mr_foot *foot, mr_walk *walk);
 
 /*
- * The lowest foot on the sheet of `face`, without a good start.  The sheet is the part of
- * the surface that hangs together with `face` inside the ball around p that reaches to
- * face.  True where there is a foot not higher than twice the distance from p to
- * the sheet; else *foot is the sheet's nearest point, of height 0.
+ * The lowest foot on the sheet of `face`, without a good start.  The sheet is the part of the
+ * surface that is reached from face to neighbouring face, the nearest to p first, but no more
+ * than 4096 faces: far above a fine surface an offset is better than an endless search.  True
+ * where there is a foot not higher than twice the distance from p to the sheet; else *foot is
+ * the sheet's nearest point, of height 0.
  */
 bool mr_foot_search(const mr_ground *g, mr_v3 p, uint32_t face, mr_foot *foot);
 

@@ -79,13 +79,20 @@ mr_phong_normal(const mr_phong *s, uint32_t face, mr_v3 w)
 	return mr_norm2(n) > 0 ? n : mr_vec(0, 0, 1);
 }
 
-/* a without its part along the unit vector n, at unit length; zero where nothing is left. */
+/*
+ * a without its part along the unit vector n, at unit length; zero where nothing is left.  What rounding
+ * leaves along n is taken away again at unit length: a may lie all but along n, and the frame is to be
+ * orthonormal all the same.
+ */
 static mr_v3
 tangent(mr_v3 a, mr_v3 n)
 {
 	mr_v3 unit = mr_unit(a), t = mr_axpy(-mr_dot(unit, n), n, unit);
 
-	return mr_norm2(t) > 1e-20 ? mr_unit(t) : mr_vec(0, 0, 0);
+	if (!(mr_norm2(t) > 1e-20))
+		return mr_vec(0, 0, 0);
+	t = mr_unit(t);
+	return mr_unit(mr_axpy(-mr_dot(t, n), n, t));
 }
 
 mr_tangent_frame
