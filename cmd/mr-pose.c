@@ -70,13 +70,9 @@ static mr_status
 send(cmd *c, const mr_frame *f, const mr_handles *h, size_t number)
 {
 	mr_mark mark = mr_mark_take(&c->ctx);
-	mr_frame copy = *f;
+	mr_frame copy;
 
-	copy.columns = MR_NEW(&c->ctx, f->count + 1, mr_column);
-	if (!copy.columns)
-		return MR_EMEM;
-	memcpy(copy.columns, f->columns, f->count * sizeof *f->columns);
-	copy.room = f->count + 1;
+	MR_TRY(mr_frame_copy(&c->ctx, f, &copy));
 	if (number > 0 && f->key) {
 		copy.key = false;
 		copy.name = mr_format(&c->ctx, "%s-%04zu", f->name, number);

@@ -26,6 +26,21 @@ mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame)
 	return MR_OK;
 }
 
+mr_status
+mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy)
+{
+	mr_column *columns = MR_NEW(ctx, frame->count + ROOM, mr_column);
+
+	if (!columns)
+		return MR_EMEM;
+	if (frame->count)
+		memcpy(columns, frame->columns, frame->count * sizeof *columns);
+	*copy = *frame;
+	copy->columns = columns;
+	copy->room = frame->count + ROOM;
+	return MR_OK;
+}
+
 static mr_column *
 find(const mr_frame *f, const char *layer, const char *name)
 {

@@ -49,6 +49,9 @@ size_t mr_type_size(char type);
 /* An empty key frame, in the arena.  MR_ERANGE for a name that the format forbids. */
 mr_status mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame);
 
+/* Copies the list of columns, so that what is put into the copy stays out of `frame`; the rest is shared. */
+mr_status mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
+
 /* The column, or NULL.  Not decoded: for its shape and rows. */
 const mr_column *mr_frame_find(const mr_frame *frame, const char *layer, const char *name);
 
