@@ -130,6 +130,26 @@ check_heights(mr_ctx *ctx, mr_mesh mesh, mr_mesh base, const mr_source_map *sour
 	assert_true(farthest(decoded(ctx, base, &d, 1), mesh.p, mesh.nv) < 1e-14 * diagonal);
 }
 
+/* Orthonormal to within rounding even where the triangle's first edge lies all but along the normal. */
+static void
+frames_are_orthonormal(void **state)
+{
+	const mr_tri t = { { 0, 1, 2 } };
+	mr_v3 n = mr_unit(mr_vec(1, 2, 3));
+
+	(void)state;
+	for (double off = 1; off > 1e-12; off /= 10) {
+		mr_v3 p[3] = { { 0, 0, 0 }, mr_axpy(off, mr_vec(0.3, -0.5, 0.7), mr_mul(0.7, n)),
+			{ 1, 0, 0 } };
+		mr_v3 normal[3] = { n, n, n };
+		mr_mesh m = { .p = p, .nv = 3, .t = &t, .nf = 1 };
+		mr_tangent_frame f = mr_phong_frame(&(mr_phong){ &m, normal }, 0, mr_vec(0.2, 0.3, 0.5));
+		assert_true(fabs(mr_dot(f.t1, f.n)) < 1e-15 && fabs(mr_dot(f.t2, f.n)) < 1e-15);
+		assert_true(fabs(mr_dot(f.t1, f.t2)) < 1e-15);
+		assert_true(fabs(mr_norm(f.t1) - 1) < 1e-15 && fabs(mr_norm(f.t2) - 1) < 1e-15);
+	}
+}
+
 static void
 normals_are_those_of_the_mesh(void **state)
 {
@@ -379,6 +399,7 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(normals_are_those_of_the_mesh),
+		cmocka_unit_test(frames_are_orthonormal),
 		cmocka_unit_test(nothing_is_lost),
 		cmocka_unit_test(the_base_may_have_other_vertices),
 		cmocka_unit_test(a_vertex_stays_on_its_sheet),
