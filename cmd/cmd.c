@@ -5,6 +5,7 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
+#include <signal.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -242,6 +243,40 @@ parse_command_line(cmd *c, int argc, char **argv)
 	c->operand_count = args.operand_count;
 }
 
+/* Interrupts */
+
+/* What an interrupt leaves behind unless it is removed; NULL: nothing. */
+static const char *volatile leftover;
+
+/* The signal comes again when this returns, and then ends the process as it would have. */
+static void
+tidy_up(int signal_number)
+{
+	if (leftover)
+		unlink(leftover);
+	raise(signal_number);
+}
+
+/* What is ignored, as under nohup, stays so. */
+static void
+tidy_up_on(int signal_number)
+{
+	struct sigaction old;
+
+	if (!sigaction(signal_number, NULL, &old) && old.sa_handler == SIG_DFL)
+		sigaction(signal_number,
+		    &(struct sigaction){ .sa_handler = tidy_up, .sa_flags = (int)SA_RESETHAND }, NULL);
+}
+
+static void
+remove_on_interrupt(const char *file)
+{
+	leftover = file;
+	tidy_up_on(SIGINT);
+	tidy_up_on(SIGTERM);
+	tidy_up_on(SIGHUP);
+}
+
 /* Opening and closing the outputs */
 
 /* The output as a descriptor: stdout, or -o, written beside its place unless that is a device or a pipe. */
@@ -261,6 +296,7 @@ open_output(cmd *c)
 		s->out = open(s->unfinished, O_WRONLY | O_CREAT | O_EXCL, 0666);
 		if (s->out < 0)
 			s->unfinished = NULL;
+		remove_on_interrupt(s->unfinished);
 	} else {
 		s->out = open(c->output, O_WRONLY);
 	}
@@ -318,6 +354,7 @@ close_outputs(cmd *c)
 	if (s->held && rename(s->held, s->place))
 		die(c, fail_system(c, s->place));
 	s->held = NULL;
+	leftover = NULL;
 }
 
 mr_status
@@ -329,6 +366,7 @@ cmd_hold(cmd *c, const char *file, const char *place)
 		return MR_OK;
 	s->place = mr_format(&s->long_lived, "%s", place);
 	s->held = mr_format(&s->long_lived, "%s", file);
+	remove_on_interrupt(s->held);
 	if (s->held && s->place)
 		return MR_OK;
 	unlink(file);
