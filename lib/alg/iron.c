@@ -61,11 +61,11 @@ is_on_curve(const mr_dyn *d, uint32_t v)
 
 /* Half of the way to the middle of the neighbours. */
 static void
-draw_in(mr_dyn *d, uint32_t v)
+draw_in(mr_dyn *d, uint32_t v, bool tips)
 {
 	mr_v3 p;
 
-	if (is_on_curve(d, v))
+	if (d->kind[v] != MR_SMOOTH && (!tips || is_on_curve(d, v)))
 		return;
 	p = mr_lerp(0.5, d->p[v], middle_of_neighbours(d, v));
 	if (!makes_a_needle(d, v, p))
@@ -73,7 +73,7 @@ draw_in(mr_dyn *d, uint32_t v)
 }
 
 size_t
-mr_iron(mr_dyn *d)
+mr_iron(mr_dyn *d, bool tips)
 {
 	size_t folds = 1;
 
@@ -83,10 +83,10 @@ mr_iron(mr_dyn *d)
 			if (mr_dyn_face_dead(d, h / 3) || h > d->twin[h] || !is_folded(d, h))
 				continue;
 			folds++;
-			draw_in(d, d->v[h]);
-			draw_in(d, mr_dyn_to(d, h));
-			draw_in(d, mr_dyn_apex(d, h));
-			draw_in(d, mr_dyn_apex(d, d->twin[h]));
+			draw_in(d, d->v[h], tips);
+			draw_in(d, mr_dyn_to(d, h), tips);
+			draw_in(d, mr_dyn_apex(d, h), tips);
+			draw_in(d, mr_dyn_apex(d, d->twin[h]), tips);
 		}
 	}
 	return folds;

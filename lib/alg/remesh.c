@@ -311,7 +311,7 @@ equalize_areas(remesher *r)
 		if (i % EVERY == 0)
 			MR_TRY(regularize(r, 0));
 	}
-	mr_iron(&r->d);
+	mr_iron(&r->d, true);
 	return MR_OK;
 }
 
@@ -333,7 +333,7 @@ one_round(remesher *r)
 		o.project = r->o->project && i == RELAX;
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	}
-	mr_iron(&r->d);
+	mr_iron(&r->d, false);
 	return MR_OK;
 }
 
@@ -413,6 +413,21 @@ map_to_source(remesher *r, mr_source_map *map)
 /* How much finer and coarser than the uniform length adapted lengths may be. */
 static const double ADAPTIVE_RANGE = 5;
 
+/* Refuses a length that would take more faces than can be numbered. */
+static mr_status
+check_length(remesher *r, const mr_mesh *m, double length)
+{
+	double area = mr_mesh_area(r->ctx, m), faces = area / (sqrt(3) / 4 * length * length);
+
+	if (!(area > 0))
+		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
+	if (!(faces < (double)(MR_NONE / 6)))
+		return mr_fail(r->ctx, MR_ERANGE,
+		    "%s: edges of length %g would take about %.2g faces, more than %u", m->name, length,
+		    faces, MR_NONE / 6);
+	return MR_OK;
+}
+
 static mr_status
 set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 {
@@ -420,8 +435,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	double *length = NULL,
 	       uniform = r->o->length > 0 ? r->o->length : r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 
-	if (!(uniform > 0))
-		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
+	MR_TRY(check_length(r, m, uniform));
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
 	if (r->d.curve) {
 		curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);

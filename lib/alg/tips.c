@@ -5,7 +5,7 @@
 static const double SHARP = 2.5;   /* total curvature within an edge length that makes a tip */
 static const double SPACING = 1.5; /* of two tips, in edge lengths */
 
-enum { MOST = 4096 }; /* vertices looked at around one */
+enum { MOST = 1024, SLOTS = 4 * MOST }; /* vertices looked at around one; of a power of two slots */
 
 typedef struct search {
 	const mr_dyn *d;
@@ -38,57 +38,74 @@ defect_body(void *arg, size_t begin, size_t end)
 		w->defect[v] = w->d->kind[v] == MR_SMOOTH ? angle_defect(w->d, v) : 0;
 }
 
-static bool
-is_among(const uint32_t *list, size_t n, uint32_t v)
+/* The vertices gathered around one, and a hash set of them: a slot is taken where its stamp is `now`. */
+typedef struct crowd {
+	uint32_t list[MOST];
+	uint32_t slot[SLOTS], stamp[SLOTS], now;
+	size_t n;
+} crowd;
+
+/* Adds v where it is not in yet and there is room. */
+static void
+join_crowd(crowd *c, uint32_t v)
 {
-	for (size_t i = n; i > 0; i--)
-		if (list[i - 1] == v)
-			return true;
-	return false;
+	uint32_t i = v * 2654435769u >> 20 & (SLOTS - 1);
+
+	while (c->stamp[i] == c->now) {
+		if (c->slot[i] == v)
+			return;
+		i = (i + 1) & (SLOTS - 1);
+	}
+	if (c->n == MOST)
+		return;
+	c->stamp[i] = c->now;
+	c->slot[i] = v;
+	c->list[c->n++] = v;
 }
 
-/* The vertices that hang together with v within `radius` of it; at most MOST. */
-static size_t
-gather(const mr_dyn *d, uint32_t v, double radius, uint32_t list[MOST])
+/* The vertices that hang together with v within `radius` of it, the nearest in edges; at most MOST. */
+static void
+gather(const mr_dyn *d, uint32_t v, double radius, crowd *c)
 {
-	size_t n = 0;
-
-	list[n++] = v;
-	for (size_t i = 0; i < n; i++) {
-		uint32_t h = d->out[list[i]];
+	c->now++;
+	c->n = 0;
+	join_crowd(c, v);
+	for (size_t i = 0; i < c->n; i++) {
+		uint32_t h = d->out[c->list[i]];
 		do {
 			uint32_t to = mr_dyn_to(d, h);
-			if (n < MOST && mr_dist(d->p[to], d->p[v]) < radius && !is_among(list, n, to))
-				list[n++] = to;
+			if (mr_dist(d->p[to], d->p[v]) < radius)
+				join_crowd(c, to);
 			h = mr_dyn_ccw(d, h);
-		} while (h != MR_NONE && h != d->out[list[i]]);
+		} while (h != MR_NONE && h != d->out[c->list[i]]);
 	}
-	return n;
 }
 
 static void
 total_body(void *arg, size_t begin, size_t end)
 {
 	search *w = arg;
-	uint32_t list[MOST];
+	crowd c = { .now = 0 };
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++) {
 		double total = 0;
-		size_t n = w->defect[v] > 0 ? gather(w->d, v, mr_surface_length(w->s, w->d, v), list) : 0;
-		for (size_t i = 0; i < n; i++)
-			total += w->defect[list[i]];
+		w->total[v] = 0;
+		if (w->defect[v] <= 0)
+			continue;
+		gather(w->d, v, mr_surface_length(w->s, w->d, v), &c);
+		for (size_t i = 0; i < c.n; i++)
+			total += w->defect[c.list[i]];
 		w->total[v] = total > SHARP ? total : 0;
 	}
 }
 
 /* True where no vertex within the spacing has more; the lower number wins among equals. */
 static bool
-is_summit(const search *w, uint32_t v, uint32_t list[MOST])
+is_summit(const search *w, uint32_t v, crowd *c)
 {
-	size_t n = gather(w->d, v, SPACING * mr_surface_length(w->s, w->d, v), list);
-
-	for (size_t i = 0; i < n; i++) {
-		uint32_t u = list[i];
+	gather(w->d, v, SPACING * mr_surface_length(w->s, w->d, v), c);
+	for (size_t i = 0; i < c->n; i++) {
+		uint32_t u = c->list[i];
 		if (w->total[u] > w->total[v] || (w->total[u] == w->total[v] && u < v))
 			return false;
 	}
@@ -100,7 +117,7 @@ mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, size_t *pinned)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	search w = { d, s, MR_NEW(ctx, d->nv, double), MR_NEW(ctx, d->nv, double) };
-	uint32_t list[MOST];
+	crowd c = { .now = 0 };
 
 	if (!w.defect || !w.total)
 		return MR_EMEM;
@@ -108,7 +125,7 @@ mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, size_t *pinned)
 	mr_parallel(ctx, d->nv, 1024, total_body, &w);
 	*pinned = 0;
 	for (uint32_t v = 0; v < d->nv; v++)
-		if (w.total[v] > 0 && is_summit(&w, v, list)) {
+		if (w.total[v] > 0 && is_summit(&w, v, &c)) {
 			d->kind[v] = MR_CORNER;
 			d->at[v] = d->out[v];
 			++*pinned;

@@ -209,13 +209,16 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 		mr_frame_drop(f, layer, NULL, 'f');
 		drop_dependents(f, layer);
 	}
-	MR_TRY(mr_layer_put(ctx, f, layer, "position", m->p, m->nv));
+	MR_TRY(mr_layer_put_positions(ctx, f, layer, m->p, m->nv));
 	return mr_layer_put(ctx, f, layer, "triangles", m->t, m->nf);
 }
 
 mr_status
 mr_layer_put_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_v3 *p, size_t nv)
 {
+	mr_mesh points = { .name = layer, .p = p, .nv = nv };
+
+	MR_TRY(check_finite(ctx, &points));
 	return mr_layer_put(ctx, f, layer, "position", p, nv);
 }
 

@@ -58,7 +58,7 @@ mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer
  */
 mr_status mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m);
 
-/* Puts positions alone: the connectivity stands. */
+/* Puts positions alone, which must be finite: the connectivity stands. */
 mr_status mr_layer_put_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_v3 *p, size_t nv);
 
 /* The layer's regions, rows checked against nv, values below 2 + 65536. */
