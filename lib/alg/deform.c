@@ -3,6 +3,7 @@
  * with true areas is ours.
  */
 #include "alg/deform_parts.h"
+#include "base/sets.h"
 #include "op/area.h"
 #include "op/dissect.h"
 #include "op/laplace.h"
@@ -25,28 +26,15 @@ count_regions(mr_deform *d)
 	}
 }
 
-static uint32_t
-root_of(uint32_t *parent, uint32_t v)
-{
-	while (parent[v] != v)
-		v = parent[v] = parent[parent[v]];
-	return v;
-}
-
-/* Joins the free vertices of each face; the lower number is the root. */
+/* Joins the free vertices of each face. */
 static void
 join_free(const mr_mesh *m, const uint32_t *region, uint32_t *parent)
 {
-	for (uint32_t v = 0; v < m->nv; v++)
-		parent[v] = v;
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++) {
 			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
-			if (region[a] != MR_REGION_FREE || region[b] != MR_REGION_FREE)
-				continue;
-			a = root_of(parent, a);
-			b = root_of(parent, b);
-			parent[a > b ? a : b] = a > b ? b : a;
+			if (region[a] == MR_REGION_FREE && region[b] == MR_REGION_FREE)
+				mr_sets_join(parent, a, b);
 		}
 }
 
@@ -55,7 +43,7 @@ static mr_status
 find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *parent = MR_NEW(ctx, d->nv, uint32_t);
+	uint32_t *parent = mr_sets_new(ctx, d->nv);
 	bool *root_anchored = MR_NEW_ZERO(ctx, d->nv, bool);
 
 	if (!parent || !root_anchored)
@@ -65,10 +53,11 @@ find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored)
 		for (int k = 0; k < 3; k++) {
 			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
 			if (d->region[a] != MR_REGION_FREE || d->region[b] != MR_REGION_FREE)
-				root_anchored[root_of(parent, a)] = root_anchored[root_of(parent, b)] = true;
+				root_anchored[mr_sets_root(parent, a)] =
+				    root_anchored[mr_sets_root(parent, b)] = true;
 		}
 	for (uint32_t v = 0; v < d->nv; v++) {
-		anchored[v] = d->region[v] == MR_REGION_FREE && root_anchored[root_of(parent, v)];
+		anchored[v] = d->region[v] == MR_REGION_FREE && root_anchored[mr_sets_root(parent, v)];
 		if (d->region[v] == MR_REGION_FREE && !anchored[v]) {
 			d->loose_vertices++;
 			d->loose += parent[v] == v;
