@@ -3,31 +3,9 @@
 #include "base/random.h"
 #include "mesh/layers.h"
 #include "op/area.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 enum { FREE = MR_REGION_FREE, FIXED = MR_REGION_FIXED, HANDLE = MR_REGION_HANDLE };
-
-static mr_ctx ctx;
-
-static int
-setup(void **state)
-{
-	(void)state;
-	mr_ctx_init(&ctx, 2);
-	return 0;
-}
-
-static int
-teardown(void **state)
-{
-	(void)state;
-	mr_ctx_free(&ctx);
-	return 0;
-}
 
 /* Meshes */
 

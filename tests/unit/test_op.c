@@ -3,29 +3,7 @@
 #include "op/area.h"
 #include "op/dissect.h"
 #include "op/laplace.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-
-#include <cmocka.h>
-
-static mr_ctx ctx;
-
-static int
-setup(void **state)
-{
-	(void)state;
-	mr_ctx_init(&ctx, 2);
-	return 0;
-}
-
-static int
-teardown(void **state)
-{
-	(void)state;
-	mr_ctx_free(&ctx);
-	return 0;
-}
+#include "unit.h"
 
 static void
 assert_near(double a, double b, double tolerance)

@@ -4,28 +4,7 @@
 #include "alg/shape.h"
 #include "base/random.h"
 #include "op/area.h"
-
-#include <setjmp.h>
-
-#include <cmocka.h>
-
-static mr_ctx ctx;
-
-static int
-set_up(void **state)
-{
-	(void)state;
-	mr_ctx_init(&ctx, 2);
-	return 0;
-}
-
-static int
-tear_down(void **state)
-{
-	(void)state;
-	mr_ctx_free(&ctx);
-	return 0;
-}
+#include "unit.h"
 
 static mr_mesh
 shape(mr_solid solid, size_t n)
@@ -323,15 +302,15 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(
-		    closed_shapes_keep_their_topology_and_become_regular, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(source_map_points_at_the_vertices, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(boundary_stays_where_it_is, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(features_survive, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(lengths_adapt_to_curvature, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(threads_and_runs_do_not_change_a_byte, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(failing_memory_is_reported_at_every_place, set_up, tear_down),
-		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, set_up, tear_down),
+		    closed_shapes_keep_their_topology_and_become_regular, setup, teardown),
+		cmocka_unit_test_setup_teardown(source_map_points_at_the_vertices, setup, teardown),
+		cmocka_unit_test_setup_teardown(boundary_stays_where_it_is, setup, teardown),
+		cmocka_unit_test_setup_teardown(features_survive, setup, teardown),
+		cmocka_unit_test_setup_teardown(lengths_adapt_to_curvature, setup, teardown),
+		cmocka_unit_test_setup_teardown(threads_and_runs_do_not_change_a_byte, setup, teardown),
+		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, setup, teardown),
+		cmocka_unit_test_setup_teardown(failing_memory_is_reported_at_every_place, setup, teardown),
+		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

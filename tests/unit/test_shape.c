@@ -1,27 +1,6 @@
 /* The generated shapes: closed, oriented outward, of the genus, size and measures that shape.h states. */
 #include "alg/shape.h"
-
-#include <setjmp.h>
-
-#include <cmocka.h>
-
-static mr_ctx ctx;
-
-static int
-setup(void **state)
-{
-	(void)state;
-	mr_ctx_init(&ctx, 2);
-	return 0;
-}
-
-static int
-teardown(void **state)
-{
-	(void)state;
-	mr_ctx_free(&ctx);
-	return 0;
-}
+#include "unit.h"
 
 static mr_mesh
 made(mr_solid solid, size_t n, size_t genus, bool open)

@@ -3,31 +3,9 @@
 #include "base/random.h"
 #include "op/area.h"
 #include "op/laplace.h"
-
-#include <setjmp.h>
-#include <stdarg.h>
-
-#include <cmocka.h>
+#include "unit.h"
 
 enum { SIDE = 20, N = SIDE * SIDE };
-
-static mr_ctx ctx;
-
-static int
-setup(void **state)
-{
-	(void)state;
-	mr_ctx_init(&ctx, 2);
-	return 0;
-}
-
-static int
-teardown(void **state)
-{
-	(void)state;
-	mr_ctx_free(&ctx);
-	return 0;
-}
 
 static bool
 on_boundary(size_t v)

@@ -1,32 +1,11 @@
 /* The solvers: right solutions, and sentences for matrices that have none. */
 #include "base/random.h"
 #include "solve/solver.h"
+#include "unit.h"
 
 #include <math.h>
-#include <setjmp.h>
-#include <stdarg.h>
-
-#include <cmocka.h>
 
 enum { SIDE = 30, N = SIDE * SIDE };
-
-static mr_ctx ctx;
-
-static int
-setup(void **state)
-{
-	(void)state;
-	mr_ctx_init(&ctx, 2);
-	return 0;
-}
-
-static int
-teardown(void **state)
-{
-	(void)state;
-	mr_ctx_free(&ctx);
-	return 0;
-}
 
 /* The five-point Laplacian of a grid plus `shift` on the diagonal, all of it or the lower triangle, with a
  * drift. */
