@@ -72,23 +72,6 @@ pose_base(mr_ctx *ctx, mr_frame *f, mr_mesh *base)
 }
 
 static mr_status
-read_detail(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
-{
-	const void *face, *bary, *height, *offset = NULL;
-	size_t n;
-
-	if (!mr_layer_has(f, "mesh", "detail_height"))
-		return mr_fail(ctx, MR_EMISSING, "mesh has no detail: it comes from mr-encode");
-	MR_TRY(mr_layer_get(ctx, f, "mesh", "detail_height", &height, &n));
-	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_face", n, &face));
-	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_bary", n, &bary));
-	if (mr_layer_has(f, "mesh", "detail_offset"))
-		MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_offset", n, &offset));
-	*d = (mr_detail){ n, face, bary, height, offset };
-	return mr_detail_check(ctx, d, base);
-}
-
-static mr_status
 decode_frame(cmd *c, mr_frame *f)
 {
 	const mr_incidence *inc;
@@ -99,7 +82,7 @@ decode_frame(cmd *c, mr_frame *f)
 	MR_TRY(mr_layer_mesh(&c->ctx, f, "base", &base));
 	MR_TRY(base_incidence(c, f, &base, &inc));
 	MR_TRY(pose_base(&c->ctx, f, &base));
-	MR_TRY(read_detail(&c->ctx, f, &base, &detail));
+	MR_TRY(mr_detail_get(&c->ctx, f, &base, &detail));
 	p = MR_NEW(&c->ctx, detail.n, mr_v3);
 	if (!p)
 		return MR_EMEM;

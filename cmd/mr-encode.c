@@ -4,18 +4,6 @@
 #include "mesh/layers.h"
 
 static mr_status
-put_detail(mr_ctx *ctx, mr_frame *f, const mr_detail *d)
-{
-	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->face, d->n));
-	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->bary, d->n));
-	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
-	if (d->offset)
-		return mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n);
-	mr_frame_drop(f, "mesh", "detail_offset", 0);
-	return MR_OK;
-}
-
-static mr_status
 encode_frame(cmd *c, mr_frame *f)
 {
 	bool mapped = mr_layer_has(f, "base", "source_face");
@@ -30,7 +18,7 @@ encode_frame(cmd *c, mr_frame *f)
 	if (mapped)
 		MR_TRY(mr_source_map_get(&c->ctx, f, &mesh, base.nv, &map));
 	MR_TRY(mr_encode(&c->ctx, &mesh, &base, mapped ? &map : NULL, &detail));
-	return put_detail(&c->ctx, f, &detail);
+	return mr_detail_put(&c->ctx, f, &detail);
 }
 
 int

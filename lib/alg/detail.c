@@ -321,3 +321,37 @@ mr_decode(
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
+
+/* The columns */
+
+mr_status
+mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
+{
+	const void *face, *bary, *height, *offset = NULL;
+	mr_detail r;
+	size_t n;
+
+	if (!mr_layer_has(f, "mesh", "detail_height"))
+		return mr_fail(ctx, MR_EMISSING, "mesh has no detail: it comes from mr-encode");
+	MR_TRY(mr_layer_get(ctx, f, "mesh", "detail_height", &height, &n));
+	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_face", n, &face));
+	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_bary", n, &bary));
+	if (mr_layer_has(f, "mesh", "detail_offset"))
+		MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_offset", n, &offset));
+	r = (mr_detail){ n, face, bary, height, offset };
+	MR_TRY(mr_detail_check(ctx, &r, base));
+	*d = r;
+	return MR_OK;
+}
+
+mr_status
+mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_detail *d)
+{
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->face, d->n));
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->bary, d->n));
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
+	if (d->offset)
+		return mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n);
+	mr_frame_drop(f, "mesh", "detail_offset", 0);
+	return MR_OK;
+}

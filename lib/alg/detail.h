@@ -41,4 +41,11 @@ mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
 mr_status mr_decode(
     mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p);
 
+/* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
+mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);
+
+/* Puts the columns; an offset that was there and is no longer is dropped.  d: kept until the frame is
+ * written. */
+mr_status mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_detail *d);
+
 #endif
