@@ -16,38 +16,19 @@ mr_build_vertices(mr_builder *b, uint64_t nv)
 	return b->p ? MR_OK : MR_EMEM;
 }
 
-/* Grows an array of the builder to hold `more` beyond `used`. */
-static mr_status
-make_room(mr_ctx *ctx, uint32_t **array, size_t used, size_t more, size_t *room)
-{
-	size_t wanted = *room + *room / 2;
-	uint32_t *p;
-
-	if (more <= *room - used)
-		return MR_OK;
-	if (wanted < used + more)
-		wanted = used + more;
-	p = mr_grow(ctx, *array, used, wanted, sizeof *p);
-	if (!p)
-		return MR_EMEM;
-	*array = p;
-	*room = wanted;
-	return MR_OK;
-}
-
 mr_status
 mr_build_reserve(mr_builder *b, size_t faces)
 {
 	if (faces > MOST_TRIANGLES)
 		return mr_fail(b->ctx, MR_ERANGE, "%zu faces are more than indices can name", faces);
-	return make_room(b->ctx, &b->corner, b->corners, 3 * faces, &b->corner_room);
+	return MR_RESERVE(b->ctx, b->corner, b->corners, 3 * faces, &b->corner_room);
 }
 
 /* From now on the faces' sizes are kept. */
 static mr_status
 keep_sizes(mr_builder *b)
 {
-	MR_TRY(make_room(b->ctx, &b->size, 0, b->faces + b->faces / 2 + 1024, &b->face_room));
+	MR_TRY(MR_RESERVE(b->ctx, b->size, 0, b->faces + b->faces / 2 + 1024, &b->face_room));
 	for (size_t i = 0; i < b->faces; i++)
 		b->size[i] = 3;
 	return MR_OK;
@@ -76,7 +57,7 @@ mr_build_face(mr_builder *b, const uint32_t *corner, size_t n)
 		b->skipped++;
 		return MR_OK;
 	}
-	MR_TRY(make_room(b->ctx, &b->corner, b->corners, n, &b->corner_room));
+	MR_TRY(MR_RESERVE(b->ctx, b->corner, b->corners, n, &b->corner_room));
 	memcpy(b->corner + b->corners, corner, n * sizeof *corner);
 	if (n > 3) {
 		kept = without_repeats(b->corner + b->corners, n);
@@ -89,11 +70,11 @@ mr_build_face(mr_builder *b, const uint32_t *corner, size_t n)
 			MR_TRY(keep_sizes(b));
 	}
 	if (b->size) {
-		MR_TRY(make_room(b->ctx, &b->size, b->faces, 1, &b->face_room));
+		MR_TRY(MR_RESERVE(b->ctx, b->size, b->faces, 1, &b->face_room));
 		b->size[b->faces] = (uint32_t)kept;
 	}
 	if (b->has_groups) {
-		MR_TRY(make_room(b->ctx, &b->group, b->faces, 1, &b->group_room));
+		MR_TRY(MR_RESERVE(b->ctx, b->group, b->faces, 1, &b->group_room));
 		b->group[b->faces] = b->current;
 	}
 	b->corners += kept;
@@ -157,22 +138,8 @@ name_number(mr_ctx *ctx, mr_names *n, const char *s, size_t bytes, uint32_t *num
 		MR_TRY(widen_slots(ctx, n));
 	slot = find_slot(n, s, bytes);
 	if (*slot == 0) {
-		if (n->room - n->bytes < bytes + 1) {
-			size_t room = 2 * n->room + bytes + 1024;
-			char *text = mr_grow(ctx, n->text, n->bytes, room, 1);
-			if (!text)
-				return MR_EMEM;
-			n->text = text;
-			n->room = room;
-		}
-		if (n->count == n->start_room) {
-			size_t room = 2 * n->start_room + 64;
-			size_t *start = mr_grow(ctx, n->start, n->count, room, sizeof *start);
-			if (!start)
-				return MR_EMEM;
-			n->start = start;
-			n->start_room = room;
-		}
+		MR_TRY(MR_RESERVE(ctx, n->text, n->bytes, bytes + 1, &n->room));
+		MR_TRY(MR_RESERVE(ctx, n->start, n->count, 1, &n->start_room));
 		memcpy(n->text + n->bytes, s, bytes);
 		n->text[n->bytes + bytes] = '\n';
 		n->start[n->count] = n->bytes;
@@ -207,9 +174,9 @@ mr_clean_name(char *to, const char *from, size_t bytes, bool no_slash)
 static mr_status
 start_groups(mr_builder *b)
 {
-	MR_TRY(make_room(b->ctx, &b->group, 0, b->corner_room / 3 + 64, &b->group_room));
+	MR_TRY(MR_RESERVE(b->ctx, b->group, 0, b->corner_room / 3 + 64, &b->group_room));
 	if (b->faces) {
-		MR_TRY(make_room(b->ctx, &b->group, 0, b->faces, &b->group_room));
+		MR_TRY(MR_RESERVE(b->ctx, b->group, 0, b->faces, &b->group_room));
 		MR_TRY(name_number(b->ctx, &b->names, "default", 7, &b->current));
 		memset(b->group, 0, b->faces * sizeof *b->group);
 	}

@@ -53,14 +53,7 @@ join(obj *o, mr_scan *line)
 	while (more) {
 		size_t bytes = (size_t)(line->end - line->p);
 		more = continues(line->p, line->end);
-		if (o->joined_room - n < bytes + 1) {
-			size_t room = 2 * (n + bytes) + 256;
-			char *joined = mr_grow(o->ctx, o->joined, n, room, 1);
-			if (!joined)
-				return MR_EMEM;
-			o->joined = joined;
-			o->joined_room = room;
-		}
+		MR_TRY(MR_RESERVE(o->ctx, o->joined, n, bytes + 1, &o->joined_room));
 		memcpy(o->joined + n, line->p, bytes);
 		n += bytes;
 		if (more)
@@ -332,12 +325,7 @@ add_corner(obj *o, const mr_obj_corner *c, uint32_t *v)
 static mr_status
 add_face(obj *o, const mr_obj_corner *c, size_t n)
 {
-	if (o->corner_room < n) {
-		o->corner_room = 2 * n + 64;
-		o->corners = MR_NEW(o->ctx, o->corner_room, uint32_t);
-		if (!o->corners)
-			return MR_EMEM;
-	}
+	MR_TRY(MR_RESERVE(o->ctx, o->corners, 0, n, &o->corner_room));
 	for (size_t i = 0; i < n; i++)
 		MR_TRY(add_corner(o, &c[i], &o->corners[i]));
 	if (n == 3 && mr_build_triangle(&o->b, o->corners[0], o->corners[1], o->corners[2]))
@@ -365,14 +353,7 @@ add_name(obj *o, const char *word)
 	if (o->name_line != o->line)
 		o->name_bytes = 0;
 	o->name_line = o->line;
-	if (o->name_room - o->name_bytes < n + 2) {
-		size_t room = 2 * (o->name_bytes + n) + 256;
-		char *name = mr_grow(o->ctx, o->name, o->name_bytes, room, 1);
-		if (!name)
-			return MR_EMEM;
-		o->name = name;
-		o->name_room = room;
-	}
+	MR_TRY(MR_RESERVE(o->ctx, o->name, o->name_bytes, n + 2, &o->name_room));
 	if (o->name_bytes)
 		o->name[o->name_bytes++] = ' ';
 	memcpy(o->name + o->name_bytes, word, n);

@@ -50,6 +50,11 @@ typedef struct element {
 	size_t properties, room;
 } element;
 
+typedef struct named {
+	const char *name;
+	size_t bytes;
+} named;
+
 typedef struct ply {
 	mr_ctx *ctx;
 	const unsigned char *data, *end;
@@ -63,8 +68,7 @@ typedef struct ply {
 	uint32_t *indices; /* of the list at hand */
 	double *uvs;
 	size_t indices_count, indices_room, uvs_count, uvs_room;
-	const char **group_name; /* of the comments "group NAME" */
-	size_t *group_bytes;
+	named *group; /* of the comments "group NAME" */
 	size_t groups, groups_room;
 	bool odd_uv;
 } ply;
@@ -180,12 +184,7 @@ header_property(ply *f, mr_scan *line)
 			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */
 	if (p.role == INDICES && p.value >= FLOAT)
 		return mr_scan_fail(&f->text, w, "indices are not of a whole type");
-	if (e->properties == e->room) {
-		e->room = 2 * e->room + 8;
-		e->property = mr_grow(f->ctx, e->property, e->properties, e->room, sizeof p);
-		if (!e->property)
-			return MR_EMEM;
-	}
+	MR_TRY(MR_RESERVE(f->ctx, e->property, e->properties, 1, &e->room));
 	e->property[e->properties++] = p;
 	return MR_OK;
 }
@@ -208,12 +207,7 @@ header_element(ply *f, mr_scan *line)
 	for (size_t i = 0; i < f->elements; i++)
 		if (e.kind != OTHER && f->element[i].kind == e.kind)
 			return mr_scan_fail(&f->text, w, "element %s is there twice", e.name);
-	if (f->elements == f->room) {
-		f->room = 2 * f->room + 4;
-		f->element = mr_grow(f->ctx, f->element, f->elements, f->room, sizeof e);
-		if (!f->element)
-			return MR_EMEM;
-	}
+	MR_TRY(MR_RESERVE(f->ctx, f->element, f->elements, 1, &f->room));
 	f->element[f->elements++] = e;
 	return MR_OK;
 }
@@ -243,17 +237,8 @@ header_comment(ply *f, mr_scan *line)
 {
 	if (!mr_scan_accept(line, "group"))
 		return MR_OK;
-	if (f->groups == f->groups_room) {
-		f->groups_room = 2 * f->groups_room + 16;
-		f->group_name = mr_grow(
-		    f->ctx, f->group_name, f->groups, f->groups_room, sizeof *f->group_name);
-		f->group_bytes = mr_grow(
-		    f->ctx, f->group_bytes, f->groups, f->groups_room, sizeof *f->group_bytes);
-		if (!f->group_name || !f->group_bytes)
-			return MR_EMEM;
-	}
-	f->group_name[f->groups] = line->p;
-	f->group_bytes[f->groups++] = (size_t)(line->end - line->p);
+	MR_TRY(MR_RESERVE(f->ctx, f->group, f->groups, 1, &f->groups_room));
+	f->group[f->groups++] = (named){ line->p, (size_t)(line->end - line->p) };
 	return MR_OK;
 }
 
@@ -512,12 +497,7 @@ read_indices(ply *f, const property *p, bool strips)
 	size_t n, size = types[p->value].bytes;
 
 	MR_TRY(next_length(f, p, &n));
-	if (n > f->indices_room) {
-		f->indices_room = n + n / 2;
-		f->indices = MR_NEW(f->ctx, f->indices_room, uint32_t);
-		if (!f->indices)
-			return MR_EMEM;
-	}
+	MR_TRY(MR_RESERVE(f->ctx, f->indices, 0, n, &f->indices_room));
 	f->indices_count = n;
 	for (size_t i = 0; i < n; i++) {
 		const void *where = here(f);
@@ -552,12 +532,7 @@ read_uvs(ply *f, const property *p)
 	size_t n;
 
 	MR_TRY(next_length(f, p, &n));
-	if (n > f->uvs_room) {
-		f->uvs_room = n + n / 2;
-		f->uvs = MR_NEW(f->ctx, f->uvs_room, double);
-		if (!f->uvs)
-			return MR_EMEM;
-	}
+	MR_TRY(MR_RESERVE(f->ctx, f->uvs, 0, n, &f->uvs_room));
 	f->uvs_count = n;
 	for (size_t i = 0; i < n; i++) {
 		MR_TRY(next_value(f, p->value, &f->uvs[i]));
@@ -596,7 +571,7 @@ set_group(ply *f, double x, const void *where)
 	if (!(x >= 0 && x < 4294967296.0 && x == floor(x)))
 		return bad(f, where, "group %g", x);
 	if (g < f->groups)
-		return mr_build_group(&f->b, f->group_name[g], f->group_bytes[g]);
+		return mr_build_group(&f->b, f->group[g].name, f->group[g].bytes);
 	snprintf(name, sizeof name, "group%zu", g);
 	return mr_build_group(&f->b, name, strlen(name));
 }
@@ -623,7 +598,7 @@ read_faces(ply *f, const element *e)
 	if (e->rows && !has(e, INDICES))
 		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
 	for (size_t i = 0; has(e, GROUP) && i < f->groups; i++) /* in their order, with faces or without */
-		MR_TRY(mr_build_group(&f->b, f->group_name[i], f->group_bytes[i]));
+		MR_TRY(mr_build_group(&f->b, f->group[i].name, f->group[i].bytes));
 	MR_TRY(mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0));
 	for (uint64_t row = 0; row < e->rows; row++) {
 		double group = -1;

@@ -10,7 +10,7 @@ typedef struct ptx {
 	mr_scan text;
 	mr_v3 *p;
 	unsigned char *color;
-	size_t count, room;
+	size_t count, room, color_room;
 	size_t colored, empty;
 } ptx;
 
@@ -77,14 +77,8 @@ read_head(ptx *f, scan *s)
 static mr_status
 make_room(ptx *f, size_t more)
 {
-	size_t room = f->count + more;
-
-	if (room <= f->room)
-		return MR_OK;
-	f->p = mr_grow(f->ctx, f->p, f->count, room, sizeof *f->p);
-	f->color = mr_grow(f->ctx, f->color, f->count, room, 4);
-	f->room = room;
-	return f->p && f->color ? MR_OK : MR_EMEM;
+	MR_TRY(MR_RESERVE(f->ctx, f->p, f->count, more, &f->room));
+	return MR_RESERVE(f->ctx, f->color, f->count, more, &f->color_room);
 }
 
 static mr_status

@@ -167,14 +167,8 @@ take_column(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, const char *name, mr_pan
 static mr_status
 push_panel(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_panel *p)
 {
-	if (g->panels == g->panel_room) {
-		size_t room = 2 * g->panel_room + 8;
-		mr_panel *grown = mr_grow(keep, g->panel, g->panels, room, sizeof *grown);
-		if (!grown)
-			return no_memory(ctx, keep);
-		g->panel = grown;
-		g->panel_room = room;
-	}
+	if (MR_RESERVE(keep, g->panel, g->panels, 1, &g->panel_room) != MR_OK)
+		return no_memory(ctx, keep);
 	g->panel[g->panels++] = *p;
 	return MR_OK;
 }
@@ -182,14 +176,8 @@ push_panel(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_panel *p)
 static mr_status
 push_frame(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_shown *f)
 {
-	if (g->frames == g->frame_room) {
-		size_t room = 2 * g->frame_room + 8;
-		mr_shown *grown = mr_grow(keep, g->frame, g->frames, room, sizeof *grown);
-		if (!grown)
-			return no_memory(ctx, keep);
-		g->frame = grown;
-		g->frame_room = room;
-	}
+	if (MR_RESERVE(keep, g->frame, g->frames, 1, &g->frame_room) != MR_OK)
+		return no_memory(ctx, keep);
 	g->frame[g->frames++] = *f;
 	return MR_OK;
 }

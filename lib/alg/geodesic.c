@@ -30,14 +30,7 @@ push(mr_ctx *ctx, front *f, entry e)
 {
 	size_t i;
 
-	if (f->n == f->room) {
-		size_t room = 2 * f->room + 1024;
-		entry *heap = mr_grow(ctx, f->heap, f->n, room, sizeof *heap);
-		if (!heap)
-			return MR_EMEM;
-		f->heap = heap;
-		f->room = room;
-	}
+	MR_TRY(MR_RESERVE(ctx, f->heap, f->n, 1, &f->room));
 	for (i = f->n++; i > 0 && before(e, f->heap[(i - 1) / 2]); i = (i - 1) / 2)
 		f->heap[i] = f->heap[(i - 1) / 2];
 	f->heap[i] = e;

@@ -6,21 +6,17 @@
 static mr_status
 read_all(mr_ctx *ctx, const char *path, char **text, size_t *length)
 {
-	size_t room = 4096, n = 0;
-	char *bytes = mr_alloc(ctx, room, 1);
+	size_t room = 0, n = 0;
+	char *bytes = NULL;
 	FILE *in = fopen(path, "rb");
-	mr_status status = bytes ? MR_OK : MR_EMEM;
+	mr_status status;
 
 	if (!in)
 		return mr_fail(ctx, MR_EIO, "%s: %s", path, strerror(errno));
-	while (status == MR_OK) {
+	while ((status = MR_RESERVE(ctx, bytes, n, 4096, &room)) == MR_OK) {
 		n += fread(bytes + n, 1, room - 1 - n, in);
 		if (n < room - 1)
 			break;
-		bytes = mr_grow(ctx, bytes, n, 2 * room, 1);
-		room *= 2;
-		if (!bytes)
-			status = MR_EMEM;
 	}
 	if (status == MR_OK && ferror(in))
 		status = mr_fail(ctx, MR_EIO, "%s: %s", path, strerror(errno));

@@ -474,14 +474,7 @@ mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *opti
 	rule r = { .region = region, .option = option, .text = text };
 
 	MR_TRY(parse_rule(ctx, text, &r));
-	if (s->n == s->room) {
-		size_t room = 2 * s->room + 8;
-		rule *grown = mr_grow(ctx, s->rule, s->n, room, sizeof *grown);
-		if (!grown)
-			return MR_EMEM;
-		s->rule = grown;
-		s->room = room;
-	}
+	MR_TRY(MR_RESERVE(ctx, s->rule, s->n, 1, &s->room));
 	s->rule[s->n++] = r;
 	return MR_OK;
 }

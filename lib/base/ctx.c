@@ -205,6 +205,28 @@ mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size)
 	return p;
 }
 
+mr_status
+mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size_t *room)
+{
+	const size_t least = 1024 / size; /* objects: small arrays are not copied at every step */
+	size_t wanted = 2 * *room;
+	void *p;
+
+	if (more <= *room - used)
+		return MR_OK;
+	if (wanted < least)
+		wanted = least;
+	if (wanted - used < more)
+		wanted = more > SIZE_MAX - used ? SIZE_MAX : used + more; /* mr_grow refuses that */
+	memcpy(&p, array, sizeof p);                                      /* a pointer of any type */
+	p = mr_grow(ctx, p, used, wanted, size);
+	if (!p)
+		return MR_EMEM;
+	memcpy(array, &p, sizeof p);
+	*room = wanted;
+	return MR_OK;
+}
+
 char *
 mr_format(mr_ctx *ctx, const char *format, ...)
 {

@@ -116,6 +116,18 @@ void *mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size) MR_WARN_UNUSED;
  */
 void *mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size) MR_WARN_UNUSED;
 
+/*
+ * Makes room for `more` objects in an array that is filled step by step, by doubling: `used` of `*room` are
+ * in use, and an array of NULL has no room.  Where memory cannot be had, both are as they were.
+ *
+ *	MR_TRY(MR_RESERVE(ctx, heap->p, heap->n, 1, &heap->room));
+ *	heap->p[heap->n++] = x;
+ */
+#define MR_RESERVE(ctx, array, used, more, room)                                                             \
+	mr_reserve((ctx), &(array), sizeof *(array), (used), (more), (room))
+mr_status
+mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size_t *room) MR_WARN_UNUSED;
+
 #define MR_NEW(ctx, count, type)      ((type *)mr_alloc((ctx), (count), sizeof(type)))
 #define MR_NEW_ZERO(ctx, count, type) ((type *)mr_alloc_zero((ctx), (count), sizeof(type)))
 

@@ -7,17 +7,8 @@
 static bool
 reserve(mr_text *t, size_t more)
 {
-	char *s;
-
-	if (t->failed || t->n + more + 1 <= t->room)
-		return !t->failed;
-	s = mr_grow(t->ctx, t->s, t->n, 2 * (t->n + more) + 256, 1);
-	t->failed = !s;
-	if (s) {
-		t->s = s;
-		t->room = 2 * (t->n + more) + 256;
-	}
-	return s;
+	t->failed = t->failed || MR_RESERVE(t->ctx, t->s, t->n, more + 1, &t->room) != MR_OK;
+	return !t->failed;
 }
 
 static void

@@ -189,14 +189,7 @@ heap_push(mr_ctx *ctx, heap *h, const piece *x)
 {
 	size_t i = h->n;
 
-	if (h->n == h->room) {
-		size_t room = 2 * h->room + 1024;
-		piece *p = mr_grow(ctx, h->p, h->n, room, sizeof *p);
-		if (!p)
-			return MR_EMEM;
-		h->p = p;
-		h->room = room;
-	}
+	MR_TRY(MR_RESERVE(ctx, h->p, h->n, 1, &h->room));
 	for (; i > 0 && h->p[(i - 1) / 2].bound < x->bound; i = (i - 1) / 2)
 		h->p[i] = h->p[(i - 1) / 2];
 	h->p[i] = *x;

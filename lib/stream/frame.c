@@ -136,17 +136,9 @@ mr_column_decode(mr_ctx *ctx, mr_column *column)
 static mr_status
 append(mr_ctx *ctx, mr_frame *f, mr_column **column)
 {
-	mr_column *grown;
-
 	if (f->count == MR_FRAME_COLUMNS)
 		return mr_fail(ctx, MR_ERANGE, "a frame has no more than %d columns", MR_FRAME_COLUMNS);
-	if (f->count == f->room) {
-		grown = mr_grow(ctx, f->columns, f->count, 2 * f->room + ROOM, sizeof *grown);
-		if (!grown)
-			return MR_EMEM;
-		f->columns = grown;
-		f->room = 2 * f->room + ROOM;
-	}
+	MR_TRY(MR_RESERVE(ctx, f->columns, f->count, 1, &f->room));
 	*column = &f->columns[f->count++];
 	return MR_OK;
 }

@@ -59,6 +59,39 @@ growing_keeps_contents_and_marks(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* An array filled one by one is copied seldom, keeps its contents, and stands where memory fails. */
+static void
+reserving_doubles(void **state)
+{
+	mr_ctx ctx;
+	uint32_t *a = NULL, *before;
+	size_t n = 0, room = 0, moves = 0;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	for (; n < 100000; n++) {
+		before = a;
+		assert_int_equal(MR_RESERVE(&ctx, a, n, 1, &room), MR_OK);
+		assert_true(room > n);
+		moves += a != before;
+		a[n] = (uint32_t)n;
+	}
+	assert_true(moves < 12);
+	for (size_t i = 0; i < n; i++)
+		assert_int_equal(a[i], i);
+	before = a;
+	moves = room;
+	assert_int_equal(MR_RESERVE(&ctx, a, n, SIZE_MAX, &room), MR_EMEM);
+	ctx.fail_at = 1;
+	assert_int_equal(MR_RESERVE(&ctx, a, n, room, &room), MR_EMEM);
+	assert_ptr_equal(a, before);
+	assert_int_equal(room, moves);
+	assert_int_equal(MR_RESERVE(&ctx, a, n, 3 * room, &room), MR_OK);
+	assert_true(room >= n + 3 * moves);
+	assert_int_equal(a[n - 1], n - 1);
+	mr_ctx_free(&ctx);
+}
+
 static void
 impossible_sizes_are_refused(void **state)
 {
@@ -134,6 +167,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(memory_is_aligned_and_released_in_order),
 		cmocka_unit_test(growing_keeps_contents_and_marks),
+		cmocka_unit_test(reserving_doubles),
 		cmocka_unit_test(impossible_sizes_are_refused),
 		cmocka_unit_test(sentences_keep_their_status_and_take_prefixes),
 		cmocka_unit_test(loops_visit_each_index_once_and_sums_do_not_depend_on_threads),
