@@ -146,8 +146,10 @@ box_text(mr_text *t, const mr_box *b, double diagonal)
 {
 	if (!(b->min.x <= b->max.x))
 		return;
-	mr_text_add(t, "    box            %.6g %.6g %.6g to %.6g %.6g %.6g, diagonal %.6g\n", b->min.x,
-	    b->min.y, b->min.z, b->max.x, b->max.y, b->max.z, diagonal);
+	mr_text_add(t, "    box            %.6g %.6g %.6g to %.6g %.6g %.6g", b->min.x, b->min.y, b->min.z,
+	    b->max.x, b->max.y, b->max.z);
+	mr_text_figure(t, ", diagonal ", 6, diagonal);
+	mr_text_add(t, "\n");
 }
 
 /* What is rounding of a ratio is zero to people. */
@@ -207,11 +209,41 @@ topology_text(mr_text *t, const mr_census *c)
 static void
 spread_text(mr_text *t, const char *what, const mr_spread *s)
 {
-	if (isnan(s->mean))
-		mr_text_add(t, "    %-14s -\n", what);
-	else
-		mr_text_add(t, "    %-14s min %.6g, mean %.6g, max %.6g, deviation %.3g\n", what, s->min,
-		    s->mean, s->max, s->deviation);
+	mr_text_add(t, "    %-14s ", what);
+	if (isnan(s->mean)) {
+		mr_text_add(t, "-\n");
+		return;
+	}
+	mr_text_figure(t, "min ", 6, s->min);
+	mr_text_figure(t, ", mean ", 6, s->mean);
+	mr_text_figure(t, ", max ", 6, s->max);
+	mr_text_figure(t, ", deviation ", 3, s->deviation);
+	mr_text_add(t, "\n");
+}
+
+static void
+geometry_text(mr_text *t, const mr_geometry *g)
+{
+	spread_text(t, "edge lengths", &g->edge);
+	if (!isnan(g->angle_min)) {
+		mr_text_figure(t, "    angles         min ", 4, g->angle_min);
+		mr_text_figure(t, ", max ", 4, g->angle_max);
+		mr_text_figure(t, ", mean |angle - 60| ", 4, g->angle_error);
+		mr_text_add(t, " degrees\n");
+	}
+	if (!isnan(g->valence6))
+		mr_text_add(t, "    valence 6      %.4g %% of the vertices\n", 100 * g->valence6);
+}
+
+static void
+evenness_text(mr_text *t, const mr_evenness *e)
+{
+	if (e->vertices == 0)
+		return;
+	mr_text_figure(t, "    Voronoi areas  mean ", 6, e->mean);
+	mr_text_figure(t, ", mean relative deviation ", 4, 100 * tidy(e->error));
+	mr_text_figure(t, " %, variance ", 4, tidy(e->variance));
+	mr_text_add(t, " of the squared mean\n");
 }
 
 static void
@@ -223,23 +255,14 @@ surface_text(const report *r, const mr_mesh *m, const mr_surface *s)
 	mr_text_add(t, "  %s: %zu vertices, %zu faces, %zu edges\n", m->name, m->nv, m->nf, s->census.edges);
 	columns(r, m->name);
 	box_text(t, &g->box, g->diagonal);
-	mr_text_add(t, "    area           %.6g", g->area);
+	mr_text_figure(t, "    area           ", 6, g->area);
 	if (!isnan(g->volume))
-		mr_text_add(t, ", volume %.6g", g->volume);
+		mr_text_figure(t, ", volume ", 6, g->volume);
 	mr_text_add(t, "\n");
 	topology_text(t, &s->census);
 	flaws_text(t, s, !r->opts->skip_intersections);
-	spread_text(t, "edge lengths", &g->edge);
-	if (!isnan(g->angle_min))
-		mr_text_add(t, "    angles         min %.4g, max %.4g, mean |angle - 60| %.4g degrees\n",
-		    g->angle_min, g->angle_max, g->angle_error);
-	if (!isnan(g->valence6))
-		mr_text_add(t, "    valence 6      %.4g %% of the vertices\n", 100 * g->valence6);
-	if (s->evenness.vertices)
-		mr_text_add(t,
-		    "    Voronoi areas  mean %.6g, mean relative deviation %.4g %%, variance %.4g of the "
-		    "squared mean\n",
-		    s->evenness.mean, 100 * tidy(s->evenness.error), tidy(s->evenness.variance));
+	geometry_text(t, g);
+	evenness_text(t, &s->evenness);
 }
 
 static void

@@ -71,16 +71,39 @@ comparison_json(const mr_comparison *c, const mr_frame *f, const char *a, const 
 static void
 distance_text(mr_text *t, const char *name, const mr_distance *d, double unit)
 {
+	const double x[5] = { d->min, d->mean, d->rms, d->max, d->max_bound };
+
 	mr_text_add(t, "  %-12s", name);
-	mr_text_add(t, " %12.6g %12.6g %12.6g %12.6g %12.6g\n", d->min / unit, d->mean / unit, d->rms / unit,
-	    d->max / unit, d->max_bound / unit);
+	for (int i = 0; i < 5; i++)
+		if (isfinite(x[i] / unit))
+			mr_text_add(t, " %12.6g", x[i] / unit);
+		else
+			mr_text_add(t, " %12s", "-");
+	mr_text_add(t, "\n");
+}
+
+static void
+deviation_text(mr_text *t, const mr_deviation *d)
+{
+	mr_text_figure(t, "  vertex       max ", 6, d->max);
+	mr_text_add(t, " (vertex %zu)", d->vertex);
+	mr_text_figure(t, ", mean ", 6, d->mean);
+	mr_text_figure(t, ", rms ", 6, d->rms);
+	mr_text_add(t, "\n");
+	if (isnan(d->stretch_mean))
+		return;
+	mr_text_figure(t, "  edge stretch min ", 6, d->stretch_min);
+	mr_text_figure(t, ", mean ", 6, d->stretch_mean);
+	mr_text_figure(t, ", max ", 6, d->stretch_max);
+	mr_text_add(t, "\n");
 }
 
 static void
 comparison_text(const mr_comparison *c, const mr_frame *f, const char *a, const char *b, mr_text *t)
 {
-	mr_text_add(t, "%s: frame %llu, a: %s, b: %s, diagonal of b %.6g\n", f->name,
-	    (unsigned long long)f->number, a, b, c->diagonal);
+	mr_text_add(t, "%s: frame %llu, a: %s, b: %s", f->name, (unsigned long long)f->number, a, b);
+	mr_text_figure(t, ", diagonal of b ", 6, c->diagonal);
+	mr_text_add(t, "\n");
 	mr_text_add(
 	    t, "  %-12s %12s %12s %12s %12s %12s\n", "distance", "min", "mean", "rms", "max", "at most");
 	distance_text(t, "a to b", &c->ab, 1);
@@ -90,11 +113,7 @@ comparison_text(const mr_comparison *c, const mr_frame *f, const char *a, const 
 		distance_text(t, "both, %", &c->both, c->diagonal / 100);
 	if (!c->corresponds)
 		return;
-	mr_text_add(t, "  vertex       max %.6g (vertex %zu), mean %.6g, rms %.6g\n", c->deviation.max,
-	    c->deviation.vertex, c->deviation.mean, c->deviation.rms);
-	if (!isnan(c->deviation.stretch_mean))
-		mr_text_add(t, "  edge stretch min %.6g, mean %.6g, max %.6g\n", c->deviation.stretch_min,
-		    c->deviation.stretch_mean, c->deviation.stretch_max);
+	deviation_text(t, &c->deviation);
 }
 
 void

@@ -70,6 +70,15 @@ mr_text_number(mr_text *t, double x)
 		mr_text_add(t, "null");
 }
 
+void
+mr_text_figure(mr_text *t, const char *before, int digits, double x)
+{
+	if (isfinite(x))
+		mr_text_add(t, "%s%.*g", before, digits, x);
+	else
+		mr_text_add(t, "%s-", before);
+}
+
 mr_status
 mr_text_done(const mr_text *t)
 {

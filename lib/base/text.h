@@ -26,6 +26,9 @@ void mr_text_json(mr_text *t, const char *s, size_t n);
 /* Appends a number with all its digits, or null where it is not finite. */
 void mr_text_number(mr_text *t, double x);
 
+/* Appends `before`, then the number with so many digits, for people, or "-" where it is not finite. */
+void mr_text_figure(mr_text *t, const char *before, int digits, double x);
+
 /* MR_EMEM where any of it was lost. */
 mr_status mr_text_done(const mr_text *t) MR_WARN_UNUSED;
 
