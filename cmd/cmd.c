@@ -15,6 +15,7 @@ enum { EXIT_GOOD = 0, EXIT_DATA = 1, EXIT_USAGE = 2 };
 struct cmd_state {
 	mr_ctx long_lived; /* the command line's memory */
 	size_t threads;
+	cmd_args args;
 	const char *input; /* of a sink: -i */
 	const char *stats_path;
 	bool help, version, no_history;
@@ -195,6 +196,22 @@ compose_history(cmd *c, const cmd_args *args)
 	return MR_OK;
 }
 
+/* Whether the tool has this one of the options that tools share. */
+static bool
+heeds(const cmd_tool *tool, char letter)
+{
+	switch (letter) {
+	case 'o':
+		return !tool->names_output;
+	case 'l':
+		return !tool->fixed_layers;
+	case 'i':
+		return tool->sink && tool->operands;
+	default:
+		return true;
+	}
+}
+
 static void
 parse_command_line(cmd *c, int argc, char **argv)
 {
@@ -203,7 +220,7 @@ parse_command_line(cmd *c, int argc, char **argv)
 		{ 'o', "output", CMD_TEXT, &c->output, 0, 0, "FILE", "write there instead of stdout", NULL },
 		{ 'l', "layer", CMD_TEXT, &c->layer, 0, 0, "NAME", "the layer to work on", NULL },
 		{ 'j', "threads", CMD_COUNT, &s->threads, 0, 1024, "N",
-		    "threads; the result is the same for any number (default all cores)", NULL },
+		    "threads, 0: all cores; the result is the same for any number", NULL },
 		{ 'k', "keep-going", CMD_FLAG, &c->keep_going, 0, 0, "",
 		    "leave out a frame that fails, exit 1 at the end", NULL },
 		{ 0, "stats", CMD_TEXT, &s->stats_path, 0, 0, "FILE",
@@ -217,30 +234,45 @@ parse_command_line(cmd *c, int argc, char **argv)
 		{ 'i', "input", CMD_TEXT, &s->input, 0, 0, "FILE", "read that stream (default stdin)", NULL },
 		{ 0 },
 	};
-	/* Only a sink whose operands are its own needs -i: it is the last entry.  -o is the first. */
-	const cmd_opt *end = &standard[sizeof standard / sizeof *standard - 2];
-	cmd_opt without_input[sizeof standard / sizeof *standard] = { { 0 } };
-	const cmd_opt *const tables[2] = { c->tool->options, c->tool->names_output ? standard + 1
-							     : c->tool->sink && c->tool->operands
-								 ? standard
-								 : without_input };
-	cmd_args args;
+	cmd_opt heeded[sizeof standard / sizeof *standard] = { { 0 } };
+	const cmd_opt *const tables[2] = { c->tool->options, heeded };
+	size_t n = 0;
 
-	memcpy(without_input, standard, (size_t)(end - standard) * sizeof *standard);
+	for (const cmd_opt *o = standard; o->name; o++)
+		if (heeds(c->tool, o->letter))
+			heeded[n++] = *o;
 	for (int i = 1; i < argc && strcmp(argv[i], "--"); i++) { /* before a mistake elsewhere can hide it */
 		s->help |= !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h");
 		s->version |= !strcmp(argv[i], "--version") || !strcmp(argv[i], "-V");
 	}
 	if (s->help)
-		print_help(c, tables[1]);
+		print_help(c, heeded);
 	else if (s->version)
 		printf("%s (mr) %s\n", c->name, MR_VERSION);
 	if (s->help || s->version)
 		exit(fflush(stdout) || ferror(stdout) ? EXIT_DATA : EXIT_GOOD);
-	try(c, cmd_parse(&c->ctx, argc, argv, tables, &args));
-	try(c, compose_history(c, &args));
-	c->operands = args.operands;
-	c->operand_count = args.operand_count;
+	try(c, cmd_parse(&c->ctx, argc, argv, tables, &s->args));
+	try(c, compose_history(c, &s->args));
+	c->operands = s->args.operands;
+	c->operand_count = s->args.operand_count;
+}
+
+bool
+cmd_given(const cmd *c, const char *name)
+{
+	const cmd_opt *table = c->tool->options, *o = table;
+
+	while (strcmp(o->name, name))
+		o++;
+	return c->state->args.given >> (o - table) & 1;
+}
+
+mr_status
+cmd_idle(cmd *c, const char *name, bool idle, const char *why)
+{
+	if (idle && cmd_given(c, name))
+		return mr_fail(&c->ctx, MR_EUSAGE, "--%s has no effect %s", name, why);
+	return MR_OK;
 }
 
 /* Interrupts */

@@ -50,6 +50,7 @@ typedef struct cmd_tool {
 	bool sink;         /* writes no stream; with operands of its own it reads -i FILE or stdin */
 	bool names_output; /* a sink that names its output by an operand: it has no -o */
 	bool sends;        /* `frame` sends by cmd_send itself */
+	bool fixed_layers; /* works on what it works on: it has no -l */
 } cmd_tool;
 
 struct cmd {
@@ -67,6 +68,12 @@ struct cmd {
 };
 
 int cmd_main(int argc, char **argv, const cmd_tool *tool);
+
+/* Whether an option of the tool's own table stood on the command line. */
+bool cmd_given(const cmd *c, const char *name);
+
+/* For prepare: where that option was given though it is idle, MR_EUSAGE, "--NAME has no effect WHY". */
+mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN_UNUSED;
 
 /* Sends a frame now: a source, or a filter that says it `sends`. */
 mr_status cmd_send(cmd *c, const mr_frame *f);

@@ -69,5 +69,6 @@ main(int argc, char **argv)
 		.options = table,
 		.prepare = prepare,
 		.frame = cat_frame,
-		.finish = finish });
+		.finish = finish,
+		.fixed_layers = true });
 }

@@ -26,6 +26,10 @@ static mr_side other; /* the stream FILE_B; all zero without one */
 static mr_status
 open_other(cmd *c)
 {
+	if (c->layer && layer_a)
+		return mr_fail(&c->ctx, MR_EUSAGE, "--layer and --from name the same layer: give one");
+	MR_TRY(cmd_idle(c, "samples", opts.vertices_only, "with --vertices"));
+	MR_TRY(cmd_idle(c, "tolerance", opts.vertices_only, "with --vertices"));
 	if (c->operand_count > 1)
 		return mr_fail(
 		    &c->ctx, MR_EUSAGE, "at most one FILE_B is expected, not %zu", c->operand_count);

@@ -97,5 +97,6 @@ main(int argc, char **argv)
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "put the detail of a mesh back onto its base surface",
 		.options = table,
-		.frame = decode_frame });
+		.frame = decode_frame,
+		.fixed_layers = true });
 }

@@ -25,5 +25,7 @@ int
 main(int argc, char **argv)
 {
 	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "store a mesh as detail over its base surface", .frame = encode_frame });
+	    &(cmd_tool){ .summary = "store a mesh as detail over its base surface",
+		.frame = encode_frame,
+		.fixed_layers = true });
 }

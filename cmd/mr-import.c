@@ -22,6 +22,7 @@ check(cmd *c)
 {
 	bool binary;
 
+	MR_TRY(cmd_idle(c, "repair", points, "with --points, which leaves no face"));
 	if (c->operand_count == 0 && isatty(STDIN_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "stdin is a terminal: pipe a file in, or name a FILE");
 	if (c->layer && !*c->layer)

@@ -36,6 +36,21 @@ choose_solid(cmd *c)
 }
 
 static mr_status
+prepare(cmd *c)
+{
+	const char *shape;
+
+	MR_TRY(choose_solid(c));
+	shape = mr_format(&c->ctx, "on %s", c->operands[0]);
+	if (!shape)
+		return MR_EMEM;
+	MR_TRY(cmd_idle(c, "genus", solid.solid != MR_BOXES, shape));
+	MR_TRY(cmd_idle(c, "open", solid.solid != MR_CYLINDER, shape));
+	return cmd_idle(
+	    c, "seed", !cmd_given(c, "points") && !cmd_given(c, "noise"), "without --noise or --points");
+}
+
+static mr_status
 put_mesh(cmd *c, mr_frame *f, mr_mesh *m)
 {
 	mr_v3 *p = MR_NEW(&c->ctx, m->nv, mr_v3), *normal = MR_NEW(&c->ctx, m->nv, mr_v3);
@@ -81,6 +96,7 @@ main(int argc, char **argv)
 	    &(cmd_tool){ .summary = "generate a surface, or a cloud of points of it",
 		.operands = "SHAPE",
 		.options = table,
-		.prepare = choose_solid,
-		.source = make });
+		.prepare = prepare,
+		.source = make,
+		.fixed_layers = true });
 }

@@ -37,6 +37,7 @@ prepare(cmd *c)
 {
 	if (script_path && (posed || frames))
 		return mr_fail(&c->ctx, MR_EUSAGE, "--script excludes --frames and the options of one pose");
+	MR_TRY(cmd_idle(c, "handle", script_path, "with --script, which names handles itself"));
 	if (script_path)
 		return mr_script_read(&c->keep, script_path, &script);
 	return frames ? mr_pose_check_shares(&c->ctx, &pose) : MR_OK;

@@ -24,6 +24,13 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
+static mr_status
+prepare(cmd *c)
+{
+	MR_TRY(cmd_idle(c, "ratio", length.value > 0, "with --length"));
+	return cmd_idle(c, "gravity", opts.area_passes == 0, "without area passes");
+}
+
 /* Where the new vertices lie on the frame's mesh, which the base may have come from. */
 static mr_status
 map_to_mesh(cmd *c, mr_frame *f, const mr_mesh *base, const mr_source_map *over, size_t n, mr_source_map *map)
@@ -67,5 +74,6 @@ main(int argc, char **argv)
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "remesh a surface isotropically, with equal vertex areas",
 		.options = table,
+		.prepare = prepare,
 		.frame = remesh_frame });
 }

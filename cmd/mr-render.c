@@ -67,6 +67,9 @@ prepare(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT.png is expected, not %zu", c->operand_count);
 	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "a picture is not written to a terminal");
+	MR_TRY(cmd_idle(c, "columns", !sheet, "without --sheet"));
+	MR_TRY(cmd_idle(c, "crease", opts.raster.flat, "with --flat"));
+	MR_TRY(cmd_idle(c, "range", !opts.color, "without --color"));
 	opts.layers = c->layer;
 	opts.width = size.width;
 	opts.height = size.height;

@@ -210,7 +210,7 @@ takes_argument(const cmd_opt *o)
 
 /* Gives the option its argument: the `attached` text where there is one, else the next word. */
 static mr_status
-take_value(parser *p, const cmd_opt *o, const char *attached)
+take_value(parser *p, const cmd_opt *o, int table, const char *attached)
 {
 	if (!takes_argument(o) && attached)
 		return mr_fail(p->ctx, MR_EUSAGE, "--%s takes no argument", o->name);
@@ -219,7 +219,10 @@ take_value(parser *p, const cmd_opt *o, const char *attached)
 			return mr_fail(p->ctx, MR_EUSAGE, "--%s needs an argument: %s", o->name, o->metavar);
 		attached = p->argv[p->at];
 	}
-	return parse_value(p->ctx, o, attached);
+	MR_TRY(parse_value(p->ctx, o, attached));
+	if (table == 0)
+		p->args->given |= UINT64_C(1) << (o - p->tables[0]);
+	return MR_OK;
 }
 
 static mr_status
@@ -232,7 +235,7 @@ parse_long(parser *p)
 
 	if (!o)
 		return mr_fail(p->ctx, MR_EUSAGE, "no option is called --%.*s", (int)length, name);
-	MR_TRY(take_value(p, o, equals ? equals + 1 : NULL));
+	MR_TRY(take_value(p, o, table, equals ? equals + 1 : NULL));
 	note_typed(p, table, first);
 	return MR_OK;
 }
@@ -251,10 +254,10 @@ parse_short(parser *p)
 		letters++;
 		own = table == 0 ? 0 : own;
 		if (takes_argument(o)) {
-			MR_TRY(take_value(p, o, *letters ? letters : NULL));
+			MR_TRY(take_value(p, o, table, *letters ? letters : NULL));
 			break;
 		}
-		MR_TRY(take_value(p, o, NULL));
+		MR_TRY(take_value(p, o, table, NULL));
 	}
 	note_typed(p, own, first);
 	return MR_OK;

@@ -1,0 +1,28 @@
+# An option that has no effect beside the others, or on the shape, is a wrong command line: exit 2, nothing on stdout.
+mr-make cube -n 8 >cube.mrs
+printf 'frame\n0 scale=2\n' >script
+while read -r line; do
+	$line <cube.mrs >out 2>err
+	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+done <<'LINES'
+mr-make sphere --genus 2
+mr-make cylinder --genus 0
+mr-make boxes --open
+mr-make cube --seed 2
+mr-make cube -l mesh
+mr-cat -l mesh
+mr-encode -l mesh
+mr-decode -l mesh
+mr-import --points --repair
+mr-remesh -L 2% -r 1
+mr-remesh -a 0 --gravity 1
+mr-pose -H 1 --script script
+mr-compare -l mesh -a mesh
+mr-compare --vertices --samples 7
+mr-compare --vertices --tolerance 0.1
+mr-render --columns 2 a.png
+mr-render --flat --crease 20 a.png
+mr-render --range 0,1 a.png
+LINES
+# and those that have one
+mr-make boxes --genus 3 --seed 2 --noise 0 >boxes.mrs && mr-make cylinder --open >tube.mrs && echo good
