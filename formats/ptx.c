@@ -78,7 +78,7 @@ static mr_status
 make_room(ptx *f, size_t more)
 {
 	MR_TRY(MR_RESERVE(f->ctx, f->p, f->count, more, &f->room));
-	return MR_RESERVE(f->ctx, f->color, f->count, more, &f->color_room);
+	return MR_RESERVE(f->ctx, f->color, 4 * f->count, 4 * more, &f->color_room);
 }
 
 static mr_status
