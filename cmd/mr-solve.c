@@ -24,6 +24,11 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
+	if (c->layer && strcmp(c->layer, "base") && strcmp(c->layer, "control"))
+		return mr_fail(&c->ctx, MR_EUSAGE,
+		    "--layer: %s cannot be solved for, only base or control: mr-smooth makes the base of a "
+		    "mesh",
+		    c->layer);
 	if (opts.unsymmetric && solver == CHOLESKY)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--unsymmetric has no Cholesky factor: -s lu");
 	opts.solver = solver == LU || opts.unsymmetric ? MR_LU : MR_CHOLESKY;

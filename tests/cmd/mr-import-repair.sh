@@ -40,3 +40,6 @@ mr-import p.xyz | mr-export -f xyz - | wc -l
 mr-import --weld 0 p.xyz | mr-export -f xyz - | wc -l
 mr-import --weld 0.01 p.xyz | mr-export -f xyz - | wc -l
 mr-import --weld 20% p.xyz | mr-export -f xyz - | wc -l
+
+echo '-- tools that need a manifold name the way to one'
+mr-import bad.obj | mr-remesh 2>&1 >/dev/null | tail -n 1

@@ -53,3 +53,5 @@ END
 mr-import two.off | mr-smooth -t 0 | mr-select --free 'box:4,-1,-1,9,9,9' --free 'sphere:0.5,0.5,0.3,0.1' -o two.mrs
 mr-solve -v -k 1 two.mrs 2>&1 >out.mrs | sed 's/residual.*//'
 mr-export -f off -l base - <out.mrs | sed -n '7,11p'
+echo '-- a layer that is no base'
+mr-select --reset --free above:z,0.5 base.mrs | try -l mesh
