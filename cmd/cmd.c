@@ -27,7 +27,6 @@ struct cmd_state {
 	const char *held, *place; /* a file, and what it is to be called at the end; NULL: none */
 	FILE *text, *stats;       /* a sink's output; --stats */
 
-	uint64_t frame; /* number of the frame at work, from 1 */
 	const char *frame_name;
 	bool lost_key;         /* the key failed: its deltas go with it */
 	uint64_t failed, lost; /* frames left out: that failed, that depended on one that failed */
@@ -60,8 +59,7 @@ say_of_frame(cmd *c, const char *sentence)
 {
 	clear_progress(c);
 	if (c->state->frame_name)
-		say(c, "frame %llu (%s): %s", (unsigned long long)c->state->frame, c->state->frame_name,
-		    sentence);
+		say(c, "frame %llu (%s): %s", (unsigned long long)c->frame, c->state->frame_name, sentence);
 	else
 		say(c, "%s", sentence);
 }
@@ -430,7 +428,7 @@ print_stats(cmd *c, double seconds)
 		return MR_OK;
 	getrusage(RUSAGE_SELF, &usage);
 	mr_text_add(
-	    &line, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)s->frame);
+	    &line, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)c->frame);
 	mr_text_json(&line, name, strlen(name));
 	mr_text_add(
 	    &line, ",\"seconds\":%.6f,\"peak_bytes\":%lld", seconds, (long long)usage.ru_maxrss * 1024);
@@ -456,7 +454,7 @@ cmd_send(cmd *c, const mr_frame *f)
 	mr_frame with_history = *f;
 
 	if (c->tool->source) {
-		c->state->frame++;
+		c->frame++;
 		c->state->frame_name = f->name;
 		if (!c->state->no_history)
 			MR_TRY(mr_frame_add_history(&c->ctx, &with_history, c->state->history));
@@ -502,7 +500,7 @@ cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand))
 		if (status < 0 && (!c->keep_going || status == MR_EUSAGE))
 			return status;
 		if (status < 0) {
-			c->state->frame++;
+			c->frame++;
 			leave_out(c);
 		}
 		mr_mark_release(&c->ctx, mark);
@@ -517,7 +515,7 @@ one_frame(cmd *c, mr_frame *f)
 	mr_mark mark = mr_mark_take(&c->ctx);
 	mr_status status;
 
-	s->frame++;
+	c->frame++;
 	if (s->lost_key && !f->key) {
 		s->lost++;
 		return;
@@ -583,7 +581,7 @@ account(const cmd *c)
 
 	if (!s->failed)
 		return EXIT_GOOD;
-	say(c, "%llu of %llu frames failed", (unsigned long long)s->failed, (unsigned long long)s->frame);
+	say(c, "%llu of %llu frames failed", (unsigned long long)s->failed, (unsigned long long)c->frame);
 	if (s->lost)
 		say(c, "%llu more were deltas of those and were left out with them",
 		    (unsigned long long)s->lost);

@@ -62,6 +62,7 @@ struct cmd {
 	const char *output; /* -o, or NULL */
 	char **operands;    /* of a source or a sink */
 	size_t operand_count;
+	uint64_t frame; /* number of the frame at work, from 1; in finish, how many there were */
 	bool verbose, quiet, keep_going;
 	mr_packing packing; /* what the writer does with columns; mr-cat sets it in prepare */
 	struct cmd_state *state;

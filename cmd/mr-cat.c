@@ -57,7 +57,7 @@ static mr_status
 finish(cmd *c)
 {
 	for (size_t i = 0; i < side_count; i++)
-		MR_TRY(mr_side_end(&c->ctx, &sides[i]));
+		MR_TRY(mr_side_end(&c->ctx, &sides[i], c->frame));
 	return MR_OK;
 }
 

@@ -90,7 +90,7 @@ compare(cmd *c, mr_frame *f)
 static mr_status
 finish(cmd *c)
 {
-	return other.reader ? mr_side_end(&c->ctx, &other) : MR_OK;
+	return other.reader ? mr_side_end(&c->ctx, &other, c->frame) : MR_OK;
 }
 
 int

@@ -34,7 +34,6 @@ frames_so_far(const mr_side *s)
 mr_status
 mr_side_take(mr_ctx *ctx, mr_side *s, uint64_t number)
 {
-	s->asked = number;
 	while (!s->ended && frames_so_far(s) < number)
 		MR_TRY(next(ctx, s));
 	if (frames_so_far(s) < number && frames_so_far(s) != 1)
@@ -43,20 +42,20 @@ mr_side_take(mr_ctx *ctx, mr_side *s, uint64_t number)
 }
 
 mr_status
-mr_side_end(mr_ctx *ctx, mr_side *s)
+mr_side_end(mr_ctx *ctx, mr_side *s, uint64_t frames)
 {
-	unsigned long long frames;
+	unsigned long long there;
 
 	while (!s->ended)
 		MR_TRY(next(ctx, s));
-	frames = frames_so_far(s);
+	there = frames_so_far(s);
 	mr_reader_free(s->reader);
 	s->reader = NULL;
 	s->frame = NULL;
 	if (s->fd != STDIN_FILENO)
 		close(s->fd);
-	if (frames > s->asked)
-		return mr_fail(ctx, MR_ERANGE, "%s has %llu frames, the first stream %llu", s->path, frames,
-		    (unsigned long long)s->asked);
+	if (there > frames)
+		return mr_fail(ctx, MR_ERANGE, "%s has %llu frames, the first stream %llu", s->path, there,
+		    (unsigned long long)frames);
 	return MR_OK;
 }

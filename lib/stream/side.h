@@ -14,7 +14,6 @@ typedef struct mr_side {
 	const char *path; /* the caller's */
 	mr_reader *reader;
 	mr_frame *frame; /* the last one read; NULL: none yet */
-	uint64_t asked;  /* the number last asked for */
 	int fd;
 	bool ended;
 } mr_side;
@@ -28,8 +27,10 @@ mr_status mr_side_open(mr_ctx *ctx, const char *path, mr_side *s) MR_WARN_UNUSED
  */
 mr_status mr_side_take(mr_ctx *ctx, mr_side *s, uint64_t number) MR_WARN_UNUSED;
 
-/* Reads the rest, which must end well, and closes.  MR_ERANGE where it holds more frames than were asked for.
+/*
+ * Reads the rest, which must end well, and closes.  MR_ERANGE where it holds more than the `frames` of the
+ * first stream, of which it need not have been asked for all.
  */
-mr_status mr_side_end(mr_ctx *ctx, mr_side *s) MR_WARN_UNUSED;
+mr_status mr_side_end(mr_ctx *ctx, mr_side *s, uint64_t frames) MR_WARN_UNUSED;
 
 #endif
