@@ -9,7 +9,7 @@
 #include <unistd.h>
 #include <zlib.h>
 
-enum { CHUNK = 1 << 18 };
+enum { CHUNK = 1 << 18, HEAD = 1 << 24 };
 
 static mr_status
 failed(mr_ctx *ctx, const char *path, const char *what)
@@ -50,13 +50,21 @@ widen(unsigned char **memory, size_t *room, size_t least)
 }
 
 static mr_status
-read_all(mr_ctx *ctx, const char *path, int fd, mr_bytes *b)
+read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_bytes *b)
 {
 	unsigned char *memory = NULL;
-	size_t size = 0, room = 0;
+	size_t size = 0, room = 0, looked = HEAD / 2;
 
 	for (;;) {
 		ssize_t n;
+		if (judge && size >= 2 * looked) {
+			mr_status status = judge->look(ctx, judge->user, memory, size);
+			looked = size;
+			if (status < 0) {
+				free(memory);
+				return mr_prefix(ctx, status, "%s", path);
+			}
+		}
 		if (room - size < CHUNK && !widen(&memory, &room, size + CHUNK)) {
 			free(memory);
 			return mr_fail(ctx, MR_EMEM, "%s: no memory for more than %zu bytes", path, size);
@@ -170,7 +178,7 @@ gunzip(mr_ctx *ctx, const char *path, mr_bytes *b)
 }
 
 mr_status
-mr_bytes_read(mr_ctx *ctx, const char *path, mr_bytes *b)
+mr_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_bytes *b)
 {
 	const char *name = shown(path, "stdin");
 	int fd = strcmp(path, "-") ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
@@ -180,11 +188,11 @@ mr_bytes_read(mr_ctx *ctx, const char *path, mr_bytes *b)
 	if (fd < 0)
 		return failed(ctx, path, "cannot open");
 	if (!map_all(fd, &got))
-		status = read_all(ctx, name, fd, &got);
+		status = read_all(ctx, name, fd, judge, &got);
 	if (fd != STDIN_FILENO)
 		close(fd);
 	MR_TRY(status);
-	if (got.size >= 3 && got.data[0] == 0x1f && got.data[1] == 0x8b && got.data[2] == 8)
+	if (mr_is_gzip(got.data, got.size))
 		MR_TRY(gunzip(ctx, name, &got));
 	*b = got;
 	return MR_OK;

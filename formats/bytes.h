@@ -15,8 +15,25 @@ typedef struct mr_bytes {
 	size_t mapped;
 } mr_bytes;
 
-/* Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  Free with mr_bytes_free. */
-mr_status mr_bytes_read(mr_ctx *ctx, const char *path, mr_bytes *b) MR_WARN_UNUSED;
+/* Looks at what has come of a file so far; a failure ends the reading. */
+typedef struct mr_judge {
+	mr_status (*look)(mr_ctx *ctx, const void *user, const unsigned char *data, size_t size);
+	const void *user;
+} mr_judge;
+
+/*
+ * Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  What is no regular file may
+ * never end: the judge (NULL: none) looks at its first 16 MiB and again whenever that has doubled.  Free with
+ * mr_bytes_free.
+ */
+mr_status mr_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_bytes *b) MR_WARN_UNUSED;
+
+/* By the bytes that gzip begins with. */
+static inline bool
+mr_is_gzip(const unsigned char *data, size_t size)
+{
+	return size >= 3 && data[0] == 0x1f && data[1] == 0x8b && data[2] == 8;
+}
 
 /* Accepts a zeroed one. */
 void mr_bytes_free(mr_bytes *b);

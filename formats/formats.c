@@ -3,23 +3,23 @@
 
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
 static const mr_file_format formats[] = {
-	{ "ply", " ply ", true, mr_ply_sniff, mr_ply_read, mr_ply_write_little },
-	{ "ply-big", NULL, true, NULL, mr_ply_read, mr_ply_write_big },
-	{ "ply-ascii", NULL, false, NULL, mr_ply_read, mr_ply_write_ascii },
-	{ "las", " las ", true, mr_las_sniff, mr_las_read, NULL },
-	{ "stl", " stl ", true, mr_stl_sniff, mr_stl_read, mr_stl_write },
-	{ "stl-ascii", NULL, false, NULL, mr_stl_read, mr_stl_write_ascii },
-	{ "off", " off coff noff stoff cnoff ", false, mr_off_sniff, mr_off_read, mr_off_write },
-	{ "off-binary", NULL, true, NULL, mr_off_read, mr_off_write_binary },
-	{ "pcd", " pcd ", true, mr_pcd_sniff, mr_pcd_read, NULL },
-	{ "obj", " obj ", false, mr_obj_sniff, mr_obj_read, mr_obj_write },
-	{ "ptx", " ptx ", false, mr_ptx_sniff, mr_ptx_read, NULL },
-	{ "xyz", " xyz txt csv asc xyzn xyzrgb ", false, mr_xyz_sniff, mr_xyz_read, mr_xyz_write },
-	{ "pts", " pts ", false, NULL, mr_xyz_read, mr_pts_write },
-	{ "pwn", " pwn ", false, NULL, mr_xyz_read, mr_pwn_write },
+	{ "ply", " ply ", true, false, mr_ply_sniff, mr_ply_read, mr_ply_write_little },
+	{ "ply-big", NULL, true, false, NULL, mr_ply_read, mr_ply_write_big },
+	{ "ply-ascii", NULL, false, false, NULL, mr_ply_read, mr_ply_write_ascii },
+	{ "las", " las ", true, false, mr_las_sniff, mr_las_read, NULL },
+	{ "stl", " stl ", true, false, mr_stl_sniff, mr_stl_read, mr_stl_write },
+	{ "stl-ascii", NULL, false, false, NULL, mr_stl_read, mr_stl_write_ascii },
+	{ "off", " off coff noff stoff cnoff ", false, false, mr_off_sniff, mr_off_read, mr_off_write },
+	{ "off-binary", NULL, true, false, NULL, mr_off_read, mr_off_write_binary },
+	{ "pcd", " pcd ", true, false, mr_pcd_sniff, mr_pcd_read, NULL },
+	{ "obj", " obj ", false, true, mr_obj_sniff, mr_obj_read, mr_obj_write },
+	{ "ptx", " ptx ", false, true, mr_ptx_sniff, mr_ptx_read, NULL },
+	{ "xyz", " xyz txt csv asc xyzn xyzrgb ", false, true, mr_xyz_sniff, mr_xyz_read, mr_xyz_write },
+	{ "pts", " pts ", false, true, NULL, mr_xyz_read, mr_pts_write },
+	{ "pwn", " pwn ", false, true, NULL, mr_xyz_read, mr_pwn_write },
 };
 
-enum { FORMATS = sizeof formats / sizeof *formats };
+enum { FORMATS = sizeof formats / sizeof *formats, LONGEST_LINE = 1 << 22 };
 
 /* ---- names ---- */
 
@@ -205,6 +205,18 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	return MR_OK;
 }
 
+/* The mark that begins UTF-8 goes, and other text becomes lines of ASCII. */
+static mr_status
+as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
+{
+	if (*size >= 3 && (*data)[0] == 0xef && (*data)[1] == 0xbb && (*data)[2] == 0xbf) {
+		*data += 3;
+		*size -= 3;
+	}
+	MR_TRY(narrow(ctx, data, size));
+	return *size ? normalise_lines(ctx, data, *size) : MR_OK;
+}
+
 mr_status
 mr_model_parse(
     mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size, mr_model *m)
@@ -212,14 +224,7 @@ mr_model_parse(
 	const mr_file_format *f = NULL;
 	mr_model got = { 0 };
 
-	if (size >= 3 && data[0] == 0xef && data[1] == 0xbb &&
-	    data[2] == 0xbf) { /* the mark that begins UTF-8 */
-		data += 3;
-		size -= 3;
-	}
-	MR_TRY(narrow(ctx, &data, &size));
-	if (size)
-		MR_TRY(normalise_lines(ctx, &data, size));
+	MR_TRY(as_text(ctx, &data, &size));
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));
 	MR_TRY(f->read(ctx, data, size, &got));
 	if (got.nv == 0)
@@ -229,13 +234,45 @@ mr_model_parse(
 	return MR_OK;
 }
 
+typedef struct source {
+	const char *path, *format;
+} source;
+
+/* What has no end in sight must be of a known format by now, and text must have ends of lines. */
+static mr_status
+judge(mr_ctx *ctx, const void *user, const unsigned char *data, size_t size)
+{
+	const source *s = user;
+	const mr_file_format *f;
+	mr_mark mark = mr_mark_take(ctx);
+	mr_status status;
+	size_t line;
+	bool stl;
+
+	if (mr_is_gzip(data, size))
+		return MR_OK;
+	stl = mr_stl_begins(data, size);
+	MR_TRY(as_text(ctx, &data, &size));
+	status = find_reader(ctx, s->path, s->format, data, size, &f);
+	if (status < 0)
+		return stl ? MR_OK : mr_prefix(ctx, status, "after %zu bytes", size);
+	for (line = size; f->lines && line > 0 && data[line - 1] != '\n'; line--)
+		;
+	if (f->lines && size - line > LONGEST_LINE)
+		return mr_fail(ctx, MR_EFORMAT, "byte %zu: a line of more than %d bytes is no %s", line,
+		    (int)LONGEST_LINE, f->name);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 mr_status
 mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 {
+	const source s = { path, format };
 	mr_bytes bytes = { 0 };
 	mr_status status;
 
-	MR_TRY(mr_bytes_read(ctx, path, &bytes));
+	MR_TRY(mr_bytes_read(ctx, path, &(mr_judge){ judge, &s }, &bytes));
 	status = mr_model_parse(ctx, path, format, bytes.data, bytes.size, m);
 	mr_bytes_free(&bytes);
 	if (status == MR_EUSAGE)

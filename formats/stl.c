@@ -198,6 +198,20 @@ is_text(const unsigned char *data, size_t size)
 	       mr_scan_accept(&text, "solid");
 }
 
+/* A binary one tells by its size only when it is whole. */
+bool
+mr_stl_begins(const unsigned char *data, size_t size)
+{
+	size_t n = size < HEADER ? 0 : mr_load32(data + 80, false), there = (size - HEADER) / RECORD;
+
+	if (n == 0 || n < there)
+		return false;
+	for (size_t i = 0; i < 12 * there; i++)
+		if (!isfinite(mr_load_float(data + HEADER + i / 12 * RECORD + i % 12 * 4, false)))
+			return false;
+	return true;
+}
+
 bool
 mr_stl_sniff(const unsigned char *data, size_t size)
 {
