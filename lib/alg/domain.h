@@ -26,6 +26,13 @@ typedef struct mr_domain {
  * manifold. */
 mr_status mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d);
 
+/*
+ * Its points again, on levels that stand, for other positions of the control vertices: limit and normal have
+ * level[n].nv each, the caller's.
+ */
+mr_status mr_domain_points(
+    mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *control, mr_v3 *limit, mr_v3 *normal);
+
 /* The level whose vertex count is nearest to `count`, in logarithm. */
 mr_status mr_domain_level(mr_ctx *ctx, const mr_mesh *control, size_t count, size_t *n);
 

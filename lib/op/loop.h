@@ -58,13 +58,15 @@ void mr_loop_predict(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fi
 
 /*
  * Limit points and unit limit normals of the level's vertices at p, nv each, the caller's, either may be
- * NULL, neither p.  A normal is zero where the limit tangents are parallel.
+ * NULL, neither p.  On a crease and at a corner a normal is the unit sum of those of the sectors between
+ * sharp edges; it is zero where the limit tangents are parallel.
  */
 void mr_loop_limit(const mr_ctx *ctx, const mr_loop *l, const mr_v3 *p, mr_v3 *limit, mr_v3 *normal);
 
 /*
  * The limit points of level n's vertices as combinations of the control vertices: level[n].nv rows, each of
- * sum 1, columns below level[0].nv.  s: in the arena.
+ * sum 1, columns below level[0].nv.  s: in the arena, above what it took to make it, a third as much again.
+ * MR_ERANGE where it has 2^31 weights or more.
  */
 mr_status mr_loop_limit_matrix(mr_ctx *ctx, const mr_loop *level, size_t n, mr_sparse *s);
 
