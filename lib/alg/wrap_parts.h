@@ -1,0 +1,73 @@
+/*
+ * wrap_parts.h -- what the files of the shrink-wrapping share.
+ *
+ * Layer rule: alg, private to shrinkwrap.c and wrap_*.c.
+ */
+#ifndef MR_WRAP_PARTS_H
+#define MR_WRAP_PARTS_H
+
+#include "alg/dynmesh.h"
+#include "alg/shrinkwrap.h"
+#include "mesh/near.h"
+
+/* The points to wrap. */
+typedef struct mr_wrap_cloud {
+	const mr_v3 *p;
+	size_t n, places; /* places: points at one position count once */
+	mr_near *near;
+	mr_box box;
+	double diagonal;
+	double spacing; /* sampling distance: the median side of the square that a point has to itself */
+	double area;    /* of the surface, as the sum of these squares */
+} mr_wrap_cloud;
+
+/* Indexes the points and looks at their sampling; MR_EMESH where they have no volume.  Close with
+ * mr_near_free(cloud->near), on failure too. */
+mr_status mr_wrap_cloud_open(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *cloud);
+
+/* The surface of a box of edges[0] x edges[1] x edges[2] edges, each at least 1, oriented outward; in the
+ * arena. */
+mr_status mr_wrap_box(mr_ctx *ctx, mr_box box, const size_t edges[3], mr_mesh *out);
+
+/* The same as a mr_dyn without curves. */
+mr_status mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d);
+
+/* v <- v + alpha (q - v), q the point nearest to v. */
+mr_status mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, mr_dyn *d);
+
+/* v <- v + lambda Lt, Lt the tangential part of the umbrella vector.  Boundary vertices stay. */
+mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
+
+/* Moves the vertices to `to`, d->nv, but those that would turn a face by more than 60 degrees or fold it;
+ * `to` becomes where they are. */
+mr_status mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d);
+
+/*
+ * One level of the coarse-to-fine wrapping: remeshes d to edges of about `length`, then draws it closer:
+ * where a vertex is farther than that from all points by what lies along its normal, and vertices out to
+ * points that the wrap cuts off.
+ */
+mr_status
+mr_wrap_level(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_dyn *d);
+
+/* Remeshes d to edges of about `length`, in one round. */
+mr_status mr_wrap_remesh(mr_ctx *ctx, double length, mr_dyn *d);
+
+/*
+ * Draws d, already near, onto the points: vertices move along their normals to the level of the nearest
+ * points, and are smoothed tangentially; none that would turn a face.
+ */
+mr_status
+mr_wrap_settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, size_t iterations, mr_dyn *d);
+
+/* How well a wrap covers the points, in units of the model. */
+typedef struct mr_wrap_cover {
+	double points_max,
+	    points_high;            /* distances of points to the wrap: the largest, and the 99 % quantile */
+	double wrap_max, wrap_high; /* of middles of faces to the points, by area */
+} mr_wrap_cover;
+
+mr_status
+mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c);
+
+#endif

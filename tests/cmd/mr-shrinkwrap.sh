@@ -1,0 +1,54 @@
+# A wrapped sphere is a closed surface of genus 0 within the sampling of the points; -j changes nothing.
+worst() { # distance of the control's vertices to the unit sphere is below $1
+	mr-export -f off -l control - | awk -v least="$1" 'NR == 2 { nv = $1 }
+		NR > 2 && NR <= nv + 2 { e = sqrt($1 * $1 + $2 * $2 + $3 * $3) - 1; if (e * e > w) w = e * e }
+		END { print (nv && w < least * least ? "on the sphere" : "off by " sqrt(w)) }'
+}
+mr-make sphere --points 3000 -o sphere.mrs
+for m in auto cube; do
+	echo "$m"
+	mr-shrinkwrap -m $m sphere.mrs -o out.mrs
+	mr-shrinkwrap -j 1 -m $m sphere.mrs | mr-export -f off -l control - >one.off
+	mr-export -f off -l control - <out.mrs | cmp - one.off && echo same for -j 1
+	mr-info -l control out.mrs | sed -n 's/^ *topology *//p'
+	worst 0.03 <out.mrs
+done
+
+echo 'the resolution is that of the cube: 6 r^2 + 2 vertices'
+mr-shrinkwrap -m cube -r 5 sphere.mrs | mr-info -l control - | sed -n 's/^ *control: //p'
+
+echo 'points that repeat change nothing'
+mr-export -l points -f xyz - <sphere.mrs >once.xyz
+cat once.xyz once.xyz >twice.xyz
+for n in once twice; do
+	mr-import $n.xyz | mr-shrinkwrap -m cube | mr-export -f off -l control - >$n.off
+done
+cmp once.off twice.off && echo same
+
+echo 'a template keeps its connectivity and goes onto the points'
+rename() { # mesh becomes control
+	python3 -c '
+import sys, zlib
+data, at, out = sys.stdin.buffer.read(), 0, b""
+while at < len(data):
+    size = int.from_bytes(data[at + 56:at + 64], "little")
+    head = bytearray(data[at:at + 64])
+    if head[:16].rstrip(b"\0") == b"mesh":
+        head[:16] = b"control".ljust(16, b"\0")
+        head[44:48] = bytes(4)
+        head[44:48] = zlib.crc32(data[at + 64:at + 64 + size], zlib.crc32(head)).to_bytes(4, "little")
+    end = at + 64 + (size + 63) // 64 * 64
+    out += head + data[at + 64:end]
+    at = end
+sys.stdout.buffer.write(out)'
+}
+mr-make sphere -n 500 | mr-export -f off - |
+	awk 'NR > 2 && NF == 3 { $0 = 1.3 * $1 " " 1.1 * $2 " " $3 + 0.2 } 1' >start.off
+mr-import start.off | rename >start.mrs
+mr-cat --merge start.mrs sphere.mrs -o both.mrs
+mr-shrinkwrap --template both.mrs -o out.mrs
+for f in both out; do
+	mr-export -f off -l control - <$f.mrs | awk 'NF == 4' >$f.faces
+done
+cmp both.faces out.faces && echo same faces
+worst 0.03 <out.mrs
