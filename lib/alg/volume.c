@@ -1,0 +1,355 @@
+/*
+ * The volume of a cloud without normals.
+ *
+ * Jeong and Kim flood the cells around the occupied ones.  A hole of the sampling lets a flood in, and walls
+ * nearer than a cell keep it out; so here the flood is soft, a quantity that diffuses in from the faces of
+ * the grid and is absorbed by the points.  It tells the side of the exposed points; planes alike pass that on
+ * to hidden ones.  Then the indicator of the inside is the solution of a Poisson equation (Kazhdan, Bolitho,
+ * Hoppe 2006), normals against which it falls the wrong way are turned over, and it is solved again (Hou et
+ * al. 2022, where the first signs are random).  The surface is where the indicator has the value that it has
+ * at the points nearby, so that thin parts, where it never rises to a half, are not lost.
+ */
+#include "alg/volume.h"
+
+#include "alg/volume_parts.h"
+#include "base/parallel.h"
+
+enum { MARGIN = 6, NEARBY = 3, ROUNDS_MOST = 20, GRAIN = 4096, NODES_LEAST = 1 << 20, NODES_PER_POINT = 10 };
+
+static const double CELL = 1.5;      /* spacings */
+static const double ABSORPTION = 20; /* of a full layer of points */
+static const double TURNED_LEAST = 2e-4;
+static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise across the surface */
+static const double SPARSE = 1.3; /* steps: where the spacing is more, the step is doubled */
+
+typedef struct volume {
+	samples s;
+	mr_grid grid[DEPTHS];
+	field f[DEPTHS];
+	size_t levels, depths;
+	double *value; /* of each point */
+} volume;
+
+static void
+set_grid(const samples *s, double step, mr_grid *g, size_t *levels)
+{
+	mr_v3 size = mr_sub(s->box.max, s->box.min), centre = mr_lerp(0.5, s->box.min, s->box.max), half;
+	const double side[3] = { size.x, size.y, size.z };
+	size_t cells[3], most = 0;
+
+	for (int k = 0; k < 3; k++) {
+		cells[k] = (size_t)ceil(side[k] / step) + (size_t)2 * MARGIN;
+		most = cells[k] > most ? cells[k] : most;
+	}
+	*levels = mr_multigrid_levels(most);
+	for (int k = 0; k < 3; k++)
+		g->n[k] = mr_multigrid_nodes(cells[k], *levels);
+	g->step = step;
+	half = mr_mul(step / 2, mr_vec((double)(g->n[0] - 1), (double)(g->n[1] - 1), (double)(g->n[2] - 1)));
+	g->origin = mr_sub(centre, half);
+}
+
+static void
+choose_grid(const samples *s, const mr_volume_opts *opts, mr_grid *g, size_t *levels)
+{
+	mr_v3 size = mr_sub(s->box.max, s->box.min);
+	double longest = fmax(size.x, fmax(size.y, size.z));
+	double step = opts->grid ? longest / (double)opts->grid : fmin(CELL * s->spacing, longest / 4);
+	size_t most = s->n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : s->n * NODES_PER_POINT;
+
+	set_grid(s, step, g, levels);
+	while (!opts->grid && mr_grid_nodes(g) > most) {
+		step *= 1.05;
+		set_grid(s, step, g, levels);
+	}
+}
+
+/* The difference of the value from one side of each point's plane to the other. */
+typedef struct across {
+	const volume *v;
+	const float *u;
+	double *out;
+	double reach;
+} across;
+
+static void
+measure_across(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+	const samples *s = &a->v->s;
+	const mr_grid *g = &a->v->grid[0];
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 d = mr_mul(a->reach * g->step, s->plane.normal[i]);
+		a->out[i] = mr_volume_at(g, a->u, mr_add(s->p[i], d)) -
+		            mr_volume_at(g, a->u, mr_sub(s->p[i], d));
+	}
+}
+
+/* What diffuses in from outside, u, is 1 - w: w is zero on the faces of the grid and absorbed to 1 at points.
+ */
+static mr_status
+orient_by_flood(mr_ctx *ctx, volume *v)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	multigrid m;
+	level *l = &m.level[0];
+	size_t nodes = mr_grid_nodes(&v->grid[0]);
+
+	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, true, &m));
+	for (size_t d = v->depths;
+	     d-- > 0;) { /* per length, a coarser level's is half of what it is per step */
+		mr_volume_spread(ctx, &v->s, &v->f[d], NULL, m.level[d].screen);
+		if (d + 1 < v->depths)
+			mr_multigrid_prolong(ctx, &m.level[d], &m.level[d + 1], m.level[d + 1].screen,
+			    m.level[d].screen, 1, 0.5f);
+	}
+	for (size_t i = 0; i < nodes; i++)
+		l->b[i] = l->screen[i] *= (float)ABSORPTION;
+	mr_multigrid_full(ctx, &m);
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, l->u, v->value, 1 });
+	for (size_t i = 0; i < v->s.n; i++)
+		v->value[i] = -v->value[i];
+	MR_TRY(mr_volume_orient(ctx, &v->s, v->value));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static size_t
+turn_over(volume *v)
+{
+	size_t turned = 0;
+
+	for (size_t i = 0; i < v->s.n; i++)
+		if (v->value[i] > 0) {
+			v->s.plane.normal[i] = mr_mul(-1, v->s.plane.normal[i]);
+			turned++;
+		}
+	return turned;
+}
+
+/* Half the step: a quarter of the right side. */
+static void
+spread_normals(mr_ctx *ctx, const volume *v, multigrid *m)
+{
+	for (size_t d = v->depths; d-- > 0;) {
+		mr_volume_divergence(ctx, &v->s, &v->f[d], m->level[d].b);
+		if (d + 1 < v->depths)
+			mr_multigrid_prolong(
+			    ctx, &m->level[d], &m->level[d + 1], m->level[d + 1].b, m->level[d].b, 1, 0.25f);
+	}
+}
+
+static mr_status
+solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
+{
+	size_t rounds = 0, turned, first = 0;
+
+	for (;;) {
+		spread_normals(ctx, v, m);
+		mr_multigrid_full(ctx, m);
+		if (rounds++ == ROUNDS_MOST)
+			break;
+		mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, m->level[0].u, v->value, 1 });
+		turned = turn_over(v);
+		if (rounds == 1)
+			first = turned;
+		if ((double)turned <= TURNED_LEAST * (double)v->s.n)
+			break;
+	}
+	mr_stat_set(ctx, "rounds", (double)rounds);
+	mr_stat_set(ctx, "turned", (double)first);
+	return MR_OK;
+}
+
+static void
+measure_at(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+
+	for (size_t i = begin; i < end; i++)
+		a->out[i] = mr_volume_at(&a->v->grid[0], a->u, a->v->s.p[i]);
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+	const double *x = a, *y = b;
+
+	return (*x > *y) - (*x < *y);
+}
+
+/*
+ * Half of what the indicator rises by across the surface.  Over thin parts it never does, and beside an open
+ * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
+ * median value at them.  v->value becomes the values.
+ */
+static mr_status
+half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
+{
+	enum { MOST = 10007 };
+	mr_mark mark = mr_mark_take(ctx);
+	size_t m = v->s.n < MOST ? v->s.n : MOST;
+	double *rise = MR_NEW(ctx, m, double);
+
+	if (!rise)
+		return MR_EMEM;
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1.5 });
+	for (size_t i = 0; i < m; i++)
+		rise[i] = -v->value[i * v->s.n / m] / 2;
+	qsort(rise, m, sizeof *rise, ascending);
+	*half = rise[m / 2];
+	mr_parallel(ctx, v->s.n, GRAIN, measure_at, &(across){ v, u, v->value, 0 });
+	for (size_t i = 0; i < m; i++)
+		rise[i] = v->value[i * v->s.n / m];
+	qsort(rise, m, sizeof *rise, ascending);
+	*half = fmax(*half, rise[m / 2]);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Level 1's u = mean of the values of the points nearby; `far` where there are none. */
+static mr_status
+spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
+{
+	static const float LITTLE = 0.05f;
+	size_t depths = m->levels < 1 + NEARBY ? m->levels : 1 + NEARBY;
+	mr_mark mark = mr_mark_take(ctx);
+	mr_grid g = v->grid[0];
+	field f;
+
+	g.step *= 2;
+	memcpy(g.n, m->level[1].n, sizeof g.n);
+	MR_TRY(mr_volume_field(ctx, &v->s, &g, DEPTHS, &f));
+	mr_volume_spread(ctx, &v->s, &f, v->value, m->level[1].b);
+	mr_volume_spread(ctx, &v->s, &f, NULL, m->level[1].r);
+	mr_mark_release(ctx, mark);
+	for (size_t i = 1; i + 1 < depths; i++) {
+		level *l = &m->level[i], *c = l + 1;
+		mr_multigrid_restrict(ctx, l, c, l->b, c->b, 1);
+		mr_multigrid_restrict(ctx, l, c, l->r, c->r, 1);
+	}
+	for (size_t i = depths; i-- > 1;) {
+		level *l = &m->level[i];
+		size_t nodes = l->n[0] * l->n[1] * l->n[2];
+		for (size_t k = 0; k < nodes; k++)
+			l->u[k] = (float)far;
+		if (i + 1 < depths)
+			mr_multigrid_prolong(ctx, l, l + 1, l[1].u, l->u, 0, 1);
+		for (size_t k = 0; k < nodes; k++)
+			l->u[k] = (l->b[k] + LITTLE * l->u[k]) / (l->r[k] + LITTLE);
+	}
+	return MR_OK;
+}
+
+/* f = level - indicator, in place of the indicator. */
+static mr_status
+make_level(mr_ctx *ctx, volume *v, multigrid *m)
+{
+	level *l = &m->level[0];
+	double half;
+	size_t nodes = mr_grid_nodes(&v->grid[0]);
+	float *c = l->b;
+
+	MR_TRY(half_rise(ctx, v, l->u, &half));
+	mr_stat_set(ctx, "level", half);
+	for (size_t i = 0; i < v->s.n; i++)
+		v->value[i] = fmax(LEVEL_LEAST * half, fmin(v->value[i], LEVEL_MOST * half));
+	MR_TRY(spread_values(ctx, v, m, half));
+	for (size_t i = 0; i < nodes; i++)
+		c[i] = (float)half;
+	mr_multigrid_prolong(ctx, l, &m->level[1], m->level[1].u, c, 0, 1);
+	for (size_t i = 0; i < nodes; i++)
+		l->u[i] = c[i] - l->u[i];
+	return MR_OK;
+}
+
+static mr_status
+begin(mr_ctx *ctx, const mr_volume_opts *opts, volume *v)
+{
+	choose_grid(&v->s, opts, &v->grid[0], &v->levels);
+	v->depths = v->levels < DEPTHS ? v->levels : DEPTHS;
+	v->value = MR_NEW(ctx, v->s.n, double);
+	v->s.depth = MR_NEW(ctx, v->s.n, uint8_t);
+	if (!v->value || !v->s.depth)
+		return MR_EMEM;
+	for (size_t i = 0; i < v->s.n; i++) {
+		double side = sqrt(v->s.plane.area[i]) / v->grid[0].step;
+		v->s.depth[i] = 0;
+		for (; side > SPARSE && v->s.depth[i] + 1u < v->depths; side /= 2)
+			v->s.depth[i]++;
+	}
+	for (unsigned d = 0; d < v->depths; d++) {
+		mr_grid *g = &v->grid[d];
+		if (d > 0) {
+			*g = v->grid[d - 1];
+			g->step *= 2;
+			for (int k = 0; k < 3; k++)
+				g->n[k] = (g->n[k] - 1) / 2 + 1;
+		}
+		MR_TRY(mr_volume_field(ctx, &v->s, g, d, &v->f[d]));
+	}
+	return MR_OK;
+}
+
+/* f, of the grid's nodes: negative inside. */
+static mr_status
+fill_field(mr_ctx *ctx, volume *v, float *f)
+{
+	double start = mr_seconds();
+	cleaning c;
+	multigrid m;
+
+	MR_TRY(orient_by_flood(ctx, v));
+	mr_stat_set(ctx, "seconds_flood", mr_seconds() - start);
+	start = mr_seconds();
+	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, false, &m));
+	MR_TRY(solve_indicator(ctx, v, &m));
+	mr_stat_set(ctx, "seconds_indicator", mr_seconds() - start);
+	start = mr_seconds();
+	MR_TRY(make_level(ctx, v, &m));
+	memcpy(f, m.level[0].u, mr_grid_nodes(&v->grid[0]) * sizeof *f);
+	MR_TRY(mr_volume_clean(ctx, &v->s, &v->grid[0], f, &c));
+	mr_stat_set(ctx, "parts_dropped", (double)c.parts);
+	mr_stat_set(ctx, "cavities_filled", (double)c.cavities);
+	mr_stat_set(ctx, "seconds_level", mr_seconds() - start);
+	return MR_OK;
+}
+
+/* Share of the nodes that are inside. */
+static double
+inside_share(const float *f, size_t nodes)
+{
+	size_t inside = 0;
+
+	for (size_t i = 0; i < nodes; i++)
+		inside += f[i] < 0;
+	return (double)inside / (double)nodes;
+}
+
+mr_status
+mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out)
+{
+	double start = mr_seconds();
+	volume v;
+	mr_mark mark;
+	float *f;
+
+	MR_TRY(mr_volume_samples(ctx, point, n, &v.s));
+	mr_stat_set(ctx, "seconds_planes", mr_seconds() - start);
+	MR_TRY(begin(ctx, opts, &v));
+	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
+	if (!f)
+		return MR_EMEM;
+	mark = mr_mark_take(ctx);
+	MR_TRY(fill_field(ctx, &v, f));
+	mr_mark_release(ctx, mark);
+	start = mr_seconds();
+	MR_TRY(mr_isosurface(ctx, &v.grid[0], f, out));
+	mr_stat_set(ctx, "seconds_isosurface", mr_seconds() - start);
+	mr_stat_set(ctx, "spacing", v.s.spacing);
+	mr_stat_set(ctx, "cell", v.grid[0].step);
+	mr_stat_set(ctx, "nodes", (double)mr_grid_nodes(&v.grid[0]));
+	mr_stat_set(ctx, "inside", inside_share(f, mr_grid_nodes(&v.grid[0])));
+	return MR_OK;
+}

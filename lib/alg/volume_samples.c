@@ -1,0 +1,190 @@
+/* The points of a volume: each once, in Morton order, with their planes and spacing. */
+#include "alg/volume_parts.h"
+
+#include "mesh/repair.h"
+
+/* A point stands for at most so many times the area of most of its neighbours: one far from them is no
+ * surface. */
+static const double AREA_MOST = 4;
+
+enum { NEAREST = 12, LINKS = 8, BITS = 10, DIGITS = 1 << BITS };
+
+/* Every third bit, beginning with the lowest. */
+static uint32_t
+spread_bits(uint32_t x)
+{
+	x = (x | x << 16) & 0x030000ff;
+	x = (x | x << 8) & 0x0300f00f;
+	x = (x | x << 4) & 0x030c30c3;
+	return (x | x << 2) & 0x09249249;
+}
+
+static uint32_t
+morton(mr_box box, mr_v3 p)
+{
+	mr_v3 size = mr_sub(box.max, box.min), d = mr_sub(p, box.min);
+	double scale = (DIGITS - 1) / fmax(size.x, fmax(size.y, size.z));
+
+	return spread_bits((uint32_t)(scale * d.x)) | spread_bits((uint32_t)(scale * d.y)) << 1 |
+	       spread_bits((uint32_t)(scale * d.z)) << 2;
+}
+
+/* One pass of a radix sort of `order` by a digit of its keys. */
+static void
+sort_digit(const uint32_t *key, size_t n, unsigned digit, const uint32_t *from, uint32_t *to)
+{
+	size_t first[DIGITS + 1] = { 0 };
+
+	for (size_t i = 0; i < n; i++)
+		first[(key[from[i]] >> digit * BITS & (DIGITS - 1)) + 1]++;
+	for (size_t d = 0; d < DIGITS; d++)
+		first[d + 1] += first[d];
+	for (size_t i = 0; i < n; i++)
+		to[first[key[from[i]] >> digit * BITS & (DIGITS - 1)]++] = from[i];
+}
+
+/* s->p holds the distinct points; now in Morton order. */
+static mr_status
+sort_points(mr_ctx *ctx, samples *s)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *key = MR_NEW(ctx, s->n, uint32_t), *a = MR_NEW(ctx, s->n, uint32_t),
+		 *b = MR_NEW(ctx, s->n, uint32_t);
+	mr_v3 *p = MR_NEW(ctx, s->n, mr_v3);
+
+	if (!key || !a || !b || !p)
+		return MR_EMEM;
+	for (size_t i = 0; i < s->n; i++) {
+		key[i] = morton(s->box, s->p[i]);
+		a[i] = (uint32_t)i;
+		p[i] = s->p[i];
+	}
+	sort_digit(key, s->n, 0, a, b);
+	sort_digit(key, s->n, 1, b, a);
+	sort_digit(key, s->n, 2, a, b);
+	for (size_t i = 0; i < s->n; i++)
+		s->p[i] = p[b[i]];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+distinct(mr_ctx *ctx, const mr_v3 *point, size_t n, samples *s)
+{
+	mr_mark mark;
+	uint32_t *map;
+
+	s->p = MR_NEW(ctx, n, mr_v3);
+	mark = mr_mark_take(ctx);
+	map = MR_NEW(ctx, n, uint32_t);
+	if (!s->p || !map)
+		return MR_EMEM;
+	MR_TRY(mr_weld(ctx, point, n, 0, map, &s->n));
+	for (size_t i = n; i-- > 0;)
+		s->p[map[i]] = point[i];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* MR_EMESH where the points have no volume: fewer than four, on a line, in a plane. */
+static mr_status
+check(mr_ctx *ctx, const samples *s)
+{
+	mr_v3 mean = mr_vec(0, 0, 0), vector[3];
+	double a[6] = { 0 }, value[3], scale = 1 / mr_box_diagonal(s->box);
+
+	if (s->n < 4)
+		return mr_fail(ctx, MR_EMESH, "%zu distinct points enclose nothing: it takes four", s->n);
+	for (size_t i = 0; i < s->n; i++)
+		mean = mr_axpy(1 / (double)s->n, s->p[i], mean);
+	for (size_t i = 0; i < s->n; i++) {
+		mr_v3 d = mr_mul(scale, mr_sub(s->p[i], mean));
+		a[0] += d.x * d.x;
+		a[1] += d.x * d.y;
+		a[2] += d.x * d.z;
+		a[3] += d.y * d.y;
+		a[4] += d.y * d.z;
+		a[5] += d.z * d.z;
+	}
+	mr_eigen_sym3(a, value, vector);
+	if (value[1] <= 1e-12 * value[2])
+		return mr_fail(ctx, MR_EMESH, "the %zu points lie on a line: they enclose nothing", s->n);
+	if (value[0] <= 1e-12 * value[2])
+		return mr_fail(ctx, MR_EMESH, "the %zu points lie in a plane: they enclose nothing", s->n);
+	return MR_OK;
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+	const double *x = a, *y = b;
+
+	return (*x > *y) - (*x < *y);
+}
+
+/* The median spacing, of some points where there are many. */
+static mr_status
+find_spacing(mr_ctx *ctx, samples *s)
+{
+	enum { MOST = 10007 };
+	mr_mark mark = mr_mark_take(ctx);
+	size_t m = s->n < MOST ? s->n : MOST;
+	double *area = MR_NEW(ctx, m, double);
+
+	if (!area)
+		return MR_EMEM;
+	for (size_t i = 0; i < m; i++)
+		area[i] = s->plane.area[i * s->n / m];
+	qsort(area, m, sizeof *area, ascending);
+	s->spacing = sqrt(area[m / 2]);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The area that a quarter of the point's neighbours does not exceed. */
+static double
+usual_area(const samples *s, const double *area, size_t i)
+{
+	const uint32_t *neighbor = s->plane.neighbor + i * s->plane.links;
+	double least[LINKS];
+	size_t n = 0;
+
+	for (size_t j = 0; j < s->plane.links && neighbor[j] != UINT32_MAX; j++) {
+		double a = area[neighbor[j]];
+		size_t k = n++;
+		for (; k > 0 && least[k - 1] > a; k--)
+			least[k] = least[k - 1];
+		least[k] = a;
+	}
+	return least[n / 4];
+}
+
+static mr_status
+limit_areas(mr_ctx *ctx, samples *s)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *area = MR_NEW(ctx, s->n, double);
+
+	if (!area)
+		return MR_EMEM;
+	memcpy(area, s->plane.area, s->n * sizeof *area);
+	for (size_t i = 0; i < s->n; i++)
+		s->plane.area[i] = fmin(area[i], AREA_MOST * usual_area(s, area, i));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, samples *s)
+{
+	size_t links;
+
+	MR_TRY(distinct(ctx, point, n, s));
+	s->box = mr_box_of(s->p, s->n);
+	MR_TRY(check(ctx, s));
+	MR_TRY(sort_points(ctx, s));
+	links = s->n - 1 < LINKS ? s->n - 1 : LINKS;
+	MR_TRY(mr_cloud_planes(ctx, s->p, s->n, s->n < NEAREST ? s->n : NEAREST, links, &s->plane));
+	MR_TRY(limit_areas(ctx, s));
+	return find_spacing(ctx, s);
+}

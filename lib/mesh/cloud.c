@@ -1,0 +1,150 @@
+#include "mesh/cloud.h"
+
+#include "base/parallel.h"
+#include "mesh/near.h"
+
+enum { CHUNK = 1 << 16, GRAIN = 1024, SWEEPS = 12 };
+
+/* One Jacobi rotation: makes m[i][j] zero. */
+static void
+rotate(double m[3][3], double v[3][3], int i, int j)
+{
+	double theta, t, c, s;
+
+	if (m[i][j] == 0)
+		return;
+	theta = (m[j][j] - m[i][i]) / (2 * m[i][j]);
+	t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
+	c = 1 / sqrt(t * t + 1);
+	s = t * c;
+	for (int k = 0; k < 3; k++) {
+		double a = m[k][i], b = m[k][j];
+		m[k][i] = c * a - s * b;
+		m[k][j] = s * a + c * b;
+	}
+	for (int k = 0; k < 3; k++) {
+		double a = m[i][k], b = m[j][k];
+		m[i][k] = c * a - s * b;
+		m[j][k] = s * a + c * b;
+		a = v[k][i];
+		b = v[k][j];
+		v[k][i] = c * a - s * b;
+		v[k][j] = s * a + c * b;
+	}
+}
+
+void
+mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3])
+{
+	double m[3][3] = { { a[0], a[1], a[2] }, { a[1], a[3], a[4] }, { a[2], a[4], a[5] } };
+	double v[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+	double tiny = 1e-14 * (fabs(a[0]) + fabs(a[3]) + fabs(a[5]));
+	int order[3] = { 0, 1, 2 };
+
+	for (int sweep = 0; sweep < SWEEPS; sweep++) {
+		if (fabs(m[0][1]) + fabs(m[0][2]) + fabs(m[1][2]) <= tiny)
+			break;
+		rotate(m, v, 0, 1);
+		rotate(m, v, 0, 2);
+		rotate(m, v, 1, 2);
+	}
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j + 1 < 3; j++)
+			if (m[order[j]][order[j]] > m[order[j + 1]][order[j + 1]]) {
+				int o = order[j];
+				order[j] = order[j + 1];
+				order[j + 1] = o;
+			}
+	for (int i = 0; i < 3; i++) {
+		int o = order[i];
+		value[i] = m[o][o];
+		vector[i] = mr_vec(v[0][o], v[1][o], v[2][o]);
+	}
+}
+
+/* Normal of the plane of least squares through p[index[0 .. k - 1]]. */
+static mr_v3
+plane_normal(const mr_v3 *p, const uint32_t *index, size_t k)
+{
+	mr_v3 mean = mr_vec(0, 0, 0), vector[3];
+	double a[6] = { 0 }, value[3];
+
+	for (size_t i = 0; i < k; i++)
+		mean = mr_axpy(1 / (double)k, p[index[i]], mean);
+	for (size_t i = 0; i < k; i++) {
+		mr_v3 d = mr_sub(p[index[i]], mean);
+		a[0] += d.x * d.x;
+		a[1] += d.x * d.y;
+		a[2] += d.x * d.z;
+		a[3] += d.y * d.y;
+		a[4] += d.y * d.z;
+		a[5] += d.z * d.z;
+	}
+	mr_eigen_sym3(a, value, vector);
+	return vector[0];
+}
+
+typedef struct work {
+	const mr_v3 *p;
+	const uint32_t *index; /* k of each of a chunk's points */
+	const double *dist2;
+	size_t k, first; /* the chunk's first point */
+	mr_planes *out;
+} work;
+
+static void
+fit_planes(void *arg, size_t begin, size_t end)
+{
+	const work *w = arg;
+	mr_planes *o = w->out;
+
+	for (size_t i = begin; i < end; i++) {
+		const uint32_t *index = w->index + i * w->k;
+		size_t at = w->first + i, found = 0;
+		while (found < w->k && index[found] != UINT32_MAX)
+			found++;
+		o->normal[at] = plane_normal(w->p, index, found);
+		/* the k-th neighbour lies on the rim of the disc: half of it is inside */
+		o->area[at] = MR_PI * w->dist2[i * w->k + found - 1] / (found > 1 ? (double)found - 0.5 : 1);
+		for (size_t j = 0; j < o->links; j++)
+			o->neighbor[at * o->links + j] = j + 1 < found ? index[j + 1] : UINT32_MAX;
+	}
+}
+
+static mr_status
+fit_all(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, size_t k, mr_planes *out)
+{
+	size_t chunk = n < CHUNK ? n : CHUNK;
+	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
+	double *dist2 = MR_NEW(ctx, chunk * k, double);
+
+	if (!index || !dist2)
+		return MR_EMEM;
+	for (size_t first = 0; first < n; first += chunk) {
+		size_t m = n - first < chunk ? n - first : chunk;
+		work w = { p, index, dist2, k, first, out };
+		MR_TRY(mr_near_query(ctx, near, p + first, m, k, index, dist2));
+		mr_parallel(ctx, m, GRAIN, fit_planes, &w);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, mr_planes *out)
+{
+	mr_planes r = { MR_NEW(ctx, n, mr_v3), MR_NEW(ctx, n, double), MR_NEW(ctx, n * links, uint32_t),
+		links };
+	mr_mark mark = mr_mark_take(ctx);
+	mr_near *near = NULL;
+	mr_status status;
+
+	if (!r.normal || !r.area || !r.neighbor)
+		return MR_EMEM;
+	MR_TRY(mr_near_build(ctx, p, n, &near));
+	status = fit_all(ctx, near, p, n, k, &r);
+	mr_near_free(near);
+	mr_mark_release(ctx, mark);
+	if (status == MR_OK)
+		*out = r;
+	return status;
+}

@@ -1,0 +1,29 @@
+/*
+ * cloud.h -- what the neighbourhood of each point of a cloud tells: its plane, the area it stands for.
+ *
+ * Layer rule: mesh.
+ */
+#ifndef MR_CLOUD_H
+#define MR_CLOUD_H
+
+#include "base/vec.h"
+
+typedef struct mr_planes {
+	mr_v3 *normal; /* n: unit normals of the planes, of either sign */
+	double *area;  /* n: of the disc that the neighbours fill, a neighbour's share */
+	uint32_t
+	    *neighbor; /* n x links: the nearest points, itself left out; UINT32_MAX where there are none */
+	size_t links;
+} mr_planes;
+
+/*
+ * Planes of least squares through each point's k nearest (itself among them), k >= 3, and its `links` < k
+ * nearest, in the arena.  The points must be distinct.
+ */
+mr_status
+mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, mr_planes *out) MR_WARN_UNUSED;
+
+/* Eigenvalues, ascending, of the symmetric matrix xx xy xz yy yz zz, and its eigenvectors (Jacobi). */
+void mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3]);
+
+#endif

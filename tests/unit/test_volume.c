@@ -1,0 +1,332 @@
+/* Volumes of clouds whose surface is known, isosurfaces of any values, and clouds that enclose nothing. */
+#include "unit.h"
+
+#include "alg/isosurface.h"
+#include "alg/shape.h"
+#include "alg/volume.h"
+#include "base/random.h"
+#include "mesh/bvh.h"
+#include "mesh/cloud.h"
+#include "mesh/measure.h"
+
+static mr_census
+census_of(const mr_mesh *m)
+{
+	mr_edges edges;
+	mr_census c;
+
+	assert_int_equal(mr_edges_build(&ctx, m, &edges), MR_OK);
+	assert_int_equal(mr_take_census(&ctx, m, &edges, &c), MR_OK);
+	return c;
+}
+
+static void
+assert_closed_manifold(const mr_census *c)
+{
+	assert_true(c->manifold && c->oriented);
+	assert_int_equal(c->boundary_edges, 0);
+	assert_int_equal(c->isolated_vertices, 0);
+}
+
+static double
+volume_of(const mr_mesh *m)
+{
+	mr_edges edges;
+	mr_geometry g;
+
+	assert_int_equal(mr_edges_build(&ctx, m, &edges), MR_OK);
+	assert_int_equal(mr_measure_geometry(&ctx, m, &edges, &g), MR_OK);
+	return g.volume;
+}
+
+/* The greatest distance from a point to the surface. */
+static double
+coverage(const mr_v3 *p, size_t n, const mr_mesh *m)
+{
+	mr_bvh *bvh;
+	double most = 0;
+
+	assert_int_equal(mr_bvh_build(&ctx, m, &bvh), MR_OK);
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, mr_bvh_closest(bvh, p[i]).dist2);
+	return sqrt(most);
+}
+
+static mr_mesh
+solid(mr_solid which, size_t vertices, size_t genus)
+{
+	mr_mesh m;
+
+	assert_int_equal(
+	    mr_solid_make(&ctx, &(mr_solid_opts){ .solid = which, .vertices = vertices, .genus = genus }, &m),
+	    MR_OK);
+	return m;
+}
+
+static mr_v3 *
+points_on(const mr_mesh *m, size_t n, uint64_t seed)
+{
+	mr_v3 *p, *normals;
+
+	assert_int_equal(mr_surface_sample(&ctx, m, n, seed, &p, &normals), MR_OK);
+	return p;
+}
+
+static mr_mesh
+wrap(const mr_v3 *p, size_t n)
+{
+	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
+	mr_mesh m;
+
+	assert_int_equal(mr_volume_wrap(&ctx, p, n, &opts, &m), MR_OK);
+	return m;
+}
+
+/* Any signs at all: 20 % of the nodes inside, at random, show all 256 cases. */
+static void
+isosurface_is_always_closed(void **state)
+{
+	enum { N = 24 };
+	static float f[N * N * N];
+	mr_grid g = { { 0, 0, 0 }, 1, { N, N, N } };
+	mr_random r = { 1 };
+	mr_census c;
+	mr_mesh m;
+
+	(void)state;
+	for (int share = 1; share < 10; share += 2) {
+		for (size_t z = 0, i = 0; z < N; z++)
+			for (size_t y = 0; y < N; y++)
+				for (size_t x = 0; x < N; x++, i++) {
+					bool face = x % (N - 1) == 0 || y % (N - 1) == 0 || z % (N - 1) == 0;
+					double u = mr_random_real(&r);
+					f[i] = (float)(face ? u : u - 0.1 * share);
+				}
+		assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
+		c = census_of(&m);
+		assert_closed_manifold(&c);
+		assert_true(volume_of(&m) > 0);
+	}
+}
+
+/* The distance to a sphere: its volume to the second order, its vertices on it. */
+static void
+isosurface_of_a_sphere(void **state)
+{
+	enum { N = 41 };
+	static float f[N * N * N];
+	mr_grid g = { { -1, -1, -1 }, 0.05, { N, N, N } };
+	mr_census c;
+	mr_mesh m;
+
+	(void)state;
+	for (size_t z = 0, i = 0; z < N; z++)
+		for (size_t y = 0; y < N; y++)
+			for (size_t x = 0; x < N; x++, i++)
+				f[i] = (float)(mr_norm(mr_grid_place(&g, x, y, z)) - 0.8);
+	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
+	c = census_of(&m);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.euler, 2);
+	assert_true(fabs(volume_of(&m) - (4 * MR_PI / 3 * 0.512)) < 0.01);
+	for (size_t i = 0; i < m.nv; i++)
+		assert_true(fabs(mr_norm(m.p[i]) - 0.8) < 1e-3);
+	f[0] = -1;
+	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_ERANGE);
+	assert_string_equal(ctx.error, "node 0 0 0 on the face of a grid of 41 x 41 x 41 is inside");
+}
+
+static void
+eigenvectors_of_a_symmetric_matrix(void **state)
+{
+	mr_random r = { 3 };
+
+	(void)state;
+	for (int k = 0; k < 100; k++) {
+		double a[6], value[3];
+		mr_v3 vector[3];
+		for (int i = 0; i < 6; i++)
+			a[i] = mr_random_real(&r) - 0.5;
+		mr_eigen_sym3(a, value, vector);
+		assert_true(value[0] <= value[1] && value[1] <= value[2]);
+		for (int i = 0; i < 3; i++) {
+			mr_v3 v = vector[i],
+			      av = mr_vec(mr_dot(mr_vec(a[0], a[1], a[2]), v),
+				  mr_dot(mr_vec(a[1], a[3], a[4]), v), mr_dot(mr_vec(a[2], a[4], a[5]), v));
+			assert_true(fabs(mr_norm(v) - 1) < 1e-12);
+			assert_true(mr_dist(av, mr_mul(value[i], v)) < 1e-12);
+		}
+	}
+}
+
+/* Normals of a sphere are its radii, and the points share its area. */
+static void
+planes_of_a_sphere(void **state)
+{
+	enum { N = 4000 };
+	mr_mesh m = solid(MR_SPHERE, 40000, 0);
+	mr_v3 *p = points_on(&m, N, 5);
+	mr_planes planes;
+	double area = 0;
+
+	(void)state;
+	assert_int_equal(mr_cloud_planes(&ctx, p, N, 12, 6, &planes), MR_OK);
+	for (size_t i = 0; i < N; i++) {
+		assert_true(fabs(mr_dot(planes.normal[i], mr_unit(p[i]))) > 0.95);
+		assert_true(planes.neighbor[6 * i] != i && planes.neighbor[6 * i] < N);
+		area += planes.area[i];
+	}
+	assert_true(fabs(area - (4 * MR_PI)) < 0.1 * 4 * MR_PI);
+}
+
+/* Shapes with their genus and volume; random samples, and vertices. */
+static void
+genus_and_volume_are_right(void **state)
+{
+	static const struct {
+		mr_solid solid;
+		size_t boxes;
+		int64_t genus;
+	} shape[] = { { MR_SPHERE, 0, 0 }, { MR_TORUS, 0, 1 }, { MR_CUBE, 0, 0 }, { MR_KNOT, 0, 1 },
+		{ MR_BOXES, 2, 2 }, { MR_BOXES, 5, 5 }, { MR_BUMPY, 0, 0 } };
+
+	(void)state;
+	for (size_t i = 0; i < sizeof shape / sizeof *shape; i++) {
+		mr_mesh m = solid(shape[i].solid, 8000, shape[i].boxes), w;
+		double area = mr_mesh_area(&ctx, &m);
+		for (int random = 0; random < 2; random++) {
+			const mr_v3 *p = random ? points_on(&m, 8000, 7) : m.p;
+			size_t n = random ? 8000 : m.nv;
+			mr_census c;
+			w = wrap(p, n);
+			c = census_of(&w);
+			assert_closed_manifold(&c);
+			assert_int_equal(c.components, 1);
+			assert_int_equal(c.genus, shape[i].genus);
+			assert_true(coverage(p, n, &w) < 2 * sqrt(area / (double)n));
+			assert_true(fabs(volume_of(&w) / volume_of(&m) - 1) < 0.05);
+		}
+	}
+}
+
+/* Three steps of the sampling between them. */
+static void
+near_spheres_stay_apart(void **state)
+{
+	mr_mesh m = solid(MR_SPHERE, 5000, 0), w;
+	double spacing = sqrt(4 * MR_PI / (double)m.nv);
+	mr_v3 *p = MR_NEW(&ctx, 2 * m.nv, mr_v3);
+	mr_census c;
+
+	(void)state;
+	for (size_t i = 0; i < m.nv; i++) {
+		p[2 * i] = m.p[i];
+		p[2 * i + 1] = mr_add(m.p[i], mr_vec(2 + 3 * spacing, 0, 0));
+	}
+	w = wrap(p, 2 * m.nv);
+	c = census_of(&w);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.components, 2);
+	assert_int_equal(c.genus, 0);
+	assert_true(fabs(volume_of(&w) - (8 * MR_PI / 3)) < 0.2);
+}
+
+/* A cap of 0.5 radians is not sampled. */
+static void
+hole_of_the_sampling_is_closed(void **state)
+{
+	mr_mesh m = solid(MR_SPHERE, 5000, 0), w;
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	size_t n = 0;
+	mr_census c;
+
+	(void)state;
+	for (size_t i = 0; i < m.nv; i++)
+		if (m.p[i].z < cos(0.5))
+			p[n++] = m.p[i];
+	w = wrap(p, n);
+	c = census_of(&w);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.euler, 2);
+	assert_true(fabs(volume_of(&w) - (4 * MR_PI / 3)) < 0.2);
+}
+
+static void
+bits_do_not_depend_on_threads_or_repeats(void **state)
+{
+	mr_mesh m = solid(MR_TORUS, 6000, 0), a, b;
+	mr_v3 *p = MR_NEW(&ctx, 2 * m.nv, mr_v3);
+
+	(void)state;
+	memcpy(p, m.p, m.nv * sizeof *p);
+	memcpy(p + m.nv, m.p, m.nv * sizeof *p);
+	a = wrap(p, m.nv);
+	ctx.threads = 1;
+	b = wrap(p, 2 * m.nv);
+	assert_int_equal(a.nv, b.nv);
+	assert_int_equal(a.nf, b.nf);
+	assert_memory_equal(a.p, b.p, a.nv * sizeof *a.p);
+	assert_memory_equal(a.t, b.t, a.nf * sizeof *a.t);
+}
+
+static void
+flat_clouds_are_refused(void **state)
+{
+	enum { N = 400 };
+	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
+	mr_random r = { 11 };
+	mr_v3 p[N];
+	mr_mesh m;
+
+	(void)state;
+	for (int dimension = 0; dimension < 3; dimension++) {
+		static const char *const said[] = { "1 distinct points enclose nothing: it takes four",
+			"the 400 points lie on a line: they enclose nothing",
+			"the 400 points lie in a plane: they enclose nothing" };
+		for (int i = 0; i < N; i++) {
+			double s = dimension > 0 ? mr_random_real(&r) : 0,
+			       t = dimension > 1 ? mr_random_real(&r) : 0;
+			p[i] = mr_vec(1 + s, 2 - s + 3 * t, 3 + 2 * s - t);
+		}
+		assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &m), MR_EMESH);
+		assert_string_equal(ctx.error, said[dimension]);
+	}
+}
+
+static void
+every_allocation_may_fail(void **state)
+{
+	mr_mesh m = solid(MR_SPHERE, 300, 0), w;
+	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
+	mr_status status = MR_EMEM;
+
+	(void)state;
+	for (uint64_t k = 1; status != MR_OK; k++) {
+		mr_mark mark = mr_mark_take(&ctx);
+		assert_true(k < 1000);
+		ctx.fail_at = k;
+		status = mr_volume_wrap(&ctx, m.p, m.nv, &opts, &w);
+		assert_true(status == MR_OK || status == MR_EMEM);
+		mr_mark_release(&ctx, mark);
+	}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(isosurface_is_always_closed, setup, teardown),
+		cmocka_unit_test_setup_teardown(isosurface_of_a_sphere, setup, teardown),
+		cmocka_unit_test_setup_teardown(eigenvectors_of_a_symmetric_matrix, setup, teardown),
+		cmocka_unit_test_setup_teardown(planes_of_a_sphere, setup, teardown),
+		cmocka_unit_test_setup_teardown(genus_and_volume_are_right, setup, teardown),
+		cmocka_unit_test_setup_teardown(near_spheres_stay_apart, setup, teardown),
+		cmocka_unit_test_setup_teardown(hole_of_the_sampling_is_closed, setup, teardown),
+		cmocka_unit_test_setup_teardown(bits_do_not_depend_on_threads_or_repeats, setup, teardown),
+		cmocka_unit_test_setup_teardown(flat_clouds_are_refused, setup, teardown),
+		cmocka_unit_test_setup_teardown(every_allocation_may_fail, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
