@@ -31,21 +31,6 @@ prepare(cmd *c)
 	return cmd_idle(c, "gravity", opts.area_passes == 0, "without area passes");
 }
 
-/* Where the new vertices lie on the frame's mesh, which the base may have come from. */
-static mr_status
-map_to_mesh(cmd *c, mr_frame *f, const mr_mesh *base, const mr_source_map *over, size_t n, mr_source_map *map)
-{
-	mr_source_map base_map;
-	mr_mesh mesh;
-
-	*map = *over;
-	if (!strcmp(base->name, "mesh"))
-		return MR_OK;
-	MR_TRY(mr_layer_mesh(&c->ctx, f, "mesh", &mesh));
-	MR_TRY(mr_source_map_get(&c->ctx, f, &mesh, base->nv, &base_map));
-	return mr_source_map_compose(&c->ctx, &mesh, base, &base_map, over, n, map);
-}
-
 static mr_status
 remesh_frame(cmd *c, mr_frame *f)
 {
@@ -60,10 +45,7 @@ remesh_frame(cmd *c, mr_frame *f)
 	opts.length = cmd_length_of(length, mr_mesh_diagonal(&m));
 	opts.adaptive = cmd_length_of(adaptive, mr_mesh_diagonal(&m));
 	MR_TRY(mr_remesh(&c->ctx, &m, &opts, &out, &over));
-	mapped = !strcmp(layer, "mesh") ||
-	         (mr_layer_has(f, "base", "source_face") && mr_layer_has(f, "mesh", "position"));
-	if (mapped)
-		MR_TRY(map_to_mesh(c, f, &m, &over, out.nv, &map));
+	MR_TRY(mr_source_map_follow(&c->ctx, f, &m, &over, out.nv, &map, &mapped));
 	MR_TRY(mr_layer_put_mesh(&c->ctx, f, "base", &out));
 	return mapped ? mr_source_map_put(&c->ctx, f, &map, out.nv) : MR_OK;
 }

@@ -167,6 +167,26 @@ mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv,
 }
 
 mr_status
+mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_source_map *over, size_t n,
+    mr_source_map *map, bool *mapped)
+{
+	mr_source_map base_map;
+	mr_mesh mesh;
+
+	*map = *over;
+	*mapped = true;
+	if (!strcmp(m->name, "mesh"))
+		return MR_OK;
+	*mapped = !strcmp(m->name, "base") && mr_layer_has(f, "base", "source_face") &&
+	          mr_layer_has(f, "mesh", "position");
+	if (!*mapped)
+		return MR_OK;
+	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
+	MR_TRY(mr_source_map_get(ctx, f, &mesh, m->nv, &base_map));
+	return mr_source_map_compose(ctx, &mesh, m, &base_map, over, n, map);
+}
+
+mr_status
 mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_source_map *map, size_t base_nv)
 {
 	MR_TRY(mr_layer_put(ctx, f, "base", "source_face", map->face, base_nv));

@@ -37,6 +37,13 @@ mr_status mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, 
 mr_status
 mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_source_map *map);
 
+/*
+ * Where n vertices that `over` places on m, a surface of the frame, lie on its mesh: the same where m is the
+ * mesh, composed where it is the base and has a map.  *mapped is false where neither is so.
+ */
+mr_status mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_source_map *over,
+    size_t n, mr_source_map *map, bool *mapped);
+
 mr_status mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_source_map *map, size_t base_nv);
 
 #endif
