@@ -15,6 +15,12 @@ static const struct {
 	{ "mesh", "detail_bary", NULL, 0, true },
 	{ "base", "source_face", "mesh", 'f', false },
 	{ "base", "source_bary", NULL, 0, true },
+	{ NULL, "mesh_face", "mesh", 'f', false },
+	{ NULL, "mesh_bary", NULL, 0, true },
+	{ NULL, "base_face", "base", 'f', false },
+	{ NULL, "base_bary", NULL, 0, true },
+	{ NULL, "control_face", "control", 'f', false },
+	{ NULL, "control_bary", NULL, 0, true },
 };
 
 static bool

@@ -10,6 +10,12 @@ const mr_column_info mr_columns[] = {
 	{ NULL, "group", { 'f', 'u', 1 }, "index into groups" },
 	{ NULL, "groups", { '-', 't', 1 }, "names of the groups, one a line" },
 	{ NULL, "region", { 'v', 'u', 1 }, "0 fixed, 1 free, 2 + N handle N" },
+	{ NULL, "mesh_face", { 'v', 'u', 1 }, "triangle of mesh that the vertex lies on" },
+	{ NULL, "mesh_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
+	{ NULL, "base_face", { 'v', 'u', 1 }, "triangle of base that the vertex lies on" },
+	{ NULL, "base_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
+	{ NULL, "control_face", { 'v', 'u', 1 }, "triangle of control that the vertex lies on" },
+	{ NULL, "control_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
 	{ "mesh", "detail_face", { 'v', 'u', 1 }, "base triangle below the vertex" },
 	{ "mesh", "detail_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
 	{ "mesh", "detail_height", { 'v', 'd', 1 }, "height along the base's Phong normal" },
@@ -28,7 +34,8 @@ const mr_column_info mr_columns[] = {
 	{ NULL, NULL, { 0, 0, 0 }, NULL },
 };
 
-/* What goes stale when a layer's connectivity changes: columns elsewhere whose numbers refer to it. */
+/* What goes stale when a layer's connectivity changes: columns elsewhere whose numbers refer to it.  layer
+ * NULL: of any. */
 static const struct {
 	const char *changed, *layer, *name;
 } dependents[] = {
@@ -40,6 +47,12 @@ static const struct {
 	{ "mesh", "base", "source_face" },
 	{ "mesh", "base", "source_bary" },
 	{ "control", "displacement", NULL },
+	{ "mesh", NULL, "mesh_face" },
+	{ "mesh", NULL, "mesh_bary" },
+	{ "base", NULL, "base_face" },
+	{ "base", NULL, "base_bary" },
+	{ "control", NULL, "control_face" },
+	{ "control", NULL, "control_bary" },
 };
 
 static const mr_column_info *
@@ -177,13 +190,30 @@ mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh 
 	return faces && faces->rows ? mr_layer_mesh(ctx, f, layer, m) : mr_layer_points(ctx, f, layer, m);
 }
 
+/* Drops the columns of a name from every layer. */
+static void
+drop_everywhere(mr_frame *f, const char *name)
+{
+	for (size_t i = f->count; i-- > 0;)
+		if (*f->columns[i].layer && !strcmp(f->columns[i].name, name)) {
+			char layer[MR_LAYER_MAX + 1];
+			memcpy(layer, f->columns[i].layer, sizeof layer);
+			mr_frame_drop(f, layer, name, 0);
+		}
+}
+
 /* Drops what refers to the connectivity of `layer` from elsewhere. */
 static void
 drop_dependents(mr_frame *f, const char *layer)
 {
-	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++)
-		if (!strcmp(dependents[i].changed, layer))
+	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++) {
+		if (strcmp(dependents[i].changed, layer))
+			continue;
+		if (dependents[i].layer)
 			mr_frame_drop(f, dependents[i].layer, dependents[i].name, 0);
+		else
+			drop_everywhere(f, dependents[i].name);
+	}
 }
 
 /* True where the layer's triangles are the given ones. */
