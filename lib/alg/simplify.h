@@ -6,27 +6,41 @@
 #ifndef MR_SIMPLIFY_H
 #define MR_SIMPLIFY_H
 
-#include "mesh/mesh.h"
+#include "alg/sourcemap.h"
 
 typedef struct mr_simplify_opts {
-	size_t faces; /* stop at so many; 0: no such limit */
-	double
-	    error; /* stop where the next collapse would cost a distance of more; infinite: no such limit */
+	size_t faces;    /* stop at so many, or one less; 0: no such limit */
+	double error;    /* no vertex farther than this from the planes of the faces merged into it, root mean
+	                    square by area; infinite: no such limit */
 	double boundary; /* weight of the planes that hold boundary edges */
 } mr_simplify_opts;
 
 #define MR_SIMPLIFY_DEFAULTS                                                                                 \
 	{                                                                                                    \
-		.error = INFINITY, .boundary = 100                                                           \
+		.error = INFINITY, .boundary = 10                                                            \
 	}
 
 /*
  * Simplifies an oriented manifold m, boundary allowed; its topology stays (link condition) and no triangle is
- * flipped.  Where nothing more can be collapsed the result has more faces than asked for: the figure `faces`
- * tells.  onto: NULL, or m->nv: the vertex of the result that each was merged into (MR_NONE for an isolated
- * one).  out: in the arena.
+ * flipped.  Where nothing more can be merged the result has more faces than asked for: the figure `faces`
+ * tells.  onto: m->nv, the caller's: the vertex of the result that each was merged into (MR_NONE for an
+ * isolated one).  out: in the arena.  Figures: see man/mr-simplify.1.
  */
 mr_status
 mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto);
+
+/*
+ * Where the vertices of m lie on the result: from a face at the one each was merged into by a walk to the
+ * nearest point; isolated ones at the nearest point of all.  map: m->nv rows, in the arena.
+ */
+mr_status
+mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);
+
+/*
+ * Where the vertices of the result lie on m: by a walk from the nearest of the vertices merged into each.
+ * map: out->nv rows, in the arena.
+ */
+mr_status mr_simplify_source(
+    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);
 
 #endif

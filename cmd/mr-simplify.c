@@ -1,0 +1,98 @@
+/* mr-simplify -- simplify a surface by quadric error metrics.  See man/mr-simplify.1. */
+#include "alg/simplify.h"
+#include "cmd.h"
+#include "mesh/layers.h"
+
+/* By default, of a control mesh that has points, and of others. */
+enum { POINTS_A_FACE = 32, FACES_A_FACE = 10 };
+
+static mr_simplify_opts opts = MR_SIMPLIFY_DEFAULTS;
+static size_t faces;
+static double ratio;
+static cmd_length error;
+static const char *map_layer;
+
+static const cmd_opt table[] = {
+	{ 'n', "faces", CMD_COUNT, &faces, 0, 4e9, "N", "stop at so many; 0: no such limit", NULL },
+	{ 'r', "ratio", CMD_REAL, &ratio, 0, 1, "RATIO", "stop at this share of the faces; 0: no such limit",
+	    NULL },
+	{ 'e', "error", CMD_LENGTH, &error, 0, 1e300, "LENGTH",
+	    "most distance to the planes of what is merged; 0: no such limit", NULL },
+	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },
+	{ 0, "map", CMD_TEXT, &map_layer, 0, 0, "LAYER",
+	    "keep the surface as that layer, with the places of its vertices on the result", NULL },
+	{ 0 },
+};
+
+/* The faces to stop at, the greatest number that was asked for; 0: no such limit. */
+static mr_status
+target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
+{
+	size_t share = (size_t)ceil(ratio * (double)m->nf);
+	mr_mesh points;
+
+	*n = faces > share ? faces : share;
+	if (*n || error.value > 0)
+		return MR_OK;
+	*n = m->nf / FACES_A_FACE;
+	if (strcmp(m->name, "control") || !mr_frame_has_layer(f, "points"))
+		return MR_OK;
+	MR_TRY(mr_layer_points(&c->ctx, f, "points", &points));
+	*n = points.nv / POINTS_A_FACE;
+	return MR_OK;
+}
+
+/* Keeps surface m as layer map_layer, with where its vertices lie on the result. */
+static mr_status
+put_map(cmd *c, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
+{
+	char face[MR_COLUMN_MAX + 1], bary[MR_COLUMN_MAX + 1];
+	mr_source_map map;
+
+	MR_TRY(mr_simplify_map(&c->ctx, m, out, onto, &map));
+	snprintf(face, sizeof face, "%s_face", m->name);
+	snprintf(bary, sizeof bary, "%s_bary", m->name);
+	MR_TRY(mr_layer_put_mesh(&c->ctx, f, map_layer, m));
+	MR_TRY(mr_layer_put(&c->ctx, f, map_layer, face, map.face, m->nv));
+	return mr_layer_put(&c->ctx, f, map_layer, bary, map.bary, m->nv);
+}
+
+static mr_status
+simplify_frame(cmd *c, mr_frame *f)
+{
+	static const char *const reads[] = { "control", "base", "mesh", NULL };
+	mr_ctx *ctx = &c->ctx;
+	mr_source_map over, source;
+	bool mapped = false;
+	const char *layer;
+	uint32_t *onto;
+	mr_mesh m, out;
+
+	MR_TRY(mr_layer_choose(ctx, f, c->layer, reads, &layer));
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	if (map_layer && !strcmp(map_layer, layer))
+		return mr_fail(ctx, MR_EUSAGE, "--map: %s is the layer that is simplified", layer);
+	MR_TRY(target(c, f, &m, &opts.faces));
+	opts.error = error.value > 0 ? cmd_length_of(error, mr_mesh_diagonal(&m)) : INFINITY;
+	onto = MR_NEW(ctx, m.nv, uint32_t);
+	if (!onto)
+		return MR_EMEM;
+	MR_TRY(mr_simplify(ctx, &m, &opts, &out, onto));
+	if (!strcmp(layer, "base")) {
+		MR_TRY(mr_simplify_source(ctx, &m, &out, onto, &over));
+		MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &source, &mapped));
+	}
+	MR_TRY(mr_layer_put_mesh(ctx, f, layer, &out));
+	if (mapped)
+		MR_TRY(mr_source_map_put(ctx, f, &source, out.nv));
+	return map_layer ? put_map(c, f, &m, &out, onto) : MR_OK;
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "simplify a surface by quadric error metrics",
+		.options = table,
+		.frame = simplify_frame });
+}

@@ -1,0 +1,50 @@
+/*
+ * buckets.h -- a queue of numbered items by a positive float, served lowest first to within 1/128.
+ *
+ * Contract: an item is in the queue once at most.  Of the items in one bucket the last that was put is served
+ * first, so the order depends on nothing but the calls.  Every operation takes constant time.
+ * Layer rule: alg.
+ */
+#ifndef MR_BUCKETS_H
+#define MR_BUCKETS_H
+
+#include "mesh/mesh.h"
+
+enum { MR_BUCKETS = 1 << 15 };
+
+typedef struct mr_buckets {
+	uint32_t *next, *prev; /* of each item: its neighbours in the bucket, see buckets.c */
+	uint32_t *head;        /* MR_BUCKETS: the first item */
+	uint64_t bits[MR_BUCKETS / 64],
+	    words[MR_BUCKETS / 64 / 64]; /* buckets, and words of bits, that are not empty */
+} mr_buckets;
+
+/* An empty queue for items below n, which is at most 2^32 - 1 - MR_BUCKETS, in the arena. */
+mr_status mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out);
+
+/* The bucket of a key >= 0: a greater key has no lower bucket. */
+static inline uint32_t
+mr_bucket_of(float key)
+{
+	uint32_t u;
+
+	memcpy(&u, &key, sizeof u);
+	return u >> 16;
+}
+
+static inline bool
+mr_buckets_has(const mr_buckets *b, uint32_t item)
+{
+	return b->prev[item] != MR_NONE;
+}
+
+/* Puts an item that is not in the queue. */
+void mr_buckets_put(mr_buckets *b, uint32_t item, uint32_t bucket);
+
+/* Removes an item that may be in the queue. */
+void mr_buckets_remove(mr_buckets *b, uint32_t item);
+
+/* Takes an item of the lowest bucket that is not empty, and says which; MR_NONE where the queue is empty. */
+uint32_t mr_buckets_take(mr_buckets *b, uint32_t *bucket);
+
+#endif

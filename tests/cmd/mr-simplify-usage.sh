@@ -1,0 +1,17 @@
+# Wrong command lines: exit 2, a sentence, nothing on stdout; what it cannot work on is named.
+for args in '-n -1' '-n x' '-r 1.1' '-r nan' '-e -1' '-e 1%%' '-e 1 --boundary -1' '-n 10 --map mesh' '--nothing' '-n'; do
+	mr-make sphere -n 100 | mr-simplify $args >out 2>err
+	echo "$args: $? $(wc -c <out) $(head -n 1 err)"
+done
+refuse() {
+	mr-import "$1" | mr-simplify -n 2 >out 2>err
+	echo "exit $?: $(cat err)"
+}
+printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >fan.off
+refuse fan.off
+printf 'OFF\n4 2 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n3 1 2 3\n' >turned.off
+refuse turned.off
+printf '0 0 0\n1 0 0\n0 1 0\n' >cloud.xyz
+refuse cloud.xyz
+mr-make sphere -n 100 | head -c 3000 | mr-simplify -n 10 >out 2>err
+echo "cut: exit $?, $(head -n 1 err)"

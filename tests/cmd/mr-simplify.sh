@@ -1,0 +1,66 @@
+# Closed forms, topology, columns that refer to the result; the same bytes for any number of threads.
+figure() { # name, file: a number of a line of JSON
+	sed "s/.*\"$1\":\([^,}]*\).*/\1/" "$2"
+}
+within() { # what, least, value, most
+	awk -v w="$1" -v a="$2" -v x="$3" -v b="$4" 'BEGIN { print w, (a <= x && x <= b ? "ok" : "bad: " x) }'
+}
+
+echo 'a cube of many faces is 12, and nothing is lost'
+mr-make cube -n 5000 -o cube.mrs
+mr-simplify -e 1e-9 --stats stats.json cube.mrs -o out.mrs
+echo "$(figure faces stats.json) faces"
+mr-compare -a mesh -b mesh --json cube.mrs <out.mrs >compare.json
+within distance 0 "$(sed 's/.*"max":\([^,}]*\).*/\1/' compare.json)" 1e-9
+
+echo 'a flat square is two triangles'
+mr-make plane -n 2000 -o plane.mrs
+mr-simplify -e 1e-9 --stats stats.json plane.mrs -o out.mrs
+echo "$(figure faces stats.json) faces"
+mr-info --json out.mrs >info.json
+within area 3.999999999 "$(figure area info.json)" 4.000000001
+
+echo 'a sphere: the volume stays, and the distance falls as one over the number of faces'
+mr-make sphere -n 20000 -o sphere.mrs
+for n in 250 1000; do
+	mr-simplify -n $n sphere.mrs -o out.mrs
+	mr-info --json out.mrs >info.json
+	within volume 4.186 "$(figure volume info.json)" 4.19
+	mr-compare -a mesh -b mesh --json sphere.mrs <out.mrs | sed 's/.*"both":{[^}]*"mean":\([^,}]*\).*/\1/' >mean-$n
+done
+within ratio 3.6 "$(paste mean-250 mean-1000 | awk '{ print $1 / $2 }')" 4.4
+
+echo 'topology and shape'
+for shape in torus knot bumpy boxes plane cylinder; do
+	mr-make $shape -n 6000 -o in.mrs && mr-simplify -n 500 in.mrs -o out.mrs || exit
+	mr-simplify -j 1 -n 500 in.mrs | cmp - out.mrs || echo "$shape: depends on threads"
+	mr-info --json -l mesh in.mrs >before.json && mr-info --json -l mesh out.mrs >after.json || exit
+	for name in euler boundary_loops components nonmanifold_edges degenerate_faces folded_edges; do
+		b=$(figure $name before.json) a=$(figure $name after.json)
+		[ "$a" = "$b" ] || echo "$shape: $name: $b became $a"
+	done
+	within "$shape: faces" 499 "$(figure faces after.json)" 500
+	within "$shape: least angle" 2.5 "$(figure angle_min after.json)" 60
+done
+
+echo 'what cannot be merged stays'
+mr-make boxes -n 2000 | mr-simplify -n 1 -v --stats stats.json -o out.mrs 2>err
+grep -c 'faces are left, not 1' err
+mr-info --json out.mrs >after.json
+echo "genus $(figure genus after.json)"
+
+echo 'the base keeps its map; what refers to a result is lawful, and goes with it'
+mr-make bumpy -n 6000 | mr-smooth -o base.mrs
+mr-simplify -r 0.2 --map fine base.mrs -o out.mrs && mr-info --check out.mrs >info.txt && grep -o 'source_face\|base_face' info.txt | sort
+mr-select --free all --fixed below:y,0.1 --handle 1=above:y,0.9 out.mrs | mr-solve | mr-encode |
+	mr-pose -H 1 --translate 0,1,0 | mr-solve | mr-decode | mr-info --check >info.txt && echo posed
+mr-simplify -l base -r 0.5 out.mrs | mr-info --check | grep -o 'source_face\|base_face' | sort
+
+echo 'a control mesh goes by the points'
+mr-make sphere -n 3000 | mr-export -f off - >control.off
+mr-make sphere --points 6400 -o points.mrs
+mr-import -l control control.off | mr-cat --merge - points.mrs | mr-simplify --map wrap -o out.mrs || exit
+mr-info out.mrs | grep -o 'points\|control_face' | sort -u
+mr-info --json -l control out.mrs >after.json
+echo "$(figure faces after.json) faces"
+mr-simplify -l control -n 100 out.mrs | mr-info | grep -c control_face || :
