@@ -24,14 +24,13 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-/* The faces to stop at, the greatest number that was asked for; 0: no such limit. */
+/* The faces to stop at; 0: no such limit. */
 static mr_status
 target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
 {
-	size_t share = (size_t)ceil(ratio * (double)m->nf);
 	mr_mesh points;
 
-	*n = faces > share ? faces : share;
+	*n = faces ? faces : (size_t)ceil(ratio * (double)m->nf);
 	if (*n || error.value > 0)
 		return MR_OK;
 	*n = m->nf / FACES_A_FACE;
@@ -55,6 +54,12 @@ put_map(cmd *c, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_
 	MR_TRY(mr_layer_put_mesh(&c->ctx, f, map_layer, m));
 	MR_TRY(mr_layer_put(&c->ctx, f, map_layer, face, map.face, m->nv));
 	return mr_layer_put(&c->ctx, f, map_layer, bary, map.bary, m->nv);
+}
+
+static mr_status
+prepare(cmd *c)
+{
+	return cmd_idle(c, "ratio", faces > 0, "with --faces");
 }
 
 static mr_status
@@ -94,5 +99,6 @@ main(int argc, char **argv)
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "simplify a surface by quadric error metrics",
 		.options = table,
+		.prepare = prepare,
 		.frame = simplify_frame });
 }
