@@ -20,6 +20,8 @@ typedef struct mr_sample_opts {
 	size_t refine;     /* passes that fit the heights to the points by least squares */
 } mr_sample_opts;
 
+enum { MR_SAMPLE_MOST = 128 }; /* neighbours, at most */
+
 #define MR_SAMPLE_DEFAULTS                                                                                   \
 	{                                                                                                    \
 		.neighbours = 30, .refine = 3                                                                \

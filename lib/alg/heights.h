@@ -1,0 +1,55 @@
+/*
+ * heights.h -- heights on the vertices of a mesh as the minimum of a quadratic energy.
+ *
+ *	E(h) = h^T A h - 2 b^T h + sum_i f_i (h_i - mean of h over the neighbours of i)^2
+ *
+ * A is symmetric, positive semi-definite, and connects neighbours only.  The second part is the fairness of
+ * the subdivision mesh, whose vertices are nearly regular, so it needs no lengths and f none either.
+ * Contract: deterministic for any number of threads.
+ * Layer rule: alg.
+ */
+#ifndef MR_HEIGHTS_H
+#define MR_HEIGHTS_H
+
+#include "mesh/mesh.h"
+
+typedef struct mr_heights {
+	size_t n;
+	mr_adjacency adj;
+	double *diagonal; /* of A: n; NULL: A and b are zero */
+	double *beside;   /* of A, one for each entry of adj.adj */
+	double *b;        /* n */
+	double *fair;     /* f: n */
+	bool *fixed;      /* n: these heights stay; NULL: all are free */
+} mr_heights;
+
+/* The energy of m without A and b, f all `fair`; in the arena. */
+mr_status mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e);
+
+/* Adds A and b, not initialised; in the arena. */
+mr_status mr_heights_add_data(mr_ctx *ctx, mr_heights *e);
+
+/*
+ * Comes closer to the minimum by conjugate gradients: until the gradient is `tol` times as long as at first,
+ * or `most` steps.  h: n, changed in place.  Returns the steps in *steps.
+ */
+mr_status
+mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, double *h, size_t *steps);
+
+/* The root mean square difference of a height from the mean of those around it. */
+double mr_heights_roughness(mr_ctx *ctx, const mr_heights *e, const double *h);
+
+/*
+ * Fills in the heights that are not known from those that are, smoothly; where a component knows none they
+ * are zero.  known: n.  *filled: how many.
+ */
+mr_status mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t *filled);
+
+/*
+ * Takes back the heights that stick out: that differ from the median of the known ones around them by more
+ * than an edge and than 6 times the median deviation from it.  *dropped: how many of `known` were cleared.
+ */
+mr_status mr_heights_drop_spikes(
+    mr_ctx *ctx, const mr_heights *e, const mr_v3 *p, const double *h, bool *known, size_t *dropped);
+
+#endif
