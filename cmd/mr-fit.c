@@ -1,0 +1,47 @@
+/* mr-fit -- move a control mesh so that its limit surface comes close to points.  See man/mr-fit.1. */
+#include "alg/fit.h"
+#include "cmd.h"
+#include "mesh/layers.h"
+
+static mr_fit_opts opts = MR_FIT_DEFAULTS;
+
+static const cmd_opt table[] = {
+	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "local|least-squares", "how to fit", NULL },
+	{ 'n', "iterations", CMD_COUNT, &opts.iterations, 0, 1e6, "ITER",
+	    "how many; 0: 20 of local, 5 of least-squares", NULL },
+	{ 0, "step", CMD_REAL, &opts.step, 0, 1, "SHARE", "of the force taken in an iteration of local",
+	    NULL },
+	{ 0, "fairness", CMD_REAL, &opts.fairness, 0, 1e6, "WEIGHT", "of smoothness in least-squares", NULL },
+	{ 0 },
+};
+
+static mr_status
+fit_frame(cmd *c, mr_frame *f)
+{
+	mr_ctx *ctx = &c->ctx;
+	const char *layer = c->layer ? c->layer : "control";
+	mr_mesh control, points;
+	mr_v3 *p;
+
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
+	MR_TRY(mr_layer_points(ctx, f, "points", &points));
+	p = MR_NEW(ctx, control.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, &opts, p));
+	mr_frame_drop(f, layer, "normal", 0);
+	mr_frame_drop(f, layer, "rest", 0);
+	mr_frame_drop(f, layer, "response", 0);
+	if (!strcmp(layer, "control"))
+		mr_frame_drop(f, "displacement", NULL, 0);
+	return mr_layer_put_positions(ctx, f, layer, p, control.nv);
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "move a control mesh so that its limit surface comes close to points",
+		.options = table,
+		.frame = fit_frame });
+}

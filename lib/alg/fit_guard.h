@@ -1,0 +1,19 @@
+/*
+ * fit_guard.h -- steps of a fit that fold nothing.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_FIT_GUARD_H
+#define MR_FIT_GUARD_H
+
+#include "alg/fit_system.h"
+
+/*
+ * Moves x by z, and the surface with it: where a face of level 2 would turn over, or fold against a
+ * neighbour more sharply than it does, the vertices that it depends on go half as far, and so on; at last
+ * they stay.  patch: of mr_fit_system.  *damped: vertices that did not go all the way.
+ */
+mr_status mr_fit_step(mr_ctx *ctx, mr_fit_surface *surface, const mr_fit_lists *patch, mr_v3 *x,
+    const mr_v3 *z, size_t *damped);
+
+#endif

@@ -1,0 +1,20 @@
+/*
+ * fit_least.h -- least-squares fitting of a limit surface to points: passes of feet, weights, equations,
+ * guarded steps.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_FIT_LEAST_H
+#define MR_FIT_LEAST_H
+
+#include "alg/fit.h"
+#include "alg/fit_surface.h"
+
+/*
+ * Moves the control vertices x, and the surface with them.  foot: of the n points, on the surface as given;
+ * left where the last step attached them.
+ */
+mr_status mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
+    const mr_fit_opts *opts, size_t passes, mr_fit_foot *foot, mr_v3 *x);
+
+#endif
