@@ -51,6 +51,13 @@ mr_fit_weights(mr_v3 b, double w[MR_FIT_PATCH])
 	w[5] = 4 * b.z * b.x;
 }
 
+void
+mr_fit_slots(const mr_fit_surface *s, size_t face, uint32_t slot[MR_FIT_SLOTS])
+{
+	for (uint32_t k = 0; k < MR_FIT_PATCHES; k++)
+		mr_fit_nodes(s, (uint32_t)(MR_FIT_PATCHES * face) + k, slot + MR_FIT_PATCH * k);
+}
+
 /* The six nodes' positions. */
 static void
 load(const mr_fit_surface *s, uint32_t patch, mr_v3 p[MR_FIT_PATCH])
@@ -70,17 +77,6 @@ combine(const double w[MR_FIT_PATCH], const mr_v3 p[MR_FIT_PATCH])
 	for (int k = 0; k < MR_FIT_PATCH; k++)
 		sum = mr_axpy(w[k], p[k], sum);
 	return sum;
-}
-
-mr_v3
-mr_fit_place(const mr_fit_surface *s, const mr_fit_foot *foot)
-{
-	double w[MR_FIT_PATCH];
-	mr_v3 p[MR_FIT_PATCH];
-
-	load(s, foot->patch, p);
-	mr_fit_weights(foot->bary, w);
-	return combine(w, p);
 }
 
 /* The coordinates in a patch of a place in its child k: the children are (a, ab, ca), (ab, b, bc), (ca, bc,
@@ -105,13 +101,37 @@ clamp(mr_v3 b)
 	return mr_mul(1 / sum, b);
 }
 
+/* The derivatives by the coordinates of b and c. */
+static void
+tangents(const mr_v3 p[MR_FIT_PATCH], mr_v3 b, mr_v3 *s, mr_v3 *t)
+{
+	const double du[MR_FIT_PATCH] = { 1 - 4 * b.x, 4 * b.y - 1, 0, 4 * (b.x - b.y), 4 * b.z, -4 * b.z };
+	const double dv[MR_FIT_PATCH] = { 1 - 4 * b.x, 0, 4 * b.z - 1, -4 * b.y, 4 * b.y, 4 * (b.x - b.z) };
+
+	*s = combine(du, p);
+	*t = combine(dv, p);
+}
+
+mr_v3
+mr_fit_place(const mr_fit_surface *s, const mr_fit_foot *foot, mr_v3 *normal)
+{
+	double w[MR_FIT_PATCH];
+	mr_v3 p[MR_FIT_PATCH], a, b;
+
+	load(s, foot->patch, p);
+	mr_fit_weights(foot->bary, w);
+	tangents(p, foot->bary, &a, &b);
+	*normal = mr_unit(mr_cross(a, b));
+	return combine(w, p);
+}
+
 /* A step of Gauss and Newton towards the foot of q: (u, v) are the coordinates of b and c. */
 static mr_v3
 corrected(const mr_v3 p[MR_FIT_PATCH], mr_v3 b, mr_v3 r)
 {
-	double du[MR_FIT_PATCH] = { 1 - 4 * b.x, 4 * b.y - 1, 0, 4 * (b.x - b.y), 4 * b.z, -4 * b.z };
-	double dv[MR_FIT_PATCH] = { 1 - 4 * b.x, 0, 4 * b.z - 1, -4 * b.y, 4 * b.y, 4 * (b.x - b.z) };
-	mr_v3 s = combine(du, p), t = combine(dv, p);
+	mr_v3 s, t;
+
+	tangents(p, b, &s, &t);
 	double ss = mr_norm2(s), st = mr_dot(s, t), tt = mr_norm2(t), det = ss * tt - st * st;
 	double rs = mr_dot(r, s), rt = mr_dot(r, t), u, v;
 

@@ -13,7 +13,13 @@
 #include "mesh/bvh.h"
 #include "op/loop.h"
 
-enum { MR_FIT_LEVEL = 2, MR_FIT_CHILDREN = 16, MR_FIT_PATCHES = 4, MR_FIT_PATCH = 6 };
+enum {
+	MR_FIT_LEVEL = 2,
+	MR_FIT_CHILDREN = 16, /* triangles of level 2 in a control face */
+	MR_FIT_PATCHES = 4,   /* triangles of level 1 */
+	MR_FIT_PATCH = 6,     /* nodes of one */
+	MR_FIT_SLOTS = MR_FIT_PATCHES * MR_FIT_PATCH
+};
 
 typedef struct mr_fit_surface {
 	mr_loop level[MR_FIT_LEVEL + 1];
@@ -44,11 +50,14 @@ void mr_fit_surface_move(const mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *x);
 /* The six nodes of a patch: its corners a, b, c, then the middles of ab, bc, ca. */
 void mr_fit_nodes(const mr_fit_surface *s, uint32_t patch, uint32_t node[MR_FIT_PATCH]);
 
+/* Those of all patches of a control face. */
+void mr_fit_slots(const mr_fit_surface *s, size_t face, uint32_t slot[MR_FIT_SLOTS]);
+
 /* The polynomials that belong to them. */
 void mr_fit_weights(mr_v3 bary, double w[MR_FIT_PATCH]);
 
-/* The place of a foot. */
-mr_v3 mr_fit_place(const mr_fit_surface *s, const mr_fit_foot *foot);
+/* The place of a foot; normal: unit, zero where the surface has none. */
+mr_v3 mr_fit_place(const mr_fit_surface *s, const mr_fit_foot *foot, mr_v3 *normal);
 
 /*
  * The feet of n points, the caller's: the nearest of the whole surface, or with `walk` the one reached
