@@ -10,6 +10,9 @@
 
 enum { MOST_STEPS = 50 };
 
+/* Points no further than this share of a control edge are no outliers, however near the others are. */
+static const double NEAR = 0.1;
+
 static const double ACCURACY = 1e-3; /* of the solution, in the norm of the energy */
 
 /* Places the k-th smallest of n values at a[k] (Hoare 1961). */
@@ -43,7 +46,7 @@ select_kth(double *a, size_t n, size_t k)
 /* Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
  * point pulls as one at the limit does. */
 static mr_status
-weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double *w)
+weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, double *w)
 {
 	static const double limit = 2.5, deviation = 1.4826;
 	mr_mark mark = mr_mark_take(ctx);
@@ -53,9 +56,9 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double *w)
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		d[i] = foot[i].dist;
-	most = limit * deviation * select_kth(d, n, n / 2);
+	most = fmax(limit * deviation * select_kth(d, n, n / 2), near);
 	for (size_t i = 0; i < n; i++)
-		w[i] = foot[i].dist > most && most > 0 ? most / foot[i].dist : 1;
+		w[i] = foot[i].dist > most ? most / foot[i].dist : 1;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -141,6 +144,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
 	double *w = MR_NEW(ctx, n, double);
 	size_t damped = 0, steps = 0;
+	double near = NEAR * (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	mr_fit_system system;
 
 	if (!z || !w)
@@ -148,7 +152,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	MR_TRY(mr_fit_system_build(ctx, surface, &system));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
-		MR_TRY(weigh(ctx, foot, n, w));
+		MR_TRY(weigh(ctx, foot, n, near, w));
 		MR_TRY(mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness));
 		MR_TRY(solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, surface, &system.patch, x, z, &damped));
