@@ -5,22 +5,19 @@
 #include "base/parallel.h"
 
 mr_status
-mr_domain_points(
-    mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *control, mr_v3 *limit, mr_v3 *normal)
+mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n, mr_domain *d)
 {
+	const mr_loop *l = &level[n];
+	mr_v3 *limit = MR_NEW(ctx, l->nv, mr_v3), *normal = MR_NEW(ctx, l->nv, mr_v3), *p;
 	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *work = MR_NEW(ctx, level[n].nv, mr_v3);
-	const mr_v3 *p = control;
 
-	if (!work)
+	p = MR_NEW(ctx, l->nv, mr_v3);
+	if (!limit || !normal || !p)
 		return MR_EMEM;
-	for (size_t i = 0; i < n; i++) { /* to and fro, so that the last one is not in `limit` */
-		mr_v3 *next = (n - i) % 2 ? work : limit;
-		mr_loop_subdivide(ctx, &level[i], &level[i + 1], 3, (const double *)p, (double *)next);
-		p = next;
-	}
-	mr_loop_limit(ctx, &level[n], p, limit, normal);
+	MR_TRY(mr_loop_values(ctx, level, n, 3, (const double *)control->p, (double *)p));
+	mr_loop_limit(ctx, l, p, limit, normal);
 	mr_mark_release(ctx, mark);
+	*d = (mr_domain){ n, level, { control->name, limit, l->t, l->nv, l->nf }, normal };
 	return MR_OK;
 }
 
@@ -28,17 +25,32 @@ mr_status
 mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d)
 {
 	mr_loop *level = MR_NEW(ctx, n + 1, mr_loop);
-	mr_v3 *limit, *normal;
 
 	if (!level)
 		return MR_EMEM;
 	MR_TRY(mr_loop_levels(ctx, control, 180, n, level));
-	limit = MR_NEW(ctx, level[n].nv, mr_v3);
-	normal = MR_NEW(ctx, level[n].nv, mr_v3);
-	if (!limit || !normal)
+	return mr_domain_on(ctx, control, level, n, d);
+}
+
+mr_status
+mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, const mr_frame *f, const mr_mesh *m, double crease,
+    size_t n, const mr_loop **level)
+{
+	uint64_t serial = mr_frame_find(f, m->name, "triangles")->serial;
+	mr_loop *l;
+
+	*level = cache->level;
+	if (cache->level && !f->key && serial && serial == cache->serial && n == cache->n &&
+	    crease == cache->crease && crease >= 180) /* creases move with the positions */
+		return MR_OK;
+	if (cache->level)
+		mr_mark_release(keep, cache->mark);
+	*cache = (mr_level_cache){ .n = n, .crease = crease, .mark = mr_mark_take(keep), .serial = serial };
+	l = MR_NEW(keep, n + 1, mr_loop);
+	if (!l)
 		return MR_EMEM;
-	MR_TRY(mr_domain_points(ctx, level, n, control->p, limit, normal));
-	*d = (mr_domain){ n, level, { control->name, limit, level[n].t, level[n].nv, level[n].nf }, normal };
+	MR_TRY(mr_loop_levels(keep, m, crease, n, l));
+	*level = cache->level = l;
 	return MR_OK;
 }
 

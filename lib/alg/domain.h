@@ -26,17 +26,32 @@ typedef struct mr_domain {
  * manifold. */
 mr_status mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d);
 
-/*
- * Its points again, on levels that stand, for other positions of the control vertices: limit and normal have
- * level[n].nv each, the caller's.
+/* The domain on levels that stand, 0 to n, for the control mesh's positions: points and normals in the arena.
  */
-mr_status mr_domain_points(
-    mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *control, mr_v3 *limit, mr_v3 *normal);
+mr_status mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n, mr_domain *d);
+
+/*
+ * Levels that serve frame after frame: they are used again where a delta frame has left the triangles as they
+ * were, so they never change a byte of a result.  Zeroed, the cache is empty.
+ */
+typedef struct mr_level_cache {
+	mr_loop *level; /* NULL: empty */
+	size_t n;
+	double crease;
+	mr_mark mark;    /* of the arena that outlives frames */
+	uint64_t serial; /* of the layer's triangles */
+} mr_level_cache;
+
+/* Levels 0 to n of the frame's layer, which is m.  keep: the arena that outlives frames; only the cache
+ * releases what it has there. */
+mr_status mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, const mr_frame *f, const mr_mesh *m,
+    double crease, size_t n, const mr_loop **level);
 
 /* The level whose vertex count is nearest to `count`, in logarithm. */
 mr_status mr_domain_level(mr_ctx *ctx, const mr_mesh *control, size_t count, size_t *n);
 
-/* The displaced surface p = v + gain h n: d->m.nv positions, the caller's.  height: as many at least. */
+/* The displaced surface p = v + gain h n: d->m.nv positions, the caller's, or d->m.p itself.  height:
+ * as many at least. */
 void mr_domain_displace(const mr_ctx *ctx, const mr_domain *d, const double *height, double gain, mr_v3 *p);
 
 /* The frame's heights over its control mesh: their level and all of them, checked to be finite and as many as

@@ -200,10 +200,22 @@ mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine)
 	return MR_OK;
 }
 
+size_t
+mr_loop_boundary(const mr_loop *l)
+{
+	size_t n = 0;
+
+	for (size_t h = 0; h < 3 * l->nf; h++)
+		n += l->topo.twin[h] == MR_NONE;
+	return n;
+}
+
 mr_status
 mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, size_t n, mr_loop *level)
 {
 	MR_TRY(mr_loop_control(ctx, m, crease, &level[0]));
+	if (mr_loop_count(m->nv, m->nf, mr_loop_boundary(&level[0]), n) == SIZE_MAX)
+		return mr_fail(ctx, MR_ERANGE, "%s: level %zu of %zu faces is too large", m->name, n, m->nf);
 	for (size_t i = 0; i < n; i++)
 		MR_TRY(mr_loop_refine(ctx, &level[i], &level[i + 1]));
 	return MR_OK;
@@ -301,6 +313,26 @@ mr_loop_subdivide(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine,
 
 	mr_parallel(ctx, coarse->nv, GRAIN, even_rows, &s);
 	mr_parallel(ctx, fine->nv - coarse->nv, GRAIN, odd_rows, &s);
+}
+
+/* To and fro between `out` and a workspace, so that the last level is in `out`. */
+mr_status
+mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const double *in, double *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *work = n > 1 ? mr_alloc(ctx, level[n - 1].nv, width * sizeof *work) : NULL;
+
+	if (n > 1 && !work)
+		return MR_EMEM;
+	if (n == 0)
+		memcpy(out, in, level[0].nv * width * sizeof *out);
+	for (size_t i = 0; i < n; i++) {
+		double *next = (n - i) % 2 ? out : work;
+		mr_loop_subdivide(ctx, &level[i], &level[i + 1], width, in, next);
+		in = next;
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 void

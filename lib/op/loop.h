@@ -36,9 +36,10 @@ mr_status mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, mr_loop 
 /* The next level, in the arena.  MR_ERANGE where it would have 2^32 half-edges or more. */
 mr_status mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine);
 
-/*
- * Levels 0 to n: level[0] to level[n], the caller's, over m.
- */
+/* Boundary edges of a level. */
+size_t mr_loop_boundary(const mr_loop *l);
+
+/* Levels 0 to n: level[0] to level[n], the caller's, over m.  MR_ERANGE as above, before any work. */
 mr_status mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, size_t n, mr_loop *level);
 
 /* Vertices on level n of a closed or open mesh with nv vertices, nf faces and `boundary` boundary edges;
@@ -51,6 +52,10 @@ size_t mr_loop_count(size_t nv, size_t nf, size_t boundary, size_t n);
  */
 void mr_loop_subdivide(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, size_t width,
     const double *in, double *out);
+
+/* The same from level 0 to level n: in: level[0].nv rows; out: level[n].nv rows, the caller's, elsewhere. */
+mr_status
+mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const double *in, double *out);
 
 /* The odd rows alone: out has fine->nv - coarse->nv rows. */
 void mr_loop_predict(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, size_t width,

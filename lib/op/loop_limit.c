@@ -79,7 +79,7 @@ static mr_v3
 smooth_normal(const limiting *s, uint32_t v, unsigned n)
 {
 	double angle = 2 * MR_PI / n, c = 1, d = 0;
-	double c1 = n == 6 ? 0.5 : cos(angle), d1 = n == 6 ? 0.86602540378443864676 : sin(angle);
+	double c1 = cos(angle), d1 = sin(angle);
 	mr_v3 a = { 0, 0, 0 }, b = a, at = s->p[v];
 
 	for (mr_ring r = mr_ring_begin(s->l, v); r.more; mr_ring_step(&r)) {
@@ -277,17 +277,59 @@ limit_normal(const limiting *s, uint32_t v, mr_loop_kind kind)
 	}
 }
 
+/* Six neighbours and no sharp edge, as most vertices have. */
+static bool
+regular_ring(const mr_loop *l, uint32_t v, uint32_t to[6])
+{
+	uint32_t start = l->topo.out[v], h = start;
+	unsigned n = 0;
+
+	if (l->crease || start == MR_NONE)
+		return false;
+	do {
+		uint32_t before = mr_he_prev(h);
+		to[n++] = mr_loop_to(l, h);
+		h = l->topo.twin[before];
+	} while (n < 6 && h != start && h != MR_NONE);
+	return n == 6 && h == start;
+}
+
+/* The masks of valence 6 in numbers: chi = 1 / 12, cosines +-1 and +-1/2, sines 0 and +-sqrt(3) / 2. */
+static void
+regular_limit(const limiting *s, uint32_t v, const uint32_t to[6])
+{
+	mr_v3 at = s->p[v], w[6], sum, a, b;
+
+	for (int j = 0; j < 6; j++)
+		w[j] = mr_sub(s->p[to[j]], at);
+	if (s->limit) {
+		sum = mr_add(mr_add(mr_add(w[0], w[1]), mr_add(w[2], w[3])), mr_add(w[4], w[5]));
+		s->limit[v] = mr_axpy(1.0 / 12, sum, at);
+	}
+	if (s->normal) {
+		a = mr_axpy(0.5, mr_sub(mr_add(w[1], w[5]), mr_add(w[2], w[4])), mr_sub(w[0], w[3]));
+		b = mr_sub(mr_add(w[1], w[2]), mr_add(w[4], w[5])); /* its factor only scales the normal */
+		s->normal[v] = normal_of(a, b);
+	}
+}
+
 static void
 limit_rows(void *arg, size_t begin, size_t end)
 {
 	const limiting *s = arg;
+	uint32_t to[6];
 
-	for (size_t v = begin; v < end; v++) {
-		mr_loop_kind kind = mr_loop_kind_of(s->l, (uint32_t)v);
+	for (size_t i = begin; i < end; i++) {
+		uint32_t v = (uint32_t)i;
+		if (regular_ring(s->l, v, to)) {
+			regular_limit(s, v, to);
+			continue;
+		}
+		mr_loop_kind kind = mr_loop_kind_of(s->l, v);
 		if (s->limit)
-			s->limit[v] = limit_point(s, (uint32_t)v, kind);
+			s->limit[v] = limit_point(s, v, kind);
 		if (s->normal)
-			s->normal[v] = limit_normal(s, (uint32_t)v, kind);
+			s->normal[v] = limit_normal(s, v, kind);
 	}
 }
 

@@ -54,16 +54,6 @@ refined(const mr_mesh *m, const mr_loop *level, size_t n)
 	return p;
 }
 
-static size_t
-boundary_edges(const mr_loop *l)
-{
-	size_t n = 0;
-
-	for (size_t h = 0; h < 3 * l->nf; h++)
-		n += l->topo.twin[h] == MR_NONE;
-	return n;
-}
-
 /* The half-edges that are written down are those found by sorting, and the counts those of the formula. */
 static void
 test_levels_are_meshes(void **state)
@@ -87,7 +77,8 @@ test_levels_are_meshes(void **state)
 					    topo.twin[topo.out[v]] == MR_NONE);
 				}
 				assert_int_equal(l->nf, m.nf << (2 * i));
-				assert_int_equal(l->nv, mr_loop_count(m.nv, m.nf, boundary_edges(level), i));
+				assert_int_equal(
+				    l->nv, mr_loop_count(m.nv, m.nf, mr_loop_boundary(level), i));
 				assert_int_equal(l->coarse_nv, i ? level[i - 1].nv : m.nv);
 				assert_true(crease || !l->crease);
 				assert_true(l->crease || solids[s] != MR_CUBE || !crease);
@@ -520,6 +511,7 @@ test_refusals(void **state)
 	assert_non_null(strstr(ctx.error, "edge 0-1 has 3 faces"));
 	m.nf = 1;
 	assert_int_equal(mr_loop_control(&ctx, &m, 180, &l), MR_OK);
+	assert_int_equal(mr_loop_levels(&ctx, &m, 180, 16, &l), MR_ERANGE);
 	l.nv = MR_NONE - 2; /* three more are too many */
 	assert_int_equal(mr_loop_refine(&ctx, &l, &l), MR_ERANGE);
 }

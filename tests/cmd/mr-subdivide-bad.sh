@@ -1,0 +1,30 @@
+# Wrong command lines, and meshes that cannot be subdivided: no output.
+refused() {
+	mr-subdivide "$@" >out 2>err
+	echo "exit $?, $(wc -c <out) bytes"
+	head -n 1 err
+}
+mr-make sphere -n 42 -o sphere.mrs
+refused -n -1 sphere.mrs
+refused -n 16 sphere.mrs
+refused -n x sphere.mrs
+refused --crease 181 sphere.mrs
+refused --crease nan sphere.mrs
+refused -l base sphere.mrs
+refused -n 15 sphere.mrs
+printf '0 0 0\n1 0 0\n0 1 0\n' >cloud.xyz
+mr-import cloud.xyz -o cloud.mrs
+refused cloud.mrs
+for faces in '0 1 2,0 1 3,0 1 4' '0 1 2,0 1 3' '0 1 2,0 3 4' '0 1 1,1 2 3'; do
+	{
+		echo OFF
+		echo "5 $(echo "$faces" | awk -F, '{ print NF }') 0"
+		printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n0 -1 -1\n'
+		echo "$faces" | tr ',' '\n' | sed 's/^/3 /'
+	} >bad.off
+	mr-import bad.off -o bad.mrs
+	refused bad.mrs
+done
+head -c 2000 sphere.mrs >cut.mrs
+mr-subdivide cut.mrs >out 2>err
+echo "exit $?: $(cat err)"
