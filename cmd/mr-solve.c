@@ -1,23 +1,31 @@
 /* mr-solve -- move the free vertices of a base to where its constraints have them.  See man/mr-solve.1. */
 #include "alg/deform_cache.h"
 #include "alg/handles.h"
+#include "base/memory.h"
 #include "cmd.h"
 
 static mr_deform_opts opts = MR_DEFORM_DEFAULTS;
-static enum { AUTO, CHOLESKY, LU } solver;
+static enum { AUTO, CHOLESKY, LU, CG, BICGSTAB, MULTIGRID, VCYCLE } solver;
+static double tol, megabytes;
 static bool basis;
 
 static const cmd_opt table[] = {
 	{ 'k', "order", CMD_COUNT, &opts.order, 1, 3, "K",
 	    "1 membrane, 2 thin plate, 3 minimal variation of curvature", NULL },
-	{ 's', "solver", CMD_CHOICE, &solver, 0, 0, "auto|cholesky|lu",
-	    "auto: cholesky, or lu for --unsymmetric", NULL },
+	{ 's', "solver", CMD_CHOICE, &solver, 0, 0, "auto|cholesky|lu|cg|bicgstab|multigrid|vcycle",
+	    "auto: cholesky, lu for --unsymmetric, multigrid where the factor is too large", NULL },
 	{ 0, "areas", CMD_CHOICE, &opts.areas, 0, 0, "voronoi|mean",
 	    "each vertex its own area, or all the mean", NULL },
 	{ 0, "unsymmetric", CMD_FLAG, &opts.unsymmetric, 0, 0, "", "solve the system as the paper writes it",
 	    NULL },
 	{ 0, "basis", CMD_FLAG, &basis, 0, 0, "", "also write the response to every handle", NULL },
-	{ 0, "tol", CMD_REAL, &opts.tol, 0, 1, "T", "refine a solution of a larger relative residual", NULL },
+	{ 0, "tol", CMD_REAL, &tol, 0, 1, "T",
+	    "relative residual to reach; 0: 1e-12 of cholesky and lu, else 1e-10", NULL },
+	{ 0, "iterations", CMD_COUNT, &opts.solver.iterations, 1, 1e9, "N", "at most", NULL },
+	{ 0, "memory", CMD_REAL, &megabytes, 0, 1e12, "MB",
+	    "megabytes that a factor may take; 0: what there is", NULL },
+	{ 0, "precondition", CMD_CHOICE, &opts.solver.precondition, 0, 0, "incomplete|jacobi",
+	    "of cg and bicgstab", NULL },
 	{ 0 },
 };
 
@@ -29,9 +37,17 @@ prepare(cmd *c)
 		    "--layer: %s cannot be solved for, only base or control: mr-smooth makes the base of a "
 		    "mesh",
 		    c->layer);
-	if (opts.unsymmetric && solver == CHOLESKY)
-		return mr_fail(&c->ctx, MR_EUSAGE, "--unsymmetric has no Cholesky factor: -s lu");
-	opts.solver = solver == LU || opts.unsymmetric ? MR_LU : MR_CHOLESKY;
+	if (opts.unsymmetric && solver != AUTO && solver != LU && solver != BICGSTAB)
+		return mr_fail(&c->ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
+	if (opts.solver.precondition && solver != CG && solver != BICGSTAB)
+		return mr_fail(&c->ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
+	opts.solver.kind = solver != AUTO     ? (mr_solver_kind)(solver - CHOLESKY)
+	                   : opts.unsymmetric ? MR_LU
+	                                      : MR_CHOLESKY;
+	opts.choose = solver == AUTO && !opts.unsymmetric;
+	if (tol > 0)
+		opts.tol = opts.solver.tol = tol;
+	opts.solver.memory = megabytes > 0 ? 1e6 * megabytes : mr_memory_available();
 	return MR_OK;
 }
 

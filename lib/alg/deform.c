@@ -4,9 +4,6 @@
  */
 #include "alg/deform_parts.h"
 #include "base/sets.h"
-#include "op/area.h"
-#include "op/dissect.h"
-#include "op/laplace.h"
 
 /* Regions */
 
@@ -88,83 +85,13 @@ count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
 	return MR_OK;
 }
 
-/* Assembly */
-
-/*
- * W, made free of units by the mean.  An area below a hundred-millionth of the mean (a vertex
- * whose faces have none) counts as that much: W stays finite.
- */
-static mr_status
-weigh(mr_ctx *ctx, mr_deform *d)
-{
-	static const double smallest = 1e-8;
-	size_t n = d->patch.mesh.nv;
-	double mean = 0;
-
-	d->w = MR_NEW(ctx, n, double);
-	if (!d->w)
-		return MR_EMEM;
-	MR_TRY(mr_voronoi_areas(ctx, &d->patch.mesh, d->w));
-	for (size_t i = 0; i < n; i++)
-		mean += d->w[i] / (double)n;
-	for (size_t i = 0; i < n; i++)
-		d->w[i] = d->opts.areas == MR_AREAS_MEAN || !(mean > 0) ? 1
-		                                                        : 1 / fmax(d->w[i] / mean, smallest);
-	return MR_OK;
-}
-
-/* A row without any weight (all its faces are single points) asks for nothing: its vertex stays. */
-static void
-hold_empty_rows(mr_sparse *k)
-{
-	for (int i = 0; i < k->n; i++)
-		for (int e = k->start[i]; e < k->start[i + 1]; e++)
-			if (k->index[e] == i && k->value[e] == 0)
-				k->value[e] = 1;
-}
-
-/* The rows of the true D^k: scaled by M_f^-1. */
-static void
-scale_rows(mr_sparse *k, const double *w)
-{
-	for (int i = 0; i < k->n; i++)
-		for (int e = k->start[i]; e < k->start[i + 1]; e++)
-			k->value[e] *= w[i];
-}
-
-static mr_status
-factor(mr_ctx *ctx, mr_deform *d, double started)
-{
-	size_t n = d->patch.end[0], k = d->opts.order;
-	bool lower = d->opts.solver == MR_CHOLESKY;
-	int *part = MR_NEW(ctx, n, int);
-	mr_sparse a;
-	mr_status status;
-
-	if (!part)
-		return MR_EMEM;
-	MR_TRY(mr_laplace_power(ctx, &d->l, d->w, k, n, lower, &a));
-	hold_empty_rows(&a);
-	if (d->opts.unsymmetric)
-		scale_rows(&a, d->w);
-	MR_TRY(mr_dissect(ctx, &d->l, d->patch.mesh.p, n, k, part));
-	d->nnz = (size_t)a.start[n];
-	d->seconds_assemble = mr_seconds() - started;
-	status = mr_solver_new(ctx, (mr_solver_kind)d->opts.solver, &a, part, &d->solver);
-	if (status == MR_ENUMERIC)
-		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
-		    d->patch.mesh.name, k, n,
-		    k > 1 ? " has no solution in doubles (a lower -k may have)" : "");
-	return status;
-}
-
 static mr_status
 check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 {
 	for (size_t v = 0; v < d->nv; v++)
 		if (!mr_finite(rest->p[v]))
 			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
-	if (d->opts.unsymmetric && d->opts.solver == MR_CHOLESKY)
+	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
 		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
 	if (d->free == 0)
 		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
@@ -196,7 +123,6 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 {
 	double started = mr_seconds();
 	bool *anchored = MR_NEW(ctx, d->nv, bool);
-	mr_mark mark;
 
 	if (!anchored)
 		return MR_EMEM;
@@ -205,15 +131,8 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	MR_TRY(find_anchored(ctx, d, rest, anchored));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
 	MR_TRY(mr_patch_build(ctx, rest, anchored, d->opts.order, &d->patch));
-	MR_TRY(mr_laplace_build(ctx, &d->patch.mesh, &d->l));
-	MR_TRY(weigh(ctx, d));
 	MR_TRY(make_workspace(ctx, d));
-	if (d->patch.end[0] == 0)
-		return MR_OK;
-	mark = mr_mark_take(ctx);
-	MR_TRY(factor(ctx, d, started));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_deform_assemble(ctx, d, rest, started);
 }
 
 mr_status
@@ -265,6 +184,12 @@ report_solver(mr_ctx *ctx, const mr_deform *d)
 	mr_stat_set(ctx, "nnz_factor", r.nnz_factor);
 	mr_stat_set(ctx, "seconds_analyse", r.seconds_analyse);
 	mr_stat_set(ctx, "seconds_factor", r.seconds_factor);
+	mr_stat_set(ctx, "bytes_factor", r.bytes_factor);
+	if (mr_solver_iterates(d->opts.solver.kind)) {
+		mr_stat_set(ctx, "iterations", (double)r.iterations);
+		mr_note(ctx, "%zu iterations", r.iterations);
+		return;
+	}
 	mr_stat_set(ctx, "rcond", r.rcond);
 	if (r.rcond < worst)
 		mr_note(ctx, "warning: the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order,

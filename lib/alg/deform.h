@@ -18,17 +18,17 @@ typedef enum mr_areas {
 } mr_areas;
 
 typedef struct mr_deform_opts {
-	size_t order;     /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
-	int areas;        /* mr_areas */
-	bool unsymmetric; /* the paper's own system; else a row scaling of it, which is symmetric */
-	int solver;       /* mr_solver_kind; an unsymmetric system wants MR_LU */
-	double tol;       /* a solution of a larger relative residual is refined */
+	size_t order;          /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
+	int areas;             /* mr_areas */
+	bool unsymmetric;      /* the paper's own system; else a row scaling of it, which is symmetric */
+	mr_solver_opts solver; /* an unsymmetric system wants MR_LU or MR_BICGSTAB */
+	bool choose;           /* multigrid where the factor of the kind asked for exceeds the memory */
+	double tol;            /* a direct solution of a larger relative residual is refined */
 } mr_deform_opts;
 
 #define MR_DEFORM_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		.order = 2, .areas = MR_AREAS_VORONOI, .unsymmetric = false, .solver = MR_CHOLESKY,          \
-		.tol = 1e-12                                                                                 \
+		.order = 2, .areas = MR_AREAS_VORONOI, .solver = MR_SOLVER_DEFAULTS, .tol = 1e-12            \
 	}
 
 typedef struct mr_deform mr_deform;

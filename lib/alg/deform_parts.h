@@ -1,10 +1,10 @@
 /*
- * deform_parts.h -- what deform.c sets up and deform_solve.c solves with.
+ * deform_parts.h -- what deform.c and deform_system.c set up and deform_solve.c solves with.
  *
  * With L the cotangent Laplacian and M the areas, D = -M^-1 L and, for free rows f, (D^k)_ff =
  * (-1)^k M_f^-1 [L (M^-1 L)^(k-1)]_ff: a row scaling of a symmetric matrix, called K.  Multiplying
  * comes before restricting, so K reaches k rings into the constraints.
- * Layer rule: alg; only these two include it.
+ * Layer rule: alg; only the files deform*.c include it.
  */
 #ifndef MR_DEFORM_PARTS_H
 #define MR_DEFORM_PARTS_H
@@ -26,10 +26,14 @@ typedef struct field {
 struct mr_deform {
 	mr_deform_opts opts;
 	size_t nv;
-	uint32_t *region;  /* nv */
-	mr_patch patch;    /* the free vertices that are solved for, and k rings */
-	mr_sparse l;       /* of the patch */
-	double *w;         /* mean area by area, per vertex of the patch: W = M^-1 */
+	uint32_t *region; /* nv */
+	mr_patch patch;   /* the free vertices that are solved for, and k rings */
+	mr_sparse l;      /* of the patch */
+	double mean_area; /* of the patch's vertices */
+	double *w;        /* mean area by area, per vertex of the patch: W = M^-1 */
+	mr_sparse l_ff;   /* L of the free vertices alone, for multigrid */
+	mr_sparse a;      /* K, which iterative solvers borrow */
+	mr_hierarchy hierarchy;
 	mr_solver *solver; /* NULL where nothing is to be solved */
 	field work;        /* kept from solve to solve: fresh pages cost as much as the arithmetic */
 	uint32_t lowest;   /* region that moves the whole: fixed, or the lowest handle's */
@@ -41,5 +45,9 @@ struct mr_deform {
 	double seconds_assemble, seconds_solve, residual;
 	size_t refinements;
 };
+
+/* Assembles the system and sets up its solver, on the mesh `rest` of which the patch is a part.  started:
+ * when. */
+mr_status mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double started);
 
 #endif

@@ -117,16 +117,18 @@ solve_field(mr_ctx *ctx, mr_deform *d, field *f, double scale)
 {
 	static const double ill = 1e-8; /* a condition at which rounding alone may cost 1e-9 */
 	size_t n = d->patch.end[0] * f->width;
+	bool iterative = mr_solver_iterates(d->opts.solver.kind);
 	/* UMFPACK scales rows first, so its estimate does not tell. */
-	bool doubtful = d->opts.solver == MR_LU || mr_solver_reported(d->solver).rcond < ill;
-	double after;
+	bool doubtful = d->opts.solver.kind == MR_LU ||
+	                (!iterative && mr_solver_reported(d->solver).rcond < ill);
+	double tol = iterative ? d->opts.solver.tol : d->opts.tol, after;
 
 	d->refinements = 0;
 	MR_TRY(mr_solver_solve(ctx, d->solver, f->r, f->width));
 	add_free(d, f);
 	residual(ctx, d, f);
 	after = norm_of(f->r, n);
-	if (scale > 0 && (doubtful || after > d->opts.tol * scale)) {
+	if (scale > 0 && (doubtful || after > tol * scale)) {
 		MR_TRY(refine(ctx, d, f));
 		residual(ctx, d, f);
 		after = norm_of(f->r, n);

@@ -18,4 +18,11 @@ typedef struct mr_sparse {
 	double *value;
 } mr_sparse;
 
+/* The transpose of a matrix with `columns` columns.  t: in the arena. */
+mr_status mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *t);
+
+/* c = a b, where b has `columns` columns.  c: in the arena. */
+mr_status
+mr_sparse_multiply(mr_ctx *ctx, const mr_sparse *a, const mr_sparse *b, size_t columns, mr_sparse *c);
+
 #endif

@@ -110,27 +110,42 @@ panels_of(const cholmod_factor *f)
 		.permutation = f->Perm };
 }
 
-static mr_status
-set_up(mr_ctx *ctx, cholesky *c, const mr_sparse *a, const int *part, mr_solver_report *report)
+/* The panels, their rows, and the largest update matrix. */
+static double
+bytes_of(const cholmod_factor *f)
 {
-	cholmod_sparse upper = as_upper(a);
-	double start = mr_seconds(), analysed;
+	return (double)(f->xsize + f->maxcsize) * sizeof(double) + (double)f->ssize * sizeof(int);
+}
+
+static mr_status
+set_up(
+    mr_ctx *ctx, const mr_solver_opts *opts, cholesky *c, const mr_system *system, mr_solver_report *report)
+{
+	cholmod_sparse upper = as_upper(system->a);
+	double start = mr_seconds(), analysed, bytes;
 	mr_panels panels;
 
-	MR_TRY(analyse(ctx, c, &upper, part));
+	MR_TRY(analyse(ctx, c, &upper, system->part));
 	analysed = mr_seconds();
+	bytes = bytes_of(c->factor);
+	if (opts->memory > 0 && bytes > opts->memory)
+		return mr_fail(ctx, MR_EMEM,
+		    "the factor of %zu rows takes %.3g MB, more than the %.3g MB there are", c->factor->n,
+		    1e-6 * bytes, 1e-6 * opts->memory);
 	MR_TRY(factorize(ctx, c, &upper));
 	panels = panels_of(c->factor);
 	MR_TRY(mr_supernodal_new(ctx, &panels, &c->solve));
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
 		.seconds_factor = mr_seconds() - analysed,
 		.rcond = cholmod_rcond(c->factor, &c->common),
-		.nnz_factor = c->common.lnz };
+		.nnz_factor = c->common.lnz,
+		.bytes_factor = bytes };
 	return MR_OK;
 }
 
 static mr_status
-cholesky_setup(mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr_solver_report *report)
+cholesky_setup(
+    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void **data, mr_solver_report *report)
 {
 	cholesky *c = calloc(1, sizeof *c);
 	mr_status status;
@@ -140,7 +155,7 @@ cholesky_setup(mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr
 		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
 	threads = mr_serial_begin();
 	cholmod_start(&c->common);
-	status = set_up(ctx, c, a, part, report);
+	status = set_up(ctx, opts, c, system, report);
 	mr_serial_end(threads);
 	if (status < 0)
 		cholesky_free(c);
@@ -150,10 +165,11 @@ cholesky_setup(mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr
 }
 
 static mr_status
-cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns)
+cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report)
 {
 	cholesky *c = data;
 
+	(void)report;
 	mr_supernodal_solve(ctx, c->solve, b, columns);
 	return MR_OK;
 }

@@ -63,9 +63,9 @@ copy_matrix(mr_ctx *ctx, const mr_sparse *a, mr_sparse *copy)
 
 /* Our rows are UMFPACK's columns: it factors the transpose. */
 static mr_status
-set_up(mr_ctx *ctx, lu *l, const mr_sparse *a, mr_solver_report *report)
+set_up(mr_ctx *ctx, const mr_solver_opts *opts, lu *l, const mr_sparse *a, mr_solver_report *report)
 {
-	double start = mr_seconds(), analysed, info[UMFPACK_INFO];
+	double start = mr_seconds(), analysed, bytes, info[UMFPACK_INFO];
 	void *symbolic = NULL;
 	int status;
 
@@ -74,6 +74,13 @@ set_up(mr_ctx *ctx, lu *l, const mr_sparse *a, mr_solver_report *report)
 	umfpack_di_defaults(l->control);
 	status = umfpack_di_symbolic(a->n, a->n, a->start, a->index, a->value, &symbolic, l->control, info);
 	analysed = mr_seconds();
+	bytes = info[UMFPACK_PEAK_MEMORY_ESTIMATE] * info[UMFPACK_SIZE_OF_UNIT];
+	if (status == UMFPACK_OK && opts->memory > 0 && bytes > opts->memory) {
+		umfpack_di_free_symbolic(&symbolic);
+		return mr_fail(ctx, MR_EMEM,
+		    "the factors of %d rows may take %.3g MB, more than the %.3g MB there are", a->n,
+		    1e-6 * bytes, 1e-6 * opts->memory);
+	}
 	if (status == UMFPACK_OK)
 		status = umfpack_di_numeric(
 		    a->start, a->index, a->value, symbolic, &l->numeric, l->control, info);
@@ -82,22 +89,23 @@ set_up(mr_ctx *ctx, lu *l, const mr_sparse *a, mr_solver_report *report)
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
 		.seconds_factor = mr_seconds() - analysed,
 		.rcond = info[UMFPACK_RCOND],
-		.nnz_factor = info[UMFPACK_LNZ] + info[UMFPACK_UNZ] };
+		.nnz_factor = info[UMFPACK_LNZ] + info[UMFPACK_UNZ],
+		.bytes_factor = info[UMFPACK_NUMERIC_SIZE] * info[UMFPACK_SIZE_OF_UNIT] };
 	return MR_OK;
 }
 
 static mr_status
-lu_setup(mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr_solver_report *report)
+lu_setup(
+    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void **data, mr_solver_report *report)
 {
 	lu *l = calloc(1, sizeof *l);
 	mr_status status;
 	int threads;
 
-	(void)part; /* UMFPACK orders columns by itself */
 	if (!l)
 		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
 	threads = mr_serial_begin();
-	status = set_up(ctx, l, a, report);
+	status = set_up(ctx, opts, l, system->a, report); /* UMFPACK orders by itself */
 	mr_serial_end(threads);
 	if (status < 0)
 		lu_free(l);
@@ -107,13 +115,14 @@ lu_setup(mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr_solve
 }
 
 static mr_status
-lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns)
+lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report)
 {
 	lu *l = data;
 	size_t n = (size_t)l->a.n;
 	mr_mark mark = mr_mark_take(ctx);
 	double *x = MR_NEW(ctx, n, double), info[UMFPACK_INFO];
 
+	(void)report;
 	if (!x)
 		return MR_EMEM;
 	for (size_t c = 0; c < columns; c++, b += n) {

@@ -1,7 +1,8 @@
 #include "solve/solver_type.h"
 
 /* The order of mr_solver_kind. */
-static const mr_solver_type *const types[] = { &mr_cholesky_type, &mr_lu_type };
+static const mr_solver_type *const types[] = { &mr_cholesky_type, &mr_lu_type, &mr_cg_type, &mr_bicgstab_type,
+	&mr_multigrid_type, &mr_vcycle_type };
 
 struct mr_solver {
 	const mr_solver_type *type;
@@ -10,27 +11,37 @@ struct mr_solver {
 };
 
 mr_status
-mr_solver_new(mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, const int *part, mr_solver **solver)
+mr_solver_open(mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, mr_solver **solver)
 {
 	mr_solver *s = calloc(1, sizeof *s);
 	mr_status status;
 
 	if (!s)
 		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
-	s->type = types[kind];
-	status = s->type->setup(ctx, a, part, &s->data, &s->report);
+	s->type = types[opts->kind];
+	status = s->type->setup(ctx, opts, system, &s->data, &s->report);
 	if (status < 0) {
 		free(s);
-		return mr_prefix(ctx, status, "%s", types[kind]->name);
+		return mr_prefix(ctx, status, "%s", types[opts->kind]->name);
 	}
 	*solver = s;
 	return MR_OK;
 }
 
 mr_status
+mr_solver_new(mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, const int *part, mr_solver **solver)
+{
+	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
+
+	opts.kind = kind;
+	return mr_solver_open(ctx, &opts, &(mr_system){ .a = a, .part = part }, solver);
+}
+
+mr_status
 mr_solver_solve(mr_ctx *ctx, mr_solver *solver, double *b, size_t columns)
 {
-	return mr_prefix(ctx, solver->type->solve(ctx, solver->data, b, columns), "%s", solver->type->name);
+	return mr_prefix(ctx, solver->type->solve(ctx, solver->data, b, columns, &solver->report), "%s",
+	    solver->type->name);
 }
 
 mr_solver_report

@@ -2,7 +2,7 @@
  * solver.h -- one interface to every solver of sparse linear systems: matrix + right-hand sides -> x.
  *
  * Contract: a solver is set up once for a matrix and then solves for any number of
- * right-hand sides.  It is a handle over foreign memory: free it.  Results do not depend on
+ * right-hand sides.  It is a handle over memory of its own: free it.  Results do not depend on
  * the number of threads.  A new solver is one file and one line of the table in solver.c.
  * Layer rule: solve includes base, mesh and op.
  */
@@ -12,28 +12,94 @@
 #include "op/sparse.h"
 
 typedef enum mr_solver_kind {
-	MR_CHOLESKY, /* A symmetric positive definite, only its lower triangle given */
-	MR_LU        /* A any square matrix, all of it given */
+	MR_CHOLESKY,  /* A symmetric positive definite, only its lower triangle given */
+	MR_LU,        /* A any square matrix, all of it given, as for those below */
+	MR_CG,        /* A symmetric positive definite */
+	MR_BICGSTAB,  /* A any square matrix */
+	MR_MULTIGRID, /* A = L (W L)^(k-1): conjugate gradients, preconditioned by V-cycles on L */
+	MR_VCYCLE     /* the same: V-cycles on A itself, as the paper has it */
 } mr_solver_kind;
+
+/* True for solvers that approach the solution until a tolerance is met. */
+static inline bool
+mr_solver_iterates(mr_solver_kind kind)
+{
+	return kind >= MR_CG;
+}
+
+/* True for solvers that want a hierarchy. */
+static inline bool
+mr_solver_multigrid(mr_solver_kind kind)
+{
+	return kind >= MR_MULTIGRID;
+}
+
+typedef enum mr_preconditioner_kind {
+	MR_INCOMPLETE, /* factors without fill: incomplete Cholesky of a symmetric matrix, else incomplete LU
+	                */
+	MR_JACOBI      /* the diagonal */
+} mr_preconditioner_kind;
+
+/* A coarser level of a multigrid hierarchy: n unknowns, and what they give to those of the finer level. */
+typedef struct mr_coarser {
+	mr_sparse prolong; /* a row for each unknown of the finer level, columns below n */
+	size_t n;
+} mr_coarser;
+
+typedef struct mr_hierarchy {
+	const mr_sparse *laplace; /* L, restricted to the unknowns: n x n */
+	const double *weight;     /* the diagonal of W, of the unknowns */
+	size_t order;             /* k */
+	size_t count;             /* coarser levels, at least 1, finest first */
+	const mr_coarser *level;
+} mr_hierarchy;
+
+/* What is to be solved.  Iterative solvers borrow it: it must outlive them; direct ones do not. */
+typedef struct mr_system {
+	const mr_sparse *a;
+	const int *part;               /* dissection (op/dissect.h) for Cholesky, or NULL */
+	const mr_hierarchy *hierarchy; /* for multigrid */
+} mr_system;
+
+typedef struct mr_solver_opts {
+	mr_solver_kind kind;
+	int precondition;  /* mr_preconditioner_kind, of CG and BiCGSTAB */
+	double tol;        /* iterative: |b - A x| <= tol |b| for each right-hand side */
+	size_t iterations; /* iterative: at most so many, else MR_ENUMERIC */
+	double memory;     /* bytes that factors may take; 0: no bound */
+} mr_solver_opts;
+
+#define MR_SOLVER_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		.kind = MR_CHOLESKY, .tol = 1e-10, .iterations = 20000                                       \
+	}
 
 typedef struct mr_solver mr_solver;
 
-/* What the set-up took and found. */
+/* What the set-up took and found, and of iterative solvers what the last solution took. */
 typedef struct mr_solver_report {
 	double seconds_analyse, seconds_factor;
-	double rcond;      /* a cheap estimate of the reciprocal condition number */
-	double nnz_factor; /* entries of the factors */
+	double rcond;        /* a cheap estimate of the reciprocal condition number; 0: none */
+	double nnz_factor;   /* entries of the factors, of all levels */
+	double bytes_factor; /* that they take */
+	size_t iterations;   /* of the last solution, of the slowest right-hand side */
+	double residual;     /* its |b - A x| / |b|, of the worst right-hand side */
 } mr_solver_report;
 
 /*
- * Sets up a solver for A, which is copied or factored: it need not outlive the call.  part: for each row the
- * part of a dissection that it is in (op/dissect.h), which a factorization eliminates in ascending order, or
- * NULL. MR_ENUMERIC where A is singular or, for MR_CHOLESKY, not positive definite.
+ * Sets up a solver.  MR_ENUMERIC where A is singular or, for MR_CHOLESKY, not positive definite; MR_EMEM
+ * where factors would exceed the memory allowed, before it is taken.
  */
+mr_status mr_solver_open(
+    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, mr_solver **solver) MR_WARN_UNUSED;
+
+/* The same for a direct solver with default options. */
 mr_status mr_solver_new(
     mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, const int *part, mr_solver **solver) MR_WARN_UNUSED;
 
-/* Replaces the right-hand sides b (`columns` of them, one after another, n values each) by the solutions x.
+/*
+ * Replaces the right-hand sides b (`columns` of them, one after another, n values each) by the solutions x.
+ * MR_ENUMERIC with the residual reached where an iterative solver does not converge.
  */
 mr_status mr_solver_solve(mr_ctx *ctx, mr_solver *solver, double *b, size_t columns) MR_WARN_UNUSED;
 

@@ -1,8 +1,8 @@
 /*
  * solver_type.h -- what a solver provides to solver.c.
  *
- * Contract: `setup` returns the solver's own data, over memory of its own, and fills the report;
- * `free` accepts whatever setup returned.
+ * Contract: `setup` returns the solver's own data, over memory of its own, and fills the report, as `solve`
+ * does; `free` accepts whatever setup returned.
  * Layer rule: solve; only files of this folder include it.
  */
 #ifndef MR_SOLVER_TYPE_H
@@ -12,12 +12,13 @@
 
 typedef struct mr_solver_type {
 	const char *name;
-	mr_status (*setup)(
-	    mr_ctx *ctx, const mr_sparse *a, const int *part, void **data, mr_solver_report *report);
-	mr_status (*solve)(mr_ctx *ctx, void *data, double *b, size_t columns);
+	mr_status (*setup)(mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void **data,
+	    mr_solver_report *report);
+	mr_status (*solve)(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report);
 	void (*free)(void *data);
 } mr_solver_type;
 
-extern const mr_solver_type mr_cholesky_type, mr_lu_type;
+extern const mr_solver_type mr_cholesky_type, mr_lu_type, mr_cg_type, mr_bicgstab_type, mr_multigrid_type,
+    mr_vcycle_type;
 
 #endif

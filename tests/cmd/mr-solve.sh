@@ -25,12 +25,24 @@ for k in 1 2 3; do
 		far q.off r.off 1e-9
 	done
 
+	# By iteration, which its tolerance limits.
+	for other in cg bicgstab multigrid; do
+		[ $k -lt 3 ] || continue
+		mr-solve -k $k -s $other --tol 1e-12 posed.mrs -o r.mrs
+		off r.mrs base >r.off
+		far q.off r.off 1e-6
+	done
+
 	# By the basis.
 	mr-solve -k $k --basis s.mrs | mr-encode | mr-pose --translate 0.2,0.1,0.3 --rotate 0,0,1,40 | mr-decode -o r.mrs
 	off r.mrs base >r.off
 	far q.off r.off 1e-9
 done
 mr-info q.mrs | grep -c 'handles\|response' # used up
+
+# A factor that does not fit.
+mr-solve --memory 0.1 -s cholesky s.mrs -o r.mrs 2>&1 | sed 's/[0-9.]* MB/N MB/g; s/[0-9]* rows/N rows/'
+mr-solve --memory 0.1 -v s.mrs -o r.mrs 2>&1 | grep -c 'multigrid takes its place'
 
 # Nothing fixed, both handles moved alike: the whole moves along.
 mr-select --handle 1=below:z,0.2 s.mrs | mr-solve -o p0.mrs

@@ -128,6 +128,141 @@ test_lu(void **state)
 	check_solver(MR_LU, 0.3, NULL);
 }
 
+/* Iterative solvers: the same solutions, in few steps, however many threads there are. */
+static void
+check_iterative(
+    mr_solver_kind kind, int precondition, double drift, const mr_hierarchy *hierarchy, size_t most)
+{
+	mr_sparse a = hierarchy ? *hierarchy->laplace : grid_matrix(0.1, drift, false);
+	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
+	mr_system system = { .a = &a, .hierarchy = hierarchy };
+	double *x = MR_NEW(&ctx, 6 * N, double), *b = MR_NEW(&ctx, 6 * N, double),
+	       *first = MR_NEW(&ctx, 6 * N, double);
+	mr_random r = { 1 };
+
+	opts.kind = kind;
+	opts.precondition = precondition;
+	opts.tol = 1e-13;
+	for (int i = 0; i < 6 * N; i++)
+		x[i] = mr_random_real(&r) - 0.5;
+	for (unsigned threads = 1; threads <= 3; threads++) {
+		mr_solver *s = NULL;
+		ctx.threads = threads;
+		assert_int_equal(mr_solver_open(&ctx, &opts, &system, &s), MR_OK);
+		for (size_t c = 0; c < 6; c++)
+			apply(&a, x + c * N, b + c * N);
+		assert_int_equal(mr_solver_solve(&ctx, s, b, 6), MR_OK);
+		for (size_t i = 0; i < 6 * N; i++)
+			if (!(fabs(b[i] - x[i]) < 1e-9))
+				fail_msg("x[%zu] is off by %g", i, b[i] - x[i]);
+		if (threads == 1)
+			memcpy(first, b, 6 * N * sizeof *b);
+		assert_memory_equal(b, first, 6 * N * sizeof *b);
+		assert_in_range(mr_solver_reported(s).iterations, 1, most);
+		assert_true(mr_solver_reported(s).residual <= opts.tol);
+		mr_solver_free(s);
+	}
+}
+
+static void
+test_iterative(void **state)
+{
+	(void)state;
+	check_iterative(MR_CG, MR_JACOBI, 0, NULL, 120);
+	check_iterative(MR_CG, MR_INCOMPLETE, 0, NULL, 40);
+	check_iterative(MR_BICGSTAB, MR_JACOBI, 0.3, NULL, 80);
+	check_iterative(MR_BICGSTAB, MR_INCOMPLETE, 0.3, NULL, 25);
+}
+
+/* Linear interpolation along a side from every second point: the coarse points and their weights, at most
+ * two. */
+static int
+interpolate(int x, int at[2], double weight[2])
+{
+	bool between = x % 2 && x / 2 + 1 < SIDE / 2;
+
+	at[0] = x / 2;
+	at[1] = x / 2 + 1;
+	weight[0] = between ? 0.5 : 1;
+	weight[1] = 0.5;
+	return between ? 2 : 1;
+}
+
+static mr_sparse
+interpolation(void)
+{
+	mr_sparse p = { N, MR_NEW(&ctx, N + 1, int), MR_NEW(&ctx, 4 * N, int), MR_NEW(&ctx, 4 * N, double) };
+	int n = 0;
+
+	for (int i = 0; i < N; i++) {
+		int row[2], column[2];
+		double u[2], v[2];
+		p.start[i] = n;
+		for (int a = 0; a < interpolate(i / SIDE, row, u); a++)
+			for (int b = 0; b < interpolate(i % SIDE, column, v); b++) {
+				p.index[n] = SIDE / 2 * row[a] + column[b];
+				p.value[n++] = u[a] * v[b];
+			}
+	}
+	p.start[N] = n;
+	return p;
+}
+
+static void
+test_multigrid(void **state)
+{
+	mr_sparse l = grid_matrix(1e-3, 0, false), p = interpolation();
+	double *weight = MR_NEW(&ctx, N, double);
+	mr_coarser level = { p, N / 4 };
+	mr_hierarchy h = { &l, weight, 1, 1, &level };
+
+	(void)state;
+	for (int i = 0; i < N; i++)
+		weight[i] = 1;
+	check_iterative(MR_MULTIGRID, 0, 0, &h, 30);
+	check_iterative(MR_VCYCLE, 0, 0, &h, 40);
+}
+
+/* What does not converge is an error, with what was reached. */
+static void
+test_no_convergence(void **state)
+{
+	mr_sparse a = grid_matrix(1e-6, 0, false);
+	double *b = MR_NEW(&ctx, N, double);
+
+	(void)state;
+	for (int kind = MR_CG; kind <= MR_BICGSTAB; kind++) {
+		mr_solver_opts opts = MR_SOLVER_DEFAULTS;
+		mr_solver *s = NULL;
+		opts.kind = (mr_solver_kind)kind;
+		opts.iterations = 3;
+		for (int i = 0; i < N; i++)
+			b[i] = i % 5;
+		assert_int_equal(mr_solver_open(&ctx, &opts, &(mr_system){ .a = &a }, &s), MR_OK);
+		assert_int_equal(mr_solver_solve(&ctx, s, b, 1), MR_ENUMERIC);
+		assert_non_null(strstr(ctx.error, "no convergence: a relative residual of "));
+		assert_non_null(strstr(ctx.error, "after 3 iterations"));
+		mr_solver_free(s);
+	}
+}
+
+/* Factors that exceed the memory are refused before they are there. */
+static void
+test_memory(void **state)
+{
+	(void)state;
+	for (int kind = MR_CHOLESKY; kind <= MR_LU; kind++) {
+		mr_sparse a = grid_matrix(0.1, 0, kind == MR_CHOLESKY);
+		mr_solver_opts opts = MR_SOLVER_DEFAULTS;
+		mr_solver *s = NULL;
+		opts.kind = (mr_solver_kind)kind;
+		opts.memory = 1000;
+		assert_int_equal(mr_solver_open(&ctx, &opts, &(mr_system){ .a = &a }, &s), MR_EMEM);
+		assert_non_null(strstr(ctx.error, "MB"));
+		assert_null(s);
+	}
+}
+
 static void
 test_what_has_no_solution(void **state)
 {
@@ -171,6 +306,10 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_cholesky, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_subtrees, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_lu, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_iterative, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_multigrid, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_no_convergence, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_memory, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_what_has_no_solution, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_one_unknown, setup, teardown),
 	};

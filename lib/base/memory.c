@@ -1,0 +1,41 @@
+#include "base/memory.h"
+
+#include <math.h>
+#include <sys/resource.h>
+
+/* The number that stands in the file behind `key` (NULL: first), or NaN. */
+static double
+number_in(const char *path, const char *key)
+{
+	FILE *file = fopen(path, "r");
+	char line[256];
+	double found = NAN;
+
+	if (!file)
+		return NAN;
+	while (isnan(found) && fgets(line, sizeof line, file)) {
+		size_t skip = key ? strlen(key) : 0;
+		char *end;
+		if (key && strncmp(line, key, skip))
+			continue;
+		found = strtod(line + skip, &end);
+		if (end == line + skip)
+			found = NAN;
+	}
+	fclose(file);
+	return found;
+}
+
+double
+mr_memory_available(void)
+{
+	double system = 1024 * number_in("/proc/meminfo", "MemAvailable:");
+	double group = number_in("/sys/fs/cgroup/memory.max", NULL) -
+	               number_in("/sys/fs/cgroup/memory.current", NULL);
+	double least = fmin(INFINITY, fmin(system, group)); /* what is not a number does not count */
+	struct rlimit limit;
+
+	if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
+		least = fmin(least, (double)limit.rlim_cur);
+	return least;
+}

@@ -1,0 +1,13 @@
+/* memory.h -- how much memory this process may still take.  Layer rule: base. */
+#ifndef MR_MEMORY_H
+#define MR_MEMORY_H
+
+#include "base/ctx.h"
+
+/*
+ * Bytes that can be had without swapping, by what the system, the process's group and its limits say;
+ * infinite where none of them does.  No result may depend on it but a refusal, or a choice that is told.
+ */
+double mr_memory_available(void);
+
+#endif

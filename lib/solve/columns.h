@@ -1,0 +1,35 @@
+/*
+ * columns.h -- blocks of vectors: n rows of `width` values next to each other, a column for each right-hand
+ * side.
+ *
+ * Contract: sums are taken in pieces of rows, then over the pieces in order: the same for every number of
+ * threads. Layer rule: solve; only files of this folder include it.
+ */
+#ifndef MR_COLUMNS_H
+#define MR_COLUMNS_H
+
+#include "base/ctx.h"
+
+enum { MR_WIDTH = 4 }; /* columns of a block, at most */
+
+typedef struct mr_columns {
+	size_t n, width;
+} mr_columns;
+
+/* dot[c] = sum over i of a[i, c] b[i, c] */
+void mr_columns_dot(const mr_ctx *ctx, mr_columns s, const double *a, const double *b, double *dot);
+
+/* y = y + f[c] x, column by column */
+void mr_columns_add(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
+
+/* y = x + f[c] y */
+void mr_columns_turn(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
+
+/* y = f[i] x, row by row */
+void mr_columns_scale(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
+
+/* Right-hand sides, one after another, to rows and back. */
+void mr_columns_gather(mr_columns s, const double *b, double *rows);
+void mr_columns_scatter(mr_columns s, const double *rows, double *b);
+
+#endif

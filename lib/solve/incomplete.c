@@ -1,0 +1,156 @@
+/*
+ * Incomplete factors without fill: Meijerink, van der Vorst 1977: An iterative solution method for linear
+ * systems of which the coefficient matrix is a symmetric M-matrix.  Bilaplacians are none: Manteuffel's
+ * shift.
+ */
+#include "solve/precondition.h"
+
+#include <math.h>
+
+typedef struct incomplete {
+	mr_sparse f; /* rows of L without its unit diagonal, then of U */
+	int *diagonal;
+} incomplete;
+
+/* D^-1 */
+
+static mr_status
+jacobi_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
+{
+	mr_columns_scale(ctx, s, data, r, z);
+	return MR_OK;
+}
+
+mr_status
+mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
+{
+	double *inverse = MR_NEW_ZERO(ctx, (size_t)a->n, double);
+
+	if (!inverse)
+		return MR_EMEM;
+	for (int i = 0; i < a->n; i++)
+		for (int e = a->start[i]; e < a->start[i + 1]; e++)
+			if (a->index[e] == i && a->value[e] != 0)
+				inverse[i] = 1 / a->value[e];
+	for (int i = 0; i < a->n; i++)
+		if (inverse[i] == 0)
+			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no diagonal entry in row %d", i);
+	*b = (mr_preconditioner){ jacobi_apply, NULL, inverse, a->n };
+	return MR_OK;
+}
+
+/* (L U)^-1 */
+
+/* Eliminates row i; at[column]: place of the row's entry, or -1 before and after. */
+static void
+eliminate(incomplete *c, int i, int *at)
+{
+	mr_sparse *f = &c->f;
+
+	for (int e = f->start[i]; e < f->start[i + 1]; e++)
+		at[f->index[e]] = e;
+	for (int e = f->start[i]; e < c->diagonal[i]; e++) {
+		int k = f->index[e];
+		double l = f->value[e] /= f->value[c->diagonal[k]];
+		for (int g = c->diagonal[k] + 1; g < f->start[k + 1]; g++)
+			if (at[f->index[g]] >= 0)
+				f->value[at[f->index[g]]] -= l * f->value[g];
+	}
+	for (int e = f->start[i]; e < f->start[i + 1]; e++)
+		at[f->index[e]] = -1;
+}
+
+/* False where a pivot is not positive. */
+static bool
+factor(incomplete *c, const mr_sparse *a, double shift, int *at)
+{
+	static const double least = 1e-8; /* of the diagonal entry */
+
+	memcpy(c->f.value, a->value, (size_t)a->start[a->n] * sizeof *a->value);
+	for (int i = 0; i < a->n; i++) {
+		double *pivot = &c->f.value[c->diagonal[i]], whole = fabs(*pivot);
+		*pivot += shift * whole;
+		eliminate(c, i, at);
+		if (!(*pivot > least * whole))
+			return false;
+	}
+	return true;
+}
+
+/* z = L^-1 r, then U^-1 z */
+static inline void
+substitute(const incomplete *c, size_t width, const double *r, double *z)
+{
+	const mr_sparse *f = &c->f;
+
+	for (int i = 0; i < f->n; i++) {
+		double sum[MR_WIDTH];
+		for (size_t k = 0; k < width; k++)
+			sum[k] = r[(size_t)i * width + k];
+		for (int e = f->start[i]; e < c->diagonal[i]; e++)
+			for (size_t k = 0; k < width; k++)
+				sum[k] -= f->value[e] * z[(size_t)f->index[e] * width + k];
+		for (size_t k = 0; k < width; k++)
+			z[(size_t)i * width + k] = sum[k];
+	}
+	for (int i = f->n - 1; i >= 0; i--) {
+		double sum[MR_WIDTH], inverse = 1 / f->value[c->diagonal[i]];
+		for (size_t k = 0; k < width; k++)
+			sum[k] = z[(size_t)i * width + k];
+		for (int e = c->diagonal[i] + 1; e < f->start[i + 1]; e++)
+			for (size_t k = 0; k < width; k++)
+				sum[k] -= f->value[e] * z[(size_t)f->index[e] * width + k];
+		for (size_t k = 0; k < width; k++)
+			z[(size_t)i * width + k] = inverse * sum[k];
+	}
+}
+
+/* A loop of a known length is faster. */
+static mr_status
+incomplete_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
+{
+	(void)ctx;
+	if (s.width == 3)
+		substitute(data, 3, r, z);
+	else
+		substitute(data, s.width, r, z);
+	return MR_OK;
+}
+
+static mr_status
+find_diagonal(mr_ctx *ctx, incomplete *c)
+{
+	for (int i = 0; i < c->f.n; i++) {
+		int e = c->f.start[i];
+		while (e < c->f.start[i + 1] && c->f.index[e] < i)
+			e++;
+		if (e == c->f.start[i + 1] || c->f.index[e] != i)
+			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no diagonal entry in row %d", i);
+		c->diagonal[i] = e;
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
+{
+	static const double first = 1e-3, last = 10;
+	size_t n = (size_t)a->n, nnz = (size_t)a->start[n];
+	incomplete *c = MR_NEW(ctx, 1, incomplete);
+	double *value = MR_NEW(ctx, nnz, double), shift = 0;
+	int *diagonal = MR_NEW(ctx, n, int), *at = MR_NEW(ctx, n, int);
+
+	if (!c || !value || !diagonal || !at)
+		return MR_EMEM;
+	*c = (incomplete){ { a->n, a->start, a->index, value }, diagonal };
+	MR_TRY(find_diagonal(ctx, c));
+	for (size_t i = 0; i < n; i++)
+		at[i] = -1;
+	while (!factor(c, a, shift, at)) {
+		shift = shift > 0 ? 2 * shift : first;
+		if (shift > last)
+			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no incomplete factors");
+	}
+	*b = (mr_preconditioner){ incomplete_apply, NULL, c, (double)nnz };
+	return MR_OK;
+}
