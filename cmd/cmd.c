@@ -299,8 +299,9 @@ tidy_up_on(int signal_number)
 }
 
 static void
-remove_on_interrupt(const char *file)
+remove_on_interrupt(void *user, const char *file)
 {
+	(void)user;
 	leftover = file;
 	tidy_up_on(SIGINT);
 	tidy_up_on(SIGTERM);
@@ -326,7 +327,7 @@ open_output(cmd *c)
 		s->out = open(s->unfinished, O_WRONLY | O_CREAT | O_EXCL, 0666);
 		if (s->out < 0)
 			s->unfinished = NULL;
-		remove_on_interrupt(s->unfinished);
+		remove_on_interrupt(c, s->unfinished);
 	} else {
 		s->out = open(c->output, O_WRONLY);
 	}
@@ -396,7 +397,7 @@ cmd_hold(cmd *c, const char *file, const char *place)
 		return MR_OK;
 	s->place = mr_format(&s->long_lived, "%s", place);
 	s->held = mr_format(&s->long_lived, "%s", file);
-	remove_on_interrupt(s->held);
+	remove_on_interrupt(c, s->held);
 	if (s->held && s->place)
 		return MR_OK;
 	unlink(file);
@@ -612,6 +613,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		c.ctx.threads = (unsigned)state.threads;
 	c.ctx.user = &c;
 	c.ctx.note = c.verbose ? show_note : NULL;
+	c.ctx.unfinished = remove_on_interrupt;
 	c.ctx.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
 	c.keep = c.ctx;
 	c.keep.top = NULL;

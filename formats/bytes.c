@@ -286,6 +286,7 @@ open_beside(mr_sink *s, const char *target, const struct stat *old)
 	s->fd = mkstemp(s->temporary);
 	if (s->fd < 0)
 		return failed(s->ctx, s->path, "cannot create");
+	mr_unfinished(s->ctx, s->temporary);
 	if (fchmod(s->fd, old ? old->st_mode & 07777 : 0666 & ~mask))
 		mr_note(s->ctx, "%s: cannot set its mode: %s", s->path, strerror(errno));
 	return MR_OK;
@@ -363,5 +364,7 @@ mr_sink_close(mr_sink *s, mr_status status)
 		s->status = failed(s->ctx, s->path, "cannot rename into place");
 	if (s->temporary && s->status < 0)
 		unlink(s->temporary);
+	if (s->temporary && (!s->hold || s->status < 0))
+		mr_unfinished(s->ctx, NULL);
 	return s->status;
 }

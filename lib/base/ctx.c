@@ -78,6 +78,13 @@ mr_note(mr_ctx *ctx, const char *format, ...)
 }
 
 void
+mr_unfinished(mr_ctx *ctx, const char *file)
+{
+	if (ctx->unfinished)
+		ctx->unfinished(ctx->user, file);
+}
+
+void
 mr_progress(mr_ctx *ctx, const char *what, double share)
 {
 	if (ctx->progress)

@@ -59,7 +59,8 @@ typedef struct mr_ctx {
 	unsigned threads;                                             /* at least 1 */
 	void (*note)(void *user, const char *text);                   /* a remark for -v; NULL: dropped */
 	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1; NULL: none */
-	void *user;                                                   /* passed to both */
+	void (*unfinished)(void *user, const char *file); /* to remove if the process is ended; NULL: none */
+	void *user;                                       /* passed to all */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_stat stats[MR_STATS_MAX];
@@ -88,6 +89,9 @@ mr_status mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...) MR_P
 
 /* A remark for the user who asked for them. */
 void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
+
+/* From now on this file is not to stay where the process is ended; NULL: none.  There is one at a time. */
+void mr_unfinished(mr_ctx *ctx, const char *file);
 
 /* Reports that a share (0 to 1) of `what` is done. */
 void mr_progress(mr_ctx *ctx, const char *what, double share);
