@@ -25,10 +25,10 @@ typedef struct fit {
 	const mr_cloud *c;
 	const mr_fit_weights *weights;
 	mr_heights *e;
-	const double *found; /* heights to be pulled to */
-	const bool *hit;     /* where */
-	mr_mesh surface;     /* the displaced one */
-	mr_v3 *p;            /* its positions */
+	double *target;  /* heights to be pulled to */
+	float *pull;     /* how much each counts */
+	mr_mesh surface; /* the displaced one */
+	mr_v3 *p;        /* its positions */
 	double *height;
 	wish *wish;      /* of each point */
 	uint32_t *start; /* of each face's points in `order`: nf + 1 */
@@ -138,10 +138,10 @@ assemble_rows(void *arg, size_t begin, size_t end)
 	const mr_topology *topo = &x->d->level[x->d->n].topo;
 
 	for (size_t i = begin; i < end; i++) {
-		double pull = x->hit[i] ? x->weights->pull : 0;
+		double pull = (double)x->pull[i];
 		uint32_t first = topo->out[i], h = first;
 		x->e->diagonal[i] = pull;
-		x->e->b[i] = pull * x->found[i];
+		x->e->b[i] = pull * x->target[i];
 		for (size_t k = x->e->adj.start[i]; k < x->e->adj.start[i + 1]; k++)
 			x->e->beside[k] = 0;
 		if (h == MR_NONE)
@@ -154,22 +154,28 @@ assemble_rows(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Where faces turn over the heights are to be fairer.  Returns how many do. */
+/*
+ * Where faces turn over, the heights are larger than the domain's radius of curvature, mostly: they are
+ * pulled towards the domain, each time more, and are to be fairer.  Returns how many faces do.
+ */
 static size_t
-stiffen_folds(mr_ctx *ctx, fit *x)
+press_folds(mr_ctx *ctx, fit *x)
 {
-	static const double more = 10, most = 1e4;
+	static const double least = 0.05, shrink = 0.7, more = 3, most = 300;
 	size_t folds = 0;
 
 	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
 	for (size_t f = 0; f < x->surface.nf; f++) {
 		mr_v3 n = mr_face_cross(&x->surface, f), m = mr_face_cross(&x->d->m, f);
 		const uint32_t *v = x->surface.t[f].v;
-		if (mr_dot(n, m) > 0.1 * mr_norm(n) * mr_norm(m))
+		if (mr_dot(n, m) > least * mr_norm(n) * mr_norm(m))
 			continue;
 		folds++;
-		for (int k = 0; k < 3; k++)
+		for (int k = 0; k < 3; k++) {
+			x->target[v[k]] = shrink * x->height[v[k]];
+			x->pull[v[k]] = (float)fmin(more * fmax((double)x->pull[v[k]], 0.3), most);
 			x->e->fair[v[k]] = fmin(more * x->e->fair[v[k]], most * x->weights->fair);
+		}
 	}
 	return folds;
 }
@@ -222,10 +228,30 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, fit *x)
 	x->wish = MR_NEW(ctx, c->n, wish);
 	x->start = MR_NEW(ctx, d->m.nf + 1, uint32_t);
 	x->order = MR_NEW(ctx, c->n, uint32_t);
-	if (!x->p || !x->wish || !x->start || !x->order)
+	x->target = MR_NEW(ctx, d->m.nv, double);
+	x->pull = MR_NEW(ctx, d->m.nv, float);
+	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull)
 		return MR_EMEM;
 	for (size_t i = 0; i < c->n; i++)
 		x->wish[i].face = c->face[i];
+	return MR_OK;
+}
+
+/* The passes, and more as long as there are folds and they become fewer. */
+static mr_status
+fit_all(mr_ctx *ctx, fit *x, size_t passes)
+{
+	enum { MORE = 8 };
+	size_t folds = SIZE_MAX;
+
+	for (size_t pass = 0; pass < passes + MORE && passes > 0; pass++) {
+		size_t left = press_folds(ctx, x);
+		if (pass >= passes && (left == 0 || left >= folds))
+			break;
+		folds = left;
+		MR_TRY(fit_pass(ctx, x));
+		mr_progress(ctx, "refining", (double)(pass + 1) / (double)(passes + MORE));
+	}
 	return MR_OK;
 }
 
@@ -234,26 +260,20 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fi
     size_t passes, mr_heights *e, const bool *hit, double *height)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	double *found = MR_NEW(ctx, d->m.nv, double);
-	fit x = { .weights = weights, .e = e, .found = found, .hit = hit, .height = height };
-	size_t folds = 0;
+	fit x = { .weights = weights, .e = e, .height = height };
 
-	if (!found)
-		return MR_EMEM;
 	MR_TRY(fit_new(ctx, d, c, &x));
 	MR_TRY(mr_heights_add_data(ctx, e));
-	memcpy(found, height, d->m.nv * sizeof *found);
-	for (size_t i = 0; i < d->m.nv; i++)
+	memcpy(x.target, height, d->m.nv * sizeof *height);
+	for (size_t i = 0; i < d->m.nv; i++) {
 		e->fair[i] = weights->fair;
-	for (size_t pass = 0; pass < passes; pass++) {
-		folds = stiffen_folds(ctx, &x);
-		MR_TRY(fit_pass(ctx, &x));
-		mr_progress(ctx, "refining", (double)(pass + 1) / (double)passes);
+		x.pull[i] = hit[i] ? (float)weights->pull : 0;
 	}
+	MR_TRY(fit_all(ctx, &x, passes));
 	place_all(ctx, &x);
 	report_gaps(ctx, &x);
 	mr_stat_set(ctx, "fairness", weights->fair);
-	mr_stat_set(ctx, "folds", (double)folds);
+	mr_stat_set(ctx, "folds", (double)press_folds(ctx, &x));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
