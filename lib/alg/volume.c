@@ -20,6 +20,7 @@ static const double CELL = 1.5;      /* spacings */
 static const double ABSORPTION = 20; /* of a full layer of points */
 static const double TURNED_LEAST = 2e-4;
 static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise across the surface */
+static const double THIN = 1.8;   /* steps that the inside, or a gap, must measure */
 static const double SPARSE = 1.3; /* steps: where the spacing is more, the step is doubled */
 
 typedef struct volume {
@@ -162,6 +163,36 @@ solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
 	return MR_OK;
 }
 
+/* How far from p along d, in steps, the value is above (rise 1) or below (-1) what it is at p: THIN at most. */
+static double
+width(const mr_grid *g, const float *u, mr_v3 p, mr_v3 d, double rise)
+{
+	double at = mr_volume_at(g, u, p), t = 0;
+
+	while (t < THIN && rise * (mr_volume_at(g, u, mr_axpy((t + THIN / 6) * g->step, d, p)) - at) > 0)
+		t += THIN / 6;
+	return t;
+}
+
+/*
+ * The value on the surface to be, near each point: that of the point; where the inside is thinner there than the
+ * grid can hold, that of a place outside, so that it becomes thicker, and inversely in narrow gaps.
+ */
+static void
+measure_level(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+	const samples *s = &a->v->s;
+	const mr_grid *g = &a->v->grid[0];
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 n = s->plane.normal[i];
+		double in = width(g, a->u, s->p[i], mr_mul(-1, n), 1),
+		       out = width(g, a->u, s->p[i], n, -1);
+		a->out[i] = mr_volume_at(g, a->u, mr_axpy((out - in) / 2 * g->step, n, s->p[i]));
+	}
+}
+
 static void
 measure_at(void *arg, size_t begin, size_t end)
 {
@@ -204,6 +235,7 @@ half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
 		rise[i] = v->value[i * v->s.n / m];
 	qsort(rise, m, sizeof *rise, ascending);
 	*half = fmax(*half, rise[m / 2]);
+	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, u, v->value, 0 });
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -7,7 +7,7 @@
 
 #include "base/sets.h"
 
-enum { POINTS_LEAST = 12 };
+enum { POINTS_LEAST = 12, WALL_LEAST = 12 };
 
 /* Points on the walls of a part that stays, as a share of what their area would hold. */
 static const double SHARE_LEAST = 0.3;
@@ -182,7 +182,7 @@ is_supported(const samples *s, const runs *r, const tally *t, uint32_t part)
 {
 	double step = r->g->step / s->spacing, points = (double)t->points[part];
 
-	return points >= POINTS_LEAST && points >= SHARE_LEAST * 2 * (double)t->wall[part] * step * step;
+	return points >= POINTS_LEAST && t->wall[part] >= WALL_LEAST && points >= SHARE_LEAST * 2 * (double)t->wall[part] * step * step;
 }
 
 /* Whether the runs of each part, by its root, are inside in the end; a part that is dropped becomes what is

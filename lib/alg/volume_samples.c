@@ -7,7 +7,7 @@
  * surface. */
 static const double AREA_MOST = 4;
 
-enum { NEAREST = 12, LINKS = 8, BITS = 10, DIGITS = 1 << BITS };
+enum { NEAREST = 8, LINKS = 8, BITS = 10, DIGITS = 1 << BITS };
 
 /* Every third bit, beginning with the lowest. */
 static uint32_t
