@@ -20,7 +20,7 @@ static const double CELL = 1.5;      /* spacings */
 static const double ABSORPTION = 20; /* of a full layer of points */
 static const double TURNED_LEAST = 2e-4;
 static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise across the surface */
-static const double THIN = 1.8;   /* steps that the inside, or a gap, must measure */
+static const double THIN = 1.8;                          /* steps that the inside, or a gap, must measure */
 static const double SPARSE = 1.3; /* steps: where the spacing is more, the step is doubled */
 
 typedef struct volume {
@@ -55,7 +55,8 @@ choose_grid(const samples *s, const mr_volume_opts *opts, mr_grid *g, size_t *le
 {
 	mr_v3 size = mr_sub(s->box.max, s->box.min);
 	double longest = fmax(size.x, fmax(size.y, size.z));
-	double step = opts->grid ? longest / (double)opts->grid : fmin(CELL * s->spacing, longest / 4);
+	double step = opts->grid ? longest / (double)opts->grid
+	                         : fmin(CELL * s->noise * s->spacing, longest / 4);
 	size_t most = s->n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : s->n * NODES_PER_POINT;
 
 	set_grid(s, step, g, levels);
@@ -163,7 +164,8 @@ solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
 	return MR_OK;
 }
 
-/* How far from p along d, in steps, the value is above (rise 1) or below (-1) what it is at p: THIN at most. */
+/* How far from p along d, in steps, the value is above (rise 1) or below (-1) what it is at p: THIN at most.
+ */
 static double
 width(const mr_grid *g, const float *u, mr_v3 p, mr_v3 d, double rise)
 {
@@ -175,8 +177,8 @@ width(const mr_grid *g, const float *u, mr_v3 p, mr_v3 d, double rise)
 }
 
 /*
- * The value on the surface to be, near each point: that of the point; where the inside is thinner there than the
- * grid can hold, that of a place outside, so that it becomes thicker, and inversely in narrow gaps.
+ * The value on the surface to be, near each point: that of the point; where the inside is thinner there than
+ * the grid can hold, that of a place outside, so that it becomes thicker, and inversely in narrow gaps.
  */
 static void
 measure_level(void *arg, size_t begin, size_t end)
@@ -187,8 +189,7 @@ measure_level(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		mr_v3 n = s->plane.normal[i];
-		double in = width(g, a->u, s->p[i], mr_mul(-1, n), 1),
-		       out = width(g, a->u, s->p[i], n, -1);
+		double in = width(g, a->u, s->p[i], mr_mul(-1, n), 1), out = width(g, a->u, s->p[i], n, -1);
 		a->out[i] = mr_volume_at(g, a->u, mr_axpy((out - in) / 2 * g->step, n, s->p[i]));
 	}
 }
@@ -225,11 +226,14 @@ half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
 
 	if (!rise)
 		return MR_EMEM;
-	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1.5 });
-	for (size_t i = 0; i < m; i++)
-		rise[i] = -v->value[i * v->s.n / m] / 2;
-	qsort(rise, m, sizeof *rise, ascending);
-	*half = rise[m / 2];
+	*half = 0;
+	for (int reach = 1; reach <= 3; reach++) {
+		mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, reach });
+		for (size_t i = 0; i < m; i++)
+			rise[i] = -v->value[i * v->s.n / m] / 2;
+		qsort(rise, m, sizeof *rise, ascending);
+		*half = fmax(*half, rise[m / 2]);
+	}
 	mr_parallel(ctx, v->s.n, GRAIN, measure_at, &(across){ v, u, v->value, 0 });
 	for (size_t i = 0; i < m; i++)
 		rise[i] = v->value[i * v->s.n / m];

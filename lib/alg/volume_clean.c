@@ -182,7 +182,8 @@ is_supported(const samples *s, const runs *r, const tally *t, uint32_t part)
 {
 	double step = r->g->step / s->spacing, points = (double)t->points[part];
 
-	return points >= POINTS_LEAST && t->wall[part] >= WALL_LEAST && points >= SHARE_LEAST * 2 * (double)t->wall[part] * step * step;
+	return points >= POINTS_LEAST && t->wall[part] >= WALL_LEAST &&
+	       points >= SHARE_LEAST * 2 * (double)t->wall[part] * step * step;
 }
 
 /* Whether the runs of each part, by its root, are inside in the end; a part that is dropped becomes what is

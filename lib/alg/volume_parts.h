@@ -15,6 +15,7 @@ typedef struct samples {
 	size_t n;
 	mr_planes plane;
 	double spacing; /* side of the square that a point stands for; the median */
+	double noise;   /* at least 1: a surface is seen in squares of so many spacings */
 	uint8_t *depth; /* n: how often the step of the grid is doubled where the points are sparse */
 	mr_box box;
 } samples;

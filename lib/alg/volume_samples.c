@@ -7,7 +7,14 @@
  * surface. */
 static const double AREA_MOST = 4;
 
-enum { NEAREST = 8, LINKS = 8, BITS = 10, DIGITS = 1 << BITS };
+/* Of a median plane of more variation, points may be noisy, and are; a larger neighbourhood of so many times
+ * as much sees the shape. */
+static const double NOISY = 0.06, SURELY_NOISY = 0.12, BENDS = 1.1;
+
+/* Beyond so many squared spacings, a point that is in no plane is an outlier. */
+static const double OUTLIER_AREA = 9;
+
+enum { NEAREST = 16, NEAREST_MOST = 100, LINKS = 8, BITS = 10, DIGITS = 1 << BITS };
 
 /* Every third bit, beginning with the lowest. */
 static uint32_t
@@ -122,22 +129,66 @@ ascending(const void *a, const void *b)
 	return (*x > *y) - (*x < *y);
 }
 
-/* The median spacing, of some points where there are many. */
+/* The median of n numbers, of some where there are many. */
 static mr_status
-find_spacing(mr_ctx *ctx, samples *s)
+median(mr_ctx *ctx, const double *x, size_t n, double *out)
 {
 	enum { MOST = 10007 };
 	mr_mark mark = mr_mark_take(ctx);
-	size_t m = s->n < MOST ? s->n : MOST;
-	double *area = MR_NEW(ctx, m, double);
+	size_t m = n < MOST ? n : MOST;
+	double *some = MR_NEW(ctx, m, double);
 
-	if (!area)
+	if (!some)
 		return MR_EMEM;
 	for (size_t i = 0; i < m; i++)
-		area[i] = s->plane.area[i * s->n / m];
-	qsort(area, m, sizeof *area, ascending);
-	s->spacing = sqrt(area[m / 2]);
+		some[i] = x[i * n / m];
+	qsort(some, m, sizeof *some, ascending);
+	*out = some[m / 2];
 	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+try_planes(mr_ctx *ctx, samples *s, size_t k, double *variation)
+{
+	size_t near = s->n < k ? s->n : k, links = near - 1 < LINKS ? near - 1 : LINKS;
+	double area;
+
+	MR_TRY(mr_cloud_planes(ctx, s->p, s->n, near, links, k == NEAREST, &s->plane));
+	MR_TRY(median(ctx, s->plane.variation, s->n, variation));
+	MR_TRY(median(ctx, s->plane.area, s->n, &area));
+	s->spacing = sqrt(area);
+	s->noise = sqrt((double)near / (double)(s->n < NEAREST ? s->n : NEAREST));
+	return MR_OK;
+}
+
+/*
+ * Planes of as many neighbours as it takes to see a surface through the noise: two and a half times as many
+ * until they are flat, or until it is the shape that more of them see.  If noise was uncertain, it was the
+ * shape before.
+ */
+static mr_status
+find_planes(mr_ctx *ctx, samples *s)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double first, last, variation;
+	size_t k = NEAREST;
+
+	MR_TRY(try_planes(ctx, s, k, &first));
+	variation = first;
+	while (variation > NOISY && k < NEAREST_MOST && 5 * k / 2 < s->n) {
+		last = variation;
+		k = 5 * k / 2;
+		mr_mark_release(ctx, mark);
+		MR_TRY(try_planes(ctx, s, k, &variation));
+		if (variation > BENDS * last)
+			break;
+	}
+	if (k > NEAREST && first < SURELY_NOISY && variation > first) {
+		mr_mark_release(ctx, mark);
+		MR_TRY(try_planes(ctx, s, NEAREST, &variation));
+	}
+	mr_stat_set(ctx, "variation", variation);
 	return MR_OK;
 }
 
@@ -174,17 +225,29 @@ limit_areas(mr_ctx *ctx, samples *s)
 	return MR_OK;
 }
 
+/* A point whose neighbours are far and in no plane is on no surface: it stands for none. */
+static void
+drop_outliers(mr_ctx *ctx, samples *s)
+{
+	double most = OUTLIER_AREA * s->spacing * s->spacing;
+	size_t dropped = 0;
+
+	for (size_t i = 0; i < s->n; i++)
+		if (s->plane.area[i] > most && s->plane.variation[i] > NOISY) {
+			s->plane.area[i] = 0;
+			dropped++;
+		}
+	mr_stat_set(ctx, "outliers", (double)dropped);
+}
+
 mr_status
 mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, samples *s)
 {
-	size_t links;
-
 	MR_TRY(distinct(ctx, point, n, s));
 	s->box = mr_box_of(s->p, s->n);
 	MR_TRY(check(ctx, s));
 	MR_TRY(sort_points(ctx, s));
-	links = s->n - 1 < LINKS ? s->n - 1 : LINKS;
-	MR_TRY(mr_cloud_planes(ctx, s->p, s->n, s->n < NEAREST ? s->n : NEAREST, links, &s->plane));
-	MR_TRY(limit_areas(ctx, s));
-	return find_spacing(ctx, s);
+	MR_TRY(find_planes(ctx, s));
+	drop_outliers(ctx, s);
+	return limit_areas(ctx, s);
 }

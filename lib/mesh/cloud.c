@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "mesh/near.h"
 
-enum { CHUNK = 1 << 16, GRAIN = 1024, SWEEPS = 12 };
+enum { AROUND = 8, MOST = 128, CHUNK = 1 << 16, GRAIN = 1024, SWEEPS = 12 };
 
 /* One Jacobi rotation: makes m[i][j] zero. */
 static void
@@ -62,17 +62,20 @@ mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3])
 	}
 }
 
-/* Normal of the plane of least squares through p[index[0 .. k - 1]]. */
+/* Of at least so many degrees' cosine are directions that lie apart. */
+static const double APART = 0.7;
+
+/* Normal of the plane of least squares through k points, and how far they are from one. */
 static mr_v3
-plane_normal(const mr_v3 *p, const uint32_t *index, size_t k)
+fit_plane(const mr_v3 *p, size_t k, double *variation)
 {
 	mr_v3 mean = mr_vec(0, 0, 0), vector[3];
-	double a[6] = { 0 }, value[3];
+	double a[6] = { 0 }, value[3], sum;
 
 	for (size_t i = 0; i < k; i++)
-		mean = mr_axpy(1 / (double)k, p[index[i]], mean);
+		mean = mr_axpy(1 / (double)k, p[i], mean);
 	for (size_t i = 0; i < k; i++) {
-		mr_v3 d = mr_sub(p[index[i]], mean);
+		mr_v3 d = mr_sub(p[i], mean);
 		a[0] += d.x * d.x;
 		a[1] += d.x * d.y;
 		a[2] += d.x * d.z;
@@ -81,7 +84,26 @@ plane_normal(const mr_v3 *p, const uint32_t *index, size_t k)
 		a[5] += d.z * d.z;
 	}
 	mr_eigen_sym3(a, value, vector);
+	sum = value[0] + value[1] + value[2];
+	*variation = sum > 0 && value[0] > 0 ? value[0] / sum : 0;
 	return vector[0];
+}
+
+/* Directions from q[0] to the nearest of the others that lie apart.  Returns how many. */
+static size_t
+directions_apart(const mr_v3 *q, size_t k, mr_v3 direction[AROUND])
+{
+	size_t n = 0;
+
+	for (size_t j = 1; j < k && n < AROUND; j++) {
+		mr_v3 d = mr_unit(mr_sub(q[j], q[0]));
+		size_t i = 0;
+		while (i < n && mr_dot(d, direction[i]) < APART)
+			i++;
+		if (i == n)
+			direction[n++] = d;
+	}
+	return n;
 }
 
 typedef struct work {
@@ -89,30 +111,42 @@ typedef struct work {
 	const uint32_t *index; /* k of each of a chunk's points */
 	const double *dist2;
 	size_t k, first; /* the chunk's first point */
+	bool around;
 	mr_planes *out;
 } work;
 
 static void
+fit_at(const work *w, size_t i)
+{
+	const uint32_t *index = w->index + i * w->k;
+	const mr_planes *o = w->out;
+	size_t at = w->first + i, n = 0, rim;
+	mr_v3 q[MOST] = { w->p[at] }, direction[AROUND];
+
+	for (; n < w->k && index[n] != UINT32_MAX; n++)
+		q[n] = w->p[index[n]];
+	o->normal[at] = fit_plane(q, n, &o->variation[at]);
+	if (w->around) {
+		size_t apart = directions_apart(q, n, direction);
+		if (apart > 2)
+			o->normal[at] = fit_plane(direction, apart, &o->variation[at]);
+	}
+	rim = w->around && n > AROUND ? AROUND : n;
+	/* the last neighbour lies on the rim of the disc: half of it is inside */
+	o->area[at] = MR_PI * w->dist2[i * w->k + rim - 1] / (rim > 1 ? (double)rim - 0.5 : 1);
+	for (size_t j = 0; j < o->links; j++)
+		o->neighbor[at * o->links + j] = j + 1 < n ? index[j + 1] : UINT32_MAX;
+}
+
+static void
 fit_planes(void *arg, size_t begin, size_t end)
 {
-	const work *w = arg;
-	mr_planes *o = w->out;
-
-	for (size_t i = begin; i < end; i++) {
-		const uint32_t *index = w->index + i * w->k;
-		size_t at = w->first + i, found = 0;
-		while (found < w->k && index[found] != UINT32_MAX)
-			found++;
-		o->normal[at] = plane_normal(w->p, index, found);
-		/* the k-th neighbour lies on the rim of the disc: half of it is inside */
-		o->area[at] = MR_PI * w->dist2[i * w->k + found - 1] / (found > 1 ? (double)found - 0.5 : 1);
-		for (size_t j = 0; j < o->links; j++)
-			o->neighbor[at * o->links + j] = j + 1 < found ? index[j + 1] : UINT32_MAX;
-	}
+	for (size_t i = begin; i < end; i++)
+		fit_at(arg, i);
 }
 
 static mr_status
-fit_all(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, size_t k, mr_planes *out)
+fit_all(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, size_t k, bool around, mr_planes *out)
 {
 	size_t chunk = n < CHUNK ? n : CHUNK;
 	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
@@ -122,7 +156,7 @@ fit_all(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, size_t k, mr
 		return MR_EMEM;
 	for (size_t first = 0; first < n; first += chunk) {
 		size_t m = n - first < chunk ? n - first : chunk;
-		work w = { p, index, dist2, k, first, out };
+		work w = { p, index, dist2, k, first, around, out };
 		MR_TRY(mr_near_query(ctx, near, p + first, m, k, index, dist2));
 		mr_parallel(ctx, m, GRAIN, fit_planes, &w);
 	}
@@ -130,18 +164,24 @@ fit_all(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, size_t k, mr
 }
 
 mr_status
-mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, mr_planes *out)
+mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, bool around, mr_planes *out)
 {
-	mr_planes r = { MR_NEW(ctx, n, mr_v3), MR_NEW(ctx, n, double), MR_NEW(ctx, n * links, uint32_t),
-		links };
+	mr_planes r = { .normal = MR_NEW(ctx, n, mr_v3),
+		.variation = MR_NEW(ctx, n, double),
+		.area = MR_NEW(ctx, n, double),
+		.neighbor = MR_NEW(ctx, n * links, uint32_t),
+		.links = links };
 	mr_mark mark = mr_mark_take(ctx);
 	mr_near *near = NULL;
 	mr_status status;
 
-	if (!r.normal || !r.area || !r.neighbor)
+	if (k < 3 || k > MOST || links >= k)
+		return mr_fail(ctx, MR_ERANGE, "planes of %zu points and %zu links: 3 to %d are allowed", k,
+		    links, MOST);
+	if (!r.normal || !r.variation || !r.area || !r.neighbor)
 		return MR_EMEM;
 	MR_TRY(mr_near_build(ctx, p, n, &near));
-	status = fit_all(ctx, near, p, n, k, &r);
+	status = fit_all(ctx, near, p, n, k, around, &r);
 	mr_near_free(near);
 	mr_mark_release(ctx, mark);
 	if (status == MR_OK)

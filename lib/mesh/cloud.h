@@ -9,19 +9,24 @@
 #include "base/vec.h"
 
 typedef struct mr_planes {
-	mr_v3 *normal; /* n: unit normals of the planes, of either sign */
-	double *area;  /* n: of the disc that the neighbours fill, a neighbour's share */
+	mr_v3 *normal;     /* n: unit normals of the planes, of either sign */
+	double *variation; /* n: least eigenvalue over their sum: 0 in a plane, 1/3 in a ball */
+	double *area;      /* n: of the disc that the neighbours fill, a neighbour's share */
 	uint32_t
 	    *neighbor; /* n x links: the nearest points, itself left out; UINT32_MAX where there are none */
 	size_t links;
 } mr_planes;
 
 /*
- * Planes of least squares through each point's k nearest (itself among them), k >= 3, and its `links` < k
+ * Planes of least squares of each point's k nearest (itself among them), k >= 3, and its `links` < k
  * nearest, in the arena.  The points must be distinct.
+ *
+ * around: the plane is not of the k nearest but of at most eight directions, to the nearest that lie apart
+ * as seen from the point: so rows of points, near ones in a row and the next row far, do not tilt it.  For
+ * points without noise.
  */
-mr_status
-mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, mr_planes *out) MR_WARN_UNUSED;
+mr_status mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, bool around,
+    mr_planes *out) MR_WARN_UNUSED;
 
 /* Eigenvalues, ascending, of the symmetric matrix xx xy xz yy yz zz, and its eigenvectors (Jacobi). */
 void mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3]);

@@ -170,7 +170,7 @@ planes_of_a_sphere(void **state)
 	double area = 0;
 
 	(void)state;
-	assert_int_equal(mr_cloud_planes(&ctx, p, N, 12, 6, &planes), MR_OK);
+	assert_int_equal(mr_cloud_planes(&ctx, p, N, 12, 6, false, &planes), MR_OK);
 	for (size_t i = 0; i < N; i++) {
 		assert_true(fabs(mr_dot(planes.normal[i], mr_unit(p[i]))) > 0.95);
 		assert_true(planes.neighbor[6 * i] != i && planes.neighbor[6 * i] < N);
