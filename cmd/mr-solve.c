@@ -55,26 +55,6 @@ prepare(cmd *c)
 static mr_deform_cache kept;
 
 static mr_status
-put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, const mr_v3 *p0)
-{
-	enum { MOST = 63 }; /* a row has at most 255 components */
-	size_t handles = mr_deform_handles(d);
-	double *response;
-
-	if (handles == 0)
-		return mr_fail(
-		    ctx, MR_EMESH, "%s: no handle to respond to: select one by mr-select --handle", m->name);
-	if (handles > MOST)
-		return mr_fail(ctx, MR_ERANGE, "%s: %zu handles are more than a response holds, %d", m->name,
-		    handles, MOST);
-	response = MR_NEW(ctx, 4 * handles * m->nv, double);
-	if (!response)
-		return MR_EMEM;
-	MR_TRY(mr_deform_basis(ctx, d, p0, response));
-	return mr_layer_put_wide(ctx, f, m->name, "response", (uint8_t)(4 * handles), response, m->nv);
-}
-
-static mr_status
 relax(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
 {
 	mr_deform *d;
@@ -83,33 +63,44 @@ relax(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
 	MR_TRY(mr_deform_relax(&c->ctx, d, m->p, p));
 	mr_frame_drop(f, m->name, "response", 0);
 	if (basis)
-		MR_TRY(put_basis(&c->ctx, f, m, d, p));
+		MR_TRY(mr_deform_put_basis(&c->ctx, f, m, d, p));
 	mr_deform_report(&c->ctx, d);
 	return mr_layer_put(&c->ctx, f, m->name, "rest", m->p, m->nv);
 }
 
+/* Poses by the handles, or by the places of base.target where there are no handles; either is used up. */
 static mr_status
 pose(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
 {
+	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
+	const void *positions, *places;
 	mr_mesh rest = *m;
-	const void *positions;
 	mr_affine *t;
 	mr_deform *d;
 	size_t n;
 
+	if (handles && target)
+		return mr_fail(&c->ctx, MR_EMESH,
+		    "%s has targets, but there are handles too: drop one of them", m->name);
 	if (basis)
 		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "--basis is for the undeformed solve, but the frame has handles already: use it before "
-		    "mr-pose");
+		    "--basis is for the undeformed solve, but the frame has handles or targets already");
 	if (!mr_layer_has(f, m->name, "rest"))
 		return mr_fail(&c->ctx, MR_EMISSING,
-		    "%s has handles but no rest positions: run mr-solve before mr-pose too", m->name);
+		    "%s has %s but no rest positions: solve it without them first", m->name,
+		    handles ? "handles" : "targets");
 	MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "rest", m->nv, &positions));
 	rest.p = positions;
 	MR_TRY(mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, &rest, "rest", &opts, &d));
-	MR_TRY(mr_handles_rows(&c->ctx, f, mr_deform_handles(d), &t, &n));
-	MR_TRY(mr_deform_pose(&c->ctx, d, m->p, t, n, p));
+	if (target) {
+		MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "target", m->nv, &places));
+		MR_TRY(mr_deform_reach(&c->ctx, d, m->p, places, p));
+	} else {
+		MR_TRY(mr_handles_rows(&c->ctx, f, mr_deform_handles(d), &t, &n));
+		MR_TRY(mr_deform_pose(&c->ctx, d, m->p, t, n, p));
+	}
 	mr_frame_drop(f, "handles", NULL, 0);
+	mr_frame_drop(f, m->name, "target", 0);
 	mr_frame_drop(f, m->name, "response", 0);
 	mr_deform_report(&c->ctx, d);
 	return MR_OK;
@@ -119,13 +110,14 @@ static mr_status
 solve_frame(cmd *c, mr_frame *f)
 {
 	static const char *const reads[] = { "base", "control", NULL };
-	bool posing = mr_layer_has(f, "handles", "transform");
 	const char *layer;
+	bool posing;
 	mr_mesh m;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_choose(&c->ctx, f, c->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(&c->ctx, f, layer, &m));
+	posing = mr_layer_has(f, "handles", "transform") || mr_layer_has(f, layer, "target");
 	p = MR_NEW(&c->ctx, m.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;

@@ -66,6 +66,12 @@ mr_status
 mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, size_t count, mr_v3 *out);
 
 /*
+ * The same where each constrained vertex goes to a place of its own: p = p0 + z, D^k z = 0 on the free
+ * vertices. target: nv, of which those of free vertices are not looked at.  out: nv, the caller's, may be p0.
+ */
+mr_status mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v3 *target, mr_v3 *out);
+
+/*
  * The response of every vertex to the handles' affine maps, for mr_pose_by_response.
  * response: nv rows of 4 mr_deform_handles values, the caller's.
  */

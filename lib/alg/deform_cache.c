@@ -54,3 +54,23 @@ mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame 
 		return MR_OK;
 	return mr_layer_put(ctx, f, rest->name, "region", mr_deform_region(cache->deform), rest->nv);
 }
+
+mr_status
+mr_deform_put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, const mr_v3 *p0)
+{
+	enum { MOST = 63 }; /* a row has at most 255 components */
+	size_t handles = mr_deform_handles(d);
+	double *response;
+
+	if (handles == 0)
+		return mr_fail(
+		    ctx, MR_EMESH, "%s: no handle to respond to: select one by mr-select --handle", m->name);
+	if (handles > MOST)
+		return mr_fail(ctx, MR_ERANGE, "%s: %zu handles are more than a response holds, %d", m->name,
+		    handles, MOST);
+	response = MR_NEW(ctx, 4 * handles * m->nv, double);
+	if (!response)
+		return MR_EMEM;
+	MR_TRY(mr_deform_basis(ctx, d, p0, response));
+	return mr_layer_put_wide(ctx, f, m->name, "response", (uint8_t)(4 * handles), response, m->nv);
+}

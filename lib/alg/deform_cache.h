@@ -1,5 +1,5 @@
 /*
- * deform_cache.h -- a factored system that serves frame after frame.
+ * deform_cache.h -- a factored system that serves frame after frame, and its responses as columns.
  *
  * Contract: a system is used again where a delta frame has left all that it depends on as it was, so it never
  * changes a byte of a result.  Zeroed, the cache is empty.
@@ -26,6 +26,9 @@ typedef struct mr_deform_cache {
  */
 mr_status mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame *f,
     const mr_mesh *rest, const char *column, const mr_deform_opts *opts, mr_deform **deform);
+
+/* Puts the responses to the handles of the layer m, by mr_deform_basis.  MR_EMESH without a handle. */
+mr_status mr_deform_put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, const mr_v3 *p0);
 
 /* Empties the cache. */
 void mr_deform_cache_free(mr_deform_cache *cache, mr_ctx *keep);

@@ -200,19 +200,12 @@ is_identity(const mr_affine *t)
 	return true;
 }
 
-/* The maps of all regions from fixed on: fixed and free are at rest, absent handles too. */
-typedef struct pose {
-	const mr_affine *t;
-	size_t count;
-	mr_affine whole; /* T: what moves the whole surface */
-} pose;
-
+/* The map of a region: fixed and free are at rest, absent handles too. */
 static mr_affine
-map_of(const pose *q, uint32_t region)
+map_of(const mr_affine *t, size_t count, uint32_t region)
 {
-	return region >= MR_REGION_HANDLE && region - MR_REGION_HANDLE < q->count
-	           ? q->t[region - MR_REGION_HANDLE]
-	           : mr_identity();
+	return region >= MR_REGION_HANDLE && region - MR_REGION_HANDLE < count ? t[region - MR_REGION_HANDLE]
+	                                                                       : mr_identity();
 }
 
 /* T p, every bit kept by the identity, the sign of a zero too. */
@@ -241,14 +234,13 @@ check_maps(mr_ctx *ctx, const mr_deform *d, const mr_affine *t, size_t count)
 	return MR_OK;
 }
 
-/* z = T_v p0 - T p0 on the constraints of the patch; 0 elsewhere. */
+/* z = p - T p0 on the constraints of the patch, p being where they go; 0 elsewhere. */
 static void
-set_displacements(const mr_deform *d, const pose *q, const mr_v3 *p0, field *f)
+set_displacements(const mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const mr_v3 *p, field *f)
 {
 	for (size_t i = d->patch.end[0]; i < d->patch.mesh.nv; i++) {
 		uint32_t v = d->patch.vertex[i];
-		mr_affine t = map_of(q, d->region[v]);
-		mr_v3 z = mr_sub(move(&t, p0[v]), move(&q->whole, p0[v]));
+		mr_v3 z = mr_sub(p[v], move(whole, p0[v]));
 		f->u[3 * i] = z.x;
 		f->u[3 * i + 1] = z.y;
 		f->u[3 * i + 2] = z.z;
@@ -261,20 +253,21 @@ moved(double x, double by)
 	return by == 0 ? x : x + by;
 }
 
+/* p has the constraints where they go; the free vertices follow. */
 static mr_status
-solve_displacements(mr_ctx *ctx, mr_deform *d, const pose *q, const mr_v3 *p0, mr_v3 *out)
+solve_displacements(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p)
 {
 	size_t n = d->patch.end[0];
 	field f = field_of(d, 3);
 
-	set_displacements(d, q, p0, &f);
+	set_displacements(d, whole, p0, p, &f);
 	residual(ctx, d, &f);
 	MR_TRY(solve_field(ctx, d, &f, norm_of(f.r, 3 * n)));
 	for (size_t i = 0; i < n; i++) {
 		uint32_t v = d->patch.vertex[i];
-		mr_v3 p = move(&q->whole, p0[v]);
+		mr_v3 at = move(whole, p0[v]);
 		const double *z = f.u + 3 * i;
-		out[v] = mr_vec(moved(p.x, z[0]), moved(p.y, z[1]), moved(p.z, z[2]));
+		p[v] = mr_vec(moved(at.x, z[0]), moved(at.y, z[1]), moved(at.z, z[2]));
 	}
 	return MR_OK;
 }
@@ -282,7 +275,7 @@ solve_displacements(mr_ctx *ctx, mr_deform *d, const pose *q, const mr_v3 *p0, m
 mr_status
 mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, size_t count, mr_v3 *out)
 {
-	pose q = { t, count, mr_identity() };
+	mr_affine whole = map_of(t, count, d->lowest);
 	double started = mr_seconds();
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
@@ -290,13 +283,32 @@ mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, s
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(check_maps(ctx, d, t, count));
-	q.whole = map_of(&q, d->lowest);
 	for (size_t v = 0; v < d->nv; v++) { /* free ones too, for those of loose components */
-		mr_affine map = map_of(&q, d->region[v]);
+		mr_affine map = map_of(t, count, d->region[v]);
 		p[v] = move(&map, p0[v]);
 	}
 	if (d->solver)
-		MR_TRY(solve_displacements(ctx, d, &q, p0, p));
+		MR_TRY(solve_displacements(ctx, d, &whole, p0, p));
+	memcpy(out, p, d->nv * sizeof *out);
+	mr_mark_release(ctx, mark);
+	d->seconds_solve = mr_seconds() - started;
+	return MR_OK;
+}
+
+mr_status
+mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v3 *target, mr_v3 *out)
+{
+	mr_affine rest = mr_identity();
+	double started = mr_seconds();
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
+
+	if (!p)
+		return MR_EMEM;
+	for (size_t v = 0; v < d->nv; v++)
+		p[v] = d->region[v] == MR_REGION_FREE ? p0[v] : target[v];
+	if (d->solver)
+		MR_TRY(solve_displacements(ctx, d, &rest, p0, p));
 	memcpy(out, p, d->nv * sizeof *out);
 	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;

@@ -125,7 +125,8 @@ open_solver(mr_ctx *ctx, mr_deform *d, double started)
 	d->seconds_assemble = mr_seconds() - started;
 	status = mr_solver_open(ctx, &d->opts.solver, &system, &d->solver);
 	if (status == MR_EMEM && !d->opts.choose && !mr_solver_iterates(d->opts.solver.kind))
-		return mr_prefix(ctx, status, "%s: multigrid takes less memory than this", d->patch.mesh.name);
+		return mr_prefix(
+		    ctx, status, "%s: multigrid takes less memory than this", d->patch.mesh.name);
 	if (status == MR_ENUMERIC)
 		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
 		    d->patch.mesh.name, k, n,

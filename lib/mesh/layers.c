@@ -26,6 +26,7 @@ const mr_column_info mr_columns[] = {
 	{ "base", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
 	{ "base", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
 	{ "control", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
+	{ "control", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
 	{ "control", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
 	{ "handles", "transform", { 'v', 'd', 12 }, "3x4 affine map, row-major, on the rest position" },
 	{ "handles", "frames", { '-', 'u', 1 }, "how many deltas of a sequence follow the key" },

@@ -74,3 +74,36 @@ mr-select --reset --free above:z,0.5 --handle 0=above:z,0.9 s.mrs | mr-solve --s
 grep -o '"free":[0-9]*' stats.json >one
 grep -o '"free":[0-9]*' other.json | cmp - one && echo "mesh decides"
 mr-render -l base -c region --size 40x30 -i p0.mrs p0.png && [ -s p0.png ] && echo drawn
+
+# Places for constrained vertices, here those that a handle takes, give what the handle gives.
+mr-solve -o p0.mrs s.mrs
+mr-pose --translate 0.2,0.1,0.3 p0.mrs -o posed.mrs
+mr-solve posed.mrs -o q.mrs
+cat >targets.py <<'END'
+import struct, sys, zlib
+data, at = open('p0.mrs', 'rb').read(), 0
+def record(layer, column, shape, payload, rows):
+    head = struct.pack('<16s24sccBBIQQ', layer, column, *shape, 0, 0, rows, len(payload))
+    crc = zlib.crc32(payload, zlib.crc32(head))
+    return head[:44] + struct.pack('<I', crc) + head[48:] + payload + bytes(-len(payload) % 64)
+columns = {}
+while at < len(data):
+    layer, column = data[at:at + 16].rstrip(b'\0'), data[at + 16:at + 40].rstrip(b'\0')
+    size = struct.unpack('<Q', data[at + 56:at + 64])[0]
+    columns[layer, column] = data[at + 64:at + 64 + size]
+    if column == b'ENDFRAME':
+        place = list(struct.iter_unpack('<3d', columns[b'base', b'position']))
+        region = [r for r, in struct.iter_unpack('<I', columns[b'base', b'region'])]
+        place = [(x + 0.2, y + 0.1, z + 0.3) if r == 2 else (x, y, z) for (x, y, z), r in zip(place, region)]
+        target = b''.join(struct.pack('<3d', *p) for p in place)
+        sys.stdout.buffer.write(record(b'base', b'target', (b'v', b'd', 3), target, len(place)))
+    end = at + 64 + (size + 63) // 64 * 64
+    sys.stdout.buffer.write(data[at:end])
+    at = end
+END
+python3 targets.py >targets.mrs
+mr-solve targets.mrs -o r.mrs
+off q.mrs base >q.off
+off r.mrs base >r.off
+far q.off r.off 1e-12
+mr-info r.mrs | grep -c target # used up

@@ -216,6 +216,18 @@ dense_deform(const mr_mesh *m, const uint32_t *region, size_t k, bool mean_areas
 
 /* Comparing */
 
+static mr_deform_opts
+opts_of(size_t order, int areas, bool unsymmetric)
+{
+	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
+
+	opts.order = order;
+	opts.areas = areas;
+	opts.unsymmetric = unsymmetric;
+	opts.solver.kind = unsymmetric ? MR_LU : MR_CHOLESKY;
+	return opts;
+}
+
 static mr_deform *
 deform_of(const mr_mesh *m, const uint32_t *region, mr_deform_opts opts)
 {
@@ -284,9 +296,7 @@ test_relax_is_the_dense_solution(void **state)
 		for (size_t k = 1; k <= 3; k++)
 			for (int areas = MR_AREAS_VORONOI; areas <= MR_AREAS_MEAN; areas++)
 				for (int lu = 0; lu < 2; lu++) {
-					mr_deform *d = deform_of(&s[i].m, s[i].region,
-					    (mr_deform_opts){
-						k, areas, lu != 0, lu ? MR_LU : MR_CHOLESKY, 1e-12 });
+					mr_deform *d = deform_of(&s[i].m, s[i].region, opts_of(k, areas, lu));
 					mr_v3 *p = MR_NEW(&ctx, s[i].m.nv, mr_v3);
 					mr_v3 *q = MR_NEW(&ctx, s[i].m.nv, mr_v3);
 					assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p), MR_OK);
@@ -309,8 +319,7 @@ test_pose_is_the_dense_solution(void **state)
 	for (int i = 0; i < 4; i++)
 		for (size_t k = 1; k <= 3; k++) {
 			size_t n = s[i].m.nv;
-			mr_deform *d = deform_of(&s[i].m, s[i].region,
-			    (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
+			mr_deform *d = deform_of(&s[i].m, s[i].region, opts_of(k, MR_AREAS_VORONOI, false));
 			mr_v3 *p0 = MR_NEW(&ctx, n, mr_v3), *p = MR_NEW(&ctx, n, mr_v3);
 			mr_v3 *q = MR_NEW(&ctx, n, mr_v3);
 			assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p0), MR_OK);
@@ -334,8 +343,7 @@ test_plane_is_reproduced(void **state)
 	(void)state;
 	for (size_t k = 1; k <= 3; k++) {
 		const uint32_t *region = framed(21, 3);
-		mr_deform *d = deform_of(
-		    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
+		mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
 		for (size_t v = 0; v < m.nv; v++) {
 			mr_v3 x = m.p[v];
 			p[v] = mr_vec(x.x, x.y, 0.5 * x.x - 2 * x.y + 3);
@@ -358,9 +366,7 @@ test_symmetric_is_unsymmetric(void **state)
 	for (size_t k = 1; k <= 3; k++) {
 		mr_v3 *p[2];
 		for (int lu = 0; lu < 2; lu++) {
-			mr_deform *d = deform_of(&m, region,
-			    (mr_deform_opts){
-				k, MR_AREAS_VORONOI, lu != 0, lu ? MR_LU : MR_CHOLESKY, 1e-12 });
+			mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, lu));
 			p[lu] = MR_NEW(&ctx, m.nv, mr_v3);
 			assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p[lu]), MR_OK);
 			mr_deform_free(d);
@@ -383,8 +389,7 @@ test_identity_keeps_every_bit(void **state)
 	for (int handles_only = 0; handles_only < 2; handles_only++)
 		for (size_t k = 1; k <= 3; k++) {
 			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
-			mr_deform *d = deform_of(
-			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
+			mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
 			size_t h = mr_deform_handles(d);
 			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
 			assert_int_equal(h, handles_only ? 2 : 1);
@@ -412,8 +417,7 @@ test_rigid_motion_is_followed(void **state)
 	for (size_t v = 0; v < m.nv; v++)
 		q[v] = mr_apply(t, m.p[v]);
 	for (size_t k = 1; k <= 3; k++) {
-		mr_deform *d = deform_of(
-		    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
+		mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
 		double *response = MR_NEW(&ctx, 8 * m.nv, double);
 		assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 2, p), MR_OK);
 		assert_same(&m, p, q, 1e-15);
@@ -436,8 +440,7 @@ test_basis_is_the_pose(void **state)
 	for (int handles_only = 0; handles_only < 2; handles_only++)
 		for (size_t k = 1; k <= 3; k++) {
 			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
-			mr_deform *d = deform_of(
-			    &m, region, (mr_deform_opts){ k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
+			mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
 			size_t h = mr_deform_handles(d);
 			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
 			assert_int_equal(mr_deform_relax(&ctx, d, m.p, p0), MR_OK);
@@ -447,6 +450,55 @@ test_basis_is_the_pose(void **state)
 			assert_same(&m, p, q, 1e-9);
 			mr_deform_free(d);
 		}
+}
+
+/* Places that are those of an affine map give what the map gives; free ones are not looked at. */
+static void
+test_targets_are_reached(void **state)
+{
+	mr_mesh m = torus(60, 25, 0.4);
+	uint32_t *region = bands(&m, 1, 0.2, 0.8, FIXED);
+	mr_affine t = screw(0.5, 1, 1.3);
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *target = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	for (size_t v = 0; v < m.nv; v++)
+		target[v] = region[v] == FIXED    ? m.p[v]
+		            : region[v] == HANDLE ? mr_apply(&t, m.p[v])
+		                                  : mr_vec(9, 9, 9);
+	for (size_t k = 1; k <= 3; k++) {
+		mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
+		assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p), MR_OK);
+		assert_int_equal(mr_deform_reach(&ctx, d, m.p, target, q), MR_OK);
+		assert_memory_equal(p, q, m.nv * sizeof *p);
+		mr_deform_free(d);
+	}
+}
+
+/* Iterative solvers, over a hierarchy too, agree with the direct one. */
+static void
+test_iterative_is_direct(void **state)
+{
+	mr_mesh m = torus(120, 50, 0.4);
+	uint32_t *region = bands(&m, 1, 0.2, 0.8, FIXED);
+	mr_affine t = screw(0.5, 1, 1.3);
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+
+	(void)state;
+	for (size_t k = 1; k <= 2; k++) {
+		mr_deform_opts opts = opts_of(k, MR_AREAS_VORONOI, false);
+		mr_deform *d = deform_of(&m, region, opts);
+		assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p), MR_OK);
+		mr_deform_free(d);
+		for (int kind = MR_CG; kind <= MR_VCYCLE; kind++) {
+			opts.solver.kind = (mr_solver_kind)kind;
+			d = deform_of(&m, region, opts);
+			assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, q), MR_OK);
+			assert_same(&m, p, q, 1e-6);
+			mr_deform_free(d);
+		}
+	}
 }
 
 /* A second torus, free and without a constraint, and an isolated free vertex: both stay, at any pose. */
@@ -475,7 +527,7 @@ test_loose_components_stay(void **state)
 		for (int k = 0; k < 3; k++)
 			t[one.nf + f].v[k] = one.t[f].v[k] + (uint32_t)one.nv;
 	}
-	d = deform_of(&two, region, (mr_deform_opts){ 2, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 });
+	d = deform_of(&two, region, opts_of(2, MR_AREAS_VORONOI, false));
 	assert_int_equal(mr_deform_pose(&ctx, d, p, maps, 2, q), MR_OK);
 	assert_memory_equal(p + one.nv, q + one.nv, (one.nv + 1) * sizeof *p);
 	assert_true(largest_distance(p, q, one.nv) > 0.1);
@@ -506,7 +558,7 @@ test_degenerate_faces_give_no_nan(void **state)
 	m.t = t;
 	m.p = p;
 	for (size_t k = 1; k <= 3; k++) {
-		mr_deform_opts opts = { k, MR_AREAS_VORONOI, false, MR_CHOLESKY, 1e-12 };
+		mr_deform_opts opts = opts_of(k, MR_AREAS_VORONOI, false);
 		mr_deform *d = NULL;
 		mr_status status = mr_deform_new(&ctx, &m, region, &opts, &d);
 		if (status == MR_ENUMERIC && k > 1)
@@ -616,6 +668,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_identity_keeps_every_bit, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_rigid_motion_is_followed, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_basis_is_the_pose, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_targets_are_reached, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_iterative_is_direct, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_loose_components_stay, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_degenerate_faces_give_no_nan, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_refusals, setup, teardown),
