@@ -111,7 +111,7 @@ static mr_status
 open_solver(mr_ctx *ctx, mr_deform *d, double started)
 {
 	size_t n = d->patch.end[0], k = d->opts.order;
-	mr_system system = { .a = &d->a, .hierarchy = &d->hierarchy };
+	mr_system system = { .a = &d->a, .vertex = d->patch.vertex, .hierarchy = &d->hierarchy };
 	int *part = NULL;
 	mr_status status;
 

@@ -257,6 +257,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
 	uint32_t *near = MR_NEW(ctx, n, uint32_t);
 	mr_incidence inc;
+	mr_detail found;
 
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
 	if (!e.face || !e.bary || !e.offset || !e.height || !normal || !near || !e.tally)
@@ -269,7 +270,9 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source
 	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
 	mr_parallel(ctx, n, GRAIN, encode_piece, &e);
 	report(ctx, &e, diagonal);
-	*d = (mr_detail){ n, e.face, e.bary, e.height, any_offset(&e) ? e.offset : NULL };
+	found = (mr_detail){ n, e.face, e.bary, e.height, any_offset(&e) ? e.offset : NULL };
+	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
+	*d = found;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

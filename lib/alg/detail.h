@@ -26,7 +26,8 @@ typedef struct mr_detail {
 
 /*
  * Encodes the mesh over the base.  source: checked; NULL where there is none: then the base's point
- * nearest to each vertex takes its place.  d: the arena's.
+ * nearest to each vertex takes its place.  MR_ERANGE where the coordinates are so large that a detail is not
+ * finite.  d: the arena's.
  * Figures: heights, offsets, steps_mean, crossed_mean, searched, residual_max, height_max (both relative
  * to the mesh's diagonal).
  */

@@ -23,8 +23,7 @@ check(mr_ctx *ctx, const cholesky *c)
 	case CHOLMOD_DSMALL:
 		return MR_OK;
 	case CHOLMOD_NOT_POSDEF:
-		return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite (row %zu of %zu)",
-		    c->factor->minor, c->factor->n);
+		return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite");
 	case CHOLMOD_OUT_OF_MEMORY:
 		return mr_fail(ctx, MR_EMEM, "no memory for the factor");
 	case CHOLMOD_TOO_LARGE:
@@ -72,10 +71,22 @@ analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const int *part)
 	return check(ctx, c);
 }
 
+/* The first pivot that is not positive, by the matrix's own order. */
 static mr_status
-factorize(mr_ctx *ctx, cholesky *c, cholmod_sparse *a)
+not_positive(mr_ctx *ctx, const cholmod_factor *f, const uint32_t *vertex)
+{
+	size_t row = (size_t)((const int *)f->Perm)[f->minor];
+
+	return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite (at %s %zu)",
+	    vertex ? "vertex" : "row", vertex ? vertex[row] : row);
+}
+
+static mr_status
+factorize(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const uint32_t *vertex)
 {
 	cholmod_factorize(a, c->factor, &c->common);
+	if (c->common.status == CHOLMOD_NOT_POSDEF && c->factor->minor < c->factor->n)
+		return not_positive(ctx, c->factor, vertex);
 	return check(ctx, c); /* at once: the next call resets the status */
 }
 
@@ -132,7 +143,7 @@ set_up(
 		return mr_fail(ctx, MR_EMEM,
 		    "the factor of %zu rows takes %.3g MB, more than the %.3g MB there are", c->factor->n,
 		    1e-6 * bytes, 1e-6 * opts->memory);
-	MR_TRY(factorize(ctx, c, &upper));
+	MR_TRY(factorize(ctx, c, &upper, system->vertex));
 	panels = panels_of(c->factor);
 	MR_TRY(mr_supernodal_new(ctx, &panels, &c->solve));
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,

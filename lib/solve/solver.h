@@ -58,6 +58,7 @@ typedef struct mr_hierarchy {
 typedef struct mr_system {
 	const mr_sparse *a;
 	const int *part;               /* dissection (op/dissect.h) for Cholesky, or NULL */
+	const uint32_t *vertex;        /* of each row, for sentences; NULL: they name the row */
 	const mr_hierarchy *hierarchy; /* for multigrid */
 } mr_system;
 

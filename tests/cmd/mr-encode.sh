@@ -52,6 +52,9 @@ mr-make sphere -n 42 | mr-encode >out
 echo "exit $?, $(wc -c <out) bytes"
 mr-encode --gain 2 bumpy.mrs >out
 echo "exit $?, $(wc -c <out) bytes"
+printf 'OFF\n4 4 0\n0 0 0\n1e300 0 0\n0 1e300 0\n0 0 1e300\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n' >huge.off
+mr-import huge.off | mr-smooth -t 0 | mr-encode >out
+echo "exit $?, $(wc -c <out) bytes"
 for name in ${DATA:+bunny00.off armadillo.off horse.ply igea.ply}; do
 	mr-import "$DATA/meshes/$name.gz" | mr-smooth | mr-remesh -o data.mrs &&
 	    check data 0.99 >verdict && back data >>verdict && ! grep bad verdict || echo "$name: bad: $(cat verdict)"

@@ -267,11 +267,18 @@ static void
 test_what_has_no_solution(void **state)
 {
 	mr_sparse indefinite = grid_matrix(-1, 0, true), singular = grid_matrix(0, 0, false);
+	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
+	uint32_t *vertex = MR_NEW(&ctx, N, uint32_t);
 	mr_solver *s = NULL;
 
 	(void)state;
 	assert_int_equal(mr_solver_new(&ctx, MR_CHOLESKY, &indefinite, NULL, &s), MR_ENUMERIC);
-	assert_non_null(strstr(ctx.error, "not positive definite"));
+	assert_non_null(strstr(ctx.error, "not positive definite (at row "));
+	for (size_t i = 0; i < N; i++)
+		vertex[i] = 100000;
+	assert_int_equal(
+	    mr_solver_open(&ctx, &opts, &(mr_system){ .a = &indefinite, .vertex = vertex }, &s), MR_ENUMERIC);
+	assert_non_null(strstr(ctx.error, "(at vertex 100000)"));
 	assert_null(s);
 	for (int e = singular.start[5]; e < singular.start[6]; e++)
 		singular.value[e] = 0;
