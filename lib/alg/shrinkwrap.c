@@ -1,21 +1,83 @@
 #include "alg/shrinkwrap.h"
 
 #include "alg/iron.h"
+#include "alg/volume.h"
 #include "alg/wrap_parts.h"
 
-/* Iterations by default: the cube comes to rest in as many. */
+/* Iterations by default: the cube comes to rest in as many; near the points fewer do. */
 enum { CUBE_ITERATIONS = 20, SETTLE_ITERATIONS = 4 };
+
+/* Points and faces at most that coverage is measured by. */
+enum { FIRST_SAMPLES = 1 << 11, LAST_SAMPLES = 1 << 14 };
+
+/*
+ * What a wrap may leave out and have too much: that of the box in its first edges, which are long, and any at
+ * the end in sampling distances, of which noise takes some.
+ */
+static const mr_wrap_cover FIRST = { 1, 0.55, 0.6, 0.45 }, LAST = { 10, 4, 6, 2.5 };
+
+/* A wrap, and how well it covers the points. */
+typedef struct candidate {
+	mr_dyn d;
+	mr_wrap_cover cover;
+	size_t folds;
+	int method; /* MR_WRAP_AUTO: the box */
+} candidate;
+
+static bool
+covers(const mr_wrap_cover *c, const mr_wrap_cover *most, double unit)
+{
+	return c->points_max <= most->points_max * unit && c->points_high <= most->points_high * unit &&
+	       c->wrap_max <= most->wrap_max * unit && c->wrap_high <= most->wrap_high * unit;
+}
+
+/* What it leaves out and has too much, outliers not counted. */
+static double
+badness(const mr_wrap_cover *c)
+{
+	return c->points_high + c->wrap_high;
+}
+
+static mr_status
+measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, candidate *c)
+{
+	mr_mesh m = mr_dyn_view(&c->d, "control");
+	double start = mr_seconds(), s = cloud->spacing;
+	mr_wrap_cover *cover = &c->cover;
+
+	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, cover));
+	mr_stat_set(ctx, "seconds_measure", mr_seconds() - start);
+	mr_note(ctx,
+	    "%s, %zu faces: points are within %.3g sampling distances of it, 99 %% within %.3g, "
+	    "it is within %.3g of points, 99 %% within %.3g",
+	    what, c->d.nf, cover->points_max / s, cover->points_high / s, cover->wrap_max / s,
+	    cover->wrap_high / s);
+	return MR_OK;
+}
+
+/* Takes out folds; measures. */
+static mr_status
+finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const char *what, candidate *c)
+{
+	c->folds = mr_iron(&c->d, true);
+	MR_TRY(mr_dyn_compact(ctx, &c->d));
+	return measure(ctx, cloud, LAST_SAMPLES, what, c);
+}
 
 /* The iterations of the paper. */
 static mr_status
-pull(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, size_t iterations, mr_dyn *d)
+pull(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
 {
+	size_t iterations = o->iterations ? o->iterations : CUBE_ITERATIONS;
+	double start = mr_seconds();
+
 	for (size_t i = 0; i < iterations; i++) {
 		MR_TRY(mr_wrap_project(ctx, cloud, o->alpha, d));
 		MR_TRY(mr_wrap_smooth(ctx, o->lambda, false, d));
 		mr_progress(ctx, "wrapping", (double)(i + 1) / (double)iterations);
 	}
 	mr_stat_set(ctx, "iterations", (double)iterations);
+	mr_stat_set(ctx, "seconds_pull", mr_seconds() - start);
 	return MR_OK;
 }
 
@@ -25,8 +87,9 @@ cube_around(mr_box b)
 {
 	mr_v3 size = mr_sub(b.max, b.min), middle = mr_lerp(0.5, b.min, b.max);
 	double half = fmax(size.x, fmax(size.y, size.z)) / 2;
+	mr_v3 corner = mr_vec(half, half, half);
 
-	return (mr_box){ mr_sub(middle, mr_vec(half, half, half)), mr_add(middle, mr_vec(half, half, half)) };
+	return (mr_box){ mr_sub(middle, corner), mr_add(middle, corner) };
 }
 
 /* So many edges a side that the cube has half as many vertices again as there are points: 6 r^2 = 1.5 n. */
@@ -40,90 +103,150 @@ resolution_for(const mr_wrap_cloud *cloud)
 
 /* To the letter of section 3.1.1. */
 static mr_status
-wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
+wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
 {
 	size_t r = o->resolution ? o->resolution : resolution_for(cloud);
 	mr_mesh cube;
 
+	c->method = MR_WRAP_CUBE;
 	MR_TRY(mr_wrap_box(ctx, cube_around(cloud->box), (size_t[]){ r, r, r }, &cube));
-	MR_TRY(mr_wrap_dyn(ctx, &cube, d));
+	MR_TRY(mr_wrap_dyn(ctx, &cube, &c->d));
 	mr_stat_set(ctx, "resolution", (double)r);
-	return pull(ctx, cloud, o, o->iterations ? o->iterations : CUBE_ITERATIONS, d);
+	MR_TRY(pull(ctx, cloud, o, &c->d));
+	return finish(ctx, cloud, "cube", c);
 }
 
-/* Edges at which the wrap has about half as many faces as there are points, or as long as asked for. */
-static double
-final_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o)
+/* Near the points already: onto them. */
+static mr_status
+settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
 {
-	mr_v3 size = mr_sub(cloud->box.max, cloud->box.min);
+	size_t iterations = o->iterations ? o->iterations : SETTLE_ITERATIONS;
+	double start = mr_seconds();
 
-	if (o->resolution)
-		return fmax(size.x, fmax(size.y, size.z)) / (double)o->resolution;
-	return 2.15 * sqrt(cloud->area / (double)cloud->places);
-}
-
-static void
-report_cover(mr_ctx *ctx, const mr_wrap_cloud *cloud, const char *what, double length, const mr_wrap_cover *c)
-{
-	mr_note(ctx,
-	    "%s: edges %.3g; points to wrap at most %.3g, 99 %% within %.3g; wrap to points at most %.3g, 99 "
-	    "%% within %.3g sampling distances",
-	    what, length / cloud->spacing, c->points_max / cloud->spacing, c->points_high / cloud->spacing,
-	    c->wrap_max / cloud->spacing, c->wrap_high / cloud->spacing);
+	MR_TRY(mr_wrap_settle(ctx, cloud, o, iterations, d));
+	mr_stat_set(ctx, "iterations", (double)iterations);
+	mr_stat_set(ctx, "seconds_settle", mr_seconds() - start);
+	return MR_OK;
 }
 
 static mr_status
-wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
+wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
 {
-	double last = final_length(cloud, o), l = last;
-	size_t edges[3];
-	mr_v3 size = mr_sub(cloud->box.max, cloud->box.min);
-	mr_mesh box;
-	mr_wrap_cover c;
+	mr_volume_opts volume = MR_VOLUME_DEFAULTS;
+	double start = mr_seconds(), middle;
+	mr_mesh m;
 
-	while (l < cloud->diagonal / 16)
-		l *= 2;
-	for (int i = 0; i < 3; i++)
-		edges[i] = (size_t)ceil(((const double[]){ size.x, size.y, size.z })[i] / l / 2);
-	for (int i = 0; i < 3; i++)
-		if (!edges[i])
-			edges[i] = 1;
-	MR_TRY(mr_wrap_box(ctx, cloud->box, edges, &box));
-	MR_TRY(mr_wrap_dyn(ctx, &box, d));
-	for (;;) {
-		for (int i = 0; i < (l > cloud->diagonal / 32 ? 8 : 2); i++)
-			MR_TRY(mr_wrap_level(ctx, cloud, o, l, d));
-		mr_mesh m = mr_dyn_view(d, "control");
-		MR_TRY(mr_wrap_measure(ctx, cloud, &m, 1 << 14, &c));
-		report_cover(ctx, cloud, "level", l, &c);
-		if (l <= last * 1.01)
-			break;
-		l /= 2;
+	c->method = MR_WRAP_VOLUME;
+	volume.grid = o->grid;
+	MR_TRY(mr_volume_wrap(ctx, cloud->p, cloud->n, &volume, &m));
+	middle = mr_seconds();
+	mr_stat_set(ctx, "seconds_volume", middle - start);
+	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
+	mr_stat_set(ctx, "seconds_remesh", mr_seconds() - middle);
+	MR_TRY(settle(ctx, cloud, o, &c->d));
+	return finish(ctx, cloud, "volume", c);
+}
+
+/* From edges of `length` on. */
+static mr_status
+finish_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, candidate *c)
+{
+	double start = mr_seconds();
+
+	MR_TRY(mr_wrap_refine(ctx, cloud, o, length, &c->d));
+	mr_stat_set(ctx, "seconds_levels", mr_seconds() - start);
+	MR_TRY(settle(ctx, cloud, o, &c->d));
+	return finish(ctx, cloud, "box", c);
+}
+
+/* The volume, but where it is not good either the box if that is better. */
+static mr_status
+choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished,
+    candidate *c)
+{
+	candidate volume;
+	mr_status status = wrap_volume(ctx, cloud, o, &volume);
+
+	if (status != MR_OK && status != MR_EMESH)
+		return status;
+	if (status == MR_OK &&
+	    (covers(&volume.cover, &LAST, cloud->spacing) || badness(&volume.cover) < badness(&c->cover))) {
+		*c = volume;
+		return MR_OK;
 	}
-	MR_TRY(mr_wrap_remesh(ctx, last, d));
-	MR_TRY(mr_wrap_settle(ctx, cloud, o, o->iterations ? o->iterations : SETTLE_ITERATIONS, d));
-	mr_mesh m = mr_dyn_view(d, "control");
-	MR_TRY(mr_wrap_measure(ctx, cloud, &m, 1 << 14, &c));
-	report_cover(ctx, cloud, "end", l, &c);
+	if (status == MR_EMESH)
+		mr_note(ctx, "no volume: %s", ctx->error);
+	if (!finished)
+		MR_TRY(finish_box(ctx, cloud, o, length, c));
+	if (status == MR_OK && badness(&volume.cover) < badness(&c->cover))
+		*c = volume;
 	return MR_OK;
+}
+
+/*
+ * The box, where its first level, a few hundred vertices, covers the points: that is cheap to know, and on
+ * what is round the finer ones cost less than the volume.
+ */
+static mr_status
+wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+{
+	double start = mr_seconds(), length;
+	bool round;
+
+	c->method = MR_WRAP_AUTO;
+	MR_TRY(mr_wrap_begin(ctx, cloud, o, &length, &c->d));
+	MR_TRY(measure(ctx, cloud, FIRST_SAMPLES, "first level", c));
+	mr_stat_set(ctx, "seconds_box", mr_seconds() - start);
+	round = covers(&c->cover, &FIRST, length);
+	if (round) {
+		MR_TRY(finish_box(ctx, cloud, o, length, c));
+		if (covers(&c->cover, &LAST, cloud->spacing))
+			return MR_OK;
+	}
+	return choose(ctx, cloud, o, length, round, c);
+}
+
+static mr_status
+wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+{
+	switch (o->method) {
+	case MR_WRAP_CUBE:
+		return wrap_cube(ctx, cloud, o, c);
+	case MR_WRAP_VOLUME:
+		return wrap_volume(ctx, cloud, o, c);
+	default:
+		return wrap_auto(ctx, cloud, o, c);
+	}
+}
+
+static void
+report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
+{
+	static const char *const names[] = { "box", "cube", "volume" };
+
+	mr_note(ctx, "by the %s", names[c->method]);
+	mr_stat_set(ctx, "method", c->method);
+	mr_stat_set(ctx, "places", (double)cloud->places);
+	mr_stat_set(ctx, "sampling", cloud->spacing);
+	mr_stat_set(ctx, "points_to_wrap_max", c->cover.points_max);
+	mr_stat_set(ctx, "points_to_wrap_99", c->cover.points_high);
+	mr_stat_set(ctx, "wrap_to_points_max", c->cover.wrap_max);
+	mr_stat_set(ctx, "wrap_to_points_99", c->cover.wrap_high);
+	mr_stat_set(ctx, "faces", (double)c->d.nf);
+	mr_stat_set(ctx, "folded_edges", (double)c->folds);
 }
 
 static mr_status
 wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out)
 {
-	mr_dyn d;
+	candidate c;
 
-	mr_stat_set(ctx, "places", (double)cloud->places);
-	mr_stat_set(ctx, "sampling", cloud->spacing);
-	if (o->method == MR_WRAP_CUBE)
-		MR_TRY(wrap_cube(ctx, cloud, o, &d));
-	else if (o->method == MR_WRAP_VOLUME)
-		return mr_fail(ctx, MR_EMESH, "the volume cannot be had yet");
-	else
-		MR_TRY(wrap_auto(ctx, cloud, o, &d));
-	mr_stat_set(ctx, "folded_edges", (double)mr_iron(&d, true));
-	MR_TRY(mr_dyn_compact(ctx, &d));
-	*out = mr_dyn_view(&d, "control");
+	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
+	for (size_t h = 0; h < 3 * c.d.nf; h++)
+		if (c.d.twin[h] == MR_NONE)
+			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
+	report(ctx, cloud, &c);
+	*out = mr_dyn_view(&c.d, "control");
 	return MR_OK;
 }
 
@@ -145,7 +268,7 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 	mr_dyn d;
 
 	MR_TRY(mr_wrap_dyn(ctx, start, &d));
-	MR_TRY(pull(ctx, cloud, o, o->iterations ? o->iterations : CUBE_ITERATIONS, &d));
+	MR_TRY(pull(ctx, cloud, o, &d));
 	memcpy(p, d.p, start->nv * sizeof *p);
 	return MR_OK;
 }

@@ -9,15 +9,15 @@
 #include "mesh/mesh.h"
 
 typedef enum mr_wrap_method {
-	MR_WRAP_AUTO,  /* the cube, coarse to fine, searching along normals; the volume where that does not
-	                  cover the points */
+	MR_WRAP_AUTO,  /* a box, coarse to fine, searching along normals; the volume where its first level
+	                  or its last does not cover the points */
 	MR_WRAP_CUBE,  /* the paper's, to the letter: genus 0 */
 	MR_WRAP_VOLUME /* alg/volume.h, then projected and smoothed */
 } mr_wrap_method;
 
 typedef struct mr_wrap_opts {
 	int method;
-	size_t resolution; /* edges along a side of the bounding cube; 0: finer than the sampling */
+	size_t resolution; /* edges of the wrap along a side of the bounding cube; 0: by the sampling */
 	size_t grid;       /* cells of the volume; 0: from the sampling density */
 	double alpha;      /* share of the way to the nearest point */
 	double lambda;     /* of tangential smoothing */

@@ -123,3 +123,23 @@ mr_wrap_cloud_open(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *clo
 	MR_TRY(check_extent(ctx, cloud));
 	return measure_sampling(ctx, cloud);
 }
+
+mr_status
+mr_wrap_cloud_thin(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t count, mr_wrap_cloud *thin)
+{
+	mr_v3 *p;
+
+	*thin = *cloud;
+	thin->near = NULL;
+	thin->n = count < cloud->n ? count : cloud->n;
+	p = MR_NEW(ctx, thin->n, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	for (size_t i = 0; i < thin->n; i++)
+		p[i] = cloud->p[i * cloud->n / thin->n];
+	thin->p = p;
+	MR_TRY(mr_near_build(ctx, p, thin->n, &thin->near));
+	thin->places = mr_near_distinct(thin->near);
+	thin->spacing = cloud->spacing * sqrt((double)cloud->places / (double)thin->places);
+	return MR_OK;
+}

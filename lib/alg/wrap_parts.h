@@ -25,6 +25,9 @@ typedef struct mr_wrap_cloud {
  * mr_near_free(cloud->near), on failure too. */
 mr_status mr_wrap_cloud_open(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *cloud);
 
+/* About `count` of the points, at equal strides, and their index: enough for long edges.  Close likewise. */
+mr_status mr_wrap_cloud_thin(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t count, mr_wrap_cloud *thin);
+
 /* The surface of a box of edges[0] x edges[1] x edges[2] edges, each at least 1, oriented outward; in the
  * arena. */
 mr_status mr_wrap_box(mr_ctx *ctx, mr_box box, const size_t edges[3], mr_mesh *out);
@@ -35,7 +38,8 @@ mr_status mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d);
 /* v <- v + alpha (q - v), q the point nearest to v. */
 mr_status mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, mr_dyn *d);
 
-/* v <- v + lambda Lt, Lt the tangential part of the umbrella vector.  Boundary vertices stay. */
+/* v <- v + lambda Lt, Lt the tangential part of the umbrella vector; `guarded`: by mr_wrap_move.  Boundary
+ * vertices stay. */
 mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
 
 /* Moves the vertices to `to`, d->nv, but those that would turn a face by more than 60 degrees or fold it;
@@ -43,15 +47,13 @@ mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
 mr_status mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d);
 
 /*
- * One level of the coarse-to-fine wrapping: remeshes d to edges of about `length`, then draws it closer:
- * where a vertex is farther than that from all points by what lies along its normal, and vertices out to
- * points that the wrap cuts off.
+ * Draws d closer, of edges of about `length`: vertices go to the point nearest to them, but where there is
+ * none within `length` to what lies along their normal, as a film of soap.
  */
-mr_status
-mr_wrap_level(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_dyn *d);
+mr_status mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double length, mr_dyn *d);
 
-/* Remeshes d to edges of about `length`, in one round. */
-mr_status mr_wrap_remesh(mr_ctx *ctx, double length, mr_dyn *d);
+/* Remeshes m to edges of about `length`, in one round. */
+mr_status mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d);
 
 /*
  * Draws d, already near, onto the points: vertices move along their normals to the level of the nearest
@@ -59,6 +61,18 @@ mr_status mr_wrap_remesh(mr_ctx *ctx, double length, mr_dyn *d);
  */
 mr_status
 mr_wrap_settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, size_t iterations, mr_dyn *d);
+
+/* Edges at which a wrap has about half as many faces as there are points (or some hundreds where these are
+ * few), or as long as asked for. */
+double mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o);
+
+/* A box around the points with long edges, drawn onto them; *length: of its edges. */
+mr_status
+mr_wrap_begin(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double *length, mr_dyn *d);
+
+/* From edges of such a length to the last, halving them. */
+mr_status
+mr_wrap_refine(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_dyn *d);
 
 /* How well a wrap covers the points, in units of the model. */
 typedef struct mr_wrap_cover {

@@ -2,7 +2,7 @@
 #include "alg/wrap_parts.h"
 #include "base/parallel.h"
 
-enum { GRAIN = 1024, NEAREST = 6 };
+enum { GRAIN = 1024, NEAREST = 5 };
 
 typedef struct settle {
 	mr_dyn *d;
@@ -11,6 +11,15 @@ typedef struct settle {
 	const uint32_t *nearest; /* NEAREST of each vertex */
 	mr_v3 *to;
 } settle;
+
+/* Where points are sparse their mean level is not the surface's, and over a hole there is none. */
+static double
+trust(const settle *s, uint32_t v)
+{
+	double near = mr_dist(s->cloud->p[s->nearest[v * NEAREST]], s->d->p[v]) / (2 * s->cloud->spacing);
+
+	return near > 1 ? 1 / (near * near) : 1;
+}
 
 /*
  * Where v goes: along its normal by alpha of the way to the mean level of the nearest points, weighted by
@@ -22,7 +31,7 @@ target(const settle *s, uint32_t v)
 	const mr_dyn *d = s->d;
 	uint32_t h = d->out[v];
 	mr_v3 p = d->p[v], n = { 0, 0, 0 }, l = { 0, 0, 0 }, to = { 0, 0, 0 };
-	double count = 0, weights = 0, least = s->cloud->spacing * s->cloud->spacing / 4;
+	double count = 0, weights = 0, least = s->cloud->spacing * s->cloud->spacing / 16;
 
 	do {
 		mr_v3 b = mr_sub(d->p[mr_dyn_to(d, h)], p), c = mr_sub(d->p[mr_dyn_apex(d, h)], p);
@@ -40,7 +49,7 @@ target(const settle *s, uint32_t v)
 		weights += w;
 	}
 	l = mr_axpy(-mr_dot(l, n), n, l);
-	return mr_axpy(s->o->alpha * mr_dot(to, n) / weights, n, mr_axpy(s->o->lambda, l, p));
+	return mr_axpy(s->o->alpha * trust(s, v) * mr_dot(to, n) / weights, n, mr_axpy(s->o->lambda, l, p));
 }
 
 static void

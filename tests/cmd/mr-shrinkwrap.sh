@@ -5,7 +5,7 @@ worst() { # distance of the control's vertices to the unit sphere is below $1
 		END { print (nv && w < least * least ? "on the sphere" : "off by " sqrt(w)) }'
 }
 mr-make sphere --points 3000 -o sphere.mrs
-for m in auto cube; do
+for m in auto cube volume; do
 	echo "$m"
 	mr-shrinkwrap -m $m sphere.mrs -o out.mrs
 	mr-shrinkwrap -j 1 -m $m sphere.mrs | mr-export -f off -l control - >one.off
@@ -13,6 +13,20 @@ for m in auto cube; do
 	mr-info -l control out.mrs | sed -n 's/^ *topology *//p'
 	worst 0.03 <out.mrs
 done
+
+echo 'what has handles or limbs is left to the volume, what is round to the box: 2 and 0'
+taken() { # shape, points
+	mr-make $1 --points $2 | mr-shrinkwrap --stats stats.json -o out.mrs
+	python3 -c '
+import json, sys
+s = json.loads(open("stats.json").readline())
+good = max(s["points_to_wrap_max"], s["wrap_to_points_max"]) < 2 * s["sampling"]
+print(sys.argv[1], s["method"], "covers" if good else s, s["folded_edges"], "folds")' "$1"
+	mr-info -l control out.mrs | sed -n 's/^ *topology *//p'
+}
+taken sphere 2000
+taken torus 3000
+taken knot 5000
 
 echo 'the resolution is that of the cube: 6 r^2 + 2 vertices'
 mr-shrinkwrap -m cube -r 5 sphere.mrs | mr-info -l control - | sed -n 's/^ *control: //p'

@@ -1,6 +1,6 @@
 /*
  * Beyond the nearest point (Jeong, Kim 2001, section 6.4): a vertex over a concavity looks for points along
- * its normal, and points that the wrap cuts off draw it out.
+ * its normal.  A ray goes on by the distance to the nearest point (sphere tracing), so few steps do.
  */
 #include "alg/remesh.h"
 #include "alg/wrap_parts.h"
@@ -9,17 +9,17 @@
 enum { STEPS = 24, GRAIN = 1024 };
 
 mr_status
-mr_wrap_remesh(mr_ctx *ctx, double length, mr_dyn *d)
+mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	size_t figures = ctx->stat_count;
-	mr_mesh out, in = mr_dyn_view(d, "control");
+	mr_mesh out;
 	mr_source_map map;
 
 	o.length = length;
 	o.rounds = 1;
 	o.area_passes = 0;
-	MR_TRY(mr_remesh(ctx, &in, &o, &out, &map));
+	MR_TRY(mr_remesh(ctx, m, &o, &out, &map));
 	ctx->stat_count = figures; /* the remeshing's own say nothing here */
 	return mr_wrap_dyn(ctx, &out, d);
 }
@@ -46,14 +46,42 @@ inward(const mr_dyn *d, uint32_t v)
 	return mr_mul(-1, mr_unit(n));
 }
 
+/* Cosine to the outward normal from which the nearest point is over the vertex: that is inside, no film. */
+static const double OVER = 0.3;
+
+static bool
+is_film(const mr_dyn *d, uint32_t v, mr_v3 nearest, double far)
+{
+	mr_v3 way = mr_sub(nearest, d->p[v]);
+	double dist = mr_norm(way);
+
+	return dist > far && mr_dot(way, inward(d, v)) >= -OVER * dist;
+}
+
+typedef struct marking {
+	const mr_dyn *d;
+	const mr_v3 *to;
+	double far;
+	uint8_t *film;
+} marking;
+
+static void
+mark_body(void *arg, size_t begin, size_t end)
+{
+	marking *m = arg;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++)
+		m->film[v] = m->d->kind[v] != MR_DEAD && is_film(m->d, v, m->to[v], m->far);
+}
+
 static mr_status
-search_begin(mr_ctx *ctx, const mr_dyn *d, const double *dist2, double reach, search *s)
+search_begin(mr_ctx *ctx, const mr_dyn *d, const double *dist2, const uint8_t *film, search *s)
 {
 	s->v = MR_NEW(ctx, d->nv, uint32_t);
 	if (!s->v)
 		return MR_EMEM;
 	for (uint32_t v = 0; v < d->nv; v++)
-		if (d->kind[v] != MR_DEAD && dist2[v] > reach * reach)
+		if (film[v])
 			s->v[s->n++] = v;
 	s->at = MR_NEW(ctx, s->n, mr_v3);
 	s->way = MR_NEW(ctx, s->n, mr_v3);
@@ -100,16 +128,16 @@ search_step(const mr_wrap_cloud *cloud, double reach, search *s, mr_v3 *to)
 	return left;
 }
 
-/* Where vertices farther than `far` from the points go: to what lies along their normals, within reach. */
+/* Where the film goes: to what lies along its normals, within reach. */
 static mr_status
-search_normals(
-    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_dyn *d, const double *dist2, double far, mr_v3 *to)
+search_normals(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_dyn *d, const double *dist2,
+    const uint8_t *film, mr_v3 *to)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double reach = 1.5 * cloud->spacing;
 	search s = { 0 };
 
-	MR_TRY(search_begin(ctx, d, dist2, far, &s));
+	MR_TRY(search_begin(ctx, d, dist2, film, &s));
 	for (int i = 0; i < STEPS && s.n > 0; i++) {
 		s.n = search_step(cloud, reach, &s, to);
 		MR_TRY(mr_near_query(ctx, cloud->near, s.at, s.n, 1, s.nearest, s.dist2));
@@ -136,8 +164,7 @@ ring_mean(const mr_dyn *d, const mr_v3 *x, uint32_t v)
 
 typedef struct sink {
 	const mr_dyn *d;
-	const double *dist2;
-	double far, step;
+	const uint8_t *film;
 	mr_v3 *way, *to;
 } sink;
 
@@ -152,7 +179,7 @@ sink_body(void *arg, size_t begin, size_t end)
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++) {
 		mr_v3 p = s->d->p[v];
-		if (s->d->kind[v] == MR_DEAD || s->dist2[v] <= s->far * s->far)
+		if (!s->film[v])
 			s->to[v] = mr_add(p, s->way[v]);
 		else
 			s->to[v] = mr_add(
@@ -168,36 +195,27 @@ at_most(mr_v3 x, double length)
 	return n > length ? mr_mul(length / n, x) : x;
 }
 
-/* v <- v + alpha (q - v), with the q of the search where there is one, by `step` at most. */
-static mr_status
-draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double far, mr_dyn *d)
+/* v <- v + alpha (q - v), with the q of the search where there is one, by an edge at most. */
+mr_status
+mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double length, mr_dyn *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *nearest = MR_NEW(ctx, d->nv, uint32_t);
 	double *dist2 = MR_NEW(ctx, d->nv, double);
 	mr_v3 *to = MR_NEW(ctx, d->nv, mr_v3), *way = MR_NEW(ctx, d->nv, mr_v3);
+	uint8_t *film = MR_NEW(ctx, d->nv, uint8_t);
 
-	if (!nearest || !dist2 || !to || !way)
+	if (!nearest || !dist2 || !to || !way || !film)
 		return MR_EMEM;
 	MR_TRY(mr_near_query(ctx, cloud->near, d->p, d->nv, 1, nearest, dist2));
 	for (size_t v = 0; v < d->nv; v++)
 		to[v] = cloud->p[nearest[v]];
-	MR_TRY(search_normals(ctx, cloud, d, dist2, far, to));
+	mr_parallel(ctx, d->nv, GRAIN, mark_body, &(marking){ d, to, length, film });
+	MR_TRY(search_normals(ctx, cloud, d, dist2, film, to));
 	for (size_t v = 0; v < d->nv; v++)
-		way[v] = at_most(mr_mul(alpha, mr_sub(to[v], d->p[v])), far / 2);
-	mr_parallel(ctx, d->nv, GRAIN, sink_body, &(sink){ d, dist2, far, 0, way, to });
+		way[v] = at_most(mr_mul(alpha, mr_sub(to[v], d->p[v])), length);
+	mr_parallel(ctx, d->nv, GRAIN, sink_body, &(sink){ d, film, way, to });
 	MR_TRY(mr_wrap_move(ctx, to, d));
 	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
-mr_status
-mr_wrap_level(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_dyn *d)
-{
-	MR_TRY(mr_wrap_remesh(ctx, length, d));
-	for (int i = 0; i < 2; i++) {
-		MR_TRY(draw(ctx, cloud, o->alpha, length, d));
-		MR_TRY(mr_wrap_smooth(ctx, o->lambda, true, d));
-	}
 	return MR_OK;
 }
