@@ -100,12 +100,17 @@ make_room_v(mr_ctx *ctx, mr_dyn *d, size_t room)
 	uint32_t *at = mr_grow(ctx, d->at, d->nv, room, sizeof *at);
 	uint8_t *kind = mr_grow(ctx, d->kind, d->nv, room, sizeof *kind);
 
+	float *scale = d->scale;
+
 	if (!p || !out || !at || !kind)
+		return MR_EMEM;
+	if (scale && !(scale = mr_grow(ctx, scale, d->nv, room, sizeof *scale)))
 		return MR_EMEM;
 	d->p = p;
 	d->out = out;
 	d->at = at;
 	d->kind = kind;
+	d->scale = scale;
 	d->room_v = room;
 	return MR_OK;
 }
@@ -170,6 +175,19 @@ mr_dyn_valence(const mr_dyn *d, uint32_t v)
 	return n + (h == MR_NONE);
 }
 
+mr_v3
+mr_dyn_normal_around(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+	mr_v3 sum = { 0, 0, 0 };
+
+	do {
+		sum = mr_add(sum, mr_dyn_cross(d, d->p, h / 3));
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return sum;
+}
+
 static void
 link_twins(mr_dyn *d, uint32_t h, uint32_t g)
 {
@@ -231,13 +249,6 @@ cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 		d->out[b] = bc;
 }
 
-/* A face of the source at or near vertex v. */
-static uint32_t
-place_of(const mr_dyn *d, uint32_t v)
-{
-	return d->kind[v] == MR_SMOOTH ? d->at[v] : d->at[v] / 3;
-}
-
 mr_status
 mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 {
@@ -249,7 +260,9 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 		MR_TRY(new_face(ctx, d, &e));
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
-	d->at[m] = mr_dyn_on_curve(d, h) ? curve_of(d, h) : place_of(d, a);
+	d->at[m] = mr_dyn_on_curve(d, h) ? curve_of(d, h) : mr_dyn_place(d, a);
+	if (d->scale)
+		d->scale[m] = 0.5f * (d->scale[a] + d->scale[mr_dyn_to(d, h)]);
 	cut_face(d, h, m, f);
 	d->out[m] = 3 * f;
 	if (g == MR_NONE) {
@@ -377,6 +390,8 @@ mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p)
 		close_face(d, g);
 	keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
 	d->p[b] = p;
+	if (d->scale && d->scale[a] < d->scale[b])
+		d->scale[b] = d->scale[a];
 	d->kind[a] = MR_DEAD;
 	d->out[a] = d->free_v;
 	d->free_v = a;
@@ -461,6 +476,8 @@ mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
 			d->out[w] = 3 * face[h / 3] + h % 3;
 			d->at[w] = d->at[v];
 			d->kind[w] = d->kind[v];
+			if (d->scale)
+				d->scale[w] = d->scale[v];
 		}
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (face[h / 3] != MR_NONE) {

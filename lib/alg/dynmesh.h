@@ -24,6 +24,7 @@ typedef struct mr_dyn {
 	uint32_t *out; /* as in mr_topology */
 	uint32_t *at;  /* place on the source surface: a face, or on a curve a half-edge (alg/project.h) */
 	uint8_t *kind; /* mr_kind */
+	float *scale;  /* of the target length, at most 1: less where it is refined; NULL: nowhere */
 	size_t nv, room_v;
 	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
 	uint32_t *v, *twin;
@@ -49,6 +50,13 @@ static inline bool
 mr_dyn_on_curve(const mr_dyn *d, uint32_t h)
 {
 	return d->curve && d->curve[h] != MR_NONE;
+}
+
+/* The face of the source at or near vertex v. */
+static inline uint32_t
+mr_dyn_place(const mr_dyn *d, uint32_t v)
+{
+	return d->kind[v] == MR_SMOOTH ? d->at[v] : d->at[v] / 3;
 }
 
 /* The third vertex of h's face. */
@@ -124,6 +132,9 @@ mr_status mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, d
 
 /* Number of edges at v. */
 unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v);
+
+/* The sum of the faces' normals around v, by area; twice the area long. */
+mr_v3 mr_dyn_normal_around(const mr_dyn *d, uint32_t v);
 
 /* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
  */

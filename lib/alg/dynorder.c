@@ -122,7 +122,7 @@ permute_vertices(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
 	MR_TRY(permute(ctx, d->kind, d->nv, sizeof *d->kind, number));
 	for (size_t h = 0; h < 3 * d->nf; h++)
 		d->v[h] = number[d->v[h]];
-	return MR_OK;
+	return d->scale ? permute(ctx, d->scale, d->nv, sizeof *d->scale, number) : MR_OK;
 }
 
 static mr_status

@@ -6,7 +6,7 @@
 #ifndef MR_IRON_H
 #define MR_IRON_H
 
-#include "alg/dynmesh.h"
+#include "alg/relax.h"
 
 /*
  * Draws the vertices at edges that are folded by more than 160 degrees towards the middle of their
@@ -15,5 +15,11 @@
  * there the surface gives way.  Returns how many folds are left.
  */
 size_t mr_iron(mr_dyn *d, bool tips);
+
+/*
+ * Moves vertices of flipped faces and at folded edges, on the surface where it can be, to where fewer of both
+ * are around them; 10 times at most.
+ */
+mr_status mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s);
 
 #endif

@@ -18,13 +18,13 @@ typedef struct pass {
 double
 mr_surface_length(const mr_surface *s, const mr_dyn *d, uint32_t v)
 {
-	uint32_t at = d->at[v];
+	double scale = d->scale ? d->scale[v] : 1;
 	const uint32_t *t;
 
 	if (!s->length)
-		return s->uniform;
-	t = s->m->t[d->kind[v] == MR_SMOOTH ? at : at / 3].v;
-	return (s->length[t[0]] + s->length[t[1]] + s->length[t[2]]) / 3;
+		return scale * s->uniform;
+	t = s->m->t[mr_dyn_place(d, v)].v;
+	return scale * (s->length[t[0]] + s->length[t[1]] + s->length[t[2]]) / 3;
 }
 
 /*
@@ -97,9 +97,49 @@ gravity_body(void *arg, size_t begin, size_t end)
 	}
 }
 
+bool
+mr_surface_against(const mr_surface *s, const mr_dyn *d, const uint32_t *at, const uint32_t v[3], mr_v3 cross)
+{
+	for (int k = 0; k < 3; k++) {
+		uint32_t place = d->kind[v[k]] == MR_SMOOTH ? at[v[k]] : at[v[k]] / 3;
+		if (mr_dot(cross, mr_face_cross(s->m, place)) >= 0)
+			return false;
+	}
+	return true;
+}
+
+/* True where the source at the place points the way of the normal, or nothing is known of either. */
+static bool
+agrees(const mr_mesh *m, mr_closest place, mr_v3 normal)
+{
+	return mr_dot(mr_face_cross(m, place.face), normal) >= 0;
+}
+
+mr_closest
+mr_surface_place(const mr_surface *s, const mr_dyn *d, uint32_t v, mr_v3 q, mr_v3 normal)
+{
+	mr_closest best = mr_project_walk(s->m, s->topo, mr_dyn_place(d, v), q);
+	double far = MR_FAR * mr_surface_length(s, d, v);
+	bool good = agrees(s->m, best, normal);
+	uint32_t h = d->out[v];
+
+	if (good && best.dist2 <= far * far)
+		return best;
+	do {
+		mr_closest c = mr_project_walk(s->m, s->topo, mr_dyn_place(d, mr_dyn_to(d, h)), q);
+		bool agreed = agrees(s->m, c, normal);
+		if (agreed > good || (agreed == good && c.dist2 < best.dist2)) {
+			best = c;
+			good = agreed;
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return best;
+}
+
 /* p + lambda (I - n n^T) (g - p) */
 static mr_v3
-tangential_move(const pass *w, uint32_t v)
+tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
 {
 	const mr_dyn *d = w->d;
 	uint32_t h = d->out[v];
@@ -114,9 +154,10 @@ tangential_move(const pass *w, uint32_t v)
 		mass += gb;
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
+	*normal = n;
 	if (!(mass > 0))
 		return p;
-	n = mr_unit(n);
+	*normal = n = mr_unit(n);
 	move = mr_sub(mr_mul(1 / mass, g), p);
 	return mr_axpy(w->o->damping, mr_axpy(-mr_dot(move, n), n, move), p);
 }
@@ -145,6 +186,14 @@ curve_move(const pass *w, uint32_t v)
 	return n > 0 ? mr_lerp(w->o->damping, d->p[v], mr_mul(1 / n, sum)) : d->p[v];
 }
 
+/* True where face `to` of the source points against the normal, and face `from` did not: over a rim. */
+static bool
+leaves_side(const mr_mesh *m, uint32_t from, uint32_t to, mr_v3 normal)
+{
+	return to != from && mr_dot(mr_face_cross(m, to), normal) < 0 &&
+	       mr_dot(mr_face_cross(m, from), normal) >= 0;
+}
+
 static void
 move_body(void *arg, size_t begin, size_t end)
 {
@@ -152,13 +201,17 @@ move_body(void *arg, size_t begin, size_t end)
 	const mr_surface *s = w->s;
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++) {
-		mr_v3 p = w->d->p[v];
+		mr_v3 p = w->d->p[v], normal;
 		uint32_t at = w->d->at[v];
 		switch ((mr_kind)w->d->kind[v]) {
 		case MR_SMOOTH:
-			p = tangential_move(w, v);
+			p = tangential_move(w, v, &normal);
 			if (w->o->project) {
-				mr_closest c = mr_project_walk(s->m, s->topo, at, p);
+				mr_closest c = mr_surface_place(s, w->d, v, p, normal);
+				if (leaves_side(s->m, at, c.face, normal)) {
+					p = w->d->p[v];
+					break;
+				}
 				p = c.point;
 				at = c.face;
 			}
@@ -179,9 +232,7 @@ move_body(void *arg, size_t begin, size_t end)
 static mr_v3
 source_normal(const pass *w, size_t f)
 {
-	uint32_t v = w->d->v[3 * f], at = w->d->at[v];
-
-	return mr_face_cross(w->s->m, w->d->kind[v] == MR_SMOOTH ? at : at / 3);
+	return mr_face_cross(w->s->m, mr_dyn_place(w->d, w->d->v[3 * f]));
 }
 
 /* True where the two vectors are more than 60 degrees apart. */
@@ -217,6 +268,14 @@ folds_anew(const pass *w, size_t f, mr_v3 before, mr_v3 after)
 	return false;
 }
 
+static bool
+is_refined(const mr_dyn *d, size_t f)
+{
+	const uint32_t *v = &d->v[3 * f];
+
+	return d->scale && (d->scale[v[0]] < 1 || d->scale[v[1]] < 1 || d->scale[v[2]] < 1);
+}
+
 /*
  * True where the move turns face f by more than 60 degrees, folds it, or leaves it a worse needle than
  * before.  Folds are looked for where the face leaves the source's direction, which also tells what
@@ -233,10 +292,13 @@ turns(const pass *w, size_t f)
 	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
 		return true;
 	normal = source_normal(w, f);
-	if (!faces(after, normal) && folds_anew(w, f, before, after))
+	if (mr_dot(after, normal) < 0 && mr_surface_against(w->s, w->d, w->at, v, after) &&
+	    !mr_surface_against(w->s, w->d, w->d->at, v, before))
+		return true;
+	if ((!faces(after, normal) || is_refined(w->d, f)) && folds_anew(w, f, before, after))
 		return true;
 	if (!mr_dyn_is_needle(before, p[v[0]], p[v[1]], p[v[2]]))
-		return apart(before, after);
+		return apart(before, after) && (!faces(after, normal) || folds_anew(w, f, before, after));
 	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
 }
 

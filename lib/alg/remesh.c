@@ -1,7 +1,10 @@
 #include "alg/remesh.h"
 
+#include "alg/facing.h"
+#include "alg/folding.h"
 #include "alg/iron.h"
 #include "alg/project.h"
+#include "alg/refine.h"
 #include "alg/relax.h"
 #include "alg/sizing.h"
 #include "alg/tips.h"
@@ -27,7 +30,9 @@ typedef struct remesher {
 	mr_dyn d;
 	uint32_t *mark; /* stamps for the link condition; room for the vertices of one sweep */
 	uint32_t stamp;
+	size_t refused; /* collapses that would have folded */
 	size_t splits, collapses, flips, tips;
+	size_t flipped[2], folded[2]; /* faces and edges, of the input and of the result */
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 	double seconds_rounds, seconds_areas;
@@ -45,7 +50,7 @@ target(const remesher *r, uint32_t h)
 {
 	double a, b;
 
-	if (!r->source.length)
+	if (!r->source.length && !r->d.scale)
 		return r->source.uniform;
 	a = mr_surface_length(&r->source, &r->d, r->d.v[h]);
 	b = mr_surface_length(&r->source, &r->d, mr_dyn_to(&r->d, h));
@@ -130,6 +135,19 @@ too_short(const remesher *r, uint32_t h)
 	       opposite_cosine(d, d->twin[h]) > NARROW;
 }
 
+/* The place of a new vertex, first that of an end of its edge: a walk from there may not get to it. */
+static void
+place_middle(remesher *r, uint32_t m)
+{
+	const mr_surface *s = &r->source;
+	mr_dyn *d = &r->d;
+	mr_closest c = mr_project_walk(s->m, s->topo, d->at[m], d->p[m]);
+
+	if (c.dist2 > square(MR_FAR * mr_surface_length(s, d, m)))
+		c = mr_surface_place(s, d, m, d->p[m], mr_dyn_normal_around(d, m));
+	d->at[m] = c.face;
+}
+
 /* 1. Split all edges that are longer than 4/3 l at their midpoint. */
 static mr_status
 split_long(remesher *r)
@@ -141,6 +159,8 @@ split_long(remesher *r)
 			uint32_t g = locally_longest(d, h), m;
 			mr_v3 middle = mr_lerp(0.5, d->p[d->v[g]], d->p[mr_dyn_to(d, g)]);
 			MR_TRY(mr_dyn_split(r->ctx, d, g, middle, &m));
+			if (d->kind[m] == MR_SMOOTH)
+				place_middle(r, m);
 			r->splits++;
 		}
 	return MR_OK;
@@ -186,20 +206,6 @@ merged_position(const mr_dyn *d, uint32_t a, uint32_t b)
 	return d->p[b];
 }
 
-/* The sum of the faces' normals around v, by area. */
-static mr_v3
-normal_around(const mr_dyn *d, uint32_t v)
-{
-	uint32_t h = d->out[v];
-	mr_v3 sum = { 0, 0, 0 };
-
-	do {
-		sum = mr_add(sum, mr_dyn_cross(d, d->p, h / 3));
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return sum;
-}
-
 static bool
 try_collapse(remesher *r, uint32_t h, double longest2)
 {
@@ -214,10 +220,16 @@ try_collapse(remesher *r, uint32_t h, double longest2)
 	if (!mr_dyn_can_collapse(d, h, r->mark, ++r->stamp))
 		return false;
 	p = merged_position(d, a, b);
-	facing = mr_add(normal_around(d, a), normal_around(d, b));
+	facing = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
 	if (!move_is_good(d, a, b, p, facing, longest2) || !move_is_good(d, b, a, p, facing, longest2))
 		return false;
+	if (mr_merging_folds(d, &r->source, a, b, p)) {
+		r->refused++;
+		return false;
+	}
 	mr_dyn_collapse(d, h, p);
+	if (d->scale && d->kind[b] == MR_SMOOTH)
+		d->at[b] = mr_surface_place(&r->source, d, b, p, mr_dyn_normal_around(d, b)).face;
 	r->collapses++;
 	return true;
 }
@@ -235,12 +247,18 @@ static mr_status
 collapse_short(remesher *r)
 {
 	mr_dyn *d = &r->d;
-	mr_mark mark = mr_mark_take(r->ctx);
+	mr_mark mark;
 
+	if (r->refused > 0 && !d->scale)
+		MR_TRY(mr_refine_begin(r->ctx, d));
+	mark = mr_mark_take(r->ctx);
 	MR_TRY(begin_marks(r));
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (is_edge(d, h) && too_short(r, h))
-			try_collapse(r, h, square(LONG * target(r, h)));
+		if (is_edge(d, h) && too_short(r, h)) {
+			size_t refused = r->refused;
+			if (!try_collapse(r, h, square(LONG * target(r, h))) && r->refused > refused)
+				mr_refine_edge(d, &r->source, h);
+		}
 	mr_mark_release(r->ctx, mark);
 	return MR_OK;
 }
@@ -278,7 +296,7 @@ mend_needles(remesher *r)
 		if (mr_dyn_face_dead(d, f) || mr_dyn_shape(d->p[v[0]], d->p[v[1]], d->p[v[2]]) >= MR_NEEDLE)
 			continue;
 		longest = longest_side(d, longest_side(d, 3 * f));
-		if (mr_dyn_can_flip(d, longest) && mr_flip_is_good(d, longest))
+		if (mr_dyn_can_flip(d, longest) && mr_flip_is_good(d, &r->source, longest))
 			mr_dyn_flip(d, longest);
 		else
 			collapse_a_side(r, 3 * f);
@@ -293,7 +311,7 @@ regularize(remesher *r, unsigned reach)
 {
 	size_t flips;
 
-	MR_TRY(mr_regularize(r->ctx, &r->d, reach, &flips));
+	MR_TRY(mr_regularize(r->ctx, &r->d, &r->source, reach, &flips));
 	r->flips += flips;
 	return MR_OK;
 }
@@ -312,7 +330,7 @@ equalize_areas(remesher *r)
 			MR_TRY(regularize(r, 0));
 	}
 	mr_iron(&r->d, true);
-	return MR_OK;
+	return mr_mend_flaws(r->ctx, &r->d, &r->source);
 }
 
 /*
@@ -375,6 +393,7 @@ run(remesher *r)
 
 	for (size_t i = 0; i < r->o->rounds; i++) {
 		MR_TRY(one_round(r));
+		mr_refine_grade(&r->d, &r->source);
 		if (i == 0 || i + 1 == r->o->rounds)
 			MR_TRY(tidy(r)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
@@ -401,12 +420,31 @@ map_to_source(remesher *r, mr_source_map *map)
 	if (!face || !bary)
 		return MR_EMEM;
 	for (size_t v = 0; v < d->nv; v++) {
-		uint32_t f = d->kind[v] == MR_SMOOTH ? d->at[v] : d->at[v] / 3;
-		mr_closest c = mr_project_walk(s->m, s->topo, f, d->p[v]);
+		mr_closest c = mr_surface_place(
+		    s, d, (uint32_t)v, d->p[v], mr_dyn_normal_around(d, (uint32_t)v));
 		face[v] = c.face;
 		bary[v] = c.bary;
 	}
 	*map = (mr_source_map){ face, bary };
+	return MR_OK;
+}
+
+/* Triangles flipped and edges folded, of the input and of the result. */
+static mr_status
+count_flaws(remesher *r, const mr_source_map *map)
+{
+	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
+	mr_mark mark = mr_mark_take(r->ctx);
+	mr_source_map identity;
+	mr_facing facing;
+
+	MR_TRY(mr_source_map_identity(r->ctx, r->source.m, &identity));
+	MR_TRY(mr_facing_begin(r->ctx, r->source.m, r->source.topo, &facing));
+	r->flipped[0] = mr_count_flipped(&facing, r->source.m, &identity);
+	r->flipped[1] = mr_count_flipped(&facing, &view, map);
+	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
+	r->folded[1] = mr_count_folded(&view, r->d.twin);
+	mr_mark_release(r->ctx, mark);
 	return MR_OK;
 }
 
@@ -466,6 +504,10 @@ report(const remesher *r)
 	mr_stat_set(r->ctx, "faces", (double)r->d.nf);
 	mr_stat_set(r->ctx, "area_variance_before", r->variance[0]);
 	mr_stat_set(r->ctx, "area_variance_after", r->variance[1]);
+	mr_stat_set(r->ctx, "flipped_before", (double)r->flipped[0]);
+	mr_stat_set(r->ctx, "flipped", (double)r->flipped[1]);
+	mr_stat_set(r->ctx, "folded_before", (double)r->folded[0]);
+	mr_stat_set(r->ctx, "folded", (double)r->folded[1]);
 	mr_stat_set(r->ctx, "seconds_rounds", r->seconds_rounds);
 	mr_stat_set(r->ctx, "seconds_areas", r->seconds_areas);
 }
@@ -481,6 +523,7 @@ mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, 
 	MR_TRY(run(&r));
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
 	MR_TRY(map_to_source(&r, map));
+	MR_TRY(count_flaws(&r, map));
 	report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
 	return MR_OK;
