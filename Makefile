@@ -6,6 +6,7 @@
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
 #	make demo       the main job on real models: pictures and a table, in demo/
 #	make bench      speed and memory beside the peers'
+#	make table1     the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
 #	make readme     the generated parts of README.md
 #	make install    to $(DESTDIR)$(PREFIX)
 #	make clean
@@ -96,6 +97,9 @@ demo: $(TOOLS)
 bench: $(TOOLS) $(BENCHES) $(PEERS)
 	@$(RUN) tests/bench/run $(T)
 
+table1: $(TOOLS) $(BUILD)/bench/plot
+	@$(RUN) PATH='$(abspath $(BUILD))/bin:$(abspath $(BUILD))/bench:$(PATH)' sh tests/bench/table1.sh '$(BUILD)/table1'
+
 readme:
 	@tests/readme >$(BUILD)/README.md && cat $(BUILD)/README.md >README.md
 
@@ -112,5 +116,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units setup check bless demo bench readme install clean
+.PHONY: all units setup check bless demo bench table1 readme install clean
 .SECONDARY:
