@@ -18,18 +18,28 @@ typedef struct mr_ring {
 	unsigned n;
 } mr_ring;
 
+/* What a vertex carries with it. */
+typedef struct mr_site {
+	mr_quadric q; /* about its position */
+	bool rim;     /* on the boundary */
+} mr_site;
+
 typedef struct mr_merge {
+	uint32_t edge; /* one of its half-edges */
 	mr_ring ring;
 	mr_v3 p;       /* where the merged vertex goes */
 	double cost;   /* by which merges are put in order */
 	double error2; /* mean squared distance of p to the planes of the faces merged into it, by area */
 } mr_merge;
 
+/* About a lower bound of the cost of the merge of h, at a part of the work. */
+double mr_merge_bound(const mr_dyn *d, const mr_site *site, uint32_t h);
+
 /*
- * What it is to merge the ends of h; q: the quadrics of all vertices, each about its position.  False where
+ * What it is to merge the ends of h; site: of every vertex.  False where
  * the merged vertex would have more than MR_RING_MAX faces.
  */
-bool mr_merge_of(const mr_dyn *d, const mr_quadric *q, uint32_t h, mr_merge *m);
+bool mr_merge_of(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m);
 
 /*
  * True where the merge turns no face by 78 degrees or more, makes no needle (or none worse than the face was)

@@ -17,7 +17,7 @@ typedef struct simplifier {
 	const mr_simplify_opts *o;
 	mr_dyn d;          /* scaled by a power of two to about unit size; at[v]: the number in the input */
 	double scale;      /* that power */
-	mr_quadric *q;     /* of each vertex, about its position */
+	mr_site *site;     /* of each vertex */
 	mr_buckets *queue; /* of edges, by the half-edge with the lower number */
 	uint16_t *bucket;  /* of each such half-edge: its last one */
 	uint32_t *onto;    /* what each vertex was merged into, itself while it lives */
@@ -41,11 +41,9 @@ compute_body(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		uint32_t h = (uint32_t)i;
-		mr_merge m;
 		s->bucket[h] = UNKNOWN;
-		if (!mr_dyn_face_dead(&s->d, h / 3) && edge_of(&s->d, h) == h &&
-		    mr_merge_of(&s->d, s->q, h, &m))
-			s->bucket[h] = (uint16_t)mr_bucket_of((float)m.cost);
+		if (!mr_dyn_face_dead(&s->d, h / 3) && edge_of(&s->d, h) == h)
+			s->bucket[h] = (uint16_t)mr_bucket_of((float)mr_merge_bound(&s->d, s->site, h));
 	}
 }
 
@@ -114,11 +112,11 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 	mr_dyn *d = &s->d;
 	uint32_t a = d->v[h], b = mr_dyn_to(d, h), g = d->twin[h], bucket[2] = { UNKNOWN, UNKNOWN };
 	uint32_t side = fuse_sides(s, h, &bucket[0]), other = g == MR_NONE ? 0 : fuse_sides(s, g, &bucket[1]);
-	mr_quadric qa = mr_quadric_moved(&s->q[a], mr_sub(m->p, d->p[a]));
-	mr_quadric qb = mr_quadric_moved(&s->q[b], mr_sub(m->p, d->p[b]));
+	mr_quadric qa = mr_quadric_moved(&s->site[a].q, mr_sub(m->p, d->p[a]));
+	mr_quadric qb = mr_quadric_moved(&s->site[b].q, mr_sub(m->p, d->p[b]));
 
 	mr_dyn_collapse(d, h, m->p);
-	s->q[b] = mr_quadric_sum(&qa, &qb);
+	s->site[b] = (mr_site){ mr_quadric_sum(&qa, &qb), s->site[a].rim || s->site[b].rim };
 	s->onto[a] = b;
 	s->faces -= g == MR_NONE ? 1 : 2;
 	if (++s->merges % 8192 == 0)
@@ -139,8 +137,13 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 	uint32_t now;
 	mr_merge m;
 
+	now = mr_bucket_of((float)mr_merge_bound(&s->d, s->site, h));
+	if (now > bucket) {
+		enqueue(s, h, now);
+		return;
+	}
 	s->computed++;
-	if (!mr_merge_of(&s->d, s->q, h, &m) || m.error2 > limit * limit)
+	if (!mr_merge_of(&s->d, s->site, h, &m) || m.error2 > limit * limit)
 		return;
 	now = mr_bucket_of((float)m.cost);
 	if (now > bucket) {
@@ -173,7 +176,7 @@ static void
 add_face(simplifier *s, uint32_t f, mr_v3 normal, double area)
 {
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
-		mr_quadric *q = &s->q[s->d.v[h]];
+		mr_quadric *q = &s->site[s->d.v[h]].q;
 		mr_quadric_add_plane(q, normal, area / 3);
 		q->area += area / 3;
 	}
@@ -188,8 +191,9 @@ add_rim(simplifier *s, uint32_t h, mr_v3 normal)
 	mr_v3 edge = mr_sub(d->p[b], d->p[a]), side = mr_unit(mr_cross(normal, edge));
 	double weight = s->o->boundary * mr_norm2(edge) / 2;
 
-	mr_quadric_add_plane(&s->q[a], side, weight);
-	mr_quadric_add_plane(&s->q[b], side, weight);
+	s->site[a].rim = s->site[b].rim = true;
+	mr_quadric_add_plane(&s->site[a].q, side, weight);
+	mr_quadric_add_plane(&s->site[b].q, side, weight);
 }
 
 static void
@@ -243,11 +247,11 @@ static mr_status
 begin(simplifier *s, const mr_mesh *m)
 {
 	MR_TRY(copy_mesh(s, m));
-	s->q = MR_NEW_ZERO(s->ctx, s->d.nv, mr_quadric);
+	s->site = MR_NEW_ZERO(s->ctx, s->d.nv, mr_site);
 	s->onto = mr_sets_new(s->ctx, s->d.nv);
 	s->mark = MR_NEW_ZERO(s->ctx, s->d.nv, uint32_t);
 	s->bucket = MR_NEW(s->ctx, 3 * s->d.nf, uint16_t);
-	if (!s->q || !s->onto || !s->mark || !s->bucket)
+	if (!s->site || !s->onto || !s->mark || !s->bucket)
 		return MR_EMEM;
 	s->faces = s->d.nf;
 	add_quadrics(s);

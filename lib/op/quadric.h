@@ -66,23 +66,23 @@ mr_quadric_sum(const mr_quadric *p, const mr_quadric *q)
 		p->zz + q->zz, mr_add(p->b, q->b), p->c + q->c, p->area + q->area };
 }
 
-/* The factor L D L' of A + shift I, shift > 0. */
+/* The factor L D L' of A + shift I, shift > 0; i0 to i2 are 1 / D. */
 typedef struct mr_quadric_factor {
-	double shift, l10, l20, l21, d0, d1, d2;
+	double shift, l10, l20, l21, i0, i1, i2;
 } mr_quadric_factor;
 
 static inline mr_quadric_factor
 mr_quadric_factor_of(const mr_quadric *q, double shift)
 {
-	mr_quadric_factor f = { .shift = shift, .d0 = q->xx + shift };
+	mr_quadric_factor f = { .shift = shift, .i0 = 1 / (q->xx + shift) };
 	double u;
 
-	f.l10 = q->xy / f.d0;
-	f.l20 = q->xz / f.d0;
-	f.d1 = q->yy + shift - f.l10 * q->xy;
+	f.l10 = q->xy * f.i0;
+	f.l20 = q->xz * f.i0;
+	f.i1 = 1 / (q->yy + shift - f.l10 * q->xy);
 	u = q->yz - f.l10 * q->xz;
-	f.l21 = u / f.d1;
-	f.d2 = q->zz + shift - f.l20 * q->xz - f.l21 * u;
+	f.l21 = u * f.i1;
+	f.i2 = 1 / (q->zz + shift - f.l20 * q->xz - f.l21 * u);
 	return f;
 }
 
@@ -90,12 +90,10 @@ mr_quadric_factor_of(const mr_quadric *q, double shift)
 static inline mr_v3
 mr_quadric_solve(const mr_quadric_factor *f, mr_v3 r)
 {
-	double y = r.y - f->l10 * r.x, z = r.z - f->l20 * r.x - f->l21 * y;
-	mr_v3 x = { 0, 0, z / f->d2 };
+	double y = r.y - f->l10 * r.x, z = (r.z - f->l20 * r.x - f->l21 * y) * f->i2;
 
-	x.y = y / f->d1 - f->l21 * x.z;
-	x.x = r.x / f->d0 - f->l10 * x.y - f->l20 * x.z;
-	return x;
+	y = y * f->i1 - f->l21 * z;
+	return mr_vec(r.x * f->i0 - f->l10 * y - f->l20 * z, y, z);
 }
 
 #endif
