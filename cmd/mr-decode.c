@@ -1,14 +1,22 @@
-/* mr-decode -- put the detail of a mesh back onto its base surface.  See man/mr-decode.1. */
-#include "alg/deform.h"
+/* mr-decode -- put detail back onto its base surface, and heights onto a subdivision surface.  See
+ * man/mr-decode.1. */
 #include "alg/detail.h"
-#include "alg/handles.h"
+#include "alg/domain.h"
+#include "alg/response.h"
 #include "cmd.h"
-#include "mesh/layers.h"
+
+typedef enum source { DETAIL, CONTROL } source;
 
 static double gain = 1;
+static size_t level;
+static int from;
 
 static const cmd_opt table[] = {
 	{ 'g', "gain", CMD_REAL, &gain, -1e6, 1e6, "G", "multiply the detail by G", NULL },
+	{ 0, "level", CMD_COUNT, &level, 0, MR_LEVEL_MAX, "J",
+	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
+	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",
+	    "what to put the mesh together from (default: detail where it is there)", NULL },
 	{ 0 },
 };
 
@@ -36,43 +44,8 @@ base_incidence(cmd *c, const mr_frame *f, const mr_mesh *base, const mr_incidenc
 	return MR_OK;
 }
 
-/* Poses the base by its response, where the frame has handles; they are used up. */
 static mr_status
-pose_base(mr_ctx *ctx, mr_frame *f, mr_mesh *base)
-{
-	const mr_column *column = mr_frame_find(f, "base", "response");
-	mr_v3 *p = MR_NEW(ctx, base->nv, mr_v3);
-	const void *response;
-	mr_mesh posed;
-	mr_affine *t;
-	size_t n;
-
-	if (!mr_layer_has(f, "handles", "transform"))
-		return MR_OK;
-	if (!column)
-		return mr_fail(ctx, MR_EMISSING,
-		    "handles, but no base.response: pose the base by mr-solve, or give it its response by "
-		    "mr-solve --basis");
-	MR_TRY(mr_layer_get_rows(ctx, f, "base", "response", base->nv, &response));
-	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &t, &n));
-	if (column->shape.components != 4 * n)
-		return mr_fail(ctx, MR_ERANGE,
-		    "base: column response has %u values a vertex, not 4 for each of %zu handles",
-		    column->shape.components, n);
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_pose_by_response(ctx, base->p, base->nv, response, n, t, p));
-	mr_frame_drop(f, "handles", NULL, 0);
-	mr_frame_drop(f, "base", "response", 0);
-	mr_frame_drop(f, "base", "normal", 0);
-	MR_TRY(mr_layer_put_positions(ctx, f, "base", p, base->nv));
-	MR_TRY(mr_layer_points(ctx, f, "base", &posed)); /* a response that is not finite shows here */
-	base->p = posed.p;
-	return MR_OK;
-}
-
-static mr_status
-decode_frame(cmd *c, mr_frame *f)
+decode_detail(cmd *c, mr_frame *f)
 {
 	const mr_incidence *inc;
 	mr_detail detail;
@@ -81,7 +54,7 @@ decode_frame(cmd *c, mr_frame *f)
 
 	MR_TRY(mr_layer_mesh(&c->ctx, f, "base", &base));
 	MR_TRY(base_incidence(c, f, &base, &inc));
-	MR_TRY(pose_base(&c->ctx, f, &base));
+	MR_TRY(mr_response_apply(&c->ctx, f, &base));
 	MR_TRY(mr_detail_get(&c->ctx, f, &base, &detail));
 	p = MR_NEW(&c->ctx, detail.n, mr_v3);
 	if (!p)
@@ -91,12 +64,78 @@ decode_frame(cmd *c, mr_frame *f)
 	return mr_layer_put_positions(&c->ctx, f, "mesh", p, detail.n);
 }
 
+static mr_level_cache levels;
+
+/* Level J of the surface needs the first heights alone. */
+static mr_status
+decode_control(cmd *c, mr_frame *f)
+{
+	const mr_loop *refined;
+	const double *height;
+	mr_mesh control;
+	mr_domain d;
+	mr_v3 *p;
+	size_t n;
+
+	MR_TRY(mr_layer_mesh(&c->ctx, f, "control", &control));
+	MR_TRY(mr_displacement_get(&c->ctx, f, &control, &n, &height));
+	if (cmd_given(c, "level") && level > n)
+		return mr_fail(
+		    &c->ctx, MR_ERANGE, "--level %zu, but displacement ends with level %zu", level, n);
+	if (cmd_given(c, "level"))
+		n = level;
+	MR_TRY(mr_response_apply(&c->ctx, f, &control));
+	MR_TRY(mr_level_cache_get(&levels, &c->keep, f, &control, 180, n, &refined));
+	MR_TRY(mr_domain_on(&c->ctx, &control, refined, n, &d));
+	p = MR_NEW(&c->ctx, d.m.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	mr_domain_displace(&c->ctx, &d, height, gain, p);
+	d.m.p = p;
+	MR_TRY(mr_layer_put_mesh(&c->ctx, f, "mesh", &d.m));
+	mr_frame_drop(f, "mesh", "normal", 0);
+	return MR_OK;
+}
+
+static mr_status
+choose(cmd *c, const mr_frame *f, int *chosen)
+{
+	bool detail = mr_layer_has(f, "mesh", "detail_face");
+
+	*chosen = from;
+	if (cmd_given(c, "from"))
+		return MR_OK;
+	if (!detail && !mr_frame_has_layer(f, "displacement"))
+		return mr_fail(&c->ctx, MR_EMISSING,
+		    "neither detail of mesh, which mr-encode makes, nor displacement, which mr-sample makes");
+	*chosen = detail ? DETAIL : CONTROL;
+	if (detail && cmd_given(c, "level"))
+		return mr_fail(
+		    &c->ctx, MR_EUSAGE, "--level has no effect on the detail that is here: --from control");
+	return MR_OK;
+}
+
+static mr_status
+decode_frame(cmd *c, mr_frame *f)
+{
+	int chosen;
+
+	MR_TRY(choose(c, f, &chosen));
+	return chosen == DETAIL ? decode_detail(c, f) : decode_control(c, f);
+}
+
+static mr_status
+prepare(cmd *c)
+{
+	return cmd_idle(c, "level", cmd_given(c, "from") && from == DETAIL, "with --from detail");
+}
+
 int
 main(int argc, char **argv)
 {
 	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "put the detail of a mesh back onto its base surface",
+	    &(cmd_tool){ .summary = "put detail or heights back onto their smooth surface",
 		.options = table,
-		.frame = decode_frame,
-		.fixed_layers = true });
+		.prepare = prepare,
+		.frame = decode_frame });
 }

@@ -50,8 +50,7 @@ mr_status mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, const mr_frame
 /* The level whose vertex count is nearest to `count`, in logarithm. */
 mr_status mr_domain_level(mr_ctx *ctx, const mr_mesh *control, size_t count, size_t *n);
 
-/* The displaced surface p = v + gain h n: d->m.nv positions, the caller's, or d->m.p itself.  height:
- * as many at least. */
+/* The displaced surface p = v + gain h n: d->m.nv positions, the caller's.  height: as many at least. */
 void mr_domain_displace(const mr_ctx *ctx, const mr_domain *d, const double *height, double gain, mr_v3 *p);
 
 /* The frame's heights over its control mesh: their level and all of them, checked to be finite and as many as

@@ -1,6 +1,9 @@
 /* Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5: precomputed basis
  * functions. */
+#include "alg/response.h"
+
 #include "alg/deform.h"
+#include "alg/handles.h"
 #include "base/parallel.h"
 
 typedef struct response_job {
@@ -50,5 +53,40 @@ mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *respon
 			change[h].m[i] = t[h].m[i] - identity.m[i];
 	mr_parallel(ctx, n, 4096, respond, &(response_job){ p0, response, handles, change, out });
 	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
+{
+	const mr_column *column = mr_frame_find(f, m->name, "response");
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	const void *response;
+	mr_mesh posed;
+	mr_affine *t;
+	size_t n;
+
+	if (!mr_layer_has(f, "handles", "transform"))
+		return MR_OK;
+	if (!column)
+		return mr_fail(ctx, MR_EMISSING,
+		    "handles, but no %s.response: pose %s by mr-solve, or give it its response by mr-solve "
+		    "--basis",
+		    m->name, m->name);
+	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
+	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &t, &n));
+	if (column->shape.components != 4 * n)
+		return mr_fail(ctx, MR_ERANGE,
+		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
+		    column->shape.components, n);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, n, t, p));
+	mr_frame_drop(f, "handles", NULL, 0);
+	mr_frame_drop(f, m->name, "response", 0);
+	mr_frame_drop(f, m->name, "normal", 0);
+	MR_TRY(mr_layer_put_positions(ctx, f, m->name, p, m->nv));
+	MR_TRY(mr_layer_points(ctx, f, m->name, &posed)); /* a response that is not finite shows here */
+	m->p = posed.p;
 	return MR_OK;
 }

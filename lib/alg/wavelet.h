@@ -15,7 +15,8 @@
 mr_status mr_wavelet_analyse(mr_ctx *ctx, const mr_loop *level, size_t n, double *x);
 mr_status mr_wavelet_synthesize(mr_ctx *ctx, const mr_loop *level, size_t n, double *x);
 
-/* Multiplies the coefficients of level i by gain[i], i = 0 to n.  x: heights, changed in place. */
+/* Multiplies the coefficients of level i by gain[i], i = 0 to n.  x: heights, changed in place.  MR_ERANGE
+ * where one is not finite any more. */
 mr_status mr_equalize(mr_ctx *ctx, const mr_loop *level, size_t n, const double *gain, double *x);
 
 #endif

@@ -1,0 +1,17 @@
+/*
+ * response.h -- a layer posed by its stored response to handles.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_RESPONSE_H
+#define MR_RESPONSE_H
+
+#include "mesh/layers.h"
+
+/*
+ * Poses the frame's layer, which is m, by its column `response`, where the frame has handles; both are used
+ * up.  MR_EMISSING where there are handles and no response.  m: with the posed positions.
+ */
+mr_status mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m);
+
+#endif

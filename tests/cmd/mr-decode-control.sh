@@ -1,0 +1,87 @@
+# From control and displacement: levels, defaults, moved control meshes, deltas, refusals.
+mr-make torus --points 3000 -o points.mrs
+mr-make torus -n 60 | mr-export -f off - | mr-import -l control - | mr-cat --merge - points.mrs |
+	mr-sample -n 3 -o torus.mrs || exit
+off() { # file: its mesh
+	mr-export -l mesh -f off - <"$1"
+}
+for level in 0 2 3; do
+	mr-decode --level $level torus.mrs -o out.mrs || exit
+	mr-info -l mesh out.mrs | sed -n 's/^ *mesh: //p; s/^ *topology *//p'
+done
+off out.mrs >full.off
+mr-decode torus.mrs -o out.mrs
+off out.mrs | cmp - full.off && echo 'the default is all'
+mr-decode --level 1 torus.mrs | mr-decode -o out.mrs
+off out.mrs | cmp - full.off && echo 'the heights are still there'
+mr-make torus -n 3000 -o round.mrs
+mr-compare --json -a mesh -b mesh round.mrs <out.mrs | sed 's/.*"hausdorff":\([^,}]*\).*/\1/' |
+	awk '{ print ($1 < 0.05 ? "near the torus" : "far: " $1) }'
+
+echo 'detail comes first'
+mr-make torus -n 500 | mr-smooth | mr-encode | mr-cat --merge - torus.mrs -o both.mrs
+mr-decode both.mrs | mr-info -l mesh | sed -n 's/^ *mesh: //p'
+mr-decode --from control both.mrs | mr-info -l mesh | sed -n 's/^ *mesh: //p; /detail/p'
+
+echo 'a control mesh that is posed carries the heights; deltas send positions alone'
+mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.8 torus.mrs | mr-solve -o solved.mrs || exit
+mr-solve --basis solved.mrs | mr-pose --translate 0.2,0,0.5 --frames 3 -o film.mrs
+mr-decode film.mrs -o decoded.mrs || exit
+mr-export frame%d.off <decoded.mrs
+mr-solve film.mrs | mr-decode | mr-export slow%d.off
+for i in 1 2 3 4; do
+	paste frame$i.off slow$i.off | awk 'NF == 6 { for (k = 1; k <= 3; k++) { d = $k - $(k + 3); if (d * d > 1e-20) bad++ } }
+		END { print (NR > 3000 && !bad ? "as by mr-solve" : "differ") }'
+done
+mr-solve --basis solved.mrs | mr-pose --translate 0.2,0,0.5 | mr-decode -o last.mrs
+off last.mrs | cmp - frame4.off && echo 'as alone'
+mr-decode -j 1 film.mrs | cmp - decoded.mrs && echo same
+python3 - decoded.mrs <<'END'
+import struct, sys
+data, at = open(sys.argv[1], 'rb').read(), 0
+sent = []
+while at < len(data):
+    size, = struct.unpack_from('<Q', data, at + 56)
+    layer, name = (data[at + a:at + b].replace(b'\0', b'').decode() for a, b in ((0, 16), (16, 40)))
+    sent = [] if name == 'FRAME' else sent + [layer + '.' + name]
+    if name == 'ENDFRAME':
+        last = [s for s in sent if '.' in s[1:]]
+    at += 64 + (size + 63) // 64 * 64
+print(*last)
+END
+
+echo 'refusals'
+refused() {
+	mr-decode "$@" >out 2>err
+	echo "exit $?, $(wc -c <out) bytes"
+	head -n 1 err
+}
+refused --level 4 torus.mrs
+refused --level 16 torus.mrs
+refused --level 1 --from detail torus.mrs
+refused --level 1 both.mrs
+refused --from detail torus.mrs
+refused --from base torus.mrs
+refused points.mrs
+refused --from control points.mrs
+mr-make torus -n 60 | mr-export -f off - | mr-import -l control - -o control.mrs
+refused --from control control.mrs
+mr-pose --scale 2 solved.mrs -o lost.mrs
+refused lost.mrs
+mr-make sphere -n 42 | mr-export -f off - | mr-import -l control - -o other.mrs
+python3 - torus.mrs other.mrs <<'END' # the displacement of one over the control mesh of the other
+import struct, sys
+def records(path):
+    data, at = open(path, 'rb').read(), 0
+    while at < len(data):
+        size, = struct.unpack_from('<Q', data, at + 56)
+        end = at + 64 + (size + 63) // 64 * 64
+        yield data[at:at + 16].replace(b'\0', b''), data[at:end]
+        at = end
+heights = [r for layer, r in records(sys.argv[1]) if layer == b'displacement']
+with open('mixed.mrs', 'wb') as out:
+    for layer, r in records(sys.argv[2]):
+        out.write(b''.join(heights) if r[16:24] == b'ENDFRAME' else b'')
+        out.write(r)
+END
+refused mixed.mrs
