@@ -227,7 +227,7 @@ mr_sample_mesh(
     mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts, double *height)
 {
 	mr_cloud c = { .p = mesh->p, .n = mesh->nv, .diagonal = mr_mesh_diagonal(mesh) };
-	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 1e-3 * c.diagonal, .steps = 50 };
+	mr_fit_weights weights = { .fair = 1e-2, .pull = 1, .scale = 1e-3 * c.diagonal, .steps = 50 };
 	mr_mark mark = mr_mark_take(ctx);
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
 	mr_heights e;
@@ -235,7 +235,7 @@ mr_sample_mesh(
 	if (!hit)
 		return MR_EMEM;
 	MR_TRY(mr_cloud_place(ctx, d, &c));
-	MR_TRY(mr_sample_rays(ctx, d, mesh, height, hit));
+	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit));
 	MR_TRY(mend(ctx, d, &e, hit, height));
 	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height));
 	mr_mark_release(ctx, mark);

@@ -8,28 +8,38 @@ enum { GRAIN = 256 };
 typedef struct rays {
 	const mr_domain *d;
 	const mr_mesh *mesh;
+	const mr_cloud *c; /* its vertices */
 	const mr_bvh *bvh;
-	double diagonal;
 	double *height;
 	bool *hit;
 } rays;
 
-/* The nearest hit that is not farther than `most` and whose face looks the way of n. */
+/* True where the face looks the way of n, and its corners are nearest to parts of the domain that do so. */
+static bool
+on_sheet(const rays *r, uint32_t face, mr_v3 n)
+{
+	const uint32_t *v = r->mesh->t[face].v;
+
+	return mr_dot(mr_unit(mr_face_cross(r->mesh, face)), n) > 0.1 && mr_same_side(r->c, v[0], n) &&
+	       mr_same_side(r->c, v[1], n) && mr_same_side(r->c, v[2], n);
+}
+
+/* The nearest hit on the sheet of n that is not farther than `most`. */
 static bool
 first_front(const rays *r, mr_v3 v, mr_v3 n, double sign, double most, double *height)
 {
-	enum { FACES = 4 }; /* hits on faces that look away, at most */
+	enum { FACES = 4 }; /* hits on other sheets, at most */
 	double from = 0;
 
 	for (int i = 0; i < FACES; i++) {
 		mr_ray_hit hit;
 		if (!mr_bvh_ray(r->bvh, v, mr_mul(sign, n), from, most, &hit))
 			return false;
-		if (mr_dot(mr_unit(mr_face_cross(r->mesh, hit.face)), n) > 0.1) {
+		if (on_sheet(r, hit.face, n)) {
 			*height = sign * hit.t;
 			return true;
 		}
-		from = hit.t + 1e-9 * r->diagonal;
+		from = hit.t + 1e-9 * r->c->diagonal;
 	}
 	return false;
 }
@@ -48,7 +58,7 @@ shoot(void *arg, size_t begin, size_t end)
 		if (!(mr_norm2(n) > 0))
 			continue;
 		/* the near sheet: not much farther than the surface is in any direction */
-		most = 4 * sqrt(mr_bvh_closest(r->bvh, v).dist2) + 1e-9 * r->diagonal;
+		most = 4 * sqrt(mr_bvh_closest(r->bvh, v).dist2) + 1e-9 * r->c->diagonal;
 		above = first_front(r, v, n, 1, most, &up);
 		below = first_front(r, v, n, -1, above ? up : most, &down);
 		r->hit[i] = above || below;
@@ -57,11 +67,12 @@ shoot(void *arg, size_t begin, size_t end)
 }
 
 mr_status
-mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, double *height, bool *hit)
+mr_sample_rays(
+    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height, bool *hit)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_bvh *bvh;
-	rays r = { .d = d, .mesh = mesh, .diagonal = mr_mesh_diagonal(mesh), .height = height, .hit = hit };
+	rays r = { .d = d, .mesh = mesh, .c = c, .height = height, .hit = hit };
 	size_t missed = 0;
 
 	MR_TRY(mr_bvh_build(ctx, mesh, &bvh));

@@ -86,7 +86,9 @@ mr_status mr_sample_triangles(
 /* *noise: the deviation of the points from the local surfaces. */
 mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours,
     double *height, bool *hit, double *noise);
-mr_status mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, double *height, bool *hit);
+/* c: the mesh's vertices, placed. */
+mr_status mr_sample_rays(
+    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height, bool *hit);
 
 /* What the least squares weigh, beside the points, of which each counts 1. */
 typedef struct mr_fit_weights {

@@ -161,7 +161,7 @@ assemble_rows(void *arg, size_t begin, size_t end)
 static size_t
 press_folds(mr_ctx *ctx, fit *x)
 {
-	static const double least = 0.05, shrink = 0.7, more = 3, most = 300;
+	static const double least = 0.1, shrink = 0.7, more = 3, most = 300;
 	size_t folds = 0;
 
 	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
