@@ -61,7 +61,7 @@ $(BUILD)/bench/%: $(BUILD)/tests/bench/%.c.o $(BUILD)/libmr.a
 # The peers' templates are theirs: no warnings.
 $(BUILD)/bench/%: tests/bench/%.cc $(BUILD)/flags | setup
 	@mkdir -p $(@D)
-	$(call say,link   )$(CXX) -std=c++17 -O3 -DNDEBUG -w -I/usr/include/eigen3 $(INCLUDE) -pthread -o $@ $< -lgmp -lmpfr -lcholmod -lm
+	$(call say,link   )$(CXX) -std=c++17 -O3 -DNDEBUG -w -I/usr/include/eigen3 $(INCLUDE) -pthread -o $@ $< -Wl,--as-needed -lgmp -lmpfr -lcholmod -lOpenMeshCore -lm
 
 $(BUILD)/libmr.a: $(OBJECTS)
 	$(call say,archive)rm -f $@ && $(AR) rcs $@ $^
