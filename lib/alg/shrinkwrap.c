@@ -14,7 +14,11 @@ enum { FIRST_SAMPLES = 1 << 11, LAST_SAMPLES = 1 << 14 };
  * What a wrap may leave out and have too much: that of the box in its first edges, which are long, and any at
  * the end in sampling distances, of which noise takes some.
  */
-static const mr_wrap_cover FIRST = { 1, 0.55, 0.6, 0.45 }, LAST = { 10, 4, 6, 2.5 };
+static const mr_wrap_cover FIRST = { .points_max = 1,
+	.points_high = 0.55,
+	.wrap_max = 0.6,
+	.wrap_high = 0.45 },
+			   LAST = { .points_max = 10, .points_high = 4, .wrap_max = 6, .wrap_high = 2.5 };
 
 /* A wrap, and how well it covers the points. */
 typedef struct candidate {
@@ -31,11 +35,11 @@ covers(const mr_wrap_cover *c, const mr_wrap_cover *most, double unit)
 	       c->wrap_max <= most->wrap_max * unit && c->wrap_high <= most->wrap_high * unit;
 }
 
-/* What it leaves out and has too much, outliers not counted. */
+/* What it leaves out and has too much, where up to a tenth of the points are outliers. */
 static double
 badness(const mr_wrap_cover *c)
 {
-	return c->points_high + c->wrap_high;
+	return c->points_most + c->wrap_high;
 }
 
 static mr_status
@@ -159,6 +163,16 @@ finish_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, doubl
 	return finish(ctx, cloud, "box", c);
 }
 
+/* The volume also closes what the points leave open, which counts against it: the box must be this much
+ * better. */
+static const double BETTER = 0.7;
+
+static bool
+beats(const candidate *box, const candidate *volume)
+{
+	return badness(&box->cover) < BETTER * badness(&volume->cover);
+}
+
 /* The volume, but where it is not good either the box if that is better. */
 static mr_status
 choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished,
@@ -169,8 +183,7 @@ choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double le
 
 	if (status != MR_OK && status != MR_EMESH)
 		return status;
-	if (status == MR_OK &&
-	    (covers(&volume.cover, &LAST, cloud->spacing) || badness(&volume.cover) < badness(&c->cover))) {
+	if (status == MR_OK && (covers(&volume.cover, &LAST, cloud->spacing) || !beats(c, &volume))) {
 		*c = volume;
 		return MR_OK;
 	}
@@ -178,7 +191,7 @@ choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double le
 		mr_note(ctx, "no volume: %s", ctx->error);
 	if (!finished)
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-	if (status == MR_OK && badness(&volume.cover) < badness(&c->cover))
+	if (status == MR_OK && !beats(c, &volume))
 		*c = volume;
 	return MR_OK;
 }
@@ -230,6 +243,7 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
 	mr_stat_set(ctx, "sampling", cloud->spacing);
 	mr_stat_set(ctx, "points_to_wrap_max", c->cover.points_max);
 	mr_stat_set(ctx, "points_to_wrap_99", c->cover.points_high);
+	mr_stat_set(ctx, "points_to_wrap_90", c->cover.points_most);
 	mr_stat_set(ctx, "wrap_to_points_max", c->cover.wrap_max);
 	mr_stat_set(ctx, "wrap_to_points_99", c->cover.wrap_high);
 	mr_stat_set(ctx, "faces", (double)c->d.nf);

@@ -5,7 +5,7 @@
 
 enum { GRAIN = 1024 };
 
-static const double HIGH = 0.99;
+static const double HIGH = 0.99, MOST = 0.9;
 
 typedef struct job {
 	const mr_wrap_cloud *cloud;
@@ -46,6 +46,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	qsort(j.distance, n, sizeof *j.distance, ascending);
 	c->points_max = j.distance[n - 1];
 	c->points_high = j.distance[(size_t)(HIGH * (double)(n - 1))];
+	c->points_most = j.distance[(size_t)(MOST * (double)(n - 1))];
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

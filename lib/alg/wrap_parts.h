@@ -76,9 +76,9 @@ mr_wrap_refine(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, d
 
 /* How well a wrap covers the points, in units of the model. */
 typedef struct mr_wrap_cover {
-	double points_max,
-	    points_high;            /* distances of points to the wrap: the largest, and the 99 % quantile */
-	double wrap_max, wrap_high; /* of middles of faces to the points, by area */
+	double points_max, points_high,
+	    points_most;            /* of points to the wrap: all, 99 % and 90 % are within */
+	double wrap_max, wrap_high; /* of middles of faces to the points: all, and 99 % of the area */
 } mr_wrap_cover;
 
 mr_status
