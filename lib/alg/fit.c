@@ -6,6 +6,7 @@
 
 #include "alg/fit_least.h"
 #include "mesh/near.h"
+#include "mesh/zorder.h"
 #include "op/laplace.h"
 
 enum { LOCAL_PASSES = 20, LEAST_SQUARES_PASSES = 5 };
@@ -88,6 +89,22 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 	return MR_OK;
 }
 
+/* Points that are close stand side by side, so that what they look up is in the cache. */
+static mr_status
+reorder(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_v3 *sorted)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *order = MR_NEW(ctx, n, uint32_t);
+
+	if (!order)
+		return MR_EMEM;
+	MR_TRY(mr_zorder(ctx, point, n, order));
+	for (size_t i = 0; i < n; i++)
+		sorted[i] = point[order[i]];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 mr_status
 mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const mr_fit_opts *opts, mr_v3 *out)
 {
@@ -96,22 +113,24 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	size_t passes = opts->iterations ? opts->iterations : is_local ? LOCAL_PASSES : LEAST_SQUARES_PASSES;
 	mr_v3 *x = MR_NEW(ctx, control->nv, mr_v3);
 	mr_fit_foot *foot = mr_alloc(ctx, n, sizeof *foot);
+	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
 	double start;
 	mr_fit_surface s;
 
 	MR_TRY(check(ctx, control, point, n));
-	if (!x || !foot)
+	if (!x || !foot || !sorted)
 		return MR_EMEM;
+	MR_TRY(reorder(ctx, point, n, sorted));
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, &s));
-	MR_TRY(mr_fit_attach(ctx, &s, point, n, false, foot));
+	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
 	record(ctx, &s, foot, n, "before");
 	start = mr_seconds();
-	MR_TRY(is_local ? local(ctx, &s, point, n, opts, passes, x)
-			: mr_fit_least_squares(ctx, &s, point, n, opts, passes, foot, x));
+	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
+			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, foot, x));
 	mr_stat_set(ctx, "iterations", (double)passes);
 	mr_stat_set(ctx, "seconds_iteration", (mr_seconds() - start) / (double)passes);
-	MR_TRY(mr_fit_attach(ctx, &s, point, n, false, foot));
+	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 	record(ctx, &s, foot, n, "after");
 	memcpy(out, x, control->nv * sizeof *out);
 	mr_mark_release(ctx, mark);

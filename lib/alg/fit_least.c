@@ -156,7 +156,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 		MR_TRY(mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness));
 		MR_TRY(solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, surface, &system.patch, x, z, &damped));
-		MR_TRY(mr_fit_attach(ctx, surface, point, n, true, foot));
+		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
 	}
 	mr_stat_set(ctx, "cg_steps", (double)steps / (double)passes);
 	mr_stat_set(ctx, "damped", (double)damped);

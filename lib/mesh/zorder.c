@@ -1,0 +1,60 @@
+/* Morton 1966: A computer oriented geodetic data base and a new technique in file sequencing. */
+#include "mesh/zorder.h"
+
+enum { BITS = 10, BUCKETS = 1 << BITS };
+
+/* The lowest BITS bits of x, two zeros between each. */
+static uint32_t
+spread(uint32_t x)
+{
+	x = (x | x << 16) & 0x030000ff;
+	x = (x | x << 8) & 0x0300f00f;
+	x = (x | x << 4) & 0x030c30c3;
+	return (x | x << 2) & 0x09249249;
+}
+
+static uint32_t
+cell(double x, double low, double scale)
+{
+	double c = (x - low) * scale;
+
+	return c < 1 ? 0 : c > BUCKETS - 1 ? BUCKETS - 1 : (uint32_t)c;
+}
+
+/* The order by one digit of the keys, stably. */
+static void
+sort_digit(const uint32_t *key, int digit, const uint32_t *from, size_t n, uint32_t *to)
+{
+	size_t start[BUCKETS + 1] = { 0 };
+
+	for (size_t i = 0; i < n; i++)
+		start[(key[i] >> (digit * BITS) & (BUCKETS - 1)) + 1]++;
+	for (size_t b = 0; b < BUCKETS; b++)
+		start[b + 1] += start[b];
+	for (size_t i = 0; i < n; i++)
+		to[start[key[from[i]] >> (digit * BITS) & (BUCKETS - 1)]++] = from[i];
+}
+
+mr_status
+mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *order)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *key = MR_NEW(ctx, n, uint32_t), *other = MR_NEW(ctx, n, uint32_t);
+	mr_box box = mr_box_of(p, n);
+	mr_v3 size = mr_sub(box.max, box.min);
+	double longest = fmax(size.x, fmax(size.y, size.z)), scale = longest > 0 ? BUCKETS / longest : 0;
+
+	if (!key || !other)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		key[i] = spread(cell(p[i].x, box.min.x, scale)) |
+		         spread(cell(p[i].y, box.min.y, scale)) << 1 |
+		         spread(cell(p[i].z, box.min.z, scale)) << 2;
+		other[i] = (uint32_t)i;
+	}
+	sort_digit(key, 0, other, n, order);
+	sort_digit(key, 1, order, n, other);
+	sort_digit(key, 2, other, n, order);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
