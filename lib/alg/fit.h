@@ -23,7 +23,7 @@ typedef struct mr_fit_opts {
 
 #define MR_FIT_DEFAULTS                                                                                      \
 	{                                                                                                    \
-		.method = MR_FIT_LEAST_SQUARES, .step = 0.8, .fairness = 1e-2                                \
+		.method = MR_FIT_LEAST_SQUARES, .step = 0.8, .fairness = 1e-3                                \
 	}
 
 /*

@@ -136,6 +136,20 @@ solve(mr_ctx *ctx, mr_fit_system *s, mr_v3 *motion, size_t *steps)
 	return status;
 }
 
+/*
+ * How much smoother than asked for a motion is: while the points are far, the square of their mean distance
+ * in twentieths of a control edge, for then feet on uncovered parts lie together, and a rough motion would
+ * crumple the surface there.
+ */
+static double
+caution(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double edge)
+{
+	static const double most = 256;
+	double far = mr_fit_measure(ctx, foot, n).mean / (edge / 20);
+
+	return fmin(fmax(far * far, 1), most);
+}
+
 mr_status
 mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
     const mr_fit_opts *opts, size_t passes, mr_fit_foot *foot, mr_v3 *x)
@@ -144,7 +158,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
 	double *w = MR_NEW(ctx, n, double);
 	size_t damped = 0, steps = 0;
-	double near = NEAR * (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
+	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	mr_fit_system system;
 
 	if (!z || !w)
@@ -152,8 +166,9 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	MR_TRY(mr_fit_system_build(ctx, surface, &system));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
-		MR_TRY(weigh(ctx, foot, n, near, w));
-		MR_TRY(mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness));
+		MR_TRY(weigh(ctx, foot, n, NEAR * edge, w));
+		MR_TRY(mr_fit_system_fill(
+		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
 		MR_TRY(solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, surface, &system.patch, x, z, &damped));
 		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
