@@ -90,6 +90,13 @@ mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, si
 mr_status mr_sample_rays(
     mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height, bool *hit);
 
+/*
+ * The faces of the displaced surface that have turned from the domain's, are folded against one beside them,
+ * or, where `crossings`, pass through others.  bad: one a face, the caller's.
+ */
+mr_status mr_find_folds(
+    mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, bool crossings, bool *bad, size_t *count);
+
 /* What the least squares weigh, beside the points, of which each counts 1. */
 typedef struct mr_fit_weights {
 	double fair;  /* of the fairness of the heights */

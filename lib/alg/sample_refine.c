@@ -27,6 +27,7 @@ typedef struct fit {
 	mr_heights *e;
 	double *target;  /* heights to be pulled to */
 	float *pull;     /* how much each counts */
+	bool *bad;       /* faces that fold or cross others */
 	mr_mesh surface; /* the displaced one */
 	mr_v3 *p;        /* its positions */
 	double *height;
@@ -155,29 +156,21 @@ assemble_rows(void *arg, size_t begin, size_t end)
 }
 
 /*
- * Where faces turn over, the heights are larger than the domain's radius of curvature, mostly: they are
- * pulled towards the domain, each time more, and are to be fairer.  Returns how many faces do.
+ * Where the surface folds or crosses itself, the heights are larger than the domain's radius of curvature, or
+ * half its way to itself: they are pulled towards the domain, each time more, and are to be fairer.
  */
-static size_t
-press_folds(mr_ctx *ctx, fit *x)
+static void
+press(fit *x)
 {
-	static const double least = 0.1, shrink = 0.7, more = 3, most = 300;
-	size_t folds = 0;
+	static const double shrink = 0.7, more = 3, least = 0.3, most = 300;
 
-	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-	for (size_t f = 0; f < x->surface.nf; f++) {
-		mr_v3 n = mr_face_cross(&x->surface, f), m = mr_face_cross(&x->d->m, f);
-		const uint32_t *v = x->surface.t[f].v;
-		if (mr_dot(n, m) > least * mr_norm(n) * mr_norm(m))
-			continue;
-		folds++;
-		for (int k = 0; k < 3; k++) {
-			x->target[v[k]] = shrink * x->height[v[k]];
-			x->pull[v[k]] = (float)fmin(more * fmax((double)x->pull[v[k]], 0.3), most);
-			x->e->fair[v[k]] = fmin(more * x->e->fair[v[k]], most * x->weights->fair);
+	for (size_t f = 0; f < x->surface.nf; f++)
+		for (int k = 0; k < 3 && x->bad[f]; k++) {
+			uint32_t v = x->surface.t[f].v[k];
+			x->target[v] = shrink * x->height[v];
+			x->pull[v] = (float)fmin(more * fmax((double)x->pull[v], least), most);
+			x->e->fair[v] = fmin(more * x->e->fair[v], most * x->weights->fair);
 		}
-	}
-	return folds;
 }
 
 static void
@@ -230,29 +223,33 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, fit *x)
 	x->order = MR_NEW(ctx, c->n, uint32_t);
 	x->target = MR_NEW(ctx, d->m.nv, double);
 	x->pull = MR_NEW(ctx, d->m.nv, float);
-	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull)
+	x->bad = MR_NEW(ctx, d->m.nf, bool);
+	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull || !x->bad)
 		return MR_EMEM;
 	for (size_t i = 0; i < c->n; i++)
 		x->wish[i].face = c->face[i];
 	return MR_OK;
 }
 
-/* The passes, and more as long as there are folds and they become fewer. */
+/* The passes, and more as long as there are folds and crossings and they become fewer. */
 static mr_status
-fit_all(mr_ctx *ctx, fit *x, size_t passes)
+fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 {
 	enum { MORE = 8 };
-	size_t folds = SIZE_MAX;
+	size_t last = SIZE_MAX;
 
-	for (size_t pass = 0; pass < passes + MORE && passes > 0; pass++) {
-		size_t left = press_folds(ctx, x);
-		if (pass >= passes && (left == 0 || left >= folds))
-			break;
-		folds = left;
+	for (size_t pass = 0;; pass++) {
+		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
+		MR_TRY(mr_find_folds(ctx, &x->surface, x->d, pass >= passes, x->bad, folds));
+		if (passes == 0 || pass == passes + MORE ||
+		    (pass >= passes && (*folds == 0 || *folds >= last)))
+			return MR_OK;
+		if (pass >= passes)
+			last = *folds;
+		press(x);
 		MR_TRY(fit_pass(ctx, x));
 		mr_progress(ctx, "refining", (double)(pass + 1) / (double)(passes + MORE));
 	}
-	return MR_OK;
 }
 
 mr_status
@@ -261,6 +258,7 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fi
 {
 	mr_mark mark = mr_mark_take(ctx);
 	fit x = { .weights = weights, .e = e, .height = height };
+	size_t folds;
 
 	MR_TRY(fit_new(ctx, d, c, &x));
 	MR_TRY(mr_heights_add_data(ctx, e));
@@ -269,11 +267,11 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fi
 		e->fair[i] = weights->fair;
 		x.pull[i] = hit[i] ? (float)weights->pull : 0;
 	}
-	MR_TRY(fit_all(ctx, &x, passes));
+	MR_TRY(fit_all(ctx, &x, passes, &folds));
 	place_all(ctx, &x);
 	report_gaps(ctx, &x);
 	mr_stat_set(ctx, "fairness", weights->fair);
-	mr_stat_set(ctx, "folds", (double)press_folds(ctx, &x));
+	mr_stat_set(ctx, "folds", (double)folds);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -20,6 +20,8 @@ printf '%s\n' '0 0 0' '1 0 0' '0 1 0' '0 0 1' | points; try frame.mrs
 echo "a control mesh with three faces at an edge"
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' | mr-import -l control - >fan.mrs
 mr-make sphere --points 100 | mr-cat --merge - fan.mrs >frame.mrs; try frame.mrs
+echo "a level too fine"
+mr-make sphere --points 100 | mr-cat --merge - control.mrs >frame.mrs; try frame.mrs -n 15
 echo "options"
 mr-make sphere --points 100 | mr-cat --merge - control.mrs >frame.mrs
 for args in '-n 16' '-n -1' '-n 2x' '-m nearest' '-K 2' '-K 129' '--refine -1' '--refine 101' '--nothing'; do
