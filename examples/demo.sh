@@ -7,7 +7,7 @@
 # Where it cannot be had, all edits are done on a model that mr-make makes.  MR_SMALL=N does that with N vertices.
 set -e
 dir=${1:-demo}
-mkdir -p "$dir/cache" "$dir/frames" "$dir/work"
+mkdir -p "$dir/cache" "$dir/frames" "$dir/work/parts"
 cd "$dir"
 panel=${MR_SMALL:+120x100}
 panel=${panel:-420x400}
@@ -30,7 +30,11 @@ fetch() {
 root=
 [ "$(id -u)" -eq 0 ] || root=sudo
 if fetch; then
-	model() { echo "cache/meshes/$1.off"; }
+	# The armadillo turns its back on the eye: it is turned about y, digit for digit.
+	mkdir -p cache/turned
+	awk 'function minus(x) { return x ~ /^-/ ? substr(x, 2) : "-" x }
+		NR > 2 && NF == 3 { $1 = minus($1); $3 = minus($3) } 1' cache/meshes/armadillo.off >cache/turned/armadillo.off
+	model() { [ -e "cache/turned/$1.off" ] && echo "cache/turned/$1.off" || echo "cache/meshes/$1.off"; }
 else
 	echo "no models: the package libcgal-demo cannot be had here; a generated one takes their place"
 	mr-make bumpy ${MR_SMALL:+-n $MR_SMALL} -o cache/bumpy.mrs
@@ -90,24 +94,31 @@ table() {
 	cat work/rates
 }
 
-# Three pairs of pictures: the model and its base; the regions, on the remeshed base too; the result and the bent base.
+# A layer of a stream by itself, under another name, with nothing selected.
+only() { # layer, name
+	mr-export -l "$1" "work/parts/$name.ply" && mr-import -l "$2" "work/parts/$name.ply" | mr-select -l "$2" --reset
+}
+
+# Three pairs of pictures: the model and its base; the regions, and the remeshed base with those that it took from the model;
+# the bent base and the result.
 pictures() { # view
-	mr-select --reset <$w.smooth.mrs >$w.first.mrs
-	mr-select --reset <$w.result.mrs >$w.last.mrs
-	mr-select -l mesh $regions <$w.remeshed.mrs | mr-select -l base $regions >$w.regions.mrs
-	mr-cat $w.first.mrs $w.regions.mrs $w.last.mrs >$w.sheet.mrs
-	mr-render --sheet --columns 3 --size $panel --view "$1" -l mesh,base -c region --title "$name" "$name.png" <$w.sheet.mrs
+	only mesh original <$w.original.mrs >$w.one.mrs
+	only base base <$w.smooth.mrs | mr-cat --merge $w.one.mrs - >$w.first.mrs
+	only base base <$w.result.mrs >$w.one.mrs
+	only mesh result <$w.result.mrs | mr-cat --merge $w.one.mrs - >$w.last.mrs
+	mr-cat $w.first.mrs $w.rest.mrs $w.last.mrs >$w.sheet.mrs
+	mr-render --sheet --columns 3 --size $panel --view "$1" -c region --title "$name" "$name.png" <$w.sheet.mrs
 }
 
 # One edit, one pipe.  tee keeps what the pictures and the figures are made of.
 edit() { # name, model, view, smoothing, regions, pose, another pose
-	name=$1 file=$(model "$2") w=work/$1 regions=$5
+	name=$1 file=$(model "$2") w=work/$1
 	handle=$(echo "$6" | sed 's/\(-H [0-9]*\).*/\1/')
 	echo "$name"
 	mr-import "$file" --stats $w.1 | tee $w.original.mrs |
 	    mr-smooth $4 --stats $w.2 | tee $w.smooth.mrs |
 	    mr-remesh --stats $w.3 | tee $w.remeshed.mrs |
-	    mr-select $regions --stats $w.4 |
+	    mr-select $5 --stats $w.4 |
 	    mr-solve --stats $w.5 |
 	    mr-encode --stats $w.6 | tee $w.rest.mrs |
 	    mr-pose $6 --stats $w.7 | mr-pose ${7:-$handle} |
@@ -125,12 +136,12 @@ edit bunny-pull bunny00 front '' '--free above:y,0.7 --handle 1=above:y,0.86' \
     '-H 1 --translate 0.12,0.3,0 --rotate 0,0,1,-10'
 edit bunny-bend bunny00 front '' '--free above:y,0.2 --handle 1=above:y,0.72 --handle 1=above:y,0.48+below:x,0.36' \
     '-H 1 --rotate 0,0,1,-30 --translate 0.02,0.12,0'
-edit armadillo-twist armadillo back '' '--free above:y,0.25 --handle 1=above:y,0.62' \
+edit armadillo-twist armadillo front '' '--free above:y,0.25 --handle 1=above:y,0.62' \
     '-H 1 --rotate 0,1,0,80'
-edit armadillo-arms armadillo back '' \
+edit armadillo-arms armadillo front '' \
     '--free above:y,0.5+above:x,0.66 --free above:y,0.5+below:x,0.34
-    --handle 1=above:y,0.55+above:x,0.82 --handle 2=above:y,0.55+below:x,0.18' \
-    '-H 1 --translate 20,-35,0 --rotate 0,0,1,-75' '-H 2 --translate -15,25,0 --rotate 0,0,1,-30'
+    --handle 1=above:y,0.55+below:x,0.18 --handle 2=above:y,0.55+above:x,0.82' \
+    '-H 1 --translate -20,-35,0 --rotate 0,0,1,75' '-H 2 --translate 15,25,0 --rotate 0,0,1,30'
 edit elephant-bend elephant front '-t 1' '--free above:y,0.4 --handle 1=above:y,0.6' \
     '-H 1 --rotate 0,0,1,45 --translate -0.15,0.05,0'
 edit lion-scale lion-head quarter '-t 4' '--free above:z,0.6 --handle 1=above:z,0.88' \
@@ -139,7 +150,7 @@ edit lion-scale lion-head quarter '-t 4' '--free above:z,0.6 --handle 1=above:z,
 # All of them in one picture.
 for name in $(cut -d' ' -f1 work/lost); do
 	cat "work/$name.sheet.mrs"
-done | mr-render --sheet --columns 3 --size $panel -l mesh,base -c region --view front sheet.png
+done | mr-render --sheet --columns 3 --size $panel -c region --view front sheet.png
 
 # An animation: the base, its responses and the details once, then sixty poses behind the one at rest.
 frames=${MR_SMALL:+4}
@@ -149,7 +160,7 @@ mr-import "$(model armadillo)" | mr-smooth | mr-remesh |
     mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.62 |
     mr-solve --basis | mr-encode -o work/basis.mrs
 mr-pose -H 1 --rotate 0,1,0,80 --frames $frames work/basis.mrs | mr-decode |
-    mr-render --size $panel --view back -l mesh --no-labels frames/%d.png
+    mr-render --size $panel --view front -l mesh --no-labels frames/%d.png
 
 rate() { # what, command line: frames a second
 	begin=$(date +%s.%N)
