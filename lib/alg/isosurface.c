@@ -246,7 +246,7 @@ count_all(march *m)
 				if (in == 0 || in == 255)
 					continue;
 				m->nf += m->kinds[in].triangles;
-				m->nv += m->kinds[in].centres + (low != (in >> 1 & 1)) +
+				m->nv += (size_t)m->kinds[in].centres + (low != (in >> 1 & 1)) +
 				         (low != (in >> 2 & 1)) + (low != (in >> 4 & 1));
 			}
 }

@@ -14,7 +14,16 @@
 #include "alg/volume_parts.h"
 #include "base/parallel.h"
 
-enum { MARGIN = 6, NEARBY = 3, ROUNDS_MOST = 20, GRAIN = 4096, NODES_LEAST = 1 << 20, NODES_PER_POINT = 10 };
+enum {
+	MARGIN = 6,
+	NEARBY = 3,
+	ROUNDS_MOST = 20,
+	GRAIN = 4096,
+	NODES_LEAST = 1 << 20,
+	NODES_PER_POINT = 16,
+	CELLS_LEAST = 4,
+	CELLS_MOST = 4096
+};
 
 static const double CELL = 1.5;      /* spacings */
 static const double ABSORPTION = 20; /* of a full layer of points */
@@ -50,20 +59,23 @@ set_grid(const samples *s, double step, mr_grid *g, size_t *levels)
 	g->origin = mr_sub(centre, half);
 }
 
-static void
-choose_grid(const samples *s, const mr_volume_opts *opts, mr_grid *g, size_t *levels)
+/* Nodes of which every number fits, whatever the shape of the box. */
+static mr_status
+choose_grid(mr_ctx *ctx, const samples *s, const mr_volume_opts *opts, mr_grid *g, size_t *levels)
 {
 	mr_v3 size = mr_sub(s->box.max, s->box.min);
 	double longest = fmax(size.x, fmax(size.y, size.z));
-	double step = opts->grid ? longest / (double)opts->grid
-	                         : fmin(CELL * s->noise * s->spacing, longest / 4);
+	double step = fmax(longest / CELLS_MOST, fmin(CELL * s->noise * s->spacing, longest / CELLS_LEAST));
 	size_t most = s->n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : s->n * NODES_PER_POINT;
 
-	set_grid(s, step, g, levels);
+	if (opts->grid > CELLS_MOST)
+		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
+	set_grid(s, opts->grid ? longest / (double)opts->grid : step, g, levels);
 	while (!opts->grid && mr_grid_nodes(g) > most) {
-		step *= 1.05;
+		step *= 1.03;
 		set_grid(s, step, g, levels);
 	}
+	return MR_OK;
 }
 
 /* The difference of the value from one side of each point's plane to the other. */
@@ -303,7 +315,7 @@ make_level(mr_ctx *ctx, volume *v, multigrid *m)
 static mr_status
 begin(mr_ctx *ctx, const mr_volume_opts *opts, volume *v)
 {
-	choose_grid(&v->s, opts, &v->grid[0], &v->levels);
+	MR_TRY(choose_grid(ctx, &v->s, opts, &v->grid[0], &v->levels));
 	v->depths = v->levels < DEPTHS ? v->levels : DEPTHS;
 	v->value = MR_NEW(ctx, v->s.n, double);
 	v->s.depth = MR_NEW(ctx, v->s.n, uint8_t);
@@ -369,6 +381,7 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	double start = mr_seconds();
 	volume v;
 	mr_mark mark;
+	mr_mesh m;
 	float *f;
 
 	MR_TRY(mr_volume_samples(ctx, point, n, &v.s));
@@ -381,7 +394,12 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	MR_TRY(fill_field(ctx, &v, f));
 	mr_mark_release(ctx, mark);
 	start = mr_seconds();
-	MR_TRY(mr_isosurface(ctx, &v.grid[0], f, out));
+	MR_TRY(mr_isosurface(ctx, &v.grid[0], f, &m));
+	if (m.nf == 0)
+		return mr_fail(ctx, MR_EMESH, "%zu points enclose nothing at a grid of %zu x %zu x %zu nodes",
+		    v.s.n, v.grid[0].n[0], v.grid[0].n[1], v.grid[0].n[2]);
+	m.name = "volume";
+	*out = m;
 	mr_stat_set(ctx, "seconds_isosurface", mr_seconds() - start);
 	mr_stat_set(ctx, "spacing", v.s.spacing);
 	mr_stat_set(ctx, "cell", v.grid[0].step);

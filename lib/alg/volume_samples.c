@@ -11,8 +11,8 @@ static const double AREA_MOST = 4;
  * as much sees the shape. */
 static const double NOISY = 0.06, SURELY_NOISY = 0.12, BENDS = 1.1;
 
-/* Beyond so many squared spacings, a point that is in no plane is an outlier. */
-static const double OUTLIER_AREA = 9;
+/* Beyond so many squared spacings, a point that is in no plane is an outlier, and any point. */
+static const double OUTLIER_AREA = 9, FAR_AREA = 2500;
 
 enum { NEAREST = 16, NEAREST_MOST = 100, LINKS = 8, BITS = 10, DIGITS = 1 << BITS };
 
@@ -207,7 +207,7 @@ usual_area(const samples *s, const double *area, size_t i)
 			least[k] = least[k - 1];
 		least[k] = a;
 	}
-	return least[n / 4];
+	return n > 0 ? least[n / 4] : area[i];
 }
 
 static mr_status
@@ -225,19 +225,52 @@ limit_areas(mr_ctx *ctx, samples *s)
 	return MR_OK;
 }
 
-/* A point whose neighbours are far and in no plane is on no surface: it stands for none. */
+/* True for a point on no surface: its neighbours are far and in no plane, or very far. */
+static bool
+is_outlier(const samples *s, size_t i)
+{
+	double area = s->plane.area[i] / (s->spacing * s->spacing);
+
+	return area > FAR_AREA || (area > OUTLIER_AREA && s->plane.variation[i] > NOISY);
+}
+
+/* The links of point i, by new numbers, without those to dropped points. */
 static void
+renumber_links(samples *s, const uint32_t *number, size_t i)
+{
+	size_t links = s->plane.links, kept = 0;
+	const uint32_t *from = s->plane.neighbor + i * links;
+	uint32_t *to = s->plane.neighbor + number[i] * links;
+
+	for (size_t j = 0; j < links; j++)
+		if (from[j] != UINT32_MAX && number[from[j]] != UINT32_MAX)
+			to[kept++] = number[from[j]];
+	while (kept < links)
+		to[kept++] = UINT32_MAX;
+}
+
+static mr_status
 drop_outliers(mr_ctx *ctx, samples *s)
 {
-	double most = OUTLIER_AREA * s->spacing * s->spacing;
-	size_t dropped = 0;
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *number = MR_NEW(ctx, s->n, uint32_t);
+	size_t kept = 0;
 
+	if (!number)
+		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
-		if (s->plane.area[i] > most && s->plane.variation[i] > NOISY) {
-			s->plane.area[i] = 0;
-			dropped++;
+		number[i] = is_outlier(s, i) ? UINT32_MAX : (uint32_t)kept++;
+	for (size_t i = 0; i < s->n; i++)
+		if (number[i] != UINT32_MAX) {
+			s->p[number[i]] = s->p[i];
+			s->plane.normal[number[i]] = s->plane.normal[i];
+			s->plane.area[number[i]] = s->plane.area[i];
+			renumber_links(s, number, i);
 		}
-	mr_stat_set(ctx, "outliers", (double)dropped);
+	mr_stat_set(ctx, "outliers", (double)(s->n - kept));
+	s->n = kept;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 mr_status
@@ -248,6 +281,8 @@ mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, samples *s)
 	MR_TRY(check(ctx, s));
 	MR_TRY(sort_points(ctx, s));
 	MR_TRY(find_planes(ctx, s));
-	drop_outliers(ctx, s);
+	MR_TRY(drop_outliers(ctx, s));
+	s->box = mr_box_of(s->p, s->n);
+	MR_TRY(check(ctx, s));
 	return limit_areas(ctx, s);
 }

@@ -120,17 +120,14 @@ fit_at(const work *w, size_t i)
 {
 	const uint32_t *index = w->index + i * w->k;
 	const mr_planes *o = w->out;
-	size_t at = w->first + i, n = 0, rim;
+	size_t at = w->first + i, n = 0, apart, rim;
 	mr_v3 q[MOST] = { w->p[at] }, direction[AROUND];
 
 	for (; n < w->k && index[n] != UINT32_MAX; n++)
 		q[n] = w->p[index[n]];
-	o->normal[at] = fit_plane(q, n, &o->variation[at]);
-	if (w->around) {
-		size_t apart = directions_apart(q, n, direction);
-		if (apart > 2)
-			o->normal[at] = fit_plane(direction, apart, &o->variation[at]);
-	}
+	apart = w->around ? directions_apart(q, n, direction) : 0;
+	o->normal[at] = apart > 2 ? fit_plane(direction, apart, &o->variation[at])
+	                          : fit_plane(q, n, &o->variation[at]);
 	rim = w->around && n > AROUND ? AROUND : n;
 	/* the last neighbour lies on the rim of the disc: half of it is inside */
 	o->area[at] = MR_PI * w->dist2[i * w->k + rim - 1] / (rim > 1 ? (double)rim - 0.5 : 1);

@@ -251,6 +251,89 @@ hole_of_the_sampling_is_closed(void **state)
 	assert_true(fabs(volume_of(&w) - (4 * MR_PI / 3)) < 0.2);
 }
 
+/* Points far away make neither blobs nor the grid coarse. */
+static void
+outliers_are_left_out(void **state)
+{
+	mr_mesh m = solid(MR_TORUS, 5000, 0), w;
+	mr_v3 *p = MR_NEW(&ctx, m.nv + 40, mr_v3);
+	mr_random r = { 13 };
+	size_t n = m.nv;
+	mr_census c;
+
+	(void)state;
+	memcpy(p, m.p, n * sizeof *p);
+	p[n++] = mr_vec(1000, 0, 0);
+	p[n++] = mr_vec(-50, 80, 9);
+	while (n < m.nv + 40)
+		p[n++] = mr_vec(
+		    4 * mr_random_real(&r) - 2, 4 * mr_random_real(&r) - 2, mr_random_real(&r) + 0.8);
+	w = wrap(p, n);
+	c = census_of(&w);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.components, 1);
+	assert_int_equal(c.genus, 1);
+	assert_true(coverage(m.p, m.nv, &w) < 0.1);
+}
+
+/* Noise of about the spacing along the normals. */
+static void
+noise_is_seen_through(void **state)
+{
+	enum { N = 10000 };
+	mr_mesh m = solid(MR_TORUS, 20000, 0), w;
+	mr_v3 *p, *normals;
+	mr_census c;
+
+	(void)state;
+	assert_int_equal(mr_surface_sample(&ctx, &m, N, 3, &p, &normals), MR_OK);
+	mr_add_noise(p, normals, N, sqrt(mr_mesh_area(&ctx, &m) / N), 4);
+	w = wrap(p, N);
+	c = census_of(&w);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.components, 1);
+	assert_int_equal(c.genus, 1);
+	assert_true(fabs(volume_of(&w) / volume_of(&m) - 1) < 0.1);
+}
+
+/* Too few points for a surface, repeated ones, any place and size: a closed surface, or a refusal. */
+static void
+any_cloud_gives_a_closed_surface_or_none(void **state)
+{
+	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
+	mr_random r = { 17 };
+	mr_v3 p[400];
+
+	(void)state;
+	for (int round = 0; round < 300; round++) {
+		size_t n = 1 + (size_t)(399 * mr_random_real(&r) * mr_random_real(&r));
+		double size = pow(10, 12 * mr_random_real(&r) - 6), offset = round % 3 ? 0 : 1e3 * size;
+		mr_mark mark = mr_mark_take(&ctx);
+		mr_status status;
+		mr_mesh m;
+		for (size_t i = 0; i < n; i++) {
+			mr_v3 q = mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
+			    round % 5 ? mr_random_real(&r) - 0.5 : 0);
+			q = round % 2 ? mr_unit(q) : q;
+			if (round % 7 == 0) /* two clusters, each much smaller than their distance */
+				q = mr_add(mr_mul(1e-7, q), mr_vec(i % 2 ? 1 : -1, 0, 0));
+			p[i] = mr_add(mr_mul(size, q), mr_vec(offset, -offset, offset));
+		}
+		opts.grid = round % 11 == 10 ? 1 + (size_t)(40 * mr_random_real(&r)) : 0;
+		status = mr_volume_wrap(&ctx, p, n, &opts, &m);
+		assert_true(status == MR_OK || status == MR_EMESH);
+		if (status == MR_OK) {
+			mr_census c = census_of(&m);
+			assert_closed_manifold(&c);
+			assert_true(m.nf > 0);
+		}
+		mr_mark_release(&ctx, mark);
+	}
+	opts.grid = 5000;
+	assert_int_equal(mr_volume_wrap(&ctx, p, 400, &opts, &(mr_mesh){ 0 }), MR_ERANGE);
+	assert_string_equal(ctx.error, "a grid of 5000 cells: 4096 at most");
+}
+
 static void
 bits_do_not_depend_on_threads_or_repeats(void **state)
 {
@@ -322,6 +405,9 @@ main(void)
 		cmocka_unit_test_setup_teardown(genus_and_volume_are_right, setup, teardown),
 		cmocka_unit_test_setup_teardown(near_spheres_stay_apart, setup, teardown),
 		cmocka_unit_test_setup_teardown(hole_of_the_sampling_is_closed, setup, teardown),
+		cmocka_unit_test_setup_teardown(outliers_are_left_out, setup, teardown),
+		cmocka_unit_test_setup_teardown(noise_is_seen_through, setup, teardown),
+		cmocka_unit_test_setup_teardown(any_cloud_gives_a_closed_surface_or_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(bits_do_not_depend_on_threads_or_repeats, setup, teardown),
 		cmocka_unit_test_setup_teardown(flat_clouds_are_refused, setup, teardown),
 		cmocka_unit_test_setup_teardown(every_allocation_may_fail, setup, teardown),
