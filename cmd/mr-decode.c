@@ -137,5 +137,6 @@ main(int argc, char **argv)
 	    &(cmd_tool){ .summary = "put detail or heights back onto their smooth surface",
 		.options = table,
 		.prepare = prepare,
-		.frame = decode_frame });
+		.frame = decode_frame,
+		.fixed_layers = true });
 }

@@ -61,5 +61,6 @@ main(int argc, char **argv)
 	    &(cmd_tool){ .summary = "weigh the levels of a displacement against each other",
 		.options = table,
 		.prepare = prepare,
-		.frame = equalize_frame });
+		.frame = equalize_frame,
+		.fixed_layers = true });
 }

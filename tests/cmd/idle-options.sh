@@ -13,6 +13,7 @@ mr-make cube -l mesh
 mr-cat -l mesh
 mr-encode -l mesh
 mr-decode -l mesh
+mr-equalize -l mesh
 mr-import --points --repair
 mr-remesh -L 2% -r 1
 mr-remesh -a 0 --gravity 1
