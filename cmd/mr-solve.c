@@ -73,6 +73,7 @@ static mr_status
 pose(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
 {
 	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
+	bool rested = mr_layer_has(f, m->name, "rest"); /* else the layer itself is at rest */
 	const void *positions, *places;
 	mr_mesh rest = *m;
 	mr_affine *t;
@@ -85,13 +86,12 @@ pose(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
 	if (basis)
 		return mr_fail(&c->ctx, MR_EUSAGE,
 		    "--basis is for the undeformed solve, but the frame has handles or targets already");
-	if (!mr_layer_has(f, m->name, "rest"))
-		return mr_fail(&c->ctx, MR_EMISSING,
-		    "%s has %s but no rest positions: solve it without them first", m->name,
-		    handles ? "handles" : "targets");
-	MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "rest", m->nv, &positions));
-	rest.p = positions;
-	MR_TRY(mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, &rest, "rest", &opts, &d));
+	if (rested) {
+		MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "rest", m->nv, &positions));
+		rest.p = positions;
+	}
+	MR_TRY(
+	    mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, &rest, rested ? "rest" : "position", &opts, &d));
 	if (target) {
 		MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "target", m->nv, &places));
 		MR_TRY(mr_deform_reach(&c->ctx, d, m->p, places, p));

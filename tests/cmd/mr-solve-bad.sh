@@ -18,7 +18,7 @@ echo '-- all fixed'
 mr-select --fixed all base.mrs | try
 echo '-- all free'
 mr-select --free all base.mrs | try
-echo '-- handles, but never solved'
+echo '-- handles, but never solved: the surface is at rest as it is'
 mr-pose --translate 0,0,1 s.mrs | try
 echo '-- a basis, but handles already'
 mr-solve s.mrs | mr-pose | try --basis
