@@ -232,9 +232,9 @@ least_shape2(const mr_dyn *d, uint32_t h, double least)
 /* Whether all faces may have the vertex at p: no needle worse than the worst around.  after: their normals.
  */
 static bool
-faces_may_move(const mr_dyn *d, const mr_merge *m, mr_v3 *after)
+faces_may_move(const mr_dyn *d, const mr_merge *m, double needle, mr_v3 *after)
 {
-	double worst = 1, least = MR_NEEDLE * MR_NEEDLE;
+	double worst = 1, least = needle * needle;
 
 	for (unsigned i = 0; i < m->ring.n; i++) {
 		uint32_t e = m->ring.he[i];
@@ -290,12 +290,12 @@ folds_after(const mr_dyn *d, const mr_ring *r, const mr_v3 *after)
 }
 
 bool
-mr_merge_is_sound(const mr_dyn *d, const mr_merge *m)
+mr_merge_is_sound(const mr_dyn *d, const mr_merge *m, double needle)
 {
 	mr_v3 after[MR_RING_MAX];
 	unsigned folds;
 
-	if (!faces_may_move(d, m, after))
+	if (!faces_may_move(d, m, needle, after))
 		return false;
 	folds = folds_after(d, &m->ring, after);
 	return folds == 0 || folds <= folds_before(d, &m->ring);

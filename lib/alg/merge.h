@@ -42,9 +42,9 @@ double mr_merge_bound(const mr_dyn *d, const mr_site *site, uint32_t h);
 bool mr_merge_of(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m);
 
 /*
- * True where the merge turns no face by 78 degrees or more, makes no needle (or none worse than the face was)
- * and no fold that was not there.
+ * True where the merge turns no face by 78 degrees or more, leaves none whose shape (mr_dyn_shape) is below
+ * `needle` and below the worst that was there, and makes no fold that was not there.
  */
-bool mr_merge_is_sound(const mr_dyn *d, const mr_merge *m);
+bool mr_merge_is_sound(const mr_dyn *d, const mr_merge *m, double needle);
 
 #endif

@@ -5,6 +5,9 @@
 #include "base/parallel.h"
 #include "base/sets.h"
 
+/* The shape that needles may have where the faces asked for cannot be had otherwise: thin plates, say. */
+static const double LAST_NEEDLE = 0.01;
+
 static const uint16_t UNKNOWN = UINT16_MAX; /* no bucket: the edge has no merge */
 
 /*
@@ -25,6 +28,7 @@ typedef struct simplifier {
 	uint32_t stamp;
 	size_t faces, merges, computed, refused;
 	double error2; /* greatest of the merges done */
+	double needle; /* least shape of a face */
 } simplifier;
 
 /* The half-edge that an edge is known by. */
@@ -150,10 +154,20 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		enqueue(s, h, now);
 		return;
 	}
-	if (mr_dyn_can_collapse(&s->d, h, s->mark, ++s->stamp) && mr_merge_is_sound(&s->d, &m))
+	if (mr_dyn_can_collapse(&s->d, h, s->mark, ++s->stamp) && mr_merge_is_sound(&s->d, &m, s->needle))
 		merge(s, h, &m);
 	else
 		s->refused++;
+}
+
+/* Lets needles be thinner, once, for the sake of a number of faces. */
+static bool
+relax(simplifier *s)
+{
+	bool first = s->needle > LAST_NEEDLE && s->o->faces > 0;
+
+	s->needle = LAST_NEEDLE;
+	return first;
 }
 
 /* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged. */
@@ -168,7 +182,7 @@ merge_all(simplifier *s)
 		fill_queue(s);
 		while (s->faces > s->o->faces && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE)
 			serve(s, h, bucket);
-	} while (s->faces > s->o->faces && s->merges > before);
+	} while (s->faces > s->o->faces && (s->merges > before || relax(s)));
 }
 
 /* Adds the plane of face f to its corners, a third of the area each. */
@@ -302,7 +316,10 @@ mr_status
 mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto)
 {
 	double diagonal = mr_mesh_diagonal(m), start = mr_seconds();
-	simplifier s = { .ctx = ctx, .o = opts, .scale = diagonal > 0 ? ldexp(1, -ilogb(diagonal)) : 1 };
+	simplifier s = { .ctx = ctx,
+		.o = opts,
+		.needle = MR_NEEDLE,
+		.scale = diagonal > 0 ? ldexp(1, -ilogb(diagonal)) : 1 };
 
 	MR_TRY(begin(&s, m));
 	mr_stat_set(ctx, "seconds_begin", mr_seconds() - start);
