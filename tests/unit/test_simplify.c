@@ -1,0 +1,137 @@
+/* Laws of simplification: the queue, the quadrics, what became of each vertex. */
+#include "alg/buckets.h"
+#include "alg/shape.h"
+#include "alg/simplify.h"
+#include "base/random.h"
+#include "op/quadric.h"
+#include "unit.h"
+
+static void
+queue_serves_the_lowest_bucket(void **state)
+{
+	enum { N = 3000 };
+	mr_random random = { 1 };
+	uint32_t bucket_of[N], last = 0, bucket, item;
+	size_t left = N, taken = 0;
+	mr_buckets *b;
+
+	(void)state;
+	assert_int_equal(mr_buckets_new(&ctx, N, &b), MR_OK);
+	for (uint32_t i = 0; i < N; i++) {
+		bucket_of[i] = mr_bucket_of((float)exp(40 * mr_random_real(&random) - 20));
+		mr_buckets_put(b, i, bucket_of[i]);
+	}
+	for (uint32_t i = 0; i < N; i += 3, left--) {
+		mr_buckets_remove(b, i);
+		mr_buckets_remove(b, i);
+		assert_false(mr_buckets_has(b, i));
+	}
+	while ((item = mr_buckets_take(b, &bucket)) != MR_NONE) {
+		assert_int_equal(bucket, bucket_of[item]);
+		assert_true(bucket >= last && item % 3 != 0);
+		assert_false(mr_buckets_has(b, item));
+		last = bucket;
+		taken++;
+	}
+	assert_int_equal(taken, left);
+	assert_true(mr_bucket_of(0) == 0 && mr_bucket_of(INFINITY) < MR_BUCKETS);
+	assert_true(mr_bucket_of(1.0f) < mr_bucket_of(1.01f));
+}
+
+static void
+quadric_is_the_squared_distance(void **state)
+{
+	mr_v3 n[3] = { { 1, 0, 0 }, { 0, 0.6, 0.8 }, { 0.36, -0.8, 0.48 } }, at[3], x,
+	      corner = { 0.3, -2, 5 };
+	mr_quadric sum = { 0 };
+	mr_quadric_factor factor;
+
+	(void)state;
+	for (int i = 0; i < 3; i++) { /* planes through the corner, each about another origin */
+		mr_quadric q = { 0 };
+		at[i] = mr_add(corner, mr_cross(n[i], mr_vec(1, 2, 3)));
+		mr_quadric_add_plane(&q, n[i], i + 1);
+		q = mr_quadric_moved(&q, mr_mul(-1, at[i]));
+		sum = mr_quadric_sum(&sum, &q);
+	}
+	x = mr_vec(7, 1, -1);
+	double expected = 0;
+	for (int i = 0; i < 3; i++) {
+		double distance = mr_dot(n[i], mr_sub(x, at[i]));
+		expected += (i + 1) * distance * distance;
+	}
+	assert_true(fabs(mr_quadric_at(&sum, x) - expected) < 1e-12 * expected);
+	factor = mr_quadric_factor_of(&sum, 1e-5);
+	for (int i = 0; i < 3; i++)
+		x = mr_sub(x, mr_quadric_solve(&factor, mr_add(mr_quadric_apply(&sum, x), sum.b)));
+	assert_true(mr_dist(x, corner) < 1e-12);
+}
+
+static void
+vertices_lie_where_they_were_merged(void **state)
+{
+	mr_solid_opts solid = MR_SOLID_DEFAULTS;
+	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
+	mr_source_map map, source;
+	uint32_t *onto;
+	mr_mesh m, out;
+
+	(void)state;
+	solid.vertices = 4000;
+	assert_int_equal(mr_solid_make(&ctx, &solid, &m), MR_OK);
+	o.faces = 400;
+	onto = MR_NEW(&ctx, m.nv, uint32_t);
+	assert_int_equal(mr_simplify(&ctx, &m, &o, &out, onto), MR_OK);
+	assert_int_equal(out.nf, 400);
+	assert_int_equal(out.nv, 202);
+	assert_int_equal(mr_simplify_map(&ctx, &m, &out, onto, &map), MR_OK);
+	assert_int_equal(mr_simplify_source(&ctx, &m, &out, onto, &source), MR_OK);
+	for (size_t v = 0; v < m.nv; v++) {
+		const uint32_t *t = out.t[map.face[v]].v;
+		mr_v3 p = mr_bary_point(map.bary[v], out.p[t[0]], out.p[t[1]], out.p[t[2]]);
+		assert_true(onto[v] < out.nv && map.face[v] < out.nf);
+		assert_true(mr_dist(p, m.p[v]) < 0.05); /* a sphere of radius 1 */
+	}
+	for (size_t v = 0; v < out.nv; v++) {
+		const uint32_t *t = m.t[source.face[v]].v;
+		mr_v3 p = mr_bary_point(source.bary[v], m.p[t[0]], m.p[t[1]], m.p[t[2]]);
+		assert_true(mr_dist(p, out.p[v]) < 0.05);
+	}
+}
+
+static void
+wants_of_memory_are_reported(void **state)
+{
+	mr_solid_opts solid = MR_SOLID_DEFAULTS;
+	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
+	mr_status status = MR_EMEM;
+	uint32_t *onto;
+	mr_mesh m, out;
+
+	(void)state;
+	solid.vertices = 200;
+	assert_int_equal(mr_solid_make(&ctx, &solid, &m), MR_OK);
+	o.faces = 40;
+	onto = MR_NEW(&ctx, m.nv, uint32_t);
+	for (uint64_t k = 1; status != MR_OK && k < 100; k++) {
+		ctx.fail_at = k;
+		status = mr_simplify(&ctx, &m, &o, &out, onto);
+		assert_true(status == MR_OK || status == MR_EMEM);
+	}
+	ctx.fail_at = 0;
+	assert_int_equal(status, MR_OK);
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(queue_serves_the_lowest_bucket, setup, teardown),
+		cmocka_unit_test_setup_teardown(quadric_is_the_squared_distance, setup, teardown),
+		cmocka_unit_test_setup_teardown(vertices_lie_where_they_were_merged, setup, teardown),
+		cmocka_unit_test_setup_teardown(wants_of_memory_are_reported, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
