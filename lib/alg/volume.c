@@ -15,22 +15,22 @@
 #include "base/parallel.h"
 
 enum {
-	MARGIN = 6,
-	NEARBY = 3,
-	ROUNDS_MOST = 20,
 	GRAIN = 4096,
-	NODES_LEAST = 1 << 20,
-	NODES_PER_POINT = 16,
+	MARGIN = 6, /* cells around the box of the points: more than any place asked for is away */
 	CELLS_LEAST = 4,
-	CELLS_MOST = 4096
+	CELLS_MOST = 4096,     /* along the longest side of the box */
+	NODES_LEAST = 1 << 20, /* or fewer, that every cloud may have */
+	NODES_PER_POINT = 16,  /* that a larger one may have */
+	NEARBY = 3,            /* levels on which the values of points are nearby */
+	ROUNDS_MOST = 20       /* of turning normals over */
 };
 
-static const double CELL = 1.5;      /* spacings */
-static const double ABSORPTION = 20; /* of a full layer of points */
-static const double TURNED_LEAST = 2e-4;
+static const double CELL = 1.5;          /* spacings */
+static const double SPARSE = 1.3;        /* steps: points further apart spread on a coarser level */
+static const double ABSORPTION = 20;     /* of the flood, by a full layer of points */
+static const double TURNED_LEAST = 2e-4; /* share of the points that is worth another round */
+static const double THIN = 1.8;          /* steps that the inside, or a gap, must measure */
 static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise across the surface */
-static const double THIN = 1.8;                          /* steps that the inside, or a gap, must measure */
-static const double SPARSE = 1.3; /* steps: where the spacing is more, the step is doubled */
 
 typedef struct volume {
 	samples s;
@@ -59,7 +59,7 @@ set_grid(const samples *s, double step, mr_grid *g, size_t *levels)
 	g->origin = mr_sub(centre, half);
 }
 
-/* Nodes of which every number fits, whatever the shape of the box. */
+/* As fine as the sampling, as far as memory in proportion to the points allows. */
 static mr_status
 choose_grid(mr_ctx *ctx, const samples *s, const mr_volume_opts *opts, mr_grid *g, size_t *levels)
 {
@@ -111,8 +111,8 @@ orient_by_flood(mr_ctx *ctx, volume *v)
 	size_t nodes = mr_grid_nodes(&v->grid[0]);
 
 	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, true, &m));
-	for (size_t d = v->depths;
-	     d-- > 0;) { /* per length, a coarser level's is half of what it is per step */
+	/* the screen of a step; a coarser level's step is twice as long */
+	for (size_t d = v->depths; d-- > 0;) {
 		mr_volume_spread(ctx, &v->s, &v->f[d], NULL, m.level[d].screen);
 		if (d + 1 < v->depths)
 			mr_multigrid_prolong(ctx, &m.level[d], &m.level[d + 1], m.level[d + 1].screen,
@@ -142,7 +142,7 @@ turn_over(volume *v)
 	return turned;
 }
 
-/* Half the step: a quarter of the right side. */
+/* Sparse points spread on coarser levels; a right side there is of four times the squared step. */
 static void
 spread_normals(mr_ctx *ctx, const volume *v, multigrid *m)
 {
@@ -290,7 +290,7 @@ spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
 	return MR_OK;
 }
 
-/* f = level - indicator, in place of the indicator. */
+/* f = value wanted nearby - indicator, in place of the indicator: positive on the faces of the grid. */
 static mr_status
 make_level(mr_ctx *ctx, volume *v, multigrid *m)
 {
@@ -300,6 +300,9 @@ make_level(mr_ctx *ctx, volume *v, multigrid *m)
 	float *c = l->b;
 
 	MR_TRY(half_rise(ctx, v, l->u, &half));
+	if (!(half > 0))
+		return mr_fail(
+		    ctx, MR_EMESH, "%zu points enclose nothing: no side of them is the inside", v->s.n);
 	mr_stat_set(ctx, "level", half);
 	for (size_t i = 0; i < v->s.n; i++)
 		v->value[i] = fmax(LEVEL_LEAST * half, fmin(v->value[i], LEVEL_MOST * half));

@@ -1,6 +1,6 @@
 /*
- * volume.h -- a closed surface around points, of any topology, by a grid: occupied cells, flood from
- * outside, isosurface of a signed distance (Jeong, Kim 2001, section 3).
+ * volume.h -- a closed surface around points, of any topology, by a grid: flood from outside, isosurface
+ * (Jeong, Kim 2001, section 3).
  *
  * Layer rule: alg.
  */
@@ -21,8 +21,14 @@ typedef struct mr_volume_opts {
 
 /*
  * The surface, closed, manifold, oriented outward, any number of components, within about a cell of the
- * points; in the arena.  MR_EMESH where the points enclose nothing at any grid that their density allows.
- * Figures: see man/mr-shrinkwrap.1.
+ * points; in the arena.  Holes of the sampling are closed; parts and cavities that hardly any points bound
+ * are left out, and outliers.  MR_EMESH where the points are flat or enclose nothing; MR_ERANGE for a grid of
+ * more than 4096 cells.
+ *
+ * Figures: spacing (the side of the square that a point stands for), variation (of the median point's
+ * neighbourhood: 0 flat, 1/3 a ball), outliers, cell, nodes, inside (share of the nodes), rounds (of the
+ * Poisson equation), turned (normals after the first), level (the indicator's value at the surface),
+ * parts_dropped, cavities_filled, and seconds_planes, _flood, _indicator, _level and _isosurface.
  */
 mr_status mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out);
 

@@ -56,9 +56,6 @@ mr_status mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, bool
 /* The solution from scratch, coarse to fine; the screen of the coarser levels follows the finest's. */
 void mr_multigrid_full(mr_ctx *ctx, multigrid *m);
 
-/* Improves the solution by one V-cycle. */
-void mr_multigrid_cycle(mr_ctx *ctx, multigrid *m);
-
 /* to = keep to + scale times the values of the next coarser level, between nodes; on inner nodes. */
 void mr_multigrid_prolong(mr_ctx *ctx, const level *fine, const level *coarse, const float *from, float *to,
     float keep, float scale);

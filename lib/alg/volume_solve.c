@@ -228,9 +228,3 @@ mr_multigrid_full(mr_ctx *ctx, multigrid *m)
 		cycle_from(ctx, m, i);
 	}
 }
-
-void
-mr_multigrid_cycle(mr_ctx *ctx, multigrid *m)
-{
-	cycle_from(ctx, m, 0);
-}
