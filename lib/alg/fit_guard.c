@@ -1,6 +1,7 @@
 #include "alg/fit_guard.h"
 
 #include "base/parallel.h"
+#include "mesh/intersect.h"
 
 enum { GRAIN = 1024 };
 
@@ -14,6 +15,7 @@ typedef struct guard {
 	const mr_fit_surface *s;
 	mr_v3 *before, *after; /* unit normals of the faces of level 2 */
 	bool *bad;             /* of each control face */
+	bool *crosses;         /* the same: passes through another */
 } guard;
 
 typedef struct normals_job {
@@ -58,6 +60,93 @@ judge(void *arg, size_t begin, size_t end)
 	}
 }
 
+/* Crossings */
+
+typedef struct crossing_job {
+	const mr_mesh *m;
+	const mr_v3 *normal;
+	const mr_bvh *bvh;
+	bool *crosses;
+} crossing_job;
+
+typedef struct probe {
+	const crossing_job *j;
+	uint32_t face;
+	bool crosses;
+} probe;
+
+static void
+corners(const mr_mesh *m, uint32_t f, mr_v3 p[3])
+{
+	for (int i = 0; i < 3; i++)
+		p[i] = m->p[m->t[f].v[i]];
+}
+
+static bool
+share_corner(mr_tri a, mr_tri b)
+{
+	for (int i = 0; i < 3; i++)
+		if (a.v[i] == b.v[0] || a.v[i] == b.v[1] || a.v[i] == b.v[2])
+			return true;
+	return false;
+}
+
+/* Faces around a vertex that look the same way do not cross; the exact test is for the others. */
+static bool
+visit(void *arg, uint32_t other)
+{
+	probe *c = arg;
+	const crossing_job *j = c->j;
+	mr_v3 p[3], q[3];
+
+	if (other == c->face || (mr_dot(j->normal[c->face], j->normal[other]) > 0.5 &&
+				    share_corner(j->m->t[c->face], j->m->t[other])))
+		return true;
+	corners(j->m, c->face, p);
+	corners(j->m, other, q);
+	c->crosses = !mr_triangle_degenerate(q[0], q[1], q[2]) && mr_triangles_intersect(p, q);
+	return !c->crosses;
+}
+
+static void
+find_crossings(void *arg, size_t begin, size_t end)
+{
+	crossing_job *j = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		probe c = { j, (uint32_t)(MR_FIT_PATCHES * f), false };
+		for (int k = 0; k < MR_FIT_PATCHES && !c.crosses; k++, c.face++) {
+			mr_v3 p[3];
+			corners(j->m, c.face, p);
+			if (!mr_triangle_degenerate(p[0], p[1], p[2]))
+				mr_bvh_overlap(j->bvh, mr_box_of(p, 3), visit, &c);
+		}
+		j->crosses[f] = c.crosses;
+	}
+}
+
+mr_status
+mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *s, bool *crosses)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	const mr_loop *l = &s->level[1];
+	mr_mesh m = { s->m.name, s->node, l->t, l->nv, l->nf }; /* its limit points are the first ones */
+	mr_v3 *normal = MR_NEW(ctx, m.nf, mr_v3);
+	crossing_job j = { &m, normal, NULL, crosses };
+	mr_bvh *bvh;
+
+	if (!normal)
+		return MR_EMEM;
+	mr_parallel(ctx, m.nf, GRAIN, normals, &(normals_job){ &m, normal });
+	MR_TRY(mr_bvh_build(ctx, &m, &bvh));
+	j.bvh = bvh;
+	mr_parallel(ctx, s->level[0].nf, GRAIN / MR_FIT_CHILDREN, find_crossings, &j);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Steps */
+
 /* Lets the vertices of bad faces go no more than `most` of the way; returns whether that is less for any. */
 static bool
 damp(const guard *g, const mr_fit_lists *patch, double most, double *share)
@@ -73,29 +162,67 @@ damp(const guard *g, const mr_fit_lists *patch, double most, double *share)
 	return less;
 }
 
+/* Whether a face that crosses is new: none of the vertices that it depends on is one of a face that crossed,
+ * for what is tangled has to pass through itself to come apart. */
+static bool
+newly_crosses(const guard *g, const mr_fit_lists *patch, const bool *tangled, size_t f)
+{
+	for (size_t i = patch->start[f]; i < patch->start[f + 1]; i++)
+		if (tangled[patch->member[i]])
+			return false;
+	return g->crosses[f];
+}
+
+/* The vertices that faces which cross depend on.  tangled: one a vertex, the caller's. */
+static void
+find_tangled(const mr_fit_lists *patch, const bool *crossed, size_t nv, bool *tangled)
+{
+	memset(tangled, 0, nv * sizeof *tangled);
+	for (size_t f = 0; f < patch->count; f++)
+		for (size_t i = patch->start[f]; crossed[f] && i < patch->start[f + 1]; i++)
+			tangled[patch->member[i]] = true;
+}
+
+/* Marks the bad faces of the surface as it is now. */
+static mr_status
+examine(mr_ctx *ctx, guard *g, const mr_fit_lists *patch, const bool *tangled)
+{
+	const mr_fit_surface *s = g->s;
+	size_t nf = s->level[0].nf;
+
+	mr_parallel(ctx, s->m.nf, GRAIN, normals, &(normals_job){ &s->m, g->after });
+	mr_parallel(ctx, nf, GRAIN / MR_FIT_CHILDREN, judge, g);
+	MR_TRY(mr_fit_crossings(ctx, s, g->crosses));
+	for (size_t f = 0; f < nf; f++)
+		g->bad[f] |= newly_crosses(g, patch, tangled, f);
+	return MR_OK;
+}
+
 static mr_status
 prepare(mr_ctx *ctx, const mr_fit_surface *s, guard *g)
 {
 	*g = (guard){ s, MR_NEW(ctx, s->m.nf, mr_v3), MR_NEW(ctx, s->m.nf, mr_v3),
-		MR_NEW(ctx, s->level[0].nf, bool) };
-	if (!g->before || !g->after || !g->bad)
+		MR_NEW(ctx, s->level[0].nf, bool), MR_NEW(ctx, s->level[0].nf, bool) };
+	if (!g->before || !g->after || !g->bad || !g->crosses)
 		return MR_EMEM;
 	mr_parallel(ctx, s->m.nf, GRAIN, normals, &(normals_job){ &s->m, g->before });
 	return MR_OK;
 }
 
 mr_status
-mr_fit_step(
-    mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, mr_v3 *x, const mr_v3 *z, size_t *damped)
+mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, bool *crossed, mr_v3 *x,
+    const mr_v3 *z, size_t *damped)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t nv = s->level[0].nv;
 	mr_v3 *to = MR_NEW(ctx, nv, mr_v3);
 	double *share = MR_NEW(ctx, nv, double), most = 1;
+	bool *tangled = MR_NEW(ctx, nv, bool);
 	guard g;
 
-	if (!to || !share)
+	if (!to || !share || !tangled)
 		return MR_EMEM;
+	find_tangled(patch, crossed, nv, tangled);
 	for (size_t v = 0; v < nv; v++)
 		share[v] = 1;
 	MR_TRY(prepare(ctx, s, &g));
@@ -103,14 +230,14 @@ mr_fit_step(
 		for (size_t v = 0; v < nv; v++)
 			to[v] = mr_axpy(share[v], z[v], x[v]);
 		mr_fit_surface_move(ctx, s, to);
-		mr_parallel(ctx, s->m.nf, GRAIN, normals, &(normals_job){ &s->m, g.after });
-		mr_parallel(ctx, patch->count, GRAIN / MR_FIT_CHILDREN, judge, &g);
+		MR_TRY(examine(ctx, &g, patch, tangled));
 		most = most > LEAST ? most / 2 : 0;
 	} while (damp(&g, patch, most, share));
 	*damped = 0;
 	for (size_t v = 0; v < nv; v++)
 		*damped += share[v] < 1;
 	memcpy(x, to, nv * sizeof *x);
+	memcpy(crossed, g.crosses, patch->count * sizeof *crossed);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

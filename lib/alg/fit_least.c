@@ -157,20 +157,22 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
 	double *w = MR_NEW(ctx, n, double);
+	mr_fit_system system;
 	size_t damped = 0, steps = 0;
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
-	mr_fit_system system;
+	bool *crossed = MR_NEW(ctx, surface->level[0].nf, bool);
 
-	if (!z || !w)
+	if (!z || !w || !crossed)
 		return MR_EMEM;
 	MR_TRY(mr_fit_system_build(ctx, surface, &system));
+	MR_TRY(mr_fit_crossings(ctx, surface, crossed));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
 		MR_TRY(weigh(ctx, foot, n, NEAR * edge, w));
 		MR_TRY(mr_fit_system_fill(
 		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
 		MR_TRY(solve(ctx, &system, z, &steps));
-		MR_TRY(mr_fit_step(ctx, surface, &system.patch, x, z, &damped));
+		MR_TRY(mr_fit_step(ctx, surface, &system.patch, crossed, x, z, &damped));
 		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
 	}
 	mr_stat_set(ctx, "cg_steps", (double)steps / (double)passes);
