@@ -5,7 +5,7 @@
 #include "alg/wrap_parts.h"
 
 /* Iterations by default: the cube comes to rest in as many; near the points fewer do. */
-enum { CUBE_ITERATIONS = 20, SETTLE_ITERATIONS = 4 };
+enum { CUBE_ITERATIONS = 20, TEMPLATE_ITERATIONS = 20, SETTLE_ITERATIONS = 4 };
 
 /* Points and faces at most that coverage is measured by. */
 enum { FIRST_SAMPLES = 1 << 11, LAST_SAMPLES = 1 << 14 };
@@ -25,8 +25,10 @@ typedef struct candidate {
 	mr_dyn d;
 	mr_wrap_cover cover;
 	size_t folds;
-	int method; /* MR_WRAP_AUTO: the box */
+	int method; /* mr_wrap_method, of which AUTO is the box; or TEMPLATE */
 } candidate;
+
+enum { TEMPLATE = MR_WRAP_VOLUME + 1 };
 
 static bool
 covers(const mr_wrap_cover *c, const mr_wrap_cover *most, double unit)
@@ -235,7 +237,7 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, c
 static void
 report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
 {
-	static const char *const names[] = { "box", "cube", "volume" };
+	static const char *const names[] = { "box", "cube", "volume", "template" };
 
 	mr_note(ctx, "by the %s", names[c->method]);
 	mr_stat_set(ctx, "method", c->method);
@@ -276,14 +278,26 @@ mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_wrap_opts *opt
 	return status;
 }
 
+/* By the steps of the box, which turn no face, and at the end those of all that is near the points. */
 static mr_status
 wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, const mr_wrap_opts *o, mr_v3 *p)
 {
-	mr_dyn d;
+	size_t iterations = o->iterations ? o->iterations : TEMPLATE_ITERATIONS;
+	double edge = mr_mesh_edge_scale(ctx, start);
+	candidate c = { .method = TEMPLATE };
 
-	MR_TRY(mr_wrap_dyn(ctx, start, &d));
-	MR_TRY(pull(ctx, cloud, o, &d));
-	memcpy(p, d.p, start->nv * sizeof *p);
+	MR_TRY(mr_wrap_dyn(ctx, start, &c.d));
+	for (size_t i = 0; i < iterations; i++) {
+		MR_TRY(mr_wrap_draw(ctx, cloud, o->alpha, edge, edge, &c.d));
+		MR_TRY(mr_wrap_smooth(ctx, o->lambda, true, &c.d));
+		mr_progress(ctx, "wrapping", (double)(i + 1) / (double)iterations);
+	}
+	MR_TRY(mr_wrap_settle(ctx, cloud, o, SETTLE_ITERATIONS, &c.d));
+	mr_stat_set(ctx, "iterations", (double)iterations);
+	c.folds = mr_iron(&c.d, true);
+	MR_TRY(measure(ctx, cloud, LAST_SAMPLES, "template", &c));
+	report(ctx, cloud, &c);
+	memcpy(p, c.d.p, start->nv * sizeof *p);
 	return MR_OK;
 }
 

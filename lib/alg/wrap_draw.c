@@ -179,7 +179,9 @@ sink_body(void *arg, size_t begin, size_t end)
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++) {
 		mr_v3 p = s->d->p[v];
-		if (!s->film[v])
+		if (s->d->kind[v] == MR_DEAD)
+			s->to[v] = p;
+		else if (!s->film[v])
 			s->to[v] = mr_add(p, s->way[v]);
 		else
 			s->to[v] = mr_add(
@@ -197,7 +199,7 @@ at_most(mr_v3 x, double length)
 
 /* v <- v + alpha (q - v), with the q of the search where there is one, by an edge at most. */
 mr_status
-mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double length, mr_dyn *d)
+mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double length, double far, mr_dyn *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *nearest = MR_NEW(ctx, d->nv, uint32_t);
@@ -210,7 +212,7 @@ mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double lengt
 	MR_TRY(mr_near_query(ctx, cloud->near, d->p, d->nv, 1, nearest, dist2));
 	for (size_t v = 0; v < d->nv; v++)
 		to[v] = cloud->p[nearest[v]];
-	mr_parallel(ctx, d->nv, GRAIN, mark_body, &(marking){ d, to, length, film });
+	mr_parallel(ctx, d->nv, GRAIN, mark_body, &(marking){ d, to, far, film });
 	MR_TRY(search_normals(ctx, cloud, d, dist2, film, to));
 	for (size_t v = 0; v < d->nv; v++)
 		way[v] = at_most(mr_mul(alpha, mr_sub(to[v], d->p[v])), length);

@@ -4,19 +4,29 @@
 
 enum { GRAIN = 2048 };
 
+/* Height over longest edge of a face that would soon have no normal. */
+static const double SLIVER = 0.02;
+
 typedef struct guard {
 	mr_dyn *d;
 	mr_v3 *to;
 	uint8_t *turned; /* of each face */
 } guard;
 
-/* True where the move turns face f by more than 60 degrees, or folds it anew against a neighbour. */
+/* True where the move turns face f by more than 60 degrees, folds it anew against a neighbour, or leaves it a
+ * worse sliver. */
 static bool
 turns(const guard *s, size_t f)
 {
 	const mr_dyn *d = s->d;
+	const uint32_t *v = &d->v[3 * f];
+	const mr_v3 *p = d->p, *q = s->to;
 	mr_v3 before = mr_dyn_cross(d, d->p, f), after = mr_dyn_cross(d, s->to, f);
 
+	double shape = mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]);
+
+	if (shape < SLIVER && shape < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
+		return true;
 	if (mr_dot(before, after) <= 0.5 * sqrt(mr_norm2(before) * mr_norm2(after)))
 		return true;
 	for (size_t h = 3 * f; h < 3 * f + 3; h++) {

@@ -16,8 +16,8 @@ mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o)
 	return fmin(2.15 * sqrt(cloud->area / (double)cloud->places), cloud->diagonal / FIRST_EDGES);
 }
 
-/* Passes over the first level, of drawing after each remeshing, and of each finer one. */
-enum { FIRST_ROUNDS = 6, DRAWS = 2, ROUNDS = 1 };
+/* Rounds over the levels, each of remeshing and then drawing closer. */
+enum { FIRST_ROUNDS = 6, ROUNDS = 2, LAST_ROUNDS = 1, DRAWS = 2 };
 
 /* Points for each squared edge of a level. */
 static const double POINTS_PER_EDGE = 12;
@@ -31,7 +31,7 @@ run_level(
 
 		MR_TRY(mr_wrap_remesh(ctx, &m, length, d));
 		for (int j = 0; j < DRAWS; j++) {
-			MR_TRY(mr_wrap_draw(ctx, cloud, o->alpha, length, d));
+			MR_TRY(mr_wrap_draw(ctx, cloud, o->alpha, length, length, d));
 			MR_TRY(mr_wrap_smooth(ctx, o->lambda, true, d));
 		}
 	}
@@ -95,7 +95,7 @@ mr_wrap_refine(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, d
 
 	while (length > 1.01 * last) {
 		length /= 2;
-		MR_TRY(thin_level(ctx, cloud, o, length, ROUNDS, d));
+		MR_TRY(thin_level(ctx, cloud, o, length, length > 1.01 * last ? ROUNDS : LAST_ROUNDS, d));
 	}
 	m = mr_dyn_view(d, "control");
 	return mr_wrap_remesh(ctx, &m, last, d);

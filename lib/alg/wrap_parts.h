@@ -47,10 +47,11 @@ mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
 mr_status mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d);
 
 /*
- * Draws d closer, of edges of about `length`: vertices go to the point nearest to them, but where there is
- * none within `length` to what lies along their normal, as a film of soap.
+ * Draws d closer, of edges of about `length`, by so much at most: vertices go to the point nearest to them,
+ * but where there is none within `far` to what lies along their normal, as a film of soap.
  */
-mr_status mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double length, mr_dyn *d);
+mr_status
+mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double length, double far, mr_dyn *d);
 
 /* Remeshes m to edges of about `length`, in one round. */
 mr_status mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d);
