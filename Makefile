@@ -92,7 +92,7 @@ bless: $(TOOLS)
 	@$(RUN) tests/run --bless $(T)
 
 demo: $(TOOLS)
-	@$(RUN) examples/demo.sh demo
+	@$(RUN) sh -ec 'examples/demo.sh demo; examples/reconstruct.sh demo'
 
 bench: $(TOOLS) $(BENCHES) $(PEERS)
 	@$(RUN) tests/bench/run $(T)

@@ -6,40 +6,14 @@
 # The models are those of Debian's package libcgal-demo, which is fetched and unpacked into DIR/cache, not installed.
 # Where it cannot be had, all edits are done on a model that mr-make makes.  MR_SMALL=N does that with N vertices.
 set -e
+here=$(cd "$(dirname "$0")" && pwd)
 dir=${1:-demo}
 mkdir -p "$dir/cache" "$dir/frames" "$dir/work/parts"
 cd "$dir"
 panel=${MR_SMALL:+120x100}
 panel=${panel:-420x400}
 
-# The models
-
-fetch() {
-	[ ! -d cache/meshes ] || return 0
-	[ -z "$MR_SMALL" ] || return 1
-	echo "fetching models (libcgal-demo, 24 MB)"
-	(
-		cd cache && mkdir -p unpacked &&
-		    { apt-get download -q=2 libcgal-demo || { $root apt-get update -qq && apt-get download -q=2 libcgal-demo; }; } &&
-		    dpkg-deb -x libcgal-demo_*.deb unpacked && rm libcgal-demo_*.deb &&
-		    tar -xzf unpacked/usr/share/doc/libcgal-dev/data.tar.gz data/meshes &&
-		    rm -rf unpacked && mv data/meshes . && rmdir data
-	) 2>work/fetch.log
-}
-
-root=
-[ "$(id -u)" -eq 0 ] || root=sudo
-if fetch; then
-	# The armadillo turns its back on the eye: it is turned about y, digit for digit.
-	mkdir -p cache/turned
-	awk 'function minus(x) { return x ~ /^-/ ? substr(x, 2) : "-" x }
-		NR > 2 && NF == 3 { $1 = minus($1); $3 = minus($3) } 1' cache/meshes/armadillo.off >cache/turned/armadillo.off
-	model() { [ -e "cache/turned/$1.off" ] && echo "cache/turned/$1.off" || echo "cache/meshes/$1.off"; }
-else
-	echo "no models: the package libcgal-demo cannot be had here; a generated one takes their place"
-	mr-make bumpy ${MR_SMALL:+-n $MR_SMALL} -o cache/bumpy.mrs
-	model() { mr-export "cache/$1.off" <cache/bumpy.mrs && echo "cache/$1.off"; }
-fi
+. "$here/models.sh"
 
 # The number that a JSON file has under a key; of several, that of the last.
 figure() { # file, key
