@@ -1,0 +1,120 @@
+/* The parts of the shrink-wrapping: the box, the guard of moves, coverage, and want of memory. */
+#include "alg/wrap_parts.h"
+#include "unit.h"
+
+enum { POINTS = 120 };
+
+/* Points spread over the unit sphere by the golden angle. */
+static void
+sphere(mr_v3 p[POINTS])
+{
+	for (int i = 0; i < POINTS; i++) {
+		double z = 1 - (2 * i + 1.0) / POINTS, r = sqrt(1 - z * z), a = 2.399963229728653 * i;
+		p[i] = mr_vec(r * cos(a), r * sin(a), z);
+	}
+}
+
+static void
+test_box_is_closed_and_outward(void **state)
+{
+	mr_box at = { { 0, 0, 0 }, { 1, 2, 3 } };
+
+	(void)state;
+	for (size_t i = 1; i < 4; i++)
+		for (size_t j = 1; j < 4; j++)
+			for (size_t k = 1; k < 4; k++) {
+				double six = 0;
+				mr_topology topo;
+				mr_mesh m;
+				assert_int_equal(mr_wrap_box(&ctx, at, (size_t[]){ i, j, k }, &m), MR_OK);
+				assert_int_equal(m.nv, 2 * (i * j + j * k + k * i) + 2);
+				assert_int_equal(m.nf, 2 * (m.nv - 2));
+				assert_int_equal(mr_topology_build(&ctx, &m, &topo), MR_OK);
+				for (size_t h = 0; h < 3 * m.nf; h++)
+					assert_true(topo.twin[h] != MR_NONE);
+				for (size_t f = 0; f < m.nf; f++)
+					six += mr_dot(m.p[m.t[f].v[0]], mr_face_cross(&m, f));
+				assert_true(fabs(six / 6 - 6) < 1e-12);
+			}
+}
+
+/* The middle of a side that would go through the box stays; that of the opposite side, outward, goes. */
+static void
+test_moves_turn_no_face(void **state)
+{
+	mr_box at = { { -1, -1, -1 }, { 1, 1, 1 } };
+	mr_v3 *to;
+	mr_mesh m;
+	mr_dyn d;
+
+	(void)state;
+	assert_int_equal(mr_wrap_box(&ctx, at, (size_t[]){ 2, 2, 2 }, &m), MR_OK);
+	assert_int_equal(mr_wrap_dyn(&ctx, &m, &d), MR_OK);
+	to = MR_NEW(&ctx, d.nv, mr_v3);
+	assert_non_null(to);
+	for (size_t v = 0; v < d.nv; v++)
+		to[v] = mr_norm(d.p[v]) > 1 ? d.p[v]
+		                            : mr_vec(d.p[v].x > 0 ? -5 : 1.2 * d.p[v].x, d.p[v].y, d.p[v].z);
+	assert_int_equal(mr_wrap_move(&ctx, to, &d), MR_OK);
+	for (size_t v = 0; v < d.nv; v++)
+		assert_true(d.p[v].x == (mr_norm(m.p[v]) > 1 || m.p[v].x >= 0 ? m.p[v].x : -1.2));
+}
+
+/* Points on a cube, a wrap of it, and one that is longer and lacks a side of the cube. */
+static void
+test_coverage_goes_both_ways(void **state)
+{
+	mr_box at = { { 0, 0, 0 }, { 1, 1, 1 } }, big = { { 0, 0, 0 }, { 1, 1, 3 } };
+	mr_wrap_cloud cloud;
+	mr_wrap_cover c;
+	mr_mesh m, far;
+
+	(void)state;
+	assert_int_equal(mr_wrap_box(&ctx, at, (size_t[]){ 4, 4, 4 }, &m), MR_OK);
+	assert_int_equal(mr_wrap_box(&ctx, big, (size_t[]){ 4, 4, 12 }, &far), MR_OK);
+	assert_int_equal(mr_wrap_cloud_open(&ctx, m.p, m.nv, &cloud), MR_OK);
+	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &m, 1 << 20, &c), MR_OK);
+	assert_true(c.points_max < 1e-15 && c.wrap_max < 0.25);
+	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &far, 1 << 20, &c), MR_OK);
+	assert_true(fabs(c.points_max - 0.5) < 1e-12); /* the middle of the side that is not there */
+	assert_true(c.wrap_max > 2 && c.wrap_max < 2.25 && c.points_most <= c.points_high);
+	mr_near_free(cloud.near);
+}
+
+static void
+test_memory_may_run_out(void **state)
+{
+	mr_v3 p[POINTS];
+
+	(void)state;
+	sphere(p);
+	for (int method = MR_WRAP_AUTO; method <= MR_WRAP_VOLUME; method++) {
+		mr_wrap_opts o = MR_WRAP_DEFAULTS;
+		mr_status status = MR_EMEM;
+		o.method = method;
+		o.iterations = 1;
+		for (uint64_t k = 1; status != MR_OK; k += k < 40 ? 1 : 7) {
+			mr_mark mark = mr_mark_take(&ctx);
+			mr_mesh out = { 0 };
+			ctx.fail_at = k;
+			status = mr_shrinkwrap(&ctx, p, POINTS, &o, &out);
+			ctx.fail_at = 0;
+			assert_true(status == MR_OK || status == MR_EMEM);
+			assert_true((status == MR_OK) == (out.nf > 0));
+			mr_mark_release(&ctx, mark);
+		}
+	}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_box_is_closed_and_outward, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_moves_turn_no_face, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_coverage_goes_both_ways, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_memory_may_run_out, setup, teardown),
+	};
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
