@@ -1,5 +1,4 @@
-/* Where a displaced surface is no surface to be proud of: faces that turn over, sharp folds, faces that
- * cross. */
+/* Where a displaced surface breaks: faces that turn over, sharp folds, faces that pass through others. */
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
 #include "mesh/intersect.h"
