@@ -71,8 +71,9 @@ by_name(const char *name)
 	return NULL;
 }
 
-const char *
-mr_format_names(mr_ctx *ctx, bool writable)
+/* With commas between: those that can be written, or all that can be read. */
+static const char *
+names_of_formats(mr_ctx *ctx, bool writable)
 {
 	const char *names = "";
 
@@ -86,7 +87,7 @@ static mr_status
 find_writer(mr_ctx *ctx, const char *path, const char *format, const mr_file_format **f)
 {
 	const mr_file_format *found = format ? by_name(format) : by_suffix(path);
-	const char *names = mr_format_names(ctx, true);
+	const char *names = names_of_formats(ctx, true);
 
 	if (!names)
 		return MR_EMEM;
@@ -109,7 +110,7 @@ mr_format_check(mr_ctx *ctx, const char *path, const char *format, bool writable
 	if (writable)
 		MR_TRY(find_writer(ctx, path, format, &f));
 	else if (format && !f) {
-		const char *names = mr_format_names(ctx, false);
+		const char *names = names_of_formats(ctx, false);
 		return names ? mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names)
 		             : MR_EMEM;
 	}
@@ -184,7 +185,7 @@ static mr_status
 find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size,
     const mr_file_format **f)
 {
-	const char *names = mr_format_names(ctx, false);
+	const char *names = names_of_formats(ctx, false);
 	const mr_file_format *found = format ? by_name(format) : NULL;
 
 	if (!names)

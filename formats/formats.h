@@ -27,7 +27,7 @@ typedef struct mr_model {
 } mr_model;
 
 /*
- * Reads a file ("-": stdin) into the arena.  `format` is a name of mr_format_names,
+ * Reads a file ("-": stdin) into the arena.  `format` is a name of a format,
  * or NULL: by the bytes and, where no format knows them, by the suffix.  Vertices of
  * STL are joined where equal; polygons are triangulated; isolated vertices, degenerate,
  * duplicate and non-manifold faces are kept.  MR_EMESH for a model without vertices.
@@ -50,9 +50,6 @@ typedef struct mr_held {
 /* The same, but for the renaming, where `held` is not NULL. */
 mr_status mr_model_write_held(
     mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held) MR_WARN_UNUSED;
-
-/* The names of the formats with commas between: those that can be written, or all that can be read. */
-const char *mr_format_names(mr_ctx *ctx, bool writable);
 
 /* MR_EUSAGE, naming those there are, where the format is unknown or cannot be written.  `binary`: not for a
  * terminal. */

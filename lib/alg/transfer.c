@@ -64,8 +64,8 @@ check_handles(
 	return MR_OK;
 }
 
-mr_status
-mr_transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const mr_source_map *map,
+static mr_status
+transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const mr_source_map *map,
     const mr_mesh *base, uint32_t *out)
 {
 	transfer_job j = { .mesh = mesh, .base = base, .region = region, .map = map, .out = out };
@@ -111,5 +111,5 @@ mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **
 	if (!r)
 		return MR_EMEM;
 	*region = r;
-	return mr_transfer_regions(ctx, &mesh, on_mesh, mapped ? &map : NULL, base, r);
+	return transfer_regions(ctx, &mesh, on_mesh, mapped ? &map : NULL, base, r);
 }
