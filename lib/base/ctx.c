@@ -14,7 +14,8 @@ struct mr_block {
 	struct mr_block *below;
 	uint64_t serial;   /* from 1, growing towards the top */
 	size_t size, used; /* of the bytes behind the header */
-	char pad[ALIGN - sizeof(struct mr_block *) - sizeof(uint64_t) - 2 * sizeof(size_t)];
+	void *memory;      /* what to free */
+	char pad[ALIGN - sizeof(struct mr_block *) - sizeof(uint64_t) - 2 * sizeof(size_t) - sizeof(void *)];
 };
 
 void
@@ -145,16 +146,17 @@ no_memory(mr_ctx *ctx, size_t count, size_t size)
 	return NULL;
 }
 
+/* Aligned here: what posix_memalign gave and got back it cannot always give again. */
 static mr_block *
 block_new(mr_ctx *ctx, size_t size)
 {
-	void *memory;
+	char *memory = malloc(sizeof(mr_block) + size + ALIGN - 1);
 	mr_block *b;
 
-	if (posix_memalign(&memory, ALIGN, sizeof *b + size))
+	if (!memory)
 		return NULL;
-	b = memory;
-	*b = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = size };
+	b = (void *)(memory + (ALIGN - (uintptr_t)memory % ALIGN) % ALIGN);
+	*b = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = size, .memory = memory };
 	return ctx->top = b;
 }
 
@@ -194,7 +196,7 @@ free_alone(mr_ctx *ctx, const void *memory)
 			mr_block *found = *b;
 			if (found->size > LARGE && found->size != SHARED) {
 				*b = found->below;
-				free(found);
+				free(found->memory);
 			}
 			return;
 		}
@@ -265,7 +267,7 @@ mr_mark_release(mr_ctx *ctx, mr_mark mark)
 	while (ctx->top && ctx->top->serial > mark.serial) {
 		mr_block *b = ctx->top;
 		ctx->top = b->below;
-		free(b);
+		free(b->memory);
 	}
 	if (ctx->top && ctx->top->serial == mark.serial)
 		ctx->top->used = mark.used;
