@@ -459,8 +459,8 @@ number_faces(const mr_dyn *d, uint32_t *number)
 }
 
 /* Numbers only fall, so everything can move in place. */
-mr_status
-mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
+static mr_status
+close_holes(mr_ctx *ctx, mr_dyn *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *vertex = MR_NEW(ctx, d->nv, uint32_t), *face = MR_NEW(ctx, d->nf, uint32_t), nv, nf;
@@ -491,6 +491,15 @@ mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
 	d->free_v = d->free_f = MR_NONE;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+mr_status
+mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
+{
+	MR_TRY(close_holes(ctx, d));
+	if (d->room_v > 2 * d->nv)
+		MR_TRY(make_room_v(ctx, d, d->nv + d->nv / 8 + 16));
+	return d->room_f > 2 * d->nf ? make_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
 }
 
 mr_mesh

@@ -153,7 +153,7 @@ bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
  * mr_dyn_can_flip. */
 void mr_dyn_flip(mr_dyn *d, uint32_t h);
 
-/* Closes the holes; what is left keeps its order. */
+/* Closes the holes; what is left keeps its order.  Gives room back where less than half is used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 
 /*

@@ -14,17 +14,16 @@
 typedef struct mr_facing {
 	const mr_mesh *m;
 	const mr_topology *topo;
-	const mr_v3 *normal; /* of the vertices */
-} mr_facing;
-
-/* The normals of the source, in the arena. */
-mr_status mr_facing_begin(mr_ctx *ctx, const mr_mesh *source, const mr_topology *topo, mr_facing *out);
+} mr_facing; /* the source */
 
 /* The normal of the source at a place, of any length. */
 mr_v3 mr_facing_normal(const mr_facing *s, uint32_t face, mr_v3 bary);
 
 /* The flipped faces of m, whose vertices lie on the source as the map says. */
 size_t mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_source_map *map);
+
+/* The flipped faces of the source itself. */
+size_t mr_count_flipped_source(const mr_facing *s);
 
 /* The folded edges of m; twin as in mr_topology. */
 size_t mr_count_folded(const mr_mesh *m, const uint32_t *twin);

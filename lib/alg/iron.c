@@ -204,15 +204,11 @@ mend_all(mender *w)
 	return mended;
 }
 
-mr_status
-mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
+void
+mr_mend_flaws(mr_dyn *d, const mr_surface *s)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	mender w = { d, s, { 0 } };
+	mender w = { d, s, { s->m, s->topo } };
 
-	MR_TRY(mr_facing_begin(ctx, s->m, s->topo, &w.facing));
 	for (int i = 0; i < MOST && mend_all(&w) > 0; i++)
 		;
-	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

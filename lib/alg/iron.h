@@ -20,6 +20,6 @@ size_t mr_iron(mr_dyn *d, bool tips);
  * Moves vertices of flipped faces and at folded edges, on the surface where it can be, to where fewer of both
  * are around them; 10 times at most.
  */
-mr_status mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s);
+void mr_mend_flaws(mr_dyn *d, const mr_surface *s);
 
 #endif

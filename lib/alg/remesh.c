@@ -330,7 +330,8 @@ equalize_areas(remesher *r)
 			MR_TRY(regularize(r, 0));
 	}
 	mr_iron(&r->d, true);
-	return mr_mend_flaws(r->ctx, &r->d, &r->source);
+	mr_mend_flaws(&r->d, &r->source);
+	return MR_OK;
 }
 
 /*
@@ -346,6 +347,7 @@ one_round(remesher *r)
 	MR_TRY(split_long(r));
 	MR_TRY(collapse_short(r));
 	MR_TRY(mend_needles(r));
+	MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* the first round leaves as many holes as vertices */
 	MR_TRY(regularize(r, REACH));
 	for (int i = 1; i <= RELAX; i++) {
 		o.project = r->o->project && i == RELAX;
@@ -378,14 +380,6 @@ area_variance(remesher *r, double *variance)
 	return MR_OK;
 }
 
-/* Neighbours close together in memory. */
-static mr_status
-tidy(remesher *r)
-{
-	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
-	return mr_dyn_order(r->ctx, &r->d);
-}
-
 static mr_status
 run(remesher *r)
 {
@@ -395,7 +389,7 @@ run(remesher *r)
 		MR_TRY(one_round(r));
 		mr_refine_grade(&r->d, &r->source);
 		if (i == 0 || i + 1 == r->o->rounds)
-			MR_TRY(tidy(r)); /* the first round changes most */
+			MR_TRY(mr_dyn_order(r->ctx, &r->d)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
 	}
 	middle = mr_seconds();
@@ -430,22 +424,16 @@ map_to_source(remesher *r, mr_source_map *map)
 }
 
 /* Triangles flipped and edges folded, of the input and of the result. */
-static mr_status
+static void
 count_flaws(remesher *r, const mr_source_map *map)
 {
+	const mr_facing facing = { r->source.m, r->source.topo };
 	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
-	mr_mark mark = mr_mark_take(r->ctx);
-	mr_source_map identity;
-	mr_facing facing;
 
-	MR_TRY(mr_source_map_identity(r->ctx, r->source.m, &identity));
-	MR_TRY(mr_facing_begin(r->ctx, r->source.m, r->source.topo, &facing));
-	r->flipped[0] = mr_count_flipped(&facing, r->source.m, &identity);
+	r->flipped[0] = mr_count_flipped_source(&facing);
 	r->flipped[1] = mr_count_flipped(&facing, &view, map);
 	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
 	r->folded[1] = mr_count_folded(&view, r->d.twin);
-	mr_mark_release(r->ctx, mark);
-	return MR_OK;
 }
 
 /* How much finer and coarser than the uniform length adapted lengths may be. */
@@ -523,7 +511,7 @@ mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, 
 	MR_TRY(run(&r));
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
 	MR_TRY(map_to_source(&r, map));
-	MR_TRY(count_flaws(&r, map));
+	count_flaws(&r, map);
 	report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
 	return MR_OK;
