@@ -69,6 +69,8 @@ solve_rows(mr_ctx *ctx, krylov *k, mr_columns s, const double *b, double *x, mr_
 		before = after;
 		MR_TRY(k->iterate(ctx, k, s, goal, x, r, &iterations));
 		after = true_residual(ctx, k, s, b, goal, x, r);
+		if (getenv("DBG"))
+			fprintf(stderr, "restart: %zu it %.3e -> %.3e\n", iterations, before, after);
 	} while (after > k->opts.tol && after < 0.5 * before && iterations < k->opts.iterations);
 	if (iterations > report->iterations)
 		report->iterations = iterations;
@@ -169,56 +171,138 @@ cg_iterate(mr_ctx *ctx, krylov *k, mr_columns s, const double *goal, double *x, 
 
 /* BiCGSTAB, preconditioned from the right */
 
+/*
+ * Its residual may rise by many orders before it falls, and what is carried along then no longer is b - A x.
+ * So x is gathered in groups, and r taken anew for each (Sleijpen, van der Vorst 1996: Reliable updated
+ * residuals in hybrid Bi-CG methods).
+ */
+typedef struct group {
+	double *x;    /* since the group began */
+	double *from; /* the residual then */
+	double peak;  /* the greatest |r|^2 since */
+} group;
+
+static double
+total(mr_columns s, const double *norm2)
+{
+	double sum = 0;
+
+	for (size_t c = 0; c < s.width; c++)
+		sum += norm2[c];
+	return sum;
+}
+
+/* Ends a group where r has fallen enough to be worth it: x and r become true, q is workspace. */
+static void
+end_group(mr_ctx *ctx, const krylov *k, mr_columns s, bool now, group *g, double *x, double *r, double *q,
+    double *rr)
+{
+	static const double one[MR_WIDTH] = { 1, 1, 1, 1 }, minus[MR_WIDTH] = { -1, -1, -1, -1 };
+	static const double fall = 1e-4; /* of |r|^2 */
+	size_t size = s.n * s.width;
+
+	g->peak = fmax(g->peak, total(s, rr));
+	if (!now && !(total(s, rr) <= fall * g->peak))
+		return;
+	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, g->x, q);
+	memcpy(r, g->from, size * sizeof *r);
+	mr_columns_add(ctx, s, minus, q, r);
+	mr_columns_add(ctx, s, one, g->x, x);
+	memset(g->x, 0, size * sizeof *g->x);
+	memcpy(g->from, r, size * sizeof *r);
+	mr_columns_dot(ctx, s, r, r, rr);
+	g->peak = total(s, rr);
+}
+
+typedef struct bicgstab {
+	double *shadow, *p, *v, *z, *t;
+	double last[MR_WIDTH], alpha[MR_WIDTH], omega[MR_WIDTH];
+	group g;
+} bicgstab;
+
+static mr_status
+bicgstab_begin(mr_ctx *ctx, mr_columns s, const double *r, bicgstab *b)
+{
+	size_t size = s.n * s.width;
+
+	*b = (bicgstab){ MR_NEW(ctx, size, double), MR_NEW_ZERO(ctx, size, double),
+		MR_NEW_ZERO(ctx, size, double), MR_NEW(ctx, size, double), MR_NEW(ctx, size, double),
+		.last = { 1, 1, 1, 1 },
+		.g = { MR_NEW_ZERO(ctx, size, double), MR_NEW(ctx, size, double), 0 } };
+	if (!b->shadow || !b->p || !b->v || !b->z || !b->t || !b->g.x || !b->g.from)
+		return MR_EMEM;
+	memcpy(b->shadow, r, size * sizeof *r);
+	memcpy(b->g.from, r, size * sizeof *r);
+	return MR_OK;
+}
+
+/* The step of BiCG: false where it has broken down in every column. */
+static mr_status
+bicgstab_step(mr_ctx *ctx, krylov *k, mr_columns s, const bool *done, bicgstab *b, double *r, bool *stuck)
+{
+	double rho[MR_WIDTH], d[MR_WIDTH], f[MR_WIDTH];
+
+	mr_columns_dot(ctx, s, b->shadow, r, rho);
+	negate(s, b->omega, f);
+	mr_columns_add(ctx, s, f, b->v, b->p);
+	for (size_t c = 0; c < s.width; c++)
+		f[c] = ratio(rho[c] * b->alpha[c], b->last[c] * b->omega[c]); /* beta */
+	mr_columns_turn(ctx, s, f, r, b->p);                                  /* p = r + beta (p - omega v) */
+	memcpy(b->last, rho, sizeof rho);
+	MR_TRY(k->b.apply(ctx, k->b.data, s, b->p, b->z));
+	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, b->z, b->v); /* v = A B p */
+	mr_columns_dot(ctx, s, b->shadow, b->v, d);
+	*stuck = true;
+	for (size_t c = 0; c < s.width; c++) {
+		b->alpha[c] = done[c] ? 0 : ratio(rho[c], d[c]);
+		*stuck = *stuck && b->alpha[c] == 0;
+	}
+	mr_columns_add(ctx, s, b->alpha, b->z, b->g.x);
+	negate(s, b->alpha, f);
+	mr_columns_add(ctx, s, f, b->v, r);
+	return MR_OK;
+}
+
+/* The step of steepest descent behind it. */
+static mr_status
+stabilize(mr_ctx *ctx, krylov *k, mr_columns s, bicgstab *b, double *r)
+{
+	double d[MR_WIDTH], e[MR_WIDTH];
+
+	MR_TRY(k->b.apply(ctx, k->b.data, s, r, b->z));
+	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, b->z, b->t); /* t = A B r */
+	mr_columns_dot(ctx, s, b->t, r, d);
+	mr_columns_dot(ctx, s, b->t, b->t, e);
+	for (size_t c = 0; c < s.width; c++)
+		b->omega[c] = b->alpha[c] != 0 ? ratio(d[c], e[c]) : 0;
+	mr_columns_add(ctx, s, b->omega, b->z, b->g.x);
+	negate(s, b->omega, d);
+	mr_columns_add(ctx, s, d, b->t, r);
+	return MR_OK;
+}
+
 static mr_status
 bicgstab_iterate(
     mr_ctx *ctx, krylov *k, mr_columns s, const double *goal, double *x, double *r, size_t *iterations)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	size_t size = s.n * s.width;
-	double *shadow = MR_NEW(ctx, size, double), *p = MR_NEW_ZERO(ctx, size, double);
-	double *v = MR_NEW_ZERO(ctx, size, double), *z = MR_NEW(ctx, size, double),
-	       *t = MR_NEW(ctx, size, double);
-	double rho[MR_WIDTH], last[MR_WIDTH], alpha[MR_WIDTH] = { 0 }, omega[MR_WIDTH] = { 0 };
-	double rr[MR_WIDTH], d[MR_WIDTH], e[MR_WIDTH], f[MR_WIDTH];
+	double rr[MR_WIDTH];
+	bool stuck = false;
+	bicgstab b;
 
-	if (!shadow || !p || !v || !z || !t)
-		return MR_EMEM;
-	memcpy(shadow, r, size * sizeof *r);
+	MR_TRY(bicgstab_begin(ctx, s, r, &b));
 	mr_columns_dot(ctx, s, r, r, rr);
-	for (size_t c = 0; c < s.width; c++)
-		last[c] = 1;
-	for (; *iterations < k->opts.iterations && !reached(s, rr, goal); ++*iterations) {
-		bool stuck = true;
-		mr_columns_dot(ctx, s, shadow, r, rho);
-		negate(s, omega, e);
-		mr_columns_add(ctx, s, e, v, p);
+	b.g.peak = total(s, rr);
+	for (; *iterations < k->opts.iterations && !reached(s, rr, goal) && !stuck; ++*iterations) {
+		bool done[MR_WIDTH];
 		for (size_t c = 0; c < s.width; c++)
-			f[c] = ratio(rho[c] * alpha[c], last[c] * omega[c]); /* beta */
-		mr_columns_turn(ctx, s, f, r, p);                            /* p = r + beta (p - omega v) */
-		memcpy(last, rho, sizeof rho);
-		MR_TRY(k->b.apply(ctx, k->b.data, s, p, z));
-		mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, z, v); /* v = A B p */
-		mr_columns_dot(ctx, s, shadow, v, d);
-		for (size_t c = 0; c < s.width; c++) {
-			alpha[c] = rr[c] > goal[c] * goal[c] ? ratio(rho[c], d[c]) : 0;
-			stuck = stuck && alpha[c] == 0;
-		}
-		if (stuck)
-			break;
-		mr_columns_add(ctx, s, alpha, z, x);
-		negate(s, alpha, f);
-		mr_columns_add(ctx, s, f, v, r);
-		MR_TRY(k->b.apply(ctx, k->b.data, s, r, z));
-		mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, z, t); /* t = A B r */
-		mr_columns_dot(ctx, s, t, r, d);
-		mr_columns_dot(ctx, s, t, t, e);
-		for (size_t c = 0; c < s.width; c++)
-			omega[c] = alpha[c] != 0 ? ratio(d[c], e[c]) : 0;
-		mr_columns_add(ctx, s, omega, z, x);
-		negate(s, omega, f);
-		mr_columns_add(ctx, s, f, t, r);
+			done[c] = rr[c] <= goal[c] * goal[c];
+		MR_TRY(bicgstab_step(ctx, k, s, done, &b, r, &stuck));
+		MR_TRY(stabilize(ctx, k, s, &b, r));
 		mr_columns_dot(ctx, s, r, r, rr);
+		end_group(ctx, k, s, reached(s, rr, goal), &b.g, x, r, b.t, rr);
 	}
+	end_group(ctx, k, s, true, &b.g, x, r, b.t, rr);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
