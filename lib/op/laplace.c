@@ -346,6 +346,46 @@ mr_sparse_apply(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t r
 	mr_parallel(ctx, rows, GRAIN, apply_rows, &(apply_job){ a, w, width, x, y });
 }
 
+typedef struct add_job {
+	const mr_sparse *a;
+	double f;
+	size_t width;
+	const double *x;
+	double *y;
+} add_job;
+
+static inline void
+add_width(const add_job *j, size_t width, size_t begin, size_t end)
+{
+	const mr_sparse *a = j->a;
+
+	for (size_t i = begin; i < end; i++) {
+		double sum[4] = { 0 };
+		for (int e = a->start[i]; e < a->start[i + 1]; e++)
+			for (size_t c = 0; c < width; c++)
+				sum[c] += a->value[e] * j->x[(size_t)a->index[e] * width + c];
+		for (size_t c = 0; c < width; c++)
+			j->y[i * width + c] += j->f * sum[c];
+	}
+}
+
+static void
+add_rows(void *arg, size_t begin, size_t end)
+{
+	add_job *j = arg;
+
+	if (j->width == 3)
+		add_width(j, 3, begin, end);
+	else
+		add_width(j, j->width, begin, end);
+}
+
+void
+mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width, const double *x, double *y)
+{
+	mr_parallel(ctx, (size_t)a->n, GRAIN, add_rows, &(add_job){ a, f, width, x, y });
+}
+
 typedef struct apply_long_job {
 	const mr_sparse *a;
 	const double *w;

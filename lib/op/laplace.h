@@ -39,7 +39,10 @@ mr_status mr_laplace_power(
 void mr_sparse_apply(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
     const double *x, double *y);
 
-/* The same in extended precision: for residuals that rounding would drown. */
+/* y = y + f A x, for all rows of A. */
+void mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width, const double *x, double *y);
+
+/* mr_sparse_apply in extended precision: for residuals that rounding would drown. */
 void mr_sparse_apply_long(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
     const long double *x, long double *y);
 

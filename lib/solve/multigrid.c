@@ -16,7 +16,7 @@ typedef struct level {
 	mr_sparse a, prolong, restrict_; /* the last two from and to the next level; the coarsest has none */
 	double *inverse;                 /* of the diagonal */
 	double top;                      /* about the greatest eigenvalue of D^-1 A, not below it */
-	double *x, *r, *d, *q;           /* n x MR_WIDTH: solution, its residual, workspace */
+	double *x, *r, *d;               /* n x MR_WIDTH: solution, its residual, a change of it */
 } level;
 
 typedef struct multigrid {
@@ -52,20 +52,9 @@ step_rows(void *arg, size_t begin, size_t end)
 		}
 }
 
-/* y = y + f A x; q is workspace */
+/* Improves x, whose residual is r; r follows where `keep`. */
 static void
-add_product(
-    const mr_ctx *ctx, mr_columns s, double f, const mr_sparse *a, const double *x, double *q, double *y)
-{
-	const double factor[MR_WIDTH] = { f, f, f, f };
-
-	mr_sparse_apply(ctx, a, NULL, (size_t)a->n, s.width, x, q);
-	mr_columns_add(ctx, (mr_columns){ (size_t)a->n, s.width }, factor, q, y);
-}
-
-/* Improves x, whose residual is r; keeps r as it is. */
-static void
-smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s)
+smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s, bool keep)
 {
 	double low = g->low * l->top, theta = 0.5 * (l->top + low), delta = 0.5 * (l->top - low);
 	double rho = delta / theta;
@@ -75,7 +64,8 @@ smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s)
 	for (size_t step = 0; step < g->degree; step++) {
 		double next = 1 / (2 * theta / delta - rho);
 		mr_parallel(ctx, s.n, GRAIN, step_rows, &j);
-		add_product(ctx, s, -1, &l->a, l->d, l->q, l->r);
+		if (keep || step + 1 < g->degree)
+			mr_sparse_add(ctx, &l->a, -1, s.width, l->d, l->r);
 		j.f = next * rho;
 		j.g = 2 * next / delta;
 		rho = next;
@@ -104,14 +94,13 @@ cycle(mr_ctx *ctx, const multigrid *g, size_t at, size_t width)
 	if (at + 1 == g->count)
 		return solve_coarsest(ctx, g, l, s);
 	memset(l->x, 0, s.n * width * sizeof *l->x);
-	smooth(ctx, g, l, s);
+	smooth(ctx, g, l, s, true);
 	mr_sparse_apply(ctx, &l->restrict_, NULL, (size_t)coarse->a.n, width, l->r, coarse->r);
 	MR_TRY(cycle(ctx, g, at + 1, width));
-	memset(l->d, 0, s.n * width * sizeof *l->d);
-	add_product(ctx, s, 1, &l->prolong, coarse->x, l->q, l->d); /* d = P e */
+	mr_sparse_apply(ctx, &l->prolong, NULL, s.n, width, coarse->x, l->d); /* d = P e */
 	mr_columns_add(ctx, s, (const double[MR_WIDTH]){ 1, 1, 1, 1 }, l->d, l->x);
-	add_product(ctx, s, -1, &l->a, l->d, l->q, l->r);
-	smooth(ctx, g, l, s);
+	mr_sparse_add(ctx, &l->a, -1, width, l->d, l->r);
+	smooth(ctx, g, l, s, false);
 	return MR_OK;
 }
 
@@ -166,8 +155,8 @@ estimate_top(const mr_ctx *ctx, level *l)
 		mr_columns_dot(ctx, s, l->x, l->x, &size);
 		for (size_t i = 0; i < s.n; i++)
 			l->x[i] /= sqrt(size);
-		mr_sparse_apply(ctx, &l->a, NULL, s.n, 1, l->x, l->q);
-		mr_columns_scale(ctx, s, l->inverse, l->q, l->x);
+		mr_sparse_apply(ctx, &l->a, NULL, s.n, 1, l->x, l->d);
+		mr_columns_scale(ctx, s, l->inverse, l->d, l->x);
 		mr_columns_dot(ctx, s, l->x, l->x, &last);
 	}
 	l->top = margin * sqrt(last);
@@ -181,8 +170,7 @@ make_workspace(mr_ctx *ctx, level *l)
 	l->x = MR_NEW(ctx, n, double);
 	l->r = MR_NEW(ctx, n, double);
 	l->d = MR_NEW(ctx, n, double);
-	l->q = MR_NEW(ctx, n, double);
-	return l->x && l->r && l->d && l->q ? MR_OK : MR_EMEM;
+	return l->x && l->r && l->d ? MR_OK : MR_EMEM;
 }
 
 /* The matrix of the level after l: P' A P. */
