@@ -7,7 +7,7 @@
 static mr_deform_opts opts = MR_DEFORM_DEFAULTS;
 static enum { AUTO, CHOLESKY, LU, CG, BICGSTAB, MULTIGRID, VCYCLE } solver;
 static double tol, megabytes;
-static bool basis;
+static bool basis, verify;
 
 static const cmd_opt table[] = {
 	{ 'k', "order", CMD_COUNT, &opts.order, 1, 3, "K",
@@ -26,6 +26,7 @@ static const cmd_opt table[] = {
 	    "megabytes that a factor may take; 0: what there is", NULL },
 	{ 0, "precondition", CMD_CHOICE, &opts.solver.precondition, 0, 0, "incomplete|jacobi",
 	    "of cg and bicgstab", NULL },
+	{ 0, "verify", CMD_FLAG, &verify, 0, 0, "", "solve directly too, and record the error", NULL },
 	{ 0 },
 };
 
@@ -41,6 +42,9 @@ prepare(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
 	if (opts.solver.precondition && solver != CG && solver != BICGSTAB)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
+	if (verify && (solver == AUTO || solver == CHOLESKY))
+		return mr_fail(
+		    &c->ctx, MR_EUSAGE, "--verify compares another solver with cholesky: name it by -s");
 	opts.solver.kind = solver != AUTO     ? (mr_solver_kind)(solver - CHOLESKY)
 	                   : opts.unsymmetric ? MR_LU
 	                                      : MR_CHOLESKY;
@@ -54,75 +58,84 @@ prepare(cmd *c)
 /* Outlives the frame. */
 static mr_deform_cache kept;
 
+/* What poses the frame: the handles, or the places of base.target, or nothing. */
 static mr_status
-relax(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
-{
-	mr_deform *d;
-
-	MR_TRY(mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, m, "position", &opts, &d));
-	MR_TRY(mr_deform_relax(&c->ctx, d, m->p, p));
-	mr_frame_drop(f, m->name, "response", 0);
-	if (basis)
-		MR_TRY(mr_deform_put_basis(&c->ctx, f, m, d, p));
-	mr_deform_report(&c->ctx, d);
-	return mr_layer_put(&c->ctx, f, m->name, "rest", m->p, m->nv);
-}
-
-/* Poses by the handles, or by the places of base.target where there are no handles; either is used up. */
-static mr_status
-pose(cmd *c, mr_frame *f, const mr_mesh *m, mr_v3 *p)
+read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform_task *task)
 {
 	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
-	bool rested = mr_layer_has(f, m->name, "rest"); /* else the layer itself is at rest */
-	const void *positions, *places;
-	mr_mesh rest = *m;
-	mr_affine *t;
-	mr_deform *d;
-	size_t n;
+	const void *places = NULL;
+	mr_affine *t = NULL;
+	size_t n = 0;
 
 	if (handles && target)
-		return mr_fail(&c->ctx, MR_EMESH,
-		    "%s has targets, but there are handles too: drop one of them", m->name);
-	if (basis)
-		return mr_fail(&c->ctx, MR_EUSAGE,
+		return mr_fail(
+		    ctx, MR_EMESH, "%s has targets, but there are handles too: drop one of them", m->name);
+	if (basis && (handles || target))
+		return mr_fail(ctx, MR_EUSAGE,
 		    "--basis is for the undeformed solve, but the frame has handles or targets already");
-	if (rested) {
-		MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "rest", m->nv, &positions));
-		rest.p = positions;
-	}
-	MR_TRY(
-	    mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, &rest, rested ? "rest" : "position", &opts, &d));
-	if (target) {
-		MR_TRY(mr_layer_get_rows(&c->ctx, f, m->name, "target", m->nv, &places));
-		MR_TRY(mr_deform_reach(&c->ctx, d, m->p, places, p));
-	} else {
-		MR_TRY(mr_handles_rows(&c->ctx, f, mr_deform_handles(d), &t, &n));
-		MR_TRY(mr_deform_pose(&c->ctx, d, m->p, t, n, p));
-	}
-	mr_frame_drop(f, "handles", NULL, 0);
-	mr_frame_drop(f, m->name, "target", 0);
-	mr_frame_drop(f, m->name, "response", 0);
-	mr_deform_report(&c->ctx, d);
+	if (target)
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
+	if (handles)
+		MR_TRY(mr_handles_rows(ctx, f, 0, &t, &n));
+	*task = (mr_deform_task){ m->p, t, n, places };
 	return MR_OK;
+}
+
+/* The column with the positions that a layer has at rest: to pose those of the undeformed solve, if there was
+ * one. */
+static mr_status
+read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **column)
+{
+	const void *positions;
+
+	*column = posing && mr_layer_has(f, rest->name, "rest") ? "rest" : "position";
+	MR_TRY(mr_layer_get_rows(ctx, f, rest->name, *column, rest->nv, &positions));
+	rest->p = positions;
+	return MR_OK;
+}
+
+/* What has been used up, or is of another pose. */
+static void
+drop_stale(mr_frame *f, const char *layer, bool posed)
+{
+	mr_frame_drop(f, layer, "normal", 0);
+	mr_frame_drop(f, layer, "response", 0);
+	if (!posed)
+		return;
+	mr_frame_drop(f, "handles", NULL, 0);
+	mr_frame_drop(f, layer, "target", 0);
 }
 
 static mr_status
 solve_frame(cmd *c, mr_frame *f)
 {
 	static const char *const reads[] = { "base", "control", NULL };
-	const char *layer;
+	const char *layer, *column;
+	mr_deform_task task;
+	mr_mesh m, rest;
+	mr_deform *d;
 	bool posing;
-	mr_mesh m;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_choose(&c->ctx, f, c->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(&c->ctx, f, layer, &m));
-	posing = mr_layer_has(f, "handles", "transform") || mr_layer_has(f, layer, "target");
+	MR_TRY(read_task(&c->ctx, f, &m, &task));
+	posing = task.t || task.target;
+	rest = m;
+	MR_TRY(read_rest(&c->ctx, f, posing, &rest, &column));
 	p = MR_NEW(&c->ctx, m.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(posing ? pose(c, f, &m, p) : relax(c, f, &m, p));
-	mr_frame_drop(f, layer, "normal", 0);
+	MR_TRY(mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, &rest, column, &opts, &d));
+	MR_TRY(mr_deform_solve(&c->ctx, d, &task, p));
+	drop_stale(f, layer, posing);
+	if (basis)
+		MR_TRY(mr_deform_put_basis(&c->ctx, f, &m, d, p));
+	mr_deform_report(&c->ctx, d);
+	if (verify)
+		MR_TRY(mr_deform_verify(&c->ctx, &rest, d, &task, p));
+	if (!posing)
+		MR_TRY(mr_layer_put(&c->ctx, f, layer, "rest", m.p, m.nv));
 	return mr_layer_put_positions(&c->ctx, f, layer, p, m.nv);
 }
 

@@ -71,6 +71,24 @@ mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, s
  */
 mr_status mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v3 *target, mr_v3 *out);
 
+/* A surface p0 and what poses it: handles' maps, or places, or (both NULL) nothing: the undeformed solve. */
+typedef struct mr_deform_task {
+	const mr_v3 *p0;
+	const mr_affine *t;
+	size_t count; /* maps */
+	const mr_v3 *target;
+} mr_deform_task;
+
+/* The one of the three above that the task asks for. */
+mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out);
+
+/*
+ * Solves the task by Cholesky too and records the figure error: the largest distance of a vertex of p from
+ * where it should be, of the diagonal.  rest: what d was made on.
+ */
+mr_status mr_deform_verify(
+    mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task, const mr_v3 *p);
+
 /*
  * The response of every vertex to the handles' affine maps, for mr_pose_by_response.
  * response: nv rows of 4 mr_deform_handles values, the caller's.

@@ -315,6 +315,44 @@ mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v3 *target,
 	return MR_OK;
 }
 
+/* Tasks */
+
+mr_status
+mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out)
+{
+	if (task->t)
+		return mr_deform_pose(ctx, d, task->p0, task->t, task->count, out);
+	if (task->target)
+		return mr_deform_reach(ctx, d, task->p0, task->target, out);
+	return mr_deform_relax(ctx, d, task->p0, out);
+}
+
+mr_status
+mr_deform_verify(
+    mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task, const mr_v3 *p)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *q = MR_NEW(ctx, d->nv, mr_v3);
+	double diagonal = mr_box_diagonal(mr_box_of(p, d->nv)), error = 0;
+	mr_deform_opts opts = d->opts;
+	mr_deform *direct = NULL;
+	mr_status status;
+
+	if (!q)
+		return MR_EMEM;
+	opts.unsymmetric = false;
+	opts.solver.kind = MR_CHOLESKY;
+	MR_TRY(mr_deform_new(ctx, rest, d->region, &opts, &direct));
+	status = mr_deform_solve(ctx, direct, task, q);
+	mr_deform_free(direct);
+	MR_TRY(status);
+	for (size_t v = 0; v < d->nv; v++)
+		error = fmax(error, mr_dist(p[v], q[v]));
+	mr_stat_set(ctx, "error", diagonal > 0 ? error / diagonal : 0);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 /* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5.
  */
 

@@ -69,8 +69,6 @@ solve_rows(mr_ctx *ctx, krylov *k, mr_columns s, const double *b, double *x, mr_
 		before = after;
 		MR_TRY(k->iterate(ctx, k, s, goal, x, r, &iterations));
 		after = true_residual(ctx, k, s, b, goal, x, r);
-		if (getenv("DBG"))
-			fprintf(stderr, "restart: %zu it %.3e -> %.3e\n", iterations, before, after);
 	} while (after > k->opts.tol && after < 0.5 * before && iterations < k->opts.iterations);
 	if (iterations > report->iterations)
 		report->iterations = iterations;

@@ -28,9 +28,10 @@ for k in 1 2 3; do
 	# By iteration, which its tolerance limits.
 	for other in cg bicgstab multigrid; do
 		[ $k -lt 3 ] || continue
-		mr-solve -k $k -s $other --tol 1e-12 posed.mrs -o r.mrs
+		mr-solve -k $k -s $other --tol 1e-12 --verify --stats stats.json posed.mrs -o r.mrs
 		off r.mrs base >r.off
 		far q.off r.off 1e-6
+		sed 's/.*"error":\([^,}]*\).*/\1/' stats.json | awk '{ print "error", ($1 > 0 && $1 < 1e-6 ? "ok" : "bad") }'
 	done
 
 	# By the basis.
