@@ -6,6 +6,7 @@
 
 #include "alg/fit_least.h"
 #include "mesh/near.h"
+#include "mesh/outlier.h"
 #include "mesh/zorder.h"
 #include "op/laplace.h"
 
@@ -78,6 +79,37 @@ record(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, 
 	}
 }
 
+/* Takes the outliers of *n points out, and their feet. */
+static mr_status
+drop_outliers(mr_ctx *ctx, double least, mr_v3 *point, mr_fit_foot *foot, size_t *n)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *off = MR_NEW(ctx, *n, double);
+	bool *outlier = MR_NEW(ctx, *n, bool);
+	size_t count, kept = 0;
+	mr_near *near;
+	mr_status status;
+
+	if (!off || !outlier)
+		return MR_EMEM;
+	for (size_t i = 0; i < *n; i++)
+		off[i] = foot[i].dist;
+	MR_TRY(mr_near_build(ctx, point, *n, &near));
+	status = mr_find_outliers(ctx, near, point, *n, off, least, outlier, &count);
+	mr_near_free(near);
+	MR_TRY(status);
+	for (size_t i = 0; i < *n; i++) {
+		if (outlier[i])
+			continue;
+		point[kept] = point[i];
+		foot[kept++] = foot[i];
+	}
+	*n = kept;
+	mr_stat_set(ctx, "outliers", (double)count);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 static mr_status
 check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 {
@@ -124,6 +156,8 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
+	if (!is_local)
+		MR_TRY(drop_outliers(ctx, MR_FIT_NEAR * mr_mesh_edge_scale(ctx, control), sorted, foot, &n));
 	record(ctx, &s, foot, n, "before");
 	start = mr_seconds();
 	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)

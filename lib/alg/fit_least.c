@@ -10,9 +10,6 @@
 
 enum { MOST_STEPS = 50 };
 
-/* Points no further than this share of a control edge are no outliers, however near the others are. */
-static const double NEAR = 0.1;
-
 static const double ACCURACY = 1e-3; /* of the solution, in the norm of the energy */
 
 /* Places the k-th smallest of n values at a[k] (Hoare 1961). */
@@ -168,7 +165,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	MR_TRY(mr_fit_crossings(ctx, surface, crossed));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
-		MR_TRY(weigh(ctx, foot, n, NEAR * edge, w));
+		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, w));
 		MR_TRY(mr_fit_system_fill(
 		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
 		MR_TRY(solve(ctx, &system, z, &steps));

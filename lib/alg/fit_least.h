@@ -10,6 +10,9 @@
 #include "alg/fit.h"
 #include "alg/fit_surface.h"
 
+/* Points no further than this share of a control edge are no outliers, however near the others are. */
+#define MR_FIT_NEAR 0.1
+
 /*
  * Moves the control vertices x, and the surface with them.  foot: of the n points, on the surface as given;
  * left where the last step attached them.

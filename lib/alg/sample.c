@@ -5,6 +5,7 @@
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
 #include "mesh/bvh.h"
+#include "mesh/outlier.h"
 
 #include <float.h>
 
@@ -88,6 +89,7 @@ typedef struct placing {
 	const mr_mesh *m;
 	const mr_bvh *bvh;
 	mr_cloud *c;
+	double *off;
 } placing;
 
 static void
@@ -99,17 +101,19 @@ place_points(void *arg, size_t begin, size_t end)
 		mr_closest at = mr_bvh_closest(x->bvh, x->c->p[i]);
 		mr_v3 n = mr_unit(mr_face_cross(x->m, at.face));
 		x->c->face[i] = at.face;
+		if (x->off)
+			x->off[i] = sqrt(at.dist2);
 		x->c->side[i] = (mr_v3f){ (float)n.x, (float)n.y, (float)n.z };
 	}
 }
 
 mr_status
-mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c)
+mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, double *off)
 {
 	uint32_t *face = MR_NEW(ctx, c->n, uint32_t);
 	mr_v3f *side = MR_NEW(ctx, c->n, mr_v3f);
 	mr_mark mark = mr_mark_take(ctx);
-	placing x = { .m = &d->m, .c = c };
+	placing x = { .m = &d->m, .c = c, .off = off };
 	mr_bvh *bvh;
 
 	if (!face || !side)
@@ -149,6 +153,48 @@ check_points(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c)
 	return MR_OK;
 }
 
+/* The points that stay, and their index. */
+static mr_status
+keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_cloud *c)
+{
+	mr_v3 *p = MR_NEW(ctx, kept, mr_v3);
+	mr_near *near;
+
+	if (!p)
+		return MR_EMEM;
+	kept = 0;
+	for (size_t i = 0; i < c->n; i++) {
+		if (outlier[i])
+			continue;
+		p[kept] = c->p[i];
+		c->face[kept] = c->face[i];
+		c->side[kept++] = c->side[i];
+	}
+	MR_TRY(mr_near_build(ctx, p, kept, &near));
+	mr_near_free(c->near);
+	c->near = near;
+	c->p = p;
+	c->n = kept;
+	c->diagonal = mr_box_diagonal(mr_box_of(p, kept));
+	return MR_OK;
+}
+
+/* Finds the place of each point, and takes out those that belong nowhere. */
+static mr_status
+place_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c)
+{
+	double *off = MR_NEW(ctx, c->n, double);
+	bool *outlier = MR_NEW(ctx, c->n, bool);
+	size_t outliers;
+
+	if (!off || !outlier)
+		return MR_EMEM;
+	MR_TRY(mr_cloud_place(ctx, d, c, off));
+	MR_TRY(mr_find_outliers(ctx, c->near, c->p, c->n, off, 0, outlier, &outliers));
+	mr_stat_set(ctx, "outliers", (double)outliers);
+	return outliers ? keep_points(ctx, outlier, c->n - outliers, c) : MR_OK;
+}
+
 /* Takes back the heights that stick out and fills in those that are missing. */
 static mr_status
 mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height)
@@ -181,7 +227,7 @@ static mr_status
 sample_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, const mr_sample_opts *opts, double *height)
 {
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 1e-3 * c->diagonal, .steps = 50 };
-	size_t distinct = mr_near_distinct(c->near), k = opts->neighbours;
+	size_t distinct, k = opts->neighbours;
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
 	mr_heights e;
 	double noise;
@@ -189,7 +235,8 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, const mr_sample_opts 
 	if (!hit)
 		return MR_EMEM;
 	MR_TRY(check_points(ctx, d, c));
-	MR_TRY(mr_cloud_place(ctx, d, c));
+	MR_TRY(place_cloud(ctx, d, c));
+	distinct = mr_near_distinct(c->near);
 	if (k > distinct)
 		k = distinct;
 	if (opts->method == MR_SAMPLE_TRIANGLE)
@@ -208,15 +255,13 @@ mr_sample_points(
 {
 	mr_cloud c = { .p = point, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
 	mr_mark mark = mr_mark_take(ctx);
-	mr_near *near = NULL;
 	mr_status s;
 
 	if (n == 0)
 		return mr_fail(ctx, MR_EMESH, "no points to sample");
-	MR_TRY(mr_near_build(ctx, point, n, &near));
-	c.near = near;
+	MR_TRY(mr_near_build(ctx, point, n, &c.near));
 	s = sample_cloud(ctx, d, &c, opts, height);
-	mr_near_free(near);
+	mr_near_free(c.near);
 	if (s >= 0)
 		mr_mark_release(ctx, mark);
 	return s;
@@ -234,7 +279,7 @@ mr_sample_mesh(
 
 	if (!hit)
 		return MR_EMEM;
-	MR_TRY(mr_cloud_place(ctx, d, &c));
+	MR_TRY(mr_cloud_place(ctx, d, &c, NULL));
 	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit));
 	MR_TRY(mend(ctx, d, &e, hit, height));
 	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height));

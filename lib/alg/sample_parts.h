@@ -59,14 +59,15 @@ typedef struct mr_v3f {
 typedef struct mr_cloud {
 	const mr_v3 *p;
 	size_t n;
-	const mr_near *near;
+	mr_near *near;
 	double diagonal;
 	uint32_t *face; /* of the domain, nearest to each point */
 	mr_v3f *side;   /* its unit normal: which way the sheet that the point belongs to looks */
 } mr_cloud;
 
-/* Finds the nearest faces of the domain: c->face and c->side, in the arena. */
-mr_status mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c);
+/* Finds the nearest faces of the domain: c->face and c->side, in the arena.  off: the distances from them,
+ * c->n, the caller's, or NULL. */
+mr_status mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, double *off);
 
 /* True where the point may belong to the sheet that looks along n. */
 static inline bool
