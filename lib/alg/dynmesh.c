@@ -1,47 +1,5 @@
 #include "alg/dynmesh.h"
 
-static const double CORNER_COSINE = 0.6427876096865394; /* of 50 degrees */
-
-/* Unit direction of half-edge h. */
-static mr_v3
-direction(const mr_dyn *d, uint32_t h)
-{
-	return mr_unit(mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]));
-}
-
-/* True where the faces at h and g meet at more than an angle of the given cosine. */
-static bool
-is_sharp(const mr_dyn *d, uint32_t h, uint32_t g, double cosine)
-{
-	return mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)), mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine;
-}
-
-/* True where h is on the boundary, or on an edge sharper than `feature` degrees. */
-static bool
-makes_curve(const mr_dyn *d, uint32_t h, double feature)
-{
-	uint32_t g = d->twin[h];
-
-	return g == MR_NONE || (feature < 180 && is_sharp(d, h, g, cos(feature * MR_PI / 180)));
-}
-
-static mr_status
-mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
-{
-	uint32_t first = 0;
-
-	while (first < 3 * d->nf && !makes_curve(d, first, feature))
-		first++;
-	if (first == 3 * d->nf)
-		return MR_OK;
-	d->curve = MR_NEW(ctx, 3 * d->room_f, uint32_t);
-	if (!d->curve)
-		return MR_EMEM;
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		d->curve[h] = h >= first && makes_curve(d, h, feature) ? h : MR_NONE;
-	return MR_OK;
-}
-
 static uint32_t
 curve_of(const mr_dyn *d, uint32_t h)
 {
@@ -53,113 +11,6 @@ set_curve(mr_dyn *d, uint32_t h, uint32_t curve)
 {
 	if (d->curve)
 		d->curve[h] = curve;
-}
-
-/* The kind of v by the curve edges that meet there; directions point away from v. */
-static mr_kind
-kind_of(const mr_dyn *d, uint32_t v)
-{
-	uint32_t h = d->out[v];
-	mr_v3 way[2] = { { 0, 0, 0 }, { 0, 0, 0 } };
-	unsigned curves = 0;
-
-	do {
-		uint32_t p = mr_he_prev(h);
-		if (mr_dyn_on_curve(d, h) && curves++ < 2)
-			way[curves - 1] = direction(d, h);
-		if (d->twin[p] == MR_NONE && curves++ < 2)
-			way[curves - 1] = mr_mul(-1, direction(d, p));
-		h = d->twin[p];
-	} while (h != MR_NONE && h != d->out[v]);
-	if (curves == 0)
-		return MR_SMOOTH;
-	return curves == 2 && mr_dot(way[0], way[1]) < -CORNER_COSINE ? MR_CURVE : MR_CORNER;
-}
-
-/* A place on the source for a vertex to begin with: a face at it, or a curve half-edge. */
-static uint32_t
-first_place(const mr_dyn *d, uint32_t v)
-{
-	uint32_t h = d->out[v];
-
-	if (d->kind[v] == MR_SMOOTH)
-		return h / 3;
-	do {
-		if (mr_dyn_on_curve(d, h))
-			return h;
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return d->out[v];
-}
-
-static mr_status
-make_room_v(mr_ctx *ctx, mr_dyn *d, size_t room)
-{
-	mr_v3 *p = mr_grow(ctx, d->p, d->nv, room, sizeof *p);
-	uint32_t *out = mr_grow(ctx, d->out, d->nv, room, sizeof *out);
-	uint32_t *at = mr_grow(ctx, d->at, d->nv, room, sizeof *at);
-	uint8_t *kind = mr_grow(ctx, d->kind, d->nv, room, sizeof *kind);
-
-	float *scale = d->scale;
-
-	if (!p || !out || !at || !kind)
-		return MR_EMEM;
-	if (scale && !(scale = mr_grow(ctx, scale, d->nv, room, sizeof *scale)))
-		return MR_EMEM;
-	d->p = p;
-	d->out = out;
-	d->at = at;
-	d->kind = kind;
-	d->scale = scale;
-	d->room_v = room;
-	return MR_OK;
-}
-
-static mr_status
-make_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
-{
-	uint32_t *v = mr_grow(ctx, d->v, 3 * d->nf, 3 * room, sizeof *v);
-	uint32_t *twin = mr_grow(ctx, d->twin, 3 * d->nf, 3 * room, sizeof *twin);
-	uint32_t *curve = d->curve;
-
-	if (!v || !twin)
-		return MR_EMEM;
-	if (curve && !(curve = mr_grow(ctx, curve, 3 * d->nf, 3 * room, sizeof *curve)))
-		return MR_EMEM;
-	if (room > (MR_NONE - 1) / 3)
-		return mr_fail(
-		    ctx, MR_ERANGE, "remeshing would take more than %zu faces", (size_t)(MR_NONE - 1) / 6);
-	d->v = v;
-	d->twin = twin;
-	d->curve = curve;
-	d->room_f = room;
-	return MR_OK;
-}
-
-mr_status
-mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *out)
-{
-	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
-
-	MR_TRY(make_room_v(ctx, &d, m->nv + m->nv / 4 + 16));
-	MR_TRY(make_room_f(ctx, &d, m->nf + m->nf / 4 + 32));
-	d.nv = m->nv;
-	d.nf = m->nf;
-	memcpy(d.p, m->p, m->nv * sizeof *d.p);
-	memcpy(d.out, topo->out, m->nv * sizeof *d.out);
-	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
-	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
-	MR_TRY(mark_curves(ctx, &d, feature));
-	for (uint32_t v = 0; v < m->nv; v++) {
-		if (d.out[v] == MR_NONE) {
-			d.kind[v] = MR_DEAD; /* an isolated vertex: not part of the surface */
-			continue;
-		}
-		d.kind[v] = (uint8_t)kind_of(&d, v);
-		d.at[v] = first_place(&d, v);
-	}
-	*out = d;
-	return MR_OK;
 }
 
 unsigned
@@ -188,6 +39,21 @@ mr_dyn_normal_around(const mr_dyn *d, uint32_t v)
 	return sum;
 }
 
+mr_v3
+mr_dyn_middle_around(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+	mr_v3 sum = { 0, 0, 0 };
+	double n = 0;
+
+	do {
+		sum = mr_add(sum, d->p[mr_dyn_to(d, h)]);
+		n++;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return mr_mul(1 / n, sum);
+}
+
 static void
 link_twins(mr_dyn *d, uint32_t h, uint32_t g)
 {
@@ -206,7 +72,7 @@ new_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 		return MR_OK;
 	}
 	if (d->nv == d->room_v)
-		MR_TRY(make_room_v(ctx, d, d->room_v + d->room_v / 2));
+		MR_TRY(mr_dyn_room_v(ctx, d, d->room_v + d->room_v / 2));
 	*v = (uint32_t)d->nv++;
 	return MR_OK;
 }
@@ -220,7 +86,7 @@ new_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 		return MR_OK;
 	}
 	if (d->nf == d->room_f)
-		MR_TRY(make_room_f(ctx, d, d->room_f + d->room_f / 2));
+		MR_TRY(mr_dyn_room_f(ctx, d, d->room_f + d->room_f / 2));
 	*f = (uint32_t)d->nf++;
 	return MR_OK;
 }
@@ -435,75 +301,4 @@ mr_dyn_flip(mr_dyn *d, uint32_t h)
 		d->out[b] = g;
 	if (d->out[a] == gn)
 		d->out[a] = h;
-}
-
-/* The new numbers of what lives, in the old order; returns how many. */
-static uint32_t
-number_vertices(const mr_dyn *d, uint32_t *number)
-{
-	uint32_t n = 0;
-
-	for (size_t v = 0; v < d->nv; v++)
-		number[v] = d->kind[v] == MR_DEAD ? MR_NONE : n++;
-	return n;
-}
-
-static uint32_t
-number_faces(const mr_dyn *d, uint32_t *number)
-{
-	uint32_t n = 0;
-
-	for (size_t f = 0; f < d->nf; f++)
-		number[f] = mr_dyn_face_dead(d, f) ? MR_NONE : n++;
-	return n;
-}
-
-/* Numbers only fall, so everything can move in place. */
-static mr_status
-close_holes(mr_ctx *ctx, mr_dyn *d)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *vertex = MR_NEW(ctx, d->nv, uint32_t), *face = MR_NEW(ctx, d->nf, uint32_t), nv, nf;
-
-	if (!vertex || !face)
-		return MR_EMEM;
-	nv = number_vertices(d, vertex);
-	nf = number_faces(d, face);
-	for (uint32_t v = 0; v < d->nv; v++)
-		if (vertex[v] != MR_NONE) {
-			uint32_t w = vertex[v], h = d->out[v];
-			d->p[w] = d->p[v];
-			d->out[w] = 3 * face[h / 3] + h % 3;
-			d->at[w] = d->at[v];
-			d->kind[w] = d->kind[v];
-			if (d->scale)
-				d->scale[w] = d->scale[v];
-		}
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (face[h / 3] != MR_NONE) {
-			uint32_t k = 3 * face[h / 3] + h % 3, g = d->twin[h];
-			d->v[k] = vertex[d->v[h]];
-			d->twin[k] = g == MR_NONE ? MR_NONE : 3 * face[g / 3] + g % 3;
-			set_curve(d, k, curve_of(d, h));
-		}
-	d->nv = nv;
-	d->nf = nf;
-	d->free_v = d->free_f = MR_NONE;
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
-mr_status
-mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
-{
-	MR_TRY(close_holes(ctx, d));
-	if (d->room_v > 2 * d->nv)
-		MR_TRY(make_room_v(ctx, d, d->nv + d->nv / 8 + 16));
-	return d->room_f > 2 * d->nf ? make_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
-}
-
-mr_mesh
-mr_dyn_view(const mr_dyn *d, const char *name)
-{
-	return (mr_mesh){ name, d->p, (const mr_tri *)(const void *)d->v, d->nv, d->nf };
 }

@@ -136,6 +136,9 @@ unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v);
 /* The sum of the faces' normals around v, by area; twice the area long. */
 mr_v3 mr_dyn_normal_around(const mr_dyn *d, uint32_t v);
 
+/* The middle of the ends of the half-edges that leave v. */
+mr_v3 mr_dyn_middle_around(const mr_dyn *d, uint32_t v);
+
 /* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
  */
 mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
@@ -152,6 +155,10 @@ bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
 /* Replaces the edge of h by the one between its opposite vertices: mr_he_next(h).  Only where
  * mr_dyn_can_flip. */
 void mr_dyn_flip(mr_dyn *d, uint32_t h);
+
+/* Room for so many vertices, or faces, as there are at least. */
+mr_status mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room);
+mr_status mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room);
 
 /* Closes the holes; what is left keeps its order.  Gives room back where less than half is used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);

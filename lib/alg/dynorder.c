@@ -1,4 +1,4 @@
-/* Numbers along the Z curve (Morton 1966). */
+/* Numbers without holes, and along the Z curve (Morton 1966). */
 #include "alg/dynmesh.h"
 
 enum { BITS = 10, BUCKETS = 1 << BITS };
@@ -152,4 +152,70 @@ mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
 	MR_TRY(permute_faces(ctx, d, number));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+/* The new numbers of what lives, in the old order; returns how many. */
+static uint32_t
+renumber_vertices(const mr_dyn *d, uint32_t *number)
+{
+	uint32_t n = 0;
+
+	for (size_t v = 0; v < d->nv; v++)
+		number[v] = d->kind[v] == MR_DEAD ? MR_NONE : n++;
+	return n;
+}
+
+static uint32_t
+renumber_faces(const mr_dyn *d, uint32_t *number)
+{
+	uint32_t n = 0;
+
+	for (size_t f = 0; f < d->nf; f++)
+		number[f] = mr_dyn_face_dead(d, f) ? MR_NONE : n++;
+	return n;
+}
+
+/* Numbers only fall, so everything can move in place. */
+static mr_status
+close_holes(mr_ctx *ctx, mr_dyn *d)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *vertex = MR_NEW(ctx, d->nv, uint32_t), *face = MR_NEW(ctx, d->nf, uint32_t), nv, nf;
+
+	if (!vertex || !face)
+		return MR_EMEM;
+	nv = renumber_vertices(d, vertex);
+	nf = renumber_faces(d, face);
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (vertex[v] != MR_NONE) {
+			uint32_t w = vertex[v], h = d->out[v];
+			d->p[w] = d->p[v];
+			d->out[w] = 3 * face[h / 3] + h % 3;
+			d->at[w] = d->at[v];
+			d->kind[w] = d->kind[v];
+			if (d->scale)
+				d->scale[w] = d->scale[v];
+		}
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (face[h / 3] != MR_NONE) {
+			uint32_t k = 3 * face[h / 3] + h % 3, g = d->twin[h];
+			d->v[k] = vertex[d->v[h]];
+			d->twin[k] = g == MR_NONE ? MR_NONE : 3 * face[g / 3] + g % 3;
+			if (d->curve)
+				d->curve[k] = d->curve[h];
+		}
+	d->nv = nv;
+	d->nf = nf;
+	d->free_v = d->free_f = MR_NONE;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
+{
+	MR_TRY(close_holes(ctx, d));
+	if (d->room_v > 2 * d->nv)
+		MR_TRY(mr_dyn_room_v(ctx, d, d->nv + d->nv / 8 + 16));
+	return d->room_f > 2 * d->nf ? mr_dyn_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
 }

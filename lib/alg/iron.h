@@ -16,10 +16,4 @@
  */
 size_t mr_iron(mr_dyn *d, bool tips);
 
-/*
- * Moves vertices of flipped faces and at folded edges, on the surface where it can be, to where fewer of both
- * are around them; 10 times at most.
- */
-void mr_mend_flaws(mr_dyn *d, const mr_surface *s);
-
 #endif

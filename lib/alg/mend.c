@@ -1,0 +1,330 @@
+#include "alg/mend.h"
+
+#include "alg/facing.h"
+
+static const double FOLD = -0.9396926207859084; /* cosine of 160 degrees */
+static const double CLOSE = 0.25;               /* squared cosine of 60 degrees */
+
+static const double THIN = 0.02; /* shape that is better than a flaw */
+
+enum { PASSES = 5, MOST = 20 };
+
+typedef struct mender {
+	mr_dyn *d;
+	const mr_surface *s;
+	mr_facing facing;
+	uint32_t *mark, stamp; /* for the link condition */
+	double least;          /* shape of what is made */
+} mender;
+
+/* A vertex where it was, to put it back. */
+typedef struct spot {
+	mr_v3 p;
+	uint32_t at;
+} spot;
+
+static spot
+spot_of(const mr_dyn *d, uint32_t v)
+{
+	return (spot){ d->p[v], d->at[v] };
+}
+
+static void
+put(mr_dyn *d, uint32_t v, spot to)
+{
+	d->p[v] = to.p;
+	d->at[v] = to.at;
+}
+
+static bool
+are_folded(const mr_dyn *d, uint32_t f, uint32_t g)
+{
+	mr_v3 m = mr_dyn_cross(d, d->p, f), n = mr_dyn_cross(d, d->p, g);
+
+	return mr_dot(m, n) < FOLD * sqrt(mr_norm2(m) * mr_norm2(n));
+}
+
+static bool
+is_folded(const mr_dyn *d, uint32_t h)
+{
+	return d->twin[h] != MR_NONE && are_folded(d, h / 3, d->twin[h] / 3);
+}
+
+/* The normal of the source at the place of v. */
+static mr_v3
+source_normal(const mender *w, uint32_t v)
+{
+	mr_closest c = mr_surface_place(w->s, w->d, v, w->d->p[v], mr_dyn_normal_around(w->d, v));
+
+	return mr_facing_normal(&w->facing, c.face, c.bary);
+}
+
+static bool
+is_flipped(const mender *w, uint32_t f)
+{
+	const uint32_t *v = &w->d->v[3 * f];
+	mr_v3 n = mr_dyn_cross(w->d, w->d->p, f), m = mr_face_cross(w->s->m, mr_dyn_place(w->d, v[0]));
+	double mn = mr_dot(m, n);
+
+	if (mn > 0 && mn * mn > CLOSE * mr_norm2(m) * mr_norm2(n))
+		return false; /* as almost all are, told without a walk */
+	return mr_dot(n, source_normal(w, v[0])) < 0 && mr_dot(n, source_normal(w, v[1])) < 0 &&
+	       mr_dot(n, source_normal(w, v[2])) < 0;
+}
+
+static bool
+has(const mr_dyn *d, uint32_t f, uint32_t v)
+{
+	return v == d->v[3 * f] || v == d->v[3 * f + 1] || v == d->v[3 * f + 2];
+}
+
+/* The flipped faces around v, and the folded edges of all faces around it; without what is counted around
+ * `but`. */
+static unsigned
+flaws_around(const mender *w, uint32_t v, uint32_t but)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+	unsigned n = 0;
+
+	do {
+		uint32_t g = d->twin[h];
+		if (!has(d, h / 3, but)) {
+			n += is_flipped(w, h / 3);
+			n += (g == MR_NONE || !has(d, g / 3, but)) && is_folded(d, h);
+			n += is_folded(d, mr_he_next(h));
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return n;
+}
+
+static double
+shape_of(const mr_dyn *d, uint32_t f)
+{
+	const uint32_t *t = &d->v[3 * f];
+
+	return mr_dyn_shape(d->p[t[0]], d->p[t[1]], d->p[t[2]]);
+}
+
+/* The worst shape of the faces around v, but for those with `but`. */
+static double
+worst_shape(const mr_dyn *d, uint32_t v, uint32_t but)
+{
+	uint32_t h = d->out[v];
+	double worst = 1;
+
+	do {
+		if (!has(d, h / 3, but))
+			worst = fmin(worst, shape_of(d, h / 3));
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return worst;
+}
+
+/* Moves v to p, with its place; false, and all is as before, where that leaves as many flaws or makes a
+ * needle. */
+static bool
+try_spot(mender *w, uint32_t v, mr_v3 p, bool project, unsigned flaws)
+{
+	mr_dyn *d = w->d;
+	spot old = spot_of(d, v);
+	mr_closest c = mr_surface_place(w->s, d, v, p, mr_dyn_normal_around(d, v));
+	double shape = worst_shape(d, v, MR_NONE);
+
+	put(d, v, (spot){ project ? c.point : p, c.face });
+	if (worst_shape(d, v, MR_NONE) >= fmin(shape, w->least) && flaws_around(w, v, MR_NONE) < flaws)
+		return true;
+	put(d, v, old);
+	return false;
+}
+
+/* Tries places of the surface near v and the middle of its neighbours, then these as they are. */
+static bool
+mend_towards_middle(mender *w, uint32_t v, unsigned flaws)
+{
+	const mr_dyn *d = w->d;
+	mr_v3 middle = mr_dyn_middle_around(d, v);
+
+	for (int project = 1; project >= 0; project--)
+		for (int i = 0; i <= 4; i++)
+			if (try_spot(w, v, mr_lerp(0.25 * i, d->p[v], middle), project, flaws))
+				return true;
+	return false;
+}
+
+/* Tries places of the surface on the way to the neighbours. */
+static bool
+mend_towards_neighbours(mender *w, uint32_t v, unsigned flaws)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+
+	do {
+		for (int i = 1; i <= 3; i++)
+			if (try_spot(w, v, mr_lerp(0.25 * i, d->p[v], d->p[mr_dyn_to(d, h)]), true, flaws))
+				return true;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return false;
+}
+
+static bool
+mend_vertex(mender *w, uint32_t v)
+{
+	unsigned flaws = w->d->kind[v] == MR_SMOOTH ? flaws_around(w, v, MR_NONE) : 0;
+
+	return flaws > 0 && (mend_towards_middle(w, v, flaws) || mend_towards_neighbours(w, v, flaws));
+}
+
+/* The flaws of the two faces at h and of their edges. */
+static unsigned
+flaws_beside(const mender *w, uint32_t h)
+{
+	const mr_dyn *d = w->d;
+	uint32_t g = d->twin[h];
+
+	return (unsigned)is_flipped(w, h / 3) + is_flipped(w, g / 3) + is_folded(d, h) +
+	       is_folded(d, mr_he_next(h)) + is_folded(d, mr_he_prev(h)) + is_folded(d, mr_he_next(g)) +
+	       is_folded(d, mr_he_prev(g));
+}
+
+static bool
+mend_edge(mender *w, uint32_t h)
+{
+	mr_dyn *d = w->d;
+	unsigned flaws;
+	uint32_t g;
+
+	if (!mr_dyn_can_flip(d, h))
+		return false;
+	flaws = flaws_beside(w, h);
+	mr_dyn_flip(d, h);
+	g = mr_he_next(h); /* the edge that it made */
+	if (shape_of(d, g / 3) > w->least && shape_of(d, d->twin[g] / 3) > w->least &&
+	    flaws_beside(w, g) < flaws)
+		return true;
+	mr_dyn_flip(d, g);
+	return false;
+}
+
+/* The flaws of the faces around a and b; where the two are at one spot, as if they were one. */
+static unsigned
+flaws_of_pair(const mender *w, uint32_t h)
+{
+	const mr_dyn *d = w->d;
+	uint32_t side[2] = { h, d->twin[h] };
+	unsigned n = flaws_around(w, d->v[h], MR_NONE) + flaws_around(w, mr_dyn_to(d, h), d->v[h]);
+
+	for (int i = 0; i < 2; i++)
+		if (side[i] != MR_NONE) { /* over the face that is none any more */
+			uint32_t x = d->twin[mr_he_next(side[i])], y = d->twin[mr_he_prev(side[i])];
+			n += x != MR_NONE && y != MR_NONE && are_folded(d, x / 3, y / 3);
+		}
+	return n;
+}
+
+/* Merges the start of h into its end at a share of the way; false where that leaves as many flaws. */
+static bool
+try_merge(mender *w, uint32_t h, double share, unsigned flaws)
+{
+	mr_dyn *d = w->d;
+	uint32_t a = d->v[h], b = mr_dyn_to(d, h);
+	spot old[2] = { spot_of(d, a), spot_of(d, b) }, to = old[1];
+	double shape = fmin(worst_shape(d, a, MR_NONE), worst_shape(d, b, MR_NONE));
+	bool good;
+
+	if (d->kind[b] == MR_SMOOTH) {
+		mr_v3 normal = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
+		mr_closest c = mr_surface_place(w->s, d, b, mr_lerp(share, old[0].p, old[1].p), normal);
+		to = (spot){ c.point, c.face };
+	}
+	put(d, b, to);
+	put(d, a, d->kind[b] == MR_SMOOTH ? to : (spot){ to.p, mr_dyn_place(d, b) });
+	good = fmin(worst_shape(d, a, b), worst_shape(d, b, a)) > fmin(shape, w->least) &&
+	       flaws_of_pair(w, h) < flaws;
+	put(d, a, old[0]);
+	if (good)
+		mr_dyn_collapse(d, h, to.p);
+	else
+		put(d, b, old[1]);
+	return good;
+}
+
+static bool
+mend_by_merging(mender *w, uint32_t h)
+{
+	mr_dyn *d = w->d;
+	unsigned flaws;
+
+	if (d->kind[d->v[h]] != MR_SMOOTH || !mr_dyn_can_collapse(d, h, w->mark, ++w->stamp))
+		return false;
+	flaws = flaws_of_pair(w, h);
+	for (int i = 2; i >= 0; i--)
+		if (try_merge(w, h, 0.5 * i, flaws))
+			return true;
+	return false;
+}
+
+/* Merges v with one of its neighbours. */
+static bool
+mend_ring(mender *w, uint32_t v)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+
+	do {
+		if (mend_by_merging(w, h) || (d->twin[h] != MR_NONE && mend_by_merging(w, d->twin[h])))
+			return true;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return false;
+}
+
+static bool
+mend_face(mender *w, uint32_t f)
+{
+	const mr_dyn *d = w->d;
+
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+		if (mend_vertex(w, d->v[h]))
+			return true;
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+		if (mend_edge(w, h))
+			return true;
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+		if (d->twin[h] != MR_NONE && mend_vertex(w, mr_dyn_apex(d, d->twin[h])))
+			return true;
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+		if (mend_ring(w, d->v[h]))
+			return true;
+	return false;
+}
+
+static bool
+has_flaw(const mender *w, uint32_t f)
+{
+	const mr_dyn *d = w->d;
+
+	return !mr_dyn_face_dead(d, f) && (is_flipped(w, f) || is_folded(d, 3 * f) ||
+					      is_folded(d, 3 * f + 1) || is_folded(d, 3 * f + 2));
+}
+
+mr_status
+mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mender w = { d, s, { s->m, s->topo }, MR_NEW_ZERO(ctx, d->nv, uint32_t), 0, MR_NEEDLE };
+	bool mended = true;
+
+	if (!w.mark)
+		return MR_EMEM;
+	for (int i = 0; i < MOST && (mended || i <= PASSES); i++) {
+		mended = false;
+		w.least = i < PASSES ? MR_NEEDLE : THIN;
+		for (uint32_t f = 0; f < d->nf; f++)
+			mended |= has_flaw(&w, f) && mend_face(&w, f);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
