@@ -1,7 +1,7 @@
 #include "alg/fit_guard.h"
 
+#include "alg/crossing.h"
 #include "base/parallel.h"
-#include "mesh/intersect.h"
 
 enum { GRAIN = 1024 };
 
@@ -60,87 +60,23 @@ judge(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Crossings */
-
-typedef struct crossing_job {
-	const mr_mesh *m;
-	const mr_v3 *normal;
-	const mr_bvh *bvh;
-	bool *crosses;
-} crossing_job;
-
-typedef struct probe {
-	const crossing_job *j;
-	uint32_t face;
-	bool crosses;
-} probe;
-
-static void
-corners(const mr_mesh *m, uint32_t f, mr_v3 p[3])
-{
-	for (int i = 0; i < 3; i++)
-		p[i] = m->p[m->t[f].v[i]];
-}
-
-static bool
-share_corner(mr_tri a, mr_tri b)
-{
-	for (int i = 0; i < 3; i++)
-		if (a.v[i] == b.v[0] || a.v[i] == b.v[1] || a.v[i] == b.v[2])
-			return true;
-	return false;
-}
-
-/* Faces around a vertex that look the same way do not cross; the exact test is for the others. */
-static bool
-visit(void *arg, uint32_t other)
-{
-	probe *c = arg;
-	const crossing_job *j = c->j;
-	mr_v3 p[3], q[3];
-
-	if (other == c->face || (mr_dot(j->normal[c->face], j->normal[other]) > 0.5 &&
-				    share_corner(j->m->t[c->face], j->m->t[other])))
-		return true;
-	corners(j->m, c->face, p);
-	corners(j->m, other, q);
-	c->crosses = !mr_triangle_degenerate(q[0], q[1], q[2]) && mr_triangles_intersect(p, q);
-	return !c->crosses;
-}
-
-static void
-find_crossings(void *arg, size_t begin, size_t end)
-{
-	crossing_job *j = arg;
-
-	for (size_t f = begin; f < end; f++) {
-		probe c = { j, (uint32_t)(MR_FIT_PATCHES * f), false };
-		for (int k = 0; k < MR_FIT_PATCHES && !c.crosses; k++, c.face++) {
-			mr_v3 p[3];
-			corners(j->m, c.face, p);
-			if (!mr_triangle_degenerate(p[0], p[1], p[2]))
-				mr_bvh_overlap(j->bvh, mr_box_of(p, 3), visit, &c);
-		}
-		j->crosses[f] = c.crosses;
-	}
-}
-
 mr_status
-mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *s, bool *crosses)
+mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, bool *crosses)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	const mr_loop *l = &s->level[1];
-	mr_mesh m = { s->m.name, s->node, l->t, l->nv, l->nf }; /* its limit points are the first ones */
-	mr_v3 *normal = MR_NEW(ctx, m.nf, mr_v3);
-	crossing_job j = { &m, normal, NULL, crosses };
-	mr_bvh *bvh;
+	const mr_loop *l = &s->level[MR_FIT_FINE];
+	mr_v3 *p = MR_NEW(ctx, l->nv, mr_v3), *limit = MR_NEW(ctx, l->nv, mr_v3);
+	bool *fine = MR_NEW(ctx, l->nf, bool);
+	size_t parts = l->nf / s->level[0].nf;
 
-	if (!normal)
+	if (!p || !limit || !fine)
 		return MR_EMEM;
-	mr_parallel(ctx, m.nf, GRAIN, normals, &(normals_job){ &m, normal });
-	MR_TRY(mr_bvh_build(ctx, &m, &bvh));
-	j.bvh = bvh;
-	mr_parallel(ctx, s->level[0].nf, GRAIN / MR_FIT_CHILDREN, find_crossings, &j);
+	MR_TRY(mr_loop_values(ctx, s->level, MR_FIT_FINE, 3, (const double *)x, (double *)p));
+	mr_loop_limit(ctx, l, p, limit, NULL);
+	MR_TRY(mr_find_crossings(ctx, s->level, MR_FIT_FINE, limit, fine));
+	memset(crosses, 0, s->level[0].nf * sizeof *crosses);
+	for (size_t f = 0; f < l->nf; f++)
+		crosses[f / parts] |= fine[f];
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -185,14 +121,14 @@ find_tangled(const mr_fit_lists *patch, const bool *crossed, size_t nv, bool *ta
 
 /* Marks the bad faces of the surface as it is now. */
 static mr_status
-examine(mr_ctx *ctx, guard *g, const mr_fit_lists *patch, const bool *tangled)
+examine(mr_ctx *ctx, guard *g, const mr_fit_lists *patch, const mr_v3 *x, const bool *tangled)
 {
 	const mr_fit_surface *s = g->s;
 	size_t nf = s->level[0].nf;
 
 	mr_parallel(ctx, s->m.nf, GRAIN, normals, &(normals_job){ &s->m, g->after });
 	mr_parallel(ctx, nf, GRAIN / MR_FIT_CHILDREN, judge, g);
-	MR_TRY(mr_fit_crossings(ctx, s, g->crosses));
+	MR_TRY(mr_fit_crossings(ctx, s, x, g->crosses));
 	for (size_t f = 0; f < nf; f++)
 		g->bad[f] |= newly_crosses(g, patch, tangled, f);
 	return MR_OK;
@@ -230,7 +166,7 @@ mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, bool *cro
 		for (size_t v = 0; v < nv; v++)
 			to[v] = mr_axpy(share[v], z[v], x[v]);
 		mr_fit_surface_move(ctx, s, to);
-		MR_TRY(examine(ctx, &g, patch, tangled));
+		MR_TRY(examine(ctx, &g, patch, to, tangled));
 		most = most > LEAST ? most / 2 : 0;
 	} while (damp(&g, patch, most, share));
 	*damped = 0;

@@ -162,7 +162,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	if (!z || !w || !crossed)
 		return MR_EMEM;
 	MR_TRY(mr_fit_system_build(ctx, surface, &system));
-	MR_TRY(mr_fit_crossings(ctx, surface, crossed));
+	MR_TRY(mr_fit_crossings(ctx, surface, x, crossed));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
 		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, w));
