@@ -13,9 +13,12 @@ static const double LEAST = 1. / 16;
 
 typedef struct guard {
 	const mr_fit_surface *s;
-	mr_v3 *before, *after; /* unit normals of the faces of level 2 */
+	mr_mesh fine;          /* the triangles of the finest level at their limit points */
+	mr_v3 *p;              /* these */
+	mr_v3 *before, *after; /* unit normals of these triangles */
+	bool *crosses;         /* of each: passes through another */
 	bool *bad;             /* of each control face */
-	bool *crosses;         /* the same: passes through another */
+	bool *crossed;         /* the same: a part of it passes through another */
 } guard;
 
 typedef struct normals_job {
@@ -35,7 +38,7 @@ normals(void *arg, size_t begin, size_t end)
 static bool
 face_is_bad(const guard *g, uint32_t f)
 {
-	const uint32_t *twin = g->s->level[MR_FIT_LEVEL].topo.twin;
+	const uint32_t *twin = g->s->level[MR_FIT_FINE].topo.twin;
 
 	if (mr_dot(g->before[f], g->after[f]) < 0)
 		return true;
@@ -52,31 +55,69 @@ static void
 judge(void *arg, size_t begin, size_t end)
 {
 	guard *g = arg;
+	size_t parts = g->fine.nf / g->s->level[0].nf;
 
 	for (size_t f = begin; f < end; f++) {
-		g->bad[f] = false;
-		for (uint32_t k = 0; k < MR_FIT_CHILDREN && !g->bad[f]; k++)
-			g->bad[f] = face_is_bad(g, (uint32_t)(MR_FIT_CHILDREN * f) + k);
+		g->bad[f] = g->crossed[f] = false;
+		for (size_t k = parts * f; k < parts * f + parts; k++) {
+			g->bad[f] |= face_is_bad(g, (uint32_t)k);
+			g->crossed[f] |= g->crosses[k];
+		}
 	}
+}
+
+/* Brings the finest level to where the control vertices are at x. */
+static mr_status
+refine(mr_ctx *ctx, guard *g, const mr_v3 *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *p = MR_NEW(ctx, g->fine.nv, mr_v3);
+
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_loop_values(ctx, g->s->level, MR_FIT_FINE, 3, (const double *)x, (double *)p));
+	mr_loop_limit(ctx, &g->s->level[MR_FIT_FINE], p, g->p, NULL);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Looks at the surface where the control vertices are at x. */
+static mr_status
+look(mr_ctx *ctx, guard *g, const mr_v3 *x)
+{
+	MR_TRY(refine(ctx, g, x));
+	mr_parallel(ctx, g->fine.nf, GRAIN, normals, &(normals_job){ &g->fine, g->after });
+	MR_TRY(mr_find_crossings(ctx, g->s->level, MR_FIT_FINE, g->p, g->crosses));
+	mr_parallel(ctx, g->s->level[0].nf, GRAIN / MR_FIT_CHILDREN, judge, g);
+	return MR_OK;
+}
+
+/* For x as it is now. */
+static mr_status
+prepare(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, guard *g)
+{
+	const mr_loop *l = &s->level[MR_FIT_FINE];
+	mr_v3 *p = MR_NEW(ctx, l->nv, mr_v3);
+
+	*g = (guard){ s, { s->m.name, p, l->t, l->nv, l->nf }, p, MR_NEW(ctx, l->nf, mr_v3),
+		MR_NEW(ctx, l->nf, mr_v3), MR_NEW(ctx, l->nf, bool), MR_NEW(ctx, s->level[0].nf, bool),
+		MR_NEW(ctx, s->level[0].nf, bool) };
+	if (!p || !g->before || !g->after || !g->crosses || !g->bad || !g->crossed)
+		return MR_EMEM;
+	MR_TRY(refine(ctx, g, x));
+	mr_parallel(ctx, l->nf, GRAIN, normals, &(normals_job){ &g->fine, g->before });
+	return MR_OK;
 }
 
 mr_status
 mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, bool *crosses)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	const mr_loop *l = &s->level[MR_FIT_FINE];
-	mr_v3 *p = MR_NEW(ctx, l->nv, mr_v3), *limit = MR_NEW(ctx, l->nv, mr_v3);
-	bool *fine = MR_NEW(ctx, l->nf, bool);
-	size_t parts = l->nf / s->level[0].nf;
+	guard g;
 
-	if (!p || !limit || !fine)
-		return MR_EMEM;
-	MR_TRY(mr_loop_values(ctx, s->level, MR_FIT_FINE, 3, (const double *)x, (double *)p));
-	mr_loop_limit(ctx, l, p, limit, NULL);
-	MR_TRY(mr_find_crossings(ctx, s->level, MR_FIT_FINE, limit, fine));
-	memset(crosses, 0, s->level[0].nf * sizeof *crosses);
-	for (size_t f = 0; f < l->nf; f++)
-		crosses[f / parts] |= fine[f];
+	MR_TRY(prepare(ctx, s, x, &g));
+	MR_TRY(look(ctx, &g, x));
+	memcpy(crosses, g.crossed, s->level[0].nf * sizeof *crosses);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -106,7 +147,7 @@ newly_crosses(const guard *g, const mr_fit_lists *patch, const bool *tangled, si
 	for (size_t i = patch->start[f]; i < patch->start[f + 1]; i++)
 		if (tangled[patch->member[i]])
 			return false;
-	return g->crosses[f];
+	return g->crossed[f];
 }
 
 /* The vertices that faces which cross depend on.  tangled: one a vertex, the caller's. */
@@ -119,29 +160,13 @@ find_tangled(const mr_fit_lists *patch, const bool *crossed, size_t nv, bool *ta
 			tangled[patch->member[i]] = true;
 }
 
-/* Marks the bad faces of the surface as it is now. */
+/* Marks the bad faces of the surface where the control vertices are at x. */
 static mr_status
 examine(mr_ctx *ctx, guard *g, const mr_fit_lists *patch, const mr_v3 *x, const bool *tangled)
 {
-	const mr_fit_surface *s = g->s;
-	size_t nf = s->level[0].nf;
-
-	mr_parallel(ctx, s->m.nf, GRAIN, normals, &(normals_job){ &s->m, g->after });
-	mr_parallel(ctx, nf, GRAIN / MR_FIT_CHILDREN, judge, g);
-	MR_TRY(mr_fit_crossings(ctx, s, x, g->crosses));
-	for (size_t f = 0; f < nf; f++)
+	MR_TRY(look(ctx, g, x));
+	for (size_t f = 0; f < patch->count; f++)
 		g->bad[f] |= newly_crosses(g, patch, tangled, f);
-	return MR_OK;
-}
-
-static mr_status
-prepare(mr_ctx *ctx, const mr_fit_surface *s, guard *g)
-{
-	*g = (guard){ s, MR_NEW(ctx, s->m.nf, mr_v3), MR_NEW(ctx, s->m.nf, mr_v3),
-		MR_NEW(ctx, s->level[0].nf, bool), MR_NEW(ctx, s->level[0].nf, bool) };
-	if (!g->before || !g->after || !g->bad || !g->crosses)
-		return MR_EMEM;
-	mr_parallel(ctx, s->m.nf, GRAIN, normals, &(normals_job){ &s->m, g->before });
 	return MR_OK;
 }
 
@@ -161,19 +186,19 @@ mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, bool *cro
 	find_tangled(patch, crossed, nv, tangled);
 	for (size_t v = 0; v < nv; v++)
 		share[v] = 1;
-	MR_TRY(prepare(ctx, s, &g));
+	MR_TRY(prepare(ctx, s, x, &g));
 	do {
 		for (size_t v = 0; v < nv; v++)
 			to[v] = mr_axpy(share[v], z[v], x[v]);
-		mr_fit_surface_move(ctx, s, to);
 		MR_TRY(examine(ctx, &g, patch, to, tangled));
 		most = most > LEAST ? most / 2 : 0;
 	} while (damp(&g, patch, most, share));
+	mr_fit_surface_move(ctx, s, to);
 	*damped = 0;
 	for (size_t v = 0; v < nv; v++)
 		*damped += share[v] < 1;
 	memcpy(x, to, nv * sizeof *x);
-	memcpy(crossed, g.crosses, patch->count * sizeof *crossed);
+	memcpy(crossed, g.crossed, patch->count * sizeof *crossed);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

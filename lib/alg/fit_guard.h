@@ -13,7 +13,7 @@
 mr_status mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, bool *crosses);
 
 /*
- * Moves x by z, and the surface with it: where a face of level 2 would turn over, fold against a neighbour
+ * Moves x by z, and the surface with it: where a face of level 3 would turn over, fold against a neighbour
  * more sharply than it does, or pass through another where none around does, the vertices that it depends on
  * go half as far, and so on; at last they stay.  patch: of mr_fit_system.  crossed: of mr_fit_crossings,
  * brought up to date.  *damped: vertices that did not go all the way.
