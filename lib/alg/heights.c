@@ -210,6 +210,105 @@ mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, d
 	return MR_OK;
 }
 
+/* A part of an energy: the vertices that are free, then two rings around them. */
+typedef struct part {
+	uint32_t *number; /* of each vertex in the part, or MR_NONE */
+	uint32_t *vertex; /* the other way */
+	size_t n;
+} part;
+
+/* Numbers the neighbours of those that are there. */
+static void
+add_ring(const mr_heights *e, part *p)
+{
+	size_t n = p->n;
+
+	for (size_t i = 0; i < n; i++)
+		for (size_t k = e->adj.start[p->vertex[i]]; k < e->adj.start[p->vertex[i] + 1]; k++) {
+			uint32_t j = e->adj.adj[k];
+			if (p->number[j] == MR_NONE) {
+				p->number[j] = (uint32_t)p->n;
+				p->vertex[p->n++] = j;
+			}
+		}
+}
+
+static mr_status
+part_new(mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, part *p, size_t *inner)
+{
+	p->number = MR_NEW(ctx, e->n, uint32_t);
+	p->vertex = MR_NEW(ctx, e->n, uint32_t);
+	if (!p->number || !p->vertex)
+		return MR_EMEM;
+	for (size_t i = 0; i < e->n; i++)
+		p->number[i] = MR_NONE;
+	for (size_t i = 0; i < count; i++)
+		p->number[list[i]] = (uint32_t)i;
+	memcpy(p->vertex, list, count * sizeof *list);
+	p->n = count;
+	add_ring(e, p);
+	*inner = p->n;
+	add_ring(e, p);
+	return MR_OK;
+}
+
+/* The energy of the part; those from `inner` on, whose own neighbours are not all there, have none. */
+static mr_status
+part_energy(mr_ctx *ctx, const mr_heights *e, const part *p, size_t count, size_t inner, mr_heights *out)
+{
+	size_t entries = 0;
+	size_t *start = MR_NEW(ctx, p->n + 1, size_t);
+	uint32_t *adj;
+
+	for (size_t i = 0; i < inner; i++)
+		entries += (size_t)degree(e, p->vertex[i]);
+	adj = MR_NEW(ctx, entries, uint32_t);
+	*out = (mr_heights){ .n = p->n, .fair = MR_NEW(ctx, p->n, double), .fixed = MR_NEW(ctx, p->n, bool) };
+	if (!start || !adj || !out->fair || !out->fixed)
+		return MR_EMEM;
+	out->adj = (mr_adjacency){ .start = start, .adj = adj };
+	start[p->n] = entries; /* what the data go by */
+	MR_TRY(mr_heights_add_data(ctx, out));
+	entries = 0;
+	for (size_t i = 0; i < p->n; i++) {
+		uint32_t v = p->vertex[i];
+		start[i] = entries;
+		out->fair[i] = e->fair[v];
+		out->fixed[i] = i >= count;
+		out->diagonal[i] = e->diagonal[v];
+		out->b[i] = e->b[v];
+		for (size_t k = e->adj.start[v]; i < inner && k < e->adj.start[v + 1]; k++) {
+			out->beside[entries] = e->beside[k];
+			adj[entries++] = p->number[e->adj.adj[k]];
+		}
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_heights_minimise_some(
+    mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, double tol, size_t most, double *h)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_heights some;
+	size_t inner;
+	double *x;
+	part p;
+
+	MR_TRY(part_new(ctx, e, list, count, &p, &inner));
+	x = MR_NEW(ctx, p.n, double);
+	if (!x)
+		return MR_EMEM;
+	MR_TRY(part_energy(ctx, e, &p, count, inner, &some));
+	for (size_t i = 0; i < p.n; i++)
+		x[i] = h[p.vertex[i]];
+	MR_TRY(mr_heights_minimise(ctx, &some, tol, most, x, NULL));
+	for (size_t i = 0; i < count; i++)
+		h[list[i]] = x[i];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 typedef struct field {
 	const mr_heights *e;
 	const double *h;

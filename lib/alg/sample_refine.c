@@ -28,6 +28,8 @@ typedef struct fit {
 	double *target;  /* heights to be pulled to */
 	float *pull;     /* how much each counts */
 	bool *bad;       /* faces that fold or cross others */
+	bool *near;      /* vertices around such faces, which are fitted again */
+	bool local;      /* only these */
 	mr_mesh surface; /* the displaced one */
 	mr_v3 *p;        /* its positions */
 	double *height;
@@ -47,7 +49,9 @@ place_points(void *arg, size_t begin, size_t end)
 		wish *w = &x->wish[i];
 		mr_v3 q = x->c->p[i], b, normal, foot;
 		mr_closest at;
-		const uint32_t *v;
+		const uint32_t *v = x->surface.t[w->face].v;
+		if (x->local && !x->near[v[0]] && !x->near[v[1]] && !x->near[v[2]])
+			continue;
 		at = mr_project_walk(&x->surface, topo, w->face, q);
 		b = at.bary;
 		v = x->surface.t[at.face].v;
@@ -141,6 +145,8 @@ assemble_rows(void *arg, size_t begin, size_t end)
 	for (size_t i = begin; i < end; i++) {
 		double pull = (double)x->pull[i];
 		uint32_t first = topo->out[i], h = first;
+		if (x->local && !x->near[i])
+			continue;
 		x->e->diagonal[i] = pull;
 		x->e->b[i] = pull * x->target[i];
 		for (size_t k = x->e->adj.start[i]; k < x->e->adj.start[i + 1]; k++)
@@ -224,32 +230,99 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, fit *x)
 	x->target = MR_NEW(ctx, d->m.nv, double);
 	x->pull = MR_NEW(ctx, d->m.nv, float);
 	x->bad = MR_NEW(ctx, d->m.nf, bool);
-	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull || !x->bad)
+	x->near = MR_NEW(ctx, d->m.nv, bool);
+	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull || !x->bad || !x->near)
 		return MR_EMEM;
 	for (size_t i = 0; i < c->n; i++)
 		x->wish[i].face = c->face[i];
 	return MR_OK;
 }
 
-/* The passes, and more as long as there are folds and crossings and they become fewer. */
+/* The vertices within a few rings of bad faces: x->near, and their list. */
+static size_t
+find_near(fit *x, uint32_t *list)
+{
+	enum { RINGS = 3 };
+	const mr_adjacency *adj = &x->e->adj;
+	size_t count = 0;
+
+	memset(x->near, 0, x->d->m.nv * sizeof *x->near);
+	for (size_t f = 0; f < x->surface.nf; f++)
+		for (int k = 0; k < 3 && x->bad[f]; k++) {
+			uint32_t v = x->surface.t[f].v[k];
+			if (!x->near[v])
+				list[count++] = v;
+			x->near[v] = true;
+		}
+	for (size_t ring = 0, from = 0; ring < RINGS; ring++)
+		for (size_t to = count; from < to; from++)
+			for (size_t k = adj->start[list[from]]; k < adj->start[list[from] + 1]; k++) {
+				uint32_t v = adj->adj[k];
+				if (!x->near[v])
+					list[count++] = v;
+				x->near[v] = true;
+			}
+	return count;
+}
+
+/* A pass for what is around bad faces alone. */
+static mr_status
+mend_pass(mr_ctx *ctx, fit *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *list = MR_NEW(ctx, x->d->m.nv, uint32_t);
+	size_t count;
+
+	if (!list)
+		return MR_EMEM;
+	count = find_near(x, list);
+	mr_parallel(ctx, x->c->n, GRAIN, place_points, x);
+	weigh_points(x);
+	sort_by_face(x);
+	mr_parallel(ctx, x->d->m.nv, GRAIN, assemble_rows, x);
+	MR_TRY(mr_heights_minimise_some(ctx, x->e, list, count, 1e-3, x->weights->steps, x->height));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Passes around what folds or crosses, as long as there is any and it has become less of late. */
+static mr_status
+mend_all(mr_ctx *ctx, fit *x, size_t *folds)
+{
+	enum { MOST = 40, PATIENCE = 8 };
+	size_t least = SIZE_MAX, vain = 0, pass;
+
+	x->local = true;
+	for (pass = 0;; pass++) {
+		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
+		MR_TRY(mr_find_folds(ctx, &x->surface, x->d, true, x->bad, folds));
+		vain = *folds < least ? 0 : vain + 1;
+		least = *folds < least ? *folds : least;
+		if (*folds == 0 || pass == MOST || vain == PATIENCE)
+			break;
+		press(x);
+		MR_TRY(mend_pass(ctx, x));
+		mr_progress(ctx, "mending", (double)(pass + 1) / MOST);
+	}
+	x->local = false;
+	mr_stat_set(ctx, "mend_passes", (double)pass);
+	return MR_OK;
+}
+
 static mr_status
 fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 {
-	enum { MORE = 8 };
-	size_t last = SIZE_MAX;
-
-	for (size_t pass = 0;; pass++) {
+	for (size_t pass = 0; pass < passes; pass++) {
 		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-		MR_TRY(mr_find_folds(ctx, &x->surface, x->d, pass >= passes, x->bad, folds));
-		if (passes == 0 || pass == passes + MORE ||
-		    (pass >= passes && (*folds == 0 || *folds >= last)))
-			return MR_OK;
-		if (pass >= passes)
-			last = *folds;
+		MR_TRY(mr_find_folds(ctx, &x->surface, x->d, false, x->bad, folds));
 		press(x);
 		MR_TRY(fit_pass(ctx, x));
-		mr_progress(ctx, "refining", (double)(pass + 1) / (double)(passes + MORE));
+		mr_progress(ctx, "refining", (double)(pass + 1) / (double)passes);
 	}
+	if (passes > 0)
+		return mend_all(ctx, x, folds);
+	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
+	return mr_find_folds(ctx, &x->surface, x->d, true, x->bad, folds);
 }
 
 mr_status
