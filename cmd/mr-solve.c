@@ -26,7 +26,8 @@ static const cmd_opt table[] = {
 	    "megabytes that a factor may take; 0: what there is", NULL },
 	{ 0, "precondition", CMD_CHOICE, &opts.solver.precondition, 0, 0, "incomplete|jacobi",
 	    "of cg and bicgstab", NULL },
-	{ 0, "verify", CMD_FLAG, &verify, 0, 0, "", "solve directly too, and record the error", NULL },
+	{ 0, "verify", CMD_FLAG, &verify, 0, 0, "",
+	    "record the error, by a direct solution, and the condition", NULL },
 	{ 0 },
 };
 
@@ -42,9 +43,6 @@ prepare(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
 	if (opts.solver.precondition && solver != CG && solver != BICGSTAB)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
-	if (verify && (solver == AUTO || solver == CHOLESKY))
-		return mr_fail(
-		    &c->ctx, MR_EUSAGE, "--verify compares another solver with cholesky: name it by -s");
 	opts.solver.kind = solver != AUTO     ? (mr_solver_kind)(solver - CHOLESKY)
 	                   : opts.unsymmetric ? MR_LU
 	                                      : MR_CHOLESKY;

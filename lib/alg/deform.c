@@ -207,6 +207,7 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 	mr_stat_set(ctx, "isolated_vertices", (double)d->loose_vertices);
 	mr_stat_set(ctx, "narrow_strip_vertices", (double)d->narrow);
 	mr_stat_set(ctx, "nnz_matrix", (double)d->nnz);
+	mr_stat_set(ctx, "negative_weights", d->negative);
 	mr_stat_set(ctx, "seconds_assemble", d->seconds_assemble);
 	mr_stat_set(ctx, "seconds_solve", d->seconds_solve);
 	mr_stat_set(ctx, "residual", d->residual);

@@ -83,8 +83,9 @@ typedef struct mr_deform_task {
 mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out);
 
 /*
- * Solves the task by Cholesky too and records the figure error: the largest distance of a vertex of p from
- * where it should be, of the diagonal.  rest: what d was made on.
+ * Solves the task by Cholesky too and records the figures error, the largest distance of a vertex of p from
+ * where that puts it, of the diagonal, and condition, an estimate from below of the condition number of the
+ * system that is solved. rest: what d was made on.
  */
 mr_status mr_deform_verify(
     mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task, const mr_v3 *p);

@@ -42,6 +42,7 @@ struct mr_deform {
 	size_t loose, loose_vertices; /* free components without a constraint, their vertices */
 	size_t narrow;                /* constrained vertices with less than k rings behind them */
 	size_t nnz;
+	double negative; /* share of the edges at free vertices whose weight is negative */
 	double seconds_assemble, seconds_solve, residual;
 	size_t refinements;
 };
@@ -49,5 +50,11 @@ struct mr_deform {
 /* Assembles the system and sets up its solver, on the mesh `rest` of which the patch is a part.  started:
  * when. */
 mr_status mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double started);
+
+/* The workspace as a field of this width, all 0. */
+field mr_deform_field(const mr_deform *d, size_t width);
+
+/* r = -(K u)_f */
+void mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, field *f);
 
 #endif

@@ -5,9 +5,8 @@
 #include "alg/deform_parts.h"
 #include "op/laplace.h"
 
-/* The workspace as a field of this width, all 0. */
-static field
-field_of(const mr_deform *d, size_t width)
+field
+mr_deform_field(const mr_deform *d, size_t width)
 {
 	field f = d->work;
 
@@ -16,9 +15,9 @@ field_of(const mr_deform *d, size_t width)
 	return f;
 }
 
-/* r = -(K u)_f, K applied as L, then k - 1 times L W, each on one ring less. */
-static void
-residual(const mr_ctx *ctx, const mr_deform *d, field *f)
+/* K applied as L, then k - 1 times L W, each on one ring less. */
+void
+mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, field *f)
 {
 	size_t k = d->opts.order, n = d->patch.end[0];
 	const double *x = f->u;
@@ -126,11 +125,11 @@ solve_field(mr_ctx *ctx, mr_deform *d, field *f, double scale)
 	d->refinements = 0;
 	MR_TRY(mr_solver_solve(ctx, d->solver, f->r, f->width));
 	add_free(d, f);
-	residual(ctx, d, f);
+	mr_deform_residual(ctx, d, f);
 	after = norm_of(f->r, n);
 	if (scale > 0 && (doubtful || after > tol * scale)) {
 		MR_TRY(refine(ctx, d, f));
-		residual(ctx, d, f);
+		mr_deform_residual(ctx, d, f);
 		after = norm_of(f->r, n);
 	}
 	d->residual = scale > 0 ? after / scale : 0;
@@ -158,13 +157,13 @@ relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out)
 	mr_box box = mr_box_of(p, d->nv);
 	mr_v3 origin = mr_lerp(0.5, box.min, box.max);
 	double scale;
-	field f = field_of(d, 3);
+	field f = mr_deform_field(d, 3);
 
 	set_points(d, &f, p, origin, n, d->patch.mesh.nv);
-	residual(ctx, d, &f);
+	mr_deform_residual(ctx, d, &f);
 	scale = norm_of(f.r, 3 * n);
 	set_points(d, &f, p, origin, 0, n);
-	residual(ctx, d, &f);
+	mr_deform_residual(ctx, d, &f);
 	MR_TRY(solve_field(ctx, d, &f, scale));
 	memmove(out, p, d->nv * sizeof *out);
 	for (size_t i = 0; i < n; i++)
@@ -258,10 +257,10 @@ static mr_status
 solve_displacements(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p)
 {
 	size_t n = d->patch.end[0];
-	field f = field_of(d, 3);
+	field f = mr_deform_field(d, 3);
 
 	set_displacements(d, whole, p0, p, &f);
-	residual(ctx, d, &f);
+	mr_deform_residual(ctx, d, &f);
 	MR_TRY(solve_field(ctx, d, &f, norm_of(f.r, 3 * n)));
 	for (size_t i = 0; i < n; i++) {
 		uint32_t v = d->patch.vertex[i];
@@ -327,32 +326,6 @@ mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *ou
 	return mr_deform_relax(ctx, d, task->p0, out);
 }
 
-mr_status
-mr_deform_verify(
-    mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task, const mr_v3 *p)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *q = MR_NEW(ctx, d->nv, mr_v3);
-	double diagonal = mr_box_diagonal(mr_box_of(p, d->nv)), error = 0;
-	mr_deform_opts opts = d->opts;
-	mr_deform *direct = NULL;
-	mr_status status;
-
-	if (!q)
-		return MR_EMEM;
-	opts.unsymmetric = false;
-	opts.solver.kind = MR_CHOLESKY;
-	MR_TRY(mr_deform_new(ctx, rest, d->region, &opts, &direct));
-	status = mr_deform_solve(ctx, direct, task, q);
-	mr_deform_free(direct);
-	MR_TRY(status);
-	for (size_t v = 0; v < d->nv; v++)
-		error = fmax(error, mr_dist(p[v], q[v]));
-	mr_stat_set(ctx, "error", diagonal > 0 ? error / diagonal : 0);
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 /* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5.
  */
 
@@ -370,12 +343,12 @@ static mr_status
 respond_to(mr_ctx *ctx, mr_deform *d, size_t h, const mr_v3 *p0, double *response)
 {
 	size_t n = d->patch.end[0];
-	field f = field_of(d, WIDTH);
+	field f = mr_deform_field(d, WIDTH);
 
 	for (size_t i = n; i < d->patch.mesh.nv; i++)
 		if (d->region[d->patch.vertex[i]] == MR_REGION_HANDLE + h)
 			row_of(p0[d->patch.vertex[i]], f.u + WIDTH * i);
-	residual(ctx, d, &f);
+	mr_deform_residual(ctx, d, &f);
 	MR_TRY(solve_field(ctx, d, &f, norm_of(f.r, WIDTH * n)));
 	for (size_t i = 0; i < n; i++)
 		memcpy(response + WIDTH * (d->handles * d->patch.vertex[i] + h), f.u + WIDTH * i,

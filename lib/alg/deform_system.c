@@ -50,6 +50,21 @@ scale_rows(mr_sparse *k, const double *w)
 			k->value[e] *= w[i];
 }
 
+/* The weights w_ij = -L_ij of the edges at free vertices: the share that is negative. */
+static double
+share_negative(const mr_sparse *l, size_t n)
+{
+	size_t edges = 0, negative = 0;
+
+	for (size_t i = 0; i < n; i++)
+		for (int e = l->start[i]; e < l->start[i + 1]; e++)
+			if (l->index[e] > (int)i) {
+				edges++;
+				negative += l->value[e] > 0;
+			}
+	return edges ? (double)negative / (double)edges : 0;
+}
+
 /* The first n rows and columns of L. */
 static mr_status
 restrict_laplace(mr_ctx *ctx, const mr_sparse *l, size_t n, mr_sparse *out)
@@ -144,6 +159,7 @@ mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double starte
 	MR_TRY(weigh(ctx, d));
 	if (d->patch.end[0] == 0)
 		return MR_OK;
+	d->negative = share_negative(&d->l, d->patch.end[0]);
 	mark = mr_mark_take(ctx);
 	MR_TRY(assemble(ctx, d, rest));
 	status = open_solver(ctx, d, started);

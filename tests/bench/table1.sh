@@ -49,6 +49,31 @@ for size in $sizes; do
 	done
 done >rows
 
+# What remeshing does to the system: before, on the smoothed model as it came, and after.
+worth() { # model; selected.mrs
+	for k in 1 2 3; do
+		mr-solve -k $k --verify --stats stats.json selected.mrs -o out.mrs || return
+		echo "$1 $2 $k $(figure negative_weights) $(figure condition)"
+	done
+}
+models() {
+	mr-make bumpy -n 20000 --noise 0.002 -o bumpy.mrs
+	echo bumpy.mrs
+	for file in bunny00.off.gz armadillo.off.gz lion-head.off.gz; do
+		[ ! -f "$DATA/meshes/$file" ] || echo "$DATA/meshes/$file"
+	done
+}
+for file in $(models); do
+	name=$(basename "$file" | sed 's/\..*//')
+	case $file in
+	*.mrs) cat "$file" ;;
+	*) mr-import "$file" ;;
+	esac | mr-smooth | mr-select --free all --fixed below:y,0.2 --handle 0=above:y,0.8 -o selected.mrs
+	worth "$name" before
+	mr-remesh selected.mrs -o remeshed.mrs && mv remeshed.mrs selected.mrs
+	worth "$name" after
+done >worths
+
 {
 	echo "A thin plate: seconds to set up and for three right-hand sides, to a relative residual of $tol; the largest"
 	echo "difference from the direct solution, of the diagonal; the most memory of the process."
@@ -63,6 +88,11 @@ done >rows
 	awk '{ n[$2]++; x = log($3); y = log($5); sx[$2] += x; sy[$2] += y; sxx[$2] += x * x; sxy[$2] += x * y }
 		END { for (s in n) if (n[s] > 1) printf "%-16s %6.2f\n", s,
 			(n[s] * sxy[s] - sx[s] * sy[s]) / (n[s] * sxx[s] - sx[s] * sx[s]) }' rows | sort
+	echo
+	echo "Remeshing: edges with a negative cotangent weight, and the condition number, before and after"
+	awk 'BEGIN { printf "%-10s %2s %10s %10s %10s %10s\n", "model", "k", "negative %", "after %", "condition", "after" }
+		$2 == "before" { negative[$1, $3] = $4; condition[$1, $3] = $5; next }
+		{ printf "%-10s %2d %10.3f %10.3f %10.1e %10.1e\n", $1, $3, 100 * negative[$1, $3], 100 * $4, condition[$1, $3], $5 }' worths
 } >"$dir/table1.txt"
 cat "$dir/table1.txt"
 awk '{ print $2, $3, $5 }' rows | plot "$dir/table1.png" 'Thin plate: three solutions' 'free vertices' 'seconds'
