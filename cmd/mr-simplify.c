@@ -6,6 +6,10 @@
 /* By default, of a control mesh that has points, and of others. */
 enum { POINTS_A_FACE = 32, FACES_A_FACE = 10 };
 
+/* Of a control mesh, at least so many, or one for every so many points where that is less: fewer would not
+ * follow a surface with limbs or handles. */
+enum { LEAST = 300, LEAST_POINTS_A_FACE = 4 };
+
 static mr_simplify_opts opts = MR_SIMPLIFY_DEFAULTS;
 static size_t faces;
 static double ratio;
@@ -24,6 +28,20 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
+/* The faces of a control mesh for n points. */
+static size_t
+faces_for(mr_ctx *ctx, size_t n)
+{
+	size_t count = n / POINTS_A_FACE, least = n / LEAST_POINTS_A_FACE;
+
+	least = least < LEAST ? least : LEAST;
+	if (count >= least)
+		return count;
+	mr_note(ctx, "%zu faces for %zu points, as one for every %d would be too few", least, n,
+	    (int)POINTS_A_FACE);
+	return least;
+}
+
 /* The faces to stop at; 0: no such limit. */
 static mr_status
 target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
@@ -37,7 +55,7 @@ target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
 	if (strcmp(m->name, "control") || !mr_frame_has_layer(f, "points"))
 		return MR_OK;
 	MR_TRY(mr_layer_points(&c->ctx, f, "points", &points));
-	*n = points.nv / POINTS_A_FACE;
+	*n = faces_for(&c->ctx, points.nv);
 	return MR_OK;
 }
 
