@@ -226,7 +226,7 @@ robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_
 static mr_status
 sample_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, const mr_sample_opts *opts, double *height)
 {
-	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 1e-3 * c->diagonal, .steps = 50 };
+	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
 	size_t distinct, k = opts->neighbours;
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
 	mr_heights e;
