@@ -215,7 +215,7 @@ mr_status
 mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
 {
 	MR_TRY(close_holes(ctx, d));
-	if (d->room_v > 2 * d->nv)
+	if (d->room_v > d->nv + d->nv / 3)
 		MR_TRY(mr_dyn_room_v(ctx, d, d->nv + d->nv / 8 + 16));
-	return d->room_f > 2 * d->nf ? mr_dyn_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
+	return d->room_f > d->nf + d->nf / 3 ? mr_dyn_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
 }

@@ -88,14 +88,14 @@ mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
 /* The other curve half-edge at vertex v than the edge of h; MR_NONE where not exactly two curve edges meet.
  */
 static uint32_t
-other_curve(const mr_topology *topo, const uint32_t *curve, uint32_t v, uint32_t h)
+other_curve(const mr_topology *topo, const uint8_t *curve, uint32_t v, uint32_t h)
 {
 	uint32_t e = topo->out[v], found = MR_NONE;
 	unsigned n = 0;
 
 	do {
 		uint32_t p = mr_he_prev(e);
-		if (curve[e] != MR_NONE) {
+		if (curve[e]) {
 			n++;
 			if (e != h && topo->twin[e] != h)
 				found = e;
@@ -112,7 +112,7 @@ other_curve(const mr_topology *topo, const uint32_t *curve, uint32_t v, uint32_t
 
 mr_closest
 mr_project_curve(
-    const mr_mesh *m, const mr_topology *topo, const uint32_t *curve, uint32_t h, mr_v3 q, uint32_t *on)
+    const mr_mesh *m, const mr_topology *topo, const uint8_t *curve, uint32_t h, mr_v3 q, uint32_t *on)
 {
 	mr_closest at = on_side(m, h / 3, (int)(h % 3), q);
 

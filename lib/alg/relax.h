@@ -15,8 +15,8 @@
 typedef struct mr_surface {
 	const mr_mesh *m;
 	const mr_topology *topo;
-	const uint32_t *curve; /* as in mr_dyn, as the source was */
-	const double *length;  /* target edge length at each vertex; NULL: uniform */
+	const uint8_t *curve; /* 1 at the half-edges of curves; NULL: none */
+	const double *length; /* target edge length at each vertex; NULL: uniform */
 	double uniform;
 } mr_surface;
 

@@ -191,17 +191,18 @@ check_length(remesher *r, const mr_mesh *m, double length)
 static mr_status
 set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 {
-	uint32_t *curve = NULL;
+	uint8_t *curve = NULL;
 	double *length = NULL,
 	       uniform = r->o->length > 0 ? r->o->length : r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 
 	MR_TRY(check_length(r, m, uniform));
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
 	if (r->d.curve) {
-		curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
+		curve = MR_NEW(r->ctx, 3 * m->nf, uint8_t);
 		if (!curve)
 			return MR_EMEM;
-		memcpy(curve, r->d.curve, 3 * m->nf * sizeof *curve);
+		for (size_t h = 0; h < 3 * m->nf; h++)
+			curve[h] = r->d.curve[h] != MR_NONE;
 	}
 	if (r->o->adaptive > 0) {
 		length = MR_NEW(r->ctx, m->nv, double);
