@@ -100,6 +100,14 @@ area_variance(remesher *r, double *variance)
 	return MR_OK;
 }
 
+/* Neighbours close together in memory. */
+static mr_status
+tidy(remesher *r)
+{
+	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
+	return mr_dyn_order(r->ctx, &r->d);
+}
+
 /*
  * What is too dense is thinned before the first split, which bisects far more edges than it must; edges that
  * cannot be merged yet may be after the first round.
@@ -123,7 +131,7 @@ run(remesher *r)
 		MR_TRY(one_round(r));
 		mr_refine_grade(&r->d, &r->source);
 		if (i == 0 || i + 1 == r->o->rounds)
-			MR_TRY(mr_dyn_order(r->ctx, &r->d)); /* the first round changes most */
+			MR_TRY(tidy(r)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
 	}
 	middle = mr_seconds();
