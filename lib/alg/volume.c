@@ -100,6 +100,15 @@ measure_across(void *arg, size_t begin, size_t end)
 	}
 }
 
+/* v->value: how much more of the flood there is on a normal's side than behind it. */
+static void
+measure_votes(mr_ctx *ctx, volume *v, const float *w)
+{
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, w, v->value, 1 });
+	for (size_t i = 0; i < v->s.n; i++)
+		v->value[i] = -v->value[i];
+}
+
 /* What diffuses in from outside, u, is 1 - w: w is zero on the faces of the grid and absorbed to 1 at points.
  */
 static mr_status
@@ -121,11 +130,12 @@ orient_by_flood(mr_ctx *ctx, volume *v)
 	for (size_t i = 0; i < nodes; i++)
 		l->b[i] = l->screen[i] *= (float)ABSORPTION;
 	mr_multigrid_full(ctx, &m);
-	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, l->u, v->value, 1 });
-	for (size_t i = 0; i < v->s.n; i++)
-		v->value[i] = -v->value[i];
+	measure_votes(ctx, v, l->u);
 	MR_TRY(mr_volume_orient(ctx, &v->s, v->value));
+	measure_votes(ctx, v, l->u);
 	mr_mark_release(ctx, mark);
+	if (v->depths > 1)
+		MR_TRY(mr_volume_regions(ctx, &v->s, v->value, &v->grid[1], v->levels - 1));
 	return MR_OK;
 }
 

@@ -26,9 +26,9 @@ typedef struct mr_volume_opts {
  * more than 4096 cells.
  *
  * Figures: spacing (the side of the square that a point stands for), variation (of the median point's
- * neighbourhood: 0 flat, 1/3 a ball), outliers, cell, nodes, inside (share of the nodes), rounds (of the
- * Poisson equation), turned (normals after the first), level (the indicator's value at the surface),
- * parts_dropped, cavities_filled, and seconds_planes, _flood, _indicator, _level and _isosurface.
+ * neighbourhood: 0 flat, 1/3 a ball), outliers, regions (large flat
+ * ones), regions_turned (rounds of that), cell, nodes, inside (share of the nodes), rounds (of the Poisson
+ * equation), turned (normals after the first), level (the indicator's value at the surface), parts_dropped, cavities_filled, and seconds_planes, _flood, _indicator, _level and _isosurface.
  */
 mr_status mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out);
 

@@ -265,6 +265,7 @@ drop_outliers(mr_ctx *ctx, samples *s)
 			s->p[number[i]] = s->p[i];
 			s->plane.normal[number[i]] = s->plane.normal[i];
 			s->plane.area[number[i]] = s->plane.area[i];
+			s->plane.variation[number[i]] = s->plane.variation[i];
 			renumber_links(s, number, i);
 		}
 	mr_stat_set(ctx, "outliers", (double)(s->n - kept));

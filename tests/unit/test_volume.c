@@ -251,6 +251,57 @@ hole_of_the_sampling_is_closed(void **state)
 	assert_true(fabs(volume_of(&w) - (4 * MR_PI / 3)) < 0.2);
 }
 
+/* Points of the unit sphere in a spiral, at equal areas. */
+static mr_v3
+spiral(size_t i, size_t n)
+{
+	double z = 1 - (2 * (double)i + 1) / (double)n, r = sqrt(1 - z * z),
+	       a = 2.399963229728653 * (double)i;
+
+	return mr_vec(r * cos(a), r * sin(a), z);
+}
+
+/*
+ * A ball with a round pit that is wider inside than its mouth, and below an open neck: from behind the wall
+ * of the pit the flood is nearer than from within.  Their rim is sharp.
+ */
+static void
+pit_before_an_open_neck_stays_a_pit(void **state)
+{
+	enum { N = 16000, PIT = 5000 };
+	const double radius = 0.45, height = 0.75, neck = -0.75;
+	mr_v3 *p = MR_NEW(&ctx, N + PIT, mr_v3);
+	mr_v3 centre = mr_vec(0, 0, height);
+	double cap, lens;
+	size_t n = 0;
+	mr_census c;
+	mr_mesh w;
+
+	(void)state;
+	for (size_t i = 0; i < N; i++) {
+		mr_v3 q = spiral(i, N);
+		if (q.z > neck && mr_dist(q, centre) > radius)
+			p[n++] = q;
+	}
+	for (size_t i = 0; i < PIT; i++) {
+		mr_v3 q = mr_axpy(radius, spiral(i, PIT), centre);
+		if (mr_norm(q) < 1)
+			p[n++] = q;
+	}
+	w = wrap(p, n);
+	c = census_of(&w);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.components, 1);
+	assert_int_equal(c.genus, 0);
+	assert_true(coverage(p, n, &w) < 0.06);
+	/* a ball without the cap below the neck, flat there, and without the lens of two balls */
+	cap = MR_PI * (1 + neck) * (1 + neck) * (2 - neck) / 3;
+	lens = MR_PI * pow(1 + radius - height, 2) *
+	       (height * height + 2 * height * (1 + radius) - 3 * (1 - radius) * (1 - radius)) /
+	       (12 * height);
+	assert_true(fabs(volume_of(&w) - (4 * MR_PI / 3 - cap - lens)) < 0.05);
+}
+
 /* Points far away make neither blobs nor the grid coarse. */
 static void
 outliers_are_left_out(void **state)
@@ -407,6 +458,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(genus_and_volume_are_right, setup, teardown),
 		cmocka_unit_test_setup_teardown(near_spheres_stay_apart, setup, teardown),
 		cmocka_unit_test_setup_teardown(hole_of_the_sampling_is_closed, setup, teardown),
+		cmocka_unit_test_setup_teardown(pit_before_an_open_neck_stays_a_pit, setup, teardown),
 		cmocka_unit_test_setup_teardown(outliers_are_left_out, setup, teardown),
 		cmocka_unit_test_setup_teardown(noise_is_seen_through, setup, teardown),
 		cmocka_unit_test_setup_teardown(any_cloud_gives_a_closed_surface_or_none, setup, teardown),
