@@ -34,6 +34,7 @@ typedef struct tree {
 	int axis;           /* the longest of the surface's box */
 	float longest;      /* box along it */
 	size_t level_of_job;
+	const bool *moved; /* triangles of level 0; NULL: all */
 	bool *crosses;
 } tree;
 
@@ -58,12 +59,14 @@ dot3(const float a[3], const float b[3])
 	return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/* An upper bound of the angle between unit vectors, by their chord c, that is less than a hundredth above:
+ * 2 asin(c / 2) <= c + 0.0555 c^3 up to a right angle; beyond, pi. */
 static float
 angle_between(const float a[3], const float b[3])
 {
-	float c = dot3(a, b);
+	float d[3] = { a[0] - b[0], a[1] - b[1], a[2] - b[2] }, c2 = dot3(d, d);
 
-	return acosf(c > 1 ? 1 : c < -1 ? -1 : c);
+	return c2 > 2 ? 3.1416F : sqrtf(c2) * (1 + 0.0555F * c2);
 }
 
 static void
@@ -86,7 +89,7 @@ make_leaf(const tree *x, uint32_t f, node *d)
 	n = mr_unit(mr_cross(mr_sub(q[1], q[0]), mr_sub(q[2], q[0])));
 	*d = (node){ { below(b.min.x), below(b.min.y), below(b.min.z) },
 		{ above(b.max.x), above(b.max.y), above(b.max.z) }, { (float)n.x, (float)n.y, (float)n.z },
-		mr_triangle_degenerate(q[0], q[1], q[2]) ? NONE : 0 };
+		mr_norm2(n) > 0 ? 0 : NONE };
 }
 
 /* The box and the cone of the four parts. */
@@ -171,7 +174,8 @@ test_leaves(const tree *x, uint32_t f, uint32_t g)
 		return;
 	corners(x, f, p);
 	corners(x, g, q);
-	x->crosses[f] = mr_triangles_intersect(p, q);
+	x->crosses[f] = !mr_triangle_degenerate(p[0], p[1], p[2]) &&
+	                !mr_triangle_degenerate(q[0], q[1], q[2]) && mr_triangles_intersect(p, q);
 }
 
 /* Marks the parts of f that pass through parts of g. */
@@ -224,6 +228,39 @@ count_before(const tree *x, float at)
 	return low;
 }
 
+/* Whether to look at the parts of f: it or one whose box meets its own, of those in the order from i on, has
+ * moved, or what a part passed through may have. */
+static bool
+is_due(const tree *x, uint32_t f, size_t i)
+{
+	size_t parts = x->level[x->n].nf / x->level[0].nf;
+	const node *d = &x->node[0][f];
+
+	if (!x->moved || x->moved[f])
+		return true;
+	for (size_t k = parts * f; k < parts * f + parts; k++)
+		if (x->crosses[k])
+			return true;
+	for (; i < x->level[0].nf && x->begin[i] <= d->hi[x->axis]; i++)
+		if (x->moved[x->order[i]] && !apart(d, &x->node[0][x->order[i]]))
+			return true;
+	return false;
+}
+
+/* Marks the parts of f that pass through any.  i: where to begin in the order. */
+static void
+test_all(const tree *x, uint32_t f, size_t i)
+{
+	size_t parts = x->level[x->n].nf / x->level[0].nf;
+	float last = x->node[0][f].hi[x->axis];
+
+	memset(x->crosses + parts * f, 0, parts * sizeof *x->crosses);
+	test_self(x, 0, f);
+	for (; i < x->level[0].nf && x->begin[i] <= last; i++)
+		if (x->order[i] != f)
+			test_pair(x, 0, f, x->order[i]);
+}
+
 static void
 search(void *arg, size_t begin, size_t end)
 {
@@ -231,13 +268,9 @@ search(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		uint32_t f = x->order[i];
-		const node *d = &x->node[0][f];
-		float last = d->hi[x->axis];
-		test_self(x, 0, f);
-		for (size_t j = count_before(x, d->lo[x->axis] - x->longest);
-		     j < x->level[0].nf && x->begin[j] <= last; j++)
-			if (j != i)
-				test_pair(x, 0, f, x->order[j]);
+		size_t first = count_before(x, x->node[0][f].lo[x->axis] - x->longest);
+		if (is_due(x, f, first))
+			test_all(x, f, first);
 	}
 }
 
@@ -296,10 +329,11 @@ measure_roots(tree *x)
 }
 
 mr_status
-mr_find_crossings(mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, bool *crosses)
+mr_find_crossings(
+    mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, const bool *moved, bool *crosses)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	tree x = { .level = level, .n = n, .p = p, .crosses = crosses };
+	tree x = { .level = level, .n = n, .p = p, .moved = moved, .crosses = crosses };
 
 	choose_units(&x);
 	for (size_t k = n + 1; k-- > 0;) {
@@ -311,7 +345,6 @@ mr_find_crossings(mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, b
 	}
 	measure_roots(&x);
 	MR_TRY(sort_roots(ctx, &x));
-	memset(crosses, 0, level[n].nf * sizeof *crosses);
 	mr_parallel(ctx, level[0].nf, GRAIN, search, &x);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -12,8 +12,12 @@
 
 #include "op/loop.h"
 
-/* The triangles of level n, whose vertices are at p, that pass through others.  crosses: one a triangle, the
- * caller's. */
-mr_status mr_find_crossings(mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, bool *crosses);
+/*
+ * The triangles of level n, whose vertices are at p, that pass through others.  crosses: one a triangle, the
+ * caller's.  moved: of the triangles of level 0, those that a vertex has moved in since `crosses` was found,
+ * so that only these and what is near them is looked at; NULL: all, and what `crosses` held does not count.
+ */
+mr_status mr_find_crossings(
+    mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, const bool *moved, bool *crosses);
 
 #endif

@@ -19,6 +19,8 @@ typedef struct guard {
 	bool *crosses;         /* of each: passes through another */
 	bool *bad;             /* of each control face */
 	bool *crossed;         /* the same: a part of it passes through another */
+	bool *moved;           /* the same: since it was looked at last */
+	bool all;              /* all have */
 } guard;
 
 typedef struct normals_job {
@@ -87,7 +89,7 @@ look(mr_ctx *ctx, guard *g, const mr_v3 *x)
 {
 	MR_TRY(refine(ctx, g, x));
 	mr_parallel(ctx, g->fine.nf, GRAIN, normals, &(normals_job){ &g->fine, g->after });
-	MR_TRY(mr_find_crossings(ctx, g->s->level, MR_FIT_FINE, g->p, g->crosses));
+	MR_TRY(mr_find_crossings(ctx, g->s->level, MR_FIT_FINE, g->p, g->all ? NULL : g->moved, g->crosses));
 	mr_parallel(ctx, g->s->level[0].nf, GRAIN / MR_FIT_CHILDREN, judge, g);
 	return MR_OK;
 }
@@ -101,8 +103,8 @@ prepare(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, guard *g)
 
 	*g = (guard){ s, { s->m.name, p, l->t, l->nv, l->nf }, p, MR_NEW(ctx, l->nf, mr_v3),
 		MR_NEW(ctx, l->nf, mr_v3), MR_NEW(ctx, l->nf, bool), MR_NEW(ctx, s->level[0].nf, bool),
-		MR_NEW(ctx, s->level[0].nf, bool) };
-	if (!p || !g->before || !g->after || !g->crosses || !g->bad || !g->crossed)
+		MR_NEW(ctx, s->level[0].nf, bool), MR_NEW(ctx, s->level[0].nf, bool), true };
+	if (!p || !g->before || !g->after || !g->crosses || !g->bad || !g->crossed || !g->moved)
 		return MR_EMEM;
 	MR_TRY(refine(ctx, g, x));
 	mr_parallel(ctx, l->nf, GRAIN, normals, &(normals_job){ &g->fine, g->before });
@@ -124,19 +126,28 @@ mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, bool *cro
 
 /* Steps */
 
-/* Lets the vertices of bad faces go no more than `most` of the way; returns whether that is less for any. */
+/* Lets the vertices of bad faces go no more than `most` of the way; returns whether that is less for any.
+ * less: of each vertex, the caller's. */
 static bool
-damp(const guard *g, const mr_fit_lists *patch, double most, double *share)
+damp(guard *g, const mr_fit_lists *patch, double most, double *share, size_t nv, bool *less)
 {
-	bool less = false;
+	bool any = false;
 
+	memset(less, 0, nv * sizeof *less);
 	for (size_t f = 0; f < patch->count; f++)
 		for (size_t i = patch->start[f]; g->bad[f] && i < patch->start[f + 1]; i++) {
-			double *v = &share[patch->member[i]];
-			less |= most < *v;
-			*v = fmin(*v, most);
+			int v = patch->member[i];
+			less[v] |= most < share[v];
+			any |= less[v];
+			share[v] = fmin(share[v], most);
 		}
-	return less;
+	g->all = false;
+	for (size_t f = 0; f < patch->count; f++) {
+		g->moved[f] = false;
+		for (size_t i = patch->start[f]; i < patch->start[f + 1]; i++)
+			g->moved[f] |= less[patch->member[i]];
+	}
+	return any;
 }
 
 /* Whether a face that crosses is new: none of the vertices that it depends on is one of a face that crossed,
@@ -178,10 +189,10 @@ mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, bool *cro
 	size_t nv = s->level[0].nv;
 	mr_v3 *to = MR_NEW(ctx, nv, mr_v3);
 	double *share = MR_NEW(ctx, nv, double), most = 1;
-	bool *tangled = MR_NEW(ctx, nv, bool);
+	bool *tangled = MR_NEW(ctx, nv, bool), *less = MR_NEW(ctx, nv, bool);
 	guard g;
 
-	if (!to || !share || !tangled)
+	if (!to || !share || !tangled || !less)
 		return MR_EMEM;
 	find_tangled(patch, crossed, nv, tangled);
 	for (size_t v = 0; v < nv; v++)
@@ -192,7 +203,7 @@ mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, bool *cro
 			to[v] = mr_axpy(share[v], z[v], x[v]);
 		MR_TRY(examine(ctx, &g, patch, to, tangled));
 		most = most > LEAST ? most / 2 : 0;
-	} while (damp(&g, patch, most, share));
+	} while (damp(&g, patch, most, share, nv, less));
 	mr_fit_surface_move(ctx, s, to);
 	*damped = 0;
 	for (size_t v = 0; v < nv; v++)

@@ -1,5 +1,4 @@
 /* Where a displaced surface breaks: faces that turn over, sharp folds, faces that pass through others. */
-#include "alg/crossing.h"
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
 
@@ -43,18 +42,18 @@ look(void *arg, size_t begin, size_t end)
 		x->bad[f] |= is_folded(x, (uint32_t)f);
 }
 
-mr_status
-mr_find_folds(
-    mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, bool crossings, bool *bad, size_t *count)
+size_t
+mr_find_folds(mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, const bool *crosses, bool *bad)
 {
+	size_t count = 0;
 	folds x = { .surface = surface, .domain = &d->m, .topo = &d->level[d->n].topo, .bad = bad };
 
-	memset(bad, 0, surface->nf * sizeof *bad);
-	if (crossings)
-		MR_TRY(mr_find_crossings(ctx, d->level, d->n, surface->p, bad));
+	if (crosses)
+		memcpy(bad, crosses, surface->nf * sizeof *bad);
+	else
+		memset(bad, 0, surface->nf * sizeof *bad);
 	mr_parallel(ctx, surface->nf, GRAIN, look, &x);
-	*count = 0;
 	for (size_t f = 0; f < surface->nf; f++)
-		*count += bad[f];
-	return MR_OK;
+		count += bad[f];
+	return count;
 }

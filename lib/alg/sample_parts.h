@@ -93,10 +93,10 @@ mr_status mr_sample_rays(
 
 /*
  * The faces of the displaced surface that have turned from the domain's, are folded against one beside them,
- * or, where `crossings`, pass through others.  bad: one a face, the caller's.
+ * or, as `crosses` says where it is not NULL, pass through others.  bad: one a face, the caller's.  Returns
+ * how many.
  */
-mr_status mr_find_folds(
-    mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, bool crossings, bool *bad, size_t *count);
+size_t mr_find_folds(mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, const bool *crosses, bool *bad);
 
 /* What the least squares weigh, beside the points, of which each counts 1. */
 typedef struct mr_fit_weights {

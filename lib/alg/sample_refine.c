@@ -6,6 +6,7 @@
  * minimises the sum of the squares, each by its weight, with the fairness of the heights and a pull to those
  * found; then the places are looked for anew, by walking from the last ones.
  */
+#include "alg/crossing.h"
 #include "alg/project.h"
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
@@ -28,6 +29,7 @@ typedef struct fit {
 	double *target;  /* heights to be pulled to */
 	float *pull;     /* how much each counts */
 	bool *bad;       /* faces that fold or cross others */
+	bool *crosses;   /* faces that cross others */
 	bool *near;      /* vertices around such faces, which are fitted again */
 	bool local;      /* only these */
 	mr_mesh surface; /* the displaced one */
@@ -230,8 +232,10 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, fit *x)
 	x->target = MR_NEW(ctx, d->m.nv, double);
 	x->pull = MR_NEW(ctx, d->m.nv, float);
 	x->bad = MR_NEW(ctx, d->m.nf, bool);
+	x->crosses = MR_NEW(ctx, d->m.nf, bool);
 	x->near = MR_NEW(ctx, d->m.nv, bool);
-	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull || !x->bad || !x->near)
+	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull || !x->bad || !x->crosses ||
+	    !x->near)
 		return MR_EMEM;
 	for (size_t i = 0; i < c->n; i++)
 		x->wish[i].face = c->face[i];
@@ -285,6 +289,26 @@ mend_pass(mr_ctx *ctx, fit *x)
 	return MR_OK;
 }
 
+/* Displaces the domain and finds what folds or crosses, by what has moved alone after a local pass. */
+static mr_status
+find_bad(mr_ctx *ctx, fit *x, size_t *folds)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t roots = x->d->level[0].nf, parts = x->surface.nf / roots;
+	bool *moved = x->local ? MR_NEW_ZERO(ctx, roots, bool) : NULL;
+
+	if (x->local && !moved)
+		return MR_EMEM;
+	for (size_t f = 0; moved && f < x->surface.nf; f++)
+		for (int k = 0; k < 3; k++)
+			moved[f / parts] |= x->near[x->surface.t[f].v[k]];
+	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
+	MR_TRY(mr_find_crossings(ctx, x->d->level, x->d->n, x->p, moved, x->crosses));
+	*folds = mr_find_folds(ctx, &x->surface, x->d, x->crosses, x->bad);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 /* Passes around what folds or crosses, as long as there is any and it has become less of late. */
 static mr_status
 mend_all(mr_ctx *ctx, fit *x, size_t *folds)
@@ -292,14 +316,13 @@ mend_all(mr_ctx *ctx, fit *x, size_t *folds)
 	enum { MOST = 40, PATIENCE = 8 };
 	size_t least = SIZE_MAX, vain = 0, pass;
 
-	x->local = true;
 	for (pass = 0;; pass++) {
-		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-		MR_TRY(mr_find_folds(ctx, &x->surface, x->d, true, x->bad, folds));
+		MR_TRY(find_bad(ctx, x, folds));
 		vain = *folds < least ? 0 : vain + 1;
 		least = *folds < least ? *folds : least;
 		if (*folds == 0 || pass == MOST || vain == PATIENCE)
 			break;
+		x->local = true;
 		press(x);
 		MR_TRY(mend_pass(ctx, x));
 		mr_progress(ctx, "mending", (double)(pass + 1) / MOST);
@@ -314,15 +337,12 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 {
 	for (size_t pass = 0; pass < passes; pass++) {
 		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-		MR_TRY(mr_find_folds(ctx, &x->surface, x->d, false, x->bad, folds));
+		mr_find_folds(ctx, &x->surface, x->d, NULL, x->bad);
 		press(x);
 		MR_TRY(fit_pass(ctx, x));
 		mr_progress(ctx, "refining", (double)(pass + 1) / (double)passes);
 	}
-	if (passes > 0)
-		return mend_all(ctx, x, folds);
-	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-	return mr_find_folds(ctx, &x->surface, x->d, true, x->bad, folds);
+	return passes > 0 ? mend_all(ctx, x, folds) : find_bad(ctx, x, folds);
 }
 
 mr_status
