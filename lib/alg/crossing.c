@@ -38,19 +38,18 @@ typedef struct tree {
 	bool *crosses;
 } tree;
 
-/* The nearest float that is not greater. */
+/* A float that is not greater than x, which is at most about 1: rounding, twice, is within a quarter of that.
+ */
 static float
 below(double x)
 {
-	float f = (float)x;
-
-	return (double)f > x ? nextafterf(f, -INFINITY) : f;
+	return (float)x - 0x1p-22F;
 }
 
 static float
 above(double x)
 {
-	return -below(-x);
+	return (float)x + 0x1p-22F;
 }
 
 static float
