@@ -224,17 +224,6 @@ count_rows(void *arg, size_t begin, size_t end)
 }
 
 static void
-sort_columns(int *a, int n)
-{
-	for (int i = 1; i < n; i++) {
-		int x = a[i], k = i;
-		for (; k > 0 && a[k - 1] > x; k--)
-			a[k] = a[k - 1];
-		a[k] = x;
-	}
-}
-
-static void
 fill_rows(void *arg, size_t begin, size_t end)
 {
 	power_job *j = arg;
@@ -245,7 +234,7 @@ fill_rows(void *arg, size_t begin, size_t end)
 			int *index = j->out->index + j->out->start[i];
 			double *value = j->out->value + j->out->start[i];
 			memcpy(index, row->list, (size_t)row->n * sizeof *index);
-			sort_columns(index, row->n);
+			mr_sparse_sort(index, row->n);
 			for (int k = 0; k < row->n; k++)
 				value[k] = row->value[index[k]];
 		}
@@ -302,7 +291,8 @@ mr_laplace_power(
 
 typedef struct apply_job {
 	const mr_sparse *a;
-	const double *w;
+	const double *w; /* y = W A x, or without it y = A x, */
+	double add;      /* or where this is not 0, y = y + add A x */
 	size_t width;
 	const double *x;
 	double *y;
@@ -314,14 +304,14 @@ apply_width(const apply_job *j, size_t width, size_t begin, size_t end)
 	const mr_sparse *a = j->a;
 
 	for (size_t i = begin; i < end; i++) {
-		double sum[4] = { 0 };
+		double sum[4] = { 0 }, *y = j->y + i * width;
 		for (int e = a->start[i]; e < a->start[i + 1]; e++) {
 			const double *x = j->x + (size_t)a->index[e] * width;
 			for (size_t c = 0; c < width; c++)
 				sum[c] += a->value[e] * x[c];
 		}
 		for (size_t c = 0; c < width; c++)
-			j->y[i * width + c] = j->w ? j->w[i] * sum[c] : sum[c];
+			y[c] = j->add != 0 ? y[c] + j->add * sum[c] : j->w ? j->w[i] * sum[c] : sum[c];
 	}
 }
 
@@ -343,47 +333,13 @@ void
 mr_sparse_apply(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
     const double *x, double *y)
 {
-	mr_parallel(ctx, rows, GRAIN, apply_rows, &(apply_job){ a, w, width, x, y });
-}
-
-typedef struct add_job {
-	const mr_sparse *a;
-	double f;
-	size_t width;
-	const double *x;
-	double *y;
-} add_job;
-
-static inline void
-add_width(const add_job *j, size_t width, size_t begin, size_t end)
-{
-	const mr_sparse *a = j->a;
-
-	for (size_t i = begin; i < end; i++) {
-		double sum[4] = { 0 };
-		for (int e = a->start[i]; e < a->start[i + 1]; e++)
-			for (size_t c = 0; c < width; c++)
-				sum[c] += a->value[e] * j->x[(size_t)a->index[e] * width + c];
-		for (size_t c = 0; c < width; c++)
-			j->y[i * width + c] += j->f * sum[c];
-	}
-}
-
-static void
-add_rows(void *arg, size_t begin, size_t end)
-{
-	add_job *j = arg;
-
-	if (j->width == 3)
-		add_width(j, 3, begin, end);
-	else
-		add_width(j, j->width, begin, end);
+	mr_parallel(ctx, rows, GRAIN, apply_rows, &(apply_job){ a, w, 0, width, x, y });
 }
 
 void
 mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width, const double *x, double *y)
 {
-	mr_parallel(ctx, (size_t)a->n, GRAIN, add_rows, &(add_job){ a, f, width, x, y });
+	mr_parallel(ctx, (size_t)a->n, GRAIN, apply_rows, &(apply_job){ a, NULL, f, width, x, y });
 }
 
 typedef struct apply_long_job {

@@ -65,17 +65,6 @@ multiply_row(const mr_sparse *a, const mr_sparse *b, int i, product_row *row)
 	}
 }
 
-static void
-sort_columns(int *a, int n)
-{
-	for (int i = 1; i < n; i++) {
-		int x = a[i], k = i;
-		for (; k > 0 && a[k - 1] > x; k--)
-			a[k] = a[k - 1];
-		a[k] = x;
-	}
-}
-
 static int
 count_row(const mr_sparse *a, const mr_sparse *b, int i, product_row *row)
 {
@@ -95,7 +84,7 @@ fill_rows(const mr_sparse *a, const mr_sparse *b, product_row *row, mr_sparse *r
 	for (int i = 0; i < a->n; i++) {
 		int at = r->start[i];
 		multiply_row(a, b, i, row);
-		sort_columns(row->list, row->n);
+		mr_sparse_sort(row->list, row->n);
 		for (int k = 0; k < row->n; k++) {
 			r->index[at + k] = row->list[k];
 			r->value[at + k] = row->value[row->list[k]];

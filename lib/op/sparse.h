@@ -18,6 +18,18 @@ typedef struct mr_sparse {
 	double *value;
 } mr_sparse;
 
+/* Sorts the n columns of a short row. */
+static inline void
+mr_sparse_sort(int *column, int n)
+{
+	for (int i = 1; i < n; i++) {
+		int x = column[i], k = i;
+		for (; k > 0 && column[k - 1] > x; k--)
+			column[k] = column[k - 1];
+		column[k] = x;
+	}
+}
+
 /* The transpose of a matrix with `columns` columns.  t: in the arena. */
 mr_status mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *t);
 
