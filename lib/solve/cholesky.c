@@ -2,7 +2,6 @@
  * Sparse Cholesky: Chen, Davis, Hager, Rajamanickam 2008: Algorithm 887: CHOLMOD.  The only file that knows
  * it.
  */
-#include "solve/serial.h"
 #include "solve/solver_type.h"
 #include "solve/supernodal.h"
 
@@ -41,7 +40,6 @@ cholesky_free(void *data)
 	mr_supernodal_free(c->solve);
 	cholmod_free_factor(&c->factor, &c->common);
 	cholmod_finish(&c->common);
-	free(c);
 }
 
 /*
@@ -129,13 +127,15 @@ bytes_of(const cholmod_factor *f)
 }
 
 static mr_status
-set_up(
-    mr_ctx *ctx, const mr_solver_opts *opts, cholesky *c, const mr_system *system, mr_solver_report *report)
+cholesky_setup(
+    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data, mr_solver_report *report)
 {
+	cholesky *c = data;
 	cholmod_sparse upper = as_upper(system->a);
 	double start = mr_seconds(), analysed, bytes;
 	mr_panels panels;
 
+	cholmod_start(&c->common);
 	MR_TRY(analyse(ctx, c, &upper, system->part));
 	analysed = mr_seconds();
 	bytes = bytes_of(c->factor);
@@ -155,27 +155,6 @@ set_up(
 }
 
 static mr_status
-cholesky_setup(
-    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void **data, mr_solver_report *report)
-{
-	cholesky *c = calloc(1, sizeof *c);
-	mr_status status;
-	int threads;
-
-	if (!c)
-		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
-	threads = mr_serial_begin();
-	cholmod_start(&c->common);
-	status = set_up(ctx, opts, c, system, report);
-	mr_serial_end(threads);
-	if (status < 0)
-		cholesky_free(c);
-	else
-		*data = c;
-	return status;
-}
-
-static mr_status
 cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report)
 {
 	cholesky *c = data;
@@ -185,4 +164,5 @@ cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_rep
 	return MR_OK;
 }
 
-const mr_solver_type mr_cholesky_type = { "cholesky", cholesky_setup, cholesky_solve, cholesky_free };
+const mr_solver_type mr_cholesky_type = { "cholesky", sizeof(cholesky), cholesky_setup, cholesky_solve,
+	cholesky_free };

@@ -29,7 +29,6 @@ krylov_free(void *data)
 	if (k->b.free)
 		k->b.free(k->b.data);
 	mr_ctx_free(&k->own);
-	free(k);
 }
 
 /* r = b - A x, and its largest share of b in any column */
@@ -359,31 +358,27 @@ prepare(krylov *k, const mr_system *system)
 
 static mr_status
 krylov_setup(
-    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void **data, mr_solver_report *report)
+    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data, mr_solver_report *report)
 {
-	krylov *k = calloc(1, sizeof *k);
 	double start = mr_seconds();
+	krylov *k = data;
 	mr_status status;
 
-	if (!k)
-		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
 	mr_ctx_init(&k->own, ctx->threads);
 	k->opts = *opts;
 	k->a = system->a;
 	status = prepare(k, system);
-	if (status < 0) {
-		status = mr_fail(ctx, status, "%s", k->own.error);
-		krylov_free(k);
-		return status;
-	}
+	if (status < 0)
+		return mr_fail(ctx, status, "%s", k->own.error);
 	*report = (mr_solver_report){ .seconds_factor = mr_seconds() - start,
 		.nnz_factor = k->b.nnz,
 		.bytes_factor = k->b.nnz * (sizeof(double) + sizeof(int)) };
-	*data = k;
 	return MR_OK;
 }
 
-const mr_solver_type mr_cg_type = { "cg", krylov_setup, krylov_solve, krylov_free };
-const mr_solver_type mr_bicgstab_type = { "bicgstab", krylov_setup, krylov_solve, krylov_free };
-const mr_solver_type mr_multigrid_type = { "multigrid", krylov_setup, krylov_solve, krylov_free };
-const mr_solver_type mr_vcycle_type = { "vcycle", krylov_setup, krylov_solve, krylov_free };
+const mr_solver_type mr_cg_type = { "cg", sizeof(krylov), krylov_setup, krylov_solve, krylov_free };
+const mr_solver_type mr_bicgstab_type = { "bicgstab", sizeof(krylov), krylov_setup, krylov_solve,
+	krylov_free };
+const mr_solver_type mr_multigrid_type = { "multigrid", sizeof(krylov), krylov_setup, krylov_solve,
+	krylov_free };
+const mr_solver_type mr_vcycle_type = { "vcycle", sizeof(krylov), krylov_setup, krylov_solve, krylov_free };

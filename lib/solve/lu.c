@@ -1,7 +1,6 @@
 /*
  * Sparse LU: Davis 2004: Algorithm 832: UMFPACK.  The only file that knows it.
  */
-#include "solve/serial.h"
 #include "solve/solver_type.h"
 
 #include <umfpack.h>
@@ -36,7 +35,6 @@ lu_free(void *data)
 	free(l->a.start);
 	free(l->a.index);
 	free(l->a.value);
-	free(l);
 }
 
 static void *
@@ -61,16 +59,18 @@ copy_matrix(mr_ctx *ctx, const mr_sparse *a, mr_sparse *copy)
 	return MR_OK;
 }
 
-/* Our rows are UMFPACK's columns: it factors the transpose. */
+/* Our rows are UMFPACK's columns: it factors the transpose, and orders it by itself. */
 static mr_status
-set_up(mr_ctx *ctx, const mr_solver_opts *opts, lu *l, const mr_sparse *a, mr_solver_report *report)
+lu_setup(
+    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data, mr_solver_report *report)
 {
+	lu *l = data;
+	const mr_sparse *a = &l->a;
 	double start = mr_seconds(), analysed, bytes, info[UMFPACK_INFO];
 	void *symbolic = NULL;
 	int status;
 
-	MR_TRY(copy_matrix(ctx, a, &l->a));
-	a = &l->a;
+	MR_TRY(copy_matrix(ctx, system->a, &l->a));
 	umfpack_di_defaults(l->control);
 	status = umfpack_di_symbolic(a->n, a->n, a->start, a->index, a->value, &symbolic, l->control, info);
 	analysed = mr_seconds();
@@ -95,26 +95,6 @@ set_up(mr_ctx *ctx, const mr_solver_opts *opts, lu *l, const mr_sparse *a, mr_so
 }
 
 static mr_status
-lu_setup(
-    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void **data, mr_solver_report *report)
-{
-	lu *l = calloc(1, sizeof *l);
-	mr_status status;
-	int threads;
-
-	if (!l)
-		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
-	threads = mr_serial_begin();
-	status = set_up(ctx, opts, l, system->a, report); /* UMFPACK orders by itself */
-	mr_serial_end(threads);
-	if (status < 0)
-		lu_free(l);
-	else
-		*data = l;
-	return status;
-}
-
-static mr_status
 lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report)
 {
 	lu *l = data;
@@ -134,4 +114,4 @@ lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *r
 	return MR_OK;
 }
 
-const mr_solver_type mr_lu_type = { "lu", lu_setup, lu_solve, lu_free };
+const mr_solver_type mr_lu_type = { "lu", sizeof(lu), lu_setup, lu_solve, lu_free };

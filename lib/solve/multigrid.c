@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "op/laplace.h"
 #include "solve/precondition.h"
-#include "solve/solver_type.h"
 
 #include <math.h>
 
@@ -26,7 +25,7 @@ typedef struct multigrid {
 	size_t degree;  /* of the polynomial */
 	size_t applied; /* V-cycles of one application: k of L, 1 of A itself */
 	double *mass;   /* W^-1, between two of them */
-	void *coarsest; /* a factor */
+	mr_solver *coarsest;
 	double *column; /* its right-hand sides */
 } multigrid;
 
@@ -76,10 +75,8 @@ smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s, bool
 static mr_status
 solve_coarsest(mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s)
 {
-	mr_solver_report report;
-
 	mr_columns_scatter(s, l->r, g->column);
-	MR_TRY(mr_cholesky_type.solve(ctx, g->coarsest, g->column, s.width, &report));
+	MR_TRY(mr_solver_solve(ctx, g->coarsest, g->column, s.width));
 	mr_columns_gather(s, g->column, l->x);
 	return MR_OK;
 }
@@ -192,8 +189,6 @@ factor_coarsest(mr_ctx *ctx, multigrid *g)
 	mr_sparse a = l->a, lower = { a.n, MR_NEW_ZERO(ctx, (size_t)a.n + 1, int),
 		MR_NEW(ctx, (size_t)a.start[a.n] + (size_t)a.n, int),
 		MR_NEW(ctx, (size_t)a.start[a.n] + (size_t)a.n, double) };
-	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
-	mr_solver_report report;
 	int n = 0;
 
 	g->column = MR_NEW(ctx, (size_t)a.n * MR_WIDTH, double);
@@ -211,7 +206,7 @@ factor_coarsest(mr_ctx *ctx, multigrid *g)
 		lower.value[n++] = diagonal > 0 ? diagonal : 1;
 		lower.start[i + 1] = n;
 	}
-	return mr_cholesky_type.setup(ctx, &opts, &(mr_system){ .a = &lower }, &g->coarsest, &report);
+	return mr_solver_new(ctx, MR_CHOLESKY, &lower, NULL, &g->coarsest);
 }
 
 static void
@@ -219,8 +214,7 @@ multigrid_free(void *data)
 {
 	multigrid *g = data;
 
-	if (g->coarsest)
-		mr_cholesky_type.free(g->coarsest);
+	mr_solver_free(g->coarsest);
 }
 
 static mr_status

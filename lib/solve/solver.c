@@ -1,3 +1,4 @@
+#include "solve/serial.h"
 #include "solve/solver_type.h"
 
 /* The order of mr_solver_kind. */
@@ -10,18 +11,37 @@ struct mr_solver {
 	mr_solver_report report;
 };
 
+void
+mr_solver_free(mr_solver *s)
+{
+	if (!s)
+		return;
+	if (s->data)
+		s->type->free(s->data);
+	free(s->data);
+	free(s);
+}
+
 mr_status
 mr_solver_open(mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, mr_solver **solver)
 {
 	mr_solver *s = calloc(1, sizeof *s);
 	mr_status status;
+	int threads;
 
-	if (!s)
-		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
-	s->type = types[opts->kind];
-	status = s->type->setup(ctx, opts, system, &s->data, &s->report);
-	if (status < 0) {
+	if (s) {
+		s->type = types[opts->kind];
+		s->data = calloc(1, s->type->size);
+	}
+	if (!s || !s->data) {
 		free(s);
+		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
+	}
+	threads = mr_serial_begin();
+	status = s->type->setup(ctx, opts, system, s->data, &s->report);
+	mr_serial_end(threads);
+	if (status < 0) {
+		mr_solver_free(s);
 		return mr_prefix(ctx, status, "%s", types[opts->kind]->name);
 	}
 	*solver = s;
@@ -48,13 +68,4 @@ mr_solver_report
 mr_solver_reported(const mr_solver *solver)
 {
 	return solver->report;
-}
-
-void
-mr_solver_free(mr_solver *solver)
-{
-	if (!solver)
-		return;
-	solver->type->free(solver->data);
-	free(solver);
 }

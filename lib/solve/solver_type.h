@@ -1,9 +1,9 @@
 /*
  * solver_type.h -- what a solver provides to solver.c.
  *
- * Contract: `setup` returns the solver's own data, over memory of its own, and fills the report, as `solve`
- * does; `free` accepts whatever setup returned.
- * Layer rule: solve; only files of this folder include it.
+ * Contract: `data` points to `size` zeroed bytes of the solver's own.  `setup` fills them and the report, as
+ * `solve` does; `free` releases what they hold, also where setup has failed half-way. Layer rule: solve; only
+ * files of this folder include it.
  */
 #ifndef MR_SOLVER_TYPE_H
 #define MR_SOLVER_TYPE_H
@@ -12,7 +12,8 @@
 
 typedef struct mr_solver_type {
 	const char *name;
-	mr_status (*setup)(mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void **data,
+	size_t size;
+	mr_status (*setup)(mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data,
 	    mr_solver_report *report);
 	mr_status (*solve)(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report);
 	void (*free)(void *data);
