@@ -146,6 +146,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	mr_v3 *x = MR_NEW(ctx, control->nv, mr_v3);
 	mr_fit_foot *foot = mr_alloc(ctx, n, sizeof *foot);
 	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
+	size_t given = n;
 	double start;
 	mr_fit_surface s;
 
@@ -161,7 +162,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	record(ctx, &s, foot, n, "before");
 	start = mr_seconds();
 	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
-			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, foot, x));
+			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, n < given, foot, x));
 	mr_stat_set(ctx, "iterations", (double)passes);
 	mr_stat_set(ctx, "seconds_iteration", (mr_seconds() - start) / (double)passes);
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));

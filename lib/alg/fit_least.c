@@ -40,10 +40,13 @@ select_kth(double *a, size_t n, size_t k)
 	return a[k];
 }
 
-/* Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
- * point pulls as one at the limit does. */
+/*
+ * Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
+ * point pulls as one at the limit does.  Where outliers were found there are others too near to be told by
+ * where they lie: beyond the limit a point then pulls by the cube of the ratio less.
+ */
 static mr_status
-weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, double *w)
+weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, bool outliers, double *w)
 {
 	static const double limit = 2.5, deviation = 1.4826;
 	mr_mark mark = mr_mark_take(ctx);
@@ -54,8 +57,10 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, double *w)
 	for (size_t i = 0; i < n; i++)
 		d[i] = foot[i].dist;
 	most = fmax(limit * deviation * select_kth(d, n, n / 2), near);
-	for (size_t i = 0; i < n; i++)
-		w[i] = foot[i].dist > most ? most / foot[i].dist : 1;
+	for (size_t i = 0; i < n; i++) {
+		double ratio = foot[i].dist > most ? most / foot[i].dist : 1;
+		w[i] = outliers ? pow(ratio, 4) : ratio;
+	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -149,7 +154,7 @@ caution(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double edge)
 
 mr_status
 mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
-    const mr_fit_opts *opts, size_t passes, mr_fit_foot *foot, mr_v3 *x)
+    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
@@ -165,7 +170,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	MR_TRY(mr_fit_crossings(ctx, surface, x, crossed));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
-		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, w));
+		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, outliers, w));
 		MR_TRY(mr_fit_system_fill(
 		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
 		MR_TRY(solve(ctx, &system, z, &steps));

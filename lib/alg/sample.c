@@ -211,16 +211,18 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height)
 
 /*
  * Weights for points with noise: the more they deviate from the local surfaces, beside how much the heights
- * of those differ from vertex to vertex, the fairer the heights are to be.  The power is by experiment.
+ * of those differ from vertex to vertex, the fairer the heights are to be.  The numbers are by experiment.
  */
 static mr_fit_weights
 robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_cloud *c, double noise)
 {
-	double rough = mr_heights_roughness(ctx, e, height), fair = pow(noise / fmax(rough, DBL_MIN), 4);
+	double rough = mr_heights_roughness(ctx, e, height), fair = 2 * pow(noise / fmax(rough, DBL_MIN), 4);
 
-	return (mr_fit_weights){
-		.fair = fmin(fmax(fair, 1e-2), 1e3), .scale = 1e-4 * c->diagonal, .robust = true, .steps = 300
-	};
+	return (mr_fit_weights){ .fair = fmin(fmax(fair, 1e-2), 1e3),
+		.pull = 0.3,
+		.scale = 1e-4 * c->diagonal,
+		.robust = true,
+		.steps = 300 };
 }
 
 static mr_status
