@@ -315,15 +315,18 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mender w = { d, s, { s->m, s->topo }, MR_NEW_ZERO(ctx, d->nv, uint32_t), 0, MR_NEEDLE };
-	bool mended = true;
+	bool flawed = true, mended = true;
 
 	if (!w.mark)
 		return MR_EMEM;
-	for (int i = 0; i < MOST && (mended || i <= PASSES); i++) {
-		mended = false;
+	for (int i = 0; i < MOST && flawed && (mended || i <= PASSES); i++) {
+		flawed = mended = false;
 		w.least = i < PASSES ? MR_NEEDLE : THIN;
 		for (uint32_t f = 0; f < d->nf; f++)
-			mended |= has_flaw(&w, f) && mend_face(&w, f);
+			if (has_flaw(&w, f)) {
+				flawed = true;
+				mended |= mend_face(&w, f);
+			}
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
