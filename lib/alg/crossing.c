@@ -85,7 +85,7 @@ make_leaf(const tree *x, uint32_t f, node *d)
 	for (int k = 0; k < 3; k++)
 		u[k] = mr_mul(x->unit, mr_sub(q[k], x->center)); /* never turns the order of two around */
 	b = mr_box_of(u, 3);
-	n = mr_unit(mr_cross(mr_sub(q[1], q[0]), mr_sub(q[2], q[0])));
+	n = mr_unit(mr_cross(mr_sub(u[1], u[0]), mr_sub(u[2], u[0])));
 	*d = (node){ { below(b.min.x), below(b.min.y), below(b.min.z) },
 		{ above(b.max.x), above(b.max.y), above(b.max.z) }, { (float)n.x, (float)n.y, (float)n.z },
 		mr_norm2(n) > 0 ? 0 : NONE };
