@@ -19,12 +19,14 @@ static mr_status
 fit_frame(cmd *c, mr_frame *f)
 {
 	mr_ctx *ctx = &c->ctx;
-	const char *layer = c->layer ? c->layer : "control";
+	static const char *const reads[] = { "points", "mesh", NULL };
+	const char *layer = c->layer ? c->layer : "control", *from;
 	mr_mesh control, points;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
-	MR_TRY(mr_layer_points(ctx, f, "points", &points));
+	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));
+	MR_TRY(mr_layer_points(ctx, f, from, &points));
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;

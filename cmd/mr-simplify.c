@@ -14,7 +14,7 @@ static mr_simplify_opts opts = MR_SIMPLIFY_DEFAULTS;
 static size_t faces;
 static double ratio;
 static cmd_length error;
-static const char *map_layer;
+static const char *map_layer, *to;
 
 static const cmd_opt table[] = {
 	{ 'n', "faces", CMD_COUNT, &faces, 0, 4e9, "N", "stop at so many; 0: no such limit", NULL },
@@ -23,6 +23,8 @@ static const cmd_opt table[] = {
 	{ 'e', "error", CMD_LENGTH, &error, 0, 1e300, "LENGTH",
 	    "most distance to the planes of what is merged; 0: no such limit", NULL },
 	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },
+	{ 't', "to", CMD_TEXT, &to, 0, 0, "LAYER", "write the result as that layer; the surface stays",
+	    NULL },
 	{ 0, "map", CMD_TEXT, &map_layer, 0, 0, "LAYER",
 	    "keep the surface as that layer, with the places of its vertices on the result", NULL },
 	{ 0 },
@@ -42,7 +44,8 @@ faces_for(mr_ctx *ctx, size_t n)
 	return least;
 }
 
-/* The faces to stop at; 0: no such limit. */
+/* The faces to stop at; 0: no such limit.  A control mesh is made for the points, or for the mesh that it
+ * comes from. */
 static mr_status
 target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
 {
@@ -52,8 +55,12 @@ target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
 	if (*n || error.value > 0)
 		return MR_OK;
 	*n = m->nf / FACES_A_FACE;
-	if (strcmp(m->name, "control") || !mr_frame_has_layer(f, "points"))
+	if (strcmp(to ? to : m->name, "control"))
 		return MR_OK;
+	if (!mr_frame_has_layer(f, "points")) {
+		*n = to ? faces_for(&c->ctx, m->nv) : *n;
+		return MR_OK;
+	}
 	MR_TRY(mr_layer_points(&c->ctx, f, "points", &points));
 	*n = faces_for(&c->ctx, points.nv);
 	return MR_OK;
@@ -77,6 +84,7 @@ put_map(cmd *c, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_
 static mr_status
 prepare(cmd *c)
 {
+	MR_TRY(cmd_idle(c, "map", to, "with --to, which keeps the surface"));
 	return cmd_idle(c, "ratio", faces > 0, "with --faces");
 }
 
@@ -101,6 +109,8 @@ simplify_frame(cmd *c, mr_frame *f)
 	if (!onto)
 		return MR_EMEM;
 	MR_TRY(mr_simplify(ctx, &m, &opts, &out, onto));
+	if (to)
+		return mr_layer_put_mesh(ctx, f, to, &out);
 	if (!strcmp(layer, "base")) {
 		MR_TRY(mr_simplify_source(ctx, &m, &out, onto, &over));
 		MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &source, &mapped));

@@ -9,6 +9,7 @@ awk '/^```/ { code = $0 == "```sh"; next } code' "$TOP/README.md" >blocks
 mkdir work && cd work || exit
 mr-make bumpy -n 4000 | mr-export bunny00.off || exit
 cp bunny00.off armadillo.off
+mr-make bumpy --points 4000 | mr-export -f xyz kitten.xyz || exit
 sh -e ../blocks >../said 2>&1 || { cat ../said; echo "an example of README.md fails"; fail=1; }
 
 for file in $(grep -oE '\]\([^)#]*\)|src="[^"]*"' "$TOP/README.md" | sed 's/](//; s/)$//; s/src="//; s/"$//' | grep -v '^http'); do
