@@ -2,13 +2,16 @@
  * FLANN's traps, each closed here: no rows and too large k crash or return rubbish;
  * NaN gives wrong neighbours silently; equal points are scanned one by one; its
  * defaults are approximate and take all cores; a batch doubles its result in
- * memory, so queries go in chunks.
+ * memory, so queries go in chunks; its threads spin where they wait, so they are ours.
  */
 #include "mesh/near.h"
 
-#include <flann/flann.h>
+#include "base/parallel.h"
 
-enum { CHUNK = 1 << 15, LEAF = 20 };
+#include <flann/flann.h>
+#include <stdatomic.h>
+
+enum { CHUNK = 1 << 15, GRAIN = 512, LEAF = 20 };
 
 static const double MOST = 1e150;
 
@@ -113,8 +116,8 @@ mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
 	near->parameters.checks = -1;
 	near->parameters.eps = 0;
 	near->parameters.sorted = 1;
-	near->parameters.cores = (int)ctx->threads;
-	near->parameters.log_level = FLANN_LOG_NONE;
+	near->parameters.cores = 1;
+	near->parameters.log_level = -1; /* else each query sets it, for all threads */
 	near->index = flann_build_index_double(near->row[0], (int)near->rows, 3, &speedup, &near->parameters);
 	if (!near->index)
 		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", near->rows);
@@ -151,16 +154,40 @@ order(const mr_near *near, mr_v3 q, const int *row, size_t k, uint32_t *index, d
 	}
 }
 
-static mr_status
-query_chunk(
-    mr_ctx *ctx, const mr_near *near, const mr_v3 *q, size_t n, size_t k, int *row, double *flann_dist)
-{
-	struct FLANNParameters parameters = near->parameters;
+/* Queries of one chunk; the rows found, and a failure where there was one. */
+typedef struct work {
+	const mr_near *near;
+	const mr_v3 *q;
+	size_t k, found;
+	int *row;  /* found of each query */
+	double *d; /* alike */
+	uint32_t *index;
+	double *dist2; /* or NULL */
+	atomic_bool failed;
+} work;
 
-	if (flann_find_nearest_neighbors_index_double(
-		near->index, (double *)(uintptr_t)q, (int)n, row, flann_dist, (int)k, &parameters) != 0)
-		return mr_fail(ctx, MR_EMEM, "no memory for %zu nearest points of %zu queries", k, n);
-	return MR_OK;
+static void
+query_body(void *arg, size_t begin, size_t end)
+{
+	work *w = arg;
+	struct FLANNParameters parameters = w->near->parameters;
+
+	if (flann_find_nearest_neighbors_index_double(w->near->index, (double *)(uintptr_t)(w->q + begin),
+		(int)(end - begin), w->row + begin * w->found, w->d + begin * w->found, (int)w->found,
+		&parameters) != 0) {
+		atomic_store(&w->failed, true);
+		return;
+	}
+	for (size_t i = begin; i < end; i++) {
+		uint32_t *index = w->index + i * w->k;
+		double *to = w->dist2 ? w->dist2 + i * w->k : w->d + i * w->found;
+		order(w->near, w->q[i], w->row + i * w->found, w->found, index, to);
+		for (size_t j = w->found; j < w->k; j++) {
+			index[j] = UINT32_MAX;
+			if (w->dist2)
+				to[j] = INFINITY;
+		}
+	}
 }
 
 mr_status
@@ -170,23 +197,18 @@ mr_near_query(
 	mr_mark mark = mr_mark_take(ctx);
 	size_t found = k < near->rows ? k : near->rows, chunk = CHUNK / (k / 8 + 1) + 1;
 	int *row = MR_NEW(ctx, chunk * found, int);
-	double *d = MR_NEW(ctx, chunk * found, double), *own = MR_NEW(ctx, k, double);
+	double *d = MR_NEW(ctx, chunk * found, double);
 
-	if (!row || !d || !own)
+	if (!row || !d)
 		return MR_EMEM;
 	MR_TRY(check(ctx, "query", q, nq));
 	for (size_t first = 0; first < nq && k > 0; first += chunk) {
-		size_t n = nq - first < chunk ? nq - first : chunk;
-		MR_TRY(query_chunk(ctx, near, q + first, n, found, row, d));
-		for (size_t i = 0; i < n; i++) {
-			size_t at = (first + i) * k;
-			double *to = dist2 ? dist2 + at : own;
-			order(near, q[first + i], row + i * found, found, index + at, to);
-			for (size_t j = found; j < k; j++) {
-				index[at + j] = UINT32_MAX;
-				to[j] = INFINITY;
-			}
-		}
+		size_t n = nq - first < chunk ? nq - first : chunk, at = first * k;
+		work w = { near, q + first, k, found, row, d, index + at, dist2 ? dist2 + at : NULL, false };
+		mr_parallel(ctx, n, GRAIN, query_body, &w);
+		if (atomic_load(&w.failed))
+			return mr_fail(
+			    ctx, MR_EMEM, "no memory for %zu nearest points of %zu queries", found, n);
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
