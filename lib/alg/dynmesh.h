@@ -97,7 +97,8 @@ static inline double
 mr_dyn_longest2(mr_v3 a, mr_v3 b, mr_v3 c)
 {
 	double ab = mr_norm2(mr_sub(b, a)), bc = mr_norm2(mr_sub(c, b)), ca = mr_norm2(mr_sub(a, c));
-	return ab > bc ? (ab > ca ? ab : ca) : (bc > ca ? bc : ca);
+	ab = ab > bc ? ab : bc;
+	return ab > ca ? ab : ca;
 }
 
 static inline double

@@ -53,8 +53,42 @@ folds_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3
 	return false;
 }
 
-bool
-mr_merging_folds(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3 p)
+/* True where n is within 75 degrees of an axis: two such normals are within 150 degrees. */
+static bool
+near_axis(mr_v3 n, mr_v3 axis, double axis2)
 {
+	double along = mr_dot(n, axis);
+
+	return along > 0 && along * along > 0.067 * axis2 * mr_norm2(n);
+}
+
+/* True where the faces around a, those beyond them, and the source there all look the same way. */
+static bool
+plain_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3 p, mr_v3 axis)
+{
+	double axis2 = mr_norm2(axis);
+	mr_v3 source = mr_face_cross(s->m, mr_dyn_place(d, a));
+	uint32_t h = d->out[a];
+
+	do {
+		uint32_t g = d->twin[mr_he_next(h)], to = mr_dyn_to(d, h), apex = mr_dyn_apex(d, h);
+		if (to != b && apex != b) {
+			mr_v3 n = mr_cross(mr_sub(d->p[to], p), mr_sub(d->p[apex], p));
+			if (!near_axis(n, axis, axis2) || mr_dot(n, source) < 0)
+				return false;
+			if (g != MR_NONE && mr_dyn_apex(d, g) != b &&
+			    !near_axis(mr_dyn_cross(d, d->p, g / 3), axis, axis2))
+				return false;
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[a]);
+	return true;
+}
+
+bool
+mr_merging_folds(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3 p, mr_v3 axis)
+{
+	if (plain_around(d, s, a, b, p, axis) && plain_around(d, s, b, a, p, axis))
+		return false; /* as almost everywhere, told with half the normals */
 	return folds_around(d, s, a, b, p) || folds_around(d, s, b, a, p);
 }

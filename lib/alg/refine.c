@@ -20,8 +20,11 @@ mr_refine_begin(mr_ctx *ctx, mr_dyn *d)
 static bool
 limit(mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b)
 {
-	double most = d->scale[a] + SLOPE * mr_dist(d->p[a], d->p[b]) / s->uniform;
+	double most;
 
+	if (!(d->scale[b] > d->scale[a]))
+		return false; /* as almost everywhere, told without a root */
+	most = d->scale[a] + SLOPE * mr_dist(d->p[a], d->p[b]) / s->uniform;
 	if (!(d->scale[b] > most * ENOUGH))
 		return false;
 	d->scale[b] = (float)most;

@@ -9,7 +9,7 @@ typedef struct pass {
 	const mr_dyn *d;
 	const mr_surface *s;
 	const mr_relax_opts *o;
-	double *gravity; /* of each vertex */
+	double *gravity; /* of each vertex, first its area */
 	mr_v3 *p;        /* where the vertices go */
 	uint32_t *at;
 	uint8_t *turned; /* of each face: 1 where it would turn over */
@@ -27,56 +27,84 @@ mr_surface_length(const mr_surface *s, const mr_dyn *d, uint32_t v)
 	return scale * (s->length[t[0]] + s->length[t[1]] + s->length[t[2]]) / 3;
 }
 
-/*
- * The part of triangle (a, b, c) that belongs to a: circumcentric, or half or a quarter of
- * an obtuse one.  b and c are given relative to a.
- */
-static double
-voronoi_part(mr_v3 b, mr_v3 c)
-{
-	double bb = mr_norm2(b), cc = mr_norm2(c), bc = mr_dot(b, c);
-	double at_b = bb - bc, at_c = cc - bc; /* edge dot edge at b and c */
-	double twice = mr_norm(mr_cross(b, c));
+typedef struct areas_job {
+	const mr_dyn *d;
+	double *part; /* of each half-edge: of its face, what belongs to its start */
+	double *area; /* of each vertex */
+} areas_job;
 
-	if (bc < 0)
-		return twice / 4;
-	if (at_b < 0 || at_c < 0)
-		return twice / 8;
-	return twice > 0 ? (bb * at_c + cc * at_b) / (8 * twice) : 0;
+/*
+ * The parts of a triangle that belong to its corners: circumcentric, or of an obtuse one half and two
+ * quarters.  dot: of the edges at each corner; those at both ends of an edge add up to its square.
+ */
+static void
+voronoi_parts(const double dot[3], double twice, double part[3])
+{
+	bool obtuse = false;
+	double eighth = twice > 0 ? 1 / (8 * twice) : 0;
+
+	for (int i = 0; i < 3; i++) {
+		double a = dot[i], b = dot[(i + 1) % 3], c = dot[(i + 2) % 3];
+		part[i] = ((a + b) * c + (a + c) * b) * eighth;
+		obtuse |= a < 0;
+	}
+	for (int i = 0; i < 3 && obtuse; i++)
+		part[i] = dot[i] < 0 ? twice / 4 : twice / 8;
+}
+
+static void
+parts_body(void *arg, size_t begin, size_t end)
+{
+	const areas_job *w = arg;
+	const mr_dyn *d = w->d;
+
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = &d->v[3 * f];
+		mr_v3 ab, bc, ca;
+		if (mr_dyn_face_dead(d, f))
+			continue;
+		ab = mr_sub(d->p[v[1]], d->p[v[0]]);
+		bc = mr_sub(d->p[v[2]], d->p[v[1]]);
+		ca = mr_sub(d->p[v[0]], d->p[v[2]]);
+		voronoi_parts((double[]){ -mr_dot(ab, ca), -mr_dot(bc, ab), -mr_dot(ca, bc) },
+		    mr_norm(mr_cross(ab, ca)), &w->part[3 * f]);
+	}
 }
 
 static double
-area_of(const mr_dyn *d, uint32_t v)
+area_of(const areas_job *w, uint32_t v)
 {
-	uint32_t h = d->out[v];
-	mr_v3 p = d->p[v];
+	uint32_t h = w->d->out[v];
 	double area = 0;
 
 	do {
-		area += voronoi_part(mr_sub(d->p[mr_dyn_to(d, h)], p), mr_sub(d->p[mr_dyn_apex(d, h)], p));
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
+		area += w->part[h];
+		h = mr_dyn_ccw(w->d, h);
+	} while (h != MR_NONE && h != w->d->out[v]);
 	return area;
 }
-
-typedef struct areas_job {
-	const mr_dyn *d;
-	double *area;
-} areas_job;
 
 static void
 areas_body(void *arg, size_t begin, size_t end)
 {
-	areas_job *j = arg;
+	const areas_job *w = arg;
 
 	for (size_t v = begin; v < end; v++)
-		j->area[v] = j->d->kind[v] == MR_DEAD ? 0 : area_of(j->d, (uint32_t)v);
+		w->area[v] = w->d->kind[v] == MR_DEAD ? 0 : area_of(w, (uint32_t)v);
 }
 
-void
-mr_dyn_areas(const mr_ctx *ctx, const mr_dyn *d, double *area)
+mr_status
+mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double *area)
 {
-	mr_parallel(ctx, d->nv, GRAIN, areas_body, &(areas_job){ d, area });
+	mr_mark mark = mr_mark_take(ctx);
+	areas_job w = { d, MR_NEW(ctx, 3 * d->nf, double), area };
+
+	if (!w.part)
+		return MR_EMEM;
+	mr_parallel(ctx, d->nf, GRAIN, parts_body, &w);
+	mr_parallel(ctx, d->nv, GRAIN, areas_body, &w);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 /* The mass by which a vertex draws its neighbours: its area, in units of the target, to a power. */
@@ -90,7 +118,7 @@ gravity_body(void *arg, size_t begin, size_t end)
 		if (w->d->kind[v] == MR_DEAD)
 			continue;
 		l = mr_surface_length(w->s, w->d, v);
-		a = area_of(w->d, v) / (l * l);
+		a = w->gravity[v] / (l * l);
 		if (mr_dyn_on_boundary(w->d, v))
 			a *= 2; /* it has about half the area of an inner one */
 		w->gravity[v] = w->o->gravity == 1.5 ? a * sqrt(a) : pow(a, w->o->gravity);
@@ -143,22 +171,26 @@ tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
 {
 	const mr_dyn *d = w->d;
 	uint32_t h = d->out[v];
-	mr_v3 p = d->p[v], n = { 0, 0, 0 }, g = { 0, 0, 0 }, move;
+	uint32_t b = mr_dyn_to(d, h);
+	mr_v3 p = d->p[v], n = { 0, 0, 0 }, g = { 0, 0, 0 }, move, pb = mr_sub(d->p[b], p);
 	double mass = 0;
 
-	do {
-		uint32_t b = mr_dyn_to(d, h), c = mr_dyn_apex(d, h);
+	do { /* b is the end of h, pb the way there */
+		uint32_t prev = mr_he_prev(h), c = d->v[prev];
 		double gb = w->gravity ? w->gravity[b] : 1;
-		n = mr_add(n, mr_cross(mr_sub(d->p[b], p), mr_sub(d->p[c], p)));
-		g = mr_axpy(gb, d->p[b], g);
+		mr_v3 pc = mr_sub(d->p[c], p);
+		n = mr_add(n, mr_cross(pb, pc));
+		g = mr_axpy(gb, pb, g);
 		mass += gb;
-		h = mr_dyn_ccw(d, h);
+		b = c;
+		pb = pc;
+		h = d->twin[prev];
 	} while (h != MR_NONE && h != d->out[v]);
 	*normal = n;
 	if (!(mass > 0))
 		return p;
 	*normal = n = mr_unit(n);
-	move = mr_sub(mr_mul(1 / mass, g), p);
+	move = mr_mul(1 / mass, g);
 	return mr_axpy(w->o->damping, mr_axpy(-mr_dot(move, n), n, move), p);
 }
 
@@ -297,6 +329,8 @@ turns(const pass *w, size_t f)
 		return true;
 	if ((!faces(after, normal) || is_refined(w->d, f)) && folds_anew(w, f, before, after))
 		return true;
+	if (mr_dot(after, normal) >= 0 && !apart(before, after))
+		return false;
 	if (!mr_dyn_is_needle(before, p[v[0]], p[v[1]], p[v[2]]))
 		return apart(before, after) && (!faces(after, normal) || folds_anew(w, f, before, after));
 	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
@@ -348,21 +382,34 @@ hold_back(pass *w, uint32_t *stack)
 	}
 }
 
+/* The masses of the vertices, where they have any. */
+static mr_status
+find_gravity(mr_ctx *ctx, pass *w)
+{
+	if (!(w->o->gravity > 0))
+		return MR_OK;
+	w->gravity = MR_NEW(ctx, w->d->nv, double);
+	if (!w->gravity)
+		return MR_EMEM;
+	MR_TRY(mr_dyn_areas(ctx, w->d, w->gravity));
+	mr_parallel(ctx, w->d->nv, GRAIN, gravity_body, w);
+	return MR_OK;
+}
+
 mr_status
 mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	pass w = { d, s, o, NULL, MR_NEW(ctx, d->nv, mr_v3), MR_NEW(ctx, d->nv, uint32_t),
-		MR_NEW(ctx, d->nf, uint8_t) };
+	pass w = { d, s, o, NULL, NULL, NULL, NULL };
 	uint32_t *stack;
 
-	if (o->gravity > 0 && !(w.gravity = MR_NEW(ctx, d->nv, double)))
-		return MR_EMEM;
+	MR_TRY(find_gravity(ctx, &w));
+	w.p = MR_NEW(ctx, d->nv, mr_v3);
+	w.at = MR_NEW(ctx, d->nv, uint32_t);
+	w.turned = MR_NEW(ctx, d->nf, uint8_t);
 	stack = MR_NEW(ctx, d->nf, uint32_t);
 	if (!w.p || !w.at || !w.turned || !stack)
 		return MR_EMEM;
-	if (w.gravity)
-		mr_parallel(ctx, d->nv, GRAIN, gravity_body, &w);
 	mr_parallel(ctx, d->nv, GRAIN, move_body, &w);
 	mr_parallel(ctx, d->nf, GRAIN, turned_body, &w);
 	hold_back(&w, stack);

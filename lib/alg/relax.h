@@ -48,6 +48,6 @@ mr_status mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_o
 
 /* Mixed Voronoi areas (Meyer et al. 2003) of the vertices; 0 for dead ones.  area: d->nv values, the
  * caller's. */
-void mr_dyn_areas(const mr_ctx *ctx, const mr_dyn *d, double *area);
+mr_status mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double *area);
 
 #endif

@@ -60,7 +60,7 @@ equalize_areas(remesher *r)
  * glide shears the rows it passes more than the next relaxation can undo.
  */
 static mr_status
-one_round(remesher *r)
+one_round(remesher *r, bool first)
 {
 	enum { REACH = 3, RELAX = 3 };
 	mr_relax_opts o = { .damping = 1, .gravity = r->source.length ? 1 : 0, .project = r->o->project };
@@ -68,7 +68,8 @@ one_round(remesher *r)
 	MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, &r->changes));
 	MR_TRY(mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes));
 	MR_TRY(mr_mend_needles(r->ctx, &r->d, &r->source, &r->changes));
-	MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* the first round leaves as many holes as vertices */
+	if (first)
+		MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* it leaves as many holes as vertices */
 	MR_TRY(regularize(r, REACH));
 	for (int i = 1; i <= RELAX; i++) {
 		o.project = r->o->project && i == RELAX;
@@ -87,7 +88,7 @@ area_variance(remesher *r, double *variance)
 
 	if (!area)
 		return MR_EMEM;
-	mr_dyn_areas(r->ctx, d, area);
+	MR_TRY(mr_dyn_areas(r->ctx, d, area));
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
 			double a = area[v] / square(mr_surface_length(&r->source, d, v));
@@ -128,7 +129,7 @@ run(remesher *r)
 	if (r->o->rounds > 0)
 		MR_TRY(thin_out(r));
 	for (size_t i = 0; i < r->o->rounds; i++) {
-		MR_TRY(one_round(r));
+		MR_TRY(one_round(r, i == 0));
 		mr_refine_grade(&r->d, &r->source);
 		if (i == 0 || i + 1 == r->o->rounds)
 			MR_TRY(tidy(r)); /* the first round changes most */

@@ -36,12 +36,14 @@ edge_length2(const mr_dyn *d, uint32_t h)
 static double
 target(const resampler *r, uint32_t h)
 {
+	const float *scale = r->d->scale;
+	uint32_t from = r->d->v[h], to = mr_dyn_to(r->d, h);
 	double a, b;
 
-	if (!r->s->length && !r->d->scale)
-		return r->s->uniform;
-	a = mr_surface_length(r->s, r->d, r->d->v[h]);
-	b = mr_surface_length(r->s, r->d, mr_dyn_to(r->d, h));
+	if (!r->s->length)
+		return scale ? r->s->uniform * fminf(scale[from], scale[to]) : r->s->uniform;
+	a = mr_surface_length(r->s, r->d, from);
+	b = mr_surface_length(r->s, r->d, to);
 	return a < b ? a : b;
 }
 
@@ -211,12 +213,12 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	facing = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
 	if (!move_is_good(d, a, b, p, facing, longest2) || !move_is_good(d, b, a, p, facing, longest2))
 		return false;
-	if (mr_merging_folds(d, r->s, a, b, p)) {
+	if (mr_merging_folds(d, r->s, a, b, p, facing)) {
 		r->done->refused++;
 		return false;
 	}
 	mr_dyn_collapse(d, h, p);
-	if (d->scale && d->kind[b] == MR_SMOOTH)
+	if (d->scale && d->scale[b] < 1 && d->kind[b] == MR_SMOOTH)
 		d->at[b] = mr_surface_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).face;
 	r->done->collapses++;
 	return true;
