@@ -86,18 +86,23 @@ typedef struct across {
 	double reach;
 } across;
 
+static double
+across_at(const across *a, size_t i)
+{
+	const samples *s = &a->v->s;
+	const mr_grid *g = &a->v->grid[0];
+	mr_v3 d = mr_mul(a->reach * g->step, s->plane.normal[i]);
+
+	return mr_volume_at(g, a->u, mr_add(s->p[i], d)) - mr_volume_at(g, a->u, mr_sub(s->p[i], d));
+}
+
 static void
 measure_across(void *arg, size_t begin, size_t end)
 {
 	const across *a = arg;
-	const samples *s = &a->v->s;
-	const mr_grid *g = &a->v->grid[0];
 
-	for (size_t i = begin; i < end; i++) {
-		mr_v3 d = mr_mul(a->reach * g->step, s->plane.normal[i]);
-		a->out[i] = mr_volume_at(g, a->u, mr_add(s->p[i], d)) -
-		            mr_volume_at(g, a->u, mr_sub(s->p[i], d));
-	}
+	for (size_t i = begin; i < end; i++)
+		a->out[i] = across_at(a, i);
 }
 
 /* v->value: how much more of the flood there is on a normal's side than behind it. */
@@ -216,15 +221,6 @@ measure_level(void *arg, size_t begin, size_t end)
 	}
 }
 
-static void
-measure_at(void *arg, size_t begin, size_t end)
-{
-	const across *a = arg;
-
-	for (size_t i = begin; i < end; i++)
-		a->out[i] = mr_volume_at(&a->v->grid[0], a->u, a->v->s.p[i]);
-}
-
 static int
 ascending(const void *a, const void *b)
 {
@@ -250,15 +246,13 @@ half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
 		return MR_EMEM;
 	*half = 0;
 	for (int reach = 1; reach <= 3; reach++) {
-		mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, reach });
 		for (size_t i = 0; i < m; i++)
-			rise[i] = -v->value[i * v->s.n / m] / 2;
+			rise[i] = -across_at(&(across){ v, u, NULL, reach }, i * v->s.n / m) / 2;
 		qsort(rise, m, sizeof *rise, ascending);
 		*half = fmax(*half, rise[m / 2]);
 	}
-	mr_parallel(ctx, v->s.n, GRAIN, measure_at, &(across){ v, u, v->value, 0 });
 	for (size_t i = 0; i < m; i++)
-		rise[i] = v->value[i * v->s.n / m];
+		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
 	qsort(rise, m, sizeof *rise, ascending);
 	*half = fmax(*half, rise[m / 2]);
 	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, u, v->value, 0 });

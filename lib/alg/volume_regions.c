@@ -11,6 +11,9 @@
 
 enum { REGIONS = 40, TURNS_MOST = 100 };
 
+/* A region is a large thing: so many nodes and points show it. */
+enum { NODES_MOST = 1 << 19, MEASURED_MOST = 1 << 17 };
+
 /* Inside a region planes are flat, in units of the median variation, and alike. */
 static const double FLAT = 3, ALIKE = 0.9;
 
@@ -40,14 +43,17 @@ ascending(const void *a, const void *b)
 static mr_status
 flat_limit(mr_ctx *ctx, const samples *s, double *limit)
 {
+	enum { MOST = 10007 };
 	mr_mark mark = mr_mark_take(ctx);
-	double *v = MR_NEW(ctx, s->n, double);
+	size_t m = s->n < MOST ? s->n : MOST;
+	double *v = MR_NEW(ctx, m, double);
 
 	if (!v)
 		return MR_EMEM;
-	memcpy(v, s->plane.variation, s->n * sizeof *v);
-	qsort(v, s->n, sizeof *v, ascending);
-	*limit = FLAT * v[s->n / 2];
+	for (size_t i = 0; i < m; i++)
+		v[i] = s->plane.variation[i * s->n / m];
+	qsort(v, m, sizeof *v, ascending);
+	*limit = FLAT * v[m / 2];
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -59,26 +65,45 @@ are_one(const samples *s, uint32_t i, uint32_t j, double flat)
 	       mr_dot(s->plane.normal[i], s->plane.normal[j]) > ALIKE;
 }
 
-/* Numbers the largest sets, by size. */
+/* The roots of the largest sets, by size, equal ones by number, into `root`.  Returns how many. */
+static size_t
+pick_largest(const samples *s, const uint32_t *size, uint32_t root[REGIONS])
+{
+	double least = fmax(POINTS_LEAST, REGION_LEAST * (double)s->n);
+	size_t count = 0;
+
+	for (uint32_t i = 0; i < s->n; i++) {
+		size_t k = count;
+		if ((double)size[i] < least || (k == REGIONS && size[i] <= size[root[k - 1]]))
+			continue;
+		if (k == REGIONS)
+			k--;
+		else
+			count++;
+		for (; k > 0 && size[root[k - 1]] < size[i]; k--)
+			root[k] = root[k - 1];
+		root[k] = i;
+	}
+	return count;
+}
+
+/* size: zeros. */
 static void
 number_largest(const samples *s, uint32_t *set, uint32_t *size, regions *r)
 {
+	uint32_t root[REGIONS], *number = size;
+
 	for (uint32_t i = 0; i < s->n; i++) {
-		size[mr_sets_root(set, i)]++;
-		r->of[i] = REGIONS;
+		r->of[i] = mr_sets_root(set, i);
+		size[r->of[i]]++;
 	}
-	for (r->count = 0; r->count < REGIONS; r->count++) {
-		uint32_t best = 0;
-		for (uint32_t i = 1; i < s->n; i++)
-			if (size[i] > size[best])
-				best = i;
-		if (size[best] < POINTS_LEAST || (double)size[best] < REGION_LEAST * (double)s->n)
-			return;
-		size[best] = 0;
-		for (uint32_t i = 0; i < s->n; i++)
-			if (mr_sets_root(set, i) == best)
-				r->of[i] = (uint32_t)r->count;
-	}
+	r->count = pick_largest(s, size, root);
+	for (size_t i = 0; i < s->n; i++)
+		number[i] = REGIONS;
+	for (size_t k = 0; k < r->count; k++)
+		number[root[k]] = (uint32_t)k;
+	for (size_t i = 0; i < s->n; i++)
+		r->of[i] = number[r->of[i]];
 }
 
 static mr_status
@@ -138,28 +163,79 @@ measure_pull(const samples *s, const mr_grid *g, const float *u, size_t a, regio
 }
 
 static mr_status
-measure_region(mr_ctx *ctx, const samples *s, const mr_grid *g, size_t levels, size_t a, regions *r)
+measure_region(mr_ctx *ctx, samples *s, const mr_grid *g, size_t levels, size_t a, regions *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	samples one = *s;
 	multigrid m;
 	field f;
 
-	one.depth = MR_NEW(ctx, s->n, uint8_t);
-	if (!one.depth)
-		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
-		one.depth[i] = r->of[i] != a;
-	MR_TRY(mr_volume_field(ctx, &one, g, 0, &f));
+		s->depth[i] = r->of[i] != a;
+	MR_TRY(mr_volume_field(ctx, s, g, 0, &f));
 	MR_TRY(mr_multigrid_begin(ctx, g->n, levels, false, &m));
-	mr_volume_divergence(ctx, &one, &f, m.level[0].b);
+	mr_volume_divergence(ctx, s, &f, m.level[0].b);
 	mr_multigrid_full(ctx, &m);
 	measure_pull(s, g, m.level[0].u, a, r);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
-/* What turning a and b (or a alone) over would add to the energy. */
+static bool
+is_unsure(const regions *r, size_t a)
+{
+	return a > 0 && r->vote[a] < UNSURE * r->vote[0];
+}
+
+/* Points at equal strides, each for all of its stride, and the regions of these: as they lie in Morton order
+ * every place has its share. */
+static mr_status
+thin_out(mr_ctx *ctx, const samples *s, const regions *r, samples *thin, uint32_t **of)
+{
+	size_t n = s->n < MEASURED_MOST ? s->n : MEASURED_MOST;
+	uint32_t *region = MR_NEW(ctx, n, uint32_t);
+
+	*thin = (samples){ .n = n,
+		.p = MR_NEW(ctx, n, mr_v3),
+		.depth = MR_NEW(ctx, n, uint8_t),
+		.plane = { .normal = MR_NEW(ctx, n, mr_v3), .area = MR_NEW(ctx, n, double) } };
+	if (!region || !thin->p || !thin->depth || !thin->plane.normal || !thin->plane.area)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		size_t at = i * s->n / n;
+		region[i] = r->of[at];
+		thin->p[i] = s->p[at];
+		thin->plane.normal[i] = s->plane.normal[at];
+		thin->plane.area[i] = s->plane.area[at] * (double)s->n / (double)n;
+	}
+	*of = region;
+	return MR_OK;
+}
+
+/* Of the unsure regions; g: a level of the volume's. */
+static mr_status
+measure_unsure(mr_ctx *ctx, const samples *s, const mr_grid *g, size_t levels, regions *r)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *all = r->of;
+	mr_grid coarse = *g;
+	samples thin;
+
+	for (; levels > 1 && mr_grid_nodes(&coarse) > NODES_MOST; levels--) {
+		coarse.step *= 2;
+		for (int k = 0; k < 3; k++)
+			coarse.n[k] = (coarse.n[k] - 1) / 2 + 1;
+	}
+	MR_TRY(thin_out(ctx, s, r, &thin, &r->of));
+	for (size_t a = 1; a < r->count; a++)
+		if (is_unsure(r, a))
+			MR_TRY(measure_region(ctx, &thin, &coarse, levels, a, r));
+	r->of = all;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* What turning a and b (or a alone) over would add to the energy.  What a and c pull at each other is alike.
+ */
 static double
 gain(const regions *r, const double sign[REGIONS], size_t a, size_t b)
 {
@@ -167,8 +243,8 @@ gain(const regions *r, const double sign[REGIONS], size_t a, size_t b)
 
 	for (size_t c = 0; c < r->count; c++)
 		if (c != a && c != b)
-			sum -= sign[c] * (sign[a] * (r->pull[a][c] + r->pull[c][a]) +
-					     (a == b ? 0 : sign[b] * (r->pull[b][c] + r->pull[c][b])));
+			sum -= 2 * sign[c] *
+			       (sign[a] * r->pull[a][c] + (a == b ? 0 : sign[b] * r->pull[b][c]));
 	return sum - GAIN_LEAST * (r->pull[a][a] + (a == b ? 0 : r->pull[b][b]));
 }
 
@@ -177,12 +253,12 @@ gain(const regions *r, const double sign[REGIONS], size_t a, size_t b)
 static size_t
 best_turn(const regions *r, const double sign[REGIONS], size_t *other)
 {
-	double most = 0, unsure = UNSURE * r->vote[0];
+	double most = 0;
 	size_t best = 0;
 
 	for (size_t a = 1; a < r->count; a++)
 		for (size_t b = a; b < r->count; b++)
-			if (r->vote[a] < unsure && r->vote[b] < unsure && gain(r, sign, a, b) > most) {
+			if (is_unsure(r, a) && is_unsure(r, b) && gain(r, sign, a, b) > most) {
 				most = gain(r, sign, a, b);
 				best = a;
 				*other = b;
@@ -228,7 +304,7 @@ static bool
 any_unsure(const regions *r)
 {
 	for (size_t a = 1; a < r->count; a++)
-		if (r->vote[a] < UNSURE * r->vote[0])
+		if (is_unsure(r, a))
 			return true;
 	return false;
 }
@@ -244,8 +320,7 @@ mr_volume_regions(mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g
 	MR_TRY(find_regions(ctx, s, &r));
 	count_votes(s, flood, &r);
 	if (any_unsure(&r)) {
-		for (size_t a = 0; a < r.count; a++)
-			MR_TRY(measure_region(ctx, s, g, levels, a, &r));
+		MR_TRY(measure_unsure(ctx, s, g, levels, &r));
 		turns = turn_regions(&r, sign);
 	}
 	if (turns > 0)
