@@ -78,7 +78,8 @@ done >worths
 	echo "A thin plate: seconds to set up and for three right-hand sides, to a relative residual of $tol; the largest"
 	echo "difference from the direct solution, of the diagonal; the most memory of the process."
 	awk 'BEGIN { printf "%8s %-16s %9s %11s %11s %10s %10s %8s\n", "free", "solver", "set-up", "solutions", "iterations", "residual", "error", "MB" }
-		{ printf "%8d %-16s %9.3f %11.4f %11s %10.1e %10s %8.0f\n", $3, $2, $4, $5, $6 ? $6 : "", $7, $8, $9 }' rows
+		{ printf "%8d %-16s %9.3f %11.4f %11s %10.1e %10s %8.0f\n", $3, $2, $4, $5, $6 ? $6 : "", $7,
+			$8 == "-" ? "-" : sprintf("%.1e", $8), $9 }' rows
 	echo
 	echo "Three solutions, of the time of the direct solver's (the paper: iterative 106 and 160, multigrid 11 and 12, at 15k and 31k)"
 	awk '$2 == "cholesky" { direct[$1] = $5; next }
