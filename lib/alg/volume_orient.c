@@ -6,7 +6,9 @@
  */
 #include "alg/volume_parts.h"
 
-enum { BINS = 256 };
+#include "base/parallel.h"
+
+enum { BINS = 256, GRAIN = 4096 };
 
 /* Mean vote per point from which a part knows its own sign. */
 static const double SURE = 0.1;
@@ -90,29 +92,50 @@ bin_of(double likeness)
 }
 
 /* The links, each pair once or twice, the most alike first; in each bin by number. */
-static mr_status
-sort_links(mr_ctx *ctx, const samples *s, uint32_t **sorted, size_t *count)
-{
-	size_t links = s->plane.links, first[BINS + 1] = { 0 };
-	uint32_t *r = MR_NEW(ctx, s->n * links, uint32_t);
-	mr_mark mark = mr_mark_take(ctx);
-	uint8_t *bin = MR_NEW(ctx, s->n * links, uint8_t);
+typedef struct order {
+	const samples *s;
+	uint16_t *kind; /* of each link: twice the bin, and 1 where the signs differ; NONE */
+	uint32_t *sorted;
+	size_t count;
+} order;
 
-	if (!r || !bin)
-		return MR_EMEM;
-	for (size_t l = 0; l < s->n * links; l++)
-		if (s->plane.neighbor[l] != UINT32_MAX) {
-			bin[l] = (uint8_t)bin_of(likeness(s, (uint32_t)(l / links), s->plane.neighbor[l]));
-			first[bin[l] + 1]++;
+enum { NONE = UINT16_MAX };
+
+static void
+find_kinds(void *arg, size_t begin, size_t end)
+{
+	const order *o = arg;
+	const samples *s = o->s;
+	size_t links = s->plane.links;
+
+	for (size_t i = begin; i < end; i++)
+		for (size_t l = i * links; l < (i + 1) * links; l++) {
+			o->kind[l] = NONE;
+			if (s->plane.neighbor[l] != UINT32_MAX) {
+				double alike = likeness(s, (uint32_t)i, s->plane.neighbor[l]);
+				o->kind[l] = (uint16_t)(2 * bin_of(alike) + (alike < 0));
+			}
 		}
+}
+
+static mr_status
+sort_links(mr_ctx *ctx, const samples *s, order *o)
+{
+	size_t links = s->n * s->plane.links, first[BINS + 1] = { 0 };
+
+	*o = (order){ s, MR_NEW(ctx, links, uint16_t), MR_NEW(ctx, links, uint32_t), 0 };
+	if (!o->kind || !o->sorted)
+		return MR_EMEM;
+	mr_parallel(ctx, s->n, GRAIN, find_kinds, o);
+	for (size_t l = 0; l < links; l++)
+		if (o->kind[l] != NONE)
+			first[o->kind[l] / 2 + 1]++;
 	for (size_t i = 0; i < BINS; i++)
 		first[i + 1] += first[i];
-	*count = first[BINS];
-	for (size_t l = 0; l < s->n * links; l++)
-		if (s->plane.neighbor[l] != UINT32_MAX)
-			r[first[bin[l]]++] = (uint32_t)l;
-	*sorted = r;
-	mr_mark_release(ctx, mark);
+	o->count = first[BINS];
+	for (size_t l = 0; l < links; l++)
+		if (o->kind[l] != NONE)
+			o->sorted[first[o->kind[l] / 2]++] = (uint32_t)l;
 	return MR_OK;
 }
 
@@ -138,17 +161,17 @@ mr_status
 mr_volume_orient(mr_ctx *ctx, samples *s, const double *vote)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	size_t links = s->plane.links, count;
-	uint32_t *sorted;
+	size_t links = s->plane.links;
+	order o;
 	parts q;
 
 	if (s->n > UINT32_MAX / links)
 		return mr_fail(ctx, MR_ERANGE, "%zu points are too many for a volume", s->n);
 	MR_TRY(begin(ctx, s, vote, &q));
-	MR_TRY(sort_links(ctx, s, &sorted, &count));
-	for (size_t k = 0; k < count; k++) {
-		uint32_t i = (uint32_t)(sorted[k] / links), j = s->plane.neighbor[sorted[k]];
-		join(&q, i, j, likeness(s, i, j) < 0 ? -1 : 1);
+	MR_TRY(sort_links(ctx, s, &o));
+	for (size_t k = 0; k < o.count; k++) {
+		uint32_t l = o.sorted[k];
+		join(&q, (uint32_t)(l / links), s->plane.neighbor[l], o.kind[l] & 1 ? -1 : 1);
 	}
 	for (uint32_t i = 0; i < s->n; i++) {
 		int8_t sign;

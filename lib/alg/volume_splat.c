@@ -21,10 +21,9 @@ spot_of(const mr_grid *g, mr_v3 p, mr_v3 shift)
 	spot s;
 
 	for (int k = 0; k < 3; k++) {
-		double low = floor(c[k]);
-		low = low < 0 ? 0 : low > (double)(g->n[k] - 3) ? (double)(g->n[k] - 3) : low;
-		s.x[k] = (size_t)low;
-		s.t[k] = c[k] - low;
+		size_t most = g->n[k] - 3;
+		s.x[k] = !(c[k] > 0) ? 0 : c[k] >= (double)most ? most : (size_t)c[k];
+		s.t[k] = c[k] - (double)s.x[k];
 	}
 	return s;
 }

@@ -121,8 +121,9 @@ fit_at(const work *w, size_t i)
 	const uint32_t *index = w->index + i * w->k;
 	const mr_planes *o = w->out;
 	size_t at = w->first + i, n = 0, apart, rim;
-	mr_v3 q[MOST] = { w->p[at] }, direction[AROUND];
+	mr_v3 q[MOST], direction[AROUND];
 
+	q[0] = w->p[at];
 	for (; n < w->k && index[n] != UINT32_MAX; n++)
 		q[n] = w->p[index[n]];
 	apart = w->around ? directions_apart(q, n, direction) : 0;
