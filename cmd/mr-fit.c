@@ -16,6 +16,13 @@ static const cmd_opt table[] = {
 };
 
 static mr_status
+prepare(cmd *c)
+{
+	MR_TRY(cmd_idle(c, "step", opts.method != MR_FIT_LOCAL, "without -m local"));
+	return cmd_idle(c, "fairness", opts.method == MR_FIT_LOCAL, "with -m local");
+}
+
+static mr_status
 fit_frame(cmd *c, mr_frame *f)
 {
 	mr_ctx *ctx = &c->ctx;
@@ -45,5 +52,6 @@ main(int argc, char **argv)
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "move a control mesh so that its limit surface comes close to points",
 		.options = table,
+		.prepare = prepare,
 		.frame = fit_frame });
 }
