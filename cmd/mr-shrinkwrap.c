@@ -31,7 +31,8 @@ prepare(cmd *c)
 	return MR_OK;
 }
 
-/* The triangles stay, and with them all that the layer has but what followed from the positions. */
+/* The triangles stay, and with them all that the layer has but what followed from the positions; the heights
+ * were over the surface as it was. */
 static mr_status
 wrap_control(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *points)
 {
@@ -44,6 +45,9 @@ wrap_control(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *points)
 		return MR_EMEM;
 	MR_TRY(mr_prefix(ctx, mr_wrap_template(ctx, points->p, points->nv, &control, &opts, p), "%s", layer));
 	mr_frame_drop(f, "control", "normal", 0);
+	mr_frame_drop(f, "control", "rest", 0);
+	mr_frame_drop(f, "control", "response", 0);
+	mr_frame_drop(f, "displacement", NULL, 0);
 	return mr_layer_put_positions(ctx, f, "control", p, control.nv);
 }
 
