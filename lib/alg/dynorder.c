@@ -1,36 +1,12 @@
 /* Numbers without holes, and along the Z curve (Morton 1966). */
 #include "alg/dynmesh.h"
+#include "mesh/zorder.h"
 
 enum { BITS = 10, BUCKETS = 1 << BITS };
 
 typedef struct item {
 	uint32_t key, index;
 } item;
-
-/* The lowest BITS bits of x, two zeros between each. */
-static uint32_t
-spread(uint32_t x)
-{
-	x = (x | x << 16) & 0x030000ff;
-	x = (x | x << 8) & 0x0300f00f;
-	x = (x | x << 4) & 0x030c30c3;
-	return (x | x << 2) & 0x09249249;
-}
-
-static uint32_t
-cell(double x, double low, double scale)
-{
-	double c = (x - low) * scale;
-
-	return c < 1 ? 0 : c > BUCKETS - 1 ? BUCKETS - 1 : (uint32_t)c;
-}
-
-static uint32_t
-morton(mr_v3 p, mr_v3 low, double scale)
-{
-	return spread(cell(p.x, low.x, scale)) | spread(cell(p.y, low.y, scale)) << 1 |
-	       spread(cell(p.z, low.z, scale)) << 2;
-}
 
 /* Sorts by key, stably, BITS bits at a time; with an even number of passes the result is in a. */
 static void
@@ -81,16 +57,13 @@ static mr_status
 number_vertices(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	item *a = MR_NEW(ctx, d->nv, item), *other = MR_NEW(ctx, d->nv, item);
-	mr_box box = mr_box_of(d->p, d->nv);
-	mr_v3 size = mr_sub(box.max, box.min);
-	double longest = fmax(size.x, fmax(size.y, size.z));
+	uint32_t *order = MR_NEW(ctx, d->nv, uint32_t);
 
-	if (!a || !other)
+	if (!order)
 		return MR_EMEM;
-	for (uint32_t v = 0; v < d->nv; v++)
-		a[v] = (item){ morton(d->p[v], box.min, longest > 0 ? BUCKETS / longest : 0), v };
-	rank(a, other, d->nv, number);
+	MR_TRY(mr_zorder(ctx, d->p, d->nv, order));
+	for (uint32_t i = 0; i < d->nv; i++)
+		number[order[i]] = i;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
