@@ -31,6 +31,7 @@ static mr_status
 base_incidence(cmd *c, const mr_frame *f, const mr_mesh *base, const mr_incidence **inc)
 {
 	uint64_t serial = mr_frame_find(f, "base", "triangles")->serial;
+	mr_status status;
 
 	*inc = &kept.inc;
 	if (!f->key && serial && serial == kept.serial)
@@ -39,9 +40,12 @@ base_incidence(cmd *c, const mr_frame *f, const mr_mesh *base, const mr_incidenc
 		mr_mark_release(&c->keep, kept.mark);
 	kept.serial = 0;
 	kept.mark = mr_mark_take(&c->keep);
-	MR_TRY(mr_incidence_build(&c->keep, base, &kept.inc));
-	kept.serial = serial;
-	return MR_OK;
+	status = mr_incidence_build(&c->keep, base, &kept.inc);
+	if (status == MR_OK)
+		kept.serial = serial;
+	else
+		mr_mark_release(&c->keep, kept.mark);
+	return status;
 }
 
 static mr_status

@@ -32,12 +32,24 @@ mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d)
 	return mr_domain_on(ctx, control, level, n, d);
 }
 
+static mr_status
+fill_cache(mr_level_cache *cache, mr_ctx *keep, const mr_mesh *m)
+{
+	mr_loop *l = MR_NEW(keep, cache->n + 1, mr_loop);
+
+	if (!l)
+		return MR_EMEM;
+	MR_TRY(mr_loop_levels(keep, m, cache->crease, cache->n, l));
+	cache->level = l;
+	return MR_OK;
+}
+
 mr_status
 mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, const mr_frame *f, const mr_mesh *m, double crease,
     size_t n, const mr_loop **level)
 {
 	uint64_t serial = mr_frame_find(f, m->name, "triangles")->serial;
-	mr_loop *l;
+	mr_status status;
 
 	*level = cache->level;
 	if (cache->level && !f->key && serial && serial == cache->serial && n == cache->n &&
@@ -46,12 +58,11 @@ mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, const mr_frame *f, const
 	if (cache->level)
 		mr_mark_release(keep, cache->mark);
 	*cache = (mr_level_cache){ .n = n, .crease = crease, .mark = mr_mark_take(keep), .serial = serial };
-	l = MR_NEW(keep, n + 1, mr_loop);
-	if (!l)
-		return MR_EMEM;
-	MR_TRY(mr_loop_levels(keep, m, crease, n, l));
-	*level = cache->level = l;
-	return MR_OK;
+	status = fill_cache(cache, keep, m);
+	if (status != MR_OK)
+		mr_mark_release(keep, cache->mark);
+	*level = cache->level;
+	return status;
 }
 
 static mr_status

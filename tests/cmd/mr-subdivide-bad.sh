@@ -28,3 +28,12 @@ done
 head -c 2000 sphere.mrs >cut.mrs
 mr-subdivide cut.mrs >out 2>err
 echo "exit $?: $(cat err)"
+
+echo 'with -k a frame that fails leaves the others as they are'
+mr-cat sphere.mrs bad.mrs sphere.mrs | mr-subdivide -k -o kept.mrs 2>err
+echo "exit $?: $(cat err)"
+mr-subdivide sphere.mrs | mr-export -f off - >alone.off
+mr-export -i kept.mrs kept-%d.off
+for f in kept-*.off; do
+	cmp "$f" alone.off && echo "$f same"
+done
