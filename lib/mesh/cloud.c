@@ -62,12 +62,11 @@ mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3])
 	}
 }
 
-/* Of at least so many degrees' cosine are directions that lie apart. */
+/* Directions of at most this cosine, 45 degrees, lie apart. */
 static const double APART = 0.7;
 
-/* Normal of the plane of least squares through k points, and how far they are from one. */
-static mr_v3
-fit_plane(const mr_v3 *p, size_t k, double *variation)
+mr_v3
+mr_plane_fit(const mr_v3 *p, size_t k, double *variation)
 {
 	mr_v3 mean = mr_vec(0, 0, 0), vector[3];
 	double a[6] = { 0 }, value[3], sum;
@@ -127,8 +126,8 @@ fit_at(const work *w, size_t i)
 	for (; n < w->k && index[n] != UINT32_MAX; n++)
 		q[n] = w->p[index[n]];
 	apart = w->around ? directions_apart(q, n, direction) : 0;
-	o->normal[at] = apart > 2 ? fit_plane(direction, apart, &o->variation[at])
-	                          : fit_plane(q, n, &o->variation[at]);
+	o->normal[at] = apart > 2 ? mr_plane_fit(direction, apart, &o->variation[at])
+	                          : mr_plane_fit(q, n, &o->variation[at]);
 	rim = w->around && n > AROUND ? AROUND : n;
 	/* the last neighbour lies on the rim of the disc: half of it is inside */
 	o->area[at] = MR_PI * w->dist2[i * w->k + rim - 1] / (rim > 1 ? (double)rim - 0.5 : 1);

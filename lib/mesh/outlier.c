@@ -77,27 +77,17 @@ usual_reach(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, double *
 	return MR_OK;
 }
 
-/* Least eigenvalue over their sum: 0 in a plane. */
+/* Of a point's neighbourhood: 0 in a plane. */
 static double
 variation(const mr_v3 *p, const uint32_t *index)
 {
-	mr_v3 mean = { 0, 0, 0 }, vector[3];
-	double a[6] = { 0 }, value[3], sum;
+	mr_v3 q[K];
+	double v;
 
 	for (int i = 0; i < K; i++)
-		mean = mr_axpy(1.0 / K, p[index[i]], mean);
-	for (int i = 0; i < K; i++) {
-		mr_v3 d = mr_sub(p[index[i]], mean);
-		a[0] += d.x * d.x;
-		a[1] += d.x * d.y;
-		a[2] += d.x * d.z;
-		a[3] += d.y * d.y;
-		a[4] += d.y * d.z;
-		a[5] += d.z * d.z;
-	}
-	mr_eigen_sym3(a, value, vector);
-	sum = value[0] + value[1] + value[2];
-	return sum > 0 ? value[0] / sum : 0;
+		q[i] = p[index[i]];
+	mr_plane_fit(q, K, &v);
+	return v;
 }
 
 static bool
