@@ -144,6 +144,7 @@ wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, cand
 
 	c->method = MR_WRAP_VOLUME;
 	volume.grid = o->grid;
+	volume.spacing = cloud->spacing;
 	MR_TRY(mr_volume_wrap(ctx, cloud->p, cloud->n, &volume, &m));
 	middle = mr_seconds();
 	mr_stat_set(ctx, "seconds_volume", middle - start);

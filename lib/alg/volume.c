@@ -26,6 +26,7 @@ enum {
 };
 
 static const double CELL = 1.5;          /* spacings */
+static const double COARSER = 1.25;      /* than that: points are too many for the grid */
 static const double SPARSE = 1.3;        /* steps: points further apart spread on a coarser level */
 static const double ABSORPTION = 20;     /* of the flood, by a full layer of points */
 static const double TURNED_LEAST = 2e-4; /* share of the points that is worth another round */
@@ -41,9 +42,9 @@ typedef struct volume {
 } volume;
 
 static void
-set_grid(const samples *s, double step, mr_grid *g, size_t *levels)
+set_grid(mr_box box, double step, mr_grid *g, size_t *levels)
 {
-	mr_v3 size = mr_sub(s->box.max, s->box.min), centre = mr_lerp(0.5, s->box.min, s->box.max), half;
+	mr_v3 size = mr_sub(box.max, box.min), centre = mr_lerp(0.5, box.min, box.max), half;
 	const double side[3] = { size.x, size.y, size.z };
 	size_t cells[3], most = 0;
 
@@ -59,23 +60,36 @@ set_grid(const samples *s, double step, mr_grid *g, size_t *levels)
 	g->origin = mr_sub(centre, half);
 }
 
-/* As fine as the sampling, as far as memory in proportion to the points allows. */
-static mr_status
-choose_grid(mr_ctx *ctx, const samples *s, const mr_volume_opts *opts, mr_grid *g, size_t *levels)
+/* As fine as the sampling, as far as memory in proportion to the n points of the cloud allows. */
+static void
+choose_grid(mr_box box, double spacing, size_t n, size_t cells, mr_grid *g, size_t *levels)
 {
-	mr_v3 size = mr_sub(s->box.max, s->box.min);
+	mr_v3 size = mr_sub(box.max, box.min);
 	double longest = fmax(size.x, fmax(size.y, size.z));
-	double step = fmax(longest / CELLS_MOST, fmin(CELL * s->noise * s->spacing, longest / CELLS_LEAST));
-	size_t most = s->n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : s->n * NODES_PER_POINT;
+	double step = fmax(longest / CELLS_MOST, fmin(CELL * spacing, longest / CELLS_LEAST));
+	size_t most = n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : n * NODES_PER_POINT;
 
-	if (opts->grid > CELLS_MOST)
-		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
-	set_grid(s, opts->grid ? longest / (double)opts->grid : step, g, levels);
-	while (!opts->grid && mr_grid_nodes(g) > most) {
+	set_grid(box, cells ? longest / (double)cells : step, g, levels);
+	while (!cells && mr_grid_nodes(g) > most) {
 		step *= 1.03;
-		set_grid(s, step, g, levels);
+		set_grid(box, step, g, levels);
 	}
-	return MR_OK;
+}
+
+/* Of the points: those that are as far apart as the grid shows. */
+static double
+useful_share(const mr_v3 *point, size_t n, const mr_volume_opts *opts)
+{
+	mr_box box = mr_box_of(point, n);
+	size_t levels;
+	double coarser;
+	mr_grid g;
+
+	if (!(opts->spacing > 0 && mr_box_diagonal(box) > 0))
+		return 1;
+	choose_grid(box, opts->spacing, n, opts->grid, &g, &levels);
+	coarser = g.step / (CELL * opts->spacing);
+	return coarser > COARSER ? 1 / (coarser * coarser) : 1;
 }
 
 /* The difference of the value from one side of each point's plane to the other. */
@@ -320,9 +334,9 @@ make_level(mr_ctx *ctx, volume *v, multigrid *m)
 }
 
 static mr_status
-begin(mr_ctx *ctx, const mr_volume_opts *opts, volume *v)
+begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
 {
-	MR_TRY(choose_grid(ctx, &v->s, opts, &v->grid[0], &v->levels));
+	choose_grid(v->s.box, v->s.noise * v->s.spacing, n, opts->grid, &v->grid[0], &v->levels);
 	v->depths = v->levels < DEPTHS ? v->levels : DEPTHS;
 	v->value = MR_NEW(ctx, v->s.n, double);
 	v->s.depth = MR_NEW(ctx, v->s.n, uint8_t);
@@ -391,9 +405,11 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	mr_mesh m;
 	float *f;
 
-	MR_TRY(mr_volume_samples(ctx, point, n, &v.s));
+	if (opts->grid > CELLS_MOST)
+		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
+	MR_TRY(mr_volume_samples(ctx, point, n, useful_share(point, n, opts), &v.s));
 	mr_stat_set(ctx, "seconds_planes", mr_seconds() - start);
-	MR_TRY(begin(ctx, opts, &v));
+	MR_TRY(begin(ctx, opts, n, &v));
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
 	if (!f)
 		return MR_EMEM;
@@ -408,6 +424,7 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	m.name = "volume";
 	*out = m;
 	mr_stat_set(ctx, "seconds_isosurface", mr_seconds() - start);
+	mr_stat_set(ctx, "samples", (double)v.s.n);
 	mr_stat_set(ctx, "spacing", v.s.spacing);
 	mr_stat_set(ctx, "cell", v.grid[0].step);
 	mr_stat_set(ctx, "nodes", (double)mr_grid_nodes(&v.grid[0]));

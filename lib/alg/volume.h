@@ -12,11 +12,13 @@
 typedef struct mr_volume_opts {
 	size_t
 	    grid; /* cells along the longest side of the bounding box; 0: chosen from the sampling density */
+	double spacing; /* of the points where it is known: those that the grid cannot hold are left out; 0:
+	                   all count */
 } mr_volume_opts;
 
 #define MR_VOLUME_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		.grid = 0                                                                                    \
+		.grid = 0, .spacing = 0                                                                      \
 	}
 
 /*
@@ -25,10 +27,11 @@ typedef struct mr_volume_opts {
  * are left out, and outliers.  MR_EMESH where the points are flat or enclose nothing; MR_ERANGE for a grid of
  * more than 4096 cells.
  *
- * Figures: spacing (the side of the square that a point stands for), variation (of the median point's
- * neighbourhood: 0 flat, 1/3 a ball), outliers, regions (large flat
- * ones), regions_turned (rounds of that), cell, nodes, inside (share of the nodes), rounds (of the Poisson
- * equation), turned (normals after the first), level (the indicator's value at the surface), parts_dropped, cavities_filled, and seconds_planes, _flood, _indicator, _level and _isosurface.
+ * Figures: samples (points that counted), spacing (the side of the square that a point stands for), variation
+ * (of the median point's neighbourhood: 0 flat, 1/3 a ball), outliers, regions (large flat ones),
+ * regions_turned (rounds of that), cell, nodes, inside (share of the nodes), rounds (of the Poisson
+ * equation), turned (normals after the first), level (the indicator's value at the surface), parts_dropped,
+ * cavities_filled, and seconds_planes, _flood, _indicator, _level and _isosurface.
  */
 mr_status mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out);
 

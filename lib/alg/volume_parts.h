@@ -22,8 +22,9 @@ typedef struct samples {
 
 enum { DEPTHS = 3 };
 
-/* Drops repeated points and orders the others so that near ones are near in memory; no depths yet. */
-mr_status mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, samples *s);
+/* Drops repeated points, orders the others so that near ones are near in memory and keeps the share of them;
+ * no depths yet. */
+mr_status mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, samples *s);
 
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
  * (positive: the sign is right) on the whole.  volume_orient.c */

@@ -274,13 +274,27 @@ drop_outliers(mr_ctx *ctx, samples *s)
 	return MR_OK;
 }
 
+/* At equal strides along the curve, so that every place keeps its share. */
+static void
+thin_out(samples *s, double share)
+{
+	size_t n = (size_t)ceil(share * (double)s->n);
+
+	if (n >= s->n)
+		return;
+	for (size_t i = 0; i < n; i++)
+		s->p[i] = s->p[i * s->n / n];
+	s->n = n;
+}
+
 mr_status
-mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, samples *s)
+mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, samples *s)
 {
 	MR_TRY(distinct(ctx, point, n, s));
 	s->box = mr_box_of(s->p, s->n);
 	MR_TRY(check(ctx, s));
 	MR_TRY(sort_points(ctx, s));
+	thin_out(s, share);
 	MR_TRY(find_planes(ctx, s));
 	MR_TRY(drop_outliers(ctx, s));
 	s->box = mr_box_of(s->p, s->n);
