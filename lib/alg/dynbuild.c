@@ -154,3 +154,33 @@ mr_dyn_view(const mr_dyn *d, const char *name)
 {
 	return (mr_mesh){ name, d->p, (const mr_tri *)(const void *)d->v, d->nv, d->nf };
 }
+
+/* A copy of n items of that size; NULL stays NULL. */
+static mr_status
+copy_array(mr_ctx *ctx, void *to, const void *from, size_t n, size_t size)
+{
+	void *copy = from ? mr_alloc(ctx, n, size) : NULL;
+
+	if (from && !copy)
+		return MR_EMEM;
+	if (from)
+		memcpy(copy, from, n * size);
+	memcpy(to, &copy, sizeof copy);
+	return MR_OK;
+}
+
+mr_status
+mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *c)
+{
+	*c = *d;
+	c->room_v = d->nv;
+	c->room_f = d->nf;
+	MR_TRY(copy_array(ctx, &c->p, d->p, d->nv, sizeof *d->p));
+	MR_TRY(copy_array(ctx, &c->out, d->out, d->nv, sizeof *d->out));
+	MR_TRY(copy_array(ctx, &c->at, d->at, d->nv, sizeof *d->at));
+	MR_TRY(copy_array(ctx, &c->kind, d->kind, d->nv, sizeof *d->kind));
+	MR_TRY(copy_array(ctx, &c->scale, d->scale, d->nv, sizeof *d->scale));
+	MR_TRY(copy_array(ctx, &c->v, d->v, 3 * d->nf, sizeof *d->v));
+	MR_TRY(copy_array(ctx, &c->twin, d->twin, 3 * d->nf, sizeof *d->twin));
+	return copy_array(ctx, &c->curve, d->curve, 3 * d->nf, sizeof *d->curve);
+}

@@ -161,6 +161,9 @@ void mr_dyn_flip(mr_dyn *d, uint32_t h);
 mr_status mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room);
 mr_status mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room);
 
+/* A copy in the arena, with no room to spare. */
+mr_status mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *copy);
+
 /* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
 

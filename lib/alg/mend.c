@@ -1,6 +1,7 @@
 #include "alg/mend.h"
 
 #include "alg/facing.h"
+#include "alg/refine.h"
 #include "base/parallel.h"
 
 static const double FOLD = -0.9396926207859084; /* cosine of 160 degrees */
@@ -8,7 +9,9 @@ static const double CLOSE = 0.25;               /* squared cosine of 60 degrees 
 
 static const double THIN = 0.02; /* shape that is better than a flaw */
 
-enum { PASSES = 5, MOST = 20 };
+static const double THINNEST = 0.001; /* as the last resort */
+
+enum { PASSES = 5, MOST = 20, NEAR = 64 };
 
 typedef struct mender {
 	mr_dyn *d;
@@ -16,6 +19,7 @@ typedef struct mender {
 	mr_facing facing;
 	uint32_t *mark, stamp; /* for the link condition */
 	double least;          /* shape of what is made */
+	bool last;             /* resort: slower and sure, tips and boundaries may give way */
 } mender;
 
 /* A vertex where it was, to put it back. */
@@ -67,7 +71,7 @@ is_flipped(const mender *w, uint32_t f)
 	mr_v3 n = mr_dyn_cross(w->d, w->d->p, f), m = mr_face_cross(w->s->m, mr_dyn_place(w->d, v[0]));
 	double mn = mr_dot(m, n);
 
-	if (mn > 0 && mn * mn > CLOSE * mr_norm2(m) * mr_norm2(n))
+	if (!w->last && mn > 0 && mn * mn > CLOSE * mr_norm2(m) * mr_norm2(n))
 		return false; /* as almost all are, told without a walk */
 	return mr_dot(n, source_normal(w, v[0])) < 0 && mr_dot(n, source_normal(w, v[1])) < 0 &&
 	       mr_dot(n, source_normal(w, v[2])) < 0;
@@ -170,6 +174,39 @@ mend_towards_neighbours(mender *w, uint32_t v, unsigned flaws)
 	return false;
 }
 
+/* Adds face f to the n listed, where it is new and there is room. */
+static size_t
+list_face(uint32_t *list, size_t n, uint32_t f)
+{
+	for (size_t i = 0; i < n; i++)
+		if (list[i] == f)
+			return n;
+	if (n < NEAR)
+		list[n++] = f;
+	return n;
+}
+
+/* Tries the middles of the faces of the surface near v, the nearest in faces first. */
+static bool
+mend_over_surface(mender *w, uint32_t v, unsigned flaws)
+{
+	uint32_t list[NEAR] = { mr_dyn_place(w->d, v) };
+	size_t n = 1;
+
+	for (size_t i = 0; i < n; i++) {
+		const uint32_t *t = w->s->m->t[list[i]].v;
+		const mr_v3 *p = w->s->m->p;
+		if (try_spot(w, v, mr_mul(1.0 / 3, mr_add(p[t[0]], mr_add(p[t[1]], p[t[2]]))), true, flaws))
+			return true;
+		for (uint32_t k = 0; k < 3; k++) {
+			uint32_t g = w->s->topo->twin[3 * list[i] + k];
+			if (g != MR_NONE)
+				n = list_face(list, n, g / 3);
+		}
+	}
+	return false;
+}
+
 static bool
 mend_vertex(mender *w, uint32_t v)
 {
@@ -241,7 +278,7 @@ try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 		to = (spot){ c.point, c.face };
 	}
 	put(d, b, to);
-	put(d, a, d->kind[b] == MR_SMOOTH ? to : (spot){ to.p, mr_dyn_place(d, b) });
+	put(d, a, d->kind[a] == MR_SMOOTH ? (spot){ to.p, mr_dyn_place(d, b) } : to);
 	good = fmin(worst_shape(d, a, b), worst_shape(d, b, a)) > fmin(shape, w->least) &&
 	       flaws_of_pair(w, h) < flaws;
 	put(d, a, old[0]);
@@ -258,7 +295,7 @@ mend_by_merging(mender *w, uint32_t h)
 	mr_dyn *d = w->d;
 	unsigned flaws;
 
-	if (d->kind[d->v[h]] != MR_SMOOTH || !mr_dyn_can_collapse(d, h, w->mark, ++w->stamp))
+	if ((d->kind[d->v[h]] != MR_SMOOTH && !w->last) || !mr_dyn_can_collapse(d, h, w->mark, ++w->stamp))
 		return false;
 	flaws = flaws_of_pair(w, h);
 	for (int i = 2; i >= 0; i--)
@@ -282,11 +319,49 @@ mend_ring(mender *w, uint32_t v)
 	return false;
 }
 
+/* Everything that takes long, around all vertices of f. */
+static bool
+mend_thoroughly(mender *w, uint32_t f)
+{
+	const mr_dyn *d = w->d;
+
+	for (uint32_t i = 3 * f; i < 3 * f + 3; i++) {
+		uint32_t v = d->v[i], h = d->out[v];
+		do {
+			uint32_t u = mr_dyn_to(d, h);
+			unsigned flaws = d->kind[u] == MR_SMOOTH ? flaws_around(w, u, MR_NONE) : 0;
+			if ((flaws > 0 && mend_over_surface(w, u, flaws)) || mend_ring(w, u))
+				return true;
+			h = mr_dyn_ccw(d, h);
+		} while (h != MR_NONE && h != d->out[v]);
+	}
+	return false;
+}
+
+/* Unpins a tip: a corner that no curve meets. */
+static void
+release_tip(mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+
+	if (d->kind[v] != MR_CORNER || mr_dyn_on_boundary(d, v))
+		return;
+	do {
+		if (mr_dyn_on_curve(d, h))
+			return;
+		h = mr_dyn_ccw(d, h);
+	} while (h != d->out[v]);
+	d->at[v] = mr_dyn_place(d, v);
+	d->kind[v] = MR_SMOOTH;
+}
+
 static bool
 mend_face(mender *w, uint32_t f)
 {
 	const mr_dyn *d = w->d;
 
+	for (uint32_t h = 3 * f; w->last && h < 3 * f + 3; h++)
+		release_tip(w->d, d->v[h]);
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
 		if (mend_vertex(w, d->v[h]))
 			return true;
@@ -299,7 +374,7 @@ mend_face(mender *w, uint32_t f)
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
 		if (mend_ring(w, d->v[h]))
 			return true;
-	return false;
+	return w->last && mend_thoroughly(w, f);
 }
 
 static bool
@@ -333,10 +408,10 @@ own_flaws(void *arg, size_t f)
 }
 
 mr_status
-mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
+mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mender w = { d, s, { s->m, s->topo }, NULL, 0, MR_NEEDLE };
+	mender w = { d, s, { s->m, s->topo }, NULL, 0, MR_NEEDLE, last };
 	bool flawed = true, mended = true;
 
 	if (mr_parallel_sum(ctx, d->nf, own_flaws, &w) == 0)
@@ -344,9 +419,9 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
 	w.mark = MR_NEW_ZERO(ctx, d->nv, uint32_t);
 	if (!w.mark)
 		return MR_EMEM;
-	for (int i = 0; i < MOST && flawed && (mended || i <= PASSES); i++) {
+	for (int i = 0; i < MOST && flawed && (mended || i <= (last ? 2 : 1) * PASSES); i++) {
 		flawed = mended = false;
-		w.least = i < PASSES ? MR_NEEDLE : THIN;
+		w.least = i < PASSES ? MR_NEEDLE : last && i >= 2 * PASSES ? THINNEST : THIN;
 		for (uint32_t f = 0; f < d->nf; f++)
 			if (has_flaw(&w, f)) {
 				flawed = true;
@@ -355,4 +430,19 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+bool
+mr_refine_flaws(mr_dyn *d, const mr_surface *s)
+{
+	const mender w = { d, s, { s->m, s->topo }, NULL, 0, 0, true };
+	bool flawed = false;
+
+	for (uint32_t f = 0; f < d->nf; f++)
+		if (has_flaw(&w, f)) {
+			flawed = true;
+			for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+				mr_refine_vertex(d, d->v[h]);
+		}
+	return flawed;
 }

@@ -1,4 +1,6 @@
 #include "alg/remesh.h"
+#include <stdio.h>
+#include <stdlib.h>
 
 #include "alg/facing.h"
 #include "alg/mend.h"
@@ -52,7 +54,7 @@ equalize_areas(remesher *r)
 		if (i % EVERY == 0)
 			MR_TRY(regularize(r, 0));
 	}
-	return mr_mend_flaws(r->ctx, &r->d, &r->source);
+	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
 }
 
 /*
@@ -75,7 +77,7 @@ one_round(remesher *r, bool first)
 		o.project = r->o->project && i == RELAX;
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	}
-	return mr_mend_flaws(r->ctx, &r->d, &r->source);
+	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
 }
 
 /* Variance over squared mean of the areas of the inner vertices, in units of their squared lengths. */
@@ -144,41 +146,6 @@ run(remesher *r)
 	return MR_OK;
 }
 
-/* Where each vertex lies on the source: on its face the nearest point, which without projection may be
- * elsewhere. */
-static mr_status
-map_to_source(remesher *r, mr_source_map *map)
-{
-	const mr_dyn *d = &r->d;
-	const mr_surface *s = &r->source;
-	uint32_t *face = MR_NEW(r->ctx, d->nv, uint32_t);
-	mr_v3 *bary = MR_NEW(r->ctx, d->nv, mr_v3);
-
-	if (!face || !bary)
-		return MR_EMEM;
-	for (size_t v = 0; v < d->nv; v++) {
-		mr_closest c = mr_surface_place(
-		    s, d, (uint32_t)v, d->p[v], mr_dyn_normal_around(d, (uint32_t)v));
-		face[v] = c.face;
-		bary[v] = c.bary;
-	}
-	*map = (mr_source_map){ face, bary };
-	return MR_OK;
-}
-
-/* Triangles flipped and edges folded, of the input and of the result. */
-static void
-count_flaws(remesher *r, const mr_source_map *map)
-{
-	const mr_facing facing = { r->source.m, r->source.topo };
-	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
-
-	r->flipped[0] = mr_count_flipped_source(&facing);
-	r->flipped[1] = mr_count_flipped(&facing, &view, map);
-	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
-	r->folded[1] = mr_count_folded(&view, r->d.twin);
-}
-
 /* How much finer and coarser than the uniform length adapted lengths may be. */
 static const double ADAPTIVE_RANGE = 5;
 
@@ -224,6 +191,103 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
 }
 
+/* Where each vertex lies on the source: on its face the nearest point, which without projection may be
+ * elsewhere. */
+static mr_status
+map_to_source(remesher *r, mr_source_map *map)
+{
+	const mr_dyn *d = &r->d;
+	const mr_surface *s = &r->source;
+	uint32_t *face = MR_NEW(r->ctx, d->nv, uint32_t);
+	mr_v3 *bary = MR_NEW(r->ctx, d->nv, mr_v3);
+
+	if (!face || !bary)
+		return MR_EMEM;
+	for (size_t v = 0; v < d->nv; v++) {
+		mr_closest c = mr_surface_place(
+		    s, d, (uint32_t)v, d->p[v], mr_dyn_normal_around(d, (uint32_t)v));
+		face[v] = c.face;
+		bary[v] = c.bary;
+	}
+	*map = (mr_source_map){ face, bary };
+	return MR_OK;
+}
+
+/* Triangles flipped and edges folded, of the input and of the result. */
+static void
+count_flaws(remesher *r, const mr_source_map *map)
+{
+	const mr_facing facing = { r->source.m, r->source.topo };
+	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
+
+	r->flipped[0] = mr_count_flipped_source(&facing);
+	r->flipped[1] = mr_count_flipped(&facing, &view, map);
+	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
+	r->folded[1] = mr_count_folded(&view, r->d.twin);
+}
+
+/* The map of the result as it is, without holes, and its flaws. */
+static mr_status
+settle(remesher *r, mr_source_map *map)
+{
+	MR_TRY(map_to_source(r, map));
+	count_flaws(r, map);
+	return MR_OK;
+}
+
+static size_t
+flaws_of(const remesher *r)
+{
+	return r->flipped[1] + r->folded[1];
+}
+
+/* Mends as the last resort; before, but for the first time, finer where it is flawed and one more round. */
+static mr_status
+mend_last(remesher *r, bool refine)
+{
+	mr_mark mark;
+	mr_source_map map;
+
+	if (refine) {
+		if (!r->d.scale)
+			MR_TRY(mr_refine_begin(r->ctx, &r->d));
+		mr_refine_flaws(&r->d, &r->source);
+		mr_refine_grade(&r->d, &r->source);
+		MR_TRY(one_round(r, false));
+		MR_TRY(equalize_areas(r));
+	}
+	MR_TRY(mr_mend_flaws(r->ctx, &r->d, &r->source, true));
+	MR_TRY(tidy(r));
+	mark = mr_mark_take(r->ctx);
+	MR_TRY(settle(r, &map));
+	mr_mark_release(r->ctx, mark);
+	return MR_OK;
+}
+
+/*
+ * The last resort where flaws are left: rounds with edges half as long there, until none is; else the
+ * state with the fewest stays, the first of them.
+ */
+static mr_status
+try_again(remesher *r)
+{
+	enum { TRIES = 4 };
+	size_t least = flaws_of(r);
+	mr_dyn best;
+
+	MR_TRY(mr_dyn_copy(r->ctx, &r->d, &best));
+	for (int i = 0; i < TRIES && flaws_of(r) > 0; i++) {
+		MR_TRY(mend_last(r, i > 0));
+		if (flaws_of(r) < least) {
+			least = flaws_of(r);
+			MR_TRY(mr_dyn_copy(r->ctx, &r->d, &best));
+		}
+	}
+	if (flaws_of(r) > least)
+		r->d = best;
+	return MR_OK;
+}
+
 static void
 report(const remesher *r)
 {
@@ -249,13 +313,19 @@ mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, 
 {
 	remesher r = { .ctx = ctx, .o = o };
 	mr_topology topo;
+	mr_mark mark;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	MR_TRY(set_up(&r, m, &topo));
 	MR_TRY(run(&r));
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
-	MR_TRY(map_to_source(&r, map));
-	count_flaws(&r, map);
+	mark = mr_mark_take(ctx);
+	MR_TRY(settle(&r, map));
+	if (flaws_of(&r) > 0 && o->rounds > 0) {
+		mr_mark_release(ctx, mark);
+		MR_TRY(try_again(&r));
+		MR_TRY(settle(&r, map));
+	}
 	report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
 	return MR_OK;
