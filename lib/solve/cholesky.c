@@ -126,6 +126,18 @@ bytes_of(const cholmod_factor *f)
 	return (double)(f->xsize + f->maxcsize) * sizeof(double) + (double)f->ssize * sizeof(int);
 }
 
+/* OpenBLAS 0.3 tries for ever where its buffer of 128 MB cannot be had. */
+static mr_status
+check_room(mr_ctx *ctx)
+{
+	static const size_t buffer = (size_t)160 << 20;
+	void *room = malloc(buffer);
+
+	free(room);
+	return room ? MR_OK
+	            : mr_fail(ctx, MR_EMEM, "no memory for the buffer of the BLAS, %zu MB", buffer >> 20);
+}
+
 static mr_status
 cholesky_setup(
     mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data, mr_solver_report *report)
@@ -136,6 +148,7 @@ cholesky_setup(
 	mr_panels panels;
 
 	cholmod_start(&c->common);
+	MR_TRY(check_room(ctx));
 	MR_TRY(analyse(ctx, c, &upper, system->part));
 	analysed = mr_seconds();
 	bytes = bytes_of(c->factor);
