@@ -1,19 +1,6 @@
 /* Domains of displaced subdivision surfaces: prefixes, levels, displacing, and what a frame may hold. */
 #include "alg/domain.h"
-#include "alg/shape.h"
-#include "unit.h"
-
-static mr_mesh
-shape(mr_solid solid, size_t n)
-{
-	mr_mesh m;
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
-
-	o.solid = solid;
-	o.vertices = n;
-	assert_int_equal(mr_solid_make(&ctx, &o, &m), MR_OK);
-	return m;
-}
+#include "shapes.h"
 
 static mr_domain
 domain(const mr_mesh *m, size_t n)

@@ -1,21 +1,8 @@
 /* Fitting: what a limit surface can take on is found again, whatever the start; what no point holds stays. */
 #include "alg/fit.h"
 #include "alg/fit_surface.h"
-#include "alg/shape.h"
 #include "base/random.h"
-#include "unit.h"
-
-static mr_mesh
-shape(mr_solid solid, size_t n)
-{
-	mr_mesh m;
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
-
-	o.solid = solid;
-	o.vertices = n;
-	assert_int_equal(mr_solid_make(&ctx, &o, &m), MR_OK);
-	return m;
-}
+#include "shapes.h"
 
 static double
 figure(const char *name)

@@ -1,8 +1,7 @@
 /* Loop subdivision against its rules, its limit against many steps, and its laws. */
-#include "alg/shape.h"
 #include "base/random.h"
 #include "op/loop.h"
-#include "unit.h"
+#include "shapes.h"
 
 static void
 assert_near(double a, double b, double tolerance)
@@ -17,18 +16,6 @@ assert_near_v3(mr_v3 a, mr_v3 b, double tolerance)
 	if (!(mr_dist(a, b) <= tolerance))
 		fail_msg("%.17g %.17g %.17g is not %.17g %.17g %.17g within %g", a.x, a.y, a.z, b.x, b.y, b.z,
 		    tolerance);
-}
-
-static mr_mesh
-shape(mr_solid solid, size_t n)
-{
-	mr_mesh m;
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
-
-	o.solid = solid;
-	o.vertices = n;
-	assert_int_equal(mr_solid_make(&ctx, &o, &m), MR_OK);
-	return m;
 }
 
 static mr_loop *

@@ -1,22 +1,9 @@
 /* Laws of remeshing: topology, regularity, the source map, and the operations it is made of. */
 #include "alg/dynmesh.h"
 #include "alg/remesh.h"
-#include "alg/shape.h"
 #include "base/random.h"
 #include "op/area.h"
-#include "unit.h"
-
-static mr_mesh
-shape(mr_solid solid, size_t n)
-{
-	mr_mesh m;
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
-
-	o.solid = solid;
-	o.vertices = n;
-	assert_int_equal(mr_solid_make(&ctx, &o, &m), MR_OK);
-	return m;
-}
+#include "shapes.h"
 
 typedef struct census {
 	long euler;
