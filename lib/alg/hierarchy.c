@@ -67,14 +67,14 @@ reach(walk *w, uint32_t v, uint32_t face)
 	w->queue[w->queued++] = v;
 }
 
-/* The corners of the face that a coarse vertex came from lie near it. */
+/* The corners of the face that a coarse vertex came from lie near it; one without a face is near none. */
 static void
 seed(walk *w, const mr_source_map *map)
 {
 	for (size_t v = 0; v < w->fine->m.nv; v++)
 		w->face[v] = MR_NONE;
 	for (size_t c = 0; c < w->coarse->m.nv; c++)
-		for (int k = 0; k < 3; k++)
+		for (int k = 0; k < 3 && w->topo.out[c] != MR_NONE; k++)
 			reach(w, w->fine->m.t[map->face[c]].v[k], w->topo.out[c] / 3);
 }
 

@@ -137,7 +137,8 @@ invert_diagonal(mr_ctx *ctx, level *l)
 	return MR_OK;
 }
 
-/* The greatest eigenvalue of D^-1 A by the power method, from a vector of changing signs, with a margin. */
+/* The greatest eigenvalue of D^-1 A by the power method, from a vector of changing signs, with a margin; 1
+ * for a matrix of zeros, of which any bound is one. */
 static void
 estimate_top(const mr_ctx *ctx, level *l)
 {
@@ -146,6 +147,7 @@ estimate_top(const mr_ctx *ctx, level *l)
 	mr_columns s = { (size_t)l->a.n, 1 };
 	double size, last = 1;
 
+	l->top = 1;
 	for (size_t i = 0; i < s.n; i++)
 		l->x[i] = (i * 2654435761u >> 16 & 1 ? 1 : -1) * (1 + (double)(i % 7) / 7);
 	for (int step = 0; step < STEPS; step++) {
@@ -155,6 +157,8 @@ estimate_top(const mr_ctx *ctx, level *l)
 		mr_sparse_apply(ctx, &l->a, NULL, s.n, 1, l->x, l->d);
 		mr_columns_scale(ctx, s, l->inverse, l->d, l->x);
 		mr_columns_dot(ctx, s, l->x, l->x, &last);
+		if (last == 0)
+			return;
 	}
 	l->top = margin * sqrt(last);
 }

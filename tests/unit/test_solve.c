@@ -223,6 +223,33 @@ test_multigrid(void **state)
 	check_iterative(MR_VCYCLE, 0, 0, &h, 40);
 }
 
+/* A level of zeros, as where all weights of a coarse level cancel, is smoothed to finite numbers. */
+static void
+test_multigrid_of_zeros(void **state)
+{
+	mr_sparse l = grid_matrix(1e-3, 0, false), p = interpolation();
+	mr_coarser level = { p, N / 4 };
+	double *weight = MR_NEW(&ctx, N, double), *b = MR_NEW_ZERO(&ctx, N, double);
+	mr_hierarchy h = { &l, weight, 1, 1, &level };
+	mr_system system = { .a = &l, .hierarchy = &h };
+
+	(void)state;
+	memset(l.value, 0, (size_t)l.start[N] * sizeof *l.value);
+	for (int i = 0; i < N; i++)
+		weight[i] = 1;
+	for (int kind = MR_MULTIGRID; kind <= MR_VCYCLE; kind++) {
+		mr_solver_opts opts = MR_SOLVER_DEFAULTS;
+		mr_solver *s = NULL;
+		opts.kind = (mr_solver_kind)kind;
+		opts.iterations = 10;
+		b[0] = 1;
+		assert_int_equal(mr_solver_open(&ctx, &opts, &system, &s), MR_OK);
+		assert_int_equal(mr_solver_solve(&ctx, s, b, 1), MR_ENUMERIC);
+		assert_null(strstr(ctx.error, "nan"));
+		mr_solver_free(s);
+	}
+}
+
 /* What does not converge is an error, with what was reached. */
 static void
 test_no_convergence(void **state)
@@ -315,6 +342,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_lu, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_multigrid, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_multigrid_of_zeros, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_no_convergence, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_memory, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_what_has_no_solution, setup, teardown),
