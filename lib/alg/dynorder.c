@@ -61,7 +61,7 @@ number_vertices(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 
 	if (!order)
 		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, d->p, d->nv, order));
+	MR_TRY(mr_zorder(ctx, d->p, d->nv, MR_ZORDER_CELLS, order));
 	for (uint32_t i = 0; i < d->nv; i++)
 		number[order[i]] = i;
 	mr_mark_release(ctx, mark);

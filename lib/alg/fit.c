@@ -130,7 +130,7 @@ reorder(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_v3 *sorted)
 
 	if (!order)
 		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, point, n, order));
+	MR_TRY(mr_zorder(ctx, point, n, MR_ZORDER_CELLS, order));
 	for (size_t i = 0; i < n; i++)
 		sorted[i] = point[order[i]];
 	mr_mark_release(ctx, mark);

@@ -2,6 +2,7 @@
 #include "alg/volume_parts.h"
 
 #include "mesh/repair.h"
+#include "mesh/zorder.h"
 
 /* A point stands for at most so many times the area of most of its neighbours: one far from them is no
  * surface. */
@@ -14,63 +15,22 @@ static const double NOISY = 0.06, SURELY_NOISY = 0.12, BENDS = 1.1;
 /* Beyond so many squared spacings, a point that is in no plane is an outlier, and any point. */
 static const double OUTLIER_AREA = 9, FAR_AREA = 2500;
 
-enum { NEAREST = 16, NEAREST_MOST = 100, LINKS = 8, BITS = 10, DIGITS = 1 << BITS };
-
-/* Every third bit, beginning with the lowest. */
-static uint32_t
-spread_bits(uint32_t x)
-{
-	x = (x | x << 16) & 0x030000ff;
-	x = (x | x << 8) & 0x0300f00f;
-	x = (x | x << 4) & 0x030c30c3;
-	return (x | x << 2) & 0x09249249;
-}
-
-static uint32_t
-morton(mr_box box, mr_v3 p)
-{
-	mr_v3 size = mr_sub(box.max, box.min), d = mr_sub(p, box.min);
-	double scale = (DIGITS - 1) / fmax(size.x, fmax(size.y, size.z));
-
-	return spread_bits((uint32_t)(scale * d.x)) | spread_bits((uint32_t)(scale * d.y)) << 1 |
-	       spread_bits((uint32_t)(scale * d.z)) << 2;
-}
-
-/* One pass of a radix sort of `order` by a digit of its keys. */
-static void
-sort_digit(const uint32_t *key, size_t n, unsigned digit, const uint32_t *from, uint32_t *to)
-{
-	size_t first[DIGITS + 1] = { 0 };
-
-	for (size_t i = 0; i < n; i++)
-		first[(key[from[i]] >> digit * BITS & (DIGITS - 1)) + 1]++;
-	for (size_t d = 0; d < DIGITS; d++)
-		first[d + 1] += first[d];
-	for (size_t i = 0; i < n; i++)
-		to[first[key[from[i]] >> digit * BITS & (DIGITS - 1)]++] = from[i];
-}
+enum { NEAREST = 16, NEAREST_MOST = 100, LINKS = 8, CELLS = 1023 };
 
 /* s->p holds the distinct points; now in Morton order. */
 static mr_status
 sort_points(mr_ctx *ctx, samples *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *key = MR_NEW(ctx, s->n, uint32_t), *a = MR_NEW(ctx, s->n, uint32_t),
-		 *b = MR_NEW(ctx, s->n, uint32_t);
+	uint32_t *order = MR_NEW(ctx, s->n, uint32_t);
 	mr_v3 *p = MR_NEW(ctx, s->n, mr_v3);
 
-	if (!key || !a || !b || !p)
+	if (!order || !p)
 		return MR_EMEM;
-	for (size_t i = 0; i < s->n; i++) {
-		key[i] = morton(s->box, s->p[i]);
-		a[i] = (uint32_t)i;
-		p[i] = s->p[i];
-	}
-	sort_digit(key, s->n, 0, a, b);
-	sort_digit(key, s->n, 1, b, a);
-	sort_digit(key, s->n, 2, a, b);
+	MR_TRY(mr_zorder(ctx, s->p, s->n, CELLS, order));
+	memcpy(p, s->p, s->n * sizeof *p);
 	for (size_t i = 0; i < s->n; i++)
-		s->p[i] = p[b[i]];
+		s->p[i] = p[order[i]];
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -97,22 +57,12 @@ distinct(mr_ctx *ctx, const mr_v3 *point, size_t n, samples *s)
 static mr_status
 check(mr_ctx *ctx, const samples *s)
 {
-	mr_v3 mean = mr_vec(0, 0, 0), vector[3];
-	double a[6] = { 0 }, value[3], scale = 1 / mr_box_diagonal(s->box);
+	double a[6], value[3];
+	mr_v3 vector[3];
 
 	if (s->n < 4)
 		return mr_fail(ctx, MR_EMESH, "%zu distinct points enclose nothing: it takes four", s->n);
-	for (size_t i = 0; i < s->n; i++)
-		mean = mr_axpy(1 / (double)s->n, s->p[i], mean);
-	for (size_t i = 0; i < s->n; i++) {
-		mr_v3 d = mr_mul(scale, mr_sub(s->p[i], mean));
-		a[0] += d.x * d.x;
-		a[1] += d.x * d.y;
-		a[2] += d.x * d.z;
-		a[3] += d.y * d.y;
-		a[4] += d.y * d.z;
-		a[5] += d.z * d.z;
-	}
+	mr_covariance(s->p, s->n, 1 / mr_box_diagonal(s->box), a);
 	mr_eigen_sym3(a, value, vector);
 	if (value[1] <= 1e-12 * value[2])
 		return mr_fail(ctx, MR_EMESH, "the %zu points lie on a line: they enclose nothing", s->n);

@@ -65,16 +65,16 @@ mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3])
 /* Directions of at most this cosine, 45 degrees, lie apart. */
 static const double APART = 0.7;
 
-mr_v3
-mr_plane_fit(const mr_v3 *p, size_t k, double *variation)
+void
+mr_covariance(const mr_v3 *p, size_t k, double scale, double sum[6])
 {
-	mr_v3 mean = mr_vec(0, 0, 0), vector[3];
-	double a[6] = { 0 }, value[3], sum;
+	mr_v3 mean = mr_vec(0, 0, 0);
+	double a[6] = { 0 };
 
 	for (size_t i = 0; i < k; i++)
 		mean = mr_axpy(1 / (double)k, p[i], mean);
 	for (size_t i = 0; i < k; i++) {
-		mr_v3 d = mr_sub(p[i], mean);
+		mr_v3 d = mr_mul(scale, mr_sub(p[i], mean));
 		a[0] += d.x * d.x;
 		a[1] += d.x * d.y;
 		a[2] += d.x * d.z;
@@ -82,6 +82,16 @@ mr_plane_fit(const mr_v3 *p, size_t k, double *variation)
 		a[4] += d.y * d.z;
 		a[5] += d.z * d.z;
 	}
+	memcpy(sum, a, sizeof a);
+}
+
+mr_v3
+mr_plane_fit(const mr_v3 *p, size_t k, double *variation)
+{
+	double a[6], value[3], sum;
+	mr_v3 vector[3];
+
+	mr_covariance(p, k, 1, a);
 	mr_eigen_sym3(a, value, vector);
 	sum = value[0] + value[1] + value[2];
 	*variation = sum > 0 && value[0] > 0 ? value[0] / sum : 0;

@@ -31,6 +31,9 @@ mr_status mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_
 /* Unit normal of the plane of least squares through k points; variation: as above. */
 mr_v3 mr_plane_fit(const mr_v3 *p, size_t k, double *variation);
 
+/* Sums of the products xx xy xz yy yz zz of k points, about their mean and times `scale`. */
+void mr_covariance(const mr_v3 *p, size_t k, double scale, double sum[6]);
+
 /* Eigenvalues, ascending, of the symmetric matrix xx xy xz yy yz zz, and its eigenvectors (Jacobi). */
 void mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3]);
 

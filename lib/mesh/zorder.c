@@ -36,13 +36,13 @@ sort_digit(const uint32_t *key, int digit, const uint32_t *from, size_t n, uint3
 }
 
 mr_status
-mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *order)
+mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *key = MR_NEW(ctx, n, uint32_t), *other = MR_NEW(ctx, n, uint32_t);
 	mr_box box = mr_box_of(p, n);
 	mr_v3 size = mr_sub(box.max, box.min);
-	double longest = fmax(size.x, fmax(size.y, size.z)), scale = longest > 0 ? BUCKETS / longest : 0;
+	double longest = fmax(size.x, fmax(size.y, size.z)), scale = longest > 0 ? cells / longest : 0;
 
 	if (!key || !other)
 		return MR_EMEM;

@@ -8,10 +8,12 @@
 
 #include "base/vec.h"
 
+enum { MR_ZORDER_CELLS = 1024 };
+
 /*
- * order[i]: the index of the i-th of n finite points along the Z curve over a grid of 1024 cells a side;
- * those of one cell by index.  order: n < 2^32, the caller's.
+ * order[i]: the index of the i-th of n finite points along the Z curve over a grid of `cells` a side, at most
+ * MR_ZORDER_CELLS; those of one cell by index.  order: n < 2^32, the caller's.
  */
-mr_status mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *order);
+mr_status mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order) MR_WARN_UNUSED;
 
 #endif
