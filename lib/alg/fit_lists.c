@@ -1,5 +1,7 @@
 #include "alg/fit_lists.h"
 
+#include "base/sort.h"
+
 size_t
 mr_fit_find(const int *list, size_t n, int c)
 {
@@ -11,25 +13,6 @@ mr_fit_find(const int *list, size_t n, int c)
 		n -= half;
 	}
 	return low;
-}
-
-/* Sorts and drops repetitions; returns how many are left. */
-static size_t
-sort_unique(int *a, size_t n)
-{
-	size_t k = 0;
-
-	for (size_t i = 1; i < n; i++) {
-		int x = a[i];
-		size_t j = i;
-		for (; j > 0 && a[j - 1] > x; j--)
-			a[j] = a[j - 1];
-		a[j] = x;
-	}
-	for (size_t i = 0; i < n; i++)
-		if (i == 0 || a[i] != a[k - 1])
-			a[k++] = a[i];
-	return k;
 }
 
 /* Lists being written one after another. */
@@ -75,7 +58,7 @@ end_list(writer *w)
 {
 	size_t first = w->l->start[w->l->count];
 
-	w->used = first + sort_unique(w->l->member + first, w->used - first);
+	w->used = first + mr_sort_unique((uint32_t *)w->l->member + first, w->used - first);
 	w->l->start[++w->l->count] = w->used;
 }
 
@@ -192,7 +175,7 @@ mr_fit_pattern(mr_ctx *ctx, const mr_fit_lists *patch, const mr_fit_lists *star,
 			MR_TRY(add_pairs(&p, patch, patches[i], (int)v));
 		for (size_t i = star_start[v]; i < star_start[v + 1]; i++)
 			MR_TRY(add_pairs(&p, star, stars[i], (int)v));
-		p.used = first + (int)sort_unique(r.index + first, (size_t)(p.used - first));
+		p.used = first + (int)mr_sort_unique((uint32_t *)r.index + first, (size_t)(p.used - first));
 	}
 	r.start[nv] = p.used;
 	r.value = MR_NEW(ctx, (size_t)p.used, double);

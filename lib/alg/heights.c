@@ -1,6 +1,7 @@
 #include "alg/heights.h"
 
 #include "base/parallel.h"
+#include "base/sort.h"
 
 enum { GRAIN = 2048 };
 
@@ -395,13 +396,7 @@ mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t
 static double
 median(double *x, size_t n)
 {
-	for (size_t i = 1; i < n; i++) {
-		double v = x[i];
-		size_t j = i;
-		for (; j > 0 && x[j - 1] > v; j--)
-			x[j] = x[j - 1];
-		x[j] = v;
-	}
+	mr_sort_reals(x, n);
 	return n % 2 ? x[n / 2] : (x[n / 2 - 1] + x[n / 2]) / 2;
 }
 

@@ -13,6 +13,7 @@
 
 #include "alg/volume_parts.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 
 enum {
 	GRAIN = 4096,
@@ -235,14 +236,6 @@ measure_level(void *arg, size_t begin, size_t end)
 	}
 }
 
-static int
-ascending(const void *a, const void *b)
-{
-	const double *x = a, *y = b;
-
-	return (*x > *y) - (*x < *y);
-}
-
 /*
  * Half of what the indicator rises by across the surface.  Over thin parts it never does, and beside an open
  * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
@@ -262,12 +255,12 @@ half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
 	for (int reach = 1; reach <= 3; reach++) {
 		for (size_t i = 0; i < m; i++)
 			rise[i] = -across_at(&(across){ v, u, NULL, reach }, i * v->s.n / m) / 2;
-		qsort(rise, m, sizeof *rise, ascending);
+		mr_sort_reals(rise, m);
 		*half = fmax(*half, rise[m / 2]);
 	}
 	for (size_t i = 0; i < m; i++)
 		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
-	qsort(rise, m, sizeof *rise, ascending);
+	mr_sort_reals(rise, m);
 	*half = fmax(*half, rise[m / 2]);
 	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, u, v->value, 0 });
 	mr_mark_release(ctx, mark);

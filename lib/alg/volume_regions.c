@@ -8,6 +8,7 @@
 #include "alg/volume_parts.h"
 
 #include "base/sets.h"
+#include "base/sort.h"
 
 enum { REGIONS = 40, TURNS_MOST = 100 };
 
@@ -31,32 +32,6 @@ typedef struct regions {
 	double vote[REGIONS];          /* of the flood, mean: for the signs as they are */
 	double pull[REGIONS][REGIONS]; /* how much one agrees with another */
 } regions;
-
-static int
-ascending(const void *a, const void *b)
-{
-	const double *x = a, *y = b;
-
-	return (*x > *y) - (*x < *y);
-}
-
-static mr_status
-flat_limit(mr_ctx *ctx, const samples *s, double *limit)
-{
-	enum { MOST = 10007 };
-	mr_mark mark = mr_mark_take(ctx);
-	size_t m = s->n < MOST ? s->n : MOST;
-	double *v = MR_NEW(ctx, m, double);
-
-	if (!v)
-		return MR_EMEM;
-	for (size_t i = 0; i < m; i++)
-		v[i] = s->plane.variation[i * s->n / m];
-	qsort(v, m, sizeof *v, ascending);
-	*limit = FLAT * v[m / 2];
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
 
 static bool
 are_one(const samples *s, uint32_t i, uint32_t j, double flat)
@@ -114,7 +89,8 @@ find_regions(mr_ctx *ctx, const samples *s, regions *r)
 	uint32_t *set, *size;
 	double flat;
 
-	MR_TRY(flat_limit(ctx, s, &flat));
+	MR_TRY(mr_median(ctx, s->plane.variation, s->n, &flat));
+	flat *= FLAT;
 	r->of = MR_NEW(ctx, s->n, uint32_t);
 	mark = mr_mark_take(ctx);
 	set = mr_sets_new(ctx, s->n);

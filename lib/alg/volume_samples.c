@@ -1,6 +1,7 @@
 /* The points of a volume: each once, in Morton order, with their planes and spacing. */
 #include "alg/volume_parts.h"
 
+#include "base/sort.h"
 #include "mesh/repair.h"
 #include "mesh/zorder.h"
 
@@ -71,33 +72,6 @@ check(mr_ctx *ctx, const samples *s)
 	return MR_OK;
 }
 
-static int
-ascending(const void *a, const void *b)
-{
-	const double *x = a, *y = b;
-
-	return (*x > *y) - (*x < *y);
-}
-
-/* The median of n numbers, of some where there are many. */
-static mr_status
-median(mr_ctx *ctx, const double *x, size_t n, double *out)
-{
-	enum { MOST = 10007 };
-	mr_mark mark = mr_mark_take(ctx);
-	size_t m = n < MOST ? n : MOST;
-	double *some = MR_NEW(ctx, m, double);
-
-	if (!some)
-		return MR_EMEM;
-	for (size_t i = 0; i < m; i++)
-		some[i] = x[i * n / m];
-	qsort(some, m, sizeof *some, ascending);
-	*out = some[m / 2];
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 static mr_status
 try_planes(mr_ctx *ctx, samples *s, size_t k, double *variation)
 {
@@ -105,8 +79,8 @@ try_planes(mr_ctx *ctx, samples *s, size_t k, double *variation)
 	double area;
 
 	MR_TRY(mr_cloud_planes(ctx, s->p, s->n, near, links, k == NEAREST, &s->plane));
-	MR_TRY(median(ctx, s->plane.variation, s->n, variation));
-	MR_TRY(median(ctx, s->plane.area, s->n, &area));
+	MR_TRY(mr_median(ctx, s->plane.variation, s->n, variation));
+	MR_TRY(mr_median(ctx, s->plane.area, s->n, &area));
 	s->spacing = sqrt(area);
 	s->noise = sqrt((double)near / (double)(s->n < NEAREST ? s->n : NEAREST));
 	return MR_OK;

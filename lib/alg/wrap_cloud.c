@@ -1,5 +1,7 @@
 #include "alg/wrap_parts.h"
 
+#include "base/sort.h"
+
 /* Points nearer to a plane (a line, a place) than this share of the diagonal lie on it. */
 static const double FLAT = 1e-6;
 
@@ -55,14 +57,6 @@ check_extent(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 	return MR_OK;
 }
 
-static int
-ascending(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-
-	return (x > y) - (x < y);
-}
-
 /*
  * A disk around a point with its k nearest has an area of about k squares of the side s: s = r sqrt(pi / k).
  * side: count, of points taken at equal strides.
@@ -97,7 +91,7 @@ measure_sampling(mr_ctx *ctx, mr_wrap_cloud *cloud)
 	if (!side)
 		return MR_EMEM;
 	MR_TRY(sample_sides(ctx, cloud, side, count));
-	qsort(side, count, sizeof *side, ascending);
+	mr_sort_reals(side, count);
 	cloud->spacing = side[count / 2];
 	most = LONELY * cloud->spacing;
 	for (size_t i = 0; i < count; i++)

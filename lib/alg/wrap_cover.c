@@ -1,6 +1,7 @@
 /* Coverage both ways: points that the wrap misses, and parts of it where there are no points. */
 #include "alg/wrap_parts.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "mesh/bvh.h"
 
 enum { GRAIN = 1024 };
@@ -43,7 +44,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	j.bvh = bvh;
 	mr_parallel(ctx, n, GRAIN, distances_body, &j);
-	qsort(j.distance, n, sizeof *j.distance, ascending);
+	mr_sort_reals(j.distance, n);
 	c->points_max = j.distance[n - 1];
 	c->points_high = j.distance[(size_t)(HIGH * (double)(n - 1))];
 	c->points_most = j.distance[(size_t)(MOST * (double)(n - 1))];

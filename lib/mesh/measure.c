@@ -2,6 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/sets.h"
+#include "base/sort.h"
 #include "mesh/intersect.h"
 #include "mesh/near.h"
 
@@ -145,14 +146,6 @@ count_edges(const mr_mesh *m, const mr_edges *edges, mr_census *c)
 	}
 }
 
-static int
-compare_indices(const void *a, const void *b)
-{
-	uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-
-	return (x > y) - (x < y);
-}
-
 /* The vertex opposite half-edge h, where it is above both ends: each face is met so at one of its edges. */
 static uint32_t
 top_vertex(const mr_mesh *m, uint32_t h)
@@ -179,7 +172,7 @@ count_duplicates(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census
 			continue;
 		for (uint32_t i = 0; i < n; i++)
 			top[i] = top_vertex(m, edges->he[edges->start[e] + i]);
-		qsort(top, n, sizeof *top, compare_indices);
+		mr_sort_indices(top, n);
 		for (uint32_t i = 1; i < n; i++)
 			c->duplicate_faces += top[i] != MR_NONE && top[i] == top[i - 1];
 	}

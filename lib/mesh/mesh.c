@@ -1,6 +1,7 @@
 #include "mesh/mesh.h"
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "mesh/spoke.h"
 
 /* The spokes of each vertex v, by `to`, then `he`: spoke[start[v]] to spoke[start[v + 1]]. */
@@ -155,41 +156,6 @@ mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a)
 	return MR_OK;
 }
 
-static void
-sort_small(uint32_t *a, size_t n)
-{
-	for (size_t i = 1; i < n; i++) {
-		uint32_t x = a[i];
-		size_t j = i;
-		for (; j > 0 && a[j - 1] > x; j--)
-			a[j] = a[j - 1];
-		a[j] = x;
-	}
-}
-
-static int
-compare_u32(const void *a, const void *b)
-{
-	uint32_t x = *(const uint32_t *)a, y = *(const uint32_t *)b;
-	return (x > y) - (x < y);
-}
-
-/* Sorts and drops repetitions; returns how many are left. */
-static size_t
-sort_unique(uint32_t *a, size_t n)
-{
-	size_t kept = 0;
-
-	if (n <= 32)
-		sort_small(a, n);
-	else
-		qsort(a, n, sizeof *a, compare_u32);
-	for (size_t i = 0; i < n; i++)
-		if (i == 0 || a[i] != a[i - 1])
-			a[kept++] = a[i];
-	return kept;
-}
-
 mr_status
 mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 {
@@ -210,7 +176,7 @@ mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 				if (w != v)
 					adj[n++] = w;
 			}
-		n = first + sort_unique(adj + first, n - first);
+		n = first + mr_sort_unique(adj + first, n - first);
 	}
 	start[m->nv] = n;
 	mr_mark_release(ctx, mark);

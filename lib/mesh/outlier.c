@@ -2,6 +2,7 @@
 #include "mesh/outlier.h"
 
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "mesh/cloud.h"
 
 enum { AROUND = 8, K = AROUND + 1, ROUNDS = 3, SOME = 4096, CHUNK = 1 << 13, GRAIN = 64 };
@@ -22,14 +23,6 @@ typedef struct search {
 	bool *outlier;
 } search;
 
-static int
-ascending(const void *a, const void *b)
-{
-	const double *x = a, *y = b;
-
-	return (*x > *y) - (*x < *y);
-}
-
 /* The median of at most SOME of n values, at equal strides. */
 static double
 median_of_some(const double *x, size_t n, double some[SOME])
@@ -38,7 +31,7 @@ median_of_some(const double *x, size_t n, double some[SOME])
 
 	for (size_t i = 0; i < m; i++)
 		some[i] = x[i * n / m];
-	qsort(some, m, sizeof *some, ascending);
+	mr_sort_reals(some, m);
 	return some[m / 2];
 }
 
@@ -98,7 +91,7 @@ is_outlier(const search *s, size_t i)
 	if (s->off[s->suspect[i]] < AWAY * reach)
 		return false;
 	memcpy(beside, s->beside + i * AROUND, sizeof beside);
-	qsort(beside, AROUND, sizeof *beside, ascending);
+	mr_sort_reals(beside, AROUND);
 	if (reach > ALONE * sqrt(beside[AROUND / 2]))
 		return true;
 	return reach > SPARSE * s->usual && variation(s->p, s->index + i * K) > UNEVEN;

@@ -1,6 +1,8 @@
 /* The limit points of a fine level as sparse combinations of the control vertices. */
 #include "op/loop_ring.h"
 
+#include "base/sort.h"
+
 /* One row: its entries add up where their column is known. */
 typedef struct row {
 	double *weight; /* of each control vertex */
@@ -30,30 +32,6 @@ row_add(row *r, double w, const rows *from, uint32_t v)
 	}
 }
 
-static int
-compare_int(const void *a, const void *b)
-{
-	int x = *(const int *)a, y = *(const int *)b;
-
-	return (x > y) - (x < y);
-}
-
-static void
-sort_ints(int *a, size_t n)
-{
-	if (n > 64) {
-		qsort(a, n, sizeof *a, compare_int);
-		return;
-	}
-	for (size_t i = 1; i < n; i++) {
-		int x = a[i];
-		size_t j = i;
-		for (; j > 0 && a[j - 1] > x; j--)
-			a[j] = a[j - 1];
-		a[j] = x;
-	}
-}
-
 /* Ends the row: it becomes the next one of `to`. */
 static mr_status
 row_end(mr_ctx *ctx, row *r, rows *to)
@@ -62,7 +40,7 @@ row_end(mr_ctx *ctx, row *r, rows *to)
 		return mr_fail(ctx, MR_ERANGE, "the limit points have more than %d weights", INT32_MAX);
 	MR_TRY(MR_RESERVE(ctx, to->index, to->used, r->n, &to->index_room));
 	MR_TRY(MR_RESERVE(ctx, to->value, to->used, r->n, &to->room));
-	sort_ints(r->index, r->n);
+	mr_sort_indices((uint32_t *)r->index, r->n); /* of the same order: none is negative */
 	for (size_t i = 0; i < r->n; i++) {
 		to->index[to->used] = r->index[i];
 		to->value[to->used++] = r->weight[r->index[i]];

@@ -1,7 +1,10 @@
 /* The arena, errors, parallel loops and sums. */
 #include "base/ctx.h"
 #include "base/parallel.h"
+#include "base/random.h"
+#include "base/sort.h"
 
+#include <math.h>
 #include <setjmp.h>
 
 #include <cmocka.h>
@@ -161,6 +164,54 @@ loops_visit_each_index_once_and_sums_do_not_depend_on_threads(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* Lists of all lengths about the one where insertion ends: ascending, and each value once. */
+static void
+lists_are_sorted(void **state)
+{
+	uint32_t x[100];
+	double y[100];
+	mr_random r = { 1 };
+
+	(void)state;
+	for (size_t n = 0; n <= 100; n++) {
+		size_t kept, seen = 0;
+		bool there[50] = { false };
+		for (size_t i = 0; i < n; i++) {
+			x[i] = (uint32_t)(50 * mr_random_real(&r));
+			y[i] = mr_random_real(&r) - 0.5;
+			seen += !there[x[i]];
+			there[x[i]] = true;
+		}
+		kept = mr_sort_unique(x, n);
+		mr_sort_reals(y, n);
+		assert_int_equal(kept, seen);
+		for (size_t i = 0; i < kept; i++)
+			assert_true(there[x[i]] && (i == 0 || x[i - 1] < x[i]));
+		for (size_t i = 1; i < n; i++)
+			assert_true(y[i - 1] <= y[i]);
+	}
+}
+
+/* Of few numbers the upper median; of very many one near it. */
+static void
+medians(void **state)
+{
+	enum { MANY = 100000 };
+	static double x[MANY];
+	double m;
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	for (size_t i = 0; i < MANY; i++)
+		x[i] = (double)((i * 7919 + 1) % MANY);
+	assert_int_equal(mr_median(&ctx, (const double[]){ 3, 1, 2, 5 }, 4, &m), MR_OK);
+	assert_true(m == 3);
+	assert_int_equal(mr_median(&ctx, x, MANY, &m), MR_OK);
+	assert_true(fabs(m - MANY / 2) < MANY / 100);
+	mr_ctx_free(&ctx);
+}
+
 int
 main(void)
 {
@@ -170,6 +221,8 @@ main(void)
 		cmocka_unit_test(reserving_doubles),
 		cmocka_unit_test(impossible_sizes_are_refused),
 		cmocka_unit_test(sentences_keep_their_status_and_take_prefixes),
+		cmocka_unit_test(lists_are_sorted),
+		cmocka_unit_test(medians),
 		cmocka_unit_test(loops_visit_each_index_once_and_sums_do_not_depend_on_threads),
 	};
 

@@ -1,0 +1,82 @@
+#include "base/sort.h"
+
+#include <stdlib.h>
+
+enum { SHORT = 32, MEDIAN_OF = 10007 };
+
+static int
+compare_indices(const void *a, const void *b)
+{
+	const uint32_t *x = a, *y = b;
+
+	return (*x > *y) - (*x < *y);
+}
+
+void
+mr_sort_indices(uint32_t *x, size_t n)
+{
+	if (n > SHORT) {
+		qsort(x, n, sizeof *x, compare_indices);
+		return;
+	}
+	for (size_t i = 1; i < n; i++) {
+		uint32_t moved = x[i];
+		size_t j = i;
+		for (; j > 0 && x[j - 1] > moved; j--)
+			x[j] = x[j - 1];
+		x[j] = moved;
+	}
+}
+
+size_t
+mr_sort_unique(uint32_t *x, size_t n)
+{
+	size_t kept = 0;
+
+	mr_sort_indices(x, n);
+	for (size_t i = 0; i < n; i++)
+		if (i == 0 || x[i] != x[kept - 1])
+			x[kept++] = x[i];
+	return kept;
+}
+
+static int
+compare_reals(const void *a, const void *b)
+{
+	const double *x = a, *y = b;
+
+	return (*x > *y) - (*x < *y);
+}
+
+void
+mr_sort_reals(double *x, size_t n)
+{
+	if (n > SHORT) {
+		qsort(x, n, sizeof *x, compare_reals);
+		return;
+	}
+	for (size_t i = 1; i < n; i++) {
+		double moved = x[i];
+		size_t j = i;
+		for (; j > 0 && x[j - 1] > moved; j--)
+			x[j] = x[j - 1];
+		x[j] = moved;
+	}
+}
+
+mr_status
+mr_median(mr_ctx *ctx, const double *x, size_t n, double *median)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t m = n < MEDIAN_OF ? n : MEDIAN_OF;
+	double *some = MR_NEW(ctx, m, double);
+
+	if (!some)
+		return MR_EMEM;
+	for (size_t i = 0; i < m; i++)
+		some[i] = x[i * n / m];
+	mr_sort_reals(some, m);
+	*median = some[m / 2];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

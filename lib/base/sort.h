@@ -1,0 +1,22 @@
+/*
+ * sort.h -- short lists of numbers in ascending order: by insertion where they are short, as they mostly are.
+ *
+ * Layer rule: base.
+ */
+#ifndef MR_SORT_H
+#define MR_SORT_H
+
+#include "base/ctx.h"
+
+void mr_sort_indices(uint32_t *x, size_t n);
+
+/* Sorts and drops repetitions; returns how many are left. */
+size_t mr_sort_unique(uint32_t *x, size_t n);
+
+/* Numbers, none of them nan. */
+void mr_sort_reals(double *x, size_t n);
+
+/* The upper median of n > 0 numbers, of 10007 at equal strides where there are more. */
+mr_status mr_median(mr_ctx *ctx, const double *x, size_t n, double *median) MR_WARN_UNUSED;
+
+#endif
