@@ -46,7 +46,7 @@ say = $(if $(V),,@echo "  $(1) $@";)
 
 all: $(TOOLS)
 
-$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(BUILD)/cmd/cmd.c.o $(BUILD)/cmd/options.c.o $(BUILD)/libmr.a
+$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options place) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
 

@@ -1,13 +1,12 @@
 #include "cmd.h"
 
 #include "base/text.h"
+#include "place.h"
 
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
-#include <signal.h>
 #include <sys/resource.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 enum { EXIT_GOOD = 0, EXIT_DATA = 1, EXIT_USAGE = 2 };
@@ -22,10 +21,9 @@ struct cmd_state {
 
 	char *history; /* the line this command adds */
 	mr_writer *writer;
-	int out;          /* descriptor of the stream */
-	char *unfinished; /* the file beside the output, renamed to it at the end; NULL: written directly */
-	const char *held, *place; /* a file, and what it is to be called at the end; NULL: none */
-	FILE *text, *stats;       /* a sink's output; --stats */
+	int out;            /* descriptor of the stream */
+	FILE *text, *stats; /* a sink's output; --stats */
+	place output_place, held, stats_place;
 
 	const char *frame_name;
 	bool lost_key;         /* the key failed: its deltas go with it */
@@ -73,10 +71,9 @@ say_failure(cmd *c)
 static _Noreturn void
 leave(cmd *c, int code)
 {
-	if (c->state->unfinished)
-		unlink(c->state->unfinished);
-	if (c->state->held)
-		unlink(c->state->held);
+	place_drop(&c->state->output_place);
+	place_drop(&c->state->held);
+	place_drop(&c->state->stats_place);
 	exit(code);
 }
 
@@ -273,73 +270,30 @@ cmd_idle(cmd *c, const char *name, bool idle, const char *why)
 	return MR_OK;
 }
 
-/* Interrupts */
-
-/* What an interrupt leaves behind unless it is removed; NULL: nothing. */
-static const char *volatile leftover;
-
-/* The signal comes again when this returns, and then ends the process as it would have. */
-static void
-tidy_up(int signal_number)
-{
-	if (leftover)
-		unlink(leftover);
-	raise(signal_number);
-}
-
-/* What is ignored, as under nohup, stays so. */
-static void
-tidy_up_on(int signal_number)
-{
-	struct sigaction old;
-
-	if (!sigaction(signal_number, NULL, &old) && old.sa_handler == SIG_DFL)
-		sigaction(signal_number,
-		    &(struct sigaction){ .sa_handler = tidy_up, .sa_flags = (int)SA_RESETHAND }, NULL);
-}
-
-static void
-remove_on_interrupt(void *user, const char *file)
-{
-	(void)user;
-	leftover = file;
-	tidy_up_on(SIGINT);
-	tidy_up_on(SIGTERM);
-	tidy_up_on(SIGHUP);
-}
-
 /* Opening and closing the outputs */
 
-/* The output as a descriptor: stdout, or -o, written beside its place unless that is a device or a pipe. */
+static bool
+is_dash(const char *path)
+{
+	return !strcmp(path, "-");
+}
+
+/* The output as a descriptor: stdout, or -o. */
 static void
 open_output(cmd *c)
 {
 	struct cmd_state *s = c->state;
-	struct stat st;
 
 	s->out = STDOUT_FILENO;
-	if (!c->output || !strcmp(c->output, "-"))
-		return;
-	if (stat(c->output, &st) || S_ISREG(st.st_mode)) {
-		s->unfinished = mr_format(&s->long_lived, "%s.%ld~", c->output, (long)getpid());
-		if (!s->unfinished)
-			die(c, mr_fail(&c->ctx, MR_EMEM, "no memory"));
-		s->out = open(s->unfinished, O_WRONLY | O_CREAT | O_EXCL, 0666);
-		if (s->out < 0)
-			s->unfinished = NULL;
-		remove_on_interrupt(c, s->unfinished);
-	} else {
-		s->out = open(c->output, O_WRONLY);
-	}
-	if (s->out < 0)
-		die(c, fail_system(c, c->output));
+	if (c->output && !is_dash(c->output) && !place_is(STDOUT_FILENO, c->output))
+		try(c, place_open(&c->ctx, c->output, &s->output_place, &s->out));
 }
 
 static void
 open_writer(cmd *c)
 {
 	open_output(c);
-	if (c->state->out == STDOUT_FILENO && isatty(STDOUT_FILENO))
+	if (isatty(c->state->out))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE,
 			   "a stream is binary and is not written to a terminal: pipe it on, or name a file "
 			   "by -o"));
@@ -355,16 +309,55 @@ open_text(cmd *c)
 		die(c, fail_system(c, c->output));
 }
 
+/* Whether stdout is where the output goes. */
+static bool
+writes_stdout(const cmd *c)
+{
+	if (c->tool->names_output)
+		return is_dash(c->operands[0]);
+	return !c->output || is_dash(c->output);
+}
+
+static bool
+is_input(const cmd *c, const char *path)
+{
+	const struct cmd_state *s = c->state;
+	bool found = place_is(STDIN_FILENO, path) || (s->input && place_same(path, s->input));
+
+	for (size_t i = 0; i < c->operand_count && !c->tool->names_output; i++)
+		found |= access(path, F_OK) == 0 && place_same(path, c->operands[i]);
+	return found;
+}
+
+static bool
+is_output(const cmd *c, const char *path)
+{
+	const char *output = c->tool->names_output ? c->operands[0] : c->output;
+
+	return writes_stdout(c) ? place_is(STDOUT_FILENO, path) : place_same(path, output);
+}
+
 static void
 open_stats(cmd *c)
 {
 	struct cmd_state *s = c->state;
+	const char *path = s->stats_path;
+	int fd;
 
-	if (!s->stats_path)
+	if (!path)
 		return;
-	s->stats = !strcmp(s->stats_path, "-") ? stderr : fopen(s->stats_path, "w");
+	if (is_input(c, path) || is_output(c, path))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--stats: %s is the %s as well", path,
+			   is_input(c, path) ? "input" : "output"));
+	s->stats = is_dash(path) || place_is(STDERR_FILENO, path) ? stderr
+	           : place_is(STDOUT_FILENO, path)                ? stdout
+	                                                          : NULL;
+	if (s->stats)
+		return;
+	try(c, place_open(&c->ctx, path, &s->stats_place, &fd));
+	s->stats = fdopen(fd, "w");
 	if (!s->stats)
-		die(c, fail_system(c, s->stats_path));
+		die(c, fail_system(c, path));
 }
 
 /* Closing stdout is part of success. */
@@ -373,35 +366,24 @@ close_outputs(cmd *c)
 {
 	struct cmd_state *s = c->state;
 
-	if (s->stats && (ferror(s->stats) || (s->stats != stderr && fclose(s->stats))))
+	if (s->stats_place.name && fclose(s->stats))
 		die(c, fail_system(c, s->stats_path));
 	if (s->writer)
 		try(c, mr_writer_end(&c->ctx, s->writer));
 	if (s->text ? ferror(s->text) || fclose(s->text) : close(s->out))
 		die(c, fail_system(c, c->output ? c->output : "stdout"));
-	if (s->unfinished && rename(s->unfinished, c->output))
-		die(c, fail_system(c, c->output));
-	s->unfinished = NULL;
-	if (s->held && rename(s->held, s->place))
-		die(c, fail_system(c, s->place));
-	s->held = NULL;
-	leftover = NULL;
+	try(c, place_keep(&c->ctx, &s->output_place));
+	try(c, place_keep(&c->ctx, &s->held));
+	try(c, place_keep(&c->ctx, &s->stats_place));
 }
 
 mr_status
-cmd_hold(cmd *c, const char *file, const char *place)
+cmd_hold(cmd *c, const char *file, const char *name)
 {
-	struct cmd_state *s = c->state;
+	mr_ctx *ctx = &c->state->long_lived;
+	mr_status status = file ? place_take(ctx, file, name, &c->state->held) : MR_OK;
 
-	if (!file)
-		return MR_OK;
-	s->place = mr_format(&s->long_lived, "%s", place);
-	s->held = mr_format(&s->long_lived, "%s", file);
-	remove_on_interrupt(c, s->held);
-	if (s->held && s->place)
-		return MR_OK;
-	unlink(file);
-	return MR_EMEM;
+	return status < 0 ? mr_fail(&c->ctx, status, "%s", ctx->error) : status;
 }
 
 void
@@ -442,8 +424,8 @@ print_stats(cmd *c, double seconds)
 	}
 	mr_text_add(&line, "}\n");
 	MR_TRY(mr_text_done(&line));
-	fputs(line.s, s->stats);
-	fflush(s->stats);
+	if (fputs(line.s, s->stats) < 0 || fflush(s->stats))
+		die(c, fail_system(c, s->stats_path));
 	return MR_OK;
 }
 
@@ -541,7 +523,7 @@ one_frame(cmd *c, mr_frame *f)
 static void
 read_stream(cmd *c, const char *path)
 {
-	bool from_stdin = !strcmp(path, "-");
+	bool from_stdin = is_dash(path);
 	int fd = from_stdin ? STDIN_FILENO : open(path, O_RDONLY);
 	const char *name = from_stdin ? "stdin" : path;
 	mr_reader *reader;
@@ -613,17 +595,17 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		c.ctx.threads = (unsigned)state.threads;
 	c.ctx.user = &c;
 	c.ctx.note = c.verbose ? show_note : NULL;
-	c.ctx.unfinished = remove_on_interrupt;
+	c.ctx.unfinished = place_unfinished;
 	c.ctx.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
 	c.keep = c.ctx;
 	c.keep.top = NULL;
 	if (tool->prepare)
 		try(&c, tool->prepare(&c));
+	open_stats(&c);
 	if (tool->sink)
 		open_text(&c);
 	else
 		open_writer(&c);
-	open_stats(&c);
 	state.started = mr_seconds();
 	if (tool->source)
 		try(&c, tool->source(&c));

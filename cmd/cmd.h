@@ -20,7 +20,7 @@
  *		    &(cmd_tool){ .summary = "...", .options = table, .frame = smooth_frame });
  *	}
  *
- * Only this file prints and exits: 0 good, 1 data or I/O, 2 usage.
+ * Only cmd.c prints and exits: 0 good, 1 data or I/O, 2 usage.
  */
 #ifndef CMD_H
 #define CMD_H
@@ -86,10 +86,10 @@ mr_status cmd_send(cmd *c, const mr_frame *f);
 mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand));
 
 /*
- * A file that is whole (NULL: there is none) gets its name `place` at the end, if all goes well; else it is
- * removed.  One at most; not for a tool that heeds -o.
+ * A file that is whole (NULL: there is none) gets its name at the end, if all goes well; else it is removed.
+ * One at most; not for a tool that heeds -o.
  */
-mr_status cmd_hold(cmd *c, const char *file, const char *place) MR_WARN_UNUSED;
+mr_status cmd_hold(cmd *c, const char *file, const char *name) MR_WARN_UNUSED;
 
 /*
  * Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end.
