@@ -25,6 +25,14 @@ prepare(cmd *c)
 	return cmd_parse_count(&c->ctx, "--level", level_text, 0, MR_LEVEL_MAX, &level);
 }
 
+/* Options that look for heights in points alone. */
+static mr_status
+check_mesh_options(cmd *c)
+{
+	MR_TRY(cmd_idle(c, "method", true, "on a mesh: its triangles are met"));
+	return cmd_idle(c, "neighbours", true, "on a mesh: its triangles are met");
+}
+
 /* The layer to sample: points, or else the mesh, as its points alone where it has no faces. */
 static mr_status
 get_target(cmd *c, mr_frame *f, mr_mesh *target)
@@ -49,6 +57,8 @@ sample_frame(cmd *c, mr_frame *f)
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
 	MR_TRY(get_target(c, f, &target));
+	if (target.nf)
+		MR_TRY(check_mesh_options(c));
 	if (!level_text)
 		MR_TRY(mr_domain_level(ctx, &control, target.nv, &n));
 	MR_TRY(mr_domain_build(ctx, &control, n, &d));

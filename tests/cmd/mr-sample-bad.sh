@@ -28,3 +28,11 @@ for args in '-n 16' '-n -1' '-n 2x' '-m nearest' '-K 2' '-K 129' '--refine -1' '
 	try frame.mrs $args
 	echo "$args: $(wc -c <out) bytes"
 done
+echo "a mesh has no use for how points are looked at"
+mr-make sphere -n 42 | mr-simplify --to control -n 30 >frame.mrs
+for args in '-m robust' '-m triangle' '-K 20'; do
+	try frame.mrs $args
+	echo "$args: $(wc -c <out) bytes"
+done
+mr-cat --merge frame.mrs points.mrs >both.mrs; try both.mrs -m robust
+try both.mrs -l mesh -K 20
