@@ -81,9 +81,20 @@ put_map(cmd *c, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_
 	return mr_layer_put(&c->ctx, f, map_layer, bary, map.bary, m->nv);
 }
 
+/* Another tool would take the surface for what the layer holds by convention. */
+static mr_status
+check_name(cmd *c, const char *option, const char *layer)
+{
+	if (layer && mr_layer_no_surface(layer))
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s: layer %s holds no surface", option, layer);
+	return MR_OK;
+}
+
 static mr_status
 prepare(cmd *c)
 {
+	MR_TRY(check_name(c, "--to", to));
+	MR_TRY(check_name(c, "--map", map_layer));
 	MR_TRY(cmd_idle(c, "map", to, "with --to, which keeps the surface"));
 	return cmd_idle(c, "ratio", faces > 0, "with --faces");
 }
@@ -101,8 +112,9 @@ simplify_frame(cmd *c, mr_frame *f)
 
 	MR_TRY(mr_layer_choose(ctx, f, c->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	if (map_layer && !strcmp(map_layer, layer))
-		return mr_fail(ctx, MR_EUSAGE, "--map: %s is the layer that is simplified", layer);
+	if ((map_layer && !strcmp(map_layer, layer)) || (to && !strcmp(to, layer)))
+		return mr_fail(
+		    ctx, MR_EUSAGE, "--%s: %s is the layer that is simplified", to ? "to" : "map", layer);
 	MR_TRY(target(c, f, &m, &opts.faces));
 	opts.error = error.value > 0 ? cmd_length_of(error, mr_mesh_diagonal(&m)) : INFINITY;
 	onto = MR_NEW(ctx, m.nv, uint32_t);

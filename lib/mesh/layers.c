@@ -71,6 +71,12 @@ mr_layer_has(const mr_frame *f, const char *layer, const char *name)
 	return mr_frame_find(f, layer, name) != NULL;
 }
 
+bool
+mr_layer_no_surface(const char *layer)
+{
+	return !strcmp(layer, "points") || !strcmp(layer, "handles") || !strcmp(layer, "displacement");
+}
+
 static mr_status
 unknown(mr_ctx *ctx, const char *layer, const char *name)
 {

@@ -27,6 +27,9 @@ extern const mr_column_info mr_columns[];
 /* True where the frame has the column. */
 bool mr_layer_has(const mr_frame *f, const char *layer, const char *name);
 
+/* True for a layer that by convention holds something else than a surface. */
+bool mr_layer_no_surface(const char *layer);
+
 /* A column of the table, its shape checked.  MR_EMISSING where it is absent. */
 mr_status
 mr_layer_get(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void **data, size_t *rows);

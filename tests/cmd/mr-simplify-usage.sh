@@ -15,3 +15,10 @@ printf '0 0 0\n1 0 0\n0 1 0\n' >cloud.xyz
 refuse cloud.xyz
 mr-make sphere -n 100 | head -c 3000 | mr-simplify -n 10 >out 2>err
 echo "cut: exit $?, $(head -n 1 err)"
+# A layer of another kind, or the one that is simplified, is not where a surface is put.
+mr-make sphere -n 100 -o sphere.mrs
+for args in '--to points' '--to handles' '--to displacement' '--map points' '--to mesh' '-l mesh --to mesh'; do
+	mr-simplify $args sphere.mrs >out 2>err
+	echo "$args: exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+done
+mr-simplify --to control -n 50 sphere.mrs | mr-simplify --to control -l mesh -n 20 | mr-info | grep -c triangles
