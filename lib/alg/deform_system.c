@@ -104,7 +104,7 @@ build_hierarchy(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 		number[d->patch.vertex[i]] = (uint32_t)i;
 	MR_TRY(mr_hierarchy_build(ctx, rest, number, n, &level, &count));
 	MR_TRY(restrict_laplace(ctx, &d->l, n, &d->l_ff));
-	d->hierarchy = (mr_hierarchy){ &d->l_ff, d->w, d->opts.order, count, level };
+	d->hierarchy = (mr_hierarchy){ &d->l_ff, d->w, d->opts.order, d->opts.unsymmetric, count, level };
 	return MR_OK;
 }
 
@@ -119,7 +119,7 @@ assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	if (d->opts.unsymmetric)
 		scale_rows(&d->a, d->w);
 	d->nnz = (size_t)d->a.start[n];
-	return mr_solver_multigrid(d->opts.solver.kind) ? build_hierarchy(ctx, d, rest) : MR_OK;
+	return mr_solver_multigrid(&d->opts.solver) ? build_hierarchy(ctx, d, rest) : MR_OK;
 }
 
 static mr_status

@@ -338,22 +338,17 @@ cycle_iterate(
 /* The solvers */
 
 static mr_status
-prepare(krylov *k, const mr_system *system)
+precondition(krylov *k, const mr_system *system)
 {
 	mr_ctx *own = &k->own;
 
-	switch (k->opts.kind) {
-	case MR_MULTIGRID:
-		k->iterate = cg_iterate;
-		return mr_multigrid_new(own, system->hierarchy, &k->b);
-	case MR_VCYCLE:
-		k->iterate = cycle_iterate;
+	if (k->opts.kind == MR_VCYCLE)
 		return mr_vcycle_new(own, system->a, system->hierarchy, &k->b);
-	default:
-		k->iterate = k->opts.kind == MR_CG ? cg_iterate : bicgstab_iterate;
-		return k->opts.precondition == MR_JACOBI ? mr_jacobi_new(own, system->a, &k->b)
-		                                         : mr_incomplete_new(own, system->a, &k->b);
-	}
+	if (mr_solver_multigrid(&k->opts))
+		return mr_multigrid_new(own, system->hierarchy, &k->b);
+	if (k->opts.precondition == MR_JACOBI)
+		return mr_jacobi_new(own, system->a, &k->b);
+	return mr_incomplete_new(own, system->a, &k->b);
 }
 
 static mr_status
@@ -367,7 +362,10 @@ krylov_setup(
 	mr_ctx_init(&k->own, ctx->threads);
 	k->opts = *opts;
 	k->a = system->a;
-	status = prepare(k, system);
+	k->iterate = opts->kind == MR_VCYCLE     ? cycle_iterate
+	             : opts->kind == MR_BICGSTAB ? bicgstab_iterate
+	                                         : cg_iterate;
+	status = precondition(k, system);
 	if (status < 0)
 		return mr_fail(ctx, status, "%s", k->own.error);
 	*report = (mr_solver_report){ .seconds_factor = mr_seconds() - start,

@@ -16,8 +16,8 @@ typedef enum mr_solver_kind {
 	MR_LU,        /* A any square matrix, all of it given, as for those below */
 	MR_CG,        /* A symmetric positive definite */
 	MR_BICGSTAB,  /* A any square matrix */
-	MR_MULTIGRID, /* A = L (W L)^(k-1): conjugate gradients, preconditioned by V-cycles on L */
-	MR_VCYCLE     /* the same: V-cycles on A itself, as the paper has it */
+	MR_MULTIGRID, /* MR_CG with MR_VCYCLES */
+	MR_VCYCLE     /* A = L (W L)^(k-1): V-cycles on A itself, as the paper has it */
 } mr_solver_kind;
 
 /* True for solvers that approach the solution until a tolerance is met. */
@@ -27,17 +27,11 @@ mr_solver_iterates(mr_solver_kind kind)
 	return kind >= MR_CG;
 }
 
-/* True for solvers that want a hierarchy. */
-static inline bool
-mr_solver_multigrid(mr_solver_kind kind)
-{
-	return kind >= MR_MULTIGRID;
-}
-
 typedef enum mr_preconditioner_kind {
 	MR_INCOMPLETE, /* factors without fill: incomplete Cholesky of a symmetric matrix, else incomplete LU
 	                */
-	MR_JACOBI      /* the diagonal */
+	MR_JACOBI,     /* the diagonal */
+	MR_VCYCLES     /* A = L (W L)^(k-1): k V-cycles on L, W^-1 between them */
 } mr_preconditioner_kind;
 
 /* A coarser level of a multigrid hierarchy: n unknowns, and what they give to those of the finer level. */
@@ -50,6 +44,7 @@ typedef struct mr_hierarchy {
 	const mr_sparse *laplace; /* L, restricted to the unknowns: n x n */
 	const double *weight;     /* the diagonal of W, of the unknowns */
 	size_t order;             /* k */
+	bool scaled;              /* A is W L (W L)^(k-1) instead */
 	size_t count;             /* coarser levels, at least 1, finest first */
 	const mr_coarser *level;
 } mr_hierarchy;
@@ -69,6 +64,14 @@ typedef struct mr_solver_opts {
 	size_t iterations; /* iterative: at most so many, else MR_ENUMERIC */
 	double memory;     /* bytes that factors may take; 0: no bound */
 } mr_solver_opts;
+
+/* True where the system must have a hierarchy. */
+static inline bool
+mr_solver_multigrid(const mr_solver_opts *opts)
+{
+	return opts->kind >= MR_MULTIGRID ||
+	       (mr_solver_iterates(opts->kind) && opts->precondition == MR_VCYCLES);
+}
 
 #define MR_SOLVER_DEFAULTS                                                                                   \
 	{                                                                                                    \

@@ -44,9 +44,10 @@ for size in $sizes; do
 	row $size multigrid -s multigrid --tol "$tol"
 	row $size vcycle -s vcycle --tol "$tol"
 	[ $size -gt $slow ] || for solver in cg bicgstab; do
-		row $size $solver -s $solver --tol "$tol"
+		row $size $solver -s $solver --precondition incomplete --tol "$tol"
 		row $size $solver-jacobi -s $solver --precondition jacobi --tol "$tol"
 	done
+	row $size bicgstab-multigrid -s bicgstab --precondition multigrid --tol "$tol"
 done >rows
 
 # What remeshing does to the system: before, on the smoothed model as it came, and after.
@@ -77,17 +78,17 @@ done >worths
 {
 	echo "A thin plate: seconds to set up and for three right-hand sides, to a relative residual of $tol; the largest"
 	echo "difference from the direct solution, of the diagonal; the most memory of the process."
-	awk 'BEGIN { printf "%8s %-16s %9s %11s %11s %10s %10s %8s\n", "free", "solver", "set-up", "solutions", "iterations", "residual", "error", "MB" }
-		{ printf "%8d %-16s %9.3f %11.4f %11s %10.1e %10s %8.0f\n", $3, $2, $4, $5, $6 ? $6 : "", $7,
+	awk 'BEGIN { printf "%8s %-18s %9s %11s %11s %10s %10s %8s\n", "free", "solver", "set-up", "solutions", "iterations", "residual", "error", "MB" }
+		{ printf "%8d %-18s %9.3f %11.4f %11s %10.1e %10s %8.0f\n", $3, $2, $4, $5, $6 ? $6 : "", $7,
 			$8 == "-" ? "-" : sprintf("%.1e", $8), $9 }' rows
 	echo
 	echo "Three solutions, of the time of the direct solver's (the paper: iterative 106 and 160, multigrid 11 and 12, at 15k and 31k)"
 	awk '$2 == "cholesky" { direct[$1] = $5; next }
-		$1 in direct { printf "%8d %-16s %9.1f\n", $3, $2, $5 / direct[$1] }' rows
+		$1 in direct { printf "%8d %-18s %9.1f\n", $3, $2, $5 / direct[$1] }' rows
 	echo
 	echo "Time of three solutions against size: exponent of the least squares line"
 	awk '{ n[$2]++; x = log($3); y = log($5); sx[$2] += x; sy[$2] += y; sxx[$2] += x * x; sxy[$2] += x * y }
-		END { for (s in n) if (n[s] > 1) printf "%-16s %6.2f\n", s,
+		END { for (s in n) if (n[s] > 1) printf "%-18s %6.2f\n", s,
 			(n[s] * sxy[s] - sx[s] * sy[s]) / (n[s] * sxx[s] - sx[s] * sx[s]) }' rows | sort
 	echo
 	echo "Remeshing: edges with a negative cotangent weight, and the condition number, before and after"

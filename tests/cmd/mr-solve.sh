@@ -26,7 +26,7 @@ for k in 1 2 3; do
 	done
 
 	# By iteration, which its tolerance limits.
-	for other in cg bicgstab multigrid; do
+	for other in cg bicgstab 'bicgstab --unsymmetric' multigrid; do
 		[ $k -lt 3 ] || continue
 		mr-solve -k $k -s $other --tol 1e-12 --verify --stats stats.json posed.mrs -o r.mrs
 		off r.mrs base >r.off

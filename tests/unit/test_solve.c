@@ -214,12 +214,13 @@ test_multigrid(void **state)
 	mr_sparse l = grid_matrix(1e-3, 0, false), p = interpolation();
 	double *weight = MR_NEW(&ctx, N, double);
 	mr_coarser level = { p, N / 4 };
-	mr_hierarchy h = { &l, weight, 1, 1, &level };
+	mr_hierarchy h = { &l, weight, 1, false, 1, &level };
 
 	(void)state;
 	for (int i = 0; i < N; i++)
 		weight[i] = 1;
 	check_iterative(MR_MULTIGRID, 0, 0, &h, 30);
+	check_iterative(MR_BICGSTAB, MR_VCYCLES, 0, &h, 20);
 	check_iterative(MR_VCYCLE, 0, 0, &h, 40);
 }
 
