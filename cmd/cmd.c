@@ -173,7 +173,7 @@ make_line(char *text)
 }
 
 /*
- * "mr 1.0: mr-smooth -t 20".  Options that all tools share stay out of it: they
+ * "mr 1.0: mr-smooth -t 20 -l mesh".  Other options that all tools share stay out of it: they
  * do not change the result, and -j must not change a byte.
  */
 static mr_status

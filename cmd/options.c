@@ -195,10 +195,17 @@ typedef struct parser {
 	cmd_args *args;
 } parser;
 
-static void
-note_typed(parser *p, int table, int first)
+/* Of the options that tools share, the layer alone changes the result. */
+static bool
+changes_result(const cmd_opt *o, int table)
 {
-	for (int i = first; table == 0 && i <= p->at; i++)
+	return table == 0 || o->letter == 'l';
+}
+
+static void
+note_typed(parser *p, int first)
+{
+	for (int i = first; i <= p->at; i++)
 		p->args->typed[p->args->typed_count++] = p->argv[i];
 }
 
@@ -236,7 +243,8 @@ parse_long(parser *p)
 	if (!o)
 		return mr_fail(p->ctx, MR_EUSAGE, "no option is called --%.*s", (int)length, name);
 	MR_TRY(take_value(p, o, table, equals ? equals + 1 : NULL));
-	note_typed(p, table, first);
+	if (changes_result(o, table))
+		note_typed(p, first);
 	return MR_OK;
 }
 
@@ -245,21 +253,23 @@ static mr_status
 parse_short(parser *p)
 {
 	const char *letters = p->argv[p->at] + 1;
-	int table = 1, first = p->at, own = 1;
+	int table = 1, first = p->at;
+	bool noted = false;
 
 	while (*letters) {
 		const cmd_opt *o = find_short(p->tables, *letters, &table);
 		if (!o)
 			return mr_fail(p->ctx, MR_EUSAGE, "no option is called -%c", *letters);
 		letters++;
-		own = table == 0 ? 0 : own;
+		noted = noted || changes_result(o, table);
 		if (takes_argument(o)) {
 			MR_TRY(take_value(p, o, table, *letters ? letters : NULL));
 			break;
 		}
 		MR_TRY(take_value(p, o, table, NULL));
 	}
-	note_typed(p, own, first);
+	if (noted)
+		note_typed(p, first);
 	return MR_OK;
 }
 
@@ -283,7 +293,7 @@ cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tables[2], cm
 			MR_TRY(parse_short(&p));
 		} else {
 			args->operands[args->operand_count++] = word;
-			note_typed(&p, 0, p.at);
+			note_typed(&p, p.at);
 		}
 	}
 	return MR_OK;

@@ -58,7 +58,7 @@ typedef struct cmd_opt {
 typedef struct cmd_args {
 	char **operands;
 	size_t operand_count;
-	char **typed; /* the operands, and the options of the first table with their arguments, as typed */
+	char **typed; /* the operands, the options of the first table and -l with their arguments, as typed */
 	size_t typed_count;
 	uint64_t given; /* bit i: option i of the first table, of 64 at most */
 } cmd_args;

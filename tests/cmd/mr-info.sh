@@ -39,3 +39,5 @@ mr-import huge.off >huge.mrs
 mr-info huge.mrs | grep -E 'diagonal|area|edge'
 mr-compare -a mesh -b mesh -i huge.mrs | grep -E 'diagonal|both'
 { mr-info huge.mrs; mr-info --json huge.mrs; mr-compare -a mesh -b mesh -i huge.mrs; } | { ! grep -iE "[^a-z](nan|inf)[^a-z]"; }
+# The history has what changes a result: the layer, and not the threads.
+mr-make sphere -n 50 -j 2 | mr-select -l mesh --free all -j1 | mr-select -qlmesh --layer=mesh --fixed all | mr-info | grep -A 3 history
