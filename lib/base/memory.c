@@ -26,13 +26,22 @@ number_in(const char *path, const char *key)
 	return found;
 }
 
+/* What the process's group may still take: the files that the system keeps for it give way. */
+static double
+group_memory(void)
+{
+	static const char stat[] = "/sys/fs/cgroup/memory.stat";
+
+	return number_in("/sys/fs/cgroup/memory.max", NULL) -
+	       number_in("/sys/fs/cgroup/memory.current", NULL) + fmax(0, number_in(stat, "inactive_file ")) +
+	       fmax(0, number_in(stat, "active_file "));
+}
+
 double
 mr_memory_available(void)
 {
 	double system = 1024 * number_in("/proc/meminfo", "MemAvailable:");
-	double group = number_in("/sys/fs/cgroup/memory.max", NULL) -
-	               number_in("/sys/fs/cgroup/memory.current", NULL);
-	double least = fmin(INFINITY, fmin(system, group)); /* what is not a number does not count */
+	double least = fmin(INFINITY, fmin(system, group_memory())); /* what is not a number does not count */
 	struct rlimit limit;
 
 	if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
