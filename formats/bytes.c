@@ -2,6 +2,8 @@
 
 #include "formats/bytes.h"
 
+#include "base/memory.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/mman.h>
@@ -32,7 +34,8 @@ mr_bytes_free(mr_bytes *b)
 	*b = (mr_bytes){ 0 };
 }
 
-/* Makes room for more, by doubling; false where memory cannot be had. */
+/* Makes room for more, by doubling; false where memory cannot be had, or is not there: a pipe, and what a
+ * few bytes inflate to, may never end. */
 static bool
 widen(unsigned char **memory, size_t *room, size_t least)
 {
@@ -41,6 +44,8 @@ widen(unsigned char **memory, size_t *room, size_t least)
 
 	if (wanted < least)
 		wanted = least;
+	if (wanted > HEAD && (double)(wanted - *room) > mr_memory_available())
+		return false;
 	p = realloc(*memory, wanted);
 	if (!p)
 		return false;
