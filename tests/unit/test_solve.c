@@ -231,7 +231,7 @@ test_multigrid_of_zeros(void **state)
 	mr_sparse l = grid_matrix(1e-3, 0, false), p = interpolation();
 	mr_coarser level = { p, N / 4 };
 	double *weight = MR_NEW(&ctx, N, double), *b = MR_NEW_ZERO(&ctx, N, double);
-	mr_hierarchy h = { &l, weight, 1, 1, &level };
+	mr_hierarchy h = { &l, weight, 1, false, 1, &level };
 	mr_system system = { .a = &l, .hierarchy = &h };
 
 	(void)state;
