@@ -5,6 +5,7 @@
 #include "alg/fit.h"
 
 #include "alg/fit_least.h"
+#include "mesh/cloud.h"
 #include "mesh/near.h"
 #include "mesh/outlier.h"
 #include "mesh/zorder.h"
@@ -115,6 +116,7 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 {
 	if (n == 0)
 		return mr_fail(ctx, MR_EMESH, "%s: there are no points to fit it to", control->name);
+	MR_TRY(mr_cloud_check_spread(ctx, point, n));
 	if (!(mr_box_diagonal(mr_box_of(point, n)) > 0))
 		return mr_fail(
 		    ctx, MR_EMESH, "%s: the %zu points to fit it to lie at one place", control->name, n);

@@ -5,6 +5,7 @@
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
 #include "mesh/bvh.h"
+#include "mesh/cloud.h"
 #include "mesh/outlier.h"
 
 #include <float.h>
@@ -144,6 +145,7 @@ check_points(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c)
 	static const char *const shape[] = { "at one place", "on a line", "in a plane" };
 	int extent = dimensions(c->p, c->n, c->diagonal);
 
+	MR_TRY(mr_cloud_check_spread(ctx, c->p, c->n));
 	if (extent < 2 || (extent < 3 && !is_open(&d->level[d->n])))
 		return mr_fail(ctx, MR_EMESH, "all %zu points lie %s: they make no surface%s", c->n,
 		    shape[extent], extent == 2 ? " for a closed control mesh" : "");

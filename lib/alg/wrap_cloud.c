@@ -1,6 +1,7 @@
 #include "alg/wrap_parts.h"
 
 #include "base/sort.h"
+#include "mesh/cloud.h"
 
 /* Points nearer to a plane (a line, a place) than this share of the diagonal lie on it. */
 static const double FLAT = 1e-6;
@@ -109,6 +110,7 @@ mr_wrap_cloud_open(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *clo
 	if (n < 4)
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu point%s: a closed surface needs 4 at least", n, n == 1 ? "" : "s");
+	MR_TRY(mr_cloud_check_spread(ctx, point, n));
 	MR_TRY(mr_near_build(ctx, point, n, &cloud->near));
 	cloud->places = mr_near_distinct(cloud->near);
 	if (cloud->places < 4)

@@ -31,6 +31,12 @@ mr_status mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_
 /* Unit normal of the plane of least squares through k points; variation: as above. */
 mr_v3 mr_plane_fit(const mr_v3 *p, size_t k, double *variation);
 
+/*
+ * MR_ERANGE where the points spread over less than 1e-70 or more than 1e70, as the fourth power of a length
+ * would be no number; those at one place pass.
+ */
+mr_status mr_cloud_check_spread(mr_ctx *ctx, const mr_v3 *p, size_t n) MR_WARN_UNUSED;
+
 /* Sums of the products xx xy xz yy yz zz of k points, about their mean and times `scale`. */
 void mr_covariance(const mr_v3 *p, size_t k, double scale, double sum[6]);
 

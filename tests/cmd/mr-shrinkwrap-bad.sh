@@ -25,3 +25,19 @@ printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >four.xyz
 mr-import four.xyz | mr-shrinkwrap -m cube | mr-info -l control - | sed -n 's/^ *topology *//p'
 mr-make sphere --points 500 | mr-export -l points -f xyz - | awk '{ print $1 + 1e6, $2 - 1e6, $3 }' >far.xyz
 mr-import far.xyz | mr-shrinkwrap -m cube | mr-info -l control - | sed -n 's/^ *topology *//p'
+
+# Far from 1 in size, products of lengths are no numbers: said as it is.
+scaled() {
+	mr-make sphere --points 500 | mr-export -l points -f xyz - | awk -v s="$1" '{ printf "%.17g %.17g %.17g\n", $1 * s, $2 * s, $3 * s }' >scaled.xyz
+}
+scaled 1e-70 && mr-import scaled.xyz | mr-shrinkwrap | mr-info -l control - | sed -n 's/^ *topology *//p'
+scaled 1e69 && mr-import scaled.xyz | mr-shrinkwrap | mr-info -l control - | sed -n 's/^ *topology *//p'
+scaled 1e-200 && refuse scaled.xyz
+scaled 1e-310 && refuse scaled.xyz
+scaled 1e200 && refuse scaled.xyz
+mr-make sphere -n 42 | mr-export -f off - | mr-import -l control - >control.mrs
+scaled 1e-200 && mr-import scaled.xyz | mr-cat --merge - control.mrs >frame.mrs
+for tool in mr-fit mr-sample; do
+	$tool frame.mrs >out 2>err
+	echo "exit $?: $(head -n 1 err)"
+done
