@@ -533,8 +533,8 @@ read_stream(cmd *c, const char *path)
 	if (fd < 0)
 		die(c, fail_system(c, path));
 	if (isatty(fd))
-		die(c,
-		    mr_fail(&c->ctx, MR_EUSAGE, "%s is a terminal: pipe a stream in, or name a FILE", name));
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "%s is a terminal: pipe a stream in, or name a FILE%s",
+			   name, is_filter_or_sink_of_streams(c->tool) ? "" : " by -i"));
 	try(c, mr_prefix(&c->ctx, mr_reader_open(&c->ctx, fd, &reader), "%s", name));
 	while ((status = mr_reader_next(&c->ctx, reader, &frame)) == MR_OK)
 		one_frame(c, frame);

@@ -22,7 +22,8 @@ check(cmd *c)
 	char *name;
 
 	if (c->operand_count != 1)
-		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT is expected, not %zu", c->operand_count);
+		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT is expected, not %zu%s", c->operand_count,
+		    c->operand_count ? ": the stream to read is -i FILE or stdin" : "");
 	out = c->operands[0];
 	if (!strcmp(out, "-") && !format)
 		return mr_fail(&c->ctx, MR_EUSAGE, "OUT is stdout: -f FORMAT is needed");

@@ -64,7 +64,8 @@ prepare(cmd *c)
 	char *path;
 
 	if (c->operand_count != 1)
-		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT.png is expected, not %zu", c->operand_count);
+		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT.png is expected, not %zu%s", c->operand_count,
+		    c->operand_count ? ": the stream to read is -i FILE or stdin" : "");
 	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "a picture is not written to a terminal");
 	MR_TRY(cmd_idle(c, "columns", !sheet, "without --sheet"));

@@ -53,6 +53,15 @@ cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, siz
 	return MR_OK;
 }
 
+static mr_status
+fail_reals(mr_ctx *ctx, const char *what, const char *text, size_t count)
+{
+	if (count == 1)
+		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is not a number", what, text);
+	return mr_fail(
+	    ctx, MR_EUSAGE, "%s: '%s' is not %zu numbers with commas between them", what, text, count);
+}
+
 mr_status
 cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, double *values)
 {
@@ -61,8 +70,7 @@ cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, d
 	for (size_t i = 0; i < count; i++) {
 		char *end;
 		if (!number_at(at, &end, &values[i]) || *end != (i + 1 < count ? ',' : '\0'))
-			return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is not %zu numbers with commas between them",
-			    what, text, count);
+			return fail_reals(ctx, what, text, count);
 		at = end + 1;
 	}
 	return MR_OK;

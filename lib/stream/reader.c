@@ -122,8 +122,9 @@ read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
 		return MR_END;
 	}
 	if (stranger(r, header, got))
-		return mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here",
-		    (unsigned long long)p->offset);
+		return mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here%s",
+		    (unsigned long long)p->offset,
+		    r->ended ? "" : "; mr-import makes a stream of a model's file");
 	if (got < MR_HEADER)
 		return cut_off(ctx, r);
 	MR_TRY(mr_record_parse(ctx, header, p->offset, &p->head));

@@ -5,3 +5,11 @@ for args in '' 'a.png b.png' '-s 10x10 a.png' '-s 100 a.png' '-s 100x a.png' '--
 	mr-render $args <cube.mrs >out 2>err
 	echo "$args: exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
 done
+# What is no stream, and where the stream goes.
+mr-make sphere -n 42 | mr-export -f off - >x.off
+mr-render -i x.off a.png
+echo "exit $?"
+mr-render x.off a.png
+echo "exit $?"
+mr-decode x.off
+echo "exit $?"
