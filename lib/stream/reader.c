@@ -70,8 +70,7 @@ mr_reader_free(mr_reader *r)
 static mr_status
 cut_off(mr_ctx *ctx, const mr_reader *r)
 {
-	return mr_fail(ctx, MR_EFORMAT,
-	    "stream ends without END: the previous tool failed or was cut off, at byte %llu",
+	return mr_fail(ctx, MR_EFORMAT, "stream ends without END at byte %llu: the previous tool failed",
 	    (unsigned long long)r->in.offset);
 }
 

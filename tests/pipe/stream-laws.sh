@@ -11,7 +11,7 @@ one_sentence() {
 mr-make bumpy -n 3000 >a.mrs
 mr-make torus --points 700 | mr-cat -z >b.mrs
 mr-cat </dev/null >empty.out 2>err
-[ $? -eq 1 ] && one_sentence && grep -q 'stream ends without END: the previous tool failed or was cut off' err ||
+[ $? -eq 1 ] && one_sentence && grep -q 'stream ends without END at byte 0: the previous tool failed' err ||
     bad "empty input: $(cat err)"
 mr-cat empty.out >/dev/null 2>&1 && bad 'empty input makes a stream'
 
