@@ -265,6 +265,42 @@ screw(double turn, double dx, double scale)
 	    0, 0, 1, -dx } };
 }
 
+/* Of order k, with Voronoi areas, directly. */
+static mr_deform *
+of_order(const mr_mesh *m, const uint32_t *region, size_t k)
+{
+	return deform_of(m, region, opts_of(k, MR_AREAS_VORONOI, false));
+}
+
+static mr_v3 *
+places(const mr_mesh *m)
+{
+	return MR_NEW(&ctx, m->nv, mr_v3);
+}
+
+static void
+relax(mr_deform *d, const mr_v3 *p, mr_v3 *out)
+{
+	assert_int_equal(mr_deform_relax(&ctx, d, p, out), MR_OK);
+}
+
+static void
+pose(mr_deform *d, const mr_v3 *p, const mr_affine *t, size_t handles, mr_v3 *out)
+{
+	assert_int_equal(mr_deform_pose(&ctx, d, p, t, handles, out), MR_OK);
+}
+
+/* The pose of all handles from what each of their maps does. */
+static void
+pose_by_basis(mr_deform *d, const mr_v3 *p, size_t n, const mr_affine *t, mr_v3 *out)
+{
+	size_t handles = mr_deform_handles(d);
+	double *response = MR_NEW(&ctx, 4 * handles * n, double);
+
+	assert_int_equal(mr_deform_basis(&ctx, d, p, response), MR_OK);
+	assert_int_equal(mr_pose_by_response(&ctx, p, n, response, handles, t, out), MR_OK);
+}
+
 /* Tests */
 
 typedef struct sample {
@@ -297,9 +333,9 @@ test_relax_is_the_dense_solution(void **state)
 			for (int areas = MR_AREAS_VORONOI; areas <= MR_AREAS_MEAN; areas++)
 				for (int lu = 0; lu < 2; lu++) {
 					mr_deform *d = deform_of(&s[i].m, s[i].region, opts_of(k, areas, lu));
-					mr_v3 *p = MR_NEW(&ctx, s[i].m.nv, mr_v3);
-					mr_v3 *q = MR_NEW(&ctx, s[i].m.nv, mr_v3);
-					assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p), MR_OK);
+					mr_v3 *p = places(&s[i].m);
+					mr_v3 *q = places(&s[i].m);
+					relax(d, s[i].m.p, p);
 					dense_deform(
 					    &s[i].m, s[i].region, k, areas == MR_AREAS_MEAN, s[i].m.p, q);
 					assert_same(&s[i].m, p, q, 1e-9);
@@ -319,15 +355,15 @@ test_pose_is_the_dense_solution(void **state)
 	for (int i = 0; i < 4; i++)
 		for (size_t k = 1; k <= 3; k++) {
 			size_t n = s[i].m.nv;
-			mr_deform *d = deform_of(&s[i].m, s[i].region, opts_of(k, MR_AREAS_VORONOI, false));
+			mr_deform *d = of_order(&s[i].m, s[i].region, k);
 			mr_v3 *p0 = MR_NEW(&ctx, n, mr_v3), *p = MR_NEW(&ctx, n, mr_v3);
 			mr_v3 *q = MR_NEW(&ctx, n, mr_v3);
-			assert_int_equal(mr_deform_relax(&ctx, d, s[i].m.p, p0), MR_OK);
+			relax(d, s[i].m.p, p0);
 			for (size_t v = 0; v < n; v++)
 				q[v] = s[i].region[v] >= HANDLE ? mr_apply(&t[s[i].region[v] - HANDLE], p0[v])
 				                                : p0[v];
 			dense_deform(&s[i].m, s[i].region, k, false, q, q);
-			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, mr_deform_handles(d), p), MR_OK);
+			pose(d, p0, t, mr_deform_handles(d), p);
 			assert_same(&s[i].m, p, q, 1e-9);
 			mr_deform_free(d);
 		}
@@ -338,18 +374,18 @@ static void
 test_plane_is_reproduced(void **state)
 {
 	mr_mesh m = grid(21, 0.7, flat);
-	mr_v3 *q = MR_NEW(&ctx, m.nv, mr_v3), *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *q = places(&m), *p = places(&m);
 
 	(void)state;
 	for (size_t k = 1; k <= 3; k++) {
 		const uint32_t *region = framed(21, 3);
-		mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
+		mr_deform *d = of_order(&m, region, k);
 		for (size_t v = 0; v < m.nv; v++) {
 			mr_v3 x = m.p[v];
 			p[v] = mr_vec(x.x, x.y, 0.5 * x.x - 2 * x.y + 3);
 			q[v] = region[v] == FREE ? mr_vec(0.1, x.y * x.y, 7 * x.x) : p[v];
 		}
-		assert_int_equal(mr_deform_relax(&ctx, d, q, q), MR_OK);
+		relax(d, q, q);
 		assert_same(&m, p, q, 1e-10);
 		mr_deform_free(d);
 	}
@@ -367,8 +403,8 @@ test_symmetric_is_unsymmetric(void **state)
 		mr_v3 *p[2];
 		for (int lu = 0; lu < 2; lu++) {
 			mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, lu));
-			p[lu] = MR_NEW(&ctx, m.nv, mr_v3);
-			assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p[lu]), MR_OK);
+			p[lu] = places(&m);
+			pose(d, m.p, &t, 1, p[lu]);
 			mr_deform_free(d);
 		}
 		assert_same(&m, p[0], p[1], 1e-9);
@@ -380,7 +416,7 @@ test_identity_keeps_every_bit(void **state)
 {
 	mr_mesh m = torus(30, 12, 0.4);
 	mr_affine t[2] = { mr_identity(), mr_identity() };
-	mr_v3 *p0 = MR_NEW(&ctx, m.nv, mr_v3), *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p0 = places(&m), *p = places(&m);
 
 	(void)state;
 	memcpy(p0, m.p, m.nv * sizeof *p0);
@@ -389,16 +425,14 @@ test_identity_keeps_every_bit(void **state)
 	for (int handles_only = 0; handles_only < 2; handles_only++)
 		for (size_t k = 1; k <= 3; k++) {
 			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
-			mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
+			mr_deform *d = of_order(&m, region, k);
 			size_t h = mr_deform_handles(d);
-			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
 			assert_int_equal(h, handles_only ? 2 : 1);
-			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, h, p), MR_OK);
+			pose(d, p0, t, h, p);
 			assert_memory_equal(p, p0, m.nv * sizeof *p);
-			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, 0, p), MR_OK);
+			pose(d, p0, t, 0, p);
 			assert_memory_equal(p, p0, m.nv * sizeof *p);
-			assert_int_equal(mr_deform_basis(&ctx, d, p0, response), MR_OK);
-			assert_int_equal(mr_pose_by_response(&ctx, p0, m.nv, response, h, t, p), MR_OK);
+			pose_by_basis(d, p0, m.nv, t, p);
 			assert_memory_equal(p, p0, m.nv * sizeof *p);
 			mr_deform_free(d);
 		}
@@ -411,18 +445,16 @@ test_rigid_motion_is_followed(void **state)
 	mr_mesh m = torus(60, 25, 0.4);
 	uint32_t *region = bands(&m, 1, 0.2, 0.8, HANDLE + 1);
 	mr_affine t[2] = { screw(1.1, 2, 1), screw(1.1, 2, 1) };
-	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p = places(&m), *q = places(&m);
 
 	(void)state;
 	for (size_t v = 0; v < m.nv; v++)
 		q[v] = mr_apply(t, m.p[v]);
 	for (size_t k = 1; k <= 3; k++) {
-		mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
-		double *response = MR_NEW(&ctx, 8 * m.nv, double);
-		assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 2, p), MR_OK);
+		mr_deform *d = of_order(&m, region, k);
+		pose(d, m.p, t, 2, p);
 		assert_same(&m, p, q, 1e-15);
-		assert_int_equal(mr_deform_basis(&ctx, d, m.p, response), MR_OK);
-		assert_int_equal(mr_pose_by_response(&ctx, m.p, m.nv, response, 2, t, p), MR_OK);
+		pose_by_basis(d, m.p, m.nv, t, p);
 		assert_same(&m, p, q, 1e-13);
 		mr_deform_free(d);
 	}
@@ -433,20 +465,18 @@ test_basis_is_the_pose(void **state)
 {
 	mr_mesh m = torus(60, 25, 0.4);
 	mr_affine t[2] = { screw(0.5, 1, 1.3), screw(-0.8, 0.2, 0.9) };
-	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
-	mr_v3 *p0 = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p = places(&m), *q = places(&m);
+	mr_v3 *p0 = places(&m);
 
 	(void)state;
 	for (int handles_only = 0; handles_only < 2; handles_only++)
 		for (size_t k = 1; k <= 3; k++) {
 			uint32_t *region = bands(&m, 1, 0.2, 0.8, handles_only ? HANDLE + 1 : FIXED);
-			mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
+			mr_deform *d = of_order(&m, region, k);
 			size_t h = mr_deform_handles(d);
-			double *response = MR_NEW(&ctx, 4 * h * m.nv, double);
-			assert_int_equal(mr_deform_relax(&ctx, d, m.p, p0), MR_OK);
-			assert_int_equal(mr_deform_pose(&ctx, d, p0, t, h, p), MR_OK);
-			assert_int_equal(mr_deform_basis(&ctx, d, p0, response), MR_OK);
-			assert_int_equal(mr_pose_by_response(&ctx, p0, m.nv, response, h, t, q), MR_OK);
+			relax(d, m.p, p0);
+			pose(d, p0, t, h, p);
+			pose_by_basis(d, p0, m.nv, t, q);
 			assert_same(&m, p, q, 1e-9);
 			mr_deform_free(d);
 		}
@@ -459,8 +489,8 @@ test_targets_are_reached(void **state)
 	mr_mesh m = torus(60, 25, 0.4);
 	uint32_t *region = bands(&m, 1, 0.2, 0.8, FIXED);
 	mr_affine t = screw(0.5, 1, 1.3);
-	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
-	mr_v3 *target = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p = places(&m), *q = places(&m);
+	mr_v3 *target = places(&m);
 
 	(void)state;
 	for (size_t v = 0; v < m.nv; v++)
@@ -468,8 +498,8 @@ test_targets_are_reached(void **state)
 		            : region[v] == HANDLE ? mr_apply(&t, m.p[v])
 		                                  : mr_vec(9, 9, 9);
 	for (size_t k = 1; k <= 3; k++) {
-		mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, false));
-		assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p), MR_OK);
+		mr_deform *d = of_order(&m, region, k);
+		pose(d, m.p, &t, 1, p);
 		assert_int_equal(mr_deform_reach(&ctx, d, m.p, target, q), MR_OK);
 		assert_memory_equal(p, q, m.nv * sizeof *p);
 		mr_deform_free(d);
@@ -483,18 +513,18 @@ test_iterative_is_direct(void **state)
 	mr_mesh m = torus(120, 50, 0.4);
 	uint32_t *region = bands(&m, 1, 0.2, 0.8, FIXED);
 	mr_affine t = screw(0.5, 1, 1.3);
-	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p = places(&m), *q = places(&m);
 
 	(void)state;
 	for (size_t k = 1; k <= 2; k++) {
 		mr_deform_opts opts = opts_of(k, MR_AREAS_VORONOI, false);
 		mr_deform *d = deform_of(&m, region, opts);
-		assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, p), MR_OK);
+		pose(d, m.p, &t, 1, p);
 		mr_deform_free(d);
 		for (int kind = MR_CG; kind <= MR_VCYCLE; kind++) {
 			opts.solver.kind = (mr_solver_kind)kind;
 			d = deform_of(&m, region, opts);
-			assert_int_equal(mr_deform_pose(&ctx, d, m.p, &t, 1, q), MR_OK);
+			pose(d, m.p, &t, 1, q);
 			assert_same(&m, p, q, 1e-6);
 			mr_deform_free(d);
 		}
@@ -528,7 +558,7 @@ test_loose_components_stay(void **state)
 			t[one.nf + f].v[k] = one.t[f].v[k] + (uint32_t)one.nv;
 	}
 	d = deform_of(&two, region, opts_of(2, MR_AREAS_VORONOI, false));
-	assert_int_equal(mr_deform_pose(&ctx, d, p, maps, 2, q), MR_OK);
+	pose(d, p, maps, 2, q);
 	assert_memory_equal(p + one.nv, q + one.nv, (one.nv + 1) * sizeof *p);
 	assert_true(largest_distance(p, q, one.nv) > 0.1);
 	mr_deform_report(&ctx, d);
@@ -544,7 +574,7 @@ test_degenerate_faces_give_no_nan(void **state)
 {
 	mr_mesh m = grid(16, 0.4, wavy);
 	mr_tri *t = MR_NEW(&ctx, m.nf + 3, mr_tri);
-	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p = places(&m), *q = places(&m);
 	uint32_t *region = framed(16, 3);
 
 	(void)state;
@@ -564,7 +594,7 @@ test_degenerate_faces_give_no_nan(void **state)
 		if (status == MR_ENUMERIC && k > 1)
 			continue;
 		assert_int_equal(status, MR_OK);
-		assert_int_equal(mr_deform_relax(&ctx, d, p, q), MR_OK);
+		relax(d, p, q);
 		for (size_t v = 0; v < m.nv; v++)
 			assert_true(mr_finite(q[v]));
 		mr_deform_free(d);
@@ -578,7 +608,7 @@ test_refusals(void **state)
 	uint32_t *region = MR_NEW_ZERO(&ctx, m.nv, uint32_t);
 	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
 	mr_affine t[3] = { mr_identity(), mr_identity(), screw(1, 1, 1) };
-	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p = places(&m);
 	mr_deform *d = NULL;
 
 	(void)state;
@@ -597,7 +627,7 @@ test_refusals(void **state)
 	assert_int_equal(mr_deform_handles(d), 5);
 	assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 3, p), MR_ERANGE);
 	assert_non_null(strstr(ctx.error, "handle 2 has no vertex"));
-	assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 2, p), MR_OK);
+	pose(d, m.p, t, 2, p);
 	mr_deform_free(d);
 	mr_deform_free(NULL);
 }
@@ -608,15 +638,15 @@ test_threads_and_runs_change_nothing(void **state)
 	mr_mesh m = torus(150, 60, 0.4);
 	uint32_t *region = bands(&m, 1, 0.2, 0.8, FIXED);
 	mr_affine t = screw(0.7, 1, 1);
-	mr_v3 *first = MR_NEW(&ctx, m.nv, mr_v3), *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *first = places(&m), *p = places(&m);
 
 	(void)state;
 	for (unsigned run = 0; run < 4; run++) {
 		mr_deform *d;
 		ctx.threads = run % 2 ? 3 : 1;
 		d = deform_of(&m, region, (mr_deform_opts)MR_DEFORM_DEFAULTS);
-		assert_int_equal(mr_deform_relax(&ctx, d, m.p, p), MR_OK);
-		assert_int_equal(mr_deform_pose(&ctx, d, p, &t, 1, p), MR_OK);
+		relax(d, m.p, p);
+		pose(d, p, &t, 1, p);
 		if (run == 0)
 			memcpy(first, p, m.nv * sizeof *p);
 		assert_memory_equal(p, first, m.nv * sizeof *p);
@@ -631,7 +661,7 @@ test_memory_failures_are_reported(void **state)
 	uint32_t *region = bands(&m, 1, 0.3, 0.7, HANDLE + 1);
 	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
 	mr_affine t[2] = { screw(1, 1, 1), mr_identity() };
-	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_v3 *p = places(&m);
 	double *response = MR_NEW(&ctx, 8 * m.nv, double);
 
 	(void)state;
