@@ -49,7 +49,7 @@ export_frame(cmd *c, mr_frame *f)
 	MR_TRY(mr_layer_choose(&c->ctx, f, c->layer, layers, &layer));
 	MR_TRY(mr_model_get(&c->ctx, f, layer, &m));
 	MR_TRY(mr_outname(&c->ctx, out, f->name, f->number, &path));
-	MR_TRY(mr_model_write_held(&c->ctx, path, format, &m, varies ? NULL : &held));
+	MR_TRY(mr_model_write(&c->ctx, path, format, &m, varies ? NULL : &held));
 	written++;
 	return cmd_hold(
 	    c, held.file, held.place); /* of one frame: another may come, or the stream break off */

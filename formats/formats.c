@@ -284,7 +284,7 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 /* ---- writing ---- */
 
 mr_status
-mr_model_write_held(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held)
+mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held)
 {
 	const mr_file_format *f = NULL;
 	mr_sink sink;
@@ -296,12 +296,6 @@ mr_model_write_held(mr_ctx *ctx, const char *path, const char *format, const mr_
 	if (held)
 		*held = (mr_held){ .file = sink.temporary, .place = sink.target };
 	return MR_OK;
-}
-
-mr_status
-mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m)
-{
-	return mr_model_write_held(ctx, path, format, m, NULL);
 }
 
 void

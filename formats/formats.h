@@ -34,12 +34,6 @@ typedef struct mr_model {
  */
 mr_status mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m) MR_WARN_UNUSED;
 
-/*
- * Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.
- * A regular file is written beside its place and renamed into it, so it is seen whole or not at all.
- */
-mr_status mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m) MR_WARN_UNUSED;
-
 /* A file that is whole but not in its place: to be renamed, or removed.  NULLs for one that is written
  * directly.
  */
@@ -47,8 +41,12 @@ typedef struct mr_held {
 	const char *file, *place; /* in the arena */
 } mr_held;
 
-/* The same, but for the renaming, where `held` is not NULL. */
-mr_status mr_model_write_held(
+/*
+ * Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.
+ * A regular file is written beside its place and renamed into it, so it is seen whole or not at all; the
+ * renaming is the caller's where `held` is not NULL.
+ */
+mr_status mr_model_write(
     mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held) MR_WARN_UNUSED;
 
 /* MR_EUSAGE, naming those there are, where the format is unknown or cannot be written.  `binary`: not for a

@@ -114,7 +114,7 @@ round_trips(void **state)
 				continue;
 			mr_ctx_init(&ctx, 1);
 			m = restrict_to(make_model(&ctx, 40, 60, keeps & SINGLE), with);
-			ok(&ctx, mr_model_write(&ctx, written[i].path, written[i].format, &m));
+			ok(&ctx, mr_model_write(&ctx, written[i].path, written[i].format, &m, NULL));
 			ok(&ctx, mr_model_read(&ctx, written[i].path, NULL, &back));
 			same_model(&m, &back);
 			mr_ctx_free(&ctx);
@@ -131,7 +131,7 @@ stl_round_trip(void **state)
 		mr_model m, back;
 		mr_ctx_init(&ctx, 1);
 		m = make_model(&ctx, 40, 60, !ascii);
-		ok(&ctx, mr_model_write(&ctx, "m.stl", ascii ? "stl-ascii" : NULL, &m));
+		ok(&ctx, mr_model_write(&ctx, "m.stl", ascii ? "stl-ascii" : NULL, &m, NULL));
 		ok(&ctx, mr_model_read(&ctx, "m.stl", NULL, &back));
 		assert_int_equal(back.nf, m.nf);
 		assert_int_equal(back.nv, m.nv);
@@ -339,14 +339,14 @@ whole_or_not(void **state)
 	mr_ctx_init(&ctx, 1);
 	m = make_model(&ctx, 10, 10, false);
 	none = restrict_to(m, 0);
-	ok(&ctx, mr_model_write(&ctx, "old.pwn", NULL, &m));
-	assert_int_equal(mr_model_write(&ctx, "old.pwn", NULL, &none), MR_EMISSING);
+	ok(&ctx, mr_model_write(&ctx, "old.pwn", NULL, &m, NULL));
+	assert_int_equal(mr_model_write(&ctx, "old.pwn", NULL, &none, NULL), MR_EMISSING);
 	ok(&ctx, mr_model_read(&ctx, "old.pwn", NULL, &back));
 	assert_int_equal(back.nv, 10);
-	assert_int_equal(mr_model_write(&ctx, "new.pwn", NULL, &none), MR_EMISSING);
+	assert_int_equal(mr_model_write(&ctx, "new.pwn", NULL, &none, NULL), MR_EMISSING);
 	assert_int_equal(access("new.pwn", F_OK), -1);
-	assert_int_equal(mr_model_write(&ctx, "/dev/full", "ply", &m), MR_EIO);
-	assert_int_equal(mr_model_write(&ctx, "no/such/folder/a.ply", NULL, &m), MR_EIO);
+	assert_int_equal(mr_model_write(&ctx, "/dev/full", "ply", &m, NULL), MR_EIO);
+	assert_int_equal(mr_model_write(&ctx, "no/such/folder/a.ply", NULL, &m, NULL), MR_EIO);
 	mr_ctx_free(&ctx);
 }
 
