@@ -145,6 +145,21 @@ mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region, mr_handle
 }
 
 mr_status
+mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h)
+{
+	const uint32_t *region;
+	mr_mesh m;
+
+	if (!layer)
+		layer = mr_layer_has(f, "mesh", "region") ? "mesh" : "control";
+	if (!mr_layer_has(f, layer, "region"))
+		return mr_fail(ctx, MR_EMISSING, "no regions: they come from mr-select");
+	MR_TRY(mr_layer_points(ctx, f, layer, &m));
+	MR_TRY(mr_layer_region(ctx, f, layer, m.nv, &region));
+	return mr_handles_find(ctx, &m, region, h);
+}
+
+mr_status
 mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_affine **row, size_t *rows)
 {
 	const void *data = NULL;
@@ -278,4 +293,25 @@ mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t
 			MR_TRY(
 			    mr_handles_pose(ctx, h, script->line[i].handle, &script->line[i].pose, 1, row));
 	return MR_OK;
+}
+
+size_t
+mr_motion_length(const mr_motion *m)
+{
+	return m->script ? m->script->frames : m->frames;
+}
+
+mr_status
+mr_motion_put(mr_ctx *ctx, mr_frame *f, const mr_handles *h, const mr_motion *m, size_t number)
+{
+	double share = m->frames == 0 || number >= m->frames ? 1 : (double)number / (double)m->frames;
+	mr_affine *row;
+	size_t n;
+
+	MR_TRY(mr_handles_rows(ctx, f, h->n, &row, &n));
+	if (m->script)
+		MR_TRY(mr_script_pose(ctx, h, m->script, number, row));
+	else
+		MR_TRY(mr_handles_pose(ctx, h, m->handle, &m->pose, share, row));
+	return mr_layer_put(ctx, f, "handles", "transform", row, n);
 }

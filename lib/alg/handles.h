@@ -46,6 +46,9 @@ typedef struct mr_handles {
 /* Finds the handles among the regions of nv vertices.  MR_EMISSING where there is none. */
 mr_status mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region, mr_handles *h);
 
+/* The same in the layer with the regions: `layer`, or where it is NULL mesh, else control. */
+mr_status mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h);
+
 /*
  * The frame's maps (column handles.transform), at least n of them: those that are absent are the identity.
  * MR_ERANGE where one is not finite.  row: *rows maps in the arena, to be changed.
@@ -82,5 +85,18 @@ mr_status mr_script_read(mr_ctx *ctx, const char *path, mr_script *script);
 /* Applies frame `number`, from 1; 0 is rest, and behind the last frame the last one stays. */
 mr_status
 mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_affine *row);
+
+/* Where handles go: those of a script, or one handle at once or in `frames` frames. */
+typedef struct mr_motion {
+	const mr_script *script; /* NULL: none, and what follows counts */
+	size_t handle, frames;
+	mr_pose pose;
+} mr_motion;
+
+/* How many frames follow the one at rest; 0: there is no sequence. */
+size_t mr_motion_length(const mr_motion *m);
+
+/* Poses frame `number` of the sequence: 0 is at rest, behind the last the last pose stays. */
+mr_status mr_motion_put(mr_ctx *ctx, mr_frame *f, const mr_handles *h, const mr_motion *m, size_t number);
 
 #endif
