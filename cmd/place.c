@@ -79,8 +79,9 @@ fail_system(mr_ctx *ctx, const char *name)
 	return mr_fail(ctx, MR_EIO, "%s: %s", name, strerror(errno));
 }
 
+/* old: what is there; NULL: nothing.  Its mode is kept, where that can be. */
 static mr_status
-open_beside(mr_ctx *ctx, const char *name, place *p, int *fd)
+open_beside(mr_ctx *ctx, const char *name, const struct stat *old, place *p, int *fd)
 {
 	char *target = realpath(name, NULL);
 
@@ -90,21 +91,24 @@ open_beside(mr_ctx *ctx, const char *name, place *p, int *fd)
 	if (!p->name || !p->beside)
 		return MR_EMEM;
 	*fd = open(p->beside, O_WRONLY | O_CREAT | O_EXCL, 0666);
-	if (*fd >= 0) {
-		remember(p->beside);
-		return MR_OK;
+	if (*fd < 0) {
+		p->beside = NULL;
+		return fail_system(ctx, name);
 	}
-	p->beside = NULL;
-	return fail_system(ctx, name);
+	remember(p->beside);
+	if (old && fchmod(*fd, old->st_mode & 07777))
+		mr_note(ctx, "%s: cannot keep its mode: %s", name, strerror(errno));
+	return MR_OK;
 }
 
 mr_status
 place_open(mr_ctx *ctx, const char *name, place *p, int *fd)
 {
 	struct stat st;
+	bool there = stat(name, &st) == 0;
 
-	if (stat(name, &st) || S_ISREG(st.st_mode))
-		return open_beside(ctx, name, p, fd);
+	if (!there || S_ISREG(st.st_mode))
+		return open_beside(ctx, name, there ? &st : NULL, p, fd);
 	*p = (place){ name, NULL };
 	*fd = open(name, O_WRONLY);
 	return *fd < 0 ? fail_system(ctx, name) : MR_OK;

@@ -51,3 +51,7 @@ first <old.json
 mr-make sphere --stats sphere -o /dev/null
 first <sphere
 ls
+# A file that is there keeps its mode; so does an output.
+chmod 640 old.json && cp a.mrs mode.mrs && chmod 600 mode.mrs
+mr-cat --stats old.json -o mode.mrs a.mrs
+ls -l old.json mode.mrs | cut -c1-10
