@@ -36,14 +36,7 @@ typedef struct search {
 static mr_v3
 inward(const mr_dyn *d, uint32_t v)
 {
-	uint32_t h = d->out[v];
-	mr_v3 n = { 0, 0, 0 };
-
-	do {
-		n = mr_add(n, mr_dyn_cross(d, d->p, h / 3));
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return mr_mul(-1, mr_unit(n));
+	return mr_mul(-1, mr_unit(mr_dyn_normal_around(d, v)));
 }
 
 /* Cosine to the outward normal from which the nearest point is over the vertex: that is inside, no film. */

@@ -1,24 +1,19 @@
 /* Heights as wavelet coefficients: exact inverses, prefixes, gains; columns that go along with subdivision.
  */
-#include "alg/shape.h"
 #include "alg/subdivide.h"
 #include "alg/wavelet.h"
 #include "base/random.h"
-#include "unit.h"
+#include "shapes.h"
 
 enum { LEVELS = 3 };
 
 static mr_loop level[LEVELS + 1];
 
 static mr_mesh
-shape(mr_solid solid, size_t n)
+shape_and_levels(mr_solid solid, size_t n)
 {
-	mr_mesh m;
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
+	mr_mesh m = shape(solid, n);
 
-	o.solid = solid;
-	o.vertices = n;
-	assert_int_equal(mr_solid_make(&ctx, &o, &m), MR_OK);
 	assert_int_equal(mr_loop_levels(&ctx, &m, 180, LEVELS, level), MR_OK);
 	return m;
 }
@@ -58,7 +53,7 @@ test_synthesis_undoes_analysis(void **state)
 
 	(void)state;
 	for (int i = 0; i < 3; i++) {
-		shape(solids[i], 300);
+		shape_and_levels(solids[i], 300);
 		size_t n = level[LEVELS].nv;
 		double *x = random_heights(7), *y = copy(x, n), ones[LEVELS + 1] = { 1, 1, 1, 1 };
 		assert_int_equal(mr_wavelet_analyse(&ctx, level, LEVELS, y), MR_OK);
@@ -76,7 +71,7 @@ static void
 test_predictions_have_no_coefficients(void **state)
 {
 	(void)state;
-	shape(MR_TORUS, 100);
+	shape_and_levels(MR_TORUS, 100);
 	double *x = random_heights(3);
 	for (size_t i = 1; i <= LEVELS; i++)
 		mr_loop_predict(&ctx, &level[i - 1], &level[i], 1, x, x + level[i - 1].nv);
@@ -92,7 +87,7 @@ test_levels_stay_prefixes(void **state)
 	static const double gain[LEVELS + 1] = { 0.5, 2, 0, -1 };
 
 	(void)state;
-	shape(MR_SPHERE, 42);
+	shape_and_levels(MR_SPHERE, 42);
 	double *x = random_heights(5), *all = copy(x, level[LEVELS].nv);
 	assert_int_equal(mr_equalize(&ctx, level, LEVELS, gain, all), MR_OK);
 	for (size_t j = 0; j < LEVELS; j++) {
@@ -112,7 +107,7 @@ test_gains_multiply(void **state)
 	static const double ab[LEVELS + 1] = { 2, 0.5, 3, -2 }, none[LEVELS + 1] = { 0 };
 
 	(void)state;
-	shape(MR_PLANE, 60);
+	shape_and_levels(MR_PLANE, 60);
 	size_t n = level[LEVELS].nv;
 	double *x = random_heights(6), *y = copy(x, n);
 	assert_int_equal(mr_equalize(&ctx, level, LEVELS, a, x), MR_OK);
@@ -131,7 +126,7 @@ test_refusals_and_lost_memory(void **state)
 	mr_status status = MR_EMEM;
 
 	(void)state;
-	shape(MR_SPHERE, 300);
+	shape_and_levels(MR_SPHERE, 300);
 	double *x = random_heights(8);
 	mr_mark mark = mr_mark_take(&ctx);
 	for (uint64_t k = 1; status == MR_EMEM; k++) {
@@ -158,7 +153,7 @@ carried(const mr_carried *c, const char *name, size_t rows)
 static void
 test_columns_go_along(void **state)
 {
-	mr_mesh m = shape(MR_PLANE, 60);
+	mr_mesh m = shape_and_levels(MR_PLANE, 60);
 	mr_carried c[MR_CARRIED];
 	mr_frame *f;
 	uint32_t *region = MR_NEW(&ctx, m.nv, uint32_t), *group = MR_NEW(&ctx, m.nf, uint32_t);
