@@ -107,6 +107,15 @@ show_note(void *user, const char *text)
 	say_of_frame(user, text);
 }
 
+static void
+show_warning(void *user, const char *text)
+{
+	char sentence[MR_ERROR_MAX];
+
+	snprintf(sentence, sizeof sentence, "warning: %s", text);
+	say_of_frame(user, sentence);
+}
+
 /* After a second of work, at most ten times a second. */
 static void
 show_progress(void *user, const char *what, double share)
@@ -223,7 +232,7 @@ parse_command_line(cmd *c, int argc, char **argv)
 		{ 0, "no-history", CMD_FLAG, &s->no_history, 0, 0, "", "add no line to the frames' history",
 		    NULL },
 		{ 'v', "verbose", CMD_FLAG, &c->verbose, 0, 0, "", "say what is being done", NULL },
-		{ 'q', "quiet", CMD_FLAG, &c->quiet, 0, 0, "", "show no progress", NULL },
+		{ 'q', "quiet", CMD_FLAG, &c->quiet, 0, 0, "", "show neither warnings nor progress", NULL },
 		{ 'h', "help", CMD_FLAG, &s->help, 0, 0, "", "print this and exit", NULL },
 		{ 'V', "version", CMD_FLAG, &s->version, 0, 0, "", "print the version and exit", NULL },
 		{ 'i', "input", CMD_TEXT, &s->input, 0, 0, "FILE", "read that stream (default stdin)", NULL },
@@ -595,6 +604,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		c.ctx.threads = (unsigned)state.threads;
 	c.ctx.user = &c;
 	c.ctx.note = c.verbose ? show_note : NULL;
+	c.ctx.warn = c.quiet ? NULL : show_warning;
 	c.ctx.unfinished = place_unfinished;
 	c.ctx.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
 	c.keep = c.ctx;

@@ -79,6 +79,20 @@ mr_note(mr_ctx *ctx, const char *format, ...)
 }
 
 void
+mr_warn(mr_ctx *ctx, const char *format, ...)
+{
+	char text[MR_ERROR_MAX];
+	va_list args;
+
+	if (!ctx->warn)
+		return;
+	va_start(args, format);
+	vsnprintf(text, sizeof text, format, args);
+	va_end(args);
+	ctx->warn(ctx->user, text);
+}
+
+void
 mr_unfinished(mr_ctx *ctx, const char *file)
 {
 	if (ctx->unfinished)

@@ -58,6 +58,7 @@ typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
 typedef struct mr_ctx {
 	unsigned threads;                                             /* at least 1 */
 	void (*note)(void *user, const char *text);                   /* a remark for -v; NULL: dropped */
+	void (*warn)(void *user, const char *text);                   /* a warning; NULL: dropped */
 	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1; NULL: none */
 	void (*unfinished)(void *user, const char *file); /* to remove if the process is ended; NULL: none */
 	void *user;                                       /* passed to all */
@@ -89,6 +90,9 @@ mr_status mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...) MR_P
 
 /* A remark for the user who asked for them. */
 void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
+
+/* What is poor in a result that is given all the same, for every user. */
+void mr_warn(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 
 /* From now on this file is not to stay where the process is ended; NULL: none.  There is one at a time. */
 void mr_unfinished(mr_ctx *ctx, const char *file);
