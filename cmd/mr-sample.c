@@ -8,7 +8,7 @@ static size_t level;
 
 static const cmd_opt table[] = {
 	{ 'n', "level", CMD_TEXT, &level_text, 0, 0, "LEVEL",
-	    "subdivisions of the control mesh (default: as many vertices as points)", NULL },
+	    "subdivisions of the control mesh (default: as many vertices as points, at least 1)", NULL },
 	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "triangle|robust", "how to find the heights", NULL },
 	{ 'K', "neighbours", CMD_COUNT, &opts.neighbours, 3, MR_SAMPLE_MOST, "K",
 	    "nearest points looked at for each vertex", NULL },
@@ -59,8 +59,10 @@ sample_frame(cmd *c, mr_frame *f)
 	MR_TRY(get_target(c, f, &target));
 	if (target.nf)
 		MR_TRY(check_mesh_options(c));
-	if (!level_text)
+	if (!level_text) {
 		MR_TRY(mr_domain_level(ctx, &control, target.nv, &n));
+		n = n ? n : 1; /* the triangles of level 0 are far from the surface that was fitted */
+	}
 	MR_TRY(mr_domain_build(ctx, &control, n, &d));
 	height = MR_NEW(ctx, d.m.nv, double);
 	if (!height)

@@ -7,8 +7,9 @@
 enum { POINTS_A_FACE = 32, FACES_A_FACE = 10 };
 
 /* Of a control mesh, at least so many, or one for every so many points where that is less: fewer would not
- * follow a surface with limbs or handles. */
-enum { LEAST = 300, LEAST_POINTS_A_FACE = 4 };
+ * follow a surface with limbs or handles.  But never fewer than an icosahedron has: the limit surface of
+ * those is small within them, and a fit to points as few would have to blow them up. */
+enum { LEAST = 300, LEAST_POINTS_A_FACE = 4, ROUND = 20 };
 
 static mr_simplify_opts opts = MR_SIMPLIFY_DEFAULTS;
 static size_t faces;
@@ -36,7 +37,7 @@ faces_for(mr_ctx *ctx, size_t n)
 {
 	size_t count = n / POINTS_A_FACE, least = n / LEAST_POINTS_A_FACE;
 
-	least = least < LEAST ? least : LEAST;
+	least = least < ROUND ? ROUND : least < LEAST ? least : LEAST;
 	if (count >= least)
 		return count;
 	mr_note(ctx, "%zu faces for %zu points, as one for every %d would be too few", least, n,

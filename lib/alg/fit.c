@@ -13,6 +13,9 @@
 
 enum { LOCAL_PASSES = 20, LEAST_SQUARES_PASSES = 5 };
 
+/* Control edges from the surface, beyond which points are not followed. */
+static const double FAR = 0.15;
+
 /* f_i = q_i - v_i, v_i the limit points, q_i the nearest points; none of vertices without a face. */
 static mr_status
 forces(mr_ctx *ctx, const mr_near *near, const mr_v3 *point, const mr_loop *l, const mr_v3 *limit,
@@ -78,6 +81,21 @@ record(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, 
 		snprintf(name, sizeof name, "%s_%s", figure[i].name, when);
 		mr_stat_set(ctx, name, figure[i].value);
 	}
+}
+
+/* Where the result is poor: it folds, or the points are as far as the control mesh is coarse. */
+static void
+warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, const mr_fit_foot *foot, size_t n)
+{
+	size_t folds = mr_fit_folds(s);
+	double far = mr_fit_measure(ctx, foot, n).mean;
+
+	if (folds > 0)
+		mr_warn(ctx, "the limit surface has %zu folded edges", folds);
+	if (far > FAR * edge)
+		mr_warn(ctx,
+		    "the points are %.3g from the limit surface on the mean, where a control edge is %.3g",
+		    far, edge);
 }
 
 /* Takes the outliers of *n points out, and their feet. */
@@ -149,6 +167,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	mr_fit_foot *foot = mr_alloc(ctx, n, sizeof *foot);
 	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
 	size_t given = n;
+	double edge = mr_mesh_edge_scale(ctx, control);
 	double start;
 	mr_fit_surface s;
 
@@ -160,7 +179,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	MR_TRY(mr_fit_surface_build(ctx, control, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
 	if (!is_local)
-		MR_TRY(drop_outliers(ctx, MR_FIT_NEAR * mr_mesh_edge_scale(ctx, control), sorted, foot, &n));
+		MR_TRY(drop_outliers(ctx, MR_FIT_NEAR * edge, sorted, foot, &n));
 	record(ctx, &s, foot, n, "before");
 	start = mr_seconds();
 	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
@@ -169,6 +188,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	mr_stat_set(ctx, "seconds_iteration", (mr_seconds() - start) / (double)passes);
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 	record(ctx, &s, foot, n, "after");
+	warn(ctx, &s, edge, foot, n);
 	memcpy(out, x, control->nv * sizeof *out);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -160,7 +160,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
 	double *w = MR_NEW(ctx, n, double);
 	mr_fit_system system;
-	size_t damped = 0, steps = 0;
+	size_t damped = 0, steps = 0, crossing = 0;
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	bool *crossed = MR_NEW(ctx, surface->level[0].nf, bool);
 
@@ -179,6 +179,12 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	}
 	mr_stat_set(ctx, "cg_steps", (double)steps / (double)passes);
 	mr_stat_set(ctx, "damped", (double)damped);
+	for (size_t f = 0; f < surface->level[0].nf; f++)
+		crossing += crossed[f];
+	mr_stat_set(ctx, "crossing_faces", (double)crossing);
+	if (crossing > 0)
+		mr_warn(ctx, "the limit surface passes through itself at %zu of %zu control faces", crossing,
+		    surface->level[0].nf);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

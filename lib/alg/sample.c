@@ -10,6 +10,9 @@
 
 #include <float.h>
 
+/* Heights that were filled in, as a share, without a warning. */
+static const double FILLED_MOST = 0.25;
+
 /* Hoare 1961: Algorithm 65. */
 double
 mr_kth(double *x, size_t n, size_t k)
@@ -208,6 +211,9 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height)
 	MR_TRY(mr_heights_fill(ctx, e, hit, height, &filled));
 	mr_stat_set(ctx, "spikes", (double)dropped);
 	mr_stat_set(ctx, "filled", (double)filled);
+	if ((double)filled > FILLED_MOST * (double)d->m.nv)
+		mr_warn(
+		    ctx, "no height is found at %zu of %zu vertices: filled in smoothly", filled, d->m.nv);
 	return MR_OK;
 }
 

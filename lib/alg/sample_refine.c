@@ -365,6 +365,9 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fi
 	report_gaps(ctx, &x);
 	mr_stat_set(ctx, "fairness", weights->fair);
 	mr_stat_set(ctx, "folds", (double)folds);
+	if (folds > 0)
+		mr_warn(ctx, "%zu of %zu triangles of the displaced surface fold over or pass through others",
+		    folds, d->m.nf);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

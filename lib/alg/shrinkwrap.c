@@ -30,6 +30,15 @@ typedef struct candidate {
 
 enum { TEMPLATE = MR_WRAP_VOLUME + 1 };
 
+/* So few points tell nothing of handles and limbs: the box, of genus 0, goes around them. */
+enum { FEW = 64 };
+
+static bool
+is_sound(const candidate *c)
+{
+	return c->folds == 0 && c->cover.crossings == 0;
+}
+
 static bool
 covers(const mr_wrap_cover *c, const mr_wrap_cover *most, double unit)
 {
@@ -176,7 +185,8 @@ beats(const candidate *box, const candidate *volume)
 	return badness(&box->cover) < BETTER * badness(&volume->cover);
 }
 
-/* The volume, but where it is not good either the box if that is better. */
+/* The volume, but where it is not good either the box if that is better.  Which fits closer counts less than
+ * which passes nowhere through itself: drawn to an open sheet from both sides, the box does. */
 static mr_status
 choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished,
     candidate *c)
@@ -194,7 +204,7 @@ choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double le
 		mr_note(ctx, "no volume: %s", ctx->error);
 	if (!finished)
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-	if (status == MR_OK && !beats(c, &volume))
+	if (status == MR_OK && (!beats(c, &volume) || (!is_sound(c) && is_sound(&volume))))
 		*c = volume;
 	return MR_OK;
 }
@@ -213,10 +223,10 @@ wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candid
 	MR_TRY(mr_wrap_begin(ctx, cloud, o, &length, &c->d));
 	MR_TRY(measure(ctx, cloud, FIRST_SAMPLES, "first level", c));
 	mr_stat_set(ctx, "seconds_box", mr_seconds() - start);
-	round = covers(&c->cover, &FIRST, length);
+	round = cloud->places <= FEW || covers(&c->cover, &FIRST, length);
 	if (round) {
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-		if (covers(&c->cover, &LAST, cloud->spacing))
+		if (is_sound(c) && covers(&c->cover, &LAST, cloud->spacing))
 			return MR_OK;
 	}
 	return choose(ctx, cloud, o, length, round, c);
@@ -235,6 +245,27 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, c
 	}
 }
 
+/* Where a wrap is poor by the same measure. */
+static void
+warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
+{
+	double points = c->cover.points_high / cloud->spacing, wrap = c->cover.wrap_high / cloud->spacing;
+
+	if (!is_sound(c))
+		mr_warn(ctx, "the wrap has %zu folded edges and %zu pairs of faces that intersect", c->folds,
+		    c->cover.crossings);
+	if (points > LAST.points_high)
+		mr_warn(ctx,
+		    "1 %% of the points are more than %.3g sampling distances from the wrap: outliers, or it "
+		    "does not reach them",
+		    points);
+	if (wrap > LAST.wrap_max)
+		mr_warn(ctx,
+		    "1 %% of the wrap is more than %.3g sampling distances from the points: it closes what "
+		    "they leave open",
+		    wrap);
+}
+
 static void
 report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
 {
@@ -251,6 +282,8 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
 	mr_stat_set(ctx, "wrap_to_points_99", c->cover.wrap_high);
 	mr_stat_set(ctx, "faces", (double)c->d.nf);
 	mr_stat_set(ctx, "folded_edges", (double)c->folds);
+	mr_stat_set(ctx, "intersecting_pairs", (double)c->cover.crossings);
+	warn(ctx, cloud, c);
 }
 
 static mr_status

@@ -2,7 +2,7 @@
 #include "alg/wrap_parts.h"
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "mesh/bvh.h"
+#include "mesh/intersect.h"
 
 enum { GRAIN = 1024 };
 
@@ -48,6 +48,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	c->points_max = j.distance[n - 1];
 	c->points_high = j.distance[(size_t)(HIGH * (double)(n - 1))];
 	c->points_most = j.distance[(size_t)(MOST * (double)(n - 1))];
+	MR_TRY(mr_self_intersections(ctx, bvh, m, &c->crossings));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

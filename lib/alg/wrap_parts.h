@@ -80,6 +80,7 @@ typedef struct mr_wrap_cover {
 	double points_max, points_high,
 	    points_most;            /* of points to the wrap: all, 99 % and 90 % are within */
 	double wrap_max, wrap_high; /* of middles of faces to the points: all, and 99 % of the area */
+	size_t crossings;           /* pairs of its faces that intersect */
 } mr_wrap_cover;
 
 mr_status

@@ -17,14 +17,14 @@ refused() {
 mr-import ball.xyz | refused
 mr-import -l control ball.off | refused
 for m in local least-squares; do
-	merge ball.off one.xyz | mr-fit -m $m >out; echo "exit $?"
-	merge fan.off ball.xyz | mr-fit -m $m >out; echo "exit $?"
+	merge ball.off one.xyz | mr-fit -q -m $m >out; echo "exit $?"
+	merge fan.off ball.xyz | mr-fit -q -m $m >out; echo "exit $?"
 	echo 'two points; a triangle; a vertex without a face, which stays'
-	merge ball.off two.xyz | mr-fit -m $m | mr-export -f off -l control - | grep -ci nan
+	merge ball.off two.xyz | mr-fit -q -m $m | mr-export -f off -l control - | grep -ci nan
 	printf 'OFF\n4 1 0\n-1 -1 0\n1 -1 0\n7 8 9\n0 1 0\n3 0 1 3\n' >tri.off
-	merge tri.off ball.xyz | mr-fit -m $m | mr-export -f off -l control - | sed -n 5p
-	merge tri.off ball.xyz | mr-fit -m $m | mr-export -f off -l control - | grep -ci nan
+	merge tri.off ball.xyz | mr-fit -q -m $m | mr-export -f off -l control - | sed -n 5p
+	merge tri.off ball.xyz | mr-fit -q -m $m | mr-export -f off -l control - | grep -ci nan
 	echo 'faces without area'
 	printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n2 0 0\n3 0 0\n3 0 1 2\n3 0 2 3\n3 0 3 1\n3 1 3 2\n' >flat.off
-	merge flat.off ball.xyz | mr-fit -m $m | mr-export -f off -l control - | grep -ci nan
+	merge flat.off ball.xyz | mr-fit -q -m $m | mr-export -f off -l control - | grep -ci nan
 done

@@ -7,13 +7,13 @@ for shape in sphere torus knot bumpy plane; do
 	mr-make $shape --points 20000 -o points.mrs
 	mr-cat --merge control.mrs points.mrs -o both.mrs
 	for m in local least-squares; do
-		mr-fit -m $m --stats stats.json both.mrs -o out.mrs || exit
+		mr-fit -q -m $m --stats stats.json both.mrs -o out.mrs || exit
 		for f in mean rms; do
 			b=$(figure distance_${f}_before stats.json) a=$(figure distance_${f}_after stats.json)
 			awk -v a="$a" -v b="$b" -v s="$shape $m $f" \
 			    'BEGIN { print s ":", (a < 0.8 * b || a < 1e-3 ? "ok" : "bad: " b " became " a) }'
 		done
-		mr-fit -j 1 -m $m both.mrs | cmp - out.mrs && echo same for -j 1
+		mr-fit -q -j 1 -m $m both.mrs | cmp - out.mrs && echo same for -j 1
 	done
 	echo "folded: $(figure folded_edges_after stats.json)"
 done

@@ -22,9 +22,9 @@ echo "exit $?"
 
 # The fewest that can be wrapped; far from the origin.
 printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >four.xyz
-mr-import four.xyz | mr-shrinkwrap -m cube | mr-info -l control - | sed -n 's/^ *topology *//p'
+mr-import four.xyz | mr-shrinkwrap -q -m cube | mr-info -l control - | sed -n 's/^ *topology *//p'
 mr-make sphere --points 500 | mr-export -l points -f xyz - | awk '{ print $1 + 1e6, $2 - 1e6, $3 }' >far.xyz
-mr-import far.xyz | mr-shrinkwrap -m cube | mr-info -l control - | sed -n 's/^ *topology *//p'
+mr-import far.xyz | mr-shrinkwrap -q -m cube | mr-info -l control - | sed -n 's/^ *topology *//p'
 
 # Far from 1 in size, products of lengths are no numbers: said as it is.
 scaled() {

@@ -7,8 +7,8 @@ worst() { # distance of the control's vertices to the unit sphere is below $1
 mr-make sphere --points 3000 -o sphere.mrs
 for m in auto cube volume; do
 	echo "$m"
-	mr-shrinkwrap -m $m sphere.mrs -o out.mrs
-	mr-shrinkwrap -j 1 -m $m sphere.mrs | mr-export -f off -l control - >one.off
+	mr-shrinkwrap -q -m $m sphere.mrs -o out.mrs
+	mr-shrinkwrap -q -j 1 -m $m sphere.mrs | mr-export -f off -l control - >one.off
 	mr-export -f off -l control - <out.mrs | cmp - one.off && echo same for -j 1
 	mr-info -l control out.mrs | sed -n 's/^ *topology *//p'
 	worst 0.03 <out.mrs
@@ -35,7 +35,7 @@ echo 'points that repeat change nothing'
 mr-export -l points -f xyz - <sphere.mrs >once.xyz
 cat once.xyz once.xyz >twice.xyz
 for n in once twice; do
-	mr-import $n.xyz | mr-shrinkwrap -m cube | mr-export -f off -l control - >$n.off
+	mr-import $n.xyz | mr-shrinkwrap -q -m cube | mr-export -f off -l control - >$n.off
 done
 cmp once.off twice.off && echo same
 

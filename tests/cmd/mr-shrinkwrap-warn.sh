@@ -1,0 +1,38 @@
+# Clouds that are open, few or no surface: a sound surface where there can be one, and a warning where it is poor.
+flaws() {
+	mr-info -l "$1" "$2" | sed -n 's/^ *topology *//p; s/^ *flaws *//p'
+}
+nearest() { # the mean distance of the points to the surface is below $1 of the diagonal
+	mr-compare --json -a points -b mesh <out.mrs | sed 's/.*"a_to_b_relative":{\([^}]*\)}.*/\1/; s/.*"mean":\([^,}]*\).*/\1/' |
+		awk -v most="$1" '{ print $1 < most ? "near" : "off by " $1 }'
+}
+reconstruct() {
+	mr-import --points "$1" | mr-shrinkwrap | mr-simplify | mr-fit | mr-sample | mr-decode -o out.mrs
+	flaws mesh out.mrs
+}
+
+echo 'half a sphere, closed by a lid'
+mr-make sphere --points 3000 --seed 5 | mr-export -l points -f xyz - | awk '$3 > 0' >half.xyz
+reconstruct half.xyz 2>err
+nearest 0.001
+sed 's/[0-9.]* sampling/N sampling/; s/at [0-9]* of [0-9]*/at N of N/' err
+
+echo 'the same, quietly'
+mr-import --points half.xyz | mr-shrinkwrap -q -o quiet.mrs
+flaws control quiet.mrs
+
+echo 'few points: 4, 6, 8, 20'
+printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >4.xyz
+printf '1 0 0\n-1 0 0\n0 1 0\n0 -1 0\n0 0 1\n0 0 -1\n' >6.xyz
+printf '0 0 0\n0 0 1\n0 1 0\n0 1 1\n1 0 0\n1 0 1\n1 1 0\n1 1 1\n' >8.xyz
+mr-make sphere --points 20 | mr-export -l points -f xyz - >20.xyz
+for n in 4 6 8 20; do
+	reconstruct $n.xyz 2>err
+	nearest 0.05
+done
+
+echo 'a solid has no surface'
+mr-make sphere --points 4000 | mr-export -l points -f xyz - |
+	awk '{ s = 1 - (NR % 10) / 11; print s * $1, s * $2, s * $3 }' >solid.xyz
+mr-import --points solid.xyz | mr-shrinkwrap 2>err | mr-info -l control - | sed -n 's/^ *topology *\(.*manifold\).*/\1/p'
+grep -c '(solid): warning: the wrap has .* pairs of faces that intersect' err
