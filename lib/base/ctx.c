@@ -161,6 +161,12 @@ no_memory(mr_ctx *ctx, size_t count, size_t size)
 }
 
 /* Aligned here: what posix_memalign gave and got back it cannot always give again. */
+static char *
+aligned(char *memory)
+{
+	return memory + (ALIGN - (uintptr_t)memory % ALIGN) % ALIGN;
+}
+
 static mr_block *
 block_new(mr_ctx *ctx, size_t size)
 {
@@ -169,7 +175,7 @@ block_new(mr_ctx *ctx, size_t size)
 
 	if (!memory)
 		return NULL;
-	b = (void *)(memory + (ALIGN - (uintptr_t)memory % ALIGN) % ALIGN);
+	b = (void *)aligned(memory);
 	*b = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = size, .memory = memory };
 	return ctx->top = b;
 }
@@ -201,30 +207,59 @@ mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size)
 	return p ? memset(p, 0, count * size) : NULL;
 }
 
-/* Frees the block that holds `memory` and nothing else, if there is one. */
-static void
-free_alone(mr_ctx *ctx, const void *memory)
+/* The link to the block that holds `memory` and nothing else; NULL where there is none. */
+static mr_block **
+own_block(mr_ctx *ctx, const void *memory)
 {
-	for (mr_block **b = &ctx->top; *b; b = &(*b)->below)
-		if (bytes_of(*b) == memory) {
-			mr_block *found = *b;
-			if (found->size > LARGE && found->size != SHARED) {
-				*b = found->below;
-				free(found->memory);
-			}
-			return;
-		}
+	for (mr_block **b = &ctx->top; memory && *b; b = &(*b)->below)
+		if (bytes_of(*b) == memory)
+			return (*b)->size > LARGE && (*b)->size != SHARED ? b : NULL;
+	return NULL;
+}
+
+/*
+ * Gives a block another size and puts it on top.  The system moves large ones without copying them, so that
+ * there are never two of an array that grows.
+ */
+static void *
+resize(mr_ctx *ctx, mr_block **link, size_t bytes)
+{
+	mr_block *b = *link, *moved;
+	size_t kept = sizeof *b + (b->size < bytes ? b->size : bytes);
+	size_t shift = (size_t)((char *)b - (char *)b->memory);
+	char *memory;
+
+	*link = b->below;
+	memory = realloc(b->memory, sizeof *b + bytes + ALIGN - 1);
+	if (!memory) {
+		*link = b;
+		return NULL;
+	}
+	moved = (void *)aligned(memory);
+	if ((char *)moved != memory + shift)
+		memmove(moved, memory + shift, kept);
+	*moved = (mr_block){
+		.below = ctx->top, .serial = ++ctx->blocks, .size = bytes, .used = bytes, .memory = memory
+	};
+	ctx->top = moved;
+	return bytes_of(moved);
 }
 
 void *
 mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size)
 {
-	void *p = mr_alloc(ctx, count, size);
+	mr_block **own = own_block(ctx, old);
+	size_t bytes;
+	void *p;
 
+	if (own) {
+		if (!product(count, size, &bytes) || told_to_fail(ctx) || !(p = resize(ctx, own, bytes)))
+			return no_memory(ctx, count, size);
+		return p;
+	}
+	p = mr_alloc(ctx, count, size);
 	if (p && used)
 		memcpy(p, old, used * size);
-	if (p && old)
-		free_alone(ctx, old);
 	return p;
 }
 
