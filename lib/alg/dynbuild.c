@@ -28,17 +28,11 @@ makes_curve(const mr_dyn *d, uint32_t h, double feature)
 static mr_status
 mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
 {
-	uint32_t first = 0;
-
-	while (first < 3 * d->nf && !makes_curve(d, first, feature))
-		first++;
-	if (first == 3 * d->nf)
-		return MR_OK;
-	d->curve = MR_NEW(ctx, 3 * d->room_f, uint32_t);
-	if (!d->curve)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		d->curve[h] = h >= first && makes_curve(d, h, feature) ? h : MR_NONE;
+		if (makes_curve(d, h, feature)) {
+			MR_TRY(mr_curves_reserve(ctx, &d->curves, 1));
+			mr_curves_set(&d->curves, h, h);
+		}
 	return MR_OK;
 }
 
@@ -107,18 +101,14 @@ mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
 {
 	uint32_t *v = mr_grow(ctx, d->v, 3 * d->nf, 3 * room, sizeof *v);
 	uint32_t *twin = mr_grow(ctx, d->twin, 3 * d->nf, 3 * room, sizeof *twin);
-	uint32_t *curve = d->curve;
 
 	if (!v || !twin)
-		return MR_EMEM;
-	if (curve && !(curve = mr_grow(ctx, curve, 3 * d->nf, 3 * room, sizeof *curve)))
 		return MR_EMEM;
 	if (room > (MR_NONE - 1) / 3)
 		return mr_fail(
 		    ctx, MR_ERANGE, "remeshing would take more than %zu faces", (size_t)(MR_NONE - 1) / 6);
 	d->v = v;
 	d->twin = twin;
-	d->curve = curve;
 	d->room_f = room;
 	return MR_OK;
 }
@@ -128,8 +118,8 @@ mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feat
 {
 	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
 
-	MR_TRY(mr_dyn_room_v(ctx, &d, m->nv + m->nv / 4 + 16));
-	MR_TRY(mr_dyn_room_f(ctx, &d, m->nf + m->nf / 4 + 32));
+	MR_TRY(mr_dyn_room_v(ctx, &d, 4 * m->nv + 16));
+	MR_TRY(mr_dyn_room_f(ctx, &d, 4 * m->nf + 32));
 	d.nv = m->nv;
 	d.nf = m->nf;
 	memcpy(d.p, m->p, m->nv * sizeof *d.p);
@@ -182,5 +172,5 @@ mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *c)
 	MR_TRY(copy_array(ctx, &c->scale, d->scale, d->nv, sizeof *d->scale));
 	MR_TRY(copy_array(ctx, &c->v, d->v, 3 * d->nf, sizeof *d->v));
 	MR_TRY(copy_array(ctx, &c->twin, d->twin, 3 * d->nf, sizeof *d->twin));
-	return copy_array(ctx, &c->curve, d->curve, 3 * d->nf, sizeof *d->curve);
+	return mr_curves_copy(ctx, &d->curves, &c->curves);
 }

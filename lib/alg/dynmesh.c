@@ -1,18 +1,5 @@
 #include "alg/dynmesh.h"
 
-static uint32_t
-curve_of(const mr_dyn *d, uint32_t h)
-{
-	return d->curve ? d->curve[h] : MR_NONE;
-}
-
-static void
-set_curve(mr_dyn *d, uint32_t h, uint32_t curve)
-{
-	if (d->curve)
-		d->curve[h] = curve;
-}
-
 unsigned
 mr_dyn_valence(const mr_dyn *d, uint32_t v)
 {
@@ -105,12 +92,12 @@ cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 	d->v[bc] = b;
 	d->v[cm] = c;
 	link_twins(d, bc, d->twin[n]);
-	set_curve(d, mb, curve_of(d, h));
-	set_curve(d, bc, curve_of(d, n));
-	set_curve(d, cm, MR_NONE);
+	mr_curves_set(&d->curves, mb, mr_curves_get(&d->curves, h));
+	mr_curves_set(&d->curves, bc, mr_curves_get(&d->curves, n));
+	mr_curves_set(&d->curves, cm, MR_NONE);
 	d->v[n] = m;
 	link_twins(d, n, cm);
-	set_curve(d, n, MR_NONE);
+	mr_curves_set(&d->curves, n, MR_NONE);
 	if (d->out[b] == n)
 		d->out[b] = bc;
 }
@@ -120,13 +107,15 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 {
 	uint32_t g = d->twin[h], a = d->v[h], m, f, e = MR_NONE;
 
+	if (mr_dyn_on_curve(d, h))
+		MR_TRY(mr_curves_reserve(ctx, &d->curves, 2));
 	MR_TRY(new_vertex(ctx, d, &m));
 	MR_TRY(new_face(ctx, d, &f));
 	if (g != MR_NONE)
 		MR_TRY(new_face(ctx, d, &e));
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
-	d->at[m] = mr_dyn_on_curve(d, h) ? curve_of(d, h) : mr_dyn_place(d, a);
+	d->at[m] = mr_dyn_on_curve(d, h) ? mr_curves_get(&d->curves, h) : mr_dyn_place(d, a);
 	if (d->scale)
 		d->scale[m] = 0.5f * (d->scale[a] + d->scale[mr_dyn_to(d, h)]);
 	cut_face(d, h, m, f);
@@ -226,15 +215,17 @@ close_face(mr_dyn *d, uint32_t h)
 {
 	uint32_t n = mr_he_next(h), p = mr_he_prev(h), f = h / 3, c = d->v[p];
 	uint32_t cb = d->twin[n], ac = d->twin[p];
-	uint32_t curve = mr_dyn_on_curve(d, n) ? curve_of(d, n) : curve_of(d, p);
+	uint32_t curve = mr_dyn_on_curve(d, n) ? mr_curves_get(&d->curves, n) : mr_curves_get(&d->curves, p);
 
 	link_twins(d, cb, ac);
 	if (cb != MR_NONE)
-		set_curve(d, cb, curve);
+		mr_curves_set(&d->curves, cb, curve);
 	if (ac != MR_NONE)
-		set_curve(d, ac, curve);
+		mr_curves_set(&d->curves, ac, curve);
 	if (d->out[c] == p)
 		d->out[c] = cb;
+	for (uint32_t k = 3 * f; k < 3 * f + 3; k++)
+		mr_curves_set(&d->curves, k, MR_NONE);
 	d->v[3 * f] = MR_NONE;
 	d->twin[3 * f] = d->free_f;
 	d->free_f = f;
@@ -292,11 +283,11 @@ mr_dyn_flip(mr_dyn *d, uint32_t h)
 	d->v[gn] = c;
 	link_twins(d, h, d->twin[gn]);
 	link_twins(d, g, d->twin[hn]);
-	set_curve(d, h, curve_of(d, gn));
-	set_curve(d, g, curve_of(d, hn));
+	mr_curves_set(&d->curves, h, mr_curves_get(&d->curves, gn));
+	mr_curves_set(&d->curves, g, mr_curves_get(&d->curves, hn));
 	link_twins(d, hn, gn);
-	set_curve(d, hn, MR_NONE);
-	set_curve(d, gn, MR_NONE);
+	mr_curves_set(&d->curves, hn, MR_NONE);
+	mr_curves_set(&d->curves, gn, MR_NONE);
 	if (d->out[b] == hn)
 		d->out[b] = g;
 	if (d->out[a] == gn)

@@ -10,7 +10,7 @@
 #ifndef MR_DYNMESH_H
 #define MR_DYNMESH_H
 
-#include "mesh/mesh.h"
+#include "alg/curves.h"
 
 typedef enum mr_kind {
 	MR_SMOOTH, /* free on the surface */
@@ -28,8 +28,7 @@ typedef struct mr_dyn {
 	size_t nv, room_v;
 	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
 	uint32_t *v, *twin;
-	uint32_t *curve; /* of each half-edge: a source half-edge of its curve, or MR_NONE; NULL: no curves at
-	                    all */
+	mr_curves curves; /* the half-edges on curves, each with a source half-edge of its curve */
 	size_t nf, room_f;
 	uint32_t free_f; /* first hole, chained through twin[3 f] */
 } mr_dyn;
@@ -49,7 +48,7 @@ mr_dyn_to(const mr_dyn *d, uint32_t h)
 static inline bool
 mr_dyn_on_curve(const mr_dyn *d, uint32_t h)
 {
-	return d->curve && d->curve[h] != MR_NONE;
+	return mr_curves_get(&d->curves, h) != MR_NONE;
 }
 
 /* The face of the source at or near vertex v. */

@@ -108,7 +108,7 @@ permute_faces(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
 		d->out[v] = 3 * number[d->out[v] / 3] + d->out[v] % 3;
 	MR_TRY(permute(ctx, d->v, d->nf, 3 * sizeof *d->v, number));
 	MR_TRY(permute(ctx, d->twin, d->nf, 3 * sizeof *d->twin, number));
-	return d->curve ? permute(ctx, d->curve, d->nf, 3 * sizeof *d->curve, number) : MR_OK;
+	return mr_curves_renumber(ctx, &d->curves, number);
 }
 
 mr_status
@@ -127,67 +127,68 @@ mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
 	return MR_OK;
 }
 
-/* The new numbers of what lives, in the old order; returns how many. */
-static uint32_t
-renumber_vertices(const mr_dyn *d, uint32_t *number)
+/* Vertex v becomes w, which no face has. */
+static void
+move_vertex(mr_dyn *d, uint32_t v, uint32_t w)
 {
-	uint32_t n = 0;
+	uint32_t h = d->out[v];
 
-	for (size_t v = 0; v < d->nv; v++)
-		number[v] = d->kind[v] == MR_DEAD ? MR_NONE : n++;
-	return n;
+	do {
+		d->v[h] = w;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	d->p[w] = d->p[v];
+	d->out[w] = d->out[v];
+	d->at[w] = d->at[v];
+	d->kind[w] = d->kind[v];
+	if (d->scale)
+		d->scale[w] = d->scale[v];
 }
 
-static uint32_t
-renumber_faces(const mr_dyn *d, uint32_t *number)
+/* Half-edge h becomes k. */
+static void
+move_half_edge(mr_dyn *d, uint32_t h, uint32_t k)
 {
-	uint32_t n = 0;
+	uint32_t g = d->twin[h], v = d->v[h], curve = mr_curves_get(&d->curves, h);
 
-	for (size_t f = 0; f < d->nf; f++)
-		number[f] = mr_dyn_face_dead(d, f) ? MR_NONE : n++;
-	return n;
+	if (h == k)
+		return;
+	d->v[k] = v;
+	d->twin[k] = g;
+	if (g != MR_NONE)
+		d->twin[g] = k;
+	if (d->out[v] == h)
+		d->out[v] = k;
+	if (curve != MR_NONE) {
+		mr_curves_set(&d->curves, h, MR_NONE);
+		mr_curves_set(&d->curves, k, curve);
+	}
 }
 
-/* Numbers only fall, so everything can move in place. */
-static mr_status
-close_holes(mr_ctx *ctx, mr_dyn *d)
+/* In place, since numbers only fall: this is when the most memory is in use. */
+static void
+close_holes(mr_dyn *d)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *vertex = MR_NEW(ctx, d->nv, uint32_t), *face = MR_NEW(ctx, d->nf, uint32_t), nv, nf;
+	uint32_t nv = 0, nf = 0;
 
-	if (!vertex || !face)
-		return MR_EMEM;
-	nv = renumber_vertices(d, vertex);
-	nf = renumber_faces(d, face);
 	for (uint32_t v = 0; v < d->nv; v++)
-		if (vertex[v] != MR_NONE) {
-			uint32_t w = vertex[v], h = d->out[v];
-			d->p[w] = d->p[v];
-			d->out[w] = 3 * face[h / 3] + h % 3;
-			d->at[w] = d->at[v];
-			d->kind[w] = d->kind[v];
-			if (d->scale)
-				d->scale[w] = d->scale[v];
-		}
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (face[h / 3] != MR_NONE) {
-			uint32_t k = 3 * face[h / 3] + h % 3, g = d->twin[h];
-			d->v[k] = vertex[d->v[h]];
-			d->twin[k] = g == MR_NONE ? MR_NONE : 3 * face[g / 3] + g % 3;
-			if (d->curve)
-				d->curve[k] = d->curve[h];
+		if (d->kind[v] != MR_DEAD)
+			move_vertex(d, v, nv++);
+	for (uint32_t f = 0; f < d->nf; f++)
+		if (!mr_dyn_face_dead(d, f)) {
+			for (uint32_t i = 0; i < 3; i++)
+				move_half_edge(d, 3 * f + i, 3 * nf + i);
+			nf++;
 		}
 	d->nv = nv;
 	d->nf = nf;
 	d->free_v = d->free_f = MR_NONE;
-	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
 mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
 {
-	MR_TRY(close_holes(ctx, d));
+	close_holes(d);
 	if (d->room_v > d->nv + d->nv / 3)
 		MR_TRY(mr_dyn_room_v(ctx, d, d->nv + d->nv / 8 + 16));
 	return d->room_f > d->nf + d->nf / 3 ? mr_dyn_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;

@@ -9,6 +9,7 @@
 #ifndef MR_PROJECT_H
 #define MR_PROJECT_H
 
+#include "alg/curves.h"
 #include "mesh/bvh.h"
 
 /* The nearest point met by walking from face f over edges and vertices. */
@@ -16,10 +17,10 @@ mr_closest mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f
 
 /*
  * The nearest point on the curve that half-edge h lies on: walks along marked
- * half-edges (those whose `curve` is not 0) and stops at vertices where other than two meet.
+ * half-edges and stops at vertices where other than two meet.
  * *on is the half-edge reached; it keeps h's direction only where the marks do.
  */
 mr_closest mr_project_curve(
-    const mr_mesh *m, const mr_topology *topo, const uint8_t *curve, uint32_t h, mr_v3 q, uint32_t *on);
+    const mr_mesh *m, const mr_topology *topo, const mr_curves *curves, uint32_t h, mr_v3 q, uint32_t *on);
 
 #endif

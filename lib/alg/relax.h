@@ -15,8 +15,8 @@
 typedef struct mr_surface {
 	const mr_mesh *m;
 	const mr_topology *topo;
-	const uint8_t *curve; /* 1 at the half-edges of curves; NULL: none */
-	const double *length; /* target edge length at each vertex; NULL: uniform */
+	const mr_curves *curves; /* of the source, by its own half-edges */
+	const double *length;    /* target edge length at each vertex; NULL: uniform */
 	double uniform;
 } mr_surface;
 

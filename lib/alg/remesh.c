@@ -15,6 +15,7 @@ typedef struct remesher {
 	mr_ctx *ctx;
 	const mr_remesh_opts *o;
 	mr_surface source;
+	mr_curves curves; /* of the source */
 	mr_dyn d;
 	mr_resampled changes;
 	size_t flips, tips;
@@ -167,19 +168,12 @@ check_length(remesher *r, const mr_mesh *m, double length)
 static mr_status
 set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 {
-	uint8_t *curve = NULL;
 	double *length = NULL,
 	       uniform = r->o->length > 0 ? r->o->length : r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 
 	MR_TRY(check_length(r, m, uniform));
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
-	if (r->d.curve) {
-		curve = MR_NEW(r->ctx, 3 * m->nf, uint8_t);
-		if (!curve)
-			return MR_EMEM;
-		for (size_t h = 0; h < 3 * m->nf; h++)
-			curve[h] = r->d.curve[h] != MR_NONE;
-	}
+	MR_TRY(mr_curves_copy(r->ctx, &r->d.curves, &r->curves));
 	if (r->o->adaptive > 0) {
 		length = MR_NEW(r->ctx, m->nv, double);
 		if (!length)
@@ -187,7 +181,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		MR_TRY(mr_sizing_field(
 		    r->ctx, m, r->o->adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
 	}
-	r->source = (mr_surface){ m, topo, curve, length, uniform };
+	r->source = (mr_surface){ m, topo, &r->curves, length, uniform };
 	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
 }
 
