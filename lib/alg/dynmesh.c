@@ -131,29 +131,29 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 	return MR_OK;
 }
 
-/* Stamps the neighbours of v. */
+/* Marks the neighbours of v, or with 0 takes the marks back. */
 static void
-stamp_ring(const mr_dyn *d, uint32_t v, uint32_t *mark, uint32_t stamp)
+mark_ring(const mr_dyn *d, uint32_t v, uint8_t *mark, uint8_t as)
 {
 	uint32_t h = d->out[v];
 
 	do {
-		mark[mr_dyn_to(d, h)] = stamp;
-		mark[mr_dyn_apex(d, h)] = stamp;
+		mark[mr_dyn_to(d, h)] = as;
+		mark[mr_dyn_apex(d, h)] = as;
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
 }
 
 static unsigned
-count_stamped(const mr_dyn *d, uint32_t v, const uint32_t *mark, uint32_t stamp)
+count_marked(const mr_dyn *d, uint32_t v, const uint8_t *mark)
 {
 	uint32_t h = d->out[v];
 	unsigned n = 0;
 
 	do {
-		n += mark[mr_dyn_to(d, h)] == stamp;
+		n += mark[mr_dyn_to(d, h)];
 		if (mr_dyn_ccw(d, h) == MR_NONE)
-			n += mark[mr_dyn_apex(d, h)] == stamp;
+			n += mark[mr_dyn_apex(d, h)];
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
 	return n;
@@ -178,9 +178,10 @@ between_curves(const mr_dyn *d, uint32_t h)
 
 /* The link condition (Dey et al. 1999): the ends share just the apexes of the edge's faces. */
 bool
-mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint32_t *mark, uint32_t stamp)
+mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark)
 {
 	uint32_t g = d->twin[h], a = d->v[h], b = mr_dyn_to(d, h);
+	unsigned shared;
 
 	if (d->kind[a] == MR_CORNER || (d->kind[a] == MR_CURVE && !mr_dyn_on_curve(d, h)))
 		return false;
@@ -191,8 +192,10 @@ mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint32_t *mark, uint32_t stamp)
 	/* Two curve edges would fall into one. */
 	if (between_curves(d, h) || (g != MR_NONE && between_curves(d, g)))
 		return false;
-	stamp_ring(d, a, mark, stamp);
-	return count_stamped(d, b, mark, stamp) == (g == MR_NONE ? 1 : 2);
+	mark_ring(d, a, mark, 1);
+	shared = count_marked(d, b, mark);
+	mark_ring(d, a, mark, 0);
+	return shared == (g == MR_NONE ? 1 : 2);
 }
 
 /* Makes h, which leaves v, or the boundary half-edge clockwise of it, the one that v keeps. */

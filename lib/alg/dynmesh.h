@@ -143,8 +143,11 @@ mr_v3 mr_dyn_middle_around(const mr_dyn *d, uint32_t v);
  */
 mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
 
-/* True where the start of h can be merged into its end and the mesh stays a manifold of the same topology. */
-bool mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint32_t *mark, uint32_t stamp);
+/*
+ * True where the start of h can be merged into its end and the mesh stays a manifold of the same topology.
+ * mark: workspace of nv zeros, which it leaves zero.
+ */
+bool mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark);
 
 /* Merges the start of h into its end, which moves to p.  Only where mr_dyn_can_collapse. */
 void mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p);

@@ -17,9 +17,9 @@ typedef struct mender {
 	mr_dyn *d;
 	const mr_surface *s;
 	mr_facing facing;
-	uint32_t *mark, stamp; /* for the link condition */
-	double least;          /* shape of what is made */
-	bool last;             /* resort: slower and sure, tips and boundaries may give way */
+	uint8_t *mark; /* for the link condition */
+	double least;  /* shape of what is made */
+	bool last;     /* resort: slower and sure, tips and boundaries may give way */
 } mender;
 
 /* A vertex where it was, to put it back. */
@@ -295,7 +295,7 @@ mend_by_merging(mender *w, uint32_t h)
 	mr_dyn *d = w->d;
 	unsigned flaws;
 
-	if ((d->kind[d->v[h]] != MR_SMOOTH && !w->last) || !mr_dyn_can_collapse(d, h, w->mark, ++w->stamp))
+	if ((d->kind[d->v[h]] != MR_SMOOTH && !w->last) || !mr_dyn_can_collapse(d, h, w->mark))
 		return false;
 	flaws = flaws_of_pair(w, h);
 	for (int i = 2; i >= 0; i--)
@@ -411,12 +411,12 @@ mr_status
 mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mender w = { d, s, { s->m, s->topo }, NULL, 0, MR_NEEDLE, last };
+	mender w = { d, s, { s->m, s->topo }, NULL, MR_NEEDLE, last };
 	bool flawed = true, mended = true;
 
 	if (mr_parallel_sum(ctx, d->nf, own_flaws, &w) == 0)
 		return MR_OK;
-	w.mark = MR_NEW_ZERO(ctx, d->nv, uint32_t);
+	w.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	if (!w.mark)
 		return MR_EMEM;
 	for (int i = 0; i < MOST && flawed && (mended || i <= (last ? 2 : 1) * PASSES); i++) {
@@ -435,7 +435,7 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last)
 bool
 mr_refine_flaws(mr_dyn *d, const mr_surface *s)
 {
-	const mender w = { d, s, { s->m, s->topo }, NULL, 0, 0, true };
+	const mender w = { d, s, { s->m, s->topo }, NULL, 0, true };
 	bool flawed = false;
 
 	for (uint32_t f = 0; f < d->nf; f++)

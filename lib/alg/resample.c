@@ -23,7 +23,7 @@ typedef struct resampler {
 	mr_dyn *d;
 	const mr_surface *s;
 	mr_resampled *done;
-	uint32_t *mark, stamp; /* for the link condition */
+	uint8_t *mark; /* for the link condition */
 } resampler;
 
 static double
@@ -142,7 +142,7 @@ place_middle(resampler *r, uint32_t m)
 mr_status
 mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
 {
-	resampler r = { ctx, d, s, done, NULL, 0 };
+	resampler r = { ctx, d, s, done, NULL };
 
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		while (is_edge(d, h) && too_long(&r, h)) {
@@ -207,7 +207,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 		h = d->twin[h]; /* the one that is more bound stays */
 	a = d->v[h];
 	b = mr_dyn_to(d, h);
-	if (!mr_dyn_can_collapse(d, h, r->mark, ++r->stamp))
+	if (!mr_dyn_can_collapse(d, h, r->mark))
 		return false;
 	p = merged_position(d, a, b);
 	facing = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
@@ -228,13 +228,13 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 mr_status
 mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
 {
-	resampler r = { ctx, d, s, done, NULL, 0 };
+	resampler r = { ctx, d, s, done, NULL };
 	mr_mark mark;
 
 	if (done->refused > 0 && !d->scale)
 		MR_TRY(mr_refine_begin(ctx, d));
 	mark = mr_mark_take(ctx);
-	r.mark = MR_NEW_ZERO(ctx, d->nv, uint32_t);
+	r.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	if (!r.mark)
 		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
@@ -271,7 +271,7 @@ mr_status
 mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	resampler r = { ctx, d, s, done, MR_NEW_ZERO(ctx, d->nv, uint32_t), 0 };
+	resampler r = { ctx, d, s, done, MR_NEW_ZERO(ctx, d->nv, uint8_t) };
 
 	if (!r.mark)
 		return MR_EMEM;

@@ -24,8 +24,7 @@ typedef struct simplifier {
 	mr_buckets *queue; /* of edges, by the half-edge with the lower number */
 	uint16_t *bucket;  /* of each such half-edge: its last one */
 	uint32_t *onto;    /* what each vertex was merged into, itself while it lives */
-	uint32_t *mark;    /* stamps for the link condition */
-	uint32_t stamp;
+	uint8_t *mark;     /* for the link condition */
 	size_t faces, merges, computed, refused;
 	double error2; /* greatest of the merges done */
 	double needle; /* least shape of a face */
@@ -154,7 +153,7 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		enqueue(s, h, now);
 		return;
 	}
-	if (mr_dyn_can_collapse(&s->d, h, s->mark, ++s->stamp) && mr_merge_is_sound(&s->d, &m, s->needle))
+	if (mr_dyn_can_collapse(&s->d, h, s->mark) && mr_merge_is_sound(&s->d, &m, s->needle))
 		merge(s, h, &m);
 	else
 		s->refused++;
@@ -263,7 +262,7 @@ begin(simplifier *s, const mr_mesh *m)
 	MR_TRY(copy_mesh(s, m));
 	s->site = MR_NEW_ZERO(s->ctx, s->d.nv, mr_site);
 	s->onto = mr_sets_new(s->ctx, s->d.nv);
-	s->mark = MR_NEW_ZERO(s->ctx, s->d.nv, uint32_t);
+	s->mark = MR_NEW_ZERO(s->ctx, s->d.nv, uint8_t);
 	s->bucket = MR_NEW(s->ctx, 3 * s->d.nf, uint16_t);
 	if (!s->site || !s->onto || !s->mark || !s->bucket)
 		return MR_EMEM;
