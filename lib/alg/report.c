@@ -27,10 +27,10 @@ stored_bytes(const mr_column *c)
 {
 	uint64_t n = 0;
 
-	if (!c->record)
+	if (!c->header)
 		return raw_bytes(c);
 	for (int i = 7; i >= 0; i--)
-		n = n << 8 | c->record[MR_HEADER - 8 + i];
+		n = n << 8 | c->header[MR_HEADER - 8 + i];
 	return n;
 }
 

@@ -104,7 +104,7 @@ inflate_stored(mr_ctx *ctx, mr_stored *s)
 
 	if (!data)
 		return MR_EMEM;
-	status = mr_unpack(ctx, &s->head, s->record + MR_HEADER, data);
+	status = mr_unpack(ctx, &s->head, s->payload, data);
 	if (status != MR_OK) {
 		free(data);
 		return mr_prefix(ctx, status, "byte %llu", (unsigned long long)s->offset);
@@ -121,12 +121,11 @@ mr_column_decode(mr_ctx *ctx, mr_column *column)
 	if (column->data)
 		return MR_OK;
 	if (!s->data) {
-		MR_TRY(mr_record_verify(
-		    ctx, s->record, s->record + MR_HEADER, (size_t)s->head.stored, s->offset));
+		MR_TRY(mr_record_verify(ctx, s->header, s->payload, (size_t)s->head.stored, s->offset));
 		if (s->head.codec == MR_PACKED)
 			MR_TRY(inflate_stored(ctx, s));
 		else
-			s->data = s->record + MR_HEADER;
+			s->data = s->payload;
 	}
 	column->data = s->data;
 	return MR_OK;

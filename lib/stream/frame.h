@@ -27,10 +27,9 @@ typedef struct mr_column {
 	char name[MR_COLUMN_MAX + 1];
 	mr_shape shape;
 	uint64_t rows;
-	uint64_t serial;  /* of the reader's payload; 0 for a column that the tool put */
-	const void *data; /* rows x components values; NULL: stored, not decoded yet */
-	const unsigned char
-	    *record; /* header and stored payload as read; NULL for a column that the tool put */
+	uint64_t serial;             /* of the reader's payload; 0 for a column that the tool put */
+	const void *data;            /* rows x components values; NULL: stored, not decoded yet */
+	const unsigned char *header; /* as read; NULL for a column that the tool put */
 	struct mr_stored
 	    *stored; /* the reader's record of it: stream/stored.h; NULL for one that the tool put */
 } mr_column;

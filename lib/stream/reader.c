@@ -38,21 +38,42 @@ mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader)
 	return status;
 }
 
+static bool
+is_shared(const mr_reader *r, const void *heap)
+{
+	for (size_t i = 0; i < r->count; i++)
+		if (r->stored[i]->heap == heap)
+			return true;
+	return false;
+}
+
+/* Of a column that is not among the reader's any more. */
 static void
-stored_free(mr_stored *s)
+stored_free(const mr_reader *r, mr_stored *s)
 {
 	if (!s->heap)
-		mr_input_forget(s->record, MR_HEADER + mr_record_padded(s->head.stored));
-	free(s->heap);
+		mr_input_forget(s->payload - MR_HEADER, MR_HEADER + mr_record_padded(s->head.stored));
+	else if (!is_shared(r, s->heap))
+		free(s->heap);
 	free(s->inflated);
 	free(s);
+}
+
+static void
+drop_one(mr_reader *r, size_t i)
+{
+	mr_stored *s = r->stored[i];
+
+	r->count--;
+	memmove(r->stored + i, r->stored + i + 1, (r->count - i) * sizeof *r->stored);
+	stored_free(r, s);
 }
 
 static void
 drop_all(mr_reader *r)
 {
 	while (r->count)
-		stored_free(r->stored[--r->count]);
+		drop_one(r, r->count - 1);
 }
 
 void
@@ -228,12 +249,31 @@ room_for_one(mr_ctx *ctx, mr_reader *r)
 	return MR_OK;
 }
 
+/*
+ * A payload from a pipe that is there already, in a column of the same name, is kept once: a base has the
+ * triangles of its mesh until it is remeshed.
+ */
+static void
+share(const mr_reader *r, mr_stored *s)
+{
+	size_t i = 0;
+
+	while (i < r->count && (!r->stored[i]->heap || r->stored[i]->head.stored != s->head.stored ||
+				   strcmp(r->stored[i]->head.name, s->head.name)))
+		i++;
+	if (!s->heap || i == r->count || memcmp(r->stored[i]->payload, s->payload, (size_t)s->head.stored))
+		return;
+	free(s->heap);
+	s->heap = r->stored[i]->heap;
+	s->payload = r->stored[i]->payload;
+}
+
 /* A column takes its old place, or the last. */
 static mr_status
 keep(mr_ctx *ctx, mr_reader *r, const piece *p)
 {
 	size_t i = position_of(r, p->head.layer, p->head.name);
-	mr_stored *s;
+	mr_stored *s, *old;
 
 	if (i < r->count && r->stored[i]->frame == r->number)
 		return misplaced(ctx, p, "comes twice in a frame");
@@ -248,13 +288,15 @@ keep(mr_ctx *ctx, mr_reader *r, const piece *p)
 		.serial = ++r->serial,
 		.offset = p->offset,
 		.frame = r->number,
-		.record = p->record,
+		.payload = p->record + MR_HEADER,
 		.heap = p->heap };
-	if (i < r->count)
-		stored_free(r->stored[i]);
-	else
-		r->count++;
+	memcpy(s->header, p->record, MR_HEADER);
+	share(r, s);
+	old = i < r->count ? r->stored[i] : NULL;
+	r->count += !old;
 	r->stored[i] = s;
+	if (old)
+		stored_free(r, old);
 	return MR_OK;
 }
 
@@ -263,22 +305,17 @@ static mr_status
 drop(mr_ctx *ctx, mr_reader *r, const piece *p)
 {
 	char name[MR_COLUMN_MAX + 1] = "";
-	size_t kept = 0, dropped = 0;
+	size_t before = r->count;
 
 	memcpy(name, p->record + MR_HEADER, (size_t)p->head.stored);
-	for (size_t i = 0; i < r->count; i++) {
-		mr_stored *s = r->stored[i];
+	for (size_t i = r->count; i-- > 0;) {
+		const mr_stored *s = r->stored[i];
 		bool named = !strcmp(s->head.layer, p->head.layer) &&
 		             (!p->head.stored || !strcmp(s->head.name, name));
-		if (named && s->frame < r->number) {
-			stored_free(s);
-			dropped++;
-		} else {
-			r->stored[kept++] = s;
-		}
+		if (named && s->frame < r->number)
+			drop_one(r, i);
 	}
-	r->count = kept;
-	if (dropped == 0)
+	if (r->count == before)
 		return mr_fail(ctx, MR_EFORMAT,
 		    "byte %llu: DROP of column '%s' of layer '%s': the frame before has none",
 		    (unsigned long long)p->offset, name, p->head.layer);
@@ -329,7 +366,7 @@ show(mr_ctx *ctx, mr_reader *r)
 			.rows = s->head.rows,
 			.serial = s->serial,
 			.data = s->data,
-			.record = s->record,
+			.header = s->header,
 			.stored = s };
 		memcpy(c->layer, s->head.layer, sizeof c->layer);
 		memcpy(c->name, s->head.name, sizeof c->name);

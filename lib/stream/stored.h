@@ -16,12 +16,12 @@
 typedef struct mr_stored {
 	mr_record head;
 	const mr_reader *owner;
-	uint64_t serial; /* from 1; another for every payload of the owner */
-	uint64_t offset; /* of the header in the input */
-	uint64_t frame;  /* number of the frame that sent it */
-	const unsigned char
-	    *record;      /* header, payload and padding, 64-byte aligned, in the map or in `heap` */
-	void *heap;       /* NULL where mapped */
+	uint64_t serial;                 /* from 1; another for every payload of the owner */
+	uint64_t offset;                 /* of the header in the input */
+	uint64_t frame;                  /* number of the frame that sent it */
+	unsigned char header[MR_HEADER]; /* as read */
+	const unsigned char *payload;    /* with its padding, 64-byte aligned, in the map or in `heap` */
+	void *heap; /* NULL where mapped; columns of equal payloads have the same, the last one frees it */
 	const void *data; /* the values, once verified */
 	void *inflated;   /* the memory of `data` where it was packed */
 } mr_stored;

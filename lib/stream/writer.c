@@ -34,10 +34,9 @@ struct mr_writer {
 typedef struct plan {
 	sent now;
 	bool send;
-	mr_record head; /* where it is sent encoded: record NULL */
+	mr_record head; /* where it is sent encoded: stored NULL */
 	const void *payload;
-	const unsigned char *record; /* where it is sent as it came */
-	size_t size;                 /* of the record */
+	const mr_stored *stored; /* where it is sent as it came */
 } plan;
 
 mr_status
@@ -120,6 +119,13 @@ emit_record(mr_ctx *ctx, mr_writer *w, const mr_record *head, const void *payloa
 	MR_TRY(emit(ctx, w, header, MR_HEADER));
 	MR_TRY(emit(ctx, w, payload, (size_t)head->stored));
 	return emit(ctx, w, zeros, (size_t)(mr_record_padded(head->stored) - head->stored));
+}
+
+static mr_status
+emit_stored(mr_ctx *ctx, mr_writer *w, const mr_stored *s)
+{
+	MR_TRY(emit(ctx, w, s->header, MR_HEADER));
+	return emit(ctx, w, s->payload, (size_t)mr_record_padded(s->head.stored));
 }
 
 static mr_status
@@ -212,8 +218,7 @@ encode(mr_ctx *ctx, const mr_writer *w, const mr_column *column, plan *p)
 	memcpy(p->head.layer, c.layer, sizeof c.layer);
 	memcpy(p->head.name, c.name, sizeof c.name);
 	if (stored && (w->packing == MR_KEEP || (w->packing == MR_PACK) == (stored->codec == MR_PACKED))) {
-		p->record = c.record;
-		p->size = (size_t)(MR_HEADER + mr_record_padded(stored->stored));
+		p->stored = c.stored;
 		return MR_OK;
 	}
 	MR_TRY(mr_column_decode(ctx, &c));
@@ -257,8 +262,8 @@ emit_frame(mr_ctx *ctx, mr_writer *w, const mr_frame *f, bool key, const plan *p
 	if (!key)
 		MR_TRY(emit_drops(ctx, w, survives));
 	for (size_t i = 0; i < f->count; i++)
-		if (plans[i].send && plans[i].record)
-			MR_TRY(emit(ctx, w, plans[i].record, plans[i].size));
+		if (plans[i].send && plans[i].stored)
+			MR_TRY(emit_stored(ctx, w, plans[i].stored));
 		else if (plans[i].send)
 			MR_TRY(emit_record(ctx, w, &plans[i].head, plans[i].payload));
 	MR_TRY(emit_structure(ctx, w, MR_ENDFRAME, "", ""));
