@@ -582,10 +582,10 @@ account(const cmd *c)
 
 /* Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones. */
 static void
-return_memory(void)
+return_memory(bool lean)
 {
 #ifdef M_MMAP_THRESHOLD
-	mallopt(M_MMAP_THRESHOLD, 1 << 20);
+	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 20);
 #endif
 }
 
@@ -596,7 +596,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	cmd c = { .tool = tool, .name = base_name(argv[0]), .state = &state };
 	int code;
 
-	return_memory();
+	return_memory(tool->lean);
 	mr_ctx_init(&c.ctx, 0);
 	mr_ctx_init(&state.long_lived, 0);
 	parse_command_line(&c, argc, argv);

@@ -51,6 +51,7 @@ typedef struct cmd_tool {
 	bool names_output; /* a sink that names its output by an operand: it has no -o */
 	bool sends;        /* `frame` sends by cmd_send itself */
 	bool fixed_layers; /* works on what it works on: it has no -l */
+	bool lean;         /* gives smaller blocks back to the system too, which costs time in many frames */
 } cmd_tool;
 
 struct cmd {

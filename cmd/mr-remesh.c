@@ -57,5 +57,6 @@ main(int argc, char **argv)
 	    &(cmd_tool){ .summary = "remesh a surface isotropically, with equal vertex areas",
 		.options = table,
 		.prepare = prepare,
-		.frame = remesh_frame });
+		.frame = remesh_frame,
+		.lean = true });
 }

@@ -113,13 +113,20 @@ mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
 	return MR_OK;
 }
 
+/* Room for what splits add, more than they need but seldom: what is not used of it costs no memory. */
+static size_t
+ample(size_t n)
+{
+	return n < MR_NONE / 16 ? 4 * n + 32 : n + n / 4 + 32;
+}
+
 mr_status
 mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *out)
 {
 	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
 
-	MR_TRY(mr_dyn_room_v(ctx, &d, 4 * m->nv + 16));
-	MR_TRY(mr_dyn_room_f(ctx, &d, 4 * m->nf + 32));
+	MR_TRY(mr_dyn_room_v(ctx, &d, ample(m->nv)));
+	MR_TRY(mr_dyn_room_f(ctx, &d, ample(m->nf)));
 	d.nv = m->nv;
 	d.nf = m->nf;
 	memcpy(d.p, m->p, m->nv * sizeof *d.p);
