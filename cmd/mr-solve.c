@@ -17,8 +17,7 @@ static const cmd_opt table[] = {
 	    "auto: cholesky, lu for --unsymmetric, multigrid where the factor is too large", NULL },
 	{ 0, "areas", CMD_CHOICE, &opts.areas, 0, 0, "voronoi|mean",
 	    "each vertex its own area, or all the mean", NULL },
-	{ 0, "unsymmetric", CMD_FLAG, &opts.unsymmetric, 0, 0, "", "solve the system as the paper writes it",
-	    NULL },
+	{ 0, "unsymmetric", CMD_FLAG, &opts.unsymmetric, 0, 0, "", "solve the paper's own system", NULL },
 	{ 0, "basis", CMD_FLAG, &basis, 0, 0, "", "also write the response to every handle", NULL },
 	{ 0, "tol", CMD_REAL, &tol, 0, 1, "T",
 	    "relative residual to reach; 0: 1e-12 of cholesky and lu, else 1e-10", NULL },
@@ -26,7 +25,7 @@ static const cmd_opt table[] = {
 	{ 0, "memory", CMD_REAL, &megabytes, 0, 1e12, "MB",
 	    "megabytes that a factor may take; 0: what there is", NULL },
 	{ 0, "precondition", CMD_CHOICE, &precondition, 0, 0, "auto|incomplete|jacobi|multigrid",
-	    "of cg and bicgstab; auto: incomplete, but multigrid of bicgstab for -k 2 and 3", NULL },
+	    "of cg and bicgstab; auto: incomplete, multigrid for -k 3 and of bicgstab for -k 2", NULL },
 	{ 0, "verify", CMD_FLAG, &verify, 0, 0, "",
 	    "record the error, by a direct solution, and the condition", NULL },
 	{ 0 },
@@ -47,9 +46,10 @@ prepare(cmd *c)
 	opts.solver.kind = solver != AUTO     ? (mr_solver_kind)(solver - CHOLESKY)
 	                   : opts.unsymmetric ? MR_LU
 	                                      : MR_CHOLESKY;
-	opts.solver.precondition = precondition != BY_SOLVER              ? (int)(precondition - INCOMPLETE)
-	                           : solver == BICGSTAB && opts.order > 1 ? MR_VCYCLES
-	                                                                  : MR_INCOMPLETE;
+	if (precondition != BY_SOLVER)
+		opts.solver.precondition = (int)(precondition - INCOMPLETE);
+	else if (opts.order > (solver == BICGSTAB ? 1 : 2)) /* where incomplete factors stall */
+		opts.solver.precondition = MR_VCYCLES;
 	opts.choose = solver == AUTO && !opts.unsymmetric;
 	if (tol > 0)
 		opts.tol = opts.solver.tol = tol;

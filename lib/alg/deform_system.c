@@ -87,6 +87,29 @@ restrict_laplace(mr_ctx *ctx, const mr_sparse *l, size_t n, mr_sparse *out)
 	return MR_OK;
 }
 
+/*
+ * The unknowns whose boundary conditions multigrid has wrong: within so many rings of the constraints that a
+ * few dozen iterations do.  The membrane has none.
+ */
+static mr_status
+find_strip(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest, const uint32_t *number, mr_hierarchy *h)
+{
+	uint8_t rings = (uint8_t)(8 << (d->opts.order - 1)), *level = MR_NEW(ctx, d->nv, uint8_t);
+	bool *given = MR_NEW(ctx, d->nv, bool);
+	uint32_t *strip = MR_NEW(ctx, d->patch.end[0], uint32_t);
+
+	if (!level || !given || !strip)
+		return MR_EMEM;
+	for (size_t v = 0; v < d->nv; v++)
+		given[v] = number[v] == MR_NONE;
+	mr_patch_levels(rest, given, rings, level);
+	for (uint32_t i = 0; i < d->patch.end[0]; i++)
+		if (d->opts.order > 1 && level[d->patch.vertex[i]] <= rings)
+			strip[h->strip_count++] = i;
+	h->strip = strip;
+	return MR_OK;
+}
+
 /* The levels of multigrid, from remeshings of the whole surface. */
 static mr_status
 build_hierarchy(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
@@ -104,8 +127,9 @@ build_hierarchy(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 		number[d->patch.vertex[i]] = (uint32_t)i;
 	MR_TRY(mr_hierarchy_build(ctx, rest, number, n, &level, &count));
 	MR_TRY(restrict_laplace(ctx, &d->l, n, &d->l_ff));
-	d->hierarchy = (mr_hierarchy){ &d->l_ff, d->w, d->opts.order, d->opts.unsymmetric, count, level };
-	return MR_OK;
+	d->hierarchy = (mr_hierarchy){ &d->l_ff, d->w, d->opts.order, d->opts.unsymmetric, count, level, NULL,
+		0 };
+	return find_strip(ctx, d, rest, number, &d->hierarchy);
 }
 
 static mr_status

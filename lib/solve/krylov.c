@@ -344,8 +344,10 @@ precondition(krylov *k, const mr_system *system)
 
 	if (k->opts.kind == MR_VCYCLE)
 		return mr_vcycle_new(own, system->a, system->hierarchy, &k->b);
+	if (k->opts.kind == MR_BICGSTAB && k->opts.precondition == MR_VCYCLES) /* a strip makes it stall */
+		return mr_cycles_new(own, system->hierarchy, &k->b);
 	if (mr_solver_multigrid(&k->opts))
-		return mr_multigrid_new(own, system->hierarchy, &k->b);
+		return mr_multigrid_new(own, system->a, system->hierarchy, &k->b);
 	if (k->opts.precondition == MR_JACOBI)
 		return mr_jacobi_new(own, system->a, &k->b);
 	return mr_incomplete_new(own, system->a, &k->b);

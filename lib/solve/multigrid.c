@@ -247,7 +247,7 @@ build(mr_ctx *ctx, const mr_hierarchy *h, const mr_sparse *a, multigrid *g, mr_p
 }
 
 mr_status
-mr_multigrid_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b)
+mr_cycles_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b)
 {
 	multigrid *g = MR_NEW_ZERO(ctx, 1, multigrid);
 	size_t n = (size_t)h->laplace->n;

@@ -27,8 +27,15 @@ mr_status mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b);
  */
 mr_status mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b);
 
-/* (V W^-1)^(k-1) V, V a V-cycle on L: alike to the inverse of L (W L)^(k-1). */
-mr_status mr_multigrid_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b);
+/*
+ * For A = L (W L)^(k-1): mr_cycles_new's, between two solutions of the hierarchy's strip.  MR_ENUMERIC where
+ * that is not positive definite.
+ */
+mr_status mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_preconditioner *b);
+
+/* (V W^-1)^(k-1) V, V a V-cycle on L, that times W^-1 where h->scaled: the inverse of A but for boundary
+ * conditions. */
+mr_status mr_cycles_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b);
 
 /* A V-cycle on A = L (W L)^(k-1) itself. */
 mr_status mr_vcycle_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_preconditioner *b);

@@ -31,7 +31,7 @@ typedef enum mr_preconditioner_kind {
 	MR_INCOMPLETE, /* factors without fill: incomplete Cholesky of a symmetric matrix, else incomplete LU
 	                */
 	MR_JACOBI,     /* the diagonal */
-	MR_VCYCLES     /* A = L (W L)^(k-1): k V-cycles on L, W^-1 between them */
+	MR_VCYCLES     /* A = L (W L)^(k-1): k V-cycles on L; of MR_CG a strip along the constraints, too */
 } mr_preconditioner_kind;
 
 /* A coarser level of a multigrid hierarchy: n unknowns, and what they give to those of the finer level. */
@@ -47,6 +47,8 @@ typedef struct mr_hierarchy {
 	bool scaled;              /* A is W L (W L)^(k-1) instead */
 	size_t count;             /* coarser levels, at least 1, finest first */
 	const mr_coarser *level;
+	const uint32_t *strip; /* unknowns near the constraints, ascending, to be solved exactly */
+	size_t strip_count;    /* may be 0 */
 } mr_hierarchy;
 
 /* What is to be solved.  Iterative solvers borrow it: it must outlive them; direct ones do not. */

@@ -27,7 +27,7 @@ for k in 1 2 3; do
 
 	# By iteration, which its tolerance limits.
 	for other in cg bicgstab 'bicgstab --unsymmetric' multigrid; do
-		[ $k -lt 3 ] || continue
+		[ $k -lt 3 ] || [ "$other" = multigrid ] || continue
 		mr-solve -k $k -s $other --tol 1e-12 --verify --stats stats.json posed.mrs -o r.mrs
 		off r.mrs base >r.off
 		far q.off r.off 1e-6

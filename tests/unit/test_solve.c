@@ -214,7 +214,8 @@ test_multigrid(void **state)
 	mr_sparse l = grid_matrix(1e-3, 0, false), p = interpolation();
 	double *weight = MR_NEW(&ctx, N, double);
 	mr_coarser level = { p, N / 4 };
-	mr_hierarchy h = { &l, weight, 1, false, 1, &level };
+	mr_hierarchy h = { .laplace = &l, .weight = weight, .order = 1, .count = 1, .level = &level };
+	uint32_t strip[2 * SIDE];
 
 	(void)state;
 	for (int i = 0; i < N; i++)
@@ -222,6 +223,11 @@ test_multigrid(void **state)
 	check_iterative(MR_MULTIGRID, 0, 0, &h, 30);
 	check_iterative(MR_BICGSTAB, MR_VCYCLES, 0, &h, 20);
 	check_iterative(MR_VCYCLE, 0, 0, &h, 40);
+	for (uint32_t i = 0; i < 2 * SIDE; i++)
+		strip[i] = i;
+	h.strip = strip;
+	h.strip_count = 2 * SIDE;
+	check_iterative(MR_MULTIGRID, 0, 0, &h, 30);
 }
 
 /* A level of zeros, as where all weights of a coarse level cancel, is smoothed to finite numbers. */
@@ -231,7 +237,7 @@ test_multigrid_of_zeros(void **state)
 	mr_sparse l = grid_matrix(1e-3, 0, false), p = interpolation();
 	mr_coarser level = { p, N / 4 };
 	double *weight = MR_NEW(&ctx, N, double), *b = MR_NEW_ZERO(&ctx, N, double);
-	mr_hierarchy h = { &l, weight, 1, false, 1, &level };
+	mr_hierarchy h = { .laplace = &l, .weight = weight, .order = 1, .count = 1, .level = &level };
 	mr_system system = { .a = &l, .hierarchy = &h };
 
 	(void)state;
