@@ -192,8 +192,8 @@ report_solver(mr_ctx *ctx, const mr_deform *d)
 	}
 	mr_stat_set(ctx, "rcond", r.rcond);
 	if (r.rcond < worst)
-		mr_note(ctx, "warning: the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order,
-		    r.rcond);
+		mr_note(
+		    ctx, "the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order, r.rcond);
 }
 
 void

@@ -39,6 +39,13 @@ mr_dyn_face_dead(const mr_dyn *d, size_t f)
 	return d->v[3 * f] == MR_NONE;
 }
 
+/* True where v is a corner of face f. */
+static inline bool
+mr_dyn_has(const mr_dyn *d, uint32_t f, uint32_t v)
+{
+	return v == d->v[3 * f] || v == d->v[3 * f + 1] || v == d->v[3 * f + 2];
+}
+
 static inline uint32_t
 mr_dyn_to(const mr_dyn *d, uint32_t h)
 {

@@ -1,22 +1,19 @@
 #include "alg/mend.h"
 
-#include "alg/facing.h"
+#include "alg/flaws.h"
 #include "alg/refine.h"
-#include "base/parallel.h"
 
-static const double FOLD = -0.9396926207859084; /* cosine of 160 degrees */
-static const double CLOSE = 0.25;               /* squared cosine of 60 degrees */
+#include <limits.h>
 
-static const double THIN = 0.02; /* shape that is better than a flaw */
+/* Shapes that are better than a flaw, in the order in which they are tried; the last one as a last resort. */
+static const double least[] = { MR_NEEDLE, 0.02, 0.001 };
 
-static const double THINNEST = 0.001; /* as the last resort */
-
-enum { PASSES = 5, MOST = 20, NEAR = 64 };
+enum { PASSES = 8, NEAR = 64 };
 
 typedef struct mender {
 	mr_dyn *d;
 	const mr_surface *s;
-	mr_facing facing;
+	mr_flaws flaws;
 	uint8_t *mark; /* for the link condition */
 	double least;  /* shape of what is made */
 	bool last;     /* resort: slower and sure, tips and boundaries may give way */
@@ -41,69 +38,6 @@ put(mr_dyn *d, uint32_t v, spot to)
 	d->at[v] = to.at;
 }
 
-static bool
-are_folded(const mr_dyn *d, uint32_t f, uint32_t g)
-{
-	mr_v3 m = mr_dyn_cross(d, d->p, f), n = mr_dyn_cross(d, d->p, g);
-
-	return mr_dot(m, n) < FOLD * sqrt(mr_norm2(m) * mr_norm2(n));
-}
-
-static bool
-is_folded(const mr_dyn *d, uint32_t h)
-{
-	return d->twin[h] != MR_NONE && are_folded(d, h / 3, d->twin[h] / 3);
-}
-
-/* The normal of the source at the place of v. */
-static mr_v3
-source_normal(const mender *w, uint32_t v)
-{
-	mr_closest c = mr_surface_place(w->s, w->d, v, w->d->p[v], mr_dyn_normal_around(w->d, v));
-
-	return mr_facing_normal(&w->facing, c.face, c.bary);
-}
-
-static bool
-is_flipped(const mender *w, uint32_t f)
-{
-	const uint32_t *v = &w->d->v[3 * f];
-	mr_v3 n = mr_dyn_cross(w->d, w->d->p, f), m = mr_face_cross(w->s->m, mr_dyn_place(w->d, v[0]));
-	double mn = mr_dot(m, n);
-
-	if (!w->last && mn > 0 && mn * mn > CLOSE * mr_norm2(m) * mr_norm2(n))
-		return false; /* as almost all are, told without a walk */
-	return mr_dot(n, source_normal(w, v[0])) < 0 && mr_dot(n, source_normal(w, v[1])) < 0 &&
-	       mr_dot(n, source_normal(w, v[2])) < 0;
-}
-
-static bool
-has(const mr_dyn *d, uint32_t f, uint32_t v)
-{
-	return v == d->v[3 * f] || v == d->v[3 * f + 1] || v == d->v[3 * f + 2];
-}
-
-/* The flipped faces around v, and the folded edges of all faces around it; without what is counted around
- * `but`. */
-static unsigned
-flaws_around(const mender *w, uint32_t v, uint32_t but)
-{
-	const mr_dyn *d = w->d;
-	uint32_t h = d->out[v];
-	unsigned n = 0;
-
-	do {
-		uint32_t g = d->twin[h];
-		if (!has(d, h / 3, but)) {
-			n += is_flipped(w, h / 3);
-			n += (g == MR_NONE || !has(d, g / 3, but)) && is_folded(d, h);
-			n += is_folded(d, mr_he_next(h));
-		}
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return n;
-}
-
 static double
 shape_of(const mr_dyn *d, uint32_t f)
 {
@@ -120,7 +54,7 @@ worst_shape(const mr_dyn *d, uint32_t v, uint32_t but)
 	double worst = 1;
 
 	do {
-		if (!has(d, h / 3, but))
+		if (!mr_dyn_has(d, h / 3, but))
 			worst = fmin(worst, shape_of(d, h / 3));
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
@@ -138,8 +72,11 @@ try_spot(mender *w, uint32_t v, mr_v3 p, bool project, unsigned flaws)
 	double shape = worst_shape(d, v, MR_NONE);
 
 	put(d, v, (spot){ project ? c.point : p, c.face });
-	if (worst_shape(d, v, MR_NONE) >= fmin(shape, w->least) && flaws_around(w, v, MR_NONE) < flaws)
+	if (worst_shape(d, v, MR_NONE) >= fmin(shape, w->least) &&
+	    mr_flaws_around(&w->flaws, v, MR_NONE, flaws) < flaws) {
+		mr_flaws_suspect(&w->flaws, v);
 		return true;
+	}
 	put(d, v, old);
 	return false;
 }
@@ -210,56 +147,32 @@ mend_over_surface(mender *w, uint32_t v, unsigned flaws)
 static bool
 mend_vertex(mender *w, uint32_t v)
 {
-	unsigned flaws = w->d->kind[v] == MR_SMOOTH ? flaws_around(w, v, MR_NONE) : 0;
+	unsigned flaws = w->d->kind[v] == MR_SMOOTH ? mr_flaws_around(&w->flaws, v, MR_NONE, UINT_MAX) : 0;
 
 	return flaws > 0 && (mend_towards_middle(w, v, flaws) || mend_towards_neighbours(w, v, flaws));
 }
 
-/* The flaws of the two faces at h and of their edges. */
-static unsigned
-flaws_beside(const mender *w, uint32_t h)
-{
-	const mr_dyn *d = w->d;
-	uint32_t g = d->twin[h];
-
-	return (unsigned)is_flipped(w, h / 3) + is_flipped(w, g / 3) + is_folded(d, h) +
-	       is_folded(d, mr_he_next(h)) + is_folded(d, mr_he_prev(h)) + is_folded(d, mr_he_next(g)) +
-	       is_folded(d, mr_he_prev(g));
-}
-
+/* Flips the edge where that leaves fewer flaws.  Back again, the two faces have other numbers than before. */
 static bool
 mend_edge(mender *w, uint32_t h)
 {
 	mr_dyn *d = w->d;
 	unsigned flaws;
 	uint32_t g;
+	bool good;
 
 	if (!mr_dyn_can_flip(d, h))
 		return false;
-	flaws = flaws_beside(w, h);
+	flaws = mr_flaws_beside(&w->flaws, h);
 	mr_dyn_flip(d, h);
 	g = mr_he_next(h); /* the edge that it made */
-	if (shape_of(d, g / 3) > w->least && shape_of(d, d->twin[g] / 3) > w->least &&
-	    flaws_beside(w, g) < flaws)
-		return true;
-	mr_dyn_flip(d, g);
-	return false;
-}
-
-/* The flaws of the faces around a and b; where the two are at one spot, as if they were one. */
-static unsigned
-flaws_of_pair(const mender *w, uint32_t h)
-{
-	const mr_dyn *d = w->d;
-	uint32_t side[2] = { h, d->twin[h] };
-	unsigned n = flaws_around(w, d->v[h], MR_NONE) + flaws_around(w, mr_dyn_to(d, h), d->v[h]);
-
-	for (int i = 0; i < 2; i++)
-		if (side[i] != MR_NONE) { /* over the face that is none any more */
-			uint32_t x = d->twin[mr_he_next(side[i])], y = d->twin[mr_he_prev(side[i])];
-			n += x != MR_NONE && y != MR_NONE && are_folded(d, x / 3, y / 3);
-		}
-	return n;
+	good = shape_of(d, g / 3) > w->least && shape_of(d, d->twin[g] / 3) > w->least &&
+	       mr_flaws_beside(&w->flaws, g) < flaws;
+	mr_flaws_suspect(&w->flaws, d->v[g]);
+	mr_flaws_suspect(&w->flaws, mr_dyn_to(d, g));
+	if (!good)
+		mr_dyn_flip(d, g);
+	return good;
 }
 
 /* Merges the start of h into its end at a share of the way; false where that leaves as many flaws. */
@@ -280,11 +193,12 @@ try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 	put(d, b, to);
 	put(d, a, d->kind[a] == MR_SMOOTH ? (spot){ to.p, mr_dyn_place(d, b) } : to);
 	good = fmin(worst_shape(d, a, b), worst_shape(d, b, a)) > fmin(shape, w->least) &&
-	       flaws_of_pair(w, h) < flaws;
+	       mr_flaws_of_pair(&w->flaws, h, flaws) < flaws;
 	put(d, a, old[0]);
-	if (good)
+	if (good) {
 		mr_dyn_collapse(d, h, to.p);
-	else
+		mr_flaws_suspect(&w->flaws, b);
+	} else
 		put(d, b, old[1]);
 	return good;
 }
@@ -297,7 +211,7 @@ mend_by_merging(mender *w, uint32_t h)
 
 	if ((d->kind[d->v[h]] != MR_SMOOTH && !w->last) || !mr_dyn_can_collapse(d, h, w->mark))
 		return false;
-	flaws = flaws_of_pair(w, h);
+	flaws = mr_flaws_of_pair(&w->flaws, h, UINT_MAX);
 	for (int i = 2; i >= 0; i--)
 		if (try_merge(w, h, 0.5 * i, flaws))
 			return true;
@@ -329,7 +243,9 @@ mend_thoroughly(mender *w, uint32_t f)
 		uint32_t v = d->v[i], h = d->out[v];
 		do {
 			uint32_t u = mr_dyn_to(d, h);
-			unsigned flaws = d->kind[u] == MR_SMOOTH ? flaws_around(w, u, MR_NONE) : 0;
+			unsigned flaws = d->kind[u] == MR_SMOOTH
+			                     ? mr_flaws_around(&w->flaws, u, MR_NONE, UINT_MAX)
+			                     : 0;
 			if ((flaws > 0 && mend_over_surface(w, u, flaws)) || mend_ring(w, u))
 				return true;
 			h = mr_dyn_ccw(d, h);
@@ -340,8 +256,9 @@ mend_thoroughly(mender *w, uint32_t f)
 
 /* Unpins a tip: a corner that no curve meets. */
 static void
-release_tip(mr_dyn *d, uint32_t v)
+release_tip(const mender *w, uint32_t v)
 {
+	mr_dyn *d = w->d;
 	uint32_t h = d->out[v];
 
 	if (d->kind[v] != MR_CORNER || mr_dyn_on_boundary(d, v))
@@ -353,6 +270,7 @@ release_tip(mr_dyn *d, uint32_t v)
 	} while (h != d->out[v]);
 	d->at[v] = mr_dyn_place(d, v);
 	d->kind[v] = MR_SMOOTH;
+	mr_flaws_suspect(&w->flaws, v);
 }
 
 static bool
@@ -361,7 +279,7 @@ mend_face(mender *w, uint32_t f)
 	const mr_dyn *d = w->d;
 
 	for (uint32_t h = 3 * f; w->last && h < 3 * f + 3; h++)
-		release_tip(w->d, d->v[h]);
+		release_tip(w, d->v[h]);
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
 		if (mend_vertex(w, d->v[h]))
 			return true;
@@ -377,72 +295,60 @@ mend_face(mender *w, uint32_t f)
 	return w->last && mend_thoroughly(w, f);
 }
 
+/* Mends what is suspect; true where something was mended, *flawed where something is to be. */
 static bool
-has_flaw(const mender *w, uint32_t f)
+mend_suspects(mender *w, bool *flawed)
 {
-	const mr_dyn *d = w->d;
+	bool mended = false;
 
-	return !mr_dyn_face_dead(d, f) && (is_flipped(w, f) || is_folded(d, 3 * f) ||
-					      is_folded(d, 3 * f + 1) || is_folded(d, 3 * f + 2));
-}
-
-/* The flaws of face f, those of its edges with lower half-edges: a quick look at what seldom has any. */
-static double
-own_flaws(void *arg, size_t f)
-{
-	const mender *w = arg;
-	const mr_dyn *d = w->d;
-	mr_v3 n;
-	double flaws;
-
-	if (mr_dyn_face_dead(d, f))
-		return 0;
-	n = mr_dyn_cross(d, d->p, f);
-	flaws = is_flipped(w, (uint32_t)f);
-	for (uint32_t h = (uint32_t)(3 * f); h < 3 * f + 3; h++) {
-		uint32_t g = d->twin[h];
-		if (g != MR_NONE && h < g && mr_dot(n, mr_dyn_cross(d, d->p, g / 3)) < 0)
-			flaws += is_folded(d, h);
-	}
-	return flaws;
+	for (uint32_t f = 0; f < w->d->nf; f++)
+		if (w->flaws.suspect[f] && mr_is_flawed(&w->flaws, f)) {
+			*flawed = true;
+			mended |= mend_face(w, f);
+		} else
+			w->flaws.suspect[f] = false;
+	return mended;
 }
 
 mr_status
 mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mender w = { d, s, { s->m, s->topo }, NULL, MR_NEEDLE, last };
-	bool flawed = true, mended = true;
+	mender w = { .d = d, .s = s, .last = last };
+	bool flawed;
+	size_t count;
 
-	if (mr_parallel_sum(ctx, d->nf, own_flaws, &w) == 0)
-		return MR_OK;
+	MR_TRY(mr_flaws_find(ctx, d, s, last, &w.flaws, &count));
+	flawed = count > 0;
 	w.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	if (!w.mark)
 		return MR_EMEM;
-	for (int i = 0; i < MOST && flawed && (mended || i <= (last ? 2 : 1) * PASSES); i++) {
-		flawed = mended = false;
-		w.least = i < PASSES ? MR_NEEDLE : last && i >= 2 * PASSES ? THINNEST : THIN;
-		for (uint32_t f = 0; f < d->nf; f++)
-			if (has_flaw(&w, f)) {
-				flawed = true;
-				mended |= mend_face(&w, f);
-			}
+	for (int stage = 0; stage < (last ? 3 : 2); stage++) {
+		w.least = least[stage];
+		for (int i = 0; i < PASSES && flawed; i++) {
+			flawed = false;
+			if (!mend_suspects(&w, &flawed))
+				break;
+		}
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
-bool
-mr_refine_flaws(mr_dyn *d, const mr_surface *s)
+mr_status
+mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
 {
-	const mender w = { d, s, { s->m, s->topo }, NULL, 0, true };
-	bool flawed = false;
+	mr_mark mark = mr_mark_take(ctx);
+	mr_flaws flaws;
+	size_t count;
 
-	for (uint32_t f = 0; f < d->nf; f++)
-		if (has_flaw(&w, f)) {
-			flawed = true;
-			for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
-				mr_refine_vertex(d, d->v[h]);
-		}
-	return flawed;
+	MR_TRY(mr_flaws_find(ctx, d, s, true, &flaws, &count));
+	for (uint32_t f = 0; f < d->nf && count > 0; f++)
+		if (flaws.suspect[f] && mr_is_flawed(&flaws, f))
+			for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
+				mr_refine_vertex(d, d->v[h]); /* which limits how far its place may be */
+				mr_flaws_suspect(&flaws, d->v[h]);
+			}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }

@@ -245,7 +245,7 @@ mend_last(remesher *r, bool refine)
 	if (refine) {
 		if (!r->d.scale)
 			MR_TRY(mr_refine_begin(r->ctx, &r->d));
-		mr_refine_flaws(&r->d, &r->source);
+		MR_TRY(mr_refine_flaws(r->ctx, &r->d, &r->source));
 		mr_refine_grade(&r->d, &r->source);
 		MR_TRY(one_round(r, false));
 		MR_TRY(equalize_areas(r));
