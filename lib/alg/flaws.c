@@ -117,15 +117,15 @@ find_flaw(void *arg, size_t f)
 			         mr_dot(n, mr_dyn_cross(d, d->p, d->twin[h] / 3)) < 0 && is_folded(d, h);
 		flawed = flawed || is_flipped(w, (uint32_t)f);
 	}
-	w->suspect[f] = flawed;
+	w->state[f] = flawed ? MR_SUSPECT : MR_SOUND;
 	return flawed;
 }
 
 mr_status
 mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_surface *s, bool sure, mr_flaws *w, size_t *count)
 {
-	*w = (mr_flaws){ d, s, { s->m, s->topo }, sure, MR_NEW(ctx, d->nf, bool) };
-	if (!w->suspect)
+	*w = (mr_flaws){ d, s, { s->m, s->topo }, sure, MR_NEW(ctx, d->nf, uint8_t) };
+	if (!w->state)
 		return MR_EMEM;
 	*count = (size_t)mr_parallel_sum(ctx, d->nf, find_flaw, w);
 	return MR_OK;
@@ -139,9 +139,9 @@ suspect_around(const mr_flaws *w, uint32_t v)
 	uint32_t h = d->out[v];
 
 	do {
-		w->suspect[h / 3] = true;
+		w->state[h / 3] = MR_SUSPECT;
 		if (d->twin[mr_he_next(h)] != MR_NONE)
-			w->suspect[d->twin[mr_he_next(h)] / 3] = true;
+			w->state[d->twin[mr_he_next(h)] / 3] = MR_SUSPECT;
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
 }

@@ -11,13 +11,19 @@
 #include "alg/facing.h"
 #include "alg/relax.h"
 
+typedef enum mr_flaw_state {
+	MR_SOUND,
+	MR_SUSPECT, /* it may have a flaw */
+	MR_STUCK    /* it has one that nothing mends, before something near changes */
+} mr_flaw_state;
+
 typedef struct mr_flaws {
 	const mr_dyn *d;
 	const mr_surface *s;
 	mr_facing facing;
 	bool sure; /* every face is compared with the source at its corners; else those that look right are
 	              not */
-	bool *suspect; /* of each face: it may have a flaw */
+	uint8_t *state; /* mr_flaw_state of each face */
 } mr_flaws;
 
 /* Looks at all faces; count: how many have a flaw, which become the suspects.  In the arena. */

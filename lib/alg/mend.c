@@ -152,7 +152,7 @@ mend_vertex(mender *w, uint32_t v)
 	return flaws > 0 && (mend_towards_middle(w, v, flaws) || mend_towards_neighbours(w, v, flaws));
 }
 
-/* Flips the edge where that leaves fewer flaws.  Back again, the two faces have other numbers than before. */
+/* Flips the edge where that leaves fewer flaws.  Back again, the two faces may have changed their numbers. */
 static bool
 mend_edge(mender *w, uint32_t h)
 {
@@ -168,10 +168,13 @@ mend_edge(mender *w, uint32_t h)
 	g = mr_he_next(h); /* the edge that it made */
 	good = shape_of(d, g / 3) > w->least && shape_of(d, d->twin[g] / 3) > w->least &&
 	       mr_flaws_beside(&w->flaws, g) < flaws;
-	mr_flaws_suspect(&w->flaws, d->v[g]);
-	mr_flaws_suspect(&w->flaws, mr_dyn_to(d, g));
-	if (!good)
+	if (good) {
+		mr_flaws_suspect(&w->flaws, d->v[g]);
+		mr_flaws_suspect(&w->flaws, mr_dyn_to(d, g));
+	} else {
+		w->flaws.state[g / 3] = w->flaws.state[d->twin[g] / 3] = MR_STUCK;
 		mr_dyn_flip(d, g);
+	}
 	return good;
 }
 
@@ -295,19 +298,38 @@ mend_face(mender *w, uint32_t f)
 	return w->last && mend_thoroughly(w, f);
 }
 
-/* Mends what is suspect; true where something was mended, *flawed where something is to be. */
+/* Mends what is suspect; true where something was mended. */
 static bool
-mend_suspects(mender *w, bool *flawed)
+mend_suspects(mender *w)
 {
+	uint8_t *state = w->flaws.state;
 	bool mended = false;
 
-	for (uint32_t f = 0; f < w->d->nf; f++)
-		if (w->flaws.suspect[f] && mr_is_flawed(&w->flaws, f)) {
-			*flawed = true;
-			mended |= mend_face(w, f);
-		} else
-			w->flaws.suspect[f] = false;
+	for (uint32_t f = 0; f < w->d->nf; f++) {
+		if (state[f] != MR_SUSPECT)
+			continue;
+		if (!mr_is_flawed(&w->flaws, f))
+			state[f] = MR_SOUND;
+		else if (mend_face(w, f))
+			mended = true;
+		else
+			state[f] = MR_STUCK;
+	}
 	return mended;
+}
+
+/* With other shapes allowed what is stuck may be mended; false where nothing is left. */
+static bool
+free_stuck(const mender *w)
+{
+	bool left = false;
+
+	for (size_t f = 0; f < w->d->nf; f++)
+		if (w->flaws.state[f] != MR_SOUND) {
+			w->flaws.state[f] = MR_SUSPECT;
+			left = true;
+		}
+	return left;
 }
 
 mr_status
@@ -323,13 +345,11 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last)
 	w.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	if (!w.mark)
 		return MR_EMEM;
-	for (int stage = 0; stage < (last ? 3 : 2); stage++) {
+	for (int stage = 0; stage < (last ? 3 : 2) && flawed; stage++) {
 		w.least = least[stage];
-		for (int i = 0; i < PASSES && flawed; i++) {
-			flawed = false;
-			if (!mend_suspects(&w, &flawed))
-				break;
-		}
+		for (int i = 0; i < PASSES && mend_suspects(&w); i++)
+			;
+		flawed = free_stuck(&w);
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -344,7 +364,7 @@ mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
 
 	MR_TRY(mr_flaws_find(ctx, d, s, true, &flaws, &count));
 	for (uint32_t f = 0; f < d->nf && count > 0; f++)
-		if (flaws.suspect[f] && mr_is_flawed(&flaws, f))
+		if (flaws.state[f] == MR_SUSPECT && mr_is_flawed(&flaws, f))
 			for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
 				mr_refine_vertex(d, d->v[h]); /* which limits how far its place may be */
 				mr_flaws_suspect(&flaws, d->v[h]);

@@ -259,15 +259,19 @@ mend_last(remesher *r, bool refine)
 }
 
 /*
- * The last resort where flaws are left: rounds with edges half as long there, until none is; else the
- * state with the fewest stays, the first of them.
+ * The last resort where a few flaws are left: rounds with edges half as long there, until none is; else the
+ * state with the fewest stays, the first of them.  Where there are many the surface is thinner than its edges
+ * all over, and mending would take hours.
  */
 static mr_status
 try_again(remesher *r)
 {
-	enum { TRIES = 4 };
+	enum { TRIES = 4, FEW = 500 };
 	size_t least = flaws_of(r);
 	mr_dyn best;
+
+	if (least > FEW)
+		return MR_OK;
 
 	MR_TRY(mr_dyn_copy(r->ctx, &r->d, &best));
 	for (int i = 0; i < TRIES && flaws_of(r) > 0; i++) {
