@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-enum { WIDTH = 900, HEIGHT = 560, LEFT = 80, RIGHT = 180, TOP = 50, BOTTOM = 60, SERIES = 12, POINTS = 1000 };
+enum { WIDTH = 940, HEIGHT = 560, LEFT = 80, RIGHT = 220, TOP = 50, BOTTOM = 60, SERIES = 12, POINTS = 1000 };
 
 typedef struct point {
 	int series;
