@@ -144,8 +144,10 @@ settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d
 	return MR_OK;
 }
 
+/* projected: of noisy points on their planes.  *noise: above 1 where there is some. */
 static mr_status
-wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+wrap_volume_of(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool projected, double *noise,
+    candidate *c)
 {
 	mr_volume_opts volume = MR_VOLUME_DEFAULTS;
 	double start = mr_seconds(), middle;
@@ -154,13 +156,68 @@ wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, cand
 	c->method = MR_WRAP_VOLUME;
 	volume.grid = o->grid;
 	volume.spacing = cloud->spacing;
+	volume.project = projected;
+	volume.noise = noise;
 	MR_TRY(mr_volume_wrap(ctx, cloud->p, cloud->n, &volume, &m));
 	middle = mr_seconds();
 	mr_stat_set(ctx, "seconds_volume", middle - start);
 	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
 	mr_stat_set(ctx, "seconds_remesh", mr_seconds() - middle);
 	MR_TRY(settle(ctx, cloud, o, &c->d));
-	return finish(ctx, cloud, "volume", c);
+	return finish(ctx, cloud, projected ? "volume of projected points" : "volume", c);
+}
+
+/*
+ * Where noise hides the surface the volume spans places without points, by so many sampling distances; that
+ * of projected points may not, and is taken where it spans so much less, and not too much.
+ */
+static const double SPANS = 1.4, CLEARLY = 0.75;
+
+static bool
+spans_less(const candidate *c, const candidate *other, double unit)
+{
+	return c->cover.wrap_high < CLEARLY * other->cover.wrap_high &&
+	       c->cover.wrap_high <= LAST.wrap_high * unit;
+}
+
+/* The figures are those of the wrap that is taken. */
+static mr_status
+try_projected(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+{
+	mr_stat figures[MR_STATS_MAX];
+	size_t count = ctx->stat_count;
+	double start = mr_seconds(), noise;
+	mr_mark mark = mr_mark_take(ctx);
+	candidate other;
+	mr_status status;
+	bool taken;
+
+	memcpy(figures, ctx->stats, sizeof figures);
+	status = wrap_volume_of(ctx, cloud, o, true, &noise, &other);
+	if (status != MR_OK && status != MR_EMESH)
+		return status;
+	taken = status == MR_OK && spans_less(&other, c, cloud->spacing);
+	if (taken) {
+		*c = other;
+	} else {
+		mr_mark_release(ctx, mark);
+		memcpy(ctx->stats, figures, sizeof figures);
+		ctx->stat_count = count;
+	}
+	mr_stat_set(ctx, "projected", taken);
+	mr_stat_set(ctx, "seconds_projected", mr_seconds() - start);
+	return MR_OK;
+}
+
+static mr_status
+wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+{
+	double noise;
+
+	MR_TRY(wrap_volume_of(ctx, cloud, o, false, &noise, c));
+	if (noise > 1 && c->cover.wrap_high > SPANS * cloud->spacing)
+		MR_TRY(try_projected(ctx, cloud, o, c));
+	return MR_OK;
 }
 
 /* From edges of `length` on. */

@@ -400,7 +400,9 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 
 	if (opts->grid > CELLS_MOST)
 		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
-	MR_TRY(mr_volume_samples(ctx, point, n, useful_share(point, n, opts), &v.s));
+	MR_TRY(mr_volume_samples(ctx, point, n, useful_share(point, n, opts), opts->project, &v.s));
+	if (opts->noise)
+		*opts->noise = v.s.noise;
 	mr_stat_set(ctx, "seconds_planes", mr_seconds() - start);
 	MR_TRY(begin(ctx, opts, n, &v));
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);

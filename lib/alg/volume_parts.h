@@ -23,8 +23,13 @@ typedef struct samples {
 enum { DEPTHS = 3 };
 
 /* Drops repeated points, orders the others so that near ones are near in memory and keeps the share of them;
- * no depths yet. */
-mr_status mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, samples *s);
+ * no depths yet.  projected: where they are noisy, to their planes. */
+mr_status
+mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, bool projected, samples *s);
+
+/* Moves each point onto the plane of least squares of those nearest to it; planes and links are as they were.
+ * volume_project.c */
+mr_status mr_volume_project(mr_ctx *ctx, samples *s);
 
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
  * (positive: the sign is right) on the whole.  volume_orient.c */

@@ -211,8 +211,23 @@ thin_out(samples *s, double share)
 	s->n = n;
 }
 
+/* The same again of the points on their planes, whose outliers show better; the noise was what it was. */
+static mr_status
+project(mr_ctx *ctx, samples *s)
+{
+	double scale = s->noise * s->spacing;
+
+	s->box = mr_box_of(s->p, s->n);
+	MR_TRY(check(ctx, s));
+	MR_TRY(mr_volume_project(ctx, s));
+	MR_TRY(find_planes(ctx, s));
+	MR_TRY(drop_outliers(ctx, s));
+	s->noise = scale / s->spacing;
+	return MR_OK;
+}
+
 mr_status
-mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, samples *s)
+mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, bool projected, samples *s)
 {
 	MR_TRY(distinct(ctx, point, n, s));
 	s->box = mr_box_of(s->p, s->n);
@@ -221,6 +236,8 @@ mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, sampl
 	thin_out(s, share);
 	MR_TRY(find_planes(ctx, s));
 	MR_TRY(drop_outliers(ctx, s));
+	if (projected && s->noise > 1)
+		MR_TRY(project(ctx, s));
 	s->box = mr_box_of(s->p, s->n);
 	MR_TRY(check(ctx, s));
 	return limit_areas(ctx, s);

@@ -4,6 +4,7 @@
 #include "alg/isosurface.h"
 #include "alg/shape.h"
 #include "alg/volume.h"
+#include "alg/volume_parts.h"
 #include "base/random.h"
 #include "mesh/bvh.h"
 #include "mesh/cloud.h"
@@ -347,6 +348,61 @@ noise_is_seen_through(void **state)
 	assert_true(fabs(volume_of(&w) / volume_of(&m) - 1) < 0.1);
 }
 
+static double
+mean_off_sphere(const mr_v3 *p, size_t n)
+{
+	double sum = 0;
+
+	for (size_t i = 0; i < n; i++)
+		sum += fabs(mr_norm(p[i]) - 1);
+	return sum / (double)n;
+}
+
+/* Noise of about the spacing is told, and projection takes much of it away. */
+static void
+noisy_points_go_onto_their_planes(void **state)
+{
+	enum { N = 4000 };
+	mr_mesh m = solid(MR_SPHERE, 8000, 0), w;
+	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
+	mr_v3 *p, *normals;
+	double noise, off;
+	mr_census c;
+
+	(void)state;
+	opts.project = true;
+	opts.noise = &noise;
+	assert_int_equal(mr_surface_sample(&ctx, &m, N, 5, &p, &normals), MR_OK);
+	mr_add_noise(p, normals, N, sqrt(mr_mesh_area(&ctx, &m) / N), 6);
+	assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &w), MR_OK);
+	assert_true(noise > 1);
+	c = census_of(&w);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.genus, 0);
+	off = mean_off_sphere(p, N);
+	assert_int_equal(mr_volume_project(&ctx, &(samples){ .p = p, .n = N }), MR_OK);
+	assert_true(mean_off_sphere(p, N) < 0.6 * off);
+}
+
+/* What has no noise is not projected: the same bits. */
+static void
+points_without_noise_stay(void **state)
+{
+	mr_mesh m = solid(MR_TORUS, 3000, 0), w[2];
+	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
+	double noise;
+
+	(void)state;
+	opts.noise = &noise;
+	for (int i = 0; i < 2; i++) {
+		opts.project = i;
+		assert_int_equal(mr_volume_wrap(&ctx, m.p, m.nv, &opts, &w[i]), MR_OK);
+		assert_true(noise == 1);
+	}
+	assert_int_equal(w[0].nv, w[1].nv);
+	assert_memory_equal(w[0].p, w[1].p, w[0].nv * sizeof *w[0].p);
+}
+
 /* Too few points for a surface, repeated ones, any place and size: a closed surface, or a refusal. */
 static void
 any_cloud_gives_a_closed_surface_or_none(void **state)
@@ -432,19 +488,28 @@ flat_clouds_are_refused(void **state)
 static void
 every_allocation_may_fail(void **state)
 {
-	mr_mesh m = solid(MR_SPHERE, 300, 0), w;
+	enum { MOST = 300 };
+	mr_mesh m = solid(MR_SPHERE, MOST, 0), w;
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_status status = MR_EMEM;
+	mr_v3 p[MOST];
+	double noise;
 
 	(void)state;
+	assert_true(m.nv <= MOST);
+	memcpy(p, m.p, m.nv * sizeof *p);
+	mr_add_noise(p, m.p, m.nv, 0.2, 1);
+	opts.project = true;
+	opts.noise = &noise;
 	for (uint64_t k = 1; status != MR_OK; k++) {
 		mr_mark mark = mr_mark_take(&ctx);
 		assert_true(k < 1000);
 		ctx.fail_at = k;
-		status = mr_volume_wrap(&ctx, m.p, m.nv, &opts, &w);
+		status = mr_volume_wrap(&ctx, p, m.nv, &opts, &w);
 		assert_true(status == MR_OK || status == MR_EMEM);
 		mr_mark_release(&ctx, mark);
 	}
+	assert_true(noise > 1);
 }
 
 int
@@ -461,6 +526,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(pit_before_an_open_neck_stays_a_pit, setup, teardown),
 		cmocka_unit_test_setup_teardown(outliers_are_left_out, setup, teardown),
 		cmocka_unit_test_setup_teardown(noise_is_seen_through, setup, teardown),
+		cmocka_unit_test_setup_teardown(noisy_points_go_onto_their_planes, setup, teardown),
+		cmocka_unit_test_setup_teardown(points_without_noise_stay, setup, teardown),
 		cmocka_unit_test_setup_teardown(any_cloud_gives_a_closed_surface_or_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(bits_do_not_depend_on_threads_or_repeats, setup, teardown),
 		cmocka_unit_test_setup_teardown(flat_clouds_are_refused, setup, teardown),
