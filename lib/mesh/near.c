@@ -117,7 +117,7 @@ mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
 	near->parameters.eps = 0;
 	near->parameters.sorted = 1;
 	near->parameters.cores = 1;
-	near->parameters.log_level = -1; /* else each query sets it, for all threads */
+	near->parameters.log_level = (enum flann_log_level_t)-1; /* else each query sets it, for all threads */
 	near->index = flann_build_index_double(near->row[0], (int)near->rows, 3, &speedup, &near->parameters);
 	if (!near->index)
 		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", near->rows);
