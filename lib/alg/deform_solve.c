@@ -271,6 +271,16 @@ solve_displacements(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_
 	return MR_OK;
 }
 
+/* The same, into out, which may be p0: p is workspace. */
+static mr_status
+follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p, mr_v3 *out)
+{
+	if (d->solver)
+		MR_TRY(solve_displacements(ctx, d, whole, p0, p));
+	memcpy(out, p, d->nv * sizeof *out);
+	return MR_OK;
+}
+
 mr_status
 mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, size_t count, mr_v3 *out)
 {
@@ -286,9 +296,7 @@ mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, s
 		mr_affine map = map_of(t, count, d->region[v]);
 		p[v] = move(&map, p0[v]);
 	}
-	if (d->solver)
-		MR_TRY(solve_displacements(ctx, d, &whole, p0, p));
-	memcpy(out, p, d->nv * sizeof *out);
+	MR_TRY(follow(ctx, d, &whole, p0, p, out));
 	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;
@@ -306,9 +314,7 @@ mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v3 *target,
 		return MR_EMEM;
 	for (size_t v = 0; v < d->nv; v++)
 		p[v] = d->region[v] == MR_REGION_FREE ? p0[v] : target[v];
-	if (d->solver)
-		MR_TRY(solve_displacements(ctx, d, &rest, p0, p));
-	memcpy(out, p, d->nv * sizeof *out);
+	MR_TRY(follow(ctx, d, &rest, p0, p, out));
 	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;

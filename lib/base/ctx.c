@@ -64,32 +64,37 @@ mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...)
 	return status;
 }
 
+/* Nobody may be listening. */
+MR_PRINTF(3, 0)
+static void
+tell(const mr_ctx *ctx, void (*listener)(void *user, const char *text), const char *format, va_list args)
+{
+	char text[MR_ERROR_MAX];
+
+	if (!listener)
+		return;
+	vsnprintf(text, sizeof text, format, args);
+	listener(ctx->user, text);
+}
+
 void
 mr_note(mr_ctx *ctx, const char *format, ...)
 {
-	char text[MR_ERROR_MAX];
 	va_list args;
 
-	if (!ctx->note)
-		return;
 	va_start(args, format);
-	vsnprintf(text, sizeof text, format, args);
+	tell(ctx, ctx->note, format, args);
 	va_end(args);
-	ctx->note(ctx->user, text);
 }
 
 void
 mr_warn(mr_ctx *ctx, const char *format, ...)
 {
-	char text[MR_ERROR_MAX];
 	va_list args;
 
-	if (!ctx->warn)
-		return;
 	va_start(args, format);
-	vsnprintf(text, sizeof text, format, args);
+	tell(ctx, ctx->warn, format, args);
 	va_end(args);
-	ctx->warn(ctx->user, text);
 }
 
 void
