@@ -6,7 +6,6 @@
 
 static mr_deform_opts opts = MR_DEFORM_DEFAULTS;
 static enum { AUTO, CHOLESKY, LU, CG, BICGSTAB, MULTIGRID, VCYCLE } solver;
-static enum { BY_SOLVER, INCOMPLETE, JACOBI, VCYCLES } precondition;
 static double tol, megabytes;
 static bool basis, verify;
 
@@ -24,7 +23,7 @@ static const cmd_opt table[] = {
 	{ 0, "iterations", CMD_COUNT, &opts.solver.iterations, 1, 1e9, "N", "at most", NULL },
 	{ 0, "memory", CMD_REAL, &megabytes, 0, 1e12, "MB",
 	    "megabytes that a factor may take; 0: what there is", NULL },
-	{ 0, "precondition", CMD_CHOICE, &precondition, 0, 0, "auto|incomplete|jacobi|multigrid",
+	{ 0, "precondition", CMD_CHOICE, &opts.solver.precondition, 0, 0, "auto|incomplete|jacobi|multigrid",
 	    "of cg and bicgstab; auto: incomplete, multigrid for -k 3 and of bicgstab for -k 2", NULL },
 	{ 0, "verify", CMD_FLAG, &verify, 0, 0, "",
 	    "record the error, by a direct solution, and the condition", NULL },
@@ -41,15 +40,11 @@ prepare(cmd *c)
 		    c->layer);
 	if (opts.unsymmetric && solver != AUTO && solver != LU && solver != BICGSTAB)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
-	if (precondition != BY_SOLVER && solver != CG && solver != BICGSTAB)
+	if (opts.solver.precondition && solver != CG && solver != BICGSTAB)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
 	opts.solver.kind = solver != AUTO     ? (mr_solver_kind)(solver - CHOLESKY)
 	                   : opts.unsymmetric ? MR_LU
 	                                      : MR_CHOLESKY;
-	if (precondition != BY_SOLVER)
-		opts.solver.precondition = (int)(precondition - INCOMPLETE);
-	else if (opts.order > (solver == BICGSTAB ? 1 : 2)) /* where incomplete factors stall */
-		opts.solver.precondition = MR_VCYCLES;
 	opts.choose = solver == AUTO && !opts.unsymmetric;
 	if (tol > 0)
 		opts.tol = opts.solver.tol = tol;

@@ -135,6 +135,14 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	return mr_deform_assemble(ctx, d, rest, started);
 }
 
+/* Incomplete factors stall on systems of high order. */
+static void
+choose_preconditioner(mr_deform_opts *o)
+{
+	if (o->solver.precondition == MR_BY_ORDER && o->order > (o->solver.kind == MR_BICGSTAB ? 1 : 2))
+		o->solver.precondition = MR_VCYCLES;
+}
+
 mr_status
 mr_deform_new(
     mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region, const mr_deform_opts *opts, mr_deform **deform)
@@ -144,6 +152,7 @@ mr_deform_new(
 	if (!d)
 		return MR_EMEM;
 	d->opts = *opts;
+	choose_preconditioner(&d->opts);
 	d->nv = rest->nv;
 	d->region = MR_NEW(ctx, d->nv, uint32_t);
 	if (!d->region)

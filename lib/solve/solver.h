@@ -28,6 +28,7 @@ mr_solver_iterates(mr_solver_kind kind)
 }
 
 typedef enum mr_preconditioner_kind {
+	MR_BY_ORDER,   /* as MR_INCOMPLETE; who knows the order of the system chooses better */
 	MR_INCOMPLETE, /* factors without fill: incomplete Cholesky of a symmetric matrix, else incomplete LU
 	                */
 	MR_JACOBI,     /* the diagonal */
