@@ -5,12 +5,7 @@
 #include "alg/fit_least.h"
 
 #include "alg/fit_guard.h"
-#include "alg/fit_system.h"
-#include "solve/solver.h"
-
-enum { MOST_STEPS = 50 };
-
-static const double ACCURACY = 1e-3; /* of the solution, in the norm of the energy */
+#include "alg/fit_solve.h"
 
 /* Places the k-th smallest of n values at a[k] (Hoare 1961). */
 static double
@@ -65,79 +60,6 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, bool outliers
 	return MR_OK;
 }
 
-static double
-dot(const double *a, const double *b, size_t n)
-{
-	double sum = 0;
-
-	for (size_t i = 0; i < n; i++)
-		sum += a[i] * b[i];
-	return sum;
-}
-
-/* p = a p + q */
-static void
-combine(double a, double *p, const double *q, size_t n)
-{
-	for (size_t i = 0; i < n; i++)
-		p[i] = a * p[i] + q[i];
-}
-
-/*
- * Conjugate gradients (Hestenes, Stiefel 1952), preconditioned by the part that x, y and z have in common:
- * its factor is a ninth of the whole's.  r: the right-hand side, used up.  z: the solution.
- */
-static mr_status
-conjugate_gradients(
-    mr_ctx *ctx, const mr_fit_system *s, mr_solver *solver, double *r, double *z, size_t *steps)
-{
-	size_t n = 3 * (size_t)s->a.n;
-	double *p = MR_NEW_ZERO(ctx, n, double), *q = MR_NEW(ctx, n, double), rho = 1, first = 0;
-
-	if (!p || !q)
-		return MR_EMEM;
-	memset(z, 0, n * sizeof *z);
-	for (size_t i = 0; i < MOST_STEPS; i++) {
-		double before = rho, alpha;
-		memcpy(q, r, n * sizeof *q);
-		MR_TRY(mr_solver_solve(ctx, solver, q, 3));
-		rho = dot(r, q, n);
-		first = i == 0 ? rho : first;
-		if (!(rho > ACCURACY * ACCURACY * first))
-			break;
-		combine(i == 0 ? 0 : rho / before, p, q, n);
-		mr_fit_system_apply(s, p, q);
-		alpha = rho / dot(p, q, n);
-		for (size_t k = 0; k < n; k++) {
-			z[k] += alpha * p[k];
-			r[k] -= alpha * q[k];
-		}
-		++*steps;
-	}
-	return MR_OK;
-}
-
-/* The motion of the vertices that solves the equations. */
-static mr_status
-solve(mr_ctx *ctx, mr_fit_system *s, mr_v3 *motion, size_t *steps)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	size_t nv = (size_t)s->a.n;
-	double *z = MR_NEW(ctx, 3 * nv, double);
-	mr_solver *solver;
-	mr_status status;
-
-	if (!z)
-		return MR_EMEM;
-	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &s->a, NULL, &solver));
-	status = conjugate_gradients(ctx, s, solver, s->b, z, steps);
-	mr_solver_free(solver);
-	for (size_t v = 0; v < nv; v++)
-		motion[v] = mr_vec(z[v], z[nv + v], z[2 * nv + v]);
-	mr_mark_release(ctx, mark);
-	return status;
-}
-
 /*
  * How much smoother than asked for a motion is: while the points are far, the square of their mean distance
  * in twentieths of a control edge, for then feet on uncovered parts lie together, and a rough motion would
@@ -173,7 +95,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, outliers, w));
 		MR_TRY(mr_fit_system_fill(
 		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
-		MR_TRY(solve(ctx, &system, z, &steps));
+		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, surface, &system.patch, crossed, x, z, &damped));
 		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
 	}
