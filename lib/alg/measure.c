@@ -45,7 +45,7 @@ count_intersections(mr_ctx *ctx, const mr_mesh *m, size_t *count)
 	mr_bvh *bvh;
 
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	MR_TRY(mr_self_intersections(ctx, bvh, m, count));
+	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, count));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

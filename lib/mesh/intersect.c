@@ -200,6 +200,7 @@ typedef struct search {
 	const mr_bvh *bvh;
 	const mr_mesh *m;
 	const unsigned char *flat; /* faces without area */
+	bool *crosses;             /* of the faces; or NULL */
 	size_t *count;             /* per piece of faces */
 } search;
 
@@ -207,7 +208,8 @@ typedef struct candidate {
 	const search *s;
 	uint32_t face;
 	mr_v3 p[3];
-	size_t count;
+	bool crosses;
+	size_t count; /* of pairs with later ones */
 } candidate;
 
 enum { GRAIN = 512 };
@@ -224,11 +226,15 @@ visit(void *arg, uint32_t face)
 {
 	candidate *c = arg;
 	mr_v3 q[3];
+	bool earlier = face < c->face;
 
-	if (face <= c->face || c->s->flat[face])
+	if (face == c->face || (earlier && !c->s->crosses) || c->s->flat[face])
 		return true;
 	corners(c->s->m, face, q);
-	c->count += mr_triangles_intersect(c->p, q);
+	if (mr_triangles_intersect(c->p, q)) {
+		c->crosses = true;
+		c->count += !earlier;
+	}
 	return true;
 }
 
@@ -240,10 +246,12 @@ search_faces(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		candidate c = { .s = s, .face = (uint32_t)f };
-		if (s->flat[f])
-			continue;
-		corners(s->m, f, c.p);
-		mr_bvh_overlap(s->bvh, mr_box_of(c.p, 3), visit, &c);
+		if (!s->flat[f]) {
+			corners(s->m, f, c.p);
+			mr_bvh_overlap(s->bvh, mr_box_of(c.p, 3), visit, &c);
+		}
+		if (s->crosses)
+			s->crosses[f] = c.crosses;
 		total += c.count;
 	}
 	s->count[begin / GRAIN] = total;
@@ -267,12 +275,12 @@ find_flat(void *arg, size_t begin, size_t end)
 }
 
 mr_status
-mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, size_t *count)
+mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t pieces = (m->nf + GRAIN - 1) / GRAIN, total = 0;
 	flat_job flat = { m, MR_NEW(ctx, m->nf, unsigned char) };
-	search s = { bvh, m, flat.flat, MR_NEW(ctx, pieces, size_t) };
+	search s = { bvh, m, flat.flat, crosses, MR_NEW(ctx, pieces, size_t) };
 
 	if (!flat.flat || !s.count)
 		return MR_EMEM;

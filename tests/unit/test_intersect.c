@@ -223,16 +223,23 @@ count_equals_a_loop(void **state)
 				t[f].v[i] = (uint32_t)(mr_random_bits(&r) % V);
 		mr_mesh m = { "mesh", p, t, V, N };
 		mr_bvh *bvh;
-		size_t count, expected = 0;
+		size_t count, again, expected = 0;
+		bool crosses[N] = { false }, found[N];
 		for (size_t f = 0; f < N; f++)
 			for (size_t g = f + 1; g < N; g++) {
 				mr_v3 a[3] = { p[t[f].v[0]], p[t[f].v[1]], p[t[f].v[2]] };
 				mr_v3 b[3] = { p[t[g].v[0]], p[t[g].v[1]], p[t[g].v[2]] };
-				expected += !flat(a) && !flat(b) && mr_triangles_intersect(a, b);
+				if (flat(a) || flat(b) || !mr_triangles_intersect(a, b))
+					continue;
+				expected++;
+				crosses[f] = crosses[g] = true;
 			}
 		assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
-		assert_int_equal(mr_self_intersections(&ctx, bvh, &m, &count), MR_OK);
+		assert_int_equal(mr_self_intersections(&ctx, bvh, &m, NULL, &count), MR_OK);
+		assert_int_equal(mr_self_intersections(&ctx, bvh, &m, found, &again), MR_OK);
 		assert_int_equal(count, expected);
+		assert_int_equal(again, expected);
+		assert_memory_equal(found, crosses, sizeof found);
 		assert_true(count > 100);
 	}
 	mr_ctx_free(&ctx);
