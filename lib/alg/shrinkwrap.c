@@ -1,40 +1,27 @@
 #include "alg/shrinkwrap.h"
 
 #include "alg/iron.h"
-#include "alg/volume.h"
 #include "alg/wrap_parts.h"
 
-/* Iterations by default: the cube comes to rest in as many; near the points fewer do. */
-enum { CUBE_ITERATIONS = 20, TEMPLATE_ITERATIONS = 20, SETTLE_ITERATIONS = 4 };
+/* Iterations by default: the cube comes to rest in as many. */
+enum { CUBE_ITERATIONS = 20, TEMPLATE_ITERATIONS = 20, TEMPLATE_SETTLES = 4 };
 
-/* Points and faces at most that coverage is measured by. */
-enum { FIRST_SAMPLES = 1 << 11, LAST_SAMPLES = 1 << 14 };
+/* What a box may leave out and have too much in edges of its first level, which are long. */
+static const mr_wrap_cover FIRST = {
+	.points_max = 1, .points_high = 0.55, .wrap_max = 0.6, .wrap_high = 0.45
+};
 
-/*
- * What a wrap may leave out and have too much: that of the box in its first edges, which are long, and any at
- * the end in sampling distances, of which noise takes some.
- */
-static const mr_wrap_cover FIRST = { .points_max = 1,
-	.points_high = 0.55,
-	.wrap_max = 0.6,
-	.wrap_high = 0.45 },
-			   LAST = { .points_max = 10, .points_high = 4, .wrap_max = 6, .wrap_high = 2.5 };
+/* Points and faces at most that this is measured by. */
+enum { FIRST_SAMPLES = 1 << 11 };
 
-/* A wrap, and how well it covers the points. */
-typedef struct candidate {
-	mr_dyn d;
-	mr_wrap_cover cover;
-	size_t folds;
-	int method; /* mr_wrap_method, of which AUTO is the box; or TEMPLATE */
-} candidate;
-
+/* Of mr_wrap.method, beside the methods. */
 enum { TEMPLATE = MR_WRAP_VOLUME + 1 };
 
 /* So few points tell nothing of handles and limbs: the box, of genus 0, goes around them. */
 enum { FEW = 64 };
 
 static bool
-is_sound(const candidate *c)
+is_sound(const mr_wrap *c)
 {
 	return c->folds == 0 && c->cover.crossings == 0;
 }
@@ -51,32 +38,6 @@ static double
 badness(const mr_wrap_cover *c)
 {
 	return c->points_most + c->wrap_high;
-}
-
-static mr_status
-measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, candidate *c)
-{
-	mr_mesh m = mr_dyn_view(&c->d, "control");
-	double start = mr_seconds(), s = cloud->spacing;
-	mr_wrap_cover *cover = &c->cover;
-
-	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, cover));
-	mr_stat_set(ctx, "seconds_measure", mr_seconds() - start);
-	mr_note(ctx,
-	    "%s, %zu faces: points are within %.3g sampling distances of it, 99 %% within %.3g, "
-	    "it is within %.3g of points, 99 %% within %.3g",
-	    what, c->d.nf, cover->points_max / s, cover->points_high / s, cover->wrap_max / s,
-	    cover->wrap_high / s);
-	return MR_OK;
-}
-
-/* Takes out folds; measures. */
-static mr_status
-finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const char *what, candidate *c)
-{
-	c->folds = mr_iron(&c->d, true);
-	MR_TRY(mr_dyn_compact(ctx, &c->d));
-	return measure(ctx, cloud, LAST_SAMPLES, what, c);
 }
 
 /* The iterations of the paper. */
@@ -118,7 +79,7 @@ resolution_for(const mr_wrap_cloud *cloud)
 
 /* To the letter of section 3.1.1. */
 static mr_status
-wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	size_t r = o->resolution ? o->resolution : resolution_for(cloud);
 	mr_mesh cube;
@@ -128,132 +89,53 @@ wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candid
 	MR_TRY(mr_wrap_dyn(ctx, &cube, &c->d));
 	mr_stat_set(ctx, "resolution", (double)r);
 	MR_TRY(pull(ctx, cloud, o, &c->d));
-	return finish(ctx, cloud, "cube", c);
-}
-
-/* Near the points already: onto them. */
-static mr_status
-settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
-{
-	size_t iterations = o->iterations ? o->iterations : SETTLE_ITERATIONS;
-	double start = mr_seconds();
-
-	MR_TRY(mr_wrap_settle(ctx, cloud, o, iterations, d));
-	mr_stat_set(ctx, "iterations", (double)iterations);
-	mr_stat_set(ctx, "seconds_settle", mr_seconds() - start);
-	return MR_OK;
-}
-
-/* projected: of noisy points on their planes.  *noise: above 1 where there is some. */
-static mr_status
-wrap_volume_of(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool projected, double *noise,
-    candidate *c)
-{
-	mr_volume_opts volume = MR_VOLUME_DEFAULTS;
-	double start = mr_seconds(), middle;
-	mr_mesh m;
-
-	c->method = MR_WRAP_VOLUME;
-	volume.grid = o->grid;
-	volume.spacing = cloud->spacing;
-	volume.project = projected;
-	volume.noise = noise;
-	MR_TRY(mr_volume_wrap(ctx, cloud->p, cloud->n, &volume, &m));
-	middle = mr_seconds();
-	mr_stat_set(ctx, "seconds_volume", middle - start);
-	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
-	mr_stat_set(ctx, "seconds_remesh", mr_seconds() - middle);
-	MR_TRY(settle(ctx, cloud, o, &c->d));
-	return finish(ctx, cloud, projected ? "volume of projected points" : "volume", c);
-}
-
-/*
- * Where noise hides the surface the volume spans places without points, by so many sampling distances; that
- * of projected points may not, and is taken where it spans so much less, and not too much.
- */
-static const double SPANS = 1.4, CLEARLY = 0.75;
-
-static bool
-spans_less(const candidate *c, const candidate *other, double unit)
-{
-	return c->cover.wrap_high < CLEARLY * other->cover.wrap_high &&
-	       c->cover.wrap_high <= LAST.wrap_high * unit;
-}
-
-/* The figures are those of the wrap that is taken. */
-static mr_status
-try_projected(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
-{
-	mr_stat figures[MR_STATS_MAX];
-	size_t count = ctx->stat_count;
-	double start = mr_seconds(), noise;
-	mr_mark mark = mr_mark_take(ctx);
-	candidate other;
-	mr_status status;
-	bool taken;
-
-	memcpy(figures, ctx->stats, sizeof figures);
-	status = wrap_volume_of(ctx, cloud, o, true, &noise, &other);
-	if (status != MR_OK && status != MR_EMESH)
-		return status;
-	taken = status == MR_OK && spans_less(&other, c, cloud->spacing);
-	if (taken) {
-		*c = other;
-	} else {
-		mr_mark_release(ctx, mark);
-		memcpy(ctx->stats, figures, sizeof figures);
-		ctx->stat_count = count;
-	}
-	mr_stat_set(ctx, "projected", taken);
-	mr_stat_set(ctx, "seconds_projected", mr_seconds() - start);
-	return MR_OK;
-}
-
-static mr_status
-wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
-{
-	double noise;
-
-	MR_TRY(wrap_volume_of(ctx, cloud, o, false, &noise, c));
-	if (noise > 1 && c->cover.wrap_high > SPANS * cloud->spacing)
-		MR_TRY(try_projected(ctx, cloud, o, c));
-	return MR_OK;
+	c->folds = mr_iron(&c->d, true);
+	return mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "cube", c);
 }
 
 /* From edges of `length` on. */
 static mr_status
-finish_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, candidate *c)
+finish_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_wrap *c)
 {
 	double start = mr_seconds();
 
 	MR_TRY(mr_wrap_refine(ctx, cloud, o, length, &c->d));
 	mr_stat_set(ctx, "seconds_levels", mr_seconds() - start);
-	MR_TRY(settle(ctx, cloud, o, &c->d));
-	return finish(ctx, cloud, "box", c);
+	return mr_wrap_finish(ctx, cloud, o, "box", c);
 }
 
 /* The volume also closes what the points leave open, which counts against it: the box must be this much
+ * better; not so where the volume has handles, which may be there alone.  A first level may become as much
  * better. */
 static const double BETTER = 0.7;
 
 static bool
-beats(const candidate *box, const candidate *volume)
+has_handles(const mr_dyn *d)
 {
-	return badness(&box->cover) < BETTER * badness(&volume->cover);
+	return d->nv < 2 + d->nf / 2;
+}
+
+static bool
+beats(const mr_wrap *box, bool finished, const mr_wrap *volume)
+{
+	double bar = !has_handles(&volume->d) ? BETTER : finished ? 1 : 1 / BETTER;
+
+	return badness(&box->cover) < bar * badness(&volume->cover);
 }
 
 /* The volume, but where it is not good either the box if that is better.  Which fits closer counts less than
  * which passes nowhere through itself: drawn to an open sheet from both sides, the box does. */
 static mr_status
-choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished,
-    candidate *c)
+choose(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished, mr_wrap *c)
 {
-	candidate volume;
-	mr_status status = wrap_volume(ctx, cloud, o, &volume);
+	mr_wrap volume;
+	mr_status status = mr_wrap_volume(ctx, cloud, o, &volume);
 
 	if (status != MR_OK && status != MR_EMESH)
 		return status;
-	if (status == MR_OK && (covers(&volume.cover, &LAST, cloud->spacing) || !beats(c, &volume))) {
+	if (status == MR_OK &&
+	    (covers(&volume.cover, &MR_WRAP_ENOUGH, cloud->spacing) || !beats(c, finished, &volume))) {
 		*c = volume;
 		return MR_OK;
 	}
@@ -261,7 +143,7 @@ choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double le
 		mr_note(ctx, "no volume: %s", ctx->error);
 	if (!finished)
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-	if (status == MR_OK && (!beats(c, &volume) || (!is_sound(c) && is_sound(&volume))))
+	if (status == MR_OK && (!beats(c, true, &volume) || (!is_sound(c) && is_sound(&volume))))
 		*c = volume;
 	return MR_OK;
 }
@@ -271,32 +153,32 @@ choose(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double le
  * what is round the finer ones cost less than the volume.
  */
 static mr_status
-wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	double start = mr_seconds(), length;
 	bool round;
 
 	c->method = MR_WRAP_AUTO;
 	MR_TRY(mr_wrap_begin(ctx, cloud, o, &length, &c->d));
-	MR_TRY(measure(ctx, cloud, FIRST_SAMPLES, "first level", c));
+	MR_TRY(mr_wrap_assess(ctx, cloud, FIRST_SAMPLES, "first level", c));
 	mr_stat_set(ctx, "seconds_box", mr_seconds() - start);
 	round = cloud->places <= FEW || covers(&c->cover, &FIRST, length);
 	if (round) {
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-		if (is_sound(c) && covers(&c->cover, &LAST, cloud->spacing))
+		if (is_sound(c) && covers(&c->cover, &MR_WRAP_ENOUGH, cloud->spacing))
 			return MR_OK;
 	}
 	return choose(ctx, cloud, o, length, round, c);
 }
 
 static mr_status
-wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, candidate *c)
+wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	switch (o->method) {
 	case MR_WRAP_CUBE:
 		return wrap_cube(ctx, cloud, o, c);
 	case MR_WRAP_VOLUME:
-		return wrap_volume(ctx, cloud, o, c);
+		return mr_wrap_volume(ctx, cloud, o, c);
 	default:
 		return wrap_auto(ctx, cloud, o, c);
 	}
@@ -304,19 +186,19 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, c
 
 /* Where a wrap is poor by the same measure. */
 static void
-warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
+warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 {
 	double points = c->cover.points_high / cloud->spacing, wrap = c->cover.wrap_high / cloud->spacing;
 
 	if (!is_sound(c))
 		mr_warn(ctx, "the wrap has %zu folded edges and %zu pairs of faces that intersect", c->folds,
 		    c->cover.crossings);
-	if (points > LAST.points_high)
+	if (points > MR_WRAP_ENOUGH.points_high)
 		mr_warn(ctx,
 		    "1 %% of the points are more than %.3g sampling distances from the wrap: outliers, or it "
 		    "does not reach them",
 		    points);
-	if (wrap > LAST.wrap_max)
+	if (wrap > MR_WRAP_ENOUGH.wrap_max)
 		mr_warn(ctx,
 		    "1 %% of the wrap is more than %.3g sampling distances from the points: it closes what "
 		    "they leave open",
@@ -324,7 +206,7 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
 }
 
 static void
-report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
+report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 {
 	static const char *const names[] = { "box", "cube", "volume", "template" };
 
@@ -346,7 +228,7 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const candidate *c)
 static mr_status
 wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out)
 {
-	candidate c;
+	mr_wrap c;
 
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
@@ -375,7 +257,7 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 {
 	size_t iterations = o->iterations ? o->iterations : TEMPLATE_ITERATIONS;
 	double edge = mr_mesh_edge_scale(ctx, start);
-	candidate c = { .method = TEMPLATE };
+	mr_wrap c = { .method = TEMPLATE };
 
 	MR_TRY(mr_wrap_dyn(ctx, start, &c.d));
 	for (size_t i = 0; i < iterations; i++) {
@@ -383,10 +265,10 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 		MR_TRY(mr_wrap_smooth(ctx, o->lambda, true, &c.d));
 		mr_progress(ctx, "wrapping", (double)(i + 1) / (double)iterations);
 	}
-	MR_TRY(mr_wrap_settle(ctx, cloud, o, SETTLE_ITERATIONS, &c.d));
+	MR_TRY(mr_wrap_settle(ctx, cloud, o, TEMPLATE_SETTLES, &c.d));
 	mr_stat_set(ctx, "iterations", (double)iterations);
 	c.folds = mr_iron(&c.d, true);
-	MR_TRY(measure(ctx, cloud, LAST_SAMPLES, "template", &c));
+	MR_TRY(mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "template", &c));
 	report(ctx, cloud, &c);
 	memcpy(p, c.d.p, start->nv * sizeof *p);
 	return MR_OK;

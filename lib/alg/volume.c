@@ -61,6 +61,14 @@ set_grid(mr_box box, double step, mr_grid *g, size_t *levels)
 	g->origin = mr_sub(centre, half);
 }
 
+static size_t
+cells_along(mr_box box, double step)
+{
+	mr_v3 size = mr_sub(box.max, box.min);
+
+	return (size_t)ceil(fmax(size.x, fmax(size.y, size.z)) / step);
+}
+
 /* As fine as the sampling, as far as memory in proportion to the n points of the cloud allows. */
 static void
 choose_grid(mr_box box, double spacing, size_t n, size_t cells, mr_grid *g, size_t *levels)
@@ -401,10 +409,10 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	if (opts->grid > CELLS_MOST)
 		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
 	MR_TRY(mr_volume_samples(ctx, point, n, useful_share(point, n, opts), opts->project, &v.s));
-	if (opts->noise)
-		*opts->noise = v.s.noise;
 	mr_stat_set(ctx, "seconds_planes", mr_seconds() - start);
 	MR_TRY(begin(ctx, opts, n, &v));
+	if (opts->found)
+		*opts->found = (mr_volume_found){ v.s.noise, cells_along(v.s.box, v.grid[0].step) };
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
 	if (!f)
 		return MR_EMEM;

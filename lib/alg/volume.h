@@ -9,13 +9,19 @@
 
 #include "mesh/mesh.h"
 
+/* What was found about the points. */
+typedef struct mr_volume_found {
+	double noise; /* 1, or more: the spacings it takes to see a surface */
+	size_t grid;  /* cells along the longest side of the bounding box */
+} mr_volume_found;
+
 typedef struct mr_volume_opts {
 	size_t
 	    grid; /* cells along the longest side of the bounding box; 0: chosen from the sampling density */
 	double spacing; /* of the points where it is known: those that the grid cannot hold are left out; 0:
 	                   all count */
 	bool project;   /* noisy points go onto the planes of their neighbours first */
-	double *noise;  /* becomes 1, or more: the spacings it takes to see a surface; may be NULL */
+	mr_volume_found *found; /* becomes what was found; may be NULL */
 } mr_volume_opts;
 
 #define MR_VOLUME_DEFAULTS                                                                                   \

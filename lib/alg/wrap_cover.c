@@ -48,7 +48,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	c->points_max = j.distance[n - 1];
 	c->points_high = j.distance[(size_t)(HIGH * (double)(n - 1))];
 	c->points_most = j.distance[(size_t)(MOST * (double)(n - 1))];
-	MR_TRY(mr_self_intersections(ctx, bvh, m, &c->crossings));
+	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -63,6 +63,12 @@ mr_status mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d
 mr_status
 mr_wrap_settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, size_t iterations, mr_dyn *d);
 
+/*
+ * Takes the vertices of faces that intersect, and those around them, back towards where they were, home,
+ * d->nv, until no faces do, if none did there.
+ */
+mr_status mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d);
+
 /* Edges at which a wrap has about half as many faces as there are points (or some hundreds where these are
  * few), or as long as asked for. */
 double mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o);
@@ -85,5 +91,30 @@ typedef struct mr_wrap_cover {
 
 mr_status
 mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c);
+
+/* What a good wrap may leave out and have too much, in sampling distances, of which noise takes some. */
+extern const mr_wrap_cover MR_WRAP_ENOUGH;
+
+/* Points and faces at most that coverage is measured by at the end. */
+enum { MR_WRAP_SAMPLES = 1 << 14 };
+
+/* A wrap, and how well it covers the points. */
+typedef struct mr_wrap {
+	mr_dyn d;
+	mr_wrap_cover cover;
+	size_t folds;
+	int method; /* mr_wrap_method, of which AUTO is the box */
+} mr_wrap;
+
+/* Measures w->cover, and says it as that of `what`. */
+mr_status
+mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, mr_wrap *w);
+
+/* Settles w->d, near the points, on them, irons it, parts what passes through itself; assesses it. */
+mr_status
+mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w);
+
+/* The wrap by alg/volume.h, with its grid and points as they are, or where it is poor, otherwise. */
+mr_status mr_wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
 
 #endif

@@ -31,8 +31,11 @@ for n in 4 6 8 20; do
 	nearest 0.05
 done
 
-echo 'a solid has no surface'
+echo 'a solid has no surface, and gets a sound one'
 mr-make sphere --points 4000 | mr-export -l points -f xyz - |
 	awk '{ s = 1 - (NR % 10) / 11; print s * $1, s * $2, s * $3 }' >solid.xyz
-mr-import --points solid.xyz | mr-shrinkwrap 2>err | mr-info -l control - | sed -n 's/^ *topology *\(.*manifold\).*/\1/p'
-grep -c '(solid): warning: the wrap has .* pairs of faces that intersect' err
+mr-import --points solid.xyz | mr-shrinkwrap -o solid.mrs
+flaws control solid.mrs
+
+echo 'a cube drawn around limbs'
+mr-make knot --points 3000 | mr-shrinkwrap -m cube 2>&1 >/dev/null | grep -c 'warning: the wrap has .* pairs of faces that intersect'

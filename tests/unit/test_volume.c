@@ -366,16 +366,17 @@ noisy_points_go_onto_their_planes(void **state)
 	mr_mesh m = solid(MR_SPHERE, 8000, 0), w;
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_v3 *p, *normals;
-	double noise, off;
+	double off;
+	mr_volume_found found;
 	mr_census c;
 
 	(void)state;
 	opts.project = true;
-	opts.noise = &noise;
+	opts.found = &found;
 	assert_int_equal(mr_surface_sample(&ctx, &m, N, 5, &p, &normals), MR_OK);
 	mr_add_noise(p, normals, N, sqrt(mr_mesh_area(&ctx, &m) / N), 6);
 	assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &w), MR_OK);
-	assert_true(noise > 1);
+	assert_true(found.noise > 1);
 	c = census_of(&w);
 	assert_closed_manifold(&c);
 	assert_int_equal(c.genus, 0);
@@ -390,14 +391,14 @@ points_without_noise_stay(void **state)
 {
 	mr_mesh m = solid(MR_TORUS, 3000, 0), w[2];
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
-	double noise;
+	mr_volume_found found;
 
 	(void)state;
-	opts.noise = &noise;
+	opts.found = &found;
 	for (int i = 0; i < 2; i++) {
 		opts.project = i;
 		assert_int_equal(mr_volume_wrap(&ctx, m.p, m.nv, &opts, &w[i]), MR_OK);
-		assert_true(noise == 1);
+		assert_true(found.noise == 1);
 	}
 	assert_int_equal(w[0].nv, w[1].nv);
 	assert_memory_equal(w[0].p, w[1].p, w[0].nv * sizeof *w[0].p);
@@ -493,14 +494,14 @@ every_allocation_may_fail(void **state)
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_status status = MR_EMEM;
 	mr_v3 p[MOST];
-	double noise;
+	mr_volume_found found;
 
 	(void)state;
 	assert_true(m.nv <= MOST);
 	memcpy(p, m.p, m.nv * sizeof *p);
 	mr_add_noise(p, m.p, m.nv, 0.2, 1);
 	opts.project = true;
-	opts.noise = &noise;
+	opts.found = &found;
 	for (uint64_t k = 1; status != MR_OK; k++) {
 		mr_mark mark = mr_mark_take(&ctx);
 		assert_true(k < 1000);
@@ -509,7 +510,7 @@ every_allocation_may_fail(void **state)
 		assert_true(status == MR_OK || status == MR_EMEM);
 		mr_mark_release(&ctx, mark);
 	}
-	assert_true(noise > 1);
+	assert_true(found.noise > 1);
 }
 
 int

@@ -60,6 +60,40 @@ test_moves_turn_no_face(void **state)
 		assert_true(d.p[v].x == (mr_norm(m.p[v]) > 1 || m.p[v].x >= 0 ? m.p[v].x : -1.2));
 }
 
+/* The vertex in the middle of a box's top, drawn through its bottom, comes back; what is far from it stays.
+ */
+static void
+test_crossings_are_taken_back(void **state)
+{
+	mr_box at = { { 0, 0, 0 }, { 1, 1, 0.25 } };
+	mr_wrap_cover c;
+	mr_wrap_cloud cloud;
+	mr_mesh m, drawn;
+	mr_dyn d;
+
+	(void)state;
+	assert_int_equal(mr_wrap_box(&ctx, at, (size_t[]){ 16, 16, 4 }, &m), MR_OK);
+	assert_int_equal(mr_wrap_cloud_open(&ctx, m.p, m.nv, &cloud), MR_OK);
+	assert_int_equal(mr_wrap_dyn(&ctx, &m, &d), MR_OK);
+	for (size_t v = 0; v < d.nv; v++) {
+		if (mr_dist(m.p[v], mr_vec(0.5, 0.5, 0.25)) < 1e-9)
+			d.p[v].z = -0.5;
+		else if (m.p[v].x == 0)
+			d.p[v].x = -0.01;
+	}
+	drawn = mr_dyn_view(&d, "control");
+	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &drawn, 1, &c), MR_OK);
+	assert_true(c.crossings > 0);
+	assert_int_equal(mr_wrap_part(&ctx, m.p, &d), MR_OK);
+	for (size_t v = 0; v < d.nv; v++)
+		assert_true(d.p[v].z > 0 || m.p[v].z == 0);
+	for (size_t v = 0; v < d.nv; v++)
+		assert_true(m.p[v].x > 0 || d.p[v].x == -0.01);
+	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &drawn, 1, &c), MR_OK);
+	assert_int_equal(c.crossings, 0);
+	mr_near_free(cloud.near);
+}
+
 /* Points on a cube, a wrap of it, and one that is longer and lacks a side of the cube. */
 static void
 test_coverage_goes_both_ways(void **state)
@@ -112,6 +146,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_box_is_closed_and_outward, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_moves_turn_no_face, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_crossings_are_taken_back, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_coverage_goes_both_ways, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_memory_may_run_out, setup, teardown),
 	};

@@ -1,0 +1,32 @@
+# Clouds that do not tell their surface all over.
+wrapped() {
+	mr-import "$1" | mr-shrinkwrap -q --stats stats.json | mr-info -l control | sed -n 's/^ *topology *//p; s/^ *flaws *//p'
+}
+
+echo lands of a globe and few points between, where the volume has a handle:
+mr-make sphere --points 60000 --seed 3 | mr-export -l points -f xyz - |
+	awk '{
+		f = sin(3 * $1 + 1) * cos(4 * $2) + sin(5 * $3 + 2 * $1) + 0.7 * cos(7 * $2 - 3 * $3)
+		if (f > 0.7 || NR % 300 == 0) print
+	}' >lands.xyz
+wrapped lands.xyz
+mr-import lands.xyz | mr-shrinkwrap -q -m volume | mr-info -l control | sed -n 's/.*\(genus [0-9]*\).*/by the volume \1/p'
+
+echo rows further apart than the points in them:
+awk 'BEGIN {
+	for (z = 0; z < 60; z++)
+		for (i = 0; i < 10; i++)
+			for (k = 0; k < 40 - 0.6 * z; k++)
+				print i + 0.7 * k, 2 * k - 0.1 * i, 5 * z
+}' >rows.xyz
+wrapped rows.xyz
+grep -o '"coarser":.' stats.json
+
+echo slices of a solid, of which one settles into the next:
+awk 'BEGIN {
+	for (z = 0; z < 60; z++)
+		for (i = 0; i < 6; i++)
+			for (k = 0; k < 30; k++)
+				print i + 0.525 * k, 1.5 * k - 0.1 * i, 8 * z
+}' >slices.xyz
+wrapped slices.xyz
