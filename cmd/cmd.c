@@ -580,12 +580,16 @@ account(const cmd *c)
 	return EXIT_DATA;
 }
 
-/* Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones. */
+/*
+ * Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones.  But to
+ * have a page from the system again takes longer than to work through it, so that some are kept.
+ */
 static void
 return_memory(bool lean)
 {
 #ifdef M_MMAP_THRESHOLD
-	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 20);
+	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 22);
+	mallopt(M_TRIM_THRESHOLD, lean ? 1 << 17 : 1 << 24);
 #endif
 }
 
