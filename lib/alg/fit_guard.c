@@ -11,17 +11,19 @@ static const double SHARPEST = -0.866;
 /* A smaller share of a step is none. */
 static const double LEAST = 1. / 16;
 
-typedef struct guard {
+struct mr_fit_guard {
 	const mr_fit_surface *s;
 	mr_mesh fine;          /* the triangles of the finest level at their limit points */
 	mr_v3 *p;              /* these */
-	mr_v3 *before, *after; /* unit normals of these triangles */
+	mr_v3 *before, *after; /* unit normals of these triangles, when the vertices came to rest and now */
 	bool *crosses;         /* of each: passes through another */
 	bool *bad;             /* of each control face */
 	bool *crossed;         /* the same: a part of it passes through another */
 	bool *moved;           /* the same: since it was looked at last */
 	bool all;              /* all have */
-} guard;
+};
+
+typedef mr_fit_guard guard;
 
 typedef struct normals_job {
 	const mr_mesh *m;
@@ -94,34 +96,41 @@ look(mr_ctx *ctx, guard *g, const mr_v3 *x)
 	return MR_OK;
 }
 
-/* For x as it is now. */
-static mr_status
-prepare(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, guard *g)
+/* The vertices are where they were when it was looked at last. */
+static void
+rest(guard *g)
 {
-	const mr_loop *l = &s->level[MR_FIT_FINE];
-	mr_v3 *p = MR_NEW(ctx, l->nv, mr_v3);
+	mr_v3 *swap = g->before;
 
-	*g = (guard){ s, { s->m.name, p, l->t, l->nv, l->nf }, p, MR_NEW(ctx, l->nf, mr_v3),
-		MR_NEW(ctx, l->nf, mr_v3), MR_NEW(ctx, l->nf, bool), MR_NEW(ctx, s->level[0].nf, bool),
-		MR_NEW(ctx, s->level[0].nf, bool), MR_NEW(ctx, s->level[0].nf, bool), true };
-	if (!p || !g->before || !g->after || !g->crosses || !g->bad || !g->crossed || !g->moved)
-		return MR_EMEM;
-	MR_TRY(refine(ctx, g, x));
-	mr_parallel(ctx, l->nf, GRAIN, normals, &(normals_job){ &g->fine, g->before });
-	return MR_OK;
+	g->before = g->after;
+	g->after = swap;
+	g->all = true;
 }
 
 mr_status
-mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, bool *crosses)
+mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, mr_fit_guard **out)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	guard g;
+	const mr_loop *l = &s->level[MR_FIT_FINE];
+	guard *g = MR_NEW(ctx, 1, guard);
+	mr_v3 *p = MR_NEW(ctx, l->nv, mr_v3);
 
-	MR_TRY(prepare(ctx, s, x, &g));
-	MR_TRY(look(ctx, &g, x));
-	memcpy(crosses, g.crossed, s->level[0].nf * sizeof *crosses);
-	mr_mark_release(ctx, mark);
+	if (!g || !p)
+		return MR_EMEM;
+	*g = (guard){ s, { s->m.name, p, l->t, l->nv, l->nf }, p, MR_NEW_ZERO(ctx, l->nf, mr_v3),
+		MR_NEW(ctx, l->nf, mr_v3), MR_NEW(ctx, l->nf, bool), MR_NEW(ctx, s->level[0].nf, bool),
+		MR_NEW(ctx, s->level[0].nf, bool), MR_NEW(ctx, s->level[0].nf, bool), true };
+	if (!g->before || !g->after || !g->crosses || !g->bad || !g->crossed || !g->moved)
+		return MR_EMEM;
+	MR_TRY(look(ctx, g, x));
+	rest(g);
+	*out = g;
 	return MR_OK;
+}
+
+const bool *
+mr_fit_crossed(const mr_fit_guard *g)
+{
+	return g->crossed;
 }
 
 /* Steps */
@@ -182,7 +191,7 @@ examine(mr_ctx *ctx, guard *g, const mr_fit_lists *patch, const mr_v3 *x, const 
 }
 
 mr_status
-mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, bool *crossed, mr_v3 *x,
+mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, mr_fit_guard *g, const mr_fit_lists *patch, mr_v3 *x,
     const mr_v3 *z, size_t *damped)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -190,26 +199,24 @@ mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, const mr_fit_lists *patch, bool *cro
 	mr_v3 *to = MR_NEW(ctx, nv, mr_v3);
 	double *share = MR_NEW(ctx, nv, double), most = 1;
 	bool *tangled = MR_NEW(ctx, nv, bool), *less = MR_NEW(ctx, nv, bool);
-	guard g;
 
 	if (!to || !share || !tangled || !less)
 		return MR_EMEM;
-	find_tangled(patch, crossed, nv, tangled);
+	find_tangled(patch, g->crossed, nv, tangled);
 	for (size_t v = 0; v < nv; v++)
 		share[v] = 1;
-	MR_TRY(prepare(ctx, s, x, &g));
 	do {
 		for (size_t v = 0; v < nv; v++)
 			to[v] = mr_axpy(share[v], z[v], x[v]);
-		MR_TRY(examine(ctx, &g, patch, to, tangled));
+		MR_TRY(examine(ctx, g, patch, to, tangled));
 		most = most > LEAST ? most / 2 : 0;
-	} while (damp(&g, patch, most, share, nv, less));
+	} while (damp(g, patch, most, share, nv, less));
+	rest(g);
 	mr_fit_surface_move(ctx, s, to);
 	*damped = 0;
 	for (size_t v = 0; v < nv; v++)
 		*damped += share[v] < 1;
 	memcpy(x, to, nv * sizeof *x);
-	memcpy(crossed, g.crossed, patch->count * sizeof *crossed);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -8,17 +8,22 @@
 
 #include "alg/fit_system.h"
 
-/* The control faces whose surface, where the control vertices are at x, passes through another by its
- * triangles of level 3.  crosses: one a control face, the caller's. */
-mr_status mr_fit_crossings(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, bool *crosses);
+/* The surface at its triangles of level 3, and what is wrong with it. */
+typedef struct mr_fit_guard mr_fit_guard;
+
+/* Looks at the surface where the control vertices are at x; in the arena. */
+mr_status mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, mr_fit_guard **guard);
+
+/* One a control face: its surface passes through another. */
+const bool *mr_fit_crossed(const mr_fit_guard *guard);
 
 /*
- * Moves x by z, and the surface with it: where a face of level 3 would turn over, fold against a neighbour
- * more sharply than it does, or pass through another where none around does, the vertices that it depends on
- * go half as far, and so on; at last they stay.  patch: of mr_fit_system.  crossed: of mr_fit_crossings,
- * brought up to date.  *damped: vertices that did not go all the way.
+ * Moves x, where the guard saw it last, by z, and the surface with it: where a face of level 3 would turn
+ * over, fold against a neighbour more sharply than it does, or pass through another where none around does,
+ * the vertices that it depends on go half as far, and so on; at last they stay.  patch: of mr_fit_system.
+ * *damped: vertices that did not go all the way.
  */
-mr_status mr_fit_step(mr_ctx *ctx, mr_fit_surface *surface, const mr_fit_lists *patch, bool *crossed,
+mr_status mr_fit_step(mr_ctx *ctx, mr_fit_surface *surface, mr_fit_guard *guard, const mr_fit_lists *patch,
     mr_v3 *x, const mr_v3 *z, size_t *damped);
 
 #endif

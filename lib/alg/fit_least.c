@@ -84,25 +84,25 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	mr_fit_system system;
 	size_t damped = 0, steps = 0, crossing = 0;
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
-	bool *crossed = MR_NEW(ctx, surface->level[0].nf, bool);
+	mr_fit_guard *guard;
 
-	if (!z || !w || !crossed)
+	if (!z || !w)
 		return MR_EMEM;
 	MR_TRY(mr_fit_system_build(ctx, surface, &system));
-	MR_TRY(mr_fit_crossings(ctx, surface, x, crossed));
+	MR_TRY(mr_fit_guard_new(ctx, surface, x, &guard));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
 		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, outliers, w));
 		MR_TRY(mr_fit_system_fill(
 		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
 		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
-		MR_TRY(mr_fit_step(ctx, surface, &system.patch, crossed, x, z, &damped));
+		MR_TRY(mr_fit_step(ctx, surface, guard, &system.patch, x, z, &damped));
 		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
 	}
 	mr_stat_set(ctx, "cg_steps", (double)steps / (double)passes);
 	mr_stat_set(ctx, "damped", (double)damped);
 	for (size_t f = 0; f < surface->level[0].nf; f++)
-		crossing += crossed[f];
+		crossing += mr_fit_crossed(guard)[f];
 	mr_stat_set(ctx, "crossing_faces", (double)crossing);
 	if (crossing > 0)
 		mr_warn(ctx, "the limit surface passes through itself at %zu of %zu control faces", crossing,
