@@ -611,6 +611,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	c.ctx.warn = c.quiet ? NULL : show_warning;
 	c.ctx.unfinished = place_unfinished;
 	c.ctx.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
+	c.ctx.stats_unread = !state.stats_path;
 	c.keep = c.ctx;
 	c.keep.top = NULL;
 	if (tool->prepare)

@@ -186,9 +186,13 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, n < given, foot, x));
 	mr_stat_set(ctx, "iterations", (double)passes);
 	mr_stat_set(ctx, "seconds_iteration", (mr_seconds() - start) / (double)passes);
-	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
-	record(ctx, &s, foot, n, "after");
+	if (is_local)
+		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 	warn(ctx, &s, edge, foot, n);
+	if (!ctx->stats_unread) {
+		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
+		record(ctx, &s, foot, n, "after");
+	}
 	memcpy(out, x, control->nv * sizeof *out);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -66,8 +66,9 @@ typedef struct mr_ctx {
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_stat stats[MR_STATS_MAX];
 	size_t stat_count;
-	mr_block *top;   /* newest block of the arena */
-	uint64_t blocks; /* how many the arena ever had */
+	bool stats_unread; /* figures that take time and are for them alone may be left out */
+	mr_block *top;     /* newest block of the arena */
+	uint64_t blocks;   /* how many the arena ever had */
 } mr_ctx;
 
 /* A place in the arena, to release to. */
