@@ -141,22 +141,6 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 	return MR_OK;
 }
 
-/* Points that are close stand side by side, so that what they look up is in the cache. */
-static mr_status
-reorder(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_v3 *sorted)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *order = MR_NEW(ctx, n, uint32_t);
-
-	if (!order)
-		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, point, n, MR_ZORDER_CELLS, order));
-	for (size_t i = 0; i < n; i++)
-		sorted[i] = point[order[i]];
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 mr_status
 mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const mr_fit_opts *opts, mr_v3 *out)
 {
@@ -174,7 +158,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	MR_TRY(check(ctx, control, point, n));
 	if (!x || !foot || !sorted)
 		return MR_EMEM;
-	MR_TRY(reorder(ctx, point, n, sorted));
+	MR_TRY(mr_zorder_points(ctx, point, n, sorted)); /* what close ones look up is in the cache */
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));

@@ -7,6 +7,7 @@
 #include "mesh/bvh.h"
 #include "mesh/cloud.h"
 #include "mesh/outlier.h"
+#include "mesh/zorder.h"
 
 #include <float.h>
 
@@ -148,7 +149,6 @@ check_points(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c)
 	static const char *const shape[] = { "at one place", "on a line", "in a plane" };
 	int extent = dimensions(c->p, c->n, c->diagonal);
 
-	MR_TRY(mr_cloud_check_spread(ctx, c->p, c->n));
 	if (extent < 2 || (extent < 3 && !is_open(&d->level[d->n])))
 		return mr_fail(ctx, MR_EMESH, "all %zu points lie %s: they make no surface%s", c->n,
 		    shape[extent], extent == 2 ? " for a closed control mesh" : "");
@@ -263,13 +263,18 @@ mr_status
 mr_sample_points(
     mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, const mr_sample_opts *opts, double *height)
 {
-	mr_cloud c = { .p = point, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
 	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
+	mr_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
 	mr_status s;
 
 	if (n == 0)
 		return mr_fail(ctx, MR_EMESH, "no points to sample");
-	MR_TRY(mr_near_build(ctx, point, n, &c.near));
+	if (!sorted)
+		return MR_EMEM;
+	MR_TRY(mr_cloud_check_spread(ctx, point, n));
+	MR_TRY(mr_zorder_points(ctx, point, n, sorted)); /* what close ones look up is in the cache */
+	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
 	s = sample_cloud(ctx, d, &c, opts, height);
 	mr_near_free(c.near);
 	if (s >= 0)

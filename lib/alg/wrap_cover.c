@@ -3,16 +3,16 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "mesh/intersect.h"
+#include "mesh/zorder.h"
 
 enum { GRAIN = 1024 };
 
 static const double HIGH = 0.99, MOST = 0.9;
 
 typedef struct job {
-	const mr_wrap_cloud *cloud;
+	const mr_v3 *q;
 	const mr_bvh *bvh;
 	double *distance;
-	size_t n;
 } job;
 
 static void
@@ -21,7 +21,7 @@ distances_body(void *arg, size_t begin, size_t end)
 	job *j = arg;
 
 	for (size_t i = begin; i < end; i++)
-		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->cloud->p[i * j->cloud->n / j->n]).dist2);
+		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->q[i]).dist2);
 }
 
 static int
@@ -36,11 +36,15 @@ static mr_status
 measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t n, mr_wrap_cover *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	job j = { cloud, NULL, MR_NEW(ctx, n, double), n };
+	mr_v3 *p = MR_NEW(ctx, n, mr_v3), *q = MR_NEW(ctx, n, mr_v3);
+	job j = { q, NULL, MR_NEW(ctx, n, double) };
 	mr_bvh *bvh;
 
-	if (!j.distance)
+	if (!p || !q || !j.distance)
 		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		p[i] = cloud->p[i * cloud->n / n];
+	MR_TRY(mr_zorder_points(ctx, p, n, q)); /* what close ones look up is in the cache */
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	j.bvh = bvh;
 	mr_parallel(ctx, n, GRAIN, distances_body, &j);

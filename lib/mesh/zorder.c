@@ -58,3 +58,18 @@ mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
+
+mr_status
+mr_zorder_points(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_v3 *sorted)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *order = MR_NEW(ctx, n, uint32_t);
+
+	if (!order)
+		return MR_EMEM;
+	MR_TRY(mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order));
+	for (size_t i = 0; i < n; i++)
+		sorted[i] = p[order[i]];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -16,4 +16,7 @@ enum { MR_ZORDER_CELLS = 1024 };
  */
 mr_status mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order) MR_WARN_UNUSED;
 
+/* The points in that order, on the finest grid.  sorted: n, the caller's. */
+mr_status mr_zorder_points(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_v3 *sorted) MR_WARN_UNUSED;
+
 #endif
