@@ -66,6 +66,9 @@ prepare(cmd *c)
 	if (c->operand_count != 1)
 		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT.png is expected, not %zu%s", c->operand_count,
 		    c->operand_count ? ": the stream to read is -i FILE or stdin" : "");
+	if (!mr_png_suits(c->operands[0]))
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s does not end in .png: the stream to read is -i FILE",
+		    c->operands[0]);
 	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "a picture is not written to a terminal");
 	MR_TRY(cmd_idle(c, "columns", !sheet, "without --sheet"));

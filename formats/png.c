@@ -3,6 +3,8 @@
 
 #include <png.h>
 #include <setjmp.h>
+#include <strings.h>
+#include <sys/stat.h>
 
 _Static_assert(sizeof(mr_rgb) == 3, "rows of pixels are rows of bytes");
 
@@ -73,4 +75,14 @@ mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image)
 
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));
 	return mr_sink_close(&sink, write_to(ctx, &sink, image));
+}
+
+bool
+mr_png_suits(const char *path)
+{
+	const char *suffix = strrchr(path, '.');
+	struct stat st;
+
+	return !strcmp(path, "-") || (suffix && !strcasecmp(suffix, ".png")) ||
+	       (stat(path, &st) == 0 && !S_ISREG(st.st_mode));
 }

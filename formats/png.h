@@ -10,4 +10,8 @@
  */
 mr_status mr_png_write(mr_ctx *ctx, const char *path, const mr_image *image);
 
+/* True where a picture may be written there: a name in .png, "-", or what is there and is no file.  No model
+ * is overwritten so. */
+bool mr_png_suits(const char *path);
+
 #endif
