@@ -138,16 +138,16 @@ measure_votes(mr_ctx *ctx, volume *v, const float *w)
 }
 
 /* What diffuses in from outside, u, is 1 - w: w is zero on the faces of the grid and absorbed to 1 at points.
- */
+ * w: of the grid's nodes, for the while. */
 static mr_status
-orient_by_flood(mr_ctx *ctx, volume *v)
+orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	multigrid m;
 	level *l = &m.level[0];
 	size_t nodes = mr_grid_nodes(&v->grid[0]);
 
-	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, true, &m));
+	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, w, true, &m));
 	/* the screen of a step; a coarser level's step is twice as long */
 	for (size_t d = v->depths; d-- > 0;) {
 		mr_volume_spread(ctx, &v->s, &v->f[d], NULL, m.level[d].screen);
@@ -156,11 +156,11 @@ orient_by_flood(mr_ctx *ctx, volume *v)
 			    m.level[d].screen, 1, 0.5f);
 	}
 	for (size_t i = 0; i < nodes; i++)
-		l->b[i] = l->screen[i] *= (float)ABSORPTION;
+		l->screen[i] *= (float)ABSORPTION;
 	mr_multigrid_full(ctx, &m);
-	measure_votes(ctx, v, l->u);
+	measure_votes(ctx, v, w);
 	MR_TRY(mr_volume_orient(ctx, &v->s, v->value));
-	measure_votes(ctx, v, l->u);
+	measure_votes(ctx, v, w);
 	mr_mark_release(ctx, mark);
 	if (v->depths > 1)
 		MR_TRY(mr_volume_regions(ctx, &v->s, v->value, &v->grid[1], v->levels - 1));
@@ -283,18 +283,23 @@ spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
 	size_t depths = m->levels < 1 + NEARBY ? m->levels : 1 + NEARBY;
 	mr_mark mark = mr_mark_take(ctx);
 	mr_grid g = v->grid[0];
+	float *weight[1 + NEARBY];
 	field f;
 
+	for (size_t i = 1; i < depths; i++) {
+		weight[i] = MR_NEW_ZERO(ctx, m->level[i].n[0] * m->level[i].n[1] * m->level[i].n[2], float);
+		if (!weight[i])
+			return MR_EMEM;
+	}
 	g.step *= 2;
 	memcpy(g.n, m->level[1].n, sizeof g.n);
 	MR_TRY(mr_volume_field(ctx, &v->s, &g, DEPTHS, &f));
 	mr_volume_spread(ctx, &v->s, &f, v->value, m->level[1].b);
-	mr_volume_spread(ctx, &v->s, &f, NULL, m->level[1].r);
-	mr_mark_release(ctx, mark);
+	mr_volume_spread(ctx, &v->s, &f, NULL, weight[1]);
 	for (size_t i = 1; i + 1 < depths; i++) {
 		level *l = &m->level[i], *c = l + 1;
 		mr_multigrid_restrict(ctx, l, c, l->b, c->b, 1);
-		mr_multigrid_restrict(ctx, l, c, l->r, c->r, 1);
+		mr_multigrid_restrict(ctx, l, c, weight[i], weight[i + 1], 1);
 	}
 	for (size_t i = depths; i-- > 1;) {
 		level *l = &m->level[i];
@@ -304,8 +309,9 @@ spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
 		if (i + 1 < depths)
 			mr_multigrid_prolong(ctx, l, l + 1, l[1].u, l->u, 0, 1);
 		for (size_t k = 0; k < nodes; k++)
-			l->u[k] = (l->b[k] + LITTLE * l->u[k]) / (l->r[k] + LITTLE);
+			l->u[k] = (l->b[k] + LITTLE * l->u[k]) / (weight[i][k] + LITTLE);
 	}
+	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -370,15 +376,14 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	cleaning c;
 	multigrid m;
 
-	MR_TRY(orient_by_flood(ctx, v));
+	MR_TRY(orient_by_flood(ctx, v, f));
 	mr_stat_set(ctx, "seconds_flood", mr_seconds() - start);
 	start = mr_seconds();
-	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, false, &m));
+	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m));
 	MR_TRY(solve_indicator(ctx, v, &m));
 	mr_stat_set(ctx, "seconds_indicator", mr_seconds() - start);
 	start = mr_seconds();
 	MR_TRY(make_level(ctx, v, &m));
-	memcpy(f, m.level[0].u, mr_grid_nodes(&v->grid[0]) * sizeof *f);
 	MR_TRY(mr_volume_clean(ctx, &v->s, &v->grid[0], f, &c));
 	mr_stat_set(ctx, "parts_dropped", (double)c.parts);
 	mr_stat_set(ctx, "cavities_filled", (double)c.cavities);

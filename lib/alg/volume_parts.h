@@ -47,13 +47,14 @@ enum { LEVELS_MOST = 16 };
 
 typedef struct level {
 	size_t n[3];
-	float *u, *b, *r;
-	float *screen; /* NULL: none */
+	float *u, *b;
+	float *screen; /* NULL: none; of the finest level it is b too */
 } level;
 
 typedef struct multigrid {
-	size_t levels;
+	size_t levels, slab; /* slab: layers of a level whose residuals are kept at a time */
 	level level[LEVELS_MOST];
+	float *residual;
 } multigrid;
 
 /* Nodes along an axis for `cells` cells at least, so that coarser grids fit. */
@@ -62,8 +63,9 @@ size_t mr_multigrid_nodes(size_t cells, size_t levels);
 /* Levels for a grid whose longest side has so many cells. */
 size_t mr_multigrid_levels(size_t cells);
 
-/* Arrays for all levels; u is zero. */
-mr_status mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, bool screened, multigrid *m);
+/* Arrays for all levels, zero; u: that of the finest, the caller's. */
+mr_status
+mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, multigrid *m);
 
 /* The solution from scratch, coarse to fine; the screen of the coarser levels follows the finest's. */
 void mr_multigrid_full(mr_ctx *ctx, multigrid *m);

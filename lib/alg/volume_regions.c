@@ -142,16 +142,19 @@ static mr_status
 measure_region(mr_ctx *ctx, samples *s, const mr_grid *g, size_t levels, size_t a, regions *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
+	float *u = MR_NEW(ctx, mr_grid_nodes(g), float);
 	multigrid m;
 	field f;
 
+	if (!u)
+		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
 		s->depth[i] = r->of[i] != a;
 	MR_TRY(mr_volume_field(ctx, s, g, 0, &f));
-	MR_TRY(mr_multigrid_begin(ctx, g->n, levels, false, &m));
+	MR_TRY(mr_multigrid_begin(ctx, g->n, levels, u, false, &m));
 	mr_volume_divergence(ctx, s, &f, m.level[0].b);
 	mr_multigrid_full(ctx, &m);
-	measure_pull(s, g, m.level[0].u, a, r);
+	measure_pull(s, g, u, a, r);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -6,7 +6,7 @@
 
 #include "base/parallel.h"
 
-enum { COARSEST = 12, SWEEPS = 2, COARSEST_SWEEPS = 40, PIECE = 1 << 15 };
+enum { COARSEST = 12, SWEEPS = 2, COARSEST_SWEEPS = 40, PIECE = 1 << 15, SLAB = 1 << 18 };
 
 size_t
 mr_multigrid_levels(size_t cells)
@@ -33,21 +33,27 @@ nodes_of(const level *l)
 }
 
 mr_status
-mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, bool screened, multigrid *m)
+mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, multigrid *m)
 {
+	size_t layer = n[0] * n[1];
+
 	m->levels = levels;
 	for (size_t i = 0; i < levels; i++) {
 		level *l = &m->level[i];
 		for (int k = 0; k < 3; k++)
 			l->n[k] = i == 0 ? n[k] : (m->level[i - 1].n[k] - 1) / 2 + 1;
-		l->u = MR_NEW_ZERO(ctx, nodes_of(l), float);
+		l->u = i == 0 ? u : MR_NEW(ctx, nodes_of(l), float);
 		l->b = MR_NEW_ZERO(ctx, nodes_of(l), float);
-		l->r = MR_NEW_ZERO(ctx, nodes_of(l), float);
-		l->screen = screened ? MR_NEW_ZERO(ctx, nodes_of(l), float) : NULL;
-		if (!l->u || !l->b || !l->r || (screened && !l->screen))
+		l->screen = !screened ? NULL : i == 0 ? l->b : MR_NEW_ZERO(ctx, nodes_of(l), float);
+		if (!l->u || !l->b || (screened && !l->screen))
 			return MR_EMEM;
+		memset(l->u, 0, nodes_of(l) * sizeof *l->u);
 	}
-	return MR_OK;
+	m->slab = SLAB / layer < 4 ? 9 : 2 * (SLAB / layer / 2) + 1;
+	if (m->slab > n[2])
+		m->slab = n[2];
+	m->residual = MR_NEW(ctx, m->slab * layer, float);
+	return m->residual ? MR_OK : MR_EMEM;
 }
 
 /* A loop over the inner layers of a level. */
@@ -58,14 +64,24 @@ typedef struct pass {
 	float scale;
 	size_t colour;
 	float keep;
+	size_t first; /* layer of the loop */
+	size_t below; /* layers of the finer level below the first that `from` holds */
 } pass;
+
+/* Over `count` layers of a level from p->first on. */
+static void
+over_some(mr_ctx *ctx, const level *l, size_t count, mr_body body, pass *p)
+{
+	size_t layer = l->n[0] * l->n[1], grain = PIECE / layer + 1;
+
+	mr_parallel(ctx, count, grain, body, p);
+}
 
 static void
 over_layers(mr_ctx *ctx, const level *l, mr_body body, pass *p)
 {
-	size_t layer = l->n[0] * l->n[1], grain = PIECE / layer + 1;
-
-	mr_parallel(ctx, l->n[2] - 2, grain, body, p);
+	p->first = 1;
+	over_some(ctx, l, l->n[2] - 2, body, p);
 }
 
 static void
@@ -114,13 +130,16 @@ residual_layers(void *arg, size_t begin, size_t end)
 	const level *l = p->fine;
 	size_t up = l->n[0], far = l->n[0] * l->n[1];
 
-	for (size_t z = begin + 1; z <= end; z++)
+	for (size_t z = begin; z < end; z++)
 		for (size_t y = 1; y + 1 < l->n[1]; y++) {
-			size_t row = z * far + y * up;
-			for (size_t i = row + 1; i < row + l->n[0] - 1; i++)
-				l->r[i] = l->b[i] - (6 + (l->screen ? l->screen[i] : 0)) * l->u[i] +
-				          l->u[i - 1] + l->u[i + 1] + l->u[i - up] + l->u[i + up] +
-				          l->u[i - far] + l->u[i + far];
+			size_t row = (p->first + z) * far + y * up;
+			float *r = p->to + z * far + y * up;
+			for (size_t x = 1; x + 1 < l->n[0]; x++) {
+				size_t i = row + x;
+				r[x] = l->b[i] - (6 + (l->screen ? l->screen[i] : 0)) * l->u[i] +
+				       l->u[i - 1] + l->u[i + 1] + l->u[i - up] + l->u[i + up] +
+				       l->u[i - far] + l->u[i + far];
+			}
 		}
 }
 
@@ -146,14 +165,13 @@ restrict_layers(void *arg, size_t begin, size_t end)
 	const level *f = p->fine, *c = p->coarse;
 	size_t up = f->n[0], far = f->n[0] * f->n[1];
 
-	for (size_t z = begin + 1; z <= end; z++)
+	for (size_t z = p->first + begin; z < p->first + end; z++)
 		for (size_t y = 1; y + 1 < c->n[1]; y++)
 			for (size_t x = 1; x + 1 < c->n[0]; x++)
-				p->to[(z * c->n[1] + y) * c->n[0] + x] = p->scale *
-				                                         weighted(
-									     p->from + (2 * z - 1) * far +
-										 (2 * y - 1) * up + 2 * x - 1,
-									     up, far);
+				p->to[(z * c->n[1] + y) * c->n[0] + x] =
+				    p->scale * weighted(p->from + (2 * z - 1 - p->below) * far +
+							    (2 * y - 1) * up + 2 * x - 1,
+						   up, far);
 }
 
 void
@@ -194,6 +212,29 @@ mr_multigrid_prolong(mr_ctx *ctx, const level *fine, const level *coarse, const 
 	    &(pass){ .fine = fine, .coarse = coarse, .from = from, .to = to, .keep = keep, .scale = scale });
 }
 
+/* c->b = the residuals of l, around the nodes of c: of a slab of layers at a time. */
+static void
+restrict_residuals(mr_ctx *ctx, const multigrid *m, const level *l, const level *c)
+{
+	size_t most = (m->slab - 1) / 2;
+
+	for (size_t z = 1, count; z + 1 < c->n[2]; z += count) {
+		size_t below = 2 * z - 1;
+		count = c->n[2] - 1 - z < most ? c->n[2] - 1 - z : most;
+		over_some(ctx, l, 2 * count + 1, residual_layers,
+		    &(pass){ .fine = l, .to = m->residual, .first = below });
+		/* twice the step: four times the right side */
+		over_some(ctx, c, count, restrict_layers,
+		    &(pass){ .fine = l,
+			.coarse = c,
+			.from = m->residual,
+			.to = c->b,
+			.scale = 4,
+			.first = z,
+			.below = below });
+	}
+}
+
 static void
 cycle_from(mr_ctx *ctx, multigrid *m, size_t i)
 {
@@ -204,8 +245,7 @@ cycle_from(mr_ctx *ctx, multigrid *m, size_t i)
 		return;
 	}
 	relax(ctx, l, SWEEPS);
-	over_layers(ctx, l, residual_layers, &(pass){ .fine = l });
-	mr_multigrid_restrict(ctx, l, c, l->r, c->b, 4); /* twice the step: four times the right side */
+	restrict_residuals(ctx, m, l, c);
 	memset(c->u, 0, nodes_of(c) * sizeof *c->u);
 	cycle_from(ctx, m, i + 1);
 	mr_multigrid_prolong(ctx, l, c, c->u, l->u, 1, 1);

@@ -48,9 +48,8 @@ case_of() { # name; points.mrs, and truth.mrs with the surface as its base, wher
 	echo "$model-gap-mean domain $(ends a b mean) %"
 	echo "$model-gap-max domain $(ends a b max) %"
 	[ -z "$level" ] || return 0
-	mr-sample -n $(($(figure level 4.json) + 1)) sampled.mrs | mr-decode -o finer.mrs &&
-	    mr-compare --json -a points -b mesh <finer.mrs >compare.json &&
-	    echo "$model-gap-mean one-level-finer $(ends a b mean) %" && echo "$model-gap-max one-level-finer $(ends a b max) %"
+	mr-shrinkwrap -q points.mrs | mr-simplify -n $((2 * $(figure faces 2.json))) | mr-fit | mr-sample -n "$(figure level 4.json)" |
+	    mr-decode -o twice.mrs && surface twice-the-vertices twice.mrs
 	[ -x "$BUILD/bench/peer_reconstruct" ] || return
 	mr-export -l points points.xyz <points.mrs
 	for who in poisson front; do
