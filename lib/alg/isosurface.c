@@ -144,17 +144,25 @@ typedef struct march {
 	size_t nv, nf;
 } march;
 
-/* The inside corners of the cube at the node, as bits. */
-static unsigned
-inside_corners(const mr_grid *g, const float *f, size_t node)
+/* The inside ones of the four corners at the low x end of the cube at the node, as bits. */
+static inline unsigned
+inside_end(const mr_grid *g, const float *f, size_t node)
 {
 	size_t up = g->n[0], far = g->n[0] * g->n[1];
 	const float *q = f + node;
 
-	return (unsigned)(q[0] < 0) | (unsigned)(q[1] < 0) << 1 | (unsigned)(q[up] < 0) << 2 |
-	       (unsigned)(q[up + 1] < 0) << 3 | (unsigned)(q[far] < 0) << 4 |
-	       (unsigned)(q[far + 1] < 0) << 5 | (unsigned)(q[far + up] < 0) << 6 |
-	       (unsigned)(q[far + up + 1] < 0) << 7;
+	return (unsigned)(q[0] < 0) | (unsigned)(q[up] < 0) << 2 | (unsigned)(q[far] < 0) << 4 |
+	       (unsigned)(q[far + up] < 0) << 6;
+}
+
+/* Those of the whole cube that is next along x, of which the low end has been looked at. */
+static inline unsigned
+inside_next(const mr_grid *g, const float *f, size_t node, unsigned *low)
+{
+	unsigned high = inside_end(g, f, node + 1), all = *low | high << 1;
+
+	*low = high;
+	return all;
 }
 
 /* The vertices on the edges that leave the nodes of layer z towards greater coordinates. */
@@ -224,12 +232,15 @@ add_cubes(march *m, size_t z)
 {
 	const mr_grid *g = m->g;
 
-	for (size_t y = 0; y + 1 < g->n[1]; y++)
+	for (size_t y = 0; y + 1 < g->n[1]; y++) {
+		size_t row = mr_grid_index(g, 0, y, z);
+		unsigned end = inside_end(g, m->f, row);
 		for (size_t x = 0; x + 1 < g->n[0]; x++) {
-			unsigned inside = inside_corners(g, m->f, mr_grid_index(g, x, y, z));
+			unsigned inside = inside_next(g, m->f, row + x, &end);
 			if (inside != 0 && inside != 255)
 				add_cube(m, &m->kinds[inside], x, y, z);
 		}
+	}
 }
 
 /* Counts what add_layer and add_cubes will make: no array grows. */
@@ -239,16 +250,18 @@ count_all(march *m)
 	const mr_grid *g = m->g;
 
 	for (size_t z = 0; z + 1 < g->n[2]; z++)
-		for (size_t y = 0; y + 1 < g->n[1]; y++)
+		for (size_t y = 0; y + 1 < g->n[1]; y++) {
+			size_t row = mr_grid_index(g, 0, y, z);
+			unsigned end = inside_end(g, m->f, row);
 			for (size_t x = 0; x + 1 < g->n[0]; x++) {
-				unsigned in = inside_corners(g, m->f, mr_grid_index(g, x, y, z)),
-					 low = in & 1;
+				unsigned in = inside_next(g, m->f, row + x, &end), low = in & 1;
 				if (in == 0 || in == 255)
 					continue;
 				m->nf += m->kinds[in].triangles;
 				m->nv += (size_t)m->kinds[in].centres + (low != (in >> 1 & 1)) +
 				         (low != (in >> 2 & 1)) + (low != (in >> 4 & 1));
 			}
+		}
 }
 
 /* Nothing inside on the grid's own faces: the surface would be open there, and the counts wrong. */

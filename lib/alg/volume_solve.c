@@ -196,10 +196,14 @@ prolong_layers(void *arg, size_t begin, size_t end)
 				    *d = p->from + (z1 * c->n[1] + y0) * c->n[0],
 				    *e = p->from + (z1 * c->n[1] + y1) * c->n[0];
 			float *to = p->to + (z * f->n[1] + y) * f->n[0];
-			for (size_t x = 1; x + 1 < f->n[0]; x++) {
-				size_t i = x / 2, j = (x + 1) / 2;
-				float v = 0.125f * (a[i] + a[j] + b[i] + b[j] + d[i] + d[j] + e[i] + e[j]);
-				to[x] = p->keep * to[x] + p->scale * v;
+			float before = a[0] + b[0] + d[0] + e[0];
+			for (size_t x = 1; x + 1 < f->n[0]; x += 2) {
+				size_t i = (x + 1) / 2;
+				float now = a[i] + b[i] + d[i] + e[i];
+				to[x] = p->keep * to[x] + p->scale * 0.125f * (before + now);
+				if (x + 2 < f->n[0])
+					to[x + 1] = p->keep * to[x + 1] + p->scale * 0.25f * now;
+				before = now;
 			}
 		}
 }
