@@ -1,6 +1,4 @@
 #include "alg/remesh.h"
-#include <stdio.h>
-#include <stdlib.h>
 
 #include "alg/facing.h"
 #include "alg/mend.h"
@@ -10,6 +8,9 @@
 #include "alg/sizing.h"
 #include "alg/tips.h"
 #include "alg/valence.h"
+#include "base/parallel.h"
+
+enum { GRAIN = 1024 };
 
 typedef struct remesher {
 	mr_ctx *ctx;
@@ -87,8 +88,11 @@ area_variance(remesher *r, double *variance)
 {
 	const mr_dyn *d = &r->d;
 	mr_mark mark = mr_mark_take(r->ctx);
-	double *area = MR_NEW(r->ctx, d->nv, double), sum = 0, squares = 0, n = 0;
+	double *area, sum = 0, squares = 0, n = 0;
 
+	if (r->ctx->stats_unread)
+		return MR_OK;
+	area = MR_NEW(r->ctx, d->nv, double);
 	if (!area)
 		return MR_EMEM;
 	MR_TRY(mr_dyn_areas(r->ctx, d, area));
@@ -185,24 +189,36 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
 }
 
+typedef struct mapping {
+	const remesher *r;
+	uint32_t *face;
+	mr_v3 *bary;
+} mapping;
+
+static void
+map_body(void *arg, size_t begin, size_t end)
+{
+	const mapping *j = arg;
+	const mr_dyn *d = &j->r->d;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++) {
+		mr_closest c = mr_surface_place(&j->r->source, d, v, d->p[v], mr_dyn_normal_around(d, v));
+		j->face[v] = c.face;
+		j->bary[v] = c.bary;
+	}
+}
+
 /* Where each vertex lies on the source: on its face the nearest point, which without projection may be
  * elsewhere. */
 static mr_status
 map_to_source(remesher *r, mr_source_map *map)
 {
-	const mr_dyn *d = &r->d;
-	const mr_surface *s = &r->source;
-	uint32_t *face = MR_NEW(r->ctx, d->nv, uint32_t);
-	mr_v3 *bary = MR_NEW(r->ctx, d->nv, mr_v3);
+	uint32_t *face = MR_NEW(r->ctx, r->d.nv, uint32_t);
+	mr_v3 *bary = MR_NEW(r->ctx, r->d.nv, mr_v3);
 
 	if (!face || !bary)
 		return MR_EMEM;
-	for (size_t v = 0; v < d->nv; v++) {
-		mr_closest c = mr_surface_place(
-		    s, d, (uint32_t)v, d->p[v], mr_dyn_normal_around(d, (uint32_t)v));
-		face[v] = c.face;
-		bary[v] = c.bary;
-	}
+	mr_parallel(r->ctx, r->d.nv, GRAIN, map_body, &(mapping){ r, face, bary });
 	*map = (mr_source_map){ face, bary };
 	return MR_OK;
 }
@@ -214,10 +230,12 @@ count_flaws(remesher *r, const mr_source_map *map)
 	const mr_facing facing = { r->source.m, r->source.topo };
 	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
 
-	r->flipped[0] = mr_count_flipped_source(&facing);
 	r->flipped[1] = mr_count_flipped(&facing, &view, map);
-	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
 	r->folded[1] = mr_count_folded(&view, r->d.twin);
+	if (r->ctx->stats_unread)
+		return;
+	r->flipped[0] = mr_count_flipped_source(&facing);
+	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
 }
 
 /* The map of the result as it is, without holes, and its flaws. */

@@ -12,14 +12,19 @@ mr_status
 mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	bool unread = ctx->stats_unread;
 	size_t figures = ctx->stat_count;
-	mr_mesh out;
+	mr_status status;
 	mr_source_map map;
+	mr_mesh out;
 
 	o.length = length;
 	o.rounds = 1;
 	o.area_passes = 0;
-	MR_TRY(mr_remesh(ctx, m, &o, &out, &map));
+	ctx->stats_unread = true;
+	status = mr_remesh(ctx, m, &o, &out, &map);
+	ctx->stats_unread = unread;
+	MR_TRY(status);
 	ctx->stat_count = figures; /* the remeshing's own say nothing here */
 	return mr_wrap_dyn(ctx, &out, d);
 }
