@@ -6,34 +6,7 @@
 
 #include "alg/fit_guard.h"
 #include "alg/fit_solve.h"
-
-/* Places the k-th smallest of n values at a[k] (Hoare 1961). */
-static double
-select_kth(double *a, size_t n, size_t k)
-{
-	size_t low = 0, high = n - 1;
-
-	while (low < high) {
-		double pivot = a[low + (high - low) / 2];
-		size_t i = low, j = high;
-		for (;;) {
-			while (a[i] < pivot)
-				i++;
-			while (a[j] > pivot)
-				j--;
-			if (i >= j)
-				break;
-			double x = a[i];
-			a[i++] = a[j];
-			a[j--] = x;
-		}
-		if (j < k)
-			low = j + 1;
-		else
-			high = j;
-	}
-	return a[k];
-}
+#include "base/sort.h"
 
 /*
  * Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
@@ -51,7 +24,7 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, bool outliers
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		d[i] = foot[i].dist;
-	most = fmax(limit * deviation * select_kth(d, n, n / 2), near);
+	most = fmax(limit * deviation * mr_kth(d, n, n / 2), near);
 	for (size_t i = 0; i < n; i++) {
 		double ratio = foot[i].dist > most ? most / foot[i].dist : 1;
 		w[i] = outliers ? pow(ratio, 4) : ratio;

@@ -14,34 +14,6 @@
 /* Heights that were filled in, as a share, without a warning. */
 static const double FILLED_MOST = 0.25;
 
-/* Hoare 1961: Algorithm 65. */
-double
-mr_kth(double *x, size_t n, size_t k)
-{
-	size_t low = 0, high = n - 1;
-
-	while (low < high) {
-		double pivot = x[low + (high - low) / 2];
-		size_t i = low, j = high;
-		for (;;) {
-			while (x[i] < pivot)
-				i++;
-			while (x[j] > pivot)
-				j--;
-			if (i >= j)
-				break;
-			double t = x[i];
-			x[i++] = x[j];
-			x[j--] = t;
-		}
-		if (k <= j)
-			high = j;
-		else
-			low = j + 1;
-	}
-	return x[k];
-}
-
 /* True where half-edges lie on a boundary. */
 static bool
 is_open(const mr_loop *l)

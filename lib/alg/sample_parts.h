@@ -48,9 +48,6 @@ typedef struct mr_valid {
  */
 mr_valid mr_valid_triangle(const mr_sight *s, size_t n, const mr_bounds *b);
 
-/* The k-th smallest of n values, which are reordered. */
-double mr_kth(double *x, size_t n, size_t k);
-
 typedef struct mr_v3f {
 	float x, y, z;
 } mr_v3f;

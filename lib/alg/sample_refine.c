@@ -10,6 +10,7 @@
 #include "alg/project.h"
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 
 enum { GRAIN = 512 };
 

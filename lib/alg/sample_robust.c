@@ -5,6 +5,7 @@
  */
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
+#include "base/sort.h"
 
 #include <float.h>
 

@@ -16,7 +16,7 @@
 #include "base/sort.h"
 
 enum {
-	GRAIN = 4096,
+	GRAIN = 1024,
 	MARGIN = 6, /* cells around the box of the points: more than any place asked for is away */
 	CELLS_LEAST = 4,
 	CELLS_MOST = 4096,     /* along the longest side of the box */
@@ -107,6 +107,7 @@ typedef struct across {
 	const float *u;
 	double *out;
 	double reach;
+	size_t some; /* of the points, at equal strides */
 } across;
 
 static double
@@ -132,7 +133,7 @@ measure_across(void *arg, size_t begin, size_t end)
 static void
 measure_votes(mr_ctx *ctx, volume *v, const float *w)
 {
-	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, w, v->value, 1 });
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, w, v->value, 1, 0 });
 	for (size_t i = 0; i < v->s.n; i++)
 		v->value[i] = -v->value[i];
 }
@@ -202,7 +203,8 @@ solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
 		mr_multigrid_full(ctx, m);
 		if (rounds++ == ROUNDS_MOST)
 			break;
-		mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, m->level[0].u, v->value, 1 });
+		mr_parallel(
+		    ctx, v->s.n, GRAIN, measure_across, &(across){ v, m->level[0].u, v->value, 1, 0 });
 		turned = turn_over(v);
 		if (rounds == 1)
 			first = turned;
@@ -214,12 +216,12 @@ solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
 	return MR_OK;
 }
 
-/* How far from p along d, in steps, the value is above (rise 1) or below (-1) what it is at p: THIN at most.
- */
+/* How far from p along d, in steps, the value is above (rise 1) or below (-1) `at`, what it is at p: THIN at
+ * most. */
 static double
-width(const mr_grid *g, const float *u, mr_v3 p, mr_v3 d, double rise)
+width(const mr_grid *g, const float *u, mr_v3 p, double at, mr_v3 d, double rise)
 {
-	double at = mr_volume_at(g, u, p), t = 0;
+	double t = 0;
 
 	while (t < THIN && rise * (mr_volume_at(g, u, mr_axpy((t + THIN / 6) * g->step, d, p)) - at) > 0)
 		t += THIN / 6;
@@ -239,9 +241,20 @@ measure_level(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		mr_v3 n = s->plane.normal[i];
-		double in = width(g, a->u, s->p[i], mr_mul(-1, n), 1), out = width(g, a->u, s->p[i], n, -1);
+		double at = mr_volume_at(g, a->u, s->p[i]);
+		double in = width(g, a->u, s->p[i], at, mr_mul(-1, n), 1),
+		       out = width(g, a->u, s->p[i], at, n, -1);
 		a->out[i] = mr_volume_at(g, a->u, mr_axpy((out - in) / 2 * g->step, n, s->p[i]));
 	}
+}
+
+static void
+measure_rise(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+
+	for (size_t i = begin; i < end; i++)
+		a->out[i] = -across_at(a, i * a->v->s.n / a->some) / 2;
 }
 
 /*
@@ -261,16 +274,13 @@ half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
 		return MR_EMEM;
 	*half = 0;
 	for (int reach = 1; reach <= 3; reach++) {
-		for (size_t i = 0; i < m; i++)
-			rise[i] = -across_at(&(across){ v, u, NULL, reach }, i * v->s.n / m) / 2;
-		mr_sort_reals(rise, m);
-		*half = fmax(*half, rise[m / 2]);
+		mr_parallel(ctx, m, GRAIN, measure_rise, &(across){ v, u, rise, reach, m });
+		*half = fmax(*half, mr_kth(rise, m, m / 2));
 	}
 	for (size_t i = 0; i < m; i++)
 		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
-	mr_sort_reals(rise, m);
-	*half = fmax(*half, rise[m / 2]);
-	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, u, v->value, 0 });
+	*half = fmax(*half, mr_kth(rise, m, m / 2));
+	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, u, v->value, 0, 0 });
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -48,10 +48,9 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	j.bvh = bvh;
 	mr_parallel(ctx, n, GRAIN, distances_body, &j);
-	mr_sort_reals(j.distance, n);
-	c->points_max = j.distance[n - 1];
-	c->points_high = j.distance[(size_t)(HIGH * (double)(n - 1))];
-	c->points_most = j.distance[(size_t)(MOST * (double)(n - 1))];
+	c->points_max = mr_kth(j.distance, n, n - 1);
+	c->points_high = mr_kth(j.distance, n, (size_t)(HIGH * (double)(n - 1)));
+	c->points_most = mr_kth(j.distance, n, (size_t)(MOST * (double)(n - 1)));
 	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
 	mr_mark_release(ctx, mark);
 	return MR_OK;

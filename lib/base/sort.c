@@ -64,6 +64,34 @@ mr_sort_reals(double *x, size_t n)
 	}
 }
 
+/* Hoare 1961: Algorithm 65. */
+double
+mr_kth(double *x, size_t n, size_t k)
+{
+	size_t low = 0, high = n - 1;
+
+	while (low < high) {
+		double pivot = x[low + (high - low) / 2];
+		size_t i = low, j = high;
+		for (;;) {
+			while (x[i] < pivot)
+				i++;
+			while (x[j] > pivot)
+				j--;
+			if (i >= j)
+				break;
+			double t = x[i];
+			x[i++] = x[j];
+			x[j--] = t;
+		}
+		if (k <= j)
+			high = j;
+		else
+			low = j + 1;
+	}
+	return x[k];
+}
+
 mr_status
 mr_median(mr_ctx *ctx, const double *x, size_t n, double *median)
 {
@@ -75,8 +103,7 @@ mr_median(mr_ctx *ctx, const double *x, size_t n, double *median)
 		return MR_EMEM;
 	for (size_t i = 0; i < m; i++)
 		some[i] = x[i * n / m];
-	mr_sort_reals(some, m);
-	*median = some[m / 2];
+	*median = mr_kth(some, m, m / 2);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -16,6 +16,9 @@ size_t mr_sort_unique(uint32_t *x, size_t n);
 /* Numbers, none of them nan. */
 void mr_sort_reals(double *x, size_t n);
 
+/* The k-th smallest, from 0, of n > k numbers, none of them nan, which are reordered. */
+double mr_kth(double *x, size_t n, size_t k);
+
 /* The upper median of n > 0 numbers, of 10007 at equal strides where there are more. */
 mr_status mr_median(mr_ctx *ctx, const double *x, size_t n, double *median) MR_WARN_UNUSED;
 

@@ -31,8 +31,7 @@ median_of_some(const double *x, size_t n, double some[SOME])
 
 	for (size_t i = 0; i < m; i++)
 		some[i] = x[i * n / m];
-	mr_sort_reals(some, m);
-	return some[m / 2];
+	return mr_kth(some, m, m / 2);
 }
 
 /* The squared reach of each of m points: infinite where there are too few. */
