@@ -37,6 +37,7 @@ mr_heights_add_data(mr_ctx *ctx, mr_heights *e)
 typedef struct solver {
 	const mr_heights *e;
 	double *h, *r, *d, *q, *u; /* solution, residual, direction, A d, Laplacian of d */
+	double *weight;            /* fairness of each row */
 	double *inverse;           /* of the diagonal; 0 where the height is fixed */
 	double alpha, beta;
 	double *partial; /* per piece */
@@ -75,7 +76,7 @@ apply_first(void *arg, size_t begin, size_t end)
 	const solver *s = arg;
 
 	for (size_t i = begin; i < end; i++)
-		s->u[i] = fairness(s->e, i) * differences(s->e, s->x, i);
+		s->u[i] = s->weight[i] * differences(s->e, s->x, i);
 }
 
 /* Row i of A x + D u. */
@@ -154,9 +155,9 @@ invert_diagonal(void *arg, size_t begin, size_t end)
 	const mr_heights *e = s->e;
 
 	for (size_t i = begin; i < end; i++) {
-		double n = degree(e, i), sum = n * n * fairness(e, i) + (e->diagonal ? e->diagonal[i] : 0);
+		double n = degree(e, i), sum = n * n * s->weight[i] + (e->diagonal ? e->diagonal[i] : 0);
 		for (size_t k = e->adj.start[i]; k < e->adj.start[i + 1]; k++)
-			sum += fairness(e, e->adj.adj[k]);
+			sum += s->weight[e->adj.adj[k]];
 		s->inverse[i] = sum > 0 && !(e->fixed && e->fixed[i]) ? 1 / sum : 0;
 	}
 }
@@ -177,7 +178,7 @@ mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, d
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t n = e->n, taken = 0;
-	double *work = MR_NEW(ctx, 5 * n + n / GRAIN + 1, double), rho, rho0;
+	double *work = MR_NEW(ctx, 6 * n + n / GRAIN + 1, double), rho, rho0;
 	solver s = { .e = e, .h = h };
 
 	if (!work)
@@ -187,7 +188,10 @@ mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, d
 	s.q = work + 2 * n;
 	s.u = work + 3 * n;
 	s.inverse = work + 4 * n;
-	s.partial = work + 5 * n;
+	s.weight = work + 5 * n;
+	s.partial = work + 6 * n;
+	for (size_t i = 0; i < n; i++)
+		s.weight[i] = fairness(e, i);
 	mr_parallel(ctx, n, GRAIN, invert_diagonal, &s);
 	s.x = h;
 	mr_parallel(ctx, n, GRAIN, apply_first, &s);

@@ -27,7 +27,11 @@ is_folded(const folds *x, uint32_t f)
 		return true;
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
 		uint32_t g = x->topo->twin[h];
-		if (g != MR_NONE && beyond(n, mr_face_cross(x->surface, g / 3), folded))
+		mr_v3 m;
+		if (g == MR_NONE)
+			continue;
+		m = mr_face_cross(x->surface, g / 3);
+		if (!(mr_dot(n, m) > 0) && beyond(n, m, folded))
 			return true;
 	}
 	return false;

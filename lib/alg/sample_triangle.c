@@ -3,7 +3,7 @@
 #include "alg/sample_parts.h"
 #include "base/parallel.h"
 
-enum { CHUNK = 1 << 15, GRAIN = 256 };
+enum { CHUNK = 1 << 12, GRAIN = 256 };
 
 /* Two unit vectors across n, so that (a, b, n) is right-handed (Duff et al. 2017). */
 static void

@@ -7,7 +7,7 @@
 #include "base/parallel.h"
 #include "mesh/bvh_tree.h"
 
-enum { BINS = 16, DEEP = 32, TASKS = 32, TASK_LEAST = 4096 };
+enum { BINS = 16, DEEP = 32, TASKS = 32, TASK_LEAST = 12288 };
 
 static const float SLACK = 0x1p-22f;
 

@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "mesh/near.h"
 
-enum { AROUND = 8, MOST = 128, CHUNK = 1 << 16, GRAIN = 1024, SWEEPS = 12 };
+enum { AROUND = 8, MOST = 128, CHUNK = 1 << 13, GRAIN = 1024, SWEEPS = 12 };
 
 /* One Jacobi rotation: makes m[i][j] zero. */
 static void

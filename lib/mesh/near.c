@@ -11,7 +11,7 @@
 #include <flann/flann.h>
 #include <stdatomic.h>
 
-enum { CHUNK = 1 << 15, GRAIN = 64, LEAF = 20 };
+enum { CHUNK = 1 << 13, GRAIN = 64, LEAF = 20 };
 
 static const double MOST = 1e150;
 
