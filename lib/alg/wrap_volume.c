@@ -34,7 +34,7 @@ wrap_volume_of(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, c
  * Where noise hides the surface the volume spans places without points, by so many sampling distances; that
  * of projected points may not, and is taken where it spans so much less, and not too much.
  */
-static const double SPANS = 1.4, CLEARLY = 0.75;
+static const double SPANS = 2, CLEARLY = 0.75;
 
 static bool
 spans_less(const mr_wrap *c, const mr_wrap *other, double unit)
