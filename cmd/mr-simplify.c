@@ -67,6 +67,18 @@ target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
 	return MR_OK;
 }
 
+/* A control mesh is to be as dense as the points. */
+static mr_status
+weigh(mr_ctx *ctx, mr_frame *f, const mr_mesh *m)
+{
+	mr_mesh points;
+	double *w = MR_NEW(ctx, m->nv, double);
+
+	opts.weight = w;
+	MR_TRY(mr_layer_points(ctx, f, "points", &points));
+	return w ? mr_simplify_weigh(ctx, m, points.p, points.nv, w) : MR_EMEM;
+}
+
 /* Keeps surface m as layer map_layer, with where its vertices lie on the result. */
 static mr_status
 put_map(cmd *c, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
@@ -117,6 +129,9 @@ simplify_frame(cmd *c, mr_frame *f)
 		return mr_fail(
 		    ctx, MR_EUSAGE, "--%s: %s is the layer that is simplified", to ? "to" : "map", layer);
 	MR_TRY(target(c, f, &m, &opts.faces));
+	opts.weight = NULL;
+	if (!strcmp(to ? to : layer, "control") && mr_frame_has_layer(f, "points"))
+		MR_TRY(weigh(ctx, f, &m));
 	opts.error = error.value > 0 ? cmd_length_of(error, mr_mesh_diagonal(&m)) : INFINITY;
 	onto = MR_NEW(ctx, m.nv, uint32_t);
 	if (!onto)

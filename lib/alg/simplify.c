@@ -197,16 +197,26 @@ add_face(simplifier *s, uint32_t f, mr_v3 normal, double area)
 
 /* Adds the plane through boundary edge h that stands upright on its face to the ends. */
 static void
-add_rim(simplifier *s, uint32_t h, mr_v3 normal)
+add_rim(simplifier *s, uint32_t h, mr_v3 normal, double area_weight)
 {
 	const mr_dyn *d = &s->d;
 	uint32_t a = d->v[h], b = mr_dyn_to(d, h);
 	mr_v3 edge = mr_sub(d->p[b], d->p[a]), side = mr_unit(mr_cross(normal, edge));
-	double weight = s->o->boundary * mr_norm2(edge) / 2;
+	double weight = area_weight * s->o->boundary * mr_norm2(edge) / 2;
 
 	s->site[a].rim = s->site[b].rim = true;
 	mr_quadric_add_plane(&s->site[a].q, side, weight);
 	mr_quadric_add_plane(&s->site[b].q, side, weight);
+}
+
+/* Of face f, by its corners. */
+static double
+weight_of(const simplifier *s, uint32_t f)
+{
+	const double *w = s->o->weight;
+	const uint32_t *v = s->d.v + 3 * (size_t)f, *at = s->d.at;
+
+	return w ? (w[at[v[0]]] + w[at[v[1]]] + w[at[v[2]]]) / 3 : 1;
 }
 
 static void
@@ -216,10 +226,11 @@ add_quadrics(simplifier *s)
 
 	for (uint32_t f = 0; f < d->nf; f++) {
 		mr_v3 cross = mr_dyn_cross(d, d->p, f), normal = mr_unit(cross);
-		add_face(s, f, normal, mr_norm(cross) / 2);
+		double weight = weight_of(s, f);
+		add_face(s, f, normal, weight * mr_norm(cross) / 2);
 		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
 			if (d->twin[h] == MR_NONE)
-				add_rim(s, h, normal);
+				add_rim(s, h, normal, weight);
 	}
 }
 

@@ -13,6 +13,7 @@ typedef struct mr_simplify_opts {
 	double error;    /* no vertex farther than this from the planes of the faces merged into it, root mean
 	                    square by area; infinite: no such limit */
 	double boundary; /* weight of the planes that hold boundary edges */
+	const double *weight; /* of the surface at each vertex; NULL: 1 */
 } mr_simplify_opts;
 
 #define MR_SIMPLIFY_DEFAULTS                                                                                 \
@@ -28,6 +29,12 @@ typedef struct mr_simplify_opts {
  */
 mr_status
 mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto);
+
+/*
+ * The weights that make a control mesh as dense as n points are: distances on the surface m, near the points,
+ * count in the points' spacing there.  weight: m->nv, the caller's.
+ */
+mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double *weight);
 
 /*
  * Where the vertices of m lie on the result: from a face at the one each was merged into by a walk to the
