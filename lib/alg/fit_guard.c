@@ -1,6 +1,7 @@
 #include "alg/fit_guard.h"
 
 #include "alg/crossing.h"
+#include "alg/fit_control.h"
 #include "base/parallel.h"
 
 enum { GRAIN = 1024 };
@@ -21,6 +22,7 @@ struct mr_fit_guard {
 	bool *crossed;         /* the same: a part of it passes through another */
 	bool *moved;           /* the same: since it was looked at last */
 	bool all;              /* all have */
+	mr_fit_control control;
 };
 
 typedef mr_fit_guard guard;
@@ -118,9 +120,10 @@ mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, mr_fit_gu
 		return MR_EMEM;
 	*g = (guard){ s, { s->m.name, p, l->t, l->nv, l->nf }, p, MR_NEW_ZERO(ctx, l->nf, mr_v3),
 		MR_NEW(ctx, l->nf, mr_v3), MR_NEW(ctx, l->nf, bool), MR_NEW(ctx, s->level[0].nf, bool),
-		MR_NEW(ctx, s->level[0].nf, bool), MR_NEW(ctx, s->level[0].nf, bool), true };
+		MR_NEW(ctx, s->level[0].nf, bool), MR_NEW(ctx, s->level[0].nf, bool), .all = true };
 	if (!g->before || !g->after || !g->crosses || !g->bad || !g->crossed || !g->moved)
 		return MR_EMEM;
+	MR_TRY(mr_fit_control_new(ctx, s->level, x, &g->control));
 	MR_TRY(look(ctx, g, x));
 	rest(g);
 	*out = g;
@@ -135,28 +138,32 @@ mr_fit_crossed(const mr_fit_guard *g)
 
 /* Steps */
 
-/* Lets the vertices of bad faces go no more than `most` of the way; returns whether that is less for any.
- * less: of each vertex, the caller's. */
+/* Lets the vertices of bad faces go no more than `most` of the way; returns whether that is less for any. */
 static bool
-damp(guard *g, const mr_fit_lists *patch, double most, double *share, size_t nv, bool *less)
+damp(const guard *g, const mr_fit_lists *patch, double most, double *share)
 {
 	bool any = false;
 
-	memset(less, 0, nv * sizeof *less);
 	for (size_t f = 0; f < patch->count; f++)
 		for (size_t i = patch->start[f]; g->bad[f] && i < patch->start[f + 1]; i++) {
 			int v = patch->member[i];
-			less[v] |= most < share[v];
-			any |= less[v];
+			any |= most < share[v];
 			share[v] = fmin(share[v], most);
 		}
+	return any;
+}
+
+/* The faces that depend on a vertex which goes elsewhere than when they were looked at. */
+static void
+find_moved(guard *g, const mr_fit_lists *patch, const mr_v3 *looked, const mr_v3 *to)
+{
 	g->all = false;
 	for (size_t f = 0; f < patch->count; f++) {
 		g->moved[f] = false;
 		for (size_t i = patch->start[f]; i < patch->start[f + 1]; i++)
-			g->moved[f] |= less[patch->member[i]];
+			g->moved[f] |= memcmp(&looked[patch->member[i]], &to[patch->member[i]], sizeof *to) !=
+			               0;
 	}
-	return any;
 }
 
 /* Whether a face that crosses is new: none of the vertices that it depends on is one of a face that crossed,
@@ -191,27 +198,32 @@ examine(mr_ctx *ctx, guard *g, const mr_fit_lists *patch, const mr_v3 *x, const 
 }
 
 mr_status
-mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, mr_fit_guard *g, const mr_fit_lists *patch, mr_v3 *x,
-    const mr_v3 *z, size_t *damped)
+mr_fit_step(mr_ctx *ctx, mr_fit_surface *s, mr_fit_guard *g, const mr_fit_lists *patch, mr_v3 *x, mr_v3 *z,
+    size_t *damped)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t nv = s->level[0].nv;
-	mr_v3 *to = MR_NEW(ctx, nv, mr_v3);
+	mr_v3 *to = MR_NEW(ctx, nv, mr_v3), *looked = MR_NEW(ctx, nv, mr_v3);
 	double *share = MR_NEW(ctx, nv, double), most = 1;
-	bool *tangled = MR_NEW(ctx, nv, bool), *less = MR_NEW(ctx, nv, bool);
+	bool *tangled = MR_NEW(ctx, nv, bool);
 
-	if (!to || !share || !tangled || !less)
+	if (!to || !share || !looked || !tangled)
 		return MR_EMEM;
 	find_tangled(patch, g->crossed, nv, tangled);
 	for (size_t v = 0; v < nv; v++)
 		share[v] = 1;
-	do {
-		for (size_t v = 0; v < nv; v++)
-			to[v] = mr_axpy(share[v], z[v], x[v]);
+	MR_TRY(mr_fit_control_limit(ctx, &g->control, x, z, share, to));
+	for (;;) {
 		MR_TRY(examine(ctx, g, patch, to, tangled));
+		memcpy(looked, to, nv * sizeof *to);
 		most = most > LEAST ? most / 2 : 0;
-	} while (damp(g, patch, most, share, nv, less));
+		if (!damp(g, patch, most, share))
+			break;
+		MR_TRY(mr_fit_control_limit(ctx, &g->control, x, z, share, to));
+		find_moved(g, patch, looked, to);
+	}
 	rest(g);
+	mr_fit_control_rest(&g->control);
 	mr_fit_surface_move(ctx, s, to);
 	*damped = 0;
 	for (size_t v = 0; v < nv; v++)

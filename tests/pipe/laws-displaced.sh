@@ -43,4 +43,11 @@ for shape in sphere torus plane boxes; do
 		$tool -j 1 all.mrs >one.mrs && $tool -j 2 all.mrs | cmp -s - one.mrs || bad "$shape: $tool depends on -j"
 	done
 done
+
+# What a fit moves is there to be edited: no folds, nothing passes through itself.
+mr-make knot -n 6000 --points 3000 | mr-shrinkwrap | mr-simplify -o coarse.mrs || exit
+for faces in 300 100; do
+	mr-simplify -n $faces coarse.mrs | mr-fit -q -o fitted.mrs || exit
+	mr-info -l control fitted.mrs | grep -q 'flaws *none' || bad "knot, $faces faces: the control mesh has flaws"
+done
 exit $fail
