@@ -30,7 +30,7 @@ WARN     := -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 INCLUDE  := -Ilib -I. -Icmd -I/usr/include/suitesparse -D_POSIX_C_SOURCE=200809L -DMR_VERSION='"$(VERSION)"'
 ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthread $(CFLAGS)
 ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -pthread $(CFLAGS)
-LIBS     := -Wl,--as-needed -lcholmod -lumfpack -lcxsparse -lflann -ltinyobjloader_double -lpng -lz -lstdc++ -ldl -lm
+LIBS     := -Wl,--as-needed -lcholmod -lumfpack -lflann -ltinyobjloader_double -lpng -lz -lstdc++ -ldl -lm
 
 TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
 OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c formats/*.c formats/*.cc))

@@ -3,7 +3,7 @@
  * side.
  *
  * Contract: sums are taken in pieces of rows, then over the pieces in order: the same for every number of
- * threads. Layer rule: solve; only files of this folder include it.
+ * threads. Layer rule: solve.
  */
 #ifndef MR_COLUMNS_H
 #define MR_COLUMNS_H

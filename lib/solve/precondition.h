@@ -2,8 +2,7 @@
  * precondition.h -- approximate inverses for the iterative solvers.
  *
  * Contract: z = B r with B fixed, and symmetric positive definite where the matrix is so.  Everything is in
- * the arena of the context that set it up, but for what `free` frees. Layer rule: solve; only files of this
- * folder include it.
+ * the arena of the context that set it up, but for what `free` frees. Layer rule: solve.
  */
 #ifndef MR_PRECONDITION_H
 #define MR_PRECONDITION_H

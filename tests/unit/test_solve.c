@@ -1,6 +1,5 @@
 /* The solvers: right solutions, and sentences for matrices that have none. */
 #include "base/random.h"
-#include "solve/simplicial.h"
 #include "solve/solver.h"
 #include "unit.h"
 
@@ -89,28 +88,6 @@ test_cholesky(void **state)
 	for (int i = 0; i < N; i++) /* the middle column last */
 		part[i] = i % SIDE < SIDE / 2 ? 0 : i % SIDE > SIDE / 2 ? 1 : 2;
 	check_solver(MR_CHOLESKY, 0, part);
-}
-
-static void
-test_simplicial(void **state)
-{
-	mr_sparse full = grid_matrix(0.1, 0, false), lower = grid_matrix(0.1, 0, true);
-	mr_sparse indefinite = grid_matrix(-1, 0, true);
-	double *x = MR_NEW(&ctx, N, double), *b = MR_NEW(&ctx, N, double);
-	mr_random r = { 2 };
-	mr_simplicial *s = NULL;
-
-	(void)state;
-	for (int i = 0; i < N; i++)
-		x[i] = mr_random_real(&r) - 0.5;
-	assert_int_equal(mr_simplicial_new(&ctx, &lower, &s), MR_OK);
-	apply(&full, x, b);
-	mr_simplicial_solve(s, b, b);
-	for (size_t i = 0; i < N; i++)
-		assert_true(fabs(b[i] - x[i]) < 1e-12);
-	mr_simplicial_free(s);
-	assert_int_equal(mr_simplicial_new(&ctx, &indefinite, &s), MR_ENUMERIC);
-	mr_simplicial_free(NULL);
 }
 
 /* A factor of many subtrees, more right-hand sides than are solved together, and any number of threads. */
@@ -368,7 +345,6 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_cholesky, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_simplicial, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_subtrees, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_lu, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative, setup, teardown),
