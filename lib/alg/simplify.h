@@ -37,15 +37,16 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double *weight);
 
 /*
- * Where the vertices of m lie on the result: from a face at the one each was merged into by a walk to the
- * nearest point; isolated ones at the nearest point of all.  map: m->nv rows, in the arena.
+ * Where the vertices of m lie on the result: the nearest point, where its face looks to the same side as the
+ * vertex or a walk from the vertex that it was merged into comes there; where sheets are near, the nearest of
+ * their own; isolated ones at the nearest point of all.  map: m->nv rows, in the arena.
  */
 mr_status
 mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);
 
 /*
- * Where the vertices of the result lie on m: by a walk from the nearest of the vertices merged into each.
- * map: out->nv rows, in the arena.
+ * Where the vertices of the result lie on m, likewise: by a walk from the nearest of the vertices merged into
+ * each. map: out->nv rows, in the arena.
  */
 mr_status mr_simplify_source(
     mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);

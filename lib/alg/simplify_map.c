@@ -3,47 +3,103 @@
 #include "alg/simplify.h"
 #include "base/parallel.h"
 
-typedef struct walk_job {
-	const mr_mesh *m; /* the surface walked on */
+typedef struct place_job {
+	const mr_mesh *m; /* the surface placed on */
 	const mr_topology *topo;
-	const mr_v3 *p;       /* what is placed on it */
-	const uint32_t *from; /* vertex of m that each starts at; MR_NONE: not known */
-	const mr_bvh *bvh;    /* where some are not known */
+	const mr_bvh *bvh;
+	const mr_mesh *from;   /* whose vertices are placed */
+	const mr_v3 *normal;   /* of these */
+	const uint32_t *start; /* vertex of m that each walk starts at; MR_NONE: not known */
 	uint32_t *face;
 	mr_v3 *bary;
-} walk_job;
+} place_job;
+
+/* Whether a face of m looks to the side that a normal does. */
+static bool
+agrees(const mr_mesh *m, uint32_t face, mr_v3 normal)
+{
+	return mr_dot(mr_face_cross(m, face), normal) > 0;
+}
+
+typedef struct search {
+	const mr_mesh *m;
+	mr_v3 q, normal;
+	mr_closest best;
+} search;
+
+static bool
+keep_nearer(void *arg, uint32_t face)
+{
+	search *s = arg;
+	const uint32_t *v = s->m->t[face].v;
+	mr_closest c = mr_triangle_closest(s->q, s->m->p[v[0]], s->m->p[v[1]], s->m->p[v[2]]);
+
+	c.face = face;
+	if ((c.dist2 < s->best.dist2 || (c.dist2 == s->best.dist2 && face < s->best.face)) &&
+	    agrees(s->m, face, s->normal))
+		s->best = c;
+	return true;
+}
+
+/*
+ * A walk stays on its sheet but may end at a local minimum.  Where a place is nearer than that it counts, if
+ * its face looks to the same side as the vertex; else it is that of another sheet, and the nearest
+ * of all that do is looked for as far as the walk's end.
+ */
+static mr_closest
+place(const place_job *j, size_t i)
+{
+	static const double rounding = 1e-12;
+	mr_v3 q = j->from->p[i], n = j->normal[i];
+	search s = { j->m, q, n, { .face = MR_NONE } };
+	mr_closest near;
+	double reach;
+
+	if (j->start[i] == MR_NONE)
+		return mr_bvh_closest(j->bvh, q);
+	s.best = mr_project_walk(j->m, j->topo, j->topo->out[j->start[i]] / 3, q);
+	near = mr_bvh_closest_within(j->bvh, q, (1 - rounding) * s.best.dist2);
+	if (near.face == MR_NONE)
+		return s.best;
+	if (agrees(j->m, near.face, n))
+		return near;
+	reach = sqrt(s.best.dist2);
+	mr_bvh_overlap(j->bvh,
+	    (mr_box){ mr_sub(q, mr_vec(reach, reach, reach)), mr_add(q, mr_vec(reach, reach, reach)) },
+	    keep_nearer, &s);
+	return s.best;
+}
 
 static void
-walk_body(void *arg, size_t begin, size_t end)
+place_body(void *arg, size_t begin, size_t end)
 {
-	walk_job *j = arg;
+	place_job *j = arg;
 
 	for (size_t i = begin; i < end; i++) {
-		mr_closest c = j->from[i] == MR_NONE
-		                   ? mr_bvh_closest(j->bvh, j->p[i])
-		                   : mr_project_walk(j->m, j->topo, j->topo->out[j->from[i]] / 3, j->p[i]);
+		mr_closest c = place(j, i);
 		j->face[i] = c.face;
 		j->bary[i] = c.bary;
 	}
 }
 
-/* Places n points on m by walks from vertices of it. */
+/* Places the vertices of `from` on m, by walks from vertices of it. */
 static mr_status
-walk(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const uint32_t *from, size_t n, mr_source_map *map)
+place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *start, mr_source_map *map)
 {
-	uint32_t *face = MR_NEW(ctx, n, uint32_t);
-	mr_v3 *bary = MR_NEW(ctx, n, mr_v3);
+	uint32_t *face = MR_NEW(ctx, from->nv, uint32_t);
+	mr_v3 *bary = MR_NEW(ctx, from->nv, mr_v3);
 	mr_mark mark = mr_mark_take(ctx);
-	mr_bvh *bvh = NULL;
+	mr_v3 *normal = MR_NEW(ctx, from->nv, mr_v3);
 	mr_topology topo;
+	mr_bvh *bvh;
 
-	if (!face || !bary)
+	if (!face || !bary || !normal)
 		return MR_EMEM;
+	MR_TRY(mr_vertex_normals(ctx, from, normal));
 	MR_TRY(mr_topology_build(ctx, m, &topo));
-	for (size_t i = 0; i < n && !bvh; i++)
-		if (from[i] == MR_NONE)
-			MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	mr_parallel(ctx, n, 1024, walk_body, &(walk_job){ m, &topo, p, from, bvh, face, bary });
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	mr_parallel(
+	    ctx, from->nv, 1024, place_body, &(place_job){ m, &topo, bvh, from, normal, start, face, bary });
 	mr_mark_release(ctx, mark);
 	*map = (mr_source_map){ face, bary };
 	return MR_OK;
@@ -52,7 +108,7 @@ walk(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const uint32_t *from, size_t
 mr_status
 mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map)
 {
-	return walk(ctx, out, m->p, onto, m->nv, map);
+	return place_all(ctx, out, m, onto, map);
 }
 
 mr_status
@@ -73,5 +129,5 @@ mr_simplify_source(
 		    mr_dist(m->p[v], out->p[w]) < mr_dist(m->p[nearest[w]], out->p[w]))
 			nearest[w] = v;
 	}
-	return walk(ctx, m, out->p, nearest, out->nv, map);
+	return place_all(ctx, m, out, nearest, map);
 }

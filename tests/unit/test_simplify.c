@@ -3,6 +3,7 @@
 #include "alg/shape.h"
 #include "alg/simplify.h"
 #include "base/random.h"
+#include "mesh/bvh.h"
 #include "op/quadric.h"
 #include "unit.h"
 
@@ -99,6 +100,71 @@ vertices_lie_where_they_were_merged(void **state)
 	}
 }
 
+/* Simplifies the solid, its height scaled and a bowl added, to `faces` and maps it. */
+static void
+map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_mesh *out, mr_source_map *map)
+{
+	mr_solid_opts shape = MR_SOLID_DEFAULTS;
+	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
+	uint32_t *onto;
+	mr_v3 *p;
+
+	shape.solid = solid;
+	shape.vertices = 6000;
+	assert_int_equal(mr_solid_make(&ctx, &shape, m), MR_OK);
+	p = MR_NEW(&ctx, m->nv, mr_v3);
+	for (size_t v = 0; v < m->nv; v++) {
+		double x = m->p[v].x, y = m->p[v].y;
+		p[v] = mr_vec(x, y, height * m->p[v].z + bowl * (x * x + y * y));
+	}
+	m->p = p;
+	o.faces = faces;
+	onto = MR_NEW(&ctx, m->nv, uint32_t);
+	assert_int_equal(mr_simplify(&ctx, m, &o, out, onto), MR_OK);
+	assert_int_equal(mr_simplify_map(&ctx, m, out, onto, map), MR_OK);
+}
+
+/* What is flat keeps its place, whatever faces a walk would get stuck on. */
+static void
+places_are_the_nearest(void **state)
+{
+	mr_source_map map;
+	mr_mesh m, out;
+
+	(void)state;
+	map_of(MR_BOXES, 1, 0, 500, &m, &out, &map);
+	for (size_t v = 0; v < m.nv; v++) {
+		const uint32_t *t = out.t[map.face[v]].v;
+		mr_v3 p = mr_bary_point(map.bary[v], out.p[t[0]], out.p[t[1]], out.p[t[2]]);
+		assert_true(mr_dist(p, m.p[v]) < 1e-9);
+	}
+}
+
+/* In a thin bowl the nearest face is often one of the other side. */
+static void
+places_stay_on_their_side(void **state)
+{
+	size_t across = 0, strayed = 0;
+	mr_source_map map;
+	mr_v3 *normal;
+	mr_mesh m, out;
+	mr_bvh *bvh;
+
+	(void)state;
+	map_of(MR_SPHERE, 0.005, 0.5, 100, &m, &out, &map);
+	normal = MR_NEW(&ctx, m.nv, mr_v3);
+	assert_int_equal(mr_vertex_normals(&ctx, &m, normal), MR_OK);
+	assert_int_equal(mr_bvh_build(&ctx, &out, &bvh), MR_OK);
+	for (size_t v = 0; v < m.nv; v++) {
+		if (hypot(m.p[v].x, m.p[v].y) > 0.8) /* at the rim */
+			continue;
+		strayed += mr_dot(mr_face_cross(&out, map.face[v]), normal[v]) <= 0;
+		across += mr_dot(mr_face_cross(&out, mr_bvh_closest(bvh, m.p[v]).face), normal[v]) <= 0;
+	}
+	assert_true(across > 100);
+	assert_int_equal(strayed, 0);
+}
+
 static void
 wants_of_memory_are_reported(void **state)
 {
@@ -129,6 +195,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(queue_serves_the_lowest_bucket, setup, teardown),
 		cmocka_unit_test_setup_teardown(quadric_is_the_squared_distance, setup, teardown),
 		cmocka_unit_test_setup_teardown(vertices_lie_where_they_were_merged, setup, teardown),
+		cmocka_unit_test_setup_teardown(places_are_the_nearest, setup, teardown),
+		cmocka_unit_test_setup_teardown(places_stay_on_their_side, setup, teardown),
 		cmocka_unit_test_setup_teardown(wants_of_memory_are_reported, setup, teardown),
 	};
 
