@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "op/loop_ring.h"
 
-enum { GRAIN = 8192 };
+enum { GRAIN = 2048 };
 
 /* Marks the half-edges on both sides of edges that bend by more than `crease` degrees; NULL: there is none.
  */

@@ -6,7 +6,7 @@
 #include "base/parallel.h"
 #include "op/loop_ring.h"
 
-enum { GRAIN = 8192 };
+enum { GRAIN = 2048 };
 
 /*
  * The neighbours l_j, j = 1 to n - 1, of a dart whose crease ends in neighbour 0: the left eigenvector of 1
