@@ -55,11 +55,13 @@ prepare(cmd *c)
 /* Outlives the frame. */
 static mr_deform_cache kept;
 
-/* What poses the frame: the handles, or the places of base.target, or nothing. */
+/* What poses the frame: the handles, or the places of base.target, or nothing.  A control mesh that gets its
+ * basis keeps its shape, which the displacement stands on: it is posed at rest. */
 static mr_status
 read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform_task *task)
 {
 	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
+	bool at_rest = basis && !strcmp(m->name, "control");
 	const void *places = NULL;
 	mr_affine *t = NULL;
 	size_t n = 0;
@@ -69,11 +71,11 @@ read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform_task *task)
 		    ctx, MR_EMESH, "%s has targets, but there are handles too: drop one of them", m->name);
 	if (basis && (handles || target))
 		return mr_fail(ctx, MR_EUSAGE,
-		    "--basis is for the undeformed solve, but the frame has handles or targets already");
+		    "--basis comes before mr-pose, but the frame has handles or targets already");
 	if (target)
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
-	if (handles)
-		MR_TRY(mr_handles_rows(ctx, f, 0, &t, &n));
+	if (handles || at_rest)
+		MR_TRY(mr_handles_rows(ctx, f, 1, &t, &n));
 	*task = (mr_deform_task){ m->p, t, n, places };
 	return MR_OK;
 }

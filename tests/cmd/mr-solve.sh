@@ -108,3 +108,26 @@ off q.mrs base >q.off
 off r.mrs base >r.off
 far q.off r.off 1e-12
 mr-info -l base r.mrs | grep -c "^ *target" || true # used up
+
+# A control mesh keeps its shape, with its basis too: at rest no bit changes, and its poses are those of a solve.
+mr-make torus --points 3000 >points.mrs
+mr-make torus -n 300 | mr-export -f off - | mr-import -l control - | mr-cat --merge - points.mrs | mr-sample -n 2 |
+	mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.8 -o c.mrs
+mr-solve --basis c.mrs -o basis.mrs
+mr-pose --rotate 0,1,0,0 basis.mrs | mr-decode -o r.mrs
+mr-decode c.mrs -o q.mrs
+for layer in control mesh; do
+	off q.mrs $layer >q.off
+	off r.mrs $layer | cmp - q.off && echo "$layer at rest is at rest"
+done
+for k in 1 2 3; do
+	mr-solve -k $k --basis c.mrs | mr-pose --rotate 0,1,0,40 --translate 0.3,0.2,0.1 --frames 3 | mr-decode -o r.mrs
+	mr-pose --rotate 0,1,0,40 --translate 0.3,0.2,0.1 --frames 3 c.mrs | mr-solve -k $k | mr-decode -o q.mrs
+	for layer in control mesh; do
+		mr-export -f off -l $layer 'r-%d.off' <r.mrs
+		mr-export -f off -l $layer 'q-%d.off' <q.mrs
+		for i in 1 2 3 4; do
+			far q-$i.off r-$i.off 4e-12
+		done
+	done
+done
