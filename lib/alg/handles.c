@@ -1,6 +1,7 @@
 #include "alg/handles.h"
 
 #include "alg/lines.h"
+#include "alg/transfer.h"
 
 static mr_v3
 vector_of(const double x[3])
@@ -150,6 +151,8 @@ mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h)
 	const uint32_t *region;
 	mr_mesh m;
 
+	if (layer && !mr_layer_has(f, layer, "region"))
+		return mr_transfer_missing(ctx, f, layer);
 	if (!layer)
 		layer = mr_layer_has(f, "mesh", "region") ? "mesh" : "control";
 	if (!mr_layer_has(f, layer, "region"))

@@ -89,6 +89,16 @@ mr_transfer_applies(const mr_frame *f, const char *layer)
 }
 
 mr_status
+mr_transfer_missing(mr_ctx *ctx, const mr_frame *f, const char *layer)
+{
+	if (strcmp(layer, "base") && mr_layer_has(f, "mesh", "region"))
+		return mr_fail(ctx, MR_EMISSING,
+		    "%s has no regions, though mesh has: mr-select -l %s selects those of %s", layer, layer,
+		    layer);
+	return mr_fail(ctx, MR_EMISSING, "%s has no regions: select some by mr-select", layer);
+}
+
+mr_status
 mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **region)
 {
 	const uint32_t *on_mesh;
@@ -99,8 +109,7 @@ mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **
 
 	if (!mr_transfer_applies(f, base->name)) {
 		if (!mr_layer_has(f, base->name, "region"))
-			return mr_fail(
-			    ctx, MR_EMISSING, "%s has no regions: select some by mr-select", base->name);
+			return mr_transfer_missing(ctx, f, base->name);
 		return mr_layer_region(ctx, f, base->name, base->nv, region);
 	}
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));

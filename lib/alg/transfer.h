@@ -11,6 +11,9 @@
 /* True where the regions of the frame's layer are those of the mesh, not its own. */
 bool mr_transfer_applies(const mr_frame *f, const char *layer);
 
+/* MR_EMISSING: the layer has no regions.  The sentence says where they are, and how it gets some. */
+mr_status mr_transfer_missing(mr_ctx *ctx, const mr_frame *f, const char *layer);
+
 /*
  * The regions of a layer of the frame: its own, or where that is a base and the mesh has regions, the mesh's.
  * Then each vertex of the base takes the region of the corner that is nearest its place on the mesh: the one

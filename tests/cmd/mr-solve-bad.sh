@@ -14,6 +14,13 @@ echo '-- no base'
 mr-make sphere -n 100 | try
 echo '-- no regions'
 try base.mrs
+echo '-- regions of the mesh, and none of the control mesh'
+mr-make sphere -n 500 | mr-simplify --to control -n 60 -o both.mrs
+mr-select --free above:z,0.5 --handle 0=above:z,0.9 both.mrs -o on-mesh.mrs
+try on-mesh.mrs
+mr-pose --scale 2 on-mesh.mrs | try
+mr-pose -l control --scale 2 on-mesh.mrs 2>&1 >out
+mr-select -l control --free above:z,0.5 --handle 0=above:z,0.9 both.mrs | mr-pose --scale 2 | try
 echo '-- all fixed'
 mr-select --fixed all base.mrs | try
 echo '-- all free'
