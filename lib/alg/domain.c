@@ -134,30 +134,54 @@ stored_level(mr_ctx *ctx, mr_frame *f, size_t *n)
 	return MR_OK;
 }
 
-mr_status
-mr_displacement_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t *n, const double **height)
+/* The heights, as many as their level of the control mesh has vertices. */
+static mr_status
+stored_heights(
+    mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t *n, const double **height, size_t *rows)
 {
-	size_t level, boundary, nv, rows;
+	size_t boundary, nv;
 	const void *data;
-	const double *h;
 
 	if (!mr_frame_has_layer(f, "displacement"))
 		return mr_fail(ctx, MR_EMISSING, "no layer displacement: it comes from mr-sample");
-	MR_TRY(stored_level(ctx, f, &level));
-	MR_TRY(mr_layer_get(ctx, f, "displacement", "height", &data, &rows));
+	MR_TRY(stored_level(ctx, f, n));
+	MR_TRY(mr_layer_get(ctx, f, "displacement", "height", &data, rows));
 	MR_TRY(count_boundary(ctx, control, &boundary));
-	nv = mr_loop_count(control->nv, control->nf, boundary, level);
-	if (rows != nv)
+	nv = mr_loop_count(control->nv, control->nf, boundary, *n);
+	if (*rows != nv)
 		return mr_fail(ctx, MR_ERANGE,
-		    "displacement: %zu heights, but level %zu of %s has %zu vertices", rows, level,
+		    "displacement: %zu heights, but level %zu of %s has %zu vertices", *rows, *n,
 		    control->name, nv);
-	h = data;
+	*height = data;
+	return MR_OK;
+}
+
+mr_status
+mr_displacement_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t *n, const double **height)
+{
+	size_t level, rows;
+	const double *h;
+
+	MR_TRY(stored_heights(ctx, f, control, &level, &h, &rows));
 	for (size_t i = 0; i < rows; i++)
 		if (!isfinite(h[i]))
 			return mr_fail(ctx, MR_ERANGE, "displacement: height %zu is not finite", i);
 	*n = level;
 	*height = h;
 	return MR_OK;
+}
+
+mr_status
+mr_displacement_check(mr_ctx *ctx, mr_frame *f)
+{
+	const double *height;
+	mr_mesh control;
+	size_t n, rows;
+
+	if (!mr_frame_has_layer(f, "displacement"))
+		return MR_OK;
+	MR_TRY(mr_prefix(ctx, mr_layer_mesh(ctx, f, "control", &control), "displacement"));
+	return stored_heights(ctx, f, &control, &n, &height, &rows);
 }
 
 mr_status

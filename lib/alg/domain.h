@@ -58,6 +58,9 @@ void mr_domain_displace(const mr_ctx *ctx, const mr_domain *d, const double *hei
 mr_status
 mr_displacement_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t *n, const double **height);
 
+/* Whether the frame's heights, if it has some, can stand on its control mesh: by number, not by value. */
+mr_status mr_displacement_check(mr_ctx *ctx, mr_frame *f);
+
 mr_status mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *height);
 
 #endif

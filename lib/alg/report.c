@@ -1,5 +1,6 @@
 #include "alg/report.h"
 
+#include "alg/domain.h"
 #include "alg/report_parts.h"
 #include "mesh/laws.h"
 
@@ -238,6 +239,22 @@ list_broken(void *user, const char *sentence)
 		r->first = mr_format(r->ctx, "%s", sentence);
 }
 
+/* The laws of each layer, and whether the displacement can be decoded. */
+static mr_status
+check(report *r)
+{
+	mr_status status;
+
+	MR_TRY(mr_check_frame(r->ctx, r->f, list_broken, r));
+	status = mr_displacement_check(r->ctx, r->f);
+	if (status == MR_EMEM)
+		return status;
+	if (status < 0)
+		list_broken(r, r->ctx->error);
+	*r->ctx->error = '\0';
+	return MR_OK;
+}
+
 static mr_status
 report_text(report *r)
 {
@@ -246,7 +263,7 @@ report_text(report *r)
 	report_history(r);
 	MR_TRY(report_layers(r));
 	if (r->opts->check) {
-		MR_TRY(mr_check_frame(r->ctx, r->f, list_broken, r));
+		MR_TRY(check(r));
 		if (!r->broken)
 			mr_text_add(r->t, "  check            every layer keeps its laws\n");
 	}
@@ -267,7 +284,7 @@ report_json(report *r)
 	mr_text_add(r->t, "}");
 	if (r->opts->check) {
 		mr_text_add(r->t, ",\"broken\":[");
-		MR_TRY(mr_check_frame(r->ctx, r->f, list_broken, r));
+		MR_TRY(check(r));
 		mr_text_add(r->t, "]");
 	}
 	mr_text_add(r->t, "}\n");

@@ -1,4 +1,5 @@
 /* Each law of the layers, broken once; and texts of reports. */
+#include "alg/domain.h"
 #include "alg/report.h"
 #include "mesh/laws.h"
 
@@ -160,6 +161,55 @@ broken_layers_are_reported(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* What mr-decode would refuse, a check tells. */
+static void
+displacements_fit_their_control_mesh(void **state)
+{
+	static const mr_v3 corner[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+	static const mr_tri face[] = { { { 0, 2, 1 } }, { { 0, 1, 3 } }, { { 0, 3, 2 } }, { { 1, 2, 3 } } };
+	static const double height[200];
+	static const struct {
+		size_t rows;
+		uint32_t level; /* 99: there is none */
+		bool control;
+		const char *sentence;
+	} cases[] = {
+		{ 34, 2, true, NULL },
+		{ 33, 2, true, "displacement: 33 heights, but level 2 of control has 34 vertices" },
+		{ 35, 2, true, "displacement: 35 heights, but level 2 of control has 34 vertices" },
+		{ 0, 2, true, "displacement: 0 heights, but level 2 of control has 34 vertices" },
+		{ 34, 3, true, "displacement: 34 heights, but level 3 of control has 130 vertices" },
+		{ 34, 4000000000, true, "displacement: level 4000000000 of at most 15" },
+		{ 34, 99, true, "displacement: no column level" },
+		{ 34, 2, false, "displacement: no layer control" },
+	};
+	const mr_report_opts opts = { .check = true };
+	const char *broken;
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		mr_frame *f = lawful(&ctx);
+		mr_text text = { .ctx = &ctx };
+		if (cases[i].control) {
+			put(&ctx, f, "control", "position", V3, corner, 4);
+			put(&ctx, f, "control", "triangles", F3, face, 4);
+		}
+		assert_int_equal(
+		    mr_layer_put(&ctx, f, "displacement", "height", height, cases[i].rows), MR_OK);
+		if (cases[i].level != 99)
+			assert_int_equal(
+			    mr_layer_put(&ctx, f, "displacement", "level", &cases[i].level, 1), MR_OK);
+		assert_int_equal(mr_report_frame(&ctx, f, &opts, &text, &broken), MR_OK);
+		if (cases[i].sentence)
+			assert_string_equal(broken, cases[i].sentence);
+		else
+			assert_null(broken);
+	}
+	mr_ctx_free(&ctx);
+}
+
 static void
 json_is_escaped(void **state)
 {
@@ -186,6 +236,7 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test(each_law),
 		cmocka_unit_test(broken_layers_are_reported),
+		cmocka_unit_test(displacements_fit_their_control_mesh),
 		cmocka_unit_test(json_is_escaped),
 	};
 
