@@ -2,6 +2,7 @@
 
 #include "base/text.h"
 #include "place.h"
+#include "stream/record.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -256,6 +257,8 @@ parse_command_line(cmd *c, int argc, char **argv)
 	if (s->help || s->version)
 		exit(fflush(stdout) || ferror(stdout) ? EXIT_DATA : EXIT_GOOD);
 	try(c, cmd_parse(&c->ctx, argc, argv, tables, &s->args));
+	if (c->layer && !*c->layer) /* what else it may be is the tool's: of one it is a list */
+		try(c, cmd_layer_name(c, "--layer", c->layer));
 	try(c, compose_history(c, &s->args));
 	c->operands = s->args.operands;
 	c->operand_count = s->args.operand_count;
@@ -276,6 +279,16 @@ cmd_idle(cmd *c, const char *name, bool idle, const char *why)
 {
 	if (idle && cmd_given(c, name))
 		return mr_fail(&c->ctx, MR_EUSAGE, "--%s has no effect %s", name, why);
+	return MR_OK;
+}
+
+mr_status
+cmd_layer_name(cmd *c, const char *option, const char *name)
+{
+	if (name && !mr_name_valid(name, MR_LAYER_MAX))
+		return mr_fail(&c->ctx, MR_EUSAGE,
+		    "%s: a layer cannot be called '%s': 1 to %d printable characters, no blanks", option,
+		    name, (int)MR_LAYER_MAX);
 	return MR_OK;
 }
 

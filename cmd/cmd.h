@@ -77,6 +77,10 @@ bool cmd_given(const cmd *c, const char *name);
 /* For prepare: where that option was given though it is idle, MR_EUSAGE, "--NAME has no effect WHY". */
 mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN_UNUSED;
 
+/* For prepare: MR_EUSAGE where the option gave a name that no layer can have; NULL, where it was not given,
+ * passes. */
+mr_status cmd_layer_name(cmd *c, const char *option, const char *name) MR_WARN_UNUSED;
+
 /* Sends a frame now: a source, or a filter that says it `sends`. */
 mr_status cmd_send(cmd *c, const mr_frame *f);
 

@@ -28,6 +28,8 @@ open_other(cmd *c)
 {
 	if (c->layer && layer_a)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--layer and --from name the same layer: give one");
+	MR_TRY(cmd_layer_name(c, "--from", layer_a));
+	MR_TRY(cmd_layer_name(c, "--to", layer_b));
 	MR_TRY(cmd_idle(c, "samples", opts.vertices_only, "with --vertices"));
 	MR_TRY(cmd_idle(c, "tolerance", opts.vertices_only, "with --vertices"));
 	if (c->operand_count > 1)

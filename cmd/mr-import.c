@@ -25,8 +25,7 @@ check(cmd *c)
 	MR_TRY(cmd_idle(c, "repair", points, "with --points, which leaves no face"));
 	if (c->operand_count == 0 && isatty(STDIN_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "stdin is a terminal: pipe a file in, or name a FILE");
-	if (c->layer && !*c->layer)
-		return mr_fail(&c->ctx, MR_EUSAGE, "--layer: a layer needs a name");
+	MR_TRY(cmd_layer_name(c, "--layer", c->layer));
 	return mr_format_check(&c->ctx, "", format, false, &binary);
 }
 

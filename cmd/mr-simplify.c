@@ -19,8 +19,7 @@ static const char *map_layer, *to;
 
 static const cmd_opt table[] = {
 	{ 'n', "faces", CMD_COUNT, &faces, 0, 4e9, "N", "stop at so many; 0: no such limit", NULL },
-	{ 'r', "ratio", CMD_REAL, &ratio, 0, 1, "RATIO", "stop at this share of the faces; 0: no such limit",
-	    NULL },
+	{ 'r', "ratio", CMD_REAL, &ratio, 0, 1, "RATIO", "stop at this share; 0: no such limit", NULL },
 	{ 'e', "error", CMD_LENGTH, &error, 0, 1e300, "LENGTH",
 	    "most distance to the planes of what is merged; 0: no such limit", NULL },
 	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },
@@ -98,6 +97,7 @@ put_map(cmd *c, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_
 static mr_status
 check_name(cmd *c, const char *option, const char *layer)
 {
+	MR_TRY(cmd_layer_name(c, option, layer));
 	if (layer && mr_layer_no_surface(layer))
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s: layer %s holds no surface", option, layer);
 	return MR_OK;

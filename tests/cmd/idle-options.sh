@@ -25,5 +25,12 @@ mr-render --columns 2 a.png
 mr-render --flat --crease 20 a.png
 mr-render --range 0,1 a.png
 LINES
+# So is a layer without a name, of every tool that has -l.
+for tool in compare export fit import info pose remesh render sample select shrinkwrap simplify smooth solve subdivide; do
+	mr-$tool -l '' cube.mrs >out 2>err
+	echo "mr-$tool: exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+done
+mr-compare -a '' -b mesh cube.mrs >out 2>&1
+echo "exit $?: $(head -n 1 out)"
 # and those that have one
 mr-make boxes --genus 3 --seed 2 --noise 0 >boxes.mrs && mr-make cylinder --open >tube.mrs && echo good

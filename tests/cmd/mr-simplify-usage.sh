@@ -21,4 +21,14 @@ for args in '--to points' '--to handles' '--to displacement' '--map points' '--t
 	mr-simplify $args sphere.mrs >out 2>err
 	echo "$args: exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
 done
+while read -r option name; do
+	mr-simplify "$option" "$name" sphere.mrs >out 2>err
+	echo "$option '$name': exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+done <<'NAMES'
+--map
+--map a b
+--map seventeen-letters
+--to
+--to a b
+NAMES
 mr-simplify --to control -n 50 sphere.mrs | mr-simplify --to control -l mesh -n 20 | mr-info | grep -c triangles
