@@ -220,6 +220,22 @@ report_gaps(mr_ctx *ctx, const fit *x)
 	mr_stat_set(ctx, "gap_max", most / x->c->diagonal);
 }
 
+/* Heights that follow noise make a surface of many spikes, and so much larger. */
+static void
+report_area(mr_ctx *ctx, const fit *x)
+{
+	static const double SPIKY = 1.5;
+	double ratio = mr_mesh_area(ctx, &x->surface) / mr_mesh_area(ctx, &x->d->m);
+
+	mr_stat_set(ctx, "area_ratio", ratio);
+	if (ratio > SPIKY && !x->weights->robust)
+		mr_warn(ctx,
+		    "the displaced surface has %.3g times the area of its domain: noise, for which there is "
+		    "-m "
+		    "robust, or the domain is far off",
+		    ratio);
+}
+
 static mr_status
 fit_new(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, fit *x)
 {
@@ -364,6 +380,7 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fi
 	MR_TRY(fit_all(ctx, &x, passes, &folds));
 	place_all(ctx, &x);
 	report_gaps(ctx, &x);
+	report_area(ctx, &x);
 	mr_stat_set(ctx, "fairness", weights->fair);
 	mr_stat_set(ctx, "folds", (double)folds);
 	if (folds > 0)

@@ -198,6 +198,11 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    "1 %% of the points are more than %.3g sampling distances from the wrap: outliers, or it "
 		    "does not reach them",
 		    points);
+	else if (c->cover.points_max > MR_WRAP_ENOUGH.points_max * cloud->spacing)
+		mr_warn(ctx,
+		    "a point is %.3g sampling distances from the wrap: an outlier, or of a part that is left "
+		    "out",
+		    c->cover.points_max / cloud->spacing);
 	if (wrap > MR_WRAP_ENOUGH.wrap_max)
 		mr_warn(ctx,
 		    "1 %% of the wrap is more than %.3g sampling distances from the points: it closes what "
@@ -259,6 +264,8 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 	double edge = mr_mesh_edge_scale(ctx, start);
 	mr_wrap c = { .method = TEMPLATE };
 
+	if (!(edge > 0))
+		return mr_fail(ctx, MR_EMESH, "the template's %zu vertices are at one place", start->nv);
 	MR_TRY(mr_wrap_dyn(ctx, start, &c.d));
 	for (size_t i = 0; i < iterations; i++) {
 		MR_TRY(mr_wrap_draw(ctx, cloud, o->alpha, edge, edge, &c.d));

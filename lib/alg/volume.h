@@ -33,7 +33,7 @@ typedef struct mr_volume_opts {
  * The surface, closed, manifold, oriented outward, any number of components, within about a cell of the
  * points; in the arena.  Holes of the sampling are closed; parts and cavities that hardly any points bound
  * are left out, and outliers.  MR_EMESH where the points are flat or enclose nothing; MR_ERANGE for a grid of
- * more than 4096 cells.
+ * more than 4096 cells, and for parts so far apart that no grid holds both.
  *
  * Figures: samples (points that counted), spacing (the side of the square that a point stands for), variation
  * (of the median point's neighbourhood: 0 flat, 1/3 a ball), outliers, regions (large flat ones),

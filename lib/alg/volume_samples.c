@@ -16,7 +16,7 @@ static const double NOISY = 0.06, SURELY_NOISY = 0.12, BENDS = 1.1;
 /* Beyond so many squared spacings, a point that is in no plane is an outlier, and any point. */
 static const double OUTLIER_AREA = 9, FAR_AREA = 2500;
 
-enum { NEAREST = 16, NEAREST_MOST = 100, LINKS = 8, CELLS = 1023 };
+enum { NEAREST = 16, NEAREST_MOST = 100, LINKS = 8, CELLS = 1023, TOLD_LEAST = 64 };
 
 /* s->p holds the distinct points; now in Morton order. */
 static mr_status
@@ -229,11 +229,18 @@ project(mr_ctx *ctx, samples *s)
 mr_status
 mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, bool projected, samples *s)
 {
+	size_t places;
+
 	MR_TRY(distinct(ctx, point, n, s));
 	s->box = mr_box_of(s->p, s->n);
 	MR_TRY(check(ctx, s));
 	MR_TRY(sort_points(ctx, s));
+	places = s->n;
 	thin_out(s, share);
+	if (s->n < places && s->n < TOLD_LEAST)
+		return mr_fail(ctx, MR_ERANGE,
+		    "%zu points lie so far apart that a grid tells %zu of them: wrap their parts one by one",
+		    places, s->n);
 	MR_TRY(find_planes(ctx, s));
 	MR_TRY(drop_outliers(ctx, s));
 	if (projected && s->noise > 1)

@@ -6,6 +6,9 @@
 /* Points nearer to a plane (a line, a place) than this share of the diagonal lie on it. */
 static const double FLAT = 1e-6;
 
+/* Strays are so many boxes of nearly all points away from it, and so many sampling distances from others. */
+static const double AWAY = 1, ALONE = 10;
+
 /* A point whose square is larger than that of so many sampling distances is an outlier, or at a hole. */
 static const double LONELY = 3;
 
@@ -58,6 +61,23 @@ check_extent(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 	return MR_OK;
 }
 
+static mr_status
+index_points(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *cloud)
+{
+	*cloud = (mr_wrap_cloud){ .p = point, .n = n, .box = mr_box_of(point, n) };
+	cloud->diagonal = mr_box_diagonal(cloud->box);
+	if (n < 4)
+		return mr_fail(
+		    ctx, MR_EMESH, "%zu point%s: a closed surface needs 4 at least", n, n == 1 ? "" : "s");
+	MR_TRY(mr_cloud_check_spread(ctx, point, n));
+	MR_TRY(mr_near_build(ctx, point, n, &cloud->near));
+	cloud->places = mr_near_distinct(cloud->near);
+	if (cloud->places < 4)
+		return mr_fail(ctx, MR_EMESH, "%zu points at %zu place%s: a closed surface needs 4 at least",
+		    n, cloud->places, cloud->places == 1 ? "" : "s");
+	return MR_OK;
+}
+
 /*
  * A disk around a point with its k nearest has an area of about k squares of the side s: s = r sqrt(pi / k).
  * side: count, of points taken at equal strides.
@@ -102,20 +122,103 @@ measure_sampling(mr_ctx *ctx, mr_wrap_cloud *cloud)
 	return MR_OK;
 }
 
+static double *
+axis_of(mr_v3 *p, int axis)
+{
+	return axis == 0 ? &p->x : axis == 1 ? &p->y : &p->z;
+}
+
+/* The box of nearly all points, widened. */
+static mr_status
+wide_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_box *box)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t count = cloud->n < SAMPLES ? cloud->n : SAMPLES, rare = count / 100;
+	double *x = MR_NEW(ctx, count, double), longest = 0;
+
+	if (!x)
+		return MR_EMEM;
+	for (int axis = 0; axis < 3; axis++) {
+		for (size_t i = 0; i < count; i++) {
+			mr_v3 p = cloud->p[i * cloud->n / count];
+			x[i] = *axis_of(&p, axis);
+		}
+		mr_sort_reals(x, count);
+		*axis_of(&box->min, axis) = x[rare];
+		*axis_of(&box->max, axis) = x[count - 1 - rare];
+		longest = fmax(longest, x[count - 1 - rare] - x[rare]);
+	}
+	longest *= AWAY;
+	box->min = mr_sub(box->min, mr_vec(longest, longest, longest));
+	box->max = mr_add(box->max, mr_vec(longest, longest, longest));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static bool
+is_inside(mr_box b, mr_v3 p)
+{
+	return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
+	       p.z <= b.max.z;
+}
+
+/* Of the points outside of a box: those that are alone there.  stray: cloud->n. */
+static mr_status
+find_strays(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_box box, bool *stray, size_t *count)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t k = cloud->places - 1 < RING ? cloud->places - 1 : RING;
+	uint32_t index[RING + 1];
+	double dist2[RING + 1], far = ALONE * cloud->spacing;
+
+	*count = 0;
+	for (size_t i = 0; i < cloud->n; i++) {
+		stray[i] = !is_inside(box, cloud->p[i]);
+		if (!stray[i])
+			continue;
+		MR_TRY(mr_near_query(ctx, cloud->near, &cloud->p[i], 1, k + 1, index, dist2));
+		stray[i] = dist2[k] > far * far;
+		*count += stray[i];
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Few points far from all others would have the cells of a grid, and the edges of a box, as long as their
+ * way. */
+static mr_status
+drop_strays(mr_ctx *ctx, mr_wrap_cloud *cloud)
+{
+	bool *stray = MR_NEW(ctx, cloud->n, bool);
+	size_t strays, kept = 0;
+	mr_box box;
+	mr_v3 *p;
+
+	if (!stray)
+		return MR_EMEM;
+	MR_TRY(wide_box(ctx, cloud, &box));
+	MR_TRY(find_strays(ctx, cloud, box, stray, &strays));
+	mr_stat_set(ctx, "strays", (double)strays);
+	if (strays == 0)
+		return MR_OK;
+	mr_warn(ctx, "%zu point%s far from all others: left out", strays, strays == 1 ? " is" : "s are");
+	p = MR_NEW(ctx, cloud->n - strays, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	for (size_t i = 0; i < cloud->n; i++)
+		if (!stray[i])
+			p[kept++] = cloud->p[i];
+	mr_near_free(cloud->near);
+	cloud->near = NULL;
+	return index_points(ctx, p, kept, cloud);
+}
+
 mr_status
 mr_wrap_cloud_open(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *cloud)
 {
-	*cloud = (mr_wrap_cloud){ .p = point, .n = n, .box = mr_box_of(point, n) };
-	cloud->diagonal = mr_box_diagonal(cloud->box);
-	if (n < 4)
-		return mr_fail(
-		    ctx, MR_EMESH, "%zu point%s: a closed surface needs 4 at least", n, n == 1 ? "" : "s");
-	MR_TRY(mr_cloud_check_spread(ctx, point, n));
-	MR_TRY(mr_near_build(ctx, point, n, &cloud->near));
-	cloud->places = mr_near_distinct(cloud->near);
-	if (cloud->places < 4)
-		return mr_fail(ctx, MR_EMESH, "%zu points at %zu place%s: a closed surface needs 4 at least",
-		    n, cloud->places, cloud->places == 1 ? "" : "s");
+	MR_TRY(index_points(ctx, point, n, cloud));
+	MR_TRY(measure_sampling(ctx, cloud));
+	MR_TRY(drop_strays(ctx, cloud));
 	MR_TRY(check_extent(ctx, cloud));
 	return measure_sampling(ctx, cloud);
 }

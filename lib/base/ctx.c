@@ -1,5 +1,7 @@
 #include "base/ctx.h"
 
+#include "base/memory.h"
+
 #include <time.h>
 #include <unistd.h>
 
@@ -8,7 +10,7 @@
  * block; a large one gets a block of its own, whose memory goes back to the
  * system as soon as it is released.
  */
-enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15 };
+enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15, HUGE = 1 << 28 };
 
 struct mr_block {
 	struct mr_block *below;
@@ -172,10 +174,17 @@ aligned(char *memory)
 	return memory + (ALIGN - (uintptr_t)memory % ALIGN) % ALIGN;
 }
 
+/* The system gives more than it has, and ends whoever then uses it: what is very large is asked for first. */
+static bool
+is_there(size_t bytes)
+{
+	return bytes <= HUGE || (double)bytes <= mr_memory_available();
+}
+
 static mr_block *
 block_new(mr_ctx *ctx, size_t size)
 {
-	char *memory = malloc(sizeof(mr_block) + size + ALIGN - 1);
+	char *memory = is_there(size) ? malloc(sizeof(mr_block) + size + ALIGN - 1) : NULL;
 	mr_block *b;
 
 	if (!memory)
@@ -235,7 +244,9 @@ resize(mr_ctx *ctx, mr_block **link, size_t bytes)
 	char *memory;
 
 	*link = b->below;
-	memory = realloc(b->memory, sizeof *b + bytes + ALIGN - 1);
+	memory = is_there(bytes > b->size ? bytes - b->size : 0)
+	             ? realloc(b->memory, sizeof *b + bytes + ALIGN - 1)
+	             : NULL;
 	if (!memory) {
 		*link = b;
 		return NULL;

@@ -19,6 +19,10 @@ mr-make sphere -n 50 | mr-shrinkwrap >out
 echo "exit $?"
 mr-make sphere --points 50 | mr-shrinkwrap --template >out
 echo "exit $?"
+printf 'OFF\n4 4 0\n1 1 1\n1 1 1\n1 1 1\n1 1 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >place.off
+mr-make sphere --points 50 -o ball.mrs
+mr-import -l control place.off | mr-cat --merge ball.mrs - | mr-shrinkwrap --template >out
+echo "exit $?"
 
 # The fewest that can be wrapped; far from the origin.
 printf '0 0 0\n1 0 0\n0 1 0\n0 0 1\n' >four.xyz

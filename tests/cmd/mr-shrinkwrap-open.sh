@@ -30,3 +30,16 @@ awk 'BEGIN {
 				print i + 0.525 * k, 1.5 * k - 0.1 * i, 8 * z
 }' >slices.xyz
 wrapped slices.xyz
+
+echo a point far away, and a thin part that is left out:
+mr-make knot --points 4000 | mr-export -l points -f xyz - | cut -d ' ' -f 1-3 >knot.xyz
+{ cat knot.xyz; echo 100 0 0; } >stray.xyz
+mr-import stray.xyz | mr-shrinkwrap -o stray.mrs
+mr-info -l control stray.mrs | sed -n 's/^ *topology *//p'
+mr-make sphere --points 30 --seed 2 | mr-export -l points -f xyz - | awk '{ print $1 + 5, $2, $3 }' | cat knot.xyz - >two.xyz
+mr-import two.xyz | mr-shrinkwrap 2>&1 >/dev/null | sed 's/[0-9.]* sampling/N sampling/'
+
+echo parts further apart than a grid can hold:
+{ cat knot.xyz; awk '{ print $1 + 1e5, $2, $3 }' knot.xyz; } >apart.xyz
+mr-import apart.xyz | mr-shrinkwrap
+echo "exit $?"
