@@ -31,8 +31,9 @@ mr_status
 mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto);
 
 /*
- * The weights that make a control mesh as dense as n points are: distances on the surface m, near the points,
- * count in the points' spacing there.  weight: m->nv, the caller's.
+ * The weights that make a control mesh dense where n points are: areas of the surface m, near the points,
+ * count by how densely they lie there, so that a point counts as much as any other.  weight: m->nv, the
+ * caller's.
  */
 mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double *weight);
 

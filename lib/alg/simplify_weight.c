@@ -80,8 +80,7 @@ mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, d
 	MR_TRY(spread(ctx, m, area));
 	for (size_t v = 0; v < m->nv; v++) {
 		double density = area[v] > 0 ? count[v] * all / (area[v] * (double)used) : 1;
-		density = fmin(fmax(density, LEAST), MOST);
-		weight[v] = density * density; /* of points, and of squared lengths in their spacing */
+		weight[v] = fmin(fmax(density, LEAST), MOST);
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
