@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 
-enum { GRAIN = 16, PIECE = 2048 }; /* control faces */
+enum { GRAIN = 16, PIECE = 512 }; /* control faces */
 
 /* Keeps what no point and no neighbour holds. */
 static const double SMALL = 1e-9;
