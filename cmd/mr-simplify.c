@@ -3,13 +3,8 @@
 #include "cmd.h"
 #include "mesh/layers.h"
 
-/* By default, of a control mesh that has points, and of others. */
-enum { POINTS_A_FACE = 32, FACES_A_FACE = 10 };
-
-/* Of a control mesh, at least so many, or one for every so many points where that is less: fewer would not
- * follow a surface with limbs or handles.  But never fewer than an icosahedron has: the limit surface of
- * those is small within them, and a fit to points as few would have to blow them up. */
-enum { LEAST = 300, LEAST_POINTS_A_FACE = 4, ROUND = 20 };
+/* By default, but for control meshes. */
+enum { FACES_A_FACE = 10 };
 
 static mr_simplify_opts opts = MR_SIMPLIFY_DEFAULTS;
 static size_t faces;
@@ -30,52 +25,52 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
-/* The faces of a control mesh for n points. */
-static size_t
-faces_for(mr_ctx *ctx, size_t n)
+/* The layer that the result is written as. */
+static const char *
+result_layer(const mr_mesh *m)
 {
-	size_t count = n / POINTS_A_FACE, least = n / LEAST_POINTS_A_FACE;
+	return to ? to : m->name;
+}
 
-	least = least < ROUND ? ROUND : least < LEAST ? least : LEAST;
-	if (count >= least)
-		return count;
-	mr_note(ctx, "%zu faces for %zu points, as one for every %d would be too few", least, n,
-	    (int)POINTS_A_FACE);
-	return least;
+/* The points that a control mesh is for: those of the frame, if there are any. */
+static mr_status
+read_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_mesh *points)
+{
+	*points = (mr_mesh){ 0 };
+	if (strcmp(result_layer(m), "control") || !mr_frame_has_layer(f, "points"))
+		return MR_OK;
+	return mr_layer_points(ctx, f, "points", points);
 }
 
 /* The faces to stop at; 0: no such limit.  A control mesh is made for the points, or for the mesh that it
  * comes from. */
-static mr_status
-target(cmd *c, mr_frame *f, const mr_mesh *m, size_t *n)
+static size_t
+target(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points)
 {
-	mr_mesh points;
+	size_t asked = faces ? faces : (size_t)ceil(ratio * (double)m->nf);
 
-	*n = faces ? faces : (size_t)ceil(ratio * (double)m->nf);
-	if (*n || error.value > 0)
-		return MR_OK;
-	*n = m->nf / FACES_A_FACE;
-	if (strcmp(to ? to : m->name, "control"))
-		return MR_OK;
-	if (!mr_frame_has_layer(f, "points")) {
-		*n = to ? faces_for(&c->ctx, m->nv) : *n;
-		return MR_OK;
-	}
-	MR_TRY(mr_layer_points(&c->ctx, f, "points", &points));
-	*n = faces_for(&c->ctx, points.nv);
-	return MR_OK;
+	if (asked || error.value > 0)
+		return asked;
+	if (points->nv > 0)
+		return mr_simplify_faces_for(ctx, points->nv);
+	if (to && !strcmp(to, "control"))
+		return mr_simplify_faces_for(ctx, m->nv);
+	return m->nf / FACES_A_FACE;
 }
 
-/* A control mesh is to be as dense as the points. */
 static mr_status
-weigh(mr_ctx *ctx, mr_frame *f, const mr_mesh *m)
+weigh(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points)
 {
-	mr_mesh points;
-	double *w = MR_NEW(ctx, m->nv, double);
+	double *weight = NULL;
 
-	opts.weight = w;
-	MR_TRY(mr_layer_points(ctx, f, "points", &points));
-	return w ? mr_simplify_weigh(ctx, m, points.p, points.nv, w) : MR_EMEM;
+	if (points->nv > 0) {
+		weight = MR_NEW(ctx, m->nv, double);
+		if (!weight)
+			return MR_EMEM;
+		MR_TRY(mr_simplify_weigh(ctx, m, points->p, points->nv, weight));
+	}
+	opts.weight = weight;
+	return MR_OK;
 }
 
 /* Keeps surface m as layer map_layer, with where its vertices lie on the result. */
@@ -121,17 +116,16 @@ simplify_frame(cmd *c, mr_frame *f)
 	bool mapped = false;
 	const char *layer;
 	uint32_t *onto;
-	mr_mesh m, out;
+	mr_mesh m, points, out;
 
 	MR_TRY(mr_layer_choose(ctx, f, c->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	if ((map_layer && !strcmp(map_layer, layer)) || (to && !strcmp(to, layer)))
 		return mr_fail(
 		    ctx, MR_EUSAGE, "--%s: %s is the layer that is simplified", to ? "to" : "map", layer);
-	MR_TRY(target(c, f, &m, &opts.faces));
-	opts.weight = NULL;
-	if (!strcmp(to ? to : layer, "control") && mr_frame_has_layer(f, "points"))
-		MR_TRY(weigh(ctx, f, &m));
+	MR_TRY(read_points(ctx, f, &m, &points));
+	opts.faces = target(ctx, &m, &points);
+	MR_TRY(weigh(ctx, &m, &points));
 	opts.error = error.value > 0 ? cmd_length_of(error, mr_mesh_diagonal(&m)) : INFINITY;
 	onto = MR_NEW(ctx, m.nv, uint32_t);
 	if (!onto)

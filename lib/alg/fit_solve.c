@@ -1,6 +1,6 @@
 /*
- * Conjugate gradients (Hestenes, Stiefel 1952), preconditioned by the incomplete Cholesky factor of the
- * part of the matrix that x, y and z have in common: a ninth of the whole's entries.  A row has all vertices that a
+ * Conjugate gradients (Hestenes, Stiefel 1952), preconditioned by the incomplete Cholesky factor of the part
+ * of the matrix that x, y and z have in common: a ninth of the whole's entries.  A row has all vertices that a
  * control face couples, so that there is nothing to gain by fill: complete factors save one step in thirty,
  * and on thousands of control vertices take a quarter of the fit.
  */

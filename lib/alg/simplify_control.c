@@ -1,8 +1,16 @@
-/* What errors on parts of a surface weigh, by how densely points lie there. */
+/* Control meshes for points: of how many faces, and what errors on parts weigh by how densely points lie
+ * there. */
 #include "alg/simplify.h"
 #include "mesh/near.h"
 
 enum { ROUNDS = 4, ENOUGH = 2 /* points a vertex */ };
+
+/*
+ * Faces by the points, but at least so many as follow limbs and handles, or one for every so many points
+ * where that is less; and never fewer than an icosahedron has: the limit surface of those is small within
+ * them, and a fit to points as few would have to blow them up.
+ */
+enum { POINTS_A_FACE = 32, LIMBS = 300, LEAST_POINTS_A_FACE = 4, ROUND = 20 };
 
 /* Densities beyond these shares of the mean are cut off: gaps and outliers are no surface. */
 static const double LEAST = 0.1, MOST = 10;
@@ -58,6 +66,19 @@ count_points(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double
 	*used = some;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+size_t
+mr_simplify_faces_for(mr_ctx *ctx, size_t n)
+{
+	size_t count = n / POINTS_A_FACE, least = n / LEAST_POINTS_A_FACE;
+
+	least = least < ROUND ? ROUND : least < LIMBS ? least : LIMBS;
+	if (count >= least)
+		return count;
+	mr_note(ctx, "%zu faces for %zu points, as one for every %d would be too few", least, n,
+	    (int)POINTS_A_FACE);
+	return least;
 }
 
 mr_status
