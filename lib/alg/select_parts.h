@@ -11,12 +11,13 @@
 typedef struct term {
 	const struct predicate *predicate;
 	bool negate;
-	double x[6];        /* numbers, in the order written */
-	bool relative;      /* the last of them is a share of the diagonal */
-	size_t axis, count; /* above, below; rings, grow */
-	uint32_t vertex;    /* rings */
-	const char *name;   /* group */
-	uint32_t *list;     /* vertices */
+	double x[6];      /* numbers, in the order written */
+	bool relative;    /* the last of them is a share of the diagonal */
+	int axis;         /* above, below */
+	size_t count;     /* rings, grow */
+	uint32_t vertex;  /* rings */
+	const char *name; /* group */
+	uint32_t *list;   /* vertices */
 	size_t listed;
 } term;
 

@@ -35,7 +35,7 @@ parse_axis(mr_ctx *ctx, const char *text, term *t)
 		return mr_fail(ctx, MR_EUSAGE, "'%s' is not an axis x, y or z, a comma and a fraction", text);
 	if (t->x[0] < 0 || t->x[0] > 1)
 		return mr_fail(ctx, MR_EUSAGE, "the fraction %g is not between 0 and 1", t->x[0]);
-	t->axis = (size_t)(*text - 'x');
+	t->axis = *text - 'x';
 	return MR_OK;
 }
 
@@ -112,12 +112,6 @@ point_of(const term *t)
 	return mr_vec(t->x[0], t->x[1], t->x[2]);
 }
 
-static double
-coordinate(mr_v3 p, size_t axis)
-{
-	return axis == 0 ? p.x : axis == 1 ? p.y : p.z;
-}
-
 static mr_status
 eval_all(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 {
@@ -143,8 +137,8 @@ eval_box(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 	(void)ctx;
 	for (size_t v = 0; v < s->m->nv; v++) {
 		in[v] = true;
-		for (size_t k = 0; k < 3; k++) {
-			double x = coordinate(s->m->p[v], k);
+		for (int k = 0; k < 3; k++) {
+			double x = mr_coordinate(s->m->p[v], k);
 			in[v] = in[v] && x >= t->x[k] && x <= t->x[k + 3];
 		}
 	}
@@ -164,7 +158,7 @@ eval_halfspace(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 static double
 level_of(const scene *s, const term *t)
 {
-	double low = coordinate(s->box.min, t->axis), high = coordinate(s->box.max, t->axis);
+	double low = mr_coordinate(s->box.min, t->axis), high = mr_coordinate(s->box.max, t->axis);
 
 	return t->x[0] == 1 ? high : low + t->x[0] * (high - low);
 }
@@ -176,7 +170,7 @@ eval_above(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 
 	(void)ctx;
 	for (size_t v = 0; v < s->m->nv; v++)
-		in[v] = coordinate(s->m->p[v], t->axis) >= level;
+		in[v] = mr_coordinate(s->m->p[v], t->axis) >= level;
 	return MR_OK;
 }
 
@@ -187,7 +181,7 @@ eval_below(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 
 	(void)ctx;
 	for (size_t v = 0; v < s->m->nv; v++)
-		in[v] = coordinate(s->m->p[v], t->axis) <= level;
+		in[v] = mr_coordinate(s->m->p[v], t->axis) <= level;
 	return MR_OK;
 }
 

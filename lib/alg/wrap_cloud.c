@@ -122,35 +122,27 @@ measure_sampling(mr_ctx *ctx, mr_wrap_cloud *cloud)
 	return MR_OK;
 }
 
-static double *
-axis_of(mr_v3 *p, int axis)
-{
-	return axis == 0 ? &p->x : axis == 1 ? &p->y : &p->z;
-}
-
 /* The box of nearly all points, widened. */
 static mr_status
 wide_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_box *box)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t count = cloud->n < SAMPLES ? cloud->n : SAMPLES, rare = count / 100;
-	double *x = MR_NEW(ctx, count, double), longest = 0;
+	double *x = MR_NEW(ctx, count, double), low[3], high[3], longest = 0, wider;
 
 	if (!x)
 		return MR_EMEM;
-	for (int axis = 0; axis < 3; axis++) {
-		for (size_t i = 0; i < count; i++) {
-			mr_v3 p = cloud->p[i * cloud->n / count];
-			x[i] = *axis_of(&p, axis);
-		}
+	for (int k = 0; k < 3; k++) {
+		for (size_t i = 0; i < count; i++)
+			x[i] = mr_coordinate(cloud->p[i * cloud->n / count], k);
 		mr_sort_reals(x, count);
-		*axis_of(&box->min, axis) = x[rare];
-		*axis_of(&box->max, axis) = x[count - 1 - rare];
-		longest = fmax(longest, x[count - 1 - rare] - x[rare]);
+		low[k] = x[rare];
+		high[k] = x[count - 1 - rare];
+		longest = fmax(longest, high[k] - low[k]);
 	}
-	longest *= AWAY;
-	box->min = mr_sub(box->min, mr_vec(longest, longest, longest));
-	box->max = mr_add(box->max, mr_vec(longest, longest, longest));
+	wider = AWAY * longest;
+	box->min = mr_vec(low[0] - wider, low[1] - wider, low[2] - wider);
+	box->max = mr_vec(high[0] + wider, high[1] + wider, high[2] + wider);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

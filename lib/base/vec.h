@@ -27,6 +27,13 @@ mr_vec(double x, double y, double z)
 	return (mr_v3){ x, y, z };
 }
 
+/* x, y or z: k is 0, 1 or 2. */
+static inline double
+mr_coordinate(mr_v3 p, int k)
+{
+	return k == 0 ? p.x : k == 1 ? p.y : p.z;
+}
+
 static inline mr_v3
 mr_add(mr_v3 a, mr_v3 b)
 {

@@ -35,12 +35,6 @@ projection(const mr_v3 t[3], int *turn)
 	return 2;
 }
 
-static double
-coordinate(mr_v3 p, int k)
-{
-	return k == 0 ? p.x : k == 1 ? p.y : p.z;
-}
-
 /* Whether the interval of a b meets that of c d, by one coordinate. */
 static bool
 intervals_meet(double a, double b, double c, double d)
@@ -58,8 +52,10 @@ segments_meet(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d, int k)
 
 	if (sc * sd > 0 || sa * sb > 0)
 		return false;
-	return intervals_meet(coordinate(a, i), coordinate(b, i), coordinate(c, i), coordinate(d, i)) &&
-	       intervals_meet(coordinate(a, j), coordinate(b, j), coordinate(c, j), coordinate(d, j));
+	return intervals_meet(
+		   mr_coordinate(a, i), mr_coordinate(b, i), mr_coordinate(c, i), mr_coordinate(d, i)) &&
+	       intervals_meet(
+		   mr_coordinate(a, j), mr_coordinate(b, j), mr_coordinate(c, j), mr_coordinate(d, j));
 }
 
 static bool
