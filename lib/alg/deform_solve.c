@@ -3,7 +3,7 @@
  * is ours.
  */
 #include "alg/deform_parts.h"
-#include "op/laplace.h"
+#include "op/sparse.h"
 
 field
 mr_deform_field(const mr_deform *d, size_t width)

@@ -138,7 +138,7 @@ assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	bool lower = d->opts.solver.kind == MR_CHOLESKY;
 	size_t n = d->patch.end[0];
 
-	MR_TRY(mr_laplace_power(ctx, &d->l, d->w, d->opts.order, n, lower, &d->a));
+	MR_TRY(mr_sparse_power(ctx, &d->l, d->w, d->opts.order, n, lower, &d->a));
 	hold_empty_rows(&d->a);
 	if (d->opts.unsymmetric)
 		scale_rows(&d->a, d->w);

@@ -9,7 +9,7 @@
 #include "mesh/near.h"
 #include "mesh/outlier.h"
 #include "mesh/zorder.h"
-#include "op/laplace.h"
+#include "op/sparse.h"
 
 enum { LOCAL_PASSES = 20, LEAST_SQUARES_PASSES = 5 };
 

@@ -2,7 +2,7 @@
 
 #include "alg/project.h"
 #include "base/parallel.h"
-#include "op/laplace.h"
+#include "op/sparse.h"
 
 enum { GRAIN = 512, CORRECTIONS = 2 };
 

@@ -1,12 +1,13 @@
 /* Gustavson 1978: Two fast algorithms for sparse matrices: multiplication and permuted transposition. */
 #include "op/sparse.h"
 
-/* Counts in start[i + 1] become row starts. */
-static mr_status
-accumulate(mr_ctx *ctx, mr_sparse *a)
+/* Row lengths to row starts. */
+mr_status
+mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a)
 {
+	a->start[0] = 0;
 	for (int i = 0; i < a->n; i++)
-		if (__builtin_add_overflow(a->start[i], a->start[i + 1], &a->start[i + 1]))
+		if (__builtin_add_overflow(a->start[i], length[i], &a->start[i + 1]))
 			return mr_fail(
 			    ctx, MR_ERANGE, "the matrix of %d rows has 2^31 entries or more", a->n);
 	return MR_OK;
@@ -25,7 +26,7 @@ mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *
 		return MR_EMEM;
 	for (size_t e = 0; e < nnz; e++)
 		r.start[a->index[e] + 1]++;
-	MR_TRY(accumulate(ctx, &r));
+	MR_TRY(mr_sparse_starts(ctx, r.start + 1, &r));
 	memcpy(next, r.start, columns * sizeof *next);
 	for (int i = 0; i < a->n; i++)
 		for (int e = a->start[i]; e < a->start[i + 1]; e++) {
@@ -111,7 +112,7 @@ mr_sparse_multiply(mr_ctx *ctx, const mr_sparse *a, const mr_sparse *b, size_t c
 	unmark(&row, columns);
 	for (int i = 0; i < a->n; i++)
 		r.start[i + 1] = count_row(a, b, i, &row);
-	MR_TRY(accumulate(ctx, &r));
+	MR_TRY(mr_sparse_starts(ctx, r.start + 1, &r));
 	r.index = MR_NEW(ctx, (size_t)r.start[r.n], int);
 	r.value = MR_NEW(ctx, (size_t)r.start[r.n], double);
 	if (!r.index || !r.value)

@@ -3,7 +3,7 @@
  *
  * Contract: the indices of a row are ascending, each once.  Row numbers and indices
  * are int, as the direct solvers have them: a matrix has fewer than 2^31 entries.
- * Layer rule: op.
+ * Layer rule: op includes base, mesh and itself.
  */
 #ifndef MR_SPARSE_H
 #define MR_SPARSE_H
@@ -30,11 +30,37 @@ mr_sparse_sort(int *column, int n)
 	}
 }
 
+/* The row starts of a matrix whose row i has length[i] entries, which may be a->start + 1 itself; MR_ERANGE for 2^31
+ * entries or more. */
+mr_status mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a);
+
 /* The transpose of a matrix with `columns` columns.  t: in the arena. */
 mr_status mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *t);
 
 /* c = a b, where b has `columns` columns.  c: in the arena. */
 mr_status
 mr_sparse_multiply(mr_ctx *ctx, const mr_sparse *a, const mr_sparse *b, size_t columns, mr_sparse *c);
+
+/*
+ * The first n rows and columns of L (W L)^(k-1), W = diag(w) with a weight per row of L, which is symmetric; with
+ * `lower` only entries on and below the diagonal.  Entries (k-1 steps away from row n) of l are read, so
+ * those rows must be complete.  out: in the arena.
+ */
+mr_status mr_sparse_power(
+    mr_ctx *ctx, const mr_sparse *l, const double *w, size_t k, size_t n, bool lower, mr_sparse *out);
+
+/*
+ * y = A x for the first `rows` rows of A; scaled by w[i] where w is not NULL.  x and y have `width` values
+ * (at most 4) per row, next to each other.
+ */
+void mr_sparse_apply(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
+    const double *x, double *y);
+
+/* y = y + f A x, for all rows of A. */
+void mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width, const double *x, double *y);
+
+/* mr_sparse_apply in extended precision: for residuals that rounding would drown. */
+void mr_sparse_apply_long(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
+    const long double *x, long double *y);
 
 #endif

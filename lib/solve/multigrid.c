@@ -4,7 +4,7 @@
  * which is symmetric and runs on any number of threads; the coarsest level is solved by Cholesky.
  */
 #include "base/parallel.h"
-#include "op/laplace.h"
+#include "op/sparse.h"
 #include "solve/precondition.h"
 
 #include <math.h>

@@ -5,7 +5,7 @@
  * along the boundary is solved exactly before and after: multiplicative Schwarz (Smith, Bjorstad, Gropp 1996:
  * Domain decomposition, chapter 1), which is symmetric, and positive definite because both its parts are.
  */
-#include "op/laplace.h"
+#include "op/sparse.h"
 #include "solve/precondition.h"
 
 typedef struct strip {

@@ -205,8 +205,8 @@ test_powers_are_products(void **state)
 	for (size_t k = 1; k <= 3; k++) {
 		mr_sparse lower, full, again;
 		double *a, *b, *next = MR_NEW_ZERO(&ctx, n * n, double);
-		assert_int_equal(mr_laplace_power(&ctx, &l, w, k, rows, true, &lower), MR_OK);
-		assert_int_equal(mr_laplace_power(&ctx, &l, w, k, rows, false, &full), MR_OK);
+		assert_int_equal(mr_sparse_power(&ctx, &l, w, k, rows, true, &lower), MR_OK);
+		assert_int_equal(mr_sparse_power(&ctx, &l, w, k, rows, false, &full), MR_OK);
 		a = dense_of(&lower, rows);
 		b = dense_of(&full, rows);
 		for (size_t i = 0; i < rows; i++)
@@ -216,7 +216,7 @@ test_powers_are_products(void **state)
 				assert_near(a[i * rows + j], j <= i ? b[i * rows + j] : 0, 0);
 			}
 		ctx.threads = 1;
-		assert_int_equal(mr_laplace_power(&ctx, &l, w, k, rows, true, &again), MR_OK);
+		assert_int_equal(mr_sparse_power(&ctx, &l, w, k, rows, true, &again), MR_OK);
 		ctx.threads = 2;
 		assert_memory_equal(
 		    again.value, lower.value, (size_t)lower.start[rows] * sizeof *lower.value);
@@ -270,7 +270,7 @@ test_dissection_separates(void **state)
 		ctx.threads = 1;
 		assert_int_equal(mr_dissect(&ctx, &l, m.p, n, reach, again), MR_OK);
 		assert_memory_equal(part, again, n * sizeof *part);
-		assert_int_equal(mr_laplace_power(&ctx, &l, w, reach, n, false, &power), MR_OK);
+		assert_int_equal(mr_sparse_power(&ctx, &l, w, reach, n, false, &power), MR_OK);
 		for (size_t i = 0; i < n; i++) {
 			assert_in_range(part[i], 0, MOST - 1);
 			count[part[i]]++;
