@@ -64,7 +64,7 @@ $(BUILD)/bench/%: tests/bench/%.cc $(BUILD)/flags | setup
 	$(call say,link   )$(CXX) -std=c++17 -O3 -DNDEBUG -w -I/usr/include/eigen3 $(INCLUDE) -pthread -o $@ $< -Wl,--as-needed -lgmp -lmpfr -lcholmod -lOpenMeshCore -lm
 
 $(BUILD)/libmr.a: $(OBJECTS)
-	$(call say,archive)rm -f $@ && $(AR) rcs $@ $^
+	$(call say,archive)rm -f $@ && $(AR) qcs $@ $^
 
 $(BUILD)/%.c.o: %.c $(BUILD)/flags | setup
 	@mkdir -p $(@D)

@@ -1,6 +1,6 @@
 /* mr-cat -- streams one after another, or merged frame by frame.  See man/mr-cat.1. */
 #include "cmd.h"
-#include "stream/side.h"
+#include "stream/side_stream.h"
 
 static bool pack, unpack, merge;
 

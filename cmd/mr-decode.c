@@ -1,8 +1,8 @@
 /* mr-decode -- put detail back onto its base surface, and heights onto a subdivision surface.  See
  * man/mr-decode.1. */
-#include "alg/detail.h"
-#include "alg/domain.h"
-#include "alg/response.h"
+#include "edit/detail.h"
+#include "subdivide/displaced.h"
+#include "edit/pose_basis.h"
 #include "cmd.h"
 
 typedef enum source { DETAIL, CONTROL } source;

@@ -1,5 +1,5 @@
 /* mr-encode -- store a mesh as detail over its base surface.  See man/mr-encode.1. */
-#include "alg/detail.h"
+#include "edit/detail.h"
 #include "cmd.h"
 #include "mesh/layers.h"
 

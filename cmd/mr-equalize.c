@@ -1,6 +1,6 @@
 /* mr-equalize -- weigh the levels of a displacement against each other.  See man/mr-equalize.1. */
-#include "alg/domain.h"
-#include "alg/wavelet.h"
+#include "subdivide/displaced.h"
+#include "subdivide/wavelet.h"
 #include "cmd.h"
 
 static const char *gains_text;

@@ -1,5 +1,5 @@
 /* mr-fit -- move a control mesh so that its limit surface comes close to points.  See man/mr-fit.1. */
-#include "alg/fit.h"
+#include "fit/fit.h"
 #include "cmd.h"
 #include "mesh/layers.h"
 

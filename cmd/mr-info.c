@@ -1,5 +1,5 @@
 /* mr-info -- report what a stream holds, and measure its surfaces.  See man/mr-info.1. */
-#include "alg/report.h"
+#include "measure/report.h"
 #include "cmd.h"
 
 static mr_report_opts opts;

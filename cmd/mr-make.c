@@ -1,5 +1,5 @@
 /* mr-make -- generate a surface or a cloud of points of it.  See man/mr-make.1. */
-#include "alg/shape.h"
+#include "shape/shape.h"
 #include "cmd.h"
 #include "mesh/layers.h"
 

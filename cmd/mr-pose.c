@@ -1,5 +1,5 @@
 /* mr-pose -- say where a handle goes.  See man/mr-pose.1. */
-#include "alg/handles.h"
+#include "edit/handles.h"
 #include "cmd.h"
 
 static mr_motion motion = { .pose = MR_POSE_REST };

@@ -1,5 +1,5 @@
 /* mr-remesh -- remesh a surface isotropically with equal vertex areas.  See man/mr-remesh.1. */
-#include "alg/remesh.h"
+#include "remesh/remesh.h"
 #include "cmd.h"
 #include "mesh/layers.h"
 

@@ -1,5 +1,5 @@
 /* mr-render -- a shaded picture of each frame.  See man/mr-render.1. */
-#include "alg/gallery.h"
+#include "render/gallery.h"
 #include "cmd.h"
 #include "formats/outname.h"
 #include "formats/png.h"

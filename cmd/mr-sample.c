@@ -1,5 +1,5 @@
 /* mr-sample -- sample the displacement of a subdivision surface to points or a mesh.  See man/mr-sample.1. */
-#include "alg/sample.h"
+#include "sample/sample.h"
 #include "cmd.h"
 
 static mr_sample_opts opts = MR_SAMPLE_DEFAULTS;

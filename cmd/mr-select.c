@@ -1,6 +1,6 @@
 /* mr-select -- choose which vertices are fixed, free, or in a handle.  See man/mr-select.1. */
-#include "alg/lines.h"
-#include "alg/select.h"
+#include "base/text_file.h"
+#include "edit/select.h"
 #include "cmd.h"
 #include "mesh/layers.h"
 

@@ -1,5 +1,5 @@
 /* mr-shrinkwrap -- draw a closed mesh tight around points.  See man/mr-shrinkwrap.1. */
-#include "alg/shrinkwrap.h"
+#include "wrap/shrinkwrap.h"
 #include "cmd.h"
 #include "mesh/layers.h"
 

@@ -1,5 +1,5 @@
 /* mr-simplify -- simplify a surface by quadric error metrics.  See man/mr-simplify.1. */
-#include "alg/simplify.h"
+#include "simplify/simplify.h"
 #include "cmd.h"
 #include "mesh/layers.h"
 

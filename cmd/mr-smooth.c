@@ -1,6 +1,6 @@
 /* mr-smooth -- low-pass filter a mesh into its base surface.  See man/mr-smooth.1. */
-#include "alg/smooth.h"
-#include "alg/sourcemap.h"
+#include "edit/smooth.h"
+#include "space/source_map.h"
 #include "cmd.h"
 
 static mr_smooth_opts opts = MR_SMOOTH_DEFAULTS;

@@ -1,6 +1,6 @@
 /* mr-solve -- move the free vertices of a base to where its constraints have them.  See man/mr-solve.1. */
-#include "alg/deform_cache.h"
-#include "alg/handles.h"
+#include "edit/deform_cache.h"
+#include "edit/handles.h"
 #include "base/memory.h"
 #include "cmd.h"
 

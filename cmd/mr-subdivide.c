@@ -1,6 +1,6 @@
 /* mr-subdivide -- refine a mesh by Loop subdivision.  See man/mr-subdivide.1. */
-#include "alg/domain.h"
-#include "alg/subdivide.h"
+#include "subdivide/displaced.h"
+#include "subdivide/columns.h"
 #include "cmd.h"
 
 static size_t levels = 1;

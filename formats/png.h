@@ -2,7 +2,7 @@
 #ifndef MR_PNG_H
 #define MR_PNG_H
 
-#include "alg/canvas.h"
+#include "render/canvas.h"
 
 /*
  * Writes the image beside `path` and renames it, so that a half picture is never seen; a device, a pipe or

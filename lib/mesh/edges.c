@@ -1,7 +1,7 @@
 #include "mesh/edges.h"
 
 #include "base/parallel.h"
-#include "mesh/spoke.h"
+#include "mesh/half_edge_sort.h"
 
 typedef struct table {
 	uint32_t *start; /* nv + 1: the spokes of each vertex, the lower of an edge */

@@ -2,7 +2,7 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "mesh/spoke.h"
+#include "mesh/half_edge_sort.h"
 
 /* The spokes of each vertex v, by `to`, then `he`: spoke[start[v]] to spoke[start[v + 1]]. */
 typedef struct spokes {

@@ -6,7 +6,7 @@
  */
 #include "mesh/repair.h"
 
-#include "base/sets.h"
+#include "base/disjoint_sets.h"
 
 typedef struct surface {
 	mr_ctx *ctx;

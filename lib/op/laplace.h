@@ -9,7 +9,7 @@
 #define MR_LAPLACE_H
 
 #include "mesh/mesh.h"
-#include "op/sparse.h"
+#include "solve/sparse.h"
 
 /*
  * The cotangents at the corners of a triangle.  Where its height over the longest edge is below a

@@ -3,7 +3,7 @@
  * systems of which the coefficient matrix is a symmetric M-matrix.  Bilaplacians are none: Manteuffel's
  * shift.
  */
-#include "solve/precondition.h"
+#include "solve/preconditioner.h"
 
 #include <math.h>
 

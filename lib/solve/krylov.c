@@ -2,8 +2,8 @@
  * Conjugate gradients: Hestenes, Stiefel 1952.  BiCGSTAB: van der Vorst 1992.  Each runs all right-hand sides
  * at once, with scalars of their own: the matrix is read once for all.
  */
-#include "op/sparse.h"
-#include "solve/precondition.h"
+#include "solve/sparse.h"
+#include "solve/preconditioner.h"
 #include "solve/solver_type.h"
 
 #include <math.h>

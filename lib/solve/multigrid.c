@@ -4,8 +4,8 @@
  * which is symmetric and runs on any number of threads; the coarsest level is solved by Cholesky.
  */
 #include "base/parallel.h"
-#include "op/sparse.h"
-#include "solve/precondition.h"
+#include "solve/sparse.h"
+#include "solve/preconditioner.h"
 
 #include <math.h>
 

@@ -1,4 +1,4 @@
-#include "solve/serial.h"
+#include "solve/blas_threads.h"
 #include "solve/solver_type.h"
 
 /* The order of mr_solver_kind. */

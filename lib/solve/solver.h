@@ -9,7 +9,7 @@
 #ifndef MR_SOLVER_H
 #define MR_SOLVER_H
 
-#include "op/sparse.h"
+#include "solve/sparse.h"
 
 typedef enum mr_solver_kind {
 	MR_CHOLESKY,  /* A symmetric positive definite, only its lower triangle given */

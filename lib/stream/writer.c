@@ -1,6 +1,6 @@
 #include "stream/stored.h"
 
-#include "stream/print.h"
+#include "stream/fingerprint.h"
 
 #include <errno.h>
 #include <sys/uio.h>

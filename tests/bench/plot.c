@@ -2,7 +2,7 @@
  * plot -- series of points over two logarithmic axes; usage: plot OUT.png TITLE X-AXIS Y-AXIS <POINTS
  * A line of standard input is NAME X Y; the points of a name are joined in the order of the lines.
  */
-#include "alg/canvas.h"
+#include "render/canvas.h"
 #include "formats/png.h"
 
 #include <math.h>

@@ -7,7 +7,7 @@
  *
  * tests/unit/test_stream_fuzz.c runs it without libFuzzer.
  */
-#include "stream/print.h"
+#include "stream/fingerprint.h"
 #include "stream/stored.h"
 
 #include <unistd.h>

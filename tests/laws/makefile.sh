@@ -9,11 +9,11 @@ if make -n all | grep -q ' -c -o '; then
 	echo "the sources have changed since they were built"
 	exit 77
 fi
-would=$(make -n -W lib/mesh/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
+would=$(make -n -W lib/space/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
 for source in $(echo "$would"); do
-	grep -qs 'lib/mesh/bvh.h' "$BUILD/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
+	grep -qs 'lib/space/bvh.h' "$BUILD/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
 done
-for source in $(grep -lE 'include "mesh/bvh.h"' lib/*/*.c cmd/*.c); do
+for source in $(grep -lE 'include "space/bvh.h"' lib/*/*.c cmd/*.c); do
 	case " $(echo $would) " in
 	*" $source "*) ;;
 	*) echo "not rebuilt: $source"; fail=1 ;;

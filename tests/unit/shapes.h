@@ -2,7 +2,7 @@
 #ifndef TEST_SHAPES_H
 #define TEST_SHAPES_H
 
-#include "alg/shape.h"
+#include "shape/shape.h"
 #include "unit.h"
 
 /* A surface of about n vertices. */

@@ -1,6 +1,6 @@
 /* The hierarchy of triangles against loops over all faces, bit for bit. */
 #include "base/random.h"
-#include "mesh/bvh.h"
+#include "space/bvh.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,9 +1,9 @@
 /* Crossings by the tree of subdivision against all pairs of triangles, and what moved against all of it. */
-#include "alg/crossing.h"
-#include "alg/domain.h"
-#include "alg/shape.h"
+#include "subdivide/loop_self_intersect.h"
+#include "subdivide/displaced.h"
+#include "shape/shape.h"
 #include "base/random.h"
-#include "mesh/intersect.h"
+#include "space/self_intersect.h"
 #include "unit.h"
 
 enum { LEVEL = 2 };

@@ -1,8 +1,8 @@
 /* Boundary-constraint modelling against a dense solve of the paper's own definition, and its invariants. */
-#include "alg/deform.h"
+#include "edit/deform.h"
 #include "base/random.h"
 #include "mesh/layers.h"
-#include "op/area.h"
+#include "op/voronoi_area.h"
 #include "unit.h"
 
 enum { FREE = MR_REGION_FREE, FIXED = MR_REGION_FIXED, HANDLE = MR_REGION_HANDLE };

@@ -1,8 +1,8 @@
 /* Detail over a base: nothing is lost, heights are true, the detail follows the base. */
-#include "alg/detail.h"
-#include "alg/shape.h"
+#include "edit/detail.h"
+#include "shape/shape.h"
 #include "base/random.h"
-#include "mesh/bvh.h"
+#include "space/bvh.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

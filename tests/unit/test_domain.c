@@ -1,5 +1,5 @@
 /* Domains of displaced subdivision surfaces: prefixes, levels, displacing, and what a frame may hold. */
-#include "alg/domain.h"
+#include "subdivide/displaced.h"
 #include "shapes.h"
 
 static mr_domain

@@ -1,6 +1,6 @@
 /* Fitting: what a limit surface can take on is found again, whatever the start; what no point holds stays. */
-#include "alg/fit.h"
-#include "alg/fit_surface.h"
+#include "fit/fit.h"
+#include "fit/limit_surface.h"
 #include "base/random.h"
 #include "shapes.h"
 

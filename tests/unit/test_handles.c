@@ -1,5 +1,5 @@
 /* Affine poses: their algebra, shares of the way, scripts. */
-#include "alg/handles.h"
+#include "edit/handles.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* Exact signs against integer arithmetic, and triangles against another way to find what they share. */
 #include "base/random.h"
-#include "mesh/intersect.h"
-#include "mesh/predicates.h"
+#include "space/self_intersect.h"
+#include "space/predicates.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

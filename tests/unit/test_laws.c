@@ -1,7 +1,7 @@
 /* Each law of the layers, broken once; and texts of reports. */
-#include "alg/domain.h"
-#include "alg/report.h"
-#include "mesh/laws.h"
+#include "subdivide/displaced.h"
+#include "measure/report.h"
+#include "mesh/validate.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

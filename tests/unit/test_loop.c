@@ -1,6 +1,6 @@
 /* Loop subdivision against its rules, its limit against many steps, and its laws. */
 #include "base/random.h"
-#include "op/loop.h"
+#include "subdivide/loop.h"
 #include "shapes.h"
 
 static void

@@ -1,5 +1,5 @@
 /* Figures of surfaces whose true ones are known. */
-#include "alg/measure.h"
+#include "measure/surface_summary.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,6 +1,6 @@
 /* Nearest points against loops over all points, and the traps of the index below. */
 #include "base/random.h"
-#include "mesh/near.h"
+#include "space/near.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

@@ -1,7 +1,7 @@
 /* Areas, the cotangent Laplacian and its powers against their definitions. */
 #include "base/random.h"
-#include "op/area.h"
-#include "op/dissect.h"
+#include "op/voronoi_area.h"
+#include "solve/dissect.h"
 #include "op/laplace.h"
 #include "unit.h"
 

@@ -1,6 +1,6 @@
 /* Outliers among points of a sphere: those that are found, and the points that are taken for none. */
 #include "base/random.h"
-#include "mesh/outlier.h"
+#include "space/outlier.h"
 #include "unit.h"
 
 enum { ON = 4000, OFF = 400 };

@@ -1,6 +1,6 @@
 /* Pictures: what covers which pixels, what hides what, and that nothing depends on threads. */
-#include "alg/raster_parts.h"
-#include "alg/shape.h"
+#include "render/raster_parts.h"
+#include "shape/shape.h"
 
 #include <setjmp.h>
 

@@ -1,8 +1,8 @@
 /* Laws of remeshing: topology, regularity, the source map, and the operations it is made of. */
-#include "alg/dynmesh.h"
-#include "alg/remesh.h"
+#include "mesh/dynmesh.h"
+#include "remesh/remesh.h"
 #include "base/random.h"
-#include "op/area.h"
+#include "op/voronoi_area.h"
 #include "shapes.h"
 
 typedef struct census {

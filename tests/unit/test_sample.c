@@ -1,7 +1,7 @@
 /* The valid triangle against closed forms, heights of surfaces that are known, and what cannot be sampled. */
-#include "alg/heights.h"
-#include "alg/sample_parts.h"
-#include "alg/shape.h"
+#include "sample/height_energy.h"
+#include "sample/parts.h"
+#include "shape/shape.h"
 #include "base/random.h"
 #include "unit.h"
 

@@ -1,8 +1,8 @@
 /* Predicates and rules on surfaces where the answer is known; distances over surfaces. */
-#include "alg/geodesic.h"
-#include "alg/lines.h"
-#include "alg/select.h"
-#include "alg/shape.h"
+#include "space/geodesic.h"
+#include "base/text_file.h"
+#include "edit/select.h"
+#include "shape/shape.h"
 #include "mesh/layers.h"
 
 #include <setjmp.h>

@@ -1,5 +1,5 @@
 /* The generated shapes: closed, oriented outward, of the genus, size and measures that shape.h states. */
-#include "alg/shape.h"
+#include "shape/shape.h"
 #include "unit.h"
 
 static mr_mesh

@@ -1,9 +1,9 @@
 /* Laws of simplification: the queue, the quadrics, what became of each vertex. */
-#include "alg/buckets.h"
-#include "alg/shape.h"
-#include "alg/simplify.h"
+#include "simplify/bucket_queue.h"
+#include "shape/shape.h"
+#include "simplify/simplify.h"
 #include "base/random.h"
-#include "mesh/bvh.h"
+#include "space/bvh.h"
 #include "op/quadric.h"
 #include "unit.h"
 

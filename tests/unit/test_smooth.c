@@ -1,7 +1,7 @@
 /* Smoothing against its own equations, and what must stay. */
-#include "alg/smooth.h"
+#include "edit/smooth.h"
 #include "base/random.h"
-#include "op/area.h"
+#include "op/voronoi_area.h"
 #include "op/laplace.h"
 #include "unit.h"
 

@@ -2,7 +2,7 @@
  * values. */
 #include "tests/unit/stream.h"
 
-#include "stream/print.h"
+#include "stream/fingerprint.h"
 
 enum { ROWS = 20 };
 

@@ -1,14 +1,14 @@
 /* Volumes of clouds whose surface is known, isosurfaces of any values, and clouds that enclose nothing. */
 #include "unit.h"
 
-#include "alg/isosurface.h"
-#include "alg/shape.h"
-#include "alg/volume.h"
-#include "alg/volume_parts.h"
+#include "volume/isosurface.h"
+#include "shape/shape.h"
+#include "volume/volume.h"
+#include "volume/parts.h"
 #include "base/random.h"
-#include "mesh/bvh.h"
-#include "mesh/cloud.h"
-#include "mesh/measure.h"
+#include "space/bvh.h"
+#include "space/local_planes.h"
+#include "measure/measure.h"
 
 static mr_census
 census_of(const mr_mesh *m)

@@ -1,7 +1,7 @@
 /* Heights as wavelet coefficients: exact inverses, prefixes, gains; columns that go along with subdivision.
  */
-#include "alg/subdivide.h"
-#include "alg/wavelet.h"
+#include "subdivide/columns.h"
+#include "subdivide/wavelet.h"
 #include "base/random.h"
 #include "shapes.h"
 

@@ -1,5 +1,5 @@
 /* The parts of the shrink-wrapping: the box, the guard of moves, coverage, and want of memory. */
-#include "alg/wrap_parts.h"
+#include "wrap/parts.h"
 #include "unit.h"
 
 enum { POINTS = 120 };

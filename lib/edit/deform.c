@@ -1,0 +1,234 @@
+/*
+ * Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4; the symmetric form
+ * with true areas is ours.
+ */
+#include "edit/deform_parts.h"
+#include "base/disjoint_sets.h"
+
+/* Regions */
+
+static void
+count_regions(mr_deform *d)
+{
+	d->lowest = UINT32_MAX;
+	for (size_t v = 0; v < d->nv; v++) {
+		uint32_t r = d->region[v];
+		d->free += r == MR_REGION_FREE;
+		d->fixed += r == MR_REGION_FIXED;
+		d->handled += r >= MR_REGION_HANDLE;
+		if (r >= MR_REGION_HANDLE && r - MR_REGION_HANDLE >= d->handles)
+			d->handles = r - MR_REGION_HANDLE + 1;
+		if (r != MR_REGION_FREE && r < d->lowest)
+			d->lowest = r;
+	}
+}
+
+/* Joins the free vertices of each face. */
+static void
+join_free(const mr_mesh *m, const uint32_t *region, uint32_t *parent)
+{
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
+			if (region[a] == MR_REGION_FREE && region[b] == MR_REGION_FREE)
+				mr_sets_join(parent, a, b);
+		}
+}
+
+/* The free vertices whose component has a constrained neighbour: the others would make K singular. */
+static mr_status
+find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *parent = mr_sets_new(ctx, d->nv);
+	bool *root_anchored = MR_NEW_ZERO(ctx, d->nv, bool);
+
+	if (!parent || !root_anchored)
+		return MR_EMEM;
+	join_free(m, d->region, parent);
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
+			if (d->region[a] != MR_REGION_FREE || d->region[b] != MR_REGION_FREE)
+				root_anchored[mr_sets_root(parent, a)] =
+				    root_anchored[mr_sets_root(parent, b)] = true;
+		}
+	for (uint32_t v = 0; v < d->nv; v++) {
+		anchored[v] = d->region[v] == MR_REGION_FREE && root_anchored[mr_sets_root(parent, v)];
+		if (d->region[v] == MR_REGION_FREE && !anchored[v]) {
+			d->loose_vertices++;
+			d->loose += parent[v] == v;
+		}
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Counts the constrained vertices beside free ones with no constrained vertex k rings deep within k rings. */
+static mr_status
+count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint8_t k = (uint8_t)d->opts.order, *depth = MR_NEW(ctx, d->nv, uint8_t);
+	uint8_t *back = MR_NEW(ctx, d->nv, uint8_t);
+	bool *deep = MR_NEW(ctx, d->nv, bool);
+
+	if (!depth || !back || !deep)
+		return MR_EMEM;
+	mr_patch_levels(m, anchored, k, depth);
+	for (size_t v = 0; v < d->nv; v++)
+		deep[v] = depth[v] >= k && d->region[v] != MR_REGION_FREE;
+	mr_patch_levels(m, deep, k, back);
+	for (size_t v = 0; v < d->nv; v++)
+		d->narrow += depth[v] == 1 && d->region[v] != MR_REGION_FREE && back[v] > k;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
+{
+	for (size_t v = 0; v < d->nv; v++)
+		if (!mr_finite(rest->p[v]))
+			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
+	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
+		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
+	if (d->free == 0)
+		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
+		    rest->name, d->nv);
+	if (d->free == d->nv)
+		return mr_fail(ctx, MR_EMESH,
+		    "%s: all %zu vertices are free: nothing holds the surface; select some as fixed or "
+		    "handle",
+		    rest->name, d->nv);
+	return MR_OK;
+}
+
+static mr_status
+make_workspace(mr_ctx *ctx, mr_deform *d)
+{
+	size_t n = d->patch.mesh.nv * WIDTH;
+	field f = { .u = MR_NEW(ctx, n, double),
+		.stage = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) },
+		.r = MR_NEW(ctx, d->patch.end[0] * WIDTH, double) };
+
+	if (!f.u || !f.stage[0] || !f.stage[1] || !f.r)
+		return MR_EMEM;
+	d->work = f;
+	return MR_OK;
+}
+
+static mr_status
+set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
+{
+	double started = mr_seconds();
+	bool *anchored = MR_NEW(ctx, d->nv, bool);
+
+	if (!anchored)
+		return MR_EMEM;
+	count_regions(d);
+	MR_TRY(check_problem(ctx, d, rest));
+	MR_TRY(find_anchored(ctx, d, rest, anchored));
+	MR_TRY(count_narrow(ctx, d, rest, anchored));
+	MR_TRY(mr_patch_build(ctx, rest, anchored, d->opts.order, &d->patch));
+	MR_TRY(make_workspace(ctx, d));
+	return mr_deform_assemble(ctx, d, rest, started);
+}
+
+/* Incomplete factors stall on systems of high order. */
+static void
+choose_preconditioner(mr_deform_opts *o)
+{
+	if (o->solver.precondition == MR_BY_ORDER && o->order > (o->solver.kind == MR_BICGSTAB ? 1 : 2))
+		o->solver.precondition = MR_VCYCLES;
+}
+
+mr_status
+mr_deform_new(
+    mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region, const mr_deform_opts *opts, mr_deform **deform)
+{
+	mr_deform *d = MR_NEW_ZERO(ctx, 1, mr_deform);
+
+	if (!d)
+		return MR_EMEM;
+	d->opts = *opts;
+	choose_preconditioner(&d->opts);
+	d->nv = rest->nv;
+	d->region = MR_NEW(ctx, d->nv, uint32_t);
+	if (!d->region)
+		return MR_EMEM;
+	memcpy(d->region, region, d->nv * sizeof *region);
+	MR_TRY(set_up(ctx, d, rest));
+	*deform = d;
+	return MR_OK;
+}
+
+void
+mr_deform_free(mr_deform *d)
+{
+	if (d)
+		mr_solver_free(d->solver);
+}
+
+const uint32_t *
+mr_deform_region(const mr_deform *d)
+{
+	return d->region;
+}
+
+size_t
+mr_deform_handles(const mr_deform *d)
+{
+	return d->handles;
+}
+
+/* Figures */
+
+static void
+report_solver(mr_ctx *ctx, const mr_deform *d)
+{
+	static const double worst = 1e-13;
+	mr_solver_report r = mr_solver_reported(d->solver);
+
+	mr_stat_set(ctx, "nnz_factor", r.nnz_factor);
+	mr_stat_set(ctx, "seconds_analyse", r.seconds_analyse);
+	mr_stat_set(ctx, "seconds_factor", r.seconds_factor);
+	mr_stat_set(ctx, "bytes_factor", r.bytes_factor);
+	if (mr_solver_iterates(d->opts.solver.kind)) {
+		mr_stat_set(ctx, "iterations", (double)r.iterations);
+		mr_note(ctx, "%zu iterations", r.iterations);
+		return;
+	}
+	mr_stat_set(ctx, "rcond", r.rcond);
+	if (r.rcond < worst)
+		mr_note(
+		    ctx, "the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order, r.rcond);
+}
+
+void
+mr_deform_report(mr_ctx *ctx, const mr_deform *d)
+{
+	mr_stat_set(ctx, "free", (double)d->patch.end[0]);
+	mr_stat_set(ctx, "fixed", (double)d->fixed);
+	mr_stat_set(ctx, "handle_vertices", (double)d->handled);
+	mr_stat_set(ctx, "handles", (double)d->handles);
+	mr_stat_set(ctx, "isolated_components", (double)d->loose);
+	mr_stat_set(ctx, "isolated_vertices", (double)d->loose_vertices);
+	mr_stat_set(ctx, "narrow_strip_vertices", (double)d->narrow);
+	mr_stat_set(ctx, "nnz_matrix", (double)d->nnz);
+	mr_stat_set(ctx, "negative_weights", d->negative);
+	mr_stat_set(ctx, "seconds_assemble", d->seconds_assemble);
+	mr_stat_set(ctx, "seconds_solve", d->seconds_solve);
+	mr_stat_set(ctx, "residual", d->residual);
+	mr_stat_set(ctx, "refinements", (double)d->refinements);
+	if (d->solver)
+		report_solver(ctx, d);
+	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", d->patch.end[0], d->fixed,
+	    d->handled, d->residual);
+	if (d->loose)
+		mr_note(ctx, "%zu free components (%zu vertices) have no constrained vertex and stay",
+		    d->loose, d->loose_vertices);
+	if (d->narrow)
+		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
+		    d->narrow, d->opts.order);
+}

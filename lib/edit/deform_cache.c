@@ -1,0 +1,76 @@
+#include "edit/deform_cache.h"
+
+#include "edit/region_transfer.h"
+
+/*
+ * What the system depends on, as the reader numbers it: within a key frame and its deltas the same number is
+ * the same column.
+ */
+static void
+identify(const mr_frame *f, const char *layer, const char *rest, uint64_t part[MR_DEFORM_PARTS])
+{
+	const char *const columns[MR_DEFORM_PARTS][2] = { { layer, rest }, { layer, "triangles" },
+		{ layer, "region" }, { "mesh", "region" }, { "mesh", "triangles" }, { "mesh", "position" },
+		{ "base", "source_face" }, { "base", "source_bary" } };
+
+	for (int i = 0; i < MR_DEFORM_PARTS; i++) {
+		const mr_column *column = mr_frame_find(f, columns[i][0], columns[i][1]);
+		part[i] = column ? column->serial : 0;
+	}
+}
+
+void
+mr_deform_cache_free(mr_deform_cache *cache, mr_ctx *keep)
+{
+	if (!cache->deform)
+		return;
+	mr_deform_free(cache->deform);
+	mr_mark_release(keep, cache->mark);
+	cache->deform = NULL;
+}
+
+mr_status
+mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame *f, const mr_mesh *rest,
+    const char *column, const mr_deform_opts *opts, mr_deform **deform)
+{
+	uint64_t part[MR_DEFORM_PARTS];
+	const uint32_t *region;
+	mr_status status;
+
+	identify(f, rest->name, column, part);
+	if (f->key || !cache->deform || memcmp(part, cache->part, sizeof part)) {
+		mr_deform_cache_free(cache, keep);
+		MR_TRY(mr_transfer_get(ctx, f, rest, &region));
+		cache->mark = mr_mark_take(keep);
+		status = mr_deform_new(keep, rest, region, opts, &cache->deform);
+		if (status < 0) {
+			mr_mark_release(keep, cache->mark);
+			return mr_fail(ctx, status, "%s", keep->error);
+		}
+		memcpy(cache->part, part, sizeof part);
+	}
+	*deform = cache->deform;
+	if (!mr_transfer_applies(f, rest->name))
+		return MR_OK;
+	return mr_layer_put(ctx, f, rest->name, "region", mr_deform_region(cache->deform), rest->nv);
+}
+
+mr_status
+mr_deform_put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, const mr_v3 *p0)
+{
+	enum { MOST = 63 }; /* a row has at most 255 components */
+	size_t handles = mr_deform_handles(d);
+	double *response;
+
+	if (handles == 0)
+		return mr_fail(
+		    ctx, MR_EMESH, "%s: no handle to respond to: select one by mr-select --handle", m->name);
+	if (handles > MOST)
+		return mr_fail(ctx, MR_ERANGE, "%s: %zu handles are more than a response holds, %d", m->name,
+		    handles, MOST);
+	response = MR_NEW(ctx, 4 * handles * m->nv, double);
+	if (!response)
+		return MR_EMEM;
+	MR_TRY(mr_deform_basis(ctx, d, p0, response));
+	return mr_layer_put_wide(ctx, f, m->name, "response", (uint8_t)(4 * handles), response, m->nv);
+}

@@ -1,0 +1,87 @@
+/* What a solution is worth.  The condition number: von Mises, Pollaczek-Geiringer 1929, by the power method
+ * on K and on its inverse. */
+#include "edit/deform_parts.h"
+
+#include <math.h>
+
+/* x / |x|; the norm of x. */
+static double
+normalize(double *x, size_t n)
+{
+	double sum = 0;
+
+	for (size_t i = 0; i < n; i++)
+		sum += x[i] * x[i];
+	for (size_t i = 0; i < n && sum > 0; i++)
+		x[i] /= sqrt(sum);
+	return sqrt(sum);
+}
+
+/* A start that has something of every eigenvector: signs without a pattern. */
+static void
+scatter(double *x, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		x[i] = (i * 2654435761u >> 16 & 1 ? 1 : -1) * (1 + (double)(i % 7) / 7);
+}
+
+static mr_status
+estimate_condition(mr_ctx *ctx, mr_deform *d, double *condition)
+{
+	enum { STEPS = 60 };
+	size_t n = d->patch.end[0];
+	field f = mr_deform_field(d, 1);
+	double greatest = 0, inverse = 0;
+
+	scatter(f.u, n);
+	for (int step = 0; step < STEPS; step++) {
+		normalize(f.u, n);
+		mr_deform_residual(ctx, d, &f);
+		memcpy(f.u, f.r, n * sizeof *f.u);
+		greatest = normalize(f.u, n);
+	}
+	scatter(f.r, n);
+	for (int step = 0; step < STEPS; step++) {
+		normalize(f.r, n);
+		MR_TRY(mr_solver_solve(ctx, d->solver, f.r, 1));
+		inverse = normalize(f.r, n);
+	}
+	*condition = greatest * inverse;
+	return MR_OK;
+}
+
+static mr_status
+verify(mr_ctx *ctx, mr_deform *direct, const mr_deform_task *task, const mr_v3 *p)
+{
+	double diagonal = mr_box_diagonal(mr_box_of(p, direct->nv)), error = 0, condition = 1;
+	mr_v3 *q = MR_NEW(ctx, direct->nv, mr_v3);
+
+	if (!q)
+		return MR_EMEM;
+	MR_TRY(mr_deform_solve(ctx, direct, task, q));
+	for (size_t v = 0; v < direct->nv; v++)
+		error = fmax(error, mr_dist(p[v], q[v]));
+	if (direct->solver)
+		MR_TRY(estimate_condition(ctx, direct, &condition));
+	mr_stat_set(ctx, "error", diagonal > 0 ? error / diagonal : 0);
+	mr_stat_set(ctx, "condition", condition);
+	return MR_OK;
+}
+
+mr_status
+mr_deform_verify(
+    mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task, const mr_v3 *p)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_deform_opts opts = d->opts;
+	mr_deform *direct = NULL;
+	mr_status status;
+
+	opts.unsymmetric = false;
+	opts.solver.kind = MR_CHOLESKY;
+	MR_TRY(mr_deform_new(ctx, rest, d->region, &opts, &direct));
+	status = verify(ctx, direct, task, p);
+	mr_deform_free(direct);
+	mr_mark_release(ctx, mark);
+	return status;
+}

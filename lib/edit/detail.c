@@ -1,0 +1,360 @@
+#include "edit/detail.h"
+
+#include "edit/phong_projection.h"
+#include "base/parallel.h"
+#include "space/bvh.h"
+
+enum { GRAIN = 1024 };
+
+/* b + gain (h n + t1 o.x + t2 o.y + n o.z) */
+static mr_v3
+displaced(const mr_phong *s, const mr_detail *d, size_t i, double gain)
+{
+	mr_v3 b = mr_phong_point(s, d->face[i], d->bary[i]);
+	mr_v3 n = mr_phong_normal(s, d->face[i], d->bary[i]);
+	mr_v3 p = mr_axpy(gain * d->height[i], n, b);
+
+	if (d->offset && mr_norm2(d->offset[i]) > 0) {
+		mr_tangent_frame f = mr_phong_frame(s, d->face[i], d->bary[i]);
+		mr_v3 o = mr_mul(gain, d->offset[i]);
+		p = mr_axpy(o.x, f.t1, mr_axpy(o.y, f.t2, mr_axpy(o.z, f.n, p)));
+	}
+	return p;
+}
+
+/* Encoding (Kobbelt, Vorsatz, Seidel 1999: Multiresolution hierarchies on unstructured triangle meshes) */
+
+typedef struct tally {
+	size_t steps, crossed, searched, offsets;
+	double residual, height; /* the largest */
+} tally;
+
+typedef struct encoder {
+	mr_ground ground;
+	const mr_mesh *mesh;
+	const uint32_t *start; /* a base vertex near in parameter to each vertex of the mesh, or MR_NONE */
+	const mr_bvh *bvh;     /* of the base, where a start is MR_NONE */
+	uint32_t *face;
+	mr_v3 *bary, *offset;
+	double *height;
+	tally *tally; /* one per piece */
+} encoder;
+
+/* Where Newton's method begins for a vertex, and how high a foot may be. */
+typedef struct start {
+	uint32_t face;
+	mr_v3 bary;
+	double limit;
+} start;
+
+static start
+start_at_vertex(const encoder *e, mr_v3 p, uint32_t vertex)
+{
+	const mr_mesh *base = e->ground.surface.m;
+	uint32_t face = e->ground.inc->face[e->ground.inc->start[vertex]];
+	const uint32_t *c = base->t[face].v;
+	mr_v3 corner = mr_vec(
+	    c[0] == vertex, c[0] != vertex && c[1] == vertex, c[0] != vertex && c[1] != vertex);
+
+	return (start){ face, corner, 1.1 * mr_dist(p, base->p[vertex]) + e->ground.tolerance };
+}
+
+static start
+start_at_nearest(const encoder *e, mr_v3 p)
+{
+	mr_closest c = mr_bvh_closest(e->bvh, p);
+
+	return (start){ c.face, c.bary, 2 * sqrt(c.dist2) + e->ground.tolerance };
+}
+
+static void
+encode_vertex(const encoder *e, size_t i, tally *t)
+{
+	mr_v3 p = e->mesh->p[i], zero = { 0, 0, 0 };
+	start s = e->start[i] == MR_NONE ? start_at_nearest(e, p) : start_at_vertex(e, p, e->start[i]);
+	mr_walk walk = { 0, 0 };
+	mr_foot foot;
+	bool found = mr_foot_walk(&e->ground, p, s.face, s.bary, s.limit, &foot, &walk);
+
+	if (!found) {
+		found = mr_foot_search(&e->ground, p, s.face, &foot);
+		t->searched++;
+	}
+	e->face[i] = foot.face;
+	e->bary[i] = foot.bary;
+	e->height[i] = foot.height;
+	e->offset[i] = zero;
+	if (!found) {
+		mr_tangent_frame f = mr_phong_frame(&e->ground.surface, foot.face, foot.bary);
+		mr_v3 o = mr_sub(p, mr_phong_point(&e->ground.surface, foot.face, foot.bary));
+		e->offset[i] = mr_vec(mr_dot(o, f.t1), mr_dot(o, f.t2), mr_dot(o, f.n));
+		t->offsets++;
+	}
+	t->steps += walk.steps;
+	t->crossed += walk.crossed;
+}
+
+static void
+encode_piece(void *arg, size_t begin, size_t end)
+{
+	const encoder *e = arg;
+	mr_detail d = { e->mesh->nv, e->face, e->bary, e->height, e->offset };
+	tally t = { 0 };
+
+	for (size_t i = begin; i < end; i++) {
+		encode_vertex(e, i, &t);
+		t.residual = fmax(
+		    t.residual, mr_dist(displaced(&e->ground.surface, &d, i, 1), e->mesh->p[i]));
+		t.height = fmax(t.height, fabs(e->height[i]));
+	}
+	e->tally[begin / GRAIN] = t;
+}
+
+/* Gives each unlabelled vertex that hangs together with labelled ones the label that reaches it first. */
+static mr_status
+spread_labels(mr_ctx *ctx, const mr_mesh *m, size_t labelled, uint32_t *label)
+{
+	uint32_t *queue = MR_NEW(ctx, m->nv, uint32_t);
+	mr_incidence inc;
+	size_t n = 0;
+
+	if (!queue)
+		return MR_EMEM;
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	for (uint32_t v = 0; v < m->nv && labelled; v++)
+		if (label[v] != MR_NONE)
+			queue[n++] = v;
+	for (size_t next = 0; next < n; next++)
+		for (size_t i = inc.start[queue[next]]; i < inc.start[queue[next] + 1]; i++)
+			for (int k = 0; k < 3; k++) {
+				uint32_t w = m->t[inc.face[i]].v[k];
+				if (label[w] != MR_NONE)
+					continue;
+				label[w] = label[queue[next]];
+				queue[n++] = w;
+			}
+	return MR_OK;
+}
+
+/*
+ * Turns the source map round: each vertex of the mesh gets the nearest of the base vertices that lie
+ * on its faces, or, where none does, that of the neighbours nearest in connectivity.
+ */
+static mr_status
+find_starts(mr_ctx *ctx, const encoder *e, const mr_source_map *source, uint32_t *near)
+{
+	const mr_mesh *mesh = e->mesh, *base = e->ground.surface.m;
+	mr_mark mark = mr_mark_take(ctx);
+	double *dist2 = MR_NEW(ctx, mesh->nv, double);
+	size_t labelled = 0;
+
+	if (!dist2)
+		return MR_EMEM;
+	for (size_t i = 0; i < mesh->nv; i++) {
+		near[i] = MR_NONE;
+		dist2[i] = INFINITY;
+	}
+	for (uint32_t j = 0; j < base->nv && source; j++) {
+		const uint32_t *c = mesh->t[source->face[j]].v;
+		mr_v3 q = mr_bary_point(source->bary[j], mesh->p[c[0]], mesh->p[c[1]], mesh->p[c[2]]);
+		if (e->ground.inc->start[j] == e->ground.inc->start[j + 1])
+			continue;
+		for (int k = 0; k < 3; k++) {
+			double d = mr_norm2(mr_sub(mesh->p[c[k]], q));
+			if (d < dist2[c[k]]) {
+				labelled += near[c[k]] == MR_NONE;
+				near[c[k]] = j;
+				dist2[c[k]] = d;
+			}
+		}
+	}
+	if (labelled > 0 && labelled < mesh->nv)
+		MR_TRY(spread_labels(ctx, mesh, labelled, near));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Builds the search tree where a vertex has no start. */
+static mr_status
+prepare_nearest(mr_ctx *ctx, encoder *e, bool mapped)
+{
+	size_t without = 0;
+	mr_bvh *bvh;
+
+	for (size_t i = 0; i < e->mesh->nv; i++)
+		without += e->start[i] == MR_NONE;
+	if (without == 0)
+		return MR_OK;
+	if (mapped)
+		mr_note(ctx,
+		    "%zu vertices begin at the nearest point of %s: the source map reaches none of their "
+		    "component",
+		    without, e->ground.surface.m->name);
+	else
+		mr_note(ctx, "%s has no source map: every vertex begins at its nearest point",
+		    e->ground.surface.m->name);
+	MR_TRY(mr_bvh_build(ctx, e->ground.surface.m, &bvh));
+	e->bvh = bvh;
+	return MR_OK;
+}
+
+static void
+report(mr_ctx *ctx, const encoder *e, double diagonal)
+{
+	size_t n = e->mesh->nv;
+	tally sum = { 0 };
+
+	for (size_t i = 0; i < (n + GRAIN - 1) / GRAIN; i++) {
+		const tally *t = &e->tally[i];
+		sum.steps += t->steps;
+		sum.crossed += t->crossed;
+		sum.searched += t->searched;
+		sum.offsets += t->offsets;
+		sum.residual = fmax(sum.residual, t->residual);
+		sum.height = fmax(sum.height, t->height);
+	}
+	mr_stat_set(ctx, "heights", (double)(n - sum.offsets));
+	mr_stat_set(ctx, "offsets", (double)sum.offsets);
+	mr_stat_set(ctx, "searched", (double)sum.searched);
+	mr_stat_set(ctx, "steps_mean", n ? (double)sum.steps / (double)n : 0);
+	mr_stat_set(ctx, "crossed_mean", n ? (double)sum.crossed / (double)n : 0);
+	mr_stat_set(ctx, "residual_max", diagonal > 0 ? sum.residual / diagonal : 0);
+	mr_stat_set(ctx, "height_max", diagonal > 0 ? sum.height / diagonal : 0);
+	mr_note(ctx, "%zu of %zu vertices have a height (%.4g %%), %zu an offset", n - sum.offsets, n,
+	    n ? 100 * (double)(n - sum.offsets) / (double)n : 100, sum.offsets);
+}
+
+static bool
+any_offset(const encoder *e)
+{
+	for (size_t i = 0; i < e->mesh->nv; i += GRAIN)
+		if (e->tally[i / GRAIN].offsets)
+			return true;
+	return false;
+}
+
+/* 1e-14 of the diagonal, but no less than what rounding leaves of coordinates far from the origin. */
+static double
+tolerance_for(const mr_mesh *mesh, double diagonal)
+{
+	mr_box b = mr_box_of(mesh->p, mesh->nv);
+	double far = fmax(fmax(fmax(-b.min.x, b.max.x), fmax(-b.min.y, b.max.y)), fmax(-b.min.z, b.max.z));
+
+	return fmax(1e-14 * diagonal, 8 * 0x1p-52 * fmax(far, 0));
+}
+
+mr_status
+mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d)
+{
+	size_t n = mesh->nv;
+	double diagonal = mr_mesh_diagonal(mesh);
+	encoder e = { .mesh = mesh,
+		.face = MR_NEW(ctx, n, uint32_t),
+		.bary = MR_NEW(ctx, n, mr_v3),
+		.offset = MR_NEW(ctx, n, mr_v3),
+		.height = MR_NEW(ctx, n, double) };
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
+	uint32_t *near = MR_NEW(ctx, n, uint32_t);
+	mr_incidence inc;
+	mr_detail found;
+
+	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
+	if (!e.face || !e.bary || !e.offset || !e.height || !normal || !near || !e.tally)
+		return MR_EMEM;
+	MR_TRY(mr_incidence_build(ctx, base, &inc));
+	MR_TRY(mr_phong_normals(ctx, base, &inc, normal));
+	e.ground = (mr_ground){ { base, normal }, &inc, tolerance_for(mesh, diagonal) };
+	MR_TRY(find_starts(ctx, &e, source, near));
+	e.start = near;
+	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
+	mr_parallel(ctx, n, GRAIN, encode_piece, &e);
+	report(ctx, &e, diagonal);
+	found = (mr_detail){ n, e.face, e.bary, e.height, any_offset(&e) ? e.offset : NULL };
+	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
+	*d = found;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Decoding */
+
+mr_status
+mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
+{
+	for (size_t i = 0; i < d->n; i++) {
+		if (d->face[i] >= base->nf)
+			return mr_fail(ctx, MR_ERANGE, "vertex %zu stands on face %u of %s, which has %zu", i,
+			    d->face[i], base->name, base->nf);
+		if (!mr_finite(d->bary[i]) || !isfinite(d->height[i]) ||
+		    (d->offset && !mr_finite(d->offset[i])))
+			return mr_fail(ctx, MR_ERANGE, "the detail of vertex %zu is not finite", i);
+	}
+	return MR_OK;
+}
+
+typedef struct decoder {
+	mr_phong surface;
+	const mr_detail *d;
+	double gain;
+	mr_v3 *p;
+} decoder;
+
+static void
+decode_piece(void *arg, size_t begin, size_t end)
+{
+	decoder *j = arg;
+
+	for (size_t i = begin; i < end; i++)
+		j->p[i] = displaced(&j->surface, j->d, i, j->gain);
+}
+
+mr_status
+mr_decode(
+    mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
+	decoder j = { { base, normal }, d, gain, p };
+
+	if (!normal)
+		return MR_EMEM;
+	MR_TRY(mr_phong_normals(ctx, base, inc, normal));
+	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The columns */
+
+mr_status
+mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
+{
+	const void *face, *bary, *height, *offset = NULL;
+	mr_detail r;
+	size_t n;
+
+	if (!mr_layer_has(f, "mesh", "detail_height"))
+		return mr_fail(ctx, MR_EMISSING, "mesh has no detail: it comes from mr-encode");
+	MR_TRY(mr_layer_get(ctx, f, "mesh", "detail_height", &height, &n));
+	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_face", n, &face));
+	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_bary", n, &bary));
+	if (mr_layer_has(f, "mesh", "detail_offset"))
+		MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_offset", n, &offset));
+	r = (mr_detail){ n, face, bary, height, offset };
+	MR_TRY(mr_detail_check(ctx, &r, base));
+	*d = r;
+	return MR_OK;
+}
+
+mr_status
+mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_detail *d)
+{
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->face, d->n));
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->bary, d->n));
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
+	if (d->offset)
+		return mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n);
+	mr_frame_drop(f, "mesh", "detail_offset", 0);
+	return MR_OK;
+}

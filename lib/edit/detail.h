@@ -1,0 +1,52 @@
+/*
+ * detail.h -- the detail of a mesh over its base surface, as displacements along the base's Phong normals.
+ *
+ * Contract: decoding what was encoded, on the same base, returns every vertex to
+ * within rounding; decoding it on a deformed base carries the detail along.
+ * Layer rule: alg.
+ */
+#ifndef MR_DETAIL_H
+#define MR_DETAIL_H
+
+#include "edit/phong.h"
+#include "space/source_map.h"
+
+/*
+ * The columns mesh.detail_*: vertex i is b + h n + t1 o.x + t2 o.y + n o.z, where b is the point
+ * bary of the base's triangle `face`, n its Phong normal, t1 and t2 as in mr_phong_frame.
+ * Where there is a height the offset is zero, and the reverse.
+ */
+typedef struct mr_detail {
+	size_t n;
+	const uint32_t *face;
+	const mr_v3 *bary;
+	const double *height;
+	const mr_v3 *offset; /* NULL: every vertex has a height */
+} mr_detail;
+
+/*
+ * Encodes the mesh over the base.  source: checked; NULL where there is none: then the base's point
+ * nearest to each vertex takes its place.  MR_ERANGE where the coordinates are so large that a detail is not
+ * finite.  d: the arena's.
+ * Figures: heights, offsets, steps_mean, crossed_mean, searched, residual_max, height_max (both relative
+ * to the mesh's diagonal).
+ */
+mr_status
+mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d);
+
+/* MR_ERANGE where a face is not one of the base's, or a number is not finite. */
+mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
+
+/* Decodes onto the base: d checked; inc of the base; the detail multiplied by gain.  p: d->n, the caller's.
+ */
+mr_status mr_decode(
+    mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p);
+
+/* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
+mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);
+
+/* Puts the columns; an offset that was there and is no longer is dropped.  d: kept until the frame is
+ * written. */
+mr_status mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_detail *d);
+
+#endif

@@ -1,0 +1,320 @@
+#include "edit/handles.h"
+
+#include "base/text_file.h"
+#include "edit/region_transfer.h"
+
+static mr_v3
+vector_of(const double x[3])
+{
+	return mr_vec(x[0], x[1], x[2]);
+}
+
+/* n numbers, and nothing behind them. */
+static bool
+numbers(const char *text, size_t n, double *x)
+{
+	return mr_numbers(&text, n, x) && !*text;
+}
+
+static mr_status
+set_rotation(mr_ctx *ctx, mr_pose *pose, const char *text)
+{
+	double x[4];
+
+	if (!numbers(text, 4, x))
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not an axis and an angle, ax,ay,az,degrees", text);
+	if (!(mr_norm(vector_of(x)) > 0))
+		return mr_fail(ctx, MR_EUSAGE, "the axis %s has no direction", text);
+	pose->axis = vector_of(x);
+	pose->degrees = x[3];
+	return MR_OK;
+}
+
+static mr_status
+set_scale(mr_ctx *ctx, mr_pose *pose, const char *text)
+{
+	double x[3];
+
+	if (numbers(text, 1, x))
+		x[1] = x[2] = x[0];
+	else if (!numbers(text, 3, x))
+		return mr_fail(
+		    ctx, MR_EUSAGE, "'%s' is not one factor, nor three with commas between them", text);
+	pose->scale = vector_of(x);
+	return MR_OK;
+}
+
+static mr_status
+set_vector(mr_ctx *ctx, mr_v3 *v, const char *text)
+{
+	double x[3];
+
+	if (!numbers(text, 3, x))
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not three numbers with commas between them", text);
+	*v = vector_of(x);
+	return MR_OK;
+}
+
+mr_status
+mr_pose_set(mr_ctx *ctx, mr_pose *pose, const char *what, const char *text)
+{
+	if (!strcmp(what, "translate"))
+		return set_vector(ctx, &pose->translate, text);
+	if (!strcmp(what, "rotate"))
+		return set_rotation(ctx, pose, text);
+	if (!strcmp(what, "scale"))
+		return set_scale(ctx, pose, text);
+	if (strcmp(what, "center"))
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is none of translate, rotate, scale, center", what);
+	MR_TRY(set_vector(ctx, &pose->center, text));
+	pose->centered = true;
+	return MR_OK;
+}
+
+mr_status
+mr_pose_check_shares(mr_ctx *ctx, const mr_pose *pose)
+{
+	mr_v3 s = pose->scale;
+
+	if (s.x > 0 && s.y > 0 && s.z > 0)
+		return MR_OK;
+	return mr_fail(ctx, MR_EUSAGE, "there is no way from 1 to the scale %g,%g,%g: it must be positive",
+	    s.x, s.y, s.z);
+}
+
+/* The rotation by an angle about a unit axis (Rodrigues), columns scaled. */
+static mr_affine
+rotation_of_scaling(mr_v3 axis, double angle, mr_v3 scale)
+{
+	double c = cos(angle), s = sin(angle), d = 1 - c, x = axis.x, y = axis.y, z = axis.z;
+	double r[3][3] = {
+		{ c + d * x * x, d * x * y - s * z, d * x * z + s * y },
+		{ d * x * y + s * z, c + d * y * y, d * y * z - s * x },
+		{ d * x * z - s * y, d * y * z + s * x, c + d * z * z },
+	};
+	mr_affine t = { { 0 } };
+
+	for (int i = 0; i < 3; i++) {
+		t.m[4 * i] = r[i][0] * scale.x;
+		t.m[4 * i + 1] = r[i][1] * scale.y;
+		t.m[4 * i + 2] = r[i][2] * scale.z;
+	}
+	return t;
+}
+
+mr_affine
+mr_pose_map(const mr_pose *pose, mr_v3 center, double share)
+{
+	mr_v3 f = share == 1 ? pose->scale
+	                     : mr_vec(pow(pose->scale.x, share), pow(pose->scale.y, share),
+				   pow(pose->scale.z, share));
+	mr_affine t = rotation_of_scaling(mr_unit(pose->axis), share * pose->degrees * (MR_PI / 180), f);
+	mr_v3 moved = mr_apply(&t, center); /* T x = L (x - center) + center + translate */
+	mr_v3 shift = mr_axpy(share, pose->translate, mr_sub(center, moved));
+
+	t.m[3] = shift.x;
+	t.m[7] = shift.y;
+	t.m[11] = shift.z;
+	return t;
+}
+
+mr_status
+mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region, mr_handles *h)
+{
+	mr_handles r = { 0 };
+
+	for (size_t v = 0; v < m->nv; v++)
+		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE >= r.n)
+			r.n = region[v] - MR_REGION_HANDLE + 1;
+	if (r.n == 0)
+		return mr_fail(ctx, MR_EMISSING, "no vertex of %s is in a handle", m->name);
+	r.count = MR_NEW_ZERO(ctx, r.n, size_t);
+	r.centroid = MR_NEW_ZERO(ctx, r.n, mr_v3);
+	if (!r.count || !r.centroid)
+		return MR_EMEM;
+	for (size_t v = 0; v < m->nv; v++)
+		if (region[v] >= MR_REGION_HANDLE) {
+			size_t i = region[v] - MR_REGION_HANDLE;
+			r.count[i]++;
+			r.centroid[i] = mr_add(r.centroid[i], m->p[v]);
+		}
+	for (size_t i = 0; i < r.n; i++)
+		if (r.count[i])
+			r.centroid[i] = mr_mul(1 / (double)r.count[i], r.centroid[i]);
+	*h = r;
+	return MR_OK;
+}
+
+mr_status
+mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h)
+{
+	const uint32_t *region;
+	mr_mesh m;
+
+	if (layer && !mr_layer_has(f, layer, "region"))
+		return mr_transfer_missing(ctx, f, layer);
+	if (!layer)
+		layer = mr_layer_has(f, "mesh", "region") ? "mesh" : "control";
+	if (!mr_layer_has(f, layer, "region"))
+		return mr_fail(ctx, MR_EMISSING, "no regions: they come from mr-select");
+	MR_TRY(mr_layer_points(ctx, f, layer, &m));
+	MR_TRY(mr_layer_region(ctx, f, layer, m.nv, &region));
+	return mr_handles_find(ctx, &m, region, h);
+}
+
+mr_status
+mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_affine **row, size_t *rows)
+{
+	const void *data = NULL;
+	size_t there = 0;
+	mr_affine *r;
+
+	if (mr_layer_has(f, "handles", "transform"))
+		MR_TRY(mr_layer_get(ctx, f, "handles", "transform", &data, &there));
+	if (n < there)
+		n = there;
+	r = MR_NEW(ctx, n, mr_affine);
+	if (!r)
+		return MR_EMEM;
+	if (there)
+		memcpy(r, data, there * sizeof *r);
+	for (size_t i = 0; i < 12 * there; i++)
+		if (!isfinite(r[i / 12].m[i % 12]))
+			return mr_fail(
+			    ctx, MR_ERANGE, "handles: the transform of handle %zu is not finite", i / 12);
+	for (size_t i = there; i < n; i++)
+		r[i] = mr_identity();
+	*row = r;
+	*rows = n;
+	return MR_OK;
+}
+
+static mr_status
+no_such_handle(mr_ctx *ctx, const mr_handles *h, size_t handle)
+{
+	char list[200] = "";
+	size_t n = 0;
+
+	for (size_t i = 0; i < h->n && n < sizeof list - 24; i++)
+		if (h->count[i])
+			n += (size_t)snprintf(list + n, sizeof list - n, "%s%zu", n ? ", " : "", i);
+	return mr_fail(ctx, MR_EMISSING, "no vertex is in handle %zu; handles in use: %s", handle, list);
+}
+
+mr_status
+mr_handles_pose(
+    mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_affine *row)
+{
+	mr_v3 center;
+	mr_affine t;
+
+	if (handle >= h->n || h->count[handle] == 0)
+		return no_such_handle(ctx, h, handle);
+	center = pose->centered ? pose->center : mr_apply(&row[handle], h->centroid[handle]);
+	t = mr_pose_map(pose, center, share);
+	row[handle] = mr_compose(&t, &row[handle]);
+	return MR_OK;
+}
+
+/* Scripts */
+
+typedef struct mr_script_line {
+	size_t frame, handle;
+	mr_pose pose;
+} script_line;
+
+/* Cuts the next word off the text; NULL at its end. */
+static char *
+next_word(char **text)
+{
+	char *word = *text + strspn(*text, " \t"), *end = word + strcspn(word, " \t");
+
+	if (!*word)
+		return NULL;
+	*text = *end ? end + 1 : end;
+	*end = '\0';
+	return word;
+}
+
+static mr_status
+parse_script_line(mr_ctx *ctx, char *text, script_line *line)
+{
+	const char *at = next_word(&text), *first = at;
+	uint64_t handle;
+	char *word;
+
+	if (!mr_whole(&at, 65535, &handle) || *at)
+		return mr_fail(ctx, MR_EFORMAT, "'%.40s' is neither a handle nor the word frame", first);
+	line->handle = (size_t)handle;
+	line->pose = (mr_pose)MR_POSE_REST;
+	while ((word = next_word(&text))) {
+		char *equals = strchr(word, '=');
+		if (!equals)
+			return mr_fail(ctx, MR_EFORMAT, "'%.40s' is not of the form what=value", word);
+		*equals = '\0';
+		if (mr_pose_set(ctx, &line->pose, word, equals + 1) < 0)
+			return MR_EFORMAT;
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_script_read(mr_ctx *ctx, const char *path, mr_script *script)
+{
+	mr_script r = { 0 };
+	char **line;
+	size_t n;
+
+	MR_TRY(mr_lines_read(ctx, path, &line, &n));
+	r.line = MR_NEW(ctx, n, script_line);
+	if (!r.line)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		if (!strcmp(line[i], "frame")) {
+			r.frames++;
+		} else if (*line[i]) {
+			if (r.frames == 0)
+				return mr_fail(ctx, MR_EFORMAT, "%s:%zu: no frame has begun", path, i + 1);
+			MR_TRY(mr_prefix(
+			    ctx, parse_script_line(ctx, line[i], &r.line[r.n]), "%s:%zu", path, i + 1));
+			r.line[r.n++].frame = r.frames;
+		}
+	}
+	if (r.frames == 0)
+		return mr_fail(ctx, MR_EFORMAT, "%s: the script has no frame", path);
+	*script = r;
+	return MR_OK;
+}
+
+mr_status
+mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_affine *row)
+{
+	if (number > script->frames)
+		number = script->frames;
+	for (size_t i = 0; i < script->n; i++)
+		if (script->line[i].frame == number)
+			MR_TRY(
+			    mr_handles_pose(ctx, h, script->line[i].handle, &script->line[i].pose, 1, row));
+	return MR_OK;
+}
+
+size_t
+mr_motion_length(const mr_motion *m)
+{
+	return m->script ? m->script->frames : m->frames;
+}
+
+mr_status
+mr_motion_put(mr_ctx *ctx, mr_frame *f, const mr_handles *h, const mr_motion *m, size_t number)
+{
+	double share = m->frames == 0 || number >= m->frames ? 1 : (double)number / (double)m->frames;
+	mr_affine *row;
+	size_t n;
+
+	MR_TRY(mr_handles_rows(ctx, f, h->n, &row, &n));
+	if (m->script)
+		MR_TRY(mr_script_pose(ctx, h, m->script, number, row));
+	else
+		MR_TRY(mr_handles_pose(ctx, h, m->handle, &m->pose, share, row));
+	return mr_layer_put(ctx, f, "handles", "transform", row, n);
+}

@@ -1,0 +1,183 @@
+/* Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4.4: multigrid on remeshed
+ * levels. */
+#include "edit/multigrid_levels.h"
+
+#include "space/surface_walk.h"
+#include "remesh/remesh.h"
+
+enum { LEVELS_MAX = 16, COARSEST = 400 };
+
+/* A mesh of the hierarchy, and which of its vertices are unknowns. */
+typedef struct stage {
+	mr_mesh m;
+	uint32_t *number; /* of each vertex: its unknown, or MR_NONE */
+	size_t n;         /* unknowns */
+} stage;
+
+/* The next mesh */
+
+/* A vertex of the coarser mesh is an unknown where the corner nearest its place on the finer one is. */
+static mr_status
+number_coarse(mr_ctx *ctx, const stage *fine, const mr_source_map *map, stage *coarse)
+{
+	coarse->number = MR_NEW(ctx, coarse->m.nv, uint32_t);
+	if (!coarse->number)
+		return MR_EMEM;
+	coarse->n = 0;
+	for (size_t v = 0; v < coarse->m.nv; v++) {
+		mr_v3 b = map->bary[v];
+		int corner = b.x >= b.y && b.x >= b.z ? 0 : b.y >= b.z ? 1 : 2;
+		bool unknown = fine->number[fine->m.t[map->face[v]].v[corner]] != MR_NONE;
+		coarse->number[v] = unknown ? (uint32_t)coarse->n++ : MR_NONE;
+	}
+	return MR_OK;
+}
+
+/* Edges twice as long, of even triangles; areas matter little here. */
+static mr_status
+remesh_stage(mr_ctx *ctx, const stage *fine, stage *coarse, mr_source_map *map)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+
+	o.length = 2 * mr_mesh_edge_scale(ctx, &fine->m);
+	o.rounds = 3;
+	o.area_passes = 0;
+	MR_TRY(mr_remesh(ctx, &fine->m, &o, &coarse->m, map));
+	return number_coarse(ctx, fine, map, coarse);
+}
+
+/* Places of the finer vertices */
+
+typedef struct walk {
+	const stage *fine, *coarse;
+	mr_topology topo;  /* of the coarse mesh */
+	mr_adjacency near; /* of the fine one */
+	uint32_t *face;    /* of each fine vertex: a coarse face near it, MR_NONE while not reached */
+	mr_v3 *bary;
+	uint32_t *queue;
+	size_t queued;
+} walk;
+
+static void
+reach(walk *w, uint32_t v, uint32_t face)
+{
+	if (w->face[v] != MR_NONE)
+		return;
+	w->face[v] = face;
+	w->queue[w->queued++] = v;
+}
+
+/* The corners of the face that a coarse vertex came from lie near it; one without a face is near none. */
+static void
+seed(walk *w, const mr_source_map *map)
+{
+	for (size_t v = 0; v < w->fine->m.nv; v++)
+		w->face[v] = MR_NONE;
+	for (size_t c = 0; c < w->coarse->m.nv; c++)
+		for (int k = 0; k < 3 && w->topo.out[c] != MR_NONE; k++)
+			reach(w, w->fine->m.t[map->face[c]].v[k], w->topo.out[c] / 3);
+}
+
+/*
+ * Each vertex walks on the coarse mesh from where a neighbour has arrived: it stays on its own sheet.
+ */
+static mr_status
+place_vertices(mr_ctx *ctx, const mr_source_map *map, walk *w)
+{
+	size_t nv = w->fine->m.nv;
+
+	w->face = MR_NEW(ctx, nv, uint32_t);
+	w->bary = MR_NEW_ZERO(ctx, nv, mr_v3);
+	w->queue = MR_NEW(ctx, nv, uint32_t);
+	if (!w->face || !w->bary || !w->queue)
+		return MR_EMEM;
+	MR_TRY(mr_topology_build(ctx, &w->coarse->m, &w->topo));
+	MR_TRY(mr_adjacency_build(ctx, &w->fine->m, &w->near));
+	seed(w, map);
+	for (size_t at = 0; at < w->queued; at++) {
+		uint32_t v = w->queue[at];
+		mr_closest c = mr_project_walk(&w->coarse->m, &w->topo, w->face[v], w->fine->m.p[v]);
+		w->face[v] = c.face;
+		w->bary[v] = c.bary;
+		for (size_t e = w->near.start[v]; e < w->near.start[v + 1]; e++)
+			reach(w, w->near.adj[e], c.face);
+	}
+	return MR_OK;
+}
+
+/* Prolongation */
+
+/* The entries of the row of v, ascending; constraints are 0 on every level. */
+static int
+row_of(const walk *w, size_t v, int *index, double *value)
+{
+	double b[3] = { w->bary[v].x, w->bary[v].y, w->bary[v].z };
+	int n = 0;
+
+	if (w->face[v] == MR_NONE)
+		return 0;
+	for (int k = 0; k < 3; k++) {
+		uint32_t c = w->coarse->number[w->coarse->m.t[w->face[v]].v[k]];
+		int at = n;
+		if (c == MR_NONE || b[k] == 0)
+			continue;
+		for (; at > 0 && index[at - 1] > (int)c; at--) {
+			index[at] = index[at - 1];
+			value[at] = value[at - 1];
+		}
+		index[at] = (int)c;
+		value[at] = b[k];
+		n++;
+	}
+	return n;
+}
+
+static mr_status
+prolong(mr_ctx *ctx, const walk *w, mr_sparse *p)
+{
+	size_t n = w->fine->n;
+	mr_sparse r = { (int)n, MR_NEW(ctx, n + 1, int), MR_NEW(ctx, 3 * n, int),
+		MR_NEW(ctx, 3 * n, double) };
+	uint32_t *vertex = MR_NEW(ctx, n, uint32_t);
+
+	if (!r.start || !r.index || !r.value || !vertex)
+		return MR_EMEM;
+	for (size_t v = 0; v < w->fine->m.nv; v++)
+		if (w->fine->number[v] != MR_NONE)
+			vertex[w->fine->number[v]] = (uint32_t)v;
+	r.start[0] = 0;
+	for (size_t i = 0; i < n; i++)
+		r.start[i + 1] = r.start[i] +
+		                 row_of(w, vertex[i], r.index + r.start[i], r.value + r.start[i]);
+	*p = r;
+	return MR_OK;
+}
+
+mr_status
+mr_hierarchy_build(
+    mr_ctx *ctx, const mr_mesh *m, const uint32_t *number, size_t n, mr_coarser **level, size_t *count)
+{
+	mr_coarser *levels = MR_NEW_ZERO(ctx, LEVELS_MAX, mr_coarser);
+	stage fine = { *m, MR_NEW(ctx, m->nv, uint32_t), n };
+	size_t made = 0;
+
+	if (!levels || !fine.number)
+		return MR_EMEM;
+	memcpy(fine.number, number, m->nv * sizeof *number);
+	while (made < LEVELS_MAX && fine.n > COARSEST) {
+		stage coarse;
+		walk w = { .fine = &fine, .coarse = &coarse };
+		mr_source_map map;
+		MR_TRY(remesh_stage(ctx, &fine, &coarse, &map));
+		if (coarse.n == 0 || coarse.n > fine.n / 2)
+			break; /* as coarse as the topology allows */
+		MR_TRY(place_vertices(ctx, &map, &w));
+		MR_TRY(prolong(ctx, &w, &levels[made].prolong));
+		levels[made].n = coarse.n;
+		made++;
+		fine = coarse;
+	}
+	*level = levels;
+	*count = made;
+	return MR_OK;
+}

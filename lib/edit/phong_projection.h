@@ -1,0 +1,47 @@
+/*
+ * foot.h -- the foot of a point on a Phong surface: the place w with p = b(w) + h n(w).
+ *
+ * Contract: both functions only read and may be called by several threads at once.
+ * Layer rule: alg.
+ */
+#ifndef MR_FOOT_H
+#define MR_FOOT_H
+
+#include "edit/phong.h"
+
+/* The surface on which feet are looked for. */
+typedef struct mr_ground {
+	mr_phong surface;
+	const mr_incidence *inc;
+	double tolerance; /* the residual |b + h n - p| that is accepted */
+} mr_ground;
+
+typedef struct mr_foot {
+	uint32_t face;
+	mr_v3 bary;    /* within 1e-9 of the face */
+	double height; /* along the Phong normal */
+} mr_foot;
+
+/* What a walk cost. */
+typedef struct mr_walk {
+	uint32_t steps, crossed; /* Newton steps; edges crossed */
+} mr_walk;
+
+/*
+ * Newton's method from the point `bary` of `face`, over edges into neighbouring faces.
+ * True where it found a foot with |height| <= limit, on the near side of the surface's
+ * centres of curvature; *foot is written only then.
+ */
+bool mr_foot_walk(
+    const mr_ground *g, mr_v3 p, uint32_t face, mr_v3 bary, double limit, mr_foot *foot, mr_walk *walk);
+
+/*
+ * The lowest foot on the sheet of `face`, without a good start.  The sheet is the part of the
+ * surface that is reached from face to neighbouring face, the nearest to p first, but no more
+ * than 4096 faces: far above a fine surface an offset is better than an endless search.  True
+ * where there is a foot not higher than twice the distance from p to the sheet; else *foot is
+ * the sheet's nearest point, of height 0.
+ */
+bool mr_foot_search(const mr_ground *g, mr_v3 p, uint32_t face, mr_foot *foot);
+
+#endif

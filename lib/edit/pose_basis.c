@@ -1,0 +1,92 @@
+/* Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5: precomputed basis
+ * functions. */
+#include "edit/pose_basis.h"
+
+#include "edit/deform.h"
+#include "edit/handles.h"
+#include "base/parallel.h"
+
+typedef struct response_job {
+	const mr_v3 *p0;
+	const double *response;
+	size_t handles;
+	const mr_affine *change; /* T_h - I */
+	mr_v3 *out;
+} response_job;
+
+/* Adding nothing keeps every bit, the sign of a zero too. */
+static double
+moved(double x, double by)
+{
+	return by == 0 ? x : x + by;
+}
+
+static void
+respond(void *arg, size_t begin, size_t end)
+{
+	response_job *j = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		const double *w = j->response + 4 * j->handles * i;
+		mr_v3 z = { 0, 0, 0 };
+		for (size_t h = 0; h < j->handles; h++, w += 4) {
+			const double *m = j->change[h].m;
+			z.x += m[0] * w[0] + m[1] * w[1] + m[2] * w[2] + m[3] * w[3];
+			z.y += m[4] * w[0] + m[5] * w[1] + m[6] * w[2] + m[7] * w[3];
+			z.z += m[8] * w[0] + m[9] * w[1] + m[10] * w[2] + m[11] * w[3];
+		}
+		j->out[i] = mr_vec(moved(j->p0[i].x, z.x), moved(j->p0[i].y, z.y), moved(j->p0[i].z, z.z));
+	}
+}
+
+mr_status
+mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
+    const mr_affine *t, mr_v3 *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_affine *change = MR_NEW(ctx, handles, mr_affine), identity = mr_identity();
+
+	if (!change)
+		return MR_EMEM;
+	for (size_t h = 0; h < handles; h++)
+		for (int i = 0; i < 12; i++)
+			change[h].m[i] = t[h].m[i] - identity.m[i];
+	mr_parallel(ctx, n, 4096, respond, &(response_job){ p0, response, handles, change, out });
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
+{
+	const mr_column *column = mr_frame_find(f, m->name, "response");
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	const void *response;
+	mr_mesh posed;
+	mr_affine *t;
+	size_t n;
+
+	if (!mr_layer_has(f, "handles", "transform"))
+		return MR_OK;
+	if (!column)
+		return mr_fail(ctx, MR_EMISSING,
+		    "handles, but no %s.response: pose %s by mr-solve, or give it its response by mr-solve "
+		    "--basis",
+		    m->name, m->name);
+	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
+	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &t, &n));
+	if (column->shape.components != 4 * n)
+		return mr_fail(ctx, MR_ERANGE,
+		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
+		    column->shape.components, n);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, n, t, p));
+	mr_frame_drop(f, "handles", NULL, 0);
+	mr_frame_drop(f, m->name, "response", 0);
+	mr_frame_drop(f, m->name, "normal", 0);
+	MR_TRY(mr_layer_put_positions(ctx, f, m->name, p, m->nv));
+	MR_TRY(mr_layer_points(ctx, f, m->name, &posed)); /* a response that is not finite shows here */
+	m->p = posed.p;
+	return MR_OK;
+}

@@ -1,0 +1,171 @@
+#include "edit/select.h"
+
+#include "edit/select_parts.h"
+#include "mesh/layers.h"
+
+typedef struct mr_rule {
+	uint32_t region;
+	const char *option, *text;
+	term *term;
+	size_t terms;
+} rule;
+
+/* The predicate whose name begins `text`, followed by a colon, a '+' or nothing. */
+static const predicate *
+find_predicate(const char *text)
+{
+	for (const predicate *p = mr_predicates; p->name; p++) {
+		size_t n = strlen(p->name);
+		if (!strncmp(text, p->name, n) && (!text[n] || text[n] == ':' || text[n] == '+'))
+			return p;
+	}
+	return NULL;
+}
+
+/* Where the term that begins `text` ends: at a '+' before another term (others belong to a number or a name).
+ */
+static size_t
+term_length(const char *text)
+{
+	const char *plus = text;
+
+	while ((plus = strchr(plus, '+'))) {
+		if (find_predicate(plus + 1) || !strncmp(plus + 1, "not:", 4))
+			return (size_t)(plus - text);
+		plus++;
+	}
+	return strlen(text);
+}
+
+static mr_status
+parse_term(mr_ctx *ctx, const char *text, term *t)
+{
+	const char *colon;
+
+	*t = (term){ 0 };
+	for (; !strncmp(text, "not:", 4); text += 4)
+		t->negate = !t->negate;
+	t->predicate = find_predicate(text);
+	if (!t->predicate || text[strlen(t->predicate->name)] == '+')
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a predicate", text);
+	colon = strchr(text, ':');
+	if ((colon != NULL) == (t->predicate->parse == NULL))
+		return mr_fail(ctx, MR_EUSAGE,
+		    colon ? "%s takes nothing: no colon" : "%s takes something: %s:...", t->predicate->name,
+		    t->predicate->name);
+	if (!colon)
+		return MR_OK;
+	return mr_prefix(ctx, t->predicate->parse(ctx, colon + 1, t), "%s", t->predicate->name);
+}
+
+static mr_status
+parse_rule(mr_ctx *ctx, const char *text, rule *r)
+{
+	size_t terms = 1;
+
+	for (size_t i = 0; text[i]; i++)
+		terms += text[i] == '+';
+	r->term = MR_NEW(ctx, terms, term);
+	if (!r->term)
+		return MR_EMEM;
+	for (;;) {
+		size_t n = term_length(text);
+		char *word = mr_format(ctx, "%.*s", (int)n, text);
+		if (!word)
+			return MR_EMEM;
+		MR_TRY(parse_term(ctx, word, &r->term[r->terms++]));
+		if (!text[n])
+			return MR_OK;
+		text += n + 1;
+	}
+}
+
+mr_status
+mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *option, const char *text)
+{
+	rule r = { .region = region, .option = option, .text = text };
+
+	MR_TRY(parse_rule(ctx, text, &r));
+	MR_TRY(MR_RESERVE(ctx, s->rule, s->n, 1, &s->room));
+	s->rule[s->n++] = r;
+	return MR_OK;
+}
+
+/* Sets in[v] where all terms of the rule hold.  one: workspace, nv. */
+static mr_status
+eval_rule(mr_ctx *ctx, const scene *s, const rule *r, bool *one, bool *in)
+{
+	memset(in, true, s->m->nv);
+	for (size_t i = 0; i < r->terms; i++) {
+		const term *t = &r->term[i];
+		memset(one, false, s->m->nv);
+		MR_TRY(mr_prefix(ctx, t->predicate->eval(ctx, s, t, one), "%s%s", r->option, r->text));
+		for (size_t v = 0; v < s->m->nv; v++)
+			in[v] = in[v] && one[v] != t->negate;
+	}
+	return MR_OK;
+}
+
+static mr_status
+apply_rule(mr_ctx *ctx, scene *s, const rule *r, bool *one, bool *in, uint32_t *region)
+{
+	size_t n = 0;
+
+	s->target = r->region;
+	MR_TRY(eval_rule(ctx, s, r, one, in));
+	for (size_t v = 0; v < s->m->nv; v++)
+		if (in[v]) {
+			region[v] = r->region;
+			n++;
+		}
+	if (n == 0)
+		return mr_fail(ctx, MR_EMESH, "%s%s selects no vertex of %s", r->option, r->text, s->m->name);
+	mr_note(ctx, "%s%s selects %zu of %zu vertices", r->option, r->text, n, s->m->nv);
+	return MR_OK;
+}
+
+/* Counts the regions into the figures. */
+static void
+report(mr_ctx *ctx, const uint32_t *region, size_t nv)
+{
+	enum { SHOWN = 64 };
+	size_t fixed = 0, free_ = 0, handle[SHOWN] = { 0 };
+
+	for (size_t v = 0; v < nv; v++) {
+		fixed += region[v] == MR_REGION_FIXED;
+		free_ += region[v] == MR_REGION_FREE;
+		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE < SHOWN)
+			handle[region[v] - MR_REGION_HANDLE]++;
+	}
+	mr_stat_set(ctx, "fixed", (double)fixed);
+	mr_stat_set(ctx, "free", (double)free_);
+	mr_stat_set(ctx, "handles", (double)(nv - fixed - free_));
+	for (unsigned h = 0; h < SHOWN; h++) {
+		char name[24];
+		snprintf(name, sizeof name, "handle_%u", h);
+		if (handle[h])
+			mr_stat_set(ctx, name, (double)handle[h]);
+	}
+	mr_note(ctx, "%zu fixed, %zu free, %zu in handles", fixed, free_, nv - fixed - free_);
+}
+
+mr_status
+mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s, uint32_t *region)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	bool *one = MR_NEW(ctx, m->nv, bool), *in = MR_NEW(ctx, m->nv, bool);
+	uint32_t *result = MR_NEW(ctx, m->nv, uint32_t);
+	mr_incidence inc;
+	scene sc = { m, groups, &inc, mr_box_of(m->p, m->nv), result, 0 };
+
+	if (!one || !in || !result)
+		return MR_EMEM;
+	memcpy(result, region, m->nv * sizeof *region);
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	for (size_t i = 0; i < s->n; i++)
+		MR_TRY(apply_rule(ctx, &sc, &s->rule[i], one, in, result));
+	memcpy(region, result, m->nv * sizeof *region);
+	report(ctx, region, m->nv);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

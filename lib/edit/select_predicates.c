@@ -1,0 +1,350 @@
+#include "space/geodesic.h"
+#include "base/text_file.h"
+#include "edit/select_parts.h"
+#include "mesh/layers.h"
+
+/* Parsing */
+
+static mr_status
+parse_numbers(mr_ctx *ctx, const char *text, term *t)
+{
+	const predicate *p = t->predicate;
+	const char *at = text;
+
+	if (!mr_numbers(&at, p->numbers, t->x))
+		return mr_fail(
+		    ctx, MR_EUSAGE, "'%s' is not %zu numbers with commas between them", text, p->numbers);
+	if (p->length && *at == '%') {
+		at++;
+		t->relative = true;
+		t->x[p->numbers - 1] /= 100;
+	}
+	if (*at)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' follows the numbers", at);
+	if (p->length && t->x[p->numbers - 1] < 0)
+		return mr_fail(ctx, MR_EUSAGE, "the radius is negative");
+	return MR_OK;
+}
+
+static mr_status
+parse_axis(mr_ctx *ctx, const char *text, term *t)
+{
+	const char *at = text + 1;
+
+	if (*text < 'x' || *text > 'z' || *at++ != ',' || !mr_numbers(&at, 1, t->x) || *at)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not an axis x, y or z, a comma and a fraction", text);
+	if (t->x[0] < 0 || t->x[0] > 1)
+		return mr_fail(ctx, MR_EUSAGE, "the fraction %g is not between 0 and 1", t->x[0]);
+	t->axis = *text - 'x';
+	return MR_OK;
+}
+
+static mr_status
+parse_rings(mr_ctx *ctx, const char *text, term *t)
+{
+	const char *at = text;
+	uint64_t v, k;
+
+	if (!mr_whole(&at, MR_NONE - 1, &v) || *at++ != ',' || !mr_whole(&at, MR_NONE, &k) || *at)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a vertex, a comma and a number of rings", text);
+	t->vertex = (uint32_t)v;
+	t->count = (size_t)k;
+	return MR_OK;
+}
+
+static mr_status
+parse_count(mr_ctx *ctx, const char *text, term *t)
+{
+	const char *at = text;
+	uint64_t k;
+
+	if (!mr_whole(&at, MR_NONE, &k) || *at)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a number of rings", text);
+	t->count = (size_t)k;
+	return MR_OK;
+}
+
+static mr_status
+parse_name(mr_ctx *ctx, const char *text, term *t)
+{
+	t->name = text;
+	return *text ? MR_OK : mr_fail(ctx, MR_EUSAGE, "a name is missing");
+}
+
+static mr_status
+parse_list(mr_ctx *ctx, const char *text, term *t)
+{
+	char **line;
+	size_t n;
+
+	MR_TRY(parse_name(ctx, text, t));
+	MR_TRY(mr_lines_read(ctx, text, &line, &n));
+	t->list = MR_NEW(ctx, n, uint32_t);
+	if (!t->list)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		const char *at = line[i];
+		uint64_t v;
+		if (!*at)
+			continue;
+		if (!mr_whole(&at, MR_NONE - 1, &v) || *at)
+			return mr_fail(
+			    ctx, MR_EFORMAT, "%s:%zu: '%.40s' is not a vertex", text, i + 1, line[i]);
+		t->list[t->listed++] = (uint32_t)v;
+	}
+	return MR_OK;
+}
+
+/* Evaluating */
+
+/* The length that ends the term's numbers, in units of the model. */
+static double
+length_of(const scene *s, const term *t)
+{
+	double r = t->x[t->predicate->numbers - 1];
+
+	return t->relative ? r * mr_box_diagonal(s->box) : r;
+}
+
+static mr_v3
+point_of(const term *t)
+{
+	return mr_vec(t->x[0], t->x[1], t->x[2]);
+}
+
+static mr_status
+eval_all(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	(void)ctx, (void)t;
+	memset(in, true, s->m->nv);
+	return MR_OK;
+}
+
+static mr_status
+eval_sphere(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	double r = length_of(s, t);
+
+	(void)ctx;
+	for (size_t v = 0; v < s->m->nv; v++)
+		in[v] = mr_dist(s->m->p[v], point_of(t)) <= r;
+	return MR_OK;
+}
+
+static mr_status
+eval_box(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	(void)ctx;
+	for (size_t v = 0; v < s->m->nv; v++) {
+		in[v] = true;
+		for (int k = 0; k < 3; k++) {
+			double x = mr_coordinate(s->m->p[v], k);
+			in[v] = in[v] && x >= t->x[k] && x <= t->x[k + 3];
+		}
+	}
+	return MR_OK;
+}
+
+static mr_status
+eval_halfspace(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	(void)ctx;
+	for (size_t v = 0; v < s->m->nv; v++)
+		in[v] = mr_dot(point_of(t), s->m->p[v]) >= t->x[3];
+	return MR_OK;
+}
+
+/* Where the term's fraction of the bounding box is, along its axis. */
+static double
+level_of(const scene *s, const term *t)
+{
+	double low = mr_coordinate(s->box.min, t->axis), high = mr_coordinate(s->box.max, t->axis);
+
+	return t->x[0] == 1 ? high : low + t->x[0] * (high - low);
+}
+
+static mr_status
+eval_above(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	double level = level_of(s, t);
+
+	(void)ctx;
+	for (size_t v = 0; v < s->m->nv; v++)
+		in[v] = mr_coordinate(s->m->p[v], t->axis) >= level;
+	return MR_OK;
+}
+
+static mr_status
+eval_below(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	double level = level_of(s, t);
+
+	(void)ctx;
+	for (size_t v = 0; v < s->m->nv; v++)
+		in[v] = mr_coordinate(s->m->p[v], t->axis) <= level;
+	return MR_OK;
+}
+
+static mr_status
+eval_geodesic(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double r = length_of(s, t), *distance = MR_NEW(ctx, s->m->nv, double);
+
+	if (!distance)
+		return MR_EMEM;
+	MR_TRY(mr_geodesic_distances(ctx, s->m, point_of(t), r, distance));
+	for (size_t v = 0; v < s->m->nv; v++)
+		in[v] = distance[v] <= r;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Adds the neighbours of what is in, ring by ring, as far as `rings` and while `may` (or all, if NULL)
+ * allows. */
+static mr_status
+add_rings(mr_ctx *ctx, const scene *s, size_t rings, const uint32_t *region, bool *in)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *queue = MR_NEW(ctx, s->m->nv, uint32_t);
+	size_t n = 0, next = 0;
+
+	if (!queue)
+		return MR_EMEM;
+	for (uint32_t v = 0; v < s->m->nv; v++)
+		if (in[v])
+			queue[n++] = v;
+	for (; rings > 0 && next < n; rings--)
+		for (size_t end = n; next < end; next++)
+			for (size_t i = s->inc->start[queue[next]]; i < s->inc->start[queue[next] + 1]; i++)
+				for (int k = 0; k < 3; k++) {
+					uint32_t w = s->m->t[s->inc->face[i]].v[k];
+					if (in[w] || (region && region[w] != MR_REGION_FIXED))
+						continue;
+					in[w] = true;
+					queue[n++] = w;
+				}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+eval_rings(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	if (t->vertex >= s->m->nv)
+		return mr_fail(ctx, MR_ERANGE, "vertex %u, %s has %zu", t->vertex, s->m->name, s->m->nv);
+	in[t->vertex] = true;
+	return add_rings(ctx, s, t->count, NULL, in);
+}
+
+static mr_status
+eval_component(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	size_t nearest = 0;
+	double best = INFINITY;
+
+	for (size_t v = 0; v < s->m->nv; v++) {
+		double d = mr_norm2(mr_sub(s->m->p[v], point_of(t)));
+		if (d < best) {
+			best = d;
+			nearest = v;
+		}
+	}
+	in[nearest] = true;
+	return add_rings(ctx, s, SIZE_MAX, NULL, in);
+}
+
+/* The index of the line of `names` that is `name`; MR_NONE where there is none. */
+static uint32_t
+line_of(const mr_groups *g, const char *name)
+{
+	const char *at = g->names, *end = at + g->length;
+
+	for (uint32_t i = 0; at < end; i++) {
+		const char *stop = memchr(at, '\n', (size_t)(end - at));
+		size_t n = (size_t)((stop ? stop : end) - at);
+		if (n == strlen(name) && !memcmp(at, name, n))
+			return i;
+		at += n + 1;
+	}
+	return MR_NONE;
+}
+
+static mr_status
+eval_group(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	uint32_t group;
+
+	if (!s->groups->group)
+		return mr_fail(ctx, MR_EMISSING, "%s has no groups", s->m->name);
+	group = line_of(s->groups, t->name);
+	if (group == MR_NONE)
+		return mr_fail(ctx, MR_EMISSING, "no group of %s is called %s", s->m->name, t->name);
+	for (size_t f = 0; f < s->m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			in[s->m->t[f].v[k]] |= s->groups->group[f] == group;
+	return MR_OK;
+}
+
+/* How many faces at v have the corner w too. */
+static size_t
+faces_at_edge(const scene *s, uint32_t v, uint32_t w)
+{
+	size_t n = 0;
+
+	for (size_t i = s->inc->start[v]; i < s->inc->start[v + 1]; i++) {
+		const uint32_t *c = s->m->t[s->inc->face[i]].v;
+		n += c[0] == w || c[1] == w || c[2] == w;
+	}
+	return n;
+}
+
+static mr_status
+eval_boundary(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	(void)ctx, (void)t;
+	for (size_t f = 0; f < s->m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t v = s->m->t[f].v[k], w = s->m->t[f].v[(k + 1) % 3];
+			if (v != w && faces_at_edge(s, v, w) == 1)
+				in[v] = in[w] = true;
+		}
+	return MR_OK;
+}
+
+static mr_status
+eval_grow(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	for (size_t v = 0; v < s->m->nv; v++)
+		in[v] = s->region[v] == s->target;
+	return add_rings(ctx, s, t->count, s->region, in);
+}
+
+static mr_status
+eval_list(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+{
+	for (size_t i = 0; i < t->listed; i++) {
+		if (t->list[i] >= s->m->nv)
+			return mr_fail(ctx, MR_ERANGE, "%s has vertex %u, %s has %zu", t->name, t->list[i],
+			    s->m->name, s->m->nv);
+		in[t->list[i]] = true;
+	}
+	return MR_OK;
+}
+
+const predicate mr_predicates[] = {
+	{ "all", NULL, eval_all, 0, false },
+	{ "sphere", parse_numbers, eval_sphere, 4, true },
+	{ "box", parse_numbers, eval_box, 6, false },
+	{ "halfspace", parse_numbers, eval_halfspace, 4, false },
+	{ "above", parse_axis, eval_above, 0, false },
+	{ "below", parse_axis, eval_below, 0, false },
+	{ "geodesic", parse_numbers, eval_geodesic, 4, true },
+	{ "rings", parse_rings, eval_rings, 0, false },
+	{ "component", parse_numbers, eval_component, 3, false },
+	{ "group", parse_name, eval_group, 0, false },
+	{ "boundary", NULL, eval_boundary, 0, false },
+	{ "grow", parse_count, eval_grow, 0, false },
+	{ "vertices", parse_list, eval_list, 0, false },
+	{ 0 },
+};

@@ -1,0 +1,183 @@
+/*
+ * Jeong, Kim 2001, section 4, after Suzuki, Takeuchi, Kanai 1999: Subdivision surface fitting to a range of
+ * points.
+ */
+#include "fit/fit.h"
+
+#include "fit/least_squares.h"
+#include "space/local_planes.h"
+#include "space/near.h"
+#include "space/outlier.h"
+#include "mesh/zorder.h"
+#include "solve/sparse.h"
+
+enum { LOCAL_PASSES = 20, LEAST_SQUARES_PASSES = 5 };
+
+/* Control edges from the surface, beyond which points are not followed. */
+static const double FAR = 0.15;
+
+/* f_i = q_i - v_i, v_i the limit points, q_i the nearest points; none of vertices without a face. */
+static mr_status
+forces(mr_ctx *ctx, const mr_near *near, const mr_v3 *point, const mr_loop *l, const mr_v3 *limit,
+    uint32_t *nearest, mr_v3 *f)
+{
+	MR_TRY(mr_near_query(ctx, near, limit, l->nv, 1, nearest, NULL));
+	for (size_t v = 0; v < l->nv; v++)
+		f[v] = l->topo.out[v] == MR_NONE ? mr_vec(0, 0, 0) : mr_sub(point[nearest[v]], limit[v]);
+	return MR_OK;
+}
+
+static mr_status
+local_passes(mr_ctx *ctx, const mr_near *near, const mr_loop *l, const mr_v3 *point, double step,
+    size_t passes, mr_v3 *x)
+{
+	mr_v3 *limit = MR_NEW(ctx, l->nv, mr_v3), *f = MR_NEW(ctx, l->nv, mr_v3);
+	uint32_t *nearest = MR_NEW(ctx, l->nv, uint32_t);
+	mr_sparse s;
+
+	if (!limit || !f || !nearest)
+		return MR_EMEM;
+	MR_TRY(mr_loop_limit_matrix(ctx, l, 0, &s));
+	for (size_t i = 0; i < passes; i++) {
+		mr_progress(ctx, "fitting", (double)i / (double)passes);
+		mr_sparse_apply(ctx, &s, NULL, l->nv, 3, &x->x, &limit->x);
+		MR_TRY(forces(ctx, near, point, l, limit, nearest, f));
+		/* F_i = (1 - n chi) f_i + chi sum_j f_j: the mask of the limit points */
+		mr_sparse_apply(ctx, &s, NULL, l->nv, 3, &f->x, &limit->x);
+		for (size_t v = 0; v < l->nv; v++)
+			x[v] = mr_axpy(step, limit[v], x[v]);
+	}
+	return MR_OK;
+}
+
+static mr_status
+local(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *point, size_t n, const mr_fit_opts *opts, size_t passes,
+    mr_v3 *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_near *near;
+	mr_status status;
+
+	MR_TRY(mr_near_build(ctx, point, n, &near));
+	status = local_passes(ctx, near, &s->level[0], point, opts->step, passes, x);
+	mr_near_free(near);
+	mr_fit_surface_move(ctx, s, x);
+	mr_mark_release(ctx, mark);
+	return status;
+}
+
+static void
+record(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, const char *when)
+{
+	mr_fit_gap gap = mr_fit_measure(ctx, foot, n);
+	const struct {
+		const char *name;
+		double value;
+	} figure[] = { { "distance_mean", gap.mean }, { "distance_rms", gap.rms },
+		{ "distance_max", gap.max }, { "folded_edges", (double)mr_fit_folds(s) } };
+	char name[40];
+
+	for (size_t i = 0; i < sizeof figure / sizeof *figure; i++) {
+		snprintf(name, sizeof name, "%s_%s", figure[i].name, when);
+		mr_stat_set(ctx, name, figure[i].value);
+	}
+}
+
+/* Where the result is poor: it folds, or the points are as far as the control mesh is coarse. */
+static void
+warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, const mr_fit_foot *foot, size_t n)
+{
+	size_t folds = mr_fit_folds(s);
+	double far = mr_fit_measure(ctx, foot, n).mean;
+
+	if (folds > 0)
+		mr_warn(ctx, "the limit surface has %zu folded edges", folds);
+	if (far > FAR * edge)
+		mr_warn(ctx,
+		    "the points are %.3g from the limit surface on the mean, where a control edge is %.3g",
+		    far, edge);
+}
+
+/* Takes the outliers of *n points out, and their feet. */
+static mr_status
+drop_outliers(mr_ctx *ctx, double least, mr_v3 *point, mr_fit_foot *foot, size_t *n)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *off = MR_NEW(ctx, *n, double);
+	bool *outlier = MR_NEW(ctx, *n, bool);
+	size_t count, kept = 0;
+	mr_near *near;
+	mr_status status;
+
+	if (!off || !outlier)
+		return MR_EMEM;
+	for (size_t i = 0; i < *n; i++)
+		off[i] = foot[i].dist;
+	MR_TRY(mr_near_build(ctx, point, *n, &near));
+	status = mr_find_outliers(ctx, near, point, *n, off, least, outlier, &count);
+	mr_near_free(near);
+	MR_TRY(status);
+	for (size_t i = 0; i < *n; i++) {
+		if (outlier[i])
+			continue;
+		point[kept] = point[i];
+		foot[kept++] = foot[i];
+	}
+	*n = kept;
+	mr_stat_set(ctx, "outliers", (double)count);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
+{
+	if (n == 0)
+		return mr_fail(ctx, MR_EMESH, "%s: there are no points to fit it to", control->name);
+	MR_TRY(mr_cloud_check_spread(ctx, point, n));
+	if (!(mr_box_diagonal(mr_box_of(point, n)) > 0))
+		return mr_fail(
+		    ctx, MR_EMESH, "%s: the %zu points to fit it to lie at one place", control->name, n);
+	return MR_OK;
+}
+
+mr_status
+mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const mr_fit_opts *opts, mr_v3 *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	bool is_local = opts->method == MR_FIT_LOCAL;
+	size_t passes = opts->iterations ? opts->iterations : is_local ? LOCAL_PASSES : LEAST_SQUARES_PASSES;
+	mr_v3 *x = MR_NEW(ctx, control->nv, mr_v3);
+	mr_fit_foot *foot = mr_alloc(ctx, n, sizeof *foot);
+	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
+	size_t given = n;
+	double edge = mr_mesh_edge_scale(ctx, control);
+	double start;
+	mr_fit_surface s;
+
+	MR_TRY(check(ctx, control, point, n));
+	if (!x || !foot || !sorted)
+		return MR_EMEM;
+	MR_TRY(mr_zorder_points(ctx, point, n, sorted)); /* what close ones look up is in the cache */
+	memcpy(x, control->p, control->nv * sizeof *x);
+	MR_TRY(mr_fit_surface_build(ctx, control, &s));
+	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
+	if (!is_local)
+		MR_TRY(drop_outliers(ctx, MR_FIT_NEAR * edge, sorted, foot, &n));
+	record(ctx, &s, foot, n, "before");
+	start = mr_seconds();
+	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
+			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, n < given, foot, x));
+	mr_stat_set(ctx, "iterations", (double)passes);
+	mr_stat_set(ctx, "seconds_iteration", (mr_seconds() - start) / (double)passes);
+	if (is_local)
+		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
+	warn(ctx, &s, edge, foot, n);
+	if (!ctx->stats_unread) {
+		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
+		record(ctx, &s, foot, n, "after");
+	}
+	memcpy(out, x, control->nv * sizeof *out);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,85 @@
+/*
+ * Marinov, Kobbelt 2005: Optimization methods for scattered data approximation with subdivision surfaces;
+ * Huber 1964: Robust estimation of a location parameter, for the weights.
+ */
+#include "fit/least_squares.h"
+
+#include "fit/guard_limit.h"
+#include "fit/solve_step.h"
+#include "base/sort.h"
+
+/*
+ * Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
+ * point pulls as one at the limit does.  Where outliers were found there are others too near to be told by
+ * where they lie: beyond the limit a point then pulls by the cube of the ratio less.
+ */
+static mr_status
+weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, bool outliers, double *w)
+{
+	static const double limit = 2.5, deviation = 1.4826;
+	mr_mark mark = mr_mark_take(ctx);
+	double *d = MR_NEW(ctx, n, double), most;
+
+	if (!d)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		d[i] = foot[i].dist;
+	most = fmax(limit * deviation * mr_kth(d, n, n / 2), near);
+	for (size_t i = 0; i < n; i++) {
+		double ratio = foot[i].dist > most ? most / foot[i].dist : 1;
+		w[i] = outliers ? pow(ratio, 4) : ratio;
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/*
+ * How much smoother than asked for a motion is: while the points are far, the square of their mean distance
+ * in twentieths of a control edge, for then feet on uncovered parts lie together, and a rough motion would
+ * crumple the surface there.
+ */
+static double
+caution(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double edge)
+{
+	static const double most = 256;
+	double far = mr_fit_measure(ctx, foot, n).mean / (edge / 20);
+
+	return fmin(fmax(far * far, 1), most);
+}
+
+mr_status
+mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
+    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
+	double *w = MR_NEW(ctx, n, double);
+	mr_fit_system system;
+	size_t damped = 0, steps = 0, crossing = 0;
+	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
+	mr_fit_guard *guard;
+
+	if (!z || !w)
+		return MR_EMEM;
+	MR_TRY(mr_fit_system_build(ctx, surface, &system));
+	MR_TRY(mr_fit_guard_new(ctx, surface, x, &guard));
+	for (size_t i = 0; i < passes; i++) {
+		mr_progress(ctx, "fitting", (double)i / (double)passes);
+		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, outliers, w));
+		MR_TRY(mr_fit_system_fill(
+		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
+		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
+		MR_TRY(mr_fit_step(ctx, surface, guard, &system.patch, x, z, &damped));
+		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
+	}
+	mr_stat_set(ctx, "cg_steps", (double)steps / (double)passes);
+	mr_stat_set(ctx, "damped", (double)damped);
+	for (size_t f = 0; f < surface->level[0].nf; f++)
+		crossing += mr_fit_crossed(guard)[f];
+	mr_stat_set(ctx, "crossing_faces", (double)crossing);
+	if (crossing > 0)
+		mr_warn(ctx, "the limit surface passes through itself at %zu of %zu control faces", crossing,
+		    surface->level[0].nf);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,23 @@
+/*
+ * fit_least.h -- least-squares fitting of a limit surface to points: passes of feet, weights, equations,
+ * guarded steps.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_FIT_LEAST_H
+#define MR_FIT_LEAST_H
+
+#include "fit/fit.h"
+#include "fit/limit_surface.h"
+
+/* Points no further than this share of a control edge are no outliers, however near the others are. */
+#define MR_FIT_NEAR 0.1
+
+/*
+ * Moves the control vertices x, and the surface with them.  foot: of the n points, on the surface as given;
+ * left where the last step attached them.  outliers: the points had some, and may have more.
+ */
+mr_status mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
+    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x);
+
+#endif

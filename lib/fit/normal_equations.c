@@ -1,0 +1,344 @@
+#include "fit/normal_equations.h"
+
+#include "base/parallel.h"
+
+enum { GRAIN = 16, PIECE = 512 }; /* control faces */
+
+/* Keeps what no point and no neighbour holds. */
+static const double SMALL = 1e-9;
+
+/* Rows of L: the vertex less the mean of its neighbours; none where it has none. */
+static mr_status
+star_rows(mr_ctx *ctx, const mr_fit_lists *l, double **row)
+{
+	double *r = MR_NEW(ctx, l->start[l->count], double);
+
+	if (!r)
+		return MR_EMEM;
+	for (size_t v = 0; v < l->count; v++)
+		for (size_t i = l->start[v], n = mr_fit_length(l, v) - 1; i < l->start[v + 1]; i++)
+			r[i] = n == 0 ? 0 : l->member[i] == (int)v ? 1 : -1 / (double)n;
+	*row = r;
+	return MR_OK;
+}
+
+typedef struct basis_job {
+	const mr_fit_surface *s;
+	const mr_fit_lists *l;
+	double *basis;
+} basis_job;
+
+static void
+spread_basis(void *arg, size_t begin, size_t end)
+{
+	basis_job *j = arg;
+	const mr_sparse *s = &j->s->s;
+
+	for (size_t f = begin; f < end; f++) {
+		const int *list = j->l->member + j->l->start[f];
+		size_t n = mr_fit_length(j->l, f);
+		double *to = j->basis + MR_FIT_SLOTS * j->l->start[f];
+		uint32_t slot[MR_FIT_SLOTS];
+		mr_fit_slots(j->s, f, slot);
+		for (size_t i = 0; i < MR_FIT_SLOTS; i++)
+			for (int e = s->start[slot[i]]; e < s->start[slot[i] + 1]; e++)
+				to[i * n + mr_fit_find(list, n, s->index[e])] = s->value[e];
+	}
+}
+
+mr_status
+mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, mr_fit_system *system)
+{
+	size_t nv = surface->level[0].nv;
+	mr_fit_system r = { .surface = surface };
+
+	MR_TRY(mr_fit_list_patches(ctx, surface, &r.patch));
+	MR_TRY(mr_fit_list_stars(ctx, &surface->level[0], &r.star));
+	MR_TRY(star_rows(ctx, &r.star, &r.star_row));
+	r.basis = MR_NEW_ZERO(ctx, MR_FIT_SLOTS * r.patch.start[r.patch.count], double);
+	r.b = MR_NEW(ctx, 3 * nv, double);
+	if (!r.basis || !r.b)
+		return MR_EMEM;
+	mr_parallel(ctx, r.patch.count, GRAIN, spread_basis, &(basis_job){ surface, &r.patch, r.basis });
+	MR_TRY(mr_fit_pattern(ctx, &r.patch, &r.star, nv, &r.a));
+	r.block = MR_NEW(ctx, (size_t)r.a.start[nv], mr_fit_block);
+	if (!r.block)
+		return MR_EMEM;
+	MR_TRY(mr_fit_place_pairs(ctx, &r.patch, &r.a, &r.patch_pairs, &r.patch_at));
+	MR_TRY(mr_fit_place_pairs(ctx, &r.star, &r.a, &r.star_pairs, &r.star_at));
+	*system = r;
+	return MR_OK;
+}
+
+/* Filling */
+
+/* The points on each control face, by index: order[start[f]] to order[start[f + 1]]. */
+static mr_status
+sort_points(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, size_t nf, size_t **start, uint32_t **order)
+{
+	size_t *s = MR_NEW_ZERO(ctx, nf + 2, size_t);
+	uint32_t *o = MR_NEW(ctx, n, uint32_t);
+
+	if (!s || !o)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		s[foot[i].patch / MR_FIT_PATCHES + 2]++;
+	for (size_t f = 0; f < nf; f++)
+		s[f + 2] += s[f + 1];
+	for (size_t i = 0; i < n; i++)
+		o[s[foot[i].patch / MR_FIT_PATCHES + 1]++] = (uint32_t)i;
+	*start = s;
+	*order = o;
+	return MR_OK;
+}
+
+typedef struct fill_job {
+	mr_fit_system *system;
+	const mr_v3 *point;
+	const mr_fit_foot *foot;
+	const double *w;
+	const size_t *start;
+	const uint32_t *order;
+	double scale;       /* nv / n */
+	size_t first, last; /* control faces */
+	mr_fit_block *pair; /* of each pair of these faces, as patch_at */
+	mr_v3 *sum;         /* of each entry of patch */
+	double *row;        /* the same: workspace */
+} fill_job;
+
+/* The row of a point over its control face's list. */
+static void
+row_of(const double *basis, size_t n, const mr_fit_foot *foot, double *row)
+{
+	const double *node = basis + (size_t)(foot->patch % MR_FIT_PATCHES) * MR_FIT_PATCH * n;
+	double w[MR_FIT_PATCH];
+
+	mr_fit_weights(foot->bary, w);
+	for (size_t i = 0; i < n; i++)
+		row[i] = w[0] * node[i] + w[1] * node[n + i] + w[2] * node[2 * n + i] +
+		         w[3] * node[3 * n + i] + w[4] * node[4 * n + i] + w[5] * node[5 * n + i];
+}
+
+/* The direction in which a point's distance counts in full: the normal, or that of the distance where the
+ * foot stands on the boundary. */
+static mr_v3
+direction_of(mr_v3 normal, mr_v3 r)
+{
+	double along = mr_dot(normal, r);
+
+	return along * along < 0.25 * mr_norm2(r) ? mr_unit(r) : normal;
+}
+
+/* w d d^T */
+static mr_fit_block
+outer(double w, mr_v3 d)
+{
+	return (mr_fit_block){ { w * d.x * d.x, w * d.y * d.y, w * d.z * d.z, w * d.x * d.y, w * d.y * d.z,
+	    w * d.z * d.x } };
+}
+
+/* Adds a point of weight w with residual r and direction d to its face's pairs and sums. */
+static void
+add_point(const double *row, size_t n, double w, mr_v3 r, mr_v3 d, mr_fit_block *pair, mr_v3 *sum)
+{
+	mr_fit_block block = outer(w, d);
+	mr_v3 pull = mr_axpy(w * (1 - MR_FIT_SLIP) * mr_dot(r, d), d, mr_mul(w * MR_FIT_SLIP, r));
+
+	for (size_t a = 0; a < n; a++) {
+		sum[a] = mr_axpy(row[a], pull, sum[a]);
+		for (size_t b = 0; b <= a; b++, pair++) {
+			double c = row[a] * row[b];
+			for (int k = 0; k < MR_FIT_BLOCK; k++)
+				pair->m[k] += c * block.m[k];
+		}
+	}
+}
+
+static void
+fill_patches(void *arg, size_t begin, size_t end)
+{
+	fill_job *j = arg;
+	const mr_fit_system *s = j->system;
+	const mr_fit_lists *l = &s->patch;
+
+	for (size_t f = j->first + begin; f < j->first + end; f++) {
+		size_t n = mr_fit_length(l, f);
+		double *row = j->row + l->start[f];
+		mr_fit_block *pair = j->pair + (s->patch_pairs[f] - s->patch_pairs[j->first]);
+		mr_v3 *sum = j->sum + l->start[f];
+		memset(pair, 0, n * (n + 1) / 2 * sizeof *pair);
+		memset(sum, 0, n * sizeof *sum);
+		for (size_t i = j->start[f]; i < j->start[f + 1]; i++) {
+			uint32_t k = j->order[i];
+			mr_v3 normal, r = mr_sub(j->point[k], mr_fit_place(s->surface, &j->foot[k], &normal));
+			row_of(s->basis + MR_FIT_SLOTS * l->start[f], n, &j->foot[k], row);
+			add_point(row, n, j->scale * j->w[k], r, direction_of(normal, r), pair, sum);
+		}
+	}
+}
+
+static void
+add_sum(mr_fit_system *s, int v, mr_v3 r)
+{
+	size_t nv = (size_t)s->a.n;
+
+	s->b[v] += r.x;
+	s->b[nv + (size_t)v] += r.y;
+	s->b[2 * nv + (size_t)v] += r.z;
+}
+
+/* Adds the pairs and sums of the faces to the equations, in their order. */
+static void
+gather(const fill_job *j)
+{
+	mr_fit_system *s = j->system;
+	const mr_fit_lists *l = &s->patch;
+	size_t from = s->patch_pairs[j->first];
+
+	for (size_t k = from; k < s->patch_pairs[j->last]; k++)
+		for (int i = 0; i < MR_FIT_BLOCK; i++)
+			s->block[s->patch_at[k]].m[i] += j->pair[k - from].m[i];
+	for (size_t i = l->start[j->first]; i < l->start[j->last]; i++)
+		add_sum(s, l->member[i], j->sum[i]);
+}
+
+/* Pairs of the largest piece. */
+static size_t
+most_pairs(const mr_fit_system *s)
+{
+	size_t most = 0, count = s->patch.count;
+
+	for (size_t f = 0; f < count; f += PIECE) {
+		size_t last = f + PIECE < count ? f + PIECE : count,
+		       n = s->patch_pairs[last] - s->patch_pairs[f];
+		most = n > most ? n : most;
+	}
+	return most;
+}
+
+/* Piece by piece, so that the pairs of all faces are never in memory at once. */
+static mr_status
+add_points(mr_ctx *ctx, mr_fit_system *s, fill_job j)
+{
+	const mr_fit_lists *l = &s->patch;
+
+	j.pair = MR_NEW(ctx, most_pairs(s), mr_fit_block);
+	j.sum = MR_NEW(ctx, l->start[l->count], mr_v3);
+	j.row = MR_NEW(ctx, l->start[l->count], double);
+	if (!j.pair || !j.sum || !j.row)
+		return MR_EMEM;
+	for (j.first = 0; j.first < l->count; j.first = j.last) {
+		j.last = j.first + PIECE < l->count ? j.first + PIECE : l->count;
+		mr_parallel(ctx, j.last - j.first, GRAIN, fill_patches, &j);
+		gather(&j);
+	}
+	return MR_OK;
+}
+
+/* Splits the points' part, slip A + (1 - slip) N with A the trace of N, into a multiple of the identity and a
+ * rest of trace 0. */
+static void
+split_trace(mr_fit_system *s)
+{
+	for (int k = 0; k < s->a.start[s->a.n]; k++) {
+		double *m = s->block[k].m, trace = m[0] + m[1] + m[2];
+		for (int i = 0; i < MR_FIT_BLOCK; i++)
+			m[i] = (1 - MR_FIT_SLIP) * (m[i] - (i < 3 ? trace / 3 : 0));
+		s->a.value[k] = (MR_FIT_SLIP + (1 - MR_FIT_SLIP) / 3) * trace;
+	}
+}
+
+/* The part of L x along the surface at vertex v: without its part along the normal, or inside the boundary
+ * curve only the part along it. */
+static mr_v3
+along(const mr_fit_system *s, const mr_v3 *x, const mr_v3 *normal, size_t v)
+{
+	const mr_fit_lists *l = &s->star;
+	size_t first = l->start[v];
+	const uint32_t *out = s->surface->level[0].topo.out;
+	mr_v3 sum = { 0, 0, 0 }, d, ends[2];
+	int k = 0;
+
+	for (size_t i = first; i < l->start[v + 1]; i++) {
+		sum = mr_axpy(s->star_row[i], x[l->member[i]], sum);
+		if (l->member[i] != (int)v)
+			ends[k++ % 2] = x[l->member[i]];
+	}
+	if (out[v] == MR_NONE || s->surface->level[0].topo.twin[out[v]] != MR_NONE)
+		return mr_axpy(-mr_dot(sum, normal[v]), normal[v], sum);
+	d = k == 2 ? mr_unit(mr_sub(ends[1], ends[0])) : mr_vec(0, 0, 0);
+	return mr_mul(mr_dot(sum, d), d);
+}
+
+/* fairness |L z + t|^2: the outer product of each row of L, and -t times it. */
+static mr_status
+add_fairness(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, double fairness)
+{
+	const mr_fit_lists *l = &s->star;
+	mr_v3 *normal = MR_NEW(ctx, l->count, mr_v3);
+
+	if (!normal)
+		return MR_EMEM;
+	mr_loop_limit(ctx, &s->surface->level[0], x, NULL, normal);
+	for (size_t v = 0; v < l->count; v++) {
+		const int *at = s->star_at + s->star_pairs[v];
+		mr_v3 t = along(s, x, normal, v);
+		for (size_t i = l->start[v]; i < l->start[v + 1]; i++) {
+			double c = fairness * s->star_row[i];
+			for (size_t k = l->start[v]; k <= i; k++)
+				s->a.value[*at++] += c * s->star_row[k];
+			add_sum(s, l->member[i], mr_mul(-c, t));
+		}
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *point, const mr_fit_foot *foot,
+    const double *w, size_t n, double fairness)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t nv = (size_t)s->a.n;
+	fill_job j = { .system = s, .point = point, .foot = foot, .w = w, .scale = (double)nv / (double)n };
+	size_t *start;
+	uint32_t *order;
+
+	MR_TRY(sort_points(ctx, foot, n, s->patch.count, &start, &order));
+	j.start = start;
+	j.order = order;
+	memset(s->block, 0, (size_t)s->a.start[nv] * sizeof *s->block);
+	memset(s->b, 0, 3 * nv * sizeof *s->b);
+	MR_TRY(add_points(ctx, s, j));
+	split_trace(s);
+	MR_TRY(add_fairness(ctx, s, x, fairness));
+	for (size_t v = 0; v < nv; v++)
+		s->a.value[s->a.start[v + 1] - 1] += SMALL; /* the diagonal ends the row */
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* y += (a I + block) z of row i and column j. */
+static void
+apply_entry(const double *m, double a, size_t nv, size_t i, size_t j, const double *z, double *y)
+{
+	double u = z[j], v = z[nv + j], w = z[2 * nv + j];
+
+	y[i] += (a + m[0]) * u + m[3] * v + m[5] * w;
+	y[nv + i] += m[3] * u + (a + m[1]) * v + m[4] * w;
+	y[2 * nv + i] += m[5] * u + m[4] * v + (a + m[2]) * w;
+}
+
+void
+mr_fit_system_apply(const mr_fit_system *s, const double *z, double *y)
+{
+	size_t nv = (size_t)s->a.n;
+
+	memset(y, 0, 3 * nv * sizeof *y);
+	for (size_t i = 0; i < nv; i++)
+		for (int e = s->a.start[i]; e < s->a.start[i + 1]; e++) {
+			size_t j = (size_t)s->a.index[e];
+			apply_entry(s->block[e].m, s->a.value[e], nv, i, j, z, y);
+			if (j != i)
+				apply_entry(s->block[e].m, s->a.value[e], nv, j, i, z, y);
+		}
+}

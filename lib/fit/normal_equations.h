@@ -1,0 +1,53 @@
+/*
+ * fit_system.h -- the normal equations of points on a limit surface, with a smoothness term.
+ *
+ * Contract: the unknown is a motion z of the control vertices.  It minimises
+ *
+ *	(nv / n) sum_i w_i (slip |r_i|^2 + (1 - slip) (d_i . r_i)^2) + fairness |L z + t|^2 + small |z|^2
+ *
+ * with r_i = q_i - s_i(x + z) from the feet s_i, which are linear in the vertices, to the points q_i, and d_i
+ * the normals there.  L takes from each vertex the mean of its
+ * neighbours, along the boundary of the two there; t is the part of L x along the surface.  So vertices
+ * spread evenly, and a motion is smooth, but curvature costs nothing.  Dividing by n and multiplying by nv
+ * makes `fairness` a share that neither units nor sampling change.
+ * Layer rule: alg.
+ */
+#ifndef MR_FIT_SYSTEM_H
+#define MR_FIT_SYSTEM_H
+
+#include "fit/sparsity.h"
+
+/* The share of a point's distance along the surface that counts. */
+static const double MR_FIT_SLIP = 0.1;
+
+/* A symmetric matrix: xx, yy, zz, xy, yz, zx. */
+enum { MR_FIT_BLOCK = 6 };
+typedef struct mr_fit_block {
+	double m[MR_FIT_BLOCK];
+} mr_fit_block;
+
+/* The matrix is a, the same for x, y and z, plus the blocks, which couple them. */
+typedef struct mr_fit_system {
+	const mr_fit_surface *surface;
+	mr_fit_lists patch;      /* of each control face: the vertices that its surface depends on */
+	mr_fit_lists star;       /* of each control vertex: those in its row of L */
+	double *basis;           /* of each control face: 24 nodes x vertices of its list */
+	double *star_row;        /* of each entry of star: of L */
+	mr_sparse a;             /* lower triangle, positive definite */
+	mr_fit_block *block;     /* of each entry of a: of trace 0 */
+	int *patch_at, *star_at; /* where the pairs of a list's entries are in a */
+	size_t *patch_pairs, *star_pairs;
+	double *b; /* right-hand sides: x of all vertices, then y, then z */
+} mr_fit_system;
+
+/* The pattern of the equations, in the arena. */
+mr_status mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, mr_fit_system *system);
+
+/* The equations for n points with weights w at control vertices x, of which the surface is. */
+mr_status mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,
+    const mr_fit_foot *foot, const double *w, size_t n, double fairness);
+
+/* y = A z, both as b. */
+void mr_fit_system_apply(const mr_fit_system *system, const double *z, double *y);
+
+#endif

@@ -1,0 +1,398 @@
+/*
+ * The greatest distance by branch and bound.  For a triangle t and a face f of the
+ * other surface, the distance to f is convex over t, so no point of t is farther
+ * from the surface than max over its corners of their distance to f (as in Tang,
+ * Lee, Kim 2009, Interactive Hausdorff distance computation for general polygonal
+ * models); and none is farther than the centroid's distance and t's radius.
+ */
+#include "measure/compare_parts.h"
+
+#include "base/parallel.h"
+#include "space/bvh.h"
+
+enum { SAMPLES = 100000, EFFORT = 200000, GRAIN = 256, BATCH = 2048, SIDE_MOST = 2048 };
+
+/* Below this share of the diagonal a difference of bounds is rounding. */
+static const double ROUNDING = 1e-12;
+
+/* A triangle and what is known of it: no point of it is farther than `bound`. */
+typedef struct piece {
+	mr_v3 v[3];
+	uint32_t face; /* of the other surface, near its centroid */
+	double bound;
+} piece;
+
+static mr_v3
+centroid(const mr_v3 v[3])
+{
+	return mr_mul(1.0 / 3, mr_add(v[0], mr_add(v[1], v[2])));
+}
+
+static double
+radius(const mr_v3 v[3], mr_v3 c)
+{
+	return sqrt(
+	    fmax(mr_norm2(mr_sub(v[0], c)), fmax(mr_norm2(mr_sub(v[1], c)), mr_norm2(mr_sub(v[2], c)))));
+}
+
+/* The greatest distance of a corner to face f: that of no point of the triangle is greater. */
+static double
+convex_bound(const mr_mesh *b, uint32_t f, const mr_v3 v[3])
+{
+	const uint32_t *t = b->t[f].v;
+	double most = 0;
+
+	for (int i = 0; i < 3; i++) {
+		double d2 = mr_triangle_closest(v[i], b->p[t[0]], b->p[t[1]], b->p[t[2]]).dist2;
+		most = d2 > most ? d2 : most;
+	}
+	return sqrt(most);
+}
+
+/* Sums over some points. */
+typedef struct sums {
+	double min, max, weight, sum, square;
+	size_t count;
+} sums;
+
+static void
+sums_add(sums *s, double d, double weight)
+{
+	s->min = d < s->min ? d : s->min;
+	s->max = d > s->max ? d : s->max;
+	s->weight += weight;
+	s->sum += weight * d;
+	s->square += weight * d * d;
+	s->count++;
+}
+
+static void
+sums_join(sums *s, const sums *t)
+{
+	s->min = t->min < s->min ? t->min : s->min;
+	s->max = t->max > s->max ? t->max : s->max;
+	s->weight += t->weight;
+	s->sum += t->sum;
+	s->square += t->square;
+	s->count += t->count;
+}
+
+static const sums SUMS_NONE = { INFINITY, 0, 0, 0, 0, 0 };
+
+/* One direction. */
+typedef struct job {
+	const mr_mesh *a, *b;
+	const mr_bvh *bvh; /* of b */
+	const bool *used;  /* vertices of a that count; NULL: all */
+	double piece_area; /* faces are cut into pieces of at most this */
+	sums *sums;        /* per grain of vertices or faces */
+	double *bound;     /* per face of a */
+	piece *pieces;     /* of one batch, four children each: in `children` */
+	piece *children;
+	double *reached; /* per child: the distance of its centroid */
+	double enough;   /* pieces whose bound is not above this are done */
+} job;
+
+/* ---- vertices and integrals ---- */
+
+static void
+measure_vertices(void *arg, size_t begin, size_t end)
+{
+	job *j = arg;
+	sums s = SUMS_NONE;
+
+	for (size_t i = begin; i < end; i++)
+		if (!j->used || j->used[i])
+			sums_add(&s, sqrt(mr_bvh_closest(j->bvh, j->a->p[i]).dist2), 1);
+	j->sums[begin / GRAIN] = s;
+}
+
+/* Measures the centroid of a piece; raises *bound where the piece may reach beyond what is measured so far.
+ */
+static void
+measure_piece(const job *j, const mr_v3 v[3], double area, sums *s, double *bound)
+{
+	mr_v3 c = centroid(v);
+	mr_closest at = mr_bvh_closest(j->bvh, c);
+	double d = sqrt(at.dist2), lipschitz = d + radius(v, c), convex;
+
+	sums_add(s, d, area);
+	if (lipschitz <= s->max || lipschitz <= *bound)
+		return;
+	convex = convex_bound(j->b, at.face, v);
+	*bound = fmax(*bound, fmin(lipschitz, convex));
+}
+
+/* Cuts the face into side^2 triangles of its own shape and measures each. */
+static void
+measure_face(const job *j, size_t f, sums *s, double *bound)
+{
+	const uint32_t *t = j->a->t[f].v;
+	mr_v3 p = j->a->p[t[0]], area2 = mr_face_cross(j->a, f);
+	double area = mr_norm(area2) / 2;
+	int side = (int)fmin(SIDE_MOST, fmax(1, ceil(sqrt(area / j->piece_area) - 1e-9)));
+	mr_v3 du = mr_mul(1.0 / side, mr_sub(j->a->p[t[1]], p)),
+	      dv = mr_mul(1.0 / side, mr_sub(j->a->p[t[2]], p));
+
+	area /= (double)side * side;
+	for (int u = 0; u < side; u++)
+		for (int w = 0; u + w < side; w++) {
+			mr_v3 o = mr_axpy(u, du, mr_axpy(w, dv, p)), x = mr_add(o, du), y = mr_add(o, dv);
+			measure_piece(j, (mr_v3[3]){ o, x, y }, area, s, bound);
+			if (u + w < side - 1)
+				measure_piece(j, (mr_v3[3]){ x, mr_add(x, dv), y }, area, s, bound);
+		}
+}
+
+static void
+measure_faces(void *arg, size_t begin, size_t end)
+{
+	job *j = arg;
+	sums s = SUMS_NONE;
+
+	for (size_t f = begin; f < end; f++) {
+		j->bound[f] = 0;
+		measure_face(j, f, &s, &j->bound[f]);
+	}
+	j->sums[begin / GRAIN] = s;
+}
+
+/* Runs `body` over count things and adds up, in order. */
+static mr_status
+measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t grains = (count + GRAIN - 1) / GRAIN;
+
+	j->sums = MR_NEW(ctx, grains, sums);
+	if (!j->sums)
+		return MR_EMEM;
+	mr_parallel(ctx, count, GRAIN, body, j);
+	*total = SUMS_NONE;
+	for (size_t i = 0; i < grains; i++)
+		sums_join(total, &j->sums[i]);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* ---- branch and bound ---- */
+
+/* The piece of greatest bound on top; equal ones in the order of a heap, which is fixed. */
+typedef struct heap {
+	piece *p;
+	size_t n, room;
+} heap;
+
+static mr_status
+heap_push(mr_ctx *ctx, heap *h, const piece *x)
+{
+	size_t i = h->n;
+
+	MR_TRY(MR_RESERVE(ctx, h->p, h->n, 1, &h->room));
+	for (; i > 0 && h->p[(i - 1) / 2].bound < x->bound; i = (i - 1) / 2)
+		h->p[i] = h->p[(i - 1) / 2];
+	h->p[i] = *x;
+	h->n++;
+	return MR_OK;
+}
+
+static piece
+heap_pop(heap *h)
+{
+	piece top = h->p[0], last = h->p[--h->n];
+	size_t i = 0, c;
+
+	for (; (c = 2 * i + 1) < h->n; i = c) {
+		if (c + 1 < h->n && h->p[c + 1].bound > h->p[c].bound)
+			c++;
+		if (h->p[c].bound <= last.bound)
+			break;
+		h->p[i] = h->p[c];
+	}
+	h->p[i] = last;
+	return top;
+}
+
+/* The four triangles between corners and midpoints of edges. */
+static void
+quarter(const mr_v3 v[3], mr_v3 out[4][3])
+{
+	mr_v3 m[3] = { mr_lerp(0.5, v[1], v[2]), mr_lerp(0.5, v[2], v[0]), mr_lerp(0.5, v[0], v[1]) };
+
+	for (int i = 0; i < 3; i++) {
+		out[i][0] = v[i];
+		out[i][1] = m[(i + 2) % 3];
+		out[i][2] = m[(i + 1) % 3];
+	}
+	memcpy(out[3], m, sizeof m);
+}
+
+/* A part of `parent`: it needs no query where the parent's face will do. */
+static void
+bound_child(const job *j, const piece *parent, const mr_v3 v[3], piece *child, double *reached)
+{
+	mr_v3 c = centroid(v);
+	mr_closest at;
+	double convex = convex_bound(j->b, parent->face, v);
+
+	memcpy(child->v, v, sizeof child->v);
+	child->face = parent->face;
+	child->bound = fmin(parent->bound, convex);
+	*reached = 0;
+	if (child->bound <= j->enough)
+		return;
+	at = mr_bvh_closest(j->bvh, c);
+	*reached = sqrt(at.dist2);
+	child->bound = fmin(child->bound, *reached + radius(v, c));
+	if (at.face != parent->face)
+		child->bound = fmin(child->bound, convex_bound(j->b, at.face, v));
+	child->face = at.face;
+}
+
+static void
+bound_children(void *arg, size_t begin, size_t end)
+{
+	job *j = arg;
+	mr_v3 part[4][3];
+
+	for (size_t i = begin; i < end; i++) {
+		quarter(j->pieces[i].v, part);
+		for (size_t k = 0; k < 4; k++)
+			bound_child(
+			    j, &j->pieces[i], part[k], &j->children[4 * i + k], &j->reached[4 * i + k]);
+	}
+}
+
+static double
+enough_for(double max, double tolerance, double scale)
+{
+	return max * (1 + tolerance) + ROUNDING * scale;
+}
+
+static mr_status
+push_faces(mr_ctx *ctx, const job *j, heap *h)
+{
+	for (size_t f = 0; f < j->a->nf; f++) {
+		piece x = { .bound = j->bound[f] };
+		if (x.bound <= j->enough)
+			continue;
+		for (int i = 0; i < 3; i++)
+			x.v[i] = j->a->p[j->a->t[f].v[i]];
+		x.face = mr_bvh_closest(j->bvh, centroid(x.v)).face;
+		MR_TRY(heap_push(ctx, h, &x));
+	}
+	return MR_OK;
+}
+
+/* Cuts the pieces of greatest bound until none is above `enough`, or the effort is spent. */
+static mr_status
+search(mr_ctx *ctx, job *j, heap *h, size_t effort, double tolerance, double scale, mr_distance *d)
+{
+	while (h->n && h->p[0].bound > j->enough && effort) {
+		size_t n = 0;
+		for (; n < BATCH && n < effort && h->n && h->p[0].bound > j->enough; n++)
+			j->pieces[n] = heap_pop(h);
+		effort -= n;
+		mr_parallel(ctx, n, 16, bound_children, j);
+		for (size_t i = 0; i < 4 * n; i++)
+			d->max = fmax(d->max, j->reached[i]);
+		j->enough = enough_for(d->max, tolerance, scale);
+		for (size_t i = 0; i < 4 * n; i++)
+			if (j->children[i].bound > j->enough)
+				MR_TRY(heap_push(ctx, h, &j->children[i]));
+	}
+	d->max_bound = fmax(j->enough, h->n ? h->p[0].bound : 0);
+	return MR_OK;
+}
+
+static mr_status
+bound_max(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_distance *d)
+{
+	size_t effort = opts->effort ? opts->effort : j->a->nf > EFFORT / 2 ? 2 * j->a->nf : EFFORT;
+	heap h = { NULL, 0, 0 };
+	double most = 0;
+
+	j->pieces = MR_NEW(ctx, BATCH, piece);
+	j->children = MR_NEW(ctx, (size_t)4 * BATCH, piece);
+	j->reached = MR_NEW(ctx, (size_t)4 * BATCH, double);
+	if (!j->pieces || !j->children || !j->reached)
+		return MR_EMEM;
+	j->enough = enough_for(d->max, opts->tolerance, scale);
+	for (size_t f = 0; f < j->a->nf; f++)
+		most = fmax(most, j->bound[f]);
+	if (most <= j->enough) {
+		d->max_bound = fmax(most, d->max);
+		return MR_OK;
+	}
+	MR_TRY(push_faces(ctx, j, &h));
+	return search(ctx, j, &h, effort, opts->tolerance, scale, d);
+}
+
+/* ---- one direction ---- */
+
+static mr_distance
+distance_of(const sums *s)
+{
+	return (
+	    mr_distance){ s->min, s->max, s->max, s->sum / s->weight, sqrt(s->square / s->weight), s->count };
+}
+
+static bool *
+used_vertices(mr_ctx *ctx, const mr_mesh *m)
+{
+	bool *used = MR_NEW_ZERO(ctx, m->nv, bool);
+
+	for (size_t f = 0; used && f < m->nf; f++)
+		for (int i = 0; i < 3; i++)
+			used[m->t[f].v[i]] = true;
+	return used;
+}
+
+/* From a mesh with area: its vertices for the extremes, pieces of its faces for the integrals. */
+static mr_status
+measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, double scale, mr_distance *d)
+{
+	size_t samples = opts->samples ? opts->samples : SAMPLES;
+	sums vertices, faces;
+
+	j->used = used_vertices(ctx, j->a);
+	j->bound = MR_NEW(ctx, j->a->nf, double);
+	if (!j->used || !j->bound)
+		return MR_EMEM;
+	j->piece_area = area / (double)samples;
+	MR_TRY(measure(ctx, j, j->a->nv, measure_vertices, &vertices));
+	MR_TRY(measure(ctx, j, j->a->nf, measure_faces, &faces));
+	*d = distance_of(&faces);
+	d->min = fmin(d->min, vertices.min);
+	d->max = fmax(d->max, vertices.max);
+	return bound_max(ctx, j, opts, scale, d);
+}
+
+static mr_status
+measure_points(mr_ctx *ctx, job *j, mr_distance *d)
+{
+	sums s;
+
+	MR_TRY(measure(ctx, j, j->a->nv, measure_vertices, &s));
+	*d = distance_of(&s);
+	return MR_OK;
+}
+
+mr_status
+mr_compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, double scale,
+    mr_distance *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	job j = { .a = a, .b = b };
+	double area = opts->vertices_only ? 0 : mr_mesh_area(ctx, a);
+	mr_bvh *bvh;
+
+	MR_TRY(mr_bvh_build(ctx, b, &bvh));
+	j.bvh = bvh;
+	if (area > 0)
+		MR_TRY(measure_surface(ctx, &j, opts, area, scale, out));
+	else
+		MR_TRY(measure_points(ctx, &j, out));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

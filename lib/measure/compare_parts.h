@@ -1,0 +1,15 @@
+/*
+ * compare_parts.h -- one direction of a comparison.
+ *
+ * Layer rule: mesh, private to compare*.c.
+ */
+#ifndef MR_COMPARE_PARTS_H
+#define MR_COMPARE_PARTS_H
+
+#include "measure/compare.h"
+
+/* From a to b, which have faces, of area or not.  scale: a length that bounds are rounded by. */
+mr_status mr_compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts,
+    double scale, mr_distance *out) MR_WARN_UNUSED;
+
+#endif

@@ -1,0 +1,450 @@
+#include "measure/measure.h"
+
+#include "base/parallel.h"
+#include "base/disjoint_sets.h"
+#include "base/sort.h"
+#include "space/self_intersect.h"
+#include "space/near.h"
+
+static const double FOLD_COSINE = -0.98480775301220806; /* of 170 degrees */
+
+/* ---- counts ---- */
+
+/* The corner of half-edge h's face at vertex v, one of its ends. */
+static uint32_t
+corner_at(const mr_mesh *m, uint32_t h, uint32_t v)
+{
+	return mr_he_from(m, h) == v ? h : mr_he_next(h);
+}
+
+static mr_status
+count_components(mr_ctx *ctx, const mr_mesh *m, mr_census *c, size_t *used)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *parent = mr_sets_new(ctx, m->nv);
+	unsigned char *state = MR_NEW_ZERO(ctx, m->nv, unsigned char); /* 1: in a face; 2: in a proper one */
+
+	if (!parent || !state)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		bool proper = !mr_face_repeats(m, f);
+		for (int i = 0; i < 3; i++)
+			state[v[i]] = proper || state[v[i]] == 2 ? 2 : 1;
+		if (proper) {
+			mr_sets_join(parent, v[0], v[1]);
+			mr_sets_join(parent, v[1], v[2]);
+		}
+	}
+	for (uint32_t v = 0; v < m->nv; v++) {
+		*used += state[v] == 2;
+		c->isolated_vertices += state[v] == 0;
+		c->components += state[v] == 2 && mr_sets_root(parent, v) == v;
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static void
+join_corners(const mr_mesh *m, const mr_edges *edges, uint32_t *fan)
+{
+	for (size_t e = 0; e < edges->count; e++) {
+		uint32_t h = edges->he[edges->start[e]], a = mr_he_from(m, h), b = mr_he_to(m, h);
+		for (uint32_t i = edges->start[e] + 1; i < edges->start[e + 1]; i++) {
+			mr_sets_join(fan, h, corner_at(m, edges->he[i], a));
+			mr_sets_join(fan, mr_he_next(h), corner_at(m, edges->he[i], b));
+		}
+	}
+}
+
+static mr_status
+count_fans(mr_ctx *ctx, const mr_mesh *m, uint32_t *fan, mr_census *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *fans = MR_NEW_ZERO(ctx, m->nv, uint32_t);
+
+	if (!fans)
+		return MR_EMEM;
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		if (!mr_face_repeats(m, h / 3) && fan[h] == h)
+			c->nonmanifold_vertices += ++fans[mr_he_from(m, h)] == 2;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Boundary edges of one fan belong to one loop: each fan keeps the first it meets. */
+static mr_status
+count_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *fan, mr_census *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *first = MR_NEW(ctx, 3 * m->nf, uint32_t), *loop = mr_sets_new(ctx, c->boundary_edges),
+		 n = 0;
+
+	if (!first || !loop)
+		return MR_EMEM;
+	memset(first, 0xff, 3 * m->nf * sizeof *first);
+	for (size_t e = 0; e < edges->count; e++) {
+		uint32_t h = edges->he[edges->start[e]], corner[2] = { h, mr_he_next(h) };
+		if (mr_edge_faces(edges, e) != 1)
+			continue;
+		for (int i = 0; i < 2; i++) {
+			uint32_t root = mr_sets_root(fan, corner[i]);
+			if (first[root] == MR_NONE)
+				first[root] = n;
+			mr_sets_join(loop, first[root], n);
+		}
+		n++;
+	}
+	for (uint32_t i = 0; i < n; i++)
+		c->boundary_loops += mr_sets_root(loop, i) == i;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+count_fans_and_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *fan = mr_sets_new(ctx, 3 * m->nf);
+
+	if (!fan)
+		return MR_EMEM;
+	join_corners(m, edges, fan);
+	MR_TRY(count_fans(ctx, m, fan, c));
+	MR_TRY(count_loops(ctx, m, edges, fan, c));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static bool
+same_direction(const mr_mesh *m, uint32_t h, uint32_t g)
+{
+	return mr_he_from(m, h) == mr_he_from(m, g);
+}
+
+/* The two faces of an edge, as if oriented alike. */
+static bool
+folded(const mr_mesh *m, uint32_t h, uint32_t g)
+{
+	mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
+	double cosine = mr_dot(mr_unit(a), mr_unit(b));
+
+	return (same_direction(m, h, g) ? -cosine : cosine) < FOLD_COSINE;
+}
+
+static void
+count_edges(const mr_mesh *m, const mr_edges *edges, mr_census *c)
+{
+	c->edges = edges->count;
+	for (size_t e = 0; e < edges->count; e++) {
+		const uint32_t *h = edges->he + edges->start[e];
+		uint32_t n = mr_edge_faces(edges, e);
+		c->boundary_edges += n == 1;
+		c->nonmanifold_edges += n > 2;
+		c->inconsistent_edges += n == 2 && same_direction(m, h[0], h[1]);
+		c->folded_edges += n == 2 && folded(m, h[0], h[1]);
+	}
+}
+
+/* The vertex opposite half-edge h, where it is above both ends: each face is met so at one of its edges. */
+static uint32_t
+top_vertex(const mr_mesh *m, uint32_t h)
+{
+	uint32_t a = mr_he_from(m, h), b = mr_he_to(m, h), c = mr_he_from(m, mr_he_prev(h));
+
+	return c > a && c > b ? c : MR_NONE;
+}
+
+static mr_status
+count_duplicates(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t most = 0, *top;
+
+	for (size_t e = 0; e < edges->count; e++)
+		most = mr_edge_faces(edges, e) > most ? mr_edge_faces(edges, e) : most;
+	top = MR_NEW(ctx, most, uint32_t);
+	if (!top)
+		return MR_EMEM;
+	for (size_t e = 0; e < edges->count; e++) {
+		uint32_t n = mr_edge_faces(edges, e);
+		if (n < 2)
+			continue;
+		for (uint32_t i = 0; i < n; i++)
+			top[i] = top_vertex(m, edges->he[edges->start[e] + i]);
+		mr_sort_indices(top, n);
+		for (uint32_t i = 1; i < n; i++)
+			c->duplicate_faces += top[i] != MR_NONE && top[i] == top[i - 1];
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static void
+count_degenerate(const mr_mesh *m, mr_census *c)
+{
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		c->degenerate_faces += mr_face_repeats(m, f) ||
+		                       mr_triangle_degenerate(m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+	}
+}
+
+mr_status
+mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *out)
+{
+	mr_census c = { 0 };
+	size_t used = 0, proper = 0;
+
+	for (size_t f = 0; f < m->nf; f++)
+		proper += !mr_face_repeats(m, f);
+	count_edges(m, edges, &c);
+	count_degenerate(m, &c);
+	MR_TRY(count_components(ctx, m, &c, &used));
+	MR_TRY(count_fans_and_loops(ctx, m, edges, &c));
+	MR_TRY(count_duplicates(ctx, m, edges, &c));
+	c.euler = (int64_t)used - (int64_t)edges->count + (int64_t)proper;
+	c.oriented = c.inconsistent_edges == 0;
+	c.manifold = c.nonmanifold_edges == 0 && c.nonmanifold_vertices == 0;
+	if (c.oriented && c.manifold) /* euler = 2 components - 2 genus - loops */
+		c.genus = (2 * (int64_t)c.components - (int64_t)c.boundary_loops - c.euler) / 2;
+	*out = c;
+	return MR_OK;
+}
+
+/* ---- sizes and shapes ---- */
+
+mr_spread
+mr_spread_of(const double *x, size_t n)
+{
+	mr_spread s = { INFINITY, 0, -INFINITY, 0 };
+
+	if (n == 0)
+		return (mr_spread){ NAN, NAN, NAN, NAN };
+	for (size_t i = 0; i < n; i++) {
+		s.min = x[i] < s.min ? x[i] : s.min;
+		s.max = x[i] > s.max ? x[i] : s.max;
+		s.mean += x[i];
+	}
+	s.mean /= (double)n;
+	for (size_t i = 0; i < n; i++)
+		s.deviation += (x[i] - s.mean) * (x[i] - s.mean);
+	s.deviation = sqrt(s.deviation / (double)n);
+	return s;
+}
+
+typedef struct job {
+	const mr_mesh *m;
+	const mr_edges *edges;
+	mr_v3 center;
+	double *value;      /* per edge */
+	double (*angle)[3]; /* per face: least, greatest, sum of |angle - 60|; NaN without area */
+} job;
+
+static void
+edge_lengths(void *arg, size_t begin, size_t end)
+{
+	job *j = arg;
+
+	for (size_t e = begin; e < end; e++) {
+		uint32_t h = j->edges->he[j->edges->start[e]];
+		j->value[e] = mr_dist(j->m->p[mr_he_from(j->m, h)], j->m->p[mr_he_to(j->m, h)]);
+	}
+}
+
+static mr_status
+measure_edges(mr_ctx *ctx, job *j, mr_geometry *g)
+{
+	mr_mark mark = mr_mark_take(ctx);
+
+	j->value = MR_NEW(ctx, j->edges->count, double);
+	if (!j->value)
+		return MR_EMEM;
+	mr_parallel(ctx, j->edges->count, 4096, edge_lengths, j);
+	g->edge = mr_spread_of(j->value, j->edges->count);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static double
+angle_at(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	mr_v3 u = mr_sub(b, a), v = mr_sub(c, a);
+
+	return atan2(mr_norm(mr_cross(u, v)), mr_dot(u, v)) * (180 / MR_PI);
+}
+
+static void
+face_angles(void *arg, size_t begin, size_t end)
+{
+	job *j = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		double *out = j->angle[f];
+		const uint32_t *v = j->m->t[f].v;
+		out[0] = mr_norm2(mr_face_cross(j->m, f)) > 0 ? INFINITY : NAN;
+		out[1] = out[2] = 0;
+		for (int i = 0; i < 3; i++) {
+			double a = angle_at(j->m->p[v[i]], j->m->p[v[(i + 1) % 3]], j->m->p[v[(i + 2) % 3]]);
+			out[0] = a < out[0] ? a : out[0];
+			out[1] = a > out[1] ? a : out[1];
+			out[2] += fabs(a - 60);
+		}
+	}
+}
+
+static mr_status
+measure_angles(mr_ctx *ctx, job *j, mr_geometry *g)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double low = INFINITY, high = -INFINITY, sum = 0;
+	size_t n = 0;
+
+	j->angle = mr_alloc(ctx, j->m->nf, sizeof *j->angle);
+	if (!j->angle)
+		return MR_EMEM;
+	mr_parallel(ctx, j->m->nf, 4096, face_angles, j);
+	for (size_t f = 0; f < j->m->nf; f++) {
+		const double *a = j->angle[f];
+		if (isnan(a[0]))
+			continue;
+		low = a[0] < low ? a[0] : low;
+		high = a[1] > high ? a[1] : high;
+		sum += a[2];
+		n += 3;
+	}
+	g->angle_min = n ? low : NAN;
+	g->angle_max = n ? high : NAN;
+	g->angle_error = n ? sum / (double)n : NAN;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+void
+mr_mark_boundary(const mr_mesh *m, const mr_edges *edges, bool *boundary)
+{
+	memset(boundary, 0, m->nv * sizeof *boundary);
+	for (size_t e = 0; e < edges->count; e++) {
+		uint32_t h = edges->he[edges->start[e]];
+		if (mr_edge_faces(edges, e) == 1)
+			boundary[mr_he_from(m, h)] = boundary[mr_he_to(m, h)] = true;
+	}
+}
+
+static mr_status
+measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *valence = MR_NEW_ZERO(ctx, j->m->nv, uint32_t);
+	bool *boundary = MR_NEW(ctx, j->m->nv, bool);
+	size_t used = 0, regular = 0;
+
+	if (!valence || !boundary)
+		return MR_EMEM;
+	mr_mark_boundary(j->m, j->edges, boundary);
+	for (size_t e = 0; e < j->edges->count; e++) {
+		uint32_t h = j->edges->he[j->edges->start[e]];
+		valence[mr_he_from(j->m, h)]++;
+		valence[mr_he_to(j->m, h)]++;
+	}
+	for (size_t v = 0; v < j->m->nv; v++) {
+		used += valence[v] > 0;
+		regular += valence[v] == (boundary[v] ? 4 : 6);
+	}
+	g->valence6 = used ? (double)regular / (double)used : NAN;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Six times the volume between the face and the centre. */
+static double
+cone(void *arg, size_t f)
+{
+	job *j = arg;
+	const uint32_t *v = j->m->t[f].v;
+	mr_v3 a = mr_sub(j->m->p[v[0]], j->center), b = mr_sub(j->m->p[v[1]], j->center);
+
+	return mr_dot(a, mr_cross(b, mr_sub(j->m->p[v[2]], j->center)));
+}
+
+/* Every edge has two faces, or another even number, as many one way as the other. */
+static bool
+encloses(const mr_mesh *m, const mr_edges *edges)
+{
+	for (size_t e = 0; e < edges->count; e++) {
+		const uint32_t *h = edges->he + edges->start[e];
+		uint32_t n = mr_edge_faces(edges, e), same = 0;
+		for (uint32_t i = 0; i < n; i++)
+			same += same_direction(m, h[0], h[i]);
+		if (2 * same != n)
+			return false;
+	}
+	return edges->count > 0;
+}
+
+mr_status
+mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geometry *out)
+{
+	mr_geometry g = { .box = mr_box_of(m->p, m->nv), .volume = NAN };
+	job j = { .m = m, .edges = edges, .center = mr_lerp(0.5, g.box.min, g.box.max) };
+
+	g.diagonal = mr_box_diagonal(g.box);
+	g.area = mr_mesh_area(ctx, m);
+	if (encloses(m, edges))
+		g.volume = mr_parallel_sum(ctx, m->nf, cone, &j) / 6;
+	MR_TRY(measure_edges(ctx, &j, &g));
+	MR_TRY(measure_angles(ctx, &j, &g));
+	MR_TRY(measure_valence(ctx, &j, &g));
+	*out = g;
+	return MR_OK;
+}
+
+/* ---- clouds ---- */
+
+static mr_status
+measure_spacing(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_cloud *c)
+{
+	mr_near *near;
+	uint32_t *index = MR_NEW(ctx, 2 * n, uint32_t);
+	double *dist2 = MR_NEW(ctx, 2 * n, double);
+	mr_status status;
+
+	if (!index || !dist2)
+		return MR_EMEM;
+	MR_TRY(mr_near_build(ctx, p, n, &near));
+	c->duplicates = n - mr_near_distinct(near);
+	if (mr_near_distinct(near) > 1) {
+		status = mr_near_query(ctx, near, p, n, 2, index, dist2);
+		for (size_t i = 0; i < n; i++)
+			dist2[i] = sqrt(dist2[2 * i + 1]);
+		if (status == MR_OK)
+			c->spacing = mr_spread_of(dist2, n);
+	} else {
+		status = MR_OK;
+	}
+	mr_near_free(near);
+	return status;
+}
+
+mr_status
+mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_cloud *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_cloud c = { .points = n, .spacing = { NAN, NAN, NAN, NAN } };
+	mr_v3 *finite = MR_NEW(ctx, n, mr_v3);
+	size_t count = 0;
+
+	if (!finite)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		if (mr_finite(p[i]))
+			finite[count++] = p[i];
+	c.not_finite = n - count;
+	c.box = mr_box_of(finite, count);
+	c.diagonal = mr_box_diagonal(c.box);
+	if (count)
+		MR_TRY(measure_spacing(ctx, finite, count, &c));
+	mr_mark_release(ctx, mark);
+	*out = c;
+	return MR_OK;
+}

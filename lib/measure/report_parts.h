@@ -1,0 +1,20 @@
+/*
+ * report_parts.h -- what the report of a frame says of a surface and a cloud, below their columns.
+ *
+ * Layer rule: alg, private to report*.c.
+ */
+#ifndef MR_REPORT_PARTS_H
+#define MR_REPORT_PARTS_H
+
+#include "measure/surface_summary.h"
+#include "measure/report.h"
+
+/* intersections: whether they were looked for. */
+void mr_report_surface_text(mr_text *t, const mr_surface *s, bool intersections);
+void mr_report_cloud_text(mr_text *t, const mr_cloud *c);
+
+/* Members of an object, with a comma before each. */
+void mr_report_surface_json(mr_text *t, const mr_surface *s, bool intersections);
+void mr_report_cloud_json(mr_text *t, const mr_cloud *c);
+
+#endif

@@ -1,0 +1,69 @@
+#include "measure/surface_summary.h"
+
+#include "space/self_intersect.h"
+#include "op/voronoi_area.h"
+
+/* Moves the areas of interior vertices to the front and returns how many there are. */
+static size_t
+keep_interior(const mr_mesh *m, const mr_edges *edges, bool *boundary, double *area)
+{
+	size_t n = 0;
+
+	mr_mark_boundary(m, edges, boundary);
+	for (size_t v = 0; v < m->nv; v++)
+		if (!boundary[v] && area[v] > 0) /* none: isolated, or only in faces without area */
+			area[n++] = area[v];
+	return n;
+}
+
+static mr_status
+measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenness *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *area = MR_NEW(ctx, m->nv, double), error = 0;
+	bool *boundary = MR_NEW(ctx, m->nv, bool);
+	mr_spread s;
+	size_t n;
+
+	if (!area || !boundary)
+		return MR_EMEM;
+	MR_TRY(mr_voronoi_areas(ctx, m, area));
+	n = keep_interior(m, edges, boundary, area);
+	s = mr_spread_of(area, n);
+	for (size_t i = 0; i < n; i++)
+		error += fabs(area[i] - s.mean);
+	*out = (mr_evenness){ n, s.mean, n ? error / ((double)n * s.mean) : NAN,
+		s.deviation / s.mean * (s.deviation / s.mean) };
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+count_intersections(mr_ctx *ctx, const mr_mesh *m, size_t *count)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_bvh *bvh;
+
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, count));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_surface s = { .intersections = 0 };
+	mr_edges edges;
+
+	MR_TRY(mr_edges_build(ctx, m, &edges));
+	MR_TRY(mr_take_census(ctx, m, &edges, &s.census));
+	MR_TRY(mr_measure_geometry(ctx, m, &edges, &s.geometry));
+	MR_TRY(measure_evenness(ctx, m, &edges, &s.evenness));
+	mr_mark_release(ctx, mark);
+	if (intersections)
+		MR_TRY(count_intersections(ctx, m, &s.intersections));
+	*out = s;
+	return MR_OK;
+}

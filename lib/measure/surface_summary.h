@@ -1,0 +1,30 @@
+/*
+ * measure.h -- every figure of a surface that mr-info reports: counts, sizes, intersections, vertex areas.
+ *
+ * Layer rule: alg includes base, stream, mesh, op, solve and itself.
+ */
+#ifndef MR_ALG_MEASURE_H
+#define MR_ALG_MEASURE_H
+
+#include "measure/measure.h"
+
+/* Mixed Voronoi areas A of the interior vertices, those of faces that no boundary edge ends at.  NaN without
+ * any. */
+typedef struct mr_evenness {
+	size_t vertices;
+	double mean;
+	double error;    /* mean |A - mean| / mean */
+	double variance; /* variance / mean^2 */
+} mr_evenness;
+
+typedef struct mr_surface {
+	mr_census census;
+	mr_geometry geometry;
+	mr_evenness evenness;
+	size_t intersections; /* pairs of faces (mesh/intersect.h) */
+} mr_surface;
+
+/* All of them; intersections is 0 where they are not asked for. */
+mr_status mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface *surface);
+
+#endif

@@ -1,0 +1,188 @@
+/*
+ * dynmesh.h -- an oriented manifold triangle mesh under local change: split, collapse, flip.
+ *
+ * Contract: numbering as in mesh/mesh.h (half-edge 3 f + i).  Faces and vertices
+ * that a collapse removes leave holes in the numbering, which splits fill again;
+ * mr_dyn_compact closes them.  Curves (boundary and feature edges) are marked on
+ * their half-edges and survive every change.
+ * Layer rule: alg.
+ */
+#ifndef MR_DYNMESH_H
+#define MR_DYNMESH_H
+
+#include "mesh/feature_curves.h"
+
+typedef enum mr_kind {
+	MR_SMOOTH, /* free on the surface */
+	MR_CURVE,  /* on a curve: slides along it */
+	MR_CORNER, /* stays */
+	MR_DEAD    /* a hole in the numbering */
+} mr_kind;
+
+typedef struct mr_dyn {
+	mr_v3 *p;
+	uint32_t *out; /* as in mr_topology */
+	uint32_t *at;  /* place on the source surface: a face, or on a curve a half-edge (alg/project.h) */
+	uint8_t *kind; /* mr_kind */
+	float *scale;  /* of the target length, at most 1: less where it is refined; NULL: nowhere */
+	size_t nv, room_v;
+	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
+	uint32_t *v, *twin;
+	mr_curves curves; /* the half-edges on curves, each with a source half-edge of its curve */
+	size_t nf, room_f;
+	uint32_t free_f; /* first hole, chained through twin[3 f] */
+} mr_dyn;
+
+static inline bool
+mr_dyn_face_dead(const mr_dyn *d, size_t f)
+{
+	return d->v[3 * f] == MR_NONE;
+}
+
+/* True where v is a corner of face f. */
+static inline bool
+mr_dyn_has(const mr_dyn *d, uint32_t f, uint32_t v)
+{
+	return v == d->v[3 * f] || v == d->v[3 * f + 1] || v == d->v[3 * f + 2];
+}
+
+static inline uint32_t
+mr_dyn_to(const mr_dyn *d, uint32_t h)
+{
+	return d->v[mr_he_next(h)];
+}
+
+static inline bool
+mr_dyn_on_curve(const mr_dyn *d, uint32_t h)
+{
+	return mr_curves_get(&d->curves, h) != MR_NONE;
+}
+
+/* The face of the source at or near vertex v. */
+static inline uint32_t
+mr_dyn_place(const mr_dyn *d, uint32_t v)
+{
+	return d->kind[v] == MR_SMOOTH ? d->at[v] : d->at[v] / 3;
+}
+
+/* The third vertex of h's face. */
+static inline uint32_t
+mr_dyn_apex(const mr_dyn *d, uint32_t h)
+{
+	return d->v[mr_he_prev(h)];
+}
+
+/* The next half-edge leaving the same vertex, counter-clockwise; MR_NONE at the boundary. */
+static inline uint32_t
+mr_dyn_ccw(const mr_dyn *d, uint32_t h)
+{
+	return d->twin[mr_he_prev(h)];
+}
+
+static inline bool
+mr_dyn_on_boundary(const mr_dyn *d, uint32_t v)
+{
+	return d->twin[d->out[v]] == MR_NONE;
+}
+
+/* Twice the area times the unit normal of face f, with the vertices at p. */
+static inline mr_v3
+mr_dyn_cross(const mr_dyn *d, const mr_v3 *p, size_t f)
+{
+	mr_v3 a = p[d->v[3 * f]];
+	return mr_cross(mr_sub(p[d->v[3 * f + 1]], a), mr_sub(p[d->v[3 * f + 2]], a));
+}
+
+/*
+ * Shape of a triangle, height over longest edge: 0.87 for an equilateral one, 0 for a segment.  Below
+ * MR_NEEDLE its normal says little and no operation may leave it worse.
+ */
+static const double MR_NEEDLE = 0.1;
+
+static inline double
+mr_dyn_longest2(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	double ab = mr_norm2(mr_sub(b, a)), bc = mr_norm2(mr_sub(c, b)), ca = mr_norm2(mr_sub(a, c));
+	ab = ab > bc ? ab : bc;
+	return ab > ca ? ab : ca;
+}
+
+static inline double
+mr_dyn_shape(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	double longest2 = mr_dyn_longest2(a, b, c);
+	return longest2 > 0 ? mr_norm(mr_cross(mr_sub(b, a), mr_sub(c, a))) / longest2 : 0;
+}
+
+/* mr_dyn_shape(a, b, c) < MR_NEEDLE, where cross is that of its edges. */
+static inline bool
+mr_dyn_is_needle(mr_v3 cross, mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	double least = MR_NEEDLE * mr_dyn_longest2(a, b, c);
+	return mr_norm2(cross) < least * least || least == 0;
+}
+
+/* True where the faces with these normals, of any length, meet at more than 150 degrees: a fold. */
+static inline bool
+mr_dyn_folds(mr_v3 m, mr_v3 n)
+{
+	double mn = mr_dot(m, n);
+	return mn < 0 && mn * mn > 0.75 * mr_norm2(m) * mr_norm2(n);
+}
+
+/*
+ * Copies m, whose half-edges are topo, into the arena.  Edges whose faces meet at more than
+ * `feature` degrees are curves, and so is the boundary.  A curve vertex is a corner
+ * where other than two curve edges meet or the curve turns by more than 50 degrees.
+ */
+mr_status mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *d);
+
+/* Number of edges at v. */
+unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v);
+
+/* The sum of the faces' normals around v, by area; twice the area long. */
+mr_v3 mr_dyn_normal_around(const mr_dyn *d, uint32_t v);
+
+/* The middle of the ends of the half-edges that leave v. */
+mr_v3 mr_dyn_middle_around(const mr_dyn *d, uint32_t v);
+
+/* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
+ */
+mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
+
+/*
+ * True where the start of h can be merged into its end and the mesh stays a manifold of the same topology.
+ * mark: workspace of nv zeros, which it leaves zero.
+ */
+bool mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark);
+
+/* Merges the start of h into its end, which moves to p.  Only where mr_dyn_can_collapse. */
+void mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p);
+
+/* True where the edge has two faces, is no curve, and its opposite vertices are not joined yet. */
+bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
+
+/* Replaces the edge of h by the one between its opposite vertices: mr_he_next(h).  Only where
+ * mr_dyn_can_flip. */
+void mr_dyn_flip(mr_dyn *d, uint32_t h);
+
+/* Room for so many vertices, or faces, as there are at least. */
+mr_status mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room);
+mr_status mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room);
+
+/* A copy in the arena, with no room to spare. */
+mr_status mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *copy);
+
+/* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
+mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
+
+/*
+ * Renumbers vertices along a space-filling curve, faces by their lowest vertex: neighbours come close in
+ * memory.  Only after mr_dyn_compact.
+ */
+mr_status mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
+
+/* The mesh as it is, sharing the arrays; only after mr_dyn_compact. */
+mr_mesh mr_dyn_view(const mr_dyn *d, const char *name);
+
+#endif

@@ -1,0 +1,183 @@
+#include "mesh/dynmesh.h"
+
+static const double CORNER_COSINE = 0.6427876096865394; /* of 50 degrees */
+
+/* Unit direction of half-edge h. */
+static mr_v3
+direction(const mr_dyn *d, uint32_t h)
+{
+	return mr_unit(mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]));
+}
+
+/* True where the faces at h and g meet at more than an angle of the given cosine. */
+static bool
+is_sharp(const mr_dyn *d, uint32_t h, uint32_t g, double cosine)
+{
+	return mr_dot(mr_unit(mr_dyn_cross(d, d->p, h / 3)), mr_unit(mr_dyn_cross(d, d->p, g / 3))) < cosine;
+}
+
+/* True where h is on the boundary, or on an edge sharper than `feature` degrees. */
+static bool
+makes_curve(const mr_dyn *d, uint32_t h, double feature)
+{
+	uint32_t g = d->twin[h];
+
+	return g == MR_NONE || (feature < 180 && is_sharp(d, h, g, cos(feature * MR_PI / 180)));
+}
+
+static mr_status
+mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
+{
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (makes_curve(d, h, feature)) {
+			MR_TRY(mr_curves_reserve(ctx, &d->curves, 1));
+			mr_curves_set(&d->curves, h, h);
+		}
+	return MR_OK;
+}
+
+/* The kind of v by the curve edges that meet there; directions point away from v. */
+static mr_kind
+kind_of(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+	mr_v3 way[2] = { { 0, 0, 0 }, { 0, 0, 0 } };
+	unsigned curves = 0;
+
+	do {
+		uint32_t p = mr_he_prev(h);
+		if (mr_dyn_on_curve(d, h) && curves++ < 2)
+			way[curves - 1] = direction(d, h);
+		if (d->twin[p] == MR_NONE && curves++ < 2)
+			way[curves - 1] = mr_mul(-1, direction(d, p));
+		h = d->twin[p];
+	} while (h != MR_NONE && h != d->out[v]);
+	if (curves == 0)
+		return MR_SMOOTH;
+	return curves == 2 && mr_dot(way[0], way[1]) < -CORNER_COSINE ? MR_CURVE : MR_CORNER;
+}
+
+/* A place on the source for a vertex to begin with: a face at it, or a curve half-edge. */
+static uint32_t
+first_place(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+
+	if (d->kind[v] == MR_SMOOTH)
+		return h / 3;
+	do {
+		if (mr_dyn_on_curve(d, h))
+			return h;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return d->out[v];
+}
+
+mr_status
+mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room)
+{
+	mr_v3 *p = mr_grow(ctx, d->p, d->nv, room, sizeof *p);
+	uint32_t *out = mr_grow(ctx, d->out, d->nv, room, sizeof *out);
+	uint32_t *at = mr_grow(ctx, d->at, d->nv, room, sizeof *at);
+	uint8_t *kind = mr_grow(ctx, d->kind, d->nv, room, sizeof *kind);
+
+	float *scale = d->scale;
+
+	if (!p || !out || !at || !kind)
+		return MR_EMEM;
+	if (scale && !(scale = mr_grow(ctx, scale, d->nv, room, sizeof *scale)))
+		return MR_EMEM;
+	d->p = p;
+	d->out = out;
+	d->at = at;
+	d->kind = kind;
+	d->scale = scale;
+	d->room_v = room;
+	return MR_OK;
+}
+
+mr_status
+mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
+{
+	uint32_t *v = mr_grow(ctx, d->v, 3 * d->nf, 3 * room, sizeof *v);
+	uint32_t *twin = mr_grow(ctx, d->twin, 3 * d->nf, 3 * room, sizeof *twin);
+
+	if (!v || !twin)
+		return MR_EMEM;
+	if (room > (MR_NONE - 1) / 3)
+		return mr_fail(
+		    ctx, MR_ERANGE, "remeshing would take more than %zu faces", (size_t)(MR_NONE - 1) / 6);
+	d->v = v;
+	d->twin = twin;
+	d->room_f = room;
+	return MR_OK;
+}
+
+/* Room for what splits add, more than they need but seldom: what is not used of it costs no memory. */
+static size_t
+ample(size_t n)
+{
+	return n < MR_NONE / 16 ? 4 * n + 32 : n + n / 4 + 32;
+}
+
+mr_status
+mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *out)
+{
+	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
+
+	MR_TRY(mr_dyn_room_v(ctx, &d, ample(m->nv)));
+	MR_TRY(mr_dyn_room_f(ctx, &d, ample(m->nf)));
+	d.nv = m->nv;
+	d.nf = m->nf;
+	memcpy(d.p, m->p, m->nv * sizeof *d.p);
+	memcpy(d.out, topo->out, m->nv * sizeof *d.out);
+	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
+	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
+	MR_TRY(mark_curves(ctx, &d, feature));
+	for (uint32_t v = 0; v < m->nv; v++) {
+		if (d.out[v] == MR_NONE) {
+			d.kind[v] = MR_DEAD; /* an isolated vertex: not part of the surface */
+			continue;
+		}
+		d.kind[v] = (uint8_t)kind_of(&d, v);
+		d.at[v] = first_place(&d, v);
+	}
+	*out = d;
+	return MR_OK;
+}
+
+mr_mesh
+mr_dyn_view(const mr_dyn *d, const char *name)
+{
+	return (mr_mesh){ name, d->p, (const mr_tri *)(const void *)d->v, d->nv, d->nf };
+}
+
+/* A copy of n items of that size; NULL stays NULL. */
+static mr_status
+copy_array(mr_ctx *ctx, void *to, const void *from, size_t n, size_t size)
+{
+	void *copy = from ? mr_alloc(ctx, n, size) : NULL;
+
+	if (from && !copy)
+		return MR_EMEM;
+	if (from)
+		memcpy(copy, from, n * size);
+	memcpy(to, &copy, sizeof copy);
+	return MR_OK;
+}
+
+mr_status
+mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *c)
+{
+	*c = *d;
+	c->room_v = d->nv;
+	c->room_f = d->nf;
+	MR_TRY(copy_array(ctx, &c->p, d->p, d->nv, sizeof *d->p));
+	MR_TRY(copy_array(ctx, &c->out, d->out, d->nv, sizeof *d->out));
+	MR_TRY(copy_array(ctx, &c->at, d->at, d->nv, sizeof *d->at));
+	MR_TRY(copy_array(ctx, &c->kind, d->kind, d->nv, sizeof *d->kind));
+	MR_TRY(copy_array(ctx, &c->scale, d->scale, d->nv, sizeof *d->scale));
+	MR_TRY(copy_array(ctx, &c->v, d->v, 3 * d->nf, sizeof *d->v));
+	MR_TRY(copy_array(ctx, &c->twin, d->twin, 3 * d->nf, sizeof *d->twin));
+	return mr_curves_copy(ctx, &d->curves, &c->curves);
+}

@@ -1,0 +1,195 @@
+/* Numbers without holes, and along the Z curve (Morton 1966). */
+#include "mesh/dynmesh.h"
+#include "mesh/zorder.h"
+
+enum { BITS = 10, BUCKETS = 1 << BITS };
+
+typedef struct item {
+	uint32_t key, index;
+} item;
+
+/* Sorts by key, stably, BITS bits at a time; with an even number of passes the result is in a. */
+static void
+sort_items(item *a, item *other, size_t n, int passes)
+{
+	for (int pass = 0; pass < passes; pass++) {
+		size_t start[BUCKETS + 1] = { 0 };
+		item *swap = a;
+		for (size_t i = 0; i < n; i++)
+			start[(a[i].key >> (pass * BITS) & (BUCKETS - 1)) + 1]++;
+		for (size_t i = 0; i < BUCKETS; i++)
+			start[i + 1] += start[i];
+		for (size_t i = 0; i < n; i++)
+			other[start[a[i].key >> (pass * BITS) & (BUCKETS - 1)]++] = a[i];
+		a = other;
+		other = swap;
+	}
+}
+
+/* Applies a permutation to an array of n objects: new[number[i]] = old[i]. */
+static mr_status
+permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	char *copy = mr_alloc(ctx, n, size), *to = array;
+
+	if (!copy)
+		return MR_EMEM;
+	memcpy(copy, array, n * size);
+	for (size_t i = 0; i < n; i++)
+		memcpy(to + number[i] * size, copy + i * size, size);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The place of item i in the order of keys: number[i].  other: workspace for n. */
+static void
+rank(item *a, item *other, size_t n, uint32_t *number)
+{
+	enum { PASSES = 4 };
+
+	sort_items(a, other, n, PASSES);
+	for (uint32_t i = 0; i < n; i++)
+		number[a[i].index] = i;
+}
+
+static mr_status
+number_vertices(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *order = MR_NEW(ctx, d->nv, uint32_t);
+
+	if (!order)
+		return MR_EMEM;
+	MR_TRY(mr_zorder(ctx, d->p, d->nv, MR_ZORDER_CELLS, order));
+	for (uint32_t i = 0; i < d->nv; i++)
+		number[order[i]] = i;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	item *a = MR_NEW(ctx, d->nf, item), *other = MR_NEW(ctx, d->nf, item);
+
+	if (!a || !other)
+		return MR_EMEM;
+	for (uint32_t f = 0; f < d->nf; f++) {
+		const uint32_t *v = d->v + 3 * f;
+		uint32_t low = v[0] < v[1] ? v[0] : v[1];
+		a[f] = (item){ low < v[2] ? low : v[2], f };
+	}
+	rank(a, other, d->nf, number);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+permute_vertices(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
+{
+	MR_TRY(permute(ctx, d->p, d->nv, sizeof *d->p, number));
+	MR_TRY(permute(ctx, d->out, d->nv, sizeof *d->out, number));
+	MR_TRY(permute(ctx, d->at, d->nv, sizeof *d->at, number));
+	MR_TRY(permute(ctx, d->kind, d->nv, sizeof *d->kind, number));
+	for (size_t h = 0; h < 3 * d->nf; h++)
+		d->v[h] = number[d->v[h]];
+	return d->scale ? permute(ctx, d->scale, d->nv, sizeof *d->scale, number) : MR_OK;
+}
+
+static mr_status
+permute_faces(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
+{
+	for (size_t h = 0; h < 3 * d->nf; h++)
+		if (d->twin[h] != MR_NONE)
+			d->twin[h] = 3 * number[d->twin[h] / 3] + d->twin[h] % 3;
+	for (size_t v = 0; v < d->nv; v++)
+		d->out[v] = 3 * number[d->out[v] / 3] + d->out[v] % 3;
+	MR_TRY(permute(ctx, d->v, d->nf, 3 * sizeof *d->v, number));
+	MR_TRY(permute(ctx, d->twin, d->nf, 3 * sizeof *d->twin, number));
+	return mr_curves_renumber(ctx, &d->curves, number);
+}
+
+mr_status
+mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *number = MR_NEW(ctx, d->nv > d->nf ? d->nv : d->nf, uint32_t);
+
+	if (!number)
+		return MR_EMEM;
+	MR_TRY(number_vertices(ctx, d, number));
+	MR_TRY(permute_vertices(ctx, d, number));
+	MR_TRY(number_faces(ctx, d, number));
+	MR_TRY(permute_faces(ctx, d, number));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Vertex v becomes w, which no face has. */
+static void
+move_vertex(mr_dyn *d, uint32_t v, uint32_t w)
+{
+	uint32_t h = d->out[v];
+
+	do {
+		d->v[h] = w;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	d->p[w] = d->p[v];
+	d->out[w] = d->out[v];
+	d->at[w] = d->at[v];
+	d->kind[w] = d->kind[v];
+	if (d->scale)
+		d->scale[w] = d->scale[v];
+}
+
+/* Half-edge h becomes k. */
+static void
+move_half_edge(mr_dyn *d, uint32_t h, uint32_t k)
+{
+	uint32_t g = d->twin[h], v = d->v[h], curve = mr_curves_get(&d->curves, h);
+
+	if (h == k)
+		return;
+	d->v[k] = v;
+	d->twin[k] = g;
+	if (g != MR_NONE)
+		d->twin[g] = k;
+	if (d->out[v] == h)
+		d->out[v] = k;
+	if (curve != MR_NONE) {
+		mr_curves_set(&d->curves, h, MR_NONE);
+		mr_curves_set(&d->curves, k, curve);
+	}
+}
+
+/* In place, since numbers only fall: this is when the most memory is in use. */
+static void
+close_holes(mr_dyn *d)
+{
+	uint32_t nv = 0, nf = 0;
+
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (d->kind[v] != MR_DEAD)
+			move_vertex(d, v, nv++);
+	for (uint32_t f = 0; f < d->nf; f++)
+		if (!mr_dyn_face_dead(d, f)) {
+			for (uint32_t i = 0; i < 3; i++)
+				move_half_edge(d, 3 * f + i, 3 * nf + i);
+			nf++;
+		}
+	d->nv = nv;
+	d->nf = nf;
+	d->free_v = d->free_f = MR_NONE;
+}
+
+mr_status
+mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
+{
+	close_holes(d);
+	if (d->room_v > d->nv + d->nv / 3)
+		MR_TRY(mr_dyn_room_v(ctx, d, d->nv + d->nv / 8 + 16));
+	return d->room_f > d->nf + d->nf / 3 ? mr_dyn_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
+}

@@ -1,0 +1,182 @@
+#include "mesh/validate.h"
+
+static const double SUM_TOLERANCE = 1e-9;
+
+/* What a column is held to, besides its shape: `refers` names the layer, and element, that its values index.
+ */
+static const struct {
+	const char *layer, *name; /* layer NULL: any */
+	const char *refers;       /* NULL: no indices; "": its own layer */
+	char element;
+	bool sum_is_one;
+} laws[] = {
+	{ NULL, "triangles", "", 'v', false },
+	{ "mesh", "detail_face", "base", 'f', false },
+	{ "mesh", "detail_bary", NULL, 0, true },
+	{ "base", "source_face", "mesh", 'f', false },
+	{ "base", "source_bary", NULL, 0, true },
+	{ NULL, "mesh_face", "mesh", 'f', false },
+	{ NULL, "mesh_bary", NULL, 0, true },
+	{ NULL, "base_face", "base", 'f', false },
+	{ NULL, "base_bary", NULL, 0, true },
+	{ NULL, "control_face", "control", 'f', false },
+	{ NULL, "control_bary", NULL, 0, true },
+};
+
+static bool
+is(const mr_column *c, const char *layer, const char *name)
+{
+	return (!layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name);
+}
+
+static mr_status
+check_shape(mr_ctx *ctx, const mr_column *c)
+{
+	for (const mr_column_info *i = mr_columns; i->name; i++) {
+		mr_shape s = i->shape;
+		if (!*c->layer || !is(c, i->layer, i->name))
+			continue;
+		if (s.components == 0)
+			s.components = c->shape.components;
+		if (s.element == c->shape.element && s.type == c->shape.type &&
+		    s.components == c->shape.components)
+			return MR_OK;
+		return mr_fail(ctx, MR_ERANGE, "%s: column %s is %c %c%u, not %c %c%u", c->layer, c->name,
+		    c->shape.element, c->shape.type, c->shape.components, s.element, s.type, s.components);
+	}
+	return MR_OK;
+}
+
+/* How many vertices or faces a layer has; false where nothing says so. */
+static bool
+layer_rows(const mr_frame *f, const char *layer, char element, uint64_t *rows)
+{
+	const mr_column *c = mr_frame_find(f, layer, element == 'v' ? "position" : "triangles");
+
+	if (c)
+		*rows = c->rows;
+	return c;
+}
+
+static mr_status
+check_rows(mr_ctx *ctx, const mr_frame *f, const mr_column *c)
+{
+	uint64_t rows;
+
+	if (c->shape.element == '-' || !layer_rows(f, c->layer, c->shape.element, &rows) || rows == c->rows)
+		return MR_OK;
+	return mr_fail(ctx, MR_ERANGE, "%s: column %s has %llu rows, not %llu", c->layer, c->name,
+	    (unsigned long long)c->rows, (unsigned long long)rows);
+}
+
+static mr_status
+check_finite(mr_ctx *ctx, const mr_column *c)
+{
+	const double *x = c->data;
+	size_t width = c->shape.components;
+
+	for (size_t i = 0; c->shape.type == 'd' && i < c->rows * width; i++)
+		if (!isfinite(x[i]))
+			return mr_fail(ctx, MR_ERANGE, "%s: column %s, row %zu: component %zu is %g",
+			    c->layer, c->name, i / width, i % width, x[i]);
+	return MR_OK;
+}
+
+static mr_status
+check_below(mr_ctx *ctx, const mr_column *c, uint64_t end, const char *of)
+{
+	const uint32_t *x = c->data;
+	size_t width = c->shape.components;
+
+	for (size_t i = 0; i < c->rows * width; i++)
+		if (x[i] >= end)
+			return mr_fail(ctx, MR_ERANGE, "%s: column %s, row %zu is %u of %llu %s", c->layer,
+			    c->name, i / width, x[i], (unsigned long long)end, of);
+	return MR_OK;
+}
+
+static mr_status
+check_sum(mr_ctx *ctx, const mr_column *c)
+{
+	const mr_v3 *w = c->data;
+
+	for (size_t i = 0; i < c->rows; i++)
+		if (!(fabs(w[i].x + w[i].y + w[i].z - 1) <= SUM_TOLERANCE))
+			return mr_fail(ctx, MR_ERANGE,
+			    "%s: column %s, row %zu: the coordinates have the sum %.17g", c->layer, c->name,
+			    i, w[i].x + w[i].y + w[i].z);
+	return MR_OK;
+}
+
+static mr_status
+check_reference(mr_ctx *ctx, const mr_frame *f, const mr_column *c, const char *refers, char element)
+{
+	const char *layer = *refers ? refers : c->layer;
+	uint64_t rows;
+
+	if (!layer_rows(f, layer, element, &rows))
+		return mr_fail(ctx, MR_EMISSING, "%s: column %s refers to %s of %s, which is not there",
+		    c->layer, c->name, element == 'v' ? "vertices" : "faces", layer);
+	return check_below(ctx, c, rows, element == 'v' ? "vertices" : "faces");
+}
+
+static mr_status
+check_law(mr_ctx *ctx, const mr_frame *f, const mr_column *c)
+{
+	for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
+		if (!is(c, laws[i].layer, laws[i].name))
+			continue;
+		if (laws[i].sum_is_one)
+			MR_TRY(check_sum(ctx, c));
+		if (laws[i].refers)
+			MR_TRY(check_reference(ctx, f, c, laws[i].refers, laws[i].element));
+	}
+	return MR_OK;
+}
+
+static mr_status
+check_groups(mr_ctx *ctx, mr_frame *f, const mr_column *c)
+{
+	const mr_shape text = { '-', 't', 1 };
+	const void *names;
+	uint64_t lines = 1;
+	size_t n;
+
+	MR_TRY(mr_frame_get(ctx, f, c->layer, "groups", text, &names, &n));
+	for (size_t i = 0; i < n; i++)
+		lines += ((const char *)names)[i] == '\n' && i + 1 < n;
+	return check_below(ctx, c, lines, "groups");
+}
+
+/* Checks one column; the first law it breaks fails. */
+static mr_status
+check_column(mr_ctx *ctx, mr_frame *f, mr_column *c)
+{
+	const uint32_t *region;
+
+	MR_TRY(mr_prefix(ctx, mr_column_decode(ctx, c), "%s: column %s", c->layer, c->name));
+	if (!*c->layer)
+		return MR_OK;
+	MR_TRY(check_shape(ctx, c));
+	MR_TRY(check_rows(ctx, f, c));
+	MR_TRY(check_finite(ctx, c));
+	if (is(c, NULL, "region"))
+		return mr_layer_region(ctx, f, c->layer, c->rows, &region);
+	if (is(c, NULL, "group"))
+		return check_groups(ctx, f, c);
+	return check_law(ctx, f, c);
+}
+
+mr_status
+mr_check_frame(mr_ctx *ctx, mr_frame *f, void (*broken)(void *user, const char *sentence), void *user)
+{
+	for (size_t i = 0; i < f->count; i++) {
+		mr_status status = check_column(ctx, f, &f->columns[i]);
+		if (status == MR_EMEM)
+			return status;
+		if (status < 0)
+			broken(user, ctx->error);
+	}
+	*ctx->error = '\0';
+	return MR_OK;
+}

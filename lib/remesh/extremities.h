@@ -1,0 +1,20 @@
+/*
+ * tips.h -- keeps the tips of thin limbs when remeshing.
+ *
+ * Tangential relaxation draws vertices back from tips that are thinner than an edge: the vertices stay on
+ * the surface, but the surface's tip is left outside.  A tip shows in its Gaussian curvature: that of a
+ * hemisphere, 2 pi, lies within an edge length.
+ * Layer rule: alg.
+ */
+#ifndef MR_TIPS_H
+#define MR_TIPS_H
+
+#include "remesh/relax.h"
+
+/*
+ * Pins the vertices at the tips of the source, of which d is still a copy: they become corners.
+ * *pinned: how many.
+ */
+mr_status mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, size_t *pinned);
+
+#endif

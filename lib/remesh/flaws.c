@@ -1,0 +1,161 @@
+#include "remesh/flaws.h"
+
+#include "base/parallel.h"
+
+static const double FOLD = -0.9396926207859084; /* cosine of 160 degrees */
+static const double CLOSE = 0.25;               /* squared cosine of 60 degrees */
+
+static bool
+are_folded(const mr_dyn *d, uint32_t f, uint32_t g)
+{
+	mr_v3 m = mr_dyn_cross(d, d->p, f), n = mr_dyn_cross(d, d->p, g);
+
+	return mr_dot(m, n) < FOLD * sqrt(mr_norm2(m) * mr_norm2(n));
+}
+
+static bool
+is_folded(const mr_dyn *d, uint32_t h)
+{
+	return d->twin[h] != MR_NONE && are_folded(d, h / 3, d->twin[h] / 3);
+}
+
+/* The normal of the source at the place of v. */
+static mr_v3
+source_normal(const mr_flaws *w, uint32_t v)
+{
+	mr_closest c = mr_surface_place(w->s, w->d, v, w->d->p[v], mr_dyn_normal_around(w->d, v));
+
+	return mr_facing_normal(&w->facing, c.face, c.bary);
+}
+
+static bool
+is_flipped(const mr_flaws *w, uint32_t f)
+{
+	const uint32_t *v = &w->d->v[3 * f];
+	mr_v3 n = mr_dyn_cross(w->d, w->d->p, f), m = mr_face_cross(w->s->m, mr_dyn_place(w->d, v[0]));
+	double mn = mr_dot(m, n);
+
+	if (!w->sure && mn > 0 && mn * mn > CLOSE * mr_norm2(m) * mr_norm2(n))
+		return false; /* as almost all are, told without a walk */
+	return mr_dot(n, source_normal(w, v[0])) < 0 && mr_dot(n, source_normal(w, v[1])) < 0 &&
+	       mr_dot(n, source_normal(w, v[2])) < 0;
+}
+
+unsigned
+mr_flaws_around(const mr_flaws *w, uint32_t v, uint32_t but, unsigned most)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+	unsigned n = 0;
+
+	do {
+		uint32_t g = d->twin[h];
+		if (!mr_dyn_has(d, h / 3, but)) {
+			n += (g == MR_NONE || !mr_dyn_has(d, g / 3, but)) && is_folded(d, h);
+			n += is_folded(d, mr_he_next(h));
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	h = d->out[v];
+	do {
+		if (n < most && !mr_dyn_has(d, h / 3, but))
+			n += is_flipped(w, h / 3);
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return n < most ? n : most;
+}
+
+unsigned
+mr_flaws_beside(const mr_flaws *w, uint32_t h)
+{
+	const mr_dyn *d = w->d;
+	uint32_t g = d->twin[h];
+
+	return (unsigned)is_flipped(w, h / 3) + is_flipped(w, g / 3) + is_folded(d, h) +
+	       is_folded(d, mr_he_next(h)) + is_folded(d, mr_he_prev(h)) + is_folded(d, mr_he_next(g)) +
+	       is_folded(d, mr_he_prev(g));
+}
+
+unsigned
+mr_flaws_of_pair(const mr_flaws *w, uint32_t h, unsigned most)
+{
+	const mr_dyn *d = w->d;
+	uint32_t side[2] = { h, d->twin[h] };
+	unsigned n = mr_flaws_around(w, d->v[h], MR_NONE, most);
+
+	if (n < most)
+		n += mr_flaws_around(w, mr_dyn_to(d, h), d->v[h], most - n);
+	for (int i = 0; i < 2; i++)
+		if (side[i] != MR_NONE) { /* over the face that is none any more */
+			uint32_t x = d->twin[mr_he_next(side[i])], y = d->twin[mr_he_prev(side[i])];
+			n += x != MR_NONE && y != MR_NONE && are_folded(d, x / 3, y / 3);
+		}
+	return n;
+}
+
+bool
+mr_is_flawed(const mr_flaws *w, uint32_t f)
+{
+	const mr_dyn *d = w->d;
+
+	return !mr_dyn_face_dead(d, f) && (is_flipped(w, f) || is_folded(d, 3 * f) ||
+					      is_folded(d, 3 * f + 1) || is_folded(d, 3 * f + 2));
+}
+
+/* Notes whether face f has a flaw: a quick look at what seldom has any. */
+static double
+find_flaw(void *arg, size_t f)
+{
+	const mr_flaws *w = arg;
+	const mr_dyn *d = w->d;
+	bool flawed = false;
+
+	if (!mr_dyn_face_dead(d, f)) {
+		mr_v3 n = mr_dyn_cross(d, d->p, f);
+		for (uint32_t h = (uint32_t)(3 * f); h < 3 * f + 3 && !flawed; h++)
+			flawed = d->twin[h] != MR_NONE &&
+			         mr_dot(n, mr_dyn_cross(d, d->p, d->twin[h] / 3)) < 0 && is_folded(d, h);
+		flawed = flawed || is_flipped(w, (uint32_t)f);
+	}
+	w->state[f] = flawed ? MR_SUSPECT : MR_SOUND;
+	return flawed;
+}
+
+mr_status
+mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_surface *s, bool sure, mr_flaws *w, size_t *count)
+{
+	*w = (mr_flaws){ d, s, { s->m, s->topo }, sure, MR_NEW(ctx, d->nf, uint8_t) };
+	if (!w->state)
+		return MR_EMEM;
+	*count = (size_t)mr_parallel_sum(ctx, d->nf, find_flaw, w);
+	return MR_OK;
+}
+
+/* The faces around v and those beside them. */
+static void
+suspect_around(const mr_flaws *w, uint32_t v)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+
+	do {
+		w->state[h / 3] = MR_SUSPECT;
+		if (d->twin[mr_he_next(h)] != MR_NONE)
+			w->state[d->twin[mr_he_next(h)] / 3] = MR_SUSPECT;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+}
+
+void
+mr_flaws_suspect(const mr_flaws *w, uint32_t v)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+
+	suspect_around(w, v);
+	do {
+		suspect_around(w, mr_dyn_to(d, h));
+		suspect_around(w, mr_dyn_to(d, mr_he_next(h)));
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+}

@@ -1,0 +1,155 @@
+#include "remesh/flip.h"
+
+#include "base/parallel.h"
+
+enum { REACH_MAX = 64 };
+
+typedef struct flipper {
+	mr_dyn *d;
+	const mr_surface *s;
+	int *excess; /* of each vertex: its valence over the one it should have */
+} flipper;
+
+static void
+excess_body(void *arg, size_t begin, size_t end)
+{
+	flipper *w = arg;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++)
+		if (w->d->kind[v] != MR_DEAD)
+			w->excess[v] = (int)mr_dyn_valence(w->d, v) - (mr_dyn_on_boundary(w->d, v) ? 4 : 6);
+}
+
+/* True where a face with that normal would be folded against the one beyond side h or g. */
+static bool
+folds_beside(const mr_dyn *d, mr_v3 normal, uint32_t h, uint32_t g)
+{
+	uint32_t th = d->twin[h], tg = d->twin[g];
+
+	return (th != MR_NONE && mr_dyn_folds(normal, mr_dyn_cross(d, d->p, th / 3))) ||
+	       (tg != MR_NONE && mr_dyn_folds(normal, mr_dyn_cross(d, d->p, tg / 3)));
+}
+
+bool
+mr_flip_is_good(const mr_dyn *d, const mr_surface *s, uint32_t h)
+{
+	uint32_t ia = d->v[h], ib = mr_dyn_to(d, h), ic = mr_dyn_apex(d, h), ie = mr_dyn_apex(d, d->twin[h]);
+	mr_v3 a = d->p[ia], b = d->p[ib], c = d->p[ic], e = d->p[ie];
+	mr_v3 n = mr_add(mr_cross(mr_sub(b, a), mr_sub(c, a)), mr_cross(mr_sub(a, b), mr_sub(e, b)));
+	mr_v3 m0 = mr_cross(mr_sub(e, a), mr_sub(c, a)), m1 = mr_cross(mr_sub(c, b), mr_sub(e, b));
+	double nn = mr_norm2(n);
+
+	return mr_dot(m0, n) > 0.5 * sqrt(nn * mr_norm2(m0)) &&
+	       mr_dot(m1, n) > 0.5 * sqrt(nn * mr_norm2(m1)) && mr_dyn_shape(a, e, c) > MR_NEEDLE &&
+	       mr_dyn_shape(b, c, e) > MR_NEEDLE &&
+	       !folds_beside(d, m0, mr_he_next(d->twin[h]), mr_he_prev(h)) &&
+	       !folds_beside(d, m1, mr_he_next(h), mr_he_prev(d->twin[h])) &&
+	       !(d->scale && (mr_surface_against(s, d, d->at, (uint32_t[]){ ia, ie, ic }, m0) ||
+				 mr_surface_against(s, d, d->at, (uint32_t[]){ ib, ic, ie }, m1)));
+}
+
+/* By how much flipping h would lower the sum of squared excesses: a^2 - (a - 1)^2 + ... */
+static int
+gain_of(const flipper *w, uint32_t h)
+{
+	const mr_dyn *d = w->d;
+	int a = w->excess[d->v[h]], b = w->excess[mr_dyn_to(d, h)];
+	int c = w->excess[mr_dyn_apex(d, h)], e = w->excess[mr_dyn_apex(d, d->twin[h])];
+
+	return 2 * (a + b - c - e) - 4;
+}
+
+/* Flips h and keeps the excesses. */
+static void
+flip(flipper *w, uint32_t h)
+{
+	mr_dyn *d = w->d;
+
+	w->excess[d->v[h]]--;
+	w->excess[mr_dyn_to(d, h)]--;
+	w->excess[mr_dyn_apex(d, h)]++;
+	w->excess[mr_dyn_apex(d, d->twin[h])]++;
+	mr_dyn_flip(d, h);
+}
+
+static size_t
+flip_gaining(flipper *w)
+{
+	mr_dyn *d = w->d;
+	size_t flips = 0;
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (!mr_dyn_face_dead(d, h / 3) && d->twin[h] != MR_NONE && h < d->twin[h] &&
+		    gain_of(w, h) > 0 && mr_dyn_can_flip(d, h) && mr_flip_is_good(d, w->s, h)) {
+			flip(w, h);
+			flips++;
+		}
+	return flips;
+}
+
+/*
+ * The edge a -> b of h has a 5-valent apex c and a 7-valent end.  Its flip moves the pair one
+ * vertex on; the next edge is the one across, on the side away from the 7-valent end.  Follows the
+ * row while the sum stays the same; true where it was lowered, else all is as before.
+ */
+static bool
+glide(flipper *w, uint32_t h, bool seven_at_end, unsigned reach, size_t *flips)
+{
+	mr_dyn *d = w->d;
+	uint32_t made[REACH_MAX]; /* the edges that the flips made */
+	unsigned n = 0;
+
+	while (n < reach && h != MR_NONE && d->twin[h] != MR_NONE) {
+		int gain = gain_of(w, h);
+		uint32_t g = d->twin[h];
+		if (gain < 0 || !mr_dyn_can_flip(d, h) || !mr_flip_is_good(d, w->s, h))
+			break;
+		flip(w, h);
+		made[n++] = mr_he_next(h);
+		if (gain > 0) {
+			*flips += n;
+			return true;
+		}
+		/* h is a -> e now and g is b -> c; across a-e or e-b lies the next face */
+		h = d->twin[seven_at_end ? h : mr_he_prev(g)];
+		if (h != MR_NONE)
+			h = seven_at_end ? mr_he_prev(h) : mr_he_next(h);
+	}
+	while (n > 0)
+		flip(w, made[--n]);
+	return false;
+}
+
+static size_t
+glide_dislocations(flipper *w, unsigned reach)
+{
+	const mr_dyn *d = w->d;
+	size_t flips = 0;
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++) {
+		int a, b;
+		if (mr_dyn_face_dead(d, h / 3) || w->excess[mr_dyn_apex(d, h)] != -1)
+			continue;
+		a = w->excess[d->v[h]];
+		b = w->excess[mr_dyn_to(d, h)];
+		if ((a == 1 && b == 0) || (a == 0 && b == 1))
+			glide(w, h, b == 1, reach, &flips);
+	}
+	return flips;
+}
+
+mr_status
+mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, unsigned reach, size_t *flips)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	flipper w = { d, s, MR_NEW(ctx, d->nv, int) };
+
+	if (!w.excess)
+		return MR_EMEM;
+	mr_parallel(ctx, d->nv, 4096, excess_body, &w);
+	*flips = flip_gaining(&w);
+	if (reach > 0)
+		*flips += glide_dislocations(&w, reach < REACH_MAX ? reach : REACH_MAX);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

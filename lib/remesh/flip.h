@@ -1,0 +1,26 @@
+/*
+ * valence.h -- regular connectivity by flips: step 3 of the remeshing, and beyond it the gliding of
+ * dislocations.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_VALENCE_H
+#define MR_VALENCE_H
+
+#include "remesh/relax.h"
+
+/*
+ * Flips every edge whose flip lowers the sum of squared deviations from valence 6 (4 on the
+ * boundary), then lets each dislocation, an adjacent pair of a 5- and a 7-valent vertex,
+ * glide for up to `reach` flips that keep the sum, if at the end of them one lowers it.  No flip turns
+ * a face over or makes a needle.  *flips: how many, those of glides that came to nothing not counted.
+ */
+mr_status mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, unsigned reach, size_t *flips);
+
+/*
+ * True where the two faces after the flip of h face the way those before did together, within 60
+ * degrees, are not folded against those beside them, and are no needles.
+ */
+bool mr_flip_is_good(const mr_dyn *d, const mr_surface *s, uint32_t h);
+
+#endif

@@ -1,0 +1,106 @@
+#include "remesh/orientation.h"
+
+static const double FOLD_COSINE = -0.984807753012208; /* of 170 degrees */
+static const double SNAP = 1e-9;                      /* of a barycentric coordinate: on an edge or vertex */
+
+/* The angle at a of the triangle (a, b, c). */
+static double
+angle_at(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	mr_v3 ab = mr_sub(b, a), ac = mr_sub(c, a);
+
+	return atan2(mr_norm(mr_cross(ab, ac)), mr_dot(ab, ac));
+}
+
+/* The sum of the unit normals of the faces around v, by angle. */
+static mr_v3
+vertex_normal(const mr_facing *s, uint32_t v)
+{
+	uint32_t h = s->topo->out[v];
+	mr_v3 sum = { 0, 0, 0 };
+
+	do {
+		const mr_v3 *p = s->m->p;
+		uint32_t b = mr_he_to(s->m, h), c = mr_he_from(s->m, mr_he_prev(h));
+		sum = mr_axpy(angle_at(p[v], p[b], p[c]), mr_unit(mr_face_cross(s->m, h / 3)), sum);
+		h = mr_he_ccw(s->topo, h);
+	} while (h != MR_NONE && h != s->topo->out[v]);
+	return sum;
+}
+
+mr_v3
+mr_facing_normal(const mr_facing *s, uint32_t face, mr_v3 bary)
+{
+	const double w[3] = { bary.x, bary.y, bary.z };
+	mr_v3 n = mr_unit(mr_face_cross(s->m, face));
+
+	for (uint32_t k = 0; k < 3; k++)
+		if (w[k] >= 1 - SNAP)
+			return vertex_normal(s, s->m->t[face].v[k]);
+	for (uint32_t k = 0; k < 3; k++) {
+		uint32_t twin = s->topo->twin[3 * face + (k + 1) % 3]; /* opposite corner k */
+		if (w[k] <= SNAP && twin != MR_NONE)
+			return mr_add(n, mr_unit(mr_face_cross(s->m, twin / 3)));
+	}
+	return n;
+}
+
+/* True where no face around v points against n: then neither does their mean. */
+static bool
+all_along(const mr_facing *s, uint32_t v, mr_v3 n)
+{
+	uint32_t h = s->topo->out[v];
+
+	do {
+		if (mr_dot(mr_face_cross(s->m, h / 3), n) < 0)
+			return false;
+		h = mr_he_ccw(s->topo, h);
+	} while (h != MR_NONE && h != s->topo->out[v]);
+	return true;
+}
+
+size_t
+mr_count_flipped_source(const mr_facing *s)
+{
+	size_t flipped = 0;
+
+	for (size_t f = 0; f < s->m->nf; f++) {
+		const uint32_t *v = s->m->t[f].v;
+		mr_v3 n = mr_face_cross(s->m, f);
+		unsigned against = 0;
+		for (int k = 0; k < 3 && against == (unsigned)k; k++)
+			against += !all_along(s, v[k], n) && mr_dot(vertex_normal(s, v[k]), n) < 0;
+		flipped += against == 3;
+	}
+	return flipped;
+}
+
+size_t
+mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_source_map *map)
+{
+	size_t flipped = 0;
+
+	for (size_t f = 0; f < m->nf; f++) {
+		mr_v3 cross = mr_face_cross(m, f);
+		unsigned against = 0;
+		for (int k = 0; k < 3 && against == (unsigned)k; k++) {
+			uint32_t v = m->t[f].v[k];
+			against += mr_dot(cross, mr_facing_normal(s, map->face[v], map->bary[v])) < 0;
+		}
+		flipped += against == 3;
+	}
+	return flipped;
+}
+
+size_t
+mr_count_folded(const mr_mesh *m, const uint32_t *twin)
+{
+	size_t folded = 0;
+
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		if (twin[h] != MR_NONE && h < twin[h]) {
+			mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, twin[h] / 3);
+			folded += mr_dot(a, b) < 0 && mr_dot(mr_unit(a), mr_unit(b)) < FOLD_COSINE;
+		}
+	return folded;
+}

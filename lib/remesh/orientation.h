@@ -1,0 +1,31 @@
+/*
+ * facing.h -- whether a mesh faces the way of the surface that it stands for.
+ *
+ * Contract: a triangle is flipped where its normal points against that of the source at the places of all its
+ * three corners.  The source's normal is that of its triangle, on an edge the mean of two, at a vertex the
+ * mean by angle (the pseudonormals of Baerentzen, Aanaes 2005).  Two triangles are folded where they meet at
+ * more than 170 degrees. Layer rule: alg.
+ */
+#ifndef MR_FACING_H
+#define MR_FACING_H
+
+#include "space/source_map.h"
+
+typedef struct mr_facing {
+	const mr_mesh *m;
+	const mr_topology *topo;
+} mr_facing; /* the source */
+
+/* The normal of the source at a place, of any length. */
+mr_v3 mr_facing_normal(const mr_facing *s, uint32_t face, mr_v3 bary);
+
+/* The flipped faces of m, whose vertices lie on the source as the map says. */
+size_t mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_source_map *map);
+
+/* The flipped faces of the source itself. */
+size_t mr_count_flipped_source(const mr_facing *s);
+
+/* The folded edges of m; twin as in mr_topology. */
+size_t mr_count_folded(const mr_mesh *m, const uint32_t *twin);
+
+#endif

@@ -1,0 +1,420 @@
+#include "remesh/relax.h"
+
+#include "space/surface_walk.h"
+#include "base/parallel.h"
+
+enum { GRAIN = 2048 };
+
+typedef struct pass {
+	const mr_dyn *d;
+	const mr_surface *s;
+	const mr_relax_opts *o;
+	double *gravity; /* of each vertex, first its area */
+	mr_v3 *p;        /* where the vertices go */
+	uint32_t *at;
+	uint8_t *turned; /* of each face: 1 where it would turn over */
+} pass;
+
+double
+mr_surface_length(const mr_surface *s, const mr_dyn *d, uint32_t v)
+{
+	double scale = d->scale ? d->scale[v] : 1;
+	const uint32_t *t;
+
+	if (!s->length)
+		return scale * s->uniform;
+	t = s->m->t[mr_dyn_place(d, v)].v;
+	return scale * (s->length[t[0]] + s->length[t[1]] + s->length[t[2]]) / 3;
+}
+
+typedef struct areas_job {
+	const mr_dyn *d;
+	double *part; /* of each half-edge: of its face, what belongs to its start */
+	double *area; /* of each vertex */
+} areas_job;
+
+/*
+ * The parts of a triangle that belong to its corners: circumcentric, or of an obtuse one half and two
+ * quarters.  dot: of the edges at each corner; those at both ends of an edge add up to its square.
+ */
+static void
+voronoi_parts(const double dot[3], double twice, double part[3])
+{
+	bool obtuse = false;
+	double eighth = twice > 0 ? 1 / (8 * twice) : 0;
+
+	for (int i = 0; i < 3; i++) {
+		double a = dot[i], b = dot[(i + 1) % 3], c = dot[(i + 2) % 3];
+		part[i] = ((a + b) * c + (a + c) * b) * eighth;
+		obtuse |= a < 0;
+	}
+	for (int i = 0; i < 3 && obtuse; i++)
+		part[i] = dot[i] < 0 ? twice / 4 : twice / 8;
+}
+
+static void
+parts_body(void *arg, size_t begin, size_t end)
+{
+	const areas_job *w = arg;
+	const mr_dyn *d = w->d;
+
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = &d->v[3 * f];
+		mr_v3 ab, bc, ca;
+		if (mr_dyn_face_dead(d, f))
+			continue;
+		ab = mr_sub(d->p[v[1]], d->p[v[0]]);
+		bc = mr_sub(d->p[v[2]], d->p[v[1]]);
+		ca = mr_sub(d->p[v[0]], d->p[v[2]]);
+		voronoi_parts((double[]){ -mr_dot(ab, ca), -mr_dot(bc, ab), -mr_dot(ca, bc) },
+		    mr_norm(mr_cross(ab, ca)), &w->part[3 * f]);
+	}
+}
+
+static double
+area_of(const areas_job *w, uint32_t v)
+{
+	uint32_t h = w->d->out[v];
+	double area = 0;
+
+	do {
+		area += w->part[h];
+		h = mr_dyn_ccw(w->d, h);
+	} while (h != MR_NONE && h != w->d->out[v]);
+	return area;
+}
+
+static void
+areas_body(void *arg, size_t begin, size_t end)
+{
+	const areas_job *w = arg;
+
+	for (size_t v = begin; v < end; v++)
+		w->area[v] = w->d->kind[v] == MR_DEAD ? 0 : area_of(w, (uint32_t)v);
+}
+
+mr_status
+mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double *area)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	areas_job w = { d, MR_NEW(ctx, 3 * d->nf, double), area };
+
+	if (!w.part)
+		return MR_EMEM;
+	mr_parallel(ctx, d->nf, GRAIN, parts_body, &w);
+	mr_parallel(ctx, d->nv, GRAIN, areas_body, &w);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The mass by which a vertex draws its neighbours: its area, in units of the target, to a power. */
+static void
+gravity_body(void *arg, size_t begin, size_t end)
+{
+	pass *w = arg;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++) {
+		double l, a;
+		if (w->d->kind[v] == MR_DEAD)
+			continue;
+		l = mr_surface_length(w->s, w->d, v);
+		a = w->gravity[v] / (l * l);
+		if (mr_dyn_on_boundary(w->d, v))
+			a *= 2; /* it has about half the area of an inner one */
+		w->gravity[v] = w->o->gravity == 1.5 ? a * sqrt(a) : pow(a, w->o->gravity);
+	}
+}
+
+bool
+mr_surface_against(const mr_surface *s, const mr_dyn *d, const uint32_t *at, const uint32_t v[3], mr_v3 cross)
+{
+	for (int k = 0; k < 3; k++) {
+		uint32_t place = d->kind[v[k]] == MR_SMOOTH ? at[v[k]] : at[v[k]] / 3;
+		if (mr_dot(cross, mr_face_cross(s->m, place)) >= 0)
+			return false;
+	}
+	return true;
+}
+
+/* True where the source at the place points the way of the normal, or nothing is known of either. */
+static bool
+agrees(const mr_mesh *m, mr_closest place, mr_v3 normal)
+{
+	return mr_dot(mr_face_cross(m, place.face), normal) >= 0;
+}
+
+mr_closest
+mr_surface_place(const mr_surface *s, const mr_dyn *d, uint32_t v, mr_v3 q, mr_v3 normal)
+{
+	mr_closest best = mr_project_walk(s->m, s->topo, mr_dyn_place(d, v), q);
+	double far = MR_FAR * mr_surface_length(s, d, v);
+	bool good = agrees(s->m, best, normal);
+	uint32_t h = d->out[v];
+
+	if (good && best.dist2 <= far * far)
+		return best;
+	do {
+		mr_closest c = mr_project_walk(s->m, s->topo, mr_dyn_place(d, mr_dyn_to(d, h)), q);
+		bool agreed = agrees(s->m, c, normal);
+		if (agreed > good || (agreed == good && c.dist2 < best.dist2)) {
+			best = c;
+			good = agreed;
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return best;
+}
+
+/* p + lambda (I - n n^T) (g - p) */
+static mr_v3
+tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+	uint32_t b = mr_dyn_to(d, h);
+	mr_v3 p = d->p[v], n = { 0, 0, 0 }, g = { 0, 0, 0 }, move, pb = mr_sub(d->p[b], p);
+	double mass = 0;
+
+	do { /* b is the end of h, pb the way there */
+		uint32_t prev = mr_he_prev(h), c = d->v[prev];
+		double gb = w->gravity ? w->gravity[b] : 1;
+		mr_v3 pc = mr_sub(d->p[c], p);
+		n = mr_add(n, mr_cross(pb, pc));
+		g = mr_axpy(gb, pb, g);
+		mass += gb;
+		b = c;
+		pb = pc;
+		h = d->twin[prev];
+	} while (h != MR_NONE && h != d->out[v]);
+	*normal = n;
+	if (!(mass > 0))
+		return p;
+	*normal = n = mr_unit(n);
+	move = mr_mul(1 / mass, g);
+	return mr_axpy(w->o->damping, mr_axpy(-mr_dot(move, n), n, move), p);
+}
+
+/* Along the curve: towards the middle between the two neighbours on it. */
+static mr_v3
+curve_move(const pass *w, uint32_t v)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+	mr_v3 sum = { 0, 0, 0 };
+	double n = 0;
+
+	do {
+		uint32_t p = mr_he_prev(h);
+		if (mr_dyn_on_curve(d, h)) {
+			sum = mr_add(sum, d->p[mr_dyn_to(d, h)]);
+			n++;
+		}
+		if (d->twin[p] == MR_NONE) {
+			sum = mr_add(sum, d->p[d->v[p]]);
+			n++;
+		}
+		h = d->twin[p];
+	} while (h != MR_NONE && h != d->out[v]);
+	return n > 0 ? mr_lerp(w->o->damping, d->p[v], mr_mul(1 / n, sum)) : d->p[v];
+}
+
+/* True where face `to` of the source points against the normal, and face `from` did not: over a rim. */
+static bool
+leaves_side(const mr_mesh *m, uint32_t from, uint32_t to, mr_v3 normal)
+{
+	return to != from && mr_dot(mr_face_cross(m, to), normal) < 0 &&
+	       mr_dot(mr_face_cross(m, from), normal) >= 0;
+}
+
+static void
+move_body(void *arg, size_t begin, size_t end)
+{
+	pass *w = arg;
+	const mr_surface *s = w->s;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++) {
+		mr_v3 p = w->d->p[v], normal;
+		uint32_t at = w->d->at[v];
+		switch ((mr_kind)w->d->kind[v]) {
+		case MR_SMOOTH:
+			p = tangential_move(w, v, &normal);
+			if (w->o->project) {
+				mr_closest c = mr_surface_place(s, w->d, v, p, normal);
+				if (leaves_side(s->m, at, c.face, normal)) {
+					p = w->d->p[v];
+					break;
+				}
+				p = c.point;
+				at = c.face;
+			}
+			break;
+		case MR_CURVE: /* a curve is kept as it is: always on the source */
+			p = mr_project_curve(s->m, s->topo, s->curves, at, curve_move(w, v), &at).point;
+			break;
+		case MR_CORNER:
+		case MR_DEAD:
+			break;
+		}
+		w->p[v] = p;
+		w->at[v] = at;
+	}
+}
+
+/* Normal of the source where face f of the mesh lies. */
+static mr_v3
+source_normal(const pass *w, size_t f)
+{
+	return mr_face_cross(w->s->m, mr_dyn_place(w->d, w->d->v[3 * f]));
+}
+
+/* True where the two vectors are more than 60 degrees apart. */
+static bool
+apart(mr_v3 a, mr_v3 b)
+{
+	double ab = mr_dot(a, b);
+
+	return ab < 0 || ab * ab < 0.25 * mr_norm2(a) * mr_norm2(b);
+}
+
+/* True where the two vectors are less than 45 degrees apart. */
+static bool
+faces(mr_v3 a, mr_v3 b)
+{
+	double ab = mr_dot(a, b);
+
+	return ab > 0 && ab * ab > 0.5 * mr_norm2(a) * mr_norm2(b);
+}
+
+/* True where the move folds face f against a neighbour that it was not folded against. */
+static bool
+folds_anew(const pass *w, size_t f, mr_v3 before, mr_v3 after)
+{
+	const mr_dyn *d = w->d;
+
+	for (size_t h = 3 * f; h < 3 * f + 3; h++) {
+		uint32_t g = d->twin[h];
+		if (g != MR_NONE && mr_dyn_folds(after, mr_dyn_cross(d, w->p, g / 3)) &&
+		    !mr_dyn_folds(before, mr_dyn_cross(d, d->p, g / 3)))
+			return true;
+	}
+	return false;
+}
+
+static bool
+is_refined(const mr_dyn *d, size_t f)
+{
+	const uint32_t *v = &d->v[3 * f];
+
+	return d->scale && (d->scale[v[0]] < 1 || d->scale[v[1]] < 1 || d->scale[v[2]] < 1);
+}
+
+/*
+ * True where the move turns face f by more than 60 degrees, folds it, or leaves it a worse needle than
+ * before.  Folds are looked for where the face leaves the source's direction, which also tells what
+ * way a needle faces.
+ */
+static bool
+turns(const pass *w, size_t f)
+{
+	const uint32_t *v = &w->d->v[3 * f];
+	const mr_v3 *p = w->d->p, *q = w->p;
+	mr_v3 before = mr_dyn_cross(w->d, p, f), after = mr_dyn_cross(w->d, q, f), normal;
+
+	if (mr_dyn_is_needle(after, q[v[0]], q[v[1]], q[v[2]]) &&
+	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
+		return true;
+	normal = source_normal(w, f);
+	if (mr_dot(after, normal) < 0 && mr_surface_against(w->s, w->d, w->at, v, after) &&
+	    !mr_surface_against(w->s, w->d, w->d->at, v, before))
+		return true;
+	if ((!faces(after, normal) || is_refined(w->d, f)) && folds_anew(w, f, before, after))
+		return true;
+	if (mr_dot(after, normal) >= 0 && !apart(before, after))
+		return false;
+	if (!mr_dyn_is_needle(before, p[v[0]], p[v[1]], p[v[2]]))
+		return apart(before, after) && (!faces(after, normal) || folds_anew(w, f, before, after));
+	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
+}
+
+static void
+turned_body(void *arg, size_t begin, size_t end)
+{
+	pass *w = arg;
+
+	for (size_t f = begin; f < end; f++)
+		w->turned[f] = !mr_dyn_face_dead(w->d, f) && turns(w, f);
+}
+
+/* Puts a vertex back where it was; the faces around it that turn because of that go onto the stack. */
+static size_t
+put_back(pass *w, uint32_t v, uint32_t *stack, size_t n)
+{
+	const mr_dyn *d = w->d;
+	uint32_t h = d->out[v];
+
+	if (memcmp(&w->p[v], &d->p[v], sizeof *w->p) == 0)
+		return n;
+	w->p[v] = d->p[v];
+	w->at[v] = d->at[v];
+	do {
+		if (!w->turned[h / 3] && turns(w, h / 3)) {
+			w->turned[h / 3] = 1;
+			stack[n++] = h / 3;
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return n;
+}
+
+/* Vertices of faces that turn go back to where they were, and so on until no face turns.  stack: nf. */
+static void
+hold_back(pass *w, uint32_t *stack)
+{
+	size_t n = 0;
+
+	for (uint32_t f = 0; f < w->d->nf; f++)
+		if (w->turned[f])
+			stack[n++] = f;
+	while (n > 0) {
+		uint32_t f = stack[--n];
+		for (uint32_t i = 0; i < 3; i++)
+			n = put_back(w, w->d->v[3 * f + i], stack, n);
+	}
+}
+
+/* The masses of the vertices, where they have any. */
+static mr_status
+find_gravity(mr_ctx *ctx, pass *w)
+{
+	if (!(w->o->gravity > 0))
+		return MR_OK;
+	w->gravity = MR_NEW(ctx, w->d->nv, double);
+	if (!w->gravity)
+		return MR_EMEM;
+	MR_TRY(mr_dyn_areas(ctx, w->d, w->gravity));
+	mr_parallel(ctx, w->d->nv, GRAIN, gravity_body, w);
+	return MR_OK;
+}
+
+mr_status
+mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	pass w = { d, s, o, NULL, NULL, NULL, NULL };
+	uint32_t *stack;
+
+	MR_TRY(find_gravity(ctx, &w));
+	w.p = MR_NEW(ctx, d->nv, mr_v3);
+	w.at = MR_NEW(ctx, d->nv, uint32_t);
+	w.turned = MR_NEW(ctx, d->nf, uint8_t);
+	stack = MR_NEW(ctx, d->nf, uint32_t);
+	if (!w.p || !w.at || !w.turned || !stack)
+		return MR_EMEM;
+	mr_parallel(ctx, d->nv, GRAIN, move_body, &w);
+	mr_parallel(ctx, d->nf, GRAIN, turned_body, &w);
+	hold_back(&w, stack);
+	memcpy(d->p, w.p, d->nv * sizeof *d->p);
+	memcpy(d->at, w.at, d->nv * sizeof *d->at);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

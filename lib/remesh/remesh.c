@@ -1,0 +1,348 @@
+#include "remesh/remesh.h"
+
+#include "remesh/orientation.h"
+#include "remesh/repair_flaws.h"
+#include "remesh/local_length.h"
+#include "remesh/relax.h"
+#include "remesh/split_collapse.h"
+#include "remesh/sizing.h"
+#include "remesh/extremities.h"
+#include "remesh/flip.h"
+#include "base/parallel.h"
+
+enum { GRAIN = 1024 };
+
+typedef struct remesher {
+	mr_ctx *ctx;
+	const mr_remesh_opts *o;
+	mr_surface source;
+	mr_curves curves; /* of the source */
+	mr_dyn d;
+	mr_resampled changes;
+	size_t flips, tips;
+	size_t flipped[2], folded[2]; /* faces and edges, of the input and of the result */
+	double
+	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
+	double seconds_rounds, seconds_areas;
+} remesher;
+
+static double
+square(double x)
+{
+	return x * x;
+}
+
+/* 3. Flip edges to lower the deviation from valence 6 (4 on boundaries). */
+static mr_status
+regularize(remesher *r, unsigned reach)
+{
+	size_t flips;
+
+	MR_TRY(mr_regularize(r->ctx, &r->d, &r->source, reach, &flips));
+	r->flips += flips;
+	return MR_OK;
+}
+
+/* At most `area_passes` passes of area-based smoothing; flips and projection keep up with it. */
+static mr_status
+equalize_areas(remesher *r)
+{
+	enum { EVERY = 5 };
+	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity };
+
+	for (size_t i = 1; i <= r->o->area_passes; i++) {
+		o.project = r->o->project && (i % EVERY == 0 || i == r->o->area_passes);
+		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
+		if (i % EVERY == 0)
+			MR_TRY(regularize(r, 0));
+	}
+	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
+}
+
+/*
+ * One round of the paper's four steps.  In step 3 dislocations glide; the reach is short, since a long
+ * glide shears the rows it passes more than the next relaxation can undo.
+ */
+static mr_status
+one_round(remesher *r, bool first)
+{
+	enum { REACH = 3, RELAX = 3 };
+	mr_relax_opts o = { .damping = 1, .gravity = r->source.length ? 1 : 0, .project = r->o->project };
+
+	MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, &r->changes));
+	MR_TRY(mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes));
+	MR_TRY(mr_mend_needles(r->ctx, &r->d, &r->source, &r->changes));
+	if (first)
+		MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* it leaves as many holes as vertices */
+	MR_TRY(regularize(r, REACH));
+	for (int i = 1; i <= RELAX; i++) {
+		o.project = r->o->project && i == RELAX;
+		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
+	}
+	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
+}
+
+/* Variance over squared mean of the areas of the inner vertices, in units of their squared lengths. */
+static mr_status
+area_variance(remesher *r, double *variance)
+{
+	const mr_dyn *d = &r->d;
+	mr_mark mark = mr_mark_take(r->ctx);
+	double *area, sum = 0, squares = 0, n = 0;
+
+	if (r->ctx->stats_unread)
+		return MR_OK;
+	area = MR_NEW(r->ctx, d->nv, double);
+	if (!area)
+		return MR_EMEM;
+	MR_TRY(mr_dyn_areas(r->ctx, d, area));
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
+			double a = area[v] / square(mr_surface_length(&r->source, d, v));
+			sum += a;
+			squares += a * a;
+			n++;
+		}
+	*variance = sum > 0 ? n * squares / (sum * sum) - 1 : 0;
+	mr_mark_release(r->ctx, mark);
+	return MR_OK;
+}
+
+/* Neighbours close together in memory. */
+static mr_status
+tidy(remesher *r)
+{
+	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
+	return mr_dyn_order(r->ctx, &r->d);
+}
+
+/*
+ * What is too dense is thinned before the first split, which bisects far more edges than it must; edges that
+ * cannot be merged yet may be after the first round.
+ */
+static mr_status
+thin_out(remesher *r)
+{
+	MR_TRY(mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes));
+	r->changes.refused = 0;
+	return MR_OK;
+}
+
+static mr_status
+run(remesher *r)
+{
+	double start = mr_seconds(), middle;
+
+	if (r->o->rounds > 0)
+		MR_TRY(thin_out(r));
+	for (size_t i = 0; i < r->o->rounds; i++) {
+		MR_TRY(one_round(r, i == 0));
+		mr_refine_grade(&r->d, &r->source);
+		if (i == 0 || i + 1 == r->o->rounds)
+			MR_TRY(tidy(r)); /* the first round changes most */
+		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(r->o->rounds + 1));
+	}
+	middle = mr_seconds();
+	r->seconds_rounds = middle - start;
+	MR_TRY(area_variance(r, &r->variance[0]));
+	MR_TRY(equalize_areas(r));
+	MR_TRY(area_variance(r, &r->variance[1]));
+	r->seconds_areas = mr_seconds() - middle;
+	return MR_OK;
+}
+
+/* How much finer and coarser than the uniform length adapted lengths may be. */
+static const double ADAPTIVE_RANGE = 5;
+
+/* Refuses a length that would take more faces than can be numbered. */
+static mr_status
+check_length(remesher *r, const mr_mesh *m, double length)
+{
+	double area = mr_mesh_area(r->ctx, m), faces = area / (sqrt(3) / 4 * length * length);
+
+	if (!(area > 0))
+		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
+	if (!(faces < (double)(MR_NONE / 6)))
+		return mr_fail(r->ctx, MR_ERANGE,
+		    "%s: edges of length %g would take about %.2g faces, more than %u", m->name, length,
+		    faces, MR_NONE / 6);
+	return MR_OK;
+}
+
+static mr_status
+set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
+{
+	double *length = NULL,
+	       uniform = r->o->length > 0 ? r->o->length : r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
+
+	MR_TRY(check_length(r, m, uniform));
+	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
+	MR_TRY(mr_curves_copy(r->ctx, &r->d.curves, &r->curves));
+	if (r->o->adaptive > 0) {
+		length = MR_NEW(r->ctx, m->nv, double);
+		if (!length)
+			return MR_EMEM;
+		MR_TRY(mr_sizing_field(
+		    r->ctx, m, r->o->adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
+	}
+	r->source = (mr_surface){ m, topo, &r->curves, length, uniform };
+	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
+}
+
+typedef struct mapping {
+	const remesher *r;
+	uint32_t *face;
+	mr_v3 *bary;
+} mapping;
+
+static void
+map_body(void *arg, size_t begin, size_t end)
+{
+	const mapping *j = arg;
+	const mr_dyn *d = &j->r->d;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++) {
+		mr_closest c = mr_surface_place(&j->r->source, d, v, d->p[v], mr_dyn_normal_around(d, v));
+		j->face[v] = c.face;
+		j->bary[v] = c.bary;
+	}
+}
+
+/* Where each vertex lies on the source: on its face the nearest point, which without projection may be
+ * elsewhere. */
+static mr_status
+map_to_source(remesher *r, mr_source_map *map)
+{
+	uint32_t *face = MR_NEW(r->ctx, r->d.nv, uint32_t);
+	mr_v3 *bary = MR_NEW(r->ctx, r->d.nv, mr_v3);
+
+	if (!face || !bary)
+		return MR_EMEM;
+	mr_parallel(r->ctx, r->d.nv, GRAIN, map_body, &(mapping){ r, face, bary });
+	*map = (mr_source_map){ face, bary };
+	return MR_OK;
+}
+
+/* Triangles flipped and edges folded, of the input and of the result. */
+static void
+count_flaws(remesher *r, const mr_source_map *map)
+{
+	const mr_facing facing = { r->source.m, r->source.topo };
+	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
+
+	r->flipped[1] = mr_count_flipped(&facing, &view, map);
+	r->folded[1] = mr_count_folded(&view, r->d.twin);
+	if (r->ctx->stats_unread)
+		return;
+	r->flipped[0] = mr_count_flipped_source(&facing);
+	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
+}
+
+/* The map of the result as it is, without holes, and its flaws. */
+static mr_status
+settle(remesher *r, mr_source_map *map)
+{
+	MR_TRY(map_to_source(r, map));
+	count_flaws(r, map);
+	return MR_OK;
+}
+
+static size_t
+flaws_of(const remesher *r)
+{
+	return r->flipped[1] + r->folded[1];
+}
+
+/* Mends as the last resort; before, but for the first time, finer where it is flawed and one more round. */
+static mr_status
+mend_last(remesher *r, bool refine)
+{
+	mr_mark mark;
+	mr_source_map map;
+
+	if (refine) {
+		if (!r->d.scale)
+			MR_TRY(mr_refine_begin(r->ctx, &r->d));
+		MR_TRY(mr_refine_flaws(r->ctx, &r->d, &r->source));
+		mr_refine_grade(&r->d, &r->source);
+		MR_TRY(one_round(r, false));
+		MR_TRY(equalize_areas(r));
+	}
+	MR_TRY(mr_mend_flaws(r->ctx, &r->d, &r->source, true));
+	MR_TRY(tidy(r));
+	mark = mr_mark_take(r->ctx);
+	MR_TRY(settle(r, &map));
+	mr_mark_release(r->ctx, mark);
+	return MR_OK;
+}
+
+/*
+ * The last resort where a few flaws are left: rounds with edges half as long there, until none is; else the
+ * state with the fewest stays, the first of them.  Where there are many the surface is thinner than its edges
+ * all over, and mending would take hours.
+ */
+static mr_status
+try_again(remesher *r)
+{
+	enum { TRIES = 4, FEW = 500 };
+	size_t least = flaws_of(r);
+	mr_dyn best;
+
+	if (least > FEW)
+		return MR_OK;
+
+	MR_TRY(mr_dyn_copy(r->ctx, &r->d, &best));
+	for (int i = 0; i < TRIES && flaws_of(r) > 0; i++) {
+		MR_TRY(mend_last(r, i > 0));
+		if (flaws_of(r) < least) {
+			least = flaws_of(r);
+			MR_TRY(mr_dyn_copy(r->ctx, &r->d, &best));
+		}
+	}
+	if (flaws_of(r) > least)
+		r->d = best;
+	return MR_OK;
+}
+
+static void
+report(const remesher *r)
+{
+	mr_stat_set(r->ctx, "length", r->source.uniform);
+	mr_stat_set(r->ctx, "splits", (double)r->changes.splits);
+	mr_stat_set(r->ctx, "collapses", (double)r->changes.collapses);
+	mr_stat_set(r->ctx, "flips", (double)r->flips);
+	mr_stat_set(r->ctx, "tips", (double)r->tips);
+	mr_stat_set(r->ctx, "vertices", (double)r->d.nv);
+	mr_stat_set(r->ctx, "faces", (double)r->d.nf);
+	mr_stat_set(r->ctx, "area_variance_before", r->variance[0]);
+	mr_stat_set(r->ctx, "area_variance_after", r->variance[1]);
+	mr_stat_set(r->ctx, "flipped_before", (double)r->flipped[0]);
+	mr_stat_set(r->ctx, "flipped", (double)r->flipped[1]);
+	mr_stat_set(r->ctx, "folded_before", (double)r->folded[0]);
+	mr_stat_set(r->ctx, "folded", (double)r->folded[1]);
+	mr_stat_set(r->ctx, "seconds_rounds", r->seconds_rounds);
+	mr_stat_set(r->ctx, "seconds_areas", r->seconds_areas);
+}
+
+mr_status
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_source_map *map)
+{
+	remesher r = { .ctx = ctx, .o = o };
+	mr_topology topo;
+	mr_mark mark;
+
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	MR_TRY(set_up(&r, m, &topo));
+	MR_TRY(run(&r));
+	MR_TRY(mr_dyn_compact(ctx, &r.d));
+	mark = mr_mark_take(ctx);
+	MR_TRY(settle(&r, map));
+	if (flaws_of(&r) > 0 && o->rounds > 0) {
+		mr_mark_release(ctx, mark);
+		MR_TRY(try_again(&r));
+		MR_TRY(settle(&r, map));
+	}
+	report(&r);
+	*out = mr_dyn_view(&r.d, m->name);
+	return MR_OK;
+}

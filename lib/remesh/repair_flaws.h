@@ -1,0 +1,23 @@
+/*
+ * mend.h -- takes the flipped faces and the folds that remeshing left out of a mesh.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_MEND_H
+#define MR_MEND_H
+
+#include "remesh/relax.h"
+
+/*
+ * Around every flipped face (alg/facing.h) and every edge folded by more than 160 degrees: moves a vertex, on
+ * the surface where it can be, flips an edge or merges two vertices, the first that leaves fewer of both
+ * there; until nothing does, 8 times at most, then with worse shapes allowed.  Needles are made only when all
+ * else has been tried.  A merge leaves holes in the numbering.  As a last resort tips are unpinned and
+ * vertices of a boundary or curve merged along it.
+ */
+mr_status mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last);
+
+/* Halves the target length around what is flawed; d->scale is there. */
+mr_status mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s);
+
+#endif

@@ -1,0 +1,291 @@
+#include "remesh/split_collapse.h"
+
+#include "remesh/collapse_check.h"
+#include "space/surface_walk.h"
+#include "remesh/local_length.h"
+#include "remesh/flip.h"
+
+/* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
+static const double LONG = 4.0 / 3, SHORT = 4.0 / 5;
+
+/*
+ * Beyond the paper: a strained lattice (a grid of right angles, say) has valence 6 everywhere and no edge
+ * beyond those thresholds, so nothing would move it.  Its strain shows in the angles opposite its edges:
+ * edges longer or shorter than these are split or merged too where both angles are that far from 60.
+ */
+static const double STRETCHED = 1.05, SQUEEZED = 0.95;
+/* Shape of a face so thin that its normal is rounding. */
+static const double HAIR = 1e-6;
+static const double WIDE = 0.2588190451025207, NARROW = 0.7071067811865476; /* cosines of 75 and 45 degrees */
+
+typedef struct resampler {
+	mr_ctx *ctx;
+	mr_dyn *d;
+	const mr_surface *s;
+	mr_resampled *done;
+	uint8_t *mark; /* for the link condition */
+} resampler;
+
+static double
+edge_length2(const mr_dyn *d, uint32_t h)
+{
+	return mr_norm2(mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]));
+}
+
+/* The target length of the edge of h: of its finer end. */
+static double
+target(const resampler *r, uint32_t h)
+{
+	const float *scale = r->d->scale;
+	uint32_t from = r->d->v[h], to = mr_dyn_to(r->d, h);
+	double a, b;
+
+	if (!r->s->length)
+		return scale ? r->s->uniform * fminf(scale[from], scale[to]) : r->s->uniform;
+	a = mr_surface_length(r->s, r->d, from);
+	b = mr_surface_length(r->s, r->d, to);
+	return a < b ? a : b;
+}
+
+/* One half-edge of each edge that lives. */
+static bool
+is_edge(const mr_dyn *d, uint32_t h)
+{
+	return !mr_dyn_face_dead(d, h / 3) && (d->twin[h] == MR_NONE || h < d->twin[h]);
+}
+
+static double
+square(double x)
+{
+	return x * x;
+}
+
+/* The longest edge of h's face, h itself among equals. */
+static uint32_t
+longest_side(const mr_dyn *d, uint32_t h)
+{
+	uint32_t n = mr_he_next(h), p = mr_he_prev(h);
+	double lh = edge_length2(d, h), ln = edge_length2(d, n), lp = edge_length2(d, p);
+
+	if (ln > lh)
+		return lp > ln ? p : n;
+	return lp > lh ? p : h;
+}
+
+/*
+ * An edge at or near h that is the longest of both its faces (Rivara 1984): bisecting only
+ * such edges keeps the angles from collapsing.  Lengths grow on the way, so it ends.
+ */
+static uint32_t
+locally_longest(const mr_dyn *d, uint32_t h)
+{
+	for (;;) {
+		uint32_t g = longest_side(d, h);
+		if (g == h && d->twin[h] != MR_NONE) {
+			g = longest_side(d, d->twin[h]);
+			if (g == d->twin[h])
+				return h;
+		}
+		if (g == h)
+			return h;
+		h = g;
+	}
+}
+
+/* Cosine of the angle opposite h in its face. */
+static double
+opposite_cosine(const mr_dyn *d, uint32_t h)
+{
+	mr_v3 c = d->p[mr_dyn_apex(d, h)], a = mr_sub(d->p[d->v[h]], c), b = mr_sub(d->p[mr_dyn_to(d, h)], c);
+
+	return mr_dot(a, b) / sqrt(mr_norm2(a) * mr_norm2(b));
+}
+
+static bool
+too_long(const resampler *r, uint32_t h)
+{
+	const mr_dyn *d = r->d;
+	double l = target(r, h), l2 = edge_length2(d, h);
+
+	if (l2 > square(LONG * l))
+		return true;
+	return l2 > square(STRETCHED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) < WIDE &&
+	       opposite_cosine(d, d->twin[h]) < WIDE;
+}
+
+static bool
+too_short(const resampler *r, uint32_t h)
+{
+	const mr_dyn *d = r->d;
+	double l = target(r, h), l2 = edge_length2(d, h);
+
+	if (l2 < square(SHORT * l))
+		return true;
+	return l2 < square(SQUEEZED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) > NARROW &&
+	       opposite_cosine(d, d->twin[h]) > NARROW;
+}
+
+/* The place of a new vertex, first that of an end of its edge: a walk from there may not get to it. */
+static void
+place_middle(resampler *r, uint32_t m)
+{
+	const mr_surface *s = r->s;
+	mr_dyn *d = r->d;
+	mr_closest c = mr_project_walk(s->m, s->topo, d->at[m], d->p[m]);
+
+	if (c.dist2 > square(MR_FAR * mr_surface_length(s, d, m)))
+		c = mr_surface_place(s, d, m, d->p[m], mr_dyn_normal_around(d, m));
+	d->at[m] = c.face;
+}
+
+/* 1. Split all edges that are longer than 4/3 l at their midpoint. */
+mr_status
+mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
+{
+	resampler r = { ctx, d, s, done, NULL };
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		while (is_edge(d, h) && too_long(&r, h)) {
+			uint32_t g = locally_longest(d, h), m;
+			mr_v3 middle = mr_lerp(0.5, d->p[d->v[g]], d->p[mr_dyn_to(d, g)]);
+			MR_TRY(mr_dyn_split(ctx, d, g, middle, &m));
+			if (d->kind[m] == MR_SMOOTH)
+				place_middle(&r, m);
+			done->splits++;
+		}
+	return MR_OK;
+}
+
+/*
+ * True where moving v to p turns no face around v that stays (those with vertex `gone` do not) by
+ * more than 60 degrees or away from `facing`, makes no needle worse and no edge longer than `longest`.
+ */
+static bool
+move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, double longest2)
+{
+	uint32_t h = d->out[v];
+
+	do {
+		uint32_t b = mr_dyn_to(d, h), c = mr_dyn_apex(d, h);
+		mr_v3 pb = d->p[b], pc = d->p[c], pv = d->p[v];
+		if (b != gone && c != gone) {
+			mr_v3 before = mr_cross(mr_sub(pb, pv), mr_sub(pc, pv)),
+			      after = mr_cross(mr_sub(pb, p), mr_sub(pc, p));
+			double shape = mr_dyn_shape(pv, pb, pc), moved = mr_dyn_shape(p, pb, pc);
+			if (mr_norm2(mr_sub(pb, p)) > longest2 || mr_norm2(mr_sub(pc, p)) > longest2)
+				return false;
+			if (moved < MR_NEEDLE && moved < 0.2 * shape)
+				return false;
+			if (mr_dot(after, facing) <= 0 && mr_dot(before, facing) > 0)
+				return false;
+			if (shape >= HAIR &&
+			    mr_dot(before, after) < 0.5 * sqrt(mr_norm2(before) * mr_norm2(after)))
+				return false;
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return true;
+}
+
+/* Where the merged vertex goes: the midpoint, or the end that must stay. */
+static mr_v3
+merged_position(const mr_dyn *d, uint32_t a, uint32_t b)
+{
+	if (d->kind[a] == d->kind[b])
+		return mr_lerp(0.5, d->p[a], d->p[b]);
+	return d->p[b];
+}
+
+static bool
+try_collapse(resampler *r, uint32_t h, double longest2)
+{
+	mr_dyn *d = r->d;
+	uint32_t a, b;
+	mr_v3 p, facing;
+
+	if (d->twin[h] != MR_NONE && d->kind[d->v[h]] > d->kind[mr_dyn_to(d, h)])
+		h = d->twin[h]; /* the one that is more bound stays */
+	a = d->v[h];
+	b = mr_dyn_to(d, h);
+	if (!mr_dyn_can_collapse(d, h, r->mark))
+		return false;
+	p = merged_position(d, a, b);
+	facing = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
+	if (!move_is_good(d, a, b, p, facing, longest2) || !move_is_good(d, b, a, p, facing, longest2))
+		return false;
+	if (mr_merging_folds(d, r->s, a, b, p, facing)) {
+		r->done->refused++;
+		return false;
+	}
+	mr_dyn_collapse(d, h, p);
+	if (d->scale && d->scale[b] < 1 && d->kind[b] == MR_SMOOTH)
+		d->at[b] = mr_surface_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).face;
+	r->done->collapses++;
+	return true;
+}
+
+/* 2. Collapse all edges that are shorter than 4/5 l into their midpoint. */
+mr_status
+mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
+{
+	resampler r = { ctx, d, s, done, NULL };
+	mr_mark mark;
+
+	if (done->refused > 0 && !d->scale)
+		MR_TRY(mr_refine_begin(ctx, d));
+	mark = mr_mark_take(ctx);
+	r.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
+	if (!r.mark)
+		return MR_EMEM;
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (is_edge(d, h) && too_short(&r, h)) {
+			size_t refused = done->refused;
+			if (!try_collapse(&r, h, square(LONG * target(&r, h))) && done->refused > refused)
+				mr_refine_edge(d, s, h);
+		}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Merges the ends of a side of h's face, the shortest first; true where one could be. */
+static bool
+collapse_a_side(resampler *r, uint32_t h)
+{
+	uint32_t side[3] = { h, mr_he_next(h), mr_he_prev(h) };
+
+	for (int i = 0; i < 3; i++)
+		for (int j = 2; j > i; j--)
+			if (edge_length2(r->d, side[j]) < edge_length2(r->d, side[j - 1])) {
+				uint32_t swap = side[j];
+				side[j] = side[j - 1];
+				side[j - 1] = swap;
+			}
+	for (int i = 0; i < 3; i++)
+		if (try_collapse(r, side[i], square(2 * target(r, side[i]))))
+			return true;
+	return false;
+}
+
+/* Needles that the steps of the paper left: flips the longest side away, or takes the face out. */
+mr_status
+mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	resampler r = { ctx, d, s, done, MR_NEW_ZERO(ctx, d->nv, uint8_t) };
+
+	if (!r.mark)
+		return MR_EMEM;
+	for (uint32_t f = 0; f < d->nf; f++) {
+		const uint32_t *v = &d->v[3 * f];
+		uint32_t longest;
+		if (mr_dyn_face_dead(d, f) || mr_dyn_shape(d->p[v[0]], d->p[v[1]], d->p[v[2]]) >= MR_NEEDLE)
+			continue;
+		longest = longest_side(d, longest_side(d, 3 * f));
+		if (mr_dyn_can_flip(d, longest) && mr_flip_is_good(d, s, longest))
+			mr_dyn_flip(d, longest);
+		else
+			collapse_a_side(&r, 3 * f);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,78 @@
+#include "remesh/unfold.h"
+
+static const double FOLD = -0.9396926207859084; /* cosine of 160 degrees */
+
+enum { MOST = 10 };
+
+static bool
+is_folded(const mr_dyn *d, uint32_t h)
+{
+	uint32_t g = d->twin[h];
+	mr_v3 m, n;
+
+	if (g == MR_NONE)
+		return false;
+	m = mr_dyn_cross(d, d->p, h / 3);
+	n = mr_dyn_cross(d, d->p, g / 3);
+	return mr_dot(m, n) < FOLD * sqrt(mr_norm2(m) * mr_norm2(n));
+}
+
+static bool
+makes_a_needle(const mr_dyn *d, uint32_t v, mr_v3 p)
+{
+	uint32_t h = d->out[v];
+
+	do {
+		mr_v3 b = d->p[mr_dyn_to(d, h)], c = d->p[mr_dyn_apex(d, h)];
+		if (mr_dyn_shape(p, b, c) < MR_NEEDLE)
+			return true;
+		h = mr_dyn_ccw(d, h);
+	} while (h != d->out[v]);
+	return false;
+}
+
+static bool
+is_on_curve(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+
+	do {
+		if (mr_dyn_on_curve(d, h) || mr_dyn_on_curve(d, mr_he_prev(h)))
+			return true;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return false;
+}
+
+/* Half of the way to the middle of the neighbours. */
+static void
+draw_in(mr_dyn *d, uint32_t v, bool tips)
+{
+	mr_v3 p;
+
+	if (d->kind[v] != MR_SMOOTH && (!tips || is_on_curve(d, v)))
+		return;
+	p = mr_lerp(0.5, d->p[v], mr_dyn_middle_around(d, v));
+	if (!makes_a_needle(d, v, p))
+		d->p[v] = p;
+}
+
+size_t
+mr_iron(mr_dyn *d, bool tips)
+{
+	size_t folds = 1;
+
+	for (int i = 0; i < MOST && folds; i++) {
+		folds = 0;
+		for (uint32_t h = 0; h < 3 * d->nf; h++) {
+			if (mr_dyn_face_dead(d, h / 3) || h > d->twin[h] || !is_folded(d, h))
+				continue;
+			folds++;
+			draw_in(d, d->v[h], tips);
+			draw_in(d, mr_dyn_to(d, h), tips);
+			draw_in(d, mr_dyn_apex(d, h), tips);
+			draw_in(d, mr_dyn_apex(d, d->twin[h]), tips);
+		}
+	}
+	return folds;
+}

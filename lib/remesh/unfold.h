@@ -1,0 +1,19 @@
+/*
+ * iron.h -- takes folds out of a mesh.
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_IRON_H
+#define MR_IRON_H
+
+#include "remesh/relax.h"
+
+/*
+ * Draws the vertices at edges that are folded by more than 160 degrees towards the middle of their
+ * neighbours, until none is left or it has been done 10 times.  Curves stay, tips do unless `tips`, and so
+ * does what would become a needle.  Where a limb is thinner than an edge a mesh of such edges may fold:
+ * there the surface gives way.  Returns how many folds are left.
+ */
+size_t mr_iron(mr_dyn *d, bool tips);
+
+#endif

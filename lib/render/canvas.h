@@ -1,0 +1,39 @@
+/*
+ * canvas.h -- an image of sRGB pixels, and flat drawing on it: rectangles and text.
+ *
+ * Contract: drawing is clipped to the image.
+ * Layer rule: alg.
+ */
+#ifndef MR_CANVAS_H
+#define MR_CANVAS_H
+
+#include "render/colormap.h"
+
+typedef struct mr_image {
+	mr_rgb *pixel; /* rows from the top, pixels from the left */
+	size_t width, height;
+} mr_image;
+
+/* An image of one colour, in the arena.  MR_ERANGE over 32,767 pixels a side. */
+mr_status mr_image_new(mr_ctx *ctx, size_t width, size_t height, mr_rgb color, mr_image *image);
+
+/* Copies `from` with its upper left corner at (x, y). */
+void mr_image_copy(mr_image *to, size_t x, size_t y, const mr_image *from);
+
+void mr_image_fill(mr_image *image, double x, double y, double w, double h, mr_rgb color);
+
+/* Advance of a letter, and the height of a line, in units of text. */
+enum { MR_TEXT_ADVANCE = 6, MR_TEXT_LINE = 10 };
+
+/*
+ * Writes ASCII (other bytes are boxes) from (x, y), the upper left corner of the first letter;
+ * capitals are 7 units high, letters 6 apart, a unit is `unit` pixels.
+ */
+void mr_image_text(mr_image *image, double x, double y, double unit, mr_rgb color, const char *text);
+
+/* The rows of a letter, from the top, bit 4 the leftmost of five columns; rows 7 and 8 hang below the line.
+ */
+enum { MR_GLYPH_ROWS = 9 };
+const uint8_t *mr_glyph(char letter);
+
+#endif

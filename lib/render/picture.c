@@ -1,0 +1,371 @@
+/* Drawing what gallery.c collected: cameras, panels, labels, legends, sheets. */
+#include "render/gallery.h"
+
+#include "mesh/layers.h"
+
+static const mr_rgb PAPER = { 252, 252, 250 }, INK = { 58, 60, 66 }, PALE = { 140, 142, 148 };
+
+/* Pixels per unit of text, in a panel of this size. */
+static double
+text_unit(const mr_gallery_opts *o)
+{
+	size_t side = o->width < o->height ? o->width : o->height;
+	double unit = (double)side / 340;
+
+	return unit < 1 ? 1 : unit > 3 ? 3 : unit;
+}
+
+/* Height of the strip of labels under a panel, and of the title over a picture. */
+static double
+label_height(const mr_gallery_opts *o)
+{
+	return o->labels ? 15 * text_unit(o) : 0;
+}
+
+static size_t
+title_height(const mr_gallery_opts *o)
+{
+	return o->title ? (size_t)(30 * text_unit(o)) : 0;
+}
+
+/* Aims a camera at panels of the gallery. */
+static mr_status
+aim(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_gallery_opts *o, mr_camera *camera)
+{
+	double w = (double)o->width, h = (double)o->height, label = label_height(o);
+	double margin = 0.04 * (w < h ? w : h);
+	mr_box box = mr_box_empty(), covered = mr_box_empty();
+	mr_camera c;
+
+	MR_TRY(mr_camera_look(ctx, o->from, o->up, &c));
+	for (size_t i = first; i < first + count; i++)
+		mr_camera_box(&c, g->panel[i].subject.mesh.p, g->panel[i].subject.mesh.nv, &box);
+	mr_camera_aim(&c, box, o->parallel);
+	for (size_t i = first; i < first + count; i++)
+		mr_camera_cover(&c, g->panel[i].subject.mesh.p, g->panel[i].subject.mesh.nv, &covered);
+	mr_camera_fit(&c, covered, o->zoom, margin, margin, w - 2 * margin, h - label - 2 * margin);
+	*camera = c;
+	return MR_OK;
+}
+
+static size_t
+value_count(const mr_panel *p)
+{
+	return p->subject.per_face ? p->subject.mesh.nf : p->subject.mesh.nv;
+}
+
+/* The range that colours span: symmetric where numbers of both signs are there. */
+static void
+find_range(const mr_gallery *g, size_t first, size_t count, const mr_gallery_opts *o, mr_shot *s)
+{
+	double low = INFINITY, high = -INFINITY;
+
+	for (size_t i = first; i < first + count; i++) {
+		const mr_panel *p = &g->panel[i];
+		for (size_t k = 0; p->value && k < value_count(p); k++) {
+			if (!isfinite(p->value[k]))
+				continue;
+			low = fmin(low, p->value[k]);
+			high = fmax(high, p->value[k]);
+		}
+	}
+	if (low < 0 && high > 0)
+		low = -(high = fmax(-low, high));
+	s->low = o->ranged ? o->low : low <= high ? low : 0;
+	s->high = o->ranged ? o->high : low <= high ? high : 0;
+}
+
+mr_status
+mr_shot_aim(
+    mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_gallery_opts *o, mr_shot *shot)
+{
+	mr_shot s = { .first = first, .count = count };
+	const mr_shown *a = &g->frame[first], *b = &g->frame[first + count - 1];
+	size_t panels = b->first + b->count - a->first;
+
+	MR_TRY(aim(ctx, g, a->first, panels, o, &s.camera));
+	find_range(g, a->first, panels, o, &s);
+	*shot = s;
+	return MR_OK;
+}
+
+static mr_rgb
+number_color(const mr_shot *s, double x)
+{
+	if (!isfinite(x))
+		return mr_color_kind(MR_NONE);
+	if (s->low < 0 && s->high > 0)
+		return mr_color_diverging(x / fmax(-s->low, s->high));
+	return mr_color_sequential(s->high > s->low ? (x - s->low) / (s->high - s->low) : 0.5);
+}
+
+/* The subject with its numbers made colours. */
+static mr_status
+color_subject(mr_ctx *ctx, const mr_shot *s, const mr_panel *p, mr_subject *m)
+{
+	mr_rgb *color;
+
+	*m = p->subject;
+	if (p->coloring != MR_COLOR_NUMBERS)
+		return MR_OK;
+	color = MR_NEW(ctx, value_count(p), mr_rgb);
+	if (!color)
+		return MR_EMEM;
+	for (size_t i = 0; i < value_count(p); i++)
+		color[i] = number_color(s, p->value[i]);
+	m->color = color;
+	return MR_OK;
+}
+
+/* A line of text that grows to one side, with the room that is left to it. */
+typedef struct strip {
+	mr_image *image;
+	double left, right, y, unit;
+} strip;
+
+static double
+text_width(const strip *s, const char *text)
+{
+	return s->unit * (double)(MR_TEXT_ADVANCE * strlen(text));
+}
+
+/* Writes at the left end if it fits, cut short with dots where `cut`. */
+static void
+write_left(strip *s, const char *text, mr_rgb color, bool cut)
+{
+	size_t fits = s->right > s->left ? (size_t)((s->right - s->left) / (s->unit * MR_TEXT_ADVANCE)) : 0;
+	char line[256];
+
+	if (strlen(text) > fits && (!cut || fits < 3))
+		return;
+	snprintf(line, sizeof line, "%s", text);
+	if (strlen(line) > fits)
+		snprintf(line + fits - 2, sizeof line - fits + 2, "..");
+	mr_image_text(s->image, s->left, s->y, s->unit, color, line);
+	s->left += text_width(s, line) + 2 * MR_TEXT_ADVANCE * s->unit;
+}
+
+static void
+write_right(strip *s, const char *text, mr_rgb color)
+{
+	s->right -= text_width(s, text);
+	mr_image_text(s->image, s->right, s->y, s->unit, color, text);
+	s->right -= MR_TEXT_ADVANCE * s->unit;
+}
+
+static void
+number_text(char *text, size_t size, double x)
+{
+	snprintf(text, size, "%.3g", x);
+}
+
+/* The bar of colours between its least and its greatest number. */
+static void
+draw_scale(strip *s, const mr_shot *shot)
+{
+	double width = floor(fmin(64 * s->unit, (s->right - s->left) / 4)), height = 7 * s->unit;
+	char text[32];
+
+	number_text(text, sizeof text, shot->high);
+	write_right(s, text, INK);
+	s->right = floor(s->right - width);
+	for (double x = 0; x < width; x++)
+		mr_image_fill(s->image, s->right + x, s->y, 1, height,
+		    number_color(shot, shot->low + (shot->high - shot->low) * (x + 0.5) / width));
+	s->right -= MR_TEXT_ADVANCE * s->unit;
+	number_text(text, sizeof text, shot->low);
+	write_right(s, text, INK);
+}
+
+static const char *
+region_name(uint32_t region, char *text, size_t size)
+{
+	if (region == MR_REGION_FIXED)
+		return "fixed";
+	if (region == MR_REGION_FREE)
+		return "free";
+	snprintf(text, size, "handle %u", region - MR_REGION_HANDLE);
+	return text;
+}
+
+/* Squares of the colours of regions, with their names, from the right. */
+static void
+draw_regions(strip *s, uint32_t regions)
+{
+	enum { SHOWN = 32 };
+	char text[32];
+
+	for (uint32_t r = SHOWN; r-- > 0;) {
+		const char *name = region_name(r, text, sizeof text);
+		if (!(regions >> r & 1))
+			continue;
+		if (s->right - text_width(s, name) - 12 * s->unit < s->left)
+			return;
+		write_right(s, name, INK);
+		s->right -= 5 * s->unit;
+		mr_image_fill(s->image, s->right, s->y, 7 * s->unit, 7 * s->unit, mr_color_region(r));
+		s->right -= 1.5 * MR_TEXT_ADVANCE * s->unit;
+	}
+}
+
+/* "69,451" */
+static void
+count_text(char *text, size_t size, size_t n)
+{
+	if (n < 1000)
+		snprintf(text, size, "%zu", n);
+	else if (n < 1000000)
+		snprintf(text, size, "%zu,%03zu", n / 1000, n % 1000);
+	else
+		snprintf(text, size, "%zu,%03zu,%03zu", n / 1000000, n / 1000 % 1000, n % 1000);
+}
+
+/* The strip under a panel: its name, what it consists of, the legend of its colours. */
+static void
+draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several, const mr_gallery_opts *o)
+{
+	double unit = text_unit(o), edge = 8 * unit;
+	strip s = { image, edge, (double)o->width - edge, (double)o->height - 12 * unit, unit };
+	char name[256], number[32], size[64];
+
+	snprintf(name, sizeof name, several ? "%s: %s" : "%s", p->frame, p->layer);
+	count_text(number, sizeof number, p->subject.mesh.nf ? p->subject.mesh.nf : p->subject.mesh.nv);
+	snprintf(size, sizeof size, "%s %s", number, p->subject.mesh.nf ? "triangles" : "points");
+	if (p->coloring == MR_COLOR_NUMBERS)
+		draw_scale(&s, shot);
+	write_left(&s, name, INK, true);
+	if (p->coloring == MR_COLOR_REGIONS)
+		draw_regions(&s, p->regions);
+	if (p->coloring == MR_COLOR_NUMBERS && text_width(&s, o->color) < s.right - s.left)
+		write_right(&s, o->color, PALE);
+	write_left(&s, size, PALE, false);
+}
+
+static mr_status
+draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool several,
+    const mr_gallery_opts *o, mr_image *image)
+{
+	const mr_panel *p = &g->panel[i];
+	mr_camera own = shot->camera;
+	mr_subject subject;
+
+	if (o->fit)
+		MR_TRY(aim(ctx, g, i, 1, o, &own));
+	MR_TRY(color_subject(ctx, shot, p, &subject));
+	MR_TRY(mr_raster(ctx, &subject, &own, &o->raster, image));
+	if (o->labels)
+		draw_label(image, shot, p, several, o);
+	return MR_OK;
+}
+
+/* Draws a frame's panels side by side into the image at (x, y). */
+static mr_status
+draw_frame(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, const mr_shown *f, size_t x, size_t y,
+    const mr_gallery_opts *o, mr_image *image)
+{
+	for (size_t i = 0; i < f->count; i++) {
+		mr_mark mark = mr_mark_take(ctx);
+		mr_image panel;
+		MR_TRY(mr_image_new(ctx, o->width, o->height, PAPER, &panel));
+		MR_TRY(draw_panel(ctx, g, shot, f->first + i, f->count > 1, o, &panel));
+		mr_image_copy(image, x + i * o->width, y, &panel);
+		mr_mark_release(ctx, mark);
+	}
+	return MR_OK;
+}
+
+static void
+draw_title(mr_image *image, const mr_gallery_opts *o)
+{
+	double unit = 1.5 * text_unit(o);
+	strip s = { image, 0, (double)image->width, 8 * text_unit(o), unit };
+
+	if (!o->title)
+		return;
+	s.left = fmax(0, (s.right - text_width(&s, o->title)) / 2);
+	write_left(&s, o->title, INK, true);
+}
+
+mr_status
+mr_shot_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, const mr_gallery_opts *o,
+    mr_image *image)
+{
+	const mr_shown *f = &g->frame[i];
+	mr_image r;
+
+	MR_TRY(mr_image_new(ctx, f->count * o->width, o->height + title_height(o), PAPER, &r));
+	draw_title(&r, o);
+	MR_TRY(draw_frame(ctx, g, shot, f, 0, title_height(o), o, &r));
+	*image = r;
+	return MR_OK;
+}
+
+/* The number of columns that makes cells of w by h a sheet of about 3 by 2. */
+static size_t
+choose_columns(size_t cells, double w, double h)
+{
+	size_t best = 1;
+	double least = INFINITY;
+
+	for (size_t n = 1; n <= cells; n++) {
+		double rows = (double)((cells + n - 1) / n),
+		       off = fabs(log((double)n * w / (rows * h) / 1.5));
+		if (off < least) {
+			least = off;
+			best = n;
+		}
+	}
+	return best;
+}
+
+/* How a sheet is divided into cells of one frame each. */
+typedef struct cells {
+	size_t columns, rows, width, height, top; /* width, height and what is above them: pixels */
+} cells;
+
+static cells
+divide_sheet(const mr_gallery *g, const mr_gallery_opts *o)
+{
+	cells s = { .width = o->width, .height = o->height, .top = title_height(o), .columns = o->columns };
+
+	for (size_t i = 0; i < g->frames; i++)
+		if (g->frame[i].count * o->width > s.width)
+			s.width = g->frame[i].count * o->width;
+	if (s.columns == 0)
+		s.columns = choose_columns(g->frames, (double)s.width, (double)s.height);
+	if (s.columns > g->frames)
+		s.columns = g->frames;
+	s.rows = (g->frames + s.columns - 1) / s.columns;
+	return s;
+}
+
+/* Aims at the frames from `first` to the next shot. */
+static mr_status
+next_shot(mr_ctx *ctx, const mr_gallery *g, size_t first, const mr_gallery_opts *o, mr_shot *shot)
+{
+	size_t end = first + 1;
+
+	while (end < g->frames && (o->same || !g->frame[end].key))
+		end++;
+	return mr_shot_aim(ctx, g, first, end - first, o, shot);
+}
+
+mr_status
+mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_gallery_opts *o, mr_image *image)
+{
+	cells s = divide_sheet(g, o);
+	mr_shot shot = { 0 };
+	mr_image r;
+
+	MR_TRY(mr_image_new(ctx, s.columns * s.width, s.rows * s.height + s.top, PAPER, &r));
+	draw_title(&r, o);
+	for (size_t i = 0; i < g->frames; i++) {
+		size_t x = i % s.columns * s.width, y = i / s.columns * s.height + s.top;
+		if (i == shot.first + shot.count)
+			MR_TRY(next_shot(ctx, g, i, o, &shot));
+		mr_progress(ctx, "drawing", (double)i / (double)g->frames);
+		MR_TRY(draw_frame(ctx, g, &shot, &g->frame[i], x, y, o, &r));
+	}
+	*image = r;
+	return MR_OK;
+}

@@ -1,0 +1,66 @@
+/*
+ * raster_parts.h -- what raster.c (which item is seen where) and shade.c (its colour) share.
+ * Layer rule: alg, private to them.
+ */
+#ifndef MR_RASTER_PARTS_H
+#define MR_RASTER_PARTS_H
+
+#include "render/raster.h"
+
+/* A sample's side has 256 steps. */
+enum { STEP_BITS = 8, STEP = 1 << STEP_BITS };
+
+/* A vertex in the picture, in steps; `near` is linear in the picture, and larger for what is nearer. */
+typedef struct placed {
+	int32_t x, y;
+	float near;
+} placed;
+
+/* The picture while it is made. */
+typedef struct view {
+	const mr_subject *subject;
+	const mr_camera *camera;
+	const mr_raster_opts *opts;
+	mr_image *image;
+	size_t w, h;    /* samples */
+	placed *at;     /* the vertices */
+	double radius;  /* of points, in samples */
+	float *near;    /* of each sample; -INFINITY: nothing */
+	uint32_t *item; /* face, or point, that is seen there */
+	size_t *start;  /* items that touch each band of rows: list[start[b]] to list[start[b + 1]] */
+	uint32_t *list;
+} view;
+
+/* What edges say: twice the signed areas, in squared steps, of the triangles that (x, y) makes with them. */
+static inline void
+edge_functions(const placed p[3], int64_t x, int64_t y, int64_t e[3])
+{
+	for (int i = 0; i < 3; i++) {
+		const placed *a = &p[(i + 1) % 3], *b = &p[(i + 2) % 3];
+		e[i] = (int64_t)(b->x - a->x) * (y - a->y) - (int64_t)(b->y - a->y) * (x - a->x);
+	}
+}
+
+static inline bool
+is_parallel(const mr_camera *c)
+{
+	return isinf(c->distance) != 0;
+}
+
+/* `near` of the height z towards the eye, and back. */
+static inline double
+near_of(const mr_camera *c, double z)
+{
+	return is_parallel(c) ? z : c->distance / (c->distance - z);
+}
+
+static inline double
+height_of(const mr_camera *c, double near)
+{
+	return is_parallel(c) ? near : c->distance - c->distance / near;
+}
+
+/* Colours the samples that see something, and puts the pixels into the image: shade.c. */
+mr_status mr_shade(mr_ctx *ctx, const view *v);
+
+#endif

@@ -1,0 +1,441 @@
+/*
+ * Colours of what is seen: three lights and a bright sky over a matte surface, hollows
+ * darkened by what lies in front of them in the picture (the estimator of McGuire,
+ * Osman, Bukowski, Hennessy 2011, "The Alchemy screen-space ambient obscurance algorithm").
+ * Light is computed in linear values, and becomes sRGB in the end.
+ */
+#include "render/raster_parts.h"
+
+#include "base/parallel.h"
+
+static const mr_rgb PLAIN = { 212, 204, 193 }, INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
+
+enum { LEVELS = 4096, TAPS = 16, TURN = 4 };
+
+/* What a pixel has gathered from its samples. */
+typedef struct gathered {
+	float r, g, b; /* light, summed over the samples that see something */
+	float share;   /* of the samples that do */
+	float nx, ny, nz,
+	    z; /* normal along the camera's axes and height towards the eye, at the first that does */
+} gathered;
+
+typedef struct shading {
+	const view *v;
+	mr_incidence around; /* faces of each vertex; smooth shading only */
+	mr_v3 *normal;       /* of vertices, unit; NULL: flat */
+	bool *creased;       /* vertices with faces that are not shaded as one */
+	double crease;       /* cosine */
+	gathered *pixel;
+	double reach;                    /* how far hollows are looked for, in pixels */
+	float *open;                     /* share of the sky that a pixel sees, before smoothing */
+	float tap[TURN * TURN][TAPS][2]; /* offsets to look at, in pixels, in each of 4 by 4 pixels */
+	double linear[256];              /* of an sRGB value */
+	uint8_t srgb[LEVELS];            /* of a linear value, in LEVELS steps */
+} shading;
+
+static void
+prepare_tables(shading *s)
+{
+	for (int i = 0; i < 256; i++) {
+		double c = i / 255.0;
+		s->linear[i] = c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+	}
+	for (int i = 0; i < LEVELS; i++) {
+		double c = (i + 0.5) / LEVELS;
+		c = c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
+		s->srgb[i] = (uint8_t)(255 * c + 0.5);
+	}
+}
+
+static mr_v3
+to_linear(const shading *s, mr_rgb c)
+{
+	return mr_vec(s->linear[c.r], s->linear[c.g], s->linear[c.b]);
+}
+
+static uint8_t
+to_srgb(const shading *s, double c)
+{
+	return s->srgb[c > 0 ? c < 1 ? (size_t)(c * LEVELS) : LEVELS - 1 : 0];
+}
+
+/* Places on a spiral, which turns within a square of 4 by 4 pixels: smoothing averages over it. */
+static void
+prepare_taps(shading *s, double reach)
+{
+	static const uint8_t order[TURN * TURN] = { 0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5 };
+
+	for (int i = 0; i < TURN * TURN; i++) {
+		for (int k = 0; k < TAPS; k++) {
+			double r = reach * (k + 0.5) / TAPS,
+			       a = 2 * MR_PI * order[i] / (TURN * TURN) + 6.24 * k;
+			s->tap[i][k][0] = (float)(r * cos(a));
+			s->tap[i][k][1] = (float)(r * sin(a));
+		}
+	}
+}
+
+/* Normals of vertices, from their faces weighted by area, and whether a face is far from them. */
+static void
+vertex_shades(void *arg, size_t begin, size_t end)
+{
+	const shading *s = arg;
+	const mr_mesh *m = &s->v->subject->mesh;
+	const double half = sqrt((1 + s->crease) / 2); /* cosine of half the angle */
+
+	for (size_t i = begin; i < end; i++) {
+		size_t first = s->around.start[i], last = s->around.start[i + 1];
+		mr_v3 sum = mr_vec(0, 0, 0);
+		bool creased = false;
+		for (size_t k = first; k < last; k++)
+			sum = mr_add(sum, mr_face_cross(m, s->around.face[k]));
+		sum = mr_unit(sum);
+		for (size_t k = first; k < last && !creased; k++) {
+			mr_v3 n = mr_face_cross(m, s->around.face[k]);
+			creased = mr_dot(n, sum) < half * mr_norm(n);
+		}
+		s->normal[i] = sum;
+		s->creased[i] = creased;
+	}
+}
+
+/* The normal of a face's corner at a creased vertex: of the faces there that are within the angle of it. */
+static mr_v3
+creased_normal(const shading *s, size_t face, uint32_t vertex)
+{
+	const mr_mesh *m = &s->v->subject->mesh;
+	mr_v3 own = mr_unit(mr_face_cross(m, face)), sum = mr_vec(0, 0, 0);
+
+	for (size_t k = s->around.start[vertex]; k < s->around.start[vertex + 1]; k++) {
+		mr_v3 n = mr_face_cross(m, s->around.face[k]);
+		if (mr_dot(n, own) >= s->crease * mr_norm(n))
+			sum = mr_add(sum, n);
+	}
+	return mr_unit(sum);
+}
+
+/* A face set up for shading: kept while a row stays on it. */
+typedef struct facet {
+	uint32_t face;
+	bool back;
+	placed p[3];
+	mr_v3 normal[3], color[3];
+	double area, length[3]; /* of edges, in steps */
+	double fade;            /* of edges, on faces of few pixels */
+} facet;
+
+static mr_v3
+item_color(const shading *s, size_t vertex, size_t face)
+{
+	const mr_subject *o = s->v->subject;
+
+	return to_linear(s, o->color ? o->color[o->per_face ? face : vertex] : PLAIN);
+}
+
+static void
+set_up_face(const shading *s, uint32_t face, facet *f)
+{
+	const mr_mesh *m = &s->v->subject->mesh;
+	const uint32_t *t = m->t[face].v;
+	mr_v3 own = mr_unit(mr_face_cross(m, face));
+	double longest = 0;
+
+	f->face = face;
+	for (int i = 0; i < 3; i++) {
+		f->p[i] = s->v->at[t[i]];
+		f->color[i] = item_color(s, t[i], face);
+		f->normal[i] = !s->normal         ? own
+		               : s->creased[t[i]] ? creased_normal(s, face, t[i])
+		                                  : s->normal[t[i]];
+	}
+	f->area = (double)(f->p[1].x - f->p[0].x) * (double)(f->p[2].y - f->p[0].y) -
+	          (double)(f->p[1].y - f->p[0].y) * (double)(f->p[2].x - f->p[0].x);
+	f->back = f->area > 0; /* y points down */
+	for (int i = 0; i < 3; i++) {
+		const placed *a = &f->p[(i + 1) % 3], *b = &f->p[(i + 2) % 3];
+		f->length[i] = sqrt(
+		    (double)(b->x - a->x) * (b->x - a->x) + (double)(b->y - a->y) * (b->y - a->y));
+		longest = fmax(longest, f->length[i]);
+		if (f->back && !s->v->subject->color)
+			f->color[i] = to_linear(s, INSIDE);
+	}
+	f->fade = fabs(f->area) / longest / (double)(STEP * s->v->opts->samples) /
+	          7; /* the height in pixels */
+	f->fade = f->fade < 1 ? f->fade : 1;
+}
+
+/* What light of all directions makes of a normal, given along the camera's axes. */
+static double
+light_on(mr_v3 n)
+{
+	static const mr_v3 key = { -0.478, 0.640, 0.602 }, fill = { 0.800, 0.100, 0.592 },
+			   rim = { 0.350, 0.550, -0.758 };
+	double sky = 0.27 + 0.10 * n.y;
+	double a = (mr_dot(n, key) + 0.12) / 1.12, b = mr_dot(n, fill), c = mr_dot(n, rim);
+
+	return sky + 0.80 * (a > 0 ? a : 0) + 0.16 * (b > 0 ? b : 0) + 0.22 * (c > 0 ? c : 0);
+}
+
+/* A soft gleam of the key light (Blinn 1977). */
+static double
+gleam_on(mr_v3 n)
+{
+	static const mr_v3 half = { -0.267, 0.358, 0.895 };
+	double h = mr_dot(n, half), h4;
+
+	if (h <= 0)
+		return 0;
+	h4 = h * h * h * h;
+	return 0.07 * h4 * h4 * h4 * h4 * h4 * h4;
+}
+
+/* Adds what one sample sees, with normal n (any length) along the camera's axes. */
+static void
+gather(gathered *g, mr_v3 color, mr_v3 n, double z, double line, mr_v3 line_color)
+{
+	double light, gleam;
+
+	n = mr_unit(n);
+	if (n.z < 0.02) /* an interpolated normal may point away from the eye: bring it to the rim */
+		n = mr_unit(mr_vec(n.x, n.y, 0.02));
+	light = light_on(n);
+	gleam = gleam_on(n);
+	color = mr_add(mr_mul(light, color), mr_vec(gleam, gleam, gleam));
+	color = mr_lerp(line, color, line_color);
+	if (g->share == 0) {
+		g->nx = (float)n.x;
+		g->ny = (float)n.y;
+		g->nz = (float)n.z;
+		g->z = (float)z;
+	}
+	g->r += (float)color.x;
+	g->g += (float)color.y;
+	g->b += (float)color.z;
+	g->share += 1;
+}
+
+/* How dark an edge is at the distances e over length from the edges, in steps. */
+static double
+line_at(const shading *s, const facet *f, const int64_t e[3])
+{
+	const double half = 0.55, pixel = (double)(STEP * s->v->opts->samples);
+	double d = INFINITY, share;
+
+	for (int i = 0; i < 3; i++)
+		d = fmin(d, fabs((double)e[i]) / (f->length[i] * pixel));
+	share = half + 0.5 - d;
+	return share > 0 ? 0.8 * f->fade * (share < 1 ? share : 1) : 0;
+}
+
+static void
+shade_face_sample(const shading *s, facet *f, size_t at, size_t x, size_t y, gathered *g)
+{
+	const mr_camera *c = s->v->camera;
+	double w[3], sum = 0, line = 0;
+	mr_v3 n, color;
+	int64_t e[3];
+	int top;
+
+	if (f->face != s->v->item[at])
+		set_up_face(s, s->v->item[at], f);
+	edge_functions(f->p, (int64_t)x * STEP + STEP / 2, (int64_t)y * STEP + STEP / 2, e);
+	for (int i = 0; i < 3; i++) { /* weights linear in space, not in the picture */
+		w[i] = fabs((double)e[i]) * (is_parallel(c) ? 1 : (double)f->p[i].near);
+		sum += w[i];
+	}
+	top = w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2);
+	n = mr_add(
+	    mr_mul(w[0], f->normal[0]), mr_add(mr_mul(w[1], f->normal[1]), mr_mul(w[2], f->normal[2])));
+	if (s->v->subject->nearest)
+		color = f->color[top];
+	else
+		color = mr_mul(1 / sum, mr_add(mr_mul(w[0], f->color[0]),
+					    mr_add(mr_mul(w[1], f->color[1]), mr_mul(w[2], f->color[2]))));
+	if (f->back)
+		n = mr_mul(-1, n);
+	if (f->back && s->v->subject->color) /* the inside keeps its colour, bluish */
+		color = mr_lerp(0.5, color, to_linear(s, INSIDE));
+	if (s->v->opts->wire)
+		line = line_at(s, f, e);
+	gather(g, color, mr_vec(mr_dot(n, c->right), mr_dot(n, c->up), mr_dot(n, c->toward)),
+	    height_of(c, s->v->near[at]), line, to_linear(s, LINE));
+}
+
+/* A ball; where the surface's normal is known, mostly lit as the surface is. */
+static void
+shade_point_sample(const shading *s, size_t at, size_t x, size_t y, gathered *g)
+{
+	const mr_camera *c = s->v->camera;
+	uint32_t point = s->v->item[at];
+	const placed *p = &s->v->at[point];
+	double r = s->v->radius * (is_parallel(c) ? 1 : p->near);
+	double a = ((double)x + 0.5 - (double)p->x / STEP) / r,
+	       b = ((double)y + 0.5 - (double)p->y / STEP) / r;
+	double rest = 1 - a * a - b * b;
+	mr_v3 n = mr_vec(a, -b, sqrt(rest > 0 ? rest : 0)), color = item_color(s, point, 0);
+
+	if (s->v->subject->normal) {
+		mr_v3 known = s->v->subject->normal[point];
+		known = mr_vec(mr_dot(known, c->right), mr_dot(known, c->up), mr_dot(known, c->toward));
+		if (known.z < -0.25) { /* the inside of the far surface, seen through a gap */
+			known = mr_mul(-1, known);
+			color = mr_lerp(s->v->subject->color ? 0.5 : 1, color, to_linear(s, INSIDE));
+		}
+		n = mr_lerp(0.3, known, n);
+	}
+	gather(g, color, n, height_of(c, s->v->near[at]), 0, mr_vec(0, 0, 0));
+}
+
+static void
+gather_rows(void *arg, size_t begin, size_t end)
+{
+	const shading *s = arg;
+	const view *v = s->v;
+	size_t n = v->opts->samples, width = v->image->width;
+	facet f = { .face = MR_NONE };
+
+	for (size_t y = begin; y < end; y++) {
+		for (size_t x = 0; x < width; x++) {
+			gathered *g = &s->pixel[y * width + x];
+			*g = (gathered){ 0 };
+			for (size_t k = 0; k < n * n; k++) {
+				size_t sx = x * n + k % n, sy = y * n + k / n, at = sy * v->w + sx;
+				if (v->item[at] == MR_NONE)
+					continue;
+				if (v->subject->mesh.nf)
+					shade_face_sample(s, &f, at, sx, sy, g);
+				else
+					shade_point_sample(s, at, sx, sy, g);
+			}
+		}
+	}
+}
+
+/* The place of a pixel's first sample along the camera's axes. */
+static mr_v3
+place_of(const shading *s, size_t x, size_t y)
+{
+	const mr_camera *c = s->v->camera;
+	double z = s->pixel[y * s->v->image->width + x].z;
+	double scale = c->scale * (is_parallel(c) ? 1 : c->distance / (c->distance - z));
+
+	return mr_vec(((double)x - c->x) / scale, (c->y - (double)y) / scale, z);
+}
+
+/* The share of the sky that is open over a pixel: 1 where nothing is in front. */
+static double
+openness(const shading *s, size_t x, size_t y)
+{
+	const size_t width = s->v->image->width, height = s->v->image->height;
+	const gathered *g = &s->pixel[y * width + x];
+	const float(*tap)[2] = s->tap[y % TURN * TURN + x % TURN];
+	const double unit = s->v->camera->scale / s->reach;
+	mr_v3 p = place_of(s, x, y), n = mr_vec(g->nx, g->ny, g->nz);
+	double sum = 0;
+
+	for (int k = 0; k < TAPS; k++) {
+		double tx = (double)x + 0.5 + tap[k][0], ty = (double)y + 0.5 + tap[k][1], along;
+		const gathered *o;
+		mr_v3 d;
+		if (tx < 0 || ty < 0 || tx >= (double)width || ty >= (double)height)
+			continue;
+		o = &s->pixel[(size_t)ty * width + (size_t)tx];
+		if (o->share == 0)
+			continue;
+		d = mr_mul(unit, mr_sub(place_of(s, (size_t)tx, (size_t)ty), p)); /* in reaches */
+		along = mr_dot(d, n) - 0.02;
+		if (along > 0)
+			sum += along / (mr_norm2(d) + 0.02);
+	}
+	return fmax(0, 1 - 0.95 * sum / TAPS);
+}
+
+static void
+open_rows(void *arg, size_t begin, size_t end)
+{
+	const shading *s = arg;
+	size_t width = s->v->image->width;
+
+	for (size_t i = begin * width; i < end * width; i++)
+		s->open[i] = s->pixel[i].share > 0 ? (float)openness(s, i % width, i / width) : 1;
+}
+
+/* The mean of `open` over the 4 by 4 pixels around that lie at about the same depth. */
+static double
+smoothed(const shading *s, size_t x, size_t y)
+{
+	size_t width = s->v->image->width, height = s->v->image->height;
+	double z = s->pixel[y * width + x].z, sum = 0, weight = 0;
+	double near = 0.02 * (double)(width < height ? width : height) / s->v->camera->scale;
+
+	for (size_t j = y > 2 ? y - 2 : 0; j < y + 2 && j < height; j++) {
+		for (size_t i = x > 2 ? x - 2 : 0; i < x + 2 && i < width; i++) {
+			size_t k = j * width + i;
+			if (s->pixel[k].share > 0 && fabs(s->pixel[k].z - z) < near) {
+				sum += s->open[k];
+				weight += 1;
+			}
+		}
+	}
+	return weight > 0 ? sum / weight : 1;
+}
+
+static void
+finish_rows(void *arg, size_t begin, size_t end)
+{
+	const shading *s = arg;
+	const mr_image *image = s->v->image;
+	double all = (double)(s->v->opts->samples * s->v->opts->samples);
+
+	for (size_t i = begin * image->width; i < end * image->width; i++) {
+		const gathered *g = &s->pixel[i];
+		mr_v3 behind = to_linear(s, image->pixel[i]);
+		double rest = 1 - g->share / all, open;
+		if (g->share == 0)
+			continue;
+		open = (s->open ? smoothed(s, i % image->width, i / image->width) : 1) / all;
+		image->pixel[i] = (mr_rgb){ to_srgb(s, open * g->r + rest * behind.x),
+			to_srgb(s, open * g->g + rest * behind.y),
+			to_srgb(s, open * g->b + rest * behind.z) };
+	}
+}
+
+static mr_status
+prepare_normals(mr_ctx *ctx, shading *s)
+{
+	const mr_mesh *m = &s->v->subject->mesh;
+
+	s->normal = MR_NEW(ctx, m->nv, mr_v3);
+	s->creased = MR_NEW(ctx, m->nv, bool);
+	if (!s->normal || !s->creased)
+		return MR_EMEM;
+	s->crease = cos(s->v->opts->crease * MR_PI / 180);
+	MR_TRY(mr_incidence_build(ctx, m, &s->around));
+	mr_parallel(ctx, m->nv, 1024, vertex_shades, s);
+	return MR_OK;
+}
+
+mr_status
+mr_shade(mr_ctx *ctx, const view *v)
+{
+	enum { ROWS = 8 };
+	size_t pixels = v->image->width * v->image->height;
+	shading s = { .v = v };
+
+	s.pixel = MR_NEW(ctx, pixels, gathered);
+	if (v->opts->occlusion)
+		s.open = MR_NEW(ctx, pixels, float);
+	if (!s.pixel || (v->opts->occlusion && !s.open))
+		return MR_EMEM;
+	prepare_tables(&s);
+	s.reach = 0.055 * (double)(v->image->width < v->image->height ? v->image->width : v->image->height);
+	prepare_taps(&s, s.reach);
+	if (v->subject->mesh.nf && !v->opts->flat)
+		MR_TRY(prepare_normals(ctx, &s));
+	mr_parallel(ctx, v->image->height, ROWS, gather_rows, &s);
+	if (s.open)
+		mr_parallel(ctx, v->image->height, ROWS, open_rows, &s);
+	mr_parallel(ctx, v->image->height, ROWS, finish_rows, &s);
+	return MR_OK;
+}

@@ -1,0 +1,464 @@
+#include "sample/height_energy.h"
+
+#include "base/parallel.h"
+#include "base/sort.h"
+
+enum { GRAIN = 2048 };
+
+mr_status
+mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e)
+{
+	mr_heights r = { .n = m->nv, .fair = MR_NEW(ctx, m->nv, double) };
+
+	if (!r.fair)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->nv; i++)
+		r.fair[i] = fair;
+	MR_TRY(mr_adjacency_build(ctx, m, &r.adj));
+	*e = r;
+	return MR_OK;
+}
+
+mr_status
+mr_heights_add_data(mr_ctx *ctx, mr_heights *e)
+{
+	double *diagonal = MR_NEW(ctx, e->n, double), *b = MR_NEW(ctx, e->n, double);
+	double *beside = MR_NEW(ctx, e->adj.start[e->n], double);
+
+	if (!diagonal || !b || !beside)
+		return MR_EMEM;
+	e->diagonal = diagonal;
+	e->beside = beside;
+	e->b = b;
+	return MR_OK;
+}
+
+/* Conjugate gradients with the diagonal as preconditioner; sums by pieces, added in order. */
+typedef struct solver {
+	const mr_heights *e;
+	double *h, *r, *d, *q, *u; /* solution, residual, direction, A d, Laplacian of d */
+	double *weight;            /* fairness of each row */
+	double *inverse;           /* of the diagonal; 0 where the height is fixed */
+	double alpha, beta;
+	double *partial; /* per piece */
+	const double *x; /* operand of the operator */
+} solver;
+
+static double
+degree(const mr_heights *e, size_t i)
+{
+	return (double)(e->adj.start[i + 1] - e->adj.start[i]);
+}
+
+/* f_i / n_i^2: what the squared sum of the differences to the n_i neighbours counts. */
+static double
+fairness(const mr_heights *e, size_t i)
+{
+	double n = degree(e, i);
+
+	return n > 0 ? e->fair[i] / (n * n) : 0;
+}
+
+static double
+differences(const mr_heights *e, const double *x, size_t i)
+{
+	double sum = 0;
+
+	for (size_t k = e->adj.start[i]; k < e->adj.start[i + 1]; k++)
+		sum += x[i] - x[e->adj.adj[k]];
+	return sum;
+}
+
+/* u = F N^-2 D x, with D the graph's Laplacian and N the degrees */
+static void
+apply_first(void *arg, size_t begin, size_t end)
+{
+	const solver *s = arg;
+
+	for (size_t i = begin; i < end; i++)
+		s->u[i] = s->weight[i] * differences(s->e, s->x, i);
+}
+
+/* Row i of A x + D u. */
+static double
+apply_row(const solver *s, size_t i)
+{
+	const mr_heights *e = s->e;
+	double sum = differences(e, s->u, i);
+
+	if (e->diagonal) {
+		sum += e->diagonal[i] * s->x[i];
+		for (size_t k = e->adj.start[i]; k < e->adj.start[i + 1]; k++)
+			sum += e->beside[k] * s->x[e->adj.adj[k]];
+	}
+	return sum;
+}
+
+/* r = b - A h, d = C r; the partial sums are r C r. */
+static void
+begin_rows(void *arg, size_t begin, size_t end)
+{
+	const solver *s = arg;
+	double sum = 0;
+
+	for (size_t i = begin; i < end; i++) {
+		s->r[i] = s->inverse[i] > 0 ? (s->e->b ? s->e->b[i] : 0) - apply_row(s, i) : 0;
+		s->d[i] = s->inverse[i] * s->r[i];
+		sum += s->r[i] * s->d[i];
+	}
+	s->partial[begin / GRAIN] = sum;
+}
+
+/* q = A d; the partial sums are d q. */
+static void
+multiply_rows(void *arg, size_t begin, size_t end)
+{
+	const solver *s = arg;
+	double sum = 0;
+
+	for (size_t i = begin; i < end; i++) {
+		s->q[i] = s->inverse[i] > 0 ? apply_row(s, i) : 0;
+		sum += s->d[i] * s->q[i];
+	}
+	s->partial[begin / GRAIN] = sum;
+}
+
+/* h += alpha d, r -= alpha q; the partial sums are r C r. */
+static void
+step_rows(void *arg, size_t begin, size_t end)
+{
+	const solver *s = arg;
+	double sum = 0;
+
+	for (size_t i = begin; i < end; i++) {
+		s->h[i] += s->alpha * s->d[i];
+		s->r[i] -= s->alpha * s->q[i];
+		sum += s->r[i] * s->inverse[i] * s->r[i];
+	}
+	s->partial[begin / GRAIN] = sum;
+}
+
+/* d = C r + beta d */
+static void
+turn_rows(void *arg, size_t begin, size_t end)
+{
+	const solver *s = arg;
+
+	for (size_t i = begin; i < end; i++)
+		s->d[i] = s->inverse[i] * s->r[i] + s->beta * s->d[i];
+}
+
+static void
+invert_diagonal(void *arg, size_t begin, size_t end)
+{
+	const solver *s = arg;
+	const mr_heights *e = s->e;
+
+	for (size_t i = begin; i < end; i++) {
+		double n = degree(e, i), sum = n * n * s->weight[i] + (e->diagonal ? e->diagonal[i] : 0);
+		for (size_t k = e->adj.start[i]; k < e->adj.start[i + 1]; k++)
+			sum += s->weight[e->adj.adj[k]];
+		s->inverse[i] = sum > 0 && !(e->fixed && e->fixed[i]) ? 1 / sum : 0;
+	}
+}
+
+static double
+summed(mr_ctx *ctx, solver *s, mr_body rows)
+{
+	double sum = 0;
+
+	mr_parallel(ctx, s->e->n, GRAIN, rows, s);
+	for (size_t i = 0; i < (s->e->n + GRAIN - 1) / GRAIN; i++)
+		sum += s->partial[i];
+	return sum;
+}
+
+mr_status
+mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, double *h, size_t *steps)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t n = e->n, taken = 0;
+	double *work = MR_NEW(ctx, 6 * n + n / GRAIN + 1, double), rho, rho0;
+	solver s = { .e = e, .h = h };
+
+	if (!work)
+		return MR_EMEM;
+	s.r = work;
+	s.d = work + n;
+	s.q = work + 2 * n;
+	s.u = work + 3 * n;
+	s.inverse = work + 4 * n;
+	s.weight = work + 5 * n;
+	s.partial = work + 6 * n;
+	for (size_t i = 0; i < n; i++)
+		s.weight[i] = fairness(e, i);
+	mr_parallel(ctx, n, GRAIN, invert_diagonal, &s);
+	s.x = h;
+	mr_parallel(ctx, n, GRAIN, apply_first, &s);
+	rho = rho0 = summed(ctx, &s, begin_rows);
+	s.x = s.d;
+	while (taken < most && rho > tol * tol * rho0) {
+		double dq, last = rho;
+		mr_parallel(ctx, n, GRAIN, apply_first, &s);
+		dq = summed(ctx, &s, multiply_rows);
+		if (!(dq > 0))
+			break; /* the direction is in the kernel: nothing to gain */
+		s.alpha = rho / dq;
+		rho = summed(ctx, &s, step_rows);
+		s.beta = rho / last;
+		mr_parallel(ctx, n, GRAIN, turn_rows, &s);
+		taken++;
+	}
+	mr_mark_release(ctx, mark);
+	if (steps)
+		*steps = taken;
+	return MR_OK;
+}
+
+/* A part of an energy: the vertices that are free, then two rings around them. */
+typedef struct part {
+	uint32_t *number; /* of each vertex in the part, or MR_NONE */
+	uint32_t *vertex; /* the other way */
+	size_t n;
+} part;
+
+/* Numbers the neighbours of those that are there. */
+static void
+add_ring(const mr_heights *e, part *p)
+{
+	size_t n = p->n;
+
+	for (size_t i = 0; i < n; i++)
+		for (size_t k = e->adj.start[p->vertex[i]]; k < e->adj.start[p->vertex[i] + 1]; k++) {
+			uint32_t j = e->adj.adj[k];
+			if (p->number[j] == MR_NONE) {
+				p->number[j] = (uint32_t)p->n;
+				p->vertex[p->n++] = j;
+			}
+		}
+}
+
+static mr_status
+part_new(mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, part *p, size_t *inner)
+{
+	p->number = MR_NEW(ctx, e->n, uint32_t);
+	p->vertex = MR_NEW(ctx, e->n, uint32_t);
+	if (!p->number || !p->vertex)
+		return MR_EMEM;
+	for (size_t i = 0; i < e->n; i++)
+		p->number[i] = MR_NONE;
+	for (size_t i = 0; i < count; i++)
+		p->number[list[i]] = (uint32_t)i;
+	memcpy(p->vertex, list, count * sizeof *list);
+	p->n = count;
+	add_ring(e, p);
+	*inner = p->n;
+	add_ring(e, p);
+	return MR_OK;
+}
+
+/* The energy of the part; those from `inner` on, whose own neighbours are not all there, have none. */
+static mr_status
+part_energy(mr_ctx *ctx, const mr_heights *e, const part *p, size_t count, size_t inner, mr_heights *out)
+{
+	size_t entries = 0;
+	size_t *start = MR_NEW(ctx, p->n + 1, size_t);
+	uint32_t *adj;
+
+	for (size_t i = 0; i < inner; i++)
+		entries += (size_t)degree(e, p->vertex[i]);
+	adj = MR_NEW(ctx, entries, uint32_t);
+	*out = (mr_heights){ .n = p->n, .fair = MR_NEW(ctx, p->n, double), .fixed = MR_NEW(ctx, p->n, bool) };
+	if (!start || !adj || !out->fair || !out->fixed)
+		return MR_EMEM;
+	out->adj = (mr_adjacency){ .start = start, .adj = adj };
+	start[p->n] = entries; /* what the data go by */
+	MR_TRY(mr_heights_add_data(ctx, out));
+	entries = 0;
+	for (size_t i = 0; i < p->n; i++) {
+		uint32_t v = p->vertex[i];
+		start[i] = entries;
+		out->fair[i] = e->fair[v];
+		out->fixed[i] = i >= count;
+		out->diagonal[i] = e->diagonal[v];
+		out->b[i] = e->b[v];
+		for (size_t k = e->adj.start[v]; i < inner && k < e->adj.start[v + 1]; k++) {
+			out->beside[entries] = e->beside[k];
+			adj[entries++] = p->number[e->adj.adj[k]];
+		}
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_heights_minimise_some(
+    mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, double tol, size_t most, double *h)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_heights some;
+	size_t inner;
+	double *x;
+	part p;
+
+	MR_TRY(part_new(ctx, e, list, count, &p, &inner));
+	x = MR_NEW(ctx, p.n, double);
+	if (!x)
+		return MR_EMEM;
+	MR_TRY(part_energy(ctx, e, &p, count, inner, &some));
+	for (size_t i = 0; i < p.n; i++)
+		x[i] = h[p.vertex[i]];
+	MR_TRY(mr_heights_minimise(ctx, &some, tol, most, x, NULL));
+	for (size_t i = 0; i < count; i++)
+		h[list[i]] = x[i];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+typedef struct field {
+	const mr_heights *e;
+	const double *h;
+} field;
+
+static double
+squared_difference(void *arg, size_t i)
+{
+	const field *f = arg;
+	double n = degree(f->e, i), x = n > 0 ? differences(f->e, f->h, i) / n : 0;
+
+	return x * x;
+}
+
+double
+mr_heights_roughness(mr_ctx *ctx, const mr_heights *e, const double *h)
+{
+	field f = { e, h };
+
+	return sqrt(mr_parallel_sum(ctx, e->n, squared_difference, &f) / (double)(e->n ? e->n : 1));
+}
+
+/* Fronts: each vertex next to the known takes the mean of its known neighbours, ring after ring. */
+static mr_status
+fill_rings(mr_ctx *ctx, const mr_heights *e, const bool *known, double *h)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *queue = MR_NEW(ctx, e->n, uint32_t), *ring = MR_NEW(ctx, e->n, uint32_t);
+	size_t head = 0, tail = 0;
+
+	if (!queue || !ring)
+		return MR_EMEM;
+	for (size_t i = 0; i < e->n; i++) {
+		ring[i] = known[i] ? 0 : UINT32_MAX;
+		if (known[i])
+			queue[tail++] = (uint32_t)i;
+		else
+			h[i] = 0;
+	}
+	while (head < tail) {
+		uint32_t i = queue[head++];
+		double sum = 0, count = 0;
+		for (size_t k = e->adj.start[i]; k < e->adj.start[i + 1]; k++) {
+			uint32_t j = e->adj.adj[k];
+			if (ring[j] == UINT32_MAX) {
+				ring[j] = ring[i] + 1;
+				queue[tail++] = j;
+			} else if (ring[j] < ring[i]) {
+				sum += h[j];
+				count++;
+			}
+		}
+		if (ring[i] > 0)
+			h[i] = sum / count;
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t *filled)
+{
+	enum { STEPS = 100 };
+	mr_heights plate = { .n = e->n, .adj = e->adj, .fair = e->fair };
+	mr_mark mark = mr_mark_take(ctx);
+	size_t count = 0;
+
+	for (size_t i = 0; i < e->n; i++)
+		count += !known[i];
+	*filled = count;
+	if (count == 0)
+		return MR_OK;
+	MR_TRY(fill_rings(ctx, e, known, h));
+	plate.fixed = MR_NEW(ctx, e->n, bool);
+	if (!plate.fixed)
+		return MR_EMEM;
+	memcpy(plate.fixed, known, e->n * sizeof *known);
+	MR_TRY(mr_heights_minimise(ctx, &plate, 1e-4, count < e->n ? STEPS : 0, h, NULL));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The median of n values, which are reordered. */
+static double
+median(double *x, size_t n)
+{
+	mr_sort_reals(x, n);
+	return n % 2 ? x[n / 2] : (x[n / 2 - 1] + x[n / 2]) / 2;
+}
+
+typedef struct spikes {
+	const mr_heights *e;
+	const mr_v3 *p;
+	const double *h;
+	const bool *known;
+	bool *spike;
+} spikes;
+
+static bool
+sticks_out(const spikes *s, size_t i)
+{
+	enum { MOST = 64 };
+	double around[MOST], middle, deviation, length = 0;
+	size_t n = 0;
+
+	for (size_t k = s->e->adj.start[i]; k < s->e->adj.start[i + 1] && n < MOST; k++) {
+		uint32_t j = s->e->adj.adj[k];
+		if (!s->known[j])
+			continue;
+		around[n++] = s->h[j];
+		length += mr_dist(s->p[i], s->p[j]);
+	}
+	if (n < 3)
+		return false;
+	middle = median(around, n);
+	for (size_t k = 0; k < n; k++)
+		around[k] = fabs(around[k] - middle);
+	deviation = median(around, n);
+	return fabs(s->h[i] - middle) > fmax(length / (double)n, 6 * deviation);
+}
+
+static void
+find_spikes(void *arg, size_t begin, size_t end)
+{
+	const spikes *s = arg;
+
+	for (size_t i = begin; i < end; i++)
+		s->spike[i] = s->known[i] && sticks_out(s, i);
+}
+
+mr_status
+mr_heights_drop_spikes(
+    mr_ctx *ctx, const mr_heights *e, const mr_v3 *p, const double *h, bool *known, size_t *dropped)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	spikes s = { e, p, h, known, MR_NEW(ctx, e->n, bool) };
+
+	if (!s.spike)
+		return MR_EMEM;
+	mr_parallel(ctx, e->n, GRAIN, find_spikes, &s);
+	*dropped = 0;
+	for (size_t i = 0; i < e->n; i++) {
+		*dropped += s.spike[i];
+		known[i] = known[i] && !s.spike[i];
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

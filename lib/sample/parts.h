@@ -1,0 +1,111 @@
+/*
+ * sample_parts.h -- what the methods of sampling a displacement share.
+ *
+ * Heights are first found, vertex by vertex, by one of the searches; then those that cannot be true are taken
+ * back, the missing ones filled in, and all of them fitted to the points.
+ * Layer rule: alg; only sample*.c and their tests include it.
+ */
+#ifndef MR_SAMPLE_PARTS_H
+#define MR_SAMPLE_PARTS_H
+
+#include "sample/height_energy.h"
+#include "sample/sample.h"
+#include "space/near.h"
+
+/* A point as the line through a vertex along its normal sees it. */
+typedef struct mr_sight {
+	double x, y; /* across the line */
+	double t;    /* along it, from the vertex */
+	double d2;   /* x x + y y */
+	uint32_t index;
+} mr_sight;
+
+/*
+ * The points as the line through v along the unit vector n sees them, the nearest to the line first, equally
+ * near ones by index; those whose index is MR_NONE are left out.  Returns how many.  s: k, the caller's.
+ */
+size_t mr_sights(const mr_v3 *point, const uint32_t *index, size_t k, mr_v3 v, mr_v3 n, mr_sight *s);
+
+/* What a triangle must keep to be taken. */
+typedef struct mr_bounds {
+	double height; /* |t| of the hit, at most */
+	double edge2;  /* squared length of its longest edge, at most */
+	double cosine; /* between its normal and the line, at least */
+} mr_bounds;
+
+/* What the search for a valid triangle found. */
+typedef struct mr_valid {
+	size_t points; /* among how many the first triangle was that the line meets; 0: none */
+	bool taken;    /* a triangle within the bounds */
+	double height; /* where the line meets it, if taken */
+	double area;   /* of it */
+} mr_valid;
+
+/*
+ * The valid triangle of the line among n sights, the nearest first (Jeong, Kim 2001, section 5): the three
+ * nearest, then all that the next completes, and so on; of several the line meets, the smallest.  The search
+ * ends at the first triangles met that keep the bounds.
+ */
+mr_valid mr_valid_triangle(const mr_sight *s, size_t n, const mr_bounds *b);
+
+typedef struct mr_v3f {
+	float x, y, z;
+} mr_v3f;
+
+/* The points and what is known of them. */
+typedef struct mr_cloud {
+	const mr_v3 *p;
+	size_t n;
+	mr_near *near;
+	double diagonal;
+	uint32_t *face; /* of the domain, nearest to each point */
+	mr_v3f *side;   /* its unit normal: which way the sheet that the point belongs to looks */
+} mr_cloud;
+
+/* Finds the nearest faces of the domain: c->face and c->side, in the arena.  off: the distances from them,
+ * c->n, the caller's, or NULL. */
+mr_status mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, double *off);
+
+/* True where the point may belong to the sheet that looks along n. */
+static inline bool
+mr_same_side(const mr_cloud *c, uint32_t point, mr_v3 n)
+{
+	mr_v3f s = c->side[point];
+
+	return (double)s.x * n.x + (double)s.y * n.y + (double)s.z * n.z > 0;
+}
+
+/* Leaves out the sights of points that belong to sheets that look the other way.  Returns how many stay. */
+size_t mr_sights_near_sheet(const mr_cloud *c, mr_v3 n, mr_sight *s, size_t count);
+
+/* Heights found by one search; hit says where. */
+mr_status mr_sample_triangles(
+    mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height, bool *hit);
+/* *noise: the deviation of the points from the local surfaces. */
+mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours,
+    double *height, bool *hit, double *noise);
+/* c: the mesh's vertices, placed. */
+mr_status mr_sample_rays(
+    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height, bool *hit);
+
+/*
+ * The faces of the displaced surface that have turned from the domain's, are folded against one beside them,
+ * or, as `crosses` says where it is not NULL, pass through others.  bad: one a face, the caller's.  Returns
+ * how many.
+ */
+size_t mr_find_folds(mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, const bool *crosses, bool *bad);
+
+/* What the least squares weigh, beside the points, of which each counts 1. */
+typedef struct mr_fit_weights {
+	double fair;  /* of the fairness of the heights */
+	double pull;  /* of a height found */
+	double scale; /* gaps beyond it count less */
+	bool robust;  /* so much less that outliers do not count */
+	size_t steps; /* of conjugate gradients in a pass, at most */
+} mr_fit_weights;
+
+/* Fits the heights to the points; those that were hit are also pulled to what they are.  e: of the domain. */
+mr_status mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fit_weights *weights,
+    size_t passes, mr_heights *e, const bool *hit, double *height);
+
+#endif

@@ -1,0 +1,391 @@
+/*
+ * Heights fitted to the points by least squares.
+ *
+ * A point q has its nearest place on the displaced surface, on face f with barycentric coordinates b; with N
+ * the normal of f its distance is N (q - sum b_i (v_i + h_i n_i)), linear in the heights.  Each pass
+ * minimises the sum of the squares, each by its weight, with the fairness of the heights and a pull to those
+ * found; then the places are looked for anew, by walking from the last ones.
+ */
+#include "subdivide/loop_self_intersect.h"
+#include "space/surface_walk.h"
+#include "sample/parts.h"
+#include "base/parallel.h"
+#include "base/sort.h"
+
+enum { GRAIN = 512 };
+
+/* What a point asks of the heights of its face's corners: sum c_i h_i = r. */
+typedef struct wish {
+	uint32_t face;
+	float weight;
+	double c[3], r;
+	double gap; /* signed distance before the pass */
+} wish;
+
+typedef struct fit {
+	const mr_domain *d;
+	const mr_cloud *c;
+	const mr_fit_weights *weights;
+	mr_heights *e;
+	double *target;  /* heights to be pulled to */
+	float *pull;     /* how much each counts */
+	bool *bad;       /* faces that fold or cross others */
+	bool *crosses;   /* faces that cross others */
+	bool *near;      /* vertices around such faces, which are fitted again */
+	bool local;      /* only these */
+	mr_mesh surface; /* the displaced one */
+	mr_v3 *p;        /* its positions */
+	double *height;
+	wish *wish;      /* of each point */
+	uint32_t *start; /* of each face's points in `order`: nf + 1 */
+	uint32_t *order; /* points by face */
+	double scale;    /* gaps beyond it count less */
+} fit;
+
+static void
+place_points(void *arg, size_t begin, size_t end)
+{
+	const fit *x = arg;
+	const mr_topology *topo = &x->d->level[x->d->n].topo;
+
+	for (size_t i = begin; i < end; i++) {
+		wish *w = &x->wish[i];
+		mr_v3 q = x->c->p[i], b, normal, foot;
+		mr_closest at;
+		const uint32_t *v = x->surface.t[w->face].v;
+		if (x->local && !x->near[v[0]] && !x->near[v[1]] && !x->near[v[2]])
+			continue;
+		at = mr_project_walk(&x->surface, topo, w->face, q);
+		b = at.bary;
+		v = x->surface.t[at.face].v;
+		normal = mr_unit(mr_face_cross(&x->surface, at.face));
+		foot = mr_bary_point(b, x->d->m.p[v[0]], x->d->m.p[v[1]], x->d->m.p[v[2]]);
+		w->face = at.face;
+		w->c[0] = b.x * mr_dot(x->d->normal[v[0]], normal);
+		w->c[1] = b.y * mr_dot(x->d->normal[v[1]], normal);
+		w->c[2] = b.z * mr_dot(x->d->normal[v[2]], normal);
+		w->r = mr_dot(mr_sub(q, foot), normal);
+		w->gap = copysign(sqrt(at.dist2), mr_dot(mr_sub(q, at.point), normal));
+	}
+}
+
+static mr_status
+median_gap(mr_ctx *ctx, const fit *x, double *median)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *gap = MR_NEW(ctx, x->c->n, double);
+
+	if (!gap)
+		return MR_EMEM;
+	for (size_t i = 0; i < x->c->n; i++)
+		gap[i] = fabs(x->wish[i].gap);
+	*median = mr_kth(gap, x->c->n, x->c->n / 2);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static void
+weigh_points(fit *x)
+{
+	for (size_t i = 0; i < x->c->n; i++) {
+		double u = fabs(x->wish[i].gap) / x->scale;
+		double w = x->weights->robust ? 1 / ((1 + u * u) * (1 + u * u)) : u > 1 ? 1 / u : 1;
+		x->wish[i].weight = (float)w;
+	}
+}
+
+static void
+sort_by_face(fit *x)
+{
+	size_t nf = x->surface.nf;
+
+	memset(x->start, 0, (nf + 1) * sizeof *x->start);
+	for (size_t i = 0; i < x->c->n; i++)
+		x->start[x->wish[i].face]++;
+	for (size_t f = 0, sum = 0; f <= nf; f++) {
+		size_t count = x->start[f];
+		x->start[f] = (uint32_t)(sum += count);
+	}
+	for (size_t i = x->c->n; i-- > 0;)
+		x->order[--x->start[x->wish[i].face]] = (uint32_t)i;
+}
+
+/* The entry of row i of the adjacency that is column j. */
+static size_t
+entry_of(const mr_adjacency *adj, size_t i, uint32_t j)
+{
+	size_t k = adj->start[i];
+
+	while (adj->adj[k] != j)
+		k++;
+	return k;
+}
+
+/* Adds the wishes of the points on face f, of which vertex i is corner k. */
+static void
+add_face(const fit *x, size_t i, uint32_t f, int k)
+{
+	int a = (k + 1) % 3, b = (k + 2) % 3;
+	size_t to_a = entry_of(&x->e->adj, i, x->surface.t[f].v[a]);
+	size_t to_b = entry_of(&x->e->adj, i, x->surface.t[f].v[b]);
+
+	for (uint32_t at = x->start[f]; at < x->start[f + 1]; at++) {
+		const wish *w = &x->wish[x->order[at]];
+		double c = (double)w->weight * w->c[k];
+		x->e->diagonal[i] += c * w->c[k];
+		x->e->beside[to_a] += c * w->c[a];
+		x->e->beside[to_b] += c * w->c[b];
+		x->e->b[i] += c * w->r;
+	}
+}
+
+static void
+assemble_rows(void *arg, size_t begin, size_t end)
+{
+	const fit *x = arg;
+	const mr_topology *topo = &x->d->level[x->d->n].topo;
+
+	for (size_t i = begin; i < end; i++) {
+		double pull = (double)x->pull[i];
+		uint32_t first = topo->out[i], h = first;
+		if (x->local && !x->near[i])
+			continue;
+		x->e->diagonal[i] = pull;
+		x->e->b[i] = pull * x->target[i];
+		for (size_t k = x->e->adj.start[i]; k < x->e->adj.start[i + 1]; k++)
+			x->e->beside[k] = 0;
+		if (h == MR_NONE)
+			continue;
+		do {
+			if (x->start[h / 3] < x->start[h / 3 + 1])
+				add_face(x, i, h / 3, (int)(h % 3));
+			h = mr_he_ccw(topo, h);
+		} while (h != MR_NONE && h != first);
+	}
+}
+
+/*
+ * Where the surface folds or crosses itself, the heights are larger than the domain's radius of curvature, or
+ * half its way to itself: they are pulled towards the domain, each time more, and are to be fairer.
+ */
+static void
+press(fit *x)
+{
+	static const double shrink = 0.7, more = 3, least = 0.3, most = 300;
+
+	for (size_t f = 0; f < x->surface.nf; f++)
+		for (int k = 0; k < 3 && x->bad[f]; k++) {
+			uint32_t v = x->surface.t[f].v[k];
+			x->target[v] = shrink * x->height[v];
+			x->pull[v] = (float)fmin(more * fmax((double)x->pull[v], least), most);
+			x->e->fair[v] = fmin(more * x->e->fair[v], most * x->weights->fair);
+		}
+}
+
+static void
+place_all(mr_ctx *ctx, fit *x)
+{
+	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
+	mr_parallel(ctx, x->c->n, GRAIN, place_points, x);
+}
+
+static mr_status
+fit_pass(mr_ctx *ctx, fit *x)
+{
+	double median;
+	size_t steps;
+
+	place_all(ctx, x);
+	MR_TRY(median_gap(ctx, x, &median));
+	x->scale = fmax(x->weights->scale, 3 * 1.4826 * median);
+	weigh_points(x);
+	sort_by_face(x);
+	mr_parallel(ctx, x->d->m.nv, GRAIN, assemble_rows, x);
+	MR_TRY(mr_heights_minimise(ctx, x->e, 1e-3, x->weights->steps, x->height, &steps));
+	mr_stat_set(ctx, "refine_steps", (double)steps);
+	return MR_OK;
+}
+
+static void
+report_gaps(mr_ctx *ctx, const fit *x)
+{
+	double sum = 0, most = 0;
+
+	for (size_t i = 0; i < x->c->n; i++) {
+		double gap = fabs(x->wish[i].gap);
+		sum += gap;
+		most = fmax(most, gap);
+	}
+	mr_stat_set(ctx, "gap_mean", sum / (double)x->c->n / x->c->diagonal);
+	mr_stat_set(ctx, "gap_max", most / x->c->diagonal);
+}
+
+/* Heights that follow noise make a surface of many spikes, and so much larger. */
+static void
+report_area(mr_ctx *ctx, const fit *x)
+{
+	static const double SPIKY = 1.5;
+	double ratio = mr_mesh_area(ctx, &x->surface) / mr_mesh_area(ctx, &x->d->m);
+
+	mr_stat_set(ctx, "area_ratio", ratio);
+	if (ratio > SPIKY && !x->weights->robust)
+		mr_warn(ctx,
+		    "the displaced surface has %.3g times the area of its domain: noise, for which there is "
+		    "-m "
+		    "robust, or the domain is far off",
+		    ratio);
+}
+
+static mr_status
+fit_new(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, fit *x)
+{
+	x->d = d;
+	x->c = c;
+	x->surface = d->m;
+	x->surface.p = x->p = MR_NEW(ctx, d->m.nv, mr_v3);
+	x->wish = MR_NEW(ctx, c->n, wish);
+	x->start = MR_NEW(ctx, d->m.nf + 1, uint32_t);
+	x->order = MR_NEW(ctx, c->n, uint32_t);
+	x->target = MR_NEW(ctx, d->m.nv, double);
+	x->pull = MR_NEW(ctx, d->m.nv, float);
+	x->bad = MR_NEW(ctx, d->m.nf, bool);
+	x->crosses = MR_NEW(ctx, d->m.nf, bool);
+	x->near = MR_NEW(ctx, d->m.nv, bool);
+	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull || !x->bad || !x->crosses ||
+	    !x->near)
+		return MR_EMEM;
+	for (size_t i = 0; i < c->n; i++)
+		x->wish[i].face = c->face[i];
+	return MR_OK;
+}
+
+/* The vertices within a few rings of bad faces: x->near, and their list. */
+static size_t
+find_near(fit *x, uint32_t *list)
+{
+	enum { RINGS = 3 };
+	const mr_adjacency *adj = &x->e->adj;
+	size_t count = 0;
+
+	memset(x->near, 0, x->d->m.nv * sizeof *x->near);
+	for (size_t f = 0; f < x->surface.nf; f++)
+		for (int k = 0; k < 3 && x->bad[f]; k++) {
+			uint32_t v = x->surface.t[f].v[k];
+			if (!x->near[v])
+				list[count++] = v;
+			x->near[v] = true;
+		}
+	for (size_t ring = 0, from = 0; ring < RINGS; ring++)
+		for (size_t to = count; from < to; from++)
+			for (size_t k = adj->start[list[from]]; k < adj->start[list[from] + 1]; k++) {
+				uint32_t v = adj->adj[k];
+				if (!x->near[v])
+					list[count++] = v;
+				x->near[v] = true;
+			}
+	return count;
+}
+
+/* A pass for what is around bad faces alone. */
+static mr_status
+mend_pass(mr_ctx *ctx, fit *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *list = MR_NEW(ctx, x->d->m.nv, uint32_t);
+	size_t count;
+
+	if (!list)
+		return MR_EMEM;
+	count = find_near(x, list);
+	mr_parallel(ctx, x->c->n, GRAIN, place_points, x);
+	weigh_points(x);
+	sort_by_face(x);
+	mr_parallel(ctx, x->d->m.nv, GRAIN, assemble_rows, x);
+	MR_TRY(mr_heights_minimise_some(ctx, x->e, list, count, 1e-3, x->weights->steps, x->height));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Displaces the domain and finds what folds or crosses, by what has moved alone after a local pass. */
+static mr_status
+find_bad(mr_ctx *ctx, fit *x, size_t *folds)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t roots = x->d->level[0].nf, parts = x->surface.nf / roots;
+	bool *moved = x->local ? MR_NEW_ZERO(ctx, roots, bool) : NULL;
+
+	if (x->local && !moved)
+		return MR_EMEM;
+	for (size_t f = 0; moved && f < x->surface.nf; f++)
+		for (int k = 0; k < 3; k++)
+			moved[f / parts] |= x->near[x->surface.t[f].v[k]];
+	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
+	MR_TRY(mr_find_crossings(ctx, x->d->level, x->d->n, x->p, moved, x->crosses));
+	*folds = mr_find_folds(ctx, &x->surface, x->d, x->crosses, x->bad);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Passes around what folds or crosses, as long as there is any and it has become less of late. */
+static mr_status
+mend_all(mr_ctx *ctx, fit *x, size_t *folds)
+{
+	enum { MOST = 40, PATIENCE = 8 };
+	size_t least = SIZE_MAX, vain = 0, pass;
+
+	for (pass = 0;; pass++) {
+		MR_TRY(find_bad(ctx, x, folds));
+		vain = *folds < least ? 0 : vain + 1;
+		least = *folds < least ? *folds : least;
+		if (*folds == 0 || pass == MOST || vain == PATIENCE)
+			break;
+		x->local = true;
+		press(x);
+		MR_TRY(mend_pass(ctx, x));
+		mr_progress(ctx, "mending", (double)(pass + 1) / MOST);
+	}
+	x->local = false;
+	mr_stat_set(ctx, "mend_passes", (double)pass);
+	return MR_OK;
+}
+
+static mr_status
+fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
+{
+	for (size_t pass = 0; pass < passes; pass++) {
+		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
+		mr_find_folds(ctx, &x->surface, x->d, NULL, x->bad);
+		press(x);
+		MR_TRY(fit_pass(ctx, x));
+		mr_progress(ctx, "refining", (double)(pass + 1) / (double)passes);
+	}
+	return passes > 0 ? mend_all(ctx, x, folds) : find_bad(ctx, x, folds);
+}
+
+mr_status
+mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fit_weights *weights,
+    size_t passes, mr_heights *e, const bool *hit, double *height)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	fit x = { .weights = weights, .e = e, .height = height };
+	size_t folds;
+
+	MR_TRY(fit_new(ctx, d, c, &x));
+	MR_TRY(mr_heights_add_data(ctx, e));
+	memcpy(x.target, height, d->m.nv * sizeof *height);
+	for (size_t i = 0; i < d->m.nv; i++) {
+		e->fair[i] = weights->fair;
+		x.pull[i] = hit[i] ? (float)weights->pull : 0;
+	}
+	MR_TRY(fit_all(ctx, &x, passes, &folds));
+	place_all(ctx, &x);
+	report_gaps(ctx, &x);
+	report_area(ctx, &x);
+	mr_stat_set(ctx, "fairness", weights->fair);
+	mr_stat_set(ctx, "folds", (double)folds);
+	if (folds > 0)
+		mr_warn(ctx, "%zu of %zu triangles of the displaced surface fold over or pass through others",
+		    folds, d->m.nf);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,275 @@
+/* Jeong, Kim 2001: Direct reconstruction of displaced subdivision surface from unorganized points,
+ * section 5. */
+#include "sample/sample.h"
+
+#include "sample/parts.h"
+#include "base/parallel.h"
+#include "space/bvh.h"
+#include "space/local_planes.h"
+#include "space/outlier.h"
+#include "mesh/zorder.h"
+
+#include <float.h>
+
+/* Heights that were filled in, as a share, without a warning. */
+static const double FILLED_MOST = 0.25;
+
+/* True where half-edges lie on a boundary. */
+static bool
+is_open(const mr_loop *l)
+{
+	for (size_t h = 0; h < 3 * l->nf; h++)
+		if (l->topo.twin[h] == MR_NONE)
+			return true;
+	return false;
+}
+
+/* The squared distance of a point from the span of the unit vectors, of which there are `count`. */
+static double
+beyond(mr_v3 r, const mr_v3 *axis, int count)
+{
+	for (int i = 0; i < count; i++)
+		r = mr_axpy(-mr_dot(r, axis[i]), axis[i], r);
+	return mr_norm2(r);
+}
+
+/* How many dimensions the points extend in, to rounding: each axis goes to the point farthest from those
+ * before. */
+static int
+dimensions(const mr_v3 *p, size_t n, double diagonal)
+{
+	mr_v3 axis[3];
+	int count = 0;
+
+	for (; count < 3; count++) {
+		double most = 1e-24 * diagonal * diagonal;
+		size_t farthest = n;
+		mr_v3 r;
+		for (size_t i = 0; i < n; i++) {
+			double d2 = beyond(mr_sub(p[i], p[0]), axis, count);
+			if (d2 > most) {
+				most = d2;
+				farthest = i;
+			}
+		}
+		if (farthest == n)
+			break;
+		r = mr_sub(p[farthest], p[0]);
+		for (int i = 0; i < count; i++)
+			r = mr_axpy(-mr_dot(r, axis[i]), axis[i], r);
+		axis[count] = mr_unit(r);
+	}
+	return count;
+}
+
+typedef struct placing {
+	const mr_mesh *m;
+	const mr_bvh *bvh;
+	mr_cloud *c;
+	double *off;
+} placing;
+
+static void
+place_points(void *arg, size_t begin, size_t end)
+{
+	const placing *x = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_closest at = mr_bvh_closest(x->bvh, x->c->p[i]);
+		mr_v3 n = mr_unit(mr_face_cross(x->m, at.face));
+		x->c->face[i] = at.face;
+		if (x->off)
+			x->off[i] = sqrt(at.dist2);
+		x->c->side[i] = (mr_v3f){ (float)n.x, (float)n.y, (float)n.z };
+	}
+}
+
+mr_status
+mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, double *off)
+{
+	uint32_t *face = MR_NEW(ctx, c->n, uint32_t);
+	mr_v3f *side = MR_NEW(ctx, c->n, mr_v3f);
+	mr_mark mark = mr_mark_take(ctx);
+	placing x = { .m = &d->m, .c = c, .off = off };
+	mr_bvh *bvh;
+
+	if (!face || !side)
+		return MR_EMEM;
+	c->face = face;
+	c->side = side;
+	MR_TRY(mr_bvh_build(ctx, &d->m, &bvh));
+	x.bvh = bvh;
+	mr_parallel(ctx, c->n, 256, place_points, &x);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+size_t
+mr_sights_near_sheet(const mr_cloud *c, mr_v3 n, mr_sight *s, size_t count)
+{
+	size_t kept = 0;
+
+	for (size_t i = 0; i < count; i++)
+		if (mr_same_side(c, s[i].index, n))
+			s[kept++] = s[i];
+	return kept;
+}
+
+static mr_status
+check_points(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c)
+{
+	static const char *const shape[] = { "at one place", "on a line", "in a plane" };
+	int extent = dimensions(c->p, c->n, c->diagonal);
+
+	if (extent < 2 || (extent < 3 && !is_open(&d->level[d->n])))
+		return mr_fail(ctx, MR_EMESH, "all %zu points lie %s: they make no surface%s", c->n,
+		    shape[extent], extent == 2 ? " for a closed control mesh" : "");
+	if (mr_near_distinct(c->near) < 4)
+		return mr_fail(ctx, MR_EMESH, "%zu points at %zu places: a surface needs 4 at least", c->n,
+		    mr_near_distinct(c->near));
+	return MR_OK;
+}
+
+/* The points that stay, and their index. */
+static mr_status
+keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_cloud *c)
+{
+	mr_v3 *p = MR_NEW(ctx, kept, mr_v3);
+	mr_near *near;
+
+	if (!p)
+		return MR_EMEM;
+	kept = 0;
+	for (size_t i = 0; i < c->n; i++) {
+		if (outlier[i])
+			continue;
+		p[kept] = c->p[i];
+		c->face[kept] = c->face[i];
+		c->side[kept++] = c->side[i];
+	}
+	MR_TRY(mr_near_build(ctx, p, kept, &near));
+	mr_near_free(c->near);
+	c->near = near;
+	c->p = p;
+	c->n = kept;
+	c->diagonal = mr_box_diagonal(mr_box_of(p, kept));
+	return MR_OK;
+}
+
+/* Finds the place of each point, and takes out those that belong nowhere. */
+static mr_status
+place_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c)
+{
+	double *off = MR_NEW(ctx, c->n, double);
+	bool *outlier = MR_NEW(ctx, c->n, bool);
+	size_t outliers;
+
+	if (!off || !outlier)
+		return MR_EMEM;
+	MR_TRY(mr_cloud_place(ctx, d, c, off));
+	MR_TRY(mr_find_outliers(ctx, c->near, c->p, c->n, off, 0, outlier, &outliers));
+	mr_stat_set(ctx, "outliers", (double)outliers);
+	return outliers ? keep_points(ctx, outlier, c->n - outliers, c) : MR_OK;
+}
+
+/* Takes back the heights that stick out and fills in those that are missing. */
+static mr_status
+mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height)
+{
+	size_t dropped, filled;
+
+	MR_TRY(mr_heights_new(ctx, &d->m, 1, e));
+	MR_TRY(mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &dropped));
+	MR_TRY(mr_heights_fill(ctx, e, hit, height, &filled));
+	mr_stat_set(ctx, "spikes", (double)dropped);
+	mr_stat_set(ctx, "filled", (double)filled);
+	if ((double)filled > FILLED_MOST * (double)d->m.nv)
+		mr_warn(
+		    ctx, "no height is found at %zu of %zu vertices: filled in smoothly", filled, d->m.nv);
+	return MR_OK;
+}
+
+/*
+ * Weights for points with noise: the more they deviate from the local surfaces, beside how much the heights
+ * of those differ from vertex to vertex, the fairer the heights are to be.  The numbers are by experiment.
+ */
+static mr_fit_weights
+robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_cloud *c, double noise)
+{
+	double rough = mr_heights_roughness(ctx, e, height), fair = 2 * pow(noise / fmax(rough, DBL_MIN), 4);
+
+	return (mr_fit_weights){ .fair = fmin(fmax(fair, 1e-2), 1e3),
+		.pull = 0.3,
+		.scale = 1e-4 * c->diagonal,
+		.robust = true,
+		.steps = 300 };
+}
+
+static mr_status
+sample_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, const mr_sample_opts *opts, double *height)
+{
+	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
+	size_t distinct, k = opts->neighbours;
+	bool *hit = MR_NEW(ctx, d->m.nv, bool);
+	mr_heights e;
+	double noise;
+
+	if (!hit)
+		return MR_EMEM;
+	MR_TRY(check_points(ctx, d, c));
+	MR_TRY(place_cloud(ctx, d, c));
+	distinct = mr_near_distinct(c->near);
+	if (k > distinct)
+		k = distinct;
+	if (opts->method == MR_SAMPLE_TRIANGLE)
+		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit));
+	else
+		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, &noise));
+	MR_TRY(mend(ctx, d, &e, hit, height));
+	if (opts->method == MR_SAMPLE_ROBUST)
+		weights = robust_weights(ctx, &e, height, c, noise);
+	return mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height);
+}
+
+mr_status
+mr_sample_points(
+    mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, const mr_sample_opts *opts, double *height)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
+	mr_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
+	mr_status s;
+
+	if (n == 0)
+		return mr_fail(ctx, MR_EMESH, "no points to sample");
+	if (!sorted)
+		return MR_EMEM;
+	MR_TRY(mr_cloud_check_spread(ctx, point, n));
+	MR_TRY(mr_zorder_points(ctx, point, n, sorted)); /* what close ones look up is in the cache */
+	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
+	s = sample_cloud(ctx, d, &c, opts, height);
+	mr_near_free(c.near);
+	if (s >= 0)
+		mr_mark_release(ctx, mark);
+	return s;
+}
+
+mr_status
+mr_sample_mesh(
+    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts, double *height)
+{
+	mr_cloud c = { .p = mesh->p, .n = mesh->nv, .diagonal = mr_mesh_diagonal(mesh) };
+	mr_fit_weights weights = { .fair = 1e-2, .pull = 1, .scale = 1e-3 * c.diagonal, .steps = 50 };
+	mr_mark mark = mr_mark_take(ctx);
+	bool *hit = MR_NEW(ctx, d->m.nv, bool);
+	mr_heights e;
+
+	if (!hit)
+		return MR_EMEM;
+	MR_TRY(mr_cloud_place(ctx, d, &c, NULL));
+	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit));
+	MR_TRY(mend(ctx, d, &e, hit, height));
+	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

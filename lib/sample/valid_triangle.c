@@ -1,0 +1,210 @@
+/* Jeong, Kim 2001: Direct reconstruction of displaced subdivision surface from unorganized points,
+ * section 5. */
+#include "sample/parts.h"
+#include "base/parallel.h"
+
+enum { CHUNK = 1 << 12, GRAIN = 256 };
+
+/* Two unit vectors across n, so that (a, b, n) is right-handed (Duff et al. 2017). */
+static void
+across(mr_v3 n, mr_v3 *a, mr_v3 *b)
+{
+	double s = copysign(1, n.z), u = -1 / (s + n.z), w = n.x * n.y * u;
+
+	*a = mr_vec(1 + s * n.x * n.x * u, s * w, -s * n.x);
+	*b = mr_vec(w, s + n.y * n.y * u, -n.y);
+}
+
+static bool
+farther(const mr_sight *a, const mr_sight *b)
+{
+	return a->d2 != b->d2 ? a->d2 > b->d2 : a->index > b->index;
+}
+
+size_t
+mr_sights(const mr_v3 *point, const uint32_t *index, size_t k, mr_v3 v, mr_v3 n, mr_sight *s)
+{
+	size_t count = 0;
+	mr_v3 a, b;
+
+	across(n, &a, &b);
+	for (size_t i = 0; i < k && index[i] != MR_NONE; i++) {
+		mr_v3 r = mr_sub(point[index[i]], v);
+		mr_sight x = { mr_dot(r, a), mr_dot(r, b), mr_dot(r, n), 0, index[i] };
+		size_t j = count++;
+		x.d2 = x.x * x.x + x.y * x.y;
+		for (; j > 0 && farther(&s[j - 1], &x); j--)
+			s[j] = s[j - 1];
+		s[j] = x;
+	}
+	return count;
+}
+
+static double
+cross(const mr_sight *a, const mr_sight *b)
+{
+	return a->x * b->y - a->y * b->x;
+}
+
+static double
+dist2(const mr_sight *a, const mr_sight *b)
+{
+	double x = a->x - b->x, y = a->y - b->y, t = a->t - b->t;
+
+	return x * x + y * y + t * t;
+}
+
+/* Twice the area in space of the triangle. */
+static double
+area_of(const mr_sight *a, const mr_sight *b, const mr_sight *c)
+{
+	return mr_norm(mr_cross(
+	    mr_vec(b->x - a->x, b->y - a->y, b->t - a->t), mr_vec(c->x - a->x, c->y - a->y, c->t - a->t)));
+}
+
+/* Takes the triangle a b c, which the line meets with the weights w (of sum `sum`, twice its area across the
+ * line), if it is the smallest so far within the bounds. */
+static void
+consider(const mr_sight *a, const mr_sight *b, const mr_sight *c, const double w[3], const mr_bounds *bounds,
+    mr_valid *v)
+{
+	double sum = w[0] + w[1] + w[2], area = area_of(a, b, c) / 2;
+	double height = (w[0] * a->t + w[1] * b->t + w[2] * c->t) / sum;
+
+	if ((v->taken && area >= v->area) || fabs(height) > bounds->height ||
+	    sum < 2 * area * bounds->cosine || dist2(a, b) > bounds->edge2 || dist2(b, c) > bounds->edge2 ||
+	    dist2(c, a) > bounds->edge2)
+		return;
+	v->taken = true;
+	v->area = area;
+	v->height = height;
+}
+
+/* All triangles that point m completes with those before it. */
+static void
+complete(const mr_sight *s, size_t m, const mr_bounds *bounds, mr_valid *v)
+{
+	double c[MR_SAMPLE_MOST];
+
+	for (size_t i = 0; i < m; i++)
+		c[i] = cross(&s[i], &s[m]);
+	for (size_t a = 0; a < m; a++) {
+		if (c[a] > 0)
+			continue;
+		for (size_t b = 0; b < m; b++) {
+			/* the line, at the origin, is left of a b, of b m and of m a */
+			double ab;
+			if (c[b] < 0 || b == a || !((ab = cross(&s[a], &s[b])) >= 0) ||
+			    !(ab + c[b] - c[a] > 0))
+				continue;
+			if (!v->points)
+				v->points = m + 1;
+			consider(&s[a], &s[b], &s[m], (double[3]){ c[b], -c[a], ab }, bounds, v);
+		}
+	}
+}
+
+mr_valid
+mr_valid_triangle(const mr_sight *s, size_t n, const mr_bounds *bounds)
+{
+	mr_valid v = { 0 };
+
+	for (size_t m = 2; m < n && !v.taken; m++)
+		complete(s, m, bounds, &v);
+	return v;
+}
+
+typedef struct search {
+	const mr_domain *d;
+	const mr_cloud *c;
+	size_t k, first;       /* of this chunk of vertices */
+	const uint32_t *index; /* k nearest points of each */
+	const double *dist2;
+	double *height;
+	bool *hit;
+	uint8_t *points; /* of mr_valid */
+} search;
+
+/*
+ * The k nearest points lie in a disc about the foot of v on the surface: of squared radius R^2 = d_k^2 -
+ * d_1^2, so one point has the area pi R^2 / k.
+ */
+static mr_bounds
+bounds_of(const double *near2, size_t k)
+{
+	double spacing2 = MR_PI * (near2[k - 1] - near2[0]) / (double)k, spacing = sqrt(spacing2);
+
+	return (
+	    mr_bounds){ .height = 4 * sqrt(near2[0]) + 4 * spacing, .edge2 = 36 * spacing2, .cosine = 0.1 };
+}
+
+static void
+search_vertices(void *arg, size_t begin, size_t end)
+{
+	const search *s = arg;
+	mr_sight sight[MR_SAMPLE_MOST];
+
+	for (size_t i = begin; i < end; i++) {
+		size_t v = s->first + i, n, near;
+		mr_v3 normal = s->d->normal[v];
+		mr_bounds bounds;
+		mr_valid found;
+		s->hit[v] = false;
+		s->height[v] = 0;
+		s->points[v] = 0;
+		if (!(mr_norm2(normal) > 0))
+			continue;
+		n = mr_sights(s->c->p, s->index + i * s->k, s->k, s->d->m.p[v], normal, sight);
+		bounds = bounds_of(s->dist2 + i * s->k, n);
+		found = mr_valid_triangle(sight, n, &bounds);
+		s->points[v] = (uint8_t)found.points;
+		near = mr_sights_near_sheet(s->c, normal, sight, n);
+		if (near < n)
+			found = mr_valid_triangle(sight, near, &bounds);
+		s->hit[v] = found.taken;
+		s->height[v] = found.taken ? found.height : 0;
+	}
+}
+
+/* Shares of the vertices by how many triangles, C(points, 3), had been tested when the line met one. */
+static void
+report_tries(mr_ctx *ctx, const search *s, size_t nv)
+{
+	size_t tally[6] = { 0 }, met = 0, taken = 0;
+
+	for (size_t v = 0; v < nv; v++) {
+		if (s->points[v] && s->points[v] <= 5)
+			tally[s->points[v]]++;
+		met += s->points[v] > 0;
+		taken += s->hit[v];
+	}
+	mr_stat_set(ctx, "tries_1", (double)tally[3] / (double)nv);
+	mr_stat_set(ctx, "tries_4", (double)(tally[3] + tally[4]) / (double)nv);
+	mr_stat_set(ctx, "tries_10", (double)(tally[3] + tally[4] + tally[5]) / (double)nv);
+	mr_stat_set(ctx, "missed", (double)(nv - met));
+	mr_stat_set(ctx, "rejected", (double)(met - taken));
+}
+
+mr_status
+mr_sample_triangles(
+    mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height, bool *hit)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t nv = d->m.nv, chunk = nv < CHUNK ? nv : CHUNK, k = neighbours;
+	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
+	double *dist2 = MR_NEW(ctx, chunk * k, double);
+	search s = { .d = d, .c = c, .k = k, .index = index, .dist2 = dist2, .height = height, .hit = hit };
+
+	s.points = MR_NEW(ctx, nv, uint8_t);
+	if (!index || !dist2 || !s.points)
+		return MR_EMEM;
+	for (s.first = 0; s.first < nv; s.first += chunk) {
+		size_t n = nv - s.first < chunk ? nv - s.first : chunk;
+		MR_TRY(mr_near_query(ctx, c->near, d->m.p + s.first, n, k, index, dist2));
+		mr_parallel(ctx, n, GRAIN, search_vertices, &s);
+		mr_progress(ctx, "sampling", (double)(s.first + n) / (double)nv);
+	}
+	report_tries(ctx, &s, nv);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,88 @@
+#include "simplify/bucket_queue.h"
+
+/* The item before one is a number below the items'; the first of bucket k has FIRST + k; one outside MR_NONE.
+ */
+static const uint32_t FIRST = MR_NONE - MR_BUCKETS;
+
+mr_status
+mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out)
+{
+	mr_buckets *b = MR_NEW_ZERO(ctx, 1, mr_buckets);
+	uint32_t *next = MR_NEW(ctx, n, uint32_t), *prev = MR_NEW(ctx, n, uint32_t);
+	uint32_t *head = MR_NEW(ctx, MR_BUCKETS, uint32_t);
+
+	if (!b || !next || !prev || !head)
+		return MR_EMEM;
+	memset(prev, 0xff, n * sizeof *prev);
+	memset(head, 0xff, MR_BUCKETS * sizeof *head);
+	b->next = next;
+	b->prev = prev;
+	b->head = head;
+	*out = b;
+	return MR_OK;
+}
+
+void
+mr_buckets_put(mr_buckets *b, uint32_t item, uint32_t bucket)
+{
+	uint32_t first = b->head[bucket];
+
+	b->next[item] = first;
+	b->prev[item] = FIRST + bucket;
+	b->head[bucket] = item;
+	if (first != MR_NONE)
+		b->prev[first] = item;
+	b->bits[bucket / 64] |= (uint64_t)1 << bucket % 64;
+	b->words[bucket / 64 / 64] |= (uint64_t)1 << bucket / 64 % 64;
+}
+
+/* Says that a bucket is empty. */
+static void
+clear(mr_buckets *b, uint32_t bucket)
+{
+	b->bits[bucket / 64] &= ~((uint64_t)1 << bucket % 64);
+	if (!b->bits[bucket / 64])
+		b->words[bucket / 64 / 64] &= ~((uint64_t)1 << bucket / 64 % 64);
+}
+
+void
+mr_buckets_remove(mr_buckets *b, uint32_t item)
+{
+	uint32_t next = b->next[item], prev = b->prev[item];
+
+	if (prev == MR_NONE)
+		return;
+	b->prev[item] = MR_NONE;
+	if (next != MR_NONE)
+		b->prev[next] = prev;
+	if (prev < FIRST) {
+		b->next[prev] = next;
+		return;
+	}
+	b->head[prev - FIRST] = next;
+	if (next == MR_NONE)
+		clear(b, prev - FIRST);
+}
+
+/* The number of the lowest bit of x, which is not 0. */
+static uint32_t
+lowest(uint64_t x)
+{
+	return (uint32_t)__builtin_ctzll(x);
+}
+
+uint32_t
+mr_buckets_take(mr_buckets *b, uint32_t *bucket)
+{
+	for (uint32_t i = 0; i < MR_BUCKETS / 64 / 64; i++) {
+		uint32_t word, item;
+		if (!b->words[i])
+			continue;
+		word = 64 * i + lowest(b->words[i]);
+		*bucket = 64 * word + lowest(b->bits[word]);
+		item = b->head[*bucket];
+		mr_buckets_remove(b, item);
+		return item;
+	}
+	return MR_NONE;
+}

@@ -1,0 +1,50 @@
+/*
+ * merge.h -- merging the ends of an edge: where to, at what cost, and whether the surface allows it.
+ *
+ * Layer rule: alg, private to simplification.
+ */
+#ifndef MR_MERGE_H
+#define MR_MERGE_H
+
+#include "mesh/dynmesh.h"
+#include "op/quadric.h"
+
+enum { MR_RING_MAX = 32 }; /* most faces that a merged vertex may have */
+
+/* The faces at one end of an edge alone: the half-edges by which they leave it, counter-clockwise but for
+ * the gaps of a boundary. */
+typedef struct mr_ring {
+	uint32_t he[MR_RING_MAX];
+	unsigned n;
+} mr_ring;
+
+/* What a vertex carries with it. */
+typedef struct mr_site {
+	mr_quadric q; /* about its position */
+	bool rim;     /* on the boundary */
+} mr_site;
+
+typedef struct mr_merge {
+	uint32_t edge; /* one of its half-edges */
+	mr_ring ring;
+	mr_v3 p;       /* where the merged vertex goes */
+	double cost;   /* by which merges are put in order */
+	double error2; /* mean squared distance of p to the planes of the faces merged into it, by area */
+} mr_merge;
+
+/* About a lower bound of the cost of the merge of h, at a part of the work. */
+double mr_merge_bound(const mr_dyn *d, const mr_site *site, uint32_t h);
+
+/*
+ * What it is to merge the ends of h; site: of every vertex.  False where
+ * the merged vertex would have more than MR_RING_MAX faces.
+ */
+bool mr_merge_of(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m);
+
+/*
+ * True where the merge turns no face by 78 degrees or more, leaves none whose shape (mr_dyn_shape) is below
+ * `needle` and below the worst that was there, and makes no fold that was not there.
+ */
+bool mr_merge_is_sound(const mr_dyn *d, const mr_merge *m, double needle);
+
+#endif

@@ -1,0 +1,133 @@
+/* Where the vertices of a mesh lie on what it was simplified to, and the reverse. */
+#include "space/surface_walk.h"
+#include "simplify/simplify.h"
+#include "base/parallel.h"
+
+typedef struct place_job {
+	const mr_mesh *m; /* the surface placed on */
+	const mr_topology *topo;
+	const mr_bvh *bvh;
+	const mr_mesh *from;   /* whose vertices are placed */
+	const mr_v3 *normal;   /* of these */
+	const uint32_t *start; /* vertex of m that each walk starts at; MR_NONE: not known */
+	uint32_t *face;
+	mr_v3 *bary;
+} place_job;
+
+/* Whether a face of m looks to the side that a normal does. */
+static bool
+agrees(const mr_mesh *m, uint32_t face, mr_v3 normal)
+{
+	return mr_dot(mr_face_cross(m, face), normal) > 0;
+}
+
+typedef struct search {
+	const mr_mesh *m;
+	mr_v3 q, normal;
+	mr_closest best;
+} search;
+
+static bool
+keep_nearer(void *arg, uint32_t face)
+{
+	search *s = arg;
+	const uint32_t *v = s->m->t[face].v;
+	mr_closest c = mr_triangle_closest(s->q, s->m->p[v[0]], s->m->p[v[1]], s->m->p[v[2]]);
+
+	c.face = face;
+	if ((c.dist2 < s->best.dist2 || (c.dist2 == s->best.dist2 && face < s->best.face)) &&
+	    agrees(s->m, face, s->normal))
+		s->best = c;
+	return true;
+}
+
+/*
+ * A walk stays on its sheet but may end at a local minimum.  Where a place is nearer than that it counts, if
+ * its face looks to the same side as the vertex; else it is that of another sheet, and the nearest
+ * of all that do is looked for as far as the walk's end.
+ */
+static mr_closest
+place(const place_job *j, size_t i)
+{
+	static const double rounding = 1e-12;
+	mr_v3 q = j->from->p[i], n = j->normal[i];
+	search s = { j->m, q, n, { .face = MR_NONE } };
+	mr_closest near;
+	double reach;
+
+	if (j->start[i] == MR_NONE)
+		return mr_bvh_closest(j->bvh, q);
+	s.best = mr_project_walk(j->m, j->topo, j->topo->out[j->start[i]] / 3, q);
+	near = mr_bvh_closest_within(j->bvh, q, (1 - rounding) * s.best.dist2);
+	if (near.face == MR_NONE)
+		return s.best;
+	if (agrees(j->m, near.face, n))
+		return near;
+	reach = sqrt(s.best.dist2);
+	mr_bvh_overlap(j->bvh,
+	    (mr_box){ mr_sub(q, mr_vec(reach, reach, reach)), mr_add(q, mr_vec(reach, reach, reach)) },
+	    keep_nearer, &s);
+	return s.best;
+}
+
+static void
+place_body(void *arg, size_t begin, size_t end)
+{
+	place_job *j = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_closest c = place(j, i);
+		j->face[i] = c.face;
+		j->bary[i] = c.bary;
+	}
+}
+
+/* Places the vertices of `from` on m, by walks from vertices of it. */
+static mr_status
+place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *start, mr_source_map *map)
+{
+	uint32_t *face = MR_NEW(ctx, from->nv, uint32_t);
+	mr_v3 *bary = MR_NEW(ctx, from->nv, mr_v3);
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *normal = MR_NEW(ctx, from->nv, mr_v3);
+	mr_topology topo;
+	mr_bvh *bvh;
+
+	if (!face || !bary || !normal)
+		return MR_EMEM;
+	MR_TRY(mr_vertex_normals(ctx, from, normal));
+	MR_TRY(mr_topology_build(ctx, m, &topo));
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	mr_parallel(
+	    ctx, from->nv, 1024, place_body, &(place_job){ m, &topo, bvh, from, normal, start, face, bary });
+	mr_mark_release(ctx, mark);
+	*map = (mr_source_map){ face, bary };
+	return MR_OK;
+}
+
+mr_status
+mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map)
+{
+	return place_all(ctx, out, m, onto, map);
+}
+
+mr_status
+mr_simplify_source(
+    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map)
+{
+	uint32_t *nearest = MR_NEW(ctx, out->nv, uint32_t);
+
+	if (!nearest)
+		return MR_EMEM;
+	for (size_t v = 0; v < out->nv; v++)
+		nearest[v] = MR_NONE;
+	for (uint32_t v = 0; v < m->nv; v++) {
+		uint32_t w = onto[v];
+		if (w == MR_NONE)
+			continue;
+		if (nearest[w] == MR_NONE ||
+		    mr_dist(m->p[v], out->p[w]) < mr_dist(m->p[nearest[w]], out->p[w]))
+			nearest[w] = v;
+	}
+	return place_all(ctx, m, out, nearest, map);
+}

@@ -1,0 +1,352 @@
+#include "simplify/simplify.h"
+
+#include "simplify/bucket_queue.h"
+#include "simplify/edge_collapse.h"
+#include "base/parallel.h"
+#include "base/disjoint_sets.h"
+
+/* The shape that needles may have where the faces asked for cannot be had otherwise: thin plates, say. */
+static const double LAST_NEEDLE = 0.01;
+
+static const uint16_t UNKNOWN = UINT16_MAX; /* no bucket: the edge has no merge */
+
+/*
+ * Edges wait in the queue by what their merge cost when that was last computed.  A merge makes those around
+ * it dearer, mostly, so an old cost is a lower bound: it is computed again when the edge comes up, and where
+ * it has grown the edge goes back.
+ */
+typedef struct simplifier {
+	mr_ctx *ctx;
+	const mr_simplify_opts *o;
+	mr_dyn d;          /* scaled by a power of two to about unit size; at[v]: the number in the input */
+	double scale;      /* that power */
+	mr_site *site;     /* of each vertex */
+	mr_buckets *queue; /* of edges, by the half-edge with the lower number */
+	uint16_t *bucket;  /* of each such half-edge: its last one */
+	uint32_t *onto;    /* what each vertex was merged into, itself while it lives */
+	uint8_t *mark;     /* for the link condition */
+	size_t faces, merges, computed, refused;
+	double error2; /* greatest of the merges done */
+	double needle; /* least shape of a face */
+} simplifier;
+
+/* The half-edge that an edge is known by. */
+static uint32_t
+edge_of(const mr_dyn *d, uint32_t h)
+{
+	return d->twin[h] < h ? d->twin[h] : h;
+}
+
+static void
+compute_body(void *arg, size_t begin, size_t end)
+{
+	simplifier *s = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		uint32_t h = (uint32_t)i;
+		s->bucket[h] = UNKNOWN;
+		if (!mr_dyn_face_dead(&s->d, h / 3) && edge_of(&s->d, h) == h)
+			s->bucket[h] = (uint16_t)mr_bucket_of((float)mr_merge_bound(&s->d, s->site, h));
+	}
+}
+
+static void
+enqueue(simplifier *s, uint32_t edge, uint32_t bucket)
+{
+	s->bucket[edge] = (uint16_t)bucket;
+	mr_buckets_put(s->queue, edge, bucket);
+}
+
+/* Fills the empty queue with all edges. */
+static void
+fill_queue(simplifier *s)
+{
+	mr_parallel(s->ctx, 3 * s->d.nf, 4096, compute_body, s);
+	for (uint32_t h = 3 * (uint32_t)s->d.nf; h-- > 0;)
+		if (s->bucket[h] != UNKNOWN)
+			mr_buckets_put(s->queue, h, s->bucket[h]);
+}
+
+/* Takes the edge of h out of the queue: the bucket it was in, or UNKNOWN. */
+static uint32_t
+dequeue(simplifier *s, uint32_t h)
+{
+	uint32_t edge = edge_of(&s->d, h);
+
+	if (!mr_buckets_has(s->queue, edge))
+		return UNKNOWN;
+	mr_buckets_remove(s->queue, edge);
+	return s->bucket[edge];
+}
+
+/* The edge that the two other sides of h's face become, out of the queue; *bucket is the lower of theirs. */
+static uint32_t
+fuse_sides(simplifier *s, uint32_t h, uint32_t *bucket)
+{
+	uint32_t next = mr_he_next(h), prev = mr_he_prev(h);
+	uint32_t a = dequeue(s, next), b = dequeue(s, prev);
+
+	next = s->d.twin[next];
+	prev = s->d.twin[prev];
+	*bucket = a < b ? a : b;
+	return next < prev ? next : prev;
+}
+
+/* Edges at v that were given up get another chance: what stands around them has changed. */
+static void
+retry_around(simplifier *s, uint32_t v)
+{
+	const mr_dyn *d = &s->d;
+	uint32_t h = d->out[v];
+
+	do {
+		uint32_t back = mr_he_prev(h);
+		if (!mr_buckets_has(s->queue, edge_of(d, h)))
+			enqueue(s, edge_of(d, h), 0);
+		if (d->twin[back] == MR_NONE && !mr_buckets_has(s->queue, back))
+			enqueue(s, back, 0);
+		h = d->twin[back];
+	} while (h != MR_NONE && h != d->out[v]);
+}
+
+static void
+merge(simplifier *s, uint32_t h, const mr_merge *m)
+{
+	mr_dyn *d = &s->d;
+	uint32_t a = d->v[h], b = mr_dyn_to(d, h), g = d->twin[h], bucket[2] = { UNKNOWN, UNKNOWN };
+	uint32_t side = fuse_sides(s, h, &bucket[0]), other = g == MR_NONE ? 0 : fuse_sides(s, g, &bucket[1]);
+	mr_quadric qa = mr_quadric_moved(&s->site[a].q, mr_sub(m->p, d->p[a]));
+	mr_quadric qb = mr_quadric_moved(&s->site[b].q, mr_sub(m->p, d->p[b]));
+
+	mr_dyn_collapse(d, h, m->p);
+	s->site[b] = (mr_site){ mr_quadric_sum(&qa, &qb), s->site[a].rim || s->site[b].rim };
+	s->onto[a] = b;
+	s->faces -= g == MR_NONE ? 1 : 2;
+	if (++s->merges % 8192 == 0)
+		mr_progress(s->ctx, "merging", (double)s->merges / (double)(d->nv - s->o->faces / 2));
+	s->error2 = fmax(s->error2, m->error2);
+	if (bucket[0] != UNKNOWN)
+		enqueue(s, side, bucket[0]);
+	if (bucket[1] != UNKNOWN)
+		enqueue(s, other, bucket[1]);
+	retry_around(s, b);
+}
+
+/* Looks at the edge that came up: merges it, puts it back, or gives it up. */
+static void
+serve(simplifier *s, uint32_t h, uint32_t bucket)
+{
+	double limit = s->o->error * s->scale;
+	uint32_t now;
+	mr_merge m;
+
+	now = mr_bucket_of((float)mr_merge_bound(&s->d, s->site, h));
+	if (now > bucket) {
+		enqueue(s, h, now);
+		return;
+	}
+	s->computed++;
+	if (!mr_merge_of(&s->d, s->site, h, &m) || m.error2 > limit * limit)
+		return;
+	now = mr_bucket_of((float)m.cost);
+	if (now > bucket) {
+		enqueue(s, h, now);
+		return;
+	}
+	if (mr_dyn_can_collapse(&s->d, h, s->mark) && mr_merge_is_sound(&s->d, &m, s->needle))
+		merge(s, h, &m);
+	else
+		s->refused++;
+}
+
+/* Lets needles be thinner, once, for the sake of a number of faces. */
+static bool
+relax(simplifier *s)
+{
+	bool first = s->needle > LAST_NEEDLE && s->o->faces > 0;
+
+	s->needle = LAST_NEEDLE;
+	return first;
+}
+
+/* Merges until there are few enough faces.  Edges given up are tried again as long as others were merged. */
+static void
+merge_all(simplifier *s)
+{
+	size_t before;
+
+	do {
+		uint32_t h, bucket;
+		before = s->merges;
+		fill_queue(s);
+		while (s->faces > s->o->faces && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE)
+			serve(s, h, bucket);
+	} while (s->faces > s->o->faces && (s->merges > before || relax(s)));
+}
+
+/* Adds the plane of face f to its corners, a third of the area each. */
+static void
+add_face(simplifier *s, uint32_t f, mr_v3 normal, double area)
+{
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
+		mr_quadric *q = &s->site[s->d.v[h]].q;
+		mr_quadric_add_plane(q, normal, area / 3);
+		q->area += area / 3;
+	}
+}
+
+/* Adds the plane through boundary edge h that stands upright on its face to the ends. */
+static void
+add_rim(simplifier *s, uint32_t h, mr_v3 normal, double area_weight)
+{
+	const mr_dyn *d = &s->d;
+	uint32_t a = d->v[h], b = mr_dyn_to(d, h);
+	mr_v3 edge = mr_sub(d->p[b], d->p[a]), side = mr_unit(mr_cross(normal, edge));
+	double weight = area_weight * s->o->boundary * mr_norm2(edge) / 2;
+
+	s->site[a].rim = s->site[b].rim = true;
+	mr_quadric_add_plane(&s->site[a].q, side, weight);
+	mr_quadric_add_plane(&s->site[b].q, side, weight);
+}
+
+/* Of face f, by its corners. */
+static double
+weight_of(const simplifier *s, uint32_t f)
+{
+	const double *w = s->o->weight;
+	const uint32_t *v = s->d.v + 3 * (size_t)f, *at = s->d.at;
+
+	return w ? (w[at[v[0]]] + w[at[v[1]]] + w[at[v[2]]]) / 3 : 1;
+}
+
+static void
+add_quadrics(simplifier *s)
+{
+	const mr_dyn *d = &s->d;
+
+	for (uint32_t f = 0; f < d->nf; f++) {
+		mr_v3 cross = mr_dyn_cross(d, d->p, f), normal = mr_unit(cross);
+		double weight = weight_of(s, f);
+		add_face(s, f, normal, weight * mr_norm(cross) / 2);
+		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+			if (d->twin[h] == MR_NONE)
+				add_rim(s, h, normal, weight);
+	}
+}
+
+/* The mesh without its isolated vertices, neighbours close in memory. */
+static mr_status
+copy_mesh(simplifier *s, const mr_mesh *m)
+{
+	mr_topology topo;
+	mr_dyn d = { .nv = m->nv,
+		.nf = m->nf,
+		.room_v = m->nv,
+		.room_f = m->nf,
+		.free_v = MR_NONE,
+		.free_f = MR_NONE };
+
+	MR_TRY(mr_topology_build(s->ctx, m, &topo));
+	d.twin = topo.twin;
+	d.out = topo.out;
+	d.p = MR_NEW(s->ctx, m->nv, mr_v3);
+	d.at = MR_NEW(s->ctx, m->nv, uint32_t);
+	d.kind = MR_NEW(s->ctx, m->nv, uint8_t);
+	d.v = MR_NEW(s->ctx, 3 * m->nf, uint32_t);
+	if (!d.p || !d.at || !d.kind || !d.v)
+		return MR_EMEM;
+	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
+	for (uint32_t v = 0; v < m->nv; v++) {
+		d.p[v] = mr_mul(s->scale, m->p[v]);
+		d.at[v] = v;
+		d.kind[v] = d.out[v] == MR_NONE ? MR_DEAD : MR_SMOOTH;
+	}
+	MR_TRY(mr_dyn_compact(s->ctx, &d));
+	MR_TRY(mr_dyn_order(s->ctx, &d));
+	s->d = d;
+	return MR_OK;
+}
+
+static mr_status
+begin(simplifier *s, const mr_mesh *m)
+{
+	MR_TRY(copy_mesh(s, m));
+	s->site = MR_NEW_ZERO(s->ctx, s->d.nv, mr_site);
+	s->onto = mr_sets_new(s->ctx, s->d.nv);
+	s->mark = MR_NEW_ZERO(s->ctx, s->d.nv, uint8_t);
+	s->bucket = MR_NEW(s->ctx, 3 * s->d.nf, uint16_t);
+	if (!s->site || !s->onto || !s->mark || !s->bucket)
+		return MR_EMEM;
+	s->faces = s->d.nf;
+	add_quadrics(s);
+	return mr_buckets_new(s->ctx, 3 * s->d.nf, &s->queue);
+}
+
+/* Says of each vertex of the input which of the result it was merged into.  number: those of what lives. */
+static void
+number_onto(simplifier *s, size_t nv, const uint32_t *number, uint32_t *onto)
+{
+	for (size_t v = 0; v < nv; v++)
+		onto[v] = MR_NONE;
+	for (uint32_t v = 0; v < s->d.nv; v++) {
+		uint32_t w = v;
+		while (s->onto[w] != w)
+			w = s->onto[w] = s->onto[s->onto[w]];
+		onto[s->d.at[v]] = number[w];
+	}
+}
+
+/* The vertices that live, in the order of the input's numbers, and their faces. */
+static mr_status
+finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
+{
+	const mr_dyn *d = &s->d;
+	mr_v3 *p = MR_NEW(s->ctx, d->nv - s->merges, mr_v3);
+	mr_tri *t = MR_NEW(s->ctx, s->faces, mr_tri);
+	uint32_t *number = MR_NEW(s->ctx, d->nv, uint32_t), nv = 0;
+	size_t nf = 0;
+
+	if (!p || !t || !number)
+		return MR_EMEM;
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (s->onto[v] == v) {
+			number[v] = nv;
+			p[nv++] = mr_mul(1 / s->scale, d->p[v]);
+		}
+	for (size_t f = 0; f < d->nf; f++)
+		if (!mr_dyn_face_dead(d, f))
+			t[nf++] = (mr_tri){ { number[d->v[3 * f]], number[d->v[3 * f + 1]],
+			    number[d->v[3 * f + 2]] } };
+	number_onto(s, m->nv, number, onto);
+	*out = (mr_mesh){ m->name, p, t, nv, nf };
+	return MR_OK;
+}
+
+mr_status
+mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto)
+{
+	double diagonal = mr_mesh_diagonal(m), start = mr_seconds();
+	simplifier s = { .ctx = ctx,
+		.o = opts,
+		.needle = MR_NEEDLE,
+		.scale = diagonal > 0 ? ldexp(1, -ilogb(diagonal)) : 1 };
+
+	MR_TRY(begin(&s, m));
+	mr_stat_set(ctx, "seconds_begin", mr_seconds() - start);
+	start = mr_seconds();
+	merge_all(&s);
+	mr_stat_set(ctx, "seconds_merge", mr_seconds() - start);
+	MR_TRY(finish(&s, m, out, onto));
+	if (out->nf > opts->faces && opts->faces && !isfinite(opts->error))
+		mr_note(ctx,
+		    "%s: %zu faces are left, not %zu: no more could be merged without changing the "
+		    "topology or folding the surface",
+		    m->name, out->nf, opts->faces);
+	mr_stat_set(ctx, "computed", (double)s.computed);
+	mr_stat_set(ctx, "refused", (double)s.refused);
+	mr_stat_set(ctx, "merges", (double)s.merges);
+	mr_stat_set(ctx, "error", sqrt(s.error2) / s.scale);
+	mr_stat_set(ctx, "vertices", (double)out->nv);
+	mr_stat_set(ctx, "faces", (double)out->nf);
+	return MR_OK;
+}

@@ -1,0 +1,58 @@
+/*
+ * simplify.h -- simplification by quadric error metrics (Garland, Heckbert 1997).
+ *
+ * Layer rule: alg.
+ */
+#ifndef MR_SIMPLIFY_H
+#define MR_SIMPLIFY_H
+
+#include "space/source_map.h"
+
+typedef struct mr_simplify_opts {
+	size_t faces;    /* stop at so many, or one less; 0: no such limit */
+	double error;    /* no vertex farther than this from the planes of the faces merged into it, root mean
+	                    square by area; infinite: no such limit */
+	double boundary; /* weight of the planes that hold boundary edges */
+	const double *weight; /* of the surface at each vertex; NULL: 1 */
+} mr_simplify_opts;
+
+#define MR_SIMPLIFY_DEFAULTS                                                                                 \
+	{                                                                                                    \
+		.error = INFINITY, .boundary = 10                                                            \
+	}
+
+/*
+ * Simplifies an oriented manifold m, boundary allowed; its topology stays (link condition) and no triangle is
+ * flipped.  Where nothing more can be merged the result has more faces than asked for: the figure `faces`
+ * tells.  onto: m->nv, the caller's: the vertex of the result that each was merged into (MR_NONE for an
+ * isolated one).  out: in the arena.  Figures: see man/mr-simplify.1.
+ */
+mr_status
+mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto);
+
+/* The faces of a control mesh for n points; says where that is more than one for so many points as usual. */
+size_t mr_simplify_faces_for(mr_ctx *ctx, size_t n);
+
+/*
+ * The weights that make a control mesh dense where n points are: areas of the surface m, near the points,
+ * count by how densely they lie there, so that a point counts as much as any other.  weight: m->nv, the
+ * caller's.
+ */
+mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double *weight);
+
+/*
+ * Where the vertices of m lie on the result: the nearest point, where its face looks to the same side as the
+ * vertex or a walk from the vertex that it was merged into comes there; where sheets are near, the nearest of
+ * their own; isolated ones at the nearest point of all.  map: m->nv rows, in the arena.
+ */
+mr_status
+mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);
+
+/*
+ * Where the vertices of the result lie on m, likewise: by a walk from the nearest of the vertices merged into
+ * each. map: out->nv rows, in the arena.
+ */
+mr_status mr_simplify_source(
+    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);
+
+#endif

@@ -1,0 +1,146 @@
+/*
+ * Multigrid for L (W L)^(k-1).  V-cycles on L, k times, invert it but for its boundary conditions: they have
+ * all Laplacians vanish at the constraints, where the system has k rings of vertices given.  What that misses
+ * varies along the boundary and decays away from it, the faster the shorter its waves.  So a strip of rings
+ * along the boundary is solved exactly before and after: multiplicative Schwarz (Smith, Bjorstad, Gropp 1996:
+ * Domain decomposition, chapter 1), which is symmetric, and positive definite because both its parts are.
+ */
+#include "solve/sparse.h"
+#include "solve/preconditioner.h"
+
+typedef struct strip {
+	mr_preconditioner cycles;
+	const mr_sparse *a; /* borrowed */
+	const uint32_t *row;
+	size_t n;         /* rows of the strip */
+	mr_solver *exact; /* of the strip alone; NULL where it is empty */
+	double *column;   /* its right-hand sides */
+	double *r, *d;    /* of all rows, MR_WIDTH wide: residual, a change */
+} strip;
+
+/* z += R' (R A R')^-1 R r, R being the choice of the strip's rows */
+static mr_status
+solve_strip(mr_ctx *ctx, const strip *t, mr_columns s, const double *r, double *z)
+{
+	for (size_t c = 0; c < s.width; c++)
+		for (size_t i = 0; i < t->n; i++)
+			t->column[c * t->n + i] = r[t->row[i] * s.width + c];
+	MR_TRY(mr_solver_solve(ctx, t->exact, t->column, s.width));
+	for (size_t c = 0; c < s.width; c++)
+		for (size_t i = 0; i < t->n; i++)
+			z[t->row[i] * s.width + c] += t->column[c * t->n + i];
+	return MR_OK;
+}
+
+/* r = b - A z */
+static void
+find_residual(const mr_ctx *ctx, const strip *t, mr_columns s, const double *b, const double *z)
+{
+	memcpy(t->r, b, s.n * s.width * sizeof *b);
+	mr_sparse_add(ctx, t->a, -1, s.width, z, t->r);
+}
+
+static mr_status
+strip_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
+{
+	static const double one[MR_WIDTH] = { 1, 1, 1, 1 };
+	const strip *t = data;
+
+	if (!t->exact)
+		return t->cycles.apply(ctx, t->cycles.data, s, r, z);
+	memset(z, 0, s.n * s.width * sizeof *z);
+	MR_TRY(solve_strip(ctx, t, s, r, z));
+	find_residual(ctx, t, s, r, z);
+	MR_TRY(t->cycles.apply(ctx, t->cycles.data, s, t->r, t->d));
+	mr_columns_add(ctx, s, one, t->d, z);
+	find_residual(ctx, t, s, r, z);
+	return solve_strip(ctx, t, s, t->r, z);
+}
+
+static void
+strip_free(void *data)
+{
+	strip *t = data;
+
+	if (t->cycles.free)
+		t->cycles.free(t->cycles.data);
+	mr_solver_free(t->exact);
+}
+
+/* The lower triangle of the strip's rows and columns: number[row] is its place in the strip, or -1. */
+static mr_status
+restrict_strip(mr_ctx *ctx, const strip *t, const int *number, mr_sparse *lower)
+{
+	size_t most = 0;
+	int at = 0;
+
+	for (size_t i = 0; i < t->n; i++)
+		most += (size_t)(t->a->start[t->row[i] + 1] - t->a->start[t->row[i]]);
+	*lower = (mr_sparse){ (int)t->n, MR_NEW(ctx, t->n + 1, int), MR_NEW(ctx, most, int),
+		MR_NEW(ctx, most, double) };
+	if (!lower->start || !lower->index || !lower->value)
+		return MR_EMEM;
+	for (size_t i = 0; i < t->n; i++) {
+		lower->start[i] = at;
+		for (int e = t->a->start[t->row[i]]; e < t->a->start[t->row[i] + 1]; e++) {
+			int column = number[t->a->index[e]];
+			if (column < 0 || column > (int)i)
+				continue;
+			lower->index[at] = column;
+			lower->value[at++] = t->a->value[e];
+		}
+	}
+	lower->start[t->n] = at;
+	return MR_OK;
+}
+
+static mr_status
+factor_strip(mr_ctx *ctx, strip *t)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	int *number = MR_NEW(ctx, (size_t)t->a->n, int);
+	mr_sparse lower;
+
+	if (!number)
+		return MR_EMEM;
+	for (int i = 0; i < t->a->n; i++)
+		number[i] = -1;
+	for (size_t i = 0; i < t->n; i++)
+		number[t->row[i]] = (int)i;
+	MR_TRY(restrict_strip(ctx, t, number, &lower));
+	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &lower, NULL, &t->exact));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+make_workspace(mr_ctx *ctx, strip *t)
+{
+	size_t n = (size_t)t->a->n * MR_WIDTH;
+
+	t->column = MR_NEW(ctx, t->n * MR_WIDTH, double);
+	t->r = MR_NEW(ctx, n, double);
+	t->d = MR_NEW(ctx, n, double);
+	return t->column && t->r && t->d ? MR_OK : MR_EMEM;
+}
+
+mr_status
+mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_preconditioner *b)
+{
+	strip *t = MR_NEW_ZERO(ctx, 1, strip);
+
+	if (!t)
+		return MR_EMEM;
+	*b = (mr_preconditioner){ strip_apply, strip_free, t, 0 };
+	t->a = a;
+	t->row = h->strip;
+	t->n = h->strip_count;
+	MR_TRY(mr_cycles_new(ctx, h, &t->cycles));
+	b->nnz = t->cycles.nnz;
+	if (t->n == 0)
+		return MR_OK;
+	MR_TRY(make_workspace(ctx, t));
+	MR_TRY(factor_strip(ctx, t));
+	b->nnz += mr_solver_reported(t->exact).nnz_factor;
+	return MR_OK;
+}

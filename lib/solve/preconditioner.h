@@ -1,0 +1,42 @@
+/*
+ * precondition.h -- approximate inverses for the iterative solvers.
+ *
+ * Contract: z = B r with B fixed, and symmetric positive definite where the matrix is so.  Everything is in
+ * the arena of the context that set it up, but for what `free` frees. Layer rule: solve.
+ */
+#ifndef MR_PRECONDITION_H
+#define MR_PRECONDITION_H
+
+#include "solve/multivector.h"
+#include "solve/solver.h"
+
+typedef struct mr_preconditioner {
+	mr_status (*apply)(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z);
+	void (*free)(void *data); /* NULL: nothing beside the arena */
+	void *data;
+	double nnz; /* entries it holds */
+} mr_preconditioner;
+
+/* D^-1.  MR_ENUMERIC where a diagonal entry is zero. */
+mr_status mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b);
+
+/*
+ * (L U)^-1, L and U with the entries of A only; of a symmetric matrix that is incomplete Cholesky.  The
+ * diagonal is raised until all pivots are positive (Manteuffel 1980).
+ */
+mr_status mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b);
+
+/*
+ * For A = L (W L)^(k-1): mr_cycles_new's, between two solutions of the hierarchy's strip.  MR_ENUMERIC where
+ * that is not positive definite.
+ */
+mr_status mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_preconditioner *b);
+
+/* (V W^-1)^(k-1) V, V a V-cycle on L, that times W^-1 where h->scaled: the inverse of A but for boundary
+ * conditions. */
+mr_status mr_cycles_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b);
+
+/* A V-cycle on A = L (W L)^(k-1) itself. */
+mr_status mr_vcycle_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_preconditioner *b);
+
+#endif

@@ -1,0 +1,160 @@
+#include "space/geodesic.h"
+
+#include "space/bvh.h"
+
+/*
+ * Marching over triangles (Kimmel, Sethian 1998) with the update of Novotni and
+ * Klein 2002: the distances of two corners fix a source in the plane of their
+ * triangle, and the third corner is as far as the straight way from there, if that
+ * way passes between the two.  Where an obtuse triangle breaks the order, a vertex
+ * that becomes nearer is looked at again.
+ */
+typedef struct entry {
+	double distance;
+	uint32_t vertex;
+} entry;
+
+typedef struct front {
+	entry *heap;
+	size_t n, room;
+} front;
+
+static bool
+before(entry a, entry b)
+{
+	return a.distance < b.distance || (a.distance == b.distance && a.vertex < b.vertex);
+}
+
+static mr_status
+push(mr_ctx *ctx, front *f, entry e)
+{
+	size_t i;
+
+	MR_TRY(MR_RESERVE(ctx, f->heap, f->n, 1, &f->room));
+	for (i = f->n++; i > 0 && before(e, f->heap[(i - 1) / 2]); i = (i - 1) / 2)
+		f->heap[i] = f->heap[(i - 1) / 2];
+	f->heap[i] = e;
+	return MR_OK;
+}
+
+static entry
+pop(front *f)
+{
+	entry top = f->heap[0], last = f->heap[--f->n];
+	size_t i = 0;
+
+	for (size_t k = 1; k < f->n; k = 2 * i + 1) {
+		if (k + 1 < f->n && before(f->heap[k + 1], f->heap[k]))
+			k++;
+		if (!before(f->heap[k], last))
+			break;
+		f->heap[i] = f->heap[k];
+		i = k;
+	}
+	f->heap[i] = last;
+	return top;
+}
+
+/* The distance of corner c behind the edge a-b, whose ends are da and db away. */
+static double
+behind_edge(mr_v3 a, mr_v3 b, mr_v3 c, double da, double db)
+{
+	double ab = mr_dist(a, b), ac = mr_dist(a, c), bc = mr_dist(b, c), along = fmin(da + ac, db + bc);
+	double sx, sy, cx, cy, x;
+
+	if (!(ab > 0) || !isfinite(da) || !isfinite(db))
+		return along;
+	/* a at (0, 0), b at (ab, 0), c above the edge, the source below it */
+	sx = (da * da - db * db + ab * ab) / (2 * ab);
+	cx = (ac * ac - bc * bc + ab * ab) / (2 * ab);
+	if (da * da < sx * sx)
+		return along;
+	sy = sqrt(da * da - sx * sx);
+	cy = sqrt(fmax(ac * ac - cx * cx, 0));
+	x = sy + cy > 0 ? sx + (cx - sx) * sy / (sy + cy) : cx;
+	return x >= 0 && x <= ab ? hypot(cx - sx, cy + sy) : along;
+}
+
+typedef struct march {
+	const mr_mesh *m;
+	mr_v3 source;
+	double *distance;
+	front front;
+} march;
+
+/* Gives v the distance d if that is nearer by more than `step` of the way it came over, |way|. */
+static mr_status
+relax(mr_ctx *ctx, march *j, uint32_t v, double d, double way)
+{
+	const double step = 1e-4; /* less does not pay: it would run on through all that lies behind */
+
+	/* corners that are not settled yet can put the source too near: space is the shortest way of all */
+	d = fmax(d, mr_dist(j->m->p[v], j->source));
+	if (!(d < j->distance[v] - step * way))
+		return MR_OK;
+	j->distance[v] = d;
+	return push(ctx, &j->front, (entry){ d, v });
+}
+
+/* Looks from v and one more corner of the face at the third, both ways. */
+static mr_status
+relax_face(mr_ctx *ctx, march *j, uint32_t v, const uint32_t c[3])
+{
+	const mr_v3 *p = j->m->p;
+	const double *d = j->distance;
+
+	for (int k = 0; k < 3; k++) {
+		uint32_t a = c[k], b = c[(k + 1) % 3], third = c[(k + 2) % 3];
+		double way = fmin(mr_dist(p[a], p[third]), mr_dist(p[b], p[third]));
+		if (third != v)
+			MR_TRY(relax(ctx, j, third, behind_edge(p[a], p[b], p[third], d[a], d[b]), way));
+	}
+	return MR_OK;
+}
+
+static mr_closest
+nearest_point(const mr_mesh *m, mr_v3 p)
+{
+	mr_closest best = { .face = MR_NONE, .dist2 = INFINITY };
+
+	for (uint32_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		mr_closest c = mr_triangle_closest(p, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+		if (c.dist2 < best.dist2) {
+			best = c;
+			best.face = f;
+		}
+	}
+	return best;
+}
+
+mr_status
+mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_closest source = nearest_point(m, p);
+	march j = { m, source.point, distance, { 0 } };
+	mr_incidence inc;
+
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	for (size_t v = 0; v < m->nv; v++)
+		distance[v] = INFINITY;
+	for (int k = 0; k < 3 && source.face != MR_NONE; k++) {
+		uint32_t v = m->t[source.face].v[k];
+		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source.point), 0));
+	}
+	while (j.front.n > 0) {
+		entry e = pop(&j.front);
+		if (e.distance > reach)
+			break;
+		if (e.distance > distance[e.vertex])
+			continue;
+		for (size_t i = inc.start[e.vertex]; i < inc.start[e.vertex + 1]; i++)
+			MR_TRY(relax_face(ctx, &j, e.vertex, m->t[inc.face[i]].v));
+	}
+	for (size_t v = 0; v < m->nv; v++)
+		if (distance[v] > reach)
+			distance[v] = INFINITY;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

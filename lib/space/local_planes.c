@@ -1,0 +1,212 @@
+#include "space/local_planes.h"
+
+#include "base/parallel.h"
+#include "space/near.h"
+
+enum { AROUND = 8, MOST = 128, CHUNK = 1 << 13, GRAIN = 1024, SWEEPS = 12 };
+
+/* One Jacobi rotation: makes m[i][j] zero. */
+static void
+rotate(double m[3][3], double v[3][3], int i, int j)
+{
+	double theta, t, c, s;
+
+	if (m[i][j] == 0)
+		return;
+	theta = (m[j][j] - m[i][i]) / (2 * m[i][j]);
+	t = (theta < 0 ? -1 : 1) / (fabs(theta) + sqrt(theta * theta + 1));
+	c = 1 / sqrt(t * t + 1);
+	s = t * c;
+	for (int k = 0; k < 3; k++) {
+		double a = m[k][i], b = m[k][j];
+		m[k][i] = c * a - s * b;
+		m[k][j] = s * a + c * b;
+	}
+	for (int k = 0; k < 3; k++) {
+		double a = m[i][k], b = m[j][k];
+		m[i][k] = c * a - s * b;
+		m[j][k] = s * a + c * b;
+		a = v[k][i];
+		b = v[k][j];
+		v[k][i] = c * a - s * b;
+		v[k][j] = s * a + c * b;
+	}
+}
+
+void
+mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3])
+{
+	double m[3][3] = { { a[0], a[1], a[2] }, { a[1], a[3], a[4] }, { a[2], a[4], a[5] } };
+	double v[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+	double tiny = 1e-14 * (fabs(a[0]) + fabs(a[3]) + fabs(a[5]));
+	int order[3] = { 0, 1, 2 };
+
+	for (int sweep = 0; sweep < SWEEPS; sweep++) {
+		if (fabs(m[0][1]) + fabs(m[0][2]) + fabs(m[1][2]) <= tiny)
+			break;
+		rotate(m, v, 0, 1);
+		rotate(m, v, 0, 2);
+		rotate(m, v, 1, 2);
+	}
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j + 1 < 3; j++)
+			if (m[order[j]][order[j]] > m[order[j + 1]][order[j + 1]]) {
+				int o = order[j];
+				order[j] = order[j + 1];
+				order[j + 1] = o;
+			}
+	for (int i = 0; i < 3; i++) {
+		int o = order[i];
+		value[i] = m[o][o];
+		vector[i] = mr_vec(v[0][o], v[1][o], v[2][o]);
+	}
+}
+
+/* Directions of at most this cosine, 45 degrees, lie apart. */
+static const double APART = 0.7;
+
+mr_status
+mr_cloud_check_spread(mr_ctx *ctx, const mr_v3 *p, size_t n)
+{
+	static const double least = 1e-70, most = 1e70;
+	mr_box box = mr_box_of(p, n);
+	mr_v3 size = mr_sub(box.max, box.min);
+	double spread = fmax(size.x, fmax(size.y, size.z));
+
+	if (n > 0 && (spread > most || (spread > 0 && spread < least)))
+		return mr_fail(ctx, MR_ERANGE,
+		    "the %zu points spread over %g, and only %g to %g can be computed with", n, spread, least,
+		    most);
+	return MR_OK;
+}
+
+void
+mr_covariance(const mr_v3 *p, size_t k, double scale, double sum[6])
+{
+	mr_v3 mean = mr_vec(0, 0, 0);
+	double a[6] = { 0 };
+
+	for (size_t i = 0; i < k; i++)
+		mean = mr_axpy(1 / (double)k, p[i], mean);
+	for (size_t i = 0; i < k; i++) {
+		mr_v3 d = mr_mul(scale, mr_sub(p[i], mean));
+		a[0] += d.x * d.x;
+		a[1] += d.x * d.y;
+		a[2] += d.x * d.z;
+		a[3] += d.y * d.y;
+		a[4] += d.y * d.z;
+		a[5] += d.z * d.z;
+	}
+	memcpy(sum, a, sizeof a);
+}
+
+mr_v3
+mr_plane_fit(const mr_v3 *p, size_t k, double *variation)
+{
+	double a[6], value[3], sum;
+	mr_v3 vector[3];
+
+	mr_covariance(p, k, 1, a);
+	mr_eigen_sym3(a, value, vector);
+	sum = value[0] + value[1] + value[2];
+	*variation = sum > 0 && value[0] > 0 ? value[0] / sum : 0;
+	return vector[0];
+}
+
+/* Directions from q[0] to the nearest of the others that lie apart.  Returns how many. */
+static size_t
+directions_apart(const mr_v3 *q, size_t k, mr_v3 direction[AROUND])
+{
+	size_t n = 0;
+
+	for (size_t j = 1; j < k && n < AROUND; j++) {
+		mr_v3 d = mr_unit(mr_sub(q[j], q[0]));
+		size_t i = 0;
+		while (i < n && mr_dot(d, direction[i]) < APART)
+			i++;
+		if (i == n)
+			direction[n++] = d;
+	}
+	return n;
+}
+
+typedef struct work {
+	const mr_v3 *p;
+	const uint32_t *index; /* k of each of a chunk's points */
+	const double *dist2;
+	size_t k, first; /* the chunk's first point */
+	bool around;
+	mr_planes *out;
+} work;
+
+static void
+fit_at(const work *w, size_t i)
+{
+	const uint32_t *index = w->index + i * w->k;
+	const mr_planes *o = w->out;
+	size_t at = w->first + i, n = 0, apart, rim;
+	mr_v3 q[MOST], direction[AROUND];
+
+	q[0] = w->p[at];
+	for (; n < w->k && index[n] != UINT32_MAX; n++)
+		q[n] = w->p[index[n]];
+	apart = w->around ? directions_apart(q, n, direction) : 0;
+	o->normal[at] = apart > 2 ? mr_plane_fit(direction, apart, &o->variation[at])
+	                          : mr_plane_fit(q, n, &o->variation[at]);
+	rim = w->around && n > AROUND ? AROUND : n;
+	/* the last neighbour lies on the rim of the disc: half of it is inside */
+	o->area[at] = MR_PI * w->dist2[i * w->k + rim - 1] / (rim > 1 ? (double)rim - 0.5 : 1);
+	for (size_t j = 0; j < o->links; j++)
+		o->neighbor[at * o->links + j] = j + 1 < n ? index[j + 1] : UINT32_MAX;
+}
+
+static void
+fit_planes(void *arg, size_t begin, size_t end)
+{
+	for (size_t i = begin; i < end; i++)
+		fit_at(arg, i);
+}
+
+static mr_status
+fit_all(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, size_t k, bool around, mr_planes *out)
+{
+	size_t chunk = n < CHUNK ? n : CHUNK;
+	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
+	double *dist2 = MR_NEW(ctx, chunk * k, double);
+
+	if (!index || !dist2)
+		return MR_EMEM;
+	for (size_t first = 0; first < n; first += chunk) {
+		size_t m = n - first < chunk ? n - first : chunk;
+		work w = { p, index, dist2, k, first, around, out };
+		MR_TRY(mr_near_query(ctx, near, p + first, m, k, index, dist2));
+		mr_parallel(ctx, m, GRAIN, fit_planes, &w);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, bool around, mr_planes *out)
+{
+	mr_planes r = { .normal = MR_NEW(ctx, n, mr_v3),
+		.variation = MR_NEW(ctx, n, double),
+		.area = MR_NEW(ctx, n, double),
+		.neighbor = MR_NEW(ctx, n * links, uint32_t),
+		.links = links };
+	mr_mark mark = mr_mark_take(ctx);
+	mr_near *near = NULL;
+	mr_status status;
+
+	if (k < 3 || k > MOST || links >= k)
+		return mr_fail(ctx, MR_ERANGE, "planes of %zu points and %zu links: 3 to %d are allowed", k,
+		    links, MOST);
+	if (!r.normal || !r.variation || !r.area || !r.neighbor)
+		return MR_EMEM;
+	MR_TRY(mr_near_build(ctx, p, n, &near));
+	status = fit_all(ctx, near, p, n, k, around, &r);
+	mr_near_free(near);
+	mr_mark_release(ctx, mark);
+	if (status == MR_OK)
+		*out = r;
+	return status;
+}

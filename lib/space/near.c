@@ -1,0 +1,225 @@
+/*
+ * FLANN's traps, each closed here: no rows and too large k crash or return rubbish;
+ * NaN gives wrong neighbours silently; equal points are scanned one by one; its
+ * defaults are approximate and take all cores; a batch doubles its result in
+ * memory, so queries go in chunks; its threads spin where they wait, so they are ours.
+ */
+#include "space/near.h"
+
+#include "base/parallel.h"
+
+#include <flann/flann.h>
+#include <stdatomic.h>
+
+enum { CHUNK = 1 << 13, GRAIN = 64, LEAF = 20 };
+
+static const double MOST = 1e150;
+
+struct mr_near {
+	flann_index_t index;
+	struct FLANNParameters parameters;
+	const mr_v3 *p;
+	double (*row)[3];   /* the distinct points, kept for FLANN */
+	uint32_t *original; /* index of each row in p */
+	size_t rows;
+};
+
+static mr_status
+check(mr_ctx *ctx, const char *what, const mr_v3 *p, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		if (!(fabs(p[i].x) < MOST && fabs(p[i].y) < MOST && fabs(p[i].z) < MOST))
+			return mr_fail(ctx, MR_ERANGE, "%s %zu (%g %g %g) is not below 1e150", what, i,
+			    p[i].x, p[i].y, p[i].z);
+	return MR_OK;
+}
+
+static uint64_t
+hash(mr_v3 p)
+{
+	double c[3] = { p.x + 0.0, p.y + 0.0, p.z + 0.0 }; /* -0 is 0 */
+	uint64_t h = 0, bits;
+
+	for (int i = 0; i < 3; i++) {
+		memcpy(&bits, &c[i], sizeof bits);
+		h = (h ^ bits) * 0x9e3779b97f4a7c15u;
+		h ^= h >> 29;
+	}
+	return h;
+}
+
+static bool
+same(mr_v3 a, mr_v3 b)
+{
+	return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* The lowest index of each position, in order: open addressing, at most half full.  Returns how many. */
+static size_t
+distinct(const mr_v3 *p, size_t n, uint32_t *slot, size_t mask, uint32_t *original)
+{
+	size_t rows = 0;
+
+	memset(slot, 0xff, (mask + 1) * sizeof *slot);
+	for (uint32_t i = 0; i < n; i++) {
+		size_t at = hash(p[i]) & mask;
+		while (slot[at] != UINT32_MAX && !same(p[slot[at]], p[i]))
+			at = (at + 1) & mask;
+		if (slot[at] == UINT32_MAX) {
+			slot[at] = i;
+			original[rows++] = i;
+		}
+	}
+	return rows;
+}
+
+static mr_status
+find_distinct(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t **original, size_t *rows)
+{
+	uint32_t *list = MR_NEW(ctx, n, uint32_t), *slot;
+	mr_mark mark = mr_mark_take(ctx);
+	size_t size = 16;
+
+	while (size < 2 * n)
+		size *= 2;
+	slot = MR_NEW(ctx, size, uint32_t);
+	if (!list || !slot)
+		return MR_EMEM;
+	*rows = distinct(p, n, slot, size - 1, list);
+	*original = list;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
+{
+	mr_near *near = MR_NEW_ZERO(ctx, 1, mr_near);
+	float speedup;
+
+	if (n == 0 || n >= INT32_MAX)
+		return mr_fail(ctx, MR_ERANGE, "an index of nearest points needs 1 to %d points, not %zu",
+		    INT32_MAX - 1, n);
+	MR_TRY(check(ctx, "point", p, n));
+	if (!near)
+		return MR_EMEM;
+	MR_TRY(find_distinct(ctx, p, n, &near->original, &near->rows));
+	near->row = mr_alloc(ctx, near->rows, sizeof *near->row);
+	if (!near->row)
+		return MR_EMEM;
+	for (size_t i = 0; i < near->rows; i++)
+		memcpy(near->row[i], &p[near->original[i]], sizeof *near->row);
+	near->p = p;
+	near->parameters = DEFAULT_FLANN_PARAMETERS;
+	near->parameters.algorithm = FLANN_INDEX_KDTREE_SINGLE;
+	near->parameters.leaf_max_size = LEAF;
+	near->parameters.checks = -1;
+	near->parameters.eps = 0;
+	near->parameters.sorted = 1;
+	near->parameters.cores = 1;
+	near->parameters.log_level = (enum flann_log_level_t)-1; /* else each query sets it, for all threads */
+	near->index = flann_build_index_double(near->row[0], (int)near->rows, 3, &speedup, &near->parameters);
+	if (!near->index)
+		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", near->rows);
+	*out = near;
+	return MR_OK;
+}
+
+size_t
+mr_near_distinct(const mr_near *near)
+{
+	return near->rows;
+}
+
+static bool
+after(double da, uint32_t ia, double db, uint32_t ib)
+{
+	return da != db ? da > db : ia > ib;
+}
+
+/* FLANN's k rows of one query, as indices of p, nearest first. */
+static void
+order(const mr_near *near, mr_v3 q, const int *row, size_t k, uint32_t *index, double *dist2)
+{
+	for (size_t i = 0; i < k; i++) {
+		uint32_t x = near->original[row[i]];
+		double d = mr_norm2(mr_sub(q, near->p[x]));
+		size_t j = i;
+		for (; j > 0 && after(dist2[j - 1], index[j - 1], d, x); j--) {
+			index[j] = index[j - 1];
+			dist2[j] = dist2[j - 1];
+		}
+		index[j] = x;
+		dist2[j] = d;
+	}
+}
+
+/* Queries of one chunk; the rows found, and a failure where there was one. */
+typedef struct work {
+	const mr_near *near;
+	const mr_v3 *q;
+	size_t k, found;
+	int *row;  /* found of each query */
+	double *d; /* alike */
+	uint32_t *index;
+	double *dist2; /* or NULL */
+	atomic_bool failed;
+} work;
+
+static void
+query_body(void *arg, size_t begin, size_t end)
+{
+	work *w = arg;
+	struct FLANNParameters parameters = w->near->parameters;
+
+	if (flann_find_nearest_neighbors_index_double(w->near->index, (double *)(uintptr_t)(w->q + begin),
+		(int)(end - begin), w->row + begin * w->found, w->d + begin * w->found, (int)w->found,
+		&parameters) != 0) {
+		atomic_store(&w->failed, true);
+		return;
+	}
+	for (size_t i = begin; i < end; i++) {
+		uint32_t *index = w->index + i * w->k;
+		double *to = w->dist2 ? w->dist2 + i * w->k : w->d + i * w->found;
+		order(w->near, w->q[i], w->row + i * w->found, w->found, index, to);
+		for (size_t j = w->found; j < w->k; j++) {
+			index[j] = UINT32_MAX;
+			if (w->dist2)
+				to[j] = INFINITY;
+		}
+	}
+}
+
+mr_status
+mr_near_query(
+    mr_ctx *ctx, const mr_near *near, const mr_v3 *q, size_t nq, size_t k, uint32_t *index, double *dist2)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t found = k < near->rows ? k : near->rows, chunk = CHUNK / (k / 8 + 1) + 1;
+	int *row = MR_NEW(ctx, chunk * found, int);
+	double *d = MR_NEW(ctx, chunk * found, double);
+
+	if (!row || !d)
+		return MR_EMEM;
+	MR_TRY(check(ctx, "query", q, nq));
+	for (size_t first = 0; first < nq && k > 0; first += chunk) {
+		size_t n = nq - first < chunk ? nq - first : chunk, at = first * k;
+		work w = { near, q + first, k, found, row, d, index + at, dist2 ? dist2 + at : NULL, false };
+		mr_parallel(ctx, n, GRAIN, query_body, &w);
+		if (atomic_load(&w.failed))
+			return mr_fail(
+			    ctx, MR_EMEM, "no memory for %zu nearest points of %zu queries", found, n);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+void
+mr_near_free(mr_near *near)
+{
+	if (!near)
+		return;
+	if (near->index)
+		flann_free_index_double(near->index, &near->parameters);
+	near->index = NULL;
+}

@@ -1,0 +1,290 @@
+/*
+ * Two triangles have a point in common when an edge of one meets the other, or one
+ * lies within the other.  Only signs of volumes and, in a plane, of areas are
+ * asked for (as in Guigue, Devillers 2003, Fast and robust triangle-triangle
+ * overlap test using orientation predicates).
+ */
+#include "space/self_intersect.h"
+
+#include "base/parallel.h"
+#include "space/predicates.h"
+
+static bool
+same(mr_v3 a, mr_v3 b)
+{
+	return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+bool
+mr_triangle_degenerate(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	for (int k = 0; k < 3; k++)
+		if (mr_orient2d(a, b, c, k) != 0)
+			return false;
+	return true;
+}
+
+/* An axis along which the triangle of positive area can be projected; *turn is its sense there. */
+static int
+projection(const mr_v3 t[3], int *turn)
+{
+	for (int k = 0; k < 2; k++)
+		if ((*turn = mr_orient2d(t[0], t[1], t[2], k)) != 0)
+			return k;
+	*turn = mr_orient2d(t[0], t[1], t[2], 2);
+	return 2;
+}
+
+/* Whether the interval of a b meets that of c d, by one coordinate. */
+static bool
+intervals_meet(double a, double b, double c, double d)
+{
+	return fmin(a, b) <= fmax(c, d) && fmin(c, d) <= fmax(a, b);
+}
+
+/* Closed segments in the plane without axis k. */
+static bool
+segments_meet(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d, int k)
+{
+	int i = (k + 1) % 3, j = (k + 2) % 3;
+	int sc = mr_orient2d(a, b, c, k), sd = mr_orient2d(a, b, d, k);
+	int sa = mr_orient2d(c, d, a, k), sb = mr_orient2d(c, d, b, k);
+
+	if (sc * sd > 0 || sa * sb > 0)
+		return false;
+	return intervals_meet(
+		   mr_coordinate(a, i), mr_coordinate(b, i), mr_coordinate(c, i), mr_coordinate(d, i)) &&
+	       intervals_meet(
+		   mr_coordinate(a, j), mr_coordinate(b, j), mr_coordinate(c, j), mr_coordinate(d, j));
+}
+
+static bool
+inside_flat(mr_v3 p, const mr_v3 t[3], int k, int turn)
+{
+	for (int i = 0; i < 3; i++)
+		if (mr_orient2d(t[i], t[(i + 1) % 3], p, k) * turn < 0)
+			return false;
+	return true;
+}
+
+/* The segment a b, in the plane of the triangle. */
+static bool
+meets_flat(mr_v3 a, mr_v3 b, const mr_v3 t[3])
+{
+	int turn, k = projection(t, &turn);
+
+	for (int i = 0; i < 3; i++)
+		if (segments_meet(a, b, t[i], t[(i + 1) % 3], k))
+			return true;
+	return inside_flat(a, t, k, turn);
+}
+
+/* The closed segment a b, whose ends lie on the sides sa and sb of the closed triangle's plane. */
+static bool
+segment_meets(mr_v3 a, mr_v3 b, int sa, int sb, const mr_v3 t[3])
+{
+	bool left = false, right = false;
+
+	if (sa * sb > 0)
+		return false;
+	if (sa == 0 && sb == 0)
+		return meets_flat(a, b, t);
+	for (int i = 0; i < 3; i++) {
+		int s = mr_orient3d(a, b, t[i], t[(i + 1) % 3]);
+		left |= s < 0;
+		right |= s > 0;
+	}
+	return !(left && right);
+}
+
+static void
+sides(const mr_v3 plane[3], const mr_v3 p[3], int out[3])
+{
+	for (int i = 0; i < 3; i++)
+		out[i] = mr_orient3d(plane[0], plane[1], plane[2], p[i]);
+}
+
+static bool
+one_sided(const int s[3])
+{
+	return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
+}
+
+/* Triangles without a common corner. */
+static bool
+apart_intersect(const mr_v3 p[3], const mr_v3 q[3])
+{
+	int sp[3], sq[3], turn, k;
+
+	sides(q, p, sp);
+	if (one_sided(sp))
+		return false;
+	sides(p, q, sq);
+	if (one_sided(sq))
+		return false;
+	for (int i = 0; i < 3; i++) {
+		int j = (i + 1) % 3;
+		if (segment_meets(p[i], p[j], sp[i], sp[j], q) || segment_meets(q[i], q[j], sq[i], sq[j], p))
+			return true;
+	}
+	if (sp[0] || sp[1] || sp[2])
+		return false;
+	k = projection(p, &turn); /* in one plane, no edges meet: q may still hold p, or p hold q */
+	return inside_flat(q[0], p, k, turn);
+}
+
+/*
+ * Triangles whose corner 0 is common.  What they share is convex: where it is more
+ * than the corner, it reaches the edge opposite the corner in one of them.
+ */
+static bool
+corner_intersect(const mr_v3 p[3], const mr_v3 q[3])
+{
+	int p1, p2, q1 = mr_orient3d(p[0], p[1], p[2], q[1]), q2 = mr_orient3d(p[0], p[1], p[2], q[2]);
+
+	if (q1 * q2 > 0)
+		return false;
+	p1 = mr_orient3d(q[0], q[1], q[2], p[1]);
+	p2 = mr_orient3d(q[0], q[1], q[2], p[2]);
+	return segment_meets(p[1], p[2], p1, p2, q) || segment_meets(q[1], q[2], q1, q2, p);
+}
+
+/* Triangles whose corners 0 and 1 are common: they overlap where they lie in one plane, on one side of the
+ * edge. */
+static bool
+edge_intersect(const mr_v3 p[3], const mr_v3 q[3])
+{
+	int turn, k;
+
+	if (mr_orient3d(p[0], p[1], p[2], q[2]) != 0)
+		return false;
+	k = projection(p, &turn);
+	return mr_orient2d(p[0], p[1], q[2], k) == turn;
+}
+
+bool
+mr_triangles_intersect(const mr_v3 p[3], const mr_v3 q[3])
+{
+	mr_v3 a[3], b[3]; /* the common corners first */
+	int n = 0, in_p = 0, in_q = 0, na, nb;
+
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++)
+			if (same(p[i], q[j])) {
+				a[n] = b[n] = p[i];
+				n++;
+				in_p |= 1 << i;
+				in_q |= 1 << j;
+			}
+	if (n == 0)
+		return apart_intersect(p, q);
+	if (n == 3)
+		return true;
+	na = nb = n;
+	for (int i = 0; i < 3; i++) {
+		if (!(in_p >> i & 1))
+			a[na++] = p[i];
+		if (!(in_q >> i & 1))
+			b[nb++] = q[i];
+	}
+	return n == 1 ? corner_intersect(a, b) : edge_intersect(a, b);
+}
+
+/* ---- all pairs of a surface ---- */
+
+typedef struct search {
+	const mr_bvh *bvh;
+	const mr_mesh *m;
+	const unsigned char *flat; /* faces without area */
+	bool *crosses;             /* of the faces; or NULL */
+	size_t *count;             /* per piece of faces */
+} search;
+
+typedef struct candidate {
+	const search *s;
+	uint32_t face;
+	mr_v3 p[3];
+	bool crosses;
+	size_t count; /* of pairs with later ones */
+} candidate;
+
+enum { GRAIN = 512 };
+
+static void
+corners(const mr_mesh *m, size_t f, mr_v3 p[3])
+{
+	for (int i = 0; i < 3; i++)
+		p[i] = m->p[m->t[f].v[i]];
+}
+
+static bool
+visit(void *arg, uint32_t face)
+{
+	candidate *c = arg;
+	mr_v3 q[3];
+	bool earlier = face < c->face;
+
+	if (face == c->face || (earlier && !c->s->crosses) || c->s->flat[face])
+		return true;
+	corners(c->s->m, face, q);
+	if (mr_triangles_intersect(c->p, q)) {
+		c->crosses = true;
+		c->count += !earlier;
+	}
+	return true;
+}
+
+static void
+search_faces(void *arg, size_t begin, size_t end)
+{
+	search *s = arg;
+	size_t total = 0;
+
+	for (size_t f = begin; f < end; f++) {
+		candidate c = { .s = s, .face = (uint32_t)f };
+		if (!s->flat[f]) {
+			corners(s->m, f, c.p);
+			mr_bvh_overlap(s->bvh, mr_box_of(c.p, 3), visit, &c);
+		}
+		if (s->crosses)
+			s->crosses[f] = c.crosses;
+		total += c.count;
+	}
+	s->count[begin / GRAIN] = total;
+}
+
+typedef struct flat_job {
+	const mr_mesh *m;
+	unsigned char *flat;
+} flat_job;
+
+static void
+find_flat(void *arg, size_t begin, size_t end)
+{
+	flat_job *j = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		mr_v3 p[3];
+		corners(j->m, f, p);
+		j->flat[f] = mr_triangle_degenerate(p[0], p[1], p[2]);
+	}
+}
+
+mr_status
+mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t pieces = (m->nf + GRAIN - 1) / GRAIN, total = 0;
+	flat_job flat = { m, MR_NEW(ctx, m->nf, unsigned char) };
+	search s = { bvh, m, flat.flat, crosses, MR_NEW(ctx, pieces, size_t) };
+
+	if (!flat.flat || !s.count)
+		return MR_EMEM;
+	mr_parallel(ctx, m->nf, 4096, find_flat, &flat);
+	mr_parallel(ctx, m->nf, GRAIN, search_faces, &s);
+	for (size_t i = 0; i < pieces; i++)
+		total += s.count[i];
+	mr_mark_release(ctx, mark);
+	*count = total;
+	return MR_OK;
+}

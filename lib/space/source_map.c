@@ -1,0 +1,194 @@
+#include "space/source_map.h"
+
+#include "space/surface_walk.h"
+#include "base/parallel.h"
+#include "space/bvh.h"
+
+/* The unit vector of corner k. */
+static mr_v3
+at_corner(int k)
+{
+	return mr_vec(k == 0, k == 1, k == 2);
+}
+
+/* Gives the vertices without a face the nearest point of the surface. */
+static mr_status
+place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_bvh *bvh = NULL;
+	size_t isolated = 0;
+
+	for (size_t v = 0; v < m->nv; v++) {
+		mr_closest c;
+		if (face[v] != MR_NONE)
+			continue;
+		if (!bvh)
+			MR_TRY(mr_bvh_build(ctx, m, &bvh));
+		c = mr_bvh_closest(bvh, m->p[v]);
+		face[v] = c.face;
+		bary[v] = c.bary;
+		isolated++;
+	}
+	if (isolated)
+		mr_note(ctx, "%s: %zu vertices have no face: they stay, over the nearest point", m->name,
+		    isolated);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *map)
+{
+	uint32_t *face = MR_NEW(ctx, m->nv, uint32_t);
+	mr_v3 *bary = MR_NEW(ctx, m->nv, mr_v3);
+
+	if (!face || !bary)
+		return MR_EMEM;
+	memset(face, 0xff, m->nv * sizeof *face);
+	for (uint32_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t v = m->t[f].v[k];
+			if (face[v] != MR_NONE)
+				continue;
+			face[v] = f;
+			bary[v] = at_corner(k);
+		}
+	MR_TRY(place_isolated(ctx, m, face, bary));
+	*map = (mr_source_map){ face, bary };
+	return MR_OK;
+}
+
+/* True where each corner of the base is the same corner of the mesh: vertices without a face do not count. */
+static bool
+is_identity(const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *map)
+{
+	if (mesh->nf != base->nf || mesh->nv != base->nv ||
+	    memcmp(mesh->t, base->t, mesh->nf * sizeof *mesh->t))
+		return false;
+	for (size_t f = 0; f < base->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t v = base->t[f].v[k];
+			mr_v3 w = map->bary[v];
+			const uint32_t *t = mesh->t[map->face[v]].v;
+			if (!((w.x == 1 && t[0] == v) || (w.y == 1 && t[1] == v) || (w.z == 1 && t[2] == v)))
+				return false;
+		}
+	return true;
+}
+
+/* The point of the mesh that vertex v of the base stands for. */
+static mr_v3
+source_point(const mr_mesh *mesh, const mr_source_map *map, uint32_t v)
+{
+	const uint32_t *t = mesh->t[map->face[v]].v;
+
+	return mr_bary_point(map->bary[v], mesh->p[t[0]], mesh->p[t[1]], mesh->p[t[2]]);
+}
+
+typedef struct compose_job {
+	const mr_mesh *mesh, *base;
+	const mr_topology *topo;
+	const mr_source_map *base_map, *over;
+	uint32_t *face;
+	mr_v3 *bary;
+} compose_job;
+
+static void
+compose_body(void *arg, size_t begin, size_t end)
+{
+	compose_job *j = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		const uint32_t *t = j->base->t[j->over->face[i]].v;
+		mr_v3 w = j->over->bary[i];
+		int nearest = w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2;
+		mr_v3 q = mr_bary_point(w, source_point(j->mesh, j->base_map, t[0]),
+		    source_point(j->mesh, j->base_map, t[1]), source_point(j->mesh, j->base_map, t[2]));
+		mr_closest c = mr_project_walk(j->mesh, j->topo, j->base_map->face[t[nearest]], q);
+		j->face[i] = c.face;
+		j->bary[i] = c.bary;
+	}
+}
+
+mr_status
+mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *base_map,
+    const mr_source_map *over, size_t n, mr_source_map *map)
+{
+	uint32_t *face;
+	mr_v3 *bary;
+	mr_topology topo;
+	mr_mark mark;
+
+	if (is_identity(mesh, base, base_map)) {
+		*map = *over;
+		return MR_OK;
+	}
+	face = MR_NEW(ctx, n, uint32_t);
+	bary = MR_NEW(ctx, n, mr_v3);
+	mark = mr_mark_take(ctx);
+	if (!face || !bary)
+		return MR_EMEM;
+	MR_TRY(mr_topology_build(ctx, mesh, &topo));
+	compose_job j = { mesh, base, &topo, base_map, over, face, bary };
+	mr_parallel(ctx, n, 1024, compose_body, &j);
+	mr_mark_release(ctx, mark);
+	*map = (mr_source_map){ face, bary };
+	return MR_OK;
+}
+
+mr_status
+mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_source_map *map)
+{
+	for (size_t v = 0; v < base_nv; v++) {
+		if (map->face[v] >= mesh->nf)
+			return mr_fail(ctx, MR_ERANGE,
+			    "base: vertex %zu lies on face %u of %s, which has %zu", v, map->face[v],
+			    mesh->name, mesh->nf);
+		if (!mr_finite(map->bary[v]))
+			return mr_fail(ctx, MR_ERANGE,
+			    "base: the barycentric coordinates of vertex %zu are not finite", v);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_source_map *map)
+{
+	const void *face, *bary;
+	mr_source_map r;
+
+	MR_TRY(mr_layer_get_rows(ctx, f, "base", "source_face", base_nv, &face));
+	MR_TRY(mr_layer_get_rows(ctx, f, "base", "source_bary", base_nv, &bary));
+	r = (mr_source_map){ face, bary };
+	MR_TRY(mr_source_map_check(ctx, mesh, base_nv, &r));
+	*map = r;
+	return MR_OK;
+}
+
+mr_status
+mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_source_map *over, size_t n,
+    mr_source_map *map, bool *mapped)
+{
+	mr_source_map base_map;
+	mr_mesh mesh;
+
+	*map = *over;
+	*mapped = true;
+	if (!strcmp(m->name, "mesh"))
+		return MR_OK;
+	*mapped = !strcmp(m->name, "base") && mr_layer_has(f, "base", "source_face") &&
+	          mr_layer_has(f, "mesh", "position");
+	if (!*mapped)
+		return MR_OK;
+	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
+	MR_TRY(mr_source_map_get(ctx, f, &mesh, m->nv, &base_map));
+	return mr_source_map_compose(ctx, &mesh, m, &base_map, over, n, map);
+}
+
+mr_status
+mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_source_map *map, size_t base_nv)
+{
+	MR_TRY(mr_layer_put(ctx, f, "base", "source_face", map->face, base_nv));
+	return mr_layer_put(ctx, f, "base", "source_bary", map->bary, base_nv);
+}

@@ -1,0 +1,133 @@
+#include "space/surface_walk.h"
+
+/* The nearest point of the segment a b: its share t in [0, 1]. */
+static double
+segment_share(mr_v3 a, mr_v3 b, mr_v3 q)
+{
+	mr_v3 ab = mr_sub(b, a);
+	double s = mr_dot(ab, mr_sub(q, a)), l = mr_norm2(ab);
+
+	return s <= 0 ? 0 : s >= l ? 1 : s / l;
+}
+
+/* The nearest point of side k (from corner k to the next) of face f. */
+static mr_closest
+on_side(const mr_mesh *m, uint32_t f, int k, mr_v3 q)
+{
+	const uint32_t *v = m->t[f].v;
+	mr_v3 a = m->p[v[k]], b = m->p[v[(k + 1) % 3]];
+	double t = segment_share(a, b, q), w[3] = { 0, 0, 0 };
+	mr_v3 point = mr_lerp(t, a, b);
+
+	w[k] = 1 - t;
+	w[(k + 1) % 3] = t;
+	return (mr_closest){ f, { w[0], w[1], w[2] }, point, mr_norm2(mr_sub(q, point)) };
+}
+
+static mr_closest
+on_face(const mr_mesh *m, uint32_t f, mr_v3 q)
+{
+	const uint32_t *v = m->t[f].v;
+	mr_closest c = mr_triangle_closest(q, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+
+	c.face = f;
+	return c;
+}
+
+/* The corner that the place stands on, or -1. */
+static int
+corner_of(mr_closest p)
+{
+	return p.bary.x >= 1 ? 0 : p.bary.y >= 1 ? 1 : p.bary.z >= 1 ? 2 : -1;
+}
+
+/* The side that the place stands on, or -1. */
+static int
+side_of(mr_closest p)
+{
+	return p.bary.z <= 0 ? 0 : p.bary.x <= 0 ? 1 : p.bary.y <= 0 ? 2 : -1;
+}
+
+/* The nearest place on the faces around vertex v. */
+static mr_closest
+nearest_around(const mr_mesh *m, const mr_topology *topo, uint32_t v, mr_v3 q)
+{
+	uint32_t h = topo->out[v];
+	mr_closest best = { .dist2 = INFINITY };
+
+	do {
+		mr_closest p = on_face(m, h / 3, q);
+		if (p.dist2 < best.dist2)
+			best = p;
+		h = mr_he_ccw(topo, h);
+	} while (h != MR_NONE && h != topo->out[v]);
+	return best;
+}
+
+mr_closest
+mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
+{
+	mr_closest at = on_face(m, f, q);
+
+	for (;;) {
+		mr_closest next = at;
+		int corner = corner_of(at), side = corner < 0 ? side_of(at) : -1;
+		if (corner >= 0) {
+			next = nearest_around(m, topo, m->t[at.face].v[corner], q);
+		} else if (side >= 0) {
+			uint32_t g = topo->twin[3 * at.face + (uint32_t)side];
+			if (g != MR_NONE)
+				next = on_face(m, g / 3, q);
+		}
+		if (!(next.dist2 < at.dist2))
+			return at;
+		at = next;
+	}
+}
+
+/* The other curve half-edge at vertex v than the edge of h; MR_NONE where not exactly two curve edges meet.
+ */
+static uint32_t
+other_curve(const mr_topology *topo, const mr_curves *curves, uint32_t v, uint32_t h)
+{
+	uint32_t e = topo->out[v], found = MR_NONE;
+	unsigned n = 0;
+
+	do {
+		uint32_t p = mr_he_prev(e);
+		if (mr_curves_get(curves, e) != MR_NONE) {
+			n++;
+			if (e != h && topo->twin[e] != h)
+				found = e;
+		}
+		if (topo->twin[p] == MR_NONE) { /* the boundary edge that ends here */
+			n++;
+			if (p != h)
+				found = p;
+		}
+		e = topo->twin[p];
+	} while (e != MR_NONE && e != topo->out[v]);
+	return n == 2 ? found : MR_NONE;
+}
+
+mr_closest
+mr_project_curve(
+    const mr_mesh *m, const mr_topology *topo, const mr_curves *curves, uint32_t h, mr_v3 q, uint32_t *on)
+{
+	mr_closest at = on_side(m, h / 3, (int)(h % 3), q);
+
+	for (;;) {
+		int corner = corner_of(at);
+		uint32_t next = corner < 0 ? MR_NONE : other_curve(topo, curves, m->t[at.face].v[corner], h);
+		mr_closest p;
+		if (next == MR_NONE)
+			break;
+		p = on_side(m, next / 3, (int)(next % 3), q);
+		if (!(p.dist2 < at.dist2))
+			break;
+		at = p;
+		h = next;
+	}
+	*on = h;
+	return at;
+}

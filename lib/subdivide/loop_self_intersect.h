@@ -1,0 +1,23 @@
+/*
+ * crossing.h -- which triangles of a subdivided surface pass through others.
+ *
+ * Contract: as intersect.h, but triangles that touch and look the same way, to 60 degrees, are taken not to
+ * cross, and so are regions that touch and whose normals all lie within a cone of that angle (after Volino,
+ * Magnenat Thalmann 1994, without their test of the outlines): a smooth surface is then searched only where
+ * it comes back to itself.
+ * Layer rule: alg.
+ */
+#ifndef MR_CROSSING_H
+#define MR_CROSSING_H
+
+#include "subdivide/loop.h"
+
+/*
+ * The triangles of level n, whose vertices are at p, that pass through others.  crosses: one a triangle, the
+ * caller's.  moved: of the triangles of level 0, those that a vertex has moved in since `crosses` was found,
+ * so that only these and what is near them is looked at; NULL: all, and what `crosses` held does not count.
+ */
+mr_status mr_find_crossings(
+    mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, const bool *moved, bool *crosses);
+
+#endif

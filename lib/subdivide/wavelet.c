@@ -1,0 +1,80 @@
+/* Lounsbery, DeRose, Warren 1997: Multiresolution analysis for surfaces of arbitrary topological type;
+ * Sweldens 1996: The lifting scheme, of which this is the prediction alone. */
+#include "subdivide/wavelet.h"
+
+#include "base/parallel.h"
+
+typedef struct lifting {
+	double *odd;
+	const double *predicted;
+	double sign;
+} lifting;
+
+static void
+lift(void *arg, size_t begin, size_t end)
+{
+	lifting *s = arg;
+
+	for (size_t i = begin; i < end; i++)
+		s->odd[i] += s->sign * s->predicted[i];
+}
+
+/* Adds the prediction, or takes it off, on level `fine`, whose coarser ones have their heights. */
+static void
+step(const mr_ctx *ctx, const mr_loop *fine, double sign, double *x, double *work)
+{
+	const mr_loop *coarse = fine - 1;
+	lifting s = { x + coarse->nv, work, sign };
+
+	mr_loop_predict(ctx, coarse, fine, 1, x, work);
+	mr_parallel(ctx, fine->nv - coarse->nv, 8192, lift, &s);
+}
+
+/* Workspace for the odd vertices of level n, the most of any; none on level 0. */
+static mr_status
+reserve(mr_ctx *ctx, const mr_loop *level, size_t n, double **work)
+{
+	*work = MR_NEW(ctx, level[n].nv - level[n].coarse_nv, double);
+	return *work ? MR_OK : MR_EMEM;
+}
+
+mr_status
+mr_wavelet_analyse(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *work;
+
+	MR_TRY(reserve(ctx, level, n, &work));
+	for (size_t i = n; i > 0; i--)
+		step(ctx, &level[i], -1, x, work);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_wavelet_synthesize(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *work;
+
+	MR_TRY(reserve(ctx, level, n, &work));
+	for (size_t i = 1; i <= n; i++)
+		step(ctx, &level[i], 1, x, work);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_equalize(mr_ctx *ctx, const mr_loop *level, size_t n, const double *gain, double *x)
+{
+	MR_TRY(mr_wavelet_analyse(ctx, level, n, x));
+	for (size_t i = 0; i <= n; i++)
+		for (size_t v = i ? level[i].coarse_nv : 0; v < level[i].nv; v++)
+			x[v] *= gain[i];
+	MR_TRY(mr_wavelet_synthesize(ctx, level, n, x));
+	for (size_t v = 0; v < level[n].nv; v++)
+		if (!isfinite(x[v]))
+			return mr_fail(
+			    ctx, MR_ERANGE, "height %zu is no longer finite: the gains are too large", v);
+	return MR_OK;
+}

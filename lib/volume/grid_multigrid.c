@@ -1,0 +1,274 @@
+/*
+ * Multigrid on the nodes of a grid (Briggs, Henson, McCormick 2000): red-black Gauss-Seidel, full weighting,
+ * linear interpolation; the equation at a node is (6 + screen) u - sum of the six neighbours = b.
+ */
+#include "volume/parts.h"
+
+#include "base/parallel.h"
+
+enum { COARSEST = 12, SWEEPS = 2, COARSEST_SWEEPS = 40, PIECE = 1 << 15, SLAB = 1 << 18 };
+
+size_t
+mr_multigrid_levels(size_t cells)
+{
+	size_t levels = 1;
+
+	while (cells >> (levels - 1) > COARSEST && levels < LEVELS_MOST)
+		levels++;
+	return levels;
+}
+
+size_t
+mr_multigrid_nodes(size_t cells, size_t levels)
+{
+	size_t unit = (size_t)1 << (levels - 1), units = (cells + unit - 1) / unit;
+
+	return (units < 2 ? 2 : units) * unit + 1;
+}
+
+static size_t
+nodes_of(const level *l)
+{
+	return l->n[0] * l->n[1] * l->n[2];
+}
+
+mr_status
+mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, multigrid *m)
+{
+	size_t layer = n[0] * n[1];
+
+	m->levels = levels;
+	for (size_t i = 0; i < levels; i++) {
+		level *l = &m->level[i];
+		for (int k = 0; k < 3; k++)
+			l->n[k] = i == 0 ? n[k] : (m->level[i - 1].n[k] - 1) / 2 + 1;
+		l->u = i == 0 ? u : MR_NEW(ctx, nodes_of(l), float);
+		l->b = MR_NEW_ZERO(ctx, nodes_of(l), float);
+		l->screen = !screened ? NULL : i == 0 ? l->b : MR_NEW_ZERO(ctx, nodes_of(l), float);
+		if (!l->u || !l->b || (screened && !l->screen))
+			return MR_EMEM;
+		memset(l->u, 0, nodes_of(l) * sizeof *l->u);
+	}
+	m->slab = SLAB / layer < 4 ? 9 : 2 * (SLAB / layer / 2) + 1;
+	if (m->slab > n[2])
+		m->slab = n[2];
+	m->residual = MR_NEW(ctx, m->slab * layer, float);
+	return m->residual ? MR_OK : MR_EMEM;
+}
+
+/* A loop over the inner layers of a level. */
+typedef struct pass {
+	const level *fine, *coarse;
+	const float *from;
+	float *to;
+	float scale;
+	size_t colour;
+	float keep;
+	size_t first; /* layer of the loop */
+	size_t below; /* layers of the finer level below the first that `from` holds */
+} pass;
+
+/* Over `count` layers of a level from p->first on. */
+static void
+over_some(mr_ctx *ctx, const level *l, size_t count, mr_body body, pass *p)
+{
+	size_t layer = l->n[0] * l->n[1], grain = PIECE / layer + 1;
+
+	mr_parallel(ctx, count, grain, body, p);
+}
+
+static void
+over_layers(mr_ctx *ctx, const level *l, mr_body body, pass *p)
+{
+	p->first = 1;
+	over_some(ctx, l, l->n[2] - 2, body, p);
+}
+
+static void
+relax_rows(const level *l, size_t z, size_t colour)
+{
+	size_t up = l->n[0], far = l->n[0] * l->n[1];
+
+	for (size_t y = 1; y + 1 < l->n[1]; y++) {
+		float *u = l->u + z * far + y * up;
+		const float *b = l->b + z * far + y * up,
+			    *s = l->screen ? l->screen + z * far + y * up : NULL;
+		size_t first = 1 + ((y + z + 1 + colour) & 1), end = l->n[0] - 1;
+		if (s)
+			for (size_t x = first; x < end; x += 2)
+				u[x] = (b[x] + u[x - 1] + u[x + 1] + *(u + x - up) + u[x + up] +
+					   *(u + x - far) + u[x + far]) /
+				       (6 + s[x]);
+		else
+			for (size_t x = first; x < end; x += 2)
+				u[x] = (b[x] + u[x - 1] + u[x + 1] + *(u + x - up) + u[x + up] +
+					   *(u + x - far) + u[x + far]) *
+				       (1.0f / 6);
+	}
+}
+
+static void
+relax_layers(void *arg, size_t begin, size_t end)
+{
+	const pass *p = arg;
+
+	for (size_t z = begin; z < end; z++)
+		relax_rows(p->fine, z + 1, p->colour);
+}
+
+static void
+relax(mr_ctx *ctx, const level *l, size_t sweeps)
+{
+	for (size_t i = 0; i < 2 * sweeps; i++)
+		over_layers(ctx, l, relax_layers, &(pass){ .fine = l, .colour = i & 1 });
+}
+
+static void
+residual_layers(void *arg, size_t begin, size_t end)
+{
+	const pass *p = arg;
+	const level *l = p->fine;
+	size_t up = l->n[0], far = l->n[0] * l->n[1];
+
+	for (size_t z = begin; z < end; z++)
+		for (size_t y = 1; y + 1 < l->n[1]; y++) {
+			size_t row = (p->first + z) * far + y * up;
+			float *r = p->to + z * far + y * up;
+			for (size_t x = 1; x + 1 < l->n[0]; x++) {
+				size_t i = row + x;
+				r[x] = l->b[i] - (6 + (l->screen ? l->screen[i] : 0)) * l->u[i] +
+				       l->u[i - 1] + l->u[i + 1] + l->u[i - up] + l->u[i + up] +
+				       l->u[i - far] + l->u[i + far];
+			}
+		}
+}
+
+/* (1 2 1) / 4 along x, then y, then z. */
+static float
+weighted(const float *f, size_t up, size_t far)
+{
+	static const float w[3] = { 0.25f, 0.5f, 0.25f };
+	float sum = 0;
+
+	for (size_t k = 0; k < 3; k++)
+		for (size_t j = 0; j < 3; j++) {
+			const float *row = f + k * far + j * up;
+			sum += w[k] * w[j] * (0.25f * (row[0] + row[2]) + 0.5f * row[1]);
+		}
+	return sum;
+}
+
+static void
+restrict_layers(void *arg, size_t begin, size_t end)
+{
+	const pass *p = arg;
+	const level *f = p->fine, *c = p->coarse;
+	size_t up = f->n[0], far = f->n[0] * f->n[1];
+
+	for (size_t z = p->first + begin; z < p->first + end; z++)
+		for (size_t y = 1; y + 1 < c->n[1]; y++)
+			for (size_t x = 1; x + 1 < c->n[0]; x++)
+				p->to[(z * c->n[1] + y) * c->n[0] + x] =
+				    p->scale * weighted(p->from + (2 * z - 1 - p->below) * far +
+							    (2 * y - 1) * up + 2 * x - 1,
+						   up, far);
+}
+
+void
+mr_multigrid_restrict(
+    mr_ctx *ctx, const level *fine, const level *coarse, const float *from, float *to, float scale)
+{
+	over_layers(ctx, coarse, restrict_layers,
+	    &(pass){ .fine = fine, .coarse = coarse, .from = from, .to = to, .scale = scale });
+}
+
+static void
+prolong_layers(void *arg, size_t begin, size_t end)
+{
+	const pass *p = arg;
+	const level *f = p->fine, *c = p->coarse;
+
+	for (size_t z = begin + 1; z <= end; z++)
+		for (size_t y = 1; y + 1 < f->n[1]; y++) {
+			size_t z0 = z / 2, z1 = (z + 1) / 2, y0 = y / 2, y1 = (y + 1) / 2;
+			const float *a = p->from + (z0 * c->n[1] + y0) * c->n[0],
+				    *b = p->from + (z0 * c->n[1] + y1) * c->n[0],
+				    *d = p->from + (z1 * c->n[1] + y0) * c->n[0],
+				    *e = p->from + (z1 * c->n[1] + y1) * c->n[0];
+			float *to = p->to + (z * f->n[1] + y) * f->n[0];
+			float before = a[0] + b[0] + d[0] + e[0];
+			for (size_t x = 1; x + 1 < f->n[0]; x += 2) {
+				size_t i = (x + 1) / 2;
+				float now = a[i] + b[i] + d[i] + e[i];
+				to[x] = p->keep * to[x] + p->scale * 0.125f * (before + now);
+				if (x + 2 < f->n[0])
+					to[x + 1] = p->keep * to[x + 1] + p->scale * 0.25f * now;
+				before = now;
+			}
+		}
+}
+
+void
+mr_multigrid_prolong(mr_ctx *ctx, const level *fine, const level *coarse, const float *from, float *to,
+    float keep, float scale)
+{
+	over_layers(ctx, fine, prolong_layers,
+	    &(pass){ .fine = fine, .coarse = coarse, .from = from, .to = to, .keep = keep, .scale = scale });
+}
+
+/* c->b = the residuals of l, around the nodes of c: of a slab of layers at a time. */
+static void
+restrict_residuals(mr_ctx *ctx, const multigrid *m, const level *l, const level *c)
+{
+	size_t most = (m->slab - 1) / 2;
+
+	for (size_t z = 1, count; z + 1 < c->n[2]; z += count) {
+		size_t below = 2 * z - 1;
+		count = c->n[2] - 1 - z < most ? c->n[2] - 1 - z : most;
+		over_some(ctx, l, 2 * count + 1, residual_layers,
+		    &(pass){ .fine = l, .to = m->residual, .first = below });
+		/* twice the step: four times the right side */
+		over_some(ctx, c, count, restrict_layers,
+		    &(pass){ .fine = l,
+			.coarse = c,
+			.from = m->residual,
+			.to = c->b,
+			.scale = 4,
+			.first = z,
+			.below = below });
+	}
+}
+
+static void
+cycle_from(mr_ctx *ctx, multigrid *m, size_t i)
+{
+	level *l = &m->level[i], *c = l + 1;
+
+	if (i + 1 == m->levels) {
+		relax(ctx, l, COARSEST_SWEEPS);
+		return;
+	}
+	relax(ctx, l, SWEEPS);
+	restrict_residuals(ctx, m, l, c);
+	memset(c->u, 0, nodes_of(c) * sizeof *c->u);
+	cycle_from(ctx, m, i + 1);
+	mr_multigrid_prolong(ctx, l, c, c->u, l->u, 1, 1);
+	relax(ctx, l, SWEEPS);
+}
+
+void
+mr_multigrid_full(mr_ctx *ctx, multigrid *m)
+{
+	for (size_t i = 0; i + 1 < m->levels; i++) {
+		level *l = &m->level[i], *c = l + 1;
+		mr_multigrid_restrict(ctx, l, c, l->b, c->b, 4);
+		if (l->screen)
+			mr_multigrid_restrict(ctx, l, c, l->screen, c->screen, 4);
+	}
+	for (size_t i = m->levels; i-- > 0;) {
+		if (i + 1 < m->levels)
+			mr_multigrid_prolong(
+			    ctx, &m->level[i], &m->level[i + 1], m->level[i + 1].u, m->level[i].u, 0, 1);
+		cycle_from(ctx, m, i);
+	}
+}

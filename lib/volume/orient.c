@@ -1,0 +1,184 @@
+/*
+ * Signs of the planes' normals.  As in Hoppe et al. 1992 they spread along a spanning tree of the neighbour
+ * graph that prefers alike planes; but the sign of one normal is compared with the other's mirrored between
+ * the two points (Koenig, Gumhold 2009), which holds around edges too, and two parts of the tree whose own
+ * votes say otherwise stay apart.
+ */
+#include "volume/parts.h"
+
+#include "base/parallel.h"
+
+enum { BINS = 256, GRAIN = 4096 };
+
+/* Mean vote per point from which a part knows its own sign. */
+static const double SURE = 0.1;
+
+/* Parts joined so far: the sign of a point is its own times those up to the root. */
+typedef struct parts {
+	uint32_t *parent;
+	int8_t *sign; /* against the parent's */
+	uint32_t *size;
+	double *vote; /* of a root: for its own sign */
+} parts;
+
+static uint32_t
+root_of(parts *q, uint32_t x, int8_t *sign)
+{
+	uint32_t root = x;
+	int8_t s = 1;
+
+	while (q->parent[root] != root) {
+		s = (int8_t)(s * q->sign[root]);
+		root = q->parent[root];
+	}
+	*sign = s;
+	while (q->parent[x] != root && x != root) { /* the path becomes short */
+		uint32_t next = q->parent[x];
+		int8_t own = q->sign[x];
+		q->parent[x] = root;
+		q->sign[x] = s;
+		s = (int8_t)(s * own);
+		x = next;
+	}
+	return root;
+}
+
+static bool
+is_sure(const parts *q, uint32_t root)
+{
+	return fabs(q->vote[root]) > SURE * q->size[root];
+}
+
+/* Joins the parts of a and b so that their signs' product is `same`, unless both know better. */
+static void
+join(parts *q, uint32_t a, uint32_t b, int8_t same)
+{
+	int8_t sa, sb, s;
+	uint32_t ra = root_of(q, a, &sa), rb = root_of(q, b, &sb);
+
+	if (ra == rb)
+		return;
+	s = (int8_t)(sa * sb * same);
+	if (is_sure(q, ra) && is_sure(q, rb) && q->vote[ra] * q->vote[rb] * s < 0)
+		return;
+	if (q->size[ra] < q->size[rb]) {
+		uint32_t r = ra;
+		ra = rb;
+		rb = r;
+	}
+	q->parent[rb] = ra;
+	q->sign[rb] = s;
+	q->size[ra] += q->size[rb];
+	q->vote[ra] += s * q->vote[rb];
+}
+
+/* How alike the normals are, as a sign and a weight below 1. */
+static double
+likeness(const samples *s, uint32_t i, uint32_t j)
+{
+	mr_v3 a = s->plane.normal[i], b = s->plane.normal[j], e = mr_unit(mr_sub(s->p[j], s->p[i]));
+	double ae = mr_dot(a, e), be = mr_dot(b, e);
+	double steep = fmax(ae * ae, be * be);
+
+	return (mr_dot(a, b) - 2 * ae * be) * (1 - steep);
+}
+
+static size_t
+bin_of(double likeness)
+{
+	double w = fabs(likeness);
+
+	return (size_t)((1 - (w < 1 ? w : 1)) * (BINS - 1));
+}
+
+/* The links, each pair once or twice, the most alike first; in each bin by number. */
+typedef struct order {
+	const samples *s;
+	uint16_t *kind; /* of each link: twice the bin, and 1 where the signs differ; NONE */
+	uint32_t *sorted;
+	size_t count;
+} order;
+
+enum { NONE = UINT16_MAX };
+
+static void
+find_kinds(void *arg, size_t begin, size_t end)
+{
+	const order *o = arg;
+	const samples *s = o->s;
+	size_t links = s->plane.links;
+
+	for (size_t i = begin; i < end; i++)
+		for (size_t l = i * links; l < (i + 1) * links; l++) {
+			o->kind[l] = NONE;
+			if (s->plane.neighbor[l] != UINT32_MAX) {
+				double alike = likeness(s, (uint32_t)i, s->plane.neighbor[l]);
+				o->kind[l] = (uint16_t)(2 * bin_of(alike) + (alike < 0));
+			}
+		}
+}
+
+static mr_status
+sort_links(mr_ctx *ctx, const samples *s, order *o)
+{
+	size_t links = s->n * s->plane.links, first[BINS + 1] = { 0 };
+
+	*o = (order){ s, MR_NEW(ctx, links, uint16_t), MR_NEW(ctx, links, uint32_t), 0 };
+	if (!o->kind || !o->sorted)
+		return MR_EMEM;
+	mr_parallel(ctx, s->n, GRAIN, find_kinds, o);
+	for (size_t l = 0; l < links; l++)
+		if (o->kind[l] != NONE)
+			first[o->kind[l] / 2 + 1]++;
+	for (size_t i = 0; i < BINS; i++)
+		first[i + 1] += first[i];
+	o->count = first[BINS];
+	for (size_t l = 0; l < links; l++)
+		if (o->kind[l] != NONE)
+			o->sorted[first[o->kind[l] / 2]++] = (uint32_t)l;
+	return MR_OK;
+}
+
+static mr_status
+begin(mr_ctx *ctx, const samples *s, const double *vote, parts *q)
+{
+	q->parent = MR_NEW(ctx, s->n, uint32_t);
+	q->sign = MR_NEW(ctx, s->n, int8_t);
+	q->size = MR_NEW(ctx, s->n, uint32_t);
+	q->vote = MR_NEW(ctx, s->n, double);
+	if (!q->parent || !q->sign || !q->size || !q->vote)
+		return MR_EMEM;
+	for (size_t i = 0; i < s->n; i++) {
+		q->parent[i] = (uint32_t)i;
+		q->sign[i] = 1;
+		q->size[i] = 1;
+		q->vote[i] = vote[i];
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_volume_orient(mr_ctx *ctx, samples *s, const double *vote)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t links = s->plane.links;
+	order o;
+	parts q;
+
+	if (s->n > UINT32_MAX / links)
+		return mr_fail(ctx, MR_ERANGE, "%zu points are too many for a volume", s->n);
+	MR_TRY(begin(ctx, s, vote, &q));
+	MR_TRY(sort_links(ctx, s, &o));
+	for (size_t k = 0; k < o.count; k++) {
+		uint32_t l = o.sorted[k];
+		join(&q, (uint32_t)(l / links), s->plane.neighbor[l], o.kind[l] & 1 ? -1 : 1);
+	}
+	for (uint32_t i = 0; i < s->n; i++) {
+		int8_t sign;
+		uint32_t root = root_of(&q, i, &sign);
+		if (q.vote[root] * sign < 0)
+			s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

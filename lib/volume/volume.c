@@ -1,0 +1,451 @@
+/*
+ * The volume of a cloud without normals.
+ *
+ * Jeong and Kim flood the cells around the occupied ones.  A hole of the sampling lets a flood in, and walls
+ * nearer than a cell keep it out; so here the flood is soft, a quantity that diffuses in from the faces of
+ * the grid and is absorbed by the points.  It tells the side of the exposed points; planes alike pass that on
+ * to hidden ones.  Then the indicator of the inside is the solution of a Poisson equation (Kazhdan, Bolitho,
+ * Hoppe 2006), normals against which it falls the wrong way are turned over, and it is solved again (Hou et
+ * al. 2022, where the first signs are random).  The surface is where the indicator has the value that it has
+ * at the points nearby, so that thin parts, where it never rises to a half, are not lost.
+ */
+#include "volume/volume.h"
+
+#include "volume/parts.h"
+#include "base/parallel.h"
+#include "base/sort.h"
+
+enum {
+	GRAIN = 1024,
+	MARGIN = 6, /* cells around the box of the points: more than any place asked for is away */
+	CELLS_LEAST = 4,
+	CELLS_MOST = 4096,     /* along the longest side of the box */
+	NODES_LEAST = 1 << 20, /* or fewer, that every cloud may have */
+	NODES_PER_POINT = 16,  /* that a larger one may have */
+	NEARBY = 3,            /* levels on which the values of points are nearby */
+	ROUNDS_MOST = 20       /* of turning normals over */
+};
+
+static const double CELL = 1.5;          /* spacings */
+static const double COARSER = 1.25;      /* than that: points are too many for the grid */
+static const double SPARSE = 1.3;        /* steps: points further apart spread on a coarser level */
+static const double ABSORPTION = 20;     /* of the flood, by a full layer of points */
+static const double TURNED_LEAST = 2e-4; /* share of the points that is worth another round */
+static const double THIN = 1.8;          /* steps that the inside, or a gap, must measure */
+static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise across the surface */
+
+typedef struct volume {
+	samples s;
+	mr_grid grid[DEPTHS];
+	field f[DEPTHS];
+	size_t levels, depths;
+	double *value; /* of each point */
+} volume;
+
+static void
+set_grid(mr_box box, double step, mr_grid *g, size_t *levels)
+{
+	mr_v3 size = mr_sub(box.max, box.min), centre = mr_lerp(0.5, box.min, box.max), half;
+	const double side[3] = { size.x, size.y, size.z };
+	size_t cells[3], most = 0;
+
+	for (int k = 0; k < 3; k++) {
+		cells[k] = (size_t)ceil(side[k] / step) + (size_t)2 * MARGIN;
+		most = cells[k] > most ? cells[k] : most;
+	}
+	*levels = mr_multigrid_levels(most);
+	for (int k = 0; k < 3; k++)
+		g->n[k] = mr_multigrid_nodes(cells[k], *levels);
+	g->step = step;
+	half = mr_mul(step / 2, mr_vec((double)(g->n[0] - 1), (double)(g->n[1] - 1), (double)(g->n[2] - 1)));
+	g->origin = mr_sub(centre, half);
+}
+
+static size_t
+cells_along(mr_box box, double step)
+{
+	mr_v3 size = mr_sub(box.max, box.min);
+
+	return (size_t)ceil(fmax(size.x, fmax(size.y, size.z)) / step);
+}
+
+/* As fine as the sampling, as far as memory in proportion to the n points of the cloud allows. */
+static void
+choose_grid(mr_box box, double spacing, size_t n, size_t cells, mr_grid *g, size_t *levels)
+{
+	mr_v3 size = mr_sub(box.max, box.min);
+	double longest = fmax(size.x, fmax(size.y, size.z));
+	double step = fmax(longest / CELLS_MOST, fmin(CELL * spacing, longest / CELLS_LEAST));
+	size_t most = n * NODES_PER_POINT < NODES_LEAST ? NODES_LEAST : n * NODES_PER_POINT;
+
+	set_grid(box, cells ? longest / (double)cells : step, g, levels);
+	while (!cells && mr_grid_nodes(g) > most) {
+		step *= 1.03;
+		set_grid(box, step, g, levels);
+	}
+}
+
+/* Of the points: those that are as far apart as the grid shows. */
+static double
+useful_share(const mr_v3 *point, size_t n, const mr_volume_opts *opts)
+{
+	mr_box box = mr_box_of(point, n);
+	size_t levels;
+	double coarser;
+	mr_grid g;
+
+	if (!(opts->spacing > 0 && mr_box_diagonal(box) > 0))
+		return 1;
+	choose_grid(box, opts->spacing, n, opts->grid, &g, &levels);
+	coarser = g.step / (CELL * opts->spacing);
+	return coarser > COARSER ? 1 / (coarser * coarser) : 1;
+}
+
+/* The difference of the value from one side of each point's plane to the other. */
+typedef struct across {
+	const volume *v;
+	const float *u;
+	double *out;
+	double reach;
+	size_t some; /* of the points, at equal strides */
+} across;
+
+static double
+across_at(const across *a, size_t i)
+{
+	const samples *s = &a->v->s;
+	const mr_grid *g = &a->v->grid[0];
+	mr_v3 d = mr_mul(a->reach * g->step, s->plane.normal[i]);
+
+	return mr_volume_at(g, a->u, mr_add(s->p[i], d)) - mr_volume_at(g, a->u, mr_sub(s->p[i], d));
+}
+
+static void
+measure_across(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+
+	for (size_t i = begin; i < end; i++)
+		a->out[i] = across_at(a, i);
+}
+
+/* v->value: how much more of the flood there is on a normal's side than behind it. */
+static void
+measure_votes(mr_ctx *ctx, volume *v, const float *w)
+{
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, w, v->value, 1, 0 });
+	for (size_t i = 0; i < v->s.n; i++)
+		v->value[i] = -v->value[i];
+}
+
+/* What diffuses in from outside, u, is 1 - w: w is zero on the faces of the grid and absorbed to 1 at points.
+ * w: of the grid's nodes, for the while. */
+static mr_status
+orient_by_flood(mr_ctx *ctx, volume *v, float *w)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	multigrid m;
+	level *l = &m.level[0];
+	size_t nodes = mr_grid_nodes(&v->grid[0]);
+
+	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, w, true, &m));
+	/* the screen of a step; a coarser level's step is twice as long */
+	for (size_t d = v->depths; d-- > 0;) {
+		mr_volume_spread(ctx, &v->s, &v->f[d], NULL, m.level[d].screen);
+		if (d + 1 < v->depths)
+			mr_multigrid_prolong(ctx, &m.level[d], &m.level[d + 1], m.level[d + 1].screen,
+			    m.level[d].screen, 1, 0.5f);
+	}
+	for (size_t i = 0; i < nodes; i++)
+		l->screen[i] *= (float)ABSORPTION;
+	mr_multigrid_full(ctx, &m);
+	measure_votes(ctx, v, w);
+	MR_TRY(mr_volume_orient(ctx, &v->s, v->value));
+	measure_votes(ctx, v, w);
+	mr_mark_release(ctx, mark);
+	if (v->depths > 1)
+		MR_TRY(mr_volume_regions(ctx, &v->s, v->value, &v->grid[1], v->levels - 1));
+	return MR_OK;
+}
+
+static size_t
+turn_over(volume *v)
+{
+	size_t turned = 0;
+
+	for (size_t i = 0; i < v->s.n; i++)
+		if (v->value[i] > 0) {
+			v->s.plane.normal[i] = mr_mul(-1, v->s.plane.normal[i]);
+			turned++;
+		}
+	return turned;
+}
+
+/* Sparse points spread on coarser levels; a right side there is of four times the squared step. */
+static void
+spread_normals(mr_ctx *ctx, const volume *v, multigrid *m)
+{
+	for (size_t d = v->depths; d-- > 0;) {
+		mr_volume_divergence(ctx, &v->s, &v->f[d], m->level[d].b);
+		if (d + 1 < v->depths)
+			mr_multigrid_prolong(
+			    ctx, &m->level[d], &m->level[d + 1], m->level[d + 1].b, m->level[d].b, 1, 0.25f);
+	}
+}
+
+static mr_status
+solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
+{
+	size_t rounds = 0, turned, first = 0;
+
+	for (;;) {
+		spread_normals(ctx, v, m);
+		mr_multigrid_full(ctx, m);
+		if (rounds++ == ROUNDS_MOST)
+			break;
+		mr_parallel(
+		    ctx, v->s.n, GRAIN, measure_across, &(across){ v, m->level[0].u, v->value, 1, 0 });
+		turned = turn_over(v);
+		if (rounds == 1)
+			first = turned;
+		if ((double)turned <= TURNED_LEAST * (double)v->s.n)
+			break;
+	}
+	mr_stat_set(ctx, "rounds", (double)rounds);
+	mr_stat_set(ctx, "turned", (double)first);
+	return MR_OK;
+}
+
+/* How far from p along d, in steps, the value is above (rise 1) or below (-1) `at`, what it is at p: THIN at
+ * most. */
+static double
+width(const mr_grid *g, const float *u, mr_v3 p, double at, mr_v3 d, double rise)
+{
+	double t = 0;
+
+	while (t < THIN && rise * (mr_volume_at(g, u, mr_axpy((t + THIN / 6) * g->step, d, p)) - at) > 0)
+		t += THIN / 6;
+	return t;
+}
+
+/*
+ * The value on the surface to be, near each point: that of the point; where the inside is thinner there than
+ * the grid can hold, that of a place outside, so that it becomes thicker, and inversely in narrow gaps.
+ */
+static void
+measure_level(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+	const samples *s = &a->v->s;
+	const mr_grid *g = &a->v->grid[0];
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 n = s->plane.normal[i];
+		double at = mr_volume_at(g, a->u, s->p[i]);
+		double in = width(g, a->u, s->p[i], at, mr_mul(-1, n), 1),
+		       out = width(g, a->u, s->p[i], at, n, -1);
+		a->out[i] = mr_volume_at(g, a->u, mr_axpy((out - in) / 2 * g->step, n, s->p[i]));
+	}
+}
+
+static void
+measure_rise(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+
+	for (size_t i = begin; i < end; i++)
+		a->out[i] = -across_at(a, i * a->v->s.n / a->some) / 2;
+}
+
+/*
+ * Half of what the indicator rises by across the surface.  Over thin parts it never does, and beside an open
+ * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
+ * median value at them.  v->value becomes the values.
+ */
+static mr_status
+half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
+{
+	enum { MOST = 10007 };
+	mr_mark mark = mr_mark_take(ctx);
+	size_t m = v->s.n < MOST ? v->s.n : MOST;
+	double *rise = MR_NEW(ctx, m, double);
+
+	if (!rise)
+		return MR_EMEM;
+	*half = 0;
+	for (int reach = 1; reach <= 3; reach++) {
+		mr_parallel(ctx, m, GRAIN, measure_rise, &(across){ v, u, rise, reach, m });
+		*half = fmax(*half, mr_kth(rise, m, m / 2));
+	}
+	for (size_t i = 0; i < m; i++)
+		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
+	*half = fmax(*half, mr_kth(rise, m, m / 2));
+	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, u, v->value, 0, 0 });
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Level 1's u = mean of the values of the points nearby; `far` where there are none. */
+static mr_status
+spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
+{
+	static const float LITTLE = 0.05f;
+	size_t depths = m->levels < 1 + NEARBY ? m->levels : 1 + NEARBY;
+	mr_mark mark = mr_mark_take(ctx);
+	mr_grid g = v->grid[0];
+	float *weight[1 + NEARBY];
+	field f;
+
+	for (size_t i = 1; i < depths; i++) {
+		weight[i] = MR_NEW_ZERO(ctx, m->level[i].n[0] * m->level[i].n[1] * m->level[i].n[2], float);
+		if (!weight[i])
+			return MR_EMEM;
+	}
+	g.step *= 2;
+	memcpy(g.n, m->level[1].n, sizeof g.n);
+	MR_TRY(mr_volume_field(ctx, &v->s, &g, DEPTHS, &f));
+	mr_volume_spread(ctx, &v->s, &f, v->value, m->level[1].b);
+	mr_volume_spread(ctx, &v->s, &f, NULL, weight[1]);
+	for (size_t i = 1; i + 1 < depths; i++) {
+		level *l = &m->level[i], *c = l + 1;
+		mr_multigrid_restrict(ctx, l, c, l->b, c->b, 1);
+		mr_multigrid_restrict(ctx, l, c, weight[i], weight[i + 1], 1);
+	}
+	for (size_t i = depths; i-- > 1;) {
+		level *l = &m->level[i];
+		size_t nodes = l->n[0] * l->n[1] * l->n[2];
+		for (size_t k = 0; k < nodes; k++)
+			l->u[k] = (float)far;
+		if (i + 1 < depths)
+			mr_multigrid_prolong(ctx, l, l + 1, l[1].u, l->u, 0, 1);
+		for (size_t k = 0; k < nodes; k++)
+			l->u[k] = (l->b[k] + LITTLE * l->u[k]) / (weight[i][k] + LITTLE);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* f = value wanted nearby - indicator, in place of the indicator: positive on the faces of the grid. */
+static mr_status
+make_level(mr_ctx *ctx, volume *v, multigrid *m)
+{
+	level *l = &m->level[0];
+	double half;
+	size_t nodes = mr_grid_nodes(&v->grid[0]);
+	float *c = l->b;
+
+	MR_TRY(half_rise(ctx, v, l->u, &half));
+	if (!(half > 0))
+		return mr_fail(
+		    ctx, MR_EMESH, "%zu points enclose nothing: no side of them is the inside", v->s.n);
+	mr_stat_set(ctx, "level", half);
+	for (size_t i = 0; i < v->s.n; i++)
+		v->value[i] = fmax(LEVEL_LEAST * half, fmin(v->value[i], LEVEL_MOST * half));
+	MR_TRY(spread_values(ctx, v, m, half));
+	for (size_t i = 0; i < nodes; i++)
+		c[i] = (float)half;
+	mr_multigrid_prolong(ctx, l, &m->level[1], m->level[1].u, c, 0, 1);
+	for (size_t i = 0; i < nodes; i++)
+		l->u[i] = c[i] - l->u[i];
+	return MR_OK;
+}
+
+static mr_status
+begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
+{
+	choose_grid(v->s.box, v->s.noise * v->s.spacing, n, opts->grid, &v->grid[0], &v->levels);
+	v->depths = v->levels < DEPTHS ? v->levels : DEPTHS;
+	v->value = MR_NEW(ctx, v->s.n, double);
+	v->s.depth = MR_NEW(ctx, v->s.n, uint8_t);
+	if (!v->value || !v->s.depth)
+		return MR_EMEM;
+	for (size_t i = 0; i < v->s.n; i++) {
+		double side = sqrt(v->s.plane.area[i]) / v->grid[0].step;
+		v->s.depth[i] = 0;
+		for (; side > SPARSE && v->s.depth[i] + 1u < v->depths; side /= 2)
+			v->s.depth[i]++;
+	}
+	for (unsigned d = 0; d < v->depths; d++) {
+		mr_grid *g = &v->grid[d];
+		if (d > 0) {
+			*g = v->grid[d - 1];
+			g->step *= 2;
+			for (int k = 0; k < 3; k++)
+				g->n[k] = (g->n[k] - 1) / 2 + 1;
+		}
+		MR_TRY(mr_volume_field(ctx, &v->s, g, d, &v->f[d]));
+	}
+	return MR_OK;
+}
+
+/* f, of the grid's nodes: negative inside. */
+static mr_status
+fill_field(mr_ctx *ctx, volume *v, float *f)
+{
+	double start = mr_seconds();
+	cleaning c;
+	multigrid m;
+
+	MR_TRY(orient_by_flood(ctx, v, f));
+	mr_stat_set(ctx, "seconds_flood", mr_seconds() - start);
+	start = mr_seconds();
+	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m));
+	MR_TRY(solve_indicator(ctx, v, &m));
+	mr_stat_set(ctx, "seconds_indicator", mr_seconds() - start);
+	start = mr_seconds();
+	MR_TRY(make_level(ctx, v, &m));
+	MR_TRY(mr_volume_clean(ctx, &v->s, &v->grid[0], f, &c));
+	mr_stat_set(ctx, "parts_dropped", (double)c.parts);
+	mr_stat_set(ctx, "cavities_filled", (double)c.cavities);
+	mr_stat_set(ctx, "seconds_level", mr_seconds() - start);
+	return MR_OK;
+}
+
+/* Share of the nodes that are inside. */
+static double
+inside_share(const float *f, size_t nodes)
+{
+	size_t inside = 0;
+
+	for (size_t i = 0; i < nodes; i++)
+		inside += f[i] < 0;
+	return (double)inside / (double)nodes;
+}
+
+mr_status
+mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out)
+{
+	double start = mr_seconds();
+	volume v;
+	mr_mark mark;
+	mr_mesh m;
+	float *f;
+
+	if (opts->grid > CELLS_MOST)
+		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
+	MR_TRY(mr_volume_samples(ctx, point, n, useful_share(point, n, opts), opts->project, &v.s));
+	mr_stat_set(ctx, "seconds_planes", mr_seconds() - start);
+	MR_TRY(begin(ctx, opts, n, &v));
+	if (opts->found)
+		*opts->found = (mr_volume_found){ v.s.noise, cells_along(v.s.box, v.grid[0].step) };
+	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
+	if (!f)
+		return MR_EMEM;
+	mark = mr_mark_take(ctx);
+	MR_TRY(fill_field(ctx, &v, f));
+	mr_mark_release(ctx, mark);
+	start = mr_seconds();
+	MR_TRY(mr_isosurface(ctx, &v.grid[0], f, &m));
+	if (m.nf == 0)
+		return mr_fail(ctx, MR_EMESH, "%zu points enclose nothing at a grid of %zu x %zu x %zu nodes",
+		    v.s.n, v.grid[0].n[0], v.grid[0].n[1], v.grid[0].n[2]);
+	m.name = "volume";
+	*out = m;
+	mr_stat_set(ctx, "seconds_isosurface", mr_seconds() - start);
+	mr_stat_set(ctx, "samples", (double)v.s.n);
+	mr_stat_set(ctx, "spacing", v.s.spacing);
+	mr_stat_set(ctx, "cell", v.grid[0].step);
+	mr_stat_set(ctx, "nodes", (double)mr_grid_nodes(&v.grid[0]));
+	mr_stat_set(ctx, "inside", inside_share(f, mr_grid_nodes(&v.grid[0])));
+	return MR_OK;
+}

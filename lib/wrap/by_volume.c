@@ -1,0 +1,106 @@
+/* The wrap by the volume; where that is poor, by another volume of the same points. */
+#include "volume/volume.h"
+#include "wrap/parts.h"
+
+/* What a volume is made of. */
+typedef struct making {
+	const char *name, *figure;
+	bool projected; /* of noisy points on their planes */
+	size_t grid;
+} making;
+
+static mr_status
+wrap_volume_of(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const making *by,
+    mr_volume_found *found, mr_wrap *c)
+{
+	mr_volume_opts volume = MR_VOLUME_DEFAULTS;
+	double start = mr_seconds(), middle;
+	mr_mesh m;
+
+	c->method = MR_WRAP_VOLUME;
+	volume.grid = by->grid;
+	volume.spacing = cloud->spacing;
+	volume.project = by->projected;
+	volume.found = found;
+	MR_TRY(mr_volume_wrap(ctx, cloud->p, cloud->n, &volume, &m));
+	middle = mr_seconds();
+	mr_stat_set(ctx, "seconds_volume", middle - start);
+	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
+	mr_stat_set(ctx, "seconds_remesh", mr_seconds() - middle);
+	return mr_wrap_finish(ctx, cloud, o, by->name, c);
+}
+
+/*
+ * Where noise hides the surface the volume spans places without points, by so many sampling distances; that
+ * of projected points may not, and is taken where it spans so much less, and not too much.
+ */
+static const double SPANS = 2, CLEARLY = 0.75;
+
+static bool
+spans_less(const mr_wrap *c, const mr_wrap *other, double unit)
+{
+	return c->cover.wrap_high < CLEARLY * other->cover.wrap_high &&
+	       c->cover.wrap_high <= MR_WRAP_ENOUGH.wrap_high * unit;
+}
+
+/* Where a tenth of the points are off the wrap, they are further apart one way than another, as the rows of a
+ * sonar, and a grid as fine as the shorter way holds them asunder. */
+static bool
+misses(const mr_wrap *c, double unit)
+{
+	return c->cover.points_most > MR_WRAP_ENOUGH.points_high * unit;
+}
+
+static bool
+reaches_more(const mr_wrap *c, const mr_wrap *other, double unit)
+{
+	(void)unit;
+	return c->cover.points_high < other->cover.points_high / 2;
+}
+
+/* Takes another volume in place of c where it is better.  The figures are those of the wrap that is taken. */
+static mr_status
+try_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const making *by,
+    bool (*better)(const mr_wrap *, const mr_wrap *, double), mr_wrap *c)
+{
+	mr_stat figures[MR_STATS_MAX];
+	size_t count = ctx->stat_count;
+	double start = mr_seconds();
+	mr_mark mark = mr_mark_take(ctx);
+	mr_wrap other;
+	mr_status status;
+	bool taken;
+
+	memcpy(figures, ctx->stats, sizeof figures);
+	status = wrap_volume_of(ctx, cloud, o, by, NULL, &other);
+	if (status != MR_OK && status != MR_EMESH)
+		return status;
+	taken = status == MR_OK && better(&other, c, cloud->spacing);
+	if (taken) {
+		*c = other;
+	} else {
+		mr_mark_release(ctx, mark);
+		memcpy(ctx->stats, figures, sizeof figures);
+		ctx->stat_count = count;
+	}
+	mr_stat_set(ctx, by->figure, taken);
+	mr_stat_set(ctx, "seconds_tried", mr_seconds() - start);
+	return MR_OK;
+}
+
+mr_status
+mr_wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
+{
+	making first = { "volume", NULL, false, o->grid };
+	making projected = { "volume of projected points", "projected", true, o->grid };
+	mr_volume_found found;
+
+	MR_TRY(wrap_volume_of(ctx, cloud, o, &first, &found, c));
+	if (found.noise > 1 && c->cover.wrap_high > SPANS * cloud->spacing)
+		MR_TRY(try_volume(ctx, cloud, o, &projected, spans_less, c));
+	if (!o->grid && misses(c, cloud->spacing)) {
+		making coarser = { "volume of a coarser grid", "coarser", false, found.grid / 2 };
+		MR_TRY(try_volume(ctx, cloud, o, &coarser, reaches_more, c));
+	}
+	return MR_OK;
+}

@@ -1,0 +1,98 @@
+/* Coverage both ways: points that the wrap misses, and parts of it where there are no points. */
+#include "wrap/parts.h"
+#include "base/parallel.h"
+#include "base/sort.h"
+#include "space/self_intersect.h"
+#include "mesh/zorder.h"
+
+enum { GRAIN = 1024 };
+
+static const double HIGH = 0.99, MOST = 0.9;
+
+typedef struct job {
+	const mr_v3 *q;
+	const mr_bvh *bvh;
+	double *distance;
+} job;
+
+static void
+distances_body(void *arg, size_t begin, size_t end)
+{
+	job *j = arg;
+
+	for (size_t i = begin; i < end; i++)
+		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->q[i]).dist2);
+}
+
+static int
+ascending(const void *a, const void *b)
+{
+	double x = *(const double *)a, y = *(const double *)b;
+
+	return (x > y) - (x < y);
+}
+
+static mr_status
+measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t n, mr_wrap_cover *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *p = MR_NEW(ctx, n, mr_v3), *q = MR_NEW(ctx, n, mr_v3);
+	job j = { q, NULL, MR_NEW(ctx, n, double) };
+	mr_bvh *bvh;
+
+	if (!p || !q || !j.distance)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		p[i] = cloud->p[i * cloud->n / n];
+	MR_TRY(mr_zorder_points(ctx, p, n, q)); /* what close ones look up is in the cache */
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	j.bvh = bvh;
+	mr_parallel(ctx, n, GRAIN, distances_body, &j);
+	c->points_max = mr_kth(j.distance, n, n - 1);
+	c->points_high = mr_kth(j.distance, n, (size_t)(HIGH * (double)(n - 1)));
+	c->points_most = mr_kth(j.distance, n, (size_t)(MOST * (double)(n - 1)));
+	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+typedef struct middle {
+	double distance, area;
+} middle;
+
+static mr_status
+measure_wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t n, mr_wrap_cover *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
+	uint32_t *nearest = MR_NEW(ctx, n, uint32_t);
+	middle *x = MR_NEW(ctx, n, middle);
+	double *dist2 = MR_NEW(ctx, n, double), area = 0, sum = 0;
+
+	if (!q || !nearest || !dist2 || !x)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		const uint32_t *v = m->t[i * m->nf / n].v;
+		q[i] = mr_mul(1.0 / 3, mr_add(m->p[v[0]], mr_add(m->p[v[1]], m->p[v[2]])));
+		x[i].area = mr_norm(mr_face_cross(m, i * m->nf / n));
+		area += x[i].area;
+	}
+	MR_TRY(mr_near_query(ctx, cloud->near, q, n, 1, nearest, dist2));
+	for (size_t i = 0; i < n; i++)
+		x[i].distance = sqrt(dist2[i]);
+	qsort(x, n, sizeof *x, ascending);
+	for (size_t i = 0; i < n && sum <= HIGH * area; i++) {
+		sum += x[i].area;
+		c->wrap_high = x[i].distance;
+	}
+	c->wrap_max = x[n - 1].distance;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c)
+{
+	MR_TRY(measure_points(ctx, cloud, m, cloud->n < samples ? cloud->n : samples, c));
+	return measure_wrap(ctx, cloud, m, m->nf < samples ? m->nf : samples, c);
+}

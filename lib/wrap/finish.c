@@ -1,0 +1,56 @@
+/* The last steps of a wrap that is near the points: onto them, without folds, and not through itself. */
+#include "remesh/unfold.h"
+#include "wrap/parts.h"
+
+enum { ITERATIONS = 4 /* by default */ };
+
+const mr_wrap_cover MR_WRAP_ENOUGH = { .points_max = 10, .points_high = 4, .wrap_max = 6, .wrap_high = 2.5 };
+
+mr_status
+mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, mr_wrap *w)
+{
+	mr_mesh m = mr_dyn_view(&w->d, "control");
+	double start = mr_seconds(), s = cloud->spacing;
+	mr_wrap_cover *cover = &w->cover;
+
+	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, cover));
+	mr_stat_set(ctx, "seconds_measure", mr_seconds() - start);
+	mr_note(ctx,
+	    "%s, %zu faces: points are within %.3g sampling distances of it, 99 %% within %.3g, "
+	    "it is within %.3g of points, 99 %% within %.3g",
+	    what, w->d.nf, cover->points_max / s, cover->points_high / s, cover->wrap_max / s,
+	    cover->wrap_high / s);
+	return MR_OK;
+}
+
+/* Onto the points. */
+static mr_status
+settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
+{
+	size_t iterations = o->iterations ? o->iterations : ITERATIONS;
+	double start = mr_seconds();
+
+	MR_TRY(mr_wrap_settle(ctx, cloud, o, iterations, d));
+	mr_stat_set(ctx, "iterations", (double)iterations);
+	mr_stat_set(ctx, "seconds_settle", mr_seconds() - start);
+	return MR_OK;
+}
+
+mr_status
+mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w)
+{
+	enum { MOST = 3 };
+	mr_v3 *home = MR_NEW(ctx, w->d.nv, mr_v3);
+
+	if (!home)
+		return MR_EMEM;
+	memcpy(home, w->d.p, w->d.nv * sizeof *home);
+	MR_TRY(settle(ctx, cloud, o, &w->d));
+	for (int round = 0;; round++) {
+		w->folds = mr_iron(&w->d, true);
+		MR_TRY(mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, what, w));
+		if (w->cover.crossings == 0 || round == MOST)
+			return MR_OK;
+		MR_TRY(mr_wrap_part(ctx, home, &w->d));
+	}
+}

@@ -1,0 +1,120 @@
+/*
+ * wrap_parts.h -- what the files of the shrink-wrapping share.
+ *
+ * Layer rule: alg, private to shrinkwrap.c and wrap_*.c.
+ */
+#ifndef MR_WRAP_PARTS_H
+#define MR_WRAP_PARTS_H
+
+#include "mesh/dynmesh.h"
+#include "wrap/shrinkwrap.h"
+#include "space/near.h"
+
+/* The points to wrap. */
+typedef struct mr_wrap_cloud {
+	const mr_v3 *p;
+	size_t n, places; /* places: points at one position count once */
+	mr_near *near;
+	mr_box box;
+	double diagonal;
+	double spacing; /* sampling distance: the median side of the square that a point has to itself */
+	double area;    /* of the surface, as the sum of these squares */
+} mr_wrap_cloud;
+
+/* Indexes the points and looks at their sampling; MR_EMESH where they have no volume.  Close with
+ * mr_near_free(cloud->near), on failure too. */
+mr_status mr_wrap_cloud_open(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *cloud);
+
+/* About `count` of the points, at equal strides, and their index: enough for long edges.  Close likewise. */
+mr_status mr_wrap_cloud_thin(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t count, mr_wrap_cloud *thin);
+
+/* The surface of a box of edges[0] x edges[1] x edges[2] edges, each at least 1, oriented outward; in the
+ * arena. */
+mr_status mr_wrap_box(mr_ctx *ctx, mr_box box, const size_t edges[3], mr_mesh *out);
+
+/* The same as a mr_dyn without curves. */
+mr_status mr_wrap_dyn(mr_ctx *ctx, const mr_mesh *m, mr_dyn *d);
+
+/* v <- v + alpha (q - v), q the point nearest to v. */
+mr_status mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, mr_dyn *d);
+
+/* v <- v + lambda Lt, Lt the tangential part of the umbrella vector; `guarded`: by mr_wrap_move.  Boundary
+ * vertices stay. */
+mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
+
+/* Moves the vertices to `to`, d->nv, but those that would turn a face by more than 60 degrees or fold it;
+ * `to` becomes where they are. */
+mr_status mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d);
+
+/*
+ * Draws d closer, of edges of about `length`, by so much at most: vertices go to the point nearest to them,
+ * but where there is none within `far` to what lies along their normal, as a film of soap.
+ */
+mr_status
+mr_wrap_draw(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, double length, double far, mr_dyn *d);
+
+/* Remeshes m to edges of about `length`, in one round. */
+mr_status mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d);
+
+/*
+ * Draws d, already near, onto the points: vertices move along their normals to the level of the nearest
+ * points, and are smoothed tangentially; none that would turn a face.
+ */
+mr_status
+mr_wrap_settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, size_t iterations, mr_dyn *d);
+
+/*
+ * Takes the vertices of faces that intersect, and those around them, back towards where they were, home,
+ * d->nv, until no faces do, if none did there.
+ */
+mr_status mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d);
+
+/* Edges at which a wrap has about half as many faces as there are points (or some hundreds where these are
+ * few), or as long as asked for. */
+double mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o);
+
+/* A box around the points with long edges, drawn onto them; *length: of its edges. */
+mr_status
+mr_wrap_begin(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double *length, mr_dyn *d);
+
+/* From edges of such a length to the last, halving them. */
+mr_status
+mr_wrap_refine(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_dyn *d);
+
+/* How well a wrap covers the points, in units of the model. */
+typedef struct mr_wrap_cover {
+	double points_max, points_high,
+	    points_most;            /* of points to the wrap: all, 99 % and 90 % are within */
+	double wrap_max, wrap_high; /* of middles of faces to the points: all, and 99 % of the area */
+	size_t crossings;           /* pairs of its faces that intersect */
+} mr_wrap_cover;
+
+mr_status
+mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c);
+
+/* What a good wrap may leave out and have too much, in sampling distances, of which noise takes some. */
+extern const mr_wrap_cover MR_WRAP_ENOUGH;
+
+/* Points and faces at most that coverage is measured by at the end. */
+enum { MR_WRAP_SAMPLES = 1 << 14 };
+
+/* A wrap, and how well it covers the points. */
+typedef struct mr_wrap {
+	mr_dyn d;
+	mr_wrap_cover cover;
+	size_t folds;
+	int method; /* mr_wrap_method, of which AUTO is the box */
+} mr_wrap;
+
+/* Measures w->cover, and says it as that of `what`. */
+mr_status
+mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, mr_wrap *w);
+
+/* Settles w->d, near the points, on them, irons it, parts what passes through itself; assesses it. */
+mr_status
+mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w);
+
+/* The wrap by alg/volume.h, with its grid and points as they are, or where it is poor, otherwise. */
+mr_status mr_wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
+
+#endif
