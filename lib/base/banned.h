@@ -1,10 +1,10 @@
 /*
  * banned.h -- calls that lose an error or a bound.
  *
- * Layer rule: base; every header of the library includes it through ctx.h.
+ * Every header of the library includes it through ctx.h.
  */
-#ifndef MR_BANNED_H
-#define MR_BANNED_H
+#ifndef MR_BASE_BANNED_H
+#define MR_BASE_BANNED_H
 
 #include <stdio.h>
 #include <stdlib.h>

@@ -9,10 +9,10 @@
  * arena is released below it: callers free nothing.  A function that needs
  * workspace allocates its outputs first, takes a mark, and releases to it.
  *
- * Layer rule: base includes nothing but the C library and POSIX.
+ * The rooms of lib/, and which may include which, stand in lib/README.md; base includes nothing but the C library and POSIX.
  */
-#ifndef MR_CTX_H
-#define MR_CTX_H
+#ifndef MR_BASE_CTX_H
+#define MR_BASE_CTX_H
 
 #include "base/banned.h"
 

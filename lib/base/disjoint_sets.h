@@ -1,11 +1,10 @@
 /*
- * sets.h -- disjoint sets of 0 .. n - 1, joined pairwise (Tarjan 1975, paths halved).
+ * disjoint_sets.h -- disjoint sets of 0 .. n - 1, joined pairwise (Tarjan 1975, paths halved).
  *
  * Contract: the root of a set is its least element, so the forest does not depend on the order of joins.
- * Layer rule: base.
  */
-#ifndef MR_SETS_H
-#define MR_SETS_H
+#ifndef MR_BASE_DISJOINT_SETS_H
+#define MR_BASE_DISJOINT_SETS_H
 
 #include "base/ctx.h"
 

@@ -1,6 +1,6 @@
-/* memory.h -- how much memory this process may still take.  Layer rule: base. */
-#ifndef MR_MEMORY_H
-#define MR_MEMORY_H
+/* memory.h -- how much memory this process may still take. */
+#ifndef MR_BASE_MEMORY_H
+#define MR_BASE_MEMORY_H
 
 #include "base/ctx.h"
 

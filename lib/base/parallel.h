@@ -3,10 +3,9 @@
  *
  * Contract: a body writes only what belongs to its own indices, or to its own
  * block in mr_parallel_blocks; sums are taken per block and added in order.
- * Layer rule: base.
  */
-#ifndef MR_PARALLEL_H
-#define MR_PARALLEL_H
+#ifndef MR_BASE_PARALLEL_H
+#define MR_BASE_PARALLEL_H
 
 #include "base/ctx.h"
 

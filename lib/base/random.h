@@ -1,6 +1,6 @@
-/* random.h -- a small seeded generator (Steele, Lea, Flood 2014: SplitMix64).  Layer rule: base. */
-#ifndef MR_RANDOM_H
-#define MR_RANDOM_H
+/* random.h -- a small seeded generator (Steele, Lea, Flood 2014: SplitMix64). */
+#ifndef MR_BASE_RANDOM_H
+#define MR_BASE_RANDOM_H
 
 #include "base/ctx.h"
 

@@ -1,10 +1,8 @@
 /*
  * sort.h -- short lists of numbers in ascending order: by insertion where they are short, as they mostly are.
- *
- * Layer rule: base.
  */
-#ifndef MR_SORT_H
-#define MR_SORT_H
+#ifndef MR_BASE_SORT_H
+#define MR_BASE_SORT_H
 
 #include "base/ctx.h"
 

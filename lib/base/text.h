@@ -3,10 +3,9 @@
  *
  * Contract: a failed allocation is remembered and told by mr_text_done, so a
  * report is written without a check on every line.
- * Layer rule: base.
  */
-#ifndef MR_TEXT_H
-#define MR_TEXT_H
+#ifndef MR_BASE_TEXT_H
+#define MR_BASE_TEXT_H
 
 #include "base/ctx.h"
 

@@ -1,6 +1,6 @@
-/* lines.h -- small text files that options name: lists of vertices, scripts of poses.  Layer rule: alg. */
-#ifndef MR_LINES_H
-#define MR_LINES_H
+/* text_file.h -- small text files that options name: lists of vertices, scripts of poses. */
+#ifndef MR_BASE_TEXT_FILE_H
+#define MR_BASE_TEXT_FILE_H
 
 #include "base/ctx.h"
 

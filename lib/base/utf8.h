@@ -1,6 +1,6 @@
-/* utf8.h -- the characters of a text.  Layer rule: base. */
-#ifndef MR_UTF8_H
-#define MR_UTF8_H
+/* utf8.h -- the characters of a text. */
+#ifndef MR_BASE_UTF8_H
+#define MR_BASE_UTF8_H
 
 #include "base/ctx.h"
 

@@ -1,6 +1,6 @@
-/* vec.h -- vectors of three doubles, boxes, and affine maps.  Layer rule: base. */
-#ifndef MR_VEC_H
-#define MR_VEC_H
+/* vec.h -- vectors of three doubles, boxes, and affine maps. */
+#ifndef MR_BASE_VEC_H
+#define MR_BASE_VEC_H
 
 #include "base/ctx.h"
 

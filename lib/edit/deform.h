@@ -4,10 +4,9 @@
  * Contract: the system is assembled and factored once, on the rest positions; every
  * solve after that changes right-hand sides only.  Regions are those of
  * mesh/layers.h.  A free component without a constrained vertex is left as it is.
- * Layer rule: alg includes base, mesh, op, solve.
  */
-#ifndef MR_DEFORM_H
-#define MR_DEFORM_H
+#ifndef MR_EDIT_DEFORM_H
+#define MR_EDIT_DEFORM_H
 
 #include "mesh/mesh.h"
 #include "solve/solver.h"

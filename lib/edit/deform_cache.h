@@ -3,10 +3,9 @@
  *
  * Contract: a system is used again where a delta frame has left all that it depends on as it was, so it never
  * changes a byte of a result.  Zeroed, the cache is empty.
- * Layer rule: alg.
  */
-#ifndef MR_DEFORM_CACHE_H
-#define MR_DEFORM_CACHE_H
+#ifndef MR_EDIT_DEFORM_CACHE_H
+#define MR_EDIT_DEFORM_CACHE_H
 
 #include "edit/deform.h"
 #include "mesh/layers.h"

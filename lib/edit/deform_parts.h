@@ -4,10 +4,10 @@
  * With L the cotangent Laplacian and M the areas, D = -M^-1 L and, for free rows f, (D^k)_ff =
  * (-1)^k M_f^-1 [L (M^-1 L)^(k-1)]_ff: a row scaling of a symmetric matrix, called K.  Multiplying
  * comes before restricting, so K reaches k rings into the constraints.
- * Layer rule: alg; only the files deform*.c include it.
+ * Private to this room.
  */
-#ifndef MR_DEFORM_PARTS_H
-#define MR_DEFORM_PARTS_H
+#ifndef MR_EDIT_DEFORM_PARTS_H
+#define MR_EDIT_DEFORM_PARTS_H
 
 #include "edit/deform.h"
 #include "edit/k_ring.h"

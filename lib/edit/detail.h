@@ -3,10 +3,9 @@
  *
  * Contract: decoding what was encoded, on the same base, returns every vertex to
  * within rounding; decoding it on a deformed base carries the detail along.
- * Layer rule: alg.
  */
-#ifndef MR_DETAIL_H
-#define MR_DETAIL_H
+#ifndef MR_EDIT_DETAIL_H
+#define MR_EDIT_DETAIL_H
 
 #include "edit/phong.h"
 #include "space/source_map.h"

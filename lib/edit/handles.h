@@ -1,10 +1,8 @@
 /*
  * handles.h -- where handles go: affine maps, their sequences, and scripts of them.
- *
- * Layer rule: alg.
  */
-#ifndef MR_HANDLES_H
-#define MR_HANDLES_H
+#ifndef MR_EDIT_HANDLES_H
+#define MR_EDIT_HANDLES_H
 
 #include "mesh/layers.h"
 

@@ -1,12 +1,11 @@
 /*
- * patch.h -- the part of a mesh that a local problem sees: chosen vertices and k rings around them.
+ * k_ring.h -- the part of a mesh that a local problem sees: chosen vertices and k rings around them.
  *
  * Contract: a patch is a mesh of its own, numbered ring by ring, so what an operator
  * that reaches r rings needs is always a prefix.  Everything is in the arena.
- * Layer rule: alg.
  */
-#ifndef MR_PATCH_H
-#define MR_PATCH_H
+#ifndef MR_EDIT_K_RING_H
+#define MR_EDIT_K_RING_H
 
 #include "mesh/mesh.h"
 

@@ -1,12 +1,12 @@
 /*
- * hierarchy.h -- coarser and coarser remeshings of a surface as the levels of a multigrid solver (Botsch,
+ * multigrid_levels.h -- coarser and coarser remeshings of a surface as the levels of a multigrid solver (Botsch,
  * Kobbelt 2004, section 4.4).
  *
  * The levels are not nested: an unknown has the value that barycentric interpolation gives at its place on
- * the next coarser mesh. Layer rule: alg.
+ * the next coarser mesh.
  */
-#ifndef MR_HIERARCHY_H
-#define MR_HIERARCHY_H
+#ifndef MR_EDIT_MULTIGRID_LEVELS_H
+#define MR_EDIT_MULTIGRID_LEVELS_H
 
 #include "mesh/mesh.h"
 #include "solve/solver.h"

@@ -5,10 +5,9 @@
  * same combination of the vertex normals, n = N / |N|.  n is continuous over
  * edges and turns with the mesh, so p = b + h n(b) is a displacement that follows
  * whatever the mesh is deformed into (Kobbelt, Vorsatz, Seidel 1999).
- * Layer rule: alg.
  */
-#ifndef MR_PHONG_H
-#define MR_PHONG_H
+#ifndef MR_EDIT_PHONG_H
+#define MR_EDIT_PHONG_H
 
 #include "mesh/mesh.h"
 

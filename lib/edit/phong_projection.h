@@ -1,11 +1,10 @@
 /*
- * foot.h -- the foot of a point on a Phong surface: the place w with p = b(w) + h n(w).
+ * phong_projection.h -- the foot of a point on a Phong surface: the place w with p = b(w) + h n(w).
  *
  * Contract: both functions only read and may be called by several threads at once.
- * Layer rule: alg.
  */
-#ifndef MR_FOOT_H
-#define MR_FOOT_H
+#ifndef MR_EDIT_PHONG_PROJECTION_H
+#define MR_EDIT_PHONG_PROJECTION_H
 
 #include "edit/phong.h"
 

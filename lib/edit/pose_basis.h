@@ -1,10 +1,8 @@
 /*
- * response.h -- a layer posed by its stored response to handles.
- *
- * Layer rule: alg.
+ * pose_basis.h -- a layer posed by its stored response to handles.
  */
-#ifndef MR_RESPONSE_H
-#define MR_RESPONSE_H
+#ifndef MR_EDIT_POSE_BASIS_H
+#define MR_EDIT_POSE_BASIS_H
 
 #include "mesh/layers.h"
 

@@ -1,10 +1,8 @@
 /*
- * transfer.h -- regions chosen on the mesh, as its base has them.
- *
- * Layer rule: alg.
+ * region_transfer.h -- regions chosen on the mesh, as its base has them.
  */
-#ifndef MR_TRANSFER_H
-#define MR_TRANSFER_H
+#ifndef MR_EDIT_REGION_TRANSFER_H
+#define MR_EDIT_REGION_TRANSFER_H
 
 #include "space/source_map.h"
 

@@ -16,11 +16,9 @@
  *	boundary                at an edge of one face
  *	grow:K                  the region that the rule gives, and the fixed vertices up to K edges from it
  *	vertices:FILE           the indices in the file, one a line
- *
- * Layer rule: alg.
  */
-#ifndef MR_SELECT_H
-#define MR_SELECT_H
+#ifndef MR_EDIT_SELECT_H
+#define MR_EDIT_SELECT_H
 
 #include "mesh/mesh.h"
 

@@ -1,10 +1,10 @@
 /*
  * select_parts.h -- the predicates of a selection.
  *
- * Layer rule: alg, private to select*.c.
+ * Private to this room.
  */
-#ifndef MR_SELECT_PARTS_H
-#define MR_SELECT_PARTS_H
+#ifndef MR_EDIT_SELECT_PARTS_H
+#define MR_EDIT_SELECT_PARTS_H
 
 #include "edit/select.h"
 

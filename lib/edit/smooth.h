@@ -4,10 +4,9 @@
  * Contract: any mesh with valid indices and finite positions, non-manifold too: cotangent weights need
  * no more than triangles, and the boundary is where an edge has one face.  Boundary vertices and
  * isolated ones stay.
- * Layer rule: alg.
  */
-#ifndef MR_SMOOTH_H
-#define MR_SMOOTH_H
+#ifndef MR_EDIT_SMOOTH_H
+#define MR_EDIT_SMOOTH_H
 
 #include "mesh/mesh.h"
 

@@ -1,7 +1,5 @@
 /*
  * fit.h -- control meshes whose Loop limit surface comes close to points (Jeong, Kim 2001, section 4).
- *
- * Layer rule: alg.
  */
 #ifndef MR_FIT_H
 #define MR_FIT_H

@@ -1,11 +1,9 @@
 /*
- * fit_control.h -- steps of a fit that leave the control mesh fit to be edited: without folds and without
+ * guard_control.h -- steps of a fit that leave the control mesh fit to be edited: without folds and without
  * faces that pass through others, but for those it had.
- *
- * Layer rule: alg.
  */
-#ifndef MR_FIT_CONTROL_H
-#define MR_FIT_CONTROL_H
+#ifndef MR_FIT_GUARD_CONTROL_H
+#define MR_FIT_GUARD_CONTROL_H
 
 #include "subdivide/loop.h"
 

@@ -1,10 +1,8 @@
 /*
- * fit_guard.h -- steps of a fit that fold nothing.
- *
- * Layer rule: alg.
+ * guard_limit.h -- steps of a fit that fold nothing.
  */
-#ifndef MR_FIT_GUARD_H
-#define MR_FIT_GUARD_H
+#ifndef MR_FIT_GUARD_LIMIT_H
+#define MR_FIT_GUARD_LIMIT_H
 
 #include "fit/normal_equations.h"
 

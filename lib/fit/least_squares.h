@@ -1,11 +1,9 @@
 /*
- * fit_least.h -- least-squares fitting of a limit surface to points: passes of feet, weights, equations,
+ * least_squares.h -- least-squares fitting of a limit surface to points: passes of feet, weights, equations,
  * guarded steps.
- *
- * Layer rule: alg.
  */
-#ifndef MR_FIT_LEAST_H
-#define MR_FIT_LEAST_H
+#ifndef MR_FIT_LEAST_SQUARES_H
+#define MR_FIT_LEAST_SQUARES_H
 
 #include "fit/fit.h"
 #include "fit/limit_surface.h"

@@ -1,14 +1,13 @@
 /*
- * fit_surface.h -- the limit surface of a control mesh as a linear function of its vertices, and the feet of
+ * limit_surface.h -- the limit surface of a control mesh as a linear function of its vertices, and the feet of
  * points on it.
  *
  * Contract: the surface is known at its nodes, the limit points of level 2; between the six nodes of a
  * triangle of level 1 it is a quadratic polynomial, which differs from the limit surface by the third order
  * of the triangle's size.
- * Layer rule: alg.
  */
-#ifndef MR_FIT_SURFACE_H
-#define MR_FIT_SURFACE_H
+#ifndef MR_FIT_LIMIT_SURFACE_H
+#define MR_FIT_LIMIT_SURFACE_H
 
 #include "space/bvh.h"
 #include "subdivide/loop.h"

@@ -1,5 +1,5 @@
 /*
- * fit_system.h -- the normal equations of points on a limit surface, with a smoothness term.
+ * normal_equations.h -- the normal equations of points on a limit surface, with a smoothness term.
  *
  * Contract: the unknown is a motion z of the control vertices.  It minimises
  *
@@ -10,10 +10,9 @@
  * neighbours, along the boundary of the two there; t is the part of L x along the surface.  So vertices
  * spread evenly, and a motion is smooth, but curvature costs nothing.  Dividing by n and multiplying by nv
  * makes `fairness` a share that neither units nor sampling change.
- * Layer rule: alg.
  */
-#ifndef MR_FIT_SYSTEM_H
-#define MR_FIT_SYSTEM_H
+#ifndef MR_FIT_NORMAL_EQUATIONS_H
+#define MR_FIT_NORMAL_EQUATIONS_H
 
 #include "fit/sparsity.h"
 

@@ -1,10 +1,8 @@
 /*
- * fit_solve.h -- the motion that solves the equations of a fit.
- *
- * Layer rule: alg.
+ * solve_step.h -- the motion that solves the equations of a fit.
  */
-#ifndef MR_FIT_SOLVE_H
-#define MR_FIT_SOLVE_H
+#ifndef MR_FIT_SOLVE_STEP_H
+#define MR_FIT_SOLVE_STEP_H
 
 #include "fit/normal_equations.h"
 

@@ -1,11 +1,9 @@
 /*
- * fit_lists.h -- which control vertices a fit couples: those of each control face's surface, and each
+ * sparsity.h -- which control vertices a fit couples: those of each control face's surface, and each
  * vertex's neighbours.
- *
- * Layer rule: alg.
  */
-#ifndef MR_FIT_LISTS_H
-#define MR_FIT_LISTS_H
+#ifndef MR_FIT_SPARSITY_H
+#define MR_FIT_SPARSITY_H
 
 #include "fit/limit_surface.h"
 

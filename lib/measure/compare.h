@@ -6,10 +6,9 @@
  * surface by the midpoint rule on a subdivision of its faces; the greatest
  * distance lies between max, which is attained, and max_bound.
  * A mesh without faces is a cloud: its points weigh one each.
- * Layer rule: mesh.
  */
-#ifndef MR_COMPARE_H
-#define MR_COMPARE_H
+#ifndef MR_MEASURE_COMPARE_H
+#define MR_MEASURE_COMPARE_H
 
 #include "mesh/mesh.h"
 

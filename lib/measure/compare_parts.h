@@ -1,10 +1,10 @@
 /*
  * compare_parts.h -- one direction of a comparison.
  *
- * Layer rule: mesh, private to compare*.c.
+ * Private to this room.
  */
-#ifndef MR_COMPARE_PARTS_H
-#define MR_COMPARE_PARTS_H
+#ifndef MR_MEASURE_COMPARE_PARTS_H
+#define MR_MEASURE_COMPARE_PARTS_H
 
 #include "measure/compare.h"
 

@@ -1,10 +1,8 @@
 /*
- * figures.h -- fields of a struct by name, for reports.
- *
- * Layer rule: alg.
+ * fields.h -- fields of a struct by name, for reports.
  */
-#ifndef MR_FIGURES_H
-#define MR_FIGURES_H
+#ifndef MR_MEASURE_FIELDS_H
+#define MR_MEASURE_FIELDS_H
 
 #include "base/text.h"
 

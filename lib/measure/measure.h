@@ -3,7 +3,6 @@
  *
  * Contract: any mesh with valid indices and finite positions, manifold or not.  A
  * figure that is not defined (an angle where no face has area) is NaN.
- * Layer rule: mesh.
  */
 #ifndef MR_MEASURE_H
 #define MR_MEASURE_H

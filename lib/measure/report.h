@@ -3,10 +3,9 @@
  *
  * Contract: figures that are not defined are "-" or null.  A JSON report is one
  * line.  People get six digits, JSON all seventeen.
- * Layer rule: alg.
  */
-#ifndef MR_REPORT_H
-#define MR_REPORT_H
+#ifndef MR_MEASURE_REPORT_H
+#define MR_MEASURE_REPORT_H
 
 #include "base/text.h"
 #include "measure/compare.h"
@@ -15,7 +14,7 @@
 typedef struct mr_report_opts {
 	const char *layer; /* that one alone; NULL: all */
 	bool json;
-	bool check; /* the laws of the layers (mesh/laws.h), and whether a displacement can be decoded, too */
+	bool check; /* the laws of the layers (mesh/validate.h), and whether a displacement can be decoded, too */
 	bool skip_intersections;
 } mr_report_opts;
 

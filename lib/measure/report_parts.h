@@ -1,10 +1,10 @@
 /*
  * report_parts.h -- what the report of a frame says of a surface and a cloud, below their columns.
  *
- * Layer rule: alg, private to report*.c.
+ * Private to this room.
  */
-#ifndef MR_REPORT_PARTS_H
-#define MR_REPORT_PARTS_H
+#ifndef MR_MEASURE_REPORT_PARTS_H
+#define MR_MEASURE_REPORT_PARTS_H
 
 #include "measure/surface_summary.h"
 #include "measure/report.h"

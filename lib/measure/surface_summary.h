@@ -1,10 +1,8 @@
 /*
- * measure.h -- every figure of a surface that mr-info reports: counts, sizes, intersections, vertex areas.
- *
- * Layer rule: alg includes base, stream, mesh, op, solve and itself.
+ * surface_summary.h -- every figure of a surface that mr-info reports: counts, sizes, intersections, vertex areas.
  */
-#ifndef MR_ALG_MEASURE_H
-#define MR_ALG_MEASURE_H
+#ifndef MR_MEASURE_SURFACE_SUMMARY_H
+#define MR_MEASURE_SURFACE_SUMMARY_H
 
 #include "measure/measure.h"
 
@@ -21,7 +19,7 @@ typedef struct mr_surface {
 	mr_census census;
 	mr_geometry geometry;
 	mr_evenness evenness;
-	size_t intersections; /* pairs of faces (mesh/intersect.h) */
+	size_t intersections; /* pairs of faces (space/self_intersect.h) */
 } mr_surface;
 
 /* All of them; intersections is 0 where they are not asked for. */

@@ -5,10 +5,9 @@
  * that a collapse removes leave holes in the numbering, which splits fill again;
  * mr_dyn_compact closes them.  Curves (boundary and feature edges) are marked on
  * their half-edges and survive every change.
- * Layer rule: alg.
  */
-#ifndef MR_DYNMESH_H
-#define MR_DYNMESH_H
+#ifndef MR_MESH_DYNMESH_H
+#define MR_MESH_DYNMESH_H
 
 #include "mesh/feature_curves.h"
 
@@ -22,7 +21,7 @@ typedef enum mr_kind {
 typedef struct mr_dyn {
 	mr_v3 *p;
 	uint32_t *out; /* as in mr_topology */
-	uint32_t *at;  /* place on the source surface: a face, or on a curve a half-edge (alg/project.h) */
+	uint32_t *at;  /* place on the source surface: a face, or on a curve a half-edge (space/surface_walk.h) */
 	uint8_t *kind; /* mr_kind */
 	float *scale;  /* of the target length, at most 1: less where it is refined; NULL: nowhere */
 	size_t nv, room_v;

@@ -2,10 +2,9 @@
  * edges.h -- the edges of any mesh, manifold or not, each with all its half-edges.
  *
  * Contract: faces that have a vertex twice are left out.
- * Layer rule: mesh.
  */
-#ifndef MR_EDGES_H
-#define MR_EDGES_H
+#ifndef MR_MESH_EDGES_H
+#define MR_MESH_EDGES_H
 
 #include "mesh/mesh.h"
 

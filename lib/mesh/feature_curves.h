@@ -1,12 +1,11 @@
 /*
- * curves.h -- which half-edges lie on curves, and on what half-edges of a source these do: a hash table,
+ * feature_curves.h -- which half-edges lie on curves, and on what half-edges of a source these do: a hash table,
  * since few half-edges do.
  *
  * Contract: all zero is an empty table.
- * Layer rule: alg.
  */
-#ifndef MR_CURVES_H
-#define MR_CURVES_H
+#ifndef MR_MESH_FEATURE_CURVES_H
+#define MR_MESH_FEATURE_CURVES_H
 
 #include "mesh/mesh.h"
 

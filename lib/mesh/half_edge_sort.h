@@ -1,10 +1,10 @@
 /*
- * spoke.h -- half-edges as seen from one of their vertices, which keeps them sorted by the other.
+ * half_edge_sort.h -- half-edges as seen from one of their vertices, which keeps them sorted by the other.
  *
- * Layer rule: mesh, private to it.
+ * Private to this room.
  */
-#ifndef MR_SPOKE_H
-#define MR_SPOKE_H
+#ifndef MR_MESH_HALF_EDGE_SORT_H
+#define MR_MESH_HALF_EDGE_SORT_H
 
 #include "mesh/mesh.h"
 

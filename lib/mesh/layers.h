@@ -4,10 +4,9 @@
  * Contract: getters check shape, indices, regions and finite coordinates, and
  * fail with a sentence that names layer and column; putters drop what the
  * change makes stale (the table in layers.c).
- * Layer rule: mesh.
  */
-#ifndef MR_LAYERS_H
-#define MR_LAYERS_H
+#ifndef MR_MESH_LAYERS_H
+#define MR_MESH_LAYERS_H
 
 #include "mesh/mesh.h"
 #include "stream/frame.h"

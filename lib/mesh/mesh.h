@@ -5,7 +5,6 @@
  * (a frame, the arena); algorithms build new arrays.  A mesh that came through
  * mesh/layers.h has valid indices and finite positions; it may be non-manifold,
  * which the functions here report.
- * Layer rule: mesh includes base, stream and itself.
  */
 #ifndef MR_MESH_H
 #define MR_MESH_H

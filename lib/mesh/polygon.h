@@ -1,8 +1,8 @@
 /*
- * polygon.h -- polygons into triangles.  Layer rule: mesh.
+ * polygon.h -- polygons into triangles.
  */
-#ifndef MR_POLYGON_H
-#define MR_POLYGON_H
+#ifndef MR_MESH_POLYGON_H
+#define MR_MESH_POLYGON_H
 
 #include "mesh/mesh.h"
 

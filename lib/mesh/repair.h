@@ -1,8 +1,8 @@
 /*
- * repair.h -- joining equal vertices; making a manifold of any set of triangles.  Layer rule: mesh.
+ * repair.h -- joining equal vertices; making a manifold of any set of triangles.
  */
-#ifndef MR_REPAIR_H
-#define MR_REPAIR_H
+#ifndef MR_MESH_REPAIR_H
+#define MR_MESH_REPAIR_H
 
 #include "mesh/mesh.h"
 

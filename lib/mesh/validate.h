@@ -1,13 +1,12 @@
 /*
- * laws.h -- what must hold of the layers of a frame.
+ * validate.h -- what must hold of the layers of a frame.
  *
  * Contract: every column decodes, has the shape that convention gives it, as many
  * rows as its layer, and finite numbers; indices and regions are in range,
  * barycentric coordinates have the sum 1, and what refers to another layer finds it.
- * Layer rule: mesh.
  */
-#ifndef MR_LAWS_H
-#define MR_LAWS_H
+#ifndef MR_MESH_VALIDATE_H
+#define MR_MESH_VALIDATE_H
 
 #include "mesh/layers.h"
 

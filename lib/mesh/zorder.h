@@ -1,10 +1,8 @@
 /*
  * zorder.h -- points in the order of the Z curve, so that neighbours in space are neighbours in memory.
- *
- * Layer rule: mesh.
  */
-#ifndef MR_ZORDER_H
-#define MR_ZORDER_H
+#ifndef MR_MESH_ZORDER_H
+#define MR_MESH_ZORDER_H
 
 #include "base/vec.h"
 

@@ -3,10 +3,9 @@
  *
  * Contract: any mesh with valid indices and finite positions, non-manifold ones and degenerate
  * faces too: no weight is ever infinite or not a number.  Deterministic for any number of threads.
- * Layer rule: op includes base, mesh and itself.
  */
-#ifndef MR_LAPLACE_H
-#define MR_LAPLACE_H
+#ifndef MR_OP_LAPLACE_H
+#define MR_OP_LAPLACE_H
 
 #include "mesh/mesh.h"
 #include "solve/sparse.h"

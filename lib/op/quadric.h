@@ -3,10 +3,9 @@
  *
  * Contract: a quadric is a function of the offset x from an origin that its holder knows, so its numbers are
  * as small as the neighbourhood it stands for, and rounding is relative to that and not to the model.
- * Layer rule: op.
  */
-#ifndef MR_QUADRIC_H
-#define MR_QUADRIC_H
+#ifndef MR_OP_QUADRIC_H
+#define MR_OP_QUADRIC_H
 
 #include "base/vec.h"
 

@@ -1,11 +1,10 @@
 /*
- * area.h -- the area that belongs to each vertex.
+ * voronoi_area.h -- the area that belongs to each vertex.
  *
  * Contract: any mesh with valid indices; the sum is the mesh's area.
- * Layer rule: op includes base and mesh.
  */
-#ifndef MR_AREA_H
-#define MR_AREA_H
+#ifndef MR_OP_VORONOI_AREA_H
+#define MR_OP_VORONOI_AREA_H
 
 #include "mesh/mesh.h"
 

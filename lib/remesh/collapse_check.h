@@ -1,10 +1,8 @@
 /*
- * folding.h -- what merging two vertices would do to the faces around them.
- *
- * Layer rule: alg.
+ * collapse_check.h -- what merging two vertices would do to the faces around them.
  */
-#ifndef MR_FOLDING_H
-#define MR_FOLDING_H
+#ifndef MR_REMESH_COLLAPSE_CHECK_H
+#define MR_REMESH_COLLAPSE_CHECK_H
 
 #include "remesh/relax.h"
 

@@ -3,10 +3,10 @@
  * 160 degrees: where they are, and how many are around a change.
  *
  * Contract: a face that no change was told of since it was found sound is sound: what changes a place tells
- * by mr_flaws_suspect.  Layer rule: alg.
+ * by mr_flaws_suspect.
  */
-#ifndef MR_FLAWS_H
-#define MR_FLAWS_H
+#ifndef MR_REMESH_FLAWS_H
+#define MR_REMESH_FLAWS_H
 
 #include "remesh/orientation.h"
 #include "remesh/relax.h"

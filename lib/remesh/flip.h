@@ -1,11 +1,9 @@
 /*
- * valence.h -- regular connectivity by flips: step 3 of the remeshing, and beyond it the gliding of
+ * flip.h -- regular connectivity by flips: step 3 of the remeshing, and beyond it the gliding of
  * dislocations.
- *
- * Layer rule: alg.
  */
-#ifndef MR_VALENCE_H
-#define MR_VALENCE_H
+#ifndef MR_REMESH_FLIP_H
+#define MR_REMESH_FLIP_H
 
 #include "remesh/relax.h"
 

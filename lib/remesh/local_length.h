@@ -1,12 +1,11 @@
 /*
- * refine.h -- shorter edges where a surface is thinner than an edge.
+ * local_length.h -- shorter edges where a surface is thinner than an edge.
  *
  * A limb, a plate or a strip that is thinner than an edge cannot be followed by such edges without folds.  It
  * shows where edges cannot be merged since that would fold: there the target length gives way.
- * Layer rule: alg.
  */
-#ifndef MR_REFINE_H
-#define MR_REFINE_H
+#ifndef MR_REMESH_LOCAL_LENGTH_H
+#define MR_REMESH_LOCAL_LENGTH_H
 
 #include "remesh/relax.h"
 

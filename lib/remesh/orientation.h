@@ -1,13 +1,13 @@
 /*
- * facing.h -- whether a mesh faces the way of the surface that it stands for.
+ * orientation.h -- whether a mesh faces the way of the surface that it stands for.
  *
  * Contract: a triangle is flipped where its normal points against that of the source at the places of all its
  * three corners.  The source's normal is that of its triangle, on an edge the mean of two, at a vertex the
  * mean by angle (the pseudonormals of Baerentzen, Aanaes 2005).  Two triangles are folded where they meet at
- * more than 170 degrees. Layer rule: alg.
+ * more than 170 degrees.
  */
-#ifndef MR_FACING_H
-#define MR_FACING_H
+#ifndef MR_REMESH_ORIENTATION_H
+#define MR_REMESH_ORIENTATION_H
 
 #include "space/source_map.h"
 

@@ -3,10 +3,9 @@
  * passes.
  *
  * Contract: no face of positive area turns over: vertices that would turn one stay.
- * Layer rule: alg.
  */
-#ifndef MR_RELAX_H
-#define MR_RELAX_H
+#ifndef MR_REMESH_RELAX_H
+#define MR_REMESH_RELAX_H
 
 #include "mesh/dynmesh.h"
 #include "space/bvh.h"

@@ -1,7 +1,5 @@
 /*
  * remesh.h -- area-equalizing isotropic remeshing (Botsch, Kobbelt 2004, section 4).
- *
- * Layer rule: alg.
  */
 #ifndef MR_REMESH_H
 #define MR_REMESH_H

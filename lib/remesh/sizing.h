@@ -1,10 +1,8 @@
 /*
  * sizing.h -- edge lengths adapted to curvature (Dunyach, Vanderhaeghe, Barthe, Botsch 2013, section 3).
- *
- * Layer rule: alg.
  */
-#ifndef MR_SIZING_H
-#define MR_SIZING_H
+#ifndef MR_REMESH_SIZING_H
+#define MR_REMESH_SIZING_H
 
 #include "mesh/mesh.h"
 

@@ -1,11 +1,10 @@
 /*
- * resample.h -- steps 1 and 2 of the remeshing: splits and merges bring edges to the target length.
+ * split_collapse.h -- steps 1 and 2 of the remeshing: splits and merges bring edges to the target length.
  *
  * Contract: topology, curves and corners stay; no merge folds or flips a face.
- * Layer rule: alg.
  */
-#ifndef MR_RESAMPLE_H
-#define MR_RESAMPLE_H
+#ifndef MR_REMESH_SPLIT_COLLAPSE_H
+#define MR_REMESH_SPLIT_COLLAPSE_H
 
 #include "remesh/relax.h"
 

@@ -1,10 +1,8 @@
 /*
- * iron.h -- takes folds out of a mesh.
- *
- * Layer rule: alg.
+ * unfold.h -- takes folds out of a mesh.
  */
-#ifndef MR_IRON_H
-#define MR_IRON_H
+#ifndef MR_REMESH_UNFOLD_H
+#define MR_REMESH_UNFOLD_H
 
 #include "remesh/relax.h"
 

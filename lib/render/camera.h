@@ -3,10 +3,9 @@
  *
  * Contract: look (directions), box and aim (where the eye stands), cover and fit (where in
  * the panel the picture lies), in this order; box and cover may be called for several models.
- * Layer rule: alg.
  */
-#ifndef MR_CAMERA_H
-#define MR_CAMERA_H
+#ifndef MR_RENDER_CAMERA_H
+#define MR_RENDER_CAMERA_H
 
 #include "base/vec.h"
 

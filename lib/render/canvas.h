@@ -2,10 +2,9 @@
  * canvas.h -- an image of sRGB pixels, and flat drawing on it: rectangles and text.
  *
  * Contract: drawing is clipped to the image.
- * Layer rule: alg.
  */
-#ifndef MR_CANVAS_H
-#define MR_CANVAS_H
+#ifndef MR_RENDER_CANVAS_H
+#define MR_RENDER_CANVAS_H
 
 #include "render/colormap.h"
 

@@ -1,6 +1,6 @@
-/* colormap.h -- colours for numbers and for kinds.  Layer rule: alg. */
-#ifndef MR_COLORMAP_H
-#define MR_COLORMAP_H
+/* colormap.h -- colours for numbers and for kinds. */
+#ifndef MR_RENDER_COLORMAP_H
+#define MR_RENDER_COLORMAP_H
 
 #include "base/ctx.h"
 

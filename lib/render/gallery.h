@@ -4,10 +4,9 @@
  *
  * Contract: frames are collected, then drawn.  A shot is what shares a camera and a
  * scale of colours: a key frame with its deltas, or more where the caller likes.
- * Layer rule: alg.
  */
-#ifndef MR_GALLERY_H
-#define MR_GALLERY_H
+#ifndef MR_RENDER_GALLERY_H
+#define MR_RENDER_GALLERY_H
 
 #include "render/raster.h"
 #include "stream/frame.h"

@@ -3,10 +3,9 @@
  *
  * Contract: the picture is the same for every number of threads: pixels are shaded
  * by rows, and where two faces are equally near the one of lower index is seen.
- * Layer rule: alg.
  */
-#ifndef MR_RASTER_H
-#define MR_RASTER_H
+#ifndef MR_RENDER_RASTER_H
+#define MR_RENDER_RASTER_H
 
 #include "render/camera.h"
 #include "render/canvas.h"

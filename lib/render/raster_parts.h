@@ -1,9 +1,9 @@
 /*
  * raster_parts.h -- what raster.c (which item is seen where) and shade.c (its colour) share.
- * Layer rule: alg, private to them.
+ * Private to this room.
  */
-#ifndef MR_RASTER_PARTS_H
-#define MR_RASTER_PARTS_H
+#ifndef MR_RENDER_RASTER_PARTS_H
+#define MR_RENDER_RASTER_PARTS_H
 
 #include "render/raster.h"
 

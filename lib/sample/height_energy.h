@@ -1,15 +1,14 @@
 /*
- * heights.h -- heights on the vertices of a mesh as the minimum of a quadratic energy.
+ * height_energy.h -- heights on the vertices of a mesh as the minimum of a quadratic energy.
  *
  *	E(h) = h^T A h - 2 b^T h + sum_i f_i (h_i - mean of h over the neighbours of i)^2
  *
  * A is symmetric, positive semi-definite, and connects neighbours only.  The second part is the fairness of
  * the subdivision mesh, whose vertices are nearly regular, so it needs no lengths and f none either.
  * Contract: deterministic for any number of threads.
- * Layer rule: alg.
  */
-#ifndef MR_HEIGHTS_H
-#define MR_HEIGHTS_H
+#ifndef MR_SAMPLE_HEIGHT_ENERGY_H
+#define MR_SAMPLE_HEIGHT_ENERGY_H
 
 #include "mesh/mesh.h"
 

@@ -1,9 +1,9 @@
 /*
- * sample_parts.h -- what the methods of sampling a displacement share.
+ * parts.h -- what the methods of sampling a displacement share.
  *
  * Heights are first found, vertex by vertex, by one of the searches; then those that cannot be true are taken
  * back, the missing ones filled in, and all of them fitted to the points.
- * Layer rule: alg; only sample*.c and their tests include it.
+ * Private to this room.
  */
 #ifndef MR_SAMPLE_PARTS_H
 #define MR_SAMPLE_PARTS_H

@@ -1,8 +1,6 @@
 /*
  * sample.h -- the displacement of a domain surface to points without connectivity, or to a mesh (Jeong, Kim
  * 2001, section 5).
- *
- * Layer rule: alg.
  */
 #ifndef MR_SAMPLE_H
 #define MR_SAMPLE_H

@@ -1,6 +1,7 @@
 /*
- * shape_parts.h -- what the files of shape.h share: building a mesh vertex by vertex.  Layer rule: alg,
- * private to shape*.c.
+ * parts.h -- what the files of shape.h share: building a mesh vertex by vertex.
+ *
+ * Private to this room.
  */
 #ifndef MR_SHAPE_PARTS_H
 #define MR_SHAPE_PARTS_H

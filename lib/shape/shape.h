@@ -12,8 +12,6 @@
  *	knot      tube of radius 0.2 around the (2, 3) knot on a torus of radii 1 and 0.45
  *	bumpy     a creature with limbs and a scaly skin, y upward: at least 5,000 vertices
  *	boxes     a slab of 2 g + 1 by 3 by 1 unit cells without every other inner one: genus g
- *
- * Layer rule: alg.
  */
 #ifndef MR_SHAPE_H
 #define MR_SHAPE_H

@@ -1,10 +1,10 @@
 /*
- * merge.h -- merging the ends of an edge: where to, at what cost, and whether the surface allows it.
+ * edge_collapse.h -- merging the ends of an edge: where to, at what cost, and whether the surface allows it.
  *
- * Layer rule: alg, private to simplification.
+ * Private to this room.
  */
-#ifndef MR_MERGE_H
-#define MR_MERGE_H
+#ifndef MR_SIMPLIFY_EDGE_COLLAPSE_H
+#define MR_SIMPLIFY_EDGE_COLLAPSE_H
 
 #include "mesh/dynmesh.h"
 #include "op/quadric.h"

@@ -1,7 +1,5 @@
 /*
  * simplify.h -- simplification by quadric error metrics (Garland, Heckbert 1997).
- *
- * Layer rule: alg.
  */
 #ifndef MR_SIMPLIFY_H
 #define MR_SIMPLIFY_H

@@ -1,10 +1,8 @@
 /*
  * dissect.h -- parts of a surface that know nothing of each other, for a factorization with little fill.
- *
- * Layer rule: op.
  */
-#ifndef MR_DISSECT_H
-#define MR_DISSECT_H
+#ifndef MR_SOLVE_DISSECT_H
+#define MR_SOLVE_DISSECT_H
 
 #include "base/vec.h"
 #include "solve/sparse.h"

@@ -1,12 +1,12 @@
 /*
- * columns.h -- blocks of vectors: n rows of `width` values next to each other, a column for each right-hand
+ * multivector.h -- blocks of vectors: n rows of `width` values next to each other, a column for each right-hand
  * side.
  *
  * Contract: sums are taken in pieces of rows, then over the pieces in order: the same for every number of
- * threads. Layer rule: solve.
+ * threads.
  */
-#ifndef MR_COLUMNS_H
-#define MR_COLUMNS_H
+#ifndef MR_SOLVE_MULTIVECTOR_H
+#define MR_SOLVE_MULTIVECTOR_H
 
 #include "base/ctx.h"
 

@@ -1,11 +1,11 @@
 /*
- * precondition.h -- approximate inverses for the iterative solvers.
+ * preconditioner.h -- approximate inverses for the iterative solvers.
  *
  * Contract: z = B r with B fixed, and symmetric positive definite where the matrix is so.  Everything is in
- * the arena of the context that set it up, but for what `free` frees. Layer rule: solve.
+ * the arena of the context that set it up, but for what `free` frees.
  */
-#ifndef MR_PRECONDITION_H
-#define MR_PRECONDITION_H
+#ifndef MR_SOLVE_PRECONDITIONER_H
+#define MR_SOLVE_PRECONDITIONER_H
 
 #include "solve/multivector.h"
 #include "solve/solver.h"

@@ -4,10 +4,9 @@
  * Contract: a solver is set up once for a matrix and then solves for any number of
  * right-hand sides.  It is a handle over memory of its own: free it.  Results do not depend on
  * the number of threads.  A new solver is one file and one line of the table in solver.c.
- * Layer rule: solve includes base, mesh and op.
  */
-#ifndef MR_SOLVER_H
-#define MR_SOLVER_H
+#ifndef MR_SOLVE_SOLVER_H
+#define MR_SOLVE_SOLVER_H
 
 #include "solve/sparse.h"
 
@@ -30,7 +29,7 @@ mr_solver_iterates(mr_solver_kind kind)
 typedef enum mr_preconditioner_kind {
 	MR_BY_ORDER,   /* as MR_INCOMPLETE; who knows the order of the system chooses better */
 	MR_INCOMPLETE, /* factors without fill: incomplete Cholesky of a symmetric matrix, else incomplete LU
-	                */
+	               */
 	MR_JACOBI,     /* the diagonal */
 	MR_VCYCLES     /* A = L (W L)^(k-1): k V-cycles on L; of MR_CG a strip along the constraints, too */
 } mr_preconditioner_kind;
@@ -55,7 +54,7 @@ typedef struct mr_hierarchy {
 /* What is to be solved.  Iterative solvers borrow it: it must outlive them; direct ones do not. */
 typedef struct mr_system {
 	const mr_sparse *a;
-	const int *part;               /* dissection (op/dissect.h) for Cholesky, or NULL */
+	const int *part;               /* dissection (solve/dissect.h) for Cholesky, or NULL */
 	const uint32_t *vertex;        /* of each row, for sentences; NULL: they name the row */
 	const mr_hierarchy *hierarchy; /* for multigrid */
 } mr_system;

@@ -2,11 +2,11 @@
  * solver_type.h -- what a solver provides to solver.c.
  *
  * Contract: `data` points to `size` zeroed bytes of the solver's own.  `setup` fills them and the report, as
- * `solve` does; `free` releases what they hold, also where setup has failed half-way. Layer rule: solve; only
- * files of this folder include it.
+ * `solve` does; `free` releases what they hold, also where setup has failed half-way.
+ * Private to this room.
  */
-#ifndef MR_SOLVER_TYPE_H
-#define MR_SOLVER_TYPE_H
+#ifndef MR_SOLVE_SOLVER_TYPE_H
+#define MR_SOLVE_SOLVER_TYPE_H
 
 #include "solve/solver.h"
 

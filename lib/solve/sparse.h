@@ -3,10 +3,9 @@
  *
  * Contract: the indices of a row are ascending, each once.  Row numbers and indices
  * are int, as the direct solvers have them: a matrix has fewer than 2^31 entries.
- * Layer rule: op includes base, mesh and itself.
  */
-#ifndef MR_SPARSE_H
-#define MR_SPARSE_H
+#ifndef MR_SOLVE_SPARSE_H
+#define MR_SOLVE_SPARSE_H
 
 #include "base/ctx.h"
 

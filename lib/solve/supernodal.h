@@ -3,11 +3,11 @@
  *
  * Contract: a factor is dense panels of columns (supernodes) that share their rows.  Its values are borrowed;
  * what is set up beside them is on the heap.  Every sum is taken in an order that the factor alone decides,
- * so results do not depend on the number of threads, nor on a BLAS. Layer rule: solve; only files of this
- * folder include it.
+ * so results do not depend on the number of threads, nor on a BLAS.
+ * Private to this room.
  */
-#ifndef MR_SUPERNODAL_H
-#define MR_SUPERNODAL_H
+#ifndef MR_SOLVE_SUPERNODAL_H
+#define MR_SOLVE_SUPERNODAL_H
 
 #include "base/ctx.h"
 

@@ -6,10 +6,9 @@
  * lowest index is returned, however many threads built the tree.  The tree lives
  * in the arena; the mesh must outlive it.  Queries only read: any number of
  * threads may ask at once.
- * Layer rule: mesh.
  */
-#ifndef MR_BVH_H
-#define MR_BVH_H
+#ifndef MR_SPACE_BVH_H
+#define MR_SPACE_BVH_H
 
 #include "mesh/mesh.h"
 

@@ -9,10 +9,9 @@
  * are lowered by 2^-40.  A nearest point is clamped to the box of its triangle, so
  * no bound can exceed the distance that is computed: the answer is that of a loop
  * over all faces.
- * Layer rule: mesh.
  */
-#ifndef MR_BVH_TREE_H
-#define MR_BVH_TREE_H
+#ifndef MR_SPACE_BVH_TREE_H
+#define MR_SPACE_BVH_TREE_H
 
 #include "space/bvh.h"
 

@@ -1,6 +1,6 @@
-/* geodesic.h -- distances over a surface.  Layer rule: alg. */
-#ifndef MR_GEODESIC_H
-#define MR_GEODESIC_H
+/* geodesic.h -- distances over a surface. */
+#ifndef MR_SPACE_GEODESIC_H
+#define MR_SPACE_GEODESIC_H
 
 #include "mesh/mesh.h"
 

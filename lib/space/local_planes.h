@@ -1,10 +1,8 @@
 /*
- * cloud.h -- what the neighbourhood of each point of a cloud tells: its plane, the area it stands for.
- *
- * Layer rule: mesh.
+ * local_planes.h -- what the neighbourhood of each point of a cloud tells: its plane, the area it stands for.
  */
-#ifndef MR_CLOUD_H
-#define MR_CLOUD_H
+#ifndef MR_SPACE_LOCAL_PLANES_H
+#define MR_SPACE_LOCAL_PLANES_H
 
 #include "base/vec.h"
 

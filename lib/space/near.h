@@ -4,10 +4,9 @@
  * Contract: exact, and the same for every number of threads.  Points at one
  * position count once, by the lowest index.  Coordinates are finite and below
  * 1e150 in magnitude (else MR_ERANGE).
- * Layer rule: mesh.
  */
-#ifndef MR_NEAR_H
-#define MR_NEAR_H
+#ifndef MR_SPACE_NEAR_H
+#define MR_SPACE_NEAR_H
 
 #include "base/vec.h"
 

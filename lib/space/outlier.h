@@ -2,10 +2,9 @@
  * outlier.h -- points of a cloud that belong to no surface.
  *
  * Contract: deterministic for any number of threads.
- * Layer rule: mesh.
  */
-#ifndef MR_OUTLIER_H
-#define MR_OUTLIER_H
+#ifndef MR_SPACE_OUTLIER_H
+#define MR_SPACE_OUTLIER_H
 
 #include "space/near.h"
 

@@ -5,10 +5,9 @@
  * bound does not decide; so equal answers for every permutation of the arguments
  * (up to its sign).  Exact as long as no product leaves the range of doubles
  * (coordinates between 1e-70 and 1e70, or zero).
- * Layer rule: mesh.
  */
-#ifndef MR_PREDICATES_H
-#define MR_PREDICATES_H
+#ifndef MR_SPACE_PREDICATES_H
+#define MR_SPACE_PREDICATES_H
 
 #include "base/vec.h"
 

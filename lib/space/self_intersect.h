@@ -1,15 +1,14 @@
 /*
- * intersect.h -- which faces of a surface pass through one another.
+ * self_intersect.h -- which faces of a surface pass through one another.
  *
  * Contract: exact: every decision is the sign of a determinant (predicates.h), so
  * the count has no tolerance.  Two faces of positive area intersect when they
  * have more in common than the corner or the edge that they share; corners are
  * the same where their positions are equal, whatever their numbers.  Faces that
  * share all three corners overlap.
- * Layer rule: mesh.
  */
-#ifndef MR_INTERSECT_H
-#define MR_INTERSECT_H
+#ifndef MR_SPACE_SELF_INTERSECT_H
+#define MR_SPACE_SELF_INTERSECT_H
 
 #include "space/bvh.h"
 

@@ -1,11 +1,10 @@
 /*
- * sourcemap.h -- where the vertices of a base lie on the mesh it came from: the columns base.source_*.
+ * source_map.h -- where the vertices of a base lie on the mesh it came from: the columns base.source_*.
  *
  * The parameterization through which regions and details find their way (Botsch, Kobbelt 2004, section 4).
- * Layer rule: alg.
  */
-#ifndef MR_SOURCEMAP_H
-#define MR_SOURCEMAP_H
+#ifndef MR_SPACE_SOURCE_MAP_H
+#define MR_SPACE_SOURCE_MAP_H
 
 #include "mesh/layers.h"
 

@@ -1,13 +1,12 @@
 /*
- * project.h -- the closest point of a surface by walking on it from a nearby place.
+ * surface_walk.h -- the closest point of a surface by walking on it from a nearby place.
  *
  * Contract: unlike a search of the whole surface, a walk stays on the sheet it
  * starts on: the other side of a finger or a fold is never taken.  Each step
  * comes strictly nearer, so it ends at a local minimum of the distance.
- * Layer rule: alg.
  */
-#ifndef MR_PROJECT_H
-#define MR_PROJECT_H
+#ifndef MR_SPACE_SURFACE_WALK_H
+#define MR_SPACE_SURFACE_WALK_H
 
 #include "mesh/feature_curves.h"
 #include "space/bvh.h"

@@ -1,13 +1,13 @@
 /*
- * print.h -- a fingerprint of bytes: 128 bits by which a writer knows that it has sent a column before.
+ * fingerprint.h -- a fingerprint of bytes: 128 bits by which a writer knows that it has sent a column before.
  *
  * Contract: equal bytes have equal prints; others differ but for a chance of
  * about 2^-64.  Not for use against an adversary.  The value is the same on
  * all machines, but is written nowhere.
- * Layer rule: stream, private to it.
+ * Private to this room.
  */
-#ifndef MR_PRINT_H
-#define MR_PRINT_H
+#ifndef MR_STREAM_FINGERPRINT_H
+#define MR_STREAM_FINGERPRINT_H
 
 #include "base/ctx.h"
 

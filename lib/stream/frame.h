@@ -6,11 +6,9 @@
  * written (the arena does).  Data are read-only.  Order of columns is kept.
  * This layer knows records, not geometry: shapes are checked against what the
  * caller asks for; what a layer means stands in mesh/layers.h.
- *
- * Layer rule: stream includes base and itself.
  */
-#ifndef MR_FRAME_H
-#define MR_FRAME_H
+#ifndef MR_STREAM_FRAME_H
+#define MR_STREAM_FRAME_H
 
 #include "base/ctx.h"
 

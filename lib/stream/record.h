@@ -3,10 +3,9 @@
  *
  * Contract: parsing checks everything that can be seen in a header alone, so
  * that sizes behind it agree and fit; the checksum is the caller's to ask for.
- * Layer rule: stream, private to it.
  */
-#ifndef MR_RECORD_H
-#define MR_RECORD_H
+#ifndef MR_STREAM_RECORD_H
+#define MR_STREAM_RECORD_H
 
 #include "stream/frame.h"
 

@@ -1,12 +1,11 @@
 /*
- * side.h -- a stream read beside another: for each frame of the first, that of the same number, or its only
+ * side_stream.h -- a stream read beside another: for each frame of the first, that of the same number, or its only
  * one.
  *
  * Contract: every sentence names the path.
- * Layer rule: stream.
  */
-#ifndef MR_SIDE_H
-#define MR_SIDE_H
+#ifndef MR_STREAM_SIDE_STREAM_H
+#define MR_STREAM_SIDE_STREAM_H
 
 #include "stream/stream.h"
 

@@ -4,10 +4,10 @@
  * Contract: this memory is of the heap, not the context's arena, which the
  * command releases between frames; it is had through one function, so that
  * tests can make it fail.
- * Layer rule: stream, private to it.
+ * Private to this room.
  */
-#ifndef MR_STORED_H
-#define MR_STORED_H
+#ifndef MR_STREAM_STORED_H
+#define MR_STREAM_STORED_H
 
 #include "stream/record.h"
 #include "stream/stream.h"

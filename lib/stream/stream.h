@@ -4,7 +4,6 @@
  * Contract: a reader gives frames merged (a delta with what it keeps), each
  * valid until the next read.  A writer sends key frames whole and of a delta
  * only what differs from what it sent before.
- * Layer rule: stream.
  */
 #ifndef MR_STREAM_H
 #define MR_STREAM_H

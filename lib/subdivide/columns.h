@@ -1,10 +1,8 @@
 /*
- * subdivide.h -- the columns of a layer on a finer level of its subdivision.
- *
- * Layer rule: alg.
+ * columns.h -- the columns of a layer on a finer level of its subdivision.
  */
-#ifndef MR_SUBDIVIDE_H
-#define MR_SUBDIVIDE_H
+#ifndef MR_SUBDIVIDE_COLUMNS_H
+#define MR_SUBDIVIDE_COLUMNS_H
 
 #include "mesh/layers.h"
 #include "subdivide/loop.h"

@@ -1,14 +1,13 @@
 /*
- * domain.h -- displaced subdivision surfaces: a control mesh and one scalar a vertex (Lee et al. 2000; Jeong,
+ * displaced.h -- displaced subdivision surfaces: a control mesh and one scalar a vertex (Lee et al. 2000; Jeong,
  * Kim 2001, section 5).
  *
  * The domain of level n has the limit points v and unit limit normals n of the vertices on level n of Loop's
  * subdivision of the control mesh; the surface is v + h n.  A vertex has the same v and n on every level, so
  * the heights of level j are the first ones of those of any finer level.
- * Layer rule: alg.
  */
-#ifndef MR_DOMAIN_H
-#define MR_DOMAIN_H
+#ifndef MR_SUBDIVIDE_DISPLACED_H
+#define MR_SUBDIVIDE_DISPLACED_H
 
 #include "mesh/layers.h"
 #include "subdivide/loop.h"

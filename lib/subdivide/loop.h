@@ -8,10 +8,9 @@
  * is a prefix of what belongs to a fine one.  The odd vertices follow, one an edge, in the order of the lower
  * half-edge of each.  Triangle f = (a, b, c) with the odd vertices ab, bc, ca becomes 4 f: (a, ab, ca),
  * 4 f + 1: (ab, b, bc), 4 f + 2: (ca, bc, c), 4 f + 3: (ab, bc, ca).
- * Layer rule: op includes base, mesh and itself.
  */
-#ifndef MR_LOOP_H
-#define MR_LOOP_H
+#ifndef MR_SUBDIVIDE_LOOP_H
+#define MR_SUBDIVIDE_LOOP_H
 
 #include "mesh/mesh.h"
 #include "solve/sparse.h"

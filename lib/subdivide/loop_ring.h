@@ -2,10 +2,10 @@
  * loop_ring.h -- the neighbours of a vertex of a Loop surface in order, what kind of vertex it is, and the
  * weights that its kind has.
  *
- * Layer rule: op, private to loop*.c.
+ * Private to this room.
  */
-#ifndef MR_LOOP_RING_H
-#define MR_LOOP_RING_H
+#ifndef MR_SUBDIVIDE_LOOP_RING_H
+#define MR_SUBDIVIDE_LOOP_RING_H
 
 #include "subdivide/loop.h"
 

@@ -1,14 +1,13 @@
 /*
- * crossing.h -- which triangles of a subdivided surface pass through others.
+ * loop_self_intersect.h -- which triangles of a subdivided surface pass through others.
  *
  * Contract: as intersect.h, but triangles that touch and look the same way, to 60 degrees, are taken not to
  * cross, and so are regions that touch and whose normals all lie within a cone of that angle (after Volino,
  * Magnenat Thalmann 1994, without their test of the outlines): a smooth surface is then searched only where
  * it comes back to itself.
- * Layer rule: alg.
  */
-#ifndef MR_CROSSING_H
-#define MR_CROSSING_H
+#ifndef MR_SUBDIVIDE_LOOP_SELF_INTERSECT_H
+#define MR_SUBDIVIDE_LOOP_SELF_INTERSECT_H
 
 #include "subdivide/loop.h"
 

@@ -3,10 +3,9 @@
  *
  * Lifting without an update step: an odd vertex's coefficient is its height less the one that Loop's odd
  * stencil predicts from the level below; level 0 keeps its heights.  So every level stays a prefix.
- * Layer rule: alg.
  */
-#ifndef MR_WAVELET_H
-#define MR_WAVELET_H
+#ifndef MR_SUBDIVIDE_WAVELET_H
+#define MR_SUBDIVIDE_WAVELET_H
 
 #include "subdivide/loop.h"
 

@@ -4,10 +4,9 @@
  *
  * Contract: the surface is always a closed, oriented manifold, whatever the values: inside nodes are
  * connected over the edges of the grid, outside nodes over the diagonals of its faces too.
- * Layer rule: alg.
  */
-#ifndef MR_ISOSURFACE_H
-#define MR_ISOSURFACE_H
+#ifndef MR_VOLUME_ISOSURFACE_H
+#define MR_VOLUME_ISOSURFACE_H
 
 #include "mesh/mesh.h"
 

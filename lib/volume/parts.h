@@ -1,7 +1,7 @@
 /*
- * volume_parts.h -- what the files of volume.h share: points in a grid, and equations on its nodes.
+ * parts.h -- what the files of volume.h share: points in a grid, and equations on its nodes.
  *
- * Layer rule: alg, private to volume*.c.
+ * Private to this room.
  */
 #ifndef MR_VOLUME_PARTS_H
 #define MR_VOLUME_PARTS_H

@@ -1,8 +1,6 @@
 /*
  * volume.h -- a closed surface around points, of any topology, by a grid: flood from outside, isosurface
  * (Jeong, Kim 2001, section 3).
- *
- * Layer rule: alg.
  */
 #ifndef MR_VOLUME_H
 #define MR_VOLUME_H

@@ -1,7 +1,7 @@
 /*
- * wrap_parts.h -- what the files of the shrink-wrapping share.
+ * parts.h -- what the files of the shrink-wrapping share.
  *
- * Layer rule: alg, private to shrinkwrap.c and wrap_*.c.
+ * Private to this room.
  */
 #ifndef MR_WRAP_PARTS_H
 #define MR_WRAP_PARTS_H
@@ -114,7 +114,7 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 mr_status
 mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w);
 
-/* The wrap by alg/volume.h, with its grid and points as they are, or where it is poor, otherwise. */
+/* The wrap by volume/volume.h, with its grid and points as they are, or where it is poor, otherwise. */
 mr_status mr_wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
 
 #endif

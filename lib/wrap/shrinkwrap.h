@@ -1,10 +1,8 @@
 /*
  * shrinkwrap.h -- a closed mesh drawn tight around unorganised points (Jeong, Kim 2001, section 3).
- *
- * Layer rule: alg.
  */
-#ifndef MR_SHRINKWRAP_H
-#define MR_SHRINKWRAP_H
+#ifndef MR_WRAP_SHRINKWRAP_H
+#define MR_WRAP_SHRINKWRAP_H
 
 #include "mesh/mesh.h"
 
@@ -12,7 +10,7 @@ typedef enum mr_wrap_method {
 	MR_WRAP_AUTO,  /* a box, coarse to fine, searching along normals; the volume where its first level
 	                  or its last does not cover the points */
 	MR_WRAP_CUBE,  /* the paper's, to the letter: genus 0 */
-	MR_WRAP_VOLUME /* alg/volume.h, then projected and smoothed */
+	MR_WRAP_VOLUME /* volume/volume.h, then projected and smoothed */
 } mr_wrap_method;
 
 typedef struct mr_wrap_opts {

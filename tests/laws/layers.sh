@@ -8,9 +8,13 @@ includes() {
 	    sed -E 's/^([^:]*):[0-9]*:[^<"]*[<"]([^>"]*)[>"].*/\1:\2/'
 }
 
-# Layers: what each may include of the house.
-rooms='base stream solve mesh space op subdivide measure remesh simplify edit volume wrap fit sample render shape'
+# The rooms, in the order of the table in lib/README.md.
+rooms=$(sed -nE 's/^\| `([a-z]+)` .*/\1/p' lib/README.md | tr '\n' ' ')
+for room in lib/*/; do
+	case " $rooms" in *" $(basename "$room") "*) ;; *) echo "$room is not in lib/README.md"; fail=1 ;; esac
+done
 house="($(echo $rooms | tr ' ' '|')|formats|cmd)/"
+# What each may include of the house.
 check() { # directory, pattern of what it may include
 	bad=$(includes "$1" | grep -E ":($house|cmd\.h|options\.h)" | grep -vE ":($2)")
 	[ -z "$bad" ] || { echo "$1 includes what is above it:"; echo "$bad"; fail=1; }
@@ -25,6 +29,13 @@ check formats "$below|formats/"
 # Quoted includes name their layer, so that the rule can be seen: no file beside the file, no climbing.
 bad=$(grep -rnE '^[ \t]*#[ \t]*include[ \t]*"' --include='*.[ch]' --include='*.cc' lib formats | grep -vE "\"$house[a-z0-9_]+\.(h|inc)\"")
 [ -z "$bad" ] || { echo "an include that does not name its layer:"; echo "$bad"; fail=1; }
+
+# A header that says it is private to its room is included by that room alone.
+for header in $(grep -l 'Private to this room' lib/*/*.h); do
+	room=${header%/*} name=${header#lib/}
+	bad=$(includes lib formats cmd | grep ":$name\$" | grep -v "^$room/")
+	[ -z "$bad" ] || { echo "$header is private to $room:"; echo "$bad"; fail=1; }
+done
 
 # Foreign libraries: header, where it may be included.
 foreign() {
