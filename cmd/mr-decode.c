@@ -64,8 +64,7 @@ decode_detail(cmd *c, mr_frame *f)
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_decode(&c->ctx, &base, inc, &detail, gain, p));
-	mr_frame_drop(f, "mesh", "normal", 0);
-	return mr_layer_put_positions(&c->ctx, f, "mesh", p, detail.n);
+	return mr_layer_move(&c->ctx, f, "mesh", MR_POSED, p, detail.n);
 }
 
 static mr_level_cache levels;
@@ -96,9 +95,7 @@ decode_control(cmd *c, mr_frame *f)
 		return MR_EMEM;
 	mr_domain_displace(&c->ctx, &d, height, gain, p);
 	d.m.p = p;
-	MR_TRY(mr_layer_put_mesh(&c->ctx, f, "mesh", &d.m));
-	mr_frame_drop(f, "mesh", "normal", 0);
-	return MR_OK;
+	return mr_layer_put_mesh(&c->ctx, f, "mesh", &d.m);
 }
 
 static mr_status

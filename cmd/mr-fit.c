@@ -38,12 +38,7 @@ fit_frame(cmd *c, mr_frame *f)
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, &opts, p));
-	mr_frame_drop(f, layer, "normal", 0);
-	mr_frame_drop(f, layer, "rest", 0);
-	mr_frame_drop(f, layer, "response", 0);
-	if (!strcmp(layer, "control"))
-		mr_frame_drop(f, "displacement", NULL, 0);
-	return mr_layer_put_positions(ctx, f, layer, p, control.nv);
+	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }
 
 int

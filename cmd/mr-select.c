@@ -86,18 +86,6 @@ first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, uint32_t **region)
 	return MR_OK;
 }
 
-/* What the former regions of the layer led to. */
-static void
-drop_stale(mr_frame *f, const char *layer)
-{
-	if (strcmp(layer, "mesh")) {
-		mr_frame_drop(f, layer, "response", 0);
-	} else {
-		mr_frame_drop(f, "base", "response", 0);
-		mr_frame_drop(f, "base", "region", 0);
-	}
-}
-
 static mr_status
 select_frame(cmd *c, mr_frame *f)
 {
@@ -112,8 +100,7 @@ select_frame(cmd *c, mr_frame *f)
 	MR_TRY(read_groups(&c->ctx, f, &m, &groups));
 	MR_TRY(first_regions(&c->ctx, f, &m, &region));
 	MR_TRY(mr_select(&c->ctx, &m, &groups, &selection, region));
-	drop_stale(f, layer);
-	return mr_layer_put(&c->ctx, f, layer, "region", region, m.nv);
+	return mr_layer_put_region(&c->ctx, f, layer, region, m.nv);
 }
 
 int

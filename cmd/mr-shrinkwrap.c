@@ -44,11 +44,7 @@ wrap_control(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *points)
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_prefix(ctx, mr_wrap_template(ctx, points->p, points->nv, &control, &opts, p), "%s", layer));
-	mr_frame_drop(f, "control", "normal", 0);
-	mr_frame_drop(f, "control", "rest", 0);
-	mr_frame_drop(f, "control", "response", 0);
-	mr_frame_drop(f, "displacement", NULL, 0);
-	return mr_layer_put_positions(ctx, f, "control", p, control.nv);
+	return mr_layer_move(ctx, f, "control", MR_RESHAPED, p, control.nv);
 }
 
 static mr_status

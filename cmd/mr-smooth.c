@@ -35,9 +35,6 @@ smooth_frame(cmd *c, mr_frame *f)
 	MR_TRY(mr_smooth(ctx, &m, &opts, p));
 	m.p = p;
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &m));
-	mr_frame_drop(f, "base", "normal", 0);
-	mr_frame_drop(f, "base", "rest", 0);
-	mr_frame_drop(f, "base", "response", 0);
 	return from_mesh ? mr_source_map_put(ctx, f, &map, m.nv) : MR_OK;
 }
 

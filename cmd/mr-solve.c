@@ -1,8 +1,8 @@
 /* mr-solve -- move the free vertices of a base to where its constraints have them.  See man/mr-solve.1. */
-#include "edit/deform_cache.h"
-#include "edit/handles.h"
 #include "base/memory.h"
 #include "cmd.h"
+#include "edit/deform_cache.h"
+#include "edit/handles.h"
 
 static mr_deform_opts opts = MR_DEFORM_DEFAULTS;
 static enum { AUTO, CHOLESKY, LU, CG, BICGSTAB, MULTIGRID, VCYCLE } solver;
@@ -93,14 +93,10 @@ read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **col
 	return MR_OK;
 }
 
-/* What has been used up, or is of another pose. */
+/* What poses a frame is used up by that. */
 static void
-drop_stale(mr_frame *f, const char *layer, bool posed)
+drop_used(mr_frame *f, const char *layer)
 {
-	mr_frame_drop(f, layer, "normal", 0);
-	mr_frame_drop(f, layer, "response", 0);
-	if (!posed)
-		return;
 	mr_frame_drop(f, "handles", NULL, 0);
 	mr_frame_drop(f, layer, "target", 0);
 }
@@ -127,15 +123,15 @@ solve_frame(cmd *c, mr_frame *f)
 		return MR_EMEM;
 	MR_TRY(mr_deform_cache_get(&kept, &c->ctx, &c->keep, f, &rest, column, &opts, &d));
 	MR_TRY(mr_deform_solve(&c->ctx, d, &task, p));
-	drop_stale(f, layer, posing);
+	if (posing)
+		drop_used(f, layer);
+	MR_TRY(mr_layer_move(&c->ctx, f, layer, MR_POSED, p, m.nv));
 	if (basis)
 		MR_TRY(mr_deform_put_basis(&c->ctx, f, &m, d, p));
 	mr_deform_report(&c->ctx, d);
 	if (verify)
 		MR_TRY(mr_deform_verify(&c->ctx, &rest, d, &task, p));
-	if (!posing)
-		MR_TRY(mr_layer_put(&c->ctx, f, layer, "rest", m.p, m.nv));
-	return mr_layer_put_positions(&c->ctx, f, layer, p, m.nv);
+	return posing ? MR_OK : mr_layer_put(&c->ctx, f, layer, "rest", m.p, m.nv);
 }
 
 static mr_status

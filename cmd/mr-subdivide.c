@@ -54,7 +54,6 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m, const mr_v3 *
 	if (strcmp(layer, "mesh"))
 		mr_frame_drop(f, "mesh", NULL, 0);
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", m));
-	mr_frame_drop(f, "mesh", "normal", 0);
 	if (normal)
 		MR_TRY(mr_layer_put(ctx, f, "mesh", "normal", normal, m->nv));
 	for (size_t i = 0; i < MR_CARRIED; i++)

@@ -82,10 +82,8 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, n, t, p));
-	mr_frame_drop(f, "handles", NULL, 0);
-	mr_frame_drop(f, m->name, "response", 0);
-	mr_frame_drop(f, m->name, "normal", 0);
-	MR_TRY(mr_layer_put_positions(ctx, f, m->name, p, m->nv));
+	mr_frame_drop(f, "handles", NULL, 0); /* used up */
+	MR_TRY(mr_layer_move(ctx, f, m->name, MR_POSED, p, m->nv));
 	MR_TRY(mr_layer_points(ctx, f, m->name, &posed)); /* a response that is not finite shows here */
 	m->p = posed.p;
 	return MR_OK;

@@ -35,25 +35,33 @@ const mr_column_info mr_columns[] = {
 	{ NULL, NULL, { 0, 0, 0 }, NULL },
 };
 
-/* What goes stale when a layer's connectivity changes: columns elsewhere whose numbers refer to it.  layer
- * NULL: of any. */
+/*
+ * What goes stale when a layer changes: its own columns (layer "="), another's, those of a name in any layer
+ * (NULL), or all of a layer (name NULL).  `changed` NULL: any layer.
+ */
 static const struct {
+	mr_change change;
 	const char *changed, *layer, *name;
 } dependents[] = {
-	{ "base", "mesh", "detail_face" },
-	{ "base", "mesh", "detail_bary" },
-	{ "base", "mesh", "detail_height" },
-	{ "base", "mesh", "detail_offset" },
-	{ "base", "base", "response" },
-	{ "mesh", "base", "source_face" },
-	{ "mesh", "base", "source_bary" },
-	{ "control", "displacement", NULL },
-	{ "mesh", NULL, "mesh_face" },
-	{ "mesh", NULL, "mesh_bary" },
-	{ "base", NULL, "base_face" },
-	{ "base", NULL, "base_bary" },
-	{ "control", NULL, "control_face" },
-	{ "control", NULL, "control_bary" },
+	{ MR_POSED, NULL, "=", "normal" },
+	{ MR_POSED, NULL, "=", "response" },
+	{ MR_RESHAPED, NULL, "=", "rest" },
+	{ MR_RESHAPED, "control", "displacement", NULL },
+	{ MR_RECONNECTED, "base", "mesh", "detail_face" },
+	{ MR_RECONNECTED, "base", "mesh", "detail_bary" },
+	{ MR_RECONNECTED, "base", "mesh", "detail_height" },
+	{ MR_RECONNECTED, "base", "mesh", "detail_offset" },
+	{ MR_RECONNECTED, "mesh", "base", "source_face" },
+	{ MR_RECONNECTED, "mesh", "base", "source_bary" },
+	{ MR_RECONNECTED, "mesh", NULL, "mesh_face" },
+	{ MR_RECONNECTED, "mesh", NULL, "mesh_bary" },
+	{ MR_RECONNECTED, "base", NULL, "base_face" },
+	{ MR_RECONNECTED, "base", NULL, "base_bary" },
+	{ MR_RECONNECTED, "control", NULL, "control_face" },
+	{ MR_RECONNECTED, "control", NULL, "control_bary" },
+	{ MR_RESELECTED, NULL, "=", "response" },
+	{ MR_RESELECTED, "mesh", "base", "region" },
+	{ MR_RESELECTED, "mesh", "base", "response" },
 };
 
 static const mr_column_info *
@@ -209,15 +217,29 @@ drop_everywhere(mr_frame *f, const char *name)
 		}
 }
 
-/* Drops what refers to the connectivity of `layer` from elsewhere. */
-static void
-drop_dependents(mr_frame *f, const char *layer)
+/* What is stale after a change of shape or connectivity is so after a greater one. */
+static bool
+concerns(mr_change change, const char *layer, size_t i)
 {
+	mr_change least = dependents[i].change;
+
+	return (least == change || (least < change && change != MR_RESELECTED)) &&
+	       (!dependents[i].changed || !strcmp(dependents[i].changed, layer));
+}
+
+void
+mr_layer_changed(mr_frame *f, const char *layer, mr_change change)
+{
+	if (change == MR_RECONNECTED) {
+		mr_frame_drop(f, layer, NULL, 'v');
+		mr_frame_drop(f, layer, NULL, 'f');
+	}
 	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++) {
-		if (strcmp(dependents[i].changed, layer))
+		const char *of = dependents[i].layer;
+		if (!concerns(change, layer, i))
 			continue;
-		if (dependents[i].layer)
-			mr_frame_drop(f, dependents[i].layer, dependents[i].name, 0);
+		if (of)
+			mr_frame_drop(f, *of == '=' ? layer : of, dependents[i].name, 0);
 		else
 			drop_everywhere(f, dependents[i].name);
 	}
@@ -236,27 +258,44 @@ same_triangles(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	return nf == m->nf && (t == m->t || !memcmp(t, m->t, nf * sizeof *m->t));
 }
 
+/* True where the layer's positions are the given ones, bit for bit. */
+static bool
+same_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
+{
+	const void *p;
+	size_t nv;
+
+	return mr_layer_get(ctx, f, layer, "position", &p, &nv) == MR_OK && nv == m->nv &&
+	       !memcmp(p, m->p, nv * sizeof *m->p);
+}
+
 mr_status
 mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
 	const mr_column *p = mr_frame_find(f, layer, "position");
 
-	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m)) {
-		mr_frame_drop(f, layer, NULL, 'v');
-		mr_frame_drop(f, layer, NULL, 'f');
-		drop_dependents(f, layer);
-	}
-	MR_TRY(mr_layer_put_positions(ctx, f, layer, m->p, m->nv));
+	MR_TRY(check_finite(ctx, m));
+	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m))
+		mr_layer_changed(f, layer, MR_RECONNECTED);
+	else if (!same_positions(ctx, f, layer, m))
+		mr_layer_changed(f, layer, MR_RESHAPED);
+	MR_TRY(mr_layer_put(ctx, f, layer, "position", m->p, m->nv));
 	return mr_layer_put(ctx, f, layer, "triangles", m->t, m->nf);
 }
 
 mr_status
-mr_layer_put_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_v3 *p, size_t nv)
+mr_layer_move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 *p, size_t nv)
 {
-	mr_mesh points = { .name = layer, .p = p, .nv = nv };
-
-	MR_TRY(check_finite(ctx, &points));
+	MR_TRY(check_finite(ctx, &(mr_mesh){ .name = layer, .p = p, .nv = nv }));
+	mr_layer_changed(f, layer, change);
 	return mr_layer_put(ctx, f, layer, "position", p, nv);
+}
+
+mr_status
+mr_layer_put_region(mr_ctx *ctx, mr_frame *f, const char *layer, const uint32_t *region, size_t nv)
+{
+	mr_layer_changed(f, layer, MR_RESELECTED);
+	return mr_layer_put(ctx, f, layer, "region", region, nv);
 }
 
 mr_status

@@ -53,15 +53,27 @@ mr_status mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *
 /* The layer's surface, or its positions where it has no faces. */
 mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 
-/*
- * Puts positions and triangles.  Where the vertices or triangles are not those
- * that were there, drops the layer's v or f columns and what refers to them from
- * elsewhere.
- */
+/* What became of a layer. */
+typedef enum mr_change {
+	MR_POSED,       /* the same surface, elsewhere */
+	MR_RESHAPED,    /* another surface of the same vertices and triangles */
+	MR_RECONNECTED, /* other vertices or triangles */
+	MR_RESELECTED   /* the same surface with other regions */
+} mr_change;
+
+/* Drops what the change makes stale, of the layer and of others. */
+void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
+
+/* Puts positions, which must be finite, and triangles; drops what is stale where they are not those that were
+ * there. */
 mr_status mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m);
 
-/* Puts positions alone, which must be finite: the connectivity stands. */
-mr_status mr_layer_put_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_v3 *p, size_t nv);
+/* Puts positions alone, which must be finite: the layer is posed or reshaped. */
+mr_status
+mr_layer_move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 *p, size_t nv);
+
+/* Puts regions; what followed from others is dropped. */
+mr_status mr_layer_put_region(mr_ctx *ctx, mr_frame *f, const char *layer, const uint32_t *region, size_t nv);
 
 /* The layer's regions, rows checked against nv, values below 2 + 65536. */
 mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region);
