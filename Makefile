@@ -8,7 +8,8 @@
 #	make bench      speed and memory beside the peers'
 #	make table1     the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
 #	make readme     the generated parts of README.md
-#	make install    to $(DESTDIR)$(PREFIX)
+#	make install    tools, pages and library to $(DESTDIR)$(PREFIX)
+#	make uninstall  takes them away again
 #	make clean
 
 PREFIX  ?= /usr/local
@@ -20,6 +21,7 @@ CXX     ?= c++
 CFLAGS  ?= $(if $(SAN),-O1 -fsanitize=address$(,)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer,-O3) -g
 LDFLAGS ?=
 VERSION := 1.0
+SONAME  := libmr.so.$(basename $(VERSION))
 JOBS    ?= $(shell nproc 2>/dev/null || echo 2)
 T       ?=
 
@@ -28,8 +30,10 @@ MAKEFLAGS += -j$(JOBS)
 , := ,
 WARN     := -Wall -Wextra -Wpedantic -Wshadow -Wconversion
 INCLUDE  := -Ilib -I. -Icmd -I/usr/include/suitesparse -D_POSIX_C_SOURCE=200809L -DMR_VERSION='"$(VERSION)"'
-ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthread $(CFLAGS)
-ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -pthread $(CFLAGS)
+# The one set of objects serves the tools and both libraries; what mr.h does not declare stays inside.
+SHARED   := -fPIC -fvisibility=hidden
+ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthread $(SHARED) $(CFLAGS)
+ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -pthread $(SHARED) $(CFLAGS)
 LIBS     := -Wl,--as-needed -lcholmod -lumfpack -lflann -ltinyobjloader_double -lpng -lz -lstdc++ -ldl -lm
 
 TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
@@ -65,6 +69,10 @@ $(BUILD)/bench/%: tests/bench/%.cc $(BUILD)/flags | setup
 
 $(BUILD)/libmr.a: $(OBJECTS)
 	$(call say,archive)rm -f $@ && $(AR) qcs $@ $^
+
+$(BUILD)/$(SONAME): $(OBJECTS)
+	$(call say,link   )echo '{ global: mr_*; local: *; };' >$@.map && \
+		$(CC) -shared $(ALL_C) $(LDFLAGS) -Wl,-soname,$(@F) -Wl,--version-script=$@.map -o $@ $^ $(LIBS)
 
 $(BUILD)/%.c.o: %.c $(BUILD)/flags | setup
 	@mkdir -p $(@D)
@@ -103,18 +111,42 @@ table1: $(TOOLS) $(BUILD)/bench/plot
 readme:
 	@tests/readme >$(BUILD)/README.md && cat $(BUILD)/README.md >README.md
 
+LIBDIR := $(PREFIX)/lib
+define PC
+prefix=$(PREFIX)
+libdir=$(LIBDIR)
+includedir=$(PREFIX)/include
+
+Name: mr
+Description: multiresolution geometry: editing with detail, displaced subdivision surfaces
+Version: $(VERSION)
+Libs: -L$${libdir} -lmr
+Libs.private: $(filter -l%,$(LIBS)) -pthread
+Cflags: -I$${includedir}
+endef
+
 # The completions are made from what each tool says of itself.
-install: $(TOOLS)
-	install -d $(addprefix $(DESTDIR)$(PREFIX)/,bin share/man/man1 share/man/man5 share/man/man7 $(COMPS))
-	install $(TOOLS) $(DESTDIR)$(PREFIX)/bin
-	for n in 1 5 7; do install -m 644 man/*.$$n $(DESTDIR)$(PREFIX)/share/man/man$$n || exit; done
+TO := $(DESTDIR)$(PREFIX)
+install: $(TOOLS) $(BUILD)/$(SONAME)
+	install -d $(addprefix $(TO)/,bin include share/man/man1 share/man/man5 share/man/man7 $(COMPS)) $(DESTDIR)$(LIBDIR)/pkgconfig
+	install $(TOOLS) $(TO)/bin
+	for n in 1 5 7; do install -m 644 man/*.$$n $(TO)/share/man/man$$n || exit; done
 	for t in $(TOOLS); do n=$${t##*/}; echo "complete -o default -W '"$$($$t --help | grep -o -- \
-		'--[a-z][a-z-]*' | sort -u)"' $$n" >$(DESTDIR)$(PREFIX)/$(COMPS)/$$n || exit; done
+		'--[a-z][a-z-]*' | sort -u)"' $$n" >$(TO)/$(COMPS)/$$n || exit; done
+	install -m 644 lib/mr.h $(TO)/include
+	install -m 644 $(BUILD)/libmr.a $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)
+	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libmr.so
+	$(file >$(BUILD)/mr.pc,$(PC))install -m 644 $(BUILD)/mr.pc $(DESTDIR)$(LIBDIR)/pkgconfig
+
+uninstall:
+	rm -f $(addprefix $(TO)/bin/,$(notdir $(TOOLS))) $(addprefix $(TO)/$(COMPS)/,$(notdir $(TOOLS)))
+	rm -f $(foreach n,1 5 7,$(addprefix $(TO)/share/man/man$n/,$(notdir $(wildcard man/*.$n))))
+	rm -f $(TO)/include/mr.h $(addprefix $(DESTDIR)$(LIBDIR)/,libmr.a $(SONAME) libmr.so pkgconfig/mr.pc)
 
 clean:
 	rm -rf build
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units setup check bless demo bench table1 readme install clean
+.PHONY: all units setup check bless demo bench table1 readme install uninstall clean
 .SECONDARY:

@@ -420,6 +420,31 @@ cmd_print(cmd *c, const char *format, ...)
 
 /* Figures */
 
+mr_status
+cmd_cache(cmd *c, mr_cache **cache)
+{
+	*cache = mr_cache_new();
+	return *cache ? MR_OK : mr_fail(&c->ctx, MR_EMEM, "no memory for a cache");
+}
+
+void
+cmd_figure(cmd *c, const char *name, double value)
+{
+	mr_stat_set(&c->ctx, name, value);
+}
+
+void
+cmd_figures(cmd *c, const cmd_field *table, const void *result)
+{
+	for (; c->stats && table->name; table++) {
+		const char *field = (const char *)result + table->offset;
+		size_t count = table->count ? *(const size_t *)(const void *)field : 0;
+		double value = table->count ? (double)count : *(const double *)(const void *)field;
+		if (count != MR_UNKNOWN && !isnan(value))
+			cmd_figure(c, table->name, value);
+	}
+}
+
 /* One line of --stats: a JSON object. */
 static mr_status
 print_stats(cmd *c, double seconds)
@@ -619,12 +644,13 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	parse_command_line(&c, argc, argv);
 	if (state.threads)
 		c.ctx.threads = (unsigned)state.threads;
-	c.ctx.user = &c;
-	c.ctx.note = c.verbose ? show_note : NULL;
-	c.ctx.warn = c.quiet ? NULL : show_warning;
+	c.ctx.listener = (mr_listener){ .warn = c.quiet ? NULL : show_warning,
+		.note = c.verbose ? show_note : NULL,
+		.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
+		.user = &c };
 	c.ctx.unfinished = place_unfinished;
-	c.ctx.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL;
 	c.ctx.stats_unread = !state.stats_path;
+	c.stats = state.stats_path != NULL;
 	c.keep = c.ctx;
 	c.keep.top = NULL;
 	if (tool->prepare)

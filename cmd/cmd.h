@@ -6,11 +6,12 @@
  *	static mr_status
  *	smooth_frame(cmd *c, mr_frame *f)
  *	{
- *		mr_mesh m, base;
+ *		mr_smooth_result r;
  *
- *		MR_TRY(mr_layer_mesh(&c->ctx, f, "mesh", &m));
- *		MR_TRY(mr_smooth(&c->ctx, &m, &opts, &base));
- *		return mr_layer_put_mesh(&c->ctx, f, "base", &base);
+ *		opts.layer = c->layer;
+ *		MR_TRY(mr_smooth_frame(&c->ctx, f, &opts, &r));
+ *		cmd_figures(c, figures, &r);
+ *		return MR_OK;
  *	}
  *
  *	int
@@ -26,7 +27,7 @@
 #define CMD_H
 
 #include "options.h"
-#include "stream/stream.h"
+#include "stream/frame.h"
 
 typedef struct cmd cmd;
 
@@ -65,6 +66,7 @@ struct cmd {
 	size_t operand_count;
 	uint64_t frame; /* number of the frame at work, from 1; in finish, how many there were */
 	bool verbose, quiet, keep_going;
+	bool stats;         /* figures are asked for: --stats */
 	mr_packing packing; /* what the writer does with columns; mr-cat sets it in prepare */
 	struct cmd_state *state;
 };
@@ -95,6 +97,31 @@ mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand)
  * One at most; not for a tool that heeds -o.
  */
 mr_status cmd_hold(cmd *c, const char *file, const char *name) MR_WARN_UNUSED;
+
+/* A cache for the tool; it deletes it in finish. */
+mr_status cmd_cache(cmd *c, mr_cache **cache) MR_WARN_UNUSED;
+
+/* A figure of the frame at work, for --stats; the same name again replaces it. */
+void cmd_figure(cmd *c, const char *name, double value);
+
+/* A field of a struct that is a figure: its name, and where it is. */
+typedef struct cmd_field {
+	const char *name; /* NULL ends a table */
+	bool count;       /* a size_t; else a double */
+	size_t offset;
+} cmd_field;
+
+#define CMD_COUNTED(type, field)                                                                             \
+	{                                                                                                    \
+#field, true, offsetof(type, field)                                                          \
+	}
+#define CMD_MEASURED(type, field)                                                                            \
+	{                                                                                                    \
+#field, false, offsetof(type, field)                                                         \
+	}
+
+/* The fields of a result as figures, in the order of the table; those that were not measured are left out. */
+void cmd_figures(cmd *c, const cmd_field *table, const void *result);
 
 /*
  * Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end.

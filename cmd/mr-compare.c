@@ -1,6 +1,6 @@
 /* mr-compare -- measure how far two surfaces or clouds are apart.  See man/mr-compare.1. */
-#include "measure/report.h"
 #include "cmd.h"
+#include "measure/report.h"
 #include "stream/side_stream.h"
 
 static mr_compare_opts opts = MR_COMPARE_DEFAULTS;

@@ -36,20 +36,16 @@ check(cmd *c)
 static mr_status
 export_frame(cmd *c, mr_frame *f)
 {
-	static const char *const layers[] = { "mesh", "control", "points", NULL };
-	const char *layer, *out = c->operands[0];
+	const char *out = c->operands[0];
 	bool varies = mr_outname_varies(out);
 	mr_held held = { 0 };
 	char *path;
-	mr_model m;
 
 	if (written && !varies)
 		return mr_fail(
 		    &c->ctx, MR_EUSAGE, "%s holds the frame before: OUT needs %%s or %%d for several", out);
-	MR_TRY(mr_layer_choose(&c->ctx, f, c->layer, layers, &layer));
-	MR_TRY(mr_model_get(&c->ctx, f, layer, &m));
 	MR_TRY(mr_outname(&c->ctx, out, f->name, f->number, &path));
-	MR_TRY(mr_model_write(&c->ctx, path, format, &m, varies ? NULL : &held));
+	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held));
 	written++;
 	return cmd_hold(
 	    c, held.file, held.place); /* of one frame: another may come, or the stream break off */

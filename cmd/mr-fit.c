@@ -1,7 +1,5 @@
 /* mr-fit -- move a control mesh so that its limit surface comes close to points.  See man/mr-fit.1. */
-#include "fit/fit.h"
 #include "cmd.h"
-#include "mesh/layers.h"
 
 static mr_fit_opts opts = MR_FIT_DEFAULTS;
 
@@ -25,20 +23,8 @@ prepare(cmd *c)
 static mr_status
 fit_frame(cmd *c, mr_frame *f)
 {
-	mr_ctx *ctx = &c->ctx;
-	static const char *const reads[] = { "points", "mesh", NULL };
-	const char *layer = c->layer ? c->layer : "control", *from;
-	mr_mesh control, points;
-	mr_v3 *p;
-
-	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
-	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));
-	MR_TRY(mr_layer_points(ctx, f, from, &points));
-	p = MR_NEW(ctx, control.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, &opts, p));
-	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
+	opts.layer = c->layer;
+	return mr_fit_frame(&c->ctx, f, &opts);
 }
 
 int

@@ -1,6 +1,6 @@
 /* mr-info -- report what a stream holds, and measure its surfaces.  See man/mr-info.1. */
-#include "measure/report.h"
 #include "cmd.h"
+#include "measure/report.h"
 
 static mr_report_opts opts;
 static unsigned long long broken_frames;

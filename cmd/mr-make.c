@@ -1,7 +1,7 @@
 /* mr-make -- generate a surface or a cloud of points of it.  See man/mr-make.1. */
-#include "shape/shape.h"
 #include "cmd.h"
 #include "mesh/layers.h"
+#include "shape/shape.h"
 
 static mr_solid_opts solid = MR_SOLID_DEFAULTS;
 static cmd_length noise = { 0, false };

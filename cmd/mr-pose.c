@@ -1,6 +1,6 @@
 /* mr-pose -- say where a handle goes.  See man/mr-pose.1. */
-#include "edit/handles.h"
 #include "cmd.h"
+#include "edit/handles.h"
 
 static mr_motion motion = { .pose = MR_POSE_REST };
 static const char *script_path;

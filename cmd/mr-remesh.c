@@ -1,7 +1,5 @@
 /* mr-remesh -- remesh a surface isotropically with equal vertex areas.  See man/mr-remesh.1. */
-#include "remesh/remesh.h"
 #include "cmd.h"
-#include "mesh/layers.h"
 
 static mr_remesh_opts opts = MR_REMESH_DEFAULTS;
 static cmd_length length, adaptive;
@@ -27,27 +25,42 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
+	opts.length = length.value;
+	opts.length_relative = length.relative;
+	opts.adaptive = adaptive.value;
+	opts.adaptive_relative = adaptive.relative;
 	MR_TRY(cmd_idle(c, "ratio", length.value > 0, "with --length"));
 	return cmd_idle(c, "gravity", opts.area_passes == 0, "without area passes");
 }
 
+static const cmd_field figures[] = {
+	CMD_MEASURED(mr_remesh_result, length),
+	CMD_COUNTED(mr_remesh_result, splits),
+	CMD_COUNTED(mr_remesh_result, collapses),
+	CMD_COUNTED(mr_remesh_result, flips),
+	CMD_COUNTED(mr_remesh_result, tips),
+	CMD_COUNTED(mr_remesh_result, vertices),
+	CMD_COUNTED(mr_remesh_result, faces),
+	CMD_MEASURED(mr_remesh_result, area_variance_before),
+	CMD_MEASURED(mr_remesh_result, area_variance_after),
+	CMD_COUNTED(mr_remesh_result, flipped_before),
+	CMD_COUNTED(mr_remesh_result, flipped),
+	CMD_COUNTED(mr_remesh_result, folded_before),
+	CMD_COUNTED(mr_remesh_result, folded),
+	CMD_MEASURED(mr_remesh_result, seconds_rounds),
+	CMD_MEASURED(mr_remesh_result, seconds_areas),
+	{ 0 },
+};
+
 static mr_status
 remesh_frame(cmd *c, mr_frame *f)
 {
-	static const char *const reads[] = { "base", "mesh", NULL };
-	const char *layer;
-	mr_mesh m, out;
-	mr_source_map over, map;
-	bool mapped;
+	mr_remesh_result result;
 
-	MR_TRY(mr_layer_choose(&c->ctx, f, c->layer, reads, &layer));
-	MR_TRY(mr_layer_mesh(&c->ctx, f, layer, &m));
-	opts.length = cmd_length_of(length, mr_mesh_diagonal(&m));
-	opts.adaptive = cmd_length_of(adaptive, mr_mesh_diagonal(&m));
-	MR_TRY(mr_remesh(&c->ctx, &m, &opts, &out, &over));
-	MR_TRY(mr_source_map_follow(&c->ctx, f, &m, &over, out.nv, &map, &mapped));
-	MR_TRY(mr_layer_put_mesh(&c->ctx, f, "base", &out));
-	return mapped ? mr_source_map_put(&c->ctx, f, &map, out.nv) : MR_OK;
+	opts.layer = c->layer;
+	MR_TRY(mr_remesh_frame(&c->ctx, f, &opts, c->stats ? &result : NULL));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
 }
 
 int

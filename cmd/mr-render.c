@@ -1,8 +1,8 @@
 /* mr-render -- a shaded picture of each frame.  See man/mr-render.1. */
-#include "render/gallery.h"
 #include "cmd.h"
 #include "formats/outname.h"
 #include "formats/png.h"
+#include "render/gallery.h"
 
 #include <unistd.h>
 

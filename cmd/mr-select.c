@@ -1,10 +1,9 @@
 /* mr-select -- choose which vertices are fixed, free, or in a handle.  See man/mr-select.1. */
 #include "base/text_file.h"
-#include "edit/select.h"
 #include "cmd.h"
-#include "mesh/layers.h"
+#include "tool/select.h"
 
-static bool reset;
+static mr_select_opts opts = MR_SELECT_DEFAULTS;
 static mr_selection selection;
 
 static mr_status
@@ -39,7 +38,7 @@ add_handle(mr_ctx *ctx, const cmd_opt *o, const char *text)
 }
 
 static const cmd_opt table[] = {
-	{ 0, "reset", CMD_FLAG, &reset, 0, 0, NULL,
+	{ 0, "reset", CMD_FLAG, &opts.reset, 0, 0, NULL,
 	    "begin with all vertices fixed (default: with the regions there are)", NULL },
 	{ 0, "free", CMD_CALL, NULL, 0, 0, "P", "these vertices are free", add_free },
 	{ 0, "fixed", CMD_CALL, NULL, 0, 0, "P", "these vertices are fixed", add_fixed },
@@ -50,57 +49,42 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
-	if (selection.n || reset)
+	if (selection.n || opts.reset)
 		return MR_OK;
 	return mr_fail(&c->ctx, MR_EUSAGE, "nothing to select: give --free, --fixed, --handle or --reset");
 }
 
-static mr_status
-read_groups(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_groups *g)
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_select_result, fixed),
+	CMD_COUNTED(mr_select_result, free),
+	CMD_COUNTED(mr_select_result, handles),
+	{ 0 },
+};
+
+/* The vertices of each of the first handles, too. */
+static void
+count_handles(cmd *c, const mr_select_result *result)
 {
-	const void *group, *names;
+	enum { SHOWN = 64 };
+	char name[24];
 
-	*g = (mr_groups){ 0 };
-	if (!mr_layer_has(f, m->name, "group") || !mr_layer_has(f, m->name, "groups"))
-		return MR_OK;
-	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "group", m->nf, &group));
-	MR_TRY(mr_layer_get(ctx, f, m->name, "groups", &names, &g->length));
-	g->group = group;
-	g->names = names;
-	return MR_OK;
-}
-
-/* The regions to begin with, in the arena. */
-static mr_status
-first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, uint32_t **region)
-{
-	const uint32_t *there;
-
-	*region = MR_NEW_ZERO(ctx, m->nv, uint32_t);
-	if (!*region)
-		return MR_EMEM;
-	if (reset || !mr_layer_has(f, m->name, "region"))
-		return MR_OK;
-	MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &there));
-	memcpy(*region, there, m->nv * sizeof **region);
-	return MR_OK;
+	for (size_t h = 0; h < SHOWN && h < result->handle_count; h++) {
+		snprintf(name, sizeof name, "handle_%zu", h);
+		if (result->handle[h])
+			cmd_figure(c, name, (double)result->handle[h]);
+	}
 }
 
 static mr_status
 select_frame(cmd *c, mr_frame *f)
 {
-	const char *layer;
-	uint32_t *region;
-	mr_groups groups;
-	mr_mesh m;
+	mr_select_result result;
 
-	MR_TRY(
-	    mr_layer_choose(&c->ctx, f, c->layer, (const char *const[]){ "mesh", "control", NULL }, &layer));
-	MR_TRY(mr_layer_mesh(&c->ctx, f, layer, &m));
-	MR_TRY(read_groups(&c->ctx, f, &m, &groups));
-	MR_TRY(first_regions(&c->ctx, f, &m, &region));
-	MR_TRY(mr_select(&c->ctx, &m, &groups, &selection, region));
-	return mr_layer_put_region(&c->ctx, f, layer, region, m.nv);
+	opts.layer = c->layer;
+	MR_TRY(mr_select_by(&c->ctx, f, &selection, &opts, &result));
+	cmd_figures(c, figures, &result);
+	count_handles(c, &result);
+	return MR_OK;
 }
 
 int

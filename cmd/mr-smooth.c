@@ -1,6 +1,4 @@
 /* mr-smooth -- low-pass filter a mesh into its base surface.  See man/mr-smooth.1. */
-#include "edit/smooth.h"
-#include "space/source_map.h"
 #include "cmd.h"
 
 static mr_smooth_opts opts = MR_SMOOTH_DEFAULTS;
@@ -13,29 +11,26 @@ static const cmd_opt table[] = {
 	{ 0 },
 };
 
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_smooth_result, passes),
+	CMD_MEASURED(mr_smooth_result, mean_edge),
+	CMD_COUNTED(mr_smooth_result, boundary_vertices),
+	CMD_MEASURED(mr_smooth_result, seconds_analyse),
+	CMD_MEASURED(mr_smooth_result, seconds_factor),
+	CMD_MEASURED(mr_smooth_result, nnz_factor),
+	CMD_MEASURED(mr_smooth_result, rcond),
+	{ 0 },
+};
+
 static mr_status
 smooth_frame(cmd *c, mr_frame *f)
 {
-	static const char *const reads[] = { "base", "mesh", NULL };
-	mr_ctx *ctx = &c->ctx;
-	mr_source_map map;
-	const char *layer;
-	bool from_mesh;
-	mr_mesh m;
-	mr_v3 *p;
+	mr_smooth_result result;
 
-	MR_TRY(mr_layer_choose(ctx, f, c->layer, reads, &layer));
-	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	from_mesh = !strcmp(layer, "mesh");
-	if (from_mesh)
-		MR_TRY(mr_source_map_identity(ctx, &m, &map));
-	p = MR_NEW(ctx, m.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_smooth(ctx, &m, &opts, p));
-	m.p = p;
-	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &m));
-	return from_mesh ? mr_source_map_put(ctx, f, &map, m.nv) : MR_OK;
+	opts.layer = c->layer;
+	MR_TRY(mr_smooth_frame(&c->ctx, f, &opts, &result));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
 }
 
 int

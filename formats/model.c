@@ -233,3 +233,52 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 		.groups_bytes = bytes };
 	return MR_OK;
 }
+
+/* Frames */
+
+mr_status
+mr_import(mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame)
+{
+	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
+	const mr_import_opts *o = opts ? opts : &defaults;
+	const char *name = mr_format_stem(ctx, path);
+	double unit;
+	mr_frame *f;
+	mr_model m;
+
+	if (!name)
+		return MR_EMEM;
+	MR_TRY(mr_model_read(ctx, path, o->format, &m));
+	if (o->points)
+		mr_model_to_points(&m);
+	unit = o->weld_relative ? mr_box_diagonal(mr_box_of(m.p, m.nv)) : 1;
+	if (o->weld)
+		MR_TRY(mr_model_weld(ctx, o->weld_distance * unit, &m));
+	if (o->repair)
+		MR_TRY(mr_prefix(ctx, mr_model_repair(ctx, &m), "%s", path));
+	MR_TRY(mr_frame_new(ctx, name, &f));
+	MR_TRY(mr_model_put(ctx, f, o->layer, &m));
+	*frame = f;
+	return MR_OK;
+}
+
+mr_status
+mr_export_held(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format, mr_held *held)
+{
+	static const char *const layers[] = { "mesh", "control", "points", NULL };
+	mr_model m;
+
+	MR_TRY(mr_layer_choose(ctx, f, layer, layers, &layer));
+	MR_TRY(mr_model_get(ctx, f, layer, &m));
+	return mr_model_write(ctx, path, format, &m, held);
+}
+
+mr_status
+mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format)
+{
+	bool binary;
+
+	MR_TRY(mr_format_check(ctx, path, format, true, &binary));
+	return mr_export_held(ctx, f, layer, path, format, NULL);
+}

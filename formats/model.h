@@ -29,4 +29,8 @@ mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mod
  * has them. */
 mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
+/* mr_export where the format is checked, and the renaming is the caller's where `held` is not NULL. */
+mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
+    mr_held *held) MR_WARN_UNUSED;
+
 #endif

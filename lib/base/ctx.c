@@ -37,6 +37,43 @@ mr_ctx_free(mr_ctx *ctx)
 	mr_mark_release(ctx, (mr_mark){ 0, 0 });
 }
 
+const char *
+mr_version(void)
+{
+	return MR_VERSION;
+}
+
+mr_ctx *
+mr_ctx_new(unsigned threads)
+{
+	mr_ctx *ctx = malloc(sizeof *ctx);
+
+	if (ctx)
+		mr_ctx_init(ctx, threads);
+	return ctx;
+}
+
+void
+mr_ctx_delete(mr_ctx *ctx)
+{
+	if (!ctx)
+		return;
+	mr_ctx_free(ctx);
+	free(ctx);
+}
+
+const char *
+mr_error(const mr_ctx *ctx)
+{
+	return ctx->error;
+}
+
+void
+mr_listen(mr_ctx *ctx, const mr_listener *listener)
+{
+	ctx->listener = *listener;
+}
+
 mr_status
 mr_fail(mr_ctx *ctx, mr_status status, const char *format, ...)
 {
@@ -69,14 +106,14 @@ mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...)
 /* Nobody may be listening. */
 MR_PRINTF(3, 0)
 static void
-tell(const mr_ctx *ctx, void (*listener)(void *user, const char *text), const char *format, va_list args)
+tell(const mr_ctx *ctx, void (*hear)(void *user, const char *text), const char *format, va_list args)
 {
 	char text[MR_ERROR_MAX];
 
-	if (!listener)
+	if (!hear)
 		return;
 	vsnprintf(text, sizeof text, format, args);
-	listener(ctx->user, text);
+	hear(ctx->listener.user, text);
 }
 
 void
@@ -85,7 +122,7 @@ mr_note(mr_ctx *ctx, const char *format, ...)
 	va_list args;
 
 	va_start(args, format);
-	tell(ctx, ctx->note, format, args);
+	tell(ctx, ctx->listener.note, format, args);
 	va_end(args);
 }
 
@@ -95,7 +132,7 @@ mr_warn(mr_ctx *ctx, const char *format, ...)
 	va_list args;
 
 	va_start(args, format);
-	tell(ctx, ctx->warn, format, args);
+	tell(ctx, ctx->listener.warn, format, args);
 	va_end(args);
 }
 
@@ -103,14 +140,14 @@ void
 mr_unfinished(mr_ctx *ctx, const char *file)
 {
 	if (ctx->unfinished)
-		ctx->unfinished(ctx->user, file);
+		ctx->unfinished(ctx->listener.user, file);
 }
 
 void
 mr_progress(mr_ctx *ctx, const char *what, double share)
 {
-	if (ctx->progress)
-		ctx->progress(ctx->user, what, share);
+	if (ctx->listener.progress)
+		ctx->listener.progress(ctx->listener.user, what, share);
 }
 
 void

@@ -9,33 +9,18 @@
  * arena is released below it: callers free nothing.  A function that needs
  * workspace allocates its outputs first, takes a mark, and releases to it.
  *
- * The rooms of lib/, and which may include which, stand in lib/README.md; base includes nothing but the C library and POSIX.
+ * The rooms of lib/, and which may include which, stand in lib/README.md; base includes nothing but the C
+ * library and POSIX.
  */
 #ifndef MR_BASE_CTX_H
 #define MR_BASE_CTX_H
 
 #include "base/banned.h"
+#include "mr.h"
 
 #include <stdarg.h>
-#include <stdbool.h>
-#include <stddef.h>
-#include <stdint.h>
 
-#define MR_WARN_UNUSED  __attribute__((warn_unused_result))
 #define MR_PRINTF(f, a) __attribute__((format(printf, f, a)))
-
-typedef enum mr_status {
-	MR_OK = 0,
-	MR_END = 1,       /* a reader has nothing more: not a failure */
-	MR_EMEM = -1,     /* memory could not be had */
-	MR_EIO = -2,      /* the system could not read or write */
-	MR_EFORMAT = -3,  /* bytes break the format they claim */
-	MR_ERANGE = -4,   /* a number, an index or a size is outside its range */
-	MR_EMESH = -5,    /* a mesh or cloud that the algorithm cannot work on */
-	MR_ENUMERIC = -6, /* singular, not positive definite, not converged */
-	MR_EMISSING = -7, /* a layer or column is not there, or of another shape */
-	MR_EUSAGE = -8    /* a wrong option value, found late: the command exits 2 */
-} mr_status;
 
 /* Returns from the calling function when `expr` fails; MR_OK and MR_END go on. */
 #define MR_TRY(expr)                                                                                         \
@@ -55,13 +40,10 @@ enum { MR_STATS_MAX = 96, MR_ERROR_MAX = 512 };
 
 typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
 
-typedef struct mr_ctx {
-	unsigned threads;                                             /* at least 1 */
-	void (*note)(void *user, const char *text);                   /* a remark for -v; NULL: dropped */
-	void (*warn)(void *user, const char *text);                   /* a warning; NULL: dropped */
-	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1; NULL: none */
+struct mr_ctx {
+	unsigned threads; /* at least 1 */
+	mr_listener listener;
 	void (*unfinished)(void *user, const char *file); /* to remove if the process is ended; NULL: none */
-	void *user;                                       /* passed to all */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_stat stats[MR_STATS_MAX];
@@ -69,13 +51,7 @@ typedef struct mr_ctx {
 	bool stats_unread; /* figures that take time and are for them alone may be left out */
 	mr_block *top;     /* newest block of the arena */
 	uint64_t blocks;   /* how many the arena ever had */
-} mr_ctx;
-
-/* A place in the arena, to release to. */
-typedef struct mr_mark {
-	uint64_t serial; /* of the newest block; 0: none */
-	size_t used;     /* of it */
-} mr_mark;
+};
 
 /* Initialises a context with `threads` threads (0: all cores) and an empty arena. */
 void mr_ctx_init(mr_ctx *ctx, unsigned threads);
@@ -142,8 +118,5 @@ mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size
 
 /* A formatted string in the arena; NULL when memory cannot be had. */
 char *mr_format(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
-
-mr_mark mr_mark_take(const mr_ctx *ctx);
-void mr_mark_release(mr_ctx *ctx, mr_mark mark);
 
 #endif

@@ -6,10 +6,6 @@
 
 #include <math.h>
 
-typedef struct mr_v3 {
-	double x, y, z;
-} mr_v3;
-
 /* An affine map: 3x4, row-major, acting on (x, y, z, 1). */
 typedef struct mr_affine {
 	double m[12];

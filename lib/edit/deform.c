@@ -2,8 +2,8 @@
  * Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4; the symmetric form
  * with true areas is ours.
  */
-#include "edit/deform_parts.h"
 #include "base/disjoint_sets.h"
+#include "edit/deform_parts.h"
 
 /* Regions */
 
@@ -185,45 +185,54 @@ mr_deform_handles(const mr_deform *d)
 /* Figures */
 
 static void
-report_solver(mr_ctx *ctx, const mr_deform *d)
+report_solver(mr_ctx *ctx, const mr_deform *d, mr_solve_result *result)
 {
 	static const double worst = 1e-13;
 	mr_solver_report r = mr_solver_reported(d->solver);
 
-	mr_stat_set(ctx, "nnz_factor", r.nnz_factor);
-	mr_stat_set(ctx, "seconds_analyse", r.seconds_analyse);
-	mr_stat_set(ctx, "seconds_factor", r.seconds_factor);
-	mr_stat_set(ctx, "bytes_factor", r.bytes_factor);
+	result->nnz_factor = r.nnz_factor;
+	result->seconds_analyse = r.seconds_analyse;
+	result->seconds_factor = r.seconds_factor;
+	result->bytes_factor = r.bytes_factor;
 	if (mr_solver_iterates(d->opts.solver.kind)) {
-		mr_stat_set(ctx, "iterations", (double)r.iterations);
+		result->iterations = r.iterations;
 		mr_note(ctx, "%zu iterations", r.iterations);
 		return;
 	}
-	mr_stat_set(ctx, "rcond", r.rcond);
+	result->rcond = r.rcond;
 	if (r.rcond < worst)
 		mr_note(
 		    ctx, "the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order, r.rcond);
 }
 
-void
+mr_solve_result
 mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 {
-	mr_stat_set(ctx, "free", (double)d->patch.end[0]);
-	mr_stat_set(ctx, "fixed", (double)d->fixed);
-	mr_stat_set(ctx, "handle_vertices", (double)d->handled);
-	mr_stat_set(ctx, "handles", (double)d->handles);
-	mr_stat_set(ctx, "isolated_components", (double)d->loose);
-	mr_stat_set(ctx, "isolated_vertices", (double)d->loose_vertices);
-	mr_stat_set(ctx, "narrow_strip_vertices", (double)d->narrow);
-	mr_stat_set(ctx, "nnz_matrix", (double)d->nnz);
-	mr_stat_set(ctx, "negative_weights", d->negative);
-	mr_stat_set(ctx, "seconds_assemble", d->seconds_assemble);
-	mr_stat_set(ctx, "seconds_solve", d->seconds_solve);
-	mr_stat_set(ctx, "residual", d->residual);
-	mr_stat_set(ctx, "refinements", (double)d->refinements);
+	mr_solve_result result = { .free = d->patch.end[0],
+		.fixed = d->fixed,
+		.handle_vertices = d->handled,
+		.handles = d->handles,
+		.isolated_components = d->loose,
+		.isolated_vertices = d->loose_vertices,
+		.narrow_strip_vertices = d->narrow,
+		.nnz_matrix = d->nnz,
+		.negative_weights = d->negative,
+		.seconds_assemble = d->seconds_assemble,
+		.seconds_solve = d->seconds_solve,
+		.residual = d->residual,
+		.refinements = d->refinements,
+		.nnz_factor = NAN,
+		.seconds_analyse = NAN,
+		.seconds_factor = NAN,
+		.bytes_factor = NAN,
+		.iterations = MR_UNKNOWN,
+		.rcond = NAN,
+		.error = NAN,
+		.condition = NAN };
+
 	if (d->solver)
-		report_solver(ctx, d);
-	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", d->patch.end[0], d->fixed,
+		report_solver(ctx, d, &result);
+	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", result.free, d->fixed,
 	    d->handled, d->residual);
 	if (d->loose)
 		mr_note(ctx, "%zu free components (%zu vertices) have no constrained vertex and stay",
@@ -231,4 +240,5 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 	if (d->narrow)
 		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
 		    d->narrow, d->opts.order);
+	return result;
 }

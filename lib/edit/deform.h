@@ -11,11 +11,6 @@
 #include "mesh/mesh.h"
 #include "solve/solver.h"
 
-typedef enum mr_areas {
-	MR_AREAS_VORONOI, /* each vertex its own */
-	MR_AREAS_MEAN     /* all the same: Botsch, Kobbelt 2004, section 4.2 */
-} mr_areas;
-
 typedef struct mr_deform_opts {
 	size_t order;          /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
 	int areas;             /* mr_areas */
@@ -43,8 +38,8 @@ mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region
 /* Accepts NULL. */
 void mr_deform_free(mr_deform *d);
 
-/* Records the figures of the set-up and of the last solve; remarks on what the user should know. */
-void mr_deform_report(mr_ctx *ctx, const mr_deform *d);
+/* The figures of the set-up and of the last solve; remarks on what the user should know. */
+mr_solve_result mr_deform_report(mr_ctx *ctx, const mr_deform *d);
 
 /* The regions: one per vertex, d's. */
 const uint32_t *mr_deform_region(const mr_deform *d);
@@ -82,12 +77,12 @@ typedef struct mr_deform_task {
 mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out);
 
 /*
- * Solves the task by Cholesky too and records the figures error, the largest distance of a vertex of p from
- * where that puts it, of the diagonal, and condition, an estimate from below of the condition number of the
- * system that is solved. rest: what d was made on.
+ * Solves the task by Cholesky too.  *error: the largest distance of a vertex of p from where that puts it, of
+ * the diagonal; *condition: an estimate from below of the condition number of the system that is solved.
+ * rest: what d was made on.
  */
-mr_status mr_deform_verify(
-    mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task, const mr_v3 *p);
+mr_status mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task,
+    const mr_v3 *p, double *error, double *condition);
 
 /*
  * The response of every vertex to the handles' affine maps, for mr_pose_by_response.

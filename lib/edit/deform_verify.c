@@ -51,26 +51,25 @@ estimate_condition(mr_ctx *ctx, mr_deform *d, double *condition)
 }
 
 static mr_status
-verify(mr_ctx *ctx, mr_deform *direct, const mr_deform_task *task, const mr_v3 *p)
+verify(mr_ctx *ctx, mr_deform *direct, const mr_deform_task *task, const mr_v3 *p, double *error,
+    double *condition)
 {
-	double diagonal = mr_box_diagonal(mr_box_of(p, direct->nv)), error = 0, condition = 1;
+	double diagonal = mr_box_diagonal(mr_box_of(p, direct->nv)), most = 0;
 	mr_v3 *q = MR_NEW(ctx, direct->nv, mr_v3);
 
 	if (!q)
 		return MR_EMEM;
 	MR_TRY(mr_deform_solve(ctx, direct, task, q));
 	for (size_t v = 0; v < direct->nv; v++)
-		error = fmax(error, mr_dist(p[v], q[v]));
-	if (direct->solver)
-		MR_TRY(estimate_condition(ctx, direct, &condition));
-	mr_stat_set(ctx, "error", diagonal > 0 ? error / diagonal : 0);
-	mr_stat_set(ctx, "condition", condition);
-	return MR_OK;
+		most = fmax(most, mr_dist(p[v], q[v]));
+	*error = diagonal > 0 ? most / diagonal : 0;
+	*condition = 1;
+	return direct->solver ? estimate_condition(ctx, direct, condition) : MR_OK;
 }
 
 mr_status
-mr_deform_verify(
-    mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task, const mr_v3 *p)
+mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task,
+    const mr_v3 *p, double *error, double *condition)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_deform_opts opts = d->opts;
@@ -80,7 +79,7 @@ mr_deform_verify(
 	opts.unsymmetric = false;
 	opts.solver.kind = MR_CHOLESKY;
 	MR_TRY(mr_deform_new(ctx, rest, d->region, &opts, &direct));
-	status = verify(ctx, direct, task, p);
+	status = verify(ctx, direct, task, p, error, condition);
 	mr_deform_free(direct);
 	mr_mark_release(ctx, mark);
 	return status;

@@ -1,7 +1,7 @@
 #include "edit/detail.h"
 
-#include "edit/phong_projection.h"
 #include "base/parallel.h"
+#include "edit/phong_projection.h"
 #include "space/bvh.h"
 
 enum { GRAIN = 1024 };
@@ -198,7 +198,7 @@ prepare_nearest(mr_ctx *ctx, encoder *e, bool mapped)
 	return MR_OK;
 }
 
-static void
+static mr_encode_result
 report(mr_ctx *ctx, const encoder *e, double diagonal)
 {
 	size_t n = e->mesh->nv;
@@ -213,15 +213,15 @@ report(mr_ctx *ctx, const encoder *e, double diagonal)
 		sum.residual = fmax(sum.residual, t->residual);
 		sum.height = fmax(sum.height, t->height);
 	}
-	mr_stat_set(ctx, "heights", (double)(n - sum.offsets));
-	mr_stat_set(ctx, "offsets", (double)sum.offsets);
-	mr_stat_set(ctx, "searched", (double)sum.searched);
-	mr_stat_set(ctx, "steps_mean", n ? (double)sum.steps / (double)n : 0);
-	mr_stat_set(ctx, "crossed_mean", n ? (double)sum.crossed / (double)n : 0);
-	mr_stat_set(ctx, "residual_max", diagonal > 0 ? sum.residual / diagonal : 0);
-	mr_stat_set(ctx, "height_max", diagonal > 0 ? sum.height / diagonal : 0);
 	mr_note(ctx, "%zu of %zu vertices have a height (%.4g %%), %zu an offset", n - sum.offsets, n,
 	    n ? 100 * (double)(n - sum.offsets) / (double)n : 100, sum.offsets);
+	return (mr_encode_result){ .heights = n - sum.offsets,
+		.offsets = sum.offsets,
+		.searched = sum.searched,
+		.steps_mean = n ? (double)sum.steps / (double)n : 0,
+		.crossed_mean = n ? (double)sum.crossed / (double)n : 0,
+		.residual_max = diagonal > 0 ? sum.residual / diagonal : 0,
+		.height_max = diagonal > 0 ? sum.height / diagonal : 0 };
 }
 
 static bool
@@ -244,7 +244,8 @@ tolerance_for(const mr_mesh *mesh, double diagonal)
 }
 
 mr_status
-mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d)
+mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d,
+    mr_encode_result *result)
 {
 	size_t n = mesh->nv;
 	double diagonal = mr_mesh_diagonal(mesh);
@@ -257,6 +258,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
 	uint32_t *near = MR_NEW(ctx, n, uint32_t);
 	mr_incidence inc;
+	mr_encode_result figures;
 	mr_detail found;
 
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
@@ -269,10 +271,12 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source
 	e.start = near;
 	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
 	mr_parallel(ctx, n, GRAIN, encode_piece, &e);
-	report(ctx, &e, diagonal);
+	figures = report(ctx, &e, diagonal);
 	found = (mr_detail){ n, e.face, e.bary, e.height, any_offset(&e) ? e.offset : NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
 	*d = found;
+	if (result)
+		*result = figures;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -26,12 +26,10 @@ typedef struct mr_detail {
 /*
  * Encodes the mesh over the base.  source: checked; NULL where there is none: then the base's point
  * nearest to each vertex takes its place.  MR_ERANGE where the coordinates are so large that a detail is not
- * finite.  d: the arena's.
- * Figures: heights, offsets, steps_mean, crossed_mean, searched, residual_max, height_max (both relative
- * to the mesh's diagonal).
+ * finite.  d: the arena's.  result: or NULL.
  */
-mr_status
-mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d);
+mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source,
+    mr_detail *d, mr_encode_result *result);
 
 /* MR_ERANGE where a face is not one of the base's, or a number is not finite. */
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);

@@ -6,21 +6,6 @@
 
 #include "mesh/layers.h"
 
-/* Translation, rotation and scaling about a centre. */
-typedef struct mr_pose {
-	mr_v3 translate;
-	mr_v3 axis; /* of the rotation, of any length but zero where degrees is not */
-	double degrees;
-	mr_v3 scale; /* along x, y, z */
-	bool centered;
-	mr_v3 center; /* where centered; else the centroid of the handle's vertices, as posed so far */
-} mr_pose;
-
-#define MR_POSE_REST                                                                                         \
-	{                                                                                                    \
-		.axis = { 0, 0, 1 }, .scale = { 1, 1, 1 }                                                    \
-	}
-
 /*
  * Sets the part `what` ("translate", "rotate", "scale", "center") from its text: x,y,z; ax,ay,az,degrees;
  * s or sx,sy,sz; x,y,z.  MR_EUSAGE with a sentence.

@@ -3,7 +3,7 @@
 #include "edit/select_parts.h"
 #include "mesh/layers.h"
 
-typedef struct mr_rule {
+typedef struct mr_parsed_rule {
 	uint32_t region;
 	const char *option, *text;
 	term *term;
@@ -124,48 +124,50 @@ apply_rule(mr_ctx *ctx, scene *s, const rule *r, bool *one, bool *in, uint32_t *
 	return MR_OK;
 }
 
-/* Counts the regions into the figures. */
-static void
-report(mr_ctx *ctx, const uint32_t *region, size_t nv)
+/* Counts the regions. */
+static mr_status
+report(mr_ctx *ctx, const uint32_t *region, size_t nv, mr_select_result *result)
 {
-	enum { SHOWN = 64 };
-	size_t fixed = 0, free_ = 0, handle[SHOWN] = { 0 };
+	mr_select_result r = { 0 };
+	size_t *handle;
 
+	for (size_t v = 0; v < nv; v++)
+		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE >= r.handle_count)
+			r.handle_count = region[v] - MR_REGION_HANDLE + 1;
+	handle = MR_NEW_ZERO(ctx, r.handle_count, size_t);
+	if (!handle)
+		return MR_EMEM;
 	for (size_t v = 0; v < nv; v++) {
-		fixed += region[v] == MR_REGION_FIXED;
-		free_ += region[v] == MR_REGION_FREE;
-		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE < SHOWN)
+		r.fixed += region[v] == MR_REGION_FIXED;
+		r.free += region[v] == MR_REGION_FREE;
+		if (region[v] >= MR_REGION_HANDLE)
 			handle[region[v] - MR_REGION_HANDLE]++;
 	}
-	mr_stat_set(ctx, "fixed", (double)fixed);
-	mr_stat_set(ctx, "free", (double)free_);
-	mr_stat_set(ctx, "handles", (double)(nv - fixed - free_));
-	for (unsigned h = 0; h < SHOWN; h++) {
-		char name[24];
-		snprintf(name, sizeof name, "handle_%u", h);
-		if (handle[h])
-			mr_stat_set(ctx, name, (double)handle[h]);
-	}
-	mr_note(ctx, "%zu fixed, %zu free, %zu in handles", fixed, free_, nv - fixed - free_);
+	r.handles = nv - r.fixed - r.free;
+	r.handle = handle;
+	mr_note(ctx, "%zu fixed, %zu free, %zu in handles", r.fixed, r.free, r.handles);
+	if (result)
+		*result = r;
+	return MR_OK;
 }
 
 mr_status
-mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s, uint32_t *region)
+mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s, uint32_t *region,
+    mr_select_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool *one = MR_NEW(ctx, m->nv, bool), *in = MR_NEW(ctx, m->nv, bool);
-	uint32_t *result = MR_NEW(ctx, m->nv, uint32_t);
+	uint32_t *selected = MR_NEW(ctx, m->nv, uint32_t);
 	mr_incidence inc;
-	scene sc = { m, groups, &inc, mr_box_of(m->p, m->nv), result, 0 };
+	scene sc = { m, groups, &inc, mr_box_of(m->p, m->nv), selected, 0 };
 
-	if (!one || !in || !result)
+	if (!one || !in || !selected)
 		return MR_EMEM;
-	memcpy(result, region, m->nv * sizeof *region);
+	memcpy(selected, region, m->nv * sizeof *region);
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	for (size_t i = 0; i < s->n; i++)
-		MR_TRY(apply_rule(ctx, &sc, &s->rule[i], one, in, result));
-	memcpy(region, result, m->nv * sizeof *region);
-	report(ctx, region, m->nv);
+		MR_TRY(apply_rule(ctx, &sc, &s->rule[i], one, in, selected));
+	memcpy(region, selected, m->nv * sizeof *region);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return report(ctx, region, m->nv, result);
 }

@@ -24,7 +24,7 @@
 
 /* Rules in the order of the command line; starts zeroed. */
 typedef struct mr_selection {
-	struct mr_rule *rule;
+	struct mr_parsed_rule *rule;
 	size_t n, room;
 } mr_selection;
 
@@ -46,9 +46,9 @@ mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *opti
 /*
  * Applies the rules in order: later ones win.  region: nv, in and out.  A rule that selects no vertex, a
  * vertex or a group that is not there: a sentence.
- * Figures: fixed, free, handles, handle_N.
+ * result: or NULL; in the arena.
  */
-mr_status
-mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s, uint32_t *region);
+mr_status mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s,
+    uint32_t *region, mr_select_result *result);
 
 #endif

@@ -6,8 +6,8 @@
 
 #include "base/parallel.h"
 #include "mesh/edges.h"
-#include "op/voronoi_area.h"
 #include "op/laplace.h"
+#include "op/voronoi_area.h"
 #include "solve/solver.h"
 
 enum { GRAIN = 4096 };
@@ -19,7 +19,7 @@ typedef struct smoothing {
 	bool *stays;  /* nv: on the boundary, or without any weight */
 	double edge2; /* squared mean edge length */
 	double step;  /* time of a pass, in squared mean edge lengths */
-	size_t passes;
+	mr_smooth_result found;
 } smoothing;
 
 /* The mean edge length and the boundary. */
@@ -40,7 +40,7 @@ study_edges(mr_ctx *ctx, smoothing *s)
 	}
 	mean = edges.count ? sum / (double)edges.count : 0;
 	s->edge2 = mean * mean;
-	mr_stat_set(ctx, "mean_edge", mean);
+	s->found.mean_edge = mean;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -56,7 +56,7 @@ diagonal_of(const mr_sparse *l, size_t i)
 
 /* Vertices without weights have nowhere to go: isolated ones, and those whose faces are all single points. */
 static void
-study_vertices(mr_ctx *ctx, smoothing *s)
+study_vertices(smoothing *s)
 {
 	static const double smallest = 1e-8; /* of the mean: so no vertex has no mass */
 	size_t n = s->m->nv, boundary = 0;
@@ -69,7 +69,7 @@ study_vertices(mr_ctx *ctx, smoothing *s)
 	}
 	for (size_t v = 0; v < n; v++)
 		s->area[v] = fmax(s->area[v], smallest * mean);
-	mr_stat_set(ctx, "boundary_vertices", (double)boundary);
+	s->found.boundary_vertices = boundary;
 }
 
 static mr_status
@@ -82,7 +82,7 @@ study(mr_ctx *ctx, smoothing *s)
 	MR_TRY(study_edges(ctx, s));
 	MR_TRY(mr_laplace_build(ctx, s->m, &s->l));
 	MR_TRY(mr_voronoi_areas(ctx, s->m, s->area));
-	study_vertices(ctx, s);
+	study_vertices(s);
 	return MR_OK;
 }
 
@@ -147,23 +147,23 @@ implicit_pass(mr_ctx *ctx, const smoothing *s, const int *number, int n, mr_solv
 }
 
 static mr_status
-implicit_passes(mr_ctx *ctx, const smoothing *s, const int *number, int n, mr_solver *solver, mr_v3 *p)
+implicit_passes(mr_ctx *ctx, smoothing *s, const int *number, int n, mr_solver *solver, mr_v3 *p)
 {
 	mr_solver_report r = mr_solver_reported(solver);
 
-	mr_stat_set(ctx, "seconds_analyse", r.seconds_analyse);
-	mr_stat_set(ctx, "seconds_factor", r.seconds_factor);
-	mr_stat_set(ctx, "nnz_factor", r.nnz_factor);
-	mr_stat_set(ctx, "rcond", r.rcond);
-	for (size_t i = 0; i < s->passes; i++) {
-		mr_progress(ctx, "smoothing", (double)i / (double)s->passes);
+	s->found.seconds_analyse = r.seconds_analyse;
+	s->found.seconds_factor = r.seconds_factor;
+	s->found.nnz_factor = r.nnz_factor;
+	s->found.rcond = r.rcond;
+	for (size_t i = 0; i < s->found.passes; i++) {
+		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
 		MR_TRY(implicit_pass(ctx, s, number, n, solver, p));
 	}
 	return MR_OK;
 }
 
 static mr_status
-implicit(mr_ctx *ctx, const smoothing *s, mr_v3 *p)
+implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
 {
 	int *number = MR_NEW(ctx, s->m->nv, int), n = 0;
 	mr_solver *solver;
@@ -252,8 +252,8 @@ static mr_status explicit(mr_ctx *ctx, const smoothing *s, int method, mr_v3 *p)
 	if (!lp)
 		return MR_EMEM;
 	MR_TRY(paces(ctx, s, limit_of(method), &pace));
-	for (size_t i = 0; i < s->passes; i++) {
-		mr_progress(ctx, "smoothing", (double)i / (double)s->passes);
+	for (size_t i = 0; i < s->found.passes; i++) {
+		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
 		take_step(ctx, s, pace, 1, lp, p);
 		if (method == MR_SMOOTH_TAUBIN)
 			take_step(ctx, s, pace, mu / lambda, lp, p);
@@ -267,22 +267,22 @@ choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 	bool one = opts->method == MR_SMOOTH_IMPLICIT;
 	double least = one ? 1 : fmax(1, ceil(share_of(opts->time) / limit_of(opts->method)));
 
-	s->passes = opts->passes ? opts->passes : one ? 1 : (size_t)fmax(1, ceil(8 * opts->time));
-	if ((double)s->passes < least)
+	s->found.passes = opts->passes ? opts->passes : one ? 1 : (size_t)fmax(1, ceil(8 * opts->time));
+	if ((double)s->found.passes < least)
 		return mr_fail(ctx, MR_EUSAGE,
 		    "a time of %g needs at least %.0f passes of this method, not %zu", opts->time, least,
-		    s->passes);
-	s->step = opts->time / (double)s->passes;
-	mr_stat_set(ctx, "passes", (double)s->passes);
+		    s->found.passes);
+	s->step = opts->time / (double)s->found.passes;
 	return MR_OK;
 }
 
 mr_status
-mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out)
+mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out, mr_smooth_result *result)
 {
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
 	mr_mark mark = mr_mark_take(ctx);
-	smoothing s = { .m = m };
+	smoothing s = { .m = m,
+		.found = { .seconds_analyse = NAN, .seconds_factor = NAN, .nnz_factor = NAN, .rcond = NAN } };
 
 	if (!p)
 		return MR_EMEM;
@@ -293,6 +293,8 @@ mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out)
 		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, p)
 							  : explicit(ctx, &s, opts->method, p));
 	memcpy(out, p, m->nv * sizeof *p);
+	if (result)
+		*result = s.found;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -1,5 +1,9 @@
-#include "measure/compare.h"
-
+/*
+ * How far two surfaces, or clouds, are from one another: distances from points of one to the nearest point of
+ * the other, exact point to triangle.  Mean and root mean square are integrals over the surface by the
+ * midpoint rule on a subdivision of its faces; the greatest distance lies between max, which is attained, and
+ * max_bound.
+ */
 #include "measure/compare_parts.h"
 #include "mesh/edges.h"
 

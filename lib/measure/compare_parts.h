@@ -6,7 +6,7 @@
 #ifndef MR_MEASURE_COMPARE_PARTS_H
 #define MR_MEASURE_COMPARE_PARTS_H
 
-#include "measure/compare.h"
+#include "mesh/mesh.h"
 
 /* From a to b, which have faces, of area or not.  scale: a length that bounds are rounded by. */
 mr_status mr_compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts,

@@ -8,7 +8,6 @@
 #define MR_MEASURE_REPORT_H
 
 #include "base/text.h"
-#include "measure/compare.h"
 #include "mesh/layers.h"
 
 typedef struct mr_report_opts {

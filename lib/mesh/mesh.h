@@ -13,17 +13,6 @@
 
 #define MR_NONE UINT32_MAX
 
-typedef struct mr_tri {
-	uint32_t v[3]; /* counter-clockwise, seen from outside */
-} mr_tri;
-
-typedef struct mr_mesh {
-	const char *name; /* of the layer, for sentences */
-	const mr_v3 *p;   /* nv positions */
-	const mr_tri *t;  /* nf triangles */
-	size_t nv, nf;    /* both below 2^32 - 1; 3 nf below 2^32 - 1 */
-} mr_mesh;
-
 /*
  * Half-edges.  Half-edge 3 f + i runs from t[f].v[i] to t[f].v[(i + 1) % 3].
  * twin[h] is the opposite one, MR_NONE on the boundary.  out[v] is a half-edge

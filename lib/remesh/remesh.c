@@ -1,14 +1,14 @@
 #include "remesh/remesh.h"
 
-#include "remesh/orientation.h"
-#include "remesh/repair_flaws.h"
-#include "remesh/local_length.h"
-#include "remesh/relax.h"
-#include "remesh/split_collapse.h"
-#include "remesh/sizing.h"
+#include "base/parallel.h"
 #include "remesh/extremities.h"
 #include "remesh/flip.h"
-#include "base/parallel.h"
+#include "remesh/local_length.h"
+#include "remesh/orientation.h"
+#include "remesh/relax.h"
+#include "remesh/repair_flaws.h"
+#include "remesh/sizing.h"
+#include "remesh/split_collapse.h"
 
 enum { GRAIN = 1024 };
 
@@ -24,6 +24,7 @@ typedef struct remesher {
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 	double seconds_rounds, seconds_areas;
+	bool wanted; /* the figures */
 } remesher;
 
 static double
@@ -90,7 +91,7 @@ area_variance(remesher *r, double *variance)
 	mr_mark mark = mr_mark_take(r->ctx);
 	double *area, sum = 0, squares = 0, n = 0;
 
-	if (r->ctx->stats_unread)
+	if (!r->wanted)
 		return MR_OK;
 	area = MR_NEW(r->ctx, d->nv, double);
 	if (!area)
@@ -172,18 +173,21 @@ check_length(remesher *r, const mr_mesh *m, double length)
 static mr_status
 set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 {
-	double *length = NULL,
-	       uniform = r->o->length > 0 ? r->o->length : r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
+	double diagonal = mr_mesh_diagonal(m), *length = NULL,
+	       adaptive = r->o->adaptive * (r->o->adaptive_relative ? diagonal : 1),
+	       uniform = r->o->length * (r->o->length_relative ? diagonal : 1);
 
+	if (!(uniform > 0))
+		uniform = r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 	MR_TRY(check_length(r, m, uniform));
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
 	MR_TRY(mr_curves_copy(r->ctx, &r->d.curves, &r->curves));
-	if (r->o->adaptive > 0) {
+	if (adaptive > 0) {
 		length = MR_NEW(r->ctx, m->nv, double);
 		if (!length)
 			return MR_EMEM;
 		MR_TRY(mr_sizing_field(
-		    r->ctx, m, r->o->adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
+		    r->ctx, m, adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
 	}
 	r->source = (mr_surface){ m, topo, &r->curves, length, uniform };
 	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
@@ -232,7 +236,7 @@ count_flaws(remesher *r, const mr_source_map *map)
 
 	r->flipped[1] = mr_count_flipped(&facing, &view, map);
 	r->folded[1] = mr_count_folded(&view, r->d.twin);
-	if (r->ctx->stats_unread)
+	if (!r->wanted)
 		return;
 	r->flipped[0] = mr_count_flipped_source(&facing);
 	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
@@ -304,30 +308,31 @@ try_again(remesher *r)
 	return MR_OK;
 }
 
-static void
+static mr_remesh_result
 report(const remesher *r)
 {
-	mr_stat_set(r->ctx, "length", r->source.uniform);
-	mr_stat_set(r->ctx, "splits", (double)r->changes.splits);
-	mr_stat_set(r->ctx, "collapses", (double)r->changes.collapses);
-	mr_stat_set(r->ctx, "flips", (double)r->flips);
-	mr_stat_set(r->ctx, "tips", (double)r->tips);
-	mr_stat_set(r->ctx, "vertices", (double)r->d.nv);
-	mr_stat_set(r->ctx, "faces", (double)r->d.nf);
-	mr_stat_set(r->ctx, "area_variance_before", r->variance[0]);
-	mr_stat_set(r->ctx, "area_variance_after", r->variance[1]);
-	mr_stat_set(r->ctx, "flipped_before", (double)r->flipped[0]);
-	mr_stat_set(r->ctx, "flipped", (double)r->flipped[1]);
-	mr_stat_set(r->ctx, "folded_before", (double)r->folded[0]);
-	mr_stat_set(r->ctx, "folded", (double)r->folded[1]);
-	mr_stat_set(r->ctx, "seconds_rounds", r->seconds_rounds);
-	mr_stat_set(r->ctx, "seconds_areas", r->seconds_areas);
+	return (mr_remesh_result){ .length = r->source.uniform,
+		.splits = r->changes.splits,
+		.collapses = r->changes.collapses,
+		.flips = r->flips,
+		.tips = r->tips,
+		.vertices = r->d.nv,
+		.faces = r->d.nf,
+		.area_variance_before = r->variance[0],
+		.area_variance_after = r->variance[1],
+		.flipped_before = r->flipped[0],
+		.flipped = r->flipped[1],
+		.folded_before = r->folded[0],
+		.folded = r->folded[1],
+		.seconds_rounds = r->seconds_rounds,
+		.seconds_areas = r->seconds_areas };
 }
 
 mr_status
-mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_source_map *map)
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_source_map *map,
+    mr_remesh_result *result)
 {
-	remesher r = { .ctx = ctx, .o = o };
+	remesher r = { .ctx = ctx, .o = o, .wanted = result != NULL };
 	mr_topology topo;
 	mr_mark mark;
 
@@ -342,7 +347,8 @@ mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, 
 		MR_TRY(try_again(&r));
 		MR_TRY(settle(&r, map));
 	}
-	report(&r);
+	if (result)
+		*result = report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
 	return MR_OK;
 }

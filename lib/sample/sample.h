@@ -7,23 +7,7 @@
 
 #include "subdivide/displaced.h"
 
-typedef enum mr_sample_method {
-	MR_SAMPLE_TRIANGLE, /* the paper's search for the valid triangle among the nearest points */
-	MR_SAMPLE_ROBUST    /* the nearest points' local surface, for noise and outliers */
-} mr_sample_method;
-
-typedef struct mr_sample_opts {
-	int method;
-	size_t neighbours; /* nearest points looked at */
-	size_t refine;     /* passes that fit the heights to the points by least squares */
-} mr_sample_opts;
-
 enum { MR_SAMPLE_MOST = 128 }; /* neighbours, at most */
-
-#define MR_SAMPLE_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		.neighbours = 30, .refine = 3                                                                \
-	}
 
 /*
  * Heights over the domain to the points: d->m.nv, the caller's.  A vertex that finds no valid triangle is

@@ -1,9 +1,9 @@
 #include "simplify/simplify.h"
 
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
 #include "simplify/bucket_queue.h"
 #include "simplify/edge_collapse.h"
-#include "base/parallel.h"
-#include "base/disjoint_sets.h"
 
 /* The shape that needles may have where the faces asked for cannot be had otherwise: thin plates, say. */
 static const double LAST_NEEDLE = 0.01;
@@ -25,6 +25,8 @@ typedef struct simplifier {
 	uint16_t *bucket;  /* of each such half-edge: its last one */
 	uint32_t *onto;    /* what each vertex was merged into, itself while it lives */
 	uint8_t *mark;     /* for the link condition */
+	size_t target;     /* faces to stop at; 0: no such limit */
+	double limit;      /* error to stop at; infinite: no such limit */
 	size_t faces, merges, computed, refused;
 	double error2; /* greatest of the merges done */
 	double needle; /* least shape of a face */
@@ -123,7 +125,7 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 	s->onto[a] = b;
 	s->faces -= g == MR_NONE ? 1 : 2;
 	if (++s->merges % 8192 == 0)
-		mr_progress(s->ctx, "merging", (double)s->merges / (double)(d->nv - s->o->faces / 2));
+		mr_progress(s->ctx, "merging", (double)s->merges / (double)(d->nv - s->target / 2));
 	s->error2 = fmax(s->error2, m->error2);
 	if (bucket[0] != UNKNOWN)
 		enqueue(s, side, bucket[0]);
@@ -136,7 +138,7 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 static void
 serve(simplifier *s, uint32_t h, uint32_t bucket)
 {
-	double limit = s->o->error * s->scale;
+	double limit = s->limit * s->scale;
 	uint32_t now;
 	mr_merge m;
 
@@ -163,7 +165,7 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 static bool
 relax(simplifier *s)
 {
-	bool first = s->needle > LAST_NEEDLE && s->o->faces > 0;
+	bool first = s->needle > LAST_NEEDLE && s->target > 0;
 
 	s->needle = LAST_NEEDLE;
 	return first;
@@ -179,9 +181,9 @@ merge_all(simplifier *s)
 		uint32_t h, bucket;
 		before = s->merges;
 		fill_queue(s);
-		while (s->faces > s->o->faces && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE)
+		while (s->faces > s->target && (h = mr_buckets_take(s->queue, &bucket)) != MR_NONE)
 			serve(s, h, bucket);
-	} while (s->faces > s->o->faces && (s->merges > before || relax(s)));
+	} while (s->faces > s->target && (s->merges > before || relax(s)));
 }
 
 /* Adds the plane of face f to its corners, a third of the area each. */
@@ -323,30 +325,37 @@ finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
 }
 
 mr_status
-mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto)
+mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto,
+    mr_simplify_result *result)
 {
-	double diagonal = mr_mesh_diagonal(m), start = mr_seconds();
+	double diagonal = mr_mesh_diagonal(m), start = mr_seconds(), begun, ended;
 	simplifier s = { .ctx = ctx,
 		.o = opts,
 		.needle = MR_NEEDLE,
-		.scale = diagonal > 0 ? ldexp(1, -ilogb(diagonal)) : 1 };
+		.scale = diagonal > 0 ? ldexp(1, -ilogb(diagonal)) : 1,
+		.target = opts->faces ? opts->faces : (size_t)ceil(opts->ratio * (double)m->nf),
+		.limit = opts->error <= 0       ? INFINITY
+		         : opts->error_relative ? opts->error * diagonal
+		                                : opts->error };
 
 	MR_TRY(begin(&s, m));
-	mr_stat_set(ctx, "seconds_begin", mr_seconds() - start);
-	start = mr_seconds();
+	begun = mr_seconds();
 	merge_all(&s);
-	mr_stat_set(ctx, "seconds_merge", mr_seconds() - start);
+	ended = mr_seconds();
 	MR_TRY(finish(&s, m, out, onto));
-	if (out->nf > opts->faces && opts->faces && !isfinite(opts->error))
+	if (out->nf > s.target && s.target && !isfinite(s.limit))
 		mr_note(ctx,
 		    "%s: %zu faces are left, not %zu: no more could be merged without changing the "
 		    "topology or folding the surface",
-		    m->name, out->nf, opts->faces);
-	mr_stat_set(ctx, "computed", (double)s.computed);
-	mr_stat_set(ctx, "refused", (double)s.refused);
-	mr_stat_set(ctx, "merges", (double)s.merges);
-	mr_stat_set(ctx, "error", sqrt(s.error2) / s.scale);
-	mr_stat_set(ctx, "vertices", (double)out->nv);
-	mr_stat_set(ctx, "faces", (double)out->nf);
+		    m->name, out->nf, s.target);
+	if (result)
+		*result = (mr_simplify_result){ .vertices = out->nv,
+			.faces = out->nf,
+			.computed = s.computed,
+			.refused = s.refused,
+			.merges = s.merges,
+			.error = sqrt(s.error2) / s.scale,
+			.seconds_begin = begun - start,
+			.seconds_merge = ended - begun };
 	return MR_OK;
 }

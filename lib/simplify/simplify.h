@@ -6,27 +6,14 @@
 
 #include "space/source_map.h"
 
-typedef struct mr_simplify_opts {
-	size_t faces;    /* stop at so many, or one less; 0: no such limit */
-	double error;    /* no vertex farther than this from the planes of the faces merged into it, root mean
-	                    square by area; infinite: no such limit */
-	double boundary; /* weight of the planes that hold boundary edges */
-	const double *weight; /* of the surface at each vertex; NULL: 1 */
-} mr_simplify_opts;
-
-#define MR_SIMPLIFY_DEFAULTS                                                                                 \
-	{                                                                                                    \
-		.error = INFINITY, .boundary = 10                                                            \
-	}
-
 /*
  * Simplifies an oriented manifold m, boundary allowed; its topology stays (link condition) and no triangle is
- * flipped.  Where nothing more can be merged the result has more faces than asked for: the figure `faces`
+ * flipped.  Where nothing more can be merged the result has more faces than asked for: the result
  * tells.  onto: m->nv, the caller's: the vertex of the result that each was merged into (MR_NONE for an
- * isolated one).  out: in the arena.  Figures: see man/mr-simplify.1.
+ * isolated one).  out: in the arena.  result: or NULL.
  */
-mr_status
-mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out, uint32_t *onto);
+mr_status mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh *out,
+    uint32_t *onto, mr_simplify_result *result);
 
 /* The faces of a control mesh for n points; says where that is more than one for so many points as usual. */
 size_t mr_simplify_faces_for(mr_ctx *ctx, size_t n);

@@ -56,6 +56,31 @@ mr_frame_find(const mr_frame *frame, const char *layer, const char *name)
 	return frame->count ? find(frame, layer, name) : NULL;
 }
 
+const char *
+mr_frame_name(const mr_frame *frame)
+{
+	return frame->name;
+}
+
+bool
+mr_frame_column(
+    const mr_frame *frame, size_t i, const char **layer, const char **name, mr_shape *shape, uint64_t *rows)
+{
+	const mr_column *c = frame->columns + i;
+
+	if (i >= frame->count)
+		return false;
+	if (layer)
+		*layer = c->layer;
+	if (name)
+		*name = c->name;
+	if (shape)
+		*shape = c->shape;
+	if (rows)
+		*rows = c->rows;
+	return true;
+}
+
 bool
 mr_frame_has_layer(const mr_frame *frame, const char *layer)
 {

@@ -14,12 +14,6 @@
 
 enum { MR_LAYER_MAX = 16, MR_COLUMN_MAX = 24, MR_HEADER = 64 };
 
-/* What a column holds: `element` v, f or -; `type` d, u, b or t; components per row. */
-typedef struct mr_shape {
-	char element, type;
-	uint8_t components;
-} mr_shape;
-
 typedef struct mr_column {
 	char layer[MR_LAYER_MAX + 1]; /* empty: belongs to no layer */
 	char name[MR_COLUMN_MAX + 1];
@@ -32,19 +26,16 @@ typedef struct mr_column {
 	    *stored; /* the reader's record of it: stream/stored.h; NULL for one that the tool put */
 } mr_column;
 
-typedef struct mr_frame {
+struct mr_frame {
 	const char *name;
 	bool key;        /* a key frame; else a delta */
 	uint64_t number; /* from 1, over all streams read */
 	mr_column *columns;
 	size_t count, room;
-} mr_frame;
+};
 
 /* Bytes of one value of a type: 8, 4 or 1. */
 size_t mr_type_size(char type);
-
-/* An empty key frame, in the arena.  MR_ERANGE for a name that the format forbids. */
-mr_status mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame);
 
 /* Copies the list of columns, so that what is put into the copy stays out of `frame`; the rest is shared. */
 mr_status mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
@@ -52,26 +43,8 @@ mr_status mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 /* The column, or NULL.  Not decoded: for its shape and rows. */
 const mr_column *mr_frame_find(const mr_frame *frame, const char *layer, const char *name);
 
-/* True where the frame has any column of the layer. */
-bool mr_frame_has_layer(const mr_frame *frame, const char *layer);
-
-/*
- * The column's values, decoded and its checksum verified.  MR_EMISSING with a sentence
- * where it is absent or of another shape; MR_EFORMAT where its bytes are damaged.
- * data: rows x components values, the frame's.
- */
-mr_status mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape,
-    const void **data, size_t *rows);
-
 /* Decodes and verifies one column, whatever it is. */
 mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
-
-/*
- * Puts or replaces a column (in its old place); the bytes are borrowed until the frame is written.  data:
- * rows x components values.  MR_ERANGE for names and shapes that the format forbids.
- */
-mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, mr_shape shape,
-    const void *data, size_t rows);
 
 /*
  * Appends a column of another frame as it is, decoded or not; its bytes stay where they are, and must be
@@ -84,10 +57,6 @@ mr_status mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column);
  * layer, or a column of no layer, is in both.
  */
 mr_status mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from);
-
-/* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of
- * that element. */
-void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
 
 /* Appends one line to the frame's history; control characters and bytes that are not UTF-8 become '?'. */
 mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);

@@ -7,7 +7,7 @@
 #ifndef MR_STREAM_SIDE_STREAM_H
 #define MR_STREAM_SIDE_STREAM_H
 
-#include "stream/stream.h"
+#include "stream/frame.h"
 
 typedef struct mr_side {
 	const char *path; /* the caller's */

@@ -10,7 +10,7 @@
 #define MR_STREAM_STORED_H
 
 #include "stream/record.h"
-#include "stream/stream.h"
+#include "stream/frame.h"
 
 /* A column as the reader keeps it until it is replaced or dropped. */
 typedef struct mr_stored {

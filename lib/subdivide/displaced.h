@@ -12,7 +12,6 @@
 #include "mesh/layers.h"
 #include "subdivide/loop.h"
 
-enum { MR_LEVEL_MAX = 15 };
 
 typedef struct mr_domain {
 	size_t n;             /* its level */

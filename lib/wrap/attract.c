@@ -12,20 +12,13 @@ mr_status
 mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
-	bool unread = ctx->stats_unread;
-	size_t figures = ctx->stat_count;
-	mr_status status;
 	mr_source_map map;
 	mr_mesh out;
 
 	o.length = length;
 	o.rounds = 1;
 	o.area_passes = 0;
-	ctx->stats_unread = true;
-	status = mr_remesh(ctx, m, &o, &out, &map);
-	ctx->stats_unread = unread;
-	MR_TRY(status);
-	ctx->stat_count = figures; /* the remeshing's own say nothing here */
+	MR_TRY(mr_remesh(ctx, m, &o, &out, &map, NULL));
 	return mr_wrap_dyn(ctx, &out, d);
 }
 

@@ -2,7 +2,7 @@
 #ifndef TEST_STREAM_H
 #define TEST_STREAM_H
 
-#include "stream/stream.h"
+#include "stream/frame.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

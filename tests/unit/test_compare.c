@@ -1,7 +1,6 @@
 /* Distances between surfaces against closed forms and loops. */
 #include "base/random.h"
 #include "space/bvh.h"
-#include "measure/compare.h"
 
 #include <setjmp.h>
 #include <stdarg.h>

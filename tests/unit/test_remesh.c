@@ -70,7 +70,7 @@ remeshed(const mr_mesh *m, const mr_remesh_opts *o, mr_source_map *map)
 {
 	mr_mesh out;
 
-	assert_int_equal(mr_remesh(&ctx, m, o, &out, map), MR_OK);
+	assert_int_equal(mr_remesh(&ctx, m, o, &out, map, NULL), MR_OK);
 	return out;
 }
 
@@ -261,7 +261,7 @@ failing_memory_is_reported_at_every_place(void **state)
 	for (;; k++) {
 		mr_status s;
 		ctx.fail_at = k;
-		s = mr_remesh(&ctx, &m, &o, &r, &map);
+		s = mr_remesh(&ctx, &m, &o, &r, &map, NULL);
 		if (ctx.fail_at > 0)
 			break; /* it was never reached */
 		assert_int_equal(s, MR_EMEM);
@@ -281,7 +281,7 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	mr_source_map map;
 
 	(void)state;
-	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map), MR_EMESH);
+	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_EMESH);
 	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces: mr-import --repair splits it");
 }
 

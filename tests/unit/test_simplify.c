@@ -82,7 +82,7 @@ vertices_lie_where_they_were_merged(void **state)
 	assert_int_equal(mr_solid_make(&ctx, &solid, &m), MR_OK);
 	o.faces = 400;
 	onto = MR_NEW(&ctx, m.nv, uint32_t);
-	assert_int_equal(mr_simplify(&ctx, &m, &o, &out, onto), MR_OK);
+	assert_int_equal(mr_simplify(&ctx, &m, &o, &out, onto, NULL), MR_OK);
 	assert_int_equal(out.nf, 400);
 	assert_int_equal(out.nv, 202);
 	assert_int_equal(mr_simplify_map(&ctx, &m, &out, onto, &map), MR_OK);
@@ -120,7 +120,7 @@ map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_
 	m->p = p;
 	o.faces = faces;
 	onto = MR_NEW(&ctx, m->nv, uint32_t);
-	assert_int_equal(mr_simplify(&ctx, m, &o, out, onto), MR_OK);
+	assert_int_equal(mr_simplify(&ctx, m, &o, out, onto, NULL), MR_OK);
 	assert_int_equal(mr_simplify_map(&ctx, m, out, onto, map), MR_OK);
 }
 
@@ -181,7 +181,7 @@ wants_of_memory_are_reported(void **state)
 	onto = MR_NEW(&ctx, m.nv, uint32_t);
 	for (uint64_t k = 1; status != MR_OK && k < 100; k++) {
 		ctx.fail_at = k;
-		status = mr_simplify(&ctx, &m, &o, &out, onto);
+		status = mr_simplify(&ctx, &m, &o, &out, onto, NULL);
 		assert_true(status == MR_OK || status == MR_EMEM);
 	}
 	ctx.fail_at = 0;

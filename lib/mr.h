@@ -1,0 +1,622 @@
+/*
+ * mr.h -- libmr: what the tools of mr do, as functions; the one header for programs of your own, in C or C++.
+ *
+ * A frame is a set of named layers, a layer a set of named, typed columns (man/mr-stream.5).  A tool is a
+ * function from frame to frame: mr_X_frame does to a frame what mr-X does to each frame of a stream, with the
+ * same defaults and the same bytes; man/mr-X.1 says what.
+ *
+ *	mr_ctx *ctx = mr_ctx_new(0);
+ *	mr_frame *f;
+ *
+ *	if (mr_import(ctx, "bunny.obj", NULL, &f) < 0 || mr_smooth_frame(ctx, f, NULL, NULL) < 0 ||
+ *	    mr_export(ctx, f, "base", "smooth.obj", NULL) < 0)
+ *		fprintf(stderr, "%s\n", mr_error(ctx));
+ *	mr_ctx_delete(ctx);
+ *
+ * Status.  A function that can fail returns an mr_status: negative where it failed, with a sentence in
+ * mr_error; its outputs are then unchanged.  The library never prints and never exits.
+ * Memory.  All that a function gives is the context's, until the context is deleted or a mark is released
+ * that was taken before: callers free nothing else, but for what has a _free or _delete of its own.  What is
+ * put into a frame is borrowed by it.
+ * Threads.  One context serves one thread at a time; inside, functions use as many threads as the context
+ * has, and give the same bytes for any number.
+ * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too.  A result that is not wanted is NULL; a
+ * figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
+ */
+#ifndef MR_H
+#define MR_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#ifdef __GNUC__
+#define MR_API         __attribute__((visibility("default")))
+#define MR_WARN_UNUSED __attribute__((warn_unused_result))
+#else
+#define MR_API
+#define MR_WARN_UNUSED
+#endif
+
+#define MR_UNKNOWN SIZE_MAX
+
+/* Contexts */
+
+typedef enum mr_status {
+	MR_OK = 0,
+	MR_END = 1,       /* a reader has nothing more: not a failure */
+	MR_EMEM = -1,     /* memory could not be had */
+	MR_EIO = -2,      /* the system could not read or write */
+	MR_EFORMAT = -3,  /* bytes break the format they claim */
+	MR_ERANGE = -4,   /* a number, an index or a size is outside its range */
+	MR_EMESH = -5,    /* a mesh or cloud that the algorithm cannot work on */
+	MR_ENUMERIC = -6, /* singular, not positive definite, not converged */
+	MR_EMISSING = -7, /* a layer or column is not there, or of another shape */
+	MR_EUSAGE = -8    /* a wrong option value: the tools exit 2 */
+} mr_status;
+
+typedef struct mr_ctx mr_ctx;
+
+/* "1.0" */
+MR_API const char *mr_version(void);
+
+/* A context of so many threads, 0: all cores; NULL where there is no memory for it. */
+MR_API mr_ctx *mr_ctx_new(unsigned threads);
+
+/* Frees it and all that it gave.  Accepts NULL. */
+MR_API void mr_ctx_delete(mr_ctx *ctx);
+
+/* The sentence of the last failure, until the next; empty before the first. */
+MR_API const char *mr_error(const mr_ctx *ctx);
+
+/* Who wants to hear; NULLs do not. */
+typedef struct mr_listener {
+	void (*warn)(void *user, const char *text);                   /* what is poor in a result */
+	void (*note)(void *user, const char *text);                   /* remarks, as of -v */
+	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1 */
+	void *user;                                                   /* passed to all */
+} mr_listener;
+
+MR_API void mr_listen(mr_ctx *ctx, const mr_listener *listener);
+
+/* A place in the context's memory: releasing it frees what was given since. */
+typedef struct mr_mark {
+	uint64_t serial;
+	size_t used;
+} mr_mark;
+
+MR_API mr_mark mr_mark_take(const mr_ctx *ctx);
+MR_API void mr_mark_release(mr_ctx *ctx, mr_mark mark);
+
+/* Meshes */
+
+typedef struct mr_v3 {
+	double x, y, z;
+} mr_v3;
+
+typedef struct mr_tri {
+	uint32_t v[3]; /* counter-clockwise, seen from outside */
+} mr_tri;
+
+/* A view of arrays that somebody else keeps; without faces a cloud of points. */
+typedef struct mr_mesh {
+	const char *name; /* of the layer, for sentences */
+	const mr_v3 *p;   /* nv positions */
+	const mr_tri *t;  /* nf triangles */
+	size_t nv, nf;    /* both below 2^32 - 1; 3 nf below 2^32 - 1 */
+} mr_mesh;
+
+/* Frames */
+
+typedef struct mr_frame mr_frame;
+
+/* What a column holds: `element` v (a vertex), f (a face) or - (neither); `type` d (double), u (uint32_t), b
+ * (byte) or t (text); components per row. */
+typedef struct mr_shape {
+	char element, type;
+	uint8_t components;
+} mr_shape;
+
+/* An empty key frame.  MR_ERANGE for a name that the format forbids. */
+MR_API mr_status mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame) MR_WARN_UNUSED;
+
+MR_API const char *mr_frame_name(const mr_frame *frame);
+
+/* Column i of all, in their order; false behind the last.  What is NULL is not wanted. */
+MR_API bool mr_frame_column(
+    const mr_frame *frame, size_t i, const char **layer, const char **name, mr_shape *shape, uint64_t *rows);
+
+/* Whether the frame has any column of the layer; whether it has that column. */
+MR_API bool mr_frame_has_layer(const mr_frame *frame, const char *layer);
+MR_API bool mr_layer_has(const mr_frame *frame, const char *layer, const char *name);
+
+/*
+ * The column's values, decoded and its checksum verified.  MR_EMISSING where it is absent or of another
+ * shape; MR_EFORMAT where its bytes are damaged.  data: rows x components values, the frame's.
+ */
+MR_API mr_status mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name,
+    mr_shape shape, const void **data, size_t *rows) MR_WARN_UNUSED;
+
+/* Puts or replaces a column (in its old place).  data: rows x components values, borrowed.  MR_ERANGE for
+ * names and shapes that the format forbids. */
+MR_API mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name,
+    mr_shape shape, const void *data, size_t rows) MR_WARN_UNUSED;
+
+/* Removes a column if it is there.  With name NULL: the whole layer.  With element not 0: only columns of
+ * that element. */
+MR_API void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
+
+/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH without a face.
+ */
+MR_API mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
+
+/* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */
+MR_API mr_status mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
+
+/* Puts positions, which must be finite, and triangles; drops what is stale where they are not those that were
+ * there. */
+MR_API mr_status mr_layer_put_mesh(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m) MR_WARN_UNUSED;
+
+/* What became of a layer. */
+typedef enum mr_change {
+	MR_POSED,       /* the same surface, elsewhere */
+	MR_RESHAPED,    /* another surface of the same vertices and triangles */
+	MR_RECONNECTED, /* other vertices or triangles */
+	MR_RESELECTED   /* the same surface with other regions */
+} mr_change;
+
+/* Puts positions alone, which must be finite: the layer is posed or reshaped. */
+MR_API mr_status mr_layer_move(
+    mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 *p, size_t nv) MR_WARN_UNUSED;
+
+/* Regions (column `region`): fixed, free, or handle number region - MR_REGION_HANDLE. */
+enum { MR_REGION_FIXED = 0, MR_REGION_FREE = 1, MR_REGION_HANDLE = 2 };
+
+/* Puts regions; what followed from others is dropped. */
+MR_API mr_status mr_layer_put_region(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const uint32_t *region, size_t nv) MR_WARN_UNUSED;
+
+/* Streams */
+
+typedef struct mr_reader mr_reader;
+typedef struct mr_writer mr_writer;
+
+/*
+ * Reads from a descriptor, which stays the caller's, from where it stands; a regular file is mapped and must
+ * not be cut meanwhile.
+ */
+MR_API mr_status mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader) MR_WARN_UNUSED;
+
+/*
+ * MR_OK: *frame is the next one, a delta merged with what it keeps, valid until the next call; MR_END: all
+ * streams have ended well, and the last frame stays valid; else failed, and every further call fails.
+ */
+MR_API mr_status mr_reader_next(mr_ctx *ctx, mr_reader *reader, mr_frame **frame) MR_WARN_UNUSED;
+
+/* Accepts NULL. */
+MR_API void mr_reader_free(mr_reader *reader);
+
+typedef enum mr_packing { MR_KEEP, MR_PACK, MR_UNPACK } mr_packing;
+
+/* Writes to a descriptor, which stays the caller's. */
+MR_API mr_status mr_writer_open(mr_ctx *ctx, int fd, mr_packing packing, mr_writer **writer) MR_WARN_UNUSED;
+
+/* Sends a frame: a key whole, of a delta what differs from the frame before. */
+MR_API mr_status mr_writer_put(mr_ctx *ctx, mr_writer *writer, const mr_frame *frame) MR_WARN_UNUSED;
+
+/* Says that a frame was left out: the next one is sent complete. */
+MR_API void mr_writer_skipped(mr_writer *writer);
+
+/* Writes END: call it only when all went well. */
+MR_API mr_status mr_writer_end(mr_ctx *ctx, mr_writer *writer) MR_WARN_UNUSED;
+
+/* Accepts NULL. */
+MR_API void mr_writer_free(mr_writer *writer);
+
+/* Files of other programs: mr-import, mr-export */
+
+typedef struct mr_import_opts {
+	const char *format; /* NULL: by the bytes */
+	const char *layer;  /* NULL: mesh, without faces points */
+	bool points;        /* leave out the faces */
+	bool repair;        /* make an oriented manifold of the faces */
+	bool weld;          /* join vertices no further apart than weld_distance */
+	double weld_distance;
+	bool weld_relative; /* weld_distance is a share of the bounding box's diagonal */
+} mr_import_opts;
+
+#define MR_IMPORT_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		NULL, NULL, false, false, false, 0, false                                                    \
+	}
+
+/* Reads a file ("-": stdin) as a key frame that is named by its stem. */
+MR_API mr_status mr_import(
+    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame) MR_WARN_UNUSED;
+
+/* Writes a layer (NULL: mesh, else control, else points) to a file ("-": stdout), whole or not at all.
+ * format: NULL: by the suffix. */
+MR_API mr_status mr_export(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format) MR_WARN_UNUSED;
+
+/* What may outlive a frame: a factorization, an index.  A frame that is a delta and left unchanged what it
+ * depends on finds it again; never does it change a byte. */
+typedef struct mr_cache mr_cache;
+
+/* NULL where there is no memory for it. */
+MR_API mr_cache *mr_cache_new(void);
+
+/* Accepts NULL.  Frames that were given the cache may borrow from it: not before they are done with. */
+MR_API void mr_cache_delete(mr_cache *cache);
+
+/* Editing: Botsch, Kobbelt 2004 */
+
+typedef enum mr_smooth_method {
+	MR_SMOOTH_IMPLICIT, /* (M + t L) p' = M p, by Cholesky: any time in one pass */
+	MR_SMOOTH_EXPLICIT, /* p' = p - t M^-1 L p: a pass may last a quarter of a squared edge length */
+	MR_SMOOTH_TAUBIN    /* a pass forth and one back, so the volume stays: up to 0.15 a pass */
+} mr_smooth_method;
+
+typedef struct mr_smooth_opts {
+	int method;        /* mr_smooth_method */
+	double time;       /* in all, in squared mean edge lengths of the input */
+	size_t passes;     /* 0: 1 implicit pass; of the others 8 for each unit of time */
+	const char *layer; /* NULL: base, else mesh */
+} mr_smooth_opts;
+
+#define MR_SMOOTH_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		MR_SMOOTH_IMPLICIT, 10, 0, NULL                                                              \
+	}
+
+typedef struct mr_smooth_result {
+	size_t passes, boundary_vertices;
+	double mean_edge;
+	double seconds_analyse, seconds_factor, nnz_factor, rcond; /* of the implicit system */
+} mr_smooth_result;
+
+MR_API mr_status mr_smooth_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_result *result) MR_WARN_UNUSED;
+
+typedef struct mr_remesh_opts {
+	double length; /* target edge length; 0: ratio times the edge of the triangle of mean area */
+	double ratio;
+	size_t rounds;        /* of split, collapse, flip, relocate */
+	size_t area_passes;   /* of area-based smoothing at most */
+	double gravity;       /* exponent of the area in the centroid; 1 is the paper's */
+	double feature;       /* dihedral angle in degrees from which an edge is kept; 180: none */
+	double adaptive;      /* distance of an edge to the surface that sets the lengths; 0: uniform */
+	bool project;         /* keep the vertices on the input surface */
+	bool length_relative; /* length is a share of the bounding box's diagonal */
+	bool adaptive_relative;
+	const char *layer; /* NULL: base, else mesh */
+} mr_remesh_opts;
+
+#define MR_REMESH_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		0, 0.95, 5, 20, 1.5, 180, 0, true, false, false, NULL                                        \
+	}
+
+typedef struct mr_remesh_result {
+	double length;                         /* target edge length; the mean where it is adaptive */
+	size_t splits, collapses, flips, tips; /* tips: of thin limbs, kept */
+	size_t vertices, faces;                /* of the result */
+	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
+	size_t flipped_before, flipped; /* faces that point against the input at all corners */
+	size_t folded_before, folded;   /* edges */
+	double seconds_rounds, seconds_areas;
+} mr_remesh_result;
+
+MR_API mr_status mr_remesh_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_result *result) MR_WARN_UNUSED;
+
+/* Vertices for which a predicate of mr-select holds ("all", "above:y,0.8", ...) and the region that they get.
+ */
+typedef struct mr_rule {
+	uint32_t region;
+	const char *predicate;
+} mr_rule;
+
+typedef struct mr_select_opts {
+	bool reset;        /* begin with all vertices fixed, not with the regions there are */
+	const char *layer; /* NULL: mesh, else control */
+} mr_select_opts;
+
+#define MR_SELECT_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		false, NULL                                                                                  \
+	}
+
+typedef struct mr_select_result {
+	size_t fixed, free, handles; /* vertices */
+	size_t handle_count;         /* the highest handle in use, plus one */
+	const size_t *handle;        /* handle_count: vertices of each */
+} mr_select_result;
+
+/* Applies n rules in order: later ones win. */
+MR_API mr_status mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules, size_t n,
+    const mr_select_opts *opts, mr_select_result *result) MR_WARN_UNUSED;
+
+typedef struct mr_encode_result {
+	size_t heights, offsets; /* vertices that have one or the other */
+	size_t searched;         /* that the walk from the source map did not place */
+	double steps_mean, crossed_mean;
+	double residual_max, height_max; /* of the mesh's diagonal */
+} mr_encode_result;
+
+MR_API mr_status mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result) MR_WARN_UNUSED;
+
+/* Translation, rotation and scaling about a centre: T = C translate rotate scale C^-1. */
+typedef struct mr_pose {
+	mr_v3 translate;
+	mr_v3 axis; /* of the rotation, of any length but zero where degrees is not */
+	double degrees;
+	mr_v3 scale; /* along x, y, z */
+	bool centered;
+	mr_v3 center; /* where centered; else the centroid of the handle's vertices, as posed so far */
+} mr_pose;
+
+#define MR_POSE_REST                                                                                         \
+	{                                                                                                    \
+		{ 0, 0, 0 }, { 0, 0, 1 }, 0, { 1, 1, 1 }, false,                                             \
+		{                                                                                            \
+			0, 0, 0                                                                              \
+		}                                                                                            \
+	}
+
+/* Where a handle goes, on top of where it is.  layer: that has the regions; NULL: mesh, else control. */
+MR_API mr_status mr_pose_frame(
+    mr_ctx *ctx, mr_frame *f, const char *layer, size_t handle, const mr_pose *pose) MR_WARN_UNUSED;
+
+typedef enum mr_solver_choice {
+	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
+	MR_SOLVER_CHOLESKY,
+	MR_SOLVER_LU,
+	MR_SOLVER_CG,
+	MR_SOLVER_BICGSTAB,
+	MR_SOLVER_MULTIGRID,
+	MR_SOLVER_VCYCLE
+} mr_solver_choice;
+
+typedef enum mr_areas {
+	MR_AREAS_VORONOI, /* each vertex its own */
+	MR_AREAS_MEAN     /* all the same: Botsch, Kobbelt 2004, section 4.2 */
+} mr_areas;
+
+typedef struct mr_solve_opts {
+	size_t order;      /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
+	int solver;        /* mr_solver_choice */
+	int areas;         /* mr_areas */
+	bool unsymmetric;  /* the paper's own system; else a row scaling of it, which is symmetric */
+	bool basis;        /* also put the response to every handle */
+	bool verify;       /* also find the error, by a direct solution, and the condition */
+	double tol;        /* relative residual to reach; 0: 1e-12 of direct solvers, else 1e-10 */
+	size_t iterations; /* at most */
+	double memory;     /* bytes that a factor may take; 0: what there is */
+	int precondition;  /* of CG and BiCGSTAB: 0 by order, 1 incomplete factors, 2 Jacobi, 3 multigrid */
+	const char *layer; /* NULL: base, else control */
+} mr_solve_opts;
+
+#define MR_SOLVE_DEFAULTS                                                                                    \
+	{                                                                                                    \
+		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0, NULL               \
+	}
+
+typedef struct mr_solve_result {
+	size_t free, fixed, handle_vertices, handles;
+	size_t isolated_components, isolated_vertices; /* free, without a constrained vertex: they stay */
+	size_t narrow_strip_vertices; /* constrained ones with fewer than k rings behind them */
+	size_t nnz_matrix;
+	double negative_weights; /* share of the edges */
+	double nnz_factor, bytes_factor;
+	double seconds_assemble, seconds_analyse, seconds_factor, seconds_solve;
+	size_t iterations;
+	double rcond, residual;
+	size_t refinements;
+	double error, condition; /* of verify */
+} mr_solve_result;
+
+/* cache: or NULL. */
+MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
+    mr_solve_result *result) MR_WARN_UNUSED;
+
+typedef enum mr_decode_source {
+	MR_FROM_ANY, /* detail where it is there, else heights */
+	MR_FROM_DETAIL,
+	MR_FROM_CONTROL
+} mr_decode_source;
+
+typedef struct mr_decode_opts {
+	double gain;  /* multiplies the detail */
+	int from;     /* mr_decode_source */
+	size_t level; /* subdivisions of the control mesh; MR_UNKNOWN: as many as have heights */
+} mr_decode_opts;
+
+#define MR_DECODE_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		1, MR_FROM_ANY, MR_UNKNOWN                                                                   \
+	}
+
+/* cache: or NULL. */
+MR_API mr_status mr_decode_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache) MR_WARN_UNUSED;
+
+/* Reconstruction: Jeong, Kim 2001 */
+
+typedef enum mr_wrap_method {
+	MR_WRAP_AUTO,  /* a box, coarse to fine, searching along normals; the volume where its first level
+	                  or its last does not cover the points */
+	MR_WRAP_CUBE,  /* the paper's, to the letter: genus 0 */
+	MR_WRAP_VOLUME /* an implicit surface, then projected and smoothed */
+} mr_wrap_method;
+
+typedef struct mr_wrap_opts {
+	int method;         /* mr_wrap_method */
+	size_t resolution;  /* edges of the wrap along a side of the bounding cube; 0: by the sampling */
+	size_t grid;        /* cells of the volume; 0: from the sampling density */
+	double alpha;       /* share of the way to the nearest point */
+	double lambda;      /* of tangential smoothing */
+	size_t iterations;  /* of projection and smoothing; 0: as many as the method needs by default */
+	bool template_mesh; /* wrap the mesh that is in control */
+	const char *layer;  /* NULL: points */
+} mr_wrap_opts;
+
+#define MR_WRAP_DEFAULTS                                                                                     \
+	{                                                                                                    \
+		MR_WRAP_AUTO, 0, 0, 0.5, 0.2, 0, false, NULL                                                 \
+	}
+
+MR_API mr_status mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts) MR_WARN_UNUSED;
+
+typedef struct mr_simplify_opts {
+	size_t faces;         /* stop at so many, or one less; 0: by ratio */
+	double ratio;         /* share of the faces to stop at; 0: by error; all 0: by the frame */
+	double error;         /* no vertex farther than this from the planes of the faces merged into it, root
+	                         mean square by area; 0: no such limit */
+	bool error_relative;  /* error is a share of the bounding box's diagonal */
+	double boundary;      /* weight of the planes that hold boundary edges */
+	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */
+	const char *to;       /* layer that is written; NULL: the one that is simplified */
+	const char *map;      /* layer that keeps the surface, with its places on the result; NULL: none */
+	const char *layer;    /* NULL: control, else base, else mesh */
+} mr_simplify_opts;
+
+#define MR_SIMPLIFY_DEFAULTS                                                                                 \
+	{                                                                                                    \
+		0, 0, 0, false, 10, NULL, NULL, NULL, NULL                                                   \
+	}
+
+typedef struct mr_simplify_result {
+	size_t vertices, faces;           /* of the result */
+	size_t computed, refused, merges; /* edges: costs computed, collapses refused and made */
+	double error;                     /* the largest that was made */
+	double seconds_begin, seconds_merge;
+} mr_simplify_result;
+
+MR_API mr_status mr_simplify_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result) MR_WARN_UNUSED;
+
+typedef enum mr_fit_method {
+	MR_FIT_LOCAL, /* Suzuki et al. 1999, as the paper has it: each vertex by the point nearest its limit
+	                 point */
+	MR_FIT_LEAST_SQUARES /* all points at once, by the normal equations */
+} mr_fit_method;
+
+typedef struct mr_fit_opts {
+	int method;        /* mr_fit_method */
+	size_t iterations; /* 0: as many as the method needs by default */
+	double step;       /* of local: share of the force taken */
+	double fairness;   /* of least-squares: weight of the smoothness term */
+	const char *layer; /* NULL: control */
+} mr_fit_opts;
+
+#define MR_FIT_DEFAULTS                                                                                      \
+	{                                                                                                    \
+		MR_FIT_LEAST_SQUARES, 0, 0.8, 1e-3, NULL                                                     \
+	}
+
+MR_API mr_status mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts) MR_WARN_UNUSED;
+
+typedef enum mr_sample_method {
+	MR_SAMPLE_TRIANGLE, /* the paper's search for the valid triangle among the nearest points */
+	MR_SAMPLE_ROBUST    /* the nearest points' local surface, for noise and outliers */
+} mr_sample_method;
+
+typedef struct mr_sample_opts {
+	int method;        /* mr_sample_method */
+	size_t neighbours; /* nearest points looked at */
+	size_t refine;     /* passes that fit the heights to the points by least squares */
+	size_t level;      /* subdivisions of the control mesh; MR_UNKNOWN: as many vertices as points */
+	const char *layer; /* NULL: points, else mesh */
+} mr_sample_opts;
+
+#define MR_SAMPLE_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		MR_SAMPLE_TRIANGLE, 30, 3, MR_UNKNOWN, NULL                                                  \
+	}
+
+MR_API mr_status mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts) MR_WARN_UNUSED;
+
+enum { MR_LEVEL_MAX = 15 }; /* of subdivision */
+
+typedef struct mr_subdivide_opts {
+	size_t level;      /* how many times each triangle becomes four */
+	bool limit;        /* move the vertices onto the limit surface */
+	double crease;     /* keep edges whose faces meet at more degrees; 180: none */
+	const char *layer; /* NULL: control, else mesh */
+} mr_subdivide_opts;
+
+#define MR_SUBDIVIDE_DEFAULTS                                                                                \
+	{                                                                                                    \
+		1, false, 180, NULL                                                                          \
+	}
+
+typedef struct mr_subdivide_result {
+	size_t vertices, faces;
+	double seconds;
+} mr_subdivide_result;
+
+/* cache: or NULL. */
+MR_API mr_status mr_subdivide_frame(mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache,
+    mr_subdivide_result *result) MR_WARN_UNUSED;
+
+/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1.
+ * cache: or NULL. */
+MR_API mr_status mr_equalize_frame(
+    mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache) MR_WARN_UNUSED;
+
+/* Measuring: mr-compare */
+
+typedef struct mr_compare_opts {
+	size_t samples;     /* pieces of about equal area to integrate over, and one a face at least; 0:
+	                       100,000 */
+	bool vertices_only; /* measure from the vertices alone, each weighing one */
+	double tolerance;   /* max_bound is sought within this share of max */
+	size_t effort;      /* most pieces looked at for it, besides; 0: 200,000, or two a face where that is
+	                       more */
+} mr_compare_opts;
+
+#define MR_COMPARE_DEFAULTS                                                                                  \
+	{                                                                                                    \
+		0, false, 1e-3, 0                                                                            \
+	}
+
+/* From one surface to the other, in units of the positions. */
+typedef struct mr_distance {
+	double min;       /* least of the measured points */
+	double max;       /* greatest of them: a lower bound of the one-sided Hausdorff distance */
+	double max_bound; /* an upper bound of it */
+	double mean, rms;
+	size_t samples; /* points measured for mean and rms */
+} mr_distance;
+
+/* Of two layers with the same connectivity: vertex by vertex, and |edge of b| / |edge of a|.  NaN where there
+ * is none. */
+typedef struct mr_deviation {
+	double max, mean, rms; /* distances between a vertex of a and of b */
+	size_t vertex;         /* where the greatest is */
+	double stretch_min, stretch_mean, stretch_max;
+} mr_deviation;
+
+typedef struct mr_comparison {
+	mr_distance ab, ba;
+	mr_distance both; /* the two surfaces weigh the same */
+	bool corresponds; /* same connectivity: deviation is there */
+	mr_deviation deviation;
+	double diagonal; /* of b's bounding box: what relative figures divide by */
+} mr_comparison;
+
+/* Two surfaces or clouds.  MR_EMESH where a or b has no points. */
+MR_API mr_status mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts,
+    mr_comparison *comparison) MR_WARN_UNUSED;
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,39 @@
+/*
+ * cache.h -- what the tools keep from frame to frame.
+ *
+ * Each thing has an arena of its own, so that one can be given up without the others.
+ * Private to this room.
+ */
+#ifndef MR_TOOL_CACHE_H
+#define MR_TOOL_CACHE_H
+
+#include "edit/deform_cache.h"
+#include "subdivide/displaced.h"
+
+/* The faces around the vertices of base, which a delta mostly keeps. */
+typedef struct mr_incidence_cache {
+	mr_incidence inc;
+	uint64_t serial; /* of base.triangles; 0: empty */
+} mr_incidence_cache;
+
+struct mr_cache {
+	mr_ctx deform_keep, level_keep, incidence_keep;
+	mr_deform_cache deform;
+	mr_level_cache level;
+	mr_incidence_cache incidence;
+};
+
+/* The arena `keep` of a cache, with the threads and the listener of the frame's. */
+mr_ctx *mr_cache_arena(const mr_ctx *ctx, mr_ctx *keep);
+
+/*
+ * Levels 0 to n of the frame's layer m: those of the cache, if there is one and it still has them.
+ */
+mr_status mr_cache_levels(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *m, double crease,
+    size_t n, const mr_loop **level);
+
+/* The incidence of the frame's base, likewise. */
+mr_status
+mr_cache_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *base, mr_incidence *inc);
+
+#endif

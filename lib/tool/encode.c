@@ -1,0 +1,20 @@
+/* mr-encode: the mesh as detail over its base. */
+#include "edit/detail.h"
+
+mr_status
+mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
+{
+	bool mapped = mr_layer_has(f, "base", "source_face");
+	mr_mesh mesh, base;
+	mr_source_map map;
+	mr_detail detail;
+
+	MR_TRY(mr_layer_points(ctx, f, "mesh", &mesh));
+	if (mr_layer_has(f, "mesh", "triangles"))
+		MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
+	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
+	if (mapped)
+		MR_TRY(mr_source_map_get(ctx, f, &mesh, base.nv, &map));
+	MR_TRY(mr_encode(ctx, &mesh, &base, mapped ? &map : NULL, &detail, result));
+	return mr_detail_put(ctx, f, &detail);
+}

@@ -1,0 +1,24 @@
+/* mr-fit: a control mesh to where its limit surface is near the points. */
+#include "fit/fit.h"
+
+#include "mesh/layers.h"
+
+mr_status
+mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts)
+{
+	static const mr_fit_opts defaults = MR_FIT_DEFAULTS;
+	static const char *const reads[] = { "points", "mesh", NULL };
+	const mr_fit_opts *o = opts ? opts : &defaults;
+	const char *layer = o->layer ? o->layer : "control", *from;
+	mr_mesh control, points;
+	mr_v3 *p;
+
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
+	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));
+	MR_TRY(mr_layer_points(ctx, f, from, &points));
+	p = MR_NEW(ctx, control.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, o, p));
+	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
+}

@@ -1,0 +1,80 @@
+/* mr-select: regions by rules. */
+#include "tool/select.h"
+
+#include "mesh/layers.h"
+
+static mr_status
+read_groups(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_groups *g)
+{
+	const void *group, *names;
+
+	*g = (mr_groups){ 0 };
+	if (!mr_layer_has(f, m->name, "group") || !mr_layer_has(f, m->name, "groups"))
+		return MR_OK;
+	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "group", m->nf, &group));
+	MR_TRY(mr_layer_get(ctx, f, m->name, "groups", &names, &g->length));
+	g->group = group;
+	g->names = names;
+	return MR_OK;
+}
+
+/* The regions to begin with, in the arena. */
+static mr_status
+first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool reset, uint32_t **region)
+{
+	const uint32_t *there;
+
+	*region = MR_NEW_ZERO(ctx, m->nv, uint32_t);
+	if (!*region)
+		return MR_EMEM;
+	if (reset || !mr_layer_has(f, m->name, "region"))
+		return MR_OK;
+	MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &there));
+	memcpy(*region, there, m->nv * sizeof **region);
+	return MR_OK;
+}
+
+mr_status
+mr_select_by(
+    mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
+{
+	static const char *const reads[] = { "mesh", "control", NULL };
+	const char *layer;
+	uint32_t *region;
+	mr_groups groups;
+	mr_mesh m;
+
+	MR_TRY(mr_layer_choose(ctx, f, opts->layer, reads, &layer));
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	MR_TRY(read_groups(ctx, f, &m, &groups));
+	MR_TRY(first_regions(ctx, f, &m, opts->reset, &region));
+	MR_TRY(mr_select(ctx, &m, &groups, s, region, result));
+	return mr_layer_put_region(ctx, f, layer, region, m.nv);
+}
+
+/* What the tool calls a rule for this region. */
+static const char *
+option_of(mr_ctx *ctx, uint32_t region)
+{
+	if (region == MR_REGION_FIXED)
+		return "--fixed ";
+	if (region == MR_REGION_FREE)
+		return "--free ";
+	return mr_format(ctx, "--handle %u=", (unsigned)(region - MR_REGION_HANDLE));
+}
+
+mr_status
+mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules, size_t n, const mr_select_opts *opts,
+    mr_select_result *result)
+{
+	static const mr_select_opts defaults = MR_SELECT_DEFAULTS;
+	mr_selection s = { 0 };
+
+	for (size_t i = 0; i < n; i++) {
+		const char *option = option_of(ctx, rules[i].region);
+		if (!option)
+			return MR_EMEM;
+		MR_TRY(mr_selection_add(ctx, &s, rules[i].region, option, rules[i].predicate));
+	}
+	return mr_select_by(ctx, f, &s, opts ? opts : &defaults, result);
+}

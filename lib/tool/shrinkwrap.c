@@ -1,0 +1,36 @@
+/* mr-shrinkwrap: points to a control mesh around them. */
+#include "wrap/shrinkwrap.h"
+
+#include "mesh/layers.h"
+
+/* The triangles stay, and with them all that the layer has but what followed from the positions. */
+static mr_status
+wrap_control(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *points, const mr_wrap_opts *o)
+{
+	mr_mesh control;
+	mr_v3 *p;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
+	p = MR_NEW(ctx, control.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_prefix(ctx, mr_wrap_template(ctx, points->p, points->nv, &control, o, p), "%s", layer));
+	return mr_layer_move(ctx, f, "control", MR_RESHAPED, p, control.nv);
+}
+
+mr_status
+mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts)
+{
+	static const mr_wrap_opts defaults = MR_WRAP_DEFAULTS;
+	static const char *const reads[] = { "points", NULL };
+	const mr_wrap_opts *o = opts ? opts : &defaults;
+	const char *layer;
+	mr_mesh points, out;
+
+	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_points(ctx, f, layer, &points));
+	if (o->template_mesh)
+		return wrap_control(ctx, f, layer, &points, o);
+	MR_TRY(mr_prefix(ctx, mr_shrinkwrap(ctx, points.p, points.nv, o, &out), "%s", layer));
+	return mr_layer_put_mesh(ctx, f, "control", &out);
+}

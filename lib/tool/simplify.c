@@ -1,0 +1,105 @@
+/* mr-simplify: fewer faces, with what is known of the surface carried over. */
+#include "simplify/simplify.h"
+
+#include "mesh/layers.h"
+
+/* By default, but for control meshes. */
+enum { FACES_A_FACE = 10 };
+
+/* The points that a control mesh is for: those of the frame, if there are any. */
+static mr_status
+read_points(mr_ctx *ctx, mr_frame *f, const char *result_layer, mr_mesh *points)
+{
+	*points = (mr_mesh){ 0 };
+	if (strcmp(result_layer, "control") || !mr_frame_has_layer(f, "points"))
+		return MR_OK;
+	return mr_layer_points(ctx, f, "points", points);
+}
+
+/* The faces to stop at where nothing says so.  A control mesh is made for the points, or for the mesh that it
+ * comes from. */
+static size_t
+faces_by_frame(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, const char *to)
+{
+	if (points->nv > 0)
+		return mr_simplify_faces_for(ctx, points->nv);
+	if (to && !strcmp(to, "control"))
+		return mr_simplify_faces_for(ctx, m->nv);
+	return m->nf / FACES_A_FACE;
+}
+
+static mr_status
+weigh(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, mr_simplify_opts *o)
+{
+	double *weight;
+
+	if (o->weight || points->nv == 0)
+		return MR_OK;
+	weight = MR_NEW(ctx, m->nv, double);
+	if (!weight)
+		return MR_EMEM;
+	MR_TRY(mr_simplify_weigh(ctx, m, points->p, points->nv, weight));
+	o->weight = weight;
+	return MR_OK;
+}
+
+/* Keeps surface m as layer `map`, with where its vertices lie on the result. */
+static mr_status
+put_map(mr_ctx *ctx, mr_frame *f, const char *map_layer, const mr_mesh *m, const mr_mesh *out,
+    const uint32_t *onto)
+{
+	char face[MR_COLUMN_MAX + 1], bary[MR_COLUMN_MAX + 1];
+	mr_source_map map;
+
+	MR_TRY(mr_simplify_map(ctx, m, out, onto, &map));
+	snprintf(face, sizeof face, "%s_face", m->name);
+	snprintf(bary, sizeof bary, "%s_bary", m->name);
+	MR_TRY(mr_layer_put_mesh(ctx, f, map_layer, m));
+	MR_TRY(mr_layer_put(ctx, f, map_layer, face, map.face, m->nv));
+	return mr_layer_put(ctx, f, map_layer, bary, map.bary, m->nv);
+}
+
+/* Puts the result in the surface's place; a base goes on knowing where it lies on the mesh. */
+static mr_status
+replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
+{
+	mr_source_map over, source;
+	bool mapped = false;
+
+	if (!strcmp(m->name, "base")) {
+		MR_TRY(mr_simplify_source(ctx, m, out, onto, &over));
+		MR_TRY(mr_source_map_follow(ctx, f, m, &over, out->nv, &source, &mapped));
+	}
+	MR_TRY(mr_layer_put_mesh(ctx, f, m->name, out));
+	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
+}
+
+mr_status
+mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result)
+{
+	static const char *const reads[] = { "control", "base", "mesh", NULL };
+	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
+	mr_mesh m, points, out;
+	const char *layer;
+	uint32_t *onto;
+
+	if (opts)
+		o = *opts;
+	MR_TRY(mr_layer_choose(ctx, f, o.layer, reads, &layer));
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	if ((o.map && !strcmp(o.map, layer)) || (o.to && !strcmp(o.to, layer)))
+		return mr_fail(
+		    ctx, MR_EUSAGE, "--%s: %s is the layer that is simplified", o.to ? "to" : "map", layer);
+	MR_TRY(read_points(ctx, f, o.to ? o.to : layer, &points));
+	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
+		o.faces = faces_by_frame(ctx, &m, &points, o.to);
+	MR_TRY(weigh(ctx, &m, &points, &o));
+	onto = MR_NEW(ctx, m.nv, uint32_t);
+	if (!onto)
+		return MR_EMEM;
+	MR_TRY(mr_simplify(ctx, &m, &o, &out, onto, result));
+	if (o.to)
+		return mr_layer_put_mesh(ctx, f, o.to, &out);
+	MR_TRY(replace(ctx, f, &m, &out, onto));
+	return o.map ? put_map(ctx, f, o.map, &m, &out, onto) : MR_OK;
+}

@@ -1,0 +1,30 @@
+/* mr-smooth: a mesh, or a base again, to a smooth base that knows where its vertices lie on the mesh. */
+#include "edit/smooth.h"
+
+#include "space/source_map.h"
+
+mr_status
+mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_result *result)
+{
+	static const mr_smooth_opts defaults = MR_SMOOTH_DEFAULTS;
+	static const char *const reads[] = { "base", "mesh", NULL };
+	const mr_smooth_opts *o = opts ? opts : &defaults;
+	mr_source_map map;
+	const char *layer;
+	bool from_mesh;
+	mr_mesh m;
+	mr_v3 *p;
+
+	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	from_mesh = !strcmp(layer, "mesh");
+	if (from_mesh)
+		MR_TRY(mr_source_map_identity(ctx, &m, &map));
+	p = MR_NEW(ctx, m.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_smooth(ctx, &m, o, p, result));
+	m.p = p;
+	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &m));
+	return from_mesh ? mr_source_map_put(ctx, f, &map, m.nv) : MR_OK;
+}

@@ -1,0 +1,147 @@
+/* mr-solve: the free vertices to where the constraints have them. */
+#include "tool/solve.h"
+
+#include "base/memory.h"
+#include "edit/handles.h"
+#include "tool/cache.h"
+
+/* The solver that the options ask for; MR_EUSAGE where they contradict each other. */
+static mr_status
+choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
+{
+	bool iterates = o->solver == MR_SOLVER_CG || o->solver == MR_SOLVER_BICGSTAB;
+
+	*deform = (mr_deform_opts)MR_DEFORM_DEFAULTS;
+	if (o->layer && strcmp(o->layer, "base") && strcmp(o->layer, "control"))
+		return mr_fail(ctx, MR_EUSAGE,
+		    "--layer: %s cannot be solved for, only base or control: mr-smooth makes the base of a "
+		    "mesh",
+		    o->layer);
+	if (o->unsymmetric && o->solver != MR_SOLVER_AUTO && o->solver != MR_SOLVER_LU &&
+	    o->solver != MR_SOLVER_BICGSTAB)
+		return mr_fail(ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
+	if (o->precondition && !iterates)
+		return mr_fail(ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
+	deform->order = o->order;
+	deform->areas = o->areas;
+	deform->unsymmetric = o->unsymmetric;
+	deform->choose = o->solver == MR_SOLVER_AUTO && !o->unsymmetric;
+	deform->solver.kind = o->solver != MR_SOLVER_AUTO ? (mr_solver_kind)(o->solver - MR_SOLVER_CHOLESKY)
+	                      : o->unsymmetric            ? MR_LU
+	                                                  : MR_CHOLESKY;
+	deform->solver.precondition = o->precondition;
+	deform->solver.iterations = o->iterations;
+	deform->solver.memory = o->memory > 0 ? o->memory : mr_memory_available();
+	if (o->tol > 0)
+		deform->tol = deform->solver.tol = o->tol;
+	return MR_OK;
+}
+
+mr_status
+mr_solve_check(mr_ctx *ctx, const mr_solve_opts *opts)
+{
+	mr_deform_opts deform;
+
+	return choose_solver(ctx, opts, &deform);
+}
+
+/* What poses the frame: the handles, or the places of base.target, or nothing.  A control mesh that gets its
+ * basis keeps its shape, which the displacement stands on: it is posed at rest. */
+static mr_status
+read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool basis, mr_deform_task *task)
+{
+	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
+	bool at_rest = basis && !strcmp(m->name, "control");
+	const void *places = NULL;
+	mr_affine *t = NULL;
+	size_t n = 0;
+
+	if (handles && target)
+		return mr_fail(
+		    ctx, MR_EMESH, "%s has targets, but there are handles too: drop one of them", m->name);
+	if (basis && (handles || target))
+		return mr_fail(ctx, MR_EUSAGE,
+		    "--basis comes before mr-pose, but the frame has handles or targets already");
+	if (target)
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
+	if (handles || at_rest)
+		MR_TRY(mr_handles_rows(ctx, f, 1, &t, &n));
+	*task = (mr_deform_task){ m->p, t, n, places };
+	return MR_OK;
+}
+
+/* The column with the positions that a layer has at rest: to pose those of the undeformed solve, if there was
+ * one. */
+static mr_status
+read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **column)
+{
+	const void *positions;
+
+	*column = posing && mr_layer_has(f, rest->name, "rest") ? "rest" : "position";
+	MR_TRY(mr_layer_get_rows(ctx, f, rest->name, *column, rest->nv, &positions));
+	rest->p = positions;
+	return MR_OK;
+}
+
+/* What poses a frame is used up by that. */
+static void
+drop_used(mr_frame *f, const char *layer)
+{
+	mr_frame_drop(f, "handles", NULL, 0);
+	mr_frame_drop(f, layer, "target", 0);
+}
+
+/* keep: the arena of the system. */
+static mr_status
+solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_cache *kept,
+    mr_solve_result *result)
+{
+	static const char *const reads[] = { "base", "control", NULL };
+	const char *layer, *column;
+	mr_solve_result figures;
+	mr_deform_task task;
+	mr_deform_opts opts;
+	mr_mesh m, rest;
+	mr_deform *d;
+	bool posing;
+	mr_v3 *p;
+
+	MR_TRY(choose_solver(ctx, o, &opts));
+	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	MR_TRY(read_task(ctx, f, &m, o->basis, &task));
+	posing = task.t || task.target;
+	rest = m;
+	MR_TRY(read_rest(ctx, f, posing, &rest, &column));
+	p = MR_NEW(ctx, m.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_deform_cache_get(kept, ctx, keep, f, &rest, column, &opts, &d));
+	MR_TRY(mr_deform_solve(ctx, d, &task, p));
+	if (posing)
+		drop_used(f, layer);
+	MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
+	if (o->basis)
+		MR_TRY(mr_deform_put_basis(ctx, f, &m, d, p));
+	figures = mr_deform_report(ctx, d);
+	if (o->verify)
+		MR_TRY(mr_deform_verify(ctx, &rest, d, &task, p, &figures.error, &figures.condition));
+	if (result)
+		*result = figures;
+	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);
+}
+
+mr_status
+mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache, mr_solve_result *result)
+{
+	static const mr_solve_opts defaults = MR_SOLVE_DEFAULTS;
+	const mr_solve_opts *o = opts ? opts : &defaults;
+	mr_deform_cache own = { 0 };
+	mr_status status;
+
+	if (cache)
+		return solve(ctx, f, o, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, result);
+	status = solve(ctx, f, o, ctx, &own, result);
+	mr_deform_free(own.deform);
+	return status;
+}
