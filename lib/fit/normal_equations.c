@@ -56,7 +56,7 @@ mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, mr_fit_system *s
 	MR_TRY(mr_fit_list_stars(ctx, &surface->level[0], &r.star));
 	MR_TRY(star_rows(ctx, &r.star, &r.star_row));
 	r.basis = MR_NEW_ZERO(ctx, MR_FIT_SLOTS * r.patch.start[r.patch.count], double);
-	r.b = MR_NEW(ctx, 3 * nv, double);
+	r.b = MR_NEW(ctx, nv, mr_v3);
 	if (!r.basis || !r.b)
 		return MR_EMEM;
 	mr_parallel(ctx, r.patch.count, GRAIN, spread_basis, &(basis_job){ surface, &r.patch, r.basis });
@@ -177,16 +177,6 @@ fill_patches(void *arg, size_t begin, size_t end)
 	}
 }
 
-static void
-add_sum(mr_fit_system *s, int v, mr_v3 r)
-{
-	size_t nv = (size_t)s->a.n;
-
-	s->b[v] += r.x;
-	s->b[nv + (size_t)v] += r.y;
-	s->b[2 * nv + (size_t)v] += r.z;
-}
-
 /* Adds the pairs and sums of the faces to the equations, in their order. */
 static void
 gather(const fill_job *j)
@@ -199,7 +189,7 @@ gather(const fill_job *j)
 		for (int i = 0; i < MR_FIT_BLOCK; i++)
 			s->block[s->patch_at[k]].m[i] += j->pair[k - from].m[i];
 	for (size_t i = l->start[j->first]; i < l->start[j->last]; i++)
-		add_sum(s, l->member[i], j->sum[i]);
+		s->b[l->member[i]] = mr_add(s->b[l->member[i]], j->sum[i]);
 }
 
 /* Pairs of the largest piece. */
@@ -287,7 +277,7 @@ add_fairness(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, double fairness)
 			double c = fairness * s->star_row[i];
 			for (size_t k = l->start[v]; k <= i; k++)
 				s->a.value[*at++] += c * s->star_row[k];
-			add_sum(s, l->member[i], mr_mul(-c, t));
+			s->b[l->member[i]] = mr_axpy(-c, t, s->b[l->member[i]]);
 		}
 	}
 	return MR_OK;
@@ -307,7 +297,7 @@ mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *p
 	j.start = start;
 	j.order = order;
 	memset(s->block, 0, (size_t)s->a.start[nv] * sizeof *s->block);
-	memset(s->b, 0, 3 * nv * sizeof *s->b);
+	memset(s->b, 0, nv * sizeof *s->b);
 	MR_TRY(add_points(ctx, s, j));
 	split_trace(s);
 	MR_TRY(add_fairness(ctx, s, x, fairness));
@@ -315,30 +305,4 @@ mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *p
 		s->a.value[s->a.start[v + 1] - 1] += SMALL; /* the diagonal ends the row */
 	mr_mark_release(ctx, mark);
 	return MR_OK;
-}
-
-/* y += (a I + block) z of row i and column j. */
-static void
-apply_entry(const double *m, double a, size_t nv, size_t i, size_t j, const double *z, double *y)
-{
-	double u = z[j], v = z[nv + j], w = z[2 * nv + j];
-
-	y[i] += (a + m[0]) * u + m[3] * v + m[5] * w;
-	y[nv + i] += m[3] * u + (a + m[1]) * v + m[4] * w;
-	y[2 * nv + i] += m[5] * u + m[4] * v + (a + m[2]) * w;
-}
-
-void
-mr_fit_system_apply(const mr_fit_system *s, const double *z, double *y)
-{
-	size_t nv = (size_t)s->a.n;
-
-	memset(y, 0, 3 * nv * sizeof *y);
-	for (size_t i = 0; i < nv; i++)
-		for (int e = s->a.start[i]; e < s->a.start[i + 1]; e++) {
-			size_t j = (size_t)s->a.index[e];
-			apply_entry(s->block[e].m, s->a.value[e], nv, i, j, z, y);
-			if (j != i)
-				apply_entry(s->block[e].m, s->a.value[e], nv, j, i, z, y);
-		}
 }

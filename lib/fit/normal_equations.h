@@ -36,7 +36,7 @@ typedef struct mr_fit_system {
 	mr_fit_block *block;     /* of each entry of a: of trace 0 */
 	int *patch_at, *star_at; /* where the pairs of a list's entries are in a */
 	size_t *patch_pairs, *star_pairs;
-	double *b; /* right-hand sides: x of all vertices, then y, then z */
+	mr_v3 *b; /* right-hand side */
 } mr_fit_system;
 
 /* The pattern of the equations, in the arena. */
@@ -45,8 +45,5 @@ mr_status mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, mr_fit
 /* The equations for n points with weights w at control vertices x, of which the surface is. */
 mr_status mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,
     const mr_fit_foot *foot, const double *w, size_t n, double fairness);
-
-/* y = A z, both as b. */
-void mr_fit_system_apply(const mr_fit_system *system, const double *z, double *y);
 
 #endif

@@ -1,7 +1,13 @@
+/*
+ * A plate through data: the smoothness is that of minimal second differences, the discretization being the
+ * graph's Laplacian divided by the degrees (the umbrella of Kobbelt, Campagna, Vorsatz, Seidel 1998).  The
+ * matrix is never stored: its rows reach two rings.
+ */
 #include "sample/height_energy.h"
 
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "solve/conjugate_gradients.h"
 
 enum { GRAIN = 2048 };
 
@@ -33,17 +39,6 @@ mr_heights_add_data(mr_ctx *ctx, mr_heights *e)
 	return MR_OK;
 }
 
-/* Conjugate gradients with the diagonal as preconditioner; sums by pieces, added in order. */
-typedef struct solver {
-	const mr_heights *e;
-	double *h, *r, *d, *q, *u; /* solution, residual, direction, A d, Laplacian of d */
-	double *weight;            /* fairness of each row */
-	double *inverse;           /* of the diagonal; 0 where the height is fixed */
-	double alpha, beta;
-	double *partial; /* per piece */
-	const double *x; /* operand of the operator */
-} solver;
-
 static double
 degree(const mr_heights *e, size_t i)
 {
@@ -69,108 +64,86 @@ differences(const mr_heights *e, const double *x, size_t i)
 	return sum;
 }
 
-/* u = F N^-2 D x, with D the graph's Laplacian and N the degrees */
+/* The matrix of the energy: A + D F N^-2 D, with D the graph's Laplacian and N the degrees. */
+typedef struct matrix {
+	const mr_heights *e;
+	double *weight;  /* F N^-2 */
+	double *inverse; /* of the diagonal; 0 where the height is fixed */
+	double *u;       /* F N^-2 D x: workspace */
+} matrix;
+
+typedef struct product {
+	const matrix *a;
+	const double *x;
+	double *y;
+} product;
+
 static void
 apply_first(void *arg, size_t begin, size_t end)
 {
-	const solver *s = arg;
+	const product *j = arg;
 
 	for (size_t i = begin; i < end; i++)
-		s->u[i] = s->weight[i] * differences(s->e, s->x, i);
+		j->a->u[i] = j->a->weight[i] * differences(j->a->e, j->x, i);
 }
 
-/* Row i of A x + D u. */
 static double
-apply_row(const solver *s, size_t i)
+apply_row(const product *j, size_t i)
 {
-	const mr_heights *e = s->e;
-	double sum = differences(e, s->u, i);
+	const mr_heights *e = j->a->e;
+	double sum = differences(e, j->a->u, i);
 
 	if (e->diagonal) {
-		sum += e->diagonal[i] * s->x[i];
+		sum += e->diagonal[i] * j->x[i];
 		for (size_t k = e->adj.start[i]; k < e->adj.start[i + 1]; k++)
-			sum += e->beside[k] * s->x[e->adj.adj[k]];
+			sum += e->beside[k] * j->x[e->adj.adj[k]];
 	}
 	return sum;
 }
 
-/* r = b - A h, d = C r; the partial sums are r C r. */
 static void
-begin_rows(void *arg, size_t begin, size_t end)
+apply_second(void *arg, size_t begin, size_t end)
 {
-	const solver *s = arg;
-	double sum = 0;
-
-	for (size_t i = begin; i < end; i++) {
-		s->r[i] = s->inverse[i] > 0 ? (s->e->b ? s->e->b[i] : 0) - apply_row(s, i) : 0;
-		s->d[i] = s->inverse[i] * s->r[i];
-		sum += s->r[i] * s->d[i];
-	}
-	s->partial[begin / GRAIN] = sum;
-}
-
-/* q = A d; the partial sums are d q. */
-static void
-multiply_rows(void *arg, size_t begin, size_t end)
-{
-	const solver *s = arg;
-	double sum = 0;
-
-	for (size_t i = begin; i < end; i++) {
-		s->q[i] = s->inverse[i] > 0 ? apply_row(s, i) : 0;
-		sum += s->d[i] * s->q[i];
-	}
-	s->partial[begin / GRAIN] = sum;
-}
-
-/* h += alpha d, r -= alpha q; the partial sums are r C r. */
-static void
-step_rows(void *arg, size_t begin, size_t end)
-{
-	const solver *s = arg;
-	double sum = 0;
-
-	for (size_t i = begin; i < end; i++) {
-		s->h[i] += s->alpha * s->d[i];
-		s->r[i] -= s->alpha * s->q[i];
-		sum += s->r[i] * s->inverse[i] * s->r[i];
-	}
-	s->partial[begin / GRAIN] = sum;
-}
-
-/* d = C r + beta d */
-static void
-turn_rows(void *arg, size_t begin, size_t end)
-{
-	const solver *s = arg;
+	const product *j = arg;
 
 	for (size_t i = begin; i < end; i++)
-		s->d[i] = s->inverse[i] * s->r[i] + s->beta * s->d[i];
+		j->y[i] = j->a->inverse[i] > 0 ? apply_row(j, i) : 0;
 }
 
+/* y = A x, but 0 where the height is fixed. */
+static void
+apply(const mr_ctx *ctx, const void *a, mr_columns s, const double *x, double *y)
+{
+	product j = { a, x, y };
+
+	mr_parallel(ctx, s.n, GRAIN, apply_first, &j);
+	mr_parallel(ctx, s.n, GRAIN, apply_second, &j);
+}
+
+/* From the weights. */
 static void
 invert_diagonal(void *arg, size_t begin, size_t end)
 {
-	const solver *s = arg;
-	const mr_heights *e = s->e;
+	const matrix *a = arg;
+	const mr_heights *e = a->e;
 
 	for (size_t i = begin; i < end; i++) {
-		double n = degree(e, i), sum = n * n * s->weight[i] + (e->diagonal ? e->diagonal[i] : 0);
+		double n = degree(e, i), sum = n * n * a->weight[i] + (e->diagonal ? e->diagonal[i] : 0);
 		for (size_t k = e->adj.start[i]; k < e->adj.start[i + 1]; k++)
-			sum += s->weight[e->adj.adj[k]];
-		s->inverse[i] = sum > 0 && !(e->fixed && e->fixed[i]) ? 1 / sum : 0;
+			sum += a->weight[e->adj.adj[k]];
+		a->inverse[i] = sum > 0 && !(e->fixed && e->fixed[i]) ? 1 / sum : 0;
 	}
 }
 
-static double
-summed(mr_ctx *ctx, solver *s, mr_body rows)
+/* r = b - A h where the height is free, else 0. */
+static void
+find_residual(const mr_ctx *ctx, const matrix *a, const double *h, double *r)
 {
-	double sum = 0;
+	const mr_heights *e = a->e;
 
-	mr_parallel(ctx, s->e->n, GRAIN, rows, s);
-	for (size_t i = 0; i < (s->e->n + GRAIN - 1) / GRAIN; i++)
-		sum += s->partial[i];
-	return sum;
+	apply(ctx, a, (mr_columns){ e->n, 1 }, h, r);
+	for (size_t i = 0; i < e->n; i++)
+		r[i] = (e->b && a->inverse[i] > 0 ? e->b[i] : 0) - r[i];
 }
 
 mr_status
@@ -178,37 +151,18 @@ mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, d
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t n = e->n, taken = 0;
-	double *work = MR_NEW(ctx, 6 * n + n / GRAIN + 1, double), rho, rho0;
-	solver s = { .e = e, .h = h };
+	double *r = MR_NEW(ctx, n, double);
+	matrix a = { e, MR_NEW(ctx, n, double), MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) };
+	mr_preconditioner b = mr_jacobi_of(a.inverse, n);
+	mr_cg g = { .s = { n, 1 }, .apply = apply, .a = &a, .b = &b, .tol = tol, .most = most };
 
-	if (!work)
+	if (!r || !a.weight || !a.inverse || !a.u)
 		return MR_EMEM;
-	s.r = work;
-	s.d = work + n;
-	s.q = work + 2 * n;
-	s.u = work + 3 * n;
-	s.inverse = work + 4 * n;
-	s.weight = work + 5 * n;
-	s.partial = work + 6 * n;
 	for (size_t i = 0; i < n; i++)
-		s.weight[i] = fairness(e, i);
-	mr_parallel(ctx, n, GRAIN, invert_diagonal, &s);
-	s.x = h;
-	mr_parallel(ctx, n, GRAIN, apply_first, &s);
-	rho = rho0 = summed(ctx, &s, begin_rows);
-	s.x = s.d;
-	while (taken < most && rho > tol * tol * rho0) {
-		double dq, last = rho;
-		mr_parallel(ctx, n, GRAIN, apply_first, &s);
-		dq = summed(ctx, &s, multiply_rows);
-		if (!(dq > 0))
-			break; /* the direction is in the kernel: nothing to gain */
-		s.alpha = rho / dq;
-		rho = summed(ctx, &s, step_rows);
-		s.beta = rho / last;
-		mr_parallel(ctx, n, GRAIN, turn_rows, &s);
-		taken++;
-	}
+		a.weight[i] = fairness(e, i);
+	mr_parallel(ctx, n, GRAIN, invert_diagonal, &a);
+	find_residual(ctx, &a, h, r);
+	MR_TRY(mr_cg_improve(ctx, &g, h, r, &taken));
 	mr_mark_release(ctx, mark);
 	if (steps)
 		*steps = taken;

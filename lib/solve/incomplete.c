@@ -21,6 +21,12 @@ jacobi_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
 	return MR_OK;
 }
 
+mr_preconditioner
+mr_jacobi_of(double *inverse, size_t n)
+{
+	return (mr_preconditioner){ jacobi_apply, NULL, inverse, (double)n };
+}
+
 mr_status
 mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
 {
@@ -35,7 +41,7 @@ mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
 	for (int i = 0; i < a->n; i++)
 		if (inverse[i] == 0)
 			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no diagonal entry in row %d", i);
-	*b = (mr_preconditioner){ jacobi_apply, NULL, inverse, a->n };
+	*b = mr_jacobi_of(inverse, (size_t)a->n);
 	return MR_OK;
 }
 

@@ -1,10 +1,10 @@
 /*
- * Conjugate gradients: Hestenes, Stiefel 1952.  BiCGSTAB: van der Vorst 1992.  Each runs all right-hand sides
- * at once, with scalars of their own: the matrix is read once for all.
+ * The iterative solvers of stored matrices: conjugate gradients, BiCGSTAB (van der Vorst 1992) and V-cycles.
+ * Each runs all right-hand sides at once, with scalars of their own: the matrix is read once for all.
  */
-#include "solve/sparse.h"
-#include "solve/preconditioner.h"
+#include "solve/conjugate_gradients.h"
 #include "solve/solver_type.h"
+#include "solve/sparse.h"
 
 #include <math.h>
 
@@ -102,24 +102,6 @@ krylov_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_repor
 	return MR_OK;
 }
 
-static bool
-reached(mr_columns s, const double *norm2, const double *goal)
-{
-	for (size_t c = 0; c < s.width; c++)
-		if (norm2[c] > goal[c] * goal[c])
-			return false;
-	return true;
-}
-
-/* a / b; 0 for a column that is done or has broken down, which then stays as it is. */
-static double
-ratio(double a, double b)
-{
-	double q = a / b;
-
-	return isfinite(q) ? q : 0;
-}
-
 static void
 negate(mr_columns s, const double *f, double *minus)
 {
@@ -129,41 +111,20 @@ negate(mr_columns s, const double *f, double *minus)
 
 /* Conjugate gradients */
 
+static void
+apply_stored(const mr_ctx *ctx, const void *a, mr_columns s, const double *x, double *y)
+{
+	mr_sparse_apply(ctx, a, NULL, s.n, s.width, x, y);
+}
+
 static mr_status
 cg_iterate(mr_ctx *ctx, krylov *k, mr_columns s, const double *goal, double *x, double *r, size_t *iterations)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	size_t size = s.n * s.width;
-	double *z = MR_NEW(ctx, size, double), *p = MR_NEW_ZERO(ctx, size, double),
-	       *q = MR_NEW(ctx, size, double);
-	double rz[MR_WIDTH], last[MR_WIDTH] = { 0 }, pq[MR_WIDTH], rr[MR_WIDTH], f[MR_WIDTH];
+	mr_cg g = {
+		.s = s, .apply = apply_stored, .a = k->a, .b = &k->b, .goal = goal, .most = k->opts.iterations
+	};
 
-	if (!z || !p || !q)
-		return MR_EMEM;
-	mr_columns_dot(ctx, s, r, r, rr);
-	for (; *iterations < k->opts.iterations && !reached(s, rr, goal); ++*iterations) {
-		bool stuck = true;
-		MR_TRY(k->b.apply(ctx, k->b.data, s, r, z)); /* z = B r */
-		mr_columns_dot(ctx, s, r, z, rz);
-		for (size_t c = 0; c < s.width; c++)
-			f[c] = ratio(rz[c], last[c]); /* beta */
-		mr_columns_turn(ctx, s, f, z, p);
-		memcpy(last, rz, sizeof rz);
-		mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, p, q); /* q = A p */
-		mr_columns_dot(ctx, s, p, q, pq);
-		for (size_t c = 0; c < s.width; c++) {
-			f[c] = pq[c] > 0 && rr[c] > 0 ? ratio(rz[c], pq[c]) : 0; /* alpha */
-			stuck = stuck && f[c] == 0;
-		}
-		if (stuck)
-			break;
-		mr_columns_add(ctx, s, f, p, x);
-		negate(s, f, f);
-		mr_columns_add(ctx, s, f, q, r);
-		mr_columns_dot(ctx, s, r, r, rr);
-	}
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_cg_improve(ctx, &g, x, r, iterations);
 }
 
 /* BiCGSTAB, preconditioned from the right */
@@ -243,15 +204,15 @@ bicgstab_step(mr_ctx *ctx, krylov *k, mr_columns s, const bool *done, bicgstab *
 	negate(s, b->omega, f);
 	mr_columns_add(ctx, s, f, b->v, b->p);
 	for (size_t c = 0; c < s.width; c++)
-		f[c] = ratio(rho[c] * b->alpha[c], b->last[c] * b->omega[c]); /* beta */
-	mr_columns_turn(ctx, s, f, r, b->p);                                  /* p = r + beta (p - omega v) */
+		f[c] = mr_ratio(rho[c] * b->alpha[c], b->last[c] * b->omega[c]); /* beta */
+	mr_columns_turn(ctx, s, f, r, b->p); /* p = r + beta (p - omega v) */
 	memcpy(b->last, rho, sizeof rho);
 	MR_TRY(k->b.apply(ctx, k->b.data, s, b->p, b->z));
 	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, b->z, b->v); /* v = A B p */
 	mr_columns_dot(ctx, s, b->shadow, b->v, d);
 	*stuck = true;
 	for (size_t c = 0; c < s.width; c++) {
-		b->alpha[c] = done[c] ? 0 : ratio(rho[c], d[c]);
+		b->alpha[c] = done[c] ? 0 : mr_ratio(rho[c], d[c]);
 		*stuck = *stuck && b->alpha[c] == 0;
 	}
 	mr_columns_add(ctx, s, b->alpha, b->z, b->g.x);
@@ -271,7 +232,7 @@ stabilize(mr_ctx *ctx, krylov *k, mr_columns s, bicgstab *b, double *r)
 	mr_columns_dot(ctx, s, b->t, r, d);
 	mr_columns_dot(ctx, s, b->t, b->t, e);
 	for (size_t c = 0; c < s.width; c++)
-		b->omega[c] = b->alpha[c] != 0 ? ratio(d[c], e[c]) : 0;
+		b->omega[c] = b->alpha[c] != 0 ? mr_ratio(d[c], e[c]) : 0;
 	mr_columns_add(ctx, s, b->omega, b->z, b->g.x);
 	negate(s, b->omega, d);
 	mr_columns_add(ctx, s, d, b->t, r);
@@ -290,14 +251,14 @@ bicgstab_iterate(
 	MR_TRY(bicgstab_begin(ctx, s, r, &b));
 	mr_columns_dot(ctx, s, r, r, rr);
 	b.g.peak = total(s, rr);
-	for (; *iterations < k->opts.iterations && !reached(s, rr, goal) && !stuck; ++*iterations) {
+	for (; *iterations < k->opts.iterations && !mr_columns_within(s, rr, goal) && !stuck; ++*iterations) {
 		bool done[MR_WIDTH];
 		for (size_t c = 0; c < s.width; c++)
 			done[c] = rr[c] <= goal[c] * goal[c];
 		MR_TRY(bicgstab_step(ctx, k, s, done, &b, r, &stuck));
 		MR_TRY(stabilize(ctx, k, s, &b, r));
 		mr_columns_dot(ctx, s, r, r, rr);
-		end_group(ctx, k, s, reached(s, rr, goal), &b.g, x, r, b.t, rr);
+		end_group(ctx, k, s, mr_columns_within(s, rr, goal), &b.g, x, r, b.t, rr);
 	}
 	end_group(ctx, k, s, true, &b.g, x, r, b.t, rr);
 	mr_mark_release(ctx, mark);
@@ -319,7 +280,7 @@ cycle_iterate(
 		return MR_EMEM;
 	mr_columns_dot(ctx, s, r, r, rr);
 	memcpy(begun, rr, sizeof rr);
-	for (; *iterations < k->opts.iterations && !reached(s, rr, goal); ++*iterations) {
+	for (; *iterations < k->opts.iterations && !mr_columns_within(s, rr, goal); ++*iterations) {
 		bool diverges = false;
 		MR_TRY(k->b.apply(ctx, k->b.data, s, r, z));
 		mr_columns_add(ctx, s, one, z, x);

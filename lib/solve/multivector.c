@@ -1,3 +1,4 @@
+/* Sums and products of blocks of vectors, in pieces of rows. */
 #include "solve/multivector.h"
 
 #include "base/parallel.h"
@@ -7,57 +8,107 @@ enum { GRAIN = 8192, PIECES = 128 };
 typedef struct columns_job {
 	mr_columns s;
 	const double *f, *a, *b;
-	double *y;
-	double (*partial)[MR_WIDTH];
-	size_t first; /* row of a batch of pieces */
+	double *y, *z;
+	double (*partial)[MR_WIDTH]; /* sums of each piece of a batch */
+	size_t first;                /* row of the batch */
 } columns_job;
 
+typedef void rows_body(const columns_job *j, size_t width, size_t begin, size_t end);
+
+/* Loops of a known width are faster, and 1 and 3 are what there is. */
 static inline void
-dot_width(const columns_job *j, size_t width, size_t begin, size_t end, double *sum)
+by_width(rows_body *body, const columns_job *j, size_t begin, size_t end)
 {
-	for (size_t i = begin; i < end; i++)
+	if (j->s.width == 1)
+		body(j, 1, begin, end);
+	else if (j->s.width == 3)
+		body(j, 3, begin, end);
+	else
+		body(j, j->s.width, begin, end);
+}
+
+/* sum[c] = the sum over all rows, of which `body` leaves the partial sums. */
+static void
+sum_pieces(const mr_ctx *ctx, columns_job j, mr_body body, double *sum)
+{
+	double partial[PIECES][MR_WIDTH];
+	size_t n = j.s.n, batch = (size_t)PIECES * GRAIN;
+
+	j.partial = partial;
+	memset(sum, 0, j.s.width * sizeof *sum);
+	for (j.first = 0; j.first < n; j.first += batch) {
+		size_t rows = n - j.first < batch ? n - j.first : batch;
+		mr_parallel(ctx, rows, GRAIN, body, &j);
+		for (size_t p = 0; p < (rows + GRAIN - 1) / GRAIN; p++)
+			for (size_t c = 0; c < j.s.width; c++)
+				sum[c] += partial[p][c];
+	}
+}
+
+static inline void
+dot_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+{
+	double sum[MR_WIDTH] = { 0 };
+
+	for (size_t i = j->first + begin; i < j->first + end; i++)
 		for (size_t c = 0; c < width; c++)
 			sum[c] += j->a[i * width + c] * j->b[i * width + c];
+	memcpy(j->partial[begin / GRAIN], sum, sizeof sum);
 }
 
 static void
 dot_piece(void *arg, size_t begin, size_t end)
 {
-	columns_job *j = arg;
-	double sum[MR_WIDTH] = { 0 };
-
-	if (j->s.width == 3)
-		dot_width(j, 3, j->first + begin, j->first + end, sum);
-	else
-		dot_width(j, j->s.width, j->first + begin, j->first + end, sum);
-	memcpy(j->partial[begin / GRAIN], sum, sizeof sum);
+	by_width(dot_rows, arg, begin, end);
 }
 
 void
 mr_columns_dot(const mr_ctx *ctx, mr_columns s, const double *a, const double *b, double *dot)
 {
-	double partial[PIECES][MR_WIDTH];
-	columns_job j = { .s = s, .a = a, .b = b, .partial = partial };
+	sum_pieces(ctx, (columns_job){ .s = s, .a = a, .b = b }, dot_piece, dot);
+}
 
-	memset(dot, 0, s.width * sizeof *dot);
-	for (j.first = 0; j.first < s.n; j.first += (size_t)PIECES * GRAIN) {
-		size_t n = s.n - j.first < (size_t)PIECES * GRAIN ? s.n - j.first : (size_t)PIECES * GRAIN;
-		mr_parallel(ctx, n, GRAIN, dot_piece, &j);
-		for (size_t p = 0; p < (n + GRAIN - 1) / GRAIN; p++)
-			for (size_t c = 0; c < s.width; c++)
-				dot[c] += partial[p][c];
-	}
+static inline void
+step_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+{
+	double sum[MR_WIDTH] = { 0 };
+
+	for (size_t i = j->first + begin; i < j->first + end; i++)
+		for (size_t c = 0; c < width; c++) {
+			size_t k = i * width + c;
+			double r = j->z[k] - j->f[c] * j->b[k];
+			j->y[k] += j->f[c] * j->a[k];
+			j->z[k] = r;
+			sum[c] += r * r;
+		}
+	memcpy(j->partial[begin / GRAIN], sum, sizeof sum);
+}
+
+static void
+step_piece(void *arg, size_t begin, size_t end)
+{
+	by_width(step_rows, arg, begin, end);
+}
+
+void
+mr_columns_step(const mr_ctx *ctx, mr_columns s, const double *f, const double *p, const double *q, double *x,
+    double *r, double *rr)
+{
+	sum_pieces(ctx, (columns_job){ .s = s, .f = f, .a = p, .b = q, .y = x, .z = r }, step_piece, rr);
+}
+
+static inline void
+add_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+{
+	for (size_t i = begin; i < end; i++)
+		for (size_t c = 0; c < width; c++)
+			j->y[i * width + c] += j->f[c] * j->a[i * width + c];
 }
 
 static void
 add_piece(void *arg, size_t begin, size_t end)
 {
-	columns_job *j = arg;
-	size_t width = j->s.width;
-
-	for (size_t i = begin; i < end; i++)
-		for (size_t c = 0; c < width; c++)
-			j->y[i * width + c] += j->f[c] * j->a[i * width + c];
+	by_width(add_rows, arg, begin, end);
 }
 
 void
@@ -66,15 +117,18 @@ mr_columns_add(const mr_ctx *ctx, mr_columns s, const double *f, const double *x
 	mr_parallel(ctx, s.n, GRAIN, add_piece, &(columns_job){ .s = s, .f = f, .a = x, .y = y });
 }
 
-static void
-turn_piece(void *arg, size_t begin, size_t end)
+static inline void
+turn_rows(const columns_job *j, size_t width, size_t begin, size_t end)
 {
-	columns_job *j = arg;
-	size_t width = j->s.width;
-
 	for (size_t i = begin; i < end; i++)
 		for (size_t c = 0; c < width; c++)
 			j->y[i * width + c] = j->a[i * width + c] + j->f[c] * j->y[i * width + c];
+}
+
+static void
+turn_piece(void *arg, size_t begin, size_t end)
+{
+	by_width(turn_rows, arg, begin, end);
 }
 
 void
@@ -83,15 +137,18 @@ mr_columns_turn(const mr_ctx *ctx, mr_columns s, const double *f, const double *
 	mr_parallel(ctx, s.n, GRAIN, turn_piece, &(columns_job){ .s = s, .f = f, .a = x, .y = y });
 }
 
-static void
-scale_piece(void *arg, size_t begin, size_t end)
+static inline void
+scale_rows(const columns_job *j, size_t width, size_t begin, size_t end)
 {
-	columns_job *j = arg;
-	size_t width = j->s.width;
-
 	for (size_t i = begin; i < end; i++)
 		for (size_t c = 0; c < width; c++)
 			j->y[i * width + c] = j->f[i] * j->a[i * width + c];
+}
+
+static void
+scale_piece(void *arg, size_t begin, size_t end)
+{
+	by_width(scale_rows, arg, begin, end);
 }
 
 void

@@ -1,6 +1,6 @@
 /*
- * multivector.h -- blocks of vectors: n rows of `width` values next to each other, a column for each right-hand
- * side.
+ * multivector.h -- blocks of vectors: n rows of `width` values next to each other, a column for each
+ * right-hand side.
  *
  * Contract: sums are taken in pieces of rows, then over the pieces in order: the same for every number of
  * threads.
@@ -9,6 +9,8 @@
 #define MR_SOLVE_MULTIVECTOR_H
 
 #include "base/ctx.h"
+
+#include <math.h>
 
 enum { MR_WIDTH = 4 }; /* columns of a block, at most */
 
@@ -25,11 +27,34 @@ void mr_columns_add(const mr_ctx *ctx, mr_columns s, const double *f, const doub
 /* y = x + f[c] y */
 void mr_columns_turn(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
 
+/* x = x + f[c] p and r = r - f[c] q; rr[c] = sum over i of r[i, c]^2 */
+void mr_columns_step(const mr_ctx *ctx, mr_columns s, const double *f, const double *p, const double *q,
+    double *x, double *r, double *rr);
+
 /* y = f[i] x, row by row */
 void mr_columns_scale(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
 
 /* Right-hand sides, one after another, to rows and back. */
 void mr_columns_gather(mr_columns s, const double *b, double *rows);
 void mr_columns_scatter(mr_columns s, const double *rows, double *b);
+
+/* True where the squared norm of each column is not beyond its goal's square. */
+static inline bool
+mr_columns_within(mr_columns s, const double *norm2, const double *goal)
+{
+	for (size_t c = 0; c < s.width; c++)
+		if (norm2[c] > goal[c] * goal[c])
+			return false;
+	return true;
+}
+
+/* a / b, what a column goes by; 0 for one that is done or has broken down, which then stays as it is. */
+static inline double
+mr_ratio(double a, double b)
+{
+	double q = a / b;
+
+	return isfinite(q) ? q : 0;
+}
 
 #endif

@@ -17,6 +17,9 @@ typedef struct mr_preconditioner {
 	double nnz; /* entries it holds */
 } mr_preconditioner;
 
+/* D^-1, which is given: n values, kept by the caller. */
+mr_preconditioner mr_jacobi_of(double *inverse, size_t n);
+
 /* D^-1.  MR_ENUMERIC where a diagonal entry is zero. */
 mr_status mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b);
 

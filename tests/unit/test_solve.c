@@ -1,6 +1,6 @@
 /* The solvers: right solutions, and sentences for matrices that have none. */
 #include "base/random.h"
-#include "solve/solver.h"
+#include "solve/conjugate_gradients.h"
 #include "unit.h"
 
 #include <math.h>
@@ -172,6 +172,69 @@ test_iterative(void **state)
 	check_iterative(MR_CG, MR_INCOMPLETE, 0, NULL, 40);
 	check_iterative(MR_BICGSTAB, MR_JACOBI, 0.3, NULL, 80);
 	check_iterative(MR_BICGSTAB, MR_INCOMPLETE, 0.3, NULL, 25);
+}
+
+/* -y'' + y of the values on a line, those at its ends held: a matrix that nobody stores. */
+static void
+apply_line(const mr_ctx *c, const void *data, mr_columns s, const double *x, double *y)
+{
+	(void)c;
+	(void)data;
+	for (size_t i = 0; i < s.n * s.width; i++) {
+		bool end = i < s.width || i >= (s.n - 1) * s.width;
+		y[i] = end ? 0 : 3 * x[i] - x[i - s.width] - x[i + s.width];
+	}
+}
+
+enum { LINE = 30000 };
+
+/* Solves for right-hand sides 0 and 1, with the ends at 1, and returns the largest residual. */
+static double
+solve_line(const double *goal, size_t most, double *inverse, double *x, size_t *steps)
+{
+	mr_preconditioner b = mr_jacobi_of(inverse, LINE);
+	mr_cg g = { .s = { LINE, 2 }, .apply = apply_line, .b = &b, .goal = goal, .tol = 1e-3, .most = most };
+	double *r = MR_NEW(&ctx, 2 * LINE, double), worst = 0;
+
+	memset(x, 0, 2 * LINE * sizeof *x);
+	x[0] = x[1] = x[2 * LINE - 2] = x[2 * LINE - 1] = 1;
+	apply_line(&ctx, NULL, g.s, x, r);
+	for (size_t i = 2; i < 2 * LINE - 2; i++)
+		r[i] = (double)(i % 2) - r[i];
+	*steps = 0;
+	assert_int_equal(mr_cg_improve(&ctx, &g, x, r, steps), MR_OK);
+	assert_true(x[0] == 1 && x[1] == 1 && x[2 * LINE - 2] == 1 && x[2 * LINE - 1] == 1);
+	for (size_t i = 2; i < 2 * LINE - 2; i++)
+		worst = fmax(worst, fabs((double)(i % 2) - (3 * x[i] - x[i - 2] - x[i + 2])));
+	return worst;
+}
+
+/* To a goal with any number of threads, by the error's energy, as far as the steps go, and where nothing is
+ * free. */
+static void
+test_matrix_free(void **state)
+{
+	static const double goal[2] = { 1e-9, 1e-9 };
+	double *x[2] = { MR_NEW(&ctx, 2 * LINE, double), MR_NEW(&ctx, 2 * LINE, double) };
+	double *inverse = MR_NEW_ZERO(&ctx, LINE, double);
+	size_t steps, fewer;
+
+	(void)state;
+	for (size_t i = 1; i < LINE - 1; i++)
+		inverse[i] = 1.0 / 3;
+	for (unsigned k = 0; k < 2; k++) {
+		ctx.threads = 1 + 2 * k;
+		assert_true(solve_line(goal, 100, inverse, x[k], &steps) < 1e-9);
+	}
+	assert_memory_equal(x[0], x[1], 2 * LINE * sizeof *x[0]);
+	assert_in_range(steps, 5, 30);
+	assert_true(solve_line(NULL, 100, inverse, x[0], &fewer) < 1e-2);
+	assert_in_range(fewer, 4, steps - 1);
+	assert_true(solve_line(NULL, 3, inverse, x[0], &steps) > 1e-2);
+	assert_int_equal(steps, 3);
+	memset(inverse, 0, LINE * sizeof *inverse);
+	assert_true(solve_line(NULL, 100, inverse, x[0], &steps) == 2);
+	assert_int_equal(steps, 0);
 }
 
 /* Linear interpolation along a side from every second point: the coarse points and their weights, at most
@@ -348,6 +411,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_subtrees, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_lu, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_matrix_free, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_multigrid, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_multigrid_of_zeros, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_no_convergence, setup, teardown),
