@@ -1,8 +1,10 @@
 /* The solvers: right solutions, and sentences for matrices that have none. */
 #include "base/random.h"
+#include "solve/blas_threads.h"
 #include "solve/conjugate_gradients.h"
 #include "unit.h"
 
+#include <dlfcn.h>
 #include <math.h>
 
 enum { SIDE = 30, N = SIDE * SIDE };
@@ -385,6 +387,41 @@ test_what_has_no_solution(void **state)
 	mr_solver_free(NULL);
 }
 
+/* A program that has OpenBLAS take several threads still does so after a solver is set up. */
+static void
+test_blas_threads(void **state)
+{
+	void *process = dlopen(NULL, RTLD_LAZY);
+	union {
+		void *symbol;
+		void (*set)(int);
+		int (*get)(void);
+	} set = { dlsym(process, "openblas_set_num_threads") },
+	  get = { dlsym(process, "openblas_get_num_threads") },
+	  levels = { dlsym(process, "omp_get_max_active_levels") };
+	mr_sparse a = grid_matrix(0.1, 0, true);
+	mr_solver *s = NULL;
+	int before, outer, inner;
+
+	(void)state;
+	if (!set.symbol || !get.symbol || !levels.symbol)
+		skip();
+	set.set(3);
+	before = levels.get();
+	outer = mr_serial_begin();
+	assert_int_equal(get.get(), 1);
+	assert_int_equal(mr_solver_new(&ctx, MR_CHOLESKY, &a, NULL, &s), MR_OK);
+	inner = mr_serial_begin();
+	mr_serial_end(inner);
+	assert_int_equal(get.get(), 1);
+	assert_int_equal(levels.get(), 0);
+	mr_serial_end(outer);
+	assert_int_equal(get.get(), 3);
+	assert_int_equal(levels.get(), before);
+	mr_solver_free(s);
+	dlclose(process);
+}
+
 static void
 test_one_unknown(void **state)
 {
@@ -417,6 +454,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_no_convergence, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_memory, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_what_has_no_solution, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_blas_threads, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_one_unknown, setup, teardown),
 	};
 
