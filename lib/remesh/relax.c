@@ -1,7 +1,8 @@
 #include "remesh/relax.h"
 
-#include "space/surface_walk.h"
 #include "base/parallel.h"
+#include "op/voronoi_area.h"
+#include "space/surface_walk.h"
 
 enum { GRAIN = 2048 };
 
@@ -33,25 +34,6 @@ typedef struct areas_job {
 	double *area; /* of each vertex */
 } areas_job;
 
-/*
- * The parts of a triangle that belong to its corners: circumcentric, or of an obtuse one half and two
- * quarters.  dot: of the edges at each corner; those at both ends of an edge add up to its square.
- */
-static void
-voronoi_parts(const double dot[3], double twice, double part[3])
-{
-	bool obtuse = false;
-	double eighth = twice > 0 ? 1 / (8 * twice) : 0;
-
-	for (int i = 0; i < 3; i++) {
-		double a = dot[i], b = dot[(i + 1) % 3], c = dot[(i + 2) % 3];
-		part[i] = ((a + b) * c + (a + c) * b) * eighth;
-		obtuse |= a < 0;
-	}
-	for (int i = 0; i < 3 && obtuse; i++)
-		part[i] = dot[i] < 0 ? twice / 4 : twice / 8;
-}
-
 static void
 parts_body(void *arg, size_t begin, size_t end)
 {
@@ -60,14 +42,8 @@ parts_body(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		const uint32_t *v = &d->v[3 * f];
-		mr_v3 ab, bc, ca;
-		if (mr_dyn_face_dead(d, f))
-			continue;
-		ab = mr_sub(d->p[v[1]], d->p[v[0]]);
-		bc = mr_sub(d->p[v[2]], d->p[v[1]]);
-		ca = mr_sub(d->p[v[0]], d->p[v[2]]);
-		voronoi_parts((double[]){ -mr_dot(ab, ca), -mr_dot(bc, ab), -mr_dot(ca, bc) },
-		    mr_norm(mr_cross(ab, ca)), &w->part[3 * f]);
+		if (!mr_dyn_face_dead(d, f))
+			mr_voronoi_corners(d->p[v[0]], d->p[v[1]], d->p[v[2]], &w->part[3 * f]);
 	}
 }
 
