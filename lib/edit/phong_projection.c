@@ -254,20 +254,11 @@ enter(patch *s, uint32_t face)
 	return true;
 }
 
-static mr_closest
-closest_on(const mr_ground *g, uint32_t face, mr_v3 p)
-{
-	const uint32_t *v = g->surface.m->t[face].v;
-	const mr_v3 *x = g->surface.m->p;
-
-	return mr_triangle_closest(p, x[v[0]], x[v[1]], x[v[2]]);
-}
-
 static void
 meet(const mr_ground *g, mr_v3 p, uint32_t face, patch *s)
 {
 	if (enter(s, face))
-		push(s, (near_face){ closest_on(g, face, p).dist2, face });
+		push(s, (near_face){ mr_face_closest(g->surface.m, face, p).dist2, face });
 }
 
 static void
@@ -434,6 +425,6 @@ mr_foot_search(const mr_ground *g, mr_v3 p, uint32_t face, mr_foot *foot)
 	}
 	if (found && fabs(foot->height) <= reach * sqrt(near2) + g->tolerance)
 		return true;
-	*foot = (mr_foot){ face, closest_on(g, face, p).bary, 0 };
+	*foot = (mr_foot){ face, mr_face_closest(g->surface.m, face, p).bary, 0 };
 	return false;
 }

@@ -39,11 +39,10 @@ radius(const mr_v3 v[3], mr_v3 c)
 static double
 convex_bound(const mr_mesh *b, uint32_t f, const mr_v3 v[3])
 {
-	const uint32_t *t = b->t[f].v;
 	double most = 0;
 
 	for (int i = 0; i < 3; i++) {
-		double d2 = mr_triangle_closest(v[i], b->p[t[0]], b->p[t[1]], b->p[t[2]]).dist2;
+		double d2 = mr_face_closest(b, f, v[i]).dist2;
 		most = d2 > most ? d2 : most;
 	}
 	return sqrt(most);

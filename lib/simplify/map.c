@@ -1,7 +1,7 @@
 /* Where the vertices of a mesh lie on what it was simplified to, and the reverse. */
-#include "space/surface_walk.h"
-#include "simplify/simplify.h"
 #include "base/parallel.h"
+#include "simplify/simplify.h"
+#include "space/surface_walk.h"
 
 typedef struct place_job {
 	const mr_mesh *m; /* the surface placed on */
@@ -31,10 +31,8 @@ static bool
 keep_nearer(void *arg, uint32_t face)
 {
 	search *s = arg;
-	const uint32_t *v = s->m->t[face].v;
-	mr_closest c = mr_triangle_closest(s->q, s->m->p[v[0]], s->m->p[v[1]], s->m->p[v[2]]);
+	mr_closest c = mr_face_closest(s->m, face, s->q);
 
-	c.face = face;
 	if ((c.dist2 < s->best.dist2 || (c.dist2 == s->best.dist2 && face < s->best.face)) &&
 	    agrees(s->m, face, s->normal))
 		s->best = c;
@@ -95,7 +93,7 @@ place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *st
 
 	if (!face || !bary || !normal)
 		return MR_EMEM;
-	MR_TRY(mr_vertex_normals(ctx, from, normal));
+	MR_TRY(mr_vertex_normals(ctx, from, NULL, normal));
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	mr_parallel(

@@ -142,6 +142,15 @@ mr_triangle_closest(mr_v3 q, mr_v3 a, mr_v3 b, mr_v3 c)
 	return triangle_closest(q, a, b, c);
 }
 
+mr_closest
+mr_side_closest(const mr_mesh *m, uint32_t h, mr_v3 q)
+{
+	mr_closest c = on_edge((int)(h % 3), q, m->p[mr_he_from(m, h)], m->p[mr_he_to(m, h)]);
+
+	c.face = h / 3;
+	return c;
+}
+
 /* ---- queries ---- */
 
 /* A node or leaf still to be visited. */

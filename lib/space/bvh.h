@@ -57,4 +57,18 @@ bool mr_bvh_overlap(const mr_bvh *bvh, mr_box box, bool (*visit)(void *arg, uint
  */
 mr_closest mr_triangle_closest(mr_v3 q, mr_v3 a, mr_v3 b, mr_v3 c);
 
+/* The nearest point of face f. */
+static inline mr_closest
+mr_face_closest(const mr_mesh *m, uint32_t f, mr_v3 q)
+{
+	const uint32_t *v = m->t[f].v;
+	mr_closest c = mr_triangle_closest(q, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+
+	c.face = f;
+	return c;
+}
+
+/* The nearest point of the side that half-edge h is, on its face. */
+mr_closest mr_side_closest(const mr_mesh *m, uint32_t h, mr_v3 q);
+
 #endif

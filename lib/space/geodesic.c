@@ -118,12 +118,9 @@ nearest_point(const mr_mesh *m, mr_v3 p)
 	mr_closest best = { .face = MR_NONE, .dist2 = INFINITY };
 
 	for (uint32_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		mr_closest c = mr_triangle_closest(p, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
-		if (c.dist2 < best.dist2) {
+		mr_closest c = mr_face_closest(m, f, p);
+		if (c.dist2 < best.dist2)
 			best = c;
-			best.face = f;
-		}
 	}
 	return best;
 }

@@ -1,38 +1,5 @@
+/* Steps over edges and vertices, each to where the surface is nearer, on to a local minimum. */
 #include "space/surface_walk.h"
-
-/* The nearest point of the segment a b: its share t in [0, 1]. */
-static double
-segment_share(mr_v3 a, mr_v3 b, mr_v3 q)
-{
-	mr_v3 ab = mr_sub(b, a);
-	double s = mr_dot(ab, mr_sub(q, a)), l = mr_norm2(ab);
-
-	return s <= 0 ? 0 : s >= l ? 1 : s / l;
-}
-
-/* The nearest point of side k (from corner k to the next) of face f. */
-static mr_closest
-on_side(const mr_mesh *m, uint32_t f, int k, mr_v3 q)
-{
-	const uint32_t *v = m->t[f].v;
-	mr_v3 a = m->p[v[k]], b = m->p[v[(k + 1) % 3]];
-	double t = segment_share(a, b, q), w[3] = { 0, 0, 0 };
-	mr_v3 point = mr_lerp(t, a, b);
-
-	w[k] = 1 - t;
-	w[(k + 1) % 3] = t;
-	return (mr_closest){ f, { w[0], w[1], w[2] }, point, mr_norm2(mr_sub(q, point)) };
-}
-
-static mr_closest
-on_face(const mr_mesh *m, uint32_t f, mr_v3 q)
-{
-	const uint32_t *v = m->t[f].v;
-	mr_closest c = mr_triangle_closest(q, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
-
-	c.face = f;
-	return c;
-}
 
 /* The corner that the place stands on, or -1. */
 static int
@@ -56,7 +23,7 @@ nearest_around(const mr_mesh *m, const mr_topology *topo, uint32_t v, mr_v3 q)
 	mr_closest best = { .dist2 = INFINITY };
 
 	do {
-		mr_closest p = on_face(m, h / 3, q);
+		mr_closest p = mr_face_closest(m, h / 3, q);
 		if (p.dist2 < best.dist2)
 			best = p;
 		h = mr_he_ccw(topo, h);
@@ -67,7 +34,7 @@ nearest_around(const mr_mesh *m, const mr_topology *topo, uint32_t v, mr_v3 q)
 mr_closest
 mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
 {
-	mr_closest at = on_face(m, f, q);
+	mr_closest at = mr_face_closest(m, f, q);
 
 	for (;;) {
 		mr_closest next = at;
@@ -77,7 +44,7 @@ mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
 		} else if (side >= 0) {
 			uint32_t g = topo->twin[3 * at.face + (uint32_t)side];
 			if (g != MR_NONE)
-				next = on_face(m, g / 3, q);
+				next = mr_face_closest(m, g / 3, q);
 		}
 		if (!(next.dist2 < at.dist2))
 			return at;
@@ -114,7 +81,7 @@ mr_closest
 mr_project_curve(
     const mr_mesh *m, const mr_topology *topo, const mr_curves *curves, uint32_t h, mr_v3 q, uint32_t *on)
 {
-	mr_closest at = on_side(m, h / 3, (int)(h % 3), q);
+	mr_closest at = mr_side_closest(m, h, q);
 
 	for (;;) {
 		int corner = corner_of(at);
@@ -122,7 +89,7 @@ mr_project_curve(
 		mr_closest p;
 		if (next == MR_NONE)
 			break;
-		p = on_side(m, next / 3, (int)(next % 3), q);
+		p = mr_side_closest(m, next, q);
 		if (!(p.dist2 < at.dist2))
 			break;
 		at = p;

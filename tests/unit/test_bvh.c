@@ -77,13 +77,10 @@ closest_by_loop(const mr_mesh *m, mr_v3 q)
 {
 	mr_closest best = { .face = MR_NONE, .dist2 = INFINITY };
 
-	for (size_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		mr_closest c = mr_triangle_closest(q, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
-		if (c.dist2 < best.dist2) {
+	for (uint32_t f = 0; f < m->nf; f++) {
+		mr_closest c = mr_face_closest(m, f, q);
+		if (c.dist2 < best.dist2)
 			best = c;
-			best.face = (uint32_t)f;
-		}
 	}
 	return best;
 }

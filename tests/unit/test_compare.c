@@ -224,10 +224,8 @@ loop_distance(const mr_mesh *b, mr_v3 q)
 {
 	double best = INFINITY;
 
-	for (size_t f = 0; f < b->nf; f++) {
-		const uint32_t *v = b->t[f].v;
-		best = fmin(best, mr_triangle_closest(q, b->p[v[0]], b->p[v[1]], b->p[v[2]]).dist2);
-	}
+	for (uint32_t f = 0; f < b->nf; f++)
+		best = fmin(best, mr_face_closest(b, f, q).dist2);
 	for (size_t i = 0; !b->nf && i < b->nv; i++)
 		best = fmin(best, mr_norm2(mr_sub(q, b->p[i])));
 	return sqrt(best);
