@@ -58,7 +58,7 @@ put_mesh(cmd *c, mr_frame *f, mr_mesh *m)
 	if (!p || !normal)
 		return MR_EMEM;
 	if (noise.value > 0) {
-		MR_TRY(mr_vertex_normals(&c->ctx, m, normal));
+		MR_TRY(mr_vertex_normals(&c->ctx, m, NULL, normal));
 		memcpy(p, m->p, m->nv * sizeof *p);
 		mr_add_noise(p, normal, m->nv, cmd_length_of(noise, mr_mesh_diagonal(m)), seed);
 		m->p = p;

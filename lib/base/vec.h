@@ -30,6 +30,13 @@ mr_coordinate(mr_v3 p, int k)
 	return k == 0 ? p.x : k == 1 ? p.y : p.z;
 }
 
+/* Which coordinate is the largest: the first of equal ones. */
+static inline int
+mr_largest(mr_v3 p)
+{
+	return p.x >= p.y && p.x >= p.z ? 0 : p.y >= p.z ? 1 : 2;
+}
+
 static inline mr_v3
 mr_add(mr_v3 a, mr_v3 b)
 {
@@ -83,6 +90,13 @@ static inline double
 mr_dist(mr_v3 a, mr_v3 b)
 {
 	return mr_norm(mr_sub(a, b));
+}
+
+/* The angle between a and b, in radians; 0 where either is zero. */
+static inline double
+mr_angle(mr_v3 a, mr_v3 b)
+{
+	return atan2(mr_norm(mr_cross(a, b)), mr_dot(a, b));
 }
 
 /* a / |a|; the zero vector stays zero. */

@@ -156,7 +156,7 @@ find_starts(mr_ctx *ctx, const encoder *e, const mr_source_map *source, uint32_t
 	}
 	for (uint32_t j = 0; j < base->nv && source; j++) {
 		const uint32_t *c = mesh->t[source->face[j]].v;
-		mr_v3 q = mr_bary_point(source->bary[j], mesh->p[c[0]], mesh->p[c[1]], mesh->p[c[2]]);
+		mr_v3 q = mr_face_point(mesh, source->face[j], source->bary[j]);
 		if (e->ground.inc->start[j] == e->ground.inc->start[j + 1])
 			continue;
 		for (int k = 0; k < 3; k++) {
@@ -265,7 +265,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source
 	if (!e.face || !e.bary || !e.offset || !e.height || !normal || !near || !e.tally)
 		return MR_EMEM;
 	MR_TRY(mr_incidence_build(ctx, base, &inc));
-	MR_TRY(mr_phong_normals(ctx, base, &inc, normal));
+	MR_TRY(mr_vertex_normals(ctx, base, &inc, normal));
 	e.ground = (mr_ground){ { base, normal }, &inc, tolerance_for(mesh, diagonal) };
 	MR_TRY(find_starts(ctx, &e, source, near));
 	e.start = near;
@@ -323,7 +323,7 @@ mr_decode(
 
 	if (!normal)
 		return MR_EMEM;
-	MR_TRY(mr_phong_normals(ctx, base, inc, normal));
+	MR_TRY(mr_vertex_normals(ctx, base, inc, normal));
 	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

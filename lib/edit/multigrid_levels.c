@@ -2,8 +2,8 @@
  * levels. */
 #include "edit/multigrid_levels.h"
 
-#include "space/surface_walk.h"
 #include "remesh/remesh.h"
+#include "space/surface_walk.h"
 
 enum { LEVELS_MAX = 16, COARSEST = 400 };
 
@@ -25,9 +25,8 @@ number_coarse(mr_ctx *ctx, const stage *fine, const mr_source_map *map, stage *c
 		return MR_EMEM;
 	coarse->n = 0;
 	for (size_t v = 0; v < coarse->m.nv; v++) {
-		mr_v3 b = map->bary[v];
-		int corner = b.x >= b.y && b.x >= b.z ? 0 : b.y >= b.z ? 1 : 2;
-		bool unknown = fine->number[fine->m.t[map->face[v]].v[corner]] != MR_NONE;
+		const uint32_t *corner = fine->m.t[map->face[v]].v;
+		bool unknown = fine->number[corner[mr_largest(map->bary[v])]] != MR_NONE;
 		coarse->number[v] = unknown ? (uint32_t)coarse->n++ : MR_NONE;
 	}
 	return MR_OK;

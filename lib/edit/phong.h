@@ -13,7 +13,7 @@
 
 typedef struct mr_phong {
 	const mr_mesh *m;
-	const mr_v3 *normal; /* nv, unit; zero where a vertex has no face of positive area */
+	const mr_v3 *normal; /* as mr_vertex_normals makes them */
 } mr_phong;
 
 /* An orthonormal frame: n the Phong normal, t1 and t2 tangents. */
@@ -21,19 +21,10 @@ typedef struct mr_tangent_frame {
 	mr_v3 n, t1, t2;
 } mr_tangent_frame;
 
-/*
- * Unit vertex normals weighted by angle: what mr_vertex_normals computes, with the
- * incidence of the mesh given, which outlives a change of positions.  normal: nv,
- * the caller's.
- */
-mr_status mr_phong_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal);
-
 static inline mr_v3
 mr_phong_point(const mr_phong *s, uint32_t face, mr_v3 w)
 {
-	const uint32_t *v = s->m->t[face].v;
-
-	return mr_bary_point(w, s->m->p[v[0]], s->m->p[v[1]], s->m->p[v[2]]);
+	return mr_face_point(s->m, face, w);
 }
 
 /* n at the point w of the face; the face's own normal where the vertices' cancel. */

@@ -1,10 +1,10 @@
 #include "measure/measure.h"
 
-#include "base/parallel.h"
 #include "base/disjoint_sets.h"
+#include "base/parallel.h"
 #include "base/sort.h"
-#include "space/self_intersect.h"
 #include "space/near.h"
+#include "space/self_intersect.h"
 
 static const double FOLD_COSINE = -0.98480775301220806; /* of 170 degrees */
 
@@ -269,9 +269,7 @@ measure_edges(mr_ctx *ctx, job *j, mr_geometry *g)
 static double
 angle_at(mr_v3 a, mr_v3 b, mr_v3 c)
 {
-	mr_v3 u = mr_sub(b, a), v = mr_sub(c, a);
-
-	return atan2(mr_norm(mr_cross(u, v)), mr_dot(u, v)) * (180 / MR_PI);
+	return mr_angle(mr_sub(b, a), mr_sub(c, a)) * (180 / MR_PI);
 }
 
 static void

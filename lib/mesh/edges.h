@@ -21,15 +21,6 @@ typedef struct mr_edges {
 /* The edges of m, in the arena. */
 mr_status mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *edges);
 
-/* Whether face f has a vertex twice. */
-static inline bool
-mr_face_repeats(const mr_mesh *m, size_t f)
-{
-	const uint32_t *v = m->t[f].v;
-
-	return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
-}
-
 /* Faces of edge e. */
 static inline uint32_t
 mr_edge_faces(const mr_edges *edges, size_t e)

@@ -1,3 +1,8 @@
+/*
+ * Connectivity of triangle meshes by counting sorts: half-edges (Kettner 1999: Using generic programming for
+ * designing a data structure for polyhedral surfaces), the faces and neighbours of vertices; and their
+ * normals.
+ */
 #include "mesh/mesh.h"
 
 #include "base/parallel.h"
@@ -54,7 +59,7 @@ check_corners(mr_ctx *ctx, const mr_mesh *m)
 {
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
-		if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+		if (mr_face_repeats(m, f))
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: face %zu (%u %u %u) has a vertex twice: mr-import --repair drops it",
 			    m->name, f, v[0], v[1], v[2]);
@@ -210,48 +215,72 @@ mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m)
 	return m->nf ? sqrt(4 * mr_mesh_area(ctx, m) / (sqrt(3) * (double)m->nf)) : 0;
 }
 
+/* What a face gives to its corners' normals. */
+typedef struct face_normal {
+	mr_v3 unit;      /* zero where the face has no area */
+	double angle[3]; /* interior, at each corner */
+} face_normal;
+
 typedef struct normals_job {
 	const mr_mesh *m;
 	const mr_incidence *inc;
+	face_normal *face;
 	mr_v3 *normal;
 } normals_job;
 
-/* Interior angle at corner k of face f; 0 where an edge there has no length. */
-static double
-corner_angle(const mr_mesh *m, uint32_t f, int k)
+static void
+normals_of_faces(void *arg, size_t begin, size_t end)
 {
-	const uint32_t *v = m->t[f].v;
-	mr_v3 a = mr_sub(m->p[v[(k + 1) % 3]], m->p[v[k]]), b = mr_sub(m->p[v[(k + 2) % 3]], m->p[v[k]]);
+	normals_job *j = arg;
 
-	return atan2(mr_norm(mr_cross(a, b)), mr_dot(a, b));
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = j->m->t[f].v;
+		mr_v3 a = mr_sub(j->m->p[v[1]], j->m->p[v[0]]), b = mr_sub(j->m->p[v[2]], j->m->p[v[0]]);
+		mr_v3 cross = mr_cross(a, b);
+		double twice_area = mr_norm(cross), first, second;
+
+		if (!(twice_area > 0)) {
+			j->face[f] = (face_normal){ 0 };
+			continue;
+		}
+		first = atan2(twice_area, mr_dot(a, b));
+		second = atan2(twice_area, mr_dot(a, mr_sub(a, b)));
+		j->face[f] = (face_normal){ mr_mul(1 / twice_area, cross),
+			{ first, second, MR_PI - first - second } };
+	}
 }
 
 static void
-normals_of(void *arg, size_t begin, size_t end)
+normals_of_vertices(void *arg, size_t begin, size_t end)
 {
 	normals_job *j = arg;
 
 	for (size_t v = begin; v < end; v++) {
 		mr_v3 sum = { 0, 0, 0 };
 		for (size_t i = j->inc->start[v]; i < j->inc->start[v + 1]; i++) {
-			uint32_t f = j->inc->face[i];
-			const uint32_t *c = j->m->t[f].v;
-			int k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
-			sum = mr_axpy(corner_angle(j->m, f, k), mr_unit(mr_face_cross(j->m, f)), sum);
+			const uint32_t *c = j->m->t[j->inc->face[i]].v;
+			const face_normal *f = &j->face[j->inc->face[i]];
+			sum = mr_axpy(f->angle[c[0] == v ? 0 : c[1] == v ? 1 : 2], f->unit, sum);
 		}
 		j->normal[v] = mr_unit(sum);
 	}
 }
 
 mr_status
-mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, mr_v3 *normal)
+mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_incidence inc;
-	normals_job j = { m, &inc, normal };
+	normals_job j = { m, inc, MR_NEW(ctx, m->nf, face_normal), normal };
+	mr_incidence own;
 
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
-	mr_parallel(ctx, m->nv, 4096, normals_of, &j);
+	if (!j.face)
+		return MR_EMEM;
+	if (!inc) {
+		MR_TRY(mr_incidence_build(ctx, m, &own));
+		j.inc = &own;
+	}
+	mr_parallel(ctx, m->nf, 4096, normals_of_faces, &j);
+	mr_parallel(ctx, m->nv, 4096, normals_of_vertices, &j);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

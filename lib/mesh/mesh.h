@@ -78,6 +78,24 @@ typedef struct mr_incidence {
 } mr_incidence;
 mr_status mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a);
 
+/* Whether face f has a vertex twice. */
+static inline bool
+mr_face_repeats(const mr_mesh *m, size_t f)
+{
+	const uint32_t *v = m->t[f].v;
+
+	return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
+}
+
+/* The point of face f with barycentric coordinates w. */
+static inline mr_v3
+mr_face_point(const mr_mesh *m, size_t f, mr_v3 w)
+{
+	const uint32_t *v = m->t[f].v;
+
+	return mr_bary_point(w, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+}
+
 /* Twice the area times the unit normal of face f. */
 static inline mr_v3
 mr_face_cross(const mr_mesh *m, size_t f)
@@ -92,8 +110,10 @@ double mr_mesh_diagonal(const mr_mesh *m);
 /* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
 double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
 
-/* Unit vertex normals weighted by angle; zero where a vertex has no face of positive area.  normal: nv, the
- * caller's. */
-mr_status mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, mr_v3 *normal);
+/*
+ * Unit vertex normals weighted by angle (Thuermer, Wuethrich 1998); zero where a vertex has no face of
+ * positive area.  inc: of the mesh, where it is there already, or NULL.  normal: nv, the caller's.
+ */
+mr_status mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal);
 
 #endif

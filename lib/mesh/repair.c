@@ -37,9 +37,7 @@ to(const surface *s, uint32_t h)
 static bool
 degenerate(const mr_mesh *m, size_t f)
 {
-	const uint32_t *v = m->t[f].v;
-
-	return v[0] == v[1] || v[1] == v[2] || v[2] == v[0] || mr_norm2(mr_face_cross(m, f)) == 0;
+	return mr_face_repeats(m, f) || mr_norm2(mr_face_cross(m, f)) == 0;
 }
 
 /* The three vertices in order. */

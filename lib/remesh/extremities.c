@@ -23,7 +23,7 @@ angle_defect(const mr_dyn *d, uint32_t v)
 	do {
 		mr_v3 a = mr_sub(d->p[mr_dyn_to(d, h)], d->p[v]),
 		      b = mr_sub(d->p[mr_dyn_apex(d, h)], d->p[v]);
-		sum -= atan2(mr_norm(mr_cross(a, b)), mr_dot(a, b));
+		sum -= mr_angle(a, b);
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
 	return sum;

@@ -3,15 +3,6 @@
 static const double FOLD_COSINE = -0.984807753012208; /* of 170 degrees */
 static const double SNAP = 1e-9;                      /* of a barycentric coordinate: on an edge or vertex */
 
-/* The angle at a of the triangle (a, b, c). */
-static double
-angle_at(mr_v3 a, mr_v3 b, mr_v3 c)
-{
-	mr_v3 ab = mr_sub(b, a), ac = mr_sub(c, a);
-
-	return atan2(mr_norm(mr_cross(ab, ac)), mr_dot(ab, ac));
-}
-
 /* The sum of the unit normals of the faces around v, by angle. */
 static mr_v3
 vertex_normal(const mr_facing *s, uint32_t v)
@@ -21,8 +12,9 @@ vertex_normal(const mr_facing *s, uint32_t v)
 
 	do {
 		const mr_v3 *p = s->m->p;
-		uint32_t b = mr_he_to(s->m, h), c = mr_he_from(s->m, mr_he_prev(h));
-		sum = mr_axpy(angle_at(p[v], p[b], p[c]), mr_unit(mr_face_cross(s->m, h / 3)), sum);
+		mr_v3 b = mr_sub(p[mr_he_to(s->m, h)], p[v]),
+		      c = mr_sub(p[mr_he_from(s->m, mr_he_prev(h))], p[v]);
+		sum = mr_axpy(mr_angle(b, c), mr_unit(mr_face_cross(s->m, h / 3)), sum);
 		h = mr_he_ccw(s->topo, h);
 	} while (h != MR_NONE && h != s->topo->out[v]);
 	return sum;

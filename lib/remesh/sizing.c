@@ -1,21 +1,13 @@
 #include "remesh/sizing.h"
 
-#include "op/voronoi_area.h"
 #include "op/laplace.h"
+#include "op/voronoi_area.h"
 
 typedef struct sums {
 	mr_v3 *laplacian; /* sum_j w_ij (p_j - p_i) */
 	double *angle;    /* of the faces at the vertex */
 	double *area;
 } sums;
-
-static double
-angle_at(mr_v3 a, mr_v3 b, mr_v3 c)
-{
-	mr_v3 ab = mr_sub(b, a), ac = mr_sub(c, a);
-
-	return atan2(mr_norm(mr_cross(ab, ac)), mr_dot(ab, ac));
-}
 
 static void
 add_face(const mr_mesh *m, size_t f, sums *s)
@@ -30,7 +22,7 @@ add_face(const mr_mesh *m, size_t f, sums *s)
 		mr_v3 e = mr_mul(cot[k] / 2, mr_sub(p[j], p[i]));
 		s->laplacian[v[i]] = mr_add(s->laplacian[v[i]], e);
 		s->laplacian[v[j]] = mr_sub(s->laplacian[v[j]], e);
-		s->angle[v[k]] += angle_at(p[k], p[i], p[j]);
+		s->angle[v[k]] += mr_angle(mr_sub(p[i], p[k]), mr_sub(p[j], p[k]));
 	}
 }
 

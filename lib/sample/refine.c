@@ -6,11 +6,11 @@
  * minimises the sum of the squares, each by its weight, with the fairness of the heights and a pull to those
  * found; then the places are looked for anew, by walking from the last ones.
  */
-#include "subdivide/loop_self_intersect.h"
-#include "space/surface_walk.h"
-#include "sample/parts.h"
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "sample/parts.h"
+#include "space/surface_walk.h"
+#include "subdivide/loop_self_intersect.h"
 
 enum { GRAIN = 512 };
 
@@ -59,7 +59,7 @@ place_points(void *arg, size_t begin, size_t end)
 		b = at.bary;
 		v = x->surface.t[at.face].v;
 		normal = mr_unit(mr_face_cross(&x->surface, at.face));
-		foot = mr_bary_point(b, x->d->m.p[v[0]], x->d->m.p[v[1]], x->d->m.p[v[2]]);
+		foot = mr_face_point(&x->d->m, at.face, b);
 		w->face = at.face;
 		w->c[0] = b.x * mr_dot(x->d->normal[v[0]], normal);
 		w->c[1] = b.y * mr_dot(x->d->normal[v[1]], normal);

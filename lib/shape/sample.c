@@ -22,10 +22,9 @@ face_at(const double *sum, size_t nf, double x)
 static mr_v3
 sample_face(const mr_mesh *m, size_t f, mr_random *r)
 {
-	const uint32_t *v = m->t[f].v;
 	double a = sqrt(mr_random_real(r)), b = mr_random_real(r);
 
-	return mr_bary_point(mr_vec(1 - a, a * (1 - b), a * b), m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+	return mr_face_point(m, f, mr_vec(1 - a, a * (1 - b), a * b));
 }
 
 mr_status

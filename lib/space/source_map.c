@@ -1,8 +1,8 @@
 #include "space/source_map.h"
 
-#include "space/surface_walk.h"
 #include "base/parallel.h"
 #include "space/bvh.h"
+#include "space/surface_walk.h"
 
 /* The unit vector of corner k. */
 static mr_v3
@@ -81,9 +81,7 @@ is_identity(const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *map)
 static mr_v3
 source_point(const mr_mesh *mesh, const mr_source_map *map, uint32_t v)
 {
-	const uint32_t *t = mesh->t[map->face[v]].v;
-
-	return mr_bary_point(map->bary[v], mesh->p[t[0]], mesh->p[t[1]], mesh->p[t[2]]);
+	return mr_face_point(mesh, map->face[v], map->bary[v]);
 }
 
 typedef struct compose_job {
@@ -102,7 +100,7 @@ compose_body(void *arg, size_t begin, size_t end)
 	for (size_t i = begin; i < end; i++) {
 		const uint32_t *t = j->base->t[j->over->face[i]].v;
 		mr_v3 w = j->over->bary[i];
-		int nearest = w.x >= w.y && w.x >= w.z ? 0 : w.y >= w.z ? 1 : 2;
+		int nearest = mr_largest(w);
 		mr_v3 q = mr_bary_point(w, source_point(j->mesh, j->base_map, t[0]),
 		    source_point(j->mesh, j->base_map, t[1]), source_point(j->mesh, j->base_map, t[2]));
 		mr_closest c = mr_project_walk(j->mesh, j->topo, j->base_map->face[t[nearest]], q);

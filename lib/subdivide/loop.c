@@ -22,9 +22,8 @@ find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crea
 		uint32_t g = topo->twin[h];
 		if (g == MR_NONE || g < h)
 			continue;
-		mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
-		double angle = atan2(mr_norm(mr_cross(a, b)), mr_dot(a, b)) * 180 / MR_PI;
-		sharp[h] = sharp[g] = angle > crease;
+		double angle = mr_angle(mr_face_cross(m, h / 3), mr_face_cross(m, g / 3));
+		sharp[h] = sharp[g] = angle * 180 / MR_PI > crease;
 		any |= sharp[h];
 	}
 	if (any)
