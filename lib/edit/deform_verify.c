@@ -1,6 +1,7 @@
 /* What a solution is worth.  The condition number: von Mises, Pollaczek-Geiringer 1929, by the power method
  * on K and on its inverse. */
 #include "edit/deform_parts.h"
+#include "solve/multivector.h"
 
 #include <math.h>
 
@@ -17,14 +18,6 @@ normalize(double *x, size_t n)
 	return sqrt(sum);
 }
 
-/* A start that has something of every eigenvector: signs without a pattern. */
-static void
-scatter(double *x, size_t n)
-{
-	for (size_t i = 0; i < n; i++)
-		x[i] = (i * 2654435761u >> 16 & 1 ? 1 : -1) * (1 + (double)(i % 7) / 7);
-}
-
 static mr_status
 estimate_condition(mr_ctx *ctx, mr_deform *d, double *condition)
 {
@@ -33,14 +26,14 @@ estimate_condition(mr_ctx *ctx, mr_deform *d, double *condition)
 	field f = mr_deform_field(d, 1);
 	double greatest = 0, inverse = 0;
 
-	scatter(f.u, n);
+	mr_rough_start(n, f.u);
 	for (int step = 0; step < STEPS; step++) {
 		normalize(f.u, n);
 		mr_deform_residual(ctx, d, &f);
 		memcpy(f.u, f.r, n * sizeof *f.u);
 		greatest = normalize(f.u, n);
 	}
-	scatter(f.r, n);
+	mr_rough_start(n, f.r);
 	for (int step = 0; step < STEPS; step++) {
 		normalize(f.r, n);
 		MR_TRY(mr_solver_solve(ctx, d->solver, f.r, 1));

@@ -42,11 +42,11 @@ complete(mr_ctx *ctx, const mr_sparse *lower, mr_sparse *full)
 
 /* z = B r for x, y and z: b is of one of them. */
 static mr_status
-precondition(mr_ctx *ctx, void *b, mr_columns s, const double *r, double *z)
+precondition(mr_ctx *ctx, void *b, mr_multivector s, const double *r, double *z)
 {
 	const mr_preconditioner *common = b;
 
-	return common->apply(ctx, common->data, (mr_columns){ s.n / 3, 3 }, r, z);
+	return common->apply(ctx, common->data, (mr_multivector){ s.n / 3, 3 }, r, z);
 }
 
 /* y += (a I + block) x for the three rows and columns of a pair of vertices. */
@@ -60,7 +60,7 @@ apply_entry(const double *m, double a, const double *x, double *y)
 
 /* y = A x, of which the lower triangle is given. */
 static void
-apply(const mr_ctx *ctx, const void *system, mr_columns s, const double *x, double *y)
+apply(const mr_ctx *ctx, const void *system, mr_multivector s, const double *x, double *y)
 {
 	const mr_fit_system *t = system;
 

@@ -112,7 +112,7 @@ apply_second(void *arg, size_t begin, size_t end)
 
 /* y = A x, but 0 where the height is fixed. */
 static void
-apply(const mr_ctx *ctx, const void *a, mr_columns s, const double *x, double *y)
+apply(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y)
 {
 	product j = { a, x, y };
 
@@ -141,7 +141,7 @@ find_residual(const mr_ctx *ctx, const matrix *a, const double *h, double *r)
 {
 	const mr_heights *e = a->e;
 
-	apply(ctx, a, (mr_columns){ e->n, 1 }, h, r);
+	apply(ctx, a, (mr_multivector){ e->n, 1 }, h, r);
 	for (size_t i = 0; i < e->n; i++)
 		r[i] = (e->b && a->inverse[i] > 0 ? e->b[i] : 0) - r[i];
 }

@@ -5,28 +5,28 @@ mr_status
 mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterations)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_columns s = g->s;
+	mr_multivector s = g->s;
 	double *p = MR_NEW_ZERO(ctx, s.n * s.width, double), *q = MR_NEW(ctx, s.n * s.width, double);
 	double rz[MR_WIDTH], last[MR_WIDTH] = { 0 }, pq[MR_WIDTH], rr[MR_WIDTH], f[MR_WIDTH], goal[MR_WIDTH];
 
 	if (!p || !q)
 		return MR_EMEM;
-	mr_columns_dot(ctx, s, r, r, rr);
+	mr_multivector_dot(ctx, s, r, r, rr);
 	for (bool first = true, stuck; *iterations < g->most; first = false, ++*iterations) {
-		if (g->goal && mr_columns_within(s, rr, g->goal))
+		if (g->goal && mr_multivector_within(s, rr, g->goal))
 			break;
 		MR_TRY(g->b->apply(ctx, g->b->data, s, r, q)); /* z = B r, where q will be */
-		mr_columns_dot(ctx, s, r, q, rz);
+		mr_multivector_dot(ctx, s, r, q, rz);
 		for (size_t c = 0; c < s.width; c++) {
 			goal[c] = first ? g->tol * sqrt(rz[c]) : goal[c];
 			f[c] = mr_ratio(rz[c], last[c]); /* beta */
 		}
-		if (!g->goal && mr_columns_within(s, rz, goal))
+		if (!g->goal && mr_multivector_within(s, rz, goal))
 			break;
-		mr_columns_turn(ctx, s, f, q, p); /* p = z + beta p */
+		mr_multivector_turn(ctx, s, f, q, p); /* p = z + beta p */
 		memcpy(last, rz, sizeof rz);
 		g->apply(ctx, g->a, s, p, q); /* q = A p */
-		mr_columns_dot(ctx, s, p, q, pq);
+		mr_multivector_dot(ctx, s, p, q, pq);
 		stuck = true;
 		for (size_t c = 0; c < s.width; c++) {
 			f[c] = pq[c] > 0 ? mr_ratio(rz[c], pq[c]) : 0; /* alpha */
@@ -34,7 +34,7 @@ mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterati
 		}
 		if (stuck)
 			break;
-		mr_columns_step(ctx, s, f, p, q, x, r, rr); /* x += alpha p, r -= alpha q */
+		mr_multivector_step(ctx, s, f, p, q, x, r, rr); /* x += alpha p, r -= alpha q */
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;

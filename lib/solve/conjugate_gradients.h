@@ -11,9 +11,9 @@
 #include "solve/preconditioner.h"
 
 typedef struct mr_cg {
-	mr_columns s;
+	mr_multivector s;
 	void (*apply)(
-	    const mr_ctx *ctx, const void *a, mr_columns s, const double *x, double *y); /* y = A x */
+	    const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y); /* y = A x */
 	const void *a;
 	const mr_preconditioner *b;
 	const double *goal; /* of |r|, column by column; or NULL: */

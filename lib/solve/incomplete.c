@@ -15,9 +15,9 @@ typedef struct incomplete {
 /* D^-1 */
 
 static mr_status
-jacobi_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
+jacobi_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *z)
 {
-	mr_columns_scale(ctx, s, data, r, z);
+	mr_multivector_scale(ctx, s, data, r, z);
 	return MR_OK;
 }
 
@@ -113,7 +113,7 @@ substitute(const incomplete *c, size_t width, const double *r, double *z)
 
 /* A loop of a known length is faster. */
 static mr_status
-incomplete_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
+incomplete_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *z)
 {
 	(void)ctx;
 	if (s.width == 3)

@@ -17,7 +17,7 @@ typedef struct krylov {
 	 * Improves x, r = b - A x being its residual, until each column has |r| <= goal or no iterations are
 	 * left.
 	 */
-	mr_status (*iterate)(mr_ctx *ctx, struct krylov *k, mr_columns s, const double *goal, double *x,
+	mr_status (*iterate)(mr_ctx *ctx, struct krylov *k, mr_multivector s, const double *goal, double *x,
 	    double *r, size_t *iterations);
 } krylov;
 
@@ -33,15 +33,15 @@ krylov_free(void *data)
 
 /* r = b - A x, and its largest share of b in any column */
 static double
-true_residual(const mr_ctx *ctx, const krylov *k, mr_columns s, const double *b, const double *goal,
+true_residual(const mr_ctx *ctx, const krylov *k, mr_multivector s, const double *b, const double *goal,
     const double *x, double *r)
 {
 	static const double minus[MR_WIDTH] = { -1, -1, -1, -1 };
 	double norm2[MR_WIDTH], worst = 0;
 
 	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, x, r);
-	mr_columns_turn(ctx, s, minus, b, r);
-	mr_columns_dot(ctx, s, r, r, norm2);
+	mr_multivector_turn(ctx, s, minus, b, r);
+	mr_multivector_dot(ctx, s, r, r, norm2);
 	for (size_t c = 0; c < s.width; c++) {
 		double share = sqrt(norm2[c]) * k->opts.tol / goal[c];
 		if (norm2[c] > 0 && !(share <= worst))
@@ -52,14 +52,14 @@ true_residual(const mr_ctx *ctx, const krylov *k, mr_columns s, const double *b,
 
 /* Solves one group of columns, as rows: x = A^-1 b. */
 static mr_status
-solve_rows(mr_ctx *ctx, krylov *k, mr_columns s, const double *b, double *x, mr_solver_report *report)
+solve_rows(mr_ctx *ctx, krylov *k, mr_multivector s, const double *b, double *x, mr_solver_report *report)
 {
 	double *r = MR_NEW(ctx, s.n * s.width, double), goal[MR_WIDTH], before, after = INFINITY;
 	size_t iterations = 0;
 
 	if (!r)
 		return MR_EMEM;
-	mr_columns_dot(ctx, s, b, b, goal);
+	mr_multivector_dot(ctx, s, b, b, goal);
 	for (size_t c = 0; c < s.width; c++)
 		goal[c] = k->opts.tol * sqrt(goal[c]);
 	memset(x, 0, s.n * s.width * sizeof *x);
@@ -90,20 +90,20 @@ krylov_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_repor
 	report->iterations = 0;
 	report->residual = 0;
 	for (size_t c = 0; c < columns; c += MR_WIDTH) {
-		mr_columns s = { n, columns - c < MR_WIDTH ? columns - c : MR_WIDTH };
+		mr_multivector s = { n, columns - c < MR_WIDTH ? columns - c : MR_WIDTH };
 		double *rows = MR_NEW(ctx, n * s.width, double), *x = MR_NEW(ctx, n * s.width, double);
 		if (!rows || !x)
 			return MR_EMEM;
-		mr_columns_gather(s, b + c * n, rows);
+		mr_multivector_gather(s, b + c * n, rows);
 		MR_TRY(solve_rows(ctx, k, s, rows, x, report));
-		mr_columns_scatter(s, x, b + c * n);
+		mr_multivector_scatter(s, x, b + c * n);
 		mr_mark_release(ctx, mark);
 	}
 	return MR_OK;
 }
 
 static void
-negate(mr_columns s, const double *f, double *minus)
+negate(mr_multivector s, const double *f, double *minus)
 {
 	for (size_t c = 0; c < s.width; c++)
 		minus[c] = -f[c];
@@ -112,13 +112,14 @@ negate(mr_columns s, const double *f, double *minus)
 /* Conjugate gradients */
 
 static void
-apply_stored(const mr_ctx *ctx, const void *a, mr_columns s, const double *x, double *y)
+apply_stored(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y)
 {
 	mr_sparse_apply(ctx, a, NULL, s.n, s.width, x, y);
 }
 
 static mr_status
-cg_iterate(mr_ctx *ctx, krylov *k, mr_columns s, const double *goal, double *x, double *r, size_t *iterations)
+cg_iterate(
+    mr_ctx *ctx, krylov *k, mr_multivector s, const double *goal, double *x, double *r, size_t *iterations)
 {
 	mr_cg g = {
 		.s = s, .apply = apply_stored, .a = k->a, .b = &k->b, .goal = goal, .most = k->opts.iterations
@@ -141,7 +142,7 @@ typedef struct group {
 } group;
 
 static double
-total(mr_columns s, const double *norm2)
+total(mr_multivector s, const double *norm2)
 {
 	double sum = 0;
 
@@ -152,7 +153,7 @@ total(mr_columns s, const double *norm2)
 
 /* Ends a group where r has fallen enough to be worth it: x and r become true, q is workspace. */
 static void
-end_group(mr_ctx *ctx, const krylov *k, mr_columns s, bool now, group *g, double *x, double *r, double *q,
+end_group(mr_ctx *ctx, const krylov *k, mr_multivector s, bool now, group *g, double *x, double *r, double *q,
     double *rr)
 {
 	static const double one[MR_WIDTH] = { 1, 1, 1, 1 }, minus[MR_WIDTH] = { -1, -1, -1, -1 };
@@ -164,11 +165,11 @@ end_group(mr_ctx *ctx, const krylov *k, mr_columns s, bool now, group *g, double
 		return;
 	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, g->x, q);
 	memcpy(r, g->from, size * sizeof *r);
-	mr_columns_add(ctx, s, minus, q, r);
-	mr_columns_add(ctx, s, one, g->x, x);
+	mr_multivector_add(ctx, s, minus, q, r);
+	mr_multivector_add(ctx, s, one, g->x, x);
 	memset(g->x, 0, size * sizeof *g->x);
 	memcpy(g->from, r, size * sizeof *r);
-	mr_columns_dot(ctx, s, r, r, rr);
+	mr_multivector_dot(ctx, s, r, r, rr);
 	g->peak = total(s, rr);
 }
 
@@ -179,7 +180,7 @@ typedef struct bicgstab {
 } bicgstab;
 
 static mr_status
-bicgstab_begin(mr_ctx *ctx, mr_columns s, const double *r, bicgstab *b)
+bicgstab_begin(mr_ctx *ctx, mr_multivector s, const double *r, bicgstab *b)
 {
 	size_t size = s.n * s.width;
 
@@ -196,52 +197,52 @@ bicgstab_begin(mr_ctx *ctx, mr_columns s, const double *r, bicgstab *b)
 
 /* The step of BiCG: false where it has broken down in every column. */
 static mr_status
-bicgstab_step(mr_ctx *ctx, krylov *k, mr_columns s, const bool *done, bicgstab *b, double *r, bool *stuck)
+bicgstab_step(mr_ctx *ctx, krylov *k, mr_multivector s, const bool *done, bicgstab *b, double *r, bool *stuck)
 {
 	double rho[MR_WIDTH], d[MR_WIDTH], f[MR_WIDTH];
 
-	mr_columns_dot(ctx, s, b->shadow, r, rho);
+	mr_multivector_dot(ctx, s, b->shadow, r, rho);
 	negate(s, b->omega, f);
-	mr_columns_add(ctx, s, f, b->v, b->p);
+	mr_multivector_add(ctx, s, f, b->v, b->p);
 	for (size_t c = 0; c < s.width; c++)
 		f[c] = mr_ratio(rho[c] * b->alpha[c], b->last[c] * b->omega[c]); /* beta */
-	mr_columns_turn(ctx, s, f, r, b->p); /* p = r + beta (p - omega v) */
+	mr_multivector_turn(ctx, s, f, r, b->p); /* p = r + beta (p - omega v) */
 	memcpy(b->last, rho, sizeof rho);
 	MR_TRY(k->b.apply(ctx, k->b.data, s, b->p, b->z));
 	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, b->z, b->v); /* v = A B p */
-	mr_columns_dot(ctx, s, b->shadow, b->v, d);
+	mr_multivector_dot(ctx, s, b->shadow, b->v, d);
 	*stuck = true;
 	for (size_t c = 0; c < s.width; c++) {
 		b->alpha[c] = done[c] ? 0 : mr_ratio(rho[c], d[c]);
 		*stuck = *stuck && b->alpha[c] == 0;
 	}
-	mr_columns_add(ctx, s, b->alpha, b->z, b->g.x);
+	mr_multivector_add(ctx, s, b->alpha, b->z, b->g.x);
 	negate(s, b->alpha, f);
-	mr_columns_add(ctx, s, f, b->v, r);
+	mr_multivector_add(ctx, s, f, b->v, r);
 	return MR_OK;
 }
 
 /* The step of steepest descent behind it. */
 static mr_status
-stabilize(mr_ctx *ctx, krylov *k, mr_columns s, bicgstab *b, double *r)
+stabilize(mr_ctx *ctx, krylov *k, mr_multivector s, bicgstab *b, double *r)
 {
 	double d[MR_WIDTH], e[MR_WIDTH];
 
 	MR_TRY(k->b.apply(ctx, k->b.data, s, r, b->z));
 	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, b->z, b->t); /* t = A B r */
-	mr_columns_dot(ctx, s, b->t, r, d);
-	mr_columns_dot(ctx, s, b->t, b->t, e);
+	mr_multivector_dot(ctx, s, b->t, r, d);
+	mr_multivector_dot(ctx, s, b->t, b->t, e);
 	for (size_t c = 0; c < s.width; c++)
 		b->omega[c] = b->alpha[c] != 0 ? mr_ratio(d[c], e[c]) : 0;
-	mr_columns_add(ctx, s, b->omega, b->z, b->g.x);
+	mr_multivector_add(ctx, s, b->omega, b->z, b->g.x);
 	negate(s, b->omega, d);
-	mr_columns_add(ctx, s, d, b->t, r);
+	mr_multivector_add(ctx, s, d, b->t, r);
 	return MR_OK;
 }
 
 static mr_status
 bicgstab_iterate(
-    mr_ctx *ctx, krylov *k, mr_columns s, const double *goal, double *x, double *r, size_t *iterations)
+    mr_ctx *ctx, krylov *k, mr_multivector s, const double *goal, double *x, double *r, size_t *iterations)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double rr[MR_WIDTH];
@@ -249,16 +250,17 @@ bicgstab_iterate(
 	bicgstab b;
 
 	MR_TRY(bicgstab_begin(ctx, s, r, &b));
-	mr_columns_dot(ctx, s, r, r, rr);
+	mr_multivector_dot(ctx, s, r, r, rr);
 	b.g.peak = total(s, rr);
-	for (; *iterations < k->opts.iterations && !mr_columns_within(s, rr, goal) && !stuck; ++*iterations) {
+	for (; *iterations < k->opts.iterations && !mr_multivector_within(s, rr, goal) && !stuck;
+	     ++*iterations) {
 		bool done[MR_WIDTH];
 		for (size_t c = 0; c < s.width; c++)
 			done[c] = rr[c] <= goal[c] * goal[c];
 		MR_TRY(bicgstab_step(ctx, k, s, done, &b, r, &stuck));
 		MR_TRY(stabilize(ctx, k, s, &b, r));
-		mr_columns_dot(ctx, s, r, r, rr);
-		end_group(ctx, k, s, mr_columns_within(s, rr, goal), &b.g, x, r, b.t, rr);
+		mr_multivector_dot(ctx, s, r, r, rr);
+		end_group(ctx, k, s, mr_multivector_within(s, rr, goal), &b.g, x, r, b.t, rr);
 	}
 	end_group(ctx, k, s, true, &b.g, x, r, b.t, rr);
 	mr_mark_release(ctx, mark);
@@ -269,7 +271,7 @@ bicgstab_iterate(
 
 static mr_status
 cycle_iterate(
-    mr_ctx *ctx, krylov *k, mr_columns s, const double *goal, double *x, double *r, size_t *iterations)
+    mr_ctx *ctx, krylov *k, mr_multivector s, const double *goal, double *x, double *r, size_t *iterations)
 {
 	static const double one[MR_WIDTH] = { 1, 1, 1, 1 }, minus[MR_WIDTH] = { -1, -1, -1, -1 }, most = 1e6;
 	mr_mark mark = mr_mark_take(ctx);
@@ -278,15 +280,15 @@ cycle_iterate(
 
 	if (!z || !q)
 		return MR_EMEM;
-	mr_columns_dot(ctx, s, r, r, rr);
+	mr_multivector_dot(ctx, s, r, r, rr);
 	memcpy(begun, rr, sizeof rr);
-	for (; *iterations < k->opts.iterations && !mr_columns_within(s, rr, goal); ++*iterations) {
+	for (; *iterations < k->opts.iterations && !mr_multivector_within(s, rr, goal); ++*iterations) {
 		bool diverges = false;
 		MR_TRY(k->b.apply(ctx, k->b.data, s, r, z));
-		mr_columns_add(ctx, s, one, z, x);
+		mr_multivector_add(ctx, s, one, z, x);
 		mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, z, q);
-		mr_columns_add(ctx, s, minus, q, r);
-		mr_columns_dot(ctx, s, r, r, rr);
+		mr_multivector_add(ctx, s, minus, q, r);
+		mr_multivector_dot(ctx, s, r, r, rr);
 		for (size_t c = 0; c < s.width; c++)
 			diverges = diverges || !(rr[c] <= most * begun[c]);
 		if (diverges)

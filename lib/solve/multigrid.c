@@ -4,8 +4,8 @@
  * which is symmetric and runs on any number of threads; the coarsest level is solved by Cholesky.
  */
 #include "base/parallel.h"
-#include "solve/sparse.h"
 #include "solve/preconditioner.h"
+#include "solve/sparse.h"
 
 #include <math.h>
 
@@ -54,7 +54,7 @@ step_rows(void *arg, size_t begin, size_t end)
 
 /* Improves x, whose residual is r; r follows where `keep`. */
 static void
-smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s, bool keep)
+smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_multivector s, bool keep)
 {
 	double low = g->low * l->top, theta = 0.5 * (l->top + low), delta = 0.5 * (l->top - low);
 	double rho = delta / theta;
@@ -74,11 +74,11 @@ smooth(const mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s, bool
 
 /* The coarsest level: x = A^-1 r */
 static mr_status
-solve_coarsest(mr_ctx *ctx, const multigrid *g, const level *l, mr_columns s)
+solve_coarsest(mr_ctx *ctx, const multigrid *g, const level *l, mr_multivector s)
 {
-	mr_columns_scatter(s, l->r, g->column);
+	mr_multivector_scatter(s, l->r, g->column);
 	MR_TRY(mr_solver_solve(ctx, g->coarsest, g->column, s.width));
-	mr_columns_gather(s, g->column, l->x);
+	mr_multivector_gather(s, g->column, l->x);
 	return MR_OK;
 }
 
@@ -87,7 +87,7 @@ static mr_status
 cycle(mr_ctx *ctx, const multigrid *g, size_t at, size_t width)
 {
 	level *l = &g->level[at], *coarse = l + 1;
-	mr_columns s = { (size_t)l->a.n, width };
+	mr_multivector s = { (size_t)l->a.n, width };
 
 	if (at + 1 == g->count)
 		return solve_coarsest(ctx, g, l, s);
@@ -96,26 +96,26 @@ cycle(mr_ctx *ctx, const multigrid *g, size_t at, size_t width)
 	mr_sparse_apply(ctx, &l->restrict_, NULL, (size_t)coarse->a.n, width, l->r, coarse->r);
 	MR_TRY(cycle(ctx, g, at + 1, width));
 	mr_sparse_apply(ctx, &l->prolong, NULL, s.n, width, coarse->x, l->d); /* d = P e */
-	mr_columns_add(ctx, s, (const double[MR_WIDTH]){ 1, 1, 1, 1 }, l->d, l->x);
+	mr_multivector_add(ctx, s, (const double[MR_WIDTH]){ 1, 1, 1, 1 }, l->d, l->x);
 	mr_sparse_add(ctx, &l->a, -1, width, l->d, l->r);
 	smooth(ctx, g, l, s, false);
 	return MR_OK;
 }
 
 static mr_status
-multigrid_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
+multigrid_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *z)
 {
 	const multigrid *g = data;
 	const level *finest = g->level;
 
 	if (g->scaled)
-		mr_columns_scale(ctx, s, g->mass, r, finest->r);
+		mr_multivector_scale(ctx, s, g->mass, r, finest->r);
 	else
 		memcpy(finest->r, r, s.n * s.width * sizeof *r);
 	for (size_t k = 1; k <= g->applied; k++) {
 		MR_TRY(cycle(ctx, g, 0, s.width));
 		if (k < g->applied)
-			mr_columns_scale(ctx, s, g->mass, finest->x, finest->r);
+			mr_multivector_scale(ctx, s, g->mass, finest->x, finest->r);
 	}
 	memcpy(z, finest->x, s.n * s.width * sizeof *z);
 	return MR_OK;
@@ -148,19 +148,18 @@ estimate_top(const mr_ctx *ctx, level *l)
 {
 	enum { STEPS = 12 };
 	static const double margin = 1.1;
-	mr_columns s = { (size_t)l->a.n, 1 };
+	mr_multivector s = { (size_t)l->a.n, 1 };
 	double size, last = 1;
 
 	l->top = 1;
-	for (size_t i = 0; i < s.n; i++)
-		l->x[i] = (i * 2654435761u >> 16 & 1 ? 1 : -1) * (1 + (double)(i % 7) / 7);
+	mr_rough_start(s.n, l->x);
 	for (int step = 0; step < STEPS; step++) {
-		mr_columns_dot(ctx, s, l->x, l->x, &size);
+		mr_multivector_dot(ctx, s, l->x, l->x, &size);
 		for (size_t i = 0; i < s.n; i++)
 			l->x[i] /= sqrt(size);
 		mr_sparse_apply(ctx, &l->a, NULL, s.n, 1, l->x, l->d);
-		mr_columns_scale(ctx, s, l->inverse, l->d, l->x);
-		mr_columns_dot(ctx, s, l->x, l->x, &last);
+		mr_multivector_scale(ctx, s, l->inverse, l->d, l->x);
+		mr_multivector_dot(ctx, s, l->x, l->x, &last);
 		if (last == 0)
 			return;
 	}

@@ -20,7 +20,7 @@ typedef struct strip {
 
 /* z += R' (R A R')^-1 R r, R being the choice of the strip's rows */
 static mr_status
-solve_strip(mr_ctx *ctx, const strip *t, mr_columns s, const double *r, double *z)
+solve_strip(mr_ctx *ctx, const strip *t, mr_multivector s, const double *r, double *z)
 {
 	for (size_t c = 0; c < s.width; c++)
 		for (size_t i = 0; i < t->n; i++)
@@ -34,14 +34,14 @@ solve_strip(mr_ctx *ctx, const strip *t, mr_columns s, const double *r, double *
 
 /* r = b - A z */
 static void
-find_residual(const mr_ctx *ctx, const strip *t, mr_columns s, const double *b, const double *z)
+find_residual(const mr_ctx *ctx, const strip *t, mr_multivector s, const double *b, const double *z)
 {
 	memcpy(t->r, b, s.n * s.width * sizeof *b);
 	mr_sparse_add(ctx, t->a, -1, s.width, z, t->r);
 }
 
 static mr_status
-strip_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
+strip_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *z)
 {
 	static const double one[MR_WIDTH] = { 1, 1, 1, 1 };
 	const strip *t = data;
@@ -52,7 +52,7 @@ strip_apply(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z)
 	MR_TRY(solve_strip(ctx, t, s, r, z));
 	find_residual(ctx, t, s, r, z);
 	MR_TRY(t->cycles.apply(ctx, t->cycles.data, s, t->r, t->d));
-	mr_columns_add(ctx, s, one, t->d, z);
+	mr_multivector_add(ctx, s, one, t->d, z);
 	find_residual(ctx, t, s, r, z);
 	return solve_strip(ctx, t, s, t->r, z);
 }

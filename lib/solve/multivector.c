@@ -5,19 +5,19 @@
 
 enum { GRAIN = 8192, PIECES = 128 };
 
-typedef struct columns_job {
-	mr_columns s;
+typedef struct multivector_job {
+	mr_multivector s;
 	const double *f, *a, *b;
 	double *y, *z;
 	double (*partial)[MR_WIDTH]; /* sums of each piece of a batch */
 	size_t first;                /* row of the batch */
-} columns_job;
+} multivector_job;
 
-typedef void rows_body(const columns_job *j, size_t width, size_t begin, size_t end);
+typedef void rows_body(const multivector_job *j, size_t width, size_t begin, size_t end);
 
 /* Loops of a known width are faster, and 1 and 3 are what there is. */
 static inline void
-by_width(rows_body *body, const columns_job *j, size_t begin, size_t end)
+by_width(rows_body *body, const multivector_job *j, size_t begin, size_t end)
 {
 	if (j->s.width == 1)
 		body(j, 1, begin, end);
@@ -29,7 +29,7 @@ by_width(rows_body *body, const columns_job *j, size_t begin, size_t end)
 
 /* sum[c] = the sum over all rows, of which `body` leaves the partial sums. */
 static void
-sum_pieces(const mr_ctx *ctx, columns_job j, mr_body body, double *sum)
+sum_pieces(const mr_ctx *ctx, multivector_job j, mr_body body, double *sum)
 {
 	double partial[PIECES][MR_WIDTH];
 	size_t n = j.s.n, batch = (size_t)PIECES * GRAIN;
@@ -46,7 +46,7 @@ sum_pieces(const mr_ctx *ctx, columns_job j, mr_body body, double *sum)
 }
 
 static inline void
-dot_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+dot_rows(const multivector_job *j, size_t width, size_t begin, size_t end)
 {
 	double sum[MR_WIDTH] = { 0 };
 
@@ -63,13 +63,13 @@ dot_piece(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_columns_dot(const mr_ctx *ctx, mr_columns s, const double *a, const double *b, double *dot)
+mr_multivector_dot(const mr_ctx *ctx, mr_multivector s, const double *a, const double *b, double *dot)
 {
-	sum_pieces(ctx, (columns_job){ .s = s, .a = a, .b = b }, dot_piece, dot);
+	sum_pieces(ctx, (multivector_job){ .s = s, .a = a, .b = b }, dot_piece, dot);
 }
 
 static inline void
-step_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+step_rows(const multivector_job *j, size_t width, size_t begin, size_t end)
 {
 	double sum[MR_WIDTH] = { 0 };
 
@@ -91,14 +91,14 @@ step_piece(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_columns_step(const mr_ctx *ctx, mr_columns s, const double *f, const double *p, const double *q, double *x,
-    double *r, double *rr)
+mr_multivector_step(const mr_ctx *ctx, mr_multivector s, const double *f, const double *p, const double *q,
+    double *x, double *r, double *rr)
 {
-	sum_pieces(ctx, (columns_job){ .s = s, .f = f, .a = p, .b = q, .y = x, .z = r }, step_piece, rr);
+	sum_pieces(ctx, (multivector_job){ .s = s, .f = f, .a = p, .b = q, .y = x, .z = r }, step_piece, rr);
 }
 
 static inline void
-add_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+add_rows(const multivector_job *j, size_t width, size_t begin, size_t end)
 {
 	for (size_t i = begin; i < end; i++)
 		for (size_t c = 0; c < width; c++)
@@ -112,13 +112,13 @@ add_piece(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_columns_add(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y)
+mr_multivector_add(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y)
 {
-	mr_parallel(ctx, s.n, GRAIN, add_piece, &(columns_job){ .s = s, .f = f, .a = x, .y = y });
+	mr_parallel(ctx, s.n, GRAIN, add_piece, &(multivector_job){ .s = s, .f = f, .a = x, .y = y });
 }
 
 static inline void
-turn_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+turn_rows(const multivector_job *j, size_t width, size_t begin, size_t end)
 {
 	for (size_t i = begin; i < end; i++)
 		for (size_t c = 0; c < width; c++)
@@ -132,13 +132,13 @@ turn_piece(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_columns_turn(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y)
+mr_multivector_turn(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y)
 {
-	mr_parallel(ctx, s.n, GRAIN, turn_piece, &(columns_job){ .s = s, .f = f, .a = x, .y = y });
+	mr_parallel(ctx, s.n, GRAIN, turn_piece, &(multivector_job){ .s = s, .f = f, .a = x, .y = y });
 }
 
 static inline void
-scale_rows(const columns_job *j, size_t width, size_t begin, size_t end)
+scale_rows(const multivector_job *j, size_t width, size_t begin, size_t end)
 {
 	for (size_t i = begin; i < end; i++)
 		for (size_t c = 0; c < width; c++)
@@ -152,13 +152,13 @@ scale_piece(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_columns_scale(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y)
+mr_multivector_scale(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y)
 {
-	mr_parallel(ctx, s.n, GRAIN, scale_piece, &(columns_job){ .s = s, .f = f, .a = x, .y = y });
+	mr_parallel(ctx, s.n, GRAIN, scale_piece, &(multivector_job){ .s = s, .f = f, .a = x, .y = y });
 }
 
 void
-mr_columns_gather(mr_columns s, const double *b, double *rows)
+mr_multivector_gather(mr_multivector s, const double *b, double *rows)
 {
 	for (size_t c = 0; c < s.width; c++)
 		for (size_t i = 0; i < s.n; i++)
@@ -166,9 +166,16 @@ mr_columns_gather(mr_columns s, const double *b, double *rows)
 }
 
 void
-mr_columns_scatter(mr_columns s, const double *rows, double *b)
+mr_multivector_scatter(mr_multivector s, const double *rows, double *b)
 {
 	for (size_t c = 0; c < s.width; c++)
 		for (size_t i = 0; i < s.n; i++)
 			b[c * s.n + i] = rows[i * s.width + c];
+}
+
+void
+mr_rough_start(size_t n, double *x)
+{
+	for (size_t i = 0; i < n; i++)
+		x[i] = (i * 2654435761u >> 16 & 1 ? 1 : -1) * (1 + (double)(i % 7) / 7);
 }

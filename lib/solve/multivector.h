@@ -14,33 +14,36 @@
 
 enum { MR_WIDTH = 4 }; /* columns of a block, at most */
 
-typedef struct mr_columns {
+typedef struct mr_multivector {
 	size_t n, width;
-} mr_columns;
+} mr_multivector;
 
 /* dot[c] = sum over i of a[i, c] b[i, c] */
-void mr_columns_dot(const mr_ctx *ctx, mr_columns s, const double *a, const double *b, double *dot);
+void mr_multivector_dot(const mr_ctx *ctx, mr_multivector s, const double *a, const double *b, double *dot);
 
 /* y = y + f[c] x, column by column */
-void mr_columns_add(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
+void mr_multivector_add(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y);
 
 /* y = x + f[c] y */
-void mr_columns_turn(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
+void mr_multivector_turn(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y);
 
 /* x = x + f[c] p and r = r - f[c] q; rr[c] = sum over i of r[i, c]^2 */
-void mr_columns_step(const mr_ctx *ctx, mr_columns s, const double *f, const double *p, const double *q,
-    double *x, double *r, double *rr);
+void mr_multivector_step(const mr_ctx *ctx, mr_multivector s, const double *f, const double *p,
+    const double *q, double *x, double *r, double *rr);
 
 /* y = f[i] x, row by row */
-void mr_columns_scale(const mr_ctx *ctx, mr_columns s, const double *f, const double *x, double *y);
+void mr_multivector_scale(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y);
 
 /* Right-hand sides, one after another, to rows and back. */
-void mr_columns_gather(mr_columns s, const double *b, double *rows);
-void mr_columns_scatter(mr_columns s, const double *rows, double *b);
+void mr_multivector_gather(mr_multivector s, const double *b, double *rows);
+void mr_multivector_scatter(mr_multivector s, const double *rows, double *b);
+
+/* A start for the power method, which has something of every eigenvector: signs without a pattern.  x: n. */
+void mr_rough_start(size_t n, double *x);
 
 /* True where the squared norm of each column is not beyond its goal's square. */
 static inline bool
-mr_columns_within(mr_columns s, const double *norm2, const double *goal)
+mr_multivector_within(mr_multivector s, const double *norm2, const double *goal)
 {
 	for (size_t c = 0; c < s.width; c++)
 		if (norm2[c] > goal[c] * goal[c])

@@ -11,7 +11,7 @@
 #include "solve/solver.h"
 
 typedef struct mr_preconditioner {
-	mr_status (*apply)(mr_ctx *ctx, void *data, mr_columns s, const double *r, double *z);
+	mr_status (*apply)(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *z);
 	void (*free)(void *data); /* NULL: nothing beside the arena */
 	void *data;
 	double nnz; /* entries it holds */

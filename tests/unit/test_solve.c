@@ -178,7 +178,7 @@ test_iterative(void **state)
 
 /* -y'' + y of the values on a line, those at its ends held: a matrix that nobody stores. */
 static void
-apply_line(const mr_ctx *c, const void *data, mr_columns s, const double *x, double *y)
+apply_line(const mr_ctx *c, const void *data, mr_multivector s, const double *x, double *y)
 {
 	(void)c;
 	(void)data;
