@@ -1,5 +1,6 @@
 #include "edit/phong_projection.h"
 
+#include "base/priority_queue.h"
 #include "space/bvh.h"
 
 /*
@@ -189,7 +190,7 @@ mr_foot_walk(
 	return false;
 }
 
-/* The part of the surface that a search has met: a heap of faces to be looked at, the nearest first. */
+/* The part of the surface that a search has met: a queue of faces to be looked at, the nearest first. */
 enum { PATCH = 4096 };
 
 typedef struct near_face {
@@ -199,41 +200,16 @@ typedef struct near_face {
 
 typedef struct patch {
 	size_t waiting, met;
-	near_face heap[PATCH];
+	near_face queue[PATCH];
 	uint32_t slot[2 * PATCH]; /* hash table of the faces met: no more than half full */
 } patch;
 
 static bool
-nearer(near_face a, near_face b)
+nearer(const void *a, const void *b)
 {
-	return a.dist2 != b.dist2 ? a.dist2 < b.dist2 : a.face < b.face;
-}
+	const near_face *x = a, *y = b;
 
-static void
-push(patch *s, near_face x)
-{
-	size_t i = s->waiting++;
-
-	for (; i > 0 && nearer(x, s->heap[(i - 1) / 2]); i = (i - 1) / 2)
-		s->heap[i] = s->heap[(i - 1) / 2];
-	s->heap[i] = x;
-}
-
-static near_face
-pop(patch *s)
-{
-	near_face first = s->heap[0], last = s->heap[--s->waiting];
-	size_t i = 0, child;
-
-	for (; (child = 2 * i + 1) < s->waiting; i = child) {
-		if (child + 1 < s->waiting && nearer(s->heap[child + 1], s->heap[child]))
-			child++;
-		if (!nearer(s->heap[child], last))
-			break;
-		s->heap[i] = s->heap[child];
-	}
-	s->heap[i] = last;
-	return first;
+	return x->dist2 != y->dist2 ? x->dist2 < y->dist2 : x->face < y->face;
 }
 
 /* Enters the face into the table; false where it is there already, or the table has its fill. */
@@ -257,8 +233,12 @@ enter(patch *s, uint32_t face)
 static void
 meet(const mr_ground *g, mr_v3 p, uint32_t face, patch *s)
 {
-	if (enter(s, face))
-		push(s, (near_face){ mr_face_closest(g->surface.m, face, p).dist2, face });
+	near_face x = { 0, face };
+
+	if (!enter(s, face))
+		return;
+	x.dist2 = mr_face_closest(g->surface.m, face, p).dist2;
+	mr_queue_push(s->queue, s->waiting++, sizeof x, &x, nearer);
 }
 
 static void
@@ -410,8 +390,9 @@ mr_foot_search(const mr_ground *g, mr_v3 p, uint32_t face, mr_foot *foot)
 	s.waiting = s.met = 0;
 	memset(s.slot, 0xff, sizeof s.slot);
 	meet(g, p, face, &s);
-	while (s.waiting > 0 && s.heap[0].dist2 <= limit * limit) {
-		near_face next = pop(&s);
+	while (s.waiting > 0 && s.queue[0].dist2 <= limit * limit) {
+		near_face next;
+		mr_queue_pop(s.queue, s.waiting--, sizeof next, &next, nearer);
 		if (next.dist2 < near2) {
 			near2 = next.dist2;
 			face = next.face;

@@ -8,6 +8,7 @@
 #include "measure/compare_parts.h"
 
 #include "base/parallel.h"
+#include "base/priority_queue.h"
 #include "space/bvh.h"
 
 enum { SAMPLES = 100000, EFFORT = 200000, GRAIN = 256, BATCH = 2048, SIDE_MOST = 2048 };
@@ -176,40 +177,26 @@ measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
 
 /* ---- branch and bound ---- */
 
-/* The piece of greatest bound on top; equal ones in the order of a heap, which is fixed. */
-typedef struct heap {
+/* The piece of greatest bound first. */
+typedef struct queue {
 	piece *p;
 	size_t n, room;
-} heap;
+} queue;
 
-static mr_status
-heap_push(mr_ctx *ctx, heap *h, const piece *x)
+static bool
+greater(const void *a, const void *b)
 {
-	size_t i = h->n;
+	const piece *x = a, *y = b;
 
-	MR_TRY(MR_RESERVE(ctx, h->p, h->n, 1, &h->room));
-	for (; i > 0 && h->p[(i - 1) / 2].bound < x->bound; i = (i - 1) / 2)
-		h->p[i] = h->p[(i - 1) / 2];
-	h->p[i] = *x;
-	h->n++;
-	return MR_OK;
+	return x->bound > y->bound;
 }
 
-static piece
-heap_pop(heap *h)
+static mr_status
+push(mr_ctx *ctx, queue *q, const piece *x)
 {
-	piece top = h->p[0], last = h->p[--h->n];
-	size_t i = 0, c;
-
-	for (; (c = 2 * i + 1) < h->n; i = c) {
-		if (c + 1 < h->n && h->p[c + 1].bound > h->p[c].bound)
-			c++;
-		if (h->p[c].bound <= last.bound)
-			break;
-		h->p[i] = h->p[c];
-	}
-	h->p[i] = last;
-	return top;
+	MR_TRY(MR_RESERVE(ctx, q->p, q->n, 1, &q->room));
+	mr_queue_push(q->p, q->n++, sizeof *x, x, greater);
+	return MR_OK;
 }
 
 /* The four triangles between corners and midpoints of edges. */
@@ -269,7 +256,7 @@ enough_for(double max, double tolerance, double scale)
 }
 
 static mr_status
-push_faces(mr_ctx *ctx, const job *j, heap *h)
+push_faces(mr_ctx *ctx, const job *j, queue *q)
 {
 	for (size_t f = 0; f < j->a->nf; f++) {
 		piece x = { .bound = j->bound[f] };
@@ -278,19 +265,19 @@ push_faces(mr_ctx *ctx, const job *j, heap *h)
 		for (int i = 0; i < 3; i++)
 			x.v[i] = j->a->p[j->a->t[f].v[i]];
 		x.face = mr_bvh_closest(j->bvh, centroid(x.v)).face;
-		MR_TRY(heap_push(ctx, h, &x));
+		MR_TRY(push(ctx, q, &x));
 	}
 	return MR_OK;
 }
 
 /* Cuts the pieces of greatest bound until none is above `enough`, or the effort is spent. */
 static mr_status
-search(mr_ctx *ctx, job *j, heap *h, size_t effort, double tolerance, double scale, mr_distance *d)
+search(mr_ctx *ctx, job *j, queue *q, size_t effort, double tolerance, double scale, mr_distance *d)
 {
-	while (h->n && h->p[0].bound > j->enough && effort) {
+	while (q->n && q->p[0].bound > j->enough && effort) {
 		size_t n = 0;
-		for (; n < BATCH && n < effort && h->n && h->p[0].bound > j->enough; n++)
-			j->pieces[n] = heap_pop(h);
+		for (; n < BATCH && n < effort && q->n && q->p[0].bound > j->enough; n++)
+			mr_queue_pop(q->p, q->n--, sizeof *q->p, &j->pieces[n], greater);
 		effort -= n;
 		mr_parallel(ctx, n, 16, bound_children, j);
 		for (size_t i = 0; i < 4 * n; i++)
@@ -298,9 +285,9 @@ search(mr_ctx *ctx, job *j, heap *h, size_t effort, double tolerance, double sca
 		j->enough = enough_for(d->max, tolerance, scale);
 		for (size_t i = 0; i < 4 * n; i++)
 			if (j->children[i].bound > j->enough)
-				MR_TRY(heap_push(ctx, h, &j->children[i]));
+				MR_TRY(push(ctx, q, &j->children[i]));
 	}
-	d->max_bound = fmax(j->enough, h->n ? h->p[0].bound : 0);
+	d->max_bound = fmax(j->enough, q->n ? q->p[0].bound : 0);
 	return MR_OK;
 }
 
@@ -308,7 +295,7 @@ static mr_status
 bound_max(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_distance *d)
 {
 	size_t effort = opts->effort ? opts->effort : j->a->nf > EFFORT / 2 ? 2 * j->a->nf : EFFORT;
-	heap h = { NULL, 0, 0 };
+	queue q = { NULL, 0, 0 };
 	double most = 0;
 
 	j->pieces = MR_NEW(ctx, BATCH, piece);
@@ -323,8 +310,8 @@ bound_max(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_dis
 		d->max_bound = fmax(most, d->max);
 		return MR_OK;
 	}
-	MR_TRY(push_faces(ctx, j, &h));
-	return search(ctx, j, &h, effort, opts->tolerance, scale, d);
+	MR_TRY(push_faces(ctx, j, &q));
+	return search(ctx, j, &q, effort, opts->tolerance, scale, d);
 }
 
 /* ---- one direction ---- */

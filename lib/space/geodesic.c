@@ -1,5 +1,6 @@
 #include "space/geodesic.h"
 
+#include "base/priority_queue.h"
 #include "space/bvh.h"
 
 /*
@@ -15,44 +16,16 @@ typedef struct entry {
 } entry;
 
 typedef struct front {
-	entry *heap;
+	entry *queue;
 	size_t n, room;
 } front;
 
 static bool
-before(entry a, entry b)
+before(const void *a, const void *b)
 {
-	return a.distance < b.distance || (a.distance == b.distance && a.vertex < b.vertex);
-}
+	const entry *x = a, *y = b;
 
-static mr_status
-push(mr_ctx *ctx, front *f, entry e)
-{
-	size_t i;
-
-	MR_TRY(MR_RESERVE(ctx, f->heap, f->n, 1, &f->room));
-	for (i = f->n++; i > 0 && before(e, f->heap[(i - 1) / 2]); i = (i - 1) / 2)
-		f->heap[i] = f->heap[(i - 1) / 2];
-	f->heap[i] = e;
-	return MR_OK;
-}
-
-static entry
-pop(front *f)
-{
-	entry top = f->heap[0], last = f->heap[--f->n];
-	size_t i = 0;
-
-	for (size_t k = 1; k < f->n; k = 2 * i + 1) {
-		if (k + 1 < f->n && before(f->heap[k + 1], f->heap[k]))
-			k++;
-		if (!before(f->heap[k], last))
-			break;
-		f->heap[i] = f->heap[k];
-		i = k;
-	}
-	f->heap[i] = last;
-	return top;
+	return x->distance < y->distance || (x->distance == y->distance && x->vertex < y->vertex);
 }
 
 /* The distance of corner c behind the edge a-b, whose ends are da and db away. */
@@ -86,6 +59,7 @@ typedef struct march {
 static mr_status
 relax(mr_ctx *ctx, march *j, uint32_t v, double d, double way)
 {
+	front *f = &j->front;
 	const double step = 1e-4; /* less does not pay: it would run on through all that lies behind */
 
 	/* corners that are not settled yet can put the source too near: space is the shortest way of all */
@@ -93,7 +67,9 @@ relax(mr_ctx *ctx, march *j, uint32_t v, double d, double way)
 	if (!(d < j->distance[v] - step * way))
 		return MR_OK;
 	j->distance[v] = d;
-	return push(ctx, &j->front, (entry){ d, v });
+	MR_TRY(MR_RESERVE(ctx, f->queue, f->n, 1, &f->room));
+	mr_queue_push(f->queue, f->n++, sizeof(entry), &(entry){ d, v }, before);
+	return MR_OK;
 }
 
 /* Looks from v and one more corner of the face at the third, both ways. */
@@ -141,7 +117,8 @@ mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, doub
 		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source.point), 0));
 	}
 	while (j.front.n > 0) {
-		entry e = pop(&j.front);
+		entry e;
+		mr_queue_pop(j.front.queue, j.front.n--, sizeof e, &e, before);
 		if (e.distance > reach)
 			break;
 		if (e.distance > distance[e.vertex])
