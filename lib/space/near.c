@@ -7,6 +7,7 @@
 #include "space/near.h"
 
 #include "base/parallel.h"
+#include "mesh/repair.h"
 
 #include <flann/flann.h>
 #include <stdatomic.h>
@@ -34,58 +35,20 @@ check(mr_ctx *ctx, const char *what, const mr_v3 *p, size_t n)
 	return MR_OK;
 }
 
-static uint64_t
-hash(mr_v3 p)
-{
-	double c[3] = { p.x + 0.0, p.y + 0.0, p.z + 0.0 }; /* -0 is 0 */
-	uint64_t h = 0, bits;
-
-	for (int i = 0; i < 3; i++) {
-		memcpy(&bits, &c[i], sizeof bits);
-		h = (h ^ bits) * 0x9e3779b97f4a7c15u;
-		h ^= h >> 29;
-	}
-	return h;
-}
-
-static bool
-same(mr_v3 a, mr_v3 b)
-{
-	return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-/* The lowest index of each position, in order: open addressing, at most half full.  Returns how many. */
-static size_t
-distinct(const mr_v3 *p, size_t n, uint32_t *slot, size_t mask, uint32_t *original)
-{
-	size_t rows = 0;
-
-	memset(slot, 0xff, (mask + 1) * sizeof *slot);
-	for (uint32_t i = 0; i < n; i++) {
-		size_t at = hash(p[i]) & mask;
-		while (slot[at] != UINT32_MAX && !same(p[slot[at]], p[i]))
-			at = (at + 1) & mask;
-		if (slot[at] == UINT32_MAX) {
-			slot[at] = i;
-			original[rows++] = i;
-		}
-	}
-	return rows;
-}
-
+/* The lowest index of each position, in order. */
 static mr_status
 find_distinct(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t **original, size_t *rows)
 {
-	uint32_t *list = MR_NEW(ctx, n, uint32_t), *slot;
+	uint32_t *list = MR_NEW(ctx, n, uint32_t), *map, used = 0;
 	mr_mark mark = mr_mark_take(ctx);
-	size_t size = 16;
 
-	while (size < 2 * n)
-		size *= 2;
-	slot = MR_NEW(ctx, size, uint32_t);
-	if (!list || !slot)
+	map = MR_NEW(ctx, n, uint32_t);
+	if (!list || !map)
 		return MR_EMEM;
-	*rows = distinct(p, n, slot, size - 1, list);
+	MR_TRY(mr_weld(ctx, p, n, 0, map, rows));
+	for (uint32_t i = 0; i < n; i++)
+		if (map[i] == used)
+			list[used++] = i;
 	*original = list;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -117,7 +80,8 @@ mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
 	near->parameters.eps = 0;
 	near->parameters.sorted = 1;
 	near->parameters.cores = 1;
-	near->parameters.log_level = (enum flann_log_level_t)-1; /* else each query sets it, for all threads */
+	near->parameters.log_level = (enum flann_log_level_t) -
+	                             1; /* else each query sets it, for all threads */
 	near->index = flann_build_index_double(near->row[0], (int)near->rows, 3, &speedup, &near->parameters);
 	if (!near->index)
 		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", near->rows);
