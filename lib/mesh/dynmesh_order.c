@@ -2,30 +2,6 @@
 #include "mesh/dynmesh.h"
 #include "mesh/zorder.h"
 
-enum { BITS = 10, BUCKETS = 1 << BITS };
-
-typedef struct item {
-	uint32_t key, index;
-} item;
-
-/* Sorts by key, stably, BITS bits at a time; with an even number of passes the result is in a. */
-static void
-sort_items(item *a, item *other, size_t n, int passes)
-{
-	for (int pass = 0; pass < passes; pass++) {
-		size_t start[BUCKETS + 1] = { 0 };
-		item *swap = a;
-		for (size_t i = 0; i < n; i++)
-			start[(a[i].key >> (pass * BITS) & (BUCKETS - 1)) + 1]++;
-		for (size_t i = 0; i < BUCKETS; i++)
-			start[i + 1] += start[i];
-		for (size_t i = 0; i < n; i++)
-			other[start[a[i].key >> (pass * BITS) & (BUCKETS - 1)]++] = a[i];
-		a = other;
-		other = swap;
-	}
-}
-
 /* Applies a permutation to an array of n objects: new[number[i]] = old[i]. */
 static mr_status
 permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
@@ -40,17 +16,6 @@ permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
 		memcpy(to + number[i] * size, copy + i * size, size);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
-}
-
-/* The place of item i in the order of keys: number[i].  other: workspace for n. */
-static void
-rank(item *a, item *other, size_t n, uint32_t *number)
-{
-	enum { PASSES = 4 };
-
-	sort_items(a, other, n, PASSES);
-	for (uint32_t i = 0; i < n; i++)
-		number[a[i].index] = i;
 }
 
 static mr_status
@@ -68,20 +33,30 @@ number_vertices(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 	return MR_OK;
 }
 
+static uint32_t
+lowest(const mr_dyn *d, size_t f)
+{
+	const uint32_t *v = d->v + 3 * f;
+	uint32_t low = v[0] < v[1] ? v[0] : v[1];
+
+	return low < v[2] ? low : v[2];
+}
+
+/* By their lowest vertex: a counting sort. */
 static mr_status
 number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	item *a = MR_NEW(ctx, d->nf, item), *other = MR_NEW(ctx, d->nf, item);
+	uint32_t *next = MR_NEW_ZERO(ctx, d->nv + 1, uint32_t);
 
-	if (!a || !other)
+	if (!next)
 		return MR_EMEM;
-	for (uint32_t f = 0; f < d->nf; f++) {
-		const uint32_t *v = d->v + 3 * f;
-		uint32_t low = v[0] < v[1] ? v[0] : v[1];
-		a[f] = (item){ low < v[2] ? low : v[2], f };
-	}
-	rank(a, other, d->nf, number);
+	for (size_t f = 0; f < d->nf; f++)
+		next[lowest(d, f) + 1]++;
+	for (size_t v = 0; v < d->nv; v++)
+		next[v + 1] += next[v];
+	for (size_t f = 0; f < d->nf; f++)
+		number[f] = next[lowest(d, f)]++;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
