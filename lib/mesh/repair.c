@@ -7,6 +7,7 @@
 #include "mesh/repair.h"
 
 #include "base/disjoint_sets.h"
+#include "mesh/edges.h"
 
 typedef struct surface {
 	mr_ctx *ctx;
@@ -15,7 +16,7 @@ typedef struct surface {
 	uint32_t *face_of; /* and where they come from */
 	size_t nf;
 	uint32_t *pair; /* 3 nf: the half-edge across, in either direction; MR_NONE at a border */
-	uint32_t *edge; /* 3 nf half-edges, those of an edge beside each other, in order of index */
+	mr_edges edges;
 	uint32_t *root; /* 3 nf: union-find of corners */
 	mr_repair_report r;
 } surface;
@@ -106,65 +107,12 @@ keep_faces(surface *s)
 
 /* ---- edges ---- */
 
-static uint32_t
-low_end(const surface *s, uint32_t h)
-{
-	uint32_t a = from(s, h), b = to(s, h);
-
-	return a < b ? a : b;
-}
-
-static uint32_t
-high_end(const surface *s, uint32_t h)
-{
-	uint32_t a = from(s, h), b = to(s, h);
-
-	return a < b ? b : a;
-}
-
-/* Sorts half-edges by an end, keeping the order of equals; `old` NULL: in order of index. */
-static void
-sort_pass(const surface *s, const uint32_t *old, uint32_t *new, uint32_t *start, size_t nv,
-    uint32_t (*end)(const surface *, uint32_t))
-{
-	size_t n = 3 * s->nf;
-
-	memset(start, 0, (nv + 1) * sizeof *start);
-	for (uint32_t h = 0; h < n; h++)
-		start[end(s, h) + 1]++;
-	for (size_t i = 0; i < nv; i++)
-		start[i + 1] += start[i];
-	for (uint32_t i = 0; i < n; i++) {
-		uint32_t h = old ? old[i] : i;
-		new[start[end(s, h)]++] = h;
-	}
-}
-
 static mr_status
-sort_edges(surface *s, size_t nv)
+find_edges(surface *s)
 {
-	mr_mark mark = mr_mark_take(s->ctx);
-	uint32_t *first = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
-	uint32_t *start = MR_NEW(s->ctx, nv + 1, uint32_t);
+	mr_mesh m = { .p = s->m->p, .t = s->t, .nv = s->m->nv, .nf = s->nf };
 
-	if (!first || !start)
-		return MR_EMEM;
-	sort_pass(s, NULL, first, start, nv, high_end);
-	sort_pass(s, first, s->edge, start, nv, low_end);
-	mr_mark_release(s->ctx, mark);
-	return MR_OK;
-}
-
-/* The end of the half-edges that share the edge of edge[i]. */
-static size_t
-edge_end(const surface *s, size_t i)
-{
-	size_t j = i + 1;
-
-	while (j < 3 * s->nf && low_end(s, s->edge[j]) == low_end(s, s->edge[i]) &&
-	       high_end(s, s->edge[j]) == high_end(s, s->edge[i]))
-		j++;
-	return j;
+	return mr_edges_build(s->ctx, &m, &s->edges);
 }
 
 static void
@@ -195,18 +143,17 @@ by_angle(const void *a, const void *b)
  * over gets a border.
  */
 static mr_status
-join_wedges(surface *s, size_t i, size_t j)
+join_wedges(surface *s, const uint32_t *he, size_t n)
 {
 	mr_mark mark = mr_mark_take(s->ctx);
-	size_t n = j - i;
 	leaf *l = MR_NEW(s->ctx, n, leaf);
-	uint32_t a = low_end(s, s->edge[i]);
-	mr_v3 o = s->m->p[a], axis = mr_unit(mr_sub(s->m->p[high_end(s, s->edge[i])], o)), x = { 0, 0, 0 }, y;
+	uint32_t f = from(s, he[0]), t = to(s, he[0]), a = f < t ? f : t, b = f < t ? t : f;
+	mr_v3 o = s->m->p[a], axis = mr_unit(mr_sub(s->m->p[b], o)), x = { 0, 0, 0 }, y;
 
 	if (!l)
 		return MR_EMEM;
 	for (size_t k = 0; k < n; k++) {
-		uint32_t h = s->edge[i + k];
+		uint32_t h = he[k];
 		mr_v3 d = mr_sub(s->m->p[s->t[h / 3].v[(h + 2) % 3]], o);
 		d = mr_axpy(-mr_dot(d, axis), axis, d);
 		if (k == 0) {
@@ -234,13 +181,14 @@ pair_edges(surface *s)
 {
 	for (size_t i = 0; i < 3 * s->nf; i++)
 		s->pair[i] = MR_NONE;
-	for (size_t i = 0, j; i < 3 * s->nf; i = j) {
-		j = edge_end(s, i);
-		if (j - i == 2)
-			join(s, s->edge[i], s->edge[i + 1]);
-		else if (j - i > 2) {
+	for (size_t e = 0; e < s->edges.count; e++) {
+		const uint32_t *he = s->edges.he + s->edges.start[e];
+		size_t n = mr_edge_faces(&s->edges, e);
+		if (n == 2)
+			join(s, he[0], he[1]);
+		else if (n > 2) {
 			s->r.split_edges++;
-			MR_TRY(join_wedges(s, i, j));
+			MR_TRY(join_wedges(s, he, n));
 		}
 	}
 	return MR_OK;
@@ -394,18 +342,16 @@ part_copies(surface *s)
 {
 	size_t loose = 0;
 
-	for (size_t i = 0, j; i < 3 * s->nf; i = j) {
-		j = edge_end(s, i);
-		for (size_t k = i + 1; k < j; k++)
-			for (size_t l = i; l < k; l++) {
-				uint32_t g = s->edge[k], h = s->edge[l];
+	for (size_t e = 0; e < s->edges.count; e++)
+		for (uint32_t k = s->edges.start[e] + 1; k < s->edges.start[e + 1]; k++)
+			for (uint32_t l = s->edges.start[e]; l < k; l++) {
+				uint32_t g = s->edges.he[k], h = s->edges.he[l];
 				if (s->pair[g] == h || !same_edge(s, g, h))
 					continue;
 				cut_loose(s, s->pair[g] != MR_NONE && s->pair[h] == MR_NONE ? h / 3 : g / 3);
 				loose++;
 				break;
 			}
-	}
 	return loose;
 }
 
@@ -451,18 +397,25 @@ number(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 static mr_status
 repair(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 {
+	mr_mark mark;
+
 	s->pair = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
-	s->edge = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
-	s->root = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
-	if (!s->pair || !s->edge || !s->root)
+	mark = mr_mark_take(s->ctx);
+	if (!s->pair)
 		return MR_EMEM;
-	MR_TRY(sort_edges(s, s->m->nv));
+	MR_TRY(find_edges(s));
 	MR_TRY(pair_edges(s));
 	MR_TRY(orient(s));
-	MR_TRY(sort_edges(s, s->m->nv)); /* turning moved half-edges */
+	mr_mark_release(s->ctx, mark);
+	s->root = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
+	mark = mr_mark_take(s->ctx);
+	if (!s->root)
+		return MR_EMEM;
+	MR_TRY(find_edges(s)); /* turning moved half-edges */
 	do
 		connect(s);
 	while (part_copies(s));
+	mr_mark_release(s->ctx, mark);
 	return number(s, out, vertex_of);
 }
 
