@@ -2,9 +2,9 @@
 #include "edit/deform_parts.h"
 
 #include "edit/multigrid_levels.h"
+#include "op/laplace.h"
 #include "op/voronoi_area.h"
 #include "solve/dissect.h"
-#include "op/laplace.h"
 
 #include <math.h>
 
@@ -35,10 +35,11 @@ weigh(mr_ctx *ctx, mr_deform *d)
 static void
 hold_empty_rows(mr_sparse *k)
 {
-	for (int i = 0; i < k->n; i++)
-		for (int e = k->start[i]; e < k->start[i + 1]; e++)
-			if (k->index[e] == i && k->value[e] == 0)
-				k->value[e] = 1;
+	for (int i = 0; i < k->n; i++) {
+		double *diagonal = &k->value[mr_sparse_find(k, i, i)];
+		if (*diagonal == 0)
+			*diagonal = 1;
+	}
 }
 
 /* The rows of the true D^k: scaled by M_f^-1. */
@@ -63,28 +64,6 @@ share_negative(const mr_sparse *l, size_t n)
 				negative += l->value[e] > 0;
 			}
 	return edges ? (double)negative / (double)edges : 0;
-}
-
-/* The first n rows and columns of L. */
-static mr_status
-restrict_laplace(mr_ctx *ctx, const mr_sparse *l, size_t n, mr_sparse *out)
-{
-	size_t most = (size_t)l->start[n];
-	mr_sparse r = { (int)n, MR_NEW(ctx, n + 1, int), MR_NEW(ctx, most, int), MR_NEW(ctx, most, double) };
-	int at = 0;
-
-	if (!r.start || !r.index || !r.value)
-		return MR_EMEM;
-	for (size_t i = 0; i < n; i++) {
-		r.start[i] = at;
-		for (int e = l->start[i]; e < l->start[i + 1] && l->index[e] < r.n; e++, at++) {
-			r.index[at] = l->index[e];
-			r.value[at] = l->value[e];
-		}
-	}
-	r.start[n] = at;
-	*out = r;
-	return MR_OK;
 }
 
 /*
@@ -126,7 +105,7 @@ build_hierarchy(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	for (size_t i = 0; i < n; i++)
 		number[d->patch.vertex[i]] = (uint32_t)i;
 	MR_TRY(mr_hierarchy_build(ctx, rest, number, n, &level, &count));
-	MR_TRY(restrict_laplace(ctx, &d->l, n, &d->l_ff));
+	MR_TRY(mr_sparse_power(ctx, &d->l, NULL, 1, n, false, &d->l_ff));
 	d->hierarchy = (mr_hierarchy){ &d->l_ff, d->w, d->opts.order, d->opts.unsymmetric, count, level, NULL,
 		0 };
 	return find_strip(ctx, d, rest, number, &d->hierarchy);

@@ -45,15 +45,6 @@ study_edges(mr_ctx *ctx, smoothing *s)
 	return MR_OK;
 }
 
-static double
-diagonal_of(const mr_sparse *l, size_t i)
-{
-	for (int e = l->start[i]; e < l->start[i + 1]; e++)
-		if (l->index[e] == (int)i)
-			return l->value[e];
-	return 0;
-}
-
 /* Vertices without weights have nowhere to go: isolated ones, and those whose faces are all single points. */
 static void
 study_vertices(smoothing *s)
@@ -64,7 +55,7 @@ study_vertices(smoothing *s)
 
 	for (size_t v = 0; v < n; v++) {
 		boundary += s->stays[v];
-		s->stays[v] |= diagonal_of(&s->l, v) == 0;
+		s->stays[v] |= s->l.value[mr_sparse_find(&s->l, (int)v, (int)v)] == 0;
 		mean += s->area[v] / (double)n;
 	}
 	for (size_t v = 0; v < n; v++)
@@ -88,66 +79,43 @@ study(mr_ctx *ctx, smoothing *s)
 
 /* Implicit */
 
-/* The lower triangle of M + t L over the vertices that move, in squared mean edges; number[v] is -1 for the
- * others. */
+/* The lower triangle of M + t L over the n vertices that move, in squared mean edges. */
 static mr_status
-implicit_matrix(mr_ctx *ctx, const smoothing *s, const int *number, int n, mr_sparse *a)
+implicit_matrix(mr_ctx *ctx, const smoothing *s, const uint32_t *move, size_t n, mr_sparse *a)
 {
-	const mr_sparse *l = &s->l;
-	size_t nnz = (size_t)l->start[l->n];
-	mr_sparse r = { n, MR_NEW(ctx, (size_t)n + 1, int), MR_NEW(ctx, nnz, int), MR_NEW(ctx, nnz, double) };
-	int end = 0;
-
-	if (!r.start || !r.index || !r.value)
-		return MR_EMEM;
-	for (int v = 0; v < l->n; v++) {
-		if (number[v] < 0)
-			continue;
-		r.start[number[v]] = end;
-		for (int e = l->start[v]; e < l->start[v + 1] && l->index[e] <= v; e++) {
-			int w = l->index[e];
-			if (number[w] < 0)
-				continue;
-			r.index[end] = number[w];
-			r.value[end++] = s->step * l->value[e] + (w == v ? s->area[v] / s->edge2 : 0);
-		}
-	}
-	r.start[n] = end;
-	*a = r;
+	MR_TRY(mr_sparse_restrict(ctx, &s->l, move, n, true, a));
+	for (int e = 0; e < a->start[n]; e++)
+		a->value[e] *= s->step;
+	for (size_t i = 0; i < n; i++) /* the diagonal ends the row */
+		a->value[a->start[i + 1] - 1] += s->area[move[i]] / s->edge2;
 	return MR_OK;
 }
 
 /* A pass solves for the motion z: (M + t L) z = -t L p, which is p' = p + z. */
 static mr_status
-implicit_pass(mr_ctx *ctx, const smoothing *s, const int *number, int n, mr_solver *solver, mr_v3 *p)
+implicit_pass(mr_ctx *ctx, const smoothing *s, const uint32_t *move, size_t n, mr_solver *solver, mr_v3 *p)
 {
-	size_t nv = s->m->nv, rows = (size_t)n;
 	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *lp = MR_NEW(ctx, nv, mr_v3);
-	double *z = MR_NEW(ctx, 3 * rows, double);
+	mr_v3 *lp = MR_NEW(ctx, s->m->nv, mr_v3);
+	double *z = MR_NEW(ctx, 3 * n, double);
 
 	if (!lp || !z)
 		return MR_EMEM;
-	mr_sparse_apply(ctx, &s->l, NULL, nv, 3, &p->x, &lp->x);
-	for (size_t v = 0; v < nv; v++)
-		if (number[v] >= 0) {
-			size_t i = (size_t)number[v];
-			z[i] = -s->step * lp[v].x;
-			z[rows + i] = -s->step * lp[v].y;
-			z[2 * rows + i] = -s->step * lp[v].z;
-		}
+	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &lp->x);
+	for (size_t i = 0; i < n; i++) {
+		z[i] = -s->step * lp[move[i]].x;
+		z[n + i] = -s->step * lp[move[i]].y;
+		z[2 * n + i] = -s->step * lp[move[i]].z;
+	}
 	MR_TRY(mr_solver_solve(ctx, solver, z, 3));
-	for (size_t v = 0; v < nv; v++)
-		if (number[v] >= 0) {
-			size_t i = (size_t)number[v];
-			p[v] = mr_add(p[v], mr_vec(z[i], z[rows + i], z[2 * rows + i]));
-		}
+	for (size_t i = 0; i < n; i++)
+		p[move[i]] = mr_add(p[move[i]], mr_vec(z[i], z[n + i], z[2 * n + i]));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
 static mr_status
-implicit_passes(mr_ctx *ctx, smoothing *s, const int *number, int n, mr_solver *solver, mr_v3 *p)
+implicit_passes(mr_ctx *ctx, smoothing *s, const uint32_t *move, size_t n, mr_solver *solver, mr_v3 *p)
 {
 	mr_solver_report r = mr_solver_reported(solver);
 
@@ -157,7 +125,7 @@ implicit_passes(mr_ctx *ctx, smoothing *s, const int *number, int n, mr_solver *
 	s->found.rcond = r.rcond;
 	for (size_t i = 0; i < s->found.passes; i++) {
 		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
-		MR_TRY(implicit_pass(ctx, s, number, n, solver, p));
+		MR_TRY(implicit_pass(ctx, s, move, n, solver, p));
 	}
 	return MR_OK;
 }
@@ -165,20 +133,22 @@ implicit_passes(mr_ctx *ctx, smoothing *s, const int *number, int n, mr_solver *
 static mr_status
 implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
 {
-	int *number = MR_NEW(ctx, s->m->nv, int), n = 0;
+	uint32_t *move = MR_NEW(ctx, s->m->nv, uint32_t);
+	size_t n = 0;
 	mr_solver *solver;
 	mr_status status;
 	mr_sparse a;
 
-	if (!number)
+	if (!move)
 		return MR_EMEM;
-	for (size_t v = 0; v < s->m->nv; v++)
-		number[v] = s->stays[v] ? -1 : n++;
+	for (uint32_t v = 0; v < s->m->nv; v++)
+		if (!s->stays[v])
+			move[n++] = v;
 	if (n == 0)
 		return MR_OK;
-	MR_TRY(implicit_matrix(ctx, s, number, n, &a));
+	MR_TRY(implicit_matrix(ctx, s, move, n, &a));
 	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &a, NULL, &solver));
-	status = implicit_passes(ctx, s, number, n, solver, p);
+	status = implicit_passes(ctx, s, move, n, solver, p);
 	mr_solver_free(solver);
 	return status;
 }

@@ -30,17 +30,16 @@ mr_jacobi_of(double *inverse, size_t n)
 mr_status
 mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
 {
-	double *inverse = MR_NEW_ZERO(ctx, (size_t)a->n, double);
+	double *inverse = MR_NEW(ctx, (size_t)a->n, double);
 
 	if (!inverse)
 		return MR_EMEM;
-	for (int i = 0; i < a->n; i++)
-		for (int e = a->start[i]; e < a->start[i + 1]; e++)
-			if (a->index[e] == i && a->value[e] != 0)
-				inverse[i] = 1 / a->value[e];
-	for (int i = 0; i < a->n; i++)
-		if (inverse[i] == 0)
+	for (int i = 0; i < a->n; i++) {
+		int e = mr_sparse_find(a, i, i);
+		if (e < 0 || a->value[e] == 0)
 			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no diagonal entry in row %d", i);
+		inverse[i] = 1 / a->value[e];
+	}
 	*b = mr_jacobi_of(inverse, (size_t)a->n);
 	return MR_OK;
 }
@@ -127,10 +126,8 @@ static mr_status
 find_diagonal(mr_ctx *ctx, incomplete *c)
 {
 	for (int i = 0; i < c->f.n; i++) {
-		int e = c->f.start[i];
-		while (e < c->f.start[i + 1] && c->f.index[e] < i)
-			e++;
-		if (e == c->f.start[i + 1] || c->f.index[e] != i)
+		int e = mr_sparse_find(&c->f, i, i);
+		if (e < 0)
 			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no diagonal entry in row %d", i);
 		c->diagonal[i] = e;
 	}

@@ -133,10 +133,8 @@ invert_diagonal(mr_ctx *ctx, level *l)
 	if (!l->inverse)
 		return MR_EMEM;
 	for (int i = 0; i < a->n; i++) {
-		l->inverse[i] = 1;
-		for (int e = a->start[i]; e < a->start[i + 1]; e++)
-			if (a->index[e] == i && a->value[e] > 0)
-				l->inverse[i] = 1 / a->value[e];
+		int e = mr_sparse_find(a, i, i);
+		l->inverse[i] = e >= 0 && a->value[e] > 0 ? 1 / a->value[e] : 1;
 	}
 	return MR_OK;
 }

@@ -5,8 +5,8 @@
  * along the boundary is solved exactly before and after: multiplicative Schwarz (Smith, Bjorstad, Gropp 1996:
  * Domain decomposition, chapter 1), which is symmetric, and positive definite because both its parts are.
  */
-#include "solve/sparse.h"
 #include "solve/preconditioner.h"
+#include "solve/sparse.h"
 
 typedef struct strip {
 	mr_preconditioner cycles;
@@ -67,47 +67,13 @@ strip_free(void *data)
 	mr_solver_free(t->exact);
 }
 
-/* The lower triangle of the strip's rows and columns: number[row] is its place in the strip, or -1. */
-static mr_status
-restrict_strip(mr_ctx *ctx, const strip *t, const int *number, mr_sparse *lower)
-{
-	size_t most = 0;
-	int at = 0;
-
-	for (size_t i = 0; i < t->n; i++)
-		most += (size_t)(t->a->start[t->row[i] + 1] - t->a->start[t->row[i]]);
-	*lower = (mr_sparse){ (int)t->n, MR_NEW(ctx, t->n + 1, int), MR_NEW(ctx, most, int),
-		MR_NEW(ctx, most, double) };
-	if (!lower->start || !lower->index || !lower->value)
-		return MR_EMEM;
-	for (size_t i = 0; i < t->n; i++) {
-		lower->start[i] = at;
-		for (int e = t->a->start[t->row[i]]; e < t->a->start[t->row[i] + 1]; e++) {
-			int column = number[t->a->index[e]];
-			if (column < 0 || column > (int)i)
-				continue;
-			lower->index[at] = column;
-			lower->value[at++] = t->a->value[e];
-		}
-	}
-	lower->start[t->n] = at;
-	return MR_OK;
-}
-
 static mr_status
 factor_strip(mr_ctx *ctx, strip *t)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	int *number = MR_NEW(ctx, (size_t)t->a->n, int);
 	mr_sparse lower;
 
-	if (!number)
-		return MR_EMEM;
-	for (int i = 0; i < t->a->n; i++)
-		number[i] = -1;
-	for (size_t i = 0; i < t->n; i++)
-		number[t->row[i]] = (int)i;
-	MR_TRY(restrict_strip(ctx, t, number, &lower));
+	MR_TRY(mr_sparse_restrict(ctx, t->a, t->row, t->n, true, &lower));
 	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &lower, NULL, &t->exact));
 	mr_mark_release(ctx, mark);
 	return MR_OK;

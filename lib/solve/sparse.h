@@ -33,6 +33,22 @@ mr_sparse_sort(int *column, int n)
  * entries or more. */
 mr_status mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a);
 
+/* Where row i has its entry of a column; -1: nowhere. */
+static inline int
+mr_sparse_find(const mr_sparse *a, int i, int column)
+{
+	int e = a->start[i];
+
+	while (e < a->start[i + 1] && a->index[e] < column)
+		e++;
+	return e < a->start[i + 1] && a->index[e] == column ? e : -1;
+}
+
+/* The n rows listed, ascending, and their columns alone; with `lower` only entries on and below the diagonal.
+ * out: in the arena. */
+mr_status mr_sparse_restrict(
+    mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t n, bool lower, mr_sparse *out);
+
 /* The transpose of a matrix with `columns` columns.  t: in the arena. */
 mr_status mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *t);
 

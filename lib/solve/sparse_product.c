@@ -1,4 +1,5 @@
-/* Gustavson 1978: Two fast algorithms for sparse matrices: multiplication and permuted transposition. */
+/* Products and transposes (Gustavson 1978: Two fast algorithms for sparse matrices: multiplication and
+ * permuted transposition), and parts of matrices. */
 #include "solve/sparse.h"
 
 /* Row lengths to row starts. */
@@ -10,6 +11,40 @@ mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a)
 		if (__builtin_add_overflow(a->start[i], length[i], &a->start[i + 1]))
 			return mr_fail(
 			    ctx, MR_ERANGE, "the matrix of %d rows has 2^31 entries or more", a->n);
+	return MR_OK;
+}
+
+mr_status
+mr_sparse_restrict(mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t n, bool lower, mr_sparse *out)
+{
+	mr_sparse r = { .n = (int)n, .start = MR_NEW(ctx, n + 1, int) };
+	size_t most = 0;
+	uint32_t *number;
+	mr_mark mark;
+	int at = 0;
+
+	for (size_t i = 0; i < n; i++)
+		most += (size_t)(a->start[row[i] + 1] - a->start[row[i]]);
+	r.index = MR_NEW(ctx, most, int);
+	r.value = MR_NEW(ctx, most, double);
+	mark = mr_mark_take(ctx);
+	number = MR_NEW(ctx, (size_t)a->n, uint32_t);
+	if (!r.start || !r.index || !r.value || !number)
+		return MR_EMEM;
+	memset(number, 0xff, (size_t)a->n * sizeof *number);
+	for (uint32_t i = 0; i < n; i++)
+		number[row[i]] = i;
+	for (uint32_t i = 0; i < n; i++) {
+		r.start[i] = at;
+		for (int e = a->start[row[i]]; e < a->start[row[i] + 1]; e++)
+			if (number[a->index[e]] < (lower ? i + 1 : n)) {
+				r.index[at] = (int)number[a->index[e]];
+				r.value[at++] = a->value[e];
+			}
+	}
+	r.start[n] = at;
+	mr_mark_release(ctx, mark);
+	*out = r;
 	return MR_OK;
 }
 
