@@ -1,3 +1,5 @@
+/* Encodes each vertex by its foot on the base, found by a walk from where the source map has it (Kobbelt,
+ * Vorsatz, Seidel 1999: Multiresolution hierarchies on unstructured triangle meshes), and decodes. */
 #include "edit/detail.h"
 
 #include "base/parallel.h"

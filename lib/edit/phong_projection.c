@@ -1,9 +1,7 @@
-#include "edit/phong_projection.h"
-
-#include "base/priority_queue.h"
-#include "space/bvh.h"
-
 /*
+ * The foot of a point by a walk over faces, and where that fails by a search of the sheet (Kobbelt, Vorsatz,
+ * Seidel 1999: Multiresolution hierarchies on unstructured triangle meshes).
+ *
  * Over one face, with N = n0 + u m1 + v m2 not normalised and h = t |N|, the
  * equation is
  *
@@ -12,6 +10,11 @@
  * linear in each of u, v, t: Newton's method in all three needs one 3x3
  * determinant a step, and eliminating u, v leaves a cubic in t.
  */
+#include "edit/phong_projection.h"
+
+#include "base/priority_queue.h"
+#include "space/bvh.h"
+
 typedef struct field {
 	mr_v3 p0, e1, e2, n0, m1, m2;
 } field;

@@ -1,3 +1,9 @@
+/*
+ * Gathers what points, face by face, and fairness ask of the control vertices.  A point pulls along the
+ * normal in full and along the surface by a share: between the tangent and the point distance minimization
+ * that Wang, Pottmann, Liu 2006 compare (Fitting B-spline curves to point clouds by curvature-based squared
+ * distance minimization).
+ */
 #include "fit/normal_equations.h"
 
 #include "base/parallel.h"

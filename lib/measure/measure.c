@@ -1,3 +1,5 @@
+/* Counts by the table of edges and by sets of corners that hang together, sizes and shapes by sums over them.
+ */
 #include "measure/measure.h"
 
 #include "base/disjoint_sets.h"

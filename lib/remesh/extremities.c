@@ -1,3 +1,5 @@
+/* Sums the angle defects (the discrete Gaussian curvature of Meyer, Desbrun, Schroeder, Barr 2003) within an
+ * edge length, and pins where they are greatest. */
 #include "remesh/extremities.h"
 
 #include "base/parallel.h"

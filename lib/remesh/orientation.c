@@ -1,3 +1,5 @@
+/* Compares normals with pseudonormals: Baerentzen, Aanaes 2005: Signed distance computation using the angle
+ * weighted pseudonormal. */
 #include "remesh/orientation.h"
 
 static const double FOLD_COSINE = -0.984807753012208; /* of 170 degrees */

@@ -1,3 +1,5 @@
+/* Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling: tangential smoothing to the
+ * gravity-weighted centroid, and back onto the source by a walk. */
 #include "remesh/relax.h"
 
 #include "base/parallel.h"

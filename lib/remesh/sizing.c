@@ -1,3 +1,5 @@
+/* Lengths by the largest curvature at each vertex, then sweeps over the faces that bound how fast they grow.
+ */
 #include "remesh/sizing.h"
 
 #include "op/laplace.h"

@@ -1,7 +1,7 @@
 /*
- * A plate through data: the smoothness is that of minimal second differences, the discretization being the
- * graph's Laplacian divided by the degrees (the umbrella of Kobbelt, Campagna, Vorsatz, Seidel 1998).  The
- * matrix is never stored: its rows reach two rings.
+ * Heights as a thin plate through data.  Fairness is the square of the umbrella (Kobbelt, Campagna, Vorsatz,
+ * Seidel 1998: Interactive multi-resolution modeling on arbitrary meshes).  The matrix, whose rows reach two
+ * rings, is not stored: conjugate gradients ask for its products only.
  */
 #include "sample/height_energy.h"
 

@@ -1,3 +1,4 @@
+/* Points uniform by area: a face by its share of the running sum of areas, then a place in it. */
 #include "shape/shape.h"
 
 #include "base/random.h"

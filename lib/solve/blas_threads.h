@@ -3,7 +3,8 @@
  *
  * CHOLMOD 3 starts a team of four OpenMP threads in loops too small for them, whatever the
  * environment says (two to three times slower), and threads of the BLAS would change the order of
- * sums.  Both are switched off where the process has them; neither library is required.
+ * sums.  Both are switched off where the process has them; neither library is required.  Solutions need none
+ * of it: UMFPACK's call no BLAS, nor do ours.
  *
  * Contract: calls may nest, and any thread may make them; after the last end everything is as it was.  Until
  * then the BLAS of the process's other threads is serial, too: OpenBLAS keeps one number for all.

@@ -1,8 +1,3 @@
-#include "space/geodesic.h"
-
-#include "base/priority_queue.h"
-#include "space/bvh.h"
-
 /*
  * Marching over triangles (Kimmel, Sethian 1998) with the update of Novotni and
  * Klein 2002: the distances of two corners fix a source in the plane of their
@@ -10,6 +5,11 @@
  * way passes between the two.  Where an obtuse triangle breaks the order, a vertex
  * that becomes nearer is looked at again.
  */
+#include "space/geodesic.h"
+
+#include "base/priority_queue.h"
+#include "space/bvh.h"
+
 typedef struct entry {
 	double distance;
 	uint32_t vertex;

@@ -1,3 +1,4 @@
+/* Places on a mesh: those of its own vertices, and what becomes of them over another surface on the way. */
 #include "space/source_map.h"
 
 #include "base/parallel.h"
