@@ -114,6 +114,9 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 mr_status
 mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w);
 
+/* Whether any component of d, closed and compact, has a handle. */
+mr_status mr_wrap_has_handles(mr_ctx *ctx, const mr_dyn *d, bool *handles);
+
 /* The wrap by volume/volume.h, with its grid and points as they are, or where it is poor, otherwise. */
 mr_status mr_wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
 

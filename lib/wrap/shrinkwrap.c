@@ -1,5 +1,6 @@
 #include "wrap/shrinkwrap.h"
 
+#include "base/disjoint_sets.h"
 #include "remesh/unfold.h"
 #include "wrap/parts.h"
 
@@ -110,17 +111,30 @@ finish_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, doubl
 static const double BETTER = 0.7;
 
 static bool
-has_handles(const mr_dyn *d)
+beats(const mr_wrap *box, bool finished, const mr_wrap *volume, bool handles)
 {
-	return d->nv < 2 + d->nf / 2;
-}
-
-static bool
-beats(const mr_wrap *box, bool finished, const mr_wrap *volume)
-{
-	double bar = !has_handles(&volume->d) ? BETTER : finished ? 1 : 1 / BETTER;
+	double bar = !handles ? BETTER : finished ? 1 : 1 / BETTER;
 
 	return badness(&box->cover) < bar * badness(&volume->cover);
+}
+
+/* Closed surfaces of c components with h handles in all have V - F / 2 = 2 c - 2 h. */
+mr_status
+mr_wrap_has_handles(mr_ctx *ctx, const mr_dyn *d, bool *handles)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *set = mr_sets_new(ctx, d->nv);
+	size_t components = 0;
+
+	if (!set)
+		return MR_EMEM;
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		mr_sets_join(set, d->v[h], mr_dyn_to(d, h));
+	for (uint32_t v = 0; v < d->nv; v++)
+		components += set[v] == v;
+	*handles = d->nv < 2 * components + d->nf / 2;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 /* The volume, but where it is not good either the box if that is better.  Which fits closer counts less than
@@ -131,11 +145,14 @@ choose(
 {
 	mr_wrap volume;
 	mr_status status = mr_wrap_volume(ctx, cloud, o, &volume);
+	bool handles = false;
 
 	if (status != MR_OK && status != MR_EMESH)
 		return status;
-	if (status == MR_OK &&
-	    (covers(&volume.cover, &MR_WRAP_ENOUGH, cloud->spacing) || !beats(c, finished, &volume))) {
+	if (status == MR_OK)
+		MR_TRY(mr_wrap_has_handles(ctx, &volume.d, &handles));
+	if (status == MR_OK && (covers(&volume.cover, &MR_WRAP_ENOUGH, cloud->spacing) ||
+				   !beats(c, finished, &volume, handles))) {
 		*c = volume;
 		return MR_OK;
 	}
@@ -143,7 +160,7 @@ choose(
 		mr_note(ctx, "no volume: %s", ctx->error);
 	if (!finished)
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-	if (status == MR_OK && (!beats(c, true, &volume) || (!is_sound(c) && is_sound(&volume))))
+	if (status == MR_OK && (!beats(c, true, &volume, handles) || (!is_sound(c) && is_sound(&volume))))
 		*c = volume;
 	return MR_OK;
 }

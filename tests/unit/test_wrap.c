@@ -1,6 +1,6 @@
 /* The parts of the shrink-wrapping: the box, the guard of moves, coverage, and want of memory. */
+#include "shapes.h"
 #include "wrap/parts.h"
-#include "unit.h"
 
 enum { POINTS = 120 };
 
@@ -115,6 +115,32 @@ test_coverage_goes_both_ways(void **state)
 	mr_near_free(cloud.near);
 }
 
+/* A torus and a sphere have the Euler number of a sphere alone. */
+static void
+test_handles_are_seen_beside_other_components(void **state)
+{
+	static const struct {
+		mr_solid a, b;
+		bool handles;
+	} pairs[] = {
+		{ MR_SPHERE, MR_SPHERE, false },
+		{ MR_TORUS, MR_SPHERE, true },
+		{ MR_SPHERE, MR_TORUS, true },
+		{ MR_TORUS, MR_TORUS, true },
+	};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof pairs / sizeof *pairs; i++) {
+		mr_mesh a = shape(pairs[i].a, 100), b = shape(pairs[i].b, 100);
+		mr_mesh m = both(&a, &b, mr_vec(3, 0, 0));
+		bool handles = !pairs[i].handles;
+		mr_dyn d;
+		assert_int_equal(mr_wrap_dyn(&ctx, &m, &d), MR_OK);
+		assert_int_equal(mr_wrap_has_handles(&ctx, &d, &handles), MR_OK);
+		assert_int_equal(handles, pairs[i].handles);
+	}
+}
+
 static void
 test_memory_may_run_out(void **state)
 {
@@ -148,6 +174,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_moves_turn_no_face, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_crossings_are_taken_back, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_coverage_goes_both_ways, setup, teardown),
+		cmocka_unit_test_setup_teardown(
+		    test_handles_are_seen_beside_other_components, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_memory_may_run_out, setup, teardown),
 	};
 	cmocka_set_message_output(CM_OUTPUT_TAP);
