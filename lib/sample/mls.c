@@ -41,7 +41,7 @@ solve_small(double a[TERMS][TERMS], double b[TERMS], int n)
 /* The points about a line, in units of the radius that they are looked at in. */
 typedef struct patch {
 	size_t n;
-	double x[MR_SAMPLE_MOST][TERMS]; /* 1 x y xx xy yy */
+	double x[MR_SAMPLE_MOST][TERMS]; /* 1 x y xx rxy yy, r the root of 2 */
 	double t[MR_SAMPLE_MOST], near[MR_SAMPLE_MOST], weight[MR_SAMPLE_MOST], off[MR_SAMPLE_MOST];
 	double radius;
 } patch;
@@ -89,14 +89,15 @@ patch_new(const mr_sight *s, size_t n, patch *p)
 	p->radius = radius;
 	for (size_t i = 0; i < n; i++) {
 		double x = s[i].x / radius, y = s[i].y / radius, u = 1 - s[i].d2 / radius2;
-		double row[TERMS] = { 1, x, y, x * x, x * y, y * y };
+		double row[TERMS] = { 1, x, y, x * x, sqrt(2) * x * y, y * y };
 		memcpy(p->x[i], row, sizeof row);
 		p->t[i] = s[i].t / radius;
 		p->near[i] = u * u * u + 1e-3; /* falls to about 0 at the radius */
 	}
 }
 
-/* The quadric by the weights; the quadratic terms shrink a little, which keeps the system definite. */
+/* The quadric by the weights; the quadratic terms shrink a little, which keeps the system definite: by the
+ * root of 2 it is the norm of their matrix that does, whatever the axes. */
 static bool
 fit_quadric(const patch *p, double coefficient[TERMS])
 {
