@@ -82,7 +82,8 @@ mr-decode <rest.mrs | positions same
 cmp same.1 frame.1 || bad 'the frame at rest is not the model at rest'
 mr-pose -H 1 $to <rest.mrs | mr-solve | mr-decode | positions last
 cmp last.1 frame.4 || bad "the last frame is not the pose"
-mr-pose -H 1 --center 0,0,0 --rotate 0,0,1,20 --translate 0,0,0.06666666666666667 <rest.mrs | mr-solve | mr-decode | positions third
+to='--center 0,0,0 --rotate 0,0,1,20 --translate 0,0,0.06666666666666667'
+mr-pose -H 1 $to <rest.mrs | mr-solve | mr-decode | positions third
 near "a frame between" third.1 frame.2 1e-14
 
 # Well inside its handle the model has gone a third of the way with it in the first frame, and well inside what is fixed nowhere.
@@ -94,7 +95,8 @@ inside() { # file, share along z from which: the lines of the file at vertices o
 			if (share < 0 ? at <= -share : at >= share) { print line[i]; n++ }
 		} exit n < 50 }' || bad "few vertices beyond $2"
 }
-awk '{ a = atan2(0, -1) / 9; printf "%.17g %.17g %.17g\n", cos(a) * $1 - sin(a) * $2, sin(a) * $1 + cos(a) * $2, $3 + 0.2 / 3 }' same.1 >third.1
+awk 'BEGIN { c = cos(atan2(0, -1) / 9); s = sin(atan2(0, -1) / 9) }
+	{ printf "%.17g %.17g %.17g\n", c * $1 - s * $2, s * $1 + c * $2, $3 + 0.2 / 3 }' same.1 >third.1
 inside third.1 0.9 >handle.1
 inside frame.2 0.9 >handle.2
 near "the handle is a third of the way" handle.1 handle.2 1e-14
