@@ -18,6 +18,27 @@ shape(mr_solid solid, size_t n)
 	return m;
 }
 
+/* n x n rhombs, each of two equilateral triangles with sides of 1, in the plane z = 0: vertex (n + 1) j + i is the i-th of row j,
+ * faces 2 (n j + i) and the next share its diagonal from the end of row j to the begin of the next. */
+static inline mr_mesh
+lattice(uint32_t n)
+{
+	mr_v3 *p = MR_NEW(&ctx, (n + 1) * (n + 1), mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * n * n, mr_tri);
+
+	assert_true(p && t);
+	for (uint32_t j = 0; j <= n; j++)
+		for (uint32_t i = 0; i <= n; i++)
+			p[(n + 1) * j + i] = mr_vec(i + 0.5 * j, sqrt(0.75) * j, 0);
+	for (uint32_t j = 0; j < n; j++)
+		for (uint32_t i = 0; i < n; i++) {
+			uint32_t v = (n + 1) * j + i, f = 2 * (n * j + i);
+			t[f] = (mr_tri){ { v, v + 1, v + n + 1 } };
+			t[f + 1] = (mr_tri){ { v + 1, v + n + 2, v + n + 1 } };
+		}
+	return (mr_mesh){ "lattice", p, t, (n + 1) * (n + 1), 2 * n * n };
+}
+
 /* Both in one mesh, b moved by `shift`. */
 static inline mr_mesh
 both(const mr_mesh *a, const mr_mesh *b, mr_v3 shift)
