@@ -1,0 +1,308 @@
+/* Feet on a Phong surface: of points made from them, by closed forms, and the lowest by brute force. */
+#include "edit/phong_projection.h"
+#include "base/random.h"
+#include "shapes.h"
+#include "space/bvh.h"
+
+typedef struct scene {
+	mr_mesh m;
+	mr_incidence inc;
+	mr_topology topo;
+	mr_ground g;
+	double edge;
+} scene;
+
+static void
+set_up(scene *x, mr_mesh m)
+{
+	mr_v3 *normal = MR_NEW(&ctx, m.nv, mr_v3);
+
+	assert_non_null(normal);
+	x->m = m;
+	x->edge = mr_mesh_edge_scale(&ctx, &m);
+	assert_int_equal(mr_incidence_build(&ctx, &x->m, &x->inc), MR_OK);
+	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
+	assert_int_equal(mr_phong_normals(&ctx, &x->m, &x->inc, normal), MR_OK);
+	x->g = (mr_ground){ { &x->m, normal }, &x->inc, 1e-13 * mr_mesh_diagonal(&x->m) };
+}
+
+static mr_v3
+random_bary(mr_random *r)
+{
+	double u = mr_random_real(r), v = mr_random_real(r);
+
+	return u + v > 1 ? mr_vec(u + v - 1, 1 - u, 1 - v) : mr_vec(1 - u - v, u, v);
+}
+
+static uint32_t
+random_face(const scene *x, mr_random *r)
+{
+	return (uint32_t)(mr_random_bits(r) % x->m.nf);
+}
+
+/* b + h n(b) */
+static mr_v3
+raised(const scene *x, uint32_t face, mr_v3 bary, double h)
+{
+	return mr_axpy(h, mr_phong_normal(&x->g.surface, face, bary), mr_phong_point(&x->g.surface, face, bary));
+}
+
+static void
+assert_is_foot(const scene *x, const mr_foot *f, mr_v3 p)
+{
+	assert_true(f->bary.x > -2e-9 && f->bary.y > -2e-9 && f->bary.z > -2e-9);
+	assert_true(fabs(f->bary.x + f->bary.y + f->bary.z - 1) < 1e-12);
+	assert_true(mr_dist(raised(x, f->face, f->bary, f->height), p) <= x->g.tolerance);
+}
+
+/* A face some steps away over edges. */
+static uint32_t
+nearby(const scene *x, uint32_t face, int steps, mr_random *r)
+{
+	while (steps-- > 0) {
+		uint32_t g = x->topo.twin[3 * face + (uint32_t)(mr_random_bits(r) % 3)];
+		face = g == MR_NONE ? face : g / 3;
+	}
+	return face;
+}
+
+/* From their own face and from around it, on both sides. */
+static void
+a_point_over_the_surface_finds_its_foot(void **state)
+{
+	static const mr_solid solids[] = { MR_SPHERE, MR_TORUS, MR_KNOT, MR_CYLINDER };
+	mr_random r = { 1 };
+
+	(void)state;
+	for (size_t i = 0; i < 4; i++) {
+		scene x;
+		size_t lost = 0, crossed = 0;
+		set_up(&x, shape(solids[i], 1500));
+		for (int k = 0; k < 3000; k++) {
+			uint32_t face = random_face(&x, &r), from = nearby(&x, face, k % 4, &r);
+			mr_v3 bary = random_bary(&r), centre = mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3);
+			double h = 0.6 * x.edge * (2 * mr_random_real(&r) - 1);
+			mr_v3 p = raised(&x, face, bary, h);
+			mr_foot foot = { 0 };
+			mr_walk walk = { 0, 0 };
+			if (!mr_foot_walk(&x.g, p, from, centre, 2 * x.edge, &foot, &walk)) {
+				lost++;
+				continue;
+			}
+			assert_is_foot(&x, &foot, p);
+			assert_true(walk.steps > 0);
+			crossed += walk.crossed > 0;
+			lost += fabs(foot.height - h) > 1e-9; /* another one */
+		}
+		assert_true(lost < 30);
+		assert_true(crossed > 1000);
+	}
+}
+
+/* Over the flat square the foot is below the point; beside it there is none, and the search gives the rim. */
+static void
+over_a_square_the_foot_is_below(void **state)
+{
+	mr_random r = { 2 };
+	scene x;
+
+	(void)state;
+	set_up(&x, shape(MR_PLANE, 300));
+	for (int k = 0; k < 2000; k++) {
+		mr_v3 p = mr_vec(3 * mr_random_real(&r) - 1.5, 3 * mr_random_real(&r) - 1.5,
+		    2 * mr_random_real(&r) - 1);
+		bool over = fabs(p.x) < 1 && fabs(p.y) < 1;
+		mr_foot foot = { 77, { 0, 0, 0 }, 0 }, found;
+		mr_walk walk = { 0, 0 };
+		mr_v3 at;
+		bool walked = mr_foot_walk(
+		    &x.g, p, random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3), 2, &foot, &walk);
+		assert_int_equal(walked, over);
+		assert_int_equal(mr_foot_search(&x.g, p, random_face(&x, &r), &found), over);
+		at = mr_phong_point(&x.g.surface, found.face, found.bary);
+		if (over) {
+			assert_is_foot(&x, &foot, p);
+			assert_is_foot(&x, &found, p);
+			assert_true(fabs(foot.height - p.z) < 1e-13 && fabs(found.height - p.z) < 1e-13);
+		} else {
+			assert_int_equal(foot.face, 77);
+			assert_true(found.height == 0);
+			assert_true(mr_dist(at, mr_vec(fmin(fmax(p.x, -1), 1), fmin(fmax(p.y, -1), 1), 0)) < 1e-13);
+		}
+	}
+}
+
+static void
+a_foot_is_not_higher_than_its_limit(void **state)
+{
+	mr_random r = { 3 };
+	scene x;
+
+	(void)state;
+	set_up(&x, shape(MR_TORUS, 600));
+	for (int k = 0; k < 500; k++) {
+		uint32_t face = random_face(&x, &r);
+		mr_v3 bary = random_bary(&r);
+		double h = (k % 2 ? -0.1 : 0.1) * (0.2 + mr_random_real(&r));
+		mr_v3 p = raised(&x, face, bary, h);
+		mr_foot foot = { 77, { 0, 0, 0 }, 0 };
+		mr_walk walk = { 0, 0 };
+		assert_false(mr_foot_walk(&x.g, p, face, bary, 0.99 * fabs(h), &foot, &walk));
+		assert_int_equal(foot.face, 77);
+		assert_true(mr_foot_walk(&x.g, p, face, bary, 1.01 * fabs(h), &foot, &walk));
+		assert_is_foot(&x, &foot, p);
+	}
+}
+
+/* Inside of a tube: never beyond its axis, from wherever the walk begins. */
+static void
+no_foot_is_beyond_the_axis(void **state)
+{
+	mr_solid_opts o = MR_SOLID_DEFAULTS;
+	mr_random r = { 4 };
+	size_t found = 0;
+	mr_mesh m;
+	scene x;
+
+	(void)state;
+	o.solid = MR_CYLINDER;
+	o.vertices = 600;
+	o.open = true;
+	assert_int_equal(mr_solid_make(&ctx, &o, &m), MR_OK);
+	set_up(&x, m);
+	for (int k = 0; k < 1000; k++) {
+		mr_v3 p = raised(&x, random_face(&x, &r), random_bary(&r), -0.9 * mr_random_real(&r));
+		mr_foot foot;
+		mr_walk walk = { 0, 0 };
+		if (mr_foot_walk(&x.g, p, random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3), 10, &foot, &walk)) {
+			assert_is_foot(&x, &foot, p);
+			assert_true(foot.height > -1.01);
+			found++;
+		}
+	}
+	assert_true(found > 300 && found < 1000);
+}
+
+/*
+ * The lowest foot of p on a face, by another way: what p - b(u, v) has across n(u, v), in two directions, made zero by Newton's
+ * method with differences, from a lattice of places.
+ */
+static double
+lowest_on_face(const scene *x, uint32_t face, mr_v3 p)
+{
+	enum { LATTICE = 3, STEPS = 20 };
+	const double d = 1e-6;
+	double lowest = INFINITY;
+
+	for (int i = 0; i <= LATTICE; i++)
+		for (int j = 0; i + j <= LATTICE; j++) {
+			double u = (double)i / LATTICE, v = (double)j / LATTICE, g[3][2] = { { 1, 1 } };
+			for (int step = 0; step < STEPS; step++) {
+				mr_tangent_frame f = mr_phong_frame(&x->g.surface, face, mr_vec(1 - u - v, u, v));
+				double a, b, c, e, det;
+				for (int k = 0; k < 3; k++) {
+					double du = k == 1 ? d : 0, dv = k == 2 ? d : 0;
+					mr_v3 w = mr_vec(1 - u - v - du - dv, u + du, v + dv);
+					mr_v3 n = mr_phong_normal(&x->g.surface, face, w);
+					mr_v3 q = mr_sub(p, mr_phong_point(&x->g.surface, face, w));
+					q = mr_axpy(-mr_dot(q, n), n, q);
+					g[k][0] = mr_dot(q, f.t1);
+					g[k][1] = mr_dot(q, f.t2);
+				}
+				a = (g[1][0] - g[0][0]) / d, b = (g[2][0] - g[0][0]) / d;
+				c = (g[1][1] - g[0][1]) / d, e = (g[2][1] - g[0][1]) / d;
+				det = a * e - b * c;
+				if (fabs(det) < 1e-12 || fabs(u) + fabs(v) > 10)
+					break;
+				u -= (e * g[0][0] - b * g[0][1]) / det;
+				v -= (a * g[0][1] - c * g[0][0]) / det;
+			}
+			if (hypot(g[0][0], g[0][1]) < 1e-9 && u > -1e-7 && v > -1e-7 && u + v < 1 + 1e-7) {
+				mr_v3 w = mr_vec(1 - u - v, u, v);
+				double h = mr_dot(mr_phong_normal(&x->g.surface, face, w),
+				    mr_sub(p, mr_phong_point(&x->g.surface, face, w)));
+				lowest = fmin(lowest, fabs(h));
+			}
+		}
+	return lowest;
+}
+
+/* From the nearest face of a coarse surface: the lowest foot of all faces, if it is no higher than twice the distance. */
+static void
+the_search_finds_the_lowest(void **state)
+{
+	static const mr_solid solids[] = { MR_TORUS, MR_CUBE, MR_CYLINDER, MR_PLANE };
+	mr_random r = { 5 };
+	size_t found = 0, none = 0;
+
+	(void)state;
+	for (size_t i = 0; i < 4; i++) {
+		mr_bvh *bvh;
+		scene x;
+		set_up(&x, shape(solids[i], 120));
+		assert_int_equal(mr_bvh_build(&ctx, &x.m, &bvh), MR_OK);
+		for (int k = 0; k < 40; k++) {
+			mr_v3 p = mr_mul(k % 3 == 0 ? 4 : 2.5,
+			    mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5));
+			mr_closest nearest = mr_bvh_closest(bvh, p);
+			double dist = sqrt(nearest.dist2), lowest = INFINITY;
+			mr_foot foot;
+			bool is;
+			for (uint32_t f = 0; f < x.m.nf; f++)
+				lowest = fmin(lowest, lowest_on_face(&x, f, p));
+			is = mr_foot_search(&x.g, p, nearest.face, &foot);
+			if (fabs(lowest / dist - 2) < 1e-3)
+				continue;
+			if (lowest > 2 * dist) {
+				assert_false(is);
+				assert_true(foot.height == 0);
+				assert_true(fabs(mr_dist(mr_phong_point(&x.g.surface, foot.face, foot.bary), p) - dist) <
+					    1e-12);
+				none++;
+			} else {
+				assert_true(is);
+				assert_is_foot(&x, &foot, p);
+				assert_true(fabs(fabs(foot.height) - lowest) < 1e-7);
+				found++;
+			}
+		}
+	}
+	assert_true(found > 100 && none > 5);
+}
+
+/* Of two squares, one over the other, the foot is on that of the face. */
+static void
+a_search_stays_on_its_sheet(void **state)
+{
+	mr_mesh one = shape(MR_PLANE, 100), m = both(&one, &one, mr_vec(0, 0, 0.5));
+	mr_random r = { 6 };
+	scene x;
+
+	(void)state;
+	set_up(&x, m);
+	for (int k = 0; k < 200; k++) {
+		uint32_t face = random_face(&x, &r);
+		double z = face < one.nf ? 0 : 0.5;
+		mr_v3 p = mr_vec(mr_random_real(&r), mr_random_real(&r), 0.8 * mr_random_real(&r));
+		mr_foot foot;
+		assert_true(mr_foot_search(&x.g, p, face, &foot));
+		assert_true((foot.face < one.nf) == (face < one.nf));
+		assert_true(fabs(foot.height - (p.z - z)) < 1e-13);
+	}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(a_point_over_the_surface_finds_its_foot, setup, teardown),
+		cmocka_unit_test_setup_teardown(over_a_square_the_foot_is_below, setup, teardown),
+		cmocka_unit_test_setup_teardown(a_foot_is_not_higher_than_its_limit, setup, teardown),
+		cmocka_unit_test_setup_teardown(no_foot_is_beyond_the_axis, setup, teardown),
+		cmocka_unit_test_setup_teardown(the_search_finds_the_lowest, setup, teardown),
+		cmocka_unit_test_setup_teardown(a_search_stays_on_its_sheet, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
