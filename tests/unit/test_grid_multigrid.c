@@ -1,0 +1,299 @@
+/* Multigrid on a grid: its transfers by algebra, its solutions against closed forms and a dense solve. */
+#include "base/random.h"
+#include "unit.h"
+#include "volume/parts.h"
+
+static size_t
+nodes_of(const size_t n[3])
+{
+	return n[0] * n[1] * n[2];
+}
+
+static bool
+is_inner(const size_t n[3], size_t x, size_t y, size_t z)
+{
+	return x > 0 && y > 0 && z > 0 && x + 1 < n[0] && y + 1 < n[1] && z + 1 < n[2];
+}
+
+/* Calls for each node, x fastest. */
+#define FOR_NODES(n, x, y, z, i)                                                                             \
+	for (size_t z = 0, i = 0; z < (n)[2]; z++)                                                           \
+		for (size_t y = 0; y < (n)[1]; y++)                                                          \
+			for (size_t x = 0; x < (n)[0]; x++, i++)
+
+static float *
+floats(size_t n)
+{
+	float *f = MR_NEW_ZERO(&ctx, n, float);
+
+	assert_non_null(f);
+	return f;
+}
+
+/* Random on inner nodes, 0 on the faces. */
+static float *
+random_inner(mr_random *r, const size_t n[3])
+{
+	float *f = floats(nodes_of(n));
+
+	FOR_NODES(n, x, y, z, i)
+		if (is_inner(n, x, y, z))
+			f[i] = (float)(mr_random_real(r) - 0.5);
+	return f;
+}
+
+static multigrid
+begin(const size_t n[3], size_t levels, bool screened)
+{
+	multigrid m;
+
+	assert_int_equal(mr_multigrid_begin(&ctx, n, levels, floats(nodes_of(n)), screened, &m), MR_OK);
+	return m;
+}
+
+static double
+inner_product(const float *a, const float *b, size_t n)
+{
+	double sum = 0;
+
+	for (size_t i = 0; i < n; i++)
+		sum += (double)a[i] * (double)b[i];
+	return sum;
+}
+
+/* Enough nodes, no more than to the next that coarser grids fit; the coarsest is small. */
+static void
+coarser_grids_fit(void **state)
+{
+	(void)state;
+	for (size_t cells = 1; cells < 5000; cells += 1 + cells / 7) {
+		size_t levels = mr_multigrid_levels(cells), unit = (size_t)1 << (levels - 1);
+		size_t n = mr_multigrid_nodes(cells, levels);
+		assert_true(n > cells && (n - 1) % unit == 0 && (n - 1) / unit >= 2);
+		assert_true((n - 1) / unit <= 13 && (levels == 1 || cells / unit >= 6));
+		assert_true(n - 1 - cells < unit || n - 1 == 2 * unit);
+	}
+}
+
+static void
+levels_halve(void **state)
+{
+	static const size_t n[3] = { 17, 33, 9 };
+	multigrid m = begin(n, 3, true);
+
+	(void)state;
+	assert_int_equal(m.levels, 3);
+	for (size_t i = 0; i < 3; i++) {
+		const level *l = &m.level[i];
+		for (int k = 0; k < 3; k++)
+			assert_int_equal(l->n[k], (n[k] - 1) / ((size_t)1 << i) + 1);
+		for (size_t j = 0; j < nodes_of(l->n); j++)
+			assert_true(l->u[j] == 0 && l->b[j] == 0 && l->screen[j] == 0);
+	}
+}
+
+/* Interpolation between nodes is exact for what is linear along each axis, and adds to what is kept. */
+static void
+prolongation_is_linear_between_nodes(void **state)
+{
+	static const size_t n[3] = { 17, 9, 13 };
+	multigrid m = begin(n, 2, false);
+	const level *f = &m.level[0], *c = &m.level[1];
+	float *from = floats(nodes_of(c->n)), *to = floats(nodes_of(n));
+
+	(void)state;
+	FOR_NODES(c->n, x, y, z, i)
+		from[i] = (float)(1 + 2.0 * (double)x - (double)(y * z) + 0.25 * (double)(x * y * z));
+	for (size_t i = 0; i < nodes_of(n); i++)
+		to[i] = 8;
+	mr_multigrid_prolong(&ctx, f, c, from, to, 0.5f, 3);
+	FOR_NODES(n, x, y, z, i) {
+		double a = (double)x / 2, b = (double)y / 2, d = (double)z / 2;
+		double want = 4 + 3 * (1 + 2 * a - b * d + 0.25 * a * b * d);
+		assert_true(fabs((double)to[i] - (is_inner(n, x, y, z) ? want : 8)) < 1e-3);
+	}
+}
+
+/* Full weighting keeps constants and what is linear, and is an eighth of the transpose of the interpolation. */
+static void
+restriction_is_the_transpose(void **state)
+{
+	static const size_t n[3] = { 17, 9, 13 };
+	multigrid m = begin(n, 2, false);
+	const level *f = &m.level[0], *c = &m.level[1];
+	float *fine = floats(nodes_of(n)), *coarse = floats(nodes_of(c->n));
+	mr_random r = { 1 };
+
+	(void)state;
+	FOR_NODES(n, x, y, z, i)
+		fine[i] = (float)(3 + (double)x - 2 * (double)y + 0.5 * (double)z);
+	mr_multigrid_restrict(&ctx, f, c, fine, coarse, 2);
+	FOR_NODES(c->n, x, y, z, i) {
+		double want = 2 * (3 + 2 * (double)x - 4 * (double)y + (double)z);
+		assert_true(fabs((double)coarse[i] - (is_inner(c->n, x, y, z) ? want : 0)) < 1e-4);
+	}
+	for (int k = 0; k < 20; k++) {
+		float *a = random_inner(&r, n), *b = random_inner(&r, c->n);
+		float *pb = floats(nodes_of(n)), *ra = floats(nodes_of(c->n));
+		mr_multigrid_prolong(&ctx, f, c, b, pb, 0, 1);
+		mr_multigrid_restrict(&ctx, f, c, a, ra, 1);
+		assert_true(fabs(inner_product(pb, a, nodes_of(n)) - 8 * inner_product(b, ra, nodes_of(c->n))) < 1e-4);
+	}
+}
+
+/* sin(a pi x / (n - 1)) along each axis: an eigenvector, of value 6 - 2 sum cos + screen. */
+static double
+wave(const size_t n[3], const int k[3], size_t x, size_t y, size_t z)
+{
+	return sin(k[0] * MR_PI * (double)x / (double)(n[0] - 1)) *
+	       sin(k[1] * MR_PI * (double)y / (double)(n[1] - 1)) *
+	       sin(k[2] * MR_PI * (double)z / (double)(n[2] - 1));
+}
+
+/*
+ * Once from coarse to fine gives a wave to what differences over a step know of it: the square of its phase in a step, of which
+ * 0.2 was measured at most.
+ */
+static void
+waves_are_solved_on_any_grid(void **state)
+{
+	static const size_t sizes[][3] = { { 17, 17, 17 }, { 33, 33, 33 }, { 65, 65, 65 }, { 33, 65, 17 }, { 97, 49, 25 },
+		{ 257, 129, 33 } /* of which not all residuals are kept at a time */ };
+	static const int waves[][3] = { { 1, 1, 1 }, { 1, 2, 3 }, { 4, 3, 2 } };
+
+	(void)state;
+	for (size_t s = 0; s < 6; s++)
+		for (size_t w = 0; w < (s < 5 ? 3 : 1); w++) {
+			const size_t *n = sizes[s];
+			size_t most = n[0] > n[1] ? n[0] : n[1];
+			multigrid m = begin(n, mr_multigrid_levels(most - 1), false);
+			double value = 6, worst = 0, phase = 0;
+			for (int k = 0; k < 3; k++) {
+				double along = waves[w][k] * MR_PI / (double)(n[k] - 1);
+				value -= 2 * cos(along);
+				phase = fmax(phase, along);
+			}
+			FOR_NODES(n, x, y, z, i)
+				if (is_inner(n, x, y, z))
+					m.level[0].b[i] = (float)(value * wave(n, waves[w], x, y, z));
+			mr_multigrid_full(&ctx, &m);
+			FOR_NODES(n, x, y, z, i) {
+				double off = (double)m.level[0].u[i] - wave(n, waves[w], x, y, z);
+				worst = fmax(worst, fabs(off));
+			}
+			assert_true(worst < 0.3 * phase * phase);
+		}
+}
+
+/* Gaussian elimination without pivots, of a matrix that is dominated by its diagonal. */
+static void
+dense_solve(double *a, double *b, size_t n)
+{
+	for (size_t j = 0; j < n; j++)
+		for (size_t i = j + 1; i < n; i++) {
+			double f = a[i * n + j] / a[j * n + j];
+			if (f == 0)
+				continue;
+			for (size_t k = j; k < n; k++)
+				a[i * n + k] -= f * a[j * n + k];
+			b[i] -= f * b[j];
+		}
+	for (size_t j = n; j-- > 0;) {
+		for (size_t k = j + 1; k < n; k++)
+			b[j] -= a[j * n + k] * b[k];
+		b[j] /= a[j * n + j];
+	}
+}
+
+/* (6 + screen) u - sum of the six neighbours = b, by rows and columns. */
+static double *
+solve_densely(const size_t n[3], const float *screen, const float *b)
+{
+	size_t m[3] = { n[0] - 2, n[1] - 2, n[2] - 2 }, count = nodes_of(m);
+	double *a = MR_NEW_ZERO(&ctx, count * count, double), *x = MR_NEW(&ctx, count, double);
+	const size_t far[3] = { 1, m[0], m[0] * m[1] };
+
+	assert_true(a && x);
+	FOR_NODES(m, i, j, k, at) {
+		size_t node = ((k + 1) * n[1] + j + 1) * n[0] + i + 1, place[3] = { i, j, k };
+		a[at * count + at] = 6 + (screen ? (double)screen[node] : 0);
+		x[at] = (double)b[node];
+		for (int axis = 0; axis < 3; axis++) {
+			if (place[axis] > 0)
+				a[at * count + at - far[axis]] = -1;
+			if (place[axis] + 1 < m[axis])
+				a[at * count + at + far[axis]] = -1;
+		}
+	}
+	dense_solve(a, x, count);
+	return x;
+}
+
+/* Random right sides, and screens that absorb at random places: to 2 % of the greatest value was measured. */
+static void
+small_systems_are_solved_as_densely(void **state)
+{
+	static const size_t n[3] = { 9, 13, 9 };
+	mr_random r = { 2 };
+
+	(void)state;
+	for (int round = 0; round < 6; round++) {
+		bool screened = round % 2;
+		multigrid m = begin(n, 2, screened);
+		level *l = &m.level[0];
+		double *want, most = 0, worst = 0;
+		FOR_NODES(n, x, y, z, i)
+			if (is_inner(n, x, y, z))
+				l->b[i] = screened ? (mr_random_bits(&r) % 4 ? 0 : (float)(20 * mr_random_real(&r)))
+				                   : (float)(mr_random_real(&r) - 0.2);
+		want = solve_densely(n, l->screen, l->b);
+		mr_multigrid_full(&ctx, &m);
+		FOR_NODES(n, x, y, z, i) {
+			double w;
+			if (!is_inner(n, x, y, z)) {
+				assert_true(l->u[i] == 0);
+				continue;
+			}
+			w = want[((z - 1) * (n[1] - 2) + y - 1) * (n[0] - 2) + x - 1];
+			most = fmax(most, fabs(w));
+			worst = fmax(worst, fabs((double)l->u[i] - w));
+		}
+		assert_true(worst < 0.04 * most);
+	}
+}
+
+static void
+threads_do_not_matter(void **state)
+{
+	static const size_t n[3] = { 65, 33, 97 };
+	mr_random r = { 3 };
+	float *b = random_inner(&r, n), *first = NULL;
+
+	(void)state;
+	for (unsigned threads = 1; threads < 4; threads++) {
+		multigrid m = begin(n, 3, false);
+		ctx.threads = threads;
+		memcpy(m.level[0].b, b, nodes_of(n) * sizeof *b);
+		mr_multigrid_full(&ctx, &m);
+		if (threads == 1)
+			first = m.level[0].u;
+		assert_memory_equal(m.level[0].u, first, nodes_of(n) * sizeof *first);
+	}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(coarser_grids_fit, setup, teardown),
+		cmocka_unit_test_setup_teardown(levels_halve, setup, teardown),
+		cmocka_unit_test_setup_teardown(prolongation_is_linear_between_nodes, setup, teardown),
+		cmocka_unit_test_setup_teardown(restriction_is_the_transpose, setup, teardown),
+		cmocka_unit_test_setup_teardown(waves_are_solved_on_any_grid, setup, teardown),
+		cmocka_unit_test_setup_teardown(small_systems_are_solved_as_densely, setup, teardown),
+		cmocka_unit_test_setup_teardown(threads_do_not_matter, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
