@@ -10,9 +10,9 @@ mkdir -p frames
 mr-import "$model" |
     mr-smooth |
     mr-remesh |
-    mr-select --free all --fixed below:z,0.2 --handle 1=above:z,0.8 |
+    mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 |
     mr-solve --basis |
     mr-encode |
-    mr-pose -H 1 --rotate 0,0,1,120 --frames "${frames:-60}" |
+    mr-pose -H 1 --rotate 0,1,0,60 --frames "${frames:-60}" |
     mr-decode |
     mr-render --size 320x320 frames/%d.png
