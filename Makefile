@@ -1,16 +1,17 @@
 # mr -- streaming tools for multiresolution geometry
 #
 #	make            the tools, in $(BUILD)/bin
+#	make help       this list
 #	make setup      the packages they need; the other targets see to that by themselves
 #	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
-#	make demo       the main job on real models: pictures and a table, in demo/
+#	make demo       the main job on real models: pictures and tables, in demo/
 #	make bench      speed and memory beside the peers'
 #	make table1     the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
 #	make readme     the generated parts of README.md
 #	make install    tools, pages and library to $(DESTDIR)$(PREFIX)
 #	make uninstall  takes them away again
-#	make clean
+#	make clean      removes build/
 
 PREFIX  ?= /usr/local
 DESTDIR ?=
@@ -90,6 +91,9 @@ endif
 
 units: $(UNITS)
 
+help:
+	@sed -n 's/^#\tmake/make/p' Makefile
+
 setup:
 	@CC='$(CC)' .ci/setup $(NEEDS)
 
@@ -99,8 +103,15 @@ check: $(TOOLS) $(UNITS)
 bless: $(TOOLS)
 	@$(RUN) tests/run --bless $(T)
 
-demo: $(TOOLS)
-	@$(RUN) sh -ec 'examples/demo.sh demo; examples/reconstruct.sh demo'
+# What is there already is done again only by newer tools or scripts.
+demo: demo/figures.txt demo/clouds.txt
+	@echo; echo 'Pictures: demo/sheet.png, the edits; demo/*-scan.png, the scans; demo/frames/, an animation. Tables: $^'
+
+demo/figures.txt: $(TOOLS) examples/demo.sh examples/models.sh
+	@$(RUN) examples/demo.sh demo
+
+demo/clouds.txt: $(TOOLS) examples/reconstruct.sh examples/models.sh | demo/figures.txt
+	@$(RUN) examples/reconstruct.sh demo
 
 bench: $(TOOLS) $(BENCHES) $(PEERS)
 	@$(RUN) tests/bench/run $(T)
@@ -148,5 +159,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units setup check bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check bless demo bench table1 readme install uninstall clean
 .SECONDARY:

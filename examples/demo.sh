@@ -2,12 +2,13 @@
 # demo.sh -- the main job on real models: bend, twist, pull and scale them with their detail kept; usage: demo.sh [DIR]
 #
 # Leaves in DIR (default demo): NAME.png, a row of pictures for each edit, NAME.obj, its result, sheet.png, all of them,
-# frames/1.png to 61.png, an animation, and figures.txt, the table that is printed.
-# The models are those of Debian's package libcgal-demo, which is fetched and unpacked into DIR/cache, not installed.
-# Where it cannot be had, all edits are done on a model that mr-make makes.  MR_SMALL=N does that with N vertices.
+# frames/1.png to 61.png, an animation, and figures.txt, the tables that are printed.
+# The models are those of Debian's package libcgal-demo, which is fetched, and five of them unpacked into DIR/cache, not
+# installed.  Where it cannot be had, a creature that mr-make makes is edited.  MR_SMALL=N does that with N vertices.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 dir=${1:-demo}
+rm -rf "$dir/work"
 mkdir -p "$dir/cache" "$dir/frames" "$dir/work/parts"
 cd "$dir"
 panel=${MR_SMALL:+120x100}
@@ -103,23 +104,33 @@ edit() { # name, model, view, smoothing, regions, pose, another pose
 	figures "$2"
 }
 
-rm -f work/remeshing work/lost work/seconds
 touch work/remeshing
 
-edit bunny-pull bunny00 front '' '--free above:y,0.7 --handle 1=above:y,0.86' \
-    '-H 1 --translate 0.12,0.3,0 --rotate 0,0,1,-10'
-edit bunny-bend bunny00 front '' '--free above:y,0.2 --handle 1=above:y,0.72 --handle 1=above:y,0.48+below:x,0.36' \
-    '-H 1 --rotate 0,0,1,-30 --translate 0.02,0.12,0'
-edit armadillo-twist armadillo front '' '--free above:y,0.25 --handle 1=above:y,0.62' \
-    '-H 1 --rotate 0,1,0,80'
-edit armadillo-arms armadillo front '' \
-    '--free above:y,0.5+above:x,0.66 --free above:y,0.5+below:x,0.34
-    --handle 1=above:y,0.55+below:x,0.18 --handle 2=above:y,0.55+above:x,0.82' \
-    '-H 1 --translate -20,-35,0 --rotate 0,0,1,75' '-H 2 --translate 15,25,0 --rotate 0,0,1,30'
-edit elephant-bend elephant front '-t 1' '--free above:y,0.4 --handle 1=above:y,0.6' \
-    '-H 1 --rotate 0,0,1,45 --translate -0.15,0.05,0'
-edit lion-scale lion-head quarter '-t 4' '--free above:z,0.6 --handle 1=above:z,0.88' \
-    '-H 1 --scale 1.5 --translate 0,0,0.05'
+if [ -n "$real" ]; then
+	edit bunny-pull bunny00 front '' '--free above:y,0.7 --handle 1=above:y,0.86' \
+	    '-H 1 --translate 0.12,0.3,0 --rotate 0,0,1,-10'
+	edit bunny-bend bunny00 front '' '--free above:y,0.2 --handle 1=above:y,0.72 --handle 1=above:y,0.48+below:x,0.36' \
+	    '-H 1 --rotate 0,0,1,-30 --translate 0.02,0.12,0'
+	edit armadillo-twist armadillo front '' '--free above:y,0.25 --handle 1=above:y,0.62' \
+	    '-H 1 --rotate 0,1,0,80'
+	edit armadillo-arms armadillo front '' \
+	    '--free above:y,0.5+above:x,0.66 --free above:y,0.5+below:x,0.34
+	    --handle 1=above:y,0.55+below:x,0.18 --handle 2=above:y,0.55+above:x,0.82' \
+	    '-H 1 --translate -20,-35,0 --rotate 0,0,1,75' '-H 2 --translate 15,25,0 --rotate 0,0,1,30'
+	edit elephant-bend elephant front '-t 1' '--free above:y,0.4 --handle 1=above:y,0.6' \
+	    '-H 1 --rotate 0,0,1,45 --translate -0.15,0.05,0'
+	edit lion-scale lion-head quarter '-t 4' '--free above:z,0.6 --handle 1=above:z,0.88' \
+	    '-H 1 --scale 1.5 --translate 0,0,0.05'
+else
+	edit creature-tilt creature front '' '--free all --fixed below:y,0.3 --handle 1=above:y,0.8' \
+	    '-H 1 --rotate 0,0,1,30'
+	edit creature-twist creature front '' '--free above:y,0.2 --handle 1=above:y,0.4' \
+	    '-H 1 --rotate 0,1,0,60'
+	edit creature-arms creature front '' \
+	    '--free above:y,0.4+below:y,0.8+below:x,0.3 --free above:y,0.4+below:y,0.8+above:x,0.7
+	    --handle 1=above:y,0.4+below:x,0.12 --handle 2=above:y,0.4+above:x,0.88' \
+	    '-H 1 --translate -0.2,0.3,0' '-H 2 --translate 0.2,-0.3,0'
+fi
 
 # All of them in one picture.
 for name in $(cut -d' ' -f1 work/lost); do
@@ -141,8 +152,9 @@ rate() { # what, command line: frames a second
 	mr-pose -H 1 --rotate 0,1,0,80 --frames $frames work/basis.mrs | eval "$2" >/dev/null
 	echo "$1 $(date +%s.%N) $begin" | awk '{ printf "%-28s %7.1f frames/s\n", $1, '$frames' / ($2 - $3) }' >>work/rates
 }
-rm -f work/rates
 rate 'pose|solve|decode' 'mr-solve | mr-decode'
 rate 'solve-basis..pose|decode' 'mr-decode'
 
-table | tee figures.txt
+table | tee work/figures.txt
+mv work/figures.txt figures.txt
+rm -r work

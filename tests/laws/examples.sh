@@ -5,5 +5,6 @@ for script in "$TOP"/examples/*.sh; do
 	mkdir "$name"
 	(cd "$name" && MR_SMALL=2000 sh -e "$script" >../out 2>../err) || { echo "$name fails:"; cat out err; fail=1; }
 	[ -n "$(find "$name" -type f -size +0)" ] || { echo "$name made nothing"; fail=1; }
+	[ -z "$(find "$name" -name work)" ] || { echo "$name leaves its intermediate streams"; fail=1; }
 done
 exit $fail
