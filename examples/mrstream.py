@@ -36,9 +36,9 @@ str, or arrays that cannot be written to and stay valid: views of the mapped fil
 column is packed.  Rows of one component make an array of one dimension.  A delta comes merged with what it keeps.
 
 What is put is copied.  A column that was there keeps its element (v, f or -) and type (d, u or b); of a new one they
-are what its rows and dtype say, or put says.  frame.columns[layer, name] is the record, with these.  What a change makes
-stale is to be removed by `del frame["base"]` or `del frame["mesh"]["normal"]`.  What nobody touches is written as it
-came, byte for byte; a line is added to the history.
+are what its rows and dtype say, or put says.  frame.columns[layer, name] is the record, with these.  What a change
+makes stale is to be removed by `del frame["base"]` or `del frame["mesh"]["normal"]`.  What nobody touches is written
+as it came, byte for byte; a line is added to the history.
 
 The laws of the format are checked, and the checksums of a frame before it is given, also of columns that nobody uses:
 StreamError, and CutOff where END is missing; so read to the end to know that the tool before succeeded.  END is written
