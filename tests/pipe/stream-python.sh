@@ -52,6 +52,11 @@ mr-make torus -n 900 | $python scale.py 3 | mr-export out.ply && [ -s out.ply ] 
 (mr-make torus -n 900 | head -c 9000 | $python scale.py 3) 2>err | mr-cat >/dev/null 2>&1 && bad 'a dead stage is not seen'
 grep -q 'mrstream.CutOff: stream ends without END at byte 9000: the previous tool failed' err || bad "cut off: $(cat err)"
 
+# Its other example: a key, and a delta that is the smaller by the triangles and the history.
+{ echo 'import mrstream'; sed -n '/^    frame = mrstream.Frame/,/^$/s/^    //p' "$TOP/examples/mrstream.py"; } >make.py
+$python make.py && mr-info --check x.mrs >list || bad 'the example from nothing'
+[ "$(grep -c '^triangle: frame ' list)" -eq 2 ] && [ "$(wc -c <x.mrs)" -eq $((64 * (11 + 6 + 1))) ] || bad "from nothing: $(cat list)"
+
 # As a command it lists.
 $python -m mrstream walkz.mrs >list || bad 'no list'
 [ "$(grep -c ': frame ' list)" -eq 5 ] && grep -q '^  mesh  *detail_bary  *v d3 ' list || bad "listed: $(cat list)"
