@@ -570,6 +570,39 @@ MR_API mr_status mr_subdivide_frame(mr_ctx *ctx, mr_frame *f, const mr_subdivide
 MR_API mr_status mr_equalize_frame(
     mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache) MR_WARN_UNUSED;
 
+/* Models from nothing: mr-make */
+
+typedef enum mr_solid {
+	MR_SPHERE,
+	MR_TORUS,
+	MR_CUBE,
+	MR_PLANE,
+	MR_CYLINDER,
+	MR_KNOT,
+	MR_BUMPY,
+	MR_BOXES,
+	MR_SOLIDS
+} mr_solid;
+
+typedef struct mr_make_opts {
+	mr_solid solid;
+	size_t vertices;     /* about how many; 0: 10,000, and 30,000 for bumpy */
+	size_t genus;        /* of boxes */
+	bool open;           /* cylinder: without its caps */
+	double noise;        /* standard deviation, along the normals */
+	bool noise_relative; /* noise is a share of the bounding box's diagonal */
+	size_t points;       /* a cloud of so many instead of the mesh, uniform by area; 0: the mesh */
+	uint64_t seed;       /* of points and noise */
+} mr_make_opts;
+
+#define MR_MAKE_DEFAULTS                                                                                     \
+	{                                                                                                    \
+		MR_SPHERE, 0, 2, false, 0, false, 0, 1                                                       \
+	}
+
+/* A key frame with mesh or points. */
+MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame) MR_WARN_UNUSED;
+
 /* Measuring: mr-compare */
 
 typedef struct mr_compare_opts {

@@ -383,7 +383,7 @@ boxes(mr_ctx *ctx, size_t n, size_t genus, build *b)
 }
 
 static mr_status
-make(mr_ctx *ctx, const mr_solid_opts *o, size_t n, build *b)
+make(mr_ctx *ctx, const mr_make_opts *o, size_t n, build *b)
 {
 	switch (o->solid) {
 	case MR_SPHERE:
@@ -409,7 +409,7 @@ make(mr_ctx *ctx, const mr_solid_opts *o, size_t n, build *b)
 }
 
 mr_status
-mr_solid_make(mr_ctx *ctx, const mr_solid_opts *o, mr_mesh *m)
+mr_solid_make(mr_ctx *ctx, const mr_make_opts *o, mr_mesh *m)
 {
 	build b;
 

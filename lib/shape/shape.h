@@ -18,35 +18,11 @@
 
 #include "mesh/mesh.h"
 
-typedef enum mr_solid {
-	MR_SPHERE,
-	MR_TORUS,
-	MR_CUBE,
-	MR_PLANE,
-	MR_CYLINDER,
-	MR_KNOT,
-	MR_BUMPY,
-	MR_BOXES,
-	MR_SOLIDS
-} mr_solid;
-
-/* Their names, in that order. */
+/* The names of the solids, in the order of mr_solid. */
 extern const char *const mr_solid_names[MR_SOLIDS];
 
-typedef struct mr_solid_opts {
-	mr_solid solid;
-	size_t vertices; /* about how many; 0: 10,000, and 30,000 for bumpy */
-	size_t genus;    /* of boxes */
-	bool open;       /* cylinder: without its caps */
-} mr_solid_opts;
-
-#define MR_SOLID_DEFAULTS                                                                                    \
-	{                                                                                                    \
-		.solid = MR_SPHERE, .vertices = 0, .genus = 2, .open = false                                 \
-	}
-
 /* The shape, in the arena; its name is the solid's. */
-mr_status mr_solid_make(mr_ctx *ctx, const mr_solid_opts *opts, mr_mesh *m);
+mr_status mr_solid_make(mr_ctx *ctx, const mr_make_opts *opts, mr_mesh *m);
 
 /*
  * `count` points drawn uniformly by area with the seed, in the arena, each with the

@@ -10,7 +10,7 @@ static inline mr_mesh
 shape(mr_solid solid, size_t n)
 {
 	mr_mesh m;
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
+	mr_make_opts o = MR_MAKE_DEFAULTS;
 
 	o.solid = solid;
 	o.vertices = n;

@@ -12,7 +12,7 @@ enum { LEVEL = 2 };
 static mr_domain
 sphere(size_t n)
 {
-	mr_solid_opts o = { .solid = MR_SPHERE, .vertices = n };
+	mr_make_opts o = { .solid = MR_SPHERE, .vertices = n };
 	mr_mesh control;
 	mr_domain d;
 

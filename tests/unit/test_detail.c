@@ -14,7 +14,7 @@ solid(mr_ctx *ctx, mr_solid what, size_t n)
 {
 	mr_mesh m;
 
-	assert_int_equal(mr_solid_make(ctx, &(mr_solid_opts){ .solid = what, .vertices = n }, &m), MR_OK);
+	assert_int_equal(mr_solid_make(ctx, &(mr_make_opts){ .solid = what, .vertices = n }, &m), MR_OK);
 	return m;
 }
 

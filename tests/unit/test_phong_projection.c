@@ -158,7 +158,7 @@ a_foot_is_not_higher_than_its_limit(void **state)
 static void
 no_foot_is_beyond_the_axis(void **state)
 {
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
+	mr_make_opts o = MR_MAKE_DEFAULTS;
 	mr_random r = { 4 };
 	size_t found = 0;
 	mr_mesh m;

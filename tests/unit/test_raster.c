@@ -30,7 +30,9 @@ made(mr_solid solid, size_t n)
 {
 	mr_mesh m;
 
-	assert_int_equal(mr_solid_make(&ctx, &(mr_solid_opts){ solid, n, 1, false }, &m), MR_OK);
+	assert_int_equal(mr_solid_make(&ctx,
+			     &(mr_make_opts){ .solid = solid, .vertices = n, .genus = 1, .open = false }, &m),
+	    MR_OK);
 	return m;
 }
 

@@ -138,7 +138,7 @@ smallest_of_several(void **state)
 static mr_domain
 domain_of(mr_solid solid, size_t vertices, size_t level, bool open)
 {
-	mr_solid_opts o = { .solid = solid, .vertices = vertices, .open = open };
+	mr_make_opts o = { .solid = solid, .vertices = vertices, .open = open };
 	mr_mesh control;
 	mr_domain d;
 
@@ -150,7 +150,7 @@ domain_of(mr_solid solid, size_t vertices, size_t level, bool open)
 static mr_v3 *
 sphere_points(size_t n, double noise)
 {
-	mr_solid_opts o = { .solid = MR_SPHERE, .vertices = 50000 };
+	mr_make_opts o = { .solid = MR_SPHERE, .vertices = 50000 };
 	mr_mesh m;
 	mr_v3 *p, *normal;
 
@@ -215,7 +215,7 @@ static void
 torus_from_mesh(void **state)
 {
 	mr_domain d = domain_of(MR_TORUS, 200, 3, false);
-	mr_solid_opts o = { .solid = MR_TORUS, .vertices = 20000 };
+	mr_make_opts o = { .solid = MR_TORUS, .vertices = 20000 };
 	double *height = MR_NEW(&ctx, d.m.nv, double), worst = 0;
 	mr_sample_opts opts = MR_SAMPLE_DEFAULTS;
 	mr_mesh torus;
@@ -237,7 +237,7 @@ torus_from_mesh(void **state)
 static void
 fills_smoothly(void **state)
 {
-	mr_solid_opts o = { .solid = MR_PLANE, .vertices = 900 };
+	mr_make_opts o = { .solid = MR_PLANE, .vertices = 900 };
 	mr_heights e;
 	mr_mesh m;
 	double *h;
@@ -262,7 +262,7 @@ fills_smoothly(void **state)
 static void
 drops_spikes(void **state)
 {
-	mr_solid_opts o = { .solid = MR_SPHERE, .vertices = 1000 };
+	mr_make_opts o = { .solid = MR_SPHERE, .vertices = 1000 };
 	mr_random r = { 1 };
 	mr_heights e;
 	mr_mesh m;

@@ -7,7 +7,10 @@ made(mr_solid solid, size_t n, size_t genus, bool open)
 {
 	mr_mesh m;
 
-	assert_int_equal(mr_solid_make(&ctx, &(mr_solid_opts){ solid, n, genus, open }, &m), MR_OK);
+	assert_int_equal(
+	    mr_solid_make(
+		&ctx, &(mr_make_opts){ .solid = solid, .vertices = n, .genus = genus, .open = open }, &m),
+	    MR_OK);
 	return m;
 }
 
@@ -190,9 +193,14 @@ refusals(void **state)
 
 	(void)state;
 	assert_int_equal(
-	    mr_solid_make(&ctx, &(mr_solid_opts){ MR_SPHERE, 5000000000u, 0, false }, &m), MR_ERANGE);
+	    mr_solid_make(&ctx,
+		&(mr_make_opts){ .solid = MR_SPHERE, .vertices = 5000000000u, .genus = 0, .open = false },
+		&m),
+	    MR_ERANGE);
 	assert_int_equal(
-	    mr_solid_make(&ctx, &(mr_solid_opts){ MR_BOXES, 100, 5000000, false }, &m), MR_ERANGE);
+	    mr_solid_make(&ctx,
+		&(mr_make_opts){ .solid = MR_BOXES, .vertices = 100, .genus = 5000000, .open = false }, &m),
+	    MR_ERANGE);
 	assert_string_equal(m.name, "untouched");
 	assert_int_equal(mr_surface_sample(&ctx, &flat, 3, 1, &p, &normal), MR_EMESH);
 	assert_ptr_equal(p, &point);
@@ -208,7 +216,10 @@ out_of_memory(void **state)
 			mr_mesh m;
 			mr_status s;
 			ctx.fail_at = k;
-			s = mr_solid_make(&ctx, &(mr_solid_opts){ (mr_solid)solid, 500, 2, false }, &m);
+			s = mr_solid_make(&ctx,
+			    &(mr_make_opts){
+				.solid = (mr_solid)solid, .vertices = 500, .genus = 2, .open = false },
+			    &m);
 			ctx.fail_at = 0;
 			if (s == MR_OK)
 				break;

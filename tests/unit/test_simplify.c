@@ -71,7 +71,7 @@ quadric_is_the_squared_distance(void **state)
 static void
 vertices_lie_where_they_were_merged(void **state)
 {
-	mr_solid_opts solid = MR_SOLID_DEFAULTS;
+	mr_make_opts solid = MR_MAKE_DEFAULTS;
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
 	mr_source_map map, source;
 	uint32_t *onto;
@@ -104,7 +104,7 @@ vertices_lie_where_they_were_merged(void **state)
 static void
 map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_mesh *out, mr_source_map *map)
 {
-	mr_solid_opts shape = MR_SOLID_DEFAULTS;
+	mr_make_opts shape = MR_MAKE_DEFAULTS;
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
 	uint32_t *onto;
 	mr_v3 *p;
@@ -168,7 +168,7 @@ places_stay_on_their_side(void **state)
 static void
 wants_of_memory_are_reported(void **state)
 {
-	mr_solid_opts solid = MR_SOLID_DEFAULTS;
+	mr_make_opts solid = MR_MAKE_DEFAULTS;
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
 	mr_status status = MR_EMEM;
 	uint32_t *onto;

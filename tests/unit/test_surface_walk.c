@@ -187,7 +187,7 @@ an_edge_of_a_cube_ends_at_its_corners(void **state)
 static void
 a_rim_is_walked_around(void **state)
 {
-	mr_solid_opts o = MR_SOLID_DEFAULTS;
+	mr_make_opts o = MR_MAKE_DEFAULTS;
 	mr_random r = { 6 };
 	mr_mesh m;
 	mr_topology topo;

@@ -59,7 +59,7 @@ solid(mr_solid which, size_t vertices, size_t genus)
 	mr_mesh m;
 
 	assert_int_equal(
-	    mr_solid_make(&ctx, &(mr_solid_opts){ .solid = which, .vertices = vertices, .genus = genus }, &m),
+	    mr_solid_make(&ctx, &(mr_make_opts){ .solid = which, .vertices = vertices, .genus = genus }, &m),
 	    MR_OK);
 	return m;
 }

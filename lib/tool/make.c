@@ -1,0 +1,51 @@
+/* mr-make: a solid, as a mesh or as a cloud of points of it. */
+#include "mesh/layers.h"
+#include "shape/shape.h"
+
+static double
+deviation(const mr_make_opts *o, const mr_mesh *m)
+{
+	return o->noise_relative ? o->noise * mr_mesh_diagonal(m) : o->noise;
+}
+
+static mr_status
+put_mesh(mr_ctx *ctx, mr_frame *f, const mr_make_opts *o, mr_mesh *m)
+{
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3), *normal = MR_NEW(ctx, m->nv, mr_v3);
+
+	if (!p || !normal)
+		return MR_EMEM;
+	if (o->noise > 0) {
+		MR_TRY(mr_vertex_normals(ctx, m, NULL, normal));
+		memcpy(p, m->p, m->nv * sizeof *p);
+		mr_add_noise(p, normal, m->nv, deviation(o, m), o->seed);
+		m->p = p;
+	}
+	return mr_layer_put_mesh(ctx, f, "mesh", m);
+}
+
+static mr_status
+put_points(mr_ctx *ctx, mr_frame *f, const mr_make_opts *o, const mr_mesh *m)
+{
+	mr_v3 *p, *normal;
+
+	MR_TRY(mr_surface_sample(ctx, m, o->points, o->seed, &p, &normal));
+	mr_add_noise(p, normal, o->points, deviation(o, m), o->seed + 1);
+	MR_TRY(mr_layer_put(ctx, f, "points", "position", p, o->points));
+	return mr_layer_put(ctx, f, "points", "normal", normal, o->points);
+}
+
+mr_status
+mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame)
+{
+	static const mr_make_opts defaults = MR_MAKE_DEFAULTS;
+	const mr_make_opts *o = opts ? opts : &defaults;
+	mr_frame *f;
+	mr_mesh m;
+
+	MR_TRY(mr_solid_make(ctx, o, &m));
+	MR_TRY(mr_frame_new(ctx, m.name, &f));
+	MR_TRY(o->points ? put_points(ctx, f, o, &m) : put_mesh(ctx, f, o, &m));
+	*frame = f;
+	return MR_OK;
+}
