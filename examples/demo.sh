@@ -122,7 +122,7 @@ if [ -n "$real" ]; then
 	edit lion-scale lion-head quarter '-t 4' '--free above:z,0.6 --handle 1=above:z,0.88' \
 	    '-H 1 --scale 1.5 --translate 0,0,0.05'
 else
-	edit creature-tilt creature front '' '--free all --fixed below:y,0.3 --handle 1=above:y,0.8' \
+	edit creature-tilt creature front '' '--free all --fixed below:y,0.5 --handle 1=above:y,0.85' \
 	    '-H 1 --rotate 0,0,1,30'
 	edit creature-twist creature front '' '--free above:y,0.2 --handle 1=above:y,0.4' \
 	    '-H 1 --rotate 0,1,0,60'
