@@ -326,9 +326,9 @@ def _frames(source):
                 record.fail("neither a key frame nor a delta begins here")
             if kind == b"delta" and columns is None:
                 record.fail("a delta that follows nothing")
-            frame = Frame(_frame_name(name), kind == b"key", _merged(source, columns if kind == b"delta" else {}))
+            name, columns = _frame_name(name), _merged(source, columns if kind == b"delta" else {})
+            frame = Frame(name, kind == b"key", columns)
             frame.check()
-            columns = dict(frame.columns)
             yield frame
         start = source.record(may_begin=True, may_end=True)
     if source.map:
@@ -406,7 +406,6 @@ def _output(path):
     with open(beside, "wb") as file:
         try:
             yield file
-            file.close()
             if regular:
                 os.replace(beside, path)
         except BaseException:
