@@ -5,6 +5,8 @@
 #include "remesh/remesh.h"
 #include "space/surface_walk.h"
 
+/* A quarter of the unknowns from level to level: 16 are more than there is memory for.  A coarsest level of
+ * 100 takes as long as one of 400, one of 1600 takes 6 % longer, for its factor. */
 enum { LEVELS_MAX = 16, COARSEST = 400 };
 
 /* A mesh of the hierarchy, and which of its vertices are unknowns. */

@@ -154,6 +154,9 @@ bool
 mr_foot_walk(
     const mr_ground *g, mr_v3 p, uint32_t face, mr_v3 bary, double limit, mr_foot *foot, mr_walk *walk)
 {
+	/* of seven models walks end within 64 steps, all but a few; with a patience of 4 up to 1 % more
+	 * vertices are searched for, with 64 walks take up to twice the steps; stuck once up to 5 % more are
+	 * searched for, ten times is as good as three */
 	enum { STEPS = 256, STUCK = 3, PATIENCE = 16 };
 	const double less = 0.99; /* by so much the squared residual is to fall within PATIENCE steps */
 	field f = field_of(&g->surface, face);
@@ -194,7 +197,7 @@ mr_foot_walk(
 }
 
 /* The part of the surface that a search has met: a queue of faces to be looked at, the nearest first. */
-enum { PATCH = 4096 };
+enum { PATCH = 4096 }; /* 512 and 32768 find the same feet on seven models */
 
 typedef struct near_face {
 	double dist2; /* squared distance from the point */

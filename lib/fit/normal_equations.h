@@ -16,7 +16,11 @@
 
 #include "fit/sparsity.h"
 
-/* The share of a point's distance along the surface that counts. */
+/*
+ * The share of a point's distance along the surface that counts.  On 16 models 0.01 leaves 6 % less
+ * distance in the mean, more on three of them, for thrice the steps of conjugate gradients; 0.3 leaves 6 %
+ * more.
+ */
 static const double MR_FIT_SLIP = 0.1;
 
 /* A symmetric matrix: xx, yy, zz, xy, yz, zx. */

@@ -8,9 +8,13 @@
 
 #include "solve/conjugate_gradients.h"
 
-enum { MOST_STEPS = 50 };
+enum { MOST_STEPS = 50 }; /* of which 16 models take 12 at most */
 
-static const double ACCURACY = 1e-3; /* of the solution, in the norm of the energy */
+/*
+ * Of the solution, in the norm of the energy.  On 16 models 1e-2 takes 3 steps of 10 less and leaves up to 3
+ * % more distance, 1e-4 takes 3 more and gains less than 0.1 %.
+ */
+static const double ACCURACY = 1e-3;
 
 /* All of a symmetric matrix of which the lower triangle is given. */
 static mr_status

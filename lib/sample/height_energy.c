@@ -330,6 +330,8 @@ fill_rings(mr_ctx *ctx, const mr_heights *e, const bool *known, double *h)
 mr_status
 mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t *filled)
 {
+	/* they are a start only: to 1e-8 the mean gap after the fit differs by 4 % either way on clouds that
+	 * leave thousands open, by less than 0.1 % on others */
 	enum { STEPS = 100 };
 	mr_heights plate = { .n = e->n, .adj = e->adj, .fair = e->fair };
 	mr_mark mark = mr_mark_take(ctx);

@@ -69,14 +69,12 @@ eliminate(incomplete *c, int i, int *at)
 static bool
 factor(incomplete *c, const mr_sparse *a, double shift, int *at)
 {
-	static const double least = 1e-8; /* of the diagonal entry */
-
 	memcpy(c->f.value, a->value, (size_t)a->start[a->n] * sizeof *a->value);
 	for (int i = 0; i < a->n; i++) {
-		double *pivot = &c->f.value[c->diagonal[i]], whole = fabs(*pivot);
-		*pivot += shift * whole;
+		double *pivot = &c->f.value[c->diagonal[i]];
+		*pivot += shift * fabs(*pivot);
 		eliminate(c, i, at);
-		if (!(*pivot > least * whole))
+		if (!(*pivot > 0))
 			return false;
 	}
 	return true;
@@ -137,6 +135,8 @@ find_diagonal(mr_ctx *ctx, incomplete *c)
 mr_status
 mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
 {
+	/* a first shift ten times as large or small: 17 % fewer iterations or 12 % more, as the model has it
+	 */
 	static const double first = 1e-3, last = 10;
 	size_t n = (size_t)a->n, nnz = (size_t)a->start[n];
 	incomplete *c = MR_NEW(ctx, 1, incomplete);

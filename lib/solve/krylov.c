@@ -157,7 +157,7 @@ end_group(mr_ctx *ctx, const krylov *k, mr_multivector s, bool now, group *g, do
     double *rr)
 {
 	static const double one[MR_WIDTH] = { 1, 1, 1, 1 }, minus[MR_WIDTH] = { -1, -1, -1, -1 };
-	static const double fall = 1e-4; /* of |r|^2 */
+	static const double fall = 1e-4; /* of |r|^2; 0.1 and 1e-12 take up to 12 % more iterations */
 	size_t size = s.n * s.width;
 
 	g->peak = fmax(g->peak, total(s, rr));

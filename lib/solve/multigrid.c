@@ -140,7 +140,8 @@ invert_diagonal(mr_ctx *ctx, level *l)
 }
 
 /* The greatest eigenvalue of D^-1 A by the power method, from a vector of changing signs, with a margin; 1
- * for a matrix of zeros, of which any bound is one. */
+ * for a matrix of zeros, of which any bound is one.  4 steps make up to a third more iterations, 50 none
+ * less; a margin of 1 or of 1.3 makes up to a tenth more. */
 static void
 estimate_top(const mr_ctx *ctx, level *l)
 {
