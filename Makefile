@@ -97,7 +97,7 @@ help:
 setup:
 	@CC='$(CC)' .ci/setup $(NEEDS)
 
-check: $(TOOLS) $(UNITS)
+check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
 	@$(RUN) tests/run $(T)
 
 bless: $(TOOLS)
@@ -135,6 +135,7 @@ Libs: -L$${libdir} -lmr
 Libs.private: $(filter -l%,$(LIBS)) -pthread
 Cflags: -I$${includedir}
 endef
+export PC
 
 # The completions are made from what each tool says of itself.
 TO := $(DESTDIR)$(PREFIX)
@@ -147,7 +148,7 @@ install: $(TOOLS) $(BUILD)/$(SONAME)
 	install -m 644 lib/mr.h $(TO)/include
 	install -m 644 $(BUILD)/libmr.a $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libmr.so
-	$(file >$(BUILD)/mr.pc,$(PC))install -m 644 $(BUILD)/mr.pc $(DESTDIR)$(LIBDIR)/pkgconfig
+	echo "$$PC" >$(DESTDIR)$(LIBDIR)/pkgconfig/mr.pc
 
 uninstall:
 	rm -f $(addprefix $(TO)/bin/,$(notdir $(TOOLS))) $(addprefix $(TO)/$(COMPS)/,$(notdir $(TOOLS)))
