@@ -6,7 +6,7 @@
 
 #include <unistd.h>
 
-static mr_gallery_opts opts = MR_GALLERY_DEFAULTS;
+static mr_render_opts opts = MR_RENDER_DEFAULTS;
 static cmd_size size = { 800, 600 };
 static const char *view = "quarter";
 static cmd_range range;

@@ -1,5 +1,7 @@
 #include "formats/png.h"
+
 #include "formats/bytes.h"
+#include "render/gallery.h"
 
 #include <png.h>
 #include <setjmp.h>
@@ -85,4 +87,33 @@ mr_png_suits(const char *path)
 
 	return !strcmp(path, "-") || (suffix && !strcasecmp(suffix, ".png")) ||
 	       (stat(path, &st) == 0 && !S_ISREG(st.st_mode));
+}
+
+/* keep: an arena that outlives what is drawn. */
+static mr_status
+render(mr_ctx *ctx, mr_ctx *keep, mr_frame *f, const mr_render_opts *o, const char *path)
+{
+	mr_gallery gallery = { 0 };
+	mr_image image;
+	mr_shot shot;
+
+	MR_TRY(mr_gallery_add(ctx, keep, &gallery, f, o));
+	MR_TRY(mr_shot_aim(ctx, &gallery, 0, 1, o, &shot));
+	MR_TRY(mr_shot_draw(ctx, &gallery, &shot, 0, o, &image));
+	return mr_png_write(ctx, path, &image);
+}
+
+mr_status
+mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path)
+{
+	static const mr_render_opts defaults = MR_RENDER_DEFAULTS;
+	mr_mark mark = mr_mark_take(ctx);
+	mr_status status;
+	mr_ctx keep;
+
+	mr_ctx_init(&keep, ctx->threads);
+	status = render(ctx, &keep, f, opts ? opts : &defaults, path);
+	mr_ctx_free(&keep);
+	mr_mark_release(ctx, mark);
+	return status;
 }

@@ -648,6 +648,49 @@ typedef struct mr_comparison {
 MR_API mr_status mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts,
     mr_comparison *comparison) MR_WARN_UNUSED;
 
+/* Pictures: mr-render */
+
+typedef struct mr_raster_opts {
+	size_t samples;      /* a side of a pixel, 1 to 8: its square is taken of each pixel */
+	bool flat;           /* shade faces, not vertices */
+	double crease;       /* degrees: faces that meet at more are not shaded as one */
+	bool wire;           /* draw edges */
+	bool occlusion;      /* darken hollows */
+	double point_radius; /* of a ball, in pixels; 0: so that the balls about cover the surface */
+} mr_raster_opts;
+
+#define MR_RASTER_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		2, false, 45, false, true, 0                                                                 \
+	}
+
+typedef struct mr_render_opts {
+	size_t width, height; /* of a panel, in pixels */
+	mr_v3 from, up;       /* direction in which the eye stands, and which is upwards */
+	double zoom;          /* 1: the shot fills the panel */
+	bool parallel;        /* no perspective */
+	bool fit;             /* a camera for each panel */
+	bool labels;          /* name each panel, and show legends */
+	const char *layers;   /* comma between them; NULL: all with positions */
+	const char *color;    /* column that gives colours; NULL: none */
+	bool ranged;          /* numbers low to high span the colours; else least to greatest of the shot */
+	double low, high;
+	const char *title; /* over a whole picture; NULL: none */
+	bool same;         /* a sheet is one shot; else each key frame begins one */
+	size_t columns;    /* of a sheet; 0: so that it is about 3 by 2 */
+	mr_raster_opts raster;
+} mr_render_opts;
+
+#define MR_RENDER_DEFAULTS                                                                                   \
+	{                                                                                                    \
+		800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, NULL, NULL, false, 0, 0,     \
+		    NULL, false, 0, MR_RASTER_DEFAULTS                                                       \
+	}
+
+/* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */
+MR_API mr_status mr_render(
+    mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path) MR_WARN_UNUSED;
+
 #ifdef __cplusplus
 }
 #endif

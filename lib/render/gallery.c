@@ -184,7 +184,7 @@ push_frame(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_shown *f)
 
 static mr_status
 add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char *layer,
-    const mr_gallery_opts *opts, bool *colored)
+    const mr_render_opts *opts, bool *colored)
 {
 	mr_panel p = { .layer = mr_format(keep, "%s", layer), .frame = mr_format(keep, "%s", frame->name) };
 
@@ -200,7 +200,7 @@ add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char 
 /* Adds the layers named in the list, or all that have positions. */
 static mr_status
 add_layers(
-    mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_gallery_opts *opts, bool *colored)
+    mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts, bool *colored)
 {
 	const char *list = opts->layers;
 
@@ -219,7 +219,7 @@ add_layers(
 }
 
 mr_status
-mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_gallery_opts *opts)
+mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts)
 {
 	mr_shown shown = { .name = mr_format(keep, "%s", frame->name),
 		.number = frame->number,

@@ -11,29 +11,6 @@
 #include "render/raster.h"
 #include "stream/frame.h"
 
-typedef struct mr_gallery_opts {
-	size_t width, height; /* of a panel, in pixels */
-	mr_v3 from, up;       /* direction in which the eye stands, and which is upwards */
-	double zoom;          /* 1: the shot fills the panel */
-	bool parallel;        /* no perspective */
-	bool fit;             /* a camera for each panel */
-	bool labels;          /* name each panel, and show legends */
-	const char *layers;   /* comma between them; NULL: all with positions */
-	const char *color;    /* column that gives colours; NULL: none */
-	bool ranged;          /* numbers low to high span the colours; else least to greatest of the shot */
-	double low, high;
-	const char *title; /* over a whole picture; NULL: none */
-	bool same;         /* a sheet is one shot; else each key frame begins one */
-	size_t columns;    /* of a sheet; 0: so that it is about 3 by 2 */
-	mr_raster_opts raster;
-} mr_gallery_opts;
-
-#define MR_GALLERY_DEFAULTS                                                                                  \
-	{                                                                                                    \
-		.width = 800, .height = 600, .from = { 0.5, 0.35, 1 }, .up = { 0, 1, 0 }, .zoom = 1,         \
-		.labels = true, .raster = MR_RASTER_DEFAULTS                                                 \
-	}
-
 /* What gives a place its colour. */
 typedef enum mr_coloring {
 	MR_COLOR_PLAIN,
@@ -73,7 +50,7 @@ typedef struct mr_gallery {
  * the frame before is shared.  MR_EMISSING where a layer or the column is nowhere in the frame.
  */
 mr_status
-mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_gallery_opts *opts);
+mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts);
 
 /* Frames that share a camera and a scale of colours: frame[first] to frame[first + count]. */
 typedef struct mr_shot {
@@ -84,13 +61,13 @@ typedef struct mr_shot {
 
 /* Finds camera and range of a shot. */
 mr_status mr_shot_aim(
-    mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_gallery_opts *opts, mr_shot *shot);
+    mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *opts, mr_shot *shot);
 
 /* Draws frame i, of the shot: its panels side by side under the title.  image: in the arena. */
 mr_status mr_shot_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i,
-    const mr_gallery_opts *opts, mr_image *image);
+    const mr_render_opts *opts, mr_image *image);
 
 /* Draws all frames, at least one, into one picture.  image: in the arena. */
-mr_status mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_gallery_opts *opts, mr_image *image);
+mr_status mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_render_opts *opts, mr_image *image);
 
 #endif

@@ -7,7 +7,7 @@ static const mr_rgb PAPER = { 252, 252, 250 }, INK = { 58, 60, 66 }, PALE = { 14
 
 /* Pixels per unit of text, in a panel of this size. */
 static double
-text_unit(const mr_gallery_opts *o)
+text_unit(const mr_render_opts *o)
 {
 	size_t side = o->width < o->height ? o->width : o->height;
 	double unit = (double)side / 340;
@@ -17,20 +17,20 @@ text_unit(const mr_gallery_opts *o)
 
 /* Height of the strip of labels under a panel, and of the title over a picture. */
 static double
-label_height(const mr_gallery_opts *o)
+label_height(const mr_render_opts *o)
 {
 	return o->labels ? 15 * text_unit(o) : 0;
 }
 
 static size_t
-title_height(const mr_gallery_opts *o)
+title_height(const mr_render_opts *o)
 {
 	return o->title ? (size_t)(30 * text_unit(o)) : 0;
 }
 
 /* Aims a camera at panels of the gallery. */
 static mr_status
-aim(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_gallery_opts *o, mr_camera *camera)
+aim(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *o, mr_camera *camera)
 {
 	double w = (double)o->width, h = (double)o->height, label = label_height(o);
 	double margin = 0.04 * (w < h ? w : h);
@@ -56,7 +56,7 @@ value_count(const mr_panel *p)
 
 /* The range that colours span: symmetric where numbers of both signs are there. */
 static void
-find_range(const mr_gallery *g, size_t first, size_t count, const mr_gallery_opts *o, mr_shot *s)
+find_range(const mr_gallery *g, size_t first, size_t count, const mr_render_opts *o, mr_shot *s)
 {
 	double low = INFINITY, high = -INFINITY;
 
@@ -77,7 +77,7 @@ find_range(const mr_gallery *g, size_t first, size_t count, const mr_gallery_opt
 
 mr_status
 mr_shot_aim(
-    mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_gallery_opts *o, mr_shot *shot)
+    mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *o, mr_shot *shot)
 {
 	mr_shot s = { .first = first, .count = count };
 	const mr_shown *a = &g->frame[first], *b = &g->frame[first + count - 1];
@@ -222,7 +222,7 @@ count_text(char *text, size_t size, size_t n)
 
 /* The strip under a panel: its name, what it consists of, the legend of its colours. */
 static void
-draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several, const mr_gallery_opts *o)
+draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several, const mr_render_opts *o)
 {
 	double unit = text_unit(o), edge = 8 * unit;
 	strip s = { image, edge, (double)o->width - edge, (double)o->height - 12 * unit, unit };
@@ -243,7 +243,7 @@ draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several
 
 static mr_status
 draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool several,
-    const mr_gallery_opts *o, mr_image *image)
+    const mr_render_opts *o, mr_image *image)
 {
 	const mr_panel *p = &g->panel[i];
 	mr_camera own = shot->camera;
@@ -261,7 +261,7 @@ draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool
 /* Draws a frame's panels side by side into the image at (x, y). */
 static mr_status
 draw_frame(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, const mr_shown *f, size_t x, size_t y,
-    const mr_gallery_opts *o, mr_image *image)
+    const mr_render_opts *o, mr_image *image)
 {
 	for (size_t i = 0; i < f->count; i++) {
 		mr_mark mark = mr_mark_take(ctx);
@@ -275,7 +275,7 @@ draw_frame(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, const mr_shown
 }
 
 static void
-draw_title(mr_image *image, const mr_gallery_opts *o)
+draw_title(mr_image *image, const mr_render_opts *o)
 {
 	double unit = 1.5 * text_unit(o);
 	strip s = { image, 0, (double)image->width, 8 * text_unit(o), unit };
@@ -287,7 +287,7 @@ draw_title(mr_image *image, const mr_gallery_opts *o)
 }
 
 mr_status
-mr_shot_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, const mr_gallery_opts *o,
+mr_shot_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, const mr_render_opts *o,
     mr_image *image)
 {
 	const mr_shown *f = &g->frame[i];
@@ -324,7 +324,7 @@ typedef struct cells {
 } cells;
 
 static cells
-divide_sheet(const mr_gallery *g, const mr_gallery_opts *o)
+divide_sheet(const mr_gallery *g, const mr_render_opts *o)
 {
 	cells s = { .width = o->width, .height = o->height, .top = title_height(o), .columns = o->columns };
 
@@ -341,7 +341,7 @@ divide_sheet(const mr_gallery *g, const mr_gallery_opts *o)
 
 /* Aims at the frames from `first` to the next shot. */
 static mr_status
-next_shot(mr_ctx *ctx, const mr_gallery *g, size_t first, const mr_gallery_opts *o, mr_shot *shot)
+next_shot(mr_ctx *ctx, const mr_gallery *g, size_t first, const mr_render_opts *o, mr_shot *shot)
 {
 	size_t end = first + 1;
 
@@ -351,7 +351,7 @@ next_shot(mr_ctx *ctx, const mr_gallery *g, size_t first, const mr_gallery_opts 
 }
 
 mr_status
-mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_gallery_opts *o, mr_image *image)
+mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_render_opts *o, mr_image *image)
 {
 	cells s = divide_sheet(g, o);
 	mr_shot shot = { 0 };

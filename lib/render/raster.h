@@ -7,9 +7,9 @@
 #ifndef MR_RENDER_RASTER_H
 #define MR_RENDER_RASTER_H
 
+#include "mesh/mesh.h"
 #include "render/camera.h"
 #include "render/canvas.h"
-#include "mesh/mesh.h"
 
 /* What is drawn: a surface, or, where the mesh has no faces, its points as small balls. */
 typedef struct mr_subject {
@@ -19,20 +19,6 @@ typedef struct mr_subject {
 	bool per_face;
 	bool nearest; /* colours are kinds: each place has its nearest vertex's, no mixture */
 } mr_subject;
-
-typedef struct mr_raster_opts {
-	size_t samples;      /* a side of a pixel, 1 to 8: its square is taken of each pixel */
-	bool flat;           /* shade faces, not vertices */
-	double crease;       /* degrees: faces that meet at more are not shaded as one */
-	bool wire;           /* draw edges */
-	bool occlusion;      /* darken hollows */
-	double point_radius; /* of a ball, in pixels; 0: so that the balls about cover the surface */
-} mr_raster_opts;
-
-#define MR_RASTER_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		.samples = 2, .crease = 45, .occlusion = true                                                \
-	}
 
 /*
  * Draws the subject over what the image shows.  Workspace: about 32 bytes a pixel, 8 a sample,

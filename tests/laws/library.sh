@@ -39,6 +39,19 @@ done
 ./bend absent.obj x.obj 2>err && bad "bend reads what is not there"
 grep -q absent.obj err || bad "no sentence: $(cat err)"
 
+# Pictures too.
+cat >draw.c <<'END'
+#include <mr.h>
+int main(void)
+{
+	mr_ctx *ctx = mr_ctx_new(0);
+	mr_frame *f;
+	return mr_import(ctx, "pipe.obj", NULL, &f) < 0 || mr_render(ctx, f, NULL, "drawn.png") < 0;
+}
+END
+cc -std=c11 $warn draw.c $(pkg-config --cflags --libs mr) -o draw && ./draw && mr-import pipe.obj | mr-render tool.png || exit
+cmp drawn.png tool.png || bad "mr_render draws something else"
+
 build uninstall
 left=$(find "$prefix" -type f -o -type l)
 [ -z "$left" ] || bad "uninstall leaves $left"

@@ -1,0 +1,188 @@
+/* The functions of mr.h against the tools' own: one frame, without a stream. */
+#include "base/vec.h"
+
+#include <setjmp.h>
+#include <stdarg.h>
+
+#include <cmocka.h>
+
+static mr_frame *
+creature(mr_ctx *ctx)
+{
+	mr_make_opts o = MR_MAKE_DEFAULTS;
+	mr_frame *f;
+
+	o.solid = MR_BUMPY;
+	o.vertices = 3000;
+	assert_int_equal(mr_make(ctx, &o, &f), MR_OK);
+	return f;
+}
+
+static mr_ctx *
+context(void)
+{
+	mr_ctx *ctx = mr_ctx_new(2);
+
+	assert_non_null(ctx);
+	return ctx;
+}
+
+/* Regions, base and detail: up to where poses begin. */
+static void
+prepare(mr_ctx *ctx, mr_frame *f, bool basis)
+{
+	static const mr_rule rules[] = { { MR_REGION_FREE, "all" }, { MR_REGION_FIXED, "below:y,0.4" },
+		{ MR_REGION_HANDLE, "above:y,0.8" } };
+	mr_solve_opts solve = MR_SOLVE_DEFAULTS;
+
+	solve.basis = basis;
+	assert_int_equal(mr_smooth_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_remesh_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_select_frame(ctx, f, rules, 3, NULL, NULL), MR_OK);
+	assert_int_equal(mr_solve_frame(ctx, f, &solve, NULL, NULL), MR_OK);
+	assert_int_equal(mr_encode_frame(ctx, f, NULL), MR_OK);
+}
+
+/* Where the vertices of mesh are, copied. */
+static mr_v3 *
+positions(mr_ctx *ctx, mr_frame *f, size_t *n)
+{
+	mr_mesh m;
+	mr_v3 *p;
+
+	assert_int_equal(mr_layer_mesh(ctx, f, "mesh", &m), MR_OK);
+	p = MR_NEW(ctx, m.nv, mr_v3);
+	assert_non_null(p);
+	memcpy(p, m.p, m.nv * sizeof *p);
+	*n = m.nv;
+	return p;
+}
+
+/* A pose by the responses is the pose by a solve, and the identity returns every vertex. */
+static void
+test_basis_and_solve_agree(void **state)
+{
+	mr_ctx *ctx = context();
+	mr_frame *a = creature(ctx), *b = creature(ctx);
+	mr_pose pose = MR_POSE_REST;
+	mr_v3 *p, *q, *rest;
+	double most = 0;
+	size_t n;
+
+	(void)state;
+	rest = positions(ctx, a, &n);
+	prepare(ctx, a, false);
+	prepare(ctx, b, true);
+	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL), MR_OK);
+	p = positions(ctx, a, &n);
+	for (size_t i = 0; i < n; i++)
+		most = fmax(
+		    most, fabs(p[i].x - rest[i].x) + fabs(p[i].y - rest[i].y) + fabs(p[i].z - rest[i].z));
+	assert_true(most < 1e-12);
+
+	pose.degrees = 40;
+	assert_int_equal(mr_pose_frame(ctx, a, NULL, 0, &pose), MR_OK);
+	assert_int_equal(mr_solve_frame(ctx, a, NULL, NULL, NULL), MR_OK);
+	assert_int_equal(mr_pose_frame(ctx, b, NULL, 0, &pose), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, b, NULL, NULL), MR_OK);
+	p = positions(ctx, a, &n);
+	q = positions(ctx, b, &n);
+	most = 0;
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, fabs(p[i].x - q[i].x) + fabs(p[i].y - q[i].y) + fabs(p[i].z - q[i].z));
+	assert_true(most < 1e-9);
+	mr_ctx_delete(ctx);
+}
+
+/* A cache serves frames that are no deltas of one another, one after another, with the bytes of none. */
+static void
+test_cache_changes_nothing(void **state)
+{
+	mr_ctx *ctx = context();
+	mr_cache *cache = mr_cache_new();
+	mr_subdivide_opts o = MR_SUBDIVIDE_DEFAULTS;
+
+	(void)state;
+	assert_non_null(cache);
+	for (o.level = 1; o.level < 3; o.level++) {
+		mr_frame *a = creature(ctx), *b = creature(ctx);
+		mr_subdivide_result result;
+		mr_v3 *p, *q;
+		size_t n, m;
+		assert_int_equal(mr_subdivide_frame(ctx, a, &o, cache, &result), MR_OK);
+		assert_int_equal(mr_subdivide_frame(ctx, b, &o, NULL, NULL), MR_OK);
+		p = positions(ctx, a, &n);
+		q = positions(ctx, b, &m);
+		assert_int_equal(n, m);
+		assert_int_equal(result.vertices, n);
+		assert_memory_equal(p, q, n * sizeof *p);
+	}
+	mr_cache_delete(cache);
+	mr_ctx_delete(ctx);
+}
+
+static void
+count(void *user, const char *text)
+{
+	assert_true(*text);
+	++*(size_t *)user;
+}
+
+/* What fails says why and leaves the frame; who listens hears; columns can be listed. */
+static void
+test_sentences_notes_and_columns(void **state)
+{
+	mr_ctx *ctx = context();
+	mr_frame *f = creature(ctx);
+	size_t notes = 0, columns = 0;
+	const char *layer, *name;
+	mr_shape shape;
+	uint64_t rows;
+
+	(void)state;
+	assert_string_equal(mr_error(ctx), "");
+	assert_int_equal(mr_encode_frame(ctx, f, NULL), MR_EMISSING);
+	assert_non_null(strstr(mr_error(ctx), "base"));
+	mr_listen(ctx, &(mr_listener){ .note = count, .user = &notes });
+	prepare(ctx, f, false);
+	assert_true(notes > 0);
+	while (mr_frame_column(f, columns, &layer, &name, &shape, &rows)) {
+		assert_true(mr_layer_has(f, layer, name));
+		columns++;
+	}
+	assert_true(columns > 8);
+	assert_false(mr_frame_column(f, columns, NULL, NULL, NULL, NULL));
+	assert_string_equal(mr_frame_name(f), "bumpy");
+	mr_ctx_delete(ctx);
+	mr_ctx_delete(NULL);
+	mr_cache_delete(NULL);
+}
+
+/* Options that contradict each other are usage, with or without a cache. */
+static void
+test_wrong_options(void **state)
+{
+	mr_ctx *ctx = context();
+	mr_frame *f = creature(ctx);
+	mr_solve_opts solve = MR_SOLVE_DEFAULTS;
+	mr_rule rule = { MR_REGION_FREE, "abov:y,1" };
+
+	(void)state;
+	solve.precondition = 2;
+	assert_int_equal(mr_solve_frame(ctx, f, &solve, NULL, NULL), MR_EUSAGE);
+	assert_int_equal(mr_select_frame(ctx, f, &rule, 1, NULL, NULL), MR_EUSAGE);
+	assert_int_equal(mr_export(ctx, f, NULL, "model.unknown", NULL), MR_EUSAGE);
+	mr_ctx_delete(ctx);
+}
+
+int
+main(void)
+{
+	static const struct CMUnitTest tests[] = { cmocka_unit_test(test_basis_and_solve_agree),
+		cmocka_unit_test(test_cache_changes_nothing),
+		cmocka_unit_test(test_sentences_notes_and_columns), cmocka_unit_test(test_wrong_options) };
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
