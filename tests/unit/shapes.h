@@ -18,8 +18,9 @@ shape(mr_solid solid, size_t n)
 	return m;
 }
 
-/* n x n rhombs, each of two equilateral triangles with sides of 1, in the plane z = 0: vertex (n + 1) j + i is the i-th of row j,
- * faces 2 (n j + i) and the next share its diagonal from the end of row j to the begin of the next. */
+/* n x n rhombs, each of two equilateral triangles with sides of 1, in the plane z = 0: vertex (n + 1) j + i
+ * is the i-th of row j, faces 2 (n j + i) and the next share its diagonal from the end of row j to the begin
+ * of the next. */
 static inline mr_mesh
 lattice(uint32_t n)
 {

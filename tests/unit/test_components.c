@@ -146,14 +146,16 @@ is_between(size_t i, double low, double high)
 	return x > low && x < high && y > low && y < high && z > low && z < high;
 }
 
-/* A box with a cavity, and a small box in that: they stay where points are on their walls, and go where there are none. */
+/* A box with a cavity, and a small box in that: they stay where points are on their walls, and go where there
+ * are none. */
 static void
 walls_without_points_go(void **state)
 {
 	static const double wall[3][2] = { { 1.5, 15.5 }, { 4.5, 12.5 }, { 6.5, 9.5 } };
 
 	(void)state;
-	for (unsigned walls = 0; walls < 4; walls++) { /* bit 0: the cavity's have points, bit 1: the small box's */
+	for (unsigned walls = 0; walls < 4;
+	     walls++) { /* bit 0: the cavity's have points, bit 1: the small box's */
 		bool cavity = walls & 1, small = walls & 2;
 		mr_v3 *p = MR_NEW(&ctx, 10000, mr_v3);
 		bool *in = MR_NEW(&ctx, NODES, bool);
@@ -167,7 +169,8 @@ walls_without_points_go(void **state)
 				    mr_vec(wall[k][1], wall[k][1], wall[k][1]), s.spacing, p + s.n);
 		for (size_t i = 0; i < NODES; i++)
 			in[i] = is_between(i, wall[0][0], wall[0][1]) &&
-			        (!is_between(i, wall[1][0], wall[1][1]) || is_between(i, wall[2][0], wall[2][1]));
+			        (!is_between(i, wall[1][0], wall[1][1]) ||
+				    is_between(i, wall[2][0], wall[2][1]));
 		f = field_from(in, &r);
 		c = clean(&s, f);
 		/* points on the small box bound the cavity too, whose walls are eight times as large */
@@ -214,7 +217,8 @@ int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test_setup_teardown(random_volumes_have_the_parts_that_floods_find, setup, teardown),
+		cmocka_unit_test_setup_teardown(
+		    random_volumes_have_the_parts_that_floods_find, setup, teardown),
 		cmocka_unit_test_setup_teardown(walls_without_points_go, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_part_without_points_goes, setup, teardown),
 	};

@@ -1,6 +1,6 @@
 /* The table of half-edges on curves is a map: against an array, by random changes. */
-#include "mesh/feature_curves.h"
 #include "base/random.h"
+#include "mesh/feature_curves.h"
 #include "unit.h"
 
 enum { KEYS = 3000 };

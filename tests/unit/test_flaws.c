@@ -1,6 +1,6 @@
 /* Flaws of a mesh that is remeshed, counted by brute force in the plane, and their repair. */
-#include "remesh/flaws.h"
 #include "base/random.h"
+#include "remesh/flaws.h"
 #include "remesh/local_length.h"
 #include "remesh/repair_flaws.h"
 #include "shapes.h"
@@ -91,7 +91,8 @@ find(const scene *x, bool sure, size_t *count)
 static void
 sound_surfaces_have_none(void **state)
 {
-	static const mr_solid solids[] = { MR_SPHERE, MR_TORUS, MR_CUBE, MR_PLANE, MR_CYLINDER, MR_KNOT, MR_BOXES };
+	static const mr_solid solids[] = { MR_SPHERE, MR_TORUS, MR_CUBE, MR_PLANE, MR_CYLINDER, MR_KNOT,
+		MR_BOXES };
 
 	(void)state;
 	for (size_t i = 0; i < sizeof solids / sizeof *solids; i++)
@@ -130,7 +131,8 @@ flaws_in_the_plane_are_those_of_signs(void **state)
 		for (uint32_t h = 0; h < 3 * x.d.nf; h += 5) {
 			uint32_t a = x.d.v[h], b = mr_dyn_to(&x.d, h), g = x.d.twin[h];
 			unsigned beside = 0;
-			assert_int_equal(mr_flaws_around(&w, a, MR_NONE, UINT_MAX), around(&x.d, a, a, MR_NONE));
+			assert_int_equal(
+			    mr_flaws_around(&w, a, MR_NONE, UINT_MAX), around(&x.d, a, a, MR_NONE));
 			assert_int_equal(mr_flaws_around(&w, a, b, UINT_MAX), around(&x.d, a, a, b));
 			for (unsigned most = 0; most < 4; most++) {
 				unsigned n = around(&x.d, a, a, b);
@@ -171,7 +173,8 @@ a_pair_counts_as_what_it_is_merged_into(void **state)
 		h = (uint32_t)(mr_random_bits(&r) % (3 * x.d.nf));
 		a = x.d.v[h];
 		b = mr_dyn_to(&x.d, h);
-		if (x.d.kind[a] != MR_SMOOTH || x.d.kind[b] != MR_SMOOTH || !mr_dyn_can_collapse(&x.d, h, mark))
+		if (x.d.kind[a] != MR_SMOOTH || x.d.kind[b] != MR_SMOOTH ||
+		    !mr_dyn_can_collapse(&x.d, h, mark))
 			continue;
 		w = find(&x, true, &count);
 		x.d.p[a] = x.d.p[b];
@@ -228,8 +231,9 @@ a_quick_look_finds_no_others(void **state)
 	(void)state;
 	set_up(&x, shape(MR_KNOT, 2000));
 	for (uint32_t v = 0; v < x.d.nv; v += 3)
-		x.d.p[v] = mr_add(x.d.p[v], mr_mul(2 * x.s.uniform, mr_vec(mr_random_real(&r) - 0.5,
-							      mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5)));
+		x.d.p[v] = mr_add(x.d.p[v],
+		    mr_mul(2 * x.s.uniform, mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
+						mr_random_real(&r) - 0.5)));
 	a = find(&x, false, &quick);
 	b = find(&x, true, &sure);
 	assert_true(quick > 100 && quick <= sure);
@@ -263,7 +267,8 @@ count_all(scene *x)
 	return c;
 }
 
-/* Vertices thrown over their neighbours come back: few flaws are left, in the end none; rim and topology are what they were. */
+/* Vertices thrown over their neighbours come back: few flaws are left, in the end none; rim and topology are
+ * what they were. */
 static void
 what_is_tangled_is_mended(void **state)
 {
@@ -281,9 +286,9 @@ what_is_tangled_is_mended(void **state)
 			if (x.d.kind[v] == MR_SMOOTH && mr_random_real(&r) < 0.1) {
 				mr_v3 q = x.d.p[v];
 				mr_closest c;
-				q = mr_add(q, mr_mul(4 * x.s.uniform, mr_vec(mr_random_real(&r) - 0.5,
-									  mr_random_real(&r) - 0.5,
-									  plane ? 0 : mr_random_real(&r) - 0.5)));
+				q = mr_add(q, mr_mul(4 * x.s.uniform,
+						  mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
+						      plane ? 0 : mr_random_real(&r) - 0.5)));
 				c = mr_surface_place(&x.s, &x.d, v, q, mr_dyn_normal_around(&x.d, v));
 				x.d.p[v] = c.point;
 				x.d.at[v] = c.face;
@@ -316,7 +321,8 @@ total(const mr_dyn *d)
 	return n;
 }
 
-/* Only what leaves fewer flaws is done: if there are as many as before and no two vertices were merged, nothing was. */
+/* Only what leaves fewer flaws is done: if there are as many as before and no two vertices were merged,
+ * nothing was. */
 static void
 what_does_not_help_is_not_done(void **state)
 {

@@ -1,6 +1,6 @@
 /* Flips: which are good, what they leave, and dislocations that glide until they meet. */
-#include "remesh/flip.h"
 #include "base/random.h"
+#include "remesh/flip.h"
 #include "shapes.h"
 
 typedef struct scene {
@@ -89,7 +89,8 @@ a_flip_stays_in_its_quadrangle(void **state)
 		mr_v3 c = mr_vec(6 * mr_random_real(&r) - 3, 3 * mr_random_real(&r) + 0.1, 0);
 		mr_v3 e = mr_vec(6 * mr_random_real(&r) - 3, -3 * mr_random_real(&r) - 0.1, 0);
 		mr_v3 a = mr_vec(-1, 0, 0), b = mr_vec(1, 0, 0);
-		double at = c.x - c.y * (e.x - c.x) / (e.y - c.y); /* where the new edge meets the old one's line */
+		double at = c.x -
+		            c.y * (e.x - c.x) / (e.y - c.y); /* where the new edge meets the old one's line */
 		double worst = fmin(mr_dyn_shape(a, e, c), mr_dyn_shape(b, c, e));
 		bool want = fabs(at) < 1 && worst > MR_NEEDLE;
 		if (fabs(fabs(at) - 1) < 1e-9)
@@ -114,7 +115,8 @@ a_flip_over_a_roof_is_not_too_steep(void **state)
 	}
 }
 
-/* Two triangles whose flip would fold one of the new ones onto the face beside it, at any of their four sides. */
+/* Two triangles whose flip would fold one of the new ones onto the face beside it, at any of their four
+ * sides. */
 static void
 a_flip_does_not_fold_what_is_beside(void **state)
 {
@@ -210,8 +212,8 @@ diagonal(const mr_dyn *d, uint32_t i)
 }
 
 /*
- * Flipped diagonals of a row leave a dislocation at either end: no flip gains but where they are next to one another, and one
- * glides to the other if its reach allows, which leaves the lattice.
+ * Flipped diagonals of a row leave a dislocation at either end: no flip gains but where they are next to one
+ * another, and one glides to the other if its reach allows, which leaves the lattice.
  */
 static void
 dislocations_glide_until_they_meet(void **state)

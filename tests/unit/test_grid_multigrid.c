@@ -9,17 +9,20 @@ nodes_of(const size_t n[3])
 	return n[0] * n[1] * n[2];
 }
 
-static bool
-is_inner(const size_t n[3], size_t x, size_t y, size_t z)
-{
-	return x > 0 && y > 0 && z > 0 && x + 1 < n[0] && y + 1 < n[1] && z + 1 < n[2];
-}
+/* A node of a grid of n, by its number. */
+typedef struct node {
+	size_t x, y, z;
+	bool inner; /* on no face of the grid */
+} node;
 
-/* Calls for each node, x fastest. */
-#define FOR_NODES(n, x, y, z, i)                                                                             \
-	for (size_t z = 0, i = 0; z < (n)[2]; z++)                                                           \
-		for (size_t y = 0; y < (n)[1]; y++)                                                          \
-			for (size_t x = 0; x < (n)[0]; x++, i++)
+static node
+node_at(const size_t n[3], size_t i)
+{
+	node a = { i % n[0], i / n[0] % n[1], i / (n[0] * n[1]), false };
+
+	a.inner = a.x > 0 && a.y > 0 && a.z > 0 && a.x + 1 < n[0] && a.y + 1 < n[1] && a.z + 1 < n[2];
+	return a;
+}
 
 static float *
 floats(size_t n)
@@ -36,8 +39,8 @@ random_inner(mr_random *r, const size_t n[3])
 {
 	float *f = floats(nodes_of(n));
 
-	FOR_NODES(n, x, y, z, i)
-		if (is_inner(n, x, y, z))
+	for (size_t i = 0; i < nodes_of(n); i++)
+		if (node_at(n, i).inner)
 			f[i] = (float)(mr_random_real(r) - 0.5);
 	return f;
 }
@@ -102,19 +105,24 @@ prolongation_is_linear_between_nodes(void **state)
 	float *from = floats(nodes_of(c->n)), *to = floats(nodes_of(n));
 
 	(void)state;
-	FOR_NODES(c->n, x, y, z, i)
-		from[i] = (float)(1 + 2.0 * (double)x - (double)(y * z) + 0.25 * (double)(x * y * z));
+	for (size_t i = 0; i < nodes_of(c->n); i++) {
+		node at = node_at(c->n, i);
+		double a = (double)at.x, b = (double)at.y, d = (double)at.z;
+		from[i] = (float)(1 + 2 * a - b * d + 0.25 * a * b * d);
+	}
 	for (size_t i = 0; i < nodes_of(n); i++)
 		to[i] = 8;
 	mr_multigrid_prolong(&ctx, f, c, from, to, 0.5f, 3);
-	FOR_NODES(n, x, y, z, i) {
-		double a = (double)x / 2, b = (double)y / 2, d = (double)z / 2;
+	for (size_t i = 0; i < nodes_of(n); i++) {
+		node at = node_at(n, i);
+		double a = (double)at.x / 2, b = (double)at.y / 2, d = (double)at.z / 2;
 		double want = 4 + 3 * (1 + 2 * a - b * d + 0.25 * a * b * d);
-		assert_true(fabs((double)to[i] - (is_inner(n, x, y, z) ? want : 8)) < 1e-3);
+		assert_true(fabs((double)to[i] - (at.inner ? want : 8)) < 1e-3);
 	}
 }
 
-/* Full weighting keeps constants and what is linear, and is an eighth of the transpose of the interpolation. */
+/* Full weighting keeps constants and what is linear, and is an eighth of the transpose of the interpolation.
+ */
 static void
 restriction_is_the_transpose(void **state)
 {
@@ -125,40 +133,44 @@ restriction_is_the_transpose(void **state)
 	mr_random r = { 1 };
 
 	(void)state;
-	FOR_NODES(n, x, y, z, i)
-		fine[i] = (float)(3 + (double)x - 2 * (double)y + 0.5 * (double)z);
+	for (size_t i = 0; i < nodes_of(n); i++) {
+		node at = node_at(n, i);
+		fine[i] = (float)(3 + (double)at.x - 2 * (double)at.y + 0.5 * (double)at.z);
+	}
 	mr_multigrid_restrict(&ctx, f, c, fine, coarse, 2);
-	FOR_NODES(c->n, x, y, z, i) {
-		double want = 2 * (3 + 2 * (double)x - 4 * (double)y + (double)z);
-		assert_true(fabs((double)coarse[i] - (is_inner(c->n, x, y, z) ? want : 0)) < 1e-4);
+	for (size_t i = 0; i < nodes_of(c->n); i++) {
+		node at = node_at(c->n, i);
+		double want = 2 * (3 + 2 * (double)at.x - 4 * (double)at.y + (double)at.z);
+		assert_true(fabs((double)coarse[i] - (at.inner ? want : 0)) < 1e-4);
 	}
 	for (int k = 0; k < 20; k++) {
 		float *a = random_inner(&r, n), *b = random_inner(&r, c->n);
 		float *pb = floats(nodes_of(n)), *ra = floats(nodes_of(c->n));
 		mr_multigrid_prolong(&ctx, f, c, b, pb, 0, 1);
 		mr_multigrid_restrict(&ctx, f, c, a, ra, 1);
-		assert_true(fabs(inner_product(pb, a, nodes_of(n)) - 8 * inner_product(b, ra, nodes_of(c->n))) < 1e-4);
+		assert_true(fabs(inner_product(pb, a, nodes_of(n)) -
+				 8 * inner_product(b, ra, nodes_of(c->n))) < 1e-4);
 	}
 }
 
 /* sin(a pi x / (n - 1)) along each axis: an eigenvector, of value 6 - 2 sum cos + screen. */
 static double
-wave(const size_t n[3], const int k[3], size_t x, size_t y, size_t z)
+wave(const size_t n[3], const int k[3], node at)
 {
-	return sin(k[0] * MR_PI * (double)x / (double)(n[0] - 1)) *
-	       sin(k[1] * MR_PI * (double)y / (double)(n[1] - 1)) *
-	       sin(k[2] * MR_PI * (double)z / (double)(n[2] - 1));
+	return sin(k[0] * MR_PI * (double)at.x / (double)(n[0] - 1)) *
+	       sin(k[1] * MR_PI * (double)at.y / (double)(n[1] - 1)) *
+	       sin(k[2] * MR_PI * (double)at.z / (double)(n[2] - 1));
 }
 
 /*
- * Once from coarse to fine gives a wave to what differences over a step know of it: the square of its phase in a step, of which
- * 0.2 was measured at most.
+ * Once from coarse to fine gives a wave to what differences over a step know of it: the square of its phase
+ * in a step, of which 0.2 was measured at most.
  */
 static void
 waves_are_solved_on_any_grid(void **state)
 {
-	static const size_t sizes[][3] = { { 17, 17, 17 }, { 33, 33, 33 }, { 65, 65, 65 }, { 33, 65, 17 }, { 97, 49, 25 },
-		{ 257, 129, 33 } /* of which not all residuals are kept at a time */ };
+	static const size_t sizes[][3] = { { 17, 17, 17 }, { 33, 33, 33 }, { 65, 65, 65 }, { 33, 65, 17 },
+		{ 97, 49, 25 }, { 257, 129, 33 } /* of which not all residuals are kept at a time */ };
 	static const int waves[][3] = { { 1, 1, 1 }, { 1, 2, 3 }, { 4, 3, 2 } };
 
 	(void)state;
@@ -173,12 +185,12 @@ waves_are_solved_on_any_grid(void **state)
 				value -= 2 * cos(along);
 				phase = fmax(phase, along);
 			}
-			FOR_NODES(n, x, y, z, i)
-				if (is_inner(n, x, y, z))
-					m.level[0].b[i] = (float)(value * wave(n, waves[w], x, y, z));
+			for (size_t i = 0; i < nodes_of(n); i++)
+				if (node_at(n, i).inner)
+					m.level[0].b[i] = (float)(value * wave(n, waves[w], node_at(n, i)));
 			mr_multigrid_full(&ctx, &m);
-			FOR_NODES(n, x, y, z, i) {
-				double off = (double)m.level[0].u[i] - wave(n, waves[w], x, y, z);
+			for (size_t i = 0; i < nodes_of(n); i++) {
+				double off = (double)m.level[0].u[i] - wave(n, waves[w], node_at(n, i));
 				worst = fmax(worst, fabs(off));
 			}
 			assert_true(worst < 0.3 * phase * phase);
@@ -214,15 +226,17 @@ solve_densely(const size_t n[3], const float *screen, const float *b)
 	const size_t far[3] = { 1, m[0], m[0] * m[1] };
 
 	assert_true(a && x);
-	FOR_NODES(m, i, j, k, at) {
-		size_t node = ((k + 1) * n[1] + j + 1) * n[0] + i + 1, place[3] = { i, j, k };
-		a[at * count + at] = 6 + (screen ? (double)screen[node] : 0);
-		x[at] = (double)b[node];
+	for (size_t i = 0; i < count; i++) {
+		node at = node_at(m, i);
+		size_t full = ((at.z + 1) * n[1] + at.y + 1) * n[0] + at.x + 1,
+		       place[3] = { at.x, at.y, at.z };
+		a[i * count + i] = 6 + (screen ? (double)screen[full] : 0);
+		x[i] = (double)b[full];
 		for (int axis = 0; axis < 3; axis++) {
 			if (place[axis] > 0)
-				a[at * count + at - far[axis]] = -1;
+				a[i * count + i - far[axis]] = -1;
 			if (place[axis] + 1 < m[axis])
-				a[at * count + at + far[axis]] = -1;
+				a[i * count + i + far[axis]] = -1;
 		}
 	}
 	dense_solve(a, x, count);
@@ -242,19 +256,23 @@ small_systems_are_solved_as_densely(void **state)
 		multigrid m = begin(n, 2, screened);
 		level *l = &m.level[0];
 		double *want, most = 0, worst = 0;
-		FOR_NODES(n, x, y, z, i)
-			if (is_inner(n, x, y, z))
-				l->b[i] = screened ? (mr_random_bits(&r) % 4 ? 0 : (float)(20 * mr_random_real(&r)))
-				                   : (float)(mr_random_real(&r) - 0.2);
+		for (size_t i = 0; i < nodes_of(n); i++)
+			if (!node_at(n, i).inner)
+				continue;
+			else if (screened)
+				l->b[i] = mr_random_bits(&r) % 4 ? 0 : (float)(20 * mr_random_real(&r));
+			else
+				l->b[i] = (float)(mr_random_real(&r) - 0.2);
 		want = solve_densely(n, l->screen, l->b);
 		mr_multigrid_full(&ctx, &m);
-		FOR_NODES(n, x, y, z, i) {
+		for (size_t i = 0; i < nodes_of(n); i++) {
+			node at = node_at(n, i);
 			double w;
-			if (!is_inner(n, x, y, z)) {
+			if (!at.inner) {
 				assert_true(l->u[i] == 0);
 				continue;
 			}
-			w = want[((z - 1) * (n[1] - 2) + y - 1) * (n[0] - 2) + x - 1];
+			w = want[((at.z - 1) * (n[1] - 2) + at.y - 1) * (n[0] - 2) + at.x - 1];
 			most = fmax(most, fabs(w));
 			worst = fmax(worst, fabs((double)l->u[i] - w));
 		}

@@ -77,12 +77,13 @@ static const struct {
 	double area, volume;
 } fields[] = {
 	{ ball, 1, 0, 4 * PI, 4 * PI / 3 },
-	{ torus, 1, 1, 4 * PI * PI * 0.35, 2 * PI * PI * 0.1225 },
+	{ torus, 1, 1, 4 * PI *PI * 0.35, 2 * PI *PI * 0.1225 },
 	{ balls, 2, 0, 8 * PI * 0.36, 8 * PI * 0.216 / 3 },
-	{ shell, 2, 0, 4 * PI * (1.44 + 0.36), 4 * PI * (1.728 - 0.216) / 3 },
+	{ shell, 2, 0, 4 * PI *(1.44 + 0.36), 4 * PI *(1.728 - 0.216) / 3 },
 };
 
-/* The topology; area, volume and place of the vertices are of the second order: a half of the step, a quarter of the error. */
+/* The topology; area, volume and place of the vertices are of the second order: a half of the step, a quarter
+ * of the error. */
 static void
 fields_have_their_surfaces(void **state)
 {
@@ -119,7 +120,8 @@ plane(mr_v3 p)
 	return mr_dot(slope, p) - 0.123;
 }
 
-/* What is linear along the edges of the grid is met exactly, but for single precision; triangles look up the slope. */
+/* What is linear along the edges of the grid is met exactly, but for single precision; triangles look up the
+ * slope. */
 static void
 planes_are_exact(void **state)
 {
@@ -129,7 +131,8 @@ planes_are_exact(void **state)
 	for (int k = 0; k < 20; k++) {
 		size_t on = 0;
 		mr_mesh m;
-		slope = mr_unit(mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5));
+		slope = mr_unit(
+		    mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5));
 		m = surface_of(plane, 30);
 		census_of(&m);
 		for (size_t f = 0; f < m.nf; f++) {
@@ -164,7 +167,8 @@ any_grid_will_do(void **state)
 	for (size_t z = 0; z < g.n[2]; z++)
 		for (size_t y = 0; y < g.n[1]; y++)
 			for (size_t x = 0; x < g.n[0]; x++)
-				f[mr_grid_index(&g, x, y, z)] = (float)(mr_dist(mr_grid_place(&g, x, y, z), centre) - 1.4);
+				f[mr_grid_index(&g, x, y, z)] =
+				    (float)(mr_dist(mr_grid_place(&g, x, y, z), centre) - 1.4);
 	assert_int_equal(mr_isosurface(&ctx, &g, f, &m), MR_OK);
 	assert_int_equal(census_of(&m).euler, 2);
 	for (size_t v = 0; v < m.nv; v++)

@@ -1,4 +1,5 @@
-/* Signs of normals: of surfaces whose right ones are known, from any signs and votes of which most are right. */
+/* Signs of normals: of surfaces whose right ones are known, from any signs and votes of which most are right.
+ */
 #include "base/random.h"
 #include "shapes.h"
 #include "volume/parts.h"
@@ -149,7 +150,8 @@ parts_that_are_sure_stay_apart(void **state)
 			truth[i] = mr_mul(-1, truth[i]);
 		}
 	assert_int_equal(mr_volume_orient(&ctx, &s, v), MR_OK);
-	assert_true(count_wrong(&s, truth) < s.n / 100); /* along the equator they may take the other's side */
+	assert_true(
+	    count_wrong(&s, truth) < s.n / 100); /* along the equator they may take the other's side */
 }
 
 static size_t
@@ -159,8 +161,8 @@ facet_of(mr_v3 n)
 }
 
 /*
- * The sides of a cube, up to three of them turned inwards: those that the flood knows nothing of follow the others, if it knows
- * the largest.
+ * The sides of a cube, up to three of them turned inwards: those that the flood knows nothing of follow the
+ * others, if it knows the largest.
  */
 static void
 sides_of_a_cube_are_turned_over(void **state)
@@ -224,7 +226,8 @@ main(void)
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(most_votes_orient_a_smooth_surface, setup, teardown),
 		cmocka_unit_test_setup_teardown(votes_and_not_signs_decide, setup, teardown),
-		cmocka_unit_test_setup_teardown(parts_that_are_apart_have_votes_of_their_own, setup, teardown),
+		cmocka_unit_test_setup_teardown(
+		    parts_that_are_apart_have_votes_of_their_own, setup, teardown),
 		cmocka_unit_test_setup_teardown(signs_pass_around_a_rim, setup, teardown),
 		cmocka_unit_test_setup_teardown(parts_that_are_sure_stay_apart, setup, teardown),
 		cmocka_unit_test_setup_teardown(sides_of_a_cube_are_turned_over, setup, teardown),

@@ -1,6 +1,6 @@
 /* Feet on a Phong surface: of points made from them, by closed forms, and the lowest by brute force. */
-#include "edit/phong_projection.h"
 #include "base/random.h"
+#include "edit/phong_projection.h"
 #include "shapes.h"
 #include "space/bvh.h"
 
@@ -44,7 +44,8 @@ random_face(const scene *x, mr_random *r)
 static mr_v3
 raised(const scene *x, uint32_t face, mr_v3 bary, double h)
 {
-	return mr_axpy(h, mr_phong_normal(&x->g.surface, face, bary), mr_phong_point(&x->g.surface, face, bary));
+	return mr_axpy(
+	    h, mr_phong_normal(&x->g.surface, face, bary), mr_phong_point(&x->g.surface, face, bary));
 }
 
 static void
@@ -109,8 +110,8 @@ over_a_square_the_foot_is_below(void **state)
 	(void)state;
 	set_up(&x, shape(MR_PLANE, 300));
 	for (int k = 0; k < 2000; k++) {
-		mr_v3 p = mr_vec(3 * mr_random_real(&r) - 1.5, 3 * mr_random_real(&r) - 1.5,
-		    2 * mr_random_real(&r) - 1);
+		mr_v3 p = mr_vec(
+		    3 * mr_random_real(&r) - 1.5, 3 * mr_random_real(&r) - 1.5, 2 * mr_random_real(&r) - 1);
 		bool over = fabs(p.x) < 1 && fabs(p.y) < 1;
 		mr_foot foot = { 77, { 0, 0, 0 }, 0 }, found;
 		mr_walk walk = { 0, 0 };
@@ -127,7 +128,8 @@ over_a_square_the_foot_is_below(void **state)
 		} else {
 			assert_int_equal(foot.face, 77);
 			assert_true(found.height == 0);
-			assert_true(mr_dist(at, mr_vec(fmin(fmax(p.x, -1), 1), fmin(fmax(p.y, -1), 1), 0)) < 1e-13);
+			assert_true(
+			    mr_dist(at, mr_vec(fmin(fmax(p.x, -1), 1), fmin(fmax(p.y, -1), 1), 0)) < 1e-13);
 		}
 	}
 }
@@ -174,7 +176,8 @@ no_foot_is_beyond_the_axis(void **state)
 		mr_v3 p = raised(&x, random_face(&x, &r), random_bary(&r), -0.9 * mr_random_real(&r));
 		mr_foot foot;
 		mr_walk walk = { 0, 0 };
-		if (mr_foot_walk(&x.g, p, random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3), 10, &foot, &walk)) {
+		if (mr_foot_walk(
+			&x.g, p, random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3), 10, &foot, &walk)) {
 			assert_is_foot(&x, &foot, p);
 			assert_true(foot.height > -1.01);
 			found++;
@@ -184,8 +187,8 @@ no_foot_is_beyond_the_axis(void **state)
 }
 
 /*
- * The lowest foot of p on a face, by another way: what p - b(u, v) has across n(u, v), in two directions, made zero by Newton's
- * method with differences, from a lattice of places.
+ * The lowest foot of p on a face, by another way: what p - b(u, v) has across n(u, v), in two directions,
+ * made zero by Newton's method with differences, from a lattice of places.
  */
 static double
 lowest_on_face(const scene *x, uint32_t face, mr_v3 p)
@@ -198,7 +201,8 @@ lowest_on_face(const scene *x, uint32_t face, mr_v3 p)
 		for (int j = 0; i + j <= LATTICE; j++) {
 			double u = (double)i / LATTICE, v = (double)j / LATTICE, g[3][2] = { { 1, 1 } };
 			for (int step = 0; step < STEPS; step++) {
-				mr_tangent_frame f = mr_phong_frame(&x->g.surface, face, mr_vec(1 - u - v, u, v));
+				mr_tangent_frame f = mr_phong_frame(
+				    &x->g.surface, face, mr_vec(1 - u - v, u, v));
 				double a, b, c, e, det;
 				for (int k = 0; k < 3; k++) {
 					double du = k == 1 ? d : 0, dv = k == 2 ? d : 0;
@@ -227,7 +231,8 @@ lowest_on_face(const scene *x, uint32_t face, mr_v3 p)
 	return lowest;
 }
 
-/* From the nearest face of a coarse surface: the lowest foot of all faces, if it is no higher than twice the distance. */
+/* From the nearest face of a coarse surface: the lowest foot of all faces, if it is no higher than twice the
+ * distance. */
 static void
 the_search_finds_the_lowest(void **state)
 {
@@ -242,8 +247,9 @@ the_search_finds_the_lowest(void **state)
 		set_up(&x, shape(solids[i], 120));
 		assert_int_equal(mr_bvh_build(&ctx, &x.m, &bvh), MR_OK);
 		for (int k = 0; k < 40; k++) {
-			mr_v3 p = mr_mul(k % 3 == 0 ? 4 : 2.5,
-			    mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5));
+			mr_v3 p = mr_mul(
+			    k % 3 == 0 ? 4 : 2.5, mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
+						      mr_random_real(&r) - 0.5));
 			mr_closest nearest = mr_bvh_closest(bvh, p);
 			double dist = sqrt(nearest.dist2), lowest = INFINITY;
 			mr_foot foot;
@@ -256,8 +262,9 @@ the_search_finds_the_lowest(void **state)
 			if (lowest > 2 * dist) {
 				assert_false(is);
 				assert_true(foot.height == 0);
-				assert_true(fabs(mr_dist(mr_phong_point(&x.g.surface, foot.face, foot.bary), p) - dist) <
-					    1e-12);
+				assert_true(
+				    fabs(mr_dist(mr_phong_point(&x.g.surface, foot.face, foot.bary), p) -
+					 dist) < 1e-12);
 				none++;
 			} else {
 				assert_true(is);

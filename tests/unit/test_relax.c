@@ -1,7 +1,7 @@
 /* Relaxation: areas, where one pass puts a vertex, what holds it back. */
-#include "remesh/relax.h"
 #include "base/random.h"
 #include "op/voronoi_area.h"
+#include "remesh/relax.h"
 #include "shapes.h"
 
 /* A mesh, itself as the surface that is remeshed. */
@@ -193,8 +193,9 @@ projected_vertices_lie_on_the_surface(void **state)
 			assert_int_equal(mr_relax(&ctx, &x.d, &x.s, &o), MR_OK);
 		for (uint32_t v = 0; v < x.d.nv; v++) {
 			const uint32_t *t = x.m.t[mr_dyn_place(&x.d, v)].v;
-			assert_true(mr_triangle_closest(x.d.p[v], x.m.p[t[0]], x.m.p[t[1]], x.m.p[t[2]]).dist2 <
-				    1e-28);
+			assert_true(
+			    mr_triangle_closest(x.d.p[v], x.m.p[t[0]], x.m.p[t[1]], x.m.p[t[2]]).dist2 <
+			    1e-28);
 			assert_true(x.d.kind[v] != MR_CORNER || mr_dist(x.d.p[v], x.m.p[v]) == 0);
 			moved = fmax(moved, mr_dist(x.d.p[v], x.m.p[v]));
 		}
@@ -218,9 +219,9 @@ curves_stay_and_become_even(void **state)
 			if (x.d.kind[v] == MR_CURVE) { /* off the middle, along its curve */
 				mr_v3 p = x.d.p[v];
 				double t = 0.3 * mr_mesh_edge_scale(&ctx, &x.m);
-				x.d.p[v] = fabs(p.x) < 1 ? mr_vec(p.x + t, p.y, p.z)
-				         : fabs(p.y) < 1 ? mr_vec(p.x, p.y + t, p.z)
-				                         : mr_vec(p.x, p.y, p.z + t);
+				x.d.p[v] = fabs(p.x) < 1   ? mr_vec(p.x + t, p.y, p.z)
+				           : fabs(p.y) < 1 ? mr_vec(p.x, p.y + t, p.z)
+				                           : mr_vec(p.x, p.y, p.z + t);
 			}
 		for (int pass = 0; pass < 300; pass++)
 			assert_int_equal(mr_relax(&ctx, &x.d, &x.s, &o), MR_OK);
@@ -238,7 +239,8 @@ curves_stay_and_become_even(void **state)
 	}
 }
 
-/* Full steps on a mesh all but tangled, with any gravity: no face turns over, and the mesh becomes a good one. */
+/* Full steps on a mesh all but tangled, with any gravity: no face turns over, and the mesh becomes a good
+ * one. */
 static void
 no_face_turns_over(void **state)
 {
@@ -298,7 +300,8 @@ lengths_are_means_of_a_face_and_scaled(void **state)
 	x.s.length = length;
 	for (uint32_t v = 0; v < x.d.nv; v++) {
 		const uint32_t *t = x.m.t[x.d.at[v]].v;
-		assert_true(fabs(mr_surface_length(&x.s, &x.d, v) - (1 + (t[0] + t[1] + t[2]) / 3.0)) < 1e-12);
+		assert_true(
+		    fabs(mr_surface_length(&x.s, &x.d, v) - (1 + (t[0] + t[1] + t[2]) / 3.0)) < 1e-12);
 	}
 	x.d.scale = MR_NEW_ZERO(&ctx, x.d.nv, float);
 	x.d.scale[7] = 0.25f;
@@ -322,8 +325,8 @@ a_place_is_on_the_side_of_the_normal(void **state)
 	set_up(&x, m, 180);
 	for (uint32_t v = 0; v < x.d.nv; v++) {
 		double side = v < top.nv ? 1 : -1;
-		mr_closest c = mr_surface_place(
-		    &x.s, &x.d, v, mr_vec(x.d.p[v].x, x.d.p[v].y, side > 0 ? -0.04 : -0.01), mr_vec(0, 0, side));
+		mr_closest c = mr_surface_place(&x.s, &x.d, v,
+		    mr_vec(x.d.p[v].x, x.d.p[v].y, side > 0 ? -0.04 : -0.01), mr_vec(0, 0, side));
 		assert_true(mr_dist(c.point, x.d.p[v]) < 1e-14);
 		assert_true((c.face < top.nf) == (side > 0));
 	}
@@ -333,7 +336,8 @@ a_place_is_on_the_side_of_the_normal(void **state)
 	    &x.s, &x.d, x.d.at, (uint32_t[]){ 0, 1, (uint32_t)top.nv + 1 }, mr_vec(0, 0, -1)));
 }
 
-/* A vertex that has lost its place finds it from its neighbours': where its own is far, or looks the other way. */
+/* A vertex that has lost its place finds it from its neighbours': where its own is far, or looks the other
+ * way. */
 static void
 a_lost_place_is_found_from_the_neighbours(void **state)
 {

@@ -63,7 +63,8 @@ each_place_counts_once(void **state)
 		assert_memory_equal(sorted(s.p, N), sorted(p, N), N * sizeof *p);
 		for (size_t i = 0; i < N; i++)
 			sum += s.plane.area[i];
-		assert_true(fabs(sum / area - 1) < 0.12); /* of random points some have more than their neighbours */
+		assert_true(
+		    fabs(sum / area - 1) < 0.12); /* of random points some have more than their neighbours */
 		assert_true(fabs(s.spacing * s.spacing * N / area - 1) < 0.12);
 		assert_true(s.noise == 1);
 		assert_true(mr_dist(s.box.min, mr_box_of(p, N).min) == 0);
@@ -169,7 +170,8 @@ points_on_no_surface_go(void **state)
 	for (size_t i = 0; i < all.n; i++)
 		for (size_t k = 0; k < all.plane.links; k++) {
 			uint32_t j = all.plane.neighbor[i * all.plane.links + k];
-			assert_true(j == UINT32_MAX || (j < all.n && j != i && mr_dist(all.p[i], all.p[j]) < 0.5));
+			assert_true(
+			    j == UINT32_MAX || (j < all.n && j != i && mr_dist(all.p[i], all.p[j]) < 0.5));
 		}
 }
 

@@ -1,4 +1,5 @@
-/* Points to nodes and back, by brute force and by duality: what a cloud spreads is what it sees of any function. */
+/* Points to nodes and back, by brute force and by duality: what a cloud spreads is what it sees of any
+ * function. */
 #include "base/random.h"
 #include "unit.h"
 #include "volume/parts.h"
@@ -22,8 +23,8 @@ random_samples(uint64_t seed)
 		mr_v3 in = mr_vec(1 + (NX - 4) * mr_random_real(&r), 1 + (NY - 4) * mr_random_real(&r),
 		    1 + (NZ - 4) * mr_random_real(&r));
 		s.p[i] = mr_axpy(GRID.step, in, GRID.origin);
-		s.plane.normal[i] = mr_unit(mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
-		    mr_random_real(&r) - 0.5));
+		s.plane.normal[i] = mr_unit(
+		    mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5));
 		s.plane.area[i] = mr_random_real(&r);
 		s.depth[i] = (uint8_t)(mr_random_bits(&r) % DEPTHS);
 	}
@@ -151,9 +152,10 @@ spread_values_are_sums_of_hats(void **state)
 					double want = 0;
 					for (size_t i = 0; i < POINTS; i++)
 						if (depth == DEPTHS || s.depth[i] == depth)
-							want += s.plane.area[i] / (GRID.step * GRID.step) * (v ? v[i] : 1) *
-							        weight(x, y, z, s.p[i], -1);
-					assert_true(fabs((double)to[mr_grid_index(&GRID, x, y, z)] - want) < 1e-4);
+							want += s.plane.area[i] / (GRID.step * GRID.step) *
+							        (v ? v[i] : 1) * weight(x, y, z, s.p[i], -1);
+					assert_true(
+					    fabs((double)to[mr_grid_index(&GRID, x, y, z)] - want) < 1e-4);
 				}
 	}
 }
@@ -174,7 +176,8 @@ spreading_is_the_transpose_of_looking(void **state)
 	assert_true(fabs(inner_product(to, u) - want) < 1e-2);
 }
 
-/* The divergence times any u is minus the flow of the normals along the differences of u, each between its nodes. */
+/* The divergence times any u is minus the flow of the normals along the differences of u, each between its
+ * nodes. */
 static void
 divergence_is_the_transpose_of_differences(void **state)
 {
@@ -197,7 +200,8 @@ divergence_is_the_transpose_of_differences(void **state)
 							want += s.plane.area[i] / (GRID.step * GRID.step) *
 							        mr_coordinate(s.plane.normal[i], k) *
 							        weight(x, y, z, s.p[i], k) *
-							        ((double)u[node] - (double)u[node + stride[k]]);
+							        ((double)u[node] -
+								    (double)u[node + stride[k]]);
 					}
 	assert_true(fabs(inner_product(to, u) - want) < 1e-2);
 	for (size_t i = 0; i < NODES; i++)
@@ -219,8 +223,8 @@ divergence_of_a_linear_function_is_known(void **state)
 	for (size_t z = 0; z < NZ; z++)
 		for (size_t y = 0; y < NY; y++)
 			for (size_t x = 0; x < NX; x++)
-				u[mr_grid_index(&GRID, x, y, z)] =
-				    (float)mr_dot(slope, mr_vec((double)x, (double)y, (double)z));
+				u[mr_grid_index(&GRID, x, y, z)] = (float)mr_dot(
+				    slope, mr_vec((double)x, (double)y, (double)z));
 	mr_volume_divergence(&ctx, &s, &f, to);
 	for (size_t i = 0; i < POINTS; i++)
 		want -= s.plane.area[i] / (GRID.step * GRID.step) * mr_dot(s.plane.normal[i], slope);

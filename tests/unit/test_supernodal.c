@@ -1,6 +1,6 @@
 /* Supernodal solves against dense ones, of random factors in panels. */
-#include "solve/supernodal.h"
 #include "base/random.h"
+#include "solve/supernodal.h"
 #include "unit.h"
 
 #include <math.h>
@@ -34,8 +34,8 @@ random_tree(mr_random *r, size_t count)
 }
 
 /*
- * Panels of 1 to `widest` columns: the rows of each are its own columns, a share of its parent's columns, the first of them too,
- * and of its parent's other rows.  A forest where the tree has several roots.
+ * Panels of 1 to `widest` columns: the rows of each are its own columns, a share of its parent's columns, the
+ * first of them too, and of its parent's other rows.  A forest where the tree has several roots.
  */
 static factor
 random_factor(mr_random *r, size_t count, size_t widest, double share)
@@ -76,7 +76,8 @@ random_factor(mr_random *r, size_t count, size_t widest, double share)
 		memcpy(row + row_at[s], list[s], nr * sizeof *row);
 		for (size_t c = 0; c < nc; c++)
 			for (size_t k = 0; k < nr; k++) {
-				double x = k == c ? 1 + mr_random_real(r) : (mr_random_real(r) - 0.5) / (double)nr;
+				double x = k == c ? 1 + mr_random_real(r)
+				                  : (mr_random_real(r) - 0.5) / (double)nr;
 				size_t column = (size_t)first[s] + c;
 				/* above the diagonal of a panel stands what nobody may read */
 				value[(size_t)value_at[s] + c * nr + k] = k < c ? NAN : x;
@@ -134,7 +135,8 @@ static void
 assert_solves(const factor *f, mr_supernodal *s, mr_random *r, size_t columns)
 {
 	size_t n = f->l.n;
-	double *b = random_sides(r, n * (columns + 1)), *want = MR_NEW(&ctx, n * columns, double), after = b[n * columns];
+	double *b = random_sides(r, n * (columns + 1)), *want = MR_NEW(&ctx, n * columns, double),
+	       after = b[n * columns];
 
 	memcpy(want, b, n * columns * sizeof *want);
 	mr_supernodal_solve(&ctx, s, b, columns);

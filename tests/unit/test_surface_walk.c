@@ -1,8 +1,9 @@
-/* Walks to the nearest place: on convex surfaces the nearest of all, elsewhere a local one on the sheet begun on. */
-#include "space/surface_walk.h"
+/* Walks to the nearest place: on convex surfaces the nearest of all, elsewhere a local one on the sheet begun
+ * on. */
 #include "base/random.h"
 #include "mesh/dynmesh.h"
 #include "shapes.h"
+#include "space/surface_walk.h"
 
 static const double EPS = 1e-13;
 
@@ -36,8 +37,8 @@ assert_place(const mr_mesh *m, mr_closest c, mr_v3 q)
 }
 
 /*
- * From any face of a convex surface that is seen from a point outside to the nearest place of all, as the tree finds it: the
- * foot on a face of the far side is a local one.
+ * From any face of a convex surface that is seen from a point outside to the nearest place of all, as the
+ * tree finds it: the foot on a face of the far side is a local one.
  */
 static void
 a_convex_surface_has_one_nearest_place(void **state)
