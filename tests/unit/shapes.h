@@ -2,8 +2,18 @@
 #ifndef TEST_SHAPES_H
 #define TEST_SHAPES_H
 
+#include "base/random.h"
 #include "shape/shape.h"
 #include "unit.h"
+
+/* In [-1/2, 1/2]^3; arguments of a call have no order, these have. */
+static inline mr_v3
+random_vector(mr_random *r)
+{
+	double x = mr_random_real(r), y = mr_random_real(r), z = mr_random_real(r);
+
+	return mr_vec(x - 0.5, y - 0.5, z - 0.5);
+}
 
 /* A surface of about n vertices. */
 static inline mr_mesh

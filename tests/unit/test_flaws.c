@@ -1,5 +1,4 @@
 /* Flaws of a mesh that is remeshed, counted by brute force in the plane, and their repair. */
-#include "base/random.h"
 #include "remesh/flaws.h"
 #include "remesh/local_length.h"
 #include "remesh/repair_flaws.h"
@@ -231,9 +230,7 @@ a_quick_look_finds_no_others(void **state)
 	(void)state;
 	set_up(&x, shape(MR_KNOT, 2000));
 	for (uint32_t v = 0; v < x.d.nv; v += 3)
-		x.d.p[v] = mr_add(x.d.p[v],
-		    mr_mul(2 * x.s.uniform, mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
-						mr_random_real(&r) - 0.5)));
+		x.d.p[v] = mr_add(x.d.p[v], mr_mul(2 * x.s.uniform, random_vector(&r)));
 	a = find(&x, false, &quick);
 	b = find(&x, true, &sure);
 	assert_true(quick > 100 && quick <= sure);
@@ -284,12 +281,11 @@ what_is_tangled_is_mended(void **state)
 		assert_int_equal(before.flawed, 0);
 		for (uint32_t v = 0; v < x.d.nv; v++)
 			if (x.d.kind[v] == MR_SMOOTH && mr_random_real(&r) < 0.1) {
-				mr_v3 q = x.d.p[v];
+				mr_v3 way = random_vector(&r);
 				mr_closest c;
-				q = mr_add(q, mr_mul(4 * x.s.uniform,
-						  mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
-						      plane ? 0 : mr_random_real(&r) - 0.5)));
-				c = mr_surface_place(&x.s, &x.d, v, q, mr_dyn_normal_around(&x.d, v));
+				way.z *= plane ? 0 : 1;
+				c = mr_surface_place(&x.s, &x.d, v, mr_axpy(4 * x.s.uniform, way, x.d.p[v]),
+				    mr_dyn_normal_around(&x.d, v));
 				x.d.p[v] = c.point;
 				x.d.at[v] = c.face;
 			}

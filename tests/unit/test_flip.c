@@ -1,5 +1,4 @@
 /* Flips: which are good, what they leave, and dislocations that glide until they meet. */
-#include "base/random.h"
 #include "remesh/flip.h"
 #include "shapes.h"
 
@@ -86,8 +85,8 @@ a_flip_stays_in_its_quadrangle(void **state)
 
 	(void)state;
 	for (int k = 0; k < 2000; k++) {
-		mr_v3 c = mr_vec(6 * mr_random_real(&r) - 3, 3 * mr_random_real(&r) + 0.1, 0);
-		mr_v3 e = mr_vec(6 * mr_random_real(&r) - 3, -3 * mr_random_real(&r) - 0.1, 0);
+		mr_v3 u = random_vector(&r), v = random_vector(&r);
+		mr_v3 c = mr_vec(6 * u.x, 3 * u.y + 1.6, 0), e = mr_vec(6 * v.x, 3 * v.y - 1.6, 0);
 		mr_v3 a = mr_vec(-1, 0, 0), b = mr_vec(1, 0, 0);
 		double at = c.x -
 		            c.y * (e.x - c.x) / (e.y - c.y); /* where the new edge meets the old one's line */

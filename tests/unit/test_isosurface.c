@@ -1,7 +1,6 @@
 /* Isosurfaces of fields that have a formula.  (Closed whatever the values: test_volume.c.) */
-#include "base/random.h"
 #include "measure/measure.h"
-#include "unit.h"
+#include "shapes.h"
 #include "volume/isosurface.h"
 
 /* The field of `value` on nodes from -1.5 to 1.5, `cells` along each axis. */
@@ -131,8 +130,7 @@ planes_are_exact(void **state)
 	for (int k = 0; k < 20; k++) {
 		size_t on = 0;
 		mr_mesh m;
-		slope = mr_unit(
-		    mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5));
+		slope = mr_unit(random_vector(&r));
 		m = surface_of(plane, 30);
 		census_of(&m);
 		for (size_t f = 0; f < m.nf; f++) {

@@ -1,6 +1,5 @@
 /* Signs of normals: of surfaces whose right ones are known, from any signs and votes of which most are right.
  */
-#include "base/random.h"
 #include "shapes.h"
 #include "volume/parts.h"
 

@@ -1,5 +1,4 @@
 /* Feet on a Phong surface: of points made from them, by closed forms, and the lowest by brute force. */
-#include "base/random.h"
 #include "edit/phong_projection.h"
 #include "shapes.h"
 #include "space/bvh.h"
@@ -110,8 +109,7 @@ over_a_square_the_foot_is_below(void **state)
 	(void)state;
 	set_up(&x, shape(MR_PLANE, 300));
 	for (int k = 0; k < 2000; k++) {
-		mr_v3 p = mr_vec(
-		    3 * mr_random_real(&r) - 1.5, 3 * mr_random_real(&r) - 1.5, 2 * mr_random_real(&r) - 1);
+		mr_v3 p = mr_mul(3, random_vector(&r));
 		bool over = fabs(p.x) < 1 && fabs(p.y) < 1;
 		mr_foot foot = { 77, { 0, 0, 0 }, 0 }, found;
 		mr_walk walk = { 0, 0 };
@@ -247,9 +245,7 @@ the_search_finds_the_lowest(void **state)
 		set_up(&x, shape(solids[i], 120));
 		assert_int_equal(mr_bvh_build(&ctx, &x.m, &bvh), MR_OK);
 		for (int k = 0; k < 40; k++) {
-			mr_v3 p = mr_mul(
-			    k % 3 == 0 ? 4 : 2.5, mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5,
-						      mr_random_real(&r) - 0.5));
+			mr_v3 p = mr_mul(k % 3 == 0 ? 4 : 2.5, random_vector(&r));
 			mr_closest nearest = mr_bvh_closest(bvh, p);
 			double dist = sqrt(nearest.dist2), lowest = INFINITY;
 			mr_foot foot;
@@ -290,7 +286,7 @@ a_search_stays_on_its_sheet(void **state)
 	for (int k = 0; k < 200; k++) {
 		uint32_t face = random_face(&x, &r);
 		double z = face < one.nf ? 0 : 0.5;
-		mr_v3 p = mr_vec(mr_random_real(&r), mr_random_real(&r), 0.8 * mr_random_real(&r));
+		mr_v3 p = mr_add(random_vector(&r), mr_vec(0.2, 0.2, 0.4));
 		mr_foot foot;
 		assert_true(mr_foot_search(&x.g, p, face, &foot));
 		assert_true((foot.face < one.nf) == (face < one.nf));

@@ -1,5 +1,4 @@
 /* Relaxation: areas, where one pass puts a vertex, what holds it back. */
-#include "base/random.h"
 #include "op/voronoi_area.h"
 #include "remesh/relax.h"
 #include "shapes.h"

@@ -1,5 +1,4 @@
 /* What a volume takes of a cloud: each place once, what it stands for, without what lies on no surface. */
-#include "base/random.h"
 #include "shapes.h"
 #include "volume/parts.h"
 

@@ -1,7 +1,6 @@
 /* Points to nodes and back, by brute force and by duality: what a cloud spreads is what it sees of any
  * function. */
-#include "base/random.h"
-#include "unit.h"
+#include "shapes.h"
 #include "volume/parts.h"
 
 enum { POINTS = 500, NX = 14, NY = 11, NZ = 17, NODES = NX * NY * NZ };
@@ -20,11 +19,10 @@ random_samples(uint64_t seed)
 
 	assert_true(s.p && s.depth && s.plane.normal && s.plane.area);
 	for (size_t i = 0; i < POINTS; i++) {
-		mr_v3 in = mr_vec(1 + (NX - 4) * mr_random_real(&r), 1 + (NY - 4) * mr_random_real(&r),
-		    1 + (NZ - 4) * mr_random_real(&r));
+		mr_v3 in = mr_add(random_vector(&r), mr_vec(0.5, 0.5, 0.5));
+		in = mr_vec(1 + (NX - 4) * in.x, 1 + (NY - 4) * in.y, 1 + (NZ - 4) * in.z);
 		s.p[i] = mr_axpy(GRID.step, in, GRID.origin);
-		s.plane.normal[i] = mr_unit(
-		    mr_vec(mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5, mr_random_real(&r) - 0.5));
+		s.plane.normal[i] = mr_unit(random_vector(&r));
 		s.plane.area[i] = mr_random_real(&r);
 		s.depth[i] = (uint8_t)(mr_random_bits(&r) % DEPTHS);
 	}

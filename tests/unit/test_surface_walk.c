@@ -1,6 +1,5 @@
 /* Walks to the nearest place: on convex surfaces the nearest of all, elsewhere a local one on the sheet begun
  * on. */
-#include "base/random.h"
 #include "mesh/dynmesh.h"
 #include "shapes.h"
 #include "space/surface_walk.h"
@@ -10,9 +9,7 @@ static const double EPS = 1e-13;
 static mr_v3
 random_point(mr_random *r, double size)
 {
-	double x = mr_random_real(r), y = mr_random_real(r), z = mr_random_real(r);
-
-	return mr_mul(size, mr_vec(2 * x - 1, 2 * y - 1, 2 * z - 1));
+	return mr_mul(2 * size, random_vector(r));
 }
 
 static mr_topology
