@@ -363,6 +363,17 @@ for what, act in {
 }.items():
     raises(mrstream.StreamError, act, what)
 
+# What breaks a law of frames is found before anything is written.
+(torn,) = mrstream.read(io.BytesIO(key(p, q)))
+torn["l"]["q"] = [1, 2]
+wide = mrstream.Frame("wide")
+for number in range(4096):
+    wide.put("", str(number), "")
+for frame in torn, wide, mrstream.Frame("."):
+    out = io.BytesIO()
+    raises(mrstream.StreamError, lambda: mrstream.Writer(out).put(frame), frame.name)
+    check(out.getvalue() == b"", f"{frame.name}: something is written")
+
 # What is done to a frame does not reach the next.
 for frame in mrstream.read("walk.mrs"):
     check("base" in frame and np.ptp(frame["mesh"]["region"]) > 0, "a frame lacks what was changed in the one before")
@@ -428,6 +439,10 @@ check(data("a.mrs") == before and not [name for name in os.listdir() if name.end
 out = io.BytesIO()
 raises(KeyError, lambda: mrstream.write(out, breaks()), "an exception of the frames")
 raises(mrstream.CutOff, lambda: all_of(io.BytesIO(out.getvalue())), "END behind an exception")
+with open("unended.mrs", "wb") as f:
+    mrstream.Writer(f).put(triangle)
+    raises(mrstream.CutOff, lambda: all_of("unended.mrs"), "no END")
+    check(os.path.getsize("unended.mrs") % 64 == 0 < os.path.getsize("unended.mrs"), "a frame waits in a buffer")
 raises(OSError, lambda: mrstream.write("/dev/full", mrstream.read("a.mrs")), "a full disk")
 raises(FileNotFoundError, lambda: mrstream.write("no/such/place.mrs", mrstream.read("a.mrs")), "no folder")
 raises(FileNotFoundError, lambda: all_of("none-such.mrs"), "no file")
