@@ -3,12 +3,6 @@
 #include <errno.h>
 #include <limits.h>
 
-double
-cmd_length_of(cmd_length l, double diagonal)
-{
-	return l.relative ? l.value * diagonal : l.value;
-}
-
 /* Parses a finite number at the start of `text`; *end is what follows it. */
 static bool
 number_at(const char *text, char **end, double *value)

@@ -28,9 +28,6 @@ typedef struct cmd_length {
 	bool relative;
 } cmd_length;
 
-/* The length in units of the model. */
-double cmd_length_of(cmd_length l, double diagonal);
-
 /* Pixels. */
 typedef struct cmd_size {
 	size_t width, height;
