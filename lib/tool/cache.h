@@ -19,6 +19,7 @@ typedef struct mr_incidence_cache {
 struct mr_cache {
 	mr_ctx deform_keep, level_keep, incidence_keep;
 	mr_deform_cache deform;
+	void (*drop_deform)(struct mr_cache *cache); /* by who made it; NULL: there is none */
 	mr_level_cache level;
 	mr_incidence_cache incidence;
 };
@@ -26,14 +27,11 @@ struct mr_cache {
 /* The arena `keep` of a cache, with the threads and the listener of the frame's. */
 mr_ctx *mr_cache_arena(const mr_ctx *ctx, mr_ctx *keep);
 
-/*
- * Levels 0 to n of the frame's layer m: those of the cache, if there is one and it still has them.
- */
+/* A failure in an arena that outlives frames, said in the frame's. */
+mr_status mr_cache_say(mr_ctx *ctx, const mr_ctx *keep, mr_status status);
+
+/* Levels 0 to n of the frame's layer m: those of the cache, if there is one and it still has them. */
 mr_status mr_cache_levels(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *m, double crease,
     size_t n, const mr_loop **level);
-
-/* The incidence of the frame's base, likewise. */
-mr_status
-mr_cache_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *base, mr_incidence *inc);
 
 #endif

@@ -4,6 +4,27 @@
 #include "edit/pose_basis.h"
 #include "tool/cache.h"
 
+/* The faces around the vertices of base, which a delta mostly keeps. */
+static mr_status
+base_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *base, mr_incidence *inc)
+{
+	uint64_t serial = mr_frame_find(f, base->name, "triangles")->serial;
+	mr_incidence_cache *kept = cache ? &cache->incidence : NULL;
+	mr_ctx *keep;
+
+	if (!cache)
+		return mr_incidence_build(ctx, base, inc);
+	if (f->key || !serial || serial != kept->serial) {
+		keep = mr_cache_arena(ctx, &cache->incidence_keep);
+		mr_ctx_free(keep);
+		kept->serial = 0;
+		MR_TRY(mr_cache_say(ctx, keep, mr_incidence_build(keep, base, &kept->inc)));
+		kept->serial = serial;
+	}
+	*inc = kept->inc;
+	return MR_OK;
+}
+
 static mr_status
 decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
 {
@@ -13,7 +34,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	MR_TRY(mr_cache_incidence(ctx, cache, f, &base, &inc));
+	MR_TRY(base_incidence(ctx, cache, f, &base, &inc));
 	MR_TRY(mr_response_apply(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
 	p = MR_NEW(ctx, detail.n, mr_v3);

@@ -131,6 +131,12 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);
 }
 
+static void
+drop_deform(mr_cache *cache)
+{
+	mr_deform_cache_free(&cache->deform, &cache->deform_keep);
+}
+
 mr_status
 mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache, mr_solve_result *result)
 {
@@ -139,8 +145,10 @@ mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *ca
 	mr_deform_cache own = { 0 };
 	mr_status status;
 
-	if (cache)
+	if (cache) {
+		cache->drop_deform = drop_deform;
 		return solve(ctx, f, o, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, result);
+	}
 	status = solve(ctx, f, o, ctx, &own, result);
 	mr_deform_free(own.deform);
 	return status;
