@@ -10,6 +10,7 @@
 #define MR_MESH_DYNMESH_H
 
 #include "mesh/feature_curves.h"
+#include "mesh/guarded_move.h"
 
 typedef enum mr_kind {
 	MR_SMOOTH, /* free on the surface */
@@ -180,6 +181,9 @@ mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
  * memory.  Only after mr_dyn_compact.
  */
 mr_status mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
+
+/* A guard of its vertices' moves without a predicate; its holes are no faces. */
+mr_guard mr_dyn_guard(const mr_dyn *d);
 
 /* The mesh as it is, sharing the arrays; only after mr_dyn_compact. */
 mr_mesh mr_dyn_view(const mr_dyn *d, const char *name);

@@ -15,7 +15,6 @@ typedef struct pass {
 	double *gravity; /* of each vertex, first its area */
 	mr_v3 *p;        /* where the vertices go */
 	uint32_t *at;
-	uint8_t *turned; /* of each face: 1 where it would turn over */
 } pass;
 
 double
@@ -292,8 +291,9 @@ is_refined(const mr_dyn *d, size_t f)
  * way a needle faces.
  */
 static bool
-turns(const pass *w, size_t f)
+turns(const void *arg, uint32_t f)
 {
+	const pass *w = arg;
 	const uint32_t *v = &w->d->v[3 * f];
 	const mr_v3 *p = w->d->p, *q = w->p;
 	mr_v3 before = mr_dyn_cross(w->d, p, f), after = mr_dyn_cross(w->d, q, f), normal;
@@ -314,50 +314,13 @@ turns(const pass *w, size_t f)
 	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
 }
 
+/* The place of what stays is where it was. */
 static void
-turned_body(void *arg, size_t begin, size_t end)
+hold_place(void *arg, uint32_t v)
 {
 	pass *w = arg;
 
-	for (size_t f = begin; f < end; f++)
-		w->turned[f] = !mr_dyn_face_dead(w->d, f) && turns(w, f);
-}
-
-/* Puts a vertex back where it was; the faces around it that turn because of that go onto the stack. */
-static size_t
-put_back(pass *w, uint32_t v, uint32_t *stack, size_t n)
-{
-	const mr_dyn *d = w->d;
-	uint32_t h = d->out[v];
-
-	if (memcmp(&w->p[v], &d->p[v], sizeof *w->p) == 0)
-		return n;
-	w->p[v] = d->p[v];
-	w->at[v] = d->at[v];
-	do {
-		if (!w->turned[h / 3] && turns(w, h / 3)) {
-			w->turned[h / 3] = 1;
-			stack[n++] = h / 3;
-		}
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return n;
-}
-
-/* Vertices of faces that turn go back to where they were, and so on until no face turns.  stack: nf. */
-static void
-hold_back(pass *w, uint32_t *stack)
-{
-	size_t n = 0;
-
-	for (uint32_t f = 0; f < w->d->nf; f++)
-		if (w->turned[f])
-			stack[n++] = f;
-	while (n > 0) {
-		uint32_t f = stack[--n];
-		for (uint32_t i = 0; i < 3; i++)
-			n = put_back(w, w->d->v[3 * f + i], stack, n);
-	}
+	w->at[v] = w->d->at[v];
 }
 
 /* The masses of the vertices, where they have any. */
@@ -378,19 +341,19 @@ mr_status
 mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	pass w = { d, s, o, NULL, NULL, NULL, NULL };
-	uint32_t *stack;
+	pass w = { d, s, o, NULL, NULL, NULL };
+	mr_guard guard = mr_dyn_guard(d);
 
 	MR_TRY(find_gravity(ctx, &w));
 	w.p = MR_NEW(ctx, d->nv, mr_v3);
 	w.at = MR_NEW(ctx, d->nv, uint32_t);
-	w.turned = MR_NEW(ctx, d->nf, uint8_t);
-	stack = MR_NEW(ctx, d->nf, uint32_t);
-	if (!w.p || !w.at || !w.turned || !stack)
+	if (!w.p || !w.at)
 		return MR_EMEM;
 	mr_parallel(ctx, d->nv, GRAIN, move_body, &w);
-	mr_parallel(ctx, d->nf, GRAIN, turned_body, &w);
-	hold_back(&w, stack);
+	guard.is_bad = turns;
+	guard.held = hold_place;
+	guard.arg = &w;
+	MR_TRY(mr_guarded_move(ctx, &guard, d->p, w.p));
 	memcpy(d->p, w.p, d->nv * sizeof *d->p);
 	memcpy(d->at, w.at, d->nv * sizeof *d->at);
 	mr_mark_release(ctx, mark);

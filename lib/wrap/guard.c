@@ -1,23 +1,21 @@
-/* Moves that fold nothing: vertices that would turn a face stay. */
+/* Moves of a wrap that fold nothing. */
+#include "mesh/guarded_move.h"
 #include "wrap/parts.h"
-#include "base/parallel.h"
-
-enum { GRAIN = 2048 };
 
 /* Height over longest edge of a face that would soon have no normal. */
 static const double SLIVER = 0.02;
 
 typedef struct guard {
-	mr_dyn *d;
-	mr_v3 *to;
-	uint8_t *turned; /* of each face */
+	const mr_dyn *d;
+	const mr_v3 *to;
 } guard;
 
 /* True where the move turns face f by more than 60 degrees, folds it anew against a neighbour, or leaves it a
  * worse sliver. */
 static bool
-turns(const guard *s, size_t f)
+turns(const void *arg, uint32_t f)
 {
+	const guard *s = arg;
 	const mr_dyn *d = s->d;
 	const uint32_t *v = &d->v[3 * f];
 	const mr_v3 *p = d->p, *q = s->to;
@@ -38,62 +36,15 @@ turns(const guard *s, size_t f)
 	return false;
 }
 
-static void
-turned_body(void *arg, size_t begin, size_t end)
-{
-	guard *s = arg;
-
-	for (size_t f = begin; f < end; f++)
-		s->turned[f] = !mr_dyn_face_dead(s->d, f) && turns(s, f);
-}
-
-/* Puts v back; the faces around it that turn because of that go onto the stack. */
-static size_t
-put_back(guard *s, uint32_t v, uint32_t *stack, size_t n)
-{
-	const mr_dyn *d = s->d;
-	uint32_t h = d->out[v];
-
-	if (memcmp(&s->to[v], &d->p[v], sizeof *s->to) == 0)
-		return n;
-	s->to[v] = d->p[v];
-	do {
-		if (!s->turned[h / 3] && turns(s, h / 3)) {
-			s->turned[h / 3] = 1;
-			stack[n++] = h / 3;
-		}
-		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return n;
-}
-
-static void
-hold_back(guard *s, uint32_t *stack)
-{
-	size_t n = 0;
-
-	for (uint32_t f = 0; f < s->d->nf; f++)
-		if (s->turned[f])
-			stack[n++] = f;
-	while (n > 0) {
-		uint32_t f = stack[--n];
-		for (uint32_t i = 0; i < 3; i++)
-			n = put_back(s, s->d->v[3 * f + i], stack, n);
-	}
-}
-
 mr_status
 mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *stack = MR_NEW(ctx, d->nf, uint32_t);
-	guard s = { d, to, MR_NEW(ctx, d->nf, uint8_t) };
+	guard s = { d, to };
+	mr_guard g = mr_dyn_guard(d);
 
-	if (!stack || !s.turned)
-		return MR_EMEM;
-	mr_parallel(ctx, d->nf, GRAIN, turned_body, &s);
-	hold_back(&s, stack);
+	g.is_bad = turns;
+	g.arg = &s;
+	MR_TRY(mr_guarded_move(ctx, &g, d->p, to));
 	memcpy(d->p, to, d->nv * sizeof *to);
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -1,0 +1,158 @@
+/* Rounds: bad faces hold back what is around them, then what that may have changed is looked at again. */
+#include "mesh/guarded_move.h"
+
+#include "base/parallel.h"
+
+enum { GRAIN = 2048 };
+
+/* Numbers, each once. */
+typedef struct list {
+	uint32_t *at;
+	size_t n;
+	bool *has; /* of each number */
+} list;
+
+typedef struct move {
+	const mr_guard *g;
+	const mr_v3 *from;
+	mr_v3 *to;
+	list face;      /* to look at */
+	bool *bad;      /* whether these are */
+	list vertex;    /* to hold back */
+	uint8_t *times; /* that each vertex was */
+} move;
+
+static mr_status
+list_new(mr_ctx *ctx, size_t room, list *l)
+{
+	*l = (list){ MR_NEW(ctx, room, uint32_t), 0, MR_NEW_ZERO(ctx, room, bool) };
+	return l->at && l->has ? MR_OK : MR_EMEM;
+}
+
+static void
+list_add(list *l, uint32_t x)
+{
+	if (l->has[x])
+		return;
+	l->has[x] = true;
+	l->at[l->n++] = x;
+}
+
+static void
+list_clear(list *l)
+{
+	for (size_t i = 0; i < l->n; i++)
+		l->has[l->at[i]] = false;
+	l->n = 0;
+}
+
+static void
+judge(void *arg, size_t begin, size_t end)
+{
+	const move *w = arg;
+
+	for (size_t i = begin; i < end; i++)
+		w->bad[i] = w->g->is_bad(w->g->arg, w->face.at[i]);
+}
+
+/* Lists the corners of the faces around v. */
+static void
+list_ring(move *w, uint32_t v)
+{
+	uint32_t first = w->g->topo.out[v], h = first;
+
+	do {
+		for (int k = 0; k < 3; k++)
+			list_add(&w->vertex, w->g->t[h / 3].v[k]);
+		h = mr_he_ccw(&w->g->topo, h);
+	} while (h != MR_NONE && h != first);
+}
+
+/* Lists the vertices to hold back. */
+static void
+list_vertices(move *w)
+{
+	size_t i = 0;
+
+	for (size_t f = 0; f < w->face.n; f++)
+		for (int k = 0; k < 3 && w->bad[f]; k++)
+			list_add(&w->vertex, w->g->t[w->face.at[f]].v[k]);
+	for (unsigned ring = 0; ring < w->g->rings; ring++)
+		for (size_t end = w->vertex.n; i < end; i++)
+			list_ring(w, w->vertex.at[i]);
+}
+
+/* False where v stays already. */
+static bool
+hold_back(move *w, uint32_t v)
+{
+	if (memcmp(&w->to[v], &w->from[v], sizeof *w->to) == 0)
+		return false;
+	w->to[v] = w->times[v]++ < w->g->halves ? mr_lerp(0.5, w->from[v], w->to[v]) : w->from[v];
+	if (w->g->held)
+		w->g->held(w->g->arg, v);
+	return true;
+}
+
+static void
+list_faces_around(move *w, uint32_t v)
+{
+	uint32_t first = w->g->topo.out[v], h = first;
+
+	do {
+		list_add(&w->face, h / 3);
+		h = mr_he_ccw(&w->g->topo, h);
+	} while (h != MR_NONE && h != first);
+}
+
+/* Holds back what is listed and lists the faces to look at next; false where all stays already. */
+static bool
+take_back(move *w)
+{
+	bool any = false;
+
+	if (!w->g->look)
+		list_clear(&w->face);
+	for (size_t i = 0; i < w->vertex.n; i++)
+		if (hold_back(w, w->vertex.at[i])) {
+			any = true;
+			if (!w->g->look)
+				list_faces_around(w, w->vertex.at[i]);
+		}
+	list_clear(&w->vertex);
+	return any;
+}
+
+static mr_status
+move_new(mr_ctx *ctx, move *w)
+{
+	const mr_guard *g = w->g;
+
+	MR_TRY(list_new(ctx, g->nf, &w->face));
+	MR_TRY(list_new(ctx, g->nv, &w->vertex));
+	w->bad = MR_NEW(ctx, g->nf, bool);
+	w->times = MR_NEW_ZERO(ctx, g->nv, uint8_t);
+	if (!w->bad || !w->times)
+		return MR_EMEM;
+	for (uint32_t f = 0; f < g->nf; f++)
+		if (g->t[f].v[0] != MR_NONE)
+			list_add(&w->face, f);
+	return MR_OK;
+}
+
+mr_status
+mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	move w = { .g = guard, .from = from, .to = to };
+
+	MR_TRY(move_new(ctx, &w));
+	do {
+		if (guard->look)
+			MR_TRY(guard->look(ctx, guard->arg));
+		mr_parallel(ctx, w.face.n, GRAIN, judge, &w);
+		list_vertices(&w);
+	} while (take_back(&w));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,36 @@
+/*
+ * guarded_move.h -- moves of vertices that leave no face bad.
+ *
+ * All vertices are to move at once.  The corners of a face that would be bad, by whatever the caller calls
+ * so, go half as far, then a quarter, and so on; at last they stay: until no face is bad, or those that are
+ * have nothing left to take back.  Where every face is good that stays as it is, the move is good.
+ *
+ * Contract: deterministic for any number of threads.  A vertex is held back a few times and no more, so where
+ * faces depend on what is near them the time is linear.
+ */
+#ifndef MR_MESH_GUARDED_MOVE_H
+#define MR_MESH_GUARDED_MOVE_H
+
+#include "mesh/mesh.h"
+
+typedef struct mr_guard {
+	const mr_tri *t; /* nf faces, some of which may be none: their first corner is MR_NONE */
+	mr_topology topo;
+	size_t nv, nf;
+	unsigned halves; /* how often a vertex goes half as far before it stays; 0: it stays at once */
+	unsigned rings;  /* of vertices around a bad face that are held back with its corners */
+	/*
+	 * What is bad of a face may depend on how its corners and those of its neighbours move.  Where it
+	 * depends on more, `look` looks at the whole surface first, each time; NULL: it does not.
+	 */
+	mr_status (*look)(mr_ctx *ctx, void *arg);
+	bool (*is_bad)(const void *arg, uint32_t f);
+	void (*held)(void *arg, uint32_t v); /* told of what is held back; NULL: nobody is */
+	void *arg;
+} mr_guard;
+
+/* Moves vertices from `from` to `to`, nv each, as far as the guard lets them: `to` becomes where they are,
+ * bit by bit `from` where they stay. */
+mr_status mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to);
+
+#endif
