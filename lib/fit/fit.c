@@ -8,6 +8,7 @@
 #include "space/local_planes.h"
 #include "space/near.h"
 #include "space/outlier.h"
+#include "mesh/fold.h"
 #include "mesh/zorder.h"
 #include "solve/sparse.h"
 
@@ -66,6 +67,13 @@ local(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *point, size_t n, const mr_fit
 	return status;
 }
 
+/* Of level 2. */
+static size_t
+count_folds(const mr_fit_surface *s)
+{
+	return mr_count_folds(&s->m, s->level[MR_FIT_LEVEL].topo.twin);
+}
+
 static void
 record(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, const char *when)
 {
@@ -74,7 +82,7 @@ record(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, 
 		const char *name;
 		double value;
 	} figure[] = { { "distance_mean", gap.mean }, { "distance_rms", gap.rms },
-		{ "distance_max", gap.max }, { "folded_edges", (double)mr_fit_folds(s) } };
+		{ "distance_max", gap.max }, { "folded_edges", (double)count_folds(s) } };
 	char name[40];
 
 	for (size_t i = 0; i < sizeof figure / sizeof *figure; i++) {
@@ -87,7 +95,7 @@ record(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, 
 static void
 warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, const mr_fit_foot *foot, size_t n)
 {
-	size_t folds = mr_fit_folds(s);
+	size_t folds = count_folds(s);
 	double far = mr_fit_measure(ctx, foot, n).mean;
 
 	if (folds > 0)

@@ -1,9 +1,7 @@
 #include "fit/guard_control.h"
 
 #include "subdivide/loop_self_intersect.h"
-
-/* The cosine of 160 degrees, between the normals of neighbours. */
-static const double SHARPEST = -0.94;
+#include "mesh/fold.h"
 
 enum { SMOOTHS = 3 };
 
@@ -62,7 +60,7 @@ folds(const mr_fit_control *c, uint32_t f)
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
 		uint32_t twin = c->level->topo.twin[h], g = twin == MR_NONE ? f : twin / 3;
 		double now = mr_dot(c->after[f], c->after[g]);
-		if (now < SHARPEST && now < mr_dot(c->before[f], c->before[g]))
+		if (now < MR_FOLD && now < mr_dot(c->before[f], c->before[g]))
 			return true;
 	}
 	return false;

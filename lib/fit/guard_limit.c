@@ -3,11 +3,9 @@
 #include "subdivide/loop_self_intersect.h"
 #include "fit/guard_control.h"
 #include "base/parallel.h"
+#include "mesh/fold.h"
 
 enum { GRAIN = 1024 };
-
-/* Neighbours beyond 150 degrees count as folding where they come closer than they were. */
-static const double SHARPEST = -0.866;
 
 /* A smaller share of a step is none. */
 static const double LEAST = 1. / 16;
@@ -51,7 +49,7 @@ face_is_bad(const guard *g, uint32_t f)
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
 		uint32_t o = twin[h] == MR_NONE ? f : twin[h] / 3;
 		double now = mr_dot(g->after[f], g->after[o]);
-		if (now < SHARPEST && now < mr_dot(g->before[f], g->before[o]))
+		if (now < MR_NEAR_FOLD && now < mr_dot(g->before[f], g->before[o]))
 			return true;
 	}
 	return false;

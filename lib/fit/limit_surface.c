@@ -236,20 +236,3 @@ mr_fit_measure(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n)
 		gap.max = fmax(gap.max, foot[i].dist);
 	return gap;
 }
-
-size_t
-mr_fit_folds(const mr_fit_surface *s)
-{
-	static const double folded = -0.984807753012208; /* cos 170 degrees */
-	const uint32_t *twin = s->level[MR_FIT_LEVEL].topo.twin;
-	size_t count = 0;
-
-	for (uint32_t h = 0; h < 3 * s->m.nf; h++) {
-		if (twin[h] == MR_NONE || twin[h] < h)
-			continue;
-		mr_v3 a = mr_unit(mr_face_cross(&s->m, h / 3)),
-		      b = mr_unit(mr_face_cross(&s->m, twin[h] / 3));
-		count += mr_dot(a, b) < folded;
-	}
-	return count;
-}

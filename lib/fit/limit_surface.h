@@ -72,7 +72,4 @@ mr_status mr_fit_attach(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point
 
 mr_fit_gap mr_fit_measure(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n);
 
-/* Edges of level 2 whose faces meet at more than 170 degrees. */
-size_t mr_fit_folds(const mr_fit_surface *s);
-
 #endif

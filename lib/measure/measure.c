@@ -5,10 +5,9 @@
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "mesh/fold.h"
 #include "space/near.h"
 #include "space/self_intersect.h"
-
-static const double FOLD_COSINE = -0.98480775301220806; /* of 170 degrees */
 
 /* ---- counts ---- */
 
@@ -129,9 +128,8 @@ static bool
 folded(const mr_mesh *m, uint32_t h, uint32_t g)
 {
 	mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
-	double cosine = mr_dot(mr_unit(a), mr_unit(b));
 
-	return (same_direction(m, h, g) ? -cosine : cosine) < FOLD_COSINE;
+	return mr_folds(same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
 }
 
 static void

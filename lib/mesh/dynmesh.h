@@ -10,6 +10,7 @@
 #define MR_MESH_DYNMESH_H
 
 #include "mesh/feature_curves.h"
+#include "mesh/fold.h"
 #include "mesh/guarded_move.h"
 
 typedef enum mr_kind {
@@ -120,14 +121,6 @@ mr_dyn_is_needle(mr_v3 cross, mr_v3 a, mr_v3 b, mr_v3 c)
 {
 	double least = MR_NEEDLE * mr_dyn_longest2(a, b, c);
 	return mr_norm2(cross) < least * least || least == 0;
-}
-
-/* True where the faces with these normals, of any length, meet at more than 150 degrees: a fold. */
-static inline bool
-mr_dyn_folds(mr_v3 m, mr_v3 n)
-{
-	double mn = mr_dot(m, n);
-	return mn < 0 && mn * mn > 0.75 * mr_norm2(m) * mr_norm2(n);
 }
 
 /*

@@ -42,9 +42,9 @@ folds_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3
 				return true;
 			for (uint32_t i = 0, k = mr_he_next(h); i < 2; i++, k = mr_he_next(k)) {
 				uint32_t g = beyond(d, k, a, b); /* over the side and the next spoke */
-				if (g != MR_NONE && mr_dyn_folds(n, cross_after(d, g / 3, a, b, p)) &&
+				if (g != MR_NONE && mr_folds(n, cross_after(d, g / 3, a, b, p), MR_NEAR_FOLD) &&
 				    !(d->twin[k] == g &&
-					mr_dyn_folds(mr_dyn_cross(d, d->p, f), mr_dyn_cross(d, d->p, g / 3))))
+					mr_folds(mr_dyn_cross(d, d->p, f), mr_dyn_cross(d, d->p, g / 3), MR_NEAR_FOLD)))
 					return true;
 			}
 		}
@@ -53,13 +53,13 @@ folds_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3
 	return false;
 }
 
-/* True where n is within 75 degrees of an axis: two such normals are within 150 degrees. */
+/* True where n is within 75 degrees of an axis: two such normals are no fold, nor near one. */
 static bool
 near_axis(mr_v3 n, mr_v3 axis, double axis2)
 {
-	double along = mr_dot(n, axis);
+	double along = mr_dot(n, axis), half2 = (1 + MR_NEAR_FOLD) / 2; /* squared cosine of half the angle */
 
-	return along > 0 && along * along > 0.067 * axis2 * mr_norm2(n);
+	return along > 0 && along * along > half2 * axis2 * mr_norm2(n);
 }
 
 /* True where the faces around a, those beyond them, and the source there all look the same way. */

@@ -2,15 +2,12 @@
 
 #include "base/parallel.h"
 
-static const double FOLD = -0.9396926207859084; /* cosine of 160 degrees */
-static const double CLOSE = 0.25;               /* squared cosine of 60 degrees */
+static const double CLOSE = 0.25; /* squared cosine of 60 degrees */
 
 static bool
 are_folded(const mr_dyn *d, uint32_t f, uint32_t g)
 {
-	mr_v3 m = mr_dyn_cross(d, d->p, f), n = mr_dyn_cross(d, d->p, g);
-
-	return mr_dot(m, n) < FOLD * sqrt(mr_norm2(m) * mr_norm2(n));
+	return mr_folds(mr_dyn_cross(d, d->p, f), mr_dyn_cross(d, d->p, g), MR_FOLD);
 }
 
 static bool

@@ -1,6 +1,6 @@
 /*
- * flaws.h -- the flipped faces (facing.h) of a mesh that is being remeshed, and its edges folded by more than
- * 160 degrees: where they are, and how many are around a change.
+ * flaws.h -- the flipped faces (remesh/orientation.h) of a mesh that is being remeshed, and its folds
+ * (mesh/fold.h): where they are, and how many are around a change.
  *
  * Contract: a face that no change was told of since it was found sound is sound: what changes a place tells
  * by mr_flaws_suspect.

@@ -26,8 +26,8 @@ folds_beside(const mr_dyn *d, mr_v3 normal, uint32_t h, uint32_t g)
 {
 	uint32_t th = d->twin[h], tg = d->twin[g];
 
-	return (th != MR_NONE && mr_dyn_folds(normal, mr_dyn_cross(d, d->p, th / 3))) ||
-	       (tg != MR_NONE && mr_dyn_folds(normal, mr_dyn_cross(d, d->p, tg / 3)));
+	return (th != MR_NONE && mr_folds(normal, mr_dyn_cross(d, d->p, th / 3), MR_NEAR_FOLD)) ||
+	       (tg != MR_NONE && mr_folds(normal, mr_dyn_cross(d, d->p, tg / 3), MR_NEAR_FOLD));
 }
 
 bool

@@ -17,7 +17,7 @@ mr_status mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, unsigned re
 
 /*
  * True where the two faces after the flip of h face the way those before did together, within 60
- * degrees, are not folded against those beside them, and are no needles.
+ * degrees, are not near a fold against those beside them, and are no needles.
  */
 bool mr_flip_is_good(const mr_dyn *d, const mr_surface *s, uint32_t h);
 

@@ -2,8 +2,7 @@
  * weighted pseudonormal. */
 #include "remesh/orientation.h"
 
-static const double FOLD_COSINE = -0.984807753012208; /* of 170 degrees */
-static const double SNAP = 1e-9;                      /* of a barycentric coordinate: on an edge or vertex */
+static const double SNAP = 1e-9; /* of a barycentric coordinate: on an edge or vertex */
 
 /* The sum of the unit normals of the faces around v, by angle. */
 static mr_v3
@@ -84,17 +83,4 @@ mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_source_map *map)
 		flipped += against == 3;
 	}
 	return flipped;
-}
-
-size_t
-mr_count_folded(const mr_mesh *m, const uint32_t *twin)
-{
-	size_t folded = 0;
-
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		if (twin[h] != MR_NONE && h < twin[h]) {
-			mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, twin[h] / 3);
-			folded += mr_dot(a, b) < 0 && mr_dot(mr_unit(a), mr_unit(b)) < FOLD_COSINE;
-		}
-	return folded;
 }

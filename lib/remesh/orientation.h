@@ -3,8 +3,7 @@
  *
  * Contract: a triangle is flipped where its normal points against that of the source at the places of all its
  * three corners.  The source's normal is that of its triangle, on an edge the mean of two, at a vertex the
- * mean by angle (the pseudonormals of Baerentzen, Aanaes 2005).  Two triangles are folded where they meet at
- * more than 170 degrees.
+ * mean by angle (the pseudonormals of Baerentzen, Aanaes 2005).
  */
 #ifndef MR_REMESH_ORIENTATION_H
 #define MR_REMESH_ORIENTATION_H
@@ -24,8 +23,5 @@ size_t mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_source_ma
 
 /* The flipped faces of the source itself. */
 size_t mr_count_flipped_source(const mr_facing *s);
-
-/* The folded edges of m; twin as in mr_topology. */
-size_t mr_count_folded(const mr_mesh *m, const uint32_t *twin);
 
 #endif

@@ -15,6 +15,7 @@ typedef struct pass {
 	double *gravity; /* of each vertex, first its area */
 	mr_v3 *p;        /* where the vertices go */
 	uint32_t *at;
+	mr_mesh from, to;
 } pass;
 
 double
@@ -262,19 +263,11 @@ faces(mr_v3 a, mr_v3 b)
 	return ab > 0 && ab * ab > 0.5 * mr_norm2(a) * mr_norm2(b);
 }
 
-/* True where the move folds face f against a neighbour that it was not folded against. */
+/* True where the move closes face f against a neighbour. */
 static bool
-folds_anew(const pass *w, size_t f, mr_v3 before, mr_v3 after)
+folds(const pass *w, uint32_t f)
 {
-	const mr_dyn *d = w->d;
-
-	for (size_t h = 3 * f; h < 3 * f + 3; h++) {
-		uint32_t g = d->twin[h];
-		if (g != MR_NONE && mr_dyn_folds(after, mr_dyn_cross(d, w->p, g / 3)) &&
-		    !mr_dyn_folds(before, mr_dyn_cross(d, d->p, g / 3)))
-			return true;
-	}
-	return false;
+	return mr_folds_more(&w->from, &w->to, w->d->twin, f, MR_NEAR_FOLD);
 }
 
 static bool
@@ -305,12 +298,12 @@ turns(const void *arg, uint32_t f)
 	if (mr_dot(after, normal) < 0 && mr_surface_against(w->s, w->d, w->at, v, after) &&
 	    !mr_surface_against(w->s, w->d, w->d->at, v, before))
 		return true;
-	if ((!faces(after, normal) || is_refined(w->d, f)) && folds_anew(w, f, before, after))
+	if ((!faces(after, normal) || is_refined(w->d, f)) && folds(w, f))
 		return true;
 	if (mr_dot(after, normal) >= 0 && !apart(before, after))
 		return false;
 	if (!mr_dyn_is_needle(before, p[v[0]], p[v[1]], p[v[2]]))
-		return apart(before, after) && (!faces(after, normal) || folds_anew(w, f, before, after));
+		return apart(before, after) && (!faces(after, normal) || folds(w, f));
 	return mr_dot(after, normal) < 0 && mr_dot(before, normal) >= 0;
 }
 
@@ -341,7 +334,7 @@ mr_status
 mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	pass w = { d, s, o, NULL, NULL, NULL };
+	pass w = { .d = d, .s = s, .o = o };
 	mr_guard guard = mr_dyn_guard(d);
 
 	MR_TRY(find_gravity(ctx, &w));
@@ -349,6 +342,8 @@ mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
 	w.at = MR_NEW(ctx, d->nv, uint32_t);
 	if (!w.p || !w.at)
 		return MR_EMEM;
+	w.from = w.to = mr_dyn_view(d, s->m->name);
+	w.to.p = w.p;
 	mr_parallel(ctx, d->nv, GRAIN, move_body, &w);
 	guard.is_bad = turns;
 	guard.held = hold_place;

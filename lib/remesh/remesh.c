@@ -1,6 +1,7 @@
 #include "remesh/remesh.h"
 
 #include "base/parallel.h"
+#include "mesh/fold.h"
 #include "remesh/extremities.h"
 #include "remesh/flip.h"
 #include "remesh/local_length.h"
@@ -235,11 +236,11 @@ count_flaws(remesher *r, const mr_source_map *map)
 	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
 
 	r->flipped[1] = mr_count_flipped(&facing, &view, map);
-	r->folded[1] = mr_count_folded(&view, r->d.twin);
+	r->folded[1] = mr_count_folds(&view, r->d.twin);
 	if (!r->wanted)
 		return;
 	r->flipped[0] = mr_count_flipped_source(&facing);
-	r->folded[0] = mr_count_folded(r->source.m, r->source.topo->twin);
+	r->folded[0] = mr_count_folds(r->source.m, r->source.topo->twin);
 }
 
 /* The map of the result as it is, without holes, and its flaws. */

@@ -7,9 +7,9 @@
 #include "remesh/relax.h"
 
 /*
- * Around every flipped face (remesh/orientation.h) and every edge folded by more than 160 degrees: moves a vertex, on
- * the surface where it can be, flips an edge or merges two vertices, the first that leaves fewer of both
- * there; until nothing does, 8 times at most, then with worse shapes allowed.  Needles are made only when all
+ * Around every flipped face (remesh/orientation.h) and every fold (mesh/fold.h): moves a vertex, on the surface
+ * where it can be, flips an edge or merges two vertices, the first that leaves fewer of both there; until
+ * nothing does, 8 times at most, then with worse shapes allowed.  Needles are made only when all
  * else has been tried.  A merge leaves holes in the numbering.  As a last resort tips are unpinned and
  * vertices of a boundary or curve merged along it.
  */

@@ -1,20 +1,13 @@
 #include "remesh/unfold.h"
 
-static const double FOLD = -0.9396926207859084; /* cosine of 160 degrees */
-
 enum { MOST = 10 };
 
 static bool
 is_folded(const mr_dyn *d, uint32_t h)
 {
 	uint32_t g = d->twin[h];
-	mr_v3 m, n;
 
-	if (g == MR_NONE)
-		return false;
-	m = mr_dyn_cross(d, d->p, h / 3);
-	n = mr_dyn_cross(d, d->p, g / 3);
-	return mr_dot(m, n) < FOLD * sqrt(mr_norm2(m) * mr_norm2(n));
+	return g != MR_NONE && mr_folds(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3), MR_NEAR_FOLD);
 }
 
 static bool
@@ -57,22 +50,21 @@ draw_in(mr_dyn *d, uint32_t v, bool tips)
 		d->p[v] = p;
 }
 
-size_t
-mr_iron(mr_dyn *d, bool tips)
+void
+mr_unfold(mr_dyn *d, bool tips)
 {
-	size_t folds = 1;
+	bool folded = true;
 
-	for (int i = 0; i < MOST && folds; i++) {
-		folds = 0;
+	for (int i = 0; i < MOST && folded; i++) {
+		folded = false;
 		for (uint32_t h = 0; h < 3 * d->nf; h++) {
 			if (mr_dyn_face_dead(d, h / 3) || h > d->twin[h] || !is_folded(d, h))
 				continue;
-			folds++;
+			folded = true;
 			draw_in(d, d->v[h], tips);
 			draw_in(d, mr_dyn_to(d, h), tips);
 			draw_in(d, mr_dyn_apex(d, h), tips);
 			draw_in(d, mr_dyn_apex(d, d->twin[h]), tips);
 		}
 	}
-	return folds;
 }

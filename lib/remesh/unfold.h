@@ -7,11 +7,11 @@
 #include "remesh/relax.h"
 
 /*
- * Draws the vertices at edges that are folded by more than 160 degrees towards the middle of their
- * neighbours, until none is left or it has been done 10 times.  Curves stay, tips do unless `tips`, and so
+ * Draws the vertices at edges that are near a fold (mesh/fold.h) towards the middle of their neighbours, until
+ * none is left or it has been done 10 times.  Curves stay, tips do unless `tips`, and so
  * does what would become a needle.  Where a limb is thinner than an edge a mesh of such edges may fold:
- * there the surface gives way.  Returns how many folds are left.
+ * there the surface gives way.
  */
-size_t mr_iron(mr_dyn *d, bool tips);
+void mr_unfold(mr_dyn *d, bool tips);
 
 #endif

@@ -1,6 +1,7 @@
 /* Where a displaced surface breaks: faces that turn over, sharp folds, faces that pass through others. */
 #include "sample/parts.h"
 #include "base/parallel.h"
+#include "mesh/fold.h"
 
 enum { GRAIN = 512 };
 
@@ -20,18 +21,14 @@ beyond(mr_v3 a, mr_v3 b, double cosine)
 static bool
 is_folded(const folds *x, uint32_t f)
 {
-	static const double turned = 0.1, folded = -0.97;
+	static const double turned = 0.1;
 	mr_v3 n = mr_face_cross(x->surface, f);
 
 	if (beyond(n, mr_face_cross(x->domain, f), turned))
 		return true;
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
 		uint32_t g = x->topo->twin[h];
-		mr_v3 m;
-		if (g == MR_NONE)
-			continue;
-		m = mr_face_cross(x->surface, g / 3);
-		if (!(mr_dot(n, m) > 0) && beyond(n, m, folded))
+		if (g != MR_NONE && mr_folds(n, mr_face_cross(x->surface, g / 3), MR_FOLD))
 			return true;
 	}
 	return false;

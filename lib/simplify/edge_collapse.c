@@ -269,8 +269,8 @@ folds_before(const mr_dyn *d, const mr_ring *r)
 	for (unsigned i = 0; i < r->n; i++) {
 		uint32_t e = r->he[i];
 		mr_v3 normal = mr_dyn_cross(d, d->p, e / 3);
-		n += mr_dyn_folds(normal, across(d, mr_he_next(e)));
-		n += mr_dyn_folds(normal, across(d, e));
+		n += mr_folds(normal, across(d, mr_he_next(e)), MR_NEAR_FOLD);
+		n += mr_folds(normal, across(d, e), MR_NEAR_FOLD);
 	}
 	return n;
 }
@@ -283,9 +283,9 @@ folds_after(const mr_dyn *d, const mr_ring *r, const mr_v3 *after)
 
 	for (unsigned i = 0; i < r->n; i++) {
 		unsigned next = i + 1 == r->n ? 0 : i + 1;
-		n += mr_dyn_folds(after[i], across(d, mr_he_next(r->he[i])));
+		n += mr_folds(after[i], across(d, mr_he_next(r->he[i])), MR_NEAR_FOLD);
 		if (mr_dyn_apex(d, r->he[i]) == mr_dyn_to(d, r->he[next]))
-			n += mr_dyn_folds(after[i], after[next]);
+			n += mr_folds(after[i], after[next], MR_NEAR_FOLD);
 	}
 	return n;
 }

@@ -13,6 +13,7 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 	double start = mr_seconds(), s = cloud->spacing;
 	mr_wrap_cover *cover = &w->cover;
 
+	w->folds = mr_count_folds(&m, w->d.twin);
 	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, cover));
 	mr_stat_set(ctx, "seconds_measure", mr_seconds() - start);
 	mr_note(ctx,
@@ -47,7 +48,7 @@ mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, c
 	memcpy(home, w->d.p, w->d.nv * sizeof *home);
 	MR_TRY(settle(ctx, cloud, o, &w->d));
 	for (int round = 0;; round++) {
-		w->folds = mr_iron(&w->d, true);
+		mr_unfold(&w->d, true);
 		MR_TRY(mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, what, w));
 		if (w->cover.crossings == 0 || round == MOST)
 			return MR_OK;

@@ -42,7 +42,7 @@ mr_status mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha,
  * vertices stay. */
 mr_status mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d);
 
-/* Moves the vertices to `to`, d->nv, but those that would turn a face by more than 60 degrees or fold it;
+/* Moves the vertices to `to`, d->nv, but those that would turn a face by more than 60 degrees or close it;
  * `to` becomes where they are. */
 mr_status mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d);
 
@@ -110,7 +110,7 @@ typedef struct mr_wrap {
 mr_status
 mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, mr_wrap *w);
 
-/* Settles w->d, near the points, on them, irons it, parts what passes through itself; assesses it. */
+/* Settles w->d, near the points, on them, unfolds it, parts what passes through itself; assesses it. */
 mr_status
 mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w);
 

@@ -90,7 +90,7 @@ wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 	MR_TRY(mr_wrap_dyn(ctx, &cube, &c->d));
 	mr_stat_set(ctx, "resolution", (double)r);
 	MR_TRY(pull(ctx, cloud, o, &c->d));
-	c->folds = mr_iron(&c->d, true);
+	mr_unfold(&c->d, true);
 	return mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "cube", c);
 }
 
@@ -295,7 +295,7 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 	}
 	MR_TRY(mr_wrap_settle(ctx, cloud, o, TEMPLATE_SETTLES, &c.d));
 	mr_stat_set(ctx, "iterations", (double)iterations);
-	c.folds = mr_iron(&c.d, true);
+	mr_unfold(&c.d, true);
 	MR_TRY(mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "template", &c));
 	report(ctx, cloud, &c);
 	memcpy(p, c.d.p, start->nv * sizeof *p);

@@ -1,0 +1,33 @@
+/* Folds, counted and kept from. */
+#include "mesh/fold.h"
+
+size_t
+mr_count_folds(const mr_mesh *m, const uint32_t *twin)
+{
+	size_t folds = 0;
+
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		if (twin[h] != MR_NONE && h < twin[h])
+			folds += mr_folds(mr_face_cross(m, h / 3), mr_face_cross(m, twin[h] / 3), MR_FOLD);
+	return folds;
+}
+
+static double
+cosine_between(const mr_mesh *m, uint32_t f, uint32_t g)
+{
+	return mr_dot(mr_unit(mr_face_cross(m, f)), mr_unit(mr_face_cross(m, g)));
+}
+
+bool
+mr_folds_more(const mr_mesh *from, const mr_mesh *to, const uint32_t *twin, uint32_t f, double cosine)
+{
+	mr_v3 n = mr_face_cross(to, f);
+
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
+		uint32_t g = twin[h] / 3;
+		if (twin[h] != MR_NONE && mr_folds(n, mr_face_cross(to, g), cosine) &&
+		    cosine_between(to, f, g) < cosine_between(from, f, g))
+			return true;
+	}
+	return false;
+}
