@@ -16,10 +16,10 @@ typedef struct move {
 	const mr_guard *g;
 	const mr_v3 *from;
 	mr_v3 *to;
-	list face;      /* to look at */
-	bool *bad;      /* whether these are */
-	list vertex;    /* to hold back */
-	uint8_t *times; /* that each vertex was */
+	list face, next; /* to look at now, and after */
+	bool *bad;       /* of those to look at now */
+	list vertex;     /* to hold back */
+	uint8_t *times;  /* that each vertex was */
 } move;
 
 static mr_status
@@ -55,31 +55,19 @@ judge(void *arg, size_t begin, size_t end)
 		w->bad[i] = w->g->is_bad(w->g->arg, w->face.at[i]);
 }
 
-/* Lists the corners of the faces around v. */
+/* Lists the faces around v, or their corners. */
 static void
-list_ring(move *w, uint32_t v)
+list_around(const mr_guard *g, uint32_t v, bool corners, list *l)
 {
-	uint32_t first = w->g->topo.out[v], h = first;
+	uint32_t first = g->topo.out[v], h = first;
 
 	do {
-		for (int k = 0; k < 3; k++)
-			list_add(&w->vertex, w->g->t[h / 3].v[k]);
-		h = mr_he_ccw(&w->g->topo, h);
+		if (!corners)
+			list_add(l, h / 3);
+		for (int k = 0; k < 3 && corners; k++)
+			list_add(l, g->t[h / 3].v[k]);
+		h = mr_he_ccw(&g->topo, h);
 	} while (h != MR_NONE && h != first);
-}
-
-/* Lists the vertices to hold back. */
-static void
-list_vertices(move *w)
-{
-	size_t i = 0;
-
-	for (size_t f = 0; f < w->face.n; f++)
-		for (int k = 0; k < 3 && w->bad[f]; k++)
-			list_add(&w->vertex, w->g->t[w->face.at[f]].v[k]);
-	for (unsigned ring = 0; ring < w->g->rings; ring++)
-		for (size_t end = w->vertex.n; i < end; i++)
-			list_ring(w, w->vertex.at[i]);
 }
 
 /* False where v stays already. */
@@ -94,32 +82,43 @@ hold_back(move *w, uint32_t v)
 	return true;
 }
 
-static void
-list_faces_around(move *w, uint32_t v)
+/* Bad faces, one after the other, hold their corners back, but those that have become good by that; then the
+ * faces around what was held back are to be looked at. */
+static bool
+hold_corners(move *w)
 {
-	uint32_t first = w->g->topo.out[v], h = first;
+	list looked = w->face;
 
-	do {
-		list_add(&w->face, h / 3);
-		h = mr_he_ccw(&w->g->topo, h);
-	} while (h != MR_NONE && h != first);
+	for (size_t i = 0; i < w->face.n; i++) {
+		uint32_t f = w->face.at[i];
+		if (!w->bad[i] || !w->g->is_bad(w->g->arg, f))
+			continue;
+		for (int k = 0; k < 3; k++)
+			if (hold_back(w, w->g->t[f].v[k]))
+				list_around(w->g, w->g->t[f].v[k], false, &w->next);
+	}
+	w->face = w->next;
+	w->next = looked;
+	list_clear(&w->next);
+	return w->face.n > 0;
 }
 
-/* Holds back what is listed and lists the faces to look at next; false where all stays already. */
+/* All bad faces at once hold back what is around them. */
 static bool
-take_back(move *w)
+hold_rings(move *w)
 {
 	bool any = false;
+	size_t i = 0;
 
-	if (!w->g->look)
-		list_clear(&w->face);
-	for (size_t i = 0; i < w->vertex.n; i++)
-		if (hold_back(w, w->vertex.at[i])) {
-			any = true;
-			if (!w->g->look)
-				list_faces_around(w, w->vertex.at[i]);
-		}
 	list_clear(&w->vertex);
+	for (size_t f = 0; f < w->face.n; f++)
+		for (int k = 0; k < 3 && w->bad[f]; k++)
+			list_add(&w->vertex, w->g->t[w->face.at[f]].v[k]);
+	for (unsigned ring = 0; ring < w->g->rings; ring++)
+		for (size_t end = w->vertex.n; i < end; i++)
+			list_around(w->g, w->vertex.at[i], true, &w->vertex);
+	for (i = 0; i < w->vertex.n; i++)
+		any |= hold_back(w, w->vertex.at[i]);
 	return any;
 }
 
@@ -129,6 +128,7 @@ move_new(mr_ctx *ctx, move *w)
 	const mr_guard *g = w->g;
 
 	MR_TRY(list_new(ctx, g->nf, &w->face));
+	MR_TRY(list_new(ctx, g->nf, &w->next));
 	MR_TRY(list_new(ctx, g->nv, &w->vertex));
 	w->bad = MR_NEW(ctx, g->nf, bool);
 	w->times = MR_NEW_ZERO(ctx, g->nv, uint8_t);
@@ -151,8 +151,7 @@ mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to
 		if (guard->look)
 			MR_TRY(guard->look(ctx, guard->arg));
 		mr_parallel(ctx, w.face.n, GRAIN, judge, &w);
-		list_vertices(&w);
-	} while (take_back(&w));
+	} while (guard->look ? hold_rings(&w) : hold_corners(&w));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
