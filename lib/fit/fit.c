@@ -5,12 +5,12 @@
 #include "fit/fit.h"
 
 #include "fit/least_squares.h"
-#include "space/local_planes.h"
-#include "space/near.h"
-#include "space/outlier.h"
 #include "mesh/fold.h"
 #include "mesh/zorder.h"
 #include "solve/sparse.h"
+#include "space/local_planes.h"
+#include "space/near.h"
+#include "space/outlier.h"
 
 enum { LOCAL_PASSES = 20, LEAST_SQUARES_PASSES = 5 };
 
@@ -106,25 +106,20 @@ warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, const mr_fit_foot *foot,
 		    far, edge);
 }
 
-/* Takes the outliers of *n points out, and their feet. */
+/* Takes the outliers of *n points out, and their feet; s: their sampling. */
 static mr_status
-drop_outliers(mr_ctx *ctx, double least, mr_v3 *point, mr_fit_foot *foot, size_t *n)
+drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, mr_fit_foot *foot, size_t *n)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *off = MR_NEW(ctx, *n, double);
 	bool *outlier = MR_NEW(ctx, *n, bool);
 	size_t count, kept = 0;
-	mr_near *near;
-	mr_status status;
 
 	if (!off || !outlier)
 		return MR_EMEM;
 	for (size_t i = 0; i < *n; i++)
 		off[i] = foot[i].dist;
-	MR_TRY(mr_near_build(ctx, point, *n, &near));
-	status = mr_find_outliers(ctx, near, point, *n, off, least, outlier, &count);
-	mr_near_free(near);
-	MR_TRY(status);
+	MR_TRY(mr_find_outliers(ctx, s, off, least, outlier, &count));
 	for (size_t i = 0; i < *n; i++) {
 		if (outlier[i])
 			continue;
@@ -135,6 +130,18 @@ drop_outliers(mr_ctx *ctx, double least, mr_v3 *point, mr_fit_foot *foot, size_t
 	mr_stat_set(ctx, "outliers", (double)count);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+/* The points in an order in which what close ones look up is in the cache, with their sampling where it is of
+ * use. */
+static mr_status
+sort_points(mr_ctx *ctx, const mr_v3 *point, size_t n, bool is_local, const mr_sampling *known, mr_v3 *sorted,
+    mr_sampling *s)
+{
+	if (is_local)
+		return mr_zorder_points(ctx, point, n, sorted);
+	MR_TRY(mr_sampling_find(ctx, point, n, known, s));
+	return mr_sampling_sort(ctx, point, s, sorted, s);
 }
 
 static mr_status
@@ -150,7 +157,8 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 }
 
 mr_status
-mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const mr_fit_opts *opts, mr_v3 *out)
+mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const mr_sampling *known,
+    const mr_fit_opts *opts, mr_v3 *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool is_local = opts->method == MR_FIT_LOCAL;
@@ -161,17 +169,18 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	size_t given = n;
 	double edge = mr_mesh_edge_scale(ctx, control);
 	double start;
+	mr_sampling sampling;
 	mr_fit_surface s;
 
 	MR_TRY(check(ctx, control, point, n));
 	if (!x || !foot || !sorted)
 		return MR_EMEM;
-	MR_TRY(mr_zorder_points(ctx, point, n, sorted)); /* what close ones look up is in the cache */
+	MR_TRY(sort_points(ctx, point, n, is_local, known, sorted, &sampling));
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
 	if (!is_local)
-		MR_TRY(drop_outliers(ctx, MR_FIT_NEAR * edge, sorted, foot, &n));
+		MR_TRY(drop_outliers(ctx, &sampling, MR_FIT_NEAR * edge, sorted, foot, &n));
 	record(ctx, &s, foot, n, "before");
 	start = mr_seconds();
 	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)

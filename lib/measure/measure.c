@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "mesh/fold.h"
-#include "space/near.h"
 #include "space/self_intersect.h"
 
 /* ---- counts ---- */
@@ -400,36 +399,38 @@ mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geo
 /* ---- clouds ---- */
 
 static mr_status
-measure_spacing(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_cloud *c)
+measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud *c)
 {
-	mr_near *near;
-	uint32_t *index = MR_NEW(ctx, 2 * n, uint32_t);
-	double *dist2 = MR_NEW(ctx, 2 * n, double);
-	mr_status status;
+	double *spacing = MR_NEW(ctx, s->n, double);
+	size_t count = 0;
 
-	if (!index || !dist2)
+	if (!spacing)
 		return MR_EMEM;
-	MR_TRY(mr_near_build(ctx, p, n, &near));
-	c->duplicates = n - mr_near_distinct(near);
-	if (mr_near_distinct(near) > 1) {
-		status = mr_near_query(ctx, near, p, n, 2, index, dist2);
-		for (size_t i = 0; i < n; i++)
-			dist2[i] = sqrt(dist2[2 * i + 1]);
-		if (status == MR_OK)
-			c->spacing = mr_spread_of(dist2, n);
-	} else {
-		status = MR_OK;
-	}
-	mr_near_free(near);
-	return status;
+	for (size_t i = 0; i < s->n; i++)
+		if (!s->repeat[i] && !s->outlier[i])
+			spacing[count++] = s->spacing[i];
+	c->places = s->places;
+	c->outliers = s->outliers;
+	c->duplicates = s->n - s->places;
+	if (!(s->usual > 0))
+		return MR_OK;
+	c->spacing = mr_spread_of(spacing, count);
+	c->usual = s->usual;
+	c->area = s->area;
+	c->evenness = s->evenness;
+	c->noise = s->noise;
+	c->noise_spacing = s->noise / s->usual;
+	c->noise_diagonal = s->noise / c->diagonal;
+	return MR_OK;
 }
 
 mr_status
-mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_cloud *out)
+mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_cloud c = { .points = n, .spacing = { NAN, NAN, NAN, NAN } };
 	mr_v3 *finite = MR_NEW(ctx, n, mr_v3);
+	mr_sampling found;
 	size_t count = 0;
 
 	if (!finite)
@@ -440,8 +441,9 @@ mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_cloud *out)
 	c.not_finite = n - count;
 	c.box = mr_box_of(finite, count);
 	c.diagonal = mr_box_diagonal(c.box);
-	if (count)
-		MR_TRY(measure_spacing(ctx, finite, count, &c));
+	c.usual = c.area = c.evenness = c.noise = c.noise_spacing = c.noise_diagonal = NAN;
+	MR_TRY(mr_sampling_find(ctx, finite, count, count == n ? sampling : NULL, &found));
+	MR_TRY(measure_sampling(ctx, &found, &c));
 	mr_mark_release(ctx, mark);
 	*out = c;
 	return MR_OK;

@@ -8,6 +8,7 @@
 #define MR_MEASURE_H
 
 #include "mesh/edges.h"
+#include "space/sampling.h"
 
 /*
  * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
@@ -56,15 +57,21 @@ mr_status mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edg
 /* Marks the ends of boundary edges.  boundary: nv, the caller's. */
 void mr_mark_boundary(const mr_mesh *m, const mr_edges *edges, bool *boundary);
 
-/* Of points, finite or not; box and spacing are those of the finite ones. */
+/* Of points, finite or not; all but these counts are of the finite ones.  NaN of one place, what has no
+ * number. */
 typedef struct mr_cloud {
 	size_t points, not_finite;
 	size_t duplicates; /* points at the place of an earlier one */
 	mr_box box;
 	double diagonal;
-	mr_spread spacing; /* distances to the nearest other place */
+	size_t places, outliers; /* of mr_sampling, as all that follows */
+	mr_spread spacing;       /* of the places that are no outliers */
+	double usual, area, evenness;
+	double noise, noise_spacing, noise_diagonal; /* the same in median spacings, and in diagonals */
 } mr_cloud;
 
-mr_status mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_cloud *cloud);
+/* sampling: of the points, where it is known; NULL: found.  Fails as mr_sampling_find does. */
+mr_status
+mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud *cloud);
 
 #endif

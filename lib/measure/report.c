@@ -1,8 +1,8 @@
 #include "measure/report.h"
 
-#include "subdivide/displaced.h"
 #include "measure/report_parts.h"
 #include "mesh/validate.h"
+#include "subdivide/displaced.h"
 
 typedef struct report {
 	mr_ctx *ctx;
@@ -127,12 +127,17 @@ report_surface(const report *r, const char *layer)
 static mr_status
 report_cloud(const report *r, const char *layer)
 {
+	mr_sampling sampling;
+	bool stored = false;
 	const void *p;
 	mr_cloud c;
 	size_t n;
 
 	MR_TRY(mr_layer_get(r->ctx, r->f, layer, "position", &p, &n));
-	MR_TRY(mr_measure_cloud(r->ctx, p, n, &c));
+	/* where it breaks a law it is found anew; that is for --check to say */
+	if (mr_sampling_stored(r->ctx, r->f, layer, n, &sampling, &stored) == MR_EMEM)
+		return MR_EMEM;
+	MR_TRY(mr_measure_cloud(r->ctx, p, n, stored ? &sampling : NULL, &c));
 	if (r->opts->json) {
 		mr_text_add(r->t, "\"kind\":\"cloud\",\"points\":%zu", c.points);
 		mr_report_cloud_json(r->t, &c);
@@ -239,20 +244,40 @@ list_broken(void *user, const char *sentence)
 		r->first = mr_format(r->ctx, "%s", sentence);
 }
 
-/* The laws of each layer, and whether the displacement can be decoded. */
+/* Lists the sentence of a failure; none stays. */
 static mr_status
-check(report *r)
+list_failure(report *r, mr_status status)
 {
-	mr_status status;
-
-	MR_TRY(mr_check_frame(r->ctx, r->f, list_broken, r));
-	status = mr_displacement_check(r->ctx, r->f);
 	if (status == MR_EMEM)
 		return status;
 	if (status < 0)
 		list_broken(r, r->ctx->error);
 	*r->ctx->error = '\0';
 	return MR_OK;
+}
+
+/* The sampling of the layers that have one. */
+static mr_status
+check_samplings(report *r)
+{
+	for (size_t i = 0; i < r->f->count; i++) {
+		const mr_column *c = &r->f->columns[i];
+		mr_sampling sampling;
+		bool stored;
+		if (!strcmp(c->name, "position"))
+			MR_TRY(list_failure(
+			    r, mr_sampling_stored(r->ctx, r->f, c->layer, c->rows, &sampling, &stored)));
+	}
+	return MR_OK;
+}
+
+/* The laws of each layer, its sampling, and whether the displacement can be decoded. */
+static mr_status
+check(report *r)
+{
+	MR_TRY(mr_check_frame(r->ctx, r->f, list_broken, r));
+	MR_TRY(check_samplings(r));
+	return list_failure(r, mr_displacement_check(r->ctx, r->f));
 }
 
 static mr_status

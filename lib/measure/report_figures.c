@@ -36,11 +36,19 @@ static const mr_figure surface_figures[] = {
 static const mr_figure cloud_figures[] = {
 	{ "not_finite", MR_FIGURE_COUNT, offsetof(mr_cloud, not_finite) },
 	{ "duplicates", MR_FIGURE_COUNT, offsetof(mr_cloud, duplicates) },
+	{ "places", MR_FIGURE_COUNT, offsetof(mr_cloud, places) },
+	{ "outliers", MR_FIGURE_COUNT, offsetof(mr_cloud, outliers) },
 	{ "diagonal", MR_FIGURE_REAL, offsetof(mr_cloud, diagonal) },
 	{ "spacing_min", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.min) },
 	{ "spacing_mean", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.mean) },
 	{ "spacing_max", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.max) },
 	{ "spacing_deviation", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.deviation) },
+	{ "spacing_median", MR_FIGURE_REAL, offsetof(mr_cloud, usual) },
+	{ "evenness", MR_FIGURE_REAL, offsetof(mr_cloud, evenness) },
+	{ "area", MR_FIGURE_REAL, offsetof(mr_cloud, area) },
+	{ "noise", MR_FIGURE_REAL, offsetof(mr_cloud, noise) },
+	{ "noise_spacing", MR_FIGURE_REAL, offsetof(mr_cloud, noise_spacing) },
+	{ "noise_diagonal", MR_FIGURE_REAL, offsetof(mr_cloud, noise_diagonal) },
 };
 
 /* Nothing has no box. */
@@ -202,6 +210,15 @@ mr_report_cloud_text(mr_text *t, const mr_cloud *c)
 		mr_text_add(t, "    not finite     %zu\n", c->not_finite);
 	mr_text_add(t, "    duplicates     %zu\n", c->duplicates);
 	spread_text(t, "spacing", &c->spacing);
+	if (!(c->usual > 0))
+		return;
+	mr_text_figure(t, "    sampling       median spacing ", 6, c->usual);
+	mr_text_figure(t, ", evenness ", 3, c->evenness);
+	mr_text_figure(t, ", area ", 6, c->area);
+	mr_text_figure(t, "\n    noise          ", 3, c->noise_spacing);
+	mr_text_figure(t, " spacings, ", 3, 100 * c->noise_diagonal);
+	mr_text_add(t, " %% of the diagonal\n");
+	mr_text_add(t, "    outliers       %zu\n", c->outliers);
 }
 
 void

@@ -1,6 +1,8 @@
 /* Morton 1966: A computer oriented geodetic data base and a new technique in file sequencing. */
 #include "mesh/zorder.h"
 
+#include <stdlib.h>
+
 enum { BITS = 10, BUCKETS = 1 << BITS };
 
 /* The lowest BITS bits of x, two zeros between each. */
@@ -35,6 +37,66 @@ sort_digit(const uint32_t *key, int digit, const uint32_t *from, size_t n, uint3
 		to[start[key[from[i]] >> (digit * BITS) & (BUCKETS - 1)]++] = from[i];
 }
 
+/* A point of a cell that holds several. */
+typedef struct tied {
+	mr_v3 p;
+	uint32_t index;
+} tied;
+
+static int
+compare_tied(const void *a, const void *b)
+{
+	const tied *x = a, *y = b;
+
+	if (x->p.x != y->p.x)
+		return x->p.x < y->p.x ? -1 : 1;
+	if (x->p.y != y->p.y)
+		return x->p.y < y->p.y ? -1 : 1;
+	if (x->p.z != y->p.z)
+		return x->p.z < y->p.z ? -1 : 1;
+	return (x->index > y->index) - (x->index < y->index);
+}
+
+/* One past the last of the points from `first` on that are in its cell. */
+static size_t
+end_of_cell(const uint32_t *key, const uint32_t *order, size_t first, size_t n)
+{
+	size_t end = first + 1;
+
+	while (end < n && key[order[end]] == key[order[first]])
+		end++;
+	return end;
+}
+
+/* Puts those of one cell in order, cell by cell. */
+static mr_status
+sort_cells(mr_ctx *ctx, const mr_v3 *p, const uint32_t *key, size_t n, uint32_t *order)
+{
+	size_t most = 0;
+	tied *t;
+
+	for (size_t i = 0, end; i < n; i = end) {
+		end = end_of_cell(key, order, i, n);
+		most = end - i > most ? end - i : most;
+	}
+	if (most < 2)
+		return MR_OK;
+	t = MR_NEW(ctx, most, tied);
+	if (!t)
+		return MR_EMEM;
+	for (size_t i = 0, end; i < n; i = end) {
+		end = end_of_cell(key, order, i, n);
+		if (end - i < 2)
+			continue;
+		for (size_t k = i; k < end; k++)
+			t[k - i] = (tied){ p[order[k]], order[k] };
+		qsort(t, end - i, sizeof *t, compare_tied);
+		for (size_t k = i; k < end; k++)
+			order[k] = t[k - i].index;
+	}
+	return MR_OK;
+}
+
 mr_status
 mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 {
@@ -55,6 +117,7 @@ mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 	sort_digit(key, 0, other, n, order);
 	sort_digit(key, 1, order, n, other);
 	sort_digit(key, 2, other, n, order);
+	MR_TRY(sort_cells(ctx, p, key, n, order));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

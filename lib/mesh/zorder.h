@@ -10,7 +10,8 @@ enum { MR_ZORDER_CELLS = 1024 };
 
 /*
  * order[i]: the index of the i-th of n finite points along the Z curve over a grid of `cells` a side, at most
- * MR_ZORDER_CELLS; those of one cell by index.  order: n < 2^32, the caller's.
+ * MR_ZORDER_CELLS; those of one cell by x, y, z, those of one place by index: so which place comes when does
+ * not depend on the order of the points.  order: n < 2^32, the caller's.
  */
 mr_status mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order) MR_WARN_UNUSED;
 

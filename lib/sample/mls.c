@@ -3,45 +3,19 @@
  * fitted to the nearest points with weights that fall off across the line (Alexa et al. 2003) and with the
  * residual, so that noise averages out and outliers do not count (Fleishman et al. 2005).
  */
-#include "sample/parts.h"
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "sample/parts.h"
+#include "space/local_quadric.h"
 
 #include <float.h>
 
-enum { CHUNK = 1 << 14, GRAIN = 128, TERMS = 6, ROUNDS = 6 };
-
-/* Solves the n x n system A x = b in place (Cholesky); false where A is not positive definite. */
-static bool
-solve_small(double a[TERMS][TERMS], double b[TERMS], int n)
-{
-	for (int j = 0; j < n; j++) {
-		for (int i = j; i < n; i++) {
-			double s = a[i][j];
-			for (int k = 0; k < j; k++)
-				s -= a[i][k] * a[j][k];
-			if (i == j && !(s > 1e-12 * a[j][j]))
-				return false;
-			a[i][j] = i == j ? sqrt(s) : s / a[j][j];
-		}
-	}
-	for (int i = 0; i < n; i++) {
-		for (int k = 0; k < i; k++)
-			b[i] -= a[i][k] * b[k];
-		b[i] /= a[i][i];
-	}
-	for (int i = n; i-- > 0;) {
-		for (int k = i + 1; k < n; k++)
-			b[i] -= a[k][i] * b[k];
-		b[i] /= a[i][i];
-	}
-	return true;
-}
+enum { CHUNK = 1 << 14, GRAIN = 128, TERMS = MR_QUADRIC_TERMS, ROUNDS = 6 };
 
 /* The points about a line, in units of the radius that they are looked at in. */
 typedef struct patch {
 	size_t n;
-	double x[MR_SAMPLE_MOST][TERMS]; /* 1 x y xx rxy yy, r the root of 2 */
+	double x[MR_SAMPLE_MOST][TERMS]; /* of the quadric */
 	double t[MR_SAMPLE_MOST], near[MR_SAMPLE_MOST], weight[MR_SAMPLE_MOST], off[MR_SAMPLE_MOST];
 	double radius;
 } patch;
@@ -89,35 +63,10 @@ patch_new(const mr_sight *s, size_t n, patch *p)
 	p->radius = radius;
 	for (size_t i = 0; i < n; i++) {
 		double x = s[i].x / radius, y = s[i].y / radius, u = 1 - s[i].d2 / radius2;
-		double row[TERMS] = { 1, x, y, x * x, sqrt(2) * x * y, y * y };
-		memcpy(p->x[i], row, sizeof row);
+		mr_quadric_row(x, y, p->x[i]);
 		p->t[i] = s[i].t / radius;
 		p->near[i] = u * u * u + 1e-3; /* falls to about 0 at the radius */
 	}
-}
-
-/* The quadric by the weights; the quadratic terms shrink a little, which keeps the system definite: by the
- * root of 2 it is the norm of their matrix that does, whatever the axes. */
-static bool
-fit_quadric(const patch *p, double coefficient[TERMS])
-{
-	double a[TERMS][TERMS] = { { 0 } }, b[TERMS] = { 0 }, sum = 0;
-
-	for (size_t k = 0; k < p->n; k++) {
-		double w = p->near[k] * p->weight[k];
-		sum += w;
-		for (int i = 0; i < TERMS; i++) {
-			b[i] += w * p->x[k][i] * p->t[k];
-			for (int j = 0; j <= i; j++)
-				a[i][j] += w * p->x[k][i] * p->x[k][j];
-		}
-	}
-	for (int i = 1; i < TERMS; i++)
-		a[i][i] += (i < 3 ? 1e-6 : 1e-3) * sum;
-	if (!(sum > 0) || !solve_small(a, b, TERMS))
-		return false;
-	memcpy(coefficient, b, sizeof b);
-	return true;
 }
 
 static void
@@ -132,7 +81,7 @@ weigh(patch *p, const double c[TERMS], double *scale)
 	*scale = 1.4826 * median_of(p, p->off);
 	for (size_t k = 0; k < p->n; k++) {
 		double u = p->off[k] / (3 * *scale + 1e-9);
-		p->weight[k] = 1 / ((1 + u * u) * (1 + u * u));
+		p->weight[k] = p->near[k] * (1 / ((1 + u * u) * (1 + u * u)));
 	}
 }
 
@@ -149,7 +98,7 @@ local_surface(const mr_sight *s, size_t n, double *height, double *deviation, do
 	c[0] = median_of(&p, p.t);
 	weigh(&p, c, &scale);
 	for (int round = 0; round < ROUNDS; round++) {
-		if (!fit_quadric(&p, c))
+		if (!mr_quadric_fit(p.x[0], p.t, p.weight, n, c))
 			return false;
 		weigh(&p, c, &scale);
 	}

@@ -2,12 +2,11 @@
  * section 5. */
 #include "sample/sample.h"
 
-#include "sample/parts.h"
 #include "base/parallel.h"
+#include "sample/parts.h"
 #include "space/bvh.h"
 #include "space/local_planes.h"
 #include "space/outlier.h"
-#include "mesh/zorder.h"
 
 #include <float.h>
 
@@ -22,44 +21,6 @@ is_open(const mr_loop *l)
 		if (l->topo.twin[h] == MR_NONE)
 			return true;
 	return false;
-}
-
-/* The squared distance of a point from the span of the unit vectors, of which there are `count`. */
-static double
-beyond(mr_v3 r, const mr_v3 *axis, int count)
-{
-	for (int i = 0; i < count; i++)
-		r = mr_axpy(-mr_dot(r, axis[i]), axis[i], r);
-	return mr_norm2(r);
-}
-
-/* How many dimensions the points extend in, to rounding: each axis goes to the point farthest from those
- * before. */
-static int
-dimensions(const mr_v3 *p, size_t n, double diagonal)
-{
-	mr_v3 axis[3];
-	int count = 0;
-
-	for (; count < 3; count++) {
-		double most = 1e-24 * diagonal * diagonal;
-		size_t farthest = n;
-		mr_v3 r;
-		for (size_t i = 0; i < n; i++) {
-			double d2 = beyond(mr_sub(p[i], p[0]), axis, count);
-			if (d2 > most) {
-				most = d2;
-				farthest = i;
-			}
-		}
-		if (farthest == n)
-			break;
-		r = mr_sub(p[farthest], p[0]);
-		for (int i = 0; i < count; i++)
-			r = mr_axpy(-mr_dot(r, axis[i]), axis[i], r);
-		axis[count] = mr_unit(r);
-	}
-	return count;
 }
 
 typedef struct placing {
@@ -119,7 +80,7 @@ static mr_status
 check_points(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c)
 {
 	static const char *const shape[] = { "at one place", "on a line", "in a plane" };
-	int extent = dimensions(c->p, c->n, c->diagonal);
+	int extent = mr_cloud_dimensions(c->p, c->n);
 
 	if (extent < 2 || (extent < 3 && !is_open(&d->level[d->n])))
 		return mr_fail(ctx, MR_EMESH, "all %zu points lie %s: they make no surface%s", c->n,
@@ -158,7 +119,7 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_cloud *c)
 
 /* Finds the place of each point, and takes out those that belong nowhere. */
 static mr_status
-place_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c)
+place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c)
 {
 	double *off = MR_NEW(ctx, c->n, double);
 	bool *outlier = MR_NEW(ctx, c->n, bool);
@@ -167,7 +128,7 @@ place_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c)
 	if (!off || !outlier)
 		return MR_EMEM;
 	MR_TRY(mr_cloud_place(ctx, d, c, off));
-	MR_TRY(mr_find_outliers(ctx, c->near, c->p, c->n, off, 0, outlier, &outliers));
+	MR_TRY(mr_find_outliers(ctx, s, off, 0, outlier, &outliers));
 	mr_stat_set(ctx, "outliers", (double)outliers);
 	return outliers ? keep_points(ctx, outlier, c->n - outliers, c) : MR_OK;
 }
@@ -206,7 +167,8 @@ robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_
 }
 
 static mr_status
-sample_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, const mr_sample_opts *opts, double *height)
+sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c, const mr_sample_opts *opts,
+    double *height)
 {
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
 	size_t distinct, k = opts->neighbours;
@@ -217,7 +179,7 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, const mr_sample_opts 
 	if (!hit)
 		return MR_EMEM;
 	MR_TRY(check_points(ctx, d, c));
-	MR_TRY(place_cloud(ctx, d, c));
+	MR_TRY(place_cloud(ctx, d, s, c));
 	distinct = mr_near_distinct(c->near);
 	if (k > distinct)
 		k = distinct;
@@ -232,12 +194,13 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, const mr_sample_opts 
 }
 
 mr_status
-mr_sample_points(
-    mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, const mr_sample_opts *opts, double *height)
+mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, const mr_sampling *known,
+    const mr_sample_opts *opts, double *height)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
 	mr_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
+	mr_sampling sampling;
 	mr_status s;
 
 	if (n == 0)
@@ -245,9 +208,11 @@ mr_sample_points(
 	if (!sorted)
 		return MR_EMEM;
 	MR_TRY(mr_cloud_check_spread(ctx, point, n));
-	MR_TRY(mr_zorder_points(ctx, point, n, sorted)); /* what close ones look up is in the cache */
+	MR_TRY(mr_sampling_find(ctx, point, n, known, &sampling));
+	/* what close ones look up is in the cache */
+	MR_TRY(mr_sampling_sort(ctx, point, &sampling, sorted, &sampling));
 	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
-	s = sample_cloud(ctx, d, &c, opts, height);
+	s = sample_cloud(ctx, d, &sampling, &c, opts, height);
 	mr_near_free(c.near);
 	if (s >= 0)
 		mr_mark_release(ctx, mark);

@@ -5,18 +5,20 @@
 #ifndef MR_SAMPLE_H
 #define MR_SAMPLE_H
 
+#include "space/sampling.h"
 #include "subdivide/displaced.h"
 
 enum { MR_SAMPLE_MOST = 128 }; /* neighbours, at most */
 
 /*
- * Heights over the domain to the points: d->m.nv, the caller's.  A vertex that finds no valid triangle is
- * filled smoothly from its neighbours and counted; heights that fold the surface are
- * drawn to the domain, if `refine` is not 0.  MR_EMESH where the points cannot make a surface (fewer
- * than four, all equal, collinear, coplanar with a closed control mesh).  Figures: see man/mr-sample.1.
+ * Heights over the domain to the points: d->m.nv, the caller's.  sampling: what is known of the points', or
+ * NULL.  A vertex that finds no valid triangle is filled smoothly from its neighbours and counted; heights
+ * that fold the surface are drawn to the domain, if `refine` is not 0.  MR_EMESH where the points cannot make
+ * a surface (fewer than four, all equal, collinear, coplanar with a closed control mesh).  Figures: see
+ * man/mr-sample.1.
  */
 mr_status mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n,
-    const mr_sample_opts *opts, double *height);
+    const mr_sampling *sampling, const mr_sample_opts *opts, double *height);
 
 /* The same to the surface of a mesh, by the first hit of the line along the normal on the near sheet (Lee et
  * al. 2000). */

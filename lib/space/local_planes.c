@@ -62,6 +62,9 @@ mr_eigen_sym3(const double a[6], double value[3], mr_v3 vector[3])
 	}
 }
 
+/* Of the diagonal of the box: what is flatter may be rounding of single precision. */
+static const double FLAT = 1e-6;
+
 /* Directions of at most this cosine, 45 degrees, lie apart. */
 static const double APART = 0.7;
 
@@ -113,6 +116,59 @@ mr_plane_fit(const mr_v3 *p, size_t k, double *variation)
 	return vector[0];
 }
 
+/* The squared distance of r from the span of `count` unit vectors. */
+static double
+beyond(mr_v3 r, const mr_v3 *axis, int count)
+{
+	for (int i = 0; i < count; i++)
+		r = mr_axpy(-mr_dot(r, axis[i]), axis[i], r);
+	return mr_norm2(r);
+}
+
+/* Each axis goes to the point farthest from those before. */
+int
+mr_cloud_dimensions(const mr_v3 *p, size_t n)
+{
+	double least = FLAT * mr_box_diagonal(mr_box_of(p, n));
+	mr_v3 axis[3];
+	int count = 0;
+
+	for (; count < 3; count++) {
+		double most = least * least;
+		size_t farthest = n;
+		mr_v3 r;
+		for (size_t i = 0; i < n; i++) {
+			double d2 = beyond(mr_sub(p[i], p[0]), axis, count);
+			if (d2 > most) {
+				most = d2;
+				farthest = i;
+			}
+		}
+		if (farthest == n)
+			break;
+		r = mr_sub(p[farthest], p[0]);
+		for (int i = 0; i < count; i++)
+			r = mr_axpy(-mr_dot(r, axis[i]), axis[i], r);
+		axis[count] = mr_unit(r);
+	}
+	return count;
+}
+
+/*
+ * Of the nearest k = 3, 4, 6, 8, 10, 12, 15, eight come nearest to the areas of half of 39 closed meshes by
+ * their vertices: off by 4 % and a deviation of 6 %, and so of the other half; by the eighth alone the
+ * deviation is 10 %.
+ */
+double
+mr_own_area(const double *dist2, size_t k)
+{
+	double sum = 0;
+
+	for (size_t j = 0; j < k; j++)
+		sum += dist2[j];
+	return k > 0 ? 2 * MR_PI * sum / ((double)k * (double)(k + 1)) : 0;
+}
+
 /* Directions from q[0] to the nearest of the others that lie apart.  Returns how many. */
 static size_t
 directions_apart(const mr_v3 *q, size_t k, mr_v3 direction[AROUND])
@@ -130,6 +186,15 @@ directions_apart(const mr_v3 *q, size_t k, mr_v3 direction[AROUND])
 	return n;
 }
 
+mr_v3
+mr_plane_around(const mr_v3 *q, size_t k, double *variation)
+{
+	mr_v3 direction[AROUND];
+	size_t apart = directions_apart(q, k, direction);
+
+	return apart > 2 ? mr_plane_fit(direction, apart, variation) : mr_plane_fit(q, k, variation);
+}
+
 typedef struct work {
 	const mr_v3 *p;
 	const uint32_t *index; /* k of each of a chunk's points */
@@ -144,18 +209,18 @@ fit_at(const work *w, size_t i)
 {
 	const uint32_t *index = w->index + i * w->k;
 	const mr_planes *o = w->out;
-	size_t at = w->first + i, n = 0, apart, rim;
-	mr_v3 q[MOST], direction[AROUND];
+	const double *dist2 = w->dist2 + i * w->k;
+	size_t at = w->first + i, n = 0;
+	mr_v3 q[MOST];
 
 	q[0] = w->p[at];
 	for (; n < w->k && index[n] != UINT32_MAX; n++)
 		q[n] = w->p[index[n]];
-	apart = w->around ? directions_apart(q, n, direction) : 0;
-	o->normal[at] = apart > 2 ? mr_plane_fit(direction, apart, &o->variation[at])
+	o->normal[at] = w->around ? mr_plane_around(q, n, &o->variation[at])
 	                          : mr_plane_fit(q, n, &o->variation[at]);
-	rim = w->around && n > AROUND ? AROUND : n;
-	/* the last neighbour lies on the rim of the disc: half of it is inside */
-	o->area[at] = MR_PI * w->dist2[i * w->k + rim - 1] / (rim > 1 ? (double)rim - 0.5 : 1);
+	/* in a layer as thick as noise makes it, the farthest tell best how many there are to an area */
+	o->area[at] = w->around || n < 2 ? mr_own_area(dist2 + 1, n > AROUND ? AROUND : n - 1)
+	                                 : MR_PI * dist2[n - 1] / (double)(n - 1);
 	for (size_t j = 0; j < o->links; j++)
 		o->neighbor[at * o->links + j] = j + 1 < n ? index[j + 1] : UINT32_MAX;
 }

@@ -9,7 +9,7 @@
 typedef struct mr_planes {
 	mr_v3 *normal;     /* n: unit normals of the planes, of either sign */
 	double *variation; /* n: least eigenvalue over their sum: 0 in a plane, 1/3 in a ball */
-	double *area;      /* n: of the disc that the neighbours fill, a neighbour's share */
+	double *area;      /* n: that a point has to itself */
 	uint32_t
 	    *neighbor; /* n x links: the nearest points, itself left out; UINT32_MAX where there are none */
 	size_t links;
@@ -29,11 +29,27 @@ mr_status mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_
 /* Unit normal of the plane of least squares through k points; variation: as above. */
 mr_v3 mr_plane_fit(const mr_v3 *p, size_t k, double *variation);
 
+/* The plane that `around` speaks of; q[0]: the point, then its nearest, k in all. */
+mr_v3 mr_plane_around(const mr_v3 *q, size_t k, double *variation);
+
+/*
+ * The area of the surface that a point has to itself, by the squared distances of its k nearest others, of
+ * which eight are best: among points strewn over a plane the disc out to the j-th is that of j, so PI sum
+ * d_j^2 / sum j. 0 where k is 0.
+ */
+double mr_own_area(const double *dist2, size_t k);
+
 /*
  * MR_ERANGE where the points spread over less than 1e-70 or more than 1e70, as the fourth power of a length
  * would be no number; those at one place pass.
  */
 mr_status mr_cloud_check_spread(mr_ctx *ctx, const mr_v3 *p, size_t n) MR_WARN_UNUSED;
+
+/*
+ * How many dimensions the points extend in, 0 to 3: by more than 1e-6 of their spread, which is beyond the
+ * rounding of single precision.
+ */
+int mr_cloud_dimensions(const mr_v3 *p, size_t n);
 
 /* Sums of the products xx xy xz yy yz zz of k points, about their mean and times `scale`. */
 void mr_covariance(const mr_v3 *p, size_t k, double scale, double sum[6]);

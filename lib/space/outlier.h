@@ -1,26 +1,22 @@
 /*
- * outlier.h -- points of a cloud that belong to no surface.
+ * outlier.h -- outliers of a cloud beside a surface that is known to be near most points.
  *
  * Contract: deterministic for any number of threads.
  */
 #ifndef MR_SPACE_OUTLIER_H
 #define MR_SPACE_OUTLIER_H
 
-#include "space/near.h"
+#include "space/sampling.h"
 
 /*
- * Which of n points, of which `near` is the index, are outliers: points far from a surface that is known to
- * be near most of them, and alone there.  off: the distance of each from that surface.
+ * Of the outliers of a sampling (s->n > 0), which are far from the surface too; off: the distance of each of
+ * the points from it.  Those are that are farther than 2.5 standard deviations, estimated from the median of
+ * `off`, than `least`, and than half their spacing: sparse points that the surface is as near to as to others
+ * are none.
  *
- * Suspect are those farther than 2.5 standard deviations, estimated from the median of `off`, and `least`. Of
- * these, one is an outlier whose neighbours are about as far as the surface is, and which is far from them
- * compared with what they are from theirs (Breunig et al. 2000: LOF), or which is much farther from them than
- * points usually are and not in a plane with them, or which has mostly outliers about it.  Points that the
- * surface does not reach, but that make one by themselves, are none.
- *
- * outlier: n, the caller's.  *count: how many.
+ * outlier: s->n, the caller's.  *count: how many.
  */
-mr_status mr_find_outliers(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, const double *off,
-    double least, bool *outlier, size_t *count) MR_WARN_UNUSED;
+mr_status mr_find_outliers(mr_ctx *ctx, const mr_sampling *s, const double *off, double least, bool *outlier,
+    size_t *count) MR_WARN_UNUSED;
 
 #endif

@@ -11,14 +11,19 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts)
 	const mr_fit_opts *o = opts ? opts : &defaults;
 	const char *layer = o->layer ? o->layer : "control", *from;
 	mr_mesh control, points;
+	mr_sampling sampling, *known = NULL;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
 	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));
 	MR_TRY(mr_layer_points(ctx, f, from, &points));
+	if (o->method != MR_FIT_LOCAL) {
+		MR_TRY(mr_sampling_of(ctx, f, &points, &sampling));
+		known = &sampling;
+	}
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, o, p));
+	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, known, o, p));
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }

@@ -44,6 +44,7 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts)
 	mr_mesh control, target;
 	size_t n = o->level;
 	double *height;
+	mr_sampling sampling;
 	mr_domain d;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
@@ -54,10 +55,12 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts)
 	height = MR_NEW(ctx, d.m.nv, double);
 	if (!height)
 		return MR_EMEM;
-	if (target.nf)
+	if (target.nf) {
 		MR_TRY(mr_sample_mesh(ctx, &d, &target, o, height));
-	else
-		MR_TRY(mr_sample_points(ctx, &d, target.p, target.nv, o, height));
+	} else {
+		MR_TRY(mr_sampling_of(ctx, f, &target, &sampling));
+		MR_TRY(mr_sample_points(ctx, &d, target.p, target.nv, &sampling, o, height));
+	}
 	mr_stat_set(ctx, "level", (double)n);
 	mr_stat_set(ctx, "vertices", (double)d.m.nv);
 	return mr_displacement_put(ctx, f, &d, height);

@@ -6,8 +6,9 @@
 #ifndef MR_VOLUME_PARTS_H
 #define MR_VOLUME_PARTS_H
 
-#include "volume/isosurface.h"
 #include "space/local_planes.h"
+#include "space/sampling.h"
+#include "volume/isosurface.h"
 
 /* The points, each once, ordered by place; the planes' normals get their signs on the way. */
 typedef struct samples {
@@ -22,10 +23,12 @@ typedef struct samples {
 
 enum { DEPTHS = 3 };
 
-/* Drops repeated points, orders the others so that near ones are near in memory and keeps the share of them;
- * no depths yet.  projected: where they are noisy, to their planes. */
-mr_status
-mr_volume_samples(mr_ctx *ctx, const mr_v3 *point, size_t n, double share, bool projected, samples *s);
+/*
+ * Of the n places of a sampling, which become the samples' own, a share, and their planes; no depths yet.
+ * projected: where they are noisy, onto their planes.
+ */
+mr_status mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share,
+    bool projected, samples *s);
 
 /* Moves each point onto the plane of least squares of those nearest to it; planes and links are as they were.
  * volume_project.c */

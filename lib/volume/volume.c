@@ -11,9 +11,9 @@
  */
 #include "volume/volume.h"
 
-#include "volume/parts.h"
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "volume/parts.h"
 
 enum {
 	GRAIN = 1024,
@@ -87,17 +87,17 @@ choose_grid(mr_box box, double spacing, size_t n, size_t cells, mr_grid *g, size
 
 /* Of the points: those that are as far apart as the grid shows. */
 static double
-useful_share(const mr_v3 *point, size_t n, const mr_volume_opts *opts)
+useful_share(const mr_v3 *point, size_t n, double spacing, const mr_volume_opts *opts)
 {
 	mr_box box = mr_box_of(point, n);
 	size_t levels;
 	double coarser;
 	mr_grid g;
 
-	if (!(opts->spacing > 0 && mr_box_diagonal(box) > 0))
+	if (!(spacing > 0 && mr_box_diagonal(box) > 0))
 		return 1;
-	choose_grid(box, opts->spacing, n, opts->grid, &g, &levels);
-	coarser = g.step / (CELL * opts->spacing);
+	choose_grid(box, spacing, n, opts->grid, &g, &levels);
+	coarser = g.step / (CELL * spacing);
 	return coarser > COARSER ? 1 / (coarser * coarser) : 1;
 }
 
@@ -412,10 +412,24 @@ inside_share(const float *f, size_t nodes)
 	return (double)inside / (double)nodes;
 }
 
+/* v->s of what counts of n points; *places: how many these are. */
+static mr_status
+take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, size_t *places, volume *v)
+{
+	mr_sampling s;
+	mr_v3 *p;
+
+	MR_TRY(mr_sampling_find(ctx, point, n, opts->sampling, &s));
+	MR_TRY(mr_sampling_places(ctx, point, &s, &p, places));
+	return mr_volume_samples(
+	    ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), opts->project, &v->s);
+}
+
 mr_status
 mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out)
 {
 	double start = mr_seconds();
+	size_t places;
 	volume v;
 	mr_mark mark;
 	mr_mesh m;
@@ -423,9 +437,9 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 
 	if (opts->grid > CELLS_MOST)
 		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
-	MR_TRY(mr_volume_samples(ctx, point, n, useful_share(point, n, opts), opts->project, &v.s));
+	MR_TRY(take_points(ctx, point, n, opts, &places, &v));
 	mr_stat_set(ctx, "seconds_planes", mr_seconds() - start);
-	MR_TRY(begin(ctx, opts, n, &v));
+	MR_TRY(begin(ctx, opts, places, &v));
 	if (opts->found)
 		*opts->found = (mr_volume_found){ v.s.noise, cells_along(v.s.box, v.grid[0].step) };
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);

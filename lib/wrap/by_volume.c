@@ -19,10 +19,10 @@ wrap_volume_of(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, c
 
 	c->method = MR_WRAP_VOLUME;
 	volume.grid = by->grid;
-	volume.spacing = cloud->spacing;
+	volume.sampling = &cloud->sampling;
 	volume.project = by->projected;
 	volume.found = found;
-	MR_TRY(mr_volume_wrap(ctx, cloud->p, cloud->n, &volume, &m));
+	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m));
 	middle = mr_seconds();
 	mr_stat_set(ctx, "seconds_volume", middle - start);
 	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
@@ -43,19 +43,24 @@ spans_less(const mr_wrap *c, const mr_wrap *other, double unit)
 	       c->cover.wrap_high <= MR_WRAP_ENOUGH.wrap_high * unit;
 }
 
-/* Where a tenth of the points are off the wrap, they are further apart one way than another, as the rows of a
- * sonar, and a grid as fine as the shorter way holds them asunder. */
+/*
+ * Where a tenth of the points are off the wrap, they are further apart one way than another, as the rows of a
+ * sonar, and a grid as fine as the shorter way holds them asunder.  Of 196 clouds of 49 meshes, clean and
+ * noisy, 186 have nine tenths within 2.2 sampling distances.
+ */
+static const double MISSES = 3;
+
 static bool
 misses(const mr_wrap *c, double unit)
 {
-	return c->cover.points_most > MR_WRAP_ENOUGH.points_high * unit;
+	return c->cover.points_most > MISSES * unit;
 }
 
 static bool
 reaches_more(const mr_wrap *c, const mr_wrap *other, double unit)
 {
 	(void)unit;
-	return c->cover.points_high < other->cover.points_high / 2;
+	return c->cover.points_high < CLEARLY * other->cover.points_high;
 }
 
 /* Takes another volume in place of c where it is better.  The figures are those of the wrap that is taken. */
@@ -73,7 +78,7 @@ try_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const
 
 	memcpy(figures, ctx->stats, sizeof figures);
 	status = wrap_volume_of(ctx, cloud, o, by, NULL, &other);
-	if (status != MR_OK && status != MR_EMESH)
+	if (status != MR_OK && status != MR_EMESH && status != MR_ERANGE)
 		return status;
 	taken = status == MR_OK && better(&other, c, cloud->spacing);
 	if (taken) {

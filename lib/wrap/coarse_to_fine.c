@@ -13,7 +13,7 @@ mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o)
 		return fmax(size.x, fmax(size.y, size.z)) / (double)o->resolution;
 	/* faces of sqrt(3) / 4 l^2, two points for each; few points need no fewer faces than the first level
 	 */
-	return fmin(2.15 * sqrt(cloud->area / (double)cloud->places), cloud->diagonal / FIRST_EDGES);
+	return fmin(2.07 * sqrt(cloud->area / (double)cloud->n), cloud->diagonal / FIRST_EDGES);
 }
 
 /* Rounds over the levels, each of remeshing and then drawing closer. */

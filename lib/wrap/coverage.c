@@ -1,9 +1,9 @@
 /* Coverage both ways: points that the wrap misses, and parts of it where there are no points. */
-#include "wrap/parts.h"
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "space/self_intersect.h"
 #include "mesh/zorder.h"
+#include "space/self_intersect.h"
+#include "wrap/parts.h"
 
 enum { GRAIN = 1024 };
 
@@ -32,6 +32,25 @@ ascending(const void *a, const void *b)
 	return (x > y) - (x < y);
 }
 
+/* c->lost, of some outliers at equal strides for all of them. */
+static mr_status
+count_lost(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_bvh *bvh, size_t samples, mr_wrap_cover *c)
+{
+	size_t all = cloud->sampling.outliers, n = all < samples ? all : samples, far = 0;
+	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
+	job j = { q, bvh, MR_NEW(ctx, n, double) };
+
+	if (!q || !j.distance)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		q[i] = cloud->outlier[i * all / n];
+	mr_parallel(ctx, n, GRAIN, distances_body, &j);
+	for (size_t i = 0; i < n; i++)
+		far += j.distance[i] > MR_WRAP_LACKS * cloud->spacing;
+	c->lost = n ? far * all / n : 0;
+	return MR_OK;
+}
+
 static mr_status
 measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t n, mr_wrap_cover *c)
 {
@@ -51,6 +70,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	c->points_max = mr_kth(j.distance, n, n - 1);
 	c->points_high = mr_kth(j.distance, n, (size_t)(HIGH * (double)(n - 1)));
 	c->points_most = mr_kth(j.distance, n, (size_t)(MOST * (double)(n - 1)));
+	MR_TRY(count_lost(ctx, cloud, bvh, MR_WRAP_SAMPLES, c));
 	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -7,23 +7,26 @@
 #define MR_WRAP_PARTS_H
 
 #include "mesh/dynmesh.h"
-#include "wrap/shrinkwrap.h"
 #include "space/near.h"
+#include "wrap/shrinkwrap.h"
 
-/* The points to wrap. */
+/* The points to wrap: each place once, without outliers, along the Z curve. */
 typedef struct mr_wrap_cloud {
 	const mr_v3 *p;
-	size_t n, places; /* places: points at one position count once */
+	size_t n;
 	mr_near *near;
 	mr_box box;
 	double diagonal;
-	double spacing; /* sampling distance: the median side of the square that a point has to itself */
-	double area;    /* of the surface, as the sum of these squares */
+	double spacing, area; /* of their sampling: sampling.usual, sampling.area */
+	const mr_v3 *outlier; /* the places that are left out: sampling.outliers */
+	const mr_v3 *given;
+	mr_sampling sampling; /* of those given */
 } mr_wrap_cloud;
 
-/* Indexes the points and looks at their sampling; MR_EMESH where they have no volume.  Close with
- * mr_near_free(cloud->near), on failure too. */
-mr_status mr_wrap_cloud_open(mr_ctx *ctx, const mr_v3 *point, size_t n, mr_wrap_cloud *cloud);
+/* Takes the n points and their sampling (NULL: found), and indexes those that count; MR_EMESH where they have
+ * no volume.  Close with mr_near_free(cloud->near), on failure too. */
+mr_status mr_wrap_cloud_open(
+    mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, mr_wrap_cloud *cloud);
 
 /* About `count` of the points, at equal strides, and their index: enough for long edges.  Close likewise. */
 mr_status mr_wrap_cloud_thin(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t count, mr_wrap_cloud *thin);
@@ -86,6 +89,7 @@ typedef struct mr_wrap_cover {
 	double points_max, points_high,
 	    points_most;            /* of points to the wrap: all, 99 % and 90 % are within */
 	double wrap_max, wrap_high; /* of middles of faces to the points: all, and 99 % of the area */
+	size_t lost;                /* outliers that are no nearer than points of a part that it lacks */
 	size_t crossings;           /* pairs of its faces that intersect */
 } mr_wrap_cover;
 
@@ -94,6 +98,10 @@ mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_
 
 /* What a good wrap may leave out and have too much, in sampling distances, of which noise takes some. */
 extern const mr_wrap_cover MR_WRAP_ENOUGH;
+
+/* Sampling distances from a point to a wrap that lacks its part: of the sound ones of clean clouds 3 are
+ * rare. */
+static const double MR_WRAP_LACKS = 5;
 
 /* Points and faces at most that coverage is measured by at the end. */
 enum { MR_WRAP_SAMPLES = 1 << 14 };

@@ -21,10 +21,10 @@ enum { TEMPLATE = MR_WRAP_VOLUME + 1 };
 /* So few points tell nothing of handles and limbs: the box, of genus 0, goes around them. */
 enum { FEW = 64 };
 
-static bool
-is_sound(const mr_wrap *c)
+static size_t
+flaws(const mr_wrap *c)
 {
-	return c->folds == 0 && c->cover.crossings == 0;
+	return c->folds + c->cover.crossings;
 }
 
 static bool
@@ -73,7 +73,7 @@ cube_around(mr_box b)
 static size_t
 resolution_for(const mr_wrap_cloud *cloud)
 {
-	size_t r = (size_t)ceil(sqrt((double)cloud->places / 4));
+	size_t r = (size_t)ceil(sqrt((double)cloud->n / 4));
 
 	return r < 4 ? 4 : r;
 }
@@ -138,7 +138,7 @@ mr_wrap_has_handles(mr_ctx *ctx, const mr_dyn *d, bool *handles)
 }
 
 /* The volume, but where it is not good either the box if that is better.  Which fits closer counts less than
- * which passes nowhere through itself: drawn to an open sheet from both sides, the box does. */
+ * which passes less through itself: drawn to an open sheet from both sides, the box does. */
 static mr_status
 choose(
     mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished, mr_wrap *c)
@@ -160,7 +160,7 @@ choose(
 		mr_note(ctx, "no volume: %s", ctx->error);
 	if (!finished)
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-	if (status == MR_OK && (!beats(c, true, &volume, handles) || (!is_sound(c) && is_sound(&volume))))
+	if (status == MR_OK && (!beats(c, true, &volume, handles) || flaws(c) > flaws(&volume)))
 		*c = volume;
 	return MR_OK;
 }
@@ -179,10 +179,10 @@ wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 	MR_TRY(mr_wrap_begin(ctx, cloud, o, &length, &c->d));
 	MR_TRY(mr_wrap_assess(ctx, cloud, FIRST_SAMPLES, "first level", c));
 	mr_stat_set(ctx, "seconds_box", mr_seconds() - start);
-	round = cloud->places <= FEW || covers(&c->cover, &FIRST, length);
+	round = cloud->n <= FEW || covers(&c->cover, &FIRST, length);
 	if (round) {
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
-		if (is_sound(c) && covers(&c->cover, &MR_WRAP_ENOUGH, cloud->spacing))
+		if (flaws(c) == 0 && covers(&c->cover, &MR_WRAP_ENOUGH, cloud->spacing))
 			return MR_OK;
 	}
 	return choose(ctx, cloud, o, length, round, c);
@@ -201,25 +201,25 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 	}
 }
 
-/* Sampling distances from a point to a wrap that lacks its part: of the sound ones of clean clouds 3 are
- * rare. */
-static const double LACKS = 5;
-
 /* Where a wrap is poor by the same measure. */
 static void
 warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 {
 	double points = c->cover.points_high / cloud->spacing, wrap = c->cover.wrap_high / cloud->spacing;
 
-	if (!is_sound(c))
+	if (flaws(c) > 0)
 		mr_warn(ctx, "the wrap has %zu folded edges and %zu pairs of faces that intersect", c->folds,
 		    c->cover.crossings);
+	if (c->cover.lost > 0)
+		mr_warn(ctx,
+		    "%zu of %zu places %s more than %g sampling distances from the wrap: outliers, left out",
+		    c->cover.lost, cloud->sampling.places, c->cover.lost == 1 ? "is" : "are", MR_WRAP_LACKS);
 	if (points > MR_WRAP_ENOUGH.points_high)
 		mr_warn(ctx,
 		    "1 %% of the points are more than %.3g sampling distances from the wrap: outliers, or it "
 		    "does not reach them",
 		    points);
-	else if (c->cover.points_max > LACKS * cloud->spacing)
+	else if (c->cover.points_max > MR_WRAP_LACKS * cloud->spacing)
 		mr_warn(ctx,
 		    "a point is %.3g sampling distances from the wrap: an outlier, or of a part that is left "
 		    "out",
@@ -238,7 +238,7 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 
 	mr_note(ctx, "by the %s", names[c->method]);
 	mr_stat_set(ctx, "method", c->method);
-	mr_stat_set(ctx, "places", (double)cloud->places);
+	mr_stat_set(ctx, "places", (double)cloud->n);
 	mr_stat_set(ctx, "sampling", cloud->spacing);
 	mr_stat_set(ctx, "points_to_wrap_max", c->cover.points_max);
 	mr_stat_set(ctx, "points_to_wrap_99", c->cover.points_high);
@@ -246,6 +246,7 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	mr_stat_set(ctx, "wrap_to_points_max", c->cover.wrap_max);
 	mr_stat_set(ctx, "wrap_to_points_99", c->cover.wrap_high);
 	mr_stat_set(ctx, "faces", (double)c->d.nf);
+	mr_stat_set(ctx, "lost", (double)c->cover.lost);
 	mr_stat_set(ctx, "folded_edges", (double)c->folds);
 	mr_stat_set(ctx, "intersecting_pairs", (double)c->cover.crossings);
 	warn(ctx, cloud, c);
@@ -266,10 +267,11 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 }
 
 mr_status
-mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_wrap_opts *opts, mr_mesh *out)
+mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling,
+    const mr_wrap_opts *opts, mr_mesh *out)
 {
 	mr_wrap_cloud cloud;
-	mr_status status = mr_wrap_cloud_open(ctx, point, n, &cloud);
+	mr_status status = mr_wrap_cloud_open(ctx, point, n, sampling, &cloud);
 
 	if (status == MR_OK)
 		status = wrap(ctx, &cloud, opts, out);
@@ -303,11 +305,11 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 }
 
 mr_status
-mr_wrap_template(
-    mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_mesh *start, const mr_wrap_opts *opts, mr_v3 *p)
+mr_wrap_template(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, const mr_mesh *start,
+    const mr_wrap_opts *opts, mr_v3 *p)
 {
 	mr_wrap_cloud cloud;
-	mr_status status = mr_wrap_cloud_open(ctx, point, n, &cloud);
+	mr_status status = mr_wrap_cloud_open(ctx, point, n, sampling, &cloud);
 
 	if (status == MR_OK)
 		status = wrap_template(ctx, &cloud, start, opts, p);

@@ -1,6 +1,6 @@
-# A cloud with 1.5 % noise and a sixth of outliers, where the volume of the points as they are goes astray: that of projected
+# A cloud with 2 % noise and a quarter of outliers, where the volume of the points as they are goes astray: that of projected
 # points is taken, and nearer to the truth; without noise none is tried.
-dirty() { # a fifth as many points anywhere in the box
+dirty() { # three tenths as many points anywhere in the box
 	awk 'function uniform() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
 		BEGIN { seed = 4 }
 		{
@@ -11,7 +11,7 @@ dirty() { # a fifth as many points anywhere in the box
 			}
 		}
 		END {
-			for (i = 0; i < 0.2 * NR; i++) {
+			for (i = 0; i < 0.3 * NR; i++) {
 				for (k = 1; k <= 3; k++) p[k] = low[k] + (high[k] - low[k]) * uniform()
 				print p[1], p[2], p[3]
 			}
@@ -20,7 +20,7 @@ dirty() { # a fifth as many points anywhere in the box
 tried() {
 	sed -n 's/.*"projected":\([01]\).*/projected \1/p' stats.json | grep . || echo not tried
 }
-mr-make bumpy -n 4000 --points 4000 --noise 1.5% --seed 4 | mr-export -l points -f xyz - | dirty >dirty.xyz
+mr-make bumpy -n 4000 --points 3000 --noise 2% --seed 3 | mr-export -l points -f xyz - | dirty >dirty.xyz
 mr-import --points dirty.xyz | mr-shrinkwrap -q --stats stats.json -o out.mrs
 tried
 mr-info -l control out.mrs | sed -n 's/^ *topology *//p; s/^ *flaws *//p'

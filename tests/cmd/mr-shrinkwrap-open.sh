@@ -3,7 +3,7 @@ wrapped() {
 	mr-import "$1" | mr-shrinkwrap -q --stats stats.json | mr-info -l control | sed -n 's/^ *topology *//p; s/^ *flaws *//p'
 }
 
-echo lands of a globe and few points between, where the volume has a handle:
+echo lands of a globe and few points between:
 mr-make sphere --points 60000 --seed 3 | mr-export -l points -f xyz - |
 	awk '{
 		f = sin(3 * $1 + 1) * cos(4 * $2) + sin(5 * $3 + 2 * $1) + 0.7 * cos(7 * $2 - 3 * $3)

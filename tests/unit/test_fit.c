@@ -1,7 +1,7 @@
 /* Fitting: what a limit surface can take on is found again, whatever the start; what no point holds stays. */
+#include "base/random.h"
 #include "fit/fit.h"
 #include "fit/limit_surface.h"
-#include "base/random.h"
 #include "shapes.h"
 
 static double
@@ -63,7 +63,7 @@ test_surface_is_found_again(void **state)
 		mr_fit_opts o = MR_FIT_DEFAULTS;
 		o.fairness = 1e-6;
 		o.iterations = 20;
-		assert_int_equal(mr_fit(&ctx, &near, point, n, &o, out), MR_OK);
+		assert_int_equal(mr_fit(&ctx, &near, point, n, NULL, &o, out), MR_OK);
 		assert_true(figure("distance_rms_before") > 5e-3);
 		assert_true(figure("distance_rms_after") < rms[i]);
 	}
@@ -114,7 +114,7 @@ test_icosahedron_becomes_the_best_sphere(void **state)
 	mr_v3 out[12], *point = sphere_points(4000, -2);
 
 	(void)state;
-	assert_int_equal(mr_fit(&ctx, &m, point, 4000, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
+	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
 	for (int v = 0; v < 12; v++) {
 		assert_true(fabs(mr_norm(out[v]) / mr_norm(out[0]) - 1) < 2e-2);
 		assert_true(mr_dist(mr_unit(out[v]), mr_unit(m.p[v])) < 2e-2);
@@ -130,7 +130,7 @@ test_what_has_no_points_stays(void **state)
 	double most = 0;
 
 	(void)state;
-	assert_int_equal(mr_fit(&ctx, &m, point, 4000, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
+	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
 	for (size_t v = 0; v < m.nv; v++)
 		most = m.p[v].z < -0.3 ? fmax(most, mr_dist(out[v], m.p[v])) : most;
 	assert_true(figure("distance_rms_after") < 1e-3);
@@ -150,7 +150,7 @@ test_outliers_pull_little(void **state)
 	(void)state;
 	for (size_t i = 0; i < 5000; i += 50)
 		point[i] = mr_mul(0.2 + 1.5 * mr_random_real(&r), point[i]);
-	assert_int_equal(mr_fit(&ctx, &m, point, 5000, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
+	assert_int_equal(mr_fit(&ctx, &m, point, 5000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
 	m.p = out;
 	assert_int_equal(mr_fit_surface_build(&ctx, &m, &s), MR_OK);
 	for (size_t v = 0; v < s.m.nv; v++)
@@ -173,7 +173,7 @@ test_memory_may_run_out(void **state)
 		for (uint64_t k = 1; status != MR_OK; k++) {
 			ctx.fail_at = k;
 			memset(out, 0, sizeof out);
-			status = mr_fit(&ctx, &m, point, 50, &o, out);
+			status = mr_fit(&ctx, &m, point, 50, NULL, &o, out);
 			ctx.fail_at = 0;
 			assert_true(status == MR_OK || status == MR_EMEM);
 			assert_true(status == MR_OK || mr_norm(out[3]) == 0);

@@ -330,28 +330,34 @@ moebius_strip_is_not_oriented(void **state)
 static void
 cloud_is_measured(void **state)
 {
-	enum { N = 5 };
-	mr_v3 p[N * N * N + 2];
+	enum { N = 20 };
+	mr_v3 p[N * N + 2];
 	mr_cloud c;
 	mr_ctx ctx;
 	size_t n = 0;
 
 	(void)state;
 	mr_ctx_init(&ctx, 1);
-	for (int i = 0; i < N * N * N; i++)
-		p[n++] = mr_vec(i % N, i / N % N, i / (N * N) * 2);
+	for (int i = 0; i < N * N; i++)
+		p[n++] = mr_vec(2 * (i % N), i / N * 2, 0);
 	p[n++] = p[7];
 	p[n++] = mr_vec(NAN, 0, 0);
-	assert_int_equal(mr_measure_cloud(&ctx, p, n, &c), MR_OK);
+	assert_int_equal(mr_measure_cloud(&ctx, p, n, NULL, &c), MR_OK);
 	assert_int_equal(c.points, n);
 	assert_int_equal(c.not_finite, 1);
 	assert_int_equal(c.duplicates, 1);
-	assert_near(c.spacing.mean, 1, 0);
-	assert_near(c.spacing.deviation, 0, 0);
-	assert_near(c.diagonal, sqrt(16 + 16 + 64), 1e-14);
-	assert_int_equal(mr_measure_cloud(&ctx, p, 1, &c), MR_OK);
-	assert_true(isnan(c.spacing.mean));
-	assert_int_equal(mr_measure_cloud(&ctx, p, 0, &c), MR_OK);
+	assert_int_equal(c.places, N * N);
+	assert_int_equal(c.outliers, 0);
+	assert_near(c.spacing.min, 2, 0.1);
+	assert_near(c.usual, 2, 0.1);
+	assert_near(c.area, 4 * N * N, 0.2 * 4 * N * N);
+	assert_near(c.evenness, 0.85, 0.15);
+	assert_near(c.noise, 0, 1e-9);
+	assert_near(c.diagonal, sqrt(2) * 2 * (N - 1), 1e-14);
+	assert_int_equal(mr_measure_cloud(&ctx, p, 1, NULL, &c), MR_OK);
+	assert_true(isnan(c.spacing.mean) && isnan(c.usual) && isnan(c.noise_spacing));
+	assert_int_equal(c.places, 1);
+	assert_int_equal(mr_measure_cloud(&ctx, p, 0, NULL, &c), MR_OK);
 	assert_int_equal(c.points, 0);
 	mr_ctx_free(&ctx);
 }

@@ -40,12 +40,11 @@ off_sphere(mr_v3 p)
 static size_t
 find(const mr_v3 *p, size_t n, const double *off, bool *outlier)
 {
-	mr_near *near;
+	mr_sampling s;
 	size_t count;
 
-	assert_int_equal(mr_near_build(&ctx, p, n, &near), MR_OK);
-	assert_int_equal(mr_find_outliers(&ctx, near, p, n, off, 0, outlier, &count), MR_OK);
-	mr_near_free(near);
+	assert_int_equal(mr_sampling_find(&ctx, p, n, NULL, &s), MR_OK);
+	assert_int_equal(mr_find_outliers(&ctx, &s, off, 0, outlier, &count), MR_OK);
 	return count;
 }
 

@@ -1,14 +1,14 @@
 /* Volumes of clouds whose surface is known, isosurfaces of any values, and clouds that enclose nothing. */
 #include "unit.h"
 
-#include "volume/isosurface.h"
-#include "shape/shape.h"
-#include "volume/volume.h"
-#include "volume/parts.h"
 #include "base/random.h"
+#include "measure/measure.h"
+#include "shape/shape.h"
 #include "space/bvh.h"
 #include "space/local_planes.h"
-#include "measure/measure.h"
+#include "volume/isosurface.h"
+#include "volume/parts.h"
+#include "volume/volume.h"
 
 static mr_census
 census_of(const mr_mesh *m)
@@ -429,7 +429,8 @@ any_cloud_gives_a_closed_surface_or_none(void **state)
 		}
 		opts.grid = round % 11 == 10 ? 1 + (size_t)(40 * mr_random_real(&r)) : 0;
 		status = mr_volume_wrap(&ctx, p, n, &opts, &m);
-		assert_true(status == MR_OK || status == MR_EMESH);
+		assert_true(status == MR_OK || status == MR_EMESH ||
+			    (status == MR_ERANGE && (opts.grid || round % 7 == 0)));
 		if (status == MR_OK) {
 			mr_census c = census_of(&m);
 			assert_closed_manifold(&c);
@@ -445,15 +446,16 @@ any_cloud_gives_a_closed_surface_or_none(void **state)
 }
 
 static void
-bits_do_not_depend_on_threads_or_repeats(void **state)
+bits_do_not_depend_on_threads_repeats_or_order(void **state)
 {
 	mr_mesh m = solid(MR_TORUS, 6000, 0), a, b;
 	mr_v3 *p = MR_NEW(&ctx, 2 * m.nv, mr_v3);
 
 	(void)state;
 	memcpy(p, m.p, m.nv * sizeof *p);
-	memcpy(p + m.nv, m.p, m.nv * sizeof *p);
-	a = wrap(p, m.nv);
+	for (size_t i = 0; i < m.nv; i++)
+		p[m.nv + i] = m.p[m.nv - 1 - i];
+	a = wrap(p + m.nv, m.nv);
 	ctx.threads = 1;
 	b = wrap(p, 2 * m.nv);
 	assert_int_equal(a.nv, b.nv);
@@ -530,7 +532,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(noisy_points_go_onto_their_planes, setup, teardown),
 		cmocka_unit_test_setup_teardown(points_without_noise_stay, setup, teardown),
 		cmocka_unit_test_setup_teardown(any_cloud_gives_a_closed_surface_or_none, setup, teardown),
-		cmocka_unit_test_setup_teardown(bits_do_not_depend_on_threads_or_repeats, setup, teardown),
+		cmocka_unit_test_setup_teardown(
+		    bits_do_not_depend_on_threads_repeats_or_order, setup, teardown),
 		cmocka_unit_test_setup_teardown(flat_clouds_are_refused, setup, teardown),
 		cmocka_unit_test_setup_teardown(every_allocation_may_fail, setup, teardown),
 	};

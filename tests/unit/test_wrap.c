@@ -73,7 +73,7 @@ test_crossings_are_taken_back(void **state)
 
 	(void)state;
 	assert_int_equal(mr_wrap_box(&ctx, at, (size_t[]){ 16, 16, 4 }, &m), MR_OK);
-	assert_int_equal(mr_wrap_cloud_open(&ctx, m.p, m.nv, &cloud), MR_OK);
+	assert_int_equal(mr_wrap_cloud_open(&ctx, m.p, m.nv, NULL, &cloud), MR_OK);
 	assert_int_equal(mr_wrap_dyn(&ctx, &m, &d), MR_OK);
 	for (size_t v = 0; v < d.nv; v++) {
 		if (mr_dist(m.p[v], mr_vec(0.5, 0.5, 0.25)) < 1e-9)
@@ -106,7 +106,7 @@ test_coverage_goes_both_ways(void **state)
 	(void)state;
 	assert_int_equal(mr_wrap_box(&ctx, at, (size_t[]){ 4, 4, 4 }, &m), MR_OK);
 	assert_int_equal(mr_wrap_box(&ctx, big, (size_t[]){ 4, 4, 12 }, &far), MR_OK);
-	assert_int_equal(mr_wrap_cloud_open(&ctx, m.p, m.nv, &cloud), MR_OK);
+	assert_int_equal(mr_wrap_cloud_open(&ctx, m.p, m.nv, NULL, &cloud), MR_OK);
 	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &m, 1 << 20, &c), MR_OK);
 	assert_true(c.points_max < 1e-15 && c.wrap_max < 0.25);
 	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &far, 1 << 20, &c), MR_OK);
@@ -157,7 +157,7 @@ test_memory_may_run_out(void **state)
 			mr_mark mark = mr_mark_take(&ctx);
 			mr_mesh out = { 0 };
 			ctx.fail_at = k;
-			status = mr_shrinkwrap(&ctx, p, POINTS, &o, &out);
+			status = mr_shrinkwrap(&ctx, p, POINTS, NULL, &o, &out);
 			ctx.fail_at = 0;
 			assert_true(status == MR_OK || status == MR_EMEM);
 			assert_true((status == MR_OK) == (out.nf > 0));

@@ -1,0 +1,53 @@
+/*
+ * sampling.h -- how a cloud samples its surface: how densely, with what noise, and which of its points belong
+ * to none.
+ *
+ * Found once, by the first tool of a pipe that needs it, and kept in the layer; the later ones read it there.
+ *
+ * Contract: the same for every order of the points and number of threads and, but for rounding, wherever the
+ * cloud lies, however it is turned and scaled; the noise of more than 10007 places is that of so many of
+ * them.
+ */
+#ifndef MR_SPACE_SAMPLING_H
+#define MR_SPACE_SAMPLING_H
+
+#include "mesh/mesh.h"
+#include "stream/frame.h"
+
+/* Points at one position are one place. */
+typedef struct mr_sampling {
+	const double *spacing;  /* n: side of the square of surface that the point's place has to itself */
+	const uint8_t *outlier; /* n: 1 where the place belongs to no surface, else 0 */
+	const uint8_t *repeat;  /* n: 1 where an earlier point is at the same place, else 0 */
+	double noise;      /* standard deviation from a smooth surface; median, 0 of fewer than ten places */
+	size_t neighbours; /* nearest points that it takes to see the surface through the noise; 16 or more */
+	size_t n, places, outliers; /* of the places: outliers */
+	/* of the others: */
+	double usual;    /* median spacing */
+	double area;     /* of the surface: the sum of their squares */
+	double evenness; /* a low spacing over a high one (10 and 90 % are lower): 1 where they are equal */
+} mr_sampling;
+
+/* n finite points; the columns are in the arena.  known: what is known of them already, which it becomes, or
+ * NULL. MR_ERANGE as mr_cloud_check_spread says. */
+mr_status mr_sampling_find(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *known, mr_sampling *s);
+
+/*
+ * That of a layer's points: by its columns, checked, or where these are not there,
+ * found and, in a layer without triangles, put there.
+ */
+mr_status mr_sampling_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s);
+
+/* Only by its columns; false where these are not there. */
+mr_status
+mr_sampling_stored(mr_ctx *ctx, mr_frame *f, const char *layer, size_t n, mr_sampling *s, bool *stored);
+
+/* The n points along the Z curve, sorted (n, the caller's), and the sampling in that order, its columns in
+ * the arena. */
+mr_status
+mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorted, mr_sampling *of_sorted);
+
+/* Those of the n points p that count, each place once, without outliers, along the Z curve; in the arena. */
+mr_status mr_sampling_places(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 **place, size_t *count);
+
+#endif
