@@ -20,11 +20,33 @@ prepare(cmd *c)
 	return cmd_idle(c, "fairness", opts.method == MR_FIT_LOCAL, "with -m local");
 }
 
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_fit_result, iterations),
+	CMD_COUNTED(mr_fit_result, outliers),
+	CMD_MEASURED(mr_fit_result, distance_mean_before),
+	CMD_MEASURED(mr_fit_result, distance_rms_before),
+	CMD_MEASURED(mr_fit_result, distance_max_before),
+	CMD_MEASURED(mr_fit_result, distance_mean_after),
+	CMD_MEASURED(mr_fit_result, distance_rms_after),
+	CMD_MEASURED(mr_fit_result, distance_max_after),
+	CMD_COUNTED(mr_fit_result, folded_edges_before),
+	CMD_COUNTED(mr_fit_result, folded_edges_after),
+	CMD_COUNTED(mr_fit_result, damped),
+	CMD_COUNTED(mr_fit_result, crossing_faces),
+	CMD_MEASURED(mr_fit_result, cg_steps),
+	CMD_MEASURED(mr_fit_result, seconds_iteration),
+	{ 0 },
+};
+
 static mr_status
 fit_frame(cmd *c, mr_frame *f)
 {
+	mr_fit_result result;
+
 	opts.layer = c->layer;
-	return mr_fit_frame(&c->ctx, f, &opts);
+	MR_TRY(mr_fit_frame(&c->ctx, f, &opts, c->stats ? &result : NULL));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
 }
 
 int

@@ -35,12 +35,39 @@ check_mesh_options(cmd *c, const mr_frame *f)
 	return cmd_idle(c, "neighbours", true, "on a mesh: its triangles are met");
 }
 
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_sample_result, level),
+	CMD_COUNTED(mr_sample_result, vertices),
+	CMD_COUNTED(mr_sample_result, outliers),
+	CMD_MEASURED(mr_sample_result, tries_1),
+	CMD_MEASURED(mr_sample_result, tries_4),
+	CMD_MEASURED(mr_sample_result, tries_10),
+	CMD_COUNTED(mr_sample_result, missed),
+	CMD_COUNTED(mr_sample_result, rejected),
+	CMD_COUNTED(mr_sample_result, neighbours),
+	CMD_MEASURED(mr_sample_result, noise),
+	CMD_COUNTED(mr_sample_result, spikes),
+	CMD_COUNTED(mr_sample_result, filled),
+	CMD_MEASURED(mr_sample_result, fairness),
+	CMD_COUNTED(mr_sample_result, refine_steps),
+	CMD_COUNTED(mr_sample_result, mend_passes),
+	CMD_MEASURED(mr_sample_result, gap_mean),
+	CMD_MEASURED(mr_sample_result, gap_max),
+	CMD_MEASURED(mr_sample_result, area_ratio),
+	CMD_COUNTED(mr_sample_result, folds),
+	{ 0 },
+};
+
 static mr_status
 sample_frame(cmd *c, mr_frame *f)
 {
+	mr_sample_result result;
+
 	opts.layer = c->layer;
 	MR_TRY(check_mesh_options(c, f));
-	return mr_sample_frame(&c->ctx, f, &opts);
+	MR_TRY(mr_sample_frame(&c->ctx, f, &opts, &result));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
 }
 
 int

@@ -28,11 +28,68 @@ prepare(cmd *c)
 	return MR_OK;
 }
 
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_wrap_result, method),
+	CMD_COUNTED(mr_wrap_result, places),
+	CMD_COUNTED(mr_wrap_result, outliers),
+	CMD_MEASURED(mr_wrap_result, sampling),
+	CMD_COUNTED(mr_wrap_result, resolution),
+	CMD_COUNTED(mr_wrap_result, iterations),
+	CMD_COUNTED(mr_wrap_result, projected),
+	CMD_COUNTED(mr_wrap_result, coarser),
+	CMD_COUNTED(mr_wrap_result, faces),
+	CMD_COUNTED(mr_wrap_result, folded_edges),
+	CMD_COUNTED(mr_wrap_result, intersecting_pairs),
+	CMD_COUNTED(mr_wrap_result, lost),
+	CMD_MEASURED(mr_wrap_result, points_to_wrap_max),
+	CMD_MEASURED(mr_wrap_result, points_to_wrap_99),
+	CMD_MEASURED(mr_wrap_result, points_to_wrap_90),
+	CMD_MEASURED(mr_wrap_result, wrap_to_points_max),
+	CMD_MEASURED(mr_wrap_result, wrap_to_points_99),
+	CMD_MEASURED(mr_wrap_result, seconds_box),
+	CMD_MEASURED(mr_wrap_result, seconds_levels),
+	CMD_MEASURED(mr_wrap_result, seconds_pull),
+	CMD_MEASURED(mr_wrap_result, seconds_volume),
+	CMD_MEASURED(mr_wrap_result, seconds_remesh),
+	CMD_MEASURED(mr_wrap_result, seconds_settle),
+	CMD_MEASURED(mr_wrap_result, seconds_measure),
+	CMD_MEASURED(mr_wrap_result, seconds_tried),
+	{ 0 },
+};
+
+static const cmd_field volume_figures[] = {
+	CMD_COUNTED(mr_volume_result, samples),
+	CMD_COUNTED(mr_volume_result, nodes),
+	CMD_MEASURED(mr_volume_result, spacing),
+	CMD_MEASURED(mr_volume_result, cell),
+	CMD_MEASURED(mr_volume_result, noise),
+	CMD_COUNTED(mr_volume_result, grid),
+	CMD_COUNTED(mr_volume_result, regions),
+	CMD_COUNTED(mr_volume_result, regions_turned),
+	CMD_COUNTED(mr_volume_result, rounds),
+	CMD_COUNTED(mr_volume_result, turned),
+	CMD_MEASURED(mr_volume_result, level),
+	CMD_MEASURED(mr_volume_result, inside),
+	CMD_COUNTED(mr_volume_result, parts_dropped),
+	CMD_COUNTED(mr_volume_result, cavities_filled),
+	CMD_MEASURED(mr_volume_result, seconds_planes),
+	CMD_MEASURED(mr_volume_result, seconds_flood),
+	CMD_MEASURED(mr_volume_result, seconds_indicator),
+	CMD_MEASURED(mr_volume_result, seconds_level),
+	CMD_MEASURED(mr_volume_result, seconds_isosurface),
+	{ 0 },
+};
+
 static mr_status
 shrinkwrap_frame(cmd *c, mr_frame *f)
 {
+	mr_wrap_result result;
+
 	opts.layer = c->layer;
-	return mr_shrinkwrap_frame(&c->ctx, f, &opts);
+	MR_TRY(mr_shrinkwrap_frame(&c->ctx, f, &opts, &result));
+	cmd_figures(c, figures, &result);
+	cmd_figures(c, volume_figures, &result.volume);
+	return MR_OK;
 }
 
 int

@@ -471,7 +471,36 @@ typedef struct mr_wrap_opts {
 		MR_WRAP_AUTO, 0, 0, 0.5, 0.2, 0, false, NULL                                                 \
 	}
 
-MR_API mr_status mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts) MR_WARN_UNUSED;
+/* Of the implicit surface. */
+typedef struct mr_volume_result {
+	size_t samples, nodes;          /* points that counted; of the grid */
+	double spacing, cell;           /* side of the square that a point stands for; of a cell */
+	double noise;                   /* squares of so many spacings show a surface: at least 1 */
+	size_t grid;                    /* cells along the longest side of the points' box */
+	size_t regions, regions_turned; /* large flat ones; rounds of turning them over */
+	size_t rounds, turned;          /* of the Poisson equation; normals that the first turned over */
+	double level, inside;           /* the indicator's value at the surface; share of the nodes */
+	size_t parts_dropped, cavities_filled;
+	double seconds_planes, seconds_flood, seconds_indicator, seconds_level, seconds_isosurface;
+} mr_volume_result;
+
+typedef struct mr_wrap_result {
+	size_t method;           /* 0 the box, 1 the cube, 2 the volume, 3 the template */
+	size_t places, outliers; /* of the points */
+	double sampling;         /* distance of the places */
+	size_t resolution, iterations;
+	size_t projected, coarser; /* 1 where such a volume was better, 0 where it was tried */
+	size_t faces, folded_edges, intersecting_pairs;
+	size_t lost; /* outliers more than five sampling distances away */
+	double points_to_wrap_max, points_to_wrap_99, points_to_wrap_90, wrap_to_points_max,
+	    wrap_to_points_99; /* the most, and what so many % are within */
+	double seconds_box, seconds_levels, seconds_pull, seconds_volume, seconds_remesh, seconds_settle,
+	    seconds_measure, seconds_tried; /* tried: for wraps that were not better */
+	mr_volume_result volume;
+} mr_wrap_result;
+
+MR_API mr_status mr_shrinkwrap_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_result *result) MR_WARN_UNUSED;
 
 typedef struct mr_simplify_opts {
 	size_t faces;         /* stop at so many, or one less; 0: by ratio */
@@ -520,7 +549,18 @@ typedef struct mr_fit_opts {
 		MR_FIT_LEAST_SQUARES, 0, 0.8, 1e-3, NULL                                                     \
 	}
 
-MR_API mr_status mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts) MR_WARN_UNUSED;
+typedef struct mr_fit_result {
+	size_t iterations, outliers;
+	double distance_mean_before, distance_rms_before, distance_max_before; /* of the points */
+	double distance_mean_after, distance_rms_after, distance_max_after;
+	size_t folded_edges_before, folded_edges_after; /* of two subdivisions, at their limit points */
+	size_t damped, crossing_faces; /* vertices that did not go all the way; control faces */
+	double cg_steps;               /* an iteration, on the mean */
+	double seconds_iteration;
+} mr_fit_result;
+
+MR_API mr_status mr_fit_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *result) MR_WARN_UNUSED;
 
 typedef enum mr_sample_method {
 	MR_SAMPLE_TRIANGLE, /* the paper's search for the valid triangle among the nearest points */
@@ -540,7 +580,23 @@ typedef struct mr_sample_opts {
 		MR_SAMPLE_TRIANGLE, 30, 3, MR_UNKNOWN, NULL                                                  \
 	}
 
-MR_API mr_status mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts) MR_WARN_UNUSED;
+typedef struct mr_sample_result {
+	size_t level, vertices; /* of the domain */
+	size_t outliers;
+	double tries_1, tries_4, tries_10; /* shares of the vertices that so many triangles were tried for */
+	size_t missed, rejected;           /* vertices without a triangle, with none within the bounds */
+	size_t neighbours;                 /* of robust */
+	double noise;                      /* the same; a share of the diagonal */
+	size_t spikes, filled;             /* heights taken back, and filled in */
+	double fairness;
+	size_t refine_steps, mend_passes; /* of conjugate gradients in the last pass; around folds */
+	double gap_mean, gap_max;         /* from the points, in shares of the diagonal */
+	double area_ratio;                /* of the surface to its domain */
+	size_t folds;                     /* triangles that fold over or pass through others */
+} mr_sample_result;
+
+MR_API mr_status mr_sample_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_result *result) MR_WARN_UNUSED;
 
 enum { MR_LEVEL_MAX = 15 }; /* of subdivision */
 

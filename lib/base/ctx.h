@@ -77,6 +77,13 @@ void mr_unfinished(mr_ctx *ctx, const char *file);
 /* Reports that a share (0 to 1) of `what` is done. */
 void mr_progress(mr_ctx *ctx, const char *what, double share);
 
+/* All that a result measures, counts and doubles alone, not measured: every bit set is MR_UNKNOWN and NaN. */
+static inline void
+mr_unmeasured(void *result, size_t size)
+{
+	memset(result, 0xff, size);
+}
+
 /* Records a figure under `name` (39 bytes at most); the same name again replaces it.  More than MR_STATS_MAX
  * are dropped. */
 void mr_stat_set(mr_ctx *ctx, const char *name, double value);

@@ -75,20 +75,25 @@ count_folds(const mr_fit_surface *s)
 }
 
 static void
-record(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, const char *when)
+measure_before(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, mr_fit_result *r)
 {
 	mr_fit_gap gap = mr_fit_measure(ctx, foot, n);
-	const struct {
-		const char *name;
-		double value;
-	} figure[] = { { "distance_mean", gap.mean }, { "distance_rms", gap.rms },
-		{ "distance_max", gap.max }, { "folded_edges", (double)count_folds(s) } };
-	char name[40];
 
-	for (size_t i = 0; i < sizeof figure / sizeof *figure; i++) {
-		snprintf(name, sizeof name, "%s_%s", figure[i].name, when);
-		mr_stat_set(ctx, name, figure[i].value);
-	}
+	r->distance_mean_before = gap.mean;
+	r->distance_rms_before = gap.rms;
+	r->distance_max_before = gap.max;
+	r->folded_edges_before = count_folds(s);
+}
+
+static void
+measure_after(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, mr_fit_result *r)
+{
+	mr_fit_gap gap = mr_fit_measure(ctx, foot, n);
+
+	r->distance_mean_after = gap.mean;
+	r->distance_rms_after = gap.rms;
+	r->distance_max_after = gap.max;
+	r->folded_edges_after = count_folds(s);
 }
 
 /* Where the result is poor: it folds, or the points are as far as the control mesh is coarse. */
@@ -108,18 +113,19 @@ warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, const mr_fit_foot *foot,
 
 /* Takes the outliers of *n points out, and their feet; s: their sampling. */
 static mr_status
-drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, mr_fit_foot *foot, size_t *n)
+drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, mr_fit_foot *foot, size_t *n,
+    size_t *outliers)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *off = MR_NEW(ctx, *n, double);
 	bool *outlier = MR_NEW(ctx, *n, bool);
-	size_t count, kept = 0;
+	size_t kept = 0;
 
 	if (!off || !outlier)
 		return MR_EMEM;
 	for (size_t i = 0; i < *n; i++)
 		off[i] = foot[i].dist;
-	MR_TRY(mr_find_outliers(ctx, s, off, least, outlier, &count));
+	MR_TRY(mr_find_outliers(ctx, s, off, least, outlier, outliers));
 	for (size_t i = 0; i < *n; i++) {
 		if (outlier[i])
 			continue;
@@ -127,7 +133,6 @@ drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, mr_
 		foot[kept++] = foot[i];
 	}
 	*n = kept;
-	mr_stat_set(ctx, "outliers", (double)count);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -158,7 +163,7 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 
 mr_status
 mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const mr_sampling *known,
-    const mr_fit_opts *opts, mr_v3 *out)
+    const mr_fit_opts *opts, mr_v3 *out, mr_fit_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool is_local = opts->method == MR_FIT_LOCAL;
@@ -170,8 +175,10 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	double edge = mr_mesh_edge_scale(ctx, control);
 	double start;
 	mr_sampling sampling;
+	mr_fit_result r;
 	mr_fit_surface s;
 
+	mr_unmeasured(&r, sizeof r);
 	MR_TRY(check(ctx, control, point, n));
 	if (!x || !foot || !sorted)
 		return MR_EMEM;
@@ -180,19 +187,20 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	MR_TRY(mr_fit_surface_build(ctx, control, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
 	if (!is_local)
-		MR_TRY(drop_outliers(ctx, &sampling, MR_FIT_NEAR * edge, sorted, foot, &n));
-	record(ctx, &s, foot, n, "before");
+		MR_TRY(drop_outliers(ctx, &sampling, MR_FIT_NEAR * edge, sorted, foot, &n, &r.outliers));
+	measure_before(ctx, &s, foot, n, &r);
 	start = mr_seconds();
 	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
-			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, n < given, foot, x));
-	mr_stat_set(ctx, "iterations", (double)passes);
-	mr_stat_set(ctx, "seconds_iteration", (mr_seconds() - start) / (double)passes);
+			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, n < given, foot, x, &r));
+	r.iterations = passes;
+	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 	warn(ctx, &s, edge, foot, n);
-	if (!ctx->stats_unread) {
+	if (result) {
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
-		record(ctx, &s, foot, n, "after");
+		measure_after(ctx, &s, foot, n, &r);
+		*result = r;
 	}
 	memcpy(out, x, control->nv * sizeof *out);
 	mr_mark_release(ctx, mark);

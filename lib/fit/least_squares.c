@@ -4,9 +4,9 @@
  */
 #include "fit/least_squares.h"
 
+#include "base/sort.h"
 #include "fit/guard_limit.h"
 #include "fit/solve_step.h"
-#include "base/sort.h"
 
 /*
  * Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
@@ -49,13 +49,13 @@ caution(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double edge)
 
 mr_status
 mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
-    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x)
+    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x, mr_fit_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
 	double *w = MR_NEW(ctx, n, double);
 	mr_fit_system system;
-	size_t damped = 0, steps = 0, crossing = 0;
+	size_t steps = 0, crossing = 0;
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	mr_fit_guard *guard;
 
@@ -69,14 +69,13 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 		MR_TRY(mr_fit_system_fill(
 		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
 		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
-		MR_TRY(mr_fit_step(ctx, surface, guard, &system.patch, x, z, &damped));
+		MR_TRY(mr_fit_step(ctx, surface, guard, &system.patch, x, z, &result->damped));
 		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
 	}
-	mr_stat_set(ctx, "cg_steps", (double)steps / (double)passes);
-	mr_stat_set(ctx, "damped", (double)damped);
+	result->cg_steps = (double)steps / (double)passes;
 	for (size_t f = 0; f < surface->level[0].nf; f++)
 		crossing += mr_fit_crossed(guard)[f];
-	mr_stat_set(ctx, "crossing_faces", (double)crossing);
+	result->crossing_faces = crossing;
 	if (crossing > 0)
 		mr_warn(ctx, "the limit surface passes through itself at %zu of %zu control faces", crossing,
 		    surface->level[0].nf);

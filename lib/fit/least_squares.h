@@ -13,9 +13,11 @@
 
 /*
  * Moves the control vertices x, and the surface with them.  foot: of the n points, on the surface as given;
- * left where the last step attached them.  outliers: the points had some, and may have more.
+ * left where the last step attached them.  result: gets its figures of the steps.  outliers: the points had
+ * some, and may have more.
  */
 mr_status mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
-    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x);
+    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x,
+    mr_fit_result *result);
 
 #endif

@@ -176,11 +176,11 @@ median_where(mr_ctx *ctx, const bool *hit, const double *value, size_t n, double
 
 mr_status
 mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height,
-    bool *hit, double *noise)
+    bool *hit, double *noise, mr_sample_result *r)
 {
 	static const double wide = 4; /* the radius that evens out noise, in deviations */
 	mr_mark mark = mr_mark_take(ctx);
-	size_t nv = d->m.nv, most = mr_near_distinct(c->near), missed = 0;
+	size_t nv = d->m.nv, most = mr_near_distinct(c->near);
 	double *deviation = MR_NEW(ctx, nv, double), *spread = MR_NEW(ctx, nv, double), radius, grown;
 	search s = { .d = d,
 		.c = c,
@@ -203,11 +203,11 @@ mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neigh
 		MR_TRY(search_all(ctx, &s));
 		MR_TRY(median_where(ctx, hit, deviation, nv, noise));
 	}
+	r->missed = 0;
 	for (size_t v = 0; v < nv; v++)
-		missed += !hit[v];
-	mr_stat_set(ctx, "missed", (double)missed);
-	mr_stat_set(ctx, "neighbours", (double)s.k);
-	mr_stat_set(ctx, "noise", *noise / c->diagonal);
+		r->missed += !hit[v];
+	r->neighbours = s.k;
+	r->noise = *noise / c->diagonal;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

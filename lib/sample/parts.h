@@ -78,15 +78,15 @@ mr_same_side(const mr_cloud *c, uint32_t point, mr_v3 n)
 /* Leaves out the sights of points that belong to sheets that look the other way.  Returns how many stay. */
 size_t mr_sights_near_sheet(const mr_cloud *c, mr_v3 n, mr_sight *s, size_t count);
 
-/* Heights found by one search; hit says where. */
-mr_status mr_sample_triangles(
-    mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height, bool *hit);
+/* Heights found by one search; hit says where.  r: gets the figures of it. */
+mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours,
+    double *height, bool *hit, mr_sample_result *r);
 /* *noise: the deviation of the points from the local surfaces. */
 mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours,
-    double *height, bool *hit, double *noise);
+    double *height, bool *hit, double *noise, mr_sample_result *r);
 /* c: the mesh's vertices, placed. */
-mr_status mr_sample_rays(
-    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height, bool *hit);
+mr_status mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c,
+    double *height, bool *hit, mr_sample_result *r);
 
 /*
  * The faces of the displaced surface that have turned from the domain's, are folded against one beside them,
@@ -106,6 +106,6 @@ typedef struct mr_fit_weights {
 
 /* Fits the heights to the points; those that were hit are also pulled to what they are.  e: of the domain. */
 mr_status mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fit_weights *weights,
-    size_t passes, mr_heights *e, const bool *hit, double *height);
+    size_t passes, mr_heights *e, const bool *hit, double *height, mr_sample_result *r);
 
 #endif

@@ -1,6 +1,6 @@
 /* Lee, Moreton, Hoppe 2000: Displaced subdivision surfaces, section 4.3. */
-#include "sample/parts.h"
 #include "base/parallel.h"
+#include "sample/parts.h"
 #include "space/bvh.h"
 
 enum { GRAIN = 256 };
@@ -67,20 +67,19 @@ shoot(void *arg, size_t begin, size_t end)
 }
 
 mr_status
-mr_sample_rays(
-    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height, bool *hit)
+mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height,
+    bool *hit, mr_sample_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_bvh *bvh;
 	rays r = { .d = d, .mesh = mesh, .c = c, .height = height, .hit = hit };
-	size_t missed = 0;
 
 	MR_TRY(mr_bvh_build(ctx, mesh, &bvh));
 	r.bvh = bvh;
 	mr_parallel(ctx, d->m.nv, GRAIN, shoot, &r);
+	result->missed = 0;
 	for (size_t i = 0; i < d->m.nv; i++)
-		missed += !hit[i];
-	mr_stat_set(ctx, "missed", (double)missed);
+		result->missed += !hit[i];
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

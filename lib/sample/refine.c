@@ -23,6 +23,7 @@ typedef struct wish {
 } wish;
 
 typedef struct fit {
+	mr_sample_result *found;
 	const mr_domain *d;
 	const mr_cloud *c;
 	const mr_fit_weights *weights;
@@ -193,7 +194,6 @@ static mr_status
 fit_pass(mr_ctx *ctx, fit *x)
 {
 	double median;
-	size_t steps;
 
 	place_all(ctx, x);
 	MR_TRY(median_gap(ctx, x, &median));
@@ -201,13 +201,12 @@ fit_pass(mr_ctx *ctx, fit *x)
 	weigh_points(x);
 	sort_by_face(x);
 	mr_parallel(ctx, x->d->m.nv, GRAIN, assemble_rows, x);
-	MR_TRY(mr_heights_minimise(ctx, x->e, 1e-3, x->weights->steps, x->height, &steps));
-	mr_stat_set(ctx, "refine_steps", (double)steps);
+	MR_TRY(mr_heights_minimise(ctx, x->e, 1e-3, x->weights->steps, x->height, &x->found->refine_steps));
 	return MR_OK;
 }
 
 static void
-report_gaps(mr_ctx *ctx, const fit *x)
+report_gaps(const fit *x)
 {
 	double sum = 0, most = 0;
 
@@ -216,8 +215,8 @@ report_gaps(mr_ctx *ctx, const fit *x)
 		sum += gap;
 		most = fmax(most, gap);
 	}
-	mr_stat_set(ctx, "gap_mean", sum / (double)x->c->n / x->c->diagonal);
-	mr_stat_set(ctx, "gap_max", most / x->c->diagonal);
+	x->found->gap_mean = sum / (double)x->c->n / x->c->diagonal;
+	x->found->gap_max = most / x->c->diagonal;
 }
 
 /* Heights that follow noise make a surface of many spikes, and so much larger. */
@@ -227,7 +226,7 @@ report_area(mr_ctx *ctx, const fit *x)
 	static const double SPIKY = 1.5;
 	double ratio = mr_mesh_area(ctx, &x->surface) / mr_mesh_area(ctx, &x->d->m);
 
-	mr_stat_set(ctx, "area_ratio", ratio);
+	x->found->area_ratio = ratio;
 	if (ratio > SPIKY && !x->weights->robust)
 		mr_warn(ctx,
 		    "the displaced surface has %.3g times the area of its domain: noise, for which there is "
@@ -345,7 +344,7 @@ mend_all(mr_ctx *ctx, fit *x, size_t *folds)
 		mr_progress(ctx, "mending", (double)(pass + 1) / MOST);
 	}
 	x->local = false;
-	mr_stat_set(ctx, "mend_passes", (double)pass);
+	x->found->mend_passes = pass;
 	return MR_OK;
 }
 
@@ -364,10 +363,10 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 
 mr_status
 mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fit_weights *weights,
-    size_t passes, mr_heights *e, const bool *hit, double *height)
+    size_t passes, mr_heights *e, const bool *hit, double *height, mr_sample_result *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	fit x = { .weights = weights, .e = e, .height = height };
+	fit x = { .found = r, .weights = weights, .e = e, .height = height };
 	size_t folds;
 
 	MR_TRY(fit_new(ctx, d, c, &x));
@@ -379,10 +378,10 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fi
 	}
 	MR_TRY(fit_all(ctx, &x, passes, &folds));
 	place_all(ctx, &x);
-	report_gaps(ctx, &x);
+	report_gaps(&x);
 	report_area(ctx, &x);
-	mr_stat_set(ctx, "fairness", weights->fair);
-	mr_stat_set(ctx, "folds", (double)folds);
+	r->fairness = weights->fair;
+	r->folds = folds;
 	if (folds > 0)
 		mr_warn(ctx, "%zu of %zu triangles of the displaced surface fold over or pass through others",
 		    folds, d->m.nf);

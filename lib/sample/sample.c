@@ -119,34 +119,28 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_cloud *c)
 
 /* Finds the place of each point, and takes out those that belong nowhere. */
 static mr_status
-place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c)
+place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c, mr_sample_result *r)
 {
 	double *off = MR_NEW(ctx, c->n, double);
 	bool *outlier = MR_NEW(ctx, c->n, bool);
-	size_t outliers;
 
 	if (!off || !outlier)
 		return MR_EMEM;
 	MR_TRY(mr_cloud_place(ctx, d, c, off));
-	MR_TRY(mr_find_outliers(ctx, s, off, 0, outlier, &outliers));
-	mr_stat_set(ctx, "outliers", (double)outliers);
-	return outliers ? keep_points(ctx, outlier, c->n - outliers, c) : MR_OK;
+	MR_TRY(mr_find_outliers(ctx, s, off, 0, outlier, &r->outliers));
+	return r->outliers ? keep_points(ctx, outlier, c->n - r->outliers, c) : MR_OK;
 }
 
 /* Takes back the heights that stick out and fills in those that are missing. */
 static mr_status
-mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height)
+mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, mr_sample_result *r)
 {
-	size_t dropped, filled;
-
 	MR_TRY(mr_heights_new(ctx, &d->m, 1, e));
-	MR_TRY(mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &dropped));
-	MR_TRY(mr_heights_fill(ctx, e, hit, height, &filled));
-	mr_stat_set(ctx, "spikes", (double)dropped);
-	mr_stat_set(ctx, "filled", (double)filled);
-	if ((double)filled > FILLED_MOST * (double)d->m.nv)
+	MR_TRY(mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &r->spikes));
+	MR_TRY(mr_heights_fill(ctx, e, hit, height, &r->filled));
+	if ((double)r->filled > FILLED_MOST * (double)d->m.nv)
 		mr_warn(
-		    ctx, "no height is found at %zu of %zu vertices: filled in smoothly", filled, d->m.nv);
+		    ctx, "no height is found at %zu of %zu vertices: filled in smoothly", r->filled, d->m.nv);
 	return MR_OK;
 }
 
@@ -168,7 +162,7 @@ robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_
 
 static mr_status
 sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c, const mr_sample_opts *opts,
-    double *height)
+    double *height, mr_sample_result *r)
 {
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
 	size_t distinct, k = opts->neighbours;
@@ -179,28 +173,29 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c,
 	if (!hit)
 		return MR_EMEM;
 	MR_TRY(check_points(ctx, d, c));
-	MR_TRY(place_cloud(ctx, d, s, c));
+	MR_TRY(place_cloud(ctx, d, s, c, r));
 	distinct = mr_near_distinct(c->near);
 	if (k > distinct)
 		k = distinct;
 	if (opts->method == MR_SAMPLE_TRIANGLE)
-		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit));
+		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
 	else
-		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, &noise));
-	MR_TRY(mend(ctx, d, &e, hit, height));
+		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, &noise, r));
+	MR_TRY(mend(ctx, d, &e, hit, height, r));
 	if (opts->method == MR_SAMPLE_ROBUST)
 		weights = robust_weights(ctx, &e, height, c, noise);
-	return mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height);
+	return mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height, r);
 }
 
 mr_status
 mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, const mr_sampling *known,
-    const mr_sample_opts *opts, double *height)
+    const mr_sample_opts *opts, double *height, mr_sample_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
 	mr_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
 	mr_sampling sampling;
+	mr_sample_result r;
 	mr_status s;
 
 	if (n == 0)
@@ -212,29 +207,36 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 	/* what close ones look up is in the cache */
 	MR_TRY(mr_sampling_sort(ctx, point, &sampling, sorted, &sampling));
 	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
-	s = sample_cloud(ctx, d, &sampling, &c, opts, height);
+	mr_unmeasured(&r, sizeof r);
+	s = sample_cloud(ctx, d, &sampling, &c, opts, height, &r);
 	mr_near_free(c.near);
-	if (s >= 0)
-		mr_mark_release(ctx, mark);
-	return s;
+	MR_TRY(s);
+	mr_mark_release(ctx, mark);
+	if (result)
+		*result = r;
+	return MR_OK;
 }
 
 mr_status
-mr_sample_mesh(
-    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts, double *height)
+mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts,
+    double *height, mr_sample_result *result)
 {
 	mr_cloud c = { .p = mesh->p, .n = mesh->nv, .diagonal = mr_mesh_diagonal(mesh) };
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 1, .scale = 1e-3 * c.diagonal, .steps = 50 };
 	mr_mark mark = mr_mark_take(ctx);
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
+	mr_sample_result r;
 	mr_heights e;
 
 	if (!hit)
 		return MR_EMEM;
+	mr_unmeasured(&r, sizeof r);
 	MR_TRY(mr_cloud_place(ctx, d, &c, NULL));
-	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit));
-	MR_TRY(mend(ctx, d, &e, hit, height));
-	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height));
+	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit, &r));
+	MR_TRY(mend(ctx, d, &e, hit, height, &r));
+	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height, &r));
 	mr_mark_release(ctx, mark);
+	if (result)
+		*result = r;
 	return MR_OK;
 }

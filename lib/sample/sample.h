@@ -18,11 +18,11 @@ enum { MR_SAMPLE_MOST = 128 }; /* neighbours, at most */
  * man/mr-sample.1.
  */
 mr_status mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n,
-    const mr_sampling *sampling, const mr_sample_opts *opts, double *height);
+    const mr_sampling *sampling, const mr_sample_opts *opts, double *height, mr_sample_result *result);
 
 /* The same to the surface of a mesh, by the first hit of the line along the normal on the near sheet (Lee et
  * al. 2000). */
-mr_status mr_sample_mesh(
-    mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts, double *height);
+mr_status mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts,
+    double *height, mr_sample_result *result);
 
 #endif

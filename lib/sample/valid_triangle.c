@@ -1,7 +1,7 @@
 /* Jeong, Kim 2001: Direct reconstruction of displaced subdivision surface from unorganized points,
  * section 5. */
-#include "sample/parts.h"
 #include "base/parallel.h"
+#include "sample/parts.h"
 
 enum { CHUNK = 1 << 12, GRAIN = 256 };
 
@@ -168,7 +168,7 @@ search_vertices(void *arg, size_t begin, size_t end)
 
 /* Shares of the vertices by how many triangles, C(points, 3), had been tested when the line met one. */
 static void
-report_tries(mr_ctx *ctx, const search *s, size_t nv)
+report_tries(const search *s, size_t nv, mr_sample_result *r)
 {
 	size_t tally[6] = { 0 }, met = 0, taken = 0;
 
@@ -178,16 +178,16 @@ report_tries(mr_ctx *ctx, const search *s, size_t nv)
 		met += s->points[v] > 0;
 		taken += s->hit[v];
 	}
-	mr_stat_set(ctx, "tries_1", (double)tally[3] / (double)nv);
-	mr_stat_set(ctx, "tries_4", (double)(tally[3] + tally[4]) / (double)nv);
-	mr_stat_set(ctx, "tries_10", (double)(tally[3] + tally[4] + tally[5]) / (double)nv);
-	mr_stat_set(ctx, "missed", (double)(nv - met));
-	mr_stat_set(ctx, "rejected", (double)(met - taken));
+	r->tries_1 = (double)tally[3] / (double)nv;
+	r->tries_4 = (double)(tally[3] + tally[4]) / (double)nv;
+	r->tries_10 = (double)(tally[3] + tally[4] + tally[5]) / (double)nv;
+	r->missed = nv - met;
+	r->rejected = met - taken;
 }
 
 mr_status
-mr_sample_triangles(
-    mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height, bool *hit)
+mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height,
+    bool *hit, mr_sample_result *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t nv = d->m.nv, chunk = nv < CHUNK ? nv : CHUNK, k = neighbours;
@@ -204,7 +204,7 @@ mr_sample_triangles(
 		mr_parallel(ctx, n, GRAIN, search_vertices, &s);
 		mr_progress(ctx, "sampling", (double)(s.first + n) / (double)nv);
 	}
-	report_tries(ctx, &s, nv);
+	report_tries(&s, nv, r);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

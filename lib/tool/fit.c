@@ -4,7 +4,7 @@
 #include "mesh/layers.h"
 
 mr_status
-mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts)
+mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *result)
 {
 	static const mr_fit_opts defaults = MR_FIT_DEFAULTS;
 	static const char *const reads[] = { "points", "mesh", NULL };
@@ -24,6 +24,6 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts)
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, known, o, p));
+	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, known, o, p, result));
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }

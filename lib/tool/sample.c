@@ -37,7 +37,7 @@ choose_level(mr_ctx *ctx, const mr_mesh *control, size_t vertices, size_t *n)
 }
 
 mr_status
-mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts)
+mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_result *result)
 {
 	static const mr_sample_opts defaults = MR_SAMPLE_DEFAULTS;
 	const mr_sample_opts *o = opts ? opts : &defaults;
@@ -56,12 +56,14 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts)
 	if (!height)
 		return MR_EMEM;
 	if (target.nf) {
-		MR_TRY(mr_sample_mesh(ctx, &d, &target, o, height));
+		MR_TRY(mr_sample_mesh(ctx, &d, &target, o, height, result));
 	} else {
 		MR_TRY(mr_sampling_of(ctx, f, &target, &sampling));
-		MR_TRY(mr_sample_points(ctx, &d, target.p, target.nv, &sampling, o, height));
+		MR_TRY(mr_sample_points(ctx, &d, target.p, target.nv, &sampling, o, height, result));
 	}
-	mr_stat_set(ctx, "level", (double)n);
-	mr_stat_set(ctx, "vertices", (double)d.m.nv);
+	if (result) {
+		result->level = n;
+		result->vertices = d.m.nv;
+	}
 	return mr_displacement_put(ctx, f, &d, height);
 }

@@ -289,7 +289,8 @@ any_unsure(const regions *r)
 }
 
 mr_status
-mr_volume_regions(mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g, size_t levels)
+mr_volume_regions(
+    mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g, size_t levels, mr_volume_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double sign[REGIONS];
@@ -304,8 +305,8 @@ mr_volume_regions(mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g
 	}
 	if (turns > 0)
 		MR_TRY(apply_signs(ctx, &r, sign, s));
-	mr_stat_set(ctx, "regions", (double)r.count);
-	mr_stat_set(ctx, "regions_turned", (double)turns);
+	result->regions = r.count;
+	result->regions_turned = turns;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

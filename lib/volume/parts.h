@@ -42,7 +42,8 @@ mr_status mr_volume_orient(mr_ctx *ctx, samples *s, const double *vote);
  * Turns the normals of whole regions over where all agree better then and the flood's votes (positive: the
  * sign is right) are not for it.  g: of so many levels; a step twice the grid's will do.  volume_regions.c
  */
-mr_status mr_volume_regions(mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g, size_t levels);
+mr_status mr_volume_regions(
+    mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g, size_t levels, mr_volume_result *result);
 
 /* ---- volume_solve.c: (screen - Laplacian) u = b on the nodes, u = 0 on the faces of the grid ---- */
 

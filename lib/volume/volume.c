@@ -40,6 +40,7 @@ typedef struct volume {
 	field f[DEPTHS];
 	size_t levels, depths;
 	double *value; /* of each point */
+	mr_volume_result found;
 } volume;
 
 static void
@@ -164,7 +165,7 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 	measure_votes(ctx, v, w);
 	mr_mark_release(ctx, mark);
 	if (v->depths > 1)
-		MR_TRY(mr_volume_regions(ctx, &v->s, v->value, &v->grid[1], v->levels - 1));
+		MR_TRY(mr_volume_regions(ctx, &v->s, v->value, &v->grid[1], v->levels - 1, &v->found));
 	return MR_OK;
 }
 
@@ -196,23 +197,22 @@ spread_normals(mr_ctx *ctx, const volume *v, multigrid *m)
 static mr_status
 solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
 {
-	size_t rounds = 0, turned, first = 0;
+	mr_volume_result *found = &v->found;
+	size_t turned;
 
-	for (;;) {
+	for (found->rounds = 0;;) {
 		spread_normals(ctx, v, m);
 		mr_multigrid_full(ctx, m);
-		if (rounds++ == ROUNDS_MOST)
+		if (found->rounds++ == ROUNDS_MOST)
 			break;
 		mr_parallel(
 		    ctx, v->s.n, GRAIN, measure_across, &(across){ v, m->level[0].u, v->value, 1, 0 });
 		turned = turn_over(v);
-		if (rounds == 1)
-			first = turned;
+		if (found->rounds == 1)
+			found->turned = turned;
 		if ((double)turned <= TURNED_LEAST * (double)v->s.n)
 			break;
 	}
-	mr_stat_set(ctx, "rounds", (double)rounds);
-	mr_stat_set(ctx, "turned", (double)first);
 	return MR_OK;
 }
 
@@ -338,7 +338,7 @@ make_level(mr_ctx *ctx, volume *v, multigrid *m)
 	if (!(half > 0))
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu points enclose nothing: no side of them is the inside", v->s.n);
-	mr_stat_set(ctx, "level", half);
+	v->found.level = half;
 	for (size_t i = 0; i < v->s.n; i++)
 		v->value[i] = fmax(LEVEL_LEAST * half, fmin(v->value[i], LEVEL_MOST * half));
 	MR_TRY(spread_values(ctx, v, m, half));
@@ -387,17 +387,17 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	multigrid m;
 
 	MR_TRY(orient_by_flood(ctx, v, f));
-	mr_stat_set(ctx, "seconds_flood", mr_seconds() - start);
+	v->found.seconds_flood = mr_seconds() - start;
 	start = mr_seconds();
 	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m));
 	MR_TRY(solve_indicator(ctx, v, &m));
-	mr_stat_set(ctx, "seconds_indicator", mr_seconds() - start);
+	v->found.seconds_indicator = mr_seconds() - start;
 	start = mr_seconds();
 	MR_TRY(make_level(ctx, v, &m));
 	MR_TRY(mr_volume_clean(ctx, &v->s, &v->grid[0], f, &c));
-	mr_stat_set(ctx, "parts_dropped", (double)c.parts);
-	mr_stat_set(ctx, "cavities_filled", (double)c.cavities);
-	mr_stat_set(ctx, "seconds_level", mr_seconds() - start);
+	v->found.parts_dropped = c.parts;
+	v->found.cavities_filled = c.cavities;
+	v->found.seconds_level = mr_seconds() - start;
 	return MR_OK;
 }
 
@@ -410,6 +410,21 @@ inside_share(const float *f, size_t nodes)
 	for (size_t i = 0; i < nodes; i++)
 		inside += f[i] < 0;
 	return (double)inside / (double)nodes;
+}
+
+static mr_volume_result
+report(const volume *v, const float *f)
+{
+	mr_volume_result r = v->found;
+
+	r.samples = v->s.n;
+	r.spacing = v->s.spacing;
+	r.noise = v->s.noise;
+	r.cell = v->grid[0].step;
+	r.grid = cells_along(v->s.box, r.cell);
+	r.nodes = mr_grid_nodes(&v->grid[0]);
+	r.inside = inside_share(f, r.nodes);
+	return r;
 }
 
 /* v->s of what counts of n points; *places: how many these are. */
@@ -426,7 +441,8 @@ take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opt
 }
 
 mr_status
-mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out)
+mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out,
+    mr_volume_result *result)
 {
 	double start = mr_seconds();
 	size_t places;
@@ -437,11 +453,10 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 
 	if (opts->grid > CELLS_MOST)
 		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
+	mr_unmeasured(&v.found, sizeof v.found);
 	MR_TRY(take_points(ctx, point, n, opts, &places, &v));
-	mr_stat_set(ctx, "seconds_planes", mr_seconds() - start);
+	v.found.seconds_planes = mr_seconds() - start;
 	MR_TRY(begin(ctx, opts, places, &v));
-	if (opts->found)
-		*opts->found = (mr_volume_found){ v.s.noise, cells_along(v.s.box, v.grid[0].step) };
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
 	if (!f)
 		return MR_EMEM;
@@ -455,11 +470,8 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 		    v.s.n, v.grid[0].n[0], v.grid[0].n[1], v.grid[0].n[2]);
 	m.name = "volume";
 	*out = m;
-	mr_stat_set(ctx, "seconds_isosurface", mr_seconds() - start);
-	mr_stat_set(ctx, "samples", (double)v.s.n);
-	mr_stat_set(ctx, "spacing", v.s.spacing);
-	mr_stat_set(ctx, "cell", v.grid[0].step);
-	mr_stat_set(ctx, "nodes", (double)mr_grid_nodes(&v.grid[0]));
-	mr_stat_set(ctx, "inside", inside_share(f, mr_grid_nodes(&v.grid[0])));
+	v.found.seconds_isosurface = mr_seconds() - start;
+	if (result)
+		*result = report(&v, f);
 	return MR_OK;
 }

@@ -7,18 +7,11 @@
 
 #include "space/sampling.h"
 
-/* What was found about the points. */
-typedef struct mr_volume_found {
-	double noise; /* 1, or more: the spacings it takes to see a surface */
-	size_t grid;  /* cells along the longest side of the bounding box */
-} mr_volume_found;
-
 typedef struct mr_volume_opts {
 	size_t
 	    grid; /* cells along the longest side of the bounding box; 0: chosen from the sampling density */
 	const mr_sampling *sampling; /* of the points, where it is known; NULL: found */
 	bool project;                /* noisy points go onto the planes of their neighbours first */
-	mr_volume_found *found;      /* becomes what was found; may be NULL */
 } mr_volume_opts;
 
 #define MR_VOLUME_DEFAULTS                                                                                   \
@@ -32,12 +25,8 @@ typedef struct mr_volume_opts {
  * are left out, and outliers; of points nearer to each other than a grid can tell, some.  MR_EMESH where the
  * points are flat or enclose nothing; MR_ERANGE for a grid of more than 4096 cells, and for parts so far
  * apart that no grid holds both.
- *
- * Figures: samples (points that counted), spacing (the side of the square that a point stands for), regions
- * (large flat ones), regions_turned (rounds of that), cell, nodes, inside (share of the nodes), rounds (of
- * the Poisson equation), turned (normals after the first), level (the indicator's value at the surface),
- * parts_dropped, cavities_filled, and seconds_planes, _flood, _indicator, _level and _isosurface.
  */
-mr_status mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out);
+mr_status mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, mr_mesh *out,
+    mr_volume_result *result);
 
 #endif

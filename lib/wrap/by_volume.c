@@ -4,29 +4,27 @@
 
 /* What a volume is made of. */
 typedef struct making {
-	const char *name, *figure;
+	const char *name;
 	bool projected; /* of noisy points on their planes */
 	size_t grid;
 } making;
 
 static mr_status
-wrap_volume_of(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const making *by,
-    mr_volume_found *found, mr_wrap *c)
+wrap_volume_of(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const making *by, mr_wrap *c)
 {
 	mr_volume_opts volume = MR_VOLUME_DEFAULTS;
 	double start = mr_seconds(), middle;
 	mr_mesh m;
 
-	c->method = MR_WRAP_VOLUME;
+	c->found.method = MR_WRAP_VOLUME;
 	volume.grid = by->grid;
 	volume.sampling = &cloud->sampling;
 	volume.project = by->projected;
-	volume.found = found;
-	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m));
+	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m, &c->found.volume));
 	middle = mr_seconds();
-	mr_stat_set(ctx, "seconds_volume", middle - start);
+	c->found.seconds_volume = middle - start;
 	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));
-	mr_stat_set(ctx, "seconds_remesh", mr_seconds() - middle);
+	c->found.seconds_remesh = mr_seconds() - middle;
 	return mr_wrap_finish(ctx, cloud, o, by->name, c);
 }
 
@@ -63,49 +61,45 @@ reaches_more(const mr_wrap *c, const mr_wrap *other, double unit)
 	return c->cover.points_high < CLEARLY * other->cover.points_high;
 }
 
-/* Takes another volume in place of c where it is better.  The figures are those of the wrap that is taken. */
+/* Takes another volume in place of c where it is better. */
 static mr_status
 try_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const making *by,
-    bool (*better)(const mr_wrap *, const mr_wrap *, double), mr_wrap *c)
+    bool (*better)(const mr_wrap *, const mr_wrap *, double), mr_wrap *c, size_t *taken)
 {
-	mr_stat figures[MR_STATS_MAX];
-	size_t count = ctx->stat_count;
 	double start = mr_seconds();
 	mr_mark mark = mr_mark_take(ctx);
-	mr_wrap other;
-	mr_status status;
-	bool taken;
+	mr_wrap other = *c;
+	mr_status status = wrap_volume_of(ctx, cloud, o, by, &other);
 
-	memcpy(figures, ctx->stats, sizeof figures);
-	status = wrap_volume_of(ctx, cloud, o, by, NULL, &other);
+	*taken = 0;
 	if (status != MR_OK && status != MR_EMESH && status != MR_ERANGE)
 		return status;
-	taken = status == MR_OK && better(&other, c, cloud->spacing);
-	if (taken) {
+	*taken = status == MR_OK && better(&other, c, cloud->spacing);
+	if (*taken)
 		*c = other;
-	} else {
+	else
 		mr_mark_release(ctx, mark);
-		memcpy(ctx->stats, figures, sizeof figures);
-		ctx->stat_count = count;
-	}
-	mr_stat_set(ctx, by->figure, taken);
-	mr_stat_set(ctx, "seconds_tried", mr_seconds() - start);
+	mr_wrap_tried(c, mr_seconds() - start);
 	return MR_OK;
 }
 
 mr_status
 mr_wrap_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
-	making first = { "volume", NULL, false, o->grid };
-	making projected = { "volume of projected points", "projected", true, o->grid };
-	mr_volume_found found;
+	making first = { "volume", false, o->grid };
+	making projected = { "volume of projected points", true, o->grid };
+	making coarser = { "volume of a coarser grid", false, 0 };
+	size_t taken;
 
-	MR_TRY(wrap_volume_of(ctx, cloud, o, &first, &found, c));
-	if (found.noise > 1 && c->cover.wrap_high > SPANS * cloud->spacing)
-		MR_TRY(try_volume(ctx, cloud, o, &projected, spans_less, c));
+	MR_TRY(wrap_volume_of(ctx, cloud, o, &first, c));
+	coarser.grid = c->found.volume.grid / 2;
+	if (c->found.volume.noise > 1 && c->cover.wrap_high > SPANS * cloud->spacing) {
+		MR_TRY(try_volume(ctx, cloud, o, &projected, spans_less, c, &taken));
+		c->found.projected = taken;
+	}
 	if (!o->grid && misses(c, cloud->spacing)) {
-		making coarser = { "volume of a coarser grid", "coarser", false, found.grid / 2 };
-		MR_TRY(try_volume(ctx, cloud, o, &coarser, reaches_more, c));
+		MR_TRY(try_volume(ctx, cloud, o, &coarser, reaches_more, c, &taken));
+		c->found.coarser = taken;
 	}
 	return MR_OK;
 }

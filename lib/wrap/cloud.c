@@ -33,7 +33,6 @@ set_outliers_apart(mr_ctx *ctx, mr_wrap_cloud *cloud)
 		if (s->outlier[i] && !s->repeat[i])
 			p[n++] = cloud->given[i];
 	cloud->outlier = p;
-	mr_stat_set(ctx, "outliers", (double)n);
 	if (n > 0)
 		mr_note(ctx, "%zu outlier%s left out", n, plural(n));
 	return MR_OK;

@@ -6,6 +6,14 @@ enum { ITERATIONS = 4 /* by default */ };
 
 const mr_wrap_cover MR_WRAP_ENOUGH = { .points_max = 10, .points_high = 4, .wrap_max = 6, .wrap_high = 2.5 };
 
+void
+mr_wrap_tried(mr_wrap *w, double seconds)
+{
+	double before = w->found.seconds_tried;
+
+	w->found.seconds_tried = isnan(before) ? seconds : before + seconds;
+}
+
 mr_status
 mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, mr_wrap *w)
 {
@@ -15,7 +23,7 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 
 	w->folds = mr_count_folds(&m, w->d.twin);
 	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, cover));
-	mr_stat_set(ctx, "seconds_measure", mr_seconds() - start);
+	w->found.seconds_measure = mr_seconds() - start;
 	mr_note(ctx,
 	    "%s, %zu faces: points are within %.3g sampling distances of it, 99 %% within %.3g, "
 	    "it is within %.3g of points, 99 %% within %.3g",
@@ -26,14 +34,13 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 
 /* Onto the points. */
 static mr_status
-settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
+settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w)
 {
-	size_t iterations = o->iterations ? o->iterations : ITERATIONS;
 	double start = mr_seconds();
 
-	MR_TRY(mr_wrap_settle(ctx, cloud, o, iterations, d));
-	mr_stat_set(ctx, "iterations", (double)iterations);
-	mr_stat_set(ctx, "seconds_settle", mr_seconds() - start);
+	w->found.iterations = o->iterations ? o->iterations : ITERATIONS;
+	MR_TRY(mr_wrap_settle(ctx, cloud, o, w->found.iterations, &w->d));
+	w->found.seconds_settle = mr_seconds() - start;
 	return MR_OK;
 }
 
@@ -46,7 +53,7 @@ mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, c
 	if (!home)
 		return MR_EMEM;
 	memcpy(home, w->d.p, w->d.nv * sizeof *home);
-	MR_TRY(settle(ctx, cloud, o, &w->d));
+	MR_TRY(settle(ctx, cloud, o, w));
 	for (int round = 0;; round++) {
 		mr_unfold(&w->d, true);
 		MR_TRY(mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, what, w));

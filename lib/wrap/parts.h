@@ -111,8 +111,11 @@ typedef struct mr_wrap {
 	mr_dyn d;
 	mr_wrap_cover cover;
 	size_t folds;
-	int method; /* mr_wrap_method, of which AUTO is the box */
+	mr_wrap_result found; /* method, and what it took; the rest at the end */
 } mr_wrap;
+
+/* Adds to the seconds for wraps that were not better. */
+void mr_wrap_tried(mr_wrap *w, double seconds);
 
 /* Measures w->cover, and says it as that of `what`. */
 mr_status

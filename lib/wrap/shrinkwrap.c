@@ -15,7 +15,7 @@ static const mr_wrap_cover FIRST = {
 /* Points and faces at most that this is measured by. */
 enum { FIRST_SAMPLES = 1 << 11 };
 
-/* Of mr_wrap.method, beside the methods. */
+/* Of mr_wrap_result.method, beside the methods. */
 enum { TEMPLATE = MR_WRAP_VOLUME + 1 };
 
 /* So few points tell nothing of handles and limbs: the box, of genus 0, goes around them. */
@@ -43,18 +43,18 @@ badness(const mr_wrap_cover *c)
 
 /* The iterations of the paper. */
 static mr_status
-pull(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
+pull(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	size_t iterations = o->iterations ? o->iterations : CUBE_ITERATIONS;
 	double start = mr_seconds();
 
 	for (size_t i = 0; i < iterations; i++) {
-		MR_TRY(mr_wrap_project(ctx, cloud, o->alpha, d));
-		MR_TRY(mr_wrap_smooth(ctx, o->lambda, false, d));
+		MR_TRY(mr_wrap_project(ctx, cloud, o->alpha, &c->d));
+		MR_TRY(mr_wrap_smooth(ctx, o->lambda, false, &c->d));
 		mr_progress(ctx, "wrapping", (double)(i + 1) / (double)iterations);
 	}
-	mr_stat_set(ctx, "iterations", (double)iterations);
-	mr_stat_set(ctx, "seconds_pull", mr_seconds() - start);
+	c->found.iterations = iterations;
+	c->found.seconds_pull = mr_seconds() - start;
 	return MR_OK;
 }
 
@@ -85,11 +85,11 @@ wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 	size_t r = o->resolution ? o->resolution : resolution_for(cloud);
 	mr_mesh cube;
 
-	c->method = MR_WRAP_CUBE;
+	c->found.method = MR_WRAP_CUBE;
+	c->found.resolution = r;
 	MR_TRY(mr_wrap_box(ctx, cube_around(cloud->box), (size_t[]){ r, r, r }, &cube));
 	MR_TRY(mr_wrap_dyn(ctx, &cube, &c->d));
-	mr_stat_set(ctx, "resolution", (double)r);
-	MR_TRY(pull(ctx, cloud, o, &c->d));
+	MR_TRY(pull(ctx, cloud, o, c));
 	mr_unfold(&c->d, true);
 	return mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "cube", c);
 }
@@ -101,7 +101,7 @@ finish_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, doubl
 	double start = mr_seconds();
 
 	MR_TRY(mr_wrap_refine(ctx, cloud, o, length, &c->d));
-	mr_stat_set(ctx, "seconds_levels", mr_seconds() - start);
+	c->found.seconds_levels = mr_seconds() - start;
 	return mr_wrap_finish(ctx, cloud, o, "box", c);
 }
 
@@ -143,7 +143,8 @@ static mr_status
 choose(
     mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished, mr_wrap *c)
 {
-	mr_wrap volume;
+	double start = mr_seconds();
+	mr_wrap volume = *c;
 	mr_status status = mr_wrap_volume(ctx, cloud, o, &volume);
 	bool handles = false;
 
@@ -156,6 +157,7 @@ choose(
 		*c = volume;
 		return MR_OK;
 	}
+	mr_wrap_tried(c, mr_seconds() - start);
 	if (status == MR_EMESH)
 		mr_note(ctx, "no volume: %s", ctx->error);
 	if (!finished)
@@ -175,10 +177,10 @@ wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 	double start = mr_seconds(), length;
 	bool round;
 
-	c->method = MR_WRAP_AUTO;
+	c->found.method = MR_WRAP_AUTO; /* the box */
 	MR_TRY(mr_wrap_begin(ctx, cloud, o, &length, &c->d));
 	MR_TRY(mr_wrap_assess(ctx, cloud, FIRST_SAMPLES, "first level", c));
-	mr_stat_set(ctx, "seconds_box", mr_seconds() - start);
+	c->found.seconds_box = mr_seconds() - start;
 	round = cloud->n <= FEW || covers(&c->cover, &FIRST, length);
 	if (round) {
 		MR_TRY(finish_box(ctx, cloud, o, length, c));
@@ -232,61 +234,69 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 }
 
 static void
-report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
+report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 {
 	static const char *const names[] = { "box", "cube", "volume", "template" };
+	mr_wrap_result r = c->found;
 
-	mr_note(ctx, "by the %s", names[c->method]);
-	mr_stat_set(ctx, "method", c->method);
-	mr_stat_set(ctx, "places", (double)cloud->n);
-	mr_stat_set(ctx, "sampling", cloud->spacing);
-	mr_stat_set(ctx, "points_to_wrap_max", c->cover.points_max);
-	mr_stat_set(ctx, "points_to_wrap_99", c->cover.points_high);
-	mr_stat_set(ctx, "points_to_wrap_90", c->cover.points_most);
-	mr_stat_set(ctx, "wrap_to_points_max", c->cover.wrap_max);
-	mr_stat_set(ctx, "wrap_to_points_99", c->cover.wrap_high);
-	mr_stat_set(ctx, "faces", (double)c->d.nf);
-	mr_stat_set(ctx, "lost", (double)c->cover.lost);
-	mr_stat_set(ctx, "folded_edges", (double)c->folds);
-	mr_stat_set(ctx, "intersecting_pairs", (double)c->cover.crossings);
+	mr_note(ctx, "by the %s", names[r.method]);
 	warn(ctx, cloud, c);
+	r.places = cloud->sampling.places;
+	r.outliers = cloud->sampling.outliers;
+	r.sampling = cloud->spacing;
+	r.points_to_wrap_max = c->cover.points_max;
+	r.points_to_wrap_99 = c->cover.points_high;
+	r.points_to_wrap_90 = c->cover.points_most;
+	r.wrap_to_points_max = c->cover.wrap_max;
+	r.wrap_to_points_99 = c->cover.wrap_high;
+	r.lost = c->cover.lost;
+	r.faces = c->d.nf;
+	r.folded_edges = c->folds;
+	r.intersecting_pairs = c->cover.crossings;
+	if (result)
+		*result = r;
 }
 
 static mr_status
-wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out)
+wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out, mr_wrap_result *result)
 {
 	mr_wrap c;
 
+	mr_unmeasured(&c.found, sizeof c.found);
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
 		if (c.d.twin[h] == MR_NONE)
 			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
-	report(ctx, cloud, &c);
+	report(ctx, cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
 	return MR_OK;
 }
 
 mr_status
 mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling,
-    const mr_wrap_opts *opts, mr_mesh *out)
+    const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result)
 {
 	mr_wrap_cloud cloud;
 	mr_status status = mr_wrap_cloud_open(ctx, point, n, sampling, &cloud);
 
 	if (status == MR_OK)
-		status = wrap(ctx, &cloud, opts, out);
+		status = wrap(ctx, &cloud, opts, out, result);
 	mr_near_free(cloud.near);
 	return status;
 }
 
 /* By the steps of the box, which turn no face, and at the end those of all that is near the points. */
 static mr_status
-wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, const mr_wrap_opts *o, mr_v3 *p)
+wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, const mr_wrap_opts *o, mr_v3 *p,
+    mr_wrap_result *result)
 {
 	size_t iterations = o->iterations ? o->iterations : TEMPLATE_ITERATIONS;
 	double edge = mr_mesh_edge_scale(ctx, start);
-	mr_wrap c = { .method = TEMPLATE };
+	mr_wrap c;
 
+	mr_unmeasured(&c.found, sizeof c.found);
+	c.found.method = TEMPLATE;
+	c.found.iterations = iterations;
 	if (!(edge > 0))
 		return mr_fail(ctx, MR_EMESH, "the template's %zu vertices are at one place", start->nv);
 	MR_TRY(mr_wrap_dyn(ctx, start, &c.d));
@@ -296,23 +306,22 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 		mr_progress(ctx, "wrapping", (double)(i + 1) / (double)iterations);
 	}
 	MR_TRY(mr_wrap_settle(ctx, cloud, o, TEMPLATE_SETTLES, &c.d));
-	mr_stat_set(ctx, "iterations", (double)iterations);
 	mr_unfold(&c.d, true);
 	MR_TRY(mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "template", &c));
-	report(ctx, cloud, &c);
+	report(ctx, cloud, &c, result);
 	memcpy(p, c.d.p, start->nv * sizeof *p);
 	return MR_OK;
 }
 
 mr_status
 mr_wrap_template(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, const mr_mesh *start,
-    const mr_wrap_opts *opts, mr_v3 *p)
+    const mr_wrap_opts *opts, mr_v3 *p, mr_wrap_result *result)
 {
 	mr_wrap_cloud cloud;
 	mr_status status = mr_wrap_cloud_open(ctx, point, n, sampling, &cloud);
 
 	if (status == MR_OK)
-		status = wrap_template(ctx, &cloud, start, opts, p);
+		status = wrap_template(ctx, &cloud, start, opts, p, result);
 	mr_near_free(cloud.near);
 	return status;
 }

@@ -4,15 +4,6 @@
 #include "fit/limit_surface.h"
 #include "shapes.h"
 
-static double
-figure(const char *name)
-{
-	for (size_t i = 0; i < ctx.stat_count; i++)
-		if (!strcmp(ctx.stats[i].name, name))
-			return ctx.stats[i].value;
-	return NAN;
-}
-
 /* The mesh with its vertices moved at random by up to `most` in each coordinate. */
 static mr_mesh
 shaken(mr_mesh m, double most)
@@ -61,11 +52,12 @@ test_surface_is_found_again(void **state)
 		mr_v3 *point, *out = MR_NEW(&ctx, m.nv, mr_v3);
 		size_t n = limit_points(&m, 3, &point);
 		mr_fit_opts o = MR_FIT_DEFAULTS;
+		mr_fit_result found;
 		o.fairness = 1e-6;
 		o.iterations = 20;
-		assert_int_equal(mr_fit(&ctx, &near, point, n, NULL, &o, out), MR_OK);
-		assert_true(figure("distance_rms_before") > 5e-3);
-		assert_true(figure("distance_rms_after") < rms[i]);
+		assert_int_equal(mr_fit(&ctx, &near, point, n, NULL, &o, out, &found), MR_OK);
+		assert_true(found.distance_rms_before > 5e-3);
+		assert_true(found.distance_rms_after < rms[i]);
 	}
 }
 
@@ -114,7 +106,7 @@ test_icosahedron_becomes_the_best_sphere(void **state)
 	mr_v3 out[12], *point = sphere_points(4000, -2);
 
 	(void)state;
-	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
+	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
 	for (int v = 0; v < 12; v++) {
 		assert_true(fabs(mr_norm(out[v]) / mr_norm(out[0]) - 1) < 2e-2);
 		assert_true(mr_dist(mr_unit(out[v]), mr_unit(m.p[v])) < 2e-2);
@@ -127,13 +119,14 @@ test_what_has_no_points_stays(void **state)
 {
 	mr_mesh m = shape(MR_SPHERE, 300);
 	mr_v3 *point = sphere_points(4000, 0.2), *out = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_fit_result found;
 	double most = 0;
 
 	(void)state;
-	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
+	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, &found), MR_OK);
 	for (size_t v = 0; v < m.nv; v++)
 		most = m.p[v].z < -0.3 ? fmax(most, mr_dist(out[v], m.p[v])) : most;
-	assert_true(figure("distance_rms_after") < 1e-3);
+	assert_true(found.distance_rms_after < 1e-3);
 	assert_true(most < 0.1);
 }
 
@@ -150,7 +143,7 @@ test_outliers_pull_little(void **state)
 	(void)state;
 	for (size_t i = 0; i < 5000; i += 50)
 		point[i] = mr_mul(0.2 + 1.5 * mr_random_real(&r), point[i]);
-	assert_int_equal(mr_fit(&ctx, &m, point, 5000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out), MR_OK);
+	assert_int_equal(mr_fit(&ctx, &m, point, 5000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
 	m.p = out;
 	assert_int_equal(mr_fit_surface_build(&ctx, &m, &s), MR_OK);
 	for (size_t v = 0; v < s.m.nv; v++)
@@ -173,7 +166,7 @@ test_memory_may_run_out(void **state)
 		for (uint64_t k = 1; status != MR_OK; k++) {
 			ctx.fail_at = k;
 			memset(out, 0, sizeof out);
-			status = mr_fit(&ctx, &m, point, 50, NULL, &o, out);
+			status = mr_fit(&ctx, &m, point, 50, NULL, &o, out, NULL);
 			ctx.fail_at = 0;
 			assert_true(status == MR_OK || status == MR_EMEM);
 			assert_true(status == MR_OK || mr_norm(out[3]) == 0);

@@ -189,7 +189,7 @@ sides_of_a_cube_are_turned_over(void **state)
 		}
 		if (sides <= 3 && !(turned >> largest & 1)) {
 			assert_int_equal(count_wrong(&s, truth), inward);
-			assert_int_equal(mr_volume_regions(&ctx, &s, flood, &g, 3), MR_OK);
+			assert_int_equal(mr_volume_regions(&ctx, &s, flood, &g, 3, &(mr_volume_result){ 0 }), MR_OK);
 			assert_int_equal(count_wrong(&s, truth), 0);
 			rounds++;
 		}
@@ -215,7 +215,7 @@ what_the_flood_knows_is_not_turned(void **state)
 		s.plane.normal[i] = truth[i];
 		flood[i] = 1;
 	}
-	assert_int_equal(mr_volume_regions(&ctx, &s, flood, &g, 3), MR_OK);
+	assert_int_equal(mr_volume_regions(&ctx, &s, flood, &g, 3, &(mr_volume_result){ 0 }), MR_OK);
 	assert_int_equal(count_wrong(&s, truth), 0);
 }
 

@@ -184,11 +184,11 @@ sphere_from_points(void **state)
 
 	(void)state;
 	o.refine = 0;
-	assert_int_equal(mr_sample_points(&ctx, &d, p, 12000, NULL, &o, height), MR_OK);
+	assert_int_equal(mr_sample_points(&ctx, &d, p, 12000, NULL, &o, height, NULL), MR_OK);
 	sphere_errors(&d, height, &paper, &paper_most);
 	assert_true(paper < 1e-3 && paper_most < 2e-2);
 	o.refine = 3;
-	assert_int_equal(mr_sample_points(&ctx, &d, p, 12000, NULL, &o, height), MR_OK);
+	assert_int_equal(mr_sample_points(&ctx, &d, p, 12000, NULL, &o, height, NULL), MR_OK);
 	sphere_errors(&d, height, &mean, &most);
 	assert_true(mean < 2e-3 && most < paper_most);
 }
@@ -203,10 +203,10 @@ sphere_from_noise(void **state)
 	mr_sample_opts o = MR_SAMPLE_DEFAULTS;
 
 	(void)state;
-	assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height), MR_OK);
+	assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height, NULL), MR_OK);
 	sphere_errors(&d, height, &triangle, &triangle_most);
 	o.method = MR_SAMPLE_ROBUST;
-	assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height), MR_OK);
+	assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height, NULL), MR_OK);
 	sphere_errors(&d, height, &mean, &most);
 	assert_true(mean < 0.5 * triangle && most < triangle_most);
 }
@@ -223,7 +223,7 @@ torus_from_mesh(void **state)
 	(void)state;
 	assert_int_equal(mr_solid_make(&ctx, &o, &torus), MR_OK);
 	for (opts.refine = 0; opts.refine <= 3; opts.refine += 3) {
-		assert_int_equal(mr_sample_mesh(&ctx, &d, &torus, &opts, height), MR_OK);
+		assert_int_equal(mr_sample_mesh(&ctx, &d, &torus, &opts, height, NULL), MR_OK);
 		for (size_t i = 0; i < d.m.nv; i++) {
 			mr_v3 p = mr_axpy(height[i], d.normal[i], d.m.p[i]);
 			double ring = sqrt(p.x * p.x + p.y * p.y) - 1;
@@ -297,7 +297,7 @@ threads_do_not_matter(void **state)
 	for (o.method = 0; o.method < 2; o.method++) {
 		for (int k = 0; k < 2; k++) {
 			ctx.threads = k ? 3 : 1;
-			assert_int_equal(mr_sample_points(&ctx, &d, p, 9000, NULL, &o, height[k]), MR_OK);
+			assert_int_equal(mr_sample_points(&ctx, &d, p, 9000, NULL, &o, height[k], NULL), MR_OK);
 		}
 		assert_memory_equal(height[0], height[1], d.m.nv * sizeof(double));
 	}
@@ -315,17 +315,17 @@ refuses(void **state)
 	(void)state;
 	for (size_t i = 0; i < 100; i++)
 		p[i] = mr_vec(1, 2, 3);
-	assert_int_equal(mr_sample_points(&ctx, &closed, p, 0, NULL, &o, height), MR_EMESH);
-	assert_int_equal(mr_sample_points(&ctx, &closed, p, 100, NULL, &o, height), MR_EMESH);
+	assert_int_equal(mr_sample_points(&ctx, &closed, p, 0, NULL, &o, height, NULL), MR_EMESH);
+	assert_int_equal(mr_sample_points(&ctx, &closed, p, 100, NULL, &o, height, NULL), MR_EMESH);
 	for (size_t i = 0; i < 100; i++)
 		p[i] = mr_axpy((double)i, mr_vec(1, 2, 3), mr_vec(0.1, 0.2, 0.3));
-	assert_int_equal(mr_sample_points(&ctx, &closed, p, 100, NULL, &o, height), MR_EMESH);
+	assert_int_equal(mr_sample_points(&ctx, &closed, p, 100, NULL, &o, height, NULL), MR_EMESH);
 	for (size_t i = 0; i < 100; i++)
 		p[i] = mr_vec(2 * mr_random_real(&r) - 1, 2 * mr_random_real(&r) - 1, 0);
-	assert_int_equal(mr_sample_points(&ctx, &closed, p, 100, NULL, &o, height), MR_EMESH);
-	assert_int_equal(mr_sample_points(&ctx, &open, p, 100, NULL, &o, height), MR_OK);
+	assert_int_equal(mr_sample_points(&ctx, &closed, p, 100, NULL, &o, height, NULL), MR_EMESH);
+	assert_int_equal(mr_sample_points(&ctx, &open, p, 100, NULL, &o, height, NULL), MR_OK);
 	p[0].z = 1;
-	assert_int_equal(mr_sample_points(&ctx, &closed, p, 3, NULL, &o, height), MR_EMESH);
+	assert_int_equal(mr_sample_points(&ctx, &closed, p, 3, NULL, &o, height, NULL), MR_EMESH);
 }
 
 /* Every allocation that fails gives MR_EMEM. */
@@ -343,7 +343,7 @@ survives_no_memory(void **state)
 		for (uint64_t k = 1; s != MR_OK && k < 1000; k++) {
 			mr_mark mark = mr_mark_take(&ctx);
 			ctx.fail_at = k;
-			s = mr_sample_points(&ctx, &d, p, 500, NULL, &o, height);
+			s = mr_sample_points(&ctx, &d, p, 500, NULL, &o, height, NULL);
 			ctx.fail_at = 0;
 			assert_true(s == MR_OK || s == MR_EMEM);
 			mr_mark_release(&ctx, mark);

@@ -79,7 +79,7 @@ wrap(const mr_v3 *p, size_t n)
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_mesh m;
 
-	assert_int_equal(mr_volume_wrap(&ctx, p, n, &opts, &m), MR_OK);
+	assert_int_equal(mr_volume_wrap(&ctx, p, n, &opts, &m, NULL), MR_OK);
 	return m;
 }
 
@@ -367,15 +367,14 @@ noisy_points_go_onto_their_planes(void **state)
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_v3 *p, *normals;
 	double off;
-	mr_volume_found found;
+	mr_volume_result found;
 	mr_census c;
 
 	(void)state;
 	opts.project = true;
-	opts.found = &found;
 	assert_int_equal(mr_surface_sample(&ctx, &m, N, 5, &p, &normals), MR_OK);
 	mr_add_noise(p, normals, N, sqrt(mr_mesh_area(&ctx, &m) / N), 6);
-	assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &w), MR_OK);
+	assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &w, &found), MR_OK);
 	assert_true(found.noise > 1);
 	c = census_of(&w);
 	assert_closed_manifold(&c);
@@ -391,13 +390,12 @@ points_without_noise_stay(void **state)
 {
 	mr_mesh m = solid(MR_TORUS, 3000, 0), w[2];
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
-	mr_volume_found found;
+	mr_volume_result found;
 
 	(void)state;
-	opts.found = &found;
 	for (int i = 0; i < 2; i++) {
 		opts.project = i;
-		assert_int_equal(mr_volume_wrap(&ctx, m.p, m.nv, &opts, &w[i]), MR_OK);
+		assert_int_equal(mr_volume_wrap(&ctx, m.p, m.nv, &opts, &w[i], &found), MR_OK);
 		assert_true(found.noise == 1);
 	}
 	assert_int_equal(w[0].nv, w[1].nv);
@@ -428,7 +426,7 @@ any_cloud_gives_a_closed_surface_or_none(void **state)
 			p[i] = mr_add(mr_mul(size, q), mr_vec(offset, -offset, offset));
 		}
 		opts.grid = round % 11 == 10 ? 1 + (size_t)(40 * mr_random_real(&r)) : 0;
-		status = mr_volume_wrap(&ctx, p, n, &opts, &m);
+		status = mr_volume_wrap(&ctx, p, n, &opts, &m, NULL);
 		assert_true(status == MR_OK || status == MR_EMESH ||
 			    (status == MR_ERANGE && (opts.grid || round % 7 == 0)));
 		if (status == MR_OK) {
@@ -441,7 +439,7 @@ any_cloud_gives_a_closed_surface_or_none(void **state)
 	opts.grid = 5000;
 	for (size_t i = 0; i < 400; i++)
 		p[i] = mr_vec((double)(i % 7), (double)(i % 11), (double)(i % 13));
-	assert_int_equal(mr_volume_wrap(&ctx, p, 400, &opts, &(mr_mesh){ 0 }), MR_ERANGE);
+	assert_int_equal(mr_volume_wrap(&ctx, p, 400, &opts, &(mr_mesh){ 0 }, NULL), MR_ERANGE);
 	assert_string_equal(ctx.error, "a grid of 5000 cells: 4096 at most");
 }
 
@@ -483,7 +481,7 @@ flat_clouds_are_refused(void **state)
 			       t = dimension > 1 ? mr_random_real(&r) : 0;
 			p[i] = mr_vec(1 + s, 2 - s + 3 * t, 3 + 2 * s - t);
 		}
-		assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &m), MR_EMESH);
+		assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &m, NULL), MR_EMESH);
 		assert_string_equal(ctx.error, said[dimension]);
 	}
 }
@@ -496,19 +494,18 @@ every_allocation_may_fail(void **state)
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_status status = MR_EMEM;
 	mr_v3 p[MOST];
-	mr_volume_found found;
+	mr_volume_result found;
 
 	(void)state;
 	assert_true(m.nv <= MOST);
 	memcpy(p, m.p, m.nv * sizeof *p);
 	mr_add_noise(p, m.p, m.nv, 0.2, 1);
 	opts.project = true;
-	opts.found = &found;
 	for (uint64_t k = 1; status != MR_OK; k++) {
 		mr_mark mark = mr_mark_take(&ctx);
 		assert_true(k < 1000);
 		ctx.fail_at = k;
-		status = mr_volume_wrap(&ctx, p, m.nv, &opts, &w);
+		status = mr_volume_wrap(&ctx, p, m.nv, &opts, &w, &found);
 		assert_true(status == MR_OK || status == MR_EMEM);
 		mr_mark_release(&ctx, mark);
 	}
