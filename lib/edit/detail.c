@@ -12,12 +12,11 @@ enum { GRAIN = 1024 };
 static mr_v3
 displaced(const mr_phong *s, const mr_detail *d, size_t i, double gain)
 {
-	mr_v3 b = mr_phong_point(s, d->face[i], d->bary[i]);
-	mr_v3 n = mr_phong_normal(s, d->face[i], d->bary[i]);
-	mr_v3 p = mr_axpy(gain * d->height[i], n, b);
+	mr_place at = mr_places_at(&d->at, i);
+	mr_v3 p = mr_axpy(gain * d->height[i], mr_phong_normal(s, at), mr_phong_point(s, at));
 
 	if (d->offset && mr_norm2(d->offset[i]) > 0) {
-		mr_tangent_frame f = mr_phong_frame(s, d->face[i], d->bary[i]);
+		mr_tangent_frame f = mr_phong_frame(s, at);
 		mr_v3 o = mr_mul(gain, d->offset[i]);
 		p = mr_axpy(o.x, f.t1, mr_axpy(o.y, f.t2, mr_axpy(o.z, f.n, p)));
 	}
@@ -44,8 +43,7 @@ typedef struct encoder {
 
 /* Where Newton's method begins for a vertex, and how high a foot may be. */
 typedef struct start {
-	uint32_t face;
-	mr_v3 bary;
+	mr_place at;
 	double limit;
 } start;
 
@@ -58,7 +56,7 @@ start_at_vertex(const encoder *e, mr_v3 p, uint32_t vertex)
 	mr_v3 corner = mr_vec(
 	    c[0] == vertex, c[0] != vertex && c[1] == vertex, c[0] != vertex && c[1] != vertex);
 
-	return (start){ face, corner, 1.1 * mr_dist(p, base->p[vertex]) + e->ground.tolerance };
+	return (start){ { face, corner }, 1.1 * mr_dist(p, base->p[vertex]) + e->ground.tolerance };
 }
 
 static start
@@ -66,7 +64,7 @@ start_at_nearest(const encoder *e, mr_v3 p)
 {
 	mr_closest c = mr_bvh_closest(e->bvh, p);
 
-	return (start){ c.face, c.bary, 2 * sqrt(c.dist2) + e->ground.tolerance };
+	return (start){ c.at, 2 * sqrt(c.dist2) + e->ground.tolerance };
 }
 
 static void
@@ -76,19 +74,19 @@ encode_vertex(const encoder *e, size_t i, tally *t)
 	start s = e->start[i] == MR_NONE ? start_at_nearest(e, p) : start_at_vertex(e, p, e->start[i]);
 	mr_walk walk = { 0, 0 };
 	mr_foot foot;
-	bool found = mr_foot_walk(&e->ground, p, s.face, s.bary, s.limit, &foot, &walk);
+	bool found = mr_foot_walk(&e->ground, p, s.at, s.limit, &foot, &walk);
 
 	if (!found) {
-		found = mr_foot_search(&e->ground, p, s.face, &foot);
+		found = mr_foot_search(&e->ground, p, s.at.face, &foot);
 		t->searched++;
 	}
-	e->face[i] = foot.face;
-	e->bary[i] = foot.bary;
+	e->face[i] = foot.at.face;
+	e->bary[i] = foot.at.bary;
 	e->height[i] = foot.height;
 	e->offset[i] = zero;
 	if (!found) {
-		mr_tangent_frame f = mr_phong_frame(&e->ground.surface, foot.face, foot.bary);
-		mr_v3 o = mr_sub(p, mr_phong_point(&e->ground.surface, foot.face, foot.bary));
+		mr_tangent_frame f = mr_phong_frame(&e->ground.surface, foot.at);
+		mr_v3 o = mr_sub(p, mr_phong_point(&e->ground.surface, foot.at));
 		e->offset[i] = mr_vec(mr_dot(o, f.t1), mr_dot(o, f.t2), mr_dot(o, f.n));
 		t->offsets++;
 	}
@@ -100,7 +98,7 @@ static void
 encode_piece(void *arg, size_t begin, size_t end)
 {
 	const encoder *e = arg;
-	mr_detail d = { e->mesh->nv, e->face, e->bary, e->height, e->offset };
+	mr_detail d = { e->mesh->nv, { e->face, e->bary }, e->height, e->offset };
 	tally t = { 0 };
 
 	for (size_t i = begin; i < end; i++) {
@@ -143,7 +141,7 @@ spread_labels(mr_ctx *ctx, const mr_mesh *m, size_t labelled, uint32_t *label)
  * on its faces, or, where none does, that of the neighbours nearest in connectivity.
  */
 static mr_status
-find_starts(mr_ctx *ctx, const encoder *e, const mr_source_map *source, uint32_t *near)
+find_starts(mr_ctx *ctx, const encoder *e, const mr_places *source, uint32_t *near)
 {
 	const mr_mesh *mesh = e->mesh, *base = e->ground.surface.m;
 	mr_mark mark = mr_mark_take(ctx);
@@ -158,7 +156,7 @@ find_starts(mr_ctx *ctx, const encoder *e, const mr_source_map *source, uint32_t
 	}
 	for (uint32_t j = 0; j < base->nv && source; j++) {
 		const uint32_t *c = mesh->t[source->face[j]].v;
-		mr_v3 q = mr_face_point(mesh, source->face[j], source->bary[j]);
+		mr_v3 q = mr_place_point(mesh, mr_places_at(source, j));
 		if (e->ground.inc->start[j] == e->ground.inc->start[j + 1])
 			continue;
 		for (int k = 0; k < 3; k++) {
@@ -246,7 +244,7 @@ tolerance_for(const mr_mesh *mesh, double diagonal)
 }
 
 mr_status
-mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source, mr_detail *d,
+mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *source, mr_detail *d,
     mr_encode_result *result)
 {
 	size_t n = mesh->nv;
@@ -274,7 +272,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source
 	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
 	mr_parallel(ctx, n, GRAIN, encode_piece, &e);
 	figures = report(ctx, &e, diagonal);
-	found = (mr_detail){ n, e.face, e.bary, e.height, any_offset(&e) ? e.offset : NULL };
+	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
 	*d = found;
 	if (result)
@@ -289,10 +287,10 @@ mr_status
 mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 {
 	for (size_t i = 0; i < d->n; i++) {
-		if (d->face[i] >= base->nf)
+		if (d->at.face[i] >= base->nf)
 			return mr_fail(ctx, MR_ERANGE, "vertex %zu stands on face %u of %s, which has %zu", i,
-			    d->face[i], base->name, base->nf);
-		if (!mr_finite(d->bary[i]) || !isfinite(d->height[i]) ||
+			    d->at.face[i], base->name, base->nf);
+		if (!mr_finite(d->at.bary[i]) || !isfinite(d->height[i]) ||
 		    (d->offset && !mr_finite(d->offset[i])))
 			return mr_fail(ctx, MR_ERANGE, "the detail of vertex %zu is not finite", i);
 	}
@@ -347,7 +345,7 @@ mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_bary", n, &bary));
 	if (mr_layer_has(f, "mesh", "detail_offset"))
 		MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_offset", n, &offset));
-	r = (mr_detail){ n, face, bary, height, offset };
+	r = (mr_detail){ n, { face, bary }, height, offset };
 	MR_TRY(mr_detail_check(ctx, &r, base));
 	*d = r;
 	return MR_OK;
@@ -356,8 +354,8 @@ mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 mr_status
 mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_detail *d)
 {
-	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->face, d->n));
-	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->bary, d->n));
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->at.face, d->n));
+	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->at.bary, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
 	if (d->offset)
 		return mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n);

@@ -17,8 +17,7 @@
  */
 typedef struct mr_detail {
 	size_t n;
-	const uint32_t *face;
-	const mr_v3 *bary;
+	mr_places at; /* on the base */
 	const double *height;
 	const mr_v3 *offset; /* NULL: every vertex has a height */
 } mr_detail;
@@ -28,7 +27,7 @@ typedef struct mr_detail {
  * nearest to each vertex takes its place.  MR_ERANGE where the coordinates are so large that a detail is not
  * finite.  d: the arena's.  result: or NULL.
  */
-mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *source,
+mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *source,
     mr_detail *d, mr_encode_result *result);
 
 /* MR_ERANGE where a face is not one of the base's, or a number is not finite. */

@@ -20,7 +20,7 @@ typedef struct stage {
 
 /* A vertex of the coarser mesh is an unknown where the corner nearest its place on the finer one is. */
 static mr_status
-number_coarse(mr_ctx *ctx, const stage *fine, const mr_source_map *map, stage *coarse)
+number_coarse(mr_ctx *ctx, const stage *fine, const mr_places *map, stage *coarse)
 {
 	coarse->number = MR_NEW(ctx, coarse->m.nv, uint32_t);
 	if (!coarse->number)
@@ -36,7 +36,7 @@ number_coarse(mr_ctx *ctx, const stage *fine, const mr_source_map *map, stage *c
 
 /* Edges twice as long, of even triangles; areas matter little here. */
 static mr_status
-remesh_stage(mr_ctx *ctx, const stage *fine, stage *coarse, mr_source_map *map)
+remesh_stage(mr_ctx *ctx, const stage *fine, stage *coarse, mr_places *map)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 
@@ -70,7 +70,7 @@ reach(walk *w, uint32_t v, uint32_t face)
 
 /* The corners of the face that a coarse vertex came from lie near it; one without a face is near none. */
 static void
-seed(walk *w, const mr_source_map *map)
+seed(walk *w, const mr_places *map)
 {
 	for (size_t v = 0; v < w->fine->m.nv; v++)
 		w->face[v] = MR_NONE;
@@ -83,7 +83,7 @@ seed(walk *w, const mr_source_map *map)
  * Each vertex walks on the coarse mesh from where a neighbour has arrived: it stays on its own sheet.
  */
 static mr_status
-place_vertices(mr_ctx *ctx, const mr_source_map *map, walk *w)
+place_vertices(mr_ctx *ctx, const mr_places *map, walk *w)
 {
 	size_t nv = w->fine->m.nv;
 
@@ -98,10 +98,10 @@ place_vertices(mr_ctx *ctx, const mr_source_map *map, walk *w)
 	for (size_t at = 0; at < w->queued; at++) {
 		uint32_t v = w->queue[at];
 		mr_closest c = mr_project_walk(&w->coarse->m, &w->topo, w->face[v], w->fine->m.p[v]);
-		w->face[v] = c.face;
-		w->bary[v] = c.bary;
+		w->face[v] = c.at.face;
+		w->bary[v] = c.at.bary;
 		for (size_t e = w->near.start[v]; e < w->near.start[v + 1]; e++)
-			reach(w, w->near.adj[e], c.face);
+			reach(w, w->near.adj[e], c.at.face);
 	}
 	return MR_OK;
 }
@@ -168,7 +168,7 @@ mr_hierarchy_build(
 	while (made < LEVELS_MAX && fine.n > COARSEST) {
 		stage coarse;
 		walk w = { .fine = &fine, .coarse = &coarse };
-		mr_source_map map;
+		mr_places map;
 		MR_TRY(remesh_stage(ctx, &fine, &coarse, &map));
 		if (coarse.n == 0 || coarse.n > fine.n / 2)
 			break; /* as coarse as the topology allows */

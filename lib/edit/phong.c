@@ -3,14 +3,14 @@
 #include "edit/phong.h"
 
 mr_v3
-mr_phong_normal(const mr_phong *s, uint32_t face, mr_v3 w)
+mr_phong_normal(const mr_phong *s, mr_place at)
 {
-	const uint32_t *v = s->m->t[face].v;
-	mr_v3 n = mr_bary_point(w, s->normal[v[0]], s->normal[v[1]], s->normal[v[2]]);
+	const uint32_t *v = s->m->t[at.face].v;
+	mr_v3 n = mr_bary_point(at.bary, s->normal[v[0]], s->normal[v[1]], s->normal[v[2]]);
 
 	if (mr_norm2(n) > 0)
 		return mr_unit(n);
-	n = mr_unit(mr_face_cross(s->m, face));
+	n = mr_unit(mr_face_cross(s->m, at.face));
 	return mr_norm2(n) > 0 ? n : mr_vec(0, 0, 1);
 }
 
@@ -31,10 +31,10 @@ tangent(mr_v3 a, mr_v3 n)
 }
 
 mr_tangent_frame
-mr_phong_frame(const mr_phong *s, uint32_t face, mr_v3 w)
+mr_phong_frame(const mr_phong *s, mr_place at)
 {
-	const uint32_t *v = s->m->t[face].v;
-	mr_v3 n = mr_phong_normal(s, face, w);
+	const uint32_t *v = s->m->t[at.face].v;
+	mr_v3 n = mr_phong_normal(s, at);
 	mr_v3 t1 = tangent(mr_sub(s->m->p[v[1]], s->m->p[v[0]]), n);
 
 	if (mr_norm2(t1) == 0) /* an edge of no length, or one along n: any tangent serves */

@@ -22,15 +22,15 @@ typedef struct mr_tangent_frame {
 } mr_tangent_frame;
 
 static inline mr_v3
-mr_phong_point(const mr_phong *s, uint32_t face, mr_v3 w)
+mr_phong_point(const mr_phong *s, mr_place at)
 {
-	return mr_face_point(s->m, face, w);
+	return mr_place_point(s->m, at);
 }
 
-/* n at the point w of the face; the face's own normal where the vertices' cancel. */
-mr_v3 mr_phong_normal(const mr_phong *s, uint32_t face, mr_v3 w);
+/* n there; the face's own normal where the vertices' cancel. */
+mr_v3 mr_phong_normal(const mr_phong *s, mr_place at);
 
 /* The frame there: t1 is the face's edge 0-1 without its part along n, t2 = n x t1. */
-mr_tangent_frame mr_phong_frame(const mr_phong *s, uint32_t face, mr_v3 w);
+mr_tangent_frame mr_phong_frame(const mr_phong *s, mr_place at);
 
 #endif

@@ -80,9 +80,9 @@ inside(place at, double slack)
 static bool
 settle(const mr_ground *g, mr_v3 p, uint32_t face, const field *f, place at, double limit, mr_foot *foot)
 {
-	mr_foot r = { face, bary_of(at), at.t * mr_norm(normal_at(f, at)) };
-	mr_v3 b = mr_phong_point(&g->surface, face, r.bary);
-	mr_v3 n = mr_phong_normal(&g->surface, face, r.bary);
+	mr_foot r = { { face, bary_of(at) }, at.t * mr_norm(normal_at(f, at)) };
+	mr_v3 b = mr_phong_point(&g->surface, r.at);
+	mr_v3 n = mr_phong_normal(&g->surface, r.at);
 
 	if (!(fabs(r.height) <= limit) || !(mr_dist(mr_axpy(r.height, n, b), p) <= g->tolerance))
 		return false;
@@ -151,16 +151,16 @@ cross_edge(const mr_ground *g, uint32_t *face, int corner, double share, place f
 }
 
 bool
-mr_foot_walk(
-    const mr_ground *g, mr_v3 p, uint32_t face, mr_v3 bary, double limit, mr_foot *foot, mr_walk *walk)
+mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot, mr_walk *walk)
 {
 	/* of seven models walks end within 64 steps, all but a few; with a patience of 4 up to 1 % more
 	 * vertices are searched for, with 64 walks take up to twice the steps; stuck once up to 5 % more are
 	 * searched for, ten times is as good as three */
 	enum { STEPS = 256, STUCK = 3, PATIENCE = 16 };
 	const double less = 0.99; /* by so much the squared residual is to fall within PATIENCE steps */
+	uint32_t face = start.face;
 	field f = field_of(&g->surface, face);
-	place at = { bary.y, bary.z, 0 };
+	place at = { start.bary.y, start.bary.z, 0 };
 	mr_v3 r = residual(&f, p, at), n = normal_at(&f, at);
 	int stuck = 0, last = 0;
 	double least = INFINITY, r2;
@@ -412,6 +412,6 @@ mr_foot_search(const mr_ground *g, mr_v3 p, uint32_t face, mr_foot *foot)
 	}
 	if (found && fabs(foot->height) <= reach * sqrt(near2) + g->tolerance)
 		return true;
-	*foot = (mr_foot){ face, mr_face_closest(g->surface.m, face, p).bary, 0 };
+	*foot = (mr_foot){ mr_face_closest(g->surface.m, face, p).at, 0 };
 	return false;
 }

@@ -16,8 +16,7 @@ typedef struct mr_ground {
 } mr_ground;
 
 typedef struct mr_foot {
-	uint32_t face;
-	mr_v3 bary;    /* within 1e-9 of the face */
+	mr_place at;   /* its coordinates within 1e-9 of the face */
 	double height; /* along the Phong normal */
 } mr_foot;
 
@@ -27,12 +26,11 @@ typedef struct mr_walk {
 } mr_walk;
 
 /*
- * Newton's method from the point `bary` of `face`, over edges into neighbouring faces.
+ * Newton's method from the place `start`, over edges into neighbouring faces.
  * True where it found a foot with |height| <= limit, on the near side of the surface's
  * centres of curvature; *foot is written only then.
  */
-bool mr_foot_walk(
-    const mr_ground *g, mr_v3 p, uint32_t face, mr_v3 bary, double limit, mr_foot *foot, mr_walk *walk);
+bool mr_foot_walk(const mr_ground *g, mr_v3 p, mr_place start, double limit, mr_foot *foot, mr_walk *walk);
 
 /*
  * The lowest foot on the sheet of `face`, without a good start.  The sheet is the part of the

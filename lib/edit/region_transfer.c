@@ -6,15 +6,16 @@
 typedef struct transfer_job {
 	const mr_mesh *mesh, *base;
 	const uint32_t *region;
-	const mr_source_map *map; /* or */
+	const mr_places *map; /* or */
 	const mr_bvh *bvh;
 	uint32_t *out;
 } transfer_job;
 
 static uint32_t
-nearest_corner(const mr_tri *t, mr_v3 bary)
+nearest_corner(const mr_mesh *m, mr_place at)
 {
-	const double w[3] = { bary.x, bary.y, bary.z };
+	const double w[3] = { at.bary.x, at.bary.y, at.bary.z };
+	const mr_tri *t = &m->t[at.face];
 	int best = 0;
 
 	for (int k = 1; k < 3; k++)
@@ -29,9 +30,8 @@ transfer(void *arg, size_t begin, size_t end)
 	transfer_job *j = arg;
 
 	for (size_t v = begin; v < end; v++) {
-		mr_closest place = j->map ? (mr_closest){ .face = j->map->face[v], .bary = j->map->bary[v] }
-		                          : mr_bvh_closest(j->bvh, j->base->p[v]);
-		j->out[v] = j->region[nearest_corner(&j->mesh->t[place.face], place.bary)];
+		mr_place at = j->map ? mr_places_at(j->map, v) : mr_bvh_closest(j->bvh, j->base->p[v]).at;
+		j->out[v] = j->region[nearest_corner(j->mesh, at)];
 	}
 }
 
@@ -65,7 +65,7 @@ check_handles(
 }
 
 static mr_status
-transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const mr_source_map *map,
+transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const mr_places *map,
     const mr_mesh *base, uint32_t *out)
 {
 	transfer_job j = { .mesh = mesh, .base = base, .region = region, .map = map, .out = out };
@@ -102,7 +102,7 @@ mr_status
 mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **region)
 {
 	const uint32_t *on_mesh;
-	mr_source_map map;
+	mr_places map;
 	mr_mesh mesh;
 	uint32_t *r;
 	bool mapped = mr_layer_has(f, "base", "source_face");

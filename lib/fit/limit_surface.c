@@ -1,8 +1,8 @@
 #include "fit/limit_surface.h"
 
-#include "space/surface_walk.h"
 #include "base/parallel.h"
 #include "solve/sparse.h"
+#include "space/surface_walk.h"
 
 enum { GRAIN = 512, CORRECTIONS = 2 };
 
@@ -144,12 +144,12 @@ corrected(const mr_v3 p[MR_FIT_PATCH], mr_v3 b, mr_v3 r)
 
 /* From the nearest point of the triangles to that of the patch. */
 static void
-settle(const mr_fit_surface *s, mr_v3 q, mr_closest at, mr_fit_foot *foot)
+settle(const mr_fit_surface *s, mr_v3 q, mr_closest near, mr_fit_foot *foot)
 {
-	mr_v3 p[MR_FIT_PATCH], b = in_patch(at.face % 4, at.bary), r;
+	mr_v3 p[MR_FIT_PATCH], b = in_patch(near.at.face % 4, near.at.bary), r;
 	double w[MR_FIT_PATCH], d2;
 
-	load(s, at.face / 4, p);
+	load(s, near.at.face / 4, p);
 	mr_fit_weights(b, w);
 	r = mr_sub(q, combine(w, p));
 	d2 = mr_norm2(r);
@@ -163,7 +163,7 @@ settle(const mr_fit_surface *s, mr_v3 q, mr_closest at, mr_fit_foot *foot)
 		r = e;
 		d2 = mr_norm2(e);
 	}
-	*foot = (mr_fit_foot){ at.face, at.face / 4, b, sqrt(d2) };
+	*foot = (mr_fit_foot){ near.at.face, near.at.face / 4, b, sqrt(d2) };
 }
 
 typedef struct attach_job {
@@ -185,7 +185,7 @@ nearest(const attach_job *j, mr_v3 q, uint32_t face)
 	if (j->search == MR_FIT_WALK)
 		return walked;
 	other = mr_bvh_closest_within(j->bvh, q, walked.dist2);
-	return other.face == MR_NONE ? walked : other;
+	return other.at.face == MR_NONE ? walked : other;
 }
 
 static void

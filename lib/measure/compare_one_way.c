@@ -113,13 +113,13 @@ static void
 measure_piece(const job *j, const mr_v3 v[3], double area, sums *s, double *bound)
 {
 	mr_v3 c = centroid(v);
-	mr_closest at = mr_bvh_closest(j->bvh, c);
-	double d = sqrt(at.dist2), lipschitz = d + radius(v, c), convex;
+	mr_closest near = mr_bvh_closest(j->bvh, c);
+	double d = sqrt(near.dist2), lipschitz = d + radius(v, c), convex;
 
 	sums_add(s, d, area);
 	if (lipschitz <= s->max || lipschitz <= *bound)
 		return;
-	convex = convex_bound(j->b, at.face, v);
+	convex = convex_bound(j->b, near.at.face, v);
 	*bound = fmax(*bound, fmin(lipschitz, convex));
 }
 
@@ -218,7 +218,7 @@ static void
 bound_child(const job *j, const piece *parent, const mr_v3 v[3], piece *child, double *reached)
 {
 	mr_v3 c = centroid(v);
-	mr_closest at;
+	mr_closest near;
 	double convex = convex_bound(j->b, parent->face, v);
 
 	memcpy(child->v, v, sizeof child->v);
@@ -227,12 +227,12 @@ bound_child(const job *j, const piece *parent, const mr_v3 v[3], piece *child, d
 	*reached = 0;
 	if (child->bound <= j->enough)
 		return;
-	at = mr_bvh_closest(j->bvh, c);
-	*reached = sqrt(at.dist2);
+	near = mr_bvh_closest(j->bvh, c);
+	*reached = sqrt(near.dist2);
 	child->bound = fmin(child->bound, *reached + radius(v, c));
-	if (at.face != parent->face)
-		child->bound = fmin(child->bound, convex_bound(j->b, at.face, v));
-	child->face = at.face;
+	if (near.at.face != parent->face)
+		child->bound = fmin(child->bound, convex_bound(j->b, near.at.face, v));
+	child->face = near.at.face;
 }
 
 static void
@@ -264,7 +264,7 @@ push_faces(mr_ctx *ctx, const job *j, queue *q)
 			continue;
 		for (int i = 0; i < 3; i++)
 			x.v[i] = j->a->p[j->a->t[f].v[i]];
-		x.face = mr_bvh_closest(j->bvh, centroid(x.v)).face;
+		x.face = mr_bvh_closest(j->bvh, centroid(x.v)).at.face;
 		MR_TRY(push(ctx, q, &x));
 	}
 	return MR_OK;

@@ -87,13 +87,31 @@ mr_face_repeats(const mr_mesh *m, size_t f)
 	return v[0] == v[1] || v[1] == v[2] || v[2] == v[0];
 }
 
-/* The point of face f with barycentric coordinates w. */
-static inline mr_v3
-mr_face_point(const mr_mesh *m, size_t f, mr_v3 w)
-{
-	const uint32_t *v = m->t[f].v;
+/* A place on a surface: on a face, at barycentric coordinates. */
+typedef struct mr_place {
+	uint32_t face;
+	mr_v3 bary;
+} mr_place;
 
-	return mr_bary_point(w, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+/* The point there. */
+static inline mr_v3
+mr_place_point(const mr_mesh *m, mr_place at)
+{
+	const uint32_t *v = m->t[at.face].v;
+
+	return mr_bary_point(at.bary, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
+}
+
+/* Places as columns: of the vertices of one surface on another, say. */
+typedef struct mr_places {
+	const uint32_t *face;
+	const mr_v3 *bary;
+} mr_places;
+
+static inline mr_place
+mr_places_at(const mr_places *places, size_t i)
+{
+	return (mr_place){ places->face[i], places->bary[i] };
 }
 
 /* Twice the area times the unit normal of face f. */

@@ -22,7 +22,7 @@ source_normal(const mr_flaws *w, uint32_t v)
 {
 	mr_closest c = mr_surface_place(w->s, w->d, v, w->d->p[v], mr_dyn_normal_around(w->d, v));
 
-	return mr_facing_normal(&w->facing, c.face, c.bary);
+	return mr_facing_normal(&w->facing, c.at);
 }
 
 static bool

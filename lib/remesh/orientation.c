@@ -22,9 +22,10 @@ vertex_normal(const mr_facing *s, uint32_t v)
 }
 
 mr_v3
-mr_facing_normal(const mr_facing *s, uint32_t face, mr_v3 bary)
+mr_facing_normal(const mr_facing *s, mr_place at)
 {
-	const double w[3] = { bary.x, bary.y, bary.z };
+	const double w[3] = { at.bary.x, at.bary.y, at.bary.z };
+	uint32_t face = at.face;
 	mr_v3 n = mr_unit(mr_face_cross(s->m, face));
 
 	for (uint32_t k = 0; k < 3; k++)
@@ -69,7 +70,7 @@ mr_count_flipped_source(const mr_facing *s)
 }
 
 size_t
-mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_source_map *map)
+mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_places *map)
 {
 	size_t flipped = 0;
 
@@ -78,7 +79,7 @@ mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_source_map *map)
 		unsigned against = 0;
 		for (int k = 0; k < 3 && against == (unsigned)k; k++) {
 			uint32_t v = m->t[f].v[k];
-			against += mr_dot(cross, mr_facing_normal(s, map->face[v], map->bary[v])) < 0;
+			against += mr_dot(cross, mr_facing_normal(s, mr_places_at(map, v))) < 0;
 		}
 		flipped += against == 3;
 	}

@@ -118,7 +118,7 @@ mr_surface_against(const mr_surface *s, const mr_dyn *d, const uint32_t *at, con
 static bool
 agrees(const mr_mesh *m, mr_closest place, mr_v3 normal)
 {
-	return mr_dot(mr_face_cross(m, place.face), normal) >= 0;
+	return mr_dot(mr_face_cross(m, place.at.face), normal) >= 0;
 }
 
 mr_closest
@@ -218,12 +218,12 @@ move_body(void *arg, size_t begin, size_t end)
 			p = tangential_move(w, v, &normal);
 			if (w->o->project) {
 				mr_closest c = mr_surface_place(s, w->d, v, p, normal);
-				if (leaves_side(s->m, at, c.face, normal)) {
+				if (leaves_side(s->m, at, c.at.face, normal)) {
 					p = w->d->p[v];
 					break;
 				}
 				p = c.point;
-				at = c.face;
+				at = c.at.face;
 			}
 			break;
 		case MR_CURVE: /* a curve is kept as it is: always on the source */

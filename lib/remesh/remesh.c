@@ -208,15 +208,15 @@ map_body(void *arg, size_t begin, size_t end)
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++) {
 		mr_closest c = mr_surface_place(&j->r->source, d, v, d->p[v], mr_dyn_normal_around(d, v));
-		j->face[v] = c.face;
-		j->bary[v] = c.bary;
+		j->face[v] = c.at.face;
+		j->bary[v] = c.at.bary;
 	}
 }
 
 /* Where each vertex lies on the source: on its face the nearest point, which without projection may be
  * elsewhere. */
 static mr_status
-map_to_source(remesher *r, mr_source_map *map)
+map_to_source(remesher *r, mr_places *map)
 {
 	uint32_t *face = MR_NEW(r->ctx, r->d.nv, uint32_t);
 	mr_v3 *bary = MR_NEW(r->ctx, r->d.nv, mr_v3);
@@ -224,13 +224,13 @@ map_to_source(remesher *r, mr_source_map *map)
 	if (!face || !bary)
 		return MR_EMEM;
 	mr_parallel(r->ctx, r->d.nv, GRAIN, map_body, &(mapping){ r, face, bary });
-	*map = (mr_source_map){ face, bary };
+	*map = (mr_places){ face, bary };
 	return MR_OK;
 }
 
 /* Triangles flipped and edges folded, of the input and of the result. */
 static void
-count_flaws(remesher *r, const mr_source_map *map)
+count_flaws(remesher *r, const mr_places *map)
 {
 	const mr_facing facing = { r->source.m, r->source.topo };
 	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
@@ -245,7 +245,7 @@ count_flaws(remesher *r, const mr_source_map *map)
 
 /* The map of the result as it is, without holes, and its flaws. */
 static mr_status
-settle(remesher *r, mr_source_map *map)
+settle(remesher *r, mr_places *map)
 {
 	MR_TRY(map_to_source(r, map));
 	count_flaws(r, map);
@@ -263,7 +263,7 @@ static mr_status
 mend_last(remesher *r, bool refine)
 {
 	mr_mark mark;
-	mr_source_map map;
+	mr_places map;
 
 	if (refine) {
 		if (!r->d.scale)
@@ -330,7 +330,7 @@ report(const remesher *r)
 }
 
 mr_status
-mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_source_map *map,
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result)
 {
 	remesher r = { .ctx = ctx, .o = o, .wanted = result != NULL };

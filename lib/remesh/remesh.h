@@ -11,7 +11,7 @@
  * it is not manifold.  map: where its vertices lie on m.  out, map: in the
  * arena.  result: or NULL, which saves figures that take time.
  */
-mr_status mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_source_map *map,
+mr_status mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result);
 
 #endif

@@ -71,7 +71,7 @@ try_spot(mender *w, uint32_t v, mr_v3 p, bool project, unsigned flaws)
 	mr_closest c = mr_surface_place(w->s, d, v, p, mr_dyn_normal_around(d, v));
 	double shape = worst_shape(d, v, MR_NONE);
 
-	put(d, v, (spot){ project ? c.point : p, c.face });
+	put(d, v, (spot){ project ? c.point : p, c.at.face });
 	if (worst_shape(d, v, MR_NONE) >= fmin(shape, w->least) &&
 	    mr_flaws_around(&w->flaws, v, MR_NONE, flaws) < flaws) {
 		mr_flaws_suspect(&w->flaws, v);
@@ -191,7 +191,7 @@ try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 	if (d->kind[b] == MR_SMOOTH) {
 		mr_v3 normal = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
 		mr_closest c = mr_surface_place(w->s, d, b, mr_lerp(share, old[0].p, old[1].p), normal);
-		to = (spot){ c.point, c.face };
+		to = (spot){ c.point, c.at.face };
 	}
 	put(d, b, to);
 	put(d, a, d->kind[a] == MR_SMOOTH ? (spot){ to.p, mr_dyn_place(d, b) } : to);

@@ -1,9 +1,9 @@
 #include "remesh/split_collapse.h"
 
 #include "remesh/collapse_check.h"
-#include "space/surface_walk.h"
-#include "remesh/local_length.h"
 #include "remesh/flip.h"
+#include "remesh/local_length.h"
+#include "space/surface_walk.h"
 
 /* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
 static const double LONG = 4.0 / 3, SHORT = 4.0 / 5;
@@ -135,7 +135,7 @@ place_middle(resampler *r, uint32_t m)
 
 	if (c.dist2 > square(MR_FAR * mr_surface_length(s, d, m)))
 		c = mr_surface_place(s, d, m, d->p[m], mr_dyn_normal_around(d, m));
-	d->at[m] = c.face;
+	d->at[m] = c.at.face;
 }
 
 /* 1. Split all edges that are longer than 4/3 l at their midpoint. */
@@ -219,7 +219,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	}
 	mr_dyn_collapse(d, h, p);
 	if (d->scale && d->scale[b] < 1 && d->kind[b] == MR_SMOOTH)
-		d->at[b] = mr_surface_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).face;
+		d->at[b] = mr_surface_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).at.face;
 	r->done->collapses++;
 	return true;
 }

@@ -35,7 +35,7 @@ first_front(const rays *r, mr_v3 v, mr_v3 n, double sign, double most, double *h
 		mr_ray_hit hit;
 		if (!mr_bvh_ray(r->bvh, v, mr_mul(sign, n), from, most, &hit))
 			return false;
-		if (on_sheet(r, hit.face, n)) {
+		if (on_sheet(r, hit.at.face, n)) {
 			*height = sign * hit.t;
 			return true;
 		}

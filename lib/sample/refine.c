@@ -52,21 +52,21 @@ place_points(void *arg, size_t begin, size_t end)
 	for (size_t i = begin; i < end; i++) {
 		wish *w = &x->wish[i];
 		mr_v3 q = x->c->p[i], b, normal, foot;
-		mr_closest at;
+		mr_closest c;
 		const uint32_t *v = x->surface.t[w->face].v;
 		if (x->local && !x->near[v[0]] && !x->near[v[1]] && !x->near[v[2]])
 			continue;
-		at = mr_project_walk(&x->surface, topo, w->face, q);
-		b = at.bary;
-		v = x->surface.t[at.face].v;
-		normal = mr_unit(mr_face_cross(&x->surface, at.face));
-		foot = mr_face_point(&x->d->m, at.face, b);
-		w->face = at.face;
+		c = mr_project_walk(&x->surface, topo, w->face, q);
+		b = c.at.bary;
+		v = x->surface.t[c.at.face].v;
+		normal = mr_unit(mr_face_cross(&x->surface, c.at.face));
+		foot = mr_place_point(&x->d->m, c.at);
+		w->face = c.at.face;
 		w->c[0] = b.x * mr_dot(x->d->normal[v[0]], normal);
 		w->c[1] = b.y * mr_dot(x->d->normal[v[1]], normal);
 		w->c[2] = b.z * mr_dot(x->d->normal[v[2]], normal);
 		w->r = mr_dot(mr_sub(q, foot), normal);
-		w->gap = copysign(sqrt(at.dist2), mr_dot(mr_sub(q, at.point), normal));
+		w->gap = copysign(sqrt(c.dist2), mr_dot(mr_sub(q, c.point), normal));
 	}
 }
 

@@ -36,11 +36,11 @@ place_points(void *arg, size_t begin, size_t end)
 	const placing *x = arg;
 
 	for (size_t i = begin; i < end; i++) {
-		mr_closest at = mr_bvh_closest(x->bvh, x->c->p[i]);
-		mr_v3 n = mr_unit(mr_face_cross(x->m, at.face));
-		x->c->face[i] = at.face;
+		mr_closest near = mr_bvh_closest(x->bvh, x->c->p[i]);
+		mr_v3 n = mr_unit(mr_face_cross(x->m, near.at.face));
+		x->c->face[i] = near.at.face;
 		if (x->off)
-			x->off[i] = sqrt(at.dist2);
+			x->off[i] = sqrt(near.dist2);
 		x->c->side[i] = (mr_v3f){ (float)n.x, (float)n.y, (float)n.z };
 	}
 }

@@ -25,7 +25,7 @@ sample_face(const mr_mesh *m, size_t f, mr_random *r)
 {
 	double a = sqrt(mr_random_real(r)), b = mr_random_real(r);
 
-	return mr_face_point(m, f, mr_vec(1 - a, a * (1 - b), a * b));
+	return mr_place_point(m, (mr_place){ (uint32_t)f, mr_vec(1 - a, a * (1 - b), a * b) });
 }
 
 mr_status

@@ -33,7 +33,7 @@ keep_nearer(void *arg, uint32_t face)
 	search *s = arg;
 	mr_closest c = mr_face_closest(s->m, face, s->q);
 
-	if ((c.dist2 < s->best.dist2 || (c.dist2 == s->best.dist2 && face < s->best.face)) &&
+	if ((c.dist2 < s->best.dist2 || (c.dist2 == s->best.dist2 && face < s->best.at.face)) &&
 	    agrees(s->m, face, s->normal))
 		s->best = c;
 	return true;
@@ -49,7 +49,7 @@ place(const place_job *j, size_t i)
 {
 	static const double rounding = 1e-12;
 	mr_v3 q = j->from->p[i], n = j->normal[i];
-	search s = { j->m, q, n, { .face = MR_NONE } };
+	search s = { j->m, q, n, { .at.face = MR_NONE } };
 	mr_closest near;
 	double reach;
 
@@ -57,9 +57,9 @@ place(const place_job *j, size_t i)
 		return mr_bvh_closest(j->bvh, q);
 	s.best = mr_project_walk(j->m, j->topo, j->topo->out[j->start[i]] / 3, q);
 	near = mr_bvh_closest_within(j->bvh, q, (1 - rounding) * s.best.dist2);
-	if (near.face == MR_NONE)
+	if (near.at.face == MR_NONE)
 		return s.best;
-	if (agrees(j->m, near.face, n))
+	if (agrees(j->m, near.at.face, n))
 		return near;
 	reach = sqrt(s.best.dist2);
 	mr_bvh_overlap(j->bvh,
@@ -75,14 +75,14 @@ place_body(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		mr_closest c = place(j, i);
-		j->face[i] = c.face;
-		j->bary[i] = c.bary;
+		j->face[i] = c.at.face;
+		j->bary[i] = c.at.bary;
 	}
 }
 
 /* Places the vertices of `from` on m, by walks from vertices of it. */
 static mr_status
-place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *start, mr_source_map *map)
+place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *start, mr_places *map)
 {
 	uint32_t *face = MR_NEW(ctx, from->nv, uint32_t);
 	mr_v3 *bary = MR_NEW(ctx, from->nv, mr_v3);
@@ -99,19 +99,18 @@ place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *st
 	mr_parallel(
 	    ctx, from->nv, 1024, place_body, &(place_job){ m, &topo, bvh, from, normal, start, face, bary });
 	mr_mark_release(ctx, mark);
-	*map = (mr_source_map){ face, bary };
+	*map = (mr_places){ face, bary };
 	return MR_OK;
 }
 
 mr_status
-mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map)
+mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map)
 {
 	return place_all(ctx, out, m, onto, map);
 }
 
 mr_status
-mr_simplify_source(
-    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map)
+mr_simplify_source(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map)
 {
 	uint32_t *nearest = MR_NEW(ctx, out->nv, uint32_t);
 

@@ -31,13 +31,13 @@ mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, s
  * their own; isolated ones at the nearest point of all.  map: m->nv rows, in the arena.
  */
 mr_status
-mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);
+mr_simplify_map(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map);
 
 /*
  * Where the vertices of the result lie on m, likewise: by a walk from the nearest of the vertices merged into
  * each. map: out->nv rows, in the arena.
  */
-mr_status mr_simplify_source(
-    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_source_map *map);
+mr_status
+mr_simplify_source(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto, mr_places *map);
 
 #endif

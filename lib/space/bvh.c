@@ -60,7 +60,7 @@ closest_on_segment(mr_v3 q, mr_v3 a, mr_v3 b, double *t)
 static mr_closest
 found(mr_v3 q, mr_v3 point, double u, double v, double w)
 {
-	return (mr_closest){ 0, { u, v, w }, point, mr_norm2(mr_sub(q, point)) };
+	return (mr_closest){ { 0, { u, v, w } }, point, mr_norm2(mr_sub(q, point)) };
 }
 
 static mr_closest
@@ -147,7 +147,7 @@ mr_side_closest(const mr_mesh *m, uint32_t h, mr_v3 q)
 {
 	mr_closest c = on_edge((int)(h % 3), q, m->p[mr_he_from(m, h)], m->p[mr_he_to(m, h)]);
 
-	c.face = h / 3;
+	c.at.face = h / 3;
 	return c;
 }
 
@@ -203,9 +203,9 @@ closest_in_leaf(const mr_bvh *bvh, entry leaf, mr_v3 q, mr_closest *best)
 		uint32_t f = bvh->face[leaf.child + i];
 		const uint32_t *v = m->t[f].v;
 		mr_closest c = triangle_closest(q, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
-		if (c.dist2 < best->dist2 || (c.dist2 == best->dist2 && f < best->face)) {
+		if (c.dist2 < best->dist2 || (c.dist2 == best->dist2 && f < best->at.face)) {
 			*best = c;
-			best->face = f;
+			best->at.face = f;
 		}
 	}
 }
@@ -214,7 +214,7 @@ closest_in_leaf(const mr_bvh *bvh, entry leaf, mr_v3 q, mr_closest *best)
 static mr_closest
 closest_at_most(const mr_bvh *bvh, mr_v3 q, double dist2)
 {
-	mr_closest best = { .face = MR_NONE, .dist2 = dist2 };
+	mr_closest best = { .at.face = MR_NONE, .dist2 = dist2 };
 	mr_v3 u = bvh_unit(bvh, q);
 	double unit2 = bvh->scale * bvh->scale, limit = dist2 * unit2, bound[BVH_WIDE];
 	entry stack[BVH_STACK], *top = stack;
@@ -233,7 +233,7 @@ closest_at_most(const mr_bvh *bvh, mr_v3 q, double dist2)
 			top = push_sorted(top, &bvh->nodes[e.child], bound, limit);
 		}
 	}
-	if (best.face == MR_NONE)
+	if (best.at.face == MR_NONE)
 		best.dist2 = INFINITY;
 	return best;
 }
@@ -248,7 +248,7 @@ mr_closest
 mr_bvh_closest_within(const mr_bvh *bvh, mr_v3 q, double dist2)
 {
 	if (!(dist2 > 0))
-		return (mr_closest){ .face = MR_NONE, .dist2 = INFINITY };
+		return (mr_closest){ .at.face = MR_NONE, .dist2 = INFINITY };
 	return closest_at_most(bvh, q, nextafter(dist2, 0));
 }
 
@@ -310,8 +310,8 @@ hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 	sum = u + v + w;
 	if (sum == 0)
 		return false;
-	hit->bary = mr_vec(u / sum, v / sum, w / sum);
-	hit->t = hit->bary.x * a.z + hit->bary.y * b.z + hit->bary.z * c.z;
+	hit->at.bary = mr_vec(u / sum, v / sum, w / sum);
+	hit->t = hit->at.bary.x * a.z + hit->at.bary.y * b.z + hit->at.bary.z * c.z;
 	return true;
 }
 
@@ -341,11 +341,11 @@ hit_in_leaf(const mr_bvh *bvh, entry leaf, const ray *r, double tmin, mr_ray_hit
 	const mr_mesh *m = bvh->mesh;
 
 	for (uint32_t i = 0; i < leaf.count; i++) {
-		mr_ray_hit h = { .face = bvh->face[leaf.child + i] };
-		const uint32_t *v = m->t[h.face].v;
+		mr_ray_hit h = { .at.face = bvh->face[leaf.child + i] };
+		const uint32_t *v = m->t[h.at.face].v;
 		if (!hit_triangle(r, m->p[v[0]], m->p[v[1]], m->p[v[2]], &h) || h.t < tmin)
 			continue;
-		if (h.t < best->t || (h.t == best->t && h.face < best->face))
+		if (h.t < best->t || (h.t == best->t && h.at.face < best->at.face))
 			*best = h;
 	}
 }
@@ -353,7 +353,7 @@ hit_in_leaf(const mr_bvh *bvh, entry leaf, const ray *r, double tmin, mr_ray_hit
 bool
 mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
 {
-	mr_ray_hit best = { .face = MR_NONE, .t = tmax };
+	mr_ray_hit best = { .at.face = MR_NONE, .t = tmax };
 	ray r = ray_make(bvh, origin, dir);
 	entry stack[BVH_STACK], *top = stack;
 	double enter[BVH_WIDE];
@@ -372,7 +372,7 @@ mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax,
 			    best.t < INFINITY ? best.t : 0x1.fffffffffffffp1023);
 		}
 	}
-	if (best.face == MR_NONE)
+	if (best.at.face == MR_NONE)
 		return false;
 	*hit = best;
 	return true;

@@ -14,19 +14,17 @@
 
 typedef struct mr_bvh mr_bvh;
 
-/* The point of a surface nearest to a query: bary are its barycentric coordinates on the face. */
+/* The point of a surface nearest to a query. */
 typedef struct mr_closest {
-	uint32_t face; /* MR_NONE: nothing found */
-	mr_v3 bary;
+	mr_place at; /* its face MR_NONE: nothing found */
 	mr_v3 point;
 	double dist2; /* squared distance; infinite where nothing was found */
 } mr_closest;
 
 /* Where a ray origin + t dir meets a face; t in units of |dir|. */
 typedef struct mr_ray_hit {
-	uint32_t face;
+	mr_place at;
 	double t;
-	mr_v3 bary;
 } mr_ray_hit;
 
 /* Builds the tree over all faces of m (finite positions, valid indices; degenerate faces allowed). */
@@ -64,7 +62,7 @@ mr_face_closest(const mr_mesh *m, uint32_t f, mr_v3 q)
 	const uint32_t *v = m->t[f].v;
 	mr_closest c = mr_triangle_closest(q, m->p[v[0]], m->p[v[1]], m->p[v[2]]);
 
-	c.face = f;
+	c.at.face = f;
 	return c;
 }
 

@@ -91,7 +91,7 @@ relax_face(mr_ctx *ctx, march *j, uint32_t v, const uint32_t c[3])
 static mr_closest
 nearest_point(const mr_mesh *m, mr_v3 p)
 {
-	mr_closest best = { .face = MR_NONE, .dist2 = INFINITY };
+	mr_closest best = { .at.face = MR_NONE, .dist2 = INFINITY };
 
 	for (uint32_t f = 0; f < m->nf; f++) {
 		mr_closest c = mr_face_closest(m, f, p);
@@ -112,8 +112,8 @@ mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, doub
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	for (size_t v = 0; v < m->nv; v++)
 		distance[v] = INFINITY;
-	for (int k = 0; k < 3 && source.face != MR_NONE; k++) {
-		uint32_t v = m->t[source.face].v[k];
+	for (int k = 0; k < 3 && source.at.face != MR_NONE; k++) {
+		uint32_t v = m->t[source.at.face].v[k];
 		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source.point), 0));
 	}
 	while (j.front.n > 0) {

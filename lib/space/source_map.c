@@ -27,8 +27,8 @@ place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
 		if (!bvh)
 			MR_TRY(mr_bvh_build(ctx, m, &bvh));
 		c = mr_bvh_closest(bvh, m->p[v]);
-		face[v] = c.face;
-		bary[v] = c.bary;
+		face[v] = c.at.face;
+		bary[v] = c.at.bary;
 		isolated++;
 	}
 	if (isolated)
@@ -39,7 +39,7 @@ place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
 }
 
 mr_status
-mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *map)
+mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map)
 {
 	uint32_t *face = MR_NEW(ctx, m->nv, uint32_t);
 	mr_v3 *bary = MR_NEW(ctx, m->nv, mr_v3);
@@ -56,13 +56,13 @@ mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *map)
 			bary[v] = at_corner(k);
 		}
 	MR_TRY(place_isolated(ctx, m, face, bary));
-	*map = (mr_source_map){ face, bary };
+	*map = (mr_places){ face, bary };
 	return MR_OK;
 }
 
 /* True where each corner of the base is the same corner of the mesh: vertices without a face do not count. */
 static bool
-is_identity(const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *map)
+is_identity(const mr_mesh *mesh, const mr_mesh *base, const mr_places *map)
 {
 	if (mesh->nf != base->nf || mesh->nv != base->nv ||
 	    memcmp(mesh->t, base->t, mesh->nf * sizeof *mesh->t))
@@ -80,15 +80,15 @@ is_identity(const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *map)
 
 /* The point of the mesh that vertex v of the base stands for. */
 static mr_v3
-source_point(const mr_mesh *mesh, const mr_source_map *map, uint32_t v)
+source_point(const mr_mesh *mesh, const mr_places *map, uint32_t v)
 {
-	return mr_face_point(mesh, map->face[v], map->bary[v]);
+	return mr_place_point(mesh, mr_places_at(map, v));
 }
 
 typedef struct compose_job {
 	const mr_mesh *mesh, *base;
 	const mr_topology *topo;
-	const mr_source_map *base_map, *over;
+	const mr_places *base_map, *over;
 	uint32_t *face;
 	mr_v3 *bary;
 } compose_job;
@@ -105,14 +105,14 @@ compose_body(void *arg, size_t begin, size_t end)
 		mr_v3 q = mr_bary_point(w, source_point(j->mesh, j->base_map, t[0]),
 		    source_point(j->mesh, j->base_map, t[1]), source_point(j->mesh, j->base_map, t[2]));
 		mr_closest c = mr_project_walk(j->mesh, j->topo, j->base_map->face[t[nearest]], q);
-		j->face[i] = c.face;
-		j->bary[i] = c.bary;
+		j->face[i] = c.at.face;
+		j->bary[i] = c.at.bary;
 	}
 }
 
 mr_status
-mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_source_map *base_map,
-    const mr_source_map *over, size_t n, mr_source_map *map)
+mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *base_map,
+    const mr_places *over, size_t n, mr_places *map)
 {
 	uint32_t *face;
 	mr_v3 *bary;
@@ -132,12 +132,12 @@ mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, con
 	compose_job j = { mesh, base, &topo, base_map, over, face, bary };
 	mr_parallel(ctx, n, 1024, compose_body, &j);
 	mr_mark_release(ctx, mark);
-	*map = (mr_source_map){ face, bary };
+	*map = (mr_places){ face, bary };
 	return MR_OK;
 }
 
 mr_status
-mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_source_map *map)
+mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_places *map)
 {
 	for (size_t v = 0; v < base_nv; v++) {
 		if (map->face[v] >= mesh->nf)
@@ -152,24 +152,24 @@ mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_s
 }
 
 mr_status
-mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_source_map *map)
+mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_places *map)
 {
 	const void *face, *bary;
-	mr_source_map r;
+	mr_places r;
 
 	MR_TRY(mr_layer_get_rows(ctx, f, "base", "source_face", base_nv, &face));
 	MR_TRY(mr_layer_get_rows(ctx, f, "base", "source_bary", base_nv, &bary));
-	r = (mr_source_map){ face, bary };
+	r = (mr_places){ face, bary };
 	MR_TRY(mr_source_map_check(ctx, mesh, base_nv, &r));
 	*map = r;
 	return MR_OK;
 }
 
 mr_status
-mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_source_map *over, size_t n,
-    mr_source_map *map, bool *mapped)
+mr_source_map_follow(
+    mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_places *over, size_t n, mr_places *map, bool *mapped)
 {
-	mr_source_map base_map;
+	mr_places base_map;
 	mr_mesh mesh;
 
 	*map = *over;
@@ -186,7 +186,7 @@ mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_source
 }
 
 mr_status
-mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_source_map *map, size_t base_nv)
+mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_places *map, size_t base_nv)
 {
 	MR_TRY(mr_layer_put(ctx, f, "base", "source_face", map->face, base_nv));
 	return mr_layer_put(ctx, f, "base", "source_bary", map->bary, base_nv);

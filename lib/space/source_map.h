@@ -8,14 +8,9 @@
 
 #include "mesh/layers.h"
 
-typedef struct mr_source_map {
-	const uint32_t *face; /* triangle of the mesh */
-	const mr_v3 *bary;    /* barycentric coordinates in it */
-} mr_source_map;
-
 /* The identity: each vertex of m at a corner of its lowest face; one without a face at the nearest point of
  * the surface.  map: in the arena. */
-mr_status mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *map);
+mr_status mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map);
 
 /*
  * Composes maps: `over` places n vertices on the base, `base_map` those of the base on the mesh;
@@ -24,25 +19,24 @@ mr_status mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_source_map *m
  * to the mesh by a walk from the nearest corner.  map: in the arena.
  */
 mr_status mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base,
-    const mr_source_map *base_map, const mr_source_map *over, size_t n, mr_source_map *map);
+    const mr_places *base_map, const mr_places *over, size_t n, mr_places *map);
 
 /*
  * MR_ERANGE where a face of the map, of base_nv vertices, is not one of the mesh's, or a coordinate is not
  * finite.
  */
-mr_status mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_source_map *map);
+mr_status mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_places *map);
 
 /* The map of the frame's base, checked against the mesh.  MR_EMISSING without one. */
-mr_status
-mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_source_map *map);
+mr_status mr_source_map_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *mesh, size_t base_nv, mr_places *map);
 
 /*
  * Where n vertices that `over` places on m, a surface of the frame, lie on its mesh: the same where m is the
  * mesh, composed where it is the base and has a map.  *mapped is false where neither is so.
  */
-mr_status mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_source_map *over,
-    size_t n, mr_source_map *map, bool *mapped);
+mr_status mr_source_map_follow(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_places *over, size_t n,
+    mr_places *map, bool *mapped);
 
-mr_status mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_source_map *map, size_t base_nv);
+mr_status mr_source_map_put(mr_ctx *ctx, mr_frame *f, const mr_places *map, size_t base_nv);
 
 #endif

@@ -5,14 +5,14 @@
 static int
 corner_of(mr_closest p)
 {
-	return p.bary.x >= 1 ? 0 : p.bary.y >= 1 ? 1 : p.bary.z >= 1 ? 2 : -1;
+	return p.at.bary.x >= 1 ? 0 : p.at.bary.y >= 1 ? 1 : p.at.bary.z >= 1 ? 2 : -1;
 }
 
 /* The side that the place stands on, or -1. */
 static int
 side_of(mr_closest p)
 {
-	return p.bary.z <= 0 ? 0 : p.bary.x <= 0 ? 1 : p.bary.y <= 0 ? 2 : -1;
+	return p.at.bary.z <= 0 ? 0 : p.at.bary.x <= 0 ? 1 : p.at.bary.y <= 0 ? 2 : -1;
 }
 
 /* The nearest place on the faces around vertex v. */
@@ -34,21 +34,21 @@ nearest_around(const mr_mesh *m, const mr_topology *topo, uint32_t v, mr_v3 q)
 mr_closest
 mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
 {
-	mr_closest at = mr_face_closest(m, f, q);
+	mr_closest near = mr_face_closest(m, f, q);
 
 	for (;;) {
-		mr_closest next = at;
-		int corner = corner_of(at), side = corner < 0 ? side_of(at) : -1;
+		mr_closest next = near;
+		int corner = corner_of(near), side = corner < 0 ? side_of(near) : -1;
 		if (corner >= 0) {
-			next = nearest_around(m, topo, m->t[at.face].v[corner], q);
+			next = nearest_around(m, topo, m->t[near.at.face].v[corner], q);
 		} else if (side >= 0) {
-			uint32_t g = topo->twin[3 * at.face + (uint32_t)side];
+			uint32_t g = topo->twin[3 * near.at.face + (uint32_t)side];
 			if (g != MR_NONE)
 				next = mr_face_closest(m, g / 3, q);
 		}
-		if (!(next.dist2 < at.dist2))
-			return at;
-		at = next;
+		if (!(next.dist2 < near.dist2))
+			return near;
+		near = next;
 	}
 }
 
@@ -81,20 +81,21 @@ mr_closest
 mr_project_curve(
     const mr_mesh *m, const mr_topology *topo, const mr_curves *curves, uint32_t h, mr_v3 q, uint32_t *on)
 {
-	mr_closest at = mr_side_closest(m, h, q);
+	mr_closest near = mr_side_closest(m, h, q);
 
 	for (;;) {
-		int corner = corner_of(at);
-		uint32_t next = corner < 0 ? MR_NONE : other_curve(topo, curves, m->t[at.face].v[corner], h);
+		int corner = corner_of(near);
+		uint32_t next = corner < 0 ? MR_NONE
+		                           : other_curve(topo, curves, m->t[near.at.face].v[corner], h);
 		mr_closest p;
 		if (next == MR_NONE)
 			break;
 		p = mr_side_closest(m, next, q);
-		if (!(p.dist2 < at.dist2))
+		if (!(p.dist2 < near.dist2))
 			break;
-		at = p;
+		near = p;
 		h = next;
 	}
 	*on = h;
-	return at;
+	return near;
 }

@@ -6,7 +6,7 @@ mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 {
 	bool mapped = mr_layer_has(f, "base", "source_face");
 	mr_mesh mesh, base;
-	mr_source_map map;
+	mr_places map;
 	mr_detail detail;
 
 	MR_TRY(mr_layer_points(ctx, f, "mesh", &mesh));

@@ -9,7 +9,7 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 	static const mr_remesh_opts defaults = MR_REMESH_DEFAULTS;
 	static const char *const reads[] = { "base", "mesh", NULL };
 	const mr_remesh_opts *o = opts ? opts : &defaults;
-	mr_source_map over, map;
+	mr_places over, map;
 	const char *layer;
 	mr_mesh m, out;
 	bool mapped;

@@ -49,7 +49,7 @@ put_map(mr_ctx *ctx, mr_frame *f, const char *map_layer, const mr_mesh *m, const
     const uint32_t *onto)
 {
 	char face[MR_COLUMN_MAX + 1], bary[MR_COLUMN_MAX + 1];
-	mr_source_map map;
+	mr_places map;
 
 	MR_TRY(mr_simplify_map(ctx, m, out, onto, &map));
 	snprintf(face, sizeof face, "%s_face", m->name);
@@ -63,7 +63,7 @@ put_map(mr_ctx *ctx, mr_frame *f, const char *map_layer, const mr_mesh *m, const
 static mr_status
 replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
 {
-	mr_source_map over, source;
+	mr_places over, source;
 	bool mapped = false;
 
 	if (!strcmp(m->name, "base")) {

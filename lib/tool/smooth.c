@@ -9,7 +9,7 @@ mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_
 	static const mr_smooth_opts defaults = MR_SMOOTH_DEFAULTS;
 	static const char *const reads[] = { "base", "mesh", NULL };
 	const mr_smooth_opts *o = opts ? opts : &defaults;
-	mr_source_map map;
+	mr_places map;
 	const char *layer;
 	bool from_mesh;
 	mr_mesh m;

@@ -2,9 +2,9 @@
  * Beyond the nearest point (Jeong, Kim 2001, section 6.4): a vertex over a concavity looks for points along
  * its normal.  A ray goes on by the distance to the nearest point (sphere tracing), so few steps do.
  */
+#include "base/parallel.h"
 #include "remesh/remesh.h"
 #include "wrap/parts.h"
-#include "base/parallel.h"
 
 enum { STEPS = 24, GRAIN = 1024 };
 
@@ -12,7 +12,7 @@ mr_status
 mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
-	mr_source_map map;
+	mr_places map;
 	mr_mesh out;
 
 	o.length = length;

@@ -75,7 +75,7 @@ grid(mr_ctx *ctx, uint32_t n)
 static mr_closest
 closest_by_loop(const mr_mesh *m, mr_v3 q)
 {
-	mr_closest best = { .face = MR_NONE, .dist2 = INFINITY };
+	mr_closest best = { .at.face = MR_NONE, .dist2 = INFINITY };
 
 	for (uint32_t f = 0; f < m->nf; f++) {
 		mr_closest c = mr_face_closest(m, f, q);
@@ -96,13 +96,13 @@ check_queries(mr_ctx *ctx, const mr_mesh *m, double size, mr_v3 offset, size_t c
 		mr_v3 q = i % 3 == 0 ? m->p[mr_random_bits(&r) % m->nv]
 		                     : mr_add(offset, random_point(&r, (i % 3 == 1 ? 12 : 1e9) * size));
 		mr_closest a = closest_by_loop(m, q), b = mr_bvh_closest(bvh, q);
-		assert_int_equal(a.face, b.face);
+		assert_int_equal(a.at.face, b.at.face);
 		assert_memory_equal(&a.dist2, &b.dist2, sizeof a.dist2);
 		assert_memory_equal(&a.point, &b.point, sizeof a.point);
-		assert_int_equal(mr_bvh_closest_within(bvh, q, a.dist2).face, MR_NONE);
+		assert_int_equal(mr_bvh_closest_within(bvh, q, a.dist2).at.face, MR_NONE);
 		if (a.dist2 > 0)
 			assert_int_equal(
-			    mr_bvh_closest_within(bvh, q, nextafter(a.dist2, INFINITY)).face, a.face);
+			    mr_bvh_closest_within(bvh, q, nextafter(a.dist2, INFINITY)).at.face, a.at.face);
 	}
 }
 
@@ -142,11 +142,11 @@ equal_faces_are_found(void **state)
 	mr_mesh m = { "same", p, t, 3, 20000 };
 	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
 	mr_closest c = mr_bvh_closest(bvh, mr_vec(0.25, 0.25, 2));
-	assert_int_equal(c.face, 0);
+	assert_int_equal(c.at.face, 0);
 	assert_true(c.dist2 == 4);
 	mr_mesh none = { "none", p, t, 3, 0 };
 	assert_int_equal(mr_bvh_build(&ctx, &none, &bvh), MR_OK);
-	assert_int_equal(mr_bvh_closest(bvh, p[0]).face, MR_NONE);
+	assert_int_equal(mr_bvh_closest(bvh, p[0]).at.face, MR_NONE);
 	mr_ctx_free(&ctx);
 }
 
@@ -169,9 +169,9 @@ triangle_closest_is_least(void **state)
 		if (k % 5 == 3)
 			c = b;
 		mr_closest best = mr_triangle_closest(q, a, b, c);
-		assert_true(mr_dist(best.point, mr_bary_point(best.bary, a, b, c)) < 1e-14);
-		assert_true(fabs(best.bary.x + best.bary.y + best.bary.z - 1) < 1e-14);
-		assert_true(best.bary.x > -1e-12 && best.bary.y > -1e-12 && best.bary.z > -1e-12);
+		assert_true(mr_dist(best.point, mr_bary_point(best.at.bary, a, b, c)) < 1e-14);
+		assert_true(fabs(best.at.bary.x + best.at.bary.y + best.at.bary.z - 1) < 1e-14);
+		assert_true(best.at.bary.x > -1e-12 && best.at.bary.y > -1e-12 && best.at.bary.z > -1e-12);
 		for (int i = 0; i <= FINE; i++)
 			for (int j = 0; i + j <= FINE; j++) {
 				mr_v3 w = mr_vec(
@@ -226,7 +226,7 @@ rays_equal_a_loop(void **state)
 		if (!found)
 			continue;
 		hits++;
-		assert_int_equal(hit.face, face);
+		assert_int_equal(hit.at.face, face);
 		assert_true(fabs(hit.t - t) <= 1e-9 * fabs(t));
 		assert_false(mr_bvh_ray(bvh, o, d, 0, 0.999 * t, &hit));
 		assert_true(!mr_bvh_ray(bvh, o, d, 1.001 * t, INFINITY, &hit) || hit.t >= 1.001 * t);
@@ -325,7 +325,7 @@ threads_do_not_matter(void **state)
 	for (int k = 0; k < 300; k++) {
 		mr_v3 q = random_point(&r, 1);
 		mr_closest x = mr_bvh_closest(a, q), y = mr_bvh_closest(b, q);
-		assert_int_equal(x.face, y.face);
+		assert_int_equal(x.at.face, y.at.face);
 		assert_memory_equal(&x.point, &y.point, sizeof x.point);
 	}
 	mr_ctx_free(&one);

@@ -49,7 +49,7 @@ smoothed(mr_ctx *ctx, mr_mesh m, int passes)
 }
 
 /* The source map of a base with the mesh's own numbering. */
-static mr_source_map
+static mr_places
 identity_map(mr_ctx *ctx, mr_mesh m)
 {
 	uint32_t *face = MR_NEW(ctx, m.nv, uint32_t);
@@ -60,11 +60,11 @@ identity_map(mr_ctx *ctx, mr_mesh m)
 			face[m.t[f].v[k]] = f;
 			bary[m.t[f].v[k]] = mr_vec(k == 0, k == 1, k == 2);
 		}
-	return (mr_source_map){ face, bary };
+	return (mr_places){ face, bary };
 }
 
 /* The source map of any base: the mesh's nearest points. */
-static mr_source_map
+static mr_places
 nearest_map(mr_ctx *ctx, mr_mesh mesh, mr_mesh base)
 {
 	uint32_t *face = MR_NEW(ctx, base.nv, uint32_t);
@@ -74,10 +74,10 @@ nearest_map(mr_ctx *ctx, mr_mesh mesh, mr_mesh base)
 	assert_int_equal(mr_bvh_build(ctx, &mesh, &bvh), MR_OK);
 	for (size_t i = 0; i < base.nv; i++) {
 		mr_closest c = mr_bvh_closest(bvh, base.p[i]);
-		face[i] = c.face;
-		bary[i] = c.bary;
+		face[i] = c.at.face;
+		bary[i] = c.at.bary;
 	}
-	return (mr_source_map){ face, bary };
+	return (mr_places){ face, bary };
 }
 
 static const mr_v3 *
@@ -103,7 +103,7 @@ farthest(const mr_v3 *a, const mr_v3 *b, size_t n)
 
 /* Every vertex has a height, on a point of a face, and comes back. */
 static void
-check_heights(mr_ctx *ctx, mr_mesh mesh, mr_mesh base, const mr_source_map *source)
+check_heights(mr_ctx *ctx, mr_mesh mesh, mr_mesh base, const mr_places *source)
 {
 	double diagonal = mr_mesh_diagonal(&mesh);
 	mr_encode_result found;
@@ -115,7 +115,7 @@ check_heights(mr_ctx *ctx, mr_mesh mesh, mr_mesh base, const mr_source_map *sour
 	assert_int_equal(found.heights, mesh.nv);
 	assert_true(found.residual_max < 1e-14);
 	for (size_t i = 0; i < d.n; i++) {
-		mr_v3 w = d.bary[i];
+		mr_v3 w = d.at.bary[i];
 		assert_true(fmin(w.x, fmin(w.y, w.z)) > -1e-8 && fabs(w.x + w.y + w.z - 1) < 1e-14);
 	}
 	assert_true(farthest(decoded(ctx, base, &d, 1), mesh.p, mesh.nv) < 1e-14 * diagonal);
@@ -134,7 +134,8 @@ frames_are_orthonormal(void **state)
 			{ 1, 0, 0 } };
 		mr_v3 normal[3] = { n, n, n };
 		mr_mesh m = { .p = p, .nv = 3, .t = &t, .nf = 1 };
-		mr_tangent_frame f = mr_phong_frame(&(mr_phong){ &m, normal }, 0, mr_vec(0.2, 0.3, 0.5));
+		mr_tangent_frame f = mr_phong_frame(
+		    &(mr_phong){ &m, normal }, (mr_place){ 0, mr_vec(0.2, 0.3, 0.5) });
 		assert_true(fabs(mr_dot(f.t1, f.n)) < 1e-15 && fabs(mr_dot(f.t2, f.n)) < 1e-15);
 		assert_true(fabs(mr_dot(f.t1, f.t2)) < 1e-15);
 		assert_true(fabs(mr_norm(f.t1) - 1) < 1e-15 && fabs(mr_norm(f.t2) - 1) < 1e-15);
@@ -180,7 +181,7 @@ nothing_is_lost(void **state)
 		mr_ctx ctx;
 		mr_ctx_init(&ctx, 2);
 		mr_mesh m = solid(&ctx, solids[i], 4000), base = smoothed(&ctx, m, 15);
-		mr_source_map map = identity_map(&ctx, m);
+		mr_places map = identity_map(&ctx, m);
 		assert_int_equal(mr_source_map_check(&ctx, &m, base.nv, &map), MR_OK);
 		check_heights(&ctx, m, base, &map);
 		check_heights(&ctx, m, base, NULL);
@@ -202,7 +203,7 @@ the_base_may_have_other_vertices(void **state)
 		for (size_t i = 0; i < m.nv; i++)
 			p[i] = mr_mul(1 + 0.1 * mr_random_real(&r), m.p[i]);
 		m = with_positions(m, p, "mesh");
-		mr_source_map map = nearest_map(&ctx, m, base);
+		mr_places map = nearest_map(&ctx, m, base);
 		check_heights(&ctx, m, base, &map);
 		check_heights(&ctx, m, base, NULL);
 	}
@@ -234,14 +235,14 @@ a_vertex_stays_on_its_sheet(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 2);
 	mr_mesh m = two_sheets(&ctx, 0.05, 0, "mesh"), base = two_sheets(&ctx, 0.05, 0.08, "base");
-	mr_source_map map = identity_map(&ctx, m);
+	mr_places map = identity_map(&ctx, m);
 	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d, NULL), MR_OK);
 	for (size_t i = 0; i < d.n; i++) {
-		assert_int_equal(d.face[i] < base.nf / 2, i < m.nv / 2);
+		assert_int_equal(d.at.face[i] < base.nf / 2, i < m.nv / 2);
 		assert_true(fabs(d.height[i] + 0.08) < 1e-15);
 	}
 	assert_int_equal(mr_encode(&ctx, &m, &base, NULL, &d, NULL), MR_OK); /* by nearness alone it cannot */
-	assert_true(d.face[m.nv / 2] < base.nf / 2);
+	assert_true(d.at.face[m.nv / 2] < base.nf / 2);
 	mr_ctx_free(&ctx);
 }
 
@@ -260,7 +261,7 @@ beyond_the_boundary_offsets_serve(void **state)
 	for (size_t i = 0; i < m.nv; i++) /* a wavy plane that reaches beyond the base on every side */
 		p[i] = mr_vec(1.2 * m.p[i].x, 1.2 * m.p[i].y, 0.1 * sin(5 * m.p[i].x));
 	m = with_positions(m, p, "mesh");
-	mr_source_map map = identity_map(&ctx, m);
+	mr_places map = identity_map(&ctx, m);
 	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d, &found), MR_OK);
 	assert_non_null(d.offset);
 	for (size_t i = 0; i < d.n; i++) {
@@ -285,7 +286,7 @@ the_detail_follows_the_base(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 2);
 	mr_mesh m = solid(&ctx, MR_BUMPY, 3000), base = smoothed(&ctx, m, 30), moved;
-	mr_source_map map = identity_map(&ctx, m);
+	mr_places map = identity_map(&ctx, m);
 	assert_int_equal(mr_encode(&ctx, &m, &base, &map, &d, NULL), MR_OK);
 	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3), *q = MR_NEW(&ctx, m.nv, mr_v3);
 	mr_v3 *offset = MR_NEW_ZERO(&ctx, m.nv, mr_v3);
@@ -318,11 +319,11 @@ threads_do_not_matter(void **state)
 	mr_ctx_init(&one, 1);
 	mr_ctx_init(&four, 4);
 	mr_mesh m = solid(&one, MR_BUMPY, 6000), base = smoothed(&one, m, 60);
-	mr_source_map map = identity_map(&one, m);
+	mr_places map = identity_map(&one, m);
 	assert_int_equal(mr_encode(&one, &m, &base, &map, &a, NULL), MR_OK);
 	assert_int_equal(mr_encode(&four, &m, &base, &map, &b, NULL), MR_OK);
-	assert_memory_equal(a.face, b.face, a.n * sizeof *a.face);
-	assert_memory_equal(a.bary, b.bary, a.n * sizeof *a.bary);
+	assert_memory_equal(a.at.face, b.at.face, a.n * sizeof *a.at.face);
+	assert_memory_equal(a.at.bary, b.at.bary, a.n * sizeof *a.at.bary);
 	assert_memory_equal(a.height, b.height, a.n * sizeof *a.height);
 	assert_memory_equal(decoded(&one, base, &a, 1), decoded(&four, base, &b, 1), a.n * sizeof(mr_v3));
 	mr_ctx_free(&one);
@@ -342,7 +343,7 @@ degenerate_bases_lose_nothing_either(void **state)
 	for (size_t i = 0; i < m.nv; i++)
 		flat[i] = mr_vec(m.p[i].x, m.p[i].y, 0); /* two layers, folded at their rims */
 	mr_mesh bases[] = { with_positions(m, flat, "base"), with_positions(m, point, "base") };
-	mr_source_map map = identity_map(&ctx, m);
+	mr_places map = identity_map(&ctx, m);
 	for (size_t i = 0; i < 2; i++) {
 		assert_int_equal(mr_encode(&ctx, &m, &bases[i], &map, &d, NULL), MR_OK);
 		assert_int_equal(mr_detail_check(&ctx, &d, &bases[i]), MR_OK);
@@ -364,13 +365,13 @@ bad_columns_are_refused(void **state)
 	mr_ctx_init(&ctx, 1);
 	m = solid(&ctx, MR_PLANE, 4);
 	m.name = "base";
-	mr_detail d = { 4, face, bary, height, NULL };
+	mr_detail d = { 4, { face, bary }, height, NULL };
 	assert_int_equal(mr_detail_check(&ctx, &d, &m), MR_ERANGE);
 	assert_string_equal(ctx.error, "the detail of vertex 2 is not finite");
 	height[2] = 0;
 	assert_int_equal(mr_detail_check(&ctx, &d, &m), MR_ERANGE);
 	assert_string_equal(ctx.error, "vertex 3 stands on face 9 of base, which has 2");
-	mr_source_map map = { face, bary };
+	mr_places map = { face, bary };
 	assert_int_equal(mr_source_map_check(&ctx, &m, m.nv, &map), MR_ERANGE);
 	assert_string_equal(ctx.error, "base: vertex 3 lies on face 9 of base, which has 2");
 	mr_ctx_free(&ctx);

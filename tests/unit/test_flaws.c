@@ -287,7 +287,7 @@ what_is_tangled_is_mended(void **state)
 				c = mr_surface_place(&x.s, &x.d, v, mr_axpy(4 * x.s.uniform, way, x.d.p[v]),
 				    mr_dyn_normal_around(&x.d, v));
 				x.d.p[v] = c.point;
-				x.d.at[v] = c.face;
+				x.d.at[v] = c.at.face;
 			}
 		tangled = count_all(&x).flawed;
 		assert_true(tangled > 20);

@@ -43,16 +43,16 @@ random_face(const scene *x, mr_random *r)
 static mr_v3
 raised(const scene *x, uint32_t face, mr_v3 bary, double h)
 {
-	return mr_axpy(
-	    h, mr_phong_normal(&x->g.surface, face, bary), mr_phong_point(&x->g.surface, face, bary));
+	return mr_axpy(h, mr_phong_normal(&x->g.surface, (mr_place){ face, bary }),
+	    mr_phong_point(&x->g.surface, (mr_place){ face, bary }));
 }
 
 static void
 assert_is_foot(const scene *x, const mr_foot *f, mr_v3 p)
 {
-	assert_true(f->bary.x > -2e-9 && f->bary.y > -2e-9 && f->bary.z > -2e-9);
-	assert_true(fabs(f->bary.x + f->bary.y + f->bary.z - 1) < 1e-12);
-	assert_true(mr_dist(raised(x, f->face, f->bary, f->height), p) <= x->g.tolerance);
+	assert_true(f->at.bary.x > -2e-9 && f->at.bary.y > -2e-9 && f->at.bary.z > -2e-9);
+	assert_true(fabs(f->at.bary.x + f->at.bary.y + f->at.bary.z - 1) < 1e-12);
+	assert_true(mr_dist(raised(x, f->at.face, f->at.bary, f->height), p) <= x->g.tolerance);
 }
 
 /* A face some steps away over edges. */
@@ -85,7 +85,7 @@ a_point_over_the_surface_finds_its_foot(void **state)
 			mr_v3 p = raised(&x, face, bary, h);
 			mr_foot foot = { 0 };
 			mr_walk walk = { 0, 0 };
-			if (!mr_foot_walk(&x.g, p, from, centre, 2 * x.edge, &foot, &walk)) {
+			if (!mr_foot_walk(&x.g, p, (mr_place){ from, centre }, 2 * x.edge, &foot, &walk)) {
 				lost++;
 				continue;
 			}
@@ -111,20 +111,20 @@ over_a_square_the_foot_is_below(void **state)
 	for (int k = 0; k < 2000; k++) {
 		mr_v3 p = mr_mul(3, random_vector(&r));
 		bool over = fabs(p.x) < 1 && fabs(p.y) < 1;
-		mr_foot foot = { 77, { 0, 0, 0 }, 0 }, found;
+		mr_foot foot = { { 77, { 0, 0, 0 } }, 0 }, found;
 		mr_walk walk = { 0, 0 };
 		mr_v3 at;
-		bool walked = mr_foot_walk(
-		    &x.g, p, random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3), 2, &foot, &walk);
+		bool walked = mr_foot_walk(&x.g, p,
+		    (mr_place){ random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3) }, 2, &foot, &walk);
 		assert_int_equal(walked, over);
 		assert_int_equal(mr_foot_search(&x.g, p, random_face(&x, &r), &found), over);
-		at = mr_phong_point(&x.g.surface, found.face, found.bary);
+		at = mr_phong_point(&x.g.surface, found.at);
 		if (over) {
 			assert_is_foot(&x, &foot, p);
 			assert_is_foot(&x, &found, p);
 			assert_true(fabs(foot.height - p.z) < 1e-13 && fabs(found.height - p.z) < 1e-13);
 		} else {
-			assert_int_equal(foot.face, 77);
+			assert_int_equal(foot.at.face, 77);
 			assert_true(found.height == 0);
 			assert_true(
 			    mr_dist(at, mr_vec(fmin(fmax(p.x, -1), 1), fmin(fmax(p.y, -1), 1), 0)) < 1e-13);
@@ -145,11 +145,11 @@ a_foot_is_not_higher_than_its_limit(void **state)
 		mr_v3 bary = random_bary(&r);
 		double h = (k % 2 ? -0.1 : 0.1) * (0.2 + mr_random_real(&r));
 		mr_v3 p = raised(&x, face, bary, h);
-		mr_foot foot = { 77, { 0, 0, 0 }, 0 };
+		mr_foot foot = { { 77, { 0, 0, 0 } }, 0 };
 		mr_walk walk = { 0, 0 };
-		assert_false(mr_foot_walk(&x.g, p, face, bary, 0.99 * fabs(h), &foot, &walk));
-		assert_int_equal(foot.face, 77);
-		assert_true(mr_foot_walk(&x.g, p, face, bary, 1.01 * fabs(h), &foot, &walk));
+		assert_false(mr_foot_walk(&x.g, p, (mr_place){ face, bary }, 0.99 * fabs(h), &foot, &walk));
+		assert_int_equal(foot.at.face, 77);
+		assert_true(mr_foot_walk(&x.g, p, (mr_place){ face, bary }, 1.01 * fabs(h), &foot, &walk));
 		assert_is_foot(&x, &foot, p);
 	}
 }
@@ -174,8 +174,9 @@ no_foot_is_beyond_the_axis(void **state)
 		mr_v3 p = raised(&x, random_face(&x, &r), random_bary(&r), -0.9 * mr_random_real(&r));
 		mr_foot foot;
 		mr_walk walk = { 0, 0 };
-		if (mr_foot_walk(
-			&x.g, p, random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3), 10, &foot, &walk)) {
+		if (mr_foot_walk(&x.g, p,
+			(mr_place){ random_face(&x, &r), mr_vec(1.0 / 3, 1.0 / 3, 1.0 / 3) }, 10, &foot,
+			&walk)) {
 			assert_is_foot(&x, &foot, p);
 			assert_true(foot.height > -1.01);
 			found++;
@@ -200,13 +201,14 @@ lowest_on_face(const scene *x, uint32_t face, mr_v3 p)
 			double u = (double)i / LATTICE, v = (double)j / LATTICE, g[3][2] = { { 1, 1 } };
 			for (int step = 0; step < STEPS; step++) {
 				mr_tangent_frame f = mr_phong_frame(
-				    &x->g.surface, face, mr_vec(1 - u - v, u, v));
+				    &x->g.surface, (mr_place){ face, mr_vec(1 - u - v, u, v) });
 				double a, b, c, e, det;
 				for (int k = 0; k < 3; k++) {
 					double du = k == 1 ? d : 0, dv = k == 2 ? d : 0;
 					mr_v3 w = mr_vec(1 - u - v - du - dv, u + du, v + dv);
-					mr_v3 n = mr_phong_normal(&x->g.surface, face, w);
-					mr_v3 q = mr_sub(p, mr_phong_point(&x->g.surface, face, w));
+					mr_v3 n = mr_phong_normal(&x->g.surface, (mr_place){ face, w });
+					mr_v3 q = mr_sub(
+					    p, mr_phong_point(&x->g.surface, (mr_place){ face, w }));
 					q = mr_axpy(-mr_dot(q, n), n, q);
 					g[k][0] = mr_dot(q, f.t1);
 					g[k][1] = mr_dot(q, f.t2);
@@ -221,8 +223,8 @@ lowest_on_face(const scene *x, uint32_t face, mr_v3 p)
 			}
 			if (hypot(g[0][0], g[0][1]) < 1e-9 && u > -1e-7 && v > -1e-7 && u + v < 1 + 1e-7) {
 				mr_v3 w = mr_vec(1 - u - v, u, v);
-				double h = mr_dot(mr_phong_normal(&x->g.surface, face, w),
-				    mr_sub(p, mr_phong_point(&x->g.surface, face, w)));
+				double h = mr_dot(mr_phong_normal(&x->g.surface, (mr_place){ face, w }),
+				    mr_sub(p, mr_phong_point(&x->g.surface, (mr_place){ face, w })));
 				lowest = fmin(lowest, fabs(h));
 			}
 		}
@@ -252,15 +254,14 @@ the_search_finds_the_lowest(void **state)
 			bool is;
 			for (uint32_t f = 0; f < x.m.nf; f++)
 				lowest = fmin(lowest, lowest_on_face(&x, f, p));
-			is = mr_foot_search(&x.g, p, nearest.face, &foot);
+			is = mr_foot_search(&x.g, p, nearest.at.face, &foot);
 			if (fabs(lowest / dist - 2) < 1e-3)
 				continue;
 			if (lowest > 2 * dist) {
 				assert_false(is);
 				assert_true(foot.height == 0);
 				assert_true(
-				    fabs(mr_dist(mr_phong_point(&x.g.surface, foot.face, foot.bary), p) -
-					 dist) < 1e-12);
+				    fabs(mr_dist(mr_phong_point(&x.g.surface, foot.at), p) - dist) < 1e-12);
 				none++;
 			} else {
 				assert_true(is);
@@ -289,7 +290,7 @@ a_search_stays_on_its_sheet(void **state)
 		mr_v3 p = mr_add(random_vector(&r), mr_vec(0.2, 0.2, 0.4));
 		mr_foot foot;
 		assert_true(mr_foot_search(&x.g, p, face, &foot));
-		assert_true((foot.face < one.nf) == (face < one.nf));
+		assert_true((foot.at.face < one.nf) == (face < one.nf));
 		assert_true(fabs(foot.height - (p.z - z)) < 1e-13);
 	}
 }

@@ -327,7 +327,7 @@ a_place_is_on_the_side_of_the_normal(void **state)
 		mr_closest c = mr_surface_place(&x.s, &x.d, v,
 		    mr_vec(x.d.p[v].x, x.d.p[v].y, side > 0 ? -0.04 : -0.01), mr_vec(0, 0, side));
 		assert_true(mr_dist(c.point, x.d.p[v]) < 1e-14);
-		assert_true((c.face < top.nf) == (side > 0));
+		assert_true((c.at.face < top.nf) == (side > 0));
 	}
 	assert_true(mr_surface_against(&x.s, &x.d, x.d.at, x.m.t[0].v, mr_vec(0, 0, -1)));
 	assert_false(mr_surface_against(&x.s, &x.d, x.d.at, x.m.t[0].v, mr_vec(0, 0, 1)));
@@ -361,7 +361,7 @@ a_lost_place_is_found_from_the_neighbours(void **state)
 			q.z = away ? -0.04 : -0.01;
 			x.d.at[v] += (uint32_t)top.nf; /* the face below */
 			c = mr_surface_place(&x.s, &x.d, v, q, mr_vec(0, 0, 1));
-			assert_true(c.face < top.nf && mr_dist(c.point, x.d.p[v]) < 1e-14);
+			assert_true(c.at.face < top.nf && mr_dist(c.point, x.d.p[v]) < 1e-14);
 			x.d.at[v] = own;
 		}
 	}

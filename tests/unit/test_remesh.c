@@ -66,7 +66,7 @@ count(const mr_mesh *m)
 }
 
 static mr_mesh
-remeshed(const mr_mesh *m, const mr_remesh_opts *o, mr_source_map *map)
+remeshed(const mr_mesh *m, const mr_remesh_opts *o, mr_places *map)
 {
 	mr_mesh out;
 
@@ -87,7 +87,7 @@ closed_shapes_keep_their_topology_and_become_regular(void **state)
 		{ MR_BUMPY, 2, 0.055, 5.5 }, /* as it is, not smoothed */
 	};
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
-	mr_source_map map;
+	mr_places map;
 
 	(void)state;
 	for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
@@ -109,7 +109,7 @@ source_map_points_at_the_vertices(void **state)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	mr_mesh m = shape(MR_TORUS, 5000), r;
-	mr_source_map map;
+	mr_places map;
 
 	(void)state;
 	r = remeshed(&m, &o, &map);
@@ -129,7 +129,7 @@ boundary_stays_where_it_is(void **state)
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	mr_mesh m = shape(MR_PLANE, 3000), r;
 	mr_topology topo;
-	mr_source_map map;
+	mr_places map;
 	mr_box before = mr_box_of(m.p, m.nv), after;
 
 	(void)state;
@@ -147,7 +147,7 @@ features_survive(void **state)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	mr_mesh m = shape(MR_CUBE, 3000), r;
-	mr_source_map map;
+	mr_places map;
 
 	(void)state;
 	o.feature = 40;
@@ -161,7 +161,7 @@ lengths_adapt_to_curvature(void **state)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	mr_mesh m = shape(MR_BUMPY, 20000), coarse, fine;
-	mr_source_map map;
+	mr_places map;
 
 	(void)state;
 	o.adaptive = 0.002 * mr_mesh_diagonal(&m);
@@ -178,7 +178,7 @@ threads_and_runs_do_not_change_a_byte(void **state)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	mr_mesh m = shape(MR_KNOT, 8000), a, b;
-	mr_source_map map;
+	mr_places map;
 
 	(void)state;
 	a = remeshed(&m, &o, &map);
@@ -253,7 +253,7 @@ failing_memory_is_reported_at_every_place(void **state)
 {
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
 	mr_mesh m = shape(MR_SPHERE, 200), r;
-	mr_source_map map;
+	mr_places map;
 	mr_mark mark = mr_mark_take(&ctx);
 	uint64_t k = 1;
 
@@ -278,7 +278,7 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	static const mr_tri t[3] = { { { 0, 1, 2 } }, { { 1, 0, 3 } }, { { 0, 1, 4 } } };
 	mr_mesh m = { "base", p, t, 5, 3 }, r;
 	mr_remesh_opts o = MR_REMESH_DEFAULTS;
-	mr_source_map map;
+	mr_places map;
 
 	(void)state;
 	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_EMESH);

@@ -73,7 +73,7 @@ vertices_lie_where_they_were_merged(void **state)
 {
 	mr_make_opts solid = MR_MAKE_DEFAULTS;
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
-	mr_source_map map, source;
+	mr_places map, source;
 	uint32_t *onto;
 	mr_mesh m, out;
 
@@ -102,7 +102,7 @@ vertices_lie_where_they_were_merged(void **state)
 
 /* Simplifies the solid, its height scaled and a bowl added, to `faces` and maps it. */
 static void
-map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_mesh *out, mr_source_map *map)
+map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_mesh *out, mr_places *map)
 {
 	mr_make_opts shape = MR_MAKE_DEFAULTS;
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
@@ -128,7 +128,7 @@ map_of(mr_solid solid, double height, double bowl, size_t faces, mr_mesh *m, mr_
 static void
 places_are_the_nearest(void **state)
 {
-	mr_source_map map;
+	mr_places map;
 	mr_mesh m, out;
 
 	(void)state;
@@ -145,7 +145,7 @@ static void
 places_stay_on_their_side(void **state)
 {
 	size_t across = 0, strayed = 0;
-	mr_source_map map;
+	mr_places map;
 	mr_v3 *normal;
 	mr_mesh m, out;
 	mr_bvh *bvh;
@@ -159,7 +159,7 @@ places_stay_on_their_side(void **state)
 		if (hypot(m.p[v].x, m.p[v].y) > 0.8) /* at the rim */
 			continue;
 		strayed += mr_dot(mr_face_cross(&out, map.face[v]), normal[v]) <= 0;
-		across += mr_dot(mr_face_cross(&out, mr_bvh_closest(bvh, m.p[v]).face), normal[v]) <= 0;
+		across += mr_dot(mr_face_cross(&out, mr_bvh_closest(bvh, m.p[v]).at.face), normal[v]) <= 0;
 	}
 	assert_true(across > 100);
 	assert_int_equal(strayed, 0);

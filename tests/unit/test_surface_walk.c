@@ -25,11 +25,11 @@ topology(const mr_mesh *m)
 static void
 assert_place(const mr_mesh *m, mr_closest c, mr_v3 q)
 {
-	const uint32_t *v = m->t[c.face].v;
+	const uint32_t *v = m->t[c.at.face].v;
 
-	assert_true(c.bary.x >= 0 && c.bary.y >= 0 && c.bary.z >= 0);
-	assert_true(fabs(c.bary.x + c.bary.y + c.bary.z - 1) < EPS);
-	assert_true(mr_dist(mr_bary_point(c.bary, m->p[v[0]], m->p[v[1]], m->p[v[2]]), c.point) < EPS);
+	assert_true(c.at.bary.x >= 0 && c.at.bary.y >= 0 && c.at.bary.z >= 0);
+	assert_true(fabs(c.at.bary.x + c.at.bary.y + c.at.bary.z - 1) < EPS);
+	assert_true(mr_dist(mr_bary_point(c.at.bary, m->p[v[0]], m->p[v[1]], m->p[v[2]]), c.point) < EPS);
 	assert_true(fabs(mr_norm2(mr_sub(q, c.point)) - c.dist2) < EPS);
 }
 
@@ -101,7 +101,7 @@ a_walk_ends_where_all_around_is_farther(void **state)
 		mr_closest c = mr_project_walk(&m, &topo, f, q);
 		assert_place(&m, c, q);
 		assert_true(c.dist2 <= mr_triangle_closest(q, m.p[v[0]], m.p[v[1]], m.p[v[2]]).dist2);
-		v = m.t[c.face].v;
+		v = m.t[c.at.face].v;
 		for (int i = 0; i < 3; i++)
 			for (size_t j = inc.start[v[i]]; j < inc.start[v[i] + 1]; j++) {
 				const uint32_t *u = m.t[inc.face[j]].v;
@@ -124,7 +124,7 @@ a_walk_stays_on_its_sheet(void **state)
 	for (uint32_t f = 0; f < m.nf; f++) {
 		mr_v3 q = random_point(&r, 0.9);
 		mr_closest c = mr_project_walk(&m, &topo, f, q);
-		assert_true((c.face < one.nf) == (f < one.nf));
+		assert_true((c.at.face < one.nf) == (f < one.nf));
 		assert_true(mr_dist(c.point, mr_vec(q.x, q.y, f < one.nf ? 0 : 0.01)) < EPS);
 	}
 }
@@ -143,8 +143,8 @@ assert_on(const mr_mesh *m, const mr_curves *curves, mr_closest c, uint32_t on)
 {
 	uint32_t k = on % 3;
 
-	assert_int_equal(on / 3, c.face);
-	assert_true(mr_coordinate(c.bary, (int)(k + 2) % 3) == 0); /* on that side */
+	assert_int_equal(on / 3, c.at.face);
+	assert_true(mr_coordinate(c.at.bary, (int)(k + 2) % 3) == 0); /* on that side */
 	assert_true(mr_curves_get(curves, on) != MR_NONE);
 	assert_true(on < 3 * m->nf);
 }
