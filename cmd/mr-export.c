@@ -33,19 +33,32 @@ check(cmd *c)
 	return mr_outname(&c->ctx, out, "", 1, &name);
 }
 
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_export_result, dropped_normals),
+	CMD_COUNTED(mr_export_result, dropped_colors),
+	CMD_COUNTED(mr_export_result, dropped_alpha),
+	CMD_COUNTED(mr_export_result, dropped_texcoords),
+	CMD_COUNTED(mr_export_result, dropped_groups),
+	CMD_COUNTED(mr_export_result, dropped_faces),
+	CMD_COUNTED(mr_export_result, rounded_positions),
+	{ 0 },
+};
+
 static mr_status
 export_frame(cmd *c, mr_frame *f)
 {
 	const char *out = c->operands[0];
 	bool varies = mr_outname_varies(out);
 	mr_held held = { 0 };
+	mr_export_result result;
 	char *path;
 
 	if (written && !varies)
 		return mr_fail(
 		    &c->ctx, MR_EUSAGE, "%s holds the frame before: OUT needs %%s or %%d for several", out);
 	MR_TRY(mr_outname(&c->ctx, out, f->name, f->number, &path));
-	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held));
+	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held, &result));
+	cmd_figures(c, figures, &result);
 	written++;
 	return cmd_hold(
 	    c, held.file, held.place); /* of one frame: another may come, or the stream break off */

@@ -32,12 +32,37 @@ check(cmd *c)
 	return mr_format_check(&c->ctx, "", opts.format, false, &binary);
 }
 
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_import_result, vertices),
+	CMD_COUNTED(mr_import_result, triangles),
+	CMD_COUNTED(mr_import_result, polygons),
+	CMD_COUNTED(mr_import_result, faces_left_out),
+	CMD_COUNTED(mr_import_result, points_left_out),
+	CMD_COUNTED(mr_import_result, seam_vertices),
+	CMD_COUNTED(mr_import_result, crease_vertices),
+	CMD_COUNTED(mr_import_result, dropped_normals),
+	CMD_COUNTED(mr_import_result, dropped_colors),
+	CMD_COUNTED(mr_import_result, dropped_texcoords),
+	CMD_COUNTED(mr_import_result, weld_joined),
+	CMD_COUNTED(mr_import_result, weld_collapsed),
+	CMD_COUNTED(mr_import_result, repair_degenerate),
+	CMD_COUNTED(mr_import_result, repair_duplicate),
+	CMD_COUNTED(mr_import_result, repair_isolated),
+	CMD_COUNTED(mr_import_result, repair_split_edges),
+	CMD_COUNTED(mr_import_result, repair_split_vertices),
+	CMD_COUNTED(mr_import_result, repair_flipped),
+	CMD_COUNTED(mr_import_result, repair_cut_edges),
+	{ 0 },
+};
+
 static mr_status
 import(cmd *c, const char *path)
 {
+	mr_import_result result;
 	mr_frame *f;
 
-	MR_TRY(mr_import(&c->ctx, path, &opts, &f));
+	MR_TRY(mr_import(&c->ctx, path, &opts, &f, &result));
+	cmd_figures(c, figures, &result);
 	return cmd_send(c, f);
 }
 

@@ -227,13 +227,10 @@ mr_build_texcoord(mr_builder *b, uint32_t vertex, double u, double v)
 }
 
 void
-mr_build_dropped(mr_ctx *ctx, const char *what, const char *why)
+mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why)
 {
-	char name[40];
-
 	mr_note(ctx, "%s dropped: %s", what, why);
-	snprintf(name, sizeof name, "dropped_%s", what);
-	mr_stat_set(ctx, name, 1);
+	*count = 1;
 }
 
 static void
@@ -245,7 +242,7 @@ report_seams(mr_builder *b)
 		return;
 	for (size_t i = 0; i < b->nv; i++)
 		seams += b->corner_seen[i] == 2;
-	mr_stat_set(b->ctx, "seam_vertices", (double)seams);
+	b->counts->seam_vertices = seams;
 	if (seams)
 		mr_note(b->ctx, "%zu vertices on texture seams keep the first of their coordinates", seams);
 }
@@ -319,9 +316,10 @@ mr_build_finish(mr_builder *b, mr_model *m)
 	}
 	if (b->skipped)
 		mr_note(b->ctx, "%zu faces of fewer than three corners left out", b->skipped);
-	mr_stat_set(b->ctx, "faces_left_out", (double)b->skipped);
-	mr_stat_set(b->ctx, "polygons", (double)b->polygons);
+	b->counts->faces_left_out = b->skipped;
+	b->counts->polygons = b->polygons;
 	report_seams(b);
+	made.counts = *b->counts;
 	*m = made;
 	return MR_OK;
 }

@@ -31,8 +31,9 @@ typedef struct mr_builder {
 	uint32_t *size;   /* corners of each face; NULL as long as all are triangles */
 	uint32_t *group;  /* of each face; NULL without groups */
 	size_t corners, corner_room, faces, face_room, group_room;
-	size_t skipped;  /* faces of fewer than three corners */
-	size_t polygons; /* faces of more */
+	size_t skipped;           /* faces of fewer than three corners */
+	size_t polygons;          /* faces of more */
+	mr_import_result *counts; /* of the model to be */
 	bool has_groups;
 	uint32_t current; /* group of the faces to come */
 	mr_names names;
@@ -54,7 +55,7 @@ mr_status mr_build_group(mr_builder *b, const char *name, size_t bytes) MR_WARN_
 mr_status mr_build_texcoord(mr_builder *b, uint32_t vertex, double u, double v) MR_WARN_UNUSED;
 
 /* A column that is dropped: says so and counts it. */
-void mr_build_dropped(mr_ctx *ctx, const char *what, const char *why);
+void mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why);
 
 /* The model; says and counts what it could not keep. */
 mr_status mr_build_finish(mr_builder *b, mr_model *m) MR_WARN_UNUSED;

@@ -340,6 +340,7 @@ mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
 {
 	mr_sink new = { .ctx = ctx, .path = path, .fd = -1 };
 
+	mr_unmeasured(&new.lost, sizeof new.lost);
 	if (!(new.buffer = mr_alloc(ctx, MR_SINK_BUFFER, 1)))
 		return MR_EMEM;
 	MR_TRY(open_target(&new));

@@ -2,7 +2,9 @@
  * format.h -- the table of formats, and what each one's file gives to it.
  *
  * Contract: `sniff` looks at bytes only; `read` fails with "line N: ..." or "byte N: ...",
- * before which mr_model_read puts the file's name; `write` leaves failures to the sink.
+ * before which mr_model_read puts the file's name, and counts what it leaves out in
+ * `counts` of the model, which comes empty but for them, and keeps them; `write` leaves
+ * failures to the sink, and counts in its `lost`.
  * Layer rule: formats.
  */
 #ifndef MR_FORMAT_H
@@ -93,10 +95,10 @@ enum {
 	MR_KEEPS_GROUP = 8,
 	MR_KEEPS_FACES = 16
 };
-void mr_note_lost(mr_ctx *ctx, const mr_model *m, unsigned keeps);
+void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
 
 /* Says and counts the positions that do not survive in float32; MR_ERANGE where one overflows it. */
-mr_status mr_note_rounded(mr_ctx *ctx, const mr_model *m);
+mr_status mr_note_rounded(mr_sink *s, const mr_model *m);
 
 /* A little- or big-endian value in memory. */
 static inline uint32_t

@@ -225,6 +225,7 @@ mr_model_parse(
 	const mr_file_format *f = NULL;
 	mr_model got = { 0 };
 
+	mr_unmeasured(&got.counts, sizeof got.counts);
 	MR_TRY(as_text(ctx, &data, &size));
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));
 	MR_TRY(f->read(ctx, data, size, &got));
@@ -284,7 +285,8 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 /* ---- writing ---- */
 
 mr_status
-mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held)
+mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held,
+    mr_export_result *result)
 {
 	const mr_file_format *f = NULL;
 	mr_sink sink;
@@ -295,6 +297,8 @@ mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model
 	MR_TRY(mr_sink_close(&sink, f->write(&sink, m)));
 	if (held)
 		*held = (mr_held){ .file = sink.temporary, .place = sink.target };
+	if (result)
+		*result = sink.lost;
 	return MR_OK;
 }
 
@@ -311,36 +315,36 @@ mr_put_reals(mr_sink *s, const double *x, size_t n, char end)
 }
 
 void
-mr_note_lost(mr_ctx *ctx, const mr_model *m, unsigned keeps)
+mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 {
 	static const char why[] = "the format has no place for them";
 
 	if (m->normal && !(keeps & MR_KEEPS_NORMAL))
-		mr_build_dropped(ctx, "normals", why);
+		mr_dropped(s->ctx, &s->lost.dropped_normals, "normals", why);
 	if (m->color && !(keeps & MR_KEEPS_COLOR))
-		mr_build_dropped(ctx, "colors", why);
+		mr_dropped(s->ctx, &s->lost.dropped_colors, "colors", why);
 	if (m->texcoord && !(keeps & MR_KEEPS_TEXCOORD))
-		mr_build_dropped(ctx, "texcoords", why);
+		mr_dropped(s->ctx, &s->lost.dropped_texcoords, "texcoords", why);
 	if (m->group && !(keeps & MR_KEEPS_GROUP))
-		mr_build_dropped(ctx, "groups", why);
+		mr_dropped(s->ctx, &s->lost.dropped_groups, "groups", why);
 	if (m->nf && !(keeps & MR_KEEPS_FACES))
-		mr_build_dropped(ctx, "faces", why);
+		mr_dropped(s->ctx, &s->lost.dropped_faces, "faces", why);
 }
 
 mr_status
-mr_note_rounded(mr_ctx *ctx, const mr_model *m)
+mr_note_rounded(mr_sink *s, const mr_model *m)
 {
 	size_t changed = 0;
 
 	for (size_t i = 0; i < m->nv; i++) {
 		mr_v3 p = m->p[i], q = { mr_as_float(p.x), mr_as_float(p.y), mr_as_float(p.z) };
 		if (!mr_finite(q))
-			return mr_fail(ctx, MR_ERANGE, "position %zu (%g %g %g) is too large for float32", i,
-			    p.x, p.y, p.z);
+			return mr_fail(s->ctx, MR_ERANGE, "position %zu (%g %g %g) is too large for float32",
+			    i, p.x, p.y, p.z);
 		changed += q.x != p.x || q.y != p.y || q.z != p.z;
 	}
-	mr_stat_set(ctx, "rounded_positions", (double)changed);
+	s->lost.rounded_positions = changed;
 	if (changed)
-		mr_note(ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
+		mr_note(s->ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
 	return MR_OK;
 }

@@ -5,7 +5,7 @@
  * of any format is read from a file or a pipe.  Every index is checked and every
  * position is finite, so a model that was read is a valid layer.  Text numbers
  * are read and written so that doubles survive bit for bit.  What a format
- * cannot hold is said by a note and counted in the figures.
+ * cannot hold is said by a note and counted.
  * Layer rule: formats include base, mesh and themselves; zlib in bytes.c, tinyobj
  * in obj_shim.cc.
  */
@@ -24,6 +24,7 @@ typedef struct mr_model {
 	const uint32_t *group;      /* nf, each a line of groups */
 	const char *groups;         /* names, each followed by a newline but the last */
 	size_t nv, nf, groups_bytes;
+	mr_import_result counts; /* of a model that was read: what was lost so far */
 } mr_model;
 
 /*
@@ -44,10 +45,10 @@ typedef struct mr_held {
 /*
  * Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.
  * A regular file is written beside its place and renamed into it, so it is seen whole or not at all; the
- * renaming is the caller's where `held` is not NULL.
+ * renaming is the caller's where `held` is not NULL.  result: or NULL.
  */
-mr_status mr_model_write(
-    mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held) MR_WARN_UNUSED;
+mr_status mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held,
+    mr_export_result *result) MR_WARN_UNUSED;
 
 /* MR_EUSAGE, naming those there are, where the format is unknown or cannot be written.  `binary`: not for a
  * terminal. */

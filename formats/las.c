@@ -94,7 +94,7 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 								  : mr_load16(d + l.color + 2 * k, false) >>
 									shift);
 	}
-	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color };
+	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color, .counts = m->counts };
 	return MR_OK;
 }
 

@@ -81,7 +81,7 @@ rename_faces(mr_ctx *ctx, const uint32_t *map, mr_model *m)
 		t[kept] = now;
 		of[kept++] = (uint32_t)f;
 	}
-	mr_stat_set(ctx, "weld_collapsed", (double)(m->nf - kept));
+	m->counts.weld_collapsed = m->nf - kept;
 	if (kept < m->nf)
 		mr_note(ctx, "weld: %zu faces collapsed", m->nf - kept);
 	MR_TRY(gather_groups(ctx, m, of, kept));
@@ -104,7 +104,7 @@ mr_model_weld(mr_ctx *ctx, double eps, mr_model *m)
 	for (size_t i = 0; i < m->nv; i++)
 		if (map[i] == next)
 			of[next++] = (uint32_t)i;
-	mr_stat_set(ctx, "weld_joined", (double)(m->nv - n));
+	w.counts.weld_joined = m->nv - n;
 	mr_note(ctx, "weld: %zu vertices joined to others", m->nv - n);
 	MR_TRY(gather(ctx, &p, sizeof *m->p, of, n));
 	MR_TRY(gather_vertices(ctx, &w, of, n));
@@ -121,22 +121,22 @@ mr_model_weld(mr_ctx *ctx, double eps, mr_model *m)
 /* ---- repair ---- */
 
 static void
-report(mr_ctx *ctx, const mr_repair_report *r)
+report(mr_ctx *ctx, const mr_repair_report *r, mr_import_result *counts)
 {
 	const struct {
-		const char *stat;
-		size_t count;
+		size_t *to, count;
 		const char *what;
-	} lines[] = { { "repair_degenerate", r->degenerate, "degenerate faces dropped" },
-		{ "repair_duplicate", r->duplicate, "duplicate faces dropped" },
-		{ "repair_isolated", r->isolated, "isolated vertices dropped" },
-		{ "repair_split_edges", r->split_edges, "edges of more than two faces split" },
-		{ "repair_split_vertices", r->split_vertices, "vertices added where fans were parted" },
-		{ "repair_flipped", r->flipped, "faces turned over" },
-		{ "repair_cut_edges", r->cut_edges, "edges cut" } };
+	} lines[] = { { &counts->repair_degenerate, r->degenerate, "degenerate faces dropped" },
+		{ &counts->repair_duplicate, r->duplicate, "duplicate faces dropped" },
+		{ &counts->repair_isolated, r->isolated, "isolated vertices dropped" },
+		{ &counts->repair_split_edges, r->split_edges, "edges of more than two faces split" },
+		{ &counts->repair_split_vertices, r->split_vertices,
+		    "vertices added where fans were parted" },
+		{ &counts->repair_flipped, r->flipped, "faces turned over" },
+		{ &counts->repair_cut_edges, r->cut_edges, "edges cut" } };
 
 	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-		mr_stat_set(ctx, lines[i].stat, (double)lines[i].count);
+		*lines[i].to = lines[i].count;
 		if (lines[i].count)
 			mr_note(ctx, "repair: %zu %s", lines[i].count, lines[i].what);
 	}
@@ -163,7 +163,7 @@ mr_model_repair(mr_ctx *ctx, mr_model *m)
 	done.nv = out.nv;
 	done.t = out.t;
 	done.nf = out.nf;
-	report(ctx, &r);
+	report(ctx, &r, &done.counts);
 	*m = done;
 	return MR_OK;
 }
@@ -192,8 +192,6 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 		MR_TRY(mr_layer_put(ctx, f, layer, "group", m->group, m->nf));
 		MR_TRY(mr_layer_put(ctx, f, layer, "groups", m->groups, m->groups_bytes));
 	}
-	mr_stat_set(ctx, "vertices", (double)m->nv);
-	mr_stat_set(ctx, "triangles", (double)m->nf);
 	return MR_OK;
 }
 
@@ -237,7 +235,8 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 /* Frames */
 
 mr_status
-mr_import(mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame)
+mr_import(
+    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
 {
 	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
 	const mr_import_opts *o = opts ? opts : &defaults;
@@ -259,26 +258,31 @@ mr_import(mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **
 	MR_TRY(mr_frame_new(ctx, name, &f));
 	MR_TRY(mr_model_put(ctx, f, o->layer, &m));
 	*frame = f;
+	m.counts.vertices = m.nv;
+	m.counts.triangles = m.nf;
+	if (result)
+		*result = m.counts;
 	return MR_OK;
 }
 
 mr_status
-mr_export_held(
-    mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format, mr_held *held)
+mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
+    mr_held *held, mr_export_result *result)
 {
 	static const char *const layers[] = { "mesh", "control", "points", NULL };
 	mr_model m;
 
 	MR_TRY(mr_layer_choose(ctx, f, layer, layers, &layer));
 	MR_TRY(mr_model_get(ctx, f, layer, &m));
-	return mr_model_write(ctx, path, format, &m, held);
+	return mr_model_write(ctx, path, format, &m, held, result);
 }
 
 mr_status
-mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format)
+mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
+    mr_export_result *result)
 {
 	bool binary;
 
 	MR_TRY(mr_format_check(ctx, path, format, true, &binary));
-	return mr_export_held(ctx, f, layer, path, format, NULL);
+	return mr_export_held(ctx, f, layer, path, format, NULL, result);
 }

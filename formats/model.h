@@ -31,6 +31,6 @@ mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 
 /* mr_export where the format is checked, and the renaming is the caller's where `held` is not NULL. */
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
-    mr_held *held) MR_WARN_UNUSED;
+    mr_held *held, mr_export_result *result) MR_WARN_UNUSED;
 
 #endif

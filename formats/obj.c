@@ -542,7 +542,7 @@ finish_colors(obj *o)
 	if (!o->rgb)
 		return MR_OK;
 	if (o->odd_color) {
-		mr_build_dropped(o->ctx, "colors", o->odd_color);
+		mr_dropped(o->ctx, &o->b.counts->dropped_colors, "colors", o->odd_color);
 		return MR_OK;
 	}
 	o->b.color = MR_NEW(o->ctx, 4 * o->v_all, unsigned char);
@@ -567,7 +567,7 @@ finish_normals(obj *o)
 	size_t several = 0;
 
 	if (o->odd_normal) {
-		mr_build_dropped(o->ctx, "normals", o->odd_normal);
+		mr_dropped(o->ctx, &o->b.counts->dropped_normals, "normals", o->odd_normal);
 		return MR_OK;
 	}
 	if (o->b.faces == 0 && o->vn_all == o->v_all) {
@@ -578,9 +578,10 @@ finish_normals(obj *o)
 		return MR_OK;
 	for (size_t i = 0; i < o->v_all; i++)
 		several += (o->normal_of[i] & SEVERAL) != 0;
-	mr_stat_set(o->ctx, "crease_vertices", (double)several);
+	o->b.counts->crease_vertices = several;
 	if (several) {
-		mr_build_dropped(o->ctx, "normals", "some vertices have several, as on creases");
+		mr_dropped(o->ctx, &o->b.counts->dropped_normals, "normals",
+		    "some vertices have several, as on creases");
 		return MR_OK;
 	}
 	o->b.normal = MR_NEW(o->ctx, o->v_all, mr_v3);
@@ -595,7 +596,7 @@ static mr_status
 finish(obj *o, mr_model *m)
 {
 	if (o->odd_texcoord) {
-		mr_build_dropped(o->ctx, "texcoords", o->odd_texcoord);
+		mr_dropped(o->ctx, &o->b.counts->dropped_texcoords, "texcoords", o->odd_texcoord);
 		o->b.texcoord = NULL;
 		o->b.corner_seen = NULL;
 	}
@@ -611,7 +612,9 @@ finish(obj *o, mr_model *m)
 mr_status
 mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	obj o = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
+	obj o = {
+		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts }
+	};
 	mr_obj_calls calls = { line_call, face_call, name_call, &o };
 
 	MR_TRY(count_lines(&o));

@@ -87,14 +87,14 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 {
 	size_t opaque = 0;
 
-	mr_note_lost(s->ctx, m,
-	    MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_GROUP | MR_KEEPS_FACES);
+	mr_note_lost(
+	    s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_GROUP | MR_KEEPS_FACES);
 	for (size_t i = 0; i < m->nv; i++)
 		put_vertex(s, m, i);
 	for (size_t i = 0; m->color && i < m->nv; i++)
 		opaque += m->color[4 * i + 3] == 255;
 	if (m->color && opaque < m->nv)
-		mr_build_dropped(s->ctx, "alpha", "colours of OBJ have none");
+		mr_dropped(s->ctx, &s->lost.dropped_alpha, "alpha", "colours of OBJ have none");
 	for (size_t i = 0; m->texcoord && i < m->nv; i++) {
 		mr_put(s, "vt ", 3);
 		mr_put_reals(s, m->texcoord + 2 * i, 2, '\n');

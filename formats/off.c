@@ -195,7 +195,7 @@ finish_colors(off *f)
 	if (!f->rgba)
 		return MR_OK;
 	if (f->odd_color) {
-		mr_build_dropped(f->ctx, "colors", "one is not a finite number");
+		mr_dropped(f->ctx, &f->b.counts->dropped_colors, "colors", "one is not a finite number");
 		return MR_OK;
 	}
 	if (!(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
@@ -212,11 +212,12 @@ finish(off *f, mr_model *m)
 {
 	MR_TRY(finish_colors(f));
 	if (f->odd_normal) {
-		mr_build_dropped(f->ctx, "normals", "one is not a finite number");
+		mr_dropped(f->ctx, &f->b.counts->dropped_normals, "normals", "one is not a finite number");
 		f->b.normal = NULL;
 	}
 	if (f->odd_uv) {
-		mr_build_dropped(f->ctx, "texcoords", "one is not a finite number");
+		mr_dropped(
+		    f->ctx, &f->b.counts->dropped_texcoords, "texcoords", "one is not a finite number");
 		f->b.texcoord = NULL;
 	}
 	if (f->ignored)
@@ -417,7 +418,9 @@ read_binary(off *f, mr_model *m)
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	off f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
+	off f = {
+		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts }
+	};
 	bool dimensions;
 
 	if (keyword(&f, &dimensions) && dimensions)

@@ -12,7 +12,7 @@ put_keyword(mr_sink *s, const mr_model *m, const char *binary)
 mr_status
 mr_off_write(mr_sink *s, const mr_model *m)
 {
-	mr_note_lost(s->ctx, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES);
+	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES);
 	put_keyword(s, m, "");
 	mr_print(s, "%zu %zu 0\n", m->nv, m->nf);
 	for (size_t i = 0; i < m->nv; i++) {
@@ -53,8 +53,8 @@ mr_off_write_binary(mr_sink *s, const mr_model *m)
 {
 	char *to;
 
-	mr_note_lost(s->ctx, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES);
-	MR_TRY(mr_note_rounded(s->ctx, m));
+	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES);
+	MR_TRY(mr_note_rounded(s, m));
 	put_keyword(s, m, " BINARY");
 	to = mr_store32(mr_sink_room(s), (uint32_t)m->nv, true);
 	mr_sink_fill(s, mr_store32(mr_store32(to, (uint32_t)m->nf, true), 0, true));

@@ -266,10 +266,12 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	}
 	if (n < f.points)
 		mr_note(ctx, "%llu points that are not finite left out", (unsigned long long)f.points - n);
-	mr_stat_set(ctx, "points_left_out", (double)f.points - (double)n);
+	m->counts.points_left_out = (size_t)f.points - n;
 	if (odd)
-		mr_build_dropped(ctx, "normals", "one is not a finite number");
-	*m = (mr_model){ .p = p, .nv = n, .normal = odd ? NULL : normal, .color = color };
+		mr_dropped(ctx, &m->counts.dropped_normals, "normals", "one is not a finite number");
+	*m = (mr_model){
+		.p = p, .nv = n, .normal = odd ? NULL : normal, .color = color, .counts = m->counts
+	};
 	return MR_OK;
 }
 

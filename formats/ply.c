@@ -478,11 +478,11 @@ read_vertices(ply *f, const element *e)
 		}
 	}
 	if (odd_normal) {
-		mr_build_dropped(f->ctx, "normals", "one is not a finite number");
+		mr_dropped(f->ctx, &f->b.counts->dropped_normals, "normals", "one is not a finite number");
 		f->b.normal = NULL;
 	}
 	if (odd_color) {
-		mr_build_dropped(f->ctx, "colors", "one is not a number");
+		mr_dropped(f->ctx, &f->b.counts->dropped_colors, "colors", "one is not a number");
 		f->b.color = NULL;
 	}
 	return MR_OK;
@@ -682,12 +682,12 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		.end = data + size,
 		.text = mr_scan_of(ctx, data, size),
 		.ascii = true,
-		.b = { .ctx = ctx } };
+		.b = { .ctx = ctx, .counts = &m->counts } };
 
 	MR_TRY(read_header(&f));
 	MR_TRY(read_elements(&f));
 	if (f.odd_uv) {
-		mr_build_dropped(ctx, "texcoords", "one is not a finite number");
+		mr_dropped(ctx, &f.b.counts->dropped_texcoords, "texcoords", "one is not a finite number");
 		f.b.texcoord = NULL;
 		f.b.corner_seen = NULL;
 	}

@@ -124,7 +124,7 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	}
 	if (f.empty)
 		mr_note(ctx, "%zu rays without an answer left out", f.empty);
-	*m = (mr_model){ .p = f.p, .nv = f.count, .color = f.colored ? f.color : NULL };
+	*m = (mr_model){ .p = f.p, .nv = f.count, .color = f.colored ? f.color : NULL, .counts = m->counts };
 	return MR_OK;
 }
 

@@ -158,7 +158,7 @@ count_vertices(const mr_scan *t)
 static mr_status
 read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ascii a = { .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
+	ascii a = { .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts } };
 	uint32_t *map;
 	mr_scan line;
 	int state = 0;
@@ -244,7 +244,7 @@ unit_normal(const mr_model *m, size_t f)
 static mr_status
 need_faces(mr_sink *s, const mr_model *m)
 {
-	mr_note_lost(s->ctx, m, MR_KEEPS_FACES);
+	mr_note_lost(s, m, MR_KEEPS_FACES);
 	return m->nf ? MR_OK
 	             : mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
 }
@@ -263,7 +263,7 @@ mr_stl_write(mr_sink *s, const mr_model *m)
 	char header[80] = "binary STL";
 
 	MR_TRY(need_faces(s, m));
-	MR_TRY(mr_note_rounded(s->ctx, m));
+	MR_TRY(mr_note_rounded(s, m));
 	mr_put(s, header, sizeof header);
 	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)m->nf, false));
 	for (size_t f = 0; f < m->nf; f++) {

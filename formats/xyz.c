@@ -321,19 +321,19 @@ halves(const table *t)
 }
 
 static bool
-useful(const mr_v3 *n, size_t count, mr_ctx *ctx)
+useful(mr_ctx *ctx, const mr_v3 *n, size_t count, size_t *dropped)
 {
 	bool any = false;
 
 	for (size_t i = 0; i < count; i++) {
 		if (!mr_finite(n[i])) {
-			mr_build_dropped(ctx, "normals", "one is not a finite number");
+			mr_dropped(ctx, dropped, "normals", "one is not a finite number");
 			return false;
 		}
 		any |= mr_norm2(n[i]) > 0;
 	}
 	if (!any)
-		mr_build_dropped(ctx, "normals", "all are zero");
+		mr_dropped(ctx, dropped, "normals", "all are zero");
 	return any;
 }
 
@@ -380,9 +380,9 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		normal = p + n;
 	else if (t.counted && t.rows > t.count)
 		mr_note(ctx, "%zu points, where the file counts %llu", t.rows, (unsigned long long)t.count);
-	if (normal && n && !useful(normal, n, ctx))
+	if (normal && n && !useful(ctx, normal, n, &m->counts.dropped_normals))
 		normal = NULL;
-	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color };
+	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };
 	return MR_OK;
 }
 

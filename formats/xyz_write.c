@@ -12,7 +12,7 @@ put_color(mr_sink *s, const unsigned char *c)
 mr_status
 mr_xyz_write(mr_sink *s, const mr_model *m)
 {
-	mr_note_lost(s->ctx, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
+	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
 	if (m->color)
 		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
 	for (size_t i = 0; i < m->nv; i++) {
@@ -28,7 +28,7 @@ mr_xyz_write(mr_sink *s, const mr_model *m)
 mr_status
 mr_pts_write(mr_sink *s, const mr_model *m)
 {
-	mr_note_lost(s->ctx, m, MR_KEEPS_COLOR);
+	mr_note_lost(s, m, MR_KEEPS_COLOR);
 	mr_print(s, "%zu\n", m->nv);
 	for (size_t i = 0; i < m->nv; i++) {
 		mr_put_reals(s, &m->p[i].x, 3, m->color ? ' ' : '\n');
@@ -45,7 +45,7 @@ mr_pwn_write(mr_sink *s, const mr_model *m)
 {
 	if (!m->normal)
 		return mr_fail(s->ctx, MR_EMISSING, "pwn is points with normals, and there are no normals");
-	mr_note_lost(s->ctx, m, MR_KEEPS_NORMAL);
+	mr_note_lost(s, m, MR_KEEPS_NORMAL);
 	for (size_t i = 0; i < m->nv; i++) {
 		mr_put_reals(s, &m->p[i].x, 3, ' ');
 		mr_put_reals(s, &m->normal[i].x, 3, '\n');

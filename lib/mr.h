@@ -8,8 +8,8 @@
  *	mr_ctx *ctx = mr_ctx_new(0);
  *	mr_frame *f;
  *
- *	if (mr_import(ctx, "bunny.obj", NULL, &f) < 0 || mr_smooth_frame(ctx, f, NULL, NULL) < 0 ||
- *	    mr_export(ctx, f, "base", "smooth.obj", NULL) < 0)
+ *	if (mr_import(ctx, "bunny.obj", NULL, &f, NULL) < 0 || mr_smooth_frame(ctx, f, NULL, NULL) < 0 ||
+ *	    mr_export(ctx, f, "base", "smooth.obj", NULL, NULL) < 0)
  *		fprintf(stderr, "%s\n", mr_error(ctx));
  *	mr_ctx_delete(ctx);
  *
@@ -235,14 +235,39 @@ typedef struct mr_import_opts {
 		NULL, NULL, false, false, false, 0, false                                                    \
 	}
 
+/* What was read, and what of the file could not be kept. */
+typedef struct mr_import_result {
+	size_t vertices, triangles;                                /* of the frame */
+	size_t polygons;                                           /* faces of more than three corners */
+	size_t faces_left_out;                                     /* of fewer than three corners */
+	size_t points_left_out;                                    /* not finite */
+	size_t seam_vertices;                                      /* of several texture coordinates */
+	size_t crease_vertices;                                    /* of several normals */
+	size_t dropped_normals, dropped_colors, dropped_texcoords; /* 1, or not known where none was */
+	size_t weld_joined, weld_collapsed;                        /* vertices; faces */
+	size_t repair_degenerate, repair_duplicate;                /* faces dropped */
+	size_t repair_isolated;                                    /* vertices dropped */
+	size_t repair_split_edges;                                 /* of more than two faces */
+	size_t repair_split_vertices;                              /* added where fans were parted */
+	size_t repair_flipped;                                     /* faces turned over */
+	size_t repair_cut_edges;                                   /* where the surface is one-sided */
+} mr_import_result;
+
 /* Reads a file ("-": stdin) as a key frame that is named by its stem. */
-MR_API mr_status mr_import(
-    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame) MR_WARN_UNUSED;
+MR_API mr_status mr_import(mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame,
+    mr_import_result *result) MR_WARN_UNUSED;
+
+/* What of the layer the format could not keep. */
+typedef struct mr_export_result {
+	size_t dropped_normals, dropped_colors, dropped_alpha; /* 1, or not known where none was */
+	size_t dropped_texcoords, dropped_groups, dropped_faces;
+	size_t rounded_positions; /* of formats in float32: those that are no longer what they were */
+} mr_export_result;
 
 /* Writes a layer (NULL: mesh, else control, else points) to a file ("-": stdout), whole or not at all.
  * format: NULL: by the suffix. */
-MR_API mr_status mr_export(
-    mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format) MR_WARN_UNUSED;
+MR_API mr_status mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
+    mr_export_result *result) MR_WARN_UNUSED;
 
 /* What may outlive a frame: a factorization, an index.  A frame that is a delta and left unchanged what it
  * depends on finds it again; never does it change a byte. */

@@ -46,7 +46,7 @@ int main(void)
 {
 	mr_ctx *ctx = mr_ctx_new(0);
 	mr_frame *f;
-	return mr_import(ctx, "pipe.obj", NULL, &f) < 0 || mr_render(ctx, f, NULL, "drawn.png") < 0;
+	return mr_import(ctx, "pipe.obj", NULL, &f, NULL) < 0 || mr_render(ctx, f, NULL, "drawn.png") < 0;
 }
 END
 cc -std=c11 $warn draw.c $(pkg-config --cflags --libs mr) -o draw && ./draw && mr-import pipe.obj | mr-render tool.png || exit

@@ -114,7 +114,7 @@ round_trips(void **state)
 				continue;
 			mr_ctx_init(&ctx, 1);
 			m = restrict_to(make_model(&ctx, 40, 60, keeps & SINGLE), with);
-			ok(&ctx, mr_model_write(&ctx, written[i].path, written[i].format, &m, NULL));
+			ok(&ctx, mr_model_write(&ctx, written[i].path, written[i].format, &m, NULL, NULL));
 			ok(&ctx, mr_model_read(&ctx, written[i].path, NULL, &back));
 			same_model(&m, &back);
 			mr_ctx_free(&ctx);
@@ -131,7 +131,7 @@ stl_round_trip(void **state)
 		mr_model m, back;
 		mr_ctx_init(&ctx, 1);
 		m = make_model(&ctx, 40, 60, !ascii);
-		ok(&ctx, mr_model_write(&ctx, "m.stl", ascii ? "stl-ascii" : NULL, &m, NULL));
+		ok(&ctx, mr_model_write(&ctx, "m.stl", ascii ? "stl-ascii" : NULL, &m, NULL, NULL));
 		ok(&ctx, mr_model_read(&ctx, "m.stl", NULL, &back));
 		assert_int_equal(back.nf, m.nf);
 		assert_int_equal(back.nv, m.nv);
@@ -304,6 +304,93 @@ polygons(void **state)
 }
 
 static void
+put_file(const char *path, const char *text)
+{
+	FILE *f = fopen(path, "w");
+
+	assert_non_null(f);
+	assert_true(fputs(text, f) >= 0);
+	assert_int_equal(fclose(f), 0);
+}
+
+/* What an import could not keep, or had to mend, is in its result; the rest is not known. */
+static void
+what_was_lost(void **state)
+{
+	mr_import_opts o = MR_IMPORT_DEFAULTS;
+	mr_import_result r;
+	mr_frame *f;
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	put_file("lost.obj", TRIANGLE "v 1 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nvn 0 1 0\n"
+				      "f 1/1/1 2/2/1 4/2/1 3/1/1\nf 3/2/2 5/1/2 4/1/2\nf 1 2\nf 1 2 2\n");
+	ok(&ctx, mr_import(&ctx, "lost.obj", &o, &f, &r));
+	assert_int_equal(r.vertices, 5);
+	assert_int_equal(r.triangles, 4);
+	assert_int_equal(r.polygons, 1);
+	assert_int_equal(r.faces_left_out, 1);
+	assert_int_equal(r.seam_vertices, 2);
+	assert_int_equal(r.crease_vertices, 2);
+	assert_int_equal(r.dropped_normals, 1);
+	assert_true(r.dropped_texcoords == MR_UNKNOWN && r.points_left_out == MR_UNKNOWN);
+	assert_true(r.weld_joined == MR_UNKNOWN && r.repair_degenerate == MR_UNKNOWN);
+
+	o.weld = o.repair = true;
+	ok(&ctx, mr_import(&ctx, "lost.obj", &o, &f, &r));
+	assert_int_equal(r.weld_joined, 1);
+	assert_int_equal(r.weld_collapsed, 1);
+	assert_int_equal(r.repair_degenerate, 1);
+	assert_int_equal(r.repair_duplicate, 0);
+	assert_int_equal(r.vertices, 4);
+	assert_int_equal(r.triangles, 2);
+	assert_int_equal(r.seam_vertices, 2); /* of the file */
+
+	put_file("lost.pcd",
+	    "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nDATA ascii\n"
+	    "0 0 nan\n1 2 3\n");
+	ok(&ctx, mr_import(&ctx, "lost.pcd", NULL, &f, &r));
+	assert_int_equal(r.points_left_out, 1);
+	assert_int_equal(r.vertices, 1);
+	assert_int_equal(r.triangles, 0);
+	assert_true(r.polygons == MR_UNKNOWN && r.crease_vertices == MR_UNKNOWN);
+
+	r.vertices = 4711;
+	put_file("bad.obj", TRIANGLE "f 1 2 4\n");
+	assert_int_equal(mr_import(&ctx, "bad.obj", NULL, &f, &r), MR_EFORMAT);
+	assert_int_equal(r.vertices, 4711);
+	mr_ctx_free(&ctx);
+}
+
+/* What the format of an export has no place for, or rounds, is in its result. */
+static void
+what_was_rounded(void **state)
+{
+	mr_export_result r;
+	mr_frame *f;
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	put_file("fine.obj", "v 0.1 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 0.3 0 0 0 1\nf 1 2 3\n");
+	ok(&ctx, mr_import(&ctx, "fine.obj", NULL, &f, NULL));
+	ok(&ctx, mr_export(&ctx, f, NULL, "floats.stl", NULL, &r));
+	assert_int_equal(r.rounded_positions, 2);
+	assert_int_equal(r.dropped_colors, 1);
+	assert_true(r.dropped_normals == MR_UNKNOWN && r.dropped_faces == MR_UNKNOWN);
+	ok(&ctx, mr_export(&ctx, f, NULL, "points.pts", NULL, &r));
+	assert_int_equal(r.dropped_faces, 1);
+	assert_true(r.rounded_positions == MR_UNKNOWN && r.dropped_colors == MR_UNKNOWN);
+	ok(&ctx, mr_import(&ctx, "floats.stl", NULL, &f, NULL));
+	ok(&ctx, mr_export(&ctx, f, NULL, "again.stl", NULL, &r));
+	assert_int_equal(r.rounded_positions, 0); /* they are floats already */
+	assert_int_equal(mr_export(&ctx, f, NULL, "no/such/folder/a.pts", NULL, &r), MR_EIO);
+	assert_int_equal(r.rounded_positions, 0);
+	mr_ctx_free(&ctx);
+}
+
+static void
 names(void **state)
 {
 	static const struct {
@@ -339,14 +426,14 @@ whole_or_not(void **state)
 	mr_ctx_init(&ctx, 1);
 	m = make_model(&ctx, 10, 10, false);
 	none = restrict_to(m, 0);
-	ok(&ctx, mr_model_write(&ctx, "old.pwn", NULL, &m, NULL));
-	assert_int_equal(mr_model_write(&ctx, "old.pwn", NULL, &none, NULL), MR_EMISSING);
+	ok(&ctx, mr_model_write(&ctx, "old.pwn", NULL, &m, NULL, NULL));
+	assert_int_equal(mr_model_write(&ctx, "old.pwn", NULL, &none, NULL, NULL), MR_EMISSING);
 	ok(&ctx, mr_model_read(&ctx, "old.pwn", NULL, &back));
 	assert_int_equal(back.nv, 10);
-	assert_int_equal(mr_model_write(&ctx, "new.pwn", NULL, &none, NULL), MR_EMISSING);
+	assert_int_equal(mr_model_write(&ctx, "new.pwn", NULL, &none, NULL, NULL), MR_EMISSING);
 	assert_int_equal(access("new.pwn", F_OK), -1);
-	assert_int_equal(mr_model_write(&ctx, "/dev/full", "ply", &m, NULL), MR_EIO);
-	assert_int_equal(mr_model_write(&ctx, "no/such/folder/a.ply", NULL, &m, NULL), MR_EIO);
+	assert_int_equal(mr_model_write(&ctx, "/dev/full", "ply", &m, NULL, NULL), MR_EIO);
+	assert_int_equal(mr_model_write(&ctx, "no/such/folder/a.ply", NULL, &m, NULL, NULL), MR_EIO);
 	mr_ctx_free(&ctx);
 }
 
@@ -355,7 +442,8 @@ main(void)
 {
 	const struct CMUnitTest tests[] = { cmocka_unit_test(round_trips), cmocka_unit_test(stl_round_trip),
 		cmocka_unit_test(recognised), cmocka_unit_test(refusals), cmocka_unit_test(details),
-		cmocka_unit_test(polygons), cmocka_unit_test(names), cmocka_unit_test(whole_or_not) };
+		cmocka_unit_test(polygons), cmocka_unit_test(what_was_lost),
+		cmocka_unit_test(what_was_rounded), cmocka_unit_test(names), cmocka_unit_test(whole_or_not) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);
