@@ -62,6 +62,14 @@ choose_layers(cmd *c, mr_frame *f, mr_frame *second, const char **a, const char 
 	return mr_layer_choose(&c->ctx, f, layer_b, NULL, b);
 }
 
+static const cmd_field figures[] = {
+	CMD_MEASURED(mr_distance, max),
+	CMD_MEASURED(mr_distance, max_bound),
+	CMD_MEASURED(mr_distance, mean),
+	CMD_MEASURED(mr_distance, rms),
+	{ 0 },
+};
+
 static mr_status
 compare(cmd *c, mr_frame *f)
 {
@@ -79,10 +87,7 @@ compare(cmd *c, mr_frame *f)
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, f, a, &ma));
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, second, b, &mb));
 	MR_TRY(mr_compare(&c->ctx, &ma, &mb, &opts, &r));
-	mr_stat_set(&c->ctx, "max", r.both.max);
-	mr_stat_set(&c->ctx, "max_bound", r.both.max_bound);
-	mr_stat_set(&c->ctx, "mean", r.both.mean);
-	mr_stat_set(&c->ctx, "rms", r.both.rms);
+	cmd_figures(c, figures, &r.both);
 	mr_report_comparison(&r, f, a, b, json, &text);
 	MR_TRY(mr_text_done(&text));
 	cmd_print(c, "%s", text.s);
