@@ -5,6 +5,7 @@ struct mr_reader {
 	uint64_t serial, number; /* payloads and frames so far */
 	mr_stored **stored;      /* the merged frame, in order */
 	size_t count, room;
+	size_t sent;     /* columns of the frame at hand so far */
 	mr_column *view; /* what the frame handed out shows of it */
 	size_t view_room;
 	mr_frame frame;
@@ -186,6 +187,7 @@ begin_frame(mr_ctx *ctx, mr_reader *r, const piece *p)
 	r->name[n - skip] = 0;
 	if (key)
 		drop_all(r);
+	r->sent = 0;
 	r->frame.key = key;
 	r->fresh = false;
 	r->number++;
@@ -230,6 +232,16 @@ position_of(const mr_reader *r, const char *layer, const char *name)
 	return i;
 }
 
+/* What a frame sends it has at its end, whatever it drops; what it keeps may still be dropped. */
+static mr_status
+check_count(mr_ctx *ctx, const mr_reader *r, size_t columns)
+{
+	if (columns > MR_FRAME_COLUMNS)
+		return mr_fail(ctx, MR_EFORMAT, "before byte %llu: a frame of more than %d columns",
+		    (unsigned long long)r->in.offset, MR_FRAME_COLUMNS);
+	return MR_OK;
+}
+
 static mr_status
 room_for_one(mr_ctx *ctx, mr_reader *r)
 {
@@ -238,9 +250,6 @@ room_for_one(mr_ctx *ctx, mr_reader *r)
 
 	if (r->count < r->room)
 		return MR_OK;
-	if (r->count == MR_FRAME_COLUMNS)
-		return mr_fail(ctx, MR_EFORMAT, "byte %llu: a frame has no more than %d columns",
-		    (unsigned long long)r->in.offset, MR_FRAME_COLUMNS);
 	grown = mr_heap(ctx, r->stored, room * sizeof(mr_stored *));
 	if (!grown)
 		return MR_EMEM;
@@ -279,6 +288,7 @@ keep(mr_ctx *ctx, mr_reader *r, const piece *p)
 		return misplaced(ctx, p, "comes twice in a frame");
 	if (p->head.size > SIZE_MAX / 2)
 		return misplaced(ctx, p, "is too large for this machine");
+	MR_TRY(check_count(ctx, r, r->sent + 1));
 	MR_TRY(room_for_one(ctx, r));
 	s = mr_heap(ctx, NULL, sizeof *s);
 	if (!s)
@@ -294,6 +304,7 @@ keep(mr_ctx *ctx, mr_reader *r, const piece *p)
 	share(r, s);
 	old = i < r->count ? r->stored[i] : NULL;
 	r->count += !old;
+	r->sent++;
 	r->stored[i] = s;
 	if (old)
 		stored_free(r, old);
@@ -352,6 +363,7 @@ show(mr_ctx *ctx, mr_reader *r)
 	size_t room = r->count + 16;
 	mr_column *grown;
 
+	MR_TRY(check_count(ctx, r, r->count));
 	if (r->view_room < room) {
 		grown = mr_heap(ctx, r->view, 2 * room * sizeof *grown);
 		if (!grown)

@@ -402,6 +402,50 @@ wrong_deltas(void **state)
 	expect_failure(&b, "DROP of column 'region' of layer 'mesh': the frame before has none");
 }
 
+/* What the reader says of a delta that sends one column and drops another, of a key frame of so many. */
+static mr_status
+count_columns(mr_ctx *ctx, size_t columns, bool sends, bool drops)
+{
+	unsigned char *s = malloc(64 * (columns + 20));
+	size_t n = 0;
+
+	assert_non_null(s);
+	n += mark(s + n, "START", "mrmesh1\n", "");
+	n += mark(s + n, "FRAME", "", "key x");
+	for (size_t i = 0; i < columns; i++) {
+		char name[24];
+		snprintf(name, sizeof name, "c%zu", i);
+		n += record(s + n, "mesh", name, "vb", 1, 0, 0, "", 0);
+	}
+	n += mark(s + n, "ENDFRAME", "", "");
+	n += mark(s + n, "FRAME", "", "delta x");
+	if (sends)
+		n += record(s + n, "mesh", "more", "vb", 1, 0, 0, "", 0);
+	if (drops)
+		n += mark(s + n, "DROP", "mesh", "c0");
+	n += mark(s + n, "ENDFRAME", "", "");
+	n += mark(s + n, "END", "", "");
+	mr_status status = read_bytes(ctx, s, n, false).status;
+	free(s);
+	return status;
+}
+
+static void
+too_many_columns(void **state)
+{
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	assert_int_equal(count_columns(&ctx, 4096, false, false), MR_END);
+	assert_int_equal(count_columns(&ctx, 4097, false, true), MR_EFORMAT);
+	assert_string_equal(ctx.error, "before byte 262400: a frame of more than 4096 columns");
+	assert_int_equal(count_columns(&ctx, 4096, true, true), MR_END);
+	assert_int_equal(count_columns(&ctx, 4096, true, false), MR_EFORMAT);
+	assert_non_null(strstr(ctx.error, "a frame of more than 4096 columns"));
+	mr_ctx_free(&ctx);
+}
+
 /* A packed payload inflates to its rows exactly, and nothing stands behind it. */
 static void
 wrong_packing(void **state)
@@ -461,6 +505,7 @@ main(void)
 		cmocka_unit_test(wrong_columns),
 		cmocka_unit_test(wrong_frames),
 		cmocka_unit_test(wrong_deltas),
+		cmocka_unit_test(too_many_columns),
 		cmocka_unit_test(wrong_packing),
 		cmocka_unit_test(promises),
 	};
