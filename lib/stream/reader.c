@@ -319,6 +319,8 @@ drop(mr_ctx *ctx, mr_reader *r, const piece *p)
 	size_t before = r->count;
 
 	memcpy(name, p->record + MR_HEADER, (size_t)p->head.stored);
+	if (p->head.stored && (strlen(name) < p->head.stored || !mr_name_valid(name, MR_COLUMN_MAX)))
+		return misplaced(ctx, p, "has a bad name of a column");
 	for (size_t i = r->count; i-- > 0;) {
 		const mr_stored *s = r->stored[i];
 		bool named = !strcmp(s->head.layer, p->head.layer) &&

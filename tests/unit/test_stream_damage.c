@@ -375,6 +375,12 @@ wrong_frames(void **state)
 static void
 wrong_deltas(void **state)
 {
+	/* Nothing of them is in the sentence: a terminal would obey. */
+	static const struct {
+		const char *s;
+		size_t n;
+	} bad_names[] = { { "\033[2J", 4 }, { "re\ngion", 7 }, { "\xc3\xa4", 2 }, { "re gion", 7 },
+		{ "region\0", 7 }, { "END", 3 } };
 	script b, begun;
 
 	(void)state;
@@ -400,6 +406,13 @@ wrong_deltas(void **state)
 	b.n += mark(b.s + b.n, "DROP", "mesh", "region");
 	close_frame(&b);
 	expect_failure(&b, "DROP of column 'region' of layer 'mesh': the frame before has none");
+	for (size_t i = 0; i < sizeof bad_names / sizeof *bad_names; i++) {
+		b = begun;
+		b.n += record(
+		    b.s + b.n, "mesh", "DROP", "-t", 1, 0, bad_names[i].n, bad_names[i].s, bad_names[i].n);
+		close_frame(&b);
+		expect_failure(&b, "byte 512: DROP has a bad name of a column");
+	}
 }
 
 /* What the reader says of a delta that sends one column and drops another, of a key frame of so many. */
