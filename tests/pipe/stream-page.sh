@@ -31,7 +31,8 @@ mr-cat --no-history triangle.mrs | cmp - triangle.mrs || bad 'mr-cat reads anoth
 printf 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >triangle.off
 mr-import --no-history triangle.off | cmp - triangle.mrs || bad 'mr-import writes another stream'
 
-# Keys and deltas: a delta of positions; one that drops the triangles and a whole layer.
+# Keys and deltas: a delta of positions; one that drops the triangles and a whole layer; one that drops what is left
+# of a layer behind a column of it that it sends.
 cat >deltas.py <<'END'
 import struct, sys
 from mrstream import record
@@ -46,7 +47,9 @@ sys.stdout.buffer.write(record(b"mrmesh1\n", b"START")
     + frame(b"key walk", position(b"mesh", 3), triangles, position(b"base", 5))
     + frame(b"delta walk", position(b"mesh", 3))
     + frame(b"delta walk", drop(b"mesh", b"triangles"), drop(b"base", b""), position(b"base", 2), position(b"points", 40000))
-    + frame(b"delta walk") + record(b"", b"END"))
+    + frame(b"delta walk")
+    + frame(b"delta walk", triangles)
+    + frame(b"delta walk", position(b"mesh", 4), drop(b"mesh", b"")) + record(b"", b"END"))
 END
 python3 deltas.py >deltas.mrs
 mr-cat --no-history deltas.mrs >read.mrs || bad 'mr-cat reads no deltas'
