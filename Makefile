@@ -95,7 +95,7 @@ help:
 	@sed -n 's/^#\tmake/make/p' Makefile
 
 setup:
-	@CC='$(CC)' .ci/setup $(NEEDS)
+	@CC='$(CC)' TRIED='$(if $(filter setup,$(MAKECMDGOALS)),,$(BUILD)/tried)' .ci/setup $(NEEDS)
 
 check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
 	@$(RUN) tests/run $(T)

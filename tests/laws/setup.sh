@@ -35,6 +35,13 @@ without_blas 'to whom sudo says no'
 stub sudo 'exit 127'
 stub apt-get 'exit 127'
 without_blas 'without apt-get and sudo'
+stub apt-get 'echo tried; exit 100'
+stub id 'echo 0'
+for time in first second; do
+	TRIED=$PWD/tried PATH=$PWD/stub:$PATH "$TOP/.ci/setup" build check >$time 2>&1 || { cat $time; echo "setup fails the $time time"; fail=1; }
+done
+grep -q 'OpenBLAS' first && grep -q '^tried' first || { cat first; echo "setup does not try to get OpenBLAS"; fail=1; }
+[ ! -s second ] || { cat second; echo "setup tries and tells again what it could not get"; fail=1; }
 CC=no-such-compiler PATH=$PWD/stub:$PWD/bin bin/sh "$TOP/.ci/setup" build >out 2>&1 &&
     { cat out; echo "setup does not fail where something is missing that is required"; fail=1; }
 exit $fail
