@@ -71,6 +71,7 @@ for python in python3 /usr/bin/python3; do
 		break
 	fi
 done
+[ -n "$PYTHON" ] || echo "bench_noise: without Open3D, which python3 has not: tests/bench/README.md says how to get it" >&2
 mr-make torus -n 8000 -o truth.mrs && dirty truth.mrs 0.01 0.2 && case_of torus-1-20
 mr-make knot -n 10000 -o truth.mrs && dirty truth.mrs 0.005 0.1 && case_of knot-0.5-10
 mr-make bumpy -n 20000 -o truth.mrs && dirty truth.mrs 0.005 0.1 && case_of bumpy-0.5-10

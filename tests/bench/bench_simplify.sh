@@ -23,7 +23,7 @@ case_of() { # model: simplifies in.mrs
 	done | median >ours
 	echo "$model-seconds mr $(cat ours) s"
 	describe mr out.mrs
-	[ -x "$BUILD/bench/peer_simplify" ] || return
+	[ -x "$BUILD/bench/peer_simplify" ] || return 0
 	mr-export -i in.mrs in.off || exit
 	for method in gh lt; do
 		for i in 1 2 3; do
