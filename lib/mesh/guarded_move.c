@@ -3,7 +3,7 @@
 
 #include "base/parallel.h"
 
-enum { GRAIN = 2048 };
+enum { GRAIN = 256 };
 
 /* Numbers, each once. */
 typedef struct list {
@@ -19,7 +19,7 @@ typedef struct move {
 	list face, next; /* to look at now, and after */
 	bool *bad;       /* of those to look at now */
 	list vertex;     /* to hold back */
-	uint8_t *times;  /* that each vertex was */
+	unsigned round;
 } move;
 
 static mr_status
@@ -76,7 +76,7 @@ hold_back(move *w, uint32_t v)
 {
 	if (memcmp(&w->to[v], &w->from[v], sizeof *w->to) == 0)
 		return false;
-	w->to[v] = w->times[v]++ < w->g->halves ? mr_lerp(0.5, w->from[v], w->to[v]) : w->from[v];
+	w->to[v] = w->round < w->g->halves ? mr_lerp(0.5, w->from[v], w->to[v]) : w->from[v];
 	if (w->g->held)
 		w->g->held(w->g->arg, v);
 	return true;
@@ -131,8 +131,7 @@ move_new(mr_ctx *ctx, move *w)
 	MR_TRY(list_new(ctx, g->nf, &w->next));
 	MR_TRY(list_new(ctx, g->nv, &w->vertex));
 	w->bad = MR_NEW(ctx, g->nf, bool);
-	w->times = MR_NEW_ZERO(ctx, g->nv, uint8_t);
-	if (!w->bad || !w->times)
+	if (!w->bad)
 		return MR_EMEM;
 	for (uint32_t f = 0; f < g->nf; f++)
 		if (g->t[f].v[0] != MR_NONE)
@@ -147,11 +146,12 @@ mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to
 	move w = { .g = guard, .from = from, .to = to };
 
 	MR_TRY(move_new(ctx, &w));
-	do {
+	for (bool any = true; any; w.round++) {
 		if (guard->look)
 			MR_TRY(guard->look(ctx, guard->arg));
 		mr_parallel(ctx, w.face.n, GRAIN, judge, &w);
-	} while (guard->look ? hold_rings(&w) : hold_corners(&w));
+		any = guard->look ? hold_rings(&w) : hold_corners(&w);
+	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -1,9 +1,9 @@
 /*
  * guarded_move.h -- moves of vertices that leave no face bad.
  *
- * All vertices are to move at once.  The corners of a face that would be bad, by whatever the caller calls
- * so, go half as far, then a quarter, and so on; at last they stay: until no face is bad, or those that are
- * have nothing left to take back.  Where every face is good that stays as it is, the move is good.
+ * All vertices are to move at once.  Round by round the corners of faces that would be bad, by whatever the
+ * caller calls so, go half as far, after some rounds they stay: until no face is bad, or those that are have
+ * nothing left to take back.  Where every face is good that stays as it is, the move is good.
  *
  * Contract: deterministic for any number of threads.  A vertex is held back a few times and no more, so where
  * faces depend on what is near them the time is linear.
@@ -17,7 +17,7 @@ typedef struct mr_guard {
 	const mr_tri *t; /* nf faces, some of which may be none: their first corner is MR_NONE */
 	mr_topology topo;
 	size_t nv, nf;
-	unsigned halves; /* how often a vertex goes half as far before it stays; 0: it stays at once */
+	unsigned halves; /* rounds in which what is held back goes half as far; in later ones it stays */
 	unsigned rings;  /* of vertices around a bad face that are held back with its corners */
 	/*
 	 * What is bad of a face may depend on how its corners and those of its neighbours move.  Where it
