@@ -5,7 +5,7 @@
 #include "fit/least_squares.h"
 
 #include "base/sort.h"
-#include "fit/guard_limit.h"
+#include "fit/guard.h"
 #include "fit/solve_step.h"
 
 /*
@@ -55,30 +55,29 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
 	double *w = MR_NEW(ctx, n, double);
 	mr_fit_system system;
-	size_t steps = 0, crossing = 0;
+	size_t steps = 0;
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	mr_fit_guard *guard;
 
 	if (!z || !w)
 		return MR_EMEM;
 	MR_TRY(mr_fit_system_build(ctx, surface, &system));
-	MR_TRY(mr_fit_guard_new(ctx, surface, x, &guard));
+	MR_TRY(mr_fit_guard_new(ctx, surface, &system.patch, x, &guard));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
 		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, outliers, w));
 		MR_TRY(mr_fit_system_fill(
 		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
 		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
-		MR_TRY(mr_fit_step(ctx, surface, guard, &system.patch, x, z, &result->damped));
+		MR_TRY(mr_fit_step(ctx, guard, x, z, &result->damped));
+		mr_fit_surface_move(ctx, surface, x);
 		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
 	}
 	result->cg_steps = (double)steps / (double)passes;
-	for (size_t f = 0; f < surface->level[0].nf; f++)
-		crossing += mr_fit_crossed(guard)[f];
-	result->crossing_faces = crossing;
-	if (crossing > 0)
-		mr_warn(ctx, "the limit surface passes through itself at %zu of %zu control faces", crossing,
-		    surface->level[0].nf);
+	result->crossing_faces = mr_fit_crossing(guard);
+	if (result->crossing_faces > 0)
+		mr_warn(ctx, "the limit surface passes through itself at %zu of %zu control faces",
+		    result->crossing_faces, surface->level[0].nf);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -1,8 +1,10 @@
 /* Fitting: what a limit surface can take on is found again, whatever the start; what no point holds stays. */
 #include "base/random.h"
 #include "fit/fit.h"
-#include "fit/limit_surface.h"
+#include "fit/guard.h"
+#include "mesh/fold.h"
 #include "shapes.h"
+#include "space/self_intersect.h"
 
 /* The mesh with its vertices moved at random by up to `most` in each coordinate. */
 static mr_mesh
@@ -106,7 +108,8 @@ test_icosahedron_becomes_the_best_sphere(void **state)
 	mr_v3 out[12], *point = sphere_points(4000, -2);
 
 	(void)state;
-	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
+	assert_int_equal(
+	    mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
 	for (int v = 0; v < 12; v++) {
 		assert_true(fabs(mr_norm(out[v]) / mr_norm(out[0]) - 1) < 2e-2);
 		assert_true(mr_dist(mr_unit(out[v]), mr_unit(m.p[v])) < 2e-2);
@@ -123,7 +126,8 @@ test_what_has_no_points_stays(void **state)
 	double most = 0;
 
 	(void)state;
-	assert_int_equal(mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, &found), MR_OK);
+	assert_int_equal(
+	    mr_fit(&ctx, &m, point, 4000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, &found), MR_OK);
 	for (size_t v = 0; v < m.nv; v++)
 		most = m.p[v].z < -0.3 ? fmax(most, mr_dist(out[v], m.p[v])) : most;
 	assert_true(found.distance_rms_after < 1e-3);
@@ -143,12 +147,49 @@ test_outliers_pull_little(void **state)
 	(void)state;
 	for (size_t i = 0; i < 5000; i += 50)
 		point[i] = mr_mul(0.2 + 1.5 * mr_random_real(&r), point[i]);
-	assert_int_equal(mr_fit(&ctx, &m, point, 5000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
+	assert_int_equal(
+	    mr_fit(&ctx, &m, point, 5000, NULL, &(mr_fit_opts)MR_FIT_DEFAULTS, out, NULL), MR_OK);
 	m.p = out;
 	assert_int_equal(mr_fit_surface_build(&ctx, &m, &s), MR_OK);
 	for (size_t v = 0; v < s.m.nv; v++)
 		most = fmax(most, fabs(mr_norm(s.node[v]) - 1));
 	assert_true(most < 2e-2);
+}
+
+/* Of a sphere's vertices all are to go outward a little, but one far to the side: what is on the other half
+ * gets there, and nothing folds or passes through itself. */
+static void
+test_steps_fold_nothing(void **state)
+{
+	mr_mesh m = shape(MR_SPHERE, 400), to = m;
+	mr_v3 *x = MR_NEW(&ctx, m.nv, mr_v3), *z = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_fit_surface s;
+	mr_fit_lists patch;
+	mr_fit_guard *guard;
+	mr_bvh *bvh;
+	size_t damped, pairs;
+
+	(void)state;
+	for (size_t v = 0; v < m.nv; v++) {
+		x[v] = m.p[v];
+		z[v] = mr_mul(0.01, m.p[v]);
+	}
+	z[0] = mr_mul(12, mr_unit(mr_cross(m.p[0], mr_vec(m.p[0].y, m.p[0].z, m.p[0].x))));
+	assert_int_equal(mr_fit_surface_build(&ctx, &m, &s), MR_OK);
+	assert_int_equal(mr_fit_list_patches(&ctx, &s, &patch), MR_OK);
+	assert_int_equal(mr_fit_guard_new(&ctx, &s, &patch, x, &guard), MR_OK);
+	assert_int_equal(mr_fit_step(&ctx, guard, x, z, &damped), MR_OK);
+	assert_in_range(damped, 1, m.nv / 4);
+	assert_true(mr_dist(x[0], m.p[0]) > 0);
+	for (size_t v = 0; v < m.nv; v++)
+		if (mr_dot(m.p[v], m.p[0]) < 0)
+			assert_true(mr_dist(x[v], mr_mul(1.01, m.p[v])) < 1e-12);
+	to.p = x;
+	assert_int_equal(mr_count_folds(&to, s.level[0].topo.twin), 0);
+	assert_int_equal(mr_bvh_build(&ctx, &to, &bvh), MR_OK);
+	assert_int_equal(mr_self_intersections(&ctx, bvh, &to, NULL, &pairs), MR_OK);
+	assert_int_equal(pairs, 0);
+	assert_int_equal(mr_fit_crossing(guard), 0);
 }
 
 static void
@@ -182,6 +223,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_icosahedron_becomes_the_best_sphere, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_what_has_no_points_stays, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_outliers_pull_little, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_steps_fold_nothing, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_memory_may_run_out, setup, teardown),
 	};
 	cmocka_set_message_output(CM_OUTPUT_TAP);
