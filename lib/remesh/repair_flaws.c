@@ -1,3 +1,6 @@
+/* A search: around each flaw places, flips and merges are tried one after the other, and the first that
+ * leaves fewer flaws stays; where a guarded move (mesh/guarded_move.h) keeps what is good, this makes it so.
+ */
 #include "remesh/repair_flaws.h"
 
 #include "remesh/flaws.h"

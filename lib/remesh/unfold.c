@@ -1,3 +1,5 @@
+/* Umbrella smoothing (Kobbelt, Campagna, Vorsatz, Seidel 1998) of the vertices at folds alone, one by one;
+ * what is not to be moved is left, so that nothing has to be taken back. */
 #include "remesh/unfold.h"
 
 enum { MOST = 10 };
@@ -7,7 +9,8 @@ is_folded(const mr_dyn *d, uint32_t h)
 {
 	uint32_t g = d->twin[h];
 
-	return g != MR_NONE && mr_folds(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3), MR_NEAR_FOLD);
+	return g != MR_NONE &&
+	       mr_folds(mr_dyn_cross(d, d->p, h / 3), mr_dyn_cross(d, d->p, g / 3), MR_NEAR_FOLD);
 }
 
 static bool

@@ -1,8 +1,16 @@
-/* Moves of a wrap that fold nothing. */
+/* A guarded move (mesh/guarded_move.h) of a wrap that folds nothing. */
 #include "mesh/guarded_move.h"
 #include "wrap/parts.h"
 
-/* Height over longest edge of a face that would soon have no normal. */
+/*
+ * Cosine of 60 degrees, by which a face may turn at once.  At 37 or 90 degrees as many wraps of 133 clouds
+ * are sound, at distances that differ by 1 %; but at 90 one around a handful of points folds in on itself and
+ * ends a tenth of its size off them.
+ */
+static const double TURN = 0.5;
+
+/* Height over longest edge of a face that would soon have no normal.  Without it one of 68 wraps that have
+ * passed through themselves does not come apart; a quarter to five times as much leaves as many. */
 static const double SLIVER = 0.02;
 
 typedef struct guard {
@@ -18,7 +26,7 @@ shape_of(const mr_mesh *m, uint32_t f)
 	return mr_dyn_shape(m->p[v[0]], m->p[v[1]], m->p[v[2]]);
 }
 
-/* True where the move turns face f by more than 60 degrees, closes it against a neighbour, or leaves it a worse
+/* True where the move turns face f too far, closes it against a neighbour, or leaves it a worse
  * sliver. */
 static bool
 is_bad(const void *arg, uint32_t f)
@@ -28,7 +36,7 @@ is_bad(const void *arg, uint32_t f)
 	double shape = shape_of(&s->to, f);
 
 	return (shape < SLIVER && shape < shape_of(&s->from, f)) ||
-	       mr_dot(before, after) <= 0.5 * sqrt(mr_norm2(before) * mr_norm2(after)) ||
+	       mr_dot(before, after) <= TURN * sqrt(mr_norm2(before) * mr_norm2(after)) ||
 	       mr_folds_more(&s->from, &s->to, s->d->twin, f, MR_NEAR_FOLD);
 }
 
