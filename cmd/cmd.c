@@ -26,6 +26,8 @@ struct cmd_state {
 	FILE *text, *stats; /* a sink's output; --stats */
 	place output_place, held, stats_place;
 
+	mr_text figures; /* of the frame at work, as they go into the line of --stats */
+
 	const char *frame_name;
 	bool lost_key;         /* the key failed: its deltas go with it */
 	uint64_t failed, lost; /* frames left out: that failed, that depended on one that failed */
@@ -430,7 +432,12 @@ cmd_cache(cmd *c, mr_cache **cache)
 void
 cmd_figure(cmd *c, const char *name, double value)
 {
-	mr_stat_set(&c->ctx, name, value);
+	mr_text *t = &c->state->figures;
+
+	mr_text_add(t, ",");
+	mr_text_json(t, name, strlen(name));
+	mr_text_add(t, ":");
+	mr_text_number(t, value);
 }
 
 void
@@ -462,14 +469,8 @@ print_stats(cmd *c, double seconds)
 	mr_text_json(&line, name, strlen(name));
 	mr_text_add(
 	    &line, ",\"seconds\":%.6f,\"peak_bytes\":%lld", seconds, (long long)usage.ru_maxrss * 1024);
-	for (size_t i = 0; i < c->ctx.stat_count; i++) {
-		const mr_stat *stat = &c->ctx.stats[i];
-		mr_text_add(&line, ",");
-		mr_text_json(&line, stat->name, strlen(stat->name));
-		mr_text_add(&line, ":");
-		mr_text_number(&line, stat->value);
-	}
-	mr_text_add(&line, "}\n");
+	MR_TRY(mr_text_done(&s->figures));
+	mr_text_add(&line, "%s}\n", s->figures.s ? s->figures.s : "");
 	MR_TRY(mr_text_done(&line));
 	if (fputs(line.s, s->stats) < 0 || fflush(s->stats))
 		die(c, fail_system(c, s->stats_path));
@@ -477,6 +478,15 @@ print_stats(cmd *c, double seconds)
 }
 
 /* Frames */
+
+/* name: of the frame; NULL: a source is to make it. */
+static void
+begin_frame(cmd *c, const char *name)
+{
+	c->state->frame_name = name;
+	c->state->started = mr_seconds();
+	c->state->figures = (mr_text){ .ctx = &c->ctx };
+}
 
 mr_status
 cmd_send(cmd *c, const mr_frame *f)
@@ -492,9 +502,7 @@ cmd_send(cmd *c, const mr_frame *f)
 	MR_TRY(mr_writer_put(&c->ctx, c->state->writer, &with_history));
 	if (c->tool->source) {
 		MR_TRY(print_stats(c, mr_seconds() - c->state->started));
-		c->state->started = mr_seconds();
-		c->state->frame_name = NULL;
-		c->ctx.stat_count = 0;
+		begin_frame(c, NULL);
 	}
 	return MR_OK;
 }
@@ -532,6 +540,7 @@ cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand))
 		if (status < 0) {
 			c->frame++;
 			leave_out(c);
+			begin_frame(c, NULL);
 		}
 		mr_mark_release(&c->ctx, mark);
 	}
@@ -550,9 +559,7 @@ one_frame(cmd *c, mr_frame *f)
 		s->lost++;
 		return;
 	}
-	s->frame_name = f->name;
-	s->started = mr_seconds();
-	c->ctx.stat_count = 0;
+	begin_frame(c, f->name);
 	*c->ctx.error = *c->keep.error = '\0';
 	status = work_on(c, f);
 	clear_progress(c);
@@ -649,7 +656,6 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
 		.user = &c };
 	c.ctx.unfinished = place_unfinished;
-	c.ctx.stats_unread = !state.stats_path;
 	c.stats = state.stats_path != NULL;
 	c.keep = c.ctx;
 	c.keep.top = NULL;
@@ -660,7 +666,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		open_text(&c);
 	else
 		open_writer(&c);
-	state.started = mr_seconds();
+	begin_frame(&c, NULL);
 	if (tool->source)
 		try(&c, tool->source(&c));
 	else

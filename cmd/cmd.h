@@ -101,7 +101,7 @@ mr_status cmd_hold(cmd *c, const char *file, const char *name) MR_WARN_UNUSED;
 /* A cache for the tool; it deletes it in finish. */
 mr_status cmd_cache(cmd *c, mr_cache **cache) MR_WARN_UNUSED;
 
-/* A figure of the frame at work, for --stats; the same name again replaces it. */
+/* A figure of the frame at work, for --stats. */
 void cmd_figure(cmd *c, const char *name, double value);
 
 /* A field of a struct that is a figure: its name, and where it is. */

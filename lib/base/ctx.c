@@ -150,22 +150,6 @@ mr_progress(mr_ctx *ctx, const char *what, double share)
 		ctx->listener.progress(ctx->listener.user, what, share);
 }
 
-void
-mr_stat_set(mr_ctx *ctx, const char *name, double value)
-{
-	mr_stat *s = ctx->stats, *end = s + ctx->stat_count;
-
-	while (s < end && strcmp(s->name, name))
-		s++;
-	if (s == end) {
-		if (ctx->stat_count == MR_STATS_MAX)
-			return;
-		ctx->stat_count++;
-		snprintf(s->name, sizeof s->name, "%s", name);
-	}
-	s->value = value;
-}
-
 double
 mr_seconds(void)
 {

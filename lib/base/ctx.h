@@ -30,13 +30,7 @@
 			return try_status_;                                                                  \
 	} while (0)
 
-/* One figure a tool measured; a command writes them as a JSON object per frame. */
-typedef struct mr_stat {
-	char name[40];
-	double value;
-} mr_stat;
-
-enum { MR_STATS_MAX = 96, MR_ERROR_MAX = 512 };
+enum { MR_ERROR_MAX = 512 };
 
 typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
 
@@ -46,11 +40,8 @@ struct mr_ctx {
 	void (*unfinished)(void *user, const char *file); /* to remove if the process is ended; NULL: none */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
-	mr_stat stats[MR_STATS_MAX];
-	size_t stat_count;
-	bool stats_unread; /* figures that take time and are for them alone may be left out */
-	mr_block *top;     /* newest block of the arena */
-	uint64_t blocks;   /* how many the arena ever had */
+	mr_block *top;            /* newest block of the arena */
+	uint64_t blocks;          /* how many the arena ever had */
 };
 
 /* Initialises a context with `threads` threads (0: all cores) and an empty arena. */
@@ -83,10 +74,6 @@ mr_unmeasured(void *result, size_t size)
 {
 	memset(result, 0xff, size);
 }
-
-/* Records a figure under `name` (39 bytes at most); the same name again replaces it.  More than MR_STATS_MAX
- * are dropped. */
-void mr_stat_set(mr_ctx *ctx, const char *name, double value);
 
 /* Seconds of a monotonic clock, for figures only: no result may depend on it. */
 double mr_seconds(void);
