@@ -77,11 +77,13 @@ unsigned
 mr_flaws_of_pair(const mr_flaws *w, uint32_t h, unsigned most)
 {
 	const mr_dyn *d = w->d;
-	uint32_t side[2] = { h, d->twin[h] };
-	unsigned n = mr_flaws_around(w, d->v[h], MR_NONE, most);
+	uint32_t a = d->v[h], b = mr_dyn_to(d, h), side[2] = { h, d->twin[h] };
+	unsigned n = mr_flaws_around(w, a, MR_NONE, most);
 
 	if (n < most)
-		n += mr_flaws_around(w, mr_dyn_to(d, h), d->v[h], most - n);
+		n += mr_flaws_around(w, b, a, most - n);
+	if (mr_norm2(mr_sub(d->p[a], d->p[b])) > 0)
+		return n;
 	for (int i = 0; i < 2; i++)
 		if (side[i] != MR_NONE) { /* over the face that is none any more */
 			uint32_t x = d->twin[mr_he_next(side[i])], y = d->twin[mr_he_prev(side[i])];

@@ -181,7 +181,7 @@ mend_edge(mender *w, uint32_t h)
 	return good;
 }
 
-/* Merges the start of h into its end at a share of the way; false where that leaves as many flaws. */
+/* Merges the start of h into its end at a share of the way; false where that leaves `flaws` or more. */
 static bool
 try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 {
@@ -209,6 +209,9 @@ try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 	return good;
 }
 
+/* As the last resort it may leave as many flaws: there are fewer faces for them.  Without that, of 364
+ * remeshings of 91 models 13 edges and faces are flawed in the end, with it 9; where it always may, 7, and
+ * the areas are 2 % less even. */
 static bool
 mend_by_merging(mender *w, uint32_t h)
 {
@@ -218,8 +221,8 @@ mend_by_merging(mender *w, uint32_t h)
 	if ((d->kind[d->v[h]] != MR_SMOOTH && !w->last) || !mr_dyn_can_collapse(d, h, w->mark))
 		return false;
 	flaws = mr_flaws_of_pair(&w->flaws, h, UINT_MAX);
-	for (int i = 2; i >= 0; i--)
-		if (try_merge(w, h, 0.5 * i, flaws))
+	for (int i = 2; i >= 0 && flaws > 0; i--)
+		if (try_merge(w, h, 0.5 * i, flaws + w->last))
 			return true;
 	return false;
 }

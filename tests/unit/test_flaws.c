@@ -151,7 +151,7 @@ flaws_in_the_plane_are_those_of_signs(void **state)
 	assert_true(all > 1000);
 }
 
-/* Two ends at one spot count as the vertex that they become. */
+/* Two ends count as what they are; at one spot, as the vertex that they become. */
 static void
 a_pair_counts_as_what_it_is_merged_into(void **state)
 {
@@ -176,6 +176,7 @@ a_pair_counts_as_what_it_is_merged_into(void **state)
 		    !mr_dyn_can_collapse(&x.d, h, mark))
 			continue;
 		w = find(&x, true, &count);
+		assert_int_equal(mr_flaws_of_pair(&w, h, UINT_MAX), around(&x.d, a, b, MR_NONE));
 		x.d.p[a] = x.d.p[b];
 		n = mr_flaws_of_pair(&w, h, UINT_MAX);
 		assert_true(n < 2 ? mr_flaws_of_pair(&w, h, 2) == n : mr_flaws_of_pair(&w, h, 2) >= 2);
