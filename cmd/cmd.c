@@ -1,3 +1,4 @@
+/* The life of a command: its line, its streams, its frames one by one, its end. */
 #include "cmd.h"
 
 #include "base/text.h"

@@ -1,3 +1,4 @@
+/* The command line by the table, getopt's way. */
 #include "options.h"
 
 #include <errno.h>

@@ -1,3 +1,4 @@
+/* Files beside their places, which signals remove too. */
 #define _XOPEN_SOURCE 700 /* realpath */
 
 #include "place.h"

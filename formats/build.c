@@ -1,3 +1,4 @@
+/* Corners gathered face by face, then triangulated. */
 #include "formats/build.h"
 
 #include "base/utf8.h"

@@ -1,3 +1,4 @@
+/* gzip by zlib; a file is written beside its place and renamed into it. */
 #define _XOPEN_SOURCE 700 /* realpath */
 
 #include "formats/bytes.h"

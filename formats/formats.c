@@ -1,3 +1,4 @@
+/* The table of formats: how each is recognised, read and written, and what it keeps. */
 #include "formats/formats.h"
 #include "formats/format.h"
 

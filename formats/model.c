@@ -1,3 +1,4 @@
+/* Welding and repair with all attributes, and models in and out of layers. */
 #include "formats/model.h"
 #include "mesh/repair.h"
 

@@ -1,3 +1,4 @@
+/* OBJ, groups of faces together, corners with what the model has. */
 #include "formats/format.h"
 
 /* Starts of the names of the groups. */

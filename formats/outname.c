@@ -1,3 +1,4 @@
+/* A pattern is checked first, then filled in. */
 #include "formats/outname.h"
 
 /* Reads "%05d" from behind the per cent: its width, and the first byte behind it; NULL where it is none. */

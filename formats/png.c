@@ -1,3 +1,4 @@
+/* libpng, whose failures jump. */
 #include "formats/png.h"
 
 #include "formats/bytes.h"

@@ -1,3 +1,4 @@
+/* Decimal to double and back, exactly, and words and lines of a text. */
 #include "formats/scan.h"
 
 #include <inttypes.h>

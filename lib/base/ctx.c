@@ -1,3 +1,4 @@
+/* The arena, a list of blocks that grow, and the sentences of failures. */
 #include "base/ctx.h"
 
 #include "base/memory.h"

@@ -1,3 +1,4 @@
+/* What the machine says is free, or the control group that the process is in, whichever is less. */
 #include "base/memory.h"
 
 #include <math.h>

@@ -1,3 +1,4 @@
+/* Pieces of fixed size, which threads take as they come: who takes which changes no result. */
 #include "base/parallel.h"
 
 #include <pthread.h>

@@ -1,3 +1,4 @@
+/* Insertion, and Hoare's selection. */
 #include "base/sort.h"
 
 #include <stdlib.h>

@@ -1,3 +1,4 @@
+/* Text by printf, its room doubled as it grows, and strings and numbers as JSON has them. */
 #include "base/text.h"
 
 #include "base/utf8.h"

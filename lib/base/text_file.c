@@ -1,3 +1,4 @@
+/* A file read whole and taken line by line, with the number of the line for sentences. */
 #include "base/text_file.h"
 
 #include <errno.h>

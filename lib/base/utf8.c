@@ -1,3 +1,4 @@
+/* UTF-8 by the letter of RFC 3629: no overlong forms, no surrogates. */
 #include "base/utf8.h"
 
 size_t

@@ -1,3 +1,4 @@
+/* Poses as affine maps, the handles of a frame that they move, and motions from scripts. */
 #include "edit/handles.h"
 
 #include "base/text_file.h"

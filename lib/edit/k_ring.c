@@ -1,3 +1,4 @@
+/* Rings by breadth first, and the part that they make numbered anew. */
 #include "edit/k_ring.h"
 
 /* Gives level r + 1 to the vertices that share a face with one of level r and have none yet. */

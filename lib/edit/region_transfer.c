@@ -1,3 +1,4 @@
+/* Each base vertex takes the region of the corner of the mesh that it lies nearest to. */
 #include "edit/region_transfer.h"
 
 #include "base/parallel.h"

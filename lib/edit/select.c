@@ -1,3 +1,4 @@
+/* Terms of a selection, in order: later ones win. */
 #include "edit/select.h"
 
 #include "edit/select_parts.h"

@@ -1,3 +1,4 @@
+/* The predicates of a selection: how each is written, and for which vertices it holds. */
 #include "space/geodesic.h"
 #include "base/text_file.h"
 #include "edit/select_parts.h"

@@ -1,3 +1,7 @@
+/*
+ * Lists of the vertices that a face or a star depends on, and the pattern of the normal equations from
+ * them.
+ */
 #include "fit/sparsity.h"
 
 #include "base/sort.h"

@@ -1,3 +1,4 @@
+/* Tables of figures as JSON. */
 #include "measure/fields.h"
 
 void

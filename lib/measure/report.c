@@ -1,3 +1,4 @@
+/* A frame layer by layer: its columns, then the figures of its surface or cloud, then the laws. */
 #include "measure/report.h"
 
 #include "measure/report_parts.h"

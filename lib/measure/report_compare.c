@@ -1,3 +1,4 @@
+/* A comparison, for people and as JSON. */
 #include "measure/fields.h"
 #include "measure/report.h"
 

@@ -1,3 +1,4 @@
+/* The figures of a surface and of a cloud, for people and as JSON. */
 #include "measure/fields.h"
 #include "measure/report_parts.h"
 

@@ -1,3 +1,4 @@
+/* Census, geometry and intersections together, and how even the areas of the vertices are. */
 #include "measure/surface_summary.h"
 
 #include "space/self_intersect.h"

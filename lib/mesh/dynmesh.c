@@ -1,3 +1,4 @@
+/* Splits, collapses and flips of half-edges, and what they need to know of their surroundings. */
 #include "mesh/dynmesh.h"
 
 unsigned

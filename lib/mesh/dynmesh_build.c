@@ -1,3 +1,4 @@
+/* A dynmesh from a mesh, with its curves of sharp edges; views and copies of it. */
 #include "mesh/dynmesh.h"
 
 static const double CORNER_COSINE = 0.6427876096865394; /* of 50 degrees */

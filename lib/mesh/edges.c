@@ -1,3 +1,4 @@
+/* Half-edges sorted by their ends: those of an edge stand together. */
 #include "mesh/edges.h"
 
 #include "base/parallel.h"

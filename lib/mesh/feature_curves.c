@@ -1,3 +1,4 @@
+/* A hash table with linear probing from half-edges to those of the source. */
 #include "mesh/feature_curves.h"
 
 enum { LEAST_BITS = 6, MOST_BITS = 31 };

@@ -1,3 +1,4 @@
+/* The tables of columns and of what goes stale, and meshes in and out of frames by them. */
 #include "mesh/layers.h"
 
 /* The one table of what the columns are.  Extend it with each new column; man/mr.7 shows it. */

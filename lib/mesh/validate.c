@@ -1,3 +1,4 @@
+/* Law by law, each with the sentence that names what breaks it. */
 #include "mesh/validate.h"
 
 static const double SUM_TOLERANCE = 1e-9;

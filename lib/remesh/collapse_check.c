@@ -1,3 +1,4 @@
+/* A merge is tried on the faces around: none may fold, turn from the source, or leave the plane. */
 #include "remesh/collapse_check.h"
 
 /* The half-edge of the neighbour over h once a and b are one: beyond a face that goes. */

@@ -1,3 +1,4 @@
+/* Flaws face by face, and lists of them that follow the changes. */
 #include "remesh/flaws.h"
 
 #include "base/parallel.h"

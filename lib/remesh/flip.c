@@ -1,3 +1,7 @@
+/*
+ * Flips towards valence 6 (Botsch, Kobbelt 2004, step 3), then dislocations glide along rows until they
+ * meet.
+ */
 #include "remesh/flip.h"
 
 #include "base/parallel.h"

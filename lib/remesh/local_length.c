@@ -1,3 +1,4 @@
+/* A factor of the target length at each vertex, shrunk where an edge cannot be and graded around. */
 #include "remesh/local_length.h"
 
 static const float LEAST = 1.0f / 8, STEP = 0.7f;

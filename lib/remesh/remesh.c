@@ -1,3 +1,7 @@
+/*
+ * Rounds of the four steps of Botsch, Kobbelt 2004, section 4, then passes that even out areas, then
+ * repairs.
+ */
 #include "remesh/remesh.h"
 
 #include "base/parallel.h"

@@ -1,3 +1,4 @@
+/* Steps 1 and 2 of Botsch, Kobbelt 2004, section 4. */
 #include "remesh/split_collapse.h"
 
 #include "remesh/collapse_check.h"

@@ -1,3 +1,4 @@
+/* Named directions, and a camera that is turned, aimed and fitted to what it is to see. */
 #include "render/camera.h"
 
 bool

@@ -1,3 +1,4 @@
+/* Pixels set one by one, clipped to the image. */
 #include "render/canvas.h"
 
 #include "base/vec.h"

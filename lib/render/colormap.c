@@ -1,3 +1,4 @@
+/* Steps of known maps, blended between. */
 #include "render/colormap.h"
 
 #include "mesh/layers.h"

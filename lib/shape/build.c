@@ -1,3 +1,4 @@
+/* Vertices and faces added one by one, and vertices joined by a key. */
 #include "shape/parts.h"
 
 #include "base/random.h"

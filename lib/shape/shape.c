@@ -1,3 +1,4 @@
+/* Solids by grids of quadrilaterals, of about as many vertices as asked for. */
 #include "shape/parts.h"
 
 const char *const mr_solid_names[MR_SOLIDS] = { "sphere", "torus", "cube", "plane", "cylinder", "knot",

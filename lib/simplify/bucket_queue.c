@@ -1,3 +1,4 @@
+/* Buckets by the leading bits of the float, as lists, and bitmaps of those that hold any. */
 #include "simplify/bucket_queue.h"
 
 /* The item before one is a number below the items'; the first of bucket k has FIRST + k; one outside MR_NONE.

@@ -1,3 +1,4 @@
+/* The place of least quadric error (Garland, Heckbert 1997), and the merges that a surface allows. */
 #include "simplify/edge_collapse.h"
 
 /*

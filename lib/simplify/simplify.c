@@ -1,3 +1,4 @@
+/* Garland, Heckbert 1997: Surface simplification using quadric error metrics. */
 #include "simplify/simplify.h"
 
 #include "base/disjoint_sets.h"

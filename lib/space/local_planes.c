@@ -1,3 +1,4 @@
+/* Planes by the covariance of the nearest points, whose eigenvectors Jacobi rotations find. */
 #include "space/local_planes.h"
 
 #include "base/parallel.h"

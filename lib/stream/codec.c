@@ -1,3 +1,4 @@
+/* Differences of rows, their bytes apart, deflated (man/mr-stream.5, codec 1). */
 #include "stream/stored.h"
 
 #include <limits.h>

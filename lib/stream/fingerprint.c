@@ -1,3 +1,4 @@
+/* A hash of multiplications. */
 #include "stream/fingerprint.h"
 
 /*

@@ -1,3 +1,4 @@
+/* Columns by name, in their order; values decoded and verified when they are asked for. */
 #include "stream/frame.h"
 
 #include "base/utf8.h"

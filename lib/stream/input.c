@@ -1,3 +1,4 @@
+/* Bytes from a descriptor: a file is mapped, a pipe read into blocks. */
 #define _GNU_SOURCE /* F_SETPIPE_SZ, MADV_DONTNEED */
 
 #include "stream/stored.h"

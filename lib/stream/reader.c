@@ -1,3 +1,4 @@
+/* Records to frames: a delta is merged with what it keeps of the frame before (man/mr-stream.5). */
 #include "stream/stored.h"
 
 struct mr_reader {

@@ -1,3 +1,4 @@
+/* Headers to and from bytes, and what must hold of them. */
 #include "stream/record.h"
 
 #include "base/utf8.h"

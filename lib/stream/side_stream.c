@@ -1,3 +1,4 @@
+/* The second stream is read as far as the first has come. */
 #include "stream/side_stream.h"
 
 #include <errno.h>

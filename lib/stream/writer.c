@@ -1,3 +1,4 @@
+/* Frames to records: of a delta what differs from what was sent before (man/mr-stream.5). */
 #include "stream/stored.h"
 
 #include "stream/fingerprint.h"

@@ -1,3 +1,4 @@
+/* Each kind of column has its own way to a finer level. */
 #include "subdivide/columns.h"
 
 /* The layer's column on level n. */

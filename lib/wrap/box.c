@@ -1,3 +1,4 @@
+/* A box of a lattice of quadrilaterals, each cut in two. */
 #include "wrap/parts.h"
 
 /*

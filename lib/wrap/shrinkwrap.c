@@ -1,3 +1,4 @@
+/* Jeong, Kim 2001, section 3, and beyond it: the box and the volume, and which of them is better. */
 #include "wrap/shrinkwrap.h"
 
 #include "base/disjoint_sets.h"

@@ -61,6 +61,11 @@ extra=$(git ls-files 2>/dev/null | cut -d/ -f1 | sort -u |
     grep -vxE 'Makefile|cmd|lib|formats|tests|examples|man|README\.md|LICENSE|\..*')
 [ -z "$extra" ] || { echo "top level: $extra"; fail=1; }
 
+# A file opens by what it does, or whose method it is.
+for f in lib/*.h lib/*/*.[ch] formats/*.[ch] cmd/*.[ch]; do
+	head -c 2 "$f" | grep -qF '/*' || { echo "$f opens without a sentence"; fail=1; }
+done
+
 # Files that a person can hold in mind.
 long=$(find lib formats cmd tests -name '*.[ch]' -exec wc -l {} + | awk '$2 != "total" && $1 > 900')
 [ -z "$long" ] || { echo "over 900 lines: $long"; fail=1; }
