@@ -27,12 +27,12 @@ shown(const char *path, const char *standard)
 }
 
 void
-mr_bytes_free(mr_bytes *b)
+mr_file_bytes_free(mr_file_bytes *b)
 {
 	free(b->memory);
 	if (b->map)
 		munmap(b->map, b->mapped);
-	*b = (mr_bytes){ 0 };
+	*b = (mr_file_bytes){ 0 };
 }
 
 /* Makes room for more, by doubling; false where memory cannot be had, or is not there: a pipe, and what a
@@ -56,7 +56,7 @@ widen(unsigned char **memory, size_t *room, size_t least)
 }
 
 static mr_status
-read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_bytes *b)
+read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_file_bytes *b)
 {
 	unsigned char *memory = NULL;
 	size_t size = 0, room = 0, looked = HEAD / 2;
@@ -86,13 +86,13 @@ read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_bytes 
 		}
 		size += (size_t)n;
 	}
-	*b = (mr_bytes){ .data = memory, .size = size, .memory = memory };
+	*b = (mr_file_bytes){ .data = memory, .size = size, .memory = memory };
 	return MR_OK;
 }
 
 /* Maps what a regular file has from here on; false where it is none, is empty or cannot be mapped. */
 static bool
-map_all(int fd, mr_bytes *b)
+map_all(int fd, mr_file_bytes *b)
 {
 	struct stat st;
 	off_t here = lseek(fd, 0, SEEK_CUR);
@@ -105,7 +105,7 @@ map_all(int fd, mr_bytes *b)
 	map = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
 	if (map == MAP_FAILED)
 		return false;
-	*b = (mr_bytes){
+	*b = (mr_file_bytes){
 		.data = (unsigned char *)map + here, .size = size - (size_t)here, .map = map, .mapped = size
 	};
 	return true;
@@ -114,7 +114,7 @@ map_all(int fd, mr_bytes *b)
 /* The size that the trailer of the last member claims, where deflate could have made so much of these bytes.
  */
 static size_t
-claimed_size(const mr_bytes *b)
+claimed_size(const mr_file_bytes *b)
 {
 	const unsigned char *e = b->data + b->size;
 	size_t n = b->size < 18
@@ -126,7 +126,7 @@ claimed_size(const mr_bytes *b)
 
 static mr_status
 inflate_members(
-    mr_ctx *ctx, const char *path, z_stream *z, const mr_bytes *in, unsigned char **memory, size_t *size)
+    mr_ctx *ctx, const char *path, z_stream *z, const mr_file_bytes *in, unsigned char **memory, size_t *size)
 {
 	size_t room = 0, given = 0, done = 0;
 
@@ -164,7 +164,7 @@ inflate_members(
 }
 
 static mr_status
-gunzip(mr_ctx *ctx, const char *path, mr_bytes *b)
+gunzip(mr_ctx *ctx, const char *path, mr_file_bytes *b)
 {
 	z_stream z = { 0 };
 	unsigned char *memory = NULL;
@@ -175,20 +175,20 @@ gunzip(mr_ctx *ctx, const char *path, mr_bytes *b)
 		return mr_fail(ctx, MR_EMEM, "%s: no memory to inflate", path);
 	status = inflate_members(ctx, path, &z, b, &memory, &size);
 	inflateEnd(&z);
-	mr_bytes_free(b);
+	mr_file_bytes_free(b);
 	if (status < 0)
 		free(memory);
 	else
-		*b = (mr_bytes){ .data = memory, .size = size, .memory = memory };
+		*b = (mr_file_bytes){ .data = memory, .size = size, .memory = memory };
 	return status;
 }
 
 mr_status
-mr_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_bytes *b)
+mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_file_bytes *b)
 {
 	const char *name = shown(path, "stdin");
 	int fd = strcmp(path, "-") ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
-	mr_bytes got = { 0 };
+	mr_file_bytes got = { 0 };
 	mr_status status = MR_OK;
 
 	if (fd < 0)

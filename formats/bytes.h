@@ -7,13 +7,13 @@
 #include "base/ctx.h"
 
 /* The bytes of a file: mapped, or read and inflated into memory of their own. */
-typedef struct mr_bytes {
+typedef struct mr_file_bytes {
 	const unsigned char *data;
 	size_t size;
 	void *memory; /* to free; NULL: mapped or empty */
 	void *map;    /* to unmap */
 	size_t mapped;
-} mr_bytes;
+} mr_file_bytes;
 
 /* Looks at what has come of a file so far; a failure ends the reading. */
 typedef struct mr_judge {
@@ -24,9 +24,10 @@ typedef struct mr_judge {
 /*
  * Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  What is no regular file may
  * never end: the judge (NULL: none) looks at its first 16 MiB and again whenever that has doubled.  Free with
- * mr_bytes_free.
+ * mr_file_bytes_free.
  */
-mr_status mr_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_bytes *b) MR_WARN_UNUSED;
+mr_status
+mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_file_bytes *b) MR_WARN_UNUSED;
 
 /* By the bytes that gzip begins with. */
 static inline bool
@@ -36,7 +37,7 @@ mr_is_gzip(const unsigned char *data, size_t size)
 }
 
 /* Accepts a zeroed one. */
-void mr_bytes_free(mr_bytes *b);
+void mr_file_bytes_free(mr_file_bytes *b);
 
 /* Where a writer puts its bytes.  The first failure is kept and reported by mr_sink_close. */
 typedef struct mr_sink {

@@ -272,12 +272,12 @@ mr_status
 mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 {
 	const source s = { path, format };
-	mr_bytes bytes = { 0 };
+	mr_file_bytes bytes = { 0 };
 	mr_status status;
 
-	MR_TRY(mr_bytes_read(ctx, path, &(mr_judge){ judge, &s }, &bytes));
+	MR_TRY(mr_file_bytes_read(ctx, path, &(mr_judge){ judge, &s }, &bytes));
 	status = mr_model_parse(ctx, path, format, bytes.data, bytes.size, m);
-	mr_bytes_free(&bytes);
+	mr_file_bytes_free(&bytes);
 	if (status == MR_EUSAGE)
 		return status;
 	return mr_prefix(ctx, status, "%s", strcmp(path, "-") ? path : "stdin");

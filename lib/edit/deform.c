@@ -108,7 +108,7 @@ static mr_status
 make_workspace(mr_ctx *ctx, mr_deform *d)
 {
 	size_t n = d->patch.mesh.nv * WIDTH;
-	field f = { .u = MR_NEW(ctx, n, double),
+	mr_patch_field f = { .u = MR_NEW(ctx, n, double),
 		.stage = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) },
 		.r = MR_NEW(ctx, d->patch.end[0] * WIDTH, double) };
 

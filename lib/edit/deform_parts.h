@@ -16,12 +16,12 @@
 enum { WIDTH = 4 }; /* right-hand sides solved together, at most */
 
 /* A field over the patch: `width` values per vertex, next to each other. */
-typedef struct field {
+typedef struct mr_patch_field {
 	double *u;        /* on the constraints given, on the free vertices to be solved for */
 	double *stage[2]; /* workspace of as many rows */
 	double *r;        /* of the free vertices, one column after another */
 	size_t width;
-} field;
+} mr_patch_field;
 
 struct mr_deform {
 	mr_deform_opts opts;
@@ -34,9 +34,9 @@ struct mr_deform {
 	mr_sparse l_ff;   /* L of the free vertices alone, for multigrid */
 	mr_sparse a;      /* K, which iterative solvers borrow */
 	mr_hierarchy hierarchy;
-	mr_solver *solver; /* NULL where nothing is to be solved */
-	field work;        /* kept from solve to solve: fresh pages cost as much as the arithmetic */
-	uint32_t lowest;   /* region that moves the whole: fixed, or the lowest handle's */
+	mr_solver *solver;   /* NULL where nothing is to be solved */
+	mr_patch_field work; /* kept from solve to solve: fresh pages cost as much as the arithmetic */
+	uint32_t lowest;     /* region that moves the whole: fixed, or the lowest handle's */
 	size_t handles;
 	size_t free, fixed, handled;  /* vertices */
 	size_t loose, loose_vertices; /* free components without a constraint, their vertices */
@@ -52,9 +52,9 @@ struct mr_deform {
 mr_status mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double started);
 
 /* The workspace as a field of this width, all 0. */
-field mr_deform_field(const mr_deform *d, size_t width);
+mr_patch_field mr_deform_field(const mr_deform *d, size_t width);
 
 /* r = -(K u)_f */
-void mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, field *f);
+void mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, mr_patch_field *f);
 
 #endif

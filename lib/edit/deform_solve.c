@@ -5,10 +5,10 @@
 #include "edit/deform_parts.h"
 #include "solve/sparse.h"
 
-field
+mr_patch_field
 mr_deform_field(const mr_deform *d, size_t width)
 {
-	field f = d->work;
+	mr_patch_field f = d->work;
 
 	f.width = width;
 	memset(f.u, 0, d->patch.mesh.nv * width * sizeof *f.u);
@@ -17,7 +17,7 @@ mr_deform_field(const mr_deform *d, size_t width)
 
 /* K applied as L, then k - 1 times L W, each on one ring less. */
 void
-mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, field *f)
+mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, mr_patch_field *f)
 {
 	size_t k = d->opts.order, n = d->patch.end[0];
 	const double *x = f->u;
@@ -48,7 +48,7 @@ norm_of(const double *r, size_t n)
  * is the same; only the rounding of K u, which a bad condition blows up, is not.
  */
 static mr_status
-residual_long(mr_ctx *ctx, const mr_deform *d, field *f)
+residual_long(mr_ctx *ctx, const mr_deform *d, mr_patch_field *f)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t k = d->opts.order, n = d->patch.end[0], size = d->patch.mesh.nv * f->width;
@@ -74,7 +74,7 @@ residual_long(mr_ctx *ctx, const mr_deform *d, field *f)
 
 /* u_f += r */
 static void
-add_free(const mr_deform *d, field *f)
+add_free(const mr_deform *d, mr_patch_field *f)
 {
 	size_t n = d->patch.end[0];
 
@@ -85,7 +85,7 @@ add_free(const mr_deform *d, field *f)
 
 /* Iterative refinement (Wilkinson 1963), while a correction is less than half the one before. */
 static mr_status
-refine(mr_ctx *ctx, mr_deform *d, field *f)
+refine(mr_ctx *ctx, mr_deform *d, mr_patch_field *f)
 {
 	enum { MOST = 5 };
 	static const double enough = 1e-14; /* of the solution */
@@ -112,7 +112,7 @@ refine(mr_ctx *ctx, mr_deform *d, field *f)
  * A large residual or a bad condition asks for refinement.
  */
 static mr_status
-solve_field(mr_ctx *ctx, mr_deform *d, field *f, double scale)
+solve_field(mr_ctx *ctx, mr_deform *d, mr_patch_field *f, double scale)
 {
 	static const double ill = 1e-8; /* a condition at which rounding alone may cost 1e-9 */
 	size_t n = d->patch.end[0] * f->width;
@@ -139,7 +139,7 @@ solve_field(mr_ctx *ctx, mr_deform *d, field *f, double scale)
 /* The undeformed surface */
 
 static void
-set_points(const mr_deform *d, field *f, const mr_v3 *p, mr_v3 origin, size_t begin, size_t end)
+set_points(const mr_deform *d, mr_patch_field *f, const mr_v3 *p, mr_v3 origin, size_t begin, size_t end)
 {
 	for (size_t i = begin; i < end; i++) {
 		mr_v3 x = mr_sub(p[d->patch.vertex[i]], origin);
@@ -157,7 +157,7 @@ relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out)
 	mr_box box = mr_box_of(p, d->nv);
 	mr_v3 origin = mr_lerp(0.5, box.min, box.max);
 	double scale;
-	field f = mr_deform_field(d, 3);
+	mr_patch_field f = mr_deform_field(d, 3);
 
 	set_points(d, &f, p, origin, n, d->patch.mesh.nv);
 	mr_deform_residual(ctx, d, &f);
@@ -235,7 +235,8 @@ check_maps(mr_ctx *ctx, const mr_deform *d, const mr_affine *t, size_t count)
 
 /* z = p - T p0 on the constraints of the patch, p being where they go; 0 elsewhere. */
 static void
-set_displacements(const mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const mr_v3 *p, field *f)
+set_displacements(
+    const mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const mr_v3 *p, mr_patch_field *f)
 {
 	for (size_t i = d->patch.end[0]; i < d->patch.mesh.nv; i++) {
 		uint32_t v = d->patch.vertex[i];
@@ -257,7 +258,7 @@ static mr_status
 solve_displacements(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p)
 {
 	size_t n = d->patch.end[0];
-	field f = mr_deform_field(d, 3);
+	mr_patch_field f = mr_deform_field(d, 3);
 
 	set_displacements(d, whole, p0, p, &f);
 	mr_deform_residual(ctx, d, &f);
@@ -349,7 +350,7 @@ static mr_status
 respond_to(mr_ctx *ctx, mr_deform *d, size_t h, const mr_v3 *p0, double *response)
 {
 	size_t n = d->patch.end[0];
-	field f = mr_deform_field(d, WIDTH);
+	mr_patch_field f = mr_deform_field(d, WIDTH);
 
 	for (size_t i = n; i < d->patch.mesh.nv; i++)
 		if (d->region[d->patch.vertex[i]] == MR_REGION_HANDLE + h)

@@ -23,7 +23,7 @@ estimate_condition(mr_ctx *ctx, mr_deform *d, double *condition)
 {
 	enum { STEPS = 60 };
 	size_t n = d->patch.end[0];
-	field f = mr_deform_field(d, 1);
+	mr_patch_field f = mr_deform_field(d, 1);
 	double greatest = 0, inverse = 0;
 
 	mr_rough_start(n, f.u);

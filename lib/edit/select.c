@@ -7,15 +7,15 @@
 typedef struct mr_parsed_rule {
 	uint32_t region;
 	const char *option, *text;
-	term *term;
+	mr_select_term *term;
 	size_t terms;
 } rule;
 
 /* The predicate whose name begins `text`, followed by a colon, a '+' or nothing. */
-static const predicate *
+static const mr_predicate *
 find_predicate(const char *text)
 {
-	for (const predicate *p = mr_predicates; p->name; p++) {
+	for (const mr_predicate *p = mr_predicates; p->name; p++) {
 		size_t n = strlen(p->name);
 		if (!strncmp(text, p->name, n) && (!text[n] || text[n] == ':' || text[n] == '+'))
 			return p;
@@ -39,11 +39,11 @@ term_length(const char *text)
 }
 
 static mr_status
-parse_term(mr_ctx *ctx, const char *text, term *t)
+parse_term(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
 	const char *colon;
 
-	*t = (term){ 0 };
+	*t = (mr_select_term){ 0 };
 	for (; !strncmp(text, "not:", 4); text += 4)
 		t->negate = !t->negate;
 	t->predicate = find_predicate(text);
@@ -66,7 +66,7 @@ parse_rule(mr_ctx *ctx, const char *text, rule *r)
 
 	for (size_t i = 0; text[i]; i++)
 		terms += text[i] == '+';
-	r->term = MR_NEW(ctx, terms, term);
+	r->term = MR_NEW(ctx, terms, mr_select_term);
 	if (!r->term)
 		return MR_EMEM;
 	for (;;) {
@@ -94,11 +94,11 @@ mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *opti
 
 /* Sets in[v] where all terms of the rule hold.  one: workspace, nv. */
 static mr_status
-eval_rule(mr_ctx *ctx, const scene *s, const rule *r, bool *one, bool *in)
+eval_rule(mr_ctx *ctx, const mr_select_scene *s, const rule *r, bool *one, bool *in)
 {
 	memset(in, true, s->m->nv);
 	for (size_t i = 0; i < r->terms; i++) {
-		const term *t = &r->term[i];
+		const mr_select_term *t = &r->term[i];
 		memset(one, false, s->m->nv);
 		MR_TRY(mr_prefix(ctx, t->predicate->eval(ctx, s, t, one), "%s%s", r->option, r->text));
 		for (size_t v = 0; v < s->m->nv; v++)
@@ -108,7 +108,7 @@ eval_rule(mr_ctx *ctx, const scene *s, const rule *r, bool *one, bool *in)
 }
 
 static mr_status
-apply_rule(mr_ctx *ctx, scene *s, const rule *r, bool *one, bool *in, uint32_t *region)
+apply_rule(mr_ctx *ctx, mr_select_scene *s, const rule *r, bool *one, bool *in, uint32_t *region)
 {
 	size_t n = 0;
 
@@ -160,7 +160,7 @@ mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selec
 	bool *one = MR_NEW(ctx, m->nv, bool), *in = MR_NEW(ctx, m->nv, bool);
 	uint32_t *selected = MR_NEW(ctx, m->nv, uint32_t);
 	mr_incidence inc;
-	scene sc = { m, groups, &inc, mr_box_of(m->p, m->nv), selected, 0 };
+	mr_select_scene sc = { m, groups, &inc, mr_box_of(m->p, m->nv), selected, 0 };
 
 	if (!one || !in || !selected)
 		return MR_EMEM;

@@ -8,8 +8,8 @@
 
 #include "edit/select.h"
 
-typedef struct term {
-	const struct predicate *predicate;
+typedef struct mr_select_term {
+	const struct mr_predicate *predicate;
 	bool negate;
 	double x[6];      /* numbers, in the order written */
 	bool relative;    /* the last of them is a share of the diagonal */
@@ -19,29 +19,29 @@ typedef struct term {
 	const char *name; /* group */
 	uint32_t *list;   /* vertices */
 	size_t listed;
-} term;
+} mr_select_term;
 
 /* What a predicate is evaluated on. */
-typedef struct scene {
+typedef struct mr_select_scene {
 	const mr_mesh *m;
 	const mr_groups *groups;
 	const mr_incidence *inc;
 	mr_box box;
 	const uint32_t *region; /* as the rules before left it */
 	uint32_t target;        /* the region that the rule gives */
-} scene;
+} mr_select_scene;
 
 /* A kind of predicate: reads what stands behind its colon, sets in[v] where it holds (given all false). */
-typedef struct predicate {
+typedef struct mr_predicate {
 	const char *name;
 	/* NULL: nothing may stand there */
-	mr_status (*parse)(mr_ctx *ctx, const char *text, term *t);
-	mr_status (*eval)(mr_ctx *ctx, const scene *s, const term *t, bool *in);
+	mr_status (*parse)(mr_ctx *ctx, const char *text, mr_select_term *t);
+	mr_status (*eval)(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in);
 	size_t numbers; /* for parse_numbers */
 	bool length;    /* the last number is a length */
-} predicate;
+} mr_predicate;
 
 /* All of them; ends with a name of NULL. */
-extern const predicate mr_predicates[];
+extern const mr_predicate mr_predicates[];
 
 #endif

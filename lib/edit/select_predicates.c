@@ -1,15 +1,15 @@
 /* The predicates of a selection: how each is written, and for which vertices it holds. */
-#include "space/geodesic.h"
 #include "base/text_file.h"
 #include "edit/select_parts.h"
 #include "mesh/layers.h"
+#include "space/geodesic.h"
 
 /* Parsing */
 
 static mr_status
-parse_numbers(mr_ctx *ctx, const char *text, term *t)
+parse_numbers(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
-	const predicate *p = t->predicate;
+	const mr_predicate *p = t->predicate;
 	const char *at = text;
 
 	if (!mr_numbers(&at, p->numbers, t->x))
@@ -28,7 +28,7 @@ parse_numbers(mr_ctx *ctx, const char *text, term *t)
 }
 
 static mr_status
-parse_axis(mr_ctx *ctx, const char *text, term *t)
+parse_axis(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
 	const char *at = text + 1;
 
@@ -41,7 +41,7 @@ parse_axis(mr_ctx *ctx, const char *text, term *t)
 }
 
 static mr_status
-parse_rings(mr_ctx *ctx, const char *text, term *t)
+parse_rings(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
 	const char *at = text;
 	uint64_t v, k;
@@ -54,7 +54,7 @@ parse_rings(mr_ctx *ctx, const char *text, term *t)
 }
 
 static mr_status
-parse_count(mr_ctx *ctx, const char *text, term *t)
+parse_count(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
 	const char *at = text;
 	uint64_t k;
@@ -66,14 +66,14 @@ parse_count(mr_ctx *ctx, const char *text, term *t)
 }
 
 static mr_status
-parse_name(mr_ctx *ctx, const char *text, term *t)
+parse_name(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
 	t->name = text;
 	return *text ? MR_OK : mr_fail(ctx, MR_EUSAGE, "a name is missing");
 }
 
 static mr_status
-parse_list(mr_ctx *ctx, const char *text, term *t)
+parse_list(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
 	char **line;
 	size_t n;
@@ -100,7 +100,7 @@ parse_list(mr_ctx *ctx, const char *text, term *t)
 
 /* The length that ends the term's numbers, in units of the model. */
 static double
-length_of(const scene *s, const term *t)
+length_of(const mr_select_scene *s, const mr_select_term *t)
 {
 	double r = t->x[t->predicate->numbers - 1];
 
@@ -108,13 +108,13 @@ length_of(const scene *s, const term *t)
 }
 
 static mr_v3
-point_of(const term *t)
+point_of(const mr_select_term *t)
 {
 	return mr_vec(t->x[0], t->x[1], t->x[2]);
 }
 
 static mr_status
-eval_all(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_all(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	(void)ctx, (void)t;
 	memset(in, true, s->m->nv);
@@ -122,7 +122,7 @@ eval_all(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_sphere(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_sphere(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	double r = length_of(s, t);
 
@@ -133,7 +133,7 @@ eval_sphere(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_box(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_box(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	(void)ctx;
 	for (size_t v = 0; v < s->m->nv; v++) {
@@ -147,7 +147,7 @@ eval_box(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_halfspace(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_halfspace(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	(void)ctx;
 	for (size_t v = 0; v < s->m->nv; v++)
@@ -157,7 +157,7 @@ eval_halfspace(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 
 /* Where the term's fraction of the bounding box is, along its axis. */
 static double
-level_of(const scene *s, const term *t)
+level_of(const mr_select_scene *s, const mr_select_term *t)
 {
 	double low = mr_coordinate(s->box.min, t->axis), high = mr_coordinate(s->box.max, t->axis);
 
@@ -165,7 +165,7 @@ level_of(const scene *s, const term *t)
 }
 
 static mr_status
-eval_above(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_above(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	double level = level_of(s, t);
 
@@ -176,7 +176,7 @@ eval_above(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_below(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_below(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	double level = level_of(s, t);
 
@@ -187,7 +187,7 @@ eval_below(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_geodesic(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_geodesic(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double r = length_of(s, t), *distance = MR_NEW(ctx, s->m->nv, double);
@@ -204,7 +204,7 @@ eval_geodesic(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 /* Adds the neighbours of what is in, ring by ring, as far as `rings` and while `may` (or all, if NULL)
  * allows. */
 static mr_status
-add_rings(mr_ctx *ctx, const scene *s, size_t rings, const uint32_t *region, bool *in)
+add_rings(mr_ctx *ctx, const mr_select_scene *s, size_t rings, const uint32_t *region, bool *in)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *queue = MR_NEW(ctx, s->m->nv, uint32_t);
@@ -230,7 +230,7 @@ add_rings(mr_ctx *ctx, const scene *s, size_t rings, const uint32_t *region, boo
 }
 
 static mr_status
-eval_rings(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_rings(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	if (t->vertex >= s->m->nv)
 		return mr_fail(ctx, MR_ERANGE, "vertex %u, %s has %zu", t->vertex, s->m->name, s->m->nv);
@@ -239,7 +239,7 @@ eval_rings(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_component(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_component(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	size_t nearest = 0;
 	double best = INFINITY;
@@ -272,7 +272,7 @@ line_of(const mr_groups *g, const char *name)
 }
 
 static mr_status
-eval_group(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_group(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	uint32_t group;
 
@@ -289,7 +289,7 @@ eval_group(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 
 /* How many faces at v have the corner w too. */
 static size_t
-faces_at_edge(const scene *s, uint32_t v, uint32_t w)
+faces_at_edge(const mr_select_scene *s, uint32_t v, uint32_t w)
 {
 	size_t n = 0;
 
@@ -301,7 +301,7 @@ faces_at_edge(const scene *s, uint32_t v, uint32_t w)
 }
 
 static mr_status
-eval_boundary(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_boundary(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	(void)ctx, (void)t;
 	for (size_t f = 0; f < s->m->nf; f++)
@@ -314,7 +314,7 @@ eval_boundary(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_grow(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_grow(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	for (size_t v = 0; v < s->m->nv; v++)
 		in[v] = s->region[v] == s->target;
@@ -322,7 +322,7 @@ eval_grow(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 }
 
 static mr_status
-eval_list(mr_ctx *ctx, const scene *s, const term *t, bool *in)
+eval_list(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
 	for (size_t i = 0; i < t->listed; i++) {
 		if (t->list[i] >= s->m->nv)
@@ -333,7 +333,7 @@ eval_list(mr_ctx *ctx, const scene *s, const term *t, bool *in)
 	return MR_OK;
 }
 
-const predicate mr_predicates[] = {
+const mr_predicate mr_predicates[] = {
 	{ "all", NULL, eval_all, 0, false },
 	{ "sphere", parse_numbers, eval_sphere, 4, true },
 	{ "box", parse_numbers, eval_box, 6, false },

@@ -399,7 +399,7 @@ mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geo
 /* ---- clouds ---- */
 
 static mr_status
-measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud *c)
+measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud_figures *c)
 {
 	double *spacing = MR_NEW(ctx, s->n, double);
 	size_t count = 0;
@@ -425,10 +425,10 @@ measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud *c)
 }
 
 mr_status
-mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud *out)
+mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud_figures *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_cloud c = { .points = n, .spacing = { NAN, NAN, NAN, NAN } };
+	mr_cloud_figures c = { .points = n, .spacing = { NAN, NAN, NAN, NAN } };
 	mr_v3 *finite = MR_NEW(ctx, n, mr_v3);
 	mr_sampling found;
 	size_t count = 0;

@@ -59,7 +59,7 @@ void mr_mark_boundary(const mr_mesh *m, const mr_edges *edges, bool *boundary);
 
 /* Of points, finite or not; all but these counts are of the finite ones.  NaN of one place, what has no
  * number. */
-typedef struct mr_cloud {
+typedef struct mr_cloud_figures {
 	size_t points, not_finite;
 	size_t duplicates; /* points at the place of an earlier one */
 	mr_box box;
@@ -68,10 +68,10 @@ typedef struct mr_cloud {
 	mr_spread spacing;       /* of the places that are no outliers */
 	double usual, area, evenness;
 	double noise, noise_spacing, noise_diagonal; /* the same in median spacings, and in diagonals */
-} mr_cloud;
+} mr_cloud_figures;
 
 /* sampling: of the points, where it is known; NULL: found.  Fails as mr_sampling_find does. */
 mr_status
-mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud *cloud);
+mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud_figures *cloud);
 
 #endif

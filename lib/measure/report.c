@@ -109,7 +109,7 @@ static mr_status
 report_surface(const report *r, const char *layer)
 {
 	bool intersections = !r->opts->skip_intersections;
-	mr_surface s;
+	mr_surface_figures s;
 	mr_mesh m;
 
 	MR_TRY(mr_layer_mesh(r->ctx, r->f, layer, &m));
@@ -131,7 +131,7 @@ report_cloud(const report *r, const char *layer)
 	mr_sampling sampling;
 	bool stored = false;
 	const void *p;
-	mr_cloud c;
+	mr_cloud_figures c;
 	size_t n;
 
 	MR_TRY(mr_layer_get(r->ctx, r->f, layer, "position", &p, &n));

@@ -3,53 +3,54 @@
 #include "measure/report_parts.h"
 
 static const mr_figure surface_figures[] = {
-	{ "edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.edges) },
-	{ "components", MR_FIGURE_COUNT, offsetof(mr_surface, census.components) },
-	{ "euler", MR_FIGURE_SIGNED, offsetof(mr_surface, census.euler) },
-	{ "oriented", MR_FIGURE_TRUTH, offsetof(mr_surface, census.oriented) },
-	{ "manifold", MR_FIGURE_TRUTH, offsetof(mr_surface, census.manifold) },
-	{ "boundary_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.boundary_edges) },
-	{ "boundary_loops", MR_FIGURE_COUNT, offsetof(mr_surface, census.boundary_loops) },
-	{ "nonmanifold_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.nonmanifold_edges) },
-	{ "nonmanifold_vertices", MR_FIGURE_COUNT, offsetof(mr_surface, census.nonmanifold_vertices) },
-	{ "inconsistent_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.inconsistent_edges) },
-	{ "degenerate_faces", MR_FIGURE_COUNT, offsetof(mr_surface, census.degenerate_faces) },
-	{ "duplicate_faces", MR_FIGURE_COUNT, offsetof(mr_surface, census.duplicate_faces) },
-	{ "isolated_vertices", MR_FIGURE_COUNT, offsetof(mr_surface, census.isolated_vertices) },
-	{ "folded_edges", MR_FIGURE_COUNT, offsetof(mr_surface, census.folded_edges) },
-	{ "diagonal", MR_FIGURE_REAL, offsetof(mr_surface, geometry.diagonal) },
-	{ "area", MR_FIGURE_REAL, offsetof(mr_surface, geometry.area) },
-	{ "volume", MR_FIGURE_REAL, offsetof(mr_surface, geometry.volume) },
-	{ "edge_min", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.min) },
-	{ "edge_mean", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.mean) },
-	{ "edge_max", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.max) },
-	{ "edge_deviation", MR_FIGURE_REAL, offsetof(mr_surface, geometry.edge.deviation) },
-	{ "angle_min", MR_FIGURE_REAL, offsetof(mr_surface, geometry.angle_min) },
-	{ "angle_max", MR_FIGURE_REAL, offsetof(mr_surface, geometry.angle_max) },
-	{ "angle_error", MR_FIGURE_REAL, offsetof(mr_surface, geometry.angle_error) },
-	{ "valence6", MR_FIGURE_REAL, offsetof(mr_surface, geometry.valence6) },
-	{ "interior_vertices", MR_FIGURE_COUNT, offsetof(mr_surface, evenness.vertices) },
-	{ "voronoi_mean", MR_FIGURE_REAL, offsetof(mr_surface, evenness.mean) },
-	{ "voronoi_error", MR_FIGURE_REAL, offsetof(mr_surface, evenness.error) },
-	{ "voronoi_variance", MR_FIGURE_REAL, offsetof(mr_surface, evenness.variance) },
+	{ "edges", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.edges) },
+	{ "components", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.components) },
+	{ "euler", MR_FIGURE_SIGNED, offsetof(mr_surface_figures, census.euler) },
+	{ "oriented", MR_FIGURE_TRUTH, offsetof(mr_surface_figures, census.oriented) },
+	{ "manifold", MR_FIGURE_TRUTH, offsetof(mr_surface_figures, census.manifold) },
+	{ "boundary_edges", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.boundary_edges) },
+	{ "boundary_loops", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.boundary_loops) },
+	{ "nonmanifold_edges", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.nonmanifold_edges) },
+	{ "nonmanifold_vertices", MR_FIGURE_COUNT,
+	    offsetof(mr_surface_figures, census.nonmanifold_vertices) },
+	{ "inconsistent_edges", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.inconsistent_edges) },
+	{ "degenerate_faces", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.degenerate_faces) },
+	{ "duplicate_faces", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.duplicate_faces) },
+	{ "isolated_vertices", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.isolated_vertices) },
+	{ "folded_edges", MR_FIGURE_COUNT, offsetof(mr_surface_figures, census.folded_edges) },
+	{ "diagonal", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.diagonal) },
+	{ "area", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.area) },
+	{ "volume", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.volume) },
+	{ "edge_min", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.edge.min) },
+	{ "edge_mean", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.edge.mean) },
+	{ "edge_max", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.edge.max) },
+	{ "edge_deviation", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.edge.deviation) },
+	{ "angle_min", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.angle_min) },
+	{ "angle_max", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.angle_max) },
+	{ "angle_error", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.angle_error) },
+	{ "valence6", MR_FIGURE_REAL, offsetof(mr_surface_figures, geometry.valence6) },
+	{ "interior_vertices", MR_FIGURE_COUNT, offsetof(mr_surface_figures, evenness.vertices) },
+	{ "voronoi_mean", MR_FIGURE_REAL, offsetof(mr_surface_figures, evenness.mean) },
+	{ "voronoi_error", MR_FIGURE_REAL, offsetof(mr_surface_figures, evenness.error) },
+	{ "voronoi_variance", MR_FIGURE_REAL, offsetof(mr_surface_figures, evenness.variance) },
 };
 
 static const mr_figure cloud_figures[] = {
-	{ "not_finite", MR_FIGURE_COUNT, offsetof(mr_cloud, not_finite) },
-	{ "duplicates", MR_FIGURE_COUNT, offsetof(mr_cloud, duplicates) },
-	{ "places", MR_FIGURE_COUNT, offsetof(mr_cloud, places) },
-	{ "outliers", MR_FIGURE_COUNT, offsetof(mr_cloud, outliers) },
-	{ "diagonal", MR_FIGURE_REAL, offsetof(mr_cloud, diagonal) },
-	{ "spacing_min", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.min) },
-	{ "spacing_mean", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.mean) },
-	{ "spacing_max", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.max) },
-	{ "spacing_deviation", MR_FIGURE_REAL, offsetof(mr_cloud, spacing.deviation) },
-	{ "spacing_median", MR_FIGURE_REAL, offsetof(mr_cloud, usual) },
-	{ "evenness", MR_FIGURE_REAL, offsetof(mr_cloud, evenness) },
-	{ "area", MR_FIGURE_REAL, offsetof(mr_cloud, area) },
-	{ "noise", MR_FIGURE_REAL, offsetof(mr_cloud, noise) },
-	{ "noise_spacing", MR_FIGURE_REAL, offsetof(mr_cloud, noise_spacing) },
-	{ "noise_diagonal", MR_FIGURE_REAL, offsetof(mr_cloud, noise_diagonal) },
+	{ "not_finite", MR_FIGURE_COUNT, offsetof(mr_cloud_figures, not_finite) },
+	{ "duplicates", MR_FIGURE_COUNT, offsetof(mr_cloud_figures, duplicates) },
+	{ "places", MR_FIGURE_COUNT, offsetof(mr_cloud_figures, places) },
+	{ "outliers", MR_FIGURE_COUNT, offsetof(mr_cloud_figures, outliers) },
+	{ "diagonal", MR_FIGURE_REAL, offsetof(mr_cloud_figures, diagonal) },
+	{ "spacing_min", MR_FIGURE_REAL, offsetof(mr_cloud_figures, spacing.min) },
+	{ "spacing_mean", MR_FIGURE_REAL, offsetof(mr_cloud_figures, spacing.mean) },
+	{ "spacing_max", MR_FIGURE_REAL, offsetof(mr_cloud_figures, spacing.max) },
+	{ "spacing_deviation", MR_FIGURE_REAL, offsetof(mr_cloud_figures, spacing.deviation) },
+	{ "spacing_median", MR_FIGURE_REAL, offsetof(mr_cloud_figures, usual) },
+	{ "evenness", MR_FIGURE_REAL, offsetof(mr_cloud_figures, evenness) },
+	{ "area", MR_FIGURE_REAL, offsetof(mr_cloud_figures, area) },
+	{ "noise", MR_FIGURE_REAL, offsetof(mr_cloud_figures, noise) },
+	{ "noise_spacing", MR_FIGURE_REAL, offsetof(mr_cloud_figures, noise_spacing) },
+	{ "noise_diagonal", MR_FIGURE_REAL, offsetof(mr_cloud_figures, noise_diagonal) },
 };
 
 /* Nothing has no box. */
@@ -99,7 +100,7 @@ flaw(mr_text *t, size_t n, const char *one, const char *many, bool *any)
 }
 
 static void
-flaws_text(mr_text *t, const mr_surface *s, bool intersections)
+flaws_text(mr_text *t, const mr_surface_figures *s, bool intersections)
 {
 	const mr_census *c = &s->census;
 	bool any = false;
@@ -171,7 +172,7 @@ evenness_text(mr_text *t, const mr_evenness *e)
 }
 
 void
-mr_report_surface_text(mr_text *t, const mr_surface *s, bool intersections)
+mr_report_surface_text(mr_text *t, const mr_surface_figures *s, bool intersections)
 {
 	const mr_geometry *g = &s->geometry;
 
@@ -187,7 +188,7 @@ mr_report_surface_text(mr_text *t, const mr_surface *s, bool intersections)
 }
 
 void
-mr_report_surface_json(mr_text *t, const mr_surface *s, bool intersections)
+mr_report_surface_json(mr_text *t, const mr_surface_figures *s, bool intersections)
 {
 	mr_figures_json(t, surface_figures, MR_LENGTH(surface_figures), s);
 	mr_text_add(t, ",\"genus\":");
@@ -204,7 +205,7 @@ mr_report_surface_json(mr_text *t, const mr_surface *s, bool intersections)
 }
 
 void
-mr_report_cloud_text(mr_text *t, const mr_cloud *c)
+mr_report_cloud_text(mr_text *t, const mr_cloud_figures *c)
 {
 	box_text(t, &c->box, c->diagonal);
 	if (c->not_finite)
@@ -223,7 +224,7 @@ mr_report_cloud_text(mr_text *t, const mr_cloud *c)
 }
 
 void
-mr_report_cloud_json(mr_text *t, const mr_cloud *c)
+mr_report_cloud_json(mr_text *t, const mr_cloud_figures *c)
 {
 	mr_figures_json(t, cloud_figures, MR_LENGTH(cloud_figures), c);
 	box_json(t, &c->box);

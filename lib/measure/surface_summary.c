@@ -1,8 +1,8 @@
 /* Census, geometry and intersections together, and how even the areas of the vertices are. */
 #include "measure/surface_summary.h"
 
-#include "space/self_intersect.h"
 #include "op/voronoi_area.h"
+#include "space/self_intersect.h"
 
 /* Moves the areas of interior vertices to the front and returns how many there are. */
 static size_t
@@ -52,10 +52,10 @@ count_intersections(mr_ctx *ctx, const mr_mesh *m, size_t *count)
 }
 
 mr_status
-mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface *out)
+mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface_figures *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_surface s = { .intersections = 0 };
+	mr_surface_figures s = { .intersections = 0 };
 	mr_edges edges;
 
 	MR_TRY(mr_edges_build(ctx, m, &edges));

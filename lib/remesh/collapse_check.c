@@ -30,7 +30,7 @@ cross_after(const mr_dyn *d, uint32_t f, uint32_t a, uint32_t b, mr_v3 p)
 
 /* The same of the faces around a alone. */
 static bool
-folds_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3 p)
+folds_around(const mr_dyn *d, const mr_remesh_source *s, uint32_t a, uint32_t b, mr_v3 p)
 {
 	uint32_t h = d->out[a];
 
@@ -38,14 +38,15 @@ folds_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3
 		uint32_t f = h / 3;
 		if (mr_dyn_to(d, h) != b && mr_dyn_apex(d, h) != b) {
 			mr_v3 n = cross_after(d, f, a, b, p);
-			if (mr_surface_against(s, d, d->at, &d->v[3 * f], n) &&
-			    !mr_surface_against(s, d, d->at, &d->v[3 * f], mr_dyn_cross(d, d->p, f)))
+			if (mr_remesh_against(s, d, d->at, &d->v[3 * f], n) &&
+			    !mr_remesh_against(s, d, d->at, &d->v[3 * f], mr_dyn_cross(d, d->p, f)))
 				return true;
 			for (uint32_t i = 0, k = mr_he_next(h); i < 2; i++, k = mr_he_next(k)) {
 				uint32_t g = beyond(d, k, a, b); /* over the side and the next spoke */
-				if (g != MR_NONE && mr_folds(n, cross_after(d, g / 3, a, b, p), MR_NEAR_FOLD) &&
-				    !(d->twin[k] == g &&
-					mr_folds(mr_dyn_cross(d, d->p, f), mr_dyn_cross(d, d->p, g / 3), MR_NEAR_FOLD)))
+				if (g != MR_NONE &&
+				    mr_folds(n, cross_after(d, g / 3, a, b, p), MR_NEAR_FOLD) &&
+				    !(d->twin[k] == g && mr_folds(mr_dyn_cross(d, d->p, f),
+							     mr_dyn_cross(d, d->p, g / 3), MR_NEAR_FOLD)))
 					return true;
 			}
 		}
@@ -65,7 +66,7 @@ near_axis(mr_v3 n, mr_v3 axis, double axis2)
 
 /* True where the faces around a, those beyond them, and the source there all look the same way. */
 static bool
-plain_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3 p, mr_v3 axis)
+plain_around(const mr_dyn *d, const mr_remesh_source *s, uint32_t a, uint32_t b, mr_v3 p, mr_v3 axis)
 {
 	double axis2 = mr_norm2(axis);
 	mr_v3 source = mr_face_cross(s->m, mr_dyn_place(d, a));
@@ -87,7 +88,7 @@ plain_around(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3
 }
 
 bool
-mr_merging_folds(const mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b, mr_v3 p, mr_v3 axis)
+mr_merging_folds(const mr_dyn *d, const mr_remesh_source *s, uint32_t a, uint32_t b, mr_v3 p, mr_v3 axis)
 {
 	if (plain_around(d, s, a, b, p, axis) && plain_around(d, s, b, a, p, axis))
 		return false; /* as almost everywhere, told with half the normals */

@@ -11,7 +11,7 @@ enum { MOST = 1024, SLOTS = 4 * MOST }; /* vertices looked at around one; of a p
 
 typedef struct search {
 	const mr_dyn *d;
-	const mr_surface *s;
+	const mr_remesh_source *s;
 	double *defect; /* of each vertex: 2 pi less its angles; 0 on curves */
 	double *total;  /* within an edge length; 0 where far too little */
 } search;
@@ -94,7 +94,7 @@ total_body(void *arg, size_t begin, size_t end)
 		w->total[v] = 0;
 		if (w->defect[v] <= 0)
 			continue;
-		gather(w->d, v, mr_surface_length(w->s, w->d, v), &c);
+		gather(w->d, v, mr_remesh_length(w->s, w->d, v), &c);
 		for (size_t i = 0; i < c.n; i++)
 			total += w->defect[c.list[i]];
 		w->total[v] = total > SHARP ? total : 0;
@@ -105,7 +105,7 @@ total_body(void *arg, size_t begin, size_t end)
 static bool
 is_summit(const search *w, uint32_t v, crowd *c)
 {
-	gather(w->d, v, SPACING * mr_surface_length(w->s, w->d, v), c);
+	gather(w->d, v, SPACING * mr_remesh_length(w->s, w->d, v), c);
 	for (size_t i = 0; i < c->n; i++) {
 		uint32_t u = c->list[i];
 		if (w->total[u] > w->total[v] || (w->total[u] == w->total[v] && u < v))
@@ -115,7 +115,7 @@ is_summit(const search *w, uint32_t v, crowd *c)
 }
 
 mr_status
-mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, size_t *pinned)
+mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	search w = { d, s, MR_NEW(ctx, d->nv, double), MR_NEW(ctx, d->nv, double) };

@@ -21,7 +21,7 @@ is_folded(const mr_dyn *d, uint32_t h)
 static mr_v3
 source_normal(const mr_flaws *w, uint32_t v)
 {
-	mr_closest c = mr_surface_place(w->s, w->d, v, w->d->p[v], mr_dyn_normal_around(w->d, v));
+	mr_closest c = mr_remesh_place(w->s, w->d, v, w->d->p[v], mr_dyn_normal_around(w->d, v));
 
 	return mr_facing_normal(&w->facing, c.at);
 }
@@ -122,7 +122,7 @@ find_flaw(void *arg, size_t f)
 }
 
 mr_status
-mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_surface *s, bool sure, mr_flaws *w, size_t *count)
+mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, bool sure, mr_flaws *w, size_t *count)
 {
 	*w = (mr_flaws){ d, s, { s->m, s->topo }, sure, MR_NEW(ctx, d->nf, uint8_t) };
 	if (!w->state)

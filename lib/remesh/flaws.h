@@ -19,7 +19,7 @@ typedef enum mr_flaw_state {
 
 typedef struct mr_flaws {
 	const mr_dyn *d;
-	const mr_surface *s;
+	const mr_remesh_source *s;
 	mr_facing facing;
 	bool sure; /* every face is compared with the source at its corners; else those that look right are
 	              not */
@@ -27,8 +27,8 @@ typedef struct mr_flaws {
 } mr_flaws;
 
 /* Looks at all faces; count: how many have a flaw, which become the suspects.  In the arena. */
-mr_status mr_flaws_find(
-    mr_ctx *ctx, const mr_dyn *d, const mr_surface *s, bool sure, mr_flaws *w, size_t *count) MR_WARN_UNUSED;
+mr_status mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, bool sure, mr_flaws *w,
+    size_t *count) MR_WARN_UNUSED;
 
 /* True where face f, which may be dead, or one of its edges has a flaw. */
 bool mr_is_flawed(const mr_flaws *w, uint32_t f);

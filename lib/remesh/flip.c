@@ -10,7 +10,7 @@ enum { REACH_MAX = 64 };
 
 typedef struct flipper {
 	mr_dyn *d;
-	const mr_surface *s;
+	const mr_remesh_source *s;
 	int *excess; /* of each vertex: its valence over the one it should have */
 } flipper;
 
@@ -35,7 +35,7 @@ folds_beside(const mr_dyn *d, mr_v3 normal, uint32_t h, uint32_t g)
 }
 
 bool
-mr_flip_is_good(const mr_dyn *d, const mr_surface *s, uint32_t h)
+mr_flip_is_good(const mr_dyn *d, const mr_remesh_source *s, uint32_t h)
 {
 	uint32_t ia = d->v[h], ib = mr_dyn_to(d, h), ic = mr_dyn_apex(d, h), ie = mr_dyn_apex(d, d->twin[h]);
 	mr_v3 a = d->p[ia], b = d->p[ib], c = d->p[ic], e = d->p[ie];
@@ -48,8 +48,8 @@ mr_flip_is_good(const mr_dyn *d, const mr_surface *s, uint32_t h)
 	       mr_dyn_shape(b, c, e) > MR_NEEDLE &&
 	       !folds_beside(d, m0, mr_he_next(d->twin[h]), mr_he_prev(h)) &&
 	       !folds_beside(d, m1, mr_he_next(h), mr_he_prev(d->twin[h])) &&
-	       !(d->scale && (mr_surface_against(s, d, d->at, (uint32_t[]){ ia, ie, ic }, m0) ||
-				 mr_surface_against(s, d, d->at, (uint32_t[]){ ib, ic, ie }, m1)));
+	       !(d->scale && (mr_remesh_against(s, d, d->at, (uint32_t[]){ ia, ie, ic }, m0) ||
+				 mr_remesh_against(s, d, d->at, (uint32_t[]){ ib, ic, ie }, m1)));
 }
 
 /* By how much flipping h would lower the sum of squared excesses: a^2 - (a - 1)^2 + ... */
@@ -143,7 +143,7 @@ glide_dislocations(flipper *w, unsigned reach)
 }
 
 mr_status
-mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, unsigned reach, size_t *flips)
+mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, unsigned reach, size_t *flips)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	flipper w = { d, s, MR_NEW(ctx, d->nv, int) };

@@ -19,7 +19,7 @@ mr_refine_begin(mr_ctx *ctx, mr_dyn *d)
 
 /* Where b may be at most, given a. */
 static bool
-limit(mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b)
+limit(mr_dyn *d, const mr_remesh_source *s, uint32_t a, uint32_t b)
 {
 	double most;
 
@@ -33,7 +33,7 @@ limit(mr_dyn *d, const mr_surface *s, uint32_t a, uint32_t b)
 }
 
 void
-mr_refine_grade(mr_dyn *d, const mr_surface *s)
+mr_refine_grade(mr_dyn *d, const mr_remesh_source *s)
 {
 	bool changed;
 
@@ -50,7 +50,7 @@ mr_refine_grade(mr_dyn *d, const mr_surface *s)
 }
 
 void
-mr_refine_edge(mr_dyn *d, const mr_surface *s, uint32_t h)
+mr_refine_edge(mr_dyn *d, const mr_remesh_source *s, uint32_t h)
 {
 	uint32_t end[2] = { d->v[h], mr_dyn_to(d, h) };
 	float fit = (float)(FIT * mr_dist(d->p[end[0]], d->p[end[1]]) / s->uniform);

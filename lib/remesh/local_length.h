@@ -14,10 +14,10 @@ mr_status mr_refine_begin(mr_ctx *ctx, mr_dyn *d);
 
 /* Lowers the factors at the ends of h to what keeps the edge from being too short: by 0.7 at most, and not
  * below 1/8.  Without factors nothing happens. */
-void mr_refine_edge(mr_dyn *d, const mr_surface *s, uint32_t h);
+void mr_refine_edge(mr_dyn *d, const mr_remesh_source *s, uint32_t h);
 
 /* Lowers factors until lengths grow by at most half of the way along edges. */
-void mr_refine_grade(mr_dyn *d, const mr_surface *s);
+void mr_refine_grade(mr_dyn *d, const mr_remesh_source *s);
 
 /* Halves the target length at v, to an eighth at least. */
 void mr_refine_vertex(mr_dyn *d, uint32_t v);

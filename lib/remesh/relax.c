@@ -10,7 +10,7 @@ enum { GRAIN = 2048 };
 
 typedef struct pass {
 	const mr_dyn *d;
-	const mr_surface *s;
+	const mr_remesh_source *s;
 	const mr_relax_opts *o;
 	double *gravity; /* of each vertex, first its area */
 	mr_v3 *p;        /* where the vertices go */
@@ -19,7 +19,7 @@ typedef struct pass {
 } pass;
 
 double
-mr_surface_length(const mr_surface *s, const mr_dyn *d, uint32_t v)
+mr_remesh_length(const mr_remesh_source *s, const mr_dyn *d, uint32_t v)
 {
 	double scale = d->scale ? d->scale[v] : 1;
 	const uint32_t *t;
@@ -95,7 +95,7 @@ gravity_body(void *arg, size_t begin, size_t end)
 		double l, a;
 		if (w->d->kind[v] == MR_DEAD)
 			continue;
-		l = mr_surface_length(w->s, w->d, v);
+		l = mr_remesh_length(w->s, w->d, v);
 		a = w->gravity[v] / (l * l);
 		if (mr_dyn_on_boundary(w->d, v))
 			a *= 2; /* it has about half the area of an inner one */
@@ -104,7 +104,8 @@ gravity_body(void *arg, size_t begin, size_t end)
 }
 
 bool
-mr_surface_against(const mr_surface *s, const mr_dyn *d, const uint32_t *at, const uint32_t v[3], mr_v3 cross)
+mr_remesh_against(
+    const mr_remesh_source *s, const mr_dyn *d, const uint32_t *at, const uint32_t v[3], mr_v3 cross)
 {
 	for (int k = 0; k < 3; k++) {
 		uint32_t place = d->kind[v[k]] == MR_SMOOTH ? at[v[k]] : at[v[k]] / 3;
@@ -122,10 +123,10 @@ agrees(const mr_mesh *m, mr_closest place, mr_v3 normal)
 }
 
 mr_closest
-mr_surface_place(const mr_surface *s, const mr_dyn *d, uint32_t v, mr_v3 q, mr_v3 normal)
+mr_remesh_place(const mr_remesh_source *s, const mr_dyn *d, uint32_t v, mr_v3 q, mr_v3 normal)
 {
 	mr_closest best = mr_project_walk(s->m, s->topo, mr_dyn_place(d, v), q);
-	double far = MR_FAR * mr_surface_length(s, d, v);
+	double far = MR_FAR * mr_remesh_length(s, d, v);
 	bool good = agrees(s->m, best, normal);
 	uint32_t h = d->out[v];
 
@@ -208,7 +209,7 @@ static void
 move_body(void *arg, size_t begin, size_t end)
 {
 	pass *w = arg;
-	const mr_surface *s = w->s;
+	const mr_remesh_source *s = w->s;
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++) {
 		mr_v3 p = w->d->p[v], normal;
@@ -217,7 +218,7 @@ move_body(void *arg, size_t begin, size_t end)
 		case MR_SMOOTH:
 			p = tangential_move(w, v, &normal);
 			if (w->o->project) {
-				mr_closest c = mr_surface_place(s, w->d, v, p, normal);
+				mr_closest c = mr_remesh_place(s, w->d, v, p, normal);
 				if (leaves_side(s->m, at, c.at.face, normal)) {
 					p = w->d->p[v];
 					break;
@@ -295,8 +296,8 @@ turns(const void *arg, uint32_t f)
 	    mr_dyn_shape(q[v[0]], q[v[1]], q[v[2]]) < mr_dyn_shape(p[v[0]], p[v[1]], p[v[2]]))
 		return true;
 	normal = source_normal(w, f);
-	if (mr_dot(after, normal) < 0 && mr_surface_against(w->s, w->d, w->at, v, after) &&
-	    !mr_surface_against(w->s, w->d, w->d->at, v, before))
+	if (mr_dot(after, normal) < 0 && mr_remesh_against(w->s, w->d, w->at, v, after) &&
+	    !mr_remesh_against(w->s, w->d, w->d->at, v, before))
 		return true;
 	if ((!faces(after, normal) || is_refined(w->d, f)) && folds(w, f))
 		return true;
@@ -331,7 +332,7 @@ find_gravity(mr_ctx *ctx, pass *w)
 }
 
 mr_status
-mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o)
+mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts *o)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	pass w = { .d = d, .s = s, .o = o };

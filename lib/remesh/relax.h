@@ -11,13 +11,13 @@
 #include "space/bvh.h"
 
 /* The surface that is remeshed; vertices of the mr_dyn lie on it at their `at`. */
-typedef struct mr_surface {
+typedef struct mr_remesh_source {
 	const mr_mesh *m;
 	const mr_topology *topo;
 	const mr_curves *curves; /* of the source, by its own half-edges */
 	const double *length;    /* target edge length at each vertex; NULL: uniform */
 	double uniform;
-} mr_surface;
+} mr_remesh_source;
 
 typedef struct mr_relax_opts {
 	double damping; /* lambda, 0 to 1 */
@@ -29,21 +29,21 @@ typedef struct mr_relax_opts {
 static const double MR_FAR = 0.05;
 
 /* Target edge length at vertex v. */
-double mr_surface_length(const mr_surface *s, const mr_dyn *d, uint32_t v);
+double mr_remesh_length(const mr_remesh_source *s, const mr_dyn *d, uint32_t v);
 
 /*
  * The place of vertex v, were it at q, by a walk from its own place; where that ends far away or faces
  * against the normal of the mesh there, the best of those from the neighbours' places too.
  */
-mr_closest mr_surface_place(const mr_surface *s, const mr_dyn *d, uint32_t v, mr_v3 q, mr_v3 normal);
+mr_closest mr_remesh_place(const mr_remesh_source *s, const mr_dyn *d, uint32_t v, mr_v3 q, mr_v3 normal);
 
 /* True where a triangle of vertices v, placed at `at`, with that cross product points against the source at
  * all three. */
-bool mr_surface_against(
-    const mr_surface *s, const mr_dyn *d, const uint32_t *at, const uint32_t v[3], mr_v3 cross);
+bool mr_remesh_against(
+    const mr_remesh_source *s, const mr_dyn *d, const uint32_t *at, const uint32_t v[3], mr_v3 cross);
 
 /* One pass of relaxation over all vertices. */
-mr_status mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, const mr_relax_opts *o);
+mr_status mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts *o);
 
 /* Mixed Voronoi areas (Meyer et al. 2003) of the vertices; 0 for dead ones.  area: d->nv values, the
  * caller's. */

@@ -20,7 +20,7 @@ enum { GRAIN = 1024 };
 typedef struct remesher {
 	mr_ctx *ctx;
 	const mr_remesh_opts *o;
-	mr_surface source;
+	mr_remesh_source source;
 	mr_curves curves; /* of the source */
 	mr_dyn d;
 	mr_resampled changes;
@@ -104,7 +104,7 @@ area_variance(remesher *r, double *variance)
 	MR_TRY(mr_dyn_areas(r->ctx, d, area));
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
-			double a = area[v] / square(mr_surface_length(&r->source, d, v));
+			double a = area[v] / square(mr_remesh_length(&r->source, d, v));
 			sum += a;
 			squares += a * a;
 			n++;
@@ -194,7 +194,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		MR_TRY(mr_sizing_field(
 		    r->ctx, m, adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
 	}
-	r->source = (mr_surface){ m, topo, &r->curves, length, uniform };
+	r->source = (mr_remesh_source){ m, topo, &r->curves, length, uniform };
 	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
 }
 
@@ -211,7 +211,7 @@ map_body(void *arg, size_t begin, size_t end)
 	const mr_dyn *d = &j->r->d;
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++) {
-		mr_closest c = mr_surface_place(&j->r->source, d, v, d->p[v], mr_dyn_normal_around(d, v));
+		mr_closest c = mr_remesh_place(&j->r->source, d, v, d->p[v], mr_dyn_normal_around(d, v));
 		j->face[v] = c.at.face;
 		j->bary[v] = c.at.bary;
 	}

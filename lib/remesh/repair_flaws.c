@@ -15,7 +15,7 @@ enum { PASSES = 8, NEAR = 64 };
 
 typedef struct mender {
 	mr_dyn *d;
-	const mr_surface *s;
+	const mr_remesh_source *s;
 	mr_flaws flaws;
 	uint8_t *mark; /* for the link condition */
 	double least;  /* shape of what is made */
@@ -71,7 +71,7 @@ try_spot(mender *w, uint32_t v, mr_v3 p, bool project, unsigned flaws)
 {
 	mr_dyn *d = w->d;
 	spot old = spot_of(d, v);
-	mr_closest c = mr_surface_place(w->s, d, v, p, mr_dyn_normal_around(d, v));
+	mr_closest c = mr_remesh_place(w->s, d, v, p, mr_dyn_normal_around(d, v));
 	double shape = worst_shape(d, v, MR_NONE);
 
 	put(d, v, (spot){ project ? c.point : p, c.at.face });
@@ -193,7 +193,7 @@ try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 
 	if (d->kind[b] == MR_SMOOTH) {
 		mr_v3 normal = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
-		mr_closest c = mr_surface_place(w->s, d, b, mr_lerp(share, old[0].p, old[1].p), normal);
+		mr_closest c = mr_remesh_place(w->s, d, b, mr_lerp(share, old[0].p, old[1].p), normal);
 		to = (spot){ c.point, c.at.face };
 	}
 	put(d, b, to);
@@ -339,7 +339,7 @@ free_stuck(const mender *w)
 }
 
 mr_status
-mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last)
+mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mender w = { .d = d, .s = s, .last = last };
@@ -362,7 +362,7 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, bool last)
 }
 
 mr_status
-mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_surface *s)
+mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_flaws flaws;

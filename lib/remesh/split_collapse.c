@@ -22,7 +22,7 @@ static const double WIDE = 0.2588190451025207, NARROW = 0.7071067811865476; /* c
 typedef struct resampler {
 	mr_ctx *ctx;
 	mr_dyn *d;
-	const mr_surface *s;
+	const mr_remesh_source *s;
 	mr_resampled *done;
 	uint8_t *mark; /* for the link condition */
 } resampler;
@@ -43,8 +43,8 @@ target(const resampler *r, uint32_t h)
 
 	if (!r->s->length)
 		return scale ? r->s->uniform * fminf(scale[from], scale[to]) : r->s->uniform;
-	a = mr_surface_length(r->s, r->d, from);
-	b = mr_surface_length(r->s, r->d, to);
+	a = mr_remesh_length(r->s, r->d, from);
+	b = mr_remesh_length(r->s, r->d, to);
 	return a < b ? a : b;
 }
 
@@ -130,18 +130,18 @@ too_short(const resampler *r, uint32_t h)
 static void
 place_middle(resampler *r, uint32_t m)
 {
-	const mr_surface *s = r->s;
+	const mr_remesh_source *s = r->s;
 	mr_dyn *d = r->d;
 	mr_closest c = mr_project_walk(s->m, s->topo, d->at[m], d->p[m]);
 
-	if (c.dist2 > square(MR_FAR * mr_surface_length(s, d, m)))
-		c = mr_surface_place(s, d, m, d->p[m], mr_dyn_normal_around(d, m));
+	if (c.dist2 > square(MR_FAR * mr_remesh_length(s, d, m)))
+		c = mr_remesh_place(s, d, m, d->p[m], mr_dyn_normal_around(d, m));
 	d->at[m] = c.at.face;
 }
 
 /* 1. Split all edges that are longer than 4/3 l at their midpoint. */
 mr_status
-mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
+mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
 	resampler r = { ctx, d, s, done, NULL };
 
@@ -220,14 +220,14 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	}
 	mr_dyn_collapse(d, h, p);
 	if (d->scale && d->scale[b] < 1 && d->kind[b] == MR_SMOOTH)
-		d->at[b] = mr_surface_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).at.face;
+		d->at[b] = mr_remesh_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).at.face;
 	r->done->collapses++;
 	return true;
 }
 
 /* 2. Collapse all edges that are shorter than 4/5 l into their midpoint. */
 mr_status
-mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
+mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
 	resampler r = { ctx, d, s, done, NULL };
 	mr_mark mark;
@@ -269,7 +269,7 @@ collapse_a_side(resampler *r, uint32_t h)
 
 /* Needles that the steps of the paper left: flips the longest side away, or takes the face out. */
 mr_status
-mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done)
+mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	resampler r = { ctx, d, s, done, MR_NEW_ZERO(ctx, d->nv, uint8_t) };

@@ -15,12 +15,12 @@ typedef struct mr_resampled {
 } mr_resampled;
 
 /* Splits the edges that are longer than 4/3 of their target, or stretched, at their middle. */
-mr_status mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done);
+mr_status mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 /* Merges the ends of edges that are shorter than 4/5 of their target, or squeezed. */
-mr_status mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done);
+mr_status mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 /* Takes out needles: flips their longest side away or merges the ends of a side. */
-mr_status mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_surface *s, mr_resampled *done);
+mr_status mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 #endif

@@ -19,12 +19,12 @@ to_steps(double x)
 static void
 place_vertices(void *arg, size_t begin, size_t end)
 {
-	const view *v = arg;
+	const mr_raster_view *v = arg;
 	const double steps = (double)(STEP * v->opts->samples);
 
 	for (size_t i = begin; i < end; i++) {
 		mr_seen s = mr_camera_see(v->camera, v->subject->mesh.p[i]);
-		v->at[i] = (placed){ to_steps(steps * s.x), to_steps(steps * s.y),
+		v->at[i] = (mr_placed){ to_steps(steps * s.x), to_steps(steps * s.y),
 			(float)near_of(v->camera, s.z) };
 	}
 }
@@ -59,10 +59,10 @@ most(int32_t a, int32_t b, int32_t c)
 
 /* The columns and rows that an item may cover; false where there are none. */
 static bool
-item_extent(const view *v, size_t item, range *x, range *y)
+item_extent(const mr_raster_view *v, size_t item, range *x, range *y)
 {
 	if (v->subject->mesh.nf == 0) {
-		const placed *p = &v->at[item];
+		const mr_placed *p = &v->at[item];
 		int64_t r = (int64_t)(v->radius * p->near * STEP) + 1;
 		if (is_parallel(v->camera))
 			r = (int64_t)(v->radius * STEP) + 1;
@@ -70,7 +70,7 @@ item_extent(const view *v, size_t item, range *x, range *y)
 		*y = samples_in(p->y - r, p->y + r, v->h);
 	} else {
 		const uint32_t *t = v->subject->mesh.t[item].v;
-		const placed *a = &v->at[t[0]], *b = &v->at[t[1]], *c = &v->at[t[2]];
+		const mr_placed *a = &v->at[t[0]], *b = &v->at[t[1]], *c = &v->at[t[2]];
 		*x = samples_in(least(a->x, b->x, c->x), most(a->x, b->x, c->x), v->w);
 		if (x->begin == x->end)
 			return false;
@@ -80,14 +80,14 @@ item_extent(const view *v, size_t item, range *x, range *y)
 }
 
 static size_t
-item_count(const view *v)
+item_count(const mr_raster_view *v)
 {
 	return v->subject->mesh.nf ? v->subject->mesh.nf : v->subject->mesh.nv;
 }
 
 /* Lists, for each band, the items that may touch it, by index. */
 static mr_status
-fill_bands(mr_ctx *ctx, view *v)
+fill_bands(mr_ctx *ctx, mr_raster_view *v)
 {
 	size_t bands = (v->h + BAND - 1) / BAND, items = item_count(v);
 	range x, y;
@@ -112,7 +112,7 @@ fill_bands(mr_ctx *ctx, view *v)
 }
 
 static void
-see(const view *v, size_t at, float near, size_t item)
+see(const mr_raster_view *v, size_t at, float near, size_t item)
 {
 	if (near > v->near[at]) { /* of equally near items the first stays */
 		v->near[at] = near;
@@ -121,10 +121,10 @@ see(const view *v, size_t at, float near, size_t item)
 }
 
 static void
-draw_face(const view *v, size_t f, range x, range y)
+draw_face(const mr_raster_view *v, size_t f, range x, range y)
 {
 	const uint32_t *t = v->subject->mesh.t[f].v;
-	const placed p[3] = { v->at[t[0]], v->at[t[1]], v->at[t[2]] };
+	const mr_placed p[3] = { v->at[t[0]], v->at[t[1]], v->at[t[2]] };
 	int64_t row[3], dx[3], dy[3], area;
 	double low, high, slope, inverse;
 
@@ -133,7 +133,7 @@ draw_face(const view *v, size_t f, range x, range y)
 	if (area == 0)
 		return;
 	for (int i = 0; i < 3; i++) {
-		const placed *a = &p[(i + 1) % 3], *b = &p[(i + 2) % 3];
+		const mr_placed *a = &p[(i + 1) % 3], *b = &p[(i + 2) % 3];
 		int64_t sign = area > 0 ? 1 : -1;
 		row[i] *= sign;
 		dx[i] = sign * -(int64_t)(b->y - a->y) * STEP;
@@ -164,9 +164,9 @@ draw_face(const view *v, size_t f, range x, range y)
 
 /* A ball, of which the half towards the eye is seen. */
 static void
-draw_point(const view *v, size_t point, range x, range y)
+draw_point(const mr_raster_view *v, size_t point, range x, range y)
 {
-	const placed *p = &v->at[point];
+	const mr_placed *p = &v->at[point];
 	double enlarged = is_parallel(v->camera) ? 1 : p->near, r = v->radius * enlarged;
 	double z = height_of(v->camera, p->near);
 	double unit = v->radius / (v->camera->scale * (double)v->opts->samples); /* the radius in space */
@@ -182,7 +182,7 @@ draw_point(const view *v, size_t point, range x, range y)
 }
 
 static void
-draw_band(const view *v, size_t band)
+draw_band(const mr_raster_view *v, size_t band)
 {
 	size_t first = band * BAND, last = first + BAND < v->h ? first + BAND : v->h;
 
@@ -214,7 +214,7 @@ draw_bands(void *arg, size_t begin, size_t end)
 /* Radius at which the balls of a closed surface, half of which is seen, about cover what it covers of the
  * picture. */
 static double
-covering_radius(const view *v)
+covering_radius(const mr_raster_view *v)
 {
 	mr_box covered = mr_box_empty();
 	double area;
@@ -230,12 +230,12 @@ mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, const
     mr_image *image)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	view v = { .subject = subject, .camera = camera, .opts = opts, .image = image };
+	mr_raster_view v = { .subject = subject, .camera = camera, .opts = opts, .image = image };
 	mr_status status;
 
 	v.w = image->width * opts->samples;
 	v.h = image->height * opts->samples;
-	v.at = MR_NEW(ctx, subject->mesh.nv, placed);
+	v.at = MR_NEW(ctx, subject->mesh.nv, mr_placed);
 	v.near = MR_NEW(ctx, v.w * v.h, float);
 	v.item = MR_NEW(ctx, v.w * v.h, uint32_t);
 	if (!v.at || !v.near || !v.item)

@@ -11,32 +11,32 @@
 enum { STEP_BITS = 8, STEP = 1 << STEP_BITS };
 
 /* A vertex in the picture, in steps; `near` is linear in the picture, and larger for what is nearer. */
-typedef struct placed {
+typedef struct mr_placed {
 	int32_t x, y;
 	float near;
-} placed;
+} mr_placed;
 
 /* The picture while it is made. */
-typedef struct view {
+typedef struct mr_raster_view {
 	const mr_subject *subject;
 	const mr_camera *camera;
 	const mr_raster_opts *opts;
 	mr_image *image;
 	size_t w, h;    /* samples */
-	placed *at;     /* the vertices */
+	mr_placed *at;  /* the vertices */
 	double radius;  /* of points, in samples */
 	float *near;    /* of each sample; -INFINITY: nothing */
 	uint32_t *item; /* face, or point, that is seen there */
 	size_t *start;  /* items that touch each band of rows: list[start[b]] to list[start[b + 1]] */
 	uint32_t *list;
-} view;
+} mr_raster_view;
 
 /* What edges say: twice the signed areas, in squared steps, of the triangles that (x, y) makes with them. */
 static inline void
-edge_functions(const placed p[3], int64_t x, int64_t y, int64_t e[3])
+edge_functions(const mr_placed p[3], int64_t x, int64_t y, int64_t e[3])
 {
 	for (int i = 0; i < 3; i++) {
-		const placed *a = &p[(i + 1) % 3], *b = &p[(i + 2) % 3];
+		const mr_placed *a = &p[(i + 1) % 3], *b = &p[(i + 2) % 3];
 		e[i] = (int64_t)(b->x - a->x) * (y - a->y) - (int64_t)(b->y - a->y) * (x - a->x);
 	}
 }
@@ -61,6 +61,6 @@ height_of(const mr_camera *c, double near)
 }
 
 /* Colours the samples that see something, and puts the pixels into the image: shade.c. */
-mr_status mr_shade(mr_ctx *ctx, const view *v);
+mr_status mr_shade(mr_ctx *ctx, const mr_raster_view *v);
 
 #endif

@@ -21,7 +21,7 @@ typedef struct gathered {
 } gathered;
 
 typedef struct shading {
-	const view *v;
+	const mr_raster_view *v;
 	mr_incidence around; /* faces of each vertex; smooth shading only */
 	mr_v3 *normal;       /* of vertices, unit; NULL: flat */
 	bool *creased;       /* vertices with faces that are not shaded as one */
@@ -119,7 +119,7 @@ creased_normal(const shading *s, size_t face, uint32_t vertex)
 typedef struct facet {
 	uint32_t face;
 	bool back;
-	placed p[3];
+	mr_placed p[3];
 	mr_v3 normal[3], color[3];
 	double area, length[3]; /* of edges, in steps */
 	double fade;            /* of edges, on faces of few pixels */
@@ -153,7 +153,7 @@ set_up_face(const shading *s, uint32_t face, facet *f)
 	          (double)(f->p[1].y - f->p[0].y) * (double)(f->p[2].x - f->p[0].x);
 	f->back = f->area > 0; /* y points down */
 	for (int i = 0; i < 3; i++) {
-		const placed *a = &f->p[(i + 1) % 3], *b = &f->p[(i + 2) % 3];
+		const mr_placed *a = &f->p[(i + 1) % 3], *b = &f->p[(i + 2) % 3];
 		f->length[i] = sqrt(
 		    (double)(b->x - a->x) * (b->x - a->x) + (double)(b->y - a->y) * (b->y - a->y));
 		longest = fmax(longest, f->length[i]);
@@ -268,7 +268,7 @@ shade_point_sample(const shading *s, size_t at, size_t x, size_t y, gathered *g)
 {
 	const mr_camera *c = s->v->camera;
 	uint32_t point = s->v->item[at];
-	const placed *p = &s->v->at[point];
+	const mr_placed *p = &s->v->at[point];
 	double r = s->v->radius * (is_parallel(c) ? 1 : p->near);
 	double a = ((double)x + 0.5 - (double)p->x / STEP) / r,
 	       b = ((double)y + 0.5 - (double)p->y / STEP) / r;
@@ -291,7 +291,7 @@ static void
 gather_rows(void *arg, size_t begin, size_t end)
 {
 	const shading *s = arg;
-	const view *v = s->v;
+	const mr_raster_view *v = s->v;
 	size_t n = v->opts->samples, width = v->image->width;
 	facet f = { .face = MR_NONE };
 
@@ -417,7 +417,7 @@ prepare_normals(mr_ctx *ctx, shading *s)
 }
 
 mr_status
-mr_shade(mr_ctx *ctx, const view *v)
+mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 {
 	enum { ROWS = 8 };
 	size_t pixels = v->image->width * v->image->height;

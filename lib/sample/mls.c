@@ -110,7 +110,7 @@ local_surface(const mr_sight *s, size_t n, double *height, double *deviation, do
 
 typedef struct search {
 	const mr_domain *d;
-	const mr_cloud *c;
+	const mr_sample_cloud *c;
 	size_t k, first;
 	const uint32_t *index;
 	double *height, *deviation, *radius;
@@ -175,7 +175,7 @@ median_where(mr_ctx *ctx, const bool *hit, const double *value, size_t n, double
 }
 
 mr_status
-mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height,
+mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours, double *height,
     bool *hit, double *noise, mr_sample_result *r)
 {
 	static const double wide = 4; /* the radius that evens out noise, in deviations */

@@ -53,22 +53,22 @@ typedef struct mr_v3f {
 } mr_v3f;
 
 /* The points and what is known of them. */
-typedef struct mr_cloud {
+typedef struct mr_sample_cloud {
 	const mr_v3 *p;
 	size_t n;
 	mr_near *near;
 	double diagonal;
 	uint32_t *face; /* of the domain, nearest to each point */
 	mr_v3f *side;   /* its unit normal: which way the sheet that the point belongs to looks */
-} mr_cloud;
+} mr_sample_cloud;
 
 /* Finds the nearest faces of the domain: c->face and c->side, in the arena.  off: the distances from them,
  * c->n, the caller's, or NULL. */
-mr_status mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, double *off);
+mr_status mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off);
 
 /* True where the point may belong to the sheet that looks along n. */
 static inline bool
-mr_same_side(const mr_cloud *c, uint32_t point, mr_v3 n)
+mr_same_side(const mr_sample_cloud *c, uint32_t point, mr_v3 n)
 {
 	mr_v3f s = c->side[point];
 
@@ -76,16 +76,16 @@ mr_same_side(const mr_cloud *c, uint32_t point, mr_v3 n)
 }
 
 /* Leaves out the sights of points that belong to sheets that look the other way.  Returns how many stay. */
-size_t mr_sights_near_sheet(const mr_cloud *c, mr_v3 n, mr_sight *s, size_t count);
+size_t mr_sights_near_sheet(const mr_sample_cloud *c, mr_v3 n, mr_sight *s, size_t count);
 
 /* Heights found by one search; hit says where.  r: gets the figures of it. */
-mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours,
+mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
     double *height, bool *hit, mr_sample_result *r);
 /* *noise: the deviation of the points from the local surfaces. */
-mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours,
+mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
     double *height, bool *hit, double *noise, mr_sample_result *r);
 /* c: the mesh's vertices, placed. */
-mr_status mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c,
+mr_status mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
     double *height, bool *hit, mr_sample_result *r);
 
 /*
@@ -105,7 +105,8 @@ typedef struct mr_fit_weights {
 } mr_fit_weights;
 
 /* Fits the heights to the points; those that were hit are also pulled to what they are.  e: of the domain. */
-mr_status mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fit_weights *weights,
+mr_status
+mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_fit_weights *weights,
     size_t passes, mr_heights *e, const bool *hit, double *height, mr_sample_result *r);
 
 #endif

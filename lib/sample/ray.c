@@ -8,7 +8,7 @@ enum { GRAIN = 256 };
 typedef struct rays {
 	const mr_domain *d;
 	const mr_mesh *mesh;
-	const mr_cloud *c; /* its vertices */
+	const mr_sample_cloud *c; /* its vertices */
 	const mr_bvh *bvh;
 	double *height;
 	bool *hit;
@@ -67,7 +67,7 @@ shoot(void *arg, size_t begin, size_t end)
 }
 
 mr_status
-mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_cloud *c, double *height,
+mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c, double *height,
     bool *hit, mr_sample_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);

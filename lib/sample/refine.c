@@ -25,7 +25,7 @@ typedef struct wish {
 typedef struct fit {
 	mr_sample_result *found;
 	const mr_domain *d;
-	const mr_cloud *c;
+	const mr_sample_cloud *c;
 	const mr_fit_weights *weights;
 	mr_heights *e;
 	double *target;  /* heights to be pulled to */
@@ -236,7 +236,7 @@ report_area(mr_ctx *ctx, const fit *x)
 }
 
 static mr_status
-fit_new(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, fit *x)
+fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 {
 	x->d = d;
 	x->c = c;
@@ -362,7 +362,7 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 }
 
 mr_status
-mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, const mr_fit_weights *weights,
+mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_fit_weights *weights,
     size_t passes, mr_heights *e, const bool *hit, double *height, mr_sample_result *r)
 {
 	mr_mark mark = mr_mark_take(ctx);

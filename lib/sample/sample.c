@@ -26,7 +26,7 @@ is_open(const mr_loop *l)
 typedef struct placing {
 	const mr_mesh *m;
 	const mr_bvh *bvh;
-	mr_cloud *c;
+	mr_sample_cloud *c;
 	double *off;
 } placing;
 
@@ -46,7 +46,7 @@ place_points(void *arg, size_t begin, size_t end)
 }
 
 mr_status
-mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, double *off)
+mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off)
 {
 	uint32_t *face = MR_NEW(ctx, c->n, uint32_t);
 	mr_v3f *side = MR_NEW(ctx, c->n, mr_v3f);
@@ -66,7 +66,7 @@ mr_cloud_place(mr_ctx *ctx, const mr_domain *d, mr_cloud *c, double *off)
 }
 
 size_t
-mr_sights_near_sheet(const mr_cloud *c, mr_v3 n, mr_sight *s, size_t count)
+mr_sights_near_sheet(const mr_sample_cloud *c, mr_v3 n, mr_sight *s, size_t count)
 {
 	size_t kept = 0;
 
@@ -77,7 +77,7 @@ mr_sights_near_sheet(const mr_cloud *c, mr_v3 n, mr_sight *s, size_t count)
 }
 
 static mr_status
-check_points(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c)
+check_points(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c)
 {
 	static const char *const shape[] = { "at one place", "on a line", "in a plane" };
 	int extent = mr_cloud_dimensions(c->p, c->n);
@@ -93,7 +93,7 @@ check_points(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c)
 
 /* The points that stay, and their index. */
 static mr_status
-keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_cloud *c)
+keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_sample_cloud *c)
 {
 	mr_v3 *p = MR_NEW(ctx, kept, mr_v3);
 	mr_near *near;
@@ -119,14 +119,14 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_cloud *c)
 
 /* Finds the place of each point, and takes out those that belong nowhere. */
 static mr_status
-place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c, mr_sample_result *r)
+place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cloud *c, mr_sample_result *r)
 {
 	double *off = MR_NEW(ctx, c->n, double);
 	bool *outlier = MR_NEW(ctx, c->n, bool);
 
 	if (!off || !outlier)
 		return MR_EMEM;
-	MR_TRY(mr_cloud_place(ctx, d, c, off));
+	MR_TRY(mr_sample_place(ctx, d, c, off));
 	MR_TRY(mr_find_outliers(ctx, s, off, 0, outlier, &r->outliers));
 	return r->outliers ? keep_points(ctx, outlier, c->n - r->outliers, c) : MR_OK;
 }
@@ -149,7 +149,7 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, 
  * of those differ from vertex to vertex, the fairer the heights are to be.  The numbers are by experiment.
  */
 static mr_fit_weights
-robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_cloud *c, double noise)
+robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_sample_cloud *c, double noise)
 {
 	double rough = mr_heights_roughness(ctx, e, height), fair = 2 * pow(noise / fmax(rough, DBL_MIN), 4);
 
@@ -161,8 +161,8 @@ robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_
 }
 
 static mr_status
-sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_cloud *c, const mr_sample_opts *opts,
-    double *height, mr_sample_result *r)
+sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cloud *c,
+    const mr_sample_opts *opts, double *height, mr_sample_result *r)
 {
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
 	size_t distinct, k = opts->neighbours;
@@ -193,7 +193,7 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
-	mr_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
+	mr_sample_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
 	mr_sampling sampling;
 	mr_sample_result r;
 	mr_status s;
@@ -221,7 +221,7 @@ mr_status
 mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts,
     double *height, mr_sample_result *result)
 {
-	mr_cloud c = { .p = mesh->p, .n = mesh->nv, .diagonal = mr_mesh_diagonal(mesh) };
+	mr_sample_cloud c = { .p = mesh->p, .n = mesh->nv, .diagonal = mr_mesh_diagonal(mesh) };
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 1, .scale = 1e-3 * c.diagonal, .steps = 50 };
 	mr_mark mark = mr_mark_take(ctx);
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
@@ -231,7 +231,7 @@ mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 	if (!hit)
 		return MR_EMEM;
 	mr_unmeasured(&r, sizeof r);
-	MR_TRY(mr_cloud_place(ctx, d, &c, NULL));
+	MR_TRY(mr_sample_place(ctx, d, &c, NULL));
 	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit, &r));
 	MR_TRY(mend(ctx, d, &e, hit, height, &r));
 	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height, &r));

@@ -116,7 +116,7 @@ mr_valid_triangle(const mr_sight *s, size_t n, const mr_bounds *bounds)
 
 typedef struct search {
 	const mr_domain *d;
-	const mr_cloud *c;
+	const mr_sample_cloud *c;
 	size_t k, first;       /* of this chunk of vertices */
 	const uint32_t *index; /* k nearest points of each */
 	const double *dist2;
@@ -186,8 +186,8 @@ report_tries(const search *s, size_t nv, mr_sample_result *r)
 }
 
 mr_status
-mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_cloud *c, size_t neighbours, double *height,
-    bool *hit, mr_sample_result *r)
+mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
+    double *height, bool *hit, mr_sample_result *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t nv = d->m.nv, chunk = nv < CHUNK ? nv : CHUNK, k = neighbours;

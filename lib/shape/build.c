@@ -4,9 +4,9 @@
 #include "base/random.h"
 
 mr_status
-mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b)
+mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, mr_solid_build *b)
 {
-	build r = { .nv = 0 };
+	mr_solid_build r = { .nv = 0 };
 
 	if (nv >= MR_NONE || nf > (MR_NONE - 1) / 3)
 		return mr_fail(ctx, MR_ERANGE, "%zu vertices and %zu faces are too many", nv, nf);
@@ -19,29 +19,29 @@ mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, build *b)
 }
 
 uint32_t
-mr_solid_add_vertex(build *b, mr_v3 p)
+mr_solid_add_vertex(mr_solid_build *b, mr_v3 p)
 {
 	b->p[b->nv] = p;
 	return (uint32_t)b->nv++;
 }
 
 void
-mr_solid_add_face(build *b, uint32_t i, uint32_t j, uint32_t k)
+mr_solid_add_face(mr_solid_build *b, uint32_t i, uint32_t j, uint32_t k)
 {
 	b->t[b->nf++] = (mr_tri){ { i, j, k } };
 }
 
 void
-mr_solid_add_quad(build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
+mr_solid_add_quad(mr_solid_build *b, uint32_t i, uint32_t j, uint32_t k, uint32_t l)
 {
 	mr_solid_add_face(b, i, j, k);
 	mr_solid_add_face(b, i, k, l);
 }
 
 mr_status
-mr_weld_begin(mr_ctx *ctx, size_t nv, weld *w)
+mr_weld_begin(mr_ctx *ctx, size_t nv, mr_solid_weld *w)
 {
-	weld r = { .mask = 15 };
+	mr_solid_weld r = { .mask = 15 };
 
 	while (r.mask < 2 * nv)
 		r.mask = 2 * r.mask + 1;
@@ -54,7 +54,7 @@ mr_weld_begin(mr_ctx *ctx, size_t nv, weld *w)
 }
 
 uint32_t *
-mr_weld_slot(weld *w, uint64_t key, bool *is_new)
+mr_weld_slot(mr_solid_weld *w, uint64_t key, bool *is_new)
 {
 	mr_random hash = { key };
 	size_t i = (size_t)mr_random_bits(&hash) & w->mask;

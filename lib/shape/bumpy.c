@@ -142,10 +142,10 @@ skin_point(mr_v3 x)
 
 /* Splits each face in four, with new vertices in the middles of edges. */
 static mr_status
-refine(mr_ctx *ctx, const build *old, build *b)
+refine(mr_ctx *ctx, const mr_solid_build *old, mr_solid_build *b)
 {
 	mr_mark mark;
-	weld w;
+	mr_solid_weld w;
 
 	MR_TRY(mr_solid_begin(ctx, 4 * old->nv - 6, 4 * old->nf, b)); /* V + E, with E = 3 V - 6 */
 	mark = mr_mark_take(ctx);
@@ -198,7 +198,7 @@ relax_body(void *arg, size_t begin, size_t end)
 }
 
 static mr_status
-relax(mr_ctx *ctx, build *b, int rounds)
+relax(mr_ctx *ctx, mr_solid_build *b, int rounds)
 {
 	mr_mesh m = { .name = "bumpy", .p = b->p, .t = b->t, .nv = b->nv, .nf = b->nf };
 	mr_mark mark = mr_mark_take(ctx);
@@ -226,7 +226,7 @@ clothe_body(void *arg, size_t begin, size_t end)
 }
 
 mr_status
-mr_bumpy(mr_ctx *ctx, size_t n, build *b)
+mr_bumpy(mr_ctx *ctx, size_t n, mr_solid_build *b)
 {
 	enum { LEAST = 5000, MOST = 80000 };
 	double vertices = n > LEAST ? (double)n : LEAST; /* fewer would cut off the ears */
@@ -237,7 +237,7 @@ mr_bumpy(mr_ctx *ctx, size_t n, build *b)
 	MR_TRY(mr_march(ctx, body_field, NULL, SPACE, sqrt(4.49 * AREA / vertices), b));
 	MR_TRY(relax(ctx, b, 8));
 	for (int i = 0; i < levels; i++) {
-		build old = *b;
+		mr_solid_build old = *b;
 		MR_TRY(refine(ctx, &old, b));
 		MR_TRY(relax(ctx, b, 1));
 	}

@@ -48,8 +48,8 @@ fill_layers(void *arg, size_t begin, size_t end)
 /* What marching makes: with a build that is NULL it only counts faces. */
 typedef struct march {
 	const lattice *l;
-	build *b;
-	weld w;
+	mr_solid_build *b;
+	mr_solid_weld w;
 	size_t faces;
 } march;
 
@@ -158,7 +158,7 @@ march_all(march *m)
 }
 
 mr_status
-mr_march(mr_ctx *ctx, mr_field field, void *arg, mr_box box, double step, build *b)
+mr_march(mr_ctx *ctx, mr_field field, void *arg, mr_box box, double step, mr_solid_build *b)
 {
 	lattice l = { .field = field, .arg = arg, .origin = box.min, .step = step };
 	mr_v3 size = mr_sub(box.max, box.min);

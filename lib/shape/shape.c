@@ -42,8 +42,8 @@ geodesic_key(const corner_weight in[3])
 }
 
 typedef struct geodesic {
-	build *b;
-	weld w;
+	mr_solid_build *b;
+	mr_solid_weld w;
 	mr_v3 corner[12];
 	uint32_t frequency;
 } geodesic;
@@ -93,7 +93,7 @@ geodesic_frequency(size_t n)
 }
 
 static mr_status
-geodesic_sphere(mr_ctx *ctx, size_t f, build *b)
+geodesic_sphere(mr_ctx *ctx, size_t f, mr_solid_build *b)
 {
 	static const uint32_t face[20][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 1 },
 		{ 1, 6, 2 }, { 2, 7, 3 }, { 3, 8, 4 }, { 4, 9, 5 }, { 5, 10, 1 }, { 6, 7, 2 }, { 7, 8, 3 },
@@ -127,7 +127,7 @@ geodesic_sphere(mr_ctx *ctx, size_t f, build *b)
 
 /* Surfaces over a periodic rectangle [0, 1)^2 of nu by nv points. */
 static mr_status
-periodic_grid(mr_ctx *ctx, size_t nu, size_t nv, mr_v3 (*at)(double u, double v), build *b)
+periodic_grid(mr_ctx *ctx, size_t nu, size_t nv, mr_v3 (*at)(double u, double v), mr_solid_build *b)
 {
 	MR_TRY(mr_solid_begin(ctx, nu * nv, 2 * nu * nv, b));
 	for (size_t i = 0; i < nu; i++)
@@ -146,7 +146,7 @@ periodic_grid(mr_ctx *ctx, size_t nu, size_t nv, mr_v3 (*at)(double u, double v)
 /* The periodic grid of about n points whose cells are squares where the lengths of the two circles stand in
  * `ratio`. */
 static mr_status
-tube(mr_ctx *ctx, size_t n, double ratio, size_t least, mr_v3 (*at)(double u, double v), build *b)
+tube(mr_ctx *ctx, size_t n, double ratio, size_t least, mr_v3 (*at)(double u, double v), mr_solid_build *b)
 {
 	size_t nu = whole(sqrt((double)n * ratio), least), nv = whole((double)n / (double)nu, 3);
 
@@ -194,7 +194,7 @@ knot_length(void)
 }
 
 static mr_status
-plane(mr_ctx *ctx, size_t n, build *b)
+plane(mr_ctx *ctx, size_t n, mr_solid_build *b)
 {
 	size_t s = whole(sqrt((double)n) - 1, 1);
 
@@ -214,7 +214,7 @@ plane(mr_ctx *ctx, size_t n, build *b)
 
 /* A ring of `count` vertices of the given radius at height z; a ring of none is its centre. */
 static uint32_t
-add_ring(build *b, size_t count, double radius, double z)
+add_ring(mr_solid_build *b, size_t count, double radius, double z)
 {
 	uint32_t first = (uint32_t)b->nv;
 
@@ -230,7 +230,7 @@ add_ring(build *b, size_t count, double radius, double z)
 /* Faces between two rings, the outer one of m vertices counter-clockwise seen from outside, the inner one of
  * n. */
 static void
-join_rings(build *b, uint32_t outer, size_t m, uint32_t inner, size_t n, bool flip)
+join_rings(mr_solid_build *b, uint32_t outer, size_t m, uint32_t inner, size_t n, bool flip)
 {
 	size_t i = 0, j = 0;
 
@@ -248,7 +248,7 @@ join_rings(build *b, uint32_t outer, size_t m, uint32_t inner, size_t n, bool fl
 
 /* The caps are hexagonal: ring j of k has 6 j vertices, so edges are nearly as long as on the side. */
 static mr_status
-cylinder(mr_ctx *ctx, size_t n, bool open, build *b)
+cylinder(mr_ctx *ctx, size_t n, bool open, mr_solid_build *b)
 {
 	/* 6 k (h + 1) + 2 (1 + 3 k (k - 1)) vertices with h = 4 k / (pi / 3) */
 	double quad = 72 / MR_PI + (open ? 0 : 6);
@@ -275,8 +275,8 @@ cylinder(mr_ctx *ctx, size_t n, bool open, build *b)
 
 /* Surfaces of unit cells: the sides between a full and an empty one, cut into s^2 squares. */
 typedef struct cells {
-	build *b;
-	weld w;
+	mr_solid_build *b;
+	mr_solid_weld w;
 	size_t count[3]; /* cells along each axis */
 	size_t s;
 	bool holes; /* without the cells of odd first and middle second index */
@@ -365,7 +365,7 @@ cells_make(mr_ctx *ctx, cells *c, size_t sides, size_t genus, size_t n)
 }
 
 static mr_status
-cube(mr_ctx *ctx, size_t n, build *b)
+cube(mr_ctx *ctx, size_t n, mr_solid_build *b)
 {
 	cells c = { .b = b, .count = { 1, 1, 1 }, .size = { 2, 2, 2 } };
 
@@ -373,7 +373,7 @@ cube(mr_ctx *ctx, size_t n, build *b)
 }
 
 static mr_status
-boxes(mr_ctx *ctx, size_t n, size_t genus, build *b)
+boxes(mr_ctx *ctx, size_t n, size_t genus, mr_solid_build *b)
 {
 	cells c = { .b = b, .count = { 2 * genus + 1, 3, 1 }, .holes = true, .size = { 1, 1, 1 } };
 	size_t flat = 2 * (3 * (2 * genus + 1) - genus), outer = 2 * (2 * genus + 1 + 3), inner = 4 * genus;
@@ -384,7 +384,7 @@ boxes(mr_ctx *ctx, size_t n, size_t genus, build *b)
 }
 
 static mr_status
-make(mr_ctx *ctx, const mr_make_opts *o, size_t n, build *b)
+make(mr_ctx *ctx, const mr_make_opts *o, size_t n, mr_solid_build *b)
 {
 	switch (o->solid) {
 	case MR_SPHERE:
@@ -412,7 +412,7 @@ make(mr_ctx *ctx, const mr_make_opts *o, size_t n, build *b)
 mr_status
 mr_solid_make(mr_ctx *ctx, const mr_make_opts *o, mr_mesh *m)
 {
-	build b;
+	mr_solid_build b;
 
 	if (o->vertices >= MR_NONE)
 		return mr_fail(ctx, MR_ERANGE, "%zu vertices are too many", o->vertices);

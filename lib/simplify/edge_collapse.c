@@ -23,7 +23,7 @@ static const double TURN = 0.2;  /* cosine of 78 degrees */
 static const double HAIR = 1e-6; /* of a face so thin that its normal is rounding */
 
 static bool
-ring_push(mr_ring *r, uint32_t e)
+ring_push(mr_merge_ring *r, uint32_t e)
 {
 	if (r->n == MR_RING_MAX)
 		return false;
@@ -33,7 +33,7 @@ ring_push(mr_ring *r, uint32_t e)
 
 /* Appends the faces from half-edge e counter-clockwise, up to but without that of `stop` or a boundary. */
 static bool
-ring_add(const mr_dyn *d, uint32_t e, uint32_t stop, mr_ring *r)
+ring_add(const mr_dyn *d, uint32_t e, uint32_t stop, mr_merge_ring *r)
 {
 	for (; e != MR_NONE && e != stop; e = mr_dyn_ccw(d, e))
 		if (!ring_push(r, e))
@@ -43,7 +43,7 @@ ring_add(const mr_dyn *d, uint32_t e, uint32_t stop, mr_ring *r)
 
 /* Appends the faces at the start of h, but for those of h and of its twin. */
 static bool
-ring_add_start(const mr_dyn *d, uint32_t h, mr_ring *r)
+ring_add_start(const mr_dyn *d, uint32_t h, mr_merge_ring *r)
 {
 	uint32_t g = d->twin[h], stop = g == MR_NONE ? MR_NONE : mr_he_next(g), v = d->v[h];
 
@@ -53,7 +53,7 @@ ring_add_start(const mr_dyn *d, uint32_t h, mr_ring *r)
 }
 
 static bool
-ring_of(const mr_dyn *d, uint32_t h, mr_ring *r)
+ring_of(const mr_dyn *d, uint32_t h, mr_merge_ring *r)
 {
 	uint32_t g = d->twin[h];
 
@@ -69,7 +69,7 @@ ring_of(const mr_dyn *d, uint32_t h, mr_ring *r)
  * in the metric of the quadric.  Where that is farther than the edge is long, as on a blade, x stays.
  */
 static mr_v3
-keep_volume(const mr_dyn *d, const mr_ring *r, uint32_t h, const mr_quadric_factor *factor, mr_v3 x)
+keep_volume(const mr_dyn *d, const mr_merge_ring *r, uint32_t h, const mr_quadric_factor *factor, mr_v3 x)
 {
 	mr_v3 a = d->p[d->v[h]], g = { 0, 0, 0 }, y;
 	double rest = 0, gy;
@@ -263,7 +263,7 @@ across(const mr_dyn *d, uint32_t h)
 
 /* Folds at the outer edges of a ring and at its spokes, as they are. */
 static unsigned
-folds_before(const mr_dyn *d, const mr_ring *r)
+folds_before(const mr_dyn *d, const mr_merge_ring *r)
 {
 	unsigned n = 0;
 
@@ -278,7 +278,7 @@ folds_before(const mr_dyn *d, const mr_ring *r)
 
 /* The same where the faces have the normals `after` around one vertex. */
 static unsigned
-folds_after(const mr_dyn *d, const mr_ring *r, const mr_v3 *after)
+folds_after(const mr_dyn *d, const mr_merge_ring *r, const mr_v3 *after)
 {
 	unsigned n = 0;
 

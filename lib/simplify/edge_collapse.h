@@ -13,10 +13,10 @@ enum { MR_RING_MAX = 32 }; /* most faces that a merged vertex may have */
 
 /* The faces at one end of an edge alone: the half-edges by which they leave it, counter-clockwise but for
  * the gaps of a boundary. */
-typedef struct mr_ring {
+typedef struct mr_merge_ring {
 	uint32_t he[MR_RING_MAX];
 	unsigned n;
-} mr_ring;
+} mr_merge_ring;
 
 /* What a vertex carries with it. */
 typedef struct mr_site {
@@ -26,7 +26,7 @@ typedef struct mr_site {
 
 typedef struct mr_merge {
 	uint32_t edge; /* one of its half-edges */
-	mr_ring ring;
+	mr_merge_ring ring;
 	mr_v3 p;       /* where the merged vertex goes */
 	double cost;   /* by which merges are put in order */
 	double error2; /* mean squared distance of p to the planes of the faces merged into it, by area */

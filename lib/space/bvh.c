@@ -161,7 +161,7 @@ typedef struct entry {
 
 /* Pushes the children of a node that are there and not beyond the limit, the farthest first. */
 static entry *
-push_sorted(entry *top, const bvh_node *d, const double bound[BVH_WIDE], double limit)
+push_sorted(entry *top, const mr_bvh_node *d, const double bound[BVH_WIDE], double limit)
 {
 	entry *base = top;
 
@@ -180,7 +180,7 @@ push_sorted(entry *top, const bvh_node *d, const double bound[BVH_WIDE], double 
 
 /* Squared distances from q to the four boxes, lowered by what rounding can do. */
 static inline void
-box_distances(const bvh_node *d, mr_v3 q, double out[BVH_WIDE])
+box_distances(const mr_bvh_node *d, mr_v3 q, double out[BVH_WIDE])
 {
 	for (int c = 0; c < BVH_WIDE; c++) {
 		double ax = d->lo[0][c] - q.x, bx = q.x - d->hi[0][c];
@@ -318,7 +318,7 @@ hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 /* Where the ray enters each of the four boxes; infinite where it misses it.  NaN (0 times infinity) bounds
  * nothing. */
 static void
-box_entries(const bvh_node *d, const ray *r, double tmin, double tmax, double out[BVH_WIDE])
+box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double out[BVH_WIDE])
 {
 	for (int c = 0; c < BVH_WIDE; c++) {
 		double enter = tmin, leave = tmax;
@@ -389,7 +389,7 @@ face_meets(const mr_mesh *m, uint32_t f, mr_box b)
 }
 
 static bool
-box_meets(const bvh_node *d, int c, mr_v3 lo, mr_v3 hi)
+box_meets(const mr_bvh_node *d, int c, mr_v3 lo, mr_v3 hi)
 {
 	return d->lo[0][c] <= hi.x && d->hi[0][c] >= lo.x && d->lo[1][c] <= hi.y && d->hi[1][c] >= lo.y &&
 	       d->lo[2][c] <= hi.z && d->hi[2][c] >= lo.z;
@@ -404,7 +404,7 @@ mr_bvh_overlap(const mr_bvh *bvh, mr_box box, bool (*visit)(void *arg, uint32_t 
 	if (bvh->mesh->nf)
 		*top++ = 0;
 	while (top > stack) {
-		const bvh_node *d = &bvh->nodes[*--top];
+		const mr_bvh_node *d = &bvh->nodes[*--top];
 		for (int c = 0; c < BVH_WIDE; c++) {
 			if (d->child[c] == MR_NONE || !box_meets(d, c, lo, hi))
 				continue;

@@ -158,7 +158,7 @@ split(prim *p, size_t n, int depth)
 }
 
 static void
-set_child_box(bvh_node *d, int c, const prim *p, size_t n)
+set_child_box(mr_bvh_node *d, int c, const prim *p, size_t n)
 {
 	fbox b = fbox_empty();
 
@@ -198,11 +198,11 @@ node_bound(size_t n)
 static void
 build_range(builder *b, range r, int depth, size_t *next)
 {
-	bvh_node *d = &b->bvh->nodes[(*next)++];
+	mr_bvh_node *d = &b->bvh->nodes[(*next)++];
 	range part[BVH_WIDE] = { r };
 	int parts = 1;
 
-	*d = (bvh_node){ .child = { MR_NONE, MR_NONE, MR_NONE, MR_NONE } };
+	*d = (mr_bvh_node){ .child = { MR_NONE, MR_NONE, MR_NONE, MR_NONE } };
 	for (int c = 0; c < BVH_WIDE; c++)
 		for (int k = 0; k < 3; k++) {
 			d->lo[k][c] = INFINITY;
@@ -281,7 +281,7 @@ mr_status
 mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 {
 	mr_bvh *bvh = MR_NEW(ctx, 1, mr_bvh);
-	bvh_node *nodes = MR_NEW(ctx, node_bound(m->nf), bvh_node);
+	mr_bvh_node *nodes = MR_NEW(ctx, node_bound(m->nf), mr_bvh_node);
 	uint32_t *face = MR_NEW(ctx, m->nf, uint32_t);
 	mr_mark mark = mr_mark_take(ctx);
 	builder b = { .prims = MR_NEW(ctx, m->nf, prim), .tasks = MR_NEW(ctx, m->nf / BVH_LEAF + 1, task) };

@@ -17,15 +17,15 @@
 
 enum { BVH_WIDE = 4, BVH_LEAF = 4, BVH_STACK = 256 };
 
-typedef struct bvh_node {
+typedef struct mr_bvh_node {
 	float lo[3][BVH_WIDE], hi[3][BVH_WIDE];
 	uint32_t child[BVH_WIDE]; /* a node; of a leaf, its first place in `face`; MR_NONE: no child */
 	uint8_t count[BVH_WIDE];  /* faces of a leaf; 0: a node */
-} bvh_node;
+} mr_bvh_node;
 
 struct mr_bvh {
 	const mr_mesh *mesh;
-	bvh_node *nodes; /* the root first */
+	mr_bvh_node *nodes; /* the root first */
 	uint32_t *face;
 	mr_v3 center;
 	double scale; /* a power of two: 1 / scale is the size of the mesh */

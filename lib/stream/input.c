@@ -22,7 +22,7 @@ mr_heap(mr_ctx *ctx, void *old, size_t size)
 }
 
 mr_status
-mr_bytes_reserve(mr_ctx *ctx, mr_bytes *b, size_t used, size_t room)
+mr_heap_bytes_reserve(mr_ctx *ctx, mr_heap_bytes *b, size_t used, size_t room)
 {
 	size_t shift = b->heap ? (size_t)(b->p - (unsigned char *)b->heap) : 0;
 	unsigned char *heap, *p;
@@ -37,7 +37,7 @@ mr_bytes_reserve(mr_ctx *ctx, mr_bytes *b, size_t used, size_t room)
 	p = heap + (MR_ALIGN - (uintptr_t)heap % MR_ALIGN) % MR_ALIGN;
 	if (used && p != heap + shift)
 		memmove(p, heap + shift, used); /* realloc moved it to another alignment */
-	*b = (mr_bytes){ heap, p, room };
+	*b = (mr_heap_bytes){ heap, p, room };
 	return MR_OK;
 }
 
@@ -81,7 +81,7 @@ mr_input_open(mr_ctx *ctx, int fd, mr_input *in)
 	map_rest(&i);
 	if (!i.map) {
 		widen(fd);
-		MR_TRY(mr_bytes_reserve(ctx, &i.block, 0, BLOCK));
+		MR_TRY(mr_heap_bytes_reserve(ctx, &i.block, 0, BLOCK));
 	}
 	*in = i;
 	return MR_OK;
@@ -175,13 +175,13 @@ mr_input_header(mr_ctx *ctx, mr_input *in, unsigned char header[MR_HEADER], size
 
 /* The bytes of a pipe: memory grows as they arrive, whatever the header says. */
 static mr_status
-collect(mr_ctx *ctx, mr_input *in, size_t n, mr_bytes *b)
+collect(mr_ctx *ctx, mr_input *in, size_t n, mr_heap_bytes *b)
 {
 	size_t used = MR_HEADER, all = MR_HEADER + n, step;
 
 	while (used < all) {
 		if (used == b->room)
-			MR_TRY(mr_bytes_reserve(ctx, b, used, all / 2 < used ? all : 2 * used));
+			MR_TRY(mr_heap_bytes_reserve(ctx, b, used, all / 2 < used ? all : 2 * used));
 		MR_TRY(take(ctx, in, b->p + used, b->room - used, &step));
 		if (step == 0)
 			return MR_END;
@@ -194,7 +194,7 @@ mr_status
 mr_input_payload(mr_ctx *ctx, mr_input *in, const unsigned char header[MR_HEADER], uint64_t n,
     const unsigned char **record, void **heap)
 {
-	mr_bytes b = { 0 };
+	mr_heap_bytes b = { 0 };
 	mr_status status;
 
 	if (in->map) {
@@ -207,7 +207,7 @@ mr_input_payload(mr_ctx *ctx, mr_input *in, const unsigned char header[MR_HEADER
 	}
 	if (n > SIZE_MAX - 2 * MR_HEADER)
 		return mr_fail(ctx, MR_EMEM, "no memory for %llu bytes", (unsigned long long)n);
-	MR_TRY(mr_bytes_reserve(ctx, &b, 0, n + MR_HEADER < FIRST ? (size_t)n + MR_HEADER : FIRST));
+	MR_TRY(mr_heap_bytes_reserve(ctx, &b, 0, n + MR_HEADER < FIRST ? (size_t)n + MR_HEADER : FIRST));
 	memcpy(b.p, header, MR_HEADER);
 	status = collect(ctx, in, (size_t)n, &b);
 	if (status != MR_OK) {

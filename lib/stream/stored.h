@@ -9,8 +9,8 @@
 #ifndef MR_STREAM_STORED_H
 #define MR_STREAM_STORED_H
 
-#include "stream/record.h"
 #include "stream/frame.h"
+#include "stream/record.h"
 
 /* A column as the reader keeps it until it is replaced or dropped. */
 typedef struct mr_stored {
@@ -30,14 +30,14 @@ typedef struct mr_stored {
 void *mr_heap(mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
 
 /* Memory aligned to MR_ALIGN that keeps its contents as it grows. */
-typedef struct mr_bytes {
+typedef struct mr_heap_bytes {
 	void *heap;
 	unsigned char *p;
 	size_t room;
-} mr_bytes;
+} mr_heap_bytes;
 
 /* Makes room for at least `room` bytes; the first `used` are kept. */
-mr_status mr_bytes_reserve(mr_ctx *ctx, mr_bytes *b, size_t used, size_t room);
+mr_status mr_heap_bytes_reserve(mr_ctx *ctx, mr_heap_bytes *b, size_t used, size_t room);
 
 /* Bytes from a descriptor: a map of a regular file, or blocks. */
 typedef struct mr_input {
@@ -45,7 +45,7 @@ typedef struct mr_input {
 	uint64_t offset;          /* of the next byte, in the file, or from the first byte read */
 	const unsigned char *map; /* NULL: not mapped */
 	size_t size;              /* of the map */
-	mr_bytes block;           /* bytes read and not yet taken: begin to end */
+	mr_heap_bytes block;      /* bytes read and not yet taken: begin to end */
 	size_t begin, end;
 } mr_input;
 

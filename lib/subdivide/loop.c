@@ -254,7 +254,7 @@ even_row(const subdividing *s, uint32_t v, size_t width)
 		out[k] = mask.self * x[k];
 	if (mask.self == 1)
 		return;
-	for (mr_ring r = mr_ring_begin(l, v); r.more; mr_ring_step(&r)) {
+	for (mr_loop_ring r = mr_loop_ring_begin(l, v); r.more; mr_loop_ring_step(&r)) {
 		double w = r.sharp ? mask.sharp : mask.ring;
 		for (size_t k = 0; k < width && w != 0; k++)
 			out[k] += w * s->in[width * r.to + k];

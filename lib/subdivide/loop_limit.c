@@ -38,7 +38,8 @@ dart_point(const limiting *s, uint32_t v, unsigned n)
 	double total = 1;
 	unsigned j = 0;
 
-	for (mr_ring r = mr_ring_from(s->l, mr_loop_sharp_spoke(s->l, v)); r.more; mr_ring_step(&r), j++) {
+	for (mr_loop_ring r = mr_loop_ring_from(s->l, mr_loop_sharp_spoke(s->l, v)); r.more;
+	     mr_loop_ring_step(&r), j++) {
 		double w = mr_loop_dart_weight(n, j);
 		sum = mr_axpy(w, s->p[r.to], sum);
 		total += w;
@@ -57,7 +58,7 @@ limit_point(const limiting *s, uint32_t v, mr_loop_kind kind)
 	sum = mr_mul(mask.self, s->p[v]);
 	if (mask.self == 1)
 		return sum;
-	for (mr_ring r = mr_ring_begin(s->l, v); r.more; mr_ring_step(&r)) {
+	for (mr_loop_ring r = mr_loop_ring_begin(s->l, v); r.more; mr_loop_ring_step(&r)) {
 		double w = r.sharp ? mask.sharp : mask.ring;
 		if (w != 0)
 			sum = mr_axpy(w, s->p[r.to], sum);
@@ -82,7 +83,7 @@ smooth_normal(const limiting *s, uint32_t v, unsigned n)
 	double c1 = cos(angle), d1 = sin(angle);
 	mr_v3 a = { 0, 0, 0 }, b = a, at = s->p[v];
 
-	for (mr_ring r = mr_ring_begin(s->l, v); r.more; mr_ring_step(&r)) {
+	for (mr_loop_ring r = mr_loop_ring_begin(s->l, v); r.more; mr_loop_ring_step(&r)) {
 		mr_v3 w = mr_sub(s->p[r.to], at);
 		double turned = c * c1 - d * d1;
 		a = mr_axpy(c, w, a);
@@ -104,11 +105,11 @@ typedef struct sector {
 static unsigned
 sector_faces(const mr_loop *l, uint32_t spoke)
 {
-	mr_ring r = mr_ring_from(l, spoke);
+	mr_loop_ring r = mr_loop_ring_from(l, spoke);
 	unsigned k = 0;
 
 	do {
-		mr_ring_step(&r);
+		mr_loop_ring_step(&r);
 		k++;
 	} while (r.more && !r.sharp);
 	return k;
@@ -119,18 +120,18 @@ static sector
 sector_read(const limiting *s, uint32_t v, uint32_t *spoke)
 {
 	sector c = { .k = sector_faces(s->l, *spoke) };
-	mr_ring r = mr_ring_from(s->l, *spoke);
+	mr_loop_ring r = mr_loop_ring_from(s->l, *spoke);
 	mr_v3 at = s->p[v];
 
 	c.first = mr_sub(s->p[r.to], at);
 	for (unsigned i = 1; i < c.k; i++) {
 		double x = MR_PI * i / c.k;
-		mr_ring_step(&r);
+		mr_loop_ring_step(&r);
 		mr_v3 w = mr_sub(s->p[r.to], at);
 		c.first_sine = mr_axpy(sin(x), w, c.first_sine);
 		c.second_sine = mr_axpy(sin(2 * x), w, c.second_sine);
 	}
-	mr_ring_step(&r);
+	mr_loop_ring_step(&r);
 	c.last = mr_sub(s->p[r.to], at); /* once around that is the first again */
 	*spoke = r.h;
 	return c;
@@ -250,13 +251,13 @@ dart_normal(const limiting *s, uint32_t v, unsigned n)
 {
 	uint32_t spoke = mr_loop_sharp_spoke(s->l, v);
 	dart_mode mode = dart_mode_find(n);
-	mr_ring r = mr_ring_from(s->l, spoke);
+	mr_loop_ring r = mr_loop_ring_from(s->l, spoke);
 	mr_v3 at = s->p[v];
 	mr_v3 a = mr_mul(mode.self + mode.sum, mr_sub(s->p[r.to], at)); /* -l_0 w_0 */
 	mr_v3 b = sector_read(s, v, &spoke).second_sine;
 
-	mr_ring_step(&r);
-	for (unsigned j = 1; j < n; j++, mr_ring_step(&r))
+	mr_loop_ring_step(&r);
+	for (unsigned j = 1; j < n; j++, mr_loop_ring_step(&r))
 		a = mr_axpy(-dart_mode_at(n, mode.x, j), mr_sub(s->p[r.to], at), a);
 	return normal_of(a, b);
 }

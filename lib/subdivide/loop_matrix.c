@@ -66,7 +66,7 @@ static void
 row_of_mask(row *r, const mr_loop *l, uint32_t v, mr_loop_mask mask, const rows *from)
 {
 	row_add(r, mask.self, from, v);
-	for (mr_ring g = mr_ring_begin(l, v); g.more && mask.self != 1; mr_ring_step(&g)) {
+	for (mr_loop_ring g = mr_loop_ring_begin(l, v); g.more && mask.self != 1; mr_loop_ring_step(&g)) {
 		double w = g.sharp ? mask.sharp : mask.ring;
 		if (w != 0)
 			row_add(r, w, from, g.to);
@@ -97,7 +97,7 @@ row_of_dart(row *r, const mr_loop *l, uint32_t v, unsigned n, const rows *from)
 		total += mr_loop_dart_weight(n, j);
 	row_add(r, 1 / total, from, v);
 	j = 0;
-	for (mr_ring g = mr_ring_from(l, start); g.more; mr_ring_step(&g), j++)
+	for (mr_loop_ring g = mr_loop_ring_from(l, start); g.more; mr_loop_ring_step(&g), j++)
 		row_add(r, mr_loop_dart_weight(n, j) / total, from, g.to);
 }
 

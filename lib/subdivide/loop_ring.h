@@ -38,20 +38,20 @@ mr_loop_sharp(const mr_loop *l, uint32_t h)
 /*
  * Walks the neighbours counter-clockwise, on the boundary from its first to its last:
  *
- *	for (mr_ring r = mr_ring_begin(l, v); r.more; mr_ring_step(&r))
+ *	for (mr_loop_ring r = mr_loop_ring_begin(l, v); r.more; mr_loop_ring_step(&r))
  */
-typedef struct mr_ring {
+typedef struct mr_loop_ring {
 	const mr_loop *l;
 	uint32_t start, h; /* h: the half-edge that leaves to it; MR_NONE: the last one of a boundary */
 	uint32_t to;
 	bool sharp, more;
-} mr_ring;
+} mr_loop_ring;
 
 /* From half-edge h on, which leaves the vertex; an open ring is walked to its end. */
-static inline mr_ring
-mr_ring_from(const mr_loop *l, uint32_t h)
+static inline mr_loop_ring
+mr_loop_ring_from(const mr_loop *l, uint32_t h)
 {
-	mr_ring r = { .l = l, .start = h, .h = h, .more = h != MR_NONE };
+	mr_loop_ring r = { .l = l, .start = h, .h = h, .more = h != MR_NONE };
 
 	if (r.more) {
 		r.to = mr_loop_to(l, h);
@@ -60,14 +60,14 @@ mr_ring_from(const mr_loop *l, uint32_t h)
 	return r;
 }
 
-static inline mr_ring
-mr_ring_begin(const mr_loop *l, uint32_t v)
+static inline mr_loop_ring
+mr_loop_ring_begin(const mr_loop *l, uint32_t v)
 {
-	return mr_ring_from(l, l->topo.out[v]);
+	return mr_loop_ring_from(l, l->topo.out[v]);
 }
 
 static inline void
-mr_ring_step(mr_ring *r)
+mr_loop_ring_step(mr_loop_ring *r)
 {
 	uint32_t before, next;
 
@@ -87,7 +87,7 @@ mr_ring_step(mr_ring *r)
 static inline uint32_t
 mr_loop_sharp_spoke(const mr_loop *l, uint32_t v)
 {
-	for (mr_ring r = mr_ring_begin(l, v); r.more; mr_ring_step(&r))
+	for (mr_loop_ring r = mr_loop_ring_begin(l, v); r.more; mr_loop_ring_step(&r))
 		if (r.sharp)
 			return r.h;
 	return MR_NONE;
@@ -118,7 +118,7 @@ mr_loop_kind_of(const mr_loop *l, uint32_t v)
 		return (mr_loop_kind){ MR_LOOP_ALONE, 0 };
 	if (!l->crease && l->topo.twin[h] == MR_NONE)
 		return (mr_loop_kind){ MR_LOOP_CREASE, 0 };
-	for (mr_ring r = mr_ring_begin(l, v); r.more; mr_ring_step(&r)) {
+	for (mr_loop_ring r = mr_loop_ring_begin(l, v); r.more; mr_loop_ring_step(&r)) {
 		n++;
 		sharp += r.sharp;
 	}

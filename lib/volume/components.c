@@ -160,7 +160,7 @@ count_point(const runs *r, mr_v3 p, tally *t)
 }
 
 static mr_status
-count_all(mr_ctx *ctx, const samples *s, const runs *r, tally *t)
+count_all(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, tally *t)
 {
 	t->points = MR_NEW_ZERO(ctx, r->n, uint32_t);
 	t->wall = MR_NEW_ZERO(ctx, r->n, uint32_t);
@@ -178,7 +178,7 @@ count_all(mr_ctx *ctx, const samples *s, const runs *r, tally *t)
 
 /* A line along x meets half of the area of a wall, on the average of directions. */
 static bool
-is_supported(const samples *s, const runs *r, const tally *t, uint32_t part)
+is_supported(const mr_volume_cloud *s, const runs *r, const tally *t, uint32_t part)
 {
 	double step = r->g->step / s->spacing, points = (double)t->points[part];
 
@@ -189,7 +189,7 @@ is_supported(const samples *s, const runs *r, const tally *t, uint32_t part)
 /* Whether the runs of each part, by its root, are inside in the end; a part that is dropped becomes what is
  * around it, which has the lower root: the run before its first. */
 static mr_status
-judge(mr_ctx *ctx, const samples *s, const runs *r, const tally *t, bool **inside, cleaning *c)
+judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool **inside, mr_cleaning *c)
 {
 	bool *in = MR_NEW_ZERO(ctx, r->n, bool);
 	uint32_t largest = 0;
@@ -229,10 +229,10 @@ turn_runs(const runs *r, const bool *inside, float *f)
 }
 
 mr_status
-mr_volume_clean(mr_ctx *ctx, const samples *s, const mr_grid *g, float *f, cleaning *c)
+mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, float *f, mr_cleaning *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	cleaning made = { 0, 0 };
+	mr_cleaning made = { 0, 0 };
 	bool *inside;
 	tally t;
 	runs r;

@@ -7,7 +7,7 @@
 enum { NEAREST = 16, CHUNK = 1 << 16, GRAIN = 1024 };
 
 typedef struct work {
-	const samples *s;
+	const mr_volume_cloud *s;
 	const uint32_t *index; /* NEAREST of each of a chunk's points */
 	size_t first;          /* the chunk's first point */
 	mr_v3 *to;
@@ -41,7 +41,7 @@ project_body(void *arg, size_t begin, size_t end)
 }
 
 static mr_status
-project_all(mr_ctx *ctx, const mr_near *near, const samples *s, mr_v3 *to)
+project_all(mr_ctx *ctx, const mr_near *near, const mr_volume_cloud *s, mr_v3 *to)
 {
 	size_t chunk = s->n < CHUNK ? s->n : CHUNK;
 	uint32_t *index = MR_NEW(ctx, chunk * NEAREST, uint32_t);
@@ -57,7 +57,7 @@ project_all(mr_ctx *ctx, const mr_near *near, const samples *s, mr_v3 *to)
 }
 
 mr_status
-mr_volume_project(mr_ctx *ctx, samples *s)
+mr_volume_project(mr_ctx *ctx, mr_volume_cloud *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *to = MR_NEW(ctx, s->n, mr_v3);

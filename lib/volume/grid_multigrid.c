@@ -27,19 +27,20 @@ mr_multigrid_nodes(size_t cells, size_t levels)
 }
 
 static size_t
-nodes_of(const level *l)
+nodes_of(const mr_grid_level *l)
 {
 	return l->n[0] * l->n[1] * l->n[2];
 }
 
 mr_status
-mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, multigrid *m)
+mr_multigrid_begin(
+    mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, mr_grid_multigrid *m)
 {
 	size_t layer = n[0] * n[1];
 
 	m->levels = levels;
 	for (size_t i = 0; i < levels; i++) {
-		level *l = &m->level[i];
+		mr_grid_level *l = &m->level[i];
 		for (int k = 0; k < 3; k++)
 			l->n[k] = i == 0 ? n[k] : (m->level[i - 1].n[k] - 1) / 2 + 1;
 		l->u = i == 0 ? u : MR_NEW(ctx, nodes_of(l), float);
@@ -58,7 +59,7 @@ mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool
 
 /* A loop over the inner layers of a level. */
 typedef struct pass {
-	const level *fine, *coarse;
+	const mr_grid_level *fine, *coarse;
 	const float *from;
 	float *to;
 	float scale;
@@ -70,7 +71,7 @@ typedef struct pass {
 
 /* Over `count` layers of a level from p->first on. */
 static void
-over_some(mr_ctx *ctx, const level *l, size_t count, mr_body body, pass *p)
+over_some(mr_ctx *ctx, const mr_grid_level *l, size_t count, mr_body body, pass *p)
 {
 	size_t layer = l->n[0] * l->n[1], grain = PIECE / layer + 1;
 
@@ -78,14 +79,14 @@ over_some(mr_ctx *ctx, const level *l, size_t count, mr_body body, pass *p)
 }
 
 static void
-over_layers(mr_ctx *ctx, const level *l, mr_body body, pass *p)
+over_layers(mr_ctx *ctx, const mr_grid_level *l, mr_body body, pass *p)
 {
 	p->first = 1;
 	over_some(ctx, l, l->n[2] - 2, body, p);
 }
 
 static void
-relax_rows(const level *l, size_t z, size_t colour)
+relax_rows(const mr_grid_level *l, size_t z, size_t colour)
 {
 	size_t up = l->n[0], far = l->n[0] * l->n[1];
 
@@ -117,7 +118,7 @@ relax_layers(void *arg, size_t begin, size_t end)
 }
 
 static void
-relax(mr_ctx *ctx, const level *l, size_t sweeps)
+relax(mr_ctx *ctx, const mr_grid_level *l, size_t sweeps)
 {
 	for (size_t i = 0; i < 2 * sweeps; i++)
 		over_layers(ctx, l, relax_layers, &(pass){ .fine = l, .colour = i & 1 });
@@ -127,7 +128,7 @@ static void
 residual_layers(void *arg, size_t begin, size_t end)
 {
 	const pass *p = arg;
-	const level *l = p->fine;
+	const mr_grid_level *l = p->fine;
 	size_t up = l->n[0], far = l->n[0] * l->n[1];
 
 	for (size_t z = begin; z < end; z++)
@@ -162,7 +163,7 @@ static void
 restrict_layers(void *arg, size_t begin, size_t end)
 {
 	const pass *p = arg;
-	const level *f = p->fine, *c = p->coarse;
+	const mr_grid_level *f = p->fine, *c = p->coarse;
 	size_t up = f->n[0], far = f->n[0] * f->n[1];
 
 	for (size_t z = p->first + begin; z < p->first + end; z++)
@@ -175,8 +176,8 @@ restrict_layers(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_multigrid_restrict(
-    mr_ctx *ctx, const level *fine, const level *coarse, const float *from, float *to, float scale)
+mr_multigrid_restrict(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level *coarse, const float *from,
+    float *to, float scale)
 {
 	over_layers(ctx, coarse, restrict_layers,
 	    &(pass){ .fine = fine, .coarse = coarse, .from = from, .to = to, .scale = scale });
@@ -186,7 +187,7 @@ static void
 prolong_layers(void *arg, size_t begin, size_t end)
 {
 	const pass *p = arg;
-	const level *f = p->fine, *c = p->coarse;
+	const mr_grid_level *f = p->fine, *c = p->coarse;
 
 	for (size_t z = begin + 1; z <= end; z++)
 		for (size_t y = 1; y + 1 < f->n[1]; y++) {
@@ -209,8 +210,8 @@ prolong_layers(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_multigrid_prolong(mr_ctx *ctx, const level *fine, const level *coarse, const float *from, float *to,
-    float keep, float scale)
+mr_multigrid_prolong(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level *coarse, const float *from,
+    float *to, float keep, float scale)
 {
 	over_layers(ctx, fine, prolong_layers,
 	    &(pass){ .fine = fine, .coarse = coarse, .from = from, .to = to, .keep = keep, .scale = scale });
@@ -218,7 +219,7 @@ mr_multigrid_prolong(mr_ctx *ctx, const level *fine, const level *coarse, const 
 
 /* c->b = the residuals of l, around the nodes of c: of a slab of layers at a time. */
 static void
-restrict_residuals(mr_ctx *ctx, const multigrid *m, const level *l, const level *c)
+restrict_residuals(mr_ctx *ctx, const mr_grid_multigrid *m, const mr_grid_level *l, const mr_grid_level *c)
 {
 	size_t most = (m->slab - 1) / 2;
 
@@ -240,9 +241,9 @@ restrict_residuals(mr_ctx *ctx, const multigrid *m, const level *l, const level 
 }
 
 static void
-cycle_from(mr_ctx *ctx, multigrid *m, size_t i)
+cycle_from(mr_ctx *ctx, mr_grid_multigrid *m, size_t i)
 {
-	level *l = &m->level[i], *c = l + 1;
+	mr_grid_level *l = &m->level[i], *c = l + 1;
 
 	if (i + 1 == m->levels) {
 		relax(ctx, l, COARSEST_SWEEPS);
@@ -257,10 +258,10 @@ cycle_from(mr_ctx *ctx, multigrid *m, size_t i)
 }
 
 void
-mr_multigrid_full(mr_ctx *ctx, multigrid *m)
+mr_multigrid_full(mr_ctx *ctx, mr_grid_multigrid *m)
 {
 	for (size_t i = 0; i + 1 < m->levels; i++) {
-		level *l = &m->level[i], *c = l + 1;
+		mr_grid_level *l = &m->level[i], *c = l + 1;
 		mr_multigrid_restrict(ctx, l, c, l->b, c->b, 4);
 		if (l->screen)
 			mr_multigrid_restrict(ctx, l, c, l->screen, c->screen, 4);

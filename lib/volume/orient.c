@@ -74,7 +74,7 @@ join(parts *q, uint32_t a, uint32_t b, int8_t same)
 
 /* How alike the normals are, as a sign and a weight below 1. */
 static double
-likeness(const samples *s, uint32_t i, uint32_t j)
+likeness(const mr_volume_cloud *s, uint32_t i, uint32_t j)
 {
 	mr_v3 a = s->plane.normal[i], b = s->plane.normal[j], e = mr_unit(mr_sub(s->p[j], s->p[i]));
 	double ae = mr_dot(a, e), be = mr_dot(b, e);
@@ -93,7 +93,7 @@ bin_of(double likeness)
 
 /* The links, each pair once or twice, the most alike first; in each bin by number. */
 typedef struct order {
-	const samples *s;
+	const mr_volume_cloud *s;
 	uint16_t *kind; /* of each link: twice the bin, and 1 where the signs differ; NONE */
 	uint32_t *sorted;
 	size_t count;
@@ -105,7 +105,7 @@ static void
 find_kinds(void *arg, size_t begin, size_t end)
 {
 	const order *o = arg;
-	const samples *s = o->s;
+	const mr_volume_cloud *s = o->s;
 	size_t links = s->plane.links;
 
 	for (size_t i = begin; i < end; i++)
@@ -119,7 +119,7 @@ find_kinds(void *arg, size_t begin, size_t end)
 }
 
 static mr_status
-sort_links(mr_ctx *ctx, const samples *s, order *o)
+sort_links(mr_ctx *ctx, const mr_volume_cloud *s, order *o)
 {
 	size_t links = s->n * s->plane.links, first[BINS + 1] = { 0 };
 
@@ -140,7 +140,7 @@ sort_links(mr_ctx *ctx, const samples *s, order *o)
 }
 
 static mr_status
-begin(mr_ctx *ctx, const samples *s, const double *vote, parts *q)
+begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, parts *q)
 {
 	q->parent = MR_NEW(ctx, s->n, uint32_t);
 	q->sign = MR_NEW(ctx, s->n, int8_t);
@@ -158,7 +158,7 @@ begin(mr_ctx *ctx, const samples *s, const double *vote, parts *q)
 }
 
 mr_status
-mr_volume_orient(mr_ctx *ctx, samples *s, const double *vote)
+mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t links = s->plane.links;

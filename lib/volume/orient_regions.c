@@ -34,7 +34,7 @@ typedef struct regions {
 } regions;
 
 static bool
-are_one(const samples *s, uint32_t i, uint32_t j, double flat)
+are_one(const mr_volume_cloud *s, uint32_t i, uint32_t j, double flat)
 {
 	return s->plane.variation[i] <= flat && s->plane.variation[j] <= flat &&
 	       mr_dot(s->plane.normal[i], s->plane.normal[j]) > ALIKE;
@@ -42,7 +42,7 @@ are_one(const samples *s, uint32_t i, uint32_t j, double flat)
 
 /* The roots of the largest sets, by size, equal ones by number, into `root`.  Returns how many. */
 static size_t
-pick_largest(const samples *s, const uint32_t *size, uint32_t root[REGIONS])
+pick_largest(const mr_volume_cloud *s, const uint32_t *size, uint32_t root[REGIONS])
 {
 	double least = fmax(POINTS_LEAST, REGION_LEAST * (double)s->n);
 	size_t count = 0;
@@ -64,7 +64,7 @@ pick_largest(const samples *s, const uint32_t *size, uint32_t root[REGIONS])
 
 /* size: zeros. */
 static void
-number_largest(const samples *s, uint32_t *set, uint32_t *size, regions *r)
+number_largest(const mr_volume_cloud *s, uint32_t *set, uint32_t *size, regions *r)
 {
 	uint32_t root[REGIONS], *number = size;
 
@@ -82,7 +82,7 @@ number_largest(const samples *s, uint32_t *set, uint32_t *size, regions *r)
 }
 
 static mr_status
-find_regions(mr_ctx *ctx, const samples *s, regions *r)
+find_regions(mr_ctx *ctx, const mr_volume_cloud *s, regions *r)
 {
 	size_t links = s->plane.links;
 	mr_mark mark;
@@ -108,7 +108,7 @@ find_regions(mr_ctx *ctx, const samples *s, regions *r)
 
 /* What the flood says of the signs as they are, on the mean. */
 static void
-count_votes(const samples *s, const double *flood, regions *r)
+count_votes(const mr_volume_cloud *s, const double *flood, regions *r)
 {
 	double count[REGIONS] = { 0 };
 
@@ -125,7 +125,7 @@ count_votes(const samples *s, const double *flood, regions *r)
 
 /* pull[a][b] = sum over b of area times how much the indicator of a falls along the normal. */
 static void
-measure_pull(const samples *s, const mr_grid *g, const float *u, size_t a, regions *r)
+measure_pull(const mr_volume_cloud *s, const mr_grid *g, const float *u, size_t a, regions *r)
 {
 	for (size_t b = 0; b < r->count; b++)
 		r->pull[a][b] = 0;
@@ -139,12 +139,12 @@ measure_pull(const samples *s, const mr_grid *g, const float *u, size_t a, regio
 }
 
 static mr_status
-measure_region(mr_ctx *ctx, samples *s, const mr_grid *g, size_t levels, size_t a, regions *r)
+measure_region(mr_ctx *ctx, mr_volume_cloud *s, const mr_grid *g, size_t levels, size_t a, regions *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	float *u = MR_NEW(ctx, mr_grid_nodes(g), float);
-	multigrid m;
-	field f;
+	mr_grid_multigrid m;
+	mr_grid_points f;
 
 	if (!u)
 		return MR_EMEM;
@@ -168,12 +168,12 @@ is_unsure(const regions *r, size_t a)
 /* Points at equal strides, each for all of its stride, and the regions of these: as they lie in Morton order
  * every place has its share. */
 static mr_status
-thin_out(mr_ctx *ctx, const samples *s, const regions *r, samples *thin, uint32_t **of)
+thin_out(mr_ctx *ctx, const mr_volume_cloud *s, const regions *r, mr_volume_cloud *thin, uint32_t **of)
 {
 	size_t n = s->n < MEASURED_MOST ? s->n : MEASURED_MOST;
 	uint32_t *region = MR_NEW(ctx, n, uint32_t);
 
-	*thin = (samples){ .n = n,
+	*thin = (mr_volume_cloud){ .n = n,
 		.p = MR_NEW(ctx, n, mr_v3),
 		.depth = MR_NEW(ctx, n, uint8_t),
 		.plane = { .normal = MR_NEW(ctx, n, mr_v3), .area = MR_NEW(ctx, n, double) } };
@@ -192,12 +192,12 @@ thin_out(mr_ctx *ctx, const samples *s, const regions *r, samples *thin, uint32_
 
 /* Of the unsure regions; g: a level of the volume's. */
 static mr_status
-measure_unsure(mr_ctx *ctx, const samples *s, const mr_grid *g, size_t levels, regions *r)
+measure_unsure(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, size_t levels, regions *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *all = r->of;
 	mr_grid coarse = *g;
-	samples thin;
+	mr_volume_cloud thin;
 
 	for (; levels > 1 && mr_grid_nodes(&coarse) > NODES_MOST; levels--) {
 		coarse.step *= 2;
@@ -263,7 +263,7 @@ turn_regions(const regions *r, double sign[REGIONS])
 
 /* The other points follow the regions. */
 static mr_status
-apply_signs(mr_ctx *ctx, const regions *r, const double sign[REGIONS], samples *s)
+apply_signs(mr_ctx *ctx, const regions *r, const double sign[REGIONS], mr_volume_cloud *s)
 {
 	double *vote = MR_NEW_ZERO(ctx, s->n, double);
 
@@ -289,8 +289,8 @@ any_unsure(const regions *r)
 }
 
 mr_status
-mr_volume_regions(
-    mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g, size_t levels, mr_volume_result *result)
+mr_volume_regions(mr_ctx *ctx, mr_volume_cloud *s, const double *flood, const mr_grid *g, size_t levels,
+    mr_volume_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double sign[REGIONS];

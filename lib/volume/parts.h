@@ -11,7 +11,7 @@
 #include "volume/isosurface.h"
 
 /* The points, each once, ordered by place; the planes' normals get their signs on the way. */
-typedef struct samples {
+typedef struct mr_volume_cloud {
 	mr_v3 *p;
 	size_t n;
 	mr_planes plane;
@@ -19,7 +19,7 @@ typedef struct samples {
 	double noise;   /* at least 1: a surface is seen in squares of so many spacings */
 	uint8_t *depth; /* n: how often the step of the grid is doubled where the points are sparse */
 	mr_box box;
-} samples;
+} mr_volume_cloud;
 
 enum { DEPTHS = 3 };
 
@@ -28,38 +28,38 @@ enum { DEPTHS = 3 };
  * projected: where they are noisy, onto their planes.
  */
 mr_status mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share,
-    bool projected, samples *s);
+    bool projected, mr_volume_cloud *s);
 
 /* Moves each point onto the plane of least squares of those nearest to it; planes and links are as they were.
  * volume_project.c */
-mr_status mr_volume_project(mr_ctx *ctx, samples *s);
+mr_status mr_volume_project(mr_ctx *ctx, mr_volume_cloud *s);
 
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
  * (positive: the sign is right) on the whole.  volume_orient.c */
-mr_status mr_volume_orient(mr_ctx *ctx, samples *s, const double *vote);
+mr_status mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote);
 
 /*
  * Turns the normals of whole regions over where all agree better then and the flood's votes (positive: the
  * sign is right) are not for it.  g: of so many levels; a step twice the grid's will do.  volume_regions.c
  */
-mr_status mr_volume_regions(
-    mr_ctx *ctx, samples *s, const double *flood, const mr_grid *g, size_t levels, mr_volume_result *result);
+mr_status mr_volume_regions(mr_ctx *ctx, mr_volume_cloud *s, const double *flood, const mr_grid *g,
+    size_t levels, mr_volume_result *result);
 
 /* ---- volume_solve.c: (screen - Laplacian) u = b on the nodes, u = 0 on the faces of the grid ---- */
 
 enum { LEVELS_MOST = 16 };
 
-typedef struct level {
+typedef struct mr_grid_level {
 	size_t n[3];
 	float *u, *b;
 	float *screen; /* NULL: none; of the finest level it is b too */
-} level;
+} mr_grid_level;
 
-typedef struct multigrid {
+typedef struct mr_grid_multigrid {
 	size_t levels, slab; /* slab: layers of a level whose residuals are kept at a time */
-	level level[LEVELS_MOST];
+	mr_grid_level level[LEVELS_MOST];
 	float *residual;
-} multigrid;
+} mr_grid_multigrid;
 
 /* Nodes along an axis for `cells` cells at least, so that coarser grids fit. */
 size_t mr_multigrid_nodes(size_t cells, size_t levels);
@@ -68,53 +68,55 @@ size_t mr_multigrid_nodes(size_t cells, size_t levels);
 size_t mr_multigrid_levels(size_t cells);
 
 /* Arrays for all levels, zero; u: that of the finest, the caller's. */
-mr_status
-mr_multigrid_begin(mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, multigrid *m);
+mr_status mr_multigrid_begin(
+    mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, mr_grid_multigrid *m);
 
 /* The solution from scratch, coarse to fine; the screen of the coarser levels follows the finest's. */
-void mr_multigrid_full(mr_ctx *ctx, multigrid *m);
+void mr_multigrid_full(mr_ctx *ctx, mr_grid_multigrid *m);
 
 /* to = keep to + scale times the values of the next coarser level, between nodes; on inner nodes. */
-void mr_multigrid_prolong(mr_ctx *ctx, const level *fine, const level *coarse, const float *from, float *to,
-    float keep, float scale);
+void mr_multigrid_prolong(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level *coarse,
+    const float *from, float *to, float keep, float scale);
 
 /* to = the mean of the finer level's values around each inner node. */
-void mr_multigrid_restrict(
-    mr_ctx *ctx, const level *fine, const level *coarse, const float *from, float *to, float scale);
+void mr_multigrid_restrict(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level *coarse,
+    const float *from, float *to, float scale);
 
 /* ---- volume_splat.c: points to nodes and back ---- */
 
 /* Some of the points by layer of cells: order[first[z]] to order[first[z + 1]] lie between layers z and z
  * + 1. */
-typedef struct field {
+typedef struct mr_grid_points {
 	mr_grid grid;
 	size_t *first; /* n[2] */
 	uint32_t *order;
-} field;
+} mr_grid_points;
 
 /* Of the points of a depth, or of all (DEPTHS); grid is theirs. */
-mr_status mr_volume_field(mr_ctx *ctx, const samples *s, const mr_grid *grid, unsigned depth, field *f);
+mr_status mr_volume_field(
+    mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *grid, unsigned depth, mr_grid_points *f);
 
 /* to = divergence of the points' normals, weighted by area, in the units of the equation. */
-void mr_volume_divergence(mr_ctx *ctx, const samples *s, const field *f, float *to);
+void mr_volume_divergence(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid_points *f, float *to);
 
 /* to = sum of what points spread over the nodes of their cells: value (NULL: 1) times area per squared step.
  */
-void mr_volume_spread(mr_ctx *ctx, const samples *s, const field *f, const double *value, float *to);
+void mr_volume_spread(
+    mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid_points *f, const double *value, float *to);
 
 /* The value between the nodes at p, which must be inside the grid. */
 double mr_volume_at(const mr_grid *g, const float *u, mr_v3 p);
 
 /* ---- volume_clean.c ---- */
 
-typedef struct cleaning {
+typedef struct mr_cleaning {
 	size_t parts, cavities; /* dropped */
-} cleaning;
+} mr_cleaning;
 
 /*
  * Turns the sign of f (negative inside) in parts of the inside, and in cavities, whose walls have few points
  * for their size; the largest part stays.
  */
-mr_status mr_volume_clean(mr_ctx *ctx, const samples *s, const mr_grid *g, float *f, cleaning *c);
+mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, float *f, mr_cleaning *c);
 
 #endif

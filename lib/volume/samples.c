@@ -11,7 +11,7 @@ enum { NEAREST = 16, LINKS = 8, TOLD_LEAST = 64 };
 
 /* MR_EMESH where what counts of n points has no volume: fewer than four, on a line, in a plane. */
 static mr_status
-check(mr_ctx *ctx, const samples *s, size_t n)
+check(mr_ctx *ctx, const mr_volume_cloud *s, size_t n)
 {
 	int dimensions = mr_cloud_dimensions(s->p, s->n);
 
@@ -25,7 +25,7 @@ check(mr_ctx *ctx, const samples *s, size_t n)
 
 /* Planes of as many neighbours as it takes to see a surface through the noise. */
 static mr_status
-find_planes(mr_ctx *ctx, const mr_sampling *of, samples *s)
+find_planes(mr_ctx *ctx, const mr_sampling *of, mr_volume_cloud *s)
 {
 	size_t near = s->n < of->neighbours ? s->n : of->neighbours;
 	double area;
@@ -40,7 +40,7 @@ find_planes(mr_ctx *ctx, const mr_sampling *of, samples *s)
 
 /* The area that a quarter of the point's neighbours does not exceed. */
 static double
-usual_area(const samples *s, const double *area, size_t i)
+usual_area(const mr_volume_cloud *s, const double *area, size_t i)
 {
 	const uint32_t *neighbor = s->plane.neighbor + i * s->plane.links;
 	double least[LINKS];
@@ -57,7 +57,7 @@ usual_area(const samples *s, const double *area, size_t i)
 }
 
 static mr_status
-limit_areas(mr_ctx *ctx, samples *s)
+limit_areas(mr_ctx *ctx, mr_volume_cloud *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *area = MR_NEW(ctx, s->n, double);
@@ -73,7 +73,7 @@ limit_areas(mr_ctx *ctx, samples *s)
 
 /* At equal strides along the curve, so that every place keeps its share. */
 static void
-thin_out(samples *s, double share)
+thin_out(mr_volume_cloud *s, double share)
 {
 	size_t n = (size_t)ceil(share * (double)s->n);
 
@@ -84,7 +84,7 @@ thin_out(samples *s, double share)
 
 /* The points as they are now: their sampling, without what are outliers of it. */
 static mr_status
-sample_again(mr_ctx *ctx, mr_sampling *of, samples *s)
+sample_again(mr_ctx *ctx, mr_sampling *of, mr_volume_cloud *s)
 {
 	MR_TRY(mr_sampling_find(ctx, s->p, s->n, NULL, of));
 	return mr_sampling_places(ctx, s->p, of, &s->p, &s->n);
@@ -92,7 +92,7 @@ sample_again(mr_ctx *ctx, mr_sampling *of, samples *s)
 
 /* The same again of the points on their planes, whose outliers show better; the noise was what it was. */
 static mr_status
-project(mr_ctx *ctx, mr_sampling *of, samples *s)
+project(mr_ctx *ctx, mr_sampling *of, mr_volume_cloud *s)
 {
 	double scale = s->noise * s->spacing;
 
@@ -106,7 +106,7 @@ project(mr_ctx *ctx, mr_sampling *of, samples *s)
 
 mr_status
 mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share,
-    bool projected, samples *s)
+    bool projected, mr_volume_cloud *s)
 {
 	mr_sampling of = *sampling;
 

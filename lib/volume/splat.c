@@ -53,7 +53,7 @@ mr_volume_at(const mr_grid *g, const float *u, mr_v3 p)
 }
 
 mr_status
-mr_volume_field(mr_ctx *ctx, const samples *s, const mr_grid *grid, unsigned depth, field *f)
+mr_volume_field(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *grid, unsigned depth, mr_grid_points *f)
 {
 	size_t layers = grid->n[2] - 1, *at;
 	mr_mark mark;
@@ -80,8 +80,8 @@ mr_volume_field(mr_ctx *ctx, const samples *s, const mr_grid *grid, unsigned dep
 }
 
 typedef struct work {
-	const samples *s;
-	const field *f;
+	const mr_volume_cloud *s;
+	const mr_grid_points *f;
 	const double *value;
 	float *to;
 	void (*add)(const struct work *w, size_t i);
@@ -150,7 +150,7 @@ spread(mr_ctx *ctx, work *w)
 }
 
 void
-mr_volume_divergence(mr_ctx *ctx, const samples *s, const field *f, float *to)
+mr_volume_divergence(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid_points *f, float *to)
 {
 	/* Laplacian u = - div n, so 6 u - neighbours = + div: out of the lower node of an edge, into the
 	 * upper */
@@ -158,7 +158,8 @@ mr_volume_divergence(mr_ctx *ctx, const samples *s, const field *f, float *to)
 }
 
 void
-mr_volume_spread(mr_ctx *ctx, const samples *s, const field *f, const double *value, float *to)
+mr_volume_spread(
+    mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid_points *f, const double *value, float *to)
 {
 	spread(ctx, &(work){ .s = s, .f = f, .value = value, .to = to, .add = add_value });
 }

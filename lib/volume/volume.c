@@ -35,9 +35,9 @@ static const double THIN = 1.8;          /* steps that the inside, or a gap, mus
 static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise across the surface */
 
 typedef struct volume {
-	samples s;
+	mr_volume_cloud s;
 	mr_grid grid[DEPTHS];
-	field f[DEPTHS];
+	mr_grid_points f[DEPTHS];
 	size_t levels, depths;
 	double *value; /* of each point */
 	mr_volume_result found;
@@ -114,7 +114,7 @@ typedef struct across {
 static double
 across_at(const across *a, size_t i)
 {
-	const samples *s = &a->v->s;
+	const mr_volume_cloud *s = &a->v->s;
 	const mr_grid *g = &a->v->grid[0];
 	mr_v3 d = mr_mul(a->reach * g->step, s->plane.normal[i]);
 
@@ -145,8 +145,8 @@ static mr_status
 orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	multigrid m;
-	level *l = &m.level[0];
+	mr_grid_multigrid m;
+	mr_grid_level *l = &m.level[0];
 	size_t nodes = mr_grid_nodes(&v->grid[0]);
 
 	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, w, true, &m));
@@ -184,7 +184,7 @@ turn_over(volume *v)
 
 /* Sparse points spread on coarser levels; a right side there is of four times the squared step. */
 static void
-spread_normals(mr_ctx *ctx, const volume *v, multigrid *m)
+spread_normals(mr_ctx *ctx, const volume *v, mr_grid_multigrid *m)
 {
 	for (size_t d = v->depths; d-- > 0;) {
 		mr_volume_divergence(ctx, &v->s, &v->f[d], m->level[d].b);
@@ -195,7 +195,7 @@ spread_normals(mr_ctx *ctx, const volume *v, multigrid *m)
 }
 
 static mr_status
-solve_indicator(mr_ctx *ctx, volume *v, multigrid *m)
+solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 {
 	mr_volume_result *found = &v->found;
 	size_t turned;
@@ -236,7 +236,7 @@ static void
 measure_level(void *arg, size_t begin, size_t end)
 {
 	const across *a = arg;
-	const samples *s = &a->v->s;
+	const mr_volume_cloud *s = &a->v->s;
 	const mr_grid *g = &a->v->grid[0];
 
 	for (size_t i = begin; i < end; i++) {
@@ -287,14 +287,14 @@ half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
 
 /* Level 1's u = mean of the values of the points nearby; `far` where there are none. */
 static mr_status
-spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
+spread_values(mr_ctx *ctx, volume *v, mr_grid_multigrid *m, double far)
 {
 	static const float LITTLE = 0.05f;
 	size_t depths = m->levels < 1 + NEARBY ? m->levels : 1 + NEARBY;
 	mr_mark mark = mr_mark_take(ctx);
 	mr_grid g = v->grid[0];
 	float *weight[1 + NEARBY];
-	field f;
+	mr_grid_points f;
 
 	for (size_t i = 1; i < depths; i++) {
 		weight[i] = MR_NEW_ZERO(ctx, m->level[i].n[0] * m->level[i].n[1] * m->level[i].n[2], float);
@@ -307,12 +307,12 @@ spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
 	mr_volume_spread(ctx, &v->s, &f, v->value, m->level[1].b);
 	mr_volume_spread(ctx, &v->s, &f, NULL, weight[1]);
 	for (size_t i = 1; i + 1 < depths; i++) {
-		level *l = &m->level[i], *c = l + 1;
+		mr_grid_level *l = &m->level[i], *c = l + 1;
 		mr_multigrid_restrict(ctx, l, c, l->b, c->b, 1);
 		mr_multigrid_restrict(ctx, l, c, weight[i], weight[i + 1], 1);
 	}
 	for (size_t i = depths; i-- > 1;) {
-		level *l = &m->level[i];
+		mr_grid_level *l = &m->level[i];
 		size_t nodes = l->n[0] * l->n[1] * l->n[2];
 		for (size_t k = 0; k < nodes; k++)
 			l->u[k] = (float)far;
@@ -327,9 +327,9 @@ spread_values(mr_ctx *ctx, volume *v, multigrid *m, double far)
 
 /* f = value wanted nearby - indicator, in place of the indicator: positive on the faces of the grid. */
 static mr_status
-make_level(mr_ctx *ctx, volume *v, multigrid *m)
+make_level(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 {
-	level *l = &m->level[0];
+	mr_grid_level *l = &m->level[0];
 	double half;
 	size_t nodes = mr_grid_nodes(&v->grid[0]);
 	float *c = l->b;
@@ -383,8 +383,8 @@ static mr_status
 fill_field(mr_ctx *ctx, volume *v, float *f)
 {
 	double start = mr_seconds();
-	cleaning c;
-	multigrid m;
+	mr_cleaning c;
+	mr_grid_multigrid m;
 
 	MR_TRY(orient_by_flood(ctx, v, f));
 	v->found.seconds_flood = mr_seconds() - start;

@@ -64,10 +64,10 @@ field_from(const bool *in, mr_random *r)
 	return f;
 }
 
-static cleaning
-clean(const samples *s, float *f)
+static mr_cleaning
+clean(const mr_volume_cloud *s, float *f)
 {
-	cleaning c = { 99, 99 };
+	mr_cleaning c = { 99, 99 };
 
 	assert_int_equal(mr_volume_clean(&ctx, s, &GRID, f, &c), MR_OK);
 	return c;
@@ -79,7 +79,7 @@ random_volumes_have_the_parts_that_floods_find(void **state)
 {
 	mr_random r = { 1 };
 	size_t parts, cavities, all_parts = 0, all_cavities = 0;
-	samples none = { .n = 0, .spacing = 1 };
+	mr_volume_cloud none = { .n = 0, .spacing = 1 };
 
 	(void)state;
 	for (int share = 1; share < 20; share++) {
@@ -87,7 +87,7 @@ random_volumes_have_the_parts_that_floods_find(void **state)
 		float *f, *before = MR_NEW(&ctx, NODES, float);
 		size_t kept = 0;
 		bool *left = MR_NEW_ZERO(&ctx, NODES, bool);
-		cleaning c;
+		mr_cleaning c;
 		for (size_t i = 0; i < NODES; i++) {
 			size_t x = i % N, y = i / N % N, z = i / (N * N);
 			bool inner = x % (N - 1) && y % (N - 1) && z % (N - 1);
@@ -159,10 +159,10 @@ walls_without_points_go(void **state)
 		bool cavity = walls & 1, small = walls & 2;
 		mr_v3 *p = MR_NEW(&ctx, 10000, mr_v3);
 		bool *in = MR_NEW(&ctx, NODES, bool);
-		samples s = { .p = p, .spacing = 0.5 };
+		mr_volume_cloud s = { .p = p, .spacing = 0.5 };
 		mr_random r = { 2 };
 		float *f;
-		cleaning c;
+		mr_cleaning c;
 		for (int k = 0; k < 3; k++)
 			if (k == 0 || walls >> (k - 1) & 1)
 				s.n += box_points(mr_vec(wall[k][0], wall[k][0], wall[k][0]),
@@ -192,10 +192,10 @@ a_part_without_points_goes(void **state)
 	for (int right = 0; right < 2; right++) {
 		mr_v3 *p = MR_NEW(&ctx, 10000, mr_v3);
 		bool *in = MR_NEW(&ctx, NODES, bool);
-		samples s = { .p = p, .spacing = 0.5 };
+		mr_volume_cloud s = { .p = p, .spacing = 0.5 };
 		mr_random r = { 3 };
 		float *f;
-		cleaning c;
+		mr_cleaning c;
 		(void)state;
 		s.n = right ? box_points(mr_vec(11.5, 3.5, 3.5), mr_vec(15.5, 8.5, 8.5), 0.5, p)
 		            : box_points(mr_vec(1.5, 1.5, 1.5), mr_vec(9.5, 14.5, 14.5), 0.5, p);

@@ -12,7 +12,7 @@ typedef struct scene {
 	mr_topology topo;
 	mr_curves curves;
 	mr_dyn d;
-	mr_surface s;
+	mr_remesh_source s;
 } scene;
 
 static void
@@ -22,7 +22,7 @@ set_up(scene *x, mr_mesh m)
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
 	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, 180, &x->d), MR_OK);
 	assert_int_equal(mr_curves_copy(&ctx, &x->d.curves, &x->curves), MR_OK);
-	x->s = (mr_surface){ &x->m, &x->topo, &x->curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
+	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
 }
 
 /* Moves a share of the inner vertices, by as much as `way`, within z = const. */
@@ -285,7 +285,7 @@ what_is_tangled_is_mended(void **state)
 				mr_v3 way = random_vector(&r);
 				mr_closest c;
 				way.z *= plane ? 0 : 1;
-				c = mr_surface_place(&x.s, &x.d, v, mr_axpy(4 * x.s.uniform, way, x.d.p[v]),
+				c = mr_remesh_place(&x.s, &x.d, v, mr_axpy(4 * x.s.uniform, way, x.d.p[v]),
 				    mr_dyn_normal_around(&x.d, v));
 				x.d.p[v] = c.point;
 				x.d.at[v] = c.at.face;

@@ -6,7 +6,7 @@ typedef struct scene {
 	mr_mesh m;
 	mr_topology topo;
 	mr_dyn d;
-	mr_surface s;
+	mr_remesh_source s;
 } scene;
 
 static void
@@ -15,7 +15,7 @@ set_up(scene *x, mr_mesh m)
 	x->m = m;
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
 	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, 180, &x->d), MR_OK);
-	x->s = (mr_surface){ &x->m, &x->topo, &x->d.curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
+	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->d.curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
 }
 
 static int

@@ -108,12 +108,12 @@ seeds_damaged(void **state)
 }
 
 static void
-read_back(const char *path, mr_bytes *b)
+read_back(const char *path, mr_file_bytes *b)
 {
 	mr_ctx ctx;
 
 	mr_ctx_init(&ctx, 1);
-	assert_int_equal(mr_bytes_read(&ctx, path, NULL, b), MR_OK);
+	assert_int_equal(mr_file_bytes_read(&ctx, path, NULL, b), MR_OK);
 	mr_ctx_free(&ctx);
 }
 
@@ -128,13 +128,13 @@ written_damaged(void **state)
 	for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
 		mr_ctx ctx;
 		mr_model m;
-		mr_bytes b = { 0 };
+		mr_file_bytes b = { 0 };
 		mr_ctx_init(&ctx, 1);
 		m = make_model(&ctx, 4, 3, true);
 		assert_int_equal(mr_model_write(&ctx, "fuzz", names[i], &m, NULL, NULL), MR_OK);
 		read_back("fuzz", &b);
 		damage(names[i], b.data, b.size);
-		mr_bytes_free(&b);
+		mr_file_bytes_free(&b);
 		mr_ctx_free(&ctx);
 	}
 }
@@ -155,7 +155,7 @@ gzip_damaged(void **state)
 {
 	mr_ctx ctx;
 	mr_model m, back;
-	mr_bytes b = { 0 };
+	mr_file_bytes b = { 0 };
 	unsigned char raw[4096], twice[8192];
 	size_t size, accepted_here = 0;
 	FILE *f;
@@ -172,9 +172,9 @@ gzip_damaged(void **state)
 	fclose(f);
 	for (size_t n = 0; n < size; n++) {
 		put_file("cut.gz", raw, n);
-		assert_true(mr_bytes_read(&ctx, "cut.gz", NULL, &b) < 0 ||
+		assert_true(mr_file_bytes_read(&ctx, "cut.gz", NULL, &b) < 0 ||
 			    n < 3); /* shorter than the signature: other bytes */
-		mr_bytes_free(&b);
+		mr_file_bytes_free(&b);
 	}
 	for (size_t i = 0; i < size; i++) {
 		raw[i] ^= 0x55;

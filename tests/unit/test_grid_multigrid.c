@@ -45,10 +45,10 @@ random_inner(mr_random *r, const size_t n[3])
 	return f;
 }
 
-static multigrid
+static mr_grid_multigrid
 begin(const size_t n[3], size_t levels, bool screened)
 {
-	multigrid m;
+	mr_grid_multigrid m;
 
 	assert_int_equal(mr_multigrid_begin(&ctx, n, levels, floats(nodes_of(n)), screened, &m), MR_OK);
 	return m;
@@ -82,12 +82,12 @@ static void
 levels_halve(void **state)
 {
 	static const size_t n[3] = { 17, 33, 9 };
-	multigrid m = begin(n, 3, true);
+	mr_grid_multigrid m = begin(n, 3, true);
 
 	(void)state;
 	assert_int_equal(m.levels, 3);
 	for (size_t i = 0; i < 3; i++) {
-		const level *l = &m.level[i];
+		const mr_grid_level *l = &m.level[i];
 		for (int k = 0; k < 3; k++)
 			assert_int_equal(l->n[k], (n[k] - 1) / ((size_t)1 << i) + 1);
 		for (size_t j = 0; j < nodes_of(l->n); j++)
@@ -100,8 +100,8 @@ static void
 prolongation_is_linear_between_nodes(void **state)
 {
 	static const size_t n[3] = { 17, 9, 13 };
-	multigrid m = begin(n, 2, false);
-	const level *f = &m.level[0], *c = &m.level[1];
+	mr_grid_multigrid m = begin(n, 2, false);
+	const mr_grid_level *f = &m.level[0], *c = &m.level[1];
 	float *from = floats(nodes_of(c->n)), *to = floats(nodes_of(n));
 
 	(void)state;
@@ -127,8 +127,8 @@ static void
 restriction_is_the_transpose(void **state)
 {
 	static const size_t n[3] = { 17, 9, 13 };
-	multigrid m = begin(n, 2, false);
-	const level *f = &m.level[0], *c = &m.level[1];
+	mr_grid_multigrid m = begin(n, 2, false);
+	const mr_grid_level *f = &m.level[0], *c = &m.level[1];
 	float *fine = floats(nodes_of(n)), *coarse = floats(nodes_of(c->n));
 	mr_random r = { 1 };
 
@@ -178,7 +178,7 @@ waves_are_solved_on_any_grid(void **state)
 		for (size_t w = 0; w < (s < 5 ? 3 : 1); w++) {
 			const size_t *n = sizes[s];
 			size_t most = n[0] > n[1] ? n[0] : n[1];
-			multigrid m = begin(n, mr_multigrid_levels(most - 1), false);
+			mr_grid_multigrid m = begin(n, mr_multigrid_levels(most - 1), false);
 			double value = 6, worst = 0, phase = 0;
 			for (int k = 0; k < 3; k++) {
 				double along = waves[w][k] * MR_PI / (double)(n[k] - 1);
@@ -253,8 +253,8 @@ small_systems_are_solved_as_densely(void **state)
 	(void)state;
 	for (int round = 0; round < 6; round++) {
 		bool screened = round % 2;
-		multigrid m = begin(n, 2, screened);
-		level *l = &m.level[0];
+		mr_grid_multigrid m = begin(n, 2, screened);
+		mr_grid_level *l = &m.level[0];
 		double *want, most = 0, worst = 0;
 		for (size_t i = 0; i < nodes_of(n); i++)
 			if (!node_at(n, i).inner)
@@ -289,7 +289,7 @@ threads_do_not_matter(void **state)
 
 	(void)state;
 	for (unsigned threads = 1; threads < 4; threads++) {
-		multigrid m = begin(n, 3, false);
+		mr_grid_multigrid m = begin(n, 3, false);
 		ctx.threads = threads;
 		memcpy(m.level[0].b, b, nodes_of(n) * sizeof *b);
 		mr_multigrid_full(&ctx, &m);

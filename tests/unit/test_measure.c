@@ -13,11 +13,11 @@ assert_near(double a, double b, double tolerance)
 		fail_msg("%.17g is not %.17g within %g", a, b, tolerance);
 }
 
-static mr_surface
+static mr_surface_figures
 measure(mr_ctx *ctx, const mr_v3 *p, size_t nv, const mr_tri *t, size_t nf)
 {
 	mr_mesh m = { "mesh", p, t, nv, nf };
-	mr_surface s;
+	mr_surface_figures s;
 
 	assert_int_equal(mr_measure_surface(ctx, &m, true, &s), MR_OK);
 	return s;
@@ -81,7 +81,7 @@ plane_is_flat_and_regular(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 2);
 	mr_mesh m = sheet_make(&ctx, (sheet){ N, N, false, false }, on_plane);
-	mr_surface s = measure(&ctx, m.p, m.nv, m.t, m.nf);
+	mr_surface_figures s = measure(&ctx, m.p, m.nv, m.t, m.nf);
 	assert_int_equal(s.census.euler, 1);
 	assert_int_equal(s.census.genus, 0);
 	assert_int_equal(s.census.boundary_loops, 1);
@@ -117,7 +117,7 @@ torus_has_genus_one(void **state)
 	mr_ctx_init(&ctx, 1);
 	for (uint32_t n = 20; n <= 160; n *= 2) {
 		mr_mesh m = sheet_make(&ctx, (sheet){ n, 2 * n, true, true }, on_torus);
-		mr_surface s = measure(&ctx, m.p, m.nv, m.t, m.nf);
+		mr_surface_figures s = measure(&ctx, m.p, m.nv, m.t, m.nf);
 		double error = 1 - s.geometry.area / area;
 		assert_int_equal(s.census.euler, 0);
 		assert_int_equal(s.census.genus, 1);
@@ -189,7 +189,7 @@ sphere_converges(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 2);
 	mr_mesh m = icosphere(&ctx, 0);
-	mr_surface s = measure(&ctx, m.p, m.nv, m.t, m.nf);
+	mr_surface_figures s = measure(&ctx, m.p, m.nv, m.t, m.nf);
 	assert_near(s.geometry.area, 5 * sqrt(3) * a * a, 1e-13);
 	assert_near(s.geometry.volume, 5 * (3 + sqrt(5)) / 12 * a * a * a, 1e-13);
 	assert_near(s.geometry.edge.min, a, 1e-15);
@@ -222,7 +222,7 @@ cylinder_has_two_loops(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	mr_mesh m = sheet_make(&ctx, (sheet){ 4, 12, false, true }, on_cylinder);
-	mr_surface s = measure(&ctx, m.p, m.nv, m.t, m.nf);
+	mr_surface_figures s = measure(&ctx, m.p, m.nv, m.t, m.nf);
 	assert_int_equal(s.census.euler, 0);
 	assert_int_equal(s.census.genus, 0);
 	assert_int_equal(s.census.boundary_loops, 2);
@@ -269,7 +269,7 @@ flaws_are_counted(void **state)
 	{ /* a vertex twice, a face on a line, a face three times */
 		const mr_tri t[] = { { { 0, 0, 2 } }, { { 0, 7, 1 } }, { { 2, 4, 3 } }, { { 3, 2, 4 } },
 			{ { 4, 2, 3 } } };
-		mr_surface s = measure(&ctx, p, 8, t, 5);
+		mr_surface_figures s = measure(&ctx, p, 8, t, 5);
 		assert_int_equal(s.census.degenerate_faces, 2);
 		assert_int_equal(s.census.duplicate_faces, 2);
 		assert_int_equal(s.census.isolated_vertices, 2);
@@ -288,7 +288,7 @@ flaws_are_counted(void **state)
 	}
 	{ /* no face has area */
 		const mr_tri t[] = { { { 0, 0, 2 } }, { { 1, 1, 1 } } };
-		mr_surface s = measure(&ctx, p, 3, t, 2);
+		mr_surface_figures s = measure(&ctx, p, 3, t, 2);
 		assert_int_equal(s.census.degenerate_faces, 2);
 		assert_int_equal(s.census.euler, 0);
 		assert_true(isnan(s.geometry.angle_min) && isnan(s.geometry.edge.mean));
@@ -318,7 +318,7 @@ moebius_strip_is_not_oriented(void **state)
 		t[2 * i] = (mr_tri){ { 2 * i, b, d } };
 		t[2 * i + 1] = (mr_tri){ { 2 * i, d, 2 * i + 1 } };
 	}
-	mr_surface s = measure(&ctx, p, (size_t)2 * N, t, (size_t)2 * N);
+	mr_surface_figures s = measure(&ctx, p, (size_t)2 * N, t, (size_t)2 * N);
 	assert_int_equal(s.census.inconsistent_edges, 1);
 	assert_int_equal(s.census.boundary_loops, 1);
 	assert_int_equal(s.census.euler, 0);
@@ -332,7 +332,7 @@ cloud_is_measured(void **state)
 {
 	enum { N = 20 };
 	mr_v3 p[N * N + 2];
-	mr_cloud c;
+	mr_cloud_figures c;
 	mr_ctx ctx;
 	size_t n = 0;
 
@@ -371,7 +371,7 @@ memory_may_run_out(void **state)
 	mr_ctx_init(&ctx, 1);
 	mr_mesh m = sheet_make(&ctx, (sheet){ 3, 4, false, true }, on_cylinder);
 	for (uint64_t k = 1;; k++) {
-		mr_surface s;
+		mr_surface_figures s;
 		ctx.fail_at = k;
 		mr_status status = mr_measure_surface(&ctx, &m, true, &s);
 		if (status == MR_OK)

@@ -6,10 +6,10 @@
 enum { LINKS = 8, NEAREST = 16 };
 
 /* Points of a surface with their planes, as they come, and the surface's own normals. */
-static samples
+static mr_volume_cloud
 sampled(const mr_mesh *m, size_t n, uint64_t seed, mr_v3 **truth)
 {
-	samples s = { .n = n };
+	mr_volume_cloud s = { .n = n };
 
 	assert_int_equal(mr_surface_sample(&ctx, m, n, seed, &s.p, truth), MR_OK);
 	assert_int_equal(mr_cloud_planes(&ctx, s.p, n, NEAREST, LINKS, true, &s.plane), MR_OK);
@@ -20,7 +20,7 @@ sampled(const mr_mesh *m, size_t n, uint64_t seed, mr_v3 **truth)
 
 /* Random signs; what each point says of its own: as much as `sure`, and wrongly by a share. */
 static double *
-vote(samples *s, const mr_v3 *truth, mr_random *r, double sure, double wrong)
+vote(mr_volume_cloud *s, const mr_v3 *truth, mr_random *r, double sure, double wrong)
 {
 	double *v = MR_NEW(&ctx, s->n, double);
 
@@ -35,7 +35,7 @@ vote(samples *s, const mr_v3 *truth, mr_random *r, double sure, double wrong)
 }
 
 static size_t
-count_wrong(const samples *s, const mr_v3 *truth)
+count_wrong(const mr_volume_cloud *s, const mr_v3 *truth)
 {
 	size_t wrong = 0;
 
@@ -55,7 +55,7 @@ most_votes_orient_a_smooth_surface(void **state)
 		mr_mesh m = shape(solids[seed % 3], 20000);
 		mr_random r = { seed };
 		mr_v3 *truth;
-		samples s = sampled(&m, 4000, seed, &truth);
+		mr_volume_cloud s = sampled(&m, 4000, seed, &truth);
 		double *v = vote(&s, truth, &r, 0.01 * (double)seed, 0.4);
 		assert_int_equal(mr_volume_orient(&ctx, &s, v), MR_OK);
 		assert_int_equal(count_wrong(&s, truth), 0);
@@ -70,7 +70,7 @@ votes_and_not_signs_decide(void **state)
 	mr_mesh m = shape(MR_TORUS, 20000);
 	mr_random r = { 1 };
 	mr_v3 *truth;
-	samples s = sampled(&m, 3000, 1, &truth);
+	mr_volume_cloud s = sampled(&m, 3000, 1, &truth);
 	double *v = vote(&s, truth, &r, 0.05, 0.7);
 
 	(void)state;
@@ -89,7 +89,7 @@ parts_that_are_apart_have_votes_of_their_own(void **state)
 	mr_mesh one = shape(MR_SPHERE, 10000), m = both(&one, &one, mr_vec(5, 0, 0));
 	mr_random r = { 2 };
 	mr_v3 *truth;
-	samples s = sampled(&m, 4000, 2, &truth);
+	mr_volume_cloud s = sampled(&m, 4000, 2, &truth);
 	double *v = vote(&s, truth, &r, 0.1, 0.3);
 
 	(void)state;
@@ -123,7 +123,7 @@ signs_pass_around_a_rim(void **state)
 	for (uint64_t seed = 1; seed < 6; seed++) {
 		mr_random r = { seed };
 		mr_v3 *truth;
-		samples s = sampled(&m, 4000, seed, &truth);
+		mr_volume_cloud s = sampled(&m, 4000, seed, &truth);
 		double *v = vote(&s, truth, &r, 0.05, 0);
 		for (size_t i = 0; i < s.n; i++)
 			v[i] *= truth[i].z > 0;
@@ -139,7 +139,7 @@ parts_that_are_sure_stay_apart(void **state)
 	mr_mesh m = shape(MR_SPHERE, 20000);
 	mr_random r = { 3 };
 	mr_v3 *truth;
-	samples s = sampled(&m, 4000, 3, &truth);
+	mr_volume_cloud s = sampled(&m, 4000, 3, &truth);
 	double *v = vote(&s, truth, &r, 1, 0);
 
 	(void)state;
@@ -173,7 +173,7 @@ sides_of_a_cube_are_turned_over(void **state)
 	for (unsigned turned = 0; turned < 64; turned++) {
 		mr_mesh m = shape(MR_CUBE, 10000);
 		mr_v3 *truth;
-		samples s = sampled(&m, 6000, 4, &truth);
+		mr_volume_cloud s = sampled(&m, 6000, 4, &truth);
 		double *flood = MR_NEW_ZERO(&ctx, s.n, double);
 		size_t inward = 0, sides = 0, points[6] = { 0 }, largest = 0;
 		for (size_t i = 0; i < s.n; i++) {
@@ -189,7 +189,8 @@ sides_of_a_cube_are_turned_over(void **state)
 		}
 		if (sides <= 3 && !(turned >> largest & 1)) {
 			assert_int_equal(count_wrong(&s, truth), inward);
-			assert_int_equal(mr_volume_regions(&ctx, &s, flood, &g, 3, &(mr_volume_result){ 0 }), MR_OK);
+			assert_int_equal(
+			    mr_volume_regions(&ctx, &s, flood, &g, 3, &(mr_volume_result){ 0 }), MR_OK);
 			assert_int_equal(count_wrong(&s, truth), 0);
 			rounds++;
 		}
@@ -205,7 +206,7 @@ what_the_flood_knows_is_not_turned(void **state)
 	mr_mesh m = shape(MR_CUBE, 10000);
 	mr_grid g = { { -2, -2, -2 }, 0.125, { 33, 33, 33 } };
 	mr_v3 *truth;
-	samples s = sampled(&m, 6000, 5, &truth);
+	mr_volume_cloud s = sampled(&m, 6000, 5, &truth);
 	double *flood = MR_NEW(&ctx, s.n, double);
 
 	(void)state;

@@ -9,7 +9,7 @@ typedef struct scene {
 	mr_topology topo;
 	mr_curves curves;
 	mr_dyn d;
-	mr_surface s;
+	mr_remesh_source s;
 } scene;
 
 static void
@@ -19,7 +19,7 @@ set_up(scene *x, mr_mesh m, double feature)
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
 	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, feature, &x->d), MR_OK);
 	assert_int_equal(mr_curves_copy(&ctx, &x->d.curves, &x->curves), MR_OK);
-	x->s = (mr_surface){ &x->m, &x->topo, &x->curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
+	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
 }
 
 static mr_v3 *
@@ -292,20 +292,19 @@ lengths_are_means_of_a_face_and_scaled(void **state)
 
 	(void)state;
 	set_up(&x, shape(MR_TORUS, 200), 180);
-	assert_true(mr_surface_length(&x.s, &x.d, 7) == x.s.uniform);
+	assert_true(mr_remesh_length(&x.s, &x.d, 7) == x.s.uniform);
 	length = MR_NEW(&ctx, x.m.nv, double);
 	for (size_t v = 0; v < x.m.nv; v++)
 		length[v] = 1 + (double)v;
 	x.s.length = length;
 	for (uint32_t v = 0; v < x.d.nv; v++) {
 		const uint32_t *t = x.m.t[x.d.at[v]].v;
-		assert_true(
-		    fabs(mr_surface_length(&x.s, &x.d, v) - (1 + (t[0] + t[1] + t[2]) / 3.0)) < 1e-12);
+		assert_true(fabs(mr_remesh_length(&x.s, &x.d, v) - (1 + (t[0] + t[1] + t[2]) / 3.0)) < 1e-12);
 	}
 	x.d.scale = MR_NEW_ZERO(&ctx, x.d.nv, float);
 	x.d.scale[7] = 0.25f;
 	x.s.length = NULL;
-	assert_true(mr_surface_length(&x.s, &x.d, 7) == 0.25 * x.s.uniform);
+	assert_true(mr_remesh_length(&x.s, &x.d, 7) == 0.25 * x.s.uniform);
 }
 
 /* Between two sheets that look away from one another a place is on that which looks the way of the normal. */
@@ -324,14 +323,14 @@ a_place_is_on_the_side_of_the_normal(void **state)
 	set_up(&x, m, 180);
 	for (uint32_t v = 0; v < x.d.nv; v++) {
 		double side = v < top.nv ? 1 : -1;
-		mr_closest c = mr_surface_place(&x.s, &x.d, v,
+		mr_closest c = mr_remesh_place(&x.s, &x.d, v,
 		    mr_vec(x.d.p[v].x, x.d.p[v].y, side > 0 ? -0.04 : -0.01), mr_vec(0, 0, side));
 		assert_true(mr_dist(c.point, x.d.p[v]) < 1e-14);
 		assert_true((c.at.face < top.nf) == (side > 0));
 	}
-	assert_true(mr_surface_against(&x.s, &x.d, x.d.at, x.m.t[0].v, mr_vec(0, 0, -1)));
-	assert_false(mr_surface_against(&x.s, &x.d, x.d.at, x.m.t[0].v, mr_vec(0, 0, 1)));
-	assert_false(mr_surface_against(
+	assert_true(mr_remesh_against(&x.s, &x.d, x.d.at, x.m.t[0].v, mr_vec(0, 0, -1)));
+	assert_false(mr_remesh_against(&x.s, &x.d, x.d.at, x.m.t[0].v, mr_vec(0, 0, 1)));
+	assert_false(mr_remesh_against(
 	    &x.s, &x.d, x.d.at, (uint32_t[]){ 0, 1, (uint32_t)top.nv + 1 }, mr_vec(0, 0, -1)));
 }
 
@@ -360,7 +359,7 @@ a_lost_place_is_found_from_the_neighbours(void **state)
 				continue;
 			q.z = away ? -0.04 : -0.01;
 			x.d.at[v] += (uint32_t)top.nf; /* the face below */
-			c = mr_surface_place(&x.s, &x.d, v, q, mr_vec(0, 0, 1));
+			c = mr_remesh_place(&x.s, &x.d, v, q, mr_vec(0, 0, 1));
 			assert_true(c.at.face < top.nf && mr_dist(c.point, x.d.p[v]) < 1e-14);
 			x.d.at[v] = own;
 		}

@@ -16,7 +16,7 @@ points_on(mr_solid solid, size_t n, uint64_t seed, double *area)
 }
 
 static mr_status
-samples_of(const mr_v3 *p, size_t n, double share, samples *s)
+samples_of(const mr_v3 *p, size_t n, double share, mr_volume_cloud *s)
 {
 	mr_sampling sampling;
 	mr_v3 *place;
@@ -27,10 +27,10 @@ samples_of(const mr_v3 *p, size_t n, double share, samples *s)
 	return mr_volume_samples(&ctx, place, places, &sampling, share, false, s);
 }
 
-static samples
+static mr_volume_cloud
 take(const mr_v3 *p, size_t n, double share)
 {
-	samples s;
+	mr_volume_cloud s;
 
 	assert_int_equal(samples_of(p, n, share, &s), MR_OK);
 	return s;
@@ -64,7 +64,7 @@ each_place_counts_once(void **state)
 	for (size_t k = 0; k < 3; k++) {
 		double area, sum = 0;
 		mr_v3 *p = points_on(solids[k], N, k + 1, &area), *twice = MR_NEW(&ctx, 2 * N, mr_v3), *q;
-		samples s;
+		mr_volume_cloud s;
 		for (size_t i = 0; i < N; i++) {
 			twice[2 * i] = p[i];
 			twice[2 * i + 1] = p[mr_random_bits(&r) % (i + 1)];
@@ -90,7 +90,7 @@ static void
 neighbours_are_near_in_memory(void **state)
 {
 	double area, way = 0;
-	samples s = take(points_on(MR_SPHERE, N, 1, &area), N, 1);
+	mr_volume_cloud s = take(points_on(MR_SPHERE, N, 1, &area), N, 1);
 
 	(void)state;
 	for (size_t i = 1; i < s.n; i++)
@@ -105,7 +105,7 @@ typedef struct known {
 } known;
 
 static known *
-known_by_place(const samples *s)
+known_by_place(const mr_volume_cloud *s)
 {
 	known *k = MR_NEW(&ctx, s->n, known);
 
@@ -117,7 +117,7 @@ known_by_place(const samples *s)
 
 /* The same points, and the same known of each, to rounding. */
 static void
-assert_same(const samples *a, const samples *b)
+assert_same(const mr_volume_cloud *a, const mr_volume_cloud *b)
 {
 	known *x = known_by_place(a), *y = known_by_place(b);
 
@@ -135,7 +135,7 @@ the_order_of_points_does_not_matter(void **state)
 {
 	double area;
 	mr_v3 *p = points_on(MR_TORUS, N, 2, &area), *q = MR_NEW(&ctx, N, mr_v3);
-	samples a, b;
+	mr_volume_cloud a, b;
 
 	(void)state;
 	for (size_t i = 0; i < N; i++)
@@ -151,7 +151,7 @@ a_share_is_taken_from_everywhere(void **state)
 {
 	double area, sum = 0;
 	mr_v3 *p = points_on(MR_SPHERE, N, 3, &area), middle = { 0, 0, 0 };
-	samples s = take(p, N, 0.1);
+	mr_volume_cloud s = take(p, N, 0.1);
 
 	(void)state;
 	assert_int_equal(s.n, N / 10);
@@ -170,7 +170,7 @@ points_on_no_surface_go(void **state)
 	enum { OFF = 5 };
 	double area;
 	mr_v3 *p = points_on(MR_TORUS, N, 4, &area), *q = MR_NEW(&ctx, N + OFF, mr_v3);
-	samples all, on;
+	mr_volume_cloud all, on;
 
 	(void)state;
 	memcpy(q, p, N * sizeof *p);
@@ -197,7 +197,7 @@ planes_are_the_surfaces(void **state)
 		mr_mesh m = shape(MR_SPHERE, 20000);
 		mr_v3 *p, *normal;
 		double spacing = sqrt(4 * MR_PI / N), mean = 0;
-		samples s;
+		mr_volume_cloud s;
 		assert_int_equal(mr_surface_sample(&ctx, &m, N, 6, &p, &normal), MR_OK);
 		mr_add_noise(p, normal, N, noisy * spacing, 7);
 		s = take(p, N, 1);
@@ -212,7 +212,7 @@ static void
 what_has_no_volume_is_refused(void **state)
 {
 	mr_v3 p[100];
-	samples s = { .n = 77 };
+	mr_volume_cloud s = { .n = 77 };
 
 	(void)state;
 	for (int i = 0; i < 100; i++)

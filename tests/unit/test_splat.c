@@ -8,11 +8,11 @@ enum { POINTS = 500, NX = 14, NY = 11, NZ = 17, NODES = NX * NY * NZ };
 static const mr_grid GRID = { { -1, 2, 0.5 }, 0.25, { NX, NY, NZ } };
 
 /* Points well inside of the grid, of random areas, normals and depths. */
-static samples
+static mr_volume_cloud
 random_samples(uint64_t seed)
 {
 	mr_random r = { seed };
-	samples s = { .n = POINTS,
+	mr_volume_cloud s = { .n = POINTS,
 		.p = MR_NEW(&ctx, POINTS, mr_v3),
 		.depth = MR_NEW(&ctx, POINTS, uint8_t),
 		.plane = { .normal = MR_NEW(&ctx, POINTS, mr_v3), .area = MR_NEW(&ctx, POINTS, double) } };
@@ -29,10 +29,10 @@ random_samples(uint64_t seed)
 	return s;
 }
 
-static field
-field_of(const samples *s, unsigned depth)
+static mr_grid_points
+field_of(const mr_volume_cloud *s, unsigned depth)
 {
-	field f;
+	mr_grid_points f;
 
 	assert_int_equal(mr_volume_field(&ctx, s, &GRID, depth, &f), MR_OK);
 	return f;
@@ -93,11 +93,11 @@ inner_product(const float *a, const float *b)
 static void
 points_are_listed_by_layer(void **state)
 {
-	samples s = random_samples(1);
+	mr_volume_cloud s = random_samples(1);
 
 	(void)state;
 	for (unsigned depth = 0; depth <= DEPTHS; depth++) {
-		field f = field_of(&s, depth);
+		mr_grid_points f = field_of(&s, depth);
 		uint8_t seen[POINTS] = { 0 };
 		size_t count = 0;
 		for (size_t z = 0; z + 1 < NZ; z++)
@@ -116,7 +116,7 @@ points_are_listed_by_layer(void **state)
 static void
 values_are_linear_between_nodes(void **state)
 {
-	samples s = random_samples(2);
+	mr_volume_cloud s = random_samples(2);
 	float *u = random_floats(3);
 
 	(void)state;
@@ -132,7 +132,7 @@ values_are_linear_between_nodes(void **state)
 static void
 spread_values_are_sums_of_hats(void **state)
 {
-	samples s = random_samples(4);
+	mr_volume_cloud s = random_samples(4);
 	float *to = random_floats(5);
 	double value[POINTS];
 	mr_random r = { 6 };
@@ -141,7 +141,7 @@ spread_values_are_sums_of_hats(void **state)
 	for (size_t i = 0; i < POINTS; i++)
 		value[i] = mr_random_real(&r);
 	for (unsigned depth = 0; depth <= DEPTHS; depth++) {
-		field f = field_of(&s, depth);
+		mr_grid_points f = field_of(&s, depth);
 		const double *v = depth % 2 ? value : NULL;
 		mr_volume_spread(&ctx, &s, &f, v, to);
 		for (size_t z = 0; z < NZ; z++)
@@ -162,8 +162,8 @@ spread_values_are_sums_of_hats(void **state)
 static void
 spreading_is_the_transpose_of_looking(void **state)
 {
-	samples s = random_samples(7);
-	field f = field_of(&s, DEPTHS);
+	mr_volume_cloud s = random_samples(7);
+	mr_grid_points f = field_of(&s, DEPTHS);
 	float *u = random_floats(8), *to = random_floats(9);
 	double want = 0;
 
@@ -179,8 +179,8 @@ spreading_is_the_transpose_of_looking(void **state)
 static void
 divergence_is_the_transpose_of_differences(void **state)
 {
-	samples s = random_samples(10);
-	field f = field_of(&s, DEPTHS);
+	mr_volume_cloud s = random_samples(10);
+	mr_grid_points f = field_of(&s, DEPTHS);
 	float *u = random_floats(11), *to = random_floats(12);
 	const size_t stride[3] = { 1, NX, NX * NY }, n[3] = { NX, NY, NZ };
 	double want = 0, sum = 0;
@@ -211,8 +211,8 @@ divergence_is_the_transpose_of_differences(void **state)
 static void
 divergence_of_a_linear_function_is_known(void **state)
 {
-	samples s = random_samples(13);
-	field f = field_of(&s, DEPTHS);
+	mr_volume_cloud s = random_samples(13);
+	mr_grid_points f = field_of(&s, DEPTHS);
 	float *u = random_floats(14), *to = random_floats(15);
 	mr_v3 slope = mr_vec(0.5, -0.25, 0.125);
 	double want = 0;
@@ -232,8 +232,8 @@ divergence_of_a_linear_function_is_known(void **state)
 static void
 threads_do_not_matter(void **state)
 {
-	samples s = random_samples(16);
-	field f = field_of(&s, DEPTHS);
+	mr_volume_cloud s = random_samples(16);
+	mr_grid_points f = field_of(&s, DEPTHS);
 	float *to[2][4];
 
 	(void)state;

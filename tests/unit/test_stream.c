@@ -470,14 +470,14 @@ static void
 growing_bytes(void **state)
 {
 	void *between[40];
-	mr_bytes b = { 0 };
+	mr_heap_bytes b = { 0 };
 	mr_ctx ctx;
 
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	for (size_t k = 0; k < 40; k++) {
 		size_t used = b.room;
-		ok(&ctx, mr_bytes_reserve(&ctx, &b, used, used + 100));
+		ok(&ctx, mr_heap_bytes_reserve(&ctx, &b, used, used + 100));
 		between[k] = malloc(16); /* so that it moves */
 		assert_true(b.room >= used + 100);
 		assert_int_equal((uintptr_t)b.p % 64, 0);

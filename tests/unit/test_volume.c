@@ -380,7 +380,7 @@ noisy_points_go_onto_their_planes(void **state)
 	assert_closed_manifold(&c);
 	assert_int_equal(c.genus, 0);
 	off = mean_off_sphere(p, N);
-	assert_int_equal(mr_volume_project(&ctx, &(samples){ .p = p, .n = N }), MR_OK);
+	assert_int_equal(mr_volume_project(&ctx, &(mr_volume_cloud){ .p = p, .n = N }), MR_OK);
 	assert_true(mean_off_sphere(p, N) < 0.6 * off);
 }
 
