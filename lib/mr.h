@@ -684,6 +684,90 @@ typedef struct mr_make_opts {
 /* A key frame with mesh or points. */
 MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame) MR_WARN_UNUSED;
 
+/* Measuring: mr-info */
+
+typedef struct mr_box {
+	mr_v3 min, max;
+} mr_box;
+
+/*
+ * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
+ *
+ *	euler       vertices that a face uses, less edges, plus faces
+ *	genus       summed over components, boundary loops capped; oriented manifolds only
+ *	boundary    edges of one face; loops of them, two that touch at a vertex are two
+ *	non-manifold edges of three faces or more; vertices whose faces form more than one fan
+ *	inconsistent edges of two faces that run along it in the same direction
+ *	degenerate  faces with a vertex twice or of zero area (exactly)
+ *	duplicate   faces with the corners of an earlier one, in any order
+ *	isolated    vertices that no face uses
+ *	folded      edges of two faces whose normals, consistently oriented, are more than 170 degrees apart
+ */
+typedef struct mr_census {
+	size_t edges, components;
+	int64_t euler, genus;
+	bool oriented, manifold; /* no inconsistent edge; no non-manifold edge nor vertex */
+	size_t boundary_edges, boundary_loops;
+	size_t nonmanifold_edges, nonmanifold_vertices, inconsistent_edges;
+	size_t degenerate_faces, duplicate_faces, isolated_vertices, folded_edges;
+} mr_census;
+
+/* Over some set of numbers; deviation is the standard deviation.  NaN of none. */
+typedef struct mr_spread {
+	double min, mean, max, deviation;
+} mr_spread;
+
+/* Sizes in units of the positions, angles in degrees. */
+typedef struct mr_geometry {
+	mr_box box;
+	double diagonal, area;
+	double volume;  /* enclosed, positive where normals point outward; only of a closed, oriented mesh */
+	mr_spread edge; /* lengths */
+	double angle_min, angle_max;
+	double angle_error; /* mean |angle - 60| */
+	double valence6;    /* share of the vertices in faces with 6 neighbours, 4 on the boundary */
+} mr_geometry;
+
+/* Mixed Voronoi areas A of the interior vertices, those of faces that no boundary edge ends at.  NaN without
+ * any. */
+typedef struct mr_evenness {
+	size_t vertices;
+	double mean;
+	double error;    /* mean |A - mean| / mean */
+	double variance; /* variance / mean^2 */
+} mr_evenness;
+
+typedef struct mr_surface_figures {
+	mr_census census;
+	mr_geometry geometry;
+	mr_evenness evenness;
+	size_t intersections; /* pairs of faces */
+} mr_surface_figures;
+
+/* Of any mesh with valid indices and finite positions.  intersections: whether they are looked for; else 0.
+ */
+MR_API mr_status mr_measure_surface(
+    mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface_figures *figures) MR_WARN_UNUSED;
+
+/* Of points, finite or not; all but these counts are of the finite ones.  NaN of one place, what has no
+ * number. */
+typedef struct mr_cloud_figures {
+	size_t points, not_finite;
+	size_t duplicates; /* points at the place of an earlier one */
+	mr_box box;
+	double diagonal;
+	size_t places, outliers; /* of the places: on no surface; what follows is of the others */
+	mr_spread spacing;       /* side of the square of surface that a place has to itself */
+	double usual, area;      /* median spacing; the sum of these squares */
+	double evenness; /* of the spacings, 10 % of places over 90 % of them: 1 where they are equal */
+	double noise;    /* deviation from a smooth surface */
+	double noise_spacing, noise_diagonal; /* in median spacings, and in diagonals */
+} mr_cloud_figures;
+
+/* Of a layer's points. */
+MR_API mr_status mr_measure_cloud(
+    mr_ctx *ctx, mr_frame *f, const char *layer, mr_cloud_figures *figures) MR_WARN_UNUSED;
+
 /* Measuring: mr-compare */
 
 typedef struct mr_compare_opts {

@@ -11,10 +11,6 @@ typedef struct mr_affine {
 	double m[12];
 } mr_affine;
 
-typedef struct mr_box {
-	mr_v3 min, max;
-} mr_box;
-
 static const double MR_PI = 3.14159265358979323846;
 
 static inline mr_v3

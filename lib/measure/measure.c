@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "mesh/fold.h"
+#include "mesh/layers.h"
 #include "space/self_intersect.h"
 
 /* ---- counts ---- */
@@ -425,7 +426,7 @@ measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud_figures *c)
 }
 
 mr_status
-mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud_figures *out)
+mr_measure_points(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampling, mr_cloud_figures *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_cloud_figures c = { .points = n, .spacing = { NAN, NAN, NAN, NAN } };
@@ -447,4 +448,19 @@ mr_measure_cloud(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *sampl
 	mr_mark_release(ctx, mark);
 	*out = c;
 	return MR_OK;
+}
+
+mr_status
+mr_measure_cloud(mr_ctx *ctx, mr_frame *f, const char *layer, mr_cloud_figures *figures)
+{
+	mr_sampling sampling;
+	bool stored = false;
+	const void *p;
+	size_t n;
+
+	MR_TRY(mr_layer_get(ctx, f, layer, "position", &p, &n));
+	/* where it breaks a law it is found anew; that is for --check to say */
+	if (mr_sampling_stored(ctx, f, layer, n, &sampling, &stored) == MR_EMEM)
+		return MR_EMEM;
+	return mr_measure_points(ctx, p, n, stored ? &sampling : NULL, figures);
 }

@@ -3,6 +3,7 @@
 
 #include "measure/report_parts.h"
 #include "mesh/validate.h"
+#include "space/sampling.h"
 #include "subdivide/displaced.h"
 
 typedef struct report {
@@ -128,17 +129,9 @@ report_surface(const report *r, const char *layer)
 static mr_status
 report_cloud(const report *r, const char *layer)
 {
-	mr_sampling sampling;
-	bool stored = false;
-	const void *p;
 	mr_cloud_figures c;
-	size_t n;
 
-	MR_TRY(mr_layer_get(r->ctx, r->f, layer, "position", &p, &n));
-	/* where it breaks a law it is found anew; that is for --check to say */
-	if (mr_sampling_stored(r->ctx, r->f, layer, n, &sampling, &stored) == MR_EMEM)
-		return MR_EMEM;
-	MR_TRY(mr_measure_cloud(r->ctx, p, n, stored ? &sampling : NULL, &c));
+	MR_TRY(mr_measure_cloud(r->ctx, r->f, layer, &c));
 	if (r->opts->json) {
 		mr_text_add(r->t, "\"kind\":\"cloud\",\"points\":%zu", c.points);
 		mr_report_cloud_json(r->t, &c);

@@ -13,7 +13,8 @@
 typedef struct mr_report_opts {
 	const char *layer; /* that one alone; NULL: all */
 	bool json;
-	bool check; /* the laws of the layers (mesh/validate.h), and whether a displacement can be decoded, too */
+	bool check; /* the laws of the layers (mesh/validate.h), and whether a displacement can be decoded,
+	               too */
 	bool skip_intersections;
 } mr_report_opts;
 

@@ -7,7 +7,6 @@
 #define MR_MEASURE_REPORT_PARTS_H
 
 #include "measure/report.h"
-#include "measure/surface_summary.h"
 
 /* intersections: whether they were looked for. */
 void mr_report_surface_text(mr_text *t, const mr_surface_figures *s, bool intersections);

@@ -1,5 +1,5 @@
 /* Figures of surfaces whose true ones are known. */
-#include "measure/surface_summary.h"
+#include "measure/measure.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -342,7 +342,7 @@ cloud_is_measured(void **state)
 		p[n++] = mr_vec(2 * (i % N), i / N * 2, 0);
 	p[n++] = p[7];
 	p[n++] = mr_vec(NAN, 0, 0);
-	assert_int_equal(mr_measure_cloud(&ctx, p, n, NULL, &c), MR_OK);
+	assert_int_equal(mr_measure_points(&ctx, p, n, NULL, &c), MR_OK);
 	assert_int_equal(c.points, n);
 	assert_int_equal(c.not_finite, 1);
 	assert_int_equal(c.duplicates, 1);
@@ -354,10 +354,10 @@ cloud_is_measured(void **state)
 	assert_near(c.evenness, 0.85, 0.15);
 	assert_near(c.noise, 0, 1e-9);
 	assert_near(c.diagonal, sqrt(2) * 2 * (N - 1), 1e-14);
-	assert_int_equal(mr_measure_cloud(&ctx, p, 1, NULL, &c), MR_OK);
+	assert_int_equal(mr_measure_points(&ctx, p, 1, NULL, &c), MR_OK);
 	assert_true(isnan(c.spacing.mean) && isnan(c.usual) && isnan(c.noise_spacing));
 	assert_int_equal(c.places, 1);
-	assert_int_equal(mr_measure_cloud(&ctx, p, 0, NULL, &c), MR_OK);
+	assert_int_equal(mr_measure_points(&ctx, p, 0, NULL, &c), MR_OK);
 	assert_int_equal(c.points, 0);
 	mr_ctx_free(&ctx);
 }

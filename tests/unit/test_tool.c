@@ -176,12 +176,58 @@ test_wrong_options(void **state)
 	mr_ctx_delete(ctx);
 }
 
+/* A scan of a torus becomes one again: what each step says of itself is what measuring says of it. */
+static void
+test_results_agree_with_measures(void **state)
+{
+	enum { POINTS = 4000 };
+	mr_ctx *ctx = context();
+	mr_make_opts o = MR_MAKE_DEFAULTS;
+	mr_surface_figures figures;
+	mr_sample_result sampled;
+	mr_cloud_figures cloud;
+	mr_wrap_result wrapped;
+	mr_fit_result fitted;
+	mr_frame *f;
+	mr_mesh m;
+
+	(void)state;
+	o.solid = MR_TORUS;
+	o.points = POINTS;
+	assert_int_equal(mr_make(ctx, &o, &f), MR_OK);
+	assert_int_equal(mr_measure_cloud(ctx, f, "points", &cloud), MR_OK);
+	assert_int_equal(cloud.places, POINTS);
+
+	assert_int_equal(mr_shrinkwrap_frame(ctx, f, NULL, &wrapped), MR_OK);
+	assert_int_equal(mr_layer_mesh(ctx, f, "control", &m), MR_OK);
+	assert_int_equal(mr_measure_surface(ctx, &m, true, &figures), MR_OK);
+	assert_int_equal(figures.census.genus, 1);
+	assert_int_equal(figures.census.folded_edges, wrapped.folded_edges);
+	assert_int_equal(figures.intersections, wrapped.intersecting_pairs);
+	assert_int_equal(m.nf, wrapped.faces);
+	assert_int_equal(cloud.places, wrapped.places);
+	assert_int_equal(cloud.outliers, wrapped.outliers);
+	assert_true(cloud.usual == wrapped.sampling);
+	assert_true(wrapped.seconds_measure >= 0 && isnan(wrapped.seconds_pull));
+	assert_true(wrapped.resolution == MR_UNKNOWN);
+
+	assert_int_equal(mr_simplify_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_fit_frame(ctx, f, NULL, &fitted), MR_OK);
+	assert_true(fitted.distance_rms_after < fitted.distance_rms_before);
+	assert_int_equal(mr_sample_frame(ctx, f, NULL, &sampled), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_layer_mesh(ctx, f, "mesh", &m), MR_OK);
+	assert_int_equal(m.nv, sampled.vertices);
+	mr_ctx_delete(ctx);
+}
+
 int
 main(void)
 {
 	static const struct CMUnitTest tests[] = { cmocka_unit_test(test_basis_and_solve_agree),
 		cmocka_unit_test(test_cache_changes_nothing),
-		cmocka_unit_test(test_sentences_notes_and_columns), cmocka_unit_test(test_wrong_options) };
+		cmocka_unit_test(test_sentences_notes_and_columns), cmocka_unit_test(test_wrong_options),
+		cmocka_unit_test(test_results_agree_with_measures) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);

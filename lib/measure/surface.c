@@ -1,5 +1,5 @@
 /* Census, geometry and intersections together, and how even the areas of the vertices are. */
-#include "measure/surface_summary.h"
+#include "measure/measure.h"
 
 #include "op/voronoi_area.h"
 #include "space/self_intersect.h"
