@@ -77,11 +77,11 @@ $(BUILD)/$(SONAME): $(OBJECTS)
 
 $(BUILD)/%.c.o: %.c $(BUILD)/flags | setup
 	@mkdir -p $(@D)
-	$(call say,compile)$(CC) $(ALL_C) -MMD -MP -c -o $@ $<
+	$(call say,compile)$(CC) $(ALL_C) -MMD -MP -MT '$$(BUILD)/$<.o' -c -o $@ $<
 
 $(BUILD)/%.cc.o: %.cc $(BUILD)/flags | setup
 	@mkdir -p $(@D)
-	$(call say,compile)$(CXX) $(ALL_CXX) -MMD -MP -c -o $@ $<
+	$(call say,compile)$(CXX) $(ALL_CXX) -MMD -MP -MT '$$(BUILD)/$<.o' -c -o $@ $<
 
 # Other compilers or flags rebuild everything.
 FLAGS := $(CC) $(CXX) $(ALL_C) $(LDFLAGS)

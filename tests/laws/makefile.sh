@@ -24,6 +24,8 @@ for source in $(grep -lE 'include "space/bvh.h"' lib/*/*.c cmd/*.c); do
 	*) echo "not rebuilt: $source"; fail=1 ;;
 	esac
 done
+again=$(make -n -W lib/space/bvh.h BUILD="$(realpath --relative-to=. "$BUILD")" all | grep -oE '[^ ]*\.cc?$' | sort -u)
+[ "$again" = "$would" ] || { echo "another way to spell BUILD rebuilds something else"; fail=1; }
 
 make DESTDIR="$here/stage" PREFIX=/usr install >"$here/log" 2>&1 || { cat "$here/log"; exit 1; }
 for source in cmd/mr-*.c; do
