@@ -423,13 +423,6 @@ cmd_print(cmd *c, const char *format, ...)
 
 /* Figures */
 
-mr_status
-cmd_cache(cmd *c, mr_cache **cache)
-{
-	*cache = mr_cache_new();
-	return *cache ? MR_OK : mr_fail(&c->ctx, MR_EMEM, "no memory for a cache");
-}
-
 void
 cmd_figure(cmd *c, const char *name, double value)
 {
@@ -662,6 +655,8 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	c.keep.top = NULL;
 	if (tool->prepare)
 		try(&c, tool->prepare(&c));
+	if (tool->caches && !(c.cache = mr_cache_new()))
+		die(&c, mr_fail(&c.ctx, MR_EMEM, "no memory for a cache"));
 	open_stats(&c);
 	if (tool->sink)
 		open_text(&c);
@@ -676,6 +671,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		try(&c, tool->finish(&c));
 	close_outputs(&c);
 	code = account(&c);
+	mr_cache_delete(c.cache);
 	mr_writer_free(state.writer);
 	mr_ctx_free(&c.ctx);
 	mr_ctx_free(&c.keep);

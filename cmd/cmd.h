@@ -52,6 +52,7 @@ typedef struct cmd_tool {
 	bool names_output; /* a sink that names its output by an operand: it has no -o */
 	bool sends;        /* `frame` sends by cmd_send itself */
 	bool fixed_layers; /* works on what it works on: it has no -l */
+	bool caches;       /* `frame` has c->cache */
 	bool lean;         /* gives smaller blocks back to the system too, which costs time in many frames */
 } cmd_tool;
 
@@ -64,7 +65,8 @@ struct cmd {
 	const char *output; /* -o, or NULL */
 	char **operands;    /* of a source or a sink */
 	size_t operand_count;
-	uint64_t frame; /* number of the frame at work, from 1; in finish, how many there were */
+	mr_cache *cache; /* over the frames of a tool that `caches` */
+	uint64_t frame;  /* number of the frame at work, from 1; in finish, how many there were */
 	bool verbose, quiet, keep_going;
 	bool stats;         /* figures are asked for: --stats */
 	mr_packing packing; /* what the writer does with columns; mr-cat sets it in prepare */
@@ -97,9 +99,6 @@ mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand)
  * One at most; not for a tool that heeds -o.
  */
 mr_status cmd_hold(cmd *c, const char *file, const char *name) MR_WARN_UNUSED;
-
-/* A cache for the tool; it deletes it in finish. */
-mr_status cmd_cache(cmd *c, mr_cache **cache) MR_WARN_UNUSED;
 
 /* A figure of the frame at work, for --stats. */
 void cmd_figure(cmd *c, const char *name, double value);

@@ -5,7 +5,6 @@
 static mr_decode_opts opts = MR_DECODE_DEFAULTS;
 static size_t level;
 static int from;
-static mr_cache *cache;
 
 static const cmd_opt table[] = {
 	{ 'g', "gain", CMD_REAL, &opts.gain, -1e6, 1e6, "G", "multiply the detail by G", NULL },
@@ -23,22 +22,13 @@ prepare(cmd *c)
 		opts.level = level;
 	if (cmd_given(c, "from"))
 		opts.from = MR_FROM_DETAIL + from;
-	MR_TRY(cmd_idle(c, "level", opts.from == MR_FROM_DETAIL, "with --from detail"));
-	return cmd_cache(c, &cache);
+	return cmd_idle(c, "level", opts.from == MR_FROM_DETAIL, "with --from detail");
 }
 
 static mr_status
 decode_frame(cmd *c, mr_frame *f)
 {
-	return mr_decode_frame(&c->ctx, f, &opts, cache);
-}
-
-static mr_status
-finish(cmd *c)
-{
-	(void)c;
-	mr_cache_delete(cache);
-	return MR_OK;
+	return mr_decode_frame(&c->ctx, f, &opts, c->cache);
 }
 
 int
@@ -49,6 +39,6 @@ main(int argc, char **argv)
 		.options = table,
 		.prepare = prepare,
 		.frame = decode_frame,
-		.finish = finish,
+		.caches = true,
 		.fixed_layers = true });
 }

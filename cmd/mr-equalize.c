@@ -4,7 +4,6 @@
 static const char *gains_text;
 static double gain[MR_LEVEL_MAX + 1];
 static size_t gains;
-static mr_cache *cache;
 
 static const cmd_opt table[] = {
 	{ 'g', "gain", CMD_TEXT, &gains_text, 0, 0, "G0,G1,...",
@@ -15,7 +14,6 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
-	MR_TRY(cmd_cache(c, &cache));
 	if (!gains_text)
 		return MR_OK;
 	gains = 1;
@@ -30,15 +28,7 @@ prepare(cmd *c)
 static mr_status
 equalize_frame(cmd *c, mr_frame *f)
 {
-	return mr_equalize_frame(&c->ctx, f, gain, gains, cache);
-}
-
-static mr_status
-finish(cmd *c)
-{
-	(void)c;
-	mr_cache_delete(cache);
-	return MR_OK;
+	return mr_equalize_frame(&c->ctx, f, gain, gains, c->cache);
 }
 
 int
@@ -49,6 +39,6 @@ main(int argc, char **argv)
 		.options = table,
 		.prepare = prepare,
 		.frame = equalize_frame,
-		.finish = finish,
+		.caches = true,
 		.fixed_layers = true });
 }

@@ -4,7 +4,6 @@
 
 static mr_solve_opts opts = MR_SOLVE_DEFAULTS;
 static double megabytes;
-static mr_cache *cache;
 
 static const cmd_opt table[] = {
 	{ 'k', "order", CMD_COUNT, &opts.order, 1, 3, "K",
@@ -57,8 +56,7 @@ prepare(cmd *c)
 {
 	opts.layer = c->layer;
 	opts.memory = 1e6 * megabytes;
-	MR_TRY(mr_solve_check(&c->ctx, &opts));
-	return cmd_cache(c, &cache);
+	return mr_solve_check(&c->ctx, &opts);
 }
 
 static mr_status
@@ -66,16 +64,8 @@ solve_frame(cmd *c, mr_frame *f)
 {
 	mr_solve_result result;
 
-	MR_TRY(mr_solve_frame(&c->ctx, f, &opts, cache, &result));
+	MR_TRY(mr_solve_frame(&c->ctx, f, &opts, c->cache, &result));
 	cmd_figures(c, figures, &result);
-	return MR_OK;
-}
-
-static mr_status
-finish(cmd *c)
-{
-	(void)c;
-	mr_cache_delete(cache);
 	return MR_OK;
 }
 
@@ -87,5 +77,5 @@ main(int argc, char **argv)
 		.options = table,
 		.prepare = prepare,
 		.frame = solve_frame,
-		.finish = finish });
+		.caches = true });
 }

@@ -2,7 +2,6 @@
 #include "cmd.h"
 
 static mr_subdivide_opts opts = MR_SUBDIVIDE_DEFAULTS;
-static mr_cache *cache;
 
 static const cmd_opt table[] = {
 	{ 'n', "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "LEVEL",
@@ -21,27 +20,13 @@ static const cmd_field figures[] = {
 };
 
 static mr_status
-prepare(cmd *c)
-{
-	return cmd_cache(c, &cache);
-}
-
-static mr_status
 subdivide_frame(cmd *c, mr_frame *f)
 {
 	mr_subdivide_result result;
 
 	opts.layer = c->layer;
-	MR_TRY(mr_subdivide_frame(&c->ctx, f, &opts, cache, &result));
+	MR_TRY(mr_subdivide_frame(&c->ctx, f, &opts, c->cache, &result));
 	cmd_figures(c, figures, &result);
-	return MR_OK;
-}
-
-static mr_status
-finish(cmd *c)
-{
-	(void)c;
-	mr_cache_delete(cache);
 	return MR_OK;
 }
 
@@ -51,7 +36,6 @@ main(int argc, char **argv)
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "refine a mesh by Loop subdivision",
 		.options = table,
-		.prepare = prepare,
 		.frame = subdivide_frame,
-		.finish = finish });
+		.caches = true });
 }

@@ -4,7 +4,7 @@
 #include "base/sort.h"
 
 /* In deviations; in spacings, that the surface is away at least. */
-static const double LIMIT = 2.5, AWAY = 0.5;
+static const double LIMIT = 2.5, AWAY = 1;
 
 mr_status
 mr_find_outliers(

@@ -11,8 +11,8 @@
 /*
  * Of the outliers of a sampling (s->n > 0), which are far from the surface too; off: the distance of each of
  * the points from it.  Those are that are farther than 2.5 standard deviations, estimated from the median of
- * `off`, than `least`, and than half their spacing: sparse points that the surface is as near to as to others
- * are none.
+ * `off`, than `least`, and than their spacing: sparse points that the surface is as near to as others are
+ * none.
  *
  * outlier: s->n, the caller's.  *count: how many.
  */
