@@ -15,7 +15,7 @@ typedef struct mr_solid_build {
 	size_t nv, nf;
 } mr_solid_build;
 
-/* shape_build.c does what follows. */
+/* build.c does what follows. */
 mr_status mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, mr_solid_build *b);
 
 /* The number of the new vertex. */
@@ -42,11 +42,11 @@ typedef double (*mr_field)(void *arg, mr_v3 x);
 
 /*
  * The surface where the field is zero, from its values at points `step` apart in the box,
- * outside of which it must be positive: some 4.5 vertices per squared step of area.  shape_march.c.
+ * outside of which it must be positive: some 4.5 vertices per squared step of area.  marching_tetrahedra.c.
  */
 mr_status mr_march(mr_ctx *ctx, mr_field field, void *arg, mr_box box, double step, mr_solid_build *b);
 
-/* The bumpy creature of about n vertices: shape_bumpy.c. */
+/* The bumpy creature of about n vertices: bumpy.c. */
 mr_status mr_bumpy(mr_ctx *ctx, size_t n, mr_solid_build *b);
 
 #endif

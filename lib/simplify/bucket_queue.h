@@ -12,7 +12,7 @@
 enum { MR_BUCKETS = 1 << 15 };
 
 typedef struct mr_buckets {
-	uint32_t *next, *prev; /* of each item: its neighbours in the bucket, see buckets.c */
+	uint32_t *next, *prev; /* of each item: its neighbours in the bucket, see bucket_queue.c */
 	uint32_t *head;        /* MR_BUCKETS: the first item */
 	uint64_t bits[MR_BUCKETS / 64],
 	    words[MR_BUCKETS / 64 / 64]; /* buckets, and words of bits, that are not empty */

@@ -1,4 +1,4 @@
-/* The powers L (W L)^(k-1) of a sparse matrix, row by row, as by Gustavson (product.c): no power in between is
+/* The powers L (W L)^(k-1) of a sparse matrix, row by row, as by Gustavson (sparse_product.c): no power in between is
  * stored. */
 #include "solve/sparse.h"
 

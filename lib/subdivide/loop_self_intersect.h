@@ -1,7 +1,7 @@
 /*
  * loop_self_intersect.h -- which triangles of a subdivided surface pass through others.
  *
- * Contract: as intersect.h, but triangles that touch and look the same way, to 60 degrees, are taken not to
+ * Contract: as self_intersect.h, but triangles that touch and look the same way, to 60 degrees, are taken not to
  * cross, and so are regions that touch and whose normals all lie within a cone of that angle (after Volino,
  * Magnenat Thalmann 1994, without their test of the outlines): a smooth surface is then searched only where
  * it comes back to itself.

@@ -31,21 +31,21 @@ mr_status mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampli
     bool projected, mr_volume_cloud *s);
 
 /* Moves each point onto the plane of least squares of those nearest to it; planes and links are as they were.
- * volume_project.c */
+ * denoise.c */
 mr_status mr_volume_project(mr_ctx *ctx, mr_volume_cloud *s);
 
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
- * (positive: the sign is right) on the whole.  volume_orient.c */
+ * (positive: the sign is right) on the whole.  orient.c */
 mr_status mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote);
 
 /*
  * Turns the normals of whole regions over where all agree better then and the flood's votes (positive: the
- * sign is right) are not for it.  g: of so many levels; a step twice the grid's will do.  volume_regions.c
+ * sign is right) are not for it.  g: of so many levels; a step twice the grid's will do.  orient_regions.c
  */
 mr_status mr_volume_regions(mr_ctx *ctx, mr_volume_cloud *s, const double *flood, const mr_grid *g,
     size_t levels, mr_volume_result *result);
 
-/* ---- volume_solve.c: (screen - Laplacian) u = b on the nodes, u = 0 on the faces of the grid ---- */
+/* ---- grid_multigrid.c: (screen - Laplacian) u = b on the nodes, u = 0 on the faces of the grid ---- */
 
 enum { LEVELS_MOST = 16 };
 
@@ -82,7 +82,7 @@ void mr_multigrid_prolong(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_
 void mr_multigrid_restrict(mr_ctx *ctx, const mr_grid_level *fine, const mr_grid_level *coarse,
     const float *from, float *to, float scale);
 
-/* ---- volume_splat.c: points to nodes and back ---- */
+/* ---- splat.c: points to nodes and back ---- */
 
 /* Some of the points by layer of cells: order[first[z]] to order[first[z + 1]] lie between layers z and z
  * + 1. */
@@ -107,7 +107,7 @@ void mr_volume_spread(
 /* The value between the nodes at p, which must be inside the grid. */
 double mr_volume_at(const mr_grid *g, const float *u, mr_v3 p);
 
-/* ---- volume_clean.c ---- */
+/* ---- components.c ---- */
 
 typedef struct mr_cleaning {
 	size_t parts, cavities; /* dropped */

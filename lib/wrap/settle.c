@@ -23,7 +23,7 @@ trust(const settle *s, uint32_t v)
 
 /*
  * Where v goes: along its normal by alpha of the way to the mean level of the nearest points, weighted by
- * 1 / (d^2 + s^2 / 4), and tangentially by lambda of the umbrella vector.
+ * 1 / (d^2 + s^2 / 16), s the sampling distance, and tangentially by lambda of the umbrella vector.
  */
 static mr_v3
 target(const settle *s, uint32_t v)
