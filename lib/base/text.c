@@ -1,4 +1,4 @@
-/* Text by printf, its room doubled as it grows, and strings and numbers as JSON has them. */
+/* Formatted text in the arena, its room doubled as it grows, and strings and numbers as JSON has them. */
 #include "base/text.h"
 
 #include "base/utf8.h"

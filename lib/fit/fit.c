@@ -75,25 +75,14 @@ count_folds(const mr_fit_surface *s)
 }
 
 static void
-measure_before(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, mr_fit_result *r)
+put_distances(const mr_fit_gap *before, const mr_fit_gap *after, mr_fit_result *r)
 {
-	mr_fit_gap gap = mr_fit_measure(ctx, foot, n);
-
-	r->distance_mean_before = gap.mean;
-	r->distance_rms_before = gap.rms;
-	r->distance_max_before = gap.max;
-	r->folded_edges_before = count_folds(s);
-}
-
-static void
-measure_after(mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_foot *foot, size_t n, mr_fit_result *r)
-{
-	mr_fit_gap gap = mr_fit_measure(ctx, foot, n);
-
-	r->distance_mean_after = gap.mean;
-	r->distance_rms_after = gap.rms;
-	r->distance_max_after = gap.max;
-	r->folded_edges_after = count_folds(s);
+	r->distance_mean_before = before->mean;
+	r->distance_rms_before = before->rms;
+	r->distance_max_before = before->max;
+	r->distance_mean_after = after->mean;
+	r->distance_rms_after = after->rms;
+	r->distance_max_after = after->max;
 }
 
 /* Where the result is poor: it folds, or the points are as far as the control mesh is coarse. */
@@ -175,6 +164,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	double edge = mr_mesh_edge_scale(ctx, control);
 	double start;
 	mr_sampling sampling;
+	mr_fit_gap before, after;
 	mr_fit_result r;
 	mr_fit_surface s;
 
@@ -188,7 +178,8 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
 	if (!is_local)
 		MR_TRY(drop_outliers(ctx, &sampling, MR_FIT_NEAR * edge, sorted, foot, &n, &r.outliers));
-	measure_before(ctx, &s, foot, n, &r);
+	before = mr_fit_measure(ctx, foot, n);
+	r.folded_edges_before = count_folds(&s);
 	start = mr_seconds();
 	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
 			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, n < given, foot, x, &r));
@@ -199,7 +190,9 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	warn(ctx, &s, edge, foot, n);
 	if (result) {
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
-		measure_after(ctx, &s, foot, n, &r);
+		after = mr_fit_measure(ctx, foot, n);
+		r.folded_edges_after = count_folds(&s);
+		put_distances(&before, &after, &r);
 		*result = r;
 	}
 	memcpy(out, x, control->nv * sizeof *out);
