@@ -19,5 +19,9 @@ mr_find_outliers(
 		outlier[i] = s->outlier[i] && off[i] > fmax(most, AWAY * s->spacing[i]);
 		*count += outlier[i];
 	}
+	if (*count > 0)
+		mr_warn(ctx,
+		    "%zu of %zu points are outliers, no nearer to the surface than to others: left out",
+		    *count, s->n);
 	return MR_OK;
 }

@@ -14,7 +14,7 @@
  * `off`, than `least`, and than their spacing: sparse points that the surface is as near to as others are
  * none.
  *
- * outlier: s->n, the caller's.  *count: how many.
+ * outlier: s->n, the caller's.  *count: how many, of which it warns.
  */
 mr_status mr_find_outliers(mr_ctx *ctx, const mr_sampling *s, const double *off, double least, bool *outlier,
     size_t *count) MR_WARN_UNUSED;
