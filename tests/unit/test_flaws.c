@@ -2,28 +2,9 @@
 #include "remesh/flaws.h"
 #include "remesh/local_length.h"
 #include "remesh/repair_flaws.h"
-#include "shapes.h"
+#include "remesh_scene.h"
 
 #include <limits.h>
-
-/* A mesh, itself as the surface that is remeshed. */
-typedef struct scene {
-	mr_mesh m;
-	mr_topology topo;
-	mr_curves curves;
-	mr_dyn d;
-	mr_remesh_source s;
-} scene;
-
-static void
-set_up(scene *x, mr_mesh m)
-{
-	x->m = m;
-	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
-	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, 180, &x->d), MR_OK);
-	assert_int_equal(mr_curves_copy(&ctx, &x->d.curves, &x->curves), MR_OK);
-	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
-}
 
 /* Moves a share of the inner vertices, by as much as `way`, within z = const. */
 static void
@@ -98,7 +79,7 @@ sound_surfaces_have_none(void **state)
 		for (int sure = 0; sure < 2; sure++) {
 			size_t count = 99;
 			scene x;
-			set_up(&x, shape(solids[i], 1000));
+			set_up(&x, shape(solids[i], 1000), 180);
 			find(&x, sure, &count);
 			assert_int_equal(count, 0);
 		}
@@ -117,7 +98,7 @@ flaws_in_the_plane_are_those_of_signs(void **state)
 		size_t count, want = 0;
 		mr_flaws w;
 		scene x;
-		set_up(&x, lattice(12));
+		set_up(&x, lattice(12), 180);
 		stir(&x, 0.05 * (k + 1), 1.5, &r);
 		w = find(&x, sure, &count);
 		for (uint32_t f = 0; f < x.d.nf; f++) {
@@ -166,7 +147,7 @@ a_pair_counts_as_what_it_is_merged_into(void **state)
 		uint8_t *mark;
 		mr_flaws w;
 		scene x;
-		set_up(&x, lattice(7));
+		set_up(&x, lattice(7), 180);
 		mark = MR_NEW_ZERO(&ctx, x.d.nv, uint8_t);
 		stir(&x, 0.3, 1.2, &r);
 		h = (uint32_t)(mr_random_bits(&r) % (3 * x.d.nf));
@@ -199,7 +180,7 @@ a_change_makes_suspects(void **state)
 	scene x;
 
 	(void)state;
-	set_up(&x, lattice(N));
+	set_up(&x, lattice(N), 180);
 	w = find(&x, true, &count);
 	for (uint32_t v = 0; v < x.d.nv; v += 7) {
 		bool *near = MR_NEW_ZERO(&ctx, x.d.nf, bool);
@@ -229,7 +210,7 @@ a_quick_look_finds_no_others(void **state)
 	scene x;
 
 	(void)state;
-	set_up(&x, shape(MR_KNOT, 2000));
+	set_up(&x, shape(MR_KNOT, 2000), 180);
 	for (uint32_t v = 0; v < x.d.nv; v += 3)
 		x.d.p[v] = mr_add(x.d.p[v], mr_mul(2 * x.s.uniform, random_vector(&r)));
 	a = find(&x, false, &quick);
@@ -277,7 +258,7 @@ what_is_tangled_is_mended(void **state)
 		census before, after;
 		size_t tangled;
 		scene x;
-		set_up(&x, plane ? lattice(20) : shape(MR_TORUS, 800));
+		set_up(&x, plane ? lattice(20) : shape(MR_TORUS, 800), 180);
 		before = count_all(&x);
 		assert_int_equal(before.flawed, 0);
 		for (uint32_t v = 0; v < x.d.nv; v++)
@@ -332,7 +313,7 @@ what_does_not_help_is_not_done(void **state)
 		unsigned before, after;
 		mr_v3 *p;
 		scene x;
-		set_up(&x, lattice(4 + (uint32_t)k % 3));
+		set_up(&x, lattice(4 + (uint32_t)k % 3), 180);
 		stir(&x, 1, 0.3 + 0.2 * (k % 10), &r);
 		for (uint32_t v = 0; v < x.d.nv && k % 2; v++) /* the rim too, which stays as it is */
 			x.d.p[v].x += x.d.kind[v] == MR_SMOOTH ? 0 : 3 * mr_random_real(&r);
@@ -375,7 +356,7 @@ what_is_tried_in_vain_is_taken_back(void **state)
 		mr_v3 p[4] = { { 1, 1, 1 }, { -1, -1, 1 }, { -1, 1, -1 }, { 1, -1, -1 } }, inside[4];
 		size_t before, after;
 		scene x;
-		set_up(&x, (mr_mesh){ "tetrahedron", p, t, 4, 4 });
+		set_up(&x, (mr_mesh){ "tetrahedron", p, t, 4, 4 }, 180);
 		for (int i = 0; i < 4; i++)
 			x.d.p[i] = inside[i] = mr_mul(-0.5 - mr_random_real(&r), p[i]);
 		for (uint32_t v = 0; v < 3; v++) {
@@ -406,7 +387,7 @@ an_edge_is_flipped_back(void **state)
 		uint32_t h;
 		unsigned flaws;
 		scene x;
-		set_up(&x, lattice(4));
+		set_up(&x, lattice(4), 180);
 		stir(&x, 1, 0.45, &r);
 		if (total(&x.d) > 0)
 			continue;
@@ -438,14 +419,14 @@ a_tip_gives_way_as_the_last_resort(void **state)
 	scene x;
 
 	(void)state;
-	set_up(&x, lattice(N));
+	set_up(&x, lattice(N), 180);
 	x.d.kind[V] = MR_CORNER;
 	x.d.at[V] = x.d.out[V];
 	x.d.p[V].x += 3.3;
 	assert_int_equal(mr_mend_flaws(&ctx, &x.d, &x.s, false), MR_OK);
 	assert_int_equal(x.d.kind[V], MR_CORNER);
 	assert_true(x.d.p[V].x == x.m.p[V].x + 3.3);
-	set_up(&x, lattice(N));
+	set_up(&x, lattice(N), 180);
 	x.d.kind[V] = MR_CORNER;
 	x.d.at[V] = x.d.out[V];
 	x.d.p[V].x += 3.3;
@@ -463,7 +444,7 @@ what_is_sound_stays(void **state)
 
 	(void)state;
 	for (int last = 0; last < 2; last++) {
-		set_up(&x, shape(MR_KNOT, 1500));
+		set_up(&x, shape(MR_KNOT, 1500), 180);
 		assert_int_equal(mr_mend_flaws(&ctx, &x.d, &x.s, last), MR_OK);
 		assert_memory_equal(x.d.p, x.m.p, x.m.nv * sizeof *x.m.p);
 		assert_memory_equal(x.d.v, x.m.t, x.m.nf * sizeof *x.m.t);
@@ -479,7 +460,7 @@ lengths_give_way_around_flaws(void **state)
 	scene x;
 
 	(void)state;
-	set_up(&x, lattice(N));
+	set_up(&x, lattice(N), 180);
 	assert_int_equal(mr_refine_begin(&ctx, &x.d), MR_OK);
 	assert_int_equal(mr_refine_flaws(&ctx, &x.d, &x.s), MR_OK);
 	for (uint32_t v = 0; v < x.d.nv; v++)
@@ -504,7 +485,7 @@ memory_may_run_out(void **state)
 	uint64_t k = 1;
 
 	(void)state;
-	set_up(&x, lattice(8));
+	set_up(&x, lattice(8), 180);
 	x.d.p[40].x += 1.8;
 	for (;; k++) {
 		ctx.fail_at = k;

@@ -1,22 +1,6 @@
 /* Flips: which are good, what they leave, and dislocations that glide until they meet. */
 #include "remesh/flip.h"
-#include "shapes.h"
-
-typedef struct scene {
-	mr_mesh m;
-	mr_topology topo;
-	mr_dyn d;
-	mr_remesh_source s;
-} scene;
-
-static void
-set_up(scene *x, mr_mesh m)
-{
-	x->m = m;
-	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
-	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, 180, &x->d), MR_OK);
-	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->d.curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
-}
+#include "remesh_scene.h"
 
 static int
 excess(const mr_dyn *d, uint32_t v)
@@ -72,7 +56,7 @@ is_good(double w, mr_v3 c, mr_v3 e)
 	mr_tri t[2] = { { { 0, 1, 2 } }, { { 1, 0, 3 } } };
 	scene x;
 
-	set_up(&x, (mr_mesh){ "roof", p, t, 4, 2 });
+	set_up(&x, (mr_mesh){ "roof", p, t, 4, 2 }, 180);
 	return mr_flip_is_good(&x.d, &x.s, 0);
 }
 
@@ -129,7 +113,7 @@ a_flip_does_not_fold_what_is_beside(void **state)
 			mr_v3 way = mr_add(p[side[k][0]], p[side[k][1]]); /* out of the square */
 			scene x;
 			p[4] = mr_axpy(folded ? 0.4 : 1, way, mr_vec(0, 0, 0.005));
-			set_up(&x, (mr_mesh){ "flap", p, t, 5, 3 });
+			set_up(&x, (mr_mesh){ "flap", p, t, 5, 3 }, 180);
 			assert_int_equal(mr_flip_is_good(&x.d, &x.s, 0), !folded);
 		}
 }
@@ -146,7 +130,7 @@ what_gains_is_flipped(void **state)
 		mr_v3 before;
 		size_t flips, rounds = 0;
 		scene x;
-		set_up(&x, shape(solids[seed % 4], 1000));
+		set_up(&x, shape(solids[seed % 4], 1000), 180);
 		for (int k = 0; k < 3000; k++) {
 			uint32_t h = (uint32_t)(mr_random_bits(&r) % (3 * x.d.nf));
 			if (may_flip(&x, h))
@@ -223,7 +207,7 @@ dislocations_glide_until_they_meet(void **state)
 			long regular, sum;
 			size_t flips;
 			scene x;
-			set_up(&x, squares(apart % 2));
+			set_up(&x, squares(apart % 2), 180);
 			regular = sum_of_squares(&x.d);
 			for (uint32_t i = 0; i < apart; i++) {
 				uint32_t h = diagonal(&x.d, 5 + i);
@@ -254,7 +238,7 @@ a_dislocation_leaves_where_it_came_in(void **state)
 			long regular;
 			size_t flips;
 			scene x;
-			set_up(&x, squares(side / 2));
+			set_up(&x, squares(side / 2), 180);
 			regular = sum_of_squares(&x.d);
 			for (uint32_t i = 0; i < in; i++)
 				mr_dyn_flip(&x.d, diagonal(&x.d, side % 2 ? N - 1 - i : i));
@@ -273,7 +257,7 @@ memory_may_run_out(void **state)
 	scene x;
 
 	(void)state;
-	set_up(&x, shape(MR_TORUS, 100));
+	set_up(&x, shape(MR_TORUS, 100), 180);
 	ctx.fail_at = 1;
 	assert_int_equal(mr_regularize(&ctx, &x.d, &x.s, 3, &flips), MR_EMEM);
 	assert_int_equal(flips, 77);

@@ -1,26 +1,6 @@
 /* Relaxation: areas, where one pass puts a vertex, what holds it back. */
 #include "op/voronoi_area.h"
-#include "remesh/relax.h"
-#include "shapes.h"
-
-/* A mesh, itself as the surface that is remeshed. */
-typedef struct scene {
-	mr_mesh m;
-	mr_topology topo;
-	mr_curves curves;
-	mr_dyn d;
-	mr_remesh_source s;
-} scene;
-
-static void
-set_up(scene *x, mr_mesh m, double feature)
-{
-	x->m = m;
-	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
-	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, feature, &x->d), MR_OK);
-	assert_int_equal(mr_curves_copy(&ctx, &x->d.curves, &x->curves), MR_OK);
-	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
-}
+#include "remesh_scene.h"
 
 static mr_v3 *
 copy_of(const mr_v3 *p, size_t n)
