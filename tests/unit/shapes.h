@@ -3,6 +3,7 @@
 #define TEST_SHAPES_H
 
 #include "base/random.h"
+#include "measure/measure.h"
 #include "shape/shape.h"
 #include "unit.h"
 
@@ -66,6 +67,17 @@ both(const mr_mesh *a, const mr_mesh *b, mr_v3 shift)
 		for (int k = 0; k < 3; k++)
 			t[a->nf + f].v[k] = (uint32_t)a->nv + b->t[f].v[k];
 	return (mr_mesh){ "both", p, t, a->nv + b->nv, a->nf + b->nf };
+}
+
+static inline mr_census
+census_of(const mr_mesh *m)
+{
+	mr_edges edges;
+	mr_census c;
+
+	assert_int_equal(mr_edges_build(&ctx, m, &edges), MR_OK);
+	assert_int_equal(mr_take_census(&ctx, m, &edges, &c), MR_OK);
+	return c;
 }
 
 #endif

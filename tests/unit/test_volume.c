@@ -1,5 +1,5 @@
 /* Volumes of clouds whose surface is known, isosurfaces of any values, and clouds that enclose nothing. */
-#include "unit.h"
+#include "shapes.h"
 
 #include "base/random.h"
 #include "measure/measure.h"
@@ -9,17 +9,6 @@
 #include "volume/isosurface.h"
 #include "volume/parts.h"
 #include "volume/volume.h"
-
-static mr_census
-census_of(const mr_mesh *m)
-{
-	mr_edges edges;
-	mr_census c;
-
-	assert_int_equal(mr_edges_build(&ctx, m, &edges), MR_OK);
-	assert_int_equal(mr_take_census(&ctx, m, &edges, &c), MR_OK);
-	return c;
-}
 
 static void
 assert_closed_manifold(const mr_census *c)
