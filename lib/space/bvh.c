@@ -326,8 +326,8 @@ box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double
 			bool back = r->inverse[k] < 0;
 			double t0 = ((double)(back ? d->hi : d->lo)[k][c] - r->start[k]) * r->inverse[k];
 			double t1 = ((double)(back ? d->lo : d->hi)[k][c] - r->start[k]) * r->inverse[k];
-			t0 -= fabs(t0) * 0x1p-40;
-			t1 += fabs(t1) * 0x1p-40;
+			t0 *= t0 > 0 ? 1 - 0x1p-40 : 1 + 0x1p-40; /* infinity stays */
+			t1 *= t1 > 0 ? 1 + 0x1p-40 : 1 - 0x1p-40;
 			enter = t0 > enter ? t0 : enter;
 			leave = t1 < leave ? t1 : leave;
 		}
