@@ -23,9 +23,6 @@ typedef struct laplace_job {
 	const mr_mesh *m;
 	const mr_incidence *inc;
 	double (*cot)[3]; /* per face */
-	int *index;       /* rows with gaps: row v begins at room_of(v) */
-	double *value;
-	int *length;
 	mr_sparse *l;
 } laplace_job;
 
@@ -40,11 +37,36 @@ cotangents_of(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* A row has at most its diagonal and two neighbours per face. */
-static size_t
-room_of(const laplace_job *j, size_t v)
+/* Neighbour i of vertex v, of two in each face around it; v itself where the face has a vertex twice and no
+ * area. */
+static uint32_t
+neighbour(const laplace_job *j, size_t v, size_t i)
 {
-	return 2 * j->inc->start[v] + v;
+	const uint32_t *c = j->m->t[j->inc->face[j->inc->start[v] + i / 2]].v;
+	size_t k = c[0] == v ? 0 : c[1] == v ? 1 : 2;
+	uint32_t a = c[(k + 1) % 3], b = c[(k + 2) % 3];
+
+	return a == v || b == v ? (uint32_t)v : i % 2 ? b : a;
+}
+
+/* The length of each row: the diagonal, and each neighbour once. */
+static void
+count_rows(void *arg, size_t begin, size_t end)
+{
+	laplace_job *j = arg;
+
+	for (size_t v = begin; v < end; v++) {
+		size_t n = 2 * (j->inc->start[v + 1] - j->inc->start[v]);
+		int length = 1;
+		for (size_t i = 0; i < n; i++) {
+			uint32_t w = neighbour(j, v, i);
+			size_t first = 0;
+			while (first < i && neighbour(j, v, first) != w)
+				first++;
+			length += first == i && w != v;
+		}
+		j->l->start[v + 1] = length;
+	}
 }
 
 /* Adds an entry to a row of *n, kept in ascending order. */
@@ -72,8 +94,8 @@ rows_of(void *arg, size_t begin, size_t end)
 	laplace_job *j = arg;
 
 	for (size_t v = begin; v < end; v++) {
-		int *index = j->index + room_of(j, v), n = 0, d = 0;
-		double *value = j->value + room_of(j, v), sum = 0;
+		int *index = j->l->index + j->l->start[v], n = 0, d = 0;
+		double *value = j->l->value + j->l->start[v], sum = 0;
 
 		add_entry(index, value, &n, (int)v, 0);
 		for (size_t i = j->inc->start[v]; i < j->inc->start[v + 1]; i++) {
@@ -90,48 +112,36 @@ rows_of(void *arg, size_t begin, size_t end)
 			d = index[k] == (int)v ? k : d;
 		}
 		value[d] = -sum;
-		j->length[v] = n;
-	}
-}
-
-static void
-close_gaps(void *arg, size_t begin, size_t end)
-{
-	laplace_job *j = arg;
-
-	for (size_t v = begin; v < end; v++) {
-		size_t n = (size_t)j->length[v], from = room_of(j, v), to = (size_t)j->l->start[v];
-		memcpy(j->l->index + to, j->index + from, n * sizeof *j->index);
-		memcpy(j->l->value + to, j->value + from, n * sizeof *j->value);
 	}
 }
 
 mr_status
 mr_laplace_build(mr_ctx *ctx, const mr_mesh *m, mr_sparse *l)
 {
-	size_t room = m->nv + 6 * m->nf;
-	mr_sparse r = { (int)m->nv, MR_NEW(ctx, m->nv + 1, int), NULL, NULL };
+	mr_mark mark;
+	mr_sparse r = { .n = (int)m->nv, .start = MR_NEW(ctx, m->nv + 1, int) };
 	laplace_job j = { .m = m, .l = &r };
 	mr_incidence inc;
-	mr_mark mark;
 
 	if (m->nv > INT32_MAX - 1)
 		return mr_fail(ctx, MR_ERANGE, "%s: %zu vertices are too many", m->name, m->nv);
-	r.index = MR_NEW(ctx, room, int);
-	r.value = MR_NEW(ctx, room, double);
-	mark = mr_mark_take(ctx);
-	j.cot = mr_alloc(ctx, m->nf, sizeof *j.cot);
-	j.index = MR_NEW(ctx, room, int);
-	j.value = MR_NEW(ctx, room, double);
-	j.length = MR_NEW(ctx, m->nv, int);
-	if (!r.start || !r.index || !r.value || !j.cot || !j.index || !j.value || !j.length)
+	if (!r.start)
 		return MR_EMEM;
+	mark = mr_mark_take(ctx);
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	j.inc = &inc;
+	mr_parallel(ctx, m->nv, GRAIN, count_rows, &j);
+	mr_mark_release(ctx, mark);
+	MR_TRY(mr_sparse_starts(ctx, r.start + 1, &r));
+	r.index = MR_NEW(ctx, (size_t)r.start[m->nv], int);
+	r.value = MR_NEW(ctx, (size_t)r.start[m->nv], double);
+	mark = mr_mark_take(ctx);
+	j.cot = mr_alloc(ctx, m->nf, sizeof *j.cot);
+	if (!r.index || !r.value || !j.cot)
+		return MR_EMEM;
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	mr_parallel(ctx, m->nf, GRAIN, cotangents_of, &j);
 	mr_parallel(ctx, m->nv, GRAIN, rows_of, &j);
-	MR_TRY(mr_sparse_starts(ctx, j.length, &r));
-	mr_parallel(ctx, m->nv, GRAIN, close_gaps, &j);
 	mr_mark_release(ctx, mark);
 	*l = r;
 	return MR_OK;
