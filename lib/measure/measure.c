@@ -117,19 +117,13 @@ count_fans_and_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_ce
 	return MR_OK;
 }
 
-static bool
-same_direction(const mr_mesh *m, uint32_t h, uint32_t g)
-{
-	return mr_he_from(m, h) == mr_he_from(m, g);
-}
-
 /* The two faces of an edge, as if oriented alike. */
 static bool
 folded(const mr_mesh *m, uint32_t h, uint32_t g)
 {
 	mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
 
-	return mr_folds(same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
+	return mr_folds(mr_same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
 }
 
 static void
@@ -141,7 +135,7 @@ count_edges(const mr_mesh *m, const mr_edges *edges, mr_census *c)
 		uint32_t n = mr_edge_faces(edges, e);
 		c->boundary_edges += n == 1;
 		c->nonmanifold_edges += n > 2;
-		c->inconsistent_edges += n == 2 && same_direction(m, h[0], h[1]);
+		c->inconsistent_edges += n == 2 && mr_same_direction(m, h[0], h[1]);
 		c->folded_edges += n == 2 && folded(m, h[0], h[1]);
 	}
 }
@@ -236,7 +230,6 @@ mr_spread_of(const double *x, size_t n)
 typedef struct job {
 	const mr_mesh *m;
 	const mr_edges *edges;
-	mr_v3 center;
 	double *value;      /* per edge */
 	double (*angle)[3]; /* per face: least, greatest, sum of |angle - 60|; NaN without area */
 } job;
@@ -354,42 +347,16 @@ measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
 	return MR_OK;
 }
 
-/* Six times the volume between the face and the centre. */
-static double
-cone(void *arg, size_t f)
-{
-	job *j = arg;
-	const uint32_t *v = j->m->t[f].v;
-	mr_v3 a = mr_sub(j->m->p[v[0]], j->center), b = mr_sub(j->m->p[v[1]], j->center);
-
-	return mr_dot(a, mr_cross(b, mr_sub(j->m->p[v[2]], j->center)));
-}
-
-/* Every edge has two faces, or another even number, as many one way as the other. */
-static bool
-encloses(const mr_mesh *m, const mr_edges *edges)
-{
-	for (size_t e = 0; e < edges->count; e++) {
-		const uint32_t *h = edges->he + edges->start[e];
-		uint32_t n = mr_edge_faces(edges, e), same = 0;
-		for (uint32_t i = 0; i < n; i++)
-			same += same_direction(m, h[0], h[i]);
-		if (2 * same != n)
-			return false;
-	}
-	return edges->count > 0;
-}
-
 mr_status
 mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geometry *out)
 {
 	mr_geometry g = { .box = mr_box_of(m->p, m->nv), .volume = NAN };
-	job j = { .m = m, .edges = edges, .center = mr_lerp(0.5, g.box.min, g.box.max) };
+	job j = { .m = m, .edges = edges };
 
 	g.diagonal = mr_box_diagonal(g.box);
 	g.area = mr_mesh_area(ctx, m);
-	if (encloses(m, edges))
-		g.volume = mr_parallel_sum(ctx, m->nf, cone, &j) / 6;
+	if (mr_edges_enclose(m, edges))
+		g.volume = mr_mesh_volume(ctx, m);
 	MR_TRY(measure_edges(ctx, &j, &g));
 	MR_TRY(measure_angles(ctx, &j, &g));
 	MR_TRY(measure_valence(ctx, &j, &g));

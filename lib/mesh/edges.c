@@ -82,3 +82,17 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 	*out = e;
 	return MR_OK;
 }
+
+bool
+mr_edges_enclose(const mr_mesh *m, const mr_edges *edges)
+{
+	for (size_t e = 0; e < edges->count; e++) {
+		const uint32_t *h = edges->he + edges->start[e];
+		uint32_t n = mr_edge_faces(edges, e), same = 0;
+		for (uint32_t i = 0; i < n; i++)
+			same += mr_same_direction(m, h[0], h[i]);
+		if (2 * same != n)
+			return false;
+	}
+	return edges->count > 0;
+}

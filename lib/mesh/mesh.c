@@ -203,6 +203,30 @@ mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m)
 	return mr_parallel_sum(ctx, m->nf, face_area, &copy);
 }
 
+typedef struct cones {
+	const mr_mesh *m;
+	mr_v3 apex;
+} cones;
+
+/* Six times the volume between the face and the apex. */
+static double
+cone(void *arg, size_t f)
+{
+	const cones *c = arg;
+	const uint32_t *v = c->m->t[f].v;
+	mr_v3 a = mr_sub(c->m->p[v[0]], c->apex), b = mr_sub(c->m->p[v[1]], c->apex);
+
+	return mr_dot(a, mr_cross(b, mr_sub(c->m->p[v[2]], c->apex)));
+}
+
+double
+mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m)
+{
+	mr_box box = mr_box_of(m->p, m->nv);
+
+	return mr_parallel_sum(ctx, m->nf, cone, &(cones){ m, mr_lerp(0.5, box.min, box.max) }) / 6;
+}
+
 double
 mr_mesh_diagonal(const mr_mesh *m)
 {
