@@ -8,6 +8,8 @@ static const cmd_opt table[] = {
 	{ 't', "time", CMD_REAL, &opts.time, 0, 1e9, "TIME", "in all, in squared mean edge lengths", NULL },
 	{ 'n', "passes", CMD_COUNT, &opts.passes, 0, 1e6, "N",
 	    "passes; 0: 1 of implicit, of the others 8 for each unit of time", NULL },
+	{ 0, "plain", CMD_FLAG, &opts.plain, 0, 0, "",
+	    "smooth for the same time where the body is thin", NULL },
 	{ 0 },
 };
 
@@ -15,10 +17,10 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_smooth_result, passes),
 	CMD_MEASURED(mr_smooth_result, mean_edge),
 	CMD_COUNTED(mr_smooth_result, boundary_vertices),
-	CMD_MEASURED(mr_smooth_result, seconds_analyse),
-	CMD_MEASURED(mr_smooth_result, seconds_factor),
-	CMD_MEASURED(mr_smooth_result, nnz_factor),
-	CMD_MEASURED(mr_smooth_result, rcond),
+	CMD_COUNTED(mr_smooth_result, bounded),
+	CMD_COUNTED(mr_smooth_result, iterations),
+	CMD_MEASURED(mr_smooth_result, area),
+	CMD_MEASURED(mr_smooth_result, volume),
 	{ 0 },
 };
 

@@ -282,27 +282,30 @@ MR_API void mr_cache_delete(mr_cache *cache);
 /* Editing: Botsch, Kobbelt 2004 */
 
 typedef enum mr_smooth_method {
-	MR_SMOOTH_IMPLICIT, /* (M + t L) p' = M p, by Cholesky: any time in one pass */
+	MR_SMOOTH_IMPLICIT, /* (M + t L) p' = M p, by conjugate gradients: any time in one pass */
 	MR_SMOOTH_EXPLICIT, /* p' = p - t M^-1 L p: a pass may last a quarter of a squared edge length */
 	MR_SMOOTH_TAUBIN    /* a pass forth and one back, so the volume stays: up to 0.15 a pass */
 } mr_smooth_method;
 
 typedef struct mr_smooth_opts {
-	int method;        /* mr_smooth_method */
-	double time;       /* in all, in squared mean edge lengths of the input */
-	size_t passes;     /* 0: 1 implicit pass; of the others 8 for each unit of time */
+	int method;    /* mr_smooth_method */
+	double time;   /* in all, in squared mean edge lengths of the input */
+	size_t passes; /* 0: 1 implicit pass; of the others 8 for each unit of time */
+	bool plain;    /* the same time everywhere, as in the paper; else no more than fits the thickness */
 	const char *layer; /* NULL: base, else mesh */
 } mr_smooth_opts;
 
 #define MR_SMOOTH_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		MR_SMOOTH_IMPLICIT, 10, 0, NULL                                                              \
+		MR_SMOOTH_IMPLICIT, 10, 0, false, NULL                                                       \
 	}
 
 typedef struct mr_smooth_result {
 	size_t passes, boundary_vertices;
+	size_t bounded;    /* vertices that were smoothed for less time, because the body is thin there */
+	size_t iterations; /* of the implicit system, in all passes */
 	double mean_edge;
-	double seconds_analyse, seconds_factor, nnz_factor, rcond; /* of the implicit system */
+	double area, volume; /* shares of the input's that are left; volume of closed surfaces */
 } mr_smooth_result;
 
 MR_API mr_status mr_smooth_frame(

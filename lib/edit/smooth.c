@@ -8,14 +8,18 @@
 #include "mesh/edges.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
-#include "solve/solver.h"
+#include "solve/conjugate_gradients.h"
+#include "space/thickness.h"
 
 enum { GRAIN = 4096 };
+
+static const double TOLERANCE = 1e-10; /* of the motion's residual */
 
 typedef struct smoothing {
 	const mr_mesh *m;
 	mr_sparse l;
 	double *area; /* M, nv */
+	double *time; /* of a pass, nv */
 	bool *stays;  /* nv: on the boundary, or without any weight */
 	double edge2; /* squared mean edge length */
 	double step;  /* time of a pass, in squared mean edge lengths */
@@ -39,6 +43,7 @@ study_edges(mr_ctx *ctx, smoothing *s)
 			s->stays[a] = s->stays[b] = true;
 	}
 	mean = edges.count ? sum / (double)edges.count : 0;
+	s->found.volume = mr_edges_enclose(m, &edges) ? mr_mesh_volume(ctx, m) : NAN;
 	s->edge2 = mean * mean;
 	s->found.mean_edge = mean;
 	mr_mark_release(ctx, mark);
@@ -64,14 +69,42 @@ study_vertices(smoothing *s)
 	s->found.boundary_vertices = boundary;
 }
 
+/*
+ * How long each vertex is smoothed: no longer than a share of its squared thickness, so that no body passes
+ * through itself.  Of a rod of radius r the time t leaves 1 / (1 + t / r^2) across, of a ball 1 / (1 + 2 t /
+ * r^2): with this share a rod keeps 92 % of its volume and a ball 79 %.
+ */
 static mr_status
-study(mr_ctx *ctx, smoothing *s)
+choose_times(mr_ctx *ctx, smoothing *s, bool plain)
+{
+	/* 86 models bent, twisted and pulled: 6 of 258 wrecked, with 0.003 8, with 0.03 8, with 0.1 8; the
+	 * least volume that is left is 80, 93, 53 and 18 % */
+	static const double share = 0.01;
+	double most = s->step * s->edge2, passes = (double)s->found.passes,
+	       reach = sqrt(passes * most / share);
+
+	for (size_t v = 0; v < s->m->nv; v++)
+		s->time[v] = reach;
+	if (!plain && most > 0)
+		MR_TRY(mr_thickness(ctx, s->m, reach, s->time));
+	for (size_t v = 0; v < s->m->nv; v++) {
+		s->found.bounded += s->time[v] < reach;
+		s->time[v] = s->time[v] < reach ? share * s->time[v] * s->time[v] / passes : most;
+		s->stays[v] |= s->time[v] == 0;
+	}
+	return MR_OK;
+}
+
+static mr_status
+study(mr_ctx *ctx, smoothing *s, bool plain)
 {
 	s->area = MR_NEW(ctx, s->m->nv, double);
+	s->time = MR_NEW(ctx, s->m->nv, double);
 	s->stays = MR_NEW_ZERO(ctx, s->m->nv, bool);
-	if (!s->area || !s->stays)
+	if (!s->area || !s->time || !s->stays)
 		return MR_EMEM;
 	MR_TRY(study_edges(ctx, s));
+	MR_TRY(choose_times(ctx, s, plain));
 	MR_TRY(mr_laplace_build(ctx, s->m, &s->l));
 	MR_TRY(mr_voronoi_areas(ctx, s->m, s->area));
 	study_vertices(s);
@@ -80,78 +113,93 @@ study(mr_ctx *ctx, smoothing *s)
 
 /* Implicit */
 
-/* The lower triangle of M + t L over the n vertices that move, in squared mean edges. */
-static mr_status
-implicit_matrix(mr_ctx *ctx, const smoothing *s, const uint32_t *move, size_t n, mr_sparse *a)
-{
-	MR_TRY(mr_sparse_restrict(ctx, &s->l, move, n, true, a));
-	for (int e = 0; e < a->start[n]; e++)
-		a->value[e] *= s->step;
-	for (size_t i = 0; i < n; i++) /* the diagonal ends the row */
-		a->value[a->start[i + 1] - 1] += s->area[move[i]] / s->edge2;
-	return MR_OK;
-}
+/* A pass of time t solves for the motion z: (M / t + L) z = -L p, which is p' = p + z. */
+typedef struct implicit_system {
+	double *mass; /* M / t, nv */
+	mr_preconditioner incomplete;
+	mr_v3 *z, *r; /* the motion, its residual */
+} implicit_system;
 
-/* A pass solves for the motion z: (M + t L) z = -t L p, which is p' = p + z. */
+/* Turns L into the matrix: vertices that stay have rows of their own, and are 0 wherever others look. */
 static mr_status
-implicit_pass(mr_ctx *ctx, const smoothing *s, const uint32_t *move, size_t n, mr_solver *solver, mr_v3 *p)
+set_up(mr_ctx *ctx, smoothing *s, implicit_system *y)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *lp = MR_NEW(ctx, s->m->nv, mr_v3);
-	double *z = MR_NEW(ctx, 3 * n, double);
+	const size_t n = s->m->nv;
 
-	if (!lp || !z)
+	*y = (implicit_system){
+		.mass = MR_NEW_ZERO(ctx, n, double), .z = MR_NEW(ctx, n, mr_v3), .r = MR_NEW(ctx, n, mr_v3)
+	};
+	if (!y->mass || !y->z || !y->r)
 		return MR_EMEM;
-	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &lp->x);
-	for (size_t i = 0; i < n; i++) {
-		z[i] = -s->step * lp[move[i]].x;
-		z[n + i] = -s->step * lp[move[i]].y;
-		z[2 * n + i] = -s->step * lp[move[i]].z;
+	for (size_t v = 0; v < n; v++) {
+		double *diagonal = &s->l.value[mr_sparse_find(&s->l, (int)v, (int)v)];
+		if (s->stays[v]) {
+			for (int e = s->l.start[v]; e < s->l.start[v + 1]; e++)
+				s->l.value[e] = 0;
+			*diagonal = 1;
+		} else {
+			y->mass[v] = s->area[v] / s->time[v];
+			*diagonal += y->mass[v];
+		}
 	}
-	MR_TRY(mr_solver_solve(ctx, solver, z, 3));
-	for (size_t i = 0; i < n; i++)
-		p[move[i]] = mr_add(p[move[i]], mr_vec(z[i], z[n + i], z[2 * n + i]));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_incomplete_new(ctx, &s->l, &y->incomplete);
+}
+
+static void
+apply(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y)
+{
+	mr_sparse_apply(ctx, a, NULL, s.n, s.width, x, y);
+}
+
+/* r = -L p on the vertices that move, from the matrix that L has become. */
+static void
+begin_pass(mr_ctx *ctx, const smoothing *s, const implicit_system *y, const mr_v3 *p)
+{
+	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &y->r->x);
+	for (size_t v = 0; v < s->m->nv; v++) {
+		y->r[v] = s->stays[v] ? mr_vec(0, 0, 0) : mr_sub(mr_mul(y->mass[v], p[v]), y->r[v]);
+		y->z[v] = mr_vec(0, 0, 0);
+	}
 }
 
 static mr_status
-implicit_passes(mr_ctx *ctx, smoothing *s, const uint32_t *move, size_t n, mr_solver *solver, mr_v3 *p)
+implicit_pass(mr_ctx *ctx, smoothing *s, implicit_system *y, mr_v3 *p)
 {
-	mr_solver_report r = mr_solver_reported(solver);
+	enum { MOST = 20000 };
+	double goal[MR_WIDTH];
+	mr_cg cg = { .s = { s->m->nv, 3 },
+		.apply = apply,
+		.a = &s->l,
+		.b = &y->incomplete,
+		.goal = goal,
+		.most = MOST };
+	size_t iterations = 0;
 
-	s->found.seconds_analyse = r.seconds_analyse;
-	s->found.seconds_factor = r.seconds_factor;
-	s->found.nnz_factor = r.nnz_factor;
-	s->found.rcond = r.rcond;
-	for (size_t i = 0; i < s->found.passes; i++) {
-		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
-		MR_TRY(implicit_pass(ctx, s, move, n, solver, p));
-	}
+	begin_pass(ctx, s, y, p);
+	mr_multivector_dot(ctx, cg.s, &y->r->x, &y->r->x, goal);
+	for (size_t c = 0; c < 3; c++)
+		goal[c] = TOLERANCE * sqrt(goal[c]);
+	MR_TRY(mr_cg_improve(ctx, &cg, &y->z->x, &y->r->x, &iterations));
+	if (iterations == MOST)
+		return mr_fail(
+		    ctx, MR_ENUMERIC, "%s: no smooth surface after %zu iterations", s->m->name, iterations);
+	s->found.iterations += iterations;
+	for (size_t v = 0; v < s->m->nv; v++)
+		p[v] = mr_add(p[v], y->z[v]);
 	return MR_OK;
 }
 
 static mr_status
 implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
 {
-	uint32_t *move = MR_NEW(ctx, s->m->nv, uint32_t);
-	size_t n = 0;
-	mr_solver *solver;
-	mr_status status;
-	mr_sparse a;
+	implicit_system y;
 
-	if (!move)
-		return MR_EMEM;
-	for (uint32_t v = 0; v < s->m->nv; v++)
-		if (!s->stays[v])
-			move[n++] = v;
-	if (n == 0)
-		return MR_OK;
-	MR_TRY(implicit_matrix(ctx, s, move, n, &a));
-	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &a, NULL, &solver));
-	status = implicit_passes(ctx, s, move, n, solver, p);
-	mr_solver_free(solver);
-	return status;
+	MR_TRY(set_up(ctx, s, &y));
+	for (size_t i = 0; i < s->found.passes; i++) {
+		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
+		MR_TRY(implicit_pass(ctx, s, &y, p));
+	}
+	return MR_OK;
 }
 
 /* Explicit */
@@ -170,7 +218,7 @@ paces(mr_ctx *ctx, const smoothing *s, double limit, double **pace)
 		double sum = 0;
 		for (int e = l->start[v]; e < l->start[v + 1]; e++)
 			sum += l->index[e] == (int)v ? 0 : fabs(l->value[e]);
-		c[v] = s->stays[v] ? 0 : fmin(s->step * s->edge2 / s->area[v], limit / sum);
+		c[v] = s->stays[v] ? 0 : fmin(s->time[v] / s->area[v], limit / sum);
 	}
 	*pace = c;
 	return MR_OK;
@@ -247,22 +295,37 @@ choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 	return MR_OK;
 }
 
+/* What is left of area and volume. */
+static void
+measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
+{
+	const double little = 0.5;
+	mr_mesh after = *s->m;
+
+	after.p = p;
+	s->found.area = mr_mesh_area(ctx, &after) / mr_mesh_area(ctx, s->m);
+	s->found.volume = mr_mesh_volume(ctx, &after) / s->found.volume;
+	if (s->found.area < little)
+		mr_warn(ctx, "%s: smoothing leaves %.2g %% of the area: smooth for less time%s", s->m->name,
+		    100 * s->found.area, s->found.bounded ? "" : ", or without --plain");
+}
+
 mr_status
 mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out, mr_smooth_result *result)
 {
-	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
 	mr_mark mark = mr_mark_take(ctx);
-	smoothing s = { .m = m,
-		.found = { .seconds_analyse = NAN, .seconds_factor = NAN, .nnz_factor = NAN, .rcond = NAN } };
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	smoothing s = { .m = m };
 
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(choose_passes(ctx, opts, &s));
 	memcpy(p, m->p, m->nv * sizeof *p);
-	MR_TRY(study(ctx, &s));
+	MR_TRY(study(ctx, &s, opts->plain));
 	if (opts->time > 0 && s.edge2 > 0)
 		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, p)
 							  : explicit(ctx, &s, opts->method, p));
+	measure_rest(ctx, &s, p);
 	memcpy(out, p, m->nv * sizeof *p);
 	if (result)
 		*result = s.found;
