@@ -30,6 +30,9 @@ mr_phong_point(const mr_phong *s, mr_place at)
 /* n there; the face's own normal where the vertices' cancel. */
 mr_v3 mr_phong_normal(const mr_phong *s, mr_place at);
 
+/* The larger principal curvature there, without sign: how the Phong normal turns. */
+double mr_phong_curvature(const mr_phong *s, mr_place at);
+
 /* The frame there: t1 is the face's edge 0-1 without its part along n, t2 = n x t1. */
 mr_tangent_frame mr_phong_frame(const mr_phong *s, mr_place at);
 
