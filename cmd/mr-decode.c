@@ -12,6 +12,8 @@ static const cmd_opt table[] = {
 	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
 	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",
 	    "what to put the mesh together from (default: detail where it is there)", NULL },
+	{ 0, "no-check", CMD_FLAG, &opts.blind, 0, 0, "",
+	    "do not look for folds and intersections that come of the motion", NULL },
 	{ 0 },
 };
 
@@ -25,10 +27,20 @@ prepare(cmd *c)
 	return cmd_idle(c, "level", opts.from == MR_FROM_DETAIL, "with --from detail");
 }
 
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_decode_result, folded_edges),
+	CMD_COUNTED(mr_decode_result, intersections),
+	{ 0 },
+};
+
 static mr_status
 decode_frame(cmd *c, mr_frame *f)
 {
-	return mr_decode_frame(&c->ctx, f, &opts, c->cache);
+	mr_decode_result result;
+
+	MR_TRY(mr_decode_frame(&c->ctx, f, &opts, c->cache, &result));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
 }
 
 int

@@ -463,16 +463,24 @@ typedef struct mr_decode_opts {
 	double gain;  /* multiplies the detail */
 	int from;     /* mr_decode_source */
 	size_t level; /* subdivisions of the control mesh; MR_UNKNOWN: as many as have heights */
+	bool blind;   /* do not look for what the motion did to the mesh */
 } mr_decode_opts;
 
 #define MR_DECODE_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		1, MR_FROM_ANY, MR_UNKNOWN                                                                   \
+		1, MR_FROM_ANY, MR_UNKNOWN, false                                                            \
 	}
 
+/* What of the mesh was sound before; of detail, where it was looked for. */
+typedef struct mr_decode_result {
+	size_t folded_edges; /* by more than 170 degrees */
+	size_t
+	    intersections; /* pairs of faces at most 12 faces apart; of deltas only where an edge is folded */
+} mr_decode_result;
+
 /* cache: or NULL. */
-MR_API mr_status mr_decode_frame(
-    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache) MR_WARN_UNUSED;
+MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache,
+    mr_decode_result *result) MR_WARN_UNUSED;
 
 /* Reconstruction: Jeong, Kim 2001 */
 

@@ -17,7 +17,8 @@ mr_cache_delete(mr_cache *cache)
 		cache->drop_deform(cache);
 	mr_ctx_free(&cache->deform_keep);
 	mr_ctx_free(&cache->level_keep);
-	mr_ctx_free(&cache->incidence_keep);
+	mr_ctx_free(&cache->base_keep);
+	mr_ctx_free(&cache->mesh_keep);
 	free(cache);
 }
 

@@ -8,20 +8,23 @@
 #define MR_TOOL_CACHE_H
 
 #include "edit/deform_cache.h"
+#include "mesh/edges.h"
 #include "subdivide/displaced.h"
 
-/* The faces around the vertices of base, which a delta mostly keeps. */
-typedef struct mr_incidence_cache {
-	mr_incidence inc;
-	uint64_t serial; /* of base.triangles; 0: empty */
-} mr_incidence_cache;
+/* The faces around the vertices of base, and the edges of mesh, which a delta mostly keeps. */
+typedef struct mr_connectivity_cache {
+	mr_incidence base;
+	mr_edges mesh;
+	uint64_t base_serial, mesh_serial; /* of their triangles; 0: none */
+	size_t told;                       /* of harm, since the last key */
+} mr_connectivity_cache;
 
 struct mr_cache {
-	mr_ctx deform_keep, level_keep, incidence_keep;
+	mr_ctx deform_keep, level_keep, base_keep, mesh_keep;
 	mr_deform_cache deform;
 	void (*drop_deform)(struct mr_cache *cache); /* by who made it; NULL: there is none */
 	mr_level_cache level;
-	mr_incidence_cache incidence;
+	mr_connectivity_cache connectivity;
 };
 
 /* The arena `keep` of a cache, with the threads and the listener of the frame's. */

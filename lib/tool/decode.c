@@ -2,31 +2,117 @@
  * surface, posed by its response first where handles are there. */
 #include "edit/detail.h"
 #include "edit/pose_basis.h"
+#include "measure/harm.h"
 #include "tool/cache.h"
 
-/* The faces around the vertices of base, which a delta mostly keeps. */
+/* Whether what was kept of a layer is still true of the frame; `kept` becomes the frame's, and the arena is
+ * emptied where it is not. */
+static bool
+still_there(const mr_ctx *ctx, const mr_frame *f, const char *layer, uint64_t *kept, mr_ctx *keep)
+{
+	uint64_t serial = mr_frame_find(f, layer, "triangles")->serial;
+
+	if (!f->key && serial && serial == *kept)
+		return true;
+	mr_ctx_free(mr_cache_arena(ctx, keep));
+	*kept = 0;
+	return false;
+}
+
+/* The faces around the vertices of base. */
 static mr_status
 base_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *base, mr_incidence *inc)
 {
-	uint64_t serial = mr_frame_find(f, base->name, "triangles")->serial;
-	mr_incidence_cache *kept = cache ? &cache->incidence : NULL;
-	mr_ctx *keep;
+	mr_connectivity_cache *kept;
 
 	if (!cache)
 		return mr_incidence_build(ctx, base, inc);
-	if (f->key || !serial || serial != kept->serial) {
-		keep = mr_cache_arena(ctx, &cache->incidence_keep);
-		mr_ctx_free(keep);
-		kept->serial = 0;
-		MR_TRY(mr_cache_say(ctx, keep, mr_incidence_build(keep, base, &kept->inc)));
-		kept->serial = serial;
+	kept = &cache->connectivity;
+	if (!still_there(ctx, f, base->name, &kept->base_serial, &cache->base_keep)) {
+		MR_TRY(mr_cache_say(
+		    ctx, &cache->base_keep, mr_incidence_build(&cache->base_keep, base, &kept->base)));
+		kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
 	}
-	*inc = kept->inc;
+	*inc = kept->base;
 	return MR_OK;
 }
 
 static mr_status
-decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
+mesh_edges(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *mesh, mr_edges *edges)
+{
+	mr_connectivity_cache *kept;
+
+	if (!cache)
+		return mr_edges_build(ctx, mesh, edges);
+	kept = &cache->connectivity;
+	if (!still_there(ctx, f, mesh->name, &kept->mesh_serial, &cache->mesh_keep)) {
+		MR_TRY(mr_cache_say(
+		    ctx, &cache->mesh_keep, mr_edges_build(&cache->mesh_keep, mesh, &kept->mesh)));
+		kept->mesh_serial = mr_frame_find(f, mesh->name, "triangles")->serial;
+	}
+	*edges = kept->mesh;
+	return MR_OK;
+}
+
+static double
+longest_edge_at(const mr_mesh *m, uint32_t vertex)
+{
+	double longest = 0;
+
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			if (m->t[f].v[k] == vertex || m->t[f].v[(k + 1) % 3] == vertex)
+				longest = fmax(
+				    longest, mr_dist(m->p[m->t[f].v[k]], m->p[m->t[f].v[(k + 1) % 3]]));
+	return longest;
+}
+
+/* Warns of harm: of a sequence again where it is twice as much as was told. */
+static void
+tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, const mr_v3 *p, const mr_harm *h)
+{
+	const double coarse = 3; /* edges of base in one of mesh, which then cannot follow it */
+	size_t all = h->folds + (h->pairs == MR_UNKNOWN ? 0 : h->pairs),
+	       *told = cache ? &cache->connectivity.told : NULL;
+	double base_edge = mr_mesh_edge_scale(ctx, base), longest;
+	char advice[120] = "";
+
+	if (all == 0 || (told && all < 2 * *told))
+		return;
+	if (told)
+		*told = all;
+	longest = longest_edge_at(mesh, h->vertex);
+	if (longest > coarse * base_edge)
+		snprintf(advice, sizeof advice,
+		    "; its edges are long, up to %.3g: split them first, by mr-subdivide --longest %.3g",
+		    longest, coarse * base_edge);
+	mr_warn(ctx,
+	    "%zu edges of mesh are folded and %zu pairs of near faces intersect that did not before, most of "
+	    "them at vertex %u (%.4g, %.4g, %.4g)%s",
+	    h->folds, h->pairs, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z, advice);
+}
+
+/* What the motion from the frame's mesh to p has done to it. */
+static mr_status
+look_for_harm(
+    mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_v3 *p, mr_decode_result *result)
+{
+	mr_edges edges;
+	mr_mesh mesh;
+	mr_harm harm;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
+	MR_TRY(mesh_edges(ctx, cache, f, &mesh, &edges));
+	MR_TRY(mr_harm_find(ctx, &mesh, &edges, p, f->key, &harm));
+	if (cache && f->key)
+		cache->connectivity.told = 0;
+	tell(ctx, cache, &mesh, base, p, &harm);
+	*result = (mr_decode_result){ harm.folds, harm.pairs };
+	return MR_OK;
+}
+
+static mr_status
+decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache, mr_decode_result *result)
 {
 	mr_incidence inc;
 	mr_detail detail;
@@ -41,6 +127,8 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
+	if (!o->blind && mr_layer_has(f, "mesh", "triangles"))
+		MR_TRY(look_for_harm(ctx, f, cache, &base, p, result));
 	return mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n);
 }
 
@@ -92,12 +180,21 @@ choose(mr_ctx *ctx, const mr_frame *f, const mr_decode_opts *o, int *from)
 }
 
 mr_status
-mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache)
+mr_decode_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache, mr_decode_result *result)
 {
 	static const mr_decode_opts defaults = MR_DECODE_DEFAULTS;
 	const mr_decode_opts *o = opts ? opts : &defaults;
+	mr_decode_result found;
 	int from;
 
+	mr_unmeasured(&found, sizeof found);
 	MR_TRY(choose(ctx, f, o, &from));
-	return from == MR_FROM_DETAIL ? decode_detail(ctx, f, o, cache) : decode_control(ctx, f, o, cache);
+	if (from == MR_FROM_DETAIL)
+		MR_TRY(decode_detail(ctx, f, o, cache, &found));
+	else
+		MR_TRY(decode_control(ctx, f, o, cache));
+	if (result)
+		*result = found;
+	return MR_OK;
 }

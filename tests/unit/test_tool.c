@@ -73,7 +73,7 @@ test_basis_and_solve_agree(void **state)
 	rest = positions(ctx, a, &n);
 	prepare(ctx, a, false);
 	prepare(ctx, b, true);
-	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL, NULL), MR_OK);
 	p = positions(ctx, a, &n);
 	for (size_t i = 0; i < n; i++)
 		most = fmax(
@@ -84,8 +84,8 @@ test_basis_and_solve_agree(void **state)
 	assert_int_equal(mr_pose_frame(ctx, a, NULL, 0, &pose), MR_OK);
 	assert_int_equal(mr_solve_frame(ctx, a, NULL, NULL, NULL), MR_OK);
 	assert_int_equal(mr_pose_frame(ctx, b, NULL, 0, &pose), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, b, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, b, NULL, NULL, NULL), MR_OK);
 	p = positions(ctx, a, &n);
 	q = positions(ctx, b, &n);
 	most = 0;
@@ -215,7 +215,7 @@ test_results_agree_with_measures(void **state)
 	assert_int_equal(mr_fit_frame(ctx, f, NULL, &fitted), MR_OK);
 	assert_true(fitted.distance_rms_after < fitted.distance_rms_before);
 	assert_int_equal(mr_sample_frame(ctx, f, NULL, &sampled), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL, NULL), MR_OK);
 	assert_int_equal(mr_layer_mesh(ctx, f, "mesh", &m), MR_OK);
 	assert_int_equal(m.nv, sampled.vertices);
 	mr_ctx_delete(ctx);

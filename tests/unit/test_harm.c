@@ -1,0 +1,119 @@
+/* Folds and intersections that a motion makes, and those that it does not. */
+#include "measure/harm.h"
+#include "shapes.h"
+
+static mr_harm
+harm_of(const mr_mesh *m, const mr_v3 *after, bool intersections)
+{
+	mr_edges edges;
+	mr_harm harm;
+
+	assert_int_equal(mr_edges_build(&ctx, m, &edges), MR_OK);
+	assert_int_equal(mr_harm_find(&ctx, m, &edges, after, intersections, &harm), MR_OK);
+	return harm;
+}
+
+static mr_v3 *
+copy_of(const mr_mesh *m)
+{
+	mr_v3 *p = MR_NEW(&ctx, m->nv, mr_v3);
+
+	memcpy(p, m->p, m->nv * sizeof *p);
+	return p;
+}
+
+static void
+test_rigid_motion_is_none(void **state)
+{
+	mr_mesh m = shape(MR_KNOT, 2000);
+	mr_v3 *p = copy_of(&m);
+	mr_harm h;
+
+	(void)state;
+	for (size_t v = 0; v < m.nv; v++)
+		p[v] = mr_vec(3 - m.p[v].y, m.p[v].x, m.p[v].z + 7);
+	h = harm_of(&m, p, true);
+	assert_true(h.folds == 0 && h.pairs == 0 && h.vertex == MR_NONE);
+}
+
+/* A vertex of a lattice that goes beyond its far neighbour: the faces behind it turn over. */
+static void
+test_fold(void **state)
+{
+	mr_mesh m = lattice(6);
+	const uint32_t v = 7 * 3 + 3;
+	mr_v3 *p = copy_of(&m);
+	mr_harm h;
+
+	(void)state;
+	p[v].x += 1.5;
+	h = harm_of(&m, p, false); /* a fold has its intersections looked for */
+	assert_true(h.folds > 0 && h.pairs != MR_UNKNOWN && h.pairs > 0);
+	assert_true(h.vertex != MR_NONE && mr_dist(m.p[h.vertex], m.p[v]) < 3);
+	m.p = p; /* what was there before is no harm */
+	h = harm_of(&m, p, true);
+	assert_true(h.folds == 0 && h.pairs == 0 && h.vertex == MR_NONE);
+}
+
+/* Two far ends of a strip that pass through each other are none; near faces are, and are looked for only
+ * where they are asked for. */
+static void
+test_near(void **state)
+{
+	mr_mesh m = lattice(40);
+	mr_v3 *p = copy_of(&m);
+	mr_harm h;
+
+	(void)state;
+	for (size_t v = 0; v < m.nv; v++) { /* rolled up by more than a turn, into itself */
+		double a = 2 * MR_PI * m.p[v].y / 30, r = 30 / (2 * MR_PI);
+		p[v] = mr_vec(m.p[v].x, r * sin(a) + 1e-3 * m.p[v].y, r * cos(a));
+	}
+	h = harm_of(&m, p, true);
+	assert_true(h.folds == 0 && h.pairs == 0);
+	for (size_t v = 0; v < m.nv; v++) { /* the same, of a few rows */
+		double a = 2 * MR_PI * m.p[v].y / 4, r = 4 / (2 * MR_PI);
+		p[v] = mr_vec(m.p[v].x, r * sin(a) + 0.1 * m.p[v].y, r * cos(a));
+	}
+	h = harm_of(&m, p, true);
+	assert_true(h.folds == 0 && h.pairs > 100);
+	h = harm_of(&m, p, false);
+	assert_true(h.folds == 0 && h.pairs == MR_UNKNOWN);
+}
+
+static void
+test_memory_failures_are_reported(void **state)
+{
+	mr_mesh m = lattice(6);
+	mr_v3 *p = copy_of(&m);
+	mr_edges edges;
+
+	(void)state;
+	p[24].x += 1.5;
+	assert_int_equal(mr_edges_build(&ctx, &m, &edges), MR_OK);
+	for (uint64_t k = 1;; k++) {
+		mr_mark mark = mr_mark_take(&ctx);
+		mr_harm h;
+		mr_status status;
+		ctx.fail_at = k;
+		status = mr_harm_find(&ctx, &m, &edges, p, true, &h);
+		ctx.fail_at = 0;
+		mr_mark_release(&ctx, mark);
+		if (status == MR_OK)
+			break;
+		assert_int_equal(status, MR_EMEM);
+	}
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(test_rigid_motion_is_none, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_fold, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_near, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_memory_failures_are_reported, setup, teardown),
+	};
+
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
