@@ -1,22 +1,25 @@
 /*
  * edit_yardstick -- how an edit came out, beside the same edit as a smooth warp of space; usage:
- *	edit_yardstick EDIT BEFORE AFTER     one line of JSON
- *	edit_yardstick --options EDIT BEFORE the edit as options: a line for mr-select, one for mr-pose
+ *	edit_yardstick EDIT BEFORE AFTER [PICTURE]  one line of JSON
+ *	edit_yardstick --options EDIT BEFORE        the edit as options: a line for mr-select, one for mr-pose
  * EDIT is bend, twist or pull, or with an amount bend:DEGREES, twist:DEGREES, pull:PERCENT of the diagonal;
- *without one 60, 90 and 30.  BEFORE and AFTER are models of any format, or streams (.mrs), of which the last
- *frame's layer mesh is taken; AFTER has the vertices of BEFORE in their order, and its faces are taken to be
- *those of BEFORE.
+ * without one 60, 90 and 30.  BEFORE and AFTER are models of any format, or streams (.mrs), of which the
+ * last frame's layer mesh is taken; AFTER has the vertices of BEFORE, in their order, and is taken to have
+ * its faces.  PICTURE becomes a stream for mr-render, a frame of its name: AFTER with the longest axis
+ * upwards and the second towards the eye in front, and a column harm, the colour of faces that are folded or
+ * intersect near ones.
  *
  * All edits are along the longest axis of the bounding box, whose bottom fifth is fixed and whose top fifth
- *is moved: bent about the second longest axis or twisted about the longest, both through the middle, or
- *pulled along the longest. The warp does so by u = 3s^2 - 2s^3 times as much, s from 0 at a fifth to 1 at
- *four fifths, to the mesh's own vertices: what its triangles cannot help doing.  A result is wrecked that has
- *over 5 folded edges, or over 100 pairs of intersecting faces that are near along the surface, more than the
- *warp.  Two limbs that meet are no wreck.
+ * is moved: bent about the second longest axis or twisted about the longest, both through the middle, or
+ * pulled along the longest.  The warp does that by u = 3s^2 - 2s^3, s from 0 at a fifth to 1 at four fifths,
+ * to the mesh's own vertices: what its triangles cannot help doing.  A result is wrecked that has over 5
+ * folded edges, or over 100 pairs of intersecting faces that are near along the surface, more than the warp.
+ * Two limbs that meet are no wreck.
  */
 #include "measure/measure.h"
 #include "mesh/fold.h"
 #include "mesh/layers.h"
+#include "render/colormap.h"
 #include "space/self_intersect.h"
 
 #include <fcntl.h>
@@ -24,8 +27,14 @@
 #include <string.h>
 #include <unistd.h>
 
+static const mr_rgb sound = { 205, 198, 188 }, harmed = { 214, 40, 40 };
+
 /* Faces that so many steps over edges lead to are near. */
 enum { NEAR = 12, FOLDS_MORE = 5, PAIRS_MORE = 100 };
+
+/* Vertices of the fixed and the moved fifth that are farther than this from where they belong, as a share of
+ * the diagonal, are astray. */
+static const double ASTRAY = 0.05;
 
 /* What is not there any more counts as so many times too short or thin, as a binary logarithm. */
 static const double LOST = 20;
@@ -61,7 +70,6 @@ axis_vector(int k)
 	return mr_vec(k == 0, k == 1, k == 2);
 }
 
-/* A file has "bend:120", as a user writes it. */
 static mr_status
 parse_edit(mr_ctx *ctx, const char *text, edit *e)
 {
@@ -132,14 +140,21 @@ turn(mr_v3 p, mr_v3 n, double radians)
 	return mr_axpy(sin(radians), mr_cross(n, p), mr_axpy(cos(radians), across, along));
 }
 
+/* 0 where p is fixed, 1 where it is moved. */
+static double
+way_up(const edit *e, mr_v3 p)
+{
+	double low = mr_coordinate(e->box.min, e->longest), high = mr_coordinate(e->box.max, e->longest);
+	double share = high > low ? (mr_coordinate(p, e->longest) - low) / (high - low) : 0;
+
+	return fmin(1, fmax(0, (share - 0.2) / 0.6));
+}
+
 static mr_v3
 warp_point(const edit *e, mr_v3 p)
 {
-	double low = mr_coordinate(e->box.min, e->longest), high = mr_coordinate(e->box.max, e->longest);
-	double s = high > low ? ((mr_coordinate(p, e->longest) - low) / (high - low) - 0.2) / 0.6 : 0, u;
+	double s = way_up(e, p), u = s * s * (3 - 2 * s);
 
-	s = fmin(1, fmax(0, s));
-	u = s * s * (3 - 2 * s);
 	if (e->kind == PULL)
 		return mr_axpy(u, translation(e), p);
 	return mr_add(
@@ -154,6 +169,7 @@ typedef struct surface {
 	mr_mesh m; /* positions: those before */
 	mr_edges edges;
 	uint32_t *edge; /* of each half-edge; MR_NONE of a face that has a vertex twice */
+	mr_rgb *harm;   /* of the faces after */
 } surface;
 
 static mr_mesh
@@ -170,8 +186,11 @@ build_surface(mr_ctx *ctx, surface *s)
 {
 	MR_TRY(mr_edges_build(ctx, &s->m, &s->edges));
 	s->edge = MR_NEW(ctx, 3 * s->m.nf, uint32_t);
-	if (!s->edge)
+	s->harm = MR_NEW(ctx, s->m.nf, mr_rgb);
+	if (!s->edge || !s->harm)
 		return MR_EMEM;
+	for (size_t f = 0; f < s->m.nf; f++)
+		s->harm[f] = sound;
 	memset(s->edge, 0xff, 3 * s->m.nf * sizeof *s->edge);
 	for (uint32_t e = 0; e < s->edges.count; e++)
 		for (uint32_t i = s->edges.start[e]; i < s->edges.start[e + 1]; i++)
@@ -236,9 +255,9 @@ degenerate(const mr_v3 p[3])
 	return mr_triangle_degenerate(p[0], p[1], p[2]);
 }
 
-/* Pairs of `f` with later faces. */
+/* Pairs of `f` with later faces; harm: of the faces that are in one, or NULL. */
 static size_t
-count_pairs(const mr_v3 *p, const mr_tri *t, uint32_t f, const walk *w)
+count_pairs(const mr_v3 *p, const mr_tri *t, uint32_t f, const walk *w, mr_rgb *harm)
 {
 	size_t n = 0;
 	mr_v3 a[3], b[3];
@@ -249,10 +268,15 @@ count_pairs(const mr_v3 *p, const mr_tri *t, uint32_t f, const walk *w)
 		return 0;
 	box = mr_box_of(a, 3);
 	for (size_t i = 1; i < w->n; i++) {
-		if (w->queue[i] < f)
+		uint32_t g = w->queue[i];
+		if (g < f)
 			continue;
-		corners(p, &t[w->queue[i]], b);
-		n += boxes_meet(box, mr_box_of(b, 3)) && !degenerate(b) && mr_triangles_intersect(a, b);
+		corners(p, &t[g], b);
+		if (!boxes_meet(box, mr_box_of(b, 3)) || degenerate(b) || !mr_triangles_intersect(a, b))
+			continue;
+		n++;
+		if (harm)
+			harm[f] = harm[g] = harmed;
 	}
 	return n;
 }
@@ -268,7 +292,8 @@ count_near_pairs(mr_ctx *ctx, const surface *s, figures *figure)
 	for (uint32_t f = 0; f < s->m.nf; f++) {
 		find_near(s, f, &w);
 		for (int state = 0; state < STATES; state++)
-			figure[state].near_pairs += count_pairs(s->p[state], s->m.t, f, &w);
+			figure[state].near_pairs += count_pairs(
+			    s->p[state], s->m.t, f, &w, state == AFTER ? s->harm : NULL);
 	}
 	return MR_OK;
 }
@@ -334,6 +359,24 @@ compare_faces(const surface *s, int state, figures *figure)
 	figure->aspect_log2 = n ? sum / (double)n : NAN;
 }
 
+/* Of the vertices that the edit itself puts somewhere, the share that is not there: of parts that stay
+ * behind. */
+static double
+share_astray(const edit *e, const surface *s)
+{
+	double most = ASTRAY * mr_box_diagonal(e->box);
+	size_t n = 0, astray = 0;
+
+	for (size_t v = 0; v < s->m.nv; v++) {
+		double up = way_up(e, s->p[BEFORE][v]);
+		if (up > 0 && up < 1)
+			continue;
+		n++;
+		astray += mr_dist(s->p[WARP][v], s->p[AFTER][v]) > most;
+	}
+	return (double)astray / (double)n;
+}
+
 static mr_status
 measure(mr_ctx *ctx, const surface *s, figures *figure)
 {
@@ -350,6 +393,19 @@ measure(mr_ctx *ctx, const surface *s, figures *figure)
 		compare_faces(s, state, &figure[state]);
 	}
 	return MR_OK;
+}
+
+static size_t
+more(size_t a, size_t b)
+{
+	return a > b ? a - b : 0;
+}
+
+static bool
+wrecked(const figures *figure)
+{
+	return more(figure[AFTER].folds, figure[WARP].folds) > FOLDS_MORE ||
+	       more(figure[AFTER].near_pairs, figure[WARP].near_pairs) > PAIRS_MORE;
 }
 
 /* ---- output ---- */
@@ -377,8 +433,6 @@ static void
 print_figures(const edit *e, const surface *s, const figures *figure)
 {
 	const figures *b = &figure[BEFORE], *w = &figure[WARP], *a = &figure[AFTER];
-	size_t folds = a->folds > w->folds ? a->folds - w->folds : 0;
-	size_t pairs = a->near_pairs > w->near_pairs ? a->near_pairs - w->near_pairs : 0;
 
 	printf("{\"edit\":\"%s\",\"amount\":%g,\"vertices\":%zu,\"faces\":%zu", names[e->kind], e->amount,
 	    s->m.nv, s->m.nf);
@@ -392,8 +446,74 @@ print_figures(const edit *e, const surface *s, const figures *figure)
 	print_real("aspect_log2", a->aspect_log2);
 	print_real("volume_warp", w->volume / b->volume);
 	print_real("volume", a->volume / b->volume);
-	printf(",\"folds_more\":%zu,\"pairs_more\":%zu,\"wrecked\":%d}\n", folds, pairs,
-	    folds > FOLDS_MORE || pairs > PAIRS_MORE);
+	print_real("astray", share_astray(e, s));
+	printf(",\"folds_more\":%zu,\"pairs_more\":%zu,\"wrecked\":%d}\n", more(a->folds, w->folds),
+	    more(a->near_pairs, w->near_pairs), wrecked(figure));
+}
+
+/* ---- pictures ---- */
+
+static void
+mark_folds(surface *s)
+{
+	mr_mesh m = mesh_at(s, AFTER);
+
+	for (size_t e = 0; e < s->edges.count; e++) {
+		const uint32_t *h = s->edges.he + s->edges.start[e];
+		if (mr_edge_faces(&s->edges, e) == 2 &&
+		    mr_folds(mr_face_cross(&m, h[0] / 3), mr_face_cross(&m, h[1] / 3), MR_FOLD))
+			s->harm[h[0] / 3] = s->harm[h[1] / 3] = harmed;
+	}
+}
+
+/* The result, its longest axis upwards and its second towards the eye. */
+static mr_status
+turn_upright(mr_ctx *ctx, const edit *e, const surface *s, mr_mesh *m)
+{
+	mr_v3 *p = MR_NEW(ctx, s->m.nv, mr_v3), up = axis_vector(e->longest), eye = axis_vector(e->second);
+	mr_v3 right = mr_cross(up, eye);
+
+	if (!p)
+		return MR_EMEM;
+	for (size_t v = 0; v < s->m.nv; v++) {
+		mr_v3 q = s->p[AFTER][v];
+		p[v] = mr_vec(mr_dot(right, q), mr_dot(up, q), mr_dot(eye, q));
+	}
+	*m = mesh_at(s, AFTER);
+	m->p = p;
+	return MR_OK;
+}
+
+static mr_status
+write_stream(mr_ctx *ctx, int fd, const mr_frame *frame)
+{
+	mr_writer *writer;
+
+	if (fd < 0)
+		return mr_fail(ctx, MR_EIO, "cannot be written");
+	MR_TRY(mr_writer_open(ctx, fd, MR_PACK, &writer));
+	MR_TRY(mr_writer_put(ctx, writer, frame));
+	return mr_writer_end(ctx, writer);
+}
+
+static mr_status
+write_picture(mr_ctx *ctx, const edit *e, surface *s, const char *path, bool wreck)
+{
+	const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
+	char *name = mr_format(ctx, "%s%s", stem, wreck ? " WRECKED" : "");
+	mr_shape shape = { 'f', 'b', 3 };
+	mr_frame *frame;
+	mr_mesh m;
+
+	if (!name)
+		return MR_EMEM;
+	mark_folds(s);
+	MR_TRY(turn_upright(ctx, e, s, &m));
+	MR_TRY(mr_frame_new(ctx, name, &frame));
+	MR_TRY(mr_layer_put_mesh(ctx, frame, "mesh", &m));
+	MR_TRY(mr_frame_put(ctx, frame, "mesh", "harm", shape, s->harm, m.nf));
+	return mr_prefix(
+	    ctx, write_stream(ctx, open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666), frame), "%s", path);
 }
 
 /* ---- files ---- */
@@ -443,7 +563,7 @@ warp(mr_ctx *ctx, const edit *e, surface *s)
 }
 
 static mr_status
-judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path)
+judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path, const char *picture)
 {
 	surface s = { .m = *before };
 	figures figure[STATES] = { 0 };
@@ -458,7 +578,7 @@ judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path)
 	MR_TRY(build_surface(ctx, &s));
 	MR_TRY(measure(ctx, &s, figure));
 	print_figures(e, &s, figure);
-	return MR_OK;
+	return picture ? write_picture(ctx, e, &s, picture, wrecked(figure)) : MR_OK;
 }
 
 static mr_status
@@ -472,7 +592,7 @@ run(mr_ctx *ctx, char **argv)
 	MR_TRY(mr_prefix(ctx, read_mesh(ctx, argv[options ? 3 : 2], &before), "%s", argv[options ? 3 : 2]));
 	place_edit(&e, &before);
 	if (!options)
-		return judge(ctx, &e, &before, argv[3]);
+		return judge(ctx, &e, &before, argv[3], argv[4]);
 	print_options(&e);
 	return MR_OK;
 }
@@ -483,8 +603,9 @@ main(int argc, char **argv)
 	mr_ctx ctx;
 	int failed = 1;
 
-	if (argc != 4) {
-		fprintf(stderr, "usage: edit_yardstick EDIT BEFORE AFTER | --options EDIT BEFORE\n");
+	if (argc < 4 || argc > 5) {
+		fprintf(
+		    stderr, "usage: edit_yardstick EDIT BEFORE AFTER [PICTURE] | --options EDIT BEFORE\n");
 		return 2;
 	}
 	mr_ctx_init(&ctx, 0);
