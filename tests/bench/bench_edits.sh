@@ -3,7 +3,7 @@
 # time).  Rows and pictures are kept in $BUILD/edits, and done again only by newer tools; its *.png are all the results.
 out=$BUILD/edits edits='bend twist pull'
 
-# ---- one model: bench_edits.sh FILE ----
+# ---- one model: bench_edits.sh --one FILE ----
 
 timed() { # name, command line: leaves NAME.err, NAME.code, NAME.seconds
 	begin=$(date +%s.%N)
@@ -49,9 +49,9 @@ one() { # file
 	done
 }
 export LIMIT="${LIMIT:-120}"
-if [ $# -gt 0 ]; then
-	one "$1"
-	rm -rf "$out/work/$(basename "$1" .gz)"
+if [ "$1" = --one ]; then
+	one "$2"
+	rm -rf "$out/work/$(basename "$2" .gz)"
 	exit
 fi
 
@@ -59,9 +59,11 @@ fi
 
 models() {
 	if [ -d "$DATA/meshes" ]; then
+		set -f # the patterns are for find
 		for pattern in ${MODELS:-*}; do
 			find "$DATA/meshes" -type f -name "$pattern" ! -name '*.mtl'
 		done | sort -u
+		set +f
 		return
 	fi
 	for shape in sphere torus cube plane cylinder knot bumpy boxes; do
@@ -81,7 +83,8 @@ for edit in $edits; do
 	mkdir -p "$out/rows" "$out/results/$edit"
 done
 models >models
-xargs -P "${JOBS:-2}" -n 1 sh "$0" <models || exit
+[ -s models ] || { echo "no model in $DATA/meshes is called $MODELS" >&2; exit 1; }
+xargs -P "${JOBS:-2}" -n 1 sh "$0" --one <models || exit
 sed 's/.*\///; s/\.gz$//' models >names
 for model in $(cat names); do
 	for edit in $edits; do
