@@ -18,7 +18,7 @@ row() { # edit, file with the code, files of messages: what of the pipe the row 
 	printf '%s\t%s\t%s\t%s\t%s\t' "$name" "$edit" "$code" "${warned:--}" "$(cat ./*.seconds | awk '{ s += $1 } END { print s }')"
 }
 sentence() { # file with the code, file of messages: what was first said
-	[ "$(cat "$1")" != 124 ] && grep -m 1 '^mr-' "$2" | cut -c 1-200 || echo "more than $LIMIT s"
+	[ "$(cat "$1")" != 124 ] && grep -v 'warning: ' "$2" | head -n 1 | cut -c 1-200 || echo "more than $LIMIT s"
 }
 refused() { # name of the part that failed
 	for edit in $edits; do
@@ -39,16 +39,15 @@ one() { # file
 	fi
 	rm -f "$out"/results/*/"$name"
 	mkdir -p "$out/work/$name" && cd "$out/work/$name" || exit
-	timed 1-import "mr-import -q --repair '$1' -o before.mrs"
+	timed 1-import "mr-import -q --repair '$1' -o before.mrs && edit_yardstick --options bend before.mrs >options"
 	[ "$(cat 1-import.code)" = 0 ] || { refused 1-import; return; }
-	edit_yardstick --options bend before.mrs >options || exit
 	timed 2-rest "mr-smooth before.mrs | mr-remesh | mr-select --reset $(sed -n 1p options) | mr-encode -o rest.mrs"
 	[ "$(cat 2-rest.code)" = 0 ] || { refused 2-rest; return; }
 	for edit in $edits; do
 		edit_yardstick --options $edit before.mrs >options && judge $edit
 	done
 }
-export LIMIT="${LIMIT:-120}"
+export LIMIT="${LIMIT:-300}"
 if [ "$1" = --one ]; then
 	one "$2"
 	rm -rf "$out/work/$(basename "$2" .gz)"
@@ -100,9 +99,10 @@ awk -F '\t' '
 	}
 	BEGIN {
 		print "folds, near pairs: before, warp, result; edges off by over 2x (%), mean |log2| of edges, volume: warp, result;"
-		print "astray: vertices of the fixed and the moved fifth that are not where they belong (%)"
-		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6s %8s\n", "model", "edit", "exit", "warned",
-		    "folds", "near pairs", "off %", "edges", "volume", "astray", "seconds"
+		print "astray: vertices of the fixed and the moved fifth that are not where they belong (%);"
+		print "left: parts in between that stay behind"
+		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6s %4s %8s\n", "model", "edit", "exit", "warned",
+		    "folds", "near pairs", "off %", "edges", "volume", "astray", "left", "seconds"
 	}
 	$3 != 0 || $6 !~ /^{/ {
 		refused[$2]++
@@ -111,16 +111,18 @@ awk -F '\t' '
 	}
 	{
 		wrecked = figure("wrecked") + 0
-		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6.1f %8.2f%s\n", $1, $2, $3, $4,
+		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6.1f %4d %8.2f%s\n", $1, $2, $3, $4,
 		    figure("folds_before") " " figure("folds_warp") " " figure("folds"),
 		    figure("near_pairs_before") " " figure("near_pairs_warp") " " figure("near_pairs"),
 		    two("off", 100), two("edge_log2", 1), figure("volume") == "null" ? "open" : two("volume", 1),
-		    100 * figure("astray"), $5,
+		    100 * figure("astray"), figure("parts_left"), $5,
 		    wrecked ? " wrecked" : ""
 		edited[$2]++
 		count[$2] += wrecked
 		silent[$2] += wrecked && $4 == "-"
 		idle[$2] += !wrecked && $4 != "-"
+		astray[$2] += figure("astray") > 0.05
+		left[$2] += figure("parts_left") > 0
 		folds[$2] += figure("folds_more")
 		pairs[$2] += figure("pairs_more")
 	}
@@ -130,7 +132,8 @@ awk -F '\t' '
 			e = edit[i]
 			printf "%s: %d edited, %d refused; wrecked %d, %d of them in silence; warned of %d that are not; ", e,
 			    edited[e], refused[e], count[e], silent[e], idle[e]
-			printf "more than the warp: %d folds, %d near pairs\n", folds[e], pairs[e]
+			printf "more than the warp: %d folds, %d near pairs; %d astray by over 5 %%, %d leave parts behind\n",
+			    folds[e], pairs[e], astray[e], left[e]
 			printf "%s-wrecked mr %d models\n%s-silent mr %d models\n", e, count[e], e, silent[e]
 		}
 	}' rows | tee table

@@ -16,6 +16,7 @@
  * folded edges, or over 100 pairs of intersecting faces that are near along the surface, more than the warp.
  * Two limbs that meet are no wreck.
  */
+#include "base/disjoint_sets.h"
 #include "measure/measure.h"
 #include "mesh/fold.h"
 #include "mesh/layers.h"
@@ -377,6 +378,46 @@ share_astray(const edit *e, const surface *s)
 	return (double)astray / (double)n;
 }
 
+typedef struct part {
+	size_t vertices, held; /* held: in the fixed or the moved fifth */
+	double warp, after;    /* sums of the ways that the vertices went */
+} part;
+
+static bool
+stays(const edit *e, const part *p)
+{
+	double way = p->warp / (double)p->vertices;
+
+	return !p->held && way > ASTRAY * mr_box_diagonal(e->box) && p->after < p->warp / 10;
+}
+
+/* Components between the fifths that the warp takes along and the edit does not. */
+static mr_status
+count_parts_left(mr_ctx *ctx, const edit *e, const surface *s, size_t *left)
+{
+	uint32_t *set = mr_sets_new(ctx, s->m.nv);
+	part *parts = MR_NEW_ZERO(ctx, s->m.nv, part);
+
+	if (!set || !parts)
+		return MR_EMEM;
+	for (size_t f = 0; f < s->m.nf; f++) {
+		mr_sets_join(set, s->m.t[f].v[0], s->m.t[f].v[1]);
+		mr_sets_join(set, s->m.t[f].v[1], s->m.t[f].v[2]);
+	}
+	for (uint32_t v = 0; v < s->m.nv; v++) {
+		part *p = &parts[mr_sets_root(set, v)];
+		double up = way_up(e, s->p[BEFORE][v]);
+		p->vertices++;
+		p->held += up == 0 || up == 1;
+		p->warp += mr_dist(s->p[BEFORE][v], s->p[WARP][v]);
+		p->after += mr_dist(s->p[BEFORE][v], s->p[AFTER][v]);
+	}
+	*left = 0;
+	for (size_t v = 0; v < s->m.nv; v++)
+		*left += parts[v].vertices && stays(e, &parts[v]);
+	return MR_OK;
+}
+
 static mr_status
 measure(mr_ctx *ctx, const surface *s, figures *figure)
 {
@@ -430,7 +471,7 @@ print_real(const char *name, double x)
 }
 
 static void
-print_figures(const edit *e, const surface *s, const figures *figure)
+print_figures(const edit *e, const surface *s, const figures *figure, size_t left)
 {
 	const figures *b = &figure[BEFORE], *w = &figure[WARP], *a = &figure[AFTER];
 
@@ -447,6 +488,7 @@ print_figures(const edit *e, const surface *s, const figures *figure)
 	print_real("volume_warp", w->volume / b->volume);
 	print_real("volume", a->volume / b->volume);
 	print_real("astray", share_astray(e, s));
+	printf(",\"parts_left\":%zu", left);
 	printf(",\"folds_more\":%zu,\"pairs_more\":%zu,\"wrecked\":%d}\n", more(a->folds, w->folds),
 	    more(a->near_pairs, w->near_pairs), wrecked(figure));
 }
@@ -568,6 +610,7 @@ judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path, const
 	surface s = { .m = *before };
 	figures figure[STATES] = { 0 };
 	mr_mesh after;
+	size_t left;
 
 	MR_TRY(mr_prefix(ctx, read_mesh(ctx, path, &after), "%s", path));
 	if (after.nv != s.m.nv)
@@ -577,7 +620,8 @@ judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path, const
 	MR_TRY(warp(ctx, e, &s));
 	MR_TRY(build_surface(ctx, &s));
 	MR_TRY(measure(ctx, &s, figure));
-	print_figures(e, &s, figure);
+	MR_TRY(count_parts_left(ctx, e, &s, &left));
+	print_figures(e, &s, figure, left);
 	return picture ? write_picture(ctx, e, &s, picture, wrecked(figure)) : MR_OK;
 }
 
