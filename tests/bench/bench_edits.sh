@@ -1,13 +1,15 @@
-# Bend, twist and pull every model, and judge what comes out by edit_yardstick.c: a row each, then the wrecked ones.
-# Knobs: MODELS (patterns of names in $DATA/meshes, default all), LIMIT (seconds that half a pipe may take), JOBS (models at a
-# time).  Rows and pictures are kept in $BUILD/edits, and done again only by newer tools; its *.png are all the results.
+# Bend, twist and pull every model, as somebody would who is new to the tools, and judge what comes out by edit_yardstick.c: a
+# row each, then how many are wrecked.  Warnings are those of all tools from mr-smooth to mr-decode.
+# Knobs: MODELS (patterns of names in $DATA/meshes, default all; without that directory, shapes of mr-make), LIMIT (seconds that
+# the pipe may take to the posing, and from there), JOBS (models at a time).  Rows and results are kept in $BUILD/edits, and done
+# again only by newer tools; the *.png there show all results, what is folded or passes through itself in red.
 out=$BUILD/edits edits='bend twist pull'
 
 # ---- one model: bench_edits.sh --one FILE ----
 
 timed() { # name, command line: leaves NAME.err, NAME.code, NAME.seconds
 	begin=$(date +%s.%N)
-	timeout "$LIMIT" sh -c "$2" 2>"$1.err"
+	timeout -k 5 "$LIMIT" sh -c "$2" 2>"$1.err"
 	echo $? >"$1.code"
 	echo "$(date +%s.%N) $begin" | awk '{ print $1 - $2 }' >"$1.seconds"
 }
@@ -28,7 +30,7 @@ refused() { # name of the part that failed
 judge() { # edit
 	timed 3-pose "mr-pose $(sed -n 2p options) rest.mrs | mr-solve | mr-decode -o after.mrs"
 	row "$1" 3-pose.code 2-rest.err 3-pose.err >row
-	[ "$(cat 3-pose.code)" = 0 ] && edit_yardstick "$1" before.mrs after.mrs "$out/results/$1/$name" >json ||
+	[ "$(cat 3-pose.code)" = 0 ] && edit_yardstick "$1" before.mrs after.mrs "$out/results/$1/$name" >json 2>>3-pose.err ||
 	    sentence 3-pose.code 3-pose.err >json
 	cat row json >"$out/rows/$name-$1"
 }
