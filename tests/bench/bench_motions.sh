@@ -13,6 +13,7 @@ show() { # who, seconds of a pose, file of the result
 	echo "$case-edges $1 $(figure edge_log2 json) log2"
 	echo "$case-aspect $1 $(figure aspect_log2 json) log2"
 	echo "$case-volume $1 $(figure volume json) times"
+	echo "$case-from-warp $1 $(figure from_warp json) diagonals"
 	echo "$case-pose $1 $2 s"
 	echo "$case: $1 has $(figure folds_more json) folds and $(figure pairs_more json) near pairs more than the warp"
 }

@@ -378,6 +378,18 @@ share_astray(const edit *e, const surface *s)
 	return (double)astray / (double)n;
 }
 
+/* Mean distance from where the warp has the vertices, as a share of the diagonal: all of a whole turn that
+ * came undone. */
+static double
+mean_from_warp(const edit *e, const surface *s)
+{
+	double sum = 0;
+
+	for (size_t v = 0; v < s->m.nv; v++)
+		sum += mr_dist(s->p[WARP][v], s->p[AFTER][v]);
+	return sum / (double)s->m.nv / mr_box_diagonal(e->box);
+}
+
 typedef struct part {
 	size_t vertices, held; /* held: in the fixed or the moved fifth */
 	double warp, after;    /* sums of the ways that the vertices went */
@@ -487,6 +499,7 @@ print_figures(const edit *e, const surface *s, const figures *figure, size_t lef
 	print_real("aspect_log2", a->aspect_log2);
 	print_real("volume_warp", w->volume / b->volume);
 	print_real("volume", a->volume / b->volume);
+	print_real("from_warp", mean_from_warp(e, s));
 	print_real("astray", share_astray(e, s));
 	printf(",\"parts_left\":%zu", left);
 	printf(",\"folds_more\":%zu,\"pairs_more\":%zu,\"wrecked\":%d}\n", more(a->folds, w->folds),
