@@ -416,6 +416,11 @@ typedef enum mr_areas {
 	MR_AREAS_MEAN     /* all the same: Botsch, Kobbelt 2004, section 4.2 */
 } mr_areas;
 
+typedef enum mr_rotations_choice {
+	MR_ROTATIONS_INTERPOLATED, /* their logarithms: any angle */
+	MR_ROTATIONS_LINEAR        /* their matrices, as the paper and a response do: up to a third of a turn */
+} mr_rotations_choice;
+
 typedef struct mr_solve_opts {
 	size_t order;      /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
 	int solver;        /* mr_solver_choice */
@@ -427,12 +432,15 @@ typedef struct mr_solve_opts {
 	size_t iterations; /* at most */
 	double memory;     /* bytes that a factor may take; 0: what there is */
 	int precondition;  /* of CG and BiCGSTAB: 0 by order, 1 incomplete factors, 2 Jacobi, 3 multigrid */
+	int rotations;     /* mr_rotations_choice, of poses by handles */
+	size_t arap;       /* rounds of as-rigid-as-possible steps on top of a pose */
 	const char *layer; /* NULL: base, else control */
 } mr_solve_opts;
 
 #define MR_SOLVE_DEFAULTS                                                                                    \
 	{                                                                                                    \
-		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0, NULL               \
+		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                    \
+		    MR_ROTATIONS_INTERPOLATED, 0, NULL                                                       \
 	}
 
 typedef struct mr_solve_result {

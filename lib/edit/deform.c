@@ -3,7 +3,7 @@
  * with true areas is ours.
  */
 #include "base/disjoint_sets.h"
-#include "edit/deform_parts.h"
+#include "edit/deform_rotations.h"
 
 /* Regions */
 
@@ -152,6 +152,7 @@ mr_deform_new(
 	if (!d)
 		return MR_EMEM;
 	d->opts = *opts;
+	d->keep = ctx;
 	choose_preconditioner(&d->opts);
 	d->nv = rest->nv;
 	d->region = MR_NEW(ctx, d->nv, uint32_t);
@@ -166,8 +167,10 @@ mr_deform_new(
 void
 mr_deform_free(mr_deform *d)
 {
-	if (d)
-		mr_solver_free(d->solver);
+	if (!d)
+		return;
+	mr_rotations_free(d);
+	mr_solver_free(d->solver);
 }
 
 const uint32_t *

@@ -18,6 +18,8 @@ typedef struct mr_deform_opts {
 	mr_solver_opts solver; /* an unsymmetric system wants MR_LU or MR_BICGSTAB */
 	bool choose;           /* multigrid where the factor of the kind asked for exceeds the memory */
 	double tol;            /* a direct solution of a larger relative residual is refined */
+	bool turned;           /* poses by interpolated rotations; else linearly, as a basis always does */
+	size_t rounds;         /* of as-rigid-as-possible steps, on top of a pose */
 } mr_deform_opts;
 
 #define MR_DEFORM_DEFAULTS                                                                                   \
@@ -51,13 +53,19 @@ size_t mr_deform_handles(const mr_deform *d);
  * may be p. */
 mr_status mr_deform_relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out);
 
+/* Where handles go: as many maps as `count`, those missing are the identity. */
+typedef struct mr_deform_maps {
+	const mr_affine *t;
+	const mr_v3 *turn; /* the logarithm of each one's rotation (handles.h); NULL: the smallest one */
+	size_t count;
+} mr_deform_maps;
+
 /*
- * Poses p0 by the handles' affine maps t (as many as `count`; those missing are the identity):
- * p = T p0 + z, D^k z = 0 on the free vertices.  MR_ERANGE where a map has no vertex to move.
+ * Poses p0 by the handles' maps: p = T p0 + z, D^k z = 0 on the free vertices, or where they turn or stretch
+ * the differentials of p0 so (deform_rotations.h).  MR_ERANGE where a map has no vertex to move.
  * out: nv, the caller's, may be p0.
  */
-mr_status
-mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, size_t count, mr_v3 *out);
+mr_status mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out);
 
 /*
  * The same where each constrained vertex goes to a place of its own: p = p0 + z, D^k z = 0 on the free
@@ -68,8 +76,7 @@ mr_status mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v
 /* A surface p0 and what poses it: handles' maps, or places, or (both NULL) nothing: the undeformed solve. */
 typedef struct mr_deform_task {
 	const mr_v3 *p0;
-	const mr_affine *t;
-	size_t count; /* maps */
+	const mr_deform_maps *maps;
 	const mr_v3 *target;
 } mr_deform_task;
 
@@ -92,8 +99,8 @@ mr_status mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *re
 
 /*
  * p = p0 + sum over handles h of W_h (T_h - I), W_h the n x 4 block of the response; equal to
- * mr_deform_pose with the same maps.  The identity gives p0 bit for bit.  response: n rows of
- * 4 handles values.  out: n, the caller's, may be p0.
+ * mr_deform_pose with the same maps where that is linear.  The identity gives p0 bit for bit.  response: n
+ * rows of 4 handles values.  out: n, the caller's, may be p0.
  */
 mr_status mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
     const mr_affine *t, mr_v3 *out);

@@ -9,6 +9,7 @@
 #ifndef MR_EDIT_DEFORM_PARTS_H
 #define MR_EDIT_DEFORM_PARTS_H
 
+#include "base/rotation.h"
 #include "edit/deform.h"
 #include "edit/k_ring.h"
 #include "mesh/layers.h"
@@ -21,7 +22,10 @@ typedef struct mr_patch_field {
 	double *stage[2]; /* workspace of as many rows */
 	double *r;        /* of the free vertices, one column after another */
 	size_t width;
+	const double *source; /* K u = L (W L)^(k-2) W source instead of 0, its rows as those of u; NULL: 0 */
 } mr_patch_field;
+
+typedef struct mr_rotations mr_rotations; /* deform_rotations.h */
 
 struct mr_deform {
 	mr_deform_opts opts;
@@ -45,6 +49,8 @@ struct mr_deform {
 	double negative; /* share of the edges at free vertices whose weight is negative */
 	double seconds_assemble, seconds_solve, residual;
 	size_t refinements;
+	mr_ctx *keep;            /* of the arena that it lives in */
+	mr_rotations *rotations; /* NULL until a pose asks for them */
 };
 
 /* Assembles the system and sets up its solver, on the mesh `rest` of which the patch is a part.  started:
@@ -54,7 +60,20 @@ mr_status mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, dou
 /* The workspace as a field of this width, all 0. */
 mr_patch_field mr_deform_field(const mr_deform *d, size_t width);
 
-/* r = -(K u)_f */
+/* r = -(K u)_f, and what the source asks for. */
 void mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, mr_patch_field *f);
+
+/* The system of order 1 on the same patch.  m: to be freed by mr_solver_free(m->solver); borrows d's. */
+mr_status mr_deform_membrane(mr_ctx *ctx, mr_deform *d, mr_deform *m);
+
+/* The width columns of u on the free vertices from those on the constraints, by f's workspace. */
+mr_status mr_deform_solve_field(mr_ctx *ctx, mr_deform *d, mr_patch_field *f);
+
+/* p has the constraints where they go; the free vertices follow.  source: of p's differentials, or NULL. */
+mr_status mr_deform_follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0,
+    const double *source, mr_v3 *p);
+
+/* The map of a region: fixed and free are at rest, absent handles too. */
+mr_affine mr_deform_map(const mr_deform_maps *maps, uint32_t region);
 
 #endif

@@ -2,7 +2,7 @@
  * Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4; posing by displacement
  * is ours.
  */
-#include "edit/deform_parts.h"
+#include "edit/deform_rotations.h"
 #include "solve/sparse.h"
 
 mr_patch_field
@@ -11,8 +11,17 @@ mr_deform_field(const mr_deform *d, size_t width)
 	mr_patch_field f = d->work;
 
 	f.width = width;
+	f.source = NULL;
 	memset(f.u, 0, d->patch.mesh.nv * width * sizeof *f.u);
 	return f;
+}
+
+/* y -= W source, the rows that follow from L u alone. */
+static void
+subtract_source(const mr_patch_field *f, const double *w, size_t rows, double *y)
+{
+	for (size_t i = 0; i < rows * f->width; i++)
+		y[i] -= (w ? w[i / f->width] : 1) * f->source[i];
 }
 
 /* K applied as L, then k - 1 times L W, each on one ring less. */
@@ -26,6 +35,8 @@ mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, mr_patch_field *f)
 		double *y = f->stage[step % 2];
 		const double *w = step < k || d->opts.unsymmetric ? d->w : NULL;
 		mr_sparse_apply(ctx, &d->l, w, d->patch.end[k - step], f->width, x, y);
+		if (step == 1 && f->source)
+			subtract_source(f, w, d->patch.end[k - step], y);
 		x = y;
 	}
 	for (size_t c = 0; c < f->width; c++)
@@ -62,6 +73,8 @@ residual_long(mr_ctx *ctx, const mr_deform *d, mr_patch_field *f)
 		const double *w = step < k || d->opts.unsymmetric ? d->w : NULL;
 		long double *swap = x;
 		mr_sparse_apply_long(ctx, &d->l, w, d->patch.end[k - step], f->width, x, y);
+		for (size_t i = 0; step == 1 && f->source && i < d->patch.end[k - step] * f->width; i++)
+			y[i] -= (w ? (long double)w[i / f->width] : 1) * f->source[i];
 		x = y;
 		y = swap;
 	}
@@ -136,6 +149,13 @@ solve_field(mr_ctx *ctx, mr_deform *d, mr_patch_field *f, double scale)
 	return MR_OK;
 }
 
+mr_status
+mr_deform_solve_field(mr_ctx *ctx, mr_deform *d, mr_patch_field *f)
+{
+	mr_deform_residual(ctx, d, f);
+	return solve_field(ctx, d, f, norm_of(f->r, d->patch.end[0] * f->width));
+}
+
 /* The undeformed surface */
 
 static void
@@ -199,12 +219,12 @@ is_identity(const mr_affine *t)
 	return true;
 }
 
-/* The map of a region: fixed and free are at rest, absent handles too. */
-static mr_affine
-map_of(const mr_affine *t, size_t count, uint32_t region)
+mr_affine
+mr_deform_map(const mr_deform_maps *maps, uint32_t region)
 {
-	return region >= MR_REGION_HANDLE && region - MR_REGION_HANDLE < count ? t[region - MR_REGION_HANDLE]
-	                                                                       : mr_identity();
+	return region >= MR_REGION_HANDLE && region - MR_REGION_HANDLE < maps->count
+	           ? maps->t[region - MR_REGION_HANDLE]
+	           : mr_identity();
 }
 
 /* T p, every bit kept by the identity, the sign of a zero too. */
@@ -215,7 +235,7 @@ move(const mr_affine *t, mr_v3 p)
 }
 
 static mr_status
-check_maps(mr_ctx *ctx, const mr_deform *d, const mr_affine *t, size_t count)
+check_maps(mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool *present = MR_NEW_ZERO(ctx, d->handles, bool);
@@ -225,8 +245,8 @@ check_maps(mr_ctx *ctx, const mr_deform *d, const mr_affine *t, size_t count)
 	for (size_t v = 0; v < d->nv; v++)
 		if (d->region[v] >= MR_REGION_HANDLE)
 			present[d->region[v] - MR_REGION_HANDLE] = true;
-	for (size_t h = 0; h < count; h++)
-		if (!is_identity(&t[h]) && (h >= d->handles || !present[h]))
+	for (size_t h = 0; h < maps->count; h++)
+		if (!is_identity(&maps->t[h]) && (h >= d->handles || !present[h]))
 			return mr_fail(ctx, MR_ERANGE, "handles: handle %zu has no vertex of %s to move", h,
 			    d->patch.mesh.name);
 	mr_mark_release(ctx, mark);
@@ -253,16 +273,16 @@ moved(double x, double by)
 	return by == 0 ? x : x + by;
 }
 
-/* p has the constraints where they go; the free vertices follow. */
-static mr_status
-solve_displacements(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p)
+mr_status
+mr_deform_follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const double *source,
+    mr_v3 *p)
 {
 	size_t n = d->patch.end[0];
 	mr_patch_field f = mr_deform_field(d, 3);
 
+	f.source = source;
 	set_displacements(d, whole, p0, p, &f);
-	mr_deform_residual(ctx, d, &f);
-	MR_TRY(solve_field(ctx, d, &f, norm_of(f.r, 3 * n)));
+	MR_TRY(mr_deform_solve_field(ctx, d, &f));
 	for (size_t i = 0; i < n; i++) {
 		uint32_t v = d->patch.vertex[i];
 		mr_v3 at = move(whole, p0[v]);
@@ -274,30 +294,44 @@ solve_displacements(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_
 
 /* The same, into out, which may be p0: p is workspace. */
 static mr_status
-follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p, mr_v3 *out)
+follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const mr_deform_maps *maps,
+    mr_v3 *p, mr_v3 *out)
 {
+	bool rotates = (maps && d->opts.turned) || d->opts.rounds;
+
 	if (d->solver)
-		MR_TRY(solve_displacements(ctx, d, whole, p0, p));
+		MR_TRY(rotates ? mr_rotations_follow(ctx, d, whole, p0, maps, p)
+		               : mr_deform_follow(ctx, d, whole, p0, NULL, p));
 	memcpy(out, p, d->nv * sizeof *out);
 	return MR_OK;
 }
 
-mr_status
-mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_affine *t, size_t count, mr_v3 *out)
+/* Their memory lasts longer than that of one pose, so it comes first. */
+static mr_status
+prepare_rotations(mr_ctx *ctx, mr_deform *d, bool maps)
 {
-	mr_affine whole = map_of(t, count, d->lowest);
-	double started = mr_seconds();
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
+	return d->solver && ((maps && d->opts.turned) || d->opts.rounds) ? mr_rotations_make(ctx, d) : MR_OK;
+}
 
+mr_status
+mr_deform_pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out)
+{
+	mr_affine whole = mr_deform_map(maps, d->lowest);
+	double started = mr_seconds();
+	mr_mark mark;
+	mr_v3 *p;
+
+	MR_TRY(prepare_rotations(ctx, d, true));
+	mark = mr_mark_take(ctx);
+	p = MR_NEW(ctx, d->nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(check_maps(ctx, d, t, count));
+	MR_TRY(check_maps(ctx, d, maps));
 	for (size_t v = 0; v < d->nv; v++) { /* free ones too, for those of loose components */
-		mr_affine map = map_of(t, count, d->region[v]);
+		mr_affine map = mr_deform_map(maps, d->region[v]);
 		p[v] = move(&map, p0[v]);
 	}
-	MR_TRY(follow(ctx, d, &whole, p0, p, out));
+	MR_TRY(follow(ctx, d, &whole, p0, maps, p, out));
 	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;
@@ -308,14 +342,17 @@ mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v3 *target,
 {
 	mr_affine rest = mr_identity();
 	double started = mr_seconds();
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
+	mr_mark mark;
+	mr_v3 *p;
 
+	MR_TRY(prepare_rotations(ctx, d, false));
+	mark = mr_mark_take(ctx);
+	p = MR_NEW(ctx, d->nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
 	for (size_t v = 0; v < d->nv; v++)
 		p[v] = d->region[v] == MR_REGION_FREE ? p0[v] : target[v];
-	MR_TRY(follow(ctx, d, &rest, p0, p, out));
+	MR_TRY(follow(ctx, d, &rest, p0, NULL, p, out));
 	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;
@@ -326,8 +363,8 @@ mr_deform_reach(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_v3 *target,
 mr_status
 mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out)
 {
-	if (task->t)
-		return mr_deform_pose(ctx, d, task->p0, task->t, task->count, out);
+	if (task->maps)
+		return mr_deform_pose(ctx, d, task->p0, task->maps, out);
 	if (task->target)
 		return mr_deform_reach(ctx, d, task->p0, task->target, out);
 	return mr_deform_relax(ctx, d, task->p0, out);

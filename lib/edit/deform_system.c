@@ -112,7 +112,7 @@ build_hierarchy(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 }
 
 static mr_status
-assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
+assemble_matrix(mr_ctx *ctx, mr_deform *d)
 {
 	bool lower = d->opts.solver.kind == MR_CHOLESKY;
 	size_t n = d->patch.end[0];
@@ -122,6 +122,13 @@ assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	if (d->opts.unsymmetric)
 		scale_rows(&d->a, d->w);
 	d->nnz = (size_t)d->a.start[n];
+	return MR_OK;
+}
+
+static mr_status
+assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
+{
+	MR_TRY(assemble_matrix(ctx, d));
 	return mr_solver_multigrid(&d->opts.solver) ? build_hierarchy(ctx, d, rest) : MR_OK;
 }
 
@@ -176,4 +183,22 @@ mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double starte
 	if (!mr_solver_iterates(d->opts.solver.kind))
 		mr_mark_release(ctx, mark);
 	return status;
+}
+
+/* Its hierarchy is that of d without the strip, which the membrane does not need. */
+mr_status
+mr_deform_membrane(mr_ctx *ctx, mr_deform *d, mr_deform *m)
+{
+	mr_mark mark = mr_mark_take(ctx);
+
+	*m = *d;
+	m->solver = NULL;
+	m->opts.order = m->hierarchy.order = 1;
+	m->opts.unsymmetric = m->hierarchy.scaled = false;
+	m->hierarchy.strip_count = 0;
+	MR_TRY(assemble_matrix(ctx, m));
+	MR_TRY(open_solver(ctx, m, mr_seconds()));
+	if (!mr_solver_iterates(m->opts.solver.kind))
+		mr_mark_release(ctx, mark);
+	return MR_OK;
 }

@@ -1,6 +1,7 @@
 /* Poses as affine maps, the handles of a frame that they move, and motions from scripts. */
 #include "edit/handles.h"
 
+#include "base/rotation.h"
 #include "base/text_file.h"
 #include "edit/region_transfer.h"
 
@@ -83,24 +84,11 @@ mr_pose_check_shares(mr_ctx *ctx, const mr_pose *pose)
 	    s.x, s.y, s.z);
 }
 
-/* The rotation by an angle about a unit axis (Rodrigues), columns scaled. */
-static mr_affine
-rotation_of_scaling(mr_v3 axis, double angle, mr_v3 scale)
+/* About which axis a share of the pose turns, by how many radians. */
+static mr_v3
+turn_of(const mr_pose *pose, double share)
 {
-	double c = cos(angle), s = sin(angle), d = 1 - c, x = axis.x, y = axis.y, z = axis.z;
-	double r[3][3] = {
-		{ c + d * x * x, d * x * y - s * z, d * x * z + s * y },
-		{ d * x * y + s * z, c + d * y * y, d * y * z - s * x },
-		{ d * x * z - s * y, d * y * z + s * x, c + d * z * z },
-	};
-	mr_affine t = { { 0 } };
-
-	for (int i = 0; i < 3; i++) {
-		t.m[4 * i] = r[i][0] * scale.x;
-		t.m[4 * i + 1] = r[i][1] * scale.y;
-		t.m[4 * i + 2] = r[i][2] * scale.z;
-	}
-	return t;
+	return mr_mul(share * pose->degrees * (MR_PI / 180), mr_unit(pose->axis));
 }
 
 mr_affine
@@ -109,7 +97,9 @@ mr_pose_map(const mr_pose *pose, mr_v3 center, double share)
 	mr_v3 f = share == 1 ? pose->scale
 	                     : mr_vec(pow(pose->scale.x, share), pow(pose->scale.y, share),
 				   pow(pose->scale.z, share));
-	mr_affine t = rotation_of_scaling(mr_unit(pose->axis), share * pose->degrees * (MR_PI / 180), f);
+	mr_mat3 r = mr_rotation_exp(turn_of(pose, share));
+	mr_affine t = { { r.m[0] * f.x, r.m[1] * f.y, r.m[2] * f.z, 0, r.m[3] * f.x, r.m[4] * f.y,
+	    r.m[5] * f.z, 0, r.m[6] * f.x, r.m[7] * f.y, r.m[8] * f.z, 0 } };
 	mr_v3 moved = mr_apply(&t, center); /* T x = L (x - center) + center + translate */
 	mr_v3 shift = mr_axpy(share, pose->translate, mr_sub(center, moved));
 
@@ -163,30 +153,43 @@ mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h)
 	return mr_handles_find(ctx, &m, region, h);
 }
 
-mr_status
-mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_affine **row, size_t *rows)
+/* The rows of a column of doubles, which must be finite. */
+static mr_status
+read_rows(mr_ctx *ctx, mr_frame *f, const char *column, size_t width, double *row, size_t rows)
 {
-	const void *data = NULL;
-	size_t there = 0;
-	mr_affine *r;
+	const void *data;
 
-	if (mr_layer_has(f, "handles", "transform"))
-		MR_TRY(mr_layer_get(ctx, f, "handles", "transform", &data, &there));
-	if (n < there)
-		n = there;
-	r = MR_NEW(ctx, n, mr_affine);
-	if (!r)
+	MR_TRY(mr_layer_get_rows(ctx, f, "handles", column, rows, &data));
+	memcpy(row, data, rows * width * sizeof *row);
+	for (size_t i = 0; i < rows * width; i++)
+		if (!isfinite(row[i]))
+			return mr_fail(
+			    ctx, MR_ERANGE, "handles: the %s of handle %zu is not finite", column, i / width);
+	return MR_OK;
+}
+
+mr_status
+mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *row)
+{
+	const mr_column *maps = mr_frame_find(f, "handles", "transform");
+	size_t there = maps ? (size_t)maps->rows : 0;
+	mr_handle_rows r = { .n = n < there ? there : n };
+
+	r.map = MR_NEW(ctx, r.n, mr_affine);
+	r.turn = MR_NEW_ZERO(ctx, r.n, mr_v3);
+	if (!r.map || !r.turn)
 		return MR_EMEM;
 	if (there)
-		memcpy(r, data, there * sizeof *r);
-	for (size_t i = 0; i < 12 * there; i++)
-		if (!isfinite(r[i / 12].m[i % 12]))
-			return mr_fail(
-			    ctx, MR_ERANGE, "handles: the transform of handle %zu is not finite", i / 12);
-	for (size_t i = there; i < n; i++)
-		r[i] = mr_identity();
+		MR_TRY(read_rows(ctx, f, "transform", 12, (double *)r.map, there));
+	if (there && mr_layer_has(f, "handles", "turn"))
+		MR_TRY(read_rows(ctx, f, "turn", 3, (double *)r.turn, there));
+	for (size_t i = 0; i < there; i++) {
+		mr_mat3 a = mr_affine_linear(&r.map[i]);
+		r.turn[i] = mr_rotation_log(&a, r.turn[i]);
+	}
+	for (size_t i = there; i < r.n; i++)
+		r.map[i] = mr_identity();
 	*row = r;
-	*rows = n;
 	return MR_OK;
 }
 
@@ -204,16 +207,19 @@ no_such_handle(mr_ctx *ctx, const mr_handles *h, size_t handle)
 
 mr_status
 mr_handles_pose(
-    mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_affine *row)
+    mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_handle_rows *row)
 {
 	mr_v3 center;
 	mr_affine t;
+	mr_mat3 a;
 
 	if (handle >= h->n || h->count[handle] == 0)
 		return no_such_handle(ctx, h, handle);
-	center = pose->centered ? pose->center : mr_apply(&row[handle], h->centroid[handle]);
+	center = pose->centered ? pose->center : mr_apply(&row->map[handle], h->centroid[handle]);
 	t = mr_pose_map(pose, center, share);
-	row[handle] = mr_compose(&t, &row[handle]);
+	row->map[handle] = mr_compose(&t, &row->map[handle]);
+	a = mr_affine_linear(&row->map[handle]);
+	row->turn[handle] = mr_rotation_log(&a, mr_add(row->turn[handle], turn_of(pose, share)));
 	return MR_OK;
 }
 
@@ -288,7 +294,7 @@ mr_script_read(mr_ctx *ctx, const char *path, mr_script *script)
 }
 
 mr_status
-mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_affine *row)
+mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_handle_rows *row)
 {
 	if (number > script->frames)
 		number = script->frames;
@@ -309,13 +315,13 @@ mr_status
 mr_motion_put(mr_ctx *ctx, mr_frame *f, const mr_handles *h, const mr_motion *m, size_t number)
 {
 	double share = m->frames == 0 || number >= m->frames ? 1 : (double)number / (double)m->frames;
-	mr_affine *row;
-	size_t n;
+	mr_handle_rows row;
 
-	MR_TRY(mr_handles_rows(ctx, f, h->n, &row, &n));
+	MR_TRY(mr_handles_rows(ctx, f, h->n, &row));
 	if (m->script)
-		MR_TRY(mr_script_pose(ctx, h, m->script, number, row));
+		MR_TRY(mr_script_pose(ctx, h, m->script, number, &row));
 	else
-		MR_TRY(mr_handles_pose(ctx, h, m->handle, &m->pose, share, row));
-	return mr_layer_put(ctx, f, "handles", "transform", row, n);
+		MR_TRY(mr_handles_pose(ctx, h, m->handle, &m->pose, share, &row));
+	MR_TRY(mr_layer_put(ctx, f, "handles", "transform", row.map, row.n));
+	return mr_layer_put(ctx, f, "handles", "turn", row.turn, row.n);
 }

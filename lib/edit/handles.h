@@ -32,17 +32,26 @@ mr_status mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region,
 /* The same in the layer with the regions: `layer`, or where it is NULL mesh, else control. */
 mr_status mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h);
 
-/*
- * The frame's maps (column handles.transform), at least n of them: those that are absent are the identity.
- * MR_ERANGE where one is not finite.  row: *rows maps in the arena, to be changed.
- */
-mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_affine **row, size_t *rows);
+/* Where handles are, and by how much each has turned on the way there: along the axis, as long as the angle. */
+typedef struct mr_handle_rows {
+	size_t n;
+	mr_affine *map;
+	mr_v3 *turn; /* the logarithm of the map's rotation with all its turns, which a map does not tell */
+} mr_handle_rows;
 
 /*
- * row[handle] = T row[handle].  MR_EMISSING where no vertex is of the handle.  row: at least h->n.
+ * The frame's maps and turns (columns handles.transform, handles.turn), at least n of them: those that are
+ * absent are the identity, and a map without a turn has the smallest one.  MR_ERANGE where one is not finite,
+ * or the columns differ in length.  row: in the arena, to be changed.
  */
-mr_status mr_handles_pose(
-    mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_affine *row);
+mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *row);
+
+/*
+ * map[handle] = T map[handle], its turn that logarithm of it which is nearest to the sum of both turns.
+ * MR_EMISSING where no vertex is of the handle.  row: at least h->n.
+ */
+mr_status mr_handles_pose(mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share,
+    mr_handle_rows *row);
 
 /*
  * A script of poses, one frame after another:
@@ -67,7 +76,7 @@ mr_status mr_script_read(mr_ctx *ctx, const char *path, mr_script *script);
 
 /* Applies frame `number`, from 1; 0 is rest, and behind the last frame the last one stays. */
 mr_status
-mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_affine *row);
+mr_script_pose(mr_ctx *ctx, const mr_handles *h, const mr_script *script, size_t number, mr_handle_rows *row);
 
 /* Where handles go: those of a script, or one handle at once or in `frames` frames. */
 typedef struct mr_motion {

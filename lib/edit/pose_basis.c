@@ -62,9 +62,8 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 	const mr_column *column = mr_frame_find(f, m->name, "response");
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
 	const void *response;
+	mr_handle_rows row;
 	mr_mesh posed;
-	mr_affine *t;
-	size_t n;
 
 	if (!mr_layer_has(f, "handles", "transform"))
 		return MR_OK;
@@ -74,14 +73,14 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 		    "--basis",
 		    m->name, m->name);
 	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
-	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &t, &n));
-	if (column->shape.components != 4 * n)
+	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &row));
+	if (column->shape.components != 4 * row.n)
 		return mr_fail(ctx, MR_ERANGE,
 		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
-		    column->shape.components, n);
+		    column->shape.components, row.n);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, n, t, p));
+	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p));
 	mr_frame_drop(f, "handles", NULL, 0); /* used up */
 	MR_TRY(mr_layer_move(ctx, f, m->name, MR_POSED, p, m->nv));
 	MR_TRY(mr_layer_points(ctx, f, m->name, &posed)); /* a response that is not finite shows here */

@@ -34,6 +34,7 @@ const mr_column_info mr_columns[] = {
 	{ "control", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
 	{ "control", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
 	{ "handles", "transform", { 'v', 'd', 12 }, "3x4 affine map, row-major, on the rest position" },
+	{ "handles", "turn", { 'v', 'd', 3 }, "how it turned there: axis times radians, however many" },
 	{ "handles", "frames", { '-', 'u', 1 }, "how many deltas of a sequence follow the key" },
 	{ "displacement", "height", { 'v', 'd', 1 }, "height along the limit normal" },
 	{ "displacement", "level", { '-', 'u', 1 }, "subdivision level" },

@@ -20,11 +20,15 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	if (o->unsymmetric && o->solver != MR_SOLVER_AUTO && o->solver != MR_SOLVER_LU &&
 	    o->solver != MR_SOLVER_BICGSTAB)
 		return mr_fail(ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
+	if (o->basis && o->arap)
+		return mr_fail(ctx, MR_EUSAGE, "--arap is for poses, and --basis comes before them");
 	if (o->precondition && !iterates)
 		return mr_fail(ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
 	deform->order = o->order;
 	deform->areas = o->areas;
 	deform->unsymmetric = o->unsymmetric;
+	deform->turned = o->rotations == MR_ROTATIONS_INTERPOLATED;
+	deform->rounds = o->arap;
 	deform->choose = o->solver == MR_SOLVER_AUTO && !o->unsymmetric;
 	deform->solver.kind = o->solver != MR_SOLVER_AUTO ? (mr_solver_kind)(o->solver - MR_SOLVER_CHOLESKY)
 	                      : o->unsymmetric            ? MR_LU
@@ -53,8 +57,8 @@ read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool basis, mr_deform_task
 	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
 	bool at_rest = basis && !strcmp(m->name, "control");
 	const void *places = NULL;
-	mr_affine *t = NULL;
-	size_t n = 0;
+	mr_deform_maps *maps = NULL;
+	mr_handle_rows row;
 
 	if (handles && target)
 		return mr_fail(
@@ -64,9 +68,14 @@ read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool basis, mr_deform_task
 		    "--basis comes before mr-pose, but the frame has handles or targets already");
 	if (target)
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
-	if (handles || at_rest)
-		MR_TRY(mr_handles_rows(ctx, f, 1, &t, &n));
-	*task = (mr_deform_task){ m->p, t, n, places };
+	if (handles || at_rest) {
+		maps = MR_NEW(ctx, 1, mr_deform_maps);
+		if (!maps)
+			return MR_EMEM;
+		MR_TRY(mr_handles_rows(ctx, f, 1, &row));
+		*maps = (mr_deform_maps){ row.map, row.turn, row.n };
+	}
+	*task = (mr_deform_task){ m->p, maps, places };
 	return MR_OK;
 }
 
@@ -110,7 +119,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	MR_TRY(read_task(ctx, f, &m, o->basis, &task));
-	posing = task.t || task.target;
+	posing = task.maps || task.target;
 	rest = m;
 	MR_TRY(read_rest(ctx, f, posing, &rest, &column));
 	p = MR_NEW(ctx, m.nv, mr_v3);

@@ -1,7 +1,8 @@
 # Where handles go: single poses, chains, sequences, scripts.
 cat >values.py <<'END'
-# What each frame of a stream sends of handles.transform, rounded; - for a frame that sends nothing of it.
-import struct, sys
+# What each frame of a stream sends of handles.transform, or of its turns, rounded; nothing where it sends none.
+import math, struct, sys
+wanted, unit = (b'turn', 180 / math.pi) if sys.argv[1:] else (b'transform', 1)
 data, at, name = sys.stdin.buffer.read(), 0, None
 while at < len(data):
     layer, column = data[at:at + 16].rstrip(b'\0'), data[at + 16:at + 40].rstrip(b'\0')
@@ -11,9 +12,9 @@ while at < len(data):
         print(body.decode() + ':', end='')
     elif column == b'ENDFRAME':
         print()
-    elif (layer, column) == (b'handles', b'transform'):
+    elif (layer, column) == (b'handles', wanted):
         for x in struct.unpack('<%dd' % (size // 8), body):
-            print('', format(round(x, 6) + 0, 'g'), end='')
+            print('', format(round(x * unit, 6) + 0, 'g'), end='')
     at += 64 + (size + 63) // 64 * 64
 END
 values() {
@@ -32,6 +33,15 @@ mr-pose cube.mrs | values # to rest: the identity
 echo 'in a chain'
 mr-pose --translate 1,0,0 cube.mrs | mr-pose --rotate 1,0,0,90 | mr-pose -H 2 --scale 3 --center 0,0,0 | values
 mr-pose --translate 1,0,0 --rotate 1,0,0,90 cube.mrs | mr-pose -H 2 --scale 3 --center 0,0,0 | values
+
+echo 'turns, in degrees, which a matrix forgets'
+turns() {
+	python3 values.py turn
+}
+mr-pose --rotate 0,0,2,450 cube.mrs | turns
+mr-pose --rotate 0,0,1,150 cube.mrs | mr-pose --rotate 0,0,1,150 | mr-pose --rotate 0,0,1,150 --scale 2 | turns
+mr-pose --rotate 0,1,0,-720 --frames 4 cube.mrs | mr-pose -H 2 --rotate 1,0,0,270 --frames 2 | turns
+mr-pose --rotate 0,0,1,90 cube.mrs | mr-pose --rotate 1,0,0,90 | turns # a third of a turn about (1, -1, 1)
 
 echo 'in a sequence'
 mr-pose --translate 0,0,4 --scale 16 --center 0,0,0 --frames 4 cube.mrs | values

@@ -17,7 +17,7 @@ for k in 1 2 3; do
 
 	# The system as the paper has it, and LU of ours.
 	mr-pose --translate 0.2,0.1,0.3 --rotate 0,0,1,40 p0.mrs -o posed.mrs
-	mr-solve -k $k posed.mrs -o q.mrs
+	mr-solve -k $k posed.mrs -o q.mrs # by rotations
 	off q.mrs base >q.off
 	for other in --unsymmetric '-s lu'; do
 		mr-solve -k $k $other posed.mrs -o r.mrs
@@ -34,7 +34,9 @@ for k in 1 2 3; do
 		sed 's/.*"error":\([^,}]*\).*/\1/' stats.json | awk '{ print "error", ($1 > 0 && $1 < 1e-6 ? "ok" : "bad") }'
 	done
 
-	# By the basis.
+	# By the basis, which is linear.
+	mr-solve -k $k --rotations linear posed.mrs -o q.mrs
+	off q.mrs base >q.off
 	mr-solve -k $k --basis s.mrs | mr-encode | mr-pose --translate 0.2,0.1,0.3 --rotate 0,0,1,40 | mr-decode -o r.mrs
 	off r.mrs base >r.off
 	far q.off r.off 1e-9
@@ -44,6 +46,42 @@ mr-info q.mrs | grep -c 'handles\|response' # used up
 # A factor that does not fit.
 mr-solve --memory 0.1 -s cholesky s.mrs -o r.mrs 2>&1 | sed 's/[0-9.]* MB/N MB/g; s/[0-9]* rows/N rows/'
 mr-solve --memory 0.1 -v s.mrs -o r.mrs 2>&1 | grep -c 'multigrid takes its place'
+
+# Rotations: a whole turn is there, about the axis, and two halves of it are the same; rounds hold at rest, and are the
+# same whoever solves.
+mr-make cylinder -n 2000 --open | mr-smooth -t 0 | mr-select --free all --fixed below:z,0.2 --handle 0=above:z,0.8 -o tube.mrs
+off tube.mrs base >tube.off
+middle() { # of the tube: least and largest radius, and the mean cosine of the angle by which it has turned
+	off "$1" base | paste tube.off - | awk 'NF == 6 && $3 < 0.3 && $3 > -0.3 {
+			r = sqrt($4 ^ 2 + $5 ^ 2); cosine += ($1 * $4 + $2 * $5) / r
+			if (!n++ || r < low) low = r; if (r > high) high = r }
+		END { printf "radius %.3f to %.3f, cosine %.2f\n", low, high, cosine / n }'
+}
+for pose in '--rotate 0,0,1,180' '--rotate 0,0,1,360'; do
+	mr-pose $pose tube.mrs | mr-solve -o q.mrs
+	echo "$pose: $(middle q.mrs)"
+	mr-pose $pose tube.mrs | mr-solve --rotations linear -o r.mrs
+	echo "$pose, linearly: $(middle r.mrs)"
+done
+mr-pose --rotate 0,0,1,180 tube.mrs | mr-pose --rotate 0,0,1,180 | mr-solve -o r.mrs
+off q.mrs base >q.off
+off r.mrs base >r.off
+far q.off r.off 1e-12
+mr-pose --rotate 1,0,0,90 tube.mrs -o posed.mrs
+mr-solve --arap 4 posed.mrs -o q.mrs
+mr-solve posed.mrs -o r.mrs
+off q.mrs base >q.off
+off r.mrs base >r.off
+far q.off r.off 1e-3 | sed 's/ .*//' # what rounds change
+for other in lu cg multigrid; do
+	mr-solve --arap 4 -s $other --tol 1e-12 --verify --stats stats.json posed.mrs -o r.mrs
+	off r.mrs base >r.off
+	far q.off r.off 1e-6
+	sed 's/.*"error":\([^,}]*\).*/\1/' stats.json | awk '{ print "error", ($1 > 0 && $1 < 1e-6 ? "ok" : "bad") }'
+done
+mr-pose tube.mrs | mr-solve --arap 4 -o q.mrs
+off q.mrs base >q.off
+off tube.mrs base | cmp - q.off && echo "rest is rest"
 
 # Nothing fixed, both handles moved alike: the whole moves along.
 mr-select --handle 1=below:z,0.2 s.mrs | mr-solve -o p0.mrs
@@ -122,7 +160,8 @@ for layer in control mesh; do
 done
 for k in 1 2 3; do
 	mr-solve -k $k --basis c.mrs | mr-pose --rotate 0,1,0,40 --translate 0.3,0.2,0.1 --frames 3 | mr-decode -o r.mrs
-	mr-pose --rotate 0,1,0,40 --translate 0.3,0.2,0.1 --frames 3 c.mrs | mr-solve -k $k | mr-decode -o q.mrs
+	mr-pose --rotate 0,1,0,40 --translate 0.3,0.2,0.1 --frames 3 c.mrs | mr-solve -k $k --rotations linear |
+		mr-decode -o q.mrs
 	for layer in control mesh; do
 		mr-export -f off -l $layer 'r-%d.off' <r.mrs
 		mr-export -f off -l $layer 'q-%d.off' <q.mrs

@@ -287,7 +287,9 @@ relax(mr_deform *d, const mr_v3 *p, mr_v3 *out)
 static void
 pose(mr_deform *d, const mr_v3 *p, const mr_affine *t, size_t handles, mr_v3 *out)
 {
-	assert_int_equal(mr_deform_pose(&ctx, d, p, t, handles, out), MR_OK);
+	mr_deform_maps maps = { t, NULL, handles };
+
+	assert_int_equal(mr_deform_pose(&ctx, d, p, &maps, out), MR_OK);
 }
 
 /* The pose of all handles from what each of their maps does. */
@@ -622,7 +624,7 @@ test_refusals(void **state)
 	region[6] = HANDLE + 4;
 	d = deform_of(&m, region, opts);
 	assert_int_equal(mr_deform_handles(d), 5);
-	assert_int_equal(mr_deform_pose(&ctx, d, m.p, t, 3, p), MR_ERANGE);
+	assert_int_equal(mr_deform_pose(&ctx, d, m.p, &(mr_deform_maps){ t, NULL, 3 }, p), MR_ERANGE);
 	assert_non_null(strstr(ctx.error, "handle 2 has no vertex"));
 	pose(d, m.p, t, 2, p);
 	mr_deform_free(d);
@@ -659,9 +661,12 @@ test_memory_failures_are_reported(void **state)
 	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
 	mr_affine t[2] = { screw(1, 1, 1), mr_identity() };
 	mr_v3 *p = places(&m);
+	mr_deform_maps maps = { t, NULL, 2 };
 	double *response = MR_NEW(&ctx, 8 * m.nv, double);
 
 	(void)state;
+	opts.turned = true;
+	opts.rounds = 2;
 	for (uint64_t k = 1;; k++) {
 		mr_mark mark = mr_mark_take(&ctx);
 		mr_deform *d = NULL;
@@ -671,7 +676,7 @@ test_memory_failures_are_reported(void **state)
 		if (status == MR_OK)
 			status = mr_deform_relax(&ctx, d, m.p, p);
 		if (status == MR_OK)
-			status = mr_deform_pose(&ctx, d, m.p, t, 2, p);
+			status = mr_deform_pose(&ctx, d, m.p, &maps, p);
 		if (status == MR_OK)
 			status = mr_deform_basis(&ctx, d, m.p, response);
 		mr_deform_free(d);

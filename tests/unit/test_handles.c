@@ -1,5 +1,6 @@
 /* Affine poses: their algebra, shares of the way, scripts. */
 #include "edit/handles.h"
+#include "base/rotation.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -85,13 +86,27 @@ handles_of(mr_ctx *ctx, const uint32_t *region)
 	return h;
 }
 
+/* As many handles, at rest; of one test at a time. */
+static mr_handle_rows
+at_rest(size_t n)
+{
+	static mr_affine map[3];
+	static mr_v3 turn[3];
+
+	for (size_t i = 0; i < 3; i++) {
+		map[i] = mr_identity();
+		turn[i] = mr_vec(0, 0, 0);
+	}
+	return (mr_handle_rows){ n, map, turn };
+}
+
 static void
 handles_are_found(void **state)
 {
 	const uint32_t region[4] = { 2, 2, 1, 4 }, none[4] = { 0, 1, 0, 1 };
 	const mr_mesh m = { .name = "mesh", .p = corners, .nv = 4 };
-	mr_affine row[3] = { mr_identity(), mr_identity(), mr_identity() };
 	mr_pose p = pose_of("1,0,0", NULL, NULL, NULL);
+	mr_handle_rows row = at_rest(3);
 	mr_ctx ctx;
 	mr_handles h;
 
@@ -102,9 +117,9 @@ handles_are_found(void **state)
 	assert_int_equal(h.count[0], 2);
 	assert_true(mr_dist(h.centroid[0], mr_vec(1, 0, 0)) == 0);
 	assert_true(mr_dist(h.centroid[2], corners[3]) == 0);
-	assert_int_equal(mr_handles_pose(&ctx, &h, 1, &p, 1, row), MR_EMISSING);
+	assert_int_equal(mr_handles_pose(&ctx, &h, 1, &p, 1, &row), MR_EMISSING);
 	assert_string_equal(ctx.error, "no vertex is in handle 1; handles in use: 0, 2");
-	assert_int_equal(mr_handles_pose(&ctx, &h, 3, &p, 1, row), MR_EMISSING);
+	assert_int_equal(mr_handles_pose(&ctx, &h, 3, &p, 1, &row), MR_EMISSING);
 	assert_int_equal(mr_handles_find(&ctx, &m, none, &h), MR_EMISSING);
 	assert_string_equal(ctx.error, "no vertex of mesh is in a handle");
 	mr_ctx_free(&ctx);
@@ -119,21 +134,59 @@ two_poses_compose(void **state)
 		      turn = pose_of(NULL, "1,1,0,33", "1.5", NULL),
 		      both = pose_of("3,1,4", "1,1,0,33", "1.5", NULL),
 		      about = pose_of("1,0,0", "0,1,0,20", NULL, "5,5,5");
-	mr_affine a = mr_identity(), b = a, before, t;
+	mr_handle_rows row = at_rest(1);
+	mr_affine a, b, t;
 	mr_ctx ctx;
 	mr_handles h;
 
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	h = handles_of(&ctx, region);
-	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &move, 1, &a), MR_OK);
-	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &turn, 1, &a), MR_OK);
-	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &both, 1, &b), MR_OK);
+	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &both, 1, &row), MR_OK);
+	b = row.map[0];
+	row = at_rest(1);
+	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &move, 1, &row), MR_OK);
+	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &turn, 1, &row), MR_OK);
+	a = row.map[0];
 	assert_true(apart(a, b) < 1e-14);
-	before = a;
-	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &about, 1, &a), MR_OK);
+	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &about, 1, &row), MR_OK);
 	t = mr_pose_map(&about, mr_vec(5, 5, 5), 1);
-	assert_true(apart(a, mr_compose(&t, &before)) == 0);
+	assert_true(apart(row.map[0], mr_compose(&t, &a)) == 0);
+	mr_ctx_free(&ctx);
+}
+
+/* Turns about one axis add up, and a quarter turn about another is on top of that; scales do not turn. */
+static void
+turns_are_counted(void **state)
+{
+	const uint32_t region[4] = { 2, 2, 2, 2 };
+	const mr_pose turn = pose_of(NULL, "0,0,2,150", "1,2,3", NULL), back = pose_of(NULL, "0,0,1,-600", "0.5", NULL),
+		      over = pose_of(NULL, "1,0,0,90", NULL, NULL);
+	mr_handle_rows row = at_rest(1);
+	mr_mat3 r, sum, map;
+	mr_ctx ctx;
+	mr_handles h;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	h = handles_of(&ctx, region);
+	for (int i = 1; i <= 5; i++) {
+		const mr_pose plain = pose_of(NULL, "0,0,1,150", NULL, NULL);
+		assert_int_equal(mr_handles_pose(&ctx, &h, 0, i == 1 ? &turn : &plain, 1, &row), MR_OK);
+		assert_true(mr_dist(row.turn[0], mr_vec(0, 0, i * 150 * MR_PI / 180)) < 1e-12);
+	}
+	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &back, 0.5, &row), MR_OK);
+	assert_true(mr_dist(row.turn[0], mr_vec(0, 0, 450 * MR_PI / 180)) < 1e-12);
+	row.map[0] = mr_pose_map(&turn, mr_vec(0, 0, 0), 3);
+	row.turn[0] = mr_vec(0, 0, 450 * MR_PI / 180);
+	assert_int_equal(mr_handles_pose(&ctx, &h, 0, &over, 1, &row), MR_OK);
+	r = mr_rotation_exp(row.turn[0]);
+	map = mr_affine_linear(&row.map[0]);
+	sum = mr_rotation_nearest(&map);
+	sum = mr_mat3_axpy(-1, &r, &sum);
+	for (int i = 0; i < 9; i++)
+		assert_true(fabs(sum.m[i]) < 1e-12);
+	assert_true(mr_norm(row.turn[0]) > 2 * MR_PI);
 	mr_ctx_free(&ctx);
 }
 
@@ -176,7 +229,7 @@ scripts_pose_frame_by_frame(void **state)
 	const uint32_t region[4] = { 2, 3, 3, 3 };
 	const char *text = "# two handles\nframe\n0 translate=0,0,1\n\n1\tscale=2,1,1 center=0,0,0 # wide\r\n"
 			   "frame # at rest\nframe\n0 translate=0,0,2\n0 translate=5,0,0";
-	mr_affine row[2];
+	mr_handle_rows row;
 	mr_script s;
 	mr_handles h;
 	mr_ctx ctx;
@@ -188,10 +241,10 @@ scripts_pose_frame_by_frame(void **state)
 	assert_int_equal(s.frames, 3);
 	const double expected[5][3] = { { 0, 0, 1 }, { 0, 1, 2 }, { 0, 0, 1 }, { 5, 2, 1 }, { 5, 2, 1 } };
 	for (size_t frame = 0; frame < 5; frame++) { /* x and z of handle 0, width of handle 1 */
-		row[0] = row[1] = mr_identity();
-		assert_int_equal(mr_script_pose(&ctx, &h, &s, frame, row), MR_OK);
-		assert_true(row[0].m[3] == expected[frame][0] && row[0].m[11] == expected[frame][1]);
-		assert_true(row[1].m[0] == expected[frame][2]);
+		row = at_rest(2);
+		assert_int_equal(mr_script_pose(&ctx, &h, &s, frame, &row), MR_OK);
+		assert_true(row.map[0].m[3] == expected[frame][0] && row.map[0].m[11] == expected[frame][1]);
+		assert_true(row.map[1].m[0] == expected[frame][2]);
 	}
 	mr_ctx_free(&ctx);
 }
@@ -230,6 +283,7 @@ main(void)
 		cmocka_unit_test(shares_of_the_way_add_up),
 		cmocka_unit_test(handles_are_found),
 		cmocka_unit_test(two_poses_compose),
+		cmocka_unit_test(turns_are_counted),
 		cmocka_unit_test(wrong_poses_are_refused),
 		cmocka_unit_test(scripts_pose_frame_by_frame),
 		cmocka_unit_test(wrong_scripts_are_refused),

@@ -1,0 +1,303 @@
+/* Rotations as deform_rotations.h has them; rounds: Sorkine, Alexa 2007: As-rigid-as-possible surface
+ * modeling, with the spokes and rims of Chao, Pinkall, Sanan, Schroeder 2010. */
+#include "edit/deform_rotations.h"
+
+#include "base/parallel.h"
+
+enum { GRAIN = 1024 };
+
+/* A pose. */
+typedef struct turning {
+	const mr_deform *d;
+	mr_rotations *r;
+	const mr_deform_maps *maps; /* NULL: none, and nothing is known of rotations */
+	mr_mat3 whole;              /* of what moves the whole: R S */
+	mr_mat3 rotation, stretch;  /* R, S */
+	mr_v3 *log;                 /* of each handle's rotation relative to that */
+	mr_mat3 *by;                /* its stretch less that */
+	bool turns;
+	bool sections; /* the source is of faces about their sections, else about themselves */
+} turning;
+
+/* Maps */
+
+static mr_v3
+turn_of(const mr_deform_maps *maps, uint32_t region)
+{
+	size_t h = region - MR_REGION_HANDLE;
+
+	return maps->turn && region >= MR_REGION_HANDLE && h < maps->count ? maps->turn[h] : mr_vec(0, 0, 0);
+}
+
+static mr_mat3
+linear_of(const turning *t, uint32_t region)
+{
+	mr_affine map = mr_deform_map(t->maps, region);
+
+	return mr_affine_linear(&map);
+}
+
+/* What handle j does beyond the whole, which has turned by w. */
+static void
+decompose_handle(turning *t, size_t j, mr_v3 w)
+{
+	uint32_t region = t->r->region[j];
+	mr_mat3 a = linear_of(t, region), r = mr_rotation_nearest(&a), relative = mr_mat3_identity(), stretch;
+	mr_v3 turn = mr_rotation_log(&a, turn_of(t->maps, region));
+
+	if (memcmp(&a, &t->whole, sizeof a))
+		relative = mr_mat3_multiply_transposed(&t->rotation, &r);
+	t->log[j] = mr_rotation_log(&relative, mr_sub(turn, w));
+	stretch = mr_mat3_multiply_transposed(&r, &a);
+	t->by[j] = mr_mat3_axpy(-1, &t->stretch, &stretch);
+	t->turns |= memcmp(&a, &t->whole, sizeof a) || mr_norm(t->log[j]) > 0;
+}
+
+/* Polar decompositions of the maps. */
+static mr_status
+decompose(mr_ctx *ctx, turning *t)
+{
+	size_t n = t->r->count;
+	mr_v3 w;
+
+	t->whole = t->rotation = t->stretch = mr_mat3_identity();
+	if (!t->maps)
+		return MR_OK;
+	t->log = MR_NEW(ctx, n, mr_v3);
+	t->by = MR_NEW(ctx, n, mr_mat3);
+	if (!t->log || !t->by)
+		return MR_EMEM;
+	t->whole = linear_of(t, t->d->lowest);
+	t->rotation = mr_rotation_nearest(&t->whole);
+	t->stretch = mr_mat3_multiply_transposed(&t->rotation, &t->whole);
+	w = mr_rotation_log(&t->whole, turn_of(t->maps, t->d->lowest));
+	for (size_t j = 0; j < n; j++)
+		decompose_handle(t, j, w);
+	return MR_OK;
+}
+
+/* The interpolated stretch of vertex i. */
+static mr_mat3
+stretch_at(const turning *t, size_t i)
+{
+	const double *weight = t->r->weight + t->r->count * i;
+	mr_mat3 s = t->stretch;
+
+	for (size_t j = 0; t->maps && j < t->r->count; j++)
+		s = mr_mat3_axpy(weight[j], &t->by[j], &s);
+	return s;
+}
+
+static bool
+constrained(const turning *t, size_t i)
+{
+	return i >= t->d->patch.end[0];
+}
+
+/* Interpolated maps of free vertices, and those of the others. */
+static void
+interpolate(void *arg, size_t begin, size_t end)
+{
+	turning *t = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		const double *weight = t->r->weight + t->r->count * i;
+		mr_v3 w = mr_vec(0, 0, 0);
+		mr_mat3 r, s;
+		if (constrained(t, i)) {
+			t->r->map[i] = linear_of(t, t->d->region[t->d->patch.vertex[i]]);
+			continue;
+		}
+		for (size_t j = 0; j < t->r->count; j++)
+			w = mr_axpy(weight[j], t->log[j], w);
+		r = mr_rotation_exp(w);
+		r = mr_mat3_multiply(&t->rotation, &r);
+		s = stretch_at(t, i);
+		t->r->map[i] = mr_mat3_multiply(&r, &s);
+	}
+}
+
+/* Sources */
+
+/* The centroid of the section of a handle through a face, of which `weight` is the mean. */
+static mr_v3
+section_at(const mr_v3 *section, double weight)
+{
+	double at = MR_SECTIONS * weight;
+	int k = at < MR_SECTIONS ? (int)at : MR_SECTIONS - 1;
+
+	return mr_lerp(at - k, section[k], section[k + 1]);
+}
+
+/* The place about which a face turns: the sections of several handles count by how much they turn there. */
+static mr_v3
+center_of(const turning *t, const uint32_t v[3])
+{
+	mr_v3 sum = mr_vec(0, 0, 0);
+	double all = 0;
+
+	for (size_t j = 0; j < t->r->count; j++) {
+		const double *w = t->r->weight + j;
+		size_t n = t->r->count;
+		double a = w[n * v[0]], b = w[n * v[1]], c = w[n * v[2]], moves = mr_norm2(t->log[j]), share;
+		for (int i = 0; i < 9; i++)
+			moves += t->by[j].m[i] * t->by[j].m[i];
+		share = fmax(a, fmax(b, c)) - fmin(a, fmin(b, c));
+		share *= share * moves;
+		sum = mr_axpy(share, section_at(t->r->section[j], (a + b + c) / 3), sum);
+		all += share;
+	}
+	return all > 0 ? mr_mul(1 / all, sum) : t->r->rest[v[0]];
+}
+
+/* What each corner of a face has of the divergence of the gradients, less that of the whole. */
+static void
+face_sources(void *arg, size_t begin, size_t end)
+{
+	turning *t = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = t->d->patch.mesh.t[f].v;
+		mr_v3 *out = (mr_v3 *)t->r->face + 3 * f;
+		mr_v3 center = t->sections ? center_of(t, v) : t->r->rest[v[0]], p[3];
+		mr_mat3 a[3], mean = { { 0 } };
+		for (int k = 0; k < 3; k++) {
+			a[k] = mr_mat3_axpy(-1, &t->whole, &t->r->map[v[k]]);
+			mean = mr_mat3_axpy(1.0 / 3, &a[k], &mean);
+		}
+		for (int k = 0; k < 3; k++) {
+			p[k] = mr_sub(t->r->rest[v[k]], center);
+			p[k] = mr_mat3_apply(t->sections ? &a[k] : &mean, p[k]);
+		}
+		for (int k = 0; k < 3; k++) {
+			int next = (k + 1) % 3, last = (k + 2) % 3;
+			out[k] = mr_add(mr_mul(t->r->cot[f][last] / 2, mr_sub(p[k], p[next])),
+			    mr_mul(t->r->cot[f][next] / 2, mr_sub(p[k], p[last])));
+		}
+	}
+}
+
+static void
+gather_sources(void *arg, size_t begin, size_t end)
+{
+	turning *t = arg;
+	const mr_incidence *around = &t->r->around;
+	const mr_v3 *corner = (const mr_v3 *)t->r->face;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 sum = mr_vec(0, 0, 0);
+		for (size_t e = around->start[i]; e < around->start[i + 1]; e++) {
+			const uint32_t *v = t->d->patch.mesh.t[around->face[e]].v;
+			int k = v[0] == i ? 0 : v[1] == i ? 1 : 2;
+			sum = mr_add(sum, corner[3 * (size_t)around->face[e] + (size_t)k]);
+		}
+		memcpy(t->r->source + 3 * i, &sum, sizeof sum);
+	}
+}
+
+static const double *
+source_of(mr_ctx *ctx, turning *t, bool sections)
+{
+	t->sections = sections;
+	mr_parallel(ctx, t->d->patch.mesh.nf, GRAIN, face_sources, t);
+	mr_parallel(ctx, t->d->patch.end[t->d->opts.order - 1], GRAIN, gather_sources, t);
+	return t->r->source;
+}
+
+/* Rounds */
+
+/* The covariance of a face's edges with those at rest, stretched. */
+static void
+face_covariances(void *arg, size_t begin, size_t end)
+{
+	turning *t = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = t->d->patch.mesh.t[f].v;
+		double *out = t->r->face + 9 * f;
+		mr_mat3 s = { { 0 } };
+		for (int k = 0; k < 3; k++) {
+			mr_mat3 at = stretch_at(t, v[k]);
+			s = mr_mat3_axpy(1.0 / 3, &at, &s);
+		}
+		memset(out, 0, 9 * sizeof *out);
+		for (int k = 0; k < 3; k++) {
+			int next = (k + 1) % 3;
+			double weight = t->r->cot[f][(k + 2) % 3];
+			mr_v3 x = mr_sub(t->r->rest[v[k]], t->r->rest[v[next]]);
+			mr_v3 y = mr_sub(t->r->q[v[k]], t->r->q[v[next]]);
+			x = mr_mat3_apply(&s, x);
+			for (int i = 0; i < 3; i++)
+				for (int j = 0; j < 3; j++)
+					out[3 * i + j] += weight *
+					                  (mr_coordinate(y, i) * mr_coordinate(x, j));
+		}
+	}
+}
+
+/* The local step: the rotation that takes the faces around a vertex best to where they are. */
+static void
+fit_rotations(void *arg, size_t begin, size_t end)
+{
+	turning *t = arg;
+	const mr_incidence *around = &t->r->around;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_mat3 sum = { { 0 } }, s = stretch_at(t, i);
+		if (t->maps && constrained(t, i)) {
+			t->r->map[i] = linear_of(t, t->d->region[t->d->patch.vertex[i]]);
+			continue;
+		}
+		for (size_t e = around->start[i]; e < around->start[i + 1]; e++)
+			for (int k = 0; k < 9; k++)
+				sum.m[k] += t->r->face[9 * (size_t)around->face[e] + (size_t)k];
+		sum = mr_rotation_nearest(&sum);
+		t->r->map[i] = mr_mat3_multiply(&sum, &s);
+	}
+}
+
+/* Where the patch is, and how much further it would go: four rounds then do what seven do without. */
+static void
+extrapolate(const turning *t, const mr_v3 *p, bool first)
+{
+	static const double further = 0.7;
+	mr_rotations *r = t->r;
+
+	for (size_t i = 0; i < t->d->patch.mesh.nv; i++) {
+		mr_v3 at = p[t->d->patch.vertex[i]];
+		r->q[i] = first ? at : mr_axpy(further, mr_sub(at, r->before[i]), at);
+		r->before[i] = at;
+	}
+}
+
+/* The last of the global steps is of the system's own order, so that the surface is as smooth as it asks. */
+static mr_status
+rounds(mr_ctx *ctx, mr_deform *d, turning *t, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p)
+{
+	for (size_t round = 0; round < d->opts.rounds; round++) {
+		mr_deform *system = round + 1 < d->opts.rounds ? t->r->membrane : d;
+		extrapolate(t, p, round == 0);
+		mr_parallel(ctx, d->patch.mesh.nf, GRAIN, face_covariances, t);
+		mr_parallel(ctx, d->patch.mesh.nv, GRAIN, fit_rotations, t);
+		MR_TRY(mr_deform_follow(ctx, system, whole, p0, source_of(ctx, t, false), p));
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_rotations_follow(
+    mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *p)
+{
+	turning t = { .d = d, .r = d->rotations, .maps = maps };
+	const double *source = NULL;
+
+	for (size_t i = 0; i < d->patch.mesh.nv; i++)
+		t.r->rest[i] = p0[d->patch.vertex[i]];
+	MR_TRY(decompose(ctx, &t));
+	if (t.turns && d->opts.turned) {
+		mr_parallel(ctx, d->patch.mesh.nv, GRAIN, interpolate, &t);
+		source = source_of(ctx, &t, true);
+	}
+	MR_TRY(mr_deform_follow(ctx, d, whole, p0, source, p));
+	return rounds(ctx, d, &t, whole, p0, p);
+}
