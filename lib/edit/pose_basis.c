@@ -56,8 +56,33 @@ mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *respon
 	return MR_OK;
 }
 
+/*
+ * The largest turn of a handle against what moves the whole, in degrees: what is fixed, or where nothing is
+ * the lowest handle.
+ */
+static mr_status
+largest_turn(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_handle_rows *row, double *degrees)
+{
+	const uint32_t *region;
+	uint32_t lowest = UINT32_MAX;
+	mr_v3 whole = { 0, 0, 0 };
+
+	*degrees = 0;
+	if (!mr_layer_has(f, m->name, "region"))
+		return MR_OK;
+	MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &region));
+	for (size_t v = 0; v < m->nv; v++)
+		if (region[v] != MR_REGION_FREE && region[v] < lowest)
+			lowest = region[v];
+	if (lowest >= MR_REGION_HANDLE && lowest - MR_REGION_HANDLE < row->n)
+		whole = row->turn[lowest - MR_REGION_HANDLE];
+	for (size_t h = 0; h < row->n; h++)
+		*degrees = fmax(*degrees, mr_dist(row->turn[h], whole) * 180 / MR_PI);
+	return MR_OK;
+}
+
 mr_status
-mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
+mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
 {
 	const mr_column *column = mr_frame_find(f, m->name, "response");
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
@@ -65,6 +90,7 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 	mr_handle_rows row;
 	mr_mesh posed;
 
+	*degrees = 0;
 	if (!mr_layer_has(f, "handles", "transform"))
 		return MR_OK;
 	if (!column)
@@ -80,6 +106,7 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 		    column->shape.components, row.n);
 	if (!p)
 		return MR_EMEM;
+	MR_TRY(largest_turn(ctx, f, m, &row, degrees));
 	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p));
 	mr_frame_drop(f, "handles", NULL, 0); /* used up */
 	MR_TRY(mr_layer_move(ctx, f, m->name, MR_POSED, p, m->nv));

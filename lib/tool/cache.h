@@ -25,6 +25,7 @@ struct mr_cache {
 	void (*drop_deform)(struct mr_cache *cache); /* by who made it; NULL: there is none */
 	mr_level_cache level;
 	mr_connectivity_cache connectivity;
+	bool turned_far; /* since the key, by a response: said once */
 };
 
 /* The arena `keep` of a cache, with the threads and the listener of the frame's. */

@@ -37,6 +37,31 @@ base_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *b
 	return MR_OK;
 }
 
+/*
+ * Poses the layer by its response, and warns of what that cannot do, once from key to key.  Half-way to a
+ * handle that is twisted by 60 degrees a limb is 0.87 times as wide, and models that are bent or twisted by so
+ * much lose 3 to 15 % of their volume; by 90 degrees up to 27 %.
+ */
+static mr_status
+respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
+{
+	static const double most = 60;
+	double degrees;
+
+	MR_TRY(mr_response_apply(ctx, f, m, &degrees));
+	if (cache && f->key)
+		cache->turned_far = false;
+	if (degrees <= most * (1 + 1e-9) || (cache && cache->turned_far))
+		return MR_OK;
+	if (cache)
+		cache->turned_far = true;
+	mr_warn(ctx,
+	    "%s: a handle turns by %.0f degrees, and a response is linear: beyond %.0f it thins what is "
+	    "between; mr-solve does not",
+	    m->name, degrees, most);
+	return MR_OK;
+}
+
 static mr_status
 mesh_edges(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *mesh, mr_edges *edges)
 {
@@ -121,7 +146,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
 	MR_TRY(base_incidence(ctx, cache, f, &base, &inc));
-	MR_TRY(mr_response_apply(ctx, f, &base));
+	MR_TRY(respond(ctx, f, cache, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
 	p = MR_NEW(ctx, detail.n, mr_v3);
 	if (!p)
@@ -150,7 +175,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 		    ctx, MR_ERANGE, "--level %zu, but displacement ends with level %zu", o->level, n);
 	if (o->level != MR_UNKNOWN)
 		n = o->level;
-	MR_TRY(mr_response_apply(ctx, f, &control));
+	MR_TRY(respond(ctx, f, cache, &control));
 	MR_TRY(mr_cache_levels(ctx, cache, f, &control, 180, n, &refined));
 	MR_TRY(mr_domain_on(ctx, &control, refined, n, &d));
 	p = MR_NEW(ctx, d.m.nv, mr_v3);
