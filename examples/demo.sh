@@ -144,7 +144,7 @@ echo "animation of $frames frames"
 mr-import "$(model armadillo)" | mr-smooth | mr-remesh |
     mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.62 |
     mr-solve --basis | mr-encode -o work/basis.mrs
-mr-pose -H 1 --rotate 0,1,0,80 --frames $frames work/basis.mrs | mr-decode |
+mr-pose -H 1 --rotate 0,1,0,80 --frames $frames work/basis.mrs | mr-solve | mr-decode |
     mr-render --size $panel --view front -l mesh --no-labels frames/%d.png
 
 rate() { # what, command line: frames a second
@@ -153,7 +153,8 @@ rate() { # what, command line: frames a second
 	echo "$1 $(date +%s.%N) $begin" | awk '{ printf "%-28s %7.1f frames/s\n", $1, '$frames' / ($2 - $3) }' >>work/rates
 }
 rate 'pose|solve|decode' 'mr-solve | mr-decode'
-rate 'solve-basis..pose|decode' 'mr-decode'
+rate 'pose|solve linearly|decode' 'mr-solve --rotations linear | mr-decode'
+rate 'solve-basis..pose|decode' 'mr-decode -q'
 
 table | tee work/figures.txt
 mv work/figures.txt figures.txt
