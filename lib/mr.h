@@ -418,8 +418,14 @@ typedef enum mr_areas {
 
 typedef enum mr_rotations_choice {
 	MR_ROTATIONS_INTERPOLATED, /* their logarithms: any angle */
-	MR_ROTATIONS_LINEAR        /* their matrices, as the paper and a response do: up to a third of a turn */
+	MR_ROTATIONS_LINEAR /* their matrices, as the paper and a response do: up to a third of a turn */
 } mr_rotations_choice;
+
+typedef enum mr_loose_choice {
+	MR_LOOSE_FOLLOW, /* they move as the surface nearest to them does */
+	MR_LOOSE_STAY,
+	MR_LOOSE_REFUSE /* MR_EMESH */
+} mr_loose_choice;
 
 typedef struct mr_solve_opts {
 	size_t order;      /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
@@ -434,18 +440,20 @@ typedef struct mr_solve_opts {
 	int precondition;  /* of CG and BiCGSTAB: 0 by order, 1 incomplete factors, 2 Jacobi, 3 multigrid */
 	int rotations;     /* mr_rotations_choice, of poses by handles */
 	size_t arap;       /* rounds of as-rigid-as-possible steps on top of a pose */
+	int loose;         /* mr_loose_choice, of parts without a constrained vertex */
+	bool flatten;      /* without handles: the undeformed solve of the paper; else nothing moves */
 	const char *layer; /* NULL: base, else control */
 } mr_solve_opts;
 
 #define MR_SOLVE_DEFAULTS                                                                                    \
 	{                                                                                                    \
 		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                    \
-		    MR_ROTATIONS_INTERPOLATED, 0, NULL                                                       \
+		    MR_ROTATIONS_INTERPOLATED, 0, MR_LOOSE_FOLLOW, false, NULL                               \
 	}
 
 typedef struct mr_solve_result {
 	size_t free, fixed, handle_vertices, handles;
-	size_t isolated_components, isolated_vertices; /* free, without a constrained vertex: they stay */
+	size_t isolated_components, isolated_vertices; /* free, without a constrained vertex */
 	size_t narrow_strip_vertices; /* constrained ones with fewer than k rings behind them */
 	size_t nnz_matrix;
 	double negative_weights; /* share of the edges */

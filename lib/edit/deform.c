@@ -3,6 +3,7 @@
  * with true areas is ours.
  */
 #include "base/disjoint_sets.h"
+#include "edit/deform_loose.h"
 #include "edit/deform_rotations.h"
 
 /* Regions */
@@ -35,15 +36,15 @@ join_free(const mr_mesh *m, const uint32_t *region, uint32_t *parent)
 		}
 }
 
-/* The free vertices whose component has a constrained neighbour: the others would make K singular. */
+/* The free vertices whose component has a constrained neighbour: the others would make K singular.  parent:
+ * sets of one vertex each, which become the components' with their roots. */
 static mr_status
-find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored)
+find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored, uint32_t *parent)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *parent = mr_sets_new(ctx, d->nv);
 	bool *root_anchored = MR_NEW_ZERO(ctx, d->nv, bool);
 
-	if (!parent || !root_anchored)
+	if (!root_anchored)
 		return MR_EMEM;
 	join_free(m, d->region, parent);
 	for (size_t f = 0; f < m->nf; f++)
@@ -60,6 +61,8 @@ find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored)
 			d->loose += parent[v] == v;
 		}
 	}
+	for (uint32_t v = 0; v < d->nv; v++)
+		parent[v] = mr_sets_root(parent, v);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -93,7 +96,7 @@ check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
 	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
 		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
-	if (d->free == 0)
+	if (d->free == 0 && d->handled == 0)
 		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
 		    rest->name, d->nv);
 	if (d->free == d->nv)
@@ -102,6 +105,23 @@ check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 		    "handle",
 		    rest->name, d->nv);
 	return MR_OK;
+}
+
+/* Says what becomes of parts that no constraint reaches. */
+static mr_status
+settle_loose(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part)
+{
+	static const char *const does[] = { "follow the surface nearest to them", "stay" };
+
+	if (d->loose && d->opts.loose == MR_LOOSE_REFUSE)
+		return mr_fail(ctx, MR_EMESH,
+		    "%s: %zu parts (%zu vertices) have no constrained vertex: select some of them as fixed "
+		    "or handle",
+		    rest->name, d->loose, d->loose_vertices);
+	if (d->loose)
+		mr_warn(ctx, "%s: %zu parts (%zu vertices) have no constrained vertex and %s", rest->name,
+		    d->loose, d->loose_vertices, does[d->opts.loose]);
+	return d->opts.loose == MR_LOOSE_FOLLOW ? mr_loose_make(ctx, d, rest, anchored, part) : MR_OK;
 }
 
 static mr_status
@@ -123,12 +143,14 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 {
 	double started = mr_seconds();
 	bool *anchored = MR_NEW(ctx, d->nv, bool);
+	uint32_t *part = mr_sets_new(ctx, d->nv);
 
-	if (!anchored)
+	if (!anchored || !part)
 		return MR_EMEM;
 	count_regions(d);
 	MR_TRY(check_problem(ctx, d, rest));
-	MR_TRY(find_anchored(ctx, d, rest, anchored));
+	MR_TRY(find_anchored(ctx, d, rest, anchored, part));
+	MR_TRY(settle_loose(ctx, d, rest, anchored, part));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
 	MR_TRY(mr_patch_build(ctx, rest, anchored, d->opts.order, &d->patch));
 	MR_TRY(make_workspace(ctx, d));
@@ -237,9 +259,6 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 		report_solver(ctx, d, &result);
 	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", result.free, d->fixed,
 	    d->handled, d->residual);
-	if (d->loose)
-		mr_note(ctx, "%zu free components (%zu vertices) have no constrained vertex and stay",
-		    d->loose, d->loose_vertices);
 	if (d->narrow)
 		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
 		    d->narrow, d->opts.order);

@@ -3,7 +3,8 @@
  *
  * Contract: the system is assembled and factored once, on the rest positions; every
  * solve after that changes right-hand sides only.  Regions are those of
- * mesh/layers.h.  A free component without a constrained vertex is left as it is.
+ * mesh/layers.h.  A free component without a constrained vertex follows the
+ * surface near it.
  */
 #ifndef MR_EDIT_DEFORM_H
 #define MR_EDIT_DEFORM_H
@@ -20,6 +21,7 @@ typedef struct mr_deform_opts {
 	double tol;            /* a direct solution of a larger relative residual is refined */
 	bool turned;           /* poses by interpolated rotations; else linearly, as a basis always does */
 	size_t rounds;         /* of as-rigid-as-possible steps, on top of a pose */
+	int loose;             /* mr_loose_choice: what free components without a constraint do */
 } mr_deform_opts;
 
 #define MR_DEFORM_DEFAULTS                                                                                   \

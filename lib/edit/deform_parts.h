@@ -26,6 +26,7 @@ typedef struct mr_patch_field {
 } mr_patch_field;
 
 typedef struct mr_rotations mr_rotations; /* deform_rotations.h */
+typedef struct mr_loose mr_loose;         /* deform_loose.h */
 
 struct mr_deform {
 	mr_deform_opts opts;
@@ -51,6 +52,7 @@ struct mr_deform {
 	size_t refinements;
 	mr_ctx *keep;            /* of the arena that it lives in */
 	mr_rotations *rotations; /* NULL until a pose asks for them */
+	mr_loose *followers;     /* NULL: none */
 };
 
 /* Assembles the system and sets up its solver, on the mesh `rest` of which the patch is a part.  started:
@@ -70,8 +72,8 @@ mr_status mr_deform_membrane(mr_ctx *ctx, mr_deform *d, mr_deform *m);
 mr_status mr_deform_solve_field(mr_ctx *ctx, mr_deform *d, mr_patch_field *f);
 
 /* p has the constraints where they go; the free vertices follow.  source: of p's differentials, or NULL. */
-mr_status mr_deform_follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0,
-    const double *source, mr_v3 *p);
+mr_status mr_deform_follow(
+    mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const double *source, mr_v3 *p);
 
 /* The map of a region: fixed and free are at rest, absent handles too. */
 mr_affine mr_deform_map(const mr_deform_maps *maps, uint32_t region);

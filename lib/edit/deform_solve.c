@@ -2,6 +2,7 @@
  * Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4; posing by displacement
  * is ours.
  */
+#include "edit/deform_loose.h"
 #include "edit/deform_rotations.h"
 #include "solve/sparse.h"
 
@@ -274,8 +275,8 @@ moved(double x, double by)
 }
 
 mr_status
-mr_deform_follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const double *source,
-    mr_v3 *p)
+mr_deform_follow(
+    mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const double *source, mr_v3 *p)
 {
 	size_t n = d->patch.end[0];
 	mr_patch_field f = mr_deform_field(d, 3);
@@ -301,7 +302,8 @@ follow(mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const
 
 	if (d->solver)
 		MR_TRY(rotates ? mr_rotations_follow(ctx, d, whole, p0, maps, p)
-		               : mr_deform_follow(ctx, d, whole, p0, NULL, p));
+			       : mr_deform_follow(ctx, d, whole, p0, NULL, p));
+	mr_loose_follow(ctx, d, p0, p);
 	memcpy(out, p, d->nv * sizeof *out);
 	return MR_OK;
 }
@@ -438,6 +440,7 @@ mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response)
 	}
 	if (d->solver && d->lowest >= MR_REGION_HANDLE)
 		respond_to_whole(d, p0, response);
+	mr_loose_respond(d, p0, response);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;
 }

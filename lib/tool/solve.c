@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "edit/handles.h"
+#include "edit/region_transfer.h"
 #include "tool/cache.h"
 
 /* The solver that the options ask for; MR_EUSAGE where they contradict each other. */
@@ -20,15 +21,16 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	if (o->unsymmetric && o->solver != MR_SOLVER_AUTO && o->solver != MR_SOLVER_LU &&
 	    o->solver != MR_SOLVER_BICGSTAB)
 		return mr_fail(ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
-	if (o->basis && o->arap)
-		return mr_fail(ctx, MR_EUSAGE, "--arap is for poses, and --basis comes before them");
 	if (o->precondition && !iterates)
 		return mr_fail(ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
+	if (o->basis && o->arap)
+		return mr_fail(ctx, MR_EUSAGE, "--arap is for poses, and --basis comes before them");
 	deform->order = o->order;
 	deform->areas = o->areas;
 	deform->unsymmetric = o->unsymmetric;
 	deform->turned = o->rotations == MR_ROTATIONS_INTERPOLATED;
 	deform->rounds = o->arap;
+	deform->loose = o->loose;
 	deform->choose = o->solver == MR_SOLVER_AUTO && !o->unsymmetric;
 	deform->solver.kind = o->solver != MR_SOLVER_AUTO ? (mr_solver_kind)(o->solver - MR_SOLVER_CHOLESKY)
 	                      : o->unsymmetric            ? MR_LU
@@ -49,13 +51,11 @@ mr_solve_check(mr_ctx *ctx, const mr_solve_opts *opts)
 	return choose_solver(ctx, opts, &deform);
 }
 
-/* What poses the frame: the handles, or the places of base.target, or nothing.  A control mesh that gets its
- * basis keeps its shape, which the displacement stands on: it is posed at rest. */
+/* What poses the frame: the handles, or the places of base.target, or nothing. */
 static mr_status
-read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool basis, mr_deform_task *task)
+read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_solve_opts *o, mr_deform_task *task)
 {
 	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
-	bool at_rest = basis && !strcmp(m->name, "control");
 	const void *places = NULL;
 	mr_deform_maps *maps = NULL;
 	mr_handle_rows row;
@@ -63,12 +63,15 @@ read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool basis, mr_deform_task
 	if (handles && target)
 		return mr_fail(
 		    ctx, MR_EMESH, "%s has targets, but there are handles too: drop one of them", m->name);
-	if (basis && (handles || target))
+	if (o->flatten && (handles || target))
+		return mr_fail(ctx, MR_EUSAGE,
+		    "--flatten comes before mr-pose, but the frame has handles or targets already");
+	if (o->basis && (handles || target))
 		return mr_fail(ctx, MR_EUSAGE,
 		    "--basis comes before mr-pose, but the frame has handles or targets already");
 	if (target)
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
-	if (handles || at_rest) {
+	if (handles) {
 		maps = MR_NEW(ctx, 1, mr_deform_maps);
 		if (!maps)
 			return MR_EMEM;
@@ -100,6 +103,37 @@ drop_used(mr_frame *f, const char *layer)
 	mr_frame_drop(f, layer, "target", 0);
 }
 
+/* Says where the undeformed solve has shrunk what is under it. */
+static void
+look_at_flattened(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
+{
+	const double little = 0.9;
+	mr_mesh flat = *m;
+	double share;
+
+	flat.p = p;
+	share = mr_mesh_area(ctx, &flat) / mr_mesh_area(ctx, m);
+	if (share < little)
+		mr_warn(ctx,
+		    "%s: the undeformed solve leaves %.2g %% of the area: limbs and plates have shrunk, and "
+		    "detail over them "
+		    "is not sound: leave out --flatten, or free less",
+		    m->name, 100 * share);
+}
+
+/* Nothing is to be solved for: the positions are those of rest. */
+static mr_status
+keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
+{
+	const uint32_t *region;
+
+	MR_TRY(mr_transfer_get(ctx, f, m, &region));
+	mr_note(ctx, "%s stays as it is: there are neither handles nor --basis nor --flatten", m->name);
+	if (result)
+		mr_unmeasured(result, sizeof *result);
+	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
+}
+
 /* keep: the arena of the system. */
 static mr_status
 solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_cache *kept,
@@ -118,15 +152,22 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	MR_TRY(choose_solver(ctx, o, &opts));
 	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	MR_TRY(read_task(ctx, f, &m, o->basis, &task));
+	MR_TRY(read_task(ctx, f, &m, o, &task));
 	posing = task.maps || task.target;
+	if (!posing && !o->basis && !o->flatten)
+		return keep_rest(ctx, f, &m, result);
 	rest = m;
 	MR_TRY(read_rest(ctx, f, posing, &rest, &column));
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_deform_cache_get(kept, ctx, keep, f, &rest, column, &opts, &d));
-	MR_TRY(mr_deform_solve(ctx, d, &task, p));
+	if (posing || o->flatten)
+		MR_TRY(mr_deform_solve(ctx, d, &task, p));
+	else
+		memcpy(p, m.p, m.nv * sizeof *p);
+	if (o->flatten)
+		look_at_flattened(ctx, &m, p);
 	if (posing)
 		drop_used(f, layer);
 	MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
