@@ -94,7 +94,6 @@ edit() { # name, model, view, smoothing, regions, pose, another pose
 	    mr-smooth $4 --stats $w.2 | tee $w.smooth.mrs |
 	    mr-remesh --stats $w.3 | tee $w.remeshed.mrs |
 	    mr-select $5 --stats $w.4 |
-	    mr-solve --stats $w.5 |
 	    mr-encode --stats $w.6 | tee $w.rest.mrs |
 	    mr-pose $6 --stats $w.7 | mr-pose ${7:-$handle} |
 	    mr-solve --stats $w.8 |

@@ -30,7 +30,7 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	deform->unsymmetric = o->unsymmetric;
 	deform->turned = o->rotations == MR_ROTATIONS_INTERPOLATED;
 	deform->rounds = o->arap;
-	deform->loose = o->loose;
+	deform->loose = o->flatten && !o->basis && o->loose == MR_LOOSE_FOLLOW ? MR_LOOSE_STAY : o->loose;
 	deform->choose = o->solver == MR_SOLVER_AUTO && !o->unsymmetric;
 	deform->solver.kind = o->solver != MR_SOLVER_AUTO ? (mr_solver_kind)(o->solver - MR_SOLVER_CHOLESKY)
 	                      : o->unsymmetric            ? MR_LU
@@ -128,6 +128,8 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	const uint32_t *region;
 
 	MR_TRY(mr_transfer_get(ctx, f, m, &region));
+	if (mr_transfer_applies(f, m->name))
+		MR_TRY(mr_layer_put(ctx, f, m->name, "region", region, m->nv));
 	mr_note(ctx, "%s stays as it is: there are neither handles nor --basis nor --flatten", m->name);
 	if (result)
 		mr_unmeasured(result, sizeof *result);

@@ -17,7 +17,7 @@ agree() { # k, label, options
 }
 case_of() { # name; selected.mrs
 	model=$1
-	mr-solve -k 1 --stats stats.json selected.mrs | mr-pose --translate 0.02,0.1,0.05 --rotate 0,1,0,30 -o posed.mrs
+	mr-solve -k 1 --flatten --stats stats.json selected.mrs | mr-pose --translate 0.02,0.1,0.05 --rotate 0,1,0,30 -o posed.mrs
 	free=$(figure free)
 	[ "$free" -le 20000 ] && orders='1 2 3' || orders='1 2'
 	for k in $orders; do

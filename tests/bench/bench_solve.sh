@@ -7,7 +7,7 @@ median() {
 	sort -g | sed -n 3p
 }
 thin_plate() { # name; selected.mrs has the regions, fixed below 0.05 and handle above 0.95 of the box along x
-	mr-solve selected.mrs | mr-pose --translate 0,0,0.2 -o posed.mrs
+	mr-pose --translate 0,0,0.2 selected.mrs -o posed.mrs
 	for i in 1 2 3 4 5; do
 		mr-solve --stats stats.json posed.mrs -o /dev/null || exit
 		for part in assemble analyse factor solve; do
@@ -49,7 +49,7 @@ fi
 areas() { # name; selected.mrs
 	for k in 2 3; do
 		for a in voronoi mean; do
-			mr-solve -k $k --areas $a selected.mrs | mr-encode | mr-pose --translate 0,0,0.2 --rotate 0,1,0,30 |
+			mr-solve -k $k --areas $a --flatten selected.mrs | mr-encode | mr-pose --translate 0,0,0.2 --rotate 0,1,0,30 |
 				mr-solve -k $k --areas $a | mr-decode -o $a.mrs || exit
 		done
 		for layer in base mesh; do

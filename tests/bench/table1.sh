@@ -38,7 +38,7 @@ for size in $sizes; do
 	rm -f direct.mrs
 	mr-make torus -n $((size * 1065)) | mr-smooth -t 0 |
 	    mr-select --free all --fixed below:x,0.05 --handle 0=above:x,0.95 |
-	    mr-solve -k 1 | mr-pose --translate 0,0,0.2 -o posed.mrs
+	    mr-pose --translate 0,0,0.2 -o posed.mrs
 	row $size cholesky -s cholesky --memory "${MEMORY:-0}"
 	[ ! -f out.mrs ] || mv out.mrs direct.mrs
 	row $size multigrid -s multigrid --tol "$tol"
@@ -53,7 +53,7 @@ done >rows
 # What remeshing does to the system: before, on the smoothed model as it came, and after.
 worth() { # model; selected.mrs
 	for k in 1 2 3; do
-		mr-solve -k $k --verify --stats stats.json selected.mrs -o out.mrs || return
+		mr-solve -k $k --flatten --verify --stats stats.json selected.mrs -o out.mrs || return
 		echo "$1 $2 $k $(figure negative_weights) $(figure condition)"
 	done
 }

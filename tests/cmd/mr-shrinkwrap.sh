@@ -68,7 +68,7 @@ cmp both.faces out.faces && echo same faces
 worst 0.03 <out.mrs
 
 echo 'a template loses what followed from where it was: responses and heights'
-mr-select --free above:z,0.3 --handle 0=above:z,0.8 both.mrs | mr-solve | mr-solve --basis | mr-sample -n 1 -o old.mrs
+mr-select --free above:z,0.3 --handle 0=above:z,0.8 both.mrs | mr-solve --flatten | mr-solve --basis | mr-sample -n 1 -o old.mrs
 mr-shrinkwrap --template old.mrs -o new.mrs
 for f in old new; do
 	mr-info $f.mrs | sed -n 's/^ *\(displacement\|height\|rest\|response\) .*/\1/p; s/^ *displacement$/displacement/p' |

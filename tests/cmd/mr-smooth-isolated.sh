@@ -6,7 +6,7 @@ mr-info scan.mrs | grep -o '[0-9]* isolated[^,]*'
 mr-smooth -t 5 -v scan.mrs -o smooth.mrs
 mr-remesh smooth.mrs -o remeshed.mrs
 for base in smooth remeshed; do
-	mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.8 $base.mrs | mr-solve | mr-encode | mr-pose | mr-solve |
+	mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.8 $base.mrs | mr-encode | mr-pose | mr-solve |
 		mr-decode -o back.mrs
 	mr-info --check back.mrs >/dev/null && echo "$base: lawful"
 	mr-export -f off - <back.mrs | paste - scan.off | awk 'NR > 2 && NF == 6 { n++; for (i = 1; i <= 3; i++) {

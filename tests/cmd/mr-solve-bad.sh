@@ -22,9 +22,9 @@ mr-pose --scale 2 on-mesh.mrs | try
 mr-pose -l control --scale 2 on-mesh.mrs 2>&1 >out
 mr-select -l control --free above:z,0.5 --handle 0=above:z,0.9 both.mrs | mr-pose --scale 2 | try
 echo '-- all fixed'
-mr-select --fixed all base.mrs | try
+mr-select --fixed all base.mrs | try --flatten
 echo '-- all free'
-mr-select --free all base.mrs | try
+mr-select --free all base.mrs | try --flatten
 echo '-- handles, but never solved: the surface is at rest as it is'
 mr-pose --translate 0,0,1 s.mrs | try
 echo '-- a basis, but handles already'
@@ -58,7 +58,18 @@ OFF
 3 7 5 8
 END
 mr-import two.off | mr-smooth -t 0 | mr-select --free 'box:4,-1,-1,9,9,9' --free 'sphere:0.5,0.5,0.3,0.1' -o two.mrs
-mr-solve -v -k 1 two.mrs 2>&1 >out.mrs | sed 's/residual.*//'
+mr-solve -v --flatten -k 1 two.mrs 2>&1 >out.mrs | sed 's/residual.*//'
 mr-export -f off -l base - <out.mrs | sed -n '7,11p'
+echo '-- the same, posed: parts follow, stay, or are refused; handles alone move all there is'
+mr-select --reset --free all --fixed below:z,0.01+sphere:0.5,0.5,0,0.8 --handle 0=sphere:0.5,0.5,0.3,0.1 two.mrs | mr-pose --translate 0,0,1 -o up.mrs
+for loose in follow stay refuse; do
+	mr-solve --loose $loose -k 1 up.mrs 2>&1 >out.mrs
+	echo "exit $?"
+	[ $loose = refuse ] || mr-export -f off -l base - <out.mrs | sed -n '7,11p'
+done
+mr-select --reset --handle 0=all two.mrs | mr-pose --translate 0,0,1 | mr-solve | mr-export -f off -l base - | sed -n '3,4p'
+echo '-- flattening after a pose, and a limb that it shrinks'
+mr-pose s.mrs | try --flatten
+mr-make cylinder -n 2000 | mr-smooth | mr-select --free above:z,0.2 | mr-solve --flatten 2>&1 >out.mrs
 echo '-- a layer that is no base'
 mr-select --reset --free above:z,0.5 base.mrs | try -l mesh

@@ -31,7 +31,7 @@ diff declared exported || bad "libmr.so does not export what mr.h declares"
 
 mr-make bumpy -n 3000 | mr-export model.obj
 mr-import model.obj | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.5 --handle 1=above:y,0.85 |
-	mr-solve | mr-encode | mr-pose -H 1 --rotate 0,0,1,30 | mr-solve | mr-decode | mr-export pipe.obj
+	mr-encode | mr-pose -H 1 --rotate 0,0,1,30 | mr-solve | mr-decode | mr-export pipe.obj
 for program in bend bend++ bend-static; do
 	./$program model.obj $program.obj || exit
 	cmp pipe.obj $program.obj || bad "$program differs from the pipe"

@@ -61,7 +61,7 @@ for k in 1 2 3; do
 	# All constraints by one rigid motion: there is nothing to solve, so the base goes along to rounding (1e-16); over its thin
 	# triangles normals, and what stands on them, to 2e-13.
 	mr-smooth <model.mrs | mr-remesh | mr-select --reset --free all --handle 0=below:z,0.2 --handle 1=above:z,0.8 |
-	    mr-solve -k $k | mr-encode |
+	    mr-encode |
 	    mr-pose -H 0 --center 0,0,0 --rotate 0,0,1,90 --translate 1,2,3 |
 	    mr-pose -H 1 --center 0,0,0 --rotate 0,0,1,90 --translate 1,2,3 | mr-solve -k $k | mr-decode -o rigid.mrs
 	positions rigid <rigid.mrs
@@ -74,7 +74,7 @@ for k in 1 2 3; do
 done
 
 # An animation equals its poses run one by one, byte for byte: by solving and by responses.
-mr-smooth <model.mrs | mr-remesh | mr-select $regions | mr-solve | mr-encode >rest.mrs
+mr-smooth <model.mrs | mr-remesh | mr-select $regions | mr-encode >rest.mrs
 to='--center 0,0,0 --rotate 0,0,1,60 --translate 0,0,0.2'
 mr-pose -H 1 $to --frames 3 <rest.mrs | mr-solve | mr-decode >animation.mrs
 positions frame <animation.mrs
@@ -106,9 +106,9 @@ cmp fixed.1 fixed.2 || bad 'a fixed vertex moves'
 
 # Two models in one stream, one after the other, are what they are alone.
 mr-make torus -n 2000 >torus.mrs
-cat model.mrs torus.mrs | mr-smooth | mr-remesh | mr-select $regions | mr-solve | mr-encode | mr-decode >both.mrs
+cat model.mrs torus.mrs | mr-smooth | mr-remesh | mr-select $regions | mr-encode | mr-decode >both.mrs
 for model in model torus; do
-	mr-smooth <$model.mrs | mr-remesh | mr-select $regions | mr-solve | mr-encode | mr-decode >$model.alone.mrs
+	mr-smooth <$model.mrs | mr-remesh | mr-select $regions | mr-encode | mr-decode >$model.alone.mrs
 done
 cat model.alone.mrs torus.alone.mrs | mr-cat >alone.mrs
 positions both <both.mrs
@@ -127,7 +127,7 @@ cmp unpacked.1 plain.1 || bad "packing changes positions"
 awk 'NR > 2 && NF == 3 { printf "%.17g %s %s\n", -$2, $1, $3; next } { print }' model.1.off >turned.off
 for k in 1 2; do
 	for model in turned.off model.1.off; do
-		mr-import $model | mr-smooth | mr-select $regions | mr-solve -k $k | mr-encode |
+		mr-import $model | mr-smooth | mr-select $regions | mr-encode |
 		    mr-pose -H 1 --rotate 0,0,1,40 --scale 1.5 | mr-solve -k $k | mr-decode | positions "${model%%.*}d"
 	done
 	awk '{ printf "%.17g %.17g %.17g\n", -$2, $1, $3 }' modeld.1 >modelt.1

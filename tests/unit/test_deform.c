@@ -1,6 +1,6 @@
 /* Boundary-constraint modelling against a dense solve of the paper's own definition, and its invariants. */
-#include "edit/deform.h"
 #include "base/random.h"
+#include "edit/deform.h"
 #include "mesh/layers.h"
 #include "op/voronoi_area.h"
 #include "unit.h"
@@ -535,7 +535,7 @@ test_iterative_is_direct(void **state)
 
 /* A second torus, free and without a constraint, and an isolated free vertex: both stay, at any pose. */
 static void
-test_loose_components_stay(void **state)
+test_loose_components_follow(void **state)
 {
 	mr_mesh one = torus(20, 10, 0.3);
 	mr_v3 *p = MR_NEW(&ctx, 2 * one.nv + 1, mr_v3), *q = MR_NEW(&ctx, 2 * one.nv + 1, mr_v3);
@@ -543,6 +543,7 @@ test_loose_components_stay(void **state)
 	mr_mesh two = { "base", p, t, 2 * one.nv + 1, 2 * one.nf };
 	uint32_t *region = MR_NEW(&ctx, two.nv, uint32_t), *band = bands(&one, 0, 0.2, 0.8, HANDLE + 1);
 	mr_affine maps[2] = { screw(1, 1, 1), screw(0.5, 1, 1) };
+	mr_deform_opts opts = opts_of(2, MR_AREAS_VORONOI, false);
 	mr_deform *d;
 
 	(void)state;
@@ -560,10 +561,27 @@ test_loose_components_stay(void **state)
 			t[one.nf + f].v[k] = one.t[f].v[k] + (uint32_t)one.nv;
 	}
 	d = deform_of(&two, region, opts_of(2, MR_AREAS_VORONOI, false));
+	assert_int_equal(mr_deform_report(&ctx, d).isolated_components, 2);
+	pose(d, p, maps, 2, q);
+	assert_true(largest_distance(p, q, one.nv) > 0.1);
+	for (size_t v = one.nv; v < two.nv; v++) /* as the surface near them, which moves by less than that */
+		assert_true(mr_dist(p[v], q[v]) > 0.01);
+	for (size_t f = one.nf; f < two.nf; f++) { /* all but rigidly */
+		const uint32_t *c = t[f].v;
+		assert_true(fabs(mr_dist(q[c[0]], q[c[1]]) / mr_dist(p[c[0]], p[c[1]]) - 1) < 0.1);
+	}
+	maps[0] = maps[1] = mr_identity();
+	pose(d, p, maps, 2, q);
+	assert_memory_equal(p, q, two.nv * sizeof *p);
+	maps[0] = maps[1] = screw(1, 1, 1); /* one rigid motion of all that is constrained */
+	pose(d, p, maps, 2, q);
+	for (size_t v = 0; v < two.nv; v++)
+		assert_true(mr_dist(q[v], mr_apply(&maps[0], p[v])) < 1e-12);
+	mr_deform_free(d);
+	opts.loose = MR_LOOSE_STAY;
+	d = deform_of(&two, region, opts);
 	pose(d, p, maps, 2, q);
 	assert_memory_equal(p + one.nv, q + one.nv, (one.nv + 1) * sizeof *p);
-	assert_true(largest_distance(p, q, one.nv) > 0.1);
-	assert_int_equal(mr_deform_report(&ctx, d).isolated_components, 2);
 	mr_deform_free(d);
 }
 
@@ -702,7 +720,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_basis_is_the_pose, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_targets_are_reached, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative_is_direct, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_loose_components_stay, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_loose_components_follow, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_degenerate_faces_give_no_nan, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_refusals, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_threads_and_runs_change_nothing, setup, teardown),
