@@ -50,6 +50,7 @@ struct mr_deform {
 	double negative; /* share of the edges at free vertices whose weight is negative */
 	double seconds_assemble, seconds_solve, residual;
 	size_t refinements;
+	bool rough;              /* rounding is of no account */
 	mr_ctx *keep;            /* of the arena that it lives in */
 	mr_rotations *rotations; /* NULL until a pose asks for them */
 	mr_loose *followers;     /* NULL: none */

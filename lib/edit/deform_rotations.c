@@ -15,8 +15,9 @@ typedef struct turning {
 	mr_mat3 rotation, stretch;  /* R, S */
 	mr_v3 *log;                 /* of each handle's rotation relative to that */
 	mr_mat3 *by;                /* its stretch less that */
-	bool turns;
-	bool sections; /* the source is of faces about their sections, else about themselves */
+	bool turns;                 /* or stretches */
+	bool stretches;             /* beyond rounding */
+	bool sections;              /* the source is of faces about their sections, else about themselves */
 } turning;
 
 /* Maps */
@@ -41,6 +42,7 @@ linear_of(const turning *t, uint32_t region)
 static void
 decompose_handle(turning *t, size_t j, mr_v3 w)
 {
+	static const double none = 1e-14;
 	uint32_t region = t->r->region[j];
 	mr_mat3 a = linear_of(t, region), r = mr_rotation_nearest(&a), relative = mr_mat3_identity(), stretch;
 	mr_v3 turn = mr_rotation_log(&a, turn_of(t->maps, region));
@@ -50,6 +52,8 @@ decompose_handle(turning *t, size_t j, mr_v3 w)
 	t->log[j] = mr_rotation_log(&relative, mr_sub(turn, w));
 	stretch = mr_mat3_multiply_transposed(&r, &a);
 	t->by[j] = mr_mat3_axpy(-1, &t->stretch, &stretch);
+	for (int i = 0; i < 9; i++)
+		t->stretches |= fabs(t->by[j].m[i]) > none;
 	t->turns |= memcmp(&a, &t->whole, sizeof a) || mr_norm(t->log[j]) > 0;
 }
 
@@ -83,7 +87,7 @@ stretch_at(const turning *t, size_t i)
 	const double *weight = t->r->weight + t->r->count * i;
 	mr_mat3 s = t->stretch;
 
-	for (size_t j = 0; t->maps && j < t->r->count; j++)
+	for (size_t j = 0; t->stretches && j < t->r->count; j++)
 		s = mr_mat3_axpy(weight[j], &t->by[j], &s);
 	return s;
 }
@@ -150,6 +154,31 @@ center_of(const turning *t, const uint32_t v[3])
 	return all > 0 ? mr_mul(1 / all, sum) : t->r->rest[v[0]];
 }
 
+/* Where the corners of a face go, about their section. */
+static void
+move_about_section(const turning *t, const uint32_t v[3], mr_v3 p[3])
+{
+	mr_v3 center = center_of(t, v);
+
+	for (int k = 0; k < 3; k++) {
+		mr_mat3 a = mr_mat3_axpy(-1, &t->whole, &t->r->map[v[k]]);
+		p[k] = mr_mat3_apply(&a, mr_sub(t->r->rest[v[k]], center));
+	}
+}
+
+/* Where they go by the mean of their maps. */
+static void
+move_about_face(const turning *t, const uint32_t v[3], mr_v3 p[3])
+{
+	const mr_mat3 *a = &t->r->map[v[0]], *b = &t->r->map[v[1]], *c = &t->r->map[v[2]];
+	mr_mat3 mean;
+
+	for (int i = 0; i < 9; i++)
+		mean.m[i] = (a->m[i] + b->m[i] + c->m[i]) / 3 - t->whole.m[i];
+	for (int k = 0; k < 3; k++)
+		p[k] = mr_mat3_apply(&mean, mr_sub(t->r->rest[v[k]], t->r->rest[v[0]]));
+}
+
 /* What each corner of a face has of the divergence of the gradients, less that of the whole. */
 static void
 face_sources(void *arg, size_t begin, size_t end)
@@ -158,17 +187,11 @@ face_sources(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		const uint32_t *v = t->d->patch.mesh.t[f].v;
-		mr_v3 *out = (mr_v3 *)t->r->face + 3 * f;
-		mr_v3 center = t->sections ? center_of(t, v) : t->r->rest[v[0]], p[3];
-		mr_mat3 a[3], mean = { { 0 } };
-		for (int k = 0; k < 3; k++) {
-			a[k] = mr_mat3_axpy(-1, &t->whole, &t->r->map[v[k]]);
-			mean = mr_mat3_axpy(1.0 / 3, &a[k], &mean);
-		}
-		for (int k = 0; k < 3; k++) {
-			p[k] = mr_sub(t->r->rest[v[k]], center);
-			p[k] = mr_mat3_apply(t->sections ? &a[k] : &mean, p[k]);
-		}
+		mr_v3 *out = (mr_v3 *)t->r->face + 3 * f, p[3];
+		if (t->sections)
+			move_about_section(t, v, p);
+		else
+			move_about_face(t, v, p);
 		for (int k = 0; k < 3; k++) {
 			int next = (k + 1) % 3, last = (k + 2) % 3;
 			out[k] = mr_add(mr_mul(t->r->cot[f][last] / 2, mr_sub(p[k], p[next])),
@@ -214,23 +237,22 @@ face_covariances(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		const uint32_t *v = t->d->patch.mesh.t[f].v;
-		double *out = t->r->face + 9 * f;
-		mr_mat3 s = { { 0 } };
-		for (int k = 0; k < 3; k++) {
+		mr_mat3 s = t->stretch, *out = (mr_mat3 *)t->r->face + f;
+		for (int k = 0; t->stretches && k < 3; k++) {
 			mr_mat3 at = stretch_at(t, v[k]);
-			s = mr_mat3_axpy(1.0 / 3, &at, &s);
+			s = k ? mr_mat3_axpy(1, &at, &s) : at; /* three times it: no matter to a rotation */
 		}
-		memset(out, 0, 9 * sizeof *out);
+		*out = (mr_mat3){ { 0 } };
 		for (int k = 0; k < 3; k++) {
 			int next = (k + 1) % 3;
-			double weight = t->r->cot[f][(k + 2) % 3];
+			double w = t->r->cot[f][(k + 2) % 3];
 			mr_v3 x = mr_sub(t->r->rest[v[k]], t->r->rest[v[next]]);
 			mr_v3 y = mr_sub(t->r->q[v[k]], t->r->q[v[next]]);
+			mr_mat3 yx;
 			x = mr_mat3_apply(&s, x);
-			for (int i = 0; i < 3; i++)
-				for (int j = 0; j < 3; j++)
-					out[3 * i + j] += weight *
-					                  (mr_coordinate(y, i) * mr_coordinate(x, j));
+			yx = (mr_mat3){ { y.x * x.x, y.x * x.y, y.x * x.z, y.y * x.x, y.y * x.y, y.y * x.z,
+			    y.z * x.x, y.z * x.y, y.z * x.z } };
+			*out = mr_mat3_axpy(w, &yx, out);
 		}
 	}
 }
@@ -241,6 +263,7 @@ fit_rotations(void *arg, size_t begin, size_t end)
 {
 	turning *t = arg;
 	const mr_incidence *around = &t->r->around;
+	const mr_mat3 *face = (const mr_mat3 *)t->r->face;
 
 	for (size_t i = begin; i < end; i++) {
 		mr_mat3 sum = { { 0 } }, s = stretch_at(t, i);
@@ -249,8 +272,7 @@ fit_rotations(void *arg, size_t begin, size_t end)
 			continue;
 		}
 		for (size_t e = around->start[i]; e < around->start[i + 1]; e++)
-			for (int k = 0; k < 9; k++)
-				sum.m[k] += t->r->face[9 * (size_t)around->face[e] + (size_t)k];
+			sum = mr_mat3_axpy(1, face + around->face[e], &sum);
 		sum = mr_rotation_nearest(&sum);
 		t->r->map[i] = mr_mat3_multiply(&sum, &s);
 	}

@@ -141,7 +141,7 @@ solve_field(mr_ctx *ctx, mr_deform *d, mr_patch_field *f, double scale)
 	add_free(d, f);
 	mr_deform_residual(ctx, d, f);
 	after = norm_of(f->r, n);
-	if (scale > 0 && (doubtful || after > tol * scale)) {
+	if (scale > 0 && !d->rough && (doubtful || after > tol * scale)) {
 		MR_TRY(refine(ctx, d, f));
 		mr_deform_residual(ctx, d, f);
 		after = norm_of(f->r, n);

@@ -193,6 +193,7 @@ mr_deform_membrane(mr_ctx *ctx, mr_deform *d, mr_deform *m)
 
 	*m = *d;
 	m->solver = NULL;
+	m->rough = true;
 	m->opts.order = m->hierarchy.order = 1;
 	m->opts.unsymmetric = m->hierarchy.scaled = false;
 	m->hierarchy.strip_count = 0;
