@@ -43,6 +43,7 @@ static void
 decompose_handle(turning *t, size_t j, mr_v3 w)
 {
 	static const double none = 1e-14;
+	bool stretches = false;
 	uint32_t region = t->r->region[j];
 	mr_mat3 a = linear_of(t, region), r = mr_rotation_nearest(&a), relative = mr_mat3_identity(), stretch;
 	mr_v3 turn = mr_rotation_log(&a, turn_of(t->maps, region));
@@ -53,7 +54,10 @@ decompose_handle(turning *t, size_t j, mr_v3 w)
 	stretch = mr_mat3_multiply_transposed(&r, &a);
 	t->by[j] = mr_mat3_axpy(-1, &t->stretch, &stretch);
 	for (int i = 0; i < 9; i++)
-		t->stretches |= fabs(t->by[j].m[i]) > none;
+		stretches |= fabs(t->by[j].m[i]) > none;
+	if (!stretches) /* so that it makes no difference whether another handle does */
+		t->by[j] = (mr_mat3){ { 0 } };
+	t->stretches |= stretches;
 	t->turns |= memcmp(&a, &t->whole, sizeof a) || mr_norm(t->log[j]) > 0;
 }
 
@@ -240,8 +244,10 @@ face_covariances(void *arg, size_t begin, size_t end)
 		mr_mat3 s = t->stretch, *out = (mr_mat3 *)t->r->face + f;
 		for (int k = 0; t->stretches && k < 3; k++) {
 			mr_mat3 at = stretch_at(t, v[k]);
-			s = k ? mr_mat3_axpy(1, &at, &s) : at; /* three times it: no matter to a rotation */
+			s = k ? mr_mat3_axpy(1, &at, &s) : at;
 		}
+		for (int i = 0; t->stretches && i < 9; i++)
+			s.m[i] /= 3;
 		*out = (mr_mat3){ { 0 } };
 		for (int k = 0; k < 3; k++) {
 			int next = (k + 1) % 3;
