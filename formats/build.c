@@ -312,8 +312,7 @@ mr_build_finish(mr_builder *b, mr_model *m)
 	if (made.nf == 0)
 		made.group = NULL;
 	if (made.group) {
-		made.groups = b->names.text;
-		made.groups_bytes = b->names.bytes - 1;
+		made.groups = (mr_lines){ b->names.text, b->names.bytes - 1 };
 	}
 	if (b->skipped)
 		mr_note(b->ctx, "%zu faces of fewer than three corners left out", b->skipped);

@@ -286,6 +286,29 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 /* ---- writing ---- */
 
 mr_status
+mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count)
+{
+	const char *end = lines.text + lines.bytes, *p = lines.text;
+	const char **start;
+	size_t n = 1;
+
+	for (size_t i = 0; i < lines.bytes; i++)
+		n += lines.text[i] == '\n';
+	start = MR_NEW(ctx, n + 1, const char *);
+	if (!start)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		const char *e = p < end ? memchr(p, '\n', (size_t)(end - p)) : NULL;
+		start[i] = p;
+		p = e ? e + 1 : end + 1;
+	}
+	start[n] = end + 1;
+	*starts = start;
+	*count = n;
+	return MR_OK;
+}
+
+mr_status
 mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held,
     mr_export_result *result)
 {

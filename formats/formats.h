@@ -14,16 +14,44 @@
 
 #include "mesh/mesh.h"
 
-/* A mesh, or where nf is 0 a cloud of points.  What the file does not have is NULL. */
+/* Names, one a line: each followed by a newline but the last.  An empty one names nothing. */
+typedef struct mr_lines {
+	const char *text;
+	size_t bytes;
+} mr_lines;
+
+/* Where each name starts: count + 1, the last a byte behind the newline that the last name lacks; in the
+ * arena. */
+mr_status mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count) MR_WARN_UNUSED;
+
+/* A number that each vertex or each face has under a name of its own, as PLY has them. */
+typedef struct mr_property {
+	const char *name; /* at most MR_COLUMN_MAX bytes, of no column by convention */
+	const char *type; /* of PLY: char, uchar, short, ushort, int, uint, float or double */
+	mr_shape shape;   /* of one component: b uchar; u ushort or uint; d the others */
+	const void *data; /* nv or nf */
+} mr_property;
+
+/*
+ * A mesh, or where nf is 0 a cloud of points.  What the file does not have is NULL.  Texture coordinates are
+ * in `texcoord`, where every corner of a face has some and those of a vertex agree, else in
+ * `corner_texcoord`; normals likewise.
+ */
 typedef struct mr_model {
-	const mr_v3 *p;             /* nv */
-	const mr_v3 *normal;        /* nv, as the file has them: not made unit */
-	const unsigned char *color; /* 4 nv: red, green, blue, alpha */
-	const double *texcoord;     /* 2 nv */
-	const mr_tri *t;            /* nf */
-	const uint32_t *group;      /* nf, each a line of groups */
-	const char *groups;         /* names, each followed by a newline but the last */
-	size_t nv, nf, groups_bytes;
+	const mr_v3 *p;                            /* nv */
+	const mr_v3 *normal;                       /* nv, as the file has them: not made unit */
+	const unsigned char *color;                /* 4 nv: red, green, blue, alpha */
+	const double *texcoord;                    /* 2 nv */
+	const mr_tri *t;                           /* nf */
+	const double *corner_texcoord;             /* 6 nf: of a triangle's corners; NaN of one without */
+	const mr_v3 *corner_normal;                /* 3 nf; zero of one without */
+	const uint32_t *group, *object, *material; /* nf, each a line of groups, objects, materials */
+	const uint32_t *smoothing;                 /* nf: smoothing groups of OBJ, 0 none */
+	const uint32_t *polygon;                   /* nf: the polygon that the triangle is a part of */
+	mr_lines groups, objects, materials;       /* names */
+	mr_lines mtllib;                           /* files of materials, as the file names them */
+	const mr_property *property;               /* properties of them */
+	size_t nv, nf, properties;
 	mr_import_result counts; /* of a model that was read: what was lost so far */
 } mr_model;
 

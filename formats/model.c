@@ -2,6 +2,58 @@
 #include "formats/model.h"
 #include "mesh/repair.h"
 
+/* What a model has of each vertex, or of each face, besides positions and triangles. */
+static const struct {
+	const char *name;
+	size_t at, bytes; /* of the pointer in the model; of a row */
+	bool of_faces;
+} columns[] = {
+	{ "normal", offsetof(mr_model, normal), sizeof(mr_v3), false },
+	{ "color", offsetof(mr_model, color), 4, false },
+	{ "texcoord", offsetof(mr_model, texcoord), 2 * sizeof(double), false },
+	{ "corner_texcoord", offsetof(mr_model, corner_texcoord), 6 * sizeof(double), true },
+	{ "corner_normal", offsetof(mr_model, corner_normal), 3 * sizeof(mr_v3), true },
+	{ "group", offsetof(mr_model, group), sizeof(uint32_t), true },
+	{ "object", offsetof(mr_model, object), sizeof(uint32_t), true },
+	{ "material", offsetof(mr_model, material), sizeof(uint32_t), true },
+	{ "smoothing", offsetof(mr_model, smoothing), sizeof(uint32_t), true },
+	{ "polygon", offsetof(mr_model, polygon), sizeof(uint32_t), true },
+};
+
+/* Names, and the column without which they say nothing. */
+static const struct {
+	const char *name, *of;
+	size_t at;
+} names[] = {
+	{ "groups", "group", offsetof(mr_model, groups) },
+	{ "objects", "object", offsetof(mr_model, objects) },
+	{ "materials", "material", offsetof(mr_model, materials) },
+	{ "mtllib", "mtllib", offsetof(mr_model, mtllib) },
+};
+
+enum { COLUMNS = sizeof columns / sizeof *columns, NAMES = sizeof names / sizeof *names };
+
+static const void *
+column_of(const mr_model *m, size_t i)
+{
+	const void *data;
+
+	memcpy(&data, (const char *)m + columns[i].at, sizeof data);
+	return data;
+}
+
+static void
+set_column(mr_model *m, size_t i, const void *data)
+{
+	memcpy((char *)m + columns[i].at, &data, sizeof data);
+}
+
+static mr_lines *
+lines_of(mr_model *m, size_t i)
+{
+	return (mr_lines *)(void *)((char *)m + names[i].at);
+}
+
 /* ---- attributes follow their vertices and faces ---- */
 
 /* new[i] = old[of[i]], for rows of `size` bytes; NULL stays NULL. */
@@ -22,38 +74,45 @@ gather(mr_ctx *ctx, const void **column, size_t size, const uint32_t *of, size_t
 	return MR_OK;
 }
 
+/* All that the model has of vertices, or of faces, for those that are left: row i is that of of[i]. */
 static mr_status
-gather_vertices(mr_ctx *ctx, mr_model *m, const uint32_t *of, size_t n)
+gather_rows(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n)
 {
-	const void *normal = m->normal, *color = m->color, *texcoord = m->texcoord;
+	mr_property *property = MR_NEW(ctx, m->properties, mr_property);
 
-	MR_TRY(gather(ctx, &normal, sizeof *m->normal, of, n));
-	MR_TRY(gather(ctx, &color, 4, of, n));
-	MR_TRY(gather(ctx, &texcoord, 2 * sizeof(double), of, n));
-	m->normal = normal;
-	m->color = color;
-	m->texcoord = texcoord;
-	return MR_OK;
-}
-
-static mr_status
-gather_groups(mr_ctx *ctx, mr_model *m, const uint32_t *of, size_t n)
-{
-	const void *group = m->group;
-
-	MR_TRY(gather(ctx, &group, sizeof *m->group, of, n));
-	m->group = group;
+	if (!property)
+		return MR_EMEM;
+	for (size_t i = 0; i < COLUMNS; i++) {
+		const void *data = column_of(m, i);
+		if (columns[i].of_faces != of_faces)
+			continue;
+		MR_TRY(gather(ctx, &data, columns[i].bytes, of, n));
+		set_column(m, i, data);
+	}
+	for (size_t i = 0; i < m->properties; i++) {
+		property[i] = m->property[i];
+		if ((property[i].shape.element == 'f') == of_faces)
+			MR_TRY(gather(ctx, &property[i].data, mr_type_size(property[i].shape.type), of, n));
+	}
+	m->property = property;
 	return MR_OK;
 }
 
 void
 mr_model_to_points(mr_model *m)
 {
+	size_t kept = 0;
+
 	m->t = NULL;
 	m->nf = 0;
-	m->group = NULL;
-	m->groups = NULL;
-	m->groups_bytes = 0;
+	for (size_t i = 0; i < COLUMNS; i++)
+		if (columns[i].of_faces)
+			set_column(m, i, NULL);
+	for (size_t i = 0; i < NAMES; i++)
+		*lines_of(m, i) = (mr_lines){ 0 };
+	while (kept < m->properties && m->property[kept].shape.element == 'v')
+		kept++;
+	m->properties = kept; /* those of vertices come first */
 }
 
 /* ---- weld ---- */
@@ -85,7 +144,7 @@ rename_faces(mr_ctx *ctx, const uint32_t *map, mr_model *m)
 	m->counts.weld_collapsed = m->nf - kept;
 	if (kept < m->nf)
 		mr_note(ctx, "weld: %zu faces collapsed", m->nf - kept);
-	MR_TRY(gather_groups(ctx, m, of, kept));
+	MR_TRY(gather_rows(ctx, m, true, of, kept));
 	m->t = t;
 	m->nf = kept;
 	return MR_OK;
@@ -108,7 +167,7 @@ mr_model_weld(mr_ctx *ctx, double eps, mr_model *m)
 	w.counts.weld_joined = m->nv - n;
 	mr_note(ctx, "weld: %zu vertices joined to others", m->nv - n);
 	MR_TRY(gather(ctx, &p, sizeof *m->p, of, n));
-	MR_TRY(gather_vertices(ctx, &w, of, n));
+	MR_TRY(gather_rows(ctx, &w, false, of, n));
 	w.p = p;
 	w.nv = n;
 	if (m->nf)
@@ -154,8 +213,8 @@ mr_model_repair(mr_ctx *ctx, mr_model *m)
 	if (m->nf == 0)
 		return MR_OK;
 	MR_TRY(mr_repair(ctx, &in, &out, &vertex_of, &face_of, &r));
-	MR_TRY(gather_vertices(ctx, &done, vertex_of, out.nv));
-	MR_TRY(gather_groups(ctx, &done, face_of, out.nf));
+	MR_TRY(gather_rows(ctx, &done, false, vertex_of, out.nv));
+	MR_TRY(gather_rows(ctx, &done, true, face_of, out.nf));
 	if (r.flipped && done.normal) {
 		mr_note(ctx, "repair: normals dropped, since faces were turned over");
 		done.normal = NULL;
@@ -171,10 +230,30 @@ mr_model_repair(mr_ctx *ctx, mr_model *m)
 
 /* ---- layers ---- */
 
+/* The properties as columns, and their types. */
+static mr_status
+put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
+{
+	const char *text = "";
+
+	if (m->properties == 0)
+		return MR_OK;
+	for (size_t i = 0; i < m->properties; i++) {
+		const mr_property *p = &m->property[i];
+		MR_TRY(mr_frame_put(
+		    ctx, f, layer, p->name, p->shape, p->data, p->shape.element == 'f' ? m->nf : m->nv));
+		text = mr_format(ctx, "%s%s%s %s", text, i ? "\n" : "", p->name, p->type);
+		if (!text)
+			return MR_EMEM;
+	}
+	return mr_layer_put(ctx, f, layer, "properties", text, strlen(text));
+}
+
 mr_status
 mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
 	mr_mesh mesh = { .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
+	mr_model all = *m;
 
 	if (!layer)
 		layer = m->nf ? "mesh" : "points";
@@ -183,53 +262,107 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 		MR_TRY(mr_layer_put_mesh(ctx, f, layer, &mesh));
 	else
 		MR_TRY(mr_layer_put(ctx, f, layer, "position", m->p, m->nv));
-	if (m->normal)
-		MR_TRY(mr_layer_put(ctx, f, layer, "normal", m->normal, m->nv));
-	if (m->color)
-		MR_TRY(mr_layer_put(ctx, f, layer, "color", m->color, m->nv));
-	if (m->texcoord)
-		MR_TRY(mr_layer_put(ctx, f, layer, "texcoord", m->texcoord, m->nv));
-	if (m->group) {
-		MR_TRY(mr_layer_put(ctx, f, layer, "group", m->group, m->nf));
-		MR_TRY(mr_layer_put(ctx, f, layer, "groups", m->groups, m->groups_bytes));
+	for (size_t i = 0; i < COLUMNS; i++)
+		if (column_of(m, i))
+			MR_TRY(mr_layer_put(ctx, f, layer, columns[i].name, column_of(m, i),
+			    columns[i].of_faces ? m->nf : m->nv));
+	for (size_t i = 0; i < NAMES; i++) {
+		const mr_lines *l = lines_of(&all, i);
+		if (l->text)
+			MR_TRY(mr_layer_put(ctx, f, layer, names[i].name, l->text, l->bytes));
 	}
-	return MR_OK;
+	return put_properties(ctx, f, layer, m);
 }
 
-static mr_status
-get(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, size_t rows, const void **data)
+/* The type of PLY that `properties` has for the column, else the one of its shape. */
+static const char *
+type_of(mr_lines types, const mr_column *c)
 {
-	*data = NULL;
-	return mr_layer_has(f, layer, name) ? mr_layer_get_rows(ctx, f, layer, name, rows, data) : MR_OK;
+	static const char *const known[] = { "char", "uchar", "short", "ushort", "int", "uint", "float",
+		"double", NULL };
+	size_t length = strlen(c->name);
+	const char *p = types.text, *end = p + types.bytes;
+
+	while (p < end) {
+		const char *e = memchr(p, '\n', (size_t)(end - p));
+		size_t n = (size_t)((e ? e : end) - p);
+		for (size_t i = 0; known[i] && n > length && !memcmp(p, c->name, length); i++)
+			if (p[length] == ' ' && n == length + 1 + strlen(known[i]) &&
+			    !memcmp(p + length + 1, known[i], strlen(known[i])))
+				return known[i];
+		p += n + 1;
+	}
+	return c->shape.type == 'b' ? "uchar" : c->shape.type == 'u' ? "uint" : "double";
+}
+
+static bool
+is_property(const mr_column *c, const char *layer, char element)
+{
+	return !strcmp(c->layer, layer) && c->shape.element == element && c->shape.components == 1 &&
+	       !mr_column_known(layer, c->name);
+}
+
+/* The columns of one component that are none by convention; those of vertices first. */
+static mr_status
+get_properties(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
+{
+	mr_property *property = MR_NEW(ctx, f->count, mr_property);
+	mr_lines types = { "", 0 };
+	const void *data;
+	size_t n = 0, rows;
+
+	if (!property)
+		return MR_EMEM;
+	if (mr_layer_has(f, layer, "properties")) {
+		MR_TRY(mr_layer_get(ctx, f, layer, "properties", &data, &types.bytes));
+		types.text = data;
+	}
+	for (int faces = 0; faces < 2; faces++)
+		for (size_t i = 0; i < f->count; i++) {
+			const mr_column *c = &f->columns[i];
+			if (!is_property(c, layer, faces ? 'f' : 'v'))
+				continue;
+			MR_TRY(mr_frame_get(ctx, f, layer, c->name, c->shape, &data, &rows));
+			if (rows != (faces ? m->nf : m->nv))
+				return mr_fail(ctx, MR_ERANGE, "%s: column %s has %zu rows, not %zu", layer,
+				    c->name, rows, faces ? m->nf : m->nv);
+			property[n++] = (mr_property){ c->name, type_of(types, c), c->shape, data };
+		}
+	m->property = property;
+	m->properties = n;
+	return MR_OK;
 }
 
 mr_status
 mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 {
-	const void *normal, *color, *texcoord, *group, *groups = "";
-	size_t bytes = 0;
+	mr_model got = { 0 };
+	const void *data;
 	mr_mesh mesh;
 
 	if (mr_layer_has(f, layer, "triangles"))
 		MR_TRY(mr_layer_mesh(ctx, f, layer, &mesh));
 	else
 		MR_TRY(mr_layer_points(ctx, f, layer, &mesh));
-	MR_TRY(get(ctx, f, layer, "normal", mesh.nv, &normal));
-	MR_TRY(get(ctx, f, layer, "color", mesh.nv, &color));
-	MR_TRY(get(ctx, f, layer, "texcoord", mesh.nv, &texcoord));
-	MR_TRY(get(ctx, f, layer, "group", mesh.nf, &group));
-	if (group && mr_layer_has(f, layer, "groups"))
-		MR_TRY(mr_layer_get(ctx, f, layer, "groups", &groups, &bytes));
-	*m = (mr_model){ .p = mesh.p,
-		.nv = mesh.nv,
-		.t = mesh.t,
-		.nf = mesh.nf,
-		.normal = normal,
-		.color = color,
-		.texcoord = texcoord,
-		.group = group,
-		.groups = groups,
-		.groups_bytes = bytes };
+	got.p = mesh.p, got.nv = mesh.nv;
+	got.t = mesh.t, got.nf = mesh.nf;
+	for (size_t i = 0; i < COLUMNS; i++) {
+		if (!mr_layer_has(f, layer, columns[i].name) || (columns[i].of_faces && !mesh.nf))
+			continue;
+		MR_TRY(mr_layer_get_rows(
+		    ctx, f, layer, columns[i].name, columns[i].of_faces ? mesh.nf : mesh.nv, &data));
+		set_column(&got, i, data);
+	}
+	for (size_t i = 0; i < NAMES; i++) {
+		mr_lines *l = lines_of(&got, i);
+		*l = (mr_lines){ "", 0 };
+		if (!mr_layer_has(f, layer, names[i].of) || !mr_layer_has(f, layer, names[i].name))
+			continue;
+		MR_TRY(mr_layer_get(ctx, f, layer, names[i].name, &data, &l->bytes));
+		l->text = data;
+	}
+	MR_TRY(get_properties(ctx, f, layer, &got));
+	*m = got;
 	return MR_OK;
 }
 

@@ -1,30 +1,6 @@
 /* OBJ, groups of faces together, corners with what the model has. */
 #include "formats/format.h"
 
-/* Starts of the names of the groups. */
-static mr_status
-name_starts(mr_ctx *ctx, const mr_model *m, const char ***starts, size_t *count)
-{
-	const char *end = m->groups + m->groups_bytes, *p = m->groups;
-	const char **start;
-	size_t n = 1;
-
-	for (size_t i = 0; i < m->groups_bytes; i++)
-		n += m->groups[i] == '\n';
-	start = MR_NEW(ctx, n + 1, const char *);
-	if (!start)
-		return MR_EMEM;
-	for (size_t i = 0; i < n; i++) {
-		const char *e = p < end ? memchr(p, '\n', (size_t)(end - p)) : NULL;
-		start[i] = p;
-		p = e ? e + 1 : end + 1;
-	}
-	start[n] = end + 1;
-	*starts = start;
-	*count = n;
-	return MR_OK;
-}
-
 static void
 put_vertex(mr_sink *s, const mr_model *m, size_t i)
 {
@@ -67,7 +43,7 @@ put_faces(mr_sink *s, const mr_model *m)
 	size_t names = 0;
 
 	if (m->group)
-		MR_TRY(name_starts(s->ctx, m, &start, &names));
+		MR_TRY(mr_lines_starts(s->ctx, m->groups, &start, &names));
 	for (size_t f = 0; f < m->nf; f++) {
 		if (m->group && (f == 0 || m->group[f] != m->group[f - 1])) {
 			uint32_t g = m->group[f];

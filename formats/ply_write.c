@@ -8,7 +8,7 @@ static void
 put_header(mr_sink *s, const mr_model *m, order o)
 {
 	static const char *const names[] = { "ascii", "binary_little_endian", "binary_big_endian" };
-	const char *p = m->groups, *end = m->groups + m->groups_bytes;
+	const char *p = m->groups.text, *end = p + m->groups.bytes;
 
 	mr_print(s, "ply\nformat %s 1.0\n", names[o]);
 	while (m->group && p <= end) {

@@ -8,8 +8,18 @@ const mr_column_info mr_columns[] = {
 	{ NULL, "normal", { 'v', 'd', 3 }, "unit normal" },
 	{ NULL, "color", { 'v', 'b', 4 }, "red, green, blue, alpha" },
 	{ NULL, "texcoord", { 'v', 'd', 2 }, "texture coordinates" },
+	{ NULL, "corner_texcoord", { 'f', 'd', 6 }, "those of the corners, NaN of one without" },
+	{ NULL, "corner_normal", { 'f', 'd', 9 }, "normals of the corners, 0 of one without" },
+	{ NULL, "polygon", { 'f', 'u', 1 }, "the polygon that the triangle is a part of" },
 	{ NULL, "group", { 'f', 'u', 1 }, "index into groups" },
 	{ NULL, "groups", { '-', 't', 1 }, "names of the groups, one a line" },
+	{ NULL, "object", { 'f', 'u', 1 }, "index into objects" },
+	{ NULL, "objects", { '-', 't', 1 }, "names of the objects, one a line" },
+	{ NULL, "material", { 'f', 'u', 1 }, "index into materials" },
+	{ NULL, "materials", { '-', 't', 1 }, "names of the materials, one a line" },
+	{ NULL, "mtllib", { '-', 't', 1 }, "files of the materials, one a line" },
+	{ NULL, "smoothing", { 'f', 'u', 1 }, "smoothing group, 0 none" },
+	{ NULL, "properties", { '-', 't', 1 }, "types of the columns that PLY adds, one a line" },
 	{ NULL, "region", { 'v', 'u', 1 }, "0 fixed, 1 free, 2 + N handle N" },
 	{ NULL, "mesh_face", { 'v', 'u', 1 }, "triangle of mesh that the vertex lies on" },
 	{ NULL, "mesh_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
@@ -50,6 +60,7 @@ static const struct {
 	const char *changed, *layer, *name;
 } dependents[] = {
 	{ MR_POSED, NULL, "=", "normal" },
+	{ MR_POSED, NULL, "=", "corner_normal" },
 	{ MR_POSED, NULL, "=", "response" },
 	{ MR_POSED, NULL, "=", "spacing" },
 	{ MR_POSED, NULL, "=", "outlier" },
@@ -57,6 +68,11 @@ static const struct {
 	{ MR_POSED, NULL, "=", "sampling" },
 	{ MR_RESHAPED, NULL, "=", "rest" },
 	{ MR_RESHAPED, "control", "displacement", NULL },
+	{ MR_RECONNECTED, NULL, "=", "groups" },
+	{ MR_RECONNECTED, NULL, "=", "objects" },
+	{ MR_RECONNECTED, NULL, "=", "materials" },
+	{ MR_RECONNECTED, NULL, "=", "mtllib" },
+	{ MR_RECONNECTED, NULL, "=", "properties" },
 	{ MR_RECONNECTED, "base", "mesh", "detail_face" },
 	{ MR_RECONNECTED, "base", "mesh", "detail_bary" },
 	{ MR_RECONNECTED, "base", "mesh", "detail_height" },
@@ -81,6 +97,12 @@ info_of(const char *layer, const char *name)
 		if ((!c->layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name))
 			return c;
 	return NULL;
+}
+
+bool
+mr_column_known(const char *layer, const char *name)
+{
+	return info_of(layer, name) != NULL;
 }
 
 bool

@@ -20,6 +20,9 @@ typedef struct mr_column_info {
 /* Every column by convention; ends with a name of NULL. */
 extern const mr_column_info mr_columns[];
 
+/* Whether a column of this name is one by convention. */
+bool mr_column_known(const char *layer, const char *name);
+
 /* True for a layer that by convention holds something else than a surface. */
 bool mr_layer_no_surface(const char *layer);
 

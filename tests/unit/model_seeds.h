@@ -43,8 +43,7 @@ make_model(mr_ctx *ctx, size_t nv, size_t nf, bool single)
 		.color = color,
 		.texcoord = uv,
 		.group = nf ? group : NULL,
-		.groups = nf ? groups : NULL,
-		.groups_bytes = nf ? sizeof groups - 1 : 0 };
+		.groups = { nf ? groups : NULL, nf ? sizeof groups - 1 : 0 } };
 }
 
 typedef struct seed {

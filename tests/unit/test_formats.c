@@ -57,7 +57,7 @@ restrict_to(mr_model m, unsigned keeps)
 static size_t
 group_name(const mr_model *m, size_t f, const char **name)
 {
-	const char *p = m->groups, *end = p + m->groups_bytes, *e;
+	const char *p = m->groups.text, *end = p + m->groups.bytes, *e;
 
 	for (uint32_t g = m->group[f]; g > 0; g--)
 		p = (const char *)memchr(p, '\n', (size_t)(end - p)) + 1;

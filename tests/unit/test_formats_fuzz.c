@@ -29,8 +29,8 @@ check_model(const mr_model *m)
 			assert_true(m->t[f].v[k] < m->nv);
 	for (size_t f = 0; m->group && f < m->nf; f++) {
 		size_t lines = 1;
-		for (size_t i = 0; i < m->groups_bytes; i++)
-			lines += m->groups[i] == '\n';
+		for (size_t i = 0; i < m->groups.bytes; i++)
+			lines += m->groups.text[i] == '\n';
 		assert_true(m->group[f] < lines);
 	}
 }
