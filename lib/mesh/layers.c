@@ -1,6 +1,8 @@
 /* The tables of columns and of what goes stale, and meshes in and out of frames by them. */
 #include "mesh/layers.h"
 
+#include "mesh/normals.h"
+
 /* The one table of what the columns are.  Extend it with each new column; man/mr.7 shows it. */
 const mr_column_info mr_columns[] = {
 	{ NULL, "position", { 'v', 'd', 3 }, "where the vertex is" },
@@ -301,6 +303,48 @@ same_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	       !memcmp(p, m->p, nv * sizeof *m->p);
 }
 
+/* A copy of a column of normals, or NULL where the layer has none. */
+static mr_status
+copy_normals(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, size_t rows, size_t each, mr_v3 **copy)
+{
+	const void *data = NULL;
+
+	*copy = NULL;
+	if (!mr_layer_has(f, layer, name))
+		return MR_OK;
+	MR_TRY(mr_layer_get_rows(ctx, f, layer, name, rows, &data));
+	*copy = MR_NEW(ctx, rows * each, mr_v3);
+	if (!*copy)
+		return MR_EMEM;
+	memcpy(*copy, data, rows * each * sizeof **copy);
+	return MR_OK;
+}
+
+/* The same vertices and triangles at other places: normals turn with the surface, what is stale goes. */
+static mr_status
+move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 *p, size_t nv)
+{
+	bool has = mr_layer_has(f, layer, "normal") || mr_layer_has(f, layer, "corner_normal");
+	mr_v3 *normal = NULL, *corner = NULL;
+	mr_mesh before;
+
+	if (has && mr_layer_has(f, layer, "triangles")) {
+		MR_TRY(mr_layer_mesh(ctx, f, layer, &before));
+		if (before.nv != nv)
+			return mr_fail(
+			    ctx, MR_ERANGE, "%s: %zu positions for %zu vertices", layer, nv, before.nv);
+		MR_TRY(copy_normals(ctx, f, layer, "normal", nv, 1, &normal));
+		MR_TRY(copy_normals(ctx, f, layer, "corner_normal", before.nf, 3, &corner));
+		MR_TRY(mr_turn_normals(ctx, &before, p, normal, corner));
+	}
+	mr_layer_changed(f, layer, change);
+	MR_TRY(mr_layer_put(ctx, f, layer, "position", p, nv));
+	if (normal)
+		MR_TRY(mr_layer_put(ctx, f, layer, "normal", normal, nv));
+	return corner ? mr_layer_put(ctx, f, layer, "corner_normal", corner, before.nf) : MR_OK;
+}
+
 mr_status
 mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
@@ -310,7 +354,7 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m))
 		mr_layer_changed(f, layer, MR_RECONNECTED);
 	else if (!same_positions(ctx, f, layer, m))
-		mr_layer_changed(f, layer, MR_RESHAPED);
+		return move(ctx, f, layer, MR_RESHAPED, m->p, m->nv);
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", m->p, m->nv));
 	return mr_layer_put(ctx, f, layer, "triangles", m->t, m->nf);
 }
@@ -319,8 +363,56 @@ mr_status
 mr_layer_move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 *p, size_t nv)
 {
 	MR_TRY(check_finite(ctx, &(mr_mesh){ .name = layer, .p = p, .nv = nv }));
-	mr_layer_changed(f, layer, change);
-	return mr_layer_put(ctx, f, layer, "position", p, nv);
+	return move(ctx, f, layer, change, p, nv);
+}
+
+/* What a file gave to a surface, by convention or not, that a surface made anew has not; polygons are none.
+ */
+static bool
+is_given(const mr_column *c, const char *layer)
+{
+	static const char *const names[] = { "color", "texcoord", "corner_texcoord", "group", "object",
+		"material", "smoothing", NULL };
+
+	if (strcmp(c->layer, layer) || c->shape.element == '-')
+		return false;
+	if (!info_of(layer, c->name))
+		return true;
+	for (const char *const *name = names; *name; name++)
+		if (!strcmp(c->name, *name))
+			return true;
+	return false;
+}
+
+static void
+warn_of_given(mr_ctx *ctx, const mr_frame *f, const char *layer)
+{
+	char names[256];
+	size_t n = 0;
+
+	for (size_t i = 0; f->key && i < f->count; i++)
+		if (is_given(&f->columns[i], layer) && n < sizeof names)
+			n += (size_t)snprintf(
+			    names + n, sizeof names - n, "%s%s", n ? ", " : "", f->columns[i].name);
+	if (n)
+		mr_warn(ctx, "%s is made anew, without its %s", layer, names);
+}
+
+mr_status
+mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
+{
+	bool normals = mr_layer_has(f, layer, "normal") || mr_layer_has(f, layer, "corner_normal");
+	mr_v3 *normal;
+
+	warn_of_given(ctx, f, layer);
+	MR_TRY(mr_layer_put_mesh(ctx, f, layer, m));
+	if (!normals)
+		return MR_OK;
+	normal = MR_NEW(ctx, m->nv, mr_v3);
+	if (!normal)
+		return MR_EMEM;
+	MR_TRY(mr_vertex_normals(ctx, m, NULL, normal));
+	return mr_layer_put(ctx, f, layer, "normal", normal, m->nv);
 }
 
 mr_status

@@ -43,6 +43,12 @@ mr_status mr_layer_put_wide(mr_ctx *ctx, mr_frame *f, const char *layer, const c
 /* The layer's surface, or its positions where it has no faces. */
 mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 
+/*
+ * mr_layer_put_mesh of a surface that is made anew in place of the layer's: has `normal` where that had
+ * normals, and warns, of key frames, of what else a file gave to that and this has not.
+ */
+mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m);
+
 /* Drops what the change makes stale, of the layer and of others. */
 void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 

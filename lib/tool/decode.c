@@ -183,7 +183,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 		return MR_EMEM;
 	mr_domain_displace(ctx, &d, height, o->gain, p);
 	d.m.p = p;
-	return mr_layer_put_mesh(ctx, f, "mesh", &d.m);
+	return mr_layer_replace(ctx, f, "mesh", &d.m);
 }
 
 static mr_status

@@ -70,7 +70,7 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 		MR_TRY(mr_simplify_source(ctx, m, out, onto, &over));
 		MR_TRY(mr_source_map_follow(ctx, f, m, &over, out->nv, &source, &mapped));
 	}
-	MR_TRY(mr_layer_put_mesh(ctx, f, m->name, out));
+	MR_TRY(mr_layer_replace(ctx, f, m->name, out));
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 
