@@ -39,7 +39,13 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_export_result, dropped_alpha),
 	CMD_COUNTED(mr_export_result, dropped_texcoords),
 	CMD_COUNTED(mr_export_result, dropped_groups),
+	CMD_COUNTED(mr_export_result, dropped_objects),
+	CMD_COUNTED(mr_export_result, dropped_materials),
+	CMD_COUNTED(mr_export_result, dropped_smoothing),
+	CMD_COUNTED(mr_export_result, dropped_polygons),
+	CMD_COUNTED(mr_export_result, dropped_properties),
 	CMD_COUNTED(mr_export_result, dropped_faces),
+	CMD_COUNTED(mr_export_result, broken_polygons),
 	CMD_COUNTED(mr_export_result, rounded_positions),
 	{ 0 },
 };

@@ -3,6 +3,7 @@
 
 #include "base/utf8.h"
 #include "mesh/polygon.h"
+#include "stream/frame.h"
 
 static const size_t MOST_TRIANGLES = (MR_NONE - 1) / 3;
 
@@ -22,8 +23,13 @@ mr_build_reserve(mr_builder *b, size_t faces)
 {
 	if (faces > MOST_TRIANGLES)
 		return mr_fail(b->ctx, MR_ERANGE, "%zu faces are more than indices can name", faces);
+	b->plain = b->faces == 0 && !b->corner_uv && !b->corner_vn;
+	for (int i = 0; i < MR_MARKINGS; i++)
+		b->plain &= !b->marks[i].used;
 	return MR_RESERVE(b->ctx, b->corner, b->corners, 3 * faces, &b->corner_room);
 }
+
+/* ---- faces ---- */
 
 /* From now on the faces' sizes are kept. */
 static mr_status
@@ -32,25 +38,76 @@ keep_sizes(mr_builder *b)
 	MR_TRY(MR_RESERVE(b->ctx, b->size, 0, b->faces + b->faces / 2 + 1024, &b->face_room));
 	for (size_t i = 0; i < b->faces; i++)
 		b->size[i] = 3;
+	b->plain = false;
 	return MR_OK;
+}
+
+/* The places of n corners behind those there are, of which the first had none. */
+static mr_status
+keep_places(mr_builder *b, uint32_t **places, size_t *room, const uint32_t *new, size_t n)
+{
+	bool first = !*places;
+
+	if (!new &&first)
+		return MR_OK;
+	MR_TRY(MR_RESERVE(b->ctx, *places, first ? 0 : b->corners, (first ? b->corners : 0) + n, room));
+	for (size_t i = 0; first && i < b->corners; i++)
+		(*places)[i] = MR_NONE;
+	for (size_t i = 0; i < n; i++)
+		(*places)[b->corners + i] = new ? new[i] : MR_NONE;
+	b->plain = false;
+	return MR_OK;
+}
+
+static void
+move_corner(mr_builder *b, size_t to, size_t from)
+{
+	b->corner[to] = b->corner[from];
+	if (b->corner_uv)
+		b->corner_uv[to] = b->corner_uv[from];
+	if (b->corner_vn)
+		b->corner_vn[to] = b->corner_vn[from];
 }
 
 /* Corners that name the vertex of the one before, or the last the first, say nothing. */
 static size_t
-without_repeats(uint32_t *c, size_t n)
+without_repeats(mr_builder *b, size_t n)
 {
+	const uint32_t *c = b->corner + b->corners;
 	size_t kept = 0;
 
 	for (size_t i = 0; i < n; i++)
 		if (kept == 0 || c[i] != c[kept - 1])
-			c[kept++] = c[i];
+			move_corner(b, b->corners + kept++, b->corners + i);
 	while (kept > 1 && c[kept - 1] == c[0])
 		kept--;
 	return kept;
 }
 
+/* The face at the end of the corners is there: what else is known of it. */
+static mr_status
+mark_face(mr_builder *b, size_t corners)
+{
+	if (corners > 3 && !b->size)
+		MR_TRY(keep_sizes(b));
+	if (b->size) {
+		MR_TRY(MR_RESERVE(b->ctx, b->size, b->faces, 1, &b->face_room));
+		b->size[b->faces] = (uint32_t)corners;
+	}
+	for (int i = 0; i < MR_MARKINGS; i++) {
+		mr_marks *k = &b->marks[i];
+		if (!k->used)
+			continue;
+		MR_TRY(MR_RESERVE(b->ctx, k->of, b->faces, 1, &k->room));
+		k->of[b->faces] = k->current;
+	}
+	b->corners += corners;
+	b->faces++;
+	return MR_OK;
+}
+
 mr_status
-mr_build_face(mr_builder *b, const uint32_t *corner, size_t n)
+mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n)
 {
 	size_t kept = n;
 
@@ -60,27 +117,17 @@ mr_build_face(mr_builder *b, const uint32_t *corner, size_t n)
 	}
 	MR_TRY(MR_RESERVE(b->ctx, b->corner, b->corners, n, &b->corner_room));
 	memcpy(b->corner + b->corners, corner, n * sizeof *corner);
+	MR_TRY(keep_places(b, &b->corner_uv, &b->uv_room, uv, n));
+	MR_TRY(keep_places(b, &b->corner_vn, &b->vn_room, vn, n));
 	if (n > 3) {
-		kept = without_repeats(b->corner + b->corners, n);
+		kept = without_repeats(b, n);
 		b->polygons++;
-		if (kept < 3) {
-			b->skipped++;
-			return MR_OK;
-		}
-		if (kept > 3 && !b->size)
-			MR_TRY(keep_sizes(b));
 	}
-	if (b->size) {
-		MR_TRY(MR_RESERVE(b->ctx, b->size, b->faces, 1, &b->face_room));
-		b->size[b->faces] = (uint32_t)kept;
+	if (kept < 3) {
+		b->skipped++;
+		return MR_OK;
 	}
-	if (b->has_groups) {
-		MR_TRY(MR_RESERVE(b->ctx, b->group, b->faces, 1, &b->group_room));
-		b->group[b->faces] = b->current;
-	}
-	b->corners += kept;
-	b->faces++;
-	return MR_OK;
+	return mark_face(b, kept);
 }
 
 /* ---- names ---- */
@@ -171,24 +218,27 @@ mr_clean_name(char *to, const char *from, size_t bytes, bool no_slash)
 	return n;
 }
 
-/* The faces so far belong to "default". */
+/* The faces so far are not marked, for which there is a name, too. */
 static mr_status
-start_groups(mr_builder *b)
+start_marks(mr_builder *b, mr_marks *k, const char *none)
 {
-	MR_TRY(MR_RESERVE(b->ctx, b->group, 0, b->corner_room / 3 + 64, &b->group_room));
+	MR_TRY(MR_RESERVE(b->ctx, k->of, 0, b->corner_room / 3 + b->faces + 64, &k->room));
 	if (b->faces) {
-		MR_TRY(MR_RESERVE(b->ctx, b->group, 0, b->faces, &b->group_room));
-		MR_TRY(name_number(b->ctx, &b->names, "default", 7, &b->current));
-		memset(b->group, 0, b->faces * sizeof *b->group);
+		if (none)
+			MR_TRY(name_number(b->ctx, &k->names, none, strlen(none), &k->current));
+		memset(k->of, 0, b->faces * sizeof *k->of);
 	}
-	b->has_groups = true;
+	k->used = true;
+	b->plain = false;
 	return MR_OK;
 }
 
 mr_status
-mr_build_group(mr_builder *b, const char *name, size_t bytes)
+mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
 {
 	enum { LONGEST = 1024 };
+	const char *none = what == MR_GROUP ? "default" : "";
+	mr_marks *k = &b->marks[what];
 	char clean[LONGEST + 1];
 	size_t n;
 
@@ -196,101 +246,370 @@ mr_build_group(mr_builder *b, const char *name, size_t bytes)
 		name++, bytes--;
 	while (bytes && (unsigned char)name[bytes - 1] <= ' ')
 		bytes--;
-	if (!b->has_groups)
-		MR_TRY(start_groups(b));
+	if (!k->used)
+		MR_TRY(start_marks(b, k, none));
 	n = mr_clean_name(clean, name, bytes < LONGEST ? bytes : LONGEST, false);
-	return n ? name_number(b->ctx, &b->names, clean, n, &b->current)
-	         : name_number(b->ctx, &b->names, "default", 7, &b->current);
+	return n ? name_number(b->ctx, &k->names, clean, n, &k->current)
+	         : name_number(b->ctx, &k->names, none, strlen(none), &k->current);
+}
+
+mr_status
+mr_build_smoothing(mr_builder *b, uint32_t group)
+{
+	mr_marks *k = &b->marks[MR_SMOOTHING];
+
+	if (!k->used)
+		MR_TRY(start_marks(b, k, NULL));
+	k->current = group;
+	return MR_OK;
+}
+
+/* ---- properties ---- */
+
+/* One as it is read. */
+typedef struct mr_kept {
+	mr_property p;
+	void *data;
+	size_t room;
+	bool odd; /* a value is not of its type */
+} mr_kept;
+
+mr_status
+mr_build_property(mr_builder *b, const char *name, const char *type, char element, size_t *number)
+{
+	bool byte = !strcmp(type, "uchar"), whole = !strcmp(type, "ushort") || !strcmp(type, "uint");
+	mr_shape shape = { element, byte ? 'b' : whole ? 'u' : 'd', 1 };
+
+	MR_TRY(MR_RESERVE(b->ctx, b->kept, b->properties, 1, &b->property_room));
+	b->kept[b->properties++] = (mr_kept){ .p = { .name = name, .type = type, .shape = shape } };
+	*number = b->properties;
+	return MR_OK;
+}
+
+static bool
+is_of_type(double x, char type)
+{
+	return type == 'd' || (x >= 0 && x <= (type == 'b' ? 255.0 : 4294967295.0) && x == floor(x));
+}
+
+mr_status
+mr_build_value(mr_builder *b, size_t number, size_t row, double x)
+{
+	mr_kept *k = &b->kept[number - 1];
+	char type = k->p.shape.type;
+
+	if (row >= k->room)
+		MR_TRY(mr_reserve(b->ctx, &k->data, mr_type_size(type), row, 1, &k->room));
+	if (!is_of_type(x, type)) {
+		k->odd = true;
+		x = 0;
+	}
+	if (type == 'd')
+		((double *)k->data)[row] = x;
+	else if (type == 'u')
+		((uint32_t *)k->data)[row] = (uint32_t)x;
+	else
+		((unsigned char *)k->data)[row] = (unsigned char)x;
+	return MR_OK;
+}
+
+/* Those that are kept, of triangles where faces are of several: `face` of each. */
+static mr_status
+put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
+{
+	mr_property *property = MR_NEW(b->ctx, b->properties, mr_property);
+
+	if (!property)
+		return MR_EMEM;
+	for (size_t i = 0; i < b->properties; i++) {
+		const mr_kept *k = &b->kept[i];
+		mr_property *p = &property[m->properties];
+		*p = k->p;
+		p->data = k->data;
+		if (p->shape.element == 'f' && m->nf == 0)
+			continue;
+		if (k->odd) {
+			mr_warn(b->ctx, "property %s is left out: a value of it is no %s", p->name, p->type);
+			continue;
+		}
+		if (p->shape.element == 'f' && face &&
+		    !(p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf)))
+			return MR_EMEM;
+		m->properties++;
+	}
+	m->property = property;
+	return MR_OK;
 }
 
 /* ---- attributes ---- */
 
-mr_status
-mr_build_texcoord(mr_builder *b, uint32_t vertex, double u, double v)
-{
-	double *uv;
-
-	if (!b->corner_seen) {
-		double *texcoord = MR_NEW_ZERO(b->ctx, 2 * b->nv, double);
-		unsigned char *seen = MR_NEW_ZERO(b->ctx, b->nv, unsigned char);
-		if (!texcoord || !seen)
-			return MR_EMEM;
-		b->texcoord = texcoord;
-		b->corner_seen = seen;
-	}
-	uv = b->texcoord + 2 * (size_t)vertex;
-	if (b->corner_seen[vertex] == 0) {
-		uv[0] = u, uv[1] = v;
-		b->corner_seen[vertex] = 1;
-	} else if (uv[0] != u || uv[1] != v)
-		b->corner_seen[vertex] = 2;
-	return MR_OK;
-}
-
 void
 mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why)
 {
-	mr_note(ctx, "%s dropped: %s", what, why);
+	mr_warn(ctx, "%s dropped: %s", what, why);
 	*count = 1;
 }
 
-static void
-report_seams(mr_builder *b)
+void *
+mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n)
 {
-	size_t seams = 0;
+	const char *old = x;
+	char *new = mr_alloc(ctx, n, size);
 
-	if (!b->corner_seen)
-		return;
-	for (size_t i = 0; i < b->nv; i++)
-		seams += b->corner_seen[i] == 2;
-	b->counts->seam_vertices = seams;
-	if (seams)
-		mr_note(b->ctx, "%zu vertices on texture seams keep the first of their coordinates", seams);
+	for (size_t i = 0; new &&i < n; i++)
+		memcpy(new + i *size, old + of[i] * size, size);
+	return new;
+}
+
+static bool
+is_absent(const double *x, size_t width)
+{
+	return isnan(x[0]) || (width == 3 && x[0] == 0 && x[1] == 0 && x[2] == 0);
+}
+
+mr_status
+mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width, const double *corner,
+    const double **vertex, size_t *seams)
+{
+	enum { NEW, ONE, SEVERAL };
+	double *value = MR_NEW_ZERO(ctx, width * nv, double);
+	unsigned char *seen = MR_NEW_ZERO(ctx, nv, unsigned char);
+	bool whole = true;
+
+	if (!value || !seen)
+		return MR_EMEM;
+	*seams = 0;
+	for (size_t i = 0; i < 3 * nf; i++) {
+		size_t v = t[i / 3].v[i % 3];
+		const double *x = corner + width * i;
+		if (is_absent(x, width))
+			whole = false;
+		else if (seen[v] == NEW) {
+			memcpy(value + width * v, x, width * sizeof *x);
+			seen[v] = ONE;
+		} else if (seen[v] == ONE && memcmp(value + width * v, x, width * sizeof *x)) {
+			seen[v] = SEVERAL;
+			++*seams;
+		}
+	}
+	*vertex = whole && *seams == 0 ? value : NULL;
+	return MR_OK;
+}
+
+/* The values of corners that stand at `place` of a list. */
+static mr_status
+values_of(mr_ctx *ctx, const uint32_t *place, size_t n, size_t width, const double *list, double none,
+    const double **values)
+{
+	double *x = MR_NEW(ctx, width * n, double);
+
+	if (!x)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		for (size_t k = 0; k < width; k++)
+			x[width * i + k] = place[i] == MR_NONE ? none : list[width * place[i] + k];
+	*values = x;
+	return MR_OK;
+}
+
+/* Texture coordinates of corners go before those of vertices. */
+static mr_status
+put_texcoords(mr_builder *b, const uint32_t *place, mr_model *m)
+{
+	const double *corner, *vertex;
+
+	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 2, b->uv, NAN, &corner));
+	MR_TRY(mr_corners_to_vertices(
+	    b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &b->counts->seam_vertices));
+	if (m->texcoord && (!vertex || memcmp(vertex, m->texcoord, 2 * m->nv * sizeof *vertex)))
+		mr_warn(b->ctx, "texture coordinates of vertices are left out: those of corners differ");
+	m->texcoord = vertex;
+	m->corner_texcoord = vertex ? NULL : corner;
+	return MR_OK;
+}
+
+static mr_status
+put_normals(mr_builder *b, const uint32_t *place, mr_model *m)
+{
+	const double *corner, *vertex;
+
+	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 3, (const double *)b->vn, 0, &corner));
+	MR_TRY(mr_corners_to_vertices(
+	    b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &b->counts->crease_vertices));
+	m->normal = (const mr_v3 *)vertex;
+	m->corner_normal = vertex ? NULL : (const mr_v3 *)corner;
+	return MR_OK;
 }
 
 /* ---- faces to triangles ---- */
 
-/* Triangles of one polygon but those that name a vertex twice; the number of those kept. */
-static size_t
-keep_proper(mr_tri *t, size_t n)
-{
-	size_t kept = 0;
+/* The triangles that the faces become. */
+typedef struct triangles {
+	mr_tri *t;
+	uint32_t *face;  /* of each, the face that it is a part of */
+	uint32_t *place; /* of each corner, its number among the corners of all faces */
+	size_t n;
+} triangles;
 
-	for (size_t i = 0; i < n; i++)
-		if (t[i].v[0] != t[i].v[1] && t[i].v[1] != t[i].v[2] && t[i].v[2] != t[i].v[0])
-			t[kept++] = t[i];
-	return kept;
+static bool
+is_proper(const uint32_t *c, const uint32_t *v)
+{
+	return c[v[0]] != c[v[1]] && c[v[1]] != c[v[2]] && c[v[2]] != c[v[0]];
+}
+
+/* Triangles of a polygon, but those that name a vertex twice; of a triangle as the file has it. */
+static mr_status
+add_face(mr_builder *b, triangles *r, mr_tri *room, size_t face, size_t first)
+{
+	static const mr_tri whole = { { 0, 1, 2 } };
+	const uint32_t *c = b->corner + first;
+	size_t n = b->size[face];
+
+	if (n == 3)
+		room[0] = whole;
+	else
+		MR_TRY(mr_polygon_triangulate(b->ctx, b->p, c, n, room));
+	for (size_t i = 0; i < n - 2; i++) {
+		const uint32_t *v = room[i].v;
+		if (n > 3 && !is_proper(c, v))
+			continue;
+		r->t[r->n] = (mr_tri){ { c[v[0]], c[v[1]], c[v[2]] } };
+		for (size_t k = 0; k < 3; k++)
+			r->place[3 * r->n + k] = (uint32_t)(first + v[k]);
+		r->face[r->n++] = (uint32_t)face;
+	}
+	return MR_OK;
 }
 
 static mr_status
-triangulate(mr_builder *b, mr_model *m)
+triangulate(mr_builder *b, triangles *r)
 {
-	size_t total = b->corners - 2 * b->faces, nf = 0;
-	mr_tri *t;
-	uint32_t *group = NULL;
-	const uint32_t *c = b->corner;
+	size_t total = b->corners - 2 * b->faces, most = 0, first = 0;
+	mr_tri *room;
 
 	if (total > MOST_TRIANGLES)
 		return mr_fail(b->ctx, MR_ERANGE, "%zu triangles are more than indices can name", total);
-	t = MR_NEW(b->ctx, total, mr_tri);
-	if (!t || (b->has_groups && !(group = MR_NEW(b->ctx, total, uint32_t))))
+	for (size_t f = 0; f < b->faces; f++)
+		most = b->size[f] > most ? b->size[f] : most;
+	*r = (triangles){ .t = MR_NEW(b->ctx, total, mr_tri),
+		.face = MR_NEW(b->ctx, total, uint32_t),
+		.place = MR_NEW(b->ctx, 3 * total, uint32_t) };
+	room = MR_NEW(b->ctx, most, mr_tri);
+	if (!r->t || !r->face || !r->place || !room)
 		return MR_EMEM;
-	for (size_t f = 0; f < b->faces; c += b->size[f++]) {
-		size_t made = b->size[f] - 2;
-		if (made == 1)
-			memcpy(t[nf].v, c, sizeof t[nf].v); /* as the file has it, degenerate or not */
-		else {
-			MR_TRY(mr_polygon_triangulate(b->ctx, b->p, c, b->size[f], t + nf));
-			made = keep_proper(t + nf, made);
-		}
-		for (size_t i = 0; group && i < made; i++)
-			group[nf + i] = b->group[f];
-		nf += made;
-	}
-	m->t = t;
-	m->nf = nf;
-	m->group = group;
+	for (size_t f = 0; f < b->faces; first += b->size[f++])
+		MR_TRY(add_face(b, r, room, f, first));
 	return MR_OK;
+}
+
+/* Whether a face of the outlines is that of the file: the same corners from the same one on. */
+static bool
+is_same_face(const triangles *r, const mr_polygons *found, size_t i, size_t first, size_t n)
+{
+	const uint32_t *corner = found->corner + found->start[i];
+
+	if (found->start[i + 1] - found->start[i] != n)
+		return false;
+	for (size_t k = 0; k < n; k++)
+		if (r->place[corner[k]] != first + k)
+			return false;
+	return true;
+}
+
+/*
+ * The numbers of the polygons.  One that touches itself along an edge cannot be told by its outline: its
+ * triangles are faces of their own.
+ */
+static mr_status
+number_polygons(mr_builder *b, const triangles *r, const uint32_t **polygon)
+{
+	uint32_t *number = MR_NEW(b->ctx, r->n, uint32_t), next = 0;
+	size_t face = 0, first = 0, torn = 0;
+	mr_polygons found;
+
+	if (!number)
+		return MR_EMEM;
+	MR_TRY(mr_polygons_find(b->ctx, r->t, r->n, r->face, &found));
+	for (size_t i = 0, f = 0, end; f < r->n; f = end) {
+		bool same;
+		for (end = f; end < r->n && r->face[end] == r->face[f]; end++)
+			;
+		for (; face < r->face[f]; face++)
+			first += b->size[face];
+		same = is_same_face(r, &found, i, first, b->size[face]);
+		torn += !same;
+		i += found.start[i + 1] - found.start[i] == end - f + 2 ? 1 : end - f;
+		for (size_t k = f; k < end; k++)
+			number[k] = k == f || !same ? next++ : next - 1;
+	}
+	if (torn)
+		mr_warn(b->ctx, "%zu polygons that touch themselves become triangles", torn);
+	*polygon = number;
+	return MR_OK;
+}
+
+/* Rows of faces as rows of triangles. */
+static mr_status
+spread(mr_builder *b, const triangles *r, mr_model *m)
+{
+	const uint32_t **marks[MR_MARKINGS] = { &m->group, &m->object, &m->material, &m->smoothing };
+
+	for (int i = 0; i < MR_MARKINGS; i++)
+		if (*marks[i] &&
+		    !(*marks[i] = mr_gather(b->ctx, *marks[i], sizeof **marks[i], r->face, r->n)))
+			return MR_EMEM;
+	return MR_OK;
+}
+
+/* Triangles, with what the faces and their corners have. */
+static mr_status
+put_faces(mr_builder *b, mr_model *m)
+{
+	const uint32_t *uv = b->corner_uv, *vn = b->corner_vn;
+	triangles r = { 0 };
+
+	m->t = (const mr_tri *)b->corner; /* three indices each */
+	m->nf = b->faces;
+	if (b->size) {
+		MR_TRY(triangulate(b, &r));
+		m->t = r.t;
+		m->nf = r.n;
+		MR_TRY(number_polygons(b, &r, &m->polygon));
+		MR_TRY(spread(b, &r, m));
+		MR_TRY(put_properties(b, r.face, m));
+		if (uv && !(uv = mr_gather(b->ctx, uv, sizeof *uv, r.place, 3 * r.n)))
+			return MR_EMEM;
+		if (vn && !(vn = mr_gather(b->ctx, vn, sizeof *vn, r.place, 3 * r.n)))
+			return MR_EMEM;
+	}
+	if (!b->size)
+		MR_TRY(put_properties(b, NULL, m));
+	if (uv)
+		MR_TRY(put_texcoords(b, uv, m));
+	return vn ? put_normals(b, vn, m) : MR_OK;
+}
+
+static mr_lines
+lines_of(const mr_marks *k)
+{
+	return k->used && k->names.bytes ? (mr_lines){ k->names.text, k->names.bytes - 1 }
+	                                 : (mr_lines){ NULL, 0 };
+}
+
+/* What faces are marked with, once there are faces. */
+static void
+put_marks(const mr_builder *b, mr_model *m)
+{
+	const mr_marks *k = b->marks;
+
+	m->group = k[MR_GROUP].used ? k[MR_GROUP].of : NULL;
+	m->object = k[MR_OBJECT].used ? k[MR_OBJECT].of : NULL;
+	m->material = k[MR_MATERIAL].used ? k[MR_MATERIAL].of : NULL;
+	m->smoothing = k[MR_SMOOTHING].used ? k[MR_SMOOTHING].of : NULL;
+	m->groups = lines_of(&k[MR_GROUP]);
+	m->objects = lines_of(&k[MR_OBJECT]);
+	m->materials = lines_of(&k[MR_MATERIAL]);
+	m->mtllib = b->mtllib;
 }
 
 mr_status
@@ -302,23 +621,15 @@ mr_build_finish(mr_builder *b, mr_model *m)
 
 	if (b->faces == 0 && b->skipped)
 		return mr_fail(b->ctx, MR_EMESH, "none of the %zu faces has three corners", b->skipped);
-	if (b->size)
-		MR_TRY(triangulate(b, &made));
-	else {
-		made.t = (const mr_tri *)b->corner; /* three indices each */
-		made.nf = b->faces;
-		made.group = b->has_groups ? b->group : NULL;
-	}
-	if (made.nf == 0)
-		made.group = NULL;
-	if (made.group) {
-		made.groups = (mr_lines){ b->names.text, b->names.bytes - 1 };
-	}
+	if (b->faces) {
+		put_marks(b, &made);
+		MR_TRY(put_faces(b, &made));
+	} else
+		MR_TRY(put_properties(b, NULL, &made));
 	if (b->skipped)
-		mr_note(b->ctx, "%zu faces of fewer than three corners left out", b->skipped);
+		mr_warn(b->ctx, "%zu faces of fewer than three corners are left out", b->skipped);
 	b->counts->faces_left_out = b->skipped;
 	b->counts->polygons = b->polygons;
-	report_seams(b);
 	made.counts = *b->counts;
 	*m = made;
 	return MR_OK;

@@ -19,24 +19,38 @@ typedef struct mr_names {
 	size_t count, start_room, slots;
 } mr_names;
 
+/* What faces are marked with: each has the mark at hand when it comes. */
+typedef enum mr_marking { MR_GROUP, MR_OBJECT, MR_MATERIAL, MR_SMOOTHING, MR_MARKINGS } mr_marking;
+
+typedef struct mr_marks {
+	bool used;
+	uint32_t current; /* of the faces to come */
+	uint32_t *of;     /* of each face: the number of a name, or the number itself of smoothing */
+	size_t room;
+	mr_names names;
+} mr_marks;
+
 typedef struct mr_builder {
 	mr_ctx *ctx;
 	mr_v3 *p, *normal;
 	unsigned char *color;
-	double *texcoord;
-	unsigned char *corner_seen; /* per vertex, of texture coordinates: 1 given, 2 given differently by
-	                               another corner */
+	double *texcoord; /* of vertices; those of corners go before them */
 	size_t nv;
 	uint32_t *corner; /* of all faces */
 	uint32_t *size;   /* corners of each face; NULL as long as all are triangles */
-	uint32_t *group;  /* of each face; NULL without groups */
-	size_t corners, corner_room, faces, face_room, group_room;
+	size_t corners, corner_room, faces, face_room;
+	uint32_t *corner_uv, *corner_vn; /* of each corner, in uv and vn; MR_NONE of one without; or NULL */
+	size_t uv_room, vn_room;
+	const double *uv;     /* pairs, to be there by the end */
+	const mr_v3 *vn;      /* the same */
+	bool plain;           /* faces are triangles with nothing but vertices so far: see mr_build_reserve */
+	struct mr_kept *kept; /* properties; of faces one row for each face */
+	size_t properties, property_room;
 	size_t skipped;           /* faces of fewer than three corners */
 	size_t polygons;          /* faces of more */
 	mr_import_result *counts; /* of the model to be */
-	bool has_groups;
-	uint32_t current; /* group of the faces to come */
-	mr_names names;
+	mr_marks marks[MR_MARKINGS];
+	mr_lines mtllib;
 } mr_builder;
 
 /* Positions for nv vertices, not set; MR_ERANGE beyond what indices can name. */
@@ -45,14 +59,27 @@ mr_status mr_build_vertices(mr_builder *b, uint64_t nv) MR_WARN_UNUSED;
 /* Room for so many triangles, to spare growing. */
 mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;
 
-/* A face of n corners, whose indices are below nv; fewer than three are counted and left out. */
-mr_status mr_build_face(mr_builder *b, const uint32_t *corner, size_t n) MR_WARN_UNUSED;
+/*
+ * A face of n corners, whose indices are below nv; fewer than three are counted and left out.
+ * uv, vn: places of the corners' texture coordinates and normals in the arrays of the builder, MR_NONE of a
+ * corner without; NULL where no corner has one.
+ */
+mr_status mr_build_face(
+    mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n) MR_WARN_UNUSED;
 
-/* The faces to come belong to this group; blanks around the name do not count. */
-mr_status mr_build_group(mr_builder *b, const char *name, size_t bytes) MR_WARN_UNUSED;
+/* The faces to come are marked with this name; blanks around it do not count. */
+mr_status mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
 
-/* A corner's texture coordinates: the vertex keeps the first it is given, and is a seam where they differ. */
-mr_status mr_build_texcoord(mr_builder *b, uint32_t vertex, double u, double v) MR_WARN_UNUSED;
+/* The faces to come are of this smoothing group. */
+mr_status mr_build_smoothing(mr_builder *b, uint32_t group) MR_WARN_UNUSED;
+
+/*
+ * A property under its name, of a type of PLY; those of vertices come before those of faces.  number: from 1.
+ * Its values come row by row; a whole type that one is not of drops it in the end, which is said.
+ */
+mr_status mr_build_property(
+    mr_builder *b, const char *name, const char *type, char element, size_t *number) MR_WARN_UNUSED;
+mr_status mr_build_value(mr_builder *b, size_t number, size_t row, double x) MR_WARN_UNUSED;
 
 /* A column that is dropped: says so and counts it. */
 void mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why);
@@ -66,13 +93,27 @@ mr_build_triangle(mr_builder *b, uint32_t i, uint32_t j, uint32_t k)
 {
 	uint32_t *c = b->corner + b->corners;
 
-	if (b->size || b->has_groups || b->corner_room - b->corners < 3)
+	if (!b->plain || b->corner_room - b->corners < 3)
 		return false;
 	c[0] = i, c[1] = j, c[2] = k;
 	b->corners += 3;
 	b->faces++;
 	return true;
 }
+
+/*
+ * Values of corners, `width` doubles for each of 3 nf, as values of vertices where those of every vertex are
+ * the same to the bit and no corner is without (NaN, or where the width is 3 all zero); else *vertex is NULL.
+ * Vertices of no face get zeros.  *seams: vertices of several.
+ */
+mr_status mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
+    const double *corner, const double **vertex, size_t *seams) MR_WARN_UNUSED;
+
+/* Warns of the files of materials that are not where the model at `path` ("-": nowhere) names them. */
+void mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files);
+
+/* x[of[i]] for rows of `size` bytes, in the arena; NULL where memory cannot be had. */
+void *mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n) MR_WARN_UNUSED;
 
 /* Copies text without control characters, '/' where `no_slash`, and broken UTF-8, for which '_' stands;
  * NUL-terminated. */

@@ -13,6 +13,7 @@
 #include "formats/build.h"
 #include "formats/bytes.h"
 #include "formats/scan.h"
+#include "mesh/polygon.h"
 
 typedef struct mr_file_format {
 	const char *name;
@@ -87,15 +88,25 @@ mr_as_float(double x)
 /* Writes numbers with a blank between them, then `end`. */
 void mr_put_reals(mr_sink *s, const double *x, size_t n, char end);
 
-/* Says and counts what a format leaves out: the columns of the model that the flags do not name. */
+/* Says and counts what a format leaves out: what the model has and the flags do not name. */
 enum {
 	MR_KEEPS_NORMAL = 1,
 	MR_KEEPS_COLOR = 2,
 	MR_KEEPS_TEXCOORD = 4,
 	MR_KEEPS_GROUP = 8,
-	MR_KEEPS_FACES = 16
+	MR_KEEPS_FACES = 16,
+	MR_KEEPS_CORNERS = 32, /* several normals and texture coordinates of a vertex */
+	MR_KEEPS_OBJECT = 64,
+	MR_KEEPS_MATERIAL = 128,
+	MR_KEEPS_SMOOTHING = 256,
+	MR_KEEPS_POLYGON = 512,
+	MR_KEEPS_PROPERTY = 1024,
+	MR_KEEPS_ALL = 2047
 };
 void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
+
+/* The model's faces, polygons as they were; says and counts those that no longer are. */
+mr_status mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces) MR_WARN_UNUSED;
 
 /* Says and counts the positions that do not survive in float32; MR_ERANGE where one overflows it. */
 mr_status mr_note_rounded(mr_sink *s, const mr_model *m);

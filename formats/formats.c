@@ -2,6 +2,8 @@
 #include "formats/formats.h"
 #include "formats/format.h"
 
+#include <unistd.h>
+
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
 static const mr_file_format formats[] = {
 	{ "ply", " ply ", true, false, mr_ply_sniff, mr_ply_read, mr_ply_write_little },
@@ -283,6 +285,51 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 	return mr_prefix(ctx, status, "%s", strcmp(path, "-") ? path : "stdin");
 }
 
+/* ---- files that a model names ---- */
+
+/* Whether the file that `n` bytes name is there, seen from beside `path`. */
+static bool
+is_beside(const char *path, const char *name, size_t n)
+{
+	const char *slash = strrchr(path, '/');
+	int folder = *name == '/' || !slash ? 0 : (int)(slash + 1 - path);
+	char file[4096];
+	int bytes = snprintf(file, sizeof file, "%.*s%.*s", folder, path, (int)n, name);
+
+	return bytes > 0 && (size_t)bytes < sizeof file && access(file, F_OK) == 0;
+}
+
+/* A line names one file, whose name may have blanks in it, or several. */
+static bool
+are_beside(const char *path, const char *p, const char *end)
+{
+	if (is_beside(path, p, (size_t)(end - p)))
+		return true;
+	while (p < end) {
+		const char *e = memchr(p, ' ', (size_t)(end - p));
+		e = e ? e : end;
+		if (e > p && !is_beside(path, p, (size_t)(e - p)))
+			return false;
+		p = e < end ? e + 1 : end;
+	}
+	return true;
+}
+
+void
+mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files)
+{
+	const char *p = files.text, *end = p + files.bytes;
+
+	while (files.bytes && strcmp(path, "-") && p < end) {
+		const char *e = memchr(p, '\n', (size_t)(end - p));
+		e = e ? e : end;
+		if (!are_beside(path, p, e))
+			mr_warn(
+			    ctx, "%s has its materials in %.*s, which is not there", path, (int)(e - p), p);
+		p = e + 1;
+	}
+}
+
 /* ---- writing ---- */
 
 mr_status
@@ -341,18 +388,49 @@ mr_put_reals(mr_sink *s, const double *x, size_t n, char end)
 void
 mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 {
-	static const char why[] = "the format has no place for them";
+	bool corners = keeps & MR_KEEPS_CORNERS;
+	const struct {
+		bool lost;
+		size_t *count;
+		const char *what;
+	} columns[] = {
+		{ m->normal && !(keeps & MR_KEEPS_NORMAL), &s->lost.dropped_normals, "normals" },
+		{ m->corner_normal && !corners, &s->lost.dropped_normals, "normals of corners" },
+		{ m->color && !(keeps & MR_KEEPS_COLOR), &s->lost.dropped_colors, "colors" },
+		{ m->texcoord && !(keeps & MR_KEEPS_TEXCOORD), &s->lost.dropped_texcoords, "texcoords" },
+		{ m->corner_texcoord && !corners, &s->lost.dropped_texcoords, "texcoords of corners" },
+		{ m->group && !(keeps & MR_KEEPS_GROUP), &s->lost.dropped_groups, "groups" },
+		{ m->object && !(keeps & MR_KEEPS_OBJECT), &s->lost.dropped_objects, "objects" },
+		{ m->material && !(keeps & MR_KEEPS_MATERIAL), &s->lost.dropped_materials, "materials" },
+		{ m->smoothing && !(keeps & MR_KEEPS_SMOOTHING), &s->lost.dropped_smoothing,
+		    "smoothing groups" },
+		{ m->polygon && !(keeps & MR_KEEPS_POLYGON), &s->lost.dropped_polygons, "polygons" },
+		{ m->properties && !(keeps & MR_KEEPS_PROPERTY), &s->lost.dropped_properties, "properties" },
+		{ m->nf && !(keeps & MR_KEEPS_FACES), &s->lost.dropped_faces, "faces" },
+	};
+	char names[256];
+	size_t n = 0;
 
-	if (m->normal && !(keeps & MR_KEEPS_NORMAL))
-		mr_dropped(s->ctx, &s->lost.dropped_normals, "normals", why);
-	if (m->color && !(keeps & MR_KEEPS_COLOR))
-		mr_dropped(s->ctx, &s->lost.dropped_colors, "colors", why);
-	if (m->texcoord && !(keeps & MR_KEEPS_TEXCOORD))
-		mr_dropped(s->ctx, &s->lost.dropped_texcoords, "texcoords", why);
-	if (m->group && !(keeps & MR_KEEPS_GROUP))
-		mr_dropped(s->ctx, &s->lost.dropped_groups, "groups", why);
-	if (m->nf && !(keeps & MR_KEEPS_FACES))
-		mr_dropped(s->ctx, &s->lost.dropped_faces, "faces", why);
+	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
+		if (columns[i].lost) {
+			*columns[i].count = 1;
+			n += (size_t)snprintf(
+			    names + n, sizeof names - n, "%s%s", n ? ", " : "", columns[i].what);
+		}
+	if (n)
+		mr_warn(s->ctx, "%s dropped: the format has no place for them", names);
+}
+
+mr_status
+mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces)
+{
+	MR_TRY(mr_polygons_find(s->ctx, m->t, m->nf, m->polygon, faces));
+	if (m->polygon)
+		s->lost.broken_polygons = faces->broken;
+	if (faces->broken)
+		mr_warn(s->ctx, "%zu polygons are none any more: they are written as their triangles",
+		    faces->broken);
+	return MR_OK;
 }
 
 mr_status

@@ -1,6 +1,8 @@
-/* Welding and repair with all attributes, and models in and out of layers. */
+/* Models in and out of layers. */
 #include "formats/model.h"
-#include "mesh/repair.h"
+#include "formats/build.h"
+#include "mesh/normals.h"
+#include "stream/record.h"
 
 /* What a model has of each vertex, or of each face, besides positions and triangles. */
 static const struct {
@@ -56,27 +58,8 @@ lines_of(mr_model *m, size_t i)
 
 /* ---- attributes follow their vertices and faces ---- */
 
-/* new[i] = old[of[i]], for rows of `size` bytes; NULL stays NULL. */
-static mr_status
-gather(mr_ctx *ctx, const void **column, size_t size, const uint32_t *of, size_t n)
-{
-	const char *old = *column;
-	char *new;
-
-	if (!old)
-		return MR_OK;
-	new = mr_alloc(ctx, n, size);
-	if (!new)
-		return MR_EMEM;
-	for (size_t i = 0; i < n; i++)
-		memcpy(new + i *size, old + of[i] * size, size);
-	*column = new;
-	return MR_OK;
-}
-
-/* All that the model has of vertices, or of faces, for those that are left: row i is that of of[i]. */
-static mr_status
-gather_rows(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n)
+mr_status
+mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n)
 {
 	mr_property *property = MR_NEW(ctx, m->properties, mr_property);
 
@@ -84,15 +67,18 @@ gather_rows(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t 
 		return MR_EMEM;
 	for (size_t i = 0; i < COLUMNS; i++) {
 		const void *data = column_of(m, i);
-		if (columns[i].of_faces != of_faces)
+		if (columns[i].of_faces != of_faces || !data)
 			continue;
-		MR_TRY(gather(ctx, &data, columns[i].bytes, of, n));
+		if (!(data = mr_gather(ctx, data, columns[i].bytes, of, n)))
+			return MR_EMEM;
 		set_column(m, i, data);
 	}
 	for (size_t i = 0; i < m->properties; i++) {
-		property[i] = m->property[i];
-		if ((property[i].shape.element == 'f') == of_faces)
-			MR_TRY(gather(ctx, &property[i].data, mr_type_size(property[i].shape.type), of, n));
+		mr_property *p = &property[i];
+		*p = m->property[i];
+		if ((p->shape.element == 'f') == of_faces &&
+		    !(p->data = mr_gather(ctx, p->data, mr_type_size(p->shape.type), of, n)))
+			return MR_EMEM;
 	}
 	m->property = property;
 	return MR_OK;
@@ -115,138 +101,61 @@ mr_model_to_points(mr_model *m)
 	m->properties = kept; /* those of vertices come first */
 }
 
-/* ---- weld ---- */
-
-static bool
-proper(mr_tri t)
-{
-	return t.v[0] != t.v[1] && t.v[1] != t.v[2] && t.v[2] != t.v[0];
-}
-
-/* Faces by their new vertices, without those that had three corners and have not now. */
-static mr_status
-rename_faces(mr_ctx *ctx, const uint32_t *map, mr_model *m)
-{
-	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
-	uint32_t *of = MR_NEW(ctx, m->nf, uint32_t);
-	size_t kept = 0;
-
-	if (!t || !of)
-		return MR_EMEM;
-	for (size_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		mr_tri now = { { map[v[0]], map[v[1]], map[v[2]] } };
-		if (!proper(now) && proper(m->t[f]))
-			continue;
-		t[kept] = now;
-		of[kept++] = (uint32_t)f;
-	}
-	m->counts.weld_collapsed = m->nf - kept;
-	if (kept < m->nf)
-		mr_note(ctx, "weld: %zu faces collapsed", m->nf - kept);
-	MR_TRY(gather_rows(ctx, m, true, of, kept));
-	m->t = t;
-	m->nf = kept;
-	return MR_OK;
-}
-
-mr_status
-mr_model_weld(mr_ctx *ctx, double eps, mr_model *m)
-{
-	mr_model w = *m;
-	uint32_t *map = MR_NEW(ctx, m->nv, uint32_t), *of = MR_NEW(ctx, m->nv, uint32_t);
-	const void *p = m->p;
-	size_t n = 0, next = 0;
-
-	if (!map || !of)
-		return MR_EMEM;
-	MR_TRY(mr_weld(ctx, m->p, m->nv, eps, map, &n));
-	for (size_t i = 0; i < m->nv; i++)
-		if (map[i] == next)
-			of[next++] = (uint32_t)i;
-	w.counts.weld_joined = m->nv - n;
-	mr_note(ctx, "weld: %zu vertices joined to others", m->nv - n);
-	MR_TRY(gather(ctx, &p, sizeof *m->p, of, n));
-	MR_TRY(gather_rows(ctx, &w, false, of, n));
-	w.p = p;
-	w.nv = n;
-	if (m->nf)
-		MR_TRY(rename_faces(ctx, map, &w));
-	if (m->nf && w.nf == 0)
-		return mr_fail(ctx, MR_EMESH, "welding within %g leaves no face of %zu", eps, m->nf);
-	*m = w;
-	return MR_OK;
-}
-
-/* ---- repair ---- */
-
-static void
-report(mr_ctx *ctx, const mr_repair_report *r, mr_import_result *counts)
-{
-	const struct {
-		size_t *to, count;
-		const char *what;
-	} lines[] = { { &counts->repair_degenerate, r->degenerate, "degenerate faces dropped" },
-		{ &counts->repair_duplicate, r->duplicate, "duplicate faces dropped" },
-		{ &counts->repair_isolated, r->isolated, "isolated vertices dropped" },
-		{ &counts->repair_split_edges, r->split_edges, "edges of more than two faces split" },
-		{ &counts->repair_split_vertices, r->split_vertices,
-		    "vertices added where fans were parted" },
-		{ &counts->repair_flipped, r->flipped, "faces turned over" },
-		{ &counts->repair_cut_edges, r->cut_edges, "edges cut" } };
-
-	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-		*lines[i].to = lines[i].count;
-		if (lines[i].count)
-			mr_note(ctx, "repair: %zu %s", lines[i].count, lines[i].what);
-	}
-}
-
-mr_status
-mr_model_repair(mr_ctx *ctx, mr_model *m)
-{
-	mr_mesh in = { .name = "mesh", .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf }, out;
-	const uint32_t *vertex_of, *face_of;
-	mr_repair_report r;
-	mr_model done = *m;
-
-	if (m->nf == 0)
-		return MR_OK;
-	MR_TRY(mr_repair(ctx, &in, &out, &vertex_of, &face_of, &r));
-	MR_TRY(gather_rows(ctx, &done, false, vertex_of, out.nv));
-	MR_TRY(gather_rows(ctx, &done, true, face_of, out.nf));
-	if (r.flipped && done.normal) {
-		mr_note(ctx, "repair: normals dropped, since faces were turned over");
-		done.normal = NULL;
-	}
-	done.p = out.p;
-	done.nv = out.nv;
-	done.t = out.t;
-	done.nf = out.nf;
-	report(ctx, &r, &done.counts);
-	*m = done;
-	return MR_OK;
-}
-
 /* ---- layers ---- */
 
-/* The properties as columns, and their types. */
+/* A name that a column can have: printable, cut where it is too long. */
+static void
+column_name(char to[MR_COLUMN_MAX + 1], const char *prefix, const char *name)
+{
+	snprintf(to, MR_COLUMN_MAX + 1, "%s%.*s", prefix, (int)(MR_COLUMN_MAX - strlen(prefix)), name);
+	for (char *c = to; *c; c++)
+		if (*c <= ' ' || *c > '~')
+			*c = '_';
+}
+
+static bool
+is_free(const mr_frame *f, const char *layer, const char *name)
+{
+	return *name && mr_name_valid(name, MR_COLUMN_MAX) && !mr_column_known(layer, name) &&
+	       !mr_layer_has(f, layer, name);
+}
+
+/* Its own name or, where there is such a column, as of vertices, or one by convention, a similar one. */
+static bool
+choose_name(const mr_frame *f, const char *layer, const char *name, char to[MR_COLUMN_MAX + 1])
+{
+	static const char *const prefixes[] = { "", "ply_", "ply_face_" };
+
+	for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
+		column_name(to, prefixes[i], name);
+		if (is_free(f, layer, to))
+			return true;
+	}
+	return false;
+}
+
+/* The properties as columns, and for each a line of its name, its type and what it is called in PLY. */
 static mr_status
 put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
 	const char *text = "";
 
-	if (m->properties == 0)
-		return MR_OK;
 	for (size_t i = 0; i < m->properties; i++) {
 		const mr_property *p = &m->property[i];
+		char name[MR_COLUMN_MAX + 1];
+		if (!choose_name(f, layer, p->name, name)) {
+			mr_warn(ctx,
+			    "property %s is left out: columns of this name and similar ones are there",
+			    p->name);
+			continue;
+		}
 		MR_TRY(mr_frame_put(
-		    ctx, f, layer, p->name, p->shape, p->data, p->shape.element == 'f' ? m->nf : m->nv));
-		text = mr_format(ctx, "%s%s%s %s", text, i ? "\n" : "", p->name, p->type);
+		    ctx, f, layer, name, p->shape, p->data, p->shape.element == 'f' ? m->nf : m->nv));
+		text = mr_format(ctx, "%s%s%s %s %s", text, *text ? "\n" : "", name, p->type, p->name);
 		if (!text)
 			return MR_EMEM;
 	}
-	return mr_layer_put(ctx, f, layer, "properties", text, strlen(text));
+	return *text ? mr_layer_put(ctx, f, layer, "properties", text, strlen(text)) : MR_OK;
 }
 
 mr_status
@@ -274,32 +183,47 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 	return put_properties(ctx, f, layer, m);
 }
 
-/* The type of PLY that `properties` has for the column, else the one of its shape. */
+/* The word at *p, where one ends before `end` or there; skips the blank behind it. */
 static const char *
-type_of(mr_lines types, const mr_column *c)
+take_word(mr_ctx *ctx, const char **p, const char *end)
 {
-	static const char *const known[] = { "char", "uchar", "short", "ushort", "int", "uint", "float",
-		"double", NULL };
-	size_t length = strlen(c->name);
-	const char *p = types.text, *end = p + types.bytes;
+	const char *from = *p;
 
+	while (*p < end && **p != ' ')
+		++*p;
+	from = mr_format(ctx, "%.*s", (int)(*p - from), from);
+	*p += *p < end;
+	return from;
+}
+
+/* What `properties` says of a column; else its own name, and the type of its shape. */
+static mr_status
+describe(mr_ctx *ctx, mr_lines lines, const mr_column *c, mr_property *property)
+{
+	const char *p = lines.text, *end = p + lines.bytes;
+	size_t length = strlen(c->name);
+
+	property->name = c->name;
+	property->type = c->shape.type == 'b' ? "uchar" : c->shape.type == 'u' ? "uint" : "double";
 	while (p < end) {
 		const char *e = memchr(p, '\n', (size_t)(end - p));
-		size_t n = (size_t)((e ? e : end) - p);
-		for (size_t i = 0; known[i] && n > length && !memcmp(p, c->name, length); i++)
-			if (p[length] == ' ' && n == length + 1 + strlen(known[i]) &&
-			    !memcmp(p + length + 1, known[i], strlen(known[i])))
-				return known[i];
-		p += n + 1;
+		e = e ? e : end;
+		if ((size_t)(e - p) > length && p[length] == ' ' && !memcmp(p, c->name, length)) {
+			p += length + 1;
+			property->type = take_word(ctx, &p, e);
+			property->name = take_word(ctx, &p, e);
+			return property->type && property->name ? MR_OK : MR_EMEM;
+		}
+		p = e + 1;
 	}
-	return c->shape.type == 'b' ? "uchar" : c->shape.type == 'u' ? "uint" : "double";
+	return MR_OK;
 }
 
 static bool
 is_property(const mr_column *c, const char *layer, char element)
 {
 	return !strcmp(c->layer, layer) && c->shape.element == element && c->shape.components == 1 &&
-	       !mr_column_known(layer, c->name);
+	       c->shape.type != 't' && !mr_column_known(layer, c->name);
 }
 
 /* The columns of one component that are none by convention; those of vertices first. */
@@ -326,7 +250,8 @@ get_properties(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 			if (rows != (faces ? m->nf : m->nv))
 				return mr_fail(ctx, MR_ERANGE, "%s: column %s has %zu rows, not %zu", layer,
 				    c->name, rows, faces ? m->nf : m->nv);
-			property[n++] = (mr_property){ c->name, type_of(types, c), c->shape, data };
+			property[n] = (mr_property){ .shape = c->shape, .data = data };
+			MR_TRY(describe(ctx, types, c, &property[n++]));
 		}
 	m->property = property;
 	m->properties = n;
@@ -392,10 +317,87 @@ mr_import(
 	MR_TRY(mr_frame_new(ctx, name, &f));
 	MR_TRY(mr_model_put(ctx, f, o->layer, &m));
 	*frame = f;
+	mr_warn_of_libraries(ctx, path, m.mtllib);
 	m.counts.vertices = m.nv;
 	m.counts.triangles = m.nf;
 	if (result)
 		*result = m.counts;
+	return MR_OK;
+}
+
+static bool
+same_triangles(const mr_model *a, const mr_model *b)
+{
+	return a->nv == b->nv && a->nf == b->nf && !memcmp(a->t, b->t, a->nf * sizeof *a->t);
+}
+
+/* The normals of a mesh on another surface of its triangles. */
+static mr_status
+borrow_normals(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
+{
+	const mr_mesh before = { .name = "mesh", .p = mesh->p, .t = mesh->t, .nv = mesh->nv, .nf = mesh->nf };
+	mr_v3 *normal = NULL, *corner = NULL;
+
+	if (m->normal || m->corner_normal)
+		return MR_OK;
+	if (mesh->normal && !(normal = MR_NEW(ctx, m->nv, mr_v3)))
+		return MR_EMEM;
+	if (mesh->corner_normal && !(corner = MR_NEW(ctx, 3 * m->nf, mr_v3)))
+		return MR_EMEM;
+	if (normal)
+		memcpy(normal, mesh->normal, m->nv * sizeof *normal);
+	if (corner)
+		memcpy(corner, mesh->corner_normal, 3 * m->nf * sizeof *corner);
+	m->normal = normal;
+	m->corner_normal = corner;
+	return mr_turn_normals(ctx, &before, m->p, normal, corner);
+}
+
+/* What the mesh has and this layer has not, as far as the same triangles allow. */
+static mr_status
+borrow(mr_ctx *ctx, mr_model *mesh, mr_model *m)
+{
+	MR_TRY(borrow_normals(ctx, mesh, m));
+	for (size_t i = 0; i < COLUMNS; i++)
+		if (!column_of(m, i) && !strstr(columns[i].name, "normal"))
+			set_column(m, i, column_of(mesh, i));
+	for (size_t i = 0; i < NAMES; i++)
+		if (lines_of(m, i)->bytes == 0)
+			*lines_of(m, i) = *lines_of(mesh, i);
+	if (m->properties == 0) {
+		m->property = mesh->property;
+		m->properties = mesh->properties;
+	}
+	return MR_OK;
+}
+
+/* What the mesh has and the model, of other triangles, has not; polygons are none of it. */
+static void
+warn_of_rest(mr_ctx *ctx, const char *layer, const mr_model *mesh, const mr_model *m)
+{
+	char lost[256];
+	size_t n = 0;
+
+	for (size_t i = 0; i < COLUMNS; i++)
+		if (column_of(mesh, i) && !column_of(m, i) && strcmp(columns[i].name, "polygon"))
+			n += (size_t)snprintf(
+			    lost + n, sizeof lost - n, "%s%s", n ? ", " : "", columns[i].name);
+	if (n)
+		mr_warn(ctx, "%s has other triangles than mesh, and not what that has: %s", layer, lost);
+}
+
+/* Another surface of the frame's mesh is written with what that came with. */
+static mr_status
+complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
+{
+	mr_model mesh;
+
+	if (!strcmp(layer, "mesh") || m->nf == 0 || !mr_layer_has(f, "mesh", "triangles"))
+		return MR_OK;
+	MR_TRY(mr_model_get(ctx, f, "mesh", &mesh));
+	if (same_triangles(&mesh, m))
+		return borrow(ctx, &mesh, m);
+	warn_of_rest(ctx, layer, &mesh, m);
 	return MR_OK;
 }
 
@@ -408,6 +410,7 @@ mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, co
 
 	MR_TRY(mr_layer_choose(ctx, f, layer, layers, &layer));
 	MR_TRY(mr_model_get(ctx, f, layer, &m));
+	MR_TRY(complete(ctx, f, layer, &m));
 	return mr_model_write(ctx, path, format, &m, held, result);
 }
 

@@ -10,9 +10,15 @@
 /* Drops the faces: what is left is a cloud. */
 void mr_model_to_points(mr_model *m);
 
+/* All that the model has of vertices, or of faces, for those that are left: row i is that of of[i]. Positions
+ * and triangles stay. */
+mr_status
+mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n) MR_WARN_UNUSED;
+
 /*
- * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes.  Faces that
- * lose a corner by it go; those that had a vertex twice before stay.  Says and counts what was done.
+ * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes, but for
+ * texture coordinates and normals, which become those of corners where they differ.  Faces that lose a corner
+ * by it go; those that had a vertex twice before stay.  Says and counts what was done.
  */
 mr_status mr_model_weld(mr_ctx *ctx, double eps, mr_model *m) MR_WARN_UNUSED;
 
@@ -25,8 +31,8 @@ mr_status mr_model_repair(mr_ctx *ctx, mr_model *m) MR_WARN_UNUSED;
  */
 mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m) MR_WARN_UNUSED;
 
-/* The layer as a model: positions, and triangles, normals, colours, texture coordinates and groups where it
- * has them. */
+/* The layer as a model, with all that it has; columns of a number that are none by convention as properties.
+ */
 mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
 /* mr_export where the format is checked, and the renaming is the caller's where `held` is not NULL. */

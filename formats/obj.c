@@ -1,13 +1,10 @@
 /*
- * Wavefront OBJ.  tinyobj reads faces and names, through obj_shim; this file reads v, vt and vn lines, whose
- * numbers must be exact, joins continued lines, and checks each face line before tinyobj sees it: tinyobj
- * takes any word for an index and lets indices wrap.
+ * Wavefront OBJ.  tinyobj reads faces, through obj_shim; this file reads v, vt and vn lines, whose numbers
+ * must be exact, and names, which may have blanks in them, joins continued lines, and checks each face line
+ * before tinyobj sees it: tinyobj takes any word for an index and lets indices wrap.
  */
 #include "formats/format.h"
 #include "formats/obj_shim.h"
-
-/* Of a vertex's normal: none yet; more than one. */
-static const uint32_t UNSET = 0x7fffffff, SEVERAL = 0x80000000;
 
 typedef struct obj {
 	mr_ctx *ctx;
@@ -18,20 +15,18 @@ typedef struct obj {
 	size_t joined_room;
 	size_t v, vt, vn; /* lines so far */
 	size_t v_all, vt_all, vn_all, f_all;
-	double *uv;          /* vt_all pairs */
-	mr_v3 *vn_values;    /* vn_all */
-	uint32_t *normal_of; /* per vertex, its normal's index */
-	float *rgb;          /* three per vertex, NAN where it has none; NULL without any */
-	bool bright;         /* colours beyond 1: in 255ths */
-	size_t lines_and_points, weights;
+	double *uv;       /* vt_all pairs */
+	mr_v3 *vn_values; /* vn_all */
+	float *rgb;       /* three per vertex, NAN where it has none; NULL without any */
+	bool bright;      /* colours beyond 1: in 255ths */
+	size_t lines_and_points, weights, depths, others;  /* what is left out */
+	char other[MR_SHOWN];                              /* the first of the others */
 	const char *odd_normal, *odd_texcoord, *odd_color; /* why the column cannot be kept; NULL: it can */
 	bool slashes;      /* the face at hand has a slash with nothing behind it */
-	uint32_t *corners; /* of the face at hand */
+	uint32_t *corners; /* of the face at hand: vertices, texture coordinates, normals */
 	size_t corner_room;
-	mr_obj_naming naming; /* what names the groups of this file */
-	char *name;           /* of the g line at hand: its words so far */
-	size_t name_bytes, name_room;
-	const char *name_line;
+	char *libraries; /* of materials, one a line */
+	size_t library_bytes, library_room;
 	mr_status status; /* of the first failure, after which nothing is read */
 } obj;
 
@@ -138,7 +133,7 @@ numbers(obj *o, mr_scan *line, const char *what, size_t least, size_t most, doub
 }
 
 static const char not_finite[] = "one is not a finite number",
-		  not_there[] = "a face names one that does not stand before it";
+		  not_there[] = "a face names one that is not there";
 
 static mr_status
 set_color(obj *o, const double *c)
@@ -188,6 +183,7 @@ texcoord(obj *o, mr_scan *line)
 	MR_TRY(numbers(o, line, "a texture coordinate", 1, 3, x, &n));
 	if (!isfinite(x[0]) || !isfinite(x[1]))
 		o->odd_texcoord = not_finite;
+	o->depths += n == 3 && x[2] != 0;
 	o->uv[2 * o->vt] = x[0];
 	o->uv[2 * o->vt + 1] = x[1];
 	o->vt++;
@@ -284,53 +280,39 @@ resolve(int index, size_t so_far, size_t all, uint32_t *i)
 	return at >= 0 && (unsigned long long)at < all;
 }
 
-static mr_status
-see_normal(obj *o, uint32_t v, uint32_t n)
+/* The place of a value that a corner names, which may stand behind it; MR_NONE where it names none. */
+static uint32_t
+place_of(int index, size_t so_far, size_t all, const char **odd)
 {
-	uint32_t *of;
+	uint32_t i;
 
-	if (!o->normal_of) {
-		o->normal_of = MR_NEW(o->ctx, o->v_all, uint32_t);
-		if (!o->normal_of)
-			return MR_EMEM;
-		for (size_t i = 0; i < o->v_all; i++)
-			o->normal_of[i] = UNSET;
-	}
-	of = &o->normal_of[v];
-	if (*of == UNSET)
-		*of = n;
-	else if (*of != n && !(*of & SEVERAL) && memcmp(&o->vn_values[*of], &o->vn_values[n], sizeof(mr_v3)))
-		*of |= SEVERAL;
-	return MR_OK;
-}
-
-static mr_status
-add_corner(obj *o, const mr_obj_corner *c, uint32_t *v)
-{
-	uint32_t t, n;
-
-	if (!resolve(c->v, o->v, o->v_all, v))
-		return bad(o, "vertex %d of %zu", c->v, o->v_all);
-	if (c->vt && !(resolve(c->vt, o->vt, o->vt_all, &t) && t < o->vt))
-		o->odd_texcoord = not_there;
-	else if (c->vt)
-		MR_TRY(mr_build_texcoord(&o->b, *v, o->uv[2 * (size_t)t], o->uv[2 * (size_t)t + 1]));
-	if (c->vn && !(resolve(c->vn, o->vn, o->vn_all, &n) && n < o->vn))
-		o->odd_normal = not_there;
-	else if (c->vn)
-		return see_normal(o, *v, n);
-	return MR_OK;
+	if (index == 0)
+		return MR_NONE;
+	if (resolve(index, so_far, all, &i))
+		return i;
+	*odd = not_there;
+	return MR_NONE;
 }
 
 static mr_status
 add_face(obj *o, const mr_obj_corner *c, size_t n)
 {
-	MR_TRY(MR_RESERVE(o->ctx, o->corners, 0, n, &o->corner_room));
-	for (size_t i = 0; i < n; i++)
-		MR_TRY(add_corner(o, &c[i], &o->corners[i]));
-	if (n == 3 && mr_build_triangle(&o->b, o->corners[0], o->corners[1], o->corners[2]))
+	bool uv = false, vn = false;
+	uint32_t *v, *t, *s;
+
+	MR_TRY(MR_RESERVE(o->ctx, o->corners, 0, 3 * n, &o->corner_room));
+	v = o->corners, t = v + n, s = t + n;
+	for (size_t i = 0; i < n; i++) {
+		if (!resolve(c[i].v, o->v, o->v_all, &v[i]))
+			return bad(o, "vertex %d of %zu", c[i].v, o->v_all);
+		t[i] = place_of(c[i].vt, o->vt, o->vt_all, &o->odd_texcoord);
+		s[i] = place_of(c[i].vn, o->vn, o->vn_all, &o->odd_normal);
+		uv |= t[i] != MR_NONE;
+		vn |= s[i] != MR_NONE;
+	}
+	if (n == 3 && !uv && !vn && mr_build_triangle(&o->b, v[0], v[1], v[2]))
 		return MR_OK;
-	return mr_build_face(&o->b, o->corners, n);
+	return mr_build_face(&o->b, v, uv ? t : NULL, vn ? s : NULL, n);
 }
 
 static void
@@ -342,42 +324,79 @@ face_call(void *user, const mr_obj_corner *c, int n)
 		o->status = add_face(o, c, (size_t)n);
 }
 
-/* ---- groups ---- */
+/* ---- names ---- */
 
-/* The words of one g line are one name. */
-static mr_status
-add_name(obj *o, const char *word)
+/* A statement that is left out. */
+static void
+count_other(obj *o, const char *word, size_t n)
 {
-	size_t n = strlen(word);
+	if (o->others++ == 0)
+		mr_word_shown(word, n, o->other);
+}
 
-	if (o->name_line != o->line)
-		o->name_bytes = 0;
-	o->name_line = o->line;
-	MR_TRY(MR_RESERVE(o->ctx, o->name, o->name_bytes, n + 2, &o->name_room));
-	if (o->name_bytes)
-		o->name[o->name_bytes++] = ' ';
-	memcpy(o->name + o->name_bytes, word, n);
-	o->name_bytes += n;
+/* What stands behind the statement's word. */
+static void
+skip_statement(mr_scan *line, const char *word)
+{
+	line->p += strlen(word);
+	mr_skip_blanks(line);
+}
+
+/* A number or "off"; other words count as left out. */
+static mr_status
+smoothing(obj *o, mr_scan *line)
+{
+	uint64_t group = 0;
+	const char *p = line->p;
+
+	for (; p < line->end && mr_is_digit(*p) && group <= UINT32_MAX; p++)
+		group = 10 * group + (uint64_t)(*p - '0');
+	if (p > line->p ? group <= UINT32_MAX && (p == line->end || mr_is_blank(*p)) : begins(line, "off"))
+		return mr_build_smoothing(&o->b, (uint32_t)group);
+	count_other(o, "s", 1);
 	return MR_OK;
 }
 
-static void
-name_call(void *user, mr_obj_naming kind, const char *name)
+static mr_status
+library(obj *o, const mr_scan *line)
 {
-	obj *o = user;
+	size_t n = (size_t)(line->end - line->p);
 
-	if (o->status == MR_OK && kind == o->naming)
-		o->status = add_name(o, name);
+	while (n && mr_is_blank(line->p[n - 1]))
+		n--;
+	if (n == 0)
+		return MR_OK;
+	MR_TRY(MR_RESERVE(o->ctx, o->libraries, o->library_bytes, n + 2, &o->library_room));
+	if (o->library_bytes)
+		o->libraries[o->library_bytes++] = '\n';
+	o->library_bytes += mr_clean_name(o->libraries + o->library_bytes, line->p, n, false);
+	o->b.mtllib = (mr_lines){ o->libraries, o->library_bytes };
+	return MR_OK;
 }
 
-/* A name takes effect when the next line is asked for: then it is complete. */
-static mr_status
-take_name(obj *o)
+/* A statement that marks the faces to come, or names materials' files; false for any other. */
+static bool
+is_mark(obj *o, mr_scan *line, mr_status *status)
 {
-	if (!o->name_line)
-		return MR_OK;
-	o->name_line = NULL;
-	return mr_build_group(&o->b, o->name, o->name_bytes);
+	static const struct {
+		const char *word;
+		mr_marking what;
+	} words[] = { { "g", MR_GROUP }, { "o", MR_OBJECT }, { "usemtl", MR_MATERIAL }, { "s", MR_SMOOTHING },
+		{ "mtllib", MR_MARKINGS } };
+	size_t i = 0;
+
+	while (i < sizeof words / sizeof *words && !begins(line, words[i].word))
+		i++;
+	if (i == sizeof words / sizeof *words)
+		return false;
+	skip_statement(line, words[i].word);
+	if (words[i].what == MR_SMOOTHING)
+		*status = smoothing(o, line);
+	else if (words[i].what == MR_MARKINGS)
+		*status = library(o, line);
+	else
+		*status = mr_build_mark(&o->b, words[i].what, line->p, (size_t)(line->end - line->p));
+	return true;
 }
 
 /* ---- the file ---- */
@@ -386,10 +405,10 @@ take_name(obj *o)
 static bool
 known(const mr_scan *line)
 {
-	static const char *const words[] = { "s", "mtllib", "vp", "vw", "cstype", "deg", "bmat", "step",
-		"curv", "curv2", "surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "mg", "bevel",
-		"c_interp", "d_interp", "lod", "usemap", "maplib", "shadow_obj", "trace_obj", "ctech",
-		"stech", "call", "csh", "t", NULL };
+	static const char *const words[] = { "vp", "vw", "cstype", "deg", "bmat", "step", "curv", "curv2",
+		"surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "mg", "bevel", "c_interp",
+		"d_interp", "lod", "usemap", "maplib", "shadow_obj", "trace_obj", "ctech", "stech", "call",
+		"csh", "t", NULL };
 
 	for (const char *const *w = words; *w; w++)
 		if (begins(line, *w))
@@ -414,6 +433,9 @@ one_line(obj *o, mr_scan *line, bool *pass)
 {
 	size_t left = (size_t)(line->end - line->p);
 	char c = left ? *line->p : '#', d = left > 1 ? line->p[1] : ' ';
+	mr_status status = MR_OK;
+	const char *word;
+	size_t n;
 
 	*pass = o->slashes = false;
 	if (c == '#')
@@ -426,12 +448,14 @@ one_line(obj *o, mr_scan *line, bool *pass)
 		*pass = true;
 		return check_face(o, line);
 	}
-	if (begins(line, "g") || begins(line, "o") || begins(line, "usemtl"))
-		*pass = true;
-	else if (begins(line, "l") || begins(line, "p"))
+	if (is_mark(o, line, &status))
+		return status;
+	if (begins(line, "l") || begins(line, "p"))
 		o->lines_and_points++;
 	else if (!known(line))
 		return unknown_statement(o, line);
+	else if (mr_scan_word(line, &word, &n))
+		count_other(o, word, n);
 	return MR_OK;
 }
 
@@ -459,7 +483,7 @@ hand_over(obj *o, const mr_scan *line, const char **begin, const char **end)
 		if (!o->joined)
 			return MR_EMEM;
 	}
-	o->joined[n] = ' '; /* tinyobj wants a blank behind a lone g */
+	o->joined[n] = ' ';
 	o->joined[n + 1] = '\n';
 	for (size_t i = n; i-- > 0;) {
 		char c = line->p[i];
@@ -477,7 +501,6 @@ next_for_tinyobj(obj *o, const char **begin, const char **end)
 	mr_scan line;
 	bool pass = false;
 
-	MR_TRY(take_name(o));
 	while (!pass) {
 		mr_status status = next_line(o, &line);
 		if (status != MR_OK)
@@ -502,7 +525,6 @@ static mr_status
 count_lines(obj *o)
 {
 	mr_scan start = o->text, line;
-	bool groups = false, objects = false;
 	mr_status status;
 
 	while ((status = next_line(o, &line)) == MR_OK) {
@@ -515,13 +537,8 @@ count_lines(obj *o)
 			o->vn_all += d == 'n' && alone;
 		} else if (c == 'f')
 			o->f_all += mr_is_blank(d);
-		else if (mr_is_blank(d)) {
-			groups |= c == 'g' && left > 2;
-			objects |= c == 'o' && left > 2;
-		}
 	}
 	o->text = start;
-	o->naming = groups ? MR_OBJ_GROUP : objects ? MR_OBJ_OBJECT : MR_OBJ_MATERIAL;
 	return status < 0 ? status : MR_OK;
 }
 
@@ -560,52 +577,37 @@ finish_colors(obj *o)
 	return MR_OK;
 }
 
-/* A normal per vertex where its faces agree, or where a cloud has as many as points. */
-static mr_status
-finish_normals(obj *o)
+/* A column that cannot be kept is dropped; a cloud that has as many normals as points has one for each. */
+static void
+finish_corners(obj *o)
 {
-	size_t several = 0;
-
+	if (o->odd_texcoord) {
+		mr_dropped(o->ctx, &o->b.counts->dropped_texcoords, "texcoords", o->odd_texcoord);
+		o->b.corner_uv = NULL;
+	}
 	if (o->odd_normal) {
 		mr_dropped(o->ctx, &o->b.counts->dropped_normals, "normals", o->odd_normal);
-		return MR_OK;
-	}
-	if (o->b.faces == 0 && o->vn_all == o->v_all) {
+		o->b.corner_vn = NULL;
+	} else if (o->b.faces == 0 && o->vn_all == o->v_all)
 		o->b.normal = o->vn_values;
-		return MR_OK;
-	}
-	if (!o->normal_of)
-		return MR_OK;
-	for (size_t i = 0; i < o->v_all; i++)
-		several += (o->normal_of[i] & SEVERAL) != 0;
-	o->b.counts->crease_vertices = several;
-	if (several) {
-		mr_dropped(o->ctx, &o->b.counts->dropped_normals, "normals",
-		    "some vertices have several, as on creases");
-		return MR_OK;
-	}
-	o->b.normal = MR_NEW(o->ctx, o->v_all, mr_v3);
-	if (!o->b.normal)
-		return MR_EMEM;
-	for (size_t i = 0; i < o->v_all; i++)
-		o->b.normal[i] = o->normal_of[i] == UNSET ? mr_vec(0, 0, 0) : o->vn_values[o->normal_of[i]];
-	return MR_OK;
 }
 
 static mr_status
 finish(obj *o, mr_model *m)
 {
-	if (o->odd_texcoord) {
-		mr_dropped(o->ctx, &o->b.counts->dropped_texcoords, "texcoords", o->odd_texcoord);
-		o->b.texcoord = NULL;
-		o->b.corner_seen = NULL;
-	}
+	o->b.uv = o->uv;
+	o->b.vn = o->vn_values;
+	finish_corners(o);
 	MR_TRY(finish_colors(o));
-	MR_TRY(finish_normals(o));
 	if (o->lines_and_points)
-		mr_note(o->ctx, "%zu line and point elements left out", o->lines_and_points);
+		mr_warn(o->ctx, "%zu elements of lines and points are left out", o->lines_and_points);
 	if (o->weights)
-		mr_note(o->ctx, "%zu weights of vertices left out", o->weights);
+		mr_warn(o->ctx, "%zu weights of vertices are left out", o->weights);
+	if (o->depths)
+		mr_warn(o->ctx, "%zu third texture coordinates are left out", o->depths);
+	if (o->others)
+		mr_warn(
+		    o->ctx, "%zu other statements are left out, the first of them '%s'", o->others, o->other);
 	return mr_build_finish(&o->b, m);
 }
 
@@ -615,10 +617,10 @@ mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	obj o = {
 		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts }
 	};
-	mr_obj_calls calls = { line_call, face_call, name_call, &o };
+	mr_obj_calls calls = { line_call, face_call, &o };
 
 	MR_TRY(count_lines(&o));
-	if (o.vn_all >= UNSET || o.vt_all >= UNSET)
+	if (o.vn_all >= MR_NONE || o.vt_all >= MR_NONE)
 		return mr_fail(ctx, MR_ERANGE, "more normals or texture coordinates than indices can name");
 	MR_TRY(mr_build_vertices(&o.b, o.v_all));
 	MR_TRY(mr_build_reserve(&o.b, o.f_all));

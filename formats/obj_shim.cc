@@ -53,16 +53,6 @@ mr_obj_parse(const mr_obj_calls *calls)
 	c.index_cb = [](void *user, tinyobj::index_t *corner, int n) {
 		of(user).face(of(user).user, reinterpret_cast<const mr_obj_corner *>(corner), n);
 	};
-	c.group_cb = [](void *user, const char **names, int n) {
-		for (int i = 0; i < n; i++)
-			of(user).name(of(user).user, MR_OBJ_GROUP, names[i]);
-		if (n == 0)
-			of(user).name(of(user).user, MR_OBJ_GROUP, "");
-	};
-	c.object_cb = [](void *user, const char *name) { of(user).name(of(user).user, MR_OBJ_OBJECT, name); };
-	c.usemtl_cb = [](void *user, const char *name, int) {
-		of(user).name(of(user).user, MR_OBJ_MATERIAL, name);
-	};
 	try {
 		lines buffer(*calls);
 		std::istream stream(&buffer);

@@ -1,8 +1,8 @@
 /*
  * obj_shim.h -- tinyobj's callback reader, seen from C.
  *
- * tinyobj splits lines into faces and names; obj.c gives it one checked line at
- * a time and reads what must be exact itself.
+ * tinyobj splits the lines of faces into corners; obj.c gives it one checked line at
+ * a time and reads all else itself: numbers must be exact, and tinyobj's names end at the first blank.
  * Layer rule: formats.
  */
 #ifndef MR_OBJ_SHIM_H
@@ -19,14 +19,10 @@ typedef struct mr_obj_corner {
 	int v, vn, vt;
 } mr_obj_corner;
 
-typedef enum mr_obj_naming { MR_OBJ_GROUP, MR_OBJ_OBJECT, MR_OBJ_MATERIAL } mr_obj_naming;
-
 typedef struct mr_obj_calls {
 	bool (*line)(void *user, const char **begin,
 	    const char **end); /* the next line with its newline; false at the end */
 	void (*face)(void *user, const mr_obj_corner *corner, int n);
-	void (*name)(void *user, mr_obj_naming kind,
-	    const char *name); /* one of a group's names, or "" where it has none */
 	void *user;
 } mr_obj_calls;
 

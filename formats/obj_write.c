@@ -1,5 +1,14 @@
-/* OBJ, groups of faces together, corners with what the model has. */
+/* OBJ: polygons, corners with what the model has, and what the faces are marked with wherever it changes. */
 #include "formats/format.h"
+
+/* The vt or vn lines: one for each vertex, or for each value that corners have. */
+typedef struct values {
+	char letter; /* t or n */
+	size_t width;
+	const double *vertex, *corner;
+	uint32_t *place; /* of the corners' values: line from 1, 0 of one without; NULL where they are of
+	                    vertices */
+} values;
 
 static void
 put_vertex(mr_sink *s, const mr_model *m, size_t i)
@@ -14,71 +23,204 @@ put_vertex(mr_sink *s, const mr_model *m, size_t i)
 }
 
 static void
-put_face(mr_sink *s, const mr_model *m, const mr_tri *t)
+put_value(mr_sink *s, const values *x, const double *value)
 {
-	char *to = mr_sink_room(s);
+	char word[3] = { 'v', x->letter, ' ' };
 
-	*to++ = 'f';
-	for (int k = 0; k < 3; k++) {
-		uint64_t i = (uint64_t)t->v[k] + 1;
-		*to++ = ' ';
-		to = mr_count_write(to, i);
-		if (m->texcoord || m->normal)
-			*to++ = '/';
-		if (m->texcoord)
-			to = mr_count_write(to, i);
-		if (m->normal) {
-			*to++ = '/';
-			to = mr_count_write(to, i);
-		}
+	mr_put(s, word, sizeof word);
+	mr_put_reals(s, value, x->width, '\n');
+}
+
+static bool
+is_absent(const values *x, const double *value)
+{
+	return x->width == 2 ? isnan(value[0]) || isnan(value[1])
+	                     : value[0] == 0 && value[1] == 0 && value[2] == 0;
+}
+
+static size_t
+hash_of(const double *value, size_t width)
+{
+	uint64_t bits[3], h = 0;
+
+	memcpy(bits, value, width * sizeof *bits);
+	for (size_t k = 0; k < width; k++) {
+		h = (h ^ bits[k]) * 0x9e3779b97f4a7c15u;
+		h ^= h >> 32;
 	}
-	*to++ = '\n';
-	mr_sink_fill(s, to);
+	return (size_t)h;
+}
+
+/* Writes each value of corners once, in order of first use. */
+static mr_status
+put_corner_values(mr_sink *s, values *x, size_t corners)
+{
+	size_t mask = 64, bytes = x->width * sizeof *x->corner;
+	uint32_t *slot, *first, lines = 0;
+
+	while (mask < corners + corners / 2)
+		mask *= 2;
+	slot = MR_NEW_ZERO(s->ctx, mask--, uint32_t);
+	first = MR_NEW(s->ctx, corners, uint32_t);
+	x->place = MR_NEW(s->ctx, corners, uint32_t);
+	if (!slot || !first || !x->place)
+		return MR_EMEM;
+	for (size_t i = 0; i < corners; i++) {
+		const double *value = x->corner + x->width * i;
+		size_t at = hash_of(value, x->width) & mask;
+		x->place[i] = 0;
+		if (is_absent(x, value))
+			continue;
+		while (slot[at] && memcmp(value, x->corner + x->width * first[slot[at] - 1], bytes))
+			at = (at + 1) & mask;
+		if (slot[at] == 0) {
+			first[lines] = (uint32_t)i;
+			slot[at] = ++lines;
+			put_value(s, x, value);
+		}
+		x->place[i] = slot[at];
+	}
+	return MR_OK;
 }
 
 static mr_status
-put_faces(mr_sink *s, const mr_model *m)
+put_values(mr_sink *s, const mr_model *m, values *x)
 {
-	const char **start = NULL;
-	size_t names = 0;
+	for (size_t i = 0; x->vertex && i < m->nv; i++)
+		put_value(s, x, x->vertex + x->width * i);
+	return x->vertex || !x->corner ? MR_OK : put_corner_values(s, x, 3 * m->nf);
+}
 
-	if (m->group)
-		MR_TRY(mr_lines_starts(s->ctx, m->groups, &start, &names));
-	for (size_t f = 0; f < m->nf; f++) {
-		if (m->group && (f == 0 || m->group[f] != m->group[f - 1])) {
-			uint32_t g = m->group[f];
-			if (g < names) {
-				mr_put(s, "g ", 2);
-				mr_put(s, start[g], (size_t)(start[g + 1] - start[g]) - 1);
-				mr_put(s, "\n", 1);
-			} else
-				mr_print(s, "g group%u\n", (unsigned)g);
-		}
-		put_face(s, m, &m->t[f]);
+/* The line of a corner's value; 0 where it has none. */
+static uint64_t
+line_of(const values *x, uint32_t corner, uint32_t vertex)
+{
+	return x->vertex ? (uint64_t)vertex + 1 : x->place ? x->place[corner] : 0;
+}
+
+static void
+put_corner(mr_sink *s, const mr_model *m, const values x[2], uint32_t corner)
+{
+	uint32_t v = m->t[corner / 3].v[corner % 3];
+	uint64_t uv = line_of(&x[0], corner, v), vn = line_of(&x[1], corner, v);
+	char *to = mr_sink_room(s);
+
+	*to++ = ' ';
+	to = mr_count_write(to, (uint64_t)v + 1);
+	if (uv || vn)
+		*to++ = '/';
+	if (uv)
+		to = mr_count_write(to, uv);
+	if (vn) {
+		*to++ = '/';
+		to = mr_count_write(to, vn);
+	}
+	mr_sink_fill(s, to);
+}
+
+/* ---- what faces are marked with ---- */
+
+typedef struct marks {
+	const char *word, *what; /* of the statement; of a number without a name */
+	const uint32_t *of;
+	const char **start;
+	size_t names;
+	bool said;
+	uint32_t last; /* that was said */
+} marks;
+
+static void
+put_mark(mr_sink *s, marks *k, size_t f)
+{
+	uint32_t i = k->of[f];
+	size_t n = i < k->names ? (size_t)(k->start[i + 1] - k->start[i]) - 1 : 0;
+
+	if (k->said ? i == k->last : i < k->names && n == 0)
+		return; /* the same, or none so far */
+	k->said = true;
+	k->last = i;
+	if (i >= k->names)
+		mr_print(s, "%s %s%u\n", k->word, k->what, (unsigned)i);
+	else {
+		mr_print(s, n ? "%s " : "%s", k->word);
+		mr_put(s, k->start[i], n);
+		mr_put(s, "\n", 1);
+	}
+}
+
+static void
+put_smoothing(mr_sink *s, marks *k, size_t f)
+{
+	if (k->said && k->of[f] == k->last)
+		return;
+	k->said = true;
+	k->last = k->of[f];
+	if (k->last)
+		mr_print(s, "s %u\n", (unsigned)k->last);
+	else
+		mr_print(s, "s off\n");
+}
+
+static mr_status
+put_faces(mr_sink *s, const mr_model *m, const values x[2])
+{
+	marks all[] = { { .word = "o", .what = "object", .of = m->object },
+		{ .word = "g", .what = "group", .of = m->group },
+		{ .word = "usemtl", .what = "material", .of = m->material } };
+	marks smoothing = { .of = m->smoothing };
+	const mr_lines names[] = { m->objects, m->groups, m->materials };
+	mr_polygons faces;
+
+	for (size_t k = 0; k < 3; k++)
+		if (all[k].of)
+			MR_TRY(mr_lines_starts(s->ctx, names[k], &all[k].start, &all[k].names));
+	MR_TRY(mr_faces_of(s, m, &faces));
+	for (size_t i = 0; i < faces.count; i++) {
+		size_t f = faces.corner[faces.start[i]] / 3;
+		for (size_t k = 0; k < 3; k++)
+			if (all[k].of)
+				put_mark(s, &all[k], f);
+		if (smoothing.of)
+			put_smoothing(s, &smoothing, f);
+		mr_put(s, "f", 1);
+		for (size_t c = faces.start[i]; c < faces.start[i + 1]; c++)
+			put_corner(s, m, x, faces.corner[c]);
+		mr_put(s, "\n", 1);
 	}
 	return MR_OK;
+}
+
+static void
+put_libraries(mr_sink *s, mr_lines files)
+{
+	const char *p = files.text, *end = p + files.bytes;
+
+	while (p < end) {
+		const char *e = memchr(p, '\n', (size_t)(end - p));
+		mr_put(s, "mtllib ", 7);
+		mr_put(s, p, (size_t)((e ? e : end) - p));
+		mr_put(s, "\n", 1);
+		p = e ? e + 1 : end;
+	}
 }
 
 mr_status
 mr_obj_write(mr_sink *s, const mr_model *m)
 {
+	values x[2] = { { 't', 2, m->texcoord, m->corner_texcoord, NULL },
+		{ 'n', 3, (const double *)m->normal, (const double *)m->corner_normal, NULL } };
 	size_t opaque = 0;
 
-	mr_note_lost(
-	    s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_GROUP | MR_KEEPS_FACES);
+	mr_note_lost(s, m, MR_KEEPS_ALL & ~MR_KEEPS_PROPERTY);
+	put_libraries(s, m->mtllib);
 	for (size_t i = 0; i < m->nv; i++)
 		put_vertex(s, m, i);
 	for (size_t i = 0; m->color && i < m->nv; i++)
 		opaque += m->color[4 * i + 3] == 255;
 	if (m->color && opaque < m->nv)
 		mr_dropped(s->ctx, &s->lost.dropped_alpha, "alpha", "colours of OBJ have none");
-	for (size_t i = 0; m->texcoord && i < m->nv; i++) {
-		mr_put(s, "vt ", 3);
-		mr_put_reals(s, m->texcoord + 2 * i, 2, '\n');
-	}
-	for (size_t i = 0; m->normal && i < m->nv; i++) {
-		mr_put(s, "vn ", 3);
-		mr_put_reals(s, &m->normal[i].x, 3, '\n');
-	}
-	return put_faces(s, m);
+	MR_TRY(put_values(s, m, &x[0]));
+	MR_TRY(put_values(s, m, &x[1]));
+	mr_warn_of_libraries(s->ctx, s->target ? s->path : "-", m->mtllib);
+	return put_faces(s, m, x);
 }

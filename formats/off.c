@@ -262,7 +262,7 @@ text_face(off *f)
 	f->text.p = e ? e : f->text.end; /* a colour of the face may stand here */
 	if (n == 3 && mr_build_triangle(&f->b, f->corner[0], f->corner[1], f->corner[2]))
 		return MR_OK;
-	return mr_build_face(&f->b, f->corner, (size_t)n);
+	return mr_build_face(&f->b, f->corner, NULL, NULL, (size_t)n);
 }
 
 /* Vertices, faces and, which nobody needs, edges: on one line. */
@@ -388,7 +388,7 @@ binary_faces(off *f, const unsigned char *p, layout l)
 		}
 		if (l.face_colors)
 			p += 4 + 4 * (size_t)mr_load32(p, l.big);
-		MR_TRY(mr_build_face(&f->b, f->corner, n));
+		MR_TRY(mr_build_face(&f->b, f->corner, NULL, NULL, n));
 	}
 	return MR_OK;
 }

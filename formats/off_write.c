@@ -9,12 +9,22 @@ put_keyword(mr_sink *s, const mr_model *m, const char *binary)
 	    s, "%s%s%sOFF%s\n", m->texcoord ? "ST" : "", m->color ? "C" : "", m->normal ? "N" : "", binary);
 }
 
+static uint32_t
+vertex_of(const mr_model *m, uint32_t corner)
+{
+	return m->t[corner / 3].v[corner % 3];
+}
+
 mr_status
 mr_off_write(mr_sink *s, const mr_model *m)
 {
-	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES);
+	mr_polygons faces;
+
+	mr_note_lost(
+	    s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_POLYGON | MR_KEEPS_FACES);
 	put_keyword(s, m, "");
-	mr_print(s, "%zu %zu 0\n", m->nv, m->nf);
+	MR_TRY(mr_faces_of(s, m, &faces));
+	mr_print(s, "%zu %zu 0\n", m->nv, faces.count);
 	for (size_t i = 0; i < m->nv; i++) {
 		bool more = m->normal || m->color || m->texcoord;
 		mr_put_reals(s, &m->p[i].x, 3, more ? ' ' : '\n');
@@ -27,15 +37,14 @@ mr_off_write(mr_sink *s, const mr_model *m)
 		if (m->texcoord)
 			mr_put_reals(s, m->texcoord + 2 * i, 2, '\n');
 	}
-	for (size_t f = 0; f < m->nf; f++) {
-		char *to = mr_sink_room(s);
-		*to++ = '3';
-		for (int k = 0; k < 3; k++) {
+	for (size_t f = 0; f < faces.count; f++) {
+		mr_sink_fill(s, mr_count_write(mr_sink_room(s), faces.start[f + 1] - faces.start[f]));
+		for (size_t i = faces.start[f]; i < faces.start[f + 1]; i++) {
+			char *to = mr_sink_room(s);
 			*to++ = ' ';
-			to = mr_count_write(to, m->t[f].v[k]);
+			mr_sink_fill(s, mr_count_write(to, vertex_of(m, faces.corner[i])));
 		}
-		*to++ = '\n';
-		mr_sink_fill(s, to);
+		mr_put(s, "\n", 1);
 	}
 	return MR_OK;
 }
@@ -51,13 +60,16 @@ put_floats(char *to, const double *x, size_t n)
 mr_status
 mr_off_write_binary(mr_sink *s, const mr_model *m)
 {
+	mr_polygons faces;
 	char *to;
 
-	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES);
+	mr_note_lost(
+	    s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_POLYGON | MR_KEEPS_FACES);
 	MR_TRY(mr_note_rounded(s, m));
+	MR_TRY(mr_faces_of(s, m, &faces));
 	put_keyword(s, m, " BINARY");
 	to = mr_store32(mr_sink_room(s), (uint32_t)m->nv, true);
-	mr_sink_fill(s, mr_store32(mr_store32(to, (uint32_t)m->nf, true), 0, true));
+	mr_sink_fill(s, mr_store32(mr_store32(to, (uint32_t)faces.count, true), 0, true));
 	for (size_t i = 0; i < m->nv; i++) {
 		to = put_floats(mr_sink_room(s), &m->p[i].x, 3);
 		if (m->normal)
@@ -68,11 +80,12 @@ mr_off_write_binary(mr_sink *s, const mr_model *m)
 			to = put_floats(to, m->texcoord + 2 * i, 2);
 		mr_sink_fill(s, to);
 	}
-	for (size_t f = 0; f < m->nf; f++) {
-		to = mr_store32(mr_sink_room(s), 3, true);
-		for (int k = 0; k < 3; k++)
-			to = mr_store32(to, m->t[f].v[k], true);
-		mr_sink_fill(s, mr_store32(to, 0, true)); /* no colour of the face */
+	for (size_t f = 0; f < faces.count; f++) {
+		size_t first = faces.start[f], end = faces.start[f + 1];
+		mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)(end - first), true));
+		for (size_t i = first; i < end; i++)
+			mr_sink_fill(s, mr_store32(mr_sink_room(s), vertex_of(m, faces.corner[i]), true));
+		mr_sink_fill(s, mr_store32(mr_sink_room(s), 0, true)); /* no colour of the face */
 	}
 	return MR_OK;
 }

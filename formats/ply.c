@@ -1,6 +1,7 @@
 /*
  * Stanford PLY, read: G. Turk, The PLY polygon file format, 1994.  Text and both byte orders, properties of
- * any type in any order, lists, triangle strips; unknown elements and properties are passed over.
+ * any type in any order, lists, triangle strips.  Numbers of vertices and faces that are nothing to us are
+ * kept under their names; other lists and elements are passed over.
  */
 #include "formats/format.h"
 
@@ -30,7 +31,11 @@ typedef enum role {
 	V,
 	INDICES,
 	UVS,
+	NORMALS,
 	GROUP,
+	OBJECT,
+	MATERIAL,
+	SMOOTHING,
 	ROLES
 } role;
 
@@ -38,6 +43,8 @@ typedef struct property {
 	bool list;
 	type count, value; /* of a list: of its length and of its items */
 	role role;
+	const char *name;
+	size_t kept; /* its number from 1 among the properties of the builder; 0: it is none of them */
 } property;
 
 typedef enum kind { OTHER, VERTEX, FACE, STRIPS } kind;
@@ -50,10 +57,20 @@ typedef struct element {
 	size_t properties, room;
 } element;
 
-typedef struct named {
-	const char *name;
-	size_t bytes;
-} named;
+/* Names by comments, in the order of the numbers that faces have. */
+typedef struct named_list {
+	mr_lines *name;
+	size_t count, room;
+} named_list;
+
+/* Values of a list that each corner of a face has some of. */
+typedef struct corner_list {
+	double *value; /* of all faces */
+	size_t count, room;
+	size_t had;      /* the count before the face at hand */
+	uint32_t *place; /* of the corners at hand */
+	size_t place_room;
+} corner_list;
 
 typedef struct ply {
 	mr_ctx *ctx;
@@ -64,13 +81,13 @@ typedef struct ply {
 	element *element;
 	size_t elements, room;
 	mr_builder b;
-	bool has_uv;       /* of vertices: then those of corners are not needed */
 	uint32_t *indices; /* of the list at hand */
-	double *uvs;
-	size_t indices_count, indices_room, uvs_count, uvs_room;
-	named *group; /* of the comments "group NAME" */
-	size_t groups, groups_room;
-	bool odd_uv;
+	size_t indices_count, indices_room;
+	corner_list uv, vn;
+	named_list names[3]; /* of groups, objects, materials */
+	double *row;         /* of the row at hand, value by value */
+	size_t row_room;
+	bool odd_uv; /* of vertices */
 } ply;
 
 /* ---- failures ---- */
@@ -150,13 +167,26 @@ role_of(kind k, bool list, const char *w, size_t n)
 		{ VERTEX, false, V, "texture_v" }, { VERTEX, false, U, "texture_s" },
 		{ VERTEX, false, V, "texture_t" }, { FACE, true, INDICES, "vertex_indices" },
 		{ FACE, true, INDICES, "vertex_index" }, { FACE, true, UVS, "texcoord" },
-		{ FACE, false, GROUP, "group" }, { STRIPS, true, INDICES, "vertex_indices" },
+		{ FACE, true, NORMALS, "corner_normal" }, { FACE, false, GROUP, "group" },
+		{ FACE, false, OBJECT, "object" }, { FACE, false, MATERIAL, "material" },
+		{ FACE, false, SMOOTHING, "smoothing" }, { STRIPS, true, INDICES, "vertex_indices" },
 		{ STRIPS, true, INDICES, "vertex_index" } };
 
 	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
 		if (roles[i].kind == k && roles[i].list == list && is_word(w, n, roles[i].name))
 			return roles[i].role;
 	return NONE;
+}
+
+/* A name of a property, in the arena. */
+static const char *
+clean_name(mr_ctx *ctx, const char *w, size_t n)
+{
+	char *name = mr_alloc(ctx, n + 1, 1);
+
+	if (name)
+		mr_clean_name(name, w, n, false);
+	return name;
 }
 
 static mr_status
@@ -179,6 +209,8 @@ header_property(ply *f, mr_scan *line)
 	if (!mr_scan_word(line, &w, &n))
 		return mr_scan_fail(&f->text, line->p, "a property lacks its name");
 	p.role = role_of(e->kind, p.list, w, n);
+	if (!(p.name = clean_name(f->ctx, w, n)))
+		return MR_EMEM;
 	for (size_t i = 0; i < e->properties && p.role != NONE; i++)
 		if (e->property[i].role == p.role)
 			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */
@@ -231,15 +263,131 @@ header_format(ply *f, mr_scan *line, bool *seen)
 	return MR_OK;
 }
 
-/* A comment "group NAME" names the next group, as mr_ply_write has it. */
+/* A comment "group NAME" names the next group, as mr_ply_write has it, and so on. */
 static mr_status
 header_comment(ply *f, mr_scan *line)
 {
-	if (!mr_scan_accept(line, "group"))
-		return MR_OK;
-	MR_TRY(MR_RESERVE(f->ctx, f->group, f->groups, 1, &f->groups_room));
-	f->group[f->groups++] = (named){ line->p, (size_t)(line->end - line->p) };
+	static const char *const words[] = { "group", "object", "material" };
+	mr_lines *files = &f->b.mtllib;
+
+	for (size_t i = 0; i < 3; i++)
+		if (mr_scan_accept(line, words[i])) {
+			named_list *l = &f->names[i];
+			MR_TRY(MR_RESERVE(f->ctx, l->name, l->count, 1, &l->room));
+			l->name[l->count++] = (mr_lines){ line->p, (size_t)(line->end - line->p) };
+			return MR_OK;
+		}
+	if (mr_scan_accept(line, "mtllib")) {
+		const char *name;
+		mr_skip_blanks(line);
+		name = clean_name(f->ctx, line->p, (size_t)(line->end - line->p));
+		files->text = name ? mr_format(f->ctx, "%s%s%s", files->bytes ? files->text : "",
+					 files->bytes ? "\n" : "", name)
+		                   : NULL;
+		if (!files->text)
+			return MR_EMEM;
+		files->bytes = strlen(files->text);
+	}
 	return MR_OK;
+}
+
+/* ---- which properties are kept, and as what ---- */
+
+/* The property of a role, or NULL. */
+static const property *
+find(const element *e, role r)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		if (e->property[i].role == r)
+			return &e->property[i];
+	return NULL;
+}
+
+static bool
+has(const element *e, role r)
+{
+	return find(e, r);
+}
+
+/* Parts without the whole are numbers as any others. */
+static void
+demote(element *e, const role *parts, size_t n)
+{
+	bool whole = true;
+
+	for (size_t i = 0; i < n; i++)
+		whole &= has(e, parts[i]);
+	for (size_t i = 0; i < e->properties && !whole; i++)
+		for (size_t k = 0; k < n; k++)
+			if (e->property[i].role == parts[k])
+				e->property[i].role = NONE;
+}
+
+/* Numbers of objects and materials need names, smoothing groups a type without sign. */
+static void
+demote_marks(ply *f, element *e)
+{
+	for (size_t i = 0; i < e->properties; i++) {
+		property *p = &e->property[i];
+		bool whole = p->value == UCHAR || p->value == USHORT || p->value == UINT;
+		if ((p->role == OBJECT && !f->names[1].count) ||
+		    (p->role == MATERIAL && !f->names[2].count) || (p->role == SMOOTHING && !whole))
+			p->role = NONE;
+	}
+}
+
+/* Those of vertices come first, whatever the order of the elements. */
+static mr_status
+keep_properties(ply *f, kind k)
+{
+	for (size_t i = 0; i < f->elements; i++) {
+		element *e = &f->element[i];
+		for (size_t j = 0; e->kind == k && j < e->properties; j++)
+			if (e->property[j].role == NONE && !e->property[j].list)
+				MR_TRY(mr_build_property(&f->b, e->property[j].name,
+				    types[e->property[j].value].name, k == VERTEX ? 'v' : 'f',
+				    &e->property[j].kept));
+	}
+	return MR_OK;
+}
+
+/* What is neither a role's nor a number of a vertex or a face. */
+static void
+warn_of_others(ply *f)
+{
+	for (size_t i = 0; i < f->elements; i++) {
+		const element *e = &f->element[i];
+		if (e->kind == OTHER && e->rows)
+			mr_warn(
+			    f->ctx, "%llu of element %s are left out", (unsigned long long)e->rows, e->name);
+		for (size_t k = 0; e->kind != OTHER && k < e->properties; k++) {
+			const property *p = &e->property[k];
+			if (p->role == NONE && !p->kept && e->rows)
+				mr_warn(f->ctx, "%s %s of element %s is left out",
+				    p->list ? "the list" : "property", p->name, e->name);
+		}
+	}
+}
+
+static mr_status
+choose_properties(ply *f)
+{
+	static const role normals[] = { NX, NY, NZ }, colors[] = { RED, GREEN, BLUE },
+			  alpha[] = { RED, ALPHA }, uv[] = { U, V };
+
+	for (size_t i = 0; i < f->elements; i++) {
+		element *e = &f->element[i];
+		if (e->kind == VERTEX) {
+			demote(e, normals, 3);
+			demote(e, colors, 3);
+			demote(e, uv, 2);
+			if (!has(e, RED))
+				demote(e, alpha, 2);
+		} else if (e->kind == FACE)
+			demote_marks(f, e);
+	}
+	MR_TRY(keep_properties(f, VERTEX));
+	return keep_properties(f, FACE);
 }
 
 static mr_status
@@ -256,7 +404,7 @@ read_header(ply *f)
 			if (!format)
 				return mr_scan_fail(&f->text, line.p, "the header lacks its format");
 			f->p = (const unsigned char *)f->text.p;
-			return MR_OK;
+			return choose_properties(f);
 		}
 		if (first && !mr_scan_accept(&line, "ply"))
 			return mr_scan_fail(&f->text, line.p, "the file does not begin with 'ply'");
@@ -360,34 +508,21 @@ check_rows(ply *f, const element *e)
 	return MR_OK;
 }
 
-static bool
-has(const element *e, role r)
-{
-	for (size_t i = 0; i < e->properties; i++)
-		if (e->property[i].role == r)
-			return true;
-	return false;
-}
-
 static type
 type_of(const element *e, role r)
 {
-	for (size_t i = 0; i < e->properties; i++)
-		if (e->property[i].role == r)
-			return e->property[i].value;
-	return DOUBLE;
+	return has(e, r) ? find(e, r)->value : DOUBLE;
 }
 
 static mr_status
 vertex_arrays(ply *f, const element *e)
 {
 	MR_TRY(mr_build_vertices(&f->b, e->rows));
-	if (has(e, NX) && has(e, NY) && has(e, NZ) && !(f->b.normal = MR_NEW(f->ctx, f->b.nv, mr_v3)))
+	if (has(e, NX) && !(f->b.normal = MR_NEW(f->ctx, f->b.nv, mr_v3)))
 		return MR_EMEM;
-	if (has(e, RED) && has(e, GREEN) && has(e, BLUE) && !(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
+	if (has(e, RED) && !(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
 		return MR_EMEM;
-	f->has_uv = has(e, U) && has(e, V);
-	if (f->has_uv && !(f->b.texcoord = MR_NEW(f->ctx, 2 * f->b.nv, double)))
+	if (has(e, U) && !(f->b.texcoord = MR_NEW(f->ctx, 2 * f->b.nv, double)))
 		return MR_EMEM;
 	return MR_OK;
 }
@@ -433,10 +568,28 @@ read_row(ply *f, const element *e, uint64_t row, double value[ROLES])
 			MR_TRY(pass_list(f, p));
 		else if (!f->ascii && (size_t)(f->end - f->p) < types[p->value].bytes)
 			return early(f, e, row);
-		else
-			MR_TRY(next_value(f, p->value, &value[p->role]));
+		else {
+			MR_TRY(next_value(f, p->value, &f->row[i]));
+			value[p->role] = f->row[i];
+		}
 	}
 	return MR_OK;
+}
+
+/* Keeps the row at hand as row `at` of the properties. */
+static mr_status
+keep_row(ply *f, const element *e, size_t at)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		if (e->property[i].kept)
+			MR_TRY(mr_build_value(&f->b, e->property[i].kept, at, f->row[i]));
+	return MR_OK;
+}
+
+static mr_status
+row_room(ply *f, const element *e)
+{
+	return MR_RESERVE(f->ctx, f->row, 0, e->properties, &f->row_room);
 }
 
 static mr_status
@@ -449,6 +602,7 @@ read_vertices(ply *f, const element *e)
 	if (!has(e, X) || !has(e, Y) || !has(e, Z))
 		return bad(f, here(f), "element vertex lacks x, y or z");
 	MR_TRY(check_rows(f, e));
+	MR_TRY(row_room(f, e));
 	MR_TRY(vertex_arrays(f, e));
 	v[ALPHA] = alpha >= FLOAT ? 1 : 255;
 	if (!has(e, ALPHA))
@@ -459,6 +613,7 @@ read_vertices(ply *f, const element *e)
 		f->b.p[i] = mr_vec(v[X], v[Y], v[Z]);
 		if (!mr_finite(f->b.p[i]))
 			return bad(f, where, "position %zu (%g %g %g) is not finite", i, v[X], v[Y], v[Z]);
+		MR_TRY(keep_row(f, e, i));
 		if (f->b.normal) {
 			f->b.normal[i] = mr_vec(v[NX], v[NY], v[NZ]);
 			odd_normal |= !mr_finite(f->b.normal[i]);
@@ -527,17 +682,38 @@ read_indices(ply *f, const property *p, bool strips)
 }
 
 static mr_status
-read_uvs(ply *f, const property *p)
+read_corners(ply *f, const property *p, corner_list *l)
 {
 	size_t n;
 
 	MR_TRY(next_length(f, p, &n));
-	MR_TRY(MR_RESERVE(f->ctx, f->uvs, 0, n, &f->uvs_room));
-	f->uvs_count = n;
-	for (size_t i = 0; i < n; i++) {
-		MR_TRY(next_value(f, p->value, &f->uvs[i]));
-		f->odd_uv |= !isfinite(f->uvs[i]);
+	MR_TRY(MR_RESERVE(f->ctx, l->value, l->count, n, &l->room));
+	l->had = l->count;
+	for (size_t i = 0; i < n; i++)
+		MR_TRY(next_value(f, p->value, &l->value[l->count++]));
+	return MR_OK;
+}
+
+/* The places of the corners' values in the list, `width` of each: NULL where this face has none, or as many
+ * as make no sense. */
+static mr_status
+places_of(ply *f, corner_list *l, size_t width, const uint32_t **places)
+{
+	size_t n = f->indices_count, first = l->had / width;
+
+	*places = NULL;
+	if (l->count - l->had != width * n) {
+		l->count = l->had;
+		return MR_OK;
 	}
+	MR_TRY(MR_RESERVE(f->ctx, l->place, 0, n, &l->place_room));
+	for (size_t i = 0; i < n; i++) {
+		const double *x = l->value + width * (first + i);
+		bool whole = isfinite(x[0]) && isfinite(x[1]) && (width == 2 || isfinite(x[2]));
+		l->place[i] = whole ? (uint32_t)(first + i) : MR_NONE;
+	}
+	*places = n ? l->place : NULL;
+	l->had = l->count;
 	return MR_OK;
 }
 
@@ -557,72 +733,92 @@ add_strips(ply *f)
 		odd = (length & 1) == 0; /* every other one is turned over */
 		t[0] = s[i - 2 + odd], t[1] = s[i - 1 - odd], t[2] = s[i];
 		if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-			MR_TRY(mr_build_face(&f->b, t, 3));
+			MR_TRY(mr_build_face(&f->b, t, NULL, NULL, 3));
 	}
 	return MR_OK;
 }
 
+/* A number of a group, an object or a material as its name. */
 static mr_status
-set_group(ply *f, double x, const void *where)
+set_mark(ply *f, role r, double x, const void *where)
 {
+	static const char *const what[] = { "group", "object", "material" };
+	size_t mark = (size_t)(r - GROUP), i = (size_t)x;
+	const named_list *l = &f->names[mark % 3];
 	char name[32];
-	size_t g = (size_t)x;
 
 	if (!(x >= 0 && x < 4294967296.0 && x == floor(x)))
-		return bad(f, where, "group %g", x);
-	if (g < f->groups)
-		return mr_build_group(&f->b, f->group[g].name, f->group[g].bytes);
-	snprintf(name, sizeof name, "group%zu", g);
-	return mr_build_group(&f->b, name, strlen(name));
+		return bad(f, where, "%s %g", r == SMOOTHING ? "smoothing group" : what[mark], x);
+	if (r == SMOOTHING)
+		return mr_build_smoothing(&f->b, (uint32_t)x);
+	if (i < l->count)
+		return mr_build_mark(&f->b, (mr_marking)mark, l->name[i].text, l->name[i].bytes);
+	snprintf(name, sizeof name, "%s%zu", what[mark], i);
+	return mr_build_mark(&f->b, (mr_marking)mark, name, strlen(name));
 }
 
 static mr_status
 add_face(ply *f, kind k)
 {
-	const uint32_t *c = f->indices;
+	const uint32_t *c = f->indices, *uv, *vn;
 
 	if (k == STRIPS)
 		return add_strips(f);
-	if (f->uvs_count == 2 * f->indices_count && !f->has_uv)
-		for (size_t i = 0; i < f->indices_count; i++)
-			MR_TRY(mr_build_texcoord(&f->b, c[i], f->uvs[2 * i], f->uvs[2 * i + 1]));
-	if (f->indices_count == 3 && mr_build_triangle(&f->b, c[0], c[1], c[2]))
+	MR_TRY(places_of(f, &f->uv, 2, &uv));
+	MR_TRY(places_of(f, &f->vn, 3, &vn));
+	if (f->indices_count == 3 && !uv && !vn && mr_build_triangle(&f->b, c[0], c[1], c[2]))
 		return MR_OK;
-	return mr_build_face(&f->b, c, f->indices_count);
+	return mr_build_face(&f->b, c, uv, vn, f->indices_count);
+}
+
+/* Names in their order, with faces or without. */
+static mr_status
+name_marks(ply *f, const element *e)
+{
+	for (size_t k = 0; k < 3; k++)
+		for (size_t i = 0; has(e, (role)(GROUP + k)) && i < f->names[k].count; i++) {
+			const mr_lines *n = &f->names[k].name[i];
+			MR_TRY(mr_build_mark(&f->b, (mr_marking)k, n->text, n->bytes));
+		}
+	return MR_OK;
+}
+
+static mr_status
+read_face(ply *f, const element *e, uint64_t row)
+{
+	size_t faces = f->b.faces;
+
+	for (size_t i = 0; i < e->properties; i++) {
+		const property *p = &e->property[i];
+		const void *where = here(f);
+		if (p->role == INDICES)
+			MR_TRY(read_indices(f, p, e->kind == STRIPS));
+		else if (p->role == UVS || p->role == NORMALS)
+			MR_TRY(read_corners(f, p, p->role == UVS ? &f->uv : &f->vn));
+		else if (p->list)
+			MR_TRY(pass_list(f, p));
+		else if (!f->ascii && (size_t)(f->end - f->p) < types[p->value].bytes)
+			return early(f, e, row);
+		else
+			MR_TRY(next_value(f, p->value, &f->row[i]));
+		if (p->role >= GROUP)
+			MR_TRY(set_mark(f, p->role, f->row[i], where));
+	}
+	MR_TRY(add_face(f, e->kind));
+	return f->b.faces > faces ? keep_row(f, e, faces) : MR_OK;
 }
 
 static mr_status
 read_faces(ply *f, const element *e)
 {
 	MR_TRY(check_rows(f, e));
+	MR_TRY(row_room(f, e));
 	if (e->rows && !has(e, INDICES))
 		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
-	for (size_t i = 0; has(e, GROUP) && i < f->groups; i++) /* in their order, with faces or without */
-		MR_TRY(mr_build_group(&f->b, f->group[i].name, f->group[i].bytes));
+	MR_TRY(name_marks(f, e));
 	MR_TRY(mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0));
-	for (uint64_t row = 0; row < e->rows; row++) {
-		double group = -1;
-		f->uvs_count = 0;
-		for (size_t i = 0; i < e->properties; i++) {
-			const property *p = &e->property[i];
-			if (p->role == INDICES)
-				MR_TRY(read_indices(f, p, e->kind == STRIPS));
-			else if (p->role == UVS)
-				MR_TRY(read_uvs(f, p));
-			else if (p->list)
-				MR_TRY(pass_list(f, p));
-			else if (!f->ascii && (size_t)(f->end - f->p) < types[p->value].bytes)
-				return early(f, e, row);
-			else {
-				const void *where = here(f);
-				double x = 0;
-				MR_TRY(next_value(f, p->value, &x));
-				if (p->role == GROUP)
-					MR_TRY(set_group(f, group = x, where));
-			}
-		}
-		MR_TRY(add_face(f, e->kind));
-	}
+	for (uint64_t row = 0; row < e->rows; row++)
+		MR_TRY(read_face(f, e, row));
 	return MR_OK;
 }
 
@@ -632,6 +828,7 @@ pass_rows(ply *f, const element *e)
 	double v[ROLES];
 
 	MR_TRY(check_rows(f, e));
+	MR_TRY(row_room(f, e));
 	for (uint64_t row = 0; e->properties && row < e->rows; row++)
 		MR_TRY(read_row(f, e, row, v));
 	return MR_OK;
@@ -639,8 +836,7 @@ pass_rows(ply *f, const element *e)
 
 /* ---- the file ---- */
 
-/* Elements as they come; faces that stand before the vertices are passed over and read when these are known.
- */
+/* Elements as they come; faces that stand before the vertices are read when these are known. */
 static mr_status
 read_elements(ply *f)
 {
@@ -689,8 +885,10 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (f.odd_uv) {
 		mr_dropped(ctx, &f.b.counts->dropped_texcoords, "texcoords", "one is not a finite number");
 		f.b.texcoord = NULL;
-		f.b.corner_seen = NULL;
 	}
+	warn_of_others(&f);
+	f.b.uv = f.uv.value;
+	f.b.vn = (const mr_v3 *)f.vn.value;
 	return mr_build_finish(&f.b, m);
 }
 

@@ -1,49 +1,57 @@
-/* Stanford PLY, written: positions, normals and texture coordinates as doubles, so that nothing is rounded.
+/*
+ * Stanford PLY, written: positions, normals and texture coordinates as doubles, so that nothing is rounded.
+ * What PLY has no usual property for stands in some of our own: normals of corners as a list, names of
+ * groups, objects, materials and their files as comments.
  */
 #include "formats/format.h"
 
 typedef enum order { ASCII, LITTLE, BIG } order;
 
-static void
-put_header(mr_sink *s, const mr_model *m, order o)
-{
-	static const char *const names[] = { "ascii", "binary_little_endian", "binary_big_endian" };
-	const char *p = m->groups.text, *end = p + m->groups.bytes;
+/* Types of properties, and the numbers that they hold; whole ones but the last two. */
+typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
 
-	mr_print(s, "ply\nformat %s 1.0\n", names[o]);
-	while (m->group && p <= end) {
-		const char *e = p < end ? memchr(p, '\n', (size_t)(end - p)) : NULL;
-		mr_put(s, "comment group ", 14);
-		mr_put(s, p, (size_t)((e ? e : end) - p));
-		mr_put(s, "\n", 1);
-		p = e ? e + 1 : end + 1;
-	}
-	mr_print(s, "element vertex %zu\nproperty double x\nproperty double y\nproperty double z\n", m->nv);
-	if (m->normal)
-		mr_print(s, "property double nx\nproperty double ny\nproperty double nz\n");
-	if (m->color)
-		mr_print(s,
-		    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
-	if (m->texcoord)
-		mr_print(s, "property double s\nproperty double t\n");
-	if (m->nf)
-		mr_print(s, "element face %zu\nproperty list uchar int vertex_indices\n", m->nf);
-	if (m->nf && m->group)
-		mr_print(s, "property uint group\n");
-	mr_print(s, "end_header\n");
-}
+static const struct {
+	const char *name;
+	double least, most;
+} types[TYPES] = { { "char", -128, 127 }, { "uchar", 0, 255 }, { "short", -32768, 32767 },
+	{ "ushort", 0, 65535 }, { "int", INT32_MIN, INT32_MAX }, { "uint", 0, UINT32_MAX },
+	{ "float", -INFINITY, INFINITY }, { "double", -INFINITY, INFINITY } };
+
+typedef struct output {
+	mr_sink *s;
+	const mr_model *m;
+	order order;
+	type *type; /* of each property of the model */
+	mr_polygons faces;
+	type count; /* of the lengths of lists: bytes where they can be */
+} output;
+
+/* ---- numbers ---- */
 
 static char *
-reals(char *to, const double *x, size_t n, order o)
+number(char *to, double x, type t, order o)
 {
-	for (size_t i = 0; i < n; i++) {
-		if (o == ASCII) {
-			to = mr_real_write(to, x[i]);
-			*to++ = ' ';
-		} else
-			to = mr_store_double(to, x[i], o == BIG);
+	bool big = o == BIG;
+
+	if (o == ASCII) {
+		to = mr_real_write(to, x);
+		*to++ = ' ';
+		return to;
 	}
-	return to;
+	if (t == FLOAT)
+		return mr_store_float(to, (float)x, big);
+	if (t == DOUBLE)
+		return mr_store_double(to, x, big);
+	if (t == INT || t == UINT)
+		return mr_store32(to, x < 0 ? (uint32_t)(int32_t)x : (uint32_t)x, big);
+	if (t == SHORT || t == USHORT) {
+		unsigned v = x < 0 ? (unsigned)(int)x : (unsigned)x;
+		to[big] = (char)(v & 255);
+		to[!big] = (char)(v >> 8 & 255);
+		return to + 2;
+	}
+	*to = (char)(x < 0 ? (unsigned)(int)x : (unsigned)x);
+	return to + 1;
 }
 
 static char *
@@ -56,52 +64,237 @@ count(char *to, uint32_t n, order o)
 	return to;
 }
 
-static char *
-bytes(char *to, const unsigned char *x, size_t n, order o)
+static void
+put_numbers(const output *w, const double *x, size_t n)
 {
-	for (size_t i = 0; i < n; i++) {
-		if (o == ASCII) {
-			to = mr_count_write(to, x[i]);
-			*to++ = ' ';
-		} else
-			*to++ = (char)x[i];
-	}
-	return to;
+	char *to = mr_sink_room(w->s);
+
+	for (size_t i = 0; i < n; i++)
+		to = number(to, x[i], DOUBLE, w->order);
+	mr_sink_fill(w->s, to);
 }
 
 /* In text, the last blank of a row becomes its newline. */
 static void
-end_row(mr_sink *s, char *to, order o)
+end_row(const output *w)
 {
-	if (o == ASCII)
-		to[-1] = '\n';
-	mr_sink_fill(s, to);
+	if (w->order == ASCII)
+		w->s->buffer[w->s->used - 1] = '\n';
+}
+
+/* ---- properties ---- */
+
+static double
+value_of(const mr_property *p, size_t i)
+{
+	if (p->shape.type == 'd')
+		return ((const double *)p->data)[i];
+	return p->shape.type == 'u' ? ((const uint32_t *)p->data)[i] : ((const unsigned char *)p->data)[i];
+}
+
+/* Whether reading gives the number back; as text a float has all its digits. */
+static bool
+holds(type t, double x, order o)
+{
+	if (t == FLOAT && o != ASCII)
+		return isnan(x) || mr_as_float(x) == x;
+	return t >= FLOAT || (x >= types[t].least && x <= types[t].most && x == floor(x));
+}
+
+/* The type that the property came with, or doubles where that does not hold its values. */
+static type
+choose_type(const mr_property *p, size_t n, order o)
+{
+	type t = CHAR;
+
+	while (t < DOUBLE && strcmp(types[t].name, p->type))
+		t++;
+	for (size_t i = 0; i < n; i++)
+		if (!holds(t, value_of(p, i), o))
+			return DOUBLE;
+	return t;
+}
+
+static mr_status
+choose_types(output *w)
+{
+	const mr_model *m = w->m;
+
+	w->type = MR_NEW(w->s->ctx, m->properties, type);
+	if (!w->type)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->properties; i++) {
+		const mr_property *p = &m->property[i];
+		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv, w->order);
+	}
+	return MR_OK;
+}
+
+static void
+put_properties(const output *w, char element, size_t i)
+{
+	for (size_t k = 0; k < w->m->properties; k++) {
+		const mr_property *p = &w->m->property[k];
+		if (p->shape.element == element)
+			mr_sink_fill(w->s, number(mr_sink_room(w->s), value_of(p, i), w->type[k], w->order));
+	}
+}
+
+/* ---- the header ---- */
+
+static void
+put_names(const output *w, const char *what, mr_lines names)
+{
+	const char *p = names.text, *end = p + names.bytes;
+
+	while (p <= end) {
+		const char *e = p < end ? memchr(p, '\n', (size_t)(end - p)) : NULL;
+		mr_print(w->s, "comment %s ", what);
+		mr_put(w->s, p, (size_t)((e ? e : end) - p));
+		mr_put(w->s, "\n", 1);
+		p = e ? e + 1 : end + 1;
+	}
+}
+
+static void
+put_property_lines(const output *w, char element)
+{
+	for (size_t i = 0; i < w->m->properties; i++) {
+		const mr_property *p = &w->m->property[i];
+		if (p->shape.element == element)
+			mr_print(w->s, "property %s %s\n", types[w->type[i]].name, p->name);
+	}
+}
+
+static void
+put_vertex_lines(const output *w)
+{
+	const mr_model *m = w->m;
+	mr_sink *s = w->s;
+
+	mr_print(s, "element vertex %zu\nproperty double x\nproperty double y\nproperty double z\n", m->nv);
+	if (m->normal)
+		mr_print(s, "property double nx\nproperty double ny\nproperty double nz\n");
+	if (m->color)
+		mr_print(s,
+		    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
+	if (m->texcoord)
+		mr_print(s, "property double s\nproperty double t\n");
+	put_property_lines(w, 'v');
+}
+
+static void
+put_face_lines(const output *w)
+{
+	const char *counted = types[w->count].name;
+	const mr_model *m = w->m;
+	mr_sink *s = w->s;
+
+	mr_print(s, "element face %zu\nproperty list %s int vertex_indices\n", w->faces.count, counted);
+	if (m->corner_texcoord)
+		mr_print(s, "property list %s double texcoord\n", counted);
+	if (m->corner_normal)
+		mr_print(s, "property list %s double corner_normal\n", counted);
+	if (m->group)
+		mr_print(s, "property uint group\n");
+	if (m->object)
+		mr_print(s, "property uint object\n");
+	if (m->material)
+		mr_print(s, "property uint material\n");
+	if (m->smoothing)
+		mr_print(s, "property uint smoothing\n");
+	put_property_lines(w, 'f');
+}
+
+static void
+put_header(const output *w)
+{
+	static const char *const names[] = { "ascii", "binary_little_endian", "binary_big_endian" };
+	const mr_model *m = w->m;
+
+	mr_print(w->s, "ply\nformat %s 1.0\n", names[w->order]);
+	if (m->mtllib.bytes)
+		put_names(w, "mtllib", m->mtllib);
+	if (m->group)
+		put_names(w, "group", m->groups);
+	if (m->object)
+		put_names(w, "object", m->objects);
+	if (m->material)
+		put_names(w, "material", m->materials);
+	put_vertex_lines(w);
+	if (m->nf)
+		put_face_lines(w);
+	mr_print(w->s, "end_header\n");
+}
+
+/* ---- rows ---- */
+
+static void
+put_vertex(const output *w, size_t i)
+{
+	const mr_model *m = w->m;
+
+	put_numbers(w, &m->p[i].x, 3);
+	if (m->normal)
+		put_numbers(w, &m->normal[i].x, 3);
+	for (size_t k = 0; m->color && k < 4; k++)
+		mr_sink_fill(w->s, number(mr_sink_room(w->s), m->color[4 * i + k], UCHAR, w->order));
+	if (m->texcoord)
+		put_numbers(w, m->texcoord + 2 * i, 2);
+	put_properties(w, 'v', i);
+	end_row(w);
+}
+
+/* A list of `width` numbers for each corner. */
+static void
+put_corners(const output *w, size_t face, const double *value, size_t width)
+{
+	size_t first = w->faces.start[face], end = w->faces.start[face + 1];
+
+	mr_sink_fill(w->s, number(mr_sink_room(w->s), (double)(width * (end - first)), w->count, w->order));
+	for (size_t i = first; i < end; i++)
+		put_numbers(w, value + width * w->faces.corner[i], width);
+}
+
+static void
+put_face(const output *w, size_t face)
+{
+	size_t first = w->faces.start[face], end = w->faces.start[face + 1], f = w->faces.corner[first] / 3;
+	const uint32_t *const marks[] = { w->m->group, w->m->object, w->m->material, w->m->smoothing };
+	const mr_model *m = w->m;
+	mr_sink *s = w->s;
+
+	mr_sink_fill(s, number(mr_sink_room(s), (double)(end - first), w->count, w->order));
+	for (size_t i = first; i < end; i++) {
+		uint32_t h = w->faces.corner[i];
+		mr_sink_fill(s, count(mr_sink_room(s), m->t[h / 3].v[h % 3], w->order));
+	}
+	if (m->corner_texcoord)
+		put_corners(w, face, m->corner_texcoord, 2);
+	if (m->corner_normal)
+		put_corners(w, face, (const double *)m->corner_normal, 3);
+	for (size_t k = 0; k < 4; k++)
+		if (marks[k])
+			mr_sink_fill(s, count(mr_sink_room(s), marks[k][f], w->order));
+	put_properties(w, 'f', f);
+	end_row(w);
 }
 
 static mr_status
 put(mr_sink *s, const mr_model *m, order o)
 {
-	static const unsigned char three = 3;
+	enum { MOST = 255 };
+	output w = { .s = s, .m = m, .order = o, .count = UCHAR };
 
-	put_header(s, m, o);
-	for (size_t i = 0; i < m->nv; i++) {
-		char *to = reals(mr_sink_room(s), &m->p[i].x, 3, o);
-		if (m->normal)
-			to = reals(to, &m->normal[i].x, 3, o);
-		if (m->color)
-			to = bytes(to, m->color + 4 * i, 4, o);
-		if (m->texcoord)
-			to = reals(to, m->texcoord + 2 * i, 2, o);
-		end_row(s, to, o);
-	}
-	for (size_t f = 0; f < m->nf; f++) {
-		char *to = bytes(mr_sink_room(s), &three, 1, o);
-		for (int k = 0; k < 3; k++)
-			to = count(to, m->t[f].v[k], o);
-		if (m->group)
-			to = count(to, m->group[f], o);
-		end_row(s, to, o);
-	}
+	MR_TRY(choose_types(&w));
+	MR_TRY(mr_faces_of(s, m, &w.faces));
+	if (w.faces.most * (m->corner_normal ? 3 : m->corner_texcoord ? 2 : 1) > MOST)
+		w.count = UINT;
+	put_header(&w);
+	for (size_t i = 0; i < m->nv; i++)
+		put_vertex(&w, i);
+	for (size_t i = 0; i < w.faces.count; i++)
+		put_face(&w, i);
 	return MR_OK;
 }
 

@@ -89,7 +89,7 @@ end_facet(ascii *a, const mr_scan *line)
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		c[i] = (uint32_t)(a->first + i);
-	return mr_build_face(&a->b, c, n);
+	return mr_build_face(&a->b, c, NULL, NULL, n);
 }
 
 static mr_status
@@ -132,7 +132,7 @@ statement(ascii *a, mr_scan *line, int *state)
 			mr_skip_blanks(line);
 			a->solids++;
 			return a->solids > 1 || line->p < line->end
-			           ? mr_build_group(&a->b, line->p, (size_t)(line->end - line->p))
+			           ? mr_build_mark(&a->b, MR_GROUP, line->p, (size_t)(line->end - line->p))
 			           : MR_OK;
 		default:
 			return MR_OK;
@@ -179,7 +179,7 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		a.b.corner[i] = map[a.b.corner[i]];
 	a.b.nv = nv;
 	if (a.solids < 2)
-		a.b.has_groups = false; /* one name for all says nothing of the faces */
+		a.b.marks[MR_GROUP].used = false; /* one name for all says nothing of the faces */
 	return mr_build_finish(&a.b, m);
 }
 
@@ -244,9 +244,10 @@ unit_normal(const mr_model *m, size_t f)
 static mr_status
 need_faces(mr_sink *s, const mr_model *m)
 {
+	if (m->nf == 0)
+		return mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
 	mr_note_lost(s, m, MR_KEEPS_FACES);
-	return m->nf ? MR_OK
-	             : mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
+	return MR_OK;
 }
 
 static char *

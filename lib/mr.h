@@ -260,7 +260,9 @@ MR_API mr_status mr_import(mr_ctx *ctx, const char *path, const mr_import_opts *
 /* What of the layer the format could not keep. */
 typedef struct mr_export_result {
 	size_t dropped_normals, dropped_colors, dropped_alpha; /* 1, or not known where none was */
-	size_t dropped_texcoords, dropped_groups, dropped_faces;
+	size_t dropped_texcoords, dropped_groups, dropped_objects, dropped_materials, dropped_smoothing;
+	size_t dropped_polygons, dropped_properties, dropped_faces;
+	size_t broken_polygons;   /* that are written as their triangles */
 	size_t rounded_positions; /* of formats in float32: those that are no longer what they were */
 } mr_export_result;
 
@@ -653,15 +655,17 @@ MR_API mr_status mr_sample_frame(
 enum { MR_LEVEL_MAX = 15 }; /* of subdivision */
 
 typedef struct mr_subdivide_opts {
-	size_t level;      /* how many times each triangle becomes four */
-	bool limit;        /* move the vertices onto the limit surface */
-	double crease;     /* keep edges whose faces meet at more degrees; 180: none */
-	const char *layer; /* NULL: control, else mesh */
+	size_t level;          /* how many times each triangle becomes four */
+	bool limit;            /* move the vertices onto the limit surface */
+	double crease;         /* keep edges whose faces meet at more degrees; 180: none */
+	double longest;        /* instead, divide edges that are longer, the surface as it is; 0: not */
+	bool longest_relative; /* longest is a share of the bounding box's diagonal */
+	const char *layer;     /* NULL: control, else mesh */
 } mr_subdivide_opts;
 
 #define MR_SUBDIVIDE_DEFAULTS                                                                                \
 	{                                                                                                    \
-		1, false, 180, NULL                                                                          \
+		1, false, 180, 0, false, NULL                                                                \
 	}
 
 typedef struct mr_subdivide_result {

@@ -68,16 +68,16 @@ project(polygon *g, const mr_v3 *p, mr_v3 normal)
 }
 
 static void
-emit(const polygon *g, mr_tri *t, size_t i, size_t j, size_t k)
+emit(mr_tri *t, size_t i, size_t j, size_t k)
 {
-	*t = (mr_tri){ { g->corner[i], g->corner[j], g->corner[k] } };
+	*t = (mr_tri){ { (uint32_t)i, (uint32_t)j, (uint32_t)k } };
 }
 
 static void
 fan(const polygon *g, size_t first, mr_tri *t)
 {
 	for (size_t i = 1; i + 1 < g->n; i++)
-		emit(g, t++, first, (first + i) % g->n, (first + i + 1) % g->n);
+		emit(t++, first, (first + i) % g->n, (first + i + 1) % g->n);
 }
 
 /* The first corner whose fan has triangles of positive area only, all corners being convex; n where there is
@@ -191,7 +191,7 @@ clip(polygon *g, size_t i, mr_tri *t)
 {
 	uint32_t a = g->prev[i], c = g->next[i];
 
-	emit(g, t, a, i, c);
+	emit(t, a, i, c);
 	g->next[a] = c;
 	g->prev[c] = a;
 	g->reflex[i] = false;
@@ -249,7 +249,7 @@ clip_ears(polygon *g, mr_tri *t)
 		}
 		clip(g, ear, t++);
 	}
-	emit(g, t, g->prev[i], i, g->next[i]);
+	emit(t, g->prev[i], i, g->next[i]);
 }
 
 static mr_status
@@ -274,6 +274,140 @@ ears(mr_ctx *ctx, polygon *g, mr_tri *t)
 	return MR_OK;
 }
 
+/* ---- which edges of triangles are one ---- */
+
+typedef struct edge {
+	uint64_t ends; /* from, to */
+	uint32_t he;
+	uint32_t taken; /* of the first of equal ones: so many of them, from it on, have twins */
+} edge;
+
+static int
+compare_edges(const void *a, const void *b)
+{
+	const edge *x = a, *y = b;
+
+	return x->ends != y->ends ? (x->ends > y->ends) - (x->ends < y->ends)
+	                          : (x->he > y->he) - (x->he < y->he);
+}
+
+/* By insertion where they are few, as those of a polygon mostly are. */
+static void
+sort_edges(edge *e, size_t n)
+{
+	if (n > 48) {
+		qsort(e, n, sizeof *e, compare_edges);
+		return;
+	}
+	for (size_t i = 1; i < n; i++) {
+		edge x = e[i];
+		size_t j = i;
+		for (; j > 0 && compare_edges(&e[j - 1], &x) > 0; j--)
+			e[j] = e[j - 1];
+		e[j] = x;
+	}
+}
+
+static uint64_t
+ends_of(uint32_t from, uint32_t to)
+{
+	return (uint64_t)from << 32 | to;
+}
+
+/* The first of the sorted edges that has these ends or higher ones. */
+static size_t
+first_edge(const edge *e, size_t n, uint64_t ends)
+{
+	size_t low = 0;
+
+	while (low < n) {
+		size_t middle = (low + n) / 2;
+		if (e[middle].ends < ends)
+			low = middle + 1;
+		else
+			n = middle;
+	}
+	return low;
+}
+
+/* The half-edge of an earlier triangle that runs against h and has no twin; MR_NONE where there is none. */
+static uint32_t
+free_twin(const mr_mesh *m, edge *e, size_t n, const uint32_t *twin, uint32_t h)
+{
+	uint64_t ends = ends_of(mr_he_to(m, h), mr_he_from(m, h));
+	size_t first = first_edge(e, n, ends), i = first;
+
+	if (i == n || e[i].ends != ends)
+		return MR_NONE;
+	i += e[first].taken;
+	while (i < n && e[i].ends == ends && twin[e[i].he] != MR_NONE)
+		i++;
+	e[first].taken = (uint32_t)(i - first);
+	return i < n && e[i].ends == ends && e[i].he < h / 3 * 3 ? e[i].he : MR_NONE;
+}
+
+/*
+ * Joins each of the triangles first to end, but the first, to an earlier one: along `most` of its edges, the
+ * first of them that can be.  twin: of their half-edges.  Returns how many were joined.
+ */
+static size_t
+join_triangles(const mr_mesh *m, size_t first, size_t end, int most, edge *e, uint32_t *twin)
+{
+	size_t n = 0, joined = 0;
+
+	for (size_t h = 3 * first; h < 3 * end; h++) {
+		e[n++] = (edge){ ends_of(mr_he_from(m, (uint32_t)h), mr_he_to(m, (uint32_t)h)), (uint32_t)h,
+			0 };
+		twin[h] = MR_NONE;
+	}
+	sort_edges(e, n);
+	for (size_t f = first + 1; f < end; f++) {
+		int edges = 0;
+		for (uint32_t h = (uint32_t)(3 * f); h < 3 * (f + 1) && edges < most; h++) {
+			uint32_t g = free_twin(m, e, n, twin, h);
+			if (g == MR_NONE)
+				continue;
+			twin[h] = g;
+			twin[g] = h;
+			edges++;
+		}
+		joined += edges > 0;
+	}
+	return joined;
+}
+
+/*
+ * Puts the triangles of a polygon in the order of mr_polygons_find: the first begins with the edge from 0 to
+ * 1, and each other one with the edge along which it is joined to an earlier one.
+ */
+static mr_status
+put_in_order(mr_ctx *ctx, mr_tri *t, size_t n)
+{
+	const mr_mesh m = { .t = t, .nf = n };
+	edge *e = MR_NEW(ctx, 3 * n, edge);
+	uint32_t *twin = MR_NEW(ctx, 3 * n, uint32_t), *queue = MR_NEW(ctx, 3 * n, uint32_t);
+	mr_tri *out = MR_NEW(ctx, n, mr_tri);
+	size_t count = 0;
+
+	if (!e || !twin || !queue || !out)
+		return MR_EMEM;
+	join_triangles(&m, 0, n, 3, e, twin);
+	for (uint32_t h = 0; h < 3 * n && count == 0; h++)
+		if (mr_he_from(&m, h) == 0 && mr_he_to(&m, h) == 1)
+			queue[count++] = h;
+	for (size_t i = 0; i < count && i < n; i++) {
+		uint32_t h = queue[i], a = mr_he_next(h), b = mr_he_prev(h);
+		out[i] = (mr_tri){ { mr_he_from(&m, h), mr_he_from(&m, a), mr_he_from(&m, b) } };
+		if (twin[a] != MR_NONE)
+			queue[count++] = twin[a];
+		if (twin[b] != MR_NONE)
+			queue[count++] = twin[b];
+	}
+	if (count == n)
+		memcpy(t, out, n * sizeof *t);
+	return MR_OK;
+}
+
 mr_status
 mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t)
 {
@@ -292,6 +426,84 @@ mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size
 		fan(&g, first, t);
 	else
 		status = ears(ctx, &g, t);
+	if (status == MR_OK)
+		status = put_in_order(ctx, t, n - 2);
 	mr_mark_release(ctx, mark);
 	return status;
+}
+
+/* ---- triangles back to polygons ---- */
+
+/* The outline of k triangles from half-edge h, where it is a loop of k + 2 edges; else false. */
+static bool
+walk_outline(const uint32_t *twin, uint32_t h, size_t k, uint32_t *corner)
+{
+	uint32_t at = h;
+	size_t n = 0;
+
+	do {
+		if (n == k + 2)
+			return false;
+		corner[n++] = at;
+		for (at = mr_he_next(at); twin[at] != MR_NONE; at = mr_he_next(twin[at]))
+			;
+	} while (at != h);
+	return n == k + 2;
+}
+
+/* Whether an outline goes out to a vertex inside and straight back. */
+static bool
+has_spike(const mr_mesh *m, const uint32_t *corner, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		if (mr_he_from(m, corner[i]) == mr_he_from(m, corner[(i + 2) % n]))
+			return true;
+	return false;
+}
+
+/* The polygon of triangles first to end; false where they are none. */
+static bool
+find_outline(const mr_mesh *m, size_t first, size_t end, edge *e, uint32_t *twin, uint32_t *corner)
+{
+	size_t k = end - first;
+	uint32_t h = (uint32_t)(3 * first);
+
+	if (join_triangles(m, first, end, 1, e, twin) != k - 1)
+		return false;
+	while (twin[h] != MR_NONE)
+		h++;
+	return walk_outline(twin, h, k, corner) && !has_spike(m, corner, k + 2);
+}
+
+mr_status
+mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out)
+{
+	const mr_mesh m = { .t = t, .nf = nf };
+	mr_polygons r = { .start = MR_NEW(ctx, nf + 1, size_t), .corner = MR_NEW(ctx, 3 * nf, uint32_t) };
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *twin = number ? MR_NEW(ctx, 3 * nf, uint32_t) : NULL;
+	edge *e = number ? MR_NEW(ctx, 3 * nf, edge) : NULL;
+	size_t n = 0;
+
+	if (!r.start || !r.corner || (number && (!twin || !e)))
+		return MR_EMEM;
+	for (size_t f = 0, end; f < nf; f = end) {
+		bool one;
+		for (end = f + 1; number && end < nf && number[end] == number[f]; end++)
+			;
+		one = end - f > 1 && find_outline(&m, f, end, e, twin, r.corner + n);
+		r.broken += end - f > 1 && !one;
+		for (size_t i = f; i < (one ? f + 1 : end); i++) {
+			size_t corners = one ? end - f + 2 : 3;
+			r.start[r.count++] = n;
+			for (size_t k = 0; !one && k < 3; k++)
+				r.corner[n + k] = (uint32_t)(3 * i + k);
+			n += corners;
+			r.most = corners > r.most ? corners : r.most;
+		}
+	}
+	r.start[r.count] = n;
+	mr_mark_release(ctx, mark);
+	*out = r;
+	return MR_OK;
 }

@@ -11,9 +11,29 @@
  * vertices: triangles of its own orientation that cover it exactly, where it is simple,
  * seen along its normal (Newell's).  Convex polygons become fans from a corner.  A polygon
  * that crosses itself or has no area still gives n - 2 triangles that use each of its edges once.
- * t: n - 2, the caller's.
+ * t: n - 2 triangles of corners from 0 to n - 1, the caller's, in the order from which mr_polygons_find finds
+ * the polygon again.
  */
 mr_status mr_polygon_triangulate(
     mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t) MR_WARN_UNUSED;
+
+/* Faces of any number of corners, made of the triangles of a mesh. */
+typedef struct mr_polygons {
+	size_t *start;    /* count + 1: of each face in corner */
+	uint32_t *corner; /* half-edges 3 f + i: the corner is the i-th of triangle f */
+	size_t count;
+	size_t broken; /* of more than one triangle, that are no polygon any more: they come as triangles */
+	size_t most;   /* corners of a face */
+} mr_polygons;
+
+/*
+ * The polygons of triangles that have the same number and stand one behind the other (the column `polygon`).
+ * Each triangle but the first is joined to an earlier one along the first of its edges that has one to be
+ * joined to; the polygon is the outline of all, from the first edge of the first triangle that is on it.  So
+ * a polygon that touches itself is found, too, as one around a hole; one with a vertex inside is none.
+ * number: NULL where all are triangles.
+ */
+mr_status mr_polygons_find(
+    mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out) MR_WARN_UNUSED;
 
 #endif

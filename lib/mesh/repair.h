@@ -35,7 +35,7 @@ typedef struct mr_repair_report {
  * outwards; others as most of their faces were.  Fans at a vertex are parted.
  *
  * out: arrays of the arena.  vertex_of, face_of: for each vertex and face of `out`, the one of `m` that it
- * comes from.  MR_EMESH where no face is left.
+ * comes from; one turned over keeps its first vertex.  MR_EMESH where no face is left.
  */
 mr_status mr_repair(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out, const uint32_t **vertex_of,
     const uint32_t **face_of, mr_repair_report *report) MR_WARN_UNUSED;

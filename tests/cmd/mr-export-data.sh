@@ -8,17 +8,17 @@ for file in "$DATA"/meshes/*.* "$DATA"/points/*.*; do
 	case $file in
 	*.mtl) continue ;;
 	esac
-	mr-import "$file" -o a.mrs || continue
-	mr-export -i a.mrs -f ply a
+	mr-import -q "$file" -o a.mrs || continue
+	mr-export -q -i a.mrs -f ply a
 	for format in ply-ascii ply-big; do
-		mr-export -i a.mrs -f $format b
-		mr-import b | mr-export -f ply c
+		mr-export -q -i a.mrs -f $format b
+		mr-import -q b | mr-export -q -f ply c
 		differ a c
 	done
 	format=obj # has no alpha, and no groups without faces: compared by what OFF keeps
-	mr-export -i a.mrs -f obj b
-	mr-export -i a.mrs -f off a
-	mr-import b | mr-export -f off c
+	mr-export -q -i a.mrs -f obj b
+	mr-export -q -i a.mrs -f off a
+	mr-import -q b | mr-export -q -f off c
 	differ a c
 done
 echo done

@@ -1,6 +1,8 @@
 /* Formats: what is written is read back bit for bit; what is read is what the file says; gzip; names. */
 #include "model_seeds.h"
 
+#include "formats/model.h"
+
 #include <math.h>
 #include <setjmp.h>
 #include <stdarg.h>
@@ -53,27 +55,59 @@ restrict_to(mr_model m, unsigned keeps)
 	return m;
 }
 
-/* The name of face f's group. */
+/* Name i of a list. */
 static size_t
-group_name(const mr_model *m, size_t f, const char **name)
+line_of(mr_lines l, uint32_t i, const char **name)
 {
-	const char *p = m->groups.text, *end = p + m->groups.bytes, *e;
+	const char *p = l.text, *end = p + l.bytes, *e;
 
-	for (uint32_t g = m->group[f]; g > 0; g--)
+	for (; i > 0; i--)
 		p = (const char *)memchr(p, '\n', (size_t)(end - p)) + 1;
 	e = memchr(p, '\n', (size_t)(end - p));
 	*name = p;
 	return (size_t)((e ? e : end) - p);
 }
 
-static void
-same_groups(const mr_model *a, const mr_model *b)
+/* The name of face f's group. */
+static size_t
+group_name(const mr_model *m, size_t f, const char **name)
 {
-	for (size_t f = 0; f < a->nf; f++) {
+	return line_of(m->groups, m->group[f], name);
+}
+
+static void
+same_names(const uint32_t *a, mr_lines in_a, const uint32_t *b, mr_lines in_b, size_t nf)
+{
+	assert_true(!a == !b);
+	for (size_t f = 0; a && f < nf; f++) {
 		const char *x, *y;
-		size_t n = group_name(a, f, &x);
-		assert_int_equal(group_name(b, f, &y), n);
+		size_t n = line_of(in_a, a[f], &x);
+		assert_int_equal(line_of(in_b, b[f], &y), n);
 		assert_memory_equal(x, y, n);
+	}
+}
+
+static void
+same_rows(const void *a, const void *b, size_t bytes)
+{
+	if (bytes == 0)
+		return;
+	assert_true(!a == !b);
+	if (a)
+		assert_memory_equal(a, b, bytes);
+}
+
+static void
+same_properties(const mr_model *a, const mr_model *b)
+{
+	assert_int_equal(a->properties, b->properties);
+	for (size_t i = 0; i < a->properties; i++) {
+		const mr_property *p = &a->property[i], *q = &b->property[i];
+		assert_string_equal(p->name, q->name);
+		assert_string_equal(p->type, q->type);
+		assert_memory_equal(&p->shape, &q->shape, sizeof p->shape);
+		same_rows(p->data, q->data,
+		    (p->shape.element == 'f' ? a->nf : a->nv) * mr_type_size(p->shape.type));
 	}
 }
 
@@ -83,20 +117,20 @@ same_model(const mr_model *a, const mr_model *b)
 	assert_int_equal(a->nv, b->nv);
 	assert_int_equal(a->nf, b->nf);
 	assert_memory_equal(a->p, b->p, a->nv * sizeof *a->p);
-	assert_true(!a->normal == !b->normal);
-	assert_true(!a->color == !b->color);
-	assert_true(!a->texcoord == !b->texcoord);
-	assert_true(!a->group == !b->group);
-	if (a->nf)
-		assert_memory_equal(a->t, b->t, a->nf * sizeof *a->t);
-	if (a->normal)
-		assert_memory_equal(a->normal, b->normal, a->nv * sizeof *a->normal);
-	if (a->color)
-		assert_memory_equal(a->color, b->color, 4 * a->nv);
-	if (a->texcoord)
-		assert_memory_equal(a->texcoord, b->texcoord, 2 * a->nv * sizeof(double));
-	if (a->group)
-		same_groups(a, b);
+	same_rows(a->t, b->t, a->nf * sizeof *a->t);
+	same_rows(a->normal, b->normal, a->nv * sizeof *a->normal);
+	same_rows(a->color, b->color, 4 * a->nv);
+	same_rows(a->texcoord, b->texcoord, 2 * a->nv * sizeof(double));
+	same_rows(a->corner_texcoord, b->corner_texcoord, 6 * a->nf * sizeof(double));
+	same_rows(a->corner_normal, b->corner_normal, 3 * a->nf * sizeof(mr_v3));
+	same_rows(a->smoothing, b->smoothing, a->nf * sizeof *a->smoothing);
+	same_rows(a->polygon, b->polygon, a->nf * sizeof *a->polygon);
+	same_names(a->group, a->groups, b->group, b->groups, a->nf);
+	same_names(a->object, a->objects, b->object, b->objects, a->nf);
+	same_names(a->material, a->materials, b->material, b->materials, a->nf);
+	assert_int_equal(a->mtllib.bytes, b->mtllib.bytes);
+	same_rows(a->mtllib.text, b->mtllib.text, a->mtllib.bytes);
+	same_properties(a, b);
 }
 
 /* Every set of attributes that the format keeps goes out and comes back. */
@@ -121,6 +155,130 @@ round_trips(void **state)
 		}
 }
 
+static mr_status
+parse(mr_ctx *ctx, const char *path, const char *text, mr_model *m)
+{
+	return mr_model_parse(ctx, path, NULL, (const unsigned char *)text, strlen(text), m);
+}
+
+/* A random OBJ: polygons of some corners, seams, creases, corners without, and marks that change. */
+static char *
+random_obj(mr_ctx *ctx, uint64_t number)
+{
+	enum { CORNERS = 30, ROOM = 1 << 16 };
+	mr_random r = { number };
+	char *text = MR_NEW(ctx, ROOM, char);
+	size_t n = 0;
+
+#define SAY(...) (n += (size_t)snprintf(text + n, ROOM - n, __VA_ARGS__))
+	SAY("mtllib a b.mtl\nmtllib c.mtl\n");
+	for (int i = 0; i < CORNERS; i++) {
+		SAY("v %.17g %.17g %.17g\n", cos(i * 2 * MR_PI / CORNERS) * (i % 3 ? 1 : 0.3),
+		    sin(i * 2 * MR_PI / CORNERS), 1e-3 * mr_random_real(&r));
+		SAY("vt %.17g %.17g\nvn 0 %.17g 1\n", mr_random_real(&r), mr_random_real(&r),
+		    mr_random_real(&r));
+	}
+	for (int f = 0; f < 40; f++) {
+		int corners = 3 + (int)(mr_random_bits(&r) % 5), first = (int)(mr_random_bits(&r) % CORNERS);
+		bool uv = mr_random_bits(&r) % 8, vn = mr_random_bits(&r) % 8;
+		if (mr_random_bits(&r) % 3 == 0)
+			SAY("%s %s%d\n", (const char *[]){ "o", "g", "usemtl" }[f % 3], f % 2 ? "a b" : "c",
+			    f % 5);
+		if (f % 7 == 3)
+			SAY(f % 2 ? "s off\n" : "s %d\n", f);
+		SAY("f");
+		for (int k = 0; k < corners; k++) {
+			int v = (first + k * 3) % CORNERS + 1, t = 1 + (int)(mr_random_bits(&r) % CORNERS);
+			SAY(uv   ? vn ? " %d/%d/%d" : " %d/%d"
+			    : vn ? " %d//%d"
+				 : " %d",
+			    v, uv ? t : v, v / 4 + 1);
+		}
+		SAY("\n");
+	}
+#undef SAY
+	assert_true(n < ROOM);
+	return text;
+}
+
+/* All that OBJ knows of goes out and comes back, in OBJ and in PLY. */
+static void
+whole_models(void **state)
+{
+	static const char *const paths[] = { "whole.obj", "whole.ply", "whole-big.ply", "whole-ascii.ply" };
+	static const char *const formats[] = { "obj", "ply", "ply-big", "ply-ascii" };
+
+	(void)state;
+	for (uint64_t number = 1; number < 40; number++) {
+		mr_ctx ctx;
+		mr_model m, back;
+		mr_ctx_init(&ctx, 1);
+		ok(&ctx, parse(&ctx, "", random_obj(&ctx, number), &m));
+		assert_true(m.corner_texcoord && m.corner_normal && m.object && m.group && m.material &&
+			    m.smoothing && m.polygon && m.mtllib.bytes == 13);
+		for (int i = 0; i < 4; i++) {
+			ok(&ctx, mr_model_write(&ctx, paths[i], formats[i], &m, NULL, NULL));
+			ok(&ctx, mr_model_read(&ctx, paths[i], NULL, &back));
+			same_model(&m, &back);
+		}
+		mr_ctx_free(&ctx);
+	}
+}
+
+/* Properties of every type, of vertices and faces, and of a quad's triangles; as columns and back. */
+static void
+properties(void **state)
+{
+	static const char head[] =
+	    "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float "
+	    "z\nproperty float quality\nproperty int label\nproperty uchar flag\nproperty ushort "
+	    "wide\nproperty char c\nproperty short s2\nproperty uint u4\nproperty double d8\nproperty float "
+	    "region\nproperty float a_name_of_more_than_24_bytes\nproperty float nx\nelement face "
+	    "2\nproperty "
+	    "list uchar int vertex_indices\nproperty float quality\nproperty uchar red\nend_header\n"
+	    "0 0 0 0.1 -1 255 65535 -128 -32768 4294967295 1e-300 0.5 7 1\n"
+	    "1 0 0 nan 2 0 1 127 32767 0 0.1 1 8 2\n1 1 0 1 3 0 1 0 0 0 0 2 9 3\n0 1 0 1 4 0 1 0 0 0 0 3 10 "
+	    "4\n"
+	    "4 0 1 2 3 0.25 200\n3 0 1 2 0.75 100\n";
+	static const char *const names[] = { "quality", "label", "flag", "wide", "c", "s2", "u4", "d8",
+		"region", "a_name_of_more_than_24_bytes", "nx", "quality", "red" };
+	static const char *const columns[] = { "quality", "label", "flag", "wide", "c", "s2", "u4", "d8",
+		"ply_region", "a_name_of_more_than_24_b", "nx", "ply_quality", "red" };
+	static const char *const formats[] = { "ply-ascii", "ply", "ply-big" };
+	mr_model m, back;
+	mr_frame *f;
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	ok(&ctx, parse(&ctx, "", head, &m));
+	assert_int_equal(m.properties, 13);
+	for (size_t i = 0; i < 13; i++)
+		assert_string_equal(m.property[i].name, names[i]);
+	assert_int_equal(((const uint32_t *)m.property[6].data)[0], 4294967295u);
+	assert_true(((const double *)m.property[11].data)[1] == 0.25); /* the quad's second triangle */
+	assert_int_equal(((const unsigned char *)m.property[12].data)[2], 100);
+
+	ok(&ctx, mr_frame_new(&ctx, "test", &f));
+	ok(&ctx, mr_model_put(&ctx, f, NULL, &m));
+	for (size_t i = 0; i < 13; i++)
+		assert_true(mr_layer_has(f, "mesh", columns[i]));
+	ok(&ctx, mr_model_get(&ctx, f, "mesh", &back));
+	same_model(&m, &back);
+	for (int i = 0; i < 3; i++) {
+		mr_model again;
+		ok(&ctx, mr_model_write(&ctx, "properties.ply", formats[i], &m, NULL, NULL));
+		ok(&ctx, mr_model_read(&ctx, "properties.ply", NULL, &again));
+		if (i == 0)
+			same_model(&m, &again);
+		assert_string_equal(again.property[0].type, i ? "double" : "float"); /* 0.1 is no float */
+		assert_string_equal(again.property[1].type, "int");
+		assert_memory_equal(again.property[1].data, m.property[1].data, 4 * sizeof(double));
+		assert_memory_equal(again.property[5].data, m.property[5].data, 4 * sizeof(double));
+	}
+	mr_ctx_free(&ctx);
+}
+
 /* STL keeps triangles in their order, each corner where it was; equal corners are one vertex. */
 static void
 stl_round_trip(void **state)
@@ -141,12 +299,6 @@ stl_round_trip(void **state)
 				    &m.p[m.t[f].v[k]], &back.p[back.t[f].v[k]], sizeof(mr_v3));
 		mr_ctx_free(&ctx);
 	}
-}
-
-static mr_status
-parse(mr_ctx *ctx, const char *path, const char *text, mr_model *m)
-{
-	return mr_model_parse(ctx, path, NULL, (const unsigned char *)text, strlen(text), m);
 }
 
 /* The sentence holds `part`, and the model is not touched. */
@@ -265,15 +417,17 @@ details(void **state)
 	assert_true(m.nv == 1 && m.p[0].z == 3); /* UTF-16 */
 	ok(&ctx, parse(&ctx, "", TRIANGLE "g a  b\nf 1 2 3\ng\nf 3 2 1\n", &m));
 	n = group_name(&m, 0, &name);
-	assert_true(n == 3 && !memcmp(name, "a b", 3));
+	assert_true(n == 4 && !memcmp(name, "a  b", 4));
 	n = group_name(&m, 1, &name);
 	assert_true(n == 7 && !memcmp(name, "default", 7));
 	ok(&ctx,
 	    parse(&ctx, "", TRIANGLE "vt 0 0\nvt 1 0\nvt 0 1\nvt 9 9\nf 1/1 2/2 3/3\nf 3/4 2/2 1/1\n", &m));
-	assert_true(m.texcoord[4] == 0 && m.texcoord[5] == 1); /* of a seam, the first */
+	assert_null(m.texcoord); /* a seam */
+	assert_true(m.corner_texcoord[5] == 1 && m.corner_texcoord[6] == 9);
 	assert_int_equal(m.nv, 3);
 	ok(&ctx, parse(&ctx, "", TRIANGLE "vn 0 0 1\nvn 0 1 0\nf 1//1 2//1 3//1\nf 3//2 2//2 1//2\n", &m));
 	assert_null(m.normal); /* several at a vertex */
+	assert_true(m.corner_normal[2].z == 1 && m.corner_normal[3].y == 1);
 	ok(&ctx, parse(&ctx, "", TRIANGLE "vn 0 0 1\nf 1//1 2//1 3//1\n", &m));
 	assert_true(m.normal[2].z == 1);
 	ok(&ctx, parse(&ctx, "", TRIANGLE "f 1// 2// 3//\nf 1/ 2/ 3/\n", &m));
@@ -333,7 +487,7 @@ what_was_lost(void **state)
 	assert_int_equal(r.faces_left_out, 1);
 	assert_int_equal(r.seam_vertices, 2);
 	assert_int_equal(r.crease_vertices, 2);
-	assert_int_equal(r.dropped_normals, 1);
+	assert_true(r.dropped_normals == MR_UNKNOWN);
 	assert_true(r.dropped_texcoords == MR_UNKNOWN && r.points_left_out == MR_UNKNOWN);
 	assert_true(r.weld_joined == MR_UNKNOWN && r.repair_degenerate == MR_UNKNOWN);
 
@@ -440,10 +594,11 @@ whole_or_not(void **state)
 int
 main(void)
 {
-	const struct CMUnitTest tests[] = { cmocka_unit_test(round_trips), cmocka_unit_test(stl_round_trip),
-		cmocka_unit_test(recognised), cmocka_unit_test(refusals), cmocka_unit_test(details),
-		cmocka_unit_test(polygons), cmocka_unit_test(what_was_lost),
-		cmocka_unit_test(what_was_rounded), cmocka_unit_test(names), cmocka_unit_test(whole_or_not) };
+	const struct CMUnitTest tests[] = { cmocka_unit_test(round_trips), cmocka_unit_test(whole_models),
+		cmocka_unit_test(properties), cmocka_unit_test(stl_round_trip), cmocka_unit_test(recognised),
+		cmocka_unit_test(refusals), cmocka_unit_test(details), cmocka_unit_test(polygons),
+		cmocka_unit_test(what_was_lost), cmocka_unit_test(what_was_rounded), cmocka_unit_test(names),
+		cmocka_unit_test(whole_or_not) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -192,11 +192,89 @@ many(void **state)
 	check((const double(*)[2])big, n / 10, false);
 }
 
+/* The polygons of faces of so many corners each, numbered as they come; checks that they are found again. */
+static void
+check_found(const mr_v3 *p, const uint32_t *corner, const size_t *size, size_t faces)
+{
+	mr_polygons found;
+	uint32_t number[256];
+	mr_tri t[256], *at = t;
+	const uint32_t *c = corner;
+	mr_ctx ctx;
+
+	mr_ctx_init(&ctx, 1);
+	for (size_t f = 0; f < faces; c += size[f++]) {
+		assert_int_equal(mr_polygon_triangulate(&ctx, p, c, size[f], at), MR_OK);
+		for (size_t i = 0; i < size[f] - 2; i++, at++) {
+			number[at - t] = (uint32_t)f;
+			for (int k = 0; k < 3; k++)
+				at->v[k] = c[at->v[k]];
+		}
+	}
+	assert_int_equal(mr_polygons_find(&ctx, t, (size_t)(at - t), number, &found), MR_OK);
+	assert_int_equal(found.count, faces);
+	assert_int_equal(found.broken, 0);
+	for (size_t f = 0, first = 0; f < faces; first += size[f++]) {
+		assert_int_equal(found.start[f], first);
+		for (size_t i = first; i < first + size[f]; i++)
+			assert_int_equal(t[found.corner[i] / 3].v[found.corner[i] % 3], corner[i]);
+	}
+	mr_ctx_free(&ctx);
+}
+
+/* Polygons come back from their triangles: from each corner on, concave, beside each other, around a hole. */
+static void
+found_again(void **state)
+{
+	static const mr_v3 p[] = { { 0, 0, 0 }, { 9, 0, 0 }, { 9, 9, 0 }, { 0, 9, 0 }, { 3, 3, 0 },
+		{ 3, 6, 0 }, { 6, 6, 0 }, { 6, 3, 0 } };
+	static const uint32_t round[] = { 0, 1, 2, 3, 0, 4, 5, 6, 7, 4 }, dart[] = { 0, 1, 7, 2 };
+	static const size_t sizes[] = { 4, 3, 4, 10 };
+	uint32_t c[32];
+
+	(void)state;
+	for (size_t from = 0; from < 10; from++) {
+		for (size_t i = 0; i < 10; i++)
+			c[i] = round[(from + i) % 10];
+		check_found(p, c, &sizes[3], 1);
+		for (size_t i = 0; i < 4; i++)
+			c[i] = dart[(from + i) % 4];
+		check_found(p, c, &sizes[0], 1);
+		memcpy(c + 4, (uint32_t[]){ 4, 5, 6, 0, 7, 1, 2 }, 7 * sizeof *c);
+		memcpy(c + 11, round, sizeof round);
+		check_found(p, c, sizes, 4);
+	}
+}
+
+/* What is a polygon no more comes as triangles: one with a vertex inside, one in two parts. */
+static void
+broken_ones(void **state)
+{
+	static const mr_tri t[] = { { { 0, 1, 4 } }, { { 1, 2, 4 } }, { { 2, 3, 4 } }, { { 3, 0, 4 } },
+		{ { 0, 1, 2 } }, { { 5, 6, 7 } }, { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+	static const uint32_t number[] = { 9, 9, 9, 9, 3, 3, 4, 4 };
+	mr_polygons found;
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	assert_int_equal(mr_polygons_find(&ctx, t, 8, number, &found), MR_OK);
+	assert_int_equal(found.count, 7);
+	assert_int_equal(found.broken, 2);
+	assert_int_equal(found.most, 4);
+	assert_int_equal(found.start[7] - found.start[6], 4);
+	assert_int_equal(mr_polygons_find(&ctx, t, 8, NULL, &found), MR_OK);
+	assert_int_equal(found.count, 8);
+	assert_int_equal(found.corner[23], 23);
+	mr_ctx_free(&ctx);
+}
+
 int
 main(void)
 {
 	const struct CMUnitTest tests[] = { cmocka_unit_test(small), cmocka_unit_test(not_simple),
-		cmocka_unit_test(stars), cmocka_unit_test(spiral), cmocka_unit_test(many) };
+		cmocka_unit_test(stars), cmocka_unit_test(spiral), cmocka_unit_test(many),
+		cmocka_unit_test(found_again), cmocka_unit_test(broken_ones) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);
