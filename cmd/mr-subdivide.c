@@ -3,12 +3,16 @@
 
 static mr_subdivide_opts opts = MR_SUBDIVIDE_DEFAULTS;
 
+static cmd_length longest;
+
 static const cmd_opt table[] = {
 	{ 'n', "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "LEVEL",
 	    "how many times each triangle becomes four", NULL },
 	{ 0, "limit", CMD_FLAG, &opts.limit, 0, 0, "", "move the vertices onto the limit surface", NULL },
 	{ 0, "crease", CMD_REAL, &opts.crease, 0, 180, "DEGREES",
 	    "keep edges whose faces meet at more; 180: none", NULL },
+	{ 0, "longest", CMD_LENGTH, &longest, 0, 1e300, "LENGTH",
+	    "instead, divide edges that are longer, the surface as it is; 0: not", NULL },
 	{ 0 },
 };
 
@@ -18,6 +22,18 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_subdivide_result, faces),
 	{ 0 },
 };
+
+static mr_status
+check(cmd *c)
+{
+	static const char why[] = "beside --longest, which leaves the surface as it is";
+
+	opts.longest = longest.value;
+	opts.longest_relative = longest.relative;
+	MR_TRY(cmd_idle(c, "level", longest.value > 0, why));
+	MR_TRY(cmd_idle(c, "limit", longest.value > 0, why));
+	return cmd_idle(c, "crease", longest.value > 0, why);
+}
 
 static mr_status
 subdivide_frame(cmd *c, mr_frame *f)
@@ -36,6 +52,7 @@ main(int argc, char **argv)
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "refine a mesh by Loop subdivision",
 		.options = table,
+		.prepare = check,
 		.frame = subdivide_frame,
 		.caches = true });
 }

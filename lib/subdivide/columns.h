@@ -1,5 +1,5 @@
 /*
- * columns.h -- the columns of a layer on a finer level of its subdivision.
+ * columns.h -- the columns of a layer on a finer mesh of the same vertices and more.
  */
 #ifndef MR_SUBDIVIDE_COLUMNS_H
 #define MR_SUBDIVIDE_COLUMNS_H
@@ -7,20 +7,36 @@
 #include "mesh/layers.h"
 #include "subdivide/loop.h"
 
-enum { MR_CARRIED = 4 };
+/*
+ * A mesh and one that is finer, each triangle of which is a part of one of the mesh.  The vertices of the
+ * mesh come first.
+ */
+typedef struct mr_refined {
+	mr_mesh m, fine;
+	const uint32_t *face; /* of each fine triangle, the one it is a part of; NULL: by the levels */
+	const mr_v3 *bary;    /* of its corners, 3 fine.nf, in that */
+	const mr_loop *level; /* where it was made by Loop's rules, by levels 0 to n; else NULL */
+	size_t n;
+} mr_refined;
 
-/* Columns on level n; data NULL: the layer does not have it. */
 typedef struct mr_carried {
-	const char *name;
+	char name[MR_COLUMN_MAX + 1];
+	mr_shape shape;
 	const void *data;
 	size_t rows;
 } mr_carried;
 
 /*
- * Colours and texture coordinates are subdivided as positions are.  A new vertex has the lesser region of
- * the two vertices of its edge, a triangle the group of the one it is a part of.  out: in the arena.
+ * The columns that go along.  Numbers of vertices are subdivided as positions are, by Loop's rules or
+ * linearly; normals, and what corners have, always linearly, normals keeping the mean of the lengths.  A new
+ * vertex has the least region of the vertices that it lies between; of other whole numbers, those of the
+ * nearest.  A triangle has what the one that it is a part of has, but its polygon where Loop's rules made it.
+ * out: *count of them, in the arena.
  */
-mr_status mr_subdivide_columns(
-    mr_ctx *ctx, mr_frame *f, const char *layer, const mr_loop *level, size_t n, mr_carried out[MR_CARRIED]);
+mr_status mr_refine_columns(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r,
+    mr_carried **out, size_t *count) MR_WARN_UNUSED;
+
+/* The fine vertices on the flat triangles of the mesh: fine.nv, the caller's. */
+mr_status mr_refined_flat(mr_ctx *ctx, const mr_refined *r, mr_v3 *p) MR_WARN_UNUSED;
 
 #endif

@@ -1,5 +1,6 @@
 /* mr-subdivide: a finer mesh, and its layer's columns on it. */
-#include "subdivide/columns.h"
+#include "mesh/normals.h"
+#include "subdivide/longest.h"
 #include "tool/cache.h"
 
 /* The finer mesh, and its limit normals (NULL: not asked for). */
@@ -26,26 +27,65 @@ refine(mr_ctx *ctx, const mr_mesh *m, const mr_loop *level, const mr_subdivide_o
 	return MR_OK;
 }
 
+/* Normals that went along from flat triangles turn with these as they become the finer surface. */
 static mr_status
-put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m, const mr_v3 *normal,
-    const mr_carried *carried)
+turn_normals(mr_ctx *ctx, const mr_refined *r, const mr_carried *carried, size_t n)
 {
-	const mr_column *groups = mr_frame_find(f, layer, "groups");
-	const void *names = NULL;
-	size_t size = 0;
+	mr_v3 *vertex = NULL, *corner = NULL, *p;
+	mr_mesh flat = r->fine;
 
-	if (groups)
-		MR_TRY(mr_layer_get(ctx, f, layer, "groups", &names, &size));
+	for (size_t i = 0; i < n; i++)
+		if (!strcmp(carried[i].name, "normal"))
+			vertex = (mr_v3 *)(uintptr_t)carried[i].data;
+		else if (!strcmp(carried[i].name, "corner_normal"))
+			corner = (mr_v3 *)(uintptr_t)carried[i].data;
+	if (!vertex && !corner)
+		return MR_OK;
+	p = MR_NEW(ctx, r->fine.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_refined_flat(ctx, r, p));
+	flat.p = p;
+	return mr_turn_normals(ctx, &flat, r->fine.p, vertex, corner);
+}
+
+/* limit: normals of the limit surface, or NULL. */
+static mr_status
+put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v3 *limit)
+{
+	mr_carried *carried;
+	size_t n;
+
+	MR_TRY(mr_refine_columns(ctx, f, layer, r, &carried, &n));
+	if (r->level)
+		MR_TRY(turn_normals(ctx, r, carried, n));
 	if (strcmp(layer, "mesh"))
 		mr_frame_drop(f, "mesh", NULL, 0);
-	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", m));
-	if (normal)
-		MR_TRY(mr_layer_put(ctx, f, "mesh", "normal", normal, m->nv));
-	for (size_t i = 0; i < MR_CARRIED; i++)
-		if (carried[i].data)
-			MR_TRY(
-			    mr_layer_put(ctx, f, "mesh", carried[i].name, carried[i].data, carried[i].rows));
-	return groups ? mr_layer_put(ctx, f, "mesh", "groups", names, size) : MR_OK;
+	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
+	for (size_t i = 0; i < n; i++)
+		MR_TRY(mr_frame_put(
+		    ctx, f, "mesh", carried[i].name, carried[i].shape, carried[i].data, carried[i].rows));
+	return limit ? mr_layer_put(ctx, f, "mesh", "normal", limit, r->fine.nv) : MR_OK;
+}
+
+/* By Loop's rules. */
+static mr_status
+subdivide(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_subdivide_opts *o, mr_cache *cache,
+    mr_refined *r, const mr_v3 **limit)
+{
+	const mr_loop *level;
+
+	MR_TRY(mr_cache_levels(ctx, cache, f, m, o->crease, o->level, &level));
+	*r = (mr_refined){ .m = *m, .level = level, .n = o->level };
+	return refine(ctx, m, level, o, &r->fine, limit);
+}
+
+static mr_status
+divide(mr_ctx *ctx, const mr_mesh *m, const mr_subdivide_opts *o, mr_refined *r)
+{
+	double unit = o->longest_relative ? mr_mesh_diagonal(m) : 1;
+
+	return mr_prefix(ctx, mr_divide_longest(ctx, m, o->longest * unit, r), "%s", m->name);
 }
 
 mr_status
@@ -55,20 +95,20 @@ mr_subdivide_frame(
 	static const mr_subdivide_opts defaults = MR_SUBDIVIDE_DEFAULTS;
 	static const char *const reads[] = { "control", "mesh", NULL };
 	const mr_subdivide_opts *o = opts ? opts : &defaults;
-	mr_carried carried[MR_CARRIED];
-	const mr_loop *level;
-	const mr_v3 *normal;
+	const mr_v3 *limit = NULL;
 	const char *layer;
-	mr_mesh m, out;
+	mr_refined r;
 	double start;
+	mr_mesh m;
 
 	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	start = mr_seconds();
-	MR_TRY(mr_cache_levels(ctx, cache, f, &m, o->crease, o->level, &level));
-	MR_TRY(refine(ctx, &m, level, o, &out, &normal));
+	if (o->longest > 0)
+		MR_TRY(divide(ctx, &m, o, &r));
+	else
+		MR_TRY(subdivide(ctx, f, &m, o, cache, &r, &limit));
 	if (result)
-		*result = (mr_subdivide_result){ out.nv, out.nf, mr_seconds() - start };
-	MR_TRY(mr_subdivide_columns(ctx, f, layer, level, o->level, carried));
-	return put(ctx, f, layer, &out, normal, carried);
+		*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, mr_seconds() - start };
+	return put(ctx, f, layer, &r, limit);
 }

@@ -16,6 +16,7 @@ mr-decode -l mesh
 mr-equalize -l mesh
 mr-import --points --repair
 mr-remesh -L 2% -r 1
+mr-subdivide --longest 1 -n 1
 mr-remesh -a 0 --gravity 1
 mr-pose -H 1 --script script
 mr-compare -l mesh -a mesh

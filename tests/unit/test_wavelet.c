@@ -1,9 +1,9 @@
 /* Heights as wavelet coefficients: exact inverses, prefixes, gains; columns that go along with subdivision.
  */
-#include "subdivide/columns.h"
-#include "subdivide/wavelet.h"
 #include "base/random.h"
 #include "shapes.h"
+#include "subdivide/columns.h"
+#include "subdivide/wavelet.h"
 
 enum { LEVELS = 3 };
 
@@ -140,9 +140,9 @@ test_refusals_and_lost_memory(void **state)
 }
 
 static const void *
-carried(const mr_carried *c, const char *name, size_t rows)
+carried(const mr_carried *c, size_t n, const char *name, size_t rows)
 {
-	for (int i = 0; i < MR_CARRIED; i++)
+	for (size_t i = 0; i < n; i++)
 		if (!strcmp(c[i].name, name)) {
 			assert_int_equal(c[i].rows, rows);
 			return c[i].data;
@@ -154,8 +154,13 @@ static void
 test_columns_go_along(void **state)
 {
 	mr_mesh m = shape_and_levels(MR_PLANE, 60);
-	mr_carried c[MR_CARRIED];
+	mr_refined r = { .m = m,
+		.fine = { .nv = level[2].nv, .nf = level[2].nf, .t = level[2].t },
+		.level = level,
+		.n = 2 };
+	mr_carried *c;
 	mr_frame *f;
+	size_t n;
 	uint32_t *region = MR_NEW(&ctx, m.nv, uint32_t), *group = MR_NEW(&ctx, m.nf, uint32_t);
 	unsigned char *color = MR_NEW(&ctx, 4 * m.nv, unsigned char);
 	double *uv = MR_NEW(&ctx, 2 * m.nv, double), *fine = MR_NEW(&ctx, 2 * level[2].nv, double);
@@ -174,10 +179,10 @@ test_columns_go_along(void **state)
 	assert_int_equal(mr_layer_put(&ctx, f, "mesh", "texcoord", uv, m.nv), MR_OK);
 	assert_int_equal(mr_layer_put(&ctx, f, "mesh", "color", color, m.nv), MR_OK);
 	assert_int_equal(mr_layer_put(&ctx, f, "mesh", "group", group, m.nf), MR_OK);
-	assert_int_equal(mr_subdivide_columns(&ctx, f, "mesh", level, 2, c), MR_OK);
-	const uint32_t *regions = carried(c, "region", level[2].nv),
-		       *groups = carried(c, "group", level[2].nf);
-	const unsigned char *colors = carried(c, "color", level[2].nv);
+	assert_int_equal(mr_refine_columns(&ctx, f, "mesh", &r, &c, &n), MR_OK);
+	const uint32_t *regions = carried(c, n, "region", level[2].nv),
+		       *groups = carried(c, n, "group", level[2].nf);
+	const unsigned char *colors = carried(c, n, "color", level[2].nv);
 	assert_memory_equal(regions, region, m.nv * sizeof *region);
 	for (size_t i = 0; i < level[1].nv - m.nv; i++) {
 		uint32_t h = level[1].edge[i], a = region[mr_he_from(&m, h)], b = region[mr_he_to(&m, h)];
@@ -188,9 +193,9 @@ test_columns_go_along(void **state)
 	for (size_t i = 0; i < 4 * level[2].nv; i++)
 		assert_in_range(colors[i], 200, 255);
 	assert_int_equal(mr_loop_values(&ctx, level, 2, 2, uv, fine), MR_OK);
-	assert_memory_equal(carried(c, "texcoord", level[2].nv), fine, 2 * level[2].nv * sizeof *fine);
+	assert_memory_equal(carried(c, n, "texcoord", level[2].nv), fine, 2 * level[2].nv * sizeof *fine);
 	assert_int_equal(mr_layer_put(&ctx, f, "mesh", "color", color, m.nv - 1), MR_OK);
-	assert_int_equal(mr_subdivide_columns(&ctx, f, "mesh", level, 2, c), MR_ERANGE);
+	assert_int_equal(mr_refine_columns(&ctx, f, "mesh", &r, &c, &n), MR_ERANGE);
 }
 
 int
