@@ -12,7 +12,7 @@
  *	geodesic:x,y,z,r        no farther than r over the surface from its point nearest to x,y,z
  *	rings:V,K               at most K edges from vertex V
  *	component:x,y,z         connected with the vertex nearest to the point
- *	group:NAME              at a face of the group
+ *	group:NAME              at a face of the group, or else of the object or the material of that name
  *	boundary                at an edge of one face
  *	grow:K                  the region that the rule gives, and the fixed vertices up to K edges from it
  *	vertices:FILE           the indices in the file, one a line
@@ -28,7 +28,10 @@ typedef struct mr_selection {
 	size_t n, room;
 } mr_selection;
 
-/* The mesh's named groups of faces; `group` NULL: none. */
+/* What faces are named by: groups, objects, materials. */
+enum { MR_NAMINGS = 3 };
+
+/* Faces by one of them; `group` NULL: they have none. */
 typedef struct mr_groups {
 	const uint32_t *group; /* nf: index into the names */
 	const char *names;     /* one a line */
@@ -45,7 +48,7 @@ mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *opti
 
 /*
  * Applies the rules in order: later ones win.  region: nv, in and out.  A rule that selects no vertex, a
- * vertex or a group that is not there: a sentence.
+ * vertex or a group that is not there: a sentence.  groups: MR_NAMINGS of them.
  * result: or NULL; in the arena.
  */
 mr_status mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s,

@@ -274,17 +274,21 @@ line_of(const mr_groups *g, const char *name)
 static mr_status
 eval_group(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
-	uint32_t group;
+	bool any = false;
 
-	if (!s->groups->group)
-		return mr_fail(ctx, MR_EMISSING, "%s has no groups", s->m->name);
-	group = line_of(s->groups, t->name);
-	if (group == MR_NONE)
-		return mr_fail(ctx, MR_EMISSING, "no group of %s is called %s", s->m->name, t->name);
-	for (size_t f = 0; f < s->m->nf; f++)
-		for (int k = 0; k < 3; k++)
-			in[s->m->t[f].v[k]] |= s->groups->group[f] == group;
-	return MR_OK;
+	for (const mr_groups *g = s->groups; g < s->groups + MR_NAMINGS; g++) {
+		uint32_t group = g->group ? line_of(g, t->name) : MR_NONE;
+		any |= g->group != NULL;
+		if (group == MR_NONE)
+			continue;
+		for (size_t f = 0; f < s->m->nf; f++)
+			for (int k = 0; k < 3; k++)
+				in[s->m->t[f].v[k]] |= g->group[f] == group;
+		return MR_OK;
+	}
+	return any ? mr_fail(ctx, MR_EMISSING, "no group, object or material of %s is called %s", s->m->name,
+			 t->name)
+	           : mr_fail(ctx, MR_EMISSING, "%s has no groups, objects or materials", s->m->name);
 }
 
 /* How many faces at v have the corner w too. */

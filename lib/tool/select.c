@@ -3,18 +3,23 @@
 
 #include "mesh/layers.h"
 
+/* What names the faces: groups, objects and materials. */
 static mr_status
-read_groups(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_groups *g)
+read_groups(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_groups g[MR_NAMINGS])
 {
+	static const char *const of[MR_NAMINGS] = { "group", "object", "material" },
+				 *const lists[MR_NAMINGS] = { "groups", "objects", "materials" };
 	const void *group, *names;
 
-	*g = (mr_groups){ 0 };
-	if (!mr_layer_has(f, m->name, "group") || !mr_layer_has(f, m->name, "groups"))
-		return MR_OK;
-	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "group", m->nf, &group));
-	MR_TRY(mr_layer_get(ctx, f, m->name, "groups", &names, &g->length));
-	g->group = group;
-	g->names = names;
+	memset(g, 0, MR_NAMINGS * sizeof *g);
+	for (size_t i = 0; i < MR_NAMINGS; i++) {
+		if (!mr_layer_has(f, m->name, of[i]) || !mr_layer_has(f, m->name, lists[i]))
+			continue;
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, of[i], m->nf, &group));
+		MR_TRY(mr_layer_get(ctx, f, m->name, lists[i], &names, &g[i].length));
+		g[i].group = group;
+		g[i].names = names;
+	}
 	return MR_OK;
 }
 
@@ -41,14 +46,14 @@ mr_select_by(
 	static const char *const reads[] = { "mesh", "control", NULL };
 	const char *layer;
 	uint32_t *region;
-	mr_groups groups;
+	mr_groups groups[MR_NAMINGS];
 	mr_mesh m;
 
 	MR_TRY(mr_layer_choose(ctx, f, opts->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	MR_TRY(read_groups(ctx, f, &m, &groups));
+	MR_TRY(read_groups(ctx, f, &m, groups));
 	MR_TRY(first_regions(ctx, f, &m, opts->reset, &region));
-	MR_TRY(mr_select(ctx, &m, &groups, s, region, result));
+	MR_TRY(mr_select(ctx, &m, groups, s, region, result));
 	return mr_layer_put_region(ctx, f, layer, region, m.nv);
 }
 

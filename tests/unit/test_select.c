@@ -1,9 +1,9 @@
 /* Predicates and rules on surfaces where the answer is known; distances over surfaces. */
-#include "space/geodesic.h"
 #include "base/text_file.h"
 #include "edit/select.h"
-#include "shape/shape.h"
 #include "mesh/layers.h"
+#include "shape/shape.h"
+#include "space/geodesic.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -24,11 +24,13 @@ static mr_status
 apply(mr_ctx *ctx, const mr_mesh *m, uint32_t value, const char *predicate, uint32_t *region)
 {
 	static const uint32_t group[] = { 0, 2, 0, 1, 1, 1, 1, 1 };
-	const mr_groups groups = { m->nf == 8 ? group : NULL, "left\nright\ntop", 14 };
+	static const uint32_t material[] = { 0, 0, 0, 0, 2, 2, 2, 2 };
+	const mr_groups groups[MR_NAMINGS] = { { m->nf == 8 ? group : NULL, "left\nright\ntop", 14 }, { 0 },
+		{ m->nf == 8 ? material : NULL, "\ntop\nred", 8 } };
 	mr_selection s = { 0 };
 
 	MR_TRY(mr_selection_add(ctx, &s, value, "--free ", predicate));
-	return mr_select(ctx, m, &groups, &s, region, NULL);
+	return mr_select(ctx, m, groups, &s, region, NULL);
 }
 
 /* How many vertices the predicate selects; they are of region 1, the rest 0. */
@@ -107,8 +109,12 @@ groups_are_found_by_name(void **state)
 	assert_int_equal(count(&ctx, &m, "group:top", region), 3);
 	for (int k = 0; k < 3; k++)
 		assert_int_equal(region[m.t[1].v[k]], MR_REGION_FREE);
+	count(&ctx, &m, "group:red", region); /* a material: no group has the name */
+	for (size_t i = 0; i < 24; i++)
+		assert_true(i / 3 < 4 || region[m.t[i / 3].v[i % 3]] == MR_REGION_FREE);
+	assert_int_equal(count(&ctx, &m, "not:group:red", region), 9 - count(&ctx, &m, "group:red", region));
 	assert_int_equal(apply(&ctx, &m, 1, "group:to", region), MR_EMISSING);
-	assert_string_equal(ctx.error, "--free group:to: no group of plane is called to");
+	assert_string_equal(ctx.error, "--free group:to: no group, object or material of plane is called to");
 	mr_ctx_free(&ctx);
 }
 
@@ -117,7 +123,7 @@ rules_apply_in_order(void **state)
 {
 	mr_ctx ctx;
 	mr_selection s = { 0 };
-	const mr_groups none = { 0 };
+	const mr_groups none[MR_NAMINGS] = { 0 };
 	uint32_t region[121], expected[121];
 
 	(void)state;
@@ -128,7 +134,7 @@ rules_apply_in_order(void **state)
 	assert_int_equal(mr_selection_add(&ctx, &s, 1, "--free ", "above:x,0.3"), MR_OK);
 	assert_int_equal(mr_selection_add(&ctx, &s, 0, "--fixed ", "above:x,0.6"), MR_OK);
 	assert_int_equal(mr_selection_add(&ctx, &s, 4, "--handle 2=", "above:x,0.9"), MR_OK);
-	assert_int_equal(mr_select(&ctx, &m, &none, &s, region, NULL), MR_OK);
+	assert_int_equal(mr_select(&ctx, &m, none, &s, region, NULL), MR_OK);
 	for (size_t i = 0; i < 121; i++) {
 		double x = (m.p[i].x + 1) / 2;
 		expected[i] = x >= 0.9 - 1e-9 ? 4 : x >= 0.6 - 1e-9 ? 0 : x >= 0.3 - 1e-9 ? 1 : 7;
