@@ -100,6 +100,21 @@ static const seed seeds[] = {
 	    "1 2 0\n",
 	    0, 4, 3 },
 	{ NULL,
+	    "mtllib a b.mtl\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nvn 0 1 0\no a\n"
+	    "f 1/1/1 2/2/1 3/1/2 4\nusemtl m n\ns 2\nf 1/2 2/1 3/2\ng q\nusemtl\ns off\nf 1//1 3//2 4//1\n",
+	    0, 4, 4 },
+	{ NULL,
+	    "ply\nformat ascii 1.0\ncomment mtllib a.mtl\ncomment material red\ncomment material blue\n"
+	    "comment object o\nelement vertex 5\nproperty double x\nproperty float y\nproperty int z\n"
+	    "property float quality\nproperty short t\nproperty uint label\nelement face 2\nproperty list "
+	    "uchar "
+	    "uint vertex_indices\nproperty list uchar float texcoord\nproperty list uchar double "
+	    "corner_normal\nproperty uint material\nproperty uint object\nproperty uint smoothing\nproperty "
+	    "uchar red\nend_header\n0 0 0 0.5 -1 7\n1 0 0 nan 0 8\n2 1 0 0 0 9\n1 2 0 0 0 0\n0 1 0 0 0 0\n"
+	    "5 0 1 2 3 4 10 0 0 1 0 1 1 0 1 0.5 0.5 0 1 0 2 9\n"
+	    "3 0 2 4 6 0 0 1 0 nan nan 9 0 0 1 0 0 1 0 1 0 0 0 0 8\n",
+	    0, 5, 4 },
+	{ NULL,
 	    "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nelement vertex "
 	    "3\nproperty float "
 	    "x\nproperty float y\nproperty float z\nend_header\n3 0 1 2\n0 0 0\n1 0 0\n0 1 0\n",

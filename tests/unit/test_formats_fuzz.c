@@ -14,8 +14,34 @@
 
 static size_t accepted, rejected;
 
+/* Every number is that of a line. */
 static void
-check_model(const mr_model *m)
+check_names(const uint32_t *of, mr_lines names, size_t nf)
+{
+	size_t lines = 1;
+
+	for (size_t i = 0; i < names.bytes; i++)
+		lines += names.text[i] == '\n';
+	for (size_t f = 0; of && f < nf; f++)
+		assert_true(of[f] < lines);
+}
+
+/* What a reader calls a polygon is one, and all triangles are in one. */
+static void
+check_polygons(mr_ctx *ctx, const mr_model *m)
+{
+	mr_polygons p;
+	size_t triangles = 0;
+
+	assert_int_equal(mr_polygons_find(ctx, m->t, m->nf, m->polygon, &p), MR_OK);
+	assert_int_equal(p.broken, 0);
+	for (size_t i = 0; i < p.count; i++)
+		triangles += p.start[i + 1] - p.start[i] - 2;
+	assert_int_equal(triangles, m->nf);
+}
+
+static void
+check_model(mr_ctx *ctx, const mr_model *m)
 {
 	assert_true(m->nv > 0);
 	for (size_t i = 0; i < m->nv; i++)
@@ -27,12 +53,12 @@ check_model(const mr_model *m)
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++)
 			assert_true(m->t[f].v[k] < m->nv);
-	for (size_t f = 0; m->group && f < m->nf; f++) {
-		size_t lines = 1;
-		for (size_t i = 0; i < m->groups.bytes; i++)
-			lines += m->groups.text[i] == '\n';
-		assert_true(m->group[f] < lines);
-	}
+	check_names(m->group, m->groups, m->nf);
+	check_names(m->object, m->objects, m->nf);
+	check_names(m->material, m->materials, m->nf);
+	for (size_t i = 0; m->corner_normal && i < 3 * m->nf; i++)
+		assert_true(mr_finite(m->corner_normal[i]));
+	check_polygons(ctx, m);
 }
 
 /* Reads from memory of exactly its size; by the bytes, and by the name of the format that they were. */
@@ -48,7 +74,7 @@ feed(const char *format, const unsigned char *data, size_t size)
 		mr_model m;
 		mr_ctx_init(&ctx, 1);
 		if (mr_model_parse(&ctx, "", named ? format : NULL, copy, size, &m) == MR_OK) {
-			check_model(&m);
+			check_model(&ctx, &m);
 			accepted++;
 		} else {
 			assert_true(ctx.error[0] != 0);
