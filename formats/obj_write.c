@@ -176,15 +176,15 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 			MR_TRY(mr_lines_starts(s->ctx, names[k], &all[k].start, &all[k].names));
 	MR_TRY(mr_faces_of(s, m, &faces));
 	for (size_t i = 0; i < faces.count; i++) {
-		size_t f = faces.corner[faces.start[i]] / 3;
+		size_t f = mr_polygon_corner(&faces, mr_polygon_begin(&faces, i)) / 3;
 		for (size_t k = 0; k < 3; k++)
 			if (all[k].of)
 				put_mark(s, &all[k], f);
 		if (smoothing.of)
 			put_smoothing(s, &smoothing, f);
 		mr_put(s, "f", 1);
-		for (size_t c = faces.start[i]; c < faces.start[i + 1]; c++)
-			put_corner(s, m, x, faces.corner[c]);
+		for (size_t c = mr_polygon_begin(&faces, i); c < mr_polygon_begin(&faces, i + 1); c++)
+			put_corner(s, m, x, mr_polygon_corner(&faces, c));
 		mr_put(s, "\n", 1);
 	}
 	return MR_OK;

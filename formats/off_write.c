@@ -38,11 +38,12 @@ mr_off_write(mr_sink *s, const mr_model *m)
 			mr_put_reals(s, m->texcoord + 2 * i, 2, '\n');
 	}
 	for (size_t f = 0; f < faces.count; f++) {
-		mr_sink_fill(s, mr_count_write(mr_sink_room(s), faces.start[f + 1] - faces.start[f]));
-		for (size_t i = faces.start[f]; i < faces.start[f + 1]; i++) {
+		mr_sink_fill(s, mr_count_write(mr_sink_room(s),
+				    mr_polygon_begin(&faces, f + 1) - mr_polygon_begin(&faces, f)));
+		for (size_t i = mr_polygon_begin(&faces, f); i < mr_polygon_begin(&faces, f + 1); i++) {
 			char *to = mr_sink_room(s);
 			*to++ = ' ';
-			mr_sink_fill(s, mr_count_write(to, vertex_of(m, faces.corner[i])));
+			mr_sink_fill(s, mr_count_write(to, vertex_of(m, mr_polygon_corner(&faces, i))));
 		}
 		mr_put(s, "\n", 1);
 	}
@@ -81,10 +82,11 @@ mr_off_write_binary(mr_sink *s, const mr_model *m)
 		mr_sink_fill(s, to);
 	}
 	for (size_t f = 0; f < faces.count; f++) {
-		size_t first = faces.start[f], end = faces.start[f + 1];
+		size_t first = mr_polygon_begin(&faces, f), end = mr_polygon_begin(&faces, f + 1);
 		mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)(end - first), true));
 		for (size_t i = first; i < end; i++)
-			mr_sink_fill(s, mr_store32(mr_sink_room(s), vertex_of(m, faces.corner[i]), true));
+			mr_sink_fill(
+			    s, mr_store32(mr_sink_room(s), vertex_of(m, mr_polygon_corner(&faces, i)), true));
 		mr_sink_fill(s, mr_store32(mr_sink_room(s), 0, true)); /* no colour of the face */
 	}
 	return MR_OK;

@@ -249,24 +249,25 @@ put_vertex(const output *w, size_t i)
 static void
 put_corners(const output *w, size_t face, const double *value, size_t width)
 {
-	size_t first = w->faces.start[face], end = w->faces.start[face + 1];
+	size_t first = mr_polygon_begin(&w->faces, face), end = mr_polygon_begin(&w->faces, face + 1);
 
 	mr_sink_fill(w->s, number(mr_sink_room(w->s), (double)(width * (end - first)), w->count, w->order));
 	for (size_t i = first; i < end; i++)
-		put_numbers(w, value + width * w->faces.corner[i], width);
+		put_numbers(w, value + width * mr_polygon_corner(&w->faces, i), width);
 }
 
 static void
 put_face(const output *w, size_t face)
 {
-	size_t first = w->faces.start[face], end = w->faces.start[face + 1], f = w->faces.corner[first] / 3;
+	size_t first = mr_polygon_begin(&w->faces, face), end = mr_polygon_begin(&w->faces, face + 1),
+	       f = mr_polygon_corner(&w->faces, first) / 3;
 	const uint32_t *const marks[] = { w->m->group, w->m->object, w->m->material, w->m->smoothing };
 	const mr_model *m = w->m;
 	mr_sink *s = w->s;
 
 	mr_sink_fill(s, number(mr_sink_room(s), (double)(end - first), w->count, w->order));
 	for (size_t i = first; i < end; i++) {
-		uint32_t h = w->faces.corner[i];
+		uint32_t h = mr_polygon_corner(&w->faces, i);
 		mr_sink_fill(s, count(mr_sink_room(s), m->t[h / 3].v[h % 3], w->order));
 	}
 	if (m->corner_texcoord)

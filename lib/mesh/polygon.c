@@ -475,21 +475,44 @@ find_outline(const mr_mesh *m, size_t first, size_t end, edge *e, uint32_t *twin
 	return walk_outline(twin, h, k, corner) && !has_spike(m, corner, k + 2);
 }
 
+/* The most triangles of one number behind each other. */
+static size_t
+longest_run(const uint32_t *number, size_t nf)
+{
+	size_t most = 0;
+
+	for (size_t f = 0, end; f < nf; f = end) {
+		for (end = f + 1; end < nf && number[end] == number[f]; end++)
+			;
+		most = end - f > most ? end - f : most;
+	}
+	return most;
+}
+
 mr_status
 mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out)
 {
 	const mr_mesh m = { .t = t, .nf = nf };
-	mr_polygons r = { .start = MR_NEW(ctx, nf + 1, size_t), .corner = MR_NEW(ctx, 3 * nf, uint32_t) };
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *twin = number ? MR_NEW(ctx, 3 * nf, uint32_t) : NULL;
-	edge *e = number ? MR_NEW(ctx, 3 * nf, edge) : NULL;
+	mr_polygons r = { 0 };
+	uint32_t *twin;
+	mr_mark mark;
 	size_t n = 0;
+	edge *e;
 
-	if (!r.start || !r.corner || (number && (!twin || !e)))
+	if (!number) {
+		*out = (mr_polygons){ .count = nf, .most = 3 };
+		return MR_OK;
+	}
+	r.start = MR_NEW(ctx, nf + 1, size_t);
+	r.corner = MR_NEW(ctx, 3 * nf, uint32_t);
+	mark = mr_mark_take(ctx);
+	twin = MR_NEW(ctx, 3 * nf, uint32_t);
+	e = MR_NEW(ctx, 3 * longest_run(number, nf), edge);
+	if (!r.start || !r.corner || !twin || !e)
 		return MR_EMEM;
 	for (size_t f = 0, end; f < nf; f = end) {
 		bool one;
-		for (end = f + 1; number && end < nf && number[end] == number[f]; end++)
+		for (end = f + 1; end < nf && number[end] == number[f]; end++)
 			;
 		one = end - f > 1 && find_outline(&m, f, end, e, twin, r.corner + n);
 		r.broken += end - f > 1 && !one;

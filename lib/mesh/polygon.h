@@ -19,12 +19,26 @@ mr_status mr_polygon_triangulate(
 
 /* Faces of any number of corners, made of the triangles of a mesh. */
 typedef struct mr_polygons {
-	size_t *start;    /* count + 1: of each face in corner */
+	size_t *start;    /* count + 1: of each face in corner; both NULL where all are triangles */
 	uint32_t *corner; /* half-edges 3 f + i: the corner is the i-th of triangle f */
 	size_t count;
 	size_t broken; /* of more than one triangle, that are no polygon any more: they come as triangles */
 	size_t most;   /* corners of a face */
 } mr_polygons;
+
+/* Where the corners of face i begin; those of the last end with `count`. */
+static inline size_t
+mr_polygon_begin(const mr_polygons *p, size_t i)
+{
+	return p->start ? p->start[i] : 3 * i;
+}
+
+/* The half-edge of corner k of all. */
+static inline uint32_t
+mr_polygon_corner(const mr_polygons *p, size_t k)
+{
+	return p->corner ? p->corner[k] : (uint32_t)k;
+}
 
 /*
  * The polygons of triangles that have the same number and stand one behind the other (the column `polygon`).

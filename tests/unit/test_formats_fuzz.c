@@ -36,7 +36,7 @@ check_polygons(mr_ctx *ctx, const mr_model *m)
 	assert_int_equal(mr_polygons_find(ctx, m->t, m->nf, m->polygon, &p), MR_OK);
 	assert_int_equal(p.broken, 0);
 	for (size_t i = 0; i < p.count; i++)
-		triangles += p.start[i + 1] - p.start[i] - 2;
+		triangles += mr_polygon_begin(&p, i + 1) - mr_polygon_begin(&p, i) - 2;
 	assert_int_equal(triangles, m->nf);
 }
 

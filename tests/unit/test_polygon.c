@@ -215,9 +215,11 @@ check_found(const mr_v3 *p, const uint32_t *corner, const size_t *size, size_t f
 	assert_int_equal(found.count, faces);
 	assert_int_equal(found.broken, 0);
 	for (size_t f = 0, first = 0; f < faces; first += size[f++]) {
-		assert_int_equal(found.start[f], first);
+		assert_int_equal(mr_polygon_begin(&found, f), first);
 		for (size_t i = first; i < first + size[f]; i++)
-			assert_int_equal(t[found.corner[i] / 3].v[found.corner[i] % 3], corner[i]);
+			assert_int_equal(
+			    t[mr_polygon_corner(&found, i) / 3].v[mr_polygon_corner(&found, i) % 3],
+			    corner[i]);
 	}
 	mr_ctx_free(&ctx);
 }
@@ -262,10 +264,10 @@ broken_ones(void **state)
 	assert_int_equal(found.count, 7);
 	assert_int_equal(found.broken, 2);
 	assert_int_equal(found.most, 4);
-	assert_int_equal(found.start[7] - found.start[6], 4);
+	assert_int_equal(mr_polygon_begin(&found, 7) - mr_polygon_begin(&found, 6), 4);
 	assert_int_equal(mr_polygons_find(&ctx, t, 8, NULL, &found), MR_OK);
 	assert_int_equal(found.count, 8);
-	assert_int_equal(found.corner[23], 23);
+	assert_int_equal(mr_polygon_corner(&found, 23), 23);
 	mr_ctx_free(&ctx);
 }
 
