@@ -4,7 +4,7 @@
 /* An orthonormal frame of a triangle, and its corners in it: (0 0), (x1 0), (x2 y2). */
 typedef struct flat {
 	mr_v3 e1, e2, n;
-	double x1, x2, y2;
+	double x1, x2, y2, area; /* twice the area */
 } flat;
 
 /* What is the same for the corners of a group: vertices, or equal normals at one. */
@@ -21,28 +21,40 @@ flatten(const mr_v3 *p, const uint32_t *v, flat *f)
 {
 	mr_v3 a = mr_sub(p[v[1]], p[v[0]]), b = mr_sub(p[v[2]], p[v[0]]), c = mr_cross(a, b);
 
-	if (!(mr_norm2(c) > 0))
-		return false;
-	f->e1 = mr_unit(a);
-	f->n = mr_unit(c);
-	f->e2 = mr_cross(f->n, f->e1);
+	f->area = mr_norm(c);
 	f->x1 = mr_norm(a);
+	if (!(f->area > 0))
+		return false;
+	f->e1 = mr_mul(1 / f->x1, a);
+	f->n = mr_mul(1 / f->area, c);
+	f->e2 = mr_cross(f->n, f->e1);
 	f->x2 = mr_dot(b, f->e1);
 	f->y2 = mr_dot(b, f->e2);
 	return true;
 }
 
 /*
- * With F = N O^-1 from the old corners to the new ones in their planes, the nearest rotation has the cosine
- * and sine F11 + F22 and F21 - F12, up to one positive factor.
+ * The frame that the rotation nearest to what became of the triangle makes of the old frame.  With F = N O^-1
+ * from the old corners to the new ones in their planes, it has the cosine and sine F11 + F22 and F21 - F12,
+ * up to one positive factor.
  */
+static void
+turn_frame(const flat *was, flat *is)
+{
+	double c = is->x1 * was->y2 + is->y2 * was->x1, s = is->x1 * was->x2 - is->x2 * was->x1;
+	double r = 1 / sqrt(c * c + s * s);
+	mr_v3 e1 = is->e1;
+
+	is->e1 = mr_axpy(c * r, e1, mr_mul(s * r, is->e2));
+	is->e2 = mr_axpy(c * r, is->e2, mr_mul(-s * r, e1));
+}
+
+/* The vector that has in the new frame the coordinates that n has in the old one. */
 static mr_v3
 turn(const flat *was, const flat *is, mr_v3 n)
 {
-	double c = is->x1 * was->y2 + is->y2 * was->x1, s = is->x1 * was->x2 - is->x2 * was->x1;
-	double r = hypot(c, s), x = mr_dot(n, was->e1), y = mr_dot(n, was->e2), z = mr_dot(n, was->n);
-
-	return mr_axpy((c * x - s * y) / r, is->e1, mr_axpy((s * x + c * y) / r, is->e2, mr_mul(z, is->n)));
+	return mr_axpy(mr_dot(n, was->e1), is->e1,
+	    mr_axpy(mr_dot(n, was->e2), is->e2, mr_mul(mr_dot(n, was->n), is->n)));
 }
 
 static bool
@@ -66,15 +78,16 @@ start(mr_ctx *ctx, groups *g)
 static void
 add_face(const mr_mesh *m, const mr_v3 *p, size_t f, const mr_v3 *normal, groups *g)
 {
-	double area = mr_norm(mr_face_cross(m, f));
-	bool moved = has_moved(m, p, f), solid;
+	bool moved = has_moved(m, p, f);
 	flat was, is;
 
-	solid = flatten(m->p, m->t[f].v, &was) && flatten(p, m->t[f].v, &is);
-	for (size_t k = 0; solid && k < 3; k++) {
+	if (!flatten(m->p, m->t[f].v, &was) || !flatten(p, m->t[f].v, &is))
+		return;
+	turn_frame(&was, &is);
+	for (size_t k = 0; k < 3; k++) {
 		size_t i = 3 * f + k, v = m->t[f].v[k], to = g->of ? g->of[i] : v;
 		mr_v3 n = normal[g->of ? i : v];
-		g->sum[to] = mr_axpy(area, moved ? turn(&was, &is, n) : n, g->sum[to]);
+		g->sum[to] = mr_axpy(was.area, moved ? turn(&was, &is, n) : n, g->sum[to]);
 		g->moved[to] |= moved;
 	}
 }
