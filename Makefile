@@ -35,7 +35,7 @@ INCLUDE  := -Ilib -I. -Icmd -I/usr/include/suitesparse -D_POSIX_C_SOURCE=200809L
 SHARED   := -fPIC -fvisibility=hidden
 ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthread $(SHARED) $(CFLAGS)
 ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -pthread $(SHARED) $(CFLAGS)
-LIBS     := -Wl,--as-needed -lcholmod -lumfpack -lflann -ltinyobjloader_double -lpng -lz -lstdc++ -ldl -lm
+LIBS     := -Wl,--as-needed -lcholmod -lumfpack -lflann -ltinyobjloader_double -lpng -ljpeg -ljansson -lz -lstdc++ -ldl -lm
 
 TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
 OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c formats/*.c formats/*.cc))
@@ -105,7 +105,7 @@ bless: $(TOOLS)
 
 # What is there already is done again only by newer tools or scripts.
 demo: demo/figures.txt demo/clouds.txt
-	@echo; echo 'Pictures: demo/sheet.png, the edits; demo/*-scan.png, the scans; demo/frames/, an animation. Tables: $^'
+	@echo; echo 'Pictures: demo/sheet.png, the edits; demo/*-scan.png, the scans; demo/frames/, an animation; demo/textured.png and .glb. Tables: $^'
 
 demo/figures.txt: $(TOOLS) examples/demo.sh examples/models.sh
 	@$(RUN) examples/demo.sh demo

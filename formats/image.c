@@ -1,0 +1,33 @@
+/* Pictures by their bytes. */
+#include "formats/image.h"
+
+#include "formats/bytes.h"
+
+bool
+mr_is_png(const unsigned char *data, size_t size)
+{
+	return size > 8 && !memcmp(data, "\x89PNG\r\n\x1a\n", 8);
+}
+
+bool
+mr_is_jpeg(const unsigned char *data, size_t size)
+{
+	return size > 3 && !memcmp(data, "\xff\xd8\xff", 3);
+}
+
+mr_status
+mr_image_read(mr_ctx *ctx, const char *path, mr_image *image)
+{
+	mr_file_bytes b = { 0 };
+	mr_status status;
+
+	MR_TRY(mr_file_bytes_read(ctx, path, NULL, &b));
+	if (mr_is_png(b.data, b.size))
+		status = mr_png_read(ctx, b.data, b.size, image);
+	else if (mr_is_jpeg(b.data, b.size))
+		status = mr_jpeg_read(ctx, b.data, b.size, image);
+	else
+		status = mr_fail(ctx, MR_EFORMAT, "neither a PNG nor a JPEG");
+	mr_file_bytes_free(&b);
+	return mr_prefix(ctx, status, "%s", path);
+}

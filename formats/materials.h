@@ -1,0 +1,25 @@
+/*
+ * materials.h -- what a model's materials look like, by the files of materials that its OBJ named.
+ *
+ * Contract: only regular files below the folder that the caller names are opened, whatever the model says: a
+ * path that leads elsewhere is taken for its last name. Layer rule: formats.
+ */
+#ifndef MR_MATERIALS_H
+#define MR_MATERIALS_H
+
+#include "formats/formats.h"
+
+typedef struct mr_material {
+	bool colored;
+	double color[3];  /* Kd, from 0 to 1, as pictures have it */
+	const char *file; /* the picture of map_Kd, which is there; NULL: none */
+} mr_material;
+
+/*
+ * What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
+ * there is warned of, no failure.  list: *count, in the arena; none of a model without materials.
+ */
+mr_status mr_materials_find(
+    mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
+
+#endif
