@@ -1,6 +1,7 @@
 /* mr-render -- a shaded picture of each frame.  See man/mr-render.1. */
 #include "cmd.h"
 #include "formats/outname.h"
+#include "formats/paint.h"
 #include "formats/png.h"
 #include "render/gallery.h"
 
@@ -12,10 +13,10 @@ static const char *view = "quarter";
 static cmd_range range;
 static int up = 1;
 static bool sheet;
+static size_t written;
 
 static mr_gallery gallery;
 static mr_mark kept; /* of the arena that holds the gallery */
-static size_t written;
 
 static const cmd_opt table[] = {
 	{ 's', "size", CMD_SIZE, &size, 16, 16384, "WxH", "pixels of a panel", NULL },
@@ -27,18 +28,17 @@ static const cmd_opt table[] = {
 	{ 0, "fit", CMD_FLAG, &opts.fit, 0, 0, NULL, "a camera for each panel", NULL },
 	{ 0, "same", CMD_FLAG, &opts.same, 0, 0, NULL, "one camera and range for all frames", NULL },
 	{ 'c', "color", CMD_TEXT, &opts.color, 0, 0, "COLUMN", "colour by a column's values", NULL },
+	{ 0, "texture", CMD_TEXT, &opts.texture, 0, 0, "FILE", "picture on surfaces", NULL },
+	{ 0, "materials", CMD_TEXT, &opts.materials, 0, 0, "DIR", "folder of files of materials", NULL },
 	{ 0, "range", CMD_RANGE, &range, 0, 0, "LOW,HIGH", "values that the colours span", NULL },
 	{ 0, "flat", CMD_FLAG, &opts.raster.flat, 0, 0, NULL, "shade each triangle on its own", NULL },
-	{ 0, "crease", CMD_REAL, &opts.raster.crease, 0, 180, "DEG",
-	    "triangles that meet at a larger angle are not shaded as one", NULL },
+	{ 0, "crease", CMD_REAL, &opts.raster.crease, 0, 180, "DEG", "shade over smaller angles only", NULL },
 	{ 'w', "wire", CMD_FLAG, &opts.raster.wire, 0, 0, NULL, "draw edges", NULL },
 	{ 0, "plain", CMD_OFF, &opts.raster.occlusion, 0, 0, NULL, "do not darken hollows", NULL },
-	{ 0, "point-size", CMD_REAL, &opts.raster.point_radius, 0, 1000, "R",
-	    "radius of points in pixels; 0: about to cover the surface", NULL },
+	{ 0, "point-size", CMD_REAL, &opts.raster.point_radius, 0, 1000, "R", "pixels; 0: they cover", NULL },
 	{ 0, "samples", CMD_COUNT, &opts.raster.samples, 1, 8, "N", "N by N samples a pixel", NULL },
 	{ 0, "sheet", CMD_FLAG, &sheet, 0, 0, NULL, "all frames in one picture", NULL },
-	{ 0, "columns", CMD_COUNT, &opts.columns, 0, 10000, "N", "of the sheet; 0: about 3 by 2 in all",
-	    NULL },
+	{ 0, "columns", CMD_COUNT, &opts.columns, 0, 10000, "N", "of the sheet; 0: for 3 by 2", NULL },
 	{ 0, "title", CMD_TEXT, &opts.title, 0, 0, "TEXT", "over the picture", NULL },
 	{ 0, "no-labels", CMD_OFF, &opts.labels, 0, 0, NULL, "neither names nor legends", NULL },
 	{ 0 },
@@ -73,6 +73,7 @@ prepare(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "a picture is not written to a terminal");
 	MR_TRY(cmd_idle(c, "columns", !sheet, "without --sheet"));
 	MR_TRY(cmd_idle(c, "crease", opts.raster.flat, "with --flat"));
+	MR_TRY(cmd_idle(c, "materials", opts.texture != NULL, "with --texture"));
 	MR_TRY(cmd_idle(c, "range", !opts.color, "without --color"));
 	opts.layers = c->layer;
 	opts.width = size.width;
@@ -128,7 +129,7 @@ render_frame(cmd *c, mr_frame *f)
 {
 	if (f->key && !sheet && !opts.same && mr_outname_varies(c->operands[0]))
 		MR_TRY(write_frames(c));
-	return mr_gallery_add(&c->ctx, &c->keep, &gallery, f, &opts);
+	return mr_gallery_add_painted(&c->ctx, &c->keep, &gallery, f, &opts);
 }
 
 static mr_status

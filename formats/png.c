@@ -2,6 +2,8 @@
 #include "formats/png.h"
 
 #include "formats/bytes.h"
+#include "formats/image.h"
+#include "formats/paint.h"
 #include "render/gallery.h"
 
 #include <png.h>
@@ -90,6 +92,28 @@ mr_png_suits(const char *path)
 	       (stat(path, &st) == 0 && !S_ISREG(st.st_mode));
 }
 
+mr_status
+mr_png_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image)
+{
+	png_image png = { .version = PNG_IMAGE_VERSION };
+	const png_color white = { 255, 255, 255 };
+	mr_status status = MR_OK;
+	mr_image made = { 0 };
+
+	if (png_image_begin_read_from_memory(&png, data, size)) {
+		png.format = PNG_FORMAT_RGB;
+		status = mr_image_new(ctx, png.width, png.height, (mr_rgb){ 0, 0, 0 }, &made);
+		if (status == MR_OK)
+			png_image_finish_read(&png, &white, made.pixel, (png_int_32)(3 * png.width), NULL);
+	}
+	png_image_free(&png);
+	MR_TRY(status);
+	if (PNG_IMAGE_FAILED(png))
+		return mr_fail(ctx, MR_EFORMAT, "%s", png.message);
+	*image = made;
+	return MR_OK;
+}
+
 /* keep: an arena that outlives what is drawn. */
 static mr_status
 render(mr_ctx *ctx, mr_ctx *keep, mr_frame *f, const mr_render_opts *o, const char *path)
@@ -98,7 +122,7 @@ render(mr_ctx *ctx, mr_ctx *keep, mr_frame *f, const mr_render_opts *o, const ch
 	mr_image image;
 	mr_shot shot;
 
-	MR_TRY(mr_gallery_add(ctx, keep, &gallery, f, o));
+	MR_TRY(mr_gallery_add_painted(ctx, keep, &gallery, f, o));
 	MR_TRY(mr_shot_aim(ctx, &gallery, 0, 1, o, &shot));
 	MR_TRY(mr_shot_draw(ctx, &gallery, &shot, 0, o, &image));
 	return mr_png_write(ctx, path, &image);

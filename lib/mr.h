@@ -701,6 +701,7 @@ typedef struct mr_make_opts {
 	size_t vertices;     /* about how many; 0: 10,000, and 30,000 for bumpy */
 	size_t genus;        /* of boxes */
 	bool open;           /* cylinder: without its caps */
+	bool texcoords;      /* with texture coordinates: sphere, torus, plane, cylinder, bumpy */
 	double noise;        /* standard deviation, along the normals */
 	bool noise_relative; /* noise is a share of the bounding box's diagonal */
 	size_t points;       /* a cloud of so many instead of the mesh, uniform by area; 0: the mesh */
@@ -709,7 +710,7 @@ typedef struct mr_make_opts {
 
 #define MR_MAKE_DEFAULTS                                                                                     \
 	{                                                                                                    \
-		MR_SPHERE, 0, 2, false, 0, false, 0, 1                                                       \
+		MR_SPHERE, 0, 2, false, false, 0, false, 0, 1                                                \
 	}
 
 /* A key frame with mesh or points. */
@@ -861,15 +862,17 @@ typedef struct mr_raster_opts {
 	}
 
 typedef struct mr_render_opts {
-	size_t width, height; /* of a panel, in pixels */
-	mr_v3 from, up;       /* direction in which the eye stands, and which is upwards */
-	double zoom;          /* 1: the shot fills the panel */
-	bool parallel;        /* no perspective */
-	bool fit;             /* a camera for each panel */
-	bool labels;          /* name each panel, and show legends */
-	const char *layers;   /* comma between them; NULL: all with positions */
-	const char *color;    /* column that gives colours; NULL: none */
-	bool ranged;          /* numbers low to high span the colours; else least to greatest of the shot */
+	size_t width, height;  /* of a panel, in pixels */
+	mr_v3 from, up;        /* direction in which the eye stands, and which is upwards */
+	double zoom;           /* 1: the shot fills the panel */
+	bool parallel;         /* no perspective */
+	bool fit;              /* a camera for each panel */
+	bool labels;           /* name each panel, and show legends */
+	const char *layers;    /* comma between them; NULL: all with positions */
+	const char *color;     /* column that gives colours; NULL: none */
+	const char *texture;   /* picture, PNG or JPEG, on what has texture coordinates; NULL: none */
+	const char *materials; /* folder of files of materials, which are drawn; NULL: none */
+	bool ranged;           /* numbers low to high span the colours; else least to greatest of the shot */
 	double low, high;
 	const char *title; /* over a whole picture; NULL: none */
 	bool same;         /* a sheet is one shot; else each key frame begins one */
@@ -879,8 +882,8 @@ typedef struct mr_render_opts {
 
 #define MR_RENDER_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, NULL, NULL, false, 0, 0,     \
-		    NULL, false, 0, MR_RASTER_DEFAULTS                                                       \
+		800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, NULL, NULL, NULL, NULL,      \
+		    false, 0, 0, NULL, false, 0, MR_RASTER_DEFAULTS                                          \
 	}
 
 /* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */

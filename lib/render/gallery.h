@@ -25,6 +25,7 @@ typedef struct mr_panel {
 	const char *frame, *layer;
 	mr_subject subject;
 	uint64_t position, triangles; /* serials of its columns */
+	uint64_t worn[4];             /* of those that its paint is made of */
 	mr_coloring coloring;
 	double *value;    /* MR_COLOR_NUMBERS: as many as there would be colours */
 	uint32_t regions; /* MR_COLOR_REGIONS: bit r where region r is there */

@@ -9,13 +9,17 @@
 
 #include "mesh/mesh.h"
 #include "render/camera.h"
-#include "render/canvas.h"
+#include "render/texture.h"
+
+/* A surface without colours. */
+static const mr_rgb MR_PLAIN = { 212, 204, 193 };
 
 /* What is drawn: a surface, or, where the mesh has no faces, its points as small balls. */
 typedef struct mr_subject {
 	mr_mesh mesh;
 	const mr_v3 *normal; /* nv, unit, of points, where known; else NULL */
-	const mr_rgb *color; /* one a vertex, or a face where `per_face`; NULL: a plain warm grey */
+	const mr_rgb *color; /* one a vertex, or a face where `per_face`; NULL: MR_PLAIN */
+	mr_paint paint;      /* pictures over the colours; all NULL: none */
 	bool per_face;
 	bool nearest; /* colours are kinds: each place has its nearest vertex's, no mixture */
 } mr_subject;

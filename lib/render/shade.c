@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 
-static const mr_rgb PLAIN = { 212, 204, 193 }, INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
+static const mr_rgb INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
 
 enum { LEVELS = 4096, TAPS = 16, TURN = 4 };
 
@@ -121,8 +121,11 @@ typedef struct facet {
 	bool back;
 	mr_placed p[3];
 	mr_v3 normal[3], color[3];
-	double area, length[3]; /* of edges, in steps */
-	double fade;            /* of edges, on faces of few pixels */
+	double area, length[3];    /* of edges, in steps */
+	double fade;               /* of edges, on faces of few pixels */
+	const mr_texture *texture; /* NULL: none */
+	const double *uv;          /* of the corners */
+	int level;                 /* of the texture */
 } facet;
 
 static mr_v3
@@ -130,7 +133,44 @@ item_color(const shading *s, size_t vertex, size_t face)
 {
 	const mr_subject *o = s->v->subject;
 
-	return to_linear(s, o->color ? o->color[o->per_face ? face : vertex] : PLAIN);
+	return to_linear(s, o->color ? o->color[o->per_face ? face : vertex] : MR_PLAIN);
+}
+
+/* The picture of a face, as large as it is seen. */
+static void
+set_up_texture(const shading *s, uint32_t face, facet *f)
+{
+	const mr_paint *p = &s->v->subject->paint;
+	const double *uv = p->uv ? p->uv + 6 * (size_t)face : NULL;
+	const mr_image *image;
+	double twice;
+
+	f->texture = NULL;
+	if (!uv || p->of[face] == MR_NONE || isnan(uv[0] + uv[1] + uv[2] + uv[3] + uv[4] + uv[5]))
+		return;
+	f->texture = p->texture + p->of[face];
+	f->uv = uv;
+	image = f->texture->level;
+	twice = (uv[2] - uv[0]) * (uv[5] - uv[1]) - (uv[3] - uv[1]) * (uv[4] - uv[0]);
+	f->level = mr_texture_level(
+	    f->texture, fabs(twice) * (double)(image->width * image->height), fabs(f->area) / (STEP * STEP));
+}
+
+static mr_v3
+texture_color(const shading *s, const facet *f, const double w[3], double sum)
+{
+	mr_v3 color = mr_vec(0, 0, 0);
+	double u = 0, v = 0;
+	mr_texels t;
+
+	for (int i = 0; i < 3; i++) {
+		u += w[i] / sum * f->uv[2 * i];
+		v += w[i] / sum * f->uv[2 * i + 1];
+	}
+	t = mr_texture_at(f->texture, f->level, u, v);
+	for (int i = 0; i < 4; i++)
+		color = mr_axpy(t.weight[i], to_linear(s, t.color[i]), color);
+	return color;
 }
 
 static void
@@ -152,6 +192,7 @@ set_up_face(const shading *s, uint32_t face, facet *f)
 	f->area = (double)(f->p[1].x - f->p[0].x) * (double)(f->p[2].y - f->p[0].y) -
 	          (double)(f->p[1].y - f->p[0].y) * (double)(f->p[2].x - f->p[0].x);
 	f->back = f->area > 0; /* y points down */
+	set_up_texture(s, face, f);
 	for (int i = 0; i < 3; i++) {
 		const mr_placed *a = &f->p[(i + 1) % 3], *b = &f->p[(i + 2) % 3];
 		f->length[i] = sqrt(
@@ -247,14 +288,16 @@ shade_face_sample(const shading *s, facet *f, size_t at, size_t x, size_t y, gat
 	top = w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2);
 	n = mr_add(
 	    mr_mul(w[0], f->normal[0]), mr_add(mr_mul(w[1], f->normal[1]), mr_mul(w[2], f->normal[2])));
-	if (s->v->subject->nearest)
+	if (f->texture)
+		color = texture_color(s, f, w, sum);
+	else if (s->v->subject->nearest)
 		color = f->color[top];
 	else
 		color = mr_mul(1 / sum, mr_add(mr_mul(w[0], f->color[0]),
 					    mr_add(mr_mul(w[1], f->color[1]), mr_mul(w[2], f->color[2]))));
 	if (f->back)
 		n = mr_mul(-1, n);
-	if (f->back && s->v->subject->color) /* the inside keeps its colour, bluish */
+	if (f->back && (s->v->subject->color || f->texture)) /* the inside keeps its colour, bluish */
 		color = mr_lerp(0.5, color, to_linear(s, INSIDE));
 	if (s->v->opts->wire)
 		line = line_at(s, f, e);

@@ -12,16 +12,20 @@ static mr_status
 put_mesh(mr_ctx *ctx, mr_frame *f, const mr_make_opts *o, mr_mesh *m)
 {
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3), *normal = MR_NEW(ctx, m->nv, mr_v3);
+	double *uv = NULL;
 
 	if (!p || !normal)
 		return MR_EMEM;
+	if (o->texcoords && mr_solid_has_texcoords(o->solid))
+		MR_TRY(mr_solid_texcoords(ctx, o->solid, m, &uv));
 	if (o->noise > 0) {
 		MR_TRY(mr_vertex_normals(ctx, m, NULL, normal));
 		memcpy(p, m->p, m->nv * sizeof *p);
 		mr_add_noise(p, normal, m->nv, deviation(o, m), o->seed);
 		m->p = p;
 	}
-	return mr_layer_put_mesh(ctx, f, "mesh", m);
+	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", m));
+	return uv ? mr_layer_put(ctx, f, "mesh", "corner_texcoord", uv, m->nf) : MR_OK;
 }
 
 static mr_status

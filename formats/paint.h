@@ -1,0 +1,16 @@
+/* paint.h -- the pictures that surfaces of a gallery wear, read from files.  Layer rule: formats includes
+ * lib. */
+#ifndef MR_PAINT_H
+#define MR_PAINT_H
+
+#include "render/gallery.h"
+
+/*
+ * mr_gallery_add, and paints the panels that no column colours: with opts->texture, or with what the
+ * materials of the layer look like by the files in opts->materials.  What did not change since the frame
+ * before is shared. MR_EMISSING where one of them is asked for and no panel is coloured.
+ */
+mr_status mr_gallery_add_painted(
+    mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts) MR_WARN_UNUSED;
+
+#endif

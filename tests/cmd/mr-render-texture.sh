@@ -1,0 +1,60 @@
+# Pictures on surfaces: one for all, or those of the materials, whose files are where --materials says.
+cat >card.obj <<'END'
+mtllib card.mtl
+v 0 0 0
+v 2 0 0
+v 2 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+vt 1 1
+vt 0 1
+usemtl front
+f 1/1 2/2 3/3
+usemtl back
+f 1/1 3/3 4/4
+END
+mr-import card.obj -o card.mrs
+mr-make torus -n 500 | mr-render -s 64x64 --no-labels torus.png
+printf 'newmtl front\nKd 1 0 0\nmap_Kd torus.png\nnewmtl back\nKd 0 1 0\n' >card.mtl
+render() { # NAME, option...
+	name=$1
+	shift
+	mr-render -s 80x60 --no-labels --view front -i card.mrs "$@" "$name.png" || echo "exit $?"
+}
+differ() {
+	cmp -s "$1.png" "$2.png" && echo "$1 looks like $2" || echo "$1 and $2 differ"
+}
+render plain
+render texture --texture torus.png
+render materials --materials .
+differ plain texture
+differ texture materials
+render one -j 1 --materials . && render three -j 3 --materials . && differ one three
+mkdir away && mv card.mtl torus.png away
+render away --materials away && differ away materials
+
+echo '-- a column goes before pictures'
+mr-select --free all -l mesh card.mrs -o regions.mrs
+mr-render -s 80x60 -c region -i regions.mrs region.png
+mr-render -s 80x60 -c region --texture away/torus.png -i regions.mrs textured.png && differ region textured
+
+echo '-- what is not there'
+render gone --materials . && differ gone plain
+render none --texture nothing.png
+echo 'no picture' >text.png
+render none --texture text.png
+head -c 60 away/torus.png >cut.png
+render none --texture cut.png
+printf '\377\330\377\340 no picture' >cut.jpg
+render none --texture cut.jpg
+mr-make torus -n 300 | mr-render --texture away/torus.png none.png
+echo "exit $?"
+mr-make torus -n 300 | mr-render --materials away none.png
+echo "exit $?"
+mr-render -i card.mrs --texture away/torus.png --materials away none.png
+echo "exit $?"
+ls none.png 2>/dev/null
+
+echo '-- of the picture all frames but the first have the texture from before'
+mr-cat card.mrs card.mrs | mr-render -s 40x40 --texture away/torus.png 'card-%d.png' && differ card-1 card-2
