@@ -2,15 +2,19 @@
 #include "cmd.h"
 #include "formats/model.h"
 #include "formats/outname.h"
+#include "formats/scene.h"
 
 #include <unistd.h>
 
 static const char *format;
 static uint64_t written;
+static mr_scene scene = { .folder = "." };
 
 static const cmd_opt table[] = {
 	{ 'f', "format", CMD_TEXT, &format, 0, 0, "FORMAT",
 	    "write this format (default: by the suffix of OUT)", NULL },
+	{ 0, "materials", CMD_TEXT, &scene.folder, 0, 0, "DIR",
+	    "folder of the files of materials, whose pictures a glb holds", NULL },
 	{ 0 },
 };
 
@@ -28,6 +32,8 @@ check(cmd *c)
 	if (!strcmp(out, "-") && !format)
 		return mr_fail(&c->ctx, MR_EUSAGE, "OUT is stdout: -f FORMAT is needed");
 	MR_TRY(mr_format_check(&c->ctx, out, format, true, &binary));
+	MR_TRY(cmd_idle(
+	    c, "materials", !mr_scene_suits(out, format), "on this format, which holds no pictures"));
 	if (!strcmp(out, "-") && binary && isatty(STDOUT_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s is binary and stdout is a terminal", format);
 	return mr_outname(&c->ctx, out, "", 1, &name);
@@ -50,6 +56,26 @@ static const cmd_field figures[] = {
 	{ 0 },
 };
 
+/* A file that holds several frames waits for the last of them; where names vary, each frame has one. */
+static mr_status
+add_to_scene(cmd *c, mr_frame *f)
+{
+	const char *out = c->operands[0];
+	mr_scene own = { .folder = scene.folder };
+	bool varies = mr_outname_varies(out);
+	mr_export_result result;
+	char *path;
+
+	MR_TRY(
+	    mr_scene_add(&c->ctx, varies ? &c->ctx : &c->keep, varies ? &own : &scene, f, c->layer, &result));
+	cmd_figures(c, figures, &result);
+	written++;
+	if (!varies)
+		return MR_OK;
+	MR_TRY(mr_outname(&c->ctx, out, f->name, f->number, &path));
+	return mr_scene_write(&c->ctx, path, format, &own, NULL);
+}
+
 static mr_status
 export_frame(cmd *c, mr_frame *f)
 {
@@ -59,6 +85,8 @@ export_frame(cmd *c, mr_frame *f)
 	mr_export_result result;
 	char *path;
 
+	if (mr_scene_suits(out, format))
+		return add_to_scene(c, f);
 	if (written && !varies)
 		return mr_fail(
 		    &c->ctx, MR_EUSAGE, "%s holds the frame before: OUT needs %%s or %%d for several", out);
@@ -73,9 +101,19 @@ export_frame(cmd *c, mr_frame *f)
 static mr_status
 finish(cmd *c)
 {
-	if (written == 0 && !mr_outname_varies(c->operands[0]))
+	const char *out = c->operands[0];
+	mr_held held = { 0 };
+	char *path;
+
+	if (mr_outname_varies(out))
+		return MR_OK;
+	if (written == 0)
 		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame to write");
-	return MR_OK;
+	if (scene.nodes == 0)
+		return MR_OK;
+	MR_TRY(mr_outname(&c->ctx, out, "", 0, &path));
+	MR_TRY(mr_scene_write(&c->ctx, path, format, &scene, &held));
+	return cmd_hold(c, held.file, held.place);
 }
 
 int

@@ -13,6 +13,7 @@
 #include "formats/build.h"
 #include "formats/bytes.h"
 #include "formats/scan.h"
+#include "formats/scene.h"
 #include "mesh/polygon.h"
 
 typedef struct mr_file_format {
@@ -22,7 +23,8 @@ typedef struct mr_file_format {
 	bool lines;           /* what is read is lines of text throughout */
 	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by name or suffix only */
 	mr_status (*read)(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-	mr_status (*write)(mr_sink *s, const mr_model *m); /* NULL: read only */
+	mr_status (*write)(mr_sink *s, const mr_model *m);           /* NULL: read only */
+	mr_status (*write_scene)(mr_sink *s, const mr_scene *scene); /* NULL: holds one model */
 } mr_file_format;
 
 /* mr_model_read of bytes in memory; `path` is for its suffix and `format` may be NULL. */
@@ -65,6 +67,16 @@ mr_status mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_mo
 
 bool mr_las_sniff(const unsigned char *data, size_t size);
 mr_status mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+
+/* A GLB, and the text of glTF that it may be without. */
+bool mr_glb_sniff(const unsigned char *data, size_t size);
+bool mr_gltf_sniff(const unsigned char *data, size_t size);
+mr_status mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
+mr_status mr_glb_write(mr_sink *s, const mr_model *m);
+mr_status mr_glb_write_scene(mr_sink *s, const mr_scene *scene);
+
+/* Says and counts what a GLB does not keep of the model. */
+mr_status mr_glb_note_lost(mr_sink *s, const mr_model *m);
 
 /* A text over the bytes. */
 static inline mr_scan

@@ -6,20 +6,23 @@
 
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
 static const mr_file_format formats[] = {
-	{ "ply", " ply ", true, false, mr_ply_sniff, mr_ply_read, mr_ply_write_little },
-	{ "ply-big", NULL, true, false, NULL, mr_ply_read, mr_ply_write_big },
-	{ "ply-ascii", NULL, false, false, NULL, mr_ply_read, mr_ply_write_ascii },
-	{ "las", " las ", true, false, mr_las_sniff, mr_las_read, NULL },
-	{ "stl", " stl ", true, false, mr_stl_sniff, mr_stl_read, mr_stl_write },
-	{ "stl-ascii", NULL, false, false, NULL, mr_stl_read, mr_stl_write_ascii },
-	{ "off", " off coff noff stoff cnoff ", false, false, mr_off_sniff, mr_off_read, mr_off_write },
-	{ "off-binary", NULL, true, false, NULL, mr_off_read, mr_off_write_binary },
-	{ "pcd", " pcd ", true, false, mr_pcd_sniff, mr_pcd_read, NULL },
-	{ "obj", " obj ", false, true, mr_obj_sniff, mr_obj_read, mr_obj_write },
-	{ "ptx", " ptx ", false, true, mr_ptx_sniff, mr_ptx_read, NULL },
-	{ "xyz", " xyz txt csv asc xyzn xyzrgb ", false, true, mr_xyz_sniff, mr_xyz_read, mr_xyz_write },
-	{ "pts", " pts ", false, true, NULL, mr_xyz_read, mr_pts_write },
-	{ "pwn", " pwn ", false, true, NULL, mr_xyz_read, mr_pwn_write },
+	{ "glb", " glb ", true, false, mr_glb_sniff, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
+	{ "gltf", " gltf ", false, false, mr_gltf_sniff, mr_gltf_read, NULL, NULL },
+	{ "ply", " ply ", true, false, mr_ply_sniff, mr_ply_read, mr_ply_write_little, NULL },
+	{ "ply-big", NULL, true, false, NULL, mr_ply_read, mr_ply_write_big, NULL },
+	{ "ply-ascii", NULL, false, false, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
+	{ "las", " las ", true, false, mr_las_sniff, mr_las_read, NULL, NULL },
+	{ "stl", " stl ", true, false, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
+	{ "stl-ascii", NULL, false, false, NULL, mr_stl_read, mr_stl_write_ascii, NULL },
+	{ "off", " off coff noff stoff cnoff ", false, false, mr_off_sniff, mr_off_read, mr_off_write, NULL },
+	{ "off-binary", NULL, true, false, NULL, mr_off_read, mr_off_write_binary, NULL },
+	{ "pcd", " pcd ", true, false, mr_pcd_sniff, mr_pcd_read, NULL, NULL },
+	{ "obj", " obj ", false, true, mr_obj_sniff, mr_obj_read, mr_obj_write, NULL },
+	{ "ptx", " ptx ", false, true, mr_ptx_sniff, mr_ptx_read, NULL, NULL },
+	{ "xyz", " xyz txt csv asc xyzn xyzrgb ", false, true, mr_xyz_sniff, mr_xyz_read, mr_xyz_write,
+	    NULL },
+	{ "pts", " pts ", false, true, NULL, mr_xyz_read, mr_pts_write, NULL },
+	{ "pwn", " pwn ", false, true, NULL, mr_xyz_read, mr_pwn_write, NULL },
 };
 
 enum { FORMATS = sizeof formats / sizeof *formats, LONGEST_LINE = 1 << 22 };
@@ -355,22 +358,48 @@ mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count
 	return MR_OK;
 }
 
-mr_status
-mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held,
-    mr_export_result *result)
+/* Writes the model, or the scene. */
+static mr_status
+write_file(mr_ctx *ctx, const char *path, const mr_file_format *f, const mr_model *m, const mr_scene *scene,
+    mr_held *held, mr_export_result *result)
 {
-	const mr_file_format *f = NULL;
 	mr_sink sink;
 
-	MR_TRY(find_writer(ctx, path, format, &f));
 	MR_TRY(mr_sink_open(ctx, path, ends_in_gz(path), &sink));
 	sink.hold = held != NULL;
-	MR_TRY(mr_sink_close(&sink, f->write(&sink, m)));
+	MR_TRY(mr_sink_close(&sink, scene ? f->write_scene(&sink, scene) : f->write(&sink, m)));
 	if (held)
 		*held = (mr_held){ .file = sink.temporary, .place = sink.target };
 	if (result)
 		*result = sink.lost;
 	return MR_OK;
+}
+
+mr_status
+mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held,
+    mr_export_result *result)
+{
+	const mr_file_format *f = NULL;
+
+	MR_TRY(find_writer(ctx, path, format, &f));
+	return write_file(ctx, path, f, m, NULL, held, result);
+}
+
+bool
+mr_scene_suits(const char *path, const char *format)
+{
+	const mr_file_format *f = format ? by_name(format) : by_suffix(path);
+
+	return f && f->write_scene;
+}
+
+mr_status
+mr_scene_write(mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene, mr_held *held)
+{
+	const mr_file_format *f = NULL;
+
+	MR_TRY(find_writer(ctx, path, format, &f));
+	return write_file(ctx, path, f, NULL, scene, held, NULL);
 }
 
 void

@@ -84,6 +84,64 @@ mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, siz
 	return MR_OK;
 }
 
+/* A copy of n rows of `size` bytes; NULL stays NULL. */
+static mr_status
+copy_rows(mr_ctx *keep, const void **data, size_t n, size_t size)
+{
+	void *copy = *data ? mr_alloc(keep, n, size) : NULL;
+
+	if (*data && !copy)
+		return MR_EMEM;
+	*data = copy ? memcpy(copy, *data, n * size) : NULL;
+	return MR_OK;
+}
+
+static mr_status
+copy_properties(mr_ctx *keep, mr_model *m)
+{
+	mr_property *property = MR_NEW(keep, m->properties, mr_property);
+
+	if (!property)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->properties; i++) {
+		mr_property *p = &property[i];
+		*p = m->property[i];
+		p->name = mr_format(keep, "%s", p->name);
+		if (!p->name)
+			return MR_EMEM;
+		MR_TRY(copy_rows(
+		    keep, &p->data, p->shape.element == 'f' ? m->nf : m->nv, mr_type_size(p->shape.type)));
+	}
+	m->property = property;
+	return MR_OK;
+}
+
+mr_status
+mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy)
+{
+	const void *p = m->p, *t = m->t;
+	mr_model made = *m;
+
+	MR_TRY(copy_rows(keep, &p, m->nv, sizeof *m->p));
+	MR_TRY(copy_rows(keep, &t, m->nf, sizeof *m->t));
+	made.p = p;
+	made.t = t;
+	for (size_t i = 0; i < COLUMNS; i++) {
+		const void *data = column_of(m, i);
+		MR_TRY(copy_rows(keep, &data, columns[i].of_faces ? m->nf : m->nv, columns[i].bytes));
+		set_column(&made, i, data);
+	}
+	for (size_t i = 0; i < NAMES; i++) {
+		mr_lines *l = lines_of(&made, i);
+		const void *text = l->text;
+		MR_TRY(copy_rows(keep, &text, l->bytes, 1));
+		l->text = text;
+	}
+	MR_TRY(copy_properties(keep, &made));
+	*copy = made;
+	return MR_OK;
+}
+
 void
 mr_model_to_points(mr_model *m)
 {
@@ -402,13 +460,20 @@ complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 }
 
 mr_status
+mr_export_layer(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer)
+{
+	static const char *const layers[] = { "mesh", "control", "points", NULL };
+
+	return mr_layer_choose(ctx, f, only, layers, layer);
+}
+
+mr_status
 mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
     mr_held *held, mr_export_result *result)
 {
-	static const char *const layers[] = { "mesh", "control", "points", NULL };
 	mr_model m;
 
-	MR_TRY(mr_layer_choose(ctx, f, layer, layers, &layer));
+	MR_TRY(mr_export_layer(ctx, f, layer, &layer));
 	MR_TRY(mr_model_get(ctx, f, layer, &m));
 	MR_TRY(complete(ctx, f, layer, &m));
 	return mr_model_write(ctx, path, format, &m, held, result);

@@ -35,6 +35,12 @@ mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mod
  */
 mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
+/* A copy of the model and all that it has, in an arena that may outlive it. */
+mr_status mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy) MR_WARN_UNUSED;
+
+/* The layer that is written where none is named (`only` NULL). */
+mr_status mr_export_layer(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer) MR_WARN_UNUSED;
+
 /* mr_export where the format is checked, and the renaming is the caller's where `held` is not NULL. */
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
     mr_held *held, mr_export_result *result) MR_WARN_UNUSED;

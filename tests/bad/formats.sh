@@ -71,6 +71,28 @@ quick 'obj with a knotted polygon' 0 60 f
 awk 'BEGIN { print "v 0 0 0\nv 1 0 0\nv 0 1 0"; printf "f"; for (i = 0; i < 100000; i++) printf " 1 2 3"; print "" }' >f
 quick 'obj with a polygon that goes round and round' 0 60 f
 
+# glTF: counts that the file cannot hold, nodes in a long chain, many nodes with one mesh, brackets without end.
+gltf() { # nodes, count, an accessor's view
+	printf '{"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[%s],"meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],' "$1"
+	printf '"buffers":[{"byteLength":36,"uri":"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}],'
+	printf '"bufferViews":[{"buffer":0,"byteLength":36}],"accessors":[{%s"componentType":5126,"count":%s,"type":"VEC3"}]}\n' "$3" "$2"
+}
+for count in 4 1000000000 4294967295 18446744073709551615 1e9 -1; do
+	gltf '{"mesh":0}' "$count" '"bufferView":0,' >f
+	quick "gltf of $count rows" 1 10 f
+done
+gltf '{"mesh":0}' 4000000 >f
+quick 'gltf of zeros that nobody wrote' 1 10 f
+chain=$(awk 'BEGIN { for (i = 1; i < 50000; i++) printf "{\"children\":[%d]},", i; print "{\"mesh\":0}" }')
+gltf "$chain" 3 '"bufferView":0,' >f
+quick 'gltf of a chain of nodes' 0 10 f
+many=$(awk 'BEGIN { printf "{\"children\":[1"; for (i = 2; i < 50000; i++) printf ",%d", i
+	printf "]}"; for (i = 1; i < 50000; i++) printf ",{\"mesh\":0}" }')
+gltf "$many" 3 '"bufferView":0,' >f
+quick 'gltf of a mesh of many nodes' 0 10 f
+{ printf '{"asset":'; blanks '['; } >f
+quick 'gltf of brackets' 1 20 f
+
 # gzip of 1.5 GB of nothing.
 [ -n "$SAN" ] || {
 	head -c 1500000000 /dev/zero | gzip -1 >f

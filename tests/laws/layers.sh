@@ -49,6 +49,8 @@ foreign 'umfpack.*' 'lib/solve/[a-z_]+\.[ch]' 1
 foreign 'flann/.*' 'lib/space/near\.[ch]' 1
 foreign 'zlib\.h' 'lib/stream/[a-z_]+\.[ch]|formats/[a-z_]+\.[ch]' 3
 foreign 'png\.h' '(lib/render|formats)/[a-z_]+\.[ch]' 1
+foreign 'jansson\.h' 'formats/gltf\.h' 1
+foreign 'jpeglib\.h' 'formats/jpeg\.c' 1
 foreign 'tiny_obj_loader\.h' 'formats/obj_shim\.cc' 1
 
 # The shim is the only C++ of the tools; and nothing outside the tests is in another language.

@@ -82,6 +82,13 @@ static const char pcd_seed[] =
     "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nDATA "
     "binary\n\0\0\x80\x3f\0\0\0\0\0\0\0";
 
+static const char gltf_seed[] =
+    "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
+    "\"mode\":5}]}],\"nodes\":[{\"mesh\":0,\"name\":\"a\"}],\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{"
+    "\"byteLength\":36,\"uri\":\"data:;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA\"}],"
+    "\"bufferViews\":[{\"buffer\":0,\"byteLength\":36}],\"accessors\":[{\"bufferView\":0,"
+    "\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}]}";
+
 static const seed seeds[] = {
 	{ NULL, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", 0, 3, 1 },
 	{ NULL,
@@ -147,6 +154,7 @@ static const seed seeds[] = {
 	    0, 1, 0 },
 	{ NULL, pcd_seed, sizeof pcd_seed, 1, 0 },
 	{ NULL, las_seed, sizeof las_seed, 2, 0 },
+	{ NULL, gltf_seed, 0, 3, 1 },
 };
 
 enum { SEEDS = sizeof seeds / sizeof *seeds };

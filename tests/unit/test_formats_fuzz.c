@@ -148,7 +148,7 @@ static void
 written_damaged(void **state)
 {
 	static const char *const names[] = { "obj", "ply", "ply-big", "ply-ascii", "stl", "stl-ascii", "off",
-		"off-binary", "xyz", "pts", "pwn" };
+		"off-binary", "xyz", "pts", "pwn", "glb" };
 
 	(void)state;
 	for (size_t i = 0; i < sizeof names / sizeof *names; i++) {
@@ -242,7 +242,7 @@ memory_fails(void **state)
 static void
 memory_fails_writing(void **state)
 {
-	static const char *const names[] = { "obj", "ply", "stl", "off", "xyz", "ply-ascii" };
+	static const char *const names[] = { "obj", "ply", "stl", "off", "xyz", "ply-ascii", "glb" };
 	(void)state;
 	for (size_t i = 0; i < sizeof names / sizeof *names; i++)
 		for (uint64_t k = 1;; k++) {

@@ -1,0 +1,481 @@
+/* glTF documents: the chunks of a GLB, JSON, buffers that are in the file, and accessors. */
+#include "formats/gltf.h"
+
+/* ---- chunks and JSON ---- */
+
+enum { HEADER = 12, CHUNK = 8 };
+
+/* The next chunk, whose size has been checked; false behind the last. */
+static bool
+next_chunk(const unsigned char *data, size_t size, size_t *at, uint32_t *kind, size_t *bytes)
+{
+	if (size - *at < CHUNK || mr_load32(data + *at, false) > size - *at - CHUNK)
+		return false;
+	*bytes = mr_load32(data + *at, false);
+	*kind = mr_load32(data + *at + 4, false);
+	*at += CHUNK;
+	return true;
+}
+
+/* Finds the JSON of a GLB, and its bytes. */
+static mr_status
+open_chunks(
+    mr_gltf *g, const unsigned char *data, size_t size, const unsigned char **json, size_t *json_bytes)
+{
+	size_t at = HEADER, all, bytes = 0;
+	uint32_t kind = 0;
+
+	if (size < HEADER)
+		return mr_fail(g->ctx, MR_EFORMAT, "byte %zu: the file ends in its header of %d bytes", size,
+		    (int)HEADER);
+	if (mr_load32(data + 4, false) != 2)
+		return mr_fail(g->ctx, MR_EFORMAT, "byte 4: version %u of glTF is not read, 2 is",
+		    (unsigned)mr_load32(data + 4, false));
+	all = mr_load32(data + 8, false);
+	if (all > size)
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "byte 8: the file should have %zu bytes, and has %zu", all, size);
+	if (all < size)
+		mr_note(g->ctx, "%zu bytes behind the end left out", size - all);
+	if (all < HEADER || !next_chunk(data, all, &at, &kind, json_bytes) || kind != MR_GLTF_JSON)
+		return mr_fail(g->ctx, MR_EFORMAT, "byte %d: no whole chunk of JSON", (int)HEADER);
+	*json = data + at;
+	at += *json_bytes;
+	while (at < all && kind != MR_GLTF_BIN) {
+		if (!next_chunk(data, all, &at, &kind, &bytes))
+			return mr_fail(g->ctx, MR_EFORMAT, "byte %zu: no whole chunk", at);
+		g->bin = data + at;
+		g->bin_bytes = bytes;
+		at += bytes;
+	}
+	if (kind != MR_GLTF_BIN)
+		g->bin = NULL;
+	return MR_OK;
+}
+
+static mr_status
+parse(mr_gltf *g, const unsigned char *json, size_t bytes)
+{
+	json_error_t error;
+
+	g->root = json_loadb((const char *)json, bytes, 0, &error);
+	if (!g->root && json_error_code(&error) == json_error_out_of_memory)
+		return mr_fail(g->ctx, MR_EMEM, "no memory for %zu bytes of JSON", bytes);
+	if (!g->root)
+		return mr_fail(g->ctx, MR_EFORMAT, "JSON, line %d: %s", error.line, error.text);
+	if (!json_is_object(g->root))
+		return mr_fail(g->ctx, MR_EFORMAT, "JSON: no object");
+	return MR_OK;
+}
+
+/* "2.0" and what a later minor version says it is compatible with. */
+static mr_status
+check_version(const mr_gltf *g)
+{
+	const json_t *asset = json_object_get(g->root, "asset");
+	const char *version = json_string_value(json_object_get(asset, "minVersion"));
+
+	if (!version)
+		version = json_string_value(json_object_get(asset, "version"));
+	if (!version)
+		return mr_fail(g->ctx, MR_EFORMAT, "JSON: no version of glTF in it");
+	if (strncmp(version, "2.", 2))
+		return mr_fail(g->ctx, MR_EFORMAT, "version %.20s of glTF is not read, 2.0 is", version);
+	return MR_OK;
+}
+
+/* What changes no place of a vertex may be required. */
+static mr_status
+check_extensions(const mr_gltf *g)
+{
+	static const char *const harmless[] = { "KHR_mesh_quantization", "KHR_materials_", "KHR_texture_",
+		"EXT_texture_", "KHR_lights_", NULL };
+	json_t *list = json_object_get(g->root, "extensionsRequired");
+
+	for (size_t i = 0; i < json_array_size(list); i++) {
+		const char *name = json_string_value(json_array_get(list, i));
+		const char *const *h = harmless;
+		while (name && *h && strncmp(name, *h, strlen(*h)))
+			h++;
+		if (!name || !*h)
+			return mr_fail(g->ctx, MR_EFORMAT,
+			    "the file needs the extension %.60s, which is not read",
+			    name ? name : "without a name");
+	}
+	return MR_OK;
+}
+
+static mr_status
+open_document(mr_gltf *g, const unsigned char *data, size_t size)
+{
+	const unsigned char *json = data;
+	size_t bytes = size;
+
+	if (size >= 4 && mr_load32(data, false) == MR_GLTF_MAGIC)
+		MR_TRY(open_chunks(g, data, size, &json, &bytes));
+	MR_TRY(parse(g, json, bytes));
+	MR_TRY(check_version(g));
+	MR_TRY(check_extensions(g));
+	g->buffer = MR_NEW_ZERO(g->ctx, mr_gltf_size(g, "buffers"), mr_gltf_buffer);
+	return g->buffer ? MR_OK : MR_EMEM;
+}
+
+mr_status
+mr_gltf_open(mr_ctx *ctx, const unsigned char *data, size_t size, mr_gltf *g)
+{
+	mr_gltf made = { .ctx = ctx, .file_bytes = size };
+	mr_status status = open_document(&made, data, size);
+
+	if (status < 0)
+		mr_gltf_free(&made);
+	else
+		*g = made;
+	return status;
+}
+
+void
+mr_gltf_free(mr_gltf *g)
+{
+	json_decref(g->root);
+}
+
+/* ---- values of the document ---- */
+
+size_t
+mr_gltf_size(const mr_gltf *g, const char *array)
+{
+	return json_array_size(json_object_get(g->root, array));
+}
+
+json_t *
+mr_gltf_at(const mr_gltf *g, const char *array, size_t i)
+{
+	json_t *thing = json_array_get(json_object_get(g->root, array), i);
+
+	return json_is_object(thing) ? thing : NULL;
+}
+
+mr_status
+mr_gltf_count(const mr_gltf *g, const json_t *object, const char *key, size_t absent, size_t most, size_t *n)
+{
+	const json_t *value = json_object_get(object, key);
+	json_int_t x = json_integer_value(value);
+
+	if (!value) {
+		*n = absent;
+		return MR_OK;
+	}
+	if (!json_is_integer(value) || x < 0 || (uint64_t)x > most)
+		return mr_fail(g->ctx, MR_EFORMAT, "%s is no whole number of 0 to %zu", key, most);
+	*n = (size_t)x;
+	return MR_OK;
+}
+
+mr_status
+mr_gltf_index(const mr_gltf *g, const json_t *object, const char *key, const char *array, size_t *index)
+{
+	size_t size = mr_gltf_size(g, array), n = MR_UNKNOWN;
+
+	MR_TRY(mr_gltf_count(g, object, key, MR_UNKNOWN, MR_UNKNOWN - 1, &n));
+	if (n != MR_UNKNOWN && n >= size)
+		return mr_fail(g->ctx, MR_EFORMAT, "%s names number %zu of %zu %s", key, n, size, array);
+	if (n != MR_UNKNOWN && !mr_gltf_at(g, array, n))
+		return mr_fail(g->ctx, MR_EFORMAT, "%s: number %zu is no object", array, n);
+	*index = n;
+	return MR_OK;
+}
+
+/* ---- buffers ---- */
+
+/* The six bits of a digit of base 64 (RFC 4648); 64 for what is none. */
+static unsigned
+digit64(char c)
+{
+	if (c >= 'A' && c <= 'Z')
+		return (unsigned)(c - 'A');
+	if (c >= 'a' && c <= 'z')
+		return (unsigned)(c - 'a') + 26;
+	if (mr_is_digit(c))
+		return (unsigned)(c - '0') + 52;
+	return c == '+' ? 62 : c == '/' ? 63 : 64;
+}
+
+static mr_status
+decode64(mr_gltf *g, size_t number, const char *text, mr_gltf_buffer *b)
+{
+	size_t n = strlen(text), bytes = 0;
+	unsigned char *data = mr_alloc(g->ctx, n / 4 * 3 + 3, 1);
+	unsigned bits = 0, held = 0;
+
+	if (!data)
+		return MR_EMEM;
+	while (n > 0 && text[n - 1] == '=')
+		n--;
+	for (size_t i = 0; i < n; i++) {
+		unsigned d = digit64(text[i]);
+		if (d == 64)
+			return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu: no base 64 in its URI", number);
+		held = (held << 6 | d) & 0xffff;
+		bits += 6;
+		if (bits >= 8) {
+			bits -= 8;
+			data[bytes++] = (unsigned char)(held >> bits);
+		}
+	}
+	*b = (mr_gltf_buffer){ data, bytes };
+	return MR_OK;
+}
+
+/* The bytes of a buffer: of the GLB, or in the URI. */
+static mr_status
+find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
+{
+	const json_t *uri = json_object_get(mr_gltf_at(g, "buffers", number), "uri");
+	const char *text = json_string_value(uri), *data = text ? strstr(text, ";base64,") : NULL;
+
+	if (uri && !text)
+		return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu: its URI is no text", number);
+	if (text && (strncmp(text, "data:", 5) || !data))
+		return mr_fail(g->ctx, MR_EFORMAT,
+		    "buffer %zu is in another file, %.100s: only what is in the file itself is read", number,
+		    strncmp(text, "data:", 5) ? text : "a URI without base 64");
+	if (text)
+		return decode64(g, number, data + strlen(";base64,"), b);
+	if (number > 0 || !g->bin)
+		return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu is not in the file", number);
+	*b = (mr_gltf_buffer){ g->bin, g->bin_bytes };
+	return MR_OK;
+}
+
+static mr_status
+open_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
+{
+	mr_gltf_buffer *known = &g->buffer[number];
+	size_t bytes = 0;
+
+	if (!known->data) {
+		mr_gltf_buffer found = { 0 };
+		MR_TRY(mr_gltf_count(
+		    g, mr_gltf_at(g, "buffers", number), "byteLength", 0, MR_UNKNOWN - 1, &bytes));
+		MR_TRY(find_buffer(g, number, &found));
+		if (bytes > found.bytes)
+			return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu should have %zu bytes, and has %zu",
+			    number, bytes, found.bytes);
+		*known = (mr_gltf_buffer){ found.data, bytes };
+	}
+	*b = *known;
+	return MR_OK;
+}
+
+/* The bytes of a buffer view from `offset` on; stride: 0 where it has none. */
+static mr_status
+open_view(mr_gltf *g, size_t number, size_t offset, mr_gltf_buffer *b, size_t *stride)
+{
+	const json_t *view = mr_gltf_at(g, "bufferViews", number);
+	mr_gltf_buffer of = { 0 };
+	size_t buffer = 0, begin = 0, bytes = 0;
+
+	MR_TRY(mr_gltf_index(g, view, "buffer", "buffers", &buffer));
+	MR_TRY(mr_gltf_count(g, view, "byteOffset", 0, MR_UNKNOWN - 1, &begin));
+	MR_TRY(mr_gltf_count(g, view, "byteLength", 0, MR_UNKNOWN - 1, &bytes));
+	MR_TRY(mr_gltf_count(g, view, "byteStride", 0, 65535, stride));
+	if (buffer == MR_UNKNOWN)
+		return mr_fail(g->ctx, MR_EFORMAT, "buffer view %zu names no buffer", number);
+	MR_TRY(open_buffer(g, buffer, &of));
+	if (begin > of.bytes || bytes > of.bytes - begin)
+		return mr_fail(g->ctx, MR_EFORMAT, "buffer view %zu is outside its buffer of %zu bytes",
+		    number, of.bytes);
+	if (offset > bytes)
+		return mr_fail(g->ctx, MR_EFORMAT, "buffer view %zu has %zu bytes, of which %zu are left out",
+		    number, bytes, offset);
+	*b = (mr_gltf_buffer){ of.data + begin + offset, bytes - offset };
+	return MR_OK;
+}
+
+/* ---- accessors ---- */
+
+/* Bytes of a component; 0 for a kind that there is not. */
+static size_t
+kind_bytes(size_t kind)
+{
+	static const unsigned char bytes[] = { 1, 1, 2, 2, 0, 4, 4 };
+
+	return kind >= 5120 && kind <= 5126 ? bytes[kind - 5120] : 0;
+}
+
+static size_t
+type_components(const char *type)
+{
+	static const char *const names[] = { "SCALAR", "VEC2", "VEC3", "VEC4" };
+
+	for (size_t i = 0; type && i < 4; i++)
+		if (!strcmp(type, names[i]))
+			return i + 1;
+	return 0;
+}
+
+/* The place of `count` rows in a view that the object names with its offset; NULL where it names none. */
+static mr_status
+find_rows(
+    mr_gltf *g, const json_t *object, size_t row, size_t count, const unsigned char **data, size_t *stride)
+{
+	mr_gltf_buffer b = { 0 };
+	size_t view = 0, offset = 0, step = 0;
+
+	MR_TRY(mr_gltf_index(g, object, "bufferView", "bufferViews", &view));
+	MR_TRY(mr_gltf_count(g, object, "byteOffset", 0, MR_UNKNOWN - 1, &offset));
+	*data = NULL;
+	if (view == MR_UNKNOWN)
+		return MR_OK;
+	MR_TRY(open_view(g, view, offset, &b, &step));
+	if (step == 0)
+		step = row;
+	if (step < row)
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "rows of %zu bytes follow each other after %zu", row, step);
+	if (count && (b.bytes < row || count - 1 > (b.bytes - row) / step))
+		return mr_fail(g->ctx, MR_EFORMAT, "%zu rows cannot be in %zu bytes", count, b.bytes);
+	*data = b.data;
+	*stride = step;
+	return MR_OK;
+}
+
+static mr_status
+open_sparse(mr_gltf *g, const json_t *sparse, mr_accessor *a)
+{
+	const json_t *which = json_object_get(sparse, "indices"),
+		     *instead = json_object_get(sparse, "values");
+	size_t stride = 0;
+
+	MR_TRY(mr_gltf_count(g, sparse, "count", 0, a->count, &a->sparse));
+	MR_TRY(mr_gltf_count(g, which, "componentType", 0, MR_GLTF_FLOAT, &a->sparse_kind));
+	if (a->sparse_kind % 2 == 0 || kind_bytes(a->sparse_kind) == 0)
+		return mr_fail(g->ctx, MR_EFORMAT, "sparse indices of type %zu", a->sparse_kind);
+	MR_TRY(find_rows(g, which, kind_bytes(a->sparse_kind), a->sparse, &a->which, &stride));
+	MR_TRY(find_rows(g, instead, a->components * kind_bytes(a->kind), a->sparse, &a->instead, &stride));
+	if (!a->which || !a->instead)
+		return mr_fail(g->ctx, MR_EFORMAT, "sparse values without a buffer view");
+	return MR_OK;
+}
+
+static mr_status
+open_accessor(mr_gltf *g, const json_t *json, mr_accessor *a)
+{
+	const char *type = json_string_value(json_object_get(json, "type"));
+	const json_t *sparse = json_object_get(json, "sparse");
+
+	MR_TRY(mr_gltf_count(g, json, "componentType", 0, MR_GLTF_FLOAT, &a->kind));
+	MR_TRY(mr_gltf_count(g, json, "count", 0, MR_NONE - 1, &a->count));
+	a->components = type_components(type);
+	a->normalized = json_is_true(json_object_get(json, "normalized"));
+	if (a->components == 0 || kind_bytes(a->kind) == 0)
+		return mr_fail(g->ctx, MR_EFORMAT, "type %.20s of components %zu is not read",
+		    type ? type : "none", a->kind);
+	MR_TRY(find_rows(g, json, a->components * kind_bytes(a->kind), a->count, &a->data, &a->stride));
+	if (!a->data && a->count > g->file_bytes) /* zeros that nobody wrote */
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "%zu rows cannot be in a file of %zu bytes", a->count, g->file_bytes);
+	return sparse ? open_sparse(g, sparse, a) : MR_OK;
+}
+
+mr_status
+mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a)
+{
+	mr_accessor made = { .number = number };
+
+	MR_TRY(mr_prefix(
+	    g->ctx, open_accessor(g, mr_gltf_at(g, "accessors", number), &made), "accessor %zu", number));
+	*a = made;
+	return MR_OK;
+}
+
+/* A component as it is. */
+static double
+component(const unsigned char *p, size_t kind)
+{
+	switch (kind) {
+	case 5120:
+		return (double)(int8_t)p[0];
+	case 5121:
+		return (double)p[0];
+	case 5122:
+		return (double)(int16_t)mr_load16(p, false);
+	case MR_GLTF_UNSIGNED_SHORT:
+		return (double)mr_load16(p, false);
+	case MR_GLTF_UNSIGNED_INT:
+		return (double)mr_load32(p, false);
+	default:
+		return (double)mr_load_float(p, false);
+	}
+}
+
+/* What a normalised component of 1 is stored as. */
+static double
+whole_of(const mr_accessor *a)
+{
+	static const double largest[] = { 127, 255, 32767, 65535 };
+
+	return a->normalized && a->kind <= MR_GLTF_UNSIGNED_SHORT ? largest[a->kind - 5120] : 1;
+}
+
+static void
+row_reals(const mr_accessor *a, const unsigned char *p, size_t width, double *x)
+{
+	size_t step = kind_bytes(a->kind);
+	double whole = whole_of(a);
+
+	for (size_t k = 0; k < a->components && k < width; k++) {
+		x[k] = component(p + k * step, a->kind) / whole;
+		if (whole > 1 && x[k] < -1)
+			x[k] = -1; /* the most negative number of its type */
+	}
+}
+
+/* Which row sparse row i stands for. */
+static mr_status
+sparse_row(const mr_gltf *g, const mr_accessor *a, size_t i, size_t *row)
+{
+	*row = (size_t)component(a->which + i * kind_bytes(a->sparse_kind), a->sparse_kind);
+	if (*row >= a->count)
+		return mr_fail(g->ctx, MR_EFORMAT, "accessor %zu: sparse row %zu stands for row %zu of %zu",
+		    a->number, i, *row, a->count);
+	return MR_OK;
+}
+
+mr_status
+mr_accessor_reals(mr_gltf *g, const mr_accessor *a, size_t width, double *x)
+{
+	size_t most = a->components < width ? a->components : width, row = 0;
+
+	for (size_t i = 0; i < a->count; i++) {
+		if (a->data)
+			row_reals(a, a->data + i * a->stride, width, x + i * width);
+		else
+			memset(x + i * width, 0, most * sizeof *x);
+	}
+	for (size_t i = 0; i < a->sparse; i++) {
+		MR_TRY(sparse_row(g, a, i, &row));
+		row_reals(a, a->instead + i * a->components * kind_bytes(a->kind), width, x + row * width);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_accessor_indices(mr_gltf *g, const mr_accessor *a, size_t limit, uint32_t *index)
+{
+	size_t row = 0;
+
+	if (a->components != 1 || a->kind % 2 == 0)
+		return mr_fail(g->ctx, MR_EFORMAT, "accessor %zu holds no indices", a->number);
+	for (size_t i = 0; i < a->count; i++)
+		index[i] = a->data ? (uint32_t)component(a->data + i * a->stride, a->kind) : 0;
+	for (size_t i = 0; i < a->sparse; i++) {
+		MR_TRY(sparse_row(g, a, i, &row));
+		index[row] = (uint32_t)component(a->instead + i * kind_bytes(a->kind), a->kind);
+	}
+	for (size_t i = 0; i < a->count; i++)
+		if (index[i] >= limit)
+			return mr_fail(g->ctx, MR_ERANGE, "accessor %zu: index %zu is vertex %u of %zu",
+			    a->number, i, (unsigned)index[i], limit);
+	return MR_OK;
+}

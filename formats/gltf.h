@@ -1,0 +1,128 @@
+/*
+ * gltf.h -- a glTF 2.0 document (Khronos, "glTF 2.0 Specification", 2021): its JSON, buffers and accessors;
+ * and the pieces of one that is written.
+ *
+ * Contract: what an index of the document names is there, what a buffer view or an accessor covers lies
+ * inside its buffer, and every failure is MR_EFORMAT with a sentence that names the thing ("accessor 3 ...").
+ * Buffers are looked at when something needs them: one that is in another file is no fault until then. Layer
+ * rule: formats; jansson only behind this header.
+ */
+#ifndef MR_GLTF_H
+#define MR_GLTF_H
+
+#include "formats/format.h"
+
+#include <jansson.h>
+
+/* The numbers that the format gives to kinds. */
+enum {
+	MR_GLTF_MAGIC = 0x46546c67, /* "glTF" */
+	MR_GLTF_JSON = 0x4e4f534a,
+	MR_GLTF_BIN = 0x004e4942,
+	MR_GLTF_UNSIGNED_SHORT = 5123,
+	MR_GLTF_UNSIGNED_INT = 5125,
+	MR_GLTF_FLOAT = 5126,
+	MR_GLTF_ARRAY = 34962,
+	MR_GLTF_ELEMENTS = 34963
+};
+
+/*
+ * The attribute by which vertices are numbered where their places do not tell them apart: two unsigned
+ * shorts, the lower one first.
+ */
+#define MR_GLTF_NUMBER "_VERTEX"
+
+typedef struct mr_gltf_buffer {
+	const unsigned char *data; /* NULL: not looked at yet */
+	size_t bytes;
+} mr_gltf_buffer;
+
+typedef struct mr_gltf {
+	mr_ctx *ctx;
+	json_t *root;
+	const unsigned char *bin; /* the chunk of bytes of a GLB; NULL: there is none */
+	size_t bin_bytes;
+	size_t file_bytes;
+	mr_gltf_buffer *buffer; /* as many as the document has */
+} mr_gltf;
+
+/* Parses the file, a GLB or JSON, which must stay.  Free with mr_gltf_free. */
+mr_status mr_gltf_open(mr_ctx *ctx, const unsigned char *data, size_t size, mr_gltf *g) MR_WARN_UNUSED;
+
+/* Accepts a zeroed one. */
+void mr_gltf_free(mr_gltf *g);
+
+/* How many things the document has in an array of its root: "nodes". */
+size_t mr_gltf_size(const mr_gltf *g, const char *array);
+
+/* Thing i of an array of the root: an object; NULL where it is something else. */
+json_t *mr_gltf_at(const mr_gltf *g, const char *array, size_t i);
+
+/* The number under a key of an object: a whole one of at most `most`, or `absent` where the key is not there.
+ */
+mr_status mr_gltf_count(const mr_gltf *g, const json_t *object, const char *key, size_t absent, size_t most,
+    size_t *n) MR_WARN_UNUSED;
+
+/* The number under a key, MR_UNKNOWN where it is not there, of a thing in an array of the root. */
+mr_status mr_gltf_index(
+    const mr_gltf *g, const json_t *object, const char *key, const char *array, size_t *index) MR_WARN_UNUSED;
+
+/* The name of a thing; NULL where it has none, or an empty one. */
+const char *mr_gltf_name(const json_t *thing);
+
+/* A mesh where a node puts it. */
+typedef struct mr_gltf_instance {
+	size_t mesh;
+	mr_affine map;
+	const char *name; /* of the node, or else of the mesh; NULL: none.  The document's */
+} mr_gltf_instance;
+
+/*
+ * The meshes of the scene that is to be shown, or, where there is no scene, all meshes as they are.  others:
+ * how many more scenes there are.
+ */
+mr_status
+mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *others) MR_WARN_UNUSED;
+
+/* Values in a buffer, some of which others stand for. */
+typedef struct mr_accessor {
+	size_t number; /* of it in the document */
+	size_t count, components;
+	size_t kind; /* of a component, as the format numbers them: 5120 to 5126 */
+	bool normalized;
+	const unsigned char *data; /* NULL: zeros */
+	size_t stride;
+	size_t sparse;              /* rows that are replaced */
+	const unsigned char *which; /* their indices, of sparse_kind */
+	size_t sparse_kind;
+	const unsigned char *instead; /* their values, one behind the other */
+} mr_accessor;
+
+/* Accessor `number`, which the caller has from mr_gltf_index. */
+mr_status mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a) MR_WARN_UNUSED;
+
+/*
+ * The values as reals, normalised ones from -1 or 0 to 1.  x: a->count rows of `width`; what the accessor has
+ * no component for is as it was.
+ */
+mr_status mr_accessor_reals(mr_gltf *g, const mr_accessor *a, size_t width, double *x) MR_WARN_UNUSED;
+
+/* Whole numbers, each below `limit`.  index: a->count. */
+mr_status mr_accessor_indices(mr_gltf *g, const mr_accessor *a, size_t limit, uint32_t *index) MR_WARN_UNUSED;
+
+/* ---- written ---- */
+
+/* A component of a colour as the format has it, linear, and as pictures have it (sRGB, IEC 61966-2-1). */
+static inline double
+mr_srgb_to_linear(double c)
+{
+	return c <= 0.04045 ? c / 12.92 : pow((c + 0.055) / 1.055, 2.4);
+}
+
+static inline double
+mr_linear_to_srgb(double c)
+{
+	return c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055;
+}
+
+#endif

@@ -1,0 +1,160 @@
+/* The scene of a glTF document: its nodes, from which meshes hang, are walked from the roots. */
+#include "formats/gltf.h"
+
+/* `count` numbers under a key, if it is there. */
+static mr_status
+numbers(const mr_gltf *g, const json_t *object, const char *key, size_t count, double *x, bool *there)
+{
+	json_t *list = json_object_get(object, key);
+
+	*there = list != NULL;
+	if (list && json_array_size(list) != count)
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "%s has %zu numbers, not %zu", key, json_array_size(list), count);
+	for (size_t i = 0; list && i < count; i++) {
+		json_t *value = json_array_get(list, i);
+		if (!json_is_number(value))
+			return mr_fail(g->ctx, MR_EFORMAT, "%s: value %zu is no number", key, i);
+		x[i] = json_number_value(value);
+	}
+	return MR_OK;
+}
+
+/* T R S, of a unit quaternion x, y, z, w. */
+static mr_affine
+from_parts(const double t[3], const double q[4], const double s[3])
+{
+	double x = q[0], y = q[1], z = q[2], w = q[3];
+	const double r[9] = { 1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w),
+		2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), 2 * (x * z - y * w),
+		2 * (y * z + x * w), 1 - 2 * (x * x + y * y) };
+	mr_affine a;
+
+	for (int i = 0; i < 3; i++) {
+		for (int j = 0; j < 3; j++)
+			a.m[4 * i + j] = r[3 * i + j] * s[j];
+		a.m[4 * i + 3] = t[i];
+	}
+	return a;
+}
+
+static mr_status
+node_map(const mr_gltf *g, const json_t *node, mr_affine *map)
+{
+	double m[16], t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
+	bool there;
+
+	MR_TRY(numbers(g, node, "matrix", 16, m, &there));
+	if (there) { /* by columns */
+		for (int i = 0; i < 3; i++)
+			for (int j = 0; j < 4; j++)
+				map->m[4 * i + j] = m[4 * j + i];
+		return MR_OK;
+	}
+	MR_TRY(numbers(g, node, "translation", 3, t, &there));
+	MR_TRY(numbers(g, node, "rotation", 4, q, &there));
+	MR_TRY(numbers(g, node, "scale", 3, s, &there));
+	*map = from_parts(t, q, s);
+	return MR_OK;
+}
+
+const char *
+mr_gltf_name(const json_t *thing)
+{
+	const char *name = json_string_value(json_object_get(thing, "name"));
+
+	return name && *name ? name : NULL;
+}
+
+typedef struct waiting {
+	size_t node;
+	mr_affine above; /* of what it hangs from */
+} waiting;
+
+typedef struct walk {
+	const mr_gltf *g;
+	waiting *pile; /* nodes that are still to be looked at, the next one last */
+	size_t count, room;
+	bool *seen; /* of each node */
+	mr_gltf_instance *found;
+	size_t instances, found_room;
+} walk;
+
+static mr_status
+push_instance(walk *w, size_t mesh, const mr_affine *map, const char *name)
+{
+	MR_TRY(MR_RESERVE(w->g->ctx, w->found, w->instances, 1, &w->found_room));
+	w->found[w->instances++] = (mr_gltf_instance){ .mesh = mesh,
+		.map = *map,
+		.name = name ? name : mr_gltf_name(mr_gltf_at(w->g, "meshes", mesh)) };
+	return MR_OK;
+}
+
+/* Puts a list of nodes on the pile, the first last. */
+static mr_status
+pile_up(walk *w, json_t *list, const mr_affine *above)
+{
+	mr_ctx *ctx = w->g->ctx;
+	size_t n = json_array_size(list), nodes = mr_gltf_size(w->g, "nodes");
+
+	MR_TRY(MR_RESERVE(ctx, w->pile, w->count, n, &w->room));
+	for (size_t i = n; i-- > 0;) {
+		json_t *value = json_array_get(list, i);
+		json_int_t node = json_integer_value(value);
+		if (!json_is_integer(value) || node < 0 || (uint64_t)node >= nodes)
+			return mr_fail(ctx, MR_EFORMAT, "a node names a node that is none of the %zu", nodes);
+		if (w->seen[node]) /* a tree by the specification: else it might have no end */
+			return mr_fail(ctx, MR_EFORMAT, "node %zu hangs from more than one", (size_t)node);
+		w->seen[node] = true;
+		w->pile[w->count++] = (waiting){ (size_t)node, *above };
+	}
+	return MR_OK;
+}
+
+static mr_status
+visit(walk *w, waiting at)
+{
+	const json_t *node = mr_gltf_at(w->g, "nodes", at.node);
+	mr_affine own, map;
+	size_t mesh;
+
+	MR_TRY(node_map(w->g, node, &own));
+	map = mr_compose(&at.above, &own);
+	MR_TRY(mr_gltf_index(w->g, node, "mesh", "meshes", &mesh));
+	if (mesh != MR_UNKNOWN)
+		MR_TRY(push_instance(w, mesh, &map, mr_gltf_name(node)));
+	return pile_up(w, json_object_get(node, "children"), &map);
+}
+
+static mr_status
+walk_scene(walk *w, size_t scene)
+{
+	const mr_affine identity = mr_identity();
+
+	MR_TRY(pile_up(w, json_object_get(mr_gltf_at(w->g, "scenes", scene), "nodes"), &identity));
+	while (w->count) {
+		waiting at = w->pile[--w->count];
+		MR_TRY(mr_prefix(w->g->ctx, visit(w, at), "node %zu", at.node));
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *others)
+{
+	const mr_affine identity = mr_identity();
+	size_t scene, scenes = mr_gltf_size(g, "scenes");
+	walk w = { .g = g, .seen = MR_NEW_ZERO(g->ctx, mr_gltf_size(g, "nodes"), bool) };
+
+	if (!w.seen)
+		return MR_EMEM;
+	MR_TRY(mr_gltf_index(g, g->root, "scene", "scenes", &scene));
+	if (scenes)
+		MR_TRY(walk_scene(&w, scene == MR_UNKNOWN ? 0 : scene));
+	for (size_t i = 0; scenes == 0 && i < mr_gltf_size(g, "meshes"); i++)
+		MR_TRY(push_instance(&w, i, &identity, NULL));
+	*list = w.found;
+	*count = w.instances;
+	*others = scenes > 1 ? scenes - 1 : 0;
+	return MR_OK;
+}

@@ -1,0 +1,136 @@
+/* Frames gathered for one file. */
+#include "formats/format.h"
+
+#include "mesh/layers.h"
+
+static mr_status
+no_memory(mr_ctx *ctx, const mr_ctx *keep)
+{
+	return mr_fail(ctx, MR_EMEM, "%s", keep->error);
+}
+
+/* ---- the layers of a frame ---- */
+
+/* What is to be written of a frame. */
+typedef struct layers {
+	const char **name;
+	mr_model *model;
+	size_t count;
+} layers;
+
+static mr_status
+get_layers(mr_ctx *ctx, mr_frame *f, const char *list, layers *l)
+{
+	size_t most = 1;
+
+	for (const char *c = list; c && *c; c++)
+		most += *c == ',';
+	*l = (layers){ .name = MR_NEW(ctx, most, const char *), .model = MR_NEW(ctx, most, mr_model) };
+	if (!l->name || !l->model)
+		return MR_EMEM;
+	for (const char *c = list; l->count < most; l->count++) {
+		size_t bytes = c ? strcspn(c, ",") : 0;
+		const char *name = c ? mr_format(ctx, "%.*s", (int)bytes, c) : NULL;
+		if (c && !name)
+			return MR_EMEM;
+		MR_TRY(mr_export_layer(ctx, f, name, &l->name[l->count]));
+		MR_TRY(mr_model_get(ctx, f, l->name[l->count], &l->model[l->count]));
+		c = c ? c + bytes + 1 : NULL;
+	}
+	return MR_OK;
+}
+
+/* ---- nodes and poses ---- */
+
+static bool
+same_surface(const mr_model *a, const mr_model *b)
+{
+	return a->nv == b->nv && a->nf == b->nf && (a->nf == 0 || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
+}
+
+/* Whether the frame shows what the open nodes show, in another pose. */
+static bool
+is_pose(const mr_scene *scene, const mr_frame *f, const layers *l)
+{
+	if (f->key || scene->nodes - scene->open != l->count)
+		return false;
+	for (size_t i = 0; i < l->count; i++) {
+		const mr_scene_node *n = &scene->node[scene->open + i];
+		if (strcmp(n->layer, l->name[i]) || !same_surface(&n->model, &l->model[i]))
+			return false;
+	}
+	return true;
+}
+
+static mr_status
+add_node(mr_ctx *keep, mr_scene *scene, const char *frame, const char *layer, const mr_model *m)
+{
+	mr_scene_node n = { .take = scene->takes,
+		.frame = mr_format(keep, "%s", frame),
+		.layer = mr_format(keep, "%s", layer) };
+
+	if (!n.frame || !n.layer)
+		return MR_EMEM;
+	MR_TRY(mr_model_copy(keep, m, &n.model));
+	MR_TRY(MR_RESERVE(keep, scene->node, scene->nodes, 1, &scene->room));
+	scene->node[scene->nodes++] = n;
+	return MR_OK;
+}
+
+/* A copy of n vectors; NULL of none. */
+static mr_status
+copy_vectors(mr_ctx *keep, const mr_v3 *from, size_t n, const mr_v3 **to)
+{
+	mr_v3 *copy = from ? MR_NEW(keep, n, mr_v3) : NULL;
+
+	if (from && !copy)
+		return MR_EMEM;
+	*to = from ? memcpy(copy, from, n * sizeof *from) : NULL;
+	return MR_OK;
+}
+
+static mr_status
+add_target(mr_ctx *keep, mr_scene_node *n, const mr_model *m)
+{
+	mr_target t;
+
+	MR_TRY(copy_vectors(keep, m->p, m->nv, &t.p));
+	MR_TRY(copy_vectors(keep, m->normal, m->nv, &t.normal));
+	MR_TRY(copy_vectors(keep, m->corner_normal, 3 * m->nf, &t.corner_normal));
+	MR_TRY(MR_RESERVE(keep, n->target, n->targets, 1, &n->target_room));
+	n->target[n->targets++] = t;
+	return MR_OK;
+}
+
+static mr_status
+add_layers(mr_ctx *keep, mr_scene *scene, const mr_frame *f, const layers *l)
+{
+	if (is_pose(scene, f, l)) {
+		for (size_t i = 0; i < l->count; i++)
+			MR_TRY(add_target(keep, &scene->node[scene->open + i], &l->model[i]));
+		return MR_OK;
+	}
+	scene->open = scene->nodes;
+	scene->takes++;
+	for (size_t i = 0; i < l->count; i++)
+		MR_TRY(add_node(keep, scene, f->name, l->name[i], &l->model[i]));
+	return MR_OK;
+}
+
+mr_status
+mr_scene_add(
+    mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *list, mr_export_result *result)
+{
+	mr_sink losses = { .ctx = ctx };
+	layers l;
+
+	mr_unmeasured(&losses.lost, sizeof losses.lost);
+	MR_TRY(get_layers(ctx, f, list, &l));
+	for (size_t i = 0; i < l.count; i++) {
+		mr_status status = is_pose(scene, f, &l) ? mr_note_rounded(&losses, &l.model[i])
+		                                         : mr_glb_note_lost(&losses, &l.model[i]);
+		MR_TRY(mr_prefix(ctx, status, "%s", l.name[i]));
+	}
+	*result = losses.lost;
+	return add_layers(keep, scene, f, &l) < 0 ? no_memory(ctx, keep) : MR_OK;
+}

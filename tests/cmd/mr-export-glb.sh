@@ -1,0 +1,96 @@
+# GLB: seams, materials and objects come back; layers, frames and poses in one file; pictures of materials.
+json() { # FILE: the first chunk
+	tail -c +21 "$1" | head -c "$(od -An -tu4 -j12 -N4 "$1")"
+}
+has() { # FILE, pattern...
+	file=$1
+	shift
+	for pattern; do
+		json "$file" | grep -q "$pattern" && echo "has $pattern" || { echo "$file has not $pattern"; json "$file"; }
+	done
+}
+cat >box.obj <<'END'
+mtllib box.mtl
+o lid
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 0.5 0
+vt 0.5 0.5
+vt 0 0.75
+vt 1 1
+vn 0 0 1
+usemtl wood
+f 1/1/1 2/2/1 3/3/1
+usemtl steel
+f 1/5/1 3/3/1 4/4/1
+END
+
+echo '-- a seam: four vertices, five in the file; two materials of one object'
+mr-import box.obj -o box.mrs
+mr-export -i box.mrs plain.glb
+mr-import plain.glb -o back.mrs
+for file in box back; do
+	mr-info $file.mrs | grep -E 'vertices|corner_|material|object'
+done
+mr-export -i back.mrs -f obj - | grep -v '^#'
+has plain.glb '"name":"wood"' '"name":"steel"' '"name":"lid"' '"metallicFactor":0'
+
+echo '-- files of materials: pictures as they are, colours, and what is not there'
+mr-make sphere -n 100 | mr-render -s 32x32 --no-labels grain.png
+cat >box.mtl <<'END'
+newmtl wood
+map_Kd -s 1 1 1 -clamp on C:\pictures\grain.png
+newmtl steel
+Kd 0.5 0.5 1
+map_Kd missing.png
+END
+mr-export -i box.mrs full.glb
+echo "exit $?"
+has full.glb '"mimeType":"image/png"' '"name":"grain.png"' '"baseColorTexture":{"index":0}' '0.2140411'
+mkdir elsewhere && mv box.mtl elsewhere && cp grain.png elsewhere
+mr-export -i box.mrs --materials elsewhere same.glb 2>/dev/null
+cmp full.glb same.glb && echo same
+mr-import full.glb -o back.mrs
+mr-info back.mrs | grep -E 'materials|corner_texcoord'
+
+echo '-- several layers, and a cloud'
+mr-make torus -n 300 -o torus.mrs
+mr-make knot --points 70 -o points.mrs
+mr-cat --merge torus.mrs points.mrs | mr-export -l mesh,points layers.glb
+has layers.glb '"name":"mesh"' '"name":"points"' '"mode":0'
+mr-export -i points.mrs points.glb
+mr-import points.glb | mr-info | grep -E 'points$|normal'
+
+echo '-- poses are morph targets of one node, another key frame is a node of its own'
+mr-select --free all --handle 0=above:z,0.2 torus.mrs | mr-smooth | mr-solve --basis | mr-encode |
+    mr-pose --frames 3 --translate 0,0,1 | mr-decode -o poses.mrs
+mr-export -i poses.mrs poses.glb
+has poses.glb '"path":"weights"' '"targets":\[{"POSITION":[0-9]*},{"POSITION":[0-9]*},{"POSITION":[0-9]*}\]' '"max":\[0.125\]'
+mr-import poses.glb | mr-info | grep vertices
+mr-make cube -n 50 | mr-cat poses.mrs - | mr-export both.glb
+has both.glb '"nodes":\[0,1\]' '"name":"torus"' '"name":"cube"'
+mr-export -i poses.mrs 'pose-%d.glb'
+ls pose-*
+mr-export -i poses.mrs -f glb - | cmp - poses.glb && echo 'same on stdout'
+mr-export -i poses.mrs poses.glb.gz && gunzip <poses.glb.gz | cmp - poses.glb && echo 'same in gzip'
+
+echo '-- what fails leaves no file'
+head -c -64 poses.mrs >endless.mrs
+mr-export -i endless.mrs cut.glb
+echo "exit $?"
+mr-export -i torus.mrs -l mesh,control cut.glb
+echo "exit $?"
+mr-export -i torus.mrs --materials . cut.obj
+echo "exit $?"
+mr-export -i torus.mrs cut.gltf
+echo "exit $?"
+mr-export -i torus.mrs -f glb /dev/full
+echo "exit $?"
+ls cut* 2>/dev/null
+
+echo '-- what floats round'
+mr-export -i torus.mrs --stats stats rounded.glb
+grep -o '"rounded_positions":[0-9]*' stats
