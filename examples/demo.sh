@@ -2,7 +2,8 @@
 # demo.sh -- the main job on real models: bend, twist, pull and scale them with their detail kept; usage: demo.sh [DIR]
 #
 # Leaves in DIR (default demo): NAME.png, a row of pictures for each edit, NAME.obj, its result, sheet.png, all of them,
-# frames/1.png to 61.png, an animation, and figures.txt, the tables that are printed.
+# frames/1.png to 61.png, an animation, textured.png and textured.glb, a creature that wears a picture, and figures.txt,
+# the tables that are printed.
 # The models are those of Debian's package libcgal-demo, which is fetched, and five of them unpacked into DIR/cache, not
 # installed.  Where it cannot be had, a creature that mr-make makes is edited.  MR_SMALL=N does that with N vertices.
 set -e
@@ -145,6 +146,20 @@ mr-import "$(model armadillo)" | mr-smooth | mr-remesh |
     mr-solve --basis | mr-encode -o work/basis.mrs
 mr-pose -H 1 --rotate 0,1,0,80 --frames $frames work/basis.mrs | mr-solve | mr-decode |
     mr-render --size $panel --view front -l mesh --no-labels frames/%d.png
+
+# A creature that wears a picture, of rings in two colours, and bends with it; as a file for viewers and browsers, too.
+echo "creature with a picture"
+mr-make torus -n 1000 | mr-select --free all --handle 1=above:x,0.5 -o work/ring.mrs
+for i in $(seq 50); do
+	cat work/ring.mrs
+done | mr-render --sheet --columns 10 --size 96x96 --view front -c region --no-labels work/rings.png
+mr-make bumpy --texcoords ${MR_SMALL:+-n $MR_SMALL} -o work/dressed.mrs
+mr-smooth work/dressed.mrs | mr-remesh | mr-select --free all --fixed below:y,0.5 --handle 1=above:y,0.85 | mr-solve | mr-encode |
+    mr-pose -H 1 --rotate 0,0,1,40 | mr-solve | mr-decode -o work/bent.mrs
+mr-cat work/dressed.mrs work/bent.mrs |
+    mr-render --sheet --columns 2 --size $panel -l mesh --view front --texture work/rings.png --no-labels textured.png
+printf 'newmtl rings\nmap_Kd rings.png\n' >work/rings.mtl
+{ printf 'mtllib rings.mtl\nusemtl rings\n'; mr-export -f obj - <work/bent.mrs; } | mr-import | mr-export --materials work textured.glb
 
 rate() { # what, command line: frames a second
 	begin=$(date +%s.%N)
