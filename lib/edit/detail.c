@@ -242,9 +242,9 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	e.thickness = thickness;
 	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
 	mr_parallel(ctx, n, GRAIN, encode_piece, &e);
-	figures = report(ctx, &e, diagonal);
 	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
+	figures = report(ctx, &e, diagonal);
 	*d = found;
 	if (result)
 		*result = figures;

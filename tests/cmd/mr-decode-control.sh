@@ -24,7 +24,7 @@ mr-decode both.mrs | mr-info -l mesh | sed -n 's/^ *mesh: //p'
 mr-decode --from control both.mrs | mr-info -l mesh | sed -n 's/^ *mesh: //p; /detail/p'
 
 echo 'a control mesh that is posed carries the heights; deltas send positions alone'
-mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.8 torus.mrs | mr-solve --flatten -o solved.mrs || exit
+mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.8 torus.mrs | mr-solve -q --flatten -o solved.mrs || exit
 mr-solve --basis solved.mrs | mr-pose --translate 0.2,0,0.5 --frames 3 -o film.mrs
 mr-decode film.mrs -o decoded.mrs || exit
 mr-export frame%d.off <decoded.mrs
