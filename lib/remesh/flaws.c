@@ -3,6 +3,8 @@
 
 #include "base/parallel.h"
 
+enum { GRAIN = 1024 };
+
 static const double CLOSE = 0.25; /* squared cosine of 60 degrees */
 
 static bool
@@ -17,13 +19,28 @@ is_folded(const mr_dyn *d, uint32_t h)
 	return d->twin[h] != MR_NONE && are_folded(d, h / 3, d->twin[h] / 3);
 }
 
-/* The normal of the source at the place of v. */
 static mr_v3
-source_normal(const mr_flaws *w, uint32_t v)
+find_normal(const mr_flaws *w, uint32_t v)
 {
 	mr_closest c = mr_remesh_place(w->s, w->d, v, w->d->p[v], mr_dyn_normal_around(w->d, v));
 
 	return mr_facing_normal(&w->facing, c.at);
+}
+
+mr_v3
+mr_flaws_normal(const mr_flaws *w, uint32_t v)
+{
+	if (!w->normal)
+		return find_normal(w, v);
+	if (!(mr_norm2(w->normal[v]) > 0))
+		w->normal[v] = find_normal(w, v);
+	return w->normal[v];
+}
+
+void
+mr_flaws_moved(const mr_flaws *w, uint32_t v, mr_v3 normal)
+{
+	w->normal[v] = normal;
 }
 
 static bool
@@ -35,8 +52,8 @@ is_flipped(const mr_flaws *w, uint32_t f)
 
 	if (!w->sure && mn > 0 && mn * mn > CLOSE * mr_norm2(m) * mr_norm2(n))
 		return false; /* as almost all are, told without a walk */
-	return mr_dot(n, source_normal(w, v[0])) < 0 && mr_dot(n, source_normal(w, v[1])) < 0 &&
-	       mr_dot(n, source_normal(w, v[2])) < 0;
+	return mr_dot(n, mr_flaws_normal(w, v[0])) < 0 && mr_dot(n, mr_flaws_normal(w, v[1])) < 0 &&
+	       mr_dot(n, mr_flaws_normal(w, v[2])) < 0;
 }
 
 unsigned
@@ -121,23 +138,46 @@ find_flaw(void *arg, size_t f)
 	return flawed;
 }
 
+typedef struct normals_job {
+	const mr_flaws *w;
+	mr_v3 *normal;
+} normals_job;
+
+static void
+normals_body(void *arg, size_t begin, size_t end)
+{
+	const normals_job *j = arg;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++)
+		if (j->w->d->kind[v] != MR_DEAD)
+			j->normal[v] = find_normal(j->w, v);
+}
+
 mr_status
 mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, bool sure, mr_flaws *w, size_t *count)
 {
-	*w = (mr_flaws){ d, s, { s->m, s->topo }, sure, MR_NEW(ctx, d->nf, uint8_t) };
-	if (!w->state)
+	mr_v3 *normal = MR_NEW_ZERO(ctx, d->nv, mr_v3);
+
+	*w = (mr_flaws){ d, s, { s->m, s->topo }, sure, MR_NEW(ctx, d->nf, uint8_t), NULL };
+	if (!w->state || !normal)
 		return MR_EMEM;
+	if (sure) {
+		mr_parallel(ctx, d->nv, GRAIN, normals_body, &(normals_job){ w, normal });
+		w->normal = normal;
+	}
 	*count = (size_t)mr_parallel_sum(ctx, d->nf, find_flaw, w);
+	w->normal = normal; /* few were asked for; from now on one thread asks */
 	return MR_OK;
 }
 
-/* The faces around v and those beside them. */
+/* The faces around v and those beside them; its place may be another. */
 static void
 suspect_around(const mr_flaws *w, uint32_t v)
 {
 	const mr_dyn *d = w->d;
 	uint32_t h = d->out[v];
 
+	w->normal[v] = (mr_v3){ 0, 0, 0 };
 	do {
 		w->state[h / 3] = MR_SUSPECT;
 		if (d->twin[mr_he_next(h)] != MR_NONE)

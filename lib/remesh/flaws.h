@@ -3,7 +3,7 @@
  * (mesh/fold.h): where they are, and how many are around a change.
  *
  * Contract: a face that no change was told of since it was found sound is sound: what changes a place tells
- * by mr_flaws_suspect.
+ * by mr_flaws_suspect.  A vertex that is moved gets its normal by mr_flaws_moved.
  */
 #ifndef MR_REMESH_FLAWS_H
 #define MR_REMESH_FLAWS_H
@@ -24,6 +24,7 @@ typedef struct mr_flaws {
 	bool sure; /* every face is compared with the source at its corners; else those that look right are
 	              not */
 	uint8_t *state; /* mr_flaw_state of each face */
+	mr_v3 *normal;  /* of the source at the place of each vertex, as far as it was asked for; else 0 */
 } mr_flaws;
 
 /* Looks at all faces; count: how many have a flaw, which become the suspects.  In the arena. */
@@ -45,6 +46,13 @@ unsigned mr_flaws_beside(const mr_flaws *w, uint32_t h);
 /* The flaws of the faces around both ends of h; where the two are at one spot, as if they were one vertex.
  * `most` as above. */
 unsigned mr_flaws_of_pair(const mr_flaws *w, uint32_t h, unsigned most);
+
+/* The normal of the source at the place of v: kept, since a place belongs to a vertex, not to what is tried
+ * around it. */
+mr_v3 mr_flaws_normal(const mr_flaws *w, uint32_t v);
+
+/* v lies at a place with that normal now. */
+void mr_flaws_moved(const mr_flaws *w, uint32_t v, mr_v3 normal);
 
 /* v has changed: the faces around it and its neighbours, and those beside them, are suspect. */
 void mr_flaws_suspect(const mr_flaws *w, uint32_t v);

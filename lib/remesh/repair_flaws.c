@@ -22,23 +22,31 @@ typedef struct mender {
 	bool last;     /* resort: slower and sure, tips and boundaries may give way */
 } mender;
 
-/* A vertex where it was, to put it back. */
+/* Where a vertex is, was or may be. */
 typedef struct spot {
-	mr_v3 p;
+	mr_v3 p, normal; /* of the source there */
 	uint32_t at;
 } spot;
 
 static spot
-spot_of(const mr_dyn *d, uint32_t v)
+spot_of(const mender *w, uint32_t v)
 {
-	return (spot){ d->p[v], d->at[v] };
+	return (spot){ w->d->p[v], mr_flaws_normal(&w->flaws, v), w->d->at[v] };
+}
+
+/* Where p is, at the place c of the source. */
+static spot
+spot_at(const mender *w, mr_v3 p, mr_closest c)
+{
+	return (spot){ p, mr_facing_normal(&w->flaws.facing, c.at), c.at.face };
 }
 
 static void
-put(mr_dyn *d, uint32_t v, spot to)
+put(const mender *w, uint32_t v, spot to)
 {
-	d->p[v] = to.p;
-	d->at[v] = to.at;
+	w->d->p[v] = to.p;
+	w->d->at[v] = to.at;
+	mr_flaws_moved(&w->flaws, v, to.normal);
 }
 
 static double
@@ -70,17 +78,17 @@ static bool
 try_spot(mender *w, uint32_t v, mr_v3 p, bool project, unsigned flaws)
 {
 	mr_dyn *d = w->d;
-	spot old = spot_of(d, v);
+	spot old = spot_of(w, v);
 	mr_closest c = mr_remesh_place(w->s, d, v, p, mr_dyn_normal_around(d, v));
 	double shape = worst_shape(d, v, MR_NONE);
 
-	put(d, v, (spot){ project ? c.point : p, c.at.face });
+	put(w, v, spot_at(w, project ? c.point : p, c));
 	if (worst_shape(d, v, MR_NONE) >= fmin(shape, w->least) &&
 	    mr_flaws_around(&w->flaws, v, MR_NONE, flaws) < flaws) {
 		mr_flaws_suspect(&w->flaws, v);
 		return true;
 	}
-	put(d, v, old);
+	put(w, v, old);
 	return false;
 }
 
@@ -187,25 +195,25 @@ try_merge(mender *w, uint32_t h, double share, unsigned flaws)
 {
 	mr_dyn *d = w->d;
 	uint32_t a = d->v[h], b = mr_dyn_to(d, h);
-	spot old[2] = { spot_of(d, a), spot_of(d, b) }, to = old[1];
+	spot old[2] = { spot_of(w, a), spot_of(w, b) }, to = old[1];
 	double shape = fmin(worst_shape(d, a, MR_NONE), worst_shape(d, b, MR_NONE));
 	bool good;
 
 	if (d->kind[b] == MR_SMOOTH) {
 		mr_v3 normal = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
 		mr_closest c = mr_remesh_place(w->s, d, b, mr_lerp(share, old[0].p, old[1].p), normal);
-		to = (spot){ c.point, c.at.face };
+		to = spot_at(w, c.point, c);
 	}
-	put(d, b, to);
-	put(d, a, d->kind[a] == MR_SMOOTH ? (spot){ to.p, mr_dyn_place(d, b) } : to);
+	put(w, b, to);
+	put(w, a, d->kind[a] == MR_SMOOTH ? (spot){ to.p, to.normal, mr_dyn_place(d, b) } : to);
 	good = fmin(worst_shape(d, a, b), worst_shape(d, b, a)) > fmin(shape, w->least) &&
 	       mr_flaws_of_pair(&w->flaws, h, flaws) < flaws;
-	put(d, a, old[0]);
+	put(w, a, old[0]);
 	if (good) {
 		mr_dyn_collapse(d, h, to.p);
 		mr_flaws_suspect(&w->flaws, b);
 	} else
-		put(d, b, old[1]);
+		put(w, b, old[1]);
 	return good;
 }
 
