@@ -51,8 +51,8 @@ link_twins(mr_dyn *d, uint32_t h, uint32_t g)
 		d->twin[g] = h;
 }
 
-static mr_status
-new_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
+mr_status
+mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 {
 	if (d->free_v != MR_NONE) {
 		*v = d->free_v;
@@ -65,8 +65,8 @@ new_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 	return MR_OK;
 }
 
-static mr_status
-new_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
+mr_status
+mr_dyn_add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 {
 	if (d->free_f != MR_NONE) {
 		*f = d->free_f;
@@ -77,6 +77,24 @@ new_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 		MR_TRY(mr_dyn_room_f(ctx, d, d->room_f + d->room_f / 2));
 	*f = (uint32_t)d->nf++;
 	return MR_OK;
+}
+
+void
+mr_dyn_remove_vertex(mr_dyn *d, uint32_t v)
+{
+	d->kind[v] = MR_DEAD;
+	d->out[v] = d->free_v;
+	d->free_v = v;
+}
+
+void
+mr_dyn_remove_face(mr_dyn *d, uint32_t f)
+{
+	for (uint32_t k = 3 * f; k < 3 * f + 3; k++)
+		mr_curves_set(&d->curves, k, MR_NONE);
+	d->v[3 * f] = MR_NONE;
+	d->twin[3 * f] = d->free_f;
+	d->free_f = f;
 }
 
 /*
@@ -110,10 +128,10 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 
 	if (mr_dyn_on_curve(d, h))
 		MR_TRY(mr_curves_reserve(ctx, &d->curves, 2));
-	MR_TRY(new_vertex(ctx, d, &m));
-	MR_TRY(new_face(ctx, d, &f));
+	MR_TRY(mr_dyn_add_vertex(ctx, d, &m));
+	MR_TRY(mr_dyn_add_face(ctx, d, &f));
 	if (g != MR_NONE)
-		MR_TRY(new_face(ctx, d, &e));
+		MR_TRY(mr_dyn_add_face(ctx, d, &e));
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
 	d->at[m] = mr_dyn_on_curve(d, h) ? mr_curves_get(&d->curves, h) : mr_dyn_place(d, a);
@@ -184,8 +202,10 @@ mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark)
 	uint32_t g = d->twin[h], a = d->v[h], b = mr_dyn_to(d, h);
 	unsigned shared;
 
-	if (d->kind[a] == MR_CORNER || (d->kind[a] == MR_CURVE && !mr_dyn_on_curve(d, h)))
+	if (d->kind[a] >= MR_CORNER || (d->kind[a] == MR_CURVE && !mr_dyn_on_curve(d, h)))
 		return false;
+	if (d->kind[b] == MR_RIM)
+		return false; /* it may have the same neighbours beyond */
 	if (g != MR_NONE && mr_dyn_on_boundary(d, a) && mr_dyn_on_boundary(d, b))
 		return false;
 	if (!apex_can_lose(d, h) || (g != MR_NONE && !apex_can_lose(d, g)))
@@ -199,9 +219,8 @@ mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark)
 	return shared == (g == MR_NONE ? 1 : 2);
 }
 
-/* Makes h, which leaves v, or the boundary half-edge clockwise of it, the one that v keeps. */
-static void
-keep_out(mr_dyn *d, uint32_t v, uint32_t h)
+void
+mr_dyn_keep_out(mr_dyn *d, uint32_t v, uint32_t h)
 {
 	uint32_t g = h;
 
@@ -228,11 +247,7 @@ close_face(mr_dyn *d, uint32_t h)
 		mr_curves_set(&d->curves, ac, curve);
 	if (d->out[c] == p)
 		d->out[c] = cb;
-	for (uint32_t k = 3 * f; k < 3 * f + 3; k++)
-		mr_curves_set(&d->curves, k, MR_NONE);
-	d->v[3 * f] = MR_NONE;
-	d->twin[3 * f] = d->free_f;
-	d->free_f = f;
+	mr_dyn_remove_face(d, f);
 }
 
 void
@@ -249,13 +264,11 @@ mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p)
 	close_face(d, h);
 	if (g != MR_NONE)
 		close_face(d, g);
-	keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
+	mr_dyn_keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
 	d->p[b] = p;
 	if (d->scale && d->scale[a] < d->scale[b])
 		d->scale[b] = d->scale[a];
-	d->kind[a] = MR_DEAD;
-	d->out[a] = d->free_v;
-	d->free_v = a;
+	mr_dyn_remove_vertex(d, a);
 }
 
 bool
@@ -267,6 +280,8 @@ mr_dyn_can_flip(const mr_dyn *d, uint32_t h)
 		return false;
 	c = mr_dyn_apex(d, h);
 	other = mr_dyn_apex(d, g);
+	if (d->kind[c] == MR_RIM && d->kind[other] == MR_RIM)
+		return false; /* beyond they may be joined */
 	e = d->out[c];
 	do {
 		if (mr_dyn_to(d, e) == other || mr_dyn_apex(d, e) == other)

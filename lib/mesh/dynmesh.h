@@ -17,13 +17,15 @@ typedef enum mr_kind {
 	MR_SMOOTH, /* free on the surface */
 	MR_CURVE,  /* on a curve: slides along it */
 	MR_CORNER, /* stays */
+	MR_RIM,    /* of a patch (mesh/dynmesh_patch.h): stays, and so do the edges to others like it */
 	MR_DEAD    /* a hole in the numbering */
 } mr_kind;
 
 typedef struct mr_dyn {
 	mr_v3 *p;
 	uint32_t *out; /* as in mr_topology */
-	uint32_t *at;  /* place on the source surface: a face, or on a curve a half-edge (space/surface_walk.h) */
+	uint32_t
+	    *at; /* place on the source surface: a face, or on a curve a half-edge (space/surface_walk.h) */
 	uint8_t *kind; /* mr_kind */
 	float *scale;  /* of the target length, at most 1: less where it is refined; NULL: nowhere */
 	size_t nv, room_v;
@@ -86,6 +88,13 @@ mr_dyn_on_boundary(const mr_dyn *d, uint32_t v)
 	return d->twin[d->out[v]] == MR_NONE;
 }
 
+/* True where the edge of h stays with the rim of a patch. */
+static inline bool
+mr_dyn_on_rim(const mr_dyn *d, uint32_t h)
+{
+	return d->kind[d->v[h]] == MR_RIM && d->kind[mr_dyn_to(d, h)] == MR_RIM;
+}
+
 /* Twice the area times the unit normal of face f, with the vertices at p. */
 static inline mr_v3
 mr_dyn_cross(const mr_dyn *d, const mr_v3 *p, size_t f)
@@ -138,6 +147,16 @@ mr_v3 mr_dyn_normal_around(const mr_dyn *d, uint32_t v);
 
 /* The middle of the ends of the half-edges that leave v. */
 mr_v3 mr_dyn_middle_around(const mr_dyn *d, uint32_t v);
+
+/* Takes one out of the numbering, or fills a hole or adds a number; what is there, or belongs there, is the
+ * caller's. */
+void mr_dyn_remove_vertex(mr_dyn *d, uint32_t v);
+void mr_dyn_remove_face(mr_dyn *d, uint32_t f);
+mr_status mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v);
+mr_status mr_dyn_add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f);
+
+/* Makes h, which leaves v, or the boundary half-edge clockwise of it, the one that v keeps. */
+void mr_dyn_keep_out(mr_dyn *d, uint32_t v, uint32_t h);
 
 /* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
  */

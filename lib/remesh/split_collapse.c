@@ -148,6 +148,8 @@ mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *d
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		while (is_edge(d, h) && too_long(&r, h)) {
 			uint32_t g = locally_longest(d, h), m;
+			if (mr_dyn_on_rim(d, g))
+				break;
 			mr_v3 middle = mr_lerp(0.5, d->p[d->v[g]], d->p[mr_dyn_to(d, g)]);
 			MR_TRY(mr_dyn_split(ctx, d, g, middle, &m));
 			if (d->kind[m] == MR_SMOOTH)

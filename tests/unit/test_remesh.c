@@ -1,9 +1,7 @@
 /* Laws of remeshing: topology, regularity, the source map, and the operations it is made of. */
-#include "mesh/dynmesh.h"
-#include "remesh/remesh.h"
-#include "base/random.h"
 #include "op/voronoi_area.h"
-#include "shapes.h"
+#include "remesh/remesh.h"
+#include "remesh_scene.h"
 
 typedef struct census {
 	long euler;
@@ -189,24 +187,6 @@ threads_and_runs_do_not_change_a_byte(void **state)
 	assert_memory_equal(a.t, b.t, a.nf * sizeof *a.t);
 }
 
-/* Twins agree, out half-edges leave their vertices, boundary ones first. */
-static void
-assert_valid(const mr_dyn *d)
-{
-	for (uint32_t h = 0; h < 3 * d->nf; h++) {
-		uint32_t g = d->twin[h];
-		if (mr_dyn_face_dead(d, h / 3) || g == MR_NONE)
-			continue;
-		assert_int_equal(d->twin[g], h);
-		assert_int_equal(d->v[g], mr_dyn_to(d, h));
-		assert_int_equal(mr_dyn_to(d, g), d->v[h]);
-		assert_true(mr_dyn_on_curve(d, h) == mr_dyn_on_curve(d, g));
-	}
-	for (uint32_t v = 0; v < d->nv; v++)
-		if (d->kind[v] != MR_DEAD)
-			assert_int_equal(d->v[d->out[v]], v);
-}
-
 static void
 random_operations_keep_a_manifold(void **state)
 {
@@ -220,25 +200,7 @@ random_operations_keep_a_manifold(void **state)
 		mr_dyn d;
 		assert_int_equal(mr_topology_build(&ctx, &m, &topo), MR_OK);
 		assert_int_equal(mr_dyn_build(&ctx, &m, &topo, 180, &d), MR_OK);
-		uint8_t *mark = MR_NEW_ZERO(&ctx, 100000, uint8_t);
-		uint32_t middle;
-		for (uint32_t step = 1; step < 6000; step++) {
-			uint32_t h = (uint32_t)(mr_random_bits(&random) % (3 * d.nf));
-			if (mr_dyn_face_dead(&d, h / 3))
-				continue;
-			switch (mr_random_bits(&random) % 3) {
-			case 0:
-				assert_int_equal(mr_dyn_split(&ctx, &d, h, d.p[d.v[h]], &middle), MR_OK);
-				break;
-			case 1:
-				if (mr_dyn_can_collapse(&d, h, mark))
-					mr_dyn_collapse(&d, h, d.p[mr_dyn_to(&d, h)]);
-				break;
-			default:
-				if (mr_dyn_can_flip(&d, h))
-					mr_dyn_flip(&d, h);
-			}
-		}
+		operate(&d, 6000, &random);
 		assert_valid(&d);
 		long before = count(&m).euler;
 		assert_int_equal(mr_dyn_compact(&ctx, &d), MR_OK);
