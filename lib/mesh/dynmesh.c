@@ -121,6 +121,14 @@ cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 		d->out[b] = bc;
 }
 
+bool
+mr_dyn_can_split(const mr_dyn *d, uint32_t h)
+{
+	uint32_t g = d->twin[h];
+
+	return !mr_dyn_on_rim(d, h) && (g == MR_NONE || mr_dyn_apex(d, g) != mr_dyn_apex(d, h));
+}
+
 mr_status
 mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 {
@@ -280,8 +288,8 @@ mr_dyn_can_flip(const mr_dyn *d, uint32_t h)
 		return false;
 	c = mr_dyn_apex(d, h);
 	other = mr_dyn_apex(d, g);
-	if (d->kind[c] == MR_RIM && d->kind[other] == MR_RIM)
-		return false; /* beyond they may be joined */
+	if (c == other || (d->kind[c] == MR_RIM && d->kind[other] == MR_RIM))
+		return false; /* beyond the rim they may be joined */
 	e = d->out[c];
 	do {
 		if (mr_dyn_to(d, e) == other || mr_dyn_apex(d, e) == other)

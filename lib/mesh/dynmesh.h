@@ -158,8 +158,12 @@ mr_status mr_dyn_add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f);
 /* Makes h, which leaves v, or the boundary half-edge clockwise of it, the one that v keeps. */
 void mr_dyn_keep_out(mr_dyn *d, uint32_t v, uint32_t h);
 
+/* False for the rim of a patch, and where both faces have the same vertices: the middle would be joined twice
+ * to the third. */
+bool mr_dyn_can_split(const mr_dyn *d, uint32_t h);
+
 /* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
- */
+ * Only where mr_dyn_can_split. */
 mr_status mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle);
 
 /*

@@ -23,8 +23,10 @@ typedef struct resampler {
 	mr_ctx *ctx;
 	mr_dyn *d;
 	const mr_remesh_source *s;
+	double coarser; /* what is too long is so by as much */
 	mr_resampled *done;
-	uint8_t *mark; /* for the link condition */
+	uint8_t *mark;   /* for the link condition */
+	uint8_t *strung; /* of each vertex: it was merged though an edge there is too long */
 } resampler;
 
 static double
@@ -106,7 +108,7 @@ static bool
 too_long(const resampler *r, uint32_t h)
 {
 	const mr_dyn *d = r->d;
-	double l = target(r, h), l2 = edge_length2(d, h);
+	double l = r->coarser * target(r, h), l2 = edge_length2(d, h);
 
 	if (l2 > square(LONG * l))
 		return true;
@@ -139,18 +141,73 @@ place_middle(resampler *r, uint32_t m)
 	d->at[m] = c.at.face;
 }
 
+/* Far from the origin there may be no number between those of two ends. */
+static bool
+is_same(mr_v3 a, mr_v3 b)
+{
+	return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* The area of the equilateral triangle with a side of 1. */
+static const double EQUILATERAL = 0.4330127018922193;
+
+mr_demand
+mr_remesh_demand(const mr_dyn *d, const mr_remesh_source *s)
+{
+	resampler r = { .d = (mr_dyn *)(uintptr_t)d, .s = s };
+	mr_demand sum = { 0, 0 };
+
+	for (uint32_t f = 0; f < d->nf; f++) {
+		double l, longest = 0, area;
+		if (mr_dyn_face_dead(d, f))
+			continue;
+		l = fmin(target(&r, 3 * f), target(&r, 3 * f + 1));
+		for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+			longest = fmax(longest, edge_length2(d, h));
+		longest = sqrt(longest) / l;
+		area = mr_norm(mr_dyn_cross(d, d->p, f)) / (2 * EQUILATERAL * l * l);
+		*(area > longest ? &sum.flat : &sum.thin) += fmax(area, longest);
+	}
+	return sum;
+}
+
+mr_status
+mr_too_fine(mr_ctx *ctx, const mr_remesh_source *s, double faces, double most, double length)
+{
+	return mr_fail(ctx, MR_ERANGE,
+	    "%s: edges of length %g take about %.2g faces or more, where at most %.2g may be: take a length "
+	    "of %.2g",
+	    s->m->name, s->uniform, faces, most, length);
+}
+
+double
+mr_coarsest(const mr_dyn *d, const mr_remesh_source *s)
+{
+	resampler r = { .d = (mr_dyn *)(uintptr_t)d, .s = s };
+	double ratio2 = 0, coarser = 1;
+
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		if (is_edge(d, h))
+			ratio2 = fmax(ratio2, edge_length2(d, h) / square(LONG * target(&r, h)));
+	while (ratio2 > square(2 * coarser))
+		coarser *= 2;
+	return coarser;
+}
+
 /* 1. Split all edges that are longer than 4/3 l at their midpoint. */
 mr_status
-mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
+mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser, mr_resampled *done)
 {
-	resampler r = { ctx, d, s, done, NULL };
+	resampler r = { ctx, d, s, coarser, done, NULL, NULL };
 
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		while (is_edge(d, h) && too_long(&r, h)) {
 			uint32_t g = locally_longest(d, h), m;
-			if (mr_dyn_on_rim(d, g))
+			mr_v3 a = d->p[d->v[g]], b = d->p[mr_dyn_to(d, g)], middle = mr_lerp(0.5, a, b);
+			if (!mr_dyn_can_split(d, g) || is_same(middle, a) || is_same(middle, b))
 				break;
-			mr_v3 middle = mr_lerp(0.5, d->p[d->v[g]], d->p[mr_dyn_to(d, g)]);
+			if (d->nf >= done->most)
+				return mr_too_fine(ctx, s, (double)d->nf, (double)done->most, 2 * s->uniform);
 			MR_TRY(mr_dyn_split(ctx, d, g, middle, &m));
 			if (d->kind[m] == MR_SMOOTH)
 				place_middle(&r, m);
@@ -159,12 +216,23 @@ mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *d
 	return MR_OK;
 }
 
+/* False where moving the end v of an edge to p makes it too long; where it is so already, `*strung`. */
+static bool
+length_is_good(mr_v3 other, mr_v3 v, mr_v3 p, double longest2, bool *strung)
+{
+	if (mr_norm2(mr_sub(other, p)) <= longest2)
+		return true;
+	*strung = true;
+	return mr_norm2(mr_sub(other, v)) > longest2;
+}
+
 /*
  * True where moving v to p turns no face around v that stays (those with vertex `gone` do not) by
- * more than 60 degrees or away from `facing`, makes no needle worse and no edge longer than `longest`.
+ * more than 60 degrees or away from `facing`, makes no needle worse and no edge longer than `longest`, but
+ * for what is so already: `*strung` then.
  */
 static bool
-move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, double longest2)
+move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, double longest2, bool *strung)
 {
 	uint32_t h = d->out[v];
 
@@ -175,7 +243,8 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, 
 			mr_v3 before = mr_cross(mr_sub(pb, pv), mr_sub(pc, pv)),
 			      after = mr_cross(mr_sub(pb, p), mr_sub(pc, p));
 			double shape = mr_dyn_shape(pv, pb, pc), moved = mr_dyn_shape(p, pb, pc);
-			if (mr_norm2(mr_sub(pb, p)) > longest2 || mr_norm2(mr_sub(pc, p)) > longest2)
+			if (!length_is_good(pb, pv, p, longest2, strung) ||
+			    !length_is_good(pc, pv, p, longest2, strung))
 				return false;
 			if (moved < MR_NEEDLE && moved < 0.2 * shape)
 				return false;
@@ -205,6 +274,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	mr_dyn *d = r->d;
 	uint32_t a, b;
 	mr_v3 p, facing;
+	bool strung = false;
 
 	if (d->twin[h] != MR_NONE && d->kind[d->v[h]] > d->kind[mr_dyn_to(d, h)])
 		h = d->twin[h]; /* the one that is more bound stays */
@@ -214,13 +284,17 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 		return false;
 	p = merged_position(d, a, b);
 	facing = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
-	if (!move_is_good(d, a, b, p, facing, longest2) || !move_is_good(d, b, a, p, facing, longest2))
+	if (!move_is_good(d, a, b, p, facing, longest2, &strung) ||
+	    !move_is_good(d, b, a, p, facing, longest2, &strung) ||
+	    (strung && (r->strung[a] || r->strung[b])))
 		return false;
 	if (mr_merging_folds(d, r->s, a, b, p, facing)) {
 		r->done->refused++;
 		return false;
 	}
 	mr_dyn_collapse(d, h, p);
+	r->strung[b] = strung;
+	r->done->strung += strung;
 	if (d->scale && d->scale[b] < 1 && d->kind[b] == MR_SMOOTH)
 		d->at[b] = mr_remesh_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).at.face;
 	r->done->collapses++;
@@ -231,14 +305,15 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 mr_status
 mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
-	resampler r = { ctx, d, s, done, NULL };
+	resampler r = { ctx, d, s, 1, done, NULL, NULL };
 	mr_mark mark;
 
 	if (done->refused > 0 && !d->scale)
 		MR_TRY(mr_refine_begin(ctx, d));
 	mark = mr_mark_take(ctx);
 	r.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
-	if (!r.mark)
+	r.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t);
+	if (!r.mark || !r.strung)
 		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (is_edge(d, h) && too_short(&r, h)) {
@@ -274,9 +349,10 @@ mr_status
 mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	resampler r = { ctx, d, s, done, MR_NEW_ZERO(ctx, d->nv, uint8_t) };
+	resampler r = { ctx, d, s, 1, done, MR_NEW_ZERO(ctx, d->nv, uint8_t),
+		MR_NEW_ZERO(ctx, d->nv, uint8_t) };
 
-	if (!r.mark)
+	if (!r.mark || !r.strung)
 		return MR_EMEM;
 	for (uint32_t f = 0; f < d->nf; f++) {
 		const uint32_t *v = &d->v[3 * f];

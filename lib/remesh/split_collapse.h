@@ -11,13 +11,33 @@
 /* What was done, added up. */
 typedef struct mr_resampled {
 	size_t splits, collapses;
+	size_t strung;  /* collapses of vertices that edges which are too long hold on to */
 	size_t refused; /* collapses that would have folded: from the next on, lengths give way there */
+	size_t most;    /* faces that there may be */
 } mr_resampled;
 
-/* Splits the edges that are longer than 4/3 of their target, or stretched, at their middle. */
-mr_status mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
+/* About how many faces the surface will have, by area where it is wider than an edge, and by length where it
+ * is thinner. */
+typedef struct mr_demand {
+	double flat, thin;
+} mr_demand;
 
-/* Merges the ends of edges that are shorter than 4/5 of their target, or squeezed. */
+/* MR_ERANGE with a sentence that names the length to take instead. */
+mr_status mr_too_fine(mr_ctx *ctx, const mr_remesh_source *s, double faces, double most, double length);
+
+mr_demand mr_remesh_demand(const mr_dyn *d, const mr_remesh_source *s);
+
+/* The least power of two by which the targets are to be multiplied so that no edge is longer than 8/3 of
+ * them. */
+double mr_coarsest(const mr_dyn *d, const mr_remesh_source *s);
+
+/* Splits the edges that are longer than 4/3 of their target times `coarser`, or stretched, at their middle.
+ * MR_ERANGE where that takes more than done->most faces. */
+mr_status
+mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser, mr_resampled *done);
+
+/* Merges the ends of edges that are shorter than 4/5 of their target, or squeezed.  Edges that are too long
+ * already may hold on to what is merged, once for each vertex: it would be drawn along far else. */
 mr_status mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 /* Takes out needles: flips their longest side away or merges the ends of a side. */

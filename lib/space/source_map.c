@@ -133,7 +133,7 @@ mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, con
 	mr_parallel(ctx, n, 1024, compose_body, &j);
 	mr_mark_release(ctx, mark);
 	*map = (mr_places){ face, bary };
-	return MR_OK;
+	return mr_source_map_check(ctx, mesh, n, map); /* distances may overflow */
 }
 
 mr_status

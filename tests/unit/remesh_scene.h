@@ -54,7 +54,7 @@ operate(mr_dyn *d, int steps, mr_random *random)
 
 	for (int step = 0; step < steps; step++) {
 		uint32_t h = (uint32_t)(mr_random_bits(random) % (3 * d->nf));
-		if (mr_dyn_face_dead(d, h / 3) || mr_dyn_on_rim(d, h))
+		if (mr_dyn_face_dead(d, h / 3) || !mr_dyn_can_split(d, h))
 			continue;
 		switch (mr_random_bits(random) % 3) {
 		case 0:

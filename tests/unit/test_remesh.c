@@ -247,6 +247,120 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces: mr-import --repair splits it");
 }
 
+/* The side of a cylinder, of n facets as long as it is. */
+static mr_mesh
+slivers(uint32_t n, double radius)
+{
+	mr_v3 *p = MR_NEW(&ctx, 2 * n, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * n, mr_tri);
+
+	for (uint32_t i = 0; i < n; i++) {
+		double a = 2 * MR_PI * i / n;
+		uint32_t j = (i + 1) % n;
+		p[i] = mr_vec(radius * cos(a), radius * sin(a), 0);
+		p[n + i] = mr_vec(radius * cos(a), radius * sin(a), 1);
+		t[2 * i] = (mr_tri){ { i, j, n + j } };
+		t[2 * i + 1] = (mr_tri){ { i, n + j, n + i } };
+	}
+	return (mr_mesh){ "slivers", p, t, 2 * n, 2 * n };
+}
+
+/* Bisecting slivers by their lengths would take a million faces here, and 17 million at 3000. */
+static void
+slivers_take_no_more_faces_than_their_area(void **state)
+{
+	(void)state;
+	for (uint32_t n = 750; n <= 3000; n *= 2) {
+		mr_remesh_opts o = MR_REMESH_DEFAULTS;
+		mr_mesh m = slivers(n, 0.05), r;
+		mr_remesh_result result;
+		mr_places map;
+		double area = mr_mesh_area(&ctx, &m);
+		o.length = 0.02;
+		assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, &result), MR_OK);
+		assert_true((double)result.splits < 10 * area / (sqrt(3) / 4 * o.length * o.length));
+		assert_true(fabs(mr_mesh_area(&ctx, &r) / area - 1) < 0.03);
+		assert_int_equal(result.flipped + result.folded, 0);
+		assert_int_equal(count(&r).euler, 0);
+		mr_ctx_free(&ctx);
+	}
+}
+
+static void
+what_would_take_too_much_is_refused_with_the_length_to_take(void **state)
+{
+	static const mr_v3 thin[3] = { { 0, 0, 0 }, { 1e7, 0, 0 }, { 0, 1e-7, 0 } };
+	static const mr_tri one = { { 0, 1, 2 } };
+	mr_mesh shapes[2] = { { "needle", thin, &one, 3, 1 }, shape(MR_SPHERE, 500) };
+
+	(void)state;
+	for (int i = 0; i < 2; i++) {
+		mr_remesh_opts o = MR_REMESH_DEFAULTS;
+		mr_places map;
+		mr_mesh r;
+		const char *take;
+		o.length = i * 1e-9;
+		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, &r, &map, NULL), MR_ERANGE);
+		take = strstr(ctx.error, "take a length of ");
+		assert_non_null(take);
+		o.length = 500 * strtod(take + strlen("take a length of "), NULL); /* in no time */
+		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, &r, &map, NULL), MR_OK);
+	}
+}
+
+/* A vertex at 1e150, whose triangles' areas overflow when they are squared. */
+static void
+what_overflows_is_refused(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_SPHERE, 100), r;
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_places map;
+
+	(void)state;
+	memcpy(p, m.p, m.nv * sizeof *p);
+	p[7].x = 1e150;
+	m.p = p;
+	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_ERANGE);
+	assert_non_null(strstr(ctx.error, "the diagonal is 1e+150, not between 1e-30 and 1e+30"));
+}
+
+/* Two triangles on one another, which have no other mesh with their three vertices. */
+static void
+a_pillow_stays(void **state)
+{
+	static const mr_v3 p[3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } };
+	static const mr_tri t[2] = { { { 0, 1, 2 } }, { { 0, 2, 1 } } };
+	mr_mesh m = { "pillow", p, t, 3, 2 }, r;
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_places map;
+
+	(void)state;
+	for (int i = 0; i < 2; i++) {
+		assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_OK);
+		assert_int_equal(r.nf, 2);
+		o.length = 0.1;
+	}
+}
+
+/* So far from the origin that an edge of the length has no number between its ends. */
+static void
+what_cannot_be_halved_stays(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_SPHERE, 500), r;
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	mr_places map;
+
+	(void)state;
+	for (size_t v = 0; v < m.nv; v++)
+		p[v] = mr_add(m.p[v], mr_vec(1e15, 1e15, 1e15));
+	m.p = p;
+	o.length = 0.05;
+	assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, NULL), MR_OK);
+	assert_int_equal(count(&r).euler, 2);
+}
+
 int
 main(void)
 {
@@ -261,6 +375,12 @@ main(void)
 		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, setup, teardown),
 		cmocka_unit_test_setup_teardown(failing_memory_is_reported_at_every_place, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, setup, teardown),
+		cmocka_unit_test_setup_teardown(slivers_take_no_more_faces_than_their_area, setup, teardown),
+		cmocka_unit_test_setup_teardown(
+		    what_would_take_too_much_is_refused_with_the_length_to_take, setup, teardown),
+		cmocka_unit_test_setup_teardown(what_overflows_is_refused, setup, teardown),
+		cmocka_unit_test_setup_teardown(a_pillow_stays, setup, teardown),
+		cmocka_unit_test_setup_teardown(what_cannot_be_halved_stays, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
