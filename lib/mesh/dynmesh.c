@@ -14,6 +14,23 @@ mr_dyn_valence(const mr_dyn *d, uint32_t v)
 	return n + (h == MR_NONE);
 }
 
+unsigned
+mr_dyn_along(const mr_dyn *d, uint32_t v, uint32_t end[2])
+{
+	uint32_t h = d->out[v];
+	unsigned n = 0;
+
+	do {
+		uint32_t p = mr_he_prev(h);
+		if (mr_dyn_on_curve(d, h) && n++ < 2)
+			end[n - 1] = mr_dyn_to(d, h);
+		if (d->twin[p] == MR_NONE && n++ < 2)
+			end[n - 1] = d->v[p];
+		h = d->twin[p];
+	} while (h != MR_NONE && h != d->out[v]);
+	return n;
+}
+
 mr_v3
 mr_dyn_normal_around(const mr_dyn *d, uint32_t v)
 {

@@ -142,6 +142,12 @@ mr_status mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, d
 /* Number of edges at v. */
 unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v);
 
+/* The number of curve edges at v, and the ends of the first two. */
+unsigned mr_dyn_along(const mr_dyn *d, uint32_t v, uint32_t end[2]);
+
+/* A vertex at which a curve turns by more than the angle of this cosine, 50 degrees, is a corner. */
+static const double MR_CORNER_COSINE = 0.6427876096865394;
+
 /* The sum of the faces' normals around v, by area; twice the area long. */
 mr_v3 mr_dyn_normal_around(const mr_dyn *d, uint32_t v);
 

@@ -1,13 +1,11 @@
 /* A dynmesh from a mesh, with its curves of sharp edges; views and copies of it. */
 #include "mesh/dynmesh.h"
 
-static const double CORNER_COSINE = 0.6427876096865394; /* of 50 degrees */
-
-/* Unit direction of half-edge h. */
+/* Unit direction from a to b. */
 static mr_v3
-direction(const mr_dyn *d, uint32_t h)
+direction(const mr_dyn *d, uint32_t a, uint32_t b)
 {
-	return mr_unit(mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]));
+	return mr_unit(mr_sub(d->p[b], d->p[a]));
 }
 
 /* True where the faces at h and g meet at more than an angle of the given cosine. */
@@ -37,25 +35,18 @@ mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
 	return MR_OK;
 }
 
-/* The kind of v by the curve edges that meet there; directions point away from v. */
+/* The kind of v by the curve edges that meet there. */
 static mr_kind
 kind_of(const mr_dyn *d, uint32_t v)
 {
-	uint32_t h = d->out[v];
-	mr_v3 way[2] = { { 0, 0, 0 }, { 0, 0, 0 } };
-	unsigned curves = 0;
+	uint32_t end[2];
+	unsigned curves = mr_dyn_along(d, v, end);
 
-	do {
-		uint32_t p = mr_he_prev(h);
-		if (mr_dyn_on_curve(d, h) && curves++ < 2)
-			way[curves - 1] = direction(d, h);
-		if (d->twin[p] == MR_NONE && curves++ < 2)
-			way[curves - 1] = mr_mul(-1, direction(d, p));
-		h = d->twin[p];
-	} while (h != MR_NONE && h != d->out[v]);
 	if (curves == 0)
 		return MR_SMOOTH;
-	return curves == 2 && mr_dot(way[0], way[1]) < -CORNER_COSINE ? MR_CURVE : MR_CORNER;
+	return curves == 2 && mr_dot(direction(d, end[0], v), direction(d, v, end[1])) > MR_CORNER_COSINE
+	           ? MR_CURVE
+	           : MR_CORNER;
 }
 
 /* A place on the source for a vertex to begin with: a face at it, or a curve half-edge. */

@@ -178,23 +178,10 @@ static mr_v3
 curve_move(const pass *w, uint32_t v)
 {
 	const mr_dyn *d = w->d;
-	uint32_t h = d->out[v];
-	mr_v3 sum = { 0, 0, 0 };
-	double n = 0;
+	uint32_t end[2];
 
-	do {
-		uint32_t p = mr_he_prev(h);
-		if (mr_dyn_on_curve(d, h)) {
-			sum = mr_add(sum, d->p[mr_dyn_to(d, h)]);
-			n++;
-		}
-		if (d->twin[p] == MR_NONE) {
-			sum = mr_add(sum, d->p[d->v[p]]);
-			n++;
-		}
-		h = d->twin[p];
-	} while (h != MR_NONE && h != d->out[v]);
-	return n > 0 ? mr_lerp(w->o->damping, d->p[v], mr_mul(1 / n, sum)) : d->p[v];
+	mr_dyn_along(d, v, end); /* there are two */
+	return mr_lerp(w->o->damping, d->p[v], mr_mul(0.5, mr_add(d->p[end[0]], d->p[end[1]])));
 }
 
 /* True where face `to` of the source points against the normal, and face `from` did not: over a rim. */

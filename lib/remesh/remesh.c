@@ -239,8 +239,8 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		length = MR_NEW(r->ctx, m->nv, double);
 		if (!length)
 			return MR_EMEM;
-		MR_TRY(mr_sizing_field(
-		    r->ctx, m, adaptive, uniform / ADAPTIVE_RANGE, uniform * ADAPTIVE_RANGE, length));
+		MR_TRY(mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
+		    uniform * ADAPTIVE_RANGE, length));
 	}
 	r->source = (mr_remesh_source){ m, topo, &r->curves, length, uniform };
 	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;

@@ -1,7 +1,7 @@
-/* Lengths by the largest curvature at each vertex, then sweeps over the faces that bound how fast they grow.
- */
+/* Lengths by the largest curvature at each vertex, then bounds on how fast they grow. */
 #include "remesh/sizing.h"
 
+#include "base/priority_queue.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
 
@@ -41,12 +41,34 @@ curvature(const sums *s, size_t v)
 	return h + sqrt(h * h > k ? h * h - k : 0);
 }
 
-static void
-mark_boundary(const mr_mesh *m, const mr_topology *topo, double *length)
+/* The angle by which the curve through v turns over the length of an edge. */
+static double
+curvature_along(const mr_dyn *d, uint32_t v)
 {
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		if (topo->twin[h] == MR_NONE)
-			length[mr_he_from(m, h)] = length[mr_he_to(m, h)] = INFINITY;
+	uint32_t end[2];
+	mr_v3 in, out;
+
+	mr_dyn_along(d, v, end);
+	in = mr_sub(d->p[v], d->p[end[0]]);
+	out = mr_sub(d->p[end[1]], d->p[v]);
+	return 2 * mr_angle(in, out) / (mr_norm(in) + mr_norm(out));
+}
+
+/* Corners stay whatever the lengths. */
+static double
+largest_curvature(const mr_dyn *d, const sums *s, uint32_t v)
+{
+	switch ((mr_kind)d->kind[v]) {
+	case MR_SMOOTH:
+		return curvature(s, v);
+	case MR_CURVE:
+		return curvature_along(d, v);
+	case MR_CORNER:
+	case MR_RIM:
+	case MR_DEAD:
+		break;
+	}
+	return 0;
 }
 
 /* Where b may be at most, given a. */
@@ -61,45 +83,86 @@ limit(const mr_mesh *m, double *length, uint32_t a, uint32_t b)
 	return true;
 }
 
-/* Sweeps over the faces until no length grows too fast: lengths only fall, so it ends. */
-static void
-grade(const mr_mesh *m, double *length)
-{
-	bool changed;
+typedef struct front {
+	double length;
+	uint32_t v;
+} front;
 
-	do {
-		changed = false;
-		for (size_t f = 0; f < m->nf; f++)
-			for (int k = 0; k < 3; k++) {
-				uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
-				changed |= limit(m, length, a, b);
-				changed |= limit(m, length, b, a);
-			}
-	} while (changed);
+static bool
+is_before(const void *a, const void *b)
+{
+	const front *x = a, *y = b;
+
+	return x->length < y->length || (x->length == y->length && x->v < y->v);
+}
+
+typedef struct grader {
+	mr_ctx *ctx;
+	const mr_mesh *m;
+	double *length;
+	front *queue;
+	size_t n, room;
+} grader;
+
+static mr_status
+put(grader *w, uint32_t v)
+{
+	MR_TRY(MR_RESERVE(w->ctx, w->queue, w->n, 1, &w->room));
+	mr_queue_push(w->queue, w->n++, sizeof *w->queue, &(front){ w->length[v], v }, is_before);
+	return MR_OK;
+}
+
+/* Lengths grow along edges from the shortest on, each vertex's once and for all (Dijkstra 1959). */
+static mr_status
+grade(grader *w, const mr_topology *topo)
+{
+	for (uint32_t v = 0; v < w->m->nv; v++)
+		if (topo->out[v] != MR_NONE)
+			MR_TRY(put(w, v));
+	while (w->n > 0) {
+		front f;
+		uint32_t h;
+		mr_queue_pop(w->queue, w->n--, sizeof f, &f, is_before);
+		if (f.length > w->length[f.v])
+			continue;
+		h = topo->out[f.v];
+		do {
+			uint32_t side[2] = { mr_he_to(w->m, h), mr_he_from(w->m, mr_he_prev(h)) };
+			for (int i = 0; i < 2; i++)
+				if (limit(w->m, w->length, f.v, side[i]))
+					MR_TRY(put(w, side[i]));
+			h = mr_he_ccw(topo, h);
+		} while (h != MR_NONE && h != topo->out[f.v]);
+	}
+	return MR_OK;
+}
+
+/* Of an edge whose middle is `error` away from an arc of that curvature. */
+static double
+length_for(double curvature, double error, double shortest, double longest)
+{
+	double squared = 6 * error / curvature - 3 * error * error;
+
+	return squared > shortest * shortest ? fmin(sqrt(squared), longest) : shortest;
 }
 
 mr_status
-mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, double error, double shortest, double longest, double *length)
+mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
+    double shortest, double longest, double *length)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	sums s = { MR_NEW_ZERO(ctx, m->nv, mr_v3), MR_NEW_ZERO(ctx, m->nv, double),
 		MR_NEW(ctx, m->nv, double) };
-	mr_topology topo;
+	grader w = { .ctx = ctx, .m = m, .length = length };
 
 	if (!s.laplacian || !s.angle || !s.area)
 		return MR_EMEM;
-	MR_TRY(mr_topology_build(ctx, m, &topo));
 	MR_TRY(mr_voronoi_areas(ctx, m, s.area));
 	for (size_t f = 0; f < m->nf; f++)
 		add_face(m, f, &s);
-	for (size_t v = 0; v < m->nv; v++) {
-		double squared = 6 * error / curvature(&s, v) - 3 * error * error;
-		length[v] = squared > shortest * shortest ? fmin(sqrt(squared), longest) : shortest;
-	}
-	mark_boundary(m, &topo, length);
-	grade(m, length);
-	for (size_t v = 0; v < m->nv; v++)
-		length[v] = fmin(length[v], longest); /* where the boundary is all there is */
+	for (uint32_t v = 0; v < m->nv; v++)
+		length[v] = length_for(largest_curvature(d, &s, v), error, shortest, longest);
+	MR_TRY(grade(&w, topo));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -4,15 +4,16 @@
 #ifndef MR_REMESH_SIZING_H
 #define MR_REMESH_SIZING_H
 
-#include "mesh/mesh.h"
+#include "mesh/dynmesh.h"
 
 /*
  * The length of an edge at each vertex whose middle is `error` away from a surface of the vertex's largest
  * absolute curvature, within [shortest, longest] and growing by at most half of the way along
- * edges.  Curvatures are those of Meyer et al. 2003; boundary vertices take the least of their neighbours'
- * lengths.  length: nv, the caller's, in units of the model.
+ * edges.  Curvatures are those of Meyer et al. 2003.  On the curves, the boundary among them, it is that of
+ * the curve, since across it the surface ends or has an edge that is kept.  d: still a copy of m.  length:
+ * nv, the caller's, in units of the model.
  */
-mr_status
-mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, double error, double shortest, double longest, double *length);
+mr_status mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d,
+    double error, double shortest, double longest, double *length);
 
 #endif

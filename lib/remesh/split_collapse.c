@@ -268,6 +268,48 @@ merged_position(const mr_dyn *d, uint32_t a, uint32_t b)
 	return d->p[b];
 }
 
+/* The other neighbour of v along its curve than u. */
+static uint32_t
+further(const mr_dyn *d, uint32_t v, uint32_t u)
+{
+	uint32_t end[2];
+
+	mr_dyn_along(d, v, end);
+	return end[0] == u ? end[1] : end[0];
+}
+
+static bool
+turns_sharply(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	mr_v3 in = mr_sub(b, a), out = mr_sub(c, b);
+
+	return mr_dot(in, out) < MR_CORNER_COSINE * sqrt(mr_norm2(in) * mr_norm2(out));
+}
+
+/* True where vertex v of a curve would turn sharply, were its neighbours at a and c. */
+static bool
+makes_corner(const mr_dyn *d, uint32_t v, mr_v3 a, mr_v3 c)
+{
+	return d->kind[v] == MR_CURVE && turns_sharply(a, d->p[v], c);
+}
+
+/*
+ * True where merging a into its neighbour b along a curve, at p, makes the curve turn as only corners do: a
+ * loop that is smaller than an edge would be crushed.
+ */
+static bool
+cuts_curve(const mr_dyn *d, uint32_t a, uint32_t b, mr_v3 p)
+{
+	uint32_t x = further(d, a, b), y;
+
+	if (makes_corner(d, x, d->p[further(d, x, a)], p))
+		return true;
+	if (d->kind[b] != MR_CURVE)
+		return false;
+	y = further(d, b, a);
+	return turns_sharply(d->p[x], p, d->p[y]) || makes_corner(d, y, p, d->p[further(d, y, b)]);
+}
+
 static bool
 try_collapse(resampler *r, uint32_t h, double longest2)
 {
@@ -288,7 +330,8 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	    !move_is_good(d, b, a, p, facing, longest2, &strung) ||
 	    (strung && (r->strung[a] || r->strung[b])))
 		return false;
-	if (mr_merging_folds(d, r->s, a, b, p, facing)) {
+	if ((d->kind[a] == MR_CURVE && cuts_curve(d, a, b, p)) ||
+	    mr_merging_folds(d, r->s, a, b, p, facing)) {
 		r->done->refused++;
 		return false;
 	}

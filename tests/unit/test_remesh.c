@@ -247,6 +247,77 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces: mr-import --repair splits it");
 }
 
+/* A square with a round hole of n edges in its middle. */
+static mr_mesh
+plate_with_hole(uint32_t n, double radius)
+{
+	mr_v3 *p = MR_NEW(&ctx, 2 * n, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * n, mr_tri);
+
+	for (uint32_t i = 0; i < n; i++) {
+		double a = 2 * MR_PI * i / n, x = cos(a), y = sin(a), far = fmax(fabs(x), fabs(y));
+		uint32_t j = (i + 1) % n;
+		p[i] = mr_vec(radius * x, radius * y, 0);
+		p[n + i] = mr_vec(x / far, y / far, 0);
+		t[2 * i] = (mr_tri){ { i, n + i, n + j } };
+		t[2 * i + 1] = (mr_tri){ { i, n + j, j } };
+	}
+	return (mr_mesh){ "plate", p, t, 2 * n, 2 * n };
+}
+
+static double
+boundary_length(const mr_mesh *m)
+{
+	mr_topology topo;
+	double sum = 0;
+
+	assert_int_equal(mr_topology_build(&ctx, m, &topo), MR_OK);
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		if (topo.twin[h] == MR_NONE)
+			sum += mr_dist(m->p[mr_he_from(m, h)], m->p[mr_he_to(m, h)]);
+	return sum;
+}
+
+/* A hole that is smaller than an edge stays a round hole. */
+static void
+boundary_loops_are_not_crushed(void **state)
+{
+	(void)state;
+	for (int adaptive = 0; adaptive < 2; adaptive++)
+		for (double radius = 0.02; radius < 0.5; radius *= 2) {
+			mr_remesh_opts o = MR_REMESH_DEFAULTS;
+			mr_mesh m = plate_with_hole(128, radius), r;
+			double round = 2 * MR_PI * radius, kept;
+			mr_places map;
+			o.length = 0.3;
+			o.adaptive = adaptive * 0.001;
+			r = remeshed(&m, &o, &map);
+			kept = (boundary_length(&r) - 8) / round;
+			assert_true(kept > 0.97 && kept < 1);
+			assert_int_equal(count(&r).euler, 0);
+			mr_ctx_free(&ctx);
+		}
+}
+
+/* Along the edges of a cube nothing is curved, but where they are not kept all is. */
+static void
+creases_are_as_curved_as_they_are_along_them(void **state)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_mesh m = shape(MR_CUBE, 3000), r;
+	mr_places map;
+	size_t rounded;
+
+	(void)state;
+	o.length = 0.1;
+	o.adaptive = 0.001;
+	rounded = remeshed(&m, &o, &map).nf;
+	o.feature = 40;
+	r = remeshed(&m, &o, &map);
+	assert_true(r.nf < 400 && rounded > 4000);
+	assert_true(fabs(mr_mesh_area(&ctx, &r) / mr_mesh_area(&ctx, &m) - 1) < 1e-9);
+}
+
 /* The side of a cylinder, of n facets as long as it is. */
 static mr_mesh
 slivers(uint32_t n, double radius)
@@ -375,6 +446,9 @@ main(void)
 		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, setup, teardown),
 		cmocka_unit_test_setup_teardown(failing_memory_is_reported_at_every_place, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, setup, teardown),
+		cmocka_unit_test_setup_teardown(boundary_loops_are_not_crushed, setup, teardown),
+		cmocka_unit_test_setup_teardown(
+		    creases_are_as_curved_as_they_are_along_them, setup, teardown),
 		cmocka_unit_test_setup_teardown(slivers_take_no_more_faces_than_their_area, setup, teardown),
 		cmocka_unit_test_setup_teardown(
 		    what_would_take_too_much_is_refused_with_the_length_to_take, setup, teardown),
