@@ -229,7 +229,8 @@ length_is_good(mr_v3 other, mr_v3 v, mr_v3 p, double longest2, bool *strung)
 /*
  * True where moving v to p turns no face around v that stays (those with vertex `gone` do not) by
  * more than 60 degrees or away from `facing`, makes no needle worse and no edge longer than `longest`, but
- * for what is so already: `*strung` then.
+ * for what is so already: `*strung` then.  The face of such an edge stays in its plane: far from here it
+ * might meet the other side of a plate.
  */
 static bool
 move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, double longest2, bool *strung)
@@ -239,13 +240,18 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, 
 	do {
 		uint32_t b = mr_dyn_to(d, h), c = mr_dyn_apex(d, h);
 		mr_v3 pb = d->p[b], pc = d->p[c], pv = d->p[v];
+		bool strings = false;
 		if (b != gone && c != gone) {
 			mr_v3 before = mr_cross(mr_sub(pb, pv), mr_sub(pc, pv)),
 			      after = mr_cross(mr_sub(pb, p), mr_sub(pc, p));
 			double shape = mr_dyn_shape(pv, pb, pc), moved = mr_dyn_shape(p, pb, pc);
-			if (!length_is_good(pb, pv, p, longest2, strung) ||
-			    !length_is_good(pc, pv, p, longest2, strung))
+			if (!length_is_good(pb, pv, p, longest2, &strings) ||
+			    !length_is_good(pc, pv, p, longest2, &strings))
 				return false;
+			if (strings && square(mr_dot(before, mr_sub(p, pv))) >
+					   square(MR_FAR) * longest2 * mr_norm2(before))
+				return false;
+			*strung |= strings;
 			if (moved < MR_NEEDLE && moved < 0.2 * shape)
 				return false;
 			if (mr_dot(after, facing) <= 0 && mr_dot(before, facing) > 0)
@@ -338,7 +344,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	mr_dyn_collapse(d, h, p);
 	r->strung[b] = strung;
 	r->done->strung += strung;
-	if (d->scale && d->scale[b] < 1 && d->kind[b] == MR_SMOOTH)
+	if ((strung || (d->scale && d->scale[b] < 1)) && d->kind[b] == MR_SMOOTH)
 		d->at[b] = mr_remesh_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).at.face;
 	r->done->collapses++;
 	return true;
