@@ -321,26 +321,23 @@ count_flawed(const remesher *r, size_t *count)
 	return MR_OK;
 }
 
-/* Mends as the last resort; before, but for the first time, finer where it is flawed and one more round. */
+/* Finer where it is flawed, and one more round. */
 static mr_status
-mend_last(remesher *r, bool refine)
+refine(remesher *r)
 {
-	if (refine) {
-		if (!r->d.scale)
-			MR_TRY(mr_refine_begin(r->ctx, &r->d));
-		MR_TRY(mr_refine_flaws(r->ctx, &r->d, &r->source));
-		mr_refine_grade(&r->d, &r->source);
-		MR_TRY(one_round(r, false));
-		MR_TRY(equalize_areas(r));
-	}
-	return mr_mend_flaws(r->ctx, &r->d, &r->source, true);
+	if (!r->d.scale)
+		MR_TRY(mr_refine_begin(r->ctx, &r->d));
+	MR_TRY(mr_refine_flaws(r->ctx, &r->d, &r->source));
+	mr_refine_grade(&r->d, &r->source);
+	MR_TRY(one_round(r, false));
+	return equalize_areas(r);
 }
 
 /* What is around the flaws, as far as finer edges there change anything. */
 static mr_status
 cut_flaws(const remesher *r, mr_patch *patch)
 {
-	enum { RINGS = 8 };
+	enum { RINGS = 3 };
 	const mr_dyn *d = &r->d;
 	uint32_t *corner;
 	size_t count, n = 0;
@@ -358,12 +355,14 @@ cut_flaws(const remesher *r, mr_patch *patch)
 
 /*
  * The last resort, around the flaws that are left: once as it is, then with edges half as long there, as long
- * as that leaves fewer; the state with the fewest stays, the first of them.
+ * as that leaves fewer; the state with the fewest stays, the first of them.  Where the finer edges leave more
+ * than MANY times as many the surface is thinner than they are all over: of 63 such rounds 24 did, to mend
+ * them took nine tenths of the time, and a quarter of the flaws that all together took out.
  */
 static mr_status
 try_again(remesher *r)
 {
-	enum { TRIES = 4 };
+	enum { TRIES = 4, MANY = 8 };
 	remesher part = *r;
 	mr_patch patch;
 	size_t least, left;
@@ -374,7 +373,12 @@ try_again(remesher *r)
 	MR_TRY(count_flawed(&part, &least));
 	left = least;
 	for (int i = 0; i < TRIES && (fewer || i == 1) && left > 0; i++) {
-		MR_TRY(mend_last(&part, i > 0));
+		if (i > 0)
+			MR_TRY(refine(&part));
+		MR_TRY(count_flawed(&part, &left));
+		if (left > MANY * least)
+			break;
+		MR_TRY(mr_mend_flaws(r->ctx, &part.d, &part.source, true));
 		MR_TRY(count_flawed(&part, &left));
 		fewer = left < least;
 		if (fewer) {
