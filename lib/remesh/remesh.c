@@ -207,22 +207,6 @@ run(remesher *r)
 /* How much finer and coarser than the uniform length adapted lengths may be. */
 static const double ADAPTIVE_RANGE = 5;
 
-/* Areas are squared, and so are their products: beyond these numbers overflow or vanish. */
-static const double LEAST_DIAGONAL = 1e-30, MOST_DIAGONAL = 1e30;
-
-static mr_status
-check_size(remesher *r, const mr_mesh *m)
-{
-	double diagonal = mr_mesh_diagonal(m);
-
-	if (!(diagonal >= LEAST_DIAGONAL && diagonal <= MOST_DIAGONAL))
-		return mr_fail(r->ctx, MR_ERANGE, "%s: the diagonal is %g, not between %g and %g", m->name,
-		    diagonal, LEAST_DIAGONAL, MOST_DIAGONAL);
-	if (!(mr_mesh_area(r->ctx, m) > 0))
-		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
-	return MR_OK;
-}
-
 static mr_status
 set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 {
@@ -230,7 +214,8 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	       adaptive = r->o->adaptive * (r->o->adaptive_relative ? diagonal : 1),
 	       uniform = r->o->length * (r->o->length_relative ? diagonal : 1);
 
-	MR_TRY(check_size(r, m));
+	if (!(mr_mesh_area(r->ctx, m) > 0))
+		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
 	if (!(uniform > 0))
 		uniform = r->o->ratio * mr_mesh_edge_scale(r->ctx, m);
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
@@ -412,8 +397,8 @@ report(const remesher *r)
 		.seconds_areas = r->seconds_areas };
 }
 
-mr_status
-mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
+static mr_status
+remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result)
 {
 	remesher r = { .ctx = ctx, .o = o, .wanted = result != NULL };
@@ -434,5 +419,47 @@ mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, 
 	if (result)
 		*result = report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
+	return MR_OK;
+}
+
+/* The positions multiplied by a power of two, which loses nothing. */
+static mr_status
+scaled(mr_ctx *ctx, const mr_mesh *m, int exponent, mr_mesh *out)
+{
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+
+	if (!p)
+		return MR_EMEM;
+	for (size_t v = 0; v < m->nv; v++)
+		p[v] = mr_vec(
+		    ldexp(m->p[v].x, exponent), ldexp(m->p[v].y, exponent), ldexp(m->p[v].z, exponent));
+	*out = *m;
+	out->p = p;
+	return MR_OK;
+}
+
+mr_status
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
+    mr_remesh_result *result)
+{
+	/* areas are squared, and so are their products: beyond these numbers overflow or vanish */
+	const double least = 1e-30, most = 1e30;
+	double diagonal = mr_mesh_diagonal(m);
+	mr_remesh_opts unit = *o;
+	mr_mesh small, found;
+	int exponent;
+
+	if ((diagonal >= least && diagonal <= most) || !(diagonal > 0) || !isfinite(diagonal))
+		return remesh(ctx, m, o, out, map, result);
+	exponent = ilogb(diagonal);
+	if (!o->length_relative)
+		unit.length = ldexp(o->length, -exponent);
+	if (!o->adaptive_relative)
+		unit.adaptive = ldexp(o->adaptive, -exponent);
+	MR_TRY(scaled(ctx, m, -exponent, &small));
+	MR_TRY(remesh(ctx, &small, &unit, &found, map, result));
+	MR_TRY(scaled(ctx, &found, exponent, out));
+	if (result)
+		result->length = ldexp(result->length, exponent);
 	return MR_OK;
 }

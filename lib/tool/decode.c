@@ -110,7 +110,7 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	if (longest > coarse * base_edge)
 		snprintf(advice, sizeof advice,
 		    "; its edges are long, up to %.3g: split them first, by mr-subdivide --longest %.3g",
-		    longest, coarse * base_edge);
+		    longest, base_edge);
 	mr_warn(ctx,
 	    "%zu edges of mesh are folded and %zu pairs of near faces intersect that did not before, most of "
 	    "them at vertex %u (%.4g, %.4g, %.4g)%s",
