@@ -320,6 +320,8 @@ typedef struct mr_remesh_opts {
 	size_t area_passes;   /* of area-based smoothing at most */
 	double gravity;       /* exponent of the area in the centroid; 1 is the paper's */
 	double feature;       /* dihedral angle in degrees from which an edge is kept; 180: none */
+	bool feature_auto;    /* that angle is found, where the model has such edges */
+	size_t vertices, faces; /* to come near, whatever the length; 0: by the length */
 	double adaptive;      /* distance of an edge to the surface that sets the lengths; 0: uniform */
 	bool project;         /* keep the vertices on the input surface */
 	bool length_relative; /* length is a share of the bounding box's diagonal */
@@ -329,7 +331,7 @@ typedef struct mr_remesh_opts {
 
 #define MR_REMESH_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		0, 0.95, 5, 20, 1.5, 180, 0, true, false, false, NULL                                        \
+		0, 0.95, 5, 20, 1.5, 180, false, 0, 0, 0, true, false, false, NULL                                        \
 	}
 
 typedef struct mr_remesh_result {
@@ -339,6 +341,8 @@ typedef struct mr_remesh_result {
 	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
 	size_t flipped_before, flipped; /* faces that point against the input at all corners */
 	size_t folded_before, folded;   /* edges */
+	double feature;                 /* the angle from which edges are kept, 180: none are */
+	size_t sharp_edges, sharp_lost; /* of the input: kept, and those from which the kept ones are gone */
 	double seconds_rounds, seconds_areas;
 } mr_remesh_result;
 

@@ -171,13 +171,15 @@ mr_remesh_demand(const mr_dyn *d, const mr_remesh_source *s)
 	return sum;
 }
 
+static const double ROUNDED_UP = 1.05; /* whatever two digits make of it */
+
 mr_status
 mr_too_fine(mr_ctx *ctx, const mr_remesh_source *s, double faces, double most, double length)
 {
 	return mr_fail(ctx, MR_ERANGE,
-	    "%s: edges of length %g take about %.2g faces or more, where at most %.2g may be: take a length "
+	    "%s: edges of length %g take about %.3g faces or more, where at most %.3g may be: take a length "
 	    "of %.2g",
-	    s->m->name, s->uniform, faces, most, length);
+	    s->m->name, s->uniform, faces, most, ROUNDED_UP * length);
 }
 
 double

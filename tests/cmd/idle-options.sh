@@ -18,6 +18,9 @@ mr-import --points --repair
 mr-remesh -L 2% -r 1
 mr-subdivide --longest 1 -n 1
 mr-remesh -a 0 --gravity 1
+mr-remesh --faces 9 --vertices 9
+mr-remesh --faces 9 -L 1
+mr-remesh --vertices 9 -r 1
 mr-pose -H 1 --script script
 mr-compare -l mesh -a mesh
 mr-compare --vertices --samples 7

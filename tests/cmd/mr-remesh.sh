@@ -25,6 +25,27 @@ mr-import plate.off | mr-remesh -L .1 --stats stats.json >/dev/null && echo "$(f
 echo 'edges of ten and of twenty times the thickness: what is folded is merged away'
 mr-import plate.off | mr-remesh -L .2 --stats stats.json >/dev/null && echo "$(figure flipped stats.json) $(figure folded stats.json)"
 sed 's/ \.02$/ .005/' plate.off >thin.off && mr-import thin.off | mr-remesh -L .1 --stats stats.json >/dev/null && echo "$(figure flipped stats.json) $(figure folded stats.json)"
+echo 'the sharp edges of a cube are found and kept, a sphere has none'
+for shape in cube sphere; do
+	mr-make $shape -n 3000 | mr-remesh --feature auto -v --stats stats.json 2>err >/dev/null && sed 's/.*): //' err | grep sharp
+	echo "$(figure feature stats.json) $(figure sharp_edges stats.json) $(figure sharp_lost stats.json)"
+done
+echo 'as many as are wanted'
+for n in '--vertices 2000' '--faces 10000' '--vertices 5000 --adaptive 0.2%'; do
+	mr-make bumpy -n 4000 | mr-remesh $n --stats stats.json >/dev/null &&
+	    awk -v v="$(figure vertices stats.json)" -v f="$(figure faces stats.json)" -v n="$n" 'BEGIN {
+		split(n, word, " ")
+		x = (word[1] == "--faces" ? f : v) / word[2]
+		print n ": " (x > 0.95 && x < 1.05 ? "ok" : x) }'
+done
+echo 'a length that takes too much is refused with one to take'
+mr-make sphere -n 500 | mr-remesh -L 1e-9 2>&1 >/dev/null | sed 's/where at most [^ ]* may be: take a length of [0-9.e-]*/where at most M may be: take a length of L/'
+printf 'OFF\n3 1 0\n0 0 0\n1e7 0 0\n0 1e-7 0\n3 0 1 2\n' >needle.off
+mr-import needle.off | mr-remesh >out.mrs
+echo $?
+echo 'two triangles on one another stay'
+printf 'OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n' >pillow.off
+mr-import pillow.off | mr-remesh --stats stats.json >/dev/null && figure faces stats.json
 echo 'not a manifold'
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >fan.off
 mr-import fan.off | mr-remesh >out.mrs

@@ -1,5 +1,6 @@
 /* Laws of remeshing: topology, regularity, the source map, and the operations it is made of. */
 #include "op/voronoi_area.h"
+#include "remesh/feature_loss.h"
 #include "remesh/remesh.h"
 #include "remesh_scene.h"
 
@@ -247,6 +248,82 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces: mr-import --repair splits it");
 }
 
+/* What was made with edges has them found and kept; round and noisy surfaces have none. */
+static void
+sharp_edges_are_found_where_there_are_any(void **state)
+{
+	static const struct {
+		mr_solid solid;
+		double noise;
+		bool sharp;
+	} shapes[] = { { MR_CUBE, 0, true }, { MR_BOXES, 0, true }, { MR_CYLINDER, 0, true },
+		{ MR_SPHERE, 0, false }, { MR_TORUS, 0, false }, { MR_BUMPY, 0, false },
+		{ MR_SPHERE, 0.03, false }, { MR_KNOT, 0.01, false }, { MR_PLANE, 0, false } };
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+
+	(void)state;
+	o.feature_auto = true;
+	for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
+		mr_make_opts make = MR_MAKE_DEFAULTS;
+		mr_remesh_result result;
+		mr_places map;
+		mr_mesh m, r;
+		make.solid = shapes[i].solid;
+		make.vertices = 3000;
+		make.noise = shapes[i].noise;
+		assert_int_equal(mr_solid_make(&ctx, &make, &m), MR_OK);
+		assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, &result), MR_OK);
+		assert_true(shapes[i].sharp == (result.feature < 180));
+		assert_true(shapes[i].sharp == (result.sharp_edges > 0));
+		assert_int_equal(result.sharp_lost, 0);
+		if (shapes[i].sharp)
+			assert_true(fabs(mr_mesh_area(&ctx, &r) / mr_mesh_area(&ctx, &m) - 1) < 0.002);
+		mr_ctx_free(&ctx);
+	}
+}
+
+static void
+sharp_edges_that_are_gone_are_counted(void **state)
+{
+	size_t edges, lost;
+	scene x;
+
+	(void)state;
+	set_up(&x, shape(MR_CUBE, 1000), 40);
+	assert_int_equal(mr_feature_loss(&ctx, &x.d, &x.s, &edges, &lost), MR_OK);
+	assert_true(edges > 100 && lost == 0);
+	for (uint32_t h = 0; h < 3 * x.d.nf; h++)
+		if (x.d.p[x.d.v[h]].x < 0 && x.d.p[mr_dyn_to(&x.d, h)].x < 0)
+			mr_curves_set(&x.d.curves, h, MR_NONE);
+	assert_int_equal(mr_feature_loss(&ctx, &x.d, &x.s, &edges, &lost), MR_OK);
+	assert_true(lost > edges / 3 && lost < 2 * edges / 3);
+	for (uint32_t h = 0; h < 3 * x.d.nf; h++)
+		mr_curves_set(&x.d.curves, h, MR_NONE);
+	assert_int_equal(mr_feature_loss(&ctx, &x.d, &x.s, &edges, &lost), MR_OK);
+	assert_int_equal(lost, edges);
+}
+
+/* Within 5 %, of closed and open surfaces, with one length or adapted ones. */
+static void
+as_many_as_are_wanted(void **state)
+{
+	static const mr_solid solids[] = { MR_BUMPY, MR_KNOT, MR_PLANE };
+
+	(void)state;
+	for (size_t i = 0; i < 3; i++)
+		for (size_t n = 4000; n <= 16000; n *= 2)
+			for (int k = 0; k < 4; k++) {
+				mr_remesh_opts o = MR_REMESH_DEFAULTS;
+				mr_mesh m = shape(solids[i], 4000), r;
+				mr_places map;
+				o.adaptive = k < 2 ? 0 : 0.002 * mr_mesh_diagonal(&m);
+				*(k % 2 ? &o.vertices : &o.faces) = n;
+				r = remeshed(&m, &o, &map);
+				assert_true(fabs((double)(k % 2 ? r.nv : r.nf) / (double)n - 1) < 0.05);
+				mr_ctx_free(&ctx);
+			}
+}
+
 /* A square with a round hole of n edges in its middle. */
 static mr_mesh
 plate_with_hole(uint32_t n, double radius)
@@ -374,7 +451,8 @@ what_would_take_too_much_is_refused_with_the_length_to_take(void **state)
 		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, &r, &map, NULL), MR_ERANGE);
 		take = strstr(ctx.error, "take a length of ");
 		assert_non_null(take);
-		o.length = 500 * strtod(take + strlen("take a length of "), NULL); /* in no time */
+		o.length = strtod(take + strlen("take a length of "), NULL) *
+		           (i == 0 ? 1 : 500); /* in no time */
 		assert_int_equal(mr_remesh(&ctx, &shapes[i], &o, &r, &map, NULL), MR_OK);
 	}
 }
@@ -454,6 +532,9 @@ main(void)
 		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, setup, teardown),
 		cmocka_unit_test_setup_teardown(failing_memory_is_reported_at_every_place, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, setup, teardown),
+		cmocka_unit_test_setup_teardown(sharp_edges_are_found_where_there_are_any, setup, teardown),
+		cmocka_unit_test_setup_teardown(sharp_edges_that_are_gone_are_counted, setup, teardown),
+		cmocka_unit_test_setup_teardown(as_many_as_are_wanted, setup, teardown),
 		cmocka_unit_test_setup_teardown(boundary_loops_are_not_crushed, setup, teardown),
 		cmocka_unit_test_setup_teardown(
 		    creases_are_as_curved_as_they_are_along_them, setup, teardown),
