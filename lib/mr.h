@@ -493,7 +493,6 @@ typedef struct mr_decode_opts {
 		1, MR_FROM_ANY, MR_UNKNOWN, false                                                            \
 	}
 
-/* What of the mesh was sound before; of detail, where it was looked for. */
 typedef struct mr_decode_result {
 	size_t folded_edges; /* by more than 170 degrees */
 	size_t
