@@ -19,6 +19,7 @@ static const cmd_opt table[] = {
 	    "then so many rounds that make it as rigid as possible", NULL },
 	{ 0, "loose", CMD_CHOICE, &opts.loose, 0, 0, "follow|stay|refuse",
 	    "of parts without a constrained vertex: go as the surface nearest to them", NULL },
+	{ 0, "apart", CMD_FLAG, &opts.apart, 0, 0, "", "let parts that touch come apart", NULL },
 	{ 0, "flatten", CMD_FLAG, &opts.flatten, 0, 0, "",
 	    "without handles: solve for the free vertices as they are, as the paper does", NULL },
 	{ 0, "basis", CMD_FLAG, &opts.basis, 0, 0, "", "also write the response to every handle", NULL },

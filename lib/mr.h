@@ -316,22 +316,22 @@ MR_API mr_status mr_smooth_frame(
 typedef struct mr_remesh_opts {
 	double length; /* target edge length; 0: ratio times the edge of the triangle of mean area */
 	double ratio;
-	size_t rounds;        /* of split, collapse, flip, relocate */
-	size_t area_passes;   /* of area-based smoothing at most */
-	double gravity;       /* exponent of the area in the centroid; 1 is the paper's */
-	double feature;       /* dihedral angle in degrees from which an edge is kept; 180: none */
-	bool feature_auto;    /* that angle is found, where the model has such edges */
+	size_t rounds;          /* of split, collapse, flip, relocate */
+	size_t area_passes;     /* of area-based smoothing at most */
+	double gravity;         /* exponent of the area in the centroid; 1 is the paper's */
+	double feature;         /* dihedral angle in degrees from which an edge is kept; 180: none */
+	bool feature_auto;      /* that angle is found, where the model has such edges */
 	size_t vertices, faces; /* to come near, whatever the length; 0: by the length */
-	double adaptive;      /* distance of an edge to the surface that sets the lengths; 0: uniform */
-	bool project;         /* keep the vertices on the input surface */
-	bool length_relative; /* length is a share of the bounding box's diagonal */
+	double adaptive;        /* distance of an edge to the surface that sets the lengths; 0: uniform */
+	bool project;           /* keep the vertices on the input surface */
+	bool length_relative;   /* length is a share of the bounding box's diagonal */
 	bool adaptive_relative;
 	const char *layer; /* NULL: base, else mesh */
 } mr_remesh_opts;
 
 #define MR_REMESH_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		0, 0.95, 5, 20, 1.5, 180, false, 0, 0, 0, true, false, false, NULL                                        \
+		0, 0.95, 5, 20, 1.5, 180, false, 0, 0, 0, true, false, false, NULL                           \
 	}
 
 typedef struct mr_remesh_result {
@@ -447,6 +447,7 @@ typedef struct mr_solve_opts {
 	int rotations;     /* mr_rotations_choice, of poses by handles */
 	size_t arap;       /* rounds of as-rigid-as-possible steps on top of a pose */
 	int loose;         /* mr_loose_choice, of parts without a constrained vertex */
+	bool apart;        /* parts that touch do not hold to each other */
 	bool flatten;      /* without handles: the undeformed solve of the paper; else nothing moves */
 	const char *layer; /* NULL: base, else control */
 } mr_solve_opts;
@@ -454,7 +455,7 @@ typedef struct mr_solve_opts {
 #define MR_SOLVE_DEFAULTS                                                                                    \
 	{                                                                                                    \
 		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                    \
-		    MR_ROTATIONS_INTERPOLATED, 0, MR_LOOSE_FOLLOW, false, NULL                               \
+		    MR_ROTATIONS_INTERPOLATED, 0, MR_LOOSE_FOLLOW, false, false, NULL                        \
 	}
 
 typedef struct mr_solve_result {
@@ -494,9 +495,9 @@ typedef struct mr_decode_opts {
 	}
 
 typedef struct mr_decode_result {
-	size_t folded_edges; /* by more than 170 degrees */
-	size_t
-	    intersections; /* pairs of faces at most 12 faces apart; of deltas only where an edge is folded */
+	size_t folded_edges;  /* by more than 170 degrees */
+	size_t intersections; /* of faces at most 12 faces apart; of deltas only where an edge is folded */
+	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 } mr_decode_result;
 
 /* cache: or NULL. */
@@ -562,8 +563,7 @@ MR_API mr_status mr_shrinkwrap_frame(
 typedef struct mr_simplify_opts {
 	size_t faces;         /* stop at so many, or one less; 0: by ratio */
 	double ratio;         /* share of the faces to stop at; 0: by error; all 0: by the frame */
-	double error;         /* no vertex farther than this from the planes of the faces merged into it, root
-	                         mean square by area; 0: no such limit */
+	double error;         /* no vertex farther from the planes of the faces merged into it; 0: no limit */
 	bool error_relative;  /* error is a share of the bounding box's diagonal */
 	double boundary;      /* weight of the planes that hold boundary edges */
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */

@@ -5,6 +5,7 @@
 #include "base/disjoint_sets.h"
 #include "edit/deform_loose.h"
 #include "edit/deform_rotations.h"
+#include "edit/deform_stitch.h"
 
 /* Regions */
 
@@ -144,15 +145,19 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	double started = mr_seconds();
 	bool *anchored = MR_NEW(ctx, d->nv, bool);
 	uint32_t *part = mr_sets_new(ctx, d->nv);
+	mr_mesh stitched;
 
 	if (!anchored || !part)
 		return MR_EMEM;
 	count_regions(d);
 	MR_TRY(check_problem(ctx, d, rest));
-	MR_TRY(find_anchored(ctx, d, rest, anchored, part));
+	stitched = *rest;
+	if (!d->opts.apart)
+		MR_TRY(mr_stitch(ctx, rest, d->region, &stitched));
+	MR_TRY(find_anchored(ctx, d, &stitched, anchored, part));
 	MR_TRY(settle_loose(ctx, d, rest, anchored, part));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
-	MR_TRY(mr_patch_build(ctx, rest, anchored, d->opts.order, &d->patch));
+	MR_TRY(mr_patch_build(ctx, &stitched, anchored, d->opts.order, &d->patch));
 	MR_TRY(make_workspace(ctx, d));
 	return mr_deform_assemble(ctx, d, rest, started);
 }

@@ -22,6 +22,7 @@ typedef struct mr_deform_opts {
 	bool turned;           /* poses by interpolated rotations; else linearly, as a basis always does */
 	size_t rounds;         /* of as-rigid-as-possible steps, on top of a pose */
 	int loose;             /* mr_loose_choice: what free components without a constraint do */
+	bool apart;            /* components that touch are not stitched to each other */
 } mr_deform_opts;
 
 #define MR_DEFORM_DEFAULTS                                                                                   \

@@ -9,14 +9,16 @@
 
 #include "edit/deform_cache.h"
 #include "mesh/edges.h"
+#include "space/contact.h"
 #include "subdivide/displaced.h"
 
-/* The faces around the vertices of base, and the edges of mesh, which a delta mostly keeps. */
+/* The faces around the vertices of base, and the edges and contacts of mesh, which a delta mostly keeps. */
 typedef struct mr_connectivity_cache {
 	mr_incidence base;
 	mr_edges mesh;
 	uint64_t base_serial, mesh_serial; /* of their triangles; 0: none */
-	size_t told;                       /* of harm, since the last key */
+	mr_contacts contacts;              /* of mesh */
+	size_t told, told_apart; /* of harm, since the last key */
 } mr_connectivity_cache;
 
 struct mr_cache {

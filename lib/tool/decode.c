@@ -39,8 +39,8 @@ base_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *b
 
 /*
  * Poses the layer by its response, and warns of what that cannot do, once from key to key.  Half-way to a
- * handle that is twisted by 60 degrees a limb is 0.87 times as wide, and models that are bent or twisted by so
- * much lose 3 to 15 % of their volume; by 90 degrees up to 27 %.
+ * handle that is twisted by 60 degrees a limb is 0.87 times as wide, and models that are bent or twisted by
+ * so much lose 3 to 15 % of their volume; by 90 degrees up to 27 %.
  */
 static mr_status
 respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
@@ -63,19 +63,31 @@ respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
 }
 
 static mr_status
-mesh_edges(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *mesh, mr_edges *edges)
+find_neighbours(mr_ctx *ctx, const mr_mesh *mesh, mr_edges *edges, mr_contacts *contacts)
+{
+	const double touch = 0.001; /* of the diagonal */
+
+	MR_TRY(mr_contacts_find(ctx, mesh, touch * mr_mesh_diagonal(mesh), contacts));
+	return mr_edges_build(ctx, mesh, edges);
+}
+
+/* The edges of mesh, and where its parts touch. */
+static mr_status
+mesh_neighbours(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *mesh, mr_edges *edges,
+    mr_contacts *contacts)
 {
 	mr_connectivity_cache *kept;
 
 	if (!cache)
-		return mr_edges_build(ctx, mesh, edges);
+		return find_neighbours(ctx, mesh, edges, contacts);
 	kept = &cache->connectivity;
 	if (!still_there(ctx, f, mesh->name, &kept->mesh_serial, &cache->mesh_keep)) {
-		MR_TRY(mr_cache_say(
-		    ctx, &cache->mesh_keep, mr_edges_build(&cache->mesh_keep, mesh, &kept->mesh)));
+		MR_TRY(mr_cache_say(ctx, &cache->mesh_keep,
+		    find_neighbours(&cache->mesh_keep, mesh, &kept->mesh, &kept->contacts)));
 		kept->mesh_serial = mr_frame_find(f, mesh->name, "triangles")->serial;
 	}
 	*edges = kept->mesh;
+	*contacts = kept->contacts;
 	return MR_OK;
 }
 
@@ -117,22 +129,45 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	    h->folds, h->pairs, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z, advice);
 }
 
+/* Parts that touched and do not any more; warns of them as tell does. */
+static size_t
+look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contacts *contacts, const mr_v3 *p)
+{
+	const double apart = 0.01; /* of the diagonal */
+	size_t *told = cache ? &cache->connectivity.told_apart : NULL;
+	uint32_t v;
+	size_t n = mr_contacts_open(contacts, mesh, p, apart * mr_mesh_diagonal(mesh), &v);
+
+	if (n == 0 || (told && n < 2 * *told))
+		return n;
+	if (told)
+		*told = n;
+	mr_warn(ctx,
+	    "%zu of %zu vertices at which parts of mesh touch have come apart by over 1 %% of the diagonal, "
+	    "vertex "
+	    "%u (%.4g, %.4g, %.4g) the farthest",
+	    n, contacts->n, v, p[v].x, p[v].y, p[v].z);
+	return n;
+}
+
 /* What the motion from the frame's mesh to p has done to it. */
 static mr_status
 look_for_harm(
     mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_v3 *p, mr_decode_result *result)
 {
+	mr_contacts contacts;
 	mr_edges edges;
 	mr_mesh mesh;
 	mr_harm harm;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
-	MR_TRY(mesh_edges(ctx, cache, f, &mesh, &edges));
+	MR_TRY(mesh_neighbours(ctx, cache, f, &mesh, &edges, &contacts));
 	MR_TRY(mr_harm_find(ctx, &mesh, &edges, p, f->key, &harm));
 	if (cache && f->key)
-		cache->connectivity.told = 0;
+		cache->connectivity.told = cache->connectivity.told_apart = 0;
 	tell(ctx, cache, &mesh, base, p, &harm);
-	*result = (mr_decode_result){ harm.folds, harm.pairs };
+	*result = (mr_decode_result){ harm.folds, harm.pairs,
+		look_for_gaps(ctx, cache, &mesh, &contacts, p) };
 	return MR_OK;
 }
 

@@ -31,6 +31,7 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	deform->turned = o->rotations == MR_ROTATIONS_INTERPOLATED;
 	deform->rounds = o->arap;
 	deform->loose = o->flatten && !o->basis && o->loose == MR_LOOSE_FOLLOW ? MR_LOOSE_STAY : o->loose;
+	deform->apart = o->apart || o->flatten;
 	deform->choose = o->solver == MR_SOLVER_AUTO && !o->unsymmetric;
 	deform->solver.kind = o->solver != MR_SOLVER_AUTO ? (mr_solver_kind)(o->solver - MR_SOLVER_CHOLESKY)
 	                      : o->unsymmetric            ? MR_LU

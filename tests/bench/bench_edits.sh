@@ -102,9 +102,9 @@ awk -F '\t' '
 	BEGIN {
 		print "folds, near pairs: before, warp, result; edges off by over 2x (%), mean |log2| of edges, volume: warp, result;"
 		print "astray: vertices of the fixed and the moved fifth that are not where they belong (%);"
-		print "left: parts in between that stay behind"
-		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6s %4s %8s\n", "model", "edit", "exit", "warned",
-		    "folds", "near pairs", "off %", "edges", "volume", "astray", "left", "seconds"
+		print "left: parts in between that stay behind; apart: vertices that touched other parts and do not any more"
+		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6s %4s %5s %8s\n", "model", "edit", "exit", "warned",
+		    "folds", "near pairs", "off %", "edges", "volume", "astray", "left", "apart", "seconds"
 	}
 	$3 != 0 || $6 !~ /^{/ {
 		refused[$2]++
@@ -113,11 +113,11 @@ awk -F '\t' '
 	}
 	{
 		wrecked = figure("wrecked") + 0
-		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6.1f %4d %8.2f%s\n", $1, $2, $3, $4,
+		printf "%-32s %-5s %4s %-12s %-13s %-17s %-12s %-12s %-12s %6.1f %4d %5d %8.2f%s\n", $1, $2, $3, $4,
 		    figure("folds_before") " " figure("folds_warp") " " figure("folds"),
 		    figure("near_pairs_before") " " figure("near_pairs_warp") " " figure("near_pairs"),
 		    two("off", 100), two("edge_log2", 1), figure("volume") == "null" ? "open" : two("volume", 1),
-		    100 * figure("astray"), figure("parts_left"), $5,
+		    100 * figure("astray"), figure("parts_left"), figure("apart"), $5,
 		    wrecked ? " wrecked" : ""
 		edited[$2]++
 		count[$2] += wrecked
@@ -125,6 +125,8 @@ awk -F '\t' '
 		idle[$2] += !wrecked && $4 != "-"
 		astray[$2] += figure("astray") > 0.05
 		left[$2] += figure("parts_left") > 0
+		touching[$2] += figure("touching")
+		apart[$2] += figure("apart")
 		folds[$2] += figure("folds_more")
 		pairs[$2] += figure("pairs_more")
 	}
@@ -134,8 +136,9 @@ awk -F '\t' '
 			e = edit[i]
 			printf "%s: %d edited, %d refused; wrecked %d, %d of them in silence; warned of %d that are not; ", e,
 			    edited[e], refused[e], count[e], silent[e], idle[e]
-			printf "more than the warp: %d folds, %d near pairs; %d astray by over 5 %%, %d leave parts behind\n",
+			printf "more than the warp: %d folds, %d near pairs; %d astray by over 5 %%, %d leave parts behind; ",
 			    folds[e], pairs[e], astray[e], left[e]
+			printf "%d of %d vertices that touched came apart\n", apart[e], touching[e]
 			printf "%s-wrecked mr %d models\n%s-silent mr %d models\n", e, count[e], e, silent[e]
 		}
 	}' rows | tee table

@@ -21,6 +21,7 @@
 #include "mesh/fold.h"
 #include "mesh/layers.h"
 #include "render/colormap.h"
+#include "space/contact.h"
 #include "space/self_intersect.h"
 
 #include <fcntl.h>
@@ -36,6 +37,10 @@ enum { NEAR = 12, FOLDS_MORE = 5, PAIRS_MORE = 100 };
 /* Vertices of the fixed and the moved fifth that are farther than this from where they belong, as a share of
  * the diagonal, are astray. */
 static const double ASTRAY = 0.05;
+
+/* Components touch that are nearer than this to each other, and have come apart when they are farther, as
+ * shares of the diagonal. */
+static const double TOUCH = 0.001, APART = 0.01;
 
 /* What is not there any more counts as so many times too short or thin, as a binary logarithm. */
 static const double LOST = 20;
@@ -59,6 +64,7 @@ typedef struct figures {
 	size_t folds, near_pairs;
 	double volume;
 	double off;         /* share of the edges longer than twice or shorter than half what they were */
+	size_t apart;       /* vertices that touched another component */
 	double edge_log2;   /* mean |log2| of the ratio of lengths */
 	double aspect_log2; /* mean log2 of the ratio of the singular values of the faces' maps */
 } figures;
@@ -430,9 +436,26 @@ count_parts_left(mr_ctx *ctx, const edit *e, const surface *s, size_t *left)
 	return MR_OK;
 }
 
+/* Vertices that touch another component before, and those of them that do not any more. */
 static mr_status
-measure(mr_ctx *ctx, const surface *s, figures *figure)
+count_apart(mr_ctx *ctx, const edit *e, const surface *s, figures *figure)
 {
+	double diagonal = mr_box_diagonal(e->box);
+	mr_contacts contacts;
+	uint32_t widest;
+
+	MR_TRY(mr_contacts_find(ctx, &s->m, TOUCH * diagonal, &contacts));
+	figure[BEFORE].apart = contacts.n;
+	for (int state = WARP; state <= AFTER; state++)
+		figure[state].apart = mr_contacts_open(
+		    &contacts, &s->m, s->p[state], APART * diagonal, &widest);
+	return MR_OK;
+}
+
+static mr_status
+measure(mr_ctx *ctx, const edit *e, const surface *s, figures *figure)
+{
+	MR_TRY(count_apart(ctx, e, s, figure));
 	MR_TRY(count_near_pairs(ctx, s, figure));
 	for (int state = 0; state < STATES; state++) {
 		mr_mesh m = mesh_at(s, state);
@@ -491,6 +514,7 @@ print_figures(const edit *e, const surface *s, const figures *figure, size_t lef
 	    s->m.nv, s->m.nf);
 	print_count("folds", figure, offsetof(figures, folds));
 	print_count("near_pairs", figure, offsetof(figures, near_pairs));
+	printf(",\"touching\":%zu,\"apart_warp\":%zu,\"apart\":%zu", b->apart, w->apart, a->apart);
 	print_real("off_warp", w->off);
 	print_real("off", a->off);
 	print_real("edge_log2_warp", w->edge_log2);
@@ -632,7 +656,7 @@ judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path, const
 	s.p[AFTER] = after.p;
 	MR_TRY(warp(ctx, e, &s));
 	MR_TRY(build_surface(ctx, &s));
-	MR_TRY(measure(ctx, &s, figure));
+	MR_TRY(measure(ctx, e, &s, figure));
 	MR_TRY(count_parts_left(ctx, e, &s, &left));
 	print_figures(e, &s, figure, left);
 	return picture ? write_picture(ctx, e, &s, picture, wrecked(figure)) : MR_OK;

@@ -87,6 +87,19 @@ mr-pose --rotate 1,2,3,240 --frames 8 basis.mrs | mr-decode 2>&1 >far.mrs | grep
 mr-pose --rotate 1,2,3,60 basis.mrs | mr-decode 2>&1 >far.mrs | grep response
 mr-pose --rotate 1,2,3,240 --frames 8 basis.mrs | mr-solve | mr-decode 2>&1 >far.mrs | grep response
 
+echo 'parts that touch, held at one end and bent at the other, and then let come apart'
+mr-make cylinder -n 600 | mr-export -f off - | awk '
+	NR == 2 { n = $1; print 2 * $1, 2 * $2, 0; next }
+	NR == 1 { print; next }
+	NR <= n + 2 { a[NR] = $1 " " $2 " " $3 + 3.999; print; next }
+	{ if (!shown++) for (i = 3; i <= n + 2; i++) print a[i]; print; f[++m] = 3 " " $2 + n " " $3 + n " " $4 + n }
+	END { for (i = 1; i <= m; i++) print f[i] }' >rods.off
+mr-import rods.off | mr-smooth -t 0 | mr-encode | mr-select --free all --fixed below:z,0.1 --handle 0=above:z,0.9 |
+    mr-pose --rotate 1,0,0,60 --frames 4 -o rods.mrs
+mr-solve rods.mrs | mr-decode -o held.mrs
+mr-solve --apart rods.mrs | mr-decode --stats gaps.json -o apart.mrs
+grep -o '"apart":[0-9]*' gaps.json
+
 echo 'refusals'
 refused() {
 	mr-decode "$@" >out

@@ -585,6 +585,75 @@ test_loose_components_follow(void **state)
 	mr_deform_free(d);
 }
 
+/* m, and after it m moved by `shift`. */
+static mr_mesh
+twice(const mr_mesh *m, mr_v3 shift)
+{
+	mr_v3 *p = MR_NEW(&ctx, 2 * m->nv, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, 2 * m->nf, mr_tri);
+
+	for (size_t v = 0; v < m->nv; v++) {
+		p[v] = m->p[v];
+		p[m->nv + v] = mr_add(m->p[v], shift);
+	}
+	for (size_t f = 0; f < m->nf; f++) {
+		t[f] = m->t[f];
+		for (int k = 0; k < 3; k++)
+			t[m->nf + f].v[k] = m->t[f].v[k] + (uint32_t)m->nv;
+	}
+	return (mr_mesh){ m->name, p, t, 2 * m->nv, 2 * m->nf };
+}
+
+/* The largest distance of the vertices of the first half from those of the second. */
+static double
+widest_gap(const mr_mesh *two, const mr_v3 *p)
+{
+	return largest_distance(p, p + two->nv / 2, two->nv / 2);
+}
+
+/* Two sheets on each other, of which the lower is held at one side and the upper is moved at the other: they
+ * stay on each other, unless they are told not to; rigid motions of both are exact. */
+static void
+test_parts_that_touch_stay_together(void **state)
+{
+	mr_mesh one = grid(40, 0.3, wavy), two = twice(&one, mr_vec(0, 0, 0.005));
+	uint32_t *region = MR_NEW(&ctx, two.nv, uint32_t);
+	mr_affine maps[2] = { screw(0.6, 0.2, 1), screw(0.6, 0.2, 1) };
+	mr_deform_opts opts = opts_of(2, MR_AREAS_VORONOI, false);
+	mr_v3 *p = places(&two), *q = places(&two);
+	mr_deform *d;
+
+	(void)state;
+	for (size_t v = 0; v < one.nv; v++) {
+		region[v] = one.p[v].x < 0.2 ? FIXED : FREE;
+		region[one.nv + v] = one.p[v].x > 0.8 ? HANDLE : FREE;
+	}
+	for (int turned = 0; turned < 2; turned++) {
+		opts.turned = turned;
+		opts.apart = false;
+		d = deform_of(&two, region, opts);
+		pose(d, two.p, maps, 1, p);
+		assert_true(largest_distance(p, two.p, one.nv) > 0.3);
+		assert_true(widest_gap(&two, p) < 0.05);
+		mr_deform_free(d);
+		opts.apart = true;
+		d = deform_of(&two, region, opts);
+		pose(d, two.p, maps, 1, p);
+		assert_memory_equal(p, two.p, one.nv * sizeof *p);
+		assert_true(widest_gap(&two, p) > 0.7);
+		mr_deform_free(d);
+	}
+	for (size_t v = 0; v < one.nv; v++)
+		region[v] = region[v] == FIXED ? HANDLE + 1 : FREE;
+	opts.apart = false;
+	d = deform_of(&two, region, opts);
+	pose(d, two.p, maps, 2, p);
+	for (size_t v = 0; v < two.nv; v++)
+		q[v] = mr_apply(&maps[0], two.p[v]);
+	assert_same(&two, p, q, 1e-12);
+	mr_deform_free(d);
+}
+
 /* Folded, needle, zero-area and repeated faces: finite results, or a sentence. */
 static void
 test_degenerate_faces_give_no_nan(void **state)
@@ -721,6 +790,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_targets_are_reached, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative_is_direct, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_loose_components_follow, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_parts_that_touch_stay_together, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_degenerate_faces_give_no_nan, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_refusals, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_threads_and_runs_change_nothing, setup, teardown),

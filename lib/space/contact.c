@@ -1,0 +1,147 @@
+/* Contacts of components, by boxes around vertices. */
+#include "space/contact.h"
+
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "space/bvh.h"
+
+#include <math.h>
+
+/* component: of each vertex, the vertex that stands for it. */
+static mr_status
+label_components(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
+{
+	uint32_t *set = mr_sets_new(ctx, m->nv);
+
+	if (!set)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++) {
+		mr_sets_join(set, m->t[f].v[0], m->t[f].v[1]);
+		mr_sets_join(set, m->t[f].v[1], m->t[f].v[2]);
+	}
+	for (uint32_t v = 0; v < m->nv; v++)
+		set[v] = mr_sets_root(set, v);
+	*several = false;
+	for (size_t f = 1; f < m->nf; f++)
+		*several |= set[m->t[f].v[0]] != set[m->t[0].v[0]];
+	*component = set;
+	return MR_OK;
+}
+
+typedef struct search {
+	const mr_mesh *m;
+	const mr_bvh *bvh;
+	const uint32_t *component;
+	double reach2;
+	mr_place *at; /* nv; of face MR_NONE: no contact */
+} search;
+
+typedef struct nearest {
+	const search *s;
+	uint32_t vertex;
+	mr_closest best;
+} nearest;
+
+static bool
+visit(void *arg, uint32_t f)
+{
+	nearest *n = arg;
+	const uint32_t *component = n->s->component;
+	mr_closest c;
+
+	if (component[n->s->m->t[f].v[0]] == component[n->vertex])
+		return true;
+	c = mr_face_closest(n->s->m, f, n->s->m->p[n->vertex]);
+	if (c.dist2 < n->best.dist2 || (c.dist2 == n->best.dist2 && f < n->best.at.face))
+		n->best = c;
+	return true;
+}
+
+static void
+search_vertices(void *arg, size_t begin, size_t end)
+{
+	search *s = arg;
+	double reach = sqrt(s->reach2);
+	mr_v3 half = mr_vec(reach, reach, reach);
+
+	for (size_t v = begin; v < end; v++) {
+		nearest n = { s, (uint32_t)v, { .at.face = MR_NONE, .dist2 = INFINITY } };
+		mr_box box = { mr_sub(s->m->p[v], half), mr_add(s->m->p[v], half) };
+		mr_bvh_overlap(s->bvh, box, visit, &n);
+		s->at[v] = n.best.at;
+		if (n.best.dist2 > s->reach2)
+			s->at[v].face = MR_NONE;
+	}
+}
+
+static mr_status
+search_all(mr_ctx *ctx, search *s)
+{
+	mr_bvh *bvh;
+
+	MR_TRY(mr_bvh_build(ctx, s->m, &bvh));
+	s->bvh = bvh;
+	mr_parallel(ctx, s->m->nv, 1024, search_vertices, s);
+	return MR_OK;
+}
+
+/* Leaves only the places that are some. */
+static void
+compact(mr_contacts *c, size_t nv)
+{
+	for (uint32_t v = 0; v < nv; v++)
+		if (c->at[v].face != MR_NONE) {
+			c->vertex[c->n] = v;
+			c->at[c->n++] = c->at[v];
+		}
+}
+
+mr_status
+mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts)
+{
+	mr_mark begin = mr_mark_take(ctx), mark;
+	mr_contacts c = { 0, MR_NEW(ctx, m->nv, uint32_t), MR_NEW(ctx, m->nv, mr_place) };
+	uint32_t *component;
+	bool several;
+
+	if (!c.vertex || !c.at)
+		return MR_EMEM;
+	mark = mr_mark_take(ctx);
+	MR_TRY(label_components(ctx, m, &component, &several));
+	if (several) {
+		MR_TRY(search_all(ctx, &(search){ m, NULL, component, reach * reach, c.at }));
+		compact(&c, m->nv);
+	}
+	mr_mark_release(ctx, c.n ? mark : begin);
+	*contacts = c;
+	return MR_OK;
+}
+
+static double
+width_of(const mr_contacts *c, size_t i, const mr_mesh *m)
+{
+	return mr_dist(m->p[c->vertex[i]], mr_place_point(m, c->at[i]));
+}
+
+size_t
+mr_contacts_open(
+    const mr_contacts *contacts, const mr_mesh *m, const mr_v3 *after, double width, uint32_t *widest)
+{
+	mr_mesh moved = *m;
+	double most = 0;
+	size_t n = 0;
+
+	moved.p = after;
+	*widest = MR_NONE;
+	for (size_t i = 0; i < contacts->n; i++) {
+		double is = width_of(contacts, i, &moved);
+		if (is <= width || width_of(contacts, i, m) > width)
+			continue;
+		n++;
+		if (is > most) {
+			most = is;
+			*widest = contacts->vertex[i];
+		}
+	}
+	return n;
+}
