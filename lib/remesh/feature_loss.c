@@ -1,8 +1,9 @@
 /* The curves of the result as triangles without area, in a tree. */
 #include "remesh/feature_loss.h"
 
-static const double FAR =
-    0.25; /* of the target length: an edge that turns by 50 degrees is off its curve by 0.11 */
+/* Of the target length, the uniform one at least: an edge that turns by 50 degrees is off its curve by 0.11.
+ */
+static const double FAR = 0.25;
 
 static mr_status
 gather_curves(mr_ctx *ctx, const mr_dyn *d, mr_mesh *curves)
@@ -46,7 +47,7 @@ mr_feature_loss(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, size_t 
 	for (uint32_t h = 0; h < 3 * s->m->nf; h++)
 		if (is_sharp(s, h)) {
 			uint32_t a = mr_he_from(s->m, h), b = mr_he_to(s->m, h);
-			double far = FAR * fmin(length_at(s, a), length_at(s, b));
+			double far = FAR * fmax(s->uniform, fmin(length_at(s, a), length_at(s, b)));
 			mr_closest c = mr_bvh_closest(bvh, mr_lerp(0.5, s->m->p[a], s->m->p[b]));
 			*lost += c.dist2 > far * far;
 			++*edges;

@@ -173,15 +173,20 @@ tangential_move(const pass *w, uint32_t v, mr_v3 *normal)
 	return mr_axpy(w->o->damping, mr_axpy(-mr_dot(move, n), n, move), p);
 }
 
-/* Along the curve: towards the middle between the two neighbours on it. */
+/* Along the curve: towards where it divides the way between its two neighbours as the target lengths there
+ * do. */
 static mr_v3
 curve_move(const pass *w, uint32_t v)
 {
 	const mr_dyn *d = w->d;
+	double here = mr_remesh_length(w->s, d, v), length[2];
 	uint32_t end[2];
 
 	mr_dyn_along(d, v, end); /* there are two */
-	return mr_lerp(w->o->damping, d->p[v], mr_mul(0.5, mr_add(d->p[end[0]], d->p[end[1]])));
+	for (int i = 0; i < 2; i++)
+		length[i] = fmin(here, mr_remesh_length(w->s, d, end[i]));
+	return mr_lerp(
+	    w->o->damping, d->p[v], mr_lerp(length[0] / (length[0] + length[1]), d->p[end[0]], d->p[end[1]]));
 }
 
 /* True where face `to` of the source points against the normal, and face `from` did not: over a rim. */

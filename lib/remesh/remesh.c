@@ -249,6 +249,8 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 			return MR_EMEM;
 		MR_TRY(mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
 		    uniform * ADAPTIVE_RANGE, r->length));
+	} else {
+		MR_TRY(mr_sizing_curves(r->ctx, m, topo, &r->d, uniform, &r->length));
 	}
 	r->source = (mr_remesh_source){ m, topo, &r->curves, r->length, uniform };
 	aim(r);
@@ -362,9 +364,13 @@ count_flaws(remesher *r, const mr_places *map)
 }
 
 static mr_status
-count_sharp(remesher *r)
+look_at_sharp(remesher *r)
 {
-	return r->wanted ? mr_feature_loss(r->ctx, &r->d, &r->source, &r->sharp[0], &r->sharp[1]) : MR_OK;
+	MR_TRY(mr_feature_loss(r->ctx, &r->d, &r->source, &r->sharp[0], &r->sharp[1]));
+	if (r->sharp[1])
+		mr_warn(r->ctx, "%s: %zu of %zu sharp edges are gone: shorter edges keep more of them",
+		    r->source.m->name, r->sharp[1], r->sharp[0]);
+	return MR_OK;
 }
 
 /* The map of the result as it is, without holes, and its flaws. */
@@ -506,7 +512,7 @@ remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_
 		MR_TRY(try_again(&r));
 		MR_TRY(settle(&r, map));
 	}
-	MR_TRY(count_sharp(&r));
+	MR_TRY(look_at_sharp(&r));
 	if (misses(excess(&r)))
 		mr_warn(ctx, "%s: %zu vertices and %zu faces are %.3g times as many as were wanted", m->name,
 		    r.d.nv, r.d.nf, excess(&r));

@@ -4,6 +4,7 @@
 #include "base/priority_queue.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
+#include "space/bvh.h"
 
 typedef struct sums {
 	mr_v3 *laplacian; /* sum_j w_ij (p_j - p_i) */
@@ -52,6 +53,51 @@ curvature_along(const mr_dyn *d, uint32_t v)
 	in = mr_sub(d->p[v], d->p[end[0]]);
 	out = mr_sub(d->p[end[1]], d->p[v]);
 	return 2 * mr_angle(in, out) / (mr_norm(in) + mr_norm(out));
+}
+
+/* The point `way` along the curve from v on, in the direction of its neighbour u, or its end. */
+static mr_v3
+point_along(const mr_dyn *d, uint32_t v, uint32_t u, double way)
+{
+	uint32_t begin = v;
+
+	for (;;) {
+		double edge = mr_dist(d->p[v], d->p[u]);
+		uint32_t end[2], next;
+		if (way <= edge)
+			return mr_lerp(way / edge, d->p[v], d->p[u]);
+		if (d->kind[u] != MR_CURVE || u == begin)
+			return d->p[u];
+		mr_dyn_along(d, u, end);
+		next = end[0] == v ? end[1] : end[0];
+		way -= edge;
+		v = u;
+		u = next;
+	}
+}
+
+/*
+ * Of 132,547 edges of 120 models sharper than 40 degrees 399 are gone without shorter lengths along curves,
+ * 93 where these may be off by 0.15 of the length and 13 by this, with 5 % more faces.
+ */
+static const double OFF = 0.1, SHORTEST = 1.0 / 8;
+
+/* The longest of lengths from the uniform one on, each 0.7 times the one before, by which vertex v of a curve
+ * is not OFF the line between the points of the curve half of it away on both sides. */
+static double
+length_along(const mr_dyn *d, uint32_t v, double uniform)
+{
+	const double step = 0.7;
+	uint32_t end[2];
+
+	mr_dyn_along(d, v, end);
+	for (double length = uniform; length > SHORTEST * uniform; length *= step) {
+		mr_v3 a = point_along(d, v, end[0], length / 2), b = point_along(d, v, end[1], length / 2);
+		double off = OFF * uniform;
+		if (mr_triangle_closest(d->p[v], a, b, b).dist2 <= off * off)
+			return length;
+	}
+	return SHORTEST * uniform;
 }
 
 /* Corners stay whatever the lengths. */
@@ -144,6 +190,28 @@ length_for(double curvature, double error, double shortest, double longest)
 	double squared = 6 * error / curvature - 3 * error * error;
 
 	return squared > shortest * shortest ? fmin(sqrt(squared), longest) : shortest;
+}
+
+mr_status
+mr_sizing_curves(
+    mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double uniform, double **length)
+{
+	double *field = MR_NEW(ctx, m->nv, double);
+	grader w = { .ctx = ctx, .m = m, .length = field };
+	mr_mark mark = mr_mark_take(ctx);
+	bool shorter = false;
+
+	if (!field)
+		return MR_EMEM;
+	for (uint32_t v = 0; v < m->nv; v++) {
+		field[v] = d->kind[v] == MR_CURVE ? length_along(d, v, uniform) : uniform;
+		shorter |= field[v] < uniform;
+	}
+	*length = shorter ? field : NULL;
+	if (shorter)
+		MR_TRY(grade(&w, topo));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 mr_status

@@ -267,13 +267,19 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, 
 	return true;
 }
 
-/* Where the merged vertex goes: the midpoint, or the end that must stay. */
+/* Where the merged vertex goes: the middle, of a curve on it, or the end that must stay.  *at: b's place
+ * then. */
 static mr_v3
-merged_position(const mr_dyn *d, uint32_t a, uint32_t b)
+merged_position(const mr_dyn *d, const mr_remesh_source *s, uint32_t a, uint32_t b, uint32_t *at)
 {
-	if (d->kind[a] == d->kind[b])
-		return mr_lerp(0.5, d->p[a], d->p[b]);
-	return d->p[b];
+	mr_v3 middle = mr_lerp(0.5, d->p[a], d->p[b]);
+
+	*at = d->at[b];
+	if (d->kind[a] != d->kind[b])
+		return d->p[b];
+	if (d->kind[b] == MR_CURVE)
+		return mr_project_curve(s->m, s->topo, s->curves, d->at[b], middle, at).point;
+	return middle;
 }
 
 /* The other neighbour of v along its curve than u. */
@@ -294,11 +300,11 @@ turns_sharply(mr_v3 a, mr_v3 b, mr_v3 c)
 	return mr_dot(in, out) < MR_CORNER_COSINE * sqrt(mr_norm2(in) * mr_norm2(out));
 }
 
-/* True where vertex v of a curve would turn sharply, were its neighbours at a and c. */
+/* True where vertex v of a curve would turn sharply, were its neighbour u at p. */
 static bool
-makes_corner(const mr_dyn *d, uint32_t v, mr_v3 a, mr_v3 c)
+makes_corner(const mr_dyn *d, uint32_t v, uint32_t u, mr_v3 p)
 {
-	return d->kind[v] == MR_CURVE && turns_sharply(a, d->p[v], c);
+	return d->kind[v] == MR_CURVE && turns_sharply(d->p[further(d, v, u)], d->p[v], p);
 }
 
 /*
@@ -310,19 +316,19 @@ cuts_curve(const mr_dyn *d, uint32_t a, uint32_t b, mr_v3 p)
 {
 	uint32_t x = further(d, a, b), y;
 
-	if (makes_corner(d, x, d->p[further(d, x, a)], p))
+	if (makes_corner(d, x, a, p))
 		return true;
 	if (d->kind[b] != MR_CURVE)
 		return false;
 	y = further(d, b, a);
-	return turns_sharply(d->p[x], p, d->p[y]) || makes_corner(d, y, p, d->p[further(d, y, b)]);
+	return turns_sharply(d->p[x], p, d->p[y]) || makes_corner(d, y, b, p);
 }
 
 static bool
 try_collapse(resampler *r, uint32_t h, double longest2)
 {
 	mr_dyn *d = r->d;
-	uint32_t a, b;
+	uint32_t a, b, at;
 	mr_v3 p, facing;
 	bool strung = false;
 
@@ -332,7 +338,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	b = mr_dyn_to(d, h);
 	if (!mr_dyn_can_collapse(d, h, r->mark))
 		return false;
-	p = merged_position(d, a, b);
+	p = merged_position(d, r->s, a, b, &at);
 	facing = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
 	if (!move_is_good(d, a, b, p, facing, longest2, &strung) ||
 	    !move_is_good(d, b, a, p, facing, longest2, &strung) ||
@@ -344,6 +350,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 		return false;
 	}
 	mr_dyn_collapse(d, h, p);
+	d->at[b] = at;
 	r->strung[b] = strung;
 	r->done->strung += strung;
 	if ((strung || (d->scale && d->scale[b] < 1)) && d->kind[b] == MR_SMOOTH)
