@@ -6,22 +6,20 @@
 
 /* Gives each unlabelled vertex that hangs together with labelled ones the label that reaches it first. */
 static mr_status
-spread_labels(mr_ctx *ctx, const mr_mesh *m, uint32_t *label)
+spread_labels(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t *label)
 {
 	uint32_t *queue = MR_NEW(ctx, m->nv, uint32_t);
-	mr_incidence inc;
 	size_t n = 0;
 
 	if (!queue)
 		return MR_EMEM;
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	for (uint32_t v = 0; v < m->nv; v++)
 		if (label[v] != MR_NONE)
 			queue[n++] = v;
 	for (size_t next = 0; next < n; next++)
-		for (size_t i = inc.start[queue[next]]; i < inc.start[queue[next] + 1]; i++)
+		for (size_t i = inc->start[queue[next]]; i < inc->start[queue[next] + 1]; i++)
 			for (int k = 0; k < 3; k++) {
-				uint32_t w = m->t[inc.face[i]].v[k];
+				uint32_t w = m->t[inc->face[i]].v[k];
 				if (label[w] != MR_NONE)
 					continue;
 				label[w] = label[queue[next]];
@@ -33,8 +31,8 @@ spread_labels(mr_ctx *ctx, const mr_mesh *m, uint32_t *label)
 /* Labels each vertex of the mesh with the nearest of the base vertices that lie on its faces, or, where none
  * does, with that of the neighbours nearest in connectivity.  lifted: the base on the mesh. */
 static mr_status
-label_vertices(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *lifted, const mr_incidence *inc,
-    const mr_places *source, uint32_t *label)
+label_vertices(mr_ctx *ctx, const mr_mesh *mesh, const mr_incidence *mesh_inc, const mr_mesh *lifted,
+    const mr_incidence *inc, const mr_places *source, uint32_t *label)
 {
 	double *dist2 = MR_NEW(ctx, mesh->nv, double);
 
@@ -56,7 +54,7 @@ label_vertices(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *lifted, const mr
 			}
 		}
 	}
-	return spread_labels(ctx, mesh, label);
+	return spread_labels(ctx, mesh, mesh_inc, label);
 }
 
 typedef struct walker {
@@ -65,6 +63,7 @@ typedef struct walker {
 	const uint32_t *label;
 	uint32_t *face;
 	mr_v3 *bary;
+	double *dist2; /* from there to the vertex */
 } walker;
 
 /* The nearest place of the faces around a vertex. */
@@ -104,6 +103,14 @@ walk(const walker *w, uint32_t vertex, mr_v3 q)
 }
 
 static void
+stand(const walker *w, size_t i, const mr_closest *c)
+{
+	w->face[i] = c->at.face;
+	w->bary[i] = c->at.bary;
+	w->dist2[i] = c->dist2;
+}
+
+static void
 walk_piece(void *arg, size_t begin, size_t end)
 {
 	const walker *w = arg;
@@ -112,10 +119,71 @@ walk_piece(void *arg, size_t begin, size_t end)
 		w->face[i] = MR_NONE;
 		if (w->label[i] != MR_NONE) {
 			mr_closest c = walk(w, w->label[i], w->mesh->p[i]);
-			w->face[i] = c.at.face;
-			w->bary[i] = c.at.bary;
+			stand(w, i, &c);
 		}
 	}
+}
+
+/*
+ * Whether a vertex stands so far off that the walk may have ended on the wrong side of an edge, and farther
+ * than its neighbour, from whose place there may be a way.
+ */
+static bool
+doubtful(const walker *w, uint32_t i, uint32_t neighbour)
+{
+	static const double far = 0.1; /* of a side of the face */
+	const uint32_t *v = w->lifted->t[w->face[i]].v;
+
+	return w->dist2[i] > w->dist2[neighbour] &&
+	       w->dist2[i] > far * far * mr_norm2(mr_sub(w->lifted->p[v[1]], w->lifted->p[v[0]]));
+}
+
+/* Walks from where a neighbour stands; true where that comes nearer. */
+static bool
+improve(const walker *w, uint32_t i, uint32_t neighbour)
+{
+	static const double nearer = 0.98; /* of the squared distance */
+	mr_closest c;
+
+	if (!doubtful(w, i, neighbour))
+		return false;
+	c = walk(w, w->lifted->t[w->face[neighbour]].v[0], w->mesh->p[i]);
+	if (!(c.dist2 < nearer * w->dist2[i]))
+		return false;
+	stand(w, i, &c);
+	return true;
+}
+
+/*
+ * A walk downhill ends where every step leads away: on the underside of a plate below the vertex, say, if it
+ * began there.  So vertices follow their neighbours that stand nearer, until none comes nearer.
+ */
+static mr_status
+follow_neighbours(mr_ctx *ctx, const walker *w, const mr_incidence *inc)
+{
+	size_t n = w->mesh->nv, waiting = n;
+	uint32_t *queue = MR_NEW(ctx, n, uint32_t); /* a ring of those whose neighbours are to follow */
+	bool *queued = MR_NEW(ctx, n, bool);
+
+	if (!queue || !queued)
+		return MR_EMEM;
+	for (uint32_t i = 0; i < n; i++) {
+		queue[i] = i;
+		queued[i] = true;
+	}
+	for (size_t first = 0; waiting > 0; first = (first + 1) % n, waiting--) {
+		uint32_t u = queue[first];
+		queued[u] = false;
+		for (size_t i = inc->start[u]; w->face[u] != MR_NONE && i < inc->start[u + 1]; i++)
+			for (int k = 0; k < 3; k++) {
+				uint32_t v = w->mesh->t[inc->face[i]].v[k];
+				if (!improve(w, v, u) || queued[v])
+					continue;
+				queue[(first + waiting++) % n] = v;
+				queued[v] = true;
+			}
+	}
+	return MR_OK;
 }
 
 mr_status
@@ -125,15 +193,20 @@ mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_in
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *label = MR_NEW(ctx, mesh->nv, uint32_t);
 	mr_v3 *on_mesh = MR_NEW(ctx, base->nv, mr_v3);
+	double *dist2 = MR_NEW(ctx, mesh->nv, double);
 	mr_mesh lifted = *base;
+	walker w = { mesh, &lifted, inc, label, face, bary, dist2 };
+	mr_incidence mesh_inc;
 
-	if (!label || !on_mesh)
+	if (!label || !on_mesh || !dist2)
 		return MR_EMEM;
+	MR_TRY(mr_incidence_build(ctx, mesh, &mesh_inc));
 	for (size_t j = 0; j < base->nv; j++)
 		on_mesh[j] = mr_place_point(mesh, mr_places_at(source, j));
 	lifted.p = on_mesh;
-	MR_TRY(label_vertices(ctx, mesh, &lifted, inc, source, label));
-	mr_parallel(ctx, mesh->nv, 1024, walk_piece, &(walker){ mesh, &lifted, inc, label, face, bary });
+	MR_TRY(label_vertices(ctx, mesh, &mesh_inc, &lifted, inc, source, label));
+	mr_parallel(ctx, mesh->nv, 1024, walk_piece, &w);
+	MR_TRY(follow_neighbours(ctx, &w, &mesh_inc));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
