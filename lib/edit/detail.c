@@ -5,24 +5,35 @@
 #include "base/parallel.h"
 #include "edit/correspondence.h"
 #include "edit/phong_projection.h"
+#include "edit/turns.h"
 #include "space/bvh.h"
 #include "space/thickness.h"
 
 enum { GRAIN = 1024 };
 
-/* b + gain (h n + t1 o.x + t2 o.y + n o.z) */
+/* o in the frame there */
 static mr_v3
-displaced(const mr_phong *s, const mr_detail *d, size_t i, double gain)
+offset_in(const mr_phong *s, mr_place at, mr_v3 o)
+{
+	mr_tangent_frame f = mr_phong_frame(s, at);
+
+	return mr_axpy(o.x, f.t1, mr_axpy(o.y, f.t2, mr_mul(o.z, f.n)));
+}
+
+static bool
+has_offset(const mr_detail *d, size_t i)
+{
+	return d->offset && mr_norm2(d->offset[i]) > 0;
+}
+
+/* b + h n + t1 o.x + t2 o.y + n o.z */
+static mr_v3
+displaced(const mr_phong *s, const mr_detail *d, size_t i)
 {
 	mr_place at = mr_places_at(&d->at, i);
-	mr_v3 p = mr_axpy(gain * d->height[i], mr_phong_normal(s, at), mr_phong_point(s, at));
+	mr_v3 p = mr_axpy(d->height[i], mr_phong_normal(s, at), mr_phong_point(s, at));
 
-	if (d->offset && mr_norm2(d->offset[i]) > 0) {
-		mr_tangent_frame f = mr_phong_frame(s, at);
-		mr_v3 o = mr_mul(gain, d->offset[i]);
-		p = mr_axpy(o.x, f.t1, mr_axpy(o.y, f.t2, mr_axpy(o.z, f.n, p)));
-	}
-	return p;
+	return has_offset(d, i) ? mr_add(p, offset_in(s, at, d->offset[i])) : p;
 }
 
 /* Encoding (Kobbelt, Vorsatz, Seidel 1999: Multiresolution hierarchies on unstructured triangle meshes) */
@@ -122,13 +133,12 @@ static void
 encode_piece(void *arg, size_t begin, size_t end)
 {
 	const encoder *e = arg;
-	mr_detail d = { e->mesh->nv, { e->face, e->bary }, e->height, e->offset };
+	mr_detail d = { e->mesh->nv, { e->face, e->bary }, e->height, e->offset, NULL, NULL };
 	tally t = { 0 };
 
 	for (size_t i = begin; i < end; i++) {
 		encode_vertex(e, i, &t);
-		t.residual = fmax(
-		    t.residual, mr_dist(displaced(&e->ground.surface, &d, i, 1), e->mesh->p[i]));
+		t.residual = fmax(t.residual, mr_dist(displaced(&e->ground.surface, &d, i), e->mesh->p[i]));
 		t.height = fmax(t.height, fabs(e->height[i]));
 	}
 	e->tally[begin / GRAIN] = t;
@@ -242,7 +252,8 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	e.thickness = thickness;
 	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
 	mr_parallel(ctx, n, GRAIN, encode_piece, &e);
-	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL };
+	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL, base->p,
+		NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
 	figures = report(ctx, &e, diagonal);
 	*d = found;
@@ -269,19 +280,83 @@ mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 }
 
 typedef struct decoder {
-	mr_phong surface;
+	mr_phong surface; /* its normals as those at rest were turned */
+	mr_phong rest;
+	const mr_mat3 *turn; /* of the surface's vertices; NULL: offsets turn with the triangle */
 	const mr_detail *d;
 	double gain;
 	mr_v3 *p;
 } decoder;
 
+/* The offset at rest, turned as the surface is there. */
+static mr_v3
+turned_offset(const decoder *j, mr_place at, mr_v3 o)
+{
+	const uint32_t *v = j->surface.m->t[at.face].v;
+	const double w[3] = { at.bary.x, at.bary.y, at.bary.z };
+	mr_mat3 sum = { { 0 } };
+
+	for (int k = 0; k < 3; k++)
+		sum = mr_mat3_axpy(w[k], &j->turn[v[k]], &sum);
+	sum = mr_rotation_nearest(&sum);
+	return mr_mat3_apply(&sum, offset_in(&j->rest, at, o));
+}
+
+/* b + gain (h n + o) */
+static mr_v3
+decode_vertex(const decoder *j, size_t i)
+{
+	mr_place at = mr_places_at(&j->d->at, i);
+	mr_v3 b = mr_phong_point(&j->surface, at), o;
+
+	if (!has_offset(j->d, i))
+		return mr_axpy(j->gain * j->d->height[i], mr_phong_normal(&j->surface, at), b);
+	o = j->turn ? turned_offset(j, at, j->d->offset[i]) : offset_in(&j->surface, at, j->d->offset[i]);
+	return mr_axpy(j->gain, o, b);
+}
+
 static void
 decode_piece(void *arg, size_t begin, size_t end)
 {
-	decoder *j = arg;
+	const decoder *j = arg;
 
 	for (size_t i = begin; i < end; i++)
-		j->p[i] = displaced(&j->surface, j->d, i, j->gain);
+		j->p[i] = decode_vertex(j, i);
+}
+
+typedef struct turner {
+	const mr_mat3 *turn;
+	const mr_v3 *rest;
+	mr_v3 *normal;
+} turner;
+
+static void
+turn_normals(void *arg, size_t begin, size_t end)
+{
+	const turner *t = arg;
+
+	for (size_t v = begin; v < end; v++)
+		t->normal[v] = mr_mat3_apply(&t->turn[v], t->rest[v]);
+}
+
+/* Normals of the moved surface itself turn to and fro where it is crumpled a little, and tear apart what
+ * stands on them. */
+static mr_status
+turn_frames(mr_ctx *ctx, const mr_mesh *rest, const mr_incidence *inc, mr_v3 *normal, decoder *j)
+{
+	mr_v3 *made;
+
+	j->rest = (mr_phong){ rest, j->d->rest_normal };
+	if (!j->rest.normal) {
+		made = MR_NEW(ctx, rest->nv, mr_v3);
+		if (!made)
+			return MR_EMEM;
+		MR_TRY(mr_vertex_normals(ctx, rest, inc, made));
+		j->rest.normal = made;
+	}
+	MR_TRY(mr_turns(ctx, rest, j->surface.m, inc, &j->turn));
+	mr_parallel(ctx, rest->nv, 4096, turn_normals, &(turner){ j->turn, j->rest.normal, normal });
+	return MR_OK;
 }
 
 mr_status
@@ -290,11 +365,14 @@ mr_decode(
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
-	decoder j = { { base, normal }, d, gain, p };
+	decoder j = { .surface = { base, normal }, .d = d, .gain = gain, .p = p };
+	mr_mesh rest = *base;
 
 	if (!normal)
 		return MR_EMEM;
-	MR_TRY(mr_vertex_normals(ctx, base, inc, normal));
+	rest.p = d->rest;
+	MR_TRY(
+	    d->rest ? turn_frames(ctx, &rest, inc, normal, &j) : mr_vertex_normals(ctx, base, inc, normal));
 	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -305,7 +383,7 @@ mr_decode(
 mr_status
 mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 {
-	const void *face, *bary, *height, *offset = NULL;
+	const void *face, *bary, *height, *offset = NULL, *rest = NULL;
 	mr_detail r;
 	size_t n;
 
@@ -316,18 +394,21 @@ mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_bary", n, &bary));
 	if (mr_layer_has(f, "mesh", "detail_offset"))
 		MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_offset", n, &offset));
-	r = (mr_detail){ n, { face, bary }, height, offset };
+	if (mr_layer_has(f, base->name, "encoded"))
+		MR_TRY(mr_layer_get_rows(ctx, f, base->name, "encoded", base->nv, &rest));
+	r = (mr_detail){ n, { face, bary }, height, offset, rest, NULL };
 	MR_TRY(mr_detail_check(ctx, &r, base));
 	*d = r;
 	return MR_OK;
 }
 
 mr_status
-mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_detail *d)
+mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 {
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->at.face, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->at.bary, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
+	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded", d->rest, base->nv));
 	if (d->offset)
 		return mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n);
 	mr_frame_drop(f, "mesh", "detail_offset", 0);

@@ -11,15 +11,19 @@
 #include "space/source_map.h"
 
 /*
- * The columns mesh.detail_*: vertex i is b + h n + t1 o.x + t2 o.y + n o.z, where b is the point
- * bary of the base's triangle `face`, n its Phong normal, t1 and t2 as in mr_phong_frame.
- * Where there is a height the offset is zero, and the reverse.
+ * The columns mesh.detail_* and base.encoded: on the base as it was encoded vertex i is b + h n + t1 o.x + t2
+ * o.y + n o.z, where b is the point bary of the base's triangle `face`, n its Phong normal, t1 and t2 as in
+ * mr_phong_frame. Where there is a height the offset is zero, and the reverse.
  */
 typedef struct mr_detail {
 	size_t n;
 	mr_places at; /* on the base */
 	const double *height;
 	const mr_v3 *offset; /* NULL: every vertex has a height */
+	/* Positions of the base where it was encoded, and its normals there.  rest NULL: not known, and
+	 * heights stand on the normals that the base has now, offsets turn with their triangles; rest_normal
+	 * NULL: to be made of rest. */
+	const mr_v3 *rest, *rest_normal;
 } mr_detail;
 
 /*
@@ -33,7 +37,9 @@ mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const
 /* MR_ERANGE where a face is not one of the base's, or a number is not finite. */
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
 
-/* Decodes onto the base: d checked; inc of the base; the detail multiplied by gain.  p: d->n, the caller's.
+/*
+ * Decodes onto the base, the normals and frames at rest turned as the base has around them: d checked; inc of
+ * the base; the detail multiplied by gain.  p: d->n, the caller's.
  */
 mr_status mr_decode(
     mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p);
@@ -41,8 +47,8 @@ mr_status mr_decode(
 /* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
 mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);
 
-/* Puts the columns; an offset that was there and is no longer is dropped.  d: kept until the frame is
- * written. */
-mr_status mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_detail *d);
+/* Puts the columns; an offset that was there and is no longer is dropped.  d: of this base, encoded; kept
+ * until the frame is written. */
+mr_status mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d);
 
 #endif

@@ -39,6 +39,7 @@ const mr_column_info mr_columns[] = {
 	{ "mesh", "detail_offset", { 'v', 'd', 3 }, "offset in the base's frame, where there is no height" },
 	{ "base", "source_face", { 'v', 'u', 1 }, "triangle of mesh that the vertex lies on" },
 	{ "base", "source_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
+	{ "base", "encoded", { 'v', 'd', 3 }, "positions on which mesh was encoded" },
 	{ "base", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
 	{ "base", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
 	{ "base", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },

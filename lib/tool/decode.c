@@ -32,8 +32,41 @@ base_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *b
 		MR_TRY(mr_cache_say(
 		    ctx, &cache->base_keep, mr_incidence_build(&cache->base_keep, base, &kept->base)));
 		kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
+		kept->rest_serial = 0;
+		kept->rest_normal = NULL;
 	}
 	*inc = kept->base;
+	return MR_OK;
+}
+
+/* The normals of base where it was encoded, if that is known. */
+static mr_status
+rest_normals(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *base, const mr_incidence *inc,
+    mr_detail *d)
+{
+	mr_connectivity_cache *kept = cache ? &cache->connectivity : NULL;
+	mr_ctx *keep = cache ? &cache->base_keep : ctx;
+	mr_v3 *normal = cache ? kept->rest_normal : NULL;
+	mr_mesh rest = *base;
+	uint64_t serial;
+
+	if (!d->rest)
+		return MR_OK;
+	rest.p = d->rest;
+	d->rest_normal = normal;
+	serial = mr_frame_find(f, base->name, "encoded")->serial;
+	if (normal && !f->key && serial && serial == kept->rest_serial)
+		return MR_OK;
+	if (!normal)
+		normal = MR_NEW(keep, base->nv, mr_v3);
+	if (!normal)
+		return mr_cache_say(ctx, keep, MR_EMEM);
+	MR_TRY(mr_vertex_normals(ctx, &rest, inc, normal));
+	d->rest_normal = normal;
+	if (cache) {
+		kept->rest_normal = normal;
+		kept->rest_serial = serial;
+	}
 	return MR_OK;
 }
 
@@ -183,6 +216,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 	MR_TRY(base_incidence(ctx, cache, f, &base, &inc));
 	MR_TRY(respond(ctx, f, cache, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
+	MR_TRY(rest_normals(ctx, cache, f, &base, &inc, &detail));
 	p = MR_NEW(ctx, detail.n, mr_v3);
 	if (!p)
 		return MR_EMEM;

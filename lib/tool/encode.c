@@ -16,5 +16,5 @@ mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 	if (mapped)
 		MR_TRY(mr_source_map_get(ctx, f, &mesh, base.nv, &map));
 	MR_TRY(mr_encode(ctx, &mesh, &base, mapped ? &map : NULL, &detail, result));
-	return mr_detail_put(ctx, f, &detail);
+	return mr_detail_put(ctx, f, &base, &detail);
 }

@@ -365,7 +365,7 @@ bad_columns_are_refused(void **state)
 	mr_ctx_init(&ctx, 1);
 	m = solid(&ctx, MR_PLANE, 4);
 	m.name = "base";
-	mr_detail d = { 4, { face, bary }, height, NULL };
+	mr_detail d = { 4, { face, bary }, height, NULL, NULL, NULL };
 	assert_int_equal(mr_detail_check(&ctx, &d, &m), MR_ERANGE);
 	assert_string_equal(ctx.error, "the detail of vertex 2 is not finite");
 	height[2] = 0;

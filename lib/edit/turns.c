@@ -1,0 +1,110 @@
+/* The rotations of Sorkine, Alexa 2007 (As-rigid-as-possible surface modeling), section 2.1, of faces with
+ * their normals and smoothed. */
+#include "edit/turns.h"
+
+#include "base/parallel.h"
+
+enum { GRAIN = 1024 };
+
+typedef struct turning {
+	const mr_mesh *rest, *now;
+	const mr_incidence *inc;
+	mr_mat3 *face, *vertex; /* sums of y x^T, x at rest and y now, of edges and normals */
+} turning;
+
+/* s + f y x^T */
+static void
+add_pair(mr_mat3 *s, double f, mr_v3 x, mr_v3 y)
+{
+	const double row[3] = { f * y.x, f * y.y, f * y.z };
+
+	for (int i = 0; i < 3; i++) {
+		s->m[3 * i] += row[i] * x.x;
+		s->m[3 * i + 1] += row[i] * x.y;
+		s->m[3 * i + 2] += row[i] * x.z;
+	}
+}
+
+/* The edges at unit mean length, so that faces count alike. */
+static mr_mat3
+turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3], size_t f)
+{
+	mr_mat3 s = { { 0 } };
+	mr_v3 x[3], y[3];
+	double all = 0;
+
+	for (int k = 0; k < 3; k++) {
+		x[k] = mr_sub(rest->p[v[(k + 1) % 3]], rest->p[v[k]]);
+		y[k] = mr_sub(now->p[v[(k + 1) % 3]], now->p[v[k]]);
+		all += mr_norm2(x[k]);
+	}
+	for (int k = 0; k < 3 && all > 0; k++)
+		add_pair(&s, 2 / all, x[k], y[k]);
+	add_pair(&s, 1, mr_unit(mr_face_cross(rest, f)), mr_unit(mr_face_cross(now, f)));
+	return s;
+}
+
+static void
+faces_from_places(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+
+	for (size_t f = begin; f < end; f++)
+		t->face[f] = turn_of_face(t->rest, t->now, t->rest->t[f].v, f);
+}
+
+static void
+faces_from_vertices(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		const uint32_t *v = t->rest->t[f].v;
+		t->face[f] = mr_mat3_axpy(1, &t->vertex[v[1]], &t->vertex[v[0]]);
+		t->face[f] = mr_mat3_axpy(1, &t->vertex[v[2]], &t->face[f]);
+	}
+}
+
+static void
+vertices_from_faces(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+
+	for (size_t v = begin; v < end; v++) {
+		mr_mat3 s = { { 0 } };
+		for (size_t i = t->inc->start[v]; i < t->inc->start[v + 1]; i++)
+			s = mr_mat3_axpy(1, &t->face[t->inc->face[i]], &s);
+		t->vertex[v] = s;
+	}
+}
+
+static void
+rotations(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+
+	for (size_t v = begin; v < end; v++)
+		t->vertex[v] = mr_rotation_nearest(&t->vertex[v]);
+}
+
+mr_status
+mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc, const mr_mat3 **turn)
+{
+	enum { PASSES = 3 };
+	turning t = { rest, now, inc, .vertex = MR_NEW(ctx, rest->nv, mr_mat3) };
+	mr_mark mark = mr_mark_take(ctx);
+
+	t.face = MR_NEW(ctx, rest->nf, mr_mat3);
+	if (!t.face || !t.vertex)
+		return MR_EMEM;
+	mr_parallel(ctx, rest->nf, GRAIN, faces_from_places, &t);
+	mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
+	for (int i = 0; i < PASSES; i++) {
+		mr_parallel(ctx, rest->nf, GRAIN, faces_from_vertices, &t);
+		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
+	}
+	mr_parallel(ctx, rest->nv, GRAIN, rotations, &t);
+	mr_mark_release(ctx, mark);
+	*turn = t.vertex;
+	return MR_OK;
+}
