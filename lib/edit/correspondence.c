@@ -124,31 +124,29 @@ walk_piece(void *arg, size_t begin, size_t end)
 	}
 }
 
-/*
- * Whether a vertex stands so far off that the walk may have ended on the wrong side of an edge, and farther
- * than its neighbour, from whose place there may be a way.
- */
+/* Whether a place is so much nearer to vertex i than its own that the walk ended too early. */
 static bool
-doubtful(const walker *w, uint32_t i, uint32_t neighbour)
+nearer(const walker *w, uint32_t i, const mr_closest *c)
 {
-	static const double far = 0.1; /* of a side of the face */
-	const uint32_t *v = w->lifted->t[w->face[i]].v;
+	static const double less = 0.98; /* of the squared distance: rounding is no reason to go on */
 
-	return w->dist2[i] > w->dist2[neighbour] &&
-	       w->dist2[i] > far * far * mr_norm2(mr_sub(w->lifted->p[v[1]], w->lifted->p[v[0]]));
+	return c->dist2 < less * w->dist2[i];
 }
 
-/* Walks from where a neighbour stands; true where that comes nearer. */
+/* Walks from where a neighbour stands if that is nearer; true where it is. */
 static bool
 improve(const walker *w, uint32_t i, uint32_t neighbour)
 {
-	static const double nearer = 0.98; /* of the squared distance */
+	uint32_t face = w->face[neighbour];
 	mr_closest c;
 
-	if (!doubtful(w, i, neighbour))
+	if (!(w->dist2[neighbour] < w->dist2[i]) || face == w->face[i])
 		return false;
-	c = walk(w, w->lifted->t[w->face[neighbour]].v[0], w->mesh->p[i]);
-	if (!(c.dist2 < nearer * w->dist2[i]))
+	c = mr_face_closest(w->lifted, face, w->mesh->p[i]);
+	if (!nearer(w, i, &c))
+		return false;
+	c = walk(w, w->lifted->t[face].v[0], w->mesh->p[i]);
+	if (!nearer(w, i, &c))
 		return false;
 	stand(w, i, &c);
 	return true;

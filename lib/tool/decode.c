@@ -3,6 +3,7 @@
 #include "edit/detail.h"
 #include "edit/pose_basis.h"
 #include "measure/harm.h"
+#include "space/thickness.h"
 #include "tool/cache.h"
 
 /* Whether what was kept of a layer is still true of the frame; `kept` becomes the frame's, and the arena is
@@ -137,29 +138,59 @@ longest_edge_at(const mr_mesh *m, uint32_t vertex)
 	return longest;
 }
 
-/* Warns of harm: of a sequence again where it is twice as much as was told. */
-static void
-tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, const mr_v3 *p, const mr_harm *h)
+/* Where the edges at the harm are too long to follow the base, the step that splits them: no longer than
+ * those of base, nor than the walls are thick there. */
+static mr_status
+advise(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, uint32_t vertex, char *advice, size_t size)
 {
 	const double coarse = 3; /* edges of base in one of mesh, which then cannot follow it */
-	size_t all = h->folds + (h->pairs == MR_UNKNOWN ? 0 : h->pairs),
+	double base_edge = mr_mesh_edge_scale(ctx, base), longest = longest_edge_at(mesh, vertex);
+	mr_mark mark = mr_mark_take(ctx);
+	double *thickness;
+
+	*advice = 0;
+	if (!(longest > coarse * base_edge))
+		return MR_OK;
+	thickness = MR_NEW(ctx, mesh->nv, double);
+	if (!thickness)
+		return MR_EMEM;
+	MR_TRY(mr_thickness(ctx, mesh, base_edge, thickness));
+	snprintf(advice, size,
+	    "; its edges are long, up to %.3g: split them first, by mr-subdivide --longest %.3g", longest,
+	    thickness[vertex]);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/*
+ * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone.  Of
+ * 159 edits of half of the models 20 have many, and all that are wrecked; of 159 of the others 21, and all.
+ */
+static mr_status
+tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, const mr_v3 *p, const mr_harm *h)
+{
+	enum { FOLDS = 5, PAIRS = 20 };
+	size_t pairs = h->pairs == MR_UNKNOWN ? 0 : h->pairs, all = h->folds + pairs,
 	       *told = cache ? &cache->connectivity.told : NULL;
-	double base_edge = mr_mesh_edge_scale(ctx, base), longest;
-	char advice[120] = "";
+	char advice[120];
 
 	if (all == 0 || (told && all < 2 * *told))
-		return;
+		return MR_OK;
+	if (h->folds <= FOLDS && pairs <= PAIRS) {
+		mr_note(ctx,
+		    "%zu edges of mesh are folded and %zu pairs of near faces intersect that did not before: "
+		    "few",
+		    h->folds, pairs);
+		return MR_OK;
+	}
 	if (told)
 		*told = all;
-	longest = longest_edge_at(mesh, h->vertex);
-	if (longest > coarse * base_edge)
-		snprintf(advice, sizeof advice,
-		    "; its edges are long, up to %.3g: split them first, by mr-subdivide --longest %.3g",
-		    longest, base_edge);
+	MR_TRY(advise(ctx, mesh, base, h->vertex, advice, sizeof advice));
 	mr_warn(ctx,
 	    "%zu edges of mesh are folded and %zu pairs of near faces intersect that did not before, most of "
 	    "them at vertex %u (%.4g, %.4g, %.4g)%s",
-	    h->folds, h->pairs, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z, advice);
+	    h->folds, pairs, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z, advice);
+	return MR_OK;
 }
 
 /* Parts that touched and do not any more; warns of them as tell does. */
@@ -177,8 +208,7 @@ look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contac
 		*told = n;
 	mr_warn(ctx,
 	    "%zu of %zu vertices at which parts of mesh touch have come apart by over 1 %% of the diagonal, "
-	    "vertex "
-	    "%u (%.4g, %.4g, %.4g) the farthest",
+	    "vertex %u (%.4g, %.4g, %.4g) the farthest",
 	    n, contacts->n, v, p[v].x, p[v].y, p[v].z);
 	return n;
 }
@@ -198,7 +228,7 @@ look_for_harm(
 	MR_TRY(mr_harm_find(ctx, &mesh, &edges, p, f->key, &harm));
 	if (cache && f->key)
 		cache->connectivity.told = cache->connectivity.told_apart = 0;
-	tell(ctx, cache, &mesh, base, p, &harm);
+	MR_TRY(tell(ctx, cache, &mesh, base, p, &harm));
 	*result = (mr_decode_result){ harm.folds, harm.pairs,
 		look_for_gaps(ctx, cache, &mesh, &contacts, p) };
 	return MR_OK;

@@ -1,5 +1,6 @@
 /* Detail over a base: nothing is lost, heights are true, the detail follows the base. */
 #include "base/random.h"
+#include "edit/correspondence.h"
 #include "edit/detail.h"
 #include "shape/shape.h"
 #include "space/bvh.h"
@@ -246,6 +247,59 @@ a_vertex_stays_on_its_sheet(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* A plate of n by n squares on both sides, 2 t thick. */
+static mr_mesh
+plate(mr_ctx *ctx, uint32_t n, double t, const char *name)
+{
+	uint32_t side = (n + 1) * (n + 1), k = 0;
+	mr_v3 *p = MR_NEW(ctx, 2 * side, mr_v3);
+	mr_tri *f = MR_NEW(ctx, 4 * n * n + 8 * n, mr_tri);
+
+	for (uint32_t i = 0; i < 2 * side; i++)
+		p[i] = mr_vec(
+		    i % side % (n + 1) / (double)n, i % side / (n + 1) / (double)n, i < side ? t : -t);
+	for (uint32_t y = 0; y < n; y++)
+		for (uint32_t x = 0; x < n; x++) {
+			uint32_t a = y * (n + 1) + x, b = a + 1, c = b + n + 1, d = c - 1;
+			f[k++] = (mr_tri){ { a, b, c } };
+			f[k++] = (mr_tri){ { a, c, d } };
+			f[k++] = (mr_tri){ { side + a, side + c, side + b } };
+			f[k++] = (mr_tri){ { side + a, side + d, side + c } };
+		}
+	for (uint32_t i = 0; i < n; i++) {
+		const uint32_t from[4] = { i, i * (n + 1) + n, side - 1 - i, (n - i) * (n + 1) };
+		const uint32_t to[4] = { i + 1, from[1] + n + 1, from[2] - 1, from[3] - n - 1 };
+		for (int j = 0; j < 4; j++) {
+			f[k++] = (mr_tri){ { from[j], side + from[j], side + to[j] } };
+			f[k++] = (mr_tri){ { from[j], side + to[j], to[j] } };
+		}
+	}
+	return (mr_mesh){ .name = name, .p = p, .t = f, .nv = 2 * side, .nf = k };
+}
+
+/* The walks of many vertices begin on the other side of the plate. */
+static void
+vertices_stay_on_their_side_of_a_plate(void **state)
+{
+	const double t = 0.01;
+	mr_ctx ctx;
+	size_t astray = 0;
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	mr_mesh m = plate(&ctx, 60, t, "mesh"), base = plate(&ctx, 7, t, "base");
+	mr_places map = nearest_map(&ctx, m, base);
+	mr_incidence inc;
+	uint32_t *face = MR_NEW(&ctx, m.nv, uint32_t);
+	mr_v3 *bary = MR_NEW(&ctx, m.nv, mr_v3);
+	assert_int_equal(mr_incidence_build(&ctx, &base, &inc), MR_OK);
+	assert_int_equal(mr_correspond(&ctx, &m, &base, &inc, &map, face, bary), MR_OK);
+	for (size_t i = 0; i < m.nv; i++)
+		astray += mr_dist(mr_place_point(&base, (mr_place){ face[i], bary[i] }), m.p[i]) > t;
+	assert_int_equal(astray, 0);
+	mr_ctx_free(&ctx);
+}
+
 static void
 beyond_the_boundary_offsets_serve(void **state)
 {
@@ -306,6 +360,44 @@ the_detail_follows_the_base(void **state)
 		q[i] = mr_lerp(2, none[i], plain[i]);
 	assert_true(farthest(twice, q, m.nv) < 1e-14);
 	assert_true(mr_norm(offset[1]) == 0 && fabs(mr_dist(plain[1], none[1]) - fabs(d.height[1])) < 1e-14);
+	mr_ctx_free(&ctx);
+}
+
+/* How far a sphere's vertices are from straight above those of a base that has been crumpled by a fifth of an
+ * edge, in all. */
+static double
+crumpling(mr_ctx *ctx, mr_mesh m, mr_mesh base, mr_detail d)
+{
+	mr_random r = { 5 };
+	mr_v3 *p = MR_NEW(ctx, base.nv, mr_v3);
+	const mr_v3 *q;
+	double sum = 0;
+
+	for (size_t i = 0; i < base.nv; i++)
+		p[i] = mr_mul(1 + 0.2 * 0.1 * mr_random_real(&r), base.p[i]);
+	q = decoded(ctx, with_positions(base, p, "base"), &d, 1);
+	for (size_t i = 0; i < m.nv; i++)
+		sum += mr_dist(mr_sub(q[i], p[i]), mr_sub(m.p[i], base.p[i]));
+	return sum;
+}
+
+static void
+a_crumpled_base_turns_the_detail_little(void **state)
+{
+	mr_ctx ctx;
+	mr_detail d, own;
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	mr_mesh m = solid(&ctx, MR_SPHERE, 1200), base = solid(&ctx, MR_SPHERE, 1200);
+	mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+	for (size_t i = 0; i < m.nv; i++)
+		p[i] = mr_mul(1.3, m.p[i]);
+	m = with_positions(m, p, "mesh");
+	assert_int_equal(mr_encode(&ctx, &m, &base, NULL, &d, NULL), MR_OK);
+	own = d;
+	own.rest = NULL;
+	assert_true(crumpling(&ctx, m, base, d) < 0.5 * crumpling(&ctx, m, base, own));
 	mr_ctx_free(&ctx);
 }
 
@@ -407,8 +499,10 @@ main(void)
 		cmocka_unit_test(nothing_is_lost),
 		cmocka_unit_test(the_base_may_have_other_vertices),
 		cmocka_unit_test(a_vertex_stays_on_its_sheet),
+		cmocka_unit_test(vertices_stay_on_their_side_of_a_plate),
 		cmocka_unit_test(beyond_the_boundary_offsets_serve),
 		cmocka_unit_test(the_detail_follows_the_base),
+		cmocka_unit_test(a_crumpled_base_turns_the_detail_little),
 		cmocka_unit_test(threads_do_not_matter),
 		cmocka_unit_test(degenerate_bases_lose_nothing_either),
 		cmocka_unit_test(bad_columns_are_refused),
