@@ -143,28 +143,28 @@ longest_edge_at(const mr_mesh *m, uint32_t vertex)
 static mr_status
 advise(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, uint32_t vertex, char *advice, size_t size)
 {
-	const double coarse = 3; /* edges of base in one of mesh, which then cannot follow it */
-	double base_edge = mr_mesh_edge_scale(ctx, base), longest = longest_edge_at(mesh, vertex);
+	const double coarse = 3; /* such lengths in an edge, which then cannot follow the base */
+	double longest = longest_edge_at(mesh, vertex), length;
 	mr_mark mark = mr_mark_take(ctx);
-	double *thickness;
+	double *thickness = MR_NEW(ctx, mesh->nv, double);
 
 	*advice = 0;
-	if (!(longest > coarse * base_edge))
-		return MR_OK;
-	thickness = MR_NEW(ctx, mesh->nv, double);
 	if (!thickness)
 		return MR_EMEM;
-	MR_TRY(mr_thickness(ctx, mesh, base_edge, thickness));
-	snprintf(advice, size,
-	    "; its edges are long, up to %.3g: split them first, by mr-subdivide --longest %.3g", longest,
-	    thickness[vertex]);
+	MR_TRY(mr_thickness(ctx, mesh, mr_mesh_edge_scale(ctx, base), thickness));
+	length = thickness[vertex];
 	mr_mark_release(ctx, mark);
+	if (length > 0 && longest > coarse * length)
+		snprintf(advice, size,
+		    "; its edges are long, up to %.3g: split them first, by mr-subdivide --longest %.3g",
+		    longest, length);
 	return MR_OK;
 }
 
 /*
- * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone.  Of
- * 159 edits of half of the models 20 have many, and all that are wrecked; of 159 of the others 21, and all.
+ * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone: of
+ * 165 edits of half of the models 43 have some harm and 20 have more than few, by 250 % at least the 3 that
+ * are wrecked; of 153 edits of the others 47 and 21, among them all 11.
  */
 static mr_status
 tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, const mr_v3 *p, const mr_harm *h)
