@@ -100,6 +100,14 @@ mr-solve rods.mrs | mr-decode -o held.mrs
 mr-solve --apart rods.mrs | mr-decode --stats gaps.json -o apart.mrs
 grep -o '"apart":[0-9]*' gaps.json
 
+echo 'little harm is a note, much a warning, none is nothing'
+mr-make torus -n 1500 | mr-smooth | mr-remesh | mr-select --reset --free all --fixed below:y,0.4 --handle 0=above:y,0.6 |
+	mr-encode -o torus.mrs
+for angle in 40 75 150; do
+	mr-pose --rotate 1,0,0,$angle torus.mrs | mr-solve | mr-decode -v -o out.mrs 2>&1 | sed -n 's/[0-9]*//g; s/, most.*//; /folded/p'
+	echo $angle
+done
+
 echo 'refusals'
 refused() {
 	mr-decode "$@" >out
