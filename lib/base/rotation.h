@@ -58,6 +58,14 @@ mr_mat3_axpy(double s, const mr_mat3 *a, const mr_mat3 *y)
 	return c;
 }
 
+static inline double
+mr_mat3_determinant(const mr_mat3 *a)
+{
+	const double *m = a->m;
+	return m[0] * (m[4] * m[8] - m[5] * m[7]) - m[1] * (m[3] * m[8] - m[5] * m[6]) +
+	       m[2] * (m[3] * m[7] - m[4] * m[6]);
+}
+
 /* The linear part of an affine map. */
 static inline mr_mat3
 mr_affine_linear(const mr_affine *t)

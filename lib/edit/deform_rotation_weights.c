@@ -146,7 +146,7 @@ make(mr_ctx *ctx, mr_deform *d, mr_rotations *r)
 		ease_weights(r->weight + r->count * i, r->count);
 	for (size_t j = 0; j < r->count; j++)
 		find_sections(d, r, j);
-	return MR_OK;
+	return d->opts.rounds ? mr_volume_make(ctx, d, &r->volume) : MR_OK;
 }
 
 static void

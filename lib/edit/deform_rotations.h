@@ -16,6 +16,11 @@
  * c being the centroid of the section through it, the level set of its weight: sections stay plane as a
  * beam's do.  A twist, by however many turns, is then exact.
  *
+ * What is as rigid as possible is a shell, which rather pinches and buckles than stretches.  After a round,
+ * where the free part encloses less than nine tenths of its volume, it is blown up to that by a pressure that
+ * is the same everywhere: with g the derivative of the volume by the vertices, p moves along K^-1 g, the way
+ * of least energy, until the volume is right, which is a cubic of how far.
+ *
  * Private to this room.
  */
 #ifndef MR_EDIT_DEFORM_ROTATIONS_H
@@ -26,6 +31,23 @@
 /* Centroids along a weight, between which they are interpolated.  The edges of bends by 120 degrees are off
  * by up to 1 % more with 4 of them, and by nothing that counts with 8 or 64. */
 enum { MR_SECTIONS = 16 };
+
+/* An edge where the patch ends: b to a is missing so many times. */
+typedef struct mr_rim {
+	uint32_t from, to;
+	int sides;
+	uint32_t cap; /* of its constraint */
+} mr_rim;
+
+/* What the volume of the patch takes: cones over the rims of each constraint close it. */
+typedef struct mr_volume {
+	bool encloses; /* else there is none: the surface has a boundary that is free */
+	mr_rim *rim;
+	size_t rims, caps;
+	/* Workspace, for each cap. */
+	mr_v3 *center;
+	double *sides;
+} mr_volume;
 
 /* What poses need, made once.  Vertices and faces are those of the patch. */
 struct mr_rotations {
@@ -41,6 +63,7 @@ struct mr_rotations {
 	mr_mat3 *map;             /* A of each vertex */
 	double *face;             /* 9 for each face */
 	double *source;           /* 3 for each vertex */
+	mr_volume volume;         /* for rounds */
 };
 
 /* Makes d->rotations, once. */
@@ -55,5 +78,17 @@ void mr_rotations_free(mr_deform *d);
  */
 mr_status mr_rotations_follow(
     mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *p);
+
+mr_status mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v);
+
+/* The volume where the patch's vertices are at p. */
+double mr_volume_of(const mr_ctx *ctx, const mr_deform *d, const mr_volume *v, const mr_v3 *p);
+
+/*
+ * Moves the free vertices by as much pressure as makes the volume `least`.  source: its derivative by each
+ * vertex of the patch.  q: where those are, destroyed; p: the same, of the mesh.
+ */
+mr_status mr_volume_keep(mr_ctx *ctx, mr_deform *system, const mr_volume *v, double least, const double *source,
+    mr_v3 *q, mr_v3 *p);
 
 #endif

@@ -409,7 +409,7 @@ test_a_round_is_its_equation(void **state)
 {
 	mr_mesh m = tube(21, 0.5);
 	uint32_t *region = ends(&m, FIXED);
-	mr_v3 w = mr_vec(0.3, -0.5, 1.5), *before = places(&m), *after = places(&m), *x = places(&m),
+	mr_v3 w = mr_vec(0.3, -0.5, 0.7), *before = places(&m), *after = places(&m), *x = places(&m),
 	      *y = places(&m);
 	mr_mat3 *r = MR_NEW(&ctx, m.nv, mr_mat3);
 	mr_affine t = turning(w, mr_vec(LENGTH / 2, 0.2, 0.1), mr_vec(0.2, 0, 0.1));
@@ -510,6 +510,73 @@ test_rounds_keep_stretches(void **state)
 	mr_deform_free(d);
 }
 
+/* The volume of a tube with flat ends. */
+static double
+volume_of(const mr_mesh *m, const mr_v3 *p)
+{
+	double sum = 0;
+
+	for (size_t f = 0; f < m->nf; f++)
+		sum += mr_dot(p[m->t[f].v[0]], mr_cross(p[m->t[f].v[1]], p[m->t[f].v[2]])) / 6;
+	for (size_t end = 0; end < 2; end++) {
+		size_t at = end ? m->nv - AROUND : 0;
+		for (size_t j = 1; j + 1 < AROUND; j++) {
+			double cone = mr_dot(p[at], mr_cross(p[at + j], p[at + j + 1])) / 6;
+			sum += end ? cone : -cone;
+		}
+	}
+	return sum;
+}
+
+/* The same from inside. */
+static mr_mesh
+inside_out(const mr_mesh *m)
+{
+	mr_tri *t = MR_NEW(&ctx, m->nf, mr_tri);
+
+	for (size_t f = 0; f < m->nf; f++)
+		t[f] = (mr_tri){ { m->t[f].v[1], m->t[f].v[0], m->t[f].v[2] } };
+	return (mr_mesh){ m->name, m->p, t, m->nv, m->nf };
+}
+
+/* Without a face in the middle. */
+static mr_mesh
+torn(const mr_mesh *m)
+{
+	mr_tri *t = MR_NEW(&ctx, m->nf, mr_tri);
+
+	memcpy(t, m->t, m->nf * sizeof *t);
+	t[m->nf / 2] = t[m->nf - 1];
+	return (mr_mesh){ m->name, m->p, t, m->nv, m->nf - 1 };
+}
+
+/* Half a turn pinches a tube; what it encloses keeps nine tenths, whichever way it faces, but with a hole it
+ * encloses nothing. */
+static void
+test_rounds_keep_volume(void **state)
+{
+	mr_mesh m = tube(41, 0), kind[3] = { m, inside_out(&m), torn(&m) };
+	uint32_t *region = ends(&m, FIXED);
+	mr_v3 w = mr_vec(MR_PI, 0, 0), zero = { 0, 0, 0 }, *p[3];
+	mr_affine t = turning(w, zero, zero);
+	span free = span_of(&m, region);
+	double whole = volume_of(&m, m.p), least = 1 - 0.1 * (free.high - free.low + 1) / LENGTH;
+
+	(void)state;
+	for (size_t k = 1; k <= 2; k++) {
+		for (int i = 0; i < 3; i++) {
+			mr_deform *d = deform_of(&kind[i], region, k, 6);
+			p[i] = places(&m);
+			pose(d, m.p, &t, &w, 1, p[i]);
+			mr_deform_free(d);
+		}
+		assert_true(volume_of(&m, p[0]) > least * whole);
+		assert_true(volume_of(&m, p[0]) < 0.98 * whole);
+		assert_near(&m, p[0], p[1], 1e-9);
+		assert_true(volume_of(&m, p[2]) < 0.85 * whole);
+	}
+}
+
 static void
 test_iterative_is_direct(void **state)
 {
@@ -596,6 +663,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_a_round_is_its_equation, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_rounds_make_it_more_rigid, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_rounds_keep_stretches, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_rounds_keep_volume, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative_is_direct, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_targets_have_rounds, setup, teardown),
 		cmocka_unit_test_setup_teardown(
