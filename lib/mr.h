@@ -424,7 +424,8 @@ typedef enum mr_areas {
 
 typedef enum mr_rotations_choice {
 	MR_ROTATIONS_INTERPOLATED, /* their logarithms: any angle */
-	MR_ROTATIONS_LINEAR /* their matrices, as the paper and a response do: up to a third of a turn */
+	MR_ROTATIONS_LINEAR, /* their matrices, as the paper and a response do: up to a third of a turn */
+	MR_ROTATIONS_FITTED  /* as rigid as some can be that start from the first: up to half a turn */
 } mr_rotations_choice;
 
 typedef enum mr_loose_choice {

@@ -20,6 +20,7 @@ typedef struct mr_deform_opts {
 	bool choose;           /* multigrid where the factor of the kind asked for exceeds the memory */
 	double tol;            /* a direct solution of a larger relative residual is refined */
 	bool turned;           /* poses by interpolated rotations; else linearly, as a basis always does */
+	bool fitted;           /* and fitted ones: what is turned is as rigid as possible */
 	size_t rounds;         /* of as-rigid-as-possible steps, on top of a pose */
 	int loose;             /* mr_loose_choice: what free components without a constraint do */
 	bool apart;            /* components that touch are not stitched to each other */

@@ -1,5 +1,5 @@
 /* The weights by which handles' rotations are interpolated, and the centroids of their sections. */
-#include "edit/deform_rotations.h"
+#include "edit/deform_clusters.h"
 #include "op/laplace.h"
 
 /* The regions that have weights, in their order. */
@@ -146,7 +146,7 @@ make(mr_ctx *ctx, mr_deform *d, mr_rotations *r)
 		ease_weights(r->weight + r->count * i, r->count);
 	for (size_t j = 0; j < r->count; j++)
 		find_sections(d, r, j);
-	return d->opts.rounds ? mr_volume_make(ctx, d, &r->volume) : MR_OK;
+	return d->opts.rounds || d->opts.fitted ? mr_volume_make(ctx, d, &r->volume) : MR_OK;
 }
 
 static void
@@ -167,11 +167,15 @@ mr_rotations_make(mr_ctx *ctx, mr_deform *d)
 		return MR_OK;
 	r = MR_NEW_ZERO(d->keep, 1, mr_rotations);
 	status = r ? make(d->keep, d, r) : MR_EMEM;
+	d->rotations = status < 0 ? NULL : r;
+	if (d->rotations && d->opts.fitted)
+		status = mr_clusters_make(d->keep, d);
 	if (r && (status < 0 || d->opts.rounds < 2))
 		free_membrane(d, r);
-	if (status < 0)
+	if (status < 0) {
+		d->rotations = NULL;
 		return d->keep != ctx ? mr_fail(ctx, status, "%s", d->keep->error) : status;
-	d->rotations = r;
+	}
 	return MR_OK;
 }
 

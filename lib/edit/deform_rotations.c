@@ -1,6 +1,6 @@
 /* Rotations as deform_rotations.h has them; rounds: Sorkine, Alexa 2007: As-rigid-as-possible surface
  * modeling, with the spokes and rims of Chao, Pinkall, Sanan, Schroeder 2010. */
-#include "edit/deform_rotations.h"
+#include "edit/deform_clusters.h"
 
 #include "base/parallel.h"
 
@@ -17,6 +17,7 @@ typedef struct turning {
 	mr_mat3 *by;                /* its stretch less that */
 	bool turns;                 /* or stretches */
 	bool stretches;             /* beyond rounding */
+	double pressure;            /* on what the maps turn */
 	bool sections;              /* the source is of faces about their sections, else about themselves */
 } turning;
 
@@ -84,16 +85,33 @@ decompose(mr_ctx *ctx, turning *t)
 	return MR_OK;
 }
 
-/* The interpolated stretch of vertex i. */
+/* The interpolated stretch by these weights. */
 static mr_mat3
-stretch_at(const turning *t, size_t i)
+stretch_by(const turning *t, const double *weight)
 {
-	const double *weight = t->r->weight + t->r->count * i;
 	mr_mat3 s = t->stretch;
 
 	for (size_t j = 0; t->stretches && j < t->r->count; j++)
 		s = mr_mat3_axpy(weight[j], &t->by[j], &s);
 	return s;
+}
+
+static mr_mat3
+stretch_at(const turning *t, size_t i)
+{
+	return stretch_by(t, t->r->weight + t->r->count * i);
+}
+
+static mr_mat3
+rotation_by(const turning *t, const double *weight)
+{
+	mr_v3 w = mr_vec(0, 0, 0);
+	mr_mat3 r;
+
+	for (size_t j = 0; j < t->r->count; j++)
+		w = mr_axpy(weight[j], t->log[j], w);
+	r = mr_rotation_exp(w);
+	return mr_mat3_multiply(&t->rotation, &r);
 }
 
 static bool
@@ -109,17 +127,12 @@ interpolate(void *arg, size_t begin, size_t end)
 	turning *t = arg;
 
 	for (size_t i = begin; i < end; i++) {
-		const double *weight = t->r->weight + t->r->count * i;
-		mr_v3 w = mr_vec(0, 0, 0);
 		mr_mat3 r, s;
 		if (constrained(t, i)) {
 			t->r->map[i] = linear_of(t, t->d->region[t->d->patch.vertex[i]]);
 			continue;
 		}
-		for (size_t j = 0; j < t->r->count; j++)
-			w = mr_axpy(weight[j], t->log[j], w);
-		r = mr_rotation_exp(w);
-		r = mr_mat3_multiply(&t->rotation, &r);
+		r = rotation_by(t, t->r->weight + t->r->count * i);
 		s = stretch_at(t, i);
 		t->r->map[i] = mr_mat3_multiply(&r, &s);
 	}
@@ -183,6 +196,19 @@ move_about_face(const turning *t, const uint32_t v[3], mr_v3 p[3])
 		p[k] = mr_mat3_apply(&mean, mr_sub(t->r->rest[v[k]], t->r->rest[v[0]]));
 }
 
+/* What the pressure on a face, turned, gives each of its corners. */
+static void
+add_pressure(const turning *t, const uint32_t v[3], mr_v3 out[3])
+{
+	const mr_v3 *p = t->r->rest;
+	mr_v3 normal = mr_cross(mr_sub(p[v[1]], p[v[0]]), mr_sub(p[v[2]], p[v[0]]));
+	mr_mat3 sum = mr_mat3_axpy(1, &t->r->map[v[0]], &t->r->map[v[1]]);
+
+	sum = mr_mat3_axpy(1, &t->r->map[v[2]], &sum);
+	for (int k = 0; k < 3; k++)
+		out[k] = mr_axpy(t->pressure / 18, mr_mat3_apply(&sum, normal), out[k]);
+}
+
 /* What each corner of a face has of the divergence of the gradients, less that of the whole. */
 static void
 face_sources(void *arg, size_t begin, size_t end)
@@ -201,6 +227,8 @@ face_sources(void *arg, size_t begin, size_t end)
 			out[k] = mr_add(mr_mul(t->r->cot[f][last] / 2, mr_sub(p[k], p[next])),
 			    mr_mul(t->r->cot[f][next] / 2, mr_sub(p[k], p[last])));
 		}
+		if (t->pressure != 0)
+			add_pressure(t, v, out);
 	}
 }
 
@@ -350,11 +378,36 @@ keep_volume(mr_ctx *ctx, mr_deform *system, turning *t, mr_v3 *p)
 		return MR_OK;
 	for (size_t i = 0; i < t->d->patch.mesh.nv; i++)
 		r->q[i] = p[t->d->patch.vertex[i]];
-	rest = mr_volume_of(ctx, t->d, &r->volume, r->rest);
+	rest = mr_volume_of(ctx, &r->volume, r->rest);
 	least = share_to_keep(t) * rest;
-	if (mr_volume_of(ctx, t->d, &r->volume, r->q) / rest >= least / rest)
+	if (mr_volume_of(ctx, &r->volume, r->q) / rest >= least / rest)
 		return MR_OK;
 	return mr_volume_keep(ctx, system, &r->volume, least, gather(ctx, t, face_pressures), r->q, p);
+}
+
+/* The maps of the vertices are those of their clusters, fitted from the interpolated ones on. */
+static mr_status
+fit_clusters(mr_ctx *ctx, turning *t)
+{
+	const mr_clusters *c = t->r->clusters;
+	mr_mat3 *rotation = MR_NEW(ctx, c->count, mr_mat3), *stretch = MR_NEW(ctx, c->count, mr_mat3);
+
+	if (!rotation || !stretch)
+		return MR_EMEM;
+	for (size_t l = 0; l < c->count; l++) {
+		const double *weight = c->weight + t->r->count * l;
+		bool free = c->region[l] == MR_REGION_FREE;
+		rotation[l] = free ? rotation_by(t, weight) : linear_of(t, c->region[l]);
+		stretch[l] = free ? stretch_by(t, weight) : mr_mat3_identity();
+	}
+	t->pressure = mr_clusters_fit(ctx, t->d, t->maps, share_to_keep(t), stretch, rotation);
+	for (size_t i = 0; i < t->d->patch.mesh.nv; i++) {
+		uint32_t region = t->d->region[t->d->patch.vertex[i]];
+		mr_mat3 s = stretch_at(t, i);
+		t->r->map[i] = constrained(t, i) ? linear_of(t, region)
+		                                 : mr_mat3_multiply(&rotation[c->of[i]], &s);
+	}
+	return MR_OK;
 }
 
 /* The last of the global steps is of the system's own order, so that the surface is as smooth as it asks. */
@@ -382,10 +435,16 @@ mr_rotations_follow(
 	for (size_t i = 0; i < d->patch.mesh.nv; i++)
 		t.r->rest[i] = p0[d->patch.vertex[i]];
 	MR_TRY(decompose(ctx, &t));
-	if (t.turns && d->opts.turned) {
+	if (t.turns && d->opts.fitted) {
+		MR_TRY(fit_clusters(ctx, &t));
+		source = source_of(ctx, &t, false);
+		t.pressure = 0;
+	} else if (t.turns && d->opts.turned) {
 		mr_parallel(ctx, d->patch.mesh.nv, GRAIN, interpolate, &t);
 		source = source_of(ctx, &t, true);
 	}
 	MR_TRY(mr_deform_follow(ctx, d, whole, p0, source, p));
+	if (t.turns && d->opts.fitted)
+		MR_TRY(keep_volume(ctx, d, &t, p));
 	return rounds(ctx, d, &t, whole, p0, p);
 }

@@ -1,5 +1,6 @@
 /*
- * deform_rotations.h -- posing by interpolated rotations, and rounds of as-rigid-as-possible steps on top.
+ * deform_rotations.h -- posing by interpolated or fitted rotations, and rounds of as-rigid-as-possible steps
+ * on top.
  *
  * The map of a handle is a rotation times a stretch, R S, by polar decomposition.  Relative to what moves the
  * whole, the logarithms of the rotations and the stretches are interpolated over the free vertices by weights
@@ -26,28 +27,13 @@
 #ifndef MR_EDIT_DEFORM_ROTATIONS_H
 #define MR_EDIT_DEFORM_ROTATIONS_H
 
-#include "edit/deform_parts.h"
+#include "edit/deform_volume.h"
 
 /* Centroids along a weight, between which they are interpolated.  The edges of bends by 120 degrees are off
  * by up to 1 % more with 4 of them, and by nothing that counts with 8 or 64. */
 enum { MR_SECTIONS = 16 };
 
-/* An edge where the patch ends: b to a is missing so many times. */
-typedef struct mr_rim {
-	uint32_t from, to;
-	int sides;
-	uint32_t cap; /* of its constraint */
-} mr_rim;
-
-/* What the volume of the patch takes: cones over the rims of each constraint close it. */
-typedef struct mr_volume {
-	bool encloses; /* else there is none: the surface has a boundary that is free */
-	mr_rim *rim;
-	size_t rims, caps;
-	/* Workspace, for each cap. */
-	mr_v3 *center;
-	double *sides;
-} mr_volume;
+typedef struct mr_clusters mr_clusters; /* deform_clusters.h */
 
 /* What poses need, made once.  Vertices and faces are those of the patch. */
 struct mr_rotations {
@@ -63,7 +49,8 @@ struct mr_rotations {
 	mr_mat3 *map;             /* A of each vertex */
 	double *face;             /* 9 for each face */
 	double *source;           /* 3 for each vertex */
-	mr_volume volume;         /* for rounds */
+	mr_volume volume;         /* for rounds, and what is fitted */
+	mr_clusters *clusters;    /* NULL: rotations are interpolated, no more */
 };
 
 /* Makes d->rotations, once. */
@@ -78,17 +65,5 @@ void mr_rotations_free(mr_deform *d);
  */
 mr_status mr_rotations_follow(
     mr_ctx *ctx, mr_deform *d, const mr_affine *whole, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *p);
-
-mr_status mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v);
-
-/* The volume where the patch's vertices are at p. */
-double mr_volume_of(const mr_ctx *ctx, const mr_deform *d, const mr_volume *v, const mr_v3 *p);
-
-/*
- * Moves the free vertices by as much pressure as makes the volume `least`.  source: its derivative by each
- * vertex of the patch.  q: where those are, destroyed; p: the same, of the mesh.
- */
-mr_status mr_volume_keep(mr_ctx *ctx, mr_deform *system, const mr_volume *v, double least, const double *source,
-    mr_v3 *q, mr_v3 *p);
 
 #endif

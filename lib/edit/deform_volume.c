@@ -1,11 +1,10 @@
 /* The volume of what is free, which rounds lose: pressure gives it back. */
-#include "edit/deform_rotations.h"
+#include "edit/deform_volume.h"
 
 #include "base/parallel.h"
 #include "mesh/edges.h"
 
 typedef struct solid {
-	const mr_mesh *m;
 	const mr_volume *v;
 	const mr_v3 *p; /* of the patch */
 	mr_v3 origin;
@@ -29,14 +28,18 @@ mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v)
 {
 	const mr_mesh *m = &d->patch.mesh;
 	mr_edges edges;
+	mr_rim *rim;
 
 	MR_TRY(mr_edges_build(ctx, m, &edges));
-	v->rim = mr_alloc(ctx, edges.count, sizeof *v->rim);
+	rim = MR_NEW(ctx, edges.count, mr_rim);
 	v->center = MR_NEW(ctx, d->handles + 1, mr_v3);
 	v->sides = MR_NEW(ctx, d->handles + 1, double);
-	if (!v->rim || !v->center || !v->sides)
+	if (!rim || !v->center || !v->sides)
 		return MR_EMEM;
 	v->encloses = true;
+	v->t = m->t;
+	v->nf = m->nf;
+	v->rim = rim;
 	v->caps = d->handles + 1;
 	for (size_t e = 0; e < edges.count; e++) {
 		uint32_t h = edges.he[edges.start[e]], a = mr_he_from(m, h), b = mr_he_to(m, h);
@@ -45,7 +48,7 @@ mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v)
 		if (sides == 0)
 			continue;
 		v->encloses &= region != MR_REGION_FREE && region == d->region[d->patch.vertex[b]];
-		v->rim[v->rims++] = (mr_rim){ a, b, sides,
+		rim[v->rims++] = (mr_rim){ a, b, sides,
 			region == MR_REGION_FIXED ? (uint32_t)d->handles : region - MR_REGION_HANDLE };
 	}
 	return MR_OK;
@@ -55,7 +58,7 @@ static double
 face_volume(void *arg, size_t f)
 {
 	const solid *s = arg;
-	const uint32_t *v = s->m->t[f].v;
+	const uint32_t *v = s->v->t[f].v;
 
 	return mr_dot(mr_sub(s->p[v[0]], s->origin),
 		   mr_cross(mr_sub(s->p[v[1]], s->origin), mr_sub(s->p[v[2]], s->origin))) /
@@ -79,10 +82,10 @@ find_centers(const solid *s)
 }
 
 double
-mr_volume_of(const mr_ctx *ctx, const mr_deform *d, const mr_volume *v, const mr_v3 *p)
+mr_volume_of(const mr_ctx *ctx, const mr_volume *v, const mr_v3 *p)
 {
-	solid s = { &d->patch.mesh, v, p, p[0] };
-	double sum = mr_parallel_sum(ctx, s.m->nf, face_volume, &s);
+	solid s = { v, p, p[0] };
+	double sum = mr_parallel_sum(ctx, v->nf, face_volume, &s);
 
 	find_centers(&s);
 	for (size_t e = 0; e < v->rims; e++) {
@@ -100,14 +103,14 @@ way_to(const mr_ctx *ctx, const mr_deform *d, const mr_volume *v, mr_v3 *p, cons
 {
 	enum { MOST = 5 };
 	static const double enough = 1e-4;
-	double way = 0, step = missing / slope, goal = missing, start = mr_volume_of(ctx, d, v, p);
+	double way = 0, step = missing / slope, goal = missing, start = mr_volume_of(ctx, v, p);
 
 	for (int i = 0; i < MOST && fabs(missing) > enough * fabs(goal); i++) {
 		double left;
 		for (size_t k = 0; k < d->patch.end[0]; k++)
 			p[k] = mr_axpy(step, mr_vec(u[3 * k], u[3 * k + 1], u[3 * k + 2]), p[k]);
 		way += step;
-		left = goal - (mr_volume_of(ctx, d, v, p) - start);
+		left = goal - (mr_volume_of(ctx, v, p) - start);
 		if (!(missing != left))
 			break;
 		step *= left / (missing - left);
@@ -122,7 +125,7 @@ mr_volume_keep(mr_ctx *ctx, mr_deform *system, const mr_volume *v, double least,
 {
 	mr_patch_field f = mr_deform_field(system, 3);
 	size_t n = system->patch.end[0];
-	double slope = 0, way, missing = least - mr_volume_of(ctx, system, v, q);
+	double slope = 0, way, missing = least - mr_volume_of(ctx, v, q);
 
 	f.source = source;
 	MR_TRY(mr_deform_solve_field(ctx, system, &f));

@@ -28,7 +28,8 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	deform->order = o->order;
 	deform->areas = o->areas;
 	deform->unsymmetric = o->unsymmetric;
-	deform->turned = o->rotations == MR_ROTATIONS_INTERPOLATED;
+	deform->turned = o->rotations != MR_ROTATIONS_LINEAR;
+	deform->fitted = o->rotations == MR_ROTATIONS_FITTED;
 	deform->rounds = o->arap;
 	deform->loose = o->flatten && !o->basis && o->loose == MR_LOOSE_FOLLOW ? MR_LOOSE_STAY : o->loose;
 	deform->apart = o->apart || o->flatten;
