@@ -424,8 +424,8 @@ typedef enum mr_areas {
 
 typedef enum mr_rotations_choice {
 	MR_ROTATIONS_INTERPOLATED, /* their logarithms: any angle */
-	MR_ROTATIONS_LINEAR, /* their matrices, as the paper and a response do: up to a third of a turn */
-	MR_ROTATIONS_FITTED  /* as rigid as some can be that start from the first: up to half a turn */
+	MR_ROTATIONS_LINEAR,       /* their matrices, as a response does: up to a third of a turn */
+	MR_ROTATIONS_FITTED        /* few, from the first: as rigid as they make it, up to half a turn */
 } mr_rotations_choice;
 
 typedef enum mr_loose_choice {
@@ -452,7 +452,6 @@ typedef struct mr_solve_opts {
 	bool flatten;      /* without handles: the undeformed solve of the paper; else nothing moves */
 	const char *layer; /* NULL: base, else control */
 } mr_solve_opts;
-
 #define MR_SOLVE_DEFAULTS                                                                                    \
 	{                                                                                                    \
 		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                    \
