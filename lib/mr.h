@@ -452,6 +452,7 @@ typedef struct mr_solve_opts {
 	bool flatten;      /* without handles: the undeformed solve of the paper; else nothing moves */
 	const char *layer; /* NULL: base, else control */
 } mr_solve_opts;
+
 #define MR_SOLVE_DEFAULTS                                                                                    \
 	{                                                                                                    \
 		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                    \
@@ -496,7 +497,7 @@ typedef struct mr_decode_opts {
 
 typedef struct mr_decode_result {
 	size_t folded_edges;  /* by more than 170 degrees */
-	size_t intersections; /* of faces at most 12 faces apart; of deltas only where an edge is folded */
+	size_t intersections; /* of faces at most 12 faces apart; of deltas where folds came or doubled */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 } mr_decode_result;
 
@@ -507,8 +508,7 @@ MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts 
 /* Reconstruction: Jeong, Kim 2001 */
 
 typedef enum mr_wrap_method {
-	MR_WRAP_AUTO,  /* a box, coarse to fine, searching along normals; the volume where its first level
-	                  or its last does not cover the points */
+	MR_WRAP_AUTO,  /* a box, coarse to fine; the volume where it does not cover the points */
 	MR_WRAP_CUBE,  /* the paper's, to the letter: genus 0 */
 	MR_WRAP_VOLUME /* an implicit surface, then projected and smoothed */
 } mr_wrap_method;

@@ -286,8 +286,8 @@ worst_vertex(const motion *j)
 }
 
 mr_status
-mr_harm_find(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *after, bool intersections,
-    mr_harm *harm)
+mr_harm_find(
+    mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *after, size_t enough, mr_harm *harm)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_mesh moved = *m;
@@ -302,7 +302,7 @@ mr_harm_find(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *
 	if (!j.fold || !j.harm)
 		return MR_EMEM;
 	found.folds = count_folds(ctx, &j);
-	if (intersections || found.folds)
+	if (found.folds >= enough)
 		MR_TRY(count_pairs(ctx, &j, &found.pairs));
 	if (m->nf)
 		found.vertex = worst_vertex(&j);

@@ -14,9 +14,9 @@ typedef struct mr_harm {
 	uint32_t vertex; /* of the face that has most of it; MR_NONE without any */
 } mr_harm;
 
-/* Of m, with its edges, after its vertices have gone to `after` (nv).  intersections: whether they are looked
- * for without a fold too; a surface that moves rigidly costs no more than its folds. */
+/* Of m, with its edges, after its vertices have gone to `after` (nv).  Intersections are looked for where
+ * there are at least so many folds as `enough`; a surface that moves rigidly costs no more than its folds. */
 mr_status mr_harm_find(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *after,
-    bool intersections, mr_harm *harm) MR_WARN_UNUSED;
+    size_t enough, mr_harm *harm) MR_WARN_UNUSED;
 
 #endif

@@ -12,16 +12,16 @@
 #include "space/contact.h"
 #include "subdivide/displaced.h"
 
-/* The faces around the vertices of base, its normals where it was encoded, and the edges and contacts of mesh: a
- * delta mostly keeps them. */
+/* The faces around the vertices of base, its normals where it was encoded, and the edges and contacts of
+ * mesh: a delta mostly keeps them. */
 typedef struct mr_connectivity_cache {
 	mr_incidence base;
 	mr_v3 *rest_normal;
 	mr_edges mesh;
-	uint64_t base_serial, mesh_serial; /* of their triangles; 0: none */
-	uint64_t rest_serial;              /* of base.encoded; 0: none */
-	mr_contacts contacts;              /* of mesh */
-	size_t told, told_apart;           /* of harm, since the last key */
+	uint64_t base_serial, mesh_serial;   /* of their triangles; 0: none */
+	uint64_t rest_serial;                /* of base.encoded; 0: none */
+	mr_contacts contacts;                /* of mesh */
+	size_t told, told_folds, told_apart; /* of harm, since the last key */
 } mr_connectivity_cache;
 
 struct mr_cache {

@@ -213,6 +213,16 @@ look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contac
 	return n;
 }
 
+/* Intersections take as long as decoding: of a delta they are looked for where folds have come, or doubled.
+ */
+static size_t
+folds_to_look_from(const mr_frame *f, const mr_cache *cache)
+{
+	size_t told = cache ? cache->connectivity.told_folds : 0;
+
+	return f->key ? 0 : told ? 2 * told : 1;
+}
+
 /* What the motion from the frame's mesh to p has done to it. */
 static mr_status
 look_for_harm(
@@ -223,11 +233,14 @@ look_for_harm(
 	mr_mesh mesh;
 	mr_harm harm;
 
+	if (cache && f->key)
+		cache->connectivity.told = cache->connectivity.told_folds = cache->connectivity.told_apart =
+		    0;
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
 	MR_TRY(mesh_neighbours(ctx, cache, f, &mesh, &edges, &contacts));
-	MR_TRY(mr_harm_find(ctx, &mesh, &edges, p, f->key, &harm));
-	if (cache && f->key)
-		cache->connectivity.told = cache->connectivity.told_apart = 0;
+	MR_TRY(mr_harm_find(ctx, &mesh, &edges, p, folds_to_look_from(f, cache), &harm));
+	if (cache && harm.pairs != MR_UNKNOWN)
+		cache->connectivity.told_folds = harm.folds;
 	MR_TRY(tell(ctx, cache, &mesh, base, p, &harm));
 	*result = (mr_decode_result){ harm.folds, harm.pairs,
 		look_for_gaps(ctx, cache, &mesh, &contacts, p) };

@@ -3,13 +3,13 @@
 #include "shapes.h"
 
 static mr_harm
-harm_of(const mr_mesh *m, const mr_v3 *after, bool intersections)
+harm_of(const mr_mesh *m, const mr_v3 *after, size_t enough)
 {
 	mr_edges edges;
 	mr_harm harm;
 
 	assert_int_equal(mr_edges_build(&ctx, m, &edges), MR_OK);
-	assert_int_equal(mr_harm_find(&ctx, m, &edges, after, intersections, &harm), MR_OK);
+	assert_int_equal(mr_harm_find(&ctx, m, &edges, after, enough, &harm), MR_OK);
 	return harm;
 }
 
@@ -32,7 +32,7 @@ test_rigid_motion_is_none(void **state)
 	(void)state;
 	for (size_t v = 0; v < m.nv; v++)
 		p[v] = mr_vec(3 - m.p[v].y, m.p[v].x, m.p[v].z + 7);
-	h = harm_of(&m, p, true);
+	h = harm_of(&m, p, 0);
 	assert_true(h.folds == 0 && h.pairs == 0 && h.vertex == MR_NONE);
 }
 
@@ -47,11 +47,11 @@ test_fold(void **state)
 
 	(void)state;
 	p[v].x += 1.5;
-	h = harm_of(&m, p, false); /* a fold has its intersections looked for */
+	h = harm_of(&m, p, 1); /* a fold has its intersections looked for */
 	assert_true(h.folds > 0 && h.pairs != MR_UNKNOWN && h.pairs > 0);
 	assert_true(h.vertex != MR_NONE && mr_dist(m.p[h.vertex], m.p[v]) < 3);
 	m.p = p; /* what was there before is no harm */
-	h = harm_of(&m, p, true);
+	h = harm_of(&m, p, 0);
 	assert_true(h.folds == 0 && h.pairs == 0 && h.vertex == MR_NONE);
 }
 
@@ -69,15 +69,15 @@ test_near(void **state)
 		double a = 2 * MR_PI * m.p[v].y / 30, r = 30 / (2 * MR_PI);
 		p[v] = mr_vec(m.p[v].x, r * sin(a) + 1e-3 * m.p[v].y, r * cos(a));
 	}
-	h = harm_of(&m, p, true);
+	h = harm_of(&m, p, 0);
 	assert_true(h.folds == 0 && h.pairs == 0);
 	for (size_t v = 0; v < m.nv; v++) { /* the same, of a few rows */
 		double a = 2 * MR_PI * m.p[v].y / 4, r = 4 / (2 * MR_PI);
 		p[v] = mr_vec(m.p[v].x, r * sin(a) + 0.1 * m.p[v].y, r * cos(a));
 	}
-	h = harm_of(&m, p, true);
+	h = harm_of(&m, p, 0);
 	assert_true(h.folds == 0 && h.pairs > 100);
-	h = harm_of(&m, p, false);
+	h = harm_of(&m, p, 1);
 	assert_true(h.folds == 0 && h.pairs == MR_UNKNOWN);
 }
 
