@@ -627,8 +627,8 @@ static void
 return_memory(bool lean)
 {
 #ifdef M_MMAP_THRESHOLD
-	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 22);
-	mallopt(M_TRIM_THRESHOLD, lean ? 1 << 17 : 1 << 24);
+	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 25);
+	mallopt(M_TRIM_THRESHOLD, lean ? 1 << 17 : 1 << 26);
 #endif
 }
 

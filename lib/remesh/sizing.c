@@ -77,8 +77,8 @@ point_along(const mr_dyn *d, uint32_t v, uint32_t u, double way)
 }
 
 /*
- * Of 132,547 edges of 120 models sharper than 40 degrees 399 are gone without shorter lengths along curves,
- * 93 where these may be off by 0.15 of the length and 13 by this, with 5 % more faces.
+ * Of 132,547 edges of 120 models sharper than 40 degrees 399 are gone without shorter lengths along them
+ * and 9 by these, with 5 % more faces.
  */
 static const double OFF = 0.1, SHORTEST = 1.0 / 8;
 
@@ -204,7 +204,8 @@ mr_sizing_curves(
 	if (!field)
 		return MR_EMEM;
 	for (uint32_t v = 0; v < m->nv; v++) {
-		field[v] = d->kind[v] == MR_CURVE ? length_along(d, v, uniform) : uniform;
+		bool sharp = d->kind[v] == MR_CURVE && !mr_dyn_on_boundary(d, v);
+		field[v] = sharp ? length_along(d, v, uniform) : uniform;
 		shorter |= field[v] < uniform;
 	}
 	*length = shorter ? field : NULL;
