@@ -561,9 +561,9 @@ MR_API mr_status mr_shrinkwrap_frame(
     mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_result *result) MR_WARN_UNUSED;
 
 typedef struct mr_simplify_opts {
-	size_t faces;         /* stop at so many, or one less; 0: by ratio */
-	double ratio;         /* share of the faces to stop at; 0: by error; all 0: by the frame */
-	double error;         /* no vertex farther from the planes of the faces merged into it; 0: no limit */
+	size_t faces; /* stop at so many, or one less; 0: by ratio */
+	double ratio; /* share of the faces to stop at; 0: by error; all 0: by the frame */
+	double error; /* root mean square distance from the planes of the faces merged, at most; 0: any */
 	bool error_relative;  /* error is a share of the bounding box's diagonal */
 	double boundary;      /* weight of the planes that hold boundary edges */
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */

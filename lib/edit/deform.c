@@ -157,7 +157,7 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	MR_TRY(find_anchored(ctx, d, &stitched, anchored, part));
 	MR_TRY(settle_loose(ctx, d, rest, anchored, part));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
-	MR_TRY(mr_patch_build(ctx, &stitched, anchored, d->opts.order, &d->patch));
+	MR_TRY(mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &d->patch));
 	MR_TRY(make_workspace(ctx, d));
 	return mr_deform_assemble(ctx, d, rest, started);
 }

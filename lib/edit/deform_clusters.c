@@ -1,4 +1,4 @@
-/* Rotations that are fitted in a model of few: deform_rotations.h says how. */
+/* Rotations that are fitted in a model of few. */
 #include "edit/deform_clusters.h"
 
 #include "solve/solver.h"
@@ -68,7 +68,7 @@ spread(const mr_deform *d, mr_clusters *c, uint32_t seed, flood *w)
 
 /* Each seed is the vertex farthest from those before. */
 static mr_status
-sow(mr_ctx *ctx, const mr_deform *d, mr_clusters *c)
+sow(mr_ctx *ctx, const mr_deform *d, mr_clusters *c, bool *reached)
 {
 	size_t n = d->patch.mesh.nv, most = d->patch.end[0] / EACH;
 	flood w = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, uint32_t), MR_NEW_ZERO(ctx, n, bool) };
@@ -90,6 +90,8 @@ sow(mr_ctx *ctx, const mr_deform *d, mr_clusters *c)
 		c->region[c->count] = region_of(d, seed);
 		spread(d, c, seed, &w);
 	}
+	for (size_t i = 0; i < n; i++)
+		*reached &= w.far[i] < INFINITY;
 	return MR_OK;
 }
 
@@ -299,11 +301,18 @@ mr_clusters_make(mr_ctx *ctx, mr_deform *d)
 {
 	mr_clusters *c = MR_NEW_ZERO(ctx, 1, mr_clusters);
 	making w = { .d = d, .c = c };
+	bool reached = true;
 	mr_mark mark;
 
 	if (!c)
 		return MR_EMEM;
-	MR_TRY(sow(ctx, d, c));
+	MR_TRY(sow(ctx, d, c, &reached));
+	if (!reached) {
+		mr_note(ctx,
+		    "%s: rotations are interpolated: the surface has more parts than the %d that are fitted",
+		    d->patch.mesh.name, MOST);
+		return MR_OK;
+	}
 	MR_TRY(weigh(ctx, d, c));
 	MR_TRY(coarsen(ctx, d, c));
 	MR_TRY(make_room(ctx, d, c));
@@ -407,19 +416,17 @@ turn(const mr_clusters *c, double pressure, bool first, const mr_mat3 *stretch, 
 
 double
 mr_clusters_fit(const mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps, double keep,
-    const mr_mat3 *stretch, mr_mat3 *rotation)
+    const mr_mat3 *stretch, mr_mat3 *rotation, bool *body)
 {
 	const mr_clusters *c = d->rotations->clusters;
 	size_t size = 3 * c->outs * sizeof *c->base;
-	double pressure = 0, least = 0, step = 0;
+	double pressure = 0, rest = 0, least = 0, step = 0;
 
 	memset(c->place, 0, c->count * sizeof *c->place);
 	for (size_t i = 0; i < d->patch.mesh.nv; i++)
 		c->place[c->of[i]] = mr_axpy(1.0 / c->size[c->of[i]], d->patch.mesh.p[i], c->place[c->of[i]]);
 	if (c->volume.encloses)
-		least = keep * mr_volume_of(ctx, &c->volume, c->place);
-	if (least != 0)
-		step = 1e-3 / cbrt(fabs(least));
+		rest = mr_volume_of(ctx, &c->volume, c->place);
 	memset(c->base, 0, size);
 	add_constraints(d, c, maps, c->base);
 	for (int round = 0; round < ROUNDS; round++) {
@@ -428,9 +435,14 @@ mr_clusters_fit(const mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *map
 		memcpy(c->by_map, c->base, size);
 		memset(c->by_pressure, 0, size);
 		add_maps(c, c->turned, c->by_map);
+		if (round == 0 && c->volume.encloses && mr_volume_is_kept(volume_at(ctx, c, 0), rest)) {
+			least = keep * rest;
+			step = 1e-3 / cbrt(fabs(least));
+		}
 		if (least != 0)
 			pressure = find_pressure(ctx, c, least, pressure != 0 ? pressure : step);
 		turn(c, pressure, round == 0, stretch, rotation);
 	}
+	*body = least != 0;
 	return pressure;
 }

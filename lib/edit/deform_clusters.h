@@ -36,14 +36,16 @@ struct mr_clusters {
 	mr_mat3 *map;
 };
 
-/* Makes d->rotations->clusters by six solutions a cluster, of the membrane that is there. */
+/* Makes d->rotations->clusters by six solutions a cluster, of the membrane that is there; none, and says so,
+ * where the surface falls into more parts than there may be clusters. */
 mr_status mr_clusters_make(mr_ctx *ctx, mr_deform *d);
 
 /*
  * Fits the rotations, one a cluster, those of constraints as they are; in: where to start.  stretch: S of
- * each. keep: how much of its volume shall be left, if it encloses any.  Returns the pressure for that.
+ * each. keep: how much of its volume shall be left, where it has one to keep: *body.  Returns the pressure
+ * for that.
  */
 double mr_clusters_fit(const mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps, double keep,
-    const mr_mat3 *stretch, mr_mat3 *rotation);
+    const mr_mat3 *stretch, mr_mat3 *rotation, bool *body);
 
 #endif

@@ -18,6 +18,7 @@ typedef struct turning {
 	bool turns;                 /* or stretches */
 	bool stretches;             /* beyond rounding */
 	double pressure;            /* on what the maps turn */
+	bool keeps;                 /* of what is fitted: its volume */
 	bool sections;              /* the source is of faces about their sections, else about themselves */
 } turning;
 
@@ -367,20 +368,33 @@ share_to_keep(const turning *t)
 	return kept * sum / (double)n;
 }
 
+/* The volume at p, by what is kept in q. */
+static double
+volume_at(mr_ctx *ctx, const turning *t, const mr_v3 *p)
+{
+	for (size_t i = 0; i < t->d->patch.mesh.nv; i++)
+		t->r->q[i] = p[t->d->patch.vertex[i]];
+	return mr_volume_of(ctx, &t->r->volume, t->r->q);
+}
+
+/* Before any round.  Places that are given tell no stretches, and so no volume. */
+static bool
+is_body(mr_ctx *ctx, const turning *t, const mr_v3 *p)
+{
+	const mr_volume *v = &t->r->volume;
+
+	return t->maps && v->encloses &&
+	       mr_volume_is_kept(volume_at(ctx, t, p), mr_volume_of(ctx, v, t->r->rest));
+}
+
 /* After a round: what pinches and buckles gets its volume back. */
 static mr_status
 keep_volume(mr_ctx *ctx, mr_deform *system, turning *t, mr_v3 *p)
 {
 	mr_rotations *r = t->r;
-	double rest, least;
+	double rest = mr_volume_of(ctx, &r->volume, r->rest), least = share_to_keep(t) * rest;
 
-	if (!r->volume.encloses)
-		return MR_OK;
-	for (size_t i = 0; i < t->d->patch.mesh.nv; i++)
-		r->q[i] = p[t->d->patch.vertex[i]];
-	rest = mr_volume_of(ctx, &r->volume, r->rest);
-	least = share_to_keep(t) * rest;
-	if (mr_volume_of(ctx, &r->volume, r->q) / rest >= least / rest)
+	if (volume_at(ctx, t, p) / rest >= least / rest)
 		return MR_OK;
 	return mr_volume_keep(ctx, system, &r->volume, least, gather(ctx, t, face_pressures), r->q, p);
 }
@@ -400,7 +414,7 @@ fit_clusters(mr_ctx *ctx, turning *t)
 		rotation[l] = free ? rotation_by(t, weight) : linear_of(t, c->region[l]);
 		stretch[l] = free ? stretch_by(t, weight) : mr_mat3_identity();
 	}
-	t->pressure = mr_clusters_fit(ctx, t->d, t->maps, share_to_keep(t), stretch, rotation);
+	t->pressure = mr_clusters_fit(ctx, t->d, t->maps, share_to_keep(t), stretch, rotation, &t->keeps);
 	for (size_t i = 0; i < t->d->patch.mesh.nv; i++) {
 		uint32_t region = t->d->region[t->d->patch.vertex[i]];
 		mr_mat3 s = stretch_at(t, i);
@@ -414,13 +428,16 @@ fit_clusters(mr_ctx *ctx, turning *t)
 static mr_status
 rounds(mr_ctx *ctx, mr_deform *d, turning *t, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p)
 {
+	bool body = d->opts.rounds && is_body(ctx, t, p);
+
 	for (size_t round = 0; round < d->opts.rounds; round++) {
 		mr_deform *system = round + 1 < d->opts.rounds ? t->r->membrane : d;
 		extrapolate(t, p, round == 0);
 		mr_parallel(ctx, d->patch.mesh.nf, GRAIN, face_covariances, t);
 		mr_parallel(ctx, d->patch.mesh.nv, GRAIN, fit_rotations, t);
 		MR_TRY(mr_deform_follow(ctx, system, whole, p0, source_of(ctx, t, false), p));
-		MR_TRY(keep_volume(ctx, system, t, p));
+		if (body)
+			MR_TRY(keep_volume(ctx, system, t, p));
 	}
 	return MR_OK;
 }
@@ -431,11 +448,13 @@ mr_rotations_follow(
 {
 	turning t = { .d = d, .r = d->rotations, .maps = maps };
 	const double *source = NULL;
+	bool fitted;
 
 	for (size_t i = 0; i < d->patch.mesh.nv; i++)
 		t.r->rest[i] = p0[d->patch.vertex[i]];
 	MR_TRY(decompose(ctx, &t));
-	if (t.turns && d->opts.fitted) {
+	fitted = t.turns && t.r->clusters;
+	if (fitted) {
 		MR_TRY(fit_clusters(ctx, &t));
 		source = source_of(ctx, &t, false);
 		t.pressure = 0;
@@ -444,7 +463,7 @@ mr_rotations_follow(
 		source = source_of(ctx, &t, true);
 	}
 	MR_TRY(mr_deform_follow(ctx, d, whole, p0, source, p));
-	if (t.turns && d->opts.fitted)
+	if (fitted && t.keeps)
 		MR_TRY(keep_volume(ctx, d, &t, p));
 	return rounds(ctx, d, &t, whole, p0, p);
 }

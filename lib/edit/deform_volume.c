@@ -26,10 +26,12 @@ open_sides(const mr_mesh *m, const mr_edges *edges, size_t e)
 mr_status
 mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v)
 {
-	const mr_mesh *m = &d->patch.mesh;
+	mr_mesh own = d->patch.mesh;
+	const mr_mesh *m = &own;
 	mr_edges edges;
 	mr_rim *rim;
 
+	own.nf = d->patch.own; /* without the triangles between parts that touch */
 	MR_TRY(mr_edges_build(ctx, m, &edges));
 	rim = MR_NEW(ctx, edges.count, mr_rim);
 	v->center = MR_NEW(ctx, d->handles + 1, mr_v3);

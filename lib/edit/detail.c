@@ -276,6 +276,10 @@ mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 		    (d->offset && !mr_finite(d->offset[i])))
 			return mr_fail(ctx, MR_ERANGE, "the detail of vertex %zu is not finite", i);
 	}
+	for (size_t i = 0; d->rest && i < base->nv; i++)
+		if (!mr_finite(d->rest[i]))
+			return mr_fail(
+			    ctx, MR_ERANGE, "%s: encoded position %zu is not finite", base->name, i);
 	return MR_OK;
 }
 

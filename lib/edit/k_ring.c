@@ -62,7 +62,7 @@ count_faces(const mr_mesh *m, const uint8_t *level, size_t rings)
 }
 
 mr_status
-mr_patch_build(mr_ctx *ctx, const mr_mesh *m, const bool *chosen, size_t rings, mr_patch *patch)
+mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch)
 {
 	mr_patch r = { .mesh = { .name = m->name }, .vertex = MR_NEW(ctx, m->nv, uint32_t) };
 	uint8_t *level = MR_NEW(ctx, m->nv, uint8_t);
@@ -81,9 +81,11 @@ mr_patch_build(mr_ctx *ctx, const mr_mesh *m, const bool *chosen, size_t rings, 
 	for (size_t i = 0; i < r.end[rings]; i++)
 		p[i] = m->p[r.vertex[i]];
 	for (size_t f = 0; f < m->nf; f++)
-		if (in_patch(m, f, level, rings))
+		if (in_patch(m, f, level, rings)) {
+			r.own += f < own;
 			t[r.mesh.nf++] = (mr_tri){ { local[m->t[f].v[0]], local[m->t[f].v[1]],
 			    local[m->t[f].v[2]] } };
+		}
 	r.mesh.nv = r.end[rings];
 	r.mesh.p = p;
 	r.mesh.t = t;

@@ -15,6 +15,7 @@ enum { MR_PATCH_RINGS = 3 };
 typedef struct mr_patch {
 	mr_mesh mesh;
 	uint32_t *vertex; /* the patch's numbers to the mesh's; ascending in each ring */
+	size_t own;       /* its first faces, that are among the first `own` of the mesh */
 	size_t end[MR_PATCH_RINGS +
 		   1]; /* end[r]: how many vertices are at most r rings away; end[0] the chosen */
 } mr_patch;
@@ -26,7 +27,9 @@ typedef struct mr_patch {
  */
 void mr_patch_levels(const mr_mesh *m, const bool *chosen, uint8_t most, uint8_t *level);
 
-/* The chosen vertices of m and `rings` rings, 1 to MR_PATCH_RINGS. */
-mr_status mr_patch_build(mr_ctx *ctx, const mr_mesh *m, const bool *chosen, size_t rings, mr_patch *patch);
+/* The chosen vertices of m, of whose faces the first `own` count as such, and `rings` rings, 1 to
+ * MR_PATCH_RINGS. */
+mr_status
+mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch);
 
 #endif

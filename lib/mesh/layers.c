@@ -82,6 +82,7 @@ static const struct {
 	{ MR_RECONNECTED, "base", "mesh", "detail_offset" },
 	{ MR_RECONNECTED, "mesh", "base", "source_face" },
 	{ MR_RECONNECTED, "mesh", "base", "source_bary" },
+	{ MR_RECONNECTED, "mesh", "base", "encoded" },
 	{ MR_RECONNECTED, "mesh", NULL, "mesh_face" },
 	{ MR_RECONNECTED, "mesh", NULL, "mesh_bary" },
 	{ MR_RECONNECTED, "base", NULL, "base_face" },

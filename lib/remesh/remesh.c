@@ -275,7 +275,7 @@ check_demand(remesher *r)
 {
 	mr_demand n = mr_remesh_demand(&r->d, &r->source);
 	double faces = n.flat + n.thin, most = fmin(MR_NONE / 6, mr_memory_available() / FACE_BYTES),
-	       finest = fmax(1, 1 / r->o->ratio) * (r->length ? ADAPTIVE_RANGE : 1);
+	       finest = fmax(1, 1 / r->o->ratio) * (r->o->adaptive > 0 ? ADAPTIVE_RANGE : 1);
 
 	if (!(r->o->length > 0) && !(faces_wanted(r->o) > 0))
 		most = fmin(most, FACE_SHARE * square(finest) * (double)r->source.m->nf);

@@ -196,9 +196,9 @@ mr_status
 mr_sizing_curves(
     mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double uniform, double **length)
 {
+	mr_mark begin = mr_mark_take(ctx), mark;
 	double *field = MR_NEW(ctx, m->nv, double);
 	grader w = { .ctx = ctx, .m = m, .length = field };
-	mr_mark mark = mr_mark_take(ctx);
 	bool shorter = false;
 
 	if (!field)
@@ -208,10 +208,11 @@ mr_sizing_curves(
 		field[v] = sharp ? length_along(d, v, uniform) : uniform;
 		shorter |= field[v] < uniform;
 	}
+	mark = mr_mark_take(ctx);
 	*length = shorter ? field : NULL;
 	if (shorter)
 		MR_TRY(grade(&w, topo));
-	mr_mark_release(ctx, mark);
+	mr_mark_release(ctx, shorter ? mark : begin);
 	return MR_OK;
 }
 

@@ -7,20 +7,25 @@
 
 #include <math.h>
 
-/* component: of each vertex, the vertex that stands for it. */
+/* component: of each vertex, the vertex that stands for it; MR_NONE where it has no face. */
 static mr_status
 label_components(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
 {
 	uint32_t *set = mr_sets_new(ctx, m->nv);
+	bool *used = MR_NEW_ZERO(ctx, m->nv, bool);
 
-	if (!set)
+	if (!set || !used)
 		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		mr_sets_join(set, m->t[f].v[0], m->t[f].v[1]);
 		mr_sets_join(set, m->t[f].v[1], m->t[f].v[2]);
+		for (int k = 0; k < 3; k++)
+			used[m->t[f].v[k]] = true;
 	}
 	for (uint32_t v = 0; v < m->nv; v++)
 		set[v] = mr_sets_root(set, v);
+	for (uint32_t v = 0; v < m->nv; v++)
+		set[v] = used[v] ? set[v] : MR_NONE;
 	*several = false;
 	for (size_t f = 1; f < m->nf; f++)
 		*several |= set[m->t[f].v[0]] != set[m->t[0].v[0]];
@@ -67,7 +72,8 @@ search_vertices(void *arg, size_t begin, size_t end)
 	for (size_t v = begin; v < end; v++) {
 		nearest n = { s, (uint32_t)v, { .at.face = MR_NONE, .dist2 = INFINITY } };
 		mr_box box = { mr_sub(s->m->p[v], half), mr_add(s->m->p[v], half) };
-		mr_bvh_overlap(s->bvh, box, visit, &n);
+		if (s->component[v] != MR_NONE)
+			mr_bvh_overlap(s->bvh, box, visit, &n);
 		s->at[v] = n.best.at;
 		if (n.best.dist2 > s->reach2)
 			s->at[v].face = MR_NONE;

@@ -628,6 +628,73 @@ test_rounds_keep_volume(void **state)
 	}
 }
 
+/* Two tubes side by side, which touch: the triangles between them are no hole. */
+static void
+test_parts_that_touch_keep_volume(void **state)
+{
+	mr_mesh one = tube(41, 0), m = { one.name, NULL, NULL, 2 * one.nv, 2 * one.nf };
+	mr_v3 *p = places(&m), *q = places(&m), w = mr_vec(MR_PI, 0, 0), zero = { 0, 0, 0 };
+	mr_tri *t = MR_NEW(&ctx, m.nf, mr_tri);
+	mr_affine map = turning(w, zero, zero);
+	uint32_t *region;
+	mr_deform *d;
+
+	(void)state;
+	for (size_t v = 0; v < one.nv; v++) {
+		p[v] = one.p[v];
+		p[one.nv + v] = mr_add(one.p[v], mr_vec(0, 2.02, 0));
+	}
+	for (size_t f = 0; f < one.nf; f++)
+		for (uint32_t k = 0; k < 3; k++) {
+			t[f].v[k] = one.t[f].v[k];
+			t[one.nf + f].v[k] = one.t[f].v[k] + (uint32_t)one.nv;
+		}
+	m.p = p;
+	m.t = t;
+	region = ends(&m, FIXED);
+	d = deform_of(&m, region, 2, 6);
+	pose(d, m.p, &map, &w, 1, q);
+	assert_true(volume_of(&m, q) > 0.9 * volume_of(&m, m.p));
+	mr_deform_free(d);
+}
+
+/* A domed sheet that is pushed through by what holds its middle encloses nothing to keep: it is where it
+ * would be without rounds, to a part of the way. */
+static void
+test_dents_are_not_blown_up(void **state)
+{
+	enum { N = 25 };
+	mr_mesh m = { "base", NULL, NULL, N * N, 2 * (N - 1) * (N - 1) };
+	mr_v3 *p = places(&m), *plain = places(&m), *q = places(&m), w = mr_vec(0.3, 0, 0);
+	mr_tri *t = MR_NEW(&ctx, m.nf, mr_tri);
+	uint32_t *region = MR_NEW(&ctx, m.nv, uint32_t);
+	mr_affine map = turning(w, mr_vec(0, 0, 0), mr_vec(0, 0, -0.4));
+
+	(void)state;
+	for (uint32_t i = 0; i < N * N; i++) {
+		double x = 2.0 * (i % N) / (N - 1) - 1, y = 2.0 * (i / N) / (N - 1) - 1,
+		       far = fmax(fabs(x), fabs(y));
+		p[i] = mr_vec(x, y, 0.2 * (1 - x * x) * (1 - y * y));
+		region[i] = far > 0.85 ? FIXED : far < 0.25 ? HANDLE : FREE;
+	}
+	for (uint32_t f = 0; f < m.nf; f++) {
+		uint32_t a = f / 2 / (N - 1) * N + f / 2 % (N - 1);
+		t[f] = f % 2 ? (mr_tri){ { a, a + N + 1, a + N } } : (mr_tri){ { a, a + 1, a + N + 1 } };
+	}
+	m.p = p;
+	m.t = t;
+	for (int fitted = 0; fitted < 2; fitted++) {
+		mr_deform *none = deform_of(&m, region, 2, 0),
+			  *d = deform_with(&m, region, 2, fitted, fitted ? 0 : 4);
+		pose(none, m.p, &map, &w, 1, plain);
+		pose(d, m.p, &map, &w, 1, q);
+		for (size_t v = 0; v < m.nv; v++)
+			assert_true(mr_dist(plain[v], q[v]) < 0.15);
+		mr_deform_free(none);
+		mr_deform_free(d);
+	}
+}
+
 static void
 test_iterative_is_direct(void **state)
 {
@@ -717,6 +784,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_fitted_is_more_rigid, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_fitted_keeps_stretches, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_rounds_keep_volume, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_parts_that_touch_keep_volume, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_dents_are_not_blown_up, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative_is_direct, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_targets_have_rounds, setup, teardown),
 		cmocka_unit_test_setup_teardown(

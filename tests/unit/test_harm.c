@@ -96,7 +96,7 @@ test_memory_failures_are_reported(void **state)
 		mr_harm h;
 		mr_status status;
 		ctx.fail_at = k;
-		status = mr_harm_find(&ctx, &m, &edges, p, true, &h);
+		status = mr_harm_find(&ctx, &m, &edges, p, 0, &h);
 		ctx.fail_at = 0;
 		mr_mark_release(&ctx, mark);
 		if (status == MR_OK)
