@@ -37,17 +37,20 @@ mr_feature_loss(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, size_t 
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_bvh *bvh;
-	mr_mesh curves;
+	mr_mesh curves, view = mr_dyn_view(d, s->m->name);
+	double most; /* where so few are wanted that the target length says nothing */
 
 	*edges = *lost = 0;
 	if (s->curves->count == 0)
 		return MR_OK;
+	most = 2 * mr_mesh_edge_scale(ctx, &view);
 	MR_TRY(gather_curves(ctx, d, &curves));
 	MR_TRY(mr_bvh_build(ctx, &curves, &bvh));
 	for (uint32_t h = 0; h < 3 * s->m->nf; h++)
 		if (is_sharp(s, h)) {
 			uint32_t a = mr_he_from(s->m, h), b = mr_he_to(s->m, h);
-			double far = FAR * fmax(s->uniform, fmin(length_at(s, a), length_at(s, b)));
+			double far = FAR *
+			             fmin(most, fmax(s->uniform, fmin(length_at(s, a), length_at(s, b))));
 			mr_closest c = mr_bvh_closest(bvh, mr_lerp(0.5, s->m->p[a], s->m->p[b]));
 			*lost += c.dist2 > far * far;
 			++*edges;

@@ -33,10 +33,53 @@ label_components(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *seve
 	return MR_OK;
 }
 
+static bool
+is_same(mr_v3 a, mr_v3 b)
+{
+	return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+static size_t
+slot_of(mr_v3 p, size_t slots)
+{
+	const double c[3] = { p.x + 0.0, p.y + 0.0, p.z + 0.0 }; /* either zero */
+	uint64_t bits[3], hash = 0;
+
+	memcpy(bits, c, sizeof bits);
+	for (int i = 0; i < 3; i++)
+		hash = (hash ^ bits[i] ^ bits[i] >> 32) * 0x9e3779b97f4a7c15u;
+	return (size_t)(hash >> 20) % slots;
+}
+
+/* slit: of each vertex, whether another one is at its place; by a table of open addresses. */
+static mr_status
+find_slits(mr_ctx *ctx, const mr_mesh *m, bool **slit, bool *any)
+{
+	size_t slots = 2 * m->nv + 1;
+	uint32_t *table = MR_NEW(ctx, slots, uint32_t);
+
+	*slit = MR_NEW_ZERO(ctx, m->nv, bool);
+	if (!table || !*slit)
+		return MR_EMEM;
+	memset(table, 0xff, slots * sizeof *table);
+	for (uint32_t v = 0; v < m->nv; v++) {
+		size_t i = slot_of(m->p[v], slots);
+		while (table[i] != MR_NONE && !is_same(m->p[table[i]], m->p[v]))
+			i = (i + 1) % slots;
+		if (table[i] == MR_NONE)
+			table[i] = v;
+		else
+			*any = (*slit)[v] = (*slit)[table[i]] = true;
+	}
+	return MR_OK;
+}
+
 typedef struct search {
 	const mr_mesh *m;
 	const mr_bvh *bvh;
 	const uint32_t *component;
+	const bool *slit;
+	bool several; /* components */
 	double reach2;
 	mr_place *at; /* nv; of face MR_NONE: no contact */
 } search;
@@ -47,14 +90,30 @@ typedef struct nearest {
 	mr_closest best;
 } nearest;
 
+/* Whether face f is beyond a slit at v. */
+static bool
+is_beyond(const search *s, uint32_t f, uint32_t v)
+{
+	const uint32_t *c = s->m->t[f].v;
+	bool there = false;
+
+	for (int k = 0; k < 3; k++) {
+		if (c[k] == v)
+			return false;
+		there |= is_same(s->m->p[c[k]], s->m->p[v]);
+	}
+	return there;
+}
+
 static bool
 visit(void *arg, uint32_t f)
 {
 	nearest *n = arg;
-	const uint32_t *component = n->s->component;
+	const search *s = n->s;
 	mr_closest c;
 
-	if (component[n->s->m->t[f].v[0]] == component[n->vertex])
+	if (s->component[s->m->t[f].v[0]] == s->component[n->vertex] &&
+	    !(s->slit[n->vertex] && is_beyond(s, f, n->vertex)))
 		return true;
 	c = mr_face_closest(n->s->m, f, n->s->m->p[n->vertex]);
 	if (c.dist2 < n->best.dist2 || (c.dist2 == n->best.dist2 && f < n->best.at.face))
@@ -72,7 +131,7 @@ search_vertices(void *arg, size_t begin, size_t end)
 	for (size_t v = begin; v < end; v++) {
 		nearest n = { s, (uint32_t)v, { .at.face = MR_NONE, .dist2 = INFINITY } };
 		mr_box box = { mr_sub(s->m->p[v], half), mr_add(s->m->p[v], half) };
-		if (s->component[v] != MR_NONE)
+		if (s->component[v] != MR_NONE && (s->several || s->slit[v]))
 			mr_bvh_overlap(s->bvh, box, visit, &n);
 		s->at[v] = n.best.at;
 		if (n.best.dist2 > s->reach2)
@@ -107,15 +166,16 @@ mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *conta
 {
 	mr_mark begin = mr_mark_take(ctx), mark;
 	mr_contacts c = { 0, MR_NEW(ctx, m->nv, uint32_t), MR_NEW(ctx, m->nv, mr_place) };
+	bool several, slits = false, *slit;
 	uint32_t *component;
-	bool several;
 
 	if (!c.vertex || !c.at)
 		return MR_EMEM;
 	mark = mr_mark_take(ctx);
 	MR_TRY(label_components(ctx, m, &component, &several));
-	if (several) {
-		MR_TRY(search_all(ctx, &(search){ m, NULL, component, reach * reach, c.at }));
+	MR_TRY(find_slits(ctx, m, &slit, &slits));
+	if (several || slits) {
+		MR_TRY(search_all(ctx, &(search){ m, NULL, component, slit, several, reach * reach, c.at }));
 		compact(&c, m->nv);
 	}
 	mr_mark_release(ctx, c.n ? mark : begin);

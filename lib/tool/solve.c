@@ -84,6 +84,16 @@ read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_solve_opts *o, mr
 	return MR_OK;
 }
 
+/* Targets of free vertices are not looked at. */
+static mr_status
+check_target(mr_ctx *ctx, const mr_mesh *m, const mr_deform_task *task, const uint32_t *region)
+{
+	for (size_t v = 0; task->target && v < m->nv; v++)
+		if (region[v] != MR_REGION_FREE && !mr_finite(task->target[v]))
+			return mr_fail(ctx, MR_ERANGE, "%s: target %zu is not finite", m->name, v);
+	return MR_OK;
+}
+
 /* The column with the positions that a layer has at rest: to pose those of the undeformed solve, if there was
  * one. */
 static mr_status
@@ -166,6 +176,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_deform_cache_get(kept, ctx, keep, f, &rest, column, &opts, &d));
+	MR_TRY(check_target(ctx, &m, &task, mr_deform_region(d)));
 	if (posing || o->flatten)
 		MR_TRY(mr_deform_solve(ctx, d, &task, p));
 	else

@@ -36,6 +36,39 @@ test_is_the_nearest_of_others(void **state)
 	assert_int_equal(next, c.n);
 }
 
+/* A vertex that is two, each of half the faces around it: where a lattice is slit. */
+static void
+test_slits_are_contacts(void **state)
+{
+	mr_mesh one = lattice(8), m = one;
+	mr_v3 *p = MR_NEW(&ctx, one.nv + 3, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, one.nf, mr_tri);
+	mr_contacts c;
+
+	(void)state;
+	memcpy(p, one.p, one.nv * sizeof *p);
+	memcpy(t, one.t, one.nf * sizeof *t);
+	for (uint32_t i = 0; i < 3; i++) { /* vertices 3 to 5 of row 4: the faces above them get others */
+		uint32_t v = 9 * 4 + 3 + i;
+		p[one.nv + i] = p[v];
+		for (size_t f = 2 * 8 * 4; f < one.nf; f++)
+			for (int k = 0; k < 3; k++)
+				t[f].v[k] = t[f].v[k] == v ? (uint32_t)one.nv + i : t[f].v[k];
+	}
+	m.p = p;
+	m.t = t;
+	m.nv += 3;
+	assert_int_equal(mr_contacts_find(&ctx, &m, 1e-9, &c), MR_OK);
+	assert_int_equal(c.n, 6);
+	for (size_t i = 0; i < 6; i++) {
+		mr_v3 at = mr_place_point(&m, c.at[i].face == MR_NONE ? (mr_place){ 0 } : c.at[i]);
+		assert_int_equal(c.vertex[i], i < 3 ? 9 * 4 + 3 + i : one.nv + i - 3);
+		assert_true(mr_dist(at, m.p[c.vertex[i]]) < 1e-12);
+		for (int k = 0; k < 3; k++)
+			assert_true(m.t[c.at[i].face].v[k] != c.vertex[i]);
+	}
+}
+
 static void
 test_one_component_has_none(void **state)
 {
@@ -77,6 +110,7 @@ main(void)
 {
 	const struct CMUnitTest tests[] = {
 		cmocka_unit_test_setup_teardown(test_is_the_nearest_of_others, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_slits_are_contacts, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_one_component_has_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_opens, setup, teardown),
 	};
