@@ -420,6 +420,7 @@ mr_clusters_fit(const mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *map
 {
 	const mr_clusters *c = d->rotations->clusters;
 	size_t size = 3 * c->outs * sizeof *c->base;
+	const double pinched = 0.1; /* a hand that is twisted by half a turn starts at 0.32, a dent below 0 */
 	double pressure = 0, rest = 0, least = 0, step = 0;
 
 	memset(c->place, 0, c->count * sizeof *c->place);
@@ -435,7 +436,8 @@ mr_clusters_fit(const mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *map
 		memcpy(c->by_map, c->base, size);
 		memset(c->by_pressure, 0, size);
 		add_maps(c, c->turned, c->by_map);
-		if (round == 0 && c->volume.encloses && mr_volume_is_kept(volume_at(ctx, c, 0), rest)) {
+		if (round == 0 && c->volume.encloses &&
+		    mr_volume_is_kept(volume_at(ctx, c, 0), rest, pinched)) {
 			least = keep * rest;
 			step = 1e-3 / cbrt(fabs(least));
 		}

@@ -32,16 +32,13 @@ typedef struct mr_volume {
 mr_status mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v);
 
 /*
- * Whether `now` is what a body keeps of `rest` without pressure: interpolated rotations leave the limbs of
- * the bench of motions 0.79 to 1.02 of theirs, a few clusters 0.53 of a tube that is twisted by half a turn.
- * Sheets and dents enclose next to nothing, or the reverse.
+ * Whether `now` is at least that share of `rest`, which a body keeps of its volume without pressure.  Sheets
+ * and dents enclose next to nothing, or the reverse.
  */
 static inline bool
-mr_volume_is_kept(double now, double rest)
+mr_volume_is_kept(double now, double rest, double share)
 {
-	const double least = 0.4;
-
-	return now / rest >= least && isfinite(now / rest);
+	return now / rest >= share && isfinite(now / rest);
 }
 
 /* Where the vertices are at p. */
