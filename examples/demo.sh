@@ -38,10 +38,10 @@ figures() { # model
 		    "$(figure $w.$state voronoi_error) $(figure $w.$state angle_error) $(figure $w.$state valence6)" \
 		    "$([ $state = before ] || figure $w.distance 'both_relative":{"hausdorff')"
 	done >>work/remeshing
-	echo "$name $(figure $w.6 heights) $(figure $w.6 offsets) $(figure $w.decoded vertex_max_relative)" \
+	echo "$name $(figure $w.5 heights) $(figure $w.5 offsets) $(figure $w.decoded vertex_max_relative)" \
 	    "$(figure $w.identity vertex_max_relative)" >>work/lost
-	echo "$name $(for n in 1 2 3 4 5 6 7 8 9 10; do figure $w.$n seconds; done | tr '\n' ' ')" \
-	    "$(for n in 1 2 3 4 5 6 7 8 9 10; do figure $w.$n peak_bytes; done | sort -n | tail -n 1)" >>work/seconds
+	echo "$name $(for n in 1 2 3 4 5 6 7 8 9; do figure $w.$n seconds; done | tr '\n' ' ')" \
+	    "$(for n in 1 2 3 4 5 6 7 8 9; do figure $w.$n peak_bytes; done | sort -n | tail -n 1)" >>work/seconds
 }
 
 table() {
@@ -60,11 +60,11 @@ table() {
 		{ printf "%-16s %9.3f %12.1e %12.1e\n", $1, 100 * $2 / ($2 + $3), $4, $5 }' work/lost
 	echo
 	echo "Seconds of each step, and the most memory that one of them took"
-	awk 'BEGIN { printf "%-16s %7s %7s %7s %7s %7s %7s %7s %7s %7s %7s %7s %6s\n", "edit", "import", "smooth", "remesh",
-		"select", "solve", "encode", "pose", "solve", "decode", "export", "all", "MB" }
+	awk 'BEGIN { printf "%-16s %7s %7s %7s %7s %7s %7s %7s %7s %7s %7s %6s\n", "edit", "import", "smooth", "remesh",
+		"select", "encode", "pose", "solve", "decode", "export", "all", "MB" }
 		{ printf "%-16s", $1; all = 0
-		for (i = 2; i <= 11; i++) { printf " %7.3f", $i; all += $i }
-		printf " %7.3f %6.0f\n", all, $12 / 1e6 }' work/seconds
+		for (i = 2; i <= 10; i++) { printf " %7.3f", $i; all += $i }
+		printf " %7.3f %6.0f\n", all, $11 / 1e6 }' work/seconds
 	echo
 	echo "Animation, start and end of all tools included"
 	cat work/rates
@@ -95,11 +95,11 @@ edit() { # name, model, view, smoothing, regions, pose, another pose
 	    mr-smooth $4 --stats $w.2 | tee $w.smooth.mrs |
 	    mr-remesh --stats $w.3 | tee $w.remeshed.mrs |
 	    mr-select $5 --stats $w.4 |
-	    mr-encode --stats $w.6 | tee $w.rest.mrs |
-	    mr-pose $6 --stats $w.7 | mr-pose ${7:-$handle} |
-	    mr-solve --stats $w.8 |
-	    mr-decode --stats $w.9 | tee $w.result.mrs |
-	    mr-export "$name.obj" --stats $w.10
+	    mr-encode --stats $w.5 | tee $w.rest.mrs |
+	    mr-pose $6 --stats $w.6 | mr-pose ${7:-$handle} |
+	    mr-solve --stats $w.7 |
+	    mr-decode --stats $w.8 | tee $w.result.mrs |
+	    mr-export "$name.obj" --stats $w.9
 	pictures "$3"
 	figures "$2"
 }
@@ -167,7 +167,7 @@ rate() { # what, command line: frames a second
 	echo "$1 $(date +%s.%N) $begin" | awk '{ printf "%-28s %7.1f frames/s\n", $1, '$frames' / ($2 - $3) }' >>work/rates
 }
 rate 'pose|solve|decode' 'mr-solve | mr-decode'
-rate 'pose|solve linearly|decode' 'mr-solve --rotations linear | mr-decode'
+rate 'pose|solve-linear|decode' 'mr-solve --rotations linear | mr-decode'
 rate 'solve-basis..pose|decode' 'mr-decode -q'
 
 table | tee work/figures.txt
