@@ -3,7 +3,7 @@
 #include "edit/deform.h"
 #include "mesh/layers.h"
 #include "op/voronoi_area.h"
-#include "unit.h"
+#include "shapes.h"
 
 enum { FREE = MR_REGION_FREE, FIXED = MR_REGION_FIXED, HANDLE = MR_REGION_HANDLE };
 
@@ -585,25 +585,6 @@ test_loose_components_follow(void **state)
 	mr_deform_free(d);
 }
 
-/* m, and after it m moved by `shift`. */
-static mr_mesh
-twice(const mr_mesh *m, mr_v3 shift)
-{
-	mr_v3 *p = MR_NEW(&ctx, 2 * m->nv, mr_v3);
-	mr_tri *t = MR_NEW(&ctx, 2 * m->nf, mr_tri);
-
-	for (size_t v = 0; v < m->nv; v++) {
-		p[v] = m->p[v];
-		p[m->nv + v] = mr_add(m->p[v], shift);
-	}
-	for (size_t f = 0; f < m->nf; f++) {
-		t[f] = m->t[f];
-		for (int k = 0; k < 3; k++)
-			t[m->nf + f].v[k] = m->t[f].v[k] + (uint32_t)m->nv;
-	}
-	return (mr_mesh){ m->name, p, t, 2 * m->nv, 2 * m->nf };
-}
-
 /* The largest distance of the vertices of the first half from those of the second. */
 static double
 widest_gap(const mr_mesh *two, const mr_v3 *p)
@@ -616,7 +597,7 @@ widest_gap(const mr_mesh *two, const mr_v3 *p)
 static void
 test_parts_that_touch_stay_together(void **state)
 {
-	mr_mesh one = grid(40, 0.3, wavy), two = twice(&one, mr_vec(0, 0, 0.005));
+	mr_mesh one = grid(40, 0.3, wavy), two = both(&one, &one, mr_vec(0, 0, 0.005));
 	uint32_t *region = MR_NEW(&ctx, two.nv, uint32_t);
 	mr_affine maps[2] = { screw(0.6, 0.2, 1), screw(0.6, 0.2, 1) };
 	mr_deform_opts opts = opts_of(2, MR_AREAS_VORONOI, false);
