@@ -22,8 +22,9 @@ typedef struct mr_connectivity_cache {
 	uint64_t rest_serial;              /* of base.encoded; 0: none */
 	mr_contacts contacts;              /* of mesh */
 	uint64_t place_serial;             /* of mesh.position */
-	size_t told, told_apart;           /* since the last key: harm, and vertices that came apart */
-	size_t looked_folds;               /* of the last look for intersections since then */
+	size_t told, told_apart,
+	    told_fixed;      /* since the last key: harm, what came apart, what was not held */
+	size_t looked_folds; /* of the last look for intersections since then */
 } mr_connectivity_cache;
 
 struct mr_cache {

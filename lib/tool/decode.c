@@ -169,6 +169,13 @@ advise(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, uint32_t vertex, c
 	return MR_OK;
 }
 
+/* Of a sequence it is news again where it has doubled. */
+static bool
+is_news(size_t n, const size_t *told)
+{
+	return n > 0 && (!told || n >= 2 * *told);
+}
+
 /*
  * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone:
  * over 5 folds or 20 pairs have 41 of 318 edits of 106 models, all 14 that are wrecked among them; one of
@@ -185,7 +192,7 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	if (h->pairs != MR_UNKNOWN)
 		snprintf(
 		    found, sizeof found, "and %zu pairs of near faces intersect that did not before", pairs);
-	if (all == 0 || (told && all < 2 * *told))
+	if (!is_news(all, told))
 		return MR_OK;
 	if (h->folds <= FOLDS && pairs <= PAIRS) {
 		mr_note(ctx, "%zu edges of mesh are folded %s: few", h->folds, found);
@@ -208,7 +215,7 @@ look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contac
 	uint32_t v;
 	size_t n = mr_contacts_open(contacts, mesh, p, apart * mr_mesh_diagonal(mesh), &v);
 
-	if (n == 0 || (told && n < 2 * *told))
+	if (!is_news(n, told))
 		return n;
 	if (told)
 		*told = n;
@@ -218,6 +225,44 @@ look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contac
 	    "vertex %u (%.4g, %.4g, %.4g) the farthest",
 	    n, contacts->n, 100 * apart, v, p[v].x, p[v].y, p[v].z);
 	return n;
+}
+
+static double
+way_of(const mr_v3 *from, const mr_v3 *to, size_t v)
+{
+	return mr_dist(from[v], to[v]);
+}
+
+/* Warns of fixed vertices that moved though base holds its own where they were: it has none there. */
+static mr_status
+look_at_fixed(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base,
+    const mr_v3 *encoded, const mr_v3 *p)
+{
+	const double share = 0.01, far = share * mr_mesh_diagonal(mesh);
+	size_t *told = cache ? &cache->connectivity.told_fixed : NULL, fixed = 0, moved = 0;
+	const uint32_t *region;
+
+	if (!encoded || !mr_layer_has(f, "mesh", "region") || !mr_layer_has(f, base->name, "region"))
+		return MR_OK;
+	MR_TRY(mr_layer_region(ctx, f, base->name, base->nv, &region));
+	for (size_t v = 0; v < base->nv; v++)
+		if (region[v] == MR_REGION_FIXED && way_of(encoded, base->p, v) > far)
+			return MR_OK; /* to places that were given */
+	MR_TRY(mr_layer_region(ctx, f, "mesh", mesh->nv, &region));
+	for (size_t v = 0; v < mesh->nv; v++) {
+		fixed += region[v] == MR_REGION_FIXED;
+		moved += region[v] == MR_REGION_FIXED && way_of(mesh->p, p, v) > far;
+	}
+	if (!is_news(moved, told))
+		return MR_OK;
+	if (told)
+		*told = moved;
+	mr_warn(ctx,
+	    "%zu of %zu fixed vertices of mesh have moved by over %g %% of the diagonal: base is too coarse "
+	    "to "
+	    "hold them, a shorter length of mr-remesh is not",
+	    moved, fixed, 100 * share);
+	return MR_OK;
 }
 
 /* Intersections take as long as decoding: of a delta they are looked for where folds have come, or doubled.
@@ -230,10 +275,17 @@ folds_to_look_from(const mr_frame *f, const mr_cache *cache)
 	return f->key ? 0 : told ? 2 * told : 1;
 }
 
-/* What the motion from the frame's mesh to p has done to it. */
+static void
+forget_told(mr_connectivity_cache *kept)
+{
+	kept->told = kept->told_apart = kept->told_fixed = kept->looked_folds = 0;
+}
+
+/* What the motion from the frame's mesh to p has done to it; encoded: where base was, NULL: not to be
+ * compared. */
 static mr_status
-look_for_harm(
-    mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_v3 *p, mr_decode_result *result)
+look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_v3 *encoded,
+    const mr_v3 *p, mr_decode_result *result)
 {
 	mr_contacts contacts;
 	mr_edges edges;
@@ -241,14 +293,14 @@ look_for_harm(
 	mr_harm harm;
 
 	if (cache && f->key)
-		cache->connectivity.told = cache->connectivity.looked_folds = cache->connectivity.told_apart =
-		    0;
+		forget_told(&cache->connectivity);
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
 	MR_TRY(mesh_neighbours(ctx, cache, f, &mesh, &edges, &contacts));
 	MR_TRY(mr_harm_find(ctx, &mesh, &edges, p, folds_to_look_from(f, cache), &harm));
 	if (cache && harm.pairs != MR_UNKNOWN)
 		cache->connectivity.looked_folds = harm.folds;
 	MR_TRY(tell(ctx, cache, &mesh, base, p, &harm));
+	MR_TRY(look_at_fixed(ctx, f, cache, &mesh, base, encoded, p));
 	*result = (mr_decode_result){ harm.folds, harm.pairs,
 		look_for_gaps(ctx, cache, &mesh, &contacts, p) };
 	return MR_OK;
@@ -272,7 +324,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 		return MR_EMEM;
 	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
 	if (!o->blind && mr_layer_has(f, "mesh", "triangles"))
-		MR_TRY(look_for_harm(ctx, f, cache, &base, p, result));
+		MR_TRY(look_for_harm(ctx, f, cache, &base, o->gain == 1 ? detail.rest : NULL, p, result));
 	return mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n);
 }
 

@@ -108,6 +108,13 @@ for angle in 40 75 150; do
 	echo $angle
 done
 
+echo 'fixed vertices that base is too coarse to hold, and one that is fine enough'
+for ratio in 1.5 0.3; do
+	echo $ratio >&2
+	mr-make sphere -n 42 | mr-smooth -t 0 | mr-remesh --ratio $ratio | mr-encode -q |
+	    mr-select --free all --fixed below:z,0.1 --handle 0=above:z,0.7 | mr-pose --rotate 1,0,0,70 | mr-solve | mr-decode -o ball.mrs
+done
+
 echo 'refusals'
 refused() {
 	mr-decode "$@" >out
