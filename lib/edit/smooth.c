@@ -314,19 +314,15 @@ mr_status
 mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out, mr_smooth_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
 	smoothing s = { .m = m };
 
-	if (!p)
-		return MR_EMEM;
 	MR_TRY(choose_passes(ctx, opts, &s));
-	memcpy(p, m->p, m->nv * sizeof *p);
+	memcpy(out, m->p, m->nv * sizeof *out);
 	MR_TRY(study(ctx, &s, opts->plain));
 	if (opts->time > 0 && s.edge2 > 0)
-		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, p)
-							  : explicit(ctx, &s, opts->method, p));
-	measure_rest(ctx, &s, p);
-	memcpy(out, p, m->nv * sizeof *p);
+		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, out)
+							  : explicit(ctx, &s, opts->method, out));
+	measure_rest(ctx, &s, out);
 	if (result)
 		*result = s.found;
 	mr_mark_release(ctx, mark);

@@ -11,7 +11,7 @@
 #include "mesh/mesh.h"
 
 /*
- * Smooths: out, nv positions, the caller's, may be m->p.  MR_EUSAGE where the passes are too few for the
+ * Smooths: out, nv positions, the caller's and not m->p.  MR_EUSAGE where the passes are too few for the
  * time.  result: or NULL.
  */
 mr_status

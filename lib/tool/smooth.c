@@ -18,12 +18,12 @@ mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_
 	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	from_mesh = !strcmp(layer, "mesh");
-	if (from_mesh)
-		MR_TRY(mr_source_map_identity(ctx, &m, &map));
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_smooth(ctx, &m, o, p, result));
+	if (from_mesh)
+		MR_TRY(mr_source_map_identity(ctx, &m, &map));
 	m.p = p;
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &m));
 	return from_mesh ? mr_source_map_put(ctx, f, &map, m.nv) : MR_OK;
