@@ -19,17 +19,10 @@
 #include "base/disjoint_sets.h"
 #include "measure/measure.h"
 #include "mesh/fold.h"
-#include "mesh/layers.h"
-#include "render/colormap.h"
 #include "space/contact.h"
 #include "space/self_intersect.h"
 
-#include <fcntl.h>
-#include <stdio.h>
-#include <string.h>
-#include <unistd.h>
-
-static const mr_rgb sound = { 205, 198, 188 }, harmed = { 214, 40, 40 };
+#include "yardstick.h"
 
 /* Faces that so many steps over edges lead to are near. */
 enum { NEAR = 12, FOLDS_MORE = 5, PAIRS_MORE = 100 };
@@ -497,15 +490,6 @@ print_count(const char *name, const figures *figure, size_t field)
 }
 
 static void
-print_real(const char *name, double x)
-{
-	if (isfinite(x))
-		printf(",\"%s\":%.5g", name, x);
-	else
-		printf(",\"%s\":null", name);
-}
-
-static void
 print_figures(const edit *e, const surface *s, const figures *figure, size_t left)
 {
 	const figures *b = &figure[BEFORE], *w = &figure[WARP], *a = &figure[AFTER];
@@ -564,68 +548,13 @@ turn_upright(mr_ctx *ctx, const edit *e, const surface *s, mr_mesh *m)
 }
 
 static mr_status
-write_stream(mr_ctx *ctx, int fd, const mr_frame *frame)
+draw(mr_ctx *ctx, const edit *e, surface *s, const char *path, bool wreck)
 {
-	mr_writer *writer;
-
-	if (fd < 0)
-		return mr_fail(ctx, MR_EIO, "cannot be written");
-	MR_TRY(mr_writer_open(ctx, fd, MR_PACK, &writer));
-	MR_TRY(mr_writer_put(ctx, writer, frame));
-	return mr_writer_end(ctx, writer);
-}
-
-static mr_status
-write_picture(mr_ctx *ctx, const edit *e, surface *s, const char *path, bool wreck)
-{
-	const char *slash = strrchr(path, '/'), *stem = slash ? slash + 1 : path;
-	char *name = mr_format(ctx, "%s%s", stem, wreck ? " WRECKED" : "");
-	mr_shape shape = { 'f', 'b', 3 };
-	mr_frame *frame;
 	mr_mesh m;
 
-	if (!name)
-		return MR_EMEM;
 	mark_folds(s);
 	MR_TRY(turn_upright(ctx, e, s, &m));
-	MR_TRY(mr_frame_new(ctx, name, &frame));
-	MR_TRY(mr_layer_put_mesh(ctx, frame, "mesh", &m));
-	MR_TRY(mr_frame_put(ctx, frame, "mesh", "harm", shape, s->harm, m.nf));
-	return mr_prefix(
-	    ctx, write_stream(ctx, open(path, O_WRONLY | O_CREAT | O_TRUNC, 0666), frame), "%s", path);
-}
-
-/* ---- files ---- */
-
-static mr_status
-read_stream(mr_ctx *ctx, const char *path, mr_frame **frame)
-{
-	mr_reader *reader;
-	mr_status status;
-	int fd = open(path, O_RDONLY);
-
-	if (fd < 0)
-		return mr_fail(ctx, MR_EIO, "cannot be opened");
-	MR_TRY(mr_reader_open(ctx, fd, &reader));
-	while ((status = mr_reader_next(ctx, reader, frame)) == MR_OK)
-		;
-	return status < 0 ? status : MR_OK;
-}
-
-/* The reader and the descriptor last as long as the process. */
-static mr_status
-read_mesh(mr_ctx *ctx, const char *path, mr_mesh *m)
-{
-	size_t n = strlen(path);
-	mr_frame *frame = NULL;
-
-	if (n > 4 && !strcmp(path + n - 4, ".mrs"))
-		MR_TRY(read_stream(ctx, path, &frame));
-	else
-		MR_TRY(mr_import(ctx, path, NULL, &frame, NULL));
-	if (!frame)
-		return mr_fail(ctx, MR_EMISSING, "no frame");
-	return mr_layer_mesh(ctx, frame, "mesh", m);
+	return write_picture(ctx, path, wreck ? " WRECKED" : "", &m, s->harm);
 }
 
 static mr_status
@@ -649,7 +578,7 @@ judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path, const
 	mr_mesh after;
 	size_t left;
 
-	MR_TRY(mr_prefix(ctx, read_mesh(ctx, path, &after), "%s", path));
+	MR_TRY(read_mesh(ctx, path, &after));
 	if (after.nv != s.m.nv)
 		return mr_fail(ctx, MR_EMESH, "%s: %zu vertices, not %zu", path, after.nv, s.m.nv);
 	s.p[BEFORE] = before->p;
@@ -659,7 +588,7 @@ judge(mr_ctx *ctx, const edit *e, const mr_mesh *before, const char *path, const
 	MR_TRY(measure(ctx, e, &s, figure));
 	MR_TRY(count_parts_left(ctx, e, &s, &left));
 	print_figures(e, &s, figure, left);
-	return picture ? write_picture(ctx, e, &s, picture, wrecked(figure)) : MR_OK;
+	return picture ? draw(ctx, e, &s, picture, wrecked(figure)) : MR_OK;
 }
 
 static mr_status
@@ -670,7 +599,7 @@ run(mr_ctx *ctx, char **argv)
 	mr_mesh before;
 
 	MR_TRY(parse_edit(ctx, argv[options ? 2 : 1], &e));
-	MR_TRY(mr_prefix(ctx, read_mesh(ctx, argv[options ? 3 : 2], &before), "%s", argv[options ? 3 : 2]));
+	MR_TRY(read_mesh(ctx, argv[options ? 3 : 2], &before));
 	place_edit(&e, &before);
 	if (!options)
 		return judge(ctx, &e, &before, argv[3], argv[4]);

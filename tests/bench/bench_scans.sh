@@ -1,0 +1,156 @@
+# Reconstruct clouds whose surface is known, of every closed model, as somebody would who is new to the tools, and judge what
+# comes out by scan_yardstick.c, which says what the kinds of clouds are: a row each, then how many have the right topology.
+# Warnings are those of all tools from mr-shrinkwrap to mr-decode.
+# Knobs: MODELS (patterns of names in $DATA/meshes, default all; without that directory, shapes of mr-make), KINDS (of clouds),
+# SEEDS (of each kind but vertices), LIMIT (seconds that the pipe may take), JOBS (clouds at a time).  Rows and results are kept
+# in $BUILD/scans, and done again only by newer tools; the *.png there show all results, what is far off or passes through itself
+# in red.
+export out=$BUILD/scans LIMIT="${LIMIT:-300}"
+KINDS=${KINDS:-vertices uniform noise03 noise1 outliers holes density views cut near}
+
+# ---- one cloud: bench_scans.sh --one MODEL KIND SEED ----
+
+one() { # name, kind, seed
+	case=$1-$2-$3
+	if [ -e "$out/rows/$case" ] && [ -z "$(find "$BUILD/bin" "$BUILD/bench/scan_yardstick" -newer "$out/rows/$case")" ]; then
+		return
+	fi
+	rm -rf "$out/work/$case" "$out/results/$2/$case"
+	mkdir -p "$out/work/$case" && cd "$out/work/$case" || exit
+	scan_yardstick cloud "$2" "$3" "$out/models/$1.mrs" points.mrs truth.mrs || exit
+	begin=$(date +%s.%N)
+	timeout -k 5 "$LIMIT" sh -c 'mr-shrinkwrap points.mrs | mr-simplify | mr-fit | mr-sample | mr-decode -o result.mrs' 2>err
+	code=$?
+	seconds=$(echo "$(date +%s.%N) $begin" | awk '{ print $1 - $2 }')
+	warned=$(sed -n 's/^mr-\([a-z]*\): .*warning: .*/\1/p' err | uniq | paste -sd , -)
+	{
+		printf '%s\t%s\t%s\t%s\t%s\t%s\t' "$1" "$2" "$3" "$code" "${warned:--}" "$seconds"
+		if [ "$code" = 0 ]; then
+			scan_yardstick judge truth.mrs points.mrs result.mrs "$out/results/$2/$case" 2>&1
+		else
+			grep -v 'warning: ' err | head -n 1 | cut -c 1-200
+		fi
+	} >"$out/rows/$case"
+	rm -rf "$out/work/$case"
+}
+if [ "$1" = --one ]; then
+	one "$2" "$3" "$4"
+	exit
+fi
+
+# ---- all of them ----
+
+models() {
+	if [ -d "$DATA/meshes" ]; then
+		set -f # the patterns are for find
+		for pattern in ${MODELS:-*}; do
+			find "$DATA/meshes" -type f -name "$pattern" ! -name '*.mtl'
+		done | sort -u
+		set +f
+		return
+	fi
+	for shape in sphere torus cube knot bumpy boxes; do
+		mr-make $shape | mr-export $shape.ply && echo "$PWD/$shape.ply"
+	done
+}
+closed() { # file: it is a model without intersections, in $out/models
+	name=$(basename "$1" .gz)
+	[ -e "$out/models/$name.mrs" ] || mr-import -q --repair "$1" -o "$out/models/$name.mrs" 2>/dev/null || return
+	[ -e "$out/models/$name.json" ] || mr-info --json "$out/models/$name.mrs" >"$out/models/$name.json" || return
+	for figure in '"oriented":true' '"manifold":true' '"boundary_edges":0' '"intersecting_pairs":0'; do
+		grep -q "$figure" "$out/models/$name.json" || return
+	done
+	echo "$name"
+}
+sheets() { # kind
+	rm -f "$out/$1"-*.png
+	(cd "$out/results/$1" && ls) | split -l 40 -a 1 - page-
+	for page in page-*; do
+		(cd "$out/results/$1" && mr-cat $(cat "$OLDPWD/$page")) | mr-render --sheet --columns 8 --size 240x220 -c harm \
+		    --title "$(grep "^$1: " table)" "$out/$1-${page#page-}.png"
+	done
+	rm page-*
+}
+mkdir -p "$out/rows" "$out/models"
+for kind in $KINDS; do
+	mkdir -p "$out/results/$kind"
+done
+models >files
+while read -r file; do
+	closed "$file"
+done <files >names
+[ -s names ] || { echo "no closed model in $DATA/meshes is called $MODELS" >&2; exit 1; }
+for name in $(cat names); do
+	for kind in $KINDS; do
+		[ $kind = vertices ] && echo "$name" $kind 1 && continue
+		for seed in ${SEEDS:-1}; do
+			echo "$name" $kind "$seed"
+		done
+	done
+done >cases
+xargs -P "${JOBS:-2}" -n 3 sh "$0" --one <cases || exit
+while read -r name kind seed; do
+	cat "$out/rows/$name-$kind-$seed"
+done <cases >rows
+awk -F '\t' -v kinds="$KINDS" '
+	function figure(name) { # of the JSON, the last field
+		return match($7, "\"" name "\":[^,}]*") ? substr($7, RSTART + length(name) + 3, RLENGTH - length(name) - 3) : "-"
+	}
+	function both(name) {
+		return figure(name) + figure(name "_control")
+	}
+	function share(x) {
+		return sprintf("%.3g", 100 * x)
+	}
+	BEGIN {
+		print "Euler number, components, loops: truth, result; thin: 1 % of body and gaps, in spacings; distances in % of the diagonal:"
+		print "points to result, truth to result, result to truth, mean and max; of result and control mesh: folds, pairs that"
+		print "intersect; of the control mesh: faces, edges bent by over 90 degrees, angles below 20 (%)"
+		printf "%-30s %-8s %s %4s %-12s %-24s %5s %-12s %-12s %-12s %6s %6s %6s %6s %6s %7s\n", "model", "cloud", "#", "exit", "warned",
+		    "topology", "thin", "gap", "from truth", "to truth", "folds", "pairs", "faces", "bent", "acute", "seconds"
+	}
+	{ clouds[$2]++; seconds[$2] += $6 }
+	$4 != 0 || $7 !~ /^{/ {
+		refused[$2]++
+		printf "%-30s %-8s %s %4s %-12s %s\n", $1, $2, $3, $4, $5, $7
+		next
+	}
+	{
+		right = figure("right") + 0
+		thick = figure("thin") >= 2
+		printf "%-30s %-8s %s %4s %-12s %-24s %5.1f %-12s %-12s %-12s %6d %6d %6d %6.2f %6.2f %7.2f%s\n", $1, $2, $3, $4, $5,
+		    figure("euler_truth") " " figure("components_truth") " " figure("loops_truth") ", " figure("euler") " " \
+		    figure("components") " " figure("loops"), figure("thin"),
+		    share(figure("points_to_result_mean")) " " share(figure("points_to_result_max")),
+		    share(figure("truth_to_result_mean")) " " share(figure("truth_to_result_max")),
+		    share(figure("result_to_truth_mean")) " " share(figure("result_to_truth_max")),
+		    both("folds"), both("pairs"), figure("faces_control"), 100 * figure("bent_control"), 100 * figure("acute_control"),
+		    $6, right ? "" : $5 == "-" ? " WRONG, SILENT" : " wrong"
+		made[$2]++
+		good[$2] += right
+		silent[$2] += !right && $5 == "-"
+		idle[$2] += right && $5 != "-"
+		thicks[$2] += thick
+		thick_good[$2] += thick && right
+		from[$2] += figure("truth_to_result_mean")
+		to[$2] += figure("result_to_truth_mean")
+		pairs[$2] += both("pairs") > 0
+		bent[$2] += figure("bent_control")
+		acute[$2] += figure("acute_control")
+	}
+	END {
+		n = split(kinds, kind, " ")
+		for (i = 1; i <= n; i++) {
+			k = kind[i]
+			m = made[k] ? made[k] : 1
+			printf "%s: %d clouds, %d refused; topology right %d, of the thick ones %d of %d; wrong in silence %d; warned of %d that are right; ",
+			    k, clouds[k], refused[k], good[k], thick_good[k], thicks[k], silent[k], idle[k]
+			printf "from truth %.3f %%, to truth %.3f %%; %d intersect; bent %.2f %%, acute %.1f %%; %.0f s\n",
+			    100 * from[k] / m, 100 * to[k] / m, pairs[k], 100 * bent[k] / m, 100 * acute[k] / m, seconds[k]
+			printf "%s-wrong mr %d clouds\n%s-silent mr %d clouds\n", k, made[k] - good[k], k, silent[k]
+		}
+	}' rows | tee table
+for kind in $KINDS; do
+	sheets "$kind"
+done
+echo "all results: $out/*.png"
