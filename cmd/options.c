@@ -215,7 +215,7 @@ note_typed(parser *p, int first)
 static bool
 takes_argument(const cmd_opt *o)
 {
-	return o->kind != CMD_FLAG && o->kind != CMD_OFF;
+	return o->kind != CMD_FLAG && o->kind != CMD_OFF && (o->kind != CMD_CALL || o->metavar);
 }
 
 /* Gives the option its argument: the `attached` text where there is one, else the next word. */

@@ -19,7 +19,8 @@ typedef enum cmd_kind {
 	CMD_VECTOR, /* mr_v3: three numbers x,y,z */
 	CMD_SIZE,   /* cmd_size: WxH, both in [min, max] */
 	CMD_RANGE,  /* cmd_range: LOW,HIGH */
-	CMD_CALL    /* given to `call`, in the order of the command line; may come several times */
+	CMD_CALL    /* given to `call`, in the order of the command line; may come several times; without a
+	               `metavar` it takes nothing */
 } cmd_kind;
 
 /* A length as given: in units of the model, or relative to the bounding-box diagonal. */

@@ -43,6 +43,11 @@ extern "C" {
 #endif
 
 #define MR_UNKNOWN SIZE_MAX
+/* Values of all fields, as a line. */
+#define MR_DEFAULTS(...)                                                                                     \
+	{                                                                                                    \
+		__VA_ARGS__                                                                                  \
+	}
 
 /* Contexts */
 
@@ -230,10 +235,7 @@ typedef struct mr_import_opts {
 	bool weld_relative; /* weld_distance is a share of the bounding box's diagonal */
 } mr_import_opts;
 
-#define MR_IMPORT_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		NULL, NULL, false, false, false, 0, false                                                    \
-	}
+#define MR_IMPORT_DEFAULTS MR_DEFAULTS(NULL, NULL, false, false, false, 0, false)
 
 /* What was read, and what of the file could not be kept. */
 typedef struct mr_import_result {
@@ -297,10 +299,7 @@ typedef struct mr_smooth_opts {
 	const char *layer; /* NULL: base, else mesh */
 } mr_smooth_opts;
 
-#define MR_SMOOTH_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		MR_SMOOTH_IMPLICIT, 10, 0, false, NULL                                                       \
-	}
+#define MR_SMOOTH_DEFAULTS MR_DEFAULTS(MR_SMOOTH_IMPLICIT, 10, 0, false, NULL)
 
 typedef struct mr_smooth_result {
 	size_t passes, boundary_vertices;
@@ -329,10 +328,7 @@ typedef struct mr_remesh_opts {
 	const char *layer; /* NULL: base, else mesh */
 } mr_remesh_opts;
 
-#define MR_REMESH_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		0, 0.95, 5, 20, 1.5, 180, false, 0, 0, 0, true, false, false, NULL                           \
-	}
+#define MR_REMESH_DEFAULTS MR_DEFAULTS(0, 0.95, 5, 20, 1.5, 180, false, 0, 0, 0, true, false, false, NULL)
 
 typedef struct mr_remesh_result {
 	double length;                         /* target edge length; the mean where it is adaptive */
@@ -361,10 +357,7 @@ typedef struct mr_select_opts {
 	const char *layer; /* NULL: mesh, else control */
 } mr_select_opts;
 
-#define MR_SELECT_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		false, NULL                                                                                  \
-	}
+#define MR_SELECT_DEFAULTS MR_DEFAULTS(false, NULL)
 
 typedef struct mr_select_result {
 	size_t fixed, free, handles; /* vertices */
@@ -375,6 +368,11 @@ typedef struct mr_select_result {
 /* Applies n rules in order: later ones win. */
 MR_API mr_status mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules, size_t n,
     const mr_select_opts *opts, mr_select_result *result) MR_WARN_UNUSED;
+
+/* Maps all layers, or the one that is named, by an affine map of 3 x 4, row-major; a map that mirrors turns
+ * their faces over.  MR_EMESH where something in the frame cannot follow it. */
+MR_API mr_status mr_transform_frame(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12]) MR_WARN_UNUSED;
 
 typedef struct mr_encode_result {
 	size_t heights, offsets; /* vertices that have one or the other */
@@ -395,13 +393,7 @@ typedef struct mr_pose {
 	mr_v3 center; /* where centered; else the centroid of the handle's vertices, as posed so far */
 } mr_pose;
 
-#define MR_POSE_REST                                                                                         \
-	{                                                                                                    \
-		{ 0, 0, 0 }, { 0, 0, 1 }, 0, { 1, 1, 1 }, false,                                             \
-		{                                                                                            \
-			0, 0, 0                                                                              \
-		}                                                                                            \
-	}
+#define MR_POSE_REST MR_DEFAULTS({ 0, 0, 0 }, { 0, 0, 1 }, 0, { 1, 1, 1 }, false, { 0, 0, 0 })
 
 /* Where a handle goes, on top of where it is.  layer: that has the regions; NULL: mesh, else control. */
 MR_API mr_status mr_pose_frame(
@@ -454,10 +446,8 @@ typedef struct mr_solve_opts {
 } mr_solve_opts;
 
 #define MR_SOLVE_DEFAULTS                                                                                    \
-	{                                                                                                    \
-		2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                    \
-		    MR_ROTATIONS_INTERPOLATED, 0, MR_LOOSE_FOLLOW, false, false, NULL                        \
-	}
+	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                \
+	    MR_ROTATIONS_INTERPOLATED, 0, MR_LOOSE_FOLLOW, false, false, NULL)
 
 typedef struct mr_solve_result {
 	size_t free, fixed, handle_vertices, handles;
@@ -490,10 +480,7 @@ typedef struct mr_decode_opts {
 	bool blind;   /* do not look for what the motion did to the mesh */
 } mr_decode_opts;
 
-#define MR_DECODE_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		1, MR_FROM_ANY, MR_UNKNOWN, false                                                            \
-	}
+#define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN, false)
 
 typedef struct mr_decode_result {
 	size_t folded_edges;  /* by more than 170 degrees */
@@ -524,10 +511,7 @@ typedef struct mr_wrap_opts {
 	const char *layer;  /* NULL: points */
 } mr_wrap_opts;
 
-#define MR_WRAP_DEFAULTS                                                                                     \
-	{                                                                                                    \
-		MR_WRAP_AUTO, 0, 0, 0.5, 0.2, 0, false, NULL                                                 \
-	}
+#define MR_WRAP_DEFAULTS MR_DEFAULTS(MR_WRAP_AUTO, 0, 0, 0.5, 0.2, 0, false, NULL)
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
@@ -572,10 +556,7 @@ typedef struct mr_simplify_opts {
 	const char *layer;    /* NULL: control, else base, else mesh */
 } mr_simplify_opts;
 
-#define MR_SIMPLIFY_DEFAULTS                                                                                 \
-	{                                                                                                    \
-		0, 0, 0, false, 10, NULL, NULL, NULL, NULL                                                   \
-	}
+#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, 10, NULL, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces;           /* of the result */
@@ -601,10 +582,7 @@ typedef struct mr_fit_opts {
 	const char *layer; /* NULL: control */
 } mr_fit_opts;
 
-#define MR_FIT_DEFAULTS                                                                                      \
-	{                                                                                                    \
-		MR_FIT_LEAST_SQUARES, 0, 0.8, 1e-3, NULL                                                     \
-	}
+#define MR_FIT_DEFAULTS MR_DEFAULTS(MR_FIT_LEAST_SQUARES, 0, 0.8, 1e-3, NULL)
 
 typedef struct mr_fit_result {
 	size_t iterations, outliers;
@@ -632,10 +610,7 @@ typedef struct mr_sample_opts {
 	const char *layer; /* NULL: points, else mesh */
 } mr_sample_opts;
 
-#define MR_SAMPLE_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		MR_SAMPLE_TRIANGLE, 30, 3, MR_UNKNOWN, NULL                                                  \
-	}
+#define MR_SAMPLE_DEFAULTS MR_DEFAULTS(MR_SAMPLE_TRIANGLE, 30, 3, MR_UNKNOWN, NULL)
 
 typedef struct mr_sample_result {
 	size_t level, vertices; /* of the domain */
@@ -666,10 +641,7 @@ typedef struct mr_subdivide_opts {
 	const char *layer;     /* NULL: control, else mesh */
 } mr_subdivide_opts;
 
-#define MR_SUBDIVIDE_DEFAULTS                                                                                \
-	{                                                                                                    \
-		1, false, 180, 0, false, NULL                                                                \
-	}
+#define MR_SUBDIVIDE_DEFAULTS MR_DEFAULTS(1, false, 180, 0, false, NULL)
 
 typedef struct mr_subdivide_result {
 	size_t vertices, faces;
@@ -711,10 +683,7 @@ typedef struct mr_make_opts {
 	uint64_t seed;       /* of points and noise */
 } mr_make_opts;
 
-#define MR_MAKE_DEFAULTS                                                                                     \
-	{                                                                                                    \
-		MR_SPHERE, 0, 2, false, false, 0, false, 0, 1                                                \
-	}
+#define MR_MAKE_DEFAULTS MR_DEFAULTS(MR_SPHERE, 0, 2, false, false, 0, false, 0, 1)
 
 /* A key frame with mesh or points. */
 MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame) MR_WARN_UNUSED;
@@ -814,10 +783,7 @@ typedef struct mr_compare_opts {
 	                       more */
 } mr_compare_opts;
 
-#define MR_COMPARE_DEFAULTS                                                                                  \
-	{                                                                                                    \
-		0, false, 1e-3, 0                                                                            \
-	}
+#define MR_COMPARE_DEFAULTS MR_DEFAULTS(0, false, 1e-3, 0)
 
 /* From one surface to the other, in units of the positions. */
 typedef struct mr_distance {
@@ -859,10 +825,7 @@ typedef struct mr_raster_opts {
 	double point_radius; /* of a ball, in pixels; 0: so that the balls about cover the surface */
 } mr_raster_opts;
 
-#define MR_RASTER_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		2, false, 45, false, true, 0                                                                 \
-	}
+#define MR_RASTER_DEFAULTS MR_DEFAULTS(2, false, 45, false, true, 0)
 
 typedef struct mr_render_opts {
 	size_t width, height;  /* of a panel, in pixels */
@@ -884,10 +847,8 @@ typedef struct mr_render_opts {
 } mr_render_opts;
 
 #define MR_RENDER_DEFAULTS                                                                                   \
-	{                                                                                                    \
-		800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, NULL, NULL, NULL, NULL,      \
-		    false, 0, 0, NULL, false, 0, MR_RASTER_DEFAULTS                                          \
-	}
+	MR_DEFAULTS(800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, NULL, NULL, NULL, NULL,  \
+	    false, 0, 0, NULL, false, 0, MR_RASTER_DEFAULTS)
 
 /* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */
 MR_API mr_status mr_render(

@@ -263,6 +263,21 @@ concerns(mr_change change, const char *layer, size_t i)
 	       (!dependents[i].changed || !strcmp(dependents[i].changed, layer));
 }
 
+/* own: whether columns of the layer itself go too. */
+static void
+drop_dependents(mr_frame *f, const char *layer, mr_change change, bool own)
+{
+	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++) {
+		const char *of = dependents[i].layer;
+		if (!concerns(change, layer, i) || (of && *of == '=' && !own))
+			continue;
+		if (of)
+			mr_frame_drop(f, *of == '=' ? layer : of, dependents[i].name, 0);
+		else
+			drop_everywhere(f, dependents[i].name);
+	}
+}
+
 void
 mr_layer_changed(mr_frame *f, const char *layer, mr_change change)
 {
@@ -270,15 +285,13 @@ mr_layer_changed(mr_frame *f, const char *layer, mr_change change)
 		mr_frame_drop(f, layer, NULL, 'v');
 		mr_frame_drop(f, layer, NULL, 'f');
 	}
-	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++) {
-		const char *of = dependents[i].layer;
-		if (!concerns(change, layer, i))
-			continue;
-		if (of)
-			mr_frame_drop(f, *of == '=' ? layer : of, dependents[i].name, 0);
-		else
-			drop_everywhere(f, dependents[i].name);
-	}
+	drop_dependents(f, layer, change, true);
+}
+
+void
+mr_layer_renumbered(mr_frame *f, const char *layer)
+{
+	drop_dependents(f, layer, MR_RECONNECTED, false);
 }
 
 /* True where the layer's triangles are the given ones. */

@@ -52,6 +52,9 @@ mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr
 /* Drops what the change makes stale, of the layer and of others. */
 void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 
+/* The layer's rows have other numbers: drops what refers to them from elsewhere. */
+void mr_layer_renumbered(mr_frame *f, const char *layer);
+
 /* The layer's regions, rows checked against nv, values below 2 + 65536. */
 mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region);
 

@@ -1,0 +1,499 @@
+/*
+ * Frames under affine maps p -> L p + t.  Positions are mapped, normals by L^-T, lengths are scaled; a map
+ * that mirrors (det L < 0) turns the faces over, by their first two corners.
+ */
+#include "edit/transform.h"
+
+#include "base/rotation.h"
+#include "base/text_file.h"
+#include "edit/handles.h"
+
+#include <ctype.h>
+
+/* ---- steps ---- */
+
+typedef enum step_kind { MAP, CENTER, UNIT } step_kind;
+
+typedef struct mr_transform_step {
+	step_kind kind;
+	mr_affine map;
+} step;
+
+static mr_status
+add_step(mr_ctx *ctx, mr_transform *t, step_kind kind, const mr_affine *map)
+{
+	MR_TRY(MR_RESERVE(ctx, t->step, t->n, 1, &t->room));
+	t->step[t->n++] = (step){ kind, *map };
+	return MR_OK;
+}
+
+/* "-y": the axis, and its sign; false where it is none. */
+static bool
+read_axis(const char **text, int *axis, int *sign)
+{
+	*sign = **text == '-' ? -1 : 1;
+	*text += **text == '-' || **text == '+';
+	if (**text < 'x' || **text > 'z')
+		return false;
+	*axis = *(*text)++ - 'x';
+	return true;
+}
+
+/* The rotation, of whole numbers, that turns one axis to another by a quarter or half a turn. */
+static mr_status
+parse_up(mr_ctx *ctx, const char *text, mr_affine *map)
+{
+	int from, to, sign_from, sign_to, sign;
+	const char *at = text;
+	mr_affine r = mr_identity();
+
+	if (!read_axis(&at, &from, &sign_from) || *at++ != ':' || !read_axis(&at, &to, &sign_to) || *at)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not two axes, of x, y, z, -x, -y, -z, as y:z", text);
+	sign = sign_from * sign_to;
+	if (from == to) {
+		r.m[5 * from] = sign;
+		r.m[5 * ((from + 1) % 3)] = sign;
+	} else {
+		r.m[5 * from] = r.m[5 * to] = 0;
+		r.m[4 * to + from] = sign;
+		r.m[4 * from + to] = -sign;
+	}
+	*map = r;
+	return MR_OK;
+}
+
+/* All numbers of a text, with commas or blanks between them; false where there is something else. */
+static bool
+read_numbers(const char *at, double *x, size_t most, size_t *n)
+{
+	for (;;) {
+		while (isspace((unsigned char)*at) || *at == ',')
+			at++;
+		if (!*at)
+			return true;
+		if (*n == most || !mr_numbers(&at, 1, &x[(*n)++]))
+			return false;
+	}
+}
+
+static mr_status
+parse_matrix(mr_ctx *ctx, const char *text, mr_affine *map)
+{
+	double x[16], det;
+	size_t n = 0, lines;
+	mr_mat3 l;
+	char **line;
+
+	if (!read_numbers(text, x, 16, &n)) {
+		MR_TRY(mr_lines_read(ctx, text, &line, &lines));
+		n = 0;
+		for (size_t i = 0; i < lines; i++)
+			if (!read_numbers(line[i], x, 16, &n))
+				return mr_fail(ctx, MR_EFORMAT,
+				    "%s:%zu: '%.40s' is not numbers, of which a matrix has 16", text, i + 1,
+				    line[i]);
+	}
+	if (n != 12 && n != 16)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' has %zu numbers, where a matrix has 12 or 16", text, n);
+	if (n == 16 && (x[12] != 0 || x[13] != 0 || x[14] != 0 || x[15] != 1))
+		return mr_fail(ctx, MR_EUSAGE, "the last row is %g %g %g %g, where an affine map has 0 0 0 1",
+		    x[12], x[13], x[14], x[15]);
+	memcpy(map->m, x, sizeof map->m);
+	l = mr_affine_linear(map);
+	det = mr_mat3_determinant(&l);
+	if (!(det > 0 || det < 0) || !isfinite(1 / det))
+		return mr_fail(ctx, MR_EUSAGE, "the matrix has no inverse: its determinant is %g", det);
+	return MR_OK;
+}
+
+mr_status
+mr_transform_add(mr_ctx *ctx, mr_transform *t, const char *what, const char *text)
+{
+	mr_pose pose = MR_POSE_REST;
+	mr_affine map = mr_identity();
+
+	if (!strcmp(what, "center"))
+		return add_step(ctx, t, CENTER, &map);
+	if (!strcmp(what, "unit"))
+		return add_step(ctx, t, UNIT, &map);
+	if (!strcmp(what, "up")) {
+		MR_TRY(parse_up(ctx, text, &map));
+	} else if (!strcmp(what, "matrix")) {
+		MR_TRY(parse_matrix(ctx, text, &map));
+	} else {
+		MR_TRY(mr_pose_set(ctx, &pose, what, text));
+		if (pose.scale.x == 0 || pose.scale.y == 0 || pose.scale.z == 0)
+			return mr_fail(ctx, MR_EUSAGE, "a scale of 0 leaves nothing: %s", text);
+		map = mr_pose_map(&pose, mr_vec(0, 0, 0), 1);
+	}
+	return add_step(ctx, t, MAP, &map);
+}
+
+/* ---- boxes ---- */
+
+static bool
+is_position(const mr_column *c, const char *layer)
+{
+	return *c->layer && !strcmp(c->name, "position") && (!layer || !strcmp(layer, c->layer));
+}
+
+static mr_status
+find_box(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_affine *map, mr_box *box)
+{
+	mr_mesh m;
+
+	*box = mr_box_empty();
+	for (size_t i = 0; i < f->count; i++)
+		if (is_position(&f->columns[i], layer)) {
+			MR_TRY(mr_layer_points(ctx, f, f->columns[i].layer, &m));
+			for (size_t v = 0; v < m.nv; v++)
+				mr_box_add(box, mr_apply(map, m.p[v]));
+		}
+	if (box->min.x > box->max.x)
+		return mr_fail(ctx, MR_EMISSING, "no layer has positions that a box could be around");
+	return MR_OK;
+}
+
+static mr_status
+box_map(mr_ctx *ctx, mr_frame *f, const char *layer, step_kind kind, const mr_affine *so_far, mr_affine *map)
+{
+	mr_v3 middle, size;
+	double longest, s = 1;
+	mr_box box;
+
+	MR_TRY(find_box(ctx, f, layer, so_far, &box));
+	size = mr_sub(box.max, box.min);
+	middle = mr_lerp(0.5, box.min, box.max);
+	longest = fmax(size.x, fmax(size.y, size.z));
+	if (kind == UNIT && longest > 0)
+		s = 1 / longest;
+	*map = (mr_affine){ { s, 0, 0, -s * middle.x, 0, s, 0, -s * middle.y, 0, 0, s, -s * middle.z } };
+	return MR_OK;
+}
+
+mr_status
+mr_transform_map(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_transform *t, mr_affine *map)
+{
+	mr_affine all = mr_identity();
+
+	for (size_t i = 0; i < t->n; i++) {
+		mr_affine one = t->step[i].map;
+		if (t->step[i].kind != MAP)
+			MR_TRY(box_map(ctx, f, layer, t->step[i].kind, &all, &one));
+		all = mr_compose(&one, &all);
+	}
+	*map = all;
+	return MR_OK;
+}
+
+/* ---- columns ---- */
+
+typedef struct change {
+	mr_affine map, back;
+	mr_mat3 normal; /* L^-T */
+	double scale;   /* of lengths; 0: it depends on the direction */
+	bool mirrors;
+} change;
+
+static mr_affine
+inverse(const mr_affine *t, const mr_mat3 *inverse_transposed)
+{
+	const double *r = inverse_transposed->m;
+	mr_affine i = { { r[0], r[3], r[6], 0, r[1], r[4], r[7], 0, r[2], r[5], r[8], 0 } };
+	mr_v3 shift = mr_apply(&i, mr_vec(t->m[3], t->m[7], t->m[11]));
+
+	i.m[3] = -shift.x;
+	i.m[7] = -shift.y;
+	i.m[11] = -shift.z;
+	return i;
+}
+
+static change
+change_of(const mr_affine *map)
+{
+	mr_mat3 l = mr_affine_linear(map), square = mr_mat3_multiply_transposed(&l, &l);
+	const double *m = l.m;
+	double det = mr_mat3_determinant(&l), s = cbrt(fabs(det)), off = 0;
+	change c = { .map = *map, .mirrors = det < 0 };
+
+	for (int i = 0; i < 3; i++)
+		for (int j = 0; j < 3; j++) {
+			int a = (i + 1) % 3, b = (i + 2) % 3, d = (j + 1) % 3, e = (j + 2) % 3;
+			c.normal.m[3 * i + j] = (m[3 * a + d] * m[3 * b + e] - m[3 * a + e] * m[3 * b + d]) /
+			                        det;
+			off = fmax(off, fabs(square.m[3 * i + j] - (i == j ? s * s : 0)));
+		}
+	c.back = inverse(map, &c.normal);
+	c.scale = off <= 1e-9 * s * s ? s : 0;
+	return c;
+}
+
+/* A copy of the rows of a column, to be changed. */
+static mr_status
+copy_rows(mr_ctx *ctx, mr_column *column, void *copy)
+{
+	size_t width = mr_type_size(column->shape.type) * column->shape.components;
+	void *x = mr_alloc(ctx, (size_t)column->rows, width);
+
+	if (!x)
+		return MR_EMEM;
+	MR_TRY(mr_column_decode(ctx, column));
+	memcpy(x, column->data, (size_t)column->rows * width);
+	*(void **)copy = x;
+	return MR_OK;
+}
+
+static mr_v3
+turn_normal(const change *c, mr_v3 n)
+{
+	double length = mr_norm(n);
+	mr_v3 turned = mr_mat3_apply(&c->normal, n);
+
+	return length > 0 ? mr_mul(length / mr_norm(turned), turned) : n;
+}
+
+/* What a column holds, rows of what width. */
+typedef enum column_sort {
+	OTHER,
+	POSITIONS,
+	NORMALS,
+	LENGTHS,
+	FIRST_LENGTH, /* the first number of a row */
+	OFFSETS,      /* in the frames of faces, whose first axis a mirror turns round */
+	TRIANGLES,
+	CORNERS, /* three rows for the corners of a face */
+	BARYS,
+	RESPONSES,
+	MAPS,
+	TURNS
+} column_sort;
+
+static const struct {
+	const char *layer, *name; /* layer NULL: any */
+	mr_shape shape;           /* components 0: any number */
+	column_sort sort;
+	bool alike; /* only by a scale that is the same in every direction */
+} sorts[] = {
+	{ NULL, "position", { 'v', 'd', 3 }, POSITIONS, false },
+	{ NULL, "rest", { 'v', 'd', 3 }, POSITIONS, false },
+	{ NULL, "target", { 'v', 'd', 3 }, POSITIONS, false },
+	{ NULL, "encoded", { 'v', 'd', 3 }, POSITIONS, false },
+	{ NULL, "scanner", { 'v', 'd', 3 }, POSITIONS, false },
+	{ NULL, "normal", { 'v', 'd', 3 }, NORMALS, false },
+	{ NULL, "corner_normal", { 'f', 'd', 9 }, NORMALS, false },
+	{ NULL, "spacing", { 'v', 'd', 1 }, LENGTHS, false },
+	{ NULL, "sampling", { '-', 'd', 2 }, FIRST_LENGTH, false },
+	{ NULL, "triangles", { 'f', 'u', 3 }, TRIANGLES, false },
+	{ NULL, "corner_texcoord", { 'f', 'd', 6 }, CORNERS, false },
+	{ NULL, "mesh_bary", { 'v', 'd', 3 }, BARYS, false },
+	{ NULL, "base_bary", { 'v', 'd', 3 }, BARYS, false },
+	{ NULL, "control_bary", { 'v', 'd', 3 }, BARYS, false },
+	{ "mesh", "detail_bary", { 'v', 'd', 3 }, BARYS, false },
+	{ "base", "source_bary", { 'v', 'd', 3 }, BARYS, false },
+	{ "mesh", "detail_height", { 'v', 'd', 1 }, LENGTHS, true },
+	{ "mesh", "detail_offset", { 'v', 'd', 3 }, OFFSETS, true },
+	{ "displacement", "height", { 'v', 'd', 1 }, LENGTHS, true },
+	{ "base", "response", { 'v', 'd', 0 }, RESPONSES, true },
+	{ "control", "response", { 'v', 'd', 0 }, RESPONSES, true },
+	{ "handles", "transform", { 'v', 'd', 12 }, MAPS, true },
+	{ "handles", "turn", { 'v', 'd', 3 }, TURNS, true },
+};
+
+/* Which of them the column is, or how many there are. */
+static size_t
+sort_of(const mr_column *c)
+{
+	size_t i = 0;
+
+	for (; i < sizeof sorts / sizeof *sorts; i++)
+		if (*c->layer && !strcmp(sorts[i].name, c->name) &&
+		    sorts[i].shape.element == c->shape.element && sorts[i].shape.type == c->shape.type &&
+		    (!sorts[i].shape.components || sorts[i].shape.components == c->shape.components) &&
+		    (!sorts[i].layer || !strcmp(sorts[i].layer, c->layer)))
+			break;
+	return i;
+}
+
+static void
+swap(void *a, void *b, size_t size)
+{
+	char kept[3 * sizeof(double)];
+
+	memcpy(kept, a, size);
+	memcpy(a, b, size);
+	memcpy(b, kept, size);
+}
+
+/* The first two of the three parts of each row change places, where faces are turned over. */
+static void
+swap_corners(char *x, size_t rows, size_t width)
+{
+	for (size_t i = 0; i < rows; i++, x += width)
+		swap(x, x + width / 3, width / 3);
+}
+
+/* T_h acts on the mapped frame as M T_h M^-1, so what it multiplies is mapped: M (T_h - I) r = (M T_h M^-1 -
+ * I) M r. */
+static void
+map_responses(const change *c, double *r, size_t rows)
+{
+	for (size_t i = 0; i < rows; i++, r += 4) {
+		const double *m = c->map.m, x = r[0], y = r[1], z = r[2];
+		for (int k = 0; k < 3; k++)
+			r[k] = m[4 * k] * x + m[4 * k + 1] * y + m[4 * k + 2] * z + m[4 * k + 3] * r[3];
+	}
+}
+
+/* An axis is turned by the rotation, and mirrors turn the other way round. */
+static mr_v3
+map_turn(const change *c, mr_v3 turn)
+{
+	mr_mat3 l = mr_affine_linear(&c->map);
+
+	return mr_mul((c->mirrors ? -1 : 1) / c->scale, mr_mat3_apply(&l, turn));
+}
+
+/* M T M^-1 = I + L (T - I) M^-1, so that what stays at rest does so to the bit. */
+static mr_affine
+map_map(const change *c, const mr_affine *t)
+{
+	mr_affine rest = mr_identity(), by = *t, linear = c->map;
+
+	for (int i = 0; i < 12; i++)
+		by.m[i] -= rest.m[i];
+	linear.m[3] = linear.m[7] = linear.m[11] = 0;
+	by = mr_compose(&by, &c->back);
+	by = mr_compose(&linear, &by);
+	for (int i = 0; i < 12; i++)
+		by.m[i] += rest.m[i];
+	return by;
+}
+
+/* n values of a column of doubles in rows of `components`. */
+static void
+map_values(const change *c, column_sort sort, double *x, size_t rows, size_t components)
+{
+	size_t n = rows * components;
+	mr_v3 *p = (mr_v3 *)x;
+	mr_affine *t = (mr_affine *)x;
+
+	for (size_t i = 0; sort == POSITIONS && i < n / 3; i++)
+		p[i] = mr_apply(&c->map, p[i]);
+	for (size_t i = 0; sort == NORMALS && i < n / 3; i++)
+		p[i] = turn_normal(c, p[i]);
+	for (size_t i = 0; sort == TURNS && i < n / 3; i++)
+		p[i] = map_turn(c, p[i]);
+	for (size_t i = 0; sort == OFFSETS && i < n / 3; i++)
+		p[i] = mr_mul(c->scale, mr_vec(c->mirrors ? -p[i].x : p[i].x, p[i].y, p[i].z));
+	for (size_t i = 0; (sort == LENGTHS || sort == FIRST_LENGTH) && i < n;
+	     i += sort == LENGTHS ? 1 : components)
+		x[i] *= c->scale;
+	for (size_t i = 0; sort == MAPS && i < rows; i++)
+		t[i] = map_map(c, &t[i]);
+	if (sort == RESPONSES)
+		map_responses(c, x, n / 4);
+}
+
+static mr_status
+map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_sort sort)
+{
+	size_t rows = (size_t)column->rows, components = column->shape.components;
+	bool corners = sort == TRIANGLES || sort == CORNERS || sort == BARYS ||
+	               (sort == NORMALS && column->shape.element == 'f');
+	void *x;
+
+	if ((sort == TRIANGLES || sort == CORNERS || sort == BARYS) && !c->mirrors)
+		return MR_OK;
+	MR_TRY(copy_rows(ctx, column, &x));
+	if (corners && c->mirrors)
+		swap_corners(x, rows, mr_type_size(column->shape.type) * components);
+	if (column->shape.type == 'd')
+		map_values(c, sort, x, rows, components);
+	for (size_t i = 0; sort == POSITIONS && i < rows; i++)
+		if (!mr_finite(((const mr_v3 *)x)[i]))
+			return mr_fail(ctx, MR_ERANGE, "%s: %s %zu is mapped to infinity", column->layer,
+			    column->name, i);
+	return mr_frame_put(ctx, f, column->layer, column->name, column->shape, x, rows);
+}
+
+/* ---- frames ---- */
+
+static bool
+is_sampling(const char *name)
+{
+	return !strcmp(name, "spacing") || !strcmp(name, "outlier") || !strcmp(name, "repeat") ||
+	       !strcmp(name, "sampling");
+}
+
+/* MR_EMESH where a column cannot follow the map. */
+static mr_status
+check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
+{
+	for (const mr_column *column = f->columns; column < f->columns + f->count; column++) {
+		size_t i = sort_of(column);
+		if ((layer && strcmp(layer, column->layer)) || i == sizeof sorts / sizeof *sorts ||
+		    !sorts[i].alike)
+			continue;
+		if (c->scale == 0)
+			return mr_fail(ctx, MR_EMESH,
+			    "%s: %s cannot be stretched in one direction more than in another: do that "
+			    "before "
+			    "it is made, or behind mr-decode",
+			    column->layer, column->name);
+		if (c->mirrors && !strcmp(column->layer, "displacement"))
+			return mr_fail(ctx, MR_EMESH,
+			    "displacement: %s follows the faces of control, which a mirror turns over: "
+			    "mirror "
+			    "before mr-sample or behind mr-decode",
+			    column->name);
+	}
+	return MR_OK;
+}
+
+/* A layer that goes alone is no more where the others have it. */
+static mr_status
+cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
+{
+	static const char *const ties[] = { "detail_face", "detail_bary", "detail_height", "detail_offset",
+		"source_face", "source_bary", "encoded", "mesh_face", "mesh_bary", "base_face", "base_bary",
+		"control_face", "control_bary", NULL };
+	size_t before = f->count;
+
+	mr_layer_renumbered(f, layer);
+	for (const char *const *name = ties; *name; name++)
+		mr_frame_drop(f, layer, *name, 0);
+	if (f->count < before)
+		mr_warn(ctx, "%s goes alone: what tied it to other layers is dropped", layer);
+	return MR_OK;
+}
+
+mr_status
+mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
+{
+	mr_affine t;
+	change c;
+
+	memcpy(t.m, map, sizeof t.m);
+	c = change_of(&t);
+	if (layer && !mr_frame_has_layer(f, layer))
+		return mr_fail(ctx, MR_EMISSING, "no layer %s", layer);
+	if (layer && strcmp(layer, "points") && mr_frame_has_layer(f, "handles"))
+		return mr_fail(ctx, MR_EMESH, "%s cannot go alone: handles are posed beside it", layer);
+	MR_TRY(check(ctx, f, layer, &c));
+	if (layer)
+		MR_TRY(cut_loose(ctx, f, layer));
+	for (size_t i = f->count; i-- > 0;) {
+		mr_column *column = &f->columns[i];
+		size_t sort = sort_of(column);
+		if (sort == sizeof sorts / sizeof *sorts || (layer && strcmp(layer, column->layer)))
+			continue;
+		if (!(c.scale > 0) && is_sampling(column->name)) {
+			char of[MR_LAYER_MAX + 1];
+			memcpy(of, column->layer, sizeof of);
+			mr_frame_drop(f, of, column->name, 0);
+		} else {
+			MR_TRY(map_column(ctx, f, column, &c, sorts[sort].sort));
+		}
+	}
+	return MR_OK;
+}

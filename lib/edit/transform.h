@@ -1,0 +1,28 @@
+/*
+ * transform.h -- affine maps of whole frames: all layers, and what they know of each other, alike.
+ */
+#ifndef MR_EDIT_TRANSFORM_H
+#define MR_EDIT_TRANSFORM_H
+
+#include "mesh/layers.h"
+
+/* What is to be done, step by step; starts zeroed. */
+typedef struct mr_transform {
+	struct mr_transform_step *step;
+	size_t n, room;
+} mr_transform;
+
+/*
+ * Appends the step `what`: "translate" x,y,z; "rotate" ax,ay,az,degrees, about the origin; "scale" s or
+ * sx,sy,sz; "matrix" 12 or 16 numbers, row by row, or a file of them; "up" from:to, two of x, y, z, -x, -y,
+ * -z; "center" and "unit", which take nothing: the middle of the bounding box to the origin, and its longest
+ * side to 1, too.  MR_EUSAGE with a sentence; MR_EIO, MR_EFORMAT of a file.
+ */
+mr_status mr_transform_add(mr_ctx *ctx, mr_transform *t, const char *what, const char *text) MR_WARN_UNUSED;
+
+/* The map of all steps for this frame; the box is that of all positions, or of those of the layer, where it
+ * is not NULL. */
+mr_status mr_transform_map(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const mr_transform *t, mr_affine *map) MR_WARN_UNUSED;
+
+#endif

@@ -1,0 +1,83 @@
+# Moving, turning, scaling; a frame moved as a whole is the frame of the model moved.
+where() { # the box
+	mr-info "$@" | sed -n 's/^    box *//p' | sed 's/, diagonal.*//'
+}
+mr-make boxes --genus 1 -n 60 -o model.mrs
+where model.mrs
+for how in '--translate 1,2,3' '--rotate 0,0,2,90' '--scale 2' '--scale 1,2,3' '--scale -1,1,1' '--up y:z' '--up z:y' '--up -x:x' \
+    '--up y:y' '--translate 5,5,5 --center' '--unit' '--scale 1,4,2 --unit --translate 0,0,1' '--translate 1,0,0 --scale 2' \
+    '--scale 2 --translate 1,0,0' '--matrix 0,-1,0,7,1,0,0,0,0,0,1,0'; do
+	mr-transform $how model.mrs -o moved.mrs
+	echo "$how: $(where moved.mrs)"
+	mr-info moved.mrs | grep -o 'volume [0-9.-]*'
+done
+printf '1 0 0 1\n0 1 0 0 # a row\n0 0 -1 0\n0 0 0 1\n' >matrix
+mr-transform --matrix matrix --stats - model.mrs 2>stats | where
+grep -o '"m11.*' stats
+
+echo 'what is forth and back is where it was'
+mr-transform --up y:z model.mrs | mr-transform --up z:y --no-history | mr-export there.off
+mr-export here.off <model.mrs
+cmp there.off here.off && echo same
+
+echo 'everything in a frame goes alike'
+mr-make bumpy -n 3000 | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.8 |
+    mr-encode | mr-solve --basis -o rest.mrs
+mr-pose -H 1 --rotate 1,2,3,100 --scale 1.2 --translate 0.1,0.2,0.1 rest.mrs -o posed.mrs
+mr-make bumpy --points 300 >points.mrs
+mr-make bumpy -n 3000 | mr-simplify --to control -n 300 | mr-sample -n 1 -o levels.mrs
+near() { # what, two streams: vertex by vertex
+	mr-compare -a mesh -b mesh --json "$3" <"$2" | python3 -c '
+import json, sys
+d = json.load(sys.stdin)["vertex_max_relative"]
+print(sys.argv[1], "near" if d < 1e-9 else d)' "$1"
+}
+for how in '--rotate 1,2,3,40 --translate 3,2,1' '--scale 3' '--scale -2 --up x:y' '--scale 1,1,-1'; do
+	for stage in rest posed; do
+		mr-transform $how $stage.mrs | mr-decode -q -o early.mrs
+		mr-decode -q $stage.mrs | mr-transform $how -o late.mrs
+		near "$how, $stage, by responses:" early.mrs late.mrs
+	done
+	mr-transform $how posed.mrs | mr-solve | mr-decode -q -o early.mrs
+	mr-solve posed.mrs | mr-decode -q | mr-transform $how -o late.mrs
+	near "$how, solved:" early.mrs late.mrs
+done
+for how in '--rotate 1,2,3,40 --translate 3,2,1' '--scale 3'; do
+	mr-transform $how levels.mrs | mr-decode -o early.mrs
+	mr-decode levels.mrs | mr-transform $how -o late.mrs
+	near "$how, heights:" early.mrs late.mrs
+done
+
+echo 'one layer alone'
+mr-cat --merge model.mrs points.mrs | mr-transform -l points --translate 9,9,9 | where
+mr-transform -l mesh --translate 1,0,0 rest.mrs | mr-info | grep -c detail
+
+echo 'normals'
+mr-make sphere --points 2000 | mr-transform --scale 1,1,-3 | mr-export - -f ply-ascii |
+    awk 'body && n < 400 { n++; x = $1 * $4 + $2 * $5 + $3 * $6 / 9 * 3; r = sqrt($4^2 + $5^2 + $6^2)
+	c = ($1 * $4 + $2 * $5 + $3 * $6 / 9) / r / sqrt($1^2 + $2^2 + $3^2 / 81); if (c < 0.99) bad++ }
+	/end_header/ { body = 1 } END { print n, "normals,", bad + 0, "not at right angles and outward" }'
+
+echo 'refusals'
+refused() {
+	mr-transform "$@" >out 2>err
+	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+}
+refused model.mrs
+refused --scale 0 model.mrs
+refused --scale 1,2 model.mrs
+refused --rotate 0,0,0,10 model.mrs
+refused --up y model.mrs
+refused --up w:z model.mrs
+refused --matrix 1,2,3 model.mrs
+refused --matrix 1,0,0,0,1,0,0,0,0,0,0,0 model.mrs
+refused --matrix 1,0,0,0,0,1,0,0,0,0,1,0,0,0,1,1 model.mrs
+refused --matrix absent model.mrs
+echo '1 0 0 x' >words
+refused --matrix words model.mrs
+refused --scale 1e300 --scale 1e300 model.mrs
+refused --scale 1,2,1 rest.mrs
+refused --scale 1,2,1 levels.mrs
+refused --scale -1 levels.mrs
+refused -l mesh --scale 2 posed.mrs
+refused -l nowhere --scale 2 model.mrs
