@@ -374,6 +374,23 @@ MR_API mr_status mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules,
 MR_API mr_status mr_transform_frame(
     mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12]) MR_WARN_UNUSED;
 
+typedef struct mr_split_opts {
+	double distance;        /* of points, at which they are connected; 0: four times their spacing */
+	bool distance_relative; /* distance is a share of the bounding box's diagonal */
+	size_t least;           /* vertices of a part; 0: of points a hundredth of the largest part's */
+	const char *layer;      /* NULL: mesh, else control, else points */
+} mr_split_opts;
+
+typedef struct mr_split_result {
+	size_t parts, dropped, dropped_vertices; /* parts given; those that were too small */
+	size_t largest, smallest;                /* vertices of parts that were given */
+} mr_split_result;
+
+/* A key frame of the layer alone for each of its connected parts, the largest first.  opts: zeros are the
+ * defaults.  parts: result->parts of them, in an array. */
+MR_API mr_status mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***parts,
+    mr_split_result *result) MR_WARN_UNUSED;
+
 typedef struct mr_encode_result {
 	size_t heights, offsets; /* vertices that have one or the other */
 	size_t searched;         /* that the walk from the source map did not place */

@@ -207,6 +207,25 @@ mr_frame_pass(mr_ctx *ctx, mr_frame *frame, const mr_column *column)
 	return MR_OK;
 }
 
+mr_status
+mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **copy)
+{
+	mr_frame *f;
+
+	MR_TRY(mr_frame_new(keep, frame->name, &f));
+	for (mr_column *c = frame->columns; c < frame->columns + frame->count; c++) {
+		size_t width = mr_type_size(c->shape.type) * c->shape.components;
+		void *data = mr_alloc(keep, (size_t)c->rows, width);
+		if (!data)
+			return MR_EMEM;
+		MR_TRY(mr_column_decode(ctx, c));
+		memcpy(data, c->data, (size_t)c->rows * width);
+		MR_TRY(mr_frame_put(keep, f, c->layer, c->name, c->shape, data, (size_t)c->rows));
+	}
+	*copy = f;
+	return MR_OK;
+}
+
 void
 mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element)
 {

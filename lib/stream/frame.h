@@ -40,6 +40,9 @@ size_t mr_type_size(char type);
 /* Copies the list of columns, so that what is put into the copy stays out of `frame`; the rest is shared. */
 mr_status mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 
+/* A copy of all that the frame has, decoded, which may outlive it: in the arena of `keep`. */
+mr_status mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **copy);
+
 /* The column, or NULL.  Not decoded: for its shape and rows. */
 const mr_column *mr_frame_find(const mr_frame *frame, const char *layer, const char *name);
 

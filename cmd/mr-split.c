@@ -1,0 +1,60 @@
+/* mr-split -- a frame for each connected part.  See man/mr-split.1. */
+#include "cmd.h"
+
+static mr_split_opts opts;
+static cmd_length distance;
+
+static const cmd_opt table[] = {
+	{ 'd', "distance", CMD_LENGTH, &distance, 0, 1e300, "DISTANCE",
+	    "points no farther apart are connected; 0: four times as far as they are from their neighbours",
+	    NULL },
+	{ 'n', "least", CMD_COUNT, &opts.least, 0, 4294967295, "N",
+	    "leave out parts of fewer vertices; 0: of points those of a hundredth of the largest part's, of "
+	    "a "
+	    "mesh none",
+	    NULL },
+	{ 0 },
+};
+
+static mr_status
+prepare(cmd *c)
+{
+	(void)c;
+	opts.distance = distance.value;
+	opts.distance_relative = distance.relative;
+	return MR_OK;
+}
+
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_split_result, parts),
+	CMD_COUNTED(mr_split_result, largest),
+	CMD_COUNTED(mr_split_result, smallest),
+	CMD_COUNTED(mr_split_result, dropped),
+	CMD_COUNTED(mr_split_result, dropped_vertices),
+	{ 0 },
+};
+
+static mr_status
+split_frame(cmd *c, mr_frame *f)
+{
+	mr_split_result result;
+	mr_frame **part;
+
+	opts.layer = c->layer;
+	MR_TRY(mr_split_frame(&c->ctx, f, &opts, &part, &result));
+	cmd_figures(c, figures, &result);
+	for (size_t k = 0; k < result.parts; k++)
+		MR_TRY(cmd_send(c, part[k]));
+	return MR_OK;
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "make a frame of each connected part of a surface or a cloud",
+		.options = table,
+		.prepare = prepare,
+		.frame = split_frame,
+		.sends = true });
+}

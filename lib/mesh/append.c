@@ -1,0 +1,435 @@
+/* Layers appended: columns are joined by name, and indices in them follow what they refer to. */
+#include "mesh/append.h"
+
+#include "base/text.h"
+
+#include <limits.h>
+
+/* Columns of numbers of triangles of a layer. */
+static const struct {
+	const char *column, *of;
+} references[] = {
+	{ "detail_face", "base" },
+	{ "source_face", "mesh" },
+	{ "mesh_face", "mesh" },
+	{ "base_face", "base" },
+	{ "control_face", "control" },
+};
+
+/* Columns of numbers of lines, and where these are. */
+static const struct {
+	const char *column, *names;
+} namings[] = {
+	{ "group", "groups" },
+	{ "object", "objects" },
+	{ "material", "materials" },
+};
+
+static const char *const samplings[] = { "spacing", "outlier", "repeat", "sampling" };
+
+/* One column of a layer in all frames. */
+typedef struct joined {
+	mr_frame *const *frames;
+	size_t n;
+	const mr_column *first;
+	const char *layer, *name;
+} joined;
+
+static size_t
+rows_of(const mr_frame *f, const char *layer, char element)
+{
+	for (size_t i = 0; i < f->count; i++)
+		if (!strcmp(f->columns[i].layer, layer) && f->columns[i].shape.element == element)
+			return (size_t)f->columns[i].rows;
+	return 0;
+}
+
+static bool
+same_shape(mr_shape a, mr_shape b)
+{
+	return a.element == b.element && a.type == b.type && a.components == b.components;
+}
+
+/* Whether every frame that has the layer, and rows of the element in it, has the column too.  Without
+ * polygons each triangle is one. */
+static bool
+all_have(const joined *j)
+{
+	if (!strcmp(j->name, "polygon"))
+		return true;
+	for (size_t i = 0; i < j->n; i++) {
+		const mr_column *c = mr_frame_find(j->frames[i], j->layer, j->name);
+		if (c ? !same_shape(c->shape, j->first->shape)
+		      : rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
+			return false;
+	}
+	return true;
+}
+
+/* ---- text ---- */
+
+/* Lines of all frames, each once; where a frame's begin with those that are there, as they mostly do, nothing
+ * is looked for. */
+typedef struct lines {
+	char *text; /* each ends with a newline */
+	size_t bytes, room, count;
+} lines;
+
+/* The number of a line, or how many there are. */
+static size_t
+find_line(const lines *l, const char *line, size_t bytes)
+{
+	const char *at = l->text;
+	size_t i = 0;
+
+	for (; i < l->count; i++) {
+		size_t n = (size_t)((const char *)memchr(at, '\n', l->bytes - (size_t)(at - l->text)) - at);
+		if (n == bytes && !memcmp(at, line, n))
+			break;
+		at += n + 1;
+	}
+	return i;
+}
+
+/* Whether line i begins at byte `at` and is this one. */
+static bool
+is_next(const lines *l, size_t at, const char *line, size_t bytes)
+{
+	return at + bytes < l->bytes && l->text[at + bytes] == '\n' && !memcmp(l->text + at, line, bytes);
+}
+
+/* number (NULL: not wanted): of each line of the text among all; in the arena. */
+static mr_status
+add_lines(mr_ctx *ctx, lines *l, const char *text, size_t bytes, uint32_t **number, size_t *count)
+{
+	const char *end = text + bytes;
+	size_t room = 0, at = 0;
+	bool same = true;
+
+	*number = NULL;
+	for (*count = 0; text <= end; (*count)++) {
+		const char *stop = memchr(text, '\n', (size_t)(end - text));
+		size_t n = (size_t)((stop ? stop : end) - text), i = *count;
+		same = same && is_next(l, at, text, n);
+		if (!same)
+			i = find_line(l, text, n);
+		if (i == l->count) {
+			MR_TRY(MR_RESERVE(ctx, l->text, l->bytes, n + 1, &l->room));
+			memcpy(l->text + l->bytes, text, n);
+			l->text[l->bytes + n] = '\n';
+			l->bytes += n + 1;
+			l->count++;
+		}
+		MR_TRY(MR_RESERVE(ctx, *number, *count, 1, &room));
+		(*number)[*count] = (uint32_t)i;
+		at += n + 1;
+		text += n + 1;
+	}
+	return MR_OK;
+}
+
+/* Texts of no row: lines of all. */
+static mr_status
+join_text(mr_ctx *ctx, const joined *j, mr_frame *out)
+{
+	lines l = { 0 };
+	const void *text;
+	uint32_t *number;
+	size_t bytes, count;
+
+	for (size_t i = 0; i < j->n; i++)
+		if (mr_layer_has(j->frames[i], j->layer, j->name)) {
+			MR_TRY(mr_frame_get(
+			    ctx, j->frames[i], j->layer, j->name, j->first->shape, &text, &bytes));
+			MR_TRY(add_lines(ctx, &l, text, bytes, &number, &count));
+		}
+	return mr_frame_put(ctx, out, j->layer, j->name, j->first->shape, l.text, l.bytes - (l.bytes > 0));
+}
+
+/* ---- rows ---- */
+
+static mr_status
+shift(mr_ctx *ctx, const joined *j, uint32_t *x, size_t n, uint64_t by)
+{
+	for (size_t i = 0; i < n; i++) {
+		if (x[i] + by >= MR_NONE)
+			return mr_fail(ctx, MR_ERANGE, "%s: %s goes beyond %u in one frame", j->layer,
+			    j->name, MR_NONE - 1);
+		x[i] = (uint32_t)(x[i] + by);
+	}
+	return MR_OK;
+}
+
+/* How many rows of the layer the frames before i have. */
+static uint64_t
+rows_before(const joined *j, size_t i, const char *layer, char element)
+{
+	uint64_t n = 0;
+
+	while (i-- > 0)
+		n += rows_of(j->frames[i], layer, element);
+	return n;
+}
+
+static const char *
+layer_referred_to(const char *column)
+{
+	for (size_t i = 0; i < sizeof references / sizeof *references; i++)
+		if (!strcmp(references[i].column, column))
+			return references[i].of;
+	return NULL;
+}
+
+static const char *
+names_of(const char *column)
+{
+	for (size_t i = 0; i < sizeof namings / sizeof *namings; i++)
+		if (!strcmp(namings[i].column, column))
+			return namings[i].names;
+	return NULL;
+}
+
+/* What the indices of frame i become: x, n values of it behind those of the frames before. */
+static mr_status
+follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, lines *l, uint64_t *polygons)
+{
+	const char *of = layer_referred_to(j->name), *names = names_of(j->name);
+	const void *text = "";
+	uint32_t *number, most = 0;
+	size_t bytes = 0, count;
+
+	if (!strcmp(j->name, "triangles"))
+		return shift(ctx, j, x, n, rows_before(j, i, j->layer, 'v'));
+	if (of)
+		return shift(ctx, j, x, n, rows_before(j, i, of, 'f'));
+	if (!strcmp(j->name, "polygon")) {
+		MR_TRY(shift(ctx, j, x, n, *polygons));
+		for (size_t k = 0; k < n; k++)
+			most = x[k] > most ? x[k] : most;
+		*polygons = n ? (uint64_t)most + 1 : *polygons;
+	}
+	if (!names || !mr_layer_has(j->frames[i], j->layer, names))
+		return MR_OK;
+	MR_TRY(mr_layer_get(ctx, j->frames[i], j->layer, names, &text, &bytes));
+	MR_TRY(add_lines(ctx, l, text, bytes, &number, &count));
+	for (size_t k = 0; k < n; k++) {
+		if (x[k] >= count)
+			return mr_fail(ctx, MR_ERANGE, "%s: row %zu of %s is %u of %zu", j->layer, k, j->name,
+			    x[k], count);
+		x[k] = number[x[k]];
+	}
+	return MR_OK;
+}
+
+/* The rows of frame i to x; *n: how many. */
+static mr_status
+copy_rows(mr_ctx *ctx, const joined *j, size_t i, char *x, size_t *n)
+{
+	size_t width = mr_type_size(j->first->shape.type) * j->first->shape.components;
+	uint32_t *polygon = (uint32_t *)(void *)x;
+	const void *rows;
+
+	*n = 0;
+	if (mr_layer_has(j->frames[i], j->layer, j->name)) {
+		MR_TRY(mr_frame_get(ctx, j->frames[i], j->layer, j->name, j->first->shape, &rows, n));
+		memcpy(x, rows, *n * width);
+	} else if (!strcmp(j->name, "polygon")) {
+		*n = rows_of(j->frames[i], j->layer, 'f');
+		for (size_t k = 0; k < *n; k++)
+			polygon[k] = (uint32_t)k;
+	}
+	return MR_OK;
+}
+
+static mr_status
+join_rows(mr_ctx *ctx, const joined *j, mr_frame *out)
+{
+	size_t each = j->first->shape.components, width = mr_type_size(j->first->shape.type) * each;
+	uint64_t rows = rows_before(j, j->n, j->layer, j->first->shape.element), polygons = 0;
+	char *x = mr_alloc(ctx, (size_t)rows, width);
+	size_t at = 0, n;
+	lines l = { 0 };
+
+	if (!x)
+		return MR_EMEM;
+	for (size_t i = 0; i < j->n; i++) {
+		MR_TRY(copy_rows(ctx, j, i, x + at * width, &n));
+		if (j->first->shape.type == 'u')
+			MR_TRY(
+			    follow(ctx, j, i, (uint32_t *)(void *)(x + at * width), n * each, &l, &polygons));
+		at += n;
+	}
+	return mr_frame_put(ctx, out, j->layer, j->name, j->first->shape, x, at);
+}
+
+/* ---- frames ---- */
+
+/* How many frames have the layer. */
+static size_t
+frames_with(const joined *j, const char *layer)
+{
+	size_t n = 0;
+
+	for (size_t i = 0; i < j->n; i++)
+		n += mr_frame_has_layer(j->frames[i], layer);
+	return n;
+}
+
+static bool
+is_sampling(const char *name)
+{
+	for (size_t i = 0; i < sizeof samplings / sizeof *samplings; i++)
+		if (!strcmp(samplings[i], name))
+			return true;
+	return false;
+}
+
+/* Whether the column belongs to one frame alone. */
+static bool
+is_of_one(const joined *j)
+{
+	if (!strcmp(j->layer, "handles"))
+		return frames_with(j, "handles") > 1;
+	if (!strcmp(j->layer, "displacement"))
+		return frames_with(j, "control") > 1 || frames_with(j, "displacement") > 1;
+	return frames_with(j, j->layer) > 1 && is_sampling(j->name);
+}
+
+/* Whether a column of no rows says the same in all frames with the layer. */
+static mr_status
+same_values(mr_ctx *ctx, const joined *j, bool *same)
+{
+	mr_shape shape = j->first->shape;
+	const void *a = NULL, *b;
+	size_t n = 0, m;
+
+	for (size_t i = 0; i < j->n && *same; i++)
+		if (mr_layer_has(j->frames[i], j->layer, j->name)) {
+			MR_TRY(mr_frame_get(ctx, j->frames[i], j->layer, j->name, shape, &b, &m));
+			*same = !a ||
+			        (n == m && !memcmp(a, b, n * mr_type_size(shape.type) * shape.components));
+			a = b;
+			n = m;
+		}
+	return MR_OK;
+}
+
+static bool
+is_list(const char *name)
+{
+	for (size_t i = 0; i < sizeof namings / sizeof *namings; i++)
+		if (!strcmp(namings[i].names, name))
+			return true;
+	return !strcmp(name, "mtllib") || !strcmp(name, "properties");
+}
+
+/* *left: the column does not stay. */
+static mr_status
+join_column(mr_ctx *ctx, const joined *j, mr_frame *out, bool *left)
+{
+	bool kept = true;
+
+	*left = true;
+	if (j->first->shape.element != '-') {
+		*left = !all_have(j);
+		return *left ? MR_OK : join_rows(ctx, j, out);
+	}
+	if (j->first->shape.type == 't' && is_list(j->name)) {
+		*left = false;
+		return join_text(ctx, j, out);
+	}
+	kept = frames_with(j, j->layer) == 1 || all_have(j);
+	MR_TRY(same_values(ctx, j, &kept));
+	*left = !kept;
+	return kept ? mr_frame_pass(ctx, out, j->first) : MR_OK;
+}
+
+/* Whether an earlier frame than i has the column. */
+static bool
+came_before(const joined *j, size_t i, const char *name)
+{
+	while (i-- > 0)
+		if (mr_layer_has(j->frames[i], j->layer, name))
+			return true;
+	return false;
+}
+
+static mr_status
+join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
+{
+	mr_text left = { .ctx = ctx };
+
+	for (size_t i = 0; i < j->n; i++)
+		for (size_t k = 0; k < j->frames[i]->count; k++) {
+			const mr_column *c = &j->frames[i]->columns[k];
+			bool leave;
+			if (strcmp(c->layer, j->layer) || came_before(j, i, c->name))
+				continue;
+			j->first = c;
+			j->name = c->name;
+			leave = is_of_one(j);
+			if (!leave)
+				MR_TRY(join_column(ctx, j, out, &leave));
+			if (leave && !is_sampling(j->name))
+				mr_text_add(&left, "%s%s", left.n ? ", " : "", j->name);
+		}
+	MR_TRY(mr_text_done(&left));
+	if (left.n)
+		mr_warn(ctx,
+		    "%s is appended without %s: not all frames have that, in one shape, or its rows "
+		    "cannot be numbered anew",
+		    j->layer, left.s);
+	return MR_OK;
+}
+
+static bool
+seen_before(const joined *j, size_t i, size_t k)
+{
+	const char *layer = j->frames[i]->columns[k].layer;
+
+	for (size_t before = 0; before < i; before++)
+		if (mr_frame_has_layer(j->frames[before], layer))
+			return true;
+	while (k-- > 0)
+		if (!strcmp(j->frames[i]->columns[k].layer, layer))
+			return true;
+	return false;
+}
+
+/* A history that another frame has, too, is told once. */
+static mr_status
+join_histories(mr_ctx *ctx, const joined *j, mr_frame *out)
+{
+	const mr_shape text = { '-', 't', 1 };
+	mr_text all = { .ctx = ctx };
+	const void *line;
+	size_t n;
+
+	for (size_t i = 0; i < j->n; i++)
+		if (mr_layer_has(j->frames[i], "", "history")) {
+			MR_TRY(mr_frame_get(ctx, j->frames[i], "", "history", text, &line, &n));
+			if (!all.s || n > all.n || memcmp(all.s, line, n))
+				mr_text_add(
+				    &all, "%.*s", (int)(n < INT_MAX ? n : INT_MAX), (const char *)line);
+		}
+	MR_TRY(mr_text_done(&all));
+	return all.s ? mr_frame_put(ctx, out, "", "history", text, all.s, all.n) : MR_OK;
+}
+
+mr_status
+mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
+{
+	joined j = { .frames = frames, .n = n };
+	mr_frame *f;
+
+	MR_TRY(mr_frame_new(ctx, frames[0]->name, &f));
+	for (size_t i = 0; i < n; i++)
+		for (size_t k = 0; k < frames[i]->count; k++) {
+			j.layer = frames[i]->columns[k].layer;
+			if (*j.layer && !seen_before(&j, i, k))
+				MR_TRY(join_layer(ctx, &j, f));
+		}
+	MR_TRY(join_histories(ctx, &j, f));
+	*out = f;
+	return MR_OK;
+}

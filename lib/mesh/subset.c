@@ -1,0 +1,142 @@
+/* A layer cut down to some of its rows: columns are gathered, triangles get the new numbers. */
+#include "mesh/subset.h"
+
+/* Behind the triangles of the polygon that triangle i begins: those behind each other with one number. */
+static size_t
+polygon_end(const uint32_t *polygon, size_t nf, size_t i)
+{
+	size_t end = i + 1;
+
+	while (polygon && end < nf && polygon[end] == polygon[i])
+		end++;
+	return end;
+}
+
+static bool
+corners_kept(const mr_mesh *m, const bool *keep, size_t begin, size_t end)
+{
+	for (size_t f = begin; f < end; f++)
+		for (int k = 0; k < 3; k++)
+			if (!keep[m->t[f].v[k]])
+				return false;
+	return true;
+}
+
+static size_t
+find_faces(const mr_mesh *m, const uint32_t *polygon, const bool *keep, uint32_t *face)
+{
+	size_t n = 0;
+
+	for (size_t f = 0, end; f < m->nf; f = end) {
+		end = polygon_end(polygon, m->nf, f);
+		if (corners_kept(m, keep, f, end))
+			for (size_t i = f; i < end; i++)
+				face[n++] = (uint32_t)i;
+	}
+	return n;
+}
+
+/* Which vertices had faces, and which have some left.  mark: zeros. */
+enum { USED = 1, LEFT = 2 };
+
+static void
+mark_corners(const mr_mesh *m, const mr_subset *s, uint8_t *mark)
+{
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			mark[m->t[f].v[k]] = USED;
+	for (size_t i = 0; i < s->nf; i++)
+		for (int k = 0; k < 3; k++)
+			mark[m->t[s->face[i]].v[k]] = LEFT;
+}
+
+mr_status
+mr_subset_find(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *keep, mr_subset *s)
+{
+	uint32_t *vertex = MR_NEW(ctx, m->nv, uint32_t), *face = MR_NEW(ctx, m->nf, uint32_t);
+	uint32_t *number = MR_NEW(ctx, m->nv, uint32_t);
+	uint8_t *mark = MR_NEW_ZERO(ctx, m->nv, uint8_t);
+	const void *polygon = NULL;
+	mr_subset r = { vertex, face, 0, 0, number };
+
+	if (!vertex || !face || !number || !mark)
+		return MR_EMEM;
+	if (m->nf && mr_layer_has(f, m->name, "polygon"))
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "polygon", m->nf, &polygon));
+	r.nf = find_faces(m, polygon, keep, face);
+	mark_corners(m, &r, mark);
+	for (size_t v = 0; v < m->nv; v++)
+		if (keep[v] && mark[v] != USED) {
+			number[v] = (uint32_t)r.nv;
+			vertex[r.nv++] = (uint32_t)v;
+		}
+	*s = r;
+	return MR_OK;
+}
+
+/* The rows of x that are kept, in the arena; NULL where memory cannot be had. */
+static void *
+gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *row, size_t n)
+{
+	char *kept = mr_alloc(ctx, n, size);
+
+	for (size_t i = 0; kept && i < n; i++)
+		memcpy(kept + i * size, (const char *)x + row[i] * size, size);
+	return kept;
+}
+
+static void
+renumber(mr_tri *t, size_t n, const uint32_t *number)
+{
+	for (size_t f = 0; f < n; f++)
+		for (int k = 0; k < 3; k++)
+			t[f].v[k] = number[t[f].v[k]];
+}
+
+static mr_status
+keep_rows(mr_ctx *ctx, mr_frame *f, mr_column *c, const mr_subset *s)
+{
+	bool faces = c->shape.element == 'f';
+	size_t n = faces ? s->nf : s->nv;
+	void *rows;
+
+	MR_TRY(mr_column_decode(ctx, c));
+	rows = gather(
+	    ctx, c->data, mr_type_size(c->shape.type) * c->shape.components, faces ? s->face : s->vertex, n);
+	if (!rows)
+		return MR_EMEM;
+	if (!strcmp(c->name, "triangles"))
+		renumber(rows, n, s->number);
+	return mr_frame_put(ctx, f, c->layer, c->name, c->shape, rows, n);
+}
+
+/* The neighbourhoods of the points are others now. */
+static void
+drop_sampling(mr_frame *f, const char *layer)
+{
+	mr_frame_drop(f, layer, "spacing", 0);
+	mr_frame_drop(f, layer, "outlier", 0);
+	mr_frame_drop(f, layer, "repeat", 0);
+	mr_frame_drop(f, layer, "sampling", 0);
+}
+
+mr_status
+mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
+{
+	const mr_column *p = mr_frame_find(f, layer, "position"), *t = mr_frame_find(f, layer, "triangles");
+	const mr_column *encoded = mr_frame_find(f, "base", "encoded");
+	bool detail = !strcmp(layer, "mesh") && encoded && mr_layer_has(f, layer, "detail_face");
+	mr_column on = { 0 };
+
+	if (p->rows == s->nv && (!t || t->rows == s->nf))
+		return MR_OK;
+	if (detail)
+		on = *encoded;
+	drop_sampling(f, layer);
+	for (size_t i = 0; i < f->count; i++)
+		if (!strcmp(f->columns[i].layer, layer) && f->columns[i].shape.element != '-')
+			MR_TRY(keep_rows(ctx, f, &f->columns[i], s));
+	mr_layer_renumbered(f, layer);
+	/* the detail that is left is still over the base on which it was encoded */
+	return detail ? mr_frame_pass(ctx, f, &on) : MR_OK;
+}

@@ -1,0 +1,150 @@
+/* mr-split: a frame for each part of a layer. */
+#include "mesh/subset.h"
+#include "space/connected.h"
+
+/* Parts smaller than this share of the largest are, of points, no parts but what lies around them. */
+static const double LEAST = 0.01;
+
+/* The rows of all parts, one part behind the other. */
+typedef struct parts {
+	mr_connected of;
+	uint32_t *vertex, *face, *number;
+	size_t *first_vertex, *first_face; /* parts + 1 */
+	size_t given;                      /* so many are large enough */
+} parts;
+
+/* Sorts n rows by part, those of one in ascending order.  part_of: of row i is that of vertex of[i], NULL: i.
+ */
+static mr_status
+sort_rows(mr_ctx *ctx, const mr_connected *c, const mr_tri *t, size_t n, uint32_t **row, size_t **first)
+{
+	size_t *at = MR_NEW_ZERO(ctx, c->parts + 2, size_t);
+
+	*row = MR_NEW(ctx, n, uint32_t);
+	if (!at || !*row)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		at[c->part[t ? t[i].v[0] : i] + 2]++;
+	for (size_t k = 2; k < c->parts + 2; k++)
+		at[k] += at[k - 1];
+	for (size_t i = 0; i < n; i++)
+		(*row)[at[c->part[t ? t[i].v[0] : i] + 1]++] = (uint32_t)i;
+	*first = at;
+	return MR_OK;
+}
+
+static mr_status
+find_parts(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_split_opts *o, parts *p)
+{
+	double unit = o->distance_relative ? mr_mesh_diagonal(m) : 1;
+	size_t least = o->least;
+
+	MR_TRY(mr_connected_of(ctx, f, m, o->distance * unit, &p->of));
+	MR_TRY(sort_rows(ctx, &p->of, NULL, m->nv, &p->vertex, &p->first_vertex));
+	MR_TRY(sort_rows(ctx, &p->of, m->t, m->nf, &p->face, &p->first_face));
+	p->number = MR_NEW(ctx, m->nv, uint32_t);
+	if (!p->number)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->nv; i++)
+		p->number[p->vertex[i]] = (uint32_t)(i - p->first_vertex[p->of.part[p->vertex[i]]]);
+	if (least == 0 && m->nf == 0)
+		least = (size_t)ceil(LEAST * (double)p->of.size[0]);
+	for (p->given = 0; p->given < p->of.parts && p->of.size[p->given] >= least; p->given++)
+		;
+	if (p->given == 0)
+		return mr_fail(ctx, MR_EMESH, "%s: no part has %zu %s: the largest has %zu", m->name, least,
+		    m->nf ? "vertices" : "points", p->of.size[0]);
+	return MR_OK;
+}
+
+/* The frame without the other layers: these are not divided. */
+static mr_status
+take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, size_t k, mr_frame **out)
+{
+	mr_frame *part = MR_NEW(ctx, 1, mr_frame);
+	const mr_subset s = { p->vertex + p->first_vertex[k], p->face + p->first_face[k],
+		p->first_vertex[k + 1] - p->first_vertex[k], p->first_face[k + 1] - p->first_face[k],
+		p->number };
+	size_t kept = 0;
+
+	if (!part)
+		return MR_EMEM;
+	MR_TRY(mr_frame_copy(ctx, f, part));
+	for (size_t i = 0; i < part->count; i++)
+		if (!*part->columns[i].layer || !strcmp(part->columns[i].layer, layer))
+			part->columns[kept++] = part->columns[i];
+	part->count = kept;
+	part->key = true;
+	part->name = mr_format(ctx, "%s-%zu", f->name, k + 1);
+	if (!part->name)
+		return MR_EMEM;
+	*out = part;
+	return mr_layer_keep(ctx, part, layer, &s);
+}
+
+static void
+warn_of_layers(mr_ctx *ctx, const mr_frame *f, const char *layer)
+{
+	char names[128];
+	size_t n = 0;
+
+	for (size_t i = 0; i < f->count && n < sizeof names; i++) {
+		const char *other = f->columns[i].layer;
+		size_t before = 0;
+		while (strcmp(f->columns[before].layer, other))
+			before++;
+		if (*other && strcmp(other, layer) && before == i)
+			n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "", other);
+	}
+	if (n)
+		mr_warn(ctx, "%s alone is split: its parts are without %s", layer, names);
+}
+
+static void
+tell(mr_ctx *ctx, const mr_mesh *m, const parts *p, mr_split_result *r)
+{
+	const char *what = m->nf ? "vertices" : "points";
+
+	*r = (mr_split_result){ .parts = p->given,
+		.dropped = p->of.parts - p->given,
+		.largest = p->of.size[0],
+		.smallest = p->of.size[p->given - 1] };
+	r->dropped_vertices = m->nv - p->first_vertex[p->given];
+	mr_note(ctx, "%zu parts of %zu to %zu %s", r->parts, r->smallest, r->largest, what);
+	if (r->dropped)
+		mr_warn(ctx, "%zu of %zu %s are left out, in %zu parts of at most %zu", r->dropped_vertices,
+		    m->nv, what, r->dropped, p->of.size[p->given]);
+}
+
+mr_status
+mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***out, mr_split_result *result)
+{
+	static const char *const reads[] = { "mesh", "control", "points", NULL };
+	static const mr_split_opts defaults;
+	const mr_split_opts *o = opts ? opts : &defaults;
+	const char *layer;
+	mr_split_result r;
+	mr_frame **part;
+	mr_mesh m;
+	parts p;
+
+	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
+	if (m.nv == 0)
+		return mr_fail(ctx, MR_EMESH, "%s: there is no point", layer);
+	if (m.nf && o->distance > 0)
+		return mr_fail(
+		    ctx, MR_EUSAGE, "%s has faces, which connect it: --distance is of points", layer);
+	MR_TRY(find_parts(ctx, f, &m, o, &p));
+	part = MR_NEW(ctx, p.given, mr_frame *);
+	if (!part)
+		return MR_EMEM;
+	for (size_t k = 0; k < p.given; k++)
+		MR_TRY(take_part(ctx, f, layer, &p, k, &part[k]));
+	warn_of_layers(ctx, f, layer);
+	tell(ctx, &m, &p, &r);
+	*out = part;
+	if (result)
+		*result = r;
+	return MR_OK;
+}

@@ -1,0 +1,47 @@
+# The rows of all frames in one: what refers to others follows, what not all have is said.
+cat >square.obj <<'OBJ'
+o one
+usemtl red
+v 0 0 0
+v 1 0 0
+v 1 1 0
+v 0 1 0
+vt 0 0
+vt 1 0
+f 1/1 2/2 3/2 4/1
+OBJ
+cat >triangle.obj <<'OBJ'
+usemtl blue
+o two
+v 2 0 0
+v 3 0 0
+v 2 1 0
+vt 0.5 0.5
+f 1/1 2/1 3/1
+usemtl red
+f 1/1 3/1 2/1
+OBJ
+mr-import square.obj triangle.obj | mr-cat --append | mr-export - -f obj
+
+echo 'detail and base'
+for shape in sphere torus; do
+	mr-make $shape -n 800 | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.3 --handle 0=above:y,0.9 | mr-encode -o $shape.mrs
+done
+mr-cat --append sphere.mrs torus.mrs -o both.mrs
+mr-info --check both.mrs >checked && echo sound
+mr-decode both.mrs | mr-compare -a mesh -b mesh --json both.mrs | grep -c '"vertex_max_relative":[0-9.]*e-1[0-9]'
+mr-split both.mrs -q | mr-info | grep -E 'frame|detail_face'
+
+echo 'columns that not all have, and layers of one frame'
+mr-make sphere --points 50 -o normals.mrs
+printf '0 0 0\n1 1 1\n' >plain.xyz
+mr-import plain.xyz | mr-cat --append normals.mrs - | mr-info | grep -E '^    (position|normal)'
+mr-pose --translate 0,1,0 sphere.mrs -o posed.mrs
+mr-cat --append posed.mrs posed.mrs | mr-info | grep -c handles
+mr-cat --append posed.mrs | mr-info | grep -c handles
+mr-make sphere -n 50 | mr-cat --append normals.mrs - | mr-info | grep -E 'points:|mesh:'
+
+echo 'a stream of no frames, and one that is cut'
+mr-cat --no-history normals.mrs | { head -c 64; tail -c 64 normals.mrs; } | mr-cat --append | mr-info
+head -c 500 normals.mrs | mr-cat --append >out
+echo "exit $?"
