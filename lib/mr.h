@@ -354,7 +354,7 @@ typedef struct mr_rule {
 
 typedef struct mr_select_opts {
 	bool reset;        /* begin with all vertices fixed, not with the regions there are */
-	const char *layer; /* NULL: mesh, else control */
+	const char *layer; /* NULL: mesh, else control, else points */
 } mr_select_opts;
 
 #define MR_SELECT_DEFAULTS MR_DEFAULTS(false, NULL)
@@ -373,6 +373,17 @@ MR_API mr_status mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules,
  * their faces over.  MR_EMESH where something in the frame cannot follow it. */
 MR_API mr_status mr_transform_frame(
     mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12]) MR_WARN_UNUSED;
+
+/* What there is of a layer, and what is no more. */
+typedef struct mr_crop_result {
+	size_t vertices, faces, vertices_dropped, faces_dropped;
+} mr_crop_result;
+
+/* Leaves the vertices that n rules, in their order, make free, and drops those that they make fixed; where
+ * the first makes some free the others are fixed to begin with.  layer: NULL: mesh, else control, else
+ * points. */
+MR_API mr_status mr_crop_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_rule *rules, size_t n,
+    mr_crop_result *result) MR_WARN_UNUSED;
 
 typedef struct mr_split_opts {
 	double distance;        /* of points, at which they are connected; 0: four times their spacing */

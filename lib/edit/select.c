@@ -92,6 +92,12 @@ mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *opti
 	return MR_OK;
 }
 
+uint32_t
+mr_selection_begins(const mr_selection *s)
+{
+	return s->rule[0].region;
+}
+
 /* Sets in[v] where all terms of the rule hold.  one: workspace, nv. */
 static mr_status
 eval_rule(mr_ctx *ctx, const mr_select_scene *s, const rule *r, bool *one, bool *in)
@@ -99,6 +105,9 @@ eval_rule(mr_ctx *ctx, const mr_select_scene *s, const rule *r, bool *one, bool 
 	memset(in, true, s->m->nv);
 	for (size_t i = 0; i < r->terms; i++) {
 		const mr_select_term *t = &r->term[i];
+		if (t->predicate->faces && s->m->nf == 0)
+			return mr_fail(ctx, MR_EMESH, "%s%s: %s has no faces, which %s needs", r->option,
+			    r->text, s->m->name, t->predicate->name);
 		memset(one, false, s->m->nv);
 		MR_TRY(mr_prefix(ctx, t->predicate->eval(ctx, s, t, one), "%s%s", r->option, r->text));
 		for (size_t v = 0; v < s->m->nv; v++)
@@ -108,7 +117,8 @@ eval_rule(mr_ctx *ctx, const mr_select_scene *s, const rule *r, bool *one, bool 
 }
 
 static mr_status
-apply_rule(mr_ctx *ctx, mr_select_scene *s, const rule *r, bool *one, bool *in, uint32_t *region)
+apply_rule(
+    mr_ctx *ctx, mr_select_scene *s, const rule *r, bool may_miss, bool *one, bool *in, uint32_t *region)
 {
 	size_t n = 0;
 
@@ -119,7 +129,7 @@ apply_rule(mr_ctx *ctx, mr_select_scene *s, const rule *r, bool *one, bool *in, 
 			region[v] = r->region;
 			n++;
 		}
-	if (n == 0)
+	if (n == 0 && !may_miss)
 		return mr_fail(ctx, MR_EMESH, "%s%s selects no vertex of %s", r->option, r->text, s->m->name);
 	mr_note(ctx, "%s%s selects %zu of %zu vertices", r->option, r->text, n, s->m->nv);
 	return MR_OK;
@@ -153,22 +163,20 @@ report(mr_ctx *ctx, const uint32_t *region, size_t nv, mr_select_result *result)
 }
 
 mr_status
-mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s, uint32_t *region,
-    mr_select_result *result)
+mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups, const mr_selection *s,
+    uint32_t *region, mr_select_result *result)
 {
-	mr_mark mark = mr_mark_take(ctx);
 	bool *one = MR_NEW(ctx, m->nv, bool), *in = MR_NEW(ctx, m->nv, bool);
 	uint32_t *selected = MR_NEW(ctx, m->nv, uint32_t);
 	mr_incidence inc;
-	mr_select_scene sc = { m, groups, &inc, mr_box_of(m->p, m->nv), selected, 0 };
+	mr_select_scene sc = { f, m, groups, &inc, mr_box_of(m->p, m->nv), selected, 0 };
 
 	if (!one || !in || !selected)
 		return MR_EMEM;
 	memcpy(selected, region, m->nv * sizeof *region);
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	for (size_t i = 0; i < s->n; i++)
-		MR_TRY(apply_rule(ctx, &sc, &s->rule[i], one, in, selected));
+		MR_TRY(apply_rule(ctx, &sc, &s->rule[i], s->may_miss, one, in, selected));
 	memcpy(region, selected, m->nv * sizeof *region);
-	mr_mark_release(ctx, mark);
 	return report(ctx, region, m->nv, result);
 }

@@ -16,16 +16,20 @@
  *	boundary                at an edge of one face
  *	grow:K                  the region that the rule gives, and the fixed vertices up to K edges from it
  *	vertices:FILE           the indices in the file, one a line
+ *	part:N  part:N,d        of the N-th connected part by size, from 1; of points connected at a distance
+ *	column:NAME,low,high    where the column's number is within these, or at a face where it is
  */
 #ifndef MR_EDIT_SELECT_H
 #define MR_EDIT_SELECT_H
 
 #include "mesh/mesh.h"
+#include "stream/frame.h"
 
 /* Rules in the order of the command line; starts zeroed. */
 typedef struct mr_selection {
 	struct mr_parsed_rule *rule;
 	size_t n, room;
+	bool may_miss; /* a rule may select no vertex */
 } mr_selection;
 
 /* What faces are named by: groups, objects, materials. */
@@ -46,12 +50,16 @@ typedef struct mr_groups {
 mr_status
 mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *option, const char *predicate);
 
+/* The region that the first rule gives. */
+uint32_t mr_selection_begins(const mr_selection *s);
+
 /*
  * Applies the rules in order: later ones win.  region: nv, in and out.  A rule that selects no vertex, a
- * vertex or a group that is not there: a sentence.  groups: MR_NAMINGS of them.
- * result: or NULL; in the arena.
+ * vertex, a group, a part or a column that is not there, one that needs faces where there are none: a
+ * sentence. f: that m is a layer of, for its columns, and to keep the sampling of points; NULL: none. groups:
+ * MR_NAMINGS of them.  result: or NULL; in the arena.
  */
-mr_status mr_select(mr_ctx *ctx, const mr_mesh *m, const mr_groups *groups, const mr_selection *s,
-    uint32_t *region, mr_select_result *result);
+mr_status mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups,
+    const mr_selection *s, uint32_t *region, mr_select_result *result);
 
 #endif

@@ -11,18 +11,19 @@
 typedef struct mr_select_term {
 	const struct mr_predicate *predicate;
 	bool negate;
-	double x[6];      /* numbers, in the order written */
+	double x[6];      /* numbers, in the order written; of column: the bounds; of part: the distance */
 	bool relative;    /* the last of them is a share of the diagonal */
 	int axis;         /* above, below */
-	size_t count;     /* rings, grow */
+	size_t count;     /* rings, grow; part: which, from 1 */
 	uint32_t vertex;  /* rings */
-	const char *name; /* group */
+	const char *name; /* group, column */
 	uint32_t *list;   /* vertices */
 	size_t listed;
 } mr_select_term;
 
 /* What a predicate is evaluated on. */
 typedef struct mr_select_scene {
+	mr_frame *f; /* or NULL */
 	const mr_mesh *m;
 	const mr_groups *groups;
 	const mr_incidence *inc;
@@ -39,6 +40,7 @@ typedef struct mr_predicate {
 	mr_status (*eval)(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in);
 	size_t numbers; /* for parse_numbers */
 	bool length;    /* the last number is a length */
+	bool faces;     /* there must be faces */
 } mr_predicate;
 
 /* All of them; ends with a name of NULL. */

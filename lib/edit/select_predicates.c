@@ -2,6 +2,7 @@
 #include "base/text_file.h"
 #include "edit/select_parts.h"
 #include "mesh/layers.h"
+#include "space/connected.h"
 #include "space/geodesic.h"
 
 /* Parsing */
@@ -94,6 +95,43 @@ parse_list(mr_ctx *ctx, const char *text, mr_select_term *t)
 		t->list[t->listed++] = (uint32_t)v;
 	}
 	return MR_OK;
+}
+
+/* "N", "N,DISTANCE" or "N,DISTANCE%". */
+static mr_status
+parse_part(mr_ctx *ctx, const char *text, mr_select_term *t)
+{
+	const char *at = text;
+	uint64_t n;
+
+	if (!mr_whole(&at, MR_NONE, &n) || n == 0)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not the number of a part, from 1", text);
+	t->count = (size_t)n;
+	if (!*at)
+		return MR_OK;
+	if (*at++ != ',' || !mr_numbers(&at, 1, t->x) || !(t->x[0] > 0))
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a number, or one, a comma and a distance", text);
+	t->relative = *at == '%';
+	t->x[0] /= t->relative ? 100 : 1;
+	return at[t->relative] ? mr_fail(ctx, MR_EUSAGE, "'%s' follows the distance", at) : MR_OK;
+}
+
+/* The bounds are the last two words: a name may have commas. */
+static mr_status
+parse_column(mr_ctx *ctx, const char *text, mr_select_term *t)
+{
+	const char *low = text + strlen(text), *at;
+
+	for (int commas = 0; low > text && commas < 2;)
+		commas += *--low == ',';
+	at = low + 1;
+	if (low == text || !mr_numbers(&at, 2, t->x) || *at)
+		return mr_fail(
+		    ctx, MR_EUSAGE, "'%s' is not a name and two bounds, with commas between them", text);
+	if (t->x[0] > t->x[1])
+		return mr_fail(ctx, MR_EUSAGE, "the bound %g is above %g", t->x[0], t->x[1]);
+	t->name = mr_format(ctx, "%.*s", (int)(low - text), text);
+	return t->name ? MR_OK : MR_EMEM;
 }
 
 /* Evaluating */
@@ -208,6 +246,7 @@ add_rings(mr_ctx *ctx, const mr_select_scene *s, size_t rings, const uint32_t *r
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *queue = MR_NEW(ctx, s->m->nv, uint32_t);
+	uint32_t into = s->target == MR_REGION_FIXED ? MR_REGION_FREE : MR_REGION_FIXED;
 	size_t n = 0, next = 0;
 
 	if (!queue)
@@ -220,7 +259,7 @@ add_rings(mr_ctx *ctx, const mr_select_scene *s, size_t rings, const uint32_t *r
 			for (size_t i = s->inc->start[queue[next]]; i < s->inc->start[queue[next] + 1]; i++)
 				for (int k = 0; k < 3; k++) {
 					uint32_t w = s->m->t[s->inc->face[i]].v[k];
-					if (in[w] || (region && region[w] != MR_REGION_FIXED))
+					if (in[w] || (region && region[w] != into))
 						continue;
 					in[w] = true;
 					queue[n++] = w;
@@ -238,6 +277,75 @@ eval_rings(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool 
 	return add_rings(ctx, s, t->count, NULL, in);
 }
 
+/* The part of vertex v. */
+static mr_status
+take_part(mr_ctx *ctx, const mr_select_scene *s, double distance, size_t v, bool *in)
+{
+	mr_connected c;
+
+	MR_TRY(mr_connected_of(ctx, s->f, s->m, distance, &c));
+	for (size_t i = 0; i < s->m->nv; i++)
+		in[i] = c.part[i] == c.part[v];
+	return MR_OK;
+}
+
+static mr_status
+eval_part(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
+{
+	double distance = t->relative ? t->x[0] * mr_box_diagonal(s->box) : t->x[0];
+	mr_connected c;
+
+	if (distance > 0 && s->m->nf)
+		return mr_fail(
+		    ctx, MR_EMESH, "%s has faces, which connect it: a distance is of points", s->m->name);
+	MR_TRY(mr_connected_of(ctx, s->f, s->m, distance, &c));
+	if (t->count > c.parts)
+		return mr_fail(
+		    ctx, MR_EMESH, "there is no part %zu: %s has %zu", t->count, s->m->name, c.parts);
+	for (size_t i = 0; i < s->m->nv; i++)
+		in[i] = c.part[i] == t->count - 1;
+	return MR_OK;
+}
+
+static double
+number_at(const mr_column *c, size_t row)
+{
+	switch (c->shape.type) {
+	case 'd':
+		return ((const double *)c->data)[row];
+	case 'u':
+		return ((const uint32_t *)c->data)[row];
+	default:
+		return ((const unsigned char *)c->data)[row];
+	}
+}
+
+static mr_status
+eval_column(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
+{
+	mr_column c = { 0 };
+	const mr_column *there = s->f ? mr_frame_find(s->f, s->m->name, t->name) : NULL;
+	bool faces;
+
+	if (!there)
+		return mr_fail(ctx, MR_EMISSING, "%s has no column %s", s->m->name, t->name);
+	c = *there;
+	faces = c.shape.element == 'f';
+	if (c.shape.components != 1 || c.shape.element == '-' || c.shape.type == 't' ||
+	    c.rows != (faces ? s->m->nf : s->m->nv))
+		return mr_fail(ctx, MR_EMISSING, "column %s of %s is not a number for each vertex or face",
+		    t->name, s->m->name);
+	MR_TRY(mr_column_decode(ctx, &c));
+	for (size_t i = 0; i < c.rows; i++) {
+		double x = number_at(&c, i);
+		if (!(x >= t->x[0] && x <= t->x[1]))
+			continue;
+		for (int k = 0; k < (faces ? 3 : 1); k++)
+			in[faces ? s->m->t[i].v[k] : i] = true;
+	}
+	return MR_OK;
+}
+
 static mr_status
 eval_component(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
@@ -251,8 +359,7 @@ eval_component(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, b
 			nearest = v;
 		}
 	}
-	in[nearest] = true;
-	return add_rings(ctx, s, SIZE_MAX, NULL, in);
+	return take_part(ctx, s, 0, nearest, in);
 }
 
 /* The index of the line of `names` that is `name`; MR_NONE where there is none. */
@@ -338,18 +445,20 @@ eval_list(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *
 }
 
 const mr_predicate mr_predicates[] = {
-	{ "all", NULL, eval_all, 0, false },
-	{ "sphere", parse_numbers, eval_sphere, 4, true },
-	{ "box", parse_numbers, eval_box, 6, false },
-	{ "halfspace", parse_numbers, eval_halfspace, 4, false },
-	{ "above", parse_axis, eval_above, 0, false },
-	{ "below", parse_axis, eval_below, 0, false },
-	{ "geodesic", parse_numbers, eval_geodesic, 4, true },
-	{ "rings", parse_rings, eval_rings, 0, false },
-	{ "component", parse_numbers, eval_component, 3, false },
-	{ "group", parse_name, eval_group, 0, false },
-	{ "boundary", NULL, eval_boundary, 0, false },
-	{ "grow", parse_count, eval_grow, 0, false },
-	{ "vertices", parse_list, eval_list, 0, false },
+	{ "all", NULL, eval_all, 0, false, false },
+	{ "sphere", parse_numbers, eval_sphere, 4, true, false },
+	{ "box", parse_numbers, eval_box, 6, false, false },
+	{ "halfspace", parse_numbers, eval_halfspace, 4, false, false },
+	{ "above", parse_axis, eval_above, 0, false, false },
+	{ "below", parse_axis, eval_below, 0, false, false },
+	{ "geodesic", parse_numbers, eval_geodesic, 4, true, true },
+	{ "rings", parse_rings, eval_rings, 0, false, true },
+	{ "component", parse_numbers, eval_component, 3, false, false },
+	{ "group", parse_name, eval_group, 0, false, true },
+	{ "boundary", NULL, eval_boundary, 0, false, true },
+	{ "grow", parse_count, eval_grow, 0, false, true },
+	{ "vertices", parse_list, eval_list, 0, false, false },
+	{ "part", parse_part, eval_part, 0, false, false },
+	{ "column", parse_column, eval_column, 0, false, false },
 	{ 0 },
 };

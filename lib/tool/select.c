@@ -1,7 +1,7 @@
-/* mr-select: regions by rules. */
+/* mr-select and mr-crop: regions by rules, and what is left of a layer by them. */
 #include "tool/select.h"
 
-#include "mesh/layers.h"
+#include "mesh/subset.h"
 
 /* What names the faces: groups, objects and materials. */
 static mr_status
@@ -13,7 +13,7 @@ read_groups(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_groups g[MR_NAMINGS])
 
 	memset(g, 0, MR_NAMINGS * sizeof *g);
 	for (size_t i = 0; i < MR_NAMINGS; i++) {
-		if (!mr_layer_has(f, m->name, of[i]) || !mr_layer_has(f, m->name, lists[i]))
+		if (m->nf == 0 || !mr_layer_has(f, m->name, of[i]) || !mr_layer_has(f, m->name, lists[i]))
 			continue;
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, of[i], m->nf, &group));
 		MR_TRY(mr_layer_get(ctx, f, m->name, lists[i], &names, &g[i].length));
@@ -43,18 +43,50 @@ mr_status
 mr_select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
 {
-	static const char *const reads[] = { "mesh", "control", NULL };
+	static const char *const reads[] = { "mesh", "control", "points", NULL };
 	const char *layer;
 	uint32_t *region;
 	mr_groups groups[MR_NAMINGS];
 	mr_mesh m;
 
 	MR_TRY(mr_layer_choose(ctx, f, opts->layer, reads, &layer));
-	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
+	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
 	MR_TRY(read_groups(ctx, f, &m, groups));
 	MR_TRY(first_regions(ctx, f, &m, opts->reset, &region));
-	MR_TRY(mr_select(ctx, &m, groups, s, region, result));
+	MR_TRY(mr_select(ctx, f, &m, groups, s, region, result));
 	return mr_layer_put_region(ctx, f, layer, region, m.nv);
+}
+
+mr_status
+mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_crop_result *result)
+{
+	static const char *const reads[] = { "mesh", "control", "points", NULL };
+	mr_groups groups[MR_NAMINGS];
+	mr_subset subset;
+	uint32_t *region;
+	mr_mesh m;
+	bool *keep;
+
+	MR_TRY(mr_layer_choose(ctx, f, layer, reads, &layer));
+	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
+	MR_TRY(read_groups(ctx, f, &m, groups));
+	region = MR_NEW(ctx, m.nv, uint32_t);
+	keep = MR_NEW(ctx, m.nv, bool);
+	if (!region || !keep)
+		return MR_EMEM;
+	for (size_t v = 0; v < m.nv; v++) /* what is kept is said, or what is dropped is */
+		region[v] = mr_selection_begins(s) == MR_REGION_FREE ? MR_REGION_FIXED : MR_REGION_FREE;
+	MR_TRY(mr_select(ctx, f, &m, groups, s, region, NULL));
+	for (size_t v = 0; v < m.nv; v++)
+		keep[v] = region[v] != MR_REGION_FIXED;
+	MR_TRY(mr_subset_find(ctx, f, &m, keep, &subset));
+	if (subset.nv == 0 || (m.nf && subset.nf == 0))
+		return mr_fail(ctx, MR_EMESH, "nothing would be left of the %zu %s of %s", m.nf ? m.nf : m.nv,
+		    m.nf ? "faces" : "points", layer);
+	mr_note(ctx, "%zu of %zu vertices are left", subset.nv, m.nv);
+	if (result)
+		*result = (mr_crop_result){ subset.nv, subset.nf, m.nv - subset.nv, m.nf - subset.nf };
+	return mr_layer_keep(ctx, f, layer, &subset);
 }
 
 /* What the tool calls a rule for this region. */
@@ -68,6 +100,18 @@ option_of(mr_ctx *ctx, uint32_t region)
 	return mr_format(ctx, "--handle %u=", (unsigned)(region - MR_REGION_HANDLE));
 }
 
+static mr_status
+add_rules(mr_ctx *ctx, const mr_rule *rules, size_t n, mr_selection *s)
+{
+	for (size_t i = 0; i < n; i++) {
+		const char *option = option_of(ctx, rules[i].region);
+		if (!option)
+			return MR_EMEM;
+		MR_TRY(mr_selection_add(ctx, s, rules[i].region, option, rules[i].predicate));
+	}
+	return MR_OK;
+}
+
 mr_status
 mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules, size_t n, const mr_select_opts *opts,
     mr_select_result *result)
@@ -75,11 +119,18 @@ mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules, size_t n, const 
 	static const mr_select_opts defaults = MR_SELECT_DEFAULTS;
 	mr_selection s = { 0 };
 
-	for (size_t i = 0; i < n; i++) {
-		const char *option = option_of(ctx, rules[i].region);
-		if (!option)
-			return MR_EMEM;
-		MR_TRY(mr_selection_add(ctx, &s, rules[i].region, option, rules[i].predicate));
-	}
+	MR_TRY(add_rules(ctx, rules, n, &s));
 	return mr_select_by(ctx, f, &s, opts ? opts : &defaults, result);
+}
+
+mr_status
+mr_crop_frame(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const mr_rule *rules, size_t n, mr_crop_result *result)
+{
+	mr_selection s = { .may_miss = true };
+
+	if (n == 0)
+		return mr_fail(ctx, MR_EUSAGE, "no rule says what is kept or dropped");
+	MR_TRY(add_rules(ctx, rules, n, &s));
+	return mr_crop_by(ctx, f, layer, &s, result);
 }

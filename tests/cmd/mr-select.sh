@@ -13,6 +13,18 @@ counts --handle 1=box:-0.1,-0.1,0,0.1,0.1,0 --handle 1=grow:2+halfspace:1,1,0,0
 printf '0\n# the opposite corner\n120\n' >corners
 counts --handle 0=vertices:corners --free component:0,0,0+not:vertices:corners
 
+echo 'points'
+mr-make sphere --points 500 -o points.mrs
+count_points() {
+	mr-select --stats stats.json "$@" points.mrs -o out.mrs &&
+	    echo "$*: $(grep -o '"fixed".*[0-9]' stats.json | tr -d '"')"
+}
+count_points --free part:1 --handle 0=above:z,0.9
+count_points -l points --free component:0,0,0+not:box:0,0,0,1,1,1
+mr-select --free all --fixed grow:2 plane.mrs 2>&1 >out.mrs
+mr-select --free all --fixed rings:60,1 --fixed grow:1 --stats stats.json plane.mrs >out.mrs
+grep -o '"fixed".*[0-9]' stats.json
+
 echo 'regions stay without --reset, and go with it'
 mr-select --free above:x,0.5 plane.mrs | mr-select --handle 0=below:x,0 --stats stats.json >kept.mrs
 grep -o '"fixed".*[0-9]' stats.json
@@ -46,3 +58,6 @@ refused --free sphere:1,2,3
 refused --handle above:x,0.5
 refused --handle 70000=all
 refused --handle 0=
+refused --free part:2
+refused --free column:region,0,1
+mr-select --free boundary points.mrs 2>&1 >out || echo "exit $?"

@@ -22,6 +22,8 @@ arguments() {
 	mr-make) echo sphere -n 500 ;;
 	mr-select) echo $regions ;;
 	mr-pose) echo -H 1 --scale 2 ;;
+	mr-transform) echo --up y:z --scale 2 ;;
+	mr-crop) echo --drop below:y,0.2 ;;
 	mr-export) echo out.ply ;;
 	mr-render) echo out.png ;;
 	esac

@@ -30,7 +30,7 @@ apply(mr_ctx *ctx, const mr_mesh *m, uint32_t value, const char *predicate, uint
 	mr_selection s = { 0 };
 
 	MR_TRY(mr_selection_add(ctx, &s, value, "--free ", predicate));
-	return mr_select(ctx, m, groups, &s, region, NULL);
+	return mr_select(ctx, NULL, m, groups, &s, region, NULL);
 }
 
 /* How many vertices the predicate selects; they are of region 1, the rest 0. */
@@ -134,7 +134,7 @@ rules_apply_in_order(void **state)
 	assert_int_equal(mr_selection_add(&ctx, &s, 1, "--free ", "above:x,0.3"), MR_OK);
 	assert_int_equal(mr_selection_add(&ctx, &s, 0, "--fixed ", "above:x,0.6"), MR_OK);
 	assert_int_equal(mr_selection_add(&ctx, &s, 4, "--handle 2=", "above:x,0.9"), MR_OK);
-	assert_int_equal(mr_select(&ctx, &m, none, &s, region, NULL), MR_OK);
+	assert_int_equal(mr_select(&ctx, NULL, &m, none, &s, region, NULL), MR_OK);
 	for (size_t i = 0; i < 121; i++) {
 		double x = (m.p[i].x + 1) / 2;
 		expected[i] = x >= 0.9 - 1e-9 ? 4 : x >= 0.6 - 1e-9 ? 0 : x >= 0.3 - 1e-9 ? 1 : 7;

@@ -1,0 +1,61 @@
+/* mr-crop -- keep or drop a part of a layer.  See man/mr-crop.1. */
+#include "cmd.h"
+#include "tool/select.h"
+
+static mr_selection selection = { .may_miss = true };
+
+static mr_status
+add_keep(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
+{
+	(void)o;
+	return mr_selection_add(ctx, &selection, MR_REGION_FREE, "--keep ", predicate);
+}
+
+static mr_status
+add_drop(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
+{
+	(void)o;
+	return mr_selection_add(ctx, &selection, MR_REGION_FIXED, "--drop ", predicate);
+}
+
+static const cmd_opt table[] = {
+	{ 0, "keep", CMD_CALL, NULL, 0, 0, "P", "these vertices are kept; as the first option: they alone",
+	    add_keep },
+	{ 0, "drop", CMD_CALL, NULL, 0, 0, "P", "these vertices are dropped; as the first option: they alone",
+	    add_drop },
+	{ 0 },
+};
+
+static mr_status
+prepare(cmd *c)
+{
+	return selection.n ? MR_OK : mr_fail(&c->ctx, MR_EUSAGE, "nothing to do: give --keep or --drop");
+}
+
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_crop_result, vertices),
+	CMD_COUNTED(mr_crop_result, faces),
+	CMD_COUNTED(mr_crop_result, vertices_dropped),
+	CMD_COUNTED(mr_crop_result, faces_dropped),
+	{ 0 },
+};
+
+static mr_status
+crop_frame(cmd *c, mr_frame *f)
+{
+	mr_crop_result result;
+
+	MR_TRY(mr_crop_by(&c->ctx, f, c->layer, &selection, &result));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "keep or drop some vertices of a layer",
+		.options = table,
+		.prepare = prepare,
+		.frame = crop_frame });
+}
