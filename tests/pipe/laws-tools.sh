@@ -24,6 +24,7 @@ arguments() {
 	mr-pose) echo -H 1 --scale 2 ;;
 	mr-transform) echo --up y:z --scale 2 ;;
 	mr-crop) echo --drop below:y,0.2 ;;
+	mr-split) echo -q ;;
 	mr-export) echo out.ply ;;
 	mr-render) echo out.png ;;
 	esac
