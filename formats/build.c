@@ -341,6 +341,25 @@ put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 	return MR_OK;
 }
 
+mr_status
+mr_build_properties(mr_builder *b, mr_model *m)
+{
+	return put_properties(b, NULL, m);
+}
+
+mr_status
+mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m)
+{
+	mr_v3 *from = MR_NEW(ctx, m->nv, mr_v3);
+
+	if (!from)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->nv; i++)
+		from[i] = scanner;
+	m->scanner = from;
+	return MR_OK;
+}
+
 /* ---- attributes ---- */
 
 void

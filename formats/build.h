@@ -81,6 +81,12 @@ mr_status mr_build_property(
     mr_builder *b, const char *name, const char *type, char element, size_t *number) MR_WARN_UNUSED;
 mr_status mr_build_value(mr_builder *b, size_t number, size_t row, double x) MR_WARN_UNUSED;
 
+/* Gives the properties alone to a model of points that its reader makes itself. */
+mr_status mr_build_properties(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
+
+/* All points of the model were seen from there. */
+mr_status mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m) MR_WARN_UNUSED;
+
 /* A column that is dropped: says so and counts it. */
 void mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why);
 

@@ -435,6 +435,7 @@ mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 		    "smoothing groups" },
 		{ m->polygon && !(keeps & MR_KEEPS_POLYGON), &s->lost.dropped_polygons, "polygons" },
 		{ m->properties && !(keeps & MR_KEEPS_PROPERTY), &s->lost.dropped_properties, "properties" },
+		{ m->scanner != NULL, &s->lost.dropped_properties, "places of the scanner" },
 		{ m->nf && !(keeps & MR_KEEPS_FACES), &s->lost.dropped_faces, "faces" },
 	};
 	char names[256];

@@ -40,6 +40,7 @@ typedef struct mr_property {
 typedef struct mr_model {
 	const mr_v3 *p;                            /* nv */
 	const mr_v3 *normal;                       /* nv, as the file has them: not made unit */
+	const mr_v3 *scanner;                      /* nv: from where the point was seen */
 	const unsigned char *color;                /* 4 nv: red, green, blue, alpha */
 	const double *texcoord;                    /* 2 nv */
 	const mr_tri *t;                           /* nf */

@@ -34,7 +34,10 @@ read_header(mr_ctx *ctx, const unsigned char *d, size_t size, las *l)
 		return mr_fail(ctx, MR_EFORMAT, "byte %zu: the file ends in its header", size);
 	format = d[104];
 	if (format & 0xc0)
-		return mr_fail(ctx, MR_EFORMAT, "byte 104: compressed points (LAZ) are not read");
+		return mr_fail(ctx, MR_EFORMAT,
+		    "byte 104: compressed points (LAZ) are not read: PDAL's `pdal translate in.laz out.las` "
+		    "or "
+		    "LAStools' las2las unpacks them");
 	if (format >= FORMATS)
 		return mr_fail(ctx, MR_EFORMAT, "byte 104: point format %u is not known", format);
 	*l = (las){ .offset = mr_load32(d + 96, false),

@@ -11,6 +11,7 @@ static const struct {
 	bool of_faces;
 } columns[] = {
 	{ "normal", offsetof(mr_model, normal), sizeof(mr_v3), false },
+	{ "scanner", offsetof(mr_model, scanner), sizeof(mr_v3), false },
 	{ "color", offsetof(mr_model, color), 4, false },
 	{ "texcoord", offsetof(mr_model, texcoord), 2 * sizeof(double), false },
 	{ "corner_texcoord", offsetof(mr_model, corner_texcoord), 6 * sizeof(double), true },

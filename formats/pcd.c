@@ -1,8 +1,13 @@
-/* PCD, the Point Cloud Library's format, in text and plain binary.  A point that is not finite is none, by
- * its documentation, and left out. */
+/*
+ * PCD, the Point Cloud Library's format, in text, binary, and binary packed by LZF (M. Lehmann, liblzf),
+ * field by field.  A point that is not finite is none, by its documentation, and left out.
+ */
 #include "formats/format.h"
 
 enum { FIELDS = 64 };
+
+/* Three bytes of LZF stand for 264 at most. */
+enum { SWELLS = 88 };
 
 typedef enum role { SKIP, X, Y, Z, NX, NY, NZ, RGB, ROLES } role;
 
@@ -11,6 +16,8 @@ typedef struct field {
 	char type; /* I, U or F */
 	unsigned size, count;
 	size_t offset;
+	const char *name;
+	size_t property; /* its number, from 1; 0: none */
 } field;
 
 typedef struct pcd {
@@ -19,7 +26,10 @@ typedef struct pcd {
 	field field[FIELDS];
 	size_t fields, sizes, kinds, counts, stride;
 	uint64_t width, height, points;
-	bool has_points, binary;
+	bool has_points, binary, packed;
+	const unsigned char *planes; /* of packed ones: the fields, each of all points */
+	mr_v3 viewpoint;
+	mr_builder properties;
 	const field *of[ROLES];
 } pcd;
 
@@ -37,9 +47,13 @@ field_names(pcd *f, mr_scan *line)
 	size_t n;
 
 	for (f->fields = 0; mr_scan_word(line, &w, &n); f->fields++) {
+		char *name = mr_alloc(f->ctx, n + 1, 1);
 		if (f->fields == FIELDS)
 			return mr_scan_fail(&f->text, w, "more than %d fields", (int)FIELDS);
-		f->field[f->fields] = (field){ .type = 'F', .size = 4, .count = 1 };
+		if (!name)
+			return MR_EMEM;
+		mr_clean_name(name, w, n, false);
+		f->field[f->fields] = (field){ .type = 'F', .size = 4, .count = 1, .name = name };
 		for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
 			if (strlen(roles[i].name) == n && !memcmp(roles[i].name, w, n))
 				f->field[f->fields].role = roles[i].role;
@@ -93,10 +107,44 @@ data_kind(pcd *f, mr_scan *line)
 	if (mr_scan_accept(line, "binary"))
 		f->binary = true;
 	else if (mr_scan_accept(line, "binary_compressed"))
-		return mr_scan_fail(&f->text, line->p, "compressed PCD is not read");
+		f->binary = f->packed = true;
 	else if (!mr_scan_accept(line, "ascii"))
-		return mr_scan_fail(&f->text, line->p, "DATA is neither ascii nor binary");
+		return mr_scan_fail(&f->text, line->p, "DATA is none of ascii, binary and binary_compressed");
 	return MR_OK;
+}
+
+/* What PLY calls the type of a field. */
+static const char *
+type_of(const field *d)
+{
+	static const char *const whole[2][3] = { { "char", "short", "int" }, { "uchar", "ushort", "uint" } };
+
+	if (d->type == 'F')
+		return d->size == 4 ? "float" : "double";
+	return d->size == 8 ? "double" : whole[d->type == 'U'][d->size / 2];
+}
+
+/* A field that we do not know is a property; "_" is none, but fills up. */
+static mr_status
+keep_field(pcd *f, field *d)
+{
+	if (d->role != SKIP || !strcmp(d->name, "_"))
+		return MR_OK;
+	if (d->count == 1)
+		return mr_build_property(&f->properties, d->name, type_of(d), 'v', &d->property);
+	mr_warn(f->ctx, "field %s is left out: it has %u numbers a point", d->name, d->count);
+	return MR_OK;
+}
+
+/* Whether the file may hold so many points. */
+static bool
+can_hold(const pcd *f)
+{
+	size_t left = (size_t)(f->text.end - f->text.p);
+
+	if (f->packed)
+		return f->points <= (uint64_t)left * SWELLS / f->stride;
+	return f->points <= left / (f->binary ? f->stride : 2) + 1;
 }
 
 static mr_status
@@ -109,11 +157,13 @@ check_header(pcd *f)
 		d->offset = f->binary ? offset : f->stride;
 		offset += (size_t)d->size * d->count;
 		f->stride += d->count;
-		if (d->role == SKIP || d->count != 1 || f->of[d->role])
-			continue;
 		if (d->type == 'F' && d->size < 4)
 			return mr_scan_fail(&f->text, f->text.p, "a field of type F and %u bytes", d->size);
-		f->of[d->role] = d;
+		if (d->role != SKIP && (d->count != 1 || f->of[d->role]))
+			d->role = SKIP;
+		MR_TRY(keep_field(f, d));
+		if (d->role != SKIP)
+			f->of[d->role] = d;
 	}
 	if (f->binary)
 		f->stride = offset;
@@ -121,7 +171,7 @@ check_header(pcd *f)
 		return mr_scan_fail(&f->text, f->text.p, "the fields lack x, y or z");
 	if (!f->has_points)
 		f->points = f->width * f->height;
-	if (f->points > (size_t)(f->text.end - f->text.p) / (f->binary ? f->stride : 2) + 1)
+	if (!can_hold(f))
 		return mr_scan_fail(&f->text, f->text.p, "%llu points, beyond the end of the file",
 		    (unsigned long long)f->points);
 	return MR_OK;
@@ -158,13 +208,71 @@ read_header(pcd *f)
 		else if (mr_scan_accept(&line, "POINTS")) {
 			MR_TRY(mr_scan_count(&line, "POINTS", UINT64_MAX / 16, &f->points));
 			f->has_points = true;
-		} else if (!mr_scan_accept(&line, "VERSION") && !mr_scan_accept(&line, "VIEWPOINT")) {
+		} else if (mr_scan_accept(&line, "VIEWPOINT")) {
+			MR_TRY(mr_scan_position(&line, &f->viewpoint));
+		} else if (!mr_scan_accept(&line, "VERSION")) {
 			mr_scan_word(&line, &w, &n);
 			return mr_scan_fail(
 			    &f->text, w, "'%s' begins no line of a PCD header", mr_word_shown(w, n, shown));
 		}
 	}
 	return mr_scan_fail(&f->text, f->text.end, "the header has no DATA");
+}
+
+/* ---- LZF ---- */
+
+/* Unpacks exactly `size` bytes; false where the packed ones do not give that. */
+static bool
+unpack(const unsigned char *from, size_t bytes, unsigned char *to, size_t size)
+{
+	const unsigned char *end = from + bytes;
+	size_t at = 0;
+
+	while (from < end) {
+		size_t n = *from >> 5, back = (size_t)(*from & 31) << 8;
+		if (n == 0) { /* so many bytes as they are, and one more */
+			n = (size_t)*from++ + 1;
+			if ((size_t)(end - from) < n || size - at < n)
+				return false;
+			memcpy(to + at, from, n);
+			from += n;
+			at += n;
+			continue;
+		}
+		from++;
+		if (n == 7 && from < end)
+			n += *from++;
+		if (from == end)
+			return false;
+		back += (size_t)*from++ + 1;
+		n += 2;
+		if (back > at || size - at < n)
+			return false;
+		for (; n > 0; n--, at++) /* what is copied may be what was just written */
+			to[at] = to[at - back];
+	}
+	return at == size;
+}
+
+static mr_status
+unpack_planes(pcd *f)
+{
+	const unsigned char *p = (const unsigned char *)f->text.p;
+	size_t left = (size_t)(f->text.end - f->text.p), size = (size_t)f->points * f->stride;
+	unsigned char *planes;
+
+	if (left < 8 || mr_load32(p, false) > left - 8)
+		return mr_scan_fail(&f->text, f->text.p, "the packed points go beyond the end of the file");
+	if (mr_load32(p + 4, false) != size)
+		return mr_scan_fail(&f->text, f->text.p, "%u bytes are packed, where %llu points take %zu",
+		    mr_load32(p + 4, false), (unsigned long long)f->points, size);
+	planes = mr_alloc(f->ctx, size, 1);
+	if (!planes)
+		return MR_EMEM;
+	if (!unpack(p + 8, mr_load32(p, false), planes, size))
+		return mr_scan_fail(&f->text, f->text.p, "the packed points are damaged");
+	f->planes = planes;
+	return MR_OK;
 }
 
 /* ---- points ---- */
@@ -197,65 +305,96 @@ color_bits(double value, const field *d)
 	return bits;
 }
 
-static mr_status
-read_row(pcd *f, double value[ROLES], uint32_t *rgb)
+/* Where a binary field of point i is; `row` is the point, of a file that is not packed. */
+static const unsigned char *
+place_of(const pcd *f, const field *d, const unsigned char *row, uint64_t i)
 {
-	size_t column = 0;
+	size_t width = (size_t)d->size * d->count;
+
+	return f->packed ? f->planes + d->offset * f->points + i * width : row + d->offset;
+}
+
+/* Fields whose numbers are wanted. */
+static bool
+is_wanted(const pcd *f, const field *d)
+{
+	return d->property || f->of[d->role] == d;
+}
+
+static mr_status
+take_property(pcd *f, const field *d, size_t row, double x)
+{
+	return d->property ? mr_build_value(&f->properties, d->property, row, x) : MR_OK;
+}
+
+static mr_status
+read_binary(pcd *f, uint64_t i, size_t row, double value[ROLES], uint32_t *rgb)
+{
+	const unsigned char *p = (const unsigned char *)f->text.p;
+
+	if (!f->packed && (size_t)(f->text.end - f->text.p) < f->stride)
+		return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: the file ends inside a point",
+		    (size_t)(f->text.end - f->text.start));
+	for (size_t k = 0; k < f->fields; k++) {
+		const field *d = &f->field[k];
+		const unsigned char *at = place_of(f, d, p, i);
+		if (!is_wanted(f, d))
+			continue;
+		if (d->role == RGB)
+			*rgb = d->size == 4 ? mr_load32(at, false) : 0;
+		else
+			value[d->role] = binary_value(at, d);
+		MR_TRY(take_property(f, d, row, value[d->role]));
+	}
+	if (!f->packed)
+		f->text.p += f->stride;
+	return MR_OK;
+}
+
+static mr_status
+read_text(pcd *f, size_t row, double value[ROLES], uint32_t *rgb)
+{
 	mr_scan line;
 
-	if (f->binary) {
-		const unsigned char *p = (const unsigned char *)f->text.p;
-		if ((size_t)(f->text.end - f->text.p) < f->stride)
-			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: the file ends inside a point",
-			    (size_t)(f->text.end - f->text.start));
-		for (int r = X; r < ROLES; r++)
-			if (f->of[r] && r != RGB)
-				value[r] = binary_value(p + f->of[r]->offset, f->of[r]);
-		if (f->of[RGB])
-			*rgb = f->of[RGB]->size == 4 ? mr_load32(p + f->of[RGB]->offset, false) : 0;
-		f->text.p += f->stride;
-		return MR_OK;
-	}
 	do
 		if (!mr_scan_line(&f->text, &line))
 			return mr_scan_fail(&f->text, f->text.end, "the file ends before its last point");
 	while (mr_skip_blanks(&line), line.p == line.end);
-	for (size_t i = 0; i < f->fields; i++)
-		for (unsigned k = 0; k < f->field[i].count; k++, column++) {
+	for (const field *d = f->field; d < f->field + f->fields; d++)
+		for (unsigned k = 0; k < d->count; k++) {
 			double x = 0;
 			MR_TRY(mr_scan_real(&line, "a number of a point", &x));
-			if (f->of[f->field[i].role] == &f->field[i])
-				value[f->field[i].role] = x;
+			if (is_wanted(f, d))
+				value[d->role] = x;
+			MR_TRY(take_property(f, d, row, x));
 		}
 	if (f->of[RGB])
 		*rgb = color_bits(value[RGB], f->of[RGB]);
 	return MR_OK;
 }
 
-mr_status
-mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+static bool
+is_origin(mr_v3 p)
 {
-	pcd f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .height = 1 };
-	mr_v3 *p, *normal = NULL;
-	unsigned char *color = NULL;
+	return p.x == 0 && p.y == 0 && p.z == 0;
+}
+
+/* The points: as many as are finite. */
+static mr_status
+read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count, bool *odd)
+{
 	double v[ROLES] = { 0 };
-	bool odd = false;
 	uint32_t rgb = 0;
 	size_t n = 0;
 
-	MR_TRY(read_header(&f));
-	p = MR_NEW(ctx, (size_t)f.points, mr_v3);
-	if (!p || (f.of[NX] && f.of[NY] && f.of[NZ] && !(normal = MR_NEW(ctx, (size_t)f.points, mr_v3))) ||
-	    (f.of[RGB] && !(color = mr_alloc(ctx, (size_t)f.points, 4))))
-		return MR_EMEM;
-	for (uint64_t i = 0; i < f.points; i++) {
-		MR_TRY(read_row(&f, v, &rgb));
+	for (uint64_t i = 0; i < f->points; i++) {
+		MR_TRY(f->binary ? read_binary(f, i, n, v, &rgb) : read_text(f, n, v, &rgb));
 		p[n] = mr_vec(v[X], v[Y], v[Z]);
 		if (!mr_finite(p[n]))
 			continue;
 		if (normal) {
 			normal[n] = mr_vec(v[NX], v[NY], v[NZ]);
-			odd |= !mr_finite(normal[n]);
+			*odd |= !mr_finite(normal[n]);
 		}
 		if (color) {
 			unsigned char c[4] = { (unsigned char)(rgb >> 16), (unsigned char)(rgb >> 8),
@@ -264,6 +403,29 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		}
 		n++;
 	}
+	*count = n;
+	return MR_OK;
+}
+
+mr_status
+mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
+{
+	pcd f = {
+		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .height = 1, .properties = { .ctx = ctx }
+	};
+	mr_v3 *p, *normal = NULL;
+	unsigned char *color = NULL;
+	bool odd = false;
+	size_t n;
+
+	MR_TRY(read_header(&f));
+	if (f.packed)
+		MR_TRY(unpack_planes(&f));
+	p = MR_NEW(ctx, (size_t)f.points, mr_v3);
+	if (!p || (f.of[NX] && f.of[NY] && f.of[NZ] && !(normal = MR_NEW(ctx, (size_t)f.points, mr_v3))) ||
+	    (f.of[RGB] && !(color = mr_alloc(ctx, (size_t)f.points, 4))))
+		return MR_EMEM;
+	MR_TRY(read_points(&f, p, normal, color, &n, &odd));
 	if (n < f.points)
 		mr_note(ctx, "%llu points that are not finite left out", (unsigned long long)f.points - n);
 	m->counts.points_left_out = (size_t)f.points - n;
@@ -272,7 +434,10 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	*m = (mr_model){
 		.p = p, .nv = n, .normal = odd ? NULL : normal, .color = color, .counts = m->counts
 	};
-	return MR_OK;
+	/* the origin is what stands there where none is known */
+	if (!is_origin(f.viewpoint))
+		MR_TRY(mr_scanned_from(ctx, f.viewpoint, m));
+	return mr_build_properties(&f.properties, m);
 }
 
 bool

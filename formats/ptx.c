@@ -1,16 +1,18 @@
 /*
  * PTX, Leica's text of scans: columns, rows, the scanner's position and axes (seven lines), a matrix of four
  * rows, by which each point is multiplied from the left, then columns x rows lines x y z intensity [r g b].
- * A ray without an answer is 0 0 0, and left out.
+ * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, and left out.
  */
 #include "formats/format.h"
 
 typedef struct ptx {
 	mr_ctx *ctx;
 	mr_scan text;
-	mr_v3 *p;
+	mr_v3 *p, *scanner;
 	unsigned char *color;
-	size_t count, room, color_room;
+	mr_builder properties;
+	size_t intensity; /* the number of that property */
+	size_t count, room, scanner_room, color_room;
 	size_t colored, empty;
 } ptx;
 
@@ -78,6 +80,7 @@ static mr_status
 make_room(ptx *f, size_t more)
 {
 	MR_TRY(MR_RESERVE(f->ctx, f->p, f->count, more, &f->room));
+	MR_TRY(MR_RESERVE(f->ctx, f->scanner, f->count, more, &f->scanner_room));
 	return MR_RESERVE(f->ctx, f->color, 4 * f->count, 4 * more, &f->color_room);
 }
 
@@ -105,6 +108,8 @@ read_point(ptx *f, const scan *s)
 		double v = n < 7 || k == 3 ? 255 : x[4 + k];
 		f->color[4 * f->count + k] = (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
 	}
+	f->scanner[f->count] = mr_vec(m[12], m[13], m[14]);
+	MR_TRY(mr_build_value(&f->properties, f->intensity, f->count, n > 3 ? x[3] : 0));
 	f->colored += n == 7;
 	f->count++;
 	return MR_OK;
@@ -113,9 +118,10 @@ read_point(ptx *f, const scan *s)
 mr_status
 mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size) };
+	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .properties = { .ctx = ctx } };
 	scan s;
 
+	MR_TRY(mr_build_property(&f.properties, "intensity", "double", 'v', &f.intensity));
 	for (mr_skip_space(&f.text); f.text.p < f.text.end; mr_skip_space(&f.text)) {
 		MR_TRY(read_head(&f, &s));
 		MR_TRY(make_room(&f, (size_t)s.points));
@@ -124,8 +130,12 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	}
 	if (f.empty)
 		mr_note(ctx, "%zu rays without an answer left out", f.empty);
-	*m = (mr_model){ .p = f.p, .nv = f.count, .color = f.colored ? f.color : NULL, .counts = m->counts };
-	return MR_OK;
+	*m = (mr_model){ .p = f.p,
+		.nv = f.count,
+		.scanner = f.scanner,
+		.color = f.colored ? f.color : NULL,
+		.counts = m->counts };
+	return mr_build_properties(&f.properties, m);
 }
 
 /* How many numbers the line has; 0 where it has anything else. */

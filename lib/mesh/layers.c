@@ -29,6 +29,7 @@ const mr_column_info mr_columns[] = {
 	{ NULL, "base_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
 	{ NULL, "control_face", { 'v', 'u', 1 }, "triangle of control that the vertex lies on" },
 	{ NULL, "control_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
+	{ NULL, "scanner", { 'v', 'd', 3 }, "from where the point was seen" },
 	{ NULL, "spacing", { 'v', 'd', 1 }, "side of the square of surface that the point has to itself" },
 	{ NULL, "outlier", { 'v', 'b', 1 }, "1 where the point is on no surface, else 0" },
 	{ NULL, "repeat", { 'v', 'b', 1 }, "1 where an earlier point is at the same place, else 0" },

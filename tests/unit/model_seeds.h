@@ -82,6 +82,12 @@ static const char pcd_seed[] =
     "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 1\nHEIGHT 1\nDATA "
     "binary\n\0\0\x80\x3f\0\0\0\0\0\0\0";
 
+/* Two points with a label, packed: a zero as it is, six more by it, and so on. */
+static const char packed_seed[] =
+    "VERSION .7\nFIELDS x y z label\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\n"
+    "VIEWPOINT 1 2 3 1 0 0 0\nPOINTS 2\nDATA binary_compressed\n\x10\0\0\0\x1c\0\0\0"
+    "\0\0\x60\0\x02\x80\x3f\0\xe0\x06\0\x03\x07\0\x09";
+
 static const char gltf_seed[] =
     "{\"asset\":{\"version\":\"2.0\"},\"meshes\":[{\"primitives\":[{\"attributes\":{\"POSITION\":0},"
     "\"mode\":5}]}],\"nodes\":[{\"mesh\":0,\"name\":\"a\"}],\"scenes\":[{\"nodes\":[0]}],\"buffers\":[{"
@@ -153,6 +159,7 @@ static const seed seeds[] = {
 	    "2\nDATA ascii\n0 0 0 16711680\nnan 0 0 1\n",
 	    0, 1, 0 },
 	{ NULL, pcd_seed, sizeof pcd_seed, 1, 0 },
+	{ NULL, packed_seed, sizeof packed_seed, 2, 0 },
 	{ NULL, las_seed, sizeof las_seed, 2, 0 },
 	{ NULL, gltf_seed, 0, 3, 1 },
 };

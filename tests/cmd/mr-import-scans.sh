@@ -1,0 +1,90 @@
+# What scanners write besides positions comes in: packed points, places of the scanner, intensities, labels.
+python3 - <<'END'
+import struct
+
+def lzf(data): # greedy, by a table of the last place of each three bytes
+    out, seen, i, start = bytearray(), {}, 0, 0
+    def literals(a, b):
+        while a < b:
+            n = min(32, b - a)
+            out.append(n - 1)
+            out.extend(data[a:a + n])
+            a += n
+    while i + 2 < len(data):
+        key = data[i:i + 3]
+        at = seen.get(key, -1)
+        seen[key] = i
+        if at < 0 or i - at > 8192:
+            i += 1
+            continue
+        n = 3
+        while n < 264 and i + n < len(data) and data[at + n] == data[i + n]:
+            n += 1
+        literals(start, i)
+        back, code = i - at - 1, n - 2
+        out.append((min(code, 7) << 5) | back >> 8)
+        if code >= 7:
+            out.append(code - 7)
+        out.append(back & 255)
+        i += n
+        start = i
+    literals(start, len(data))
+    return bytes(out)
+
+n = 3000
+points = [(i % 60 * 0.5, i // 60 * 0.25, 0.001 * (i * i % 997)) for i in range(n)]
+points[7] = (float("nan"), 0, 0)
+label = [i % 5 for i in range(n)]
+rgb = [i << 8 & 0xffffff for i in range(n)]
+head = ("VERSION .7\nFIELDS x y z rgb label _ shape\nSIZE 4 4 4 4 2 1 4\nTYPE F F F U U U F\nCOUNT 1 1 1 1 1 2 3\n"
+        "WIDTH %d\nHEIGHT 1\nVIEWPOINT 1 2 3.5 1 0 0 0\nPOINTS %d\nDATA %%s\n" % (n, n))
+fields = [b"".join(struct.pack("<f", p[k]) for p in points) for k in range(3)]
+fields += [b"".join(struct.pack("<I", c) for c in rgb), b"".join(struct.pack("<H", l) for l in label), bytes(2 * n), bytes(12 * n)]
+packed = lzf(b"".join(fields))
+def put(name, size, unpacked, data):
+    open(name, "wb").write((head % "binary_compressed").encode() + struct.pack("<II", size, unpacked) + data)
+put("packed.pcd", len(packed), 32 * n, packed)
+with open("plain.pcd", "wb") as f:
+    f.write((head % "binary").encode())
+    for p, c, l in zip(points, rgb, label):
+        f.write(struct.pack("<3fIH", *p, c, l) + bytes(14))
+with open("text.pcd", "w") as f:
+    f.write(head % "ascii")
+    for p, c, l in zip(points, rgb, label):
+        f.write("%r %r %r %d %d 0 0 0 0 0\n" % (*(struct.unpack("<f", struct.pack("<f", x))[0] for x in p), c, l))
+put("long.pcd", len(packed) + 1, 32 * n, packed)
+put("size.pcd", len(packed), 32 * n - 1, packed)
+put("short.pcd", len(packed) - 9, 32 * n, packed[:-9])
+put("before.pcd", 3, 32 * n, b"\x20\x05\x00" * 2000)
+open("huge.pcd", "wb").write((head % "binary_compressed").replace("3000", "4000000000").encode() + struct.pack("<II", 8, 0))
+END
+echo 'a packed PCD is what it was'
+for file in packed plain text; do
+	mr-import --no-history -q $file.pcd | mr-info | sed 's/^[a-z]*:/PCD:/' >$file.txt
+	mr-import -q $file.pcd | mr-export -q - -f ply-ascii >$file.ply
+	cmp packed.ply $file.ply
+	cmp packed.txt $file.txt
+done
+head -n 8 packed.txt
+sed -n '1,/end_header/p' packed.ply
+mr-import packed.pcd | mr-export -f xyz - | sed -n 1,2p
+
+echo 'damaged ones'
+for file in long size short before huge; do
+	mr-import $file.pcd >out 2>err
+	echo "exit $?, $(wc -c <out) bytes: $(cat err)"
+done
+
+echo 'each scan of a PTX was seen from its own place'
+for x in 1 20; do
+	printf '2\n1\n%s 2 3\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n%s 2 3 1\n1 1 1 0.25\n0 0 0 0\n' $x $x
+done >two.ptx
+mr-import --no-history two.ptx | mr-transform --translate 0,0,1 | mr-export -q - -f ply-ascii | sed '1,/end_header/d'
+mr-import --no-history two.ptx -o two.mrs
+strings two.mrs | grep -xE 'scanner|intensity'
+mr-import two.ptx | mr-crop --keep column:intensity,0.2,0.3 | mr-info | grep -E 'points:|scanner'
+
+echo 'LAZ'
+{ printf 'LASF'; head -c 100 /dev/zero; printf '\202'; head -c 200 /dev/zero; } >packed.laz
+mr-import packed.laz
+echo "exit $?"
