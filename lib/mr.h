@@ -155,15 +155,14 @@ MR_API mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, c
  * that element. */
 MR_API void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
 
-/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH without a face.
+/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH without faces.
  */
 MR_API mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
 
 /* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */
 MR_API mr_status mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
 
-/* Puts positions, which must be finite, and triangles; drops what is stale where they are not those that were
- * there. */
+/* Puts positions, which must be finite, and triangles; where they are other ones drops what is stale. */
 MR_API mr_status mr_layer_put_mesh(
     mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m) MR_WARN_UNUSED;
 
@@ -345,8 +344,7 @@ typedef struct mr_remesh_result {
 MR_API mr_status mr_remesh_frame(
     mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_result *result) MR_WARN_UNUSED;
 
-/* Vertices for which a predicate of mr-select holds ("all", "above:y,0.8", ...) and the region that they get.
- */
+/* Vertices for which a predicate of mr-select holds ("all", "above:y,0.8", ...) and their region. */
 typedef struct mr_rule {
 	uint32_t region;
 	const char *predicate;
@@ -374,14 +372,29 @@ MR_API mr_status mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules,
 MR_API mr_status mr_transform_frame(
     mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12]) MR_WARN_UNUSED;
 
-/* What there is of a layer, and what is no more. */
+typedef struct mr_normals_opts {
+	size_t neighbours; /* that show the plane of a point; 0: by the noise */
+	bool keep, flip;   /* leave the normals that are there and fit; turn all over at the end */
+	bool by_area;      /* of a surface: faces weigh by area, not by angle */
+	const mr_v3 *from; /* normals of points point there; NULL: to column scanner, or outward */
+	const char *layer; /* NULL: mesh, else control, else points */
+} mr_normals_opts;
+
+typedef struct mr_normals_result {
+	size_t kept, estimated, outliers; /* the last have the normals of their nearest points */
+	double agree; /* share of the normals there were that are on the side of those there are */
+} mr_normals_result;
+
+/* Puts normals.  opts: zeros are the defaults. */
+MR_API mr_status mr_normals_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result) MR_WARN_UNUSED;
+
 typedef struct mr_crop_result {
 	size_t vertices, faces, vertices_dropped, faces_dropped;
 } mr_crop_result;
 
-/* Leaves the vertices that n rules, in their order, make free, and drops those that they make fixed; where
- * the first makes some free the others are fixed to begin with.  layer: NULL: mesh, else control, else
- * points. */
+/* Leaves what n rules, in their order, make free, and drops what they make fixed; where the first makes some
+ * free the others are fixed to begin with.  layer: NULL: mesh, else control, else points. */
 MR_API mr_status mr_crop_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_rule *rules, size_t n,
     mr_crop_result *result) MR_WARN_UNUSED;
 
@@ -393,12 +406,11 @@ typedef struct mr_split_opts {
 } mr_split_opts;
 
 typedef struct mr_split_result {
-	size_t parts, dropped, dropped_vertices; /* parts given; those that were too small */
-	size_t largest, smallest;                /* vertices of parts that were given */
+	size_t parts, largest, smallest, dropped, dropped_vertices; /* dropped: parts too small */
 } mr_split_result;
 
-/* A key frame of the layer alone for each of its connected parts, the largest first.  opts: zeros are the
- * defaults.  parts: result->parts of them, in an array. */
+/* A key frame of the layer alone for each connected part, the largest first: result->parts of them.  opts:
+ * zeros are the defaults. */
 MR_API mr_status mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***parts,
     mr_split_result *result) MR_WARN_UNUSED;
 
@@ -776,8 +788,7 @@ typedef struct mr_surface_figures {
 	size_t intersections; /* pairs of faces */
 } mr_surface_figures;
 
-/* Of any mesh with valid indices and finite positions.  intersections: whether they are looked for; else 0.
- */
+/* Of any mesh with valid indices and finite positions.  intersections: whether they are looked for. */
 MR_API mr_status mr_measure_surface(
     mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface_figures *figures) MR_WARN_UNUSED;
 

@@ -30,6 +30,9 @@ enum { DEPTHS = 3 };
 mr_status mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share,
     bool projected, mr_volume_cloud *s);
 
+/* Gives normals the signs by which they point out of what the points enclose.  volume.c */
+mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
+
 /* Moves each point onto the plane of least squares of those nearest to it; planes and links are as they were.
  * denoise.c */
 mr_status mr_volume_project(mr_ctx *ctx, mr_volume_cloud *s);

@@ -413,6 +413,26 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	return MR_OK;
 }
 
+mr_status
+mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
+{
+	static const mr_volume_opts opts = MR_VOLUME_DEFAULTS;
+	mr_mark mark = mr_mark_take(ctx);
+	volume v = { .s = *s };
+	mr_grid_multigrid m;
+	float *f;
+
+	MR_TRY(begin(ctx, &opts, s->n, &v));
+	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
+	if (!f)
+		return MR_EMEM;
+	MR_TRY(orient_by_flood(ctx, &v, f));
+	MR_TRY(mr_multigrid_begin(ctx, v.grid[0].n, v.levels, f, false, &m));
+	MR_TRY(solve_indicator(ctx, &v, &m));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 /* Share of the nodes that are inside. */
 static double
 inside_share(const float *f, size_t nodes)

@@ -30,7 +30,7 @@ mr-render --flat --crease 20 a.png
 mr-render --range 0,1 a.png
 LINES
 # So is a layer without a name, of every tool that has -l.
-for tool in compare crop export fit import info pose remesh render sample select shrinkwrap simplify smooth solve split subdivide transform; do
+for tool in compare crop export fit import info normals pose remesh render sample select shrinkwrap simplify smooth solve split subdivide transform; do
 	mr-$tool -l '' cube.mrs >out 2>err
 	echo "mr-$tool: exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
 done

@@ -1,0 +1,72 @@
+/* mr-normals -- normals of points and surfaces.  See man/mr-normals.1. */
+#include "base/text_file.h"
+#include "cmd.h"
+
+static mr_normals_opts opts;
+static mr_v3 from;
+static int weights;
+
+static mr_status
+set_from(mr_ctx *ctx, const cmd_opt *o, const char *text)
+{
+	const char *at = text;
+	double x[3];
+
+	(void)o;
+	if (!mr_numbers(&at, 3, x) || *at)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not three numbers with commas between them", text);
+	from = mr_vec(x[0], x[1], x[2]);
+	opts.from = &from;
+	return MR_OK;
+}
+
+static const cmd_opt table[] = {
+	{ 'n', "neighbours", CMD_COUNT, &opts.neighbours, 0, 128, "N",
+	    "points that show the plane of one, itself among them; 0: as the noise needs", NULL },
+	{ 'f', "from", CMD_CALL, NULL, 0, 0, "X,Y,Z",
+	    "where the points were seen from: normals point there (default: to the column scanner, else "
+	    "outward)",
+	    set_from },
+	{ 0, "keep", CMD_FLAG, &opts.keep, 0, 0, "", "keep the normals that are there and fit", NULL },
+	{ 0, "flip", CMD_FLAG, &opts.flip, 0, 0, "", "turn all over at the end", NULL },
+	{ 0, "weights", CMD_CHOICE, &weights, 0, 0, "angle|area", "of a surface: what faces weigh by", NULL },
+	{ 0 },
+};
+
+static mr_status
+prepare(cmd *c)
+{
+	opts.by_area = weights == 1;
+	if (opts.neighbours == 1 || opts.neighbours == 2)
+		return mr_fail(&c->ctx, MR_EUSAGE, "--neighbours: %zu points show no plane", opts.neighbours);
+	return MR_OK;
+}
+
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_normals_result, kept),
+	CMD_COUNTED(mr_normals_result, estimated),
+	CMD_COUNTED(mr_normals_result, outliers),
+	CMD_MEASURED(mr_normals_result, agree),
+	{ 0 },
+};
+
+static mr_status
+normals_frame(cmd *c, mr_frame *f)
+{
+	mr_normals_result result;
+
+	opts.layer = c->layer;
+	MR_TRY(mr_normals_frame(&c->ctx, f, &opts, &result));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "estimate and orient normals of points, or of a surface",
+		.options = table,
+		.prepare = prepare,
+		.frame = normals_frame });
+}

@@ -1,0 +1,190 @@
+/* mr-normals: normals of points and of surfaces. */
+#include "volume/normals.h"
+#include "mesh/layers.h"
+#include "mesh/zorder.h"
+#include "space/near.h"
+
+/* A normal that is there fits where it is within 60 degrees of its place's plane: beyond it is of another
+ * side. */
+static const double FITS = 0.5;
+
+/* The points that have a place of their own, as places: place k is point `of`[k]. */
+typedef struct places {
+	mr_v3 *p;
+	uint32_t *of;
+	size_t n;
+} places;
+
+static mr_status
+find_places(mr_ctx *ctx, const mr_mesh *m, const mr_sampling *s, places *q)
+{
+	uint32_t *kept = MR_NEW(ctx, m->nv, uint32_t);
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+
+	*q = (places){ MR_NEW(ctx, m->nv, mr_v3), MR_NEW(ctx, m->nv, uint32_t), 0 };
+	if (!kept || !p || !q->p || !q->of)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->nv; i++)
+		if (!s->repeat[i] && !s->outlier[i]) {
+			p[q->n] = m->p[i];
+			kept[q->n++] = (uint32_t)i;
+		}
+	MR_TRY(mr_zorder(ctx, p, q->n, MR_ZORDER_CELLS, q->of));
+	for (size_t k = 0; k < q->n; k++) {
+		q->p[k] = p[q->of[k]];
+		q->of[k] = kept[q->of[k]];
+	}
+	return MR_OK;
+}
+
+/* The side of each place's normal, where something tells; NULL: nothing does. */
+static mr_status
+find_sides(mr_ctx *ctx, const places *q, const mr_normals_opts *o, const mr_v3 *there, const mr_v3 *scanner,
+    const mr_v3 **side)
+{
+	mr_v3 *d = MR_NEW(ctx, q->n, mr_v3);
+
+	if (!d)
+		return MR_EMEM;
+	*side = NULL;
+	if (!o->from && !scanner && !(o->keep && there))
+		return MR_OK;
+	for (size_t k = 0; k < q->n; k++) {
+		size_t i = q->of[k];
+		d[k] = mr_vec(0, 0, 0);
+		if (o->keep && there && mr_finite(there[i]))
+			d[k] = there[i];
+		if (mr_norm2(d[k]) == 0 && (o->from || scanner))
+			d[k] = mr_sub(o->from ? *o->from : scanner[i], q->p[k]);
+	}
+	*side = d;
+	return MR_OK;
+}
+
+/* Points that are no place have the normal of the nearest one. */
+static mr_status
+fill_others(mr_ctx *ctx, const mr_mesh *m, const mr_sampling *s, const places *q, mr_v3 *normal)
+{
+	uint32_t *other = MR_NEW(ctx, m->nv, uint32_t), *nearest = MR_NEW(ctx, m->nv, uint32_t);
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	size_t n = 0;
+	mr_near *near;
+	mr_status status;
+
+	if (!other || !nearest || !p)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->nv; i++)
+		if (s->repeat[i] || s->outlier[i]) {
+			p[n] = m->p[i];
+			other[n++] = (uint32_t)i;
+		}
+	if (n == 0)
+		return MR_OK;
+	MR_TRY(mr_near_build(ctx, q->p, q->n, &near));
+	status = mr_near_query(ctx, near, p, n, 1, nearest, NULL);
+	mr_near_free(near);
+	for (size_t k = 0; status == MR_OK && k < n; k++)
+		normal[other[k]] = normal[q->of[nearest[k]]];
+	return status;
+}
+
+/* Takes back those that are there and fit, counts, and compares. */
+static void
+finish(const mr_normals_opts *o, const mr_v3 *there, size_t n, mr_v3 *normal, mr_normals_result *r)
+{
+	size_t some = 0, same = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		mr_v3 old = there && mr_finite(there[i]) ? mr_unit(there[i]) : mr_vec(0, 0, 0);
+		bool kept = o->keep && mr_dot(old, normal[i]) >= FITS;
+		if (kept)
+			normal[i] = there[i];
+		r->kept += kept;
+		if (o->flip)
+			normal[i] = mr_mul(-1, normal[i]);
+		some += mr_norm2(old) > 0;
+		same += mr_norm2(old) > 0 && mr_dot(old, normal[i]) > 0;
+	}
+	r->estimated = n - r->kept;
+	r->agree = some ? (double)same / (double)some : NAN;
+}
+
+static mr_status
+of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, const mr_v3 *there,
+    mr_v3 *normal, mr_normals_result *r)
+{
+	const void *scanner = NULL;
+	const mr_v3 *side;
+	mr_v3 *of_places;
+	mr_sampling s;
+	places q;
+
+	MR_TRY(mr_sampling_of(ctx, f, m, &s));
+	if (o->neighbours)
+		s.neighbours = o->neighbours;
+	if (mr_layer_has(f, m->name, "scanner"))
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "scanner", m->nv, &scanner));
+	MR_TRY(find_places(ctx, m, &s, &q));
+	MR_TRY(find_sides(ctx, &q, o, there, scanner, &side));
+	of_places = MR_NEW(ctx, q.n, mr_v3);
+	if (!of_places)
+		return MR_EMEM;
+	MR_TRY(mr_prefix(ctx, mr_places_normals(ctx, q.p, q.n, &s, side, of_places), "%s", m->name));
+	for (size_t k = 0; k < q.n; k++)
+		normal[q.of[k]] = of_places[k];
+	r->outliers = s.outliers;
+	return fill_others(ctx, m, &s, &q, normal);
+}
+
+static mr_status
+of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *normal)
+{
+	if (o->neighbours || o->from)
+		return mr_fail(
+		    ctx, MR_EUSAGE, "%s has faces: --neighbours and --from are of points", m->name);
+	if (!o->by_area)
+		return mr_vertex_normals(ctx, m, NULL, normal);
+	memset(normal, 0, m->nv * sizeof *normal);
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			normal[m->t[f].v[k]] = mr_add(normal[m->t[f].v[k]], mr_face_cross(m, f));
+	for (size_t v = 0; v < m->nv; v++)
+		normal[v] = mr_unit(normal[v]);
+	return MR_OK;
+}
+
+static void
+tell(mr_ctx *ctx, const mr_normals_result *r)
+{
+	mr_note(ctx, "%zu normals kept, %zu made", r->kept, r->estimated);
+	if (!isnan(r->agree))
+		mr_note(ctx, "%.2f %% of the normals there were are on the side of these", 100 * r->agree);
+}
+
+mr_status
+mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result)
+{
+	static const char *const reads[] = { "mesh", "control", "points", NULL };
+	static const mr_normals_opts defaults;
+	const mr_normals_opts *o = opts ? opts : &defaults;
+	mr_normals_result r = { 0 };
+	const void *there = NULL;
+	const char *layer;
+	mr_v3 *normal;
+	mr_mesh m;
+
+	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
+	if (mr_layer_has(f, layer, "normal"))
+		MR_TRY(mr_layer_get_rows(ctx, f, layer, "normal", m.nv, &there));
+	normal = MR_NEW(ctx, m.nv, mr_v3);
+	if (!normal)
+		return MR_EMEM;
+	MR_TRY(m.nf ? of_surface(ctx, &m, o, normal) : of_points(ctx, f, &m, o, there, normal, &r));
+	finish(o, there, m.nv, normal, &r);
+	tell(ctx, &r);
+	if (result)
+		*result = r;
+	mr_frame_drop(f, layer, "corner_normal", 0);
+	return mr_layer_put(ctx, f, layer, "normal", normal, m.nv);
+}

@@ -1,0 +1,64 @@
+# Normals of points and surfaces, against those that are known.
+agree() { # the figures, behind the pipe before
+	mr-normals --stats stats.json "$@" -o out.mrs && sed 's/.*\("kept".*\)}/\1/' stats.json | tr -d '"'
+}
+echo 'bodies of points: their own normals are on the same side'
+for shape in sphere torus cube knot 'boxes --genus 2' 'bumpy --noise 0.5%'; do
+	echo "$shape $(mr-make $shape --points 6000 | agree | sed 's/agree:0\.99[0-9]*/nearly all/')"
+done
+echo "turned over $(mr-make torus --points 6000 | agree --flip)"
+mr-make sphere --points 3000 >ball.mrs
+mr-normals ball.mrs | mr-export -q - -f ply-ascii | awk 'body { r = sqrt($1^2 + $2^2 + $3^2)
+	if (($1 * $4 + $2 * $5 + $3 * $6) / r < 0.99 || ($4^2 + $5^2 + $6^2 - 1)^2 > 1e-12) bad++; n++ }
+	/end_header/ { body = 1 } END { print n, "unit normals,", bad + 0, "not along the radius" }'
+
+echo 'a plane has one side, towards who looks'
+mr-make plane --points 500 -o plane.mrs
+sides() { # how many normals point up, and down
+	mr-export -q - -f ply-ascii | awk 'body { if ($6 > 0.999) up++; if ($6 < -0.999) down++ } /end_header/ { body = 1 }
+		END { print up + 0, down + 0 }'
+}
+mr-normals plane.mrs | sides | grep -E '^(500 0|0 500)$' >same && echo same
+mr-normals --from 0,0,5 plane.mrs | sides
+mr-normals --from 9,0,-1 plane.mrs | sides
+mr-normals --from 0,0,5 --neighbours 7 --flip plane.mrs | sides
+printf '3\n3\n0 0 9\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 9 1\n' >grid.ptx
+for i in 1 2 3; do printf "$i %s -9 0.5\n" 1 2 3 >>grid.ptx; done
+mr-import grid.ptx | mr-normals | sides
+mr-import grid.ptx | mr-normals --from 0,0,-9 | sides
+
+echo 'kept where they fit: not zero, not a number, not along the plane, and telling the rest'
+mr-crop --keep above:z,0.1 ball.mrs | mr-export - -f ply-ascii | awk '/end_header/ { body = 1; print; next } !body { print; next }
+	{ n++; if (n % 4 == 1) print $1, $2, $3, -3 * $4, -3 * $5, -3 * $6
+	else if (n % 4 == 2) print $1, $2, $3, 0, 0, 0
+	else if (n % 4 == 3) print $1, $2, $3, $5, -$4, 0; else print $1, $2, $3, -$4, -$5, -$6 }' >some.ply
+mr-import some.ply | agree --keep | sed 's/agree:.*/agree/'
+mr-export -q - -f ply-ascii <out.mrs | awk 'body { n++; d = $1 * $4 + $2 * $5 + $3 * $6; if (d > 0) bad++; if (d < -2) long++ }
+	/end_header/ { body = 1 } END { print n, bad + 0, "on the other side,", long, "as long as they were" }'
+
+echo 'repeated points have one normal, outliers that of the nearest point'
+printf '0 0 0\n1 0 0\n0 1 0\n1 1 0\n1 1 0\n' >twice.xyz
+mr-import twice.xyz | mr-normals --from 0,0,1 | mr-export -q - -f ply-ascii | sed '1,/end_header/d'
+
+echo 'surfaces'
+mr-make cube -n 8 | mr-normals | mr-export -q - -f ply-ascii | sed '1,/end_header/d' | sed -n 1,2p
+mr-make cube -n 8 | mr-normals --weights area --flip | mr-export -q - -f ply-ascii | sed '1,/end_header/d' | sed -n 1,2p
+
+echo 'refusals'
+refused() {
+	mr-normals "$@" >out 2>err
+	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+}
+mr-make cube -n 8 >cube.mrs
+refused --from 1,2 ball.mrs
+refused --from x,y,z ball.mrs
+refused --neighbours 2 ball.mrs
+refused --neighbours 129 ball.mrs
+refused --weights none cube.mrs
+refused --from 0,0,0 cube.mrs
+refused --neighbours 9 cube.mrs
+refused -l base ball.mrs
+printf '0 0 0\n1 1 1\n2 2 2\n3 3 3\n' >line.xyz
+mr-import line.xyz | refused
+printf '0 0 0\n0 0 0\n1 0 0\n' >two.xyz
+mr-import two.xyz | refused
