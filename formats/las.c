@@ -1,6 +1,7 @@
 /*
  * LAS, airborne scans: ASPRS LAS specification 1.4, 2019, and before.  Whole coordinates with a scale and an
- * offset; colours of 16 bits in some of the point formats.  Compressed files (LAZ) are refused.
+ * offset; colours of 16 bits in some of the point formats.  Compressed files (LAZ) are refused.  What else a
+ * point has is a property, unless it is 0 for all of them, as it is where a scanner did not tell.
  */
 #include "formats/format.h"
 
@@ -12,7 +13,60 @@ static const struct {
 } formats[FORMATS] = { { 20, 0 }, { 28, 0 }, { 26, 20 }, { 34, 28 }, { 57, 0 }, { 63, 28 }, { 30, 0 },
 	{ 36, 30 }, { 38, 30 }, { 59, 0 }, { 67, 30 } };
 
+/* What a point has besides: the types are PLY's, `bits` of the first byte from the lowest.  Formats below 6
+ * and the others keep them elsewhere (at; 0: they do not have it). */
+static const struct {
+	const char *name, *type;
+	unsigned char at[2];
+	struct {
+		unsigned char shift, bits;
+	} part[2];
+} fields[] = {
+	{ "intensity", "ushort", { 12, 12 }, { { 0, 16 }, { 0, 16 } } },
+	{ "return_number", "uchar", { 14, 14 }, { { 0, 3 }, { 0, 4 } } },
+	{ "number_of_returns", "uchar", { 14, 14 }, { { 3, 3 }, { 4, 4 } } },
+	{ "scan_direction", "uchar", { 14, 15 }, { { 6, 1 }, { 6, 1 } } },
+	{ "edge_of_flight_line", "uchar", { 14, 15 }, { { 7, 1 }, { 7, 1 } } },
+	{ "classification", "uchar", { 15, 16 }, { { 0, 5 }, { 0, 8 } } },
+	{ "classification_flags", "uchar", { 15, 15 }, { { 5, 3 }, { 0, 4 } } },
+	{ "scanner_channel", "uchar", { 0, 15 }, { { 0, 0 }, { 4, 2 } } },
+	{ "scan_angle", "short", { 16, 18 }, { { 0, 8 }, { 0, 16 } } },
+	{ "user_data", "uchar", { 17, 17 }, { { 0, 8 }, { 0, 8 } } },
+	{ "point_source", "ushort", { 18, 20 }, { { 0, 16 }, { 0, 16 } } },
+	{ "gps_time", "double", { 20, 22 }, { { 0, 64 }, { 0, 64 } } },
+	{ "near_infrared", "ushort", { 0, 36 }, { { 0, 0 }, { 0, 16 } } },
+};
+
+enum { FIELDS = sizeof fields / sizeof *fields };
+
+/* Whether points of the format have it. */
+static bool
+has_field(unsigned format, size_t i)
+{
+	if (!strcmp(fields[i].name, "gps_time") && (format == 0 || format == 2))
+		return false;
+	if (!strcmp(fields[i].name, "near_infrared") && format != 8 && format != 10)
+		return false;
+	return fields[i].at[format >= 6] > 0;
+}
+
+/* The field of the point at d. */
+static double
+field_of(const unsigned char *d, bool later, size_t i)
+{
+	unsigned bits = fields[i].part[later].bits, shift = fields[i].part[later].shift, value;
+
+	d += fields[i].at[later];
+	if (bits == 64)
+		return mr_load_double(d, false);
+	value = bits == 16 ? mr_load16(d, false) : (unsigned)*d >> shift & ((1u << bits) - 1);
+	if (*fields[i].type == 's') /* the only one with a sign */
+		return bits == 16 ? (int16_t)value : (int8_t)value;
+	return value;
+}
+
 typedef struct las {
+	unsigned format;
 	size_t offset, record;
 	uint64_t points;
 	unsigned color;
@@ -40,7 +94,8 @@ read_header(mr_ctx *ctx, const unsigned char *d, size_t size, las *l)
 		    "LAStools' las2las unpacks them");
 	if (format >= FORMATS)
 		return mr_fail(ctx, MR_EFORMAT, "byte 104: point format %u is not known", format);
-	*l = (las){ .offset = mr_load32(d + 96, false),
+	*l = (las){ .format = format,
+		.offset = mr_load32(d + 96, false),
 		.record = mr_load16(d + 105, false),
 		.points = mr_load32(d + 107, false),
 		.color = formats[format].color,
@@ -71,6 +126,40 @@ color_shift(const unsigned char *d, const las *l)
 	return 0;
 }
 
+static mr_status
+read_field(mr_builder *b, const unsigned char *data, const las *l, size_t i)
+{
+	size_t number, k = 0;
+	double x;
+
+	while (k < l->points && field_of(data + l->offset + k * l->record, l->format >= 6, i) == 0)
+		k++;
+	if (k == l->points)
+		return MR_OK;
+	MR_TRY(mr_build_property(b, fields[i].name, fields[i].type, 'v', &number));
+	for (k = 0; k < l->points; k++) {
+		x = field_of(data + l->offset + k * l->record, l->format >= 6, i);
+		MR_TRY(mr_build_value(b, number, k, x));
+	}
+	return MR_OK;
+}
+
+static mr_status
+read_fields(mr_ctx *ctx, const unsigned char *data, const las *l, mr_model *m)
+{
+	mr_builder b = { .ctx = ctx };
+
+	for (size_t i = 0; i < FIELDS; i++)
+		if (has_field(l->format, i))
+			MR_TRY(read_field(&b, data, l, i));
+	if (l->record > formats[l->format].bytes)
+		mr_warn(
+		    ctx, "%zu bytes more of each point are left out", l->record - formats[l->format].bytes);
+	if (l->format == 4 || l->format == 5 || l->format >= 9)
+		mr_warn(ctx, "waveforms of the points are left out");
+	return mr_build_properties(&b, m);
+}
+
 mr_status
 mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
@@ -98,7 +187,7 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 									shift);
 	}
 	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color, .counts = m->counts };
-	return MR_OK;
+	return read_fields(ctx, data, &l, m);
 }
 
 bool

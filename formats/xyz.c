@@ -2,8 +2,9 @@
  * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  Columns are told apart by names where
  * there are any, else by their number: 3 position; 4, 5 position and what we do not know; 6 normal, or colour
  * where all are whole numbers of 0 to 255 and some beyond 1; 7 intensity and colour, or colour and something;
- * 9 and more colour and normal in either order.  A first line with one whole number is the number of points;
- * twice as many rows of three are points, then normals.
+ * 9 and more colour and normal in either order.  Other columns are properties, by their names; without names
+ * the fourth of four or of seven with a colour behind is intensity.  A first line with one whole number is
+ * the number of points; twice as many rows of three are points, then normals.
  */
 #include "formats/format.h"
 
@@ -23,6 +24,10 @@ typedef struct table {
 	bool byte[COLUMNS]; /* every value a whole number of 0 to 255 */
 	bool beyond_one[COLUMNS];
 	const char *first_row; /* for sentences */
+	const char *name[COLUMNS];
+	size_t name_bytes[COLUMNS];
+	size_t property[COLUMNS]; /* numbers, from 1; 0: none */
+	mr_builder properties;
 } table;
 
 static bool
@@ -83,7 +88,7 @@ role_of(const char *w, size_t n)
 
 /* Reads names with or without quotes; the number of columns, or 0 where x, y and z are not all there. */
 static size_t
-names(mr_scan line, role r[COLUMNS])
+names(mr_scan line, role r[COLUMNS], const char *name[COLUMNS], size_t bytes[COLUMNS])
 {
 	bool there[ROLES] = { false };
 	size_t n = 0;
@@ -102,6 +107,8 @@ names(mr_scan line, role r[COLUMNS])
 			e = line.p;
 		}
 		r[n] = role_of(w, (size_t)(e - w));
+		name[n] = w;
+		bytes[n] = (size_t)(e - w);
 		if (there[r[n]])
 			r[n] = SKIP; /* the first of a name counts */
 		there[r[n++]] = true;
@@ -177,7 +184,7 @@ read_head(table *t)
 			mr_scan rest = line;
 			while (rest.p < rest.end && (*rest.p == '#' || *rest.p == '/'))
 				rest.p++;
-			t->columns = names(rest, t->role);
+			t->columns = names(rest, t->role, t->name, t->name_bytes);
 			t->named = t->in_comment = t->columns > 0;
 			if (!t->named) {
 				t->text.p = ahead.p;
@@ -185,7 +192,7 @@ read_head(table *t)
 			}
 		} else if (is_one_count(line, &t->count))
 			t->counted = true;
-		else if ((t->columns = names(line, t->role)) > 0)
+		else if ((t->columns = names(line, t->role, t->name, t->name_bytes)) > 0)
 			t->named = true;
 		else
 			return MR_OK;
@@ -293,6 +300,43 @@ has_three(const table *t, role first)
 	       column_of(t, (role)(first + 2)) < COLUMNS;
 }
 
+/* ---- properties ---- */
+
+/* What the file calls a column, or what it is by its place. */
+static mr_status
+name_of(const table *t, size_t i, const char **name)
+{
+	bool intensity = i == 3 && (t->columns == 4 || (t->columns == 7 && t->role[4] == RED));
+	char *clean = mr_alloc(t->ctx, t->named ? t->name_bytes[i] + 1 : 1, 1);
+
+	if (!clean)
+		return MR_EMEM;
+	if (t->named)
+		mr_clean_name(clean, t->name[i], t->name_bytes[i], false);
+	*name = t->named && *clean ? clean : intensity ? "intensity" : mr_format(t->ctx, "column%zu", i + 1);
+	return *name ? MR_OK : MR_EMEM;
+}
+
+/* Whether the column is a part of what points have by convention: of three that are all there. */
+static bool
+is_part(const table *t, role r)
+{
+	return r != SKIP && (r <= Z || has_three(t, r <= NZ ? NX : RED));
+}
+
+static mr_status
+begin_properties(table *t)
+{
+	const char *name;
+
+	for (size_t i = 0; i < t->columns; i++)
+		if (!is_part(t, t->role[i])) {
+			MR_TRY(name_of(t, i, &name));
+			MR_TRY(mr_build_property(&t->properties, name, "double", 'v', &t->property[i]));
+		}
+	return MR_OK;
+}
+
 /* In 255ths where the columns are whole, else in shares of one. */
 static unsigned char
 color_byte(const table *t, const double *x, role r)
@@ -354,6 +398,9 @@ fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
 			normal[i] = three(t, x, NX);
 		for (size_t k = 0; color && k < 4; k++)
 			color[4 * i + k] = color_byte(t, x, (role)(RED + (role)k));
+		for (size_t k = 0; k < t->columns; k++)
+			if (t->property[k])
+				MR_TRY(mr_build_value(&t->properties, t->property[k], i, x[k]));
 	}
 	return MR_OK;
 }
@@ -361,7 +408,7 @@ fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
 mr_status
 mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	table t = { .ctx = ctx, .text = mr_scan_of(ctx, data, size) };
+	table t = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .properties = { .ctx = ctx } };
 	mr_v3 *p, *normal = NULL;
 	unsigned char *color = NULL;
 	size_t n;
@@ -374,6 +421,7 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (!p || (has_three(&t, NX) && !(normal = MR_NEW(ctx, t.rows, mr_v3))) ||
 	    (has_three(&t, RED) && !(color = mr_alloc(ctx, t.rows, 4))))
 		return MR_EMEM;
+	MR_TRY(begin_properties(&t));
 	MR_TRY(fill(&t, p, normal, color));
 	n = halves(&t) ? t.rows / 2 : t.rows;
 	if (halves(&t))
@@ -383,7 +431,7 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (normal && n && !useful(ctx, normal, n, &m->counts.dropped_normals))
 		normal = NULL;
 	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };
-	return MR_OK;
+	return mr_build_properties(&t.properties, m);
 }
 
 /* The first line that says something is numbers, one or three and more, or names with x, y and z among them.
@@ -393,14 +441,15 @@ mr_xyz_sniff(const unsigned char *data, size_t size)
 {
 	mr_scan text = mr_scan_of(NULL, data, size), line;
 	role r[COLUMNS];
-	size_t n = 0;
+	const char *name[COLUMNS];
+	size_t n = 0, bytes[COLUMNS];
 	uint64_t count;
 
 	if (memchr(data, 0, size < 4096 ? size : 4096) || !next_row(&text, &line))
 		return false;
 	if (is_one_count(line, &count) && !next_row(&text, &line))
 		return false;
-	if (names(line, r))
+	if (names(line, r, name, bytes))
 		return true;
 	for (skip_separators(&line); line.p < line.end; n++, skip_separators(&line)) {
 		double x;

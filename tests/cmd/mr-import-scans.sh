@@ -88,3 +88,36 @@ echo 'LAZ'
 { printf 'LASF'; head -c 100 /dev/zero; printf '\202'; head -c 200 /dev/zero; } >packed.laz
 mr-import packed.laz
 echo "exit $?"
+
+echo 'columns under their names'
+printf 'x y z Intensity red label\n0 0 0 0.5 7 3\n1 0 0 0.25 8 nan\n' >named.xyz
+printf '2\n0 0 0 -17 1 2 3\n1 1 1 20 4 5 6\n' >scan.pts
+printf '0 0 0 9.5 1\n1 1 1 8.5 2\n' >plain.xyz
+for file in named.xyz scan.pts plain.xyz; do
+	mr-import $file | mr-export -q - -f ply-ascii | sed '/^ply/d; /^format/d; /^element/d'
+done
+echo 'and what a LAS tells, but for what is 0 everywhere'
+python3 - <<'END'
+import struct
+for form, name in ((1, "old.las"), (8, "new.las")):
+    size = {1: 28, 8: 38}[form]
+    head = bytearray(375)
+    head[0:4] = b"LASF"
+    head[24:26] = bytes((1, 4))
+    struct.pack_into("<HIIBHI", head, 94, 375, 375, 0, form, size + 2, 2)
+    struct.pack_into("<6d", head, 131, 0.01, 0.01, 0.01, 0, 0, 5)
+    struct.pack_into("<Q", head, 247, 2)
+    points = b""
+    for i in range(2):
+        p = struct.pack("<3iH", 100 * i, 200, 300, 60000 + i)
+        if form == 1:
+            p += struct.pack("<BBbBHd", 0b01010010, 0b10100110, -15, 0, 12, 1e9 + i)
+        else:
+            p += struct.pack("<BBBBhHd3HH", 0b01010010, 0b01100001, 200, 0, -2500, 12, 1e9 + i, 256, 512, 768, 999)
+        points += p + b"\1\1"
+    open(name, "wb").write(bytes(head) + points)
+END
+for file in old.las new.las; do
+	mr-import $file 2>said | mr-export -q - -f ply-ascii | sed '/^ply/d; /^format/d; /^element/d'
+	cat said
+done
