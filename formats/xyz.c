@@ -23,6 +23,7 @@ typedef struct table {
 	role role[COLUMNS];
 	bool byte[COLUMNS]; /* every value a whole number of 0 to 255 */
 	bool beyond_one[COLUMNS];
+	bool says[COLUMNS];    /* a value is not 0, as those are that fill up a column */
 	const char *first_row; /* for sentences */
 	const char *name[COLUMNS];
 	size_t name_bytes[COLUMNS];
@@ -234,6 +235,7 @@ survey(table *t)
 		for (size_t i = 3; i < n; i++) {
 			t->byte[i] = t->byte[i] && x[i] >= 0 && x[i] <= 255 && x[i] == floor(x[i]);
 			t->beyond_one[i] = t->beyond_one[i] || x[i] > 1;
+			t->says[i] = t->says[i] || x[i] != 0;
 		}
 		t->rows++;
 	}
@@ -330,7 +332,7 @@ begin_properties(table *t)
 	const char *name;
 
 	for (size_t i = 0; i < t->columns; i++)
-		if (!is_part(t, t->role[i])) {
+		if (!is_part(t, t->role[i]) && t->says[i]) {
 			MR_TRY(name_of(t, i, &name));
 			MR_TRY(mr_build_property(&t->properties, name, "double", 'v', &t->property[i]));
 		}
