@@ -140,11 +140,12 @@ make_workspace(mr_ctx *ctx, mr_deform *d)
 }
 
 static mr_status
-set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
+set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 {
 	double started = mr_seconds();
 	bool *anchored = MR_NEW(ctx, d->nv, bool);
 	uint32_t *part = mr_sets_new(ctx, d->nv);
+	const mr_ties none = { 0 };
 	mr_mesh stitched;
 
 	if (!anchored || !part)
@@ -153,7 +154,7 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	MR_TRY(check_problem(ctx, d, rest));
 	stitched = *rest;
 	if (!d->opts.apart)
-		MR_TRY(mr_stitch(ctx, rest, d->region, &stitched));
+		MR_TRY(mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched));
 	MR_TRY(find_anchored(ctx, d, &stitched, anchored, part));
 	MR_TRY(settle_loose(ctx, d, rest, anchored, part));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
@@ -171,8 +172,8 @@ choose_preconditioner(mr_deform_opts *o)
 }
 
 mr_status
-mr_deform_new(
-    mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region, const mr_deform_opts *opts, mr_deform **deform)
+mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
+    const mr_deform_opts *opts, mr_deform **deform)
 {
 	mr_deform *d = MR_NEW_ZERO(ctx, 1, mr_deform);
 
@@ -186,7 +187,7 @@ mr_deform_new(
 	if (!d->region)
 		return MR_EMEM;
 	memcpy(d->region, region, d->nv * sizeof *region);
-	MR_TRY(set_up(ctx, d, rest));
+	MR_TRY(set_up(ctx, d, rest, ties));
 	*deform = d;
 	return MR_OK;
 }

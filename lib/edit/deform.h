@@ -33,13 +33,24 @@ typedef struct mr_deform_opts {
 
 typedef struct mr_deform mr_deform;
 
+/* Parts that touch though they are apart at rest: a vertex holds to a face of another component. */
+typedef struct mr_tie {
+	uint32_t vertex, face;
+} mr_tie;
+
+typedef struct mr_ties {
+	size_t n;
+	mr_tie *tie;
+} mr_ties;
+
 /*
  * Assembles and factors the system on the mesh `rest` with one region per vertex.  MR_EMESH where
- * there is no free or no constrained vertex, MR_ENUMERIC where the matrix is not positive definite.
+ * there is no free or no constrained vertex, MR_ENUMERIC where the matrix is not positive definite.  ties: or
+ * NULL.
  * *deform borrows nothing; its memory is the arena's and the solver's: free it before the arena goes.
  */
-mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region, const mr_deform_opts *opts,
-    mr_deform **deform) MR_WARN_UNUSED;
+mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
+    const mr_deform_opts *opts, mr_deform **deform) MR_WARN_UNUSED;
 
 /* Accepts NULL. */
 void mr_deform_free(mr_deform *d);
@@ -90,10 +101,10 @@ mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task,
 /*
  * Solves the task by Cholesky too.  *error: the largest distance of a vertex of p from where that puts it, of
  * the diagonal; *condition: an estimate from below of the condition number of the system that is solved.
- * rest: what d was made on.
+ * rest, ties: what d was made on.
  */
-mr_status mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task,
-    const mr_v3 *p, double *error, double *condition);
+mr_status mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const mr_deform *d,
+    const mr_deform_task *task, const mr_v3 *p, double *error, double *condition);
 
 /*
  * The response of every vertex to the handles' affine maps, for mr_pose_by_response.

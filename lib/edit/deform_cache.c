@@ -2,6 +2,7 @@
 #include "edit/deform_cache.h"
 
 #include "edit/region_transfer.h"
+#include "edit/tie_transfer.h"
 
 /*
  * What the system depends on, as the reader numbers it: within a key frame and its deltas the same number is
@@ -12,7 +13,8 @@ identify(const mr_frame *f, const char *layer, const char *rest, uint64_t part[M
 {
 	const char *const columns[MR_DEFORM_PARTS][2] = { { layer, rest }, { layer, "triangles" },
 		{ layer, "region" }, { "mesh", "region" }, { "mesh", "triangles" }, { "mesh", "position" },
-		{ "base", "source_face" }, { "base", "source_bary" } };
+		{ "base", "source_face" }, { "base", "source_bary" }, { "mesh", "detail_face" },
+		{ "mesh", "detail_bary" } };
 
 	for (int i = 0; i < MR_DEFORM_PARTS; i++) {
 		const mr_column *column = mr_frame_find(f, columns[i][0], columns[i][1]);
@@ -37,13 +39,15 @@ mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame 
 	uint64_t part[MR_DEFORM_PARTS];
 	const uint32_t *region;
 	mr_status status;
+	mr_ties ties;
 
 	identify(f, rest->name, column, part);
 	if (f->key || !cache->deform || memcmp(part, cache->part, sizeof part)) {
 		mr_deform_cache_free(cache, keep);
 		MR_TRY(mr_transfer_get(ctx, f, rest, &region));
+		MR_TRY(mr_transfer_ties(ctx, f, rest, &ties));
 		cache->mark = mr_mark_take(keep);
-		status = mr_deform_new(keep, rest, region, opts, &cache->deform);
+		status = mr_deform_new(keep, rest, &ties, region, opts, &cache->deform);
 		if (status < 0) {
 			mr_mark_release(keep, cache->mark);
 			return mr_fail(ctx, status, "%s", keep->error);

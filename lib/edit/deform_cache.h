@@ -10,7 +10,7 @@
 #include "edit/deform.h"
 #include "mesh/layers.h"
 
-enum { MR_DEFORM_PARTS = 8 };
+enum { MR_DEFORM_PARTS = 10 };
 
 typedef struct mr_deform_cache {
 	mr_deform *deform;              /* NULL: empty */

@@ -12,9 +12,10 @@
 
 /*
  * rest, and a triangle from each vertex that touches another component to two corners of the face there: of
- * the three that which is best shaped.  None where all is constrained.  region: one a vertex.  stitched: rest
- * at first; its faces come into the arena where there are more.
+ * the three that which is best shaped; so too for each of the ties.  None where all is constrained.  region:
+ * one a vertex.  stitched: rest at first; its faces come into the arena where there are more.
  */
-mr_status mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const uint32_t *region, mr_mesh *stitched);
+mr_status
+mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region, mr_mesh *stitched);
 
 #endif

@@ -61,8 +61,8 @@ verify(mr_ctx *ctx, mr_deform *direct, const mr_deform_task *task, const mr_v3 *
 }
 
 mr_status
-mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task,
-    const mr_v3 *p, double *error, double *condition)
+mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const mr_deform *d,
+    const mr_deform_task *task, const mr_v3 *p, double *error, double *condition)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_deform_opts opts = d->opts;
@@ -71,7 +71,7 @@ mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_deform *d, const mr_
 
 	opts.unsymmetric = false;
 	opts.solver.kind = MR_CHOLESKY;
-	MR_TRY(mr_deform_new(ctx, rest, d->region, &opts, &direct));
+	MR_TRY(mr_deform_new(ctx, rest, ties, d->region, &opts, &direct));
 	status = verify(ctx, direct, task, p, error, condition);
 	mr_deform_free(direct);
 	mr_mark_release(ctx, mark);

@@ -2,8 +2,6 @@
  */
 #include "space/bvh_tree.h"
 
-static const double LOWER = 1 - 0x1p-40;
-
 /* ---- the nearest point of a triangle ---- */
 
 static double
@@ -153,49 +151,8 @@ mr_side_closest(const mr_mesh *m, uint32_t h, mr_v3 q)
 
 /* ---- queries ---- */
 
-/* A node or leaf still to be visited. */
-typedef struct entry {
-	double bound;
-	uint32_t child, count;
-} entry;
-
-/* Pushes the children of a node that are there and not beyond the limit, the farthest first. */
-static entry *
-push_sorted(entry *top, const mr_bvh_node *d, const double bound[BVH_WIDE], double limit)
-{
-	entry *base = top;
-
-	for (int c = 0; c < BVH_WIDE; c++) {
-		entry e = { bound[c], d->child[c], d->count[c] };
-		entry *at = top;
-		if (e.child == MR_NONE || e.bound > limit)
-			continue;
-		for (; at > base && at[-1].bound < e.bound; at--)
-			*at = at[-1];
-		*at = e;
-		top++;
-	}
-	return top;
-}
-
-/* Squared distances from q to the four boxes, lowered by what rounding can do. */
-static inline void
-box_distances(const mr_bvh_node *d, mr_v3 q, double out[BVH_WIDE])
-{
-	for (int c = 0; c < BVH_WIDE; c++) {
-		double ax = d->lo[0][c] - q.x, bx = q.x - d->hi[0][c];
-		double ay = d->lo[1][c] - q.y, by = q.y - d->hi[1][c];
-		double az = d->lo[2][c] - q.z, bz = q.z - d->hi[2][c];
-		double x = ax > bx ? ax : bx, y = ay > by ? ay : by, z = az > bz ? az : bz;
-		x = x > 0 ? x : 0;
-		y = y > 0 ? y : 0;
-		z = z > 0 ? z : 0;
-		out[c] = (x * x + y * y + z * z) * LOWER;
-	}
-}
-
 static void
-closest_in_leaf(const mr_bvh *bvh, entry leaf, mr_v3 q, mr_closest *best)
+closest_in_leaf(const mr_bvh *bvh, bvh_entry leaf, mr_v3 q, mr_closest *best)
 {
 	const mr_mesh *m = bvh->mesh;
 
@@ -217,20 +174,20 @@ closest_at_most(const mr_bvh *bvh, mr_v3 q, double dist2)
 	mr_closest best = { .at.face = MR_NONE, .dist2 = dist2 };
 	mr_v3 u = bvh_unit(bvh, q);
 	double unit2 = bvh->scale * bvh->scale, limit = dist2 * unit2, bound[BVH_WIDE];
-	entry stack[BVH_STACK], *top = stack;
+	bvh_entry stack[BVH_STACK], *top = stack;
 
 	if (bvh->mesh->nf)
-		*top++ = (entry){ 0, 0, 0 };
+		*top++ = (bvh_entry){ 0, 0, 0 };
 	while (top > stack) {
-		entry e = *--top;
+		bvh_entry e = *--top;
 		if (e.bound > limit)
 			continue;
 		if (e.count) {
 			closest_in_leaf(bvh, e, q, &best);
 			limit = best.dist2 * unit2;
 		} else {
-			box_distances(&bvh->nodes[e.child], u, bound);
-			top = push_sorted(top, &bvh->nodes[e.child], bound, limit);
+			bvh_box_distances(&bvh->nodes[e.child], u, bound);
+			top = bvh_push_sorted(top, &bvh->nodes[e.child], bound, limit);
 		}
 	}
 	if (best.at.face == MR_NONE)
@@ -336,7 +293,7 @@ box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double
 }
 
 static void
-hit_in_leaf(const mr_bvh *bvh, entry leaf, const ray *r, double tmin, mr_ray_hit *best)
+hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, mr_ray_hit *best)
 {
 	const mr_mesh *m = bvh->mesh;
 
@@ -355,20 +312,20 @@ mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax,
 {
 	mr_ray_hit best = { .at.face = MR_NONE, .t = tmax };
 	ray r = ray_make(bvh, origin, dir);
-	entry stack[BVH_STACK], *top = stack;
+	bvh_entry stack[BVH_STACK], *top = stack;
 	double enter[BVH_WIDE];
 
 	if (bvh->mesh->nf && mr_norm2(dir) > 0)
-		*top++ = (entry){ -INFINITY, 0, 0 };
+		*top++ = (bvh_entry){ -INFINITY, 0, 0 };
 	while (top > stack) {
-		entry e = *--top;
+		bvh_entry e = *--top;
 		if (e.bound > best.t)
 			continue;
 		if (e.count) {
 			hit_in_leaf(bvh, e, &r, tmin, &best);
 		} else {
 			box_entries(&bvh->nodes[e.child], &r, tmin, best.t, enter);
-			top = push_sorted(top, &bvh->nodes[e.child], enter,
+			top = bvh_push_sorted(top, &bvh->nodes[e.child], enter,
 			    best.t < INFINITY ? best.t : 0x1.fffffffffffffp1023);
 		}
 	}

@@ -187,13 +187,6 @@ cut(prim *prims, range r, int depth, range out[BVH_WIDE])
 	}
 }
 
-/* Most nodes of a tree of n prims: every node has four children, every leaf at least one prim. */
-static size_t
-node_bound(size_t n)
-{
-	return n > BVH_LEAF ? (n - 2) / 3 : 1;
-}
-
 /* Builds the subtree of a range; its nodes take the places from *next on, the first its root. */
 static void
 build_range(builder *b, range r, int depth, size_t *next)
@@ -222,7 +215,7 @@ build_range(builder *b, range r, int depth, size_t *next)
 		d->child[c] = (uint32_t)*next;
 		if (part[c].n <= b->task_size) {
 			b->tasks[b->task_count++] = (task){ part[c], depth + 1, *next };
-			*next += node_bound(part[c].n);
+			*next += bvh_node_bound(part[c].n);
 		} else {
 			build_range(b, part[c], depth + 1, next);
 		}
@@ -281,7 +274,7 @@ mr_status
 mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 {
 	mr_bvh *bvh = MR_NEW(ctx, 1, mr_bvh);
-	mr_bvh_node *nodes = MR_NEW(ctx, node_bound(m->nf), mr_bvh_node);
+	mr_bvh_node *nodes = MR_NEW(ctx, bvh_node_bound(m->nf), mr_bvh_node);
 	uint32_t *face = MR_NEW(ctx, m->nf, uint32_t);
 	mr_mark mark = mr_mark_take(ctx);
 	builder b = { .prims = MR_NEW(ctx, m->nf, prim), .tasks = MR_NEW(ctx, m->nf / BVH_LEAF + 1, task) };

@@ -1,5 +1,5 @@
 /*
- * bvh_tree.h -- how the hierarchy of bvh.h lies in memory; for bvh_build.c and bvh.c only.
+ * bvh_tree.h -- how the hierarchy of bvh.h lies in memory; for bvh_build.c, bvh.c and bvh_labels.c only.
  *
  * Contract: a tree of four children a node, in single precision and units of the
  * mesh's own box, 128 bytes a node.  Why it is exact all the same: with c the
@@ -36,6 +36,56 @@ static inline mr_v3
 bvh_unit(const mr_bvh *bvh, mr_v3 p)
 {
 	return mr_mul(bvh->scale, mr_sub(p, bvh->center));
+}
+
+/* Most nodes of a tree of n faces: every node has four children, every leaf at least one face. */
+static inline size_t
+bvh_node_bound(size_t n)
+{
+	return n > BVH_LEAF ? (n - 2) / 3 : 1;
+}
+
+/* A node or leaf still to be visited. */
+typedef struct bvh_entry {
+	double bound;
+	uint32_t child, count;
+} bvh_entry;
+
+/* Pushes the children of a node that are there and not beyond the limit, the farthest first. */
+static inline bvh_entry *
+bvh_push_sorted(bvh_entry *top, const mr_bvh_node *d, const double bound[BVH_WIDE], double limit)
+{
+	bvh_entry *base = top;
+
+	for (int c = 0; c < BVH_WIDE; c++) {
+		bvh_entry e = { bound[c], d->child[c], d->count[c] };
+		bvh_entry *at = top;
+		if (e.child == MR_NONE || e.bound > limit)
+			continue;
+		for (; at > base && at[-1].bound < e.bound; at--)
+			*at = at[-1];
+		*at = e;
+		top++;
+	}
+	return top;
+}
+
+/* Squared distances from q to the four boxes, lowered by what rounding can do. */
+static inline void
+bvh_box_distances(const mr_bvh_node *d, mr_v3 q, double out[BVH_WIDE])
+{
+	const double lower = 1 - 0x1p-40;
+
+	for (int c = 0; c < BVH_WIDE; c++) {
+		double ax = d->lo[0][c] - q.x, bx = q.x - d->hi[0][c];
+		double ay = d->lo[1][c] - q.y, by = q.y - d->hi[1][c];
+		double az = d->lo[2][c] - q.z, bz = q.z - d->hi[2][c];
+		double x = ax > bx ? ax : bx, y = ay > by ? ay : by, z = az > bz ? az : bz;
+		x = x > 0 ? x : 0;
+		y = y > 0 ? y : 0;
+		z = z > 0 ? z : 0;
+		out[c] = (x * x + y * y + z * z) * lower;
+	}
 }
 
 #endif

@@ -1,15 +1,14 @@
-/* Contacts of components, by boxes around vertices. */
+/* Contacts of components, by the nearest faces of others. */
 #include "space/contact.h"
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
-#include "space/bvh.h"
+#include "space/bvh_labels.h"
 
 #include <math.h>
 
-/* component: of each vertex, the vertex that stands for it; MR_NONE where it has no face. */
-static mr_status
-label_components(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
+mr_status
+mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
 {
 	uint32_t *set = mr_sets_new(ctx, m->nv);
 	bool *used = MR_NEW_ZERO(ctx, m->nv, bool);
@@ -40,10 +39,10 @@ is_same(mr_v3 a, mr_v3 b)
 }
 
 static size_t
-slot_of(mr_v3 p, size_t slots)
+slot_of(mr_v3 p, uint32_t component, size_t slots)
 {
 	const double c[3] = { p.x + 0.0, p.y + 0.0, p.z + 0.0 }; /* either zero */
-	uint64_t bits[3], hash = 0;
+	uint64_t bits[3], hash = component;
 
 	memcpy(bits, c, sizeof bits);
 	for (int i = 0; i < 3; i++)
@@ -51,142 +50,170 @@ slot_of(mr_v3 p, size_t slots)
 	return (size_t)(hash >> 20) % slots;
 }
 
-/* slit: of each vertex, whether another one is at its place; by a table of open addresses. */
+/* Vertices of the same component at the same place, in rings. */
+typedef struct slits {
+	uint32_t *next; /* itself where it is alone */
+	uint32_t *face; /* the first of each vertex */
+	bool any;
+} slits;
+
+/* By a table of open addresses. */
 static mr_status
-find_slits(mr_ctx *ctx, const mr_mesh *m, bool **slit, bool *any)
+find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 {
 	size_t slots = 2 * m->nv + 1;
 	uint32_t *table = MR_NEW(ctx, slots, uint32_t);
 
-	*slit = MR_NEW_ZERO(ctx, m->nv, bool);
-	if (!table || !*slit)
+	*s = (slits){ MR_NEW(ctx, m->nv, uint32_t), MR_NEW(ctx, m->nv, uint32_t), false };
+	if (!table || !s->next || !s->face)
 		return MR_EMEM;
 	memset(table, 0xff, slots * sizeof *table);
 	for (uint32_t v = 0; v < m->nv; v++) {
-		size_t i = slot_of(m->p[v], slots);
-		while (table[i] != MR_NONE && !is_same(m->p[table[i]], m->p[v]))
+		size_t i = slot_of(m->p[v], component[v], slots);
+		uint32_t before;
+		s->next[v] = v;
+		if (component[v] == MR_NONE)
+			continue;
+		while (table[i] != MR_NONE &&
+		       !(component[table[i]] == component[v] && is_same(m->p[table[i]], m->p[v])))
 			i = (i + 1) % slots;
-		if (table[i] == MR_NONE)
-			table[i] = v;
-		else
-			*any = (*slit)[v] = (*slit)[table[i]] = true;
+		before = table[i] == MR_NONE ? v : table[i];
+		s->any |= before != v;
+		s->next[v] = s->next[before];
+		s->next[before] = v;
+		table[i] = before;
 	}
+	for (size_t f = m->nf; f-- > 0;)
+		for (int k = 0; k < 3; k++)
+			s->face[m->t[f].v[k]] = (uint32_t)f;
 	return MR_OK;
 }
 
 typedef struct search {
 	const mr_mesh *m;
-	const mr_bvh *bvh;
-	const uint32_t *component;
-	const bool *slit;
+	mr_bvh_labels components;
+	uint32_t *component;
+	slits slits;
 	bool several; /* components */
 	double reach2;
-	mr_place *at; /* nv; of face MR_NONE: no contact */
+	mr_contacts *c; /* at first each start is how many the vertex before has */
 } search;
 
-typedef struct nearest {
-	const search *s;
-	uint32_t vertex;
-	mr_closest best;
-} nearest;
-
-/* Whether face f is beyond a slit at v. */
 static bool
-is_beyond(const search *s, uint32_t f, uint32_t v)
+has_corner(const mr_tri *t, uint32_t v)
 {
-	const uint32_t *c = s->m->t[f].v;
-	bool there = false;
-
-	for (int k = 0; k < 3; k++) {
-		if (c[k] == v)
-			return false;
-		there |= is_same(s->m->p[c[k]], s->m->p[v]);
-	}
-	return there;
+	return t->v[0] == v || t->v[1] == v || t->v[2] == v;
 }
 
-static bool
-visit(void *arg, uint32_t f)
+/* Faces at the other vertices of the ring of v, without those that have v itself. */
+static size_t
+across_slit(const search *s, uint32_t v, mr_closest *out)
 {
-	nearest *n = arg;
-	const search *s = n->s;
-	mr_closest c;
+	size_t n = 0;
 
-	if (s->component[s->m->t[f].v[0]] == s->component[n->vertex] &&
-	    !(s->slit[n->vertex] && is_beyond(s, f, n->vertex)))
-		return true;
-	c = mr_face_closest(n->s->m, f, n->s->m->p[n->vertex]);
-	if (c.dist2 < n->best.dist2 || (c.dist2 == n->best.dist2 && f < n->best.at.face))
-		n->best = c;
-	return true;
+	for (uint32_t i = s->slits.next[v]; i != v && n < MR_CONTACTS; i = s->slits.next[i])
+		if (!has_corner(&s->m->t[s->slits.face[i]], v))
+			out[n++] = mr_face_closest(s->m, s->slits.face[i], s->m->p[v]);
+	return n;
+}
+
+static size_t
+contacts_of(const search *s, uint32_t v, mr_closest *out)
+{
+	size_t n;
+
+	if (s->component[v] == MR_NONE)
+		return 0;
+	n = across_slit(s, v, out);
+	if (!s->several || n == MR_CONTACTS)
+		return n;
+	return n + mr_bvh_closest_others(
+		       &s->components, s->m->p[v], s->component[v], s->reach2, MR_CONTACTS - n, out + n);
 }
 
 static void
-search_vertices(void *arg, size_t begin, size_t end)
+count_contacts(void *arg, size_t begin, size_t end)
 {
-	search *s = arg;
-	double reach = sqrt(s->reach2);
-	mr_v3 half = mr_vec(reach, reach, reach);
+	const search *s = arg;
+	mr_closest found[MR_CONTACTS];
+
+	for (size_t v = begin; v < end; v++)
+		s->c->start[v + 1] = contacts_of(s, (uint32_t)v, found);
+}
+
+static void
+list_contacts(void *arg, size_t begin, size_t end)
+{
+	const search *s = arg;
+	mr_closest found[MR_CONTACTS];
 
 	for (size_t v = begin; v < end; v++) {
-		nearest n = { s, (uint32_t)v, { .at.face = MR_NONE, .dist2 = INFINITY } };
-		mr_box box = { mr_sub(s->m->p[v], half), mr_add(s->m->p[v], half) };
-		if (s->component[v] != MR_NONE && (s->several || s->slit[v]))
-			mr_bvh_overlap(s->bvh, box, visit, &n);
-		s->at[v] = n.best.at;
-		if (n.best.dist2 > s->reach2)
-			s->at[v].face = MR_NONE;
+		size_t first = s->c->start[v], n = s->c->start[v + 1] - first;
+		if (n > 0)
+			contacts_of(s, (uint32_t)v, found);
+		for (size_t i = 0; i < n; i++)
+			s->c->at[first + i] = found[i].at;
 	}
 }
 
 static mr_status
-search_all(mr_ctx *ctx, search *s)
+make_tree(mr_ctx *ctx, search *s)
 {
+	uint32_t *label = MR_NEW(ctx, s->m->nf, uint32_t);
 	mr_bvh *bvh;
 
+	if (!label)
+		return MR_EMEM;
+	for (size_t f = 0; f < s->m->nf; f++)
+		label[f] = s->component[s->m->t[f].v[0]];
 	MR_TRY(mr_bvh_build(ctx, s->m, &bvh));
-	s->bvh = bvh;
-	mr_parallel(ctx, s->m->nv, 1024, search_vertices, s);
-	return MR_OK;
+	return mr_bvh_label(ctx, bvh, label, &s->components);
 }
 
-/* Leaves only the places that are some. */
-static void
-compact(mr_contacts *c, size_t nv)
+/* Calls `each` with a search, where there is something to search for.  Its workspace is gone after that, so
+ * that what was found lies below. */
+static mr_status
+search_by(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *c,
+    void (*each)(void *arg, size_t begin, size_t end))
 {
-	for (uint32_t v = 0; v < nv; v++)
-		if (c->at[v].face != MR_NONE) {
-			c->vertex[c->n] = v;
-			c->at[c->n++] = c->at[v];
-		}
+	mr_mark mark = mr_mark_take(ctx);
+	search s = { .m = m, .reach2 = reach * reach, .c = c };
+
+	MR_TRY(mr_components_label(ctx, m, &s.component, &s.several));
+	MR_TRY(find_slits(ctx, m, s.component, &s.slits));
+	if (s.several)
+		MR_TRY(make_tree(ctx, &s));
+	if (s.several || s.slits.any)
+		mr_parallel(ctx, m->nv, 1024, each, &s);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 mr_status
 mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts)
 {
-	mr_mark begin = mr_mark_take(ctx), mark;
-	mr_contacts c = { 0, MR_NEW(ctx, m->nv, uint32_t), MR_NEW(ctx, m->nv, mr_place) };
-	bool several, slits = false, *slit;
-	uint32_t *component;
+	mr_contacts c = { .start = MR_NEW_ZERO(ctx, m->nv + 1, size_t) };
 
-	if (!c.vertex || !c.at)
+	if (!c.start)
 		return MR_EMEM;
-	mark = mr_mark_take(ctx);
-	MR_TRY(label_components(ctx, m, &component, &several));
-	MR_TRY(find_slits(ctx, m, &slit, &slits));
-	if (several || slits) {
-		MR_TRY(search_all(ctx, &(search){ m, NULL, component, slit, several, reach * reach, c.at }));
-		compact(&c, m->nv);
+	MR_TRY(search_by(ctx, m, reach, &c, count_contacts));
+	for (size_t v = 0; v < m->nv; v++) {
+		c.vertices += c.start[v + 1] > 0;
+		c.start[v + 1] += c.start[v];
 	}
-	mr_mark_release(ctx, c.n ? mark : begin);
+	c.at = MR_NEW(ctx, c.start[m->nv], mr_place);
+	if (!c.at)
+		return MR_EMEM;
+	if (c.vertices)
+		MR_TRY(search_by(ctx, m, reach, &c, list_contacts));
 	*contacts = c;
 	return MR_OK;
 }
 
 static double
-width_of(const mr_contacts *c, size_t i, const mr_mesh *m)
+width_of(const mr_mesh *m, uint32_t v, mr_place at)
 {
-	return mr_dist(m->p[c->vertex[i]], mr_place_point(m, c->at[i]));
+	return mr_dist(m->p[v], mr_place_point(m, at));
 }
 
 size_t
@@ -199,14 +226,15 @@ mr_contacts_open(
 
 	moved.p = after;
 	*widest = MR_NONE;
-	for (size_t i = 0; i < contacts->n; i++) {
-		double is = width_of(contacts, i, &moved);
-		if (is <= width || width_of(contacts, i, m) > width)
-			continue;
-		n++;
-		if (is > most) {
-			most = is;
-			*widest = contacts->vertex[i];
+	for (uint32_t v = 0; v < m->nv; v++) {
+		double widened = 0;
+		for (size_t i = contacts->start[v]; i < contacts->start[v + 1]; i++)
+			if (width_of(m, v, contacts->at[i]) <= width)
+				widened = fmax(widened, width_of(&moved, v, contacts->at[i]));
+		n += widened > width;
+		if (widened > fmax(width, most)) {
+			most = widened;
+			*widest = v;
 		}
 	}
 	return n;

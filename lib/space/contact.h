@@ -9,20 +9,26 @@
 
 #include "mesh/mesh.h"
 
-/* Vertices, and of each the nearest point of another component, or of the same the other side of a slit. */
+/* component: of each vertex, the vertex that stands for it, MR_NONE where it has no face; in the arena. */
+mr_status mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several);
+
+/* Other parts that a vertex may touch: at a place of a grid of boxes there are seven. */
+enum { MR_CONTACTS = 8 };
+
+/* Of vertex v those from start[v] to start[v + 1]: the other sides of a slit, and the nearest points of other
+ * components, the nearest first. */
 typedef struct mr_contacts {
-	size_t n;
-	uint32_t *vertex; /* ascending */
+	size_t *start;   /* one more than there are vertices */
+	size_t vertices; /* that have any */
 	mr_place *at;
 } mr_contacts;
 
-/* The vertices of m with a point of another component within `reach`, or at a slit.  contacts: in the arena.
- */
+/* The vertices of m with points of other components within `reach`, or at a slit.  contacts: in the arena. */
 mr_status mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts);
 
 /*
- * How many contacts are wider than `width` after the vertices of m have gone to `after`, and were not before.
- * *widest: the vertex of the widest of them, MR_NONE without any.
+ * How many vertices have a contact wider than `width` after the vertices of m have gone to `after`, that was
+ * not before.  *widest: the vertex of the widest of them, MR_NONE without any.
  */
 size_t mr_contacts_open(
     const mr_contacts *contacts, const mr_mesh *m, const mr_v3 *after, double width, uint32_t *widest);

@@ -223,7 +223,7 @@ look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contac
 	    "%zu of %zu vertices at which parts of mesh, or sides of a slit, touch have come apart by over "
 	    "%g %% of the diagonal, "
 	    "vertex %u (%.4g, %.4g, %.4g) the farthest",
-	    n, contacts->n, 100 * apart, v, p[v].x, p[v].y, p[v].z);
+	    n, contacts->vertices, 100 * apart, v, p[v].x, p[v].y, p[v].z);
 	return n;
 }
 

@@ -4,6 +4,7 @@
 #include "base/memory.h"
 #include "edit/handles.h"
 #include "edit/region_transfer.h"
+#include "edit/tie_transfer.h"
 #include "tool/cache.h"
 
 /* The solver that the options ask for; MR_EUSAGE where they contradict each other. */
@@ -148,6 +149,16 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
 }
 
+static mr_status
+verify(mr_ctx *ctx, mr_frame *f, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task,
+    const mr_v3 *p, mr_solve_result *figures)
+{
+	mr_ties ties;
+
+	MR_TRY(mr_transfer_ties(ctx, f, rest, &ties));
+	return mr_deform_verify(ctx, rest, &ties, d, task, p, &figures->error, &figures->condition);
+}
+
 /* keep: the arena of the system. */
 static mr_status
 solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_cache *kept,
@@ -190,7 +201,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 		MR_TRY(mr_deform_put_basis(ctx, f, &m, d, p));
 	figures = mr_deform_report(ctx, d);
 	if (o->verify)
-		MR_TRY(mr_deform_verify(ctx, &rest, d, &task, p, &figures.error, &figures.condition));
+		MR_TRY(verify(ctx, f, &rest, d, &task, p, &figures));
 	if (result)
 		*result = figures;
 	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);

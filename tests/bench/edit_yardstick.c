@@ -438,7 +438,7 @@ count_apart(mr_ctx *ctx, const edit *e, const surface *s, figures *figure)
 	uint32_t widest;
 
 	MR_TRY(mr_contacts_find(ctx, &s->m, TOUCH * diagonal, &contacts));
-	figure[BEFORE].apart = contacts.n;
+	figure[BEFORE].apart = contacts.vertices;
 	for (int state = WARP; state <= AFTER; state++)
 		figure[state].apart = mr_contacts_open(
 		    &contacts, &s->m, s->p[state], APART * diagonal, &widest);

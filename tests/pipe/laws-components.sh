@@ -89,6 +89,20 @@ positions got.mrs | tail -n "$n" >got
 tail -n "$n" model | awk '{ printf "%s %s %.17g\n", $1, $2, $3 + 1 }' >want
 near 'a torus whose only constraint is a handle' want got 1e-10 # 5e-12
 
+# A grid of boxes of eight vertices: its base shrinks them to specks, and they hold to each other all the same.
+awk 'BEGIN {
+	n = 5; split("1 3 2 2 3 4 5 6 7 6 8 7 1 2 5 2 6 5 3 7 4 4 7 8 1 5 3 3 5 7 2 4 6 4 8 6", t, " ")
+	for (b = 0; b < n * n * n; b++)
+		for (i = 0; i < 8; i++)
+			print "v", b % n + i % 2, int(b / n) % n + int(i / 2) % 2, int(b / (n * n)) + int(i / 4)
+	for (b = 0; b < n * n * n; b++)
+		for (i = 0; i < 12; i++)
+			print "f", 8 * b + t[3 * i + 1], 8 * b + t[3 * i + 2], 8 * b + t[3 * i + 3]
+}' >grid.obj
+mr-import grid.obj | mr-smooth | mr-remesh | mr-select --reset --free all --fixed below:x,0.2 --handle 0=above:x,0.8 |
+    mr-encode -q | mr-pose -H 0 --rotate 0,1,0,60 --center 2.5,2.5,2.5 | mr-solve --stats stats | mr-decode -q -o got.mrs
+[ "$(figure stats isolated_components)" = 0 ] || bad "a grid of boxes: $(figure stats isolated_components) hold to no other"
+
 # Remeshed and reconstructed they stay two of genus 1 each, linked or not.
 topology() { # layer, file
 	mr-info --json --no-intersections -l "$1" "$2" | grep -o '"components":[0-9]*,"euler":[-0-9]*\|"genus":[0-9]*' | tr '\n' ' '

@@ -3,37 +3,100 @@
 #include "space/bvh.h"
 #include "space/contact.h"
 
-/* Two spheres a little apart and a torus through both: within reach of another component the nearest place on
- * one. */
+/* Two spheres a little apart and a torus through both: within reach of other components the nearest place on
+ * each. */
 static void
-test_is_the_nearest_of_others(void **state)
+test_is_the_nearest_of_each(void **state)
 {
 	mr_mesh a = shape(MR_SPHERE, 600), b = shape(MR_KNOT, 700);
 	mr_mesh two = both(&a, &a, mr_vec(2.05, 0, 0)), m = both(&two, &b, mr_vec(1, 0.2, 0));
-	size_t end[] = { 0, a.nf, 2 * a.nf, m.nf }, vertices[] = { 0, a.nv, 2 * a.nv, m.nv };
+	size_t end[] = { 0, a.nf, 2 * a.nf, m.nf }, vertices[] = { 0, a.nv, 2 * a.nv, m.nv }, twice = 0;
 	const double reach = 0.1;
 	mr_contacts c;
-	size_t next = 0;
 
 	(void)state;
 	assert_int_equal(mr_contacts_find(&ctx, &m, reach, &c), MR_OK);
 	for (int part = 0; part < 3; part++)
 		for (size_t v = vertices[part]; v < vertices[part + 1]; v++) {
-			mr_closest best = { .dist2 = INFINITY };
-			for (uint32_t f = 0; f < m.nf; f++) {
-				mr_closest at = mr_face_closest(&m, f, m.p[v]);
-				if ((f < end[part] || f >= end[part + 1]) && at.dist2 < best.dist2)
-					best = at;
+			size_t next = c.start[v];
+			double last = 0;
+			for (int other = 0; other < 3; other++) {
+				mr_closest best = { .dist2 = INFINITY };
+				size_t i = c.start[v];
+				for (uint32_t f = (uint32_t)end[other]; f < end[other + 1]; f++) {
+					mr_closest at = mr_face_closest(&m, f, m.p[v]);
+					if (at.dist2 < best.dist2)
+						best = at;
+				}
+				if (other == part || best.dist2 > reach * reach)
+					continue;
+				while (i < c.start[v + 1] && c.at[i].face != best.at.face)
+					i++;
+				assert_true(i < c.start[v + 1]);
+				assert_memory_equal(&c.at[i].bary, &best.at.bary, sizeof best.at.bary);
+				next++;
 			}
-			if (best.dist2 > reach * reach)
-				continue;
-			assert_true(next < c.n);
-			assert_int_equal(c.vertex[next], v);
-			assert_memory_equal(&c.at[next], &best.at, sizeof best.at);
-			next++;
+			assert_int_equal(next, c.start[v + 1]);
+			for (size_t i = c.start[v]; i < c.start[v + 1]; i++) {
+				double far = mr_face_closest(&m, c.at[i].face, m.p[v]).dist2;
+				assert_true(far >= last);
+				last = far;
+			}
+			twice += c.start[v + 1] == c.start[v] + 2;
 		}
-	assert_true(next > 50);
-	assert_int_equal(next, c.n);
+	assert_true(c.vertices > 50);
+	assert_true(twice > 0);
+}
+
+/* Boxes side by side: one inside touches 26 others, and at a corner seven. */
+static void
+test_holds_to_all_neighbours(void **state)
+{
+	mr_mesh box = shape(MR_CUBE, 8), m = box;
+	mr_v3 size = mr_sub(mr_box_of(box.p, box.nv).max, mr_box_of(box.p, box.nv).min);
+	bool met[27] = { false };
+	mr_contacts c;
+
+	(void)state;
+	for (int i = 1; i < 27; i++)
+		m = both(&m, &box, mr_vec(i % 3 * size.x, i / 3 % 3 * size.y, i / 9 * size.z));
+	assert_int_equal(mr_contacts_find(&ctx, &m, 1e-6, &c), MR_OK);
+	assert_int_equal(box.nv, 8);
+	assert_int_equal(c.vertices, 27 * box.nv - 8);
+	for (size_t v = 13 * box.nv; v < 14 * box.nv; v++)
+		for (size_t i = c.start[v]; i < c.start[v + 1]; i++)
+			met[c.at[i].face / box.nf] = true;
+	for (int i = 0; i < 27; i++)
+		assert_int_equal(met[i], i != 13);
+}
+
+/* Half of the triangles are small and half reach over all of them: the mean edge does too.  Every vertex has
+ * all others within reach; by a look at each 40,000 take two minutes. */
+static void
+test_takes_no_square_of_time(void **state)
+{
+	enum { N = 40000 };
+	mr_v3 *p = MR_NEW(&ctx, 3 * N, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, N, mr_tri);
+	mr_mesh m = { "huge", p, t, 3 * N, N };
+	mr_random r = { 1 };
+	double started = mr_seconds();
+	mr_contacts c;
+
+	(void)state;
+	assert_true(p && t);
+	for (uint32_t f = 0; f < N; f++) {
+		mr_v3 at = random_vector(&r);
+		bool small = f % 2;
+		at.z = small ? 0 : (f + 1.0) / N;
+		p[3 * f] = small ? at : mr_vec(-0.5, -0.5, at.z);
+		p[3 * f + 1] = mr_add(p[3 * f], mr_vec(small ? 1e-3 : 1, 0, 0));
+		p[3 * f + 2] = mr_add(p[3 * f], mr_vec(0, small ? 1e-3 : 1, 0));
+		t[f] = (mr_tri){ { 3 * f, 3 * f + 1, 3 * f + 2 } };
+	}
+	assert_int_equal(mr_contacts_find(&ctx, &m, mr_mesh_edge_scale(&ctx, &m), &c), MR_OK);
+	assert_int_equal(c.start[m.nv], MR_CONTACTS * m.nv);
+	assert_true(mr_seconds() - started < 30);
 }
 
 /* A vertex that is two, each of half the faces around it: where a lattice is slit. */
@@ -59,14 +122,15 @@ test_slits_are_contacts(void **state)
 	m.t = t;
 	m.nv += 3;
 	assert_int_equal(mr_contacts_find(&ctx, &m, 1e-9, &c), MR_OK);
-	assert_int_equal(c.n, 6);
-	for (size_t i = 0; i < 6; i++) {
-		mr_v3 at = mr_place_point(&m, c.at[i].face == MR_NONE ? (mr_place){ 0 } : c.at[i]);
-		assert_int_equal(c.vertex[i], i < 3 ? 9 * 4 + 3 + i : one.nv + i - 3);
-		assert_true(mr_dist(at, m.p[c.vertex[i]]) < 1e-12);
-		for (int k = 0; k < 3; k++)
-			assert_true(m.t[c.at[i].face].v[k] != c.vertex[i]);
-	}
+	assert_int_equal(c.vertices, 6);
+	assert_int_equal(c.start[m.nv], 6);
+	for (uint32_t v = 0; v < m.nv; v++)
+		for (size_t i = c.start[v]; i < c.start[v + 1]; i++) {
+			assert_true(v >= one.nv || (v >= 9 * 4 + 3 && v < 9 * 4 + 6));
+			assert_true(mr_dist(mr_place_point(&m, c.at[i]), m.p[v]) < 1e-12);
+			for (int k = 0; k < 3; k++)
+				assert_true(m.t[c.at[i].face].v[k] != v);
+		}
 }
 
 static void
@@ -77,7 +141,7 @@ test_one_component_has_none(void **state)
 
 	(void)state;
 	assert_int_equal(mr_contacts_find(&ctx, &m, 10, &c), MR_OK);
-	assert_int_equal(c.n, 0);
+	assert_int_equal(c.vertices, 0);
 }
 
 /* Of two squares on each other one goes away: by less than asked, by more; what was open before does not
@@ -92,7 +156,7 @@ test_opens(void **state)
 
 	(void)state;
 	assert_int_equal(mr_contacts_find(&ctx, &m, 0.02, &c), MR_OK);
-	assert_int_equal(c.n, m.nv);
+	assert_int_equal(c.vertices, m.nv);
 	memcpy(p, m.p, m.nv * sizeof *p);
 	for (size_t v = 0; v < a.nv; v++)
 		p[v].z = -0.03;
@@ -109,7 +173,9 @@ int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
-		cmocka_unit_test_setup_teardown(test_is_the_nearest_of_others, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_is_the_nearest_of_each, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_holds_to_all_neighbours, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_takes_no_square_of_time, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_slits_are_contacts, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_one_component_has_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_opens, setup, teardown),

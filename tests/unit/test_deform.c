@@ -232,7 +232,7 @@ static mr_deform *
 deform_of(const mr_mesh *m, const uint32_t *region, mr_deform_opts opts)
 {
 	mr_deform *d = NULL;
-	mr_status status = mr_deform_new(&ctx, m, region, &opts, &d);
+	mr_status status = mr_deform_new(&ctx, m, NULL, region, &opts, &d);
 
 	if (status != MR_OK)
 		fail_msg("%s", ctx.error);
@@ -657,7 +657,7 @@ test_degenerate_faces_give_no_nan(void **state)
 	for (size_t k = 1; k <= 3; k++) {
 		mr_deform_opts opts = opts_of(k, MR_AREAS_VORONOI, false);
 		mr_deform *d = NULL;
-		mr_status status = mr_deform_new(&ctx, &m, region, &opts, &d);
+		mr_status status = mr_deform_new(&ctx, &m, NULL, region, &opts, &d);
 		if (status == MR_ENUMERIC && k > 1)
 			continue;
 		assert_int_equal(status, MR_OK);
@@ -680,13 +680,13 @@ test_refusals(void **state)
 
 	(void)state;
 	opts.unsymmetric = true;
-	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_EUSAGE);
+	assert_int_equal(mr_deform_new(&ctx, &m, NULL, region, &opts, &d), MR_EUSAGE);
 	opts.unsymmetric = false;
-	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_EMESH);
+	assert_int_equal(mr_deform_new(&ctx, &m, NULL, region, &opts, &d), MR_EMESH);
 	assert_non_null(strstr(ctx.error, "no free vertex"));
 	for (size_t v = 0; v < m.nv; v++)
 		region[v] = FREE;
-	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_EMESH);
+	assert_int_equal(mr_deform_new(&ctx, &m, NULL, region, &opts, &d), MR_EMESH);
 	assert_non_null(strstr(ctx.error, "nothing holds"));
 	region[5] = HANDLE;
 	region[6] = HANDLE + 4;
@@ -740,7 +740,7 @@ test_memory_failures_are_reported(void **state)
 		mr_deform *d = NULL;
 		mr_status status;
 		ctx.fail_at = k;
-		status = mr_deform_new(&ctx, &m, region, &opts, &d);
+		status = mr_deform_new(&ctx, &m, NULL, region, &opts, &d);
 		if (status == MR_OK)
 			status = mr_deform_relax(&ctx, d, m.p, p);
 		if (status == MR_OK)

@@ -60,7 +60,7 @@ deform_with(const mr_mesh *m, const uint32_t *region, size_t order, bool fitted,
 	opts.turned = true;
 	opts.fitted = fitted;
 	opts.rounds = rounds;
-	if (mr_deform_new(&ctx, m, region, &opts, &d) != MR_OK)
+	if (mr_deform_new(&ctx, m, NULL, region, &opts, &d) != MR_OK)
 		fail_msg("%s", ctx.error);
 	return d;
 }
@@ -318,7 +318,7 @@ test_moves_are_linear(void **state)
 	mr_deform *linear = NULL, *d = deform_of(&m, region, 2, 0);
 
 	(void)state;
-	assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &linear), MR_OK);
+	assert_int_equal(mr_deform_new(&ctx, &m, NULL, region, &opts, &linear), MR_OK);
 	pose(d, m.p, &t, NULL, 1, p);
 	pose(linear, m.p, &t, NULL, 1, q);
 	assert_memory_equal(p, q, m.nv * sizeof *p);
@@ -692,7 +692,7 @@ test_iterative_is_direct(void **state)
 		opts.rounds = 2;
 		opts.solver.kind = kind[i];
 		opts.solver.tol = 1e-12;
-		assert_int_equal(mr_deform_new(&ctx, &m, region, &opts, &d), MR_OK);
+		assert_int_equal(mr_deform_new(&ctx, &m, NULL, region, &opts, &d), MR_OK);
 		pose(d, m.p, &t, &w, 1, p);
 		assert_near(&m, p, q, 1e-7);
 		mr_deform_free(d);
