@@ -103,6 +103,17 @@ new_accessor(glb *w, size_t view, size_t kind, size_t count, const char *type)
 	return push(w, w->accessors, json);
 }
 
+/* A view of values of vertices, `size` bytes each, to be filled from `to` on, and the accessor over it. */
+static mr_status
+new_values(glb *w, size_t count, size_t size, size_t kind, const char *type, char **to, size_t *accessor)
+{
+	size_t view = 0;
+
+	MR_TRY(new_view(w, size * count, MR_GLTF_ARRAY, &view, to));
+	*accessor = new_accessor(w, view, kind, count, type);
+	return MR_OK;
+}
+
 /* The least and the greatest of its values. */
 static void
 set_bounds(glb *w, size_t accessor, const double *low, const double *high, size_t n)
@@ -252,10 +263,9 @@ static mr_status
 put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_vertex_set *v, size_t *accessor)
 {
 	mr_box box = mr_box_empty();
-	size_t view = 0;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, 12 * v->count, MR_GLTF_ARRAY, &view, &to));
+	MR_TRY(new_values(w, v->count, 12, MR_GLTF_FLOAT, "VEC3", &to, accessor));
 	for (size_t i = 0; i < v->count; i++) {
 		mr_v3 x = as_floats(p[v->vertex[i]]);
 		if (from)
@@ -263,7 +273,6 @@ put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_vertex_set *v,
 		to = put_floats(to, x);
 		mr_box_add(&box, x);
 	}
-	*accessor = new_accessor(w, view, MR_GLTF_FLOAT, v->count, "VEC3");
 	set_bounds(w, *accessor, &box.min.x, &box.max.x, 3);
 	return MR_OK;
 }
@@ -293,17 +302,15 @@ set_normal(const mr_v3 *of_vertices, const mr_v3 *of_corners, const mr_vertex_se
 static mr_status
 put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_vertex_set *v, size_t *accessor)
 {
-	size_t view = 0;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, 12 * v->count, MR_GLTF_ARRAY, &view, &to));
+	MR_TRY(new_values(w, v->count, 12, MR_GLTF_FLOAT, "VEC3", &to, accessor));
 	for (size_t i = 0; i < v->count; i++) {
 		mr_v3 n = set_normal(m->normal, m->corner_normal, v, i);
 		if (pose)
 			n = mr_sub(set_normal(pose->normal, pose->corner_normal, v, i), n);
 		to = put_floats(to, n);
 	}
-	*accessor = new_accessor(w, view, MR_GLTF_FLOAT, v->count, "VEC3");
 	return MR_OK;
 }
 
@@ -311,16 +318,14 @@ put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_vertex_se
 static mr_status
 put_texcoords(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
 {
-	size_t view = 0;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, 8 * v->count, MR_GLTF_ARRAY, &view, &to));
+	MR_TRY(new_values(w, v->count, 8, MR_GLTF_FLOAT, "VEC2", &to, accessor));
 	for (size_t i = 0; i < v->count; i++) {
 		const double *uv = v->corner[i] == MR_NONE ? NULL : mr_corner_texcoord(m, v->corner[i]);
 		to = mr_store_float(to, uv ? (float)uv[0] : 0, false);
 		to = mr_store_float(to, uv ? (float)(1 - uv[1]) : 0, false);
 	}
-	*accessor = new_accessor(w, view, MR_GLTF_FLOAT, v->count, "VEC2");
 	return MR_OK;
 }
 
@@ -328,17 +333,15 @@ put_texcoords(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accesso
 static mr_status
 put_colors(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
 {
-	size_t view = 0;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, 8 * v->count, MR_GLTF_ARRAY, &view, &to));
+	MR_TRY(new_values(w, v->count, 8, MR_GLTF_UNSIGNED_SHORT, "VEC4", &to, accessor));
 	for (size_t i = 0; i < 4 * v->count; i++) {
 		double c = m->color[4 * (size_t)v->vertex[i / 4] + i % 4] / 255.0;
 		unsigned x = (unsigned)(65535 * (i % 4 == 3 ? c : mr_srgb_to_linear(c)) + 0.5);
 		*to++ = (char)(x & 255);
 		*to++ = (char)(x >> 8);
 	}
-	*accessor = new_accessor(w, view, MR_GLTF_UNSIGNED_SHORT, v->count, "VEC4");
 	set(w, json_array_get(w->accessors, *accessor), "normalized", json_true());
 	return MR_OK;
 }
@@ -347,13 +350,11 @@ put_colors(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
 static mr_status
 put_numbers(glb *w, const mr_vertex_set *v, size_t *accessor)
 {
-	size_t view = 0;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, 4 * v->count, MR_GLTF_ARRAY, &view, &to));
+	MR_TRY(new_values(w, v->count, 4, MR_GLTF_UNSIGNED_SHORT, "VEC2", &to, accessor));
 	for (size_t i = 0; i < v->count; i++)
 		to = mr_store32(to, (uint32_t)(w->numbers + v->vertex[i]), false);
-	*accessor = new_accessor(w, view, MR_GLTF_UNSIGNED_SHORT, v->count, "VEC2");
 	return MR_OK;
 }
 

@@ -1,6 +1,7 @@
 /* glTF: what each kind of accessor, primitive and node gives; what is refused, and with which words; what is
  * written is read back. */
 #include "gltf_text.h"
+#include "heard.h"
 #include "model_seeds.h"
 
 #include <setjmp.h>
@@ -8,21 +9,11 @@
 
 #include <cmocka.h>
 
-static char heard[2048]; /* warnings */
-
-static void
-hear(void *user, const char *text)
-{
-	(void)user;
-	snprintf(heard + strlen(heard), sizeof heard - strlen(heard), "%s\n", text);
-}
-
 static void
 begin(mr_ctx *ctx)
 {
 	mr_ctx_init(ctx, 1);
-	ctx->listener.warn = hear;
-	heard[0] = 0;
+	listen_to(ctx);
 }
 
 static mr_status

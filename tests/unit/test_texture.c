@@ -2,6 +2,7 @@
  */
 #include "formats/image.h"
 #include "formats/materials.h"
+#include "heard.h"
 #include "render/texture.h"
 
 #include <setjmp.h>
@@ -11,15 +12,6 @@
 #include <sys/stat.h>
 
 #include <cmocka.h>
-
-static char heard[2048]; /* warnings */
-
-static void
-hear(void *user, const char *text)
-{
-	(void)user;
-	snprintf(heard + strlen(heard), sizeof heard - strlen(heard), "%s\n", text);
-}
 
 static void
 levels(void **state)
@@ -106,16 +98,16 @@ materials(void **state)
 
 	(void)state;
 	mr_ctx_init(&ctx, 1);
-	ctx.listener.warn = hear;
+	listen_to(&ctx);
 	mkdir("folder", 0777);
 	mkdir("folder/sub", 0777);
 	put("outside.png", "");
 	put("folder/a b.png", "");
 	put("folder/absolute.png", "");
 	put("folder/sub/m.mtl", "# comment\nKd 1 1 1\nnewmtl red\n  Kd 1 0.5 -2 # red\nnewmtl blue two\nKd "
-	                        "0.25\nmap_Kd -s 2 2 -o 0 0 0 "
+				"0.25\nmap_Kd -s 2 2 -o 0 0 0 "
 				"-clamp on -bm 0.1 a b.png\nnewmtl nobody\nKd 9 9 9\nnewmtl out\nmap_Kd "
-	                        "../outside.png\nnewmtl absolute\n"
+				"../outside.png\nnewmtl absolute\n"
 				"map_kd C:\\pictures\\absolute.png\n");
 	assert_int_equal(mr_materials_find(&ctx, &m, "folder", &look, &count), MR_OK);
 	assert_int_equal(count, 5);
