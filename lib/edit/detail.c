@@ -265,21 +265,46 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 
 /* Decoding */
 
+/* Barycentric coordinates within a triangle, but for rounding. */
+static bool
+is_within(mr_v3 b)
+{
+	const double rounding = 1e-6;
+
+	return b.x >= -rounding && b.y >= -rounding && b.z >= -rounding &&
+	       fabs(b.x + b.y + b.z - 1) <= rounding;
+}
+
+/* What a row of detail is on a base of nf faces. */
+static mr_status
+check_row(mr_ctx *ctx, const mr_detail *d, size_t i, const char *base, size_t nf)
+{
+	mr_v3 b = d->at.bary[i], o = d->offset ? d->offset[i] : mr_vec(0, 0, 0);
+
+	if (d->at.face[i] >= nf)
+		return mr_fail(ctx, MR_ERANGE, "mesh: detail_face %zu is %u, but %s has %zu faces", i,
+		    d->at.face[i], base, nf);
+	if (!is_within(b))
+		return mr_fail(ctx, MR_ERANGE,
+		    "mesh: detail_bary %zu (%g %g %g) is no place within a face of %s", i, b.x, b.y, b.z,
+		    base);
+	if (!isfinite(d->height[i]))
+		return mr_fail(ctx, MR_ERANGE, "mesh: detail_height %zu (%g) is not finite", i, d->height[i]);
+	if (!mr_finite(o))
+		return mr_fail(
+		    ctx, MR_ERANGE, "mesh: detail_offset %zu (%g %g %g) is not finite", i, o.x, o.y, o.z);
+	return MR_OK;
+}
+
 mr_status
 mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 {
-	for (size_t i = 0; i < d->n; i++) {
-		if (d->at.face[i] >= base->nf)
-			return mr_fail(ctx, MR_ERANGE, "vertex %zu stands on face %u of %s, which has %zu", i,
-			    d->at.face[i], base->name, base->nf);
-		if (!mr_finite(d->at.bary[i]) || !isfinite(d->height[i]) ||
-		    (d->offset && !mr_finite(d->offset[i])))
-			return mr_fail(ctx, MR_ERANGE, "the detail of vertex %zu is not finite", i);
-	}
+	for (size_t i = 0; i < d->n; i++)
+		MR_TRY(check_row(ctx, d, i, base->name, base->nf));
 	for (size_t i = 0; d->rest && i < base->nv; i++)
 		if (!mr_finite(d->rest[i]))
-			return mr_fail(
-			    ctx, MR_ERANGE, "%s: encoded position %zu is not finite", base->name, i);
+			return mr_fail(ctx, MR_ERANGE, "%s: encoded %zu (%g %g %g) is not finite", base->name,
+			    i, d->rest[i].x, d->rest[i].y, d->rest[i].z);
 	return MR_OK;
 }
 

@@ -34,7 +34,7 @@ typedef struct mr_detail {
 mr_status mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *source,
     mr_detail *d, mr_encode_result *result);
 
-/* MR_ERANGE where a face is not one of the base's, or a number is not finite. */
+/* MR_ERANGE where a face is not one of the base's, a place not within one, or a number not finite. */
 mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
 
 /*

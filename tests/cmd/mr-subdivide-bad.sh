@@ -37,3 +37,5 @@ mr-export -i kept.mrs kept-%d.off
 for f in kept-*.off; do
 	cmp "$f" alone.off && echo "$f same"
 done
+echo 'detail goes with the vertices that had it'
+mr-smooth sphere.mrs | mr-encode | mr-subdivide --longest 0.2 2>&1 >finer.mrs
