@@ -77,10 +77,13 @@ parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 	size_t n = strlen(text);
 	bool relative = n > 1 && text[n - 1] == '%';
 	char *number = mr_format(ctx, "%.*s", (int)(relative ? n - 1 : n), text);
+	char *end;
 	double x;
 
 	if (!number)
 		return MR_EMEM;
+	if (!number_at(number, &end, &x) || *end)
+		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
 	MR_TRY(cmd_parse_real(ctx, what, number, o->min, o->max, &x));
 	*(cmd_length *)o->value = (cmd_length){ relative ? x / 100 : x, relative };
 	return MR_OK;

@@ -28,6 +28,13 @@ void mr_text_number(mr_text *t, double x);
 /* Appends `before`, then the number with so many digits, for people, or "-" where it is not finite. */
 void mr_text_figure(mr_text *t, const char *before, int digits, double x);
 
+/* Behind "%zu part", and the like. */
+static inline const char *
+mr_plural(size_t n)
+{
+	return n == 1 ? "" : "s";
+}
+
 /* MR_EMEM where any of it was lost. */
 mr_status mr_text_done(const mr_text *t) MR_WARN_UNUSED;
 

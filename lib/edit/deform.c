@@ -3,6 +3,7 @@
  * with true areas is ours.
  */
 #include "base/disjoint_sets.h"
+#include "base/text.h"
 #include "edit/deform_loose.h"
 #include "edit/deform_rotations.h"
 #include "edit/deform_stitch.h"
@@ -112,16 +113,16 @@ check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 static mr_status
 settle_loose(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part)
 {
-	static const char *const does[] = { "follow the surface nearest to them", "stay" };
+	static const char *const does[] = { "follows the surface nearest to it", "stays" };
 
 	if (d->loose && d->opts.loose == MR_LOOSE_REFUSE)
 		return mr_fail(ctx, MR_EMESH,
-		    "%s: %zu parts (%zu vertices) have no constrained vertex: select some of them as fixed "
-		    "or handle",
-		    rest->name, d->loose, d->loose_vertices);
+		    "%s: %zu part%s (%zu of %zu vertices) without a constrained vertex: select some of them "
+		    "as fixed or handle",
+		    rest->name, d->loose, mr_plural(d->loose), d->loose_vertices, d->nv);
 	if (d->loose)
-		mr_warn(ctx, "%s: %zu parts (%zu vertices) have no constrained vertex and %s", rest->name,
-		    d->loose, d->loose_vertices, does[d->opts.loose]);
+		mr_warn(ctx, "%s: %zu part%s (%zu of %zu vertices) without a constrained vertex: each %s",
+		    rest->name, d->loose, mr_plural(d->loose), d->loose_vertices, d->nv, does[d->opts.loose]);
 	return d->opts.loose == MR_LOOSE_FOLLOW ? mr_loose_make(ctx, d, rest, anchored, part) : MR_OK;
 }
 

@@ -84,12 +84,6 @@ tidy(double ratio)
 	return fabs(ratio) < 1e-12 ? 0 : ratio;
 }
 
-static const char *
-plural(size_t n)
-{
-	return n == 1 ? "" : "s";
-}
-
 /* "3 folded edges", behind a comma where it is not the first; nothing for none. */
 static void
 flaw(mr_text *t, size_t n, const char *one, const char *many, bool *any)
@@ -122,13 +116,13 @@ topology_text(mr_text *t, const mr_census *c)
 {
 	mr_text_add(t, "    topology       %s, %soriented, %smanifold, %zu component%s, Euler number %lld",
 	    c->boundary_edges ? "open" : "closed", c->oriented ? "" : "not ", c->manifold ? "" : "not ",
-	    c->components, plural(c->components), (long long)c->euler);
+	    c->components, mr_plural(c->components), (long long)c->euler);
 	if (c->oriented && c->manifold)
 		mr_text_add(t, ", genus %lld", (long long)c->genus);
 	mr_text_add(t, "\n");
 	if (c->boundary_edges)
 		mr_text_add(t, "    boundary       %zu edge%s in %zu loop%s\n", c->boundary_edges,
-		    plural(c->boundary_edges), c->boundary_loops, plural(c->boundary_loops));
+		    mr_plural(c->boundary_edges), c->boundary_loops, mr_plural(c->boundary_loops));
 }
 
 static void

@@ -124,10 +124,14 @@ mr_face_cross(const mr_mesh *m, size_t f)
 
 double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
 
-/* What the faces enclose, positive where their normals point outward; of a surface that encloses something. */
+/* What the faces enclose, positive where their normals point outward; of a surface that encloses something.
+ */
 double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
 double mr_mesh_diagonal(const mr_mesh *m);
+
+/* MR_ERANGE where the diagonal is so large or so small that products of a few lengths are no numbers. */
+mr_status mr_mesh_check_size(mr_ctx *ctx, const mr_mesh *m);
 
 /* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
 double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);

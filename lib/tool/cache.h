@@ -18,13 +18,12 @@ typedef struct mr_connectivity_cache {
 	mr_incidence base;
 	mr_v3 *rest_normal;
 	mr_edges mesh;
-	uint64_t base_serial, mesh_serial; /* of their triangles; 0: none */
-	uint64_t rest_serial;              /* of base.encoded; 0: none */
-	mr_contacts contacts;              /* of mesh */
-	uint64_t place_serial;             /* of mesh.position */
-	size_t told, told_apart,
-	    told_fixed;      /* since the last key: harm, what came apart, what was not held */
-	size_t looked_folds; /* of the last look for intersections since then */
+	uint64_t base_serial, mesh_serial;  /* of their triangles; 0: none */
+	uint64_t rest_serial;               /* of base.encoded; 0: none */
+	mr_contacts contacts;               /* of mesh */
+	uint64_t place_serial;              /* of mesh.position */
+	size_t told, told_apart, told_held; /* since the last key: harm, what came apart, what was not held */
+	size_t looked_folds;                /* of the last look for intersections since then */
 } mr_connectivity_cache;
 
 struct mr_cache {

@@ -1,6 +1,8 @@
 /* mr-decode: the reconstruction operator of both papers, detail onto a base or heights onto a subdivision
  * surface, posed by its response first where handles are there. */
+#include "base/text.h"
 #include "edit/detail.h"
+#include "edit/held.h"
 #include "edit/pose_basis.h"
 #include "measure/harm.h"
 #include "space/thickness.h"
@@ -187,22 +189,23 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	enum { FOLDS = 5, PAIRS = 20 };
 	size_t pairs = h->pairs == MR_UNKNOWN ? 0 : h->pairs, all = h->folds + pairs,
 	       *told = cache ? &cache->connectivity.told : NULL;
-	char advice[120], found[80] = "that were not before";
+	char advice[120], found[80] = "";
 
 	if (h->pairs != MR_UNKNOWN)
-		snprintf(
-		    found, sizeof found, "and %zu pairs of near faces intersect that did not before", pairs);
+		snprintf(found, sizeof found, " and %zu more intersecting pair%s of near faces", pairs,
+		    mr_plural(pairs));
 	if (!is_news(all, told))
 		return MR_OK;
 	if (h->folds <= FOLDS && pairs <= PAIRS) {
-		mr_note(ctx, "%zu edges of mesh are folded %s: few", h->folds, found);
+		mr_note(ctx, "%zu more folded edge%s of mesh%s: few", h->folds, mr_plural(h->folds), found);
 		return MR_OK;
 	}
 	if (told)
 		*told = all;
 	MR_TRY(advise(ctx, mesh, base, h->vertex, advice, sizeof advice));
-	mr_warn(ctx, "%zu edges of mesh are folded %s, most of them at vertex %u (%.4g, %.4g, %.4g)%s",
-	    h->folds, found, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z, advice);
+	mr_warn(ctx, "%zu more folded edge%s of mesh%s, most of them at vertex %u (%.4g, %.4g, %.4g)%s",
+	    h->folds, mr_plural(h->folds), found, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z,
+	    advice);
 	return MR_OK;
 }
 
@@ -227,41 +230,38 @@ look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contac
 	return n;
 }
 
-static double
-way_of(const mr_v3 *from, const mr_v3 *to, size_t v)
-{
-	return mr_dist(from[v], to[v]);
-}
-
-/* Warns of fixed vertices that moved though base holds its own where they were: it has none there. */
+/* Warns of constrained vertices that are not where they belong though base holds its own there: it has none
+ * at theirs. */
 static mr_status
-look_at_fixed(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base,
+look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base,
     const mr_v3 *encoded, const mr_v3 *p)
 {
-	const double share = 0.01, far = share * mr_mesh_diagonal(mesh);
-	size_t *told = cache ? &cache->connectivity.told_fixed : NULL, fixed = 0, moved = 0;
-	const uint32_t *region;
+	const double share = 0.01;
+	size_t *told = cache ? &cache->connectivity.told_held : NULL;
+	const uint32_t *region, *on_base;
+	mr_held h;
 
 	if (!encoded || !mr_layer_has(f, "mesh", "region") || !mr_layer_has(f, base->name, "region"))
 		return MR_OK;
-	MR_TRY(mr_layer_region(ctx, f, base->name, base->nv, &region));
-	for (size_t v = 0; v < base->nv; v++)
-		if (region[v] == MR_REGION_FIXED && way_of(encoded, base->p, v) > far)
-			return MR_OK; /* to places that were given */
+	MR_TRY(mr_layer_region(ctx, f, base->name, base->nv, &on_base));
 	MR_TRY(mr_layer_region(ctx, f, "mesh", mesh->nv, &region));
-	for (size_t v = 0; v < mesh->nv; v++) {
-		fixed += region[v] == MR_REGION_FIXED;
-		moved += region[v] == MR_REGION_FIXED && way_of(mesh->p, p, v) > far;
-	}
-	if (!is_news(moved, told))
+	MR_TRY(
+	    mr_held_count(ctx, mesh, region, p, base, on_base, encoded, share * mr_mesh_diagonal(mesh), &h));
+	if (!is_news(h.moved + h.missed, told))
 		return MR_OK;
 	if (told)
-		*told = moved;
-	mr_warn(ctx,
-	    "%zu of %zu fixed vertices of mesh have moved by over %g %% of the diagonal: base is too coarse "
-	    "to "
-	    "hold them, a shorter length of mr-remesh is not",
-	    moved, fixed, 100 * share);
+		*told = h.moved + h.missed;
+	if (h.moved)
+		mr_warn(ctx,
+		    "%zu of %zu fixed vertices of mesh have moved by over %g %% of the diagonal: base is too "
+		    "coarse to hold them, a shorter length of mr-remesh is not",
+		    h.moved, h.fixed, 100 * share);
+	if (h.missed)
+		mr_warn(ctx,
+		    "%zu of %zu vertices of handles of mesh miss their place by over %g %% of the diagonal: "
+		    "base "
+		    "is too coarse to hold them, a shorter length of mr-remesh is not",
+		    h.missed, h.handled, 100 * share);
 	return MR_OK;
 }
 
@@ -278,7 +278,7 @@ folds_to_look_from(const mr_frame *f, const mr_cache *cache)
 static void
 forget_told(mr_connectivity_cache *kept)
 {
-	kept->told = kept->told_apart = kept->told_fixed = kept->looked_folds = 0;
+	kept->told = kept->told_apart = kept->told_held = kept->looked_folds = 0;
 }
 
 /* What the motion from the frame's mesh to p has done to it; encoded: where base was, NULL: not to be
@@ -300,7 +300,7 @@ look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, co
 	if (cache && harm.pairs != MR_UNKNOWN)
 		cache->connectivity.looked_folds = harm.folds;
 	MR_TRY(tell(ctx, cache, &mesh, base, p, &harm));
-	MR_TRY(look_at_fixed(ctx, f, cache, &mesh, base, encoded, p));
+	MR_TRY(look_at_held(ctx, f, cache, &mesh, base, encoded, p));
 	*result = (mr_decode_result){ harm.folds, harm.pairs,
 		look_for_gaps(ctx, cache, &mesh, &contacts, p) };
 	return MR_OK;

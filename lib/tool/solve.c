@@ -116,6 +116,21 @@ drop_used(mr_frame *f, const char *layer)
 	mr_frame_drop(f, layer, "target", 0);
 }
 
+static mr_status
+check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
+{
+	size_t bad = 0;
+
+	for (size_t v = 0; v < m->nv; v++)
+		bad += !mr_finite(p[v]);
+	return bad ? mr_fail(ctx, MR_ERANGE,
+			 "%s: %zu of %zu vertices go beyond all numbers: its coordinates, or those of its "
+	                 "handles or "
+			 "targets, are too large",
+			 m->name, bad, m->nv)
+	           : MR_OK;
+}
+
 /* Says where the undeformed solve has shrunk what is under it. */
 static void
 look_at_flattened(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
@@ -192,6 +207,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 		MR_TRY(mr_deform_solve(ctx, d, &task, p));
 	else
 		memcpy(p, m.p, m.nv * sizeof *p);
+	MR_TRY(check_solution(ctx, &m, p));
 	if (o->flatten)
 		look_at_flattened(ctx, &m, p);
 	if (posing)

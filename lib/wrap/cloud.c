@@ -1,6 +1,7 @@
 /* The points to wrap: each place once, without outliers. */
 #include "wrap/parts.h"
 
+#include "base/text.h"
 #include "space/local_planes.h"
 
 static mr_status
@@ -12,12 +13,6 @@ check_extent(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 		return mr_fail(ctx, MR_EMESH, "%zu points lie %s: no surface closes around them",
 		    cloud->sampling.n, dimensions < 2 ? "on a line" : "in a plane");
 	return MR_OK;
-}
-
-static const char *
-plural(size_t n)
-{
-	return n == 1 ? "" : "s";
 }
 
 static mr_status
@@ -34,7 +29,7 @@ set_outliers_apart(mr_ctx *ctx, mr_wrap_cloud *cloud)
 			p[n++] = cloud->given[i];
 	cloud->outlier = p;
 	if (n > 0)
-		mr_note(ctx, "%zu outlier%s left out", n, plural(n));
+		mr_note(ctx, "%zu outlier%s left out", n, mr_plural(n));
 	return MR_OK;
 }
 
@@ -47,14 +42,15 @@ mr_wrap_cloud_open(
 
 	*cloud = (mr_wrap_cloud){ .given = point };
 	if (n < 4)
-		return mr_fail(ctx, MR_EMESH, "%zu point%s: a closed surface needs 4 at least", n, plural(n));
+		return mr_fail(
+		    ctx, MR_EMESH, "%zu point%s: a closed surface needs 4 at least", n, mr_plural(n));
 	MR_TRY(mr_sampling_find(ctx, point, n, sampling, s));
 	cloud->spacing = s->usual;
 	cloud->area = s->area;
 	MR_TRY(mr_sampling_places(ctx, point, s, &p, &cloud->n));
 	if (cloud->n < 4)
 		return mr_fail(ctx, MR_EMESH, "%zu points at %zu place%s: a closed surface needs 4 at least",
-		    n, cloud->n, plural(cloud->n));
+		    n, cloud->n, mr_plural(cloud->n));
 	cloud->p = p;
 	cloud->box = mr_box_of(p, cloud->n);
 	cloud->diagonal = mr_box_diagonal(cloud->box);

@@ -108,7 +108,7 @@ for angle in 40 75 150; do
 	echo $angle
 done
 
-echo 'fixed vertices that base is too coarse to hold, and one that is fine enough'
+echo 'fixed vertices and handles that base is too coarse to hold, and one that is fine enough'
 for ratio in 1.5 0.3; do
 	echo $ratio >&2
 	mr-make sphere -n 42 | mr-smooth -t 0 | mr-remesh --ratio $ratio | mr-encode -q |

@@ -36,3 +36,7 @@ END
 for m in implicit explicit taubin; do
 	mr-import wild.off | mr-smooth -m $m -t 1 | mr-export -f off -l base - | grep -ci nan || :
 done
+for size in 1e80 1e-100; do
+	printf 'OFF\n3 1 0\n0 0 0\n%s 0 0\n0 %s 0\n3 0 1 2\n' $size $size | mr-import -f off - 2>&1 >tiny.mrs
+	mr-smooth tiny.mrs 2>&1 >out.mrs || :
+done

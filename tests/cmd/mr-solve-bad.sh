@@ -73,3 +73,5 @@ mr-pose s.mrs | try --flatten
 mr-make cylinder -n 2000 | mr-smooth | mr-select --free above:z,0.2 | mr-solve --flatten 2>&1 >out.mrs
 echo '-- a layer that is no base'
 mr-select --reset --free above:z,0.5 base.mrs | try -l mesh
+echo '-- a handle that goes beyond all numbers'
+mr-pose --translate 1e308,1e308,1e308 s.mrs | try

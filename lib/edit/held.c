@@ -1,0 +1,117 @@
+/* The maps of regions by least squares, and who is off them. */
+#include "edit/held.h"
+
+#include "base/rotation.h"
+#include "mesh/layers.h"
+
+#include <math.h>
+
+/* to + A (x - from), from and to the means. */
+typedef struct fit {
+	size_t n;
+	mr_v3 from, to;
+	mr_mat3 xx, yx; /* sums of x x^T and y x^T about them; then A is yx */
+	bool given;     /* places of its own to each vertex */
+} fit;
+
+static void
+add_product(mr_mat3 *sum, mr_v3 a, mr_v3 b)
+{
+	const double x[3] = { a.x, a.y, a.z }, y[3] = { b.x, b.y, b.z };
+
+	for (int i = 0; i < 9; i++)
+		sum->m[i] += x[i / 3] * y[i % 3];
+}
+
+/* Of a symmetric matrix. */
+static mr_mat3
+inverse(const mr_mat3 *s)
+{
+	const double *m = s->m, f = 1 / mr_mat3_determinant(s);
+
+	return (mr_mat3){ { f * (m[4] * m[8] - m[5] * m[7]), f * (m[2] * m[7] - m[1] * m[8]),
+	    f * (m[1] * m[5] - m[2] * m[4]), f * (m[5] * m[6] - m[3] * m[8]), f * (m[0] * m[8] - m[2] * m[6]),
+	    f * (m[2] * m[3] - m[0] * m[5]), f * (m[3] * m[7] - m[4] * m[6]), f * (m[1] * m[6] - m[0] * m[7]),
+	    f * (m[0] * m[4] - m[1] * m[3]) } };
+}
+
+/* A, which turns where x has no extent. */
+static mr_mat3
+linear_part(const fit *f)
+{
+	const double little = 1e-9;
+	double extent = f->xx.m[0] + f->xx.m[4] + f->xx.m[8];
+	mr_mat3 identity = mr_mat3_identity(), turn = identity, xx, yx;
+
+	if (!(extent > 0))
+		return identity;
+	turn = mr_mat3_axpy(little * extent, &identity, &f->yx);
+	turn = mr_rotation_nearest(&turn);
+	xx = mr_mat3_axpy(little * extent, &identity, &f->xx);
+	yx = mr_mat3_axpy(little * extent, &turn, &f->yx);
+	xx = inverse(&xx);
+	return mr_mat3_multiply(&yx, &xx);
+}
+
+/* That of fixed vertices is the identity. */
+static void
+fit_maps(const mr_mesh *base, const uint32_t *region, const mr_v3 *encoded, size_t regions, fit *fits)
+{
+	for (size_t v = 0; v < base->nv; v++) {
+		fit *f = &fits[region[v]];
+		f->n++;
+		f->from = mr_add(f->from, encoded[v]);
+		f->to = mr_add(f->to, base->p[v]);
+	}
+	for (size_t r = 0; r < regions; r++) {
+		fits[r].from = mr_mul(1 / fmax(1, (double)fits[r].n), fits[r].from);
+		fits[r].to = r == MR_REGION_FIXED ? fits[r].from
+		                                  : mr_mul(1 / fmax(1, (double)fits[r].n), fits[r].to);
+	}
+	for (size_t v = 0; v < base->nv; v++) {
+		fit *f = &fits[region[v]];
+		mr_v3 x = mr_sub(encoded[v], f->from);
+		add_product(&f->xx, x, x);
+		add_product(&f->yx, mr_sub(base->p[v], f->to), x);
+	}
+	for (size_t r = 0; r < regions; r++)
+		fits[r].yx = r == MR_REGION_FIXED ? mr_mat3_identity() : linear_part(&fits[r]);
+}
+
+static bool
+is_off(const fit *f, mr_v3 from, mr_v3 to, double far)
+{
+	return mr_dist(to, mr_add(f->to, mr_mat3_apply(&f->yx, mr_sub(from, f->from)))) > far;
+}
+
+mr_status
+mr_held_count(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const mr_v3 *p, const mr_mesh *base,
+    const uint32_t *on_base, const mr_v3 *encoded, double far, mr_held *held)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_held h = { 0 };
+	size_t regions = MR_REGION_HANDLE;
+	fit *fits;
+
+	for (size_t v = 0; v < base->nv; v++)
+		regions = on_base[v] < regions ? regions : (size_t)on_base[v] + 1;
+	fits = MR_NEW_ZERO(ctx, regions, fit);
+	if (!fits)
+		return MR_EMEM;
+	fit_maps(base, on_base, encoded, regions, fits);
+	for (size_t v = 0; v < base->nv; v++)
+		if (is_off(&fits[on_base[v]], encoded[v], base->p[v], far))
+			fits[on_base[v]].given = true;
+	for (size_t v = 0; v < mesh->nv; v++) {
+		uint32_t r = region[v];
+		bool off = r != MR_REGION_FREE && r < regions && !fits[r].given &&
+		           (fits[r].n || r == MR_REGION_FIXED) && is_off(&fits[r], mesh->p[v], p[v], far);
+		h.fixed += r == MR_REGION_FIXED;
+		h.moved += r == MR_REGION_FIXED && off;
+		h.handled += r >= MR_REGION_HANDLE;
+		h.missed += r >= MR_REGION_HANDLE && off;
+	}
+	mr_mark_release(ctx, mark);
+	*held = h;
+	return MR_OK;
+}
