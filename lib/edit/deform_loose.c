@@ -93,8 +93,10 @@ choose_anchors(const mr_mesh *rest, uint32_t *nearest, size_t k, mr_loose *l)
 		anchor[i] = distinct > MR_ANCHORS ? nearest[i * distinct / MR_ANCHORS]
 		            : i < distinct        ? nearest[i]
 		                                  : MR_NONE;
-	size = mr_box_diagonal(
-	    box); /* half of it: 5 of 45 edits of parts wrecked instead of 4; a quarter: 6 */
+	/* By the diagonal 2,453 of 55,659 edges of followers are stretched by over 1.2 in 6 edits of 2
+	 * models, by twice as much 207, by this 19; 4 of 45 edits are wrecked by each.  One motion a part
+	 * stretches none, but what hangs along a limb does not bend with it. */
+	size = 4 * mr_box_diagonal(box);
 	l->softness[k] = size * size;
 }
 

@@ -124,8 +124,7 @@ mr_face_cross(const mr_mesh *m, size_t f)
 
 double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
 
-/* What the faces enclose, positive where their normals point outward; of a surface that encloses something.
- */
+/* What the faces enclose, positive where their normals point outward; of a surface that encloses something. */
 double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
 double mr_mesh_diagonal(const mr_mesh *m);

@@ -59,11 +59,11 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 	MR_TRY(mr_refine_columns(ctx, f, layer, r, &carried, &n));
 	if (r->level)
 		MR_TRY(turn_normals(ctx, r, carried, n));
-	if (mr_layer_has(f, "mesh", "detail_height"))
-		mr_warn(ctx,
-		    "mesh has new vertices, and its detail over base is gone: subdivide before mr-encode");
 	if (strcmp(layer, "mesh"))
 		mr_frame_drop(f, "mesh", NULL, 0);
+	else if (mr_layer_has(f, "mesh", "detail_height"))
+		mr_warn(ctx,
+		    "mesh has new vertices, and its detail over base is gone: subdivide before mr-encode");
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
 	for (size_t i = 0; i < n; i++)
 		MR_TRY(mr_frame_put(

@@ -568,7 +568,7 @@ test_loose_components_follow(void **state)
 		assert_true(mr_dist(p[v], q[v]) > 0.01);
 	for (size_t f = one.nf; f < two.nf; f++) { /* all but rigidly */
 		const uint32_t *c = t[f].v;
-		assert_true(fabs(mr_dist(q[c[0]], q[c[1]]) / mr_dist(p[c[0]], p[c[1]]) - 1) < 0.1);
+		assert_true(fabs(mr_dist(q[c[0]], q[c[1]]) / mr_dist(p[c[0]], p[c[1]]) - 1) < 0.005);
 	}
 	maps[0] = maps[1] = mr_identity();
 	pose(d, p, maps, 2, q);
