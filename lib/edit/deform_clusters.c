@@ -19,7 +19,7 @@ typedef struct making {
 	mr_deform *d;
 	mr_clusters *c;
 	share *shares;
-	size_t share_count;
+	size_t share_count, room;
 } making;
 
 /* ---- clusters ---- */
@@ -129,8 +129,8 @@ share_of(const mr_deform *d, size_t f, int k)
 }
 
 /* Adds a third of a face's to each of its corners' clusters, of the shares from `first` on. */
-static void
-add_shares(making *w, uint32_t vertex, size_t f, size_t first)
+static mr_status
+add_shares(mr_ctx *ctx, making *w, uint32_t vertex, size_t f, size_t first)
 {
 	const uint32_t *v = w->d->patch.mesh.t[f].v;
 	share s = share_of(w->d, f, v[0] == vertex ? 0 : v[1] == vertex ? 1 : 2);
@@ -140,11 +140,14 @@ add_shares(making *w, uint32_t vertex, size_t f, size_t first)
 		size_t at = first;
 		while (at < w->share_count && w->shares[at].cluster != cluster)
 			at++;
-		if (at == w->share_count)
+		if (at == w->share_count) {
+			MR_TRY(MR_RESERVE(ctx, w->shares, at, 1, &w->room));
 			w->shares[w->share_count++] = (share){ .vertex = vertex, .cluster = cluster };
+		}
 		w->shares[at].turned = mr_axpy(1.0 / 3, s.turned, w->shares[at].turned);
 		w->shares[at].pressed = mr_axpy(1.0 / 3, s.pressed, w->shares[at].pressed);
 	}
+	return MR_OK;
 }
 
 static mr_status
@@ -152,13 +155,10 @@ share_out(mr_ctx *ctx, making *w)
 {
 	const mr_incidence *around = &w->d->rotations->around;
 
-	w->shares = MR_NEW(ctx, 9 * w->d->patch.mesh.nf, share);
-	if (!w->shares)
-		return MR_EMEM;
 	for (uint32_t i = 0; i < w->d->patch.mesh.nv; i++) {
 		size_t first = w->share_count;
 		for (size_t e = around->start[i]; e < around->start[i + 1]; e++)
-			add_shares(w, i, around->face[e], first);
+			MR_TRY(add_shares(ctx, w, i, around->face[e], first));
 	}
 	return MR_OK;
 }
