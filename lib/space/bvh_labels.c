@@ -3,6 +3,7 @@
 
 #include "space/bvh_tree.h"
 
+/* Nodes; by a third of these too no contact of 23 models changes. */
 enum { LOOKS = 300 };
 
 /* What all that has the label a or b has. */

@@ -20,7 +20,7 @@ mr_status mr_bvh_label(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *label, mr
 /*
  * Of the labels other than `own` that are at most sqrt(dist2) away the `most` nearest ones, and the nearest
  * point of each: out, the caller's, the nearest first, of several the lowest face.  Returns how many.  Where
- * boxes of many faces lie over each other something near may be missed: a query looks at 1000 nodes, those
+ * boxes of many faces lie over each other something near may be missed: a query looks at 300 nodes, those
  * of near boxes first.
  */
 size_t mr_bvh_closest_others(
