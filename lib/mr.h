@@ -562,7 +562,9 @@ typedef struct mr_volume_result {
 	size_t regions, regions_turned; /* large flat ones; rounds of turning them over */
 	size_t rounds, turned;          /* of the Poisson equation; normals that the first turned over */
 	double level, inside;           /* the indicator's value at the surface; share of the nodes */
-	size_t parts_dropped, cavities_filled;
+	size_t parts_dropped, cavities_filled, levels_alike; /* alike: around it, of the same topology */
+	double euler, euler_beside; /* Euler number; that of a level nearby which is not alike */
+	mr_v3 uncertain;            /* about where they differ */
 	double seconds_planes, seconds_flood, seconds_indicator, seconds_level, seconds_isosurface;
 } mr_volume_result;
 
@@ -570,8 +572,7 @@ typedef struct mr_wrap_result {
 	size_t method;           /* 0 the box, 1 the cube, 2 the volume, 3 the template */
 	size_t places, outliers; /* of the points */
 	double sampling;         /* distance of the places */
-	size_t resolution, iterations;
-	size_t projected, coarser; /* 1 where such a volume was better, 0 where it was tried */
+	size_t resolution, iterations, coarser; /* coarser: 1 where such a volume was better, 0 where tried */
 	size_t faces, folded_edges, intersecting_pairs;
 	size_t lost; /* outliers more than five sampling distances away */
 	double points_to_wrap_max, points_to_wrap_99, points_to_wrap_90, wrap_to_points_max,
@@ -814,8 +815,7 @@ MR_API mr_status mr_measure_cloud(
 /* Measuring: mr-compare */
 
 typedef struct mr_compare_opts {
-	size_t samples;     /* pieces of about equal area to integrate over, and one a face at least; 0:
-	                       100,000 */
+	size_t samples;     /* pieces of about equal area to integrate over, one a face at least; 0: 100,000 */
 	bool vertices_only; /* measure from the vertices alone, each weighing one */
 	double tolerance;   /* max_bound is sought within this share of max */
 	size_t effort;      /* most pieces looked at for it, besides; 0: 200,000, or two a face where that is

@@ -61,7 +61,7 @@ mr_places_normals(
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu distinct points%s have no normals", n, n < 3 ? "" : " on a line");
 	MR_TRY(
-	    flat ? flat_planes(ctx, place, n, of, &s) : mr_volume_samples(ctx, place, n, of, 1, false, &s));
+	    flat ? flat_planes(ctx, place, n, of, &s) : mr_volume_samples(ctx, place, n, of, 1, &s));
 	MR_TRY(toward || flat ? orient_by_neighbours(ctx, &s, toward) : mr_volume_orient_outward(ctx, &s));
 	memcpy(normal, s.plane.normal, n * sizeof *normal);
 	mr_mark_release(ctx, mark);

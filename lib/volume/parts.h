@@ -25,17 +25,12 @@ enum { DEPTHS = 3 };
 
 /*
  * Of the n places of a sampling, which become the samples' own, a share, and their planes; no depths yet.
- * projected: where they are noisy, onto their planes.
  */
-mr_status mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share,
-    bool projected, mr_volume_cloud *s);
+mr_status mr_volume_samples(
+    mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share, mr_volume_cloud *s);
 
 /* Gives normals the signs by which they point out of what the points enclose.  volume.c */
 mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
-
-/* Moves each point onto the plane of least squares of those nearest to it; planes and links are as they were.
- * denoise.c */
-mr_status mr_volume_project(mr_ctx *ctx, mr_volume_cloud *s);
 
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
  * (positive: the sign is right) on the whole.  orient.c */
@@ -121,5 +116,15 @@ typedef struct mr_cleaning {
  * for their size; the largest part stays.
  */
 mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, float *f, mr_cleaning *c);
+
+/* ---- level.c ---- */
+
+/*
+ * Moves f, negative inside, to the level whose topology lasts, and cleans it.  rise: of the indicator across
+ * the surface, the unit of f; scratch: of the grid's nodes.  Fills the result's euler, levels_alike and,
+ * where these are not all, euler_beside and uncertain.
+ */
+mr_status mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise,
+    float *scratch, float *f, mr_cleaning *c, mr_volume_result *result);
 
 #endif

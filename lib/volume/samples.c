@@ -90,23 +90,9 @@ sample_again(mr_ctx *ctx, mr_sampling *of, mr_volume_cloud *s)
 	return mr_sampling_places(ctx, s->p, of, &s->p, &s->n);
 }
 
-/* The same again of the points on their planes, whose outliers show better; the noise was what it was. */
-static mr_status
-project(mr_ctx *ctx, mr_sampling *of, mr_volume_cloud *s)
-{
-	double scale = s->noise * s->spacing;
-
-	MR_TRY(mr_volume_project(ctx, s));
-	MR_TRY(sample_again(ctx, of, s));
-	MR_TRY(check(ctx, s, of->n));
-	MR_TRY(find_planes(ctx, of, s));
-	s->noise = scale / s->spacing;
-	return MR_OK;
-}
-
 mr_status
-mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share,
-    bool projected, mr_volume_cloud *s)
+mr_volume_samples(
+    mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share, mr_volume_cloud *s)
 {
 	mr_sampling of = *sampling;
 
@@ -117,15 +103,13 @@ mr_volume_samples(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampli
 		thin_out(s, share);
 		if (s->n < TOLD_LEAST)
 			return mr_fail(ctx, MR_ERANGE,
-			    "%zu points lie so far apart that a grid tells %zu of them: wrap their parts one "
-			    "by one",
+			    "%zu points lie so far apart that a grid tells %zu of them: split them with "
+			    "mr-split",
 			    n, s->n);
 		MR_TRY(sample_again(ctx, &of, s));
 		MR_TRY(check(ctx, s, n));
 	}
 	MR_TRY(find_planes(ctx, &of, s));
-	if (projected && s->noise > 1)
-		MR_TRY(project(ctx, &of, s));
 	s->box = mr_box_of(s->p, s->n);
 	return limit_areas(ctx, s);
 }

@@ -406,7 +406,7 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	v->found.seconds_indicator = mr_seconds() - start;
 	start = mr_seconds();
 	MR_TRY(make_level(ctx, v, &m));
-	MR_TRY(mr_volume_clean(ctx, &v->s, &v->grid[0], f, &c));
+	MR_TRY(mr_volume_level(ctx, &v->s, &v->grid[0], v->found.level, m.level[0].b, f, &c, &v->found));
 	v->found.parts_dropped = c.parts;
 	v->found.cavities_filled = c.cavities;
 	v->found.seconds_level = mr_seconds() - start;
@@ -469,7 +469,7 @@ take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opt
 	MR_TRY(mr_sampling_find(ctx, point, n, opts->sampling, &s));
 	MR_TRY(mr_sampling_places(ctx, point, &s, &p, places));
 	return mr_volume_samples(
-	    ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), opts->project, &v->s);
+	    ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), &v->s);
 }
 
 mr_status

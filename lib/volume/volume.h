@@ -7,11 +7,12 @@
 
 #include "space/sampling.h"
 
+enum { MR_VOLUME_LEVELS = 9 }; /* that are looked at for their topology */
+
 typedef struct mr_volume_opts {
 	size_t
 	    grid; /* cells along the longest side of the bounding box; 0: chosen from the sampling density */
 	const mr_sampling *sampling; /* of the points, where it is known; NULL: found */
-	bool project;                /* noisy points go onto the planes of their neighbours first */
 } mr_volume_opts;
 
 #define MR_VOLUME_DEFAULTS                                                                                   \

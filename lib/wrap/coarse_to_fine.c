@@ -75,24 +75,15 @@ begin_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, double length, mr_dyn *d)
 }
 
 mr_status
-mr_wrap_begin(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double *length, mr_dyn *d)
+mr_wrap_box_to_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d)
 {
-	double l = mr_wrap_length(cloud, o);
-
-	while (2 * l < cloud->diagonal / FIRST_EDGES)
-		l *= 2;
-	MR_TRY(begin_box(ctx, cloud, l, d));
-	MR_TRY(thin_level(ctx, cloud, o, l, FIRST_ROUNDS, d));
-	*length = l;
-	return MR_OK;
-}
-
-mr_status
-mr_wrap_refine(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_dyn *d)
-{
-	double last = mr_wrap_length(cloud, o);
+	double last = mr_wrap_length(cloud, o), length = last;
 	mr_mesh m;
 
+	while (2 * length < cloud->diagonal / FIRST_EDGES)
+		length *= 2;
+	MR_TRY(begin_box(ctx, cloud, length, d));
+	MR_TRY(thin_level(ctx, cloud, o, length, FIRST_ROUNDS, d));
 	while (length > 1.01 * last) {
 		length /= 2;
 		MR_TRY(thin_level(ctx, cloud, o, length, length > 1.01 * last ? ROUNDS : LAST_ROUNDS, d));

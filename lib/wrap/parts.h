@@ -76,13 +76,9 @@ mr_status mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d);
  * few), or as long as asked for. */
 double mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o);
 
-/* A box around the points with long edges, drawn onto them; *length: of its edges. */
+/* A box around the points, drawn onto them with long edges, which are halved until they are that long. */
 mr_status
-mr_wrap_begin(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double *length, mr_dyn *d);
-
-/* From edges of such a length to the last, halving them. */
-mr_status
-mr_wrap_refine(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_dyn *d);
+mr_wrap_box_to_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d);
 
 /* How well a wrap covers the points, in units of the model. */
 typedef struct mr_wrap_cover {

@@ -3,24 +3,21 @@
 
 #include "base/disjoint_sets.h"
 #include "remesh/unfold.h"
+#include "volume/volume.h"
 #include "wrap/parts.h"
 
 /* Iterations by default: the cube comes to rest in as many. */
 enum { CUBE_ITERATIONS = 20, TEMPLATE_ITERATIONS = 20, TEMPLATE_SETTLES = 4 };
-
-/* What a box may leave out and have too much in edges of its first level, which are long. */
-static const mr_wrap_cover FIRST = {
-	.points_max = 1, .points_high = 0.55, .wrap_max = 0.6, .wrap_high = 0.45
-};
-
-/* Points and faces at most that this is measured by. */
-enum { FIRST_SAMPLES = 1 << 11 };
 
 /* Of mr_wrap_result.method, beside the methods. */
 enum { TEMPLATE = MR_WRAP_VOLUME + 1 };
 
 /* So few points tell nothing of handles and limbs: the box, of genus 0, goes around them. */
 enum { FEW = 64 };
+
+/* Nor do so few: the wrong ones of all that level.c counts whose levels are alike have 19 to 90 points, but
+ * where much of the surface is left out. */
+enum { SURE_LEAST = 100 };
 
 static size_t
 flaws(const mr_wrap *c)
@@ -95,28 +92,15 @@ wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 	return mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "cube", c);
 }
 
-/* From edges of `length` on. */
 static mr_status
-finish_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, mr_wrap *c)
+wrap_box(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	double start = mr_seconds();
 
-	MR_TRY(mr_wrap_refine(ctx, cloud, o, length, &c->d));
-	c->found.seconds_levels = mr_seconds() - start;
+	c->found.method = MR_WRAP_AUTO; /* the box */
+	MR_TRY(mr_wrap_box_to_points(ctx, cloud, o, &c->d));
+	c->found.seconds_box = mr_seconds() - start;
 	return mr_wrap_finish(ctx, cloud, o, "box", c);
-}
-
-/* The volume also closes what the points leave open, which counts against it: the box must be this much
- * better; not so where the volume has handles, which may be there alone.  A first level may become as much
- * better. */
-static const double BETTER = 0.7;
-
-static bool
-beats(const mr_wrap *box, bool finished, const mr_wrap *volume, bool handles)
-{
-	double bar = !handles ? BETTER : finished ? 1 : 1 / BETTER;
-
-	return badness(&box->cover) < bar * badness(&volume->cover);
 }
 
 /* Closed surfaces of c components with h handles in all have V - F / 2 = 2 c - 2 h. */
@@ -138,57 +122,64 @@ mr_wrap_has_handles(mr_ctx *ctx, const mr_dyn *d, bool *handles)
 	return MR_OK;
 }
 
-/* The volume, but where it is not good either the box if that is better.  Which fits closer counts less than
- * which passes less through itself: drawn to an open sheet from both sides, the box does. */
-static mr_status
-choose(
-    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, bool finished, mr_wrap *c)
+static bool
+is_good(const mr_wrap *c, const mr_wrap_cloud *cloud)
 {
-	double start = mr_seconds();
-	mr_wrap volume = *c;
-	mr_status status = mr_wrap_volume(ctx, cloud, o, &volume);
-	bool handles = false;
-
-	if (status != MR_OK && status != MR_EMESH)
-		return status;
-	if (status == MR_OK)
-		MR_TRY(mr_wrap_has_handles(ctx, &volume.d, &handles));
-	if (status == MR_OK && (covers(&volume.cover, &MR_WRAP_ENOUGH, cloud->spacing) ||
-				   !beats(c, finished, &volume, handles))) {
-		*c = volume;
-		return MR_OK;
-	}
-	mr_wrap_tried(c, mr_seconds() - start);
-	if (status == MR_EMESH)
-		mr_note(ctx, "no volume: %s", ctx->error);
-	if (!finished)
-		MR_TRY(finish_box(ctx, cloud, o, length, c));
-	if (status == MR_OK && (!beats(c, true, &volume, handles) || flaws(c) > flaws(&volume)))
-		*c = volume;
-	return MR_OK;
+	return covers(&c->cover, &MR_WRAP_ENOUGH, cloud->spacing);
 }
 
 /*
- * The box, where its first level, a few hundred vertices, covers the points: that is cheap to know, and on
- * what is round the finer ones cost less than the volume.
+ * The volume also closes what the points leave open, which counts against it: the box must leave out and have
+ * too much by this much less; not so where the volume has handles, which may be there alone.  Which fits
+ * closer counts less than which passes less through itself: drawn to an open sheet from both sides, the box
+ * does.
  */
+static mr_status
+is_better(mr_ctx *ctx, const mr_wrap *box, const mr_wrap *volume, bool *better)
+{
+	static const double share = 0.7;
+	bool handles;
+
+	MR_TRY(mr_wrap_has_handles(ctx, &volume->d, &handles));
+	*better = flaws(box) <= flaws(volume) &&
+	          badness(&box->cover) < (handles ? 1 : share) * badness(&volume->cover);
+	return MR_OK;
+}
+
+/* *enclosed: whether the points enclose a volume. */
+static mr_status
+try_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c, bool *enclosed)
+{
+	mr_status status = mr_wrap_volume(ctx, cloud, o, c);
+
+	*enclosed = status == MR_OK;
+	if (status == MR_EMESH)
+		mr_note(ctx, "no volume: %s", ctx->error);
+	return status == MR_EMESH ? MR_OK : status;
+}
+
+/* The volume; where that is not good, the box if it is better; of few points the box, if it is good. */
 static mr_status
 wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
-	double start = mr_seconds(), length;
-	bool round;
+	double start = mr_seconds(), middle;
+	bool few = cloud->n <= FEW, enclosed = false, better = true;
+	mr_wrap box = *c, volume = *c;
 
-	c->found.method = MR_WRAP_AUTO; /* the box */
-	MR_TRY(mr_wrap_begin(ctx, cloud, o, &length, &c->d));
-	MR_TRY(mr_wrap_assess(ctx, cloud, FIRST_SAMPLES, "first level", c));
-	c->found.seconds_box = mr_seconds() - start;
-	round = cloud->n <= FEW || covers(&c->cover, &FIRST, length);
-	if (round) {
-		MR_TRY(finish_box(ctx, cloud, o, length, c));
-		if (flaws(c) == 0 && covers(&c->cover, &MR_WRAP_ENOUGH, cloud->spacing))
-			return MR_OK;
-	}
-	return choose(ctx, cloud, o, length, round, c);
+	if (!few)
+		MR_TRY(try_volume(ctx, cloud, o, &volume, &enclosed));
+	*c = volume;
+	if (enclosed && is_good(c, cloud))
+		return MR_OK;
+	middle = mr_seconds();
+	MR_TRY(wrap_box(ctx, cloud, o, &box));
+	if (few && !(flaws(&box) == 0 && is_good(&box, cloud)))
+		MR_TRY(try_volume(ctx, cloud, o, &volume, &enclosed));
+	if (enclosed)
+		MR_TRY(is_better(ctx, &box, &volume, &better));
+	*c = better ? box : volume;
+	mr_wrap_tried(c, better ? middle - start : mr_seconds() - middle);
+	return MR_OK;
 }
 
 static mr_status
@@ -202,6 +193,24 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 	default:
 		return wrap_auto(ctx, cloud, o, c);
 	}
+}
+
+/* Where its topology hangs on the level, or nothing tells it. */
+static void
+warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
+{
+	const mr_volume_result *v = &c->found.volume;
+
+	if (cloud->n < SURE_LEAST)
+		mr_warn(ctx, "of %zu places the topology is uncertain: so few hide handles", cloud->n);
+	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
+		mr_warn(ctx,
+		    "the topology is uncertain: Euler number %g, or %g where body or gaps are thin, first "
+		    "near "
+		    "(%.4g, %.4g, %.4g)",
+		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z);
+	else if (c->found.method == MR_WRAP_AUTO)
+		mr_warn(ctx, "the topology is uncertain: the wrap is a sphere because it began as one");
 }
 
 /* Where a wrap is poor by the same measure. */
@@ -242,6 +251,8 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result
 
 	mr_note(ctx, "by the %s", names[r.method]);
 	warn(ctx, cloud, c);
+	if (c->found.method != TEMPLATE)
+		warn_of_topology(ctx, cloud, c);
 	r.places = cloud->sampling.places;
 	r.outliers = cloud->sampling.outliers;
 	r.sampling = cloud->spacing;

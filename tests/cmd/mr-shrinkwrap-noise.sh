@@ -1,5 +1,4 @@
-# A cloud with 2 % noise and a quarter of outliers, where the volume of the points as they are goes astray: that of projected
-# points is taken, and nearer to the truth; without noise none is tried.
+# A cloud with 1.5 % noise and a quarter of outliers: near to the truth, and of its genus.
 dirty() { # three tenths as many points anywhere in the box
 	awk 'function uniform() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
 		BEGIN { seed = 4 }
@@ -17,18 +16,11 @@ dirty() { # three tenths as many points anywhere in the box
 			}
 		}'
 }
-tried() {
-	sed -n 's/.*"projected":\([01]\).*/projected \1/p' stats.json | grep . || echo not tried
-}
-mr-make bumpy -n 4000 --points 3000 --noise 2% --seed 3 | mr-export -l points -f xyz - | dirty >dirty.xyz
-mr-import --points dirty.xyz | mr-shrinkwrap -q --stats stats.json -o out.mrs
-tried
+mr-make bumpy -n 4000 --points 3000 --noise 1.5% --seed 3 | mr-export -l points -f xyz - | dirty >dirty.xyz
+mr-import --points dirty.xyz | mr-shrinkwrap -q -o out.mrs
 mr-info -l control out.mrs | sed -n 's/^ *topology *//p; s/^ *flaws *//p'
 mr-make bumpy -n 20000 | mr-compare --json -a mesh -b control out.mrs |
 	sed 's/.*"both_relative":{\([^}]*\)}.*/\1/; s/.*"mean":\([^,}]*\).*/\1/' |
-	awk '{ print $1 < 0.015 ? "near" : "off by " $1 }'
+	awk '{ print $1 < 0.007 ? "near" : "off by " $1 }'
 mr-import --points dirty.xyz | mr-shrinkwrap -q -j 1 | mr-export -f off -l control - >one.off
 mr-export -f off -l control - <out.mrs | cmp - one.off && echo same for -j 1
-
-mr-make knot --points 4000 | mr-shrinkwrap -q --stats stats.json -o out.mrs
-tried

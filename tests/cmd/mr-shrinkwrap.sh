@@ -14,7 +14,7 @@ for m in auto cube volume; do
 	worst 0.03 <out.mrs
 done
 
-echo 'what has handles or limbs is left to the volume, what is round to the box: 2 and 0'
+echo 'by the volume, 2'
 taken() { # shape, points
 	mr-make $1 --points $2 | mr-shrinkwrap --stats stats.json -o out.mrs
 	python3 -c '

@@ -24,7 +24,7 @@ samples_of(const mr_v3 *p, size_t n, double share, mr_volume_cloud *s)
 
 	assert_int_equal(mr_sampling_find(&ctx, p, n, NULL, &sampling), MR_OK);
 	assert_int_equal(mr_sampling_places(&ctx, p, &sampling, &place, &places), MR_OK);
-	return mr_volume_samples(&ctx, place, places, &sampling, share, false, s);
+	return mr_volume_samples(&ctx, place, places, &sampling, share, s);
 }
 
 static mr_volume_cloud

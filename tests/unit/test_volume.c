@@ -337,30 +337,18 @@ noise_is_seen_through(void **state)
 	assert_true(fabs(volume_of(&w) / volume_of(&m) - 1) < 0.1);
 }
 
-static double
-mean_off_sphere(const mr_v3 *p, size_t n)
-{
-	double sum = 0;
-
-	for (size_t i = 0; i < n; i++)
-		sum += fabs(mr_norm(p[i]) - 1);
-	return sum / (double)n;
-}
-
-/* Noise of about the spacing is told, and projection takes much of it away. */
+/* Noise of about the spacing is told, and makes no handle. */
 static void
-noisy_points_go_onto_their_planes(void **state)
+noise_makes_no_handle(void **state)
 {
 	enum { N = 4000 };
 	mr_mesh m = solid(MR_SPHERE, 8000, 0), w;
 	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
 	mr_v3 *p, *normals;
-	double off;
 	mr_volume_result found;
 	mr_census c;
 
 	(void)state;
-	opts.project = true;
 	assert_int_equal(mr_surface_sample(&ctx, &m, N, 5, &p, &normals), MR_OK);
 	mr_add_noise(p, normals, N, sqrt(mr_mesh_area(&ctx, &m) / N), 6);
 	assert_int_equal(mr_volume_wrap(&ctx, p, N, &opts, &w, &found), MR_OK);
@@ -368,27 +356,6 @@ noisy_points_go_onto_their_planes(void **state)
 	c = census_of(&w);
 	assert_closed_manifold(&c);
 	assert_int_equal(c.genus, 0);
-	off = mean_off_sphere(p, N);
-	assert_int_equal(mr_volume_project(&ctx, &(mr_volume_cloud){ .p = p, .n = N }), MR_OK);
-	assert_true(mean_off_sphere(p, N) < 0.6 * off);
-}
-
-/* What has no noise is not projected: the same bits. */
-static void
-points_without_noise_stay(void **state)
-{
-	mr_mesh m = solid(MR_TORUS, 3000, 0), w[2];
-	mr_volume_opts opts = MR_VOLUME_DEFAULTS;
-	mr_volume_result found;
-
-	(void)state;
-	for (int i = 0; i < 2; i++) {
-		opts.project = i;
-		assert_int_equal(mr_volume_wrap(&ctx, m.p, m.nv, &opts, &w[i], &found), MR_OK);
-		assert_true(found.noise == 1);
-	}
-	assert_int_equal(w[0].nv, w[1].nv);
-	assert_memory_equal(w[0].p, w[1].p, w[0].nv * sizeof *w[0].p);
 }
 
 /* Too few points for a surface, repeated ones, any place and size: a closed surface, or a refusal. */
@@ -489,7 +456,6 @@ every_allocation_may_fail(void **state)
 	assert_true(m.nv <= MOST);
 	memcpy(p, m.p, m.nv * sizeof *p);
 	mr_add_noise(p, m.p, m.nv, 0.2, 1);
-	opts.project = true;
 	for (uint64_t k = 1; status != MR_OK; k++) {
 		mr_mark mark = mr_mark_take(&ctx);
 		assert_true(k < 1000);
@@ -515,8 +481,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(pit_before_an_open_neck_stays_a_pit, setup, teardown),
 		cmocka_unit_test_setup_teardown(outliers_are_left_out, setup, teardown),
 		cmocka_unit_test_setup_teardown(noise_is_seen_through, setup, teardown),
-		cmocka_unit_test_setup_teardown(noisy_points_go_onto_their_planes, setup, teardown),
-		cmocka_unit_test_setup_teardown(points_without_noise_stay, setup, teardown),
+		cmocka_unit_test_setup_teardown(noise_makes_no_handle, setup, teardown),
 		cmocka_unit_test_setup_teardown(any_cloud_gives_a_closed_surface_or_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(
 		    bits_do_not_depend_on_threads_repeats_or_order, setup, teardown),
