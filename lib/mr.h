@@ -623,7 +623,7 @@ typedef struct mr_fit_opts {
 	const char *layer; /* NULL: control */
 } mr_fit_opts;
 
-#define MR_FIT_DEFAULTS MR_DEFAULTS(MR_FIT_LEAST_SQUARES, 0, 0.8, 1e-3, NULL)
+#define MR_FIT_DEFAULTS MR_DEFAULTS(MR_FIT_LEAST_SQUARES, 0, 0.8, 0.1, NULL)
 
 typedef struct mr_fit_result {
 	size_t iterations, outliers;

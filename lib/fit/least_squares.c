@@ -33,20 +33,6 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, bool outliers
 	return MR_OK;
 }
 
-/*
- * How much smoother than asked for a motion is: while the points are far, the square of their mean distance
- * in twentieths of a control edge, for then feet on uncovered parts lie together, and a rough motion would
- * crumple the surface there.
- */
-static double
-caution(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double edge)
-{
-	static const double most = 256;
-	double far = mr_fit_measure(ctx, foot, n).mean / (edge / 20);
-
-	return fmin(fmax(far * far, 1), most);
-}
-
 mr_status
 mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
     const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x, mr_fit_result *result)
@@ -61,13 +47,12 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, s
 
 	if (!z || !w)
 		return MR_EMEM;
-	MR_TRY(mr_fit_system_build(ctx, surface, &system));
+	MR_TRY(mr_fit_system_build(ctx, surface, x, &system));
 	MR_TRY(mr_fit_guard_new(ctx, surface, &system.patch, x, &guard));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
 		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, outliers, w));
-		MR_TRY(mr_fit_system_fill(
-		    ctx, &system, x, point, foot, w, n, opts->fairness * caution(ctx, foot, n, edge)));
+		MR_TRY(mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness));
 		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, guard, x, z, &result->damped));
 		mr_fit_surface_move(ctx, surface, x);

@@ -1,15 +1,16 @@
 /*
  * normal_equations.h -- the normal equations of points on a limit surface, with a smoothness term.
  *
- * Contract: the unknown is a motion z of the control vertices.  It minimises
+ * Contract: the unknown is a motion z of the control vertices x, which began at h.  It minimises
  *
- *	(nv / n) sum_i w_i (slip |r_i|^2 + (1 - slip) (d_i . r_i)^2) + fairness |L z + t|^2 + small |z|^2
+ *	(nv / n) sum_i w_i (slip |r_i|^2 + (1 - slip) (d_i . r_i)^2)
+ *	    + fairness sum_v (|L (x + z - bare_v h)|^2 + bare_v |x + z - h|^2) + small |z|^2
  *
  * with r_i = q_i - s_i(x + z) from the feet s_i, which are linear in the vertices, to the points q_i, and d_i
- * the normals there.  L takes from each vertex the mean of its
- * neighbours, along the boundary of the two there; t is the part of L x along the surface.  So vertices
- * spread evenly, and a motion is smooth, but curvature costs nothing.  Dividing by n and multiplying by nv
- * makes `fairness` a share that neither units nor sampling change.
+ * the normals there.  L takes from each vertex the mean of its neighbours, along the boundary of the two
+ *there: the thin plate energy, where vertices are even, and it makes them so.  A vertex is bare, 0 to 1, as
+ *far as no points stand around it: then it keeps its place and form.  Dividing by n and multiplying by nv
+ *makes `fairness` a share that neither units nor sampling change.
  */
 #ifndef MR_FIT_NORMAL_EQUATIONS_H
 #define MR_FIT_NORMAL_EQUATIONS_H
@@ -32,6 +33,7 @@ typedef struct mr_fit_block {
 /* The matrix is a, the same for x, y and z, plus the blocks, which couple them. */
 typedef struct mr_fit_system {
 	const mr_fit_surface *surface;
+	const mr_v3 *home;       /* the control vertices to begin with */
 	mr_fit_lists patch;      /* of each control face: the vertices that its surface depends on */
 	mr_fit_lists star;       /* of each control vertex: those in its row of L */
 	double *basis;           /* of each control face: 24 nodes x vertices of its list */
@@ -43,8 +45,9 @@ typedef struct mr_fit_system {
 	mr_v3 *b; /* right-hand side */
 } mr_fit_system;
 
-/* The pattern of the equations, in the arena. */
-mr_status mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, mr_fit_system *system);
+/* The pattern of the equations, in the arena; x: where the control vertices begin. */
+mr_status
+mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, mr_fit_system *system);
 
 /* The equations for n points with weights w at control vertices x, of which the surface is. */
 mr_status mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,
