@@ -16,6 +16,7 @@ typedef struct move {
 	const mr_guard *g;
 	const mr_v3 *from;
 	mr_v3 *to;
+	bool all;        /* faces are to look at now; else: */
 	list face, next; /* to look at now, and after */
 	bool *bad;       /* of those to look at now */
 	list vertex;     /* to hold back */
@@ -46,13 +47,29 @@ list_clear(list *l)
 	l->n = 0;
 }
 
+/* How many faces there are to look at. */
+static size_t
+count(const move *w)
+{
+	return w->all ? w->g->nf : w->face.n;
+}
+
+/* The i-th of them. */
+static uint32_t
+face_at(const move *w, size_t i)
+{
+	return w->all ? (uint32_t)i : w->face.at[i];
+}
+
 static void
 judge(void *arg, size_t begin, size_t end)
 {
 	const move *w = arg;
 
-	for (size_t i = begin; i < end; i++)
-		w->bad[i] = w->g->is_bad(w->g->arg, w->face.at[i]);
+	for (size_t i = begin; i < end; i++) {
+		uint32_t f = face_at(w, i);
+		w->bad[i] = w->g->t[f].v[0] != MR_NONE && w->g->is_bad(w->g->arg, f);
+	}
 }
 
 /* Lists the faces around v, or their corners. */
@@ -89,14 +106,15 @@ hold_corners(move *w)
 {
 	list looked = w->face;
 
-	for (size_t i = 0; i < w->face.n; i++) {
-		uint32_t f = w->face.at[i];
+	for (size_t i = 0; i < count(w); i++) {
+		uint32_t f = face_at(w, i);
 		if (!w->bad[i] || !w->g->is_bad(w->g->arg, f))
 			continue;
 		for (int k = 0; k < 3; k++)
 			if (hold_back(w, w->g->t[f].v[k]))
 				list_around(w->g, w->g->t[f].v[k], false, &w->next);
 	}
+	w->all = false;
 	w->face = w->next;
 	w->next = looked;
 	list_clear(&w->next);
@@ -111,9 +129,9 @@ hold_rings(move *w)
 	size_t i = 0;
 
 	list_clear(&w->vertex);
-	for (size_t f = 0; f < w->face.n; f++)
+	for (size_t f = 0; f < w->g->nf; f++)
 		for (int k = 0; k < 3 && w->bad[f]; k++)
-			list_add(&w->vertex, w->g->t[w->face.at[f]].v[k]);
+			list_add(&w->vertex, w->g->t[f].v[k]);
 	for (unsigned ring = 0; ring < w->g->rings; ring++)
 		for (size_t end = w->vertex.n; i < end; i++)
 			list_around(w->g, w->vertex.at[i], true, &w->vertex);
@@ -131,25 +149,20 @@ move_new(mr_ctx *ctx, move *w)
 	MR_TRY(list_new(ctx, g->nf, &w->next));
 	MR_TRY(list_new(ctx, g->nv, &w->vertex));
 	w->bad = MR_NEW(ctx, g->nf, bool);
-	if (!w->bad)
-		return MR_EMEM;
-	for (uint32_t f = 0; f < g->nf; f++)
-		if (g->t[f].v[0] != MR_NONE)
-			list_add(&w->face, f);
-	return MR_OK;
+	return w->bad ? MR_OK : MR_EMEM;
 }
 
 mr_status
 mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	move w = { .g = guard, .from = from, .to = to };
+	move w = { .g = guard, .from = from, .to = to, .all = true };
 
 	MR_TRY(move_new(ctx, &w));
 	for (bool any = true; any; w.round++) {
 		if (guard->look)
 			MR_TRY(guard->look(ctx, guard->arg));
-		mr_parallel(ctx, w.face.n, GRAIN, judge, &w);
+		mr_parallel(ctx, count(&w), GRAIN, judge, &w);
 		any = guard->look ? hold_rings(&w) : hold_corners(&w);
 	}
 	mr_mark_release(ctx, mark);

@@ -8,12 +8,20 @@
 
 enum { GRAIN = 2048 };
 
+/* A unit vector, or none: precise enough to compare angles. */
+typedef struct direction {
+	float x, y, z;
+} direction;
+
 typedef struct pass {
-	const mr_dyn *d;
+	mr_dyn *d;
 	const mr_remesh_source *s;
 	const mr_relax_opts *o;
-	double *gravity; /* of each vertex, first its area */
-	mr_v3 *p;        /* where the vertices go */
+	bool project;      /* in this pass */
+	double *part;      /* in the same memory as p: of each half-edge, as in areas_job */
+	double *gravity;   /* of each vertex, first its area */
+	direction *normal; /* of the source at the place of each vertex */
+	mr_v3 *p;          /* where the vertices go */
 	uint32_t *at;
 	mr_mesh from, to;
 } pass;
@@ -71,16 +79,22 @@ areas_body(void *arg, size_t begin, size_t end)
 		w->area[v] = w->d->kind[v] == MR_DEAD ? 0 : area_of(w, (uint32_t)v);
 }
 
+static void
+find_areas(mr_ctx *ctx, areas_job w)
+{
+	mr_parallel(ctx, w.d->nf, GRAIN, parts_body, &w);
+	mr_parallel(ctx, w.d->nv, GRAIN, areas_body, &w);
+}
+
 mr_status
 mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double *area)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	areas_job w = { d, MR_NEW(ctx, 3 * d->nf, double), area };
+	double *part = MR_NEW(ctx, 3 * d->nf, double);
 
-	if (!w.part)
+	if (!part)
 		return MR_EMEM;
-	mr_parallel(ctx, d->nf, GRAIN, parts_body, &w);
-	mr_parallel(ctx, d->nv, GRAIN, areas_body, &w);
+	find_areas(ctx, (areas_job){ d, part, area });
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -209,7 +223,7 @@ move_body(void *arg, size_t begin, size_t end)
 		switch ((mr_kind)w->d->kind[v]) {
 		case MR_SMOOTH:
 			p = tangential_move(w, v, &normal);
-			if (w->o->project) {
+			if (w->project) {
 				mr_closest c = mr_remesh_place(s, w->d, v, p, normal);
 				if (leaves_side(s->m, at, c.at.face, normal)) {
 					p = w->d->p[v];
@@ -232,11 +246,33 @@ move_body(void *arg, size_t begin, size_t end)
 	}
 }
 
+/* Keeps the normal of the source at the place of v, for all passes in which it stays there: to find it each
+ * time for each face takes a third of the guard's time. */
+static void
+keep_normal(const pass *w, uint32_t v)
+{
+	mr_v3 n = mr_unit(mr_face_cross(w->s->m, mr_dyn_place(w->d, v)));
+
+	w->normal[v] = (direction){ (float)n.x, (float)n.y, (float)n.z };
+}
+
+static void
+normals_body(void *arg, size_t begin, size_t end)
+{
+	const pass *w = arg;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++)
+		if (w->d->kind[v] != MR_DEAD)
+			keep_normal(w, v);
+}
+
 /* Normal of the source where face f of the mesh lies. */
 static mr_v3
 source_normal(const pass *w, size_t f)
 {
-	return mr_face_cross(w->s->m, mr_dyn_place(w->d, w->d->v[3 * f]));
+	direction n = w->normal[w->d->v[3 * f]];
+
+	return (mr_v3){ n.x, n.y, n.z };
 }
 
 /* True where the two vectors are more than 60 degrees apart. */
@@ -310,18 +346,61 @@ hold_place(void *arg, uint32_t v)
 	w->at[v] = w->d->at[v];
 }
 
-/* The masses of the vertices, where they have any. */
+/* The vertices are where they went. */
+static void
+arrive_body(void *arg, size_t begin, size_t end)
+{
+	const pass *w = arg;
+	mr_dyn *d = w->d;
+
+	for (uint32_t v = (uint32_t)begin; v < end; v++) {
+		bool elsewhere = d->kind[v] != MR_DEAD && w->at[v] != d->at[v];
+		d->p[v] = w->p[v];
+		d->at[v] = w->at[v];
+		if (elsewhere)
+			keep_normal(w, v);
+	}
+}
+
 static mr_status
+pass_new(mr_ctx *ctx, pass *w)
+{
+	size_t nv = w->d->nv, parts = w->o->gravity > 0 ? 3 * w->d->nf : 0;
+
+	w->part = MR_NEW(ctx, parts > 3 * nv ? parts : 3 * nv, double);
+	w->gravity = w->o->gravity > 0 ? MR_NEW(ctx, nv, double) : NULL;
+	w->normal = MR_NEW(ctx, nv, direction);
+	w->at = MR_NEW(ctx, nv, uint32_t);
+	if (!w->part || (w->o->gravity > 0 && !w->gravity) || !w->normal || !w->at)
+		return MR_EMEM;
+	w->p = (void *)w->part;
+	w->from = w->to = mr_dyn_view(w->d, w->s->m->name);
+	w->to.p = w->p;
+	mr_parallel(ctx, nv, GRAIN, normals_body, w);
+	return MR_OK;
+}
+
+/* The masses of the vertices, where they have any. */
+static void
 find_gravity(mr_ctx *ctx, pass *w)
 {
-	if (!(w->o->gravity > 0))
-		return MR_OK;
-	w->gravity = MR_NEW(ctx, w->d->nv, double);
 	if (!w->gravity)
-		return MR_EMEM;
-	MR_TRY(mr_dyn_areas(ctx, w->d, w->gravity));
+		return;
+	find_areas(ctx, (areas_job){ w->d, w->part, w->gravity });
 	mr_parallel(ctx, w->d->nv, GRAIN, gravity_body, w);
-	return MR_OK;
+}
+
+static mr_status
+one_pass(mr_ctx *ctx, mr_dyn *d, pass *w)
+{
+	mr_guard guard = mr_dyn_guard(d);
+
+	find_gravity(ctx, w);
+	mr_parallel(ctx, d->nv, GRAIN, move_body, w);
+	guard.is_bad = turns;
+	guard.held = hold_place;
+	guard.arg = w;
+	return mr_guarded_move(ctx, &guard, d->p, w->p);
 }
 
 mr_status
@@ -329,22 +408,13 @@ mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts 
 {
 	mr_mark mark = mr_mark_take(ctx);
 	pass w = { .d = d, .s = s, .o = o };
-	mr_guard guard = mr_dyn_guard(d);
 
-	MR_TRY(find_gravity(ctx, &w));
-	w.p = MR_NEW(ctx, d->nv, mr_v3);
-	w.at = MR_NEW(ctx, d->nv, uint32_t);
-	if (!w.p || !w.at)
-		return MR_EMEM;
-	w.from = w.to = mr_dyn_view(d, s->m->name);
-	w.to.p = w.p;
-	mr_parallel(ctx, d->nv, GRAIN, move_body, &w);
-	guard.is_bad = turns;
-	guard.held = hold_place;
-	guard.arg = &w;
-	MR_TRY(mr_guarded_move(ctx, &guard, d->p, w.p));
-	memcpy(d->p, w.p, d->nv * sizeof *d->p);
-	memcpy(d->at, w.at, d->nv * sizeof *d->at);
+	MR_TRY(pass_new(ctx, &w));
+	for (size_t i = 1; i <= o->passes; i++) {
+		w.project = o->project && i == o->passes;
+		MR_TRY(one_pass(ctx, d, &w));
+		mr_parallel(ctx, d->nv, GRAIN, arrive_body, &w);
+	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

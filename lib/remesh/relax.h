@@ -22,7 +22,8 @@ typedef struct mr_remesh_source {
 typedef struct mr_relax_opts {
 	double damping; /* lambda, 0 to 1 */
 	double gravity; /* exponent of the vertex area; 0: the plain centroid */
-	bool project;   /* back onto the source afterwards */
+	size_t passes;
+	bool project; /* back onto the source in the last pass */
 } mr_relax_opts;
 
 /* From the surface, in edge lengths: there may be a nearer place. */
@@ -42,7 +43,7 @@ mr_closest mr_remesh_place(const mr_remesh_source *s, const mr_dyn *d, uint32_t 
 bool mr_remesh_against(
     const mr_remesh_source *s, const mr_dyn *d, const uint32_t *at, const uint32_t v[3], mr_v3 cross);
 
-/* One pass of relaxation over all vertices. */
+/* Passes of relaxation over all vertices. */
 mr_status mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts *o);
 
 /* Mixed Voronoi areas (Meyer et al. 2003) of the vertices; 0 for dead ones.  area: d->nv values, the

@@ -62,12 +62,12 @@ static mr_status
 equalize_areas(remesher *r)
 {
 	enum { EVERY = 5 };
-	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity };
+	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity, .project = r->o->project };
 
-	for (size_t i = 1; i <= r->o->area_passes; i++) {
-		o.project = r->o->project && (i % EVERY == 0 || i == r->o->area_passes);
+	for (size_t left = r->o->area_passes; left > 0; left -= o.passes) {
+		o.passes = left < EVERY ? left : EVERY;
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
-		if (i % EVERY == 0)
+		if (o.passes == EVERY)
 			MR_TRY(regularize(r, 0));
 	}
 	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
@@ -103,7 +103,9 @@ static mr_status
 one_round(remesher *r, bool first)
 {
 	enum { REACH = 3, RELAX = 3 };
-	mr_relax_opts o = { .damping = 1, .gravity = r->source.length ? 1 : 0, .project = r->o->project };
+	mr_relax_opts o = {
+		.damping = 1, .gravity = r->source.length ? 1 : 0, .passes = RELAX, .project = r->o->project
+	};
 
 	for (double coarser = first ? mr_coarsest(&r->d, &r->source) : 1; coarser > 1; coarser /= 2) {
 		MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, coarser, &r->changes));
@@ -115,10 +117,7 @@ one_round(remesher *r, bool first)
 	if (first)
 		MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* it leaves as many holes as vertices */
 	MR_TRY(regularize(r, REACH));
-	for (int i = 1; i <= RELAX; i++) {
-		o.project = r->o->project && i == RELAX;
-		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
-	}
+	MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
 }
 
@@ -497,7 +496,7 @@ static mr_status
 remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result)
 {
-	remesher r = { .ctx = ctx, .o = o, .wanted = result != NULL };
+	remesher r = { .ctx = ctx, .o = o, .changes.strained = true, .wanted = result != NULL };
 	mr_topology topo;
 	mr_mark mark;
 

@@ -1,6 +1,7 @@
 /* Steps 1 and 2 of Botsch, Kobbelt 2004, section 4. */
 #include "remesh/split_collapse.h"
 
+#include "base/parallel.h"
 #include "remesh/collapse_check.h"
 #include "remesh/flip.h"
 #include "remesh/local_length.h"
@@ -19,7 +20,9 @@ static const double STRETCHED = 1.05, SQUEEZED = 0.95;
 static const double HAIR = 1e-6;
 static const double WIDE = 0.2588190451025207, NARROW = 0.7071067811865476; /* cosines of 75 and 45 degrees */
 
-typedef struct resampler {
+typedef struct resampler resampler;
+
+struct resampler {
 	mr_ctx *ctx;
 	mr_dyn *d;
 	const mr_remesh_source *s;
@@ -27,7 +30,11 @@ typedef struct resampler {
 	mr_resampled *done;
 	uint8_t *mark;   /* for the link condition */
 	uint8_t *strung; /* of each vertex: it was merged though an edge there is too long */
-} resampler;
+	uint8_t *
+	    look; /* of each of the first `looks` faces a bit a half-edge: it may be too long, or too short */
+	size_t looks;
+	bool (*is_due)(const resampler *r, uint32_t h); /* that edge is to be split, or merged */
+};
 
 static double
 edge_length2(const mr_dyn *d, uint32_t h)
@@ -112,8 +119,8 @@ too_long(const resampler *r, uint32_t h)
 
 	if (l2 > square(LONG * l))
 		return true;
-	return l2 > square(STRETCHED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) < WIDE &&
-	       opposite_cosine(d, d->twin[h]) < WIDE;
+	return r->done->strained && l2 > square(STRETCHED * l) && d->twin[h] != MR_NONE &&
+	       opposite_cosine(d, h) < WIDE && opposite_cosine(d, d->twin[h]) < WIDE;
 }
 
 static bool
@@ -124,8 +131,66 @@ too_short(const resampler *r, uint32_t h)
 
 	if (l2 < square(SHORT * l))
 		return true;
-	return l2 < square(SQUEEZED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) > NARROW &&
-	       opposite_cosine(d, d->twin[h]) > NARROW;
+	return r->done->strained && l2 < square(SQUEEZED * l) && d->twin[h] != MR_NONE &&
+	       opposite_cosine(d, h) > NARROW && opposite_cosine(d, d->twin[h]) > NARROW;
+}
+
+enum { GRAIN = 2048 };
+
+static void
+look_body(void *arg, size_t begin, size_t end)
+{
+	const resampler *r = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		r->look[f] = 0;
+		for (uint32_t k = 0; k < 3; k++)
+			if (is_edge(r->d, (uint32_t)(3 * f + k)) && r->is_due(r, (uint32_t)(3 * f + k)))
+				r->look[f] |= (uint8_t)(1 << k);
+	}
+}
+
+/* Looks at all edges, on all threads, for those that are due: few are, but for the first time, and what
+ * changes after that is near what was changed. */
+static mr_status
+look_at_all(resampler *r)
+{
+	MR_TRY(MR_RESERVE(r->ctx, r->done->look, 0, r->d->nf, &r->done->room));
+	r->look = r->done->look;
+	r->looks = r->d->nf;
+	mr_parallel(r->ctx, r->looks, GRAIN, look_body, r);
+	return MR_OK;
+}
+
+/* False where the edge of h was not due when it was looked at, and nothing has changed there since. */
+static bool
+may_be_due(const resampler *r, uint32_t h)
+{
+	return h / 3 >= r->looks || r->look[h / 3] >> h % 3 & 1;
+}
+
+static void
+look_again(const resampler *r, uint32_t h)
+{
+	if (h != MR_NONE && h / 3 < r->looks)
+		r->look[h / 3] |= (uint8_t)(1 << h % 3);
+}
+
+/* v has changed, and so have the faces around it. */
+static void
+look_around(const resampler *r, uint32_t v)
+{
+	const mr_dyn *d = r->d;
+	uint32_t h = d->out[v];
+
+	do {
+		uint32_t side[3] = { h, mr_he_next(h), mr_he_prev(h) };
+		for (int i = 0; i < 3; i++) {
+			look_again(r, side[i]);
+			look_again(r, d->twin[side[i]]);
+		}
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
 }
 
 /* The place of a new vertex, first that of an end of its edge: a walk from there may not get to it. */
@@ -200,10 +265,11 @@ mr_coarsest(const mr_dyn *d, const mr_remesh_source *s)
 mr_status
 mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser, mr_resampled *done)
 {
-	resampler r = { ctx, d, s, coarser, done, NULL, NULL };
+	resampler r = { .ctx = ctx, .d = d, .s = s, .coarser = coarser, .done = done, .is_due = too_long };
 
+	MR_TRY(look_at_all(&r));
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		while (is_edge(d, h) && too_long(&r, h)) {
+		while (may_be_due(&r, h) && is_edge(d, h) && too_long(&r, h)) {
 			uint32_t g = locally_longest(d, h), m;
 			mr_v3 a = d->p[d->v[g]], b = d->p[mr_dyn_to(d, g)], middle = mr_lerp(0.5, a, b);
 			if (!mr_dyn_can_split(d, g) || is_same(middle, a) || is_same(middle, b))
@@ -213,6 +279,7 @@ mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser,
 			MR_TRY(mr_dyn_split(ctx, d, g, middle, &m));
 			if (d->kind[m] == MR_SMOOTH)
 				place_middle(&r, m);
+			look_around(&r, m);
 			done->splits++;
 		}
 	return MR_OK;
@@ -351,6 +418,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	}
 	mr_dyn_collapse(d, h, p);
 	d->at[b] = at;
+	look_around(r, b);
 	r->strung[b] = strung;
 	r->done->strung += strung;
 	if ((strung || (d->scale && d->scale[b] < 1)) && d->kind[b] == MR_SMOOTH)
@@ -363,18 +431,19 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 mr_status
 mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
-	resampler r = { ctx, d, s, 1, done, NULL, NULL };
+	resampler r = { .ctx = ctx, .d = d, .s = s, .coarser = 1, .done = done, .is_due = too_short };
 	mr_mark mark;
 
 	if (done->refused > 0 && !d->scale)
 		MR_TRY(mr_refine_begin(ctx, d));
+	MR_TRY(look_at_all(&r));
 	mark = mr_mark_take(ctx);
 	r.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	r.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	if (!r.mark || !r.strung)
 		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (is_edge(d, h) && too_short(&r, h)) {
+		if (may_be_due(&r, h) && is_edge(d, h) && too_short(&r, h)) {
 			size_t refused = done->refused;
 			if (!try_collapse(&r, h, square(LONG * target(&r, h))) && done->refused > refused)
 				mr_refine_edge(d, s, h);
@@ -407,8 +476,13 @@ mr_status
 mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	resampler r = { ctx, d, s, 1, done, MR_NEW_ZERO(ctx, d->nv, uint8_t),
-		MR_NEW_ZERO(ctx, d->nv, uint8_t) };
+	resampler r = { .ctx = ctx,
+		.d = d,
+		.s = s,
+		.coarser = 1,
+		.done = done,
+		.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t),
+		.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t) };
 
 	if (!r.mark || !r.strung)
 		return MR_EMEM;

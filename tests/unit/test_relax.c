@@ -112,7 +112,7 @@ a_pass_is_the_formula(void **state)
 
 	(void)state;
 	for (size_t i = 0; i < 4; i++) {
-		mr_relax_opts o = { .damping = 0.5, .gravity = gravity[i], .project = false };
+		mr_relax_opts o = { .damping = 0.5, .gravity = gravity[i], .passes = 1, .project = false };
 		set_up(&x, shape(MR_KNOT, 2000), 180);
 		area = MR_NEW(&ctx, x.m.nv, double);
 		mass = MR_NEW(&ctx, x.m.nv, double);
@@ -130,7 +130,7 @@ a_pass_is_the_formula(void **state)
 static void
 boundary_vertices_count_twice(void **state)
 {
-	mr_relax_opts o = { .damping = 1, .gravity = 1, .project = false };
+	mr_relax_opts o = { .damping = 1, .gravity = 1, .passes = 1, .project = false };
 	mr_adjacency adj;
 	scene x;
 	double *mass;
@@ -161,7 +161,7 @@ static void
 projected_vertices_lie_on_the_surface(void **state)
 {
 	static const mr_solid solids[] = { MR_BUMPY, MR_TORUS, MR_CUBE };
-	mr_relax_opts o = { .damping = 1, .gravity = 1.5, .project = true };
+	mr_relax_opts o = { .damping = 1, .gravity = 1.5, .passes = 1, .project = true };
 
 	(void)state;
 	for (size_t i = 0; i < 3; i++) {
@@ -187,7 +187,7 @@ static void
 curves_stay_and_become_even(void **state)
 {
 	static const mr_solid solids[] = { MR_PLANE, MR_CUBE };
-	mr_relax_opts o = { .damping = 1, .gravity = 0, .project = true };
+	mr_relax_opts o = { .damping = 1, .gravity = 0, .passes = 1, .project = true };
 
 	(void)state;
 	for (size_t i = 0; i < 2; i++) {
@@ -224,7 +224,7 @@ static void
 no_face_turns_over(void **state)
 {
 	for (uint64_t seed = 1; seed < 20; seed++) {
-		mr_relax_opts o = { .damping = 1, .gravity = (double)(seed % 4), .project = seed % 2 };
+		mr_relax_opts o = { .damping = 1, .gravity = (double)(seed % 4), .passes = 1, .project = seed % 2 };
 		double worst = 1;
 		scene x;
 		(void)state;
@@ -250,7 +250,7 @@ static void
 a_lattice_is_at_rest(void **state)
 {
 	enum { N = 24, PASSES = 5 };
-	mr_relax_opts o = { .damping = 1, .gravity = 1.5, .project = true };
+	mr_relax_opts o = { .damping = 1, .gravity = 1.5, .passes = 1, .project = true };
 	scene x;
 
 	(void)state;
@@ -349,7 +349,7 @@ a_lost_place_is_found_from_the_neighbours(void **state)
 static void
 threads_do_not_matter(void **state)
 {
-	mr_relax_opts o = { .damping = 1, .gravity = 1.5, .project = true };
+	mr_relax_opts o = { .damping = 1, .gravity = 1.5, .passes = 1, .project = true };
 	scene x[2];
 
 	(void)state;
