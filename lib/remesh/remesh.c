@@ -496,7 +496,7 @@ static mr_status
 remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result)
 {
-	remesher r = { .ctx = ctx, .o = o, .changes.strained = true, .wanted = result != NULL };
+	remesher r = { .ctx = ctx, .o = o, .wanted = result != NULL };
 	mr_topology topo;
 	mr_mark mark;
 

@@ -119,8 +119,8 @@ too_long(const resampler *r, uint32_t h)
 
 	if (l2 > square(LONG * l))
 		return true;
-	return r->done->strained && l2 > square(STRETCHED * l) && d->twin[h] != MR_NONE &&
-	       opposite_cosine(d, h) < WIDE && opposite_cosine(d, d->twin[h]) < WIDE;
+	return l2 > square(STRETCHED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) < WIDE &&
+	       opposite_cosine(d, d->twin[h]) < WIDE;
 }
 
 static bool
@@ -131,8 +131,8 @@ too_short(const resampler *r, uint32_t h)
 
 	if (l2 < square(SHORT * l))
 		return true;
-	return r->done->strained && l2 < square(SQUEEZED * l) && d->twin[h] != MR_NONE &&
-	       opposite_cosine(d, h) > NARROW && opposite_cosine(d, d->twin[h]) > NARROW;
+	return l2 < square(SQUEEZED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) > NARROW &&
+	       opposite_cosine(d, d->twin[h]) > NARROW;
 }
 
 enum { GRAIN = 2048 };
@@ -334,6 +334,24 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, 
 	return true;
 }
 
+/* True where moving v to p makes an edge to a neighbour of it too long, as most merges that are refused
+ * would: told without a normal. */
+static bool
+overreaches(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest2)
+{
+	uint32_t h = d->out[v];
+	bool strung;
+
+	do {
+		uint32_t b = mr_dyn_to(d, h);
+		if (b != gone && mr_dyn_apex(d, h) != gone &&
+		    !length_is_good(d->p[b], d->p[v], p, longest2, &strung))
+			return true;
+		h = mr_dyn_ccw(d, h);
+	} while (h != MR_NONE && h != d->out[v]);
+	return false;
+}
+
 /* Where the merged vertex goes: the middle, of a curve on it, or the end that must stay.  *at: b's place
  * then. */
 static mr_v3
@@ -403,6 +421,11 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 		h = d->twin[h]; /* the one that is more bound stays */
 	a = d->v[h];
 	b = mr_dyn_to(d, h);
+	if (d->kind[a] == MR_SMOOTH) {
+		p = merged_position(d, r->s, a, b, &at);
+		if (overreaches(d, a, b, p, longest2) || overreaches(d, b, a, p, longest2))
+			return false;
+	}
 	if (!mr_dyn_can_collapse(d, h, r->mark))
 		return false;
 	p = merged_position(d, r->s, a, b, &at);

@@ -14,7 +14,6 @@ typedef struct mr_resampled {
 	size_t strung;  /* collapses of vertices that edges which are too long hold on to */
 	size_t refused; /* collapses that would have folded: from the next on, lengths give way there */
 	size_t most;    /* faces that there may be */
-	bool strained;  /* what is strained is split and merged too, not only what is too long or too short */
 	uint8_t *look;  /* workspace in the arena, kept from one call to the next */
 	size_t room;
 } mr_resampled;
@@ -34,12 +33,12 @@ mr_demand mr_remesh_demand(const mr_dyn *d, const mr_remesh_source *s);
  * them. */
 double mr_coarsest(const mr_dyn *d, const mr_remesh_source *s);
 
-/* Splits the edges that are longer than 4/3 of their target times `coarser`, or strained, at their middle.
+/* Splits the edges that are longer than 4/3 of their target times `coarser`, or stretched, at their middle.
  * MR_ERANGE where that takes more than done->most faces. */
 mr_status
 mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser, mr_resampled *done);
 
-/* Merges the ends of edges that are shorter than 4/5 of their target, or strained.  Edges that are too long
+/* Merges the ends of edges that are shorter than 4/5 of their target, or squeezed.  Edges that are too long
  * already may hold on to what is merged, once for each vertex: it would be drawn along far else. */
 mr_status mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
