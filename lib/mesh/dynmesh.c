@@ -203,6 +203,20 @@ count_marked(const mr_dyn *d, uint32_t v, const uint8_t *mark)
 	return n;
 }
 
+/* True where inner vertex v has more than three edges. */
+static bool
+has_four(const mr_dyn *d, uint32_t v)
+{
+	uint32_t h = d->out[v];
+
+	for (int i = 0; i < 3; i++) {
+		h = mr_dyn_ccw(d, h);
+		if (h == d->out[v])
+			return false;
+	}
+	return true;
+}
+
 /* True where removing the face of h leaves its apex with enough faces. */
 static bool
 apex_can_lose(const mr_dyn *d, uint32_t h)
@@ -210,7 +224,7 @@ apex_can_lose(const mr_dyn *d, uint32_t h)
 	uint32_t c = mr_dyn_apex(d, h);
 	bool left = d->twin[mr_he_next(h)] != MR_NONE, right = d->twin[mr_he_prev(h)] != MR_NONE;
 
-	return (left || right) && (mr_dyn_on_boundary(d, c) || mr_dyn_valence(d, c) > 3);
+	return (left || right) && (mr_dyn_on_boundary(d, c) || has_four(d, c));
 }
 
 /* True where both other sides of h's face are on curves. */

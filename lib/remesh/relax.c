@@ -99,6 +99,13 @@ mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double *area)
 	return MR_OK;
 }
 
+/* a^e, quick for the exponents that there are by default. */
+static double
+power(double a, double e)
+{
+	return e == 1 ? a : e == 1.5 ? a * sqrt(a) : pow(a, e);
+}
+
 /* The mass by which a vertex draws its neighbours: its area, in units of the target, to a power. */
 static void
 gravity_body(void *arg, size_t begin, size_t end)
@@ -113,7 +120,7 @@ gravity_body(void *arg, size_t begin, size_t end)
 		a = w->gravity[v] / (l * l);
 		if (mr_dyn_on_boundary(w->d, v))
 			a *= 2; /* it has about half the area of an inner one */
-		w->gravity[v] = w->o->gravity == 1.5 ? a * sqrt(a) : pow(a, w->o->gravity);
+		w->gravity[v] = power(a, w->o->gravity);
 	}
 }
 
