@@ -18,7 +18,7 @@ typedef struct pass {
 	const mr_remesh_source *s;
 	const mr_relax_opts *o;
 	bool project;      /* in this pass */
-	double *part;      /* in the same memory as p: of each half-edge, as in areas_job */
+	float *part;       /* in the same memory as p: of each half-edge, as in areas_job */
 	double *gravity;   /* of each vertex, first its area */
 	direction *normal; /* of the source at the place of each vertex */
 	mr_v3 *p;          /* where the vertices go */
@@ -40,7 +40,8 @@ mr_remesh_length(const mr_remesh_source *s, const mr_dyn *d, uint32_t v)
 
 typedef struct areas_job {
 	const mr_dyn *d;
-	double *part; /* of each half-edge: of its face, what belongs to its start */
+	double unit;  /* of area */
+	float *part;  /* of each half-edge: of its face, what belongs to its start */
 	double *area; /* of each vertex */
 } areas_job;
 
@@ -52,8 +53,12 @@ parts_body(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		const uint32_t *v = &d->v[3 * f];
-		if (!mr_dyn_face_dead(d, f))
-			mr_voronoi_corners(d->p[v[0]], d->p[v[1]], d->p[v[2]], &w->part[3 * f]);
+		double part[3];
+		if (mr_dyn_face_dead(d, f))
+			continue;
+		mr_voronoi_corners(d->p[v[0]], d->p[v[1]], d->p[v[2]], part);
+		for (int k = 0; k < 3; k++)
+			w->part[3 * f + (size_t)k] = (float)(part[k] / w->unit);
 	}
 }
 
@@ -87,14 +92,14 @@ find_areas(mr_ctx *ctx, areas_job w)
 }
 
 mr_status
-mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double *area)
+mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double unit, double *area)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	double *part = MR_NEW(ctx, 3 * d->nf, double);
+	float *part = MR_NEW(ctx, 3 * d->nf, float);
 
 	if (!part)
 		return MR_EMEM;
-	find_areas(ctx, (areas_job){ d, part, area });
+	find_areas(ctx, (areas_job){ d, unit * unit, part, area });
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -116,7 +121,7 @@ gravity_body(void *arg, size_t begin, size_t end)
 		double l, a;
 		if (w->d->kind[v] == MR_DEAD)
 			continue;
-		l = mr_remesh_length(w->s, w->d, v);
+		l = mr_remesh_length(w->s, w->d, v) / w->s->uniform;
 		a = w->gravity[v] / (l * l);
 		if (mr_dyn_on_boundary(w->d, v))
 			a *= 2; /* it has about half the area of an inner one */
@@ -372,15 +377,16 @@ arrive_body(void *arg, size_t begin, size_t end)
 static mr_status
 pass_new(mr_ctx *ctx, pass *w)
 {
-	size_t nv = w->d->nv, parts = w->o->gravity > 0 ? 3 * w->d->nf : 0;
+	size_t nv = w->d->nv, p = nv * sizeof(mr_v3), parts = 3 * w->d->nf * sizeof *w->part;
+	char *shared = MR_NEW(ctx, p > parts ? p : parts, char);
 
-	w->part = MR_NEW(ctx, parts > 3 * nv ? parts : 3 * nv, double);
 	w->gravity = w->o->gravity > 0 ? MR_NEW(ctx, nv, double) : NULL;
 	w->normal = MR_NEW(ctx, nv, direction);
 	w->at = MR_NEW(ctx, nv, uint32_t);
-	if (!w->part || (w->o->gravity > 0 && !w->gravity) || !w->normal || !w->at)
+	if (!shared || (w->o->gravity > 0 && !w->gravity) || !w->normal || !w->at)
 		return MR_EMEM;
-	w->p = (void *)w->part;
+	w->part = (void *)shared;
+	w->p = (void *)shared;
 	w->from = w->to = mr_dyn_view(w->d, w->s->m->name);
 	w->to.p = w->p;
 	mr_parallel(ctx, nv, GRAIN, normals_body, w);
@@ -393,7 +399,7 @@ find_gravity(mr_ctx *ctx, pass *w)
 {
 	if (!w->gravity)
 		return;
-	find_areas(ctx, (areas_job){ w->d, w->part, w->gravity });
+	find_areas(ctx, (areas_job){ w->d, w->s->uniform * w->s->uniform, w->part, w->gravity });
 	mr_parallel(ctx, w->d->nv, GRAIN, gravity_body, w);
 }
 

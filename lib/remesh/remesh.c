@@ -142,10 +142,10 @@ area_variance(remesher *r, double *variance)
 	area = MR_NEW(r->ctx, d->nv, double);
 	if (!area)
 		return MR_EMEM;
-	MR_TRY(mr_dyn_areas(r->ctx, d, area));
+	MR_TRY(mr_dyn_areas(r->ctx, d, r->source.uniform, area));
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
-			double a = area[v] / square(mr_remesh_length(&r->source, d, v));
+			double a = area[v] / square(mr_remesh_length(&r->source, d, v) / r->source.uniform);
 			sum += a;
 			squares += a * a;
 			n++;
