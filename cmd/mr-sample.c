@@ -9,7 +9,8 @@ static const char *level_text;
 static const cmd_opt table[] = {
 	{ 'n', "level", CMD_TEXT, &level_text, 0, 0, "LEVEL",
 	    "subdivisions of the control mesh (default: as many vertices as points, at least 1)", NULL },
-	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "triangle|robust", "how to find the heights", NULL },
+	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "auto|triangle|robust", "how to find the heights",
+	    NULL },
 	{ 'K', "neighbours", CMD_COUNT, &opts.neighbours, 3, MR_SAMPLE_MOST, "K",
 	    "nearest points looked at for each vertex", NULL },
 	{ 0, "refine", CMD_COUNT, &opts.refine, 0, 100, "N",

@@ -639,6 +639,7 @@ MR_API mr_status mr_fit_frame(
     mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *result) MR_WARN_UNUSED;
 
 typedef enum mr_sample_method {
+	MR_SAMPLE_AUTO,     /* robust, where the points are noisy */
 	MR_SAMPLE_TRIANGLE, /* the paper's search for the valid triangle among the nearest points */
 	MR_SAMPLE_ROBUST    /* the nearest points' local surface, for noise and outliers */
 } mr_sample_method;
@@ -651,7 +652,7 @@ typedef struct mr_sample_opts {
 	const char *layer; /* NULL: points, else mesh */
 } mr_sample_opts;
 
-#define MR_SAMPLE_DEFAULTS MR_DEFAULTS(MR_SAMPLE_TRIANGLE, 30, 3, MR_UNKNOWN, NULL)
+#define MR_SAMPLE_DEFAULTS MR_DEFAULTS(MR_SAMPLE_AUTO, 30, 3, MR_UNKNOWN, NULL)
 
 typedef struct mr_sample_result {
 	size_t level, vertices; /* of the domain */
@@ -661,9 +662,8 @@ typedef struct mr_sample_result {
 	size_t neighbours;                 /* of robust */
 	double noise;                      /* the same; a share of the diagonal */
 	size_t spikes, filled;             /* heights taken back, and filled in */
-	double fairness;
 	size_t refine_steps, mend_passes; /* of conjugate gradients in the last pass; around folds */
-	double gap_mean, gap_max;         /* from the points, in shares of the diagonal */
+	double fairness, gap_mean, gap_max; /* gap: from the points, in shares of the diagonal */
 	double area_ratio;                /* of the surface to its domain */
 	size_t folds;                     /* triangles that fold over or pass through others */
 } mr_sample_result;

@@ -160,11 +160,26 @@ robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_
 		.steps = 300 };
 }
 
+/*
+ * Noise of 0.3 % of the diagonal on 50,000 points of 59 models is 0.48 to 0.84 of their spacing, of 1 % on
+ * 30,000 0.80 and more.  Of clean ones nine tenths are below 0.04, thinned out to a sixtieth 0.08; of the
+ * vertices of models 0.45, whose features are no larger than that, and where triangles come nearer by a
+ * third.
+ */
+static const double NOISY = 0.45;
+
+static bool
+is_noisy(const mr_sampling *s)
+{
+	return s->noise > NOISY * s->usual;
+}
+
 static mr_status
 sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cloud *c,
     const mr_sample_opts *opts, double *height, mr_sample_result *r)
 {
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
+	bool robust = opts->method == MR_SAMPLE_ROBUST || (opts->method == MR_SAMPLE_AUTO && is_noisy(s));
 	size_t distinct, k = opts->neighbours;
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
 	mr_heights e;
@@ -177,12 +192,12 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cl
 	distinct = mr_near_distinct(c->near);
 	if (k > distinct)
 		k = distinct;
-	if (opts->method == MR_SAMPLE_TRIANGLE)
-		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
-	else
+	if (robust)
 		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, &noise, r));
+	else
+		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
 	MR_TRY(mend(ctx, d, &e, hit, height, r));
-	if (opts->method == MR_SAMPLE_ROBUST)
+	if (robust)
 		weights = robust_weights(ctx, &e, height, c, noise);
 	return mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height, r);
 }
