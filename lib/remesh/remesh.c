@@ -91,14 +91,6 @@ thin_out(remesher *r)
 	return MR_OK;
 }
 
-/* Neighbours close together in memory. */
-static mr_status
-tidy(remesher *r)
-{
-	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
-	return mr_dyn_order(r->ctx, &r->d);
-}
-
 /*
  * One round of the paper's four steps.  In step 3 dislocations glide; the reach is short, since a long
  * glide shears the rows it passes more than the next relaxation can undo.
@@ -123,7 +115,7 @@ one_round(remesher *r, bool first)
 	MR_TRY(mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes));
 	MR_TRY(mr_mend_needles(r->ctx, &r->d, &r->source, &r->changes));
 	if (first)
-		MR_TRY(tidy(r)); /* it leaves as many holes as vertices, and what is new far from the old */
+		MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* it leaves as many holes as vertices */
 	MR_TRY(regularize(r, REACH));
 	MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
@@ -153,6 +145,14 @@ area_variance(remesher *r, double *variance)
 	*variance = sum > 0 ? n * squares / (sum * sum) - 1 : 0;
 	mr_mark_release(r->ctx, mark);
 	return MR_OK;
+}
+
+/* Neighbours close together in memory. */
+static mr_status
+tidy(remesher *r)
+{
+	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
+	return mr_dyn_order(r->ctx, &r->d);
 }
 
 /* How much finer and coarser than the uniform length adapted lengths may be. */
@@ -300,8 +300,8 @@ run(remesher *r)
 		mr_refine_grade(&r->d, &r->source);
 		if (i + 1 == rounds && misses(excess(r)) && rounds < 2 * r->o->rounds)
 			rounds++; /* it was far more, or is thinner than its edges */
-		if (i + 1 == rounds)
-			MR_TRY(tidy(r));
+		if (i == 0 || i + 1 == rounds)
+			MR_TRY(tidy(r)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(rounds + 1));
 	}
 	middle = mr_seconds();
