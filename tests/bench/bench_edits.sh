@@ -58,32 +58,11 @@ fi
 
 # ---- all of them ----
 
-models() {
-	if [ -d "$DATA/meshes" ]; then
-		set -f # the patterns are for find
-		for pattern in ${MODELS:-*}; do
-			find "$DATA/meshes" -type f -name "$pattern" ! -name '*.mtl'
-		done | sort -u
-		set +f
-		return
-	fi
-	for shape in sphere torus cube plane cylinder knot bumpy boxes; do
-		mr-make $shape | mr-export $shape.ply && echo "$PWD/$shape.ply"
-	done
-}
-sheets() { # edit
-	rm -f "$out/$1"-*.png
-	(cd "$out/results/$1" && ls -d $(cat "$OLDPWD/names") 2>/dev/null) | split -l 40 -a 1 - page-
-	for page in page-*; do
-		(cd "$out/results/$1" && mr-cat $(cat "$OLDPWD/$page")) | mr-render --sheet --columns 8 --size 240x220 -c harm \
-		    --title "$(grep "^$1: " table)" "$out/$1-${page#page-}.png"
-	done
-	rm page-*
-}
+. "$TOP/tests/bench/every_model.sh"
 for edit in $edits; do
 	mkdir -p "$out/rows" "$out/results/$edit"
 done
-models >models
+every_model sphere torus cube plane cylinder knot bumpy boxes >models
 [ -s models ] || { echo "no model in $DATA/meshes is called $MODELS" >&2; exit 1; }
 xargs -P "${JOBS:-2}" -n 1 sh "$0" --one <models || exit
 sed 's/.*\///; s/\.gz$//' models >names
@@ -143,6 +122,6 @@ awk -F '\t' '
 		}
 	}' rows | tee table
 for edit in $edits; do
-	sheets $edit
+	sheets $edit <names
 done
 echo "all results: $out/*.png"

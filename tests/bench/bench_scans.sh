@@ -40,19 +40,7 @@ fi
 
 # ---- all of them ----
 
-models() {
-	if [ -d "$DATA/meshes" ]; then
-		set -f # the patterns are for find
-		for pattern in ${MODELS:-*}; do
-			find "$DATA/meshes" -type f -name "$pattern" ! -name '*.mtl'
-		done | sort -u
-		set +f
-		return
-	fi
-	for shape in sphere torus cube knot bumpy boxes; do
-		mr-make $shape | mr-export $shape.ply && echo "$PWD/$shape.ply"
-	done
-}
+. "$TOP/tests/bench/every_model.sh"
 closed() { # file: it is a model without intersections, in $out/models
 	name=$(basename "$1" .gz)
 	[ -e "$out/models/$name.mrs" ] || mr-import -q --repair "$1" -o "$out/models/$name.mrs" 2>/dev/null || return
@@ -62,20 +50,11 @@ closed() { # file: it is a model without intersections, in $out/models
 	done
 	echo "$name"
 }
-sheets() { # kind
-	rm -f "$out/$1"-*.png
-	(cd "$out/results/$1" && ls) | split -l 40 -a 1 - page-
-	for page in page-*; do
-		(cd "$out/results/$1" && mr-cat $(cat "$OLDPWD/$page")) | mr-render --sheet --columns 8 --size 240x220 -c harm \
-		    --title "$(grep "^$1: " table)" "$out/$1-${page#page-}.png"
-	done
-	rm page-*
-}
 mkdir -p "$out/rows" "$out/models"
 for kind in $KINDS; do
 	mkdir -p "$out/results/$kind"
 done
-models >files
+every_model sphere torus cube knot bumpy boxes >files
 while read -r file; do
 	closed "$file"
 done <files >names
@@ -151,6 +130,6 @@ awk -F '\t' -v kinds="$KINDS" '
 		}
 	}' rows | tee table
 for kind in $KINDS; do
-	sheets "$kind"
+	tr " " - <cases | sheets "$kind"
 done
 echo "all results: $out/*.png"

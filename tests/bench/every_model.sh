@@ -1,0 +1,28 @@
+# What the benches of every model share: to be sourced.  Needs $DATA, $BUILD, $out, and `table` in the current directory.
+
+# The files to measure: $MODELS (patterns of names in $DATA/meshes, default all); without that directory, shapes of mr-make.
+every_model() { # shapes
+	if [ -d "$DATA/meshes" ]; then
+		set -f # the patterns are for find
+		for pattern in ${MODELS:-*}; do
+			find "$DATA/meshes" -type f -name "$pattern" ! -name '*.mtl'
+		done | sort -u
+		set +f
+		return
+	fi
+	for shape; do
+		mr-make "$shape" | mr-export "$shape.ply" && echo "$PWD/$shape.ply"
+	done
+}
+
+# Pictures $out/NAME-a.png, ... of 40 each of the results in $out/results/NAME that are named on stdin and there, under NAME's
+# line of the table.
+sheets() { # name
+	rm -f "$out/$1"-*.png
+	(cd "$out/results/$1" && while read -r result; do [ ! -e "$result" ] || echo "$result"; done) | split -l 40 -a 1 - page-
+	for page in page-*; do
+		(cd "$out/results/$1" && mr-cat $(cat "$OLDPWD/$page")) | mr-render --sheet --columns 8 --size 240x220 -c harm \
+		    --title "$(grep "^$1: " table)" "$out/$1-${page#page-}.png"
+	done
+	rm page-*
+}
