@@ -59,7 +59,9 @@ sort_axes(mr_box b, int axis[3])
 
 	axis[2] = mr_largest(size);
 	axis[0] = mr_largest(mr_mul(-1, size));
-	axis[1] = axis[2] == axis[0] ? axis[2] : 3 - axis[2] - axis[0];
+	if (axis[0] == axis[2])
+		axis[0] = (axis[2] + 1) % 3;
+	axis[1] = 3 - axis[2] - axis[0];
 }
 
 /* ---- clouds ---- */
