@@ -16,14 +16,16 @@
  * JSON: topology of truth and result (Euler number, components, boundary loops, right: all the same); thin:
  *of 1 % of the surface body or gap are thinner than so many spacings; distances in diagonals of the truth;
  * folded edges and intersecting pairs; of the control mesh also the shares of edges bent by over 90 degrees
- * and of angles below 20.  PICTURE becomes a stream for mr-render as edit_yardstick's: faces are marked that
- * are farther than 1 % of the diagonal from the truth, or intersect others.
+ * and of angles below 20, and of the truth simplified to as many faces that of the bent ones.  PICTURE
+ *becomes a stream for mr-render as edit_yardstick's: faces are marked that are farther than 1 % of the
+ *diagonal from the truth, or intersect others.
  */
 #include "base/random.h"
 #include "base/sort.h"
 #include "measure/measure.h"
 #include "mesh/fold.h"
 #include "shape/shape.h"
+#include "simplify/simplify.h"
 #include "space/bvh.h"
 #include "space/self_intersect.h"
 
@@ -305,6 +307,24 @@ measure_surface(mr_ctx *ctx, const mr_mesh *m, bool *crosses, figures *figure)
 	return MR_OK;
 }
 
+/* The share of bent edges that `faces` faces cannot help having. */
+static mr_status
+measure_simplified(mr_ctx *ctx, const mr_mesh *truth, size_t faces, double *bent)
+{
+	mr_simplify_opts opts = MR_SIMPLIFY_DEFAULTS;
+	uint32_t *onto = MR_NEW(ctx, truth->nv, uint32_t);
+	mr_mesh simplified;
+	figures figure;
+
+	if (!onto)
+		return MR_EMEM;
+	opts.faces = faces;
+	MR_TRY(mr_simplify(ctx, truth, &opts, &simplified, onto, NULL));
+	MR_TRY(measure_surface(ctx, &simplified, NULL, &figure));
+	*bent = figure.bent;
+	return MR_OK;
+}
+
 /* What the thinnest hundredth of body and gap measures, in spacings of `points` points. */
 static mr_status
 measure_thin(mr_ctx *ctx, const mr_mesh *m, size_t points, double *thin)
@@ -390,7 +410,7 @@ judge(mr_ctx *ctx, char **argv)
 	figures of_truth, of_result, of_control;
 	mr_frame *frame;
 	bool *crosses;
-	double thin;
+	double thin, bent_simplified;
 
 	MR_TRY(read_mesh(ctx, argv[0], &truth));
 	MR_TRY(read_frame(ctx, argv[1], &frame));
@@ -404,6 +424,7 @@ judge(mr_ctx *ctx, char **argv)
 	MR_TRY(measure_surface(ctx, &truth, NULL, &of_truth));
 	MR_TRY(measure_surface(ctx, &result, crosses, &of_result));
 	MR_TRY(measure_surface(ctx, &control, NULL, &of_control));
+	MR_TRY(measure_simplified(ctx, &truth, control.nf, &bent_simplified));
 	MR_TRY(measure_thin(ctx, &truth, points.nv, &thin));
 	MR_TRY(mr_compare(ctx, &truth, &result, &(mr_compare_opts)MR_COMPARE_DEFAULTS, &surfaces));
 	MR_TRY(mr_compare(ctx, &points, &result, &(mr_compare_opts)MR_COMPARE_DEFAULTS, &gap));
@@ -420,6 +441,7 @@ judge(mr_ctx *ctx, char **argv)
 	print_flaws("", &of_result);
 	print_flaws("_control", &of_control);
 	print_real("bent_control", of_control.bent);
+	print_real("bent_simplified", bent_simplified);
 	print_real("acute_control", of_control.acute);
 	printf("}\n");
 	return argv[3] ? draw(ctx, argv[3], &truth, &result, crosses,
@@ -436,7 +458,7 @@ main(int argc, char **argv)
 
 	if (!making && !((argc == 5 || argc == 6) && !strcmp(argv[1], "judge"))) {
 		fprintf(stderr, "usage: scan_yardstick cloud KIND SEED MODEL POINTS TRUTH | judge TRUTH "
-		                "POINTS RESULT [PICTURE]\n");
+				"POINTS RESULT [PICTURE]\n");
 		return 2;
 	}
 	mr_ctx_init(&ctx, 0);
