@@ -173,12 +173,13 @@ static void
 press(fit *x)
 {
 	static const double shrink = 0.7, more = 3, least = 0.3, most = 300;
+	double stiff = x->local ? fmax(1, x->weights->fair) : 1;
 
 	for (size_t f = 0; f < x->surface.nf; f++)
 		for (int k = 0; k < 3 && x->bad[f]; k++) {
 			uint32_t v = x->surface.t[f].v[k];
 			x->target[v] = shrink * x->height[v];
-			x->pull[v] = (float)fmin(more * fmax((double)x->pull[v], least), most);
+			x->pull[v] = (float)fmin(more * fmax((double)x->pull[v], least * stiff), most * stiff);
 			x->e->fair[v] = fmin(more * x->e->fair[v], most * x->weights->fair);
 		}
 }
