@@ -3,6 +3,7 @@
 # Knobs: MODELS (patterns of names in $DATA/meshes, default all; without that directory, shapes of mr-make), LIMIT (seconds that
 # the pipe may take to the posing, and from there), JOBS (models at a time).  Rows and results are kept in $BUILD/edits, and done
 # again only by newer tools; the *.png there show all results, what is folded or passes through itself in red.
+. "$TOP/tests/bench/common.sh"
 out=$BUILD/edits edits='bend twist pull'
 
 # ---- one model: bench_edits.sh --one FILE ----
@@ -58,7 +59,6 @@ fi
 
 # ---- all of them ----
 
-. "$TOP/tests/bench/every_model.sh"
 for edit in $edits; do
 	mkdir -p "$out/rows" "$out/results/$edit"
 done

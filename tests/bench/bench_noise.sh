@@ -64,13 +64,8 @@ dirty() { # stream of a mesh, deviation (of the diagonal), outliers (of the poin
 	mr-import --points dirty.xyz -o points.mrs
 }
 
-PYTHON=
-for python in python3 /usr/bin/python3; do
-	if "$python" -c 'import open3d' 2>/dev/null; then
-		PYTHON=$python
-		break
-	fi
-done
+. "$TOP/tests/bench/common.sh"
+PYTHON=$(python_of_open3d)
 [ -n "$PYTHON" ] || echo "bench_noise: without Open3D, which python3 has not: tests/bench/README.md says how to get it" >&2
 mr-make torus -n 8000 -o truth.mrs && dirty truth.mrs 0.01 0.2 && case_of torus-1-20
 mr-make knot -n 10000 -o truth.mrs && dirty truth.mrs 0.005 0.1 && case_of knot-0.5-10

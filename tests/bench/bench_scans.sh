@@ -2,36 +2,58 @@
 # comes out by scan_yardstick.c, which says what the kinds of clouds are: a row each, then how many have the right topology.
 # Warnings are those of all tools from mr-shrinkwrap to mr-decode.
 # Knobs: MODELS (patterns of names in $DATA/meshes, default all; without that directory, shapes of mr-make), KINDS (of clouds),
-# SEEDS (of each kind but vertices), LIMIT (seconds that the pipe may take), JOBS (clouds at a time).  Rows and results are kept
-# in $BUILD/scans, and done again only by newer tools; the *.png there show all results, what is far off or passes through itself
-# in red.
+# SEEDS (of each kind but vertices), LIMIT (seconds that the pipe may take), JOBS (clouds at a time), PEERS (cgal, its advancing
+# front; open3d, its Poisson with normals of its own; default both, as far as they are there).  Rows and results are kept in
+# $BUILD/scans, and done again only by newer tools; the *.png there show all results, what is far off or passes through itself in
+# red.
+. "$TOP/tests/bench/common.sh"
 export out=$BUILD/scans LIMIT="${LIMIT:-300}"
 KINDS=${KINDS:-vertices uniform noise03 noise1 outliers holes density views cut near}
 
 # ---- one cloud: bench_scans.sh --one MODEL KIND SEED ----
 
-one() { # name, kind, seed
-	case=$1-$2-$3
-	if [ -e "$out/rows/$case" ] && [ -z "$(find "$BUILD/bin" "$BUILD/bench/scan_yardstick" -newer "$out/rows/$case")" ]; then
-		return
-	fi
-	rm -rf "$out/work/$case" "$out/results/$2/$case"
-	mkdir -p "$out/work/$case" && cd "$out/work/$case" || exit
-	scan_yardstick cloud "$2" "$3" "$out/models/$1.mrs" points.mrs truth.mrs || exit
+is_old() { # row, what it depends on
+	row=$1
+	shift
+	[ ! -e "$row" ] || [ -n "$(find "$@" -newer "$row")" ]
+}
+timed() { # command line: leaves err, $code, $seconds
 	begin=$(date +%s.%N)
-	timeout -k 5 "$LIMIT" sh -c 'mr-shrinkwrap points.mrs | mr-simplify | mr-fit | mr-sample | mr-decode -o result.mrs' 2>err
+	timeout -k 5 "$LIMIT" sh -c "$1" 2>err
 	code=$?
 	seconds=$(echo "$(date +%s.%N) $begin" | awk '{ print $1 - $2 }')
+}
+judge() { # name, kind, seed, result: its row, by $code, $seconds and err
 	warned=$(sed -n 's/^mr-\([a-z]*\): .*warning: .*/\1/p' err | uniq | paste -sd , -)
 	{
 		printf '%s\t%s\t%s\t%s\t%s\t%s\t' "$1" "$2" "$3" "$code" "${warned:--}" "$seconds"
 		if [ "$code" = 0 ]; then
-			scan_yardstick judge truth.mrs points.mrs result.mrs "$out/results/$2/$case" 2>&1
+			scan_yardstick judge truth.mrs points.mrs "$4" "$out/results/$2/$1-$2-$3" 2>&1
 		else
 			grep -v 'warning: ' err | head -n 1 | cut -c 1-200
 		fi
-	} >"$out/rows/$case"
-	rm -rf "$out/work/$case"
+	} >"$out/rows/$1-$2-$3"
+}
+run_peer() { # peer
+	case $1 in
+	cgal) timed 'peer_reconstruct front points.xyz peer.off >/dev/null' ;;
+	open3d) timed '"$OPEN3D" "$TOP/tests/bench/peer_open3d.py" points.xyz peer.off >/dev/null' ;;
+	esac
+}
+one() { # name, kind, seed
+	mkdir -p "$out/work/$1-$2-$3" && cd "$out/work/$1-$2-$3" || exit
+	scan_yardstick cloud "$2" "$3" "$out/models/$1.mrs" points.mrs truth.mrs || exit
+	if is_old "$out/rows/$1-$2-$3" "$BUILD/bin" "$BUILD/bench/scan_yardstick"; then
+		timed 'mr-shrinkwrap points.mrs | mr-simplify | mr-fit | mr-sample | mr-decode -o result.mrs'
+		judge "$1" "$2" "$3" result.mrs
+	fi
+	for peer in $PEERS; do
+		is_old "$out/rows/$1-$2-$peer-$3" "$BUILD/bench/scan_yardstick" || continue
+		[ -e points.xyz ] || mr-export -l points -i points.mrs points.xyz || exit
+		run_peer "$peer"
+		judge "$1" "$2-$peer" "$3" peer.off
+	done
+	rm -rf "$out/work/$1-$2-$3"
 }
 if [ "$1" = --one ]; then
 	one "$2" "$3" "$4"
@@ -40,7 +62,6 @@ fi
 
 # ---- all of them ----
 
-. "$TOP/tests/bench/every_model.sh"
 closed() { # file: it is a model without intersections, in $out/models
 	name=$(basename "$1" .gz)
 	[ -e "$out/models/$name.mrs" ] || mr-import -q --repair "$1" -o "$out/models/$name.mrs" 2>/dev/null || return
@@ -50,9 +71,19 @@ closed() { # file: it is a model without intersections, in $out/models
 	done
 	echo "$name"
 }
-mkdir -p "$out/rows" "$out/models"
+OPEN3D=$(python_of_open3d) PEERS=${PEERS-cgal open3d}
+[ -n "$OPEN3D" ] || PEERS=$(echo "$PEERS" | sed 's/open3d//')
+[ -x "$BUILD/bench/peer_reconstruct" ] || PEERS=$(echo "$PEERS" | sed 's/cgal//')
+export OPEN3D PEERS
+rows= # what there is a row of
 for kind in $KINDS; do
-	mkdir -p "$out/results/$kind"
+	for who in "" $PEERS; do
+		rows="$rows $kind${who:+-$who}"
+	done
+done
+mkdir -p "$out/rows" "$out/models"
+for row in $rows; do
+	mkdir -p "$out/results/$row"
 done
 every_model sphere torus cube knot bumpy boxes >files
 while read -r file; do
@@ -69,9 +100,11 @@ for name in $(cat names); do
 done >cases
 xargs -P "${JOBS:-2}" -n 3 sh "$0" --one <cases || exit
 while read -r name kind seed; do
-	cat "$out/rows/$name-$kind-$seed"
+	for who in "" $PEERS; do
+		cat "$out/rows/$name-$kind${who:+-$who}-$seed"
+	done
 done <cases >rows
-awk -F '\t' -v kinds="$KINDS" '
+awk -F '\t' -v kinds="$rows" '
 	function figure(name) { # of the JSON, the last field
 		return match($7, "\"" name "\":[^,}]*") ? substr($7, RSTART + length(name) + 3, RLENGTH - length(name) - 3) : "-"
 	}
@@ -85,26 +118,26 @@ awk -F '\t' -v kinds="$KINDS" '
 		print "Euler number, components, loops: truth, result; thin: 1 % of body and gaps, in spacings; distances in % of the diagonal:"
 		print "points to result, truth to result, result to truth, mean and max; of result and control mesh: folds, pairs that"
 		print "intersect; of the control mesh: faces, edges bent by over 90 degrees, angles below 20 (%)"
-		printf "%-30s %-8s %s %4s %-12s %-24s %5s %-12s %-12s %-12s %6s %6s %6s %6s %6s %7s\n", "model", "cloud", "#", "exit", "warned",
+		printf "%-30s %-15s %s %4s %-12s %-24s %5s %-12s %-12s %-12s %6s %6s %6s %6s %6s %7s\n", "model", "cloud", "#", "exit", "warned",
 		    "topology", "thin", "gap", "from truth", "to truth", "folds", "pairs", "faces", "bent", "acute", "seconds"
 	}
 	{ clouds[$2]++; seconds[$2] += $6 }
 	$4 != 0 || $7 !~ /^{/ {
 		refused[$2]++
-		printf "%-30s %-8s %s %4s %-12s %s\n", $1, $2, $3, $4, $5, $7
+		printf "%-30s %-15s %s %4s %-12s %s\n", $1, $2, $3, $4, $5, $7
 		next
 	}
 	{
 		right = figure("right") + 0
 		thick = figure("thin") >= 2
-		printf "%-30s %-8s %s %4s %-12s %-24s %5.1f %-12s %-12s %-12s %6d %6d %6d %6.2f %6.2f %7.2f%s\n", $1, $2, $3, $4, $5,
+		printf "%-30s %-15s %s %4s %-12s %-24s %5.1f %-12s %-12s %-12s %6d %6d %6d %6.2f %6.2f %7.2f%s\n", $1, $2, $3, $4, $5,
 		    figure("euler_truth") " " figure("components_truth") " " figure("loops_truth") ", " figure("euler") " " \
 		    figure("components") " " figure("loops"), figure("thin"),
 		    share(figure("points_to_result_mean")) " " share(figure("points_to_result_max")),
 		    share(figure("truth_to_result_mean")) " " share(figure("truth_to_result_max")),
 		    share(figure("result_to_truth_mean")) " " share(figure("result_to_truth_max")),
 		    both("folds"), both("pairs"), figure("faces_control"), 100 * figure("bent_control"), 100 * figure("acute_control"),
-		    $6, right ? "" : $5 == "-" ? " WRONG, SILENT" : " wrong"
+		    $6, right ? "" : $5 == "-" && $2 !~ /-/ ? " WRONG, SILENT" : " wrong"
 		made[$2]++
 		good[$2] += right
 		silent[$2] += !right && $5 == "-"
@@ -126,10 +159,13 @@ awk -F '\t' -v kinds="$KINDS" '
 			    k, clouds[k], refused[k], good[k], thick_good[k], thicks[k], silent[k], idle[k]
 			printf "from truth %.3f %%, to truth %.3f %%; %d intersect; bent %.2f %%, acute %.1f %%; %.0f s\n",
 			    100 * from[k] / m, 100 * to[k] / m, pairs[k], 100 * bent[k] / m, 100 * acute[k] / m, seconds[k]
-			printf "%s-wrong mr %d clouds\n%s-silent mr %d clouds\n", k, made[k] - good[k], k, silent[k]
+			split(k "-mr", who, "-")
+			printf "%s-wrong %s %d clouds\n", who[1], who[2], made[k] - good[k]
+			if (who[2] == "mr")
+				printf "%s-silent mr %d clouds\n", k, silent[k]
 		}
 	}' rows | tee table
-for kind in $KINDS; do
-	tr " " - <cases | sheets "$kind"
+for row in $rows; do
+	awk -v row="$row" '{ print $1 "-" row "-" $3 }' cases | sheets "$row"
 done
 echo "all results: $out/*.png"

@@ -14,11 +14,11 @@
  *	cut        uniform on the faces before the middle of the second longest axis; they are the surface
  *	near       uniform, on the model and its copy along its shortest axis, three spacings from it
  * JSON: topology of truth and result (Euler number, components, boundary loops, right: all the same); thin:
- *of 1 % of the surface body or gap are thinner than so many spacings; distances in diagonals of the truth;
- * folded edges and intersecting pairs; of the control mesh also the shares of edges bent by over 90 degrees
- * and of angles below 20, and of the truth simplified to as many faces that of the bent ones.  PICTURE
- *becomes a stream for mr-render as edit_yardstick's: faces are marked that are farther than 1 % of the
- *diagonal from the truth, or intersect others.
+ * body or gap are thinner than so many spacings at 1 % of the surface; distances in diagonals of the truth;
+ * folded edges and intersecting pairs; of the control mesh (where there is none, of the result) the shares of
+ * edges bent by over 90 degrees and of angles below 20; how many are bent in the truth, simplified to as many
+ * faces.  PICTURE becomes a stream for mr-render as edit_yardstick's: faces are marked that are farther than
+ * 1 % of the diagonal from the truth, or intersect others.
  */
 #include "base/random.h"
 #include "base/sort.h"
@@ -253,7 +253,10 @@ write_layer(mr_ctx *ctx, const char *path, const char *layer, const mr_mesh *m)
 	mr_frame *frame;
 
 	MR_TRY(mr_frame_new(ctx, layer, &frame));
-	MR_TRY(mr_layer_put_mesh(ctx, frame, layer, m));
+	if (m->nf)
+		MR_TRY(mr_layer_put_mesh(ctx, frame, layer, m));
+	else
+		MR_TRY(mr_layer_put(ctx, frame, layer, "position", m->p, m->nv));
 	return write_frame(ctx, path, frame);
 }
 
@@ -417,7 +420,8 @@ judge(mr_ctx *ctx, char **argv)
 	MR_TRY(mr_layer_surface_or_points(ctx, frame, "points", &points));
 	MR_TRY(read_frame(ctx, argv[2], &frame));
 	MR_TRY(mr_layer_mesh(ctx, frame, "mesh", &result));
-	MR_TRY(mr_layer_mesh(ctx, frame, "control", &control));
+	MR_TRY(mr_layer_mesh(
+	    ctx, frame, mr_frame_find(frame, "control", "position") ? "control" : "mesh", &control));
 	crosses = MR_NEW_ZERO(ctx, truth.nf + result.nf + control.nf, bool);
 	if (!crosses)
 		return MR_EMEM;

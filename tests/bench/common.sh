@@ -1,6 +1,6 @@
-# What the benches of every model share: to be sourced.  Needs $DATA, $BUILD, $out, and `table` in the current directory.
+# What benches share: to be sourced.
 
-# The files to measure: $MODELS (patterns of names in $DATA/meshes, default all); without that directory, shapes of mr-make.
+# Of $DATA, the files to measure: $MODELS (patterns of names in $DATA/meshes, default all); without that directory, shapes of mr-make.
 every_model() { # shapes
 	if [ -d "$DATA/meshes" ]; then
 		set -f # the patterns are for find
@@ -16,7 +16,7 @@ every_model() { # shapes
 }
 
 # Pictures $out/NAME-a.png, ... of 40 each of the results in $out/results/NAME that are named on stdin and there, under NAME's
-# line of the table.
+# line of the file `table`.
 sheets() { # name
 	rm -f "$out/$1"-*.png
 	(cd "$out/results/$1" && while read -r result; do [ ! -e "$result" ] || echo "$result"; done) | split -l 40 -a 1 - page-
@@ -25,4 +25,11 @@ sheets() { # name
 		    --title "$(grep "^$1: " table)" "$out/$1-${page#page-}.png"
 	done
 	rm page-*
+}
+
+# The Python that has Open3D, or nothing.
+python_of_open3d() {
+	for python in python3 /usr/bin/python3; do
+		"$python" -c 'import open3d' 2>/dev/null && echo "$python" && return
+	done
 }
