@@ -48,14 +48,6 @@ number_names(mr_ctx *ctx, const uint32_t *column, mr_lines lines, size_t nf, con
 	return MR_OK;
 }
 
-const double *
-mr_corner_texcoord(const mr_model *m, size_t c)
-{
-	return m->corner_texcoord ? m->corner_texcoord + 2 * c
-	       : m->texcoord      ? m->texcoord + 2 * (size_t)m->t[c / 3].v[c % 3]
-	                          : NULL;
-}
-
 static const mr_v3 *
 corner_normal(const mr_model *m, size_t c)
 {

@@ -9,7 +9,7 @@
 #ifndef MR_GLTF_SETS_H
 #define MR_GLTF_SETS_H
 
-#include "formats/formats.h"
+#include "formats/model.h"
 
 /* What all corners of the faces of a set have. */
 enum { MR_SET_TEXCOORDS = 1, MR_SET_NORMALS = 2, MR_SET_KINDS = 4 };
@@ -50,9 +50,6 @@ mr_status mr_set_make(mr_ctx *ctx, mr_sets *s, size_t first, size_t last, mr_ver
  * than those that the sets repeat, or leave a vertex apart that two objects share.
  */
 mr_status mr_sets_ambiguous(mr_ctx *ctx, const mr_sets *s, bool *ambiguous) MR_WARN_UNUSED;
-
-/* The texture coordinates of a corner, whose v runs upwards; NULL: none. */
-const double *mr_corner_texcoord(const mr_model *m, size_t corner);
 
 /* Whether it can be made unit. */
 static inline bool

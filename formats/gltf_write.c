@@ -35,6 +35,7 @@ typedef struct layer {
 	const char *name; /* of its nodes, before that of an object */
 	mr_sets sets;
 	size_t *material; /* of each of its names, the material of the document */
+	bool relief;      /* one of them has a picture of normals */
 } layer;
 
 /* ---- pieces of JSON and bytes ---- */
@@ -198,11 +199,21 @@ embed(glb *w, const char *file, size_t *texture)
 	return status;
 }
 
+/* A reference to a texture. */
+static json_t *
+texture_info(glb *w, size_t texture)
+{
+	json_t *json = json_object();
+
+	set(w, json, "index", number(texture));
+	return json;
+}
+
 /* What says nothing else is of metal to the format, and seen from one side. */
 static json_t *
 new_material(glb *w, const mr_material *look, size_t texture)
 {
-	json_t *json = json_object(), *surface = json_object(), *color = json_array(), *shown = json_object();
+	json_t *json = json_object(), *surface = json_object(), *color = json_array();
 	bool colored = look && look->colored && texture == MR_UNKNOWN;
 
 	for (int k = 0; k < 3; k++)
@@ -211,13 +222,37 @@ new_material(glb *w, const mr_material *look, size_t texture)
 	set(w, surface, "baseColorFactor", color);
 	set(w, surface, "metallicFactor", json_real(0));
 	set(w, surface, "roughnessFactor", json_real(0.9));
-	set(w, shown, "index", number(texture));
 	if (texture != MR_UNKNOWN)
-		set(w, surface, "baseColorTexture", json_incref(shown));
-	json_decref(shown);
+		set(w, surface, "baseColorTexture", texture_info(w, texture));
 	set(w, json, "pbrMetallicRoughness", surface);
 	set(w, json, "doubleSided", json_true());
 	return json;
+}
+
+/* Normals, and heights, for which the format has no place of its own: in what is left to programs. */
+static mr_status
+put_relief(glb *w, layer *l, const mr_material *look, json_t *json)
+{
+	size_t texture = MR_UNKNOWN;
+	json_t *extras;
+
+	if (look->normals)
+		MR_TRY(embed(w, look->normals, &texture));
+	if (texture != MR_UNKNOWN) {
+		l->relief = true;
+		set(w, json, "normalTexture", texture_info(w, texture));
+	}
+	texture = MR_UNKNOWN;
+	if (look->heights)
+		MR_TRY(embed(w, look->heights, &texture));
+	if (texture == MR_UNKNOWN)
+		return MR_OK;
+	extras = json_object();
+	set(w, extras, "displacementTexture", texture_info(w, texture));
+	set(w, extras, "displacementBias", json_real(look->base));
+	set(w, extras, "displacementScale", json_real(look->gain));
+	set(w, json, "extras", extras);
+	return MR_OK;
 }
 
 static mr_status
@@ -241,6 +276,7 @@ put_materials(glb *w, layer *l)
 		json = new_material(w, &look[i], texture);
 		set(w, json, "name", json_stringn(name[i], bytes));
 		l->material[i] = push(w, w->materials, json);
+		MR_TRY(put_relief(w, l, &look[i], json));
 	}
 	return MR_OK;
 }
@@ -329,6 +365,45 @@ put_texcoords(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accesso
 	return MR_OK;
 }
 
+/* Where u increases on a corner's triangle, and 1 where v then increases to the left of it, else -1. */
+static mr_v3
+tangent_of(const mr_model *m, size_t corner, double *side)
+{
+	size_t f = corner / 3;
+	const double *a = mr_corner_texcoord(m, 3 * f), *b = mr_corner_texcoord(m, 3 * f + 1),
+		     *c = mr_corner_texcoord(m, 3 * f + 2);
+	mr_v3 ab = mr_sub(m->p[m->t[f].v[1]], m->p[m->t[f].v[0]]);
+	mr_v3 ac = mr_sub(m->p[m->t[f].v[2]], m->p[m->t[f].v[0]]);
+	double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
+
+	*side = area < 0 ? -1 : 1;
+	return mr_mul(*side, mr_sub(mr_mul(c[1] - a[1], ab), mr_mul(b[1] - a[1], ac)));
+}
+
+/*
+ * The frames of a picture of normals where no two triangles have a vertex of the set together, as in an
+ * atlas: what Mikkelsen's rule gives there, which the format asks viewers for where a file has none; some
+ * take another one.
+ */
+static mr_status
+put_tangents(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
+{
+	char *to = NULL;
+
+	MR_TRY(new_values(w, v->count, 16, MR_GLTF_FLOAT, "VEC4", &to, accessor));
+	for (size_t i = 0; i < v->count; i++) {
+		mr_v3 n = set_normal(m->normal, m->corner_normal, v, i), t;
+		double side = 1;
+		t = tangent_of(m, v->corner[i], &side);
+		t = mr_sub(t, mr_mul(mr_dot(t, n) / mr_norm2(n), n));
+		if (!mr_is_direction(t)) /* a triangle without area: any */
+			t = mr_cross(n, fabs(n.x) < 0.5 ? mr_vec(1, 0, 0) : mr_vec(0, 1, 0));
+		to = put_floats(to, mr_unit(t));
+		to = mr_store_float(to, (float)side, false);
+	}
+	return MR_OK;
+}
+
 /* Linear there, where sixteen bits give every byte back. */
 static mr_status
 put_colors(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
@@ -359,7 +434,7 @@ put_numbers(glb *w, const mr_vertex_set *v, size_t *accessor)
 }
 
 static mr_status
-put_attributes(glb *w, const mr_model *m, const mr_vertex_set *v, json_t *attributes)
+put_attributes(glb *w, const mr_model *m, const mr_vertex_set *v, bool tangents, json_t *attributes)
 {
 	size_t accessor = 0;
 
@@ -372,6 +447,10 @@ put_attributes(glb *w, const mr_model *m, const mr_vertex_set *v, json_t *attrib
 	if (v->kind & MR_SET_TEXCOORDS) {
 		MR_TRY(put_texcoords(w, m, v, &accessor));
 		set(w, attributes, "TEXCOORD_0", number(accessor));
+	}
+	if (tangents) {
+		MR_TRY(put_tangents(w, m, v, &accessor));
+		set(w, attributes, "TANGENT", number(accessor));
 	}
 	if (m->color) {
 		MR_TRY(put_colors(w, m, v, &accessor));
@@ -454,6 +533,18 @@ put_materials_of_set(
 	return MR_OK;
 }
 
+/* Whether each corner of the faces of a set is a vertex of its own, with all that a frame needs. */
+static bool
+has_frames(const mr_vertex_set *v, size_t faces)
+{
+	if (v->count != 3 * faces || !(v->kind & MR_SET_TEXCOORDS) || !(v->kind & MR_SET_NORMALS))
+		return false;
+	for (size_t i = 0; i < v->count; i++)
+		if (v->corner[i] == MR_NONE)
+			return false;
+	return true;
+}
+
 static mr_status
 put_set(glb *w, layer *l, size_t first, size_t last, json_t *primitives)
 {
@@ -462,7 +553,8 @@ put_set(glb *w, layer *l, size_t first, size_t last, json_t *primitives)
 	mr_status status = mr_set_make(w->ctx, &l->sets, first, last, &v);
 
 	if (status == MR_OK)
-		status = put_attributes(w, &l->node->model, &v, attributes);
+		status = put_attributes(
+		    w, &l->node->model, &v, l->relief && has_frames(&v, last - first), attributes);
 	if (status == MR_OK)
 		status = put_targets(w, l->node, &v, targets);
 	if (status == MR_OK)
@@ -602,7 +694,7 @@ put_cloud(glb *w, const layer *l)
 	mr_status status = make_cloud(w->ctx, &l->node->model, &v);
 
 	if (status == MR_OK)
-		status = put_attributes(w, &l->node->model, &v, attributes);
+		status = put_attributes(w, &l->node->model, &v, false, attributes);
 	if (status == MR_OK)
 		status = put_targets(w, l->node, &v, targets);
 	set(w, new_primitive(w, primitives, attributes, targets), "mode", number(POINTS));

@@ -1,5 +1,5 @@
-/* MTL (Wavefront, "Advanced Visualizer", appendix B2): newmtl, Kd and map_Kd; the rest is for other programs.
- */
+/* MTL (Wavefront, "Advanced Visualizer", appendix B2): newmtl, Kd, map_Kd and disp, and norm, which others
+ * have added; the rest is for other programs. */
 #include "formats/materials.h"
 
 #include "base/text_file.h"
@@ -129,32 +129,58 @@ diffuse(mr_material *m, const char *s)
 		m->color[n] = m->color[n] > 0 ? m->color[n] < 1 ? m->color[n] : 1 : 0;
 }
 
+/* to: the picture, of the material at hand. */
 static mr_status
-map(finder *f, const char *s)
+map(finder *f, const char *s, const char **to)
 {
 	const char *file = behind_options(s), *start = f->name[f->at];
-	mr_material *m = &f->list[f->at];
 
-	MR_TRY(find_file(f, file, &m->file));
-	if (!m->file)
+	MR_TRY(find_file(f, file, to));
+	if (!*to)
 		mr_warn(f->ctx, "%.100s, the picture of material %.*s, is not in %s", file,
 		    (int)(f->name[f->at + 1] - start) - 1, start, f->folder);
 	return MR_OK;
 }
 
+/* Option -mm base gain. */
+static void
+modify(mr_material *m, const char *s)
+{
+	const char *file = behind_options(s), *p = strstr(s, "-mm ");
+	double base, gain;
+
+	m->base = 0;
+	m->gain = 1;
+	if (!p || p >= file || !(p = mr_real_read(p + 4, file, &base)))
+		return;
+	p += strspn(p, " \t");
+	if (mr_real_read(p, file, &gain) && isfinite(base) && isfinite(gain)) {
+		m->base = base;
+		m->gain = gain;
+	}
+}
+
 static mr_status
 statement(finder *f, const char *line)
 {
+	mr_material *m;
 	const char *rest;
 
 	if ((rest = behind(line, "newmtl")))
 		new_material(f, rest);
 	if (f->at == f->count)
 		return MR_OK;
+	m = &f->list[f->at];
 	if ((rest = behind(line, "Kd")))
-		diffuse(&f->list[f->at], rest);
+		diffuse(m, rest);
 	if ((rest = behind(line, "map_Kd")))
-		MR_TRY(map(f, rest));
+		MR_TRY(map(f, rest, &m->file));
+	if ((rest = behind(line, "norm")) || (rest = behind(line, "map_Kn")))
+		MR_TRY(map(f, rest, &m->normals));
+	if ((rest = behind(line, "disp")) || (rest = behind(line, "map_disp"))) {
+		modify(m, rest);
+		MR_TRY(map(f, rest, &m->heights));
+	}
 	return MR_OK;
 }
 

@@ -11,8 +11,11 @@
 
 typedef struct mr_material {
 	bool colored;
-	double color[3];  /* Kd, from 0 to 1, as pictures have it */
-	const char *file; /* the picture of map_Kd, which is there; NULL: none */
+	double color[3];     /* Kd, from 0 to 1, as pictures have it */
+	const char *file;    /* the picture of map_Kd, which is there; NULL: none */
+	const char *normals; /* likewise of norm or map_Kn */
+	const char *heights; /* and of disp or map_disp: from 0 to 1, times the gain, plus the base */
+	double base, gain;
 } mr_material;
 
 /*

@@ -57,6 +57,14 @@ lines_of(mr_model *m, size_t i)
 	return (mr_lines *)(void *)((char *)m + names[i].at);
 }
 
+const double *
+mr_corner_texcoord(const mr_model *m, size_t c)
+{
+	return m->corner_texcoord ? m->corner_texcoord + 2 * c
+	       : m->texcoord      ? m->texcoord + 2 * (size_t)m->t[c / 3].v[c % 3]
+	                          : NULL;
+}
+
 /* ---- attributes follow their vertices and faces ---- */
 
 mr_status

@@ -35,6 +35,9 @@ mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mod
  */
 mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
+/* The texture coordinates of a corner, whose v runs upwards; NULL: none. */
+const double *mr_corner_texcoord(const mr_model *m, size_t corner);
+
 /* A copy of the model and all that it has, in an arena that may outlive it. */
 mr_status mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy) MR_WARN_UNUSED;
 

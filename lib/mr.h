@@ -44,10 +44,7 @@ extern "C" {
 
 #define MR_UNKNOWN SIZE_MAX
 /* Values of all fields, as a line. */
-#define MR_DEFAULTS(...)                                                                                     \
-	{                                                                                                    \
-		__VA_ARGS__                                                                                  \
-	}
+#define MR_DEFAULTS(...) { __VA_ARGS__ }
 
 /* Contexts */
 
@@ -99,13 +96,9 @@ MR_API void mr_mark_release(mr_ctx *ctx, mr_mark mark);
 
 /* Meshes */
 
-typedef struct mr_v3 {
-	double x, y, z;
-} mr_v3;
+typedef struct mr_v3 { double x, y, z; } mr_v3;
 
-typedef struct mr_tri {
-	uint32_t v[3]; /* counter-clockwise, seen from outside */
-} mr_tri;
+typedef struct mr_tri { uint32_t v[3]; } mr_tri; /* counter-clockwise, seen from outside */
 
 /* A view of arrays that somebody else keeps; without faces a cloud of points. */
 typedef struct mr_mesh {
@@ -139,10 +132,8 @@ MR_API bool mr_frame_column(
 MR_API bool mr_frame_has_layer(const mr_frame *frame, const char *layer);
 MR_API bool mr_layer_has(const mr_frame *frame, const char *layer, const char *name);
 
-/*
- * The column's values, decoded and its checksum verified.  MR_EMISSING where it is absent or of another
- * shape; MR_EFORMAT where its bytes are damaged.  data: rows x components values, the frame's.
- */
+/* The column's values, decoded and its checksum verified.  MR_EMISSING where it is absent or of another
+ * shape; MR_EFORMAT where its bytes are damaged.  data: rows x components values, the frame's. */
 MR_API mr_status mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name,
     mr_shape shape, const void **data, size_t *rows) MR_WARN_UNUSED;
 
@@ -155,8 +146,7 @@ MR_API mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, c
  * that element. */
 MR_API void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
 
-/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH without faces.
- */
+/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH of no face. */
 MR_API mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
 
 /* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */
@@ -190,16 +180,12 @@ MR_API mr_status mr_layer_put_region(
 typedef struct mr_reader mr_reader;
 typedef struct mr_writer mr_writer;
 
-/*
- * Reads from a descriptor, which stays the caller's, from where it stands; a regular file is mapped and must
- * not be cut meanwhile.
- */
+/* Reads from a descriptor, which stays the caller's, from where it stands; a regular file is mapped and must
+ * not be cut meanwhile. */
 MR_API mr_status mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader) MR_WARN_UNUSED;
 
-/*
- * MR_OK: *frame is the next one, a delta merged with what it keeps, valid until the next call; MR_END: all
- * streams have ended well, and the last frame stays valid; else failed, and every further call fails.
- */
+/* MR_OK: *frame is the next one, a delta merged with what it keeps, valid until the next call; MR_END: all
+ * streams have ended well, and the last frame stays valid; else failed, and every further call fails. */
 MR_API mr_status mr_reader_next(mr_ctx *ctx, mr_reader *reader, mr_frame **frame) MR_WARN_UNUSED;
 
 /* Accepts NULL. */
@@ -441,12 +427,7 @@ MR_API mr_status mr_pose_frame(
 
 typedef enum mr_solver_choice {
 	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
-	MR_SOLVER_CHOLESKY,
-	MR_SOLVER_LU,
-	MR_SOLVER_CG,
-	MR_SOLVER_BICGSTAB,
-	MR_SOLVER_MULTIGRID,
-	MR_SOLVER_VCYCLE
+	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_BICGSTAB, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
 } mr_solver_choice;
 
 typedef enum mr_areas {
@@ -701,15 +682,7 @@ MR_API mr_status mr_equalize_frame(
 /* Models from nothing: mr-make */
 
 typedef enum mr_solid {
-	MR_SPHERE,
-	MR_TORUS,
-	MR_CUBE,
-	MR_PLANE,
-	MR_CYLINDER,
-	MR_KNOT,
-	MR_BUMPY,
-	MR_BOXES,
-	MR_SOLIDS
+	MR_SPHERE, MR_TORUS, MR_CUBE, MR_PLANE, MR_CYLINDER, MR_KNOT, MR_BUMPY, MR_BOXES, MR_SOLIDS
 } mr_solid;
 
 typedef struct mr_make_opts {
@@ -731,9 +704,7 @@ MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame
 
 /* Measuring: mr-info */
 
-typedef struct mr_box {
-	mr_v3 min, max;
-} mr_box;
+typedef struct mr_box { mr_v3 min, max; } mr_box;
 
 /*
  * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
@@ -892,6 +863,34 @@ typedef struct mr_render_opts {
 /* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */
 MR_API mr_status mr_render(
     mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path) MR_WARN_UNUSED;
+
+/* Heights over control as pictures: mr-map */
+
+typedef struct mr_map_opts {
+	size_t level;     /* of the heights; MR_UNKNOWN: all there are, or what the picture says */
+	size_t side;      /* of a picture written, at most, in texels */
+	size_t gutter;    /* texels around each triangle, at least 1 */
+	bool ranged;      /* black is low and white is high; else as the heights need, or the picture says */
+	double low, high; /* in units of the positions */
+} mr_map_opts;
+
+#define MR_MAP_DEFAULTS MR_DEFAULTS(MR_UNKNOWN, 16384, 2, false, 0, 0)
+
+typedef struct mr_map_result {
+	size_t level, width, height; /* the last two in texels */
+	double low, high;
+	size_t clipped, turned; /* written: texels of heights out of the range, of normals away from control */
+	size_t between, seams;  /* read: vertices on no texel, and of other heights across a seam */
+} mr_map_result;
+
+/* Writes NAME-height.png, NAME-normal.png and NAME.mtl, which names them, and gives control a material,
+ * normals and texture coordinates for them.  MR_ERANGE where a picture would be too large. */
+MR_API mr_status mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts,
+    mr_map_result *result) MR_WARN_UNUSED;
+
+/* Makes displacement of a picture of heights, by control's texture coordinates. */
+MR_API mr_status mr_map_read(mr_ctx *ctx, mr_frame *f, const char *picture, const mr_map_opts *opts,
+    mr_map_result *result) MR_WARN_UNUSED;
 
 #ifdef __cplusplus
 }

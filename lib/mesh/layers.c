@@ -52,6 +52,7 @@ const mr_column_info mr_columns[] = {
 	{ "handles", "frames", { '-', 'u', 1 }, "how many deltas of a sequence follow the key" },
 	{ "displacement", "height", { 'v', 'd', 1 }, "height along the limit normal" },
 	{ "displacement", "level", { '-', 'u', 1 }, "subdivision level" },
+	{ "displacement", "range", { '-', 'd', 2 }, "heights of black and of white in their picture" },
 	{ NULL, NULL, { 0, 0, 0 }, NULL },
 };
 

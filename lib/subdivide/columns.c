@@ -7,35 +7,16 @@ typedef struct corners {
 	mr_v3 at[3];
 } corners;
 
-static mr_v3
-middle(mr_v3 a, mr_v3 b)
-{
-	return mr_lerp(0.5, a, b);
-}
-
-/* By the numbers of the levels: see loop.h. */
-static corners
-by_levels(size_t n, size_t f)
-{
-	corners c = { (uint32_t)(f >> 2 * n), { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } } };
-
-	while (n-- > 0) {
-		mr_v3 a = c.at[0], b = c.at[1], d = c.at[2];
-		mr_v3 ab = middle(a, b), bd = middle(b, d), da = middle(d, a);
-		size_t part = f >> 2 * n & 3;
-		c.at[0] = part == 0 ? a : part == 2 ? da : ab;
-		c.at[1] = part == 0 ? ab : part == 1 ? b : bd;
-		c.at[2] = part == 1 ? bd : part == 2 ? d : da;
-	}
-	return c;
-}
-
 static corners
 corners_of(const mr_refined *r, size_t f)
 {
-	const mr_v3 *b = r->bary + 3 * f;
+	corners c = { r->face ? r->face[f] : (uint32_t)(f >> 2 * r->n), { { 0, 0, 0 } } };
 
-	return r->face ? (corners){ r->face[f], { b[0], b[1], b[2] } } : by_levels(r->n, f);
+	if (r->face)
+		memcpy(c.at, r->bary + 3 * f, sizeof c.at);
+	else
+		mr_loop_corners(r->n, f, c.at);
+	return c;
 }
 
 /* A value of `width` numbers between those of three corners; those of no weight do not count. */

@@ -192,6 +192,7 @@ mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *
 	if (!level)
 		return MR_EMEM;
 	*level = (uint32_t)d->n;
+	mr_frame_drop(f, "displacement", "range", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", height, d->m.nv));
 	return mr_layer_put(ctx, f, "displacement", "level", level, 1);
 }

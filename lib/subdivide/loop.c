@@ -233,6 +233,21 @@ mr_loop_count(size_t nv, size_t nf, size_t boundary, size_t n)
 	return nv;
 }
 
+void
+mr_loop_corners(size_t n, size_t f, mr_v3 at[3])
+{
+	mr_v3 a = { 1, 0, 0 }, b = { 0, 1, 0 }, c = { 0, 0, 1 };
+
+	while (n-- > 0) {
+		mr_v3 ab = mr_lerp(0.5, a, b), bc = mr_lerp(0.5, b, c), ca = mr_lerp(0.5, c, a);
+		size_t part = f >> 2 * n & 3;
+		a = part == 0 ? a : part == 2 ? ca : ab;
+		c = part == 1 ? bc : part == 2 ? c : ca;
+		b = part == 1 ? b : part == 0 ? ab : bc;
+	}
+	at[0] = a, at[1] = b, at[2] = c;
+}
+
 typedef struct subdividing {
 	const mr_loop *coarse, *fine;
 	size_t width;

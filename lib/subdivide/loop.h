@@ -45,6 +45,9 @@ mr_status mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, size_t n,
  * SIZE_MAX where that is too many. */
 size_t mr_loop_count(size_t nv, size_t nf, size_t boundary, size_t n);
 
+/* Where the corners of triangle f on level n are in the triangle of level 0 that it is a part of, f >> 2 n. */
+void mr_loop_corners(size_t n, size_t f, mr_v3 at[3]);
+
 /*
  * Values on the fine level from those of the coarse one below it: `width` a vertex, next to each other.
  * in: coarse->nv rows; out: fine->nv rows, the caller's, elsewhere.

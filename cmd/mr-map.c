@@ -1,0 +1,81 @@
+/* mr-map -- heights over a control mesh to a picture, and back.  See man/mr-map.1. */
+#include "cmd.h"
+#include "formats/outname.h"
+
+static mr_map_opts opts = MR_MAP_DEFAULTS;
+static const char *to, *from;
+static size_t level;
+static cmd_range range;
+static uint64_t written;
+
+static const cmd_opt table[] = {
+	{ 'w', "write", CMD_TEXT, &to, 0, 0, "NAME", "write NAME-height.png, NAME-normal.png and NAME.mtl",
+	    NULL },
+	{ 'r', "read", CMD_TEXT, &from, 0, 0, "PICTURE", "read the heights in this picture", NULL },
+	{ 'n', "level", CMD_COUNT, &level, 0, MR_LEVEL_MAX, "LEVEL",
+	    "subdivisions of the control mesh (default: as many as have heights, or as the picture says)",
+	    NULL },
+	{ 0, "range", CMD_RANGE, &range, 0, 0, "LOW,HIGH",
+	    "heights of black and white (default: the least and the greatest, or as the picture says)",
+	    NULL },
+	{ 0, "size", CMD_COUNT, &opts.side, 1, 32767, "N", "texels that a side of a picture may have", NULL },
+	{ 0, "gutter", CMD_COUNT, &opts.gutter, 1, 256, "N", "texels around each triangle", NULL },
+	{ 0 },
+};
+
+static mr_status
+check(cmd *c)
+{
+	char *name;
+
+	if (!to == !from)
+		return mr_fail(&c->ctx, MR_EUSAGE, "give one of --write NAME and --read PICTURE");
+	MR_TRY(cmd_idle(c, "size", from != NULL, "with --read"));
+	MR_TRY(cmd_idle(c, "gutter", from != NULL, "with --read"));
+	if (cmd_given(c, "level"))
+		opts.level = level;
+	opts.ranged = range.given;
+	opts.low = range.low;
+	opts.high = range.high;
+	return mr_outname(&c->ctx, to ? to : from, "", 1, &name);
+}
+
+static const cmd_field figures[] = {
+	CMD_COUNTED(mr_map_result, level),
+	CMD_COUNTED(mr_map_result, width),
+	CMD_COUNTED(mr_map_result, height),
+	CMD_MEASURED(mr_map_result, low),
+	CMD_MEASURED(mr_map_result, high),
+	CMD_COUNTED(mr_map_result, clipped),
+	CMD_COUNTED(mr_map_result, turned),
+	CMD_COUNTED(mr_map_result, between),
+	CMD_COUNTED(mr_map_result, seams),
+	{ 0 },
+};
+
+static mr_status
+map_frame(cmd *c, mr_frame *f)
+{
+	mr_map_result result;
+	char *name;
+
+	if (to && written++ && !mr_outname_varies(to))
+		return mr_fail(&c->ctx, MR_EUSAGE,
+		    "%s names the maps of the frame before: it needs %%s or %%d for several", to);
+	MR_TRY(mr_outname(&c->ctx, to ? to : from, f->name, f->number, &name));
+	MR_TRY(to ? mr_map_write(&c->ctx, f, name, &opts, &result)
+		  : mr_map_read(&c->ctx, f, name, &opts, &result));
+	cmd_figures(c, figures, &result);
+	return MR_OK;
+}
+
+int
+main(int argc, char **argv)
+{
+	return cmd_main(argc, argv,
+	    &(cmd_tool){ .summary = "write heights over a control mesh as pictures, and read them",
+		.options = table,
+		.prepare = check,
+		.frame = map_frame,
+		.fixed_layers = true });
+}

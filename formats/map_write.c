@@ -1,0 +1,393 @@
+/* Heights over a control mesh as a picture (Lee, Moreton, Hoppe 2000), and normals of the surface as another.
+ */
+#include "base/parallel.h"
+#include "formats/bytes.h"
+#include "formats/map.h"
+#include "formats/scan.h"
+#include "subdivide/atlas.h"
+
+enum { GRAIN = 16 };
+
+/* Control at work, its heights, and where they go. */
+typedef struct mapping {
+	mr_mesh control;
+	const double *height;
+	mr_domain domain;
+	mr_atlas atlas;
+	double low, high;
+	double *least, *greatest; /* of each row of texels */
+	size_t *count;            /* of each row: heights out of the range, or normals turned away */
+	mr_gray gray;
+	mr_image image;
+	mr_v3 *normal; /* of the displaced surface */
+} mapping;
+
+/* ---- heights ---- */
+
+static double
+height_of(const mapping *m, const mr_texel *t)
+{
+	return m->height[t->v[0]] + m->height[t->v[1]] - m->height[t->v[2]];
+}
+
+static void
+find_rows(void *arg, size_t begin, size_t end)
+{
+	mapping *m = arg;
+
+	for (size_t y = begin; y < end; y++) {
+		double low = INFINITY, high = -INFINITY;
+		for (size_t x = 0; x < m->atlas.width; x++) {
+			mr_texel t = mr_atlas_texel(&m->atlas, x, y);
+			if (t.face != MR_NONE) {
+				low = fmin(low, height_of(m, &t));
+				high = fmax(high, height_of(m, &t));
+			}
+		}
+		m->least[y] = low;
+		m->greatest[y] = high;
+	}
+}
+
+/* Of what stands in the gutter, too. */
+static mr_status
+find_range(mr_ctx *ctx, mapping *m)
+{
+	m->least = MR_NEW(ctx, m->atlas.height, double);
+	m->greatest = MR_NEW(ctx, m->atlas.height, double);
+	if (!m->least || !m->greatest)
+		return MR_EMEM;
+	mr_parallel(ctx, m->atlas.height, GRAIN, find_rows, m);
+	m->low = INFINITY;
+	m->high = -INFINITY;
+	for (size_t y = 0; y < m->atlas.height; y++) {
+		m->low = fmin(m->low, m->least[y]);
+		m->high = fmax(m->high, m->greatest[y]);
+	}
+	return MR_OK;
+}
+
+static double
+quantised(const mapping *m, uint32_t v)
+{
+	double q = m->high > m->low ? floor((m->height[v] - m->low) / (m->high - m->low) * MR_MAP_WHITE + 0.5)
+	                            : 0;
+
+	return q > 0 ? q < MR_MAP_WHITE ? q : MR_MAP_WHITE : 0;
+}
+
+/* The gutter from what is written of the triangle: then samples are linear to the bit. */
+static uint16_t
+gray_of(const mapping *m, const mr_texel *t)
+{
+	double q = quantised(m, t->v[0]);
+
+	if (t->v[1] != t->v[2])
+		q += quantised(m, t->v[1]) - quantised(m, t->v[2]);
+	return (uint16_t)(q > 0 ? q < MR_MAP_WHITE ? q : MR_MAP_WHITE : 0);
+}
+
+static void
+draw_heights(void *arg, size_t begin, size_t end)
+{
+	mapping *m = arg;
+
+	for (size_t y = begin; y < end; y++) {
+		m->count[y] = 0;
+		for (size_t x = 0; x < m->atlas.width; x++) {
+			mr_texel t = mr_atlas_texel(&m->atlas, x, y);
+			bool drawn = t.face != MR_NONE;
+			double h = drawn ? height_of(m, &t) : 0;
+			m->gray.pixel[y * m->gray.width + x] = drawn ? gray_of(m, &t) : 0;
+			m->count[y] += drawn && t.v[1] == t.v[2] && (h < m->low || h > m->high);
+		}
+	}
+}
+
+static size_t
+count_rows(const mapping *m)
+{
+	size_t n = 0;
+
+	for (size_t y = 0; y < m->atlas.height; y++)
+		n += m->count[y];
+	return n;
+}
+
+/* Numbers with a blank between them, as a text. */
+static const char *
+numbers(mr_ctx *ctx, double a, double b)
+{
+	char text[2 * MR_REAL_MAX + 2], *end = mr_real_write(text, a);
+
+	*end++ = ' ';
+	end = mr_real_write(end, b);
+	return mr_format(ctx, "%.*s", (int)(end - text), text);
+}
+
+static mr_status
+write_heights(mr_ctx *ctx, mapping *m, const char *path)
+{
+	mr_png_text text[] = { { MR_MAP_LEVEL, mr_format(ctx, "%zu", m->atlas.level) },
+		{ MR_MAP_RANGE, numbers(ctx, m->low, m->high) },
+		{ MR_MAP_SIZE, numbers(ctx, (double)m->atlas.width, (double)m->atlas.height) } };
+	mr_mark mark = mr_mark_take(ctx);
+
+	m->gray = (mr_gray){ .width = m->atlas.width, .height = m->atlas.height, .text = text, .texts = 3 };
+	m->gray.pixel = MR_NEW(ctx, m->gray.width * m->gray.height, uint16_t);
+	if (!text[0].text || !text[1].text || !text[2].text || !m->gray.pixel)
+		return MR_EMEM;
+	mr_parallel(ctx, m->atlas.height, GRAIN, draw_heights, m);
+	MR_TRY(mr_png_write_gray(ctx, path, &m->gray));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* ---- normals ---- */
+
+/* A tangent at a corner, made perpendicular to the normal there. */
+static mr_v3
+tangent_at(mr_v3 along, mr_v3 normal)
+{
+	return mr_unit(mr_axpy(-mr_dot(along, normal), normal, along));
+}
+
+/*
+ * The frame in which a program shades control: tangent and normal are those of the corners, interpolated and
+ * not made unit, the bitangent is their cross product (Mikkelsen 2008, Simulation of wrinkled surfaces
+ * revisited).  The tangent is where u increases, from corner 0 to 1, and back on a triangle that is turned.
+ */
+static void
+frame_at(const mapping *m, const mr_texel *t, mr_v3 frame[3])
+{
+	const uint32_t *v = m->control.t[t->face].v;
+	mr_v3 along = mr_unit(mr_sub(m->control.p[v[1]], m->control.p[v[0]])), tangent[3], normal[3];
+	mr_v3 bary = mr_vec(1 - t->b - t->c, t->b, t->c);
+
+	if (t->face % 2)
+		along = mr_mul(-1, along);
+	for (int k = 0; k < 3; k++) {
+		normal[k] = m->domain.normal[v[k]];
+		tangent[k] = tangent_at(along, normal[k]);
+	}
+	frame[0] = mr_bary_point(bary, tangent[0], tangent[1], tangent[2]);
+	frame[2] = mr_bary_point(bary, normal[0], normal[1], normal[2]);
+	frame[1] = mr_cross(frame[2], frame[0]);
+}
+
+/* What x, y, z are with x T + y B + z N = n, made unit: by Cramer's rule; along N where the frame is none. */
+static mr_v3
+in_frame(const mr_v3 frame[3], mr_v3 n)
+{
+	double det = mr_dot(frame[0], mr_cross(frame[1], frame[2]));
+	mr_v3 local = mr_mul(det > 0 ? 1 : 0,
+	    mr_vec(mr_dot(n, mr_cross(frame[1], frame[2])), mr_dot(n, mr_cross(frame[2], frame[0])),
+		mr_dot(n, mr_cross(frame[0], frame[1]))));
+
+	return mr_norm2(local) > 0 ? mr_unit(local) : mr_vec(0, 0, 1);
+}
+
+static uint8_t
+to_byte(double x)
+{
+	return (uint8_t)(127.5 * (x + 1) + 0.5);
+}
+
+static void
+draw_normals(void *arg, size_t begin, size_t end)
+{
+	mapping *m = arg;
+
+	for (size_t y = begin; y < end; y++) {
+		m->count[y] = 0;
+		for (size_t x = 0; x < m->atlas.width; x++) {
+			mr_texel t = mr_atlas_texel(&m->atlas, x, y);
+			mr_v3 frame[3], n = mr_vec(0, 0, 1);
+			if (t.face != MR_NONE) {
+				frame_at(m, &t, frame);
+				n = mr_add(m->normal[t.v[0]], mr_sub(m->normal[t.v[1]], m->normal[t.v[2]]));
+				n = in_frame(frame, n);
+				m->count[y] += t.v[1] == t.v[2] && n.z < 0;
+				n = mr_unit(mr_vec(n.x, n.y, fmax(n.z, 0)));
+			}
+			m->image.pixel[y * m->image.width + x] = (mr_rgb){ to_byte(n.x), to_byte(n.y),
+				to_byte(n.z) };
+		}
+	}
+}
+
+static mr_status
+displaced_normals(mr_ctx *ctx, mapping *m)
+{
+	mr_mesh surface = m->domain.m;
+	mr_v3 *p;
+	mr_mark mark;
+
+	m->normal = MR_NEW(ctx, surface.nv, mr_v3);
+	mark = mr_mark_take(ctx);
+	p = MR_NEW(ctx, surface.nv, mr_v3);
+	if (!m->normal || !p)
+		return MR_EMEM;
+	mr_domain_displace(ctx, &m->domain, m->height, 1, p);
+	surface.p = p;
+	MR_TRY(mr_vertex_normals(ctx, &surface, NULL, m->normal));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+write_normals(mr_ctx *ctx, mapping *m, const char *path)
+{
+	mr_mark mark = mr_mark_take(ctx);
+
+	MR_TRY(displaced_normals(ctx, m));
+	MR_TRY(mr_image_new(ctx, m->atlas.width, m->atlas.height, (mr_rgb){ 0, 0, 0 }, &m->image));
+	mr_parallel(ctx, m->atlas.height, GRAIN, draw_normals, m);
+	MR_TRY(mr_png_write(ctx, path, &m->image));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* ---- what names the pictures ---- */
+
+/* The last part of a path. */
+static const char *
+name_of(const char *path)
+{
+	const char *slash = strrchr(path, '/');
+
+	return slash ? slash + 1 : path;
+}
+
+/* disp and its option -mm (Wavefront, "Advanced Visualizer", appendix B2): a texel's value is times the gain
+ * and plus the base.  norm is what programs of today add. */
+static mr_status
+write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path)
+{
+	const char *range = numbers(ctx, m->low, m->high - m->low);
+	mr_sink sink;
+
+	if (!range)
+		return MR_EMEM;
+	MR_TRY(mr_sink_open(ctx, path, false, &sink));
+	mr_print(&sink, "newmtl %s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm %s %s-height.png\n", name,
+	    name, range, name);
+	return mr_sink_close(&sink, MR_OK);
+}
+
+static mr_status
+put_texcoords(mr_ctx *ctx, mr_frame *f, const mr_atlas *a)
+{
+	double *uv = MR_NEW(ctx, 6 * a->faces, double);
+
+	if (!uv)
+		return MR_EMEM;
+	for (size_t face = 0; face < a->faces; face++)
+		mr_atlas_texcoords(a, face, uv + 6 * face);
+	mr_frame_drop(f, "control", "texcoord", 0);
+	mr_frame_drop(f, "control", "polygon", 0); /* whose corners might have several */
+	return mr_layer_put(ctx, f, "control", "corner_texcoord", uv, a->faces);
+}
+
+/* Control's limit normals, among which those of the texels are interpolated. */
+static mr_status
+put_normals(mr_ctx *ctx, mr_frame *f, const mapping *m)
+{
+	mr_frame_drop(f, "control", "corner_normal", 0);
+	return mr_layer_put(ctx, f, "control", "normal", m->domain.normal, m->control.nv);
+}
+
+static mr_status
+put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
+{
+	uint32_t *material = MR_NEW_ZERO(ctx, a->faces, uint32_t);
+	const char *file = mr_format(ctx, "%s.mtl", name), *own = mr_format(ctx, "%s", name);
+
+	if (!material || !file || !own)
+		return MR_EMEM;
+	MR_TRY(mr_layer_put(ctx, f, "control", "material", material, a->faces));
+	MR_TRY(mr_layer_put(ctx, f, "control", "materials", own, strlen(own)));
+	return mr_layer_put(ctx, f, "control", "mtllib", file, strlen(file));
+}
+
+/* ---- writing ---- */
+
+/* It is a material's name, too, on a line of its own. */
+static mr_status
+check_name(mr_ctx *ctx, const char *name)
+{
+	for (const char *c = name; *c; c++)
+		if ((unsigned char)*c < ' ')
+			return mr_fail(ctx, MR_EUSAGE, "the name of a map has byte %d", *c);
+	return *name_of(name) ? MR_OK : mr_fail(ctx, MR_EUSAGE, "%s names no file", *name ? name : "''");
+}
+
+static mr_status
+prepare(mr_ctx *ctx, mr_frame *f, const mr_map_opts *o, mapping *m)
+{
+	size_t n;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &m->control));
+	MR_TRY(mr_displacement_get(ctx, f, &m->control, &n, &m->height));
+	if (o->level != MR_UNKNOWN && o->level > n)
+		return mr_fail(
+		    ctx, MR_ERANGE, "--level %zu, but displacement ends with level %zu", o->level, n);
+	n = o->level == MR_UNKNOWN ? n : o->level;
+	MR_TRY(mr_prefix(
+	    ctx, mr_atlas_plan(ctx, m->control.nf, n, o->gutter, o->side, &m->atlas), "displacement"));
+	MR_TRY(mr_domain_build(ctx, &m->control, n, &m->domain));
+	MR_TRY(mr_atlas_fill(ctx, m->domain.m.t, &m->atlas));
+	m->count = MR_NEW(ctx, m->atlas.height, size_t);
+	if (!m->count)
+		return MR_EMEM;
+	m->low = o->low;
+	m->high = o->high;
+	return o->ranged ? MR_OK : find_range(ctx, m);
+}
+
+static mr_status
+write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
+{
+	const char *heights = mr_format(ctx, "%s-height.png", name);
+	const char *normals = mr_format(ctx, "%s-normal.png", name),
+		   *material = mr_format(ctx, "%s.mtl", name);
+
+	if (!heights || !normals || !material)
+		return MR_EMEM;
+	MR_TRY(write_heights(ctx, m, heights));
+	found->clipped = count_rows(m);
+	MR_TRY(write_normals(ctx, m, normals));
+	found->turned = count_rows(m);
+	MR_TRY(write_material(ctx, m, name_of(name), material));
+	if (found->clipped)
+		mr_warn(ctx, "%zu texels have heights beyond %g to %g: they are as high as that",
+		    found->clipped, m->low, m->high);
+	if (found->turned)
+		mr_note(ctx, "%zu normals look away from control: they are flat in the map", found->turned);
+	return MR_OK;
+}
+
+mr_status
+mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts, mr_map_result *result)
+{
+	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
+	mr_map_result found;
+	mapping m;
+
+	mr_unmeasured(&found, sizeof found);
+	MR_TRY(check_name(ctx, name));
+	MR_TRY(prepare(ctx, f, opts ? opts : &defaults, &m));
+	MR_TRY(write_files(ctx, &m, name, &found));
+	MR_TRY(put_texcoords(ctx, f, &m.atlas));
+	MR_TRY(put_normals(ctx, f, &m));
+	MR_TRY(put_material(ctx, f, &m.atlas, name_of(name)));
+	MR_TRY(mr_map_put_range(ctx, f, m.low, m.high));
+	found.level = m.atlas.level;
+	found.width = m.atlas.width;
+	found.height = m.atlas.height;
+	found.low = m.low;
+	found.high = m.high;
+	if (result)
+		*result = found;
+	return MR_OK;
+}
