@@ -14,6 +14,7 @@ mr-cat -l mesh
 mr-encode -l mesh
 mr-decode -l mesh
 mr-equalize -l mesh
+mr-map -w map -l control
 mr-import --points --repair
 mr-remesh -L 2% -r 1
 mr-subdivide --longest 1 -n 1

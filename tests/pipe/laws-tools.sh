@@ -25,6 +25,7 @@ arguments() {
 	mr-transform) echo --up y:z --scale 2 ;;
 	mr-crop) echo --drop below:y,0.2 ;;
 	mr-split) echo -q ;;
+	mr-map) echo -w out ;;
 	mr-export) echo out.ply ;;
 	mr-render) echo out.png ;;
 	esac
@@ -91,7 +92,7 @@ for path in "$BUILD"/bin/mr-*; do
 			cat all.mrs | "$tool" "$@" -j $threads >again || bad "$tool -j $threads: fails"
 		fi
 		cmp first again || bad "$tool -j $threads: other bytes"
-		for made in out.ply out.png; do
+		for made in out.ply out.png out-height.png out-normal.png; do
 			[ -f $made ] || continue
 			[ ! -f kept.$made ] || cmp $made kept.$made || bad "$tool -j $threads: another $made"
 			mv $made kept.$made
