@@ -12,22 +12,25 @@
 #include "space/contact.h"
 #include "subdivide/displaced.h"
 
-/* The faces around the vertices of base, its normals where it was encoded, and the edges and contacts of
- * mesh: a delta mostly keeps them. */
+/* The faces around the vertices of base, its normals where it was encoded, the edges and contacts of
+ * mesh, and what stood on control as it was encoded: a delta mostly keeps them. */
 typedef struct mr_connectivity_cache {
 	mr_incidence base;
 	mr_v3 *rest_normal;
 	mr_edges mesh;
-	uint64_t base_serial, mesh_serial;  /* of their triangles; 0: none */
-	uint64_t rest_serial;               /* of base.encoded; 0: none */
-	mr_contacts contacts;               /* of mesh */
-	uint64_t place_serial;              /* of mesh.position */
+	uint64_t base_serial, mesh_serial; /* of their triangles; 0: none */
+	uint64_t rest_serial;              /* of base.encoded; 0: none */
+	mr_contacts contacts;              /* of mesh */
+	uint64_t place_serial;             /* of mesh.position */
+	mr_mesh displaced;                 /* the displaced surface on control.encoded */
+	mr_edges displaced_edges;
+	uint64_t displaced_serial, height_serial; /* of control.encoded and displacement.height; 0: none */
 	size_t told, told_apart, told_held; /* since the last key: harm, what came apart, what was not held */
 	size_t looked_folds;                /* of the last look for intersections since then */
 } mr_connectivity_cache;
 
 struct mr_cache {
-	mr_ctx deform_keep, level_keep, base_keep, mesh_keep;
+	mr_ctx deform_keep, level_keep, base_keep, mesh_keep, displaced_keep;
 	mr_deform_cache deform;
 	void (*drop_deform)(struct mr_cache *cache); /* by who made it; NULL: there is none */
 	mr_level_cache level;

@@ -8,12 +8,12 @@
 #include "space/thickness.h"
 #include "tool/cache.h"
 
-/* Whether what was kept of a layer is still true of the frame; `kept` becomes the frame's, and the arena is
- * emptied where it is not. */
+/* Whether what was kept of a column is still true of the frame; where it is not, the arena is emptied. */
 static bool
-still_there(const mr_ctx *ctx, const mr_frame *f, const char *layer, uint64_t *kept, mr_ctx *keep)
+still_there(
+    const mr_ctx *ctx, const mr_frame *f, const char *layer, const char *name, uint64_t *kept, mr_ctx *keep)
 {
-	uint64_t serial = mr_frame_find(f, layer, "triangles")->serial;
+	uint64_t serial = mr_frame_find(f, layer, name)->serial;
 
 	if (!f->key && serial && serial == *kept)
 		return true;
@@ -31,7 +31,7 @@ base_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *b
 	if (!cache)
 		return mr_incidence_build(ctx, base, inc);
 	kept = &cache->connectivity;
-	if (!still_there(ctx, f, base->name, &kept->base_serial, &cache->base_keep)) {
+	if (!still_there(ctx, f, base->name, "triangles", &kept->base_serial, &cache->base_keep)) {
 		MR_TRY(mr_cache_say(
 		    ctx, &cache->base_keep, mr_incidence_build(&cache->base_keep, base, &kept->base)));
 		kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
@@ -119,7 +119,7 @@ mesh_neighbours(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *
 	kept = &cache->connectivity;
 	if (kept->place_serial != mr_frame_find(f, mesh->name, "position")->serial)
 		kept->mesh_serial = 0; /* parts may touch elsewhere */
-	if (!still_there(ctx, f, mesh->name, &kept->mesh_serial, &cache->mesh_keep)) {
+	if (!still_there(ctx, f, mesh->name, "triangles", &kept->mesh_serial, &cache->mesh_keep)) {
 		MR_TRY(mr_cache_say(ctx, &cache->mesh_keep,
 		    find_neighbours(&cache->mesh_keep, mesh, &kept->mesh, &kept->contacts)));
 		kept->mesh_serial = mr_frame_find(f, mesh->name, "triangles")->serial;
@@ -181,7 +181,7 @@ is_news(size_t n, const size_t *told)
 /*
  * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone:
  * over 5 folds or 20 pairs have 41 of 318 edits of 106 models, all 14 that are wrecked among them; one of
- * either have 90.
+ * either have 90.  base: that it follows, or NULL.
  */
 static mr_status
 tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, const mr_v3 *p, const mr_harm *h)
@@ -189,7 +189,7 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	enum { FOLDS = 5, PAIRS = 20 };
 	size_t pairs = h->pairs == MR_UNKNOWN ? 0 : h->pairs, all = h->folds + pairs,
 	       *told = cache ? &cache->connectivity.told : NULL;
-	char advice[120], found[80] = "";
+	char advice[120] = "", found[80] = "";
 
 	if (h->pairs != MR_UNKNOWN)
 		snprintf(found, sizeof found, " and %zu more intersecting pair%s of near faces", pairs,
@@ -202,7 +202,8 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	}
 	if (told)
 		*told = all;
-	MR_TRY(advise(ctx, mesh, base, h->vertex, advice, sizeof advice));
+	if (base)
+		MR_TRY(advise(ctx, mesh, base, h->vertex, advice, sizeof advice));
 	mr_warn(ctx, "%zu more folded edge%s of mesh%s, most of them at vertex %u (%.4g, %.4g, %.4g)%s",
 	    h->folds, mr_plural(h->folds), found, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z,
 	    advice);
@@ -281,7 +282,25 @@ forget_told(mr_connectivity_cache *kept)
 	kept->told = kept->told_apart = kept->told_held = kept->looked_folds = 0;
 }
 
-/* What the motion from the frame's mesh to p has done to it; encoded: where base was, NULL: not to be
+/* What the motion of mesh to p has done to it. */
+static mr_status
+look_for_flaws(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges,
+    const mr_mesh *base, const mr_v3 *p, mr_decode_result *result)
+{
+	mr_harm harm;
+
+	if (cache && f->key)
+		forget_told(&cache->connectivity);
+	MR_TRY(mr_harm_find(ctx, mesh, edges, p, folds_to_look_from(f, cache), &harm));
+	if (cache && harm.pairs != MR_UNKNOWN)
+		cache->connectivity.looked_folds = harm.folds;
+	MR_TRY(tell(ctx, cache, mesh, base, p, &harm));
+	result->folded_edges = harm.folds;
+	result->intersections = harm.pairs;
+	return MR_OK;
+}
+
+/* The same of the frame's mesh, and of how it stands to base; encoded: where that was, NULL: not to be
  * compared. */
 static mr_status
 look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_v3 *encoded,
@@ -290,19 +309,12 @@ look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, co
 	mr_contacts contacts;
 	mr_edges edges;
 	mr_mesh mesh;
-	mr_harm harm;
 
-	if (cache && f->key)
-		forget_told(&cache->connectivity);
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
 	MR_TRY(mesh_neighbours(ctx, cache, f, &mesh, &edges, &contacts));
-	MR_TRY(mr_harm_find(ctx, &mesh, &edges, p, folds_to_look_from(f, cache), &harm));
-	if (cache && harm.pairs != MR_UNKNOWN)
-		cache->connectivity.looked_folds = harm.folds;
-	MR_TRY(tell(ctx, cache, &mesh, base, p, &harm));
+	MR_TRY(look_for_flaws(ctx, f, cache, &mesh, &edges, base, p, result));
 	MR_TRY(look_at_held(ctx, f, cache, &mesh, base, encoded, p));
-	*result = (mr_decode_result){ harm.folds, harm.pairs,
-		look_for_gaps(ctx, cache, &mesh, &contacts, p) };
+	result->apart = look_for_gaps(ctx, cache, &mesh, &contacts, p);
 	return MR_OK;
 }
 
@@ -328,9 +340,71 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 	return mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n);
 }
 
+/* The displaced surface over d, but on the control mesh as it was encoded, and its edges. */
+static mr_status
+build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const double *height, double gain,
+    mr_mesh *surface, mr_edges *edges)
+{
+	mr_domain before;
+	mr_v3 *p;
+
+	MR_TRY(mr_domain_on(ctx, encoded, d->level, d->n, &before));
+	p = MR_NEW(ctx, before.m.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	mr_domain_displace(ctx, &before, height, gain, p);
+	*surface = before.m;
+	surface->p = p;
+	return mr_edges_build(ctx, surface, edges);
+}
+
+/* The same of the frame, kept as long as it is. */
+static mr_status
+find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, const double *height, double gain,
+    mr_mesh *surface, mr_edges *edges)
+{
+	mr_connectivity_cache *kept = cache ? &cache->connectivity : NULL;
+	mr_ctx *keep = cache ? &cache->displaced_keep : ctx;
+	uint64_t heights = mr_frame_find(f, "displacement", "height")->serial;
+	mr_mesh encoded;
+	const void *p;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &encoded));
+	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", encoded.nv, &p));
+	encoded.p = p;
+	if (!kept)
+		return build_encoded(ctx, d, &encoded, height, gain, surface, edges);
+	if (kept->height_serial != heights)
+		kept->displaced_serial = 0;
+	if (!still_there(ctx, f, "control", "encoded", &kept->displaced_serial, keep)) {
+		MR_TRY(mr_cache_say(ctx, keep,
+		    build_encoded(
+			keep, d, &encoded, height, gain, &kept->displaced, &kept->displaced_edges)));
+		kept->displaced_serial = mr_frame_find(f, "control", "encoded")->serial;
+		kept->height_serial = heights;
+	}
+	*surface = kept->displaced;
+	*edges = kept->displaced_edges;
+	return MR_OK;
+}
+
+/* What posing the control mesh has done to the surface, now at p. */
+static mr_status
+look_at_posed(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const double *height,
+    double gain, const mr_v3 *p, mr_decode_result *result)
+{
+	mr_mesh encoded;
+	mr_edges edges;
+
+	if (!mr_layer_has(f, "control", "encoded"))
+		return MR_OK;
+	MR_TRY(find_encoded(ctx, cache, f, d, height, gain, &encoded, &edges));
+	return look_for_flaws(ctx, f, cache, &encoded, &edges, NULL, p, result);
+}
+
 /* Level J of the surface needs the first heights alone. */
 static mr_status
-decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
+decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache, mr_decode_result *result)
 {
 	const mr_loop *refined;
 	const double *height;
@@ -353,6 +427,8 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	if (!p)
 		return MR_EMEM;
 	mr_domain_displace(ctx, &d, height, o->gain, p);
+	if (!o->blind)
+		MR_TRY(look_at_posed(ctx, f, cache, &d, height, o->gain, p, result));
 	d.m.p = p;
 	return mr_layer_replace(ctx, f, "mesh", &d.m);
 }
@@ -389,7 +465,7 @@ mr_decode_frame(
 	if (from == MR_FROM_DETAIL)
 		MR_TRY(decode_detail(ctx, f, o, cache, &found));
 	else
-		MR_TRY(decode_control(ctx, f, o, cache));
+		MR_TRY(decode_control(ctx, f, o, cache, &found));
 	if (result)
 		*result = found;
 	return MR_OK;

@@ -125,7 +125,7 @@ check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 		bad += !mr_finite(p[v]);
 	return bad ? mr_fail(ctx, MR_ERANGE,
 			 "%s: %zu of %zu vertices go beyond all numbers: its coordinates, or those of its "
-	                 "handles or "
+			 "handles or "
 			 "targets, are too large",
 			 m->name, bad, m->nv)
 	           : MR_OK;
@@ -162,6 +162,16 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	if (result)
 		mr_unmeasured(result, sizeof *result);
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
+}
+
+/* A control mesh that leaves its displacement's place for the first time: where that was. */
+static mr_status
+keep_encoded(mr_ctx *ctx, mr_frame *f, const mr_mesh *m)
+{
+	if (strcmp(m->name, "control") != 0 || !mr_frame_has_layer(f, "displacement") ||
+	    mr_layer_has(f, m->name, "encoded"))
+		return MR_OK;
+	return mr_layer_put(ctx, f, m->name, "encoded", m->p, m->nv);
 }
 
 static mr_status
@@ -208,6 +218,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	else
 		memcpy(p, m.p, m.nv * sizeof *p);
 	MR_TRY(check_solution(ctx, &m, p));
+	MR_TRY(keep_encoded(ctx, f, &m));
 	if (o->flatten)
 		look_at_flattened(ctx, &m, p);
 	if (posing)

@@ -108,6 +108,15 @@ for angle in 40 75 150; do
 	echo $angle
 done
 
+echo 'harm to a displaced surface'
+mr-make torus --points 3000 | mr-shrinkwrap | mr-simplify | mr-fit | mr-sample |
+	mr-select --reset --free all --fixed below:y,0.4 --handle 0=above:y,0.6 -o scan.mrs
+for angle in 60 110; do
+	mr-pose --rotate 1,0,0,$angle scan.mrs | mr-solve | mr-decode -o posed.mrs 2>&1 | sed -n 's/[0-9]*//g; s/, most.*//; /folded/p'
+	echo $angle
+done
+mr-decode posed.mrs -o out.mrs 2>&1 | sed -n 's/[0-9]*//g; s/, most.*//; /folded/p'
+
 echo 'fixed vertices and handles that base is too coarse to hold, and one that is fine enough'
 for ratio in 1.5 0.3; do
 	echo $ratio >&2
