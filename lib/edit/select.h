@@ -17,6 +17,7 @@
  *	grow:K                  the region that the rule gives, and the fixed vertices up to K edges from it
  *	vertices:FILE           the indices in the file, one a line
  *	part:N  part:N,d        of the N-th connected part by size, from 1; of points connected at a distance
+ *	spaced:d                no two of them within d
  *	column:NAME,low,high    where the column's number is within these, or at a face where it is
  */
 #ifndef MR_EDIT_SELECT_H

@@ -2,6 +2,7 @@
 #include "base/text_file.h"
 #include "edit/select_parts.h"
 #include "mesh/layers.h"
+#include "mesh/repair.h"
 #include "space/connected.h"
 #include "space/geodesic.h"
 
@@ -14,8 +15,10 @@ parse_numbers(mr_ctx *ctx, const char *text, mr_select_term *t)
 	const char *at = text;
 
 	if (!mr_numbers(&at, p->numbers, t->x))
-		return mr_fail(
-		    ctx, MR_EUSAGE, "'%s' is not %zu numbers with commas between them", text, p->numbers);
+		return p->numbers == 1
+		           ? mr_fail(ctx, MR_EUSAGE, "'%s' is not a number", text)
+		           : mr_fail(ctx, MR_EUSAGE, "'%s' is not %zu numbers with commas between them", text,
+				 p->numbers);
 	if (p->length && *at == '%') {
 		at++;
 		t->relative = true;
@@ -24,7 +27,7 @@ parse_numbers(mr_ctx *ctx, const char *text, mr_select_term *t)
 	if (*at)
 		return mr_fail(ctx, MR_EUSAGE, "'%s' follows the numbers", at);
 	if (p->length && t->x[p->numbers - 1] < 0)
-		return mr_fail(ctx, MR_EUSAGE, "the radius is negative");
+		return mr_fail(ctx, MR_EUSAGE, "the length is negative");
 	return MR_OK;
 }
 
@@ -307,6 +310,25 @@ eval_part(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *
 	return MR_OK;
 }
 
+/* Every vertex that no earlier one of these is within the distance of. */
+static mr_status
+eval_spaced(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
+{
+	double distance = t->relative ? t->x[0] * mr_box_diagonal(s->box) : t->x[0];
+	uint32_t *onto = MR_NEW(ctx, s->m->nv, uint32_t), taken = 0;
+	size_t count;
+
+	if (!onto)
+		return MR_EMEM;
+	MR_TRY(mr_weld(ctx, s->m->p, s->m->nv, distance, onto, &count));
+	for (size_t v = 0; v < s->m->nv; v++)
+		if (onto[v] == taken) {
+			in[v] = true;
+			taken++;
+		}
+	return MR_OK;
+}
+
 static double
 number_at(const mr_column *c, size_t row)
 {
@@ -459,6 +481,7 @@ const mr_predicate mr_predicates[] = {
 	{ "grow", parse_count, eval_grow, 0, false, true },
 	{ "vertices", parse_list, eval_list, 0, false, false },
 	{ "part", parse_part, eval_part, 0, false, false },
+	{ "spaced", parse_numbers, eval_spaced, 1, true, false },
 	{ "column", parse_column, eval_column, 0, false, false },
 	{ 0 },
 };

@@ -33,6 +33,15 @@ left --keep part:2 balls.mrs
 left --keep part:1,30% balls.mrs
 left --keep part:2,0.5 balls.mrs
 left --drop component:2.2,0,0 balls.mrs
+left --keep spaced:0.2 ball.mrs
+left --keep spaced:0.2 out.mrs
+left --keep spaced:0 ball.mrs
+left --keep spaced:5%+above:z,0.5 ball.mrs
+mr-export -i out.mrs - -f xyz | awk '{ x[NR] = $1; y[NR] = $2; z[NR] = $3 }
+	END { # no two are nearer than 5 % of the diagonal
+		for (i in x) for (j in x) if (i != j && (x[i] - x[j])^2 + (y[i] - y[j])^2 + (z[i] - z[j])^2 < 0.0289) near++
+		print near + 0, "too near"
+	}'
 mr-split balls.mrs --no-history | mr-cat --no-history --append | mr-export split.xyz
 mr-export balls.xyz <balls.mrs
 cmp split.xyz balls.xyz && echo 'as it was'
@@ -83,6 +92,9 @@ refused --keep part:0 plane.mrs
 refused --keep part:x plane.mrs
 refused --keep part:1,0 plane.mrs
 refused --keep part:1,1x plane.mrs
+refused --keep spaced: plane.mrs
+refused --keep spaced:-1 plane.mrs
+refused --keep spaced:1,2 plane.mrs
 refused --keep column:region plane.mrs
 refused --keep column:region,1 plane.mrs
 refused --keep column:,0,1 plane.mrs
