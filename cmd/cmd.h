@@ -122,6 +122,9 @@ typedef struct cmd_field {
 /* The fields of a result as figures, in the order of the table; those that were not measured are left out. */
 void cmd_figures(cmd *c, const cmd_field *table, const void *result);
 
+/* Those of a surface and points. */
+void cmd_gaps(cmd *c, const mr_gaps *gaps);
+
 /*
  * Text output of a sink or --json printer: to stdout, or the file of -o; an error shows at the end.
  */

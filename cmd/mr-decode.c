@@ -39,8 +39,9 @@ decode_frame(cmd *c, mr_frame *f)
 {
 	mr_decode_result result;
 
-	MR_TRY(mr_decode_frame(&c->ctx, f, &opts, c->cache, &result));
+	MR_TRY(mr_decode_frame(&c->ctx, f, &opts, c->cache, c->stats ? &result : NULL));
 	cmd_figures(c, figures, &result);
+	cmd_gaps(c, &result.gaps);
 	return MR_OK;
 }
 

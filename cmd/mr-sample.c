@@ -68,6 +68,7 @@ sample_frame(cmd *c, mr_frame *f)
 	MR_TRY(check_mesh_options(c, f));
 	MR_TRY(mr_sample_frame(&c->ctx, f, &opts, &result));
 	cmd_figures(c, figures, &result);
+	cmd_gaps(c, &result.gaps);
 	return MR_OK;
 }
 

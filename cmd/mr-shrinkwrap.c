@@ -40,11 +40,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_wrap_result, folded_edges),
 	CMD_COUNTED(mr_wrap_result, intersecting_pairs),
 	CMD_COUNTED(mr_wrap_result, lost),
-	CMD_MEASURED(mr_wrap_result, points_to_wrap_max),
-	CMD_MEASURED(mr_wrap_result, points_to_wrap_99),
-	CMD_MEASURED(mr_wrap_result, points_to_wrap_90),
-	CMD_MEASURED(mr_wrap_result, wrap_to_points_max),
-	CMD_MEASURED(mr_wrap_result, wrap_to_points_99),
 	CMD_MEASURED(mr_wrap_result, seconds_box),
 	CMD_MEASURED(mr_wrap_result, seconds_levels),
 	CMD_MEASURED(mr_wrap_result, seconds_pull),
@@ -90,6 +85,7 @@ shrinkwrap_frame(cmd *c, mr_frame *f)
 	opts.layer = c->layer;
 	MR_TRY(mr_shrinkwrap_frame(&c->ctx, f, &opts, &result));
 	cmd_figures(c, figures, &result);
+	cmd_gaps(c, &result.gaps);
 	cmd_figures(c, volume_figures, &result.volume);
 	return MR_OK;
 }

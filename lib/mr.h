@@ -16,8 +16,8 @@
  * Status.  A function that can fail returns an mr_status: negative where it failed, with a sentence in
  * mr_error; its outputs are then unchanged.  The library never prints and never exits.
  * Memory.  All that a function gives is the context's, until the context is deleted or a mark is released
- * that was taken before: callers free nothing else, but for what has a _free or _delete of its own.  What is
- * put into a frame is borrowed by it.
+ * that was taken before: callers free nothing else, but for what has a _free or _delete of its own, which
+ * accepts NULL.  What is put into a frame is borrowed by it.
  * Threads.  One context serves one thread at a time; inside, functions use as many threads as the context
  * has, and give the same bytes for any number.
  * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too.  A result that is not wanted is NULL; a
@@ -69,7 +69,7 @@ MR_API const char *mr_version(void);
 /* A context of so many threads, 0: all cores; NULL where there is no memory for it. */
 MR_API mr_ctx *mr_ctx_new(unsigned threads);
 
-/* Frees it and all that it gave.  Accepts NULL. */
+/* Frees it and all that it gave. */
 MR_API void mr_ctx_delete(mr_ctx *ctx);
 
 /* The sentence of the last failure, until the next; empty before the first. */
@@ -188,7 +188,6 @@ MR_API mr_status mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader) MR_WARN
  * streams have ended well, and the last frame stays valid; else failed, and every further call fails. */
 MR_API mr_status mr_reader_next(mr_ctx *ctx, mr_reader *reader, mr_frame **frame) MR_WARN_UNUSED;
 
-/* Accepts NULL. */
 MR_API void mr_reader_free(mr_reader *reader);
 
 typedef enum mr_packing { MR_KEEP, MR_PACK, MR_UNPACK } mr_packing;
@@ -205,7 +204,6 @@ MR_API void mr_writer_skipped(mr_writer *writer);
 /* Writes END: call it only when all went well. */
 MR_API mr_status mr_writer_end(mr_ctx *ctx, mr_writer *writer) MR_WARN_UNUSED;
 
-/* Accepts NULL. */
 MR_API void mr_writer_free(mr_writer *writer);
 
 /* Files of other programs: mr-import, mr-export */
@@ -224,20 +222,15 @@ typedef struct mr_import_opts {
 
 /* What was read, and what of the file could not be kept. */
 typedef struct mr_import_result {
-	size_t vertices, triangles;                                /* of the frame */
-	size_t polygons;                                           /* faces of more than three corners */
-	size_t faces_left_out;                                     /* of fewer than three corners */
-	size_t points_left_out;                                    /* not finite */
-	size_t seam_vertices;                                      /* of several texture coordinates */
-	size_t crease_vertices;                                    /* of several normals */
-	size_t dropped_normals, dropped_colors, dropped_texcoords; /* 1, or not known where none was */
-	size_t weld_joined, weld_collapsed;                        /* vertices; faces */
-	size_t repair_degenerate, repair_duplicate;                /* faces dropped */
-	size_t repair_isolated;                                    /* vertices dropped */
-	size_t repair_split_edges;                                 /* of more than two faces */
-	size_t repair_split_vertices;                              /* added where fans were parted */
-	size_t repair_flipped;                                     /* faces turned over */
-	size_t repair_cut_edges;                                   /* where the surface is one-sided */
+	size_t vertices, triangles;             /* of the frame */
+	size_t polygons;                        /* faces of more than three corners */
+	size_t faces_left_out, points_left_out; /* of fewer than three corners; not finite */
+	size_t seam_vertices, crease_vertices;  /* of several texture coordinates; of several normals */
+	size_t dropped_normals, dropped_colors, dropped_texcoords;   /* 1, or not known where none was */
+	size_t weld_joined, weld_collapsed;                          /* vertices; faces */
+	size_t repair_degenerate, repair_duplicate, repair_isolated; /* dropped: faces, faces, vertices */
+	size_t repair_split_edges, repair_split_vertices; /* of over two faces; where fans were parted */
+	size_t repair_flipped, repair_cut_edges; /* faces turned over; where the surface is one-sided */
 } mr_import_result;
 
 /* Reads a file ("-": stdin) as a key frame that is named by its stem. */
@@ -265,7 +258,7 @@ typedef struct mr_cache mr_cache;
 /* NULL where there is no memory for it. */
 MR_API mr_cache *mr_cache_new(void);
 
-/* Accepts NULL.  Frames that were given the cache may borrow from it: not before they are done with. */
+/* Frames that were given the cache may borrow from it: not before they are done with. */
 MR_API void mr_cache_delete(mr_cache *cache);
 
 /* Editing: Botsch, Kobbelt 2004 */
@@ -320,8 +313,7 @@ typedef struct mr_remesh_result {
 	size_t splits, collapses, flips, tips; /* tips: of thin limbs, kept */
 	size_t vertices, faces;                /* of the result */
 	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
-	size_t flipped_before, flipped; /* faces that point against the input at all corners */
-	size_t folded_before, folded;   /* edges */
+	size_t flipped_before, flipped, folded_before, folded; /* faces against the input; edges */
 	double feature;                 /* the angle from which edges are kept, 180: none are */
 	size_t sharp_edges, sharp_lost; /* of the input: kept, and those from which the kept ones are gone */
 	double seconds_rounds, seconds_areas;
@@ -401,8 +393,7 @@ MR_API mr_status mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o
     mr_split_result *result) MR_WARN_UNUSED;
 
 typedef struct mr_encode_result {
-	size_t heights, offsets; /* vertices that have one or the other */
-	size_t searched;         /* that the walk from the source map did not place */
+	size_t heights, offsets, searched; /* vertices that have one, the other; that no walk placed */
 	double steps_mean, crossed_mean;
 	double residual_max, height_max; /* of the mesh's diagonal */
 } mr_encode_result;
@@ -488,6 +479,17 @@ typedef struct mr_solve_result {
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
     mr_solve_result *result) MR_WARN_UNUSED;
 
+/* Of distances: 99 % are at most high. */
+typedef struct mr_gap {
+	double mean, high, max;
+} mr_gap;
+
+/* How far points that count are from a surface, and it from them, in units of the positions. */
+typedef struct mr_gaps {
+	mr_gap points, surface;
+	double bare; /* share of its area that stands far from all points for how densely they lie there */
+} mr_gaps;
+
 typedef enum mr_decode_source {
 	MR_FROM_ANY, /* detail where it is there, else heights */
 	MR_FROM_DETAIL,
@@ -507,6 +509,7 @@ typedef struct mr_decode_result {
 	size_t folded_edges;  /* by more than 170 degrees */
 	size_t intersections; /* of faces at most 12 faces apart; of deltas where folds came or doubled */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
+	mr_gaps gaps; /* of heights, where the points and how they lie are known */
 } mr_decode_result;
 
 /* cache: or NULL. */
@@ -550,14 +553,12 @@ typedef struct mr_volume_result {
 } mr_volume_result;
 
 typedef struct mr_wrap_result {
-	size_t method;           /* 0 the box, 1 the cube, 2 the volume, 3 the template */
-	size_t places, outliers; /* of the points */
-	double sampling;         /* distance of the places */
+	size_t method;                          /* 0 the box, 1 the cube, 2 the volume, 3 the template */
+	size_t places, outliers;                /* of the points */
+	double sampling;                        /* distance of the places */
 	size_t resolution, iterations, coarser; /* coarser: 1 where such a volume was better, 0 where tried */
-	size_t faces, folded_edges, intersecting_pairs;
-	size_t lost; /* outliers more than five sampling distances away */
-	double points_to_wrap_max, points_to_wrap_99, points_to_wrap_90, wrap_to_points_max,
-	    wrap_to_points_99; /* the most, and what so many % are within */
+	size_t faces, folded_edges, intersecting_pairs, lost; /* outliers beyond five such distances */
+	mr_gaps gaps;
 	double seconds_box, seconds_levels, seconds_pull, seconds_volume, seconds_remesh, seconds_settle,
 	    seconds_measure, seconds_tried; /* tried: for wraps that were not better */
 	mr_volume_result volume;
@@ -585,14 +586,14 @@ typedef struct mr_simplify_result {
 	size_t computed, refused, merges; /* edges: costs computed, collapses refused and made */
 	double error;                     /* the largest that was made */
 	double seconds_begin, seconds_merge;
+	mr_gaps gaps; /* of control meshes */
 } mr_simplify_result;
 
 MR_API mr_status mr_simplify_frame(
     mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result) MR_WARN_UNUSED;
 
 typedef enum mr_fit_method {
-	MR_FIT_LOCAL, /* Suzuki et al. 1999, as the paper has it: each vertex by the point nearest its limit
-	                 point */
+	MR_FIT_LOCAL,        /* Suzuki et al. 1999, as in the paper: by the point nearest each limit point */
 	MR_FIT_LEAST_SQUARES /* all points at once, by the normal equations */
 } mr_fit_method;
 
@@ -614,6 +615,7 @@ typedef struct mr_fit_result {
 	size_t damped, crossing_faces; /* vertices that did not go all the way; control faces */
 	double cg_steps;               /* an iteration, on the mean */
 	double seconds_iteration;
+	mr_gaps gaps; /* of the limit surface; of least squares */
 } mr_fit_result;
 
 MR_API mr_status mr_fit_frame(
@@ -638,15 +640,16 @@ typedef struct mr_sample_opts {
 typedef struct mr_sample_result {
 	size_t level, vertices; /* of the domain */
 	size_t outliers;
-	double tries_1, tries_4, tries_10; /* shares of the vertices that so many triangles were tried for */
-	size_t missed, rejected;           /* vertices without a triangle, with none within the bounds */
-	size_t neighbours;                 /* of robust */
-	double noise;                      /* the same; a share of the diagonal */
-	size_t spikes, filled;             /* heights taken back, and filled in */
-	size_t refine_steps, mend_passes; /* of conjugate gradients in the last pass; around folds */
+	double tries_1, tries_4, tries_10;  /* shares of the vertices that so many triangles were tried for */
+	size_t missed, rejected;            /* vertices without a triangle, with none within the bounds */
+	size_t neighbours;                  /* of robust */
+	double noise;                       /* the same; a share of the diagonal */
+	size_t spikes, filled;              /* heights taken back, and filled in */
+	size_t refine_steps, mend_passes;   /* of conjugate gradients in the last pass; around folds */
 	double fairness, gap_mean, gap_max; /* gap: from the points, in shares of the diagonal */
-	double area_ratio;                /* of the surface to its domain */
-	size_t folds;                     /* triangles that fold over or pass through others */
+	double area_ratio;                  /* of the surface to its domain */
+	size_t folds;                       /* triangles that fold over or pass through others */
+	mr_gaps gaps;                       /* of the displaced surface; of points */
 } mr_sample_result;
 
 MR_API mr_status mr_sample_frame(
@@ -744,8 +747,7 @@ typedef struct mr_geometry {
 	double valence6;    /* share of the vertices in faces with 6 neighbours, 4 on the boundary */
 } mr_geometry;
 
-/* Mixed Voronoi areas A of the interior vertices, those of faces that no boundary edge ends at.  NaN without
- * any. */
+/* Mixed Voronoi areas A of the vertices of faces that no boundary edge ends at.  NaN without any. */
 typedef struct mr_evenness {
 	size_t vertices;
 	double mean;
@@ -786,11 +788,10 @@ MR_API mr_status mr_measure_cloud(
 /* Measuring: mr-compare */
 
 typedef struct mr_compare_opts {
-	size_t samples;     /* pieces of about equal area to integrate over, one a face at least; 0: 100,000 */
+	size_t samples; /* pieces of about equal area to integrate over, one a face at least; 0: 100,000 */
 	bool vertices_only; /* measure from the vertices alone, each weighing one */
 	double tolerance;   /* max_bound is sought within this share of max */
-	size_t effort;      /* most pieces looked at for it, besides; 0: 200,000, or two a face where that is
-	                       more */
+	size_t effort;      /* most pieces looked at for it, besides; 0: 200,000, or two a face if more */
 } mr_compare_opts;
 
 #define MR_COMPARE_DEFAULTS MR_DEFAULTS(0, false, 1e-3, 0)

@@ -5,6 +5,7 @@
 #include "fit/fit.h"
 
 #include "fit/least_squares.h"
+#include "measure/gaps.h"
 #include "mesh/fold.h"
 #include "mesh/zorder.h"
 #include "solve/sparse.h"
@@ -102,8 +103,8 @@ warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, const mr_fit_foot *foot,
 
 /* Takes the outliers of *n points out, and their feet; s: their sampling. */
 static mr_status
-drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, mr_fit_foot *foot, size_t *n,
-    size_t *outliers)
+drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, double *spacing,
+    mr_fit_foot *foot, size_t *n, size_t *outliers)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *off = MR_NEW(ctx, *n, double);
@@ -119,9 +120,36 @@ drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, mr_
 		if (outlier[i])
 			continue;
 		point[kept] = point[i];
+		spacing[kept] = s->spacing[i];
 		foot[kept++] = foot[i];
 	}
 	*n = kept;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* How far the limit surface and its points are from one another, where it is known how these lie. */
+static mr_status
+look_at_gaps(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, const double *spacing, double usual,
+    const mr_fit_foot *foot, size_t n, mr_gaps *gaps)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *off = MR_NEW(ctx, n, double);
+	mr_near *near;
+	mr_status status;
+
+	if (!off)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		off[i] = foot[i].dist;
+	gaps->points = mr_gap_of(off, n);
+	MR_TRY(mr_near_build(ctx, point, n, &near));
+	status = mr_gap_of_surface(
+	    ctx, &s->m, &(mr_gap_cloud){ point, spacing, near, n, usual }, MR_GAP_SAMPLES, gaps);
+	mr_near_free(near);
+	MR_TRY(status);
+	mr_gaps_note(ctx, "the limit surface", gaps);
+	mr_gaps_warn(ctx, "the limit surface", gaps);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -160,6 +188,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	mr_v3 *x = MR_NEW(ctx, control->nv, mr_v3);
 	mr_fit_foot *foot = mr_alloc(ctx, n, sizeof *foot);
 	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
+	double *spacing = MR_NEW(ctx, n, double);
 	size_t given = n;
 	double edge = mr_mesh_edge_scale(ctx, control);
 	double start;
@@ -170,14 +199,15 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 
 	mr_unmeasured(&r, sizeof r);
 	MR_TRY(check(ctx, control, point, n));
-	if (!x || !foot || !sorted)
+	if (!x || !foot || !sorted || !spacing)
 		return MR_EMEM;
 	MR_TRY(sort_points(ctx, point, n, is_local, known, sorted, &sampling));
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
 	if (!is_local)
-		MR_TRY(drop_outliers(ctx, &sampling, MR_FIT_NEAR * edge, sorted, foot, &n, &r.outliers));
+		MR_TRY(drop_outliers(
+		    ctx, &sampling, MR_FIT_NEAR * edge, sorted, spacing, foot, &n, &r.outliers));
 	before = mr_fit_measure(ctx, foot, n);
 	r.folded_edges_before = count_folds(&s);
 	start = mr_seconds();
@@ -188,6 +218,8 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 	if (is_local)
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 	warn(ctx, &s, edge, foot, n);
+	if (!is_local)
+		MR_TRY(look_at_gaps(ctx, &s, sorted, spacing, sampling.usual, foot, n, &r.gaps));
 	if (result) {
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 		after = mr_fit_measure(ctx, foot, n);

@@ -55,8 +55,10 @@ typedef struct mr_v3f {
 /* The points and what is known of them. */
 typedef struct mr_sample_cloud {
 	const mr_v3 *p;
+	const double *spacing;
+	double usual; /* of points: what each has to itself, and the median */
 	size_t n;
-	mr_near *near;
+	mr_near *near; /* alike */
 	double diagonal;
 	uint32_t *face; /* of the domain, nearest to each point */
 	mr_v3f *side;   /* its unit normal: which way the sheet that the point belongs to looks */

@@ -8,6 +8,7 @@
  */
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "measure/gaps.h"
 #include "sample/parts.h"
 #include "space/surface_walk.h"
 #include "subdivide/loop_self_intersect.h"
@@ -179,7 +180,8 @@ press(fit *x)
 		for (int k = 0; k < 3 && x->bad[f]; k++) {
 			uint32_t v = x->surface.t[f].v[k];
 			x->target[v] = shrink * x->height[v];
-			x->pull[v] = (float)fmin(more * fmax((double)x->pull[v], least * stiff), most * stiff);
+			x->pull[v] = (float)fmin(
+			    more * fmax((double)x->pull[v], least * stiff), most * stiff);
 			x->e->fair[v] = fmin(more * x->e->fair[v], most * x->weights->fair);
 		}
 }
@@ -206,18 +208,30 @@ fit_pass(mr_ctx *ctx, fit *x)
 	return MR_OK;
 }
 
-static void
-report_gaps(const fit *x)
+/* Of points also how far the surface is from them. */
+static mr_status
+report_gaps(mr_ctx *ctx, const fit *x)
 {
-	double sum = 0, most = 0;
+	mr_mark mark = mr_mark_take(ctx);
+	const mr_sample_cloud *c = x->c;
+	mr_gaps *gaps = &x->found->gaps;
+	double *gap = MR_NEW(ctx, c->n, double);
 
-	for (size_t i = 0; i < x->c->n; i++) {
-		double gap = fabs(x->wish[i].gap);
-		sum += gap;
-		most = fmax(most, gap);
-	}
-	x->found->gap_mean = sum / (double)x->c->n / x->c->diagonal;
-	x->found->gap_max = most / x->c->diagonal;
+	if (!gap)
+		return MR_EMEM;
+	for (size_t i = 0; i < c->n; i++)
+		gap[i] = fabs(x->wish[i].gap);
+	gaps->points = mr_gap_of(gap, c->n);
+	x->found->gap_mean = gaps->points.mean / c->diagonal;
+	x->found->gap_max = gaps->points.max / c->diagonal;
+	mr_mark_release(ctx, mark);
+	if (!c->near)
+		return MR_OK;
+	MR_TRY(mr_gap_of_surface(ctx, &x->surface,
+	    &(mr_gap_cloud){ c->p, c->spacing, c->near, c->n, c->usual }, MR_GAP_SAMPLES, gaps));
+	mr_gaps_note(ctx, "the displaced surface", gaps);
+	mr_gaps_warn(ctx, "the displaced surface", gaps);
+	return MR_OK;
 }
 
 /* Heights that follow noise make a surface of many spikes, and so much larger. */
@@ -379,7 +393,7 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, cons
 	}
 	MR_TRY(fit_all(ctx, &x, passes, &folds));
 	place_all(ctx, &x);
-	report_gaps(&x);
+	MR_TRY(report_gaps(ctx, &x));
 	report_area(ctx, &x);
 	r->fairness = weights->fair;
 	r->folds = folds;

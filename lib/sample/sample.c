@@ -96,15 +96,17 @@ static mr_status
 keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_sample_cloud *c)
 {
 	mr_v3 *p = MR_NEW(ctx, kept, mr_v3);
+	double *spacing = MR_NEW(ctx, kept, double);
 	mr_near *near;
 
-	if (!p)
+	if (!p || !spacing)
 		return MR_EMEM;
 	kept = 0;
 	for (size_t i = 0; i < c->n; i++) {
 		if (outlier[i])
 			continue;
 		p[kept] = c->p[i];
+		spacing[kept] = c->spacing[i];
 		c->face[kept] = c->face[i];
 		c->side[kept++] = c->side[i];
 	}
@@ -112,6 +114,7 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_sample_cloud *c)
 	mr_near_free(c->near);
 	c->near = near;
 	c->p = p;
+	c->spacing = spacing;
 	c->n = kept;
 	c->diagonal = mr_box_diagonal(mr_box_of(p, kept));
 	return MR_OK;
@@ -221,6 +224,8 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 	MR_TRY(mr_sampling_find(ctx, point, n, known, &sampling));
 	/* what close ones look up is in the cache */
 	MR_TRY(mr_sampling_sort(ctx, point, &sampling, sorted, &sampling));
+	c.spacing = sampling.spacing;
+	c.usual = sampling.usual;
 	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
 	mr_unmeasured(&r, sizeof r);
 	s = sample_cloud(ctx, d, &sampling, &c, opts, height, &r);

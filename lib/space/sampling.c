@@ -428,24 +428,36 @@ mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorte
 }
 
 mr_status
-mr_sampling_places(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 **place, size_t *count)
+mr_sampling_places(
+    mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 **place, uint32_t **index, size_t *count)
 {
 	mr_v3 *q = MR_NEW(ctx, s->n, mr_v3), *kept;
+	uint32_t *of = MR_NEW(ctx, s->n, uint32_t), *from, *order;
 	mr_mark mark;
 	size_t n = 0;
 
-	if (!q)
+	if (!q || !of)
 		return MR_EMEM;
 	mark = mr_mark_take(ctx);
 	kept = MR_NEW(ctx, s->n, mr_v3);
-	if (!kept)
+	from = MR_NEW(ctx, s->n, uint32_t);
+	order = MR_NEW(ctx, s->n, uint32_t);
+	if (!kept || !from || !order)
 		return MR_EMEM;
-	for (size_t i = 0; i < s->n; i++)
-		if (!s->repeat[i] && !s->outlier[i])
-			kept[n++] = p[i];
-	MR_TRY(mr_zorder_points(ctx, kept, n, q));
+	for (uint32_t i = 0; i < s->n; i++)
+		if (!s->repeat[i] && !s->outlier[i]) {
+			kept[n] = p[i];
+			from[n++] = i;
+		}
+	MR_TRY(mr_zorder(ctx, kept, n, MR_ZORDER_CELLS, order));
+	for (size_t i = 0; i < n; i++) {
+		q[i] = kept[order[i]];
+		of[i] = from[order[i]];
+	}
 	mr_mark_release(ctx, mark);
 	*place = q;
+	if (index)
+		*index = of;
 	*count = n;
 	return MR_OK;
 }
@@ -510,11 +522,12 @@ put_columns(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_sampling *s)
 mr_status
 mr_sampling_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s)
 {
+	const mr_column *faces = mr_frame_find(f, points->name, "triangles");
 	bool stored;
 
 	MR_TRY(mr_sampling_stored(ctx, f, points->name, points->nv, s, &stored));
 	if (stored)
 		return MR_OK;
 	MR_TRY(find(ctx, points->p, points->nv, s));
-	return mr_layer_has(f, points->name, "triangles") ? MR_OK : put_columns(ctx, f, points->name, s);
+	return faces && faces->rows ? MR_OK : put_columns(ctx, f, points->name, s);
 }

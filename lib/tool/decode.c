@@ -4,6 +4,7 @@
 #include "edit/detail.h"
 #include "edit/held.h"
 #include "edit/pose_basis.h"
+#include "measure/gaps.h"
 #include "measure/harm.h"
 #include "space/thickness.h"
 #include "tool/cache.h"
@@ -433,6 +434,22 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	return mr_layer_replace(ctx, f, "mesh", &d.m);
 }
 
+/* How far mesh is from the points, where it is known how these lie. */
+static mr_status
+look_at_gaps(mr_ctx *ctx, mr_frame *f, mr_gaps *gaps)
+{
+	mr_sampling sampling;
+	mr_mesh points, mesh;
+	bool known;
+
+	if (!mr_layer_has(f, "points", "sampling"))
+		return MR_OK;
+	MR_TRY(mr_layer_points(ctx, f, "points", &points));
+	MR_TRY(mr_sampling_stored(ctx, f, "points", points.nv, &sampling, &known));
+	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
+	return known ? mr_gaps_measure(ctx, &mesh, points.p, &sampling, gaps) : MR_OK;
+}
+
 static mr_status
 choose(mr_ctx *ctx, const mr_frame *f, const mr_decode_opts *o, int *from)
 {
@@ -466,6 +483,8 @@ mr_decode_frame(
 		MR_TRY(decode_detail(ctx, f, o, cache, &found));
 	else
 		MR_TRY(decode_control(ctx, f, o, cache, &found));
+	if (result && from == MR_FROM_CONTROL)
+		MR_TRY(look_at_gaps(ctx, f, &found.gaps));
 	if (result)
 		*result = found;
 	return MR_OK;

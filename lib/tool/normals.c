@@ -1,7 +1,6 @@
 /* mr-normals: normals of points and of surfaces. */
 #include "volume/normals.h"
 #include "mesh/layers.h"
-#include "mesh/zorder.h"
 #include "space/near.h"
 
 /* A normal that is there fits where it is within 60 degrees of its place's plane: beyond it is of another
@@ -14,28 +13,6 @@ typedef struct places {
 	uint32_t *of;
 	size_t n;
 } places;
-
-static mr_status
-find_places(mr_ctx *ctx, const mr_mesh *m, const mr_sampling *s, places *q)
-{
-	uint32_t *kept = MR_NEW(ctx, m->nv, uint32_t);
-	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
-
-	*q = (places){ MR_NEW(ctx, m->nv, mr_v3), MR_NEW(ctx, m->nv, uint32_t), 0 };
-	if (!kept || !p || !q->p || !q->of)
-		return MR_EMEM;
-	for (size_t i = 0; i < m->nv; i++)
-		if (!s->repeat[i] && !s->outlier[i]) {
-			p[q->n] = m->p[i];
-			kept[q->n++] = (uint32_t)i;
-		}
-	MR_TRY(mr_zorder(ctx, p, q->n, MR_ZORDER_CELLS, q->of));
-	for (size_t k = 0; k < q->n; k++) {
-		q->p[k] = p[q->of[k]];
-		q->of[k] = kept[q->of[k]];
-	}
-	return MR_OK;
-}
 
 /* The side of each place's normal, where something tells; NULL: nothing does. */
 static mr_status
@@ -124,7 +101,7 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 		s.neighbours = o->neighbours;
 	if (mr_layer_has(f, m->name, "scanner"))
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "scanner", m->nv, &scanner));
-	MR_TRY(find_places(ctx, m, &s, &q));
+	MR_TRY(mr_sampling_places(ctx, m->p, &s, &q.p, &q.of, &q.n));
 	MR_TRY(find_sides(ctx, &q, o, there, scanner, &side));
 	of_places = MR_NEW(ctx, q.n, mr_v3);
 	if (!of_places)

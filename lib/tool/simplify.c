@@ -1,6 +1,7 @@
 /* mr-simplify: fewer faces, with what is known of the surface carried over. */
 #include "simplify/simplify.h"
 
+#include "measure/gaps.h"
 #include "mesh/layers.h"
 
 /* By default, but for control meshes. */
@@ -74,6 +75,23 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 
+/* How far a control mesh is from its points, where it is known how they lie. */
+static mr_status
+look_at_gaps(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_mesh *out, mr_gaps *gaps)
+{
+	mr_sampling sampling;
+	bool known = false;
+
+	if (points->nv > 0)
+		MR_TRY(mr_sampling_stored(ctx, f, points->name, points->nv, &sampling, &known));
+	if (!known)
+		return MR_OK;
+	MR_TRY(mr_gaps_measure(ctx, out, points->p, &sampling, gaps));
+	mr_gaps_note(ctx, "the control mesh", gaps);
+	mr_gaps_warn(ctx, "the control mesh", gaps);
+	return MR_OK;
+}
+
 mr_status
 mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result)
 {
@@ -82,6 +100,7 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	mr_mesh m, points, out;
 	const char *layer;
 	uint32_t *onto;
+	mr_simplify_result r;
 
 	if (opts)
 		o = *opts;
@@ -97,7 +116,11 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	onto = MR_NEW(ctx, m.nv, uint32_t);
 	if (!onto)
 		return MR_EMEM;
-	MR_TRY(mr_simplify(ctx, &m, &o, &out, onto, result));
+	MR_TRY(mr_simplify(ctx, &m, &o, &out, onto, &r));
+	mr_unmeasured(&r.gaps, sizeof r.gaps);
+	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
+	if (result)
+		*result = r;
 	if (o.to)
 		return mr_layer_put_mesh(ctx, f, o.to, &out);
 	MR_TRY(replace(ctx, f, &m, &out, onto));

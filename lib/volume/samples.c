@@ -87,7 +87,7 @@ static mr_status
 sample_again(mr_ctx *ctx, mr_sampling *of, mr_volume_cloud *s)
 {
 	MR_TRY(mr_sampling_find(ctx, s->p, s->n, NULL, of));
-	return mr_sampling_places(ctx, s->p, of, &s->p, &s->n);
+	return mr_sampling_places(ctx, s->p, of, &s->p, NULL, &s->n);
 }
 
 mr_status

@@ -467,7 +467,7 @@ take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opt
 	mr_v3 *p;
 
 	MR_TRY(mr_sampling_find(ctx, point, n, opts->sampling, &s));
-	MR_TRY(mr_sampling_places(ctx, point, &s, &p, places));
+	MR_TRY(mr_sampling_places(ctx, point, &s, &p, NULL, places));
 	return mr_volume_samples(
 	    ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), &v->s);
 }

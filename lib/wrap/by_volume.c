@@ -50,7 +50,7 @@ try_coarser(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_w
 
 	if (status != MR_OK && status != MR_EMESH && status != MR_ERANGE)
 		return status;
-	better = status == MR_OK && other.cover.points_high < CLEARLY * c->cover.points_high &&
+	better = status == MR_OK && other.cover.gaps.points.high < CLEARLY * c->cover.gaps.points.high &&
 	         other.found.volume.levels_alike >= c->found.volume.levels_alike;
 	if (better)
 		*c = other;

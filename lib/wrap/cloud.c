@@ -38,6 +38,8 @@ mr_wrap_cloud_open(
     mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, mr_wrap_cloud *cloud)
 {
 	mr_sampling *s = &cloud->sampling;
+	uint32_t *index;
+	double *own;
 	mr_v3 *p;
 
 	*cloud = (mr_wrap_cloud){ .given = point };
@@ -47,11 +49,17 @@ mr_wrap_cloud_open(
 	MR_TRY(mr_sampling_find(ctx, point, n, sampling, s));
 	cloud->spacing = s->usual;
 	cloud->area = s->area;
-	MR_TRY(mr_sampling_places(ctx, point, s, &p, &cloud->n));
+	MR_TRY(mr_sampling_places(ctx, point, s, &p, &index, &cloud->n));
 	if (cloud->n < 4)
 		return mr_fail(ctx, MR_EMESH, "%zu points at %zu place%s: a closed surface needs 4 at least",
 		    n, cloud->n, mr_plural(cloud->n));
+	own = MR_NEW(ctx, cloud->n, double);
+	if (!own)
+		return MR_EMEM;
+	for (size_t i = 0; i < cloud->n; i++)
+		own[i] = s->spacing[index[i]];
 	cloud->p = p;
+	cloud->own = own;
 	cloud->box = mr_box_of(p, cloud->n);
 	cloud->diagonal = mr_box_diagonal(cloud->box);
 	MR_TRY(check_extent(ctx, cloud));
@@ -66,6 +74,7 @@ mr_wrap_cloud_thin(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t count, mr_wra
 
 	*thin = *cloud;
 	thin->near = NULL;
+	thin->own = NULL;
 	thin->n = count < cloud->n ? count : cloud->n;
 	p = MR_NEW(ctx, thin->n, mr_v3);
 	if (!p)

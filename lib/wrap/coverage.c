@@ -1,13 +1,14 @@
 /* Coverage both ways: points that the wrap misses, and parts of it where there are no points. */
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "measure/gaps.h"
 #include "mesh/zorder.h"
 #include "space/self_intersect.h"
 #include "wrap/parts.h"
 
 enum { GRAIN = 1024 };
 
-static const double HIGH = 0.99, MOST = 0.9;
+static const double MOST = 0.9;
 
 typedef struct job {
 	const mr_v3 *q;
@@ -22,14 +23,6 @@ distances_body(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++)
 		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->q[i]).dist2);
-}
-
-static int
-ascending(const void *a, const void *b)
-{
-	double x = *(const double *)a, y = *(const double *)b;
-
-	return (x > y) - (x < y);
 }
 
 /* c->lost, of some outliers at equal strides for all of them. */
@@ -67,8 +60,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	j.bvh = bvh;
 	mr_parallel(ctx, n, GRAIN, distances_body, &j);
-	c->points_max = mr_kth(j.distance, n, n - 1);
-	c->points_high = mr_kth(j.distance, n, (size_t)(HIGH * (double)(n - 1)));
+	c->gaps.points = mr_gap_of(j.distance, n);
 	c->points_most = mr_kth(j.distance, n, (size_t)(MOST * (double)(n - 1)));
 	MR_TRY(count_lost(ctx, cloud, bvh, MR_WRAP_SAMPLES, c));
 	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
@@ -76,43 +68,11 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	return MR_OK;
 }
 
-typedef struct middle {
-	double distance, area;
-} middle;
-
-static mr_status
-measure_wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t n, mr_wrap_cover *c)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
-	uint32_t *nearest = MR_NEW(ctx, n, uint32_t);
-	middle *x = MR_NEW(ctx, n, middle);
-	double *dist2 = MR_NEW(ctx, n, double), area = 0, sum = 0;
-
-	if (!q || !nearest || !dist2 || !x)
-		return MR_EMEM;
-	for (size_t i = 0; i < n; i++) {
-		const uint32_t *v = m->t[i * m->nf / n].v;
-		q[i] = mr_mul(1.0 / 3, mr_add(m->p[v[0]], mr_add(m->p[v[1]], m->p[v[2]])));
-		x[i].area = mr_norm(mr_face_cross(m, i * m->nf / n));
-		area += x[i].area;
-	}
-	MR_TRY(mr_near_query(ctx, cloud->near, q, n, 1, nearest, dist2));
-	for (size_t i = 0; i < n; i++)
-		x[i].distance = sqrt(dist2[i]);
-	qsort(x, n, sizeof *x, ascending);
-	for (size_t i = 0; i < n && sum <= HIGH * area; i++) {
-		sum += x[i].area;
-		c->wrap_high = x[i].distance;
-	}
-	c->wrap_max = x[n - 1].distance;
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 mr_status
 mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c)
 {
+	mr_gap_cloud places = { cloud->p, cloud->own, cloud->near, cloud->n, cloud->spacing };
+
 	MR_TRY(measure_points(ctx, cloud, m, cloud->n < samples ? cloud->n : samples, c));
-	return measure_wrap(ctx, cloud, m, m->nf < samples ? m->nf : samples, c);
+	return mr_gap_of_surface(ctx, m, &places, samples, &c->gaps);
 }

@@ -4,7 +4,7 @@
 
 enum { ITERATIONS = 4 /* by default */ };
 
-const mr_wrap_cover MR_WRAP_ENOUGH = { .points_max = 10, .points_high = 4, .wrap_max = 6, .wrap_high = 2.5 };
+const mr_gaps MR_WRAP_ENOUGH = { .points = { .max = 10, .high = 4 }, .surface = { .max = 6, .high = 2.5 } };
 
 void
 mr_wrap_tried(mr_wrap *w, double seconds)
@@ -19,16 +19,15 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 {
 	mr_mesh m = mr_dyn_view(&w->d, "control");
 	double start = mr_seconds(), s = cloud->spacing;
-	mr_wrap_cover *cover = &w->cover;
+	const mr_gaps *g = &w->cover.gaps;
 
 	w->folds = mr_count_folds(&m, w->d.twin);
-	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, cover));
+	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, &w->cover));
 	w->found.seconds_measure = mr_seconds() - start;
 	mr_note(ctx,
 	    "%s, %zu faces: points are within %.3g sampling distances of it, 99 %% within %.3g, "
 	    "it is within %.3g of points, 99 %% within %.3g",
-	    what, w->d.nf, cover->points_max / s, cover->points_high / s, cover->wrap_max / s,
-	    cover->wrap_high / s);
+	    what, w->d.nf, g->points.max / s, g->points.high / s, g->surface.max / s, g->surface.high / s);
 	return MR_OK;
 }
 

@@ -13,6 +13,7 @@
 /* The points to wrap: each place once, without outliers, along the Z curve. */
 typedef struct mr_wrap_cloud {
 	const mr_v3 *p;
+	const double *own; /* their spacings; NULL of some */
 	size_t n;
 	mr_near *near;
 	mr_box box;
@@ -77,23 +78,21 @@ mr_status mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d);
 double mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o);
 
 /* A box around the points, drawn onto them with long edges, which are halved until they are that long. */
-mr_status
-mr_wrap_box_to_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d);
+mr_status mr_wrap_box_to_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_dyn *d);
 
 /* How well a wrap covers the points, in units of the model. */
 typedef struct mr_wrap_cover {
-	double points_max, points_high,
-	    points_most;            /* of points to the wrap: all, 99 % and 90 % are within */
-	double wrap_max, wrap_high; /* of middles of faces to the points: all, and 99 % of the area */
-	size_t lost;                /* outliers that are no nearer than points of a part that it lacks */
-	size_t crossings;           /* pairs of its faces that intersect */
+	mr_gaps gaps;
+	double points_most; /* 90 % of the points are within */
+	size_t lost;        /* outliers that are no nearer than points of a part that it lacks */
+	size_t crossings;   /* pairs of its faces that intersect */
 } mr_wrap_cover;
 
 mr_status
 mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c);
 
 /* What a good wrap may leave out and have too much, in sampling distances, of which noise takes some. */
-extern const mr_wrap_cover MR_WRAP_ENOUGH;
+extern const mr_gaps MR_WRAP_ENOUGH;
 
 /* Sampling distances from a point to a wrap that lacks its part: of the sound ones of clean clouds 3 are
  * rare. */

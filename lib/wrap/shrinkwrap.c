@@ -2,6 +2,7 @@
 #include "wrap/shrinkwrap.h"
 
 #include "base/disjoint_sets.h"
+#include "measure/gaps.h"
 #include "remesh/unfold.h"
 #include "volume/volume.h"
 #include "wrap/parts.h"
@@ -26,17 +27,17 @@ flaws(const mr_wrap *c)
 }
 
 static bool
-covers(const mr_wrap_cover *c, const mr_wrap_cover *most, double unit)
+covers(const mr_gaps *g, const mr_gaps *most, double unit)
 {
-	return c->points_max <= most->points_max * unit && c->points_high <= most->points_high * unit &&
-	       c->wrap_max <= most->wrap_max * unit && c->wrap_high <= most->wrap_high * unit;
+	return g->points.max <= most->points.max * unit && g->points.high <= most->points.high * unit &&
+	       g->surface.max <= most->surface.max * unit && g->surface.high <= most->surface.high * unit;
 }
 
 /* What it leaves out and has too much, where up to a tenth of the points are outliers. */
 static double
 badness(const mr_wrap_cover *c)
 {
-	return c->points_most + c->wrap_high;
+	return c->points_most + c->gaps.surface.high;
 }
 
 /* The iterations of the paper. */
@@ -125,7 +126,7 @@ mr_wrap_has_handles(mr_ctx *ctx, const mr_dyn *d, bool *handles)
 static bool
 is_good(const mr_wrap *c, const mr_wrap_cloud *cloud)
 {
-	return covers(&c->cover, &MR_WRAP_ENOUGH, cloud->spacing);
+	return covers(&c->cover.gaps, &MR_WRAP_ENOUGH, cloud->spacing);
 }
 
 /*
@@ -217,7 +218,8 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 static void
 warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 {
-	double points = c->cover.points_high / cloud->spacing, wrap = c->cover.wrap_high / cloud->spacing;
+	const mr_gaps *g = &c->cover.gaps;
+	double points = g->points.high / cloud->spacing, wrap = g->surface.high / cloud->spacing;
 
 	if (flaws(c) > 0)
 		mr_warn(ctx, "the wrap has %zu folded edges and %zu pairs of faces that intersect", c->folds,
@@ -226,21 +228,23 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		mr_warn(ctx,
 		    "%zu of %zu places %s more than %g sampling distances from the wrap: outliers, left out",
 		    c->cover.lost, cloud->sampling.places, c->cover.lost == 1 ? "is" : "are", MR_WRAP_LACKS);
-	if (points > MR_WRAP_ENOUGH.points_high)
+	if (points > MR_WRAP_ENOUGH.points.high)
 		mr_warn(ctx,
 		    "1 %% of the points are more than %.3g sampling distances from the wrap: outliers, or it "
 		    "does not reach them",
 		    points);
-	else if (c->cover.points_max > MR_WRAP_LACKS * cloud->spacing)
+	else if (g->points.max > MR_WRAP_LACKS * cloud->spacing)
 		mr_warn(ctx,
 		    "a point is %.3g sampling distances from the wrap: an outlier, or of a part that is left "
 		    "out",
-		    c->cover.points_max / cloud->spacing);
-	if (wrap > MR_WRAP_ENOUGH.wrap_max)
+		    g->points.max / cloud->spacing);
+	if (wrap > MR_WRAP_ENOUGH.surface.max)
 		mr_warn(ctx,
 		    "1 %% of the wrap is more than %.3g sampling distances from the points: it closes what "
 		    "they leave open",
 		    wrap);
+	else
+		mr_gaps_warn(ctx, "the wrap", g);
 }
 
 static void
@@ -256,11 +260,7 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result
 	r.places = cloud->sampling.places;
 	r.outliers = cloud->sampling.outliers;
 	r.sampling = cloud->spacing;
-	r.points_to_wrap_max = c->cover.points_max;
-	r.points_to_wrap_99 = c->cover.points_high;
-	r.points_to_wrap_90 = c->cover.points_most;
-	r.wrap_to_points_max = c->cover.wrap_max;
-	r.wrap_to_points_99 = c->cover.wrap_high;
+	r.gaps = c->cover.gaps;
 	r.lost = c->cover.lost;
 	r.faces = c->d.nf;
 	r.folded_edges = c->folds;

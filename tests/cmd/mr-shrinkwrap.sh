@@ -20,7 +20,7 @@ taken() { # shape, points
 	python3 -c '
 import json, sys
 s = json.loads(open("stats.json").readline())
-good = max(s["points_to_wrap_max"], s["wrap_to_points_max"]) < 2 * s["sampling"]
+good = max(s["points_to_surface_max"], s["surface_to_points_max"]) < 2 * s["sampling"]
 print(sys.argv[1], s["method"], "covers" if good else s, s["folded_edges"], "folds")' "$1"
 	mr-info -l control out.mrs | sed -n 's/^ *topology *//p'
 }

@@ -235,7 +235,7 @@ repeats_count_once(void **state)
 		assert_int_equal(all.repeat[i], i >= N);
 		assert_true(all.spacing[i] == once.spacing[i % N]);
 	}
-	assert_int_equal(mr_sampling_places(&ctx, p, &all, &place, &count), MR_OK);
+	assert_int_equal(mr_sampling_places(&ctx, p, &all, &place, NULL, &count), MR_OK);
 	assert_int_equal(count, once.places - once.outliers);
 }
 

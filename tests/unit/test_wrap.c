@@ -108,10 +108,10 @@ test_coverage_goes_both_ways(void **state)
 	assert_int_equal(mr_wrap_box(&ctx, big, (size_t[]){ 4, 4, 12 }, &far), MR_OK);
 	assert_int_equal(mr_wrap_cloud_open(&ctx, m.p, m.nv, NULL, &cloud), MR_OK);
 	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &m, 1 << 20, &c), MR_OK);
-	assert_true(c.points_max < 1e-15 && c.wrap_max < 0.25);
+	assert_true(c.gaps.points.max < 1e-15 && c.gaps.surface.max < 0.25);
 	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &far, 1 << 20, &c), MR_OK);
-	assert_true(fabs(c.points_max - 0.5) < 1e-12); /* the middle of the side that is not there */
-	assert_true(c.wrap_max > 2 && c.wrap_max < 2.25 && c.points_most <= c.points_high);
+	assert_true(fabs(c.gaps.points.max - 0.5) < 1e-12); /* the middle of the side that is not there */
+	assert_true(c.gaps.surface.max > 2 && c.gaps.surface.max < 2.25 && c.points_most <= c.gaps.points.high);
 	mr_near_free(cloud.near);
 }
 

@@ -1,0 +1,173 @@
+/* Distances of a surface from points, both ways; the law by which tools warn of surface without points. */
+#include "measure/gaps.h"
+
+#include "base/parallel.h"
+#include "base/sort.h"
+#include "space/bvh.h"
+
+enum { GRAIN = 256 };
+
+/*
+ * Surface is bare where it is so many times farther from the nearest place than that one is from its own
+ * neighbours.
+ */
+static const double FAR = 4;
+
+/* The share of the area that may be bare without a warning. */
+static const double BARE_MOST = 0.01;
+
+mr_gap
+mr_gap_of(double *distance, size_t n)
+{
+	mr_gap side;
+	double sum = 0;
+
+	mr_unmeasured(&side, sizeof side);
+	if (n == 0)
+		return side;
+	for (size_t i = 0; i < n; i++)
+		sum += distance[i];
+	side.mean = sum / (double)n;
+	side.max = mr_kth(distance, n, n - 1);
+	side.high = mr_kth(distance, n, (size_t)(0.99 * (double)(n - 1)));
+	return side;
+}
+
+/* The i-th of equal areas' place within its face: the sequence R2 (Roberts 2018), folded into the triangle.
+ */
+static mr_v3
+place_in(const mr_mesh *m, size_t face, size_t i)
+{
+	const uint32_t *v = m->t[face].v;
+	double whole, a = modf(0.5 + 0.7548776662466927 * (double)i, &whole),
+		      b = modf(0.5 + 0.5698402909980532 * (double)i, &whole);
+
+	if (a + b > 1) {
+		a = 1 - a;
+		b = 1 - b;
+	}
+	return mr_axpy(
+	    a, mr_sub(m->p[v[1]], m->p[v[0]]), mr_axpy(b, mr_sub(m->p[v[2]], m->p[v[0]]), m->p[v[0]]));
+}
+
+/* A place in each of n equal parts of the area, in the order of the faces; as many as there are: 0 of no
+ * area. */
+static size_t
+spread_places(mr_ctx *ctx, const mr_mesh *m, size_t n, mr_v3 *q)
+{
+	double step = 2 * mr_mesh_area(ctx, m) / (double)n, sum = 0;
+	size_t i = 0;
+
+	for (size_t f = 0; f < m->nf && step > 0; f++) {
+		sum += mr_norm(mr_face_cross(m, f));
+		for (; i < n && ((double)i + 0.5) * step < sum; i++)
+			q[i] = place_in(m, f, i);
+	}
+	return i;
+}
+
+mr_status
+mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *q = MR_NEW(ctx, samples, mr_v3);
+	uint32_t *nearest = MR_NEW(ctx, samples, uint32_t);
+	double *distance = MR_NEW(ctx, samples, double);
+	size_t n, bare = 0;
+
+	if (!q || !nearest || !distance)
+		return MR_EMEM;
+	n = spread_places(ctx, m, samples, q);
+	MR_TRY(mr_near_query(ctx, cloud->near, q, n, 1, nearest, distance));
+	for (size_t i = 0; i < n; i++) {
+		distance[i] = sqrt(distance[i]);
+		bare += distance[i] > FAR * fmax(cloud->usual, cloud->spacing[nearest[i]]);
+	}
+	gaps->surface = mr_gap_of(distance, n);
+	gaps->bare = n ? (double)bare / (double)n : 0;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+typedef struct job {
+	const mr_bvh *bvh;
+	const mr_v3 *p;
+	double *distance;
+} job;
+
+static void
+distances_body(void *arg, size_t begin, size_t end)
+{
+	job *j = arg;
+
+	for (size_t i = begin; i < end; i++)
+		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->p[i]).dist2);
+}
+
+mr_status
+mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps)
+{
+	size_t n = cloud->n < samples ? cloud->n : samples;
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *p = MR_NEW(ctx, n, mr_v3);
+	job j = { NULL, p, MR_NEW(ctx, n, double) };
+	mr_bvh *bvh;
+
+	if (!p || !j.distance)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		p[i] = cloud->p[i * cloud->n / n];
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	j.bvh = bvh;
+	mr_parallel(ctx, n, GRAIN, distances_body, &j);
+	gaps->points = mr_gap_of(j.distance, n);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling *s, mr_gaps *gaps)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *place = MR_NEW(ctx, s->n, mr_v3);
+	double *spacing = MR_NEW(ctx, s->n, double);
+	mr_gap_cloud cloud = { .p = place, .spacing = spacing, .usual = s->usual };
+	mr_near *near;
+	mr_status status;
+
+	if (!place || !spacing)
+		return MR_EMEM;
+	for (size_t i = 0; i < s->n; i++)
+		if (!s->repeat[i] && !s->outlier[i]) {
+			place[cloud.n] = p[i];
+			spacing[cloud.n++] = s->spacing[i];
+		}
+	MR_TRY(mr_near_build(ctx, place, cloud.n, &near));
+	cloud.near = near;
+	status = mr_gap_of_points(ctx, m, &cloud, MR_GAP_SAMPLES, gaps);
+	if (status == MR_OK)
+		status = mr_gap_of_surface(ctx, m, &cloud, MR_GAP_SAMPLES, gaps);
+	mr_near_free(near);
+	MR_TRY(status);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+void
+mr_gaps_note(mr_ctx *ctx, const char *what, const mr_gaps *g)
+{
+	mr_note(ctx,
+	    "points are %.3g from %s on the mean, 99 %% within %.3g, all within %.3g; it is %.3g from "
+	    "points, 99 %% "
+	    "within %.3g, all within %.3g",
+	    g->points.mean, what, g->points.high, g->points.max, g->surface.mean, g->surface.high,
+	    g->surface.max);
+}
+
+void
+mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *g)
+{
+	if (g->bare > BARE_MOST)
+		mr_warn(ctx, "%.2g %% of %s is farther from all points than %g of their spacings, up to %.3g",
+		    100 * g->bare, what, FAR, g->surface.max);
+}

@@ -1,0 +1,43 @@
+/*
+ * gaps.h -- how far points are from their surface, and the surface from the points: parts that it lacks show
+ * on the one side, parts that it has too much on the other.
+ */
+#ifndef MR_MEASURE_GAPS_H
+#define MR_MEASURE_GAPS_H
+
+#include "mesh/mesh.h"
+#include "space/near.h"
+#include "space/sampling.h"
+
+/* The places that count of a cloud, as mr_sampling_places has them, their spacings and index. */
+typedef struct mr_gap_cloud {
+	const mr_v3 *p;
+	const double *spacing;
+	const mr_near *near;
+	size_t n;
+	double usual; /* spacing of the sampling */
+} mr_gap_cloud;
+
+/* Of n distances, which are reordered; unmeasured of none. */
+mr_gap mr_gap_of(double *distance, size_t n);
+
+enum { MR_GAP_SAMPLES = 1 << 12 };
+
+/* gaps->surface and bare: of a place in each of so many equal parts of the area. */
+mr_status
+mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps);
+
+/* gaps->points: of so many at equal strides. */
+mr_status
+mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps);
+
+/* Both, of the points of a sampling, which are indexed for it. */
+mr_status mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling *s, mr_gaps *gaps);
+
+/* Says both, of `what`, to those who want to hear. */
+void mr_gaps_note(mr_ctx *ctx, const char *what, const mr_gaps *gaps);
+
+/* Warns where too much of `what` is bare. */
+void mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps);
+
+#endif

@@ -1,0 +1,156 @@
+/* Distances of points and a surface, both ways, where they are known; what is bare, and the warning of it. */
+#include "measure/gaps.h"
+
+#include "heard.h"
+#include "shapes.h"
+
+enum { N = 10000, SAMPLES = 20000 };
+
+/* The square from 0 to 1 in the plane z = 0. */
+static const mr_v3 corner[4] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 } };
+static const mr_tri halves[2] = { { { 0, 1, 2 } }, { { 0, 2, 3 } } };
+static const mr_mesh square = { "square", corner, halves, 4, 2 };
+
+/* A lattice of N points, over x of 0 to `width` and y of 0 to 1, at z. */
+static mr_sampling
+strew(double width, double z, mr_v3 *p)
+{
+	enum { SIDE = 100 };
+	mr_sampling s;
+
+	for (size_t i = 0; i < N; i++)
+		p[i] = mr_vec(
+		    width * ((double)(i % SIDE) + 0.5) / SIDE, ((double)(i / SIDE) + 0.5) / SIDE, z);
+	assert_int_equal(mr_sampling_find(&ctx, p, N, NULL, &s), MR_OK);
+	return s;
+}
+
+static mr_gaps
+measure(const mr_mesh *m, const mr_v3 *p, const mr_sampling *s)
+{
+	mr_gaps g;
+
+	assert_int_equal(mr_gaps_measure(&ctx, m, p, s, &g), MR_OK);
+	return g;
+}
+
+/* Over half of the square the other half is bare, from four spacings of its end: a mean of 1/8, up to 1/2. */
+static void
+half_without_points(void **state)
+{
+	static mr_v3 p[N];
+	mr_sampling s = strew(0.5, 0, p);
+	mr_gaps g = measure(&square, p, &s);
+
+	(void)state;
+	assert_true(g.points.max < 1e-15);
+	assert_float_equal(g.surface.mean, 0.125, 0.005);
+	assert_float_equal(g.surface.max, 0.5, 0.01);
+	assert_float_equal(g.surface.high, 0.49, 0.01);
+	assert_float_equal(g.bare, 0.5 - 4 * s.usual, 0.01);
+}
+
+/* A surface beside all of its points is as far from them as they are from it. */
+static void
+beside_the_points(void **state)
+{
+	static mr_v3 p[N];
+	mr_sampling s = strew(1, 0.2, p);
+	mr_gaps g = measure(&square, p, &s);
+
+	(void)state;
+	assert_float_equal(g.points.mean, 0.2, 1e-12);
+	assert_float_equal(g.points.high, 0.2, 1e-12);
+	assert_float_equal(g.surface.mean, 0.2, 1e-3);
+	assert_true(g.bare == 1);
+	s = strew(1, 0.03, p);
+	assert_true(measure(&square, p, &s).bare == 0);
+}
+
+/* Outliers and repeats are no points that surface may lean on, or miss. */
+static void
+places_alone(void **state)
+{
+	static mr_v3 p[N];
+	uint8_t mark[N] = { 0 };
+	mr_sampling s = strew(1, 0, p), some = s;
+
+	(void)state;
+	for (size_t i = 0; i < N; i++)
+		mark[i] = p[i].x > 0.5;
+	for (size_t i = 0; i < N; i++)
+		p[i].z = mark[i] ? 0.3 : 0;
+	some.outlier = mark;
+	assert_float_equal(measure(&square, p, &some).surface.mean, 0.125, 0.005);
+	assert_true(measure(&square, p, &some).points.max < 1e-15);
+	some = s;
+	some.repeat = mark;
+	assert_float_equal(measure(&square, p, &some).surface.mean, 0.125, 0.005);
+}
+
+/* The places of equal areas: of a sphere's triangles, of whatever size, as many are above as below. */
+static void
+areas_weigh(void **state)
+{
+	mr_mesh m = shape(MR_SPHERE, 500);
+	mr_v3 pole = { 0, 0, 1 };
+	double spacing = 0.1;
+	mr_near *near;
+	mr_gaps g;
+
+	(void)state;
+	assert_int_equal(mr_near_build(&ctx, &pole, 1, &near), MR_OK);
+	assert_int_equal(
+	    mr_gap_of_surface(&ctx, &m, &(mr_gap_cloud){ &pole, &spacing, near, 1, spacing }, SAMPLES, &g),
+	    MR_OK);
+	mr_near_free(near);
+	/* of the unit sphere: chords of length c cut off the share c^2 / 4, the mean is 4/3 */
+	assert_float_equal(g.surface.mean, 4.0 / 3, 0.01);
+	assert_float_equal(g.surface.max, 2, 0.01);
+	assert_float_equal(g.bare, 1 - 0.16 / 4, 0.003);
+}
+
+static void
+none_to_measure(void **state)
+{
+	const mr_tri flat = { { 0, 0, 1 } };
+	const mr_mesh line = { "line", corner, &flat, 2, 1 };
+	static mr_v3 p[N];
+	mr_sampling s = strew(1, 0, p);
+	mr_gaps g = measure(&line, p, &s);
+
+	(void)state;
+	assert_true(isnan(g.surface.mean) && isnan(g.surface.max) && g.bare == 0);
+	assert_float_equal(g.points.mean, 0.5, 1e-3);
+	assert_true(isnan(mr_gap_of(NULL, 0).mean));
+}
+
+static void
+warns_of_what_is_bare(void **state)
+{
+	mr_gaps g = { .surface = { .max = 3 }, .bare = 0.01 };
+
+	(void)state;
+	listen_to(&ctx);
+	mr_gaps_warn(&ctx, "the wrap", &g);
+	assert_string_equal(heard, "");
+	g.bare = 0.015;
+	mr_gaps_warn(&ctx, "the wrap", &g);
+	assert_non_null(strstr(heard, "1.5 % of the wrap"));
+}
+
+int
+main(void)
+{
+	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(half_without_points, setup, teardown),
+		cmocka_unit_test_setup_teardown(beside_the_points, setup, teardown),
+		cmocka_unit_test_setup_teardown(places_alone, setup, teardown),
+		cmocka_unit_test_setup_teardown(areas_weigh, setup, teardown),
+		cmocka_unit_test_setup_teardown(none_to_measure, setup, teardown),
+		cmocka_unit_test_setup_teardown(warns_of_what_is_bare, setup, teardown),
+	};
+
+	cmocka_set_message_output(CM_OUTPUT_TAP);
+	return cmocka_run_group_tests(tests, NULL, NULL);
+}
