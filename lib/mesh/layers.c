@@ -114,6 +114,15 @@ mr_column_known(const char *layer, const char *name)
 }
 
 bool
+mr_column_carried(const mr_column *c, const char *layer)
+{
+	if (strcmp(c->layer, layer) || c->shape.element != 'v' || c->shape.type == 't')
+		return false;
+	return !strcmp(c->name, "color") ||
+	       !(info_of(layer, c->name) || info_of("displacement", c->name) || info_of("mesh", c->name));
+}
+
+bool
 mr_layer_has(const mr_frame *f, const char *layer, const char *name)
 {
 	return mr_frame_find(f, layer, name) != NULL;

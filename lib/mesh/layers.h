@@ -23,6 +23,10 @@ extern const mr_column_info mr_columns[];
 /* Whether a column of this name is one by convention. */
 bool mr_column_known(const char *layer, const char *name);
 
+/* Whether it is a column of the layer's vertices that goes along from points by displacement to mesh: colour,
+ * or none by convention of any of these. */
+bool mr_column_carried(const mr_column *c, const char *layer);
+
 /* True for a layer that by convention holds something else than a surface. */
 bool mr_layer_no_surface(const char *layer);
 

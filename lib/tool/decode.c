@@ -403,6 +403,41 @@ look_at_posed(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, con
 	return look_for_flaws(ctx, f, cache, &encoded, &edges, NULL, p, result);
 }
 
+/* What mr-sample found of the points' columns at the vertices, those of coarse levels first. */
+static mr_status
+put_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
+{
+	size_t n = f->count, bytes;
+	const void *types;
+
+	for (size_t i = 0; i < n; i++) {
+		mr_column *c = &f->columns[i];
+		if (!mr_column_carried(c, "displacement"))
+			continue;
+		MR_TRY(mr_column_decode(ctx, c));
+		if (c->rows < nv)
+			return mr_fail(ctx, MR_ERANGE, "displacement: %s has %llu rows for %zu vertices",
+			    c->name, (unsigned long long)c->rows, nv);
+		MR_TRY(mr_frame_put(ctx, f, "mesh", c->name, c->shape, c->data, nv));
+	}
+	if (!mr_layer_has(f, "displacement", "properties"))
+		return MR_OK;
+	MR_TRY(mr_layer_get(ctx, f, "displacement", "properties", &types, &bytes));
+	return mr_layer_put(ctx, f, "mesh", "properties", types, bytes);
+}
+
+/* Takes those of before away, so that nothing is said to be lost that is not. */
+static void
+drop_columns(mr_frame *f)
+{
+	for (size_t i = f->count; i-- > 0;) {
+		char name[MR_COLUMN_MAX + 1];
+		snprintf(name, sizeof name, "%s", f->columns[i].name);
+		if (mr_column_carried(&f->columns[i], "mesh") && mr_layer_has(f, "displacement", name))
+			mr_frame_drop(f, "mesh", name, 0);
+	}
+}
+
 /* Level J of the surface needs the first heights alone. */
 static mr_status
 decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache, mr_decode_result *result)
@@ -431,7 +466,9 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	if (!o->blind)
 		MR_TRY(look_at_posed(ctx, f, cache, &d, height, o->gain, p, result));
 	d.m.p = p;
-	return mr_layer_replace(ctx, f, "mesh", &d.m);
+	drop_columns(f);
+	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));
+	return put_columns(ctx, f, d.m.nv);
 }
 
 /* How far mesh is from the points, where it is known how these lie. */

@@ -36,6 +36,65 @@ choose_level(mr_ctx *ctx, const mr_mesh *control, size_t vertices, size_t *n)
 	return MR_OK;
 }
 
+/* One that goes along: n rows at points, nv at vertices. */
+static mr_status
+get_column(mr_ctx *ctx, mr_frame *f, size_t i, size_t n, size_t nv, mr_carried *carried)
+{
+	mr_column *c = &f->columns[i];
+
+	MR_TRY(mr_column_decode(ctx, c));
+	if (c->rows != n)
+		return mr_fail(ctx, MR_ERANGE, "%s: %s has %llu rows for %zu points", c->layer, c->name,
+		    (unsigned long long)c->rows, n);
+	carried->name = mr_format(ctx, "%s", c->name);
+	carried->shape = c->shape;
+	carried->mean = c->shape.type == 'd' || !strcmp(c->name, "color");
+	carried->from = c->data;
+	carried->to = mr_alloc(ctx, nv * c->shape.components, mr_type_size(c->shape.type));
+	return carried->name && carried->to ? MR_OK : MR_EMEM;
+}
+
+/* The columns of the points that go along, and says which cannot.  carried: f->count, the caller's. */
+static mr_status
+get_columns(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, size_t nv, mr_carried *carried, size_t *count)
+{
+	for (size_t i = 0; i < f->count; i++) {
+		const mr_column *c = &f->columns[i];
+		if (mr_column_carried(c, points->name))
+			MR_TRY(get_column(ctx, f, i, points->nv, nv, &carried[(*count)++]));
+		else if (!strcmp(c->layer, points->name) && c->shape.element == 'v' &&
+			 !mr_column_known(points->name, c->name))
+			mr_warn(ctx,
+			    "%s: %s is left out: displacement or mesh has another column of that name",
+			    points->name, c->name);
+	}
+	return MR_OK;
+}
+
+/* Puts what the points have beside their places, at the vertices, and what PLY calls it. */
+static mr_status
+put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points, const mr_sampling *s,
+    const double *height)
+{
+	mr_carried *carried = MR_NEW(ctx, f->count, mr_carried);
+	size_t count = 0, bytes;
+	const void *types;
+
+	if (!carried)
+		return MR_EMEM;
+	MR_TRY(get_columns(ctx, f, points, d->m.nv, carried, &count));
+	if (count == 0)
+		return MR_OK;
+	MR_TRY(mr_sample_columns(ctx, d, height, points->p, s, carried, count));
+	for (size_t i = 0; i < count; i++)
+		MR_TRY(mr_frame_put(
+		    ctx, f, "displacement", carried[i].name, carried[i].shape, carried[i].to, d->m.nv));
+	if (!mr_layer_has(f, points->name, "properties"))
+		return MR_OK;
+	MR_TRY(mr_layer_get(ctx, f, points->name, "properties", &types, &bytes));
+	return mr_layer_put(ctx, f, "displacement", "properties", types, bytes);
+}
+
 mr_status
 mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_result *result)
 {
@@ -65,5 +124,7 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 		result->level = n;
 		result->vertices = d.m.nv;
 	}
-	return mr_displacement_put(ctx, f, &d, height);
+	mr_frame_drop(f, "displacement", NULL, 0);
+	MR_TRY(mr_displacement_put(ctx, f, &d, height));
+	return target.nf ? MR_OK : put_columns(ctx, f, &d, &target, &sampling, height);
 }

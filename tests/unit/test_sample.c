@@ -285,6 +285,73 @@ drops_spikes(void **state)
 		assert_true(known[i] == (i % 50 != 0));
 }
 
+/*
+ * A disc thinner than its points are apart, of which the upper side is red and has number 1, the lower black
+ * and 2: away from the rim each vertex has what its own side has.  What is no number, an outlier and a repeat
+ * count for nothing.
+ */
+static void
+columns_keep_to_their_sheet(void **state)
+{
+	enum { N = 4000 };
+	mr_make_opts o = { .solid = MR_SPHERE, .vertices = 600 };
+	mr_random r = { 5 };
+	static mr_v3 p[N + 2];
+	static uint8_t color[N + 2][4];
+	static double value[N + 2];
+	static uint32_t label[N + 2];
+	uint8_t spared[2][N + 2] = { { 0 } };
+	mr_sampling s;
+	mr_mesh control;
+	mr_domain d;
+	mr_v3 *flat;
+	double *height;
+	size_t seen = 0;
+
+	(void)state;
+	assert_int_equal(mr_solid_make(&ctx, &o, &control), MR_OK);
+	flat = MR_NEW(&ctx, control.nv, mr_v3);
+	for (size_t v = 0; v < control.nv; v++)
+		flat[v] = mr_vec(control.p[v].x, control.p[v].y, 0.01 * control.p[v].z);
+	control.p = flat;
+	assert_int_equal(mr_domain_build(&ctx, &control, 2, &d), MR_OK);
+	height = MR_NEW_ZERO(&ctx, d.m.nv, double);
+	for (size_t i = 0; i < N; i++) {
+		double x, y;
+		do {
+			x = 2 * mr_random_real(&r) - 1;
+			y = 2 * mr_random_real(&r) - 1;
+		} while (x * x + y * y > 1);
+		p[i] = mr_vec(x, y, (i % 2 ? -0.01 : 0.01) * sqrt(1 - x * x - y * y));
+		color[i][0] = i % 2 ? 0 : 255;
+		value[i] = i % 50 ? 1 + (double)(i % 2) : NAN;
+		label[i] = 70000 + i % 2;
+	}
+	assert_int_equal(mr_sampling_find(&ctx, p, N, NULL, &s), MR_OK);
+	p[N] = p[N + 1] = mr_vec(0, 0, 0.01);
+	label[N] = label[N + 1] = 9;
+	spared[0][N] = spared[1][N + 1] = 1;
+	s.outlier = spared[0];
+	s.repeat = spared[1];
+	s.spacing = MR_NEW_ZERO(&ctx, N + 2, double);
+	s.n = N + 2;
+	mr_carried c[3] = { { "color", { 'v', 'b', 4 }, true, color, MR_NEW(&ctx, 4 * d.m.nv, uint8_t) },
+		{ "value", { 'v', 'd', 1 }, true, value, MR_NEW(&ctx, d.m.nv, double) },
+		{ "label", { 'v', 'u', 1 }, false, label, MR_NEW(&ctx, d.m.nv, uint32_t) } };
+	assert_int_equal(mr_sample_columns(&ctx, &d, height, p, &s, c, 3), MR_OK);
+	for (size_t v = 0; v < d.m.nv; v++) {
+		mr_v3 q = d.m.p[v];
+		bool up = d.normal[v].z > 0;
+		if (q.x * q.x + q.y * q.y > 0.8)
+			continue;
+		seen++;
+		assert_int_equal(((uint8_t *)c[0].to)[4 * v], up ? 255 : 0);
+		assert_true(fabs(((double *)c[1].to)[v] - (up ? 1 : 2)) < 1e-12);
+		assert_int_equal(((uint32_t *)c[2].to)[v], up ? 70000 : 70001);
+	}
+	assert_true(seen > 1000);
+}
+
 static void
 threads_do_not_matter(void **state)
 {
@@ -297,7 +364,8 @@ threads_do_not_matter(void **state)
 	for (o.method = 0; o.method < 2; o.method++) {
 		for (int k = 0; k < 2; k++) {
 			ctx.threads = k ? 3 : 1;
-			assert_int_equal(mr_sample_points(&ctx, &d, p, 9000, NULL, &o, height[k], NULL), MR_OK);
+			assert_int_equal(
+			    mr_sample_points(&ctx, &d, p, 9000, NULL, &o, height[k], NULL), MR_OK);
 		}
 		assert_memory_equal(height[0], height[1], d.m.nv * sizeof(double));
 	}
@@ -364,6 +432,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(torus_from_mesh, setup, teardown),
 		cmocka_unit_test_setup_teardown(fills_smoothly, setup, teardown),
 		cmocka_unit_test_setup_teardown(drops_spikes, setup, teardown),
+		cmocka_unit_test_setup_teardown(columns_keep_to_their_sheet, setup, teardown),
 		cmocka_unit_test_setup_teardown(threads_do_not_matter, setup, teardown),
 		cmocka_unit_test_setup_teardown(refuses, setup, teardown),
 		cmocka_unit_test_setup_teardown(survives_no_memory, setup, teardown),

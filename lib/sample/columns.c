@@ -1,0 +1,134 @@
+/* What points have beside their places, at the vertices of the surface that is displaced to them. */
+#include "base/parallel.h"
+#include "sample/parts.h"
+
+enum { LOOKED_AT = 16, NEAREST = 6, CHUNK = 1 << 13, GRAIN = 256 };
+
+typedef struct job {
+	const mr_domain *d;
+	const mr_sample_cloud *c;
+	const uint32_t *of; /* point of each place */
+	size_t k, first;
+	const uint32_t *nearest; /* k of each vertex from the first, and their squared distances */
+	const double *dist2;
+	const mr_carried *column;
+	size_t count;
+} job;
+
+/* Squared distances below this share of the farthest that is looked at are as good as none. */
+static const double THERE = 1e-12;
+
+/* The nearest points of a vertex's own sheet, or of any where none is, and their weights: inverse squares, as
+ * higher powers come no nearer to what is linear in place. */
+static size_t
+weigh(const job *j, size_t i, uint32_t point[NEAREST], double weight[NEAREST])
+{
+	const uint32_t *near = j->nearest + i * j->k;
+	const double *dist2 = j->dist2 + i * j->k;
+	mr_v3 normal = j->d->normal[j->first + i];
+	size_t n = 0;
+
+	for (int any = 0; any < 2 && n == 0; any++)
+		for (size_t k = 0; k < j->k && n < NEAREST; k++) {
+			if (!any && !mr_same_side(j->c, near[k], normal))
+				continue;
+			point[n] = j->of[near[k]];
+			weight[n++] = 1 / fmax(dist2[k] / dist2[j->k - 1], THERE);
+		}
+	return n;
+}
+
+/* The value of component `at` of a row. */
+static double
+value_at(const mr_carried *c, size_t at)
+{
+	return c->shape.type == 'd' ? ((const double *)c->from)[at] : ((const uint8_t *)c->from)[at];
+}
+
+/* Means of what are numbers. */
+static void
+put_means(const mr_carried *c, size_t row, const uint32_t *point, const double *weight, size_t n)
+{
+	size_t wide = c->shape.components;
+
+	for (size_t k = 0; k < wide; k++) {
+		double sum = 0, all = 0, mean;
+		for (size_t i = 0; i < n; i++) {
+			double x = value_at(c, point[i] * wide + k);
+			sum += isfinite(x) ? weight[i] * x : 0;
+			all += isfinite(x) ? weight[i] : 0;
+		}
+		mean = all > 0 ? sum / all : NAN;
+		if (c->shape.type == 'd')
+			((double *)c->to)[row * wide + k] = mean;
+		else
+			((uint8_t *)c->to)[row * wide + k] = (uint8_t)(mean + 0.5);
+	}
+}
+
+static void
+carry_to_vertices(void *arg, size_t begin, size_t end)
+{
+	const job *j = arg;
+	uint32_t point[NEAREST];
+	double weight[NEAREST];
+
+	for (size_t i = begin; i < end; i++) {
+		size_t n = weigh(j, i, point, weight);
+		for (const mr_carried *c = j->column; c < j->column + j->count; c++) {
+			size_t bytes = mr_type_size(c->shape.type) * c->shape.components;
+			if (c->mean)
+				put_means(c, j->first + i, point, weight, n);
+			else
+				memcpy((char *)c->to + (j->first + i) * bytes,
+				    (const char *)c->from + point[0] * bytes, bytes);
+		}
+	}
+}
+
+static mr_status
+carry(mr_ctx *ctx, job *j, const mr_v3 *vertex)
+{
+	size_t nv = j->d->m.nv, chunk = nv < CHUNK ? nv : CHUNK;
+	uint32_t *nearest = MR_NEW(ctx, chunk * j->k, uint32_t);
+	double *dist2 = MR_NEW(ctx, chunk * j->k, double);
+
+	if (!nearest || !dist2)
+		return MR_EMEM;
+	j->nearest = nearest;
+	j->dist2 = dist2;
+	for (j->first = 0; j->first < nv; j->first += chunk) {
+		size_t n = nv - j->first < chunk ? nv - j->first : chunk;
+		MR_TRY(mr_near_query(ctx, j->c->near, vertex + j->first, n, j->k, nearest, dist2));
+		mr_parallel(ctx, n, GRAIN, carry_to_vertices, j);
+	}
+	return MR_OK;
+}
+
+mr_status
+mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const mr_v3 *point,
+    const mr_sampling *s, const mr_carried *column, size_t count)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *vertex = MR_NEW(ctx, d->m.nv, mr_v3), *p;
+	job j = { .d = d, .column = column, .count = count };
+	mr_sample_cloud c = { 0 };
+	uint32_t *of;
+	mr_status status;
+
+	if (!vertex)
+		return MR_EMEM;
+	mr_domain_displace(ctx, d, height, 1, vertex);
+	MR_TRY(mr_sampling_places(ctx, point, s, &p, &of, &c.n));
+	c.p = p;
+	MR_TRY(mr_sample_place(ctx, d, &c, NULL));
+	MR_TRY(mr_near_build(ctx, p, c.n, &c.near));
+	j.c = &c;
+	j.of = of;
+	j.k = c.n < LOOKED_AT ? c.n : LOOKED_AT;
+	status = carry(ctx, &j, vertex);
+	mr_near_free(c.near);
+	MR_TRY(status);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

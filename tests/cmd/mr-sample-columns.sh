@@ -1,0 +1,108 @@
+# What points have besides their places comes out on the mesh: colours, numbers, labels; of levels, edits, streams without points.
+awk 'BEGIN { # points of a bumpy sphere; red, green and intensity are linear in place, the label tells its halves
+	n = 6000
+	print "ply\nformat ascii 1.0\nelement vertex " n + 2
+	for (k = 1; k <= split("double x,double y,double z,uchar red,uchar green,uchar blue,float intensity,ushort label,float height", p, ","); k++)
+		print "property " p[k]
+	print "end_header"
+	for (i = 0; i < n; i++) {
+		z = 1 - (2 * i + 1) / n; r = sqrt(1 - z * z); a = 2.399963229728653 * i; s = 1 + 0.1 * sin(4 * z)
+		put(s * r * cos(a), s * r * sin(a), s * z, i % 100 ? s * r * cos(a) + 2 * s * z : "nan", z > 0)
+	}
+	put(9, 9, 9, 1000, 7) # an outlier, and a point that repeats the place of another
+	put(s * r * cos(a), s * r * sin(a), s * z, 1000, 7)
+}
+function put(x, y, z, intensity, label) {
+	print x, y, z, int(127.5 + 100 * x), int(127.5 + 100 * z), 255, intensity, 300 + label, 1
+}' >scan.ply
+mr-import scan.ply | mr-shrinkwrap -q | mr-simplify | mr-fit -q | mr-sample -o sampled.mrs || exit
+mr-info sampled.mrs | sed -n '/^  displacement/,$p'
+
+judge() { # stream: greatest errors of its mesh, in spacings, which are 0.045
+	mr-export -f ply - <"$1" >out.ply || return
+	python3 - out.ply <<'END'
+import re, struct, sys
+data = open(sys.argv[1], 'rb').read()
+at = data.index(b'end_header\n') + 11
+head = data[:at].decode().split('element face')[0]
+names = re.findall(r'property (\w+) (\w+)', head)
+row = struct.Struct('<' + ''.join({'double': 'd', 'float': 'f', 'uchar': 'B', 'ushort': 'H'}[t] for t, _ in names))
+n = int(re.search(r'vertex (\d+)', head).group(1))
+print(' '.join(name for _, name in names))
+near, color, labels = 0, 0, 0
+for i in range(n):
+    v = dict(zip((name for _, name in names), row.unpack_from(data, at + i * row.size)))
+    near = max(near, abs(v['intensity'] - v['x'] - 2 * v['z']) / 5 ** 0.5)
+    color = max(color, abs(v['red'] - 127 - 100 * v['x']) / 100, abs(v['green'] - 127 - 100 * v['z']) / 100)
+    labels += abs(v['z']) > 0.06 and v['label'] != 300 + (v['z'] > 0)
+    labels += v['blue'] != 255 or v['alpha'] != 255
+print(n, 'vertices: intensity', 'near' if near < 0.045 else near, 'color', 'near' if color < 0.05 else color, 'labels wrong', labels)
+END
+}
+mr-decode sampled.mrs -o mesh.mrs && judge mesh.mrs
+mr-decode --level 2 sampled.mrs -o coarse.mrs && judge coarse.mrs
+
+without() { # stream, pattern of LAYER.COLUMN: the stream without those
+	python3 - "$@" <<'END'
+import re, struct, sys
+data, at, out = open(sys.argv[1], 'rb').read(), 0, b''
+while at < len(data):
+    size, = struct.unpack_from('<Q', data, at + 56)
+    end = at + 64 + (size + 63) // 64 * 64
+    layer, name = (data[at + a:at + b].replace(b'\0', b'').decode() for a, b in ((0, 16), (16, 40)))
+    out += b'' if re.fullmatch(sys.argv[2], layer + '.' + name) else data[at:end]
+    at = end
+sys.stdout.buffer.write(out)
+END
+}
+echo 'without points, and onto a mesh that has them already: nothing is lost, so there is no warning'
+without sampled.mrs 'points.*' | mr-decode | mr-decode -o again.mrs
+mr-export mesh.ply <mesh.mrs
+mr-export again.ply <again.mrs
+cmp mesh.ply again.ply && echo same
+for format in obj glb; do
+	mr-export mesh.$format <mesh.mrs
+	mr-import mesh.$format | mr-info -l mesh | grep color
+done
+
+echo 'a pose keeps them, and deltas do not send them again'
+mr-select --free all --fixed below:z,0.2 --handle 0=above:z,0.8 sampled.mrs | mr-solve -q --basis |
+	mr-pose --rotate 1,0,0,40 --frames 3 | mr-decode -o film.mrs
+
+python3 - film.mrs <<'END'
+import struct, sys
+data, at, sent = open(sys.argv[1], 'rb').read(), 0, []
+while at < len(data):
+    size, = struct.unpack_from('<Q', data, at + 56)
+    layer, name = (data[at + a:at + b].replace(b'\0', b'').decode() for a, b in ((0, 16), (16, 40)))
+    sent = [] if name == 'FRAME' else sent + [layer + '.' + name] if layer == 'mesh' else sent
+    if name == 'ENDFRAME':
+        print(*sent)
+    at += 64 + (size + 63) // 64 * 64
+END
+
+echo 'sampled anew without them they are gone; the same bytes for any number of threads'
+without sampled.mrs 'points.(color|intensity|label|height)' | mr-sample -q | mr-info | sed -n '/^  displacement/,$p'
+mr-sample --no-history -q -j 1 sampled.mrs -o one.mrs
+mr-sample --no-history -q -j 3 sampled.mrs | cmp - one.mrs && echo same
+
+echo 'columns that do not fit'
+python3 - sampled.mrs >short.mrs <<'END' # labels for half of the vertices
+import struct, sys, zlib
+data, at = open(sys.argv[1], 'rb').read(), 0
+while at < len(data):
+    size, = struct.unpack_from('<Q', data, at + 56)
+    end = at + 64 + (size + 63) // 64 * 64
+    r = bytearray(data[at:end])
+    if r[:12] == b'displacement' and r[16:21] == b'label':
+        rows, = struct.unpack_from('<Q', r, 48)
+        rows //= 2
+        r = r[:64 + (4 * rows + 63) // 64 * 64]
+        r[64 + 4 * rows:] = bytes(len(r) - 64 - 4 * rows)
+        struct.pack_into('<IQQ', r, 44, 0, rows, 4 * rows)
+        struct.pack_into('<I', r, 44, zlib.crc32(r[:64 + 4 * rows]))
+    sys.stdout.buffer.write(r)
+    at = end
+END
+mr-decode short.mrs -o out.mrs
+echo "exit $?"
