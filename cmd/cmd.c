@@ -650,6 +650,18 @@ return_memory(bool lean)
 #endif
 }
 
+/*
+ * Where stdin, stdout or stderr is closed the next file that is opened would take its number, and messages
+ * would be written into it: something stands there that can neither be read nor written as it would be.
+ */
+static void
+fill_closed(void)
+{
+	for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++)
+		if (fcntl(fd, F_GETFD) < 0 && open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY) < 0)
+			exit(EXIT_DATA);
+}
+
 int
 cmd_main(int argc, char **argv, const cmd_tool *tool)
 {
@@ -657,6 +669,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	cmd c = { .tool = tool, .name = base_name(argv[0]), .state = &state };
 	int code;
 
+	fill_closed();
 	return_memory(tool->lean);
 	mr_ctx_init(&c.ctx, 0);
 	mr_ctx_init(&state.long_lived, 0);
