@@ -8,6 +8,7 @@
 
 static const char *format;
 static uint64_t written;
+static mr_outnames given;
 static mr_scene scene = { .folder = "." };
 
 static const cmd_opt table[] = {
@@ -72,7 +73,7 @@ add_to_scene(cmd *c, mr_frame *f)
 	written++;
 	if (!varies)
 		return MR_OK;
-	MR_TRY(mr_outname(&c->ctx, out, f->name, f->number, &path));
+	MR_TRY(mr_outname_once(&c->ctx, &given, out, f->name, f->number, &path));
 	return mr_scene_write(&c->ctx, path, format, &own, NULL);
 }
 
@@ -87,10 +88,7 @@ export_frame(cmd *c, mr_frame *f)
 
 	if (mr_scene_suits(out, format))
 		return add_to_scene(c, f);
-	if (written && !varies)
-		return mr_fail(
-		    &c->ctx, MR_EUSAGE, "%s holds the frame before: OUT needs %%s or %%d for several", out);
-	MR_TRY(mr_outname(&c->ctx, out, f->name, f->number, &path));
+	MR_TRY(mr_outname_once(&c->ctx, &given, out, f->name, f->number, &path));
 	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held, &result));
 	cmd_figures(c, figures, &result);
 	written++;

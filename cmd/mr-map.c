@@ -6,7 +6,7 @@ static mr_map_opts opts = MR_MAP_DEFAULTS;
 static const char *to, *from;
 static size_t level;
 static cmd_range range;
-static uint64_t written;
+static mr_outnames given;
 
 static const cmd_opt table[] = {
 	{ 'w', "write", CMD_TEXT, &to, 0, 0, "NAME", "write NAME-height.png, NAME-normal.png and NAME.mtl",
@@ -59,10 +59,8 @@ map_frame(cmd *c, mr_frame *f)
 	mr_map_result result;
 	char *name;
 
-	if (to && written++ && !mr_outname_varies(to))
-		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "%s names the maps of the frame before: it needs %%s or %%d for several", to);
-	MR_TRY(mr_outname(&c->ctx, to ? to : from, f->name, f->number, &name));
+	MR_TRY(to ? mr_outname_once(&c->ctx, &given, to, f->name, f->number, &name)
+		  : mr_outname(&c->ctx, from, f->name, f->number, &name));
 	MR_TRY(to ? mr_map_write(&c->ctx, f, name, &opts, &result)
 		  : mr_map_read(&c->ctx, f, name, &opts, &result));
 	cmd_figures(c, figures, &result);

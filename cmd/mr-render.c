@@ -14,6 +14,7 @@ static cmd_range range;
 static int up = 1;
 static bool sheet;
 static size_t written;
+static mr_outnames given;
 
 static mr_gallery gallery;
 static mr_mark kept; /* of the arena that holds the gallery */
@@ -92,7 +93,7 @@ write_picture(cmd *c, const mr_shown *frame, const mr_image *image)
 {
 	char *path;
 
-	MR_TRY(mr_outname(&c->ctx, c->operands[0], frame->name, frame->number, &path));
+	MR_TRY(mr_outname_once(&c->ctx, &given, c->operands[0], frame->name, frame->number, &path));
 	return mr_png_write(&c->ctx, path, image);
 }
 
@@ -107,8 +108,7 @@ write_frames(cmd *c)
 		return MR_OK;
 	if (written + gallery.frames > 1 && !mr_outname_varies(c->operands[0]))
 		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "%s is one picture, and there are several frames: put %%d or %%s into its name, or use "
-		    "--sheet",
+		    "%s is one picture, of several frames: put %%d or %%s into its name, or use --sheet",
 		    c->operands[0]);
 	MR_TRY(mr_shot_aim(&c->ctx, &gallery, 0, gallery.frames, &opts, &shot));
 	for (size_t i = 0; i < gallery.frames; i++) {

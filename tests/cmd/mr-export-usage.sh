@@ -16,3 +16,7 @@ export_cube -o a.obj -f obj -
 ls a.obj 2>/dev/null
 mr-cat cube.mrs cube.mrs | mr-export two.obj
 echo "exit $?" >&2
+mr-cat cube.mrs cube.mrs | mr-export 'name-%s.obj'
+echo "exit $?" >&2
+mr-cat cube.mrs cube.mrs | mr-export 'name-%s-%d.obj'
+ls name-*

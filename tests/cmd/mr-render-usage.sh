@@ -13,3 +13,7 @@ mr-render x.off a.png
 echo "exit $?"
 mr-decode x.off
 echo "exit $?"
+mr-cat cube.mrs cube.mrs | mr-render -s 16x16 'name-%s.png'
+echo "exit $?"
+mr-cat cube.mrs cube.mrs | mr-render -s 16x16 'name-%s-%d.png'
+ls name-*
