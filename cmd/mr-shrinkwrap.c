@@ -13,6 +13,8 @@ static const cmd_opt table[] = {
 	{ 0, "lambda", CMD_REAL, &opts.lambda, 0, 1, "L", "of tangential smoothing", NULL },
 	{ 'n', "iterations", CMD_COUNT, &opts.iterations, 0, 1e6, "N",
 	    "of projection and smoothing; 0: as the method needs", NULL },
+	{ 0, "ignore-normals", CMD_FLAG, &opts.ignore_normals, 0, 0, "",
+	    "do not let normals, or the places of a scanner, tell sides", NULL },
 	{ 0, "template", CMD_FLAG, &opts.template_mesh, 0, 0, "", "wrap the mesh that is in control", NULL },
 	{ 0 },
 };
@@ -54,6 +56,7 @@ static const cmd_field figures[] = {
 static const cmd_field volume_figures[] = {
 	CMD_COUNTED(mr_volume_result, samples),
 	CMD_COUNTED(mr_volume_result, nodes),
+	CMD_COUNTED(mr_volume_result, sided),
 	CMD_MEASURED(mr_volume_result, spacing),
 	CMD_MEASURED(mr_volume_result, cell),
 	CMD_MEASURED(mr_volume_result, noise),

@@ -479,10 +479,7 @@ typedef struct mr_solve_result {
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
     mr_solve_result *result) MR_WARN_UNUSED;
 
-/* Of distances: 99 % are at most high. */
-typedef struct mr_gap {
-	double mean, high, max;
-} mr_gap;
+typedef struct mr_gap { double mean, high, max; } mr_gap; /* of distances: 99 % are at most high */
 
 /* How far points that count are from a surface, and it from them, in units of the positions. */
 typedef struct mr_gaps {
@@ -525,21 +522,22 @@ typedef enum mr_wrap_method {
 } mr_wrap_method;
 
 typedef struct mr_wrap_opts {
-	int method;         /* mr_wrap_method */
-	size_t resolution;  /* edges of the wrap along a side of the bounding cube; 0: by the sampling */
-	size_t grid;        /* cells of the volume; 0: from the sampling density */
-	double alpha;       /* share of the way to the nearest point */
-	double lambda;      /* of tangential smoothing */
-	size_t iterations;  /* of projection and smoothing; 0: as many as the method needs by default */
-	bool template_mesh; /* wrap the mesh that is in control */
-	const char *layer;  /* NULL: points */
+	int method;          /* mr_wrap_method */
+	size_t resolution;   /* edges of the wrap along a side of the bounding cube; 0: by the sampling */
+	size_t grid;         /* cells of the volume; 0: from the sampling density */
+	double alpha;        /* share of the way to the nearest point */
+	double lambda;       /* of tangential smoothing */
+	size_t iterations;   /* of projection and smoothing; 0: as many as the method needs by default */
+	bool template_mesh;  /* wrap the mesh that is in control */
+	bool ignore_normals; /* the points', and where they were seen from */
+	const char *layer;   /* NULL: points */
 } mr_wrap_opts;
 
-#define MR_WRAP_DEFAULTS MR_DEFAULTS(MR_WRAP_AUTO, 0, 0, 0.5, 0.2, 0, false, NULL)
+#define MR_WRAP_DEFAULTS MR_DEFAULTS(MR_WRAP_AUTO, 0, 0, 0.5, 0.2, 0, false, false, NULL)
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
-	size_t samples, nodes;          /* points that counted; of the grid */
+	size_t samples, nodes, sided;   /* points that counted; of the grid; whose sides were given and used */
 	double spacing, cell;           /* side of the square that a point stands for; of a cell */
 	double noise;                   /* squares of so many spacings show a surface: at least 1 */
 	size_t grid;                    /* cells along the longest side of the points' box */

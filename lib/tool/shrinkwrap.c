@@ -20,6 +20,35 @@ wrap_control(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_sampling 
 	return mr_layer_move(ctx, f, "control", MR_RESHAPED, p, control.nv);
 }
 
+/* The outer sides of the points: their normals, or from where they were seen; toward NULL: neither is there.
+ */
+static mr_status
+get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides)
+{
+	const void *data;
+	size_t without = 0;
+
+	*sides = (mr_outer_sides){ NULL, mr_layer_has(f, points->name, "normal") };
+	if (sides->normals) {
+		MR_TRY(mr_layer_get_rows(ctx, f, points->name, "normal", points->nv, &data));
+		sides->toward = data;
+		for (size_t i = 0; i < points->nv; i++)
+			without += !mr_finite(sides->toward[i]) || !(mr_norm2(sides->toward[i]) > 0);
+	} else if (mr_layer_has(f, points->name, "scanner")) {
+		mr_v3 *toward = MR_NEW(ctx, points->nv, mr_v3);
+		if (!toward)
+			return MR_EMEM;
+		MR_TRY(mr_layer_get_rows(ctx, f, points->name, "scanner", points->nv, &data));
+		for (size_t i = 0; i < points->nv; i++)
+			toward[i] = mr_sub(((const mr_v3 *)data)[i], points->p[i]);
+		sides->toward = toward;
+	}
+	if (without > 0)
+		mr_warn(ctx, "%s: %zu of %zu normals are of length 0 or no numbers: left out", points->name,
+		    without, points->nv);
+	return MR_OK;
+}
+
 mr_status
 mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_result *result)
 {
@@ -27,6 +56,7 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 	static const char *const reads[] = { "points", NULL };
 	const mr_wrap_opts *o = opts ? opts : &defaults;
 	const char *layer;
+	mr_outer_sides sides = { NULL, false };
 	mr_mesh points, out;
 	mr_sampling sampling;
 
@@ -35,7 +65,10 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 	MR_TRY(mr_prefix(ctx, mr_sampling_of(ctx, f, &points, &sampling), "%s", layer));
 	if (o->template_mesh)
 		return wrap_control(ctx, f, &points, &sampling, o, result);
-	MR_TRY(
-	    mr_prefix(ctx, mr_shrinkwrap(ctx, points.p, points.nv, &sampling, o, &out, result), "%s", layer));
+	if (!o->ignore_normals)
+		MR_TRY(get_sides(ctx, f, &points, &sides));
+	MR_TRY(mr_prefix(ctx,
+	    mr_shrinkwrap(ctx, points.p, points.nv, &sampling, sides.toward ? &sides : NULL, o, &out, result),
+	    "%s", layer));
 	return mr_layer_put_mesh(ctx, f, "control", &out);
 }

@@ -73,9 +73,8 @@ join(parts *q, uint32_t a, uint32_t b, int8_t same)
 	q->vote[ra] += s * q->vote[rb];
 }
 
-/* How alike the normals are, as a sign and a weight below 1. */
-static double
-likeness(const mr_volume_cloud *s, uint32_t i, uint32_t j)
+double
+mr_volume_likeness(const mr_volume_cloud *s, uint32_t i, uint32_t j)
 {
 	mr_v3 a = s->plane.normal[i], b = s->plane.normal[j], e = mr_unit(mr_sub(s->p[j], s->p[i]));
 	double ae = mr_dot(a, e), be = mr_dot(b, e);
@@ -113,7 +112,7 @@ find_kinds(void *arg, size_t begin, size_t end)
 		for (size_t l = i * links; l < (i + 1) * links; l++) {
 			o->kind[l] = NONE;
 			if (s->plane.neighbor[l] != UINT32_MAX) {
-				double alike = likeness(s, (uint32_t)i, s->plane.neighbor[l]);
+				double alike = mr_volume_likeness(s, (uint32_t)i, s->plane.neighbor[l]);
 				o->kind[l] = (uint16_t)(2 * bin_of(alike) + (alike < 0));
 			}
 		}

@@ -32,6 +32,23 @@ mr_status mr_volume_samples(
 /* Gives normals the signs by which they point out of what the points enclose.  volume.c */
 mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
 
+/* Gives normals the signs by which they are on the side that the directions say, of any length, 0 or no
+ * number where none is known: there neighbours tell, as everywhere where toward is NULL.  orient_toward.c */
+mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward);
+
+/* What directions are worth: how many tell a side; what share of those that are there is within 60 degrees of
+ * their planes' normals; and what share of neighbours on alike planes get signs from them that are alike. NaN
+ * of none. */
+typedef struct mr_volume_sides {
+	size_t told;
+	double near, alike;
+} mr_volume_sides;
+
+mr_volume_sides mr_volume_judge(const mr_volume_cloud *s, const mr_v3 *toward);
+
+/* How alike the normals of i and j are, as a sign and a weight below 1.  orient.c */
+double mr_volume_likeness(const mr_volume_cloud *s, uint32_t i, uint32_t j);
+
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
  * (positive: the sign is right) on the whole.  orient.c */
 mr_status mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote);

@@ -4,15 +4,17 @@
  * Jeong and Kim flood the cells around the occupied ones.  A hole of the sampling lets a flood in, and walls
  * nearer than a cell keep it out; so here the flood is soft, a quantity that diffuses in from the faces of
  * the grid and is absorbed by the points.  It tells the side of the exposed points; planes alike pass that on
- * to hidden ones.  Then the indicator of the inside is the solution of a Poisson equation (Kazhdan, Bolitho,
- * Hoppe 2006), normals against which it falls the wrong way are turned over, and it is solved again (Hou et
- * al. 2022, where the first signs are random).  The surface is where the indicator has the value that it has
- * at the points nearby, so that thin parts, where it never rises to a half, are not lost.
+ * to hidden ones.  Where normals are given that fit the points they tell the sides instead.  Then the
+ * indicator of the inside is the solution of a Poisson equation (Kazhdan, Bolitho, Hoppe 2006), normals
+ * against which it falls the wrong way are turned over, and it is solved again (Hou et al. 2022, where the
+ * first signs are random).  The surface is where the indicator has the value that it has at the points
+ * nearby, so that thin parts, where it never rises to a half, are not lost.
  */
 #include "volume/volume.h"
 
 #include "base/parallel.h"
 #include "base/sort.h"
+#include "space/near.h"
 #include "volume/parts.h"
 
 enum {
@@ -51,7 +53,8 @@ typedef struct volume {
 	mr_grid grid[DEPTHS];
 	mr_grid_points f[DEPTHS];
 	size_t levels, depths;
-	double *value; /* of each point */
+	double *value;       /* of each point */
+	mr_outer_sides side; /* of the points; toward NULL where none is known */
 	mr_volume_result found;
 } volume;
 
@@ -112,6 +115,49 @@ useful_share(const mr_v3 *point, size_t n, double spacing, const mr_volume_opts 
 	choose_grid(box, spacing, n, opts->grid, &g, &levels);
 	coarser = g.step / (CELL * spacing);
 	return coarser > COARSER ? 1 / (coarser * coarser) : 1;
+}
+
+/*
+ * Normals point outward as a whole where what they enclose, a third of the sum of area times n (p - c), is
+ * not less than nothing (the divergence theorem).  Of 59 closed models that sum is 0.07 of the sum of its
+ * terms' sizes of one, and 0.2 and more of the others.  Else all are turned over.
+ */
+static bool
+turn_outward(mr_volume_cloud *s)
+{
+	static const double INWARD = -0.05;
+	mr_v3 c = { 0, 0, 0 };
+	double all = 0, sum = 0, size = 0;
+
+	for (size_t i = 0; i < s->n; i++) {
+		c = mr_axpy(s->plane.area[i], s->p[i], c);
+		all += s->plane.area[i];
+	}
+	c = mr_mul(1 / all, c);
+	for (size_t i = 0; i < s->n; i++) {
+		double term = s->plane.area[i] * mr_dot(s->plane.normal[i], mr_sub(s->p[i], c));
+		sum += term;
+		size += fabs(term);
+	}
+	if (sum >= INWARD * size)
+		return false;
+	for (size_t i = 0; i < s->n; i++)
+		s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
+	return true;
+}
+
+/* A body that is seen from within, as a room, has its inside where it is seen from. */
+static mr_status
+orient_by_sides(mr_ctx *ctx, volume *v)
+{
+	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward));
+	if (!turn_outward(&v->s))
+		return MR_OK;
+	if (v->side.normals)
+		mr_warn(ctx, "the normals of the points point inward: turned over");
+	else
+		mr_note(ctx, "the points were seen from within");
+	return MR_OK;
 }
 
 /* The difference of the value from one side of each point's plane to the other. */
@@ -215,7 +261,7 @@ solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 	for (found->rounds = 0;;) {
 		spread_normals(ctx, v, m);
 		mr_multigrid_full(ctx, m);
-		if (found->rounds++ == ROUNDS_MOST)
+		if (found->rounds++ == ROUNDS_MOST || v->side.toward)
 			break;
 		mr_parallel(
 		    ctx, v->s.n, GRAIN, measure_across, &(across){ v, m->level[0].u, v->value, 1, 0 });
@@ -398,7 +444,7 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	mr_cleaning c;
 	mr_grid_multigrid m;
 
-	MR_TRY(orient_by_flood(ctx, v, f));
+	MR_TRY(v->side.toward ? orient_by_sides(ctx, v) : orient_by_flood(ctx, v, f));
 	v->found.seconds_flood = mr_seconds() - start;
 	start = mr_seconds();
 	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m));
@@ -459,6 +505,59 @@ report(const volume *v, const float *f)
 	return r;
 }
 
+/*
+ * Whether sides that are given are worth more than those that the flood finds.  Of the true normals of 125
+ * clouds those of four are not so good, whose bodies are thinner than their points are apart; at random half
+ * of the directions are near and half of the neighbours alike.  With them 111 of 139 wraps are right, without
+ * 107; where the indicator turns some over again 24 of 30, without that 26.
+ */
+static bool
+are_consistent(mr_ctx *ctx, const mr_volume_sides *j, bool normals)
+{
+	static const double NEAR_LEAST = 0.7, ALIKE_LEAST = 0.9;
+
+	if (j->alike >= ALIKE_LEAST && (!normals || j->near >= NEAR_LEAST))
+		return true;
+	if (normals)
+		mr_warn(ctx,
+		    "the normals of the points are not used: %.3g %% are within 60 degrees of those of their "
+		    "neighbours' "
+		    "planes, %.3g %% of neighbours are on one side by them",
+		    100 * j->near, 100 * j->alike);
+	else
+		mr_warn(ctx,
+		    "the places of the scanner are not used: %.3g %% of neighbours are on one side by them",
+		    100 * j->alike);
+	return false;
+}
+
+/* What is known of the sides of the points that count, if it fits them. */
+static mr_status
+take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *sides, volume *v)
+{
+	mr_v3 *toward = MR_NEW(ctx, v->s.n, mr_v3);
+	uint32_t *of = MR_NEW(ctx, v->s.n, uint32_t);
+	mr_volume_sides judged;
+	mr_near *near;
+	mr_status status;
+
+	if (!toward || !of)
+		return MR_EMEM;
+	MR_TRY(mr_near_build(ctx, point, n, &near));
+	status = mr_near_query(ctx, near, v->s.p, v->s.n, 1, of, NULL);
+	mr_near_free(near);
+	MR_TRY(status);
+	for (size_t i = 0; i < v->s.n; i++)
+		toward[i] = sides->toward[of[i]];
+	judged = mr_volume_judge(&v->s, toward);
+	v->found.sided = 0;
+	if (!are_consistent(ctx, &judged, sides->normals))
+		return MR_OK;
+	v->found.sided = judged.told;
+	v->side = (mr_outer_sides){ toward, sides->normals };
+	return MR_OK;
+}
+
 /* v->s of what counts of n points; *places: how many these are. */
 static mr_status
 take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opts, size_t *places, volume *v)
@@ -468,8 +567,8 @@ take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opt
 
 	MR_TRY(mr_sampling_find(ctx, point, n, opts->sampling, &s));
 	MR_TRY(mr_sampling_places(ctx, point, &s, &p, NULL, places));
-	return mr_volume_samples(
-	    ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), &v->s);
+	MR_TRY(mr_volume_samples(ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), &v->s));
+	return opts->sides ? take_sides(ctx, point, n, opts->sides, v) : MR_OK;
 }
 
 mr_status
@@ -486,6 +585,7 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	if (opts->grid > CELLS_MOST)
 		return mr_fail(ctx, MR_ERANGE, "a grid of %zu cells: %d at most", opts->grid, CELLS_MOST);
 	mr_unmeasured(&v.found, sizeof v.found);
+	v.side.toward = NULL;
 	MR_TRY(take_points(ctx, point, n, opts, &places, &v));
 	v.found.seconds_planes = mr_seconds() - start;
 	MR_TRY(begin(ctx, opts, places, &v));

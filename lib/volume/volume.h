@@ -9,10 +9,19 @@
 
 enum { MR_VOLUME_LEVELS = 9 }; /* that are looked at for their topology */
 
+/* What is known of the outer sides of points: a direction of each, of any length, 0 or no number where none
+ * is known. */
+typedef struct mr_outer_sides {
+	const mr_v3 *toward;
+	bool normals; /* these are normals; else from where the points were seen */
+} mr_outer_sides;
+
 typedef struct mr_volume_opts {
 	size_t
 	    grid; /* cells along the longest side of the bounding box; 0: chosen from the sampling density */
 	const mr_sampling *sampling; /* of the points, where it is known; NULL: found */
+	const mr_outer_sides
+	    *sides; /* alike; where they do not fit the points they are not used, with a warning */
 } mr_volume_opts;
 
 #define MR_VOLUME_DEFAULTS                                                                                   \

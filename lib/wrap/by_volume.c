@@ -13,6 +13,7 @@ wrap_volume_of(
 	c->found.method = MR_WRAP_VOLUME;
 	volume.grid = grid;
 	volume.sampling = &cloud->sampling;
+	volume.sides = c->found.volume.sided > 0 ? cloud->sides : NULL; /* 0: they did not fit */
 	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m, &c->found.volume));
 	middle = mr_seconds();
 	c->found.seconds_volume = middle - start;

@@ -21,7 +21,8 @@ typedef struct mr_wrap_cloud {
 	double spacing, area; /* of their sampling: sampling.usual, sampling.area */
 	const mr_v3 *outlier; /* the places that are left out: sampling.outliers */
 	const mr_v3 *given;
-	mr_sampling sampling; /* of those given */
+	const mr_outer_sides *sides; /* of those; NULL: not known */
+	mr_sampling sampling;        /* of those given */
 } mr_wrap_cloud;
 
 /* Takes the n points and their sampling (NULL: found), and indexes those that count; MR_EMESH where they have

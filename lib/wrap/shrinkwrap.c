@@ -286,11 +286,12 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 
 mr_status
 mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling,
-    const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result)
+    const mr_outer_sides *sides, const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result)
 {
 	mr_wrap_cloud cloud;
 	mr_status status = mr_wrap_cloud_open(ctx, point, n, sampling, &cloud);
 
+	cloud.sides = sides;
 	if (status == MR_OK)
 		status = wrap(ctx, &cloud, opts, out, result);
 	mr_near_free(cloud.near);

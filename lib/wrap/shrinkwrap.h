@@ -5,14 +5,15 @@
 #define MR_WRAP_SHRINKWRAP_H
 
 #include "space/sampling.h"
+#include "volume/volume.h"
 
 /*
- * Wraps n points; those that repeat a place count once, outliers not at all.  sampling: what is known of the
- * points', or NULL.  MR_EMESH where they cannot have a closed surface:
- * fewer than four places, collinear, coplanar.  out: in the arena.  result: or NULL.
+ * Wraps n points; those that repeat a place count once, outliers not at all.  sampling, sides: what is
+ * known of the points', or NULL.  MR_EMESH where they cannot have a closed surface: fewer than four places,
+ * collinear, coplanar.  out: in the arena.  result: or NULL.
  */
 mr_status mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling,
-    const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result);
+    const mr_outer_sides *sides, const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result);
 
 /* Wraps a given mesh (a template, already about in place) around the points: its connectivity stays.  p:
  * start->nv, the caller's. */

@@ -220,10 +220,63 @@ what_the_flood_knows_is_not_turned(void **state)
 	assert_int_equal(count_wrong(&s, truth), 0);
 }
 
+/* A third of the directions has no length, a third is no number; the others are right, of any length. */
+static void
+directions_tell_sides(void **state)
+{
+	enum { N = 3000 };
+	mr_mesh m = shape(MR_TORUS, 2000);
+	mr_v3 *truth, *toward = MR_NEW(&ctx, N, mr_v3);
+	mr_volume_cloud s = sampled(&m, N, 5, &truth);
+	mr_volume_sides j;
+	mr_random r = { 3 };
+
+	(void)state;
+	(void)vote(&s, truth, &r, 1, 0);
+	for (size_t i = 0; i < N; i++)
+		toward[i] = i % 3 == 0   ? mr_vec(0, 0, 0)
+		            : i % 3 == 1 ? mr_vec(NAN, 1, 0)
+		                         : mr_mul(1e-3 * (double)i, truth[i]);
+	j = mr_volume_judge(&s, toward);
+	assert_int_equal(j.told, N / 3);
+	assert_true(j.near == 1 && j.alike == 1);
+	assert_int_equal(mr_volume_orient_toward(&ctx, &s, toward), MR_OK);
+	assert_int_equal(count_wrong(&s, truth), 0);
+}
+
+/* Directions that are all one lie along the planes or not, by chance, and tell neighbours the same side; of
+ * any sign they lie along them and tell any side; none tell nothing. */
+static void
+directions_are_judged(void **state)
+{
+	enum { N = 4000 };
+	mr_mesh m = shape(MR_SPHERE, 2000);
+	mr_v3 *truth, *toward = MR_NEW_ZERO(&ctx, N, mr_v3);
+	mr_volume_cloud s = sampled(&m, N, 6, &truth);
+	mr_random r = { 4 };
+	mr_volume_sides j;
+
+	(void)state;
+	j = mr_volume_judge(&s, toward);
+	assert_true(j.told == 0 && isnan(j.near) && isnan(j.alike));
+	for (size_t i = 0; i < N; i++)
+		toward[i] = mr_vec(0, 0, 2);
+	j = mr_volume_judge(&s, toward);
+	assert_float_equal(j.near, 0.5, 0.03);
+	assert_true(j.alike > 0.98);
+	for (size_t i = 0; i < N; i++)
+		toward[i] = mr_random_bits(&r) % 2 ? truth[i] : mr_mul(-1, truth[i]);
+	j = mr_volume_judge(&s, toward);
+	assert_true(j.near == 1);
+	assert_float_equal(j.alike, 0.5, 0.03);
+}
+
 int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test_setup_teardown(directions_tell_sides, setup, teardown),
+		cmocka_unit_test_setup_teardown(directions_are_judged, setup, teardown),
 		cmocka_unit_test_setup_teardown(most_votes_orient_a_smooth_surface, setup, teardown),
 		cmocka_unit_test_setup_teardown(votes_and_not_signs_decide, setup, teardown),
 		cmocka_unit_test_setup_teardown(

@@ -157,7 +157,7 @@ test_memory_may_run_out(void **state)
 			mr_mark mark = mr_mark_take(&ctx);
 			mr_mesh out = { 0 };
 			ctx.fail_at = k;
-			status = mr_shrinkwrap(&ctx, p, POINTS, NULL, &o, &out, NULL);
+			status = mr_shrinkwrap(&ctx, p, POINTS, NULL, NULL, &o, &out, NULL);
 			ctx.fail_at = 0;
 			assert_true(status == MR_OK || status == MR_EMEM);
 			assert_true((status == MR_OK) == (out.nf > 0));

@@ -1,0 +1,61 @@
+/* Signs of the planes' normals by what is known of their sides: normals that came with the points, or from
+ * where these were seen. */
+#include "volume/parts.h"
+
+/* A direction as near to its place's plane as this (the cosine to the normal) tells nothing of a side. */
+static const double ALONG = 0.1;
+
+/* Normals are those of planes from this cosine on, and planes alike from this likeness. */
+static const double NEAR = 0.5, ALIKE = 0.8;
+
+/* How much a normal is on the side that is known; 0 where that is not. */
+static double
+side_of(const mr_volume_cloud *s, const mr_v3 *toward, size_t i)
+{
+	double along = mr_finite(toward[i]) ? mr_dot(mr_unit(toward[i]), s->plane.normal[i]) : 0;
+
+	return fabs(along) > ALONG ? along : 0;
+}
+
+mr_status
+mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *vote = MR_NEW_ZERO(ctx, s->n, double);
+
+	if (!vote)
+		return MR_EMEM;
+	for (size_t i = 0; toward && i < s->n; i++)
+		vote[i] = side_of(s, toward, i);
+	MR_TRY(mr_volume_orient(ctx, s, vote));
+	for (size_t i = 0; toward && i < s->n; i++)
+		if (side_of(s, toward, i) < 0)
+			s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_volume_sides
+mr_volume_judge(const mr_volume_cloud *s, const mr_v3 *toward)
+{
+	size_t links = s->plane.links, there = 0, near = 0, pairs = 0, alike = 0;
+	mr_volume_sides j = { 0 };
+
+	for (size_t i = 0; i < s->n; i++) {
+		double side = side_of(s, toward, i);
+		j.told += side != 0;
+		there += mr_finite(toward[i]) && mr_norm2(toward[i]) > 0;
+		near += fabs(side) >= NEAR;
+		for (size_t l = i * links; side != 0 && l < (i + 1) * links; l++) {
+			uint32_t other = s->plane.neighbor[l];
+			double like = other == UINT32_MAX ? 0 : mr_volume_likeness(s, (uint32_t)i, other);
+			if (fabs(like) < ALIKE || side_of(s, toward, other) == 0)
+				continue;
+			pairs++;
+			alike += side * side_of(s, toward, other) * like > 0;
+		}
+	}
+	j.near = (double)near / (double)there;
+	j.alike = (double)alike / (double)pairs;
+	return j;
+}
