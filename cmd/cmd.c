@@ -2,6 +2,7 @@
 #include "cmd.h"
 
 #include "base/text.h"
+#include "formats/suffix.h"
 #include "place.h"
 #include "stream/record.h"
 
@@ -314,26 +315,6 @@ open_output(cmd *c)
 		try(c, place_open(&c->ctx, c->output, &s->output_place, &s->out));
 }
 
-static void
-open_writer(cmd *c)
-{
-	open_output(c);
-	if (isatty(c->state->out))
-		die(c, mr_fail(&c->ctx, MR_EUSAGE,
-			   "a stream is binary and is not written to a terminal: pipe it on, or name a file "
-			   "by -o"));
-	try(c, mr_writer_open(&c->ctx, c->state->out, c->packing, &c->state->writer));
-}
-
-static void
-open_text(cmd *c)
-{
-	open_output(c);
-	c->state->text = c->state->out == STDOUT_FILENO ? stdout : fdopen(c->state->out, "w");
-	if (!c->state->text)
-		die(c, fail_system(c, c->output));
-}
-
 /* Whether stdout is where the output goes. */
 static bool
 writes_stdout(const cmd *c)
@@ -352,6 +333,44 @@ is_input(const cmd *c, const char *path)
 	for (size_t i = 0; i < c->operand_count && !c->tool->names_output; i++)
 		found |= access(path, F_OK) == 0 && place_same(path, c->operands[i]);
 	return found;
+}
+
+/* A stream takes the place of no model. */
+static void
+check_output(cmd *c)
+{
+	const char *path = c->output;
+
+	if (!path || is_dash(path))
+		return;
+	if (mr_suffix_format(path))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE,
+			   "-o %s: a stream under the name of a model: mr-export writes models, .mrs is for "
+		           "streams",
+			   path));
+	if (c->tool->source && is_input(c, path))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", path));
+}
+
+static void
+open_writer(cmd *c)
+{
+	check_output(c);
+	open_output(c);
+	if (isatty(c->state->out))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE,
+			   "a stream is binary and is not written to a terminal: pipe it on, or name a file "
+			   "by -o"));
+	try(c, mr_writer_open(&c->ctx, c->state->out, c->packing, &c->state->writer));
+}
+
+static void
+open_text(cmd *c)
+{
+	open_output(c);
+	c->state->text = c->state->out == STDOUT_FILENO ? stdout : fdopen(c->state->out, "w");
+	if (!c->state->text)
+		die(c, fail_system(c, c->output));
 }
 
 static bool

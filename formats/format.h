@@ -18,7 +18,6 @@
 
 typedef struct mr_file_format {
 	const char *name;
-	const char *suffixes; /* in lower case with blanks around each; NULL: chosen by name only */
 	bool binary;          /* what is written is not for a terminal */
 	bool lines;           /* what is read is lines of text throughout */
 	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by name or suffix only */

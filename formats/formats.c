@@ -1,41 +1,33 @@
 /* The table of formats: how each is recognised, read and written, and what it keeps. */
 #include "formats/formats.h"
 #include "formats/format.h"
+#include "formats/suffix.h"
 
 #include <unistd.h>
 
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
 static const mr_file_format formats[] = {
-	{ "glb", " glb ", true, false, mr_glb_sniff, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
-	{ "gltf", " gltf ", false, false, mr_gltf_sniff, mr_gltf_read, NULL, NULL },
-	{ "ply", " ply ", true, false, mr_ply_sniff, mr_ply_read, mr_ply_write_little, NULL },
-	{ "ply-big", NULL, true, false, NULL, mr_ply_read, mr_ply_write_big, NULL },
-	{ "ply-ascii", NULL, false, false, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
-	{ "las", " las ", true, false, mr_las_sniff, mr_las_read, NULL, NULL },
-	{ "stl", " stl ", true, false, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
-	{ "stl-ascii", NULL, false, false, NULL, mr_stl_read, mr_stl_write_ascii, NULL },
-	{ "off", " off coff noff stoff cnoff ", false, false, mr_off_sniff, mr_off_read, mr_off_write, NULL },
-	{ "off-binary", NULL, true, false, NULL, mr_off_read, mr_off_write_binary, NULL },
-	{ "pcd", " pcd ", true, false, mr_pcd_sniff, mr_pcd_read, NULL, NULL },
-	{ "obj", " obj ", false, true, mr_obj_sniff, mr_obj_read, mr_obj_write, NULL },
-	{ "ptx", " ptx ", false, true, mr_ptx_sniff, mr_ptx_read, NULL, NULL },
-	{ "xyz", " xyz txt csv asc xyzn xyzrgb ", false, true, mr_xyz_sniff, mr_xyz_read, mr_xyz_write,
-	    NULL },
-	{ "pts", " pts ", false, true, NULL, mr_xyz_read, mr_pts_write, NULL },
-	{ "pwn", " pwn ", false, true, NULL, mr_xyz_read, mr_pwn_write, NULL },
+	{ "glb", true, false, mr_glb_sniff, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
+	{ "gltf", false, false, mr_gltf_sniff, mr_gltf_read, NULL, NULL },
+	{ "ply", true, false, mr_ply_sniff, mr_ply_read, mr_ply_write_little, NULL },
+	{ "ply-big", true, false, NULL, mr_ply_read, mr_ply_write_big, NULL },
+	{ "ply-ascii", false, false, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
+	{ "las", true, false, mr_las_sniff, mr_las_read, NULL, NULL },
+	{ "stl", true, false, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
+	{ "stl-ascii", false, false, NULL, mr_stl_read, mr_stl_write_ascii, NULL },
+	{ "off", false, false, mr_off_sniff, mr_off_read, mr_off_write, NULL },
+	{ "off-binary", true, false, NULL, mr_off_read, mr_off_write_binary, NULL },
+	{ "pcd", true, false, mr_pcd_sniff, mr_pcd_read, NULL, NULL },
+	{ "obj", false, true, mr_obj_sniff, mr_obj_read, mr_obj_write, NULL },
+	{ "ptx", false, true, mr_ptx_sniff, mr_ptx_read, NULL, NULL },
+	{ "xyz", false, true, mr_xyz_sniff, mr_xyz_read, mr_xyz_write, NULL },
+	{ "pts", false, true, NULL, mr_xyz_read, mr_pts_write, NULL },
+	{ "pwn", false, true, NULL, mr_xyz_read, mr_pwn_write, NULL },
 };
 
 enum { FORMATS = sizeof formats / sizeof *formats, LONGEST_LINE = 1 << 22 };
 
 /* ---- names ---- */
-
-static bool
-ends_in_gz(const char *path)
-{
-	size_t n = strlen(path);
-
-	return n > 3 && !strcmp(path + n - 3, ".gz");
-}
 
 /* The file's name without folder, and in *bytes its length without .gz. */
 static const char *
@@ -43,29 +35,8 @@ file_of(const char *path, size_t *bytes)
 {
 	const char *slash = strrchr(path, '/'), *file = slash ? slash + 1 : path;
 
-	*bytes = strlen(file) - (ends_in_gz(file) ? 3 : 0);
+	*bytes = strlen(file) - (mr_suffix_gz(file) ? 3 : 0);
 	return file;
-}
-
-static const mr_file_format *
-by_suffix(const char *path)
-{
-	size_t bytes, at;
-	const char *file = file_of(path, &bytes);
-	char word[24];
-
-	for (at = bytes; at > 0 && file[at - 1] != '.'; at--)
-		;
-	if (at == 0 || bytes - at > sizeof word / 2)
-		return NULL;
-	word[0] = ' ';
-	for (size_t i = at; i < bytes; i++)
-		word[i - at + 1] = (char)(file[i] >= 'A' && file[i] <= 'Z' ? file[i] + ('a' - 'A') : file[i]);
-	snprintf(word + 1 + bytes - at, 2, " ");
-	for (size_t i = 0; i < FORMATS; i++)
-		if (formats[i].suffixes && strstr(formats[i].suffixes, word))
-			return &formats[i];
-	return NULL;
 }
 
 static const mr_file_format *
@@ -75,6 +46,14 @@ by_name(const char *name)
 		if (!strcmp(formats[i].name, name))
 			return &formats[i];
 	return NULL;
+}
+
+static const mr_file_format *
+by_suffix(const char *path)
+{
+	const char *name = mr_suffix_format(path);
+
+	return name ? by_name(name) : NULL;
 }
 
 /* With commas between: those that can be written, or all that can be read. */
@@ -120,7 +99,7 @@ mr_format_check(mr_ctx *ctx, const char *path, const char *format, bool writable
 		return names ? mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names)
 		             : MR_EMEM;
 	}
-	*binary = f && (f->binary || ends_in_gz(path));
+	*binary = f && (f->binary || mr_suffix_gz(path));
 	return MR_OK;
 }
 
@@ -365,7 +344,7 @@ write_file(mr_ctx *ctx, const char *path, const mr_file_format *f, const mr_mode
 {
 	mr_sink sink;
 
-	MR_TRY(mr_sink_open(ctx, path, ends_in_gz(path), &sink));
+	MR_TRY(mr_sink_open(ctx, path, mr_suffix_gz(path), &sink));
 	sink.hold = held != NULL;
 	MR_TRY(mr_sink_close(&sink, scene ? f->write_scene(&sink, scene) : f->write(&sink, m)));
 	if (held)
