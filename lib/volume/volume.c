@@ -506,10 +506,10 @@ report(const volume *v, const float *f)
 }
 
 /*
- * Whether sides that are given are worth more than those that the flood finds.  Of the true normals of 125
+ * Whether sides that are given are worth more than those that the flood finds.  Of the true normals of 120
  * clouds those of four are not so good, whose bodies are thinner than their points are apart; at random half
- * of the directions are near and half of the neighbours alike.  With them 111 of 139 wraps are right, without
- * 107; where the indicator turns some over again 24 of 30, without that 26.
+ * of the directions are near and half of the neighbours alike.  With them 94 of 120 wraps are right, without
+ * 92; where the indicator turns some over again 24 of 30, without that 26.
  */
 static bool
 are_consistent(mr_ctx *ctx, const mr_volume_sides *j, bool normals)

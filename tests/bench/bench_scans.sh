@@ -30,7 +30,7 @@ judge() { # name, kind, seed, result: its row, by $code, $seconds and err
 		if [ "$code" = 0 ]; then
 			scan_yardstick judge truth.mrs points.mrs "$4" "$out/results/$2/$1-$2-$3" 2>&1
 		else
-			grep -v 'warning: ' err | head -n 1 | cut -c 1-200
+			[ "$code" = 124 ] && echo "more than $LIMIT s" || echo "$(grep -v 'warning: ' err | head -n 1 | cut -c 1-200)"
 		fi
 	} >"$out/rows/$1-$2-$3"
 }
