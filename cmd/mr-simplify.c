@@ -11,6 +11,7 @@ static const cmd_opt table[] = {
 	{ 'e', "error", CMD_LENGTH, &error, 0, 1e300, "LENGTH",
 	    "most distance to the planes of what is merged; 0: no such limit", NULL },
 	{ 0, "boundary", CMD_REAL, &opts.boundary, 0, 1e6, "WEIGHT", "of a boundary's planes", NULL },
+	{ 0, "creases", CMD_FLAG, &opts.creases, 0, 0, NULL, "keep the sharp edges that the points show", NULL },
 	{ 't', "to", CMD_TEXT, &opts.to, 0, 0, "LAYER", "write the result as that layer; the surface stays",
 	    NULL },
 	{ 0, "map", CMD_TEXT, &opts.map, 0, 0, "LAYER",
@@ -27,6 +28,7 @@ static const cmd_field figures[] = {
 	CMD_MEASURED(mr_simplify_result, error),
 	CMD_COUNTED(mr_simplify_result, vertices),
 	CMD_COUNTED(mr_simplify_result, faces),
+	CMD_COUNTED(mr_simplify_result, creases),
 	{ 0 },
 };
 
@@ -48,6 +50,7 @@ prepare(cmd *c)
 	MR_TRY(check_name(c, "--to", opts.to));
 	MR_TRY(check_name(c, "--map", opts.map));
 	MR_TRY(cmd_idle(c, "map", opts.to, "with --to, which keeps the surface"));
+	MR_TRY(cmd_idle(c, "creases", opts.to, "with --to"));
 	return cmd_idle(c, "ratio", opts.faces > 0, "with --faces");
 }
 

@@ -335,7 +335,7 @@ prepare(mr_ctx *ctx, mr_frame *f, const mr_map_opts *o, mapping *m)
 	n = o->level == MR_UNKNOWN ? n : o->level;
 	MR_TRY(mr_prefix(
 	    ctx, mr_atlas_plan(ctx, m->control.nf, n, o->gutter, o->side, &m->atlas), "displacement"));
-	MR_TRY(mr_domain_build(ctx, &m->control, n, &m->domain));
+	MR_TRY(mr_domain_of(ctx, f, &m->control, n, &m->domain));
 	MR_TRY(mr_atlas_fill(ctx, m->domain.m.t, &m->atlas));
 	m->count = MR_NEW(ctx, m->atlas.height, size_t);
 	if (!m->count)

@@ -255,8 +255,7 @@ MR_API mr_status mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const ch
  * depends on finds it again; never does it change a byte. */
 typedef struct mr_cache mr_cache;
 
-/* NULL where there is no memory for it. */
-MR_API mr_cache *mr_cache_new(void);
+MR_API mr_cache *mr_cache_new(void); /* NULL where there is no memory for it */
 
 /* Frames that were given the cache may borrow from it: not before they are done with. */
 MR_API void mr_cache_delete(mr_cache *cache);
@@ -367,9 +366,7 @@ typedef struct mr_normals_result {
 MR_API mr_status mr_normals_frame(
     mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_crop_result {
-	size_t vertices, faces, vertices_dropped, faces_dropped;
-} mr_crop_result;
+typedef struct mr_crop_result { size_t vertices, faces, vertices_dropped, faces_dropped; } mr_crop_result;
 
 /* Leaves what n rules, in their order, make free, and drops what they make fixed; where the first makes some
  * free the others are fixed to begin with.  layer: NULL: mesh, else control, else points. */
@@ -571,17 +568,19 @@ typedef struct mr_simplify_opts {
 	double error; /* root mean square distance from the planes of the faces merged, at most; 0: any */
 	bool error_relative;  /* error is a share of the bounding box's diagonal */
 	double boundary;      /* weight of the planes that hold boundary edges */
+	bool creases;         /* of a control mesh: keep the sharp edges that the points show */
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */
 	const char *to;       /* layer that is written; NULL: the one that is simplified */
 	const char *map;      /* layer that keeps the surface, with its places on the result; NULL: none */
 	const char *layer;    /* NULL: control, else base, else mesh */
 } mr_simplify_opts;
 
-#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, 10, NULL, NULL, NULL, NULL)
+#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, 10, false, NULL, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces;           /* of the result */
 	size_t computed, refused, merges; /* edges: costs computed, collapses refused and made */
+	size_t creases;                   /* edges of the result that are marked to be sharp */
 	double error;                     /* the largest that was made */
 	double seconds_begin, seconds_merge;
 	mr_gaps gaps; /* of control meshes */

@@ -262,6 +262,7 @@ typedef enum column_sort {
 	OFFSETS,      /* in the frames of faces, whose first axis a mirror turns round */
 	TRIANGLES,
 	CORNERS, /* three rows for the corners of a face */
+	EDGES,   /* for its edges, the first from the first corner to the second */
 	BARYS,
 	RESPONSES,
 	MAPS,
@@ -285,6 +286,7 @@ static const struct {
 	{ NULL, "sampling", { '-', 'd', 2 }, FIRST_LENGTH, false },
 	{ NULL, "triangles", { 'f', 'u', 3 }, TRIANGLES, false },
 	{ NULL, "corner_texcoord", { 'f', 'd', 6 }, CORNERS, false },
+	{ "control", "crease", { 'f', 'b', 3 }, EDGES, false },
 	{ NULL, "mesh_bary", { 'v', 'd', 3 }, BARYS, false },
 	{ NULL, "base_bary", { 'v', 'd', 3 }, BARYS, false },
 	{ NULL, "control_bary", { 'v', 'd', 3 }, BARYS, false },
@@ -402,11 +404,13 @@ map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_
 	               (sort == NORMALS && column->shape.element == 'f');
 	void *x;
 
-	if ((sort == TRIANGLES || sort == CORNERS || sort == BARYS) && !c->mirrors)
+	if ((sort == TRIANGLES || sort == CORNERS || sort == EDGES || sort == BARYS) && !c->mirrors)
 		return MR_OK;
 	MR_TRY(copy_rows(ctx, column, &x));
 	if (corners && c->mirrors)
 		swap_corners(x, rows, mr_type_size(column->shape.type) * components);
+	for (size_t i = 0; sort == EDGES && i < rows; i++)
+		swap((char *)x + 3 * i + 1, (char *)x + 3 * i + 2, 1);
 	if (column->shape.type == 'd')
 		map_values(c, sort, x, rows, components);
 	for (size_t i = 0; sort == POSITIONS && i < rows; i++)

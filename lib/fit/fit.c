@@ -179,8 +179,8 @@ check(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n)
 }
 
 mr_status
-mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const mr_sampling *known,
-    const mr_fit_opts *opts, mr_v3 *out, mr_fit_result *result)
+mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *point, size_t n,
+    const mr_sampling *known, const mr_fit_opts *opts, mr_v3 *out, mr_fit_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool is_local = opts->method == MR_FIT_LOCAL;
@@ -203,7 +203,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const mr_v3 *point, size_t n, const 
 		return MR_EMEM;
 	MR_TRY(sort_points(ctx, point, n, is_local, known, sorted, &sampling));
 	memcpy(x, control->p, control->nv * sizeof *x);
-	MR_TRY(mr_fit_surface_build(ctx, control, &s));
+	MR_TRY(mr_fit_surface_build(ctx, control, crease, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
 	if (!is_local)
 		MR_TRY(drop_outliers(

@@ -1,6 +1,6 @@
 /*
- * limit_surface.h -- the limit surface of a control mesh as a linear function of its vertices, and the feet of
- * points on it.
+ * limit_surface.h -- the limit surface of a control mesh as a linear function of its vertices, and the feet
+ * of points on it.
  *
  * Contract: the surface is known at its nodes, the limit points of level 2; between the six nodes of a
  * triangle of level 1 it is a quadratic polynomial, which differs from the limit surface by the third order
@@ -41,8 +41,9 @@ typedef struct mr_fit_gap {
 	double mean, rms, max;
 } mr_fit_gap;
 
-/* The surface of a control mesh, an oriented manifold (else MR_EMESH), in the arena. */
-mr_status mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, mr_fit_surface *s);
+/* The surface of a control mesh, an oriented manifold (else MR_EMESH), in the arena.  crease: marks, as of
+ * mr_loop_control_marked. */
+mr_status mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, mr_fit_surface *s);
 
 /* Its nodes where the control vertices are at x. */
 void mr_fit_surface_move(const mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *x);

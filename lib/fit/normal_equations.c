@@ -268,7 +268,7 @@ measure_bare(mr_ctx *ctx, const mr_fit_system *s, const size_t *start, double **
 		for (int k = 0; k < 3; k++)
 			x[l->t[f].v[k]] += (double)(start[f + 1] - start[f]);
 	for (size_t v = 0; v < l->nv; v++)
-		x[v] = fmax(0, 1 - x[v] / enough);
+		x[v] = mr_fit_length(&s->star, v) == 1 ? 1 : fmax(0, 1 - x[v] / enough);
 	*bare = x;
 	return MR_OK;
 }

@@ -85,6 +85,27 @@ mr_fit_list_patches(mr_ctx *ctx, const mr_fit_surface *s, mr_fit_lists *l)
 	return MR_OK;
 }
 
+/* The neighbours of v, or those along sharp edges alone. */
+static mr_status
+add_neighbours(writer *w, const mr_loop *l, const mr_mesh *m, uint32_t v, bool sharp)
+{
+	uint32_t first = l->topo.out[v], h = first;
+
+	while (h != MR_NONE) {
+		uint32_t last = mr_he_prev(h);
+		bool is_sharp = l->topo.twin[h] == MR_NONE || (l->crease && l->crease[h]);
+		if (!sharp || is_sharp)
+			MR_TRY(add_member(w, (int)mr_he_to(m, h)));
+		h = mr_he_ccw(&l->topo, h);
+		if (h == MR_NONE)
+			MR_TRY(add_member(w, (int)mr_he_from(m, last)));
+		if (h == first)
+			break;
+	}
+	return MR_OK;
+}
+
+/* On a boundary or a crease the two along it; a corner has none, the end of a crease all. */
 mr_status
 mr_fit_list_stars(mr_ctx *ctx, const mr_loop *level, mr_fit_lists *l)
 {
@@ -93,20 +114,16 @@ mr_fit_list_stars(mr_ctx *ctx, const mr_loop *level, mr_fit_lists *l)
 
 	MR_TRY(begin_lists(ctx, &w, l, level->nv, level->nv));
 	for (uint32_t v = 0; v < level->nv; v++) {
-		uint32_t first = level->topo.out[v], h = first;
-		bool boundary = h != MR_NONE && level->topo.twin[h] == MR_NONE;
+		size_t own, sharp;
 		begin_list(&w);
 		MR_TRY(add_member(&w, (int)v));
-		while (h != MR_NONE) {
-			uint32_t last = mr_he_prev(h);
-			if (!boundary || h == first)
-				MR_TRY(add_member(&w, (int)mr_he_to(&m, h)));
-			h = mr_he_ccw(&level->topo, h);
-			if (h == MR_NONE)
-				MR_TRY(add_member(&w, (int)mr_he_from(&m, last)));
-			if (h == first)
-				break;
-		}
+		own = w.used;
+		MR_TRY(add_neighbours(&w, level, &m, v, true));
+		sharp = w.used - own;
+		if (sharp != 2)
+			w.used = own;
+		if (sharp < 2)
+			MR_TRY(add_neighbours(&w, level, &m, v, false));
 		end_list(&w);
 	}
 	return MR_OK;

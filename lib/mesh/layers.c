@@ -45,6 +45,7 @@ const mr_column_info mr_columns[] = {
 	{ "base", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
 	{ "base", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
 	{ "control", "encoded", { 'v', 'd', 3 }, "positions on which displacement was sampled" },
+	{ "control", "crease", { 'f', 'b', 3 }, "1 where the edge from that corner on is sharp, else 0" },
 	{ "control", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
 	{ "control", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
 	{ "control", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
@@ -464,6 +465,17 @@ mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const ui
 			return mr_fail(ctx, MR_ERANGE, "%s: vertex %zu has region %u of %d", layer, i, r[i],
 			    MR_REGION_HANDLE + MOST);
 	*region = r;
+	return MR_OK;
+}
+
+mr_status
+mr_layer_crease(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const uint8_t **mark)
+{
+	const void *data = NULL;
+
+	if (!strcmp(layer, "control") && mr_layer_has(f, layer, "crease"))
+		MR_TRY(mr_layer_get_rows(ctx, f, layer, "crease", nf, &data));
+	*mark = data;
 	return MR_OK;
 }
 

@@ -62,6 +62,10 @@ void mr_layer_renumbered(mr_frame *f, const char *layer);
 /* The layer's regions, rows checked against nv, values below 2 + 65536. */
 mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region);
 
+/* Which edges of a control mesh are marked to be sharp, 3 a face, 0 where one is not; NULL: of another layer, and
+ * where no column says. */
+mr_status mr_layer_crease(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const uint8_t **mark);
+
 /* The first of the layers (a NULL-terminated list) that is in the frame, or `only` where not NULL.
  * MR_EMISSING names them all. */
 mr_status

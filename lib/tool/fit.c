@@ -12,9 +12,11 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	const char *layer = o->layer ? o->layer : "control", *from;
 	mr_mesh control, points;
 	mr_sampling sampling, *known = NULL;
+	const uint8_t *crease;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
+	MR_TRY(mr_layer_crease(ctx, f, layer, control.nf, &crease));
 	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));
 	MR_TRY(mr_layer_points(ctx, f, from, &points));
 	if (o->method != MR_FIT_LOCAL) {
@@ -24,6 +26,6 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_fit(ctx, &control, points.p, points.nv, known, o, p, result));
+	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, result));
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }

@@ -2,7 +2,7 @@
 #include "tool/cache.h"
 
 mr_status
-mr_cache_levels(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *m, double crease, size_t n,
+mr_cache_levels(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_mesh *m, double crease, size_t n,
     const mr_loop **level)
 {
 	mr_level_cache own = { 0 };

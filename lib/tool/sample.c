@@ -110,7 +110,7 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 	MR_TRY(get_target(ctx, f, o->layer, &target));
 	if (n == MR_UNKNOWN)
 		MR_TRY(choose_level(ctx, &control, target.nv, &n));
-	MR_TRY(mr_domain_build(ctx, &control, n, &d));
+	MR_TRY(mr_domain_of(ctx, f, &control, n, &d));
 	height = MR_NEW(ctx, d.m.nv, double);
 	if (!height)
 		return MR_EMEM;

@@ -3,6 +3,8 @@
 
 #include "measure/gaps.h"
 #include "mesh/layers.h"
+#include "simplify/creases.h"
+#include "space/sampling.h"
 
 /* By default, but for control meshes. */
 enum { FACES_A_FACE = 10 };
@@ -92,15 +94,66 @@ look_at_gaps(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_mesh *out
 	return MR_OK;
 }
 
+/* The usual spacing of points that show sharp edges; 0: none are to be kept.  MR_EMISSING without points. */
+static mr_status
+crease_width(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *points, const mr_simplify_opts *o,
+    double *width)
+{
+	const double noisy = 0.1; /* spacings: clean clouds have up to 0.08 */
+	mr_sampling s;
+
+	*width = 0;
+	if (!o->creases)
+		return MR_OK;
+	if (strcmp(m->name, "control") || points->nv == 0)
+		return mr_fail(ctx, MR_EMISSING,
+		    "%s: sharp edges are kept of layer control by layer points, and one of them is not there",
+		    m->name);
+	MR_TRY(mr_sampling_of(ctx, f, points, &s));
+	if (s.noise < noisy * s.usual)
+		*width = s.usual;
+	else
+		mr_warn(ctx, "the points have a noise of %.2g spacings, and show no sharp edges",
+		    s.noise / s.usual);
+	return MR_OK;
+}
+
+/* The surface to be simplified, sharp where the points are. */
+static mr_status
+sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, double width, mr_mesh *sharp)
+{
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+
+	if (!p)
+		return MR_EMEM;
+	MR_TRY(mr_sharpen(ctx, m, points->p, points->nv, width, p));
+	*sharp = *m;
+	sharp->p = p;
+	return MR_OK;
+}
+
+/* Puts the creases of the result, if it has some. */
+static mr_status
+put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_mesh *points, double width, size_t *count)
+{
+	uint8_t *mark = MR_NEW(ctx, 3 * out->nf, uint8_t);
+
+	if (!mark)
+		return MR_EMEM;
+	MR_TRY(mr_find_creases(ctx, out, points->p, points->nv, width, mark, count));
+	return *count ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
+}
+
 mr_status
 mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result)
 {
 	static const char *const reads[] = { "control", "base", "mesh", NULL };
 	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
-	mr_mesh m, points, out;
+	mr_mesh m, points, sharp, out;
 	const char *layer;
-	uint32_t *onto;
 	mr_simplify_result r;
+	uint32_t *onto;
+	double width;
 
 	if (opts)
 		o = *opts;
@@ -116,13 +169,18 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	onto = MR_NEW(ctx, m.nv, uint32_t);
 	if (!onto)
 		return MR_EMEM;
-	MR_TRY(mr_simplify(ctx, &m, &o, &out, onto, &r));
+	MR_TRY(crease_width(ctx, f, &m, &points, &o, &width));
+	sharp = m;
+	if (width > 0)
+		MR_TRY(sharpen(ctx, &m, &points, width, &sharp));
+	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, &r));
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
+	r.creases = o.creases ? 0 : MR_UNKNOWN;
+	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
+	if (width > 0)
+		MR_TRY(put_creases(ctx, f, &out, &points, width, &r.creases));
 	if (result)
 		*result = r;
-	if (o.to)
-		return mr_layer_put_mesh(ctx, f, o.to, &out);
-	MR_TRY(replace(ctx, f, &m, &out, onto));
-	return o.map ? put_map(ctx, f, o.map, &m, &out, onto) : MR_OK;
+	return o.map && !o.to ? put_map(ctx, f, o.map, &m, &out, onto) : MR_OK;
 }

@@ -15,6 +15,7 @@ mr-encode -l mesh
 mr-decode -l mesh
 mr-equalize -l mesh
 mr-map -w map -l control
+mr-simplify --creases --to control
 mr-import --points --repair
 mr-remesh -L 2% -r 1
 mr-subdivide --longest 1 -n 1

@@ -1,0 +1,124 @@
+/*
+ * A vertex goes to where the planes of the points around it meet: Kobbelt, Botsch, Schwanecke, Seidel 2001
+ * (Feature sensitive surface extraction), Ju, Losasso, Schaefer, Warren 2002 (Dual contouring).
+ */
+#include "mesh/fold.h"
+#include "mesh/guarded_move.h"
+#include "simplify/creases.h"
+#include "space/local_planes.h"
+#include "space/near.h"
+
+/*
+ * Points within REACH of a vertex count, if those around them lie in a plane: a sharp edge among them gives
+ * them a greater variation than FLAT.  On fandisk and an anchor less reach, or more, leaves up to a half more
+ * distance at sharp edges.
+ */
+enum { AROUND = 10, NEAREST = 64, LEAST = 8 };
+static const double REACH = 3, FLAT = 0.002;
+
+/* Of the normals' second moment, an eigenvalue in the largest: less is no plane of its own.  Two planes have
+ * tan^2 of half the angle: so 35 degrees. */
+static const double OWN = 0.1;
+
+/* How far a vertex of a wrap goes: further on it is one of the next row. */
+static const double FARTHEST = 2;
+
+/* Planes met from a place: A = sum n n^T, b = sum n (n . to the point). */
+typedef struct meeting {
+	double a[6];
+	mr_v3 b;
+	size_t count;
+} meeting;
+
+static void
+meet(meeting *s, mr_v3 n, mr_v3 r)
+{
+	s->a[0] += n.x * n.x;
+	s->a[1] += n.x * n.y;
+	s->a[2] += n.x * n.z;
+	s->a[3] += n.y * n.y;
+	s->a[4] += n.y * n.z;
+	s->a[5] += n.z * n.z;
+	s->b = mr_axpy(mr_dot(r, n), n, s->b);
+	s->count++;
+}
+
+/* x = A^+ b, without the eigenvalues that are small: the nearest place on all planes.  False where they are
+ * one plane. */
+static bool
+solve(const meeting *s, mr_v3 *x)
+{
+	double value[3];
+	mr_v3 vector[3];
+
+	mr_eigen_sym3(s->a, value, vector);
+	*x = mr_vec(0, 0, 0);
+	for (int k = 0; k < 3; k++)
+		if (value[k] > OWN * value[2])
+			*x = mr_axpy(mr_dot(vector[k], s->b) / value[k], vector[k], *x);
+	return s->count >= LEAST && value[1] > OWN * value[2];
+}
+
+static mr_v3
+sharp_place(const mr_planes *planes, const mr_v3 *point, const uint32_t *near, double width, mr_v3 at)
+{
+	meeting s = { .count = 0 };
+	mr_v3 x;
+
+	for (int i = 0; i < NEAREST && near[i] != UINT32_MAX; i++) {
+		mr_v3 r = mr_sub(point[near[i]], at);
+		if (planes->variation[near[i]] < FLAT && mr_norm(r) < REACH * width &&
+		    fabs(mr_dot(r, planes->normal[near[i]])) < FARTHEST * width)
+			meet(&s, planes->normal[near[i]], r);
+	}
+	return solve(&s, &x) && mr_norm(x) < FARTHEST * width ? mr_add(at, x) : at;
+}
+
+typedef struct sharpening {
+	mr_mesh from, to;
+	const uint32_t *twin;
+} sharpening;
+
+static bool
+is_bad(const void *arg, uint32_t f)
+{
+	const sharpening *s = arg;
+
+	return mr_dot(mr_face_cross(&s->from, f), mr_face_cross(&s->to, f)) < 0 ||
+	       mr_folds_more(&s->from, &s->to, s->twin, f, MR_NEAR_FOLD);
+}
+
+static mr_status
+move(mr_ctx *ctx, const mr_mesh *m, mr_v3 *to)
+{
+	sharpening s = { .from = *m, .to = *m };
+	mr_guard guard = { .t = m->t, .nv = m->nv, .nf = m->nf, .is_bad = is_bad, .arg = &s };
+
+	MR_TRY(mr_topology_build(ctx, m, &guard.topo));
+	s.to.p = to;
+	s.twin = guard.topo.twin;
+	return mr_guarded_move(ctx, &guard, m->p, to);
+}
+
+mr_status
+mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double width, mr_v3 *to)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *near = mr_alloc(ctx, m->nv, NEAREST * sizeof *near);
+	mr_planes planes;
+	mr_near *index;
+	mr_status status;
+
+	if (!near)
+		return MR_EMEM;
+	MR_TRY(mr_cloud_planes(ctx, point, n, AROUND, 1, false, &planes));
+	MR_TRY(mr_near_build(ctx, point, n, &index));
+	status = mr_near_query(ctx, index, m->p, m->nv, NEAREST, near, NULL);
+	mr_near_free(index);
+	MR_TRY(status);
+	for (size_t v = 0; v < m->nv; v++)
+		to[v] = sharp_place(&planes, point, near + NEAREST * v, width, m->p[v]);
+	MR_TRY(move(ctx, m, to));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
