@@ -1,10 +1,12 @@
-/* mr-shrinkwrap -- draw a closed mesh tight around points.  See man/mr-shrinkwrap.1. */
+/* mr-shrinkwrap -- draw a mesh tight around points.  See man/mr-shrinkwrap.1. */
 #include "cmd.h"
 
 static mr_wrap_opts opts = MR_WRAP_DEFAULTS;
 
 static const cmd_opt table[] = {
 	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "auto|cube|volume", "how to begin", NULL },
+	{ 0, "lids", CMD_CHOICE, &opts.lids, 0, 0, "auto|all|none",
+	    "what the points leave open and is closed", NULL },
 	{ 'r', "resolution", CMD_COUNT, &opts.resolution, 0, 10000, "EDGES",
 	    "edges of the wrap, so many along a side of the bounding cube; 0: by the points", NULL },
 	{ 0, "grid", CMD_COUNT, &opts.grid, 0, 4096, "N",
@@ -24,9 +26,11 @@ prepare(cmd *c)
 {
 	if (opts.grid && opts.method == MR_WRAP_CUBE)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--grid has no effect on -m cube");
-	if (opts.template_mesh && (opts.grid || opts.resolution || opts.method != MR_WRAP_AUTO))
+	if (opts.lids && opts.method == MR_WRAP_CUBE)
+		return mr_fail(&c->ctx, MR_EUSAGE, "--lids has no effect on -m cube");
+	if (opts.template_mesh && (opts.grid || opts.resolution || opts.lids || opts.method != MR_WRAP_AUTO))
 		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "--template wraps the mesh that is there: -m, -r and --grid have no effect");
+		    "--template wraps the mesh that is there: -m, -r, --grid and --lids have no effect");
 	return MR_OK;
 }
 
@@ -42,6 +46,9 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_wrap_result, folded_edges),
 	CMD_COUNTED(mr_wrap_result, intersecting_pairs),
 	CMD_COUNTED(mr_wrap_result, lost),
+	CMD_COUNTED(mr_wrap_result, loops),
+	CMD_COUNTED(mr_wrap_result, openings),
+	CMD_COUNTED(mr_wrap_result, holes),
 	CMD_MEASURED(mr_wrap_result, seconds_box),
 	CMD_MEASURED(mr_wrap_result, seconds_levels),
 	CMD_MEASURED(mr_wrap_result, seconds_pull),
@@ -97,7 +104,7 @@ int
 main(int argc, char **argv)
 {
 	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "draw a closed mesh tight around points",
+	    &(cmd_tool){ .summary = "draw a mesh tight around points",
 		.options = table,
 		.prepare = prepare,
 		.frame = shrinkwrap_frame });

@@ -512,14 +512,15 @@ MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts 
 
 /* Reconstruction: Jeong, Kim 2001 */
 
-typedef enum mr_wrap_method {
-	MR_WRAP_AUTO,  /* a box, coarse to fine; the volume where it does not cover the points */
-	MR_WRAP_CUBE,  /* the paper's, to the letter: genus 0 */
-	MR_WRAP_VOLUME /* an implicit surface, then projected and smoothed */
-} mr_wrap_method;
+/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled. */
+typedef enum mr_wrap_method { MR_WRAP_AUTO, MR_WRAP_CUBE, MR_WRAP_VOLUME } mr_wrap_method;
+
+/* What the points leave open is closed: narrow holes of the sampling, all, none. */
+typedef enum mr_wrap_lids_closed { MR_LIDS_AUTO, MR_LIDS_ALL, MR_LIDS_NONE } mr_wrap_lids_closed;
 
 typedef struct mr_wrap_opts {
 	int method;          /* mr_wrap_method */
+	int lids;            /* mr_wrap_lids_closed */
 	size_t resolution;   /* edges of the wrap along a side of the bounding cube; 0: by the sampling */
 	size_t grid;         /* cells of the volume; 0: from the sampling density */
 	double alpha;        /* share of the way to the nearest point */
@@ -530,7 +531,7 @@ typedef struct mr_wrap_opts {
 	const char *layer;   /* NULL: points */
 } mr_wrap_opts;
 
-#define MR_WRAP_DEFAULTS MR_DEFAULTS(MR_WRAP_AUTO, 0, 0, 0.5, 0.2, 0, false, false, NULL)
+#define MR_WRAP_DEFAULTS MR_DEFAULTS(MR_WRAP_AUTO, MR_LIDS_AUTO, 0, 0, 0.5, 0.2, 0, false, false, NULL)
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
@@ -548,11 +549,12 @@ typedef struct mr_volume_result {
 } mr_volume_result;
 
 typedef struct mr_wrap_result {
-	size_t method;                          /* 0 the box, 1 the cube, 2 the volume, 3 the template */
+	size_t method;                          /* 0 box, 1 cube, 2 volume, 3 template, 4 height field */
 	size_t places, outliers;                /* of the points */
 	double sampling;                        /* distance of the places */
 	size_t resolution, iterations, coarser; /* coarser: 1 where such a volume was better, 0 where tried */
 	size_t faces, folded_edges, intersecting_pairs, lost; /* outliers beyond five such distances */
+	size_t loops, openings, holes;                        /* of the boundary; left open; closed */
 	mr_gaps gaps;
 	double seconds_box, seconds_levels, seconds_pull, seconds_volume, seconds_remesh, seconds_settle,
 	    seconds_measure, seconds_tried; /* tried: for wraps that were not better */
@@ -589,10 +591,8 @@ typedef struct mr_simplify_result {
 MR_API mr_status mr_simplify_frame(
     mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result) MR_WARN_UNUSED;
 
-typedef enum mr_fit_method {
-	MR_FIT_LOCAL,        /* Suzuki et al. 1999, as in the paper: by the point nearest each limit point */
-	MR_FIT_LEAST_SQUARES /* all points at once, by the normal equations */
-} mr_fit_method;
+/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once. */
+typedef enum mr_fit_method { MR_FIT_LOCAL, MR_FIT_LEAST_SQUARES } mr_fit_method;
 
 typedef struct mr_fit_opts {
 	int method;        /* mr_fit_method */

@@ -102,10 +102,22 @@ static const double MR_WRAP_LACKS = 5;
 /* Points and faces at most that coverage is measured by at the end. */
 enum { MR_WRAP_SAMPLES = 1 << 14 };
 
+/* What of a closed wrap spans no points. */
+typedef struct mr_wrap_lids {
+	size_t openings; /* cut out */
+	size_t holes;    /* left closed: those wider than MR_WRAP_GAP, but for the doubtful ones */
+	size_t doubtful; /* left closed or cut out, as wide as either may be, or where support flickers */
+	double width;    /* of the widest of them, in spacings */
+	mr_v3 at;        /* its middle */
+	bool flickers;   /* the points hardly support what they do not leave open: none is cut out */
+	size_t loops;    /* of the boundary */
+} mr_wrap_lids;
+
 /* A wrap, and how well it covers the points. */
 typedef struct mr_wrap {
 	mr_dyn d;
 	mr_wrap_cover cover;
+	mr_wrap_lids lids;
 	size_t folds;
 	mr_wrap_result found; /* method, and what it took; the rest at the end */
 } mr_wrap;
@@ -120,6 +132,30 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 /* Settles w->d, near the points, on them, unfolds it, parts what passes through itself; assesses it. */
 mr_status
 mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w);
+
+/*
+ * Cuts out of m, near the points, what spans an opening of them, by MR_LIDS_AUTO or _NONE, and adds to lids
+ * what was found, but for the loops.  flickering: not where support flickers.
+ */
+mr_status mr_wrap_cut(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, int how, bool flickering, mr_mesh *m, mr_wrap_lids *lids);
+
+/* d of m, open, by remeshing it and settling it on the points. */
+mr_status mr_wrap_settle_open(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_mesh *m, mr_dyn *d);
+
+/* Measures w->cover of what may be open, and counts its loops. */
+mr_status mr_wrap_assess_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w);
+
+/* Cuts what the options say out of w, closed, and settles the rest. */
+mr_status mr_wrap_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w);
+
+/* Whether the points are a height field over a plane. */
+mr_status mr_wrap_is_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3], bool *is_sheet);
+
+/* The wrap of a height field over the plane of axis[0] and axis[1]: open. */
+mr_status mr_wrap_sheet(
+    mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_v3 axis[3], mr_wrap *w);
 
 /* Whether any component of d, closed and compact, has a handle. */
 mr_status mr_wrap_has_handles(mr_ctx *ctx, const mr_dyn *d, bool *handles);

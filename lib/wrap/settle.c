@@ -1,6 +1,6 @@
 /* The last steps, near the points: along normals, with guards. */
-#include "wrap/parts.h"
 #include "base/parallel.h"
+#include "wrap/parts.h"
 
 enum { GRAIN = 1024, NEAREST = 5 };
 
@@ -48,7 +48,7 @@ target(const settle *s, uint32_t v)
 		to = mr_axpy(w, x, to);
 		weights += w;
 	}
-	l = mr_axpy(-mr_dot(l, n), n, l);
+	l = h == MR_NONE ? mr_vec(0, 0, 0) : mr_axpy(-mr_dot(l, n), n, l); /* a boundary is not drawn in */
 	return mr_axpy(s->o->alpha * trust(s, v) * mr_dot(to, n) / weights, n, mr_axpy(s->o->lambda, l, p));
 }
 

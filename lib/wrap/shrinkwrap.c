@@ -2,6 +2,7 @@
 #include "wrap/shrinkwrap.h"
 
 #include "base/disjoint_sets.h"
+#include "base/text.h"
 #include "measure/gaps.h"
 #include "remesh/unfold.h"
 #include "volume/volume.h"
@@ -11,7 +12,7 @@
 enum { CUBE_ITERATIONS = 20, TEMPLATE_ITERATIONS = 20, TEMPLATE_SETTLES = 4 };
 
 /* Of mr_wrap_result.method, beside the methods. */
-enum { TEMPLATE = MR_WRAP_VOLUME + 1 };
+enum { TEMPLATE = MR_WRAP_VOLUME + 1, SHEET };
 
 /* So few points tell nothing of handles and limbs: the box, of genus 0, goes around them. */
 enum { FEW = 64 };
@@ -129,6 +130,17 @@ is_good(const mr_wrap *c, const mr_wrap_cloud *cloud)
 	return covers(&c->cover.gaps, &MR_WRAP_ENOUGH, cloud->spacing);
 }
 
+/* Whether the closed wrap is good but for its lids, and the open one is without. */
+static bool
+is_good_open(const mr_wrap *closed, const mr_wrap *open, const mr_wrap_cloud *cloud)
+{
+	mr_gaps g = open->cover.gaps;
+
+	g.points.max = fmax(g.points.max, closed->cover.gaps.points.max);
+	g.points.high = fmax(g.points.high, closed->cover.gaps.points.high);
+	return covers(&g, &MR_WRAP_ENOUGH, cloud->spacing);
+}
+
 /*
  * The volume also closes what the points leave open, which counts against it: the box must leave out and have
  * too much by this much less; not so where the volume has handles, which may be there alone.  Which fits
@@ -161,7 +173,7 @@ try_volume(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wr
 
 /* The volume; where that is not good, the box if it is better; of few points the box, if it is good. */
 static mr_status
-wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
+wrap_body(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	double start = mr_seconds(), middle;
 	bool few = cloud->n <= FEW, enclosed = false, better = true;
@@ -170,8 +182,11 @@ wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 	if (!few)
 		MR_TRY(try_volume(ctx, cloud, o, &volume, &enclosed));
 	*c = volume;
-	if (enclosed && is_good(c, cloud))
-		return MR_OK;
+	if (enclosed) {
+		MR_TRY(mr_wrap_open(ctx, cloud, o, c));
+		if (is_good_open(&volume, c, cloud))
+			return MR_OK;
+	}
 	middle = mr_seconds();
 	MR_TRY(wrap_box(ctx, cloud, o, &box));
 	if (few && !(flaws(&box) == 0 && is_good(&box, cloud)))
@@ -180,7 +195,22 @@ wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 		MR_TRY(is_better(ctx, &box, &volume, &better));
 	*c = better ? box : volume;
 	mr_wrap_tried(c, better ? middle - start : mr_seconds() - middle);
-	return MR_OK;
+	return mr_wrap_open(ctx, cloud, o, c);
+}
+
+/* A height field as one, unless it is to be closed. */
+static mr_status
+wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
+{
+	bool is_sheet = false;
+	mr_v3 axis[3];
+
+	if (o->lids != MR_LIDS_ALL)
+		MR_TRY(mr_wrap_is_sheet(ctx, cloud, axis, &is_sheet));
+	if (!is_sheet)
+		return wrap_body(ctx, cloud, o, c);
+	c->found.method = SHEET;
+	return mr_wrap_sheet(ctx, cloud, o, axis, c);
 }
 
 static mr_status
@@ -190,7 +220,8 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 	case MR_WRAP_CUBE:
 		return wrap_cube(ctx, cloud, o, c);
 	case MR_WRAP_VOLUME:
-		return mr_wrap_volume(ctx, cloud, o, c);
+		MR_TRY(mr_wrap_volume(ctx, cloud, o, c));
+		return mr_wrap_open(ctx, cloud, o, c);
 	default:
 		return wrap_auto(ctx, cloud, o, c);
 	}
@@ -247,13 +278,36 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		mr_gaps_warn(ctx, "the wrap", g);
 }
 
+/* What was left open, and where it might as well be closed, or the other way round. */
+static void
+report_lids(mr_ctx *ctx, const mr_wrap_lids *l)
+{
+	if (l->openings + l->holes > 0)
+		mr_note(ctx, "%zu opening%s left open, %zu loop%s of the boundary; %zu hole%s closed",
+		    l->openings, mr_plural(l->openings), l->loops, mr_plural(l->loops), l->holes,
+		    mr_plural(l->holes));
+	if (l->doubtful > 0 && l->flickers)
+		mr_warn(ctx,
+		    "%zu opening%s closed, as the points support the wrap too unevenly to tell where they "
+		    "end: "
+		    "the widest measures %.3g sampling distances, near (%.4g, %.4g, %.4g)",
+		    l->doubtful, l->doubtful == 1 ? " is" : "s are", l->width, l->at.x, l->at.y, l->at.z);
+	else if (l->doubtful > 0)
+		mr_warn(ctx,
+		    "%zu opening%s about as wide as is left open: the widest measures %.3g sampling "
+		    "distances, "
+		    "near (%.4g, %.4g, %.4g)",
+		    l->doubtful, l->doubtful == 1 ? " is" : "s are", l->width, l->at.x, l->at.y, l->at.z);
+}
+
 static void
 report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result *result)
 {
-	static const char *const names[] = { "box", "cube", "volume", "template" };
+	static const char *const names[] = { "box", "cube", "volume", "template", "height field" };
 	mr_wrap_result r = c->found;
 
 	mr_note(ctx, "by the %s", names[r.method]);
+	report_lids(ctx, &c->lids);
 	warn(ctx, cloud, c);
 	if (c->found.method != TEMPLATE)
 		warn_of_topology(ctx, cloud, c);
@@ -262,6 +316,9 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result
 	r.sampling = cloud->spacing;
 	r.gaps = c->cover.gaps;
 	r.lost = c->cover.lost;
+	r.loops = c->lids.loops;
+	r.openings = c->lids.openings;
+	r.holes = c->lids.holes;
 	r.faces = c->d.nf;
 	r.folded_edges = c->folds;
 	r.intersecting_pairs = c->cover.crossings;
@@ -275,9 +332,10 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	mr_wrap c;
 
 	mr_unmeasured(&c.found, sizeof c.found);
+	c.lids = (mr_wrap_lids){ 0 };
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
-		if (c.d.twin[h] == MR_NONE)
+		if (c.d.twin[h] == MR_NONE && c.lids.loops == 0)
 			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
 	report(ctx, cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
@@ -308,6 +366,7 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 	mr_wrap c;
 
 	mr_unmeasured(&c.found, sizeof c.found);
+	c.lids = (mr_wrap_lids){ 0 };
 	c.found.method = TEMPLATE;
 	c.found.iterations = iterations;
 	if (!(edge > 0))

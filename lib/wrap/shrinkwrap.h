@@ -1,5 +1,5 @@
 /*
- * shrinkwrap.h -- a closed mesh drawn tight around unorganised points (Jeong, Kim 2001, section 3).
+ * shrinkwrap.h -- a mesh drawn tight around unorganised points (Jeong, Kim 2001, section 3).
  */
 #ifndef MR_WRAP_SHRINKWRAP_H
 #define MR_WRAP_SHRINKWRAP_H
@@ -9,8 +9,9 @@
 
 /*
  * Wraps n points; those that repeat a place count once, outliers not at all.  sampling, sides: what is
- * known of the points', or NULL.  MR_EMESH where they cannot have a closed surface: fewer than four places,
- * collinear, coplanar.  out: in the arena.  result: or NULL.
+ * known of the points', or NULL.  The mesh is manifold, and open where the options leave it so.  MR_EMESH
+ * where they cannot have a closed surface: fewer than four places, collinear, coplanar.  out: in the arena.
+ * result: or NULL.
  */
 mr_status mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling,
     const mr_outer_sides *sides, const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result);

@@ -1,6 +1,6 @@
 # Clouds that do not tell their surface all over.
-wrapped() {
-	mr-import "$1" | mr-shrinkwrap -q --stats stats.json | mr-info -l control | sed -n 's/^ *topology *//p; s/^ *flaws *//p'
+wrapped() { # cloud, option
+	mr-import "$1" | mr-shrinkwrap -q ${2:+--lids "$2"} --stats stats.json | mr-info -l control | sed -n 's/^ *topology *//p; s/^ *flaws *//p'
 }
 
 echo lands of a globe and few points between:
@@ -9,8 +9,8 @@ mr-make sphere --points 60000 --seed 3 | mr-export -l points -f xyz - |
 		f = sin(3 * $1 + 1) * cos(4 * $2) + sin(5 * $3 + 2 * $1) + 0.7 * cos(7 * $2 - 3 * $3)
 		if (f > 0.7 || NR % 300 == 0) print
 	}' >lands.xyz
-wrapped lands.xyz
-mr-import lands.xyz | mr-shrinkwrap -q -m volume | mr-info -l control | sed -n 's/.*\(genus [0-9]*\).*/by the volume \1/p'
+wrapped lands.xyz all
+mr-import lands.xyz | mr-shrinkwrap -q --lids all -m volume | mr-info -l control | sed -n 's/.*\(genus [0-9]*\).*/by the volume \1/p'
 
 echo rows further apart than the points in them:
 awk 'BEGIN {

@@ -7,7 +7,7 @@ nearest() { # the mean distance of the points to the surface is below $1 of the 
 		awk -v most="$1" '{ print $1 < most ? "near" : "off by " $1 }'
 }
 reconstruct() {
-	mr-import --points "$1" | mr-shrinkwrap | mr-simplify | mr-fit | mr-sample | mr-decode -o out.mrs
+	mr-import --points "$1" | mr-shrinkwrap --lids all | mr-simplify | mr-fit | mr-sample | mr-decode -o out.mrs
 	flaws mesh out.mrs
 }
 
@@ -18,7 +18,7 @@ nearest 0.001
 sed 's/[0-9.]* sampling/N sampling/; s/at [0-9]* of [0-9]*/at N of N/' err
 
 echo 'the same, quietly'
-mr-import --points half.xyz | mr-shrinkwrap -q -o quiet.mrs
+mr-import --points half.xyz | mr-shrinkwrap -q --lids all -o quiet.mrs
 flaws control quiet.mrs
 
 echo 'few points: 4, 6, 8, 20'

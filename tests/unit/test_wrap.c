@@ -1,4 +1,4 @@
-/* The parts of the shrink-wrapping: the box, the guard of moves, coverage, and want of memory. */
+/* The parts of the shrink-wrapping: the box, the guard of moves, coverage, openings, and want of memory. */
 #include "shapes.h"
 #include "wrap/parts.h"
 
@@ -141,6 +141,105 @@ test_handles_are_seen_beside_other_components(void **state)
 	}
 }
 
+/* A lattice of points, edges one long, of which those within `hole` of the middle are left out; a flat mesh
+ * over it and beyond, and what is cut out of it. */
+static mr_wrap_lids
+cut_over_a_hole(double hole, int how, mr_mesh *m)
+{
+	mr_mesh points = lattice(60);
+	mr_v3 middle = mr_lerp(0.5, points.p[0], points.p[points.nv - 1]);
+	mr_wrap_lids lids = { 0 };
+	mr_wrap_cloud cloud;
+	mr_v3 *p = MR_NEW(&ctx, points.nv, mr_v3);
+	size_t n = 0;
+
+	assert_non_null(p);
+	for (size_t v = 0; v < points.nv; v++)
+		if (mr_dist(points.p[v], middle) > hole) {
+			p[n++] = points.p[v];
+			p[n - 1].z += 0.01 * (double)(v % 7); /* in a plane they would enclose nothing */
+		}
+	assert_int_equal(mr_wrap_cloud_open(&ctx, p, n, NULL, &cloud), MR_OK);
+	*m = lattice(80);
+	for (size_t v = 0; v < m->nv; v++)
+		((mr_v3 *)m->p)[v] = mr_add(m->p[v], mr_mul(-10, mr_vec(1.5, sqrt(0.75), 0)));
+	assert_int_equal(mr_wrap_cut(&ctx, &cloud, how, false, m, &lids), MR_OK);
+	mr_near_free(cloud.near);
+	return lids;
+}
+
+/* The rim around the points is an opening; a hole in them is from ten spacings on, or five where all are. */
+static void
+test_wide_openings_are_cut_out(void **state)
+{
+	static const struct {
+		double hole;
+		int how;
+		size_t loops, holes, doubtful;
+	} cases[] = {
+		{ 0, MR_LIDS_AUTO, 1, 0, 0 },
+		{ 1.5, MR_LIDS_AUTO, 1, 0, 0 },
+		{ 1.5, MR_LIDS_NONE, 1, 0, 0 },
+		{ 3.2, MR_LIDS_AUTO, 1, 1, 0 },
+		{ 3.2, MR_LIDS_NONE, 2, 0, 0 },
+		{ 4.2, MR_LIDS_AUTO, 1, 1, 1 },
+		{ 6, MR_LIDS_AUTO, 2, 0, 1 },
+		{ 8, MR_LIDS_AUTO, 2, 0, 0 },
+	};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		mr_mesh m;
+		mr_wrap_lids lids = cut_over_a_hole(cases[i].hole, cases[i].how, &m);
+		mr_census c = census_of(&m);
+		assert_true(c.manifold && c.oriented && c.components == 1);
+		assert_int_equal(c.boundary_loops, cases[i].loops);
+		assert_int_equal(lids.openings, cases[i].loops);
+		assert_int_equal(lids.holes, cases[i].holes);
+		assert_int_equal(lids.doubtful, cases[i].doubtful);
+		assert_int_equal(lids.width > 0, cases[i].doubtful);
+	}
+}
+
+/* Caps of a sphere, from a height on: those that are not too steep, nor too noisy, are height fields. */
+static void
+test_sheets_are_told_from_bodies(void **state)
+{
+	static const struct {
+		double from, noise;
+		bool is_sheet;
+	} cases[] = {
+		{ 0.5, 0, true },
+		{ 0.3, 0, true },
+		{ -0.5, 0, false },
+		{ -2, 0, false },
+		{ 0.5, 0.1, false },
+	};
+
+	(void)state;
+	for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+		enum { MANY = 4000 };
+		mr_random r = { 5 };
+		mr_wrap_cloud cloud;
+		mr_v3 axis[3], *p = MR_NEW(&ctx, MANY, mr_v3);
+		bool is_sheet = !cases[i].is_sheet;
+		size_t n = 0;
+		assert_non_null(p);
+		while (n < MANY) {
+			mr_v3 q = random_vector(&r);
+			double off = cases[i].noise * (mr_random_real(&r) - 0.5);
+			if (mr_norm(q) > 0.5 || mr_norm(q) < 0.1 || q.z < cases[i].from * mr_norm(q))
+				continue;
+			p[n++] = mr_mul((1 + off) / mr_norm(q), q);
+		}
+		assert_int_equal(mr_wrap_cloud_open(&ctx, p, n, NULL, &cloud), MR_OK);
+		assert_int_equal(mr_wrap_is_sheet(&ctx, &cloud, axis, &is_sheet), MR_OK);
+		assert_int_equal(is_sheet, cases[i].is_sheet);
+		assert_true(!is_sheet || fabs(axis[2].z) > 0.99);
+		mr_near_free(cloud.near);
+	}
+}
+
 static void
 test_memory_may_run_out(void **state)
 {
@@ -176,6 +275,8 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_coverage_goes_both_ways, setup, teardown),
 		cmocka_unit_test_setup_teardown(
 		    test_handles_are_seen_beside_other_components, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_wide_openings_are_cut_out, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_sheets_are_told_from_bodies, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_memory_may_run_out, setup, teardown),
 	};
 	cmocka_set_message_output(CM_OUTPUT_TAP);
