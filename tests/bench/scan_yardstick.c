@@ -23,6 +23,7 @@
 #include "base/random.h"
 #include "base/sort.h"
 #include "measure/measure.h"
+#include "mesh/clip.h"
 #include "mesh/fold.h"
 #include "shape/shape.h"
 #include "simplify/simplify.h"
@@ -146,31 +147,21 @@ mark_seen(mr_ctx *ctx, const cloud *c, bool *marked)
 	return MR_OK;
 }
 
-/* The part of the surface before the middle of an axis. */
+/* The part of the surface before a plane across the middle of an axis. */
 static mr_status
 cut(mr_ctx *ctx, cloud *c)
 {
 	mr_box b = mr_box_of(c->truth.p, c->truth.nv);
-	mr_mesh *m = &c->truth;
-	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	double *value = MR_NEW(ctx, c->truth.nv, double), middle;
 	int axis[3];
-	double middle;
-	size_t n = 0;
 
-	if (!t)
+	if (!value)
 		return MR_EMEM;
 	sort_axes(b, axis);
 	middle = (mr_coordinate(b.min, axis[1]) + mr_coordinate(b.max, axis[1])) / 2;
-	for (size_t f = 0; f < m->nf; f++) {
-		bool before = true;
-		for (int k = 0; k < 3; k++)
-			before &= mr_coordinate(m->p[m->t[f].v[k]], axis[1]) < middle;
-		if (before)
-			t[n++] = m->t[f];
-	}
-	m->t = t;
-	m->nf = n;
-	return MR_OK;
+	for (size_t v = 0; v < c->truth.nv; v++)
+		value[v] = mr_coordinate(c->truth.p[v], axis[1]) - middle;
+	return mr_mesh_clip(ctx, &c->truth, value, &c->truth);
 }
 
 static mr_status
