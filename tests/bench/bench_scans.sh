@@ -8,7 +8,7 @@
 # red.
 . "$TOP/tests/bench/common.sh"
 export out=$BUILD/scans LIMIT="${LIMIT:-300}"
-KINDS=${KINDS:-vertices uniform noise03 noise1 outliers holes density views cut near}
+KINDS=${KINDS:-vertices uniform noise03 noise1 outliers holes density views cut terrain near}
 
 # ---- one cloud: bench_scans.sh --one MODEL KIND SEED ----
 

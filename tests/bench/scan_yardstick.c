@@ -10,8 +10,9 @@
  *	outliers   noise03, and 5 % of the points anywhere in the box, a tenth larger
  *	holes      uniform, without those within three spacings of 20 places
  *	density    uniform, thinned out along the longest axis to a sixtieth
- *	views      uniform, those seen from six sides
- *	cut        uniform on the faces before the middle of the second longest axis; they are the surface
+ *	views      uniform, those seen from six sides; what spans openings of them by mr_wrap_cut is no
+ *surface cut        uniform on what is before the middle of the second longest axis; it is the surface
+ *	terrain    uniform on waves over a rectangle, of the model's proportions
  *	near       uniform, on the model and its copy along its shortest axis, three spacings from it
  * JSON: topology of truth and result (Euler number, components, boundary loops, right: all the same); thin:
  * body or gap are thinner than so many spacings at 1 % of the surface; distances in diagonals of the truth;
@@ -29,6 +30,8 @@
 #include "simplify/simplify.h"
 #include "space/bvh.h"
 #include "space/self_intersect.h"
+#include "subdivide/longest.h"
+#include "wrap/parts.h"
 
 #include "yardstick.h"
 
@@ -164,6 +167,60 @@ cut(mr_ctx *ctx, cloud *c)
 	return mr_mesh_clip(ctx, &c->truth, value, &c->truth);
 }
 
+/* Without what the points leave open of it. */
+static mr_status
+open_truth(mr_ctx *ctx, cloud *c)
+{
+	mr_wrap_lids lids = { 0 };
+	mr_wrap_cloud points;
+	mr_refined fine;
+	mr_status status = mr_wrap_cloud_open(ctx, c->p, c->n, NULL, &points);
+
+	if (status == MR_OK)
+		status = mr_divide_longest(ctx, &c->truth, points.spacing, &fine);
+	if (status == MR_OK) {
+		mr_mesh m = fine.fine;
+		status = mr_wrap_cut(ctx, &points, MR_LIDS_AUTO, false, &m, &lids);
+		c->truth = lids.openings > 0 ? m : c->truth;
+	}
+	mr_near_free(points.near);
+	return status;
+}
+
+/* Waves, as high as a tenth of the diagonal, over the longer sides of the model's box. */
+static mr_status
+make_terrain(mr_ctx *ctx, cloud *c)
+{
+	enum { SIDE = 400 };
+	mr_make_opts o = MR_MAKE_DEFAULTS;
+	mr_box b = mr_box_of(c->truth.p, c->truth.nv);
+	mr_v3 size = mr_sub(b.max, b.min), *p;
+	double phase[4], along, across;
+	int axis[3];
+
+	o.solid = MR_PLANE;
+	o.vertices = (size_t)SIDE * SIDE;
+	sort_axes(b, axis);
+	along = mr_coordinate(size, axis[2]) / c->diagonal;
+	across = mr_coordinate(size, axis[1]) / c->diagonal;
+	MR_TRY(mr_solid_make(ctx, &o, &c->truth));
+	b = mr_box_of(c->truth.p, c->truth.nv);
+	p = MR_NEW(ctx, c->truth.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	for (int k = 0; k < 4; k++)
+		phase[k] = 2 * MR_PI * mr_random_real(&c->random);
+	for (size_t v = 0; v < c->truth.nv; v++) {
+		double x = along * (c->truth.p[v].x - b.min.x) / (b.max.x - b.min.x);
+		double y = across * (c->truth.p[v].y - b.min.y) / (b.max.y - b.min.y);
+		double z = sin(9 * x + phase[0]) * sin(7 * y + phase[1]) +
+		           0.3 * sin(23 * x + phase[2]) * sin(19 * y + phase[3]);
+		p[v] = mr_mul(c->diagonal, mr_vec(x, y, 0.1 * z));
+	}
+	c->truth.p = p;
+	return MR_OK;
+}
+
 static mr_status
 copy_beside(mr_ctx *ctx, cloud *c)
 {
@@ -217,6 +274,8 @@ make_cloud(mr_ctx *ctx, const char *kind, uint64_t seed, cloud *c)
 	}
 	if (!strcmp(kind, "cut"))
 		MR_TRY(cut(ctx, c));
+	if (!strcmp(kind, "terrain"))
+		MR_TRY(make_terrain(ctx, c));
 	if (!strcmp(kind, "near"))
 		MR_TRY(copy_beside(ctx, c));
 	MR_TRY(draw_points(ctx, strcmp(kind, "noise1") ? POINTS : POINTS_FEWER, seed, c));
@@ -230,12 +289,13 @@ make_cloud(mr_ctx *ctx, const char *kind, uint64_t seed, cloud *c)
 		mark_density(c, marked);
 	else if (!strcmp(kind, "views"))
 		MR_TRY(mark_seen(ctx, c, marked));
-	else if (strcmp(kind, "uniform") && strcmp(kind, "cut") && strcmp(kind, "near"))
+	else if (strcmp(kind, "uniform") && strcmp(kind, "cut") && strcmp(kind, "terrain") &&
+		 strcmp(kind, "near"))
 		return mr_fail(ctx, MR_EUSAGE, "%s: no kind of cloud", kind);
 	if (!strcmp(kind, "outliers"))
 		add_outliers(c);
 	keep(c, marked);
-	return MR_OK;
+	return strcmp(kind, "views") ? MR_OK : open_truth(ctx, c);
 }
 
 static mr_status
