@@ -17,7 +17,7 @@ mr-fit -v mesh.mrs 2>&1 >/dev/null | grep -c 'from points, 99 % within'
 
 echo 'a half of a ball, wrapped, whose lid has no points: bare by so much as mr-compare finds'
 mr-make sphere --points 8000 | mr-crop -l points --keep above:y,0.5 -o half.mrs 2>/dev/null
-mr-shrinkwrap -q half.mrs | mr-simplify -q | mr-fit --stats half.json -o fitted.mrs 2>&1 | sed 's/warning: .* % of/warning: N % of/; s/up to .*/up to N/'
+mr-shrinkwrap -q --lids all half.mrs | mr-simplify -q | mr-fit --stats half.json -o fitted.mrs 2>&1 | sed 's/warning: .* % of/warning: N % of/; s/up to .*/up to N/'
 mr-subdivide -n 4 --limit fitted.mrs -o limit.mrs
 mr-compare --json -a mesh -b points <limit.mrs >compare.json
 python3 - half.json compare.json <<'END'
