@@ -81,3 +81,11 @@ mr-make cube -n 3000 | mr-export -q -f xyz -l mesh - | awk '{ line[NR] = $0; for
 }' >frame.xyz
 mr-import --points frame.xyz | mr-shrinkwrap -o frame.mrs 2>&1 | grep -c warning
 topology control frame.mrs
+
+echo 'an open scan bent, and made even'
+mr-make bumpy --points 6000 | mr-crop --keep below:z,0.5 | mr-shrinkwrap -q | mr-simplify | mr-fit | mr-sample -o scan.mrs
+mr-select --reset --free all --fixed below:y,0.3 --handle 0=above:y,0.7 scan.mrs | mr-pose --rotate 1,0,0,30 |
+    mr-solve | mr-decode -o bent.mrs
+topology mesh bent.mrs
+mr-equalize scan.mrs | mr-decode -o even.mrs
+topology mesh even.mrs
