@@ -166,6 +166,6 @@ awk -F '\t' -v kinds="$rows" '
 		}
 	}' rows | tee table
 for row in $rows; do
-	awk -v row="$row" '{ print $1 "-" row "-" $3 }' cases | sheets "$row"
+	awk -v row="$row" 'index(row "-", $2 "-") == 1 { print $1 "-" row "-" $3 }' cases | sheets "$row"
 done
 echo "all results: $out/*.png"
