@@ -1,11 +1,8 @@
 /* Distances of a surface from points, both ways; the law by which tools warn of surface without points. */
 #include "measure/gaps.h"
 
-#include "base/parallel.h"
 #include "base/sort.h"
 #include "space/bvh.h"
-
-enum { GRAIN = 256 };
 
 /*
  * Surface is bare where it is so many times farther from the nearest place than that one is from its own
@@ -89,38 +86,22 @@ mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size
 	return MR_OK;
 }
 
-typedef struct job {
-	const mr_bvh *bvh;
-	const mr_v3 *p;
-	double *distance;
-} job;
-
-static void
-distances_body(void *arg, size_t begin, size_t end)
-{
-	job *j = arg;
-
-	for (size_t i = begin; i < end; i++)
-		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->p[i]).dist2);
-}
-
 mr_status
 mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps)
 {
 	size_t n = cloud->n < samples ? cloud->n : samples;
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *p = MR_NEW(ctx, n, mr_v3);
-	job j = { NULL, p, MR_NEW(ctx, n, double) };
+	double *distance = MR_NEW(ctx, n, double);
 	mr_bvh *bvh;
 
-	if (!p || !j.distance)
+	if (!p || !distance)
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		p[i] = cloud->p[i * cloud->n / n];
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	j.bvh = bvh;
-	mr_parallel(ctx, n, GRAIN, distances_body, &j);
-	gaps->points = mr_gap_of(j.distance, n);
+	mr_bvh_distances(ctx, bvh, p, n, distance);
+	gaps->points = mr_gap_of(distance, n);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

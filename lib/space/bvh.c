@@ -1,5 +1,6 @@
 /* Queries of the hierarchy: branch and bound, the nearer child first.  bvh_tree.h says why bounds are safe.
  */
+#include "base/parallel.h"
 #include "space/bvh_tree.h"
 
 /* ---- the nearest point of a triangle ---- */
@@ -199,6 +200,27 @@ mr_closest
 mr_bvh_closest(const mr_bvh *bvh, mr_v3 q)
 {
 	return closest_at_most(bvh, q, INFINITY);
+}
+
+typedef struct distances {
+	const mr_bvh *bvh;
+	const mr_v3 *q;
+	double *distance;
+} distances;
+
+static void
+find_distances(void *arg, size_t begin, size_t end)
+{
+	const distances *j = arg;
+
+	for (size_t i = begin; i < end; i++)
+		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->q[i]).dist2);
+}
+
+void
+mr_bvh_distances(const mr_ctx *ctx, const mr_bvh *bvh, const mr_v3 *q, size_t n, double *distance)
+{
+	mr_parallel(ctx, n, 1024, find_distances, &(distances){ bvh, q, distance });
 }
 
 mr_closest

@@ -33,6 +33,9 @@ mr_status mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **bvh);
 /* The nearest point of the surface; face MR_NONE where the mesh has no face.  Ties: the lowest face. */
 mr_closest mr_bvh_closest(const mr_bvh *bvh, mr_v3 q);
 
+/* The distances from n points, the caller's. */
+void mr_bvh_distances(const mr_ctx *ctx, const mr_bvh *bvh, const mr_v3 *q, size_t n, double *distance);
+
 /* The same, where it is nearer than sqrt(dist2); else face MR_NONE. */
 mr_closest mr_bvh_closest_within(const mr_bvh *bvh, mr_v3 q, double dist2);
 

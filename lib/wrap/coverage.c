@@ -1,29 +1,11 @@
 /* Coverage both ways: points that the wrap misses, and parts of it where there are no points. */
-#include "base/parallel.h"
 #include "base/sort.h"
 #include "measure/gaps.h"
 #include "mesh/zorder.h"
 #include "space/self_intersect.h"
 #include "wrap/parts.h"
 
-enum { GRAIN = 1024 };
-
 static const double MOST = 0.9;
-
-typedef struct job {
-	const mr_v3 *q;
-	const mr_bvh *bvh;
-	double *distance;
-} job;
-
-static void
-distances_body(void *arg, size_t begin, size_t end)
-{
-	job *j = arg;
-
-	for (size_t i = begin; i < end; i++)
-		j->distance[i] = sqrt(mr_bvh_closest(j->bvh, j->q[i]).dist2);
-}
 
 /* c->lost, of some outliers at equal strides for all of them. */
 static mr_status
@@ -31,15 +13,15 @@ count_lost(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_bvh *bvh, size_t sa
 {
 	size_t all = cloud->sampling.outliers, n = all < samples ? all : samples, far = 0;
 	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
-	job j = { q, bvh, MR_NEW(ctx, n, double) };
+	double *distance = MR_NEW(ctx, n, double);
 
-	if (!q || !j.distance)
+	if (!q || !distance)
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		q[i] = cloud->outlier[i * all / n];
-	mr_parallel(ctx, n, GRAIN, distances_body, &j);
+	mr_bvh_distances(ctx, bvh, q, n, distance);
 	for (size_t i = 0; i < n; i++)
-		far += j.distance[i] > MR_WRAP_LACKS * cloud->spacing;
+		far += distance[i] > MR_WRAP_LACKS * cloud->spacing;
 	c->lost = n ? far * all / n : 0;
 	return MR_OK;
 }
@@ -49,19 +31,18 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *p = MR_NEW(ctx, n, mr_v3), *q = MR_NEW(ctx, n, mr_v3);
-	job j = { q, NULL, MR_NEW(ctx, n, double) };
+	double *distance = MR_NEW(ctx, n, double);
 	mr_bvh *bvh;
 
-	if (!p || !q || !j.distance)
+	if (!p || !q || !distance)
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		p[i] = cloud->p[i * cloud->n / n];
 	MR_TRY(mr_zorder_points(ctx, p, n, q)); /* what close ones look up is in the cache */
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	j.bvh = bvh;
-	mr_parallel(ctx, n, GRAIN, distances_body, &j);
-	c->gaps.points = mr_gap_of(j.distance, n);
-	c->points_most = mr_kth(j.distance, n, (size_t)(MOST * (double)(n - 1)));
+	mr_bvh_distances(ctx, bvh, q, n, distance);
+	c->gaps.points = mr_gap_of(distance, n);
+	c->points_most = mr_kth(distance, n, (size_t)(MOST * (double)(n - 1)));
 	MR_TRY(count_lost(ctx, cloud, bvh, MR_WRAP_SAMPLES, c));
 	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
 	mr_mark_release(ctx, mark);
