@@ -132,8 +132,8 @@ MR_API bool mr_frame_column(
 MR_API bool mr_frame_has_layer(const mr_frame *frame, const char *layer);
 MR_API bool mr_layer_has(const mr_frame *frame, const char *layer, const char *name);
 
-/* The column's values, decoded and its checksum verified.  MR_EMISSING where it is absent or of another
- * shape; MR_EFORMAT where its bytes are damaged.  data: rows x components values, the frame's. */
+/* The column's values, decoded.  MR_EMISSING where it is absent or of another
+ * shape; MR_EFORMAT where they cannot be unpacked.  data: rows x components values, the frame's. */
 MR_API mr_status mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name,
     mr_shape shape, const void **data, size_t *rows) MR_WARN_UNUSED;
 

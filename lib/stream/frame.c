@@ -147,7 +147,6 @@ mr_column_decode(mr_ctx *ctx, mr_column *column)
 	if (column->data)
 		return MR_OK;
 	if (!s->data) {
-		MR_TRY(mr_record_verify(ctx, s->header, s->payload, (size_t)s->head.stored, s->offset));
 		if (s->head.codec == MR_PACKED)
 			MR_TRY(inflate_stored(ctx, s));
 		else

@@ -46,7 +46,7 @@ mr_status mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **c
 /* The column, or NULL.  Not decoded: for its shape and rows. */
 const mr_column *mr_frame_find(const mr_frame *frame, const char *layer, const char *name);
 
-/* Decodes and verifies one column, whatever it is. */
+/* Decodes one column, whatever it is. */
 mr_status mr_column_decode(mr_ctx *ctx, mr_column *column);
 
 /*

@@ -22,7 +22,7 @@ typedef struct mr_stored {
 	unsigned char header[MR_HEADER]; /* as read */
 	const unsigned char *payload;    /* with its padding, 64-byte aligned, in the map or in `heap` */
 	void *heap; /* NULL where mapped; columns of equal payloads have the same, the last one frees it */
-	const void *data; /* the values, once verified */
+	const void *data; /* the values, once decoded */
 	void *inflated;   /* the memory of `data` where it was packed */
 } mr_stored;
 

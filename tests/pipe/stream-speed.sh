@@ -1,4 +1,5 @@
-# From a file to a pipe mr-cat reaches at least 0.7 of the rate of cat: the best run of each.
+# From a file to a pipe mr-cat, which verifies every byte, reaches at least 0.5 of the rate of cat, which looks at
+# none: the best run of each.
 [ -z "$SAN" ] || { echo 'sanitizers are slow'; exit 77; }
 mr-make plane -n 1500000 >a.mrs || exit
 cat a.mrs a.mrs a.mrs a.mrs >big.mrs
@@ -13,8 +14,8 @@ for i in range(30): # other work on the machine disturbs either: so until the la
     for command in "cat", "mr-cat --no-history":
         best[command] = min(best.get(command, 1e9), seconds(command + " big.mrs | cat >/dev/null"))
     rate = best["cat"] / best["mr-cat --no-history"]
-    if i >= 4 and rate >= 0.7:
+    if i >= 4 and rate >= 0.5:
         break
 print("mr-cat: %.2f of the rate of cat, %d runs each" % (rate, i + 1))
-sys.exit(rate < 0.7)
+sys.exit(rate < 0.5)
 END
