@@ -9,9 +9,10 @@ static bool json;
 
 static const cmd_opt table[] = {
 	{ 'a', "from", CMD_TEXT, &layer_a, 0, 0, "LAYER",
-	    "first layer; default mesh, else control, base or points", NULL },
+	    "first layer; default: with FILE_B the one worked on last, else mesh, control, base or points",
+	    NULL },
 	{ 'b', "to", CMD_TEXT, &layer_b, 0, 0, "LAYER",
-	    "second layer; default with FILE_B the name of the first, else base, control or points", NULL },
+	    "second layer; default: with FILE_B that of the same name, else base, control or points", NULL },
 	{ 0, "json", CMD_FLAG, &json, 0, 0, NULL, "one JSON object a frame, one a line", NULL },
 	{ 0, "samples", CMD_COUNT, &opts.samples, 0, 1e9, "N",
 	    "pieces that each surface is integrated over, at least one a face; 0 is 100,000", NULL },
@@ -42,15 +43,16 @@ open_other(cmd *c)
 	return mr_side_open(&c->ctx, c->operands[0], &other);
 }
 
+/* Of one frame: two of its layers. */
 static mr_status
-choose_layers(cmd *c, mr_frame *f, mr_frame *second, const char **a, const char **b)
+choose_two(cmd *c, mr_frame *f, const char *first, const char **a, const char **b)
 {
 	static const char *const firsts[] = { "mesh", "control", "base", "points", NULL };
 	static const char *const seconds[] = { "base", "control", "points", NULL };
 
-	MR_TRY(mr_layer_choose(&c->ctx, f, layer_a ? layer_a : c->layer, firsts, a));
-	if (second != f)
-		return mr_layer_choose(&c->ctx, second, layer_b ? layer_b : *a, NULL, b);
+	if (!first && !layer_b)
+		MR_TRY(mr_layer_finished_or_warn(&c->ctx, f));
+	MR_TRY(mr_layer_choose(&c->ctx, f, first, firsts, a));
 	for (size_t i = 0; !layer_b && seconds[i]; i++)
 		if (strcmp(seconds[i], *a) && mr_frame_has_layer(f, seconds[i])) {
 			*b = seconds[i];
@@ -60,6 +62,20 @@ choose_layers(cmd *c, mr_frame *f, mr_frame *second, const char **a, const char 
 		return mr_fail(&c->ctx, MR_EMISSING,
 		    "no layer to compare %s with: neither base, control nor points", *a);
 	return mr_layer_choose(&c->ctx, f, layer_b, NULL, b);
+}
+
+/* Of each frame the result; of the second the layer of the same name, if it has it. */
+static mr_status
+choose_results(cmd *c, mr_frame *f, mr_frame *second, const char *first, const char **a, const char **b)
+{
+	const char *result;
+
+	MR_TRY(mr_layer_result(&c->ctx, f, first, a));
+	if (layer_b || first)
+		return mr_layer_choose(&c->ctx, second, layer_b ? layer_b : *a, NULL, b);
+	MR_TRY(mr_layer_result(&c->ctx, second, NULL, &result));
+	*b = mr_frame_has_layer(second, *a) ? *a : result;
+	return MR_OK;
 }
 
 static const cmd_field figures[] = {
@@ -75,6 +91,7 @@ compare(cmd *c, mr_frame *f)
 {
 	mr_text text = { .ctx = &c->ctx };
 	const char *a, *b;
+	const char *first = layer_a ? layer_a : c->layer;
 	mr_frame *second = f;
 	mr_comparison r;
 	mr_mesh ma, mb;
@@ -82,8 +99,10 @@ compare(cmd *c, mr_frame *f)
 	if (other.reader) {
 		MR_TRY(mr_side_take(&c->ctx, &other, f->number));
 		second = other.frame;
+		MR_TRY(choose_results(c, f, second, first, &a, &b));
+	} else {
+		MR_TRY(choose_two(c, f, first, &a, &b));
 	}
-	MR_TRY(choose_layers(c, f, second, &a, &b));
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, f, a, &ma));
 	MR_TRY(mr_layer_surface_or_points(&c->ctx, second, b, &mb));
 	MR_TRY(mr_compare(&c->ctx, &ma, &mb, &opts, &r));

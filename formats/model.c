@@ -469,20 +469,12 @@ complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 }
 
 mr_status
-mr_export_layer(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer)
-{
-	static const char *const layers[] = { "mesh", "control", "points", NULL };
-
-	return mr_layer_choose(ctx, f, only, layers, layer);
-}
-
-mr_status
 mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
     mr_held *held, mr_export_result *result)
 {
 	mr_model m;
 
-	MR_TRY(mr_export_layer(ctx, f, layer, &layer));
+	MR_TRY(mr_layer_result(ctx, f, layer, &layer));
 	MR_TRY(mr_model_get(ctx, f, layer, &m));
 	MR_TRY(complete(ctx, f, layer, &m));
 	return mr_model_write(ctx, path, format, &m, held, result);

@@ -41,9 +41,6 @@ const double *mr_corner_texcoord(const mr_model *m, size_t corner);
 /* A copy of the model and all that it has, in an arena that may outlive it. */
 mr_status mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy) MR_WARN_UNUSED;
 
-/* The layer that is written where none is named (`only` NULL). */
-mr_status mr_export_layer(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer) MR_WARN_UNUSED;
-
 /* mr_export where the format is checked, and the renaming is the caller's where `held` is not NULL. */
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
     mr_held *held, mr_export_result *result) MR_WARN_UNUSED;

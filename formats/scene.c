@@ -33,7 +33,7 @@ get_layers(mr_ctx *ctx, mr_frame *f, const char *list, layers *l)
 		const char *name = c ? mr_format(ctx, "%.*s", (int)bytes, c) : NULL;
 		if (c && !name)
 			return MR_EMEM;
-		MR_TRY(mr_export_layer(ctx, f, name, &l->name[l->count]));
+		MR_TRY(mr_layer_result(ctx, f, name, &l->name[l->count]));
 		MR_TRY(mr_model_get(ctx, f, l->name[l->count], &l->model[l->count]));
 		c = c ? c + bytes + 1 : NULL;
 	}

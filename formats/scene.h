@@ -32,7 +32,7 @@ typedef struct mr_scene {
 } mr_scene;
 
 /*
- * Adds a frame.  layers: with commas between, or NULL: the one that mr_export_layer chooses.  keep: the arena
+ * Adds a frame.  layers: with commas between, or NULL: the one that mr_layer_result chooses.  keep: the arena
  * of what outlives the frame.  result: what the format cannot keep of it.
  */
 mr_status mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *layers,

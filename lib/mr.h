@@ -246,8 +246,8 @@ typedef struct mr_export_result {
 	size_t rounded_positions; /* of formats in float32: those that are no longer what they were */
 } mr_export_result;
 
-/* Writes a layer (NULL: mesh, else control, else points) to a file ("-": stdout), whole or not at all.
- * format: NULL: by the suffix. */
+/* Writes a layer (NULL: the one worked on last, else mesh, control, points or base) to a file ("-": stdout),
+ * whole or not at all.  format: NULL: by the suffix. */
 MR_API mr_status mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
     mr_export_result *result) MR_WARN_UNUSED;
 

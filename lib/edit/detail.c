@@ -439,7 +439,8 @@ mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
 	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded", d->rest, base->nv));
 	if (d->offset)
-		return mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n);
-	mr_frame_drop(f, "mesh", "detail_offset", 0);
-	return MR_OK;
+		MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n));
+	else
+		mr_frame_drop(f, "mesh", "detail_offset", 0);
+	return mr_layer_worked(ctx, f, "mesh");
 }

@@ -323,5 +323,6 @@ mr_motion_put(mr_ctx *ctx, mr_frame *f, const mr_handles *h, const mr_motion *m,
 	else
 		MR_TRY(mr_handles_pose(ctx, h, m->handle, &m->pose, share, &row));
 	MR_TRY(mr_layer_put(ctx, f, "handles", "transform", row.map, row.n));
-	return mr_layer_put(ctx, f, "handles", "turn", row.turn, row.n);
+	MR_TRY(mr_layer_put(ctx, f, "handles", "turn", row.turn, row.n));
+	return mr_layer_worked(ctx, f, "handles");
 }

@@ -222,6 +222,24 @@ report_history(const report *r)
 	}
 }
 
+static mr_status
+report_latest(const report *r)
+{
+	const char *layer;
+
+	MR_TRY(mr_layer_latest(r->ctx, r->f, &layer));
+	if (r->opts->json) {
+		mr_text_add(r->t, ",\"latest\":");
+		if (layer)
+			mr_text_json(r->t, layer, strlen(layer));
+		else
+			mr_text_add(r->t, "null");
+	} else if (layer) {
+		mr_text_add(r->t, "  latest           %s\n", layer);
+	}
+	return MR_OK;
+}
+
 /* Lists a law that is broken. */
 static void
 list_broken(void *user, const char *sentence)
@@ -280,6 +298,7 @@ report_text(report *r)
 	mr_text_add(r->t, "%s: frame %llu, %s\n", r->f->name, (unsigned long long)r->f->number,
 	    r->f->key ? "key" : "delta");
 	report_history(r);
+	MR_TRY(report_latest(r));
 	MR_TRY(report_layers(r));
 	if (r->opts->check) {
 		MR_TRY(check(r));
@@ -296,7 +315,9 @@ report_json(report *r)
 	mr_text_json(r->t, r->f->name, strlen(r->f->name));
 	mr_text_add(r->t, ",\"key\":%s,\"history\":[", r->f->key ? "true" : "false");
 	report_history(r);
-	mr_text_add(r->t, "],\"columns\":{");
+	mr_text_add(r->t, "]");
+	MR_TRY(report_latest(r));
+	mr_text_add(r->t, ",\"columns\":{");
 	columns(r, "");
 	mr_text_add(r->t, "},\"layers\":{");
 	MR_TRY(report_layers(r));

@@ -396,9 +396,9 @@ seen_before(const joined *j, size_t i, size_t k)
 	return false;
 }
 
-/* A history that another frame has, too, is told once. */
+/* A history, or a latest layer, that another frame has, too, is told once. */
 static mr_status
-join_histories(mr_ctx *ctx, const joined *j, mr_frame *out)
+join_lines(mr_ctx *ctx, const joined *j, const char *name, mr_frame *out)
 {
 	const mr_shape text = { '-', 't', 1 };
 	mr_text all = { .ctx = ctx };
@@ -406,14 +406,14 @@ join_histories(mr_ctx *ctx, const joined *j, mr_frame *out)
 	size_t n;
 
 	for (size_t i = 0; i < j->n; i++)
-		if (mr_layer_has(j->frames[i], "", "history")) {
-			MR_TRY(mr_frame_get(ctx, j->frames[i], "", "history", text, &line, &n));
+		if (mr_layer_has(j->frames[i], "", name)) {
+			MR_TRY(mr_frame_get(ctx, j->frames[i], "", name, text, &line, &n));
 			if (!all.s || n > all.n || memcmp(all.s, line, n))
 				mr_text_add(
 				    &all, "%.*s", (int)(n < INT_MAX ? n : INT_MAX), (const char *)line);
 		}
 	MR_TRY(mr_text_done(&all));
-	return all.s ? mr_frame_put(ctx, out, "", "history", text, all.s, all.n) : MR_OK;
+	return all.s ? mr_frame_put(ctx, out, "", name, text, all.s, all.n) : MR_OK;
 }
 
 mr_status
@@ -429,7 +429,8 @@ mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 			if (*j.layer && !seen_before(&j, i, k))
 				MR_TRY(join_layer(ctx, &j, f));
 		}
-	MR_TRY(join_histories(ctx, &j, f));
+	MR_TRY(join_lines(ctx, &j, "history", f));
+	MR_TRY(join_lines(ctx, &j, "latest", f));
 	*out = f;
 	return MR_OK;
 }

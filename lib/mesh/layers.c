@@ -371,7 +371,9 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", p, nv));
 	if (normal)
 		MR_TRY(mr_layer_put(ctx, f, layer, "normal", normal, nv));
-	return corner ? mr_layer_put(ctx, f, layer, "corner_normal", corner, before.nf) : MR_OK;
+	if (corner)
+		MR_TRY(mr_layer_put(ctx, f, layer, "corner_normal", corner, before.nf));
+	return mr_layer_worked(ctx, f, layer);
 }
 
 mr_status
@@ -385,7 +387,8 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	else if (!same_positions(ctx, f, layer, m))
 		return move(ctx, f, layer, MR_RESHAPED, m->p, m->nv);
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", m->p, m->nv));
-	return mr_layer_put(ctx, f, layer, "triangles", m->t, m->nf);
+	MR_TRY(mr_layer_put(ctx, f, layer, "triangles", m->t, m->nf));
+	return mr_layer_worked(ctx, f, layer);
 }
 
 mr_status

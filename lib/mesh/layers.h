@@ -62,13 +62,38 @@ void mr_layer_renumbered(mr_frame *f, const char *layer);
 /* The layer's regions, rows checked against nv, values below 2 + 65536. */
 mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region);
 
-/* Which edges of a control mesh are marked to be sharp, 3 a face, 0 where one is not; NULL: of another layer, and
- * where no column says. */
+/* Which edges of a control mesh are marked to be sharp, 3 a face, 0 where one is not; NULL: of another layer,
+ * and where no column says. */
 mr_status mr_layer_crease(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const uint8_t **mark);
 
 /* The first of the layers (a NULL-terminated list) that is in the frame, or `only` where not NULL.
  * MR_EMISSING names them all. */
 mr_status
 mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer);
+
+/*
+ * The layer that was worked on last (column `latest`, of no layer): made, moved, or given what stands over
+ * it. mr_layer_put_mesh and mr_layer_move note it; a frame's only layer needs no note.
+ */
+mr_status mr_layer_worked(mr_ctx *ctx, mr_frame *f, const char *layer);
+
+/* That layer; NULL where it is not known, or frames with several were merged. */
+mr_status mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer);
+
+/* MR_EMISSING, with the tool that is missing, where what was worked on last shows in no surface yet. */
+mr_status mr_layer_finished(mr_ctx *ctx, mr_frame *f);
+
+/* The same as a warning, of key frames: for a tool that shows several layers, by their names. */
+mr_status mr_layer_finished_or_warn(mr_ctx *ctx, mr_frame *f);
+
+/*
+ * The layer that a tool takes that shows or writes one: `only` where not NULL; else the latest; else mesh,
+ * control, points or base.  MR_EMISSING where there is none, it is not finished, or several are the latest.
+ */
+mr_status mr_layer_result(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer);
+
+/* mr_layer_choose, with a warning where that is not the latest, which may be what was meant. */
+mr_status mr_layer_choose_warned(
+    mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer);
 
 #endif

@@ -129,7 +129,7 @@ mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 	mr_column on = { 0 };
 
 	if (p->rows == s->nv && (!t || t->rows == s->nf))
-		return MR_OK;
+		return mr_layer_worked(ctx, f, layer);
 	if (detail)
 		on = *encoded;
 	drop_sampling(f, layer);
@@ -137,6 +137,7 @@ mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 		if (!strcmp(f->columns[i].layer, layer) && f->columns[i].shape.element != '-')
 			MR_TRY(keep_rows(ctx, f, &f->columns[i], s));
 	mr_layer_renumbered(f, layer);
-	/* the detail that is left is still over the base on which it was encoded */
-	return detail ? mr_frame_pass(ctx, f, &on) : MR_OK;
+	if (detail) /* what is left is still over the base on which it was encoded */
+		MR_TRY(mr_frame_pass(ctx, f, &on));
+	return mr_layer_worked(ctx, f, layer);
 }

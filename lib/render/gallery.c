@@ -204,6 +204,8 @@ add_layers(
 {
 	const char *list = opts->layers;
 
+	if (!list)
+		MR_TRY(mr_layer_finished_or_warn(ctx, frame));
 	for (size_t i = 0; !list && i < frame->count; i++)
 		if (frame->columns[i].layer[0] && !strcmp(frame->columns[i].name, "position"))
 			MR_TRY(add_layer(ctx, keep, g, frame, frame->columns[i].layer, opts, colored));

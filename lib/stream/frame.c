@@ -261,15 +261,15 @@ clean_line(char *to, const char *line)
 	return used;
 }
 
-/* The frame's history, or an empty one. */
+/* The lines of a column of no layer, or none. */
 static mr_status
-history_of(mr_ctx *ctx, mr_frame *frame, const void **text, size_t *n)
+lines_of(mr_ctx *ctx, mr_frame *frame, const char *name, const void **text, size_t *n)
 {
 	*text = "";
 	*n = 0;
-	if (!mr_frame_find(frame, "", "history"))
+	if (!mr_frame_find(frame, "", name))
 		return MR_OK;
-	return mr_frame_get(ctx, frame, "", "history", TEXT, text, n);
+	return mr_frame_get(ctx, frame, "", name, TEXT, text, n);
 }
 
 mr_status
@@ -279,7 +279,7 @@ mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
 	size_t n;
 	char *text;
 
-	MR_TRY(history_of(ctx, frame, &old, &n));
+	MR_TRY(lines_of(ctx, frame, "history", &old, &n));
 	text = mr_alloc(ctx, n + strlen(line) + 2, 1);
 	if (!text)
 		return MR_EMEM;
@@ -292,20 +292,27 @@ mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
 }
 
 static mr_status
-merge_history(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
+merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 {
 	const void *old, *more;
 	size_t n, m;
 	char *text;
 
-	MR_TRY(history_of(ctx, frame, &old, &n));
-	MR_TRY(history_of(ctx, from, &more, &m));
+	MR_TRY(lines_of(ctx, frame, name, &old, &n));
+	MR_TRY(lines_of(ctx, from, name, &more, &m));
 	text = mr_alloc(ctx, n + m, 1);
 	if (!text)
 		return MR_EMEM;
 	memcpy(text, old, n);
 	memcpy(text + n, more, m);
-	return mr_frame_put(ctx, frame, "", "history", TEXT, text, n + m);
+	return mr_frame_put(ctx, frame, "", name, TEXT, text, n + m);
+}
+
+/* What frames have together, behind one another: their histories, and the layers that were worked on last. */
+static bool
+is_joined(const mr_column *c)
+{
+	return !*c->layer && (!strcmp(c->name, "history") || !strcmp(c->name, "latest"));
 }
 
 mr_status
@@ -316,8 +323,7 @@ mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
 			return mr_fail(ctx, MR_ERANGE, "layer %s is there already", from->columns[i].layer);
 	for (size_t i = 0; i < from->count; i++) {
 		const mr_column *c = &from->columns[i];
-		bool history = !*c->layer && !strcmp(c->name, "history");
-		MR_TRY(history ? merge_history(ctx, frame, from) : mr_frame_pass(ctx, frame, c));
+		MR_TRY(is_joined(c) ? merge_lines(ctx, frame, from, c->name) : mr_frame_pass(ctx, frame, c));
 	}
 	return MR_OK;
 }

@@ -211,5 +211,6 @@ mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *
 	*level = (uint32_t)d->n;
 	mr_frame_drop(f, "displacement", "range", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", height, d->m.nv));
-	return mr_layer_put(ctx, f, "displacement", "level", level, 1);
+	MR_TRY(mr_layer_put(ctx, f, "displacement", "level", level, 1));
+	return mr_layer_worked(ctx, f, "displacement");
 }

@@ -150,7 +150,7 @@ mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_norma
 	mr_v3 *normal;
 	mr_mesh m;
 
-	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
 	if (mr_layer_has(f, layer, "normal"))
 		MR_TRY(mr_layer_get_rows(ctx, f, layer, "normal", m.nv, &there));

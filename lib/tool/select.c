@@ -67,7 +67,7 @@ mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, m
 	mr_mesh m;
 	bool *keep;
 
-	MR_TRY(mr_layer_choose(ctx, f, layer, reads, &layer));
+	MR_TRY(mr_layer_choose_warned(ctx, f, layer, reads, &layer));
 	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
 	MR_TRY(read_groups(ctx, f, &m, groups));
 	region = MR_NEW(ctx, m.nv, uint32_t);

@@ -157,7 +157,7 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 
 	if (opts)
 		o = *opts;
-	MR_TRY(mr_layer_choose(ctx, f, o.layer, reads, &layer));
+	MR_TRY(mr_layer_choose_warned(ctx, f, o.layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	if ((o.map && !strcmp(o.map, layer)) || (o.to && !strcmp(o.to, layer)))
 		return mr_fail(
@@ -182,5 +182,7 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 		MR_TRY(put_creases(ctx, f, &out, &points, width, &r.creases));
 	if (result)
 		*result = r;
-	return o.map && !o.to ? put_map(ctx, f, o.map, &m, &out, onto) : MR_OK;
+	if (o.map && !o.to)
+		MR_TRY(put_map(ctx, f, o.map, &m, &out, onto));
+	return mr_layer_worked(ctx, f, o.to ? o.to : layer);
 }

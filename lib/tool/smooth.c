@@ -15,7 +15,7 @@ mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_
 	mr_mesh m;
 	mr_v3 *p;
 
-	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	MR_TRY(mr_mesh_check_size(ctx, &m));
 	from_mesh = !strcmp(layer, "mesh");

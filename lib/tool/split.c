@@ -128,7 +128,7 @@ mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***
 	mr_mesh m;
 	parts p;
 
-	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
 	if (m.nv == 0)
 		return mr_fail(ctx, MR_EMESH, "%s: there is no point", layer);

@@ -104,7 +104,7 @@ mr_subdivide_frame(
 	double start;
 	mr_mesh m;
 
-	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
+	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	start = mr_seconds();
 	if (o->longest > 0)

@@ -37,8 +37,8 @@ mr-make sphere --points 50 -o normals.mrs
 printf '0 0 0\n1 1 1\n' >plain.xyz
 mr-import plain.xyz | mr-cat --append normals.mrs - | mr-info | grep -E '^    (position|normal)'
 mr-pose --translate 0,1,0 sphere.mrs -o posed.mrs
-mr-cat --append posed.mrs posed.mrs | mr-info | grep -c handles
-mr-cat --append posed.mrs | mr-info | grep -c handles
+mr-cat --append posed.mrs posed.mrs | mr-info | grep -c '^  handles'
+mr-cat --append posed.mrs | mr-info | grep -c '^  handles'
 mr-make sphere -n 50 | mr-cat --append normals.mrs - | mr-info | grep -E 'points:|mesh:'
 
 echo 'a stream of no frames, and one that is cut'

@@ -32,7 +32,7 @@ heights torus.mrs 240 | cmp - are && echo same
 mr-equalize --gain 0,0,0,0 torus.mrs | mr-decode --no-history --gain 3 -o flat.mrs
 mr-decode --gain 0 torus.mrs | mr-export -f off - >domain.off
 mr-export -f off - <flat.mrs | cmp - domain.off && echo flat
-mr-info out.mrs | sed -n '/displacement/,$p'
+mr-info out.mrs | sed -n '/^  displacement/,$p'
 
 echo 'threads'
 mr-equalize --gain 1,2,3 -j 2 torus.mrs -o two.mrs

@@ -26,8 +26,9 @@ arguments() {
 	mr-crop) echo --drop below:y,0.2 ;;
 	mr-split) echo -q ;;
 	mr-map) echo -w out ;;
-	mr-export) echo out.ply ;;
-	mr-render) echo out.png ;;
+	mr-compare) echo -a mesh ;;
+	mr-export) echo -l mesh out.ply ;;
+	mr-render) echo -l mesh,base out.png ;;
 	esac
 }
 # Source: reads no stream.  Sink: writes no stream.
