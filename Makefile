@@ -51,7 +51,7 @@ say = $(if $(V),,@echo "  $(1) $@";)
 
 all: $(TOOLS)
 
-$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options place) $(BUILD)/libmr.a
+$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options place signals) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) $(LDFLAGS) -o $@ $^ $(LIBS)
 

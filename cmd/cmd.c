@@ -4,6 +4,7 @@
 #include "base/text.h"
 #include "formats/suffix.h"
 #include "place.h"
+#include "signals.h"
 #include "stream/record.h"
 
 #include <errno.h>
@@ -26,7 +27,7 @@ struct cmd_state {
 	mr_writer *writer;
 	int out;            /* descriptor of the stream */
 	FILE *text, *stats; /* a sink's output; --stats */
-	place output_place, held, stats_place;
+	mr_outfile output_file, held, stats_file;
 
 	mr_text figures; /* of the frame at work, as they go into the line of --stats */
 
@@ -76,9 +77,9 @@ say_failure(cmd *c)
 static _Noreturn void
 leave(cmd *c, int code)
 {
-	place_drop(&c->state->output_place);
-	place_drop(&c->state->held);
-	place_drop(&c->state->stats_place);
+	mr_outfile_drop(&c->ctx, &c->state->output_file);
+	mr_outfile_drop(&c->ctx, &c->state->held);
+	mr_outfile_drop(&c->ctx, &c->state->stats_file);
 	exit(code);
 }
 
@@ -232,6 +233,8 @@ parse_command_line(cmd *c, int argc, char **argv)
 		    "threads, 0: all cores; the result is the same for any number", NULL },
 		{ 'k', "keep-going", CMD_FLAG, &c->keep_going, 0, 0, "",
 		    "leave out a frame that fails, exit 1 at the end", NULL },
+		{ 0, "sync", CMD_FLAG, &c->ctx.sync, 0, 0, "",
+		    "bring files to the disk before they get their names", NULL },
 		{ 0, "stats", CMD_TEXT, &s->stats_path, 0, 0, "FILE",
 		    "write one JSON object per frame: what was measured", NULL },
 		{ 0, "no-history", CMD_FLAG, &s->no_history, 0, 0, "", "add no line to the frames' history",
@@ -311,8 +314,10 @@ open_output(cmd *c)
 	struct cmd_state *s = c->state;
 
 	s->out = STDOUT_FILENO;
-	if (c->output && !is_dash(c->output) && !place_is(STDOUT_FILENO, c->output))
-		try(c, place_open(&c->ctx, c->output, &s->output_place, &s->out));
+	if (!c->output || is_dash(c->output) || place_is(STDOUT_FILENO, c->output))
+		return;
+	try(c, mr_outfile_open(&c->ctx, c->output, &s->output_file));
+	s->out = s->output_file.fd;
 }
 
 /* Whether stdout is where the output goes. */
@@ -346,7 +351,7 @@ check_output(cmd *c)
 	if (mr_suffix_format(path))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE,
 			   "-o %s: a stream under the name of a model: mr-export writes models, .mrs is for "
-		           "streams",
+			   "streams",
 			   path));
 	if (c->tool->source && is_input(c, path))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", path));
@@ -364,13 +369,23 @@ open_writer(cmd *c)
 	try(c, mr_writer_open(&c->ctx, c->state->out, c->packing, &c->state->writer));
 }
 
+/* To write text to a file, which stays open when that is closed. */
+static FILE *
+open_copy(cmd *c, int fd, const char *path)
+{
+	int copy = dup(fd);
+	FILE *text = copy < 0 ? NULL : fdopen(copy, "w");
+
+	if (!text)
+		die(c, fail_system(c, path));
+	return text;
+}
+
 static void
 open_text(cmd *c)
 {
 	open_output(c);
-	c->state->text = c->state->out == STDOUT_FILENO ? stdout : fdopen(c->state->out, "w");
-	if (!c->state->text)
-		die(c, fail_system(c, c->output));
+	c->state->text = c->state->out == STDOUT_FILENO ? stdout : open_copy(c, c->state->out, c->output);
 }
 
 static bool
@@ -386,7 +401,6 @@ open_stats(cmd *c)
 {
 	struct cmd_state *s = c->state;
 	const char *path = s->stats_path;
-	int fd;
 
 	if (!path)
 		return;
@@ -398,10 +412,8 @@ open_stats(cmd *c)
 	                                                          : NULL;
 	if (s->stats)
 		return;
-	try(c, place_open(&c->ctx, path, &s->stats_place, &fd));
-	s->stats = fdopen(fd, "w");
-	if (!s->stats)
-		die(c, fail_system(c, path));
+	try(c, mr_outfile_open(&c->ctx, path, &s->stats_file));
+	s->stats = open_copy(c, s->stats_file.fd, path);
 }
 
 /* Closing stdout is part of success. */
@@ -410,24 +422,25 @@ close_outputs(cmd *c)
 {
 	struct cmd_state *s = c->state;
 
-	if (s->stats_place.name && fclose(s->stats))
+	if (s->stats_file.path && fclose(s->stats))
 		die(c, fail_system(c, s->stats_path));
 	if (s->writer)
 		try(c, mr_writer_end(&c->ctx, s->writer));
-	if (s->text ? ferror(s->text) || fclose(s->text) : close(s->out))
+	if (s->text && (ferror(s->text) || fflush(s->text)))
 		die(c, fail_system(c, c->output ? c->output : "stdout"));
-	try(c, place_keep(&c->ctx, &s->output_place));
-	try(c, place_keep(&c->ctx, &s->held));
-	try(c, place_keep(&c->ctx, &s->stats_place));
+	if (c->ctx.sync && writes_stdout(c))
+		try(c, mr_sync(&c->ctx, STDOUT_FILENO, "stdout"));
+	if (close(STDOUT_FILENO))
+		die(c, fail_system(c, "stdout"));
+	try(c, mr_outfile_keep(&c->ctx, &s->output_file));
+	try(c, mr_outfile_keep(&c->ctx, &s->held));
+	try(c, mr_outfile_keep(&c->ctx, &s->stats_file));
 }
 
-mr_status
-cmd_hold(cmd *c, const char *file, const char *name)
+void
+cmd_hold(cmd *c, const mr_outfile *file)
 {
-	mr_ctx *ctx = &c->state->long_lived;
-	mr_status status = file ? place_take(ctx, file, name, &c->state->held) : MR_OK;
-
-	return status < 0 ? mr_fail(&c->ctx, status, "%s", ctx->error) : status;
+	c->state->held = *file;
 }
 
 void
@@ -689,6 +702,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	int code;
 
 	fill_closed();
+	signals_begin(c.name);
 	return_memory(tool->lean);
 	mr_ctx_init(&c.ctx, 0);
 	mr_ctx_init(&state.long_lived, 0);
@@ -699,7 +713,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		.note = c.verbose ? show_note : NULL,
 		.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
 		.user = &c };
-	c.ctx.unfinished = place_unfinished;
+	c.ctx.unfinished = signals_unfinished;
 	c.stats = state.stats_path != NULL;
 	c.keep = c.ctx;
 	c.keep.top = NULL;

@@ -26,6 +26,7 @@
 #ifndef CMD_H
 #define CMD_H
 
+#include "base/outfile.h"
 #include "options.h"
 #include "stream/frame.h"
 
@@ -94,11 +95,9 @@ mr_status cmd_send(cmd *c, const mr_frame *f);
  */
 mr_status cmd_each_operand(cmd *c, mr_status (*one)(cmd *c, const char *operand));
 
-/*
- * A file that is whole (NULL: there is none) gets its name at the end, if all goes well; else it is removed.
- * One at most; not for a tool that heeds -o.
- */
-mr_status cmd_hold(cmd *c, const char *file, const char *name) MR_WARN_UNUSED;
+/* A file that is whole (zeroed: there is none) gets its name at the end, if all goes well; else it is
+ * dropped. One at most. */
+void cmd_hold(cmd *c, const mr_outfile *file);
 
 /* A figure of the frame at work, for --stats. */
 void cmd_figure(cmd *c, const char *name, double value);

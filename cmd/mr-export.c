@@ -82,7 +82,7 @@ export_frame(cmd *c, mr_frame *f)
 {
 	const char *out = c->operands[0];
 	bool varies = mr_outname_varies(out);
-	mr_held held = { 0 };
+	mr_outfile held = { 0 };
 	mr_export_result result;
 	char *path;
 
@@ -92,15 +92,16 @@ export_frame(cmd *c, mr_frame *f)
 	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held, &result));
 	cmd_figures(c, figures, &result);
 	written++;
-	return cmd_hold(
-	    c, held.file, held.place); /* of one frame: another may come, or the stream break off */
+	if (!varies)
+		cmd_hold(c, &held); /* of one frame: another may come, or the stream break off */
+	return MR_OK;
 }
 
 static mr_status
 finish(cmd *c)
 {
 	const char *out = c->operands[0];
-	mr_held held = { 0 };
+	mr_outfile held = { 0 };
 	char *path;
 
 	if (mr_outname_varies(out))
@@ -111,7 +112,8 @@ finish(cmd *c)
 		return MR_OK;
 	MR_TRY(mr_outname(&c->ctx, out, "", 0, &path));
 	MR_TRY(mr_scene_write(&c->ctx, path, format, &scene, &held));
-	return cmd_hold(c, held.file, held.place);
+	cmd_hold(c, &held);
+	return MR_OK;
 }
 
 int

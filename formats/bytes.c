@@ -1,6 +1,4 @@
-/* gzip by zlib; a file is written beside its place and renamed into it. */
-#define _XOPEN_SOURCE 700 /* realpath */
-
+/* gzip by zlib, in and out. */
 #include "formats/bytes.h"
 
 #include "base/memory.h"
@@ -212,7 +210,7 @@ write_all(mr_sink *s, const void *data, size_t bytes)
 	const char *p = data;
 
 	while (bytes && s->status == MR_OK) {
-		ssize_t n = write(s->fd, p, bytes);
+		ssize_t n = write(s->file.fd, p, bytes);
 		if (n < 0 && errno != EINTR)
 			s->status = failed(s->ctx, s->path, "cannot write");
 		if (n > 0) {
@@ -278,48 +276,15 @@ mr_print(mr_sink *s, const char *format, ...)
 		mr_sink_fill(s, to + (n < MR_SINK_ROOM ? n : MR_SINK_ROOM - 1));
 }
 
-/* A new file beside `target`, with the mode that creating the target would have given, or that it has. */
-static mr_status
-open_beside(mr_sink *s, const char *target, const struct stat *old)
-{
-	mode_t mask = umask(0);
-
-	umask(mask);
-	s->target = mr_format(s->ctx, "%s", target);
-	s->temporary = mr_format(s->ctx, "%s.XXXXXX", target);
-	if (!s->target || !s->temporary)
-		return MR_EMEM;
-	s->fd = mkstemp(s->temporary);
-	if (s->fd < 0)
-		return failed(s->ctx, s->path, "cannot create");
-	mr_unfinished(s->ctx, s->temporary);
-	if (fchmod(s->fd, old ? old->st_mode & 07777 : 0666 & ~mask))
-		mr_note(s->ctx, "%s: cannot set its mode: %s", s->path, strerror(errno));
-	return MR_OK;
-}
-
 static mr_status
 open_target(mr_sink *s)
 {
-	struct stat st;
-	bool there;
-	char *real;
-	mr_status status;
-
 	if (!strcmp(s->path, "-")) {
 		s->path = "stdout";
-		s->fd = STDOUT_FILENO;
+		s->file.fd = STDOUT_FILENO;
 		return MR_OK;
 	}
-	there = !stat(s->path, &st);
-	if (there && !S_ISREG(st.st_mode)) { /* a device or a pipe is written where it is */
-		s->fd = open(s->path, O_WRONLY | O_CLOEXEC);
-		return s->fd < 0 ? failed(s->ctx, s->path, "cannot open") : MR_OK;
-	}
-	real = there ? realpath(s->path, NULL) : NULL; /* a link keeps pointing to it */
-	status = open_beside(s, real ? real : s->path, there ? &st : NULL);
-	free(real);
-	return status;
+	return mr_outfile_open(s->ctx, s->path, &s->file);
 }
 
 static mr_status
@@ -339,7 +304,7 @@ start_gzip(mr_sink *s)
 mr_status
 mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
 {
-	mr_sink new = { .ctx = ctx, .path = path, .fd = -1 };
+	mr_sink new = { .ctx = ctx, .path = path };
 
 	mr_unmeasured(&new.lost, sizeof new.lost);
 	if (!(new.buffer = mr_alloc(ctx, MR_SINK_BUFFER, 1)))
@@ -365,13 +330,9 @@ mr_sink_close(mr_sink *s, mr_status status)
 		deflateEnd(s->gz);
 		free(s->gz);
 	}
-	if (s->fd != STDOUT_FILENO && close(s->fd) && s->status == MR_OK)
-		s->status = failed(s->ctx, s->path, "cannot close");
-	if (s->temporary && !s->hold && s->status == MR_OK && rename(s->temporary, s->target))
-		s->status = failed(s->ctx, s->path, "cannot rename into place");
-	if (s->temporary && s->status < 0)
-		unlink(s->temporary);
-	if (s->temporary && (!s->hold || s->status < 0))
-		mr_unfinished(s->ctx, NULL);
+	if (s->status < 0)
+		mr_outfile_drop(s->ctx, &s->file);
+	else if (!s->hold)
+		s->status = mr_outfile_keep(s->ctx, &s->file);
 	return s->status;
 }

@@ -4,7 +4,7 @@
 #ifndef MR_BYTES_H
 #define MR_BYTES_H
 
-#include "base/ctx.h"
+#include "base/outfile.h"
 
 /* The bytes of a file: mapped, or read and inflated into memory of their own. */
 typedef struct mr_file_bytes {
@@ -42,10 +42,9 @@ void mr_file_bytes_free(mr_file_bytes *b);
 /* Where a writer puts its bytes.  The first failure is kept and reported by mr_sink_close. */
 typedef struct mr_sink {
 	mr_ctx *ctx;
-	const char *path;         /* as named by the user */
-	char *target, *temporary; /* a regular file is renamed from the one to the other; else NULL */
-	int fd;
-	bool hold; /* set by the caller: the file stays where it is, for the caller to rename */
+	const char *path; /* as named by the user */
+	mr_outfile file;
+	bool hold; /* set by the caller: the file stays open, for the caller to keep or to drop */
 	void *gz;  /* the compressor, or NULL */
 	char *buffer;
 	size_t used;
@@ -55,11 +54,11 @@ typedef struct mr_sink {
 
 enum { MR_SINK_BUFFER = 1 << 16, MR_SINK_ROOM = 4096 };
 
-/* Opens a file ("-": stdout), beside its place if it is regular.  `compress`: gzip. */
+/* Opens a file ("-": stdout).  `compress`: gzip. */
 mr_status mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s) MR_WARN_UNUSED;
 
-/* Ends the file and renames it into its place, if not on hold; after a failure, of `status` or on the way,
- * removes it. */
+/* Ends the file and gives it its name, if not on hold; after a failure, of `status` or on the way, drops it.
+ */
 mr_status mr_sink_close(mr_sink *s, mr_status status) MR_WARN_UNUSED;
 
 void mr_sink_flush(mr_sink *s);

@@ -340,7 +340,7 @@ mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count
 /* Writes the model, or the scene. */
 static mr_status
 write_file(mr_ctx *ctx, const char *path, const mr_file_format *f, const mr_model *m, const mr_scene *scene,
-    mr_held *held, mr_export_result *result)
+    mr_outfile *held, mr_export_result *result)
 {
 	mr_sink sink;
 
@@ -348,14 +348,14 @@ write_file(mr_ctx *ctx, const char *path, const mr_file_format *f, const mr_mode
 	sink.hold = held != NULL;
 	MR_TRY(mr_sink_close(&sink, scene ? f->write_scene(&sink, scene) : f->write(&sink, m)));
 	if (held)
-		*held = (mr_held){ .file = sink.temporary, .place = sink.target };
+		*held = sink.file;
 	if (result)
 		*result = sink.lost;
 	return MR_OK;
 }
 
 mr_status
-mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held,
+mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_outfile *held,
     mr_export_result *result)
 {
 	const mr_file_format *f = NULL;
@@ -373,7 +373,7 @@ mr_scene_suits(const char *path, const char *format)
 }
 
 mr_status
-mr_scene_write(mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene, mr_held *held)
+mr_scene_write(mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene, mr_outfile *held)
 {
 	const mr_file_format *f = NULL;
 

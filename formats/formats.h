@@ -12,6 +12,7 @@
 #ifndef MR_FORMATS_H
 #define MR_FORMATS_H
 
+#include "base/outfile.h"
 #include "mesh/mesh.h"
 
 /* Names, one a line: each followed by a newline but the last.  An empty one names nothing. */
@@ -64,20 +65,13 @@ typedef struct mr_model {
  */
 mr_status mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m) MR_WARN_UNUSED;
 
-/* A file that is whole but not in its place: to be renamed, or removed.  NULLs for one that is written
- * directly.
- */
-typedef struct mr_held {
-	const char *file, *place; /* in the arena */
-} mr_held;
-
 /*
  * Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.
- * A regular file is written beside its place and renamed into it, so it is seen whole or not at all; the
- * renaming is the caller's where `held` is not NULL.  result: or NULL.
+ * A regular file is seen whole or not at all (base/outfile.h); where `held` is not NULL it is the caller's to
+ * keep or to drop.  result: or NULL.
  */
-mr_status mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_held *held,
-    mr_export_result *result) MR_WARN_UNUSED;
+mr_status mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m,
+    mr_outfile *held, mr_export_result *result) MR_WARN_UNUSED;
 
 /* MR_EUSAGE, naming those there are, where the format is unknown or cannot be written.  `binary`: not for a
  * terminal. */

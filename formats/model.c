@@ -470,7 +470,7 @@ complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 
 mr_status
 mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
-    mr_held *held, mr_export_result *result)
+    mr_outfile *held, mr_export_result *result)
 {
 	mr_model m;
 

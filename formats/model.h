@@ -41,8 +41,8 @@ const double *mr_corner_texcoord(const mr_model *m, size_t corner);
 /* A copy of the model and all that it has, in an arena that may outlive it. */
 mr_status mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy) MR_WARN_UNUSED;
 
-/* mr_export where the format is checked, and the renaming is the caller's where `held` is not NULL. */
+/* mr_export where the format is checked, and the file is the caller's to keep where `held` is not NULL. */
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
-    mr_held *held, mr_export_result *result) MR_WARN_UNUSED;
+    mr_outfile *held, mr_export_result *result) MR_WARN_UNUSED;
 
 #endif

@@ -221,6 +221,6 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 		mr_dropped(s->ctx, &s->lost.dropped_alpha, "alpha", "colours of OBJ have none");
 	MR_TRY(put_values(s, m, &x[0]));
 	MR_TRY(put_values(s, m, &x[1]));
-	mr_warn_of_libraries(s->ctx, s->target ? s->path : "-", m->mtllib);
+	mr_warn_of_libraries(s->ctx, s->file.target ? s->path : "-", m->mtllib);
 	return put_faces(s, m, x);
 }

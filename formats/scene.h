@@ -43,6 +43,6 @@ bool mr_scene_suits(const char *path, const char *format);
 
 /* As mr_model_write, where mr_scene_suits. */
 mr_status mr_scene_write(
-    mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene, mr_held *held) MR_WARN_UNUSED;
+    mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene, mr_outfile *held) MR_WARN_UNUSED;
 
 #endif

@@ -138,10 +138,10 @@ mr_warn(mr_ctx *ctx, const char *format, ...)
 }
 
 void
-mr_unfinished(mr_ctx *ctx, const char *file)
+mr_unfinished(mr_ctx *ctx, const char *file, bool on)
 {
 	if (ctx->unfinished)
-		ctx->unfinished(ctx->listener.user, file);
+		ctx->unfinished(ctx->listener.user, file, on);
 }
 
 void

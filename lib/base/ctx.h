@@ -37,7 +37,10 @@ typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
 struct mr_ctx {
 	unsigned threads; /* at least 1 */
 	mr_listener listener;
-	void (*unfinished)(void *user, const char *file); /* to remove if the process is ended; NULL: none */
+	/* From now on, or no longer, this file is to be removed if the process is ended; NULL: nobody does.
+	 */
+	void (*unfinished)(void *user, const char *file, bool on);
+	bool sync;                /* files are on the disk before they get their names */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_block *top;            /* newest block of the arena */
@@ -62,8 +65,8 @@ void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 /* What is poor in a result that is given all the same, for every user. */
 void mr_warn(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 
-/* From now on this file is not to stay where the process is ended; NULL: none.  There is one at a time. */
-void mr_unfinished(mr_ctx *ctx, const char *file);
+/* From now on, or no longer, this file is not to stay where the process is ended. */
+void mr_unfinished(mr_ctx *ctx, const char *file, bool on);
 
 /* Reports that a share (0 to 1) of `what` is done. */
 void mr_progress(mr_ctx *ctx, const char *what, double share);

@@ -1,0 +1,36 @@
+/*
+ * outfile.h -- files that are seen whole or not at all: what was there stays until they have their name.
+ *
+ * Until then a file has none where the system can do that (Linux, on most file systems), so that whatever
+ * ends the process leaves nothing behind; elsewhere it stands beside its place under a random name, which
+ * ctx->unfinished is told.
+ */
+#ifndef MR_BASE_OUTFILE_H
+#define MR_BASE_OUTFILE_H
+
+#include "base/ctx.h"
+
+typedef struct mr_outfile {
+	int fd;
+	char *path;      /* as the user calls it; NULL: no file is open */
+	char *target;    /* what it is to be called; NULL: a device or a pipe, which is written where it is */
+	char *temporary; /* what it is called until then; NULL: nothing */
+} mr_outfile;
+
+/*
+ * Opens `path` for writing, or what a link of that name leads to, there or not yet.  It gets the mode of what
+ * is there.  End it by one of the two below.
+ */
+mr_status mr_outfile_open(mr_ctx *ctx, const char *path, mr_outfile *f) MR_WARN_UNUSED;
+
+/* Gives the file its name and closes it; with ctx->sync not before it is on the disk.  Where that fails it is
+ * dropped.  A zeroed one passes. */
+mr_status mr_outfile_keep(mr_ctx *ctx, mr_outfile *f) MR_WARN_UNUSED;
+
+/* Closes the file, which is gone.  Accepts a zeroed one, and leaves it so. */
+void mr_outfile_drop(mr_ctx *ctx, mr_outfile *f);
+
+/* Sees that what was written to a descriptor is on the disk, where it is of a file. */
+mr_status mr_sync(mr_ctx *ctx, int fd, const char *path) MR_WARN_UNUSED;
+
+#endif

@@ -1,0 +1,71 @@
+/* A preloaded library: $FAULTS may hold "named", a system that has no files without a name, and "sync", a
+ * disk that fails when it is asked whether all is there. */
+#define _GNU_SOURCE
+#include <dlfcn.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+int open(const char *path, int flags, ...);
+int open64(const char *path, int flags, ...);
+
+static int
+has(const char *fault)
+{
+	const char *faults = getenv("FAULTS");
+
+	return faults && strstr(faults, fault);
+}
+
+int
+fsync(int fd)
+{
+	int (*next)(int) = (int (*)(int))dlsym(RTLD_NEXT, "fsync");
+	struct stat st;
+
+	if (has("sync") && !fstat(fd, &st) && S_ISREG(st.st_mode)) {
+		errno = EIO;
+		return -1;
+	}
+	return next(fd);
+}
+
+static int
+open_named(const char *path, int flags, va_list args)
+{
+	int (*next)(const char *, int, ...) = (int (*)(const char *, int, ...))dlsym(RTLD_NEXT, "open");
+	mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(args, mode_t) : 0;
+
+	if (has("named") && (flags & O_TMPFILE) == O_TMPFILE) {
+		errno = EOPNOTSUPP;
+		return -1;
+	}
+	return next(path, flags, mode);
+}
+
+int
+open(const char *path, int flags, ...)
+{
+	va_list args;
+	int fd;
+
+	va_start(args, flags);
+	fd = open_named(path, flags, args);
+	va_end(args);
+	return fd;
+}
+
+int
+open64(const char *path, int flags, ...)
+{
+	va_list args;
+	int fd;
+
+	va_start(args, flags);
+	fd = open_named(path, flags, args);
+	va_end(args);
+	return fd;
+}
