@@ -16,7 +16,6 @@
 enum { EXIT_GOOD = 0, EXIT_DATA = 1, EXIT_USAGE = 2 };
 
 struct cmd_state {
-	mr_ctx long_lived; /* the command line's memory */
 	size_t threads;
 	cmd_args args;
 	const char *input; /* of a sink: -i */
@@ -168,14 +167,14 @@ print_help(const cmd *c, const cmd_opt *standard)
 }
 
 /* Adds a word to the line, in quotes where a shell would need them. */
-static char *
-append_word(mr_ctx *ctx, const char *line, const char *word)
+static void
+append_word(mr_text *line, const char *word)
 {
 	static const char plain[] =
 	    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789-_=+:,./%@";
 	bool quote = !*word || word[strspn(word, plain)] != '\0';
 
-	return mr_format(ctx, quote ? "%s '%s'" : "%s %s", line, word);
+	mr_text_add(line, quote ? " '%s'" : " %s", word);
 }
 
 /* Control characters would break the line: they become '?'. */
@@ -189,20 +188,35 @@ make_line(char *text)
 
 /*
  * "mr 1.0: mr-smooth -t 20 -l mesh".  Other options that all tools share stay out of it: they
- * do not change the result, and -j must not change a byte.
+ * do not change the result, and -j must not change a byte.  Every key frame has the line: of many names, and
+ * of a list that fills a page, the first stand in it, and how many more there were.
  */
 static mr_status
 compose_history(cmd *c, const cmd_args *args)
 {
-	mr_ctx *ctx = &c->state->long_lived;
-	char *line = mr_format(ctx, "mr " MR_VERSION ": %s", c->name);
+	enum { NAMES, OPTIONS };
+	size_t room[] = { [NAMES] = 1024, [OPTIONS] = 4096 }, names = 0, left = 0;
+	mr_text line = { .ctx = &c->ctx };
 
-	for (size_t i = 0; line && i < args->typed_count; i++)
-		line = append_word(ctx, line, args->typed[i]);
-	if (!line)
-		return MR_EMEM;
-	make_line(line);
-	c->state->history = line;
+	mr_text_add(&line, "mr " MR_VERSION ": %s", c->name);
+	for (size_t i = 0; i < args->typed_count; i++) {
+		const char *word = args->typed[i];
+		bool name = names < args->operand_count && word == args->operands[names];
+		size_t *rest = &room[name ? NAMES : OPTIONS], bytes = strlen(word) + 1;
+		names += name;
+		if (bytes > *rest) {
+			left++;
+			*rest = 0;
+		} else {
+			append_word(&line, word);
+			*rest -= bytes;
+		}
+	}
+	if (left)
+		mr_text_add(&line, " ... (%zu word%s more)", left, mr_plural(left));
+	MR_TRY(mr_text_done(&line));
+	make_line(line.s);
+	c->state->history = line.s;
 	return MR_OK;
 }
 
@@ -705,7 +719,6 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	signals_begin(c.name);
 	return_memory(tool->lean);
 	mr_ctx_init(&c.ctx, 0);
-	mr_ctx_init(&state.long_lived, 0);
 	parse_command_line(&c, argc, argv);
 	if (state.threads)
 		c.ctx.threads = (unsigned)state.threads;
@@ -739,6 +752,5 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	mr_writer_free(state.writer);
 	mr_ctx_free(&c.ctx);
 	mr_ctx_free(&c.keep);
-	mr_ctx_free(&state.long_lived);
 	return code;
 }
