@@ -30,7 +30,21 @@ mr_file_bytes_free(mr_file_bytes *b)
 	free(b->memory);
 	if (b->map)
 		munmap(b->map, b->mapped);
+	if (b->map && b->fd != STDIN_FILENO)
+		close(b->fd);
 	*b = (mr_file_bytes){ 0 };
+}
+
+mr_status
+mr_file_bytes_end(mr_ctx *ctx, mr_file_bytes *b, mr_status status)
+{
+	struct stat st;
+
+	if (b->map && fstat(b->fd, &st) == 0 && (uintmax_t)st.st_size < b->mapped)
+		status = mr_fail(ctx, MR_EIO, "cut off to %lld of %zu bytes while it was read",
+		    (long long)st.st_size, b->mapped);
+	mr_file_bytes_free(b);
+	return status;
 }
 
 /* Makes room for more, by doubling; false where memory cannot be had, or is not there: a pipe, and what a
@@ -53,21 +67,28 @@ widen(unsigned char **memory, size_t *room, size_t least)
 	return true;
 }
 
+/* Has the judge look where there is twice as much as when it did before; *looked 0: never. */
+static mr_status
+consider(mr_ctx *ctx, const mr_judge *judge, const unsigned char *memory, size_t size, size_t *looked)
+{
+	if (!judge || size < HEAD || size / 2 < *looked)
+		return MR_OK;
+	*looked = size;
+	return judge->look(ctx, judge->user, memory, size);
+}
+
 static mr_status
 read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_file_bytes *b)
 {
 	unsigned char *memory = NULL;
-	size_t size = 0, room = 0, looked = HEAD / 2;
+	size_t size = 0, room = 0, looked = 0;
 
 	for (;;) {
+		mr_status status = consider(ctx, judge, memory, size, &looked);
 		ssize_t n;
-		if (judge && size >= 2 * looked) {
-			mr_status status = judge->look(ctx, judge->user, memory, size);
-			looked = size;
-			if (status < 0) {
-				free(memory);
-				return mr_prefix(ctx, status, "%s", path);
-			}
+		if (status < 0) {
+			free(memory);
+			return mr_prefix(ctx, status, "%s", path);
 		}
 		if (room - size < CHUNK && !widen(&memory, &room, size + CHUNK)) {
 			free(memory);
@@ -103,9 +124,11 @@ map_all(int fd, mr_file_bytes *b)
 	map = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
 	if (map == MAP_FAILED)
 		return false;
-	*b = (mr_file_bytes){
-		.data = (unsigned char *)map + here, .size = size - (size_t)here, .map = map, .mapped = size
-	};
+	*b = (mr_file_bytes){ .data = (unsigned char *)map + here,
+		.size = size - (size_t)here,
+		.map = map,
+		.mapped = size,
+		.fd = fd };
 	return true;
 }
 
@@ -122,21 +145,43 @@ claimed_size(const mr_file_bytes *b)
 	return n / 1032 <= b->size ? n : 0;
 }
 
-static mr_status
-inflate_members(
-    mr_ctx *ctx, const char *path, z_stream *z, const mr_file_bytes *in, unsigned char **memory, size_t *size)
+/* Whether these bytes begin another member, or may do so where they are cut off. */
+static bool
+may_be_gzip(const unsigned char *data, size_t size)
 {
-	size_t room = 0, given = 0, done = 0;
+	static const unsigned char magic[] = { 0x1f, 0x8b };
 
-	if (!widen(memory, &room, claimed_size(in) + 64))
-		return mr_fail(ctx, MR_EMEM, "%s: no memory for %zu bytes", path, claimed_size(in));
+	return size > 0 && !memcmp(data, magic, size < sizeof magic ? size : sizeof magic);
+}
+
+/* What stands behind the last member: zeros fill the blocks of a tape, anything else is told. */
+static void
+note_rest(mr_ctx *ctx, const unsigned char *data, size_t size)
+{
+	for (size_t i = 0; i < size; i++)
+		if (data[i]) {
+			mr_warn(ctx, "%zu bytes behind the gzip data are left out", size);
+			return;
+		}
+}
+
+static mr_status
+inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judge *judge,
+    unsigned char **memory, size_t *size)
+{
+	const size_t claimed = claimed_size(in);
+	size_t room = 0, given = 0, done = 0, looked = 0;
+
+	if (!widen(memory, &room, claimed < HEAD ? claimed + 64 : HEAD))
+		return mr_fail(ctx, MR_EMEM, "no memory for %zu bytes", claimed);
 	for (;;) {
 		uInt piece = in->size - given > CHUNK ? CHUNK : (uInt)(in->size - given);
 		uInt space;
 		int r;
 
-		if (room == done && !widen(memory, &room, 0))
-			return mr_fail(ctx, MR_EMEM, "%s: no memory for more than %zu bytes", path, done);
+		MR_TRY(consider(ctx, judge, *memory, done, &looked));
+		if (room == done && !widen(memory, &room, done < claimed ? claimed + 64 : 0))
+			return mr_fail(ctx, MR_EMEM, "no memory for more than %zu bytes", done);
 		space = room - done > CHUNK ? CHUNK : (uInt)(room - done);
 		z->next_in = (unsigned char *)(uintptr_t)(in->data + given);
 		z->avail_in = piece;
@@ -147,22 +192,24 @@ inflate_members(
 		done += space - z->avail_out;
 		*size = done;
 		if (r == Z_STREAM_END) {
-			/* Another member may follow; anything else behind the last one is not gzip's. */
-			if (in->size - given < 2 || in->data[given] != 0x1f || in->data[given + 1] != 0x8b)
+			if (!may_be_gzip(in->data + given, in->size - given)) {
+				note_rest(ctx, in->data + given, in->size - given);
 				return MR_OK;
+			}
 			inflateReset(z);
 		} else if (r == Z_BUF_ERROR && given == in->size) {
-			return mr_fail(
-			    ctx, MR_EFORMAT, "%s: gzip data end early, after %zu bytes", path, in->size);
+			return mr_fail(ctx, MR_EFORMAT, "gzip data end early, after %zu bytes", in->size);
+		} else if (r == Z_MEM_ERROR) {
+			return mr_fail(ctx, MR_EMEM, "no memory to inflate");
 		} else if (r != Z_OK && r != Z_BUF_ERROR) {
-			return mr_fail(ctx, MR_EFORMAT, "%s: byte %zu: damaged gzip data (%s)", path, given,
+			return mr_fail(ctx, MR_EFORMAT, "byte %zu: damaged gzip data (%s)", given,
 			    z->msg ? z->msg : "unknown error");
 		}
 	}
 }
 
 static mr_status
-gunzip(mr_ctx *ctx, const char *path, mr_file_bytes *b)
+gunzip(mr_ctx *ctx, const mr_judge *judge, mr_file_bytes *b)
 {
 	z_stream z = { 0 };
 	unsigned char *memory = NULL;
@@ -170,10 +217,10 @@ gunzip(mr_ctx *ctx, const char *path, mr_file_bytes *b)
 	mr_status status;
 
 	if (inflateInit2(&z, 15 + 16) != Z_OK)
-		return mr_fail(ctx, MR_EMEM, "%s: no memory to inflate", path);
-	status = inflate_members(ctx, path, &z, b, &memory, &size);
+		return mr_fail(ctx, MR_EMEM, "no memory to inflate");
+	status = inflate_members(ctx, &z, b, judge, &memory, &size);
 	inflateEnd(&z);
-	mr_file_bytes_free(b);
+	status = mr_file_bytes_end(ctx, b, status);
 	if (status < 0)
 		free(memory);
 	else
@@ -193,11 +240,11 @@ mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_file
 		return failed(ctx, path, "cannot open");
 	if (!map_all(fd, &got))
 		status = read_all(ctx, name, fd, judge, &got);
-	if (fd != STDIN_FILENO)
+	if (!got.map && fd != STDIN_FILENO)
 		close(fd);
 	MR_TRY(status);
 	if (mr_is_gzip(got.data, got.size))
-		MR_TRY(gunzip(ctx, name, &got));
+		MR_TRY(mr_prefix(ctx, gunzip(ctx, judge, &got), "%s", name));
 	*b = got;
 	return MR_OK;
 }

@@ -13,6 +13,7 @@ typedef struct mr_file_bytes {
 	void *memory; /* to free; NULL: mapped or empty */
 	void *map;    /* to unmap */
 	size_t mapped;
+	int fd; /* of the map */
 } mr_file_bytes;
 
 /* Looks at what has come of a file so far; a failure ends the reading. */
@@ -23,11 +24,15 @@ typedef struct mr_judge {
 
 /*
  * Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  What is no regular file may
- * never end: the judge (NULL: none) looks at its first 16 MiB and again whenever that has doubled.  Free with
- * mr_file_bytes_free.
+ * never end, and a few bytes inflate to many: the judge (NULL: none) looks at the first 16 MiB and again
+ * whenever that has doubled.  End them with mr_file_bytes_end.
  */
 mr_status
 mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_file_bytes *b) MR_WARN_UNUSED;
+
+/* Frees the bytes of which `status` came.  It becomes MR_EIO where a mapped file has been cut since: there
+ * were zeros to be read instead. */
+mr_status mr_file_bytes_end(mr_ctx *ctx, mr_file_bytes *b, mr_status status) MR_WARN_UNUSED;
 
 /* By the bytes that gzip begins with. */
 static inline bool

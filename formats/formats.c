@@ -225,6 +225,38 @@ typedef struct source {
 	const char *path, *format;
 } source;
 
+/* Whether a reader that takes such bytes says that they are its own. */
+static bool
+is_recognised(const mr_file_format *f, const unsigned char *data, size_t size)
+{
+	for (size_t i = 0; i < FORMATS; i++)
+		if (formats[i].read == f->read && formats[i].sniff && formats[i].sniff(data, size))
+			return true;
+	return false;
+}
+
+/* What does not begin as the format that was asked for must be readable all the same.  Where the reader says
+ * one thing of two lengths of it, not its end is wrong. */
+static mr_status
+check_beginning(mr_ctx *ctx, const mr_file_format *f, const unsigned char *data, size_t size)
+{
+	const size_t most = 1 << 17, length = size < most ? size : most;
+	char first[MR_ERROR_MAX];
+	mr_model m = { 0 };
+	mr_status status;
+
+	if (is_recognised(f, data, length))
+		return MR_OK;
+	if (f->read == mr_stl_read) /* of which the size alone tells */
+		return mr_stl_begins(data, size) ? MR_OK : mr_fail(ctx, MR_EFORMAT, "this is no STL");
+	status = f->read(ctx, data, length / 2, &m);
+	if (status != MR_EFORMAT)
+		return MR_OK;
+	memcpy(first, ctx->error, sizeof first);
+	status = f->read(ctx, data, length, &m);
+	return status == MR_EFORMAT && !strcmp(first, ctx->error) ? status : MR_OK;
+}
+
 /* What has no end in sight must be of a known format by now, and text must have ends of lines. */
 static mr_status
 judge(mr_ctx *ctx, const void *user, const unsigned char *data, size_t size)
@@ -243,6 +275,7 @@ judge(mr_ctx *ctx, const void *user, const unsigned char *data, size_t size)
 	status = find_reader(ctx, s->path, s->format, data, size, &f);
 	if (status < 0)
 		return stl ? MR_OK : mr_prefix(ctx, status, "after %zu bytes", size);
+	MR_TRY(check_beginning(ctx, f, data, size));
 	for (line = size; f->lines && line > 0 && data[line - 1] != '\n'; line--)
 		;
 	if (f->lines && size - line > LONGEST_LINE)
@@ -261,7 +294,7 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 
 	MR_TRY(mr_file_bytes_read(ctx, path, &(mr_judge){ judge, &s }, &bytes));
 	status = mr_model_parse(ctx, path, format, bytes.data, bytes.size, m);
-	mr_file_bytes_free(&bytes);
+	status = mr_file_bytes_end(ctx, &bytes, status);
 	if (status == MR_EUSAGE)
 		return status;
 	return mr_prefix(ctx, status, "%s", strcmp(path, "-") ? path : "stdin");

@@ -195,8 +195,7 @@ embed(glb *w, const char *file, size_t *texture)
 		status = put_image(w, file, &b, texture);
 	else
 		mr_warn(w->ctx, "%s is neither PNG nor JPEG: it is left out", file);
-	mr_file_bytes_free(&b);
-	return status;
+	return mr_prefix(w->ctx, mr_file_bytes_end(w->ctx, &b, status), "%s", file);
 }
 
 /* A reference to a texture. */

@@ -239,6 +239,8 @@ mr_real_write(char *to, double x)
 	if (x < 1e9 && x == (double)(uint64_t)x)
 		return mr_count_write(to, (uint64_t)x);
 	exponent = (int)floor(log10(x)) + 1; /* digits before the point, or one off beside a power of ten */
+	if (exponent > 15)
+		exponent = 15; /* as below 1e15 */
 	for (int digits = 15; digits <= 17; digits++) {
 		int s = digits - exponent;
 		uint64_t n = rounded(x, s);

@@ -42,7 +42,7 @@ mr_status mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, 
 bool mr_scene_suits(const char *path, const char *format);
 
 /* As mr_model_write, where mr_scene_suits. */
-mr_status mr_scene_write(
-    mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene, mr_outfile *held) MR_WARN_UNUSED;
+mr_status mr_scene_write(mr_ctx *ctx, const char *path, const char *format, const mr_scene *scene,
+    mr_outfile *held) MR_WARN_UNUSED;
 
 #endif

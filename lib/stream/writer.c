@@ -86,7 +86,8 @@ flush_with(mr_ctx *ctx, mr_writer *w, const void *p, size_t n)
 			continue;
 		if (r < 0) {
 			w->failed = true;
-			return mr_fail(ctx, MR_EIO, "cannot write: %s", strerror(errno));
+			return mr_fail(ctx, MR_EIO, "cannot write: %s",
+			    errno == EFAULT ? "the file that is read was cut off" : strerror(errno));
 		}
 		for (int i = skip; i < 2; i++) {
 			size_t step = (size_t)r < v[i].iov_len ? (size_t)r : v[i].iov_len;

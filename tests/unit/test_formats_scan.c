@@ -191,6 +191,11 @@ written(void **state)
 		round_trip(some[i]);
 		round_trip(-some[i]);
 	}
+	for (int i = -320; i <= 308; i++) {
+		round_trip(nextafter(pow(10, i), 0));
+		round_trip(nextafter(pow(10, i), INFINITY));
+	}
+	round_trip(999999999999999.9);
 	for (int i = 0; i < 200000; i++) {
 		double u = mr_random_real(&r);
 		round_trip(u);
