@@ -4,6 +4,7 @@
 #	make help       this list
 #	make setup      the packages they need; the other targets see to that by themselves
 #	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
+#	make check-long the tests of faults in full: an hour
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
 #	make demo       the main job on real models: pictures and tables, in demo/
 #	make bench      speed and memory beside the peers'
@@ -34,15 +35,15 @@ INCLUDE  := -Ilib -I. -Icmd -I/usr/include/suitesparse -D_POSIX_C_SOURCE=200809L
 # The one set of objects serves the tools and both libraries; what mr.h does not declare stays inside.
 SHARED   := -fPIC -fvisibility=hidden
 ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthread $(SHARED) $(CFLAGS)
-ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -pthread $(SHARED) $(CFLAGS)
-LIBS     := -Wl,--as-needed -lcholmod -lumfpack -lflann -ltinyobjloader_double -lpng -ljpeg -ljansson -lz -lstdc++ -ldl -lm
+ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -ffp-contract=off -pthread $(SHARED) $(CFLAGS)
+LIBS     := -Wl,--as-needed -lcholmod -lumfpack -llz4 -ltinyobjloader_double -lpng -ljpeg -ljansson -lz -lstdc++ -ldl -lm
 
 TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
-OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c formats/*.c formats/*.cc))
+OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc formats/*.c formats/*.cc))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
-NEEDS   := build $(if $(filter setup check bless units,$(MAKECMDGOALS)),check) $(filter bench,$(MAKECMDGOALS))
+NEEDS   := build $(if $(filter setup check check-long bless units,$(MAKECMDGOALS)),check) $(filter bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -99,6 +100,9 @@ setup:
 
 check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
 	@$(RUN) tests/run $(T)
+
+check-long: $(TOOLS)
+	@LONG=1 LIMIT=14400 $(RUN) tests/run $(or $(T),bad/)
 
 bless: $(TOOLS)
 	@$(RUN) tests/run --bless $(T)
@@ -160,5 +164,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check check-long bless demo bench table1 readme install uninstall clean
 .SECONDARY:

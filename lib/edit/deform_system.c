@@ -149,7 +149,7 @@ open_solver(mr_ctx *ctx, mr_deform *d, double started)
 	}
 	d->seconds_assemble = mr_seconds() - started;
 	status = mr_solver_open(ctx, &d->opts.solver, &system, &d->solver);
-	if (status == MR_EMEM && !d->opts.choose && !mr_solver_iterates(d->opts.solver.kind))
+	if (status == MR_ERANGE && !d->opts.choose && !mr_solver_iterates(d->opts.solver.kind))
 		return mr_prefix(
 		    ctx, status, "%s: multigrid takes less memory than this", d->patch.mesh.name);
 	if (status == MR_ENUMERIC)
@@ -173,8 +173,8 @@ mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double starte
 	mark = mr_mark_take(ctx);
 	MR_TRY(assemble(ctx, d, rest));
 	status = open_solver(ctx, d, started);
-	if (status == MR_EMEM && d->opts.choose && !mr_solver_iterates(d->opts.solver.kind)) {
-		mr_note(ctx, "%s: multigrid takes its place", ctx->error);
+	if (status == MR_ERANGE && d->opts.choose && !mr_solver_iterates(d->opts.solver.kind)) {
+		mr_warn(ctx, "%s: multigrid takes its place", ctx->error);
 		mr_mark_release(ctx, mark);
 		d->opts.solver.kind = MR_MULTIGRID;
 		MR_TRY(assemble(ctx, d, rest));

@@ -2,6 +2,7 @@
  * Sparse Cholesky: Chen, Davis, Hager, Rajamanickam 2008: Algorithm 887: CHOLMOD.  The only file that knows
  * it.
  */
+#include "base/memory.h"
 #include "solve/solver_type.h"
 #include "solve/supernodal.h"
 
@@ -126,13 +127,18 @@ bytes_of(const cholmod_factor *f)
 	return (double)(f->xsize + f->maxcsize) * sizeof(double) + (double)f->ssize * sizeof(int);
 }
 
-/* OpenBLAS 0.3 tries for ever where its buffer of 128 MB cannot be had. */
+/* OpenBLAS 0.3 tries for ever where its buffer of 128 MB cannot be had.  Where there is less than that the factor
+ * is too large; where there seems to be more, its failure is one. */
 static mr_status
 check_room(mr_ctx *ctx)
 {
 	static const size_t buffer = (size_t)160 << 20;
-	void *room = malloc(buffer);
+	void *room;
 
+	if (mr_memory_available() < (double)buffer)
+		return mr_fail(ctx, MR_ERANGE, "the buffer of the BLAS takes %zu MB, more than there are",
+		    buffer >> 20);
+	room = malloc(buffer);
 	free(room);
 	return room ? MR_OK
 	            : mr_fail(ctx, MR_EMEM, "no memory for the buffer of the BLAS, %zu MB", buffer >> 20);
@@ -153,7 +159,7 @@ cholesky_setup(
 	analysed = mr_seconds();
 	bytes = bytes_of(c->factor);
 	if (opts->memory > 0 && bytes > opts->memory)
-		return mr_fail(ctx, MR_EMEM,
+		return mr_fail(ctx, MR_ERANGE,
 		    "the factor of %zu rows takes %.3g MB, more than the %.3g MB there are", c->factor->n,
 		    1e-6 * bytes, 1e-6 * opts->memory);
 	MR_TRY(factorize(ctx, c, &upper, system->vertex));

@@ -77,7 +77,7 @@ lu_setup(
 	bytes = info[UMFPACK_PEAK_MEMORY_ESTIMATE] * info[UMFPACK_SIZE_OF_UNIT];
 	if (status == UMFPACK_OK && opts->memory > 0 && bytes > opts->memory) {
 		umfpack_di_free_symbolic(&symbolic);
-		return mr_fail(ctx, MR_EMEM,
+		return mr_fail(ctx, MR_ERANGE,
 		    "the factors of %d rows may take %.3g MB, more than the %.3g MB there are", a->n,
 		    1e-6 * bytes, 1e-6 * opts->memory);
 	}

@@ -93,7 +93,7 @@ typedef struct mr_solver_report {
 } mr_solver_report;
 
 /*
- * Sets up a solver.  MR_ENUMERIC where A is singular or, for MR_CHOLESKY, not positive definite; MR_EMEM
+ * Sets up a solver.  MR_ENUMERIC where A is singular or, for MR_CHOLESKY, not positive definite; MR_ERANGE
  * where factors would exceed the memory allowed, before it is taken.
  */
 mr_status mr_solver_open(

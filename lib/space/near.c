@@ -1,15 +1,14 @@
 /*
  * FLANN's traps, each closed here: no rows and too large k crash or return rubbish;
  * NaN gives wrong neighbours silently; equal points are scanned one by one; its
- * defaults are approximate and take all cores; a batch doubles its result in
- * memory, so queries go in chunks; its threads spin where they wait, so they are ours.
+ * threads spin where they wait, so they are ours, and queries go in chunks.
  */
 #include "space/near.h"
 
 #include "base/parallel.h"
 #include "mesh/repair.h"
+#include "space/near_shim.h"
 
-#include <flann/flann.h>
 #include <stdatomic.h>
 
 /* Leaves of 10 points take 2 % fewer instructions and 1 % more memory, of 40 up to 7 % more instructions. */
@@ -18,8 +17,7 @@ enum { CHUNK = 1 << 13, GRAIN = 64, LEAF = 20 };
 static const double MOST = 1e150;
 
 struct mr_near {
-	flann_index_t index;
-	struct FLANNParameters parameters;
+	void *tree;
 	const mr_v3 *p;
 	double (*row)[3];   /* the distinct points, kept for FLANN */
 	uint32_t *original; /* index of each row in p */
@@ -59,7 +57,6 @@ mr_status
 mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
 {
 	mr_near *near = MR_NEW_ZERO(ctx, 1, mr_near);
-	float speedup;
 
 	if (n == 0 || n >= INT32_MAX)
 		return mr_fail(ctx, MR_ERANGE, "an index of nearest points needs 1 to %d points, not %zu",
@@ -74,17 +71,8 @@ mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
 	for (size_t i = 0; i < near->rows; i++)
 		memcpy(near->row[i], &p[near->original[i]], sizeof *near->row);
 	near->p = p;
-	near->parameters = DEFAULT_FLANN_PARAMETERS;
-	near->parameters.algorithm = FLANN_INDEX_KDTREE_SINGLE;
-	near->parameters.leaf_max_size = LEAF;
-	near->parameters.checks = -1;
-	near->parameters.eps = 0;
-	near->parameters.sorted = 1;
-	near->parameters.cores = 1;
-	near->parameters.log_level = (enum flann_log_level_t) -
-	                             1; /* else each query sets it, for all threads */
-	near->index = flann_build_index_double(near->row[0], (int)near->rows, 3, &speedup, &near->parameters);
-	if (!near->index)
+	near->tree = mr_tree_build((const double(*)[3])near->row, near->rows, LEAF);
+	if (!near->tree)
 		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", near->rows);
 	*out = near;
 	return MR_OK;
@@ -104,7 +92,7 @@ after(double da, uint32_t ia, double db, uint32_t ib)
 
 /* FLANN's k rows of one query, as indices of p, nearest first. */
 static void
-order(const mr_near *near, mr_v3 q, const int *row, size_t k, uint32_t *index, double *dist2)
+order(const mr_near *near, mr_v3 q, const size_t *row, size_t k, uint32_t *index, double *dist2)
 {
 	for (size_t i = 0; i < k; i++) {
 		uint32_t x = near->original[row[i]];
@@ -124,8 +112,8 @@ typedef struct work {
 	const mr_near *near;
 	const mr_v3 *q;
 	size_t k, found;
-	int *row;  /* found of each query */
-	double *d; /* alike */
+	size_t *row; /* found of each query */
+	double *d;   /* alike */
 	uint32_t *index;
 	double *dist2; /* or NULL */
 	atomic_bool failed;
@@ -135,11 +123,9 @@ static void
 query_body(void *arg, size_t begin, size_t end)
 {
 	work *w = arg;
-	struct FLANNParameters parameters = w->near->parameters;
 
-	if (flann_find_nearest_neighbors_index_double(w->near->index, (double *)(uintptr_t)(w->q + begin),
-		(int)(end - begin), w->row + begin * w->found, w->d + begin * w->found, (int)w->found,
-		&parameters) != 0) {
+	if (!mr_tree_query(w->near->tree, (const double(*)[3])(const void *)(w->q + begin), end - begin,
+		w->found, w->row + begin * w->found, w->d + begin * w->found)) {
 		atomic_store(&w->failed, true);
 		return;
 	}
@@ -161,7 +147,7 @@ mr_near_query(
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t found = k < near->rows ? k : near->rows, chunk = CHUNK / (k / 8 + 1) + 1;
-	int *row = MR_NEW(ctx, chunk * found, int);
+	size_t *row = MR_NEW(ctx, chunk * found, size_t);
 	double *d = MR_NEW(ctx, chunk * found, double);
 
 	if (!row || !d)
@@ -184,7 +170,6 @@ mr_near_free(mr_near *near)
 {
 	if (!near)
 		return;
-	if (near->index)
-		flann_free_index_double(near->index, &near->parameters);
-	near->index = NULL;
+	mr_tree_free(near->tree);
+	near->tree = NULL;
 }

@@ -356,7 +356,7 @@ test_memory(void **state)
 		mr_solver *s = NULL;
 		opts.kind = (mr_solver_kind)kind;
 		opts.memory = 1000;
-		assert_int_equal(mr_solver_open(&ctx, &opts, &(mr_system){ .a = &a }, &s), MR_EMEM);
+		assert_int_equal(mr_solver_open(&ctx, &opts, &(mr_system){ .a = &a }, &s), MR_ERANGE);
 		assert_non_null(strstr(ctx.error, "MB"));
 		assert_null(s);
 	}
