@@ -1,5 +1,5 @@
 /*
- * near.h -- the nearest points of a cloud.  The only place that knows FLANN.
+ * near.h -- the nearest points of a cloud, by FLANN, which near_shim.cc alone knows.
  *
  * Contract: exact, and the same for every number of threads.  Points at one
  * position count once, by the lowest index.  Coordinates are finite and below
