@@ -5,6 +5,7 @@
 #	make setup      the packages they need; the other targets see to that by themselves
 #	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
 #	make check-long the tests of faults in full: an hour
+#	make fuzz       the readers under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
 #	make demo       the main job on real models: pictures and tables, in demo/
 #	make bench      speed and memory beside the peers'
@@ -104,6 +105,18 @@ check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
 check-long: $(TOOLS)
 	@LONG=1 LIMIT=14400 $(RUN) tests/run $(or $(T),bad/)
 
+# In a build of its own; clang's libFuzzer watches the whole library.
+FUZZ  := $(BUILD)/fuzz
+TIME  ?= 10
+FUZZY := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
+fuzz: $(TOOLS)
+	@$(MAKE) --no-print-directory BUILD='$(FUZZ)' CC=clang CXX=clang++ CFLAGS='$(FUZZY)' $(patsubst tests/fuzz/%.c,$(FUZZ)/fuzz/%,$(wildcard tests/fuzz/*.c))
+	@$(RUN) BUILD='$(abspath $(FUZZ))' TOOLS='$(abspath $(BUILD))/bin' TIME='$(TIME)' tests/fuzz/run $(T)
+
+$(BUILD)/fuzz/%: $(BUILD)/tests/fuzz/%.c.o $(BUILD)/libmr.a
+	@mkdir -p $(@D)
+	$(call say,link   )$(CXX) -pthread -fsanitize=fuzzer,address,undefined -o $@ $^ $(LIBS)
+
 bless: $(TOOLS)
 	@$(RUN) tests/run --bless $(T)
 
@@ -164,5 +177,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check check-long fuzz bless demo bench table1 readme install uninstall clean
 .SECONDARY:

@@ -333,7 +333,7 @@ are_beside(const char *path, const char *p, const char *end)
 void
 mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files)
 {
-	const char *p = files.text, *end = p + files.bytes;
+	const char *p = files.text, *end = files.bytes ? p + files.bytes : p;
 
 	while (files.bytes && strcmp(path, "-") && p < end) {
 		const char *e = memchr(p, '\n', (size_t)(end - p));

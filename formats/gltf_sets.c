@@ -161,7 +161,7 @@ shares_vertices(mr_ctx *ctx, const mr_sets *s, bool *shared)
 	for (size_t i = 0; i < s->m->nv; i++)
 		object[i] = MR_NONE;
 	for (size_t c = 0; c < 3 * s->m->nf; c++) {
-		uint32_t *of = &object[s->m->t->v[c]];
+		uint32_t *of = &object[s->m->t[c / 3].v[c % 3]];
 		*shared |= *of != MR_NONE && *of != s->object[c / 3];
 		*of = s->object[c / 3];
 	}
@@ -249,7 +249,7 @@ number_corners(mr_ctx *ctx, mr_sets *s, mr_vertex_set *v, const uint32_t *corner
 		qsort(d, n, sizeof *d, compare_distinct);
 	for (size_t i = 0; i < n; i++) {
 		if (i == 0 || memcmp(d[i].x, d[i - 1].x, sizeof d->x))
-			add_vertex(v, s->m->t->v[corner[0]], d[i].corner);
+			add_vertex(v, s->m->t[corner[0] / 3].v[corner[0] % 3], d[i].corner);
 		s->index[d[i].corner] = (uint32_t)v->count - 1;
 	}
 	return MR_OK;

@@ -193,7 +193,7 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 static void
 put_libraries(mr_sink *s, mr_lines files)
 {
-	const char *p = files.text, *end = p + files.bytes;
+	const char *p = files.text, *end = files.bytes ? p + files.bytes : p;
 
 	while (p < end) {
 		const char *e = memchr(p, '\n', (size_t)(end - p));

@@ -89,7 +89,7 @@ flush_with(mr_ctx *ctx, mr_writer *w, const void *p, size_t n)
 			return mr_fail(ctx, MR_EIO, "cannot write: %s",
 			    errno == EFAULT ? "the file that is read was cut off" : strerror(errno));
 		}
-		for (int i = skip; i < 2; i++) {
+		for (int i = skip; i < 2 && r > 0; i++) {
 			size_t step = (size_t)r < v[i].iov_len ? (size_t)r : v[i].iov_len;
 			v[i].iov_base = (char *)v[i].iov_base + step;
 			v[i].iov_len -= step;

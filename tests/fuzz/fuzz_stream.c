@@ -2,9 +2,6 @@
  * fuzz_stream.c -- the reader, given any bytes, as a file and as a pipe: it reads frames or fails with a
  *sentence, and both ways agree; what it reads is written and read again.
  *
- *	clang -g -O1 -fsanitize=fuzzer,address,undefined -D_POSIX_C_SOURCE=200809L -Ilib -I. \
- *	    tests/fuzz/fuzz_stream.c lib/base/[a-z]*.c lib/stream/[a-z]*.c -lz -pthread -o fuzz_stream
- *
  * tests/unit/test_stream_fuzz.c runs it without libFuzzer.
  */
 #include "stream/fingerprint.h"

@@ -1,0 +1,101 @@
+/*
+ * fuzz_model.c -- the reader of the format that $FORMAT names, given any bytes: a valid model or a sentence,
+ * and what is valid is written in the format, where it can be, and read again.  "gz" is a file that is
+ * inflated and recognised, "png" and "jpeg" are pictures.
+ */
+#include "formats/bytes.h"
+#include "formats/format.h"
+#include "formats/formats.h"
+#include "formats/image.h"
+
+#include <unistd.h>
+
+int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
+
+static void
+insist(bool good)
+{
+	if (!good)
+		abort();
+}
+
+static void
+check(const mr_model *m)
+{
+	insist(m->nv > 0);
+	for (size_t i = 0; i < m->nv; i++)
+		insist(mr_finite(m->p[i]) && (!m->normal || mr_finite(m->normal[i])));
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			insist(m->t[f].v[k] < m->nv);
+}
+
+/* A file of its own, emptied for every use; its name. */
+static const char *
+file_of(const uint8_t *bytes, size_t n)
+{
+	static char name[] = "/tmp/mr-fuzz-XXXXXX";
+	static int fd = -1;
+
+	if (fd < 0)
+		fd = mkstemp(name);
+	insist(fd >= 0 && !ftruncate(fd, 0) && pwrite(fd, bytes, n, 0) == (ssize_t)n);
+	return name;
+}
+
+/* Written beside it, and read: positions and triangles are as many. */
+static void
+write_again(mr_ctx *ctx, const mr_model *m, const char *format)
+{
+	const char *path = "/tmp/mr-fuzz-written";
+	char name[64];
+	bool binary;
+	mr_model again;
+
+	snprintf(name, sizeof name, "%s-%ld", path, (long)getpid());
+	if (mr_format_check(ctx, name, format, true, &binary) < 0)
+		return;
+	if (mr_model_write(ctx, name, format, m, NULL, NULL) == MR_OK) {
+		insist(mr_model_read(ctx, name, format, &again) == MR_OK);
+		check(&again);
+		insist(again.nf <= m->nf);
+		unlink(name);
+	} else {
+		insist(*ctx->error);
+	}
+}
+
+static mr_status
+read_any(mr_ctx *ctx, const char *format, const uint8_t *bytes, size_t n, mr_model *m)
+{
+	mr_image image;
+
+	if (!strcmp(format, "png"))
+		return mr_png_read(ctx, bytes, n, &image);
+	if (!strcmp(format, "jpeg"))
+		return mr_jpeg_read(ctx, bytes, n, &image);
+	if (!strcmp(format, "gz"))
+		return mr_model_read(ctx, file_of(bytes, n), NULL, m);
+	return mr_model_parse(ctx, "-", format, bytes, n, m);
+}
+
+int
+LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n)
+{
+	const char *format = getenv("FORMAT");
+	mr_model m = { 0 };
+	mr_status status;
+	mr_ctx ctx;
+
+	insist(format != NULL);
+	mr_ctx_init(&ctx, 1);
+	status = read_any(&ctx, format, bytes, n, &m);
+	insist(status == MR_OK || (status < 0 && *ctx.error));
+	if (status == MR_OK && m.nv) {
+		check(&m);
+		if (strcmp(format, "gz"))
+			write_again(&ctx, &m, format);
+	}
+	mr_ctx_free(&ctx);
+	return 0;
+}
