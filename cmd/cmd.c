@@ -3,6 +3,7 @@
 
 #include "base/text.h"
 #include "formats/suffix.h"
+#include "mesh/validate.h"
 #include "place.h"
 #include "signals.h"
 #include "stream/record.h"
@@ -556,6 +557,7 @@ cmd_send(cmd *c, const mr_frame *f)
 		if (!c->state->no_history)
 			MR_TRY(mr_frame_add_history(&c->ctx, &with_history, c->state->history));
 	}
+	MR_TRY(mr_check_made(&c->ctx, &with_history));
 	MR_TRY(mr_writer_put(&c->ctx, c->state->writer, &with_history));
 	if (c->tool->source) {
 		MR_TRY(print_stats(c, mr_seconds() - c->state->started));

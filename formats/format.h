@@ -122,6 +122,9 @@ mr_status mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces) MR_WARN
 /* Says and counts the positions that do not survive in float32; MR_ERANGE where one overflows it. */
 mr_status mr_note_rounded(mr_sink *s, const mr_model *m);
 
+/* MR_ERANGE where a normal or a texture coordinate is too large for a float. */
+mr_status mr_check_floats(mr_sink *s, const mr_model *m);
+
 /* A little- or big-endian value in memory. */
 static inline uint32_t
 mr_load32(const unsigned char *p, bool big)

@@ -492,3 +492,23 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 		mr_note(s->ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
 	return MR_OK;
 }
+
+/* NaN of a corner is none. */
+static mr_status
+check_floats(mr_ctx *ctx, const char *what, const double *x, size_t n)
+{
+	for (size_t i = 0; x && i < n; i++)
+		if (isinf(mr_as_float(x[i])))
+			return mr_fail(
+			    ctx, MR_ERANGE, "one of the %s, %g, is too large for float32", what, x[i]);
+	return MR_OK;
+}
+
+mr_status
+mr_check_floats(mr_sink *s, const mr_model *m)
+{
+	MR_TRY(check_floats(s->ctx, "normals", m->normal ? &m->normal->x : NULL, 3 * m->nv));
+	MR_TRY(check_floats(s->ctx, "normals", m->corner_normal ? &m->corner_normal->x : NULL, 9 * m->nf));
+	MR_TRY(check_floats(s->ctx, "texture coordinates", m->texcoord, 2 * m->nv));
+	return check_floats(s->ctx, "texture coordinates", m->corner_texcoord, 6 * m->nf);
+}

@@ -2,6 +2,7 @@
 #include "formats/model.h"
 #include "formats/build.h"
 #include "mesh/normals.h"
+#include "mesh/validate.h"
 #include "stream/record.h"
 
 /* What a model has of each vertex, or of each face, besides positions and triangles. */
@@ -343,6 +344,7 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 			continue;
 		MR_TRY(mr_layer_get_rows(
 		    ctx, f, layer, columns[i].name, columns[i].of_faces ? mesh.nf : mesh.nv, &data));
+		MR_TRY(mr_check_finite(ctx, mr_frame_find(f, layer, columns[i].name)));
 		set_column(&got, i, data);
 	}
 	for (size_t i = 0; i < NAMES; i++) {

@@ -67,6 +67,7 @@ mr_off_write_binary(mr_sink *s, const mr_model *m)
 	mr_note_lost(
 	    s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_POLYGON | MR_KEEPS_FACES);
 	MR_TRY(mr_note_rounded(s, m));
+	MR_TRY(mr_check_floats(s, m));
 	MR_TRY(mr_faces_of(s, m, &faces));
 	put_keyword(s, m, " BINARY");
 	to = mr_store32(mr_sink_room(s), (uint32_t)m->nv, true);

@@ -70,8 +70,8 @@ check_rows(mr_ctx *ctx, const mr_frame *f, const mr_column *c)
 	    (unsigned long long)c->rows, (unsigned long long)rows);
 }
 
-static mr_status
-check_finite(mr_ctx *ctx, const mr_column *c)
+mr_status
+mr_check_finite(mr_ctx *ctx, const mr_column *c)
 {
 	const double *x = c->data;
 	size_t width = c->shape.components;
@@ -81,7 +81,7 @@ check_finite(mr_ctx *ctx, const mr_column *c)
 	for (size_t i = 0; i < c->rows * width; i++)
 		if (!isfinite(x[i]))
 			return mr_fail(ctx, MR_ERANGE, "%s: column %s, row %zu: component %zu is %g",
-			    c->layer, c->name, i / width, i % width, x[i]);
+			    c->layer, c->name, i / width, i % width, isnan(x[i]) ? NAN : x[i]);
 	return MR_OK;
 }
 
@@ -163,7 +163,7 @@ check_column(mr_ctx *ctx, mr_frame *f, mr_column *c)
 		return MR_OK;
 	MR_TRY(check_shape(ctx, c));
 	MR_TRY(check_rows(ctx, f, c));
-	MR_TRY(check_finite(ctx, c));
+	MR_TRY(mr_check_finite(ctx, c));
 	if (is(c, NULL, "region"))
 		return mr_layer_region(ctx, f, c->layer, c->rows, &region);
 	if (is(c, NULL, "group") || is(c, NULL, "object") || is(c, NULL, "material")) {
@@ -172,6 +172,15 @@ check_column(mr_ctx *ctx, mr_frame *f, mr_column *c)
 		return check_names(ctx, f, c, list);
 	}
 	return check_law(ctx, f, c);
+}
+
+mr_status
+mr_check_made(mr_ctx *ctx, const mr_frame *f)
+{
+	for (size_t i = 0; i < f->count; i++)
+		if (!f->columns[i].stored)
+			MR_TRY(mr_check_finite(ctx, &f->columns[i]));
+	return MR_OK;
 }
 
 mr_status

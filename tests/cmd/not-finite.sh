@@ -1,0 +1,35 @@
+# A number that is not finite goes into no file, and into no column that a tool makes.
+mr-make sphere --points 300 -o points.mrs
+python3 - <<'END' # the normal of point 4 without its last number, and the checksum of that
+import struct, zlib
+stream = bytearray(open("points.mrs", "rb").read())
+head = stream.index(b"points") + 0
+while stream[head + 16:head + 22] != b"normal":
+    head = stream.index(b"points", head + 1)
+size, = struct.unpack_from("<Q", stream, head + 56)
+struct.pack_into("<d", stream, head + 64 + 4 * 24 + 16, float("inf"))
+struct.pack_into("<I", stream, head + 44, 0)
+struct.pack_into("<I", stream, head + 44, zlib.crc32(stream[head:head + 64 + size]))
+open("inf.mrs", "wb").write(stream)
+END
+mr-cat --no-history inf.mrs | cmp - inf.mrs && echo 'what is only passed on stays'
+for format in obj ply ply-ascii stl off off-binary xyz pts pwn glb; do
+	mr-export -f $format out <inf.mrs 2>err
+	echo "$format: exit $?, $(ls out 2>/dev/null | wc -l) files, $(cut -d: -f2- err)"
+done
+mr-transform --scale 2 inf.mrs >out
+mr-cat out 2>/dev/null >&2 || echo 'no whole stream'
+mr-crop --keep above:x,0.2 inf.mrs >out
+mr-normals inf.mrs | mr-export -f xyz - | grep -ciE 'inf|nan'
+
+echo '-- what a float does not hold'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e300 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\n' >far.obj
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1e300 0 0\nf 1//1 2//1 3//1\n' >steep.obj
+for model in far steep; do
+	mr-import $model.obj -o model.mrs
+	for format in obj ply-ascii off off-binary glb; do
+		mr-export -f $format out -i model.mrs 2>err
+		echo "$format: exit $?, $(cut -d: -f2- err)"
+	done
+done
+exit 0
