@@ -11,7 +11,9 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <malloc.h>
+#include <signal.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 enum { EXIT_GOOD = 0, EXIT_DATA = 1, EXIT_USAGE = 2 };
@@ -83,10 +85,24 @@ leave(cmd *c, int code)
 	exit(code);
 }
 
+/* Tells the next tool of the pipe that this one has said why it fails: it need not say that it did. */
+static void
+pass_failure(cmd *c)
+{
+	struct cmd_state *s = c->state;
+	struct stat st;
+
+	signal(SIGPIPE, SIG_IGN); /* whether anyone is left who reads it or not */
+	if (s->writer && fstat(s->out, &st) == 0 && (S_ISFIFO(st.st_mode) || S_ISSOCK(st.st_mode)))
+		mr_writer_fail(&c->ctx, s->writer);
+}
+
 static _Noreturn void
 die(cmd *c, mr_status status)
 {
 	say_failure(c);
+	if (status != MR_EUSAGE)
+		pass_failure(c);
 	if (status == MR_EUSAGE)
 		fprintf(stderr, "Try '%s --help'.\n", c->name);
 	leave(c, status == MR_EUSAGE ? EXIT_USAGE : EXIT_DATA);
@@ -355,6 +371,22 @@ is_input(const cmd *c, const char *path)
 	return found;
 }
 
+/* A file with the name of a model that is no stream. */
+static bool
+is_model(const char *path)
+{
+	static const char magic[] = "mrmesh1\n";
+	char first[sizeof magic - 1];
+	int fd = mr_suffix_format(path) ? open(path, O_RDONLY) : -1;
+	bool model;
+
+	if (fd < 0)
+		return false;
+	model = read(fd, first, sizeof first) != sizeof first || memcmp(first, magic, sizeof first) != 0;
+	close(fd);
+	return model;
+}
+
 /* A stream takes the place of no model. */
 static void
 check_output(cmd *c)
@@ -370,6 +402,16 @@ check_output(cmd *c)
 			   path));
 	if (c->tool->source && is_input(c, path))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", path));
+}
+
+/* Nor does a file that an operand names. */
+static void
+check_operand(cmd *c)
+{
+	const char *input = c->state->input, *path = c->operands[0];
+
+	if (input && !is_dash(path) && is_model(input) && place_same(path, input))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "%s: that is the model to read", path));
 }
 
 static void
@@ -399,6 +441,8 @@ open_copy(cmd *c, int fd, const char *path)
 static void
 open_text(cmd *c)
 {
+	if (c->tool->names_output)
+		check_operand(c);
 	open_output(c);
 	c->state->text = c->state->out == STDOUT_FILENO ? stdout : open_copy(c, c->state->out, c->output);
 }
@@ -633,6 +677,19 @@ one_frame(cmd *c, mr_frame *f)
 	mr_mark_release(&c->ctx, mark);
 }
 
+/* One frame, as mr-import makes it. */
+static void
+read_model(cmd *c, const char *path)
+{
+	mr_mark mark = mr_mark_take(&c->ctx);
+	mr_frame *frame;
+
+	try(c, mr_import(&c->ctx, path, NULL, &frame, NULL));
+	frame->number = 1;
+	one_frame(c, frame);
+	mr_mark_release(&c->ctx, mark);
+}
+
 static void
 read_stream(cmd *c, const char *path)
 {
@@ -651,22 +708,59 @@ read_stream(cmd *c, const char *path)
 	try(c, mr_prefix(&c->ctx, mr_reader_open(&c->ctx, fd, &reader), "%s", name));
 	while ((status = mr_reader_next(&c->ctx, reader, &frame)) == MR_OK)
 		one_frame(c, frame);
+	if (status < 0 && mr_reader_told(reader) && !c->verbose) {
+		clear_progress(c);
+		pass_failure(c);
+		leave(c, EXIT_DATA);
+	}
 	try(c, mr_prefix(&c->ctx, status, "%s", name));
 	mr_reader_free(reader);
 	if (!from_stdin)
 		close(fd);
 }
 
+mr_status
+cmd_input(cmd *c, const char *path)
+{
+	if (c->state->input)
+		return mr_fail(
+		    &c->ctx, MR_EUSAGE, "%s and -i %s are both the first stream", path, c->state->input);
+	c->state->input = path;
+	return MR_OK;
+}
+
+mr_status
+cmd_side(cmd *c, const char *path, mr_side *side)
+{
+	mr_frame *frame;
+
+	if (!is_model(path))
+		return mr_side_open(&c->ctx, path, side);
+	MR_TRY(mr_import(&c->keep, path, NULL, &frame, NULL));
+	frame->number = 1;
+	*side = (mr_side){ .path = path, .frame = frame, .fd = STDIN_FILENO, .ended = true };
+	return MR_OK;
+}
+
+static void
+read_input(cmd *c, const char *path)
+{
+	if (is_model(path))
+		read_model(c, path);
+	else
+		read_stream(c, path);
+}
+
 static void
 read_streams(cmd *c)
 {
 	if (!is_filter_or_sink_of_streams(c->tool))
-		read_stream(c, c->state->input ? c->state->input : "-");
+		read_input(c, c->state->input ? c->state->input : "-");
 	else if (c->operand_count == 0)
 		read_stream(c, "-");
 	else
 		for (size_t i = 0; i < c->operand_count; i++)
-			read_stream(c, c->operands[i]);
+			read_input(c, c->operands[i]);
 }
 
 /* With -k: what was left out; the exit code. */

@@ -28,7 +28,7 @@
 
 #include "base/outfile.h"
 #include "options.h"
-#include "stream/frame.h"
+#include "stream/side_stream.h"
 
 typedef struct cmd cmd;
 
@@ -85,6 +85,12 @@ mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN
 /* For prepare: MR_EUSAGE where the option gave a name that no layer can have; NULL, where it was not given,
  * passes. */
 mr_status cmd_layer_name(cmd *c, const char *option, const char *name) MR_WARN_UNUSED;
+
+/* For prepare, of a tool with operands of its own: reads that instead of stdin.  MR_EUSAGE beside -i. */
+mr_status cmd_input(cmd *c, const char *path) MR_WARN_UNUSED;
+
+/* Opens a stream, or a model as a stream of one frame, beside the one that is read. */
+mr_status cmd_side(cmd *c, const char *path, mr_side *side) MR_WARN_UNUSED;
 
 /* Sends a frame now: a source, or a filter that says it `sends`. */
 mr_status cmd_send(cmd *c, const mr_frame *f);

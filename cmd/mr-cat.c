@@ -2,7 +2,6 @@
  */
 #include "cmd.h"
 #include "mesh/append.h"
-#include "stream/side_stream.h"
 
 static bool pack, unpack, merge, append;
 
@@ -36,7 +35,7 @@ open_sides(cmd *c)
 	if (!sides)
 		return MR_EMEM;
 	for (size_t i = 0; i < side_count; i++)
-		MR_TRY(mr_side_open(&c->ctx, c->operands[i + 1], &sides[i]));
+		MR_TRY(cmd_side(c, c->operands[i + 1], &sides[i]));
 	return MR_OK;
 }
 

@@ -1,7 +1,6 @@
 /* mr-compare -- measure how far two surfaces or clouds are apart.  See man/mr-compare.1. */
 #include "cmd.h"
 #include "measure/report.h"
-#include "stream/side_stream.h"
 
 static mr_compare_opts opts = MR_COMPARE_DEFAULTS;
 static const char *layer_a, *layer_b;
@@ -27,20 +26,23 @@ static mr_side other; /* the stream FILE_B; all zero without one */
 static mr_status
 open_other(cmd *c)
 {
+	size_t n = c->operand_count;
+
 	if (c->layer && layer_a)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--layer and --from name the same layer: give one");
 	MR_TRY(cmd_layer_name(c, "--from", layer_a));
 	MR_TRY(cmd_layer_name(c, "--to", layer_b));
 	MR_TRY(cmd_idle(c, "samples", opts.vertices_only, "with --vertices"));
 	MR_TRY(cmd_idle(c, "tolerance", opts.vertices_only, "with --vertices"));
-	if (c->operand_count > 1)
-		return mr_fail(
-		    &c->ctx, MR_EUSAGE, "at most one FILE_B is expected, not %zu", c->operand_count);
-	if (c->operand_count == 0)
+	if (n > 2)
+		return mr_fail(&c->ctx, MR_EUSAGE, "FILE_A and FILE_B are expected, not %zu files", n);
+	if (n == 0)
 		return MR_OK;
-	if (!strcmp(c->operands[0], "-"))
+	if (!strcmp(c->operands[n - 1], "-"))
 		return mr_fail(&c->ctx, MR_EUSAGE, "FILE_B must be a file: stdin is the first stream");
-	return mr_side_open(&c->ctx, c->operands[0], &other);
+	if (n == 2)
+		MR_TRY(cmd_input(c, c->operands[0]));
+	return cmd_side(c, c->operands[n - 1], &other);
 }
 
 /* Of one frame: two of its layers. */
@@ -96,7 +98,7 @@ compare(cmd *c, mr_frame *f)
 	mr_comparison r;
 	mr_mesh ma, mb;
 
-	if (other.reader) {
+	if (other.path) {
 		MR_TRY(mr_side_take(&c->ctx, &other, f->number));
 		second = other.frame;
 		MR_TRY(choose_results(c, f, second, first, &a, &b));
@@ -116,7 +118,7 @@ compare(cmd *c, mr_frame *f)
 static mr_status
 finish(cmd *c)
 {
-	return other.reader ? mr_side_end(&c->ctx, &other, c->frame) : MR_OK;
+	return other.path ? mr_side_end(&c->ctx, &other, c->frame) : MR_OK;
 }
 
 int
@@ -124,7 +126,7 @@ main(int argc, char **argv)
 {
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "measure how far two surfaces or clouds are apart",
-		.operands = "[FILE_B]",
+		.operands = "[[FILE_A] FILE_B]",
 		.options = table,
 		.prepare = open_other,
 		.frame = compare,

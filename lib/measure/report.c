@@ -182,7 +182,7 @@ report_layers(const report *r)
 	bool any = false;
 
 	if (only && !mr_frame_has_layer(r->f, only))
-		return mr_fail(r->ctx, MR_EMISSING, "no layer %s", only);
+		return mr_layer_missing(r->ctx, r->f, only, only);
 	for (size_t i = 0; i < r->f->count; i++) {
 		if (!first_of_layer(r->f, i) || (only && strcmp(only, r->f->columns[i].layer)))
 			continue;

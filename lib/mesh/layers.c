@@ -211,6 +211,40 @@ check_indices(mr_ctx *ctx, const mr_mesh *m)
 	return MR_OK;
 }
 
+/* Which tools make a layer. */
+static const struct {
+	const char *layer, *how;
+} makers[] = {
+	{ "mesh", "mr-import reads mesh of a model with faces" },
+	{ "points", "mr-import reads points of a cloud, and by --points of any model" },
+	{ "base", "mr-smooth or mr-remesh makes base of mesh" },
+	{ "control", "mr-shrinkwrap makes control of points, mr-simplify --to control of mesh" },
+	{ "displacement", "mr-sample makes displacement" },
+	{ "handles", "mr-pose makes handles" },
+};
+
+mr_status
+mr_layer_missing(mr_ctx *ctx, const mr_frame *f, const char *names, const char *layer)
+{
+	char there[160] = "";
+	const char *how = "";
+	size_t n = 0;
+
+	for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
+		if (!strcmp(makers[i].layer, layer))
+			how = makers[i].how;
+	for (size_t i = 0; i < f->count && n < sizeof there; i++) {
+		const char *name = f->columns[i].layer;
+		size_t before = 0;
+		while (strcmp(f->columns[before].layer, name))
+			before++;
+		if (*name && before == i)
+			n += (size_t)snprintf(there + n, sizeof there - n, "%s%s", n ? ", " : "", name);
+	}
+	return mr_fail(ctx, MR_EMISSING, "no layer %s%s%s; the frame has %s", names, *how ? ": " : "", how,
+	    n ? there : "none");
+}
+
 mr_status
 mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
@@ -218,7 +252,7 @@ mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 	const void *p;
 
 	if (!mr_frame_has_layer(f, layer))
-		return mr_fail(ctx, MR_EMISSING, "no layer %s", layer);
+		return mr_layer_missing(ctx, f, layer, layer);
 	MR_TRY(mr_layer_get(ctx, f, layer, "position", &p, &r.nv));
 	r.p = p;
 	if (r.nv >= MR_NONE)
@@ -486,20 +520,23 @@ mr_status
 mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer)
 {
 	char names[128];
-	size_t n = 0;
+	size_t n = 0, i = 0;
 
 	if (only) {
 		if (!mr_frame_has_layer(f, only))
-			return mr_fail(ctx, MR_EMISSING, "no layer %s", only);
+			return mr_layer_missing(ctx, f, only, only);
 		*layer = only;
 		return MR_OK;
 	}
-	for (size_t i = 0; layers[i]; i++) {
+	for (; layers[i]; i++) {
 		if (mr_frame_has_layer(f, layers[i])) {
 			*layer = layers[i];
 			return MR_OK;
 		}
 		n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", i ? " nor " : "", layers[i]);
 	}
-	return mr_fail(ctx, MR_EMISSING, "no layer %s", names);
+	do /* mesh is what most pipes begin with; else what is looked for first */
+		i--;
+	while (i && strcmp(layers[i], "mesh") != 0);
+	return mr_layer_missing(ctx, f, names, layers[i]);
 }

@@ -66,6 +66,9 @@ mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv
  * and where no column says. */
 mr_status mr_layer_crease(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const uint8_t **mark);
 
+/* MR_EMISSING: no layer of these names; which there are, and who makes `layer`, one of them. */
+mr_status mr_layer_missing(mr_ctx *ctx, const mr_frame *f, const char *names, const char *layer);
+
 /* The first of the layers (a NULL-terminated list) that is in the frame, or `only` where not NULL.
  * MR_EMISSING names them all. */
 mr_status

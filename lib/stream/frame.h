@@ -64,4 +64,13 @@ mr_status mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from);
 /* Appends one line to the frame's history; control characters and bytes that are not UTF-8 become '?'. */
 mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);
 
+/*
+ * Says at the end of what was written that this process fails, and has said why, to those of its process group.
+ * What cannot be written is not.
+ */
+void mr_writer_fail(mr_ctx *ctx, mr_writer *w);
+
+/* Whether reading failed since the stream ends so, and the process that said why is of the same group as this. */
+bool mr_reader_told(const mr_reader *r);
+
 #endif

@@ -1,6 +1,8 @@
 /* Records to frames: a delta is merged with what it keeps of the frame before (man/mr-stream.5). */
 #include "stream/stored.h"
 
+#include <unistd.h>
+
 struct mr_reader {
 	mr_input in;
 	uint64_t serial, number; /* payloads and frames so far */
@@ -13,6 +15,7 @@ struct mr_reader {
 	char name[MR_NAME_MAX + 1];
 	bool inside, fresh, ended,
 	    failed; /* inside a stream; before its first frame; one has ended; an error came */
+	bool told;  /* who failed has said why */
 };
 
 /* A record just read: `heap` is to be freed unless somebody keeps it. */
@@ -196,6 +199,21 @@ begin_frame(mr_ctx *ctx, mr_reader *r, const piece *p)
 	return MR_OK;
 }
 
+/* A record that stands between frames and should not: column `failed` is the last of a tool that failed. */
+static mr_status
+outside(mr_ctx *ctx, mr_reader *r, const piece *p)
+{
+	char group[24];
+
+	if (p->head.kind != MR_COLUMN || *p->head.layer || strcmp(p->head.name, "failed") != 0)
+		return misplaced(ctx, p, "stands outside of a frame");
+	snprintf(group, sizeof group, "%ld", (long)getpgrp());
+	r->told = p->head.stored == strlen(group) && !memcmp(p->record + MR_HEADER, group, strlen(group));
+	return mr_fail(ctx, MR_EFORMAT,
+	    "stream ends without END at byte %llu: the previous tool failed, and has said so",
+	    (unsigned long long)p->offset);
+}
+
 /* What stands between frames, up to the next FRAME.  MR_END: all streams have ended. */
 static mr_status
 next_frame(mr_ctx *ctx, mr_reader *r)
@@ -217,8 +235,7 @@ next_frame(mr_ctx *ctx, mr_reader *r)
 		}
 		free(p.heap);
 	}
-	status = p.head.kind == MR_FRAME ? begin_frame(ctx, r, &p)
-	                                 : misplaced(ctx, &p, "stands outside of a frame");
+	status = p.head.kind == MR_FRAME ? begin_frame(ctx, r, &p) : outside(ctx, r, &p);
 	free(p.heap);
 	return status;
 }
@@ -420,4 +437,10 @@ mr_reader_next(mr_ctx *ctx, mr_reader *r, mr_frame **frame)
 	if (status == MR_OK)
 		*frame = &r->frame;
 	return status;
+}
+
+bool
+mr_reader_told(const mr_reader *r)
+{
+	return r->told;
 }

@@ -346,3 +346,14 @@ mr_writer_end(mr_ctx *ctx, mr_writer *w)
 	MR_TRY(emit_structure(ctx, w, MR_STOP, "", ""));
 	return flush_with(ctx, w, NULL, 0);
 }
+
+void
+mr_writer_fail(mr_ctx *ctx, mr_writer *w)
+{
+	mr_record r = { .shape = { '-', 't', 1 }, .name = "failed" };
+	char group[24];
+
+	r.rows = r.stored = r.size = (uint64_t)snprintf(group, sizeof group, "%ld", (long)getpgrp());
+	if (!w->failed && emit_start(ctx, w) == MR_OK && emit_record(ctx, w, &r, group) == MR_OK)
+		w->failed = flush_with(ctx, w, NULL, 0) != MR_OK;
+}

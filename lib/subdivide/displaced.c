@@ -160,7 +160,7 @@ stored_heights(
 	const void *data;
 
 	if (!mr_frame_has_layer(f, "displacement"))
-		return mr_fail(ctx, MR_EMISSING, "no layer displacement: it comes from mr-sample");
+		return mr_layer_missing(ctx, f, "displacement", "displacement");
 	MR_TRY(stored_level(ctx, f, n));
 	MR_TRY(mr_layer_get(ctx, f, "displacement", "height", &data, rows));
 	MR_TRY(count_boundary(ctx, control, &boundary));

@@ -1,1 +1,1 @@
-mr-compare a.mrs b.mrs </dev/null
+mr-compare a.mrs b.mrs c.mrs </dev/null
