@@ -362,6 +362,23 @@ mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m)
 
 /* ---- attributes ---- */
 
+bool
+mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped)
+{
+	size_t odd = 0;
+
+	for (size_t i = 0; i < n; i++)
+		if (!mr_finite(normal[i])) {
+			normal[i] = mr_vec(0, 0, 0);
+			odd++;
+		}
+	if (odd) {
+		mr_warn(ctx, "%zu of %zu normals are left out: they are not finite numbers", odd, n);
+		*dropped = odd;
+	}
+	return odd == 0 || odd < n;
+}
+
 void
 mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why)
 {

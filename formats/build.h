@@ -87,6 +87,11 @@ mr_status mr_build_properties(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
 /* All points of the model were seen from there. */
 mr_status mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m) MR_WARN_UNUSED;
 
+/*
+ * Normals that are not finite become zero, which is none: says and counts how many.  False where all were so.
+ */
+bool mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped) MR_WARN_UNUSED;
+
 /* A column that is dropped: says so and counts it. */
 void mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why);
 

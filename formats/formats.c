@@ -203,6 +203,26 @@ as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
 	return *size ? normalise_lines(ctx, data, *size) : MR_OK;
 }
 
+/* A surface gets the normals that were left out from its faces. */
+static mr_status
+mend_normals(mr_ctx *ctx, mr_model *m)
+{
+	const mr_mesh mesh = { .name = "mesh", .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
+	mr_v3 *normal;
+
+	if (!m->nf || !m->normal || m->counts.dropped_normals == MR_UNKNOWN)
+		return MR_OK;
+	normal = MR_NEW(ctx, m->nv, mr_v3);
+	if (!normal)
+		return MR_EMEM;
+	MR_TRY(mr_vertex_normals(ctx, &mesh, NULL, normal));
+	for (size_t i = 0; i < m->nv; i++)
+		if (mr_norm2(m->normal[i]) > 0)
+			normal[i] = m->normal[i];
+	m->normal = normal;
+	return MR_OK;
+}
+
 mr_status
 mr_model_parse(
     mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size, mr_model *m)
@@ -216,6 +236,7 @@ mr_model_parse(
 	MR_TRY(f->read(ctx, data, size, &got));
 	if (got.nv == 0)
 		return mr_fail(ctx, MR_EMESH, "%s without a vertex", f->name);
+	MR_TRY(mend_normals(ctx, &got));
 	mr_note(ctx, "%s: %zu vertices, %zu triangles", f->name, got.nv, got.nf);
 	*m = got;
 	return MR_OK;

@@ -19,9 +19,11 @@ typedef struct obj {
 	mr_v3 *vn_values; /* vn_all */
 	float *rgb;       /* three per vertex, NAN where it has none; NULL without any */
 	bool bright;      /* colours beyond 1: in 255ths */
-	size_t lines_and_points, weights, depths, others;  /* what is left out */
-	char other[MR_SHOWN];                              /* the first of the others */
-	const char *odd_normal, *odd_texcoord, *odd_color; /* why the column cannot be kept; NULL: it can */
+	size_t lines_and_points, weights, depths, others; /* what is left out */
+	char other[MR_SHOWN];                             /* the first of the others */
+	const char *odd_color;                            /* why colours cannot be kept; NULL: they can */
+	size_t odd_texcoords;                             /* values that are not finite */
+	size_t no_normals, no_texcoords;                  /* corners that name one that is not there */
 	bool slashes;      /* the face at hand has a slash with nothing behind it */
 	uint32_t *corners; /* of the face at hand: vertices, texture coordinates, normals */
 	size_t corner_room;
@@ -132,9 +134,6 @@ numbers(obj *o, mr_scan *line, const char *what, size_t least, size_t most, doub
 	return MR_OK;
 }
 
-static const char not_finite[] = "one is not a finite number",
-		  not_there[] = "a face names one that is not there";
-
 static mr_status
 set_color(obj *o, const double *c)
 {
@@ -149,7 +148,7 @@ set_color(obj *o, const double *c)
 		o->rgb[3 * o->v + (size_t)i] = (float)c[i];
 		o->bright |= c[i] > 1;
 		if (!isfinite(c[i]))
-			o->odd_color = not_finite;
+			o->odd_color = "one is not a finite number";
 	}
 	return MR_OK;
 }
@@ -181,8 +180,10 @@ texcoord(obj *o, mr_scan *line)
 	size_t n;
 
 	MR_TRY(numbers(o, line, "a texture coordinate", 1, 3, x, &n));
-	if (!isfinite(x[0]) || !isfinite(x[1]))
-		o->odd_texcoord = not_finite;
+	if (!isfinite(x[0]) || !isfinite(x[1])) {
+		x[0] = x[1] = NAN; /* none */
+		o->odd_texcoords++;
+	}
 	o->depths += n == 3 && x[2] != 0;
 	o->uv[2 * o->vt] = x[0];
 	o->uv[2 * o->vt + 1] = x[1];
@@ -198,8 +199,6 @@ normal(obj *o, mr_scan *line)
 
 	MR_TRY(numbers(o, line, "a normal", 3, 3, x, &n));
 	o->vn_values[o->vn] = mr_vec(x[0], x[1], x[2]);
-	if (!mr_finite(o->vn_values[o->vn]))
-		o->odd_normal = not_finite;
 	o->vn++;
 	return MR_OK;
 }
@@ -282,7 +281,7 @@ resolve(int index, size_t so_far, size_t all, uint32_t *i)
 
 /* The place of a value that a corner names, which may stand behind it; MR_NONE where it names none. */
 static uint32_t
-place_of(int index, size_t so_far, size_t all, const char **odd)
+place_of(int index, size_t so_far, size_t all, size_t *odd)
 {
 	uint32_t i;
 
@@ -290,7 +289,7 @@ place_of(int index, size_t so_far, size_t all, const char **odd)
 		return MR_NONE;
 	if (resolve(index, so_far, all, &i))
 		return i;
-	*odd = not_there;
+	++*odd;
 	return MR_NONE;
 }
 
@@ -305,8 +304,8 @@ add_face(obj *o, const mr_obj_corner *c, size_t n)
 	for (size_t i = 0; i < n; i++) {
 		if (!resolve(c[i].v, o->v, o->v_all, &v[i]))
 			return bad(o, "vertex %d of %zu", c[i].v, o->v_all);
-		t[i] = place_of(c[i].vt, o->vt, o->vt_all, &o->odd_texcoord);
-		s[i] = place_of(c[i].vn, o->vn, o->vn_all, &o->odd_normal);
+		t[i] = place_of(c[i].vt, o->vt, o->vt_all, &o->no_texcoords);
+		s[i] = place_of(c[i].vn, o->vn, o->vn_all, &o->no_normals);
 		uv |= t[i] != MR_NONE;
 		vn |= s[i] != MR_NONE;
 	}
@@ -577,19 +576,35 @@ finish_colors(obj *o)
 	return MR_OK;
 }
 
-/* A column that cannot be kept is dropped; a cloud that has as many normals as points has one for each. */
+/* Corners that name what is not there, or no number, go without. */
+static void
+count_absent(obj *o, const char *what, size_t corners, size_t *dropped)
+{
+	if (corners == 0)
+		return;
+	mr_warn(o->ctx, "%zu corners name %s that are not there, and go without", corners, what);
+	*dropped = *dropped == MR_UNKNOWN ? corners : *dropped + corners;
+}
+
+/* A cloud that has as many normals as points has one for each. */
 static void
 finish_corners(obj *o)
 {
-	if (o->odd_texcoord) {
-		mr_dropped(o->ctx, &o->b.counts->dropped_texcoords, "texcoords", o->odd_texcoord);
-		o->b.corner_uv = NULL;
+	mr_import_result *counts = o->b.counts;
+
+	if (o->odd_texcoords) {
+		mr_warn(o->ctx, "%zu of %zu texture coordinates are left out: they are not finite numbers",
+		    o->odd_texcoords, o->vt);
+		counts->dropped_texcoords = o->odd_texcoords;
 	}
-	if (o->odd_normal) {
-		mr_dropped(o->ctx, &o->b.counts->dropped_normals, "normals", o->odd_normal);
+	if (o->vt && o->odd_texcoords == o->vt)
+		o->b.corner_uv = NULL;
+	if (!mr_normals_left(o->ctx, o->vn_values, o->vn, &counts->dropped_normals))
 		o->b.corner_vn = NULL;
-	} else if (o->b.faces == 0 && o->vn_all == o->v_all)
+	else if (o->b.faces == 0 && o->vn_all == o->v_all)
 		o->b.normal = o->vn_values;
+	count_absent(o, "texture coordinates", o->no_texcoords, &counts->dropped_texcoords);
+	count_absent(o, "normals", o->no_normals, &counts->dropped_normals);
 }
 
 static mr_status

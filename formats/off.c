@@ -14,7 +14,7 @@ typedef struct off {
 	uint64_t nv, nf;
 	float *rgba;       /* four per vertex as given, NAN where there are none */
 	bool whole_colors; /* all of them whole numbers: in 255ths */
-	bool odd_normal, odd_color, odd_uv;
+	bool odd_color, odd_uv;
 	size_t ignored; /* numbers behind a vertex that the keyword does not announce */
 	uint32_t *corner;
 	size_t corner_room;
@@ -113,7 +113,6 @@ static void
 set_normal(off *f, size_t vertex, const double *n)
 {
 	f->b.normal[vertex] = mr_vec(n[0], n[1], n[2]);
-	f->odd_normal |= !mr_finite(f->b.normal[vertex]);
 }
 
 static void
@@ -211,17 +210,15 @@ static mr_status
 finish(off *f, mr_model *m)
 {
 	MR_TRY(finish_colors(f));
-	if (f->odd_normal) {
-		mr_dropped(f->ctx, &f->b.counts->dropped_normals, "normals", "one is not a finite number");
+	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &f->b.counts->dropped_normals))
 		f->b.normal = NULL;
-	}
 	if (f->odd_uv) {
 		mr_dropped(
 		    f->ctx, &f->b.counts->dropped_texcoords, "texcoords", "one is not a finite number");
 		f->b.texcoord = NULL;
 	}
 	if (f->ignored)
-		mr_note(f->ctx, "%zu numbers behind vertices, which the keyword does not announce, left out",
+		mr_warn(f->ctx, "%zu numbers behind vertices, which the keyword does not announce, left out",
 		    f->ignored);
 	return mr_build_finish(&f->b, m);
 }

@@ -381,7 +381,7 @@ is_origin(mr_v3 p)
 
 /* The points: as many as are finite. */
 static mr_status
-read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count, bool *odd)
+read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count)
 {
 	double v[ROLES] = { 0 };
 	uint32_t rgb = 0;
@@ -392,10 +392,8 @@ read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count
 		p[n] = mr_vec(v[X], v[Y], v[Z]);
 		if (!mr_finite(p[n]))
 			continue;
-		if (normal) {
+		if (normal)
 			normal[n] = mr_vec(v[NX], v[NY], v[NZ]);
-			*odd |= !mr_finite(normal[n]);
-		}
 		if (color) {
 			unsigned char c[4] = { (unsigned char)(rgb >> 16), (unsigned char)(rgb >> 8),
 				(unsigned char)rgb, 255 };
@@ -415,7 +413,6 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	};
 	mr_v3 *p, *normal = NULL;
 	unsigned char *color = NULL;
-	bool odd = false;
 	size_t n;
 
 	MR_TRY(read_header(&f));
@@ -425,15 +422,13 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (!p || (f.of[NX] && f.of[NY] && f.of[NZ] && !(normal = MR_NEW(ctx, (size_t)f.points, mr_v3))) ||
 	    (f.of[RGB] && !(color = mr_alloc(ctx, (size_t)f.points, 4))))
 		return MR_EMEM;
-	MR_TRY(read_points(&f, p, normal, color, &n, &odd));
+	MR_TRY(read_points(&f, p, normal, color, &n));
 	if (n < f.points)
 		mr_note(ctx, "%llu points that are not finite left out", (unsigned long long)f.points - n);
 	m->counts.points_left_out = (size_t)f.points - n;
-	if (odd)
-		mr_dropped(ctx, &m->counts.dropped_normals, "normals", "one is not a finite number");
-	*m = (mr_model){
-		.p = p, .nv = n, .normal = odd ? NULL : normal, .color = color, .counts = m->counts
-	};
+	if (normal && !mr_normals_left(ctx, normal, n, &m->counts.dropped_normals))
+		normal = NULL;
+	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };
 	/* the origin is what stands there where none is known */
 	if (!is_origin(f.viewpoint))
 		MR_TRY(mr_scanned_from(ctx, f.viewpoint, m));

@@ -596,7 +596,7 @@ static mr_status
 read_vertices(ply *f, const element *e)
 {
 	type color = type_of(e, RED), alpha = type_of(e, ALPHA);
-	bool odd_normal = false, odd_color = false;
+	bool odd_color = false;
 	double v[ROLES] = { 0 };
 
 	if (!has(e, X) || !has(e, Y) || !has(e, Z))
@@ -614,10 +614,8 @@ read_vertices(ply *f, const element *e)
 		if (!mr_finite(f->b.p[i]))
 			return bad(f, where, "position %zu (%g %g %g) is not finite", i, v[X], v[Y], v[Z]);
 		MR_TRY(keep_row(f, e, i));
-		if (f->b.normal) {
+		if (f->b.normal)
 			f->b.normal[i] = mr_vec(v[NX], v[NY], v[NZ]);
-			odd_normal |= !mr_finite(f->b.normal[i]);
-		}
 		if (f->b.color) {
 			unsigned char *c = f->b.color + 4 * i;
 			odd_color |= isnan(v[RED] + v[GREEN] + v[BLUE] + v[ALPHA]);
@@ -632,10 +630,8 @@ read_vertices(ply *f, const element *e)
 			f->odd_uv |= !isfinite(v[U]) || !isfinite(v[V]);
 		}
 	}
-	if (odd_normal) {
-		mr_dropped(f->ctx, &f->b.counts->dropped_normals, "normals", "one is not a finite number");
+	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &f->b.counts->dropped_normals))
 		f->b.normal = NULL;
-	}
 	if (odd_color) {
 		mr_dropped(f->ctx, &f->b.counts->dropped_colors, "colors", "one is not a number");
 		f->b.color = NULL;

@@ -45,7 +45,7 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (n > (MR_NONE - 1) / 3)
 		return mr_fail(ctx, MR_ERANGE, "%zu triangles are more than indices can name", n);
 	if (size - HEADER > n * RECORD)
-		mr_note(ctx, "%zu bytes behind the last triangle left out", size - HEADER - n * RECORD);
+		mr_warn(ctx, "%zu bytes behind the last triangle left out", size - HEADER - n * RECORD);
 	corner = MR_NEW(ctx, 3 * n, uint32_t);
 	p = MR_NEW(ctx, 3 * n, mr_v3);
 	if (!corner || !p)

@@ -367,17 +367,14 @@ halves(const table *t)
 }
 
 static bool
-useful(mr_ctx *ctx, const mr_v3 *n, size_t count, size_t *dropped)
+useful(mr_ctx *ctx, mr_v3 *n, size_t count, size_t *dropped)
 {
 	bool any = false;
 
-	for (size_t i = 0; i < count; i++) {
-		if (!mr_finite(n[i])) {
-			mr_dropped(ctx, dropped, "normals", "one is not a finite number");
-			return false;
-		}
+	if (!mr_normals_left(ctx, n, count, dropped))
+		return false;
+	for (size_t i = 0; i < count; i++)
 		any |= mr_norm2(n[i]) > 0;
-	}
 	if (!any)
 		mr_dropped(ctx, dropped, "normals", "all are zero");
 	return any;
@@ -429,7 +426,7 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (halves(&t))
 		normal = p + n;
 	else if (t.counted && t.rows > t.count)
-		mr_note(ctx, "%zu points, where the file counts %llu", t.rows, (unsigned long long)t.count);
+		mr_warn(ctx, "%zu points, where the file counts %llu", t.rows, (unsigned long long)t.count);
 	if (normal && n && !useful(ctx, normal, n, &m->counts.dropped_normals))
 		normal = NULL;
 	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };

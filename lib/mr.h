@@ -226,7 +226,7 @@ typedef struct mr_import_result {
 	size_t polygons;                        /* faces of more than three corners */
 	size_t faces_left_out, points_left_out; /* of fewer than three corners; not finite */
 	size_t seam_vertices, crease_vertices;  /* of several texture coordinates; of several normals */
-	size_t dropped_normals, dropped_colors, dropped_texcoords;   /* 1, or not known where none was */
+	size_t dropped_normals, dropped_colors, dropped_texcoords;   /* how many, or 1: all; else not known */
 	size_t weld_joined, weld_collapsed;                          /* vertices; faces */
 	size_t repair_degenerate, repair_duplicate, repair_isolated; /* dropped: faces, faces, vertices */
 	size_t repair_split_edges, repair_split_vertices; /* of over two faces; where fans were parted */
