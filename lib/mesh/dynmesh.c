@@ -104,11 +104,24 @@ mr_dyn_remove_vertex(mr_dyn *d, uint32_t v)
 	d->free_v = v;
 }
 
+/* Takes the curve of h, where it has one, on to k (or MR_NONE); its ends are still those it had. */
+static void
+move_curve(mr_dyn *d, uint32_t h, uint32_t k)
+{
+	uint32_t curve = mr_dyn_curve(d, h);
+
+	if (curve == MR_NONE)
+		return;
+	mr_curves_set(&d->curves, h, MR_NONE);
+	if (k != MR_NONE)
+		mr_curves_set(&d->curves, k, curve);
+}
+
 void
 mr_dyn_remove_face(mr_dyn *d, uint32_t f)
 {
 	for (uint32_t k = 3 * f; k < 3 * f + 3; k++)
-		mr_curves_set(&d->curves, k, MR_NONE);
+		move_curve(d, k, MR_NONE);
 	d->v[3 * f] = MR_NONE;
 	d->twin[3 * f] = d->free_f;
 	d->free_f = f;
@@ -124,16 +137,15 @@ cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 	uint32_t n = mr_he_next(h), b = d->v[n], c = d->v[mr_he_next(n)];
 	uint32_t mb = 3 * f, bc = 3 * f + 1, cm = 3 * f + 2;
 
+	if (mr_dyn_on_curve(d, h))
+		mr_curves_set(&d->curves, mb, mr_dyn_curve(d, h));
+	move_curve(d, n, bc);
 	d->v[mb] = m;
 	d->v[bc] = b;
 	d->v[cm] = c;
 	link_twins(d, bc, d->twin[n]);
-	mr_curves_set(&d->curves, mb, mr_curves_get(&d->curves, h));
-	mr_curves_set(&d->curves, bc, mr_curves_get(&d->curves, n));
-	mr_curves_set(&d->curves, cm, MR_NONE);
 	d->v[n] = m;
 	link_twins(d, n, cm);
-	mr_curves_set(&d->curves, n, MR_NONE);
 	if (d->out[b] == n)
 		d->out[b] = bc;
 }
@@ -159,7 +171,7 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 		MR_TRY(mr_dyn_add_face(ctx, d, &e));
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
-	d->at[m] = mr_dyn_on_curve(d, h) ? mr_curves_get(&d->curves, h) : mr_dyn_place(d, a);
+	d->at[m] = mr_dyn_on_curve(d, h) ? mr_dyn_curve(d, h) : mr_dyn_place(d, a);
 	if (d->scale)
 		d->scale[m] = 0.5f * (d->scale[a] + d->scale[mr_dyn_to(d, h)]);
 	cut_face(d, h, m, f);
@@ -277,12 +289,12 @@ close_face(mr_dyn *d, uint32_t h)
 {
 	uint32_t n = mr_he_next(h), p = mr_he_prev(h), f = h / 3, c = d->v[p];
 	uint32_t cb = d->twin[n], ac = d->twin[p];
-	uint32_t curve = mr_dyn_on_curve(d, n) ? mr_curves_get(&d->curves, n) : mr_curves_get(&d->curves, p);
+	uint32_t curve = mr_dyn_on_curve(d, n) ? mr_dyn_curve(d, n) : mr_dyn_curve(d, p);
 
 	link_twins(d, cb, ac);
-	if (cb != MR_NONE)
+	if (cb != MR_NONE && curve != MR_NONE)
 		mr_curves_set(&d->curves, cb, curve);
-	if (ac != MR_NONE)
+	if (ac != MR_NONE && curve != MR_NONE)
 		mr_curves_set(&d->curves, ac, curve);
 	if (d->out[c] == p)
 		d->out[c] = cb;
@@ -337,15 +349,13 @@ mr_dyn_flip(mr_dyn *d, uint32_t h)
 	uint32_t g = d->twin[h], hn = mr_he_next(h), gn = mr_he_next(g);
 	uint32_t a = d->v[h], b = d->v[g], c = mr_dyn_apex(d, h), e = mr_dyn_apex(d, g);
 
+	move_curve(d, gn, h);
+	move_curve(d, hn, g);
 	d->v[hn] = e;
 	d->v[gn] = c;
 	link_twins(d, h, d->twin[gn]);
 	link_twins(d, g, d->twin[hn]);
-	mr_curves_set(&d->curves, h, mr_curves_get(&d->curves, gn));
-	mr_curves_set(&d->curves, g, mr_curves_get(&d->curves, hn));
 	link_twins(d, hn, gn);
-	mr_curves_set(&d->curves, hn, MR_NONE);
-	mr_curves_set(&d->curves, gn, MR_NONE);
 	if (d->out[b] == hn)
 		d->out[b] = g;
 	if (d->out[a] == gn)

@@ -55,10 +55,19 @@ mr_dyn_to(const mr_dyn *d, uint32_t h)
 	return d->v[mr_he_next(h)];
 }
 
+/* The half-edge of the source that h lies on; MR_NONE where it lies on no curve, as is told by its ends but
+ * for those of other curves: a look into the table is one into memory far away. */
+static inline uint32_t
+mr_dyn_curve(const mr_dyn *d, uint32_t h)
+{
+	bool smooth = d->kind[d->v[h]] == MR_SMOOTH || d->kind[mr_dyn_to(d, h)] == MR_SMOOTH;
+	return smooth ? MR_NONE : mr_curves_get(&d->curves, h);
+}
+
 static inline bool
 mr_dyn_on_curve(const mr_dyn *d, uint32_t h)
 {
-	return mr_curves_get(&d->curves, h) != MR_NONE;
+	return mr_dyn_curve(d, h) != MR_NONE;
 }
 
 /* The face of the source at or near vertex v. */

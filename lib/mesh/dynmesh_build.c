@@ -126,6 +126,7 @@ mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feat
 	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
 	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
 	MR_TRY(mark_curves(ctx, &d, feature));
+	memset(d.kind, MR_CORNER, m->nv); /* any may be on a curve */
 	for (uint32_t v = 0; v < m->nv; v++) {
 		if (d.out[v] == MR_NONE) {
 			d.kind[v] = MR_DEAD; /* an isolated vertex: not part of the surface */

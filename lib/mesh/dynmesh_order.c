@@ -124,7 +124,7 @@ move_vertex(mr_dyn *d, uint32_t v, uint32_t w)
 static void
 move_half_edge(mr_dyn *d, uint32_t h, uint32_t k)
 {
-	uint32_t g = d->twin[h], v = d->v[h], curve = mr_curves_get(&d->curves, h);
+	uint32_t g = d->twin[h], v = d->v[h], curve = mr_dyn_curve(d, h);
 
 	if (h == k)
 		return;

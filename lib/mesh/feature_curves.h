@@ -20,11 +20,16 @@ typedef struct mr_curves {
 	unsigned bits; /* of the number of a slot */
 } mr_curves;
 
-/* The slot where a half-edge is looked for first (Knuth 1973: multiplicative hashing). */
+/*
+ * The slot where a half-edge is looked for first (Knuth 1973: multiplicative hashing); that of the next is
+ * beside it, since they are asked for one after the other.
+ */
 static inline uint32_t
 mr_curves_home(const mr_curves *c, uint32_t h)
 {
-	return h * 2654435769u >> (32 - c->bits);
+	const uint32_t beside = 15;
+
+	return ((h >> 4) * 2654435769u >> (32 - c->bits) & ~beside) | (h & beside);
 }
 
 /* The slot of h, or the empty one where it would be. */

@@ -30,12 +30,8 @@ double
 mr_remesh_length(const mr_remesh_source *s, const mr_dyn *d, uint32_t v)
 {
 	double scale = d->scale ? d->scale[v] : 1;
-	const uint32_t *t;
 
-	if (!s->length)
-		return scale * s->uniform;
-	t = s->m->t[mr_dyn_place(d, v)].v;
-	return scale * (s->length[t[0]] + s->length[t[1]] + s->length[t[2]]) / 3;
+	return scale * (s->length ? s->mean[mr_dyn_place(d, v)] : s->uniform);
 }
 
 typedef struct areas_job {

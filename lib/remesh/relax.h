@@ -16,6 +16,7 @@ typedef struct mr_remesh_source {
 	const mr_topology *topo;
 	const mr_curves *curves; /* of the source, by its own half-edges */
 	const double *length;    /* target edge length at each vertex; NULL: uniform */
+	const double *mean;      /* of its corners' at each face, where there are lengths */
 	double uniform;
 } mr_remesh_source;
 

@@ -22,7 +22,7 @@ set_up(scene *x, mr_mesh m, double feature)
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
 	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, feature, &x->d), MR_OK);
 	assert_int_equal(mr_curves_copy(&ctx, &x->d.curves, &x->curves), MR_OK);
-	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->curves, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
+	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->curves, NULL, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
 }
 
 /* Twins agree, out half-edges leave their vertices, boundary ones first. */
