@@ -184,8 +184,8 @@ test_pair(const tree *x, size_t k, uint32_t f, uint32_t g)
 	const node *a = &x->node[k][f], *b = &x->node[k][g];
 	const mr_tri *t = x->level[k].t;
 
-	if (apart(a, b))
-		return;
+	if (a->angle < 0 || b->angle < 0 || apart(a, b))
+		return; /* what has no normal anywhere crosses nothing, and all of it may be at one place */
 	if (k == x->n) {
 		test_leaves(x, f, g);
 		return;

@@ -156,6 +156,21 @@ survives_no_memory(void **state)
 	assert_int_equal(s, MR_OK);
 }
 
+/* All at one place every part meets every other: without a look at what has no normal that is 10^11 tests. */
+static void
+what_shrank_to_a_point_is_soon_told(void **state)
+{
+	mr_domain d = sphere(10000);
+	const mr_loop *l = &d.level[LEVEL];
+	mr_v3 *p = MR_NEW_ZERO(&ctx, l->nv, mr_v3);
+	bool *crosses = MR_NEW(&ctx, l->nf, bool);
+
+	(void)state;
+	assert_int_equal(mr_find_crossings(&ctx, d.level, LEVEL, p, NULL, crosses), MR_OK);
+	for (size_t f = 0; f < l->nf; f++)
+		assert_false(crosses[f]);
+}
+
 int
 main(void)
 {
@@ -164,6 +179,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(dents_that_reach_through, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_moved_is_enough, setup, teardown),
 		cmocka_unit_test_setup_teardown(survives_no_memory, setup, teardown),
+		cmocka_unit_test_setup_teardown(what_shrank_to_a_point_is_soon_told, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
