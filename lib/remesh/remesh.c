@@ -482,14 +482,16 @@ try_again(remesher *r)
 	mr_patch patch;
 	size_t least, left;
 	bool fewer = true;
+	mr_status status = MR_OK;
 
 	MR_TRY(cut_flaws(r, &patch));
 	MR_TRY(mr_dyn_copy(r->ctx, &patch.d, &part.d));
 	MR_TRY(count_flawed(&part, &least));
 	left = least;
 	for (int i = 0; i < TRIES && (fewer || i == 1) && left > 0; i++) {
-		if (i > 0)
-			MR_TRY(refine(&part));
+		if (i > 0 && (status = refine(&part)) == MR_ERANGE)
+			break; /* more than may be: what was found stays */
+		MR_TRY(status);
 		MR_TRY(count_flawed(&part, &left));
 		if (left > MANY * least)
 			break;
@@ -530,8 +532,8 @@ report(const remesher *r)
 		.seconds_areas = r->seconds_areas };
 }
 
-static mr_status
-remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
+mr_status
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result)
 {
 	remesher r = { .ctx = ctx, .o = o, .wanted = result != NULL };
@@ -556,47 +558,5 @@ remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_
 	if (result)
 		*result = report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
-	return MR_OK;
-}
-
-/* The positions multiplied by a power of two, which loses nothing. */
-static mr_status
-scaled(mr_ctx *ctx, const mr_mesh *m, int exponent, mr_mesh *out)
-{
-	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
-
-	if (!p)
-		return MR_EMEM;
-	for (size_t v = 0; v < m->nv; v++)
-		p[v] = mr_vec(
-		    ldexp(m->p[v].x, exponent), ldexp(m->p[v].y, exponent), ldexp(m->p[v].z, exponent));
-	*out = *m;
-	out->p = p;
-	return MR_OK;
-}
-
-mr_status
-mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
-    mr_remesh_result *result)
-{
-	/* areas are squared, and so are their products: beyond these numbers overflow or vanish */
-	const double least = 1e-30, most = 1e30;
-	double diagonal = mr_mesh_diagonal(m);
-	mr_remesh_opts unit = *o;
-	mr_mesh small, found;
-	int exponent;
-
-	if ((diagonal >= least && diagonal <= most) || !(diagonal > 0) || !isfinite(diagonal))
-		return remesh(ctx, m, o, out, map, result);
-	exponent = ilogb(diagonal);
-	if (!o->length_relative)
-		unit.length = ldexp(o->length, -exponent);
-	if (!o->adaptive_relative)
-		unit.adaptive = ldexp(o->adaptive, -exponent);
-	MR_TRY(scaled(ctx, m, -exponent, &small));
-	MR_TRY(remesh(ctx, &small, &unit, &found, map, result));
-	MR_TRY(scaled(ctx, &found, exponent, out));
-	if (result)
-		result->length = ldexp(result->length, exponent);
 	return MR_OK;
 }
