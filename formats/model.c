@@ -334,9 +334,9 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 	mr_mesh mesh;
 
 	if (mr_layer_has(f, layer, "triangles"))
-		MR_TRY(mr_layer_mesh(ctx, f, layer, &mesh));
+		MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &mesh));
 	else
-		MR_TRY(mr_layer_points(ctx, f, layer, &mesh));
+		MR_TRY(mr_layer_points_of_any_size(ctx, f, layer, &mesh));
 	got.p = mesh.p, got.nv = mesh.nv;
 	got.t = mesh.t, got.nf = mesh.nf;
 	for (size_t i = 0; i < COLUMNS; i++) {

@@ -146,7 +146,8 @@ MR_API mr_status mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, c
  * that element. */
 MR_API void mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element);
 
-/* The layer's surface: positions and triangles, checked.  MR_EMISSING without them; MR_EMESH of no face. */
+/* The layer's surface: positions, of which the largest coordinate is 0 or within 1e-30 and 1e30, and
+ * triangles, checked.  MR_EMISSING without them; MR_EMESH of no face; MR_ERANGE. */
 MR_API mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
 
 /* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */

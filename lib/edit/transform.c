@@ -145,7 +145,7 @@ find_box(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_affine *map, mr_b
 	*box = mr_box_empty();
 	for (size_t i = 0; i < f->count; i++)
 		if (is_position(&f->columns[i], layer)) {
-			MR_TRY(mr_layer_points(ctx, f, f->columns[i].layer, &m));
+			MR_TRY(mr_layer_points_of_any_size(ctx, f, f->columns[i].layer, &m));
 			for (size_t v = 0; v < m.nv; v++)
 				mr_box_add(box, mr_apply(map, m.p[v]));
 		}
@@ -186,6 +186,15 @@ mr_transform_map(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_transform
 	return MR_OK;
 }
 
+/* cbrt's last bit is not always right, and powers of two are to round nothing: a step of Newton's. */
+static double
+cube_root(double x)
+{
+	double s = cbrt(x);
+
+	return s > 0 ? s - (s * s * s - x) / (3 * s * s) : s;
+}
+
 /* ---- columns ---- */
 
 typedef struct change {
@@ -213,7 +222,7 @@ change_of(const mr_affine *map)
 {
 	mr_mat3 l = mr_affine_linear(map), square = mr_mat3_multiply_transposed(&l, &l);
 	const double *m = l.m;
-	double det = mr_mat3_determinant(&l), s = cbrt(fabs(det)), off = 0;
+	double det = mr_mat3_determinant(&l), s = cube_root(fabs(det)), off = 0;
 	change c = { .map = *map, .mirrors = det < 0 };
 
 	for (int i = 0; i < 3; i++)

@@ -245,8 +245,52 @@ mr_layer_missing(mr_ctx *ctx, const mr_frame *f, const char *names, const char *
 	    n ? there : "none");
 }
 
+/* Up to here, and down to its inverse, every tool gives the same bits at every power of two; at 1e57 wraps
+ * and heights are others. */
+static const double LARGEST = 1e30;
+
+/* Beyond, results would be wrong in silence: products of lengths overflow or vanish. */
+static mr_status
+check_size(mr_ctx *ctx, const mr_mesh *m)
+{
+	double most = 0;
+
+	for (size_t i = 0; i < m->nv; i++) {
+		mr_v3 p = m->p[i];
+		most = fmax(most, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+	}
+	if (most == 0 || (most >= 1 / LARGEST && most <= LARGEST))
+		return MR_OK;
+	return mr_fail(ctx, MR_ERANGE,
+	    "%s: the largest coordinate is %.3g, and only %g to %g can be computed with: mr-transform --unit "
+	    "brings it to 1",
+	    m->name, most, 1 / LARGEST, LARGEST);
+}
+
 mr_status
 mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+{
+	mr_mesh r;
+
+	MR_TRY(mr_layer_points_of_any_size(ctx, f, layer, &r));
+	MR_TRY(check_size(ctx, &r));
+	*m = r;
+	return MR_OK;
+}
+
+mr_status
+mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+{
+	mr_mesh r;
+
+	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &r));
+	MR_TRY(check_size(ctx, &r));
+	*m = r;
+	return MR_OK;
+}
+
+mr_status
+mr_layer_points_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
 	mr_mesh r = { .name = layer };
 	const void *p;
@@ -263,12 +307,12 @@ mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 }
 
 mr_status
-mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+mr_layer_mesh_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
 	mr_mesh r;
 	const void *t;
 
-	MR_TRY(mr_layer_points(ctx, f, layer, &r));
+	MR_TRY(mr_layer_points_of_any_size(ctx, f, layer, &r));
 	MR_TRY(mr_layer_get(ctx, f, layer, "triangles", &t, &r.nf));
 	r.t = t;
 	if (r.nf == 0)
@@ -393,7 +437,7 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 	mr_mesh before;
 
 	if (has && mr_layer_has(f, layer, "triangles")) {
-		MR_TRY(mr_layer_mesh(ctx, f, layer, &before));
+		MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &before));
 		if (before.nv != nv)
 			return mr_fail(
 			    ctx, MR_ERANGE, "%s: %zu positions for %zu vertices", layer, nv, before.nv);

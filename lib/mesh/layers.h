@@ -44,6 +44,11 @@ mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, cons
 mr_status mr_layer_put_wide(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, uint8_t components,
     const void *data, size_t rows);
 
+/* mr_layer_points and mr_layer_mesh for what multiplies no lengths: coordinates beyond 1e30, or all below
+ * 1e-30, are no failure. */
+mr_status mr_layer_points_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
+mr_status mr_layer_mesh_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
+
 /* The layer's surface, or its positions where it has no faces. */
 mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 

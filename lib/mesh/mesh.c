@@ -233,19 +233,6 @@ mr_mesh_diagonal(const mr_mesh *m)
 	return mr_box_diagonal(mr_box_of(m->p, m->nv));
 }
 
-mr_status
-mr_mesh_check_size(mr_ctx *ctx, const mr_mesh *m)
-{
-	const double most = 1e60; /* to the fifth power a number */
-	double d = mr_mesh_diagonal(m);
-
-	if (d > 0 && (d < 1 / most || d > most))
-		return mr_fail(ctx, MR_ERANGE,
-		    "%s: a diagonal of %.3g is out of range, %g to %g: scale the coordinates", m->name, d,
-		    1 / most, most);
-	return MR_OK;
-}
-
 double
 mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m)
 {

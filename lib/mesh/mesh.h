@@ -129,9 +129,6 @@ double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
 double mr_mesh_diagonal(const mr_mesh *m);
 
-/* MR_ERANGE where the diagonal is so large or so small that products of a few lengths are no numbers. */
-mr_status mr_mesh_check_size(mr_ctx *ctx, const mr_mesh *m);
-
 /* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
 double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
 

@@ -13,7 +13,6 @@ mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 	if (mr_layer_has(f, "mesh", "triangles"))
 		MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	MR_TRY(mr_mesh_check_size(ctx, &mesh));
 	if (mapped)
 		MR_TRY(mr_source_map_get(ctx, f, &mesh, base.nv, &map));
 	MR_TRY(mr_encode(ctx, &mesh, &base, mapped ? &map : NULL, &detail, result));

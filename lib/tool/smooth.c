@@ -17,7 +17,6 @@ mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_
 
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	MR_TRY(mr_mesh_check_size(ctx, &m));
 	from_mesh = !strcmp(layer, "mesh");
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	if (!p)

@@ -33,11 +33,11 @@ mr-info -j1 --json sphere.mrs >one
 mr-info -j2 --json sphere.mrs >two
 cmp one two && echo "threads ok"
 
-# what overflows is "-" to people and null in JSON
+# what would overflow is not computed, and said
 printf 'OFF\n4 4 0\n0 0 0\n1e300 0 0\n0 1e300 0\n0 0 1e300\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n' >huge.off
 mr-import huge.off >huge.mrs
-mr-info huge.mrs | grep -E 'diagonal|area|edge'
-mr-compare -a mesh -b mesh -i huge.mrs | grep -E 'diagonal|both'
-{ mr-info huge.mrs; mr-info --json huge.mrs; mr-compare -a mesh -b mesh -i huge.mrs; } | { ! grep -iE "[^a-z](nan|inf)[^a-z]"; }
+mr-info huge.mrs | grep invalid
+mr-info --json huge.mrs | grep -o '"invalid.*'
+mr-compare -a mesh -b mesh -i huge.mrs 2>&1 || echo "exit $?"
 # The history has what changes a result: the layer, and not the threads.
 mr-make sphere -n 50 -j 2 | mr-select -l mesh --free all -j1 | mr-select -qlmesh --layer=mesh --fixed all | mr-info | grep -A 3 history

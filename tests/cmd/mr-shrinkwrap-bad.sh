@@ -34,8 +34,8 @@ mr-import far.xyz | mr-shrinkwrap -q -m cube | mr-info -l control - | sed -n 's/
 scaled() {
 	mr-make sphere --points 500 | mr-export -l points -f xyz - | awk -v s="$1" '{ printf "%.17g %.17g %.17g\n", $1 * s, $2 * s, $3 * s }' >scaled.xyz
 }
-scaled 1e-70 && mr-import scaled.xyz | mr-shrinkwrap | mr-info -l control - | sed -n 's/^ *topology *//p'
-scaled 1e69 && mr-import scaled.xyz | mr-shrinkwrap | mr-info -l control - | sed -n 's/^ *topology *//p'
+scaled 1e-29 && mr-import scaled.xyz | mr-shrinkwrap | mr-info -l control - | sed -n 's/^ *topology *//p'
+scaled 1e29 && mr-import scaled.xyz | mr-shrinkwrap | mr-info -l control - | sed -n 's/^ *topology *//p'
 scaled 1e-200 && refuse scaled.xyz
 scaled 1e-310 && refuse scaled.xyz
 scaled 1e200 && refuse scaled.xyz
