@@ -5,6 +5,7 @@
  */
 #include "space/sampling.h"
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "mesh/layers.h"
@@ -33,8 +34,14 @@ static const double NOISY = 0.06, SURELY_NOISY = 0.12;
  * found on one half, 97 % on the other, for none of the other points; of the vertices of these meshes,
  * unevenly dense, 0.4 % and none are taken for some.  Twice as far instead of 2.5 times: 98 % and 98 %, but
  * 0.6 % and 0.04 % of the vertices, and 37 clouds are 3 % farther from their surfaces.
+ *
+ * But thin parts of a surface that is sampled ever more sparsely make no planes either.  There each point is
+ * among the nearest of one that is less sparse, as between the surface and what is strewn none is, unless noise
+ * and the strewn ones are many; and the variation of such regions is 0.00 to 0.09 on the mean, of strewn ones
+ * 0.12.  Of clouds whose density varies 60 times, of 54 models, the mean distance from the truth is 0.25 % of
+ * the diagonal without this, 0.10 with it.
  */
-static const double ALONE = 2.5, SPARSE = 2.5, UNEVEN = 0.05;
+static const double ALONE = 2.5, SPARSE = 2.5, UNEVEN = 0.05, STREWN = 0.1;
 enum { ROUNDS = 3 };
 
 /*
@@ -58,7 +65,7 @@ typedef struct cloud {
 	mr_near *near;
 	uint32_t *nearest; /* `around` of each, itself left out */
 	double *spacing;
-	uint8_t *outlier;
+	uint8_t *kind, *outlier;
 	double usual, reach; /* the median spacing; how far from the middle nearly all are */
 	mr_v3 middle;
 } cloud;
@@ -144,14 +151,21 @@ is_apart(const cloud *c, size_t i)
 	return c->spacing[i] > APART * c->usual && mr_dist(c->p[i], c->middle) > BEYOND * c->reach;
 }
 
+/* What a point is by itself: an outlier, or, where points are sparse, more likely one or not, or none. */
+enum { DENSE, FLAT, DOUBTFUL, OUTLIER };
+
 static void
 judge(void *arg, size_t begin, size_t end)
 {
 	const cloud *c = arg;
 
 	for (size_t i = begin; i < end; i++)
-		c->outlier[i] = isolation(c, i) > ALONE || is_apart(c, i) ||
-		                (c->spacing[i] > SPARSE * c->usual && unevenness(c, i) > UNEVEN);
+		if (isolation(c, i) > ALONE || is_apart(c, i))
+			c->kind[i] = OUTLIER;
+		else if (c->spacing[i] <= SPARSE * c->usual)
+			c->kind[i] = DENSE;
+		else
+			c->kind[i] = unevenness(c, i) > UNEVEN ? DOUBTFUL : FLAT;
 }
 
 static size_t
@@ -182,6 +196,74 @@ spread(mr_ctx *ctx, cloud *c)
 	return MR_OK;
 }
 
+static bool
+is_nearest(const cloud *c, uint32_t i, uint32_t of)
+{
+	for (size_t j = 0; j < c->around; j++)
+		if (c->nearest[of * c->around + j] == i)
+			return true;
+	return false;
+}
+
+/* The sparse points that dense ones lead to, each among the nearest of the next; returns how many. list:
+ * c->n, the caller's. */
+static size_t
+reach_sparse(const cloud *c, bool *reached, uint32_t *list)
+{
+	size_t n = 0, dense;
+
+	for (uint32_t i = 0; i < c->n; i++) {
+		reached[i] = c->kind[i] == DENSE && !c->outlier[i];
+		if (reached[i])
+			list[n++] = i;
+	}
+	dense = n;
+	for (size_t k = 0; k < n; k++) {
+		const uint32_t *to = c->nearest + list[k] * c->around;
+		for (size_t j = 0; j < c->around; j++)
+			if (!reached[to[j]] && c->kind[to[j]] != OUTLIER && is_nearest(c, list[k], to[j])) {
+				reached[to[j]] = true;
+				list[n++] = to[j];
+			}
+	}
+	memmove(list, list + dense, (n - dense) * sizeof *list);
+	return n - dense;
+}
+
+/* Keeps the sparse ends of surfaces, however thin: regions of sparse points that dense ones lead to, unless
+ * they are as uneven as what is strewn in space. */
+static mr_status
+keep_sparse_ends(mr_ctx *ctx, cloud *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *list = MR_NEW(ctx, c->n, uint32_t), *region = mr_sets_new(ctx, c->n);
+	size_t *count = MR_NEW_ZERO(ctx, c->n, size_t), n;
+	double *sum = MR_NEW_ZERO(ctx, c->n, double);
+	bool *reached = MR_NEW(ctx, c->n, bool);
+
+	if (!list || !region || !count || !sum || !reached)
+		return MR_EMEM;
+	n = reach_sparse(c, reached, list);
+	for (size_t k = 0; k < n; k++)
+		for (size_t j = 0; j < c->around; j++) {
+			uint32_t to = c->nearest[list[k] * c->around + j];
+			if (reached[to] && c->kind[to] != DENSE)
+				mr_sets_join(region, list[k], to);
+		}
+	for (size_t k = 0; k < n; k++) {
+		uint32_t r = mr_sets_root(region, list[k]);
+		sum[r] += unevenness(c, list[k]);
+		count[r]++;
+	}
+	for (size_t k = 0; k < n; k++) {
+		uint32_t r = mr_sets_root(region, list[k]);
+		if (sum[r] < STREWN * (double)count[r])
+			c->outlier[list[k]] = false;
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 static mr_status
 find_outliers(mr_ctx *ctx, cloud *c)
 {
@@ -200,7 +282,10 @@ find_outliers(mr_ctx *ctx, cloud *c)
 	c->reach = mr_kth(x, c->n, (size_t)(NEARLY * (double)c->n));
 	mr_mark_release(ctx, mark);
 	mr_parallel(ctx, c->n, GRAIN, judge, c);
-	return spread(ctx, c);
+	for (size_t i = 0; i < c->n; i++)
+		c->outlier[i] = c->kind[i] >= DOUBTFUL;
+	MR_TRY(spread(ctx, c));
+	return keep_sparse_ends(ctx, c);
 }
 
 /* ---- noise ---- */
@@ -353,8 +438,9 @@ find_of_places(mr_ctx *ctx, cloud *c, mr_sampling *s)
 	c->around = c->n < 1 + AROUND ? c->n - (c->n > 0) : AROUND;
 	c->nearest = MR_NEW(ctx, c->n * c->around, uint32_t);
 	c->spacing = MR_NEW_ZERO(ctx, c->n, double);
+	c->kind = MR_NEW(ctx, c->n, uint8_t);
 	c->outlier = MR_NEW_ZERO(ctx, c->n, uint8_t);
-	if (!c->nearest || !c->spacing || !c->outlier)
+	if (!c->nearest || !c->spacing || !c->kind || !c->outlier)
 		return MR_EMEM;
 	s->neighbours = NEAREST;
 	s->noise = 0;

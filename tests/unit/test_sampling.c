@@ -166,6 +166,31 @@ sparse_parts_are_none(void **state)
 	assert_true(s.evenness < 0.4);
 }
 
+/* A limb that is ever more sparse to its end, where no few points lie in a plane: none of it is an outlier.
+ */
+static void
+sparse_ends_are_none(void **state)
+{
+	enum { N = 8000 };
+	const double radius = 0.06, length = 3;
+	mr_random r = { 32 };
+	mr_sampling s;
+	size_t wrong = 0;
+
+	(void)state;
+	for (size_t i = 0; i < N; i++) {
+		double x, angle = 2 * MR_PI * mr_random_real(&r);
+		do
+			x = length * mr_random_real(&r);
+		while (mr_random_real(&r) > exp(-1.6 * x));
+		p[i] = mr_vec(x, radius * cos(angle), radius * sin(angle));
+	}
+	s = find(p, N);
+	for (size_t i = 0; i < N; i++)
+		wrong += s.outlier[i];
+	assert_true(wrong * 1000 < N);
+}
+
 static void
 same(const mr_sampling *a, const mr_sampling *b, double size, double share)
 {
@@ -382,6 +407,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(noise_is_told, setup, teardown),
 		cmocka_unit_test_setup_teardown(outliers_are_found, setup, teardown),
 		cmocka_unit_test_setup_teardown(sparse_parts_are_none, setup, teardown),
+		cmocka_unit_test_setup_teardown(sparse_ends_are_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(order_place_and_size_do_not_matter, setup, teardown),
 		cmocka_unit_test_setup_teardown(repeats_count_once, setup, teardown),
 		cmocka_unit_test_setup_teardown(few_points_have_no_figures, setup, teardown),
