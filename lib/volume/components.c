@@ -7,10 +7,11 @@
 
 #include "base/disjoint_sets.h"
 
-enum { POINTS_LEAST = 12, WALL_LEAST = 12 };
+enum { POINTS_LEAST = 12, WALL_LEAST = 12, MANY = 100 };
 
-/* Points on the walls of a part that stays, as a share of what their area would hold.  Of the wraps that
- * volume.c counts 130 of 164 are right so and by half as much, 131 by twice, at distances 1 % longer. */
+/* What the points on the walls of a part that stays have to themselves, as a share of the walls' area.  Of
+ * the wraps that volume.c counts 130 of 164 are right so and by half as much, 131 by twice, at distances 1 %
+ * longer. */
 static const double SHARE_LEAST = 0.3;
 
 typedef struct runs {
@@ -119,6 +120,7 @@ join_runs(runs *r)
 /* What is known of a part, at its root. */
 typedef struct tally {
 	uint32_t *points; /* near its walls */
+	double *area;     /* that these stand for */
 	uint32_t *wall;   /* crossings of grid lines along x */
 } tally;
 
@@ -140,7 +142,7 @@ run_of(const runs *r, size_t row, uint32_t x)
 
 /* Counts a point for each part that a corner of its cell lies in. */
 static void
-count_point(const runs *r, mr_v3 p, tally *t)
+count_point(const runs *r, mr_v3 p, double area, tally *t)
 {
 	mr_v3 d = mr_mul(1 / r->g->step, mr_sub(p, r->g->origin));
 	size_t row = (size_t)d.z * r->g->n[1] + (size_t)d.y, seen = 0;
@@ -155,6 +157,7 @@ count_point(const runs *r, mr_v3 p, tally *t)
 			if (j == seen) {
 				parts[seen++] = r->part[k];
 				t->points[r->part[k]]++;
+				t->area[r->part[k]] += area;
 			}
 		}
 	}
@@ -164,8 +167,9 @@ static mr_status
 count_all(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, tally *t)
 {
 	t->points = MR_NEW_ZERO(ctx, r->n, uint32_t);
+	t->area = MR_NEW_ZERO(ctx, r->n, double);
 	t->wall = MR_NEW_ZERO(ctx, r->n, uint32_t);
-	if (!t->points || !t->wall)
+	if (!t->points || !t->area || !t->wall)
 		return MR_EMEM;
 	for (size_t row = 0; row < rows_of(r->g); row++)
 		for (size_t k = r->first[row] + 1; k < r->first[row + 1]; k++) {
@@ -173,18 +177,21 @@ count_all(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, tally *t)
 			t->wall[r->part[k - 1]]++;
 		}
 	for (size_t i = 0; i < s->n; i++)
-		count_point(r, s->p[i], t);
+		count_point(r, s->p[i], s->plane.area[i], t);
 	return MR_OK;
 }
 
-/* A line along x meets half of the area of a wall, on the average of directions. */
+/*
+ * A line along x meets half of the area of a wall, on the average of directions.  A few points that stand for
+ * much area are as likely strewn as of a surface: they count as others do.
+ */
 static bool
 is_supported(const mr_volume_cloud *s, const runs *r, const tally *t, uint32_t part)
 {
-	double step = r->g->step / s->spacing, points = (double)t->points[part];
+	double points = t->points[part], wall = 2 * (double)t->wall[part] * r->g->step * r->g->step;
+	double area = points < MANY ? points * s->spacing * s->spacing : t->area[part];
 
-	return points >= POINTS_LEAST && t->wall[part] >= WALL_LEAST &&
-	       points >= SHARE_LEAST * 2 * (double)t->wall[part] * step * step;
+	return points >= POINTS_LEAST && t->wall[part] >= WALL_LEAST && area >= SHARE_LEAST * wall;
 }
 
 /* Whether the runs of each part, by its root, are inside in the end; a part that is dropped becomes what is
@@ -199,7 +206,7 @@ judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool
 		return MR_EMEM;
 	for (size_t row = 0; row < rows_of(r->g); row++)
 		for (size_t k = r->first[row] + 1; k < r->first[row + 1]; k += 2)
-			if (largest == 0 || t->points[r->part[k]] > t->points[largest])
+			if (largest == 0 || t->area[r->part[k]] > t->area[largest])
 				largest = r->part[k];
 	for (size_t row = 0; row < rows_of(r->g); row++)
 		for (uint32_t k = (uint32_t)r->first[row] + 1; k < r->first[row + 1]; k++) {
@@ -237,7 +244,6 @@ mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, float *
 	bool *inside;
 	tally t;
 	runs r;
-
 	MR_TRY(find_runs(ctx, g, f, &r));
 	join_runs(&r);
 	MR_TRY(count_all(ctx, s, &r, &t));

@@ -138,6 +138,18 @@ box_points(mr_v3 low, mr_v3 high, double step, mr_v3 *p)
 	return n;
 }
 
+/* Each of n points has a square of side `step` to itself. */
+static double *
+areas(size_t n, double step)
+{
+	double *area = MR_NEW(&ctx, n, double);
+
+	assert_non_null(area);
+	for (size_t i = 0; i < n; i++)
+		area[i] = step * step;
+	return area;
+}
+
 static bool
 is_between(size_t i, double low, double high)
 {
@@ -167,6 +179,7 @@ walls_without_points_go(void **state)
 			if (k == 0 || walls >> (k - 1) & 1)
 				s.n += box_points(mr_vec(wall[k][0], wall[k][0], wall[k][0]),
 				    mr_vec(wall[k][1], wall[k][1], wall[k][1]), s.spacing, p + s.n);
+		s.plane.area = areas(s.n, s.spacing);
 		for (size_t i = 0; i < NODES; i++)
 			in[i] = is_between(i, wall[0][0], wall[0][1]) &&
 			        (!is_between(i, wall[1][0], wall[1][1]) ||
@@ -199,6 +212,7 @@ a_part_without_points_goes(void **state)
 		(void)state;
 		s.n = right ? box_points(mr_vec(11.5, 3.5, 3.5), mr_vec(15.5, 8.5, 8.5), 0.5, p)
 		            : box_points(mr_vec(1.5, 1.5, 1.5), mr_vec(9.5, 14.5, 14.5), 0.5, p);
+		s.plane.area = areas(s.n, s.spacing);
 		for (size_t i = 0; i < NODES; i++) {
 			double x = (double)(i % N), y = (double)(i / N % N), z = (double)(i / (N * N));
 			in[i] = (x > 1.5 && x < 9.5 && y > 1.5 && y < 14.5 && z > 1.5 && z < 14.5) ||
@@ -213,6 +227,41 @@ a_part_without_points_goes(void **state)
 	}
 }
 
+/* A box whose points are far sparser than most stays if they are many, and goes if they are few, for these
+ * may be strewn. */
+static void
+sparse_walls_are_walls(void **state)
+{
+	for (int many = 0; many < 2; many++) {
+		const double step = many ? 1.2 : 2.1, high = many ? 9.5 : 5.5;
+		mr_v3 *p = MR_NEW(&ctx, 10000, mr_v3);
+		bool *in = MR_NEW(&ctx, NODES, bool);
+		mr_volume_cloud s = { .p = p, .spacing = 0.3 };
+		mr_random r = { 4 };
+		size_t dense, sparse;
+		double *area;
+		float *f;
+		mr_cleaning c;
+		(void)state;
+		dense = box_points(mr_vec(11.5, 1.5, 1.5), mr_vec(15.5, 14.5, 14.5), s.spacing, p);
+		sparse = box_points(mr_vec(1.5, 1.5, 1.5), mr_vec(high, high, high), step, p + dense);
+		assert_true((sparse > 100) == many && sparse > 12);
+		s.n = dense + sparse;
+		s.plane.area = area = areas(s.n, s.spacing);
+		for (size_t i = dense; i < s.n; i++)
+			area[i] = step * step;
+		for (size_t i = 0; i < NODES; i++) {
+			size_t x = i % N, y = i / N % N, z = i / (N * N);
+			in[i] = is_between(i, 1.5, high) ||
+			        (x > 11 && x < 16 && y > 1 && y < 15 && z > 1 && z < 15);
+		}
+		f = field_from(in, &r);
+		c = clean(&s, f);
+		assert_int_equal(c.parts, !many);
+		assert_int_equal(c.cavities, 0);
+	}
+}
+
 int
 main(void)
 {
@@ -221,6 +270,7 @@ main(void)
 		    random_volumes_have_the_parts_that_floods_find, setup, teardown),
 		cmocka_unit_test_setup_teardown(walls_without_points_go, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_part_without_points_goes, setup, teardown),
+		cmocka_unit_test_setup_teardown(sparse_walls_are_walls, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
