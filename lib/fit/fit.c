@@ -215,8 +215,9 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	before = mr_fit_measure(ctx, foot, n);
 	r.folded_edges_before = count_folds(&s);
 	start = mr_seconds();
-	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
-			: mr_fit_least_squares(ctx, &s, sorted, n, opts, passes, n < given, foot, x, &r));
+	MR_TRY(is_local
+		   ? local(ctx, &s, sorted, n, opts, passes, x)
+		   : mr_fit_least_squares(ctx, &s, sorted, spacing, n, opts, passes, n < given, foot, x, &r));
 	r.iterations = passes;
 	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)

@@ -14,7 +14,8 @@
  * where they lie: beyond the limit a point then pulls by the cube of the ratio less.
  */
 static mr_status
-weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, bool outliers, double *w)
+weigh(mr_ctx *ctx, const mr_fit_foot *foot, const double *share, size_t n, double near, bool outliers,
+    double *w)
 {
 	static const double limit = 2.5, deviation = 1.4826;
 	mr_mark mark = mr_mark_take(ctx);
@@ -27,31 +28,61 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, double near, bool outliers
 	most = fmax(limit * deviation * mr_kth(d, n, n / 2), near);
 	for (size_t i = 0; i < n; i++) {
 		double ratio = foot[i].dist > most ? most / foot[i].dist : 1;
-		w[i] = outliers ? pow(ratio, 4) : ratio;
+		w[i] = share[i] * (outliers ? pow(ratio, 4) : ratio);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/*
+ * How much of the surface each point stands for, the mean over those on its control face; 1 on the mean of
+ * all.  Were each to count the same, the fairness would win where they are sparse.  By the points' own areas,
+ * which vary by chance, clouds with noise are 2 % farther from the truth.
+ */
+static mr_status
+share_area(mr_ctx *ctx, const mr_fit_foot *foot, const double *spacing, size_t n, size_t nf, double *share)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *sum = MR_NEW_ZERO(ctx, nf, double), all = 0;
+	size_t *count = MR_NEW_ZERO(ctx, nf, size_t);
+
+	if (!sum || !count)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		size_t f = foot[i].patch / MR_FIT_PATCHES;
+		sum[f] += spacing[i] * spacing[i];
+		count[f]++;
+		all += spacing[i] * spacing[i];
+	}
+	for (size_t i = 0; i < n; i++) {
+		size_t f = foot[i].patch / MR_FIT_PATCHES;
+		share[i] = all > 0 ? sum[f] / (double)count[f] * (double)n / all : 1;
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
 mr_status
-mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
-    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x, mr_fit_result *result)
+mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, const double *spacing,
+    size_t n, const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x,
+    mr_fit_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
-	double *w = MR_NEW(ctx, n, double);
+	double *w = MR_NEW(ctx, n, double), *share = MR_NEW(ctx, n, double);
 	mr_fit_system system;
 	size_t steps = 0;
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	mr_fit_guard *guard;
 
-	if (!z || !w)
+	if (!z || !w || !share)
 		return MR_EMEM;
 	MR_TRY(mr_fit_system_build(ctx, surface, x, &system));
 	MR_TRY(mr_fit_guard_new(ctx, surface, &system.patch, x, &guard));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
-		MR_TRY(weigh(ctx, foot, n, MR_FIT_NEAR * edge, outliers, w));
+		MR_TRY(share_area(ctx, foot, spacing, n, surface->level[0].nf, share));
+		MR_TRY(weigh(ctx, foot, share, n, MR_FIT_NEAR * edge, outliers, w));
 		MR_TRY(mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness));
 		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, guard, x, z, &result->damped));

@@ -12,12 +12,13 @@
 #define MR_FIT_NEAR 0.1
 
 /*
- * Moves the control vertices x, and the surface with them.  foot: of the n points, on the surface as given;
+ * Moves the control vertices x, and the surface with them.  spacing: of each of n points, the side of the
+ * square of surface that it has to itself.  foot: of the points, on the surface as given;
  * left where the last step attached them.  result: gets its figures of the steps.  outliers: the points had
  * some, and may have more.
  */
-mr_status mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, size_t n,
-    const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x,
-    mr_fit_result *result);
+mr_status mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point,
+    const double *spacing, size_t n, const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot,
+    mr_v3 *x, mr_fit_result *result);
 
 #endif

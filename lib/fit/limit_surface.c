@@ -1,4 +1,5 @@
-/* The limit surface by a quadratic triangle on each of level 1, and feet on it by walks and Newton's method. */
+/* The limit surface by a quadratic triangle on each of level 1, and feet on it by walks and Newton's method.
+ */
 #include "fit/limit_surface.h"
 
 #include "base/parallel.h"
