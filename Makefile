@@ -5,6 +5,7 @@
 #	make setup      the packages they need; the other targets see to that by themselves
 #	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
 #	make check-long the tests of faults in full: an hour
+#	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
 #	make fuzz       the readers under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
 #	make demo       the main job on real models: pictures and tables, in demo/
@@ -44,7 +45,7 @@ OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc formats/*.c
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
-NEEDS   := build $(if $(filter setup check check-long bless units,$(MAKECMDGOALS)),check) $(filter bench,$(MAKECMDGOALS))
+NEEDS   := build $(if $(filter setup check check-long matrix bless units,$(MAKECMDGOALS)),check) $(filter bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -104,6 +105,9 @@ check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
 
 check-long: $(TOOLS)
 	@LONG=1 LIMIT=14400 $(RUN) tests/run $(or $(T),bad/)
+
+matrix: $(TOOLS)
+	@mkdir -p $(BUILD)/matrix && cd $(BUILD)/matrix && $(RUN) $(CURDIR)/tests/matrix/run '$(T)'
 
 # In a build of its own; clang's libFuzzer watches the whole library.
 FUZZ  := $(BUILD)/fuzz
@@ -177,5 +181,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long fuzz bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check check-long matrix fuzz bless demo bench table1 readme install uninstall clean
 .SECONDARY:
