@@ -1,4 +1,4 @@
-# The library neither prints nor exits nor asks for the time of day; calls that lose an error or a bound are nowhere.
+# The library neither prints nor exits nor asks for the time of day; no tool opens a connection or starts a program; calls that lose an error or a bound are nowhere.
 cd "$TOP" || exit
 fail=0
 
@@ -17,6 +17,8 @@ bad=$(search 'atoi|atol|atoll|atof|sprintf|vsprintf|strcpy|strcat|gets|strtok|sc
 [ -z "$bad" ] || { echo "banned:"; echo "$bad"; fail=1; }
 bad=$(search 'printf|vprintf|puts|putchar|perror|exit|_exit|abort|assert|signal' lib formats)
 [ -z "$bad" ] || { echo "the library prints or exits:"; echo "$bad"; fail=1; }
+bad=$(search 'socket|system|popen|fork|vfork|execl|execlp|execv|execve|execvp|posix_spawn|posix_spawnp' lib formats cmd)
+[ -z "$bad" ] || { echo "a connection or another program:"; echo "$bad"; fail=1; }
 bad=$(search 'longjmp|setjmp' lib cmd $(ls formats/*.c | grep -vE 'formats/(png|jpeg).c')) # the way of libpng and libjpeg to fail
 [ -z "$bad" ] || { echo "jumps:"; echo "$bad"; fail=1; }
 bad=$(search 'rand|srand|random|drand48|time|gettimeofday|getenv|setlocale' lib formats)

@@ -1,4 +1,5 @@
-# Every tool has its page and its command test; every page its tool; every test what it expects.
+# Every tool has its page and its command test; every page its tool; every test what it expects; every
+# promise its tests.
 cd "$TOP" || exit
 fail=0
 for source in cmd/mr-*.c; do
@@ -14,8 +15,11 @@ for page in man/*.1; do
 		grep -qx "\.Sh $section" "$page" || { echo "$page: no section $section"; fail=1; }
 	done
 done
-for page in mr.7 mr-stream.5; do
+for page in mr.7 mr-promises.7 mr-stream.5; do
 	[ -f "man/$page" ] || { echo "no man/$page"; fail=1; }
+done
+for test in $(grep -oE '\b(unit|cmd|pipe|bad|laws)/[a-z_-]+' man/mr-promises.7); do
+	[ -f "tests/$test.sh" ] || [ -f "tests/$test.c" ] || { echo "mr-promises.7: there is no test $test"; fail=1; }
 done
 for script in tests/cmd/*.sh; do
 	[ -f "${script%.sh}.out" ] || { echo "$script: no .out"; fail=1; }
