@@ -23,7 +23,7 @@ BUILD   ?= $(if $(SAN),build/san,build)
 CC      ?= cc
 CXX     ?= c++
 CFLAGS  ?= $(if $(SAN),-O1 -fsanitize=address$(,)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer,-O3) -g
-LDFLAGS ?=
+LDFLAGS ?= $(if $(SAN),$(if $(findstring clang,$(CC)),-fsanitize-link-c++-runtime))
 VERSION := 1.0
 SONAME  := libmr.so.$(basename $(VERSION))
 JOBS    ?= $(shell nproc 2>/dev/null || echo 2)

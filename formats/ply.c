@@ -739,7 +739,7 @@ static mr_status
 set_mark(ply *f, role r, double x, const void *where)
 {
 	static const char *const what[] = { "group", "object", "material" };
-	size_t mark = (size_t)(r - GROUP), i = (size_t)x;
+	size_t mark = (size_t)(r - GROUP), i;
 	const named_list *l = &f->names[mark % 3];
 	char name[32];
 
@@ -747,6 +747,7 @@ set_mark(ply *f, role r, double x, const void *where)
 		return bad(f, where, "%s %g", r == SMOOTHING ? "smoothing group" : what[mark], x);
 	if (r == SMOOTHING)
 		return mr_build_smoothing(&f->b, (uint32_t)x);
+	i = (size_t)x;
 	if (i < l->count)
 		return mr_build_mark(&f->b, (mr_marking)mark, l->name[i].text, l->name[i].bytes);
 	snprintf(name, sizeof name, "%s%zu", what[mark], i);

@@ -1,4 +1,5 @@
-# The library neither prints nor exits nor asks for the time of day; no tool opens a connection or starts a program; calls that lose an error or a bound are nowhere.
+# The library neither prints nor exits nor asks for the time of day; no tool opens a connection or starts a program; calls
+# that lose an error or a bound are nowhere.
 cd "$TOP" || exit
 fail=0
 

@@ -2,8 +2,8 @@
 
 usage: tests/matrix/run [--small] [PATTERN]          PATTERN: a part of "MODEL JOB"
 
-Works in the current directory; the models are uglies made here (in uglies/) and, without --small, which leaves out second ways
-to run a tool, too, those of $DATA, the small ones first.  A cell is a job on a model: it is wrong where it ends by a signal, not in time, by another exit than 0 or 1, with
+Works in the current directory; the models are uglies made here (in uglies/) and, without --small, which leaves out second ways to run a tool
+and sizes between, those of $DATA, the small ones first.  A cell is a job on a model: it is wrong where it ends by a signal, not in time, by another exit than 0 or 1, with
 0 and a result that breaks a promise or a sentence, with 1 and more or less than one sentence, a whole stream or a file; or
 where it takes more CPU time or memory than the bounds below.  Wrong cells are listed with the pipe that shows them; the last
 line counts.  Exit 1 where one is wrong.  Knobs: DATA, JOBS (models at a time), SAN (no bounds of memory).
@@ -90,7 +90,8 @@ JOBS = [
 ]
 
 SECOND = {"repair", "cat", "off", "glb", "xyz", "split-cloud", "explicit", "taubin", "adaptive", "flatten", "arap", "multigrid", "longest",
-          "fit-mesh", "fit-local", "robust", "coarse-creases", "choose"}
+          "fit-mesh", "fit-local", "robust", "coarse-creases", "choose", "remesh-rough"}
+BETWEEN = tuple(f"size-1e{e}.obj" for e in (-200, -29, -12, 12, 29, 200))
 
 
 class Cell:
@@ -187,7 +188,7 @@ def row(task):
 
 
 def models(small):
-    made = uglies.write(os.path.abspath("uglies"))
+    made = [path for path in uglies.write(os.path.abspath("uglies")) if not small or not path.endswith(BETWEEN)]
     data = os.environ.get("DATA") if not small else None
     found = [os.path.join(where, name) for folder in ("meshes", "points", "malformed", "faults")
              for where, _, names in os.walk(os.path.join(data, folder)) for name in names
