@@ -145,7 +145,7 @@ look_at_gaps(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, const dou
 	gaps->points = mr_gap_of(off, n);
 	MR_TRY(mr_near_build(ctx, point, n, &near));
 	status = mr_gap_of_surface(
-	    ctx, &s->m, &(mr_gap_cloud){ point, spacing, near, n, usual }, MR_GAP_SAMPLES, gaps);
+	    ctx, &s->m, &(mr_gap_cloud){ point, spacing, near, n, usual }, MR_GAP_SAMPLES, gaps, NULL);
 	mr_near_free(near);
 	MR_TRY(status);
 	mr_gaps_note(ctx, "the limit surface", gaps);

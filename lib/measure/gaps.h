@@ -23,9 +23,16 @@ mr_gap mr_gap_of(double *distance, size_t n);
 
 enum { MR_GAP_SAMPLES = 1 << 12 };
 
-/* gaps->surface and bare: of a place in each of so many equal parts of the area. */
-mr_status
-mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps);
+/* Where a gap is widest for how the points lie there. */
+typedef struct mr_gap_spot {
+	double wide; /* in spacings: 0 of none */
+	mr_v3 at;
+} mr_gap_spot;
+
+/* gaps->surface and bare: of a place in each of so many equal parts of the area; NULL: not wanted.  Then the
+ * widest of them. */
+mr_status mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples,
+    mr_gaps *gaps, mr_gap_spot *widest);
 
 /* gaps->points: of so many at equal strides. */
 mr_status
@@ -39,5 +46,9 @@ void mr_gaps_note(mr_ctx *ctx, const char *what, const mr_gaps *gaps);
 
 /* Warns where too much of `what` is bare. */
 void mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps);
+
+/* The same of a result; else where any place of it is too far from the points, or a point from it. */
+void mr_gap_spots_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps, const mr_gap_spot *of_surface,
+    const mr_gap_spot *of_points);
 
 #endif

@@ -209,19 +209,39 @@ fit_pass(mr_ctx *ctx, fit *x)
 	return MR_OK;
 }
 
+/* The point that is farthest from the surface in spacings, beyond four deviations of most. */
+static mr_gap_spot
+widest_of_points(const mr_sample_cloud *c, const double *gap, double median)
+{
+	const double noise = 4 * 1.4826 * median;
+	mr_gap_spot widest = { 0 };
+
+	for (size_t i = 0; i < c->n; i++) {
+		double wide = (gap[i] - noise) / fmax(c->usual, c->spacing[i]);
+		if (wide > widest.wide)
+			widest = (mr_gap_spot){ wide, c->p[i] };
+	}
+	return widest;
+}
+
 /* Of points also how far the surface is from them. */
 static mr_status
 report_gaps(mr_ctx *ctx, const fit *x)
 {
+	enum { SAMPLES = 1 << 14 };
 	mr_mark mark = mr_mark_take(ctx);
 	const mr_sample_cloud *c = x->c;
+	mr_gap_spot of_surface = { 0 }, of_points = { 0 };
 	mr_gaps *gaps = &x->found->gaps;
-	double *gap = MR_NEW(ctx, c->n, double);
+	double *gap = MR_NEW(ctx, c->n, double), median;
 
 	if (!gap)
 		return MR_EMEM;
 	for (size_t i = 0; i < c->n; i++)
 		gap[i] = fabs(x->wish[i].gap);
+	MR_TRY(median_gap(ctx, x, &median));
+	if (c->near)
+		of_points = widest_of_points(c, gap, median);
 	gaps->points = mr_gap_of(gap, c->n);
 	x->found->gap_mean = gaps->points.mean / c->diagonal;
 	x->found->gap_max = gaps->points.max / c->diagonal;
@@ -229,9 +249,9 @@ report_gaps(mr_ctx *ctx, const fit *x)
 	if (!c->near)
 		return MR_OK;
 	MR_TRY(mr_gap_of_surface(ctx, &x->surface,
-	    &(mr_gap_cloud){ c->p, c->spacing, c->near, c->n, c->usual }, MR_GAP_SAMPLES, gaps));
+	    &(mr_gap_cloud){ c->p, c->spacing, c->near, c->n, c->usual }, SAMPLES, gaps, &of_surface));
 	mr_gaps_note(ctx, "the displaced surface", gaps);
-	mr_gaps_warn(ctx, "the displaced surface", gaps);
+	mr_gap_spots_warn(ctx, "the displaced surface", gaps, &of_surface, &of_points);
 	return MR_OK;
 }
 

@@ -1,6 +1,8 @@
 /* Weighted least squares by the normal equations, of which there are six. */
 #include "space/local_quadric.h"
 
+#include "space/local_planes.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -60,4 +62,38 @@ mr_quadric_fit(const double *row, const double *t, const double *weight, size_t 
 		return false;
 	memcpy(coefficient, b, sizeof b);
 	return true;
+}
+
+double
+mr_quadric_residuals(const mr_v3 *q, size_t k, double *off)
+{
+	double a[6], value[3], row[MR_QUADRIC_POINTS * TERMS], t[MR_QUADRIC_POINTS], one[MR_QUADRIC_POINTS];
+	double z[TERMS], radius2 = 0, radius, sum = 0;
+	mr_v3 axis[3], mean = mr_vec(0, 0, 0);
+
+	if (k <= TERMS)
+		return 0;
+	for (size_t i = 0; i < k; i++)
+		mean = mr_axpy(1 / (double)k, q[i], mean);
+	for (size_t i = 0; i < k; i++)
+		radius2 = fmax(radius2, mr_norm2(mr_sub(q[i], mean)));
+	radius = sqrt(radius2);
+	mr_covariance(q, k, 1 / radius, a);
+	mr_eigen_sym3(a, value, axis);
+	for (size_t i = 0; i < k; i++) {
+		mr_v3 d = mr_mul(1 / radius, mr_sub(q[i], mean));
+		double x = mr_dot(d, axis[2]), y = mr_dot(d, axis[1]);
+		mr_quadric_row(x, y, row + i * TERMS);
+		t[i] = mr_dot(d, axis[0]);
+		one[i] = 1;
+	}
+	if (!mr_quadric_fit(row, t, one, k, z))
+		return 0;
+	for (size_t i = 0; i < k; i++) {
+		off[i] = radius * t[i];
+		for (int j = 0; j < TERMS; j++)
+			off[i] -= radius * z[j] * row[i * TERMS + (size_t)j];
+		sum += off[i] * off[i];
+	}
+	return sqrt(sum / (double)(k - TERMS));
 }

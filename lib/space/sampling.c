@@ -14,7 +14,7 @@
 #include "space/local_quadric.h"
 #include "space/near.h"
 
-enum { AROUND = 8, NEAREST = 16, NEAREST_NOISY = 40, SOME = 10007, CHUNK = 1 << 13, GRAIN = 256 };
+enum { AROUND = 8, NEAREST = 16, NEAREST_NOISY = MR_QUADRIC_POINTS, SOME = 10007, CHUNK = 1 << 13, GRAIN = 256 };
 
 /*
  * A neighbourhood of more variation shows noise, or a sharp shape: the larger one sees through noise.  But
@@ -36,10 +36,10 @@ static const double NOISY = 0.06, SURELY_NOISY = 0.12;
  * 0.6 % and 0.04 % of the vertices, and 37 clouds are 3 % farther from their surfaces.
  *
  * But thin parts of a surface that is sampled ever more sparsely make no planes either.  There each point is
- * among the nearest of one that is less sparse, as between the surface and what is strewn none is, unless noise
- * and the strewn ones are many; and the variation of such regions is 0.00 to 0.09 on the mean, of strewn ones
- * 0.12.  Of clouds whose density varies 60 times, of 54 models, the mean distance from the truth is 0.25 % of
- * the diagonal without this, 0.10 with it.
+ * among the nearest of one that is less sparse, as between the surface and what is strewn none is, unless
+ * noise and the strewn ones are many; and the variation of such regions is 0.00 to 0.09 on the mean, of
+ * strewn ones 0.12.  Of clouds whose density varies 60 times, of 54 models, the mean distance from the truth
+ * is 0.25 % of the diagonal without this, 0.10 with it.
  */
 static const double ALONE = 2.5, SPARSE = 2.5, UNEVEN = 0.05, STREWN = 0.1;
 enum { ROUNDS = 3 };
@@ -298,46 +298,12 @@ typedef struct look {
 	double *variation, *residual;
 } look;
 
-/* Root of the mean squared distance of k points from a quadric through them. */
-static double
-residual(const mr_v3 *q, size_t k)
-{
-	double a[6], value[3], row[NEAREST_NOISY * MR_QUADRIC_TERMS], t[NEAREST_NOISY], one[NEAREST_NOISY];
-	double z[MR_QUADRIC_TERMS], radius2 = 0, radius, sum = 0;
-	mr_v3 axis[3], mean = mr_vec(0, 0, 0);
-
-	if (k <= MR_QUADRIC_TERMS)
-		return 0;
-	for (size_t i = 0; i < k; i++)
-		mean = mr_axpy(1 / (double)k, q[i], mean);
-	for (size_t i = 0; i < k; i++)
-		radius2 = fmax(radius2, mr_norm2(mr_sub(q[i], mean)));
-	radius = sqrt(radius2);
-	mr_covariance(q, k, 1 / radius, a);
-	mr_eigen_sym3(a, value, axis);
-	for (size_t i = 0; i < k; i++) {
-		mr_v3 d = mr_mul(1 / radius, mr_sub(q[i], mean));
-		double x = mr_dot(d, axis[2]), y = mr_dot(d, axis[1]);
-		mr_quadric_row(x, y, row + i * MR_QUADRIC_TERMS);
-		t[i] = mr_dot(d, axis[0]);
-		one[i] = 1;
-	}
-	if (!mr_quadric_fit(row, t, one, k, z))
-		return 0;
-	for (size_t i = 0; i < k; i++) {
-		double off = t[i];
-		for (int j = 0; j < MR_QUADRIC_TERMS; j++)
-			off -= z[j] * row[i * MR_QUADRIC_TERMS + (size_t)j];
-		sum += off * off;
-	}
-	return radius * sqrt(sum / (double)(k - MR_QUADRIC_TERMS));
-}
-
 static void
 look_around(void *arg, size_t begin, size_t end)
 {
 	const look *l = arg;
 	mr_v3 q[NEAREST_NOISY];
+	double off[NEAREST_NOISY];
 
 	for (size_t i = begin; i < end; i++) {
 		for (size_t j = 0; j < l->k; j++)
@@ -346,7 +312,7 @@ look_around(void *arg, size_t begin, size_t end)
 			mr_plane_around(q, l->k, &l->variation[i]);
 		else
 			mr_plane_fit(q, l->k, &l->variation[i]);
-		l->residual[i] = residual(q, l->k);
+		l->residual[i] = mr_quadric_residuals(q, l->k, off);
 	}
 }
 

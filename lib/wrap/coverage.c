@@ -55,5 +55,5 @@ mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_
 	mr_gap_cloud places = { cloud->p, cloud->own, cloud->near, cloud->n, cloud->spacing };
 
 	MR_TRY(measure_points(ctx, cloud, m, cloud->n < samples ? cloud->n : samples, c));
-	return mr_gap_of_surface(ctx, m, &places, samples, &c->gaps);
+	return mr_gap_of_surface(ctx, m, &places, samples, &c->gaps, NULL);
 }

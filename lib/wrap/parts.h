@@ -105,13 +105,16 @@ enum { MR_WRAP_SAMPLES = 1 << 14 };
 /* What of a closed wrap spans no points. */
 typedef struct mr_wrap_lids {
 	size_t openings; /* cut out */
-	size_t holes;    /* left closed: those wider than MR_WRAP_GAP, but for the doubtful ones */
-	size_t doubtful; /* left closed or cut out, as wide as either may be, or where support flickers */
+	size_t holes;    /* left closed: those wider than gaps of the sampling */
+	size_t doubtful; /* holes, and openings hardly wider than these may be */
 	double width;    /* of the widest of them, in spacings */
 	mr_v3 at;        /* its middle */
 	bool flickers;   /* the points hardly support what they do not leave open: none is cut out */
 	size_t loops;    /* of the boundary */
 } mr_wrap_lids;
+
+/* Spacings: openings that are wider stay open. */
+static const double MR_WRAP_OPENING = 10;
 
 /* A wrap, and how well it covers the points. */
 typedef struct mr_wrap {

@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "measure/gaps.h"
 #include "remesh/unfold.h"
+#include "space/two_layers.h"
 #include "volume/volume.h"
 #include "wrap/parts.h"
 
@@ -278,6 +279,24 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		mr_gaps_warn(ctx, "the wrap", g);
 }
 
+/* A share of the points in two layers that is no chance: of 162 clouds of 54 models, uniform, with noise of 1
+ * % and of vertices, five have more, of a plate and of vertices in rows; of thin cups 0.3 and more. */
+static const double LAYERED = 0.05;
+
+static mr_status
+warn_of_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud)
+{
+	mr_layers l;
+
+	MR_TRY(mr_find_layers(ctx, cloud->p, cloud->n, cloud->near, cloud->spacing, &l));
+	if (l.share > LAYERED)
+		mr_warn(ctx,
+		    "%.2g %% of the points lie in two layers, %.2g sampling distances apart, as near "
+		    "(%.4g, %.4g, %.4g): sides of what is too thin to tell, or scans out of register",
+		    100 * l.share, l.apart / cloud->spacing, l.at.x, l.at.y, l.at.z);
+	return MR_OK;
+}
+
 /* What was left open, and where it might as well be closed, or the other way round. */
 static void
 report_lids(mr_ctx *ctx, const mr_wrap_lids *l)
@@ -294,10 +313,11 @@ report_lids(mr_ctx *ctx, const mr_wrap_lids *l)
 		    l->doubtful, l->doubtful == 1 ? " is" : "s are", l->width, l->at.x, l->at.y, l->at.z);
 	else if (l->doubtful > 0)
 		mr_warn(ctx,
-		    "%zu opening%s about as wide as is left open: the widest measures %.3g sampling "
-		    "distances, "
-		    "near (%.4g, %.4g, %.4g)",
-		    l->doubtful, l->doubtful == 1 ? " is" : "s are", l->width, l->at.x, l->at.y, l->at.z);
+		    "%zu opening%s of the points may be meant or not, those up to %g sampling distances wide "
+		    "are "
+		    "closed: the widest measures %.3g, near (%.4g, %.4g, %.4g)",
+		    l->doubtful, mr_plural(l->doubtful), MR_WRAP_OPENING, l->width, l->at.x, l->at.y,
+		    l->at.z);
 }
 
 static void
@@ -337,6 +357,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
 		if (c.d.twin[h] == MR_NONE && c.lids.loops == 0)
 			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
+	MR_TRY(warn_of_layers(ctx, cloud));
 	report(ctx, cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
 	return MR_OK;

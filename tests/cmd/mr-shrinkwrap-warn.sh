@@ -39,3 +39,12 @@ flaws control solid.mrs
 
 echo 'a cube drawn around limbs'
 mr-make knot --points 3000 | mr-shrinkwrap -m cube 2>&1 >/dev/null | grep -c 'warning: the wrap has .* pairs of faces that intersect'
+
+echo 'a bowl that is thinner than its points are apart, and one of one sheet'
+for outer in 1.03 1; do
+	awk -v outer=$outer '{ s = NR % 2 ? outer : 1; print s * $1, s * $2, s * $3 }' half.xyz >bowl.xyz
+	mr-import --points bowl.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'in two layers'
+done
+
+echo 'a surface that leaves its points at one place'
+mr-make knot --points 3000 | mr-shrinkwrap | mr-simplify -q --faces 40 | mr-fit -q | mr-sample -n 2 2>&1 >/dev/null | sed -n 's/.*the displaced surface is up to [0-9.]* spacings.*/too far/p; s/.*points are up to [0-9.]* spacings.*/too far from points/p'

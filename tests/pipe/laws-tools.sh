@@ -10,7 +10,7 @@ bad() {
 regions='--reset --free all --fixed below:z,0.2 --handle 1=above:z,0.8'
 mr-make bumpy -n 2000 | mr-smooth | mr-remesh | mr-select $regions | mr-solve --basis | mr-encode |
     mr-pose -H 1 --rotate 0,0,1,30 >edit.mrs || exit
-mr-make bumpy --points 300 >points.mrs || exit
+mr-make sphere --points 300 >points.mrs || exit
 mr-cat --merge edit.mrs points.mrs | mr-shrinkwrap -m cube -r 5 |
     mr-sample -n 1 >all.mrs || exit
 mr-make sphere -n 500 | mr-export plain.off || exit

@@ -96,17 +96,20 @@ areas_weigh(void **state)
 	mr_v3 pole = { 0, 0, 1 };
 	double spacing = 0.1;
 	mr_near *near;
+	mr_gap_spot widest = { 0 };
 	mr_gaps g;
 
 	(void)state;
 	assert_int_equal(mr_near_build(&ctx, &pole, 1, &near), MR_OK);
-	assert_int_equal(
-	    mr_gap_of_surface(&ctx, &m, &(mr_gap_cloud){ &pole, &spacing, near, 1, spacing }, SAMPLES, &g),
+	assert_int_equal(mr_gap_of_surface(&ctx, &m, &(mr_gap_cloud){ &pole, &spacing, near, 1, spacing },
+			     SAMPLES, &g, &widest),
 	    MR_OK);
 	mr_near_free(near);
 	/* of the unit sphere: chords of length c cut off the share c^2 / 4, the mean is 4/3 */
 	assert_float_equal(g.surface.mean, 4.0 / 3, 0.01);
 	assert_float_equal(g.surface.max, 2, 0.01);
+	assert_float_equal(widest.wide, 2 / spacing, 0.1);
+	assert_true(mr_dist(widest.at, mr_vec(0, 0, -1)) < 0.2);
 	assert_true(fabs(g.bare - (1 - 0.16 / 4)) < 0.003);
 }
 
