@@ -180,7 +180,7 @@ test_wide_openings_are_cut_out(void **state)
 		{ 0, MR_LIDS_AUTO, 1, 0, 0 },
 		{ 1.5, MR_LIDS_AUTO, 1, 0, 0 },
 		{ 1.5, MR_LIDS_NONE, 1, 0, 0 },
-		{ 3.2, MR_LIDS_AUTO, 1, 1, 0 },
+		{ 3.2, MR_LIDS_AUTO, 1, 1, 1 },
 		{ 3.2, MR_LIDS_NONE, 2, 0, 0 },
 		{ 4.2, MR_LIDS_AUTO, 1, 1, 1 },
 		{ 6, MR_LIDS_AUTO, 2, 0, 1 },
