@@ -203,7 +203,7 @@ def main(arguments):
     total, worst, done = {"good": 0, "refused": 0, "wrong": 0}, [], 0
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
-        with Pool(int(os.environ.get("JOBS") or 1), maxtasksperchild=1) as pool:
+        with Pool(int(os.environ.get("JOBS") or 1)) as pool:
             for tally, lines, slow in pool.imap(row, tasks):
                 for verdict in total:
                     total[verdict] += tally[verdict]
