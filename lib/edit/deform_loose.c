@@ -48,8 +48,6 @@ find_nearest(mr_ctx *ctx, const mr_mesh *rest, const uint32_t *candidate, size_t
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *at = MR_NEW(ctx, n, mr_v3), *q = MR_NEW(ctx, l->n, mr_v3);
-	mr_status status;
-	mr_near *near;
 
 	if (!at || !q)
 		return MR_EMEM;
@@ -57,13 +55,11 @@ find_nearest(mr_ctx *ctx, const mr_mesh *rest, const uint32_t *candidate, size_t
 		at[i] = rest->p[candidate[i]];
 	for (size_t i = 0; i < l->n; i++)
 		q[i] = rest->p[l->vertex[i]];
-	MR_TRY(mr_near_build(ctx, at, n, &near));
-	status = mr_near_query(ctx, near, q, l->n, NEAREST, nearest, NULL);
-	mr_near_free(near);
-	for (size_t i = 0; status == MR_OK && i < NEAREST * l->n; i++)
+	MR_TRY(mr_near_once(ctx, at, n, q, l->n, NEAREST, nearest, NULL));
+	for (size_t i = 0; i < NEAREST * l->n; i++)
 		nearest[i] = nearest[i] == MR_NONE ? MR_NONE : candidate[nearest[i]];
 	mr_mark_release(ctx, mark);
-	return status;
+	return MR_OK;
 }
 
 static int

@@ -50,17 +50,12 @@ count_points(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double
 	size_t some = n < ENOUGH * m->nv ? n : ENOUGH * m->nv;
 	uint32_t *nearest = MR_NEW(ctx, some, uint32_t);
 	mr_v3 *q = MR_NEW(ctx, some, mr_v3);
-	mr_near *near;
-	mr_status status;
 
 	if (!nearest || !q)
 		return MR_EMEM;
 	for (size_t i = 0; i < some; i++)
 		q[i] = point[i * n / some];
-	MR_TRY(mr_near_build(ctx, m->p, m->nv, &near));
-	status = mr_near_query(ctx, near, q, some, 1, nearest, NULL);
-	mr_near_free(near);
-	MR_TRY(status);
+	MR_TRY(mr_near_once(ctx, m->p, m->nv, q, some, 1, nearest, NULL));
 	for (size_t i = 0; i < some; i++)
 		count[nearest[i]]++;
 	*used = some;

@@ -106,16 +106,11 @@ mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double w
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *near = mr_alloc(ctx, m->nv, NEAREST * sizeof *near);
 	mr_planes planes;
-	mr_near *index;
-	mr_status status;
 
 	if (!near)
 		return MR_EMEM;
 	MR_TRY(mr_cloud_planes(ctx, point, n, AROUND, 1, false, &planes));
-	MR_TRY(mr_near_build(ctx, point, n, &index));
-	status = mr_near_query(ctx, index, m->p, m->nv, NEAREST, near, NULL);
-	mr_near_free(index);
-	MR_TRY(status);
+	MR_TRY(mr_near_once(ctx, point, n, m->p, m->nv, NEAREST, near, NULL));
 	for (size_t v = 0; v < m->nv; v++)
 		to[v] = sharp_place(&planes, point, near + NEAREST * v, width, m->p[v]);
 	MR_TRY(move(ctx, m, to));

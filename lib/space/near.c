@@ -173,3 +173,16 @@ mr_near_free(mr_near *near)
 	mr_tree_free(near->tree);
 	near->tree = NULL;
 }
+
+mr_status
+mr_near_once(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_v3 *q, size_t nq, size_t k, uint32_t *index,
+    double *dist2)
+{
+	mr_near *near;
+	mr_status status;
+
+	MR_TRY(mr_near_build(ctx, p, n, &near));
+	status = mr_near_query(ctx, near, q, nq, k, index, dist2);
+	mr_near_free(near);
+	return status;
+}

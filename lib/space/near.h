@@ -27,6 +27,10 @@ size_t mr_near_distinct(const mr_near *near);
 mr_status mr_near_query(mr_ctx *ctx, const mr_near *near, const mr_v3 *q, size_t nq, size_t k,
     uint32_t *index, double *dist2) MR_WARN_UNUSED;
 
+/* The same of points that are asked for once: builds the index and frees it. */
+mr_status mr_near_once(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_v3 *q, size_t nq, size_t k,
+    uint32_t *index, double *dist2) MR_WARN_UNUSED;
+
 /* Accepts NULL. */
 void mr_near_free(mr_near *near);
 

@@ -45,8 +45,6 @@ fill_others(mr_ctx *ctx, const mr_mesh *m, const mr_sampling *s, const places *q
 	uint32_t *other = MR_NEW(ctx, m->nv, uint32_t), *nearest = MR_NEW(ctx, m->nv, uint32_t);
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
 	size_t n = 0;
-	mr_near *near;
-	mr_status status;
 
 	if (!other || !nearest || !p)
 		return MR_EMEM;
@@ -57,12 +55,10 @@ fill_others(mr_ctx *ctx, const mr_mesh *m, const mr_sampling *s, const places *q
 		}
 	if (n == 0)
 		return MR_OK;
-	MR_TRY(mr_near_build(ctx, q->p, q->n, &near));
-	status = mr_near_query(ctx, near, p, n, 1, nearest, NULL);
-	mr_near_free(near);
-	for (size_t k = 0; status == MR_OK && k < n; k++)
+	MR_TRY(mr_near_once(ctx, q->p, q->n, p, n, 1, nearest, NULL));
+	for (size_t k = 0; k < n; k++)
 		normal[other[k]] = normal[q->of[nearest[k]]];
-	return status;
+	return MR_OK;
 }
 
 /* Takes back those that are there and fit, counts, and compares. */

@@ -538,15 +538,10 @@ take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *side
 	mr_v3 *toward = MR_NEW(ctx, v->s.n, mr_v3);
 	uint32_t *of = MR_NEW(ctx, v->s.n, uint32_t);
 	mr_volume_sides judged;
-	mr_near *near;
-	mr_status status;
 
 	if (!toward || !of)
 		return MR_EMEM;
-	MR_TRY(mr_near_build(ctx, point, n, &near));
-	status = mr_near_query(ctx, near, v->s.p, v->s.n, 1, of, NULL);
-	mr_near_free(near);
-	MR_TRY(status);
+	MR_TRY(mr_near_once(ctx, point, n, v->s.p, v->s.n, 1, of, NULL));
 	for (size_t i = 0; i < v->s.n; i++)
 		toward[i] = sides->toward[of[i]];
 	judged = mr_volume_judge(&v->s, toward);

@@ -191,8 +191,6 @@ draw_back(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_mesh *m)
 {
 	uint32_t *nearest = MR_NEW(ctx, m->nv, uint32_t);
 	double *value = MR_NEW(ctx, m->nv, double);
-	mr_near *near;
-	mr_status status;
 	support s;
 	mr_v3 *p;
 	size_t n;
@@ -203,10 +201,7 @@ draw_back(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_mesh *m)
 	MR_TRY(strew_rim(ctx, m, s.far, &p, &n));
 	if (n == 0)
 		return MR_OK;
-	MR_TRY(mr_near_build(ctx, p, n, &near));
-	status = mr_near_query(ctx, near, m->p, m->nv, 1, nearest, value);
-	mr_near_free(near);
-	MR_TRY(status);
+	MR_TRY(mr_near_once(ctx, p, n, m->p, m->nv, 1, nearest, value));
 	for (size_t v = 0; v < m->nv; v++)
 		value[v] = BACK * s.unit[v] - sqrt(value[v]);
 	return mr_mesh_clip(ctx, m, value, m);
