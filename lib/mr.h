@@ -570,6 +570,8 @@ typedef struct mr_simplify_opts {
 	double ratio; /* share of the faces to stop at; 0: by error; all 0: by the frame */
 	double error; /* root mean square distance from the planes of the faces merged, at most; 0: any */
 	bool error_relative;  /* error is a share of the bounding box's diagonal */
+	const double *room;   /* error allowed at each vertex, absolute; NULL: any */
+	size_t most;          /* faces beyond which room does not count */
 	double boundary;      /* weight of the planes that hold boundary edges */
 	bool creases;         /* of a control mesh: keep the sharp edges that the points show */
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */
@@ -578,7 +580,7 @@ typedef struct mr_simplify_opts {
 	const char *layer;    /* NULL: control, else base, else mesh */
 } mr_simplify_opts;
 
-#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, 10, false, NULL, NULL, NULL, NULL)
+#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, NULL, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces;           /* of the result */

@@ -195,7 +195,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	double *spacing = MR_NEW(ctx, n, double);
 	size_t given = n;
 	double edge = mr_mesh_edge_scale(ctx, control);
-	double start;
+	double start, noise;
 	mr_sampling sampling;
 	mr_fit_gap before, after;
 	mr_fit_result r;
@@ -212,12 +212,13 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	if (!is_local)
 		MR_TRY(drop_outliers(
 		    ctx, &sampling, MR_FIT_NEAR * edge, sorted, spacing, foot, &n, &r.outliers));
+	noise = is_local || sampling.usual == 0 ? 0 : sampling.noise / sampling.usual;
 	before = mr_fit_measure(ctx, foot, n);
 	r.folded_edges_before = count_folds(&s);
 	start = mr_seconds();
-	MR_TRY(is_local
-		   ? local(ctx, &s, sorted, n, opts, passes, x)
-		   : mr_fit_least_squares(ctx, &s, sorted, spacing, n, opts, passes, n < given, foot, x, &r));
+	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
+			: mr_fit_least_squares(
+			      ctx, &s, sorted, spacing, n, noise, opts, passes, n < given, foot, x, &r));
 	r.iterations = passes;
 	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)

@@ -62,10 +62,24 @@ share_area(mr_ctx *ctx, const mr_fit_foot *foot, const double *spacing, size_t n
 	return MR_OK;
 }
 
+/*
+ * The share of its form that the control mesh keeps as it comes: junctions and edges that a thin plate would
+ * round off or web.  With noise, in spacings, its form is of the noise too.  On clean clouds of 18 models
+ * half of it leaves the largest distances 16 % less, of frames, trees and lattices half of them, with 1.1 %
+ * bent edges instead of 0.6; all of it leaves no less, with 2.1 %.
+ */
+static double
+form_kept(double noise)
+{
+	const double most = 0.5, noisy = 0.35;
+
+	return most * fmax(0, 1 - noise / noisy);
+}
+
 mr_status
 mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, const double *spacing,
-    size_t n, const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot, mr_v3 *x,
-    mr_fit_result *result)
+    size_t n, double noise, const mr_fit_opts *opts, size_t passes, bool outliers, mr_fit_foot *foot,
+    mr_v3 *x, mr_fit_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *z = MR_NEW(ctx, surface->level[0].nv, mr_v3);
@@ -77,7 +91,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, c
 
 	if (!z || !w || !share)
 		return MR_EMEM;
-	MR_TRY(mr_fit_system_build(ctx, surface, x, &system));
+	MR_TRY(mr_fit_system_build(ctx, surface, x, form_kept(noise), &system));
 	MR_TRY(mr_fit_guard_new(ctx, surface, &system.patch, x, &guard));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);

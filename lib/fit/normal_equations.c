@@ -54,10 +54,11 @@ spread_basis(void *arg, size_t begin, size_t end)
 }
 
 mr_status
-mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, mr_fit_system *system)
+mr_fit_system_build(
+    mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, double form, mr_fit_system *system)
 {
 	size_t nv = surface->level[0].nv;
-	mr_fit_system r = { .surface = surface };
+	mr_fit_system r = { .surface = surface, .form = form };
 	mr_v3 *home = MR_NEW(ctx, nv, mr_v3);
 
 	if (!home)
@@ -273,21 +274,22 @@ measure_bare(mr_ctx *ctx, const mr_fit_system *s, const size_t *start, double **
 	return MR_OK;
 }
 
-/* L (x - bare home) at vertex v: what it is bent by, where it is bare beyond what it was. */
+/* L (x - c home) at vertex v: what it is bent by, beyond the share of what it was. */
 static mr_v3
 bend_at(const mr_fit_system *s, const mr_v3 *x, double bare, size_t v)
 {
 	const mr_fit_lists *l = &s->star;
 	mr_v3 sum = { 0, 0, 0 };
+	double c = fmax(s->form, bare);
 
 	for (size_t i = l->start[v]; i < l->start[v + 1]; i++) {
 		int j = l->member[i];
-		sum = mr_axpy(s->star_row[i], mr_axpy(-bare, s->home[j], x[j]), sum);
+		sum = mr_axpy(s->star_row[i], mr_axpy(-c, s->home[j], x[j]), sum);
 	}
 	return sum;
 }
 
-/* fairness |L (x + z - bare home)|^2: the outer product of each row of L, and -L (x - bare home) times it;
+/* fairness |L (x + z - c home)|^2: the outer product of each row of L, and -L (x - c home) times it;
  * and fairness bare |x + z - home|^2. */
 static void
 add_fairness(mr_fit_system *s, const mr_v3 *x, const double *bare, double fairness)

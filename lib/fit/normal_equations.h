@@ -4,13 +4,14 @@
  * Contract: the unknown is a motion z of the control vertices x, which began at h.  It minimises
  *
  *	(nv / n) sum_i w_i (slip |r_i|^2 + (1 - slip) (d_i . r_i)^2)
- *	    + fairness sum_v (|L (x + z - bare_v h)|^2 + bare_v |x + z - h|^2) + small |z|^2
+ *	    + fairness sum_v (|L (x + z - c_v h)|^2 + bare_v |x + z - h|^2) + small |z|^2
  *
  * with r_i = q_i - s_i(x + z) from the feet s_i, which are linear in the vertices, to the points q_i, and d_i
  * the normals there.  L takes from each vertex the mean of its neighbours, along the boundary of the two
- *there: the thin plate energy, where vertices are even, and it makes them so.  A vertex is bare, 0 to 1, as
- *far as no points stand around it: then it keeps its place and form.  Dividing by n and multiplying by nv
- *makes `fairness` a share that neither units nor sampling change.
+ * there: the thin plate energy, where vertices are even, and it makes them so.  A vertex is bare, 0 to 1, as
+ * far as no points stand around it: then it keeps its place and form.  Elsewhere it keeps a share `form` of
+ * its form: c_v is the greater of the two.  Dividing by n and multiplying by nv makes `fairness` a share that
+ * neither units nor sampling change.
  */
 #ifndef MR_FIT_NORMAL_EQUATIONS_H
 #define MR_FIT_NORMAL_EQUATIONS_H
@@ -34,6 +35,7 @@ typedef struct mr_fit_block {
 typedef struct mr_fit_system {
 	const mr_fit_surface *surface;
 	const mr_v3 *home;       /* the control vertices to begin with */
+	double form;             /* the share of how they were bent that is no bending */
 	mr_fit_lists patch;      /* of each control face: the vertices that its surface depends on */
 	mr_fit_lists star;       /* of each control vertex: those in its row of L */
 	double *basis;           /* of each control face: 24 nodes x vertices of its list */
@@ -46,8 +48,8 @@ typedef struct mr_fit_system {
 } mr_fit_system;
 
 /* The pattern of the equations, in the arena; x: where the control vertices begin. */
-mr_status
-mr_fit_system_build(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, mr_fit_system *system);
+mr_status mr_fit_system_build(
+    mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, double form, mr_fit_system *system);
 
 /* The equations for n points with weights w at control vertices x, of which the surface is. */
 mr_status mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,

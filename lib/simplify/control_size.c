@@ -11,6 +11,8 @@ enum { ROUNDS = 4, ENOUGH = 2 /* points a vertex */ };
  * them, and a fit to points as few would have to blow them up.
  */
 enum { POINTS_A_FACE = 32, LIMBS = 300, LEAST_POINTS_A_FACE = 4, ROUND = 20 };
+/* The faces that a thin or jagged surface may have. */
+enum { MOST_POINTS_A_FACE = 8 };
 
 /* Densities beyond these shares of the mean are cut off: gaps and outliers are no surface. */
 static const double LEAST = 0.1, MOST = 10;
@@ -63,17 +65,32 @@ count_points(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double
 	return MR_OK;
 }
 
+static size_t
+least_faces(size_t n)
+{
+	size_t least = n / LEAST_POINTS_A_FACE;
+
+	return least < ROUND ? ROUND : least < LIMBS ? least : LIMBS;
+}
+
 size_t
 mr_simplify_faces_for(mr_ctx *ctx, size_t n)
 {
-	size_t count = n / POINTS_A_FACE, least = n / LEAST_POINTS_A_FACE;
+	size_t count = n / POINTS_A_FACE, least = least_faces(n);
 
-	least = least < ROUND ? ROUND : least < LIMBS ? least : LIMBS;
 	if (count >= least)
 		return count;
 	mr_note(ctx, "%zu faces for %zu points, as one for every %d would be too few", least, n,
 	    (int)POINTS_A_FACE);
 	return least;
+}
+
+size_t
+mr_simplify_most_faces_for(size_t n)
+{
+	size_t most = n / MOST_POINTS_A_FACE, least = least_faces(n);
+
+	return most > least ? most : least;
 }
 
 mr_status

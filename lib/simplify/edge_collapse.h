@@ -21,6 +21,7 @@ typedef struct mr_merge_ring {
 /* What a vertex carries with it. */
 typedef struct mr_site {
 	mr_quadric q; /* about its position */
+	double room;  /* error that it may have */
 	bool rim;     /* on the boundary */
 } mr_site;
 

@@ -28,6 +28,7 @@ typedef struct simplifier {
 	uint8_t *mark;     /* for the link condition */
 	size_t target;     /* faces to stop at; 0: no such limit */
 	double limit;      /* error to stop at; infinite: no such limit */
+	size_t most;       /* faces for whose sake more is merged than there is room for */
 	size_t faces, merges, computed, refused;
 	double error2; /* greatest of the merges done */
 	double needle; /* least shape of a face */
@@ -122,7 +123,8 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 	mr_quadric qb = mr_quadric_moved(&s->site[b].q, mr_sub(m->p, d->p[b]));
 
 	mr_dyn_collapse(d, h, m->p);
-	s->site[b] = (mr_site){ mr_quadric_sum(&qa, &qb), s->site[a].rim || s->site[b].rim };
+	s->site[b] = (mr_site){ mr_quadric_sum(&qa, &qb), fmin(s->site[a].room, s->site[b].room),
+		s->site[a].rim || s->site[b].rim };
 	s->onto[a] = b;
 	s->faces -= g == MR_NONE ? 1 : 2;
 	if (++s->merges % 8192 == 0)
@@ -135,11 +137,20 @@ merge(simplifier *s, uint32_t h, const mr_merge *m)
 	retry_around(s, b);
 }
 
+/* The error that the merge of h may have. */
+static double
+room_at(const simplifier *s, uint32_t h)
+{
+	double room = fmin(s->site[s->d.v[h]].room, s->site[mr_dyn_to(&s->d, h)].room);
+
+	return s->scale * (s->most ? fmin(s->limit, room) : s->limit);
+}
+
 /* Looks at the edge that came up: merges it, puts it back, or gives it up. */
 static void
 serve(simplifier *s, uint32_t h, uint32_t bucket)
 {
-	double limit = s->limit * s->scale;
+	double limit = room_at(s, h);
 	uint32_t now;
 	mr_merge m;
 
@@ -162,12 +173,18 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 		s->refused++;
 }
 
-/* Lets needles be thinner, once, for the sake of a number of faces. */
+/* Lets errors be larger, where there are more faces than the most, or needles be thinner; each once, for the
+ * sake of a number of faces. */
 static bool
 relax(simplifier *s)
 {
 	bool first = s->needle > LAST_NEEDLE && s->target > 0;
 
+	if (s->most > 0 && s->faces > s->most) {
+		s->target = s->most;
+		s->most = 0;
+		return true;
+	}
 	s->needle = LAST_NEEDLE;
 	return first;
 }
@@ -281,6 +298,8 @@ begin(simplifier *s, const mr_mesh *m)
 	if (!s->site || !s->onto || !s->mark || !s->bucket)
 		return MR_EMEM;
 	s->faces = s->d.nf;
+	for (uint32_t v = 0; v < s->d.nv; v++)
+		s->site[v].room = s->o->room ? s->o->room[s->d.at[v]] : INFINITY;
 	add_quadrics(s);
 	return mr_buckets_new(s->ctx, 3 * s->d.nf, &s->queue);
 }
@@ -335,6 +354,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 		.needle = MR_NEEDLE,
 		.scale = diagonal > 0 ? ldexp(1, -ilogb(diagonal)) : 1,
 		.target = opts->faces ? opts->faces : (size_t)ceil(opts->ratio * (double)m->nf),
+		.most = opts->room ? opts->most : 0,
 		.limit = opts->error <= 0       ? INFINITY
 		         : opts->error_relative ? opts->error * diagonal
 		                                : opts->error };
@@ -344,7 +364,10 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 	merge_all(&s);
 	ended = mr_seconds();
 	MR_TRY(finish(&s, m, out, onto));
-	if (out->nf > s.target && s.target && !isfinite(s.limit))
+	if (out->nf > s.target && s.target && s.most)
+		mr_note(ctx, "%s: %zu faces are left, not %zu: fewer would be too far off", m->name, out->nf,
+		    s.target);
+	else if (out->nf > s.target && s.target && !isfinite(s.limit))
 		mr_note(ctx,
 		    "%s: %zu faces are left, not %zu: no more could be merged without changing the "
 		    "topology or folding the surface",
