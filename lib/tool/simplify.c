@@ -11,9 +11,9 @@ enum { FACES_A_FACE = 10 };
 
 /*
  * Spacings of the points that a control mesh may be off by default, beyond their noise: what is thinner would
- * be webbed where it joins.  Of 50,000 points of 18 models one has more faces so, by a twelfth; of the vertices
- * of these eight, and are 4 % nearer to the truth on the mean; of 10,000 points of frames, trees and lattices,
- * with twice to four times the faces, the largest distances fall from 3 to 7 spacings to 1.5 to 3.
+ * be webbed where it joins.  Of 50,000 points of 18 models one has more faces so, by a twelfth; of the
+ * vertices of these eight, and are 4 % nearer to the truth on the mean; of 10,000 points of frames, trees and
+ * lattices, with twice to four times the faces, the largest distances fall from 3 to 7 spacings to 1.5 to 3.
  */
 static const double OFF = 0.5;
 
