@@ -4,7 +4,9 @@
 #	make help       this list
 #	make setup      the packages they need; the other targets see to that by themselves
 #	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
+#	make check SAN=thread T=threads the tools that have threads under the thread sanitizer
 #	make check-long the tests of faults in full: an hour
+#	make lint       clang-tidy and cppcheck over the sources: no findings
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
 #	make fuzz       the readers under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
@@ -19,10 +21,10 @@
 PREFIX  ?= /usr/local
 DESTDIR ?=
 DATA    ?= $(abspath $(wildcard ../shared/data))
-BUILD   ?= $(if $(SAN),build/san,build)
+BUILD   ?= $(if $(SAN),build/san$(SAN:1=),build)
 CC      ?= cc
 CXX     ?= c++
-CFLAGS  ?= $(if $(SAN),-O1 -fsanitize=address$(,)undefined -fno-sanitize-recover=all -fno-omit-frame-pointer,-O3) -g
+CFLAGS  ?= $(if $(SAN),-O1 -fsanitize=$(if $(filter thread,$(SAN)),thread,address$(,)undefined) -fno-sanitize-recover=all -fno-omit-frame-pointer,-O3) -g
 LDFLAGS ?= $(if $(SAN),$(if $(findstring clang,$(CC)),-fsanitize-link-c++-runtime))
 VERSION := 1.0
 SONAME  := libmr.so.$(basename $(VERSION))
@@ -52,7 +54,7 @@ OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc formats/*.c
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
-NEEDS   := build $(if $(filter setup check check-long matrix bless units,$(MAKECMDGOALS)),check) $(filter bench,$(MAKECMDGOALS))
+NEEDS   := build $(if $(filter setup check check-long matrix bless units,$(MAKECMDGOALS)),check) $(filter lint bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -115,6 +117,21 @@ check-long: $(TOOLS)
 
 matrix: $(TOOLS)
 	@mkdir -p $(BUILD)/matrix && cd $(BUILD)/matrix && $(RUN) $(CURDIR)/tests/matrix/run '$(T)'
+
+# A source again when it or a header has changed; .clang-tidy and tests/lint say what is not asked.
+HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
+LINT    := $(patsubst %,$(BUILD)/lint/%,$(wildcard lib/*/*.c formats/*.c cmd/*.c))
+lint: $(LINT) $(BUILD)/lint/cppcheck
+
+$(BUILD)/lint/%.c: %.c .clang-tidy tests/lint/assume.h $(HEADERS) | setup
+	@mkdir -p $(@D)
+	$(call say,tidy   )clang-tidy --quiet --warnings-as-errors='*' $< -- -std=c11 $(INCLUDE) -include tests/lint/assume.h \
+		2>$@.log || { cat $@.log; exit 1; } && touch $@
+
+$(BUILD)/lint/cppcheck: tests/lint/cppcheck.txt $(HEADERS) $(LINT:$(BUILD)/lint/%=%) | setup
+	@mkdir -p $@.cache
+	$(call say,check  )cppcheck -q --std=c11 --enable=warning,performance,portability -Ilib -I. -Icmd --inline-suppr --cppcheck-build-dir=$@.cache \
+		--suppressions-list=tests/lint/cppcheck.txt --error-exitcode=1 lib formats cmd && touch $@
 
 # In a build of its own; clang's libFuzzer watches the whole library.
 FUZZ  := $(BUILD)/fuzz
@@ -188,5 +205,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long matrix fuzz bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check check-long lint matrix fuzz bless demo bench table1 readme install uninstall clean
 .SECONDARY:

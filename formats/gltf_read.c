@@ -571,9 +571,9 @@ join_colors(gltf_reader *r)
 	if (!color)
 		return MR_EMEM;
 	for (size_t k = r->n; k-- > 0;)
-		memcpy(color + 4 * r->join[k], r->color + 4 * k, 4);
+		memcpy(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
 	for (size_t k = 0; k < r->n; k++)
-		several += memcmp(color + 4 * r->join[k], r->color + 4 * k, 4) != 0;
+		several += memcmp(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
 	if (several)
 		mr_warn(r->g.ctx, "%zu colours left out: a vertex keeps the first of several", several);
 	r->m->color = color;

@@ -577,8 +577,9 @@ put_frames(glb *w, size_t targets, size_t *input, size_t *output)
 	*input = new_accessor(w, view, MR_GLTF_FLOAT, frames, "SCALAR");
 	set_bounds(w, *input, &low, &high, 1);
 	MR_TRY(new_view(w, 4 * frames * targets, 0, &view, &to));
-	for (size_t i = 0; i < frames * targets; i++)
-		to = mr_store_float(to, i / targets == i % targets + 1 ? 1 : 0, false);
+	for (size_t i = 0; i < frames; i++)
+		for (size_t k = 0; k < targets; k++)
+			to = mr_store_float(to, i == k + 1 ? 1 : 0, false);
 	*output = new_accessor(w, view, MR_GLTF_FLOAT, frames * targets, "SCALAR");
 	return MR_OK;
 }

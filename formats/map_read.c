@@ -198,7 +198,7 @@ mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts,
 {
 	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
 	mr_map_result found;
-	double range[2], *height;
+	double range[2] = { 0, 0 }, *height;
 	mr_mesh control;
 	mr_domain d;
 	mr_model m;

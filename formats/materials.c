@@ -50,11 +50,9 @@ find_file(const finder *f, const char *path, const char **found)
 	*found = NULL;
 	if (stays_below(here) && !(whole = mr_format(f->ctx, "%s/%s", f->folder, here)))
 		return MR_EMEM;
-	if (whole && is_file(whole))
-		*found = whole;
-	else if (last && !(whole = mr_format(f->ctx, "%s%s", f->folder, last)))
+	if (last && !(whole && is_file(whole)) && !(whole = mr_format(f->ctx, "%s%s", f->folder, last)))
 		return MR_EMEM;
-	else if (last && is_file(whole))
+	if (whole && is_file(whole))
 		*found = whole;
 	return MR_OK;
 }

@@ -157,7 +157,7 @@ set_color(obj *o, const double *c)
 static mr_status
 position(obj *o, mr_scan *line)
 {
-	double x[8];
+	double x[8] = { 0 };
 	size_t n = 0;
 
 	MR_TRY(numbers(o, line, "a vertex", 3, 7, x, &n));
@@ -177,7 +177,7 @@ static mr_status
 texcoord(obj *o, mr_scan *line)
 {
 	double x[4] = { 0 };
-	size_t n;
+	size_t n = 0;
 
 	MR_TRY(numbers(o, line, "a texture coordinate", 1, 3, x, &n));
 	if (!isfinite(x[0]) || !isfinite(x[1])) {
@@ -194,7 +194,7 @@ texcoord(obj *o, mr_scan *line)
 static mr_status
 normal(obj *o, mr_scan *line)
 {
-	double x[4];
+	double x[4] = { 0 };
 	size_t n;
 
 	MR_TRY(numbers(o, line, "a normal", 3, 3, x, &n));

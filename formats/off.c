@@ -344,7 +344,7 @@ static mr_status
 binary_vertices(off *f, const unsigned char *p, layout l)
 {
 	size_t floats = floats_per_vertex(f);
-	double x[12];
+	double x[12] = { 0 };
 
 	f->whole_colors = false;
 	for (size_t i = 0; i < f->b.nv; i++) {

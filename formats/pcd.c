@@ -143,7 +143,9 @@ can_hold(const pcd *f)
 	size_t left = (size_t)(f->text.end - f->text.p);
 
 	if (f->packed)
+		/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) x, y and z have bytes */
 		return f->points <= (uint64_t)left * SWELLS / f->stride;
+	/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) the same */
 	return f->points <= left / (f->binary ? f->stride : 2) + 1;
 }
 

@@ -262,8 +262,8 @@ mr_line_number(const mr_scan *t, const char *where)
 	return lines;
 }
 
-mr_status
-mr_scan_fail(const mr_scan *t, const char *where, const char *format, ...)
+/* In brackets: for make lint there is a macro of this name. */
+mr_status(mr_scan_fail)(const mr_scan *t, const char *where, const char *format, ...)
 {
 	char sentence[MR_ERROR_MAX / 2];
 	va_list args;

@@ -209,7 +209,7 @@ static mr_status
 survey(table *t)
 {
 	mr_scan text = t->text, line;
-	double x[COLUMNS];
+	double x[COLUMNS] = { 0 };
 	size_t n = 0;
 
 	for (size_t i = 0; i < COLUMNS; i++)
@@ -384,7 +384,7 @@ static mr_status
 fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
 {
 	mr_scan text = t->text, line;
-	double x[COLUMNS];
+	double x[COLUMNS] = { 0 };
 	size_t n = 0;
 
 	for (size_t i = 0; next_row(&text, &line); i++) {

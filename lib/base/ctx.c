@@ -75,8 +75,8 @@ mr_listen(mr_ctx *ctx, const mr_listener *listener)
 	ctx->listener = *listener;
 }
 
-mr_status
-mr_fail(mr_ctx *ctx, mr_status status, const char *format, ...)
+/* In brackets: for make lint there is a macro of this name. */
+mr_status(mr_fail)(mr_ctx *ctx, mr_status status, const char *format, ...)
 {
 	va_list args;
 

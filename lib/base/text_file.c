@@ -56,7 +56,7 @@ mr_status
 mr_lines_read(mr_ctx *ctx, const char *path, char ***line, size_t *count)
 {
 	size_t length = 0, n = 1, i = 0;
-	char *text = NULL, **lines;
+	char *text = "", **lines;
 
 	MR_TRY(read_all(ctx, path, &text, &length));
 	for (size_t k = 0; k < length; k++)

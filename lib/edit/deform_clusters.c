@@ -49,6 +49,7 @@ spread(const mr_deform *d, mr_clusters *c, uint32_t seed, flood *w)
 	w->queue[0] = seed;
 	while (waiting) {
 		uint32_t i = w->queue[head];
+		/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) the seed is a vertex */
 		head = (head + 1) % m->nv;
 		waiting--;
 		w->queued[i] = false;

@@ -223,8 +223,8 @@ static const struct {
 	{ "handles", "mr-pose makes handles" },
 };
 
-mr_status
-mr_layer_missing(mr_ctx *ctx, const mr_frame *f, const char *names, const char *layer)
+/* In brackets: for make lint there is a macro of this name. */
+mr_status(mr_layer_missing)(mr_ctx *ctx, const mr_frame *f, const char *names, const char *layer)
 {
 	char there[160] = "";
 	const char *how = "";

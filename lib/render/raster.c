@@ -141,8 +141,8 @@ draw_face(const mr_raster_view *v, size_t f, range x, range y)
 	}
 	inverse = 1 / fabs((double)area);
 	slope = inverse * ((double)dx[0] * p[0].near + (double)dx[1] * p[1].near + (double)dx[2] * p[2].near);
-	low = fmin(p[0].near, fmin(p[1].near, p[2].near));
-	high = fmax(p[0].near, fmax(p[1].near, p[2].near));
+	low = fminf(p[0].near, fminf(p[1].near, p[2].near));
+	high = fmaxf(p[0].near, fmaxf(p[1].near, p[2].near));
 	for (size_t j = y.begin; j < y.end; j++) {
 		int64_t e0 = row[0], e1 = row[1], e2 = row[2];
 		double near = inverse *

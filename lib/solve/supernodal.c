@@ -115,11 +115,13 @@ place_rows(mr_supernodal *s, size_t *shared, size_t *panel)
 	*shared = s->l.n;
 	*panel = 0;
 	for (size_t i = 0; i < s->aboves; i++)
+		/* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) those that are counted are filled */
 		*panel = larger(*panel, rows_of(&s->l, s->above[i]));
 	for (size_t i = 0; i < s->subtrees; i++, *panel += most) {
 		subtree *t = &s->subtree[i];
 		t->shared = *shared;
 		t->panel = *panel;
+		/* NOLINTNEXTLINE(clang-analyzer-core.UndefinedBinaryOperatorResult) the same */
 		*shared += below_of(&s->l, t->end - 1);
 		most = 0;
 		for (size_t p = t->begin; p < t->end; p++)

@@ -362,7 +362,9 @@ read_columns(mr_ctx *ctx, mr_reader *r)
 	piece p;
 
 	do {
-		MR_TRY(read_piece(ctx, r, &p));
+		status = read_piece(ctx, r, &p);
+		if (status != MR_OK)
+			return status;
 		if (p.head.kind == MR_COLUMN) {
 			status = keep(ctx, r, &p);
 			if (status == MR_OK)

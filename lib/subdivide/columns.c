@@ -145,6 +145,7 @@ regions(mr_ctx *ctx, const mr_refined *r, const mr_place *at, const uint32_t *re
 		return MR_EMEM;
 	memcpy(fine, region, r->m.nv * sizeof *fine);
 	for (size_t i = r->m.nv; i < r->fine.nv; i++) {
+		/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference) a new vertex has its place */
 		const double w[] = { at[i].bary.x, at[i].bary.y, at[i].bary.z };
 		fine[i] = UINT32_MAX;
 		for (int k = 0; k < 3; k++) {
@@ -166,6 +167,7 @@ nearest(mr_ctx *ctx, const mr_refined *r, const mr_place *at, size_t bytes, cons
 		return MR_EMEM;
 	memcpy(y, x, bytes * r->m.nv);
 	for (size_t i = r->m.nv; i < r->fine.nv; i++) {
+		/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference) a new vertex has its place */
 		const double w[] = { at[i].bary.x, at[i].bary.y, at[i].bary.z };
 		const uint32_t *v = r->m.t[at[i].face].v;
 		int best = 0;

@@ -323,6 +323,7 @@ static void
 measure_roots(tree *x)
 {
 	for (size_t f = 0; f < x->level[0].nf; f++)
+		/* NOLINTNEXTLINE(clang-analyzer-core.NullDereference) a level of faces has nodes */
 		x->longest = fmaxf(x->longest, x->node[0][f].hi[x->axis] - x->node[0][f].lo[x->axis]);
 	x->longest = nextafterf(x->longest, INFINITY);
 }

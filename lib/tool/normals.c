@@ -69,7 +69,7 @@ finish(const mr_normals_opts *o, const mr_v3 *there, size_t n, mr_v3 *normal, mr
 
 	for (size_t i = 0; i < n; i++) {
 		mr_v3 old = there && mr_finite(there[i]) ? mr_unit(there[i]) : mr_vec(0, 0, 0);
-		bool kept = o->keep && mr_dot(old, normal[i]) >= FITS;
+		bool kept = there && o->keep && mr_dot(old, normal[i]) >= FITS;
 		if (kept)
 			normal[i] = there[i];
 		r->kept += kept;

@@ -219,7 +219,7 @@ mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double 
 	for (int i = 0; i < LEVELS; i++)
 		MR_TRY(try_level(ctx, &l, i, &euler[i]));
 	r = lasting_run(euler);
-	result->levels_alike = (size_t)(r.last - r.first + 1);
+	result->levels_alike = (size_t)(r.last - r.first) + 1;
 	result->euler = (double)euler[r.first];
 	if (result->levels_alike < LEVELS)
 		MR_TRY(look_beside(ctx, &l, r, result));

@@ -363,6 +363,7 @@ spread_values(mr_ctx *ctx, volume *v, mr_grid_multigrid *m, double far)
 	memcpy(g.n, m->level[1].n, sizeof g.n);
 	MR_TRY(mr_volume_field(ctx, &v->s, &g, DEPTHS, &f));
 	mr_volume_spread(ctx, &v->s, &f, v->value, m->level[1].b);
+	/* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) there are two levels at least */
 	mr_volume_spread(ctx, &v->s, &f, NULL, weight[1]);
 	for (size_t i = 1; i + 1 < depths; i++) {
 		mr_grid_level *l = &m->level[i], *c = l + 1;
