@@ -29,11 +29,18 @@ begin() { # command
 }
 
 # INT and QUIT are ignored here by what runs behind a shell; XFSZ and a closed pipe have their own tests.
+outputs='mr-cat -o work/out
+mr-export -f obj work/out
+mr-export -f stl work/out.gz'
+[ -z "$LONG" ] || outputs="$outputs
+$(for format in obj ply ply-ascii ply-big stl-ascii off off-binary xyz pts; do echo "mr-export -q -f $format work/out.gz"; done)
+mr-info -o work/out"
+echo "$outputs" >outputs
 ends="HUP ILL TRAP ABRT BUS FPE USR1 SEGV USR2 PIPE ALRM TERM XCPU VTALRM PROF SYS 16 29 30 34 50 64"
 for way in nameless named; do
 	[ $way = named ] || [ -d /proc/self/fd ] || continue
 	for signal in $ends $([ $way = named ] || echo KILL); do
-		for command in 'mr-cat -o work/out' 'mr-export -f obj work/out' 'mr-export -f stl work/out.gz'; do
+		while read -r command; do
 			echo old >work/out
 			echo older >work/out.gz
 			begin $command --stats work/stats
@@ -45,7 +52,7 @@ for way in nameless named; do
 			[ "$(ls work)" = "$(printf 'out\nout.gz')" ] || bad "$command: $signal leaves something"
 			[ "$(cat work/out work/out.gz)" = "$(printf 'old\nolder')" ] || bad "$command: $signal took what was there"
 			n=$((n + 1))
-		done
+		done <outputs
 	done
 done
 
