@@ -47,8 +47,8 @@ mr_file_bytes_end(mr_ctx *ctx, mr_file_bytes *b, mr_status status)
 	return status;
 }
 
-/* Makes room for more, by doubling; false where memory cannot be had, or is not there: a pipe, and what a
- * few bytes inflate to, may never end. */
+/* Makes room for more, by doubling; false where memory cannot be had, or is not there for it and for a model of
+ * the same size: a pipe, and what a few bytes inflate to, may never end. */
 static bool
 widen(unsigned char **memory, size_t *room, size_t least)
 {
@@ -57,7 +57,7 @@ widen(unsigned char **memory, size_t *room, size_t least)
 
 	if (wanted < least)
 		wanted = least;
-	if (wanted > HEAD && (double)(wanted - *room) > mr_memory_available())
+	if (wanted > HEAD && 2 * (double)wanted - (double)*room > mr_memory_available())
 		return false;
 	p = realloc(*memory, wanted);
 	if (!p)
