@@ -499,6 +499,9 @@ mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces)
 mr_status
 mr_note_rounded(mr_sink *s, const mr_model *m)
 {
+	const double share = 1e-7; /* of the diagonal: about what a float is off of a model about the origin */
+	const mr_box box = mr_box_of(m->p, m->nv);
+	double off = 0, diagonal = mr_dist(box.min, box.max);
 	size_t changed = 0;
 
 	for (size_t i = 0; i < m->nv; i++) {
@@ -507,9 +510,15 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 			return mr_fail(s->ctx, MR_ERANGE, "position %zu (%g %g %g) is too large for float32",
 			    i, p.x, p.y, p.z);
 		changed += q.x != p.x || q.y != p.y || q.z != p.z;
+		off = fmax(off, mr_dist(p, q));
 	}
 	s->lost.rounded_positions = changed;
-	if (changed)
+	if (off > share * diagonal)
+		mr_warn(s->ctx,
+		    "%zu of %zu positions are rounded to float32, by up to %.2g, which is %.2g of the diagonal: "
+		    "mr-transform --center brings them to the origin, where floats are finer",
+		    changed, m->nv, off, off / diagonal);
+	else if (changed)
 		mr_note(s->ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
 	return MR_OK;
 }

@@ -6,6 +6,13 @@ for format in stl stl-ascii off off-binary obj ply xyz pts; do
 	mr-export -v -i a.mrs -f $format --stats stats out 2>&1
 	sed 's/"seconds":[^,]*,"peak_bytes":[0-9]*//' stats
 done
+echo "-- far from the origin a float is coarse"
+for far in 0 1 100 1e6; do
+	echo "by $far"
+	for format in stl off-binary glb; do
+		mr-transform --translate $far,0,0 a.mrs | mr-export -f $format out 2>&1 | grep float32
+	done
+done
 printf 'v 1e300 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' | mr-import | mr-export -f stl never
 echo "exit $?"
 ls never 2>/dev/null
