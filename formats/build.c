@@ -363,6 +363,26 @@ mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m)
 /* ---- attributes ---- */
 
 bool
+mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped)
+{
+	if (!odd)
+		return true;
+	mr_warn(ctx, "%zu of %zu %s are left out: they are not finite numbers", odd, n, what);
+	*dropped = odd;
+	return odd < n;
+}
+
+bool
+mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped)
+{
+	if (!odd)
+		return true;
+	mr_warn(ctx, "%s dropped: %zu of %zu are not finite numbers", what, odd, n);
+	*dropped = 1;
+	return false;
+}
+
+bool
 mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped)
 {
 	size_t odd = 0;
@@ -372,11 +392,7 @@ mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped)
 			normal[i] = mr_vec(0, 0, 0);
 			odd++;
 		}
-	if (odd) {
-		mr_warn(ctx, "%zu of %zu normals are left out: they are not finite numbers", odd, n);
-		*dropped = odd;
-	}
-	return odd == 0 || odd < n;
+	return mr_left_out(ctx, odd, n, "normals", dropped);
 }
 
 void

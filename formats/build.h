@@ -87,6 +87,12 @@ mr_status mr_build_properties(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
 /* All points of the model were seen from there. */
 mr_status mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m) MR_WARN_UNUSED;
 
+/* Of n values these are not finite numbers: says so, and counts them.  False where no other is left. */
+bool mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped) MR_WARN_UNUSED;
+
+/* The same of a column that has no value for none: it is dropped where one is odd, and this is false. */
+bool mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped) MR_WARN_UNUSED;
+
 /*
  * Normals that are not finite become zero, which is none: says and counts how many.  False where all were so.
  */

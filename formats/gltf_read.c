@@ -45,6 +45,7 @@ typedef struct gltf_reader {
 	size_t n, nf;         /* vertices as the file has them; faces, at most while they are not yet read */
 	mr_v3 *p, *normal;    /* n; zero: none */
 	double *uv;           /* 2 n; NaN: none */
+	size_t uvs, odd_uv;   /* as the file has them; not finite */
 	unsigned char *color; /* 4 n */
 	uint32_t *number;     /* n; MR_NONE: none */
 	uint32_t *join;       /* n: the vertex of the model */
@@ -259,10 +260,8 @@ read_normals(gltf_reader *r, const part *p, const mr_accessor *a)
 	MR_TRY(mr_accessor_reals(&r->g, a, 3, &r->normal[p->first].x));
 	for (size_t i = 0; i < p->count; i++) {
 		mr_v3 *n = &r->normal[p->first + i];
-		if (moves)
+		if (moves && mr_finite(*n))
 			*n = apply_to_normal(map, *n);
-		if (!mr_finite(*n))
-			*n = mr_vec(0, 0, 0);
 	}
 	return MR_OK;
 }
@@ -276,9 +275,12 @@ read_texcoords(gltf_reader *r, const part *p, const mr_accessor *a)
 	MR_TRY(mr_accessor_reals(&r->g, a, 2, uv));
 	for (size_t i = 0; i < p->count; i++) {
 		uv[2 * i + 1] = 1 - uv[2 * i + 1];
-		if (!isfinite(uv[2 * i]) || !isfinite(uv[2 * i + 1]))
+		if (!isfinite(uv[2 * i]) || !isfinite(uv[2 * i + 1])) {
 			uv[2 * i] = uv[2 * i + 1] = NAN;
+			r->odd_uv++;
+		}
 	}
+	r->uvs += p->count;
 	return MR_OK;
 }
 
@@ -607,7 +609,12 @@ static mr_status
 join_columns(gltf_reader *r)
 {
 	const double *normal = NULL, *corner_normal = NULL;
+	mr_import_result *counts = &r->m->counts;
 
+	if (r->normal && !mr_normals_left(r->g.ctx, r->normal, r->n, &counts->dropped_normals))
+		r->normal = NULL;
+	if (!mr_left_out(r->g.ctx, r->odd_uv, r->uvs, "texture coordinates", &counts->dropped_texcoords))
+		r->uv = NULL;
 	if (r->color)
 		MR_TRY(join_colors(r));
 	if (r->uv)

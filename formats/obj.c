@@ -21,8 +21,7 @@ typedef struct obj {
 	bool bright;      /* colours beyond 1: in 255ths */
 	size_t lines_and_points, weights, depths, others; /* what is left out */
 	char other[MR_SHOWN];                             /* the first of the others */
-	const char *odd_color;                            /* why colours cannot be kept; NULL: they can */
-	size_t odd_texcoords;                             /* values that are not finite */
+	size_t odd_colors, odd_texcoords;                 /* values that are not finite */
 	size_t no_normals, no_texcoords;                  /* corners that name one that is not there */
 	bool slashes;      /* the face at hand has a slash with nothing behind it */
 	uint32_t *corners; /* of the face at hand: vertices, texture coordinates, normals */
@@ -147,9 +146,8 @@ set_color(obj *o, const double *c)
 	for (int i = 0; i < 3; i++) {
 		o->rgb[3 * o->v + (size_t)i] = (float)c[i];
 		o->bright |= c[i] > 1;
-		if (!isfinite(c[i]))
-			o->odd_color = "one is not a finite number";
 	}
+	o->odd_colors += !isfinite(c[0]) || !isfinite(c[1]) || !isfinite(c[2]);
 	return MR_OK;
 }
 
@@ -557,10 +555,8 @@ finish_colors(obj *o)
 
 	if (!o->rgb)
 		return MR_OK;
-	if (o->odd_color) {
-		mr_dropped(o->ctx, &o->b.counts->dropped_colors, "colors", o->odd_color);
+	if (!mr_all_left(o->ctx, o->odd_colors, o->v_all, "colors", &o->b.counts->dropped_colors))
 		return MR_OK;
-	}
 	o->b.color = MR_NEW(o->ctx, 4 * o->v_all, unsigned char);
 	if (!o->b.color)
 		return MR_EMEM;
@@ -592,12 +588,7 @@ finish_corners(obj *o)
 {
 	mr_import_result *counts = o->b.counts;
 
-	if (o->odd_texcoords) {
-		mr_warn(o->ctx, "%zu of %zu texture coordinates are left out: they are not finite numbers",
-		    o->odd_texcoords, o->vt);
-		counts->dropped_texcoords = o->odd_texcoords;
-	}
-	if (o->vt && o->odd_texcoords == o->vt)
+	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, "texture coordinates", &counts->dropped_texcoords))
 		o->b.corner_uv = NULL;
 	if (!mr_normals_left(o->ctx, o->vn_values, o->vn, &counts->dropped_normals))
 		o->b.corner_vn = NULL;

@@ -12,10 +12,10 @@ typedef struct off {
 	bool normals, colors, texcoords, binary;
 	mr_builder b;
 	uint64_t nv, nf;
-	float *rgba;       /* four per vertex as given, NAN where there are none */
-	bool whole_colors; /* all of them whole numbers: in 255ths */
-	bool odd_color, odd_uv;
-	size_t ignored; /* numbers behind a vertex that the keyword does not announce */
+	float *rgba;               /* four per vertex as given, NAN where there are none */
+	bool whole_colors;         /* all of them whole numbers: in 255ths */
+	size_t odd_colors, odd_uv; /* values that are not finite */
+	size_t ignored;            /* numbers behind a vertex that the keyword does not announce */
 	uint32_t *corner;
 	size_t corner_room;
 } off;
@@ -95,6 +95,8 @@ arrays(off *f)
 static mr_status
 set_color(off *f, size_t vertex, const double *c, size_t n)
 {
+	bool odd = false;
+
 	if (!f->rgba) {
 		f->rgba = MR_NEW(f->ctx, 4 * f->b.nv, float);
 		if (!f->rgba)
@@ -104,8 +106,9 @@ set_color(off *f, size_t vertex, const double *c, size_t n)
 	}
 	for (size_t i = 0; i < n; i++) {
 		f->rgba[4 * vertex + i] = (float)c[i];
-		f->odd_color |= !isfinite(c[i]);
+		odd |= !isfinite(c[i]);
 	}
+	f->odd_colors += odd;
 	return MR_OK;
 }
 
@@ -120,7 +123,7 @@ set_texcoord(off *f, size_t vertex, const double *uv)
 {
 	f->b.texcoord[2 * vertex] = uv[0];
 	f->b.texcoord[2 * vertex + 1] = uv[1];
-	f->odd_uv |= !isfinite(uv[0]) || !isfinite(uv[1]);
+	f->odd_uv += !isfinite(uv[0]) || !isfinite(uv[1]);
 }
 
 static bool
@@ -193,10 +196,8 @@ finish_colors(off *f)
 
 	if (!f->rgba)
 		return MR_OK;
-	if (f->odd_color) {
-		mr_dropped(f->ctx, &f->b.counts->dropped_colors, "colors", "one is not a finite number");
+	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors", &f->b.counts->dropped_colors))
 		return MR_OK;
-	}
 	if (!(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
 		return MR_EMEM;
 	for (size_t i = 0; i < 4 * f->b.nv; i++) {
@@ -212,11 +213,8 @@ finish(off *f, mr_model *m)
 	MR_TRY(finish_colors(f));
 	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &f->b.counts->dropped_normals))
 		f->b.normal = NULL;
-	if (f->odd_uv) {
-		mr_dropped(
-		    f->ctx, &f->b.counts->dropped_texcoords, "texcoords", "one is not a finite number");
+	if (!mr_all_left(f->ctx, f->odd_uv, f->b.nv, "texcoords", &f->b.counts->dropped_texcoords))
 		f->b.texcoord = NULL;
-	}
 	if (f->ignored)
 		mr_warn(f->ctx, "%zu numbers behind vertices, which the keyword does not announce, left out",
 		    f->ignored);

@@ -87,7 +87,9 @@ typedef struct ply {
 	named_list names[3]; /* of groups, objects, materials */
 	double *row;         /* of the row at hand, value by value */
 	size_t row_room;
-	bool odd_uv; /* of vertices */
+	size_t odd_uv; /* of vertices: not finite */
+	size_t textures, comments; /* that are left out */
+	size_t remarks; /* comments that are not kept */
 } ply;
 
 /* ---- failures ---- */
@@ -277,7 +279,9 @@ header_comment(ply *f, mr_scan *line)
 			l->name[l->count++] = (mr_lines){ line->p, (size_t)(line->end - line->p) };
 			return MR_OK;
 		}
-	if (mr_scan_accept(line, "mtllib")) {
+	if (mr_scan_accept(line, "TextureFile")) {
+		f->textures++;
+	} else if (mr_scan_accept(line, "mtllib")) {
 		const char *name;
 		mr_skip_blanks(line);
 		name = clean_name(f->ctx, line->p, (size_t)(line->end - line->p));
@@ -287,6 +291,8 @@ header_comment(ply *f, mr_scan *line)
 		if (!files->text)
 			return MR_EMEM;
 		files->bytes = strlen(files->text);
+	} else {
+		f->comments++;
 	}
 	return MR_OK;
 }
@@ -355,6 +361,10 @@ keep_properties(ply *f, kind k)
 static void
 warn_of_others(ply *f)
 {
+	if (f->textures)
+		mr_warn(f->ctx, "%zu names of textures (TextureFile) are left out", f->textures);
+	if (f->comments)
+		mr_note(f->ctx, "%zu comments are left out", f->comments);
 	for (size_t i = 0; i < f->elements; i++) {
 		const element *e = &f->element[i];
 		if (e->kind == OTHER && e->rows)
@@ -596,7 +606,7 @@ static mr_status
 read_vertices(ply *f, const element *e)
 {
 	type color = type_of(e, RED), alpha = type_of(e, ALPHA);
-	bool odd_color = false;
+	size_t odd_colors = 0;
 	double v[ROLES] = { 0 };
 
 	if (!has(e, X) || !has(e, Y) || !has(e, Z))
@@ -604,9 +614,7 @@ read_vertices(ply *f, const element *e)
 	MR_TRY(check_rows(f, e));
 	MR_TRY(row_room(f, e));
 	MR_TRY(vertex_arrays(f, e));
-	v[ALPHA] = alpha >= FLOAT ? 1 : 255;
-	if (!has(e, ALPHA))
-		v[ALPHA] = 1;
+	v[ALPHA] = !has(e, ALPHA) || alpha >= FLOAT ? 1 : 255;
 	for (size_t i = 0; i < f->b.nv; i++) {
 		const void *where = here(f);
 		MR_TRY(read_row(f, e, i, v));
@@ -618,7 +626,7 @@ read_vertices(ply *f, const element *e)
 			f->b.normal[i] = mr_vec(v[NX], v[NY], v[NZ]);
 		if (f->b.color) {
 			unsigned char *c = f->b.color + 4 * i;
-			odd_color |= isnan(v[RED] + v[GREEN] + v[BLUE] + v[ALPHA]);
+			odd_colors += isnan(v[RED] + v[GREEN] + v[BLUE] + v[ALPHA]) ? 1 : 0;
 			c[0] = color_byte(v[RED], color);
 			c[1] = color_byte(v[GREEN], color);
 			c[2] = color_byte(v[BLUE], color);
@@ -627,15 +635,13 @@ read_vertices(ply *f, const element *e)
 		if (f->b.texcoord) {
 			f->b.texcoord[2 * i] = v[U];
 			f->b.texcoord[2 * i + 1] = v[V];
-			f->odd_uv |= !isfinite(v[U]) || !isfinite(v[V]);
+			f->odd_uv += !isfinite(v[U]) || !isfinite(v[V]);
 		}
 	}
 	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &f->b.counts->dropped_normals))
 		f->b.normal = NULL;
-	if (odd_color) {
-		mr_dropped(f->ctx, &f->b.counts->dropped_colors, "colors", "one is not a number");
+	if (!mr_all_left(f->ctx, odd_colors, f->b.nv, "colors", &f->b.counts->dropped_colors))
 		f->b.color = NULL;
-	}
 	return MR_OK;
 }
 
@@ -879,10 +885,8 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 	MR_TRY(read_header(&f));
 	MR_TRY(read_elements(&f));
-	if (f.odd_uv) {
-		mr_dropped(ctx, &f.b.counts->dropped_texcoords, "texcoords", "one is not a finite number");
+	if (!mr_all_left(ctx, f.odd_uv, f.b.nv, "texcoords", &f.b.counts->dropped_texcoords))
 		f.b.texcoord = NULL;
-	}
 	warn_of_others(&f);
 	f.b.uv = f.uv.value;
 	f.b.vn = (const mr_v3 *)f.vn.value;

@@ -40,6 +40,9 @@ echo '-- of a PLY' >&2
 cat >model.ply <<'X'
 ply
 format ascii 1.0
+comment TextureFile skin.png
+comment made by hand
+comment group head
 element vertex 3
 property float x
 property float y
@@ -60,6 +63,7 @@ end_header
 5
 X
 mr-import model.ply | mr-export -f ply-ascii -
+mr-import -v model.ply 2>&1 >/dev/null | grep comment
 
 echo '-- what formats have no place for' >&2
 for format in stl off xyz; do

@@ -45,3 +45,43 @@ done
 echo '-- where all are none there are none'
 sed 's/0 0 1$/nan 0 1/' n.ply | mr-import | mr-export -f xyz -
 printf '0 0 0 0 0 1\n1 0 0 nan 0 1\n0 1 0 0 1 0\n' | mr-import -f xyz | mr-export -f xyz -
+
+echo '-- colours and texture coordinates that are no numbers are counted'
+cat >c.ply <<'X'
+ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+property float s
+property float t
+property float red
+property float green
+property float blue
+element face 1
+property list uchar int vertex_indices
+end_header
+0 0 0 nan 0 1 1 1
+1 0 0 1 inf 1 nan 1
+0 1 0 0 1 1 1 1
+3 0 1 2
+X
+printf 'STCOFF\n3 1 0\n0 0 0 1 1 1 1 nan 0\n1 0 0 1 nan 1 1 1 0\n0 1 0 1 1 1 1 0 1\n3 0 1 2\n' >c.off
+printf 'v 0 0 0 1 nan 1\nv 1 0 0 1 1 1\nv 0 1 0 0 0 nan\nf 1 2 3\n' >c.obj
+for model in c.ply c.off c.obj; do
+	mr-import --stats - $model 2>&1 >/dev/null | sed 's/,"seconds.*polygons/ .../'
+done
+echo '-- and normals and texture coordinates of a glTF'
+python3 - <<'END'
+import base64, json, struct
+nan = float("nan")
+data = struct.pack("<24f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, nan, 0, 1, 0, 0, 1, 0, 0, 1, nan, 0, 1)
+view = lambda at, n: {"buffer": 0, "byteOffset": at, "byteLength": n}
+rows = lambda i, kind: {"bufferView": i, "componentType": 5126, "count": 3, "type": kind}
+json.dump({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0, "rotation": [1, 0, 0, 0]}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "NORMAL": 1, "TEXCOORD_0": 2}}]}],
+    "buffers": [{"byteLength": 96, "uri": "data:;base64," + base64.b64encode(data).decode()}],
+    "bufferViews": [view(0, 36), view(36, 36), view(72, 24)], "accessors": [rows(0, "VEC3"), rows(1, "VEC3"), rows(2, "VEC2")]}, open("n.gltf", "w"))
+END
+mr-import n.gltf | mr-export -f obj - | grep '^[fv][nt]* '
