@@ -6,6 +6,7 @@
 #	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
 #	make check SAN=thread T=threads the tools that have threads under the thread sanitizer
 #	make check-long the tests of faults in full: an hour
+#	make coverage   what the tests run of lib, formats and cmd: lines and branches; T=PATTERN some of them
 #	make lint       clang-tidy and cppcheck over the sources: no findings
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
 #	make fuzz       the readers under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
@@ -54,7 +55,7 @@ OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc formats/*.c
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
-NEEDS   := build $(if $(filter setup check check-long matrix bless units,$(MAKECMDGOALS)),check) $(filter lint bench,$(MAKECMDGOALS))
+NEEDS   := build $(if $(filter setup check check-long coverage matrix bless units,$(MAKECMDGOALS)),check) $(filter lint bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -117,6 +118,14 @@ check-long: $(TOOLS)
 
 matrix: $(TOOLS)
 	@mkdir -p $(BUILD)/matrix && cd $(BUILD)/matrix && $(RUN) $(CURDIR)/tests/matrix/run '$(T)'
+
+# In a build of its own, by gcc's counters, which every process adds to the same files.
+COVERED := $(BUILD)/coverage
+coverage:
+	@$(MAKE) --no-print-directory BUILD='$(COVERED)' CC=gcc CXX=g++ CFLAGS='-O1 -g --coverage -fprofile-update=prefer-atomic' HARDEN= all units
+	@find $(COVERED) -name '*.gcda' -exec rm -f {} +
+	-@$(RUN) BUILD='$(abspath $(COVERED))' LIMIT=1200 tests/run $(T)
+	@tests/coverage '$(COVERED)'
 
 # A source again when it or a header has changed; .clang-tidy and tests/lint say what is not asked.
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
@@ -205,5 +214,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long lint matrix fuzz bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check check-long coverage lint matrix fuzz bless demo bench table1 readme install uninstall clean
 .SECONDARY:
