@@ -125,6 +125,8 @@ down='9.094947017729282379150390625e-13 0 0  0 9.094947017729282379150390625e-13
 still='1 0 0  0 1 0  0 0 1  0 0 0'
 away='1 0 0  0 1 0  0 0 1  5 -3 9'
 back='1 0 0  0 1 0  0 0 1  -5 3 -9'
+far='1 0 0  0 1 0  0 0 1  2097152 -1048576 4194304' # a million diagonals
+near_again='1 0 0  0 1 0  0 0 1  -2097152 1048576 -4194304'
 half='-1 0 0  0 1 0  0 0 -1  0 0 0'
 third='0 0 1  1 0 0  0 1 0  0 0 0' # x to y, y to z, z to x
 third_back='0 1 0  0 0 1  1 0 0  0 0 0'
@@ -149,6 +151,15 @@ for do in smooth taubin remesh simplify wrap fit paper heights unfitted robust; 
 	carry moved "$away" "$back" $do && near 1e-13 || bad "$what: fails"
 done
 carry moved "$away" "$back" bend && near 1e-9 || bad "$what: fails" # 1e-11, by the condition of a thin plate
+
+# A million diagonals away a number has 31 bits of the 52 left: 5e-10 of the diagonal, and no decision is another one.  (Measured
+# were 4e-9, and 2e-7 of wraps, which go many small ways.)
+for do in smooth taubin remesh simplify paper heights robust bend; do
+	carry 'far away' "$far" "$near_again" $do && near 1e-8 || bad "$what: fails"
+done
+for do in cube volume fit; do
+	carry 'far away' "$far" "$near_again" $do && near 1e-6 || bad "$what: fails"
+done
 
 # A half turn changes signs and rounds nothing.
 for do in smooth taubin paper unfitted; do
