@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#undef sprintf /* a macro, where its copies are checked for clang */
 #pragma GCC poison atoi atol atof sprintf vsprintf strcpy strcat gets strtok
 
 #endif
