@@ -160,7 +160,7 @@ void
 mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *g)
 {
 	if (g->bare > BARE_MOST)
-		mr_warn(ctx, "%.2g %% of %s is farther from all points than %g of their spacings, up to %.3g",
+		mr_warn(ctx, "%.3g %% of %s is farther from all points than %g of their spacings, up to %.3g",
 		    100 * g->bare, what, FAR, g->surface.max);
 }
 

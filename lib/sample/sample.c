@@ -211,7 +211,7 @@ static mr_status
 sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cloud *c,
     const mr_sample_opts *opts, double *height, mr_sample_result *r)
 {
-	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
+	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .steps = 50 };
 	bool robust = opts->method == MR_SAMPLE_ROBUST || (opts->method == MR_SAMPLE_AUTO && is_noisy(s));
 	size_t distinct, k = opts->neighbours;
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
@@ -220,8 +220,9 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cl
 
 	if (!hit)
 		return MR_EMEM;
-	MR_TRY(check_points(ctx, d, c));
 	MR_TRY(place_cloud(ctx, d, s, c, r));
+	MR_TRY(check_points(ctx, d, c));
+	weights.scale = 5e-3 * c->diagonal;
 	distinct = mr_near_distinct(c->near);
 	if (k > distinct)
 		k = distinct;

@@ -5,13 +5,14 @@
 #include "space/local_planes.h"
 
 static mr_status
-check_extent(mr_ctx *ctx, const mr_wrap_cloud *cloud)
+look_at_extent(mr_ctx *ctx, mr_wrap_cloud *cloud)
 {
 	int dimensions = mr_cloud_dimensions(cloud->p, cloud->n);
 
-	if (dimensions < 3)
-		return mr_fail(ctx, MR_EMESH, "%zu points lie %s: no surface closes around them",
-		    cloud->sampling.n, dimensions < 2 ? "on a line" : "in a plane");
+	if (dimensions < 2)
+		return mr_fail(
+		    ctx, MR_EMESH, "%zu points lie on a line: they make no surface", cloud->sampling.n);
+	cloud->flat = dimensions == 2;
 	return MR_OK;
 }
 
@@ -62,7 +63,7 @@ mr_wrap_cloud_open(
 	cloud->own = own;
 	cloud->box = mr_box_of(p, cloud->n);
 	cloud->diagonal = mr_box_diagonal(cloud->box);
-	MR_TRY(check_extent(ctx, cloud));
+	MR_TRY(look_at_extent(ctx, cloud));
 	MR_TRY(set_outliers_apart(ctx, cloud));
 	return mr_near_build(ctx, p, cloud->n, &cloud->near);
 }

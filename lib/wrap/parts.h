@@ -18,6 +18,7 @@ typedef struct mr_wrap_cloud {
 	mr_near *near;
 	mr_box box;
 	double diagonal;
+	bool flat;            /* in a plane */
 	double spacing, area; /* of their sampling: sampling.usual, sampling.area */
 	const mr_v3 *outlier; /* the places that are left out: sampling.outliers */
 	const mr_v3 *given;
@@ -25,8 +26,8 @@ typedef struct mr_wrap_cloud {
 	mr_sampling sampling;        /* of those given */
 } mr_wrap_cloud;
 
-/* Takes the n points and their sampling (NULL: found), and indexes those that count; MR_EMESH where they have
- * no volume.  Close with mr_near_free(cloud->near), on failure too. */
+/* Takes the n points and their sampling (NULL: found), and indexes those that count; MR_EMESH where they lie
+ * on a line.  Close with mr_near_free(cloud->near), on failure too. */
 mr_status mr_wrap_cloud_open(
     mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, mr_wrap_cloud *cloud);
 

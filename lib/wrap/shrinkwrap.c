@@ -206,22 +206,20 @@ wrap_body(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 
 /* A height field as one, unless it is to be closed. */
 static mr_status
-wrap_auto(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
+wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
 {
 	bool is_sheet = false;
 	mr_v3 axis[3];
 
-	if (o->lids != MR_LIDS_ALL)
+	if (o->method == MR_WRAP_AUTO && o->lids != MR_LIDS_ALL)
 		MR_TRY(mr_wrap_is_sheet(ctx, cloud, axis, &is_sheet));
-	if (!is_sheet)
-		return wrap_body(ctx, cloud, o, c);
-	c->found.method = SHEET;
-	return mr_wrap_sheet(ctx, cloud, o, axis, c);
-}
-
-static mr_status
-wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
-{
+	if (is_sheet) {
+		c->found.method = SHEET;
+		return mr_wrap_sheet(ctx, cloud, o, axis, c);
+	}
+	if (cloud->flat)
+		return mr_fail(ctx, MR_EMESH, "%zu points lie in a plane: no surface closes around them",
+		    cloud->sampling.n);
 	switch (o->method) {
 	case MR_WRAP_CUBE:
 		return wrap_cube(ctx, cloud, o, c);
@@ -229,7 +227,7 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 		MR_TRY(mr_wrap_volume(ctx, cloud, o, c));
 		return mr_wrap_open(ctx, cloud, o, c);
 	default:
-		return wrap_auto(ctx, cloud, o, c);
+		return wrap_body(ctx, cloud, o, c);
 	}
 }
 

@@ -43,3 +43,14 @@ echo parts further apart than a grid can hold:
 { cat knot.xyz; awk '{ print $1 + 1e5, $2, $3 }' knot.xyz; } >apart.xyz
 mr-import apart.xyz | mr-shrinkwrap
 echo "exit $?"
+
+echo points in a plane, and what they make down the pipe, a stray one apart:
+mr-make plane --points 3000 | mr-export -l points -f xyz - | cut -d ' ' -f 1-3 >flat.xyz
+{ cat flat.xyz; echo 100 0 0; } >flat-stray.xyz
+for f in flat flat-stray; do
+	mr-import $f.xyz | mr-shrinkwrap -q | mr-simplify | mr-fit -q | mr-sample -q | mr-decode | mr-info -l mesh - | sed -n 's/^ *topology *//p'
+done
+mr-import flat.xyz | mr-shrinkwrap --lids all
+echo "exit $?"
+{ cat knot.xyz; echo 1e7 0 0; } >farther.xyz
+mr-import farther.xyz | mr-shrinkwrap -q | mr-simplify | mr-fit -q | mr-sample -q | mr-decode | mr-info -l mesh - | sed -n 's/^ *topology *//p'
