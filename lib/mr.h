@@ -573,14 +573,14 @@ typedef struct mr_simplify_opts {
 	const double *room;   /* error allowed at each vertex, absolute; NULL: any */
 	size_t most;          /* faces beyond which room does not count */
 	double boundary;      /* weight of the planes that hold boundary edges */
-	bool creases;         /* of a control mesh: keep the sharp edges that the points show */
+	bool creases, smooth; /* sharp edges of a control mesh: or say why not; none; else as points show */
 	const double *weight; /* of the surface at each vertex; NULL: by the frame's points, if it has some */
 	const char *to;       /* layer that is written; NULL: the one that is simplified */
 	const char *map;      /* layer that keeps the surface, with its places on the result; NULL: none */
 	const char *layer;    /* NULL: control, else base, else mesh */
 } mr_simplify_opts;
 
-#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, NULL, NULL, NULL, NULL)
+#define MR_SIMPLIFY_DEFAULTS MR_DEFAULTS(0, 0, 0, false, NULL, 0, 10, false, false, NULL, NULL, NULL, NULL)
 
 typedef struct mr_simplify_result {
 	size_t vertices, faces;           /* of the result */

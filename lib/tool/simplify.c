@@ -126,25 +126,37 @@ look_at_gaps(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_mesh *out
 	return MR_OK;
 }
 
-/* The usual spacing of points that show sharp edges; 0: none are to be kept.  MR_EMISSING without points. */
+/* Whether sharp edges are looked for; where they are to be but cannot, MR_EMISSING. */
+static mr_status
+wants_creases(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, const mr_simplify_opts *o, bool *wanted)
+{
+	bool can = !o->to && !strcmp(m->name, "control") && points->nv > 0;
+
+	*wanted = can && !o->smooth;
+	if (o->creases && !can)
+		return mr_fail(ctx, MR_EMISSING,
+		    "%s: sharp edges are kept of layer control by layer points, and one of them is not there",
+		    m->name);
+	return MR_OK;
+}
+
+/* The usual spacing of points that show sharp edges; 0: none are to be kept. */
 static mr_status
 crease_width(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *points, const mr_simplify_opts *o,
     double *width)
 {
 	const double noisy = 0.1; /* spacings: clean clouds have up to 0.08 */
 	mr_sampling s;
+	bool wanted;
 
 	*width = 0;
-	if (!o->creases)
+	MR_TRY(wants_creases(ctx, m, points, o, &wanted));
+	if (!wanted)
 		return MR_OK;
-	if (strcmp(m->name, "control") || points->nv == 0)
-		return mr_fail(ctx, MR_EMISSING,
-		    "%s: sharp edges are kept of layer control by layer points, and one of them is not there",
-		    m->name);
 	MR_TRY(mr_sampling_of(ctx, f, points, &s));
 	if (s.noise < noisy * s.usual)
 		*width = s.usual;
-	else
+	else if (o->creases)
 		mr_warn(ctx, "the points have a noise of %.2g spacings, and show no sharp edges",
 		    s.noise / s.usual);
 	return MR_OK;
@@ -208,7 +220,7 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, &r));
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
-	r.creases = o.creases ? 0 : MR_UNKNOWN;
+	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
 	if (width > 0)
 		MR_TRY(put_creases(ctx, f, &out, &points, width, &r.creases));

@@ -16,6 +16,8 @@ mr-decode -l mesh
 mr-equalize -l mesh
 mr-map -w map -l control
 mr-simplify --creases --to control
+mr-simplify --smooth --to control
+mr-simplify --smooth --creases
 mr-import --points --repair
 mr-remesh -L 2% -r 1
 mr-subdivide --longest 1 -n 1

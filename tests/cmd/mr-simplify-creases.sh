@@ -11,15 +11,15 @@ off() {
 	    awk '{ printf "%.0f", $1 / sqrt(12) * 1e4 }'
 }
 mr-make cube -n 10000 --points 10000 | mr-shrinkwrap -o wrap.mrs
-mr-simplify -n 300 wrap.mrs | mr-fit | mr-sample | mr-decode -o round.mrs
-mr-simplify -n 300 --creases --stats stats wrap.mrs -o simple.mrs
+mr-simplify -n 300 --smooth wrap.mrs | mr-fit | mr-sample | mr-decode -o round.mrs
+mr-simplify -n 300 --stats stats wrap.mrs -o simple.mrs
 mr-fit simple.mrs -o fit.mrs && mr-sample fit.mrs -o scan.mrs && mr-decode scan.mrs -o sharp.mrs
 creases=$(figure stats creases)
 [ "$creases" -ge 36 ] && echo 'creases are marked' || echo "only $creases creases are marked"
 round=$(off round.mrs) sharp=$(off sharp.mrs)
 [ "$round" -ge $((2 * sharp)) ] && echo 'edges are sharp' || echo "edges are $sharp off, and without creases $round"
 mr-info fit.mrs | grep 'crease ' | cut -c1-30
-mr-simplify -n 300 --creases -j 1 wrap.mrs | cmp - simple.mrs && echo 'the same by one thread'
+mr-simplify -n 300 -j 1 wrap.mrs | cmp - simple.mrs && echo 'the same by one thread'
 
 echo 'edits, equalizing, maps and mirrors keep them'
 mr-equalize --gain 1 scan.mrs --no-history | mr-decode --no-history -o equal.mrs
@@ -32,10 +32,11 @@ mr-transform -l control --scale -1,1,1 fit.mrs | mr-subdivide -n 2 --limit -l co
     mr-compare -a mesh -b mesh --json after.mrs | grep -o '"hausdorff":[0-9.e-]*' | head -n 1 | awk -F: '{ print ($2 < 1e-9 ? "mirrors do" : "mirrors do not: " $2) }'
 
 echo 'where there are none'
-mr-make torus --points 8000 | mr-shrinkwrap | mr-simplify --creases --stats stats -o torus.mrs
+mr-make torus --points 8000 | mr-shrinkwrap | mr-simplify --stats stats -o torus.mrs
 figure stats creases
 mr-info torus.mrs | grep -c 'crease '
-mr-make cube --points 10000 --noise 1% | mr-shrinkwrap -q | mr-simplify --creases --stats stats >/dev/null
+mr-make cube --points 10000 --noise 1% | mr-shrinkwrap -q -o noisy.mrs && mr-simplify noisy.mrs | mr-info | grep -c 'crease '
+mr-simplify noisy.mrs --creases --stats stats >/dev/null
 figure stats creases
 
 echo 'refusals'
