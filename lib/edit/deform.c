@@ -39,9 +39,11 @@ join_free(const mr_mesh *m, const uint32_t *region, uint32_t *parent)
 }
 
 /* The free vertices whose component has a constrained neighbour: the others would make K singular.  parent:
- * sets of one vertex each, which become the components' with their roots. */
+ * sets of one vertex each, which become the components' with their roots.  Riders are none of the loose ones.
+ */
 static mr_status
-find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored, uint32_t *parent)
+find_anchored(
+    mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *rides, bool *anchored, uint32_t *parent)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool *root_anchored = MR_NEW_ZERO(ctx, d->nv, bool);
@@ -58,7 +60,7 @@ find_anchored(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, bool *anchored, uint3
 		}
 	for (uint32_t v = 0; v < d->nv; v++) {
 		anchored[v] = d->region[v] == MR_REGION_FREE && root_anchored[mr_sets_root(parent, v)];
-		if (d->region[v] == MR_REGION_FREE && !anchored[v]) {
+		if (d->region[v] == MR_REGION_FREE && !anchored[v] && !rides[v]) {
 			d->loose_vertices++;
 			d->loose += parent[v] == v;
 		}
@@ -109,9 +111,10 @@ check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 	return MR_OK;
 }
 
-/* Says what becomes of parts that no constraint reaches. */
+/* Says what becomes of parts that no constraint reaches.  follows: riders, and then what is to follow. */
 static mr_status
-settle_loose(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part)
+settle_loose(
+    mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part, bool *follows)
 {
 	static const char *const does[] = { "follows the surface nearest to it", "stays" };
 
@@ -123,7 +126,9 @@ settle_loose(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchore
 	if (d->loose)
 		mr_warn(ctx, "%s: %zu part%s (%zu of %zu vertices) without a constrained vertex: each %s",
 		    rest->name, d->loose, mr_plural(d->loose), d->loose_vertices, d->nv, does[d->opts.loose]);
-	return d->opts.loose == MR_LOOSE_FOLLOW ? mr_loose_make(ctx, d, rest, anchored, part) : MR_OK;
+	for (size_t v = 0; d->opts.loose == MR_LOOSE_FOLLOW && v < d->nv; v++)
+		follows[v] |= d->region[v] == MR_REGION_FREE && !anchored[v];
+	return mr_loose_make(ctx, d, rest, anchored, follows, part);
 }
 
 static mr_status
@@ -144,20 +149,20 @@ static mr_status
 set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 {
 	double started = mr_seconds();
-	bool *anchored = MR_NEW(ctx, d->nv, bool);
+	bool *anchored = MR_NEW(ctx, d->nv, bool), *follows = MR_NEW_ZERO(ctx, d->nv, bool);
 	uint32_t *part = mr_sets_new(ctx, d->nv);
 	const mr_ties none = { 0 };
 	mr_mesh stitched;
 
-	if (!anchored || !part)
+	if (!anchored || !follows || !part)
 		return MR_EMEM;
 	count_regions(d);
 	MR_TRY(check_problem(ctx, d, rest));
 	stitched = *rest;
 	if (!d->opts.apart)
-		MR_TRY(mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched));
-	MR_TRY(find_anchored(ctx, d, &stitched, anchored, part));
-	MR_TRY(settle_loose(ctx, d, rest, anchored, part));
+		MR_TRY(mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched, follows));
+	MR_TRY(find_anchored(ctx, d, &stitched, follows, anchored, part));
+	MR_TRY(settle_loose(ctx, d, rest, anchored, part, follows));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
 	MR_TRY(mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &d->patch));
 	MR_TRY(make_workspace(ctx, d));

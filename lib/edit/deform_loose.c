@@ -17,7 +17,7 @@ by_part(const void *a, const void *b)
 
 /* The loose vertices, part by part. */
 static mr_status
-list_parts(mr_ctx *ctx, const mr_deform *d, const bool *anchored, const uint32_t *part, mr_loose *l)
+list_parts(mr_ctx *ctx, const mr_deform *d, const bool *follows, const uint32_t *part, mr_loose *l)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t(*pair)[2] = mr_alloc(ctx, l->n, sizeof *pair);
@@ -26,7 +26,7 @@ list_parts(mr_ctx *ctx, const mr_deform *d, const bool *anchored, const uint32_t
 	if (!pair)
 		return MR_EMEM;
 	for (uint32_t v = 0; v < d->nv; v++)
-		if (d->region[v] == MR_REGION_FREE && !anchored[v]) {
+		if (follows[v]) {
 			pair[n][0] = part[v];
 			pair[n++][1] = v;
 		}
@@ -97,25 +97,30 @@ choose_anchors(const mr_mesh *rest, uint32_t *nearest, size_t k, mr_loose *l)
 }
 
 mr_status
-mr_loose_make(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part)
+mr_loose_make(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const bool *follows,
+    const uint32_t *part)
 {
-	size_t n = d->loose_vertices, others = 0;
+	size_t n = 0, parts = 0, others = 0;
 	mr_loose *l = MR_NEW(ctx, 1, mr_loose);
 	uint32_t *other, *nearest;
 	mr_mark mark;
 
+	for (size_t v = 0; v < d->nv; v++) {
+		n += follows[v];
+		parts += follows[v] && part[v] == v;
+	}
 	if (n == 0)
 		return MR_OK;
 	if (!l)
 		return MR_EMEM;
-	*l = (mr_loose){ n, 0, MR_NEW(ctx, n, uint32_t), MR_NEW(ctx, d->loose + 1, size_t),
-		MR_NEW(ctx, d->loose * MR_ANCHORS, uint32_t), MR_NEW(ctx, d->loose, double) };
+	*l = (mr_loose){ n, 0, MR_NEW(ctx, n, uint32_t), MR_NEW(ctx, parts + 1, size_t),
+		MR_NEW(ctx, parts * MR_ANCHORS, uint32_t), MR_NEW(ctx, parts, double) };
 	mark = mr_mark_take(ctx);
 	other = MR_NEW(ctx, d->nv - n, uint32_t);
 	nearest = MR_NEW(ctx, NEAREST * n, uint32_t);
 	if (!l->vertex || !l->start || !l->anchor || !l->softness || !other || !nearest)
 		return MR_EMEM;
-	MR_TRY(list_parts(ctx, d, anchored, part, l));
+	MR_TRY(list_parts(ctx, d, follows, part, l));
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (d->region[v] != MR_REGION_FREE || anchored[v])
 			other[others++] = v;

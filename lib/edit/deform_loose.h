@@ -21,10 +21,10 @@ struct mr_loose {
 	double *softness; /* of each part: squared distance within which anchors count alike */
 };
 
-/* Finds the anchors of the free vertices that are not `anchored`, at rest; part: the vertex that stands for
- * the part that each vertex is of.  d->followers: NULL where there is none. */
-mr_status
-mr_loose_make(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part);
+/* Finds the anchors of the vertices that follow among the anchored and the constrained ones, at rest; part:
+ * the vertex that stands for the part that each vertex is of.  d->followers: NULL where there is none. */
+mr_status mr_loose_make(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored,
+    const bool *follows, const uint32_t *part);
 
 /* p has all others where they go from p0; the followers go along. */
 void mr_loose_follow(const mr_ctx *ctx, const mr_deform *d, const mr_v3 *p0, mr_v3 *p);

@@ -1,6 +1,7 @@
 /* Triangles that join components where they touch. */
 #include "edit/deform_stitch.h"
 
+#include "edit/deform_riders.h"
 #include "space/contact.h"
 
 /* The least height over an edge of what is as long as the longest edge: 0.87 of an equilateral triangle, 0 of
@@ -48,30 +49,59 @@ holds_to(const mr_contacts *c, const mr_mesh *rest, const uint32_t *component, u
 	return false;
 }
 
-/* Those that the contacts do not have: of a base that has shrunk from where its mesh touches. */
+/* The contacts, and the ties that they do not have: of a base that has shrunk from where its mesh touches. */
 static mr_status
-stitch_ties(mr_ctx *ctx, const mr_mesh *rest, const mr_contacts *c, const mr_ties *ties,
-    const uint32_t *region, mr_tri *t, size_t *n)
+list_joints(mr_ctx *ctx, const mr_mesh *rest, const mr_contacts *c, const mr_ties *ties, mr_joints *joints)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *component;
-	bool several;
+	size_t n = 0, most = c->start[rest->nv] + ties->n;
+	mr_tie *joint = MR_NEW(ctx, most, mr_tie);
+	bool *touches = MR_NEW_ZERO(ctx, most, bool);
 
-	MR_TRY(mr_components_label(ctx, rest, &component, &several));
+	if (!joint || !touches)
+		return MR_EMEM;
+	for (uint32_t v = 0; v < rest->nv; v++)
+		for (size_t i = c->start[v]; i < c->start[v + 1]; i++)
+			joint[n++] = (mr_tie){ v, c->at[i].face };
 	for (size_t i = 0; i < ties->n; i++) {
-		const mr_tri *face = &rest->t[ties->tie[i].face];
-		uint32_t v = ties->tie[i].vertex;
-		if (holds_to(c, rest, component, v, component[face->v[0]]))
-			continue;
-		t[*n] = stitch_to(rest, v, face);
-		*n += any_free(region, &t[*n]);
+		touches[n] = true;
+		joint[n++] = ties->tie[i];
 	}
-	mr_mark_release(ctx, mark);
+	*joints = (mr_joints){ joint, n, touches };
+	return MR_OK;
+}
+
+static void
+add_stitch(const mr_mesh *rest, const mr_tie *joint, const uint32_t *region, mr_tri *t, mr_mesh *stitched)
+{
+	t[stitched->nf] = stitch_to(rest, joint->vertex, &rest->t[joint->face]);
+	stitched->nf += any_free(region, &t[stitched->nf]);
+}
+
+/* One for each joint of what does not ride; none for a tie that a contact does the work of. */
+static mr_status
+add_stitches(mr_ctx *ctx, const mr_mesh *rest, const mr_contacts *c, const mr_joints *joints,
+    const uint32_t *component, const uint32_t *region, const bool *rides, mr_mesh *stitched)
+{
+	mr_tri *t = MR_NEW(ctx, rest->nf + joints->n, mr_tri);
+
+	if (!t)
+		return MR_EMEM;
+	memcpy(t, rest->t, rest->nf * sizeof *t);
+	stitched->t = t;
+	for (size_t i = 0; i < joints->n; i++) {
+		const mr_tie *joint = &joints->joint[i];
+		uint32_t other = rest->t[joint->face].v[0];
+		if (rides[joint->vertex] || rides[other])
+			continue;
+		if (i < c->start[rest->nv] || !holds_to(c, rest, component, joint->vertex, component[other]))
+			add_stitch(rest, joint, region, t, stitched);
+	}
 	return MR_OK;
 }
 
 mr_status
-mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region, mr_mesh *stitched)
+mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region, mr_mesh *stitched,
+    bool *rides)
 {
 	/* Of 41,870 vertices that touch in 23 models 2,153, 3,888 and 4,355 come apart in the three edits of
 	 * `make bench T=edits` without stitches, 110, 721 and 1,180 with one a vertex, to the nearest part,
@@ -79,24 +109,18 @@ mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t 
 	 * reach, by twice as many as by this. */
 	const double edges = 1;
 	mr_contacts contacts;
-	size_t most;
-	mr_tri *t;
+	uint32_t *component;
+	mr_joints joints;
+	bool several;
 
 	MR_TRY(mr_contacts_find(ctx, rest, edges * mr_mesh_edge_scale(ctx, rest), &contacts));
-	most = rest->nf + contacts.start[rest->nv] + ties->n;
-	if (most == rest->nf)
+	if (contacts.start[rest->nv] + ties->n == 0)
 		return MR_OK;
-	t = MR_NEW(ctx, most, mr_tri);
-	if (!t)
-		return MR_EMEM;
-	stitched->t = t;
-	memcpy(t, rest->t, rest->nf * sizeof *t);
-	for (uint32_t v = 0; v < rest->nv; v++)
-		for (size_t i = contacts.start[v]; i < contacts.start[v + 1]; i++) {
-			t[stitched->nf] = stitch_to(rest, v, &rest->t[contacts.at[i].face]);
-			stitched->nf += any_free(region, &t[stitched->nf]);
-		}
-	MR_TRY(stitch_ties(ctx, rest, &contacts, ties, region, t, &stitched->nf));
+	MR_TRY(mr_components_label(ctx, rest, &component, &several));
+	MR_TRY(list_joints(ctx, rest, &contacts, ties, &joints));
+	if (ties->known)
+		MR_TRY(mr_riders_find(ctx, rest, component, &joints, region, rides));
+	MR_TRY(add_stitches(ctx, rest, &contacts, &joints, component, region, rides, stitched));
 	mr_note(
 	    ctx, "%s: %zu stitches hold parts that touch to each other", rest->name, stitched->nf - rest->nf);
 	return MR_OK;
