@@ -30,6 +30,8 @@ prepare(cmd *c)
 static const cmd_field figures[] = {
 	CMD_COUNTED(mr_decode_result, folded_edges),
 	CMD_COUNTED(mr_decode_result, intersections),
+	CMD_COUNTED(mr_decode_result, far_intersections),
+	CMD_COUNTED(mr_decode_result, strayed_edges),
 	CMD_COUNTED(mr_decode_result, apart),
 	{ 0 },
 };

@@ -503,6 +503,8 @@ typedef struct mr_decode_opts {
 typedef struct mr_decode_result {
 	size_t folded_edges;  /* by more than 170 degrees */
 	size_t intersections; /* of faces at most 12 faces apart; of deltas where folds came or doubled */
+	size_t far_intersections; /* of others, or of two parts */
+	size_t strayed_edges; /* longer or shorter by over twice, where those of base are not */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */
 } mr_decode_result;

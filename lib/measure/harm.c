@@ -2,10 +2,15 @@
 #include "measure/harm.h"
 
 #include "base/parallel.h"
+#include "base/rotation.h"
 #include "mesh/fold.h"
 #include "space/self_intersect.h"
 
 enum { NEAR = 12, GRAIN = 256 };
+
+typedef struct tally {
+	size_t near, far;
+} tally;
 
 typedef struct motion {
 	const mr_mesh *before, *after;
@@ -13,9 +18,11 @@ typedef struct motion {
 	const mr_edges *edges;
 	bool *fold;     /* of the edges: new */
 	uint32_t *edge; /* of each half-edge; MR_NONE of a face that has a vertex twice */
-	bool *suspect;  /* of the faces: near one that did not move rigidly */
-	uint32_t *harm; /* of the faces */
-	size_t *pairs;  /* per piece of faces */
+	double deep;    /* what passes by less rubs */
+	bool *moved;    /* of the faces */
+	uint32_t *harm; /* of the faces, by what is near */
+	uint32_t *met;  /* by what is far */
+	tally *pairs;   /* per piece of faces */
 } motion;
 
 /* Folds */
@@ -29,70 +36,99 @@ folded(const mr_mesh *m, uint32_t h, uint32_t g)
 	return mr_folds(mr_same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
 }
 
+static bool
+folds_new(const mr_mesh *before, const mr_mesh *after, const mr_edges *edges, size_t e)
+{
+	const uint32_t *h = &edges->he[edges->start[e]];
+
+	return mr_edge_faces(edges, e) == 2 && folded(after, h[0], h[1]) && !folded(before, h[0], h[1]);
+}
+
 static void
 find_folds(void *arg, size_t begin, size_t end)
 {
 	motion *j = arg;
 
-	for (size_t e = begin; e < end; e++) {
-		const uint32_t *h = &j->edges->he[j->edges->start[e]];
-		j->fold[e] = mr_edge_faces(j->edges, e) == 2 && folded(j->after, h[0], h[1]) &&
-		             !folded(j->before, h[0], h[1]);
-	}
+	for (size_t e = begin; e < end; e++)
+		j->fold[e] = folds_new(j->before, j->after, j->edges, e);
+}
+
+static size_t
+less(size_t a, size_t b)
+{
+	return a > b ? a - b : 0;
 }
 
 static size_t
 count_folds(mr_ctx *ctx, motion *j)
 {
-	size_t folds = 0;
+	size_t came = 0, went = 0;
 
 	mr_parallel(ctx, j->edges->count, 4096, find_folds, j);
 	for (size_t e = 0; e < j->edges->count; e++)
-		for (int i = 0; i < 2 && j->fold[e]; i++) {
-			j->harm[j->edges->he[j->edges->start[e] + (size_t)i] / 3]++;
-			folds += i == 0;
+		for (uint32_t i = 0; i < 2 && j->fold[e]; i++) {
+			j->harm[j->edges->he[j->edges->start[e] + i] / 3]++;
+			came += i == 0;
 		}
-	return folds;
+	for (size_t e = 0; came && e < j->edges->count; e++)
+		went += folds_new(j->after, j->before, j->edges, e);
+	return less(came, went);
 }
 
 /* Rigidity */
 
-/* The angle between the faces at half-edges h and g of an edge, with a sign. */
-static double
-bend(const mr_mesh *m, uint32_t h, uint32_t g)
+static mr_v3
+centroid(const mr_v3 *p, size_t n)
 {
-	mr_v3 a = mr_face_cross(m, h / 3), b = mr_face_cross(m, g / 3);
-	mr_v3 along = mr_unit(mr_sub(m->p[mr_he_to(m, h)], m->p[mr_he_from(m, h)]));
+	mr_v3 sum = mr_vec(0, 0, 0);
 
-	return atan2(mr_dot(along, mr_cross(a, b)), mr_dot(a, b));
+	for (size_t i = 0; i < n; i++)
+		sum = mr_add(sum, p[i]);
+	return mr_mul(1 / fmax(1, (double)n), sum);
 }
 
-/* Whether the faces at edge e moved as one rigid body, but for what no harm comes of. */
+/* Whether all went as one rigid body, by the motion that fits best. */
 static bool
-rigid(const motion *j, size_t e)
+went_as_one(const mr_mesh *before, const mr_mesh *after)
 {
-	const double stretch = 1e-3, turn = 1e-2;
-	const uint32_t *h = &j->edges->he[j->edges->start[e]];
-	uint32_t a = mr_he_from(j->before, h[0]), b = mr_he_to(j->before, h[0]);
-	double was = mr_dist(j->before->p[a], j->before->p[b]), is = mr_dist(j->after->p[a], j->after->p[b]);
+	const double little = 1e-9; /* of the diagonal */
+	mr_v3 from = centroid(before->p, before->nv), to = centroid(after->p, before->nv);
+	double most = little * mr_mesh_diagonal(before);
+	mr_mat3 c = { { 0 } };
 
-	if (!(fabs(is - was) <= stretch * was))
-		return false;
-	return mr_edge_faces(j->edges, e) != 2 ||
-	       fabs(remainder(bend(j->after, h[0], h[1]) - bend(j->before, h[0], h[1]), 2 * MR_PI)) <= turn;
+	for (size_t v = 0; v < before->nv; v++) {
+		mr_v3 x = mr_sub(before->p[v], from), y = mr_sub(after->p[v], to);
+		const double a[3] = { x.x, x.y, x.z }, b[3] = { y.x, y.y, y.z };
+		for (int i = 0; i < 9; i++)
+			c.m[i] += b[i / 3] * a[i % 3];
+	}
+	c = mr_rotation_nearest(&c);
+	for (size_t v = 0; v < before->nv; v++) {
+		mr_v3 y = mr_add(to, mr_mat3_apply(&c, mr_sub(before->p[v], from)));
+		if (!(mr_dist(y, after->p[v]) <= most))
+			return false;
+	}
+	return true;
+}
+
+static bool
+is_same(mr_v3 a, mr_v3 b)
+{
+	return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
 static void
-suspect(motion *j)
+find_edges(motion *j)
 {
 	memset(j->edge, 0xff, 3 * j->before->nf * sizeof *j->edge);
-	for (size_t e = 0; e < j->edges->count; e++) {
-		bool bends = !rigid(j, e);
-		for (uint32_t i = j->edges->start[e]; i < j->edges->start[e + 1]; i++) {
+	for (size_t e = 0; e < j->edges->count; e++)
+		for (uint32_t i = j->edges->start[e]; i < j->edges->start[e + 1]; i++)
 			j->edge[j->edges->he[i]] = (uint32_t)e;
-			j->suspect[j->edges->he[i] / 3] |= bends;
+	for (size_t f = 0; f < j->before->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t v = j->before->t[f].v[k];
+			j->moved[f] |= !is_same(j->before->p[v], j->after->p[v]);
 		}
-	}
 }
 
 /* Near faces */
@@ -104,41 +140,6 @@ for_neighbours(const motion *j, uint32_t f, void (*visit)(void *arg, uint32_t g)
 	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
 		for (uint32_t i = 0, e = j->edge[h]; e != MR_NONE && i < mr_edge_faces(j->edges, e); i++)
 			visit(arg, j->edges->he[j->edges->start[e] + i] / 3);
-}
-
-typedef struct wave {
-	bool *met;
-	uint32_t *queue;
-	size_t n;
-} wave;
-
-static void
-wave_meets(void *arg, uint32_t g)
-{
-	wave *w = arg;
-
-	if (!w->met[g]) {
-		w->met[g] = true;
-		w->queue[w->n++] = g;
-	}
-}
-
-/* Suspects all faces within half of what is near: of two near faces that moved against each other one is. */
-static mr_status
-spread_suspicion(mr_ctx *ctx, motion *j)
-{
-	wave w = { j->suspect, MR_NEW(ctx, j->before->nf, uint32_t), 0 };
-	size_t done = 0;
-
-	if (!w.queue)
-		return MR_EMEM;
-	for (uint32_t f = 0; f < j->before->nf; f++)
-		if (j->suspect[f])
-			w.queue[w.n++] = f;
-	for (int ring = 0; ring < NEAR / 2; ring++)
-		for (size_t end = w.n; done < end; done++)
-			for_neighbours(j, w.queue[done], wave_meets, &w);
-	return MR_OK;
 }
 
 /* The faces near one, as far as they find room: in a table of open addresses. */
@@ -204,28 +205,83 @@ intersect(const mr_mesh *m, uint32_t f, uint32_t g)
 	       mr_triangles_intersect(p, q);
 }
 
+bool
+mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t g)
+{
+	const double little = 1e-3; /* of their extent */
+	mr_v3 p[6], q[6];
+	double most;
+
+	corners(before, f, p);
+	corners(before, g, p + 3);
+	corners(after, f, q);
+	corners(after, g, q + 3);
+	most = little * mr_box_diagonal(mr_box_of(p, 6));
+	for (int i = 0; i < 6; i++)
+		for (int k = 0; k < i; k++)
+			if (!(fabs(mr_dist(q[i], q[k]) - mr_dist(p[i], p[k])) <= most))
+				return false;
+	return true;
+}
+
+/* How far the corners p reach beyond the plane of q, on the side where they reach less. */
+static double
+reach(const mr_v3 p[3], const mr_v3 q[3])
+{
+	mr_v3 n = mr_unit(mr_cross(mr_sub(q[1], q[0]), mr_sub(q[2], q[0])));
+	double low = 0, high = 0;
+
+	for (int i = 0; i < 3; i++) {
+		double d = mr_dot(n, mr_sub(p[i], q[0]));
+		low = fmin(low, d);
+		high = fmax(high, d);
+	}
+	return fmin(-low, high);
+}
+
+/* Whether faces go through each other by so much that they can be seen to, of small faces a tenth: others
+ * rub. */
+static bool
+passes(const motion *j, uint32_t f, uint32_t g)
+{
+	const double share = 0.1;
+	mr_v3 p[3], q[3];
+	double size;
+
+	corners(j->after, f, p);
+	corners(j->after, g, q);
+	size = fmin(mr_box_diagonal(mr_box_of(p, 3)), mr_box_diagonal(mr_box_of(q, 3)));
+	return fmin(reach(p, q), reach(q, p)) > fmin(j->deep, share * size);
+}
+
 typedef struct search {
 	const motion *j;
 	uint32_t face;
 	bool gathered; /* what is near: where something intersects */
 	patch near;
-	size_t count, later; /* of pairs; those with later faces */
+	tally found, later; /* pairs; those that no other face finds */
 } search;
 
 static bool
 visit(void *arg, uint32_t g)
 {
 	search *s = arg;
+	const motion *j = s->j;
+	bool later = g > s->face || !j->moved[g];
 
-	if (g == s->face || !intersect(s->j->after, s->face, g) || intersect(s->j->before, s->face, g))
+	if (g == s->face || !intersect(j->after, s->face, g) || intersect(j->before, s->face, g) ||
+	    mr_faces_stand(j->before, j->after, s->face, g))
 		return true;
 	if (!s->gathered) {
-		gather_near(s->j, s->face, &s->near);
+		gather_near(j, s->face, &s->near);
 		s->gathered = true;
 	}
 	if (s->near.slot[slot_of(&s->near, g)] == g) {
-		s->count++;
-		s->later += g > s->face || !s->j->suspect[g];
+		s->found.near++;
+		s->later.near += later;
+	} else if (passes(j, s->face, g)) {
+		s->found.far++;
+		s->later.far += later;
 	}
 	return true;
 }
@@ -239,50 +295,82 @@ search_faces(void *arg, size_t begin, size_t end)
 	s.j = j;
 	for (size_t f = begin; f < end; f++) {
 		mr_v3 p[3];
-		if (!j->suspect[f])
+		if (!j->moved[f])
 			continue;
 		s.face = (uint32_t)f;
 		s.gathered = false;
-		s.count = s.later = 0;
+		s.found = s.later = (tally){ 0, 0 };
 		corners(j->after, s.face, p);
 		mr_bvh_overlap(j->bvh, mr_box_of(p, 3), visit, &s);
-		j->harm[f] += (uint32_t)s.count;
-		j->pairs[begin / GRAIN] += s.later;
+		j->harm[f] += (uint32_t)s.found.near;
+		j->met[f] += (uint32_t)s.found.far;
+		j->pairs[begin / GRAIN].near += s.later.near;
+		j->pairs[begin / GRAIN].far += s.later.far;
 	}
 }
 
+/* Those that intersect after and did not before. */
 static mr_status
-count_pairs(mr_ctx *ctx, motion *j, size_t *count)
+search_all(mr_ctx *ctx, motion *j, tally *sum)
 {
 	size_t pieces = (j->before->nf + GRAIN - 1) / GRAIN;
 	mr_bvh *bvh;
 
-	*count = 0;
-	j->pairs = MR_NEW_ZERO(ctx, pieces, size_t);
-	j->edge = MR_NEW(ctx, 3 * j->before->nf, uint32_t);
-	j->suspect = MR_NEW_ZERO(ctx, j->before->nf, bool);
-	if (!j->pairs || !j->edge || !j->suspect)
+	j->pairs = MR_NEW_ZERO(ctx, pieces, tally);
+	if (!j->pairs)
 		return MR_EMEM;
-	suspect(j);
-	MR_TRY(spread_suspicion(ctx, j));
 	MR_TRY(mr_bvh_build(ctx, j->after, &bvh));
 	j->bvh = bvh;
 	mr_parallel(ctx, j->before->nf, GRAIN, search_faces, j);
-	for (size_t i = 0; i < pieces; i++)
-		*count += j->pairs[i];
+	for (size_t i = 0; i < pieces; i++) {
+		sum->near += j->pairs[i].near;
+		sum->far += j->pairs[i].far;
+	}
+	return MR_OK;
+}
+
+/* More pairs than there were: where a surface intersects already, others go while some come. */
+static mr_status
+count_pairs(mr_ctx *ctx, const motion *m, tally *count)
+{
+	const double deep = 0.001; /* of the diagonal: parts that are nearer touch */
+	motion forth = *m, back;
+	tally came = { 0, 0 }, went = { 0, 0 };
+
+	*count = came;
+	if (went_as_one(m->before, m->after))
+		return MR_OK;
+	forth.deep = deep * mr_mesh_diagonal(m->before);
+	forth.edge = MR_NEW(ctx, 3 * m->before->nf, uint32_t);
+	forth.moved = MR_NEW_ZERO(ctx, m->before->nf, bool);
+	if (!forth.edge || !forth.moved)
+		return MR_EMEM;
+	find_edges(&forth);
+	MR_TRY(search_all(ctx, &forth, &came));
+	if (came.near == 0 && came.far == 0)
+		return MR_OK;
+	back = forth;
+	back.before = m->after;
+	back.after = m->before;
+	back.harm = MR_NEW(ctx, m->before->nf, uint32_t); /* for no one */
+	back.met = MR_NEW(ctx, m->before->nf, uint32_t);
+	if (!back.harm || !back.met)
+		return MR_EMEM;
+	MR_TRY(search_all(ctx, &back, &went));
+	*count = (tally){ less(came.near, went.near), less(came.far, went.far) };
 	return MR_OK;
 }
 
 /* A corner of the face that has most harm, of equal ones the lowest. */
 static uint32_t
-worst_vertex(const motion *j)
+worst_vertex(const mr_mesh *m, const uint32_t *harm)
 {
 	size_t worst = 0;
 
-	for (size_t f = 1; f < j->before->nf; f++)
-		if (j->harm[f] > j->harm[worst])
+	for (size_t f = 1; f < m->nf; f++)
+		if (harm[f] > harm[worst])
 			worst = f;
-	return j->harm[worst] ? j->before->t[worst].v[0] : MR_NONE;
+	return m->nf && harm[worst] ? m->t[worst].v[0] : MR_NONE;
 }
 
 mr_status
@@ -295,17 +383,22 @@ mr_harm_find(
 		.after = &moved,
 		.edges = edges,
 		.fold = MR_NEW(ctx, edges->count, bool),
-		.harm = MR_NEW_ZERO(ctx, m->nf, uint32_t) };
-	mr_harm found = { 0, MR_UNKNOWN, MR_NONE };
+		.harm = MR_NEW_ZERO(ctx, m->nf, uint32_t),
+		.met = MR_NEW_ZERO(ctx, m->nf, uint32_t) };
+	mr_harm found = { 0, MR_UNKNOWN, MR_UNKNOWN, MR_NONE, MR_NONE };
+	tally pairs;
 
 	moved.p = after;
-	if (!j.fold || !j.harm)
+	if (!j.fold || !j.harm || !j.met)
 		return MR_EMEM;
 	found.folds = count_folds(ctx, &j);
-	if (found.folds >= enough)
-		MR_TRY(count_pairs(ctx, &j, &found.pairs));
-	if (m->nf)
-		found.vertex = worst_vertex(&j);
+	if (found.folds >= enough) {
+		MR_TRY(count_pairs(ctx, &j, &pairs));
+		found.pairs = pairs.near;
+		found.far = pairs.far;
+	}
+	found.vertex = worst_vertex(m, j.harm);
+	found.far_vertex = worst_vertex(m, j.met);
 	*harm = found;
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -4,6 +4,7 @@
 #include "edit/detail.h"
 #include "edit/held.h"
 #include "edit/pose_basis.h"
+#include "edit/strayed.h"
 #include "measure/gaps.h"
 #include "measure/harm.h"
 #include "space/thickness.h"
@@ -179,6 +180,20 @@ is_news(size_t n, const size_t *told)
 	return n > 0 && (!told || n >= 2 * *told);
 }
 
+/* "3 more folded edges of mesh and 40 more intersecting pairs of near faces", without what there is none of.
+ */
+static void
+name_harm(const mr_harm *h, size_t pairs, char *text, size_t size)
+{
+	int n = 0;
+
+	if (h->folds)
+		n = snprintf(text, size, "%zu more folded edge%s of mesh", h->folds, mr_plural(h->folds));
+	if (pairs)
+		snprintf(text + n, size - (size_t)n, "%s%zu more intersecting pair%s of near faces%s",
+		    n ? " and " : "", pairs, mr_plural(pairs), n ? "" : " of mesh");
+}
+
 /*
  * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone:
  * over 5 folds or 20 pairs have 41 of 318 edits of 106 models, all 14 that are wrecked among them; one of
@@ -190,25 +205,60 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	enum { FOLDS = 5, PAIRS = 20 };
 	size_t pairs = h->pairs == MR_UNKNOWN ? 0 : h->pairs, all = h->folds + pairs,
 	       *told = cache ? &cache->connectivity.told : NULL;
-	char advice[120] = "", found[80] = "";
+	char advice[120] = "", found[160];
 
-	if (h->pairs != MR_UNKNOWN)
-		snprintf(found, sizeof found, " and %zu more intersecting pair%s of near faces", pairs,
-		    mr_plural(pairs));
 	if (!is_news(all, told))
 		return MR_OK;
+	name_harm(h, pairs, found, sizeof found);
 	if (h->folds <= FOLDS && pairs <= PAIRS) {
-		mr_note(ctx, "%zu more folded edge%s of mesh%s: few", h->folds, mr_plural(h->folds), found);
+		mr_note(ctx, "%s: few", found);
 		return MR_OK;
 	}
 	if (told)
 		*told = all;
 	if (base)
 		MR_TRY(advise(ctx, mesh, base, h->vertex, advice, sizeof advice));
-	mr_warn(ctx, "%zu more folded edge%s of mesh%s, most of them at vertex %u (%.4g, %.4g, %.4g)%s",
-	    h->folds, mr_plural(h->folds), found, h->vertex, p[h->vertex].x, p[h->vertex].y, p[h->vertex].z,
-	    advice);
+	mr_warn(ctx, "%s, most of them at vertex %u (%.4g, %.4g, %.4g)%s", found, h->vertex, p[h->vertex].x,
+	    p[h->vertex].y, p[h->vertex].z, advice);
 	return MR_OK;
+}
+
+/* The same of far faces, and of parts. */
+static void
+tell_far(mr_ctx *ctx, mr_cache *cache, const mr_v3 *p, const mr_harm *h)
+{
+	enum { PAIRS = 20 };
+	size_t *told = cache ? &cache->connectivity.told_far : NULL;
+
+	if (h->far == MR_UNKNOWN || h->far <= PAIRS || !is_news(h->far, told))
+		return;
+	if (told)
+		*told = h->far;
+	mr_warn(ctx,
+	    "%zu more intersecting pairs of faces of mesh that are far from each other along it, or of two "
+	    "parts: "
+	    "limbs meet, or sheets pass through each other, most of them at vertex %u (%.4g, %.4g, %.4g)",
+	    h->far, h->far_vertex, p[h->far_vertex].x, p[h->far_vertex].y, p[h->far_vertex].z);
+}
+
+/* Warns of detail that is torn where base is not. */
+static size_t
+look_for_strayed(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges,
+    const mr_mesh *base, const mr_detail *d, const mr_v3 *p)
+{
+	enum { FEW = 5 };
+	size_t *told = cache ? &cache->connectivity.told_strayed : NULL;
+	mr_strayed s = mr_strayed_find(mesh, edges, p, base, d);
+
+	if (s.edges <= FEW || !is_news(s.edges, told))
+		return s.edges;
+	if (told)
+		*told = s.edges;
+	mr_warn(ctx,
+	    "detail is torn: %zu of %zu edges of mesh are over twice as long, or under half as long, as base "
+	    "has them there, most at vertex %u (%.4g, %.4g, %.4g)",
+	    s.edges, edges->count, s.vertex, p[s.vertex].x, p[s.vertex].y, p[s.vertex].z);
+	return s.edges;
 }
 
 /* Parts that touched and do not any more; warns of them as tell does. */
@@ -243,7 +293,7 @@ look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *mesh, con
 	const uint32_t *region, *on_base;
 	mr_held h;
 
-	if (!encoded || !mr_layer_has(f, "mesh", "region") || !mr_layer_has(f, base->name, "region"))
+	if (!mr_layer_has(f, "mesh", "region") || !mr_layer_has(f, base->name, "region"))
 		return MR_OK;
 	MR_TRY(mr_layer_region(ctx, f, base->name, base->nv, &on_base));
 	MR_TRY(mr_layer_region(ctx, f, "mesh", mesh->nv, &region));
@@ -280,7 +330,8 @@ folds_to_look_from(const mr_frame *f, const mr_cache *cache)
 static void
 forget_told(mr_connectivity_cache *kept)
 {
-	kept->told = kept->told_apart = kept->told_held = kept->looked_folds = 0;
+	kept->told = kept->told_far = kept->told_strayed = kept->told_apart = kept->told_held = 0;
+	kept->looked_folds = 0;
 }
 
 /* What the motion of mesh to p has done to it. */
@@ -296,15 +347,17 @@ look_for_flaws(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *m
 	if (cache && harm.pairs != MR_UNKNOWN)
 		cache->connectivity.looked_folds = harm.folds;
 	MR_TRY(tell(ctx, cache, mesh, base, p, &harm));
+	tell_far(ctx, cache, p, &harm);
 	result->folded_edges = harm.folds;
 	result->intersections = harm.pairs;
+	result->far_intersections = harm.far;
 	return MR_OK;
 }
 
-/* The same of the frame's mesh, and of how it stands to base; encoded: where that was, NULL: not to be
- * compared. */
+/* The same of the frame's mesh, and of how it stands to base; d: its detail, of which not all is decoded
+ * where that is not `whole`. */
 static mr_status
-look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_v3 *encoded,
+look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_detail *d, bool whole,
     const mr_v3 *p, mr_decode_result *result)
 {
 	mr_contacts contacts;
@@ -314,7 +367,10 @@ look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, co
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
 	MR_TRY(mesh_neighbours(ctx, cache, f, &mesh, &edges, &contacts));
 	MR_TRY(look_for_flaws(ctx, f, cache, &mesh, &edges, base, p, result));
-	MR_TRY(look_at_held(ctx, f, cache, &mesh, base, encoded, p));
+	if (whole && d->rest) {
+		result->strayed_edges = look_for_strayed(ctx, cache, &mesh, &edges, base, d, p);
+		MR_TRY(look_at_held(ctx, f, cache, &mesh, base, d->rest, p));
+	}
 	result->apart = look_for_gaps(ctx, cache, &mesh, &contacts, p);
 	return MR_OK;
 }
@@ -337,7 +393,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 		return MR_EMEM;
 	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
 	if (!o->blind && mr_layer_has(f, "mesh", "triangles"))
-		MR_TRY(look_for_harm(ctx, f, cache, &base, o->gain == 1 ? detail.rest : NULL, p, result));
+		MR_TRY(look_for_harm(ctx, f, cache, &base, &detail, o->gain == 1, p, result));
 	return mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n);
 }
 

@@ -17,6 +17,7 @@
  * Two limbs that meet are no wreck.
  */
 #include "base/disjoint_sets.h"
+#include "measure/harm.h"
 #include "measure/measure.h"
 #include "mesh/fold.h"
 #include "space/contact.h"
@@ -54,7 +55,7 @@ typedef struct edit {
 } edit;
 
 typedef struct figures {
-	size_t folds, near_pairs;
+	size_t folds, near_pairs, far_pairs; /* those that came with the motion */
 	double volume;
 	double off;         /* share of the edges longer than twice or shorter than half what they were */
 	size_t apart;       /* vertices that touched another component */
@@ -255,34 +256,44 @@ degenerate(const mr_v3 p[3])
 	return mr_triangle_degenerate(p[0], p[1], p[2]);
 }
 
-/* Pairs of `f` with later faces; harm: of the faces that are in one, or NULL. */
-static size_t
-count_pairs(const mr_v3 *p, const mr_tri *t, uint32_t f, const walk *w, mr_rgb *harm)
+static bool
+intersect(const surface *s, int state, uint32_t f, uint32_t g)
 {
-	size_t n = 0;
 	mr_v3 a[3], b[3];
-	mr_box box;
 
-	corners(p, &t[f], a);
-	if (degenerate(a))
-		return 0;
-	box = mr_box_of(a, 3);
+	corners(s->p[state], &s->m.t[f], a);
+	corners(s->p[state], &s->m.t[g], b);
+	return boxes_meet(mr_box_of(a, 3), mr_box_of(b, 3)) && !degenerate(a) && !degenerate(b) &&
+	       mr_triangles_intersect(a, b);
+}
+
+/* Pairs of `f` with later faces.  What stands as it did counts as it did: faces in one plane that touch
+ * intersect or not as they are rounded. */
+static size_t
+count_pairs(surface *s, int state, uint32_t f, const walk *w)
+{
+	mr_mesh before = mesh_at(s, BEFORE), now = mesh_at(s, state);
+	size_t n = 0;
+
 	for (size_t i = 1; i < w->n; i++) {
 		uint32_t g = w->queue[i];
+		bool meets;
 		if (g < f)
 			continue;
-		corners(p, &t[g], b);
-		if (!boxes_meet(box, mr_box_of(b, 3)) || degenerate(b) || !mr_triangles_intersect(a, b))
+		meets = intersect(s, state, f, g);
+		if (meets != intersect(s, BEFORE, f, g) && mr_faces_stand(&before, &now, f, g))
+			meets = !meets;
+		if (!meets)
 			continue;
 		n++;
-		if (harm)
-			harm[f] = harm[g] = harmed;
+		if (state == AFTER)
+			s->harm[f] = s->harm[g] = harmed;
 	}
 	return n;
 }
 
 static mr_status
-count_near_pairs(mr_ctx *ctx, const surface *s, figures *figure)
+count_near_pairs(mr_ctx *ctx, surface *s, figures *figure)
 {
 	walk w = { MR_NEW(ctx, s->m.nf, uint32_t), MR_NEW(ctx, s->m.nf, uint32_t), 0 };
 
@@ -292,8 +303,7 @@ count_near_pairs(mr_ctx *ctx, const surface *s, figures *figure)
 	for (uint32_t f = 0; f < s->m.nf; f++) {
 		find_near(s, f, &w);
 		for (int state = 0; state < STATES; state++)
-			figure[state].near_pairs += count_pairs(
-			    s->p[state], s->m.t, f, &w, state == AFTER ? s->harm : NULL);
+			figure[state].near_pairs += count_pairs(s, state, f, &w);
 	}
 	return MR_OK;
 }
@@ -446,7 +456,7 @@ count_apart(mr_ctx *ctx, const edit *e, const surface *s, figures *figure)
 }
 
 static mr_status
-measure(mr_ctx *ctx, const edit *e, const surface *s, figures *figure)
+measure(mr_ctx *ctx, const edit *e, surface *s, figures *figure)
 {
 	MR_TRY(count_apart(ctx, e, s, figure));
 	MR_TRY(count_near_pairs(ctx, s, figure));
@@ -454,12 +464,15 @@ measure(mr_ctx *ctx, const edit *e, const surface *s, figures *figure)
 		mr_mesh m = mesh_at(s, state);
 		mr_census census;
 		mr_geometry geometry;
+		mr_harm harm;
 		MR_TRY(mr_take_census(ctx, &m, &s->edges, &census));
 		MR_TRY(mr_measure_geometry(ctx, &m, &s->edges, &geometry));
 		figure[state].folds = census.folded_edges;
 		figure[state].volume = geometry.volume;
 		compare_edges(s, state, &figure[state]);
 		compare_faces(s, state, &figure[state]);
+		MR_TRY(mr_harm_find(ctx, &s->m, &s->edges, s->p[state], 0, &harm));
+		figure[state].far_pairs = harm.far;
 	}
 	return MR_OK;
 }
@@ -498,6 +511,7 @@ print_figures(const edit *e, const surface *s, const figures *figure, size_t lef
 	    s->m.nv, s->m.nf);
 	print_count("folds", figure, offsetof(figures, folds));
 	print_count("near_pairs", figure, offsetof(figures, near_pairs));
+	print_count("far_pairs", figure, offsetof(figures, far_pairs));
 	printf(",\"touching\":%zu,\"apart_warp\":%zu,\"apart\":%zu", b->apart, w->apart, a->apart);
 	print_real("off_warp", w->off);
 	print_real("off", a->off);

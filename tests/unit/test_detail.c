@@ -2,6 +2,7 @@
 #include "base/random.h"
 #include "edit/correspondence.h"
 #include "edit/detail.h"
+#include "edit/strayed.h"
 #include "shape/shape.h"
 #include "space/bvh.h"
 
@@ -497,6 +498,36 @@ every_allocation_may_fail(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* Edges that change as base does have not strayed; those of a vertex that is thrown away have. */
+static void
+what_base_accounts_for_has_not_strayed(void **state)
+{
+	mr_mesh m, base;
+	mr_ctx ctx;
+	mr_detail d;
+	mr_edges edges;
+	mr_strayed s;
+	mr_v3 *p, *q;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	m = solid(&ctx, MR_SPHERE, 500);
+	base = with_positions(m, m.p, "base");
+	assert_int_equal(mr_encode(&ctx, &m, &base, NULL, &d, NULL), MR_OK);
+	assert_int_equal(mr_edges_build(&ctx, &m, &edges), MR_OK);
+	p = MR_NEW(&ctx, m.nv, mr_v3);
+	q = MR_NEW(&ctx, m.nv, mr_v3);
+	for (size_t v = 0; v < m.nv; v++)
+		p[v] = q[v] = mr_mul(3, m.p[v]);
+	base.p = q;
+	s = mr_strayed_find(&m, &edges, p, &base, &d);
+	assert_true(s.edges == 0 && s.vertex == MR_NONE);
+	p[7] = mr_mul(9, m.p[7]);
+	s = mr_strayed_find(&m, &edges, p, &base, &d);
+	assert_true(s.edges >= 3 && s.edges < 12 && mr_dist(m.p[s.vertex], m.p[7]) < 0.5);
+	mr_ctx_free(&ctx);
+}
+
 int
 main(void)
 {
@@ -513,6 +544,7 @@ main(void)
 		cmocka_unit_test(threads_do_not_matter),
 		cmocka_unit_test(degenerate_bases_lose_nothing_either),
 		cmocka_unit_test(bad_columns_are_refused),
+		cmocka_unit_test(what_base_accounts_for_has_not_strayed),
 		cmocka_unit_test(every_allocation_may_fail),
 	};
 

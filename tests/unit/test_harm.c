@@ -70,7 +70,7 @@ test_near(void **state)
 		p[v] = mr_vec(m.p[v].x, r * sin(a) + 1e-3 * m.p[v].y, r * cos(a));
 	}
 	h = harm_of(&m, p, 0);
-	assert_true(h.folds == 0 && h.pairs == 0);
+	assert_true(h.folds == 0 && h.pairs == 0 && h.far == 0); /* it rubs */
 	for (size_t v = 0; v < m.nv; v++) { /* the same, of a few rows */
 		double a = 2 * MR_PI * m.p[v].y / 4, r = 4 / (2 * MR_PI);
 		p[v] = mr_vec(m.p[v].x, r * sin(a) + 0.1 * m.p[v].y, r * cos(a));
@@ -79,6 +79,65 @@ test_near(void **state)
 	assert_true(h.folds == 0 && h.pairs > 100);
 	h = harm_of(&m, p, 1);
 	assert_true(h.folds == 0 && h.pairs == MR_UNKNOWN);
+}
+
+/* Two sheets: one that bulges through the other is told; by less than what touches is not. */
+static void
+test_sheets(void **state)
+{
+	mr_mesh one = lattice(20), m = both(&one, &one, mr_vec(0.1, 0.05, 0.2));
+	mr_v3 *p = copy_of(&m);
+	mr_harm h;
+
+	(void)state;
+	for (size_t v = 0; v < one.nv; v++)
+		p[v].z = 3 * exp(-mr_norm2(mr_sub(m.p[v], mr_vec(15, 8.7, 0))) / 20);
+	h = harm_of(&m, p, 0);
+	assert_true(h.folds == 0 && h.pairs == 0 && h.far > 20);
+	assert_true(mr_dist(m.p[h.far_vertex], mr_vec(15, 8.7, 0)) < 10);
+	for (size_t v = 0; v < one.nv; v++)
+		p[v].z *= 0.22 / 3;
+	h = harm_of(&m, p, 0);
+	assert_true(h.folds == 0 && h.pairs == 0 && h.far == 0);
+}
+
+/* What intersects already may do so elsewhere: a sheet that slides through another one. */
+static void
+test_no_more_than_before(void **state)
+{
+	mr_mesh one = lattice(20), m;
+	mr_v3 *upright = copy_of(&one), *p;
+	mr_mesh other = one;
+	mr_harm h;
+
+	(void)state;
+	for (size_t v = 0; v < one.nv; v++)
+		upright[v] = mr_vec(upright[v].x, 6.3, upright[v].y - 9.1);
+	other.p = upright;
+	m = both(&one, &other, mr_vec(0, 0, 0));
+	p = copy_of(&m);
+	for (size_t v = one.nv; v < m.nv; v++)
+		p[v].y += 5 * sqrt(0.75);
+	h = harm_of(&m, p, 0);
+	assert_true(h.folds == 0 && h.pairs == 0 && h.far <= 5);
+}
+
+/* Faces in one plane that touch: as they are rounded they intersect or not, which is no harm. */
+static void
+test_touching(void **state)
+{
+	mr_mesh one = lattice(12), m = both(&one, &one, mr_vec(0.37, 12 * sqrt(0.75), 0));
+	mr_v3 *p = copy_of(&m), turn = mr_unit(mr_vec(1, 2, 3));
+	mr_harm h;
+
+	(void)state;
+	for (size_t v = 0; v < m.nv; v++) { /* and a corner that bends, so that not all is rigid */
+		mr_v3 q = m.p[v], along = mr_mul(mr_dot(turn, q), turn), across = mr_sub(q, along);
+		p[v] = mr_add(along, mr_axpy(sin(1), mr_cross(turn, q), mr_mul(cos(1), across)));
+	}
+	p[0] = mr_add(p[0], mr_vec(0, 0, 0.5));
+	h = harm_of(&m, p, 0);
+	assert_true(h.folds == 0 && h.pairs == 0 && h.far == 0);
 }
 
 static void
@@ -112,6 +171,9 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_rigid_motion_is_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_fold, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_near, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_sheets, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_no_more_than_before, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_touching, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_memory_failures_are_reported, setup, teardown),
 	};
 
