@@ -239,8 +239,6 @@ mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
 	enum { LONGEST = 1024 };
 	const char *none = what == MR_GROUP ? "default" : "";
 	mr_marks *k = &b->marks[what];
-	char clean[LONGEST + 1];
-	size_t n;
 
 	while (bytes && (unsigned char)*name <= ' ')
 		name++, bytes--;
@@ -248,9 +246,9 @@ mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
 		bytes--;
 	if (!k->used)
 		MR_TRY(start_marks(b, k, none));
-	n = mr_clean_name(clean, name, bytes < LONGEST ? bytes : LONGEST, false);
-	return n ? name_number(b->ctx, &k->names, clean, n, &k->current)
-	         : name_number(b->ctx, &k->names, none, strlen(none), &k->current);
+	if (bytes == 0)
+		return name_number(b->ctx, &k->names, none, strlen(none), &k->current);
+	return name_number(b->ctx, &k->names, name, bytes < LONGEST ? bytes : LONGEST, &k->current);
 }
 
 mr_status

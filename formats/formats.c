@@ -1,6 +1,7 @@
 /* The table of formats: how each is recognised, read and written, and what it keeps. */
 #include "formats/formats.h"
 #include "formats/format.h"
+#include "formats/names.h"
 #include "formats/suffix.h"
 
 #include <unistd.h>
@@ -355,13 +356,16 @@ void
 mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files)
 {
 	const char *p = files.text, *end = files.bytes ? p + files.bytes : p;
+	mr_lines shown;
+	size_t changed;
 
 	while (files.bytes && strcmp(path, "-") && p < end) {
 		const char *e = memchr(p, '\n', (size_t)(end - p));
 		e = e ? e : end;
-		if (!are_beside(path, p, e))
-			mr_warn(
-			    ctx, "%s has its materials in %.*s, which is not there", path, (int)(e - p), p);
+		if (!are_beside(path, p, e) &&
+		    mr_names_escape(ctx, (mr_lines){ p, (size_t)(e - p) }, &shown, &changed) == MR_OK)
+			mr_warn(ctx, "%s has its materials in %.*s, which is not there", path,
+			    (int)shown.bytes, shown.text);
 		p = e + 1;
 	}
 }

@@ -6,6 +6,7 @@
 #include "formats/gltf_sets.h"
 #include "formats/image.h"
 #include "formats/materials.h"
+#include "formats/names.h"
 
 #include <stdlib.h>
 
@@ -254,6 +255,19 @@ put_relief(glb *w, layer *l, const mr_material *look, json_t *json)
 	return MR_OK;
 }
 
+/* A text of JSON: any that is not UTF-8 as a stream has it. */
+static json_t *
+text_of(glb *w, const char *name, size_t bytes)
+{
+	json_t *json = json_stringn(name, bytes);
+	mr_lines text;
+	size_t changed;
+
+	if (json || mr_names_escape(w->ctx, (mr_lines){ name, bytes }, &text, &changed) < 0)
+		return json;
+	return json_stringn(text.text, text.bytes);
+}
+
 static mr_status
 put_materials(glb *w, layer *l)
 {
@@ -273,7 +287,7 @@ put_materials(glb *w, layer *l)
 		if (look[i].file)
 			MR_TRY(embed(w, look[i].file, &texture));
 		json = new_material(w, &look[i], texture);
-		set(w, json, "name", json_stringn(name[i], bytes));
+		set(w, json, "name", text_of(w, name[i], bytes));
 		l->material[i] = push(w, w->materials, json);
 		MR_TRY(put_relief(w, l, &look[i], json));
 	}
@@ -613,8 +627,8 @@ put_node(glb *w, const mr_scene_node *from, const char *name, json_t *primitives
 
 	set(w, mesh, "primitives", json_incref(primitives));
 	if (*name) {
-		set(w, mesh, "name", json_string(name));
-		set(w, node, "name", json_string(name));
+		set(w, mesh, "name", text_of(w, name, strlen(name)));
+		set(w, node, "name", text_of(w, name, strlen(name)));
 	}
 	set(w, node, "mesh", number(push(w, w->meshes, mesh)));
 	at = push(w, w->nodes, node);

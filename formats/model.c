@@ -1,6 +1,7 @@
 /* Models in and out of layers. */
 #include "formats/model.h"
 #include "formats/build.h"
+#include "formats/names.h"
 #include "mesh/normals.h"
 #include "mesh/validate.h"
 #include "stream/record.h"
@@ -226,6 +227,23 @@ put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 	return *text ? mr_layer_put(ctx, f, layer, "properties", text, strlen(text)) : MR_OK;
 }
 
+static mr_status
+put_names(mr_ctx *ctx, mr_frame *f, const char *layer, const char *what, mr_lines lines)
+{
+	size_t changed;
+
+	if (!lines.text)
+		return MR_OK;
+	MR_TRY(mr_names_escape(ctx, lines, &lines, &changed));
+	if (changed)
+		mr_warn(ctx,
+		    "%s: %zu of the names are not UTF-8, or hold control characters: %%E9 stands for a byte "
+		    "e9 "
+		    "until they are written",
+		    what, changed);
+	return mr_layer_put(ctx, f, layer, what, lines.text, lines.bytes);
+}
+
 mr_status
 mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
@@ -244,9 +262,7 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 			MR_TRY(mr_layer_put(ctx, f, layer, columns[i].name, column_of(m, i),
 			    columns[i].of_faces ? m->nf : m->nv));
 	for (size_t i = 0; i < NAMES; i++) {
-		const mr_lines *l = lines_of(&all, i);
-		if (l->text)
-			MR_TRY(mr_layer_put(ctx, f, layer, names[i].name, l->text, l->bytes));
+		MR_TRY(put_names(ctx, f, layer, names[i].name, *lines_of(&all, i)));
 	}
 	return put_properties(ctx, f, layer, m);
 }
@@ -354,6 +370,7 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 			continue;
 		MR_TRY(mr_layer_get(ctx, f, layer, names[i].name, &data, &l->bytes));
 		l->text = data;
+		MR_TRY(mr_names_raw(ctx, *l, l));
 	}
 	MR_TRY(get_properties(ctx, f, layer, &got));
 	*m = got;

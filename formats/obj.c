@@ -363,10 +363,11 @@ library(obj *o, const mr_scan *line)
 		n--;
 	if (n == 0)
 		return MR_OK;
-	MR_TRY(MR_RESERVE(o->ctx, o->libraries, o->library_bytes, n + 2, &o->library_room));
+	MR_TRY(MR_RESERVE(o->ctx, o->libraries, o->library_bytes, n + 1, &o->library_room));
 	if (o->library_bytes)
 		o->libraries[o->library_bytes++] = '\n';
-	o->library_bytes += mr_clean_name(o->libraries + o->library_bytes, line->p, n, false);
+	memcpy(o->libraries + o->library_bytes, line->p, n);
+	o->library_bytes += n;
 	o->b.mtllib = (mr_lines){ o->libraries, o->library_bytes };
 	return MR_OK;
 }

@@ -282,12 +282,9 @@ header_comment(ply *f, mr_scan *line)
 	if (mr_scan_accept(line, "TextureFile")) {
 		f->textures++;
 	} else if (mr_scan_accept(line, "mtllib")) {
-		const char *name;
 		mr_skip_blanks(line);
-		name = clean_name(f->ctx, line->p, (size_t)(line->end - line->p));
-		files->text = name ? mr_format(f->ctx, "%s%s%s", files->bytes ? files->text : "",
-					 files->bytes ? "\n" : "", name)
-		                   : NULL;
+		files->text = mr_format(f->ctx, "%s%s%.*s", files->bytes ? files->text : "",
+		    files->bytes ? "\n" : "", (int)(line->end - line->p), line->p);
 		if (!files->text)
 			return MR_EMEM;
 		files->bytes = strlen(files->text);

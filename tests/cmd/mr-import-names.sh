@@ -1,0 +1,17 @@
+# Names are any bytes: those that are not UTF-8 stay apart in the stream, which is, and come back as they were.
+printf 'mtllib m\351.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\nusemtl rot\351\nf 1 2 3\nusemtl rot\350\nf 2 4 3\nusemtl a\tb\nf 1 2 4\nusemtl 50%% \303\251 %%E9\nf 1 3 4\n' >model.obj
+printf 'newmtl rot\351\nKd 1 0 0\nnewmtl rot\350\nKd 0 1 0\n' >"$(printf 'm\351.mtl')"
+mr-import model.obj -o model.mrs
+echo '-- in the stream'
+mr-cat -u model.mrs | LC_ALL=C grep -a -o 'rot[^r]*%E9' | od -A n -c
+echo '-- in an OBJ, and by way of a PLY'
+mr-export again.obj <model.mrs
+grep -a -e usemtl -e mtllib model.obj >before
+grep -a -e usemtl -e mtllib again.obj | cmp - before && echo same
+mr-export model.ply <model.mrs
+mr-import -q model.ply | mr-export ply.obj
+cmp again.obj ply.obj && echo same
+echo '-- in a GLB, with the colours of both'
+mr-export --materials . model.glb <model.mrs
+grep -a -o '"name":"[^"]*"' model.glb
+grep -a -o '"baseColorFactor":[^]]*' model.glb
