@@ -366,7 +366,7 @@ mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped
 	if (!odd)
 		return true;
 	mr_warn(ctx, "%zu of %zu %s are left out: they are not finite numbers", odd, n, what);
-	*dropped = odd;
+	*dropped = *dropped == MR_UNKNOWN ? odd : *dropped + odd;
 	return odd < n;
 }
 

@@ -1,6 +1,7 @@
 /* Models mended: welding and repair, all that vertices, faces and corners have carried along. */
 #include "formats/build.h"
 #include "formats/model.h"
+#include "mesh/polygon.h"
 #include "mesh/repair.h"
 
 /* ---- weld ---- */
@@ -205,6 +206,102 @@ follow_flips(mr_ctx *ctx, const mr_mesh *m, const bool *flipped, mr_model *done)
 	return done->normal || normal ? turn_normals(ctx, m, flipped, done) : MR_OK;
 }
 
+/* Marks the numbers of these faces. */
+static void
+mark_numbers(const uint32_t *number, const uint32_t *face, size_t n, bool *marked)
+{
+	for (size_t i = 0; i < n; i++)
+		marked[number[face ? face[i] : i]] = true;
+}
+
+/* How many numbers of faces there are no more, and which is the first; those are below `most`. */
+static mr_status
+count_lost(mr_ctx *ctx, const uint32_t *number, size_t nf, const uint32_t *face_of, size_t kept, size_t most,
+    size_t *lost, size_t *first)
+{
+	bool *before = MR_NEW_ZERO(ctx, most, bool), *after = MR_NEW_ZERO(ctx, most, bool);
+
+	if (!before || !after)
+		return MR_EMEM;
+	mark_numbers(number, NULL, nf, before);
+	mark_numbers(number, face_of, kept, after);
+	*lost = 0;
+	for (size_t i = most; i-- > 0;)
+		if (before[i] && !after[i]) {
+			*first = i;
+			++*lost;
+		}
+	return MR_OK;
+}
+
+static size_t
+highest(const uint32_t *number, size_t n)
+{
+	uint32_t most = 0;
+
+	for (size_t i = 0; i < n; i++)
+		most = number[i] > most ? number[i] : most;
+	return most;
+}
+
+/* Faces with an area that go, all of them copies, and materials that no face has any more. */
+static mr_status
+warn_of_dropped(
+    mr_ctx *ctx, const mr_model *m, const uint32_t *face_of, size_t kept, const mr_repair_report *r)
+{
+	size_t lost, first, names;
+	const char **start;
+	bool named;
+
+	if (r->duplicate)
+		mr_warn(ctx, "repair: %zu face%s left out, with the corners of earlier ones", r->duplicate,
+		    r->duplicate == 1 ? " is" : "s are");
+	if (!m->material || r->duplicate + r->degenerate == 0)
+		return MR_OK;
+	MR_TRY(count_lost(
+	    ctx, m->material, m->nf, face_of, kept, highest(m->material, m->nf) + 1, &lost, &first));
+	if (lost == 0)
+		return MR_OK;
+	MR_TRY(mr_lines_starts(ctx, m->materials, &start, &names));
+	named = first < names;
+	mr_warn(ctx, "repair: %zu material%s no face any more, the first of them %.*s", lost,
+	    lost == 1 ? " has" : "s have", named ? (int)(start[first + 1] - start[first]) - 1 : 0,
+	    named ? start[first] : "");
+	return MR_OK;
+}
+
+/* Polygons that edges are parted in, and those that lose triangles, and so corners. */
+static mr_status
+warn_of_polygons(mr_ctx *ctx, const mr_model *m, const mr_model *done)
+{
+	size_t most, *had, *has, cut, less = 0;
+	mr_polygons before, after;
+
+	if (!m->polygon)
+		return MR_OK;
+	most = highest(m->polygon, m->nf) + 1;
+	had = MR_NEW_ZERO(ctx, most, size_t);
+	has = MR_NEW_ZERO(ctx, most, size_t);
+	if (!had || !has)
+		return MR_EMEM;
+	MR_TRY(mr_polygons_find(ctx, m->t, m->nf, m->polygon, &before));
+	MR_TRY(mr_polygons_find(ctx, done->t, done->nf, done->polygon, &after));
+	cut = after.broken > before.broken ? after.broken - before.broken : 0;
+	for (size_t f = 0; f < m->nf; f++)
+		had[m->polygon[f]]++;
+	for (size_t f = 0; f < done->nf; f++)
+		has[done->polygon[f]]++;
+	for (size_t i = 0; i < most; i++)
+		less += has[i] && has[i] < had[i];
+	if (cut)
+		mr_warn(
+		    ctx, "repair: %zu polygon%s cut, and will be triangles", cut, cut == 1 ? " is" : "s are");
+	if (less)
+		mr_warn(ctx, "repair: %zu polygon%s corners, at triangles without area", less,
+		    less == 1 ? " loses" : "s lose");
+	return MR_OK;
+}
+
 mr_status
 mr_model_repair(mr_ctx *ctx, mr_model *m)
 {
@@ -230,6 +327,8 @@ mr_model_repair(mr_ctx *ctx, mr_model *m)
 	done.t = out.t;
 	done.nf = out.nf;
 	report(ctx, &r, &done.counts);
+	MR_TRY(warn_of_dropped(ctx, m, face_of, out.nf, &r));
+	MR_TRY(warn_of_polygons(ctx, m, &done));
 	*m = done;
 	return MR_OK;
 }

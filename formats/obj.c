@@ -573,6 +573,20 @@ finish_colors(obj *o)
 	return MR_OK;
 }
 
+/* A normal of zero length is none. */
+static void
+leave_zeros(obj *o, mr_import_result *counts)
+{
+	size_t zero = 0;
+
+	for (size_t i = 0; i < o->vn; i++)
+		zero += mr_norm2(o->vn_values[i]) == 0;
+	if (zero == 0)
+		return;
+	mr_warn(o->ctx, "%zu of %zu normals are zero, which is none: their corners go without", zero, o->vn);
+	counts->dropped_normals = zero;
+}
+
 /* Corners that name what is not there, or no number, go without. */
 static void
 count_absent(obj *o, const char *what, size_t corners, size_t *dropped)
@@ -591,6 +605,7 @@ finish_corners(obj *o)
 
 	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, "texture coordinates", &counts->dropped_texcoords))
 		o->b.corner_uv = NULL;
+	leave_zeros(o, counts);
 	if (!mr_normals_left(o->ctx, o->vn_values, o->vn, &counts->dropped_normals))
 		o->b.corner_vn = NULL;
 	else if (o->b.faces == 0 && o->vn_all == o->v_all)
