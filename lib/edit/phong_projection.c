@@ -76,15 +76,18 @@ inside(place at, double slack)
 	return at.u >= -slack && at.v >= -slack && at.u + at.v <= 1 + slack;
 }
 
-/* Writes the foot where what the decoder will compute from it is p, to the tolerance. */
+/* Writes the foot where what the decoder will compute from it is p, to the tolerance, and it is not beside
+ * the face: a last step on one that is all but a line goes anywhere. */
 static bool
 settle(const mr_ground *g, mr_v3 p, uint32_t face, const field *f, place at, double limit, mr_foot *foot)
 {
+	const double beside = 1e-6;
 	mr_foot r = { { face, bary_of(at) }, at.t * mr_norm(normal_at(f, at)) };
 	mr_v3 b = mr_phong_point(&g->surface, r.at);
 	mr_v3 n = mr_phong_normal(&g->surface, r.at);
 
-	if (!(fabs(r.height) <= limit) || !(mr_dist(mr_axpy(r.height, n, b), p) <= g->tolerance))
+	if (!inside(at, beside) || !(fabs(r.height) <= limit) ||
+	    !(mr_dist(mr_axpy(r.height, n, b), p) <= g->tolerance))
 		return false;
 	*foot = r;
 	return true;
