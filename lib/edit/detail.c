@@ -171,7 +171,6 @@ prepare_nearest(mr_ctx *ctx, encoder *e, bool mapped)
 static mr_encode_result
 report(mr_ctx *ctx, const encoder *e, double diagonal)
 {
-	static const double many = 0.1; /* of the vertices: that is so of 24 in 105 models */
 	size_t n = e->mesh->nv;
 	tally sum = { 0 };
 
@@ -184,12 +183,6 @@ report(mr_ctx *ctx, const encoder *e, double diagonal)
 		sum.residual = fmax(sum.residual, t->residual);
 		sum.height = fmax(sum.height, t->height);
 	}
-	if ((double)sum.offsets > many * (double)n)
-		mr_warn(ctx,
-		    "%zu of %zu vertices stand over %s without a sound height and keep their offset, which "
-		    "follows it "
-		    "less smoothly: smooth for less time",
-		    sum.offsets, n, e->ground.surface.m->name);
 	mr_note(ctx, "%zu of %zu vertices have a height (%.4g %%), %zu an offset", n - sum.offsets, n,
 	    n ? 100 * (double)(n - sum.offsets) / (double)n : 100, sum.offsets);
 	return (mr_encode_result){ .heights = n - sum.offsets,
