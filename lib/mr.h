@@ -501,10 +501,8 @@ typedef struct mr_decode_opts {
 #define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN, false)
 
 typedef struct mr_decode_result {
-	size_t folded_edges;  /* by more than 170 degrees */
-	size_t intersections; /* of faces at most 12 faces apart; of deltas where folds came or doubled */
-	size_t far_intersections; /* of others, or of two parts */
-	size_t strayed_edges; /* longer or shorter by over twice, where those of base are not */
+	size_t folded_edges, strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
+	size_t intersections, far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */
 } mr_decode_result;
