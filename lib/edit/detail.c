@@ -424,13 +424,50 @@ mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 	return MR_OK;
 }
 
+/* A hash of the triangles, by FNV-1a of words; not for use against an adversary. */
+static void
+print_faces(const mr_mesh *m, uint32_t print[2])
+{
+	uint64_t h = 0xcbf29ce484222325u;
+
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			h = (h ^ m->t[f].v[k]) * 0x100000001b3u;
+	print[0] = (uint32_t)h;
+	print[1] = (uint32_t)(h >> 32);
+}
+
+mr_status
+mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base)
+{
+	const void *known;
+	uint32_t print[2];
+
+	if (!mr_layer_has(f, base->name, "encoded_faces"))
+		return MR_OK;
+	MR_TRY(mr_layer_get_rows(ctx, f, base->name, "encoded_faces", 1, &known));
+	print_faces(base, print);
+	return memcmp(known, print, sizeof print) ? mr_fail(ctx, MR_EMESH,
+							"%s has other triangles than those over which mesh "
+	                                                "was encoded: mr-encode comes after what "
+							"changes them",
+							base->name)
+	                                          : MR_OK;
+}
+
 mr_status
 mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 {
+	uint32_t *print = MR_NEW(ctx, 2, uint32_t);
+
+	if (!print)
+		return MR_EMEM;
+	print_faces(base, print);
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->at.face, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->at.bary, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
 	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded", d->rest, base->nv));
+	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded_faces", print, 1));
 	if (d->offset)
 		MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n));
 	else

@@ -47,6 +47,11 @@ mr_status mr_decode(
 /* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
 mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);
 
+/* MR_EMESH where the frame's base has other triangles than those over which the mesh was encoded, if that is
+ * known.
+ */
+mr_status mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base);
+
 /* Puts the columns; an offset that was there and is no longer is dropped.  d: of this base, encoded; kept
  * until the frame is written. */
 mr_status mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d);

@@ -495,6 +495,8 @@ mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map
 	MR_TRY(check(ctx, f, layer, &c));
 	if (layer)
 		MR_TRY(cut_loose(ctx, f, layer));
+	if (c.mirrors)
+		mr_frame_drop(f, "base", "encoded_faces", 0);
 	for (size_t i = f->count; i-- > 0;) {
 		mr_column *column = &f->columns[i];
 		size_t sort = sort_of(column);

@@ -354,6 +354,13 @@ came_before(const joined *j, size_t i, const char *name)
 	return false;
 }
 
+/* What triangles were, which several frames have more of. */
+static bool
+is_print(const joined *j)
+{
+	return !strcmp(j->name, "encoded_faces") && frames_with(j, j->layer) > 1;
+}
+
 static mr_status
 join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 {
@@ -367,6 +374,8 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 				continue;
 			j->first = c;
 			j->name = c->name;
+			if (is_print(j))
+				continue;
 			leave = is_of_one(j);
 			if (!leave)
 				MR_TRY(join_column(ctx, j, out, &leave));

@@ -23,16 +23,19 @@ still_there(
 	return false;
 }
 
-/* The faces around the vertices of base. */
+/* The faces around the vertices of base, which are to be those over which mesh was encoded. */
 static mr_status
-base_incidence(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *base, mr_incidence *inc)
+base_incidence(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_mesh *base, mr_incidence *inc)
 {
 	mr_connectivity_cache *kept;
 
-	if (!cache)
+	if (!cache) {
+		MR_TRY(mr_detail_check_faces(ctx, f, base));
 		return mr_incidence_build(ctx, base, inc);
+	}
 	kept = &cache->connectivity;
 	if (!still_there(ctx, f, base->name, "triangles", &kept->base_serial, &cache->base_keep)) {
+		MR_TRY(mr_detail_check_faces(ctx, f, base));
 		MR_TRY(mr_cache_say(
 		    ctx, &cache->base_keep, mr_incidence_build(&cache->base_keep, base, &kept->base)));
 		kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
