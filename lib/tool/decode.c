@@ -105,7 +105,9 @@ respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
 static mr_status
 find_neighbours(mr_ctx *ctx, const mr_mesh *mesh, mr_edges *edges, mr_contacts *contacts)
 {
-	const double touch = 0.001; /* of the diagonal */
+	/* Of the diagonal.  Of 78 models of several parts, bent, 23 have some that come apart by a third of
+	 * this, 28 by this, among them a house whose windows its straight walls leave, as many by 0.005. */
+	const double touch = 0.003;
 
 	MR_TRY(mr_contacts_find(ctx, mesh, touch * mr_mesh_diagonal(mesh), contacts));
 	return mr_edges_build(ctx, mesh, edges);
