@@ -71,9 +71,9 @@ share_area(mr_ctx *ctx, const mr_fit_foot *foot, const double *spacing, size_t n
 static double
 form_kept(double noise)
 {
-	const double most = 0.5, noisy = 0.35;
+	const double most = 0.5;
 
-	return most * fmax(0, 1 - noise / noisy);
+	return most * fmax(0, 1 - noise / MR_NOISY);
 }
 
 mr_status

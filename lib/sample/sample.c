@@ -163,15 +163,6 @@ robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_
 		.steps = 300 };
 }
 
-/*
- * Noise of 0.3 % of the diagonal on 50,000 points of 59 models is 0.48 to 0.84 of their spacing, of 1 % on
- * 30,000 0.80 and more, of 0.5 % on 10,000 0.40 and more: there triangles make a crust, three times as far
- * from the truth.  Of clean ones nine tenths are below 0.04, thinned out to a sixtieth 0.08; of the vertices
- * of models 0.45, whose features are no larger than that: of 54 two are beyond the limit for which triangles
- * are nearer.
- */
-static const double NOISY = 0.35;
-
 /* Share of outliers among the points: others, next to the surface, are not told.  With 5 % of them among
  * 50,000 clean points of three models triangles come 2.4 to 3.6 times as far from the truth. */
 static const double OUTLYING = 0.01;
@@ -179,7 +170,7 @@ static const double OUTLYING = 0.01;
 static bool
 is_noisy(const mr_sampling *s)
 {
-	return s->noise > NOISY * s->usual || (double)s->outliers > OUTLYING * (double)s->places;
+	return s->noise > MR_NOISY * s->usual || (double)s->outliers > OUTLYING * (double)s->places;
 }
 
 /*
