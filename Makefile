@@ -9,7 +9,7 @@
 #	make coverage   what the tests run of lib, formats and cmd: lines and branches; T=PATTERN some of them
 #	make lint       clang-tidy and cppcheck over the sources: no findings
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
-#	make fuzz       the readers under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
+#	make fuzz       the readers and the tools' work under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
 #	make demo       the main job on real models: pictures and tables, in demo/
 #	make bench      speed and memory beside the peers'

@@ -1,6 +1,7 @@
 /* The life of a command: its line, its streams, its frames one by one, its end. */
 #include "cmd.h"
 
+#include "base/memory.h"
 #include "base/text.h"
 #include "formats/suffix.h"
 #include "mesh/validate.h"
@@ -12,7 +13,6 @@
 #include <fcntl.h>
 #include <malloc.h>
 #include <signal.h>
-#include <sys/resource.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -561,16 +561,13 @@ print_stats(cmd *c, double seconds)
 	const struct cmd_state *s = c->state;
 	const char *name = s->frame_name ? s->frame_name : "";
 	mr_text line = { .ctx = &c->ctx };
-	struct rusage usage;
 
 	if (!s->stats)
 		return MR_OK;
-	getrusage(RUSAGE_SELF, &usage);
 	mr_text_add(
 	    &line, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)c->frame);
 	mr_text_json(&line, name, strlen(name));
-	mr_text_add(
-	    &line, ",\"seconds\":%.6f,\"peak_bytes\":%lld", seconds, (long long)usage.ru_maxrss * 1024);
+	mr_text_add(&line, ",\"seconds\":%.6f,\"peak_bytes\":%.0f", seconds, mr_memory_peak());
 	MR_TRY(mr_text_done(&s->figures));
 	mr_text_add(&line, "%s}\n", s->figures.s ? s->figures.s : "");
 	MR_TRY(mr_text_done(&line));

@@ -87,9 +87,9 @@ typedef struct ply {
 	named_list names[3]; /* of groups, objects, materials */
 	double *row;         /* of the row at hand, value by value */
 	size_t row_room;
-	size_t odd_uv; /* of vertices: not finite */
+	size_t odd_uv;             /* of vertices: not finite */
 	size_t textures, comments; /* that are left out */
-	size_t remarks; /* comments that are not kept */
+	size_t remarks;            /* comments that are not kept */
 } ply;
 
 /* ---- failures ---- */
@@ -114,6 +114,12 @@ early(ply *f, const element *e, uint64_t row)
 	return bad(f, f->ascii ? (const void *)f->text.end : f->end,
 	    "the file ends in row %llu of %llu of element %s", (unsigned long long)row + 1,
 	    (unsigned long long)e->rows, e->name);
+}
+
+static size_t
+bytes_left(const ply *f)
+{
+	return f->ascii ? (size_t)(f->text.end - f->text.p) : (size_t)(f->end - f->p);
 }
 
 /* Where the next value stands. */
@@ -475,10 +481,10 @@ next_length(ply *f, const property *p, size_t *n)
 	double x = 0;
 	size_t left, each = f->ascii ? 2 : types[p->value].bytes;
 
-	if (!f->ascii && (size_t)(f->end - f->p) < types[p->count].bytes)
+	if (!f->ascii && bytes_left(f) < types[p->count].bytes)
 		return bad(f, f->end, "the file ends before the length of a list");
 	MR_TRY(next_value(f, p->count, &x));
-	left = f->ascii ? (size_t)(f->text.end - f->text.p) + 1 : (size_t)(f->end - f->p);
+	left = bytes_left(f) + f->ascii;
 	if (!(x >= 0) || x != floor(x))
 		return bad(f, where, "a list of length %g", x);
 	if (x > (double)(left / each))
@@ -502,17 +508,17 @@ row_bytes(const element *e, bool ascii)
 	return bytes;
 }
 
-/* Refuses a number of rows that the rest of the file cannot hold, before anything is allocated for them. */
+/* Refuses a number of rows that the rest of the file cannot hold, before anything is allocated for them; then
+ * makes room for one. */
 static mr_status
-check_rows(ply *f, const element *e)
+begin_rows(ply *f, const element *e)
 {
-	size_t left = f->ascii ? (size_t)(f->text.end - f->text.p) : (size_t)(f->end - f->p);
-	size_t bytes = row_bytes(e, f->ascii);
+	size_t left = bytes_left(f), bytes = row_bytes(e, f->ascii);
 
 	if (e->rows && bytes && e->rows > (left + f->ascii) / bytes)
 		return bad(f, here(f), "%llu rows of element %s cannot be in the %zu bytes that are left",
 		    (unsigned long long)e->rows, e->name, left);
-	return MR_OK;
+	return MR_RESERVE(f->ctx, f->row, 0, e->properties, &f->row_room);
 }
 
 static type
@@ -563,22 +569,28 @@ pass_list(ply *f, const property *p)
 	return MR_OK;
 }
 
+/* Value i of the row at hand, which may be the first that is not there. */
+static mr_status
+read_value(ply *f, const element *e, uint64_t row, size_t i)
+{
+	type t = e->property[i].value;
+
+	if (!f->ascii && bytes_left(f) < types[t].bytes)
+		return early(f, e, row);
+	return next_value(f, t, &f->row[i]);
+}
+
 /* Reads a row's values by role; lists are passed over. */
 static mr_status
 read_row(ply *f, const element *e, uint64_t row, double value[ROLES])
 {
-	if (!f->ascii && (size_t)(f->end - f->p) < row_bytes(e, false))
+	if (!f->ascii && bytes_left(f) < row_bytes(e, false))
 		return early(f, e, row);
 	for (size_t i = 0; i < e->properties; i++) {
 		const property *p = &e->property[i];
-		if (p->list)
-			MR_TRY(pass_list(f, p));
-		else if (!f->ascii && (size_t)(f->end - f->p) < types[p->value].bytes)
-			return early(f, e, row);
-		else {
-			MR_TRY(next_value(f, p->value, &f->row[i]));
+		MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
+		if (!p->list)
 			value[p->role] = f->row[i];
-		}
 	}
 	return MR_OK;
 }
@@ -594,12 +606,6 @@ keep_row(ply *f, const element *e, size_t at)
 }
 
 static mr_status
-row_room(ply *f, const element *e)
-{
-	return MR_RESERVE(f->ctx, f->row, 0, e->properties, &f->row_room);
-}
-
-static mr_status
 read_vertices(ply *f, const element *e)
 {
 	type color = type_of(e, RED), alpha = type_of(e, ALPHA);
@@ -608,8 +614,7 @@ read_vertices(ply *f, const element *e)
 
 	if (!has(e, X) || !has(e, Y) || !has(e, Z))
 		return bad(f, here(f), "element vertex lacks x, y or z");
-	MR_TRY(check_rows(f, e));
-	MR_TRY(row_room(f, e));
+	MR_TRY(begin_rows(f, e));
 	MR_TRY(vertex_arrays(f, e));
 	v[ALPHA] = !has(e, ALPHA) || alpha >= FLOAT ? 1 : 255;
 	for (size_t i = 0; i < f->b.nv; i++) {
@@ -648,7 +653,7 @@ read_vertices(ply *f, const element *e)
 static mr_status
 read_indices(ply *f, const property *p, bool strips)
 {
-	size_t n, size = types[p->value].bytes;
+	size_t n = 0, size = types[p->value].bytes;
 
 	MR_TRY(next_length(f, p, &n));
 	MR_TRY(MR_RESERVE(f->ctx, f->indices, 0, n, &f->indices_room));
@@ -683,7 +688,7 @@ read_indices(ply *f, const property *p, bool strips)
 static mr_status
 read_corners(ply *f, const property *p, corner_list *l)
 {
-	size_t n;
+	size_t n = 0;
 
 	MR_TRY(next_length(f, p, &n));
 	MR_TRY(MR_RESERVE(f->ctx, l->value, l->count, n, &l->room));
@@ -795,12 +800,8 @@ read_face(ply *f, const element *e, uint64_t row)
 			MR_TRY(read_indices(f, p, e->kind == STRIPS));
 		else if (p->role == UVS || p->role == NORMALS)
 			MR_TRY(read_corners(f, p, p->role == UVS ? &f->uv : &f->vn));
-		else if (p->list)
-			MR_TRY(pass_list(f, p));
-		else if (!f->ascii && (size_t)(f->end - f->p) < types[p->value].bytes)
-			return early(f, e, row);
 		else
-			MR_TRY(next_value(f, p->value, &f->row[i]));
+			MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
 		if (p->role >= GROUP)
 			MR_TRY(set_mark(f, p->role, f->row[i], where));
 	}
@@ -811,8 +812,7 @@ read_face(ply *f, const element *e, uint64_t row)
 static mr_status
 read_faces(ply *f, const element *e)
 {
-	MR_TRY(check_rows(f, e));
-	MR_TRY(row_room(f, e));
+	MR_TRY(begin_rows(f, e));
 	if (e->rows && !has(e, INDICES))
 		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
 	MR_TRY(name_marks(f, e));
@@ -827,8 +827,7 @@ pass_rows(ply *f, const element *e)
 {
 	double v[ROLES];
 
-	MR_TRY(check_rows(f, e));
-	MR_TRY(row_room(f, e));
+	MR_TRY(begin_rows(f, e));
 	for (uint64_t row = 0; e->properties && row < e->rows; row++)
 		MR_TRY(read_row(f, e, row, v));
 	return MR_OK;
@@ -836,38 +835,35 @@ pass_rows(ply *f, const element *e)
 
 /* ---- the file ---- */
 
-/* Elements as they come; faces that stand before the vertices are read when these are known. */
+/* Elements from number i on, to the vertices if these come; *end is where it stopped.  known: the vertices
+ * are. */
+static mr_status
+read_until_vertices(ply *f, size_t i, bool known, size_t *end)
+{
+	for (; i < f->elements && f->element[i].kind != VERTEX; i++) {
+		const element *e = &f->element[i];
+		MR_TRY(known && e->kind != OTHER ? read_faces(f, e) : pass_rows(f, e));
+	}
+	*end = i;
+	return MR_OK;
+}
+
+/* Faces that stand before the vertices are passed over, and read when these are known. */
 static mr_status
 read_elements(ply *f)
 {
-	const element *before = NULL;
-	const unsigned char *binary = NULL;
-	const char *text = NULL;
-	bool vertices = false;
+	const unsigned char *binary = f->p;
+	const char *text = f->text.p;
+	size_t vertices, end;
 
-	for (size_t i = 0; i < f->elements; i++) {
-		const element *e = &f->element[i];
-		if (e->kind == VERTEX) {
-			MR_TRY(read_vertices(f, e));
-			vertices = true;
-		} else if (e->kind != OTHER && vertices)
-			MR_TRY(read_faces(f, e));
-		else {
-			if (e->kind != OTHER && !before) {
-				before = e;
-				binary = f->p;
-				text = f->text.p;
-			}
-			MR_TRY(pass_rows(f, e));
-		}
-	}
-	if (!vertices)
+	MR_TRY(read_until_vertices(f, 0, false, &vertices));
+	if (vertices == f->elements)
 		return mr_fail(f->ctx, MR_EMESH, "ply without a vertex");
-	if (!before)
-		return MR_OK;
+	MR_TRY(read_vertices(f, &f->element[vertices]));
+	MR_TRY(read_until_vertices(f, vertices + 1, true, &end));
 	f->p = binary;
 	f->text.p = text;
-	return read_faces(f, before);
+	return read_until_vertices(f, 0, true, &end);
 }
 
 mr_status

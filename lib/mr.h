@@ -253,7 +253,7 @@ MR_API mr_status mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const ch
     mr_export_result *result) MR_WARN_UNUSED;
 
 /* What may outlive a frame: a factorization, an index.  A frame that is a delta and left unchanged what it
- * depends on finds it again; never does it change a byte. */
+ * depends on finds it again; never does it change a byte, and it may be NULL wherever it is given. */
 typedef struct mr_cache mr_cache;
 
 MR_API mr_cache *mr_cache_new(void); /* NULL where there is no memory for it */
@@ -473,7 +473,6 @@ typedef struct mr_solve_result {
 	double error, condition; /* of verify */
 } mr_solve_result;
 
-/* cache: or NULL. */
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
     mr_solve_result *result) MR_WARN_UNUSED;
 
@@ -507,7 +506,6 @@ typedef struct mr_decode_result {
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */
 } mr_decode_result;
 
-/* cache: or NULL. */
 MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache,
     mr_decode_result *result) MR_WARN_UNUSED;
 
@@ -673,12 +671,10 @@ typedef struct mr_subdivide_result {
 	double seconds;
 } mr_subdivide_result;
 
-/* cache: or NULL. */
 MR_API mr_status mr_subdivide_frame(mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache,
     mr_subdivide_result *result) MR_WARN_UNUSED;
 
-/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1.
- * cache: or NULL. */
+/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1. */
 MR_API mr_status mr_equalize_frame(
     mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache) MR_WARN_UNUSED;
 

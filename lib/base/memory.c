@@ -1,4 +1,5 @@
-/* What the machine says is free, or the control group that the process is in, whichever is less. */
+/* What the machine says is free, or the control group that the process is in, whichever is less; and what is
+ * taken. */
 #include "base/memory.h"
 
 #include <math.h>
@@ -48,4 +49,16 @@ mr_memory_available(void)
 	if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
 		least = fmin(least, (double)limit.rlim_cur);
 	return least;
+}
+
+double
+mr_memory_peak(void)
+{
+	double own = 1024 * number_in("/proc/self/status", "VmHWM:");
+	struct rusage usage;
+
+	if (!isnan(own))
+		return own;
+	getrusage(RUSAGE_SELF, &usage); /* no less than that of the program before exec */
+	return 1024 * (double)usage.ru_maxrss;
 }

@@ -1,4 +1,4 @@
-/* memory.h -- how much memory this process may still take. */
+/* memory.h -- how much memory this process may still take, and has taken. */
 #ifndef MR_BASE_MEMORY_H
 #define MR_BASE_MEMORY_H
 
@@ -9,5 +9,8 @@
  * infinite where none of them does.  No result may depend on it but a refusal, or a choice that is told.
  */
 double mr_memory_available(void);
+
+/* The most bytes that the process ever held at once; for figures only. */
+double mr_memory_peak(void);
 
 #endif

@@ -2,19 +2,18 @@
  * The 256 cases are not a table that somebody typed but follow from one rule: on each face of a cube, every
  * run of inside corners is cut off by a segment.  The two cubes beside a face cut it alike, and the segments
  * of a cube form loops through the crossed edges, so each crossing of an edge of the grid lies on one fan of
- * four loops.  A loop is cut into triangles by diagonals that lie in no face of the cube, or around its
- * centre: so no two loops share one.
+ * four loops.  A loop is cut into triangles by diagonals that lie in no face of the cube, so that no two
+ * loops share one: a fan around one of its edges, as there is in each of the cases.
  */
 #include "volume/isosurface.h"
 
 /* Corner c stands at x = c & 1, y = c >> 1 & 1, z = c >> 2.  Edge 4 a + k runs along axis a. */
-enum { EDGES = 12, CENTRE = 12, TRIANGLES = 12 };
+enum { EDGES = 12, TRIANGLES = 5 };
 
-/* The triangles of one case: edges, or CENTRE + the number of the loop. */
+/* The triangles of one case, whose corners lie on edges. */
 typedef struct kind {
-	uint8_t triangles, centres;
+	uint8_t triangles;
 	uint8_t corner[TRIANGLES][3];
-	uint8_t loop[4][EDGES], length[4]; /* those with a centre come first */
 } kind;
 
 /* The edge between two corners that differ in one bit. */
@@ -55,12 +54,12 @@ edge_faces(unsigned edge)
 	return 1u << (2 * u + (edge & 1)) | 1u << (2 * v + (edge >> 1 & 1));
 }
 
-/* next[e]: the edge that the surface's segment from edge e leads to, CENTRE where e is not crossed. */
+/* next[e]: the edge that the surface's segment from edge e leads to, EDGES where e is not crossed. */
 static void
 link_edges(unsigned inside, unsigned next[EDGES])
 {
 	for (unsigned e = 0; e < EDGES; e++)
-		next[e] = CENTRE;
+		next[e] = EDGES;
 	for (unsigned face = 0; face < 6; face++)
 		for (unsigned i = 0; i < 4; i++) {
 			unsigned a = face_corner(face, i), b = face_corner(face, (i + 1) % 4), j = i + 1;
@@ -98,18 +97,10 @@ fill_loop(kind *k, const uint8_t *loop, unsigned n)
 {
 	unsigned apex = 0;
 
-	while (apex < n && !fan_is_free(loop, n, apex))
+	while (apex + 1 < n && !fan_is_free(loop, n, apex))
 		apex++;
-	if (apex < n) {
-		for (unsigned i = 1; i + 1 < n; i++)
-			add_triangle(k, loop[apex], loop[(apex + i) % n], loop[(apex + i + 1) % n]);
-		return;
-	}
-	memcpy(k->loop[k->centres], loop, n);
-	k->length[k->centres] = (uint8_t)n;
-	for (unsigned i = 0; i < n; i++)
-		add_triangle(k, loop[i], loop[(i + 1) % n], CENTRE + k->centres);
-	k->centres++;
+	for (unsigned i = 1; i + 1 < n; i++)
+		add_triangle(k, loop[apex], loop[(apex + i) % n], loop[(apex + i + 1) % n]);
 }
 
 static void
@@ -122,10 +113,10 @@ make_kind(unsigned inside, kind *k)
 	for (unsigned e = 0; e < EDGES; e++) {
 		uint8_t loop[EDGES];
 		unsigned n = 0;
-		for (unsigned at = e; next[at] != CENTRE;) {
+		for (unsigned at = e; next[at] != EDGES;) {
 			unsigned to = next[at];
 			loop[n++] = (uint8_t)at;
-			next[at] = CENTRE;
+			next[at] = EDGES;
 			at = to;
 		}
 		if (n > 0)
@@ -200,30 +191,13 @@ edge_vertex(const march *m, size_t x, size_t y, size_t z, unsigned edge)
 	return m->vertex[edge / 4][(z + (low >> 2)) & 1][(y + (low >> 1 & 1)) * m->g->n[0] + x + (low & 1)];
 }
 
-static uint32_t
-add_centre(march *m, const uint8_t *loop, unsigned n, size_t x, size_t y, size_t z)
-{
-	mr_v3 sum = mr_vec(0, 0, 0);
-
-	for (unsigned i = 0; i < n; i++)
-		sum = mr_add(sum, m->p[edge_vertex(m, x, y, z, loop[i])]);
-	m->p[m->nv] = mr_mul(1.0 / n, sum);
-	return (uint32_t)m->nv++;
-}
-
 static void
 add_cube(march *m, const kind *k, size_t x, size_t y, size_t z)
 {
-	uint32_t centre[4];
-
-	for (unsigned i = 0; i < k->centres; i++)
-		centre[i] = add_centre(m, k->loop[i], k->length[i], x, y, z);
 	for (unsigned i = 0; i < k->triangles; i++) {
 		mr_tri *t = &m->t[m->nf++];
-		for (int j = 0; j < 3; j++) {
-			unsigned c = k->corner[i][j];
-			t->v[j] = c < CENTRE ? edge_vertex(m, x, y, z, c) : centre[c - CENTRE];
-		}
+		for (int j = 0; j < 3; j++)
+			t->v[j] = edge_vertex(m, x, y, z, k->corner[i][j]);
 	}
 }
 
@@ -258,8 +232,8 @@ count_all(march *m)
 				if (in == 0 || in == 255)
 					continue;
 				m->nf += m->kinds[in].triangles;
-				m->nv += (size_t)m->kinds[in].centres + (low != (in >> 1 & 1)) +
-				         (low != (in >> 2 & 1)) + (low != (in >> 4 & 1));
+				m->nv += (size_t)(low != (in >> 1 & 1)) + (low != (in >> 2 & 1)) +
+				         (low != (in >> 4 & 1));
 			}
 		}
 }

@@ -22,16 +22,12 @@ NOFF
 3 0 1 2
 3 0 2 3
 X
-cat >n.ply <<'X'
-ply
-format ascii 1.0
-element vertex 3
-property float x
-property float y
-property float z
-property float nx
-property float ny
-property float nz
+ply() { # properties of a vertex; what follows them comes from stdin
+	printf 'ply\nformat ascii 1.0\nelement vertex 3\n'
+	printf 'property float %s\n' "$@"
+	cat
+}
+ply x y z nx ny nz >n.ply <<'X'
 end_header
 0 0 0 0 0 1
 1 0 0 nan nan nan
@@ -47,18 +43,7 @@ sed 's/0 0 1$/nan 0 1/' n.ply | mr-import | mr-export -f xyz -
 printf '0 0 0 0 0 1\n1 0 0 nan 0 1\n0 1 0 0 1 0\n' | mr-import -f xyz | mr-export -f xyz -
 
 echo '-- colours and texture coordinates that are no numbers are counted'
-cat >c.ply <<'X'
-ply
-format ascii 1.0
-element vertex 3
-property float x
-property float y
-property float z
-property float s
-property float t
-property float red
-property float green
-property float blue
+ply x y z s t red green blue >c.ply <<'X'
 element face 1
 property list uchar int vertex_indices
 end_header

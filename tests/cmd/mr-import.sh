@@ -80,3 +80,37 @@ ls *-*.obj
 
 echo '-- as another layer'
 mr-import -l control square.obj | mr-export -l control -f obj - | head -n 1
+
+echo '-- faces and strips of a PLY that stand before the vertices'
+cat >before.ply <<'X'
+ply
+format ascii 1.0
+element face 1
+property list uchar int vertex_indices
+element edge 1
+property int v
+element tristrips 1
+property list int int vertex_indices
+element vertex 5
+property float x
+property float y
+property float z
+end_header
+3 0 1 2
+7
+4 1 2 3 4
+0 0 0
+1 0 0
+0 1 0
+1 1 0
+1 1 1
+X
+{
+	sed '/^format/s/ascii/binary_big_endian/; /end_header/q' before.ply
+	printf '\3\0\0\0\0\0\0\0\1\0\0\0\2\0\0\0\7\0\0\0\4\0\0\0\1\0\0\0\2\0\0\0\3\0\0\0\4'
+	o='\77\200\0\0' z='\0\0\0\0'
+	printf "$z$z$z$o$z$z$z$o$z$o$o$z$o$o$o"
+} >before-big.ply
+for model in before.ply before-big.ply; do
+	mr-import -q $model | mr-export -f obj - | grep '^[vf]'
+done

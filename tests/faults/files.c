@@ -10,7 +10,6 @@
 #include <sys/stat.h>
 
 int open(const char *path, int flags, ...);
-int open64(const char *path, int flags, ...);
 
 static int
 has(const char *fault)
@@ -33,39 +32,24 @@ fsync(int fd)
 	return next(fd);
 }
 
-static int
-open_named(const char *path, int flags, va_list args)
+int
+open(const char *path, int flags, ...)
 {
 	int (*next)(const char *, int, ...) = (int (*)(const char *, int, ...))dlsym(RTLD_NEXT, "open");
-	mode_t mode = flags & (O_CREAT | O_TMPFILE) ? va_arg(args, mode_t) : 0;
+	mode_t mode = 0;
+	va_list args;
 
 	if (has("named") && (flags & O_TMPFILE) == O_TMPFILE) {
 		errno = EOPNOTSUPP;
 		return -1;
 	}
+	if (flags & (O_CREAT | O_TMPFILE)) {
+		va_start(args, flags);
+		mode = va_arg(args, mode_t);
+		va_end(args);
+	}
 	return next(path, flags, mode);
 }
 
-int
-open(const char *path, int flags, ...)
-{
-	va_list args;
-	int fd;
-
-	va_start(args, flags);
-	fd = open_named(path, flags, args);
-	va_end(args);
-	return fd;
-}
-
-int
-open64(const char *path, int flags, ...)
-{
-	va_list args;
-	int fd;
-
-	va_start(args, flags);
-	fd = open_named(path, flags, args);
-	va_end(args);
-	return fd;
-}
+/* The same where files are large. */
+int open64(const char *path, int flags, ...) __attribute__((alias("open")));

@@ -12,8 +12,7 @@ def fail(text):
 
 
 def chain(source, commands):
-    """The source's bytes, an iterable, through the commands: what the last one writes, in lines, and the memory each took in bytes.
-    A shell starts them: a process begins with the figure of the one that it is made from."""
+    """The source's bytes, an iterable, through the commands: what the last one writes, in lines, and the memory each took in bytes."""
     pipe = " | ".join("%s --stats stats%d" % c[::-1] for c in enumerate(commands))
     sh = subprocess.Popen(["sh", "-c", pipe + " >out"], stdin=subprocess.PIPE)
     for piece in source:
