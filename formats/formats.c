@@ -419,6 +419,8 @@ mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model
 	const mr_file_format *f = NULL;
 
 	MR_TRY(find_writer(ctx, path, format, &f));
+	if (m->nv == 0)
+		return mr_fail(ctx, MR_EMESH, "a layer without a vertex cannot be written as %s", f->name);
 	return write_file(ctx, path, f, m, NULL, held, result);
 }
 
@@ -503,7 +505,8 @@ mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces)
 mr_status
 mr_note_rounded(mr_sink *s, const mr_model *m)
 {
-	const double share = 1e-7; /* of the diagonal: about what a float is off of a model about the origin */
+	const double share =
+	    1e-7; /* of the diagonal: about what a float is off of a model about the origin */
 	const mr_box box = mr_box_of(m->p, m->nv);
 	double off = 0, diagonal = mr_dist(box.min, box.max);
 	size_t changed = 0;
@@ -519,7 +522,8 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 	s->lost.rounded_positions = changed;
 	if (off > share * diagonal)
 		mr_warn(s->ctx,
-		    "%zu of %zu positions are rounded to float32, by up to %.2g, which is %.2g of the diagonal: "
+		    "%zu of %zu positions are rounded to float32, by up to %.2g, which is %.2g of the "
+		    "diagonal: "
 		    "mr-transform --center brings them to the origin, where floats are finer",
 		    changed, m->nv, off, off / diagonal);
 	else if (changed)

@@ -76,12 +76,28 @@ read_numbers(const char *at, double *x, size_t most, size_t *n)
 	}
 }
 
+/* The linear part at about size 1, by a power of two, which rounds nothing. */
+static mr_mat3
+unit_of(const mr_affine *map, int *exponent)
+{
+	mr_mat3 l = mr_affine_linear(map);
+	double largest = 0;
+
+	for (int i = 0; i < 9; i++)
+		largest = fmax(largest, fabs(l.m[i]));
+	frexp(largest, exponent);
+	for (int i = 0; i < 9; i++)
+		l.m[i] = ldexp(l.m[i], -*exponent);
+	return l;
+}
+
 static mr_status
 parse_matrix(mr_ctx *ctx, const char *text, mr_affine *map)
 {
 	double x[16], det;
 	size_t n = 0, lines;
 	mr_mat3 l;
+	int exponent;
 	char **line;
 
 	if (!read_numbers(text, x, 16, &n)) {
@@ -99,7 +115,7 @@ parse_matrix(mr_ctx *ctx, const char *text, mr_affine *map)
 		return mr_fail(ctx, MR_EUSAGE, "the last row is %g %g %g %g, where an affine map has 0 0 0 1",
 		    x[12], x[13], x[14], x[15]);
 	memcpy(map->m, x, sizeof map->m);
-	l = mr_affine_linear(map);
+	l = unit_of(map, &exponent);
 	det = mr_mat3_determinant(&l);
 	if (!(det > 0 || det < 0) || !isfinite(1 / det))
 		return mr_fail(ctx, MR_EUSAGE, "the matrix has no inverse: its determinant is %g", det);
@@ -199,18 +215,23 @@ cube_root(double x)
 
 typedef struct change {
 	mr_affine map, back;
-	mr_mat3 normal; /* L^-T */
-	double scale;   /* of lengths; 0: it depends on the direction */
+	mr_mat3 unit;   /* L 2^-exponent, of about size 1: its determinant neither vanishes nor is infinite */
+	mr_mat3 normal; /* its inverse, transposed */
+	int exponent;
+	double unit_scale; /* of lengths, by `unit`; 0: it depends on the direction */
+	double scale;      /* the same, by the map */
 	bool mirrors;
 } change;
 
 static mr_affine
-inverse(const mr_affine *t, const mr_mat3 *inverse_transposed)
+inverse(const mr_affine *t, const mr_mat3 *inverse_transposed, int exponent)
 {
-	const double *r = inverse_transposed->m;
-	mr_affine i = { { r[0], r[3], r[6], 0, r[1], r[4], r[7], 0, r[2], r[5], r[8], 0 } };
-	mr_v3 shift = mr_apply(&i, mr_vec(t->m[3], t->m[7], t->m[11]));
+	mr_affine i = mr_identity();
+	mr_v3 shift;
 
+	for (int k = 0; k < 9; k++)
+		i.m[4 * (k % 3) + k / 3] = ldexp(inverse_transposed->m[k], -exponent);
+	shift = mr_apply(&i, mr_vec(t->m[3], t->m[7], t->m[11]));
 	i.m[3] = -shift.x;
 	i.m[7] = -shift.y;
 	i.m[11] = -shift.z;
@@ -220,11 +241,16 @@ inverse(const mr_affine *t, const mr_mat3 *inverse_transposed)
 static change
 change_of(const mr_affine *map)
 {
-	mr_mat3 l = mr_affine_linear(map), square = mr_mat3_multiply_transposed(&l, &l);
-	const double *m = l.m;
-	double det = mr_mat3_determinant(&l), s = cube_root(fabs(det)), off = 0;
-	change c = { .map = *map, .mirrors = det < 0 };
+	change c = { .map = *map };
+	double det, s, off = 0;
+	mr_mat3 square;
+	const double *m = c.unit.m;
 
+	c.unit = unit_of(map, &c.exponent);
+	square = mr_mat3_multiply_transposed(&c.unit, &c.unit);
+	det = mr_mat3_determinant(&c.unit);
+	s = cube_root(fabs(det));
+	c.mirrors = det < 0;
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 3; j++) {
 			int a = (i + 1) % 3, b = (i + 2) % 3, d = (j + 1) % 3, e = (j + 2) % 3;
@@ -232,8 +258,9 @@ change_of(const mr_affine *map)
 			                        det;
 			off = fmax(off, fabs(square.m[3 * i + j] - (i == j ? s * s : 0)));
 		}
-	c.back = inverse(map, &c.normal);
-	c.scale = off <= 1e-9 * s * s ? s : 0;
+	c.back = inverse(map, &c.normal, c.exponent);
+	c.unit_scale = off <= 1e-9 * s * s ? s : 0;
+	c.scale = ldexp(c.unit_scale, c.exponent);
 	return c;
 }
 
@@ -359,9 +386,7 @@ map_responses(const change *c, double *r, size_t rows)
 static mr_v3
 map_turn(const change *c, mr_v3 turn)
 {
-	mr_mat3 l = mr_affine_linear(&c->map);
-
-	return mr_mul((c->mirrors ? -1 : 1) / c->scale, mr_mat3_apply(&l, turn));
+	return mr_mul((c->mirrors ? -1 : 1) / c->unit_scale, mr_mat3_apply(&c->unit, turn));
 }
 
 /* M T M^-1 = I + L (T - I) M^-1, so that what stays at rest does so to the bit. */
@@ -405,6 +430,43 @@ map_values(const change *c, column_sort sort, double *x, size_t rows, size_t com
 		map_responses(c, x, n / 4);
 }
 
+static double
+largest_of(const mr_box *box)
+{
+	return fmax(fmax(-box->min.x, fmax(-box->min.y, -box->min.z)),
+	    fmax(box->max.x, fmax(box->max.y, box->max.z)));
+}
+
+/* How far apart doubles of about the size of a box's coordinates are. */
+static double
+grain_of(const mr_box *box)
+{
+	double largest = largest_of(box);
+
+	return nextafter(largest, INFINITY) - largest;
+}
+
+/* Far from the origin, or near 0, doubles are too coarse for a model that is small there. */
+static void
+warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr_v3 *mapped)
+{
+	const double share = 1e-7; /* of the diagonal, as of what is written in float32 */
+	size_t n = (size_t)column->rows;
+	const mr_v3 *p = column->data;
+	mr_box before = mr_box_of(p, n), after = mr_box_of(mapped, n), turned = mr_box_empty();
+	double old, off;
+
+	for (size_t i = 0; i < n; i++)
+		mr_box_add(&turned, mr_mat3_apply(&c->unit, mr_sub(p[i], p[0])));
+	old = grain_of(&before) / mr_dist(before.min, before.max);
+	off = ldexp(grain_of(&after), -c->exponent) / mr_dist(turned.min, turned.max);
+	if (off > share && off > 4 * old && !isnan(old))
+		mr_warn(ctx,
+		    "%s: positions are rounded by up to %.2g of the diagonal: doubles are too coarse for "
+		    "this model %s",
+		    column->layer, off, largest_of(&after) < 1e-292 ? "so near 0" : "so far from the origin");
+}
+
 static mr_status
 map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_sort sort)
 {
@@ -426,6 +488,8 @@ map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_
 		if (!mr_finite(((const mr_v3 *)x)[i]))
 			return mr_fail(ctx, MR_ERANGE, "%s: %s %zu is mapped to infinity", column->layer,
 			    column->name, i);
+	if (!strcmp(column->name, "position"))
+		warn_of_rounding(ctx, c, column, x);
 	return mr_frame_put(ctx, f, column->layer, column->name, column->shape, x, rows);
 }
 
@@ -447,7 +511,7 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 		if ((layer && strcmp(layer, column->layer)) || i == sizeof sorts / sizeof *sorts ||
 		    !sorts[i].alike)
 			continue;
-		if (c->scale == 0)
+		if (c->unit_scale == 0)
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: %s cannot be stretched in one direction more than in another: do that "
 			    "before "
@@ -502,7 +566,7 @@ mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map
 		size_t sort = sort_of(column);
 		if (sort == sizeof sorts / sizeof *sorts || (layer && strcmp(layer, column->layer)))
 			continue;
-		if (!(c.scale > 0) && is_sampling(column->name)) {
+		if (!(c.unit_scale > 0) && is_sampling(column->name)) {
 			char of[MR_LAYER_MAX + 1];
 			memcpy(of, column->layer, sizeof of);
 			mr_frame_drop(f, of, column->name, 0);

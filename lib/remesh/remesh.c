@@ -319,6 +319,10 @@ check_demand(remesher *r)
 	r->changes.most = (size_t)most;
 	if (faces <= most)
 		return MR_OK;
+	if (!isfinite(faces))
+		return mr_fail(r->ctx, MR_ERANGE,
+		    "%s: edges of length %g take more faces than can be counted", r->source.m->name,
+		    r->source.uniform);
 	return mr_too_fine(r->ctx, &r->source, faces, most, r->source.uniform * factor_for(n, most));
 }
 

@@ -50,3 +50,7 @@ echo 'not a manifold'
 printf 'OFF\n5 3 0\n0 0 0\n1 0 0\n0 1 0\n0 -1 0\n0 0 1\n3 0 1 2\n3 1 0 3\n3 0 1 4\n' >fan.off
 mr-import fan.off | mr-remesh >out.mrs
 echo $?
+
+echo 'nor one whose faces no number counts'
+mr-make sphere -n 500 | mr-remesh -L 1e-300 >out.mrs
+echo $?

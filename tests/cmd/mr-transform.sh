@@ -81,3 +81,27 @@ refused --scale 1,2,1 levels.mrs
 refused --scale -1 levels.mrs
 refused -l mesh --scale 2 posed.mrs
 refused -l nowhere --scale 2 model.mrs
+
+echo 'scales whose cube no number holds: normals, spacing and handles follow'
+mr-make sphere -n 200 | mr-normals | mr-select --free all --handle 0=above:y,0.8 | mr-pose --rotate 0,0,1,30 --translate 0,1,0 -o turned.mrs
+mr-make sphere --points 300 | mr-shrinkwrap -q -o wrap.mrs
+there_and_back() { # there, back, stream
+	mr-transform --scale "$1" "$3" | mr-transform --scale "$2" -o back.mrs
+	python3 - "$1" "$3" <<'END'
+import re, struct, sys
+values = lambda head, data: struct.unpack("<%dd" % (len(data) // 8), data) if head[41:42] == b"d" else data  # where -0 is 0
+columns = lambda data: {data[i:i + 40]: values(data[i:], data[i + 64:i + 64 + int.from_bytes(data[i + 56:i + 64], "little")]) for i in range(0, len(data), 64)
+                        if re.match(rb"(mesh|control|points|handles)\0", data[i:i + 40])}
+a, b = columns(open(sys.argv[2], "rb").read()), columns(open("back.mrs", "rb").read())
+assert a.keys() == b.keys() and len(a) >= 4
+print(float(sys.argv[1]).hex(), [key[16:].rstrip(b"\0").decode() for key in a if a[key] != b[key]] or "the same")
+END
+}
+for stream in turned.mrs wrap.mrs; do
+	there_and_back 1.3064201766302604e-200 7.654505172902098e+199 $stream
+	there_and_back 7.654505172902098e+199 1.3064201766302604e-200 $stream
+done
+echo 'doubles that are too coarse'
+refused --translate 1e12,0,0 model.mrs
+refused --scale 1e-317 model.mrs
+refused --translate 1e3,0,0 model.mrs
