@@ -39,16 +39,26 @@ struct cmd_state {
 	double started, shown; /* when the frame began; when progress was last shown, 0: never */
 };
 
+/* Control characters would break the line, or talk to the terminal: they become '?'. */
+static void
+make_line(char *text)
+{
+	for (; *text; text++)
+		if ((unsigned char)*text < ' ' || *text == 127)
+			*text = '?';
+}
+
 static void
 say(const cmd *c, const char *format, ...)
 {
+	char sentence[2 * MR_ERROR_MAX];
 	va_list args;
 
-	fprintf(stderr, "%s: ", c->name);
 	va_start(args, format);
-	vfprintf(stderr, format, args);
+	vsnprintf(sentence, sizeof sentence, format, args);
 	va_end(args);
-	fputc('\n', stderr);
+	make_line(sentence);
+	fprintf(stderr, "%s: %s\n", c->name, sentence);
 }
 
 static void
@@ -194,15 +204,6 @@ append_word(mr_text *line, const char *word)
 	mr_text_add(line, quote ? " '%s'" : " %s", word);
 }
 
-/* Control characters would break the line: they become '?'. */
-static void
-make_line(char *text)
-{
-	for (; *text; text++)
-		if ((unsigned char)*text < ' ' || *text == 127)
-			*text = '?';
-}
-
 /*
  * "mr 1.0: mr-smooth -t 20 -l mesh".  Other options that all tools share stay out of it: they
  * do not change the result, and -j must not change a byte.  Every key frame has the line: of many names, and
@@ -292,8 +293,10 @@ parse_command_line(cmd *c, int argc, char **argv)
 		print_help(c, heeded);
 	else if (s->version)
 		printf("%s (mr) %s\n", c->name, MR_VERSION);
+	if ((s->help || s->version) && (fflush(stdout) || ferror(stdout)))
+		die(c, fail_system(c, "stdout"));
 	if (s->help || s->version)
-		exit(fflush(stdout) || ferror(stdout) ? EXIT_DATA : EXIT_GOOD);
+		exit(EXIT_GOOD);
 	try(c, cmd_parse(&c->ctx, argc, argv, tables, &s->args));
 	if (c->layer && !*c->layer) /* what else it may be is the tool's: of one it is a list */
 		try(c, cmd_layer_name(c, "--layer", c->layer));
@@ -347,6 +350,8 @@ open_output(cmd *c)
 	s->out = STDOUT_FILENO;
 	if (!c->output || is_dash(c->output) || place_is(STDOUT_FILENO, c->output))
 		return;
+	if (!*c->output)
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--output: a file without a name"));
 	try(c, mr_outfile_open(&c->ctx, c->output, &s->output_file));
 	s->out = s->output_file.fd;
 }

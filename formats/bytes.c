@@ -124,6 +124,8 @@ map_all(int fd, mr_file_bytes *b)
 	map = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
 	if (map == MAP_FAILED)
 		return false;
+	if (fd == STDIN_FILENO) /* as if it were read, for whoever reads on */
+		lseek(fd, 0, SEEK_END);
 	*b = (mr_file_bytes){ .data = (unsigned char *)map + here,
 		.size = size - (size_t)here,
 		.map = map,

@@ -204,6 +204,56 @@ read_head(table *t)
 	return MR_OK;
 }
 
+/* A word "1,5" of words that blanks or semicolons part: two numbers, or one with a decimal comma.  NULL:
+ * none. */
+static const char *
+decimal_comma(mr_scan line)
+{
+	const char *found = NULL;
+	size_t words = 0;
+
+	while (line.p < line.end && *line.p != '#') {
+		const char *w = line.p, *comma = NULL;
+		for (; line.p < line.end && !mr_is_blank(*line.p) && *line.p != ';'; line.p++)
+			if (*line.p == ',' && comma)
+				return NULL;
+			else if (*line.p == ',')
+				comma = line.p;
+		if (comma && (comma == w || comma + 1 == line.p || memchr(w, '.', (size_t)(comma - w))))
+			return NULL;
+		found = !found && comma ? w : found;
+		words += line.p > w;
+		line.p += line.p < line.end && *line.p != '#';
+	}
+	return words > 1 ? found : NULL;
+}
+
+/* What is told of the columns by the first row. */
+static mr_status
+begin_rows(table *t, const mr_scan *row, size_t n)
+{
+	const char *comma = decimal_comma(*row), *e;
+	char shown[MR_SHOWN];
+
+	t->first_row = row->p;
+	if (comma) {
+		for (e = comma; e < row->end && !mr_is_blank(*e) && *e != ';'; e++)
+			;
+		return mr_scan_fail(&t->text, comma,
+		    "'%s' is two numbers, or one with a comma for a point: write a point, or commas between "
+		    "all",
+		    mr_word_shown(comma, (size_t)(e - comma), shown));
+	}
+	if (n < 3)
+		return mr_scan_fail(&t->text, row->p, "%zu columns, where a point has 3 at least", n);
+	if (t->in_comment && n != t->columns)
+		t->named = false;
+	if (t->named && n != t->columns)
+		return mr_scan_fail(&t->text, row->p, "%zu columns, where %zu are named", n, t->columns);
+	t->columns = n;
+	return MR_OK;
+}
+
 /* Looks at all rows: how many, of how many columns, and which could be colours. */
 static mr_status
 survey(table *t)
@@ -215,22 +265,12 @@ survey(table *t)
 	for (size_t i = 0; i < COLUMNS; i++)
 		t->byte[i] = true;
 	while (next_row(&text, &line)) {
-		const char *where = line.p;
+		const mr_scan row = line;
 		MR_TRY(row_values(t, &line, x, &n));
-		if (t->rows == 0) {
-			t->first_row = where;
-			if (n < 3)
-				return mr_scan_fail(
-				    &t->text, where, "%zu columns, where a point has 3 at least", n);
-			if (t->in_comment && n != t->columns)
-				t->named = false;
-			if (t->named && n != t->columns)
-				return mr_scan_fail(
-				    &t->text, where, "%zu columns, where %zu are named", n, t->columns);
-			t->columns = n;
-		}
+		if (t->rows == 0)
+			MR_TRY(begin_rows(t, &row, n));
 		if (n != t->columns)
-			return mr_scan_fail(&t->text, where, "%zu columns, where line %zu has %zu", n,
+			return mr_scan_fail(&t->text, row.p, "%zu columns, where line %zu has %zu", n,
 			    mr_line_number(&t->text, t->first_row), t->columns);
 		for (size_t i = 3; i < n; i++) {
 			t->byte[i] = t->byte[i] && x[i] >= 0 && x[i] <= 255 && x[i] == floor(x[i]);

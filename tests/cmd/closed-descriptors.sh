@@ -15,3 +15,10 @@ for tool in export info render compare; do
 	mr-$tool out.obj <&- >&- 2>&-
 	echo "mr-$tool: exit $?"
 done
+echo 'help that cannot be written, and a file without a name'
+mr-make --help >/dev/full
+echo $?
+mr-make -o '' cube
+echo $?
+mr-info -o '' open.mrs
+echo $?

@@ -32,6 +32,11 @@ refuse 'solid a\nendsolid a\n'
 refuse '0 0 0\n1 2\n'
 refuse '7\n0 0 0\n1 2 3\n'
 refuse '0 0 0\n0 0 inf\n'
+refuse '1,5 2,5 3,5\n4,5 5,5 6,5\n'
+refuse 'x;y;z\n1;2;3,5\n'
+refuse '2\n1,000.5 2,000.5 3,000.5\n1 2 3\n'
+printf '1,2,3 4,5,6\n7,8,9 0,1,0\n' | mr-import | mr-export -f xyz -
+printf '1.5,2.5;3\n1, 2, 3\n' | mr-import | mr-export -f xyz -
 printf '\037\213\010\0' >file
 mr-import file
 echo $?
@@ -52,3 +57,11 @@ endless -f obj /dev/zero
 { printf 'ply\n'; cat /dev/zero; } | head -c 20000000 | endless
 mr-make sphere -n 400000 | mr-export -f stl - >big.stl
 cat big.stl | mr-import | mr-info --no-intersections | grep vertices
+
+echo 'control characters of a name stay out of the sentence' >&2
+mr-import "$(printf 'a\nb\033[31m.obj')"
+echo 'what was read of a file by stdin is read' >&2
+printf '0 0 0\n1 2 3\n' >points
+mr-import -f xyz - - <points >out.mrs
+echo $?
+{ mr-import -f xyz - >out.mrs; wc -c; } <points
