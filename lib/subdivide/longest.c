@@ -122,12 +122,13 @@ most_triangles(const pass *s)
 static mr_status
 check_size(pass *s)
 {
-	double asked = s->length, most = most_triangles(s), now = most;
+	double asked = s->length, most, now, longest = 0;
 
-	while (!(now <= MR_LONGEST_MOST)) {
+	for (uint32_t h = 0; h < 3 * s->m.nf; h++)
+		longest = fmax(longest, length_of(s, h));
+	s->length = fmax(s->length, 1e-12 * longest); /* which is too many, and can be counted */
+	for (most = now = most_triangles(s); !(now <= MR_LONGEST_MOST); now = most_triangles(s))
 		s->length *= 1.25;
-		now = most_triangles(s);
-	}
 	if (s->length != asked)
 		return mr_fail(s->ctx, MR_ERANGE,
 		    "edges of %g at most may take %.3g triangles, more than %d: a length of %.3g does not",

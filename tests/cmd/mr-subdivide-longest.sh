@@ -27,7 +27,7 @@ X
 mr-import sliver.obj | mr-subdivide --longest 2.1 | mr-export -f obj -
 
 echo refusals
-for options in '--longest 1e-9' '--longest -1' '--longest x' '--longest 1 -n 2' '--longest 1 --limit' '--longest 1 --crease 30'; do
+for options in '--longest 1e-9' '--longest 5e-324' '--longest -1' '--longest x' '--longest 1 -n 2' '--longest 1 --limit' '--longest 1 --crease 30'; do
 	mr-subdivide $options cube.mrs >out 2>err
 	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
 done
