@@ -63,6 +63,23 @@ mr_text_json(mr_text *t, const char *s, size_t n)
 }
 
 void
+mr_text_line(mr_text *t, const char *s, size_t n)
+{
+	const unsigned char *p = (const unsigned char *)s;
+	uint32_t code;
+
+	for (size_t i = 0, length; i < n; i += length) {
+		length = mr_utf8(p + i, n - i, &code);
+		if (length == 0 || mr_is_control(code)) {
+			add_bytes(t, "?", 1);
+			length = length ? length : 1;
+		} else {
+			add_bytes(t, s + i, length);
+		}
+	}
+}
+
+void
 mr_text_number(mr_text *t, double x)
 {
 	if (isfinite(x))

@@ -22,6 +22,9 @@ void mr_text_add(mr_text *t, const char *format, ...) MR_PRINTF(2, 3);
 /* Appends n bytes as a JSON string, quotes and all; bytes that are not UTF-8 become U+FFFD. */
 void mr_text_json(mr_text *t, const char *s, size_t n);
 
+/* Appends n bytes for people to read in a line: what is not UTF-8, and control characters, become '?'. */
+void mr_text_line(mr_text *t, const char *s, size_t n);
+
 /* Appends a number with all its digits, or null where it is not finite. */
 void mr_text_number(mr_text *t, double x);
 

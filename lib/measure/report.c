@@ -216,7 +216,9 @@ report_history(const report *r)
 			mr_text_add(r->t, first ? "" : ",");
 			mr_text_json(r->t, s, length);
 		} else {
-			mr_text_add(r->t, "  %-16s %.*s\n", first ? "history" : "", (int)length, s);
+			mr_text_add(r->t, "  %-16s ", first ? "history" : "");
+			mr_text_line(r->t, s, length);
+			mr_text_add(r->t, "\n");
 		}
 		s += length + (stop != NULL);
 	}
