@@ -119,8 +119,9 @@ mr_format_stem(mr_ctx *ctx, const char *path)
 			break;
 		}
 	name = mr_alloc(ctx, bytes + 1, 1);
-	if (name && mr_clean_name(name, file, bytes, true) == 0)
-		return "model";
+	if (name &&
+	    (mr_clean_name(name, file, bytes, true) == 0 || !strcmp(name, ".") || !strcmp(name, "..")))
+		return "model"; /* no frame can be called so */
 	return name;
 }
 

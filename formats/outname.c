@@ -59,6 +59,8 @@ mr_outname(mr_ctx *ctx, const char *pattern, const char *frame, uint64_t number,
 			    ctx, MR_EUSAGE, "%s: only %%s, %%d, %%03d and %%%% are known in a name", pattern);
 		}
 	}
+	if (made && !strcmp(made, "-") && strcmp(pattern, "-") != 0)
+		made = mr_format(ctx, "./-"); /* a frame of that name is no standard output */
 	if (!made)
 		return MR_EMEM;
 	*name = made;

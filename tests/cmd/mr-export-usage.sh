@@ -20,3 +20,10 @@ mr-cat cube.mrs cube.mrs | mr-export 'name-%s.obj'
 echo "exit $?" >&2
 mr-cat cube.mrs cube.mrs | mr-export 'name-%s-%d.obj'
 ls name-*
+echo '-- frames with odd names' >&2
+mkdir odd && cd odd || exit
+for name in - . ..; do
+	mr-export -f obj -i ../cube.mrs - >"$name.obj"
+	mr-import "./$name.obj" | mr-export -f off %s
+done
+ls -A
