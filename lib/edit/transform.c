@@ -486,8 +486,9 @@ map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_
 		map_values(c, sort, x, rows, components);
 	for (size_t i = 0; sort == POSITIONS && i < rows; i++)
 		if (!mr_finite(((const mr_v3 *)x)[i]))
-			return mr_fail(ctx, MR_ERANGE, "%s: %s %zu is mapped to infinity", column->layer,
-			    column->name, i);
+			return mr_fail(ctx, MR_ERANGE, "%s: %s %zu is %s", column->layer, column->name, i,
+			    mr_finite(((const mr_v3 *)column->data)[i]) ? "mapped to infinity"
+									: "not finite");
 	if (!strcmp(column->name, "position"))
 		warn_of_rounding(ctx, c, column, x);
 	return mr_frame_put(ctx, f, column->layer, column->name, column->shape, x, rows);
