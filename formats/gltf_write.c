@@ -2,6 +2,7 @@
  * GLB, written: a node with a mesh for each object of each layer, a primitive for each of its materials, and
  * poses as morph targets that an animation shows one after the other.
  */
+#include "base/text.h"
 #include "formats/gltf.h"
 #include "formats/gltf_sets.h"
 #include "formats/image.h"
@@ -820,21 +821,26 @@ put_chunks(glb *w, const char *json)
 	return MR_OK;
 }
 
+static int
+add_text(const char *s, size_t n, void *text)
+{
+	mr_text_add(text, "%.*s", (int)n, s);
+	return 0;
+}
+
+/* Into a text of ours: json_dumps leaves out a key for which it has no memory, and says that all is well. */
 static mr_status
 put_document(glb *w)
 {
-	mr_status status;
-	char *json;
+	mr_text json = { .ctx = w->ctx };
 
 	MR_TRY(put_scene(w));
 	put_root(w);
 	put_lists(w);
-	json = w->failed ? NULL : json_dumps(w->root, JSON_COMPACT);
-	if (!json)
+	if (w->failed || json_dump_callback(w->root, add_text, &json, JSON_COMPACT))
 		return mr_fail(w->ctx, MR_EMEM, "no memory for the JSON of a glb");
-	status = put_chunks(w, json);
-	free(json);
-	return status;
+	MR_TRY(mr_text_done(&json));
+	return put_chunks(w, json.s);
 }
 
 mr_status

@@ -29,3 +29,9 @@ scaled() { # factor: what mr-fit makes of the torus, scaled before and back afte
 }
 scaled 1 >one.txt
 scaled 1024 | cmp - one.txt && echo ok
+
+echo 'a vertex of too many neighbours is refused'
+awk 'BEGIN { n = 1000; print "OFF"; print n + 1, n, 0; print 0, 0, 1; for (i = 0; i < n; i++) print cos(i * 6.2831853 / n), sin(i * 6.2831853 / n), 0
+	for (i = 0; i < n; i++) print 3, 0, 1 + i, 1 + (i + 1) % n }' | mr-import -l control -o fan.mrs
+mr-make sphere --points 100 -o few.mrs
+mr-cat --merge fan.mrs few.mrs | mr-fit 2>&1 >out.mrs
