@@ -247,6 +247,65 @@ test_results_agree_with_measures(void **state)
 	mr_ctx_delete(ctx);
 }
 
+/* What is kept is above, and all of it; rules that keep nothing or are none are refused. */
+static void
+test_crop_keeps_what_is_chosen(void **state)
+{
+	static const mr_rule upper = { MR_REGION_FREE, "above:y,0.5" }, none = { MR_REGION_FIXED, "all" };
+	mr_ctx *ctx = context();
+	mr_frame *f = creature(ctx);
+	mr_crop_result r;
+	double low = INFINITY, high = -INFINITY;
+	size_t n, left, above = 0;
+	mr_v3 *p = positions(ctx, f, &n), *q;
+
+	(void)state;
+	for (size_t v = 0; v < n; v++) {
+		low = fmin(low, p[v].y);
+		high = fmax(high, p[v].y);
+	}
+	for (size_t v = 0; v < n; v++)
+		above += p[v].y >= (low + high) / 2;
+	assert_int_equal(mr_crop_frame(ctx, f, NULL, NULL, 0, &r), MR_EUSAGE);
+	assert_int_equal(mr_crop_frame(ctx, f, NULL, &none, 1, &r), MR_EMESH);
+	assert_int_equal(mr_crop_frame(ctx, f, NULL, &upper, 1, &r), MR_OK);
+	q = positions(ctx, f, &left);
+	assert_int_equal(left, r.vertices);
+	assert_int_equal(left + r.vertices_dropped, n);
+	assert_true(left <= above && left > above * 9 / 10); /* but for those without a face that is left */
+	for (size_t v = 0; v < left; v++)
+		assert_true(q[v].y >= (low + high) / 2);
+	mr_ctx_delete(ctx);
+}
+
+/* Columns that another program put and that do not fit what they stand beside. */
+static void
+test_columns_that_do_not_fit_are_refused(void **state)
+{
+	static const mr_shape place = { 'v', 'd', 3 };
+	mr_ctx *ctx = context();
+	mr_pose pose = MR_POSE_REST;
+	mr_frame *f = creature(ctx);
+	mr_mesh base;
+	mr_v3 *target;
+
+	(void)state;
+	prepare(ctx, f, false);
+	assert_int_equal(mr_layer_mesh(ctx, f, "base", &base), MR_OK);
+	target = MR_NEW(ctx, base.nv, mr_v3);
+	assert_non_null(target);
+	memcpy(target, base.p, base.nv * sizeof *target);
+	target[7].z = NAN;
+	assert_int_equal(mr_frame_put(ctx, f, "base", "target", place, target, base.nv), MR_OK);
+	assert_int_equal(mr_solve_frame(ctx, f, NULL, NULL, NULL), MR_ERANGE);
+	assert_string_equal(mr_error(ctx), "base: target 7 is not finite");
+	target[7].z = 0;
+	assert_int_equal(mr_pose_frame(ctx, f, NULL, 0, &pose), MR_OK);
+	assert_int_equal(mr_solve_frame(ctx, f, NULL, NULL, NULL), MR_EMESH);
+	assert_non_null(strstr(mr_error(ctx), "there are handles too"));
+	mr_ctx_delete(ctx);
+}
+
 int
 main(void)
 {
@@ -254,7 +313,9 @@ main(void)
 		cmocka_unit_test(test_other_triangles_are_refused),
 		cmocka_unit_test(test_cache_changes_nothing),
 		cmocka_unit_test(test_sentences_notes_and_columns), cmocka_unit_test(test_wrong_options),
-		cmocka_unit_test(test_results_agree_with_measures) };
+		cmocka_unit_test(test_results_agree_with_measures),
+		cmocka_unit_test(test_crop_keeps_what_is_chosen),
+		cmocka_unit_test(test_columns_that_do_not_fit_are_refused) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);
