@@ -35,3 +35,4 @@ awk 'BEGIN { n = 1000; print "OFF"; print n + 1, n, 0; print 0, 0, 1; for (i = 0
 	for (i = 0; i < n; i++) print 3, 0, 1 + i, 1 + (i + 1) % n }' | mr-import -l control -o fan.mrs
 mr-make sphere --points 100 -o few.mrs
 mr-cat --merge fan.mrs few.mrs | mr-fit 2>&1 >out.mrs
+echo "exit $?"
