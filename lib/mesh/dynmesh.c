@@ -18,7 +18,7 @@ unsigned
 mr_dyn_along(const mr_dyn *d, uint32_t v, uint32_t end[2])
 {
 	uint32_t h = d->out[v];
-	unsigned n = 0;
+	unsigned n = 0, most = d->kind[v] == MR_CURVE ? 2 : MR_NONE; /* a curve vertex has two */
 
 	do {
 		uint32_t p = mr_he_prev(h);
@@ -27,7 +27,7 @@ mr_dyn_along(const mr_dyn *d, uint32_t v, uint32_t end[2])
 		if (d->twin[p] == MR_NONE && n++ < 2)
 			end[n - 1] = d->v[p];
 		h = d->twin[p];
-	} while (h != MR_NONE && h != d->out[v]);
+	} while (n < most && h != MR_NONE && h != d->out[v]);
 	return n;
 }
 

@@ -59,18 +59,62 @@ regularize(remesher *r, unsigned reach)
 	return MR_OK;
 }
 
-/* At most `area_passes` passes of area-based smoothing; flips and projection keep up with it. */
+/* Variance over squared mean of the areas of the inner vertices, in units of their squared lengths. */
+static mr_status
+area_variance(remesher *r, double *variance)
+{
+	const mr_dyn *d = &r->d;
+	mr_mark mark = mr_mark_take(r->ctx);
+	double *area, sum = 0, squares = 0, n = 0;
+
+	area = MR_NEW(r->ctx, d->nv, double);
+	if (!area)
+		return MR_EMEM;
+	MR_TRY(mr_dyn_areas(r->ctx, d, r->source.uniform, area));
+	for (uint32_t v = 0; v < d->nv; v++)
+		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
+			double a = area[v] / square(mr_remesh_length(&r->source, d, v) / r->source.uniform);
+			sum += a;
+			squares += a * a;
+			n++;
+		}
+	*variance = sum > 0 ? n * squares / (sum * sum) - 1 : 0;
+	mr_mark_release(r->ctx, mark);
+	return MR_OK;
+}
+
+/*
+ * True where the areas have not become evener by a hundredth.  Rounds on the noisy surface of a CT scan split
+ * and merge a fifth of the vertices to and fro, and leave them less even from the third on, and where they
+ * are held by its sharp edges area passes change nothing after the tenth; clean models gain 2 % in each.
+ */
+static bool
+is_still(double before, double after)
+{
+	const double GAIN = 0.01;
+
+	return after > (1 - GAIN) * before;
+}
+
+/* Passes of area-based smoothing, as many as are wanted or even anything out; flips and projection keep up
+ * with it. */
 static mr_status
 equalize_areas(remesher *r)
 {
 	enum { EVERY = 5 };
 	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity, .project = r->o->project };
 
+	MR_TRY(area_variance(r, &r->variance[0]));
+	r->variance[1] = r->variance[0];
 	for (size_t left = r->o->area_passes; left > 0; left -= o.passes) {
+		double before = r->variance[1];
 		o.passes = left < EVERY ? left : EVERY;
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 		if (o.passes == EVERY)
 			MR_TRY(regularize(r, 0));
+		MR_TRY(area_variance(r, &r->variance[1]));
+		if (is_still(before, r->variance[1]))
+			break;
 	}
 	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
 }
@@ -121,32 +165,6 @@ one_round(remesher *r, bool first)
 	MR_TRY(regularize(r, REACH));
 	MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
-}
-
-/* Variance over squared mean of the areas of the inner vertices, in units of their squared lengths. */
-static mr_status
-area_variance(remesher *r, double *variance)
-{
-	const mr_dyn *d = &r->d;
-	mr_mark mark = mr_mark_take(r->ctx);
-	double *area, sum = 0, squares = 0, n = 0;
-
-	if (!r->wanted)
-		return MR_OK;
-	area = MR_NEW(r->ctx, d->nv, double);
-	if (!area)
-		return MR_EMEM;
-	MR_TRY(mr_dyn_areas(r->ctx, d, r->source.uniform, area));
-	for (uint32_t v = 0; v < d->nv; v++)
-		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
-			double a = area[v] / square(mr_remesh_length(&r->source, d, v) / r->source.uniform);
-			sum += a;
-			squares += a * a;
-			n++;
-		}
-	*variance = sum > 0 ? n * squares / (sum * sum) - 1 : 0;
-	mr_mark_release(r->ctx, mark);
-	return MR_OK;
 }
 
 static size_t
@@ -329,7 +347,10 @@ check_demand(remesher *r)
 static mr_status
 run(remesher *r)
 {
-	double start = mr_seconds(), middle;
+	enum {
+		SETTLED = 2
+	}; /* the rounds before make the density what it is to be, which may be less even */
+	double start = mr_seconds(), middle, before = INFINITY, after;
 	size_t rounds = r->o->rounds;
 
 	if (rounds > 0)
@@ -340,6 +361,10 @@ run(remesher *r)
 			lengthen(r, i < r->o->rounds ? sqrt(excess(r)) : excess(r));
 		MR_TRY(one_round(r, i == 0));
 		mr_refine_grade(&r->d, &r->source);
+		MR_TRY(area_variance(r, &after));
+		if (i >= SETTLED && is_still(before, after) && !misses(excess(r)))
+			rounds = i + 1;
+		before = after;
 		if (i + 1 == rounds && misses(excess(r)) && rounds < 2 * r->o->rounds)
 			rounds++; /* it was far more, or is thinner than its edges */
 		if (i == 0 || i + 1 == rounds || is_untidy(r))
@@ -348,9 +373,7 @@ run(remesher *r)
 	}
 	middle = mr_seconds();
 	r->seconds_rounds = middle - start;
-	MR_TRY(area_variance(r, &r->variance[0]));
 	MR_TRY(equalize_areas(r));
-	MR_TRY(area_variance(r, &r->variance[1]));
 	r->seconds_areas = mr_seconds() - middle;
 	return MR_OK;
 }

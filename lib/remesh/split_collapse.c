@@ -14,6 +14,7 @@ static const double LONG = 4.0 / 3, SHORT = 4.0 / 5;
  * Beyond the paper: a strained lattice (a grid of right angles, say) has valence 6 everywhere and no edge
  * beyond those thresholds, so nothing would move it.  Its strain shows in the angles opposite its edges:
  * edges longer or shorter than these are split or merged too where both angles are that far from 60.
+ * Beside a curve the angles are what that makes them: there each round would split what the last one merged.
  */
 static const double STRETCHED = 1.05, SQUEEZED = 0.95;
 /* Shape of a face so thin that its normal is rounding. */
@@ -111,6 +112,15 @@ opposite_cosine(const mr_dyn *d, uint32_t h)
 	return mr_dot(a, b) / sqrt(mr_norm2(a) * mr_norm2(b));
 }
 
+/* True where neither h's edge nor what is opposite to it is on a curve. */
+static bool
+is_inside(const mr_dyn *d, uint32_t h)
+{
+	return d->twin[h] != MR_NONE && d->kind[d->v[h]] != MR_CURVE &&
+	       d->kind[mr_dyn_to(d, h)] != MR_CURVE && d->kind[mr_dyn_apex(d, h)] != MR_CURVE &&
+	       d->kind[mr_dyn_apex(d, d->twin[h])] != MR_CURVE;
+}
+
 static bool
 too_long(const resampler *r, uint32_t h)
 {
@@ -119,7 +129,7 @@ too_long(const resampler *r, uint32_t h)
 
 	if (l2 > square(LONG * l))
 		return true;
-	return l2 > square(STRETCHED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) < WIDE &&
+	return l2 > square(STRETCHED * l) && is_inside(d, h) && opposite_cosine(d, h) < WIDE &&
 	       opposite_cosine(d, d->twin[h]) < WIDE;
 }
 
@@ -131,7 +141,7 @@ too_short(const resampler *r, uint32_t h)
 
 	if (l2 < square(SHORT * l))
 		return true;
-	return l2 < square(SQUEEZED * l) && d->twin[h] != MR_NONE && opposite_cosine(d, h) > NARROW &&
+	return l2 < square(SQUEEZED * l) && is_inside(d, h) && opposite_cosine(d, h) > NARROW &&
 	       opposite_cosine(d, d->twin[h]) > NARROW;
 }
 
@@ -334,18 +344,29 @@ move_is_good(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, mr_v3 facing, 
 	return true;
 }
 
+/* How long an edge may be, by how many times its target, that a merge with the limit `longest2` leaves at v:
+ * no longer than v's own target allows, or the next round splits what this one merged. */
+static double
+longest_at(const resampler *r, uint32_t v, double slack, double longest2)
+{
+	if (!r->s->length)
+		return longest2;
+	return fmin(longest2, square(slack * mr_remesh_length(r->s, r->d, v)));
+}
+
 /* True where moving v to p makes an edge to a neighbour of it too long, as most merges that are refused
  * would: told without a normal. */
 static bool
-overreaches(const mr_dyn *d, uint32_t v, uint32_t gone, mr_v3 p, double longest2)
+overreaches(const resampler *r, uint32_t v, uint32_t gone, mr_v3 p, double slack, double longest2)
 {
+	const mr_dyn *d = r->d;
 	uint32_t h = d->out[v];
 	bool strung;
 
 	do {
 		uint32_t b = mr_dyn_to(d, h);
 		if (b != gone && mr_dyn_apex(d, h) != gone &&
-		    !length_is_good(d->p[b], d->p[v], p, longest2, &strung))
+		    !length_is_good(d->p[b], d->p[v], p, longest_at(r, b, slack, longest2), &strung))
 			return true;
 		h = mr_dyn_ccw(d, h);
 	} while (h != MR_NONE && h != d->out[v]);
@@ -409,10 +430,12 @@ cuts_curve(const mr_dyn *d, uint32_t a, uint32_t b, mr_v3 p)
 	return turns_sharply(d->p[x], p, d->p[y]) || makes_corner(d, y, b, p);
 }
 
+/* Merges the ends of h, if that makes no edge longer than `slack` times its target. */
 static bool
-try_collapse(resampler *r, uint32_t h, double longest2)
+try_collapse(resampler *r, uint32_t h, double slack)
 {
 	mr_dyn *d = r->d;
+	double longest2 = square(slack * target(r, h));
 	uint32_t a, b, at;
 	mr_v3 p, facing;
 	bool strung = false;
@@ -423,7 +446,7 @@ try_collapse(resampler *r, uint32_t h, double longest2)
 	b = mr_dyn_to(d, h);
 	if (d->kind[a] == MR_SMOOTH) {
 		p = merged_position(d, r->s, a, b, &at);
-		if (overreaches(d, a, b, p, longest2) || overreaches(d, b, a, p, longest2))
+		if (overreaches(r, a, b, p, slack, longest2) || overreaches(r, b, a, p, slack, longest2))
 			return false;
 	}
 	if (!mr_dyn_can_collapse(d, h, r->mark))
@@ -468,7 +491,7 @@ mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resample
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (may_be_due(&r, h) && is_edge(d, h) && too_short(&r, h)) {
 			size_t refused = done->refused;
-			if (!try_collapse(&r, h, square(LONG * target(&r, h))) && done->refused > refused)
+			if (!try_collapse(&r, h, LONG) && done->refused > refused)
 				mr_refine_edge(d, s, h);
 		}
 	mr_mark_release(ctx, mark);
@@ -489,7 +512,7 @@ collapse_a_side(resampler *r, uint32_t h)
 				side[j - 1] = swap;
 			}
 	for (int i = 0; i < 3; i++)
-		if (try_collapse(r, side[i], square(2 * target(r, side[i]))))
+		if (try_collapse(r, side[i], 2))
 			return true;
 	return false;
 }

@@ -38,6 +38,13 @@ for n in '--vertices 2000' '--faces 10000' '--vertices 5000 --adaptive 0.2%'; do
 		x = (word[1] == "--faces" ? f : v) / word[2]
 		print n ": " (x > 0.95 && x < 1.05 ? "ok" : x) }'
 done
+echo 'rounds end where they even out nothing any more'
+mr-make bumpy -n 3000 --noise .01 -o noisy.mrs
+for adaptive in 0 0.1%; do
+	for n in 50 100; do
+		mr-remesh --adaptive $adaptive -n $n --stats stats.json noisy.mrs >/dev/null && figure splits stats.json
+	done | uniq | wc -l
+done
 echo 'a length that takes too much is refused with one to take'
 mr-make sphere -n 500 | mr-remesh -L 1e-9 2>&1 >/dev/null | sed 's/where at most [^ ]* may be: take a length of [0-9.e-]*/where at most M may be: take a length of L/'
 printf 'OFF\n3 1 0\n0 0 0\n1e7 0 0\n0 1e-7 0\n3 0 1 2\n' >needle.off
