@@ -3,6 +3,7 @@
 #include "base/parallel.h"
 #include "formats/bytes.h"
 #include "formats/map.h"
+#include "formats/names.h"
 #include "formats/scan.h"
 #include "subdivide/atlas.h"
 
@@ -301,13 +302,17 @@ static mr_status
 put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
 {
 	uint32_t *material = MR_NEW_ZERO(ctx, a->faces, uint32_t);
-	const char *file = mr_format(ctx, "%s.mtl", name), *own = mr_format(ctx, "%s", name);
+	const char *file = mr_format(ctx, "%s.mtl", name);
+	mr_lines own, library;
+	size_t changed;
 
-	if (!material || !file || !own)
+	if (!material || !file)
 		return MR_EMEM;
+	MR_TRY(mr_names_escape(ctx, (mr_lines){ name, strlen(name) }, &own, &changed));
+	MR_TRY(mr_names_escape(ctx, (mr_lines){ file, strlen(file) }, &library, &changed));
 	MR_TRY(mr_layer_put(ctx, f, "control", "material", material, a->faces));
-	MR_TRY(mr_layer_put(ctx, f, "control", "materials", own, strlen(own)));
-	return mr_layer_put(ctx, f, "control", "mtllib", file, strlen(file));
+	MR_TRY(mr_layer_put(ctx, f, "control", "materials", own.text, own.bytes));
+	return mr_layer_put(ctx, f, "control", "mtllib", library.text, library.bytes);
 }
 
 /* ---- writing ---- */

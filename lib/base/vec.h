@@ -149,6 +149,14 @@ mr_compose(const mr_affine *a, const mr_affine *b)
 	return c;
 }
 
+/* `some` of the n points p, some <= n, at equal strides. */
+static inline void
+mr_at_strides(const mr_v3 *p, size_t n, size_t some, mr_v3 *q)
+{
+	for (size_t i = 0; i < some; i++)
+		q[i] = p[i * n / some];
+}
+
 static inline mr_box
 mr_box_empty(void)
 {

@@ -108,8 +108,7 @@ mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_
 
 	if (!p || !distance)
 		return MR_EMEM;
-	for (size_t i = 0; i < n; i++)
-		p[i] = cloud->p[i * cloud->n / n];
+	mr_at_strides(cloud->p, cloud->n, n, p);
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	mr_bvh_distances(ctx, bvh, p, n, distance);
 	gaps->points = mr_gap_of(distance, n);

@@ -55,8 +55,7 @@ count_points(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double
 
 	if (!nearest || !q)
 		return MR_EMEM;
-	for (size_t i = 0; i < some; i++)
-		q[i] = point[i * n / some];
+	mr_at_strides(point, n, some, q);
 	MR_TRY(mr_near_once(ctx, m->p, m->nv, q, some, 1, nearest, NULL));
 	for (size_t i = 0; i < some; i++)
 		count[nearest[i]]++;

@@ -21,7 +21,7 @@ mr_find_outliers(
 	}
 	if (*count > 0)
 		mr_warn(ctx,
-		    "%zu of %zu points are outliers, no nearer to the surface than to others: left out",
+		    "outliers, no nearer to the surface than to others, are left out: %zu of %zu points",
 		    *count, s->n);
 	return MR_OK;
 }

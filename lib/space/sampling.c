@@ -14,7 +14,14 @@
 #include "space/local_quadric.h"
 #include "space/near.h"
 
-enum { AROUND = 8, NEAREST = 16, NEAREST_NOISY = MR_QUADRIC_POINTS, SOME = 10007, CHUNK = 1 << 13, GRAIN = 256 };
+enum {
+	AROUND = 8,
+	NEAREST = 16,
+	NEAREST_NOISY = MR_QUADRIC_POINTS,
+	SOME = 10007,
+	CHUNK = 1 << 13,
+	GRAIN = 256
+};
 
 /*
  * A neighbourhood of more variation shows noise, or a sharp shape: the larger one sees through noise.  But
@@ -230,6 +237,18 @@ reach_sparse(const cloud *c, bool *reached, uint32_t *list)
 	return n - dense;
 }
 
+/* Regions of those of the list and of the sparse points that are reached beside them. */
+static void
+join_reached(const cloud *c, const bool *reached, const uint32_t *list, size_t n, uint32_t *region)
+{
+	for (size_t k = 0; k < n; k++)
+		for (size_t j = 0; j < c->around; j++) {
+			uint32_t to = c->nearest[list[k] * c->around + j];
+			if (reached[to] && c->kind[to] != DENSE)
+				mr_sets_join(region, list[k], to);
+		}
+}
+
 /* Keeps the sparse ends of surfaces, however thin: regions of sparse points that dense ones lead to, unless
  * they are as uneven as what is strewn in space. */
 static mr_status
@@ -244,12 +263,7 @@ keep_sparse_ends(mr_ctx *ctx, cloud *c)
 	if (!list || !region || !count || !sum || !reached)
 		return MR_EMEM;
 	n = reach_sparse(c, reached, list);
-	for (size_t k = 0; k < n; k++)
-		for (size_t j = 0; j < c->around; j++) {
-			uint32_t to = c->nearest[list[k] * c->around + j];
-			if (reached[to] && c->kind[to] != DENSE)
-				mr_sets_join(region, list[k], to);
-		}
+	join_reached(c, reached, list, n, region);
 	for (size_t k = 0; k < n; k++) {
 		uint32_t r = mr_sets_root(region, list[k]);
 		sum[r] += unevenness(c, list[k]);
@@ -328,8 +342,7 @@ look_at(mr_ctx *ctx, const cloud *c, size_t k, double *variation, double *noise)
 
 	if (!q || !index || !l.variation || !l.residual)
 		return MR_EMEM;
-	for (size_t i = 0; i < n; i++)
-		q[i] = c->p[i * c->n / n];
+	mr_at_strides(c->p, c->n, n, q);
 	MR_TRY(mr_near_query(ctx, c->near, q, n, k, index, NULL));
 	mr_parallel(ctx, n, GRAIN, look_around, &l);
 	*variation = mr_kth(l.variation, n, n / 2);

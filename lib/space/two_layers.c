@@ -62,8 +62,7 @@ mr_find_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, doubl
 		return MR_EMEM;
 	if (n < NEAREST)
 		return MR_OK;
-	for (size_t i = 0; i < looks; i++)
-		q[i] = p[i * n / looks];
+	mr_at_strides(p, n, looks, q);
 	MR_TRY(mr_near_query(ctx, near, q, looks, NEAREST, index, NULL));
 	mr_parallel(ctx, looks, GRAIN, look_for_layers, &(layering){ p, index, apart, usual });
 	for (size_t i = 0; i < looks; i++)

@@ -80,8 +80,7 @@ mr_wrap_cloud_thin(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t count, mr_wra
 	p = MR_NEW(ctx, thin->n, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	for (size_t i = 0; i < thin->n; i++)
-		p[i] = cloud->p[i * cloud->n / thin->n];
+	mr_at_strides(cloud->p, cloud->n, thin->n, p);
 	thin->p = p;
 	thin->spacing = cloud->spacing * sqrt((double)cloud->n / (double)thin->n);
 	return mr_near_build(ctx, p, thin->n, &thin->near);

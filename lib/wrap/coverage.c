@@ -17,8 +17,7 @@ count_lost(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_bvh *bvh, size_t sa
 
 	if (!q || !distance)
 		return MR_EMEM;
-	for (size_t i = 0; i < n; i++)
-		q[i] = cloud->outlier[i * all / n];
+	mr_at_strides(cloud->outlier, all, n, q);
 	mr_bvh_distances(ctx, bvh, q, n, distance);
 	for (size_t i = 0; i < n; i++)
 		far += distance[i] > MR_WRAP_LACKS * cloud->spacing;
@@ -36,8 +35,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 
 	if (!p || !q || !distance)
 		return MR_EMEM;
-	for (size_t i = 0; i < n; i++)
-		p[i] = cloud->p[i * cloud->n / n];
+	mr_at_strides(cloud->p, cloud->n, n, p);
 	MR_TRY(mr_zorder_points(ctx, p, n, q)); /* what close ones look up is in the cache */
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	mr_bvh_distances(ctx, bvh, q, n, distance);
