@@ -196,6 +196,11 @@ def models(small):
     return made + sorted(found, key=lambda path: (os.path.getsize(path), path))
 
 
+def by_default_signals():
+    """A worker that took SIGTERM as its parent does could pass over the exception and never end."""
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+
+
 def main(arguments):
     small = arguments[:1] == ["--small"]
     pattern = "".join(arguments[small:])
@@ -203,7 +208,7 @@ def main(arguments):
     total, worst, done = {"good": 0, "refused": 0, "wrong": 0}, [], 0
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
-        with Pool(int(os.environ.get("JOBS") or 1)) as pool:
+        with Pool(int(os.environ.get("JOBS") or 1), by_default_signals) as pool:
             for tally, lines, slow in pool.imap(row, tasks):
                 for verdict in total:
                     total[verdict] += tally[verdict]
@@ -211,6 +216,8 @@ def main(arguments):
                     print(line, flush=True)
                 worst += slow
                 done += 1
+            pool.close()
+            pool.join()
     finally:
         for k, what in (0, "time"), (1, "memory"):
             for cell in sorted(worst, key=lambda w: -w[k])[:3]:
