@@ -142,7 +142,7 @@ set_up(mr_ctx *ctx, smoothing *s, implicit_system *y)
 			*diagonal += y->mass[v];
 		}
 	}
-	return mr_incomplete_new(ctx, &s->l, &y->incomplete);
+	return mr_incomplete_laplacian_new(ctx, &s->l, &y->incomplete);
 }
 
 static void

@@ -1,7 +1,8 @@
 /*
  * Incomplete factors without fill: Meijerink, van der Vorst 1977: An iterative solution method for linear
- * systems of which the coefficient matrix is a symmetric M-matrix.  Bilaplacians are none: Manteuffel's
- * shift.
+ * systems of which the coefficient matrix is a symmetric M-matrix.  Laplacians of obtuse triangles are none:
+ * Axelsson, Kolotilina 1994: Diagonally compensated reduction and related preconditioning methods.  Nor are
+ * bilaplacians: Manteuffel's shift.
  */
 #include "solve/preconditioner.h"
 
@@ -10,6 +11,7 @@
 typedef struct incomplete {
 	mr_sparse f; /* rows of L without its unit diagonal, then of U */
 	int *diagonal;
+	bool compensated; /* of the matrix that compensate() leaves */
 } incomplete;
 
 /* D^-1 */
@@ -65,11 +67,28 @@ eliminate(incomplete *c, int i, int *at)
 		at[f->index[e]] = -1;
 }
 
+/* Adds entries above zero beside the diagonal to it: of a positive definite matrix that makes an M-matrix,
+ * all of whose pivots are positive. */
+static void
+compensate(incomplete *c)
+{
+	mr_sparse *f = &c->f;
+
+	for (int i = 0; i < f->n; i++)
+		for (int e = f->start[i]; e < f->start[i + 1]; e++)
+			if (f->index[e] != i && f->value[e] > 0) {
+				f->value[c->diagonal[i]] += f->value[e];
+				f->value[e] = 0;
+			}
+}
+
 /* False where a pivot is not positive. */
 static bool
 factor(incomplete *c, const mr_sparse *a, double shift, int *at)
 {
 	memcpy(c->f.value, a->value, (size_t)a->start[a->n] * sizeof *a->value);
+	if (c->compensated)
+		compensate(c);
 	for (int i = 0; i < a->n; i++) {
 		double *pivot = &c->f.value[c->diagonal[i]];
 		*pivot += shift * fabs(*pivot);
@@ -132,28 +151,45 @@ find_diagonal(mr_ctx *ctx, incomplete *c)
 	return MR_OK;
 }
 
-mr_status
-mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
+static mr_status
+set_up(mr_ctx *ctx, const mr_sparse *a, bool laplacian, mr_preconditioner *b)
 {
 	/* a first shift ten times as large or small: 17 % fewer iterations or 12 % more, as the model has it
 	 */
 	static const double first = 1e-3, last = 10;
 	size_t n = (size_t)a->n, nnz = (size_t)a->start[n];
 	incomplete *c = MR_NEW(ctx, 1, incomplete);
-	double *value = MR_NEW(ctx, nnz, double), shift = 0;
+	double *value = MR_NEW(ctx, nnz, double);
 	int *diagonal = MR_NEW(ctx, n, int), *at = MR_NEW(ctx, n, int);
+	bool done;
 
 	if (!c || !value || !diagonal || !at)
 		return MR_EMEM;
-	*c = (incomplete){ { a->n, a->start, a->index, value }, diagonal };
+	*c = (incomplete){ .f = { a->n, a->start, a->index, value }, .diagonal = diagonal };
 	MR_TRY(find_diagonal(ctx, c));
 	for (size_t i = 0; i < n; i++)
 		at[i] = -1;
-	while (!factor(c, a, shift, at)) {
-		shift = shift > 0 ? 2 * shift : first;
-		if (shift > last)
-			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no incomplete factors");
+	done = factor(c, a, 0, at);
+	if (!done && laplacian) {
+		c->compensated = true;
+		done = factor(c, a, 0, at);
 	}
+	for (double shift = first; !done && shift <= last; shift *= 2)
+		done = factor(c, a, shift, at);
+	if (!done)
+		return mr_fail(ctx, MR_ENUMERIC, "the matrix has no incomplete factors");
 	*b = (mr_preconditioner){ incomplete_apply, NULL, c, (double)nnz };
 	return MR_OK;
+}
+
+mr_status
+mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
+{
+	return set_up(ctx, a, false, b);
+}
+
+mr_status
+mr_incomplete_laplacian_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
+{
+	return set_up(ctx, a, true, b);
 }
