@@ -257,7 +257,9 @@ look_for_strayed(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edg
 static size_t
 look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contacts *contacts, const mr_v3 *p)
 {
-	const double apart = 0.01; /* of the diagonal */
+	/* Of the diagonal, which is five pixels of a picture of a thousand: of 357 edits 80 have such slits, 51
+	 * twice as wide. */
+	const double apart = 0.005;
 	size_t *told = cache ? &cache->connectivity.told_apart : NULL;
 	uint32_t v;
 	size_t n = mr_contacts_open(contacts, mesh, p, apart * mr_mesh_diagonal(mesh), &v);
