@@ -54,6 +54,9 @@ TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
 OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc formats/*.c formats/*.cc))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
+# What the page of mr-view is made of, and where three.js is.
+PAGE    := $(wildcard formats/page/*)
+THREE   ?= /usr/share/javascript/three
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
 NEEDS   := build $(if $(filter setup check check-long coverage matrix bless units,$(MAKECMDGOALS)),check) $(filter lint bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
@@ -67,6 +70,20 @@ all: $(TOOLS)
 $(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options place signals) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS)
+
+$(BUILD)/bin/mr-view: $(BUILD)/page/page.o
+
+$(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
+	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<
+
+$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css $(BUILD)/page/page.js
+	$(call say,page   )sed -e '/^<!-- style -->$$/{r formats/page/page.css' -e 'd;}' -e '/^<!-- script -->$$/{r $(BUILD)/page/page.js' -e 'd;}' $< >$@
+
+# One script of all modules, three.js included; esbuild writes a </script> in a text as <\/script>.
+$(BUILD)/page/page.js: $(filter %.js,$(PAGE)) | setup
+	@mkdir -p $(@D)
+	$(call say,bundle )esbuild formats/page/main.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
+		--alias:three=$(THREE) --log-level=warning --outfile=$@
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)

@@ -1,6 +1,9 @@
 /* A pattern is checked first, then filled in. */
 #include "formats/outname.h"
 
+#include <strings.h>
+#include <sys/stat.h>
+
 /* Reads "%05d" from behind the per cent: its width, and the first byte behind it; NULL where it is none. */
 static const char *
 number_format(const char *s, int *width)
@@ -122,4 +125,14 @@ mr_outname_varies(const char *pattern)
 		if (s[1] != '%')
 			return true;
 	return false;
+}
+
+bool
+mr_outname_suits(const char *path, const char *suffix)
+{
+	const char *end = strrchr(path, '.');
+	struct stat st;
+
+	return !strcmp(path, "-") || (end && !strcasecmp(end, suffix)) ||
+	       (stat(path, &st) == 0 && !S_ISREG(st.st_mode));
 }

@@ -3,13 +3,12 @@
 
 #include "formats/bytes.h"
 #include "formats/image.h"
+#include "formats/outname.h"
 #include "formats/paint.h"
 #include "render/gallery.h"
 
 #include <png.h>
 #include <setjmp.h>
-#include <strings.h>
-#include <sys/stat.h>
 
 _Static_assert(sizeof(mr_rgb) == 3, "rows of pixels are rows of bytes");
 
@@ -141,11 +140,7 @@ mr_png_write_gray(mr_ctx *ctx, const char *path, const mr_gray *gray)
 bool
 mr_png_suits(const char *path)
 {
-	const char *suffix = strrchr(path, '.');
-	struct stat st;
-
-	return !strcmp(path, "-") || (suffix && !strcasecmp(suffix, ".png")) ||
-	       (stat(path, &st) == 0 && !S_ISREG(st.st_mode));
+	return mr_outname_suits(path, ".png");
 }
 
 mr_status

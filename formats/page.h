@@ -1,0 +1,39 @@
+/* page.h -- a page for browsers: frames as a packed stream, in one HTML file.  Layer rule: formats includes lib. */
+#ifndef MR_PAGE_H
+#define MR_PAGE_H
+
+#include "base/outfile.h"
+#include "stream/frame.h"
+
+#include <stdio.h>
+
+/* A page in the making; starts zeroed. */
+typedef struct mr_page {
+	FILE *file; /* without a name: the stream, until the page is written */
+	mr_writer *writer;
+	size_t frames;
+} mr_page;
+
+/* What was taken of a frame. */
+typedef struct mr_page_result {
+	size_t layers, columns, left_out; /* left_out: columns that the page has no use for */
+} mr_page_result;
+
+/*
+ * Adds a frame: of the layers in the list (NULL: all that have positions) what a page shows, doubles rounded to
+ * 24 bits.  MR_EMISSING for a layer that the frame has not; MR_ERANGE where the page is too large for a browser.
+ */
+mr_status mr_page_add(
+    mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_page_result *result) MR_WARN_UNUSED;
+
+/*
+ * Writes the page: the text of `html`, in which the frames take the place of the line <!-- stream -->.  held:
+ * the file, which is the caller's to keep or to drop.
+ */
+mr_status mr_page_write(
+    mr_ctx *ctx, mr_page *page, const char *html, const char *path, mr_outfile *held) MR_WARN_UNUSED;
+
+/* Frees what it holds; accepts a zeroed one. */
+void mr_page_free(mr_page *page);
+
+#endif

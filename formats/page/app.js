@@ -1,0 +1,177 @@
+/*
+ * app.js -- the page at work: what the user has chosen, and the stage and side brought to it.  All changes go through
+ * change(), and a picture that is overtaken by another change is not waited for.
+ */
+import { Drawn } from "./drawn.js";
+import { firstLayer, layersOf, namesOf } from "./layers.js";
+import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
+import { pickAt, tell } from "./picked.js";
+import { listColors, listLayers, showLegend, showName } from "./side.js";
+import { Stage } from "./stage.js";
+import { columnOf, linesOf } from "./stream.js";
+import { boxOf, centred, centreOf } from "./surface.js";
+
+const $ = (id) => document.getElementById(id);
+const QUARTER = [0.5, 0.35, 1];
+
+export class App {
+	constructor(frames) {
+		this.frames = frames;
+		this.stage = new Stage($("canvas"), $("labels"));
+		this.choice = { frame: 0, visible: null, beside: false, flat: false, wire: false, color: null, range: null };
+		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
+		this.group = null; /* the key frame that camera and centre are of */
+		this.picked = null;
+	}
+
+	/* Takes other choices, and is done when the page shows them, or later ones. */
+	change(choice) {
+		Object.assign(this.choice, choice);
+		this.asked = true;
+		this.working = this.working || this.work();
+		return this.working;
+	}
+
+	async work() {
+		while (this.asked) {
+			this.asked = false;
+			await this.refresh();
+		}
+		this.working = null;
+	}
+
+	async refresh() {
+		const frame = this.frames[this.choice.frame], layers = layersOf(frame);
+
+		showName(frame, await linesOf(frame, "", "history"));
+		if (this.choice.visible === null && layers.length)
+			this.choice.visible = new Set([await firstLayer(frame, layers)]);
+		const visible = this.choice.visible || new Set(), seen = layers.filter((l) => visible.has(l.name));
+		listLayers(layers, visible, (name, on) => this.turn(name, on));
+		await this.load(frame, seen.length ? seen : layers);
+		await this.colour(frame, seen);
+		for (const layer of seen)
+			this.drawn.get(layer.name).drawn.look(this.choice.flat, this.choice.wire);
+		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
+		$("message").textContent = this.nothing(layers, seen);
+		await this.tellPicked(frame, seen);
+	}
+
+	nothing(layers, seen) {
+		if (layers.length === 0)
+			return "This frame has neither a surface nor points.";
+		if (seen.length === 0)
+			return "No layer is switched on.";
+		return seen.every((l) => l.position.rows === 0) ? "There is no vertex in this layer." : "";
+	}
+
+	turn(name, on) {
+		const visible = new Set(this.choice.visible);
+
+		if (on)
+			visible.add(name);
+		else
+			visible.delete(name);
+		return this.change({ visible });
+	}
+
+	/* Makes what is drawn of layers that are new or other than before; of another key frame all is made anew. */
+	async load(frame, layers) {
+		const fresh = this.group !== frame.group;
+
+		if (fresh && layers.length) {
+			this.group = frame.group;
+			this.choice.range = null;
+			this.centre = centreOf(boxOf(await layers[0].position.values()) || { low: [0, 0, 0], high: [0, 0, 0] });
+			this.clear();
+		}
+		for (const layer of layers)
+			await this.make(layer);
+		if (fresh && layers.length)
+			this.fit(QUARTER);
+	}
+
+	clear() {
+		for (const { drawn } of this.drawn.values())
+			drawn.dispose();
+		this.drawn.clear();
+	}
+
+	async make(layer) {
+		const old = this.drawn.get(layer.name);
+
+		if (old && old.position === layer.position && old.triangles === layer.triangles)
+			return;
+		const values = await layer.position.values(), position = centred(values, this.centre), box = boxOf(position);
+		const extent = box ? Math.hypot(...box.low.map((x, c) => box.high[c] - x)) : 0;
+		const triangles = layer.triangles && layer.triangles.rows ? await layer.triangles.values() : null;
+		const normal = !triangles && layer.normal ? await layer.normal.values() : null;
+		if (old)
+			old.drawn.dispose();
+		this.drawn.set(layer.name, { position: layer.position, triangles: layer.triangles, box, drawn: new Drawn(position, triangles, normal, extent) });
+	}
+
+	/* The column of the colours: the one chosen; before any is, the layers' own colours. */
+	async colour(frame, seen) {
+		const names = [...new Set(seen.flatMap((l) => l.colors.map((c) => c.name)))];
+
+		if (this.choice.color === null)
+			this.choice.color = names.includes("color") ? "color" : "";
+		const name = names.includes(this.choice.color) ? this.choice.color : "";
+		listColors(names, name);
+		showLegend(name ? await this.legend(frame, seen, name) : null);
+		for (const layer of seen) {
+			const column = name && columnOf(frame, layer.name, name), { drawn } = this.drawn.get(layer.name);
+			drawn.paint(column ? paint(column, await column.values(), this.choice.range) : null, Boolean(column) && column.element === "f");
+		}
+	}
+
+	/* What the colours mean, over all layers that are seen; a range stays until it is chosen anew. */
+	async legend(frame, seen, name) {
+		const columns = seen.map((l) => columnOf(frame, l.name, name)).filter(Boolean);
+		const kind = kindOf(columns[0]), values = await Promise.all(columns.map((c) => c.values()));
+
+		if (kind === "number" && !this.choice.range) {
+			const ranges = columns.map((c, i) => rangeOf(c, values[i]));
+			this.choice.range = { low: Math.min(...ranges.map((r) => r.low)), high: Math.max(...ranges.map((r) => r.high)) };
+		}
+		const kinds = kind === "region" || kind === "kind" ? kindsOf(values.flatMap((v) => kindsOf(v))) : [];
+		return { kind, range: this.choice.range, kinds, names: kinds.length ? await namesOf(frame, columns[0].layer, name) : [] };
+	}
+
+	/* All that is seen in view. */
+	fit(from) {
+		const visible = this.choice.visible || new Set();
+		const boxes = [...this.drawn].filter(([name]) => visible.has(name)).map(([, d]) => d.box).filter(Boolean);
+
+		if (boxes.length)
+			this.stage.fit({
+				low: boxes[0].low.map((_, c) => Math.min(...boxes.map((b) => b.low[c]))),
+				high: boxes[0].high.map((_, c) => Math.max(...boxes.map((b) => b.high[c]))),
+			}, from);
+	}
+
+	/* The vertex under a place of the window. */
+	pick(clientX, clientY) {
+		const ray = this.stage.rayAt(clientX, clientY);
+
+		this.picked = ray && pickAt(ray);
+		return this.change({});
+	}
+
+	forget() {
+		this.picked = null;
+		return this.change({});
+	}
+
+	/* Marks what was picked, as long as it is there. */
+	async tellPicked(frame, seen) {
+		const layer = this.picked && seen.find((l) => l.name === this.picked.name && l.position.rows > this.picked.vertex);
+		const there = layer && (this.picked.face === null || (layer.triangles && layer.triangles.rows > this.picked.face));
+
+		for (const [name, { drawn }] of this.drawn)
+			drawn.pointTo(there && name === layer.name ? this.picked.vertex : null);
+		await tell($("picked"), frame, there ? layer : undefined, this.picked, this.centre, there ? this.drawn.get(layer.name).drawn.extent : 0, this.choice.color);
+		this.stage.ask();
+	}
+}

@@ -1,0 +1,30 @@
+/* data.js -- the bytes that stand in the page, in base64, as elements of the class "stream". */
+
+/* What one element says, in bytes. */
+function decode(text) {
+	if (Uint8Array.fromBase64)
+		return Uint8Array.fromBase64(text);
+	return Uint8Array.from(atob(text), (c) => c.charCodeAt(0));
+}
+
+function join(parts) {
+	const bytes = new Uint8Array(parts.reduce((n, p) => n + p.length, 0));
+	let at = 0;
+
+	for (const part of parts) {
+		bytes.set(part, at);
+		at += part.length;
+	}
+	return bytes;
+}
+
+/* Takes the elements out of the page as it reads them, so that no text is held for long. */
+export function takeBytes() {
+	const parts = [];
+
+	for (const block of document.querySelectorAll("script.stream")) {
+		parts.push(decode(block.textContent));
+		block.remove();
+	}
+	return join(parts);
+}

@@ -1,0 +1,191 @@
+/* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that was picked. */
+import * as THREE from "three/build/three.module.js";
+import { PLAIN } from "./colors.js";
+import { apart, edgesOf, surfaceOf } from "./surface.js";
+
+const POINT_VERTEX = `
+uniform float size, scale, least, most;
+attribute vec3 tint;
+varying vec3 vTint, vNormal;
+void main() {
+	vec4 at = modelViewMatrix * vec4(position, 1.0);
+	vTint = tint;
+	vNormal = normalMatrix * normal;
+	gl_Position = projectionMatrix * at;
+	gl_PointSize = clamp(size * scale / -at.z, least, most);
+}`;
+
+/* A ball where nothing is known of the surface, else a disc that is lit as the surface there is. */
+const POINT_FRAGMENT = `
+varying vec3 vTint, vNormal;
+void main() {
+	vec2 at = 2.0 * gl_PointCoord - 1.0;
+	float out2 = dot(at, at);
+	if (out2 > 1.0)
+		discard;
+	vec3 n = dot(vNormal, vNormal) > 0.0 ? normalize(vNormal) : vec3(at.x, -at.y, sqrt(1.0 - out2));
+	n = n.z < 0.0 ? -n : n;
+	gl_FragColor = vec4(vTint * (0.45 + 0.6 * max(dot(n, normalize(vec3(-0.3, 0.5, 0.9))), 0.0)), 1.0);
+}`;
+
+const MARK_FRAGMENT = `
+void main() {
+	float out2 = dot(2.0 * gl_PointCoord - 1.0, 2.0 * gl_PointCoord - 1.0);
+	if (out2 > 1.0)
+		discard;
+	gl_FragColor = out2 > 0.45 ? vec4(1.0) : vec4(0.85, 0.1, 0.15, 1.0);
+}`;
+
+function pointMaterial(fragmentShader, uniforms, more) {
+	return new THREE.ShaderMaterial({
+		vertexShader: POINT_VERTEX,
+		fragmentShader,
+		uniforms: { scale: { value: 1 }, ...Object.fromEntries(Object.entries(uniforms).map(([k, value]) => [k, { value }])) },
+		...more,
+	});
+}
+
+/* Shaded by the light of the eye; the inside is bluish, as in mr-render. */
+function surfaceMaterial() {
+	const material = new THREE.MeshPhongMaterial({
+		vertexColors: THREE.VertexColors,
+		specular: 0x1c1c1c,
+		shininess: 24,
+		side: THREE.DoubleSide,
+		polygonOffset: true,
+		polygonOffsetFactor: 1,
+		polygonOffsetUnits: 1,
+	});
+
+	material.onBeforeCompile = (shader) => {
+		shader.fragmentShader = shader.fragmentShader.replace("#include <color_fragment>",
+			"#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb *= vec3(0.66, 0.78, 0.98);");
+	};
+	return material;
+}
+
+function edgeMaterial() {
+	return new THREE.LineBasicMaterial({ color: 0x1a2230, transparent: true, opacity: 0.28, depthWrite: false });
+}
+
+const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);
+
+/* Three bytes a drawn vertex: of the row it stands for, or plain. */
+function spread(colors, source, count) {
+	const out = new Uint8Array(3 * count);
+
+	for (let i = 0; i < count; i++) {
+		const row = 3 * (source ? source[i] : i);
+		for (let c = 0; c < 3; c++)
+			out[3 * i + c] = colors ? colors[row + c] : PLAIN[c];
+	}
+	return out;
+}
+
+/* What is drawn of a layer; `position` and `triangles` are those of the stream, around the centre. */
+export class Drawn {
+	constructor(position, triangles, normal, extent) {
+		this.position = position;
+		this.triangles = triangles;
+		this.extent = extent;
+		this.group = new THREE.Group();
+		this.geometry = new THREE.BufferGeometry();
+		this.split = false; /* whether each face has its own vertices */
+		if (triangles)
+			this.beSurface();
+		else
+			this.bePoints(normal);
+		this.beMark();
+	}
+
+	beSurface() {
+		this.surface = surfaceOf(this.position, this.triangles);
+		this.material = surfaceMaterial();
+		this.group.add(new THREE.Mesh(this.geometry, this.material));
+		this.shape(this.surface);
+	}
+
+	/* So large that they about cover the surface. */
+	bePoints(normal) {
+		const n = this.position.length / 3;
+
+		this.material = pointMaterial(POINT_FRAGMENT, { size: 1.1 * this.extent / Math.sqrt(n), least: 2, most: 24 });
+		this.shape({ position: this.position, normal: normal ? Float32Array.from(normal) : new Float32Array(3 * n), index: null, source: null });
+		this.group.add(new THREE.Points(this.geometry, this.material));
+	}
+
+	beMark() {
+		const geometry = new THREE.BufferGeometry();
+
+		geometry.setAttribute("position", attribute(new Float32Array(3), 3));
+		this.mark = new THREE.Points(geometry, pointMaterial(MARK_FRAGMENT, { size: 1, least: 13, most: 13 }, { depthTest: false, transparent: true }));
+		this.mark.frustumCulled = false;
+		this.mark.visible = false;
+		this.mark.renderOrder = 1;
+		this.group.add(this.mark);
+	}
+
+	shape(arrays) {
+		this.source = arrays.source;
+		this.count = arrays.position.length / 3;
+		this.geometry.setAttribute("position", attribute(arrays.position, 3));
+		this.geometry.setAttribute("normal", attribute(arrays.normal, 3));
+		this.geometry.setIndex(arrays.index ? attribute(arrays.index, 1) : null);
+		this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2 * this.extent);
+	}
+
+	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
+	paint(colors, perFace) {
+		if (this.surface && this.split !== perFace) {
+			this.split = perFace;
+			this.shape(perFace ? apart(this.surface) : this.surface);
+		}
+		this.geometry.setAttribute(this.surface ? "color" : "tint", attribute(spread(colors, this.source, this.count), 3, true));
+	}
+
+	look(flat, wire) {
+		if (!this.surface)
+			return;
+		if (this.material.flatShading !== flat) {
+			this.material.flatShading = flat;
+			this.material.needsUpdate = true;
+		}
+		if (wire && !this.edges)
+			this.beEdges();
+		if (this.edges)
+			this.edges.visible = wire;
+	}
+
+	beEdges() {
+		const geometry = new THREE.BufferGeometry();
+
+		geometry.setAttribute("position", attribute(this.position, 3));
+		geometry.setIndex(attribute(edgesOf(this.triangles), 1));
+		geometry.boundingSphere = this.geometry.boundingSphere;
+		this.edges = new THREE.LineSegments(geometry, edgeMaterial());
+		this.group.add(this.edges);
+	}
+
+	/* Marks a vertex; null: none. */
+	pointTo(vertex) {
+		this.mark.visible = vertex !== null;
+		if (vertex === null)
+			return;
+		this.mark.geometry.attributes.position.array.set(this.position.subarray(3 * vertex, 3 * vertex + 3));
+		this.mark.geometry.attributes.position.needsUpdate = true;
+	}
+
+	/* Pixels that a unit has at distance 1. */
+	scale(pixels) {
+		this.mark.material.uniforms.scale.value = pixels;
+		if (!this.surface)
+			this.material.uniforms.scale.value = pixels;
+	}
+
+	dispose() {
+		for (const child of this.group.children) {
+			child.geometry.dispose();
+			child.material.dispose();
+		}
+	}
+}

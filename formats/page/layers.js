@@ -1,0 +1,35 @@
+/* layers.js -- what a frame has to show: its layers with positions, their columns, and which layer comes first. */
+import { columnOf, linesOf } from "./stream.js";
+
+/* Columns that are no values to colour by. */
+const PLACES = new Set(["position", "triangles", "normal"]);
+
+/* Layers, in the order of the frame: name, position, triangles (undefined: points), colours. */
+export function layersOf(frame) {
+	const layers = [];
+
+	for (const column of frame.columns.values())
+		if (column.name === "position" && column.layer)
+			layers.push({
+				name: column.layer,
+				position: column,
+				triangles: columnOf(frame, column.layer, "triangles"),
+				normal: columnOf(frame, column.layer, "normal"),
+				colors: [...frame.columns.values()].filter((c) => c.layer === column.layer && !PLACES.has(c.name) && (c.element === "v" || c.element === "f")),
+			});
+	return layers;
+}
+
+/* The name of the layer that is shown first: the one worked on last, else mesh, control, points or base (mr 7). */
+export async function firstLayer(frame, layers) {
+	const latest = (await linesOf(frame, "", "latest")).filter((line) => layers.some((l) => l.name === line));
+	const order = latest.length === 1 ? latest : ["mesh", "control", "points", "base"];
+	const found = order.find((name) => layers.some((l) => l.name === name));
+
+	return found || layers[0].name;
+}
+
+/* Names of the values of a column of kinds: group 0 is the first line of groups, and so on. */
+export function namesOf(frame, layer, column) {
+	return linesOf(frame, layer, column + "s");
+}

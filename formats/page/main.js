@@ -1,0 +1,74 @@
+/* main.js -- begins: reads the page's data, and connects its controls. */
+import { App } from "./app.js";
+import { takeBytes } from "./data.js";
+import { Film } from "./film.js";
+import { listen } from "./keys.js";
+import { canDraw } from "./stage.js";
+import { parseStream } from "./stream.js";
+
+const CLICK = 6; /* pixels that a click may move */
+const $ = (id) => document.getElementById(id);
+
+/* A press and release at about one place is a click; else it turned the model. */
+function onClick(canvas, act) {
+	let down = null;
+
+	canvas.addEventListener("pointerdown", (e) => {
+		down = e.isPrimary && e.button === 0 ? e : null;
+	});
+	canvas.addEventListener("pointerup", (e) => {
+		if (down && e.pointerId === down.pointerId && Math.hypot(e.clientX - down.clientX, e.clientY - down.clientY) < CLICK)
+			act(e.clientX, e.clientY);
+		down = null;
+	});
+}
+
+/* Two numbers of which the first is less. */
+function readRange() {
+	const low = $("low").valueAsNumber, high = $("high").valueAsNumber;
+
+	return low < high ? { low, high } : null;
+}
+
+function connect(app) {
+	const view = () => $("view").value.split(",").map(Number);
+
+	$("beside").addEventListener("change", async () => {
+		await app.change({ beside: $("beside").checked });
+		app.fit();
+	});
+	$("color").addEventListener("change", () => app.change({ color: $("color").value, range: null }));
+	for (const end of ["low", "high"])
+		$(end).addEventListener("change", () => app.change({ range: readRange() }));
+	$("fit-range").addEventListener("click", () => app.change({ range: null }));
+	for (const shade of document.querySelectorAll("input[name=shade]"))
+		shade.addEventListener("change", () => app.change({ flat: $("flat").checked }));
+	$("wire").addEventListener("change", () => app.change({ wire: $("wire").checked }));
+	$("view").addEventListener("change", () => app.fit(view()));
+	$("fit").addEventListener("click", () => app.fit());
+	$("up").addEventListener("change", () => {
+		app.stage.up($("up").value);
+		app.fit(view());
+	});
+	onClick($("canvas"), (x, y) => app.pick(x, y));
+	listen(() => app.forget());
+}
+
+function fail(error) {
+	$("message").textContent = error.message;
+}
+
+async function begin() {
+	if (!canDraw())
+		throw new Error("This browser cannot draw the model: WebGL is missing or switched off.");
+	if (typeof DecompressionStream === "undefined")
+		throw new Error("This browser is too old for the page: it has no DecompressionStream.");
+	const frames = parseStream(takeBytes());
+	$("side").hidden = false;
+	const app = new App(frames);
+	const film = new Film(frames.length, (frame) => app.change({ frame }).catch(fail));
+	await film.turn(0);
+	connect(app);
+}
+
+begin().catch(fail);

@@ -1,0 +1,71 @@
+/* picked.js -- the vertex that was clicked: where it is, and what the card says of it. */
+import { namesOf } from "./layers.js";
+import { numberAt } from "./paint.js";
+import { regionName } from "./colors.js";
+import { nearestCorner, nearestFace, nearestPoint } from "./pick.js";
+import { columnOf } from "./stream.js";
+import { element, number, place } from "./text.js";
+
+const NEAR = 9; /* pixels about a point */
+
+/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at }, at in the stage's floats; or null. */
+export function pickAt(ray) {
+	let best = null;
+
+	for (const [name, drawn] of ray.layers) {
+		const p = drawn.position;
+		if (drawn.triangles) {
+			const hit = nearestFace(p, drawn.triangles, ray.from, ray.along);
+			if (!hit || (best && best.t <= hit.t))
+				continue;
+			const at = ray.from.map((x, c) => x + hit.t * ray.along[c]);
+			best = { name, t: hit.t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, at), at };
+		} else {
+			const hit = nearestPoint(p, ray.projection, ray.right, ray.top, NEAR * ray.pixel, ray.aspect);
+			if (hit && !(best && best.t <= hit.t))
+				best = { name, t: hit.t, face: null, vertex: hit.vertex, at: null };
+		}
+	}
+	return best;
+}
+
+/* What a value is called: a name of a kind, numbers of a row. */
+async function valueAt(frame, layer, column, row) {
+	const values = await column.values(), n = column.components;
+
+	if (column.name === "region")
+		return regionName(values[row]);
+	if (column.type === "u" && n === 1)
+		return (await namesOf(frame, layer, column.name))[values[row]] || String(values[row]);
+	const all = Array.from(values.subarray(n * row, n * row + n), number).join("  ");
+	return n > 1 && column.type === "d" ? all + " (length " + number(numberAt(column, values, row)) + ")" : all;
+}
+
+/* Rows of the card: what, and the words for it. */
+async function rowsOf(frame, layer, picked, centre, extent, color) {
+	const position = await layer.position.values(), v = picked.vertex;
+	const rows = [["layer", layer.name], ["vertex", String(v)]];
+	const region = columnOf(frame, layer.name, "region"), column = color && columnOf(frame, layer.name, color);
+
+	rows.push(["at", place(Array.from(position.subarray(3 * v, 3 * v + 3)), extent)]);
+	if (picked.face !== null) {
+		const t = await layer.triangles.values();
+		rows.push(["face", String(picked.face)]);
+		rows.push(["corners", t.subarray(3 * picked.face, 3 * picked.face + 3).join("  ")]);
+	}
+	if (picked.at)
+		rows.push(["clicked", place(picked.at.map((x, c) => x + centre[c]), extent)]);
+	if (region && region.element === "v")
+		rows.push(["region", await valueAt(frame, layer.name, region, v)]);
+	if (column && column !== region && (column.element === "v" || picked.face !== null))
+		rows.push([color, await valueAt(frame, layer.name, column, column.element === "v" ? v : picked.face)]);
+	return rows;
+}
+
+/* Fills the card; layer undefined: there is nothing to tell. */
+export async function tell(card, frame, layer, picked, centre, extent, color) {
+	const rows = layer && picked ? await rowsOf(frame, layer, picked, centre, extent, color) : [];
+
+	card.replaceChildren(...rows.flatMap(([what, words]) => [element("dt", what), element("dd", words)]));
+	card.hidden = rows.length === 0;
+}

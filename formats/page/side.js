@@ -1,0 +1,87 @@
+/* side.js -- the side of the page: what is in the frame, switches for it, the legend of the colours. */
+import { kindColor, mapOf, regionColor, regionName } from "./colors.js";
+import { count, element, number } from "./text.js";
+
+const MOST = 24; /* kinds that a legend lists */
+const $ = (id) => document.getElementById(id);
+
+function sizeOf(layer) {
+	return layer.triangles ? count(layer.triangles.rows) + " faces" : count(layer.position.rows) + " points";
+}
+
+function layerSwitch(layer, shown, change) {
+	const label = document.createElement("label"), box = document.createElement("input");
+
+	box.type = "checkbox";
+	box.checked = shown;
+	box.addEventListener("change", () => change(layer.name, box.checked));
+	label.append(box, element("bdi", layer.name), element("span", sizeOf(layer), "size"));
+	label.title = count(layer.position.rows) + " vertices";
+	return label;
+}
+
+/* A switch for each layer. */
+export function listLayers(layers, visible, change) {
+	$("layers").replaceChildren(...layers.map((layer) => layerSwitch(layer, visible.has(layer.name), change)));
+	$("besides").hidden = layers.length < 2;
+}
+
+/* The columns that there are to colour by; the first choice is none. */
+export function listColors(names, chosen) {
+	const options = ["", ...names].map((name) => {
+		const option = element("option", name || "plain");
+		option.value = name;
+		return option;
+	});
+
+	$("color").replaceChildren(...options);
+	$("color").value = chosen;
+}
+
+function drawBar(range) {
+	const picture = new ImageData(256, 1), map = mapOf(range);
+
+	for (let i = 0; i < 256; i++)
+		picture.data.set([map[3 * i], map[3 * i + 1], map[3 * i + 2], 255], 4 * i);
+	$("bar").getContext("2d").putImageData(picture, 0, 0);
+}
+
+function kindItem(color, name) {
+	const item = document.createElement("li"), swatch = document.createElement("i");
+
+	swatch.style.background = "rgb(" + color.join(",") + ")";
+	item.append(swatch, element("bdi", name));
+	return item;
+}
+
+function kindItems(legend) {
+	const regions = legend.kind === "region";
+	const items = legend.kinds.slice(0, MOST).map((kind) =>
+		kindItem((regions ? regionColor : kindColor)(kind), regions ? regionName(kind) : legend.names[kind] || String(kind)));
+
+	if (legend.kinds.length > MOST)
+		items.push(element("li", "and " + count(legend.kinds.length - MOST) + " more"));
+	return items;
+}
+
+/* legend: { kind, range, kinds, names }, or null. */
+export function showLegend(legend) {
+	const numbers = legend && legend.kind === "number";
+
+	$("legend").hidden = !legend || legend.kind === "own";
+	$("bar").hidden = $("range").hidden = !numbers;
+	$("kinds").replaceChildren(...(legend && !numbers && legend.kind !== "own" ? kindItems(legend) : []));
+	if (!numbers)
+		return;
+	drawBar(legend.range);
+	$("low").value = number(legend.range.low);
+	$("high").value = number(legend.range.high);
+}
+
+export function showName(frame, history) {
+	$("name").textContent = "";
+	$("name").append(element("bdi", frame.name));
+	document.title = $("name").textContent;
+	$("past").hidden = history.length === 0;
+	$("history").replaceChildren(...history.map((line) => element("div", line)));
+}

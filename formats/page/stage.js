@@ -1,0 +1,193 @@
+/* stage.js -- the canvas: a camera, light that comes with it, and the layers, in one panel or one for each. */
+import * as THREE from "three/build/three.module.js";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { element } from "./text.js";
+
+const ANGLE = 30; /* degrees, of the height of a panel */
+
+/* Whether the browser can draw at all. */
+export function canDraw() {
+	const canvas = document.createElement("canvas");
+
+	return Boolean(canvas.getContext("webgl2") || canvas.getContext("webgl"));
+}
+
+/* Columns of a grid of n panels that are as little stretched as can be. */
+function columnsFor(n, width, height) {
+	let best = 1, most = 0;
+
+	for (let columns = 1; columns <= n; columns++) {
+		const side = Math.min(width / columns, height / Math.ceil(n / columns));
+		if (side > most) {
+			most = side;
+			best = columns;
+		}
+	}
+	return best;
+}
+
+export class Stage {
+	constructor(canvas, labels) {
+		this.canvas = canvas;
+		this.labels = labels;
+		this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+		this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+		this.renderer.autoClear = false;
+		this.scene = new THREE.Scene();
+		this.camera = new THREE.PerspectiveCamera(ANGLE, 1, 1, 10);
+		this.light();
+		this.up("y");
+		this.layers = []; /* [name, drawn], those to be seen */
+		this.beside = false;
+		this.radius = 1;
+		new ResizeObserver(() => this.resize()).observe(canvas);
+	}
+
+	light() {
+		const lamp = new THREE.DirectionalLight(0xffffff, 0.62), sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.48);
+
+		lamp.position.set(-0.3, 0.5, 0.9);
+		this.camera.add(lamp);
+		this.camera.add(lamp.target);
+		this.scene.add(sky, this.camera);
+	}
+
+	/* Which axis is upwards. */
+	up(axis) {
+		const from = this.controls ? this.controls.target.clone() : new THREE.Vector3();
+
+		if (this.controls)
+			this.controls.dispose();
+		this.axis = axis;
+		this.camera.up.set(axis === "x" ? 1 : 0, axis === "y" ? 1 : 0, axis === "z" ? 1 : 0);
+		this.controls = new OrbitControls(this.camera, this.canvas);
+		this.controls.enableKeys = false;
+		this.controls.target.copy(from);
+		this.controls.addEventListener("change", () => this.ask());
+	}
+
+	/* Where the eye stands, for a model with y upwards that looks along z. */
+	direction(x, y, z) {
+		return this.axis === "y" ? new THREE.Vector3(x, y, z) : this.axis === "z" ? new THREE.Vector3(x, -z, y) : new THREE.Vector3(y, z, x);
+	}
+
+	/* Shows all of a box from a direction; without one from where the eye is. */
+	fit(box, from) {
+		const low = new THREE.Vector3(...box.low), high = new THREE.Vector3(...box.high);
+		const to = from ? this.direction(...from) : this.camera.position.clone().sub(this.controls.target);
+
+		this.radius = low.distanceTo(high) / 2 || 1;
+		const half = ANGLE / 2 * Math.PI / 180, across = Math.atan(Math.tan(half) * Math.min(this.aspect(), 1));
+		this.controls.target.copy(low.add(high).multiplyScalar(0.5));
+		this.camera.position.copy(this.controls.target).add(to.setLength(this.radius / Math.sin(across)));
+		this.controls.update();
+		this.ask();
+	}
+
+	/* Puts these on the stage. */
+	show(layers, beside) {
+		this.layers = layers;
+		this.beside = beside && layers.length > 1;
+		this.label();
+		this.ask();
+	}
+
+	/* The panels: place in the canvas, from its top left corner, and layers. */
+	panels() {
+		const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+
+		if (!this.beside)
+			return [{ x: 0, y: 0, width, height, layers: this.layers }];
+		const n = this.layers.length, columns = columnsFor(n, width, height), rows = Math.ceil(n / columns);
+		const w = width / columns, h = height / rows;
+		return this.layers.map((layer, i) => ({ x: i % columns * w, y: Math.floor(i / columns) * h, width: w, height: h, layers: [layer] }));
+	}
+
+	aspect() {
+		const panel = this.panels()[0];
+
+		return panel.width / panel.height || 1;
+	}
+
+	label() {
+		this.labels.replaceChildren();
+		for (const panel of this.beside ? this.panels() : []) {
+			const label = element("span", panel.layers[0][0]);
+			label.style.left = panel.x + "px";
+			label.style.top = panel.y + "px";
+			this.labels.append(label);
+		}
+	}
+
+	resize() {
+		this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
+		this.label();
+		this.draw();
+	}
+
+	/* Draws at the next occasion. */
+	ask() {
+		if (!this.asked)
+			this.asked = requestAnimationFrame(() => this.draw());
+	}
+
+	/* The camera as a panel has it. */
+	aim() {
+		const far = this.camera.position.distanceTo(this.controls.target);
+
+		this.camera.aspect = this.aspect();
+		this.camera.near = Math.max(far - 4 * this.radius, far / 500);
+		this.camera.far = far + 4 * this.radius;
+		this.camera.updateProjectionMatrix();
+		this.camera.updateMatrixWorld();
+	}
+
+	draw() {
+		const ratio = this.renderer.getPixelRatio(), height = this.canvas.clientHeight;
+
+		cancelAnimationFrame(this.asked);
+		this.asked = 0;
+		this.aim();
+		this.renderer.setScissorTest(false);
+		this.renderer.clear();
+		this.renderer.setScissorTest(true);
+		for (const panel of this.panels()) {
+			const place = [panel.x, height - panel.y - panel.height, panel.width, panel.height];
+			this.renderer.setViewport(...place);
+			this.renderer.setScissor(...place);
+			for (const [, drawn] of panel.layers) {
+				drawn.scale(panel.height * ratio / 2 / Math.tan(ANGLE / 2 * Math.PI / 180));
+				this.scene.add(drawn.group);
+			}
+			this.renderer.render(this.scene, this.camera);
+			for (const [, drawn] of panel.layers)
+				this.scene.remove(drawn.group);
+		}
+	}
+
+	/*
+	 * What a pick needs to know of a place of the window: the layers there, the ray, and for points the projection
+	 * with the place in it; null outside.
+	 */
+	rayAt(clientX, clientY) {
+		const box = this.canvas.getBoundingClientRect(), x = clientX - box.left, y = clientY - box.top;
+		const panel = this.panels().find((p) => x >= p.x && x < p.x + p.width && y >= p.y && y < p.y + p.height);
+
+		if (!panel)
+			return null;
+		this.aim();
+		const right = (x - panel.x) / panel.width * 2 - 1, top = 1 - (y - panel.y) / panel.height * 2;
+		const along = new THREE.Vector3(right, top, 0.5).unproject(this.camera).sub(this.camera.position).normalize();
+		const projection = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+		return {
+			layers: panel.layers,
+			from: this.camera.position.toArray(),
+			along: along.toArray(),
+			projection: projection.elements,
+			right,
+			top,
+			aspect: this.camera.aspect,
+			pixel: 2 / panel.height,
+		};
+	}
+}

@@ -1,0 +1,89 @@
+/*
+ * stream.js -- bytes of a stream to frames (mr-stream 5).  A frame is a name and columns, of which one that a delta
+ * keeps is the same object in both frames; nothing is unpacked here.
+ */
+import { Column } from "./codec.js";
+
+const HEADER = 64;
+const text = new TextDecoder();
+
+/* Characters up to the first NUL. */
+function nameAt(bytes, at, room) {
+	let end = at;
+
+	while (end < at + room && bytes[end])
+		end++;
+	return text.decode(bytes.subarray(at, end));
+}
+
+/* The record whose header is at `at`, and where the next one is. */
+function recordAt(bytes, view, at) {
+	const stored = Number(view.getBigUint64(at + 56, true));
+	const next = at + HEADER + Math.ceil(stored / HEADER) * HEADER;
+
+	if (next > bytes.length)
+		throw new Error("The data of the page are cut off: save it again.");
+	return {
+		layer: nameAt(bytes, at, 16),
+		name: nameAt(bytes, at + 16, 24),
+		element: String.fromCharCode(bytes[at + 40]),
+		type: String.fromCharCode(bytes[at + 41]),
+		components: bytes[at + 42],
+		packed: bytes[at + 43] === 1,
+		rows: Number(view.getBigUint64(at + 48, true)),
+		bytes: bytes.subarray(at + HEADER, at + HEADER + stored),
+		next,
+	};
+}
+
+const keyOf = (layer, name) => layer + "\0" + name;
+
+/* A frame that starts from nothing, or, a delta, from the columns of the one before. */
+function begin(record, frames) {
+	const said = text.decode(record.bytes);
+	const blank = said.indexOf(" ");
+	const before = said.startsWith("delta") ? frames[frames.length - 1] : null;
+
+	return {
+		name: said.slice(blank + 1),
+		columns: new Map(before ? before.columns : []),
+		group: before ? before.group : frames.length, /* number of the key frame */
+	};
+}
+
+function drop(frame, layer, name) {
+	for (const [key, column] of frame.columns)
+		if (column.layer === layer && (!name || column.name === name))
+			frame.columns.delete(key);
+}
+
+/* All frames. */
+export function parseStream(bytes) {
+	const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
+	const frames = [];
+	let frame = null;
+
+	for (let at = 0; at + HEADER <= bytes.length;) {
+		const record = recordAt(bytes, view, at);
+		at = record.next;
+		if (record.name === "FRAME")
+			frames.push((frame = begin(record, frames)));
+		else if (record.name === "DROP")
+			drop(frame, record.layer, text.decode(record.bytes));
+		else if (record.name !== "START" && record.name !== "ENDFRAME" && record.name !== "END")
+			frame.columns.set(keyOf(record.layer, record.name), new Column(record));
+	}
+	return frames;
+}
+
+/* The frame's column, or undefined. */
+export function columnOf(frame, layer, name) {
+	return frame.columns.get(keyOf(layer, name));
+}
+
+/* A text column's lines; none where there is no such column. */
+export async function linesOf(frame, layer, name) {
+	const column = columnOf(frame, layer, name);
+
+	return column ? text.decode(await column.values()).split("\n").filter((line, i, all) => line || i < all.length - 1) : [];
+}

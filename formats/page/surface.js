@@ -1,0 +1,181 @@
+/*
+ * surface.js -- from columns to what a graphics card draws: floats around a centre, normals, and vertices that are
+ * parted where the surface has a crease.
+ */
+const CREASE = Math.cos(45 * Math.PI / 180); /* faces farther apart are not shaded as one, as in mr-render */
+const BENT = Math.cos(25 * Math.PI / 180); /* a vertex is asked whose normal is farther from one of its faces */
+
+/* The box of positions: low and high corners; null of none. */
+export function boxOf(position) {
+	const low = [Infinity, Infinity, Infinity], high = [-Infinity, -Infinity, -Infinity];
+
+	for (let i = 0; i < position.length; i += 3)
+		for (let c = 0; c < 3; c++) {
+			const x = position[i + c];
+			if (x < low[c])
+				low[c] = x;
+			if (x > high[c])
+				high[c] = x;
+		}
+	return position.length ? { low, high } : null;
+}
+
+export function centreOf(box) {
+	return box.low.map((x, c) => (x + box.high[c]) / 2);
+}
+
+/* Floats, less the centre. */
+export function centred(position, centre) {
+	const out = new Float32Array(position.length);
+
+	for (let i = 0; i < out.length; i += 3) {
+		out[i] = position[i] - centre[0];
+		out[i + 1] = position[i + 1] - centre[1];
+		out[i + 2] = position[i + 2] - centre[2];
+	}
+	return out;
+}
+
+/* Scales the vector at i to length 1, where it has one. */
+function unit(v, i) {
+	const n = Math.hypot(v[i], v[i + 1], v[i + 2]) || 1;
+
+	v[i] /= n;
+	v[i + 1] /= n;
+	v[i + 2] /= n;
+}
+
+/* Twice the area times the normal of each face. */
+function faceNormals(p, t) {
+	const out = new Float32Array(t.length);
+
+	for (let f = 0; f < t.length; f += 3) {
+		const a = 3 * t[f], b = 3 * t[f + 1], c = 3 * t[f + 2];
+		const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
+		const vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
+		out[f] = uy * vz - uz * vy;
+		out[f + 1] = uz * vx - ux * vz;
+		out[f + 2] = ux * vy - uy * vx;
+	}
+	return out;
+}
+
+/* Unit sums of the normals of the faces around each vertex. */
+function vertexNormals(vertices, t, faces) {
+	const out = new Float32Array(3 * vertices);
+
+	for (let k = 0; k < t.length; k++) {
+		const v = 3 * t[k], f = k - k % 3;
+		out[v] += faces[f];
+		out[v + 1] += faces[f + 1];
+		out[v + 2] += faces[f + 2];
+	}
+	for (let i = 0; i < out.length; i += 3)
+		unit(out, i);
+	return out;
+}
+
+function dot(a, i, b, j) {
+	return a[i] * b[j] + a[i + 1] * b[j + 1] + a[i + 2] * b[j + 2];
+}
+
+/* Which vertices have a face that leans far from their normal.  faces: made unit, weights: their lengths before. */
+function creased(normals, t, faces) {
+	const out = new Uint8Array(normals.length / 3);
+
+	for (let k = 0; k < t.length; k++)
+		if (dot(normals, 3 * t[k], faces, k - k % 3) < BENT)
+			out[t[k]] = 1;
+	return out;
+}
+
+/* The corners at each creased vertex: corner[first[v]] to corner[first[v + 1]]. */
+function cornersAt(marks, t) {
+	const first = new Uint32Array(marks.length + 1);
+
+	for (let k = 0; k < t.length; k++)
+		first[t[k] + 1] += marks[t[k]];
+	for (let v = 0; v < marks.length; v++)
+		first[v + 1] += first[v];
+	const corner = new Uint32Array(first[marks.length]), next = first.slice();
+	for (let k = 0; k < t.length; k++)
+		if (marks[t[k]])
+			corner[next[t[k]]++] = k;
+	return { first, corner };
+}
+
+/* The sum of the normals of the corner's neighbours that are within the crease of its own face. */
+function cornerNormal(k, at, v, faces, weights, out, o) {
+	const f = k - k % 3;
+
+	for (let j = at.first[v]; j < at.first[v + 1]; j++) {
+		const g = at.corner[j] - at.corner[j] % 3;
+		if (dot(faces, f, faces, g) < CREASE)
+			continue;
+		for (let c = 0; c < 3; c++)
+			out[o + c] += faces[g + c] * weights[g / 3];
+	}
+	unit(out, o);
+}
+
+/* Gives the corners of creased vertices vertices of their own, behind the others. */
+function part(p, t, normals, faces, weights) {
+	const marks = creased(normals, t, faces), at = cornersAt(marks, t);
+	const nv = p.length / 3, extra = at.corner.length;
+	const position = new Float32Array(p.length + 3 * extra), normal = new Float32Array(position.length);
+	const index = t.slice(), source = new Uint32Array(nv + extra);
+
+	position.set(p);
+	normal.set(normals);
+	for (let v = 0; v < nv; v++) {
+		source[v] = v;
+		for (let j = at.first[v]; j < at.first[v + 1]; j++) {
+			const r = nv + j, k = at.corner[j];
+			position.set(p.subarray(3 * v, 3 * v + 3), 3 * r);
+			cornerNormal(k, at, v, faces, weights, normal, 3 * r);
+			index[k] = r;
+			source[r] = v;
+		}
+	}
+	return { position, normal, index, source };
+}
+
+/*
+ * A surface to draw: position, normal, index, and `source`, the vertex of the stream that each drawn one stands for.
+ * The first vertices are those of the stream.
+ */
+export function surfaceOf(p, t) {
+	const faces = faceNormals(p, t), normals = vertexNormals(p.length / 3, t, faces);
+	const weights = new Float32Array(t.length / 3);
+
+	for (let f = 0; f < t.length; f += 3) {
+		weights[f / 3] = Math.hypot(faces[f], faces[f + 1], faces[f + 2]);
+		unit(faces, f);
+	}
+	return part(p, t, normals, faces, weights);
+}
+
+/* The same with three vertices to a face, of which each then stands for its face: for colours of faces. */
+export function apart(surface) {
+	const n = surface.index.length;
+	const position = new Float32Array(3 * n), normal = new Float32Array(3 * n), source = new Uint32Array(n);
+
+	for (let k = 0; k < n; k++) {
+		const v = 3 * surface.index[k];
+		for (let c = 0; c < 3; c++) {
+			position[3 * k + c] = surface.position[v + c];
+			normal[3 * k + c] = surface.normal[v + c];
+		}
+		source[k] = Math.floor(k / 3);
+	}
+	return { position, normal, index: null, source };
+}
+
+/* The two ends of the three edges of each face. */
+export function edgesOf(t) {
+	const out = new Uint32Array(2 * t.length);
+
+	for (let f = 0; f < t.length; f += 3)
+		out.set([t[f], t[f + 1], t[f + 1], t[f + 2], t[f + 2], t[f]], 2 * f);
+	return out;
+}

@@ -1,0 +1,35 @@
+/* text.js -- names and numbers for people.  A name is foreign: it is only ever text, and keeps to its place in a line. */
+
+/* Controls, and what turns the direction of the text around, are shown as signs. */
+const UNSEEN = /[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/g;
+
+export function plain(name) {
+	return name.replace(UNSEEN, "\ufffd");
+}
+
+/* A new element with a foreign text in it. */
+export function element(kind, name, className) {
+	const made = document.createElement(kind);
+
+	made.textContent = plain(name);
+	if (className)
+		made.className = className;
+	return made;
+}
+
+/* 1234567 as 1,234,567. */
+export function count(n) {
+	return n.toLocaleString("en");
+}
+
+/* A number of 24 bits, without digits that it does not have. */
+export function number(x) {
+	return Number.isFinite(x) ? String(Number(x.toPrecision(7))) : String(x);
+}
+
+/* Coordinates of a model of this extent, to the same number of decimals. */
+export function place(coordinates, extent) {
+	const decimals = extent > 0 ? Math.min(Math.max(6 - Math.floor(Math.log10(extent)), 0), 30) : 7;
+
+	return coordinates.map((x) => String(Number(x.toFixed(decimals)))).join("  ");
+}
