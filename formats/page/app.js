@@ -6,18 +6,24 @@ import { Drawn } from "./drawn.js";
 import { firstLayer, layersOf, namesOf } from "./layers.js";
 import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
 import { pickAt, tell } from "./picked.js";
-import { listColors, listLayers, showLegend, showName } from "./side.js";
+import { listColors, listLayers, offerShading, showLegend, showName } from "./side.js";
 import { Stage } from "./stage.js";
 import { columnOf, linesOf } from "./stream.js";
 import { boxOf, centred, centreOf } from "./surface.js";
 
 const $ = (id) => document.getElementById(id);
+const FINE = 400000; /* faces that are about as small as pixels */
 const QUARTER = [0.5, 0.35, 1];
+
+/* The most faces of a layer. */
+function mostFaces(frames) {
+	return frames.reduce((most, frame) => Math.max(most, ...layersOf(frame).map((l) => (l.triangles ? l.triangles.rows : 0))), 0);
+}
 
 export class App {
 	constructor(frames) {
 		this.frames = frames;
-		this.stage = new Stage($("canvas"), $("labels"));
+		this.stage = new Stage($("canvas"), $("labels"), mostFaces(frames) < FINE);
 		this.choice = { frame: 0, visible: null, beside: false, flat: false, wire: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
@@ -48,6 +54,7 @@ export class App {
 			this.choice.visible = new Set([await firstLayer(frame, layers)]);
 		const visible = this.choice.visible || new Set(), seen = layers.filter((l) => visible.has(l.name));
 		listLayers(layers, visible, (name, on) => this.turn(name, on));
+		offerShading(seen);
 		await this.load(frame, seen.length ? seen : layers);
 		await this.colour(frame, seen);
 		for (const layer of seen)
@@ -116,7 +123,7 @@ export class App {
 		const names = [...new Set(seen.flatMap((l) => l.colors.map((c) => c.name)))];
 
 		if (this.choice.color === null)
-			this.choice.color = names.includes("color") ? "color" : "";
+			this.choice.color = await this.ownColor(frame, seen);
 		const name = names.includes(this.choice.color) ? this.choice.color : "";
 		listColors(names, name);
 		showLegend(name ? await this.legend(frame, seen, name) : null);
@@ -124,6 +131,17 @@ export class App {
 			const column = name && columnOf(frame, layer.name, name), { drawn } = this.drawn.get(layer.name);
 			drawn.paint(column ? paint(column, await column.values(), this.choice.range) : null, Boolean(column) && column.element === "f");
 		}
+	}
+
+	/* The layers' own colours, unless they are all the same: black, where a format has a place for them and no more. */
+	async ownColor(frame, seen) {
+		for (const layer of seen) {
+			const column = columnOf(frame, layer.name, "color");
+			const values = column ? await column.values() : [];
+			if (values.some((x, i) => x !== values[i % column.components]))
+				return "color";
+		}
+		return "";
 	}
 
 	/* What the colours mean, over all layers that are seen; a range stays until it is chosen anew. */

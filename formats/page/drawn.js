@@ -1,7 +1,7 @@
 /* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that was picked. */
 import * as THREE from "three/build/three.module.js";
 import { PLAIN } from "./colors.js";
-import { apart, edgesOf, surfaceOf } from "./surface.js";
+import { apart, edgesOf, spacingOf, surfaceOf } from "./surface.js";
 
 const POINT_VERTEX = `
 uniform float size, scale, least, most;
@@ -49,7 +49,7 @@ function pointMaterial(fragmentShader, uniforms, more) {
 function surfaceMaterial() {
 	const material = new THREE.MeshPhongMaterial({
 		vertexColors: THREE.VertexColors,
-		specular: 0x1c1c1c,
+		specular: 0x121212,
 		shininess: 24,
 		side: THREE.DoubleSide,
 		polygonOffset: true,
@@ -109,7 +109,7 @@ export class Drawn {
 	bePoints(normal) {
 		const n = this.position.length / 3;
 
-		this.material = pointMaterial(POINT_FRAGMENT, { size: 1.1 * this.extent / Math.sqrt(n), least: 2, most: 24 });
+		this.material = pointMaterial(POINT_FRAGMENT, { size: 2.2 * spacingOf(this.position), least: 2, most: 24 });
 		this.shape({ position: this.position, normal: normal ? Float32Array.from(normal) : new Float32Array(3 * n), index: null, source: null });
 		this.group.add(new THREE.Points(this.geometry, this.material));
 	}

@@ -14,6 +14,7 @@ function onClick(canvas, act) {
 	let down = null;
 
 	canvas.addEventListener("pointerdown", (e) => {
+		document.activeElement.blur(); /* keys are the page's again */
 		down = e.isPrimary && e.button === 0 ? e : null;
 	});
 	canvas.addEventListener("pointerup", (e) => {

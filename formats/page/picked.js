@@ -44,17 +44,17 @@ async function valueAt(frame, layer, column, row) {
 /* Rows of the card: what, and the words for it. */
 async function rowsOf(frame, layer, picked, centre, extent, color) {
 	const position = await layer.position.values(), v = picked.vertex;
-	const rows = [["layer", layer.name], ["vertex", String(v)]];
+	const rows = [["layer", layer.name], ["vertex", String(v)]]; /* what, words, and whether a small window goes without */
 	const region = columnOf(frame, layer.name, "region"), column = color && columnOf(frame, layer.name, color);
 
 	rows.push(["at", place(Array.from(position.subarray(3 * v, 3 * v + 3)), extent)]);
 	if (picked.face !== null) {
 		const t = await layer.triangles.values();
 		rows.push(["face", String(picked.face)]);
-		rows.push(["corners", t.subarray(3 * picked.face, 3 * picked.face + 3).join("  ")]);
+		rows.push(["corners", t.subarray(3 * picked.face, 3 * picked.face + 3).join("  "), true]);
 	}
 	if (picked.at)
-		rows.push(["clicked", place(picked.at.map((x, c) => x + centre[c]), extent)]);
+		rows.push(["clicked", place(picked.at.map((x, c) => x + centre[c]), extent), true]);
 	if (region && region.element === "v")
 		rows.push(["region", await valueAt(frame, layer.name, region, v)]);
 	if (column && column !== region && (column.element === "v" || picked.face !== null))
@@ -66,6 +66,6 @@ async function rowsOf(frame, layer, picked, centre, extent, color) {
 export async function tell(card, frame, layer, picked, centre, extent, color) {
 	const rows = layer && picked ? await rowsOf(frame, layer, picked, centre, extent, color) : [];
 
-	card.replaceChildren(...rows.flatMap(([what, words]) => [element("dt", what), element("dd", words)]));
+	card.replaceChildren(...rows.flatMap(([what, words, more]) => ["dt", "dd"].map((kind, i) => element(kind, i ? words : what, more ? "more" : ""))));
 	card.hidden = rows.length === 0;
 }

@@ -1,6 +1,6 @@
 /* side.js -- the side of the page: what is in the frame, switches for it, the legend of the colours. */
 import { kindColor, mapOf, regionColor, regionName } from "./colors.js";
-import { count, element, number } from "./text.js";
+import { count, element } from "./text.js";
 
 const MOST = 24; /* kinds that a legend lists */
 const $ = (id) => document.getElementById(id);
@@ -24,6 +24,11 @@ function layerSwitch(layer, shown, change) {
 export function listLayers(layers, visible, change) {
 	$("layers").replaceChildren(...layers.map((layer) => layerSwitch(layer, visible.has(layer.name), change)));
 	$("besides").hidden = layers.length < 2;
+}
+
+/* Edges and smoothness are of surfaces. */
+export function offerShading(layers) {
+	$("shading").hidden = !layers.some((l) => l.triangles);
 }
 
 /* The columns that there are to colour by; the first choice is none. */
@@ -74,8 +79,8 @@ export function showLegend(legend) {
 	if (!numbers)
 		return;
 	drawBar(legend.range);
-	$("low").value = number(legend.range.low);
-	$("high").value = number(legend.range.high);
+	$("low").value = Number(legend.range.low.toPrecision(5));
+	$("high").value = Number(legend.range.high.toPrecision(5));
 }
 
 export function showName(frame, history) {

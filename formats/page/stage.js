@@ -27,10 +27,11 @@ function columnsFor(n, width, height) {
 }
 
 export class Stage {
-	constructor(canvas, labels) {
+	/* smooth: whether edges are, which costs four times the pixels. */
+	constructor(canvas, labels, smooth) {
 		this.canvas = canvas;
 		this.labels = labels;
-		this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, alpha: true });
+		this.renderer = new THREE.WebGLRenderer({ canvas, antialias: smooth, alpha: true });
 		this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 		this.renderer.autoClear = false;
 		this.scene = new THREE.Scene();
@@ -44,7 +45,7 @@ export class Stage {
 	}
 
 	light() {
-		const lamp = new THREE.DirectionalLight(0xffffff, 0.62), sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.48);
+		const lamp = new THREE.DirectionalLight(0xffffff, 0.56), sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.46);
 
 		lamp.position.set(-0.3, 0.5, 0.9);
 		this.camera.add(lamp);

@@ -1,6 +1,6 @@
 /*
  * surface.js -- from columns to what a graphics card draws: floats around a centre, normals, and vertices that are
- * parted where the surface has a crease.
+ * parted where the surface has a crease; how large points are.
  */
 const CREASE = Math.cos(45 * Math.PI / 180); /* faces farther apart are not shaded as one, as in mr-render */
 const BENT = Math.cos(25 * Math.PI / 180); /* a vertex is asked whose normal is farther from one of its faces */
@@ -178,4 +178,22 @@ export function edgesOf(t) {
 	for (let f = 0; f < t.length; f += 3)
 		out.set([t[f], t[f + 1], t[f + 1], t[f + 2], t[f + 2], t[f]], 2 * f);
 	return out;
+}
+
+/* The usual distance of a point from the nearest other, by some of them. */
+export function spacingOf(p) {
+	const n = p.length / 3, asked = Math.min(n, 41), distances = [];
+
+	for (let k = 0; k < asked; k++) {
+		const a = 3 * Math.floor((k + 0.5) * n / asked);
+		let best = Infinity;
+		for (let i = 0; i < p.length; i += 3) {
+			const d = (p[i] - p[a]) ** 2 + (p[i + 1] - p[a + 1]) ** 2 + (p[i + 2] - p[a + 2]) ** 2;
+			if (d < best && d > 0)
+				best = d;
+		}
+		distances.push(Math.sqrt(best));
+	}
+	distances.sort((a, b) => a - b);
+	return Number.isFinite(distances[asked >> 1]) ? distances[asked >> 1] : 0;
 }

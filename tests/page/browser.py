@@ -125,7 +125,7 @@ class Browser:
         self.url = "file://" + os.path.abspath(path)
         began = time.monotonic()
         self.call("Page.navigate", url=self.url)
-        if not self.wait("document.readyState === 'complete' && !(document.getElementById('message').textContent.startsWith('Reading'))",
+        if not self.wait("document.readyState === 'complete' && !(document.getElementById('message')?.textContent ?? 'Reading').startsWith('Reading')",
                          seconds):
             raise RuntimeError(path + ": not drawn after %d s" % seconds)
         self.settle()
