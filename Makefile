@@ -6,8 +6,9 @@
 #	make check      the tests; T=PATTERN some of them; SAN=1 under the address and undefined-behaviour sanitizers
 #	make check SAN=thread T=threads the tools that have threads under the thread sanitizer
 #	make check-long the tests of faults in full: an hour
+#	make check-page the tests of the page of mr-view in Chromium, which it installs
 #	make coverage   what the tests run of lib, formats and cmd: lines and branches; T=PATTERN some of them
-#	make lint       clang-tidy and cppcheck over the sources: no findings
+#	make lint       clang-tidy, cppcheck and eslint over the sources: no findings
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
 #	make fuzz       the readers and the tools' work under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
@@ -58,7 +59,8 @@ BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.
 PAGE    := $(wildcard formats/page/*)
 THREE   ?= /usr/share/javascript/three
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
-NEEDS   := build $(if $(filter setup check check-long coverage matrix bless units,$(MAKECMDGOALS)),check) $(filter lint bench,$(MAKECMDGOALS))
+NEEDS   := build $(if $(filter setup check check-long check-page coverage matrix bless units,$(MAKECMDGOALS)),check) \
+	$(if $(filter check-page,$(MAKECMDGOALS)),page) $(filter lint bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -133,6 +135,9 @@ check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
 check-long: $(TOOLS)
 	@LONG=1 LIMIT=14400 $(RUN) tests/run $(or $(T),bad/)
 
+check-page: $(TOOLS)
+	@$(RUN) tests/run $(or $(T),page/)
+
 matrix: $(TOOLS)
 	@mkdir -p $(BUILD)/matrix && cd $(BUILD)/matrix && $(RUN) $(CURDIR)/tests/matrix/run '$(T)'
 
@@ -147,7 +152,7 @@ coverage:
 # A source again when it or a header has changed; .clang-tidy and tests/lint say what is not asked.
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
 LINT    := $(patsubst %,$(BUILD)/lint/%,$(wildcard lib/*/*.c formats/*.c cmd/*.c))
-lint: $(LINT) $(BUILD)/lint/cppcheck
+lint: $(LINT) $(BUILD)/lint/cppcheck $(BUILD)/lint/eslint
 
 $(BUILD)/lint/%.c: %.c .clang-tidy tests/lint/assume.h $(HEADERS) | setup
 	@mkdir -p $(@D)
@@ -158,6 +163,11 @@ $(BUILD)/lint/cppcheck: tests/lint/cppcheck.txt $(HEADERS) $(LINT:$(BUILD)/lint/
 	@mkdir -p $@.cache
 	$(call say,check  )cppcheck -q --std=c11 --enable=warning,performance,portability -Ilib -I. -Icmd --inline-suppr --cppcheck-build-dir=$@.cache \
 		--suppressions-list=tests/lint/cppcheck.txt --error-exitcode=1 lib formats cmd && touch $@
+
+# Debian's modules for Node, which another Node looks for elsewhere.
+$(BUILD)/lint/eslint: $(filter %.js,$(PAGE)) tests/lint/eslint.json | setup
+	@mkdir -p $(@D)
+	$(call say,eslint )NODE_PATH=/usr/share/nodejs:/usr/lib/nodejs eslint -f unix --no-eslintrc -c tests/lint/eslint.json $(filter %.js,$^) && touch $@
 
 # In a build of its own; clang's libFuzzer watches the whole library.
 FUZZ  := $(BUILD)/fuzz
@@ -231,5 +241,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long coverage lint matrix fuzz bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check check-long check-page coverage lint matrix fuzz bless demo bench table1 readme install uninstall clean
 .SECONDARY:

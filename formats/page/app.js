@@ -61,7 +61,8 @@ export class App {
 			this.drawn.get(layer.name).drawn.look(this.choice.flat, this.choice.wire);
 		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
 		$("message").textContent = this.nothing(layers, seen);
-		await this.tellPicked(frame, seen);
+		this.shown = { frame, seen };
+		await this.tellPicked();
 	}
 
 	nothing(layers, seen) {
@@ -129,7 +130,11 @@ export class App {
 		showLegend(name ? await this.legend(frame, seen, name) : null);
 		for (const layer of seen) {
 			const column = name && columnOf(frame, layer.name, name), { drawn } = this.drawn.get(layer.name);
-			drawn.paint(column ? paint(column, await column.values(), this.choice.range) : null, Boolean(column) && column.element === "f");
+			const range = this.choice.range || {}, key = column ? [column, range.low, range.high] : [];
+			if (drawn.painted && key.length === drawn.painted.length && key.every((x, i) => x === drawn.painted[i]))
+				continue;
+			drawn.painted = key;
+			drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) && column.element === "f");
 		}
 	}
 
@@ -174,16 +179,17 @@ export class App {
 		const ray = this.stage.rayAt(clientX, clientY);
 
 		this.picked = ray && pickAt(ray);
-		return this.change({});
+		return this.tellPicked();
 	}
 
 	forget() {
 		this.picked = null;
-		return this.change({});
+		return this.tellPicked();
 	}
 
 	/* Marks what was picked, as long as it is there. */
-	async tellPicked(frame, seen) {
+	async tellPicked() {
+		const { frame, seen } = this.shown;
 		const layer = this.picked && seen.find((l) => l.name === this.picked.name && l.position.rows > this.picked.vertex);
 		const there = layer && (this.picked.face === null || (layer.triangles && layer.triangles.rows > this.picked.face));
 
