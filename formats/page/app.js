@@ -5,7 +5,7 @@
 import { Drawn } from "./drawn.js";
 import { firstLayer, layersOf, namesOf } from "./layers.js";
 import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
-import { pickAt, tell } from "./picked.js";
+import { pickAt, rowsOf, tell } from "./picked.js";
 import { listColors, listLayers, offerShading, showLegend, showName } from "./side.js";
 import { Stage } from "./stage.js";
 import { columnOf, linesOf } from "./stream.js";
@@ -28,6 +28,7 @@ export class App {
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.picked = null;
+		this.telling = 0;
 	}
 
 	/* Takes other choices, and is done when the page shows them, or later ones. */
@@ -39,11 +40,16 @@ export class App {
 	}
 
 	async work() {
-		while (this.asked) {
-			this.asked = false;
-			await this.refresh();
+		document.body.setAttribute("aria-busy", "true");
+		try {
+			while (this.asked) {
+				this.asked = false;
+				await this.refresh();
+			}
+		} finally {
+			this.working = null;
+			document.body.removeAttribute("aria-busy");
 		}
-		this.working = null;
 	}
 
 	async refresh() {
@@ -128,14 +134,18 @@ export class App {
 		const name = names.includes(this.choice.color) ? this.choice.color : "";
 		listColors(names, name);
 		showLegend(name ? await this.legend(frame, seen, name) : null);
-		for (const layer of seen) {
-			const column = name && columnOf(frame, layer.name, name), { drawn } = this.drawn.get(layer.name);
-			const range = this.choice.range || {}, key = column ? [column, range.low, range.high] : [];
-			if (drawn.painted && key.length === drawn.painted.length && key.every((x, i) => x === drawn.painted[i]))
-				continue;
-			drawn.painted = key;
-			drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) && column.element === "f");
-		}
+		for (const layer of seen)
+			await this.paint(this.drawn.get(layer.name).drawn, name ? columnOf(frame, layer.name, name) : undefined);
+	}
+
+	/* Paints by the column, if the layer has it, where it is not painted so already. */
+	async paint(drawn, column) {
+		const range = this.choice.range || {}, key = column ? [column, range.low, range.high] : [];
+
+		if (drawn.painted && key.length === drawn.painted.length && key.every((x, i) => x === drawn.painted[i]))
+			return;
+		drawn.painted = key;
+		drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) && column.element === "f");
 	}
 
 	/* The layers' own colours, unless they are all the same: black, where a format has a place for them and no more. */
@@ -187,15 +197,20 @@ export class App {
 		return this.tellPicked();
 	}
 
-	/* Marks what was picked, as long as it is there. */
+	/* Marks what was picked, as long as it is there, and says what it is, unless something else is picked meanwhile. */
 	async tellPicked() {
-		const { frame, seen } = this.shown;
-		const layer = this.picked && seen.find((l) => l.name === this.picked.name && l.position.rows > this.picked.vertex);
-		const there = layer && (this.picked.face === null || (layer.triangles && layer.triangles.rows > this.picked.face));
+		const { frame, seen } = this.shown, picked = this.picked, turn = ++this.telling;
+		const layer = picked && seen.find((l) => l.name === picked.name && l.position.rows > picked.vertex);
+		const there = layer && (picked.face === null || (layer.triangles && layer.triangles.rows > picked.face));
 
 		for (const [name, { drawn }] of this.drawn)
-			drawn.pointTo(there && name === layer.name ? this.picked.vertex : null);
-		await tell($("picked"), frame, there ? layer : undefined, this.picked, this.centre, there ? this.drawn.get(layer.name).drawn.extent : 0, this.choice.color);
+			drawn.pointTo(there && name === layer.name ? picked.vertex : null);
 		this.stage.ask();
+		$("picked").setAttribute("aria-busy", "true");
+		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.choice.color) : [];
+		if (turn !== this.telling)
+			return;
+		tell($("picked"), rows);
+		$("picked").removeAttribute("aria-busy");
 	}
 }

@@ -41,10 +41,10 @@ async function valueAt(frame, layer, column, row) {
 	return n > 1 && column.type === "d" ? all + " (length " + number(numberAt(column, values, row)) + ")" : all;
 }
 
-/* Rows of the card: what, and the words for it. */
-async function rowsOf(frame, layer, picked, centre, extent, color) {
+/* Rows of the card: what, the words for it, and whether a small window goes without. */
+export async function rowsOf(frame, layer, picked, centre, extent, color) {
 	const position = await layer.position.values(), v = picked.vertex;
-	const rows = [["layer", layer.name], ["vertex", String(v)]]; /* what, words, and whether a small window goes without */
+	const rows = [["layer", layer.name], ["vertex", String(v)]];
 	const region = columnOf(frame, layer.name, "region"), column = color && columnOf(frame, layer.name, color);
 
 	rows.push(["at", place(Array.from(position.subarray(3 * v, 3 * v + 3)), extent)]);
@@ -62,10 +62,8 @@ async function rowsOf(frame, layer, picked, centre, extent, color) {
 	return rows;
 }
 
-/* Fills the card; layer undefined: there is nothing to tell. */
-export async function tell(card, frame, layer, picked, centre, extent, color) {
-	const rows = layer && picked ? await rowsOf(frame, layer, picked, centre, extent, color) : [];
-
+/* Fills the card. */
+export function tell(card, rows) {
 	card.replaceChildren(...rows.flatMap(([what, words, more]) => ["dt", "dd"].map((kind, i) => element(kind, i ? words : what, more ? "more" : ""))));
 	card.hidden = rows.length === 0;
 }

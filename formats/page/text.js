@@ -24,12 +24,12 @@ export function count(n) {
 
 /* A number of 24 bits, without digits that it does not have. */
 export function number(x) {
-	return Number.isFinite(x) ? String(Number(x.toPrecision(7))) : String(x);
+	return Number.isFinite(x) ? String(Number(x.toPrecision(8))) : String(x);
 }
 
 /* Coordinates of a model of this extent, to the same number of decimals. */
 export function place(coordinates, extent) {
-	const decimals = extent > 0 ? Math.min(Math.max(6 - Math.floor(Math.log10(extent)), 0), 30) : 7;
+	const decimals = extent > 0 ? Math.min(Math.max(7 - Math.floor(Math.log10(extent)), 0), 30) : 8;
 
 	return coordinates.map((x) => String(Number(x.toFixed(decimals)))).join("  ");
 }

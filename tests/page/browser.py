@@ -132,7 +132,8 @@ class Browser:
         return time.monotonic() - began
 
     def settle(self):
-        """Two pictures later."""
+        """What was asked for is done, and two pictures later."""
+        self.wait("!document.querySelector('[aria-busy]')")
         self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30))))")
 
     def text(self, name):
