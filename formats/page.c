@@ -1,4 +1,5 @@
-/* The page's data are a stream: what a browser shows of the frames, packed, in base64 between two halves of HTML. */
+/* The page's data are a stream: what a browser shows of the frames, packed, in base64 between two halves of
+ * HTML. */
 #include "formats/page.h"
 
 #include "formats/bytes.h"
@@ -14,9 +15,9 @@
 static const off_t LARGEST_PAGE = 300000000;
 
 /* Columns of vertices that say where they are on another layer, or that only serve to compute. */
-static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offset", "source_face", "source_bary",
-	"mesh_face", "mesh_bary", "base_face", "base_bary", "control_face", "control_bary", "encoded", "rest", "target",
-	"response", "texcoord", "polygon", NULL };
+static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offset", "source_face",
+	"source_bary", "mesh_face", "mesh_bary", "base_face", "base_bary", "control_face", "control_bary",
+	"encoded", "rest", "target", "response", "texcoord", "polygon", NULL };
 
 /* Texts that name the values of other columns. */
 static const char *const texts[] = { "groups", "objects", "materials", NULL };
@@ -43,7 +44,8 @@ is_listed(const char *name, const char *list)
 	return false;
 }
 
-/* Places, and up to four numbers that can give colours; a surface's normals the page makes from its triangles. */
+/* Places, and up to four numbers that can give colours; a surface's normals the page makes from its
+ * triangles. */
 static bool
 is_shown(const mr_frame *f, const mr_column *c, const char *layers)
 {
@@ -93,9 +95,9 @@ grid_step(const mr_v3 *p, size_t n)
 }
 
 /*
- * A browser draws with floats.  The stream has doubles alone, and needs nothing else: the low bits of rounded ones
- * are zero, and packing takes them away.  Positions are rounded by the model's extent, not by their distance from
- * the origin, so that less a common centre they are floats exactly.
+ * A browser draws with floats.  The stream has doubles alone, and needs nothing else: the low bits of rounded
+ * ones are zero, and packing takes them away.  Positions are rounded by the model's extent, not by their
+ * distance from the origin, so that less a common centre they are floats exactly.
  */
 static void
 round_column(const mr_column *c, double *rounded)
@@ -193,7 +195,8 @@ check_size(mr_ctx *ctx, const mr_page *page)
 		return failed(ctx);
 	if (size > LARGEST_PAGE)
 		return mr_fail(ctx, MR_ERANGE,
-		    "the page comes to %.0f MB, and browsers take some %.0f: pick fewer layers by -l, or fewer frames",
+		    "the page comes to %.0f MB, and browsers take some %.0f: pick fewer layers by -l, or "
+		    "fewer frames",
 		    (double)size / 1e6, (double)LARGEST_PAGE / 1e6);
 	return MR_OK;
 }
@@ -244,7 +247,8 @@ put_stream(mr_sink *s, FILE *file)
 		return failed(s->ctx);
 	while ((n = fread(piece, 1, PIECE, file)) > 0) {
 		if (pieces++ % PIECES == 0)
-			mr_print(s, "%s<script type=\"text/plain\" class=\"stream\">", pieces > 1 ? "</script>\n" : "");
+			mr_print(s, "%s<script type=\"text/plain\" class=\"stream\">",
+			    pieces > 1 ? "</script>\n" : "");
 		put_base64(s, piece, n);
 	}
 	mr_print(s, "</script>\n");

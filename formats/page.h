@@ -1,4 +1,5 @@
-/* page.h -- a page for browsers: frames as a packed stream, in one HTML file.  Layer rule: formats includes lib. */
+/* page.h -- a page for browsers: frames as a packed stream, in one HTML file.  Layer rule: formats includes
+ * lib. */
 #ifndef MR_PAGE_H
 #define MR_PAGE_H
 
@@ -20,8 +21,9 @@ typedef struct mr_page_result {
 } mr_page_result;
 
 /*
- * Adds a frame: of the layers in the list (NULL: all that have positions) what a page shows, doubles rounded to
- * 24 bits.  MR_EMISSING for a layer that the frame has not; MR_ERANGE where the page is too large for a browser.
+ * Adds a frame: of the layers in the list (NULL: all that have positions) what a page shows, doubles rounded
+ * to 24 bits.  MR_EMISSING for a layer that the frame has not; MR_ERANGE where the page is too large for a
+ * browser.
  */
 mr_status mr_page_add(
     mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_page_result *result) MR_WARN_UNUSED;

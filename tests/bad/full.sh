@@ -13,7 +13,7 @@ if [ -w closed ]; then # by root, for whom nothing is closed
 	chmod a+rx . && $as test -r cube.mrs || { echo "nobody but root can read this"; exit 77; }
 fi
 for command in 'mr-cat -o closed/new' 'mr-cat -o closed/old' 'mr-export -f obj closed/old' 'mr-export -f stl closed/new.gz' \
-	'mr-info --stats closed/new' 'mr-render closed/new.png'; do
+	'mr-info --stats closed/new' 'mr-render closed/new.png' 'mr-view closed/new.html'; do
 	$as $command <cube.mrs >out 2>err
 	code=$?
 	[ $code -eq 1 ] && [ "$(wc -l <err)" -eq 1 ] && grep -q 'closed/.*Permission denied' err || { echo "$command: exit $code: $(cat err)"; exit 1; }

@@ -100,6 +100,7 @@ mr-export -q -l mesh -f ply -
 mr-export -q -l mesh -f stl -
 mr-export -q -l base -f off -
 mr-export -q -l mesh -f glb -
+mr-view -q -
 mr-render -q --size 24x24 -""".split("\n")
 
 

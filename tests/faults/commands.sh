@@ -51,3 +51,4 @@ try mr-crop -j1 --keep above:y,0.5 mesh.mrs
 try mr-transform -j1 --rotate 0,0,1,30 solved.mrs
 try mr-map -j1 -w made/x displaced.mrs
 try mr-render -j1 --size 64x64 -i mesh.mrs made/x.png
+try mr-view -j1 -i posed.mrs made/x.html

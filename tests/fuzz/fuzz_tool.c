@@ -3,6 +3,7 @@
  * a result or a sentence.  A result is written and read again, and breaks no law of the layers unless the
  * input broke one.
  */
+#include "formats/page.h"
 #include "measure/report.h"
 #include "mesh/validate.h"
 #include "stream/fingerprint.h"
@@ -219,6 +220,17 @@ render(const job *j)
 }
 
 static mr_status
+view(const job *j)
+{
+	mr_page page = { 0 };
+	mr_page_result r;
+	mr_status status = mr_page_add(j->ctx, &page, j->f, NULL, &r);
+
+	mr_page_free(&page);
+	return status;
+}
+
+static mr_status
 info(const job *j)
 {
 	mr_report_opts o = { .json = j->way % 2, .check = true };
@@ -265,7 +277,8 @@ static const struct tool {
 	{ "mr-subdivide", subdivide }, { "mr-simplify", simplify }, { "mr-fit", fit },
 	{ "mr-sample", sample }, { "mr-shrinkwrap", wrap }, { "mr-normals", normals },
 	{ "mr-transform", transform }, { "mr-crop", crop }, { "mr-split", split },
-	{ "mr-equalize", equalize }, { "mr-export", export }, { "mr-render", render }, { "mr-info", info },
+	{ "mr-equalize", equalize }, { "mr-export", export }, { "mr-render", render }, { "mr-view", view },
+	{ "mr-info", info },
 	{ "mr-compare", compare }, { "mr-map", map } };
 
 static const struct tool *

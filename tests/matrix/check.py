@@ -2,6 +2,7 @@
 
 A promise is a function of what it is to judge; it gives nothing where that is right, else raises Broken with a sentence.
 """
+import base64
 import json
 import math
 import os
@@ -369,6 +370,20 @@ def pictures(before, after):
     for name in ("map-height.png", "map-normal.png"):
         png_file(before, name)
     must(os.path.getsize("map.mtl"), "an empty map.mtl")
+
+
+def page_file(before, path):
+    """The stream in the page has the frames, their positions to 24 bits of the extent."""
+    blocks = re.findall('<script type="text/plain" class="stream">([^<]*)</script>', open(path, encoding="utf-8").read())
+    open("x.packed", "wb").write(b"".join(base64.b64decode(block, validate=True) for block in blocks))
+    must(os.system("mr-cat -u --no-history x.packed >x.back") == 0, "no stream in the page")
+    after = frames("x.back")
+    must(len(before) == len(after), f"{len(after)} frames of {len(before)}")
+    for old, new in zip(before, after):
+        for layer in (layer for layer in old if "position" in old[layer]):
+            a, b = old[layer]["position"], new[layer]["position"]
+            must(a.shape == b.shape and np.abs(a - b).max() <= 2.0 ** -24 * np.ptp(a, axis=0).max(), f"{layer}: other positions")
+            must("triangles" not in old[layer] or np.array_equal(old[layer]["triangles"], new[layer]["triangles"]), f"{layer}: other triangles")
 
 
 def info_text(before, path):

@@ -40,6 +40,7 @@ JOBS = [
     ("pack", "import", "mr-cat -z", c.same_values),
     ("info", "import", "mr-info --json", ("-", c.info_text)),
     ("render", "import", "mr-render --size 60x40 x.png", ("x.png", c.png_file)),
+    ("view", "import", "mr-view x.html", ("x.html", c.page_file)),
     ("obj", "import", "mr-export x.obj", ("x.obj", c.obj_file)),
     ("ply", "import", "mr-export x.ply", ("x.ply", c.ply_file)),
     ("stl", "import", "mr-export x.stl", ("x.stl", c.stl_file)),

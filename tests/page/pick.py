@@ -95,6 +95,14 @@ def million(b):
         new MutationObserver((_, o) => { o.disconnect(); done(performance.now() - began); }).observe(document.getElementById("picked"), { childList: true });
         canvas.dispatchEvent(new PointerEvent("pointerup", at));
     })""" % (10 * k)) for k in range(7)]
+    values = columns("million.mrs")
+    left, top, width, height = b.canvas()
+    for x, y in ((0.5, 0.5), (0.6, 0.3), (0.4, 0.7)):
+        b.click(left + x * width, top + y * height)
+        said = b.picked()
+        corners = values["mesh", "triangles"][int(said["face"])]
+        check(said["corners"].split() == [str(v) for v in corners], "a million triangles: %s, not %s" % (said, corners))
+        check(near(numbers(said["at"]), values["mesh", "position"][int(said["vertex"])], 2e-7), "a million triangles: %s" % said)
     print("a million triangles: open in %.1f s, picked in %.0f ms" % (opened, sorted(times)[3]))
     check(min(times) < 50, "a million triangles: picked in %s ms" % times)
     check(opened < 30, "a million triangles: open in %.1f s" % opened)

@@ -22,5 +22,5 @@ mr-import body.ply -o body.mrs && mr-view -i body.mrs body.html || exit
 mr-import three.xyz -o three.mrs && mr-view -i three.mrs three.html || exit
 mr-make bumpy -n 8000 | mr-smooth | mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 | mr-encode -o bumpy.mrs || exit
 mr-view -l mesh -i bumpy.mrs bumpy.html || exit
-mr-make sphere -n 1000000 | mr-view million.html || exit
+mr-make sphere -n 1000000 -o million.mrs && mr-view -i million.mrs million.html || exit
 exec python3 "$TOP/tests/page/pick.py"

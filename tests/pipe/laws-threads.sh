@@ -53,6 +53,7 @@ try - mr-subdivide -n 2 --limit control.mrs
 try - mr-subdivide --longest 2% mesh.mrs
 try - mr-map -w map displaced.mrs
 try - mr-render --size 200x200 -i mesh.mrs -
+try - mr-view -i mesh.mrs -
 try - mr-transform --rotate 1,0,0,20 mesh.mrs
 try - mr-crop --keep above:y,0.5 mesh.mrs
 try - mr-split mesh.mrs

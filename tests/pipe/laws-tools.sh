@@ -29,13 +29,14 @@ arguments() {
 	mr-compare) echo -a mesh ;;
 	mr-export) echo -l mesh out.ply ;;
 	mr-render) echo -l mesh,base out.png ;;
+	mr-view) echo out.html ;;
 	esac
 }
 # Source: reads no stream.  Sink: writes no stream.
 kind() {
 	case $1 in
 	mr-import | mr-make) echo source ;;
-	mr-export | mr-render | mr-info | mr-compare) echo sink ;;
+	mr-export | mr-render | mr-view | mr-info | mr-compare) echo sink ;;
 	*) echo filter ;;
 	esac
 }

@@ -51,7 +51,7 @@ one_sentence && grep -q "byte $size: this is not a stream" err || bad "bytes beh
 
 # Damage stops at the first tool, whether or not it looks at the column.
 refuse() { # FILE WHAT
-	for way in mr-cat 'mr-cat -z' 'mr-normals -l points' mr-info 'mr-info -l points' 'mr-export -f ply -' 'mr-render -'; do
+	for way in mr-cat 'mr-cat -z' 'mr-normals -l points' mr-info 'mr-info -l points' 'mr-export -f ply -' 'mr-render -' 'mr-view -'; do
 		$way <"$1" >out 2>err
 		[ $? -eq 1 ] && one_sentence && grep -q "stdin: byte .*: .*$2" err || bad "$way: $1: $(cat err)"
 		mr-cat out >/dev/null 2>&1 && bad "$way: $1: a whole stream comes out"
