@@ -187,10 +187,8 @@ begin(mr_ctx *ctx, mr_page *page)
 }
 
 static mr_status
-check_size(mr_ctx *ctx, const mr_page *page)
+check_size(mr_ctx *ctx, off_t size)
 {
-	off_t size = lseek(fileno(page->file), 0, SEEK_CUR);
-
 	if (size < 0)
 		return failed(ctx);
 	if (size > LARGEST_PAGE)
@@ -199,6 +197,22 @@ check_size(mr_ctx *ctx, const mr_page *page)
 		    "fewer frames",
 		    (double)size / 1e6, (double)LARGEST_PAGE / 1e6);
 	return MR_OK;
+}
+
+/* Of a frame that fails nothing stays: others may follow. */
+static mr_status
+send_frame(mr_ctx *ctx, mr_page *page, const mr_frame *shown)
+{
+	int fd = fileno(page->file);
+	off_t before = lseek(fd, 0, SEEK_CUR);
+	mr_status status = mr_writer_put(ctx, page->writer, shown);
+
+	if (status == MR_OK)
+		status = check_size(ctx, lseek(fd, 0, SEEK_CUR));
+	if (status == MR_OK)
+		return MR_OK;
+	mr_writer_skipped(page->writer);
+	return ftruncate(fd, before) || lseek(fd, before, SEEK_SET) < 0 ? failed(ctx) : status;
 }
 
 mr_status
@@ -210,9 +224,9 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	MR_TRY(check_layers(ctx, frame, layers));
 	MR_TRY(take_columns(ctx, frame, layers, &shown, result));
 	MR_TRY(begin(ctx, page));
-	MR_TRY(mr_writer_put(ctx, page->writer, &shown));
+	MR_TRY(send_frame(ctx, page, &shown));
 	page->frames++;
-	return check_size(ctx, page);
+	return MR_OK;
 }
 
 /* n bytes as text; only the last ones of a block may be no multiple of 3. */

@@ -27,6 +27,7 @@ export class App {
 		this.choice = { frame: 0, visible: null, beside: false, flat: false, wire: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
+		this.color = ""; /* the column of the colours; none */
 		this.picked = null;
 		this.telling = 0;
 	}
@@ -56,9 +57,7 @@ export class App {
 		const frame = this.frames[this.choice.frame], layers = layersOf(frame);
 
 		showName(frame, await linesOf(frame, "", "history"));
-		if (this.choice.visible === null && layers.length)
-			this.choice.visible = new Set([await firstLayer(frame, layers)]);
-		const visible = this.choice.visible || new Set(), seen = layers.filter((l) => visible.has(l.name));
+		const visible = await this.visible(frame, layers), seen = layers.filter((l) => visible.has(l.name));
 		listLayers(layers, visible, (name, on) => this.turn(name, on));
 		offerShading(seen);
 		await this.load(frame, seen.length ? seen : layers);
@@ -69,6 +68,15 @@ export class App {
 		$("message").textContent = this.nothing(layers, seen);
 		this.shown = { frame, seen };
 		await this.tellPicked();
+	}
+
+	/* The layers that are switched on; at first, and of another model that has none of them, the one that comes first. */
+	async visible(frame, layers) {
+		const { visible } = this.choice, there = visible && layers.some((l) => visible.has(l.name));
+
+		if (layers.length && !there && (!visible || this.group !== frame.group))
+			this.choice.visible = new Set([await firstLayer(frame, layers)]);
+		return this.choice.visible || new Set();
 	}
 
 	nothing(layers, seen) {
@@ -91,18 +99,19 @@ export class App {
 
 	/* Makes what is drawn of layers that are new or other than before; of another key frame all is made anew. */
 	async load(frame, layers) {
-		const fresh = this.group !== frame.group;
+		const fresh = this.group !== frame.group, first = this.group === null;
 
 		if (fresh && layers.length) {
 			this.group = frame.group;
 			this.choice.range = null;
+			this.picked = null;
 			this.centre = centreOf(boxOf(await layers[0].position.values()) || { low: [0, 0, 0], high: [0, 0, 0] });
 			this.clear();
 		}
 		for (const layer of layers)
 			await this.make(layer);
 		if (fresh && layers.length)
-			this.fit(QUARTER);
+			this.fit(first ? QUARTER : undefined);
 	}
 
 	clear() {
@@ -129,9 +138,9 @@ export class App {
 	async colour(frame, seen) {
 		const names = [...new Set(seen.flatMap((l) => l.colors.map((c) => c.name)))];
 
-		if (this.choice.color === null)
-			this.choice.color = await this.ownColor(frame, seen);
-		const name = names.includes(this.choice.color) ? this.choice.color : "";
+		const chosen = this.choice.color === null ? await this.ownColor(frame, seen) : this.choice.color;
+		const name = names.includes(chosen) ? chosen : "";
+		this.color = name;
 		listColors(names, name);
 		showLegend(name ? await this.legend(frame, seen, name) : null);
 		for (const layer of seen)
@@ -207,7 +216,7 @@ export class App {
 			drawn.pointTo(there && name === layer.name ? picked.vertex : null);
 		this.stage.ask();
 		$("picked").setAttribute("aria-busy", "true");
-		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.choice.color) : [];
+		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.color) : [];
 		if (turn !== this.telling)
 			return;
 		tell($("picked"), rows);

@@ -65,7 +65,7 @@ function surfaceMaterial() {
 }
 
 function edgeMaterial() {
-	return new THREE.LineBasicMaterial({ color: 0x1a2230, transparent: true, opacity: 0.28, depthWrite: false });
+	return new THREE.LineBasicMaterial({ color: 0x1a2230, transparent: true, opacity: 0.2, depthWrite: false });
 }
 
 const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);

@@ -29,7 +29,7 @@ arguments() {
 	mr-compare) echo -a mesh ;;
 	mr-export) echo -l mesh out.ply ;;
 	mr-render) echo -l mesh,base out.png ;;
-	mr-view) echo out.html ;;
+	mr-view) echo -l mesh,base out.html ;;
 	esac
 }
 # Source: reads no stream.  Sink: writes no stream.
@@ -77,7 +77,7 @@ for path in "$BUILD"/bin/mr-*; do
 		grep -q 'ends without END' err && one_sentence err "$tool" || bad "$tool: empty stdin: $(cat err)"
 		for bytes in 1 63 64 100 5000 $(($(wc -c <all.mrs) - 64)) $(($(wc -c <all.mrs) - 1)); do
 			head -c "$bytes" all.mrs >cut.mrs
-			rm -f out.ply out.png
+			rm -f out.ply out.png out.html
 			try "$tool" "$@" <cut.mrs
 			[ $code -eq 1 ] || bad "$tool: a stream cut at $bytes bytes: exit $code, not 1"
 			one_sentence err "$tool" || bad "$tool: a stream cut at $bytes bytes: $(cat err)"
@@ -94,7 +94,7 @@ for path in "$BUILD"/bin/mr-*; do
 			cat all.mrs | "$tool" "$@" -j $threads >again || bad "$tool -j $threads: fails"
 		fi
 		cmp first again || bad "$tool -j $threads: other bytes"
-		for made in out.ply out.png out-height.png out-normal.png; do
+		for made in out.ply out.png out.html out-height.png out-normal.png; do
 			[ -f $made ] || continue
 			[ ! -f kept.$made ] || cmp $made kept.$made || bad "$tool -j $threads: another $made"
 			mv $made kept.$made
