@@ -129,9 +129,10 @@ export class App {
 		const extent = box ? Math.hypot(...box.low.map((x, c) => box.high[c] - x)) : 0;
 		const triangles = layer.triangles && layer.triangles.rows ? await layer.triangles.values() : null;
 		const normal = !triangles && layer.normal ? await layer.normal.values() : null;
+		const drawn = new Drawn(position, triangles, normal, extent, old && old.drawn);
 		if (old)
-			old.drawn.dispose();
-		this.drawn.set(layer.name, { position: layer.position, triangles: layer.triangles, box, drawn: new Drawn(position, triangles, normal, extent) });
+			old.drawn.dispose(drawn);
+		this.drawn.set(layer.name, { position: layer.position, triangles: layer.triangles, box, drawn });
 	}
 
 	/* The column of the colours: the one chosen; before any is, the layers' own colours. */

@@ -52,7 +52,6 @@ function surfaceMaterial() {
 		specular: 0x121212,
 		shininess: 24,
 		side: THREE.DoubleSide,
-		polygonOffset: true,
 		polygonOffsetFactor: 1,
 		polygonOffsetUnits: 1,
 	});
@@ -66,6 +65,16 @@ function surfaceMaterial() {
 
 function edgeMaterial() {
 	return new THREE.LineBasicMaterial({ color: 0x1a2230, transparent: true, opacity: 0.2, depthWrite: false });
+}
+
+/* What a layer is drawn with, which serves its later frames as well: a shader is compiled once. */
+function materialsFor(surface) {
+	return {
+		surface,
+		body: surface ? surfaceMaterial() : pointMaterial(POINT_FRAGMENT, { size: 1, least: 2, most: 24 }),
+		edge: edgeMaterial(),
+		mark: pointMaterial(MARK_FRAGMENT, { size: 1, least: 13, most: 13 }, { depthTest: false, transparent: true }),
+	};
 }
 
 const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);
@@ -82,9 +91,15 @@ function spread(colors, source, count) {
 	return out;
 }
 
-/* What is drawn of a layer; `position` and `triangles` are those of the stream, around the centre. */
+/*
+ * What is drawn of a layer; `position` and `triangles` are those of the stream, around the centre.  before: what was
+ * drawn of it in another frame, or undefined.
+ */
 export class Drawn {
-	constructor(position, triangles, normal, extent) {
+	constructor(position, triangles, normal, extent, before) {
+		const again = before && before.materials.surface === Boolean(triangles);
+
+		this.materials = again ? before.materials : materialsFor(Boolean(triangles));
 		this.position = position;
 		this.triangles = triangles;
 		this.extent = extent;
@@ -100,8 +115,7 @@ export class Drawn {
 
 	beSurface() {
 		this.surface = surfaceOf(this.position, this.triangles);
-		this.material = surfaceMaterial();
-		this.group.add(new THREE.Mesh(this.geometry, this.material));
+		this.group.add(new THREE.Mesh(this.geometry, this.materials.body));
 		this.shape(this.surface);
 	}
 
@@ -109,16 +123,16 @@ export class Drawn {
 	bePoints(normal) {
 		const n = this.position.length / 3;
 
-		this.material = pointMaterial(POINT_FRAGMENT, { size: 2.2 * spacingOf(this.position), least: 2, most: 24 });
+		this.materials.body.uniforms.size.value = 2.2 * spacingOf(this.position);
 		this.shape({ position: this.position, normal: normal ? Float32Array.from(normal) : new Float32Array(3 * n), index: null, source: null });
-		this.group.add(new THREE.Points(this.geometry, this.material));
+		this.group.add(new THREE.Points(this.geometry, this.materials.body));
 	}
 
 	beMark() {
 		const geometry = new THREE.BufferGeometry();
 
 		geometry.setAttribute("position", attribute(new Float32Array(3), 3));
-		this.mark = new THREE.Points(geometry, pointMaterial(MARK_FRAGMENT, { size: 1, least: 13, most: 13 }, { depthTest: false, transparent: true }));
+		this.mark = new THREE.Points(geometry, this.materials.mark);
 		this.mark.frustumCulled = false;
 		this.mark.visible = false;
 		this.mark.renderOrder = 1;
@@ -146,9 +160,10 @@ export class Drawn {
 	look(flat, wire) {
 		if (!this.surface)
 			return;
-		if (this.material.flatShading !== flat) {
-			this.material.flatShading = flat;
-			this.material.needsUpdate = true;
+		this.materials.body.polygonOffset = wire; /* so that faces do not hide their edges */
+		if (this.materials.body.flatShading !== flat) {
+			this.materials.body.flatShading = flat;
+			this.materials.body.needsUpdate = true;
 		}
 		if (wire && !this.edges)
 			this.beEdges();
@@ -162,7 +177,7 @@ export class Drawn {
 		geometry.setAttribute("position", attribute(this.position, 3));
 		geometry.setIndex(attribute(edgesOf(this.triangles), 1));
 		geometry.boundingSphere = this.geometry.boundingSphere;
-		this.edges = new THREE.LineSegments(geometry, edgeMaterial());
+		this.edges = new THREE.LineSegments(geometry, this.materials.edge);
 		this.group.add(this.edges);
 	}
 
@@ -177,15 +192,17 @@ export class Drawn {
 
 	/* Pixels that a unit has at distance 1. */
 	scale(pixels) {
-		this.mark.material.uniforms.scale.value = pixels;
+		this.materials.mark.uniforms.scale.value = pixels;
 		if (!this.surface)
-			this.material.uniforms.scale.value = pixels;
+			this.materials.body.uniforms.scale.value = pixels;
 	}
 
-	dispose() {
-		for (const child of this.group.children) {
+	/* Frees what the graphics card has of it, but for materials that it shares with `after`. */
+	dispose(after) {
+		for (const child of this.group.children)
 			child.geometry.dispose();
-			child.material.dispose();
-		}
+		if (!after || after.materials !== this.materials)
+			for (const material of [this.materials.body, this.materials.edge, this.materials.mark])
+				material.dispose();
 	}
 }

@@ -175,8 +175,10 @@ export function apart(surface) {
 export function edgesOf(t) {
 	const out = new Uint32Array(2 * t.length);
 
-	for (let f = 0; f < t.length; f += 3)
-		out.set([t[f], t[f + 1], t[f + 1], t[f + 2], t[f + 2], t[f]], 2 * f);
+	for (let k = 0; k < t.length; k++) {
+		out[2 * k] = t[k];
+		out[2 * k + 1] = t[k % 3 === 2 ? k - 2 : k + 1];
+	}
 	return out;
 }
 
