@@ -331,8 +331,8 @@ mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from)
 mr_status
 mr_frame_check_rows(mr_ctx *ctx, const mr_frame *frame, mr_status status)
 {
-	for (const mr_column *c = frame->columns; c < frame->columns + frame->count; c++) {
-		const mr_column *first = frame->columns;
+	for (size_t i = 0; i < frame->count; i++) {
+		const mr_column *c = &frame->columns[i], *first = frame->columns;
 		if (c->shape.element == '-')
 			continue;
 		while (first->shape.element != c->shape.element || strcmp(first->layer, c->layer))
