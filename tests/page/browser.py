@@ -19,6 +19,15 @@ FLAGS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=
          "--remote-debugging-pipe"]
 
 
+def draws():
+    """Whether the browser starts on this machine and has WebGL, which a container may keep from it."""
+    page = "data:text/html,<script>document.write('WebGL ' + !!document.createElement('canvas').getContext('webgl'))</script>"
+    with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
+        flags = [flag for flag in FLAGS if flag != "--remote-debugging-pipe"] + ["--user-data-dir=" + profile]
+        said = subprocess.run([PROGRAM, *flags, "--dump-dom", page], capture_output=True, timeout=60, check=False).stdout
+    return b"WebGL true" in said
+
+
 class Browser:
     def __init__(self, width=1280, height=800, flags=()):
         self.profile = tempfile.mkdtemp()

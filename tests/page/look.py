@@ -125,7 +125,7 @@ def film(b):
     b.settle()
     check(b.text("name") == "bumpy-0001", "slider: " + b.text("name"))
     b.press(" ")
-    check(b.wait("document.getElementById('name').textContent === 'bumpy-0003'", 10), "play does not go on")
+    check(b.wait("document.getElementById('name').textContent === 'bumpy-0003'", 60), "play does not go on")
     b.press(" ")
     stopped = b.text("number")
     b.settle()

