@@ -78,14 +78,16 @@ $(BUILD)/bin/mr-view: $(BUILD)/page/page.o
 $(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
 	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<
 
-$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css $(BUILD)/page/page.js
-	$(call say,page   )sed -e '/^<!-- style -->$$/{r formats/page/page.css' -e 'd;}' -e '/^<!-- script -->$$/{r $(BUILD)/page/page.js' -e 'd;}' $< >$@
+put = -e '/^<!-- $(1) -->$$/{r $(2)' -e 'd;}'
+$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/page/load.js $(BUILD)/page/main.gz $(BUILD)/page/turner.gz
+	$(call say,page   )sed $(call put,style,formats/page/page.css) $(call put,load,formats/page/load.js) \
+		$(call put,program,$(BUILD)/page/main.gz) $(call put,turner,$(BUILD)/page/turner.gz) $< >$@
 
-# One script of all modules, three.js included; esbuild writes a </script> in a text as <\/script>.
-$(BUILD)/page/page.js: $(filter %.js,$(PAGE)) | setup
+# Of each program of the page one script of all its modules, three.js included, packed, as text.
+$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) | setup
 	@mkdir -p $(@D)
-	$(call say,bundle )esbuild formats/page/main.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
-		--alias:three=$(THREE) --log-level=warning --outfile=$@
+	$(call say,bundle )esbuild formats/page/$*.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
+		--alias:three=$(THREE) --log-level=warning --outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)

@@ -2,8 +2,10 @@
  * HTML. */
 #include "formats/page.h"
 
+#include "edit/detail.h"
+#include "edit/handles.h"
 #include "formats/bytes.h"
-#include "mesh/layers.h"
+#include "formats/page_steps.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -14,10 +16,14 @@
  */
 static const off_t LARGEST_PAGE = 300000000;
 
-/* Columns of vertices that say where they are on another layer, or that only serve to compute. */
+/* Columns of vertices that say where they are on another layer, or that only serve to compute.  Of these a
+ * page takes those by which it poses what it can. */
 static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offset", "source_face",
 	"source_bary", "mesh_face", "mesh_bary", "base_face", "base_bary", "control_face", "control_bary",
 	"encoded", "rest", "target", "response", "texcoord", "polygon", NULL };
+
+static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
+	"base.encoded", "base.response", "handles.transform", "handles.turn", NULL };
 
 /* Texts that name the values of other columns. */
 static const char *const texts[] = { "groups", "objects", "materials", NULL };
@@ -44,6 +50,23 @@ is_listed(const char *name, const char *list)
 	return false;
 }
 
+/* Whether the page can pose base by its response to handles, and the detail with it, as mr-decode does. */
+static bool
+is_posable(const mr_frame *f, const char *layers)
+{
+	return is_listed("mesh", layers) && is_listed("base", layers) && mr_layer_has(f, "mesh", "region") &&
+	       mr_layer_has(f, "mesh", "detail_height") && mr_layer_has(f, "base", "response");
+}
+
+static bool
+is_posing(const mr_column *c)
+{
+	char name[MR_LAYER_MAX + MR_COLUMN_MAX + 2];
+
+	snprintf(name, sizeof name, "%s.%s", c->layer, c->name);
+	return is_one_of(name, posing);
+}
+
 /* Places, and up to four numbers that can give colours; a surface's normals the page makes from its
  * triangles. */
 static bool
@@ -53,6 +76,8 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers)
 
 	if (!*c->layer)
 		return !strcmp(c->name, "history") || !strcmp(c->name, "latest");
+	if (is_posing(c))
+		return is_posable(f, layers);
 	if (!is_listed(c->layer, layers) || !mr_layer_has(f, c->layer, "position"))
 		return false;
 	if (c->shape.element == '-' || c->shape.type == 't')
@@ -75,55 +100,110 @@ round_number(double x)
 	return isfinite(y) ? y : x;
 }
 
-/* The step of a grid of 2^24 steps over the largest extent of the positions; 0 where they have none. */
+/* The largest step, a power of two, of which the extent is less than 2^24. */
 static double
-grid_step(const mr_v3 *p, size_t n)
+step_of(double extent)
 {
-	mr_v3 low = p[0], high = p[0];
-	double extent;
 	int exponent;
 
-	for (size_t i = 1; i < n; i++) {
-		low = mr_vec(fmin(low.x, p[i].x), fmin(low.y, p[i].y), fmin(low.z, p[i].z));
-		high = mr_vec(fmax(high.x, p[i].x), fmax(high.y, p[i].y), fmax(high.z, p[i].z));
-	}
-	extent = fmax(high.x - low.x, fmax(high.y - low.y, high.z - low.z));
-	if (!(extent > 0))
-		return 0;
 	frexp(extent, &exponent);
 	return ldexp(1, exponent - 24);
 }
 
-/*
- * A browser draws with floats.  The stream has doubles alone, and needs nothing else: the low bits of rounded
- * ones are zero, and packing takes them away.  Positions are rounded by the model's extent, not by their
- * distance from the origin, so that less a common centre they are floats exactly.
- */
-static void
-round_column(const mr_column *c, double *rounded)
+/* Positions count from the corner of their box, so that they are whole steps wherever the model is. */
+static mr_steps
+steps_of_places(const mr_column *c)
 {
-	size_t n = (size_t)c->rows * c->shape.components;
-	bool places = c->rows > 0 && !strcmp(c->name, "position");
-	double step = places ? grid_step(c->data, (size_t)c->rows) : 0;
-	const double *x = c->data;
+	const mr_v3 *p = c->data;
+	mr_box box = mr_box_of(p, (size_t)c->rows);
+	mr_v3 size = c->rows ? mr_sub(box.max, box.min) : mr_vec(0, 0, 0);
+	double extent = fmax(size.x, fmax(size.y, size.z)), step = extent > 0 ? step_of(extent) : 0;
 
-	for (size_t i = 0; i < n; i++)
-		rounded[i] = !places ? round_number(x[i]) : step > 0 ? rint(x[i] / step) * step : x[i];
+	if (!(step > 0))
+		return (mr_steps){ 0 };
+	return (mr_steps){ step,
+		{ rint(box.min.x / step) * step, rint(box.min.y / step) * step,
+		    rint(box.min.z / step) * step },
+		3 };
 }
 
+/* Of barycentric coordinates the third is what the two leave of 1. */
+static mr_steps
+steps_of_column(const mr_column *c)
+{
+	size_t n = (size_t)c->rows * c->shape.components;
+	const double *x = c->data, tiny = 1e-200;
+	bool is_encoded = !strcmp(c->layer, "base") && !strcmp(c->name, "encoded");
+	double most = 0;
+
+	if (c->shape.type == 'u')
+		return (mr_steps){ 0, { 0 }, c->shape.components };
+	if (!strcmp(c->name, "position") || is_encoded)
+		return steps_of_places(c);
+	if (!is_posing(c) || !strcmp(c->name, "detail_offset"))
+		return (mr_steps){ 0 };
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, fabs(x[i]));
+	return (mr_steps){ most > tiny ? step_of(most) : 1, { 0 },
+		!strcmp(c->name, "detail_bary") ? 2 : c->shape.components };
+}
+
+/*
+ * A response to maps about the origin is as large as the model is far from there; about the middle of base it
+ * has the digits that matter: w_k - c_k w_3 in place of w_k, with T c - c in place of T's translation.
+ */
 static mr_status
-take_column(mr_ctx *ctx, mr_frame *to, const mr_column *column)
+centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
+{
+	size_t n = (size_t)c->rows * c->shape.components;
+	double *w = MR_NEW(ctx, n, double);
+	mr_mesh base;
+	mr_box box;
+
+	if (!w)
+		return MR_EMEM;
+	MR_TRY(mr_layer_points(ctx, f, "base", &base));
+	box = mr_box_of(base.p, base.nv);
+	for (int k = 0; k < 3; k++)
+		centre[k] = (mr_coordinate(box.min, k) + mr_coordinate(box.max, k)) / 2;
+	memcpy(w, c->data, n * sizeof *w);
+	for (size_t i = 0; i < n; i++)
+		if (i % 4 < 3)
+			w[i] -= centre[i % 4] * w[i - i % 4 + 3];
+	c->data = w;
+	return MR_OK;
+}
+
+/*
+ * A browser draws with floats.  Positions are rounded by the model's extent, not by their distance from the
+ * origin, and so are responses and barycentric coordinates by the largest.  Other numbers are, whatever their
+ * size, within 24 bits of their own; the low bits of such doubles are zero, and packing takes them away.  The
+ * handles' maps, which are few, are those of the stream.
+ */
+static mr_status
+take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, mr_frame *to, mr_text *notes)
 {
 	mr_column c = *column;
-	double *rounded;
+	double *rounded, centre[3];
+	mr_steps steps;
 
-	if (c.shape.type != 'd')
+	if ((c.shape.type != 'd' && c.shape.type != 'u') || !strcmp(c.layer, "handles"))
 		return mr_frame_pass(ctx, to, column);
 	MR_TRY(mr_column_decode(ctx, &c));
+	if (is_posing(&c) && !strcmp(c.name, "response"))
+		MR_TRY(centre_response(ctx, from, &c, centre));
+	steps = steps_of_column(&c);
+	if (is_posing(&c) && !strcmp(c.name, "response"))
+		memcpy(steps.origin, centre, sizeof centre);
+	if (steps.components)
+		return mr_steps_put(ctx, to, &c, &steps, notes);
+	if (!strcmp(c.name, "position")) /* one place */
+		return mr_frame_pass(ctx, to, &c);
 	rounded = MR_NEW(ctx, (size_t)c.rows * c.shape.components, double);
 	if (!rounded)
 		return MR_EMEM;
-	round_column(&c, rounded);
+	for (size_t i = 0; i < (size_t)c.rows * c.shape.components; i++)
+		rounded[i] = round_number(((const double *)c.data)[i]);
 	return mr_frame_put(ctx, to, c.layer, c.name, c.shape, rounded, (size_t)c.rows);
 }
 
@@ -155,19 +235,88 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list)
 	return MR_OK;
 }
 
+/* What mr-decode would refuse is refused here: the page trusts its numbers. */
 static mr_status
-take_columns(mr_ctx *ctx, mr_frame *from, const char *layers, mr_frame *to, mr_page_result *r)
+check_posing(mr_ctx *ctx, mr_frame *f)
 {
-	for (size_t i = 0; i < from->count; i++) {
-		const mr_column *c = &from->columns[i];
-		bool shown = is_shown(from, c, layers);
-		r->layers += shown && *c->layer && !strcmp(c->name, "position");
-		r->columns += shown;
-		r->left_out += !shown;
-		if (shown)
-			MR_TRY(take_column(ctx, to, c));
+	const mr_column *c = mr_frame_find(f, "base", "response");
+	mr_handle_rows rows;
+	mr_detail detail;
+	mr_mesh base;
+	const void *response;
+	const double *x;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
+	MR_TRY(mr_detail_check_faces(ctx, f, &base));
+	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
+	MR_TRY(mr_layer_get_rows(ctx, f, "base", "response", base.nv, &response));
+	MR_TRY(mr_handles_rows(ctx, f, c->shape.components / 4, &rows));
+	if (c->shape.components != 4 * rows.n)
+		return mr_fail(ctx, MR_ERANGE,
+		    "base: column response has %u values a vertex, not 4 for each of %zu handles",
+		    c->shape.components, rows.n);
+	x = response;
+	for (size_t i = 0; i < base.nv * c->shape.components; i++)
+		if (!isfinite(x[i]))
+			return mr_fail(
+			    ctx, MR_ERANGE, "base: response %zu is not finite", i / c->shape.components);
+	return MR_OK;
+}
+
+/* The column before that one, of those that the page takes, of which it is a copy; or NULL.  Layers keep
+ * their own positions, by which a page knows them. */
+static mr_status
+find_same(mr_ctx *ctx, mr_frame *f, size_t at, const bool *shown, const mr_column **same)
+{
+	mr_column *c = &f->columns[at];
+	bool found = false;
+
+	*same = NULL;
+	if (!*c->layer || c->rows == 0 || c->shape.element == '-' || !strcmp(c->name, "position"))
+		return MR_OK;
+	for (size_t i = 0; i < at && !found; i++) {
+		if (shown[i])
+			MR_TRY(mr_columns_same(ctx, &f->columns[i], c, &found));
+		*same = found ? &f->columns[i] : NULL;
 	}
 	return MR_OK;
+}
+
+static mr_status
+take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, mr_frame *to, mr_text *notes)
+{
+	for (size_t i = 0; i < from->count; i++) {
+		const mr_column *c = &from->columns[i], *same;
+		if (!shown[i])
+			continue;
+		MR_TRY(find_same(ctx, from, i, shown, &same));
+		if (same)
+			mr_text_add(notes, "same %s %s %s %s\n", c->layer, c->name, same->layer, same->name);
+		else
+			MR_TRY(take_column(ctx, from, c, to, notes));
+	}
+	return mr_text_done(notes);
+}
+
+/* How columns are stored is told in a text of no layer, `page`. */
+static mr_status
+take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, mr_frame *to, mr_page_result *r)
+{
+	bool *shown = MR_NEW(ctx, from->count, bool);
+	mr_text notes = { .ctx = ctx };
+
+	if (!shown)
+		return MR_EMEM;
+	for (size_t i = 0; i < from->count; i++) {
+		const mr_column *c = &from->columns[i];
+		shown[i] = is_shown(from, c, layers);
+		r->layers += shown[i] && *c->layer && !strcmp(c->name, "position");
+		r->columns += shown[i];
+		r->left_out += !shown[i];
+	}
+	MR_TRY(take_columns(ctx, from, shown, to, &notes));
+	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
+	               : MR_OK;
 }
 
 static mr_status
@@ -222,7 +371,9 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 
 	*result = (mr_page_result){ 0 };
 	MR_TRY(check_layers(ctx, frame, layers));
-	MR_TRY(take_columns(ctx, frame, layers, &shown, result));
+	if (is_posable(frame, layers))
+		MR_TRY(check_posing(ctx, frame));
+	MR_TRY(take_frame(ctx, frame, layers, &shown, result));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(send_frame(ctx, page, &shown));
 	page->frames++;

@@ -6,6 +6,7 @@ import { Drawn } from "./drawn.js";
 import { firstLayer, layersOf, namesOf } from "./layers.js";
 import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
 import { pickAt, rowsOf, tell } from "./picked.js";
+import { Posing } from "./posing.js";
 import { listColors, listLayers, offerShading, showLegend, showName } from "./side.js";
 import { Stage } from "./stage.js";
 import { columnOf, linesOf } from "./stream.js";
@@ -30,6 +31,7 @@ export class App {
 		this.color = ""; /* the column of the colours; none */
 		this.picked = null;
 		this.telling = 0;
+		this.posing = new Posing(this);
 	}
 
 	/* Takes other choices, and is done when the page shows them, or later ones. */
@@ -65,8 +67,10 @@ export class App {
 		for (const layer of seen)
 			this.drawn.get(layer.name).drawn.look(this.choice.flat, this.choice.wire);
 		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
+		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);
 		this.shown = { frame, seen };
+		await this.posing.load(frame, this.centre);
 		await this.tellPicked();
 	}
 
@@ -195,15 +199,20 @@ export class App {
 	}
 
 	/* The vertex under a place of the window. */
-	pick(clientX, clientY) {
+	async pick(clientX, clientY) {
 		const ray = this.stage.rayAt(clientX, clientY);
 
+		if (this.stage.gizmo.busy)
+			return;
 		this.picked = ray && pickAt(ray);
-		return this.tellPicked();
+		if (this.picked)
+			await this.posing.take(this.shown.frame, this.picked);
+		await this.tellPicked();
 	}
 
 	forget() {
 		this.picked = null;
+		this.posing.release();
 		return this.tellPicked();
 	}
 
@@ -217,7 +226,7 @@ export class App {
 			drawn.pointTo(there && name === layer.name ? picked.vertex : null);
 		this.stage.ask();
 		$("picked").setAttribute("aria-busy", "true");
-		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.color) : [];
+		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.color, this.posing.placesOf(layer.name)) : [];
 		if (turn !== this.telling)
 			return;
 		tell($("picked"), rows);

@@ -63,6 +63,29 @@ function join(planes, rows, components, size) {
 	return buffer;
 }
 
+/* Steps, of either direction: 0, 1, 2, 3, ... stand for 0, -1, 1, -2, ... */
+function signed(n) {
+	return n >>> 1 ^ -(n & 1);
+}
+
+/*
+ * The values of a column that was written as sums of such steps (the text `page`): whole numbers modulo 2^32, or, where
+ * there is a step, so many steps from the origin; what that is of rows of more than three is for others to know.
+ */
+function fromSums(sums, components, { step, origin }) {
+	const out = step ? new Float64Array(sums.length) : new Uint32Array(sums.length);
+
+	for (let c = 0; c < components; c++) {
+		const from = components <= 3 ? origin[c] : 0;
+		for (let i = c, at = 0, before = 0; i < sums.length; i += components) {
+			at = at + signed(sums[i] - before >>> 0) | 0;
+			before = sums[i];
+			out[i] = step ? from + step * at : at;
+		}
+	}
+	return out;
+}
+
 /* Columns whose values are kept, the one asked for longest ago first. */
 const kept = new Map();
 let used = 0;
@@ -98,10 +121,36 @@ export class Column {
 	}
 
 	async read() {
-		const size = SIZE[this.type];
+		const size = SIZE[this.stored || this.type], Kind = ARRAY[this.stored || this.type];
+		const values = new Kind(this.packed ? join(await inflate(this.bytes), this.rows, this.components, size) : this.bytes.slice().buffer);
 
-		if (this.packed)
-			return new ARRAY[this.type](join(await inflate(this.bytes), this.rows, this.components, size));
-		return new ARRAY[this.type](this.bytes.slice().buffer);
+		return this.steps ? fromSums(values, this.components, this.steps) : values;
+	}
+
+	/* Says that it is stored as sums of steps, of numbers where step is not 0. */
+	setSteps(step, origin) {
+		this.stored = "u";
+		this.type = step ? "d" : "u";
+		this.steps = { step, origin };
+	}
+
+	/* The same values as a column of another name: always the same object. */
+	called(layer, name) {
+		const key = layer + "\0" + name;
+
+		this.others = this.others || new Map();
+		if (!this.others.has(key))
+			this.others.set(key, new Copy(this, layer, name));
+		return this.others.get(key);
+	}
+}
+
+class Copy extends Column {
+	constructor(of, layer, name) {
+		super({ of, layer, name, element: of.element, type: of.type, components: of.components, rows: of.rows });
+	}
+
+	values() {
+		return this.of.values();
 	}
 }

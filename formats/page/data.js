@@ -18,6 +18,13 @@ function join(parts) {
 	return bytes;
 }
 
+/* The text that an element holds packed, which stays there. */
+export async function textOf(id) {
+	const stream = new Blob([decode(document.getElementById(id).textContent.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
+
+	return new Response(stream).text();
+}
+
 /* Takes the elements out of the page as it reads them, so that no text is held for long. */
 export function takeBytes() {
 	const parts = [];

@@ -1,7 +1,7 @@
 /* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that was picked. */
 import * as THREE from "three/build/three.module.js";
 import { PLAIN } from "./colors.js";
-import { apart, edgesOf, spacingOf, surfaceOf } from "./surface.js";
+import { apart, edgesOf, shade, spacingOf, surfaceOf } from "./surface.js";
 
 const POINT_VERTEX = `
 uniform float size, scale, least, most;
@@ -148,6 +148,24 @@ export class Drawn {
 		this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2 * this.extent);
 	}
 
+	/* The same vertices at other places. */
+	move(position) {
+		this.position.set(position);
+		shade(this.surface, this.position);
+		const arrays = this.split ? apart(this.surface) : this.surface;
+		for (const name of ["position", "normal"]) {
+			const { array } = this.geometry.attributes[name];
+			if (array !== arrays[name])
+				array.set(arrays[name]);
+			this.geometry.attributes[name].needsUpdate = true;
+		}
+		this.geometry.boundingSphere.radius = Infinity; /* always in view: it may go anywhere */
+		if (this.edges)
+			this.edges.geometry.attributes.position.needsUpdate = true;
+		if (this.mark.visible)
+			this.pointTo(this.marked);
+	}
+
 	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
 	paint(colors, perFace) {
 		if (this.surface && this.split !== perFace) {
@@ -184,6 +202,7 @@ export class Drawn {
 	/* Marks a vertex; null: none. */
 	pointTo(vertex) {
 		this.mark.visible = vertex !== null;
+		this.marked = vertex;
 		if (vertex === null)
 			return;
 		this.mark.geometry.attributes.position.array.set(this.position.subarray(3 * vertex, 3 * vertex + 3));

@@ -16,30 +16,56 @@ const KEYS = {
 	e: () => $("wire").click(),
 	v: () => cycle($("view")),
 	f: () => $("fit").click(),
+	m: () => $("move").click(),
+	t: () => $("turn").click(),
+	x: () => $("scale").click(),
 };
 
 /* Typing, and choosing by keys, is the control's own. */
-function isTyping(target) {
-	return target.matches("select, input:not([type=checkbox])");
+function isTyping({ target, key }) {
+	return target.matches("select, textarea, input:not([type=checkbox], [type=radio])") || (target.matches("[type=radio]") && key.startsWith("Arrow"));
 }
 
-export function listen(forget) {
+/* Undo and redo, of what is dragged. */
+function goBack(event, key) {
+	const button = $(key === "y" || event.shiftKey ? "redo" : "undo");
+
+	if (event.altKey || (key !== "z" && key !== "y") || $("pose").hidden || isTyping(event))
+		return;
+	button.click();
+	event.preventDefault();
+}
+
+/* The handle of a digit, or the layer: where there is no handle, and with shift. */
+function chooseNumber(event, choose) {
+	const digit = /^Digit\d$/.test(event.code) ? Number(event.code.slice(5)) : /^\d$/.test(event.key) ? Number(event.key) : NaN;
+	const layer = document.querySelectorAll("#layers input")[digit - 1];
+
+	if (!event.shiftKey && choose(digit))
+		return true;
+	if (layer)
+		layer.click();
+	return Boolean(layer);
+}
+
+/* forget(): Escape; choose(handle): whether there is such a handle. */
+export function listen(forget, choose) {
+	/* Whether the key does anything. */
+	const act = (event, key) => {
+		if (chooseNumber(event, choose))
+			return true;
+		const does = key === "Escape" ? forget : KEYS[key];
+		if (does)
+			does();
+		return Boolean(does);
+	};
+
 	addEventListener("keydown", (event) => {
 		const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
-		const layer = document.querySelectorAll("#layers input")[Number(key) - 1];
 
-		if (event.ctrlKey || event.metaKey || event.altKey || isTyping(event.target))
-			return;
-		if (key === " " && event.target.matches("button, summary, input"))
-			return;
-		if (key === "Escape")
-			forget();
-		else if (layer)
-			layer.click();
-		else if (KEYS[key])
-			KEYS[key]();
-		else
-			return;
-		event.preventDefault();
+		if (event.ctrlKey || event.metaKey)
+			goBack(event, key);
+		else if (!event.altKey && !isTyping(event) && !(key === " " && event.target.matches("button, summary, input")) && act(event, key))
+			event.preventDefault();
 	});
 }

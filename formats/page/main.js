@@ -52,7 +52,7 @@ function connect(app) {
 		app.fit(view());
 	});
 	onClick($("canvas"), (x, y) => app.pick(x, y));
-	listen(() => app.forget());
+	listen(() => app.forget(), (handle) => app.posing.choose(handle));
 }
 
 function fail(error) {
@@ -62,11 +62,9 @@ function fail(error) {
 async function begin() {
 	if (!canDraw())
 		throw new Error("This browser cannot draw the model: WebGL is missing or switched off.");
-	if (typeof DecompressionStream === "undefined")
-		throw new Error("This browser is too old for the page: it has no DecompressionStream.");
-	const frames = parseStream(takeBytes());
+	const frames = await parseStream(takeBytes());
 	$("side").hidden = false;
-	const app = new App(frames);
+	const app = window.mrView = new App(frames); /* for the console, and the tests */
 	const film = new Film(frames.length, (frame) => app.change({ frame }).catch(fail));
 	await film.turn(0);
 	connect(app);

@@ -41,13 +41,14 @@ async function valueAt(frame, layer, column, row) {
 	return n > 1 && column.type === "d" ? all + " (length " + number(numberAt(column, values, row)) + ")" : all;
 }
 
-/* Rows of the card: what, the words for it, and whether a small window goes without. */
-export async function rowsOf(frame, layer, picked, centre, extent, color) {
+/* Rows of the card (posed: where its vertices are, around the centre, if not where the stream has them): what, the words for it, and whether a small window goes without. */
+export async function rowsOf(frame, layer, picked, centre, extent, color, posed) {
 	const position = await layer.position.values(), v = picked.vertex;
+	const at = [0, 1, 2].map((c) => (posed ? posed[3 * v + c] + centre[c] : position[3 * v + c]));
 	const rows = [["layer", layer.name], ["vertex", String(v)]];
 	const region = columnOf(frame, layer.name, "region"), column = color && columnOf(frame, layer.name, color);
 
-	rows.push(["at", place(Array.from(position.subarray(3 * v, 3 * v + 3)), extent)]);
+	rows.push(["at", place(at, extent)]);
 	if (picked.face !== null) {
 		const t = await layer.triangles.values();
 		rows.push(["face", String(picked.face)]);

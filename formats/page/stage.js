@@ -1,6 +1,7 @@
 /* stage.js -- the canvas: a camera, light that comes with it, and the layers, in one panel or one for each. */
 import * as THREE from "three/build/three.module.js";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { Gizmo } from "./gizmo.js";
 import { element } from "./text.js";
 
 const ANGLE = 30; /* degrees, of the height of a panel */
@@ -37,6 +38,7 @@ export class Stage {
 		this.scene = new THREE.Scene();
 		this.camera = new THREE.PerspectiveCamera(ANGLE, 1, 1, 10);
 		this.light();
+		this.gizmo = new Gizmo(this);
 		this.up("y");
 		this.layers = []; /* [name, drawn], those to be seen */
 		this.beside = false;
@@ -89,6 +91,7 @@ export class Stage {
 	show(layers, beside) {
 		this.layers = layers;
 		this.beside = beside && layers.length > 1;
+		this.gizmo.offer(!this.beside);
 		this.label();
 		this.ask();
 	}

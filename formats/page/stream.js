@@ -57,7 +57,19 @@ function drop(frame, layer, name) {
 			frame.columns.delete(key);
 }
 
-/* All frames. */
+/* What the page's text says of how columns are stored: equal ones once, others as sums of steps. */
+async function understand(frame) {
+	for (const line of await linesOf(frame, "", "page")) {
+		const [how, layer, name, ...more] = line.split(" ");
+		if (how === "same")
+			frame.columns.set(keyOf(layer, name), columnOf(frame, ...more).called(layer, name));
+		else
+			columnOf(frame, layer, name).setSteps(Number(more[0] || 0), more.slice(1).map(Number));
+	}
+	return frame;
+}
+
+/* A promise of all frames. */
 export function parseStream(bytes) {
 	const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
 	const frames = [];
@@ -73,7 +85,7 @@ export function parseStream(bytes) {
 		else if (record.name !== "START" && record.name !== "ENDFRAME" && record.name !== "END")
 			frame.columns.set(keyOf(record.layer, record.name), new Column(record));
 	}
-	return frames;
+	return Promise.all(frames.map(understand));
 }
 
 /* The frame's column, or undefined. */

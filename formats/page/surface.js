@@ -38,17 +38,15 @@ export function centred(position, centre) {
 
 /* Scales the vector at i to length 1, where it has one. */
 function unit(v, i) {
-	const n = Math.hypot(v[i], v[i + 1], v[i + 2]) || 1;
+	const n = Math.sqrt(v[i] * v[i] + v[i + 1] * v[i + 1] + v[i + 2] * v[i + 2]), f = n > 0 ? 1 / n : 1;
 
-	v[i] /= n;
-	v[i + 1] /= n;
-	v[i + 2] /= n;
+	v[i] *= f;
+	v[i + 1] *= f;
+	v[i + 2] *= f;
 }
 
 /* Twice the area times the normal of each face. */
-function faceNormals(p, t) {
-	const out = new Float32Array(t.length);
-
+function faceNormals(p, t, out) {
 	for (let f = 0; f < t.length; f += 3) {
 		const a = 3 * t[f], b = 3 * t[f + 1], c = 3 * t[f + 2];
 		const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
@@ -57,31 +55,31 @@ function faceNormals(p, t) {
 		out[f + 1] = uz * vx - ux * vz;
 		out[f + 2] = ux * vy - uy * vx;
 	}
-	return out;
 }
 
 /* Unit sums of the normals of the faces around each vertex. */
-function vertexNormals(vertices, t, faces) {
-	const out = new Float32Array(3 * vertices);
-
-	for (let k = 0; k < t.length; k++) {
-		const v = 3 * t[k], f = k - k % 3;
-		out[v] += faces[f];
-		out[v + 1] += faces[f + 1];
-		out[v + 2] += faces[f + 2];
+function vertexNormals(n, t, faces, out) {
+	out.fill(0, 0, n);
+	for (let f = 0; f < t.length; f += 3) {
+		const x = faces[f], y = faces[f + 1], z = faces[f + 2];
+		for (let k = f; k < f + 3; k++) {
+			const v = 3 * t[k];
+			out[v] += x;
+			out[v + 1] += y;
+			out[v + 2] += z;
+		}
 	}
-	for (let i = 0; i < out.length; i += 3)
+	for (let i = 0; i < n; i += 3)
 		unit(out, i);
-	return out;
 }
 
 function dot(a, i, b, j) {
 	return a[i] * b[j] + a[i + 1] * b[j + 1] + a[i + 2] * b[j + 2];
 }
 
-/* Which vertices have a face that leans far from their normal.  faces: made unit, weights: their lengths before. */
-function creased(normals, t, faces) {
-	const out = new Uint8Array(normals.length / 3);
+/* Which vertices have a face that leans far from their normal; faces: made unit. */
+function creased(normals, n, t, faces) {
+	const out = new Uint8Array(n);
 
 	for (let k = 0; k < t.length; k++)
 		if (dot(normals, 3 * t[k], faces, k - k % 3) < BENT)
@@ -104,40 +102,67 @@ function cornersAt(marks, t) {
 	return { first, corner };
 }
 
-/* The sum of the normals of the corner's neighbours that are within the crease of its own face. */
-function cornerNormal(k, at, v, faces, weights, out, o) {
-	const f = k - k % 3;
+/* Of each of these corners the faces at its vertex that are within the crease of its own: face[end[j - 1]] to face[end[j]]. */
+function groupsOf(at, t, faces) {
+	const end = new Uint32Array(at.corner.length), face = [];
 
-	for (let j = at.first[v]; j < at.first[v + 1]; j++) {
-		const g = at.corner[j] - at.corner[j] % 3;
-		if (dot(faces, f, faces, g) < CREASE)
-			continue;
-		for (let c = 0; c < 3; c++)
-			out[o + c] += faces[g + c] * weights[g / 3];
+	for (let j = 0; j < end.length; j++) {
+		const k = at.corner[j], v = t[k];
+		for (let i = at.first[v]; i < at.first[v + 1]; i++) {
+			const f = at.corner[i] - at.corner[i] % 3;
+			if (dot(faces, k - k % 3, faces, f) >= CREASE)
+				face.push(f);
+		}
+		end[j] = face.length;
 	}
-	unit(out, o);
+	return { end, face: Uint32Array.from(face) };
+}
+
+/* Unit sums of the normals of those faces. */
+function cornerNormals(groups, faces, out, o) {
+	for (let j = 0, i = 0; j < groups.end.length; j++, o += 3) {
+		let x = 0, y = 0, z = 0;
+		for (; i < groups.end[j]; i++) {
+			const f = groups.face[i];
+			x += faces[f];
+			y += faces[f + 1];
+			z += faces[f + 2];
+		}
+		out[o] = x;
+		out[o + 1] = y;
+		out[o + 2] = z;
+		unit(out, o);
+	}
 }
 
 /* Gives the corners of creased vertices vertices of their own, behind the others. */
-function part(p, t, normals, faces, weights) {
-	const marks = creased(normals, t, faces), at = cornersAt(marks, t);
-	const nv = p.length / 3, extra = at.corner.length;
-	const position = new Float32Array(p.length + 3 * extra), normal = new Float32Array(position.length);
-	const index = t.slice(), source = new Uint32Array(nv + extra);
+function part(nv, t, at) {
+	const index = t.slice(), source = new Uint32Array(nv + at.corner.length);
 
-	position.set(p);
-	normal.set(normals);
 	for (let v = 0; v < nv; v++) {
 		source[v] = v;
 		for (let j = at.first[v]; j < at.first[v + 1]; j++) {
-			const r = nv + j, k = at.corner[j];
-			position.set(p.subarray(3 * v, 3 * v + 3), 3 * r);
-			cornerNormal(k, at, v, faces, weights, normal, 3 * r);
-			index[k] = r;
-			source[r] = v;
+			index[at.corner[j]] = nv + j;
+			source[nv + j] = v;
 		}
 	}
-	return { position, normal, index, source };
+	return { index, source };
+}
+
+/* Places of its vertices, as those of the stream are at p now, and normals; the creases stay where they were. */
+export function shade(surface, p) {
+	const { position, normal, source, triangles, faces, groups } = surface;
+
+	position.set(p);
+	for (let i = p.length; i < position.length; i += 3) {
+		const v = 3 * source[i / 3];
+		position[i] = p[v];
+		position[i + 1] = p[v + 1];
+		position[i + 2] = p[v + 2];
+	}
+	faceNormals(p, triangles, faces);
+	vertexNormals(p.length, triangles, faces, normal);
+	cornerNormals(groups, faces, normal, p.length);
 }
 
 /*
@@ -145,14 +170,16 @@ function part(p, t, normals, faces, weights) {
  * The first vertices are those of the stream.
  */
 export function surfaceOf(p, t) {
-	const faces = faceNormals(p, t), normals = vertexNormals(p.length / 3, t, faces);
-	const weights = new Float32Array(t.length / 3);
+	const nv = p.length / 3, faces = new Float32Array(t.length), normals = new Float32Array(p.length);
 
-	for (let f = 0; f < t.length; f += 3) {
-		weights[f / 3] = Math.hypot(faces[f], faces[f + 1], faces[f + 2]);
+	faceNormals(p, t, faces);
+	vertexNormals(p.length, t, faces, normals);
+	for (let f = 0; f < faces.length; f += 3)
 		unit(faces, f);
-	}
-	return part(p, t, normals, faces, weights);
+	const at = cornersAt(creased(normals, nv, t, faces), t), n = p.length + 3 * at.corner.length;
+	const surface = { position: new Float32Array(n), normal: new Float32Array(n), triangles: t, faces, groups: groupsOf(at, t, faces), ...part(nv, t, at) };
+	shade(surface, p);
+	return surface;
 }
 
 /* The same with three vertices to a face, of which each then stands for its face: for colours of faces. */

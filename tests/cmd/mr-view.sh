@@ -30,26 +30,50 @@ mr-pose -H 1 --translate 0.1,0,0 --frames 2 edit.mrs | mr-decode >film.mrs
 mr-view --stats stats -l mesh film.html <film.mrs && stream_of film.html >film.back && columns film.back
 sed -E 's/"(seconds|peak_bytes)":[^,}]*,?//g' stats
 
-echo '-- positions within 24 bits of the extent, other numbers within 24 of their own, wherever the model is'
+echo '-- positions, places and responses within 24 bits of the extent, other numbers within 24 of their own, wherever the model is'
 cat >near.py <<'X'
 import struct, subprocess, sys
-def column(path, name):
-	data, at = subprocess.run(["mr-cat", "-u", path], stdout=subprocess.PIPE, check=True).stdout, 0
+def columns(path):
+	"""Of the first frame, as the page reads them: sums of steps as numbers, and what is stored once under each of its names."""
+	data, at, out = subprocess.run(["mr-cat", "-u", path], stdout=subprocess.PIPE, check=True).stdout, 0, {}
 	while at < len(data):
 		rows, stored = struct.unpack("<QQ", data[at + 48:at + 64])
-		if data[at + 16:at + 40].rstrip(b"\0") == name and data[at:at + 4] == b"mesh":
-			return struct.unpack("<%dd" % (stored // 8), data[at + 64:at + 64 + stored])
+		layer, name = (data[at + i:at + j].rstrip(b"\0").decode() for i, j in ((0, 16), (16, 40)))
+		if name == "ENDFRAME":
+			break
+		raw, kind, n = data[at + 64:at + 64 + stored], chr(data[at + 41]).replace("u", "I"), data[at + 42]
+		out[layer, name] = raw if kind == "t" else [row for row in struct.iter_unpack("<%d%s" % (n, kind), raw)]
 		at += 64 + (stored + 63) // 64 * 64
-a, b = (column(path, b"position") for path in sys.argv[1:3])
-extent = max(max(a[c::3]) - min(a[c::3]) for c in range(3))
-worst = max(abs(x - y) for x, y in zip(a, b)) / extent
-print("positions", "good" if 0 < worst <= 2 ** -24 else worst)
-a, b = (column(path, b"detail_height") for path in sys.argv[1:3])
-worst = max((abs(x - y) / abs(x) for x, y in zip(a, b) if x), default=1)
-print("heights", "good" if 0 < worst <= 2 ** -24 else worst)
+	for how, layer, name, *more in (line.split(" ") for line in out.get(("", "page"), b"").decode().splitlines()):
+		out[layer, name] = out[tuple(more)] if how == "same" else sums(out[layer, name], [float(x) for x in more])
+	return out
+def sums(stored, numbers):
+	width = len(stored[0])
+	before, at, rows = [0] * width, [0] * width, []
+	for row in stored:
+		code = [(x - y) % 2 ** 32 for x, y in zip(row, before)]
+		at, before = [x + (c >> 1 ^ -(c & 1)) for x, c in zip(at, code)], row
+		rows.append(tuple(numbers[0] * x + (numbers[1 + k] if width <= 3 else 0) for k, x in enumerate(at)) if numbers else tuple(x % 2 ** 32 for x in at))
+	return rows
+def worst(name, a, b):
+	d = max(abs(x - y) for p, q in zip(a, b) for x, y in zip(p, q))
+	extent = max(max(p[c] for p in a) - min(p[c] for p in a) for c in range(3)) if name in ("position", "encoded") else max(abs(x) for p in a for x in p)
+	return "good" if len(a) == len(b) and 0 < d / extent <= 2 ** -24 else d / extent
+def centred(response, text):
+	"""As the page has it: to maps about the place that its text tells."""
+	c = [float(x) for line in text.splitlines() if line.startswith("steps base response") for x in line.split(" ")[4:]]
+	return [[x - c[i % 4] * p[i - i % 4 + 3] if i % 4 < 3 else x for i, x in enumerate(p)] for p in response]
+a, b = (columns(path) for path in sys.argv[1:3])
+for layer, name in (("mesh", "position"), ("base", "position"), ("base", "encoded"), ("base", "response"), ("mesh", "detail_bary")):
+	of = centred(a[layer, name], b["", "page"].decode()) if name == "response" else a[layer, name]
+	print(layer, name, worst(name, of, b[layer, name]))
+x, y = a["mesh", "detail_height"], b["mesh", "detail_height"]
+print("heights", "good" if 0 < max(abs(p - q) / abs(p) for (p,), (q,) in zip(x, y) if p) <= 2 ** -24 else "bad")
+print("whole numbers", *(("the same" if a[key] == b[key] else "other:") + " %s.%s" % key for key in b if b[key] and type(b[key][0]) is tuple and type(b[key][0][0]) is int))
 X
 python3 near.py edit.mrs edit.back
-mr-transform --translate 5e5,4e6,-3e5 edit.mrs -o far.mrs && mr-view -i far.mrs far.html && stream_of far.html >far.back && python3 near.py far.mrs far.back
+mr-make bumpy -n 400 | mr-transform --translate 5e5,4e6,-3e5 | mr-smooth | mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 |
+	mr-solve --basis | mr-encode -o far.mrs && mr-view -i far.mrs far.html && stream_of far.html >far.back && python3 near.py far.mrs far.back
 
 echo '-- the same bytes, to a file, to stdout, through a pipe, behind a link, by any number of threads'
 mr-view -j 3 - <edit.mrs | cmp - edit.html && echo same
@@ -107,6 +131,30 @@ mr-view -l mesh,control -i edit.mrs none.html; echo "exit $?"
 mr-view -i edit.mrs no/such/folder.html; echo "exit $?"
 [ -e old.html ] && [ ! -s old.html ] && echo 'the old page'
 ls none.html* mr-*~ 2>/dev/null || echo 'no page'
+echo '-- a basis that mr-decode would refuse is not taken; without the base it is not asked for'
+cat >change.py <<'X'
+import struct, subprocess, sys, zlib
+"""The stream, with the first values, or the components, of a column changed."""
+data, at = subprocess.run(["mr-cat", "-u", "edit.mrs"], stdout=subprocess.PIPE, check=True).stdout, 0
+name, what, value = sys.argv[1:]
+while at < len(data):
+	h, (rows, stored) = bytearray(data[at:at + 64]), struct.unpack("<QQ", data[at + 48:at + 64])
+	raw, at = bytearray(data[at + 64:at + 64 + stored]), at + 64 + (stored + 63) // 64 * 64
+	if h[16:40].rstrip(b"\0") == name.encode():
+		if what == "components":
+			h[42] = int(value)
+			raw = raw[:rows * 8 * h[42]]
+		else:
+			raw[:struct.calcsize(what)] = struct.pack(what, float(value) if what == "<d" else int(value))
+	h[44:64] = bytes(4) + struct.pack("<QQ", rows, len(raw))
+	h[44:48] = struct.pack("<I", zlib.crc32(raw, zlib.crc32(h)))
+	sys.stdout.buffer.write(bytes(h) + bytes(raw) + bytes(-len(raw) % 64))
+X
+for change in 'response <d nan' 'response components 5' 'detail_face <I 1000000' 'detail_bary <d 7' 'encoded <d inf' 'encoded_faces <I 1'; do
+	python3 change.py $change >changed.mrs
+	mr-view -i changed.mrs none.html; echo "$change: exit $?"
+	mr-view -l mesh -i changed.mrs changed.html || echo "the mesh: exit $?"
+done
 echo '-- a frame that is left out'
 cat edit.mrs cube.mrs | mr-view -k -l base left.html; echo "exit $?"
 stream_of left.html >left.back && cmp left.back base.back && echo 'the others are there'

@@ -1,0 +1,72 @@
+/* gizmo.js -- what a handle is dragged by: the arrows, rings and boxes of three.js, at one place of the stage. */
+import * as THREE from "three/build/three.module.js";
+import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
+import { logarithm, norm, unit } from "./rotation.js";
+
+const LEAST = 0.01; /* of a scale: less is flat, or inside out, by an accident of the hand */
+const SIZE = 0.6; /* about a sixth of the picture's height to either side */
+const MODES = { move: "translate", turn: "rotate", scale: "scale" };
+
+export class Gizmo {
+	constructor(stage) {
+		this.stage = stage;
+		this.at = new THREE.Object3D();
+		this.controls = new TransformControls(stage.camera, stage.canvas);
+		this.controls.setSize(SIZE);
+		stage.scene.add(this.at, this.controls);
+		this.controls.addEventListener("change", () => stage.ask());
+		this.controls.addEventListener("dragging-changed", ({ value }) => {
+			stage.controls.enabled = !value;
+			if (this.grip)
+				(value ? this.began : this.ended)();
+		});
+		this.controls.addEventListener("objectChange", () => this.moved(this.read()));
+	}
+
+	/* Whether the pointer is at it, so that a click is not meant for the model. */
+	get busy() {
+		return this.controls.dragging || this.controls.axis !== null;
+	}
+
+	mode(name) {
+		this.controls.setMode(MODES[name]);
+	}
+
+	/* Stands where the grip (pose.js) is, less the stage's centre; null: nowhere. */
+	show(grip, centre) {
+		this.grip = grip;
+		this.centre = centre;
+		if (grip) {
+			const angle = norm(grip.turn);
+			this.at.position.fromArray(grip.centre.map((x, c) => x + grip.translate[c] - centre[c]));
+			this.at.quaternion.setFromAxisAngle(new THREE.Vector3(...unit(grip.turn)), angle);
+			this.at.scale.fromArray(grip.scale);
+			this.turn = grip.turn;
+		}
+		this.offer(this.offered !== false);
+	}
+
+	/* Beside each other layers have no one place for it. */
+	offer(on) {
+		this.offered = on;
+		if (on && this.grip)
+			this.controls.attach(this.at);
+		else
+			this.controls.detach();
+		this.controls.enabled = on;
+		this.stage.ask();
+	}
+
+	/* Where it has been dragged: { translate, turn, scale }, turns beyond half a circle counted. */
+	read() {
+		const m = new THREE.Matrix4().makeRotationFromQuaternion(this.at.quaternion).elements;
+		const place = this.at.position.toArray();
+
+		this.turn = logarithm([m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]], this.turn);
+		return {
+			translate: place.map((x, c) => x + this.centre[c] - this.grip.centre[c]),
+			turn: this.turn,
+			scale: this.at.scale.toArray().map((x) => Math.max(x, LEAST)),
+		};
+	}
+}

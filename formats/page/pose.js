@@ -1,0 +1,136 @@
+/*
+ * pose.js -- where handles go: poses in the order in which mr-pose applies them, lib/edit/handles.c, and the steps back and
+ * forth between them.
+ */
+import { IDENTITY, add, apply, compose, exponential, linear, logarithm, norm, sub, times, unit } from "./rotation.js";
+import { lineOf, parseLine, rest } from "./poseline.js";
+
+/* About which axis a pose turns, by how many radians. */
+const turnOf = (pose) => times(pose.rotate[3] * Math.PI / 180, unit(pose.rotate.slice(0, 3)));
+
+/* T x = R S (x - centre) + centre + translate */
+function mapOf(pose, centre) {
+	const r = exponential(turnOf(pose)), [sx, sy, sz] = pose.scale;
+	const t = [0, 3, 6].flatMap((i) => [r[i] * sx, r[i + 1] * sy, r[i + 2] * sz, 0]);
+	const shift = add(sub(centre, apply(t, centre)), pose.translate);
+
+	return t.map((x, i) => (i % 4 === 3 ? shift[(i - 3) / 4] : x));
+}
+
+/* A number of a line: to so many decimals, without a negative zero. */
+const rounded = (x, decimals) => Number(x.toFixed(decimals)) || 0;
+
+export class Pose {
+	/*
+	 * centroids: of the handles at rest, by number, holes where a number is not in use; start: maps and turns that the
+	 * stream has already; extent: of the model; whole: the handle that moves it as a whole, or null.
+	 */
+	constructor(centroids, start, extent, whole) {
+		this.centroids = centroids;
+		this.numbers = Object.keys(centroids).map(Number);
+		this.start = start;
+		this.whole = whole;
+		this.decimals = Math.min(Math.max(5 - Math.floor(Math.log10(extent)), 0), 20);
+		this.poses = [];
+		this.past = [];
+		this.future = [];
+	}
+
+	/* Map and turn of each handle, after all poses but those from `end` on. */
+	rows(end) {
+		const n = Math.max(this.centroids.length, this.start.maps.length);
+		const rows = Array.from({ length: n }, (_, h) => ({ map: this.start.maps[h] || IDENTITY, turn: this.start.turns[h] || [0, 0, 0] }));
+
+		for (const pose of this.poses.slice(0, end)) {
+			const row = rows[pose.handle];
+			row.map = compose(mapOf(pose, pose.center || apply(row.map, this.centroids[pose.handle])), row.map);
+			row.turn = logarithm(linear(row.map), add(row.turn, turnOf(pose)));
+		}
+		return rows;
+	}
+
+	/* Of each handle by how much its map is more than the identity, or null where it is not. */
+	changes() {
+		return this.rows().map(({ map }) => (map.some((x, i) => x !== IDENTITY[i]) ? map.map((x, i) => x - IDENTITY[i]) : null));
+	}
+
+	/* The largest turn against what is fixed, in degrees. */
+	degrees() {
+		const rows = this.rows(), whole = this.whole === null ? [0, 0, 0] : rows[this.whole].turn;
+
+		return Math.max(0, ...rows.map(({ turn }) => norm(sub(turn, whole)) * 180 / Math.PI));
+	}
+
+	/* The pose that dragging a handle changes: its last one, unless that has a centre of its own. */
+	live(handle) {
+		const last = this.poses.map((p) => p.handle).lastIndexOf(handle);
+
+		return last >= 0 && !this.poses[last].center ? last : -1;
+	}
+
+	/* Where that begins, and what it is: { centre, translate, turn, scale }. */
+	grip(handle) {
+		const at = this.live(handle), pose = at < 0 ? rest(handle) : this.poses[at];
+		const { map } = this.rows(at < 0 ? undefined : at)[handle];
+
+		return { centre: apply(map, this.centroids[handle]), translate: pose.translate, turn: turnOf(pose), scale: pose.scale };
+	}
+
+	/* Changes it to these, as far as a line tells them. */
+	drag(handle, { translate, turn, scale }) {
+		const at = this.live(handle), angle = norm(turn) * 180 / Math.PI;
+		const pose = {
+			handle,
+			translate: translate.map((x) => rounded(x, this.decimals)),
+			rotate: [...(angle > 0 ? unit(turn).map((x) => rounded(x, 6)) : [0, 0, 1]), rounded(angle, 3)],
+			scale: scale.map((x) => rounded(x, 5)),
+			center: null,
+		};
+
+		this.poses = at < 0 ? [...this.poses, pose] : this.poses.map((p, i) => (i === at ? pose : p));
+	}
+
+	/* Keeps what there is now, to come back to: before a change. */
+	remember() {
+		this.past.push(this.poses);
+		this.future = [];
+	}
+
+	/* Behind a drag that has led nowhere there is nothing to undo. */
+	settle() {
+		if (this.past.length && lineOf(this.past[this.past.length - 1]) === this.line())
+			this.past.pop();
+	}
+
+	/* Other poses, which can be undone. */
+	set(poses) {
+		if (lineOf(poses) === this.line())
+			return;
+		this.remember();
+		this.poses = poses;
+	}
+
+	step(from, to) {
+		if (from.length === 0)
+			return;
+		to.push(this.poses);
+		this.poses = from.pop();
+	}
+
+	undo() {
+		this.step(this.past, this.future);
+	}
+
+	redo() {
+		this.step(this.future, this.past);
+	}
+
+	line() {
+		return lineOf(this.poses);
+	}
+
+	/* Takes a line; throws an Error with a sentence, and then stays as it is. */
+	read(line) {
+		this.set(parseLine(line, this.numbers));
+	}
+}

@@ -1,0 +1,283 @@
+/* posing.js -- handles to drag, and the line of commands below them; or how to come by them. */
+import { regionColor, regionName } from "./colors.js";
+import { Deformer, posedBy } from "./deformer.js";
+import { Pose } from "./pose.js";
+import { columnOf } from "./stream.js";
+import { boxOf } from "./surface.js";
+
+const $ = (id) => document.getElementById(id);
+const HANDLE = 2; /* the region of handle 0 */
+const FAR = 60; /* degrees beyond which mr-decode warns */
+
+/* Sums over the vertices of each handle; the lowest region that is not free. */
+function handlesOf(region, position) {
+	const sums = [], centroids = [];
+	let lowest = Infinity;
+
+	for (let v = 0; v < region.length; v++) {
+		if (region[v] !== 1)
+			lowest = Math.min(lowest, region[v]);
+		if (region[v] < HANDLE)
+			continue;
+		const sum = sums[region[v] - HANDLE] = sums[region[v] - HANDLE] || [0, 0, 0, 0];
+		for (let c = 0; c < 3; c++)
+			sum[c] += position[3 * v + c];
+		sum[3]++;
+	}
+	sums.forEach(([x, y, z, n], h) => {
+		centroids[h] = [x / n, y / n, z / n];
+	});
+	return { centroids, whole: lowest >= HANDLE && lowest < Infinity ? lowest - HANDLE : null };
+}
+
+/* Rows of numbers: those of a column, none where there is no such column. */
+async function rowsOf(frame, name) {
+	const column = columnOf(frame, "handles", name), n = column ? column.components : 1;
+	const values = column ? await column.values() : [];
+
+	return Array.from({ length: values.length / n }, (_, i) => Array.from(values.subarray(n * i, n * i + n)));
+}
+
+async function poseOf(frame) {
+	const region = await columnOf(frame, "mesh", "region").values(), position = await columnOf(frame, "mesh", "position").values();
+	const { centroids, whole } = handlesOf(region, position), box = boxOf(position);
+	const start = { maps: await rowsOf(frame, "transform"), turns: await rowsOf(frame, "turn") };
+
+	return new Pose(centroids, start, Math.hypot(...box.low.map((x, c) => box.high[c] - x)), whole);
+}
+
+/* The commands that a page with handles lacks, or an empty text. */
+async function lacking(frame) {
+	const has = (layer, name) => columnOf(frame, layer, name);
+	const region = has("mesh", "region");
+
+	if (!region || !(await region.values()).some((r) => r >= HANDLE))
+		return "";
+	return [has("base", "position") ? "" : "mr-smooth | mr-remesh", "mr-solve --basis", has("base", "position") && has("mesh", "detail_height") ? "" : "mr-encode", "mr-view page.html"]
+		.filter(Boolean).join(" | ").replace(/^(\S+( --basis)?)/, "$1 model.mrs");
+}
+
+export class Posing {
+	constructor(app) {
+		this.app = app;
+		this.handle = null;
+		this.moved = false; /* whether what is drawn is the deformer's */
+		this.listen();
+	}
+
+	listen() {
+		const { gizmo } = this.app.stage;
+
+		Object.assign(gizmo, {
+			began: () => this.pose.remember(),
+			moved: (to) => this.drag(to),
+			ended: () => {
+				this.pose.settle();
+				this.show();
+			},
+		});
+		for (const mode of ["move", "turn", "scale"])
+			$(mode).addEventListener("change", () => gizmo.mode(mode));
+		$("undo").addEventListener("click", () => this.act(() => this.pose.undo()));
+		$("redo").addEventListener("click", () => this.act(() => this.pose.redo()));
+		$("reset").addEventListener("click", () => this.act(() => this.pose.set([])));
+		$("line").addEventListener("input", (e) => e.inputType === "insertFromPaste" && this.readLine());
+		$("line").addEventListener("change", () => this.readLine());
+		$("line").addEventListener("keydown", (e) => {
+			if (e.key === "Enter" && !e.isComposing) {
+				e.preventDefault();
+				this.readLine();
+			}
+		});
+		$("copy").addEventListener("click", () => this.copy(this.pose.line(), $("line")));
+		$("copy-lacking").addEventListener("click", () => this.copy($("lacking").textContent, $("lacking")));
+	}
+
+	/* Makes what the frame can be posed by, where that is another than before. */
+	async load(frame, centre) {
+		const columns = posedBy(frame);
+
+		if (!this.suits(frame, centre))
+			await this.begin(frame, columns, centre);
+		const start = columns && (columnOf(frame, "handles", "transform") || columns.response);
+		if (start !== this.start && this.deformer) {
+			this.pose = await poseOf(frame);
+			this.handle = null;
+			this.apply();
+		}
+		this.start = start;
+		$("pose").hidden = $("poseline").hidden = !this.pose || this.pose.numbers.length === 0;
+	}
+
+	/* Whether what it was made for is of this frame. */
+	suits(frame, centre) {
+		const columns = posedBy(frame);
+
+		return Boolean(columns && this.deformer && this.deformer.isOf(columns, centre));
+	}
+
+	/* Layers that are drawn anew are posed again, unless the frame is another. */
+	drawAgain(frame, centre) {
+		this.moved = this.moved && this.suits(frame, centre);
+		this.draw();
+	}
+
+	async begin(frame, columns, centre) {
+		cancelAnimationFrame(this.asked);
+		this.asked = 0;
+		if (this.deformer)
+			this.deformer.end();
+		this.moved = false;
+		this.start = this.next = this.pose = this.handle = this.deformer = null;
+		this.centre = centre;
+		if (columns)
+			this.deformer = await new Deformer(columns, () => this.moved && this.ask()).prepare(centre).catch(() => null);
+		$("no-worker").hidden = !columns || Boolean(this.deformer);
+		const said = columns ? "" : await lacking(frame);
+		$("lack").hidden = !said;
+		$("lacking").textContent = said;
+		this.show();
+	}
+
+	/* Brings everything to the pose as it is. */
+	apply() {
+		const changes = this.pose.changes();
+
+		if (this.moved || changes.some(Boolean))
+			this.deform(changes);
+		this.show();
+	}
+
+	/* Poses by these changes in the next picture: the hand may be faster. */
+	deform(changes) {
+		this.next = changes;
+		this.moved = true;
+		$("poseline").setAttribute("aria-busy", "true");
+		this.ask();
+	}
+
+	ask() {
+		this.asked = this.asked || requestAnimationFrame(() => this.turn());
+	}
+
+	/* One picture; what is shown is exact when the worker has nothing more to say. */
+	turn() {
+		this.asked = 0;
+		if (this.next && this.moved)
+			this.deformer.pose(this.next);
+		this.next = null;
+		this.draw();
+		if (!this.deformer.working)
+			$("poseline").removeAttribute("aria-busy");
+	}
+
+	act(change) {
+		change();
+		$("said").textContent = "";
+		this.apply();
+	}
+
+	drag(to) {
+		$("said").textContent = "";
+		this.pose.drag(this.handle, to);
+		this.deform(this.pose.changes());
+		this.showLine();
+	}
+
+	/* Where the vertices of a layer are, around the centre, as posed; null: where the stream has them. */
+	placesOf(name) {
+		return (this.moved && this.deformer && this.deformer.places[name]) || null;
+	}
+
+	/* The layers to be seen. */
+	draw() {
+		for (const [name, drawn] of this.app.stage.layers)
+			if (this.placesOf(name))
+				drawn.move(this.placesOf(name));
+		this.app.stage.draw();
+	}
+
+	/* Chooses the handle that a picked vertex is of. */
+	async take(frame, { name, vertex }) {
+		const region = columnOf(frame, name, "region");
+
+		if (this.pose && this.pose.numbers.length && region)
+			this.choose((await region.values())[vertex] - HANDLE);
+	}
+
+	choose(handle) {
+		if (!this.pose || !this.pose.numbers.includes(handle))
+			return false;
+		this.handle = handle;
+		this.show();
+		return true;
+	}
+
+	release() {
+		this.handle = null;
+		this.show();
+	}
+
+	show() {
+		const { gizmo } = this.app.stage, there = this.pose && this.handle !== null;
+
+		gizmo.show(there ? this.pose.grip(this.handle) : null, this.centre);
+		if (!this.pose)
+			return;
+		$("handles").replaceChildren(...this.pose.numbers.map((h) => this.chip(h)));
+		$("modes").hidden = !there;
+		$("undo").disabled = this.pose.past.length === 0;
+		$("redo").disabled = this.pose.future.length === 0;
+		$("reset").disabled = this.pose.line() === "";
+		this.showLine();
+	}
+
+	chip(handle) {
+		const chip = document.createElement("button"), swatch = document.createElement("i");
+
+		swatch.style.background = "rgb(" + regionColor(handle + HANDLE).join(",") + ")";
+		chip.append(swatch, regionName(handle + HANDLE));
+		chip.setAttribute("aria-pressed", handle === this.handle);
+		chip.addEventListener("click", () => (handle === this.handle ? this.release() : this.choose(handle)));
+		return chip;
+	}
+
+	showLine() {
+		const degrees = this.pose.degrees();
+
+		if (document.activeElement !== $("line") && $("said").textContent === "")
+			$("line").value = this.pose.line();
+		$("copy").disabled = this.pose.line() === "";
+		$("far").hidden = degrees <= FAR * (1 + 1e-9) || $("said").textContent !== "";
+		$("degrees").textContent = degrees.toFixed(0);
+	}
+
+	/* What is pasted or typed is applied when it is a whole line. */
+	readLine() {
+		try {
+			this.pose.read($("line").value);
+			$("said").textContent = "";
+			this.apply();
+		} catch (error) {
+			$("said").textContent = error.message;
+			this.showLine();
+		}
+	}
+
+	/* The clipboard is not there for every page from the disk: then what is selected is copied. */
+	async copy(text, element) {
+		const button = element.parentElement.querySelector("button");
+		const written = navigator.clipboard ? await navigator.clipboard.writeText(text).then(() => true, () => false) : false;
+
+		if (!written) {
+			$("said").textContent = "";
+			this.showLine();
+			getSelection().selectAllChildren(element);
+			if (element.select)
+				element.select();
+			document.execCommand("copy");
+		}
+		button.classList.add("copied");
+		setTimeout(() => button.classList.remove("copied"), 1200);
+	}
+}

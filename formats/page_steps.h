@@ -1,0 +1,31 @@
+/* page_steps.h -- columns of a page's stream: whole steps in place of numbers, and one in place of equal
+ * ones. Layer rule: formats includes lib. */
+#ifndef MR_PAGE_STEPS_H
+#define MR_PAGE_STEPS_H
+
+#include "base/text.h"
+#include "stream/frame.h"
+
+/*
+ * What a column's values are: origin + step times a whole number; step 0: whole numbers as they are.  Of
+ * each row the first `components` are kept, and the page finds the others.  Rows of more than three values
+ * begin at 0, and their origin is only told.
+ */
+typedef struct mr_steps {
+	double step, origin[3];
+	uint8_t components;
+} mr_steps;
+
+/*
+ * Puts the column, decoded, as whole numbers of which the sums over the rows are stored: the packing of
+ * streams takes differences, which then are steps without a sign, the small ones, of either direction, with
+ * small numbers.  Steps that are not within 31 bits of the origin are not to be asked for.  A line in `notes`
+ * tells the page.
+ */
+mr_status mr_steps_put(
+    mr_ctx *ctx, mr_frame *to, const mr_column *column, const mr_steps *steps, mr_text *notes) MR_WARN_UNUSED;
+
+/* Whether the values of columns a and b are the same: *same.  Decodes both. */
+mr_status mr_columns_same(mr_ctx *ctx, mr_column *a, mr_column *b, bool *same) MR_WARN_UNUSED;
+
+#endif
