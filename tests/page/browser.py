@@ -103,7 +103,7 @@ class Browser:
             self.said.append("log: " + what["entry"]["text"])
         elif kind == "Page.javascriptDialogOpening":
             self.said.append("dialog: " + what["message"])
-        elif kind == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("data:", "about:")):
+        elif kind == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("data:", "about:", "blob:")):
             if what["request"]["url"] != self.url:
                 self.said.append("request: " + what["request"]["url"])
 

@@ -1,0 +1,237 @@
+"""drag.py -- see drag.sh, which made the pages."""
+import json
+import math
+import shlex
+import subprocess
+
+from browser import Browser
+from checks import Camera, box, check, columns, end, length, sub
+
+NEAR = 1e-5  # of the diagonal
+GIZMO = 0.6 / 7  # of the distance from the eye: what three.js has as 1
+
+
+def places(b, layer):
+    """Where the page has the vertices of a layer."""
+    flat = b.eval("Array.from(mrView.posing.placesOf('%s') || [], (x, i) => x + mrView.centre[i %% 3])" % layer)
+    return [flat[i:i + 3] for i in range(0, len(flat), 3)]
+
+
+def same(b, stream, line, what):
+    """Whether base and mesh of the page are what the line makes of the stream."""
+    b.settle()
+    with open(stream, "rb") as file:
+        made = subprocess.run(["sh", "-c", line], stdin=file, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    check(made.returncode == 0, "%s: exit %d of %s" % (what, made.returncode, line))
+    with open("made.mrs", "wb") as file:
+        file.write(made.stdout)
+    want = columns("made.mrs")
+    for layer in ("base", "mesh"):
+        p, q = want[layer, "position"], places(b, layer)
+        low, high = box(p)
+        off = max(length(sub(x, y)) for x, y in zip(p, q)) / length(sub(high, low)) if len(p) == len(q) else math.inf
+        check(off < NEAR, "%s: %s is %g of the diagonal off" % (what, layer, off))
+
+
+def line(b):
+    return b.eval("document.getElementById('line').value")
+
+
+def type_line(b, text):
+    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(text))
+    b.settle()
+
+
+def button(b, name):
+    b.eval("document.getElementById('%s').click()" % name)
+    b.settle()
+
+
+def undo(b):
+    for kind in ("keyDown", "keyUp"):
+        b.call("Input.dispatchKeyEvent", type=kind, key="z", code="KeyZ", modifiers=2)
+    b.settle()
+
+
+def centroid(values, handle):
+    rows = [p for p, (r,) in zip(values["mesh", "position"], values["mesh", "region"]) if r == handle + 2]
+    return [sum(p[c] for p in rows) / len(rows) for c in range(3)]
+
+
+def option(b, name):
+    """The numbers of an option of the line."""
+    words = shlex.split(line(b))
+    return [float(w) for w in words[words.index(name) + 1].split(",")] if name in words else []
+
+
+def pull(b, x0, y0, x1, y1):
+    b.mouse("mouseMoved", x0, y0)
+    check(b.eval("mrView.stage.gizmo.controls.axis"), "there is nothing to drag at %g, %g" % (x0, y0))
+    b.drag(x0, y0, x1, y1)
+
+
+def gizmo(b):
+    """Moved, turned and scaled by the mouse, one after another: one command, and each of them undone."""
+    values = columns("rest.mrs")
+    b.open("rest.html")
+    camera, at = Camera(values["mesh", "position"], b.canvas()), centroid(values, 1)
+    unit = GIZMO * length(sub(camera.eye, at))
+    check(line(b) == "" and b.eval("document.getElementById('modes').hidden"), "there is a pose before there is one: " + line(b))
+    b.press("1")
+
+    def pixel(right, up, along=(0, 0, 0)):
+        """A place of the gizmo: so far in the picture, and along the axes of the world."""
+        return camera.pixel([x + unit * (right * r + up * u + a) for x, r, u, a in zip(at, camera.right, camera.up, along)])
+
+    x, y = pixel(0, 0, (0.7, 0, 0))
+    pull(b, x, y, x + 60, y + 8)
+    move = option(b, "--translate")
+    check(len(move) == 3 and move[0] > 0.02 and move[1] == move[2] == 0, "moved along x: " + line(b))
+    same(b, "rest.mrs", line(b), "moved")
+    moved, at = line(b), [p + t for p, t in zip(at, move)]
+    b.press("t")
+    pull(b, *pixel(1.25 * math.cos(0.6), 1.25 * math.sin(0.6)), *pixel(1.25 * math.cos(1.1), 1.25 * math.sin(1.1)))
+    turn = option(b, "--rotate")
+    check(len(turn) == 4 and abs(turn[3] - 28.6) < 4 and all(abs(a - c) < 0.2 for a, c in zip(turn, camera.back)), "turned: " + line(b))
+    same(b, "rest.mrs", line(b), "turned")
+    turned = line(b)
+    b.press("x")
+    axis = b.eval("mrView.stage.gizmo.at.matrixWorld.elements.slice(0, 3)")
+    pull(b, *pixel(0, 0, [0.7 * a for a in axis]), *pixel(0, 0, axis))
+    scale = option(b, "--scale")
+    check(len(scale) == 3 and abs(scale[0] - 1 / 0.7) < 0.05 and scale[1:] == [1, 1], "scaled: " + line(b))
+    same(b, "rest.mrs", line(b), "scaled")
+    scaled = line(b)
+    type_line(b, scaled.replace(" | mr-decode", " | mr-pose -H 3 -r 1,0,0,-30"))
+    same(b, "rest.mrs", line(b), "two handles")
+    check(line(b).count("mr-pose") == 2, "two handles: " + line(b))
+    for want in (scaled, turned, moved, ""):
+        undo(b)
+        check(line(b) == want, "undone: %s, not %s" % (line(b), want))
+    same(b, "rest.mrs", "mr-pose -H 1 | mr-decode", "undone")
+    button(b, "redo")
+    button(b, "redo")
+    check(line(b) == turned, "redone: " + line(b))
+    same(b, "rest.mrs", turned, "redone")
+    button(b, "reset")
+    check(line(b) == "", "reset: " + line(b))
+
+
+def touch(b):
+    """The same with a finger, on a phone."""
+    b.size(390, 844, True)
+    b.open("rest.html")
+    values = columns("rest.mrs")
+    camera, at = Camera(values["mesh", "position"], b.canvas()), centroid(values, 1)
+    b.press("1")
+    unit = GIZMO * length(sub(camera.eye, at))
+    x, y = camera.pixel([at[0], at[1] + 0.7 * unit, at[2]])
+    for kind, dy in (("touchStart", 0), ("touchMove", 12), ("touchMove", 24), ("touchEnd", None)):
+        b.call("Input.dispatchTouchEvent", type=kind, touchPoints=[] if dy is None else [{"x": x, "y": y + dy}])
+    move = option(b, "--translate")
+    check(len(move) == 3 and move[1] < -0.02 and move[0] == move[2] == 0, "moved along y by a finger: " + line(b))
+    same(b, "rest.mrs", line(b), "moved by a finger")
+    b.size(1280, 800)
+
+
+LINES = ["mr-pose -H 1 --rotate 0,0,1,40 --translate 0.1,0.2,0 | mr-pose -H 3 --scale 1.4 | mr-decode",
+         "mr-pose -H1 -s1.2,0.8,1 -r '1,1,0,-75' --center 0.1,0.9,0 | mr-pose --handle=1 --translate=0,.1,-5e-2 \\\n | mr-pose \"-H\" 3 -t 0,-0.2,0",
+         "mr-pose -H 3 -r 0,0,2,200 -r 0,1,0,300|mr-decode"]
+
+HOSTILE = [("rm -rf /", "only mr-pose and mr-decode"), ("mr-pose -H 1 -t 1,0,0; reboot", "; reboot"), ("mr-pose -H $(reboot)", "$(reboot)"),
+           ("mr-pose -H 1 -t 1,2", "three numbers"), ("mr-pose -H 1 -t nan,0,0", "three numbers"), ("mr-pose -H 1 -t 1e999,0,0", "three numbers"),
+           ("mr-pose -H 1 -r 0,0,0,20", "no direction"), ("mr-pose -H 1 -s 1,2", "one factor"), ("mr-pose -t 1,0,0", "handles in use: 1, 3"),
+           ("mr-pose -H 7 -t 1,0,0", "handles in use: 1, 3"), ("mr-pose -H", "wants a value"), ("mr-pose -H 1 --frames 4", "one pose"),
+           ("mr-pose --script x", "reads no file"), ("mr-pose -H 1 | mr-decode --gain 2", "for the pipe"), ("mr-pose -H 1 | | mr-decode", "beside |"),
+           ("mr-pose --__proto__ 1", "for the pipe"), ("mr-pose -H 1 -t 1,0,0 <img src=x onerror=alert(1)>", "nothing that the page takes"),
+           ("mr-pose -H 1 \u202e -t 1,0,0", "control characters"), ("mr-pose -H 1 -t 1,0,0\nreboot", "control characters"), ("mr-pose -H " + "9" * 100000, "not the number"), ("</textarea><script>alert(1)</script>", "nothing that the page takes")]
+
+
+def lines(b):
+    """All that mr-pose takes and the page can do; what it cannot is said, and changes nothing."""
+    b.open("rest.html")
+    for text in LINES:
+        type_line(b, text)
+        check(b.text("said") == "", "%s: %s" % (text, b.text("said")))
+        same(b, "rest.mrs", text if "mr-decode" in text else text + " | mr-decode", text)
+        same(b, "rest.mrs", line(b), "the page's own line for " + text)
+    check(not b.eval("document.getElementById('far').hidden") and b.text("degrees") == "300", "no word on a turn by 300 degrees: " + b.text("degrees"))
+    names = b.eval("[...document.getElementById('color').options].map(o => o.textContent)")
+    check(names == ["plain", "region", "detail_height"], "columns to colour by: %s" % names)
+    kept, at = b.eval("mrView.posing.pose.line()"), places(b, "mesh")
+    for text, word in HOSTILE:
+        type_line(b, text)
+        check(word in b.text("said"), "%s: the page says '%s'" % (text[:60], b.text("said")))
+        check(len(b.text("said")) < 200, "%s: %d characters are said" % (text[:60], len(b.text("said"))))
+        check(b.eval("mrView.posing.pose.line()") == kept, "%s: changes the pose" % text[:60])
+    check(b.eval("document.querySelectorAll('img').length") == 0, "there are elements of the line")
+    type_line(b, kept)
+    check(places(b, "mesh") == at, "a line that is refused moves the mesh")
+
+
+def far(b):
+    """Far from the origin, with offsets, posed by the stream: shown so at once, and posed on from there; a click chooses a handle."""
+    values = columns("posed.mrs")
+    check(any(x for o in values["mesh", "detail_offset"] for x in o), "there is no offset to be tried")
+    b.open("posed.html")
+    same(b, "posed.mrs", "mr-decode", "posed by the stream")
+    for text in ("mr-pose -H 3 -r 0,1,0,25 | mr-pose -H 1 -t 0.1,0,0.1 -s 0.9 | mr-decode", "mr-pose -H 1 -r 1,0,0,50 | mr-decode"):
+        type_line(b, text)
+        same(b, "posed.mrs", text, "far: " + text)
+    at = [p for p, (r,) in zip(places(b, "mesh"), values["mesh", "region"]) if r == 3]
+    camera = Camera(values["mesh", "position"], b.canvas())
+    for p in sorted(at, key=lambda p: length(sub(p, camera.eye)))[:5]:
+        b.click(*camera.pixel(p))
+        if b.picked().get("region") == "handle 1":
+            break
+    check(b.eval("mrView.posing.handle") == 1, "a click on handle 1 does not choose it: %s" % b.picked())
+    where = [float(w) for w in b.picked()["at"].split()]
+    check(length(sub(where, places(b, "mesh")[int(b.picked()["vertex"])])) < 1e-5, "picked: %s" % b.picked())
+
+
+def two(b):
+    """Another model is posed by its own basis, in every layer that is switched on; what was dragged before stays behind."""
+    b.open("two.html")
+    type_line(b, LINES[0])
+    b.press("ArrowRight")
+    check(line(b) == "" and places(b, "mesh") == [], "the pose of another model: " + line(b))
+    type_line(b, LINES[0])
+    same(b, "far.mrs", LINES[0], "the second model")
+    mesh = b.picture()
+    b.call("Input.dispatchKeyEvent", type="keyDown", key="@", code="Digit2", modifiers=8)
+    b.call("Input.dispatchKeyEvent", type="keyUp", key="@", code="Digit2", modifiers=8)
+    b.settle()
+    check(b.eval("mrView.stage.layers.length") == 2 and b.picture().rows != mesh.rows, "shift 2 shows no base")
+    drawn = b.eval("mrView.drawn.get('base').drawn.position.every((x, i) => x === mrView.posing.placesOf('base')[i])")
+    check(drawn, "the base that is switched on is not posed")
+    b.press("ArrowRight")
+    check(line(b) == "" and b.text("name") == "bumpy", "back at %s: %s" % (b.text("name"), line(b)))
+
+
+def lacking(b):
+    """Without a basis the page tells the commands, and they make one; of the mesh alone there is nothing to tell."""
+    b.open("picked.html")
+    text = b.text("lacking")
+    check(text == "mr-solve --basis model.mrs | mr-encode | mr-view page.html", "lacking: " + text)
+    subprocess.run(["sh", "-c", text.replace("model.mrs", "picked.mrs")], check=True)
+    b.open("page.html")
+    type_line(b, LINES[0])
+    same(b, "rest.mrs", LINES[0], "the page made by what another told")
+    b.open("none.html")
+    check(b.eval("document.getElementById('poseline').hidden && document.getElementById('lack').hidden"), "a page without handles has something on them")
+
+
+def without_workers(b):
+    """A browser that has none shows the model all the same, and says why its handles stay."""
+    script = b.call("Page.addScriptToEvaluateOnNewDocument", source="delete window.Worker")["identifier"]
+    b.open("rest.html")
+    check(not b.eval("document.getElementById('no-worker').hidden") and b.eval("document.getElementById('pose').hidden"), "nothing on workers")
+    check(b.text("message") == "" and b.eval("mrView.stage.layers.length") == 1, "without workers the page says '%s'" % b.text("message"))
+    b.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+
+
+with Browser() as browser:
+    for test in (gizmo, touch, lines, far, two, lacking, without_workers):
+        test(browser)
+    check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
+end()
