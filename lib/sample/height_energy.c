@@ -268,28 +268,6 @@ mr_heights_minimise_some(
 	return MR_OK;
 }
 
-typedef struct field {
-	const mr_heights *e;
-	const double *h;
-} field;
-
-static double
-squared_difference(void *arg, size_t i)
-{
-	const field *f = arg;
-	double n = degree(f->e, i), x = n > 0 ? differences(f->e, f->h, i) / n : 0;
-
-	return x * x;
-}
-
-double
-mr_heights_roughness(mr_ctx *ctx, const mr_heights *e, const double *h)
-{
-	field f = { e, h };
-
-	return sqrt(mr_parallel_sum(ctx, e->n, squared_difference, &f) / (double)(e->n ? e->n : 1));
-}
-
 /* Fronts: each vertex next to the known takes the mean of its known neighbours, ring after ring. */
 static mr_status
 fill_rings(mr_ctx *ctx, const mr_heights *e, const bool *known, double *h)

@@ -40,9 +40,6 @@ mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, d
 mr_status mr_heights_minimise_some(
     mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, double tol, size_t most, double *h);
 
-/* The root mean square difference of a height from the mean of those around it. */
-double mr_heights_roughness(mr_ctx *ctx, const mr_heights *e, const double *h);
-
 /*
  * Fills in the heights that are not known from those that are, smoothly; where a component knows none they
  * are zero.  known: n.  *filled: how many.

@@ -176,12 +176,12 @@ median_where(mr_ctx *ctx, const bool *hit, const double *value, size_t n, double
 
 mr_status
 mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours, double *height,
-    bool *hit, double *noise, mr_sample_result *r)
+    bool *hit, mr_sample_result *r)
 {
 	static const double wide = 4; /* the radius that evens out noise, in deviations */
 	mr_mark mark = mr_mark_take(ctx);
 	size_t nv = d->m.nv, most = mr_near_distinct(c->near);
-	double *deviation = MR_NEW(ctx, nv, double), *spread = MR_NEW(ctx, nv, double), radius, grown;
+	double *deviation = MR_NEW(ctx, nv, double), *spread = MR_NEW(ctx, nv, double), noise, radius, grown;
 	search s = { .d = d,
 		.c = c,
 		.k = neighbours,
@@ -195,19 +195,19 @@ mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_
 	if (most > MR_SAMPLE_MOST)
 		most = MR_SAMPLE_MOST;
 	MR_TRY(search_all(ctx, &s));
-	MR_TRY(median_where(ctx, hit, deviation, nv, noise));
+	MR_TRY(median_where(ctx, hit, deviation, nv, &noise));
 	MR_TRY(median_where(ctx, hit, spread, nv, &radius));
-	grown = (double)neighbours * pow(wide * *noise / fmax(radius, DBL_MIN), 2);
+	grown = (double)neighbours * pow(wide * noise / fmax(radius, DBL_MIN), 2);
 	if (grown > 1.2 * (double)neighbours && most > neighbours) {
 		s.k = grown < (double)most ? (size_t)grown : most;
 		MR_TRY(search_all(ctx, &s));
-		MR_TRY(median_where(ctx, hit, deviation, nv, noise));
+		MR_TRY(median_where(ctx, hit, deviation, nv, &noise));
 	}
 	r->missed = 0;
 	for (size_t v = 0; v < nv; v++)
 		r->missed += !hit[v];
 	r->neighbours = s.k;
-	r->noise = *noise / c->diagonal;
+	r->noise = noise / c->diagonal;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

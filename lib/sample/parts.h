@@ -83,9 +83,8 @@ size_t mr_sights_near_sheet(const mr_sample_cloud *c, mr_v3 n, mr_sight *s, size
 /* Heights found by one search; hit says where.  r: gets the figures of it. */
 mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
     double *height, bool *hit, mr_sample_result *r);
-/* *noise: the deviation of the points from the local surfaces. */
 mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
-    double *height, bool *hit, double *noise, mr_sample_result *r);
+    double *height, bool *hit, mr_sample_result *r);
 /* c: the mesh's vertices, placed. */
 mr_status mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
     double *height, bool *hit, mr_sample_result *r);
@@ -105,6 +104,26 @@ typedef struct mr_fit_weights {
 	bool robust;  /* so much less that outliers do not count */
 	size_t steps; /* of conjugate gradients in a pass, at most */
 } mr_fit_weights;
+
+/* What a point asks of the heights of its face's corners: sum c_i h_i = r. */
+typedef struct mr_wish {
+	uint32_t face;
+	float weight;
+	double c[3], r;
+	double gap; /* signed distance before the pass */
+} mr_wish;
+
+/* Sets the fairness: `factor` where the heights are bent as in the middle, less where more, and more where
+ * less. */
+mr_status mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor);
+
+/*
+ * Multiplies the fairness so that points that are left out come nearest to what the others tell.  e: with the
+ * data of the n wishes; t: its faces; height: to begin with; steps: of conjugate gradients, at most. *factor:
+ * by what.
+ */
+mr_status mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, const mr_tri *t,
+    const double *height, size_t steps, double *factor);
 
 /* Fits the heights to the points; those that were hit are also pulled to what they are.  e: of the domain. */
 mr_status

@@ -16,14 +16,6 @@
 
 enum { GRAIN = 512 };
 
-/* What a point asks of the heights of its face's corners: sum c_i h_i = r. */
-typedef struct wish {
-	uint32_t face;
-	float weight;
-	double c[3], r;
-	double gap; /* signed distance before the pass */
-} wish;
-
 typedef struct fit {
 	mr_sample_result *found;
 	const mr_domain *d;
@@ -39,10 +31,11 @@ typedef struct fit {
 	mr_mesh surface; /* the displaced one */
 	mr_v3 *p;        /* its positions */
 	double *height;
-	wish *wish;      /* of each point */
+	mr_wish *wish;   /* of each point */
 	uint32_t *start; /* of each face's points in `order`: nf + 1 */
 	uint32_t *order; /* points by face */
 	double scale;    /* gaps beyond it count less */
+	double fair;     /* where heights are bent as in the middle */
 } fit;
 
 static void
@@ -52,7 +45,7 @@ place_points(void *arg, size_t begin, size_t end)
 	const mr_topology *topo = &x->d->level[x->d->n].topo;
 
 	for (size_t i = begin; i < end; i++) {
-		wish *w = &x->wish[i];
+		mr_wish *w = &x->wish[i];
 		mr_v3 q = x->c->p[i], b, normal, foot;
 		mr_closest c;
 		const uint32_t *v = x->surface.t[w->face].v;
@@ -133,7 +126,7 @@ add_face(const fit *x, size_t i, uint32_t f, int k)
 	size_t to_b = entry_of(&x->e->adj, i, x->surface.t[f].v[b]);
 
 	for (uint32_t at = x->start[f]; at < x->start[f + 1]; at++) {
-		const wish *w = &x->wish[x->order[at]];
+		const mr_wish *w = &x->wish[x->order[at]];
 		double c = (double)w->weight * w->c[k];
 		x->e->diagonal[i] += c * w->c[k];
 		x->e->beside[to_a] += c * w->c[a];
@@ -175,7 +168,7 @@ static void
 press(fit *x)
 {
 	static const double shrink = 0.7, more = 3, least = 0.3, most = 300;
-	double stiff = x->local ? fmax(1, x->weights->fair) : 1;
+	double stiff = x->local ? fmax(1, x->fair) : 1;
 
 	for (size_t f = 0; f < x->surface.nf; f++)
 		for (int k = 0; k < 3 && x->bad[f]; k++) {
@@ -183,7 +176,7 @@ press(fit *x)
 			x->target[v] = shrink * x->height[v];
 			x->pull[v] = (float)fmin(
 			    more * fmax((double)x->pull[v], least * stiff), most * stiff);
-			x->e->fair[v] = fmin(more * x->e->fair[v], most * x->weights->fair);
+			x->e->fair[v] = fmin(more * x->e->fair[v], most * x->fair);
 		}
 }
 
@@ -195,7 +188,18 @@ place_all(mr_ctx *ctx, fit *x)
 }
 
 static mr_status
-fit_pass(mr_ctx *ctx, fit *x)
+validate(mr_ctx *ctx, fit *x)
+{
+	double factor;
+
+	MR_TRY(mr_fairness_validate(
+	    ctx, x->e, x->wish, x->c->n, x->surface.t, x->height, x->weights->steps, &factor));
+	x->fair *= factor;
+	return MR_OK;
+}
+
+static mr_status
+fit_pass(mr_ctx *ctx, fit *x, bool validated)
 {
 	double median;
 
@@ -205,6 +209,8 @@ fit_pass(mr_ctx *ctx, fit *x)
 	weigh_points(x);
 	sort_by_face(x);
 	mr_parallel(ctx, x->d->m.nv, GRAIN, assemble_rows, x);
+	if (validated)
+		MR_TRY(validate(ctx, x));
 	MR_TRY(mr_heights_minimise(ctx, x->e, 1e-3, x->weights->steps, x->height, &x->found->refine_steps));
 	return MR_OK;
 }
@@ -278,7 +284,7 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 	x->c = c;
 	x->surface = d->m;
 	x->surface.p = x->p = MR_NEW(ctx, d->m.nv, mr_v3);
-	x->wish = MR_NEW(ctx, c->n, wish);
+	x->wish = MR_NEW(ctx, c->n, mr_wish);
 	x->start = MR_NEW(ctx, d->m.nf + 1, uint32_t);
 	x->order = MR_NEW(ctx, c->n, uint32_t);
 	x->target = MR_NEW(ctx, d->m.nv, double);
@@ -390,8 +396,10 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 	for (size_t pass = 0; pass < passes; pass++) {
 		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
 		mr_find_folds(ctx, &x->surface, x->d, NULL, x->bad);
+		if (x->weights->robust && pass > 0)
+			MR_TRY(mr_fairness_adapt(ctx, x->e, x->height, x->fair));
 		press(x);
-		MR_TRY(fit_pass(ctx, x));
+		MR_TRY(fit_pass(ctx, x, x->weights->robust && pass == 1));
 		mr_progress(ctx, "refining", (double)(pass + 1) / (double)passes);
 	}
 	return passes > 0 ? mend_all(ctx, x, folds) : find_bad(ctx, x, folds);
@@ -439,7 +447,7 @@ set_weights(mr_ctx *ctx, const mr_domain *d, const bool *hit, fit *x)
 	for (size_t v = 0; v < d->m.nv; v++) {
 		x->target[v] = x->height[v];
 		x->pull[v] = hit[v] ? (float)(x->weights->pull * share[v]) : 0;
-		x->e->fair[v] = x->weights->fair / share[v];
+		x->e->fair[v] = x->fair / share[v];
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -450,7 +458,7 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, cons
     size_t passes, mr_heights *e, const bool *hit, double *height, mr_sample_result *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	fit x = { .found = r, .weights = weights, .e = e, .height = height };
+	fit x = { .found = r, .weights = weights, .e = e, .height = height, .fair = weights->fair };
 	size_t folds;
 
 	MR_TRY(fit_new(ctx, d, c, &x));
@@ -460,7 +468,7 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, cons
 	place_all(ctx, &x);
 	MR_TRY(report_gaps(ctx, &x));
 	report_area(ctx, &x);
-	r->fairness = weights->fair;
+	r->fairness = x.fair;
 	r->folds = folds;
 	if (folds > 0)
 		mr_warn(ctx, "%zu of %zu triangles of the displaced surface fold over or pass through others",

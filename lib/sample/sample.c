@@ -148,19 +148,15 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, 
 }
 
 /*
- * Weights for points with noise: the more they deviate from the local surfaces, beside how much the heights
- * of those differ from vertex to vertex, the fairer the heights are to be.  The numbers are by experiment.
+ * Weights for points with noise.  The fairness is that of the first pass, whose surface must be smooth for
+ * the points to find their feet on it; then the points tell it (fairness.c).
  */
 static mr_fit_weights
-robust_weights(mr_ctx *ctx, const mr_heights *e, const double *height, const mr_sample_cloud *c, double noise)
+noisy_weights(const mr_sample_cloud *c)
 {
-	double rough = mr_heights_roughness(ctx, e, height), fair = 2 * pow(noise / fmax(rough, DBL_MIN), 4);
-
-	return (mr_fit_weights){ .fair = fmin(fmax(fair, 1e-2), 1e3),
-		.pull = 0.3,
-		.scale = 1e-4 * c->diagonal,
-		.robust = true,
-		.steps = 300 };
+	return (mr_fit_weights){
+		.fair = 1e3, .pull = 0.05, .scale = 1e-4 * c->diagonal, .robust = true, .steps = 300
+	};
 }
 
 /* Share of outliers among the points: others, next to the surface, are not told.  With 5 % of them among
@@ -207,7 +203,6 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cl
 	size_t distinct, k = opts->neighbours;
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
 	mr_heights e;
-	double noise;
 
 	if (!hit)
 		return MR_EMEM;
@@ -218,13 +213,13 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cl
 	if (k > distinct)
 		k = distinct;
 	if (robust)
-		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, &noise, r));
+		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, r));
 	else
 		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
 	MR_TRY(leave_creases(ctx, d, hit));
 	MR_TRY(mend(ctx, d, &e, hit, height, r));
 	if (robust)
-		weights = robust_weights(ctx, &e, height, c, noise);
+		weights = noisy_weights(c);
 	return mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height, r);
 }
 

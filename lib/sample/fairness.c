@@ -1,0 +1,198 @@
+/*
+ * How fair heights are to be, told by the noisy points alone.
+ *
+ * Where the heights of a plate differ from their neighbours' by u on the mean, and the points from the plate
+ * by s, the most probable surface weighs the fairness by s^2 / u^2: less where it is bent, as at edges, than
+ * where it is flat.  What that is to be multiplied with is found by generalised cross-validation (Golub,
+ * Heath, Wahba 1979), which foretells how far points are that were left out: the least sum of w r^2 over (n -
+ * trace)^2, with the trace of the matrix that takes the points' offsets to the fitted ones from one random
+ * vector (Hutchinson 1990).
+ */
+#include "base/parallel.h"
+#include "base/random.h"
+#include "base/sort.h"
+#include "sample/parts.h"
+
+#include <float.h>
+
+enum { GRAIN = 2048 };
+
+typedef struct means {
+	const mr_adjacency *adj;
+	const double *from;
+	double *to;
+} means;
+
+/* Of the neighbours' heights, how far the own one is off: its square. */
+static void
+square_differences(void *arg, size_t begin, size_t end)
+{
+	const means *m = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		double sum = 0, n = (double)(m->adj->start[i + 1] - m->adj->start[i]);
+		for (size_t k = m->adj->start[i]; k < m->adj->start[i + 1]; k++)
+			sum += m->from[i] - m->from[m->adj->adj[k]];
+		m->to[i] = n > 0 ? sum / n * (sum / n) : 0;
+	}
+}
+
+static void
+average(void *arg, size_t begin, size_t end)
+{
+	const means *m = arg;
+
+	for (size_t i = begin; i < end; i++) {
+		double sum = m->from[i];
+		for (size_t k = m->adj->start[i]; k < m->adj->start[i + 1]; k++)
+			sum += m->from[m->adj->adj[k]];
+		m->to[i] = sum / (double)(1 + m->adj->start[i + 1] - m->adj->start[i]);
+	}
+}
+
+mr_status
+mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor)
+{
+	/* what a ring or three show is the noise: of five models with 1 % of it the mean distance from the
+	 * truth is 0.205 % of the diagonal with 3 rounds, 0.195 with 8, and 0.200 with the same fairness
+	 * everywhere */
+	enum { ROUNDS = 8 };
+	static const double least = 1. / 300, most = 30;
+	mr_mark mark = mr_mark_take(ctx);
+	double *u = MR_NEW(ctx, e->n, double), *w = MR_NEW(ctx, e->n, double), middle;
+
+	if (!u || !w)
+		return MR_EMEM;
+	mr_parallel(ctx, e->n, GRAIN, square_differences, &(means){ &e->adj, height, u });
+	for (int round = 0; round < ROUNDS; round++) {
+		mr_parallel(ctx, e->n, GRAIN, average, &(means){ &e->adj, u, w });
+		memcpy(u, w, e->n * sizeof *u);
+	}
+	middle = mr_kth(w, e->n, e->n / 2);
+	for (size_t i = 0; i < e->n; i++)
+		e->fair[i] = factor * fmin(fmax(middle / fmax(u[i], DBL_MIN), least), most);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The fit that is validated. */
+typedef struct validation {
+	mr_heights *e;
+	const mr_wish *wish;
+	size_t n;
+	const mr_tri *t;
+	const double *height;
+	size_t steps;
+	double *fair, *trial, *probe,
+	    *image; /* e->n: fairness as it came, heights, a random vector and what it becomes */
+} validation;
+
+/* Of the point i, +1 or -1. */
+static double
+sign_of(size_t i)
+{
+	return mr_random_bits(&(mr_random){ i }) & 1 ? 1 : -1;
+}
+
+static void
+build_probe(const validation *x)
+{
+	memset(x->probe, 0, x->e->n * sizeof *x->probe);
+	for (size_t i = 0; i < x->n; i++) {
+		const mr_wish *w = &x->wish[i];
+		const uint32_t *v = x->t[w->face].v;
+		double z = sign_of(i) * sqrt((double)w->weight);
+		for (int k = 0; k < 3; k++)
+			x->probe[v[k]] += z * w->c[k];
+	}
+}
+
+static double
+weigh(const mr_wish *w, const uint32_t *v, const double *x)
+{
+	return w->c[0] * x[v[0]] + w->c[1] * x[v[1]] + w->c[2] * x[v[2]];
+}
+
+static double
+score(const validation *x)
+{
+	double squares = 0, trace = 0, n = (double)x->n;
+
+	for (size_t i = 0; i < x->n; i++) {
+		const mr_wish *w = &x->wish[i];
+		const uint32_t *v = x->t[w->face].v;
+		double r = w->r - weigh(w, v, x->trial);
+		squares += (double)w->weight * r * r;
+		trace += sign_of(i) * sqrt((double)w->weight) * weigh(w, v, x->image);
+	}
+	return squares / ((n - trace) * (n - trace));
+}
+
+/* Fits the heights, and the random vector, with the fairness times 10^exponent. */
+static mr_status
+validate(mr_ctx *ctx, validation *x, double exponent, double *result)
+{
+	static const double close = 0.05; /* 0.01 takes twice as long and finds the same */
+	double *b = x->e->b, factor = pow(10, exponent);
+
+	for (size_t i = 0; i < x->e->n; i++)
+		x->e->fair[i] = factor * x->fair[i];
+	memcpy(x->trial, x->height, x->e->n * sizeof *x->trial);
+	MR_TRY(mr_heights_minimise(ctx, x->e, close, x->steps, x->trial, NULL));
+	memset(x->image, 0, x->e->n * sizeof *x->image);
+	x->e->b = x->probe;
+	MR_TRY(mr_heights_minimise(ctx, x->e, close, x->steps, x->image, NULL));
+	x->e->b = b;
+	*result = score(x);
+	return MR_OK;
+}
+
+/* Golden section: where the score is least, to a third of a decade, the score being flat there. */
+static mr_status
+search(mr_ctx *ctx, validation *x, double low, double high, double *exponent)
+{
+	static const double golden = 0.6180339887498949, close = 0.6;
+	double a = high - golden * (high - low), b = low + golden * (high - low), of_a, of_b;
+
+	MR_TRY(validate(ctx, x, a, &of_a));
+	MR_TRY(validate(ctx, x, b, &of_b));
+	while (high - low > close) {
+		if (of_a < of_b) {
+			high = b;
+			b = a;
+			of_b = of_a;
+			a = high - golden * (high - low);
+			MR_TRY(validate(ctx, x, a, &of_a));
+		} else {
+			low = a;
+			a = b;
+			of_a = of_b;
+			b = low + golden * (high - low);
+			MR_TRY(validate(ctx, x, b, &of_b));
+		}
+	}
+	*exponent = (low + high) / 2;
+	return MR_OK;
+}
+
+mr_status
+mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, const mr_tri *t,
+    const double *height, size_t steps, double *factor)
+{
+	static const double low = -3, high = 0.7;
+	mr_mark mark = mr_mark_take(ctx);
+	validation x = { e, wish, n, t, height, steps, MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double),
+		MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double) };
+	double exponent;
+
+	if (!x.fair || !x.trial || !x.probe || !x.image)
+		return MR_EMEM;
+	memcpy(x.fair, e->fair, e->n * sizeof *x.fair);
+	build_probe(&x);
+	MR_TRY(search(ctx, &x, low, high, &exponent));
+	*factor = pow(10, exponent);
+	for (size_t i = 0; i < e->n; i++)
+		e->fair[i] = *factor * x.fair[i];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
