@@ -179,7 +179,7 @@ mr_status
 mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, const mr_tri *t,
     const double *height, size_t steps, double *factor)
 {
-	static const double low = -3, high = 0.7;
+	static const double low = -3.5, high = 0.3;
 	mr_mark mark = mr_mark_take(ctx);
 	validation x = { e, wish, n, t, height, steps, MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double),
 		MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double) };

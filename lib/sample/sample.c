@@ -148,14 +148,16 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, 
 }
 
 /*
- * Weights for points with noise.  The fairness is that of the first pass, whose surface must be smooth for
- * the points to find their feet on it; then the points tell it (fairness.c).
+ * Weights for points with noise.  The fairness is that of the first pass, before the points tell it
+ * (fairness.c): the feet of points on a surface that follows them are where their noise looks like shape.  On
+ * six models with 1 % of noise 0.186 and 0.181 % of the diagonal from the truth and back, with 1e3 0.209 and
+ * 0.213.
  */
 static mr_fit_weights
 noisy_weights(const mr_sample_cloud *c)
 {
 	return (mr_fit_weights){
-		.fair = 1e3, .pull = 0.05, .scale = 1e-4 * c->diagonal, .robust = true, .steps = 300
+		.fair = 1e4, .pull = 0.05, .scale = 1e-4 * c->diagonal, .robust = true, .steps = 300
 	};
 }
 
