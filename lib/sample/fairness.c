@@ -75,7 +75,7 @@ mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double
 	return MR_OK;
 }
 
-/* The fit that is validated. */
+/* The fit that is validated, of a part of the vertices; what it asks of others is as it was. */
 typedef struct validation {
 	mr_heights *e;
 	const mr_wish *wish;
@@ -83,9 +83,39 @@ typedef struct validation {
 	const mr_tri *t;
 	const double *height;
 	size_t steps;
-	double *fair, *trial, *probe,
-	    *image; /* e->n: fairness as it came, heights, a random vector and what it becomes */
+	bool *taken;    /* e->n */
+	uint32_t *list; /* of those */
+	size_t count;   /* of the list */
+	double *fair;   /* as it came: e->n */
+	double *trial;  /* heights: e->n */
+	double *probe;  /* a random vector, and what it becomes: e->n */
+	double *image;
 } validation;
+
+/* Takes blocks of faces at even distances, each of some roots of the domain: of a million vertices, all would
+ * take as long as the rest of the fit, for a factor whose score differs by less than 1 %. */
+static void
+take_part(validation *x, size_t nf)
+{
+	enum { BLOCK = 1 << 12, ENOUGH = 1 << 16 };
+	size_t every = 1 + (nf - 1) / (2 * ENOUGH);
+
+	for (size_t f = 0; f < nf; f++)
+		for (int k = 0; k < 3 && f / BLOCK % every == 0; k++) {
+			uint32_t v = x->t[f].v[k];
+			if (!x->taken[v])
+				x->list[x->count++] = v;
+			x->taken[v] = true;
+		}
+}
+
+static bool
+is_taken(const validation *x, const mr_wish *w)
+{
+	const uint32_t *v = x->t[w->face].v;
+
+	return x->taken[v[0]] && x->taken[v[1]] && x->taken[v[2]];
+}
 
 /* Of the point i, +1 or -1. */
 static double
@@ -97,12 +127,11 @@ sign_of(size_t i)
 static void
 build_probe(const validation *x)
 {
-	memset(x->probe, 0, x->e->n * sizeof *x->probe);
 	for (size_t i = 0; i < x->n; i++) {
 		const mr_wish *w = &x->wish[i];
 		const uint32_t *v = x->t[w->face].v;
 		double z = sign_of(i) * sqrt((double)w->weight);
-		for (int k = 0; k < 3; k++)
+		for (int k = 0; k < 3 && is_taken(x, w); k++)
 			x->probe[v[k]] += z * w->c[k];
 	}
 }
@@ -116,12 +145,16 @@ weigh(const mr_wish *w, const uint32_t *v, const double *x)
 static double
 score(const validation *x)
 {
-	double squares = 0, trace = 0, n = (double)x->n;
+	double squares = 0, trace = 0, n = 0;
 
 	for (size_t i = 0; i < x->n; i++) {
 		const mr_wish *w = &x->wish[i];
 		const uint32_t *v = x->t[w->face].v;
-		double r = w->r - weigh(w, v, x->trial);
+		double r;
+		if (!is_taken(x, w))
+			continue;
+		r = w->r - weigh(w, v, x->trial);
+		n++;
 		squares += (double)w->weight * r * r;
 		trace += sign_of(i) * sqrt((double)w->weight) * weigh(w, v, x->image);
 	}
@@ -138,10 +171,10 @@ validate(mr_ctx *ctx, validation *x, double exponent, double *result)
 	for (size_t i = 0; i < x->e->n; i++)
 		x->e->fair[i] = factor * x->fair[i];
 	memcpy(x->trial, x->height, x->e->n * sizeof *x->trial);
-	MR_TRY(mr_heights_minimise(ctx, x->e, close, x->steps, x->trial, NULL));
+	MR_TRY(mr_heights_minimise_some(ctx, x->e, x->list, x->count, close, x->steps, x->trial));
 	memset(x->image, 0, x->e->n * sizeof *x->image);
 	x->e->b = x->probe;
-	MR_TRY(mr_heights_minimise(ctx, x->e, close, x->steps, x->image, NULL));
+	MR_TRY(mr_heights_minimise_some(ctx, x->e, x->list, x->count, close, x->steps, x->image));
 	x->e->b = b;
 	*result = score(x);
 	return MR_OK;
@@ -176,18 +209,20 @@ search(mr_ctx *ctx, validation *x, double low, double high, double *exponent)
 }
 
 mr_status
-mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, const mr_tri *t,
+mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, const mr_mesh *surface,
     const double *height, size_t steps, double *factor)
 {
 	static const double low = -3.5, high = 0.3;
 	mr_mark mark = mr_mark_take(ctx);
-	validation x = { e, wish, n, t, height, steps, MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double),
-		MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double) };
+	validation x = { e, wish, n, surface->t, height, steps, MR_NEW_ZERO(ctx, e->n, bool),
+		MR_NEW(ctx, e->n, uint32_t), 0, MR_NEW(ctx, e->n, double), MR_NEW(ctx, e->n, double),
+		MR_NEW_ZERO(ctx, e->n, double), MR_NEW(ctx, e->n, double) };
 	double exponent;
 
-	if (!x.fair || !x.trial || !x.probe || !x.image)
+	if (!x.taken || !x.list || !x.fair || !x.trial || !x.probe || !x.image)
 		return MR_EMEM;
 	memcpy(x.fair, e->fair, e->n * sizeof *x.fair);
+	take_part(&x, surface->nf);
 	build_probe(&x);
 	MR_TRY(search(ctx, &x, low, high, &exponent));
 	*factor = pow(10, exponent);

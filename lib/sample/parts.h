@@ -119,11 +119,11 @@ mr_status mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *heig
 
 /*
  * Multiplies the fairness so that points that are left out come nearest to what the others tell.  e: with the
- * data of the n wishes; t: its faces; height: to begin with; steps: of conjugate gradients, at most. *factor:
- * by what.
+ * data of the n wishes; surface: whose heights they are; height: to begin with; steps: of conjugate
+ * gradients, at most. *factor: by what.
  */
-mr_status mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, const mr_tri *t,
-    const double *height, size_t steps, double *factor);
+mr_status mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n,
+    const mr_mesh *surface, const double *height, size_t steps, double *factor);
 
 /* Fits the heights to the points; those that were hit are also pulled to what they are.  e: of the domain. */
 mr_status

@@ -193,7 +193,7 @@ validate(mr_ctx *ctx, fit *x)
 	double factor;
 
 	MR_TRY(mr_fairness_validate(
-	    ctx, x->e, x->wish, x->c->n, x->surface.t, x->height, x->weights->steps, &factor));
+	    ctx, x->e, x->wish, x->c->n, &x->surface, x->height, x->weights->steps, &factor));
 	x->fair *= factor;
 	return MR_OK;
 }
