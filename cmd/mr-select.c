@@ -37,12 +37,21 @@ add_handle(mr_ctx *ctx, const cmd_opt *o, const char *text)
 	return mr_selection_add(ctx, &selection, MR_REGION_HANDLE + (uint32_t)handle, option, at);
 }
 
+static mr_status
+add_file(mr_ctx *ctx, const cmd_opt *o, const char *path)
+{
+	(void)o;
+	return mr_selection_add_file(ctx, &selection, "--from ", path);
+}
+
 static const cmd_opt table[] = {
 	{ 0, "reset", CMD_FLAG, &opts.reset, 0, 0, NULL,
 	    "begin with all vertices fixed (default: with the regions there are)", NULL },
 	{ 0, "free", CMD_CALL, NULL, 0, 0, "P", "these vertices are free", add_free },
 	{ 0, "fixed", CMD_CALL, NULL, 0, 0, "P", "these vertices are fixed", add_fixed },
 	{ 0, "handle", CMD_CALL, NULL, 0, 0, "N=P", "these vertices are handle N", add_handle },
+	{ 0, "from", CMD_CALL, NULL, 0, 0, "FILE",
+	    "these vertices are what FILE says, as mr-view's page saves it", add_file },
 	{ 0 },
 };
 
@@ -51,7 +60,8 @@ prepare(cmd *c)
 {
 	if (selection.n || opts.reset)
 		return MR_OK;
-	return mr_fail(&c->ctx, MR_EUSAGE, "nothing to select: give --free, --fixed, --handle or --reset");
+	return mr_fail(
+	    &c->ctx, MR_EUSAGE, "nothing to select: give --free, --fixed, --handle, --from or --reset");
 }
 
 static const cmd_field figures[] = {

@@ -2,6 +2,7 @@
 #include "edit/select.h"
 
 #include "edit/select_parts.h"
+#include "edit/selection_file.h"
 #include "mesh/layers.h"
 
 typedef struct mr_parsed_rule {
@@ -9,6 +10,7 @@ typedef struct mr_parsed_rule {
 	const char *option, *text;
 	mr_select_term *term;
 	size_t terms;
+	mr_selection_file *file; /* in place of region and terms; or NULL */
 } rule;
 
 /* The predicate whose name begins `text`, followed by a colon, a '+' or nothing. */
@@ -137,6 +139,19 @@ mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *opti
 	return MR_OK;
 }
 
+mr_status
+mr_selection_add_file(mr_ctx *ctx, mr_selection *s, const char *option, const char *path)
+{
+	rule r = { .option = option, .text = path, .file = MR_NEW(ctx, 1, mr_selection_file) };
+
+	if (!r.file)
+		return MR_EMEM;
+	MR_TRY(mr_selection_file_read(ctx, path, r.file));
+	MR_TRY(MR_RESERVE(ctx, s->rule, s->n, 1, &s->room));
+	s->rule[s->n++] = r;
+	return MR_OK;
+}
+
 uint32_t
 mr_selection_begins(const mr_selection *s)
 {
@@ -168,8 +183,11 @@ apply_rule(
 	size_t n = 0;
 
 	s->target = r->region;
-	MR_TRY(eval_rule(ctx, s, r, one, in));
-	for (size_t v = 0; v < s->m->nv; v++)
+	if (r->file)
+		MR_TRY(mr_selection_file_apply(ctx, r->file, s->m, region, &n));
+	else
+		MR_TRY(eval_rule(ctx, s, r, one, in));
+	for (size_t v = 0; v < s->m->nv && !r->file; v++)
 		if (in[v]) {
 			region[v] = r->region;
 			n++;

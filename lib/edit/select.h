@@ -51,6 +51,12 @@ typedef struct mr_groups {
 mr_status
 mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *option, const char *predicate);
 
+/*
+ * Appends the rule that vertices have the regions that the file at `path` gives them (selection_file.h), and
+ * others keep theirs.  Refused as the file is.
+ */
+mr_status mr_selection_add_file(mr_ctx *ctx, mr_selection *s, const char *option, const char *path);
+
 /* The region that the first rule gives. */
 uint32_t mr_selection_begins(const mr_selection *s);
 

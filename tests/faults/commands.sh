@@ -33,6 +33,8 @@ try mr-compare -j1 -i mesh.mrs base.mrs
 try mr-smooth -j1 -t 2 mesh.mrs
 try mr-remesh -j1 -r 1.5 mesh.mrs
 try mr-select -j1 --free all --fixed geodesic:0,1,0,0.3 mesh.mrs
+printf 'mr-selection 1 points 600 0 811c9dc5\nfree 0 2-9\nhandle 1 10\n' >regions
+try mr-select -j1 --from regions points.mrs
 try mr-encode -j1 base.mrs
 try mr-pose -j1 -H 1 --rotate 0,0,1,30 encoded.mrs
 try mr-solve -j1 posed.mrs

@@ -1,8 +1,9 @@
 /*
  * fuzz_model.c -- the reader of the format that $FORMAT names, given any bytes: a valid model or a sentence,
  * and what is valid is written in the format, where it can be, and read again.  "gz" is a file that is
- * inflated and recognised, "png" and "jpeg" are pictures.
+ * inflated and recognised, "png" and "jpeg" are pictures, "regions" is a file of mr-select --from.
  */
+#include "edit/selection_file.h"
 #include "formats/bytes.h"
 #include "formats/format.h"
 #include "formats/formats.h"
@@ -68,11 +69,35 @@ write_again(mr_ctx *ctx, const mr_model *m, const char *format)
 	}
 }
 
+/* A file of regions, given to points of the name and number that it asks for. */
+static mr_status
+read_regions(mr_ctx *ctx, const uint8_t *bytes, size_t n)
+{
+	enum { MOST = 1 << 16 };
+	static uint32_t region[MOST];
+	mr_selection_file file;
+	mr_mesh m = { .name = "points" };
+	size_t selected = 0;
+	mr_status status = mr_selection_file_read(ctx, file_of(bytes, n), &file);
+
+	if (status != MR_OK || file.nv > MOST)
+		return status;
+	for (size_t i = 0; i < file.n; i++)
+		insist(file.range[i].first <= file.range[i].last && file.range[i].last < file.nv);
+	memset(region, 0, sizeof region);
+	m.nv = (size_t)file.nv;
+	status = mr_selection_file_apply(ctx, &file, &m, region, &selected);
+	insist(status != MR_OK || (selected > 0 && selected <= m.nv));
+	return status;
+}
+
 static mr_status
 read_any(mr_ctx *ctx, const char *format, const uint8_t *bytes, size_t n, mr_model *m)
 {
 	mr_image image;
 
+	if (!strcmp(format, "regions"))
+		return read_regions(ctx, bytes, n);
 	if (!strcmp(format, "png"))
 		return mr_png_read(ctx, bytes, n, &image);
 	if (!strcmp(format, "jpeg"))
