@@ -6,6 +6,7 @@ import { Drawn } from "./drawn.js";
 import { firstLayer, layersOf, namesOf } from "./layers.js";
 import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
 import { pickAt, rowsOf, tell } from "./picked.js";
+import { Painter } from "./painter.js";
 import { Posing } from "./posing.js";
 import { listColors, listLayers, offerShading, showLegend, showName } from "./side.js";
 import { Stage } from "./stage.js";
@@ -31,6 +32,7 @@ export class App {
 		this.color = ""; /* the column of the colours; none */
 		this.picked = null;
 		this.telling = 0;
+		this.painter = new Painter(this);
 		this.posing = new Posing(this);
 	}
 
@@ -56,8 +58,10 @@ export class App {
 	}
 
 	async refresh() {
-		const frame = this.frames[this.choice.frame], layers = layersOf(frame);
+		const frame = this.frames[this.choice.frame];
 
+		this.painter.dress(frame);
+		const layers = layersOf(frame);
 		showName(frame, await linesOf(frame, "", "history"));
 		const visible = await this.visible(frame, layers), seen = layers.filter((l) => visible.has(l.name));
 		listLayers(layers, visible, (name, on) => this.turn(name, on));
@@ -71,6 +75,7 @@ export class App {
 		$("message").textContent = this.nothing(layers, seen);
 		this.shown = { frame, seen };
 		await this.posing.load(frame, this.centre);
+		await this.painter.meet(frame, layers, visible);
 		await this.tellPicked();
 	}
 
@@ -154,11 +159,13 @@ export class App {
 
 	/* Paints by the column, if the layer has it, where it is not painted so already. */
 	async paint(drawn, column) {
-		const range = this.choice.range || {}, key = column ? [column, range.low, range.high] : [];
+		const range = this.choice.range || {}, key = column ? [column, range.low, range.high, column.version] : [];
 
 		if (drawn.painted && key.length === drawn.painted.length && key.every((x, i) => x === drawn.painted[i]))
 			return;
 		drawn.painted = key;
+		if (column && kindOf(column) === "region" && column.element === "v" && drawn.paintRegions(await column.values()))
+			return;
 		drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) && column.element === "f");
 	}
 

@@ -1,6 +1,7 @@
 /* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that was picked. */
 import * as THREE from "three/build/three.module.js";
-import { PLAIN } from "./colors.js";
+import { PLAIN, regionColor } from "./colors.js";
+import { Slots, sharpen, sharpness } from "./sharp.js";
 import { apart, edgesOf, shade, spacingOf, surfaceOf } from "./surface.js";
 
 const POINT_VERTEX = `
@@ -47,6 +48,7 @@ function pointMaterial(fragmentShader, uniforms, more) {
 
 /* Shaded by the light of the eye; the inside is bluish, as in mr-render. */
 function surfaceMaterial() {
+	const uniforms = sharpness();
 	const material = new THREE.MeshPhongMaterial({
 		vertexColors: THREE.VertexColors,
 		specular: 0x121212,
@@ -56,7 +58,10 @@ function surfaceMaterial() {
 		polygonOffsetUnits: 1,
 	});
 
+	material.extensions = { derivatives: true };
+	material.userData = uniforms;
 	material.onBeforeCompile = (shader) => {
+		sharpen(shader, uniforms);
 		shader.fragmentShader = shader.fragmentShader.replace("#include <color_fragment>",
 			"#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb *= vec3(0.66, 0.78, 0.98);");
 	};
@@ -144,6 +149,8 @@ export class Drawn {
 		this.count = arrays.position.length / 3;
 		this.geometry.setAttribute("position", attribute(arrays.position, 3));
 		this.geometry.setAttribute("normal", attribute(arrays.normal, 3));
+		for (const name of ["color", "tint", "slot"])
+			this.geometry.deleteAttribute(name);
 		this.geometry.setIndex(arrays.index ? attribute(arrays.index, 1) : null);
 		this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2 * this.extent);
 	}
@@ -168,11 +175,49 @@ export class Drawn {
 
 	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
 	paint(colors, perFace) {
+		this.part(perFace);
+		if (this.surface)
+			this.materials.body.userData.sharp.value = 0;
+		this.geometry.setAttribute(this.surface ? "color" : "tint", attribute(spread(colors, this.source, this.count), 3, true));
+	}
+
+	part(perFace) {
 		if (this.surface && this.split !== perFace) {
 			this.split = perFace;
 			this.shape(perFace ? apart(this.surface) : this.surface);
 		}
-		this.geometry.setAttribute(this.surface ? "color" : "tint", attribute(spread(colors, this.source, this.count), 3, true));
+	}
+
+	/* Paints a surface by regions of its vertices, with sharp borders; false where they are too many for that. */
+	paintRegions(values) {
+		this.part(false);
+		const { sharp, slotColors } = this.materials.body.userData;
+		this.slots = this.surface ? new Slots(slotColors.value, regionColor) : null;
+		const slots = this.slots && this.slots.all(values, this.source, this.count);
+		if (!slots) {
+			this.geometry.deleteAttribute("slot");
+			return false;
+		}
+		this.geometry.setAttribute("slot", attribute(slots, 1));
+		sharp.value = 1;
+		return true;
+	}
+
+	/* Paints other regions at some vertices of what was painted by regions; false where they are too many now. */
+	repaintRegions(values, vertices) {
+		const { slot, tint } = this.geometry.attributes, changed = this.surface ? slot : tint;
+
+		if (!changed || (this.surface && vertices.some((v) => this.slots.of(values[v]) < 0)))
+			return false;
+		for (const v of vertices)
+			if (this.surface)
+				slot.array[v] = this.slots.of(values[v]);
+			else
+				tint.array.set(regionColor(values[v]), 3 * v);
+		if (this.surface)
+			this.slots.copy(slot.array, values.length, this.source);
+		changed.needsUpdate = true;
+		return true;
 	}
 
 	look(flat, wire) {

@@ -1,4 +1,6 @@
 /* keys.js -- the keyboard: each key does what a control of the page does. */
+import { paintKey } from "./paint_side.js";
+
 const $ = (id) => document.getElementById(id);
 
 function cycle(select) {
@@ -21,19 +23,26 @@ const KEYS = {
 	x: () => $("scale").click(),
 };
 
-/* Typing, and choosing by keys, is the control's own. */
+/* Typing, and choosing by keys, is the control's own; a slider and a choice have no use for letters. */
 function isTyping({ target, key }) {
-	return target.matches("select, textarea, input:not([type=checkbox], [type=radio])") || (target.matches("[type=radio]") && key.startsWith("Arrow"));
+	return target.matches("select, textarea, input:not([type=checkbox], [type=radio], [type=range])") ||
+		(target.matches("[type=radio]") && key.startsWith("Arrow")) || (target.matches("[type=range]") && key.length > 1);
 }
 
-/* Undo and redo, of what is dragged. */
-function goBack(event, key) {
-	const button = $(key === "y" || event.shiftKey ? "redo" : "undo");
+/* Keys that are not for the page: of the browser, of what is typed into, the space that presses a button. */
+function isOthers(event) {
+	return event.altKey || isTyping(event) || (event.key === " " && event.target.matches("button, summary, input"));
+}
 
-	if (event.altKey || (key !== "z" && key !== "y") || $("pose").hidden || isTyping(event))
-		return;
-	button.click();
-	event.preventDefault();
+/* With control Z, and Y or shift Z: undo and redo, of what is painted while a tool paints, else of what is dragged. */
+function goBack(event, key, painter) {
+	if (key !== "z" && key !== "y")
+		return false;
+	if (paintKey(painter, event.shiftKey ? "y" : key))
+		return true;
+	if (!$("pose").hidden)
+		$(key === "y" || event.shiftKey ? "redo" : "undo").click();
+	return !$("pose").hidden;
 }
 
 /* The handle of a digit, or the layer: where there is no handle, and with shift. */
@@ -48,11 +57,11 @@ function chooseNumber(event, choose) {
 	return Boolean(layer);
 }
 
-/* forget(): Escape; choose(handle): whether there is such a handle. */
-export function listen(forget, choose) {
+/* forget(): Escape; choose(handle): whether there is such a handle; painter: what the keys of painting are for. */
+export function listen(forget, choose, painter) {
 	/* Whether the key does anything. */
 	const act = (event, key) => {
-		if (chooseNumber(event, choose))
+		if (paintKey(painter, key) || chooseNumber(event, choose))
 			return true;
 		const does = key === "Escape" ? forget : KEYS[key];
 		if (does)
@@ -63,9 +72,7 @@ export function listen(forget, choose) {
 	addEventListener("keydown", (event) => {
 		const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
 
-		if (event.ctrlKey || event.metaKey)
-			goBack(event, key);
-		else if (!event.altKey && !isTyping(event) && !(key === " " && event.target.matches("button, summary, input")) && act(event, key))
+		if (!isOthers(event) && (event.ctrlKey || event.metaKey ? goBack(event, key, painter) : act(event, key)))
 			event.preventDefault();
 	});
 }

@@ -51,8 +51,8 @@ function connect(app) {
 		app.stage.up($("up").value);
 		app.fit(view());
 	});
-	onClick($("canvas"), (x, y) => app.pick(x, y));
-	listen(() => app.forget(), (handle) => app.posing.choose(handle));
+	onClick($("canvas"), (x, y) => app.painter.tool === "turn" && app.pick(x, y));
+	listen(() => app.forget(), (handle) => app.posing.choose(handle), app.painter);
 }
 
 function fail(error) {

@@ -2,7 +2,7 @@
 import { regionColor, regionName } from "./colors.js";
 import { Deformer, posedBy } from "./deformer.js";
 import { Pose } from "./pose.js";
-import { columnOf } from "./stream.js";
+import { columnOf, ownRegion } from "./stream.js";
 import { boxOf } from "./surface.js";
 
 const $ = (id) => document.getElementById(id);
@@ -39,7 +39,7 @@ async function rowsOf(frame, name) {
 }
 
 async function poseOf(frame) {
-	const region = await columnOf(frame, "mesh", "region").values(), position = await columnOf(frame, "mesh", "position").values();
+	const region = await ownRegion(frame, "mesh").values(), position = await columnOf(frame, "mesh", "position").values();
 	const { centroids, whole } = handlesOf(region, position), box = boxOf(position);
 	const start = { maps: await rowsOf(frame, "transform"), turns: await rowsOf(frame, "turn") };
 
@@ -49,7 +49,7 @@ async function poseOf(frame) {
 /* The commands that a page with handles lacks, or an empty text. */
 async function lacking(frame) {
 	const has = (layer, name) => columnOf(frame, layer, name);
-	const region = has("mesh", "region");
+	const region = ownRegion(frame, "mesh");
 
 	if (!region || !(await region.values()).some((r) => r >= HANDLE))
 		return "";
@@ -199,7 +199,7 @@ export class Posing {
 
 	/* Chooses the handle that a picked vertex is of. */
 	async take(frame, { name, vertex }) {
-		const region = columnOf(frame, name, "region");
+		const region = ownRegion(frame, name);
 
 		if (this.pose && this.pose.numbers.length && region)
 			this.choose((await region.values())[vertex] - HANDLE);

@@ -42,6 +42,7 @@ export class Stage {
 		this.up("y");
 		this.layers = []; /* [name, drawn], those to be seen */
 		this.beside = false;
+		this.paints = false;
 		this.radius = 1;
 		new ResizeObserver(() => this.resize()).observe(canvas);
 	}
@@ -87,11 +88,17 @@ export class Stage {
 		this.ask();
 	}
 
+	/* Whether handles can be dragged: not while the left button paints. */
+	offer(paints = this.paints) {
+		this.paints = paints;
+		this.gizmo.offer(!this.beside && !paints);
+	}
+
 	/* Puts these on the stage. */
 	show(layers, beside) {
 		this.layers = layers;
 		this.beside = beside && layers.length > 1;
-		this.gizmo.offer(!this.beside);
+		this.offer();
 		this.label();
 		this.ask();
 	}
@@ -170,24 +177,55 @@ export class Stage {
 	}
 
 	/*
-	 * What a pick needs to know of a place of the window: the layers there, the ray, and for points the projection
-	 * with the place in it; null outside.
+	 * The panel at a place of the window: its layers, its place in the window, and what the camera has there; null
+	 * outside.
 	 */
-	rayAt(clientX, clientY) {
+	viewAt(clientX, clientY) {
 		const box = this.canvas.getBoundingClientRect(), x = clientX - box.left, y = clientY - box.top;
 		const panel = this.panels().find((p) => x >= p.x && x < p.x + p.width && y >= p.y && y < p.y + p.height);
 
 		if (!panel)
 			return null;
 		this.aim();
-		const right = (x - panel.x) / panel.width * 2 - 1, top = 1 - (y - panel.y) / panel.height * 2;
-		const along = new THREE.Vector3(right, top, 0.5).unproject(this.camera).sub(this.camera.position).normalize();
 		const projection = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
 		return {
+			...panel,
+			left: box.left + panel.x,
+			top: box.top + panel.y,
+			m: projection.elements,
+			eye: this.camera.position.toArray(),
+			near: this.camera.near,
+			far: this.camera.position.distanceTo(this.controls.target),
+		};
+	}
+
+	/* The direction, of length 1, from the eye to a place of a view, from its top left corner. */
+	along(view, x, y) {
+		const at = new THREE.Vector3(x / view.width * 2 - 1, 1 - y / view.height * 2, 0.5);
+
+		return at.unproject(this.camera).sub(this.camera.position).normalize().toArray();
+	}
+
+	/* Pixels of a view that a length has which is perpendicular to it, at a depth. */
+	pixels(view, length, depth) {
+		return length / depth * view.height / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
+	}
+
+	/*
+	 * What a pick needs to know of a place of the window: the layers there, the ray, and for points the projection
+	 * with the place in it; null outside.
+	 */
+	rayAt(clientX, clientY) {
+		const panel = this.viewAt(clientX, clientY);
+
+		if (!panel)
+			return null;
+		const right = (clientX - panel.left) / panel.width * 2 - 1, top = 1 - (clientY - panel.top) / panel.height * 2;
+		return {
 			layers: panel.layers,
-			from: this.camera.position.toArray(),
-			along: along.toArray(),
-			projection: projection.elements,
+			from: panel.eye,
+			along: this.along(panel, clientX - panel.left, clientY - panel.top),
+			projection: panel.m,
 			right,
 			top,
 			aspect: this.camera.aspect,

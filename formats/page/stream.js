@@ -93,6 +93,13 @@ export function columnOf(frame, layer, name) {
 	return frame.columns.get(keyOf(layer, name));
 }
 
+/* The region column of the stream, though another may be painted over it; or undefined. */
+export function ownRegion(frame, layer) {
+	const column = columnOf(frame, layer, "region");
+
+	return column && "origin" in column ? column.origin : column;
+}
+
 /* A text column's lines; none where there is no such column. */
 export async function linesOf(frame, layer, name) {
 	const column = columnOf(frame, layer, name);

@@ -1,0 +1,176 @@
+/*
+ * painter.js -- the regions that are painted: of which layer, with which tool, in which region; what a stroke or a button
+ * changes.  A painted column stands in its frames for the stream's, so that colours, legend and cards know no other.
+ */
+import { Regions, FIXED, HANDLE } from "./regions.js";
+import { connectPaint, showPaint } from "./paint_side.js";
+import { columnOf, ownRegion } from "./stream.js";
+import { Strokes } from "./strokes.js";
+import { TakeAway } from "./takeaway.js";
+import { partOf } from "./topology.js";
+
+const LAYERS = ["mesh", "control", "points"]; /* those of mr-select, in its order */
+const LEAST = 0.002, MOST = 0.5; /* radius of the brush, of the diagonal */
+
+/* The radius that the slider's 0 to 100 stand for, of the diagonal. */
+const radiusOf = (size) => LEAST * (MOST / LEAST) ** (size / 100);
+
+/* A column as the stream has them, whose values may change: then so does its version. */
+function columnFor(layer, origin, regions) {
+	return {
+		layer, name: "region", element: "v", type: "u", components: 1, rows: regions.values.length, origin, version: 0,
+		values: async () => regions.values,
+	};
+}
+
+export class Painter {
+	constructor(app) {
+		this.app = app;
+		this.works = []; /* what was painted, or could be, of models of this page */
+		this.work = null; /* that of the frame: { layer, name, rows, triangles, group, column, regions, painted } */
+		this.tool = "turn";
+		this.region = HANDLE + 1;
+		this.size = 50;
+		this.through = { brush: true, lasso: false };
+		this.strokes = new Strokes(this, app.stage);
+		this.takeAway = new TakeAway(this);
+		connectPaint(this);
+	}
+
+	/* Whether the work is of what the frame has: the same vertices, by their triangles, or points of the same frames. */
+	fits(work, frame) {
+		const position = columnOf(frame, work.name, "position"), triangles = columnOf(frame, work.name, "triangles");
+
+		return Boolean(position) && position.rows === work.rows && triangles === work.triangles && ownRegion(frame, work.name) === work.column.origin &&
+			(triangles || frame.group === work.group);
+	}
+
+	/* Puts what was painted into the frame. */
+	dress(frame) {
+		for (const work of this.works)
+			if (work.painted && this.fits(work, frame))
+				frame.columns.set(work.name + "\0region", work.column);
+	}
+
+	/* Takes up the frame's work: of the layer that is seen of those that have regions, else the first. */
+	async meet(frame, layers, visible) {
+		const found = LAYERS.map((name) => layers.find((l) => l.name === name)).filter((l) => l && l.position.rows > 0);
+		const layer = found.find((l) => visible.has(l.name)) || found[0] || null;
+		let work = layer ? this.works.find((w) => w.name === layer.name && this.fits(w, frame)) : null;
+
+		if (layer && !work) {
+			const origin = ownRegion(frame, layer.name);
+			const regions = new Regions(origin && origin.element === "v" && origin.type === "u" ? await origin.values() : null, layer.position.rows);
+			work = { name: layer.name, rows: layer.position.rows, triangles: layer.triangles, group: frame.group, regions, column: columnFor(layer.name, origin, regions), painted: false };
+			this.works.push(work);
+		}
+		if (work !== this.work)
+			this.strokes.forget();
+		this.work = work;
+		this.layer = layer;
+		showPaint(this);
+		await this.takeAway.show();
+	}
+
+	/* What is drawn of the layer; undefined where it is not seen. */
+	get drawn() {
+		const there = this.work && this.app.shown.seen.some((l) => l.name === this.work.name) && this.app.drawn.get(this.work.name);
+
+		return there ? there.drawn : undefined;
+	}
+
+	/* The radius of the brush, as a share of the diagonal and as a length. */
+	get share() {
+		return radiusOf(this.size);
+	}
+
+	get radius() {
+		return this.share * (this.drawn ? this.drawn.extent : 0);
+	}
+
+	/* Brings the layer and its regions into view. */
+	show() {
+		const { visible } = this.app.choice;
+
+		if (!this.work)
+			return Promise.resolve();
+		this.work.painted = true;
+		return this.app.change({ visible: visible.has(this.work.name) ? visible : new Set([this.work.name]), color: "region" });
+	}
+
+	choose(tool) {
+		this.tool = this.work ? tool : "turn";
+		this.strokes.heed(this.tool !== "turn");
+		showPaint(this);
+		return this.tool === "turn" ? Promise.resolve() : this.show();
+	}
+
+	/* Drops a stroke that is being made; without one, the tool. */
+	leave() {
+		return this.strokes.stroke ? this.strokes.cancel() : this.choose("turn");
+	}
+
+	take(region) {
+		this.region = region;
+		showPaint(this);
+	}
+
+	resize(size) {
+		this.size = Math.min(Math.max(size, 0), 100);
+		showPaint(this);
+	}
+
+	/* Shows what changed at these vertices, at once. */
+	changed(vertices) {
+		const { drawn, work } = this;
+
+		work.column.version++;
+		if (drawn && this.app.color === "region" && drawn.repaintRegions(work.regions.values, vertices))
+			drawn.painted = null;
+		this.app.stage.ask();
+		showPaint(this);
+	}
+
+	/* Shows it everywhere, when a change is done. */
+	done(vertices) {
+		this.changed(vertices);
+		return vertices.length || !this.work.painted ? this.show() : Promise.resolve();
+	}
+
+	/* Grow, shrink, invert, clear, fill: `what` names it. */
+	edit(what) {
+		const { work, region, layer } = this, ring = what === "grow" || what === "shrink";
+
+		if (!work || work.regions.change || (ring && !layer.triangles) || (what === "clear" && region === FIXED))
+			return Promise.resolve();
+		return ring ? this.ring(what) : this.done(work.regions[what](region));
+	}
+
+	async ring(what) {
+		const { work, region } = this, t = await this.triangles();
+
+		return work === this.work ? this.done(work.regions[what](region, t)) : undefined;
+	}
+
+	/* Those of the layer; null of points. */
+	async triangles() {
+		return this.layer.triangles ? this.drawn ? this.drawn.triangles : this.layer.triangles.values() : null;
+	}
+
+	/* Takes back the last change, or takes back that. */
+	back(forth) {
+		if (!this.work || this.work.regions.change)
+			return Promise.resolve();
+		const { regions } = this.work;
+		return this.done(forth ? regions.redo() : regions.undo());
+	}
+
+	/* Paints the connected part that has the vertex. */
+	part(vertex) {
+		const { regions } = this.work, t = this.drawn.triangles;
+
+		regions.begin();
+		regions.set(partOf(t, this.work.rows, vertex), this.region);
+		return this.done(regions.end());
+	}
+}

@@ -1,0 +1,227 @@
+/*
+ * strokes.js -- painting by mouse, pen or finger: a brush over the surface, a lasso around a part of the picture, a click on
+ * a connected part.  Meanwhile the right button or two fingers turn the model, and so does a stroke that begins beside it.
+ */
+import * as THREE from "three/build/three.module.js";
+import { Discs, ball } from "./geodesic.js";
+import { within } from "./lasso.js";
+import { nearestPoint } from "./pick.js";
+import { Screen } from "./screen.js";
+
+const NEAR = 9; /* pixels about a point */
+const REST = 150; /* milliseconds without a move */
+const FINE = 3; /* pixels between corners of a lasso */
+const $ = (id) => document.getElementById(id);
+
+export class Strokes {
+	constructor(painter, stage) {
+		this.painter = painter;
+		this.stage = stage;
+		this.on = false;
+		this.stroke = null; /* { id, view, last } of a brush, { id, view, line } of a lasso */
+		const canvas = stage.canvas;
+		canvas.addEventListener("pointerdown", (e) => this.down(e));
+		canvas.addEventListener("pointermove", (e) => this.move(e));
+		canvas.addEventListener("pointerup", (e) => this.up(e));
+		canvas.addEventListener("pointercancel", () => this.cancel());
+		canvas.addEventListener("pointerleave", () => ($("ring").hidden = true));
+	}
+
+	/* Whether the left button paints. */
+	heed(on) {
+		this.on = on;
+		this.cancel();
+		this.lead(!on);
+		this.stage.offer(on);
+		$("ring").hidden = true;
+		this.stage.canvas.classList.toggle("paints", on);
+	}
+
+	/* Whether the left button, or one finger, turns the model. */
+	lead(turns) {
+		const { controls } = this.stage, paints = this.on;
+
+		controls.mouseButtons.LEFT = turns ? THREE.MOUSE.ROTATE : -1;
+		controls.mouseButtons.RIGHT = paints ? THREE.MOUSE.ROTATE : THREE.MOUSE.PAN;
+		controls.touches.ONE = turns ? THREE.TOUCH.ROTATE : -1;
+		controls.touches.TWO = paints ? THREE.TOUCH.DOLLY_ROTATE : THREE.TOUCH.DOLLY_PAN;
+	}
+
+	/* Of another model nothing is known. */
+	forget() {
+		this.cancel();
+		this.screen = this.discs = this.of = null;
+	}
+
+	/* The layer in the view at a place of the window, sorted by its tiles, once as long as nothing moves; null: not there. */
+	see(clientX, clientY) {
+		const view = this.stage.viewAt(clientX, clientY), { drawn } = this.painter;
+
+		if (!view || !drawn || !view.layers.some(([, d]) => d === drawn))
+			return null;
+		const of = [drawn, drawn.geometry.attributes.position.version, view.width, view.height, ...view.m];
+		if (!this.of || of.some((x, i) => x !== this.of[i])) {
+			this.screen = new Screen(drawn.position, drawn.triangles, view);
+			this.of = of;
+		}
+		this.screen.view = view;
+		return this.screen;
+	}
+
+	/* What is under a place of the window: { face, at, vertex }; null: nothing. */
+	hit(screen, clientX, clientY) {
+		const { view, p } = screen, x = clientX - view.left, y = clientY - view.top;
+
+		if (screen.t)
+			return screen.hit(x, y, this.stage.along(view, x, y));
+		const found = nearestPoint(p, view.m, x / view.width * 2 - 1, 1 - y / view.height * 2, NEAR * 2 / view.height, view.width / view.height);
+		return found && { face: null, vertex: found.vertex, at: Array.from(p.subarray(3 * found.vertex, 3 * found.vertex + 3)) };
+	}
+
+	down(e) {
+		if (!this.on)
+			return;
+		if (this.stroke || !e.isPrimary || e.button !== 0) {
+			this.cancel();
+			return;
+		}
+		const screen = this.see(e.clientX, e.clientY), { tool } = this.painter;
+		const found = screen && tool !== "lasso" ? this.hit(screen, e.clientX, e.clientY) : null;
+		this.lead(tool !== "lasso" && !found);
+		if (!screen || (tool !== "lasso" && !found))
+			return;
+		this.stage.canvas.setPointerCapture(e.pointerId);
+		if (tool === "part")
+			this.part(screen, found);
+		else
+			this.begin(e, screen, tool);
+	}
+
+	part(screen, found) {
+		if (screen.t)
+			this.painter.part(screen.t[3 * found.face]);
+	}
+
+	begin(e, screen, tool) {
+		const at = [e.clientX, e.clientY];
+
+		this.painter.work.regions.begin();
+		this.stroke = { id: e.pointerId, screen, line: tool === "lasso" ? [at] : null, last: at };
+		if (tool === "brush")
+			this.brush(...at);
+		this.drawLine();
+	}
+
+	move(e) {
+		if (this.on && this.painter.tool === "brush")
+			this.drawRing(e.clientX, e.clientY);
+		if (this.on && !e.buttons)
+			this.prepare(e.clientX, e.clientY);
+		if (!this.stroke || e.pointerId !== this.stroke.id)
+			return;
+		const at = [e.clientX, e.clientY];
+		if (!this.stroke.line)
+			this.brushTo(...at);
+		else if (Math.hypot(at[0] - this.stroke.last[0], at[1] - this.stroke.last[1]) >= FINE) {
+			this.stroke.line.push(at);
+			this.stroke.last = at;
+			this.drawLine();
+		}
+	}
+
+	/* Sorts the layer while the pointer rests, so that the next stroke does not wait for it. */
+	prepare(clientX, clientY) {
+		clearTimeout(this.resting);
+		this.resting = setTimeout(() => {
+			const screen = this.on && !this.stroke && this.see(clientX, clientY);
+			if (screen && screen.t)
+				this.discsOn(screen);
+		}, REST);
+	}
+
+	/* Discs close enough to each other that the stroke has no notches. */
+	brushTo(x, y) {
+		const { last, screen } = this.stroke, [x0, y0] = last, { view } = screen;
+		const step = Math.max(this.stage.pixels(view, this.painter.radius, view.far) / 3, 2);
+		const n = Math.ceil(Math.hypot(x - x0, y - y0) / step);
+
+		for (let i = 1; i <= n; i++)
+			this.brush(x0 + (x - x0) * i / n, y0 + (y - y0) * i / n);
+		this.stroke.last = [x, y];
+	}
+
+	brush(x, y) {
+		const { painter } = this, { screen } = this.stroke, found = this.hit(screen, x, y);
+
+		if (!found)
+			return;
+		const disc = this.disc(screen, found), seen = screen.t && !painter.through.brush;
+		const changed = painter.work.regions.set(seen ? disc.filter((v) => screen.sees(v)) : disc, painter.region);
+		if (changed.length)
+			painter.changed(changed);
+	}
+
+	/* The vertices within the brush's radius of a place: over the surface, of points in space. */
+	disc(screen, found) {
+		if (!screen.t)
+			return ball(screen.p, found.at, this.painter.radius);
+		return this.discsOn(screen).around(found.face, found.at, this.painter.radius);
+	}
+
+	discsOn(screen) {
+		if (!this.discs || this.discs.p !== screen.p)
+			this.discs = new Discs(screen.p, screen.t);
+		return this.discs;
+	}
+
+	up(e) {
+		const { painter, stroke } = this;
+
+		this.lead(!this.on);
+		if (!stroke || e.pointerId !== stroke.id)
+			return;
+		if (stroke.line)
+			this.close(stroke);
+		this.stroke = null;
+		this.drawLine();
+		painter.done(painter.work.regions.end());
+	}
+
+	/* What the lasso holds is painted. */
+	close({ screen, line }) {
+		const { painter } = this, { left, top } = screen.view;
+		const polygon = line.map(([x, y]) => [x - left, y - top]);
+
+		painter.work.regions.set(within(screen, polygon, painter.through.lasso), painter.region);
+	}
+
+	/* As if the stroke had not begun: a second finger came, or another tool or model. */
+	cancel() {
+		const { work } = this.painter;
+
+		if (!this.stroke)
+			return;
+		this.stroke = null;
+		this.drawLine();
+		this.painter.changed(work.regions.cancel());
+	}
+
+	drawLine() {
+		const box = $("stage").getBoundingClientRect(), line = (this.stroke && this.stroke.line) || [];
+
+		$("lasso").setAttribute("points", line.map(([x, y]) => (x - box.left) + "," + (y - box.top)).join(" "));
+	}
+
+	/* A circle about as large as the brush is there. */
+	drawRing(clientX, clientY) {
+		const box = $("stage").getBoundingClientRect(), view = this.stage.viewAt(clientX, clientY), ring = $("ring");
+
+		ring.hidden = !view || !this.painter.drawn;
+		if (ring.hidden)
+			return;
+		const size = 2 * this.stage.pixels(view, this.painter.radius, view.far);
+		ring.style.width = ring.style.height = size + "px";
+		ring.style.left = clientX - box.left - size / 2 + "px";
+		ring.style.top = clientY - box.top - size / 2 + "px";
+	}
+}
