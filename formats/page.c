@@ -5,6 +5,7 @@
 #include "edit/detail.h"
 #include "edit/handles.h"
 #include "formats/bytes.h"
+#include "formats/page_displaced.h"
 #include "formats/page_steps.h"
 
 #include <errno.h>
@@ -67,18 +68,37 @@ is_posing(const mr_column *c)
 	return is_one_of(name, posing);
 }
 
+/* Of displacement, the page takes what its vertices have; and the mesh that they are, it makes itself. */
+static bool
+is_of_displaced(const mr_column *c)
+{
+	return !strcmp(c->layer, "displacement") && c->shape.element == 'v' && c->shape.type != 't' &&
+	       c->shape.components <= 4;
+}
+
+static bool
+is_made(const mr_column *c, const mr_page_displaced *d)
+{
+	return d->is_mesh && !strcmp(c->layer, "mesh") &&
+	       (!strcmp(c->name, "position") || !strcmp(c->name, "triangles"));
+}
+
 /* Places, and up to four numbers that can give colours; a surface's normals the page makes from its
  * triangles. */
 static bool
-is_shown(const mr_frame *f, const mr_column *c, const char *layers)
+is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_page_displaced *d)
 {
 	bool surface = mr_layer_has(f, c->layer, "triangles");
+	bool control = d->there && !strcmp(c->layer, "control");
 
 	if (!*c->layer)
 		return !strcmp(c->name, "history") || !strcmp(c->name, "latest");
 	if (is_posing(c))
 		return is_posable(f, layers);
-	if (!is_listed(c->layer, layers) || !mr_layer_has(f, c->layer, "position"))
+	if (d->there && is_of_displaced(c))
+		return true;
+	if (is_made(c, d) || !(control || is_listed(c->layer, layers)) ||
+	    !mr_layer_has(f, c->layer, "position"))
 		return false;
 	if (c->shape.element == '-' || c->shape.type == 't')
 		return is_one_of(c->name, texts);
@@ -100,16 +120,6 @@ round_number(double x)
 	return isfinite(y) ? y : x;
 }
 
-/* The largest step, a power of two, of which the extent is less than 2^24. */
-static double
-step_of(double extent)
-{
-	int exponent;
-
-	frexp(extent, &exponent);
-	return ldexp(1, exponent - 24);
-}
-
 /* Positions count from the corner of their box, so that they are whole steps wherever the model is. */
 static mr_steps
 steps_of_places(const mr_column *c)
@@ -117,7 +127,7 @@ steps_of_places(const mr_column *c)
 	const mr_v3 *p = c->data;
 	mr_box box = mr_box_of(p, (size_t)c->rows);
 	mr_v3 size = c->rows ? mr_sub(box.max, box.min) : mr_vec(0, 0, 0);
-	double extent = fmax(size.x, fmax(size.y, size.z)), step = extent > 0 ? step_of(extent) : 0;
+	double extent = fmax(size.x, fmax(size.y, size.z)), step = extent > 0 ? mr_step_of(extent) : 0;
 
 	if (!(step > 0))
 		return (mr_steps){ 0 };
@@ -132,7 +142,7 @@ static mr_steps
 steps_of_column(const mr_column *c)
 {
 	size_t n = (size_t)c->rows * c->shape.components;
-	const double *x = c->data, tiny = 1e-200;
+	const double *x = c->data;
 	bool is_encoded = !strcmp(c->layer, "base") && !strcmp(c->name, "encoded");
 	double most = 0;
 
@@ -144,8 +154,8 @@ steps_of_column(const mr_column *c)
 		return (mr_steps){ 0 };
 	for (size_t i = 0; i < n; i++)
 		most = fmax(most, fabs(x[i]));
-	return (mr_steps){ most > tiny ? step_of(most) : 1, { 0 },
-		!strcmp(c->name, "detail_bary") ? 2 : c->shape.components };
+	return (
+	    mr_steps){ mr_step_of(most), { 0 }, !strcmp(c->name, "detail_bary") ? 2 : c->shape.components };
 }
 
 /*
@@ -181,7 +191,8 @@ centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
  * handles' maps, which are few, are those of the stream.
  */
 static mr_status
-take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, mr_frame *to, mr_text *notes)
+take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_displaced *d, mr_frame *to,
+    mr_text *notes)
 {
 	mr_column c = *column;
 	double *rounded, centre[3];
@@ -190,6 +201,8 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, mr_frame *to, 
 	if ((c.shape.type != 'd' && c.shape.type != 'u') || !strcmp(c.layer, "handles"))
 		return mr_frame_pass(ctx, to, column);
 	MR_TRY(mr_column_decode(ctx, &c));
+	if (!strcmp(c.layer, "displacement") && !strcmp(c.name, "height"))
+		return mr_page_displaced_put(ctx, to, &c, d, notes);
 	if (is_posing(&c) && !strcmp(c.name, "response"))
 		MR_TRY(centre_response(ctx, from, &c, centre));
 	steps = steps_of_column(&c);
@@ -216,10 +229,39 @@ check_layer(mr_ctx *ctx, mr_frame *f, const char *layer)
 	return mr_layer_surface_or_points(ctx, f, layer, &m);
 }
 
+/* The displaced surface that is asked for, or, without a list, the one that is there; mesh is stored where it
+ * is to be posed. */
 static mr_status
-check_layers(mr_ctx *ctx, mr_frame *f, const char *list)
+find_displaced(mr_ctx *ctx, mr_frame *f, const char *list, mr_page_displaced *d)
 {
-	if (!list)
+	bool there = mr_layer_has(f, "control", "triangles") && mr_layer_has(f, "displacement", "height");
+
+	*d = (mr_page_displaced){ 0 };
+	if (list ? !is_listed("displacement", list) : !there)
+		return MR_OK;
+	MR_TRY(mr_page_displaced_get(ctx, f, d));
+	d->is_mesh = d->is_mesh && !is_posable(f, list);
+	return MR_OK;
+}
+
+/* Whether what was worked on last is the surface that the page makes. */
+static mr_status
+is_displaced_latest(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, bool *is)
+{
+	const char *latest;
+
+	MR_TRY(mr_layer_latest(ctx, f, &latest));
+	*is = d->there && latest && (!strcmp(latest, "displacement") || !strcmp(latest, "control"));
+	return MR_OK;
+}
+
+static mr_status
+check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const mr_page_displaced *d)
+{
+	bool is_displaced;
+
+	MR_TRY(is_displaced_latest(ctx, f, d, &is_displaced));
+	if (!list && !is_displaced)
 		MR_TRY(mr_layer_finished_or_warn(ctx, f));
 	for (size_t i = 0; !list && i < f->count; i++)
 		if (*f->columns[i].layer && !strcmp(f->columns[i].name, "position"))
@@ -229,7 +271,8 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list)
 		char *layer = mr_format(ctx, "%.*s", (int)n, list);
 		if (!layer)
 			return MR_EMEM;
-		MR_TRY(check_layer(ctx, f, layer));
+		if (strcmp(layer, "displacement") != 0) /* that was checked when it was found */
+			MR_TRY(check_layer(ctx, f, layer));
 		list = list[n] ? list + n + 1 : NULL;
 	}
 	return MR_OK;
@@ -282,8 +325,20 @@ find_same(mr_ctx *ctx, mr_frame *f, size_t at, const bool *shown, const mr_colum
 	return MR_OK;
 }
 
+/* The surface of displacement goes by the name that mr-decode gives it, unless there is another mesh. */
+static const char *
+surface_name(const mr_frame *f, const bool *shown)
+{
+	for (size_t i = 0; i < f->count; i++)
+		if (shown[i] && !strcmp(f->columns[i].layer, "mesh") &&
+		    !strcmp(f->columns[i].name, "position"))
+			return "displacement";
+	return "mesh";
+}
+
 static mr_status
-take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, mr_frame *to, mr_text *notes)
+take_columns(
+    mr_ctx *ctx, mr_frame *from, const bool *shown, const mr_page_displaced *d, mr_frame *to, mr_text *notes)
 {
 	for (size_t i = 0; i < from->count; i++) {
 		const mr_column *c = &from->columns[i], *same;
@@ -293,14 +348,17 @@ take_columns(mr_ctx *ctx, mr_frame *from, const bool *shown, mr_frame *to, mr_te
 		if (same)
 			mr_text_add(notes, "same %s %s %s %s\n", c->layer, c->name, same->layer, same->name);
 		else
-			MR_TRY(take_column(ctx, from, c, to, notes));
+			MR_TRY(take_column(ctx, from, c, d, to, notes));
 	}
+	if (d->there)
+		mr_text_add(notes, "surface %s %zu %zu\n", surface_name(from, shown), d->at, d->n);
 	return mr_text_done(notes);
 }
 
 /* How columns are stored is told in a text of no layer, `page`. */
 static mr_status
-take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, mr_frame *to, mr_page_result *r)
+take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, const mr_page_displaced *d, mr_frame *to,
+    mr_page_result *r)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
 	mr_text notes = { .ctx = ctx };
@@ -309,12 +367,13 @@ take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, mr_frame *to, mr_pag
 		return MR_EMEM;
 	for (size_t i = 0; i < from->count; i++) {
 		const mr_column *c = &from->columns[i];
-		shown[i] = is_shown(from, c, layers);
+		shown[i] = is_shown(from, c, layers, d);
 		r->layers += shown[i] && *c->layer && !strcmp(c->name, "position");
 		r->columns += shown[i];
 		r->left_out += !shown[i];
 	}
-	MR_TRY(take_columns(ctx, from, shown, to, &notes));
+	r->layers += d->there;
+	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
 }
@@ -368,12 +427,14 @@ mr_status
 mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_page_result *result)
 {
 	mr_frame shown = { .name = frame->name, .key = frame->key, .number = frame->number };
+	mr_page_displaced displaced;
 
 	*result = (mr_page_result){ 0 };
-	MR_TRY(check_layers(ctx, frame, layers));
+	MR_TRY(find_displaced(ctx, frame, layers, &displaced));
+	MR_TRY(check_layers(ctx, frame, layers, &displaced));
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
-	MR_TRY(take_frame(ctx, frame, layers, &shown, result));
+	MR_TRY(take_frame(ctx, frame, layers, &displaced, &shown, result));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(send_frame(ctx, page, &shown));
 	page->frames++;

@@ -3,6 +3,18 @@
 
 #include <math.h>
 
+double
+mr_step_of(double extent)
+{
+	const double tiny = 1e-200;
+	int exponent;
+
+	if (!(extent > tiny))
+		return 1;
+	frexp(extent, &exponent);
+	return ldexp(1, exponent - 24);
+}
+
 /* 0, -1, 1, -2, ... as 0, 1, 2, 3, ... */
 static uint32_t
 unsign(uint32_t step)

@@ -16,6 +16,10 @@ typedef struct mr_steps {
 	uint8_t components;
 } mr_steps;
 
+/* The largest step, a power of two, of which the extent is less than 2^24; 1 where there is none to speak of.
+ */
+double mr_step_of(double extent);
+
 /*
  * Puts the column, decoded, as whole numbers of which the sums over the rows are stored: the packing of
  * streams takes differences, which then are steps without a sign, the small ones, of either direction, with

@@ -4,6 +4,7 @@
  */
 import { Drawn } from "./drawn.js";
 import { firstLayer, layersOf, namesOf } from "./layers.js";
+import { setLevel, showLevel } from "./levels.js";
 import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
 import { pickAt, rowsOf, tell } from "./picked.js";
 import { Painter } from "./painter.js";
@@ -26,7 +27,7 @@ export class App {
 	constructor(frames) {
 		this.frames = frames;
 		this.stage = new Stage($("canvas"), $("labels"), mostFaces(frames) < FINE);
-		this.choice = { frame: 0, visible: null, beside: false, flat: false, wire: false, color: null, range: null };
+		this.choice = { frame: 0, visible: null, level: null, beside: false, flat: false, wire: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
@@ -60,8 +61,10 @@ export class App {
 	async refresh() {
 		const frame = this.frames[this.choice.frame];
 
+		setLevel(frame, this.choice.level);
 		this.painter.dress(frame);
 		const layers = layersOf(frame);
+		showLevel(frame);
 		showName(frame, await linesOf(frame, "", "history"));
 		const visible = await this.visible(frame, layers), seen = layers.filter((l) => visible.has(l.name));
 		listLayers(layers, visible, (name, on) => this.turn(name, on));

@@ -8,10 +8,20 @@ function cycle(select) {
 	select.dispatchEvent(new Event("change"));
 }
 
+/* A step of the slider of levels. */
+function stepLevel(by) {
+	if ($("levels").hidden)
+		return;
+	$("level").stepUp(by);
+	$("level").dispatchEvent(new Event("input"));
+}
+
 const KEYS = {
 	" ": () => $("play").click(),
 	ArrowLeft: () => $("before").click(),
 	ArrowRight: () => $("after").click(),
+	PageUp: () => stepLevel(1),
+	PageDown: () => stepLevel(-1),
 	b: () => $("besides").hidden || $("beside").click(),
 	c: () => cycle($("color")),
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),

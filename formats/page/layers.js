@@ -1,8 +1,8 @@
 /* layers.js -- what a frame has to show: its layers with positions, their columns, and which layer comes first. */
 import { columnOf, linesOf } from "./stream.js";
 
-/* Columns that are no values to colour by: places, and what poses them. */
-const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response"]);
+/* Columns that are no values to colour by: places, and what poses or subdivides them. */
+const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease"]);
 
 /* Layers, in the order of the frame: name, position, triangles (undefined: points), colours. */
 export function layersOf(frame) {

@@ -3,6 +3,7 @@ import { App } from "./app.js";
 import { takeBytes } from "./data.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
+import { addLevels } from "./levels.js";
 import { canDraw } from "./stage.js";
 import { parseStream } from "./stream.js";
 
@@ -38,6 +39,7 @@ function connect(app) {
 		await app.change({ beside: $("beside").checked });
 		app.fit();
 	});
+	$("level").addEventListener("input", () => app.change({ level: $("level").valueAsNumber }));
 	$("color").addEventListener("change", () => app.change({ color: $("color").value, range: null }));
 	for (const end of ["low", "high"])
 		$(end).addEventListener("change", () => app.change({ range: readRange() }));
@@ -63,6 +65,7 @@ async function begin() {
 	if (!canDraw())
 		throw new Error("This browser cannot draw the model: WebGL is missing or switched off.");
 	const frames = await parseStream(takeBytes());
+	frames.forEach(addLevels);
 	$("side").hidden = false;
 	const app = window.mrView = new App(frames); /* for the console, and the tests */
 	const film = new Film(frames.length, (frame) => app.change({ frame }).catch(fail));

@@ -36,7 +36,7 @@ function recordAt(bytes, view, at) {
 	};
 }
 
-const keyOf = (layer, name) => layer + "\0" + name;
+export const keyOf = (layer, name) => layer + "\0" + name;
 
 /* A frame that starts from nothing, or, a delta, from the columns of the one before. */
 function begin(record, frames) {
@@ -57,12 +57,14 @@ function drop(frame, layer, name) {
 			frame.columns.delete(key);
 }
 
-/* What the page's text says of how columns are stored: equal ones once, others as sums of steps. */
+/* What the page's text says of how columns are stored: equal ones once, others as sums of steps; and which layer is computed. */
 async function understand(frame) {
 	for (const line of await linesOf(frame, "", "page")) {
 		const [how, layer, name, ...more] = line.split(" ");
 		if (how === "same")
 			frame.columns.set(keyOf(layer, name), columnOf(frame, ...more).called(layer, name));
+		else if (how === "surface")
+			frame.displaced = { layer, level: Number(name), most: Number(more[0]) };
 		else
 			columnOf(frame, layer, name).setSteps(Number(more[0] || 0), more.slice(1).map(Number));
 	}

@@ -1,0 +1,160 @@
+/*
+ * levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it from control mesh and heights: a layer whose
+ * columns are computed when they are asked for, on the level that is chosen.  The page's text names the layer, and the level
+ * that it has at first.
+ */
+import { Column } from "./codec.js";
+import { controlOf, predict, refine, subdivide } from "./loop.js";
+import { limitOf } from "./loop_limit.js";
+import { columnOf, keyOf } from "./stream.js";
+
+const HEIGHTS = "displacement";
+
+/* A column that is computed, and found again by what it was computed from. */
+class Made extends Column {
+	constructor(layer, name, shape, make) {
+		super({ layer, name, ...shape });
+		this.read = make;
+	}
+}
+
+/* The first rows of a column: those of the vertices of a coarser level. */
+const firstRows = (column, layer, rows) => new Made(layer, column.name, { element: "v", type: column.type, components: column.components, rows },
+	async () => (await column.values()).subarray(0, rows * column.components));
+
+/* Vertices of each level, which has 4 times the faces of the one before and a vertex more for each of its edges; the heights, as
+ * many as the last level has vertices, say how many edges are boundaries. */
+function countVertices({ position, triangles, height }, most) {
+	const faces = (level) => triangles.rows * (4 ** level - 1), twice = 2 * (height.rows - position.rows);
+	const boundary = most ? (twice - faces(most)) / (2 ** most - 1) : 0;
+
+	return Array.from({ length: most + 1 }, (_, i) => position.rows + (faces(i) + boundary * (2 ** i - 1)) / 2);
+}
+
+/* The surface over one control mesh with one set of heights; other frames may have the same. */
+class Surface {
+	constructor(layer, most, parts) {
+		this.layer = layer;
+		this.most = most;
+		this.parts = parts;
+		this.vertices = countVertices(parts, most);
+		this.columns = []; /* of each level, those that have been asked for */
+	}
+
+	/* Levels of connectivity up to this one, each made once. */
+	async connect(level) {
+		const { position, triangles, crease } = this.parts;
+
+		if (!this.levels)
+			this.levels = [controlOf(position.rows, await triangles.values(), crease ? await crease.values() : null)];
+		while (this.levels.length <= level)
+			this.levels.push(refine(this.levels[this.levels.length - 1]));
+		return this.levels;
+	}
+
+	/* Heights from how much each differs from what the level before predicts. */
+	async heights(level) {
+		const levels = await this.connect(level), out = Float64Array.from((await this.parts.height.values()).subarray(0, this.vertices[level]));
+
+		for (let i = 1; i <= level; i++) {
+			const predicted = new Float64Array(this.vertices[i]);
+			predict(levels[i - 1], levels[i], 1, out, predicted);
+			for (let v = this.vertices[i - 1]; v < this.vertices[i]; v++)
+				out[v] += predicted[v];
+		}
+		return out;
+	}
+
+	async positions(level) {
+		const levels = await this.connect(level), height = await this.at(level).height.values();
+		let p = await this.parts.position.values();
+
+		for (let i = 0; i < level; i++)
+			p = subdivide(levels[i], levels[i + 1], 3, p);
+		const { limit, normal } = limitOf(levels[level], p);
+		for (let i = 0; i < limit.length; i++)
+			limit[i] += height[Math.floor(i / 3)] * normal[i];
+		return limit;
+	}
+
+	/* The columns of a level. */
+	at(level) {
+		const vertex = { element: "v", type: "d", rows: this.vertices[level] };
+
+		this.columns[level] = this.columns[level] || {
+			position: new Made(this.layer, "position", { ...vertex, components: 3 }, () => this.positions(level)),
+			triangles: new Made(this.layer, "triangles", { element: "f", type: "u", components: 3, rows: this.parts.triangles.rows * 4 ** level },
+				async () => (await this.connect(level))[level].t),
+			height: new Made(this.layer, "height", { ...vertex, components: 1 }, () => this.heights(level)),
+			others: new Map(),
+		};
+		return this.columns[level];
+	}
+
+	/* What a column of the stream has of a level: the first of the vertices, all of the faces; undefined where it has not that. */
+	partOf(column, level) {
+		const { others, position, triangles } = this.at(level);
+
+		if (column.element === "f")
+			return column.rows === triangles.rows ? column.called(this.layer, column.name) : undefined;
+		if (column.element !== "v" || column.rows < position.rows)
+			return undefined;
+		if (!others.has(column))
+			others.set(column, firstRows(column, this.layer, position.rows));
+		return others.get(column);
+	}
+}
+
+const surfaces = [];
+
+/* The surface of these parts, which frames of a film may share. */
+function surfaceOver(layer, most, parts) {
+	const same = surfaces.find((s) => s.layer === layer && s.most === most && Object.keys(parts).every((name) => s.parts[name] === parts[name]));
+
+	if (!same)
+		surfaces.push(new Surface(layer, most, parts));
+	return same || surfaces[surfaces.length - 1];
+}
+
+/* Gives a frame the surface that the page's text tells of, if it does. */
+export function addLevels(frame) {
+	const { layer, level, most } = frame.displaced || {}, parts = { height: columnOf(frame, HEIGHTS, "height") };
+
+	if (!frame.displaced)
+		return;
+	for (const name of ["position", "triangles", "crease"])
+		parts[name] = columnOf(frame, "control", name);
+	const others = [...frame.columns.values()].filter((c) => (c.layer === HEIGHTS || c.layer === layer) && c !== parts.height);
+	frame.levels = { surface: surfaceOver(layer, most, parts), first: level, others };
+	setLevel(frame, null);
+}
+
+/* Puts the frame's surface, where it has one, onto a level, or the nearest that it has; null: that of the stream. */
+export function setLevel(frame, level) {
+	const { surface, first, others, at: before } = frame.levels || {}, at = surface && (level === null ? first : Math.min(level, surface.most));
+
+	if (!surface || at === before)
+		return;
+	frame.levels.at = at;
+	for (const [key, column] of frame.columns)
+		if (column.layer === surface.layer)
+			frame.columns.delete(key);
+	const { position, triangles, height } = surface.at(at);
+	for (const column of [position, triangles, height, ...others.map((c) => surface.partOf(c, at))])
+		if (column)
+			frame.columns.set(keyOf(column.layer, column.name), column);
+}
+
+const $ = (id) => document.getElementById(id);
+
+/* The slider of the levels, of a frame that has some to choose from. */
+export function showLevel(frame) {
+	const most = frame.levels ? frame.levels.surface.most : 0;
+
+	$("levels").hidden = most === 0;
+	if (most === 0)
+		return;
+	$("level").max = most;
+	$("level").value = frame.levels.at;
+	$("level-is").textContent = frame.levels.at + " of " + most;
+}

@@ -1,0 +1,86 @@
+/* Control mesh and heights, stored in place of the surface that they make. */
+#include "formats/page_displaced.h"
+
+#include "formats/page_steps.h"
+#include "subdivide/wavelet.h"
+
+/* The level that has as many vertices and faces as the mesh; false: none. */
+static bool
+find_level(const mr_page_displaced *d, const mr_mesh *mesh, size_t *at)
+{
+	for (size_t i = 0; i <= d->n; i++)
+		if (d->level[i].nv == mesh->nv && d->level[i].nf == mesh->nf) {
+			*at = i;
+			return true;
+		}
+	return false;
+}
+
+/* Whether mesh is, bit by bit, what mr-decode makes of the frame on one of the levels. */
+static mr_status
+compare_mesh(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, mr_page_displaced *d)
+{
+	mr_domain domain;
+	mr_mesh mesh;
+	mr_v3 *p;
+	size_t at;
+
+	MR_TRY(mr_layer_surface_or_points(ctx, f, "mesh", &mesh));
+	if (!find_level(d, &mesh, &at) || memcmp(mesh.t, d->level[at].t, mesh.nf * sizeof *mesh.t) != 0)
+		return MR_OK;
+	MR_TRY(mr_domain_on(ctx, control, d->level, at, &domain));
+	p = MR_NEW(ctx, mesh.nv, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	mr_domain_displace(ctx, &domain, d->height, 1, p);
+	d->is_mesh = !memcmp(p, mesh.p, mesh.nv * sizeof *p);
+	d->at = d->is_mesh ? at : d->n;
+	return MR_OK;
+}
+
+mr_status
+mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
+{
+	mr_page_displaced r = { .there = true };
+	mr_mesh control;
+	const uint8_t *mark;
+	mr_loop *level;
+	mr_box box;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
+	MR_TRY(mr_displacement_get(ctx, f, &control, &r.n, &r.height));
+	level = MR_NEW(ctx, r.n + 1, mr_loop);
+	if (!level)
+		return MR_EMEM;
+	MR_TRY(mr_layer_crease(ctx, f, control.name, control.nf, &mark));
+	MR_TRY(mr_loop_levels_marked(ctx, &control, 180, mark, r.n, level));
+	box = mr_box_of(control.p, control.nv);
+	r.extent = fmax(box.max.x - box.min.x, fmax(box.max.y - box.min.y, box.max.z - box.min.z));
+	r.level = level;
+	r.at = r.n;
+	if (mr_layer_has(f, "mesh", "position"))
+		MR_TRY(compare_mesh(ctx, f, &control, &r));
+	*d = r;
+	return MR_OK;
+}
+
+mr_status
+mr_page_displaced_put(
+    mr_ctx *ctx, mr_frame *to, const mr_column *height, const mr_page_displaced *d, mr_text *notes)
+{
+	size_t n = d->level[d->n].nv;
+	double *x = MR_NEW(ctx, n, double), most = d->extent;
+	mr_column c = *height;
+
+	if (!x)
+		return MR_EMEM;
+	memcpy(x, d->height, n * sizeof *x);
+	MR_TRY(mr_wavelet_analyse(ctx, d->level, d->n, x));
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, fabs(x[i]));
+	if (!isfinite(most))
+		return mr_fail(
+		    ctx, MR_ERANGE, "displacement: the heights differ by more than a number can tell");
+	c.data = x;
+	return mr_steps_put(ctx, to, &c, &(mr_steps){ mr_step_of(most), { 0 }, 1 }, notes);
+}

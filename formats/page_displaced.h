@@ -1,0 +1,30 @@
+/* page_displaced.h -- displaced subdivision surfaces in a page, which subdivides and displaces them itself.
+ * Layer rule: formats includes lib. */
+#ifndef MR_PAGE_DISPLACED_H
+#define MR_PAGE_DISPLACED_H
+
+#include "base/text.h"
+#include "subdivide/displaced.h"
+
+/* That of a frame; zeroed: there is none. */
+typedef struct mr_page_displaced {
+	bool there;
+	bool is_mesh; /* mesh is this surface on level `at`, and need not be stored */
+	size_t n, at; /* finest level; the one to show first */
+	const mr_loop *level;
+	const double *height;
+	double extent; /* of the control mesh: the largest side of its box */
+} mr_page_displaced;
+
+/* Control mesh and heights, checked as mr-decode does.  MR_EMISSING where they are not there. */
+mr_status mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d) MR_WARN_UNUSED;
+
+/*
+ * Puts the heights, as steps of 24 bits of the model: on level 0 as they are, of a vertex that a finer level
+ * adds the difference from what the level before predicts, which packs into less.  A line in `notes` tells
+ * the page of the surface.
+ */
+mr_status mr_page_displaced_put(mr_ctx *ctx, mr_frame *to, const mr_column *height,
+    const mr_page_displaced *d, mr_text *notes) MR_WARN_UNUSED;
+
+#endif
