@@ -47,6 +47,8 @@ mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
 	mr_loop *level;
 	mr_box box;
 
+	if (!mr_frame_has_layer(f, "displacement"))
+		return mr_layer_missing(ctx, f, "displacement", "displacement");
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
 	MR_TRY(mr_displacement_get(ctx, f, &control, &r.n, &r.height));
 	level = MR_NEW(ctx, r.n + 1, mr_loop);

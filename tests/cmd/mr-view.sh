@@ -158,3 +158,30 @@ done
 echo '-- a frame that is left out'
 cat edit.mrs cube.mrs | mr-view -k -l base left.html; echo "exit $?"
 stream_of left.html >left.back && cmp left.back base.back && echo 'the others are there'
+echo '-- a displaced subdivision surface is control mesh and heights; mesh is not stored where mr-decode made it, on whatever level'
+mr-make sphere -n 400 | mr-simplify -t control -n 40 | mr-sample -n 2 -o with-mesh.mrs
+mr-export -l control -f off -i with-mesh.mrs - | mr-import -l control -o control.mrs
+mr-make sphere --points 500 | mr-cat --merge - control.mrs | mr-sample -q -n 2 -o scan.mrs
+surface() { # stream, options: what is stored, but for points
+	of=$1; shift
+	mr-view "$@" -i "$of" scan.html && stream_of scan.html >scan.back && columns scan.back | grep -v points && mr-cat -u scan.back | tr '\0' '\n' | grep -a '^surface'
+}
+surface scan.mrs
+for j in 2 1; do
+	mr-decode -q --level $j scan.mrs -o decoded.mrs && surface decoded.mrs
+done
+surface with-mesh.mrs | grep -v control
+surface decoded.mrs -l mesh
+surface scan.mrs -l displacement
+echo '-- one that mr-decode would refuse is refused'
+mr-view -l displacement -i edit.mrs none.html; echo "exit $?"
+mr-view -l displacement -i cube.mrs none.html; echo "exit $?"
+sed 's/edit.mrs/scan.mrs/' change.py >change-scan.py
+for change in 'height <d nan' 'level <I 3' 'level <I 77' 'triangles <I 5'; do
+	python3 change-scan.py $change >changed.mrs
+	mr-view -i changed.mrs none.html; echo "$change: exit $?"
+	mr-view -l points -i changed.mrs changed.html || echo "the points: exit $?"
+done
+sed -i 's/struct.pack(what, .*/struct.pack(what, *(float(x) for x in value.split(",")))/' change-scan.py
+python3 change-scan.py height '<322d' "$(printf '1.7e308,%.0s' $(seq 22); printf -- '-1.7e308,%.0s' $(seq 299))-1.7e308" >changed.mrs
+mr-view -i changed.mrs none.html; echo "of either sign: exit $?"
