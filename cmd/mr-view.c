@@ -9,6 +9,12 @@ extern const char mr_page_html[]; /* formats/page, in one text */
 
 static mr_page page;
 
+static const cmd_opt table[] = {
+	{ 0, "intersections", CMD_FLAG, &page.intersections, 0, 0, NULL,
+	    "look for faces that intersect, to mark them", NULL },
+	{ 0 },
+};
+
 static const cmd_field figures[] = {
 	CMD_COUNTED(mr_page_result, layers),
 	CMD_COUNTED(mr_page_result, columns),
@@ -59,6 +65,7 @@ main(int argc, char **argv)
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "write all frames as a page for browsers",
 		.operands = "PAGE.html",
+		.options = table,
 		.prepare = prepare,
 		.frame = view_frame,
 		.finish = finish,

@@ -7,6 +7,7 @@
 #include "formats/bytes.h"
 #include "formats/page_displaced.h"
 #include "formats/page_steps.h"
+#include "space/self_intersect.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -25,6 +26,9 @@ static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offs
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
 	"base.encoded", "base.response", "handles.transform", "handles.turn", NULL };
+
+/* What the page has of faces that intersect. */
+#define CROSSING "self_intersections"
 
 /* Texts that name the values of other columns. */
 static const char *const texts[] = { "groups", "objects", "materials", NULL };
@@ -97,6 +101,8 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_pag
 		return is_posable(f, layers);
 	if (d->there && is_of_displaced(c))
 		return true;
+	if (!strcmp(c->name, CROSSING))
+		return false;
 	if (is_made(c, d) || !(control || is_listed(c->layer, layers)) ||
 	    !mr_layer_has(f, c->layer, "position"))
 		return false;
@@ -355,10 +361,50 @@ take_columns(
 	return mr_text_done(notes);
 }
 
+/* Of each face of a surface whether it intersects another: 1 or 0. */
+static mr_status
+put_crossings(mr_ctx *ctx, const char *layer, const mr_mesh *m, mr_frame *to)
+{
+	bool *crosses = MR_NEW(ctx, m->nf, bool);
+	uint8_t *marks = MR_NEW(ctx, m->nf, uint8_t);
+	mr_mark mark = mr_mark_take(ctx);
+	mr_bvh *bvh;
+	size_t pairs;
+
+	if (!crosses || !marks)
+		return MR_EMEM;
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	MR_TRY(mr_self_intersections(ctx, bvh, m, crosses, &pairs));
+	mr_mark_release(ctx, mark);
+	for (size_t i = 0; i < m->nf; i++)
+		marks[i] = crosses[i];
+	return mr_frame_put(ctx, to, layer, CROSSING, (mr_shape){ 'f', 'b', 1 }, marks, m->nf);
+}
+
+/* The same of all surfaces that the page has, and of the one that it makes, on the level that is shown first.
+ */
+static mr_status
+put_all_crossings(mr_ctx *ctx, mr_frame *from, const bool *shown, const mr_page_displaced *d, mr_frame *to)
+{
+	mr_mesh m;
+
+	for (size_t i = 0; i < from->count; i++) {
+		const mr_column *c = &from->columns[i];
+		if (!shown[i] || !*c->layer || strcmp(c->name, "triangles") != 0 || c->rows == 0)
+			continue;
+		MR_TRY(mr_layer_mesh(ctx, from, c->layer, &m));
+		MR_TRY(put_crossings(ctx, c->layer, &m, to));
+	}
+	if (!d->there)
+		return MR_OK;
+	MR_TRY(mr_page_displaced_mesh(ctx, from, d, &m));
+	return put_crossings(ctx, "displacement", &m, to);
+}
+
 /* How columns are stored is told in a text of no layer, `page`. */
 static mr_status
-take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, const mr_page_displaced *d, mr_frame *to,
-    mr_page_result *r)
+take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, bool intersections, const mr_page_displaced *d,
+    mr_frame *to, mr_page_result *r)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
 	mr_text notes = { .ctx = ctx };
@@ -374,6 +420,8 @@ take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, const mr_page_displa
 	}
 	r->layers += d->there;
 	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
+	if (intersections)
+		MR_TRY(put_all_crossings(ctx, from, shown, d, to));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
 }
@@ -434,7 +482,7 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	MR_TRY(check_layers(ctx, frame, layers, &displaced));
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
-	MR_TRY(take_frame(ctx, frame, layers, &displaced, &shown, result));
+	MR_TRY(take_frame(ctx, frame, layers, page->intersections, &displaced, &shown, result));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(send_frame(ctx, page, &shown));
 	page->frames++;

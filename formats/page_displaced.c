@@ -16,25 +16,43 @@ find_level(const mr_page_displaced *d, const mr_mesh *mesh, size_t *at)
 	return false;
 }
 
-/* Whether mesh is, bit by bit, what mr-decode makes of the frame on one of the levels. */
-static mr_status
-compare_mesh(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, mr_page_displaced *d)
+mr_status
+mr_page_displaced_mesh(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, mr_mesh *m)
 {
 	mr_domain domain;
-	mr_mesh mesh;
+	mr_mesh control;
 	mr_v3 *p;
-	size_t at;
 
-	MR_TRY(mr_layer_surface_or_points(ctx, f, "mesh", &mesh));
-	if (!find_level(d, &mesh, &at) || memcmp(mesh.t, d->level[at].t, mesh.nf * sizeof *mesh.t) != 0)
-		return MR_OK;
-	MR_TRY(mr_domain_on(ctx, control, d->level, at, &domain));
-	p = MR_NEW(ctx, mesh.nv, mr_v3);
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
+	MR_TRY(mr_domain_on(ctx, &control, d->level, d->at, &domain));
+	p = MR_NEW(ctx, domain.m.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
 	mr_domain_displace(ctx, &domain, d->height, 1, p);
-	d->is_mesh = !memcmp(p, mesh.p, mesh.nv * sizeof *p);
-	d->at = d->is_mesh ? at : d->n;
+	*m = domain.m;
+	m->p = p;
+	return MR_OK;
+}
+
+/* Whether mesh is, bit by bit, what mr-decode makes of the frame on one of the levels. */
+static mr_status
+compare_mesh(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
+{
+	mr_mesh mesh, made;
+	mr_mark mark;
+
+	MR_TRY(mr_layer_surface_or_points(ctx, f, "mesh", &mesh));
+	if (!find_level(d, &mesh, &d->at) ||
+	    memcmp(mesh.t, d->level[d->at].t, mesh.nf * sizeof *mesh.t) != 0) {
+		d->at = d->n;
+		return MR_OK;
+	}
+	mark = mr_mark_take(ctx);
+	MR_TRY(mr_page_displaced_mesh(ctx, f, d, &made));
+	d->is_mesh = !memcmp(made.p, mesh.p, mesh.nv * sizeof *mesh.p);
+	if (!d->is_mesh)
+		d->at = d->n;
+	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
@@ -61,7 +79,7 @@ mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
 	r.level = level;
 	r.at = r.n;
 	if (mr_layer_has(f, "mesh", "position"))
-		MR_TRY(compare_mesh(ctx, f, &control, &r));
+		MR_TRY(compare_mesh(ctx, f, &r));
 	*d = r;
 	return MR_OK;
 }

@@ -19,6 +19,10 @@ typedef struct mr_page_displaced {
 /* Control mesh and heights, checked as mr-decode does.  MR_EMISSING where they are not there. */
 mr_status mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d) MR_WARN_UNUSED;
 
+/* The surface on level `at`, in the arena. */
+mr_status
+mr_page_displaced_mesh(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, mr_mesh *m) MR_WARN_UNUSED;
+
 /*
  * Puts the heights, as steps of 24 bits of the model: on level 0 as they are, of a vertex that a finer level
  * adds the difference from what the level before predicts, which packs into less.  A line in `notes` tells

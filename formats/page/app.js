@@ -3,6 +3,7 @@
  * change(), and a picture that is overtaken by another change is not waited for.
  */
 import { Drawn } from "./drawn.js";
+import { Flaws } from "./flaws.js";
 import { firstLayer, layersOf, namesOf } from "./layers.js";
 import { setLevel, showLevel } from "./levels.js";
 import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
@@ -27,13 +28,14 @@ export class App {
 	constructor(frames) {
 		this.frames = frames;
 		this.stage = new Stage($("canvas"), $("labels"), mostFaces(frames) < FINE);
-		this.choice = { frame: 0, visible: null, level: null, beside: false, flat: false, wire: false, color: null, range: null };
+		this.choice = { frame: 0, visible: null, level: null, beside: false, flat: false, wire: false, flaws: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
 		this.picked = null;
 		this.telling = 0;
 		this.painter = new Painter(this);
+		this.flaws = new Flaws(frames);
 		this.posing = new Posing(this);
 	}
 
@@ -73,6 +75,7 @@ export class App {
 		await this.colour(frame, seen);
 		for (const layer of seen)
 			this.drawn.get(layer.name).drawn.look(this.choice.flat, this.choice.wire);
+		await this.flaws.show(frame, seen, this.drawn, this.choice.flaws);
 		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
 		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);

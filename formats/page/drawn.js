@@ -37,7 +37,7 @@ void main() {
 	gl_FragColor = out2 > 0.45 ? vec4(1.0) : vec4(0.85, 0.1, 0.15, 1.0);
 }`;
 
-function pointMaterial(fragmentShader, uniforms, more) {
+export function pointMaterial(fragmentShader, uniforms, more) {
 	return new THREE.ShaderMaterial({
 		vertexShader: POINT_VERTEX,
 		fragmentShader,
@@ -171,6 +171,19 @@ export class Drawn {
 			this.edges.geometry.attributes.position.needsUpdate = true;
 		if (this.mark.visible)
 			this.pointTo(this.marked);
+		if (this.marks)
+			this.marks.follow();
+	}
+
+	/* Marks of flaws, or none, in place of those before. */
+	setMarks(marks) {
+		if (this.marks) {
+			this.group.remove(this.marks.group);
+			this.marks.dispose();
+		}
+		this.marks = marks;
+		if (marks)
+			this.group.add(marks.group);
 	}
 
 	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
@@ -263,6 +276,7 @@ export class Drawn {
 
 	/* Frees what the graphics card has of it, but for materials that it shares with `after`. */
 	dispose(after) {
+		this.setMarks(null);
 		for (const child of this.group.children)
 			child.geometry.dispose();
 		if (!after || after.materials !== this.materials)

@@ -26,6 +26,8 @@ const KEYS = {
 	c: () => cycle($("color")),
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),
 	e: () => $("wire").click(),
+	d: () => $("shading").hidden || $("flaws").click(),
+	r: () => $("scale-on").click(),
 	v: () => cycle($("view")),
 	f: () => $("fit").click(),
 	m: () => $("move").click(),

@@ -1,8 +1,11 @@
 /* layers.js -- what a frame has to show: its layers with positions, their columns, and which layer comes first. */
 import { columnOf, linesOf } from "./stream.js";
 
+/* Faces that intersect, 1, and others, 0: they are marked. */
+export const CROSSING = "self_intersections";
+
 /* Columns that are no values to colour by: places, and what poses or subdivides them. */
-const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease"]);
+const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease", CROSSING]);
 
 /* Layers, in the order of the frame: name, position, triangles (undefined: points), colours. */
 export function layersOf(frame) {

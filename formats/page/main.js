@@ -4,6 +4,7 @@ import { takeBytes } from "./data.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
 import { addLevels } from "./levels.js";
+import { showRuler } from "./ruler.js";
 import { canDraw } from "./stage.js";
 import { parseStream } from "./stream.js";
 
@@ -47,6 +48,12 @@ function connect(app) {
 	for (const shade of document.querySelectorAll("input[name=shade]"))
 		shade.addEventListener("change", () => app.change({ flat: $("flat").checked }));
 	$("wire").addEventListener("change", () => app.change({ wire: $("wire").checked }));
+	$("flaws").addEventListener("change", () => app.change({ flaws: $("flaws").checked }));
+	app.stage.drawn = () => showRuler(app.stage);
+	$("scale-on").addEventListener("change", () => {
+		$("ruler").hidden = !$("scale-on").checked;
+		app.stage.ask();
+	});
 	$("view").addEventListener("change", () => app.fit(view()));
 	$("fit").addEventListener("click", () => app.fit());
 	$("up").addEventListener("change", () => {

@@ -44,6 +44,7 @@ export class Stage {
 		this.beside = false;
 		this.paints = false;
 		this.radius = 1;
+		this.drawn = () => {}; /* what is to be done after each picture */
 		new ResizeObserver(() => this.resize()).observe(canvas);
 	}
 
@@ -174,6 +175,12 @@ export class Stage {
 			for (const [, drawn] of panel.layers)
 				this.scene.remove(drawn.group);
 		}
+		this.drawn();
+	}
+
+	/* How long a pixel is where the middle of the view is. */
+	unitsPerPixel() {
+		return 2 * Math.tan(ANGLE / 2 * Math.PI / 180) * this.camera.position.distanceTo(this.controls.target) / this.panels()[0].height;
 	}
 
 	/*

@@ -1,0 +1,141 @@
+/*
+ * flaws.js -- what is marked of surfaces: folded edges, which follow where vertices go, and the faces that intersect, which
+ * mr-view --intersections has looked for and says in a column.  Marks are seen through the model: flaws are small, and often inside.
+ */
+import * as THREE from "three/build/three.module.js";
+import { pointMaterial } from "./drawn.js";
+import { endsOf, foldsOf, pairsOf } from "./folds.js";
+import { CROSSING } from "./layers.js";
+import { columnOf } from "./stream.js";
+import { count } from "./text.js";
+
+const RED = [226, 38, 44], VIOLET = [150, 70, 226];
+const $ = (id) => document.getElementById(id);
+const colorOf = (rgb) => new THREE.Color("rgb(" + rgb.join(",") + ")");
+
+const DISC = `
+varying vec3 vTint;
+void main() {
+	float out2 = dot(2.0 * gl_PointCoord - 1.0, 2.0 * gl_PointCoord - 1.0);
+	if (out2 > 1.0)
+		discard;
+	gl_FragColor = vec4(out2 > 0.5 ? vec3(1.0) : vTint, 0.9);
+}`;
+
+const materials = {
+	line: new THREE.LineBasicMaterial({ color: colorOf(RED), depthTest: false, transparent: true }),
+	face: new THREE.MeshBasicMaterial({ color: colorOf(VIOLET), side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 }),
+	dot: pointMaterial(DISC, { size: 1, least: 9, most: 9 }, { depthTest: false, transparent: true }),
+};
+
+const pairs = new WeakMap(); /* of triangles: the edges that may be folded */
+
+function pairsAt(vertices, triangles) {
+	if (!pairs.has(triangles))
+		pairs.set(triangles, pairsOf(vertices, triangles));
+	return pairs.get(triangles);
+}
+
+/* The mean of n vertices, next to each other in a list. */
+function middlesOf(vertices, n, p) {
+	const out = new Float32Array(vertices.length / n * 3);
+
+	vertices.forEach((v, i) => {
+		for (let c = 0; c < 3; c++)
+			out[3 * Math.floor(i / n) + c] += p[3 * v + c] / n;
+	});
+	return out;
+}
+
+/* The marks of a layer as it is drawn; crossing: 1 of each face that intersects, or null where that is not known. */
+class Marks {
+	constructor(drawn, crossing, changed) {
+		this.drawn = drawn;
+		this.crossing = crossing;
+		this.changed = changed;
+		this.faces = new Uint32Array(0);
+		if (crossing)
+			this.faces = drawn.triangles.filter((_, k) => crossing[Math.floor(k / 3)]);
+		this.group = new THREE.Group();
+		this.lines = this.add(new THREE.LineSegments(new THREE.BufferGeometry(), materials.line));
+		this.body = this.add(new THREE.Mesh(new THREE.BufferGeometry(), materials.face));
+		this.dots = this.add(new THREE.Points(new THREE.BufferGeometry(), materials.dot));
+		this.mark();
+	}
+
+	add(object) {
+		object.frustumCulled = false;
+		object.renderOrder = 1;
+		this.group.add(object);
+		return object;
+	}
+
+	mark() {
+		const { position, triangles } = this.drawn, ends = endsOf(foldsOf(pairsAt(position.length / 3, triangles), position, triangles), triangles);
+		const places = [middlesOf(ends, 2, position), middlesOf(this.faces, 3, position)], tint = new Uint8Array(places[0].length + places[1].length);
+
+		this.folds = ends.length / 2;
+		for (let i = 0; i < tint.length; i += 3)
+			tint.set(i < places[0].length ? RED : VIOLET, i);
+		this.give(this.lines, position, ends);
+		this.give(this.body, position, this.faces);
+		this.give(this.dots, Float32Array.from([...places[0], ...places[1]]), null);
+		this.dots.geometry.setAttribute("tint", new THREE.BufferAttribute(tint, 3, true));
+	}
+
+	give({ geometry }, position, index) {
+		geometry.setAttribute("position", new THREE.BufferAttribute(position, 3));
+		geometry.setIndex(index && new THREE.BufferAttribute(index, 1));
+	}
+
+	/* The vertices are elsewhere: what intersects there nobody has looked for. */
+	follow() {
+		this.crossing = null;
+		this.faces = new Uint32Array(0);
+		this.dispose();
+		this.mark();
+		this.changed();
+	}
+
+	dispose() {
+		for (const { geometry } of this.group.children)
+			geometry.dispose();
+	}
+}
+
+export class Flaws {
+	constructor(frames) {
+		this.known = frames.some((frame) => [...frame.columns.values()].some((c) => c.name === CROSSING));
+		this.marks = [];
+		$("flaws-of").textContent = this.known ? "Folds, intersections" : "Folded edges";
+	}
+
+	/* Marks what is seen, if it is to be marked; seen: layers, drawn: what is drawn of each. */
+	async show(frame, seen, drawn, on) {
+		for (const { drawn: old } of drawn.values())
+			old.setMarks(null);
+		this.marks = [];
+		for (const layer of on ? seen.filter((l) => l.triangles && l.triangles.rows) : []) {
+			const column = columnOf(frame, layer.name, CROSSING), there = drawn.get(layer.name).drawn;
+			const marks = new Marks(there, column ? await column.values() : null, () => this.tell(on));
+			there.setMarks(marks);
+			this.marks.push(marks);
+		}
+		this.tell(on);
+	}
+
+	/* How many there are, of all layers that are seen. */
+	tell(on) {
+		const folds = this.marks.reduce((n, m) => n + m.folds, 0), faces = this.marks.reduce((n, m) => n + m.faces.length / 3, 0);
+		const unknown = this.marks.some((m) => !m.crossing), items = [[RED, count(folds) + (folds === 1 ? " folded edge" : " folded edges")]];
+
+		if (this.known)
+			items.push([VIOLET, unknown ? "intersections: not looked for here" : count(faces) + (faces === 1 ? " intersecting face" : " intersecting faces")]);
+		$("flaw-list").replaceChildren(...(on && this.marks.length ? items : []).map(([color, words]) => {
+			const item = document.createElement("li"), swatch = document.createElement("i");
+			swatch.style.background = "rgb(" + color.join(",") + ")";
+			item.append(swatch, words);
+			return item;
+		}));
+	}
+}
