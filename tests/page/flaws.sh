@@ -1,6 +1,6 @@
 # Folded edges are as many as mr-info counts, of what the page subdivides and poses too; intersecting faces are those of another test; axes and scale.
 . "$TOP/tests/page/begin"
-mr-make bumpy -n 600 --noise 0.12 --seed 3 -o noisy.mrs && mr-view --intersections -i noisy.mrs noisy.html && mr-view -i noisy.mrs plain.html &&
+mr-make torus -n 400 --noise 0.4 --seed 3 -o noisy.mrs && mr-view --intersections -i noisy.mrs noisy.html && mr-view -i noisy.mrs plain.html &&
 	mr-info --json noisy.mrs >noisy.json || exit
 mr-make torus -n 200 -o torus.mrs && python3 "$TOP/tests/page/heights.py" torus.mrs 1 0 7 | mr-equalize -q -g 8,8 -o rough.mrs || exit
 mr-view --intersections -i rough.mrs rough.html && mr-decode -q --no-check rough.mrs | mr-info --json -l mesh >rough.json || exit
