@@ -131,6 +131,9 @@ function beginning({ tool, options, operands }) {
 	return tool === "mr-make" ? commandOf(tool, [...options, ...operands]) : commandOf(tool, options) + ' "$@"';
 }
 
+/* Of commands the first, where no other brings the model, reads it. */
+const reading = (commands, file) => [commands[0] + " " + file, ...commands.slice(1)];
+
 /* How the script is called: of a shape by itself, of files, which the history may name, else of a stream. */
 function usage(name, first, why) {
 	if (!first)
@@ -143,14 +146,14 @@ function usage(name, first, why) {
 
 /*
  * work: { name, layer, option: whether mr-select needs -l, base: whether the frame has one, encoded, handles, text, several:
- * whether the stream has other models, pose: the line of the page's pose, where it is of these regions }.
+ * whether the stream has other models, decode: the command that makes the layer, or an empty text, pose: the line of the page's pose, where it is of these regions }.
  */
 export function script(work, history) {
 	const { steps, why } = stepsOf(history), { kept, posed, solve, encode } = parted(steps || []), [first, ...others] = kept;
 	const encodes = steps ? !kept.some((s) => s.tool === "mr-encode") : !work.encoded, pose = work.pose && !posed ? work.pose.split(" | ") : [];
 	const made = first ? [beginning(first), ...others.map((s) => commandOf(s.tool, s.options))] : [];
-	const chosen = select(work, '"$regions"') + (work.several ? " -k" : "") + (first ? "" : ' "$@"');
-	const pipe = [...made, chosen, ...basis(work, solve, encodes ? encode : null), ...pose];
+	const chosen = [...(work.decode ? [work.decode] : []), select(work, '"$regions"') + (work.several ? " -k" : "")];
+	const pipe = [...made, ...(first ? chosen : reading(chosen, '"$@"')), ...basis(work, solve, encodes ? encode : null), ...pose];
 
 	return [
 		"#!/bin/sh",
@@ -168,8 +171,8 @@ export function script(work, history) {
 
 /* The line that makes a page with a basis of the painted handles, of the stream and the regions as files. */
 export function basisLine(work) {
-	const file = work.name + ".mrs", chosen = select(work, work.name + ".regions");
-	const pipe = work.base ? [chosen + " " + file] : ["mr-smooth " + file, "mr-remesh", chosen];
+	const made = work.decode ? [work.decode] : [], chosen = select(work, work.name + ".regions");
+	const pipe = reading([...made, ...(work.base ? [] : ["mr-smooth", "mr-remesh"]), chosen], work.name + ".mrs");
 
 	return [...pipe, ...basis({ ...work, base: true }, [], work.encoded && work.base ? null : []), "mr-view " + work.name + "-painted.html"].join(" | ");
 }

@@ -33,6 +33,11 @@ async function copy(text) {
 	}
 }
 
+/* What makes the layer, where the page makes it of control mesh and heights. */
+function decodeLine({ levels }, layer) {
+	return levels && levels.surface.layer === layer ? "mr-decode --from control --level " + levels.at : "";
+}
+
 export class TakeAway {
 	constructor(painter) {
 		this.painter = painter;
@@ -103,6 +108,7 @@ export class TakeAway {
 			name: fileName(frame.name),
 			layer: name,
 			option: name !== first,
+			decode: decodeLine(frame, name),
 			base: Boolean(columnOf(frame, "base", "position")) || name === "control",
 			encoded: ["detail_height", "detail_offset"].some((c) => columnOf(frame, "mesh", c)),
 			pose: await this.pose(frame),

@@ -47,9 +47,11 @@ def same(a, b, *names):
     return all(one[name] == other[name] for name in names)
 
 
-def paint(b, page):
-    """A head and fixed feet, the rest free."""
+def paint(b, page, keys=()):
+    """A head and fixed feet, the rest free; keys: to press before."""
     b.open(page)
+    for key in keys:
+        b.press(key)
     left, top, width, height = b.canvas()
     for key in ("p", "1", "Delete", "0", "a", "l", "h"):
         b.press(key)
@@ -99,6 +101,18 @@ def scripts(b):
     code, said = run(saved(b, "save-script", "bumpy.sh"))
     check(code == 0 and regions_in("run/bumpy-painted.mrs", "control") == regions, "control: %d %s" % (code, said))
     check(("control", "response") in columns("run/bumpy-painted.mrs"), "control: there is no basis")
+
+
+def levels(b):
+    """Of a level of the surface that the page makes: its regions, on what mr-decode makes of the same level."""
+    for steps, level in ((0, 2), (1, 1)):
+        regions = paint(b, "scan.html", ["PageDown"] * steps)
+        saved(b, "save-regions", "bumpy.regions")
+        line = b.text("basis-line")
+        code, said = run(saved(b, "save-script", "bumpy.sh"))
+        subprocess.run(["mr-decode", "-q", "--level", str(level), "scan.mrs", "-o", "level.mrs"], check=True)
+        check(code == 0 and regions_in("run/bumpy-painted.mrs") == regions and same("run/bumpy-painted.mrs", "level.mrs", *FORM[:2]), "level %d: %d %s" % (level, code, said))
+        check(line.startswith("mr-decode --from control --level %d bumpy.mrs | mr-smooth | mr-remesh | mr-select " % level), "level %d: the line is %s" % (level, line))
 
 
 def poses(b):
@@ -178,7 +192,7 @@ def hostile(b):
 os.makedirs("saved", exist_ok=True)
 with Browser() as browser:
     browser.call("Page.setDownloadBehavior", behavior="allow", downloadPath=os.path.abspath("saved"))
-    for test in (scripts, poses, lines, files, hostile):
+    for test in (scripts, levels, poses, lines, files, hostile):
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
 end()

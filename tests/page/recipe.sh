@@ -10,6 +10,7 @@ mr-import 'a model.off' -o plain.mrs || exit
 mr-import --no-history 'a model.off' -o silent.mrs || exit
 mr-make torus -n 400 | mr-transform --translate 1,2,3 -o shape.mrs || exit
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 -o control.mrs || exit
+mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 | mr-decode -q -o scan.mrs || exit
 python3 - <<'Y'
 import struct, subprocess, zlib
 # Histories and names that want to be run.
@@ -32,7 +33,7 @@ with open("evil.mrs", "wb") as f:
 			+ record(b"mesh", b"triangles", b"fu\3", 1, struct.pack("<3I", 0, 1, 2)) + text(b"history", history) + record(b"", b"ENDFRAME", b"-t\1", 0, b""))
 	f.write(record(b"", b"END", b"-t\1", 0, b""))
 Y
-for model in base edit rest plain silent shape control evil; do
+for model in base edit rest plain silent shape control scan evil; do
 	mr-view -q -i $model.mrs $model.html || exit
 done
 exec python3 "$TOP/tests/page/recipe.py"
