@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "formats/outname.h"
 #include "formats/suffix.h"
 #include "mesh/validate.h"
 #include "place.h"
@@ -324,6 +325,26 @@ cmd_idle(cmd *c, const char *name, bool idle, const char *why)
 }
 
 mr_status
+cmd_output_name(cmd *c, const char *what, const char *suffix)
+{
+	size_t n = c->operand_count;
+
+	if (n == 0 || (n > 1 && !c->tool->reads_rest))
+		return mr_fail(&c->ctx, MR_EUSAGE, "one %s is expected, not %zu%s", what, n,
+		    n ? ": the stream to read is -i FILE or stdin" : "");
+	if (!mr_outname_suits(c->operands[0], suffix))
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s does not end in %s: %s", c->operands[0], suffix,
+		    c->tool->reads_rest ? "it is written, and the streams behind it are read"
+					: "the stream to read is -i FILE");
+	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s is not written to a terminal", what);
+	if (n > 1 && c->state->input)
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s and -i %s are both the first stream", c->operands[1],
+		    c->state->input);
+	return MR_OK;
+}
+
+mr_status
 cmd_layer_name(cmd *c, const char *option, const char *name)
 {
 	if (name && !mr_name_valid(name, MR_LAYER_MAX))
@@ -371,7 +392,7 @@ is_input(const cmd *c, const char *path)
 	const struct cmd_state *s = c->state;
 	bool found = place_is(STDIN_FILENO, path) || (s->input && place_same(path, s->input));
 
-	for (size_t i = 0; i < c->operand_count && !c->tool->names_output; i++)
+	for (size_t i = c->tool->names_output; i < c->operand_count; i++)
 		found |= access(path, F_OK) == 0 && place_same(path, c->operands[i]);
 	return found;
 }
@@ -756,13 +777,16 @@ read_input(cmd *c, const char *path)
 static void
 read_streams(cmd *c)
 {
-	if (!is_filter_or_sink_of_streams(c->tool))
+	const cmd_tool *tool = c->tool;
+	size_t first = tool->reads_rest ? 1 : 0,
+	       end = tool->operands && !tool->reads_rest ? 0 : c->operand_count;
+
+	if (first >= end)
 		read_input(c, c->state->input ? c->state->input : "-");
-	else if (c->operand_count == 0)
-		read_stream(c, "-");
-	else
-		for (size_t i = 0; i < c->operand_count; i++)
-			read_input(c, c->operands[i]);
+	for (size_t i = first; i < end; i++) {
+		c->file = is_dash(c->operands[i]) ? NULL : c->operands[i];
+		read_input(c, c->operands[i]);
+	}
 }
 
 /* With -k: what was left out; the exit code. */

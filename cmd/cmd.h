@@ -51,6 +51,7 @@ typedef struct cmd_tool {
 
 	bool sink;         /* writes no stream; with operands of its own it reads -i FILE or stdin */
 	bool names_output; /* a sink that names its output by an operand: it has no -o */
+	bool reads_rest;   /* the operands behind that one are the streams to read */
 	bool sends;        /* `frame` sends by cmd_send itself */
 	bool fixed_layers; /* works on what it works on: it has no -l */
 	bool caches;       /* `frame` has c->cache */
@@ -65,6 +66,7 @@ struct cmd {
 	const char *layer;  /* -l, or NULL */
 	const char *output; /* -o, or NULL */
 	char **operands;    /* of a source or a sink */
+	const char *file;   /* the operand that is read; NULL: stdin, or -i */
 	size_t operand_count;
 	mr_cache *cache; /* over the frames of a tool that `caches` */
 	uint64_t frame;  /* number of the frame at work, from 1; in finish, how many there were */
@@ -85,6 +87,10 @@ mr_status cmd_idle(cmd *c, const char *name, bool idle, const char *why) MR_WARN
 /* For prepare: MR_EUSAGE where the option gave a name that no layer can have; NULL, where it was not given,
  * passes. */
 mr_status cmd_layer_name(cmd *c, const char *option, const char *name) MR_WARN_UNUSED;
+
+/* For prepare, of a sink that names its output: MR_EUSAGE where its first operand, `what`, is not there, does
+ * not end in the suffix, or is a terminal; and where there are others, which it does not read. */
+mr_status cmd_output_name(cmd *c, const char *what, const char *suffix) MR_WARN_UNUSED;
 
 /* For prepare, of a tool with operands of its own: reads that instead of stdin.  MR_EUSAGE beside -i. */
 mr_status cmd_input(cmd *c, const char *path) MR_WARN_UNUSED;

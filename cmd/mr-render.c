@@ -2,24 +2,22 @@
 #include "cmd.h"
 #include "formats/outname.h"
 #include "formats/paint.h"
-#include "formats/png.h"
+#include "formats/picture.h"
 #include "render/gallery.h"
-
-#include <unistd.h>
 
 static mr_render_opts opts = MR_RENDER_DEFAULTS;
 static cmd_size size = { 800, 600 };
 static const char *view = "quarter";
 static cmd_range range;
-static int up = 1;
-static bool sheet;
+static int up = 1, kind;  /* kind: mr_picture_kind */
+static bool sheet, piped; /* piped: one picture after another to stdout */
 static size_t written;
 static mr_outnames given;
-
 static mr_gallery gallery;
 static mr_mark kept; /* of the arena that holds the gallery */
 
 static const cmd_opt table[] = {
+	{ 'f', "format", CMD_CHOICE, &kind, 0, 0, "png|ppm", "write this format", NULL },
 	{ 's', "size", CMD_SIZE, &size, 16, 16384, "WxH", "pixels of a panel", NULL },
 	{ 0, "view", CMD_TEXT, &view, 0, 0, "DIR",
 	    "front, back, left, right, top, bottom, iso, quarter, or where the eye stands as x,y,z", NULL },
@@ -38,6 +36,7 @@ static const cmd_opt table[] = {
 	{ 0, "plain", CMD_OFF, &opts.raster.occlusion, 0, 0, NULL, "do not darken hollows", NULL },
 	{ 0, "point-size", CMD_REAL, &opts.raster.point_radius, 0, 1000, "R", "pixels; 0: they cover", NULL },
 	{ 0, "samples", CMD_COUNT, &opts.raster.samples, 1, 8, "N", "N by N samples a pixel", NULL },
+	{ 0, "axes", CMD_FLAG, &opts.axes, 0, 0, NULL, "draw x, y and z in a corner", NULL },
 	{ 0, "sheet", CMD_FLAG, &sheet, 0, 0, NULL, "all frames in one picture", NULL },
 	{ 0, "columns", CMD_COUNT, &opts.columns, 0, 10000, "N", "of the sheet; 0: for 3 by 2", NULL },
 	{ 0, "title", CMD_TEXT, &opts.title, 0, 0, "TEXT", "over the picture", NULL },
@@ -64,14 +63,8 @@ prepare(cmd *c)
 {
 	char *path;
 
-	if (c->operand_count != 1)
-		return mr_fail(&c->ctx, MR_EUSAGE, "one OUT.png is expected, not %zu%s", c->operand_count,
-		    c->operand_count ? ": the stream to read is -i FILE or stdin" : "");
-	if (!mr_png_suits(c->operands[0]))
-		return mr_fail(&c->ctx, MR_EUSAGE, "%s does not end in .png: the stream to read is -i FILE",
-		    c->operands[0]);
-	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
-		return mr_fail(&c->ctx, MR_EUSAGE, "a picture is not written to a terminal");
+	MR_TRY(cmd_output_name(c, "OUT.png", mr_picture_suffix((mr_picture_kind)kind)));
+	piped = !sheet && cmd_given(c, "format") && !strcmp(c->operands[0], "-");
 	MR_TRY(cmd_idle(c, "columns", !sheet, "without --sheet"));
 	MR_TRY(cmd_idle(c, "crease", opts.raster.flat, "with --flat"));
 	MR_TRY(cmd_idle(c, "materials", opts.texture != NULL, "with --texture"));
@@ -88,13 +81,20 @@ prepare(cmd *c)
 	return parse_view(&c->ctx);
 }
 
+static bool
+draws_each_frame(const cmd *c)
+{
+	return piped || mr_outname_varies(c->operands[0]);
+}
+
 static mr_status
 write_picture(cmd *c, const mr_shown *frame, const mr_image *image)
 {
-	char *path;
+	char *path = c->operands[0];
 
-	MR_TRY(mr_outname_once(&c->ctx, &given, c->operands[0], frame->name, frame->number, &path));
-	return mr_png_write(&c->ctx, path, image);
+	if (!piped)
+		MR_TRY(mr_outname_once(&c->ctx, &given, c->operands[0], frame->name, frame->number, &path));
+	return mr_picture_write(&c->ctx, path, (mr_picture_kind)kind, image);
 }
 
 /* Draws the frames that were collected, one picture each, and forgets them. */
@@ -106,10 +106,10 @@ write_frames(cmd *c)
 
 	if (gallery.frames == 0)
 		return MR_OK;
-	if (written + gallery.frames > 1 && !mr_outname_varies(c->operands[0]))
+	if (written + gallery.frames > 1 && !draws_each_frame(c))
 		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "%s is one picture, of several frames: put %%d or %%s into its name, or use --sheet",
-		    c->operands[0]);
+		    "%s is one picture, of several frames: put %%d or %%s into its name, or use --sheet%s",
+		    c->operands[0], strcmp(c->operands[0], "-") ? "" : " or -f");
 	MR_TRY(mr_shot_aim(&c->ctx, &gallery, 0, gallery.frames, &opts, &shot));
 	for (size_t i = 0; i < gallery.frames; i++) {
 		mr_mark mark = mr_mark_take(&c->ctx);
@@ -127,7 +127,7 @@ write_frames(cmd *c)
 static mr_status
 render_frame(cmd *c, mr_frame *f)
 {
-	if (f->key && !sheet && !opts.same && mr_outname_varies(c->operands[0]))
+	if (f->key && !sheet && !opts.same && draws_each_frame(c))
 		MR_TRY(write_frames(c));
 	return mr_gallery_add_painted(&c->ctx, &c->keep, &gallery, f, &opts);
 }

@@ -3,7 +3,6 @@
 
 #include "formats/bytes.h"
 #include "formats/image.h"
-#include "formats/outname.h"
 #include "formats/paint.h"
 #include "render/gallery.h"
 
@@ -135,12 +134,6 @@ mr_png_write_gray(mr_ctx *ctx, const char *path, const mr_gray *gray)
 		.color = PNG_COLOR_TYPE_GRAY,
 		.text = gray->text,
 		.texts = gray->texts });
-}
-
-bool
-mr_png_suits(const char *path)
-{
-	return mr_outname_suits(path, ".png");
 }
 
 mr_status

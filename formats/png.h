@@ -29,7 +29,4 @@ mr_status mr_png_write_gray(mr_ctx *ctx, const char *path, const mr_gray *gray) 
 /* Reads such a file into the arena.  MR_EFORMAT for pixels of another kind; MR_ERANGE over 32,767 a side. */
 mr_status mr_png_read_gray(mr_ctx *ctx, const char *path, mr_gray *gray) MR_WARN_UNUSED;
 
-/* True where a picture may be written there, by its name. */
-bool mr_png_suits(const char *path);
-
 #endif

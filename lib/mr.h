@@ -841,6 +841,7 @@ typedef struct mr_render_opts {
 	bool parallel;         /* no perspective */
 	bool fit;              /* a camera for each panel */
 	bool labels;           /* name each panel, and show legends */
+	bool axes;             /* x, y and z in a corner of each panel */
 	const char *layers;    /* comma between them; NULL: all with positions */
 	const char *color;     /* column that gives colours; NULL: none */
 	const char *texture;   /* picture, PNG or JPEG, on what has texture coordinates; NULL: none */
@@ -854,8 +855,8 @@ typedef struct mr_render_opts {
 } mr_render_opts;
 
 #define MR_RENDER_DEFAULTS                                                                                   \
-	MR_DEFAULTS(800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, NULL, NULL, NULL, NULL,  \
-	    false, 0, 0, NULL, false, 0, MR_RASTER_DEFAULTS)
+	MR_DEFAULTS(800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, false, NULL, NULL, NULL, \
+	    NULL, false, 0, 0, NULL, false, 0, MR_RASTER_DEFAULTS)
 
 /* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */
 MR_API mr_status mr_render(

@@ -111,18 +111,19 @@ blend(mr_rgb *to, mr_rgb color, double share)
 	to->b = (uint8_t)(to->b + (color.b - to->b) * share + 0.5);
 }
 
+/* As much of each pixel of a box as is within `half` of one of n strokes; a unit of these is `unit` pixels.
+ */
 static void
-draw_letter(mr_image *image, double x, double y, double unit, mr_rgb color, char letter)
+draw_strokes(mr_image *image, const stroke *s, size_t n, const mr_box *box, mr_v3 origin, double unit,
+    double half, mr_rgb color)
 {
-	const double half = 0.5; /* of a stroke's width, in units */
-	stroke s[STROKES];
-	size_t n = strokes_of(mr_glyph(letter), s);
-	size_t left = clip(x - unit, image->width), right = clip(x + 6 * unit, image->width);
-	size_t bottom = clip(y + 10 * unit, image->height);
+	size_t left = clip(box->min.x, image->width), right = clip(box->max.x, image->width);
+	size_t bottom = clip(box->max.y, image->height);
 
-	for (size_t j = clip(y - unit, image->height); j < bottom; j++) {
+	for (size_t j = clip(box->min.y, image->height); j < bottom; j++) {
 		for (size_t i = left; i < right; i++) {
-			double u = ((double)i + 0.5 - x) / unit - 0.5, v = ((double)j + 0.5 - y) / unit - 0.5;
+			double u = ((double)i + 0.5 - origin.x) / unit,
+			       v = ((double)j + 0.5 - origin.y) / unit;
 			double d = INFINITY, share;
 			for (size_t k = 0; k < n; k++)
 				d = fmin(d, distance_to(&s[k], u, v));
@@ -131,6 +132,27 @@ draw_letter(mr_image *image, double x, double y, double unit, mr_rgb color, char
 				blend(&image->pixel[j * image->width + i], color, fmin(share, 1));
 		}
 	}
+}
+
+static void
+draw_letter(mr_image *image, double x, double y, double unit, mr_rgb color, char letter)
+{
+	stroke s[STROKES];
+	size_t n = strokes_of(mr_glyph(letter), s);
+	mr_box box = { mr_vec(x - unit, y - unit, 0), mr_vec(x + 6 * unit, y + 10 * unit, 0) };
+
+	draw_strokes(image, s, n, &box, mr_vec(x + unit / 2, y + unit / 2, 0), unit, 0.5, color);
+}
+
+void
+mr_image_line(mr_image *image, const double from[2], const double to[2], double width, mr_rgb color)
+{
+	stroke s = { from[0], from[1], to[0], to[1] };
+	double more = width / 2 + 1;
+	mr_box box = { mr_vec(fmin(s.x0, s.x1) - more, fmin(s.y0, s.y1) - more, 0),
+		mr_vec(fmax(s.x0, s.x1) + more, fmax(s.y0, s.y1) + more, 0) };
+
+	draw_strokes(image, &s, 1, &box, mr_vec(0, 0, 0), 1, width / 2, color);
 }
 
 void

@@ -2,6 +2,7 @@
 #include "render/gallery.h"
 
 #include "mesh/layers.h"
+#include "render/axes.h"
 
 static const mr_rgb PAPER = { 252, 252, 250 }, INK = { 58, 60, 66 }, PALE = { 140, 142, 148 };
 
@@ -253,6 +254,8 @@ draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool
 		MR_TRY(aim(ctx, g, i, 1, o, &own));
 	MR_TRY(color_subject(ctx, shot, p, &subject));
 	MR_TRY(mr_raster(ctx, &subject, &own, &o->raster, image));
+	if (o->axes)
+		mr_axes_draw(image, &own, text_unit(o), (double)o->height - label_height(o));
 	if (o->labels)
 		draw_label(image, shot, p, several, o);
 	return MR_OK;
@@ -287,8 +290,8 @@ draw_title(mr_image *image, const mr_render_opts *o)
 }
 
 mr_status
-mr_shot_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, const mr_render_opts *o,
-    mr_image *image)
+mr_shot_draw(
+    mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, const mr_render_opts *o, mr_image *image)
 {
 	const mr_shown *f = &g->frame[i];
 	mr_image r;
