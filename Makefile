@@ -73,7 +73,8 @@ $(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options p
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-$(BUILD)/bin/mr-view: $(BUILD)/page/page.o
+# Alone it may start a program: cmd/open.c.
+$(BUILD)/bin/mr-view: $(BUILD)/page/page.o $(BUILD)/cmd/open.c.o
 
 $(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
 	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<

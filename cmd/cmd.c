@@ -869,6 +869,8 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	if (tool->finish)
 		try(&c, tool->finish(&c));
 	close_outputs(&c);
+	if (tool->after)
+		try(&c, tool->after(&c));
 	code = account(&c);
 	mr_cache_delete(c.cache);
 	mr_writer_free(state.writer);

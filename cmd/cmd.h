@@ -49,6 +49,9 @@ typedef struct cmd_tool {
 	/* After the last frame; may be NULL. */
 	mr_status (*finish)(cmd *c);
 
+	/* After that, when the outputs are whole and have their names; may be NULL. */
+	mr_status (*after)(cmd *c);
+
 	bool sink;         /* writes no stream; with operands of its own it reads -i FILE or stdin */
 	bool names_output; /* a sink that names its output by an operand: it has no -o */
 	bool reads_rest;   /* the operands behind that one are the streams to read */

@@ -1,15 +1,15 @@
 /* mr-view -- all frames as a page for browsers.  See man/mr-view.1. */
 #include "cmd.h"
-#include "formats/outname.h"
 #include "formats/page.h"
-
-#include <unistd.h>
+#include "open.h"
 
 extern const char mr_page_html[]; /* formats/page, in one text */
 
 static mr_page page;
+static bool opens;
 
 static const cmd_opt table[] = {
+	{ 0, "open", CMD_FLAG, &opens, 0, 0, NULL, "show the page by xdg-open", NULL },
 	{ 0, "intersections", CMD_FLAG, &page.intersections, 0, 0, NULL,
 	    "look for faces that intersect, to mark them", NULL },
 	{ 0 },
@@ -25,15 +25,8 @@ static const cmd_field figures[] = {
 static mr_status
 prepare(cmd *c)
 {
-	if (c->operand_count != 1)
-		return mr_fail(&c->ctx, MR_EUSAGE, "one PAGE.html is expected, not %zu%s", c->operand_count,
-		    c->operand_count ? ": the stream to read is -i FILE or stdin" : "");
-	if (!mr_outname_suits(c->operands[0], ".html"))
-		return mr_fail(&c->ctx, MR_EUSAGE, "%s does not end in .html: the stream to read is -i FILE",
-		    c->operands[0]);
-	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
-		return mr_fail(&c->ctx, MR_EUSAGE, "a page is not written to a terminal");
-	return MR_OK;
+	MR_TRY(cmd_output_name(c, "PAGE.html", ".html"));
+	return cmd_idle(c, "open", !strcmp(c->operands[0], "-"), "on standard output");
 }
 
 static mr_status
@@ -41,6 +34,7 @@ view_frame(cmd *c, mr_frame *f)
 {
 	mr_page_result result;
 
+	page.from = c->file;
 	MR_TRY(mr_page_add(&c->ctx, &page, f, c->layer, &result));
 	cmd_figures(c, figures, &result);
 	return MR_OK;
@@ -59,16 +53,24 @@ finish(cmd *c)
 	return MR_OK;
 }
 
+static mr_status
+after(cmd *c)
+{
+	return opens ? open_file(&c->ctx, c->operands[0]) : MR_OK;
+}
+
 int
 main(int argc, char **argv)
 {
 	return cmd_main(argc, argv,
 	    &(cmd_tool){ .summary = "write all frames as a page for browsers",
-		.operands = "PAGE.html",
+		.operands = "PAGE.html [FILE...]",
 		.options = table,
 		.prepare = prepare,
 		.frame = view_frame,
 		.finish = finish,
+		.after = after,
 		.sink = true,
-		.names_output = true });
+		.names_output = true,
+		.reads_rest = true });
 }

@@ -5,6 +5,7 @@
 #include "edit/detail.h"
 #include "edit/handles.h"
 #include "formats/bytes.h"
+#include "formats/formats.h"
 #include "formats/page_displaced.h"
 #include "formats/page_steps.h"
 #include "space/self_intersect.h"
@@ -401,9 +402,22 @@ put_all_crossings(mr_ctx *ctx, mr_frame *from, const bool *shown, const mr_page_
 	return put_crossings(ctx, "displacement", &m, to);
 }
 
-/* How columns are stored is told in a text of no layer, `page`. */
+/* Which file a frame is from, by its name without folder and suffix. */
 static mr_status
-take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, bool intersections, const mr_page_displaced *d,
+tell_file(mr_ctx *ctx, const char *path, mr_text *notes)
+{
+	const char *stem = path ? mr_format_stem(ctx, path) : NULL;
+
+	if (path && !stem)
+		return MR_EMEM;
+	if (stem)
+		mr_text_add(notes, "file %s\n", stem);
+	return MR_OK;
+}
+
+/* How columns are stored, and the file, are told in a text of no layer, `page`. */
+static mr_status
+take_frame(mr_ctx *ctx, mr_frame *from, const mr_page *page, const char *layers, const mr_page_displaced *d,
     mr_frame *to, mr_page_result *r)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
@@ -419,8 +433,9 @@ take_frame(mr_ctx *ctx, mr_frame *from, const char *layers, bool intersections, 
 		r->left_out += !shown[i];
 	}
 	r->layers += d->there;
+	MR_TRY(tell_file(ctx, page->from, &notes));
 	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
-	if (intersections)
+	if (page->intersections)
 		MR_TRY(put_all_crossings(ctx, from, shown, d, to));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
@@ -482,7 +497,7 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	MR_TRY(check_layers(ctx, frame, layers, &displaced));
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
-	MR_TRY(take_frame(ctx, frame, layers, page->intersections, &displaced, &shown, result));
+	MR_TRY(take_frame(ctx, frame, page, layers, &displaced, &shown, result));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(send_frame(ctx, page, &shown));
 	page->frames++;

@@ -14,6 +14,7 @@ typedef struct mr_page {
 	FILE *file; /* without a name: the stream, until the page is written */
 	mr_writer *writer;
 	size_t frames;
+	const char *from; /* the caller's to set: the file that frames come from now; NULL: none to be told */
 } mr_page;
 
 /* What was taken of a frame. */

@@ -1,5 +1,6 @@
 /* keys.js -- the keyboard: each key does what a control of the page does. */
 import { paintKey } from "./paint_side.js";
+import { stepModel } from "./strip.js";
 
 const $ = (id) => document.getElementById(id);
 
@@ -30,6 +31,7 @@ const KEYS = {
 	r: () => $("scale-on").click(),
 	v: () => cycle($("view")),
 	f: () => $("fit").click(),
+	n: (shift) => stepModel(shift ? -1 : 1),
 	m: () => $("move").click(),
 	t: () => $("turn").click(),
 	x: () => $("scale").click(),
@@ -77,7 +79,7 @@ export function listen(forget, choose, painter) {
 			return true;
 		const does = key === "Escape" ? forget : KEYS[key];
 		if (does)
-			does();
+			does(event.shiftKey);
 		return Boolean(does);
 	};
 

@@ -7,6 +7,7 @@ import { addLevels } from "./levels.js";
 import { showRuler } from "./ruler.js";
 import { canDraw } from "./stage.js";
 import { parseStream } from "./stream.js";
+import { Strip } from "./strip.js";
 
 const CLICK = 6; /* pixels that a click may move */
 const $ = (id) => document.getElementById(id);
@@ -75,7 +76,11 @@ async function begin() {
 	frames.forEach(addLevels);
 	$("side").hidden = false;
 	const app = window.mrView = new App(frames); /* for the console, and the tests */
-	const film = new Film(frames.length, (frame) => app.change({ frame }).catch(fail));
+	const film = new Film(frames.length, (frame) => {
+		strip.mark(frame);
+		return app.change({ frame }).catch(fail);
+	});
+	const strip = new Strip(app, (frame) => film.go(frame));
 	await film.turn(0);
 	connect(app);
 }

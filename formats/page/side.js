@@ -1,5 +1,6 @@
 /* side.js -- the side of the page: what is in the frame, switches for it, the legend of the colours. */
 import { kindColor, mapOf, regionColor, regionName } from "./colors.js";
+import { titleOf } from "./stream.js";
 import { count, element } from "./text.js";
 
 const MOST = 24; /* kinds that a legend lists */
@@ -85,7 +86,7 @@ export function showLegend(legend) {
 
 export function showName(frame, history) {
 	$("name").textContent = "";
-	$("name").append(element("bdi", frame.name));
+	$("name").append(element("bdi", titleOf(frame)));
 	document.title = $("name").textContent;
 	$("past").hidden = history.length === 0;
 	$("history").replaceChildren(...history.map((line) => element("div", line)));

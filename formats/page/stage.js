@@ -27,6 +27,16 @@ function columnsFor(n, width, height) {
 	return best;
 }
 
+/* Light that comes with the camera. */
+export function lightUp(scene, camera) {
+	const lamp = new THREE.DirectionalLight(0xffffff, 0.56), sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.46);
+
+	lamp.position.set(-0.3, 0.5, 0.9);
+	camera.add(lamp);
+	camera.add(lamp.target);
+	scene.add(sky, camera);
+}
+
 export class Stage {
 	/* smooth: whether edges are, which costs four times the pixels. */
 	constructor(canvas, labels, smooth) {
@@ -37,7 +47,7 @@ export class Stage {
 		this.renderer.autoClear = false;
 		this.scene = new THREE.Scene();
 		this.camera = new THREE.PerspectiveCamera(ANGLE, 1, 1, 10);
-		this.light();
+		lightUp(this.scene, this.camera);
 		this.gizmo = new Gizmo(this);
 		this.up("y");
 		this.layers = []; /* [name, drawn], those to be seen */
@@ -46,15 +56,6 @@ export class Stage {
 		this.radius = 1;
 		this.drawn = () => {}; /* what is to be done after each picture */
 		new ResizeObserver(() => this.resize()).observe(canvas);
-	}
-
-	light() {
-		const lamp = new THREE.DirectionalLight(0xffffff, 0.56), sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.46);
-
-		lamp.position.set(-0.3, 0.5, 0.9);
-		this.camera.add(lamp);
-		this.camera.add(lamp.target);
-		this.scene.add(sky, this.camera);
 	}
 
 	/* Which axis is upwards. */

@@ -57,11 +57,13 @@ function drop(frame, layer, name) {
 			frame.columns.delete(key);
 }
 
-/* What the page's text says of how columns are stored: equal ones once, others as sums of steps; and which layer is computed. */
+/* What the page's text says: the file; how columns are stored, equal ones once, others as sums of steps; which layer is computed. */
 async function understand(frame) {
 	for (const line of await linesOf(frame, "", "page")) {
 		const [how, layer, name, ...more] = line.split(" ");
-		if (how === "same")
+		if (how === "file")
+			frame.file = line.slice(5);
+		else if (how === "same")
 			frame.columns.set(keyOf(layer, name), columnOf(frame, ...more).called(layer, name));
 		else if (how === "surface")
 			frame.displaced = { layer, level: Number(name), most: Number(more[0]) };
@@ -100,6 +102,11 @@ export function ownRegion(frame, layer) {
 	const column = columnOf(frame, layer, "region");
 
 	return column && "origin" in column ? column.origin : column;
+}
+
+/* What a frame is called: by its file too, where that has another name. */
+export function titleOf(frame) {
+	return frame.file && frame.file !== frame.name ? frame.file + ": " + frame.name : frame.name;
 }
 
 /* A text column's lines; none where there is no such column. */
