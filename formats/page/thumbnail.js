@@ -59,7 +59,7 @@ export class Thumbnails {
 			return;
 		const position = centred(values, centreOf(box)), geometry = geometryOf(position, triangles);
 		const model = triangles ? new THREE.Mesh(geometry, this.surface) : new THREE.Points(geometry, this.points);
-		this.aim(radiusOf(position));
+		this.aim(1.05 * radiusOf(position));
 		this.scene.add(model);
 		this.render();
 		this.scene.remove(model);
