@@ -12,10 +12,11 @@
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
 #	make fuzz       the readers and the tools' work under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
-#	make demo       the main job on real models: pictures and tables, in demo/
+#	make demo       the main job on real models: pictures and tables, in demo/, and a page of all, demo/index.html
 #	make bench      speed and memory beside the peers'
 #	make table1     the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
 #	make readme     the generated parts of README.md
+#	make picture    examples/page.png, the picture of the page in README.md, by Chromium, which it installs
 #	make install    tools, pages and library to $(DESTDIR)$(PREFIX)
 #	make uninstall  takes them away again
 #	make clean      removes build/
@@ -60,7 +61,7 @@ PAGE    := $(wildcard formats/page/*)
 THREE   ?= /usr/share/javascript/three
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
 NEEDS   := build $(if $(filter setup check check-long check-page coverage matrix bless units,$(MAKECMDGOALS)),check) \
-	$(if $(filter check-page,$(MAKECMDGOALS)),page) $(filter lint bench,$(MAKECMDGOALS))
+	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) $(filter lint bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -188,14 +189,17 @@ bless: $(TOOLS)
 	@$(RUN) tests/run --bless $(T)
 
 # What is there already is done again only by newer tools or scripts.
-demo: demo/figures.txt demo/clouds.txt
-	@echo; echo 'Pictures: demo/sheet.png, the edits; demo/*-scan.png, the scans; demo/frames/, an animation; demo/textured.png and .glb. Tables: $^'
+demo: demo/figures.txt demo/clouds.txt demo/index.html
+	@echo; echo 'Page: demo/index.html, to open in a browser: drag the handles. Pictures: demo/sheet.png, the edits; demo/*-scan.png, the scans; demo/frames/, an animation; demo/textured.png and .glb. Tables: $(filter %.txt,$^)'
 
 demo/figures.txt: $(TOOLS) examples/demo.sh examples/models.sh
 	@$(RUN) examples/demo.sh demo
 
 demo/clouds.txt: $(TOOLS) examples/reconstruct.sh examples/models.sh | demo/figures.txt
 	@$(RUN) examples/reconstruct.sh demo
+
+demo/index.html: $(BUILD)/bin/mr-view demo/figures.txt demo/clouds.txt
+	@$(RUN) mr-view -q $@ demo/edits/*.mrs demo/scans/*.mrs
 
 bench: $(TOOLS) $(BENCHES) $(PEERS)
 	@$(RUN) tests/bench/run $(T)
@@ -205,6 +209,9 @@ table1: $(TOOLS) $(BUILD)/bench/plot
 
 readme:
 	@tests/readme >$(BUILD)/README.md && cat $(BUILD)/README.md >README.md
+
+picture: demo/index.html
+	@PYTHONDONTWRITEBYTECODE=1 python3 tests/page/picture.py $< examples/page.png
 
 LIBDIR := $(PREFIX)/lib
 define PC
@@ -244,5 +251,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long check-page coverage lint matrix fuzz bless demo bench table1 readme install uninstall clean
+.PHONY: all units help setup check check-long check-page coverage lint matrix fuzz bless demo bench table1 readme picture install uninstall clean
 .SECONDARY:

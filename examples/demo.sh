@@ -2,6 +2,7 @@
 # demo.sh -- the main job on real models: bend, twist, pull and scale them with their detail kept; usage: demo.sh [DIR]
 #
 # Leaves in DIR (default demo): NAME.png, a row of pictures for each edit, NAME.obj, its result, sheet.png, all of them,
+# edits/NAME.mrs, the model as a stream whose handles can be dragged in a page, edits/NAME.posed.mrs, the result as one,
 # frames/1.png to 61.png, an animation, textured.png and textured.glb, a creature that wears a picture, and figures.txt,
 # the tables that are printed.
 # The models are those of Debian's package libcgal-demo, which is fetched, and five of them unpacked into DIR/cache, not
@@ -9,8 +10,8 @@
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 dir=${1:-demo}
-rm -rf "$dir/work"
-mkdir -p "$dir/cache" "$dir/frames" "$dir/work/parts"
+rm -rf "$dir/work" "$dir/edits"
+mkdir -p "$dir/cache" "$dir/frames" "$dir/edits" "$dir/work/parts"
 cd "$dir"
 panel=${MR_SMALL:+120x100}
 panel=${panel:-420x400}
@@ -102,6 +103,8 @@ edit() { # name, model, view, smoothing, regions, pose, another pose
 	    mr-export "$name.obj" --stats $w.9
 	pictures "$3"
 	figures "$2"
+	mr-solve --basis $w.rest.mrs | mr-encode | mr-cat -z -o "edits/$name.mrs"
+	mr-select --reset $w.result.mrs | mr-cat -z -o "edits/$name.posed.mrs"
 }
 
 touch work/remeshing

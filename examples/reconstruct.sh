@@ -2,13 +2,14 @@
 # reconstruct.sh -- scans become displaced subdivision surfaces, and are edited as such; usage: reconstruct.sh [DIR]
 #
 # Leaves in DIR (default demo): NAME-scan.png for each scan, the cloud, its wrap, the control mesh, the domain surface, the
-# result, the result edited, and five levels of detail; NAME.ply, the result; and clouds.txt, the table that is printed.
+# result, the result edited, and five levels of detail; NAME.ply, the result; scans/NAME.mrs, the same as a stream, with the cloud
+# and the control mesh; and clouds.txt, the table that is printed.
 # Of the models of demo.sh; where these cannot be had, of points of a creature.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)
 dir=${1:-demo}
-rm -rf "$dir/work"
-mkdir -p "$dir/work"
+rm -rf "$dir/work" "$dir/scans"
+mkdir -p "$dir/scans" "$dir/work"
 cd "$dir"
 panel=${MR_SMALL:+120x100}
 panel=${panel:-420x400}
@@ -62,6 +63,7 @@ scan() { # name, view, regions, pose
 	mr-select $3 <$w.displaced.mrs | mr-pose $4 | mr-solve | mr-decode >$w.edited.mrs
 	pictures "$1" "$2"
 	row "$1"
+	mr-cat -z -o "scans/$1.mrs" $w.result.mrs
 }
 
 if [ -n "$real" ]; then
