@@ -4,7 +4,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <spawn.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -30,17 +29,28 @@ run(char *const argv[], int *state)
 	return failed;
 }
 
+/* From the root on, so that it is neither an option nor an address. */
+static char *
+whole_path(mr_ctx *ctx, const char *path)
+{
+	char here[4096] = "";
+
+	if (*path == '/' || !getcwd(here, sizeof here))
+		return mr_format(ctx, "%s", path);
+	return mr_format(ctx, "%s/%s", here, path);
+}
+
 mr_status
 open_file(mr_ctx *ctx, const char *path)
 {
-	char program[] = "xdg-open",
-	     *whole = realpath(path, NULL); /* so that it is neither an option nor an address */
+	char program[] = "xdg-open", *whole = whole_path(ctx, path);
 	int state = 0, failed;
 
 	if (!whole)
-		return mr_fail(ctx, MR_EIO, "--open: %s: %s", path, strerror(errno));
+		return MR_EMEM;
+	if (*whole != '/')
+		return mr_fail(ctx, MR_EIO, "--open: no path of the folder here; the page is %s", path);
 	failed = run((char *[]){ program, whole, NULL }, &state);
-	free(whole);
 	if (failed)
 		return mr_fail(
 		    ctx, MR_EIO, "--open: %s: %s; the page is %s", program, strerror(failed), path);
