@@ -211,6 +211,26 @@ sphere_from_noise(void **state)
 	assert_true(mean < 0.5 * triangle && most < triangle_most);
 }
 
+/* What is cross-validated: the more noise, the fairer, and the mean distance grows less than the noise. */
+static void
+noise_makes_fair(void **state)
+{
+	mr_domain d = domain_of(MR_SPHERE, 42, 4, false);
+	double *height = MR_NEW(&ctx, d.m.nv, double), mean[2], most;
+	mr_sample_opts o = MR_SAMPLE_DEFAULTS;
+	mr_sample_result r[2];
+
+	(void)state;
+	o.method = MR_SAMPLE_ROBUST;
+	for (int i = 0; i < 2; i++) {
+		mr_v3 *p = sphere_points(8000, i ? 0.02 : 0.002);
+		assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height, &r[i]), MR_OK);
+		sphere_errors(&d, height, &mean[i], &most);
+	}
+	assert_true(r[1].fairness > 4 * r[0].fairness);
+	assert_true(mean[1] < 8 * mean[0]);
+}
+
 static void
 torus_from_mesh(void **state)
 {
@@ -429,6 +449,7 @@ main(void)
 		cmocka_unit_test(smallest_of_several),
 		cmocka_unit_test_setup_teardown(sphere_from_points, setup, teardown),
 		cmocka_unit_test_setup_teardown(sphere_from_noise, setup, teardown),
+		cmocka_unit_test_setup_teardown(noise_makes_fair, setup, teardown),
 		cmocka_unit_test_setup_teardown(torus_from_mesh, setup, teardown),
 		cmocka_unit_test_setup_teardown(fills_smoothly, setup, teardown),
 		cmocka_unit_test_setup_teardown(drops_spikes, setup, teardown),
