@@ -14,7 +14,7 @@ def frame(name):
 		rows = n if columns else 3
 		yield record(layer, b"position", (b"v", b"d", 3), rows, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes(24 * (rows - 3)))
 		for i in range(columns):
-			yield record(layer, b"noise%d" % i, (b"v", b"b", 4), rows, noise)
+			yield record(layer, b"noise%d" % i, (b"v", b"b", 4), rows, noise[i:] + noise[:i])
 	yield record(b"", b"ENDFRAME")
 sys.stdout.buffer.write(record(b"mrmesh1\n", b"START"))
 for i in range(int(sys.argv[1])):

@@ -372,6 +372,24 @@ def pictures(before, after):
     must(os.path.getsize("map.mtl"), "an empty map.mtl")
 
 
+def page_column(frame, layer, name):
+    """A column of the stream in a page, which may be the copy of another, or sums of steps (mr-view(1), The file)."""
+    values = frame[layer][name] if layer in frame and name in frame[layer] else None
+    for how, *words in map(str.split, frame[""]["page"].splitlines() if "page" in frame[""] else ()):
+        if words[:2] != [layer, name]:
+            continue
+        if how == "same":
+            return page_column(frame, *words[2:])
+        must(how == "steps" and values.dtype == np.uint32, f"{layer}.{name} is stored as {how}")
+        steps = np.diff(values, axis=0, prepend=np.zeros_like(values[:1]))
+        values = np.cumsum(steps >> 1 ^ (0 - (steps & 1)), axis=0, dtype=np.uint32)
+        if words[2:]:
+            step, *origin = map(float, words[2:])
+            values = values.view(np.int32) * step + np.array(origin)[:values.shape[-1]]
+    must(values is not None, f"{layer}.{name} is not in the page")
+    return values
+
+
 def page_file(before, path):
     """The stream in the page has the frames, their positions to 24 bits of the extent."""
     blocks = re.findall('<script type="text/plain" class="stream">([^<]*)</script>', open(path, encoding="utf-8").read())
@@ -381,9 +399,9 @@ def page_file(before, path):
     must(len(before) == len(after), f"{len(after)} frames of {len(before)}")
     for old, new in zip(before, after):
         for layer in (layer for layer in old if "position" in old[layer]):
-            a, b = old[layer]["position"], new[layer]["position"]
+            a, b = old[layer]["position"], page_column(new, layer, "position")
             must(a.shape == b.shape and np.abs(a - b).max() <= 2.0 ** -24 * np.ptp(a, axis=0).max(), f"{layer}: other positions")
-            must("triangles" not in old[layer] or np.array_equal(old[layer]["triangles"], new[layer]["triangles"]), f"{layer}: other triangles")
+            must("triangles" not in old[layer] or np.array_equal(old[layer]["triangles"], page_column(new, layer, "triangles")), f"{layer}: other triangles")
 
 
 def info_text(before, path):
