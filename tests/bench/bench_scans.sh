@@ -129,7 +129,7 @@ awk -F '\t' -v kinds="$rows" '
 	}
 	{
 		right = figure("right") + 0
-		thick = figure("thin") >= 2
+		thick = figure("thin") + 0 >= 2
 		printf "%-30s %-15s %s %4s %-12s %-24s %5.1f %-12s %-12s %-12s %6d %6d %6d %6.2f %6.2f %7.2f%s\n", $1, $2, $3, $4, $5,
 		    figure("euler_truth") " " figure("components_truth") " " figure("loops_truth") ", " figure("euler") " " \
 		    figure("components") " " figure("loops"), figure("thin"),
