@@ -102,8 +102,8 @@ awk -F '\t' '
 		count[$2] += wrecked
 		silent[$2] += wrecked && $4 == "-"
 		idle[$2] += !wrecked && $4 != "-"
-		astray[$2] += figure("astray") > 0.05
-		left[$2] += figure("parts_left") > 0
+		astray[$2] += figure("astray") + 0 > 0.05
+		left[$2] += figure("parts_left") + 0 > 0
 		touching[$2] += figure("touching")
 		apart[$2] += figure("apart")
 		folds[$2] += figure("folds_more")
