@@ -57,7 +57,7 @@ OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc formats/*.c
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 # What the page of mr-view is made of, and where three.js is.
-PAGE    := $(wildcard formats/page/*)
+PAGE    := $(wildcard formats/page/* formats/page/*/*)
 THREE   ?= /usr/share/javascript/three
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
 NEEDS   := build $(if $(filter setup check check-long check-page coverage matrix bless units,$(MAKECMDGOALS)),check) \

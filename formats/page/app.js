@@ -2,18 +2,18 @@
  * app.js -- the page at work: what the user has chosen, and the stage and side brought to it.  All changes go through
  * change(), and a picture that is overtaken by another change is not waited for.
  */
-import { Drawn } from "./drawn.js";
-import { Flaws } from "./flaws.js";
-import { firstLayer, layersOf, namesOf } from "./layers.js";
-import { setLevel, showLevel } from "./levels.js";
-import { kindOf, kindsOf, paint, rangeOf } from "./paint.js";
+import { Drawn } from "./draw/drawn.js";
+import { Flaws } from "./draw/flaws.js";
+import { firstLayer, layersOf, namesOf } from "./stream/layers.js";
+import { setLevel, showLevel } from "./mesh/levels.js";
+import { kindOf, kindsOf, paint, rangeOf } from "./draw/column_colors.js";
 import { pickAt, rowsOf, tell } from "./picked.js";
-import { Painter } from "./painter.js";
-import { Posing } from "./posing.js";
+import { Painter } from "./paint/painter.js";
+import { Posing } from "./deform/posing.js";
 import { listColors, listLayers, offerShading, showLegend, showName } from "./side.js";
-import { Stage } from "./stage.js";
-import { columnOf, linesOf } from "./stream.js";
-import { boxOf, centred, centreOf } from "./surface.js";
+import { Stage } from "./draw/stage.js";
+import { columnOf, linesOf } from "./stream/stream.js";
+import { boxOf, centred, centreOf } from "./mesh/surface.js";
 
 const $ = (id) => document.getElementById(id);
 const FINE = 400000; /* faces that are about as small as pixels */

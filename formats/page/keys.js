@@ -1,5 +1,5 @@
 /* keys.js -- the keyboard: each key does what a control of the page does. */
-import { paintKey } from "./paint_side.js";
+import { paintKey } from "./paint/paint_side.js";
 import { stepModel } from "./strip.js";
 
 const $ = (id) => document.getElementById(id);

@@ -1,12 +1,12 @@
 /* main.js -- begins: reads the page's data, and connects its controls. */
 import { App } from "./app.js";
-import { takeBytes } from "./data.js";
+import { takeBytes } from "./stream/data.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
-import { addLevels } from "./levels.js";
-import { showRuler } from "./ruler.js";
-import { canDraw } from "./stage.js";
-import { parseStream } from "./stream.js";
+import { addLevels } from "./mesh/levels.js";
+import { showRuler } from "./draw/ruler.js";
+import { canDraw } from "./draw/stage.js";
+import { parseStream } from "./stream/stream.js";
 import { Strip } from "./strip.js";
 
 const CLICK = 6; /* pixels that a click may move */

@@ -1,10 +1,10 @@
 /* picked.js -- the vertex that was clicked: where it is, and what the card says of it. */
-import { namesOf } from "./layers.js";
-import { numberAt } from "./paint.js";
-import { regionName } from "./colors.js";
-import { nearestCorner, nearestFace, nearestPoint } from "./pick.js";
-import { columnOf } from "./stream.js";
-import { element, number, place } from "./text.js";
+import { namesOf } from "./stream/layers.js";
+import { numberAt } from "./draw/column_colors.js";
+import { regionName } from "./draw/colors.js";
+import { nearestCorner, nearestFace, nearestPoint } from "./draw/pick.js";
+import { columnOf } from "./stream/stream.js";
+import { element, number, place } from "./stream/text.js";
 
 const NEAR = 9; /* pixels about a point */
 

@@ -1,7 +1,7 @@
 /* side.js -- the side of the page: what is in the frame, switches for it, the legend of the colours. */
-import { kindColor, mapOf, regionColor, regionName } from "./colors.js";
-import { titleOf } from "./stream.js";
-import { count, element } from "./text.js";
+import { kindColor, mapOf, regionColor, regionName } from "./draw/colors.js";
+import { titleOf } from "./stream/stream.js";
+import { count, element } from "./stream/text.js";
 
 const MOST = 24; /* kinds that a legend lists */
 const $ = (id) => document.getElementById(id);

@@ -2,10 +2,10 @@
  * strip.js -- a small picture of each model of the page: a click shows its first frame.  Pictures are made one by one while
  * the page has nothing else to do, and only those that are in view.
  */
-import { firstLayer, layersOf } from "./layers.js";
-import { titleOf } from "./stream.js";
-import { element } from "./text.js";
-import { Thumbnails } from "./thumbnail.js";
+import { firstLayer, layersOf } from "./stream/layers.js";
+import { titleOf } from "./stream/stream.js";
+import { element } from "./stream/text.js";
+import { Thumbnails } from "./draw/thumbnail.js";
 
 const $ = (id) => document.getElementById(id);
 

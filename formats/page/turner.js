@@ -2,8 +2,8 @@
  * turner.js -- the worker that finds how the base has turned, so that the page need not wait for it: told once what the base is
  * at rest, then where it is, it answers with the normals there, and offsets of detail, turned.
  */
-import { offsetIn, phongNormals } from "./phong.js";
-import { Turns } from "./turns.js";
+import { offsetIn, phongNormals } from "./deform/phong.js";
+import { Turns } from "./deform/turns.js";
 
 let normals, turns, offsets;
 

@@ -26,6 +26,17 @@ for layer in $rooms; do
 done
 check formats "$below|formats/"
 
+# So do the rooms of the page, the modules beside them see all.
+climbs() { # room, pattern of the rooms it may import from
+	bad=$(grep -nE 'from "\.' formats/page/$1/*.js | grep -vE "from \"(\./[a-z_]+|\.\./($2)/[a-z_]+)\.js\"")
+	[ -z "$bad" ] || { echo "formats/page/$1 imports what is above it:"; echo "$bad"; fail=1; }
+}
+climbs stream none
+climbs mesh stream
+climbs draw 'stream|mesh'
+climbs deform 'stream|mesh|draw'
+climbs paint 'stream|mesh|draw'
+
 # Quoted includes name their layer, so that the rule can be seen: no file beside the file, no climbing.
 bad=$(grep -rnE '^[ \t]*#[ \t]*include[ \t]*"' --include='*.[ch]' --include='*.cc' lib formats | grep -vE "\"(${house}[a-z0-9_]+\.(h|inc)|mr\.h)\"")
 [ -z "$bad" ] || { echo "an include that does not name its layer:"; echo "$bad"; fail=1; }

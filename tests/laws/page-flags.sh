@@ -1,5 +1,5 @@
 # The page repeats histories: it knows all tools that can stand in one, and which of their options have no value.
-python3 - "$TOP/formats/page/recipe.js" "$BUILD/bin" <<'X'
+python3 - "$TOP/formats/page/paint/recipe.js" "$BUILD/bin" <<'X'
 import os, re, subprocess, sys
 said, failed = {}, 0
 block = re.search(r"FLAGS = \{\n(.*?)\n\};", open(sys.argv[1]).read(), re.S).group(1)

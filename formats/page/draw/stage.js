@@ -2,7 +2,7 @@
 import * as THREE from "three/build/three.module.js";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Gizmo } from "./gizmo.js";
-import { element } from "./text.js";
+import { element } from "../stream/text.js";
 
 const ANGLE = 30; /* degrees, of the height of a panel */
 

@@ -3,10 +3,10 @@
  * columns are computed when they are asked for, on the level that is chosen.  The page's text names the layer, and the level
  * that it has at first.
  */
-import { Column } from "./codec.js";
+import { Column } from "../stream/codec.js";
 import { controlOf, predict, refine, subdivide } from "./loop.js";
 import { limitOf } from "./loop_limit.js";
-import { columnOf, keyOf } from "./stream.js";
+import { columnOf, keyOf } from "../stream/stream.js";
 
 const HEIGHTS = "displacement";
 

@@ -1,7 +1,7 @@
 /* gizmo.js -- what a handle is dragged by: the arrows, rings and boxes of three.js, at one place of the stage. */
 import * as THREE from "three/build/three.module.js";
 import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
-import { logarithm, norm, unit } from "./rotation.js";
+import { logarithm, norm, unit } from "../mesh/rotation.js";
 
 const LEAST = 0.01; /* of a scale: less is flat, or inside out, by an accident of the hand */
 const SIZE = 0.6; /* about a sixth of the picture's height to either side */

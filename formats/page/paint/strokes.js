@@ -3,10 +3,10 @@
  * a connected part.  Meanwhile the right button or two fingers turn the model, and so does a stroke that begins beside it.
  */
 import * as THREE from "three/build/three.module.js";
-import { Discs, ball } from "./geodesic.js";
+import { Discs, ball } from "../mesh/geodesic.js";
 import { within } from "./lasso.js";
-import { nearestPoint } from "./pick.js";
-import { Screen } from "./screen.js";
+import { nearestPoint } from "../draw/pick.js";
+import { Screen } from "../draw/screen.js";
 
 const NEAR = 9; /* pixels about a point */
 const REST = 150; /* milliseconds without a move */

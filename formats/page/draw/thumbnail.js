@@ -2,7 +2,7 @@
 import * as THREE from "three/build/three.module.js";
 import { PLAIN } from "./colors.js";
 import { lightUp } from "./stage.js";
-import { boxOf, centred, centreOf } from "./surface.js";
+import { boxOf, centred, centreOf } from "../mesh/surface.js";
 
 const WIDTH = 192, HEIGHT = 144; /* pixels of a picture */
 const SAMPLES = 2; /* a side of a pixel */

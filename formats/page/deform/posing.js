@@ -1,9 +1,9 @@
 /* posing.js -- handles to drag, and the line of commands below them; or how to come by them. */
-import { regionColor, regionName } from "./colors.js";
+import { regionColor, regionName } from "../draw/colors.js";
 import { Deformer, posedBy } from "./deformer.js";
 import { Pose } from "./pose.js";
-import { columnOf, ownRegion } from "./stream.js";
-import { boxOf } from "./surface.js";
+import { columnOf, ownRegion } from "../stream/stream.js";
+import { boxOf } from "../mesh/surface.js";
 
 const $ = (id) => document.getElementById(id);
 const HANDLE = 2; /* the region of handle 0 */

@@ -1,5 +1,5 @@
 /* phong.js -- the normals on which detail stands: lib/mesh/mesh.c, weighted by angle, and the frames of lib/edit/phong.c. */
-import { add, dot, norm, sub, times, unit } from "./rotation.js";
+import { add, dot, norm, sub, times, unit } from "../mesh/rotation.js";
 
 const row = (p, v) => [p[3 * v], p[3 * v + 1], p[3 * v + 2]];
 const cross = (a, b) => [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];

@@ -2,8 +2,8 @@
 import { HANDLE } from "./regions.js";
 import { basisLine, script } from "./recipe.js";
 import { read, write } from "./selection_file.js";
-import { columnOf, linesOf } from "./stream.js";
-import { count } from "./text.js";
+import { columnOf, linesOf } from "../stream/stream.js";
+import { count } from "../stream/text.js";
 
 const LARGEST = 1e8; /* characters of a file */
 const $ = (id) => document.getElementById(id);

@@ -2,7 +2,7 @@
 import * as THREE from "three/build/three.module.js";
 import { PLAIN, regionColor } from "./colors.js";
 import { Slots, sharpen, sharpness } from "./sharp.js";
-import { apart, edgesOf, shade, spacingOf, surfaceOf } from "./surface.js";
+import { apart, edgesOf, shade, spacingOf, surfaceOf } from "../mesh/surface.js";
 
 const POINT_VERTEX = `
 uniform float size, scale, least, most;

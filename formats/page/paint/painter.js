@@ -4,10 +4,10 @@
  */
 import { Regions, FIXED, HANDLE } from "./regions.js";
 import { connectPaint, showPaint } from "./paint_side.js";
-import { columnOf, ownRegion } from "./stream.js";
+import { columnOf, ownRegion } from "../stream/stream.js";
 import { Strokes } from "./strokes.js";
 import { TakeAway } from "./takeaway.js";
-import { partOf } from "./topology.js";
+import { partOf } from "../mesh/topology.js";
 
 const LAYERS = ["mesh", "control", "points"]; /* those of mr-select, in its order */
 const LEAST = 0.002, MOST = 0.5; /* radius of the brush, of the diagonal */

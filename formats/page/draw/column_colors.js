@@ -1,4 +1,4 @@
-/* paint.js -- a column's values as colours, and what a legend says of them. */
+/* column_colors.js -- a column's values as colours, and what a legend says of them. */
 import { kindColor, numbersToColors, regionColor } from "./colors.js";
 
 /* How a column colours, as in mr-render: bytes are colours, whole numbers kinds, the rest numbers. */

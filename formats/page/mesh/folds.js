@@ -2,6 +2,8 @@
  * folds.js -- folded edges: those between two faces whose normals are more than 170 degrees apart, as lib/mesh/fold.h has them
  * and mr-info counts them.
  */
+import { faceNormals } from "./surface.js";
+
 const FOLD = Math.cos(170 * Math.PI / 180);
 
 const endOf = (t, h) => t[h % 3 === 2 ? h - 2 : h + 1];
@@ -47,14 +49,7 @@ export function pairsOf(vertices, t) {
 export function foldsOf(pairs, p, t) {
 	const normal = new Float64Array(t.length), folds = [];
 
-	for (let k = 0; k < t.length; k += 3) {
-		const a = 3 * t[k], b = 3 * t[k + 1], c = 3 * t[k + 2];
-		const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];
-		const vx = p[c] - p[a], vy = p[c + 1] - p[a + 1], vz = p[c + 2] - p[a + 2];
-		normal[k] = uy * vz - uz * vy;
-		normal[k + 1] = uz * vx - ux * vz;
-		normal[k + 2] = ux * vy - uy * vx;
-	}
+	faceNormals(p, t, normal);
 	for (let i = 0; i < pairs.length; i += 2) {
 		const h = pairs[i], g = pairs[i + 1], a = h - h % 3, b = g - g % 3, side = t[h] === t[g] ? -1 : 1;
 		const dot = side * (normal[a] * normal[b] + normal[a + 1] * normal[b + 1] + normal[a + 2] * normal[b + 2]);

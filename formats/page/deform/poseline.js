@@ -2,7 +2,7 @@
  * poseline.js -- poses as the line of commands that makes them, `mr-pose ... | mr-decode`, and such a line as poses.  A pose is
  * { handle, translate, rotate: axis and degrees, scale, center: or null, for the middle of the handle as posed so far }.
  */
-import { plain } from "./text.js";
+import { plain } from "../stream/text.js";
 
 const OPTIONS = { H: "handle", t: "translate", r: "rotate", s: "scale", c: "center", F: "frames", S: "script", o: "output", q: "quiet", v: "verbose" };
 const FLAGS = new Set(["quiet", "verbose", "no-check"]);

@@ -46,7 +46,7 @@ function unit(v, i) {
 }
 
 /* Twice the area times the normal of each face. */
-function faceNormals(p, t, out) {
+export function faceNormals(p, t, out) {
 	for (let f = 0; f < t.length; f += 3) {
 		const a = 3 * t[f], b = 3 * t[f + 1], c = 3 * t[f + 2];
 		const ux = p[b] - p[a], uy = p[b + 1] - p[a + 1], uz = p[b + 2] - p[a + 2];

@@ -4,10 +4,10 @@
  */
 import * as THREE from "three/build/three.module.js";
 import { pointMaterial } from "./drawn.js";
-import { endsOf, foldsOf, pairsOf } from "./folds.js";
-import { CROSSING } from "./layers.js";
-import { columnOf } from "./stream.js";
-import { count } from "./text.js";
+import { endsOf, foldsOf, pairsOf } from "../mesh/folds.js";
+import { CROSSING } from "../stream/layers.js";
+import { columnOf } from "../stream/stream.js";
+import { count } from "../stream/text.js";
 
 const RED = [226, 38, 44], VIOLET = [150, 70, 226];
 const $ = (id) => document.getElementById(id);

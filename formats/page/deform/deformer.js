@@ -3,9 +3,9 @@
  * with the normals that are known; the worker then tells how these have turned, and the detail is put on once more: what is
  * shown when nothing moves any more is what mr-decode makes.
  */
-import { textOf } from "./data.js";
+import { textOf } from "../stream/data.js";
 import { Base, Detail } from "./decode.js";
-import { columnOf } from "./stream.js";
+import { columnOf } from "../stream/stream.js";
 
 /* The columns that it is made of; null where the frame has not all of them. */
 export function posedBy(frame) {

@@ -2,8 +2,8 @@
  * turns.js -- how a surface has turned around each of its vertices: lib/edit/turns.c, the rotations of Sorkine and Alexa
  * 2007 of faces with their normals, smoothed.  Each is found from the one before, by Newton's method.
  */
-import { matrixOf, nearestQuaternion } from "./rotation.js";
-import { neighboursOf } from "./neighbours.js";
+import { matrixOf, nearestQuaternion } from "../mesh/rotation.js";
+import { neighboursOf } from "../mesh/neighbours.js";
 
 const PASSES = 2;
 const NEAR = 1e-12; /* square of the last step, in radians: the next would be its square */

@@ -1,5 +1,5 @@
 /* regions.js -- the region of each vertex as it is painted: counts, changes that can be taken back, changes along edges. */
-import { around, facesAt } from "./topology.js";
+import { around, facesAt } from "../mesh/topology.js";
 
 export const FIXED = 0, FREE = 1, HANDLE = 2;
 const MOST = 8e6; /* vertices that all changes together may hold to be taken back */

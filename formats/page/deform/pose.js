@@ -2,7 +2,7 @@
  * pose.js -- where handles go: poses in the order in which mr-pose applies them, lib/edit/handles.c, and the steps back and
  * forth between them.
  */
-import { IDENTITY, add, apply, compose, exponential, linear, logarithm, norm, sub, times, unit } from "./rotation.js";
+import { IDENTITY, add, apply, compose, exponential, linear, logarithm, norm, sub, times, unit } from "../mesh/rotation.js";
 import { lineOf, parseLine, rest } from "./poseline.js";
 
 /* About which axis a pose turns, by how many radians. */

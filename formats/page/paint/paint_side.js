@@ -1,7 +1,7 @@
 /* paint_side.js -- the part of the side for painting: tools, regions with the numbers of their vertices, what can be done. */
-import { regionColor, regionName } from "./colors.js";
+import { regionColor, regionName } from "../draw/colors.js";
 import { HANDLE } from "./regions.js";
-import { count } from "./text.js";
+import { count } from "../stream/text.js";
 
 const HANDLES = 9;
 const MOST = 24; /* regions that are listed */
