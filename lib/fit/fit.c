@@ -86,16 +86,17 @@ put_distances(const mr_fit_gap *before, const mr_fit_gap *after, mr_fit_result *
 	r->distance_max_after = after->max;
 }
 
-/* Where the result is poor: it folds, or the points are as far as the control mesh is coarse. */
+/* Where the result is poor: it folds, or the points, less their noise, are as far as the control mesh is
+ * coarse. */
 static void
-warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, const mr_fit_foot *foot, size_t n)
+warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, double noise, const mr_fit_foot *foot, size_t n)
 {
 	size_t folds = count_folds(s);
 	double far = mr_fit_measure(ctx, foot, n).mean;
 
 	if (folds > 0)
 		mr_warn(ctx, "the limit surface has %zu folded edges", folds);
-	if (far > FAR * edge)
+	if (far > FAR * edge + noise)
 		mr_warn(ctx,
 		    "the points are %.3g from the limit surface on the mean, where a control edge is %.3g",
 		    far, edge);
@@ -255,7 +256,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
-	warn(ctx, &s, edge, foot, n);
+	warn(ctx, &s, edge, is_local ? 0 : sampling.noise, foot, n);
 	if (!is_local)
 		MR_TRY(look_at_gaps(ctx, &s, sorted, spacing, sampling.usual, foot, n, &r.gaps));
 	if (result) {

@@ -1,6 +1,6 @@
 # Reconstruct clouds whose surface is known, of every closed model, as somebody would who is new to the tools, and judge what
 # comes out by scan_yardstick.c, which says what the kinds of clouds are: a row each, then how many have the right topology.
-# Warnings are those of all tools from mr-shrinkwrap to mr-decode.
+# Warnings are those of all tools from mr-shrinkwrap to mr-decode but that outliers are left out, which says nothing of the surface.
 # Knobs: MODELS (patterns of names in $DATA/meshes, default all; without that directory, shapes of mr-make), KINDS (of clouds),
 # SEEDS (of each kind but vertices), LIMIT (seconds that the pipe may take), JOBS (clouds at a time), PEERS (cgal, its advancing
 # front; open3d, its Poisson with normals of its own; default both, as far as they are there).  Rows and results are kept in
@@ -24,7 +24,7 @@ timed() { # command line: leaves err, $code, $seconds
 	seconds=$(echo "$(date +%s.%N) $begin" | awk '{ print $1 - $2 }')
 }
 judge() { # name, kind, seed, result: its row, by $code, $seconds and err
-	warned=$(sed -n 's/^mr-\([a-z]*\): .*warning: .*/\1/p' err | uniq | paste -sd , -)
+	warned=$(sed -n -e '/outliers.* left out/d' -e 's/^mr-\([a-z]*\): .*warning: .*/\1/p' err | uniq | paste -sd , -)
 	{
 		printf '%s\t%s\t%s\t%s\t%s\t%s\t' "$1" "$2" "$3" "$code" "${warned:--}" "$seconds"
 		if [ "$code" = 0 ]; then

@@ -26,3 +26,10 @@ ours, theirs = (json.load(open(f)) for f in sys.argv[1:])
 for ours, theirs in (ours['surface_to_points_mean'], theirs['a_to_b']['mean']), (ours['points_to_surface_mean'], theirs['b_to_a']['mean']):
     print('as by mr-compare' if abs(ours - theirs) < 0.03 * theirs else f'{ours} is not {theirs}')
 END
+
+echo 'a ball, fitted to points with noise, which are not held against it, and to a knot'
+mr-make sphere -n 400 | mr-export -f off - | mr-import -l control -o ball.mrs
+for cloud in 'sphere --noise 0.05' knot; do
+	mr-make $cloud --points 20000 -o points.mrs
+	mr-cat --merge ball.mrs points.mrs | mr-fit 2>&1 >/dev/null | sed 's/[0-9.]* from/N from/; s/, where .*//; s/: [0-9.]* % .*/: bare/'
+done
