@@ -7,6 +7,7 @@
 #	make check SAN=thread T=threads the tools that have threads under the thread sanitizer
 #	make check-long the tests of faults in full: an hour
 #	make check-page the tests of the page of mr-view in Chromium, which it installs
+#	make check-cluster the batch of examples/ on Slurm, which it installs, on virtual nodes; MODELS=N how many models
 #	make coverage   what the tests run of lib, formats and cmd: lines and branches; T=PATTERN some of them
 #	make lint       clang-tidy, cppcheck and eslint over the sources: no findings
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
@@ -60,8 +61,9 @@ BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.
 PAGE    := $(wildcard formats/page/* formats/page/*/*)
 THREE   ?= /usr/share/javascript/three
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
-NEEDS   := build $(if $(filter setup check check-long check-page coverage matrix bless units,$(MAKECMDGOALS)),check) \
-	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) $(filter lint bench,$(MAKECMDGOALS))
+NEEDS   := build $(if $(filter setup check check-long check-page check-cluster coverage matrix bless units,$(MAKECMDGOALS)),check) \
+	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) \
+	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(filter lint bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -141,6 +143,9 @@ check-long: $(TOOLS)
 
 check-page: $(TOOLS)
 	@$(RUN) tests/run $(or $(T),page/)
+
+check-cluster: $(TOOLS)
+	@$(RUN) MODELS='$(MODELS)' tests/run $(or $(T),laws/cluster)
 
 matrix: $(TOOLS)
 	@mkdir -p $(BUILD)/matrix && cd $(BUILD)/matrix && $(RUN) $(CURDIR)/tests/matrix/run '$(T)'
@@ -251,5 +256,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long check-page coverage lint matrix fuzz bless demo bench table1 readme picture install uninstall clean
+.PHONY: all units help setup check check-long check-page check-cluster coverage lint matrix fuzz bless demo bench table1 readme picture install uninstall clean
 .SECONDARY:

@@ -1,0 +1,70 @@
+#!/bin/sh
+# report.sh -- what a batch has come to; usage: report.sh IN OUT PAGE SUFFIXES
+# Writes in OUT: failed.txt, the files of IN without a result, and why; figures.tsv, a row for each result of all figures that
+# the tools gave; index.html, their pictures, each of which leads to a page of PAGE models to turn.
+in=$(cd "$1" && pwd) && mkdir -p "$2" && cd "$2" || exit
+page=$3 suffixes=$4
+work=$(mktemp -d) || exit
+trap 'rm -rf "$work"' EXIT
+touch "$work/done" "$work/failed.txt"
+
+# The last thing said that is no warning.
+why() { # folder
+	[ -d "$1" ] || { echo "not begun; no names with blanks, or with signs of make and shells, can be"; return; }
+	cat "$1"/*.log 2>/dev/null | grep -v ': warning: ' | tail -n 1 | grep . || echo "ended without a word"
+}
+
+for suffix in $suffixes; do
+	(cd "$in" && find . -maxdepth 1 -name "*.$suffix" | sed 's,^\./,,')
+done | LC_ALL=C sort -u | while read -r name; do
+	if [ -e "$name/picture.png" ]; then
+		echo "$name" >>"$work/done"
+	else
+		printf '%s\t%s\n' "$name" "$(why "./$name")" >>"$work/failed.txt"
+	fi
+done
+
+# A line for each tool of each model, and of these, read twice, a row for each model: columns TOOL.FIGURE, then their numbers.
+find . -mindepth 2 -maxdepth 2 -name 'mr-*.json' | LC_ALL=C sort |
+    xargs -r -d '\n' awk '{ gsub(/^\{|\}$|"name":"([^"\\]|\\.)*",/, ""); gsub(/"/, ""); print FILENAME "," $0 }' >"$work/figures"
+awk -F, '
+	pass == 0 { done[$0] = 1; next }
+	{ split($1, path, "/"); name = path[2] }
+	!(name in done) { next }
+	pass == 2 && name != last { flush() }
+	{
+		split($2, tool, ":")
+		for (i = 4; i <= NF; i++) {
+			split($i, pair, ":")
+			key = tool[2] "." pair[1]
+			if (!(key in seen)) { seen[key] = 1; columns[++n] = key }
+			values[key] = pair[2]
+		}
+		last = name
+	}
+	END { if (pass == 2) flush() }
+	function flush(    i, row) {
+		row = last == "" ? "model" : last
+		for (i = 1; i <= n; i++) row = row "\t" (last == "" ? columns[i] : values[columns[i]])
+		print row
+		split("", values)
+	}' pass=0 "$work/done" pass=1 "$work/figures" last= pass=2 "$work/figures" >"$work/figures.tsv"
+
+rm -f page-*.html
+split -d -a 4 -l "$page" "$work/done" "$work/page-"
+{
+	echo '<!DOCTYPE html><meta charset="utf-8"><title>Batch</title>'
+	echo '<style>figure { display: inline-block; margin: 4px; width: 240px; font: 12px sans-serif; overflow-wrap: anywhere }</style>'
+	echo "<p>$(wc -l <"$work/done") made, $(wc -l <"$work/failed.txt") failed</p>"
+	for part in "$work"/page-[0-9]*; do
+		[ -e "$part" ] || continue
+		html=$(basename "$part").html
+		sed 's,.*,./&/surface.mrs,' "$part" | xargs -d '\n' mr-view -q "$html" >&2
+		sed "s,.*,<figure><a href=\"$html\"><img loading=\"lazy\" width=\"240\" height=\"200\" src=\"&/picture.png\"></a><figcaption>&</figcaption></figure>," "$part"
+	done
+} >"$work/index.html"
+
+mv "$work/failed.txt" "$work/figures.tsv" "$work/index.html" .
+echo "$(wc -l <"$work/done") made, $(wc -l <failed.txt) failed: $PWD/failed.txt, figures.tsv, index.html"
+head -n 10 failed.txt
+[ ! -s failed.txt ]

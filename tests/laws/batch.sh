@@ -1,0 +1,70 @@
+# examples/batch: all results or sentences, whatever the files are called; what is killed in the middle is made up for, with the
+# bytes of a run in peace; GNU parallel makes the same.
+[ -z "$SAN" ] || { echo "make has no use for sanitizers here"; exit 77; }
+batch=$TOP/examples/batch
+fail=0
+complain() { echo "$*"; fail=1; }
+batch() { # folder, arguments of make
+	out=$1
+	shift
+	make -s -f "$batch/Makefile" IN="$PWD/models" OUT="$PWD/$out" "$@"
+}
+same() { # folder: but for times, which are in the .json and so in figures.tsv
+	diff -r -q -x '*.json' -x figures.tsv peace "$1" >differences || { cat differences; complain "$1 is not what a run in peace makes"; }
+}
+
+mkdir models
+for seed in 1 2 3 4; do
+	mr-make torus -n 200 --noise 1% --seed $seed | mr-export models/torus-$seed.ply
+	mr-make sphere --points 200 --seed $seed | mr-export models/ball.$seed.xyz
+done
+mr-make boxes -n 200 | mr-export models/-boxes.obj
+head -c 1000 models/torus-1.ply >models/broken.ply
+echo 'no model' >models/README
+
+# Names that would be commands, other targets or nothing to make.
+for name in 'two words' 'a;touch gone;' 'a:b=c' 'b%' "it's" '$(shell touch gone)' 'x&y' '<b>' 'a,b'; do
+	cp models/torus-1.ply "models/$name.ply"
+done
+
+batch peace >peace.log 2>&1 && complain "make succeeds with a broken model"
+[ ! -e gone ] || complain "the name of a file is run"
+[ "$(cat peace/*/picture.png | grep -ac IHDR)" -eq 9 ] || { cat peace.log; complain "not nine pictures"; }
+[ "$(ls peace/*/surface.ply | wc -l)" -eq 9 ] || complain "not nine surfaces"
+[ "$(wc -l <peace/figures.tsv)" -eq 10 ] || complain "not nine rows of figures"
+awk -F '\t' 'NR == 1 { n = NF; if ($2 !~ /^mr-[a-z]*\./) exit 1 } NF != n || (NR > 1 && $2 !~ /^[0-9.e-]+$/) { exit 1 }' peace/figures.tsv ||
+    { cut -c1-200 peace/figures.tsv; complain "the figures are no table"; }
+[ "$(wc -l <peace/failed.txt)" -eq 10 ] || { cat peace/failed.txt; complain "not ten failures"; }
+grep -q "^broken.ply	mr-import: .*models/broken.ply: byte" peace/failed.txt || complain "a broken model without its sentence"
+grep -q "^two words.ply	not begun; no names with blanks" peace/failed.txt || complain "a name with blanks is not told of"
+[ "$(grep -o '<img' peace/index.html | wc -l)" -eq 9 ] && [ -s peace/page-0000.html ] || complain "the gallery is not of nine models"
+
+# Killed at some time, with all that it started; a model whose file is newer is made again, and only that.
+for pause in 0.1 0.3 0.6; do
+	timeout -s KILL $pause make -s -k -j2 -f "$batch/Makefile" IN="$PWD/models" OUT="$PWD/killed" models >/dev/null 2>&1
+done
+batch killed >killed.log 2>&1
+same killed
+touch models/torus-2.ply
+batch killed -n -k models 2>/dev/null | grep -o "$PWD/models/[^ ]*" | grep -v broken >again
+[ "$(cat again)" = "$PWD/models/torus-2.ply" ] || { cat again; complain "not only the newer file is made again"; }
+batch killed models -k 2>/dev/null
+same killed
+
+# A broken file in place of a good one leaves nothing of what was made of that.
+cp models/broken.ply models/torus-3.ply
+batch killed >killed.log 2>&1
+[ ! -e killed/torus-3.ply/picture.png ] && grep -q '^torus-3.ply	mr-import' killed/failed.txt || complain "an old result stands for a broken file"
+mr-make torus -n 200 --noise 1% --seed 3 | mr-export models/torus-3.ply
+
+# What is read is not written over.
+cp -r models models.before
+make -s -k -f "$batch/Makefile" IN="$PWD/models" OUT="$PWD/models" models >/dev/null 2>&1 && complain "results go where the models are"
+diff -r models models.before || complain "models are written over"
+
+if parallel --version 2>/dev/null | grep -q GNU; then
+	batch parallel names | parallel -j 2 -n 4 make -s -k -f "$batch/Makefile" IN="$PWD/models" OUT="$PWD/parallel" >parallel.log 2>&1
+	batch parallel report >>parallel.log
+	same parallel
+fi
+exit $fail
