@@ -83,15 +83,21 @@ $(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
 	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<
 
 put = -e '/^<!-- $(1) -->$$/{r $(2)' -e 'd;}'
-$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/page/load.js $(BUILD)/page/main.gz $(BUILD)/page/turner.gz
+$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/page/load.js $(BUILD)/page/main.gz $(BUILD)/page/worker.gz
 	$(call say,page   )sed $(call put,style,formats/page/page.css) $(call put,load,formats/page/load.js) \
-		$(call put,program,$(BUILD)/page/main.gz) $(call put,turner,$(BUILD)/page/turner.gz) $< >$@
+		$(call put,program,$(BUILD)/page/main.gz) $(call put,worker,$(BUILD)/page/worker.gz) $< >$@
+
+# What the page's workers compute with, by the compiler that knows WebAssembly.
+$(BUILD)/page/kernel.wasm: formats/page/deform/kernel.c | setup
+	@mkdir -p $(@D)
+	$(call say,compile)clang --target=wasm32 -msimd128 -std=c11 -O3 -ffreestanding -fvisibility=default $(WARN) -nostdlib \
+		-Wl,--no-entry,--export-dynamic,--export=__heap_base,--strip-all -o $@ $<
 
 # Of each program of the page one script of all its modules, three.js included, packed, as text.
-$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) | setup
+$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/kernel.wasm | setup
 	@mkdir -p $(@D)
 	$(call say,bundle )esbuild formats/page/$*.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
-		--alias:three=$(THREE) --log-level=warning --outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
+		--alias:three=$(THREE) --alias:kernel.wasm=$(abspath $(BUILD))/page/kernel.wasm --loader:.wasm=binary --log-level=warning --outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
@@ -160,7 +166,7 @@ coverage:
 
 # A source again when it or a header has changed; .clang-tidy and tests/lint say what is not asked.
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
-LINT    := $(patsubst %,$(BUILD)/lint/%,$(wildcard lib/*/*.c formats/*.c cmd/*.c))
+LINT    := $(patsubst %,$(BUILD)/lint/%,$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c))
 lint: $(LINT) $(BUILD)/lint/cppcheck $(BUILD)/lint/eslint
 
 $(BUILD)/lint/%.c: %.c .clang-tidy tests/lint/assume.h $(HEADERS) | setup

@@ -1,20 +1,13 @@
 /* decode.js -- a base posed by its response to handles, lib/edit/pose_basis.c, and the detail over it, lib/edit/detail.c. */
 
-/* Of a handle's change A = T - I: adds A (w0, w1, w2, w3) of each vertex. */
-function respond(w, a, p) {
-	const [a0, a1, a2, a3, a4, a5, a6, a7, a8, a9, a10, a11] = a;
-
-	for (let i = 0, k = 0; i < p.length; i += 3, k += 4) {
-		const x = w[k], y = w[k + 1], z = w[k + 2], one = w[k + 3];
-		p[i] += a0 * x + a1 * y + a2 * z + a3 * one;
-		p[i + 1] += a4 * x + a5 * y + a6 * z + a7 * one;
-		p[i + 2] += a8 * x + a9 * y + a10 * z + a11 * one;
-	}
+/* The same change about another place than the origin. */
+function about(a, [x, y, z]) {
+	return a.map((m, i) => (i % 4 === 3 ? m + a[i - 3] * x + a[i - 2] * y + a[i - 1] * z : m));
 }
 
 /* The four numbers a vertex that are of one handle. */
 function partOf(response, handles, h) {
-	const out = new Float64Array(response.length / handles);
+	const out = new Float32Array(response.length / handles);
 
 	for (let i = 0, k = 4 * h; i < out.length; i += 4, k += 4 * handles)
 		for (let c = 0; c < 4; c++)
@@ -22,62 +15,66 @@ function partOf(response, handles, h) {
 	return out;
 }
 
-/* The same change about another place than the origin. */
-function about(a, [x, y, z]) {
-	return a.map((m, i) => (i % 4 === 3 ? m + a[i - 3] * x + a[i - 2] * y + a[i - 1] * z : m));
+/* An area's values, in an array that was given before or a new one: fresh memory takes time. */
+function copy(area, out = new area.Type(area.length)) {
+	out.set(area.view());
+	return out;
 }
 
-/* A base at `rest`, around the page's centre, and its response: 4 numbers a vertex for each of so many handles, to maps about
- * `origin`. */
+/* A base at `position`, and its response: 4 numbers a vertex for each of so many handles, to maps about `origin`. */
 export class Base {
-	constructor(rest, response, handles, origin) {
-		this.origin = origin;
-		this.rest = rest;
-		this.response = response;
-		this.handles = handles;
+	constructor(kernel, { position, response, handles, origin }) {
+		Object.assign(this, { kernel, response, handles, origin });
+		this.vertices = position.length / 3;
+		this.rest = kernel.keepVectors(Float64Array, position);
+		this.places = kernel.take(Float64Array, 4 * this.vertices);
+		this.out = kernel.take(Float32Array, 3 * this.vertices);
+		this.columns = kernel.take(Float64Array, 16);
 		this.parts = [];
-		this.position = rest.slice();
 	}
 
 	/* changes: of each handle what its map is more than the identity, or null. */
 	pose(changes) {
-		this.position.set(this.rest);
-		changes.forEach((change, h) => {
-			if (change && h < this.handles) {
-				this.parts[h] = this.parts[h] || partOf(this.response, this.handles, h);
-				respond(this.parts[h], about(change, this.origin), this.position);
-			}
+		const { kernel, rest, places, columns, vertices } = this;
+		let from = rest;
+
+		changes.slice(0, this.handles).forEach((change, h) => {
+			if (!change)
+				return;
+			this.parts[h] = this.parts[h] || kernel.keep(Float32Array, partOf(this.response, this.handles, h));
+			const a = about(change, this.origin);
+			columns.view().set([0, 1, 2, 3].flatMap((c) => [a[c], a[c + 4], a[c + 8], 0]));
+			kernel.run.pose(from.at, this.parts[h].at, columns.at, places.at, vertices);
+			from = places;
 		});
+		if (from === rest)
+			places.view().set(rest.view());
+	}
+
+	/* Three floats a vertex, into `out` where there is such a one. */
+	floats(out) {
+		this.kernel.run.narrow(this.places.at, this.out.at, this.vertices);
+		return copy(this.out, out);
 	}
 }
 
-/* The detail of a mesh: for each vertex the corners of the base's face, times 3, the weights of the first two, the height. */
+/* The detail of a mesh: of each row the corners of the base's face, their weights, the height. */
 export class Detail {
-	constructor(face, bary, height, triangles) {
-		this.corner = new Uint32Array(3 * face.length);
-		this.bary = bary;
-		this.height = height;
-		for (let i = 0; i < face.length; i++)
-			for (let k = 0; k < 3; k++)
-				this.corner[3 * i + k] = 3 * triangles[3 * face[i] + k];
+	constructor(kernel, { corner, weight, height }) {
+		this.kernel = kernel;
+		this.rows = height.length;
+		this.corner = kernel.keep(Uint32Array, corner);
+		this.weight = kernel.keep(Float32Array, weight);
+		this.height = kernel.keep(Float32Array, height);
+		this.out = kernel.take(Float32Array, 3 * this.rows);
 	}
 
 	/*
-	 * b + h n of each vertex as floats; p, normals: of the base, the normals turned.  The face's own normal, where those of
-	 * its corners cancel, is left to nobody: there is no height that mr-encode calls sound.
+	 * Where it is on the base, with its normals turned, into `out` where there is such a one.  The face's own normal, where those of its corners cancel, is
+	 * left to nobody: there is no height that mr-encode calls sound.
 	 */
-	decode(p, n, out) {
-		const { corner, bary, height } = this;
-
-		for (let i = 0, k = 0, w = 0; i < height.length; i++, k += 3, w += 2) {
-			const a = corner[k], b = corner[k + 1], c = corner[k + 2], u = bary[w], v = bary[w + 1], s = 1 - u - v;
-			const x = u * n[a] + v * n[b] + s * n[c];
-			const y = u * n[a + 1] + v * n[b + 1] + s * n[c + 1];
-			const z = u * n[a + 2] + v * n[b + 2] + s * n[c + 2];
-			const h = height[i] / (Math.sqrt(x * x + y * y + z * z) || 1);
-			out[k] = u * p[a] + v * p[b] + s * p[c] + h * x;
-			out[k + 1] = u * p[a + 1] + v * p[b + 1] + s * p[c + 1] + h * y;
-			out[k + 2] = u * p[a + 2] + v * p[b + 2] + s * p[c + 2] + h * z;
-		}
+	floats(places, turned, out) {
+		this.kernel.run.decode(places.at, turned.at, this.corner.at, this.weight.at, this.height.at, this.out.at, this.rows);
+		return copy(this.out, out);
 	}
 }

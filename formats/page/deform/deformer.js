@@ -1,11 +1,13 @@
 /*
- * deformer.js -- base and mesh as the handles pose them.  At once the base is where its response has it, and the detail on it
- * with the normals that are known; the worker then tells how these have turned, and the detail is put on once more: what is
- * shown when nothing moves any more is what mr-decode makes.
+ * deformer.js -- base and mesh as the handles pose them: workers have a part each, and what is shown when nothing moves any more
+ * is what mr-decode makes.
  */
 import { textOf } from "../stream/data.js";
-import { Base, Detail } from "./decode.js";
+import { split } from "./parts.js";
 import { columnOf } from "../stream/stream.js";
+
+const WORKERS = 4; /* at most */
+const VERTICES = 10000; /* of a base, for which a worker more is worth the while */
 
 /* The columns that it is made of; null where the frame has not all of them. */
 export function posedBy(frame) {
@@ -20,24 +22,35 @@ function less(position, centre) {
 	return Float64Array.from(position, (x, i) => x - centre[i % 3]);
 }
 
-/* The vertices that have an offset in place of a height: their row, the corners of the face and the weights there. */
-function offsetRows(values, triangles) {
-	const rows = [], o = values.offset;
-
-	for (let i = 0; o && i < o.length / 3; i++)
-		if (o[3 * i] || o[3 * i + 1] || o[3 * i + 2]) {
-			const [u, v] = values.bary.subarray(2 * i, 2 * i + 2), f = 3 * values.face[i];
-			rows.push({ row: i, corners: Array.from(triangles.subarray(f, f + 3)), weights: [u, v, 1 - u - v], offset: Array.from(o.subarray(3 * i, 3 * i + 3)) });
-		}
-	return rows;
+/* Rows of three floats, where `to` has them. */
+function scatter(from, rows, to) {
+	for (let i = 0, k = 0; i < rows.length; i++, k += 3) {
+		const at = 3 * rows[i];
+		to[at] = from[k];
+		to[at + 1] = from[k + 1];
+		to[at + 2] = from[k + 2];
+	}
 }
 
-async function startWorker() {
-	const url = URL.createObjectURL(new Blob([await textOf("turner")], { type: "text/javascript" }));
-	const worker = new Worker(url);
+/* A worker with a part; it answers one question at a time. */
+class Hand {
+	constructor(url, { vertices, rows }) {
+		Object.assign(this, { vertices, rows, worker: new Worker(url) });
+	}
 
-	URL.revokeObjectURL(url);
-	return worker;
+	/* A promise of how long it took; then it has `places`, which go back to it with the next question. */
+	ask(message) {
+		const { places } = this, buffers = places ? [places.base.buffer, places.mesh.buffer] : [];
+
+		return new Promise((done, failed) => {
+			this.worker.onmessage = ({ data }) => {
+				this.places = data.places;
+				done(data.took);
+			};
+			this.worker.onerror = failed;
+			this.worker.postMessage({ ...message, places }, buffers);
+		});
+	}
 }
 
 export class Deformer {
@@ -45,7 +58,7 @@ export class Deformer {
 	constructor(columns, changed) {
 		this.columns = columns;
 		this.changed = changed;
-		this.working = false; /* whether the worker has more to say */
+		this.working = false; /* whether the workers have more to say */
 	}
 
 	/* Whether it is made of these. */
@@ -53,71 +66,50 @@ export class Deformer {
 		return centre === this.centre && Object.keys(columns).every((key) => columns[key] === this.columns[key]);
 	}
 
-	/* Reads the columns, around the centre, and waits for the normals at rest. */
+	/* Reads the columns, around the centre, and waits for the places at rest. */
 	async prepare(centre) {
 		const keys = Object.keys(this.columns).filter((key) => this.columns[key]);
 		const values = Object.fromEntries(await Promise.all(keys.map(async (key) => [key, await this.columns[key].values()])));
+		const { components, steps: { origin } } = this.columns.response, handles = components / 4;
 
 		this.centre = centre;
-		const rest = less(values.encoded || values.position, centre);
-
-		this.offsets = offsetRows(values, values.triangles);
-		this.base = new Base(less(values.position, centre), values.response, this.columns.response.components / 4, this.columns.response.steps.origin);
-		this.detail = new Detail(values.face, values.bary, values.height, values.triangles);
+		values.rest = less(values.encoded || values.position, centre);
+		values.position = less(values.position, centre);
 		this.places = { base: new Float32Array(values.position.length), mesh: new Float32Array(3 * values.height.length) };
-		this.worker = await startWorker();
-		this.worker.addEventListener("message", ({ data }) => this.hear(data));
-		this.worker.addEventListener("error", () => this.failed());
-		await this.ask({ rest, triangles: values.triangles, rows: this.offsets });
+		const count = Math.min(WORKERS, navigator.hardwareConcurrency || 1, Math.ceil(values.position.length / 3 / VERTICES));
+		const url = URL.createObjectURL(new Blob([await textOf("worker")], { type: "text/javascript" }));
+		const parts = split(values, handles, count);
+		this.hands = parts.map((part) => new Hand(url, part));
+		await this.all((i) => ({ part: { ...parts[i].part, handles, origin }, changes: [] }));
+		URL.revokeObjectURL(url);
 		return this;
 	}
 
-	/* Asks the worker for the base as it is now; a promise of the answer. */
-	ask(more) {
-		const position = this.base.position.slice();
+	/* Asks every hand, and puts together what they answer. */
+	async all(question) {
+		this.took = Math.max(...await Promise.all(this.hands.map((hand, i) => hand.ask(question(i)))));
+		for (const { vertices, rows, places } of this.hands) {
+			scatter(places.base, vertices, this.places.base);
+			scatter(places.mesh, rows, this.places.mesh);
+		}
+	}
 
+	/* Poses by the changes of the handles' maps, as Pose says them; what is asked meanwhile comes next, the last of it. */
+	async pose(changes) {
+		this.next = changes;
+		if (this.working)
+			return;
 		this.working = true;
-		this.stale = false;
-		this.worker.postMessage({ ...more, position });
-		return new Promise((done, failed) => {
-			this.answered = done;
-			this.failed = failed;
-		});
-	}
-
-	hear({ normals, offsets, took }) {
-		this.normals = normals;
-		this.turned = offsets;
-		this.took = took;
-		this.working = false;
-		this.answered();
-		if (this.stale)
-			this.ask();
-		this.decode();
-		this.changed();
-	}
-
-	/* Poses by the changes of the handles' maps, as Pose says them. */
-	pose(changes) {
-		this.base.pose(changes);
-		this.decode();
-		this.stale = true;
-		if (!this.working)
-			this.ask();
-	}
-
-	decode() {
-		const { mesh, base } = this.places;
-
-		base.set(this.base.position);
-		this.detail.decode(this.base.position, this.normals, mesh);
-		this.offsets.forEach(({ row }, i) => {
-			for (let c = 0; c < 3; c++)
-				mesh[3 * row + c] += this.turned[3 * i + c];
-		});
+		while (this.next) {
+			const now = this.next;
+			this.next = null;
+			await this.all(() => ({ changes: now }));
+			this.working = Boolean(this.next);
+			this.changed();
+		}
 	}
 
 	end() {
-		this.worker.terminate();
+		this.hands.forEach(({ worker }) => worker.terminate());
 	}
 }

@@ -131,7 +131,7 @@ export class Posing {
 		this.start = this.next = this.pose = this.handle = this.deformer = null;
 		this.centre = centre;
 		if (columns)
-			this.deformer = await new Deformer(columns, () => this.moved && this.ask()).prepare(centre).catch(() => null);
+			this.deformer = await new Deformer(columns, () => this.posed()).prepare(centre).catch(() => null);
 		$("no-worker").hidden = !columns || Boolean(this.deformer);
 		const said = columns ? "" : await lacking(frame);
 		$("lack").hidden = !said;
@@ -160,13 +160,22 @@ export class Posing {
 		this.asked = this.asked || requestAnimationFrame(() => this.turn());
 	}
 
-	/* One picture; what is shown is exact when the worker has nothing more to say. */
+	/* The workers have answered. */
+	posed() {
+		this.fresh = true;
+		if (this.moved)
+			this.ask();
+	}
+
+	/* One picture of what the workers have answered, while they work on the next. */
 	turn() {
 		this.asked = 0;
 		if (this.next && this.moved)
 			this.deformer.pose(this.next);
 		this.next = null;
-		this.draw();
+		if (this.fresh)
+			this.draw();
+		this.fresh = false;
 		if (!this.deformer.working)
 			$("poseline").removeAttribute("aria-busy");
 	}
