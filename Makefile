@@ -8,6 +8,8 @@
 #	make check-long the tests of faults in full: an hour
 #	make check-page the tests of the page of mr-view in Chromium, which it installs
 #	make check-cluster the batch of examples/ on Slurm, which it installs, on virtual nodes; MODELS=N how many models
+#	make mpi        mr-solve-mpi, which divides the factor among processes, by MUMPS, which it installs
+#	make check-mpi  its tests
 #	make coverage   what the tests run of lib, formats and cmd: lines and branches; T=PATTERN some of them
 #	make lint       clang-tidy, cppcheck and eslint over the sources: no findings
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
@@ -53,8 +55,10 @@ ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthre
 ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -ffp-contract=off -pthread $(SHARED) $(CFLAGS) $(HARDEN)
 LIBS     := -Wl,--as-needed -lcholmod -lumfpack -llz4 -ltinyobjloader_double -lpng -ljpeg -ljansson -lz -lstdc++ -ldl -lm
 
+# What knows MPI: `make mpi`.
+MPI     := lib/solve/mumps.c cmd/mpi.c
 TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
-OBJECTS := $(patsubst %,$(BUILD)/%.o,$(wildcard lib/*/*.c lib/*/*.cc formats/*.c formats/*.cc))
+OBJECTS := $(patsubst %,$(BUILD)/%.o,$(filter-out $(MPI),$(wildcard lib/*/*.c lib/*/*.cc formats/*.c formats/*.cc)))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 # What the page of mr-view is made of, and where three.js is.
@@ -63,7 +67,7 @@ THREE   ?= /usr/share/javascript/three
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
 NEEDS   := build $(if $(filter setup check check-long check-page check-cluster coverage matrix bless units,$(MAKECMDGOALS)),check) \
 	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) \
-	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(filter lint bench,$(MAKECMDGOALS))
+	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(if $(filter mpi check-mpi,$(MAKECMDGOALS)),check mpi) $(filter lint bench,$(MAKECMDGOALS))
 COMPS   := share/bash-completion/completions
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -72,12 +76,24 @@ say = $(if $(V),,@echo "  $(1) $@";)
 
 all: $(TOOLS)
 
-$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options place signals) $(BUILD)/libmr.a
+$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options place signals terminal) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS)
 
 # Alone it may start a program: cmd/open.c.
 $(BUILD)/bin/mr-view: $(BUILD)/page/page.o $(BUILD)/cmd/open.c.o
+
+# mr-solve over MPI: MUMPS in the place of CHOLMOD, and what mpi.c says of terminals.
+mpi: $(BUILD)/bin/mr-solve-mpi
+MPICC = mpicc
+$(patsubst %,$(BUILD)/%.o,$(MPI)): ALL_C += $$($(MPICC) --showme:compile)
+$(patsubst %,$(BUILD)/%.o,$(MPI)): | setup
+$(BUILD)/cmd/mpi-solve.c.o: cmd/mr-solve.c $(BUILD)/flags
+	@mkdir -p $(@D)
+	$(call say,compile)$(CC) $(ALL_C) -Dmain=mr_solve_main -MMD -MP -c -o $@ $<
+$(BUILD)/bin/mr-solve-mpi: $(patsubst %,$(BUILD)/%.o,$(MPI) $(patsubst %,cmd/%.c,mpi-solve cmd options place signals)) $(BUILD)/libmr.a
+	@mkdir -p $(@D)
+	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS) -ldmumps $$($(MPICC) --showme:link)
 
 $(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
 	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<
@@ -152,6 +168,8 @@ check-page: $(TOOLS)
 
 check-cluster: $(TOOLS)
 	@$(RUN) MODELS='$(MODELS)' tests/run $(or $(T),laws/cluster)
+check-mpi: $(TOOLS) mpi
+	@$(RUN) tests/run $(or $(T),mpi/)
 
 matrix: $(TOOLS)
 	@mkdir -p $(BUILD)/matrix && cd $(BUILD)/matrix && $(RUN) $(CURDIR)/tests/matrix/run '$(T)'
@@ -166,7 +184,7 @@ coverage:
 
 # A source again when it or a header has changed; .clang-tidy and tests/lint say what is not asked.
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
-LINT    := $(patsubst %,$(BUILD)/lint/%,$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c))
+LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(MPI),$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c)))
 lint: $(LINT) $(BUILD)/lint/cppcheck $(BUILD)/lint/eslint
 
 $(BUILD)/lint/%.c: %.c .clang-tidy tests/lint/assume.h $(HEADERS) | setup
@@ -262,5 +280,5 @@ clean:
 
 -include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
 
-.PHONY: all units help setup check check-long check-page check-cluster coverage lint matrix fuzz bless demo bench table1 readme picture install uninstall clean
+.PHONY: all units help setup check check-long check-page check-cluster check-mpi mpi coverage lint matrix fuzz bless demo bench table1 readme picture install uninstall clean
 .SECONDARY:

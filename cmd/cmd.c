@@ -8,6 +8,7 @@
 #include "mesh/validate.h"
 #include "place.h"
 #include "signals.h"
+#include "terminal.h"
 #include "stream/record.h"
 
 #include <errno.h>
@@ -336,7 +337,7 @@ cmd_output_name(cmd *c, const char *what, const char *suffix)
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s does not end in %s: %s", c->operands[0], suffix,
 		    c->tool->reads_rest ? "it is written, and the streams behind it are read"
 					: "the stream to read is -i FILE");
-	if (!strcmp(c->operands[0], "-") && isatty(STDOUT_FILENO))
+	if (!strcmp(c->operands[0], "-") && is_terminal(STDOUT_FILENO))
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s is not written to a terminal", what);
 	if (n > 1 && c->state->input)
 		return mr_fail(&c->ctx, MR_EUSAGE, "%s and -i %s are both the first stream", c->operands[1],
@@ -445,7 +446,7 @@ open_writer(cmd *c)
 {
 	check_output(c);
 	open_output(c);
-	if (isatty(c->state->out))
+	if (is_terminal(c->state->out))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE,
 			   "a stream is binary and is not written to a terminal: pipe it on, or name a file "
 			   "by -o"));

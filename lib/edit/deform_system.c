@@ -166,8 +166,9 @@ open_solver(mr_ctx *ctx, mr_deform *d, double started)
 	d->seconds_assemble = mr_seconds() - started;
 	status = mr_solver_open(ctx, &d->opts.solver, &system, &d->solver);
 	if (status == MR_ERANGE && !d->opts.choose && !mr_solver_iterates(d->opts.solver.kind))
-		return mr_prefix(
-		    ctx, status, "%s: multigrid takes less memory than this", d->patch.mesh.name);
+		return mr_prefix(ctx, status,
+		    "%s: multigrid takes less memory than this, and mr-solve-mpi divides it among processes",
+		    d->patch.mesh.name);
 	if (status == MR_ENUMERIC)
 		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
 		    d->patch.mesh.name, k, n,
@@ -190,7 +191,8 @@ mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double starte
 	MR_TRY(assemble(ctx, d, rest));
 	status = open_solver(ctx, d, started);
 	if (status == MR_ERANGE && d->opts.choose && !mr_solver_iterates(d->opts.solver.kind)) {
-		mr_warn(ctx, "%s: multigrid takes its place", ctx->error);
+		mr_warn(ctx, "%s: multigrid takes its place (mr-solve-mpi divides it among processes)",
+		    ctx->error);
 		mr_mark_release(ctx, mark);
 		d->opts.solver.kind = MR_MULTIGRID;
 		MR_TRY(assemble(ctx, d, rest));

@@ -59,6 +59,8 @@ foreign 'cholmod.*' 'lib/solve/[a-z_]+\.[ch]' 1
 foreign 'umfpack.*' 'lib/solve/[a-z_]+\.[ch]' 1
 foreign 'flann/.*' 'lib/space/near_shim\.cc' 2
 foreign 'zlib\.h' 'lib/stream/[a-z_]+\.[ch]|formats/[a-z_]+\.[ch]' 3
+foreign 'dmumps_c\.h' 'lib/solve/mumps\.c' 1
+foreign 'mpi\.h' 'lib/solve/mumps\.c|cmd/mpi\.c' 2
 foreign 'png\.h' '(lib/render|formats)/[a-z_]+\.[ch]' 1
 foreign 'jansson\.h' 'formats/gltf\.h' 1
 foreign 'jpeglib\.h' 'formats/jpeg\.c' 1

@@ -60,9 +60,10 @@ function optionsIn(word, flags) {
 	return { names: last < 0 ? letters : letters.slice(0, last + 1), next: last >= 0 && last === letters.length - 1 };
 }
 
-/* { tool, options, operands } of a line of a history; null where it is none of a tool that is known. */
+/* { tool, options, operands } of a line of a history; null where it is none of a tool that is known.  What mr-solve-mpi has
+ * done mr-solve does, too. */
 function stepOf(line) {
-	const found = /^mr [^ :]+: (mr-[a-z]+)(?: (.*))?$/.exec(line);
+	const found = /^mr [^ :]+: (mr-[a-z]+?)(?:-mpi)?(?: (.*))?$/.exec(line);
 	const flags = found && Object.hasOwnProperty.call(FLAGS, found[1]) ? FLAGS[found[1]] : null, words = flags && wordsOf(found[2] || "");
 
 	if (!words)

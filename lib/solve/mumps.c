@@ -1,0 +1,340 @@
+/*
+ * Sparse Cholesky by several processes: Amestoy, Duff, L'Excellent, Koster 2001: A fully asynchronous
+ * multifrontal solver using distributed dynamic scheduling (MUMPS).  Linked instead of cholesky.c, it is the
+ * same type of solver.  The only file that knows MUMPS, and with cmd/mpi.c MPI.
+ */
+#include "solve/mumps.h"
+
+#include "base/memory.h"
+#include "solve/blas_threads.h"
+#include "solve/solver_type.h"
+
+#include <dmumps_c.h>
+#include <mpi.h>
+#include <time.h>
+
+/* MUMPS's parameters by the numbers that its guide has. */
+#define ICNTL(i) icntl[(i)-1]
+#define INFO(i)  info[(i)-1]
+#define INFOG(i) infog[(i)-1]
+
+enum { START = -1, END = -2, ANALYSE = 1, FACTORIZE = 2, SOLVE = 3 }; /* its jobs */
+enum { SYMMETRIC_POSITIVE_DEFINITE = 1, WORLD = -987654 };
+
+/* INFOG(1): errors. */
+enum {
+	TOO_MANY_ENTRIES = -51,
+	NOT_POSITIVE_DEFINITE = -40,
+	SPACE_FOR_SOLVING = -11,
+	SPACE_OF_REALS = -9,
+	SPACE_OF_INTEGERS = -8,
+	NO_MEMORY = -13,
+	NO_INTEGERS = -7,
+	NO_REALS = -5,
+	SINGULAR = -10,
+	NO_ROOM = 1 /* ours: more than `memory` */
+};
+
+/* What rank 0 asks the others to do with a solver, one of SOLVERS at a time.  memory: see room_here. */
+typedef enum task { OPEN, APPLY, CLOSE, DISMISS } task;
+typedef struct order {
+	int task, solver;
+	double memory;
+} order;
+
+enum { SOLVERS = 16, TAG = 1 };
+
+static DMUMPS_STRUC_C *solvers[SOLVERS];
+
+/* ---- what all ranks do together ---- */
+
+static void
+call(DMUMPS_STRUC_C *m, int job)
+{
+	m->job = job;
+	dmumps_c(m);
+}
+
+/* Bytes that this process may take: an equal part of what its machine has, or of `memory` on that of rank 0.
+ */
+static double
+room_here(double memory)
+{
+	MPI_Comm machine;
+	int rank, first, ranks;
+
+	MPI_Comm_rank(MPI_COMM_WORLD, &rank);
+	MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine);
+	MPI_Comm_size(machine, &ranks);
+	MPI_Allreduce(&rank, &first, 1, MPI_INT, MPI_MIN, machine);
+	MPI_Comm_free(&machine);
+	return (first == 0 && memory > 0 ? memory : mr_memory_available()) / ranks;
+}
+
+/* How much the worst process would lack, in bytes; negative where there is room everywhere. */
+static double
+lacking(const DMUMPS_STRUC_C *m, double memory)
+{
+	double lack = 1e6 * m->INFO(15) - room_here(memory), most;
+
+	MPI_Allreduce(&lack, &most, 1, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+	return most;
+}
+
+/*
+ * Its estimate of the space it needs may be too low by what the pieces are moved around at run time: each
+ * time it fails for that it gets twice as much in reserve.
+ */
+static void
+factorize(DMUMPS_STRUC_C *m)
+{
+	enum { RESERVE = 30, MOST = 480 }; /* per cent */
+
+	for (m->ICNTL(14) = RESERVE; m->ICNTL(14) <= MOST; m->ICNTL(14) *= 2) {
+		call(m, FACTORIZE);
+		if (m->INFOG(1) != SPACE_OF_REALS && m->INFOG(1) != SPACE_OF_INTEGERS)
+			return;
+	}
+}
+
+static void
+start(DMUMPS_STRUC_C *m)
+{
+	m->par = 1;
+	m->sym = SYMMETRIC_POSITIVE_DEFINITE;
+	m->comm_fortran = WORLD;
+	call(m, START);
+	for (int stream = 1; stream <= 4; stream++)
+		m->ICNTL(stream) = 0; /* it prints nothing */
+}
+
+/* Returns INFOG(1), or NO_ROOM; the matrix stands in rank 0's m, analysed: when the analysis was done. */
+static int
+factor(DMUMPS_STRUC_C *m, double memory, double *analysed)
+{
+	call(m, ANALYSE);
+	*analysed = mr_seconds();
+	if (m->INFOG(1) < 0)
+		return m->INFOG(1);
+	if (lacking(m, memory) > 0)
+		return NO_ROOM;
+	factorize(m);
+	return m->INFOG(1);
+}
+
+static void
+close_solver(int i)
+{
+	if (!solvers[i])
+		return;
+	call(solvers[i], END);
+	free(solvers[i]);
+	solvers[i] = NULL;
+}
+
+/* ---- rank 0 ---- */
+
+static void
+ask(task what, int solver, double memory)
+{
+	order o = { (int)what, solver, memory };
+	int ranks;
+
+	MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+	for (int rank = 1; rank < ranks; rank++)
+		MPI_Send(&o, sizeof o, MPI_BYTE, rank, TAG, MPI_COMM_WORLD);
+}
+
+void
+mr_mumps_dismiss(void)
+{
+	ask(DISMISS, 0, 0);
+}
+
+typedef struct cholesky {
+	DMUMPS_STRUC_C *m;
+	int solver;
+} cholesky;
+
+/* A failure in words. */
+static mr_status
+failed(mr_ctx *ctx, const DMUMPS_STRUC_C *m, int code)
+{
+	int ranks;
+
+	MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+	switch (code) {
+	case NO_ROOM:
+		return mr_fail(ctx, MR_ERANGE,
+		    "the factor of %d rows takes %.3g MB of one of %d processes, more than it has", m->n,
+		    (double)m->INFOG(16), ranks);
+	case SPACE_OF_REALS:
+	case SPACE_OF_INTEGERS:
+	case SPACE_FOR_SOLVING:
+	case TOO_MANY_ENTRIES:
+		return mr_fail(ctx, MR_ERANGE, "the factor of %d rows is too large for %d process%s", m->n,
+		    ranks, ranks == 1 ? "" : "es");
+	case NO_MEMORY:
+	case NO_INTEGERS:
+	case NO_REALS:
+		return mr_fail(ctx, MR_EMEM, "no memory for the factor in one of %d process%s", ranks,
+		    ranks == 1 ? "" : "es");
+	case SINGULAR:
+	case NOT_POSITIVE_DEFINITE:
+		return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite");
+	default:
+		return mr_fail(ctx, MR_ENUMERIC, "MUMPS fails with %d, %d", code, m->INFOG(2));
+	}
+}
+
+/* The first place without a solver; SOLVERS: there is none. */
+static int
+vacant(void)
+{
+	int i = 0;
+
+	while (i < SOLVERS && solvers[i])
+		i++;
+	return i;
+}
+
+/* The entries of the matrix as MUMPS has them, counted from 1. */
+static mr_status
+put_matrix(mr_ctx *ctx, const mr_sparse *a, DMUMPS_STRUC_C *m)
+{
+	size_t count = (size_t)a->start[a->n];
+	int *row = MR_NEW(ctx, count, int), *column = MR_NEW(ctx, count, int);
+
+	if (!row || !column)
+		return MR_EMEM;
+	for (int i = 0; i < a->n; i++)
+		for (int k = a->start[i]; k < a->start[i + 1]; k++) {
+			row[k] = i + 1;
+			column[k] = a->index[k] + 1;
+		}
+	m->n = a->n;
+	m->nnz = (int64_t)count;
+	m->irn = row;
+	m->jcn = column;
+	m->a = a->value;
+	return MR_OK;
+}
+
+static double
+summed(int megabytes_or_millions)
+{
+	return megabytes_or_millions < 0 ? -1e6 * megabytes_or_millions : megabytes_or_millions;
+}
+
+static mr_status
+cholesky_setup(
+    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data, mr_solver_report *report)
+{
+	cholesky *c = data;
+	int i = vacant(), code;
+	double started = mr_seconds(), analysed;
+	mr_mark mark = mr_mark_take(ctx);
+	DMUMPS_STRUC_C *m;
+
+	c->solver = SOLVERS;
+	if (i == SOLVERS)
+		return mr_fail(ctx, MR_ERANGE, "more than %d solvers at a time", (int)SOLVERS);
+	m = calloc(1, sizeof *m);
+	if (!m)
+		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
+	solvers[i] = c->m = m;
+	c->solver = i;
+	ask(OPEN, i, opts->memory);
+	start(m);
+	MR_TRY(put_matrix(ctx, system->a, m));
+	code = factor(m, opts->memory, &analysed);
+	m->irn = m->jcn = NULL;
+	m->a = NULL;
+	mr_mark_release(ctx, mark);
+	if (code < 0 || code == NO_ROOM)
+		return failed(ctx, m, code);
+	*report = (mr_solver_report){ .seconds_analyse = analysed - started,
+		.seconds_factor = mr_seconds() - analysed,
+		.nnz_factor = summed(m->INFOG(29)),
+		.bytes_factor = 1e6 * m->INFOG(22) };
+	return MR_OK;
+}
+
+static mr_status
+cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report)
+{
+	cholesky *c = data;
+
+	(void)report;
+	c->m->rhs = b;
+	c->m->nrhs = (int)columns;
+	c->m->lrhs = c->m->n;
+	ask(APPLY, c->solver, 0);
+	call(c->m, SOLVE);
+	c->m->rhs = NULL;
+	return c->m->INFOG(1) < 0 ? failed(ctx, c->m, c->m->INFOG(1)) : MR_OK;
+}
+
+static void
+cholesky_free(void *data)
+{
+	cholesky *c = data;
+
+	if (!c->m)
+		return;
+	ask(CLOSE, c->solver, 0);
+	close_solver(c->solver);
+}
+
+const mr_solver_type mr_cholesky_type = { "cholesky", sizeof(cholesky), cholesky_setup, cholesky_solve,
+	cholesky_free };
+
+/* ---- the other ranks ---- */
+
+/* Waits asleep: MPI's own waiting takes a processor, while rank 0 reads, assembles and writes. */
+static order
+next_order(void)
+{
+	static const struct timespec nap = { 0, 500000 };
+	order o;
+	int there;
+
+	for (;;) {
+		MPI_Iprobe(0, TAG, MPI_COMM_WORLD, &there, MPI_STATUS_IGNORE);
+		if (there)
+			break;
+		nanosleep(&nap, NULL);
+	}
+	MPI_Recv(&o, sizeof o, MPI_BYTE, 0, TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+	return o;
+}
+
+/* As cholesky_setup; a rank without memory for as little as this ends the job. */
+static void
+open_solver(const order *o)
+{
+	DMUMPS_STRUC_C *m = calloc(1, sizeof *m);
+	double analysed;
+
+	if (!m)
+		MPI_Abort(MPI_COMM_WORLD, 1);
+	solvers[o->solver] = m;
+	start(m);
+	factor(m, o->memory, &analysed);
+}
+
+void
+mr_mumps_serve(void)
+{
+	int threads = mr_serial_begin();
+
+	for (order o = next_order(); o.task != DISMISS; o = next_order()) {
+		if (o.task == OPEN)
+			open_solver(&o);
+		else if (o.task == APPLY)
+			call(solvers[o.solver], SOLVE);
+		else
+			close_solver(o.solver);
+	}
+	mr_serial_end(threads);
+}
