@@ -20,9 +20,16 @@
 #	make table1     the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
 #	make readme     the generated parts of README.md
 #	make picture    examples/page.png, the picture of the page in README.md, by Chromium, which it installs
-#	make install    tools, pages and library to $(DESTDIR)$(PREFIX)
-#	make uninstall  takes them away again
+#	make install    tools, pages, completions and library to $(DESTDIR)$(PREFIX)
+#	make uninstall  takes them away again, and nothing else
+#	make completions  those of bash, zsh and fish, in $(BUILD)/completions
+#	make dist       the sources as a tarball, mr-VERSION.tar.gz, in $(BUILD)
+#	make deb        Debian packages of tools, library and headers, by .debian, in $(BUILD)/deb
+#	make check-deb  builds them twice, elsewhere and otherwise, which gives the same bytes, and tries them in a new system; as root
+#	make check-arm64  builds the tools for arm64 and compares what they give, under qemu, with what these do; as root
 #	make clean      removes build/
+#
+#	NOSETUP=1       no target installs a package: what is missing is named
 
 PREFIX  ?= /usr/local
 DESTDIR ?=
@@ -35,6 +42,8 @@ LDFLAGS ?= $(if $(SAN),$(if $(findstring clang,$(CC)),-fsanitize-link-c++-runtim
 VERSION := 1.0
 SONAME  := libmr.so.$(basename $(VERSION))
 JOBS    ?= $(shell nproc 2>/dev/null || echo 2)
+NOSETUP ?=
+export NOSETUP
 T       ?=
 
 MAKEFLAGS += -j$(JOBS)
@@ -51,24 +60,26 @@ HARDEN   := $(if $(findstring -fsanitize,$(CFLAGS)),,-fstack-protector-strong $(
 SAFE     := -Wl,-z,relro,-z,now,-z,noexecstack
 # The one set of objects serves the tools and both libraries; what mr.h does not declare stays inside.
 SHARED   := -fPIC -fvisibility=hidden
-ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthread $(SHARED) $(CFLAGS) $(HARDEN)
-ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -ffp-contract=off -pthread $(SHARED) $(CFLAGS) $(HARDEN)
+# Where it was built does not show in what is built.
+PLACE    := -fdebug-prefix-map=$(CURDIR)=.
+ALL_C    := -std=c11 $(WARN) $(INCLUDE) -fno-math-errno -ffp-contract=off -pthread $(SHARED) $(PLACE) $(CFLAGS) $(HARDEN)
+ALL_CXX  := -std=c++17 $(WARN) $(INCLUDE) -ffp-contract=off -pthread $(SHARED) $(PLACE) $(CFLAGS) $(HARDEN)
 LIBS     := -Wl,--as-needed -lcholmod -lumfpack -llz4 -ltinyobjloader_double -lpng -ljpeg -ljansson -lz -lstdc++ -ldl -lm
 
 # What knows MPI: `make mpi`.
 MPI     := lib/solve/mumps.c cmd/mpi.c
 TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
-OBJECTS := $(patsubst %,$(BUILD)/%.o,$(filter-out $(MPI),$(wildcard lib/*/*.c lib/*/*.cc formats/*.c formats/*.cc)))
+OBJECTS := $(patsubst %,$(BUILD)/%.o,$(filter-out $(MPI),$(sort $(wildcard lib/*/*.c lib/*/*.cc formats/*.c formats/*.cc))))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
 # What the page of mr-view is made of, and where three.js is.
 PAGE    := $(wildcard formats/page/* formats/page/*/*)
 THREE   ?= /usr/share/javascript/three
 PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
-NEEDS   := build $(if $(filter setup check check-long check-page check-cluster coverage matrix bless units,$(MAKECMDGOALS)),check) \
+NEEDS   := build $(if $(filter setup check check-long check-page check-cluster coverage matrix bless units deb check-deb,$(MAKECMDGOALS)),check) \
 	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) \
-	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(if $(filter mpi check-mpi,$(MAKECMDGOALS)),check mpi) $(filter lint bench,$(MAKECMDGOALS))
-COMPS   := share/bash-completion/completions
+	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(if $(filter mpi check-mpi,$(MAKECMDGOALS)),check mpi) \
+	$(patsubst check-%,%,$(filter lint bench deb check-deb check-arm64,$(MAKECMDGOALS)))
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
 # V=1 shows the commands.
@@ -129,7 +140,7 @@ $(BUILD)/bench/%: tests/bench/%.cc $(BUILD)/flags | setup
 	-$(call say,link   )$(CXX) -std=c++17 -O3 -DNDEBUG -w -I/usr/include/eigen3 $(INCLUDE) -pthread -o $@ $< -Wl,--as-needed -lgmp -lmpfr -lcholmod -lOpenMeshCore -lm
 
 $(BUILD)/libmr.a: $(OBJECTS)
-	$(call say,archive)rm -f $@ && $(AR) qcs $@ $^
+	$(call say,archive)rm -f $@ && $(AR) qcsD $@ $^
 
 $(BUILD)/$(SONAME): $(OBJECTS)
 	$(call say,link   )echo '{ global: mr_*; local: *; };' >$@.map && \
@@ -155,7 +166,7 @@ help:
 	@sed -n 's/^#\tmake/make/p' Makefile
 
 setup:
-	@CC='$(CC)' TRIED='$(if $(filter setup,$(MAKECMDGOALS)),,$(BUILD)/tried)' .ci/setup $(NEEDS)
+	@CC='$(CC)' THREE='$(THREE)' TRIED='$(if $(filter setup,$(MAKECMDGOALS)),,$(BUILD)/tried)' .ci/setup $(NEEDS)
 
 check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
 	@$(RUN) tests/run $(T)
@@ -242,7 +253,10 @@ readme:
 picture: demo/index.html
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/page/picture.py $< examples/page.png
 
-LIBDIR := $(PREFIX)/lib
+LIBDIR  ?= $(PREFIX)/lib
+BASHDIR ?= $(PREFIX)/share/bash-completion/completions
+ZSHDIR  ?= $(PREFIX)/share/zsh/site-functions
+FISHDIR ?= $(PREFIX)/share/fish/vendor_completions.d
 define PC
 prefix=$(PREFIX)
 libdir=$(LIBDIR)
@@ -257,28 +271,57 @@ Cflags: -I$${includedir}
 endef
 export PC
 
-# The completions are made from what each tool says of itself.
-TO := $(DESTDIR)$(PREFIX)
-install: $(TOOLS) $(BUILD)/$(SONAME)
-	install -d $(addprefix $(TO)/,bin include share/man/man1 share/man/man5 share/man/man7 $(COMPS)) $(DESTDIR)$(LIBDIR)/pkgconfig
+completions:
+	@.ci/completions '$(abspath $(BUILD))/completions'
+
+# One mode for every file, whatever the umask says.
+TO    := $(DESTDIR)$(PREFIX)
+NAMES := $(notdir $(TOOLS))
+install: $(TOOLS) $(BUILD)/$(SONAME) completions
+	install -d $(addprefix $(TO)/,bin include share/man/man1 share/man/man5 share/man/man7) $(addprefix $(DESTDIR),$(BASHDIR) $(ZSHDIR) $(FISHDIR) $(LIBDIR)/pkgconfig)
 	install $(TOOLS) $(TO)/bin
 	for n in 1 5 7; do install -m 644 man/*.$$n $(TO)/share/man/man$$n || exit; done
-	for t in $(TOOLS); do n=$${t##*/}; echo "complete -o default -W '"$$($$t --help | grep -o -- \
-		'--[a-z][a-z-]*' | sort -u)"' $$n" >$(TO)/$(COMPS)/$$n || exit; done
+	install -m 644 $(BUILD)/completions/bash/* $(DESTDIR)$(BASHDIR)
+	install -m 644 $(BUILD)/completions/zsh/* $(DESTDIR)$(ZSHDIR)
+	install -m 644 $(BUILD)/completions/fish/* $(DESTDIR)$(FISHDIR)
 	install -m 644 lib/mr.h $(TO)/include
 	install -m 644 $(BUILD)/libmr.a $(BUILD)/$(SONAME) $(DESTDIR)$(LIBDIR)
 	ln -sf $(SONAME) $(DESTDIR)$(LIBDIR)/libmr.so
-	echo "$$PC" >$(DESTDIR)$(LIBDIR)/pkgconfig/mr.pc
+	echo "$$PC" >$(BUILD)/mr.pc && install -m 644 $(BUILD)/mr.pc $(DESTDIR)$(LIBDIR)/pkgconfig
 
 uninstall:
-	rm -f $(addprefix $(TO)/bin/,$(notdir $(TOOLS))) $(addprefix $(TO)/$(COMPS)/,$(notdir $(TOOLS)))
-	rm -f $(foreach n,1 5 7,$(addprefix $(TO)/share/man/man$n/,$(notdir $(wildcard man/*.$n))))
+	rm -f $(addprefix $(TO)/bin/,$(NAMES)) $(foreach n,1 5 7,$(addprefix $(TO)/share/man/man$n/,$(notdir $(wildcard man/*.$n))))
+	rm -f $(addprefix $(DESTDIR)$(BASHDIR)/,$(NAMES)) $(addprefix $(DESTDIR)$(ZSHDIR)/_,$(NAMES)) $(patsubst %,$(DESTDIR)$(FISHDIR)/%.fish,$(NAMES))
 	rm -f $(TO)/include/mr.h $(addprefix $(DESTDIR)$(LIBDIR)/,libmr.a $(SONAME) libmr.so pkgconfig/mr.pc)
+
+# The tracked files as they stand, or, where there is no git, all; in one order, as of the last commit: the same bytes anywhere.
+DIST   := mr-$(VERSION)
+EPOCH   = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || date -r Makefile +%s))
+SOURCES = $(if $(wildcard .git),git ls-files,find . -type f ! -path './build/*' ! -path './demo/*' | sed 's,^\./,,')
+dist:
+	@mkdir -p $(BUILD)
+	$(call say,pack   )$(SOURCES) | LC_ALL=C sort | tar -cf $(BUILD)/$(DIST).tar --no-recursion --mtime=@$(EPOCH) --owner=0 --group=0 --numeric-owner \
+		--mode=u+rw,go+rX,go-w,a-s --format=ustar --transform='s,^,$(DIST)/,' -T - && gzip -9nf $(BUILD)/$(DIST).tar
+
+# Packages are built from the tarball, in which .debian has the name that Debian asks for.
+deb: dist | setup
+	rm -rf $(BUILD)/deb && mkdir -p $(BUILD)/deb && tar -xzf $(BUILD)/$(DIST).tar.gz -C $(BUILD)/deb
+	cp $(BUILD)/$(DIST).tar.gz $(BUILD)/deb/mr-tools_$(VERSION).orig.tar.gz
+	cp -pR $(BUILD)/deb/$(DIST)/.debian $(BUILD)/deb/$(DIST)/debian && chmod -R u=rwX,go=rX $(BUILD)/deb/$(DIST)/debian
+	cd $(BUILD)/deb/$(DIST) && env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL -u BUILD DEB_BUILD_OPTIONS='parallel=$(JOBS) $(DEB_BUILD_OPTIONS)' \
+		dpkg-buildpackage -us -uc $(DEBFLAGS) >../build.log 2>&1 || { tail -n 30 ../build.log; exit 1; }
+	@ls $(BUILD)/deb/*.deb
+
+check-deb: dist $(TOOLS) $(BUILD)/$(SONAME) | setup
+	@$(RUN) tests/deb '$(abspath $(BUILD))/$(DIST).tar.gz' '$(abspath $(BUILD))/check-deb'
+
+check-arm64: $(TOOLS) | setup
+	@$(RUN) tests/arm64 '$(abspath $(BUILD))/arm64'
 
 clean:
 	rm -rf build
 
--include $(shell test -d $(BUILD) && find $(BUILD) -name '*.d')
+-include $(shell test -d $(BUILD) && find $(BUILD) \( -name deb -o -name check-deb -o -name arm64 \) -prune -o -type f -name '*.d' -print)
 
-.PHONY: all units help setup check check-long check-page check-cluster check-mpi mpi coverage lint matrix fuzz bless demo bench table1 readme picture install uninstall clean
+.PHONY: all units help setup check check-long check-page check-cluster check-mpi mpi coverage lint matrix fuzz bless demo bench table1 readme picture install uninstall completions dist deb check-deb check-arm64 clean
 .SECONDARY:

@@ -816,6 +816,8 @@ return_memory(bool lean)
 #ifdef M_MMAP_THRESHOLD
 	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 25);
 	mallopt(M_TRIM_THRESHOLD, lean ? 1 << 17 : 1 << 26);
+#else
+	(void)lean;
 #endif
 }
 

@@ -20,6 +20,10 @@
 
 #include <stdarg.h>
 
+_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
+    "mr is for little-endian machines: values are used as they stand in the stream");
+_Static_assert(sizeof(size_t) == 8, "mr is for machines of 64 bits: sizes of columns are sizes in memory");
+
 #define MR_PRINTF(f, a) __attribute__((format(printf, f, a)))
 
 /* Returns from the calling function when `expr` fails; MR_OK and MR_END go on. */

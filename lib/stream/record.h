@@ -9,8 +9,6 @@
 
 #include "stream/frame.h"
 
-_Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__, "values are used as they stand in the stream");
-
 enum {
 	MR_ALIGN = 64,           /* payloads begin at multiples of it */
 	MR_NAME_MAX = 255,       /* bytes of a frame's name */

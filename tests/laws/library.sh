@@ -28,6 +28,7 @@ nm -D --defined-only "$prefix/lib/libmr.so" | awk '{ print $3 }' | sort >exporte
 sed -nE 's/^MR_API [^(]*[ *](mr_[a-z_0-9]+)\(.*/\1/p; /^MR_API [^(]*$/{ n; s/^[ \t]*(mr_[a-z_0-9]+)\(.*/\1/p; }' \
 	"$prefix/include/mr.h" | sort >declared
 diff declared exported || bad "libmr.so does not export what mr.h declares"
+sed -n 's/^ \(.*\)@Base .*/\1/p' "$TOP/.debian/libmr1.symbols" | diff - exported || bad ".debian/libmr1.symbols does not list what libmr.so exports"
 
 mr-make bumpy -n 3000 | mr-export model.obj
 mr-import model.obj | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.5 --handle 1=above:y,0.85 |
