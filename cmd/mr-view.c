@@ -10,6 +10,9 @@ static bool opens;
 
 static const cmd_opt table[] = {
 	{ 0, "open", CMD_FLAG, &opens, 0, 0, NULL, "show the page by xdg-open", NULL },
+	{ 0, "texture", CMD_TEXT, &page.pictures.texture, 0, 0, "FILE", "picture on surfaces", NULL },
+	{ 0, "materials", CMD_TEXT, &page.pictures.materials, 0, 0, "DIR", "folder of files of materials",
+	    NULL },
 	{ 0, "intersections", CMD_FLAG, &page.intersections, 0, 0, NULL,
 	    "look for faces that intersect, to mark them", NULL },
 	{ 0 },
@@ -26,6 +29,8 @@ static mr_status
 prepare(cmd *c)
 {
 	MR_TRY(cmd_output_name(c, "PAGE.html", ".html"));
+	MR_TRY(cmd_idle(c, "materials", page.pictures.texture != NULL, "with --texture"));
+	page.pictures.keep = &c->keep;
 	return cmd_idle(c, "open", !strcmp(c->operands[0], "-"), "on standard output");
 }
 

@@ -23,7 +23,7 @@ static const off_t LARGEST_PAGE = 300000000;
  * page takes those by which it poses what it can. */
 static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offset", "source_face",
 	"source_bary", "mesh_face", "mesh_bary", "base_face", "base_bary", "control_face", "control_bary",
-	"encoded", "rest", "target", "response", "texcoord", "polygon", NULL };
+	"encoded", "rest", "target", "response", "texcoord", "corner_texcoord", "polygon", NULL };
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
 	"base.encoded", "base.response", "handles.transform", "handles.turn", NULL };
@@ -144,6 +144,13 @@ steps_of_places(const mr_column *c)
 		3 };
 }
 
+/* Places in a picture. */
+static bool
+is_texcoord(const mr_column *c)
+{
+	return !strcmp(c->name, "texcoord") || !strcmp(c->name, "corner_texcoord");
+}
+
 /* Of barycentric coordinates the third is what the two leave of 1. */
 static mr_steps
 steps_of_column(const mr_column *c)
@@ -157,10 +164,13 @@ steps_of_column(const mr_column *c)
 		return (mr_steps){ 0, { 0 }, c->shape.components };
 	if (!strcmp(c->name, "position") || is_encoded)
 		return steps_of_places(c);
-	if (!is_posing(c) || !strcmp(c->name, "detail_offset"))
+	if (!(is_posing(c) || is_texcoord(c)) || !strcmp(c->name, "detail_offset"))
 		return (mr_steps){ 0 };
-	for (size_t i = 0; i < n; i++)
+	for (size_t i = 0; i < n; i++) {
+		if (!isfinite(x[i])) /* a corner without a place in the picture */
+			return (mr_steps){ 0 };
 		most = fmax(most, fabs(x[i]));
+	}
 	return (
 	    mr_steps){ mr_step_of(most), { 0 }, !strcmp(c->name, "detail_bary") ? 2 : c->shape.components };
 }
@@ -237,9 +247,9 @@ check_layer(mr_ctx *ctx, mr_frame *f, const char *layer)
 }
 
 /* The displaced surface that is asked for, or, without a list, the one that is there; mesh is stored where it
- * is to be posed. */
+ * is to be posed, or wears pictures. */
 static mr_status
-find_displaced(mr_ctx *ctx, mr_frame *f, const char *list, mr_page_displaced *d)
+find_displaced(mr_ctx *ctx, const mr_page *page, mr_frame *f, const char *list, mr_page_displaced *d)
 {
 	bool there = mr_layer_has(f, "control", "triangles") && mr_layer_has(f, "displacement", "height");
 
@@ -247,7 +257,7 @@ find_displaced(mr_ctx *ctx, mr_frame *f, const char *list, mr_page_displaced *d)
 	if (list ? !is_listed("displacement", list) : !there)
 		return MR_OK;
 	MR_TRY(mr_page_displaced_get(ctx, f, d));
-	d->is_mesh = d->is_mesh && !is_posable(f, list);
+	d->is_mesh = d->is_mesh && !is_posable(f, list) && !mr_page_can_wear(&page->pictures, f, "mesh");
 	return MR_OK;
 }
 
@@ -415,9 +425,25 @@ tell_file(mr_ctx *ctx, const char *path, mr_text *notes)
 	return MR_OK;
 }
 
+/* What the surfaces that are shown wear, and the columns that place it. */
+static mr_status
+wear_pictures(mr_ctx *ctx, mr_frame *f, mr_page_pictures *pictures, bool *shown, mr_text *notes)
+{
+	for (size_t i = 0; i < f->count; i++) {
+		const char *layer = f->columns[i].layer, *coordinates;
+		if (!shown[i] || strcmp(f->columns[i].name, "triangles") != 0)
+			continue;
+		MR_TRY(mr_page_wear(ctx, pictures, f, layer, notes, &coordinates));
+		for (size_t k = 0; coordinates && k < f->count; k++)
+			shown[k] |= !strcmp(f->columns[k].layer, layer) &&
+			            !strcmp(f->columns[k].name, coordinates);
+	}
+	return MR_OK;
+}
+
 /* How columns are stored, and the file, are told in a text of no layer, `page`. */
 static mr_status
-take_frame(mr_ctx *ctx, mr_frame *from, const mr_page *page, const char *layers, const mr_page_displaced *d,
+take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const mr_page_displaced *d,
     mr_frame *to, mr_page_result *r)
 {
 	bool *shown = MR_NEW(ctx, from->count, bool);
@@ -429,6 +455,9 @@ take_frame(mr_ctx *ctx, mr_frame *from, const mr_page *page, const char *layers,
 		const mr_column *c = &from->columns[i];
 		shown[i] = is_shown(from, c, layers, d);
 		r->layers += shown[i] && *c->layer && !strcmp(c->name, "position");
+	}
+	MR_TRY(wear_pictures(ctx, from, &page->pictures, shown, &notes));
+	for (size_t i = 0; i < from->count; i++) {
 		r->columns += shown[i];
 		r->left_out += !shown[i];
 	}
@@ -458,15 +487,18 @@ begin(mr_ctx *ctx, mr_page *page)
 }
 
 static mr_status
-check_size(mr_ctx *ctx, off_t size)
+check_size(mr_ctx *ctx, off_t size, const mr_page_pictures *pictures)
 {
+	off_t all = size + (off_t)pictures->bytes;
+
 	if (size < 0)
 		return failed(ctx);
-	if (size > LARGEST_PAGE)
+	if (all > LARGEST_PAGE)
 		return mr_fail(ctx, MR_ERANGE,
 		    "the page comes to %.0f MB, and browsers take some %.0f: pick fewer layers by -l, or "
-		    "fewer frames",
-		    (double)size / 1e6, (double)LARGEST_PAGE / 1e6);
+		    "fewer frames%s",
+		    (double)all / 1e6, (double)LARGEST_PAGE / 1e6,
+		    pictures->bytes ? ", or smaller pictures" : "");
 	return MR_OK;
 }
 
@@ -479,7 +511,7 @@ send_frame(mr_ctx *ctx, mr_page *page, const mr_frame *shown)
 	mr_status status = mr_writer_put(ctx, page->writer, shown);
 
 	if (status == MR_OK)
-		status = check_size(ctx, lseek(fd, 0, SEEK_CUR));
+		status = check_size(ctx, lseek(fd, 0, SEEK_CUR), &page->pictures);
 	if (status == MR_OK)
 		return MR_OK;
 	mr_writer_skipped(page->writer);
@@ -493,7 +525,7 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	mr_page_displaced displaced;
 
 	*result = (mr_page_result){ 0 };
-	MR_TRY(find_displaced(ctx, frame, layers, &displaced));
+	MR_TRY(find_displaced(ctx, page, frame, layers, &displaced));
 	MR_TRY(check_layers(ctx, frame, layers, &displaced));
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
@@ -502,23 +534,6 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	MR_TRY(send_frame(ctx, page, &shown));
 	page->frames++;
 	return MR_OK;
-}
-
-/* n bytes as text; only the last ones of a block may be no multiple of 3. */
-static void
-put_base64(mr_sink *s, const unsigned char *p, size_t n)
-{
-	static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-	char *out = mr_sink_room(s);
-
-	for (; n > 0; p += 3, n -= n < 3 ? n : 3) {
-		uint32_t v = (uint32_t)p[0] << 16 | (n > 1 ? (uint32_t)p[1] << 8 : 0) | (n > 2 ? p[2] : 0u);
-		*out++ = digit[v >> 18];
-		*out++ = digit[v >> 12 & 63];
-		*out++ = n > 1 ? digit[v >> 6 & 63] : '=';
-		*out++ = n > 2 ? digit[v & 63] : '=';
-	}
-	mr_sink_fill(s, out);
 }
 
 /*
@@ -538,7 +553,7 @@ put_stream(mr_sink *s, FILE *file)
 		if (pieces++ % PIECES == 0)
 			mr_print(s, "%s<script type=\"text/plain\" class=\"stream\">",
 			    pieces > 1 ? "</script>\n" : "");
-		put_base64(s, piece, n);
+		mr_put_base64(s, piece, n);
 	}
 	mr_print(s, "</script>\n");
 	return ferror(file) ? failed(s->ctx) : s->status;
@@ -552,6 +567,7 @@ put_page(mr_sink *s, const mr_page *page, const char *html)
 
 	mr_put(s, html, (size_t)(at - html));
 	MR_TRY(put_stream(s, page->file));
+	MR_TRY(mr_page_pictures_put(s, &page->pictures));
 	mr_put(s, at + strlen(mark), strlen(at + strlen(mark)));
 	return s->status;
 }
@@ -561,6 +577,7 @@ mr_page_write(mr_ctx *ctx, mr_page *page, const char *html, const char *path, mr
 {
 	mr_sink sink;
 
+	MR_TRY(mr_page_pictures_check(ctx, &page->pictures));
 	MR_TRY(mr_writer_end(ctx, page->writer));
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));
 	sink.hold = true;

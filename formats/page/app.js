@@ -2,17 +2,19 @@
  * app.js -- the page at work: what the user has chosen, and the stage and side brought to it.  All changes go through
  * change(), and a picture that is overtaken by another change is not waited for.
  */
+import { colour } from "./coloring.js";
 import { Drawn } from "./draw/drawn.js";
 import { Flaws } from "./draw/flaws.js";
-import { firstLayer, layersOf, namesOf } from "./stream/layers.js";
+import { Pictures } from "./draw/pictures.js";
+import { firstLayer, layersOf } from "./stream/layers.js";
 import { setLevel, showLevel } from "./mesh/levels.js";
-import { kindOf, kindsOf, paint, rangeOf } from "./draw/column_colors.js";
+import { Held, nameOf } from "./held.js";
 import { pickAt, rowsOf, tell } from "./picked.js";
 import { Painter } from "./paint/painter.js";
 import { Posing } from "./deform/posing.js";
-import { listColors, listLayers, offerShading, showLegend, showName } from "./side.js";
+import { listLayers, offerShading, showName } from "./side.js";
 import { Stage } from "./draw/stage.js";
-import { columnOf, linesOf } from "./stream/stream.js";
+import { linesOf } from "./stream/stream.js";
 import { boxOf, centred, centreOf } from "./mesh/surface.js";
 
 const $ = (id) => document.getElementById(id);
@@ -25,11 +27,14 @@ function mostFaces(frames) {
 }
 
 export class App {
-	constructor(frames) {
+	/* pictures: the bytes of each. */
+	constructor(frames, pictures) {
 		this.frames = frames;
-		this.stage = new Stage($("canvas"), $("labels"), mostFaces(frames) < FINE);
+		this.stage = new Stage($("canvas"), { labels: $("labels"), foot: $("foot") }, mostFaces(frames) < FINE);
+		this.pictures = new Pictures(pictures, this.stage.renderer);
 		this.choice = { frame: 0, visible: null, level: null, beside: false, flat: false, wire: false, flaws: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
+		this.held = null; /* what stays beside it */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
 		this.picked = null;
@@ -72,17 +77,55 @@ export class App {
 		listLayers(layers, visible, (name, on) => this.turn(name, on));
 		offerShading(seen);
 		await this.load(frame, seen.length ? seen : layers);
-		await this.colour(frame, seen);
-		for (const layer of seen)
-			this.drawn.get(layer.name).drawn.look(this.choice.flat, this.choice.wire);
-		await this.flaws.show(frame, seen, this.drawn, this.choice.flaws);
-		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
+		const sides = [{ frame, layers: seen, drawn: this.drawn }, ...(this.held ? [this.held] : [])];
+		this.color = await colour(sides, this.choice, this.pictures);
+		for (const { layers: those, drawn } of sides)
+			for (const layer of those)
+				drawn.get(layer.name).drawn.look(this.choice.flat, this.choice.wire);
+		await this.flaws.show(sides, this.choice.flaws);
+		this.put(sides);
 		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);
 		this.shown = { frame, seen };
 		await this.posing.load(frame, this.centre);
 		await this.painter.meet(frame, layers, visible);
+		$("holds").hidden = this.frames.length < 2 && !frame.levels && !this.posing.pose && !this.held;
 		await this.tellPicked();
+	}
+
+	/* Puts on the stage what is shown, and what is held beside it. */
+	put([{ frame, layers, drawn }]) {
+		const those = (of, by) => of.map((l) => [l.name, by.get(l.name).drawn]), { held } = this;
+
+		if (held)
+			held.place(this.centre, this.boxes());
+		this.stage.show(
+			{ title: nameOf(frame, this.choice.frame, this.frames.length, false), layers: those(layers, drawn) },
+			held && { title: held.title, layers: those(held.layers, held.drawn), offset: held.offset, held: true },
+			this.choice.beside,
+		);
+	}
+
+	/* Each layer on its own, or no longer: of one layer that is seen alone all others, too. */
+	async part(beside) {
+		const names = layersOf(this.shown.frame).map((l) => l.name);
+
+		await this.change(beside && this.shown.seen.length < 2 ? { beside, visible: new Set(names) } : { beside });
+		this.fit();
+	}
+
+	/* Keeps what is shown beside what comes, or no longer. */
+	async hold(on) {
+		const before = this.held;
+
+		await this.working;
+		this.held = on ? await Held.of(this) : null;
+		if (this.picked && this.picked.held)
+			this.picked = null;
+		await this.change({});
+		if (before)
+			before.dispose();
+		this.fit();
 	}
 
 	/* The layers that are switched on; at first, and of another model that has none of them, the one that comes first. */
@@ -150,59 +193,16 @@ export class App {
 		this.drawn.set(layer.name, { position: layer.position, triangles: layer.triangles, box, drawn });
 	}
 
-	/* The column of the colours: the one chosen; before any is, the layers' own colours. */
-	async colour(frame, seen) {
-		const names = [...new Set(seen.flatMap((l) => l.colors.map((c) => c.name)))];
+	/* Of the layers that are switched on. */
+	boxes() {
+		const visible = this.choice.visible || new Set();
 
-		const chosen = this.choice.color === null ? await this.ownColor(frame, seen) : this.choice.color;
-		const name = names.includes(chosen) ? chosen : "";
-		this.color = name;
-		listColors(names, name);
-		showLegend(name ? await this.legend(frame, seen, name) : null);
-		for (const layer of seen)
-			await this.paint(this.drawn.get(layer.name).drawn, name ? columnOf(frame, layer.name, name) : undefined);
-	}
-
-	/* Paints by the column, if the layer has it, where it is not painted so already. */
-	async paint(drawn, column) {
-		const range = this.choice.range || {}, key = column ? [column, range.low, range.high, column.version] : [];
-
-		if (drawn.painted && key.length === drawn.painted.length && key.every((x, i) => x === drawn.painted[i]))
-			return;
-		drawn.painted = key;
-		if (column && kindOf(column) === "region" && column.element === "v" && drawn.paintRegions(await column.values()))
-			return;
-		drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) && column.element === "f");
-	}
-
-	/* The layers' own colours, unless they are all the same: black, where a format has a place for them and no more. */
-	async ownColor(frame, seen) {
-		for (const layer of seen) {
-			const column = columnOf(frame, layer.name, "color");
-			const values = column ? await column.values() : [];
-			if (values.some((x, i) => x !== values[i % column.components]))
-				return "color";
-		}
-		return "";
-	}
-
-	/* What the colours mean, over all layers that are seen; a range stays until it is chosen anew. */
-	async legend(frame, seen, name) {
-		const columns = seen.map((l) => columnOf(frame, l.name, name)).filter(Boolean);
-		const kind = kindOf(columns[0]), values = await Promise.all(columns.map((c) => c.values()));
-
-		if (kind === "number" && !this.choice.range) {
-			const ranges = columns.map((c, i) => rangeOf(c, values[i]));
-			this.choice.range = { low: Math.min(...ranges.map((r) => r.low)), high: Math.max(...ranges.map((r) => r.high)) };
-		}
-		const kinds = kind === "region" || kind === "kind" ? kindsOf(values.flatMap((v) => kindsOf(v))) : [];
-		return { kind, range: this.choice.range, kinds, names: kinds.length ? await namesOf(frame, columns[0].layer, name) : [] };
+		return [...this.drawn].filter(([name]) => visible.has(name)).map(([, d]) => d.box).filter(Boolean);
 	}
 
 	/* All that is seen in view. */
 	fit(from) {
-		const visible = this.choice.visible || new Set();
-		const boxes = [...this.drawn].filter(([name]) => visible.has(name)).map(([, d]) => d.box).filter(Boolean);
+		const boxes = [...this.boxes(), ...(this.held ? this.held.boxes() : [])];
 
 		if (boxes.length)
 			this.stage.fit({
@@ -218,7 +218,7 @@ export class App {
 		if (this.stage.gizmo.busy)
 			return;
 		this.picked = ray && pickAt(ray);
-		if (this.picked)
+		if (this.picked && !this.picked.held)
 			await this.posing.take(this.shown.frame, this.picked);
 		await this.tellPicked();
 	}
@@ -229,17 +229,37 @@ export class App {
 		return this.tellPicked();
 	}
 
+	/* What is shown, or what is held, if that was picked. */
+	sideOf(picked) {
+		return picked && picked.held ? this.held : { frame: this.shown.frame, layers: this.shown.seen, drawn: this.drawn, centre: this.centre };
+	}
+
+	/* Marks a vertex of a layer; null: none. */
+	mark(layer, picked) {
+		const { drawn: all } = this.sideOf(picked);
+
+		for (const by of [this.drawn, ...(this.held ? [this.held.drawn] : [])])
+			for (const [name, { drawn }] of by)
+				drawn.pointTo(layer && by === all && name === layer.name ? picked.vertex : null);
+		this.stage.ask();
+	}
+
+	/* What the card says of it. */
+	rowsOf(layer, picked) {
+		const { frame, drawn, centre } = this.sideOf(picked), posed = picked.held ? drawn.get(layer.name).places : this.posing.placesOf(layer.name);
+
+		return rowsOf(frame, layer, picked, centre, drawn.get(layer.name).drawn.extent, this.color, posed);
+	}
+
 	/* Marks what was picked, as long as it is there, and says what it is, unless something else is picked meanwhile. */
 	async tellPicked() {
-		const { frame, seen } = this.shown, picked = this.picked, turn = ++this.telling;
-		const layer = picked && seen.find((l) => l.name === picked.name && l.position.rows > picked.vertex);
+		const picked = this.picked, turn = ++this.telling;
+		const layer = picked && this.sideOf(picked).layers.find((l) => l.name === picked.name && l.position.rows > picked.vertex);
 		const there = layer && (picked.face === null || (layer.triangles && layer.triangles.rows > picked.face));
 
-		for (const [name, { drawn }] of this.drawn)
-			drawn.pointTo(there && name === layer.name ? picked.vertex : null);
-		this.stage.ask();
+		this.mark(there ? layer : null, picked);
 		$("picked").setAttribute("aria-busy", "true");
-		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.color, this.posing.placesOf(layer.name)) : [];
+		const rows = there ? await this.rowsOf(layer, picked) : [];
 		if (turn !== this.telling)
 			return;
 		tell($("picked"), rows);

@@ -24,6 +24,7 @@ const KEYS = {
 	PageUp: () => stepLevel(1),
 	PageDown: () => stepLevel(-1),
 	b: () => $("besides").hidden || $("beside").click(),
+	h: () => $("holds").hidden || $("hold").click(),
 	c: () => cycle($("color")),
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),
 	e: () => $("wire").click(),

@@ -1,6 +1,6 @@
 /* main.js -- begins: reads the page's data, and connects its controls. */
 import { App } from "./app.js";
-import { takeBytes } from "./stream/data.js";
+import { takeBytes, takePictures } from "./stream/data.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
 import { addLevels } from "./mesh/levels.js";
@@ -37,10 +37,8 @@ function readRange() {
 function connect(app) {
 	const view = () => $("view").value.split(",").map(Number);
 
-	$("beside").addEventListener("change", async () => {
-		await app.change({ beside: $("beside").checked });
-		app.fit();
-	});
+	$("beside").addEventListener("change", () => app.part($("beside").checked));
+	$("hold").addEventListener("change", () => app.hold($("hold").checked));
 	$("level").addEventListener("input", () => app.change({ level: $("level").valueAsNumber }));
 	$("color").addEventListener("change", () => app.change({ color: $("color").value, range: null }));
 	for (const end of ["low", "high"])
@@ -75,7 +73,7 @@ async function begin() {
 	const frames = await parseStream(takeBytes());
 	frames.forEach(addLevels);
 	$("side").hidden = false;
-	const app = window.mrView = new App(frames); /* for the console, and the tests */
+	const app = window.mrView = new App(frames, takePictures()); /* for the console, and the tests */
 	const film = new Film(frames.length, (frame) => {
 		strip.mark(frame);
 		return app.change({ frame }).catch(fail);

@@ -8,7 +8,7 @@ import { element, number, place } from "./stream/text.js";
 
 const NEAR = 9; /* pixels about a point */
 
-/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at }, at in the stage's floats; or null. */
+/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at, held }, at in the layer's floats, held: whether it is of what is held beside; or null. */
 export function pickAt(ray) {
 	let best = null;
 
@@ -19,11 +19,11 @@ export function pickAt(ray) {
 			if (!hit || (best && best.t <= hit.t))
 				continue;
 			const at = ray.from.map((x, c) => x + hit.t * ray.along[c]);
-			best = { name, t: hit.t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, at), at };
+			best = { name, held: ray.held, t: hit.t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, at), at };
 		} else {
 			const hit = nearestPoint(p, ray.projection, ray.right, ray.top, NEAR * ray.pixel, ray.aspect);
 			if (hit && !(best && best.t <= hit.t))
-				best = { name, t: hit.t, face: null, vertex: hit.vertex, at: null };
+				best = { name, held: ray.held, t: hit.t, face: null, vertex: hit.vertex, at: null };
 		}
 	}
 	return best;

@@ -35,7 +35,7 @@ export function offerShading(layers) {
 /* The columns that there are to colour by; the first choice is none. */
 export function listColors(names, chosen) {
 	const options = ["", ...names].map((name) => {
-		const option = element("option", name || "plain");
+		const option = element("option", name.trim() || "plain");
 		option.value = name;
 		return option;
 	});

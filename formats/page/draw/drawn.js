@@ -1,86 +1,10 @@
 /* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that was picked. */
 import * as THREE from "three/build/three.module.js";
 import { PLAIN, regionColor } from "./colors.js";
-import { Slots, sharpen, sharpness } from "./sharp.js";
-import { apart, edgesOf, shade, spacingOf, surfaceOf } from "../mesh/surface.js";
-
-const POINT_VERTEX = `
-uniform float size, scale, least, most;
-attribute vec3 tint;
-varying vec3 vTint, vNormal;
-void main() {
-	vec4 at = modelViewMatrix * vec4(position, 1.0);
-	vTint = tint;
-	vNormal = normalMatrix * normal;
-	gl_Position = projectionMatrix * at;
-	gl_PointSize = clamp(size * scale / -at.z, least, most);
-}`;
-
-/* A ball where nothing is known of the surface, else a disc that is lit as the surface there is. */
-const POINT_FRAGMENT = `
-varying vec3 vTint, vNormal;
-void main() {
-	vec2 at = 2.0 * gl_PointCoord - 1.0;
-	float out2 = dot(at, at);
-	if (out2 > 1.0)
-		discard;
-	vec3 n = dot(vNormal, vNormal) > 0.0 ? normalize(vNormal) : vec3(at.x, -at.y, sqrt(1.0 - out2));
-	n = n.z < 0.0 ? -n : n;
-	gl_FragColor = vec4(vTint * (0.45 + 0.6 * max(dot(n, normalize(vec3(-0.3, 0.5, 0.9))), 0.0)), 1.0);
-}`;
-
-const MARK_FRAGMENT = `
-void main() {
-	float out2 = dot(2.0 * gl_PointCoord - 1.0, 2.0 * gl_PointCoord - 1.0);
-	if (out2 > 1.0)
-		discard;
-	gl_FragColor = out2 > 0.45 ? vec4(1.0) : vec4(0.85, 0.1, 0.15, 1.0);
-}`;
-
-export function pointMaterial(fragmentShader, uniforms, more) {
-	return new THREE.ShaderMaterial({
-		vertexShader: POINT_VERTEX,
-		fragmentShader,
-		uniforms: { scale: { value: 1 }, ...Object.fromEntries(Object.entries(uniforms).map(([k, value]) => [k, { value }])) },
-		...more,
-	});
-}
-
-/* Shaded by the light of the eye; the inside is bluish, as in mr-render. */
-function surfaceMaterial() {
-	const uniforms = sharpness();
-	const material = new THREE.MeshPhongMaterial({
-		vertexColors: THREE.VertexColors,
-		specular: 0x121212,
-		shininess: 24,
-		side: THREE.DoubleSide,
-		polygonOffsetFactor: 1,
-		polygonOffsetUnits: 1,
-	});
-
-	material.extensions = { derivatives: true };
-	material.userData = uniforms;
-	material.onBeforeCompile = (shader) => {
-		sharpen(shader, uniforms);
-		shader.fragmentShader = shader.fragmentShader.replace("#include <color_fragment>",
-			"#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb *= vec3(0.66, 0.78, 0.98);");
-	};
-	return material;
-}
-
-function edgeMaterial() {
-	return new THREE.LineBasicMaterial({ color: 0x1a2230, transparent: true, opacity: 0.2, depthWrite: false });
-}
-
-/* What a layer is drawn with, which serves its later frames as well: a shader is compiled once. */
-function materialsFor(surface) {
-	return {
-		surface,
-		body: surface ? surfaceMaterial() : pointMaterial(POINT_FRAGMENT, { size: 1, least: 2, most: 24 }),
-		edge: edgeMaterial(),
-		mark: pointMaterial(MARK_FRAGMENT, { size: 1, least: 13, most: 13 }, { depthTest: false, transparent: true }),
-	};
-}
+import { bodies, materialsFor, wornMaterial } from "./materials.js";
+import { Slots } from "./sharp.js";
+import { apart, gather, seamed, sorted } from "../mesh/seams.js";
+import { edgesOf, shade, spacingOf, surfaceOf } from "../mesh/surface.js";
 
 const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);
 
@@ -110,7 +34,7 @@ export class Drawn {
 		this.extent = extent;
 		this.group = new THREE.Group();
 		this.geometry = new THREE.BufferGeometry();
-		this.split = false; /* whether each face has its own vertices */
+		this.parts = null; /* how vertices are parted (seams.js); null: they are those of the surface */
 		if (triangles)
 			this.beSurface();
 		else
@@ -120,7 +44,8 @@ export class Drawn {
 
 	beSurface() {
 		this.surface = surfaceOf(this.position, this.triangles);
-		this.group.add(new THREE.Mesh(this.geometry, this.materials.body));
+		this.body = new THREE.Mesh(this.geometry, this.materials.body);
+		this.group.add(this.body);
 		this.shape(this.surface);
 	}
 
@@ -149,8 +74,11 @@ export class Drawn {
 		this.count = arrays.position.length / 3;
 		this.geometry.setAttribute("position", attribute(arrays.position, 3));
 		this.geometry.setAttribute("normal", attribute(arrays.normal, 3));
-		for (const name of ["color", "tint", "slot"])
+		for (const name of ["color", "tint", "slot", "uv"])
 			this.geometry.deleteAttribute(name);
+		this.geometry.clearGroups();
+		if (this.body)
+			this.body.material = this.materials.body;
 		this.geometry.setIndex(arrays.index ? attribute(arrays.index, 1) : null);
 		this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2 * this.extent);
 	}
@@ -159,7 +87,7 @@ export class Drawn {
 	move(position) {
 		this.position.set(position);
 		shade(this.surface, this.position);
-		const arrays = this.split ? apart(this.surface) : this.surface;
+		const arrays = this.parts ? gather(this.surface, this.parts) : this.surface;
 		for (const name of ["position", "normal"]) {
 			const { array } = this.geometry.attributes[name];
 			if (array !== arrays[name])
@@ -195,10 +123,24 @@ export class Drawn {
 	}
 
 	part(perFace) {
-		if (this.surface && this.split !== perFace) {
-			this.split = perFace;
-			this.shape(perFace ? apart(this.surface) : this.surface);
-		}
+		if (!this.surface || (perFace ? this.parts && !this.parts.index : !this.parts))
+			return;
+		this.parts = perFace ? apart(this.surface) : null;
+		this.shape(perFace ? { ...this.parts, ...gather(this.surface, this.parts) } : this.surface);
+	}
+
+	/* Dresses a surface (pictures.js). */
+	wear({ looks, faces, places }) {
+		const { index, groups } = (this.parts = seamed(this.surface, places, faces), sorted(this.parts.index, faces));
+		const color = new Uint8Array(3 * this.parts.from.length);
+
+		this.shape({ ...this.parts, index, ...gather(this.surface, this.parts) });
+		this.parts.look.forEach((look, i) => color.set(looks[look].texture ? [255, 255, 255] : looks[look].color, 3 * i));
+		this.geometry.setAttribute("color", attribute(color, 3, true));
+		this.geometry.setAttribute("uv", attribute(this.parts.uv, 2));
+		groups.forEach(({ start, count }, i) => this.geometry.addGroup(start, count, i));
+		this.materials.body.userData.sharp.value = 0;
+		this.body.material = groups.map(({ look }) => wornMaterial(this.materials, looks[look].texture));
 	}
 
 	/* Paints a surface by regions of its vertices, with sharp borders; false where they are too many for that. */
@@ -236,10 +178,12 @@ export class Drawn {
 	look(flat, wire) {
 		if (!this.surface)
 			return;
-		this.materials.body.polygonOffset = wire; /* so that faces do not hide their edges */
-		if (this.materials.body.flatShading !== flat) {
-			this.materials.body.flatShading = flat;
-			this.materials.body.needsUpdate = true;
+		for (const body of bodies(this.materials)) {
+			body.polygonOffset = wire; /* so that faces do not hide their edges */
+			if (body.flatShading !== flat) {
+				body.flatShading = flat;
+				body.needsUpdate = true;
+			}
 		}
 		if (wire && !this.edges)
 			this.beEdges();
@@ -280,7 +224,7 @@ export class Drawn {
 		for (const child of this.group.children)
 			child.geometry.dispose();
 		if (!after || after.materials !== this.materials)
-			for (const material of [this.materials.body, this.materials.edge, this.materials.mark])
+			for (const material of [...bodies(this.materials), this.materials.edge, this.materials.mark])
 				material.dispose();
 	}
 }

@@ -3,7 +3,7 @@
  * mr-view --intersections has looked for and says in a column.  Marks are seen through the model: flaws are small, and often inside.
  */
 import * as THREE from "three/build/three.module.js";
-import { pointMaterial } from "./drawn.js";
+import { pointMaterial } from "./materials.js";
 import { endsOf, foldsOf, pairsOf } from "../mesh/folds.js";
 import { CROSSING } from "../stream/layers.js";
 import { columnOf } from "../stream/stream.js";
@@ -110,28 +110,35 @@ export class Flaws {
 		$("flaws-of").textContent = this.known ? "Folds, intersections" : "Folded edges";
 	}
 
-	/* Marks what is seen, if it is to be marked; seen: layers, drawn: what is drawn of each. */
-	async show(frame, seen, drawn, on) {
-		for (const { drawn: old } of drawn.values())
-			old.setMarks(null);
+	/* Marks what is seen, if it is to be marked, and tells of the first side (coloring.js); another one is held beside it. */
+	async show(sides, on) {
 		this.marks = [];
-		for (const layer of on ? seen.filter((l) => l.triangles && l.triangles.rows) : []) {
-			const column = columnOf(frame, layer.name, CROSSING), there = drawn.get(layer.name).drawn;
-			const marks = new Marks(there, column ? await column.values() : null, () => this.tell(on));
-			there.setMarks(marks);
-			this.marks.push(marks);
+		for (const side of sides) {
+			for (const { drawn } of side.drawn.values())
+				drawn.setMarks(null);
+			for (const layer of on ? side.layers.filter((l) => l.triangles && l.triangles.rows) : [])
+				await this.mark(side, layer, side === sides[0]);
 		}
-		this.tell(on);
+		this.tell();
+	}
+
+	async mark({ frame, drawn }, layer, told) {
+		const column = columnOf(frame, layer.name, CROSSING), there = drawn.get(layer.name), known = column && !there.places;
+		const marks = new Marks(there.drawn, known ? await column.values() : null, () => this.tell());
+
+		there.drawn.setMarks(marks);
+		if (told)
+			this.marks.push(marks);
 	}
 
 	/* How many there are, of all layers that are seen. */
-	tell(on) {
+	tell() {
 		const folds = this.marks.reduce((n, m) => n + m.folds, 0), faces = this.marks.reduce((n, m) => n + m.faces.length / 3, 0);
 		const unknown = this.marks.some((m) => !m.crossing), items = [[RED, count(folds) + (folds === 1 ? " folded edge" : " folded edges")]];
 
 		if (this.known)
 			items.push([VIOLET, unknown ? "intersections: not looked for here" : count(faces) + (faces === 1 ? " intersecting face" : " intersecting faces")]);
-		$("flaw-list").replaceChildren(...(on && this.marks.length ? items : []).map(([color, words]) => {
+		$("flaw-list").replaceChildren(...(this.marks.length ? items : []).map(([color, words]) => {
 			const item = document.createElement("li"), swatch = document.createElement("i");
 			swatch.style.background = "rgb(" + color.join(",") + ")";
 			item.append(swatch, words);

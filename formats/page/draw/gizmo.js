@@ -11,7 +11,11 @@ export class Gizmo {
 	constructor(stage) {
 		this.stage = stage;
 		this.at = new THREE.Object3D();
-		this.controls = new TransformControls(stage.camera, stage.canvas);
+		this.controls = new TransformControls(stage.camera, {
+			addEventListener: (...what) => stage.canvas.addEventListener(...what),
+			removeEventListener: (...what) => stage.canvas.removeEventListener(...what),
+			getBoundingClientRect: () => stage.place(), /* where it is drawn: not in what is held beside it */
+		});
 		this.controls.setSize(SIZE);
 		stage.scene.add(this.at, this.controls);
 		this.controls.addEventListener("change", () => stage.ask());
@@ -55,6 +59,11 @@ export class Gizmo {
 			this.controls.detach();
 		this.controls.enabled = on;
 		this.stage.ask();
+	}
+
+	/* Whether it is in the next panel that is drawn. */
+	see(on) {
+		this.controls.visible = on && this.controls.object !== undefined;
 	}
 
 	/* Where it has been dragged: { translate, turn, scale }, turns beyond half a circle counted. */

@@ -1,4 +1,4 @@
-/* stage.js -- the canvas: a camera, light that comes with it, and the layers, in one panel or one for each. */
+/* stage.js -- the canvas: a camera, light that comes with it, and the layers, in one panel or one for each, and beside them what is held. */
 import * as THREE from "three/build/three.module.js";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Gizmo } from "./gizmo.js";
@@ -38,10 +38,11 @@ export function lightUp(scene, camera) {
 }
 
 export class Stage {
-	/* smooth: whether edges are, which costs four times the pixels. */
-	constructor(canvas, labels, smooth) {
+	/* labels, foot: lie over the canvas; smooth: whether edges are, which costs four times the pixels. */
+	constructor(canvas, { labels, foot }, smooth) {
 		this.canvas = canvas;
 		this.labels = labels;
+		this.foot = foot;
 		this.renderer = new THREE.WebGLRenderer({ canvas, antialias: smooth, alpha: true });
 		this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
 		this.renderer.autoClear = false;
@@ -51,11 +52,13 @@ export class Stage {
 		this.gizmo = new Gizmo(this);
 		this.up("y");
 		this.layers = []; /* [name, drawn], those to be seen */
-		this.beside = false;
+		this.cells = [{ title: "", layers: [], offset: [0, 0, 0], held: false }]; /* what each panel has */
 		this.paints = false;
 		this.radius = 1;
 		this.drawn = () => {}; /* what is to be done after each picture */
-		new ResizeObserver(() => this.resize()).observe(canvas);
+		const observer = new ResizeObserver(() => this.resize());
+		observer.observe(canvas);
+		observer.observe(foot);
 	}
 
 	/* Which axis is upwards. */
@@ -93,27 +96,38 @@ export class Stage {
 	/* Whether handles can be dragged: not while the left button paints. */
 	offer(paints = this.paints) {
 		this.paints = paints;
-		this.gizmo.offer(!this.beside && !paints);
+		this.gizmo.offer(this.cells.filter((cell) => !cell.held).length === 1 && !paints);
 	}
 
-	/* Puts these on the stage. */
-	show(layers, beside) {
-		this.layers = layers;
-		this.beside = beside && layers.length > 1;
+	/*
+	 * Puts these on the stage: { title, layers }, and in panels of its own what is held beside it, { title, layers, offset, held }, or
+	 * null.  beside: each layer in a panel of its own.
+	 */
+	show(now, held, beside) {
+		const sides = (held ? [held] : []).concat({ ...now, title: held ? now.title : "", offset: [0, 0, 0], held: false });
+
+		this.layers = now.layers;
+		this.cells = sides.flatMap((side) => (!beside || side.layers.length < 2 ? [side] :
+			side.layers.map((layer) => ({ ...side, layers: [layer], title: side.title + (side.title ? " \u00b7 " : "") + layer[0] }))));
 		this.offer();
 		this.label();
 		this.ask();
 	}
 
-	/* The panels: place in the canvas, from its top left corner, and layers. */
+	/* The panels: place in the canvas, from its top left corner, and what is there; several end above the foot. */
 	panels() {
-		const width = this.canvas.clientWidth, height = this.canvas.clientHeight;
+		const box = this.canvas.getBoundingClientRect(), n = this.cells.length;
+		const width = this.canvas.clientWidth, height = n > 1 ? Math.max(this.foot.getBoundingClientRect().top - box.top, 1) : this.canvas.clientHeight;
+		const columns = columnsFor(n, width, height), w = width / columns, h = height / Math.ceil(n / columns);
 
-		if (!this.beside)
-			return [{ x: 0, y: 0, width, height, layers: this.layers }];
-		const n = this.layers.length, columns = columnsFor(n, width, height), rows = Math.ceil(n / columns);
-		const w = width / columns, h = height / rows;
-		return this.layers.map((layer, i) => ({ x: i % columns * w, y: Math.floor(i / columns) * h, width: w, height: h, layers: [layer] }));
+		return this.cells.map((cell, i) => ({ ...cell, x: i % columns * w, y: Math.floor(i / columns) * h, width: w, height: h }));
+	}
+
+	/* Where in the window the panel is in which handles are dragged. */
+	place() {
+		const box = this.canvas.getBoundingClientRect(), panel = this.panels().find((p) => !p.held);
+
+		return { left: box.left + panel.x, top: box.top + panel.y, width: panel.width, height: panel.height };
 	}
 
 	aspect() {
@@ -124,10 +138,11 @@ export class Stage {
 
 	label() {
 		this.labels.replaceChildren();
-		for (const panel of this.beside ? this.panels() : []) {
-			const label = element("span", panel.layers[0][0]);
+		for (const panel of this.panels().filter((p) => p.title)) {
+			const label = element("span", panel.title);
 			label.style.left = panel.x + "px";
 			label.style.top = panel.y + "px";
+			label.style.maxWidth = panel.width + "px";
 			this.labels.append(label);
 		}
 	}
@@ -172,6 +187,7 @@ export class Stage {
 				drawn.scale(panel.height * ratio / 2 / Math.tan(ANGLE / 2 * Math.PI / 180));
 				this.scene.add(drawn.group);
 			}
+			this.gizmo.see(!panel.held);
 			this.renderer.render(this.scene, this.camera);
 			for (const [, drawn] of panel.layers)
 				this.scene.remove(drawn.group);
@@ -228,12 +244,14 @@ export class Stage {
 
 		if (!panel)
 			return null;
+		const shift = new THREE.Matrix4().makeTranslation(...panel.offset);
 		const right = (clientX - panel.left) / panel.width * 2 - 1, top = 1 - (clientY - panel.top) / panel.height * 2;
 		return {
 			layers: panel.layers,
-			from: panel.eye,
+			held: panel.held,
+			from: panel.eye.map((x, c) => x - panel.offset[c]),
 			along: this.along(panel, clientX - panel.left, clientY - panel.top),
-			projection: panel.m,
+			projection: new THREE.Matrix4().fromArray(panel.m).multiply(shift).elements,
 			right,
 			top,
 			aspect: this.camera.aspect,

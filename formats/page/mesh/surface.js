@@ -182,22 +182,6 @@ export function surfaceOf(p, t) {
 	return surface;
 }
 
-/* The same with three vertices to a face, of which each then stands for its face: for colours of faces. */
-export function apart(surface) {
-	const n = surface.index.length;
-	const position = new Float32Array(3 * n), normal = new Float32Array(3 * n), source = new Uint32Array(n);
-
-	for (let k = 0; k < n; k++) {
-		const v = 3 * surface.index[k];
-		for (let c = 0; c < 3; c++) {
-			position[3 * k + c] = surface.position[v + c];
-			normal[3 * k + c] = surface.normal[v + c];
-		}
-		source[k] = Math.floor(k / 3);
-	}
-	return { position, normal, index: null, source };
-}
-
 /* The two ends of the three edges of each face. */
 export function edgesOf(t) {
 	const out = new Uint32Array(2 * t.length);

@@ -1,4 +1,4 @@
-/* data.js -- the bytes that stand in the page, in base64, as elements of the class "stream". */
+/* data.js -- the bytes that stand in the page, in base64, as elements of the classes "stream" and "picture". */
 
 /* What one element says, in bytes. */
 function decode(text) {
@@ -23,6 +23,14 @@ export async function textOf(id) {
 	const stream = new Blob([decode(document.getElementById(id).textContent.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
 
 	return new Response(stream).text();
+}
+
+/* The bytes of the pictures, which are taken out of the page. */
+export function takePictures() {
+	return [...document.querySelectorAll("script.picture")].map((block) => {
+		block.remove();
+		return decode(block.textContent);
+	});
 }
 
 /* Takes the elements out of the page as it reads them, so that no text is held for long. */

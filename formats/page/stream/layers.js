@@ -5,9 +5,12 @@ import { columnOf, linesOf } from "./stream.js";
 export const CROSSING = "self_intersections";
 
 /* Columns that are no values to colour by: places, and what poses or subdivides them. */
-const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease", CROSSING]);
+const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease", "texcoord", "corner_texcoord", CROSSING]);
 
-/* Layers, in the order of the frame: name, position, triangles (undefined: points), colours. */
+/* In place of a column to colour by: no column's name has a blank. */
+export const TEXTURE = " texture";
+
+/* Layers, in the order of the frame: name, position, triangles (undefined: points), what it wears, colours. */
 export function layersOf(frame) {
 	const layers = [];
 
@@ -18,6 +21,9 @@ export function layersOf(frame) {
 				position: column,
 				triangles: columnOf(frame, column.layer, "triangles"),
 				normal: columnOf(frame, column.layer, "normal"),
+				wears: frame.wears && frame.wears.get(column.layer),
+				texcoord: columnOf(frame, column.layer, "corner_texcoord") || columnOf(frame, column.layer, "texcoord"),
+				material: columnOf(frame, column.layer, "material"),
 				colors: [...frame.columns.values()].filter((c) => c.layer === column.layer && !PLACES.has(c.name) && (c.element === "v" || c.element === "f")),
 			});
 	return layers;

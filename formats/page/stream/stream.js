@@ -57,7 +57,18 @@ function drop(frame, layer, name) {
 			frame.columns.delete(key);
 }
 
-/* What the page's text says: the file; how columns are stored, equal ones once, others as sums of steps; which layer is computed. */
+/* What a layer of the frame wears: a picture for all of it, or those and the colours of its materials. */
+function wearing(frame, layer) {
+	frame.wears = frame.wears || new Map();
+	if (!frame.wears.has(layer))
+		frame.wears.set(layer, { texture: null, materials: new Map() });
+	return frame.wears.get(layer);
+}
+
+const given = (word, read) => (word === "-" ? null : read(word));
+
+/* What the page's text says: the file; how columns are stored, equal ones once, others as sums of steps; which layer is computed;
+ * what layers wear. */
 async function understand(frame) {
 	for (const line of await linesOf(frame, "", "page")) {
 		const [how, layer, name, ...more] = line.split(" ");
@@ -67,6 +78,10 @@ async function understand(frame) {
 			frame.columns.set(keyOf(layer, name), columnOf(frame, ...more).called(layer, name));
 		else if (how === "surface")
 			frame.displaced = { layer, level: Number(name), most: Number(more[0]) };
+		else if (how === "texture")
+			wearing(frame, layer).texture = Number(name);
+		else if (how === "material")
+			wearing(frame, layer).materials.set(Number(name), { color: given(more[0], (rgb) => rgb.split(",").map(Number)), picture: given(more[1], Number) });
 		else
 			columnOf(frame, layer, name).setSteps(Number(more[0] || 0), more.slice(1).map(Number));
 	}

@@ -1,0 +1,253 @@
+/*
+ * Pictures go into the page as the bytes that their files have, which a browser decodes; but for what is said
+ * in them about the picture: cameras and places, which are nobody's business, and turns and colour profiles,
+ * which mr-render does not follow and a browser would.
+ */
+#include "formats/page_pictures.h"
+
+#include "formats/image.h"
+#include "formats/materials.h"
+#include "formats/model.h"
+
+/* The most pixels a side that graphics cards of some years ago take. */
+static const size_t LARGEST_SIDE = 8192;
+
+static mr_status
+no_memory(mr_ctx *ctx, const mr_ctx *keep)
+{
+	return mr_fail(ctx, MR_EMEM, "%s", keep->error);
+}
+
+static size_t
+big_endian(const unsigned char *p, size_t n)
+{
+	size_t x = 0;
+
+	for (size_t i = 0; i < n; i++)
+		x = x << 8 | p[i];
+	return x;
+}
+
+static size_t
+copy(unsigned char *out, size_t used, const unsigned char *p, size_t n)
+{
+	memcpy(out + used, p, n);
+	return used + n;
+}
+
+/* The chunks that make the pixels: the critical ones, which begin with a capital, and transparency. */
+static size_t
+strip_png(const unsigned char *p, size_t n, unsigned char *out)
+{
+	size_t used = copy(out, 0, p, 8), at = 8;
+
+	while (n - at >= 12) {
+		size_t size = 12 + big_endian(p + at, 4);
+		const unsigned char *kind = p + at + 4;
+		if (size > n - at)
+			break;
+		if (*kind < 'a' || !memcmp(kind, "tRNS", 4))
+			used = copy(out, used, p + at, size);
+		at += size;
+	}
+	return used;
+}
+
+/* All but the comments and what applications add; Adobe's tells which colours the numbers are. */
+static size_t
+strip_jpeg(const unsigned char *p, size_t n, unsigned char *out)
+{
+	enum { SCAN = 0xda, FIRST = 0xe1, ADOBE = 0xee, LAST = 0xef, COMMENT = 0xfe };
+	size_t used = copy(out, 0, p, 2), at = 2;
+
+	while (n - at >= 4 && p[at] == 0xff && p[at + 1] != SCAN) {
+		int kind = p[at + 1];
+		size_t size = 2 + big_endian(p + at + 2, 2);
+		if (size > n - at)
+			break;
+		if (kind != COMMENT && (kind < FIRST || kind > LAST || kind == ADOBE))
+			used = copy(out, used, p + at, size);
+		at += size;
+	}
+	return copy(out, used, p + at, n - at);
+}
+
+static mr_status
+decode(mr_ctx *ctx, const mr_file_bytes *b, mr_image *image)
+{
+	if (mr_is_png(b->data, b->size))
+		return mr_png_read(ctx, b->data, b->size, image);
+	if (mr_is_jpeg(b->data, b->size))
+		return mr_jpeg_read(ctx, b->data, b->size, image);
+	return mr_fail(ctx, MR_EFORMAT, "neither a PNG nor a JPEG");
+}
+
+/* What a browser could not decode is refused here. */
+static mr_status
+check_picture(mr_ctx *ctx, const char *path, const mr_file_bytes *b)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_image image;
+
+	MR_TRY(decode(ctx, b, &image));
+	if (image.width > LARGEST_SIDE || image.height > LARGEST_SIDE)
+		mr_warn(ctx,
+		    "%s: a picture of %zu x %zu pixels: many browsers take %zu a side, and show it smaller",
+		    path, image.width, image.height, LARGEST_SIDE);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+keep_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, const mr_file_bytes *b)
+{
+	mr_page_picture new = { .path = mr_format(p->keep, "%s", path),
+		.data = MR_NEW(p->keep, b->size, unsigned char) };
+
+	MR_TRY(check_picture(ctx, path, b));
+	if (!new.path || !new.data || MR_RESERVE(p->keep, p->picture, p->count, 1, &p->room) != MR_OK)
+		return no_memory(ctx, p->keep);
+	new.size = (mr_is_png(b->data, b->size) ? strip_png : strip_jpeg)(b->data, b->size, new.data);
+	p->bytes += new.size;
+	p->picture[p->count++] = new;
+	return MR_OK;
+}
+
+/* The number of the picture of a file. */
+static mr_status
+find_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, size_t *number)
+{
+	mr_file_bytes b = { 0 };
+
+	for (size_t i = 0; i < p->count; i++)
+		if (!strcmp(p->picture[i].path, path)) {
+			*number = i;
+			return MR_OK;
+		}
+	MR_TRY(mr_file_bytes_read(ctx, path, NULL, &b));
+	MR_TRY(mr_prefix(ctx, mr_file_bytes_end(ctx, &b, keep_picture(ctx, p, path, &b)), "%s", path));
+	*number = p->count - 1;
+	return MR_OK;
+}
+
+static unsigned
+to_byte(double x)
+{
+	return (unsigned)(255 * x + 0.5);
+}
+
+/* The line of a material: its number, its colour or -, the number of its picture or -. */
+static mr_status
+wear_material(
+    mr_ctx *ctx, mr_page_pictures *p, const char *layer, size_t i, const mr_material *m, mr_text *notes)
+{
+	size_t number = 0;
+	bool pictured = false;
+
+	if (m->file && find_picture(ctx, p, m->file, &number) < 0)
+		mr_warn(ctx, "%s: its material is drawn without a picture", ctx->error);
+	else
+		pictured = m->file != NULL;
+	if (!pictured && !m->colored)
+		return MR_OK;
+	mr_text_add(notes, "material %s %zu", layer, i);
+	if (m->colored)
+		mr_text_add(
+		    notes, " %u,%u,%u", to_byte(m->color[0]), to_byte(m->color[1]), to_byte(m->color[2]));
+	else
+		mr_text_add(notes, " -");
+	if (pictured)
+		mr_text_add(notes, " %zu\n", number);
+	else
+		mr_text_add(notes, " -\n");
+	p->worn = true;
+	return MR_OK;
+}
+
+static mr_status
+wear_materials(mr_ctx *ctx, mr_page_pictures *p, const mr_model *m, const char *layer, mr_text *notes)
+{
+	mr_material *look;
+	size_t count;
+
+	MR_TRY(mr_materials_find(ctx, m, p->materials, &look, &count));
+	for (size_t i = 0; i < count; i++)
+		MR_TRY(wear_material(ctx, p, layer, i, &look[i], notes));
+	p->worn = true;
+	return MR_OK;
+}
+
+bool
+mr_page_can_wear(const mr_page_pictures *p, const mr_frame *f, const char *layer)
+{
+	if (!mr_layer_has(f, layer, "triangles"))
+		return false;
+	if (p->texture)
+		return mr_layer_has(f, layer, "texcoord") || mr_layer_has(f, layer, "corner_texcoord");
+	return p->materials && mr_layer_has(f, layer, "material");
+}
+
+mr_status
+mr_page_wear(mr_ctx *ctx, mr_page_pictures *p, mr_frame *f, const char *layer, mr_text *notes,
+    const char **coordinates)
+{
+	size_t number;
+	mr_model m;
+
+	*coordinates = NULL;
+	if (!mr_page_can_wear(p, f, layer))
+		return MR_OK;
+	MR_TRY(mr_model_get(ctx, f, layer, &m));
+	if (m.nf == 0 || (!p->texture && !m.material))
+		return MR_OK;
+	*coordinates = m.corner_texcoord ? "corner_texcoord" : m.texcoord ? "texcoord" : NULL;
+	if (!p->texture)
+		return wear_materials(ctx, p, &m, layer, notes);
+	MR_TRY(find_picture(ctx, p, p->texture, &number));
+	mr_text_add(notes, "texture %s %zu\n", layer, number);
+	p->worn = true;
+	return MR_OK;
+}
+
+void
+mr_put_base64(mr_sink *s, const unsigned char *p, size_t n)
+{
+	static const char digit[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+	enum { PIECE = 3000 };
+
+	for (size_t last; n > 0; n -= last) {
+		char *out = mr_sink_room(s);
+		last = n < PIECE ? n : PIECE;
+		for (const unsigned char *end = p + last; p < end;) {
+			size_t left = (size_t)(end - p), got = left < 3 ? left : 3;
+			uint32_t v = (uint32_t)p[0] << 16 | (got > 1 ? (uint32_t)p[1] << 8 : 0) |
+			             (got > 2 ? p[2] : 0u);
+			*out++ = digit[v >> 18];
+			*out++ = digit[v >> 12 & 63];
+			*out++ = got > 1 ? digit[v >> 6 & 63] : '=';
+			*out++ = got > 2 ? digit[v & 63] : '=';
+			p += got;
+		}
+		mr_sink_fill(s, out);
+	}
+}
+
+mr_status
+mr_page_pictures_check(mr_ctx *ctx, const mr_page_pictures *p)
+{
+	if (!(p->texture || p->materials) || p->worn)
+		return MR_OK;
+	return mr_fail(ctx, MR_EMISSING, "no layer that is shown has %s",
+	    p->texture ? "texture coordinates" : "materials");
+}
+
+mr_status
+mr_page_pictures_put(mr_sink *s, const mr_page_pictures *p)
+{
+	for (size_t i = 0; i < p->count; i++) {
+		mr_print(s, "<script type=\"text/plain\" class=\"picture\">");
+		mr_put_base64(s, p->picture[i].data, p->picture[i].size);
+		mr_print(s, "</script>\n");
+	}
+	return s->status;
+}
