@@ -1,8 +1,10 @@
 """browser.py -- Chromium without a window, by its DevTools protocol over a pipe: opens a page, clicks, reads, takes pictures.
 
-A page may say nothing to the console and ask for no address but its own: what it does of either is in `said`.
+It draws by software, which takes most of the time of a test: half as fine as others do, unless a test asks for more, and not at all
+where a test asks for no picture.  A page may say nothing to the console and ask for no address but its own: what it does of either is in `said`.
 """
 import base64
+import functools
 import json
 import os
 import shutil
@@ -28,8 +30,26 @@ def draws():
     return b"WebGL true" in said
 
 
+# What three.js draws by.
+DRAWS_NOTHING = "for (const name of ['drawElements', 'drawArrays']) WebGLRenderingContext.prototype[name] = () => {};"
+
+# Until nothing is under way three times in a row, a picture apart; a minute at most.
+SETTLE = """new Promise(done => {
+    const end = performance.now() + 60000;
+    let calm = 0;
+    const look = () => {
+        calm = document.querySelector("[aria-busy]") || (window.mrView && mrView.stage.asked) ? 0 : calm + 1;
+        if (calm > 2 || performance.now() > end)
+            setTimeout(done, 10);
+        else
+            requestAnimationFrame(() => setTimeout(look));
+    };
+    look();
+})"""
+
+
 class Browser:
-    def __init__(self, width=1280, height=800, flags=()):
+    def __init__(self, width=1280, height=800, flags=(), scale=0.5):
         self.profile = tempfile.mkdtemp()
         ours, theirs = os.pipe(), os.pipe()  # to the browser, from it
 
@@ -50,6 +70,7 @@ class Browser:
         self.session = self.call("Target.attachToTarget", targetId=target, flatten=True)["sessionId"]
         for domain in ("Page", "Runtime", "Log", "Network"):
             self.call(domain + ".enable")
+        self.scale, self.undrawn = scale, None
         self.size(width, height)
 
     def __enter__(self):
@@ -107,8 +128,17 @@ class Browser:
             if what["request"]["url"] != self.url:
                 self.said.append("request: " + what["request"]["url"])
 
-    def size(self, width, height, mobile=False, scale=1):
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=scale, mobile=mobile)
+    def size(self, width, height, mobile=False, scale=None):
+        self.scale = scale or self.scale
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=self.scale, mobile=mobile)
+
+    def draw(self, on):
+        """Whether pages that are opened from now on draw."""
+        if on and self.undrawn:
+            self.call("Page.removeScriptToEvaluateOnNewDocument", identifier=self.undrawn)
+            self.undrawn = None
+        elif not on and not self.undrawn:
+            self.undrawn = self.call("Page.addScriptToEvaluateOnNewDocument", source=DRAWS_NOTHING)["identifier"]
 
     def dark(self, on):
         self.call("Emulation.setEmulatedMedia",
@@ -142,8 +172,7 @@ class Browser:
 
     def settle(self):
         """What was asked for is done, and two pictures later."""
-        self.wait("!document.querySelector('[aria-busy]')")
-        self.eval("new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => setTimeout(done, 30))))")
+        self.eval(SETTLE)
 
     def text(self, name):
         return self.eval("document.getElementById(%s).textContent" % json.dumps(name))
@@ -184,48 +213,62 @@ class Browser:
 
     def picture(self, path=None):
         """What the window shows: Picture."""
-        data = base64.b64decode(self.call("Page.captureScreenshot", format="png")["data"])
+        assert not self.undrawn, "the page draws nothing"
+        data = base64.b64decode(self.call("Page.captureScreenshot", format="png", optimizeForSpeed=path is None)["data"])
         if path:
             with open(path, "wb") as file:
                 file.write(data)
-        return Picture(data)
+        return Picture(data, self.scale)
+
+
+def add(_, line, before, __):
+    """Bytes of two rows, each modulo 256: every other one at once, with room for a carry."""
+    even, a, b = int.from_bytes(b"\0\xff" * (len(line) // 2 + 1), "big"), int.from_bytes(line, "big"), int.from_bytes(before, "big")
+    both = (a & even) + (b & even) & even | ((a >> 8 & even) + (b >> 8 & even) & even) << 8
+    return both.to_bytes(len(line) + 2, "big")[2:]
+
+
+def undo(how, line, before, n):
+    """A row of a PNG as bytes, by the filter that it was packed with."""
+    line = bytearray(line)
+    for i, above in enumerate(before):
+        left, corner = (line[i - n], before[i - n]) if i >= n else (0, 0)
+        ways = [(abs(above - corner), left), (abs(left - corner), above), (abs(left + above - 2 * corner), corner)]
+        line[i] = line[i] + (0, left, above, left + above >> 1, min(ways, key=lambda way: way[0])[1])[how] & 255
+    return bytes(line)
 
 
 class Picture:
-    """A PNG of 8 bits: pixel(x, y) is red, green, blue."""
+    """A PNG of 8 bits, by rows: equal to another of the same pixels; pixel(x, y) is red, green, blue at a place of the window."""
 
-    def __init__(self, data):
+    def __init__(self, data, scale):
+        self.data, self.scale = data, scale
         self.width, self.height, depth, color = struct.unpack(">IIBB", data[16:26])
         assert depth == 8 and color in (2, 6)
-        n = self.n = 3 if color == 2 else 4
+        self.n = 3 if color == 2 else 4
+
+    def __eq__(self, other):  # what is drawn alike is packed alike
+        return self.data == other.data
+
+    __hash__ = None
+
+    @functools.cached_property
+    def rows(self):
         at, packed = 8, b""
-        while at < len(data):
-            size, kind = struct.unpack(">I4s", data[at:at + 8])
-            packed += data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
+        while at < len(self.data):
+            size, kind = struct.unpack(">I4s", self.data[at:at + 8])
+            packed += self.data[at + 8:at + 8 + size] if kind == b"IDAT" else b""
             at += 12 + size
-        raw, stride = zlib.decompress(packed), n * self.width
-        self.rows, before = [], bytearray(stride)
-        for y in range(self.height):
-            how, line = raw[y * (stride + 1)], bytearray(raw[y * (stride + 1) + 1:(y + 1) * (stride + 1)])
-            if how == 1:
-                for i in range(n, stride):
-                    line[i] = line[i] + line[i - n] & 255
-            elif how == 2:
-                line = bytearray((a + b) & 255 for a, b in zip(line, before))
-            elif how == 3:
-                for i in range(stride):
-                    line[i] = line[i] + ((line[i - n] if i >= n else 0) + before[i] >> 1) & 255
-            elif how == 4:
-                for i in range(stride):
-                    a, b, c = line[i - n] if i >= n else 0, before[i], before[i - n] if i >= n else 0
-                    p = a + b - c
-                    pa, pb, pc = abs(p - a), abs(p - b), abs(p - c)
-                    line[i] = line[i] + (a if pa <= pb and pa <= pc else b if pb <= pc else c) & 255
-            self.rows.append(line)
-            before = line
+        raw, stride = zlib.decompress(packed), self.n * self.width + 1
+        rows, before = [], bytes(stride - 1)
+        for at in range(0, stride * self.height, stride):
+            before = (add if raw[at] == 2 else undo)(raw[at], raw[at + 1:at + stride], before, self.n)
+            rows.append(before)
+        return rows
 
     def pixel(self, x, y):
-        return tuple(self.rows[int(y)][self.n * int(x):self.n * int(x) + 3])
+        row, at = self.rows[int(y * self.scale)], self.n * int(x * self.scale)
+        return tuple(row[at:at + 3])
 
     def share(self, box, test):
         """Of the pixels of a box, left, top, width, height, those of which the test is true: a share of 1."""

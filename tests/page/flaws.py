@@ -63,7 +63,7 @@ def marks(b):
     check({i for i, x in enumerate(got) if x} == faces, "noisy: other faces intersect")
     check("self_intersections" not in b.eval("[...document.getElementById('color').options].map(o => o.value)"), "intersections are a colour")
     b.press("d")
-    check(said(b) == [] and b.picture().rows == first.rows, "the marks stay")
+    check(said(b) == [] and b.picture() == first, "the marks stay")
     b.open("plain.html")
     b.press("d")
     check(said(b) == ["%d folded edges" % want] and b.text("flaws-of") == "Folded edges", "without --intersections: %s" % said(b))
@@ -117,6 +117,7 @@ def ruler(b):
 
 with Browser() as browser:
     for test in (marks, followed, ruler):
+        browser.draw(test is marks)
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
 end()

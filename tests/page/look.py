@@ -44,7 +44,7 @@ def layers(b):
     check(b.text("message") == "No layer is switched on.", "no layer: the page says '%s'" % b.text("message"))
     b.press("2")
     base = b.picture()
-    check(mesh.rows != base.rows, "the base looks like the mesh")
+    check(mesh != base, "the base looks like the mesh")
     b.press("1")
     b.press("b")
     labels = b.eval("[...document.querySelectorAll('#labels span')].map(e => e.textContent)")
@@ -55,33 +55,31 @@ def layers(b):
     check(min(halves) > 0.05 and abs(halves[0] - halves[1]) < 0.05, "side by side: shares %s" % halves)
     b.press("b")
     b.press("2")
-    check(b.picture().rows == mesh.rows, "the mesh alone looks otherwise than at first")
+    check(b.picture() == mesh, "the mesh alone looks otherwise than at first")
 
 
 def look(b):
-    """Flat, edges, views, the other axis: each another picture, and the first one again behind it."""
-    b.open("film.html")
+    """Flat, edges, views, the other axis: each another picture, and the first one again behind it.  On the page as it was left."""
     first = b.picture()
     for key, back in (("s", "s"), ("e", "e")):
         b.press(key)
-        check(b.picture().rows != first.rows, "key %s changes nothing" % key)
+        check(b.picture() != first, "key %s changes nothing" % key)
         b.press(back)
-        check(b.picture().rows == first.rows, "key %s twice changes something" % key)
+        check(b.picture() == first, "key %s twice changes something" % key)
     b.press("v")
     front = b.picture()
-    check(front.rows != first.rows and b.eval("document.getElementById('view').selectedOptions[0].text") == "front", "no view from the front")
+    check(front != first and b.eval("document.getElementById('view').selectedOptions[0].text") == "front", "no view from the front")
     b.choose("up", "z")
-    check(b.picture().rows != front.rows, "z upwards changes nothing")
+    check(b.picture() != front, "z upwards changes nothing")
     b.choose("up", "y")
-    check(b.picture().rows == front.rows, "y upwards again is another view")
+    check(b.picture() == front, "y upwards again is another view")
     left, top, width, height = b.canvas()
     b.drag(left + 200, top + 200, left + 400, top + 250)
-    check(b.picture().rows != front.rows and b.eval("document.getElementById('picked').hidden"), "a drag turns nothing, or picks")
+    check(b.picture() != front and b.eval("document.getElementById('picked').hidden"), "a drag turns nothing, or picks")
 
 
 def color(b):
-    """By region and by numbers; the legend and its range."""
-    b.open("film.html")
+    """By region and by numbers; the legend and its range.  On the page as it was left."""
     plain = b.picture()
     b.choose("color", "region")
     picture = b.picture()
@@ -94,14 +92,17 @@ def color(b):
     shown = b.eval("document.getElementById('high').valueAsNumber")
     check(abs(shown - most) < 1e-4 * most, "greatest: %g, not %g" % (shown, most))
     picture = b.picture()
-    check(picture.rows != plain.rows, "numbers have no colours")
+    check(picture != plain, "numbers have no colours")
     b.choose("high", most / 4)
-    check(b.picture().rows != picture.rows, "another range, the same picture")
+    check(b.picture() != picture, "another range, the same picture")
     b.eval("document.getElementById('fit-range').click()")
     b.settle()
-    check(b.picture().rows == picture.rows, "the range is not found again")
+    check(b.picture() == picture, "the range is not found again")
     b.choose("color", "")
-    check(b.picture().rows == plain.rows, "plain is not as before")
+    check(b.picture() == plain, "plain is not as before")
+
+
+def groups(b):
     b.open("groups.html")
     b.choose("color", "group")
     kinds = b.eval("[...document.querySelectorAll('#kinds li')].map(e => e.textContent)")
@@ -111,8 +112,7 @@ def color(b):
 
 
 def film(b):
-    """Frames by slider, keys and play; camera and switches stay, until there is another model."""
-    b.open("film.html")
+    """Frames by slider, keys and play; camera and switches stay, until there is another model.  On the page as it was left."""
     first = b.picture()
     check(b.text("number") == "1 / 4" and b.text("name") == "bumpy", "film: %s %s" % (b.text("number"), b.text("name")))
     b.press("ArrowLeft")
@@ -167,7 +167,7 @@ def elsewhere(b):
 
 
 with Browser() as browser:
-    for test in (sphere, layers, look, color, film, elsewhere):
+    for test in (sphere, layers, color, look, film, groups, elsewhere):
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
 with Browser(flags=["--disable-3d-apis"]) as browser:

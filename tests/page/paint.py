@@ -309,12 +309,13 @@ def touch(b):
     fingers("touchMove", (left + 90, top + 40))
     fingers("touchEnd")
     b.settle()
-    check(b.picture().rows != picture.rows and regions_of(b) == painted, "beside the model a finger does not turn it")
+    check(b.picture() != picture and regions_of(b) == painted, "beside the model a finger does not turn it")
     b.call("Emulation.setTouchEmulationEnabled", enabled=False)
 
 
 def sharp(b):
     """Colours between those of the regions are at the pixels of a border alone, and all four regions are seen."""
+    b.size(1280, 800, scale=1)
     kinds = [(190, 186, 180), (92, 146, 214), (82, 168, 96), (238, 146, 58)]
     b.open("small.html")
     b.choose("color", "region")
@@ -348,6 +349,7 @@ STROKE = """new Promise(done => {
 
 
 def million(b):
+    b.size(1280, 800, scale=0.5)
     b.open("million.html")
     b.press("p")
     for share in (0.01, 0.03, 0.1):
@@ -368,6 +370,7 @@ def million(b):
 
 with Browser() as browser:
     for test in (brush_on_plane, brush_on_bumpy, brush_hidden, lassos, edits, refusals, keyboard, frames, points, touch, sharp, million):
+        browser.draw(test in (touch, sharp))
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
 end()

@@ -110,6 +110,7 @@ def million(b):
 
 with Browser() as browser:
     for test in (body, bumpy, points, million):
+        browser.draw(test is million)
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
 end()

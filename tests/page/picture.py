@@ -10,7 +10,7 @@ from browser import Browser
 MODEL = "armadillo-arms: armadillo"
 POSE = "mr-pose -H 1 --rotate 0,0,1,40 --translate -8,-14,0 | mr-pose -H 2 --rotate 0,0,1,30 --translate 14,22,0"
 
-with Browser(1200, 760) as b:
+with Browser(1200, 760, scale=1) as b:
     b.open(sys.argv[1])
     if not b.eval("(e => e && (e.click(), true))([...document.querySelectorAll('#strip button')].find(e => e.textContent === %s))" % json.dumps(MODEL)):
         sys.exit("%s: there is no %s" % (sys.argv[1], MODEL))

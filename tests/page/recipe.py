@@ -191,6 +191,7 @@ def hostile(b):
 
 os.makedirs("saved", exist_ok=True)
 with Browser() as browser:
+    browser.draw(False)
     browser.call("Page.setDownloadBehavior", behavior="allow", downloadPath=os.path.abspath("saved"))
     for test in (scripts, levels, poses, lines, files, hostile):
         test(browser)
