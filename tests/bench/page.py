@@ -22,7 +22,7 @@ DRAG = """(async () => {
 		...Object.fromEntries(Object.entries(times).map(([k, t]) => [k, (s => [s[s.length >> 1], s[0]])(t.sort((a, b) => a - b))])) };
 })()""" % FRAMES
 
-with Browser() as b:
+with Browser(scale=1) as b:
     for page in sys.argv[1:]:
         name = os.path.basename(page)[:-len(".html")]
         b.open(page)
