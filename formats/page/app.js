@@ -202,6 +202,8 @@ export class App {
 
 	/* All that is seen in view. */
 	fit(from) {
+		if (this.held)
+			this.held.place(this.centre, this.boxes());
 		const boxes = [...this.boxes(), ...(this.held ? this.held.boxes() : [])];
 
 		if (boxes.length)

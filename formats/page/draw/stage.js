@@ -5,6 +5,7 @@ import { Gizmo } from "./gizmo.js";
 import { element } from "../stream/text.js";
 
 const ANGLE = 30; /* degrees, of the height of a panel */
+const LOW = 440; /* pixels of a window in which nothing is to lie over the model: of a phone on its side */
 
 /* Whether the browser can draw at all. */
 export function canDraw() {
@@ -114,10 +115,11 @@ export class Stage {
 		this.ask();
 	}
 
-	/* The panels: place in the canvas, from its top left corner, and what is there; several end above the foot. */
+	/* The panels: place in the canvas, from its top left corner, and what is there; several, and one in a low window, end above the foot. */
 	panels() {
 		const box = this.canvas.getBoundingClientRect(), n = this.cells.length;
-		const width = this.canvas.clientWidth, height = n > 1 ? Math.max(this.foot.getBoundingClientRect().top - box.top, 1) : this.canvas.clientHeight;
+		const width = this.canvas.clientWidth, whole = this.canvas.clientHeight;
+		const height = n > 1 || whole < LOW ? Math.max(this.foot.getBoundingClientRect().top - box.top, 1) : whole;
 		const columns = columnsFor(n, width, height), w = width / columns, h = height / Math.ceil(n / columns);
 
 		return this.cells.map((cell, i) => ({ ...cell, x: i % columns * w, y: Math.floor(i / columns) * h, width: w, height: h }));

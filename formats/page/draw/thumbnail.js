@@ -44,7 +44,7 @@ export class Thumbnails {
 		this.camera = new THREE.PerspectiveCamera(ANGLE, WIDTH / HEIGHT, 1, 10);
 		lightUp(this.scene, this.camera);
 		this.surface = new THREE.MeshPhongMaterial({ color, specular: 0x121212, shininess: 24, side: THREE.DoubleSide, flatShading: true });
-		this.points = new THREE.PointsMaterial({ color, size: 2 * SAMPLES, sizeAttenuation: false });
+		this.points = new THREE.PointsMaterial({ color, size: 2 * SAMPLES / stage.renderer.getPixelRatio(), sizeAttenuation: false }); /* of the picture's pixels, not the window's */
 		this.target = new THREE.WebGLRenderTarget(SAMPLES * WIDTH, SAMPLES * HEIGHT);
 		this.large = document.createElement("canvas");
 		this.large.width = this.target.width;
