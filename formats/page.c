@@ -26,7 +26,7 @@ static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offs
 	"encoded", "rest", "target", "response", "texcoord", "corner_texcoord", "polygon", NULL };
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
-	"base.encoded", "base.response", "handles.transform", "handles.turn", NULL };
+	"base.encoded", "base.response", "control.response", "handles.transform", "handles.turn", NULL };
 
 /* What the page has of faces that intersect. */
 #define CROSSING "self_intersections"
@@ -64,6 +64,14 @@ is_posable(const mr_frame *f, const char *layers)
 	       mr_layer_has(f, "mesh", "detail_height") && mr_layer_has(f, "base", "response");
 }
 
+/* The same of control, and the displaced surface with it; mr-pose goes by its regions where mesh has none. */
+static bool
+is_control_posable(const mr_frame *f, const mr_page_displaced *d)
+{
+	return d->there && mr_layer_has(f, "control", "response") && mr_layer_has(f, "control", "region") &&
+	       !mr_layer_has(f, "mesh", "region") && !mr_layer_has(f, "mesh", "detail_height");
+}
+
 static bool
 is_posing(const mr_column *c)
 {
@@ -98,8 +106,10 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_pag
 
 	if (!*c->layer)
 		return !strcmp(c->name, "history") || !strcmp(c->name, "latest");
+	if (is_posing(c) && strcmp(c->layer, "handles") != 0)
+		return control ? is_control_posable(f, d) : is_posable(f, layers);
 	if (is_posing(c))
-		return is_posable(f, layers);
+		return is_control_posable(f, d) || is_posable(f, layers);
 	if (d->there && is_of_displaced(c))
 		return true;
 	if (!strcmp(c->name, CROSSING))
@@ -176,21 +186,22 @@ steps_of_column(const mr_column *c)
 }
 
 /*
- * A response to maps about the origin is as large as the model is far from there; about the middle of base it
- * has the digits that matter: w_k - c_k w_3 in place of w_k, with T c - c in place of T's translation.
+ * A response to maps about the origin is as large as the model is far from there; about the middle of what it
+ * poses it has the digits that matter: w_k - c_k w_3 in place of w_k, with T c - c in place of T's
+ * translation.
  */
 static mr_status
 centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 {
 	size_t n = (size_t)c->rows * c->shape.components;
 	double *w = MR_NEW(ctx, n, double);
-	mr_mesh base;
+	mr_mesh posed;
 	mr_box box;
 
 	if (!w)
 		return MR_EMEM;
-	MR_TRY(mr_layer_points(ctx, f, "base", &base));
-	box = mr_box_of(base.p, base.nv);
+	MR_TRY(mr_layer_points(ctx, f, c->layer, &posed));
+	box = mr_box_of(posed.p, posed.nv);
 	for (int k = 0; k < 3; k++)
 		centre[k] = (mr_coordinate(box.min, k) + mr_coordinate(box.max, k)) / 2;
 	memcpy(w, c->data, n * sizeof *w);
@@ -297,30 +308,46 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const mr_page_displaced
 
 /* What mr-decode would refuse is refused here: the page trusts its numbers. */
 static mr_status
-check_posing(mr_ctx *ctx, mr_frame *f)
+check_response(mr_ctx *ctx, mr_frame *f, const mr_mesh *m)
 {
-	const mr_column *c = mr_frame_find(f, "base", "response");
+	const mr_column *c = mr_frame_find(f, m->name, "response");
 	mr_handle_rows rows;
-	mr_detail detail;
-	mr_mesh base;
 	const void *response;
 	const double *x;
+
+	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
+	MR_TRY(mr_handles_rows(ctx, f, c->shape.components / 4, &rows));
+	if (c->shape.components != 4 * rows.n)
+		return mr_fail(ctx, MR_ERANGE,
+		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
+		    c->shape.components, rows.n);
+	x = response;
+	for (size_t i = 0; i < m->nv * c->shape.components; i++)
+		if (!isfinite(x[i]))
+			return mr_fail(ctx, MR_ERANGE, "%s: response %zu is not finite", m->name,
+			    i / c->shape.components);
+	return MR_OK;
+}
+
+static mr_status
+check_posing(mr_ctx *ctx, mr_frame *f)
+{
+	mr_detail detail;
+	mr_mesh base;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
 	MR_TRY(mr_detail_check_faces(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
-	MR_TRY(mr_layer_get_rows(ctx, f, "base", "response", base.nv, &response));
-	MR_TRY(mr_handles_rows(ctx, f, c->shape.components / 4, &rows));
-	if (c->shape.components != 4 * rows.n)
-		return mr_fail(ctx, MR_ERANGE,
-		    "base: column response has %u values a vertex, not 4 for each of %zu handles",
-		    c->shape.components, rows.n);
-	x = response;
-	for (size_t i = 0; i < base.nv * c->shape.components; i++)
-		if (!isfinite(x[i]))
-			return mr_fail(
-			    ctx, MR_ERANGE, "base: response %zu is not finite", i / c->shape.components);
-	return MR_OK;
+	return check_response(ctx, f, &base);
+}
+
+static mr_status
+check_control_posing(mr_ctx *ctx, mr_frame *f)
+{
+	mr_mesh control;
+
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
+	return check_response(ctx, f, &control);
 }
 
 /* The column before that one, of those that the page takes, of which it is a copy; or NULL.  Layers keep
@@ -529,6 +556,8 @@ mr_page_add(mr_ctx *ctx, mr_page *page, mr_frame *frame, const char *layers, mr_
 	MR_TRY(check_layers(ctx, frame, layers, &displaced));
 	if (is_posable(frame, layers))
 		MR_TRY(check_posing(ctx, frame));
+	if (is_control_posable(frame, &displaced))
+		MR_TRY(check_control_posing(ctx, frame));
 	MR_TRY(take_frame(ctx, frame, page, layers, &displaced, &shown, result));
 	MR_TRY(begin(ctx, page));
 	MR_TRY(send_frame(ctx, page, &shown));

@@ -1,7 +1,7 @@
 /* decode.js -- a base posed by its response to handles, lib/edit/pose_basis.c, and the detail over it, lib/edit/detail.c. */
 
 /* The same change about another place than the origin. */
-function about(a, [x, y, z]) {
+export function about(a, [x, y, z]) {
 	return a.map((m, i) => (i % 4 === 3 ? m + a[i - 3] * x + a[i - 2] * y + a[i - 1] * z : m));
 }
 

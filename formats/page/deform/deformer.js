@@ -109,6 +109,9 @@ export class Deformer {
 		}
 	}
 
+	/* Base and mesh have one level. */
+	follow() {}
+
 	end() {
 		this.hands.forEach(({ worker }) => worker.terminate());
 	}

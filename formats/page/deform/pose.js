@@ -31,6 +31,7 @@ export class Pose {
 		this.start = start;
 		this.whole = whole;
 		this.decimals = Math.min(Math.max(5 - Math.floor(Math.log10(extent)), 0), 20);
+		this.most = this.level = null; /* the finest level of a displaced surface, and the one that is shown */
 		this.poses = [];
 		this.past = [];
 		this.future = [];
@@ -98,13 +99,13 @@ export class Pose {
 
 	/* Behind a drag that has led nowhere there is nothing to undo. */
 	settle() {
-		if (this.past.length && lineOf(this.past[this.past.length - 1]) === this.line())
+		if (this.past.length && lineOf(this.past[this.past.length - 1], null) === lineOf(this.poses, null))
 			this.past.pop();
 	}
 
 	/* Other poses, which can be undone. */
 	set(poses) {
-		if (lineOf(poses) === this.line())
+		if (lineOf(poses, null) === lineOf(this.poses, null))
 			return;
 		this.remember();
 		this.poses = poses;
@@ -126,11 +127,14 @@ export class Pose {
 	}
 
 	line() {
-		return lineOf(this.poses);
+		return lineOf(this.poses, this.level === this.most ? null : this.level);
 	}
 
-	/* Takes a line; throws an Error with a sentence, and then stays as it is. */
+	/* Takes a line, and returns the level that it asks for, or null; throws an Error with a sentence, and then stays as it is. */
 	read(line) {
-		this.set(parseLine(line, this.numbers));
+		const poses = parseLine(line, this.numbers, this.most);
+
+		this.set(poses);
+		return poses.level;
 	}
 }

@@ -98,15 +98,29 @@ function options(command, words, read, pose) {
 
 export const rest = (handle) => ({ handle, translate: [0, 0, 0], rotate: [0, 0, 1, 0], scale: [1, 1, 1], center: null });
 
-/* The poses of a line; handles: the numbers of those that there are.  Throws an Error with a sentence. */
-export function parseLine(text, handles) {
+/* What mr-decode takes, of a displaced surface of so many levels; null: there is none. */
+const decodes = (most) => (most === null ? { output: READ.output } : {
+	output: READ.output,
+	level: (poses, text) => {
+		poses.level = /^\d{1,2}$/.test(text) && Number(text) <= most ? Number(text) : fail("“" + short(text) + "” is not one of the levels 0 to " + most + ".");
+	},
+});
+
+/*
+ * The poses of a line, and as their `level` that of mr-decode, or null; handles: the numbers of those that there are; most: the finest
+ * level of the displaced surface, or null.  Throws an Error with a sentence.
+ */
+export function parseLine(text, handles, most) {
 	const poses = [];
+
+	poses.level = null;
 
 	if (text.trim() === "")
 		return poses;
 	for (const [command, ...words] of split(text)) {
 		if (command === "mr-decode") {
-			options(command, words, { output: READ.output }, null);
+			poses.level = most;
+			options(command, words, decodes(most), poses);
 		} else if (command === "mr-pose") {
 			const pose = rest(0);
 			options(command, words, READ, pose);
@@ -136,9 +150,9 @@ function commandOf(pose) {
 	return words.join(" ");
 }
 
-/* The line that makes the poses; empty where all is at rest. */
-export function lineOf(poses) {
+/* The line that makes the poses, on a level other than the finest if there is one; empty where all is at rest. */
+export function lineOf(poses, level) {
 	const commands = poses.filter((pose) => !isRest(pose)).map(commandOf);
 
-	return commands.length ? [...commands, "mr-decode"].join(" | ") : "";
+	return commands.length ? [...commands, level === null ? "mr-decode" : "mr-decode --level " + level].join(" | ") : "";
 }

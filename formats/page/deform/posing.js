@@ -1,61 +1,15 @@
 /* posing.js -- handles to drag, and the line of commands below them; or how to come by them. */
 import { regionColor, regionName } from "../draw/colors.js";
-import { Deformer, posedBy } from "./deformer.js";
-import { Pose } from "./pose.js";
+import { Deformer, posedBy as baseOf } from "./deformer.js";
+import { controlOf, DisplacedDeformer } from "./displaced.js";
+import { HANDLE, lacking, poseOf } from "./handles.js";
 import { columnOf, ownRegion } from "../stream/stream.js";
-import { boxOf } from "../mesh/surface.js";
 
 const $ = (id) => document.getElementById(id);
-const HANDLE = 2; /* the region of handle 0 */
 const FAR = 60; /* degrees beyond which mr-decode warns */
 
-/* Sums over the vertices of each handle; the lowest region that is not free. */
-function handlesOf(region, position) {
-	const sums = [], centroids = [];
-	let lowest = Infinity;
-
-	for (let v = 0; v < region.length; v++) {
-		if (region[v] !== 1)
-			lowest = Math.min(lowest, region[v]);
-		if (region[v] < HANDLE)
-			continue;
-		const sum = sums[region[v] - HANDLE] = sums[region[v] - HANDLE] || [0, 0, 0, 0];
-		for (let c = 0; c < 3; c++)
-			sum[c] += position[3 * v + c];
-		sum[3]++;
-	}
-	sums.forEach(([x, y, z, n], h) => {
-		centroids[h] = [x / n, y / n, z / n];
-	});
-	return { centroids, whole: lowest >= HANDLE && lowest < Infinity ? lowest - HANDLE : null };
-}
-
-/* Rows of numbers: those of a column, none where there is no such column. */
-async function rowsOf(frame, name) {
-	const column = columnOf(frame, "handles", name), n = column ? column.components : 1;
-	const values = column ? await column.values() : [];
-
-	return Array.from({ length: values.length / n }, (_, i) => Array.from(values.subarray(n * i, n * i + n)));
-}
-
-async function poseOf(frame) {
-	const region = await ownRegion(frame, "mesh").values(), position = await columnOf(frame, "mesh", "position").values();
-	const { centroids, whole } = handlesOf(region, position), box = boxOf(position);
-	const start = { maps: await rowsOf(frame, "transform"), turns: await rowsOf(frame, "turn") };
-
-	return new Pose(centroids, start, Math.hypot(...box.low.map((x, c) => box.high[c] - x)), whole);
-}
-
-/* The commands that a page with handles lacks, or an empty text. */
-async function lacking(frame) {
-	const has = (layer, name) => columnOf(frame, layer, name);
-	const region = ownRegion(frame, "mesh");
-
-	if (!region || !(await region.values()).some((r) => r >= HANDLE))
-		return "";
-	return [has("base", "position") ? "" : "mr-smooth | mr-remesh", "mr-solve --basis", has("base", "position") && has("mesh", "detail_height") ? "" : "mr-encode", "mr-view page.html"]
-		.filter(Boolean).join(" | ").replace(/^(\S+( --basis)?)/, "$1 model.mrs");
-}
+/* Base and mesh are posed where they can be, else control and the displaced surface; null: nothing. */
+const posedBy = (frame) => baseOf(frame) || controlOf(frame);
 
 export class Posing {
 	constructor(app) {
@@ -103,9 +57,11 @@ export class Posing {
 		if (start !== this.start && this.deformer) {
 			this.pose = await poseOf(frame);
 			this.handle = null;
+			this.follow(frame);
 			this.apply();
 		}
 		this.start = start;
+		this.follow(frame);
 		$("pose").hidden = $("poseline").hidden = !this.pose || this.pose.numbers.length === 0;
 	}
 
@@ -119,6 +75,8 @@ export class Posing {
 	/* Layers that are drawn anew are posed again, unless the frame is another. */
 	drawAgain(frame, centre) {
 		this.moved = this.moved && this.suits(frame, centre);
+		if (this.moved)
+			this.follow(frame);
 		this.draw();
 	}
 
@@ -131,12 +89,28 @@ export class Posing {
 		this.start = this.next = this.pose = this.handle = this.deformer = null;
 		this.centre = centre;
 		if (columns)
-			this.deformer = await new Deformer(columns, () => this.posed()).prepare(centre).catch(() => null);
+			this.deformer = await this.deformerOf(frame, columns).prepare(centre).catch(() => null);
 		$("no-worker").hidden = !columns || Boolean(this.deformer);
 		const said = columns ? "" : await lacking(frame);
 		$("lack").hidden = !said;
 		$("lacking").textContent = said;
 		this.show();
+	}
+
+	deformerOf(frame, columns) {
+		return baseOf(frame) ? new Deformer(columns, () => this.posed()) : new DisplacedDeformer(frame, columns, () => this.posed());
+	}
+
+	/* Goes to the level that is shown, of surfaces and in the line. */
+	follow(frame) {
+		if (!this.deformer || !this.pose)
+			return;
+		this.pose.most = baseOf(frame) ? null : frame.levels.surface.most;
+		this.pose.level = baseOf(frame) ? null : frame.levels.at;
+		this.deformer.follow(frame);
+		if (this.deformer.working)
+			$("poseline").setAttribute("aria-busy", "true");
+		this.showLine();
 	}
 
 	/* Brings everything to the pose as it is. */
@@ -208,10 +182,14 @@ export class Posing {
 
 	/* Chooses the handle that a picked vertex is of. */
 	async take(frame, { name, vertex }) {
-		const region = ownRegion(frame, name);
+		const region = ownRegion(frame, name), { surface } = this.deformer || {};
 
-		if (this.pose && this.pose.numbers.length && region)
+		if (!this.pose || !this.pose.numbers.length)
+			return;
+		if (region)
 			this.choose((await region.values())[vertex] - HANDLE);
+		else if (surface && surface.layer === name)
+			this.choose(await this.deformer.regionAt(vertex) - HANDLE);
 	}
 
 	choose(handle) {
@@ -264,9 +242,11 @@ export class Posing {
 	/* What is pasted or typed is applied when it is a whole line. */
 	readLine() {
 		try {
-			this.pose.read($("line").value);
+			const level = this.pose.read($("line").value);
 			$("said").textContent = "";
 			this.apply();
+			if (level !== null && level !== this.pose.level)
+				this.app.change({ level });
 		} catch (error) {
 			$("said").textContent = error.message;
 			this.showLine();

@@ -66,8 +66,12 @@ class Surface {
 	}
 
 	async positions(level) {
+		return this.positionsOver(level, await this.parts.position.values());
+	}
+
+	/* Over the control mesh at p. */
+	async positionsOver(level, p) {
 		const levels = await this.connect(level), height = await this.at(level).height.values();
-		let p = await this.parts.position.values();
 
 		for (let i = 0; i < level; i++)
 			p = subdivide(levels[i], levels[i + 1], 3, p);

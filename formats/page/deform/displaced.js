@@ -1,0 +1,101 @@
+/*
+ * displaced.js -- a control mesh as its handles pose it, by its response to them, lib/edit/pose_basis.c, and the displaced surface
+ * over it on the level that is shown, as mr-decode makes it: few vertices are posed, and then subdivided (mesh/levels.js).
+ */
+import { about } from "./decode.js";
+import { columnOf } from "../stream/stream.js";
+
+/* The columns that it is made of; null where the frame has not all of them. */
+export function controlOf(frame) {
+	const named = { position: "control position", triangles: "control triangles", response: "control response", region: "control region",
+		height: "displacement height" };
+	const columns = Object.fromEntries(Object.entries(named).map(([key, name]) => [key, columnOf(frame, ...name.split(" "))]));
+
+	return frame.levels && columns.response ? columns : null;
+}
+
+/* p + A w of each vertex for each change A, of as many handles as there are. */
+function posed(p, response, handles, origin, changes) {
+	const out = p.slice();
+
+	changes.slice(0, handles).forEach((change, h) => {
+		if (!change)
+			return;
+		const a = about(change, origin);
+		for (let i = 0, k = 4 * h; i < out.length; i += 3, k += 4 * handles)
+			for (let c = 0; c < 3; c++)
+				out[i + c] += a[4 * c] * response[k] + a[4 * c + 1] * response[k + 1] + a[4 * c + 2] * response[k + 2] + a[4 * c + 3] * response[k + 3];
+	});
+	return out;
+}
+
+const less = (position, centre) => Float32Array.from(position, (x, i) => x - centre[i % 3]);
+
+export class DisplacedDeformer {
+	/* changed(): there are other places to be drawn. */
+	constructor(frame, columns, changed) {
+		this.surface = frame.levels.surface;
+		this.columns = columns;
+		this.changed = changed;
+		this.changes = [];
+		this.places = {};
+		this.working = false;
+	}
+
+	/* Whether it is made of these. */
+	isOf(columns, centre) {
+		return centre === this.centre && Object.keys(columns).every((key) => columns[key] === this.columns[key]);
+	}
+
+	async prepare(centre) {
+		this.centre = centre;
+		this.position = await this.columns.position.values();
+		this.response = await this.columns.response.values();
+		return this;
+	}
+
+	/* Goes with the level that the frame is on. */
+	follow(frame) {
+		if (this.level === frame.levels.at)
+			return;
+		this.level = frame.levels.at;
+		this.places = {};
+		if (this.changes.length)
+			this.pose(this.changes);
+	}
+
+	/* Poses by the changes of the handles' maps, as Pose says them; what is asked meanwhile comes next, the last of it. */
+	async pose(changes) {
+		this.changes = this.next = changes;
+		if (this.working)
+			return;
+		this.working = true;
+		while (this.next) {
+			const now = this.next, { level, surface, centre, columns: { response } } = this;
+			this.next = null;
+			const control = posed(this.position, this.response, response.components / 4, response.steps.origin, now);
+			const places = { control: less(control, centre), [surface.layer]: less(await surface.positionsOver(level, control), centre) };
+			if (level === this.level)
+				this.places = places;
+			this.working = Boolean(this.next);
+			this.changed();
+		}
+	}
+
+	/* The region of the control vertex nearest to where a vertex of the surface is at rest. */
+	async regionAt(vertex) {
+		const at = (await this.surface.at(this.level).position.values()).subarray(3 * vertex, 3 * vertex + 3), p = this.position;
+		let best = 0, least = Infinity;
+
+		for (let v = 0; v < p.length / 3; v++) {
+			const away = Math.hypot(p[3 * v] - at[0], p[3 * v + 1] - at[1], p[3 * v + 2] - at[2]);
+			if (away < least)
+				[best, least] = [v, away];
+		}
+		return (await this.columns.region.values())[best];
+	}
+
+	end() {
+		this.next = null;
+	}
+}

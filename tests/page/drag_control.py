@@ -1,0 +1,130 @@
+"""drag_control.py -- see drag-control.sh, which made the pages."""
+import json
+import math
+import subprocess
+
+from browser import Browser
+from checks import box, check, columns, end, length, sub
+
+NEAR = 1e-5  # of the diagonal
+
+
+def places(b, layer):
+    """Where the page has the vertices of a layer."""
+    flat = b.eval("Array.from(mrView.posing.placesOf('%s') || [], (x, i) => x + mrView.centre[i %% 3])" % layer)
+    return [flat[i:i + 3] for i in range(0, len(flat), 3)]
+
+
+def same(b, stream, line, what):
+    """Whether control mesh and surface of the page are what the line makes of the stream, and are drawn so."""
+    b.settle()
+    with open(stream, "rb") as file:
+        made = subprocess.run(["sh", "-c", line], stdin=file, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+    check(made.returncode == 0, "%s: exit %d of %s" % (what, made.returncode, line))
+    with open("made.mrs", "wb") as file:
+        file.write(made.stdout)
+    want = columns("made.mrs")
+    for layer in ("control", "mesh"):
+        p, q = want[layer, "position"], places(b, layer)
+        low, high = box(p)
+        off = max(length(sub(x, y)) for x, y in zip(p, q)) / length(sub(high, low)) if len(p) == len(q) else math.inf
+        check(off < NEAR, "%s: %s is %g of the diagonal off, %d vertices of %d" % (what, layer, off, len(q), len(p)))
+    drawn = b.eval("""[...mrView.stage.layers].map(([name, d]) => name + (d.position.length === mrView.posing.placesOf(name).length &&
+        d.position.every((x, i) => x === mrView.posing.placesOf(name)[i])))""")
+    check(drawn and all(name.endswith("true") for name in drawn), "%s: drawn otherwise: %s" % (what, drawn))
+
+
+def line(b):
+    return b.eval("document.getElementById('line').value")
+
+
+def type_line(b, text):
+    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(text))
+    b.settle()
+
+
+def level(b):
+    return b.eval("document.getElementById('level').valueAsNumber")
+
+
+def show_both(b):
+    """The control mesh and the surface over it."""
+    b.eval("mrView.change({ visible: new Set(['control', 'mesh']) })")
+    b.settle()
+
+
+def gizmo(b):
+    """Dragged by the mouse; then on other levels, there and back, by the slider's key and by the line."""
+    values = columns("rest.mrs")
+    b.open("rest.html")
+    show_both(b)
+    most = level(b)
+    check(most >= 2 and line(b) == "", "at rest: level %d, line %s" % (most, line(b)))
+    rows = [p for p, (r,) in zip(values["control", "position"], values["control", "region"]) if r == 3]
+    at = [sum(p[c] for p in rows) / len(rows) for c in range(3)]
+    b.press("1")
+    check(b.eval("mrView.posing.handle") == 1, "the key 1 chooses no handle")
+    grip = b.eval("mrView.stage.gizmo.at.position.toArray().map((x, i) => x + mrView.centre[i])")
+    check(length(sub(grip, at)) < 1e-5, "the gizmo is at %s, the handle at %s" % (grip, at))
+    x, y = b.eval("""(() => {
+        const { gizmo, camera, canvas } = mrView.stage, p = gizmo.at.position.clone(), r = canvas.getBoundingClientRect();
+        p.x += 0.7 * camera.position.distanceTo(p) * 0.6 / 7;
+        p.project(camera);
+        return [r.left + (p.x + 1) / 2 * r.width, r.top + (1 - p.y) / 2 * r.height];
+    })()""")
+    b.mouse("mouseMoved", x, y)
+    b.drag(x, y, x + 60, y + 8)
+    dragged = line(b)
+    check(dragged.startswith("mr-pose -H 1 --translate ") and dragged.endswith(" | mr-decode"), "dragged: " + dragged)
+    same(b, "rest.mrs", dragged, "dragged")
+    two = "mr-pose -H 1 --rotate 0,0,1,40 --translate 0.1,0.2,0 | mr-pose -H 3 --scale 1.4 | mr-decode"
+    type_line(b, two)
+    check(line(b) == two, "the line of two handles: " + line(b))
+    same(b, "rest.mrs", two, "two handles")
+    b.press("PageDown")
+    check(level(b) == most - 1 and line(b) == two + " --level %d" % (most - 1), "a level down: " + line(b))
+    same(b, "rest.mrs", line(b), "a level down")
+    type_line(b, two + " --level 0")
+    check(level(b) == 0 and b.text("said") == "", "the line's level: %d, %s" % (level(b), b.text("said")))
+    same(b, "rest.mrs", line(b), "level 0 by the line")
+    type_line(b, dragged)
+    check(level(b) == most and line(b) == dragged, "back: %d, %s" % (level(b), line(b)))
+    same(b, "rest.mrs", dragged, "back on the finest level")
+    for text in (two + " --level %d" % (most + 1), two + " --level x"):
+        type_line(b, text)
+        check("levels 0 to %d" % most in b.text("said") and level(b) == most, "%s: %s" % (text, b.text("said")))
+
+
+def far(b):
+    """Far from the origin, and posed by the stream: shown so, and posed on from there; a click on the surface chooses a handle."""
+    b.open("posed.html")
+    show_both(b)
+    same(b, "posed.mrs", "mr-decode", "posed by the stream")
+    text = "mr-pose -H 1 -r 1,0,0,50 -t 0.1,0,0.1 | mr-decode"
+    type_line(b, text)
+    same(b, "posed.mrs", text, "far")
+    b.eval("mrView.change({ visible: new Set(['mesh']) })")
+    b.settle()
+    b.open("rest.html")
+    b.eval("mrView.change({ visible: new Set(['mesh']) })")
+    b.settle()
+    surface = b.eval("mrView.drawn.get('mesh').drawn.position.reduce((o, x, i, p) => (i % 3 === 1 && x > p[3 * o + 1] ? (i - 1) / 3 : o), 0)")
+    check(b.eval("mrView.posing.deformer.regionAt(%d).then(r => r)" % surface) == 3, "the top of the surface is not handle 1")
+
+
+def lacking(b):
+    """Without a basis the page tells the command that makes one."""
+    b.open("picked.html")
+    check(b.text("lacking") == "mr-solve --basis model.mrs | mr-view page.html", "lacking: " + b.text("lacking"))
+    subprocess.run(["sh", "-c", b.text("lacking").replace("model.mrs", "picked.mrs").replace("page.html", "made.html")], check=True, stderr=subprocess.DEVNULL)
+    b.open("made.html")
+    text = "mr-pose -H 3 --rotate 0,1,0,30 | mr-decode"
+    type_line(b, text)
+    same(b, "rest.mrs", text, "the page made by what another told")
+
+
+with Browser() as browser:
+    for test in (gizmo, far, lacking):
+        test(browser)
+    check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)
+end()
