@@ -145,7 +145,7 @@ def lines(b):
         kind = "bumpy" if name == "control" else "a-model"
         saved(b, "save-regions", kind + ".regions")
         line = b.text("basis-line")
-        check(not b.eval("document.getElementById('basis').hidden") and line.endswith(" | mr-view %s-painted.html" % kind), "%s: the line is %s" % (name, line))
+        check(not b.eval("document.getElementById('basis').hidden") and line.endswith(" -o %s-painted.mrs && mr-view -i %s-painted.mrs %s-painted.html" % (kind, kind, kind)), "%s: the line is %s" % (name, line))
         shutil.rmtree("run", ignore_errors=True)
         os.mkdir("run")
         shutil.copy(name + ".mrs", "run/%s.mrs" % kind)

@@ -3,7 +3,7 @@ import { regionColor, regionName } from "../draw/colors.js";
 import { Deformer, posedBy as baseOf } from "./deformer.js";
 import { controlOf, DisplacedDeformer } from "./displaced.js";
 import { HANDLE, lacking, poseOf } from "./handles.js";
-import { columnOf, ownRegion } from "../stream/stream.js";
+import { columnOf, fileOf, ownRegion } from "../stream/stream.js";
 
 const $ = (id) => document.getElementById(id);
 const FAR = 60; /* degrees beyond which mr-decode warns */
@@ -61,6 +61,7 @@ export class Posing {
 			this.apply();
 		}
 		this.start = start;
+		$("whole").textContent = "mr-cat " + (frame.file ? fileOf(frame) : "FILE") + ".mrs | … | mr-export posed.ply";
 		this.follow(frame);
 		$("pose").hidden = $("poseline").hidden = !this.pose || this.pose.numbers.length === 0;
 	}
@@ -235,6 +236,7 @@ export class Posing {
 		if (document.activeElement !== $("line") && $("said").textContent === "")
 			$("line").value = this.pose.line();
 		$("copy").disabled = this.pose.line() === "";
+		$("reads").hidden = this.pose.line() === "" || $("said").textContent !== "";
 		$("far").hidden = degrees <= FAR * (1 + 1e-9) || $("said").textContent !== "";
 		$("degrees").textContent = degrees.toFixed(0);
 	}

@@ -170,10 +170,12 @@ export function script(work, history) {
 	].join("\n");
 }
 
-/* The line that makes a page with a basis of the painted handles, of the stream and the regions as files. */
+/* The line that makes a stream with a basis of the painted handles, of the stream and the regions as files, and a page of it. */
 export function basisLine(work) {
 	const made = work.decode ? [work.decode] : [], chosen = select(work, work.name + ".regions");
 	const pipe = reading([...made, ...(work.base ? [] : ["mr-smooth", "mr-remesh"]), chosen], work.name + ".mrs");
 
-	return [...pipe, ...basis({ ...work, base: true }, [], work.encoded && work.base ? null : []), "mr-view " + work.name + "-painted.html"].join(" | ");
+	const out = work.name + "-painted";
+
+	return [...pipe, ...basis({ ...work, base: true }, [], work.encoded && work.base && !work.still ? null : [])].join(" | ") + " -o " + out + ".mrs && mr-view -i " + out + ".mrs " + out + ".html";
 }

@@ -2,16 +2,11 @@
 import { HANDLE } from "./regions.js";
 import { basisLine, script } from "./recipe.js";
 import { read, write } from "./selection_file.js";
-import { columnOf, linesOf } from "../stream/stream.js";
+import { columnOf, linesOf, fileOf } from "../stream/stream.js";
 import { count } from "../stream/text.js";
 
 const LARGEST = 1e8; /* characters of a file */
 const $ = (id) => document.getElementById(id);
-
-/* A name for files: of letters, digits and few signs. */
-function fileName(name) {
-	return name.replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[-.]+/, "").slice(0, 60) || "model";
-}
 
 function save(name, text) {
 	const link = document.createElement("a");
@@ -45,7 +40,10 @@ export class TakeAway {
 		this.on("copy-regions", async () => this.give(await this.text()));
 		this.on("save-script", async () => save((await this.work()).name + ".sh", await this.script()));
 		this.on("copy-script", async () => this.give(await this.script()));
-		this.on("copy-basis", async () => this.give($("basis-line").textContent));
+		this.on("copy-basis", async () => {
+			$("take").open = true;
+			return this.give($("basis-line").textContent);
+		});
 		this.on("apply", () => this.apply($("text").value));
 		this.on("open-regions", () => $("file").click());
 		$("file").addEventListener("change", () => this.say(() => this.open()));
@@ -102,15 +100,17 @@ export class TakeAway {
 	/* What a script needs to know of the frame. */
 	async work() {
 		const { frame } = this.painter.app.shown, { name, regions } = this.painter.work;
+		const encoded = columnOf(frame, "base", "encoded"); /* a copy of the positions, where base is as it was then */
 		const first = ["mesh", "control", "points"].find((l) => columnOf(frame, l, "position"));
 
 		return {
-			name: fileName(frame.name),
+			name: fileOf(frame),
 			layer: name,
 			option: name !== first,
 			decode: decodeLine(frame, name),
 			base: Boolean(columnOf(frame, "base", "position")) || name === "control",
 			encoded: ["detail_height", "detail_offset"].some((c) => columnOf(frame, "mesh", c)),
+			still: Boolean(encoded) && encoded.of === columnOf(frame, "base", "position"),
 			pose: await this.pose(frame),
 			handles: [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0),
 			several: this.painter.app.frames.some((f) => f.group !== frame.group),
@@ -149,12 +149,12 @@ export class TakeAway {
 	async show() {
 		const { painter } = this;
 
-		if (!$("take").open || !painter.work)
+		if (!painter.work)
 			return;
 		const work = await this.work(), free = painter.work.regions.counts.get(1) > 0;
 		$("basis").hidden = !work.handles || !painter.work.painted || work.layer === "points" || await this.unchanged();
 		$("basis-why").textContent = (free ? "" : "No vertex is free: paint what is to follow the handles. ") +
-			"The page has no basis for the painted handles. Save the regions, and of the stream in " + work.name + ".mrs this makes a page that has one:";
+			"To drag the painted handles: save the regions, and where they and the page's stream, " + work.name + ".mrs, are, run the line below. It makes a page that has their basis.";
 		$("basis-line").textContent = basisLine(work);
 	}
 }

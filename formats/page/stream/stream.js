@@ -124,6 +124,11 @@ export function titleOf(frame) {
 	return frame.file && frame.file !== frame.name ? frame.file + ": " + frame.name : frame.name;
 }
 
+/* A name for files of the frame, after its stream's where that is known: of letters, digits and few signs. */
+export function fileOf(frame) {
+	return (frame.file || frame.name).replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[-.]+/, "").slice(0, 60) || "model";
+}
+
 /* A text column's lines; none where there is no such column. */
 export async function linesOf(frame, layer, name) {
 	const column = columnOf(frame, layer, name);
