@@ -146,7 +146,7 @@ function usage(name, first, why) {
 }
 
 /*
- * work: { name, layer, option: whether mr-select needs -l, base: whether the frame has one, encoded, handles, text, several:
+ * work: { name, layer, option: whether mr-select needs -l, base: whether the frame has one, encoded, still: and base is where it was then, handles, text, several:
  * whether the stream has other models, decode: the command that makes the layer, or an empty text, pose: the line of the page's pose, where it is of these regions }.
  */
 export function script(work, history) {
