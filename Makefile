@@ -178,7 +178,10 @@ check-page: $(TOOLS)
 	@$(RUN) tests/run $(or $(T),page/)
 
 check-cluster: $(TOOLS)
-	@$(RUN) MODELS='$(MODELS)' tests/run $(or $(T),laws/cluster)
+	@rm -f $(BUILD)/cluster.txt
+	@$(RUN) MODELS='$(MODELS)' LIMIT=14400 tests/run $(or $(T),laws/cluster)
+	@cat $(BUILD)/cluster.txt 2>/dev/null || true
+
 check-mpi: $(TOOLS) mpi
 	@$(RUN) tests/run $(or $(T),mpi/)
 

@@ -16,6 +16,10 @@ tasks=$(((count + 49) / 50 + 7))
 batch=$TOP/examples/batch
 fail=0
 complain() { echo "$*"; fail=1; }
+took() { # what, since when: for make check-cluster to show
+	echo "$1: $(echo "$2 $(date +%s.%N)" | awk '{ printf "%.1f", $2 - $1 }') s" | tee -a "$BUILD/cluster.txt"
+}
+rm -f "$BUILD/cluster.txt"
 
 # Runs until it is true, for some minutes.
 await() { # seconds, command
@@ -66,7 +70,7 @@ configure() {
 	await 20 [ -S "$cluster/munge.socket" ]
 }
 start_controller() {
-	slurmctld -D -f "$SLURM_CONF" >"$cluster/controller.log" 2>&1 &
+	slurmctld -D -f "$SLURM_CONF" >>"$cluster/controller.log" 2>&1 &
 	controller=$!
 	await 60 sinfo
 }
@@ -112,10 +116,6 @@ begun() { # folder, number of models
 over() {
 	squeue -h -r >queue && [ ! -s queue ]
 }
-since() { # time
-	echo "$1 $(date +%s.%N)" | awk '{ printf "%.1f", $2 - $1 }'
-}
-
 # All results are those of make, byte for byte; what fails says why.  Times are in the .json, and so in figures.tsv.
 judge() { # folder
 	batch OUT="$1" report >"$1.report" 2>&1 && complain "$1: a broken model is reported as made"
@@ -128,12 +128,12 @@ judge() { # folder
 
 begin=$(date +%s.%N)
 make_models
-echo "$count models made in $(since "$begin") s"
+took "$count models made" "$begin"
 
 # The reference, one after another; of many models by two at a time.
 begin=$(date +%s.%N)
 batch -j $((count > 1000 ? 2 : 1)) OUT=serial >serial.log 2>&1 && complain "make succeeds with a broken model"
-echo "make -j$((count > 1000 ? 2 : 1)): $(since "$begin") s"
+took "make -j$((count > 1000 ? 2 : 1))" "$begin"
 judge serial
 batch -j2 OUT=serial -q models 2>/dev/null && complain "make believes the broken model made"
 batch -k -n OUT=serial models 2>/dev/null | grep -v broken | grep -q mr- && complain "a second make makes something again"
@@ -152,7 +152,7 @@ mkdir -p array
 await 3600 begun array $((count / 4)) && kill_node 2
 await 3600 begun array $((count / 2)) && restart_controller
 await 3600 over || { squeue; tail -n 30 "$cluster/controller.log"; }
-echo "array job, a node killed, the controller restarted: $(since "$begin") s"
+took "array job, a node killed, the controller restarted" "$begin"
 judge array
 
 # A job for each rule.
@@ -163,7 +163,7 @@ if [ "$count" -le 1000 ]; then
 	rules=$!
 	await 600 begun rules $((count / 4)) && kill_node 3
 	wait $rules && complain "make succeeds on Slurm with a broken model"
-	echo "a job for each rule, another node killed: $(since "$begin") s"
+	took "a job for each rule, another node killed" "$begin"
 	judge rules
 fi
 exit $fail
