@@ -95,14 +95,14 @@ $(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd options p
 $(BUILD)/bin/mr-view: $(BUILD)/page/page.o $(BUILD)/cmd/open.c.o
 
 # mr-solve over MPI: MUMPS in the place of CHOLMOD, and what mpi.c says of terminals.
-mpi: $(BUILD)/bin/mr-solve-mpi
+mpi: $(BUILD)/mpi/mr-solve-mpi
 MPICC = mpicc
 $(patsubst %,$(BUILD)/%.o,$(MPI)): ALL_C += $$($(MPICC) --showme:compile)
 $(patsubst %,$(BUILD)/%.o,$(MPI)): | setup
 $(BUILD)/cmd/mpi-solve.c.o: cmd/mr-solve.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,compile)$(CC) $(ALL_C) -Dmain=mr_solve_main -MMD -MP -c -o $@ $<
-$(BUILD)/bin/mr-solve-mpi: $(patsubst %,$(BUILD)/%.o,$(MPI) $(patsubst %,cmd/%.c,mpi-solve cmd options place signals)) $(BUILD)/libmr.a
+$(BUILD)/mpi/mr-solve-mpi: $(patsubst %,$(BUILD)/%.o,$(MPI) $(patsubst %,cmd/%.c,mpi-solve cmd options place signals)) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS) -ldmumps $$($(MPICC) --showme:link)
 

@@ -34,13 +34,13 @@ stripe(uint64_t lane[LANES], const unsigned char *p)
 	}
 }
 
-mr_print
-mr_print_of(const void *data, size_t n)
+mr_fingerprint
+mr_fingerprint_of(const void *data, size_t n)
 {
 	const unsigned char *p = data;
 	unsigned char last[STRIPE] = { 0 };
 	uint64_t lane[LANES];
-	mr_print print = { n, ~(uint64_t)n };
+	mr_fingerprint print = { n, ~(uint64_t)n };
 
 	memcpy(lane, keys, sizeof lane);
 	for (size_t left = n; left >= STRIPE; left -= STRIPE, p += STRIPE)

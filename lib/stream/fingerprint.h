@@ -11,11 +11,11 @@
 
 #include "base/ctx.h"
 
-typedef struct mr_print {
+typedef struct mr_fingerprint {
 	uint64_t a, b;
-} mr_print;
+} mr_fingerprint;
 
 /* The print of n bytes. */
-mr_print mr_print_of(const void *data, size_t n);
+mr_fingerprint mr_fingerprint_of(const void *data, size_t n);
 
 #endif

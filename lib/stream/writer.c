@@ -17,7 +17,7 @@ typedef struct sent {
 	const mr_reader
 	    *owner; /* a column passed on: whose payload, and which; NULL: the print of its bytes */
 	uint64_t serial;
-	mr_print print;
+	mr_fingerprint print;
 } sent;
 
 struct mr_writer {
@@ -165,7 +165,7 @@ identify(const mr_column *c)
 		s.owner = c->stored->owner;
 		s.serial = c->serial;
 	} else {
-		s.print = mr_print_of(c->data, (size_t)size_of(c));
+		s.print = mr_fingerprint_of(c->data, (size_t)size_of(c));
 	}
 	return s;
 }

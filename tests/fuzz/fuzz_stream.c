@@ -15,7 +15,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *bytes, size_t n);
 typedef struct outcome {
 	mr_status status;
 	uint64_t frames;
-	mr_print print;
+	mr_fingerprint print;
 } outcome;
 
 static void
@@ -26,16 +26,16 @@ insist(bool good)
 }
 
 static void
-add(mr_print *sum, const void *data, size_t n)
+add(mr_fingerprint *sum, const void *data, size_t n)
 {
-	mr_print p = mr_print_of(data, n);
+	mr_fingerprint p = mr_fingerprint_of(data, n);
 
 	sum->a = (sum->a ^ p.a) * 0x9e3779b97f4a7c15u;
 	sum->b = (sum->b ^ p.b) * 0xff51afd7ed558ccdu;
 }
 
 static mr_status
-add_frame(mr_ctx *ctx, mr_frame *f, mr_print *sum)
+add_frame(mr_ctx *ctx, mr_frame *f, mr_fingerprint *sum)
 {
 	add(sum, f->name, strlen(f->name));
 	for (mr_column *c = f->columns; c < f->columns + f->count; c++) {

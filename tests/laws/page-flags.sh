@@ -6,7 +6,7 @@ block = re.search(r"FLAGS = \{\n(.*?)\n\};", open(sys.argv[1]).read(), re.S).gro
 for tool, flags in re.findall(r'"(mr-[a-z]+)": \[(.*)\],', block):
 	said[tool] = set(re.findall(r'"(-[^"]+)"', flags))
 common = {"-k", "--keep-going", "--sync", "--no-history", "-v", "--verbose", "-q", "--quiet", "-h", "--help", "-V", "--version"}
-for tool in sorted(set(os.listdir(sys.argv[2])) - {"mr-solve-mpi"}):
+for tool in sorted(os.listdir(sys.argv[2])):
 	help = subprocess.run([os.path.join(sys.argv[2], tool), "--help"], capture_output=True, text=True, check=True).stdout
 	sink = tool[3:] in ("compare", "export", "info", "render", "view")
 	flags = set()

@@ -23,6 +23,11 @@ def parts(b):
     return [[picture.pixel(x0 + x, y0 + y) for y in range(0, height, 4) for x in range(0, width, 4)] for x0, y0, _, _ in places]
 
 
+def places(b):
+    """What is drawn of mesh in either panel: places of vertices."""
+    return b.eval("[mrView.held.drawn, mrView.drawn].map(d => Array.from(d.get('mesh').drawn.geometry.attributes.position.array))")
+
+
 def differ(a, b):
     """How many pixels, as a share of those that are drawn in either."""
     def far(p, q):
@@ -99,9 +104,11 @@ def pose(b):
     check(names(b) == ["kept: bumpy \u00b7 posed", "bumpy"], "names: %s" % names(b))
     kept, now = parts(b)
     check(differ(kept, now) < 0.03, "the pose is not kept: %.3f" % differ(kept, now))
+    posed = places(b)  # the pictures change their size, as the line of commands does
     b.eval("document.getElementById('reset').click()")
     b.settle()
-    check(parts(b)[0] == kept and differ(*parts(b)) > 0.1, "reset moves what is kept")
+    check(places(b)[0] == posed[0], "reset moves what is kept")
+    check(places(b)[1] != posed[1], "reset leaves the pose")
     # So are its regions, while others are painted.
     b.choose("color", "region")
     kept = parts(b)[0]

@@ -13,17 +13,17 @@ static uint32_t triangles[3 * ROWS];
 typedef struct outcome {
 	mr_status status;
 	uint64_t frames;
-	mr_print print;
+	mr_fingerprint print;
 } outcome;
 
 static mr_status
-read_frame(mr_ctx *ctx, mr_frame *f, mr_print *sum)
+read_frame(mr_ctx *ctx, mr_frame *f, mr_fingerprint *sum)
 {
 	for (mr_column *c = f->columns; c < f->columns + f->count; c++) {
 		MR_TRY(mr_column_decode(ctx, c));
-		mr_print p = mr_print_of(
+		mr_fingerprint p = mr_fingerprint_of(
 		    c->data, (size_t)c->rows * c->shape.components * mr_type_size(c->shape.type));
-		mr_print q = mr_print_of(c->layer, sizeof c->layer + sizeof c->name);
+		mr_fingerprint q = mr_fingerprint_of(c->layer, sizeof c->layer + sizeof c->name);
 		sum->a = sum->a * 3 + (p.a ^ q.a);
 		sum->b = sum->b * 5 + (p.b ^ q.b) + (uint64_t)f->name[0];
 	}
