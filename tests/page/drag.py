@@ -6,35 +6,13 @@ import subprocess
 
 from browser import Browser
 from checks import Camera, box, check, columns, end, length, sub
+from posed import line, places, same_layers
 
-NEAR = 1e-5  # of the diagonal
 GIZMO = 0.6 / 7  # of the distance from the eye: what three.js has as 1
 
 
-def places(b, layer):
-    """Where the page has the vertices of a layer."""
-    flat = b.eval("Array.from(mrView.posing.placesOf('%s') || [], (x, i) => x + mrView.centre[i %% 3])" % layer)
-    return [flat[i:i + 3] for i in range(0, len(flat), 3)]
-
-
 def same(b, stream, line, what):
-    """Whether base and mesh of the page are what the line makes of the stream."""
-    b.settle()
-    with open(stream, "rb") as file:
-        made = subprocess.run(["sh", "-c", line], stdin=file, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
-    check(made.returncode == 0, "%s: exit %d of %s" % (what, made.returncode, line))
-    with open("made.mrs", "wb") as file:
-        file.write(made.stdout)
-    want = columns("made.mrs")
-    for layer in ("base", "mesh"):
-        p, q = want[layer, "position"], places(b, layer)
-        low, high = box(p)
-        off = max(length(sub(x, y)) for x, y in zip(p, q)) / length(sub(high, low)) if len(p) == len(q) else math.inf
-        check(off < NEAR, "%s: %s is %g of the diagonal off" % (what, layer, off))
-
-
-def line(b):
-    return b.eval("document.getElementById('line').value")
+    same_layers(b, stream, line, what, ("base", "mesh"))
 
 
 def type_line(b, text):

@@ -1,41 +1,18 @@
 """drag_control.py -- see drag-control.sh, which made the pages."""
 import json
-import math
 import subprocess
 
 from browser import Browser
-from checks import box, check, columns, end, length, sub
-
-NEAR = 1e-5  # of the diagonal
-
-
-def places(b, layer):
-    """Where the page has the vertices of a layer."""
-    flat = b.eval("Array.from(mrView.posing.placesOf('%s') || [], (x, i) => x + mrView.centre[i %% 3])" % layer)
-    return [flat[i:i + 3] for i in range(0, len(flat), 3)]
+from checks import check, columns, end, length, sub
+from posed import line, same_layers
 
 
 def same(b, stream, line, what):
     """Whether control mesh and surface of the page are what the line makes of the stream, and are drawn so."""
-    b.settle()
-    with open(stream, "rb") as file:
-        made = subprocess.run(["sh", "-c", line], stdin=file, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
-    check(made.returncode == 0, "%s: exit %d of %s" % (what, made.returncode, line))
-    with open("made.mrs", "wb") as file:
-        file.write(made.stdout)
-    want = columns("made.mrs")
-    for layer in ("control", "mesh"):
-        p, q = want[layer, "position"], places(b, layer)
-        low, high = box(p)
-        off = max(length(sub(x, y)) for x, y in zip(p, q)) / length(sub(high, low)) if len(p) == len(q) else math.inf
-        check(off < NEAR, "%s: %s is %g of the diagonal off, %d vertices of %d" % (what, layer, off, len(q), len(p)))
+    same_layers(b, stream, line, what, ("control", "mesh"))
     drawn = b.eval("""[...mrView.stage.layers].map(([name, d]) => name + (d.position.length === mrView.posing.placesOf(name).length &&
         d.position.every((x, i) => x === mrView.posing.placesOf(name)[i])))""")
     check(drawn and all(name.endswith("true") for name in drawn), "%s: drawn otherwise: %s" % (what, drawn))
-
-
-def line(b):
-    return b.eval("document.getElementById('line').value")
 
 
 def type_line(b, text):
