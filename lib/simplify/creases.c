@@ -96,17 +96,21 @@ is_sharp(const plane two[2], size_t n, double width)
 typedef struct finder {
 	const mr_mesh *m;
 	const mr_v3 *point;
+	size_t points;
 	mr_near *near;
 	double width;
 } finder;
 
-/* The points along a segment, but for its ends where it is long: others meet there.  p: in the arena. */
+/* The points along a segment, but for its ends where it is long: others meet there.  None along one that is
+ * longer than they would reach, two widths each.  p: in the arena. */
 static mr_status
 points_along(mr_ctx *ctx, const finder *f, mr_v3 a, mr_v3 b, mr_v3 **p, size_t *n)
 {
 	mr_v3 e = mr_sub(b, a);
 	double length = mr_norm(e), margin = length > 6 * f->width ? f->width / length : 0;
-	size_t steps = (size_t)(length / (2 * f->width)) + 2, count = 0, kept = steps * NEAREST;
+	double stretches = length / (2 * f->width);
+	size_t steps = stretches <= (double)f->points ? (size_t)stretches + 2 : 0, count = 0,
+	       kept = steps * NEAREST;
 	mr_v3 *at = MR_NEW(ctx, steps, mr_v3);
 	uint32_t *index = MR_NEW(ctx, kept, uint32_t);
 
@@ -195,7 +199,7 @@ mr_find_creases(
     mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double width, uint8_t *mark, size_t *count)
 {
 	mr_mark here = mr_mark_take(ctx);
-	finder f = { .m = m, .point = point, .width = width };
+	finder f = { .m = m, .point = point, .points = n, .width = width };
 	mr_topology topo;
 	mr_status status;
 

@@ -1,10 +1,11 @@
 /* Laws of simplification: the queue, the quadrics, what became of each vertex. */
-#include "simplify/bucket_queue.h"
-#include "shape/shape.h"
-#include "simplify/simplify.h"
 #include "base/random.h"
-#include "space/bvh.h"
 #include "op/quadric.h"
+#include "shape/shape.h"
+#include "simplify/bucket_queue.h"
+#include "simplify/creases.h"
+#include "simplify/simplify.h"
+#include "space/bvh.h"
 #include "unit.h"
 
 static void
@@ -165,6 +166,25 @@ places_stay_on_their_side(void **state)
 	assert_int_equal(strayed, 0);
 }
 
+/* An edge is not walked in steps that its points could not fill. */
+static void
+edges_beyond_the_points_are_not_sharp(void **state)
+{
+	mr_make_opts solid = MR_MAKE_DEFAULTS;
+	size_t count = 1;
+	uint8_t *mark;
+	mr_mesh m;
+
+	(void)state;
+	solid.vertices = 200;
+	assert_int_equal(mr_solid_make(&ctx, &solid, &m), MR_OK);
+	mark = MR_NEW(&ctx, 3 * m.nf, uint8_t);
+	for (double width = 1e-3; width > 1e-300; width *= 1e-12) {
+		assert_int_equal(mr_find_creases(&ctx, &m, m.p, m.nv, width, mark, &count), MR_OK);
+		assert_int_equal(count, 0);
+	}
+}
+
 static void
 wants_of_memory_are_reported(void **state)
 {
@@ -197,6 +217,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(vertices_lie_where_they_were_merged, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_are_the_nearest, setup, teardown),
 		cmocka_unit_test_setup_teardown(places_stay_on_their_side, setup, teardown),
+		cmocka_unit_test_setup_teardown(edges_beyond_the_points_are_not_sharp, setup, teardown),
 		cmocka_unit_test_setup_teardown(wants_of_memory_are_reported, setup, teardown),
 	};
 
