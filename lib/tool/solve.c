@@ -223,7 +223,8 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 		look_at_flattened(ctx, &m, p);
 	if (posing)
 		drop_used(f, layer);
-	MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
+	if (posing || o->flatten)
+		MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
 	if (o->basis)
 		MR_TRY(mr_deform_put_basis(ctx, f, &m, d, p));
 	figures = mr_deform_report(ctx, d);

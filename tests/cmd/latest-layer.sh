@@ -32,8 +32,11 @@ for i in 0 1 2 3 4; do
 done
 mr-pose -H 1 --translate 1,0,0 --frames 2 step1.mrs | mr-solve | mr-decode | mr-export posed-%d.off &&
     cmp posed-3.off out.off && echo 'a sequence ends with the pose'
-mr-solve --basis step1.mrs | mr-pose -H 1 --translate 1,0,0 -o basis.mrs
+mr-solve --basis step1.mrs -o basis.mrs # moves nothing
 vertices basis.mrs
+mr-view page.html basis.mrs
+mr-pose -H 1 --translate 1,0,0 basis.mrs -o posed.mrs
+vertices posed.mrs
 
 echo '-- a reconstruction'
 mr-shrinkwrap -m cube cloud.mrs | mr-simplify -n 200 -o step0.mrs

@@ -1,23 +1,17 @@
 """drag.py -- see drag.sh, which made the pages."""
-import json
 import math
 import shlex
 import subprocess
 
 from browser import Browser
 from checks import Camera, box, check, columns, end, length, sub
-from posed import line, places, same_layers
+from posed import line, places, same_layers, type_line
 
 GIZMO = 0.6 / 7  # of the distance from the eye: what three.js has as 1
 
 
 def same(b, stream, line, what):
     same_layers(b, stream, line, what, ("base", "mesh"))
-
-
-def type_line(b, text):
-    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(text))
-    b.settle()
 
 
 def button(b, name):

@@ -1,10 +1,9 @@
 """drag_control.py -- see drag-control.sh, which made the pages."""
-import json
 import subprocess
 
 from browser import Browser
 from checks import check, columns, end, length, sub
-from posed import line, same_layers
+from posed import line, same_layers, type_line
 
 
 def same(b, stream, line, what):
@@ -13,11 +12,6 @@ def same(b, stream, line, what):
     drawn = b.eval("""[...mrView.stage.layers].map(([name, d]) => name + (d.position.length === mrView.posing.placesOf(name).length &&
         d.position.every((x, i) => x === mrView.posing.placesOf(name)[i])))""")
     check(drawn and all(name.endswith("true") for name in drawn), "%s: drawn otherwise: %s" % (what, drawn))
-
-
-def type_line(b, text):
-    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(text))
-    b.settle()
 
 
 def level(b):

@@ -1,10 +1,16 @@
 """posed.py -- handles that are dragged in the page: where it has vertices, and whether its line of commands has them there, too."""
+import json
 import math
 import subprocess
 
 from checks import box, check, columns, length, sub
 
 NEAR = 1e-5  # of the diagonal
+
+
+def type_line(b, text):
+    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(text))
+    b.settle()
 
 
 def places(b, layer):

@@ -1,6 +1,6 @@
 /* handles.js -- the handles of a frame, at rest or as the stream has posed them, and the commands that it lacks to have them dragged. */
 import { Pose } from "./pose.js";
-import { columnOf, ownRegion } from "../stream/stream.js";
+import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
 import { boxOf } from "../mesh/surface.js";
 
 export const HANDLE = 2; /* the region of handle 0 */
@@ -53,7 +53,7 @@ export async function lacking(frame) {
 	if (!region || !(await region.values()).some((r) => r >= HANDLE))
 		return "";
 	if (layer === "control")
-		return frame.levels ? "mr-solve --basis model.mrs | mr-view page.html" : "";
+		return frame.levels ? "mr-solve --basis " + streamOf(frame) + " | mr-view page.html" : "";
 	return [has("base", "position") ? "" : "mr-smooth | mr-remesh", "mr-solve --basis", has("base", "position") && has("mesh", "detail_height") ? "" : "mr-encode", "mr-view page.html"]
-		.filter(Boolean).join(" | ").replace(/^(\S+( --basis)?)/, "$1 model.mrs");
+		.filter(Boolean).join(" | ").replace(/^(\S+( --basis)?)/, "$1 " + streamOf(frame));
 }

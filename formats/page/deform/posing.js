@@ -3,7 +3,7 @@ import { regionColor, regionName } from "../draw/colors.js";
 import { Deformer, posedBy as baseOf } from "./deformer.js";
 import { controlOf, DisplacedDeformer } from "./displaced.js";
 import { HANDLE, lacking, poseOf } from "./handles.js";
-import { columnOf, fileOf, ownRegion } from "../stream/stream.js";
+import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
 
 const $ = (id) => document.getElementById(id);
 const FAR = 60; /* degrees beyond which mr-decode warns */
@@ -61,7 +61,7 @@ export class Posing {
 			this.apply();
 		}
 		this.start = start;
-		$("whole").textContent = "mr-cat " + (frame.file ? fileOf(frame) : "FILE") + ".mrs | … | mr-export posed.ply";
+		$("whole").textContent = "mr-cat " + streamOf(frame) + " | … | mr-export posed.ply";
 		this.follow(frame);
 		$("pose").hidden = $("poseline").hidden = !this.pose || this.pose.numbers.length === 0;
 	}

@@ -129,6 +129,11 @@ export function fileOf(frame) {
 	return (frame.file || frame.name).replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[-.]+/, "").slice(0, 60) || "model";
 }
 
+/* The stream that a line for the shell reads. */
+export function streamOf(frame) {
+	return (frame.file ? fileOf(frame) : "model") + ".mrs";
+}
+
 /* A text column's lines; none where there is no such column. */
 export async function linesOf(frame, layer, name) {
 	const column = columnOf(frame, layer, name);
