@@ -6,6 +6,7 @@ import subprocess
 from browser import Browser
 from checks import check, columns, end
 from painted import apply, lasso, push, regions_of, text_of
+from posed import type_line
 
 
 def saved(b, button, name):
@@ -118,16 +119,16 @@ def levels(b):
 def poses(b):
     """The pose that the page shows comes with the regions of the stream, and not with painted ones."""
     line = "mr-pose -H 1 --rotate 0,0,1,20 --translate 0.1,0,0.05 | mr-decode"
-    b.open("rest.html")
-    b.eval("(e => { e.value = %r; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % line)
-    b.settle()
-    b.eval("document.getElementById('take').open = true")
-    b.settle()
-    check(b.eval("document.getElementById('basis').hidden"), "the page asks for a basis that it has")
-    code, said = run(saved(b, "save-script", "a-model.sh"), os.path.abspath("a model.off"))
-    check(code == 0, "pose: the script fails: %s" % said)
-    subprocess.run(line.replace("mr-pose", "mr-pose -q", 1) + " -q -o posed.mrs", shell=True, stdin=open("rest.mrs", "rb"), check=True)
-    check(same("run/a-model-painted.mrs", "posed.mrs", *FORM[:2], ("base", "position")), "pose: the script gives another pose")
+    for page, name, edited in (("handled", "bumpy", "control"), ("rest", "a-model", "base")):
+        b.open(page + ".html")
+        type_line(b, line)
+        b.eval("document.getElementById('take').open = true")
+        b.settle()
+        check(b.eval("document.getElementById('basis').hidden"), page + ": the page asks for a basis that it has")
+        code, said = run(saved(b, "save-script", name + ".sh"), *([os.path.abspath("a model.off")] if edited == "base" else []))
+        check(code == 0, "%s: the script fails: %s" % (page, said))
+        subprocess.run(line.replace("mr-pose", "mr-pose -q", 1) + " -q -o posed.mrs", shell=True, stdin=open(page + ".mrs", "rb"), check=True)
+        check(same("run/%s-painted.mrs" % name, "posed.mrs", *FORM[:2], (edited, "position")), page + ": the script gives another pose")
     b.press("p")
     b.press("x")
     apply(b, text_of(b).splitlines()[0] + "\nhandle 1 0\nfree 1\nfixed 2\n")

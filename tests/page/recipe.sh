@@ -11,6 +11,8 @@ mr-import --no-history 'a model.off' -o silent.mrs || exit
 mr-make torus -n 400 | mr-transform --translate 1,2,3 -o shape.mrs || exit
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 -o control.mrs || exit
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 | mr-decode -q -o scan.mrs || exit
+mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 |
+	mr-select -q --free all --fixed below:y,0.2 --handle 1=above:y,0.8 | mr-solve -q --basis -o handled.mrs || exit
 python3 - <<'Y'
 import struct, subprocess, zlib
 # Histories and names that want to be run.
@@ -33,7 +35,7 @@ with open("evil.mrs", "wb") as f:
 			+ record(b"mesh", b"triangles", b"fu\3", 1, struct.pack("<3I", 0, 1, 2)) + text(b"history", history) + record(b"", b"ENDFRAME", b"-t\1", 0, b""))
 	f.write(record(b"", b"END", b"-t\1", 0, b""))
 Y
-for model in base edit rest plain silent shape control scan evil; do
+for model in base edit rest plain silent shape control scan handled evil; do
 	mr-view -q -i $model.mrs $model.html || exit
 done
 exec python3 "$TOP/tests/page/recipe.py"

@@ -27,7 +27,8 @@ export class Painter {
 	constructor(app) {
 		this.app = app;
 		this.works = []; /* what was painted, or could be, of models of this page */
-		this.work = null; /* that of the frame: { layer, name, rows, triangles, group, column, regions, painted } */
+		this.work = null; /* that of the frame: { name, rows, triangles, group, column, regions, painted } */
+		this.given = null; /* that of a layer that has regions in the stream, else the same */
 		this.tool = "turn";
 		this.region = HANDLE + 1;
 		this.size = 50;
@@ -56,20 +57,27 @@ export class Painter {
 	async meet(frame, layers, visible) {
 		const found = LAYERS.map((name) => layers.find((l) => l.name === name)).filter((l) => l && l.position.rows > 0);
 		const layer = found.find((l) => visible.has(l.name)) || found[0] || null;
-		let work = layer ? this.works.find((w) => w.name === layer.name && this.fits(w, frame)) : null;
+		const given = found.find((l) => ownRegion(frame, l.name)), work = layer && await this.workOf(frame, layer);
 
-		if (layer && !work) {
-			const origin = ownRegion(frame, layer.name);
-			const regions = new Regions(origin && origin.element === "v" && origin.type === "u" ? await origin.values() : null, layer.position.rows);
-			work = { name: layer.name, rows: layer.position.rows, triangles: layer.triangles, group: frame.group, regions, column: columnFor(layer.name, origin, regions), painted: false };
-			this.works.push(work);
-		}
 		if (work !== this.work)
 			this.strokes.forget();
 		this.work = work;
+		this.given = given ? await this.workOf(frame, given) : work;
 		this.layer = layer;
 		showPaint(this);
 		await this.takeAway.show();
+	}
+
+	/* The work on a layer, as it was left, or that begins with the regions of the stream. */
+	async workOf(frame, { name, position, triangles }) {
+		const there = this.works.find((w) => w.name === name && this.fits(w, frame)), origin = ownRegion(frame, name);
+
+		if (there)
+			return there;
+		const regions = new Regions(origin && origin.element === "v" && origin.type === "u" ? await origin.values() : null, position.rows);
+		const work = { name, rows: position.rows, triangles, group: frame.group, regions, column: columnFor(name, origin, regions), painted: false };
+		this.works.push(work);
+		return work;
 	}
 
 	/* What is drawn of the layer; undefined where it is not seen. */

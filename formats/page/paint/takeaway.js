@@ -73,19 +73,26 @@ export class TakeAway {
 		return "Copied: what stands above.";
 	}
 
-	async model() {
-		const { layer } = this.painter;
+	/* What is taken away: what is painted on the layer in view, or what the stream came with. */
+	get taken() {
+		const { work, given } = this.painter;
 
-		return { layer: layer.name, vertices: layer.position.rows, triangles: await this.painter.triangles() };
+		return work.painted || work.column.origin ? work : given;
+	}
+
+	async model({ name, rows, triangles } = this.painter.work) {
+		const { painter } = this, seen = name === painter.work.name;
+
+		return { layer: name, vertices: rows, triangles: seen ? await painter.triangles() : triangles ? await triangles.values() : null };
 	}
 
 	async text() {
-		return write(await this.model(), this.painter.work.regions.values);
+		return write(await this.model(this.taken), this.taken.regions.values);
 	}
 
 	/* Whether the regions are those of the stream. */
 	async unchanged() {
-		const { column, regions } = this.painter.work, own = column.origin && await column.origin.values();
+		const { column, regions } = this.taken, own = column.origin && await column.origin.values();
 
 		return Boolean(own) && regions.values.every((r, v) => r === own[v]);
 	}
@@ -99,7 +106,7 @@ export class TakeAway {
 
 	/* What a script needs to know of the frame. */
 	async work() {
-		const { frame } = this.painter.app.shown, { name, regions } = this.painter.work;
+		const { frame } = this.painter.app.shown, { name, regions } = this.taken;
 		const encoded = columnOf(frame, "base", "encoded"); /* a copy of the positions, where base is as it was then */
 		const first = ["mesh", "control", "points"].find((l) => columnOf(frame, l, "position"));
 
