@@ -269,6 +269,8 @@ parse_command_line(cmd *c, int argc, char **argv)
 		    "leave out a frame that fails, exit 1 at the end", NULL },
 		{ 0, "sync", CMD_FLAG, &c->ctx.sync, 0, 0, "",
 		    "bring files to the disk before they get their names", NULL },
+		{ 0, "scratch", CMD_TEXT, &c->ctx.scratch, 0, 0, "DIR",
+		    "what takes over 64 MB lies in a nameless file there, not in memory", NULL },
 		{ 0, "stats", CMD_TEXT, &s->stats_path, 0, 0, "FILE",
 		    "write one JSON object per frame: what was measured", NULL },
 		{ 0, "no-history", CMD_FLAG, &s->no_history, 0, 0, "", "add no line to the frames' history",

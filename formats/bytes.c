@@ -27,7 +27,7 @@ shown(const char *path, const char *standard)
 void
 mr_file_bytes_free(mr_file_bytes *b)
 {
-	free(b->memory);
+	mr_memory_free(b->memory);
 	if (b->map)
 		munmap(b->map, b->mapped);
 	if (b->map && b->fd != STDIN_FILENO)
@@ -47,19 +47,19 @@ mr_file_bytes_end(mr_ctx *ctx, mr_file_bytes *b, mr_status status)
 	return status;
 }
 
-/* Makes room for more, by doubling; false where memory cannot be had, or is not there for it and for a model of
- * the same size: a pipe, and what a few bytes inflate to, may never end. */
+/* Makes room for more, by doubling; false where memory cannot be had, or is not there for it and for a model
+ * of the same size: a pipe, and what a few bytes inflate to, may never end. */
 static bool
-widen(unsigned char **memory, size_t *room, size_t least)
+widen(mr_ctx *ctx, unsigned char **memory, size_t *room, size_t least)
 {
 	size_t wanted = *room > SIZE_MAX / 2 ? SIZE_MAX : 2 * *room;
 	unsigned char *p;
 
 	if (wanted < least)
 		wanted = least;
-	if (wanted > HEAD && 2 * (double)wanted - (double)*room > mr_memory_available())
+	if (!ctx->scratch && wanted > HEAD && 2 * (double)wanted - (double)*room > mr_memory_available())
 		return false;
-	p = realloc(*memory, wanted);
+	p = mr_memory(ctx, *memory, wanted);
 	if (!p)
 		return false;
 	*memory = p;
@@ -87,11 +87,11 @@ read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_file_b
 		mr_status status = consider(ctx, judge, memory, size, &looked);
 		ssize_t n;
 		if (status < 0) {
-			free(memory);
+			mr_memory_free(memory);
 			return mr_prefix(ctx, status, "%s", path);
 		}
-		if (room - size < CHUNK && !widen(&memory, &room, size + CHUNK)) {
-			free(memory);
+		if (room - size < CHUNK && !widen(ctx, &memory, &room, size + CHUNK)) {
+			mr_memory_free(memory);
 			return mr_fail(ctx, MR_EMEM, "%s: no memory for more than %zu bytes", path, size);
 		}
 		n = read(fd, memory + size, room - size);
@@ -100,7 +100,7 @@ read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_file_b
 		if (n < 0 && errno == EINTR)
 			continue;
 		if (n < 0) {
-			free(memory);
+			mr_memory_free(memory);
 			return failed(ctx, path, "cannot read");
 		}
 		size += (size_t)n;
@@ -174,7 +174,7 @@ inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judg
 	const size_t claimed = claimed_size(in);
 	size_t room = 0, given = 0, done = 0, looked = 0;
 
-	if (!widen(memory, &room, claimed < HEAD ? claimed + 64 : HEAD))
+	if (!widen(ctx, memory, &room, claimed < HEAD ? claimed + 64 : HEAD))
 		return mr_fail(ctx, MR_EMEM, "no memory for %zu bytes", claimed);
 	for (;;) {
 		uInt piece = in->size - given > CHUNK ? CHUNK : (uInt)(in->size - given);
@@ -182,7 +182,7 @@ inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judg
 		int r;
 
 		MR_TRY(consider(ctx, judge, *memory, done, &looked));
-		if (room == done && !widen(memory, &room, done < claimed ? claimed + 64 : 0))
+		if (room == done && !widen(ctx, memory, &room, done < claimed ? claimed + 64 : 0))
 			return mr_fail(ctx, MR_EMEM, "no memory for more than %zu bytes", done);
 		space = room - done > CHUNK ? CHUNK : (uInt)(room - done);
 		z->next_in = (unsigned char *)(uintptr_t)(in->data + given);
@@ -224,7 +224,7 @@ gunzip(mr_ctx *ctx, const mr_judge *judge, mr_file_bytes *b)
 	inflateEnd(&z);
 	status = mr_file_bytes_end(ctx, b, status);
 	if (status < 0)
-		free(memory);
+		mr_memory_free(memory);
 	else
 		*b = (mr_file_bytes){ .data = memory, .size = size, .memory = memory };
 	return status;

@@ -290,6 +290,7 @@ mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path
 	mr_ctx keep;
 
 	mr_ctx_init(&keep, ctx->threads);
+	keep.scratch = ctx->scratch;
 	status = render(ctx, &keep, f, opts ? opts : &defaults, path);
 	mr_ctx_free(&keep);
 	mr_mark_release(ctx, mark);

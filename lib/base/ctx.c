@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 
+#include <errno.h>
 #include <time.h>
 #include <unistd.h>
 
@@ -11,14 +12,13 @@
  * block; a large one gets a block of its own, whose memory goes back to the
  * system as soon as it is released.
  */
-enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15, HUGE = 1 << 28 };
+enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15 };
 
 struct mr_block {
 	struct mr_block *below;
 	uint64_t serial;   /* from 1, growing towards the top */
 	size_t size, used; /* of the bytes behind the header */
-	void *memory;      /* what to free */
-	char pad[ALIGN - sizeof(struct mr_block *) - sizeof(uint64_t) - 2 * sizeof(size_t) - sizeof(void *)];
+	char pad[ALIGN - sizeof(struct mr_block *) - sizeof(uint64_t) - 2 * sizeof(size_t)];
 };
 
 void
@@ -176,43 +176,32 @@ product(size_t count, size_t size, size_t *bytes)
 	return true;
 }
 
+/* As malloc fails, with errno. */
 static bool
 told_to_fail(mr_ctx *ctx)
 {
+	errno = ENOMEM;
 	return ctx->fail_at && --ctx->fail_at == 0;
 }
 
 static void *
 no_memory(mr_ctx *ctx, size_t count, size_t size)
 {
-	mr_fail(ctx, MR_EMEM, "no memory for %zu objects of %zu bytes", count, size);
+	char what[64];
+
+	snprintf(what, sizeof what, "%zu objects of %zu bytes", count, size);
+	mr_no_memory(ctx, what, (double)count * (double)size);
 	return NULL;
-}
-
-/* Aligned here: what posix_memalign gave and got back it cannot always give again. */
-static char *
-aligned(char *memory)
-{
-	return memory + (ALIGN - (uintptr_t)memory % ALIGN) % ALIGN;
-}
-
-/* The system gives more than it has, and ends whoever then uses it: what is very large is asked for first. */
-static bool
-is_there(size_t bytes)
-{
-	return bytes <= HUGE || (double)bytes <= mr_memory_available();
 }
 
 static mr_block *
 block_new(mr_ctx *ctx, size_t size)
 {
-	char *memory = is_there(size) ? malloc(sizeof(mr_block) + size + ALIGN - 1) : NULL;
-	mr_block *b;
+	mr_block *b = mr_memory(ctx, NULL, sizeof *b + size);
 
-	if (!memory)
+	if (!b)
 		return NULL;
-	b = (void *)aligned(memory);
-	*b = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = size, .memory = memory };
+	*b = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = size };
 	return ctx->top = b;
 }
 
@@ -223,7 +212,7 @@ mr_alloc(mr_ctx *ctx, size_t count, size_t size)
 	size_t bytes;
 	void *p;
 
-	if (!product(count, size, &bytes) || told_to_fail(ctx))
+	if (told_to_fail(ctx) || !product(count, size, &bytes))
 		return no_memory(ctx, count, size);
 	if (!b || b->size - b->used < bytes) {
 		b = block_new(ctx, bytes > LARGE ? bytes : SHARED);
@@ -253,32 +242,16 @@ own_block(mr_ctx *ctx, const void *memory)
 	return NULL;
 }
 
-/*
- * Gives a block another size and puts it on top.  The system moves large ones without copying them, so that
- * there are never two of an array that grows.
- */
+/* Gives a block another size and puts it on top. */
 static void *
 resize(mr_ctx *ctx, mr_block **link, size_t bytes)
 {
-	mr_block *b = *link, *moved;
-	size_t kept = sizeof *b + (b->size < bytes ? b->size : bytes);
-	size_t shift = (size_t)((char *)b - (char *)b->memory);
-	char *memory;
+	mr_block *b = *link, *below = b->below, *moved = mr_memory(ctx, b, sizeof *b + bytes);
 
-	*link = b->below;
-	memory = is_there(bytes > b->size ? bytes - b->size : 0)
-	             ? realloc(b->memory, sizeof *b + bytes + ALIGN - 1)
-	             : NULL;
-	if (!memory) {
-		*link = b;
+	if (!moved)
 		return NULL;
-	}
-	moved = (void *)aligned(memory);
-	if ((char *)moved != memory + shift)
-		memmove(moved, memory + shift, kept);
-	*moved = (mr_block){
-		.below = ctx->top, .serial = ++ctx->blocks, .size = bytes, .used = bytes, .memory = memory
-	};
+	*link = below;
+	*moved = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = bytes, .used = bytes };
 	ctx->top = moved;
 	return bytes_of(moved);
 }
@@ -291,7 +264,7 @@ mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size)
 	void *p;
 
 	if (own) {
-		if (!product(count, size, &bytes) || told_to_fail(ctx) || !(p = resize(ctx, own, bytes)))
+		if (told_to_fail(ctx) || !product(count, size, &bytes) || !(p = resize(ctx, own, bytes)))
 			return no_memory(ctx, count, size);
 		return p;
 	}
@@ -354,7 +327,7 @@ mr_mark_release(mr_ctx *ctx, mr_mark mark)
 	while (ctx->top && ctx->top->serial > mark.serial) {
 		mr_block *b = ctx->top;
 		ctx->top = b->below;
-		free(b->memory);
+		mr_memory_free(b);
 	}
 	if (ctx->top && ctx->top->serial == mark.serial)
 		ctx->top->used = mark.used;

@@ -45,6 +45,7 @@ struct mr_ctx {
 	 */
 	void (*unfinished)(void *user, const char *file, bool on);
 	bool sync;                /* files are on the disk before they get their names */
+	const char *scratch;      /* folder for what is large, memory.h; NULL: none */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_block *top;            /* newest block of the arena */

@@ -1,64 +1,162 @@
-/* What the machine says is free, or the control group that the process is in, whichever is less; and what is
- * taken. */
+/* Memory: from malloc, or a file where it is large and that is wanted. */
 #include "base/memory.h"
 
-#include <math.h>
-#include <sys/resource.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/mman.h>
+#include <unistd.h>
 
-/* The number that stands in the file behind `key` (NULL: first), or NaN. */
-static double
-number_in(const char *path, const char *key)
+enum { ALIGN = 64, LARGE = 1 << 26 };
+
+/* What stands before the memory. */
+typedef struct head {
+	void *begin; /* what to free, or to unmap */
+	size_t size; /* of the memory */
+	int file;    /* -1: from malloc */
+} head;
+
+static head *
+head_of(void *memory)
 {
-	FILE *file = fopen(path, "r");
-	char line[256];
-	double found = NAN;
+	return (head *)(void *)((char *)memory - ALIGN);
+}
 
-	if (!file)
-		return NAN;
-	while (isnan(found) && fgets(line, sizeof line, file)) {
-		size_t skip = key ? strlen(key) : 0;
-		char *end;
-		if (key && strncmp(line, key, skip))
-			continue;
-		found = strtod(line + skip, &end);
-		if (end == line + skip)
-			found = NAN;
+/* Aligned here: what posix_memalign gave and got back it cannot always give again. */
+static char *
+aligned(void *begin)
+{
+	return (char *)begin + ALIGN + (ALIGN - (uintptr_t)begin % ALIGN) % ALIGN;
+}
+
+static void *
+headed(void *begin, size_t size, int file)
+{
+	void *memory = aligned(begin);
+
+	*head_of(memory) = (head){ begin, size, file };
+	return memory;
+}
+
+/* The system gives more than it has, and ends whoever then uses it: what is large is asked for first. */
+static bool
+is_there(size_t bytes)
+{
+	return bytes <= LARGE || (double)bytes <= mr_memory_available();
+}
+
+/* By malloc; the system moves what is large without copying it, so that there are never two of an array that
+ * grows. */
+static void *
+on_heap(void *old, size_t size)
+{
+	head was = old ? *head_of(old) : (head){ 0 };
+	size_t shift = old ? (size_t)((char *)old - (char *)was.begin) : 0;
+	char *begin = is_there(size > was.size ? size - was.size : 0) ? realloc(was.begin, size + 2 * ALIGN)
+	                                                              : NULL;
+
+	if (!begin) {
+		errno = ENOMEM;
+		return NULL;
 	}
-	fclose(file);
-	return found;
+	if (old && aligned(begin) != begin + shift)
+		memmove(aligned(begin), begin + shift, was.size < size ? was.size : size);
+	return headed(begin, size, -1);
 }
 
-/* What the process's group may still take: the files that the system keeps for it give way. */
-static double
-group_memory(void)
+/* Reserved as a whole: what is written to later never finds the disk full. */
+static void *
+map_file(int file, size_t size)
 {
-	static const char stat[] = "/sys/fs/cgroup/memory.stat";
+	void *begin;
+	int error = posix_fallocate(file, 0, (off_t)(size + ALIGN));
 
-	return number_in("/sys/fs/cgroup/memory.max", NULL) -
-	       number_in("/sys/fs/cgroup/memory.current", NULL) + fmax(0, number_in(stat, "inactive_file ")) +
-	       fmax(0, number_in(stat, "active_file "));
+	if (error) {
+		errno = error;
+		return NULL;
+	}
+	begin = mmap(NULL, size + ALIGN, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+	return begin == MAP_FAILED ? NULL : headed(begin, size, file);
 }
 
-double
-mr_memory_available(void)
+static void *
+in_new_file(const char *folder, size_t size)
 {
-	double system = 1024 * number_in("/proc/meminfo", "MemAvailable:");
-	double least = fmin(INFINITY, fmin(system, group_memory())); /* what is not a number does not count */
-	struct rlimit limit;
+	char name[4096];
+	void *memory = NULL;
+	int file, error;
 
-	if (getrlimit(RLIMIT_AS, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY)
-		least = fmin(least, (double)limit.rlim_cur);
-	return least;
+	if (snprintf(name, sizeof name, "%s/mr-scratch-XXXXXX", folder) >= (int)sizeof name) {
+		errno = ENAMETOOLONG;
+		return NULL;
+	}
+	file = mkstemp(name);
+	if (file < 0)
+		return NULL;
+	if (unlink(name) == 0 && fcntl(file, F_SETFD, FD_CLOEXEC) == 0)
+		memory = map_file(file, size);
+	if (!memory) {
+		error = errno;
+		close(file);
+		errno = error;
+	}
+	return memory;
 }
 
-double
-mr_memory_peak(void)
+/* The file keeps the bytes while it is mapped anew. */
+static void *
+in_file_again(void *old, size_t size)
 {
-	double own = 1024 * number_in("/proc/self/status", "VmHWM:");
-	struct rusage usage;
+	head was = *head_of(old);
+	void *memory = map_file(was.file, size);
 
-	if (!isnan(own))
-		return own;
-	getrusage(RUSAGE_SELF, &usage); /* no less than that of the program before exec */
-	return 1024 * (double)usage.ru_maxrss;
+	if (memory)
+		munmap(was.begin, was.size + ALIGN);
+	return memory;
+}
+
+void *
+mr_memory(const mr_ctx *ctx, void *old, size_t size)
+{
+	bool filed = old && head_of(old)->file >= 0;
+	void *memory;
+
+	if (size > SIZE_MAX / 2) {
+		errno = ENOMEM;
+		return NULL;
+	}
+	if (filed)
+		return in_file_again(old, size);
+	if (!ctx->scratch || size < LARGE)
+		return on_heap(old, size);
+	memory = in_new_file(ctx->scratch, size);
+	if (memory && old) {
+		memcpy(memory, old, head_of(old)->size < size ? head_of(old)->size : size);
+		mr_memory_free(old);
+	}
+	return memory;
+}
+
+mr_status
+mr_no_memory(mr_ctx *ctx, const char *what, double bytes)
+{
+	if (ctx->scratch && errno != ENOMEM)
+		return mr_fail(ctx, MR_EMEM, "no room for %s in %s: %s", what, ctx->scratch, strerror(errno));
+	return mr_fail(ctx, MR_EMEM, "no memory for %s%s", what,
+	    !ctx->scratch && bytes > LARGE ? ": --scratch takes what is large to a disk" : "");
+}
+
+void
+mr_memory_free(void *memory)
+{
+	head h;
+
+	if (!memory)
+		return;
+	h = *head_of(memory);
+	if (h.file < 0) {
+		free(h.begin);
+		return;
+	}
+	munmap(h.begin, h.size + ALIGN);
+	close(h.file);
 }

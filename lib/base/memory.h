@@ -1,11 +1,25 @@
-/* memory.h -- how much memory this process may still take, and has taken. */
+/* memory.h -- memory from the system, or from a disk; how much this process may still take, and has taken. */
 #ifndef MR_BASE_MEMORY_H
 #define MR_BASE_MEMORY_H
 
 #include "base/ctx.h"
 
 /*
- * Bytes that can be had without swapping, by what the system, the process's group and its limits say;
+ * Memory of `size` bytes, 64-byte aligned, with what was in `old` (NULL: nothing), whose place it takes. What
+ * is large lies in a file without a name in the folder ctx->scratch, where there is one, and the system
+ * brings it to the disk as memory gets short.  NULL where there is not enough, with errno set, and then `old`
+ * is as it was.
+ */
+void *mr_memory(const mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
+
+/* The sentence where mr_memory has given none for `what`, so many bytes: MR_EMEM. */
+mr_status mr_no_memory(mr_ctx *ctx, const char *what, double bytes);
+
+/* Gives it back; NULL is nothing. */
+void mr_memory_free(void *memory);
+
+/*
+ * Bytes that can be had without swapping, by what the system, the process's groups and its limits say;
  * infinite where none of them does.  No result may depend on it but a refusal, or a choice that is told.
  */
 double mr_memory_available(void);

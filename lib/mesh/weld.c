@@ -2,10 +2,13 @@
 #include "mesh/repair.h"
 
 typedef struct weld {
-	const mr_v3 *p;
 	double eps;
-	uint32_t *slot;  /* hash table of cells: the vertex that was put there last + 1 */
-	uint32_t *older; /* per vertex that stands for itself, the one before in its slot + 1 */
+	struct stand {
+		mr_v3 p;
+		uint32_t older; /* the number + 1 of the one before in its slot */
+	} * stand;              /* the vertices that stand for themselves */
+	size_t used, room;
+	uint32_t *slot; /* hash table of cells: the number of the one that was put there last + 1 */
 	size_t mask;
 } weld;
 
@@ -32,25 +35,28 @@ slot_of(const weld *w, mr_v3 cell)
 	return (size_t)h & w->mask;
 }
 
-/* The lowest vertex of the cell within eps of `a`, or `best` where that is lower. */
+/* The lowest in the cell within eps of `a`, or `best` where that is lower. */
 static uint32_t
 lowest_in(const weld *w, mr_v3 cell, mr_v3 a, uint32_t best)
 {
-	for (uint32_t i = w->slot[slot_of(w, cell)]; i; i = w->older[i - 1])
-		if (i - 1 < best && mr_norm2(mr_sub(w->p[i - 1], a)) <= w->eps * w->eps)
+	for (uint32_t i = w->slot[slot_of(w, cell)]; i; i = w->stand[i - 1].older)
+		if (i - 1 < best && mr_norm2(mr_sub(w->stand[i - 1].p, a)) <= w->eps * w->eps)
 			best = i - 1;
 	return best;
 }
 
+/* The number of the one that `a` joins, or MR_NONE. */
 static uint32_t
 find(const weld *w, mr_v3 a, mr_v3 cell)
 {
 	uint32_t best = MR_NONE;
 
 	if (w->eps == 0) {
-		for (uint32_t i = w->slot[slot_of(w, cell)]; i; i = w->older[i - 1])
-			if (w->p[i - 1].x == a.x && w->p[i - 1].y == a.y && w->p[i - 1].z == a.z)
+		for (uint32_t i = w->slot[slot_of(w, cell)]; i; i = w->stand[i - 1].older) {
+			mr_v3 b = w->stand[i - 1].p;
+			if (b.x == a.x && b.y == a.y && b.z == a.z)
 				return i - 1;
+		}
 		return MR_NONE;
 	}
 	for (int k = 0; k < 27; k++) {
@@ -61,34 +67,58 @@ find(const weld *w, mr_v3 a, mr_v3 cell)
 	return best;
 }
 
+static void
+put_in_slot(weld *w, uint32_t number)
+{
+	uint32_t *slot = &w->slot[slot_of(w, cell_of(w, w->stand[number].p))];
+
+	w->stand[number].older = *slot;
+	*slot = number + 1;
+}
+
+/* A table of twice the size. */
+static mr_status
+widen(mr_ctx *ctx, weld *w)
+{
+	size_t size = 2 * (w->mask + 1);
+
+	w->slot = mr_grow(ctx, w->slot, 0, size, sizeof *w->slot);
+	if (!w->slot)
+		return MR_EMEM;
+	memset(w->slot, 0, size * sizeof *w->slot);
+	w->mask = size - 1;
+	for (uint32_t i = 0; i < w->used; i++)
+		put_in_slot(w, i);
+	return MR_OK;
+}
+
+/* The vertex stands for itself.  Most slots are empty: 27 are looked into for each vertex. */
+static mr_status
+add(mr_ctx *ctx, weld *w, mr_v3 p)
+{
+	MR_TRY(MR_RESERVE(ctx, w->stand, w->used, 1, &w->room));
+	w->stand[w->used].p = p;
+	put_in_slot(w, (uint32_t)w->used++);
+	return w->used > w->mask / 8 ? widen(ctx, w) : MR_OK;
+}
+
 mr_status
 mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double span = mr_box_diagonal(mr_box_of(p, n));
-	weld w = { .p = p, .eps = eps > 1e-14 * span ? eps : 0, .mask = 64 };
-	uint32_t used = 0;
+	weld w = { .eps = eps > 1e-14 * span ? eps : 0, .mask = 31 };
+	mr_status status = widen(ctx, &w);
 
-	while (w.mask < n + n / 2)
-		w.mask *= 2;
-	w.slot = MR_NEW_ZERO(ctx, w.mask--, uint32_t);
-	w.older = MR_NEW(ctx, n, uint32_t);
-	if (!w.slot || !w.older) {
-		mr_mark_release(ctx, mark);
-		return MR_EMEM;
-	}
-	for (size_t i = 0; i < n; i++) {
-		mr_v3 cell = cell_of(&w, p[i]);
-		uint32_t j = find(&w, p[i], cell), *slot = &w.slot[slot_of(&w, cell)];
-		if (j != MR_NONE) {
-			map[i] = map[j];
+	for (size_t i = 0; i < n && status == MR_OK; i++) {
+		map[i] = find(&w, p[i], cell_of(&w, p[i]));
+		if (map[i] != MR_NONE)
 			continue;
-		}
-		map[i] = used++;
-		w.older[i] = *slot;
-		*slot = (uint32_t)i + 1;
+		map[i] = (uint32_t)w.used;
+		status = add(ctx, &w, p[i]);
 	}
 	mr_mark_release(ctx, mark);
-	*count = used;
-	return MR_OK;
+	if (status == MR_OK)
+		*count = w.used;
+	return status;
 }

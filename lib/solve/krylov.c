@@ -325,6 +325,7 @@ krylov_setup(
 	mr_status status;
 
 	mr_ctx_init(&k->own, ctx->threads);
+	k->own.scratch = ctx->scratch;
 	k->opts = *opts;
 	k->a = system->a;
 	k->iterate = opts->kind == MR_VCYCLE     ? cycle_iterate

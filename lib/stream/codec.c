@@ -86,7 +86,7 @@ static void
 z_free(voidpf ctx, voidpf p)
 {
 	(void)ctx;
-	free(p);
+	mr_memory_free(p);
 }
 
 static mr_status

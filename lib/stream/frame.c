@@ -132,7 +132,7 @@ inflate_stored(mr_ctx *ctx, mr_stored *s)
 		return MR_EMEM;
 	status = mr_unpack(ctx, &s->head, s->payload, data);
 	if (status != MR_OK) {
-		free(data);
+		mr_memory_free(data);
 		return mr_prefix(ctx, status, "byte %llu", (unsigned long long)s->offset);
 	}
 	s->data = s->inflated = data;

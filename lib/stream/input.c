@@ -14,31 +14,16 @@ enum { BLOCK = 1 << 18, FIRST = 1 << 20 };
 void *
 mr_heap(mr_ctx *ctx, void *old, size_t size)
 {
-	void *p = ctx->fail_at && --ctx->fail_at == 0 ? NULL : realloc(old, size ? size : 1);
+	char what[32];
+	void *p;
 
-	if (!p)
-		mr_fail(ctx, MR_EMEM, "no memory for %zu bytes", size);
+	errno = ENOMEM;
+	p = ctx->fail_at && --ctx->fail_at == 0 ? NULL : mr_memory(ctx, old, size);
+	if (!p) {
+		snprintf(what, sizeof what, "%zu bytes", size);
+		mr_no_memory(ctx, what, (double)size);
+	}
 	return p;
-}
-
-mr_status
-mr_heap_bytes_reserve(mr_ctx *ctx, mr_heap_bytes *b, size_t used, size_t room)
-{
-	size_t shift = b->heap ? (size_t)(b->p - (unsigned char *)b->heap) : 0;
-	unsigned char *heap, *p;
-
-	if (room <= b->room)
-		return MR_OK;
-	if (room > SIZE_MAX - MR_ALIGN)
-		return mr_fail(ctx, MR_EMEM, "no memory for %zu bytes", room);
-	heap = mr_heap(ctx, b->heap, room + MR_ALIGN);
-	if (!heap)
-		return MR_EMEM;
-	p = heap + (MR_ALIGN - (uintptr_t)heap % MR_ALIGN) % MR_ALIGN;
-	if (used && p != heap + shift)
-		memmove(p, heap + shift, used); /* realloc moved it to another alignment */
-	*b = (mr_heap_bytes){ heap, p, room };
-	return MR_OK;
 }
 
 /* Maps what is left of a regular file, where that is aligned; else it is read like a pipe. */
@@ -81,7 +66,9 @@ mr_input_open(mr_ctx *ctx, int fd, mr_input *in)
 	map_rest(&i);
 	if (!i.map) {
 		widen(fd);
-		MR_TRY(mr_heap_bytes_reserve(ctx, &i.block, 0, BLOCK));
+		i.block = mr_heap(ctx, NULL, BLOCK);
+		if (!i.block)
+			return MR_EMEM;
 	}
 	*in = i;
 	return MR_OK;
@@ -114,7 +101,7 @@ mr_input_close(mr_input *in)
 {
 	if (in->map)
 		munmap((void *)(uintptr_t)in->map, in->size);
-	free(in->block.heap);
+	mr_memory_free(in->block);
 	*in = (mr_input){ .fd = -1 };
 }
 
@@ -146,12 +133,12 @@ take(mr_ctx *ctx, mr_input *in, unsigned char *to, size_t n, size_t *got)
 		return MR_OK;
 	}
 	if (have == 0) {
-		MR_TRY(read_some(ctx, in->fd, in->block.p, BLOCK, &have));
+		MR_TRY(read_some(ctx, in->fd, in->block, BLOCK, &have));
 		in->begin = 0;
 		in->end = have;
 	}
 	*got = n < have ? n : have;
-	memcpy(to, in->block.p + in->begin, *got);
+	memcpy(to, in->block + in->begin, *got);
 	in->begin += *got;
 	in->offset += *got;
 	return MR_OK;
@@ -175,14 +162,19 @@ mr_input_header(mr_ctx *ctx, mr_input *in, unsigned char header[MR_HEADER], size
 
 /* The bytes of a pipe: memory grows as they arrive, whatever the header says. */
 static mr_status
-collect(mr_ctx *ctx, mr_input *in, size_t n, mr_heap_bytes *b)
+collect(mr_ctx *ctx, mr_input *in, size_t all, unsigned char **bytes)
 {
-	size_t used = MR_HEADER, all = MR_HEADER + n, step;
+	size_t used = MR_HEADER, room = all < FIRST ? all : FIRST, step;
 
 	while (used < all) {
-		if (used == b->room)
-			MR_TRY(mr_heap_bytes_reserve(ctx, b, used, all / 2 < used ? all : 2 * used));
-		MR_TRY(take(ctx, in, b->p + used, b->room - used, &step));
+		if (used == room) {
+			room = all / 2 < used ? all : 2 * used;
+			unsigned char *grown = mr_heap(ctx, *bytes, room);
+			if (!grown)
+				return MR_EMEM;
+			*bytes = grown;
+		}
+		MR_TRY(take(ctx, in, *bytes + used, room - used, &step));
 		if (step == 0)
 			return MR_END;
 		used += step;
@@ -194,7 +186,7 @@ mr_status
 mr_input_payload(mr_ctx *ctx, mr_input *in, const unsigned char header[MR_HEADER], uint64_t n,
     const unsigned char **record, void **heap)
 {
-	mr_heap_bytes b = { 0 };
+	unsigned char *bytes;
 	mr_status status;
 
 	if (in->map) {
@@ -207,14 +199,15 @@ mr_input_payload(mr_ctx *ctx, mr_input *in, const unsigned char header[MR_HEADER
 	}
 	if (n > SIZE_MAX - 2 * MR_HEADER)
 		return mr_fail(ctx, MR_EMEM, "no memory for %llu bytes", (unsigned long long)n);
-	MR_TRY(mr_heap_bytes_reserve(ctx, &b, 0, n + MR_HEADER < FIRST ? (size_t)n + MR_HEADER : FIRST));
-	memcpy(b.p, header, MR_HEADER);
-	status = collect(ctx, in, (size_t)n, &b);
+	bytes = mr_heap(ctx, NULL, n + MR_HEADER < FIRST ? (size_t)n + MR_HEADER : FIRST);
+	if (!bytes)
+		return MR_EMEM;
+	memcpy(bytes, header, MR_HEADER);
+	status = collect(ctx, in, (size_t)n + MR_HEADER, &bytes);
 	if (status != MR_OK) {
-		free(b.heap);
+		mr_memory_free(bytes);
 		return status;
 	}
-	*record = b.p;
-	*heap = b.heap;
+	*record = *heap = bytes;
 	return MR_OK;
 }

@@ -37,7 +37,7 @@ mr_reader_open(mr_ctx *ctx, int fd, mr_reader **reader)
 	*r = (mr_reader){ 0 };
 	status = mr_input_open(ctx, fd, &r->in);
 	if (status != MR_OK)
-		free(r);
+		mr_memory_free(r);
 	else
 		*reader = r;
 	return status;
@@ -59,9 +59,9 @@ stored_free(const mr_reader *r, mr_stored *s)
 	if (!s->heap)
 		mr_input_forget(s->payload - MR_HEADER, MR_HEADER + mr_record_padded(s->head.stored));
 	else if (!is_shared(r, s->heap))
-		free(s->heap);
-	free(s->inflated);
-	free(s);
+		mr_memory_free(s->heap);
+	mr_memory_free(s->inflated);
+	mr_memory_free(s);
 }
 
 static void
@@ -88,9 +88,9 @@ mr_reader_free(mr_reader *r)
 		return;
 	drop_all(r);
 	mr_input_close(&r->in);
-	free(r->stored);
-	free(r->view);
-	free(r);
+	mr_memory_free(r->stored);
+	mr_memory_free(r->view);
+	mr_memory_free(r);
 }
 
 static mr_status
@@ -161,7 +161,7 @@ read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
 	MR_TRY(status);
 	status = check_piece(ctx, p);
 	if (status != MR_OK)
-		free(p->heap);
+		mr_memory_free(p->heap);
 	return status;
 }
 
@@ -233,10 +233,10 @@ next_frame(mr_ctx *ctx, mr_reader *r)
 		} else {
 			break;
 		}
-		free(p.heap);
+		mr_memory_free(p.heap);
 	}
 	status = p.head.kind == MR_FRAME ? begin_frame(ctx, r, &p) : outside(ctx, r, &p);
-	free(p.heap);
+	mr_memory_free(p.heap);
 	return status;
 }
 
@@ -291,7 +291,7 @@ share(const mr_reader *r, mr_stored *s)
 		i++;
 	if (!s->heap || i == r->count || memcmp(r->stored[i]->payload, s->payload, (size_t)s->head.stored))
 		return;
-	free(s->heap);
+	mr_memory_free(s->heap);
 	s->heap = r->stored[i]->heap;
 	s->payload = r->stored[i]->payload;
 }
@@ -374,7 +374,7 @@ read_columns(mr_ctx *ctx, mr_reader *r)
 		} else if (p.head.kind != MR_ENDFRAME) {
 			status = misplaced(ctx, &p, "stands within a frame");
 		}
-		free(p.heap);
+		mr_memory_free(p.heap);
 	} while (status == MR_OK && p.head.kind != MR_ENDFRAME);
 	return status;
 }

@@ -9,6 +9,7 @@
 #ifndef MR_STREAM_STORED_H
 #define MR_STREAM_STORED_H
 
+#include "base/memory.h"
 #include "stream/frame.h"
 #include "stream/record.h"
 
@@ -26,18 +27,8 @@ typedef struct mr_stored {
 	void *inflated;   /* the memory of `data` where it was packed */
 } mr_stored;
 
-/* realloc; the sentence is set where it fails.  Counts as an allocation for ctx->fail_at. */
+/* mr_memory; the sentence is set where it fails.  Counts as an allocation for ctx->fail_at. */
 void *mr_heap(mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
-
-/* Memory aligned to MR_ALIGN that keeps its contents as it grows. */
-typedef struct mr_heap_bytes {
-	void *heap;
-	unsigned char *p;
-	size_t room;
-} mr_heap_bytes;
-
-/* Makes room for at least `room` bytes; the first `used` are kept. */
-mr_status mr_heap_bytes_reserve(mr_ctx *ctx, mr_heap_bytes *b, size_t used, size_t room);
 
 /* Bytes from a descriptor: a map of a regular file, or blocks. */
 typedef struct mr_input {
@@ -45,7 +36,7 @@ typedef struct mr_input {
 	uint64_t offset;          /* of the next byte, in the file, or from the first byte read */
 	const unsigned char *map; /* NULL: not mapped */
 	size_t size;              /* of the map */
-	mr_heap_bytes block;      /* bytes read and not yet taken: begin to end */
+	unsigned char *block;     /* bytes read and not yet taken: begin to end */
 	size_t begin, end;
 } mr_input;
 

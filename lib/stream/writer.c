@@ -62,8 +62,8 @@ mr_writer_free(mr_writer *w)
 {
 	if (!w)
 		return;
-	free(w->sent);
-	free(w);
+	mr_memory_free(w->sent);
+	mr_memory_free(w);
 }
 
 void

@@ -1,13 +1,74 @@
 /* The arena, errors, parallel loops and sums. */
 #include "base/ctx.h"
+#include "base/memory.h"
 #include "base/parallel.h"
 #include "base/random.h"
 #include "base/sort.h"
 
 #include <math.h>
 #include <setjmp.h>
+#include <unistd.h>
 
 #include <cmocka.h>
+
+/* Memory of another size keeps its bytes and its alignment, wherever the heap puts it. */
+static void
+memory_grows_and_shrinks(void **state)
+{
+	const mr_ctx ctx = { 0 };
+	unsigned char *p = NULL;
+	void *between[40];
+
+	(void)state;
+	for (size_t k = 0; k < 40; k++) {
+		p = mr_memory(&ctx, p, 100 * (k + 1));
+		between[k] = malloc(16); /* so that it moves */
+		assert_int_equal((uintptr_t)p % 64, 0);
+		for (size_t i = 0; i < 100 * k; i++)
+			assert_int_equal(p[i], (unsigned char)(i * 7));
+		for (size_t i = 100 * k; i < 100 * (k + 1); i++)
+			p[i] = (unsigned char)(i * 7);
+	}
+	p = mr_memory(&ctx, p, 10);
+	assert_int_equal(p[9], 63);
+	mr_memory_free(p);
+	for (size_t k = 0; k < 40; k++)
+		free(between[k]);
+	mr_memory_free(NULL);
+	assert_null(mr_memory(&ctx, NULL, SIZE_MAX - 10));
+}
+
+/* What is large lies in a file: what was in memory goes there, and nothing is left of it in the folder. */
+static void
+large_memory_lies_in_a_file(void **state)
+{
+	enum { MB = 1 << 20 };
+	char folder[] = "/tmp/mr-scratch-XXXXXX";
+	mr_ctx ctx = { 0 };
+	unsigned char *p;
+
+	(void)state;
+	assert_non_null(mkdtemp(folder));
+	ctx.scratch = folder;
+	p = mr_memory(&ctx, NULL, MB);
+	memset(p, 7, MB);
+	for (size_t size = 65; size < 200; size += 65) {
+		p = mr_memory(&ctx, p, size * MB);
+		assert_non_null(p);
+		assert_int_equal((uintptr_t)p % 64, 0);
+		assert_int_equal(p[0], 7);
+		assert_int_equal(p[MB - 1], 7);
+		assert_int_equal(p[size * MB - 1], 0); /* a file's bytes are 0 */
+	}
+	assert_int_equal(rmdir(folder), 0);
+	mr_memory_free(p);
+	assert_null(mr_memory(&ctx, NULL, 65 * MB));
+	mr_no_memory(&ctx, "65 MB", 65 * MB);
+	assert_non_null(strstr(ctx.error, "no room for 65 MB in /tmp/mr-scratch-"));
+	ctx.scratch = NULL;
+	mr_no_memory(&ctx, "65 MB", 65 * MB);
+	assert_non_null(strstr(ctx.error, "--scratch"));
+}
 
 static void
 memory_is_aligned_and_released_in_order(void **state)
@@ -216,6 +277,8 @@ int
 main(void)
 {
 	const struct CMUnitTest tests[] = {
+		cmocka_unit_test(memory_grows_and_shrinks),
+		cmocka_unit_test(large_memory_lies_in_a_file),
 		cmocka_unit_test(memory_is_aligned_and_released_in_order),
 		cmocka_unit_test(growing_keeps_contents_and_marks),
 		cmocka_unit_test(reserving_doubles),

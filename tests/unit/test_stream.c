@@ -465,33 +465,6 @@ two_readers(void **state)
 	mr_ctx_free(&ctx);
 }
 
-/* Memory that grows keeps its bytes and its alignment, wherever the heap puts it. */
-static void
-growing_bytes(void **state)
-{
-	void *between[40];
-	mr_heap_bytes b = { 0 };
-	mr_ctx ctx;
-
-	(void)state;
-	mr_ctx_init(&ctx, 1);
-	for (size_t k = 0; k < 40; k++) {
-		size_t used = b.room;
-		ok(&ctx, mr_heap_bytes_reserve(&ctx, &b, used, used + 100));
-		between[k] = malloc(16); /* so that it moves */
-		assert_true(b.room >= used + 100);
-		assert_int_equal((uintptr_t)b.p % 64, 0);
-		for (size_t i = 0; i < used; i++)
-			assert_int_equal(b.p[i], (unsigned char)(i * 7));
-		for (size_t i = used; i < b.room; i++)
-			b.p[i] = (unsigned char)(i * 7);
-	}
-	for (size_t k = 0; k < 40; k++)
-		free(between[k]);
-	free(b.heap);
-	mr_ctx_free(&ctx);
-}
-
 static void
 histories(void **state)
 {
@@ -654,7 +627,6 @@ main(void)
 		cmocka_unit_test(changes_stay_in_their_frame),
 		cmocka_unit_test(put_back),
 		cmocka_unit_test(two_readers),
-		cmocka_unit_test(growing_bytes),
 		cmocka_unit_test(histories),
 		cmocka_unit_test(refusals),
 		cmocka_unit_test(sequences),
