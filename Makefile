@@ -198,9 +198,10 @@ coverage:
 
 # A source again when it or a header has changed; .clang-tidy and tests/lint say what is not asked.
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
-LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(MPI),$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c)))
+LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(if $(shell command -v $(MPICC)),,$(MPI)),$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c)))
 lint: $(LINT) $(BUILD)/lint/cppcheck $(BUILD)/lint/eslint
 
+$(patsubst %,$(BUILD)/lint/%,$(MPI)): INCLUDE += $$(printf " -isystem %s" $$($(MPICC) --showme:incdirs))
 $(BUILD)/lint/%.c: %.c .clang-tidy tests/lint/assume.h $(HEADERS) | setup
 	@mkdir -p $(@D)
 	$(call say,tidy   )clang-tidy --quiet --warnings-as-errors='*' $< -- -std=c11 $(INCLUDE) -include tests/lint/assume.h \

@@ -50,6 +50,7 @@ struct mr_deform {
 	double negative; /* share of the edges at free vertices whose weight is negative */
 	double seconds_assemble, seconds_solve, residual;
 	size_t refinements;
+	double rounding;         /* of a solution of size 1, before it is refined */
 	bool rough;              /* rounding is of no account */
 	mr_ctx *keep;            /* of the arena that it lives in */
 	mr_rotations *rotations; /* NULL until a pose asks for them */
@@ -68,6 +69,9 @@ void mr_deform_residual(const mr_ctx *ctx, const mr_deform *d, mr_patch_field *f
 
 /* The system of order 1 on the same patch.  m: to be freed by mr_solver_free(m->solver); borrows d's. */
 mr_status mr_deform_membrane(mr_ctx *ctx, mr_deform *d, mr_deform *m);
+
+/* Finds d->rounding, by the workspace. */
+mr_status mr_deform_rounding(mr_ctx *ctx, mr_deform *d);
 
 /* The width columns of u on the free vertices from those on the constraints, by f's workspace. */
 mr_status mr_deform_solve_field(mr_ctx *ctx, mr_deform *d, mr_patch_field *f);

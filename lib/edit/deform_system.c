@@ -198,9 +198,10 @@ mr_deform_assemble(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, double starte
 		MR_TRY(assemble(ctx, d, rest));
 		status = open_solver(ctx, d, started);
 	}
-	if (!mr_solver_iterates(d->opts.solver.kind))
-		mr_mark_release(ctx, mark);
-	return status;
+	if (mr_solver_iterates(d->opts.solver.kind))
+		return status;
+	mr_mark_release(ctx, mark);
+	return status == MR_OK ? mr_deform_rounding(ctx, d) : status;
 }
 
 /* Its hierarchy is that of d without the strip, which the membrane does not need. */

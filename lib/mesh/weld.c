@@ -108,8 +108,10 @@ mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t
 	mr_mark mark = mr_mark_take(ctx);
 	double span = mr_box_diagonal(mr_box_of(p, n));
 	weld w = { .eps = eps > 1e-14 * span ? eps : 0, .mask = 31 };
-	mr_status status = widen(ctx, &w);
+	mr_status status = MR_RESERVE(ctx, w.stand, 0, 1, &w.room);
 
+	if (status == MR_OK)
+		status = widen(ctx, &w);
 	for (size_t i = 0; i < n && status == MR_OK; i++) {
 		map[i] = find(&w, p[i], cell_of(&w, p[i]));
 		if (map[i] != MR_NONE)

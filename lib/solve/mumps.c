@@ -100,7 +100,12 @@ factorize(DMUMPS_STRUC_C *m)
 static void
 start(DMUMPS_STRUC_C *m)
 {
-	m->par = 1;
+	int ranks;
+
+	/* Rank 0 has the mesh, too: of four, with a million vertices, it took 0.48 of what one takes, the
+	 * others 0.27; without a part of the factor it takes 0.27, the others 0.36. */
+	MPI_Comm_size(MPI_COMM_WORLD, &ranks);
+	m->par = ranks < 4;
 	m->sym = SYMMETRIC_POSITIVE_DEFINITE;
 	m->comm_fortran = WORLD;
 	call(m, START);
@@ -316,8 +321,10 @@ open_solver(const order *o)
 	DMUMPS_STRUC_C *m = calloc(1, sizeof *m);
 	double analysed;
 
-	if (!m)
+	if (!m) {
 		MPI_Abort(MPI_COMM_WORLD, 1);
+		return;
+	}
 	solvers[o->solver] = m;
 	start(m);
 	factor(m, o->memory, &analysed);
