@@ -13,7 +13,7 @@
 #	make coverage   what the tests run of lib, formats and cmd: lines and branches; T=PATTERN some of them
 #	make lint       clang-tidy, cppcheck and eslint over the sources: no findings
 #	make matrix     every tool on every model of DATA and on uglies; T=PATTERN some of them
-#	make fuzz       the readers and the tools' work under libFuzzer; TIME=SECONDS each, T=PATTERN some of them
+#	make fuzz       the readers and the tools' work under libFuzzer; TIME=SECONDS each, T=PATTERN some of them, SEED=N the same again
 #	make bless      the command tests' outputs become the expected ones; T=PATTERN
 #	make demo       the main job on real models: pictures and tables, in demo/, and a page of all, demo/index.html
 #	make bench      speed and memory beside the peers'
@@ -223,7 +223,7 @@ TIME  ?= 10
 FUZZY := -g -O1 -fno-omit-frame-pointer -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all
 fuzz: $(TOOLS)
 	@$(MAKE) --no-print-directory BUILD='$(FUZZ)' CC=clang CXX=clang++ CFLAGS='$(FUZZY)' $(patsubst tests/fuzz/%.c,$(FUZZ)/fuzz/%,$(wildcard tests/fuzz/*.c))
-	@$(RUN) BUILD='$(abspath $(FUZZ))' TOOLS='$(abspath $(BUILD))/bin' TIME='$(TIME)' tests/fuzz/run $(T)
+	@$(RUN) BUILD='$(abspath $(FUZZ))' TOOLS='$(abspath $(BUILD))/bin' TIME='$(TIME)' SEED='$(SEED)' tests/fuzz/run $(T)
 
 $(BUILD)/fuzz/%: $(BUILD)/tests/fuzz/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
