@@ -144,9 +144,9 @@ steps_of_places(const mr_column *c)
 	const mr_v3 *p = c->data;
 	mr_box box = mr_box_of(p, (size_t)c->rows);
 	mr_v3 size = c->rows ? mr_sub(box.max, box.min) : mr_vec(0, 0, 0);
-	double extent = fmax(size.x, fmax(size.y, size.z)), step = extent > 0 ? mr_step_of(extent) : 0;
+	double extent = fmax(size.x, fmax(size.y, size.z)), step = mr_step_of(extent);
 
-	if (!(step > 0))
+	if (!(step < extent)) /* one place, or next to it */
 		return (mr_steps){ 0 };
 	return (mr_steps){ step,
 		{ rint(box.min.x / step) * step, rint(box.min.y / step) * step,

@@ -15,12 +15,13 @@ spread(uint32_t x)
 	return (x | x << 2) & 0x09249249;
 }
 
+/* Any, of a box so small or large that its cells are no numbers. */
 static uint32_t
 cell(double x, double low, double scale)
 {
 	double c = (x - low) * scale;
 
-	return c < 1 ? 0 : c > BUCKETS - 1 ? BUCKETS - 1 : (uint32_t)c;
+	return c >= BUCKETS - 1 ? BUCKETS - 1 : c >= 1 ? (uint32_t)c : 0;
 }
 
 /* The order by one digit of the keys, stably. */

@@ -352,7 +352,8 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 	simplifier s = { .ctx = ctx,
 		.o = opts,
 		.needle = MR_NEEDLE,
-		.scale = diagonal > 0 ? ldexp(1, -ilogb(diagonal)) : 1,
+		.scale = diagonal > 0 ? ldexp(1, -(int)fmax(-1000, ilogb(diagonal)))
+		                      : 1, /* a number for any */
 		.target = opts->faces ? opts->faces : (size_t)ceil(opts->ratio * (double)m->nf),
 		.most = opts->room ? opts->most : 0,
 		.limit = opts->error <= 0       ? INFINITY

@@ -138,6 +138,7 @@ MODELS = {
     "offset-1e15": times(torus, 1, move=1e15),
     **{"size-1e%d" % e: times(torus, 10.0 ** e) for e in (-300, -200, -100, -30, -29, -12, 12, 29, 30, 100, 200, 300)},
     "size-of-subnormals": times(torus, 5e-324),
+    "off-by-subnormals": ([(1.4, 5e-324 * (i % 2), 0) for i in range(99)], [(i, i + 1, i + 2) for i in range(97)]),
     "the-largest-numbers": ([(math.copysign(1.7976931348623157e308, x), y, z) for x, y, z in torus[0]], torus[1]),
 }
 
