@@ -47,24 +47,27 @@ mr_file_bytes_end(mr_ctx *ctx, mr_file_bytes *b, mr_status status)
 	return status;
 }
 
-/* Makes room for more, by doubling; false where memory cannot be had, or is not there for it and for a model
+/* Makes room for more, by doubling; fails where memory cannot be had, or is not there for it and for a model
  * of the same size: a pipe, and what a few bytes inflate to, may never end. */
-static bool
+static mr_status
 widen(mr_ctx *ctx, unsigned char **memory, size_t *room, size_t least)
 {
 	size_t wanted = *room > SIZE_MAX / 2 ? SIZE_MAX : 2 * *room;
-	unsigned char *p;
+	unsigned char *p = NULL;
+	char what[64];
 
 	if (wanted < least)
 		wanted = least;
-	if (!ctx->scratch && wanted > HEAD && 2 * (double)wanted - (double)*room > mr_memory_available())
-		return false;
-	p = mr_memory(ctx, *memory, wanted);
-	if (!p)
-		return false;
+	errno = ENOMEM;
+	if (ctx->scratch || wanted <= HEAD || 2 * (double)wanted - (double)*room <= mr_memory_available())
+		p = mr_memory(ctx, *memory, wanted);
+	if (!p) {
+		snprintf(what, sizeof what, "more than %zu bytes", *room);
+		return mr_no_memory(ctx, what, (double)wanted);
+	}
 	*memory = p;
 	*room = wanted;
-	return true;
+	return MR_OK;
 }
 
 /* Has the judge look where there is twice as much as when it did before; *looked 0: never. */
@@ -86,13 +89,11 @@ read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_file_b
 	for (;;) {
 		mr_status status = consider(ctx, judge, memory, size, &looked);
 		ssize_t n;
+		if (status == MR_OK && room - size < CHUNK)
+			status = widen(ctx, &memory, &room, size + CHUNK);
 		if (status < 0) {
 			mr_memory_free(memory);
 			return mr_prefix(ctx, status, "%s", path);
-		}
-		if (room - size < CHUNK && !widen(ctx, &memory, &room, size + CHUNK)) {
-			mr_memory_free(memory);
-			return mr_fail(ctx, MR_EMEM, "%s: no memory for more than %zu bytes", path, size);
 		}
 		n = read(fd, memory + size, room - size);
 		if (n == 0)
@@ -174,16 +175,15 @@ inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judg
 	const size_t claimed = claimed_size(in);
 	size_t room = 0, given = 0, done = 0, looked = 0;
 
-	if (!widen(ctx, memory, &room, claimed < HEAD ? claimed + 64 : HEAD))
-		return mr_fail(ctx, MR_EMEM, "no memory for %zu bytes", claimed);
+	MR_TRY(widen(ctx, memory, &room, claimed < HEAD ? claimed + 64 : HEAD));
 	for (;;) {
 		uInt piece = in->size - given > CHUNK ? CHUNK : (uInt)(in->size - given);
 		uInt space;
 		int r;
 
 		MR_TRY(consider(ctx, judge, *memory, done, &looked));
-		if (room == done && !widen(ctx, memory, &room, done < claimed ? claimed + 64 : 0))
-			return mr_fail(ctx, MR_EMEM, "no memory for more than %zu bytes", done);
+		if (room == done)
+			MR_TRY(widen(ctx, memory, &room, done < claimed ? claimed + 64 : 0));
 		space = room - done > CHUNK ? CHUNK : (uInt)(room - done);
 		z->next_in = (unsigned char *)(uintptr_t)(in->data + given);
 		z->avail_in = piece;
