@@ -283,7 +283,7 @@ TO    := $(DESTDIR)$(PREFIX)
 NAMES := $(notdir $(TOOLS))
 install: $(TOOLS) $(BUILD)/$(SONAME) completions
 	install -d $(addprefix $(TO)/,bin include share/man/man1 share/man/man5 share/man/man7) $(addprefix $(DESTDIR),$(BASHDIR) $(ZSHDIR) $(FISHDIR) $(LIBDIR)/pkgconfig)
-	install $(TOOLS) $(TO)/bin
+	install $(TOOLS) $(wildcard $(BUILD)/mpi/mr-solve-mpi) $(TO)/bin
 	for n in 1 5 7; do install -m 644 man/*.$$n $(TO)/share/man/man$$n || exit; done
 	install -m 644 $(BUILD)/completions/bash/* $(DESTDIR)$(BASHDIR)
 	install -m 644 $(BUILD)/completions/zsh/* $(DESTDIR)$(ZSHDIR)
@@ -294,7 +294,7 @@ install: $(TOOLS) $(BUILD)/$(SONAME) completions
 	echo "$$PC" >$(BUILD)/mr.pc && install -m 644 $(BUILD)/mr.pc $(DESTDIR)$(LIBDIR)/pkgconfig
 
 uninstall:
-	rm -f $(addprefix $(TO)/bin/,$(NAMES)) $(foreach n,1 5 7,$(addprefix $(TO)/share/man/man$n/,$(notdir $(wildcard man/*.$n))))
+	rm -f $(addprefix $(TO)/bin/,$(NAMES) mr-solve-mpi) $(foreach n,1 5 7,$(addprefix $(TO)/share/man/man$n/,$(notdir $(wildcard man/*.$n))))
 	rm -f $(addprefix $(DESTDIR)$(BASHDIR)/,$(NAMES)) $(addprefix $(DESTDIR)$(ZSHDIR)/_,$(NAMES)) $(patsubst %,$(DESTDIR)$(FISHDIR)/%.fish,$(NAMES))
 	rm -f $(TO)/include/mr.h $(addprefix $(DESTDIR)$(LIBDIR)/,libmr.a $(SONAME) libmr.so pkgconfig/mr.pc)
 
