@@ -22,6 +22,10 @@ enum { FIRST_ROUNDS = 6, ROUNDS = 2, LAST_ROUNDS = 1, DRAWS = 2 };
 /* Points for each squared edge of a level. */
 static const double POINTS_PER_EDGE = 12;
 
+/* Faces for each point, of the last level.  Of 230 clouds of 1000 points and more, scans with outliers and
+ * parts unseen among them, all but one have 1.2 at most; of a cluster and a point far off there is no end. */
+static const double MOST_FACES = 4;
+
 static mr_status
 run_level(
     mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, double length, size_t rounds, mr_dyn *d)
@@ -55,6 +59,13 @@ thin_level(
 	return status;
 }
 
+/* Whether edges of half the length are of use: what is far from all points needs no finer faces. */
+static bool
+is_finer_of_use(const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const mr_dyn *d)
+{
+	return o->resolution || 4.0 * (double)d->nf <= MOST_FACES * (double)cloud->n;
+}
+
 static size_t
 edges_along(double side, double length)
 {
@@ -84,10 +95,10 @@ mr_wrap_box_to_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opt
 		length *= 2;
 	MR_TRY(begin_box(ctx, cloud, length, d));
 	MR_TRY(thin_level(ctx, cloud, o, length, FIRST_ROUNDS, d));
-	while (length > 1.01 * last) {
+	while (length > 1.01 * last && is_finer_of_use(cloud, o, d)) {
 		length /= 2;
 		MR_TRY(thin_level(ctx, cloud, o, length, length > 1.01 * last ? ROUNDS : LAST_ROUNDS, d));
 	}
 	m = mr_dyn_view(d, "control");
-	return mr_wrap_remesh(ctx, &m, last, d);
+	return mr_wrap_remesh(ctx, &m, length, d);
 }
