@@ -60,6 +60,11 @@ mr_status mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote);
 mr_status mr_volume_regions(mr_ctx *ctx, mr_volume_cloud *s, const double *flood, const mr_grid *g,
     size_t levels, mr_volume_result *result);
 
+/* Turns the normals of parts that are inside out over by the indicator u, which rises by so much across most
+ * of the surface.  *turned: how many points these have.  orient_parts.c */
+mr_status mr_volume_turn_parts(
+    mr_ctx *ctx, mr_volume_cloud *s, const mr_grid *g, const float *u, double rise, size_t *turned);
+
 /* ---- grid_multigrid.c: (screen - Laplacian) u = b on the nodes, u = 0 on the faces of the grid ---- */
 
 enum { LEVELS_MOST = 16 };

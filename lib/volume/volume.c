@@ -25,7 +25,8 @@ enum {
 	NODES_LEAST = 1 << 20, /* or fewer, that every cloud may have */
 	NODES_PER_POINT = 16,  /* that a larger one may have */
 	NEARBY = 3,            /* levels on which the values of points are nearby */
-	ROUNDS_MOST = 20       /* of turning normals over */
+	ROUNDS_MOST = 20,      /* of turning normals over */
+	PARTS_MOST = 4         /* of turning parts over */
 };
 
 /* Spacings.  Over 164 clouds of 41 closed meshes, their vertices and points strewn on them, clean, noisy and
@@ -227,11 +228,49 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 	return MR_OK;
 }
 
+static void
+measure_rise(void *arg, size_t begin, size_t end)
+{
+	const across *a = arg;
+
+	for (size_t i = begin; i < end; i++)
+		a->out[i] = -across_at(a, i * a->v->s.n / a->some) / 2;
+}
+
+/*
+ * Half of what the indicator rises by across the surface.  Over thin parts it never does, and beside an open
+ * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
+ * median value at them.
+ */
+static mr_status
+half_rise(mr_ctx *ctx, const volume *v, const float *u, double *half)
+{
+	enum { MOST = 10007 };
+	mr_mark mark = mr_mark_take(ctx);
+	size_t m = v->s.n < MOST ? v->s.n : MOST;
+	double *rise = MR_NEW(ctx, m, double);
+
+	if (!rise)
+		return MR_EMEM;
+	*half = 0;
+	for (int reach = 1; reach <= 3; reach++) {
+		mr_parallel(ctx, m, GRAIN, measure_rise, &(across){ v, u, rise, reach, m });
+		*half = fmax(*half, mr_kth(rise, m, m / 2));
+	}
+	for (size_t i = 0; i < m; i++)
+		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
+	*half = fmax(*half, mr_kth(rise, m, m / 2));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Turns the normals over along which the indicator u rises; how many. */
 static size_t
-turn_over(volume *v)
+turn_over(mr_ctx *ctx, volume *v, const float *u)
 {
 	size_t turned = 0;
 
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, 0 });
 	for (size_t i = 0; i < v->s.n; i++)
 		if (v->value[i] > 0) {
 			v->s.plane.normal[i] = mr_mul(-1, v->s.plane.normal[i]);
@@ -252,24 +291,43 @@ spread_normals(mr_ctx *ctx, const volume *v, mr_grid_multigrid *m)
 	}
 }
 
-static mr_status
-solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
+/* Solves and turns over until few normals are turned. */
+static void
+settle(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 {
 	mr_volume_result *found = &v->found;
 	size_t turned;
 
-	for (found->rounds = 0;;) {
+	for (size_t rounds = 0;;) {
 		spread_normals(ctx, v, m);
 		mr_multigrid_full(ctx, m);
-		if (found->rounds++ == ROUNDS_MOST || v->side.toward)
-			break;
-		mr_parallel(
-		    ctx, v->s.n, GRAIN, measure_across, &(across){ v, m->level[0].u, v->value, 1, 0 });
-		turned = turn_over(v);
+		found->rounds++;
+		if (rounds++ == ROUNDS_MOST || v->side.toward)
+			return;
+		turned = turn_over(ctx, v, m->level[0].u);
 		if (found->rounds == 1)
 			found->turned = turned;
 		if ((double)turned <= TURNED_LEAST * (double)v->s.n)
+			return;
+	}
+}
+
+/* Settles, and again as long as whole parts were the wrong way round, and fewer points each time. */
+static mr_status
+solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
+{
+	size_t before = SIZE_MAX, turned;
+	double half;
+
+	v->found.rounds = 0;
+	settle(ctx, v, m);
+	for (int i = 0; i < PARTS_MOST && !v->side.toward; i++) {
+		MR_TRY(half_rise(ctx, v, m->level[0].u, &half));
+		MR_TRY(mr_volume_turn_parts(ctx, &v->s, &v->grid[0], m->level[0].u, 2 * half, &turned));
+		if (turned == 0 || turned >= before)
 			break;
+		before = turned;
+		settle(ctx, v, m);
 	}
 	return MR_OK;
 }
@@ -304,43 +362,6 @@ measure_level(void *arg, size_t begin, size_t end)
 		       out = width(g, a->u, s->p[i], at, n, -1);
 		a->out[i] = mr_volume_at(g, a->u, mr_axpy((out - in) / 2 * g->step, n, s->p[i]));
 	}
-}
-
-static void
-measure_rise(void *arg, size_t begin, size_t end)
-{
-	const across *a = arg;
-
-	for (size_t i = begin; i < end; i++)
-		a->out[i] = -across_at(a, i * a->v->s.n / a->some) / 2;
-}
-
-/*
- * Half of what the indicator rises by across the surface.  Over thin parts it never does, and beside an open
- * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
- * median value at them.  v->value becomes the values.
- */
-static mr_status
-half_rise(mr_ctx *ctx, volume *v, const float *u, double *half)
-{
-	enum { MOST = 10007 };
-	mr_mark mark = mr_mark_take(ctx);
-	size_t m = v->s.n < MOST ? v->s.n : MOST;
-	double *rise = MR_NEW(ctx, m, double);
-
-	if (!rise)
-		return MR_EMEM;
-	*half = 0;
-	for (int reach = 1; reach <= 3; reach++) {
-		mr_parallel(ctx, m, GRAIN, measure_rise, &(across){ v, u, rise, reach, m });
-		*half = fmax(*half, mr_kth(rise, m, m / 2));
-	}
-	for (size_t i = 0; i < m; i++)
-		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
-	*half = fmax(*half, mr_kth(rise, m, m / 2));
-	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, u, v->value, 0, 0 });
-	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Level 1's u = mean of the values of the points nearby; `far` where there are none. */
@@ -394,6 +415,7 @@ make_level(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 	float *c = l->b;
 
 	MR_TRY(half_rise(ctx, v, l->u, &half));
+	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, l->u, v->value, 0, 0 });
 	if (!(half > 0))
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu points enclose nothing: no side of them is the inside", v->s.n);

@@ -8,7 +8,7 @@ normals() { # stats: of how many points sides were taken
 mr-make sphere --points 6000 | mr-export ball.xyz
 awk '{ print; print 0.7 * $1, 0.7 * $2, 0.7 * $3, -$4, -$5, -$6 }' ball.xyz >shell.xyz
 
-echo 'a hollow ball: solid without its normals'
+echo 'a hollow ball, with its normals and without'
 mr-import shell.xyz -o shell.mrs
 mr-shrinkwrap shell.mrs --stats stats.json | topology
 normals stats.json

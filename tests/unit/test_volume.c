@@ -199,6 +199,31 @@ genus_and_volume_are_right(void **state)
 	}
 }
 
+/* Shells of radius 1, 0.7 and 0.4: a hollow body with a body in it, and no points between that tell. */
+static void
+nested_spheres_bound_a_cavity_and_a_body(void **state)
+{
+	static const double radius[] = { 1, 0.7, 0.4 };
+	mr_mesh m = solid(MR_SPHERE, 30000, 0), w;
+	const mr_v3 *on = points_on(&m, 12000, 3);
+	mr_v3 *p = MR_NEW(&ctx, 12000, mr_v3);
+	size_t n = 0;
+	mr_census c;
+
+	(void)state;
+	assert_non_null(p);
+	for (size_t k = 0; k < 3; k++) /* as dense on each */
+		for (size_t i = 0; i < (size_t)(7000 * radius[k] * radius[k]); i++)
+			p[n++] = mr_mul(radius[k], on[i]);
+	w = wrap(p, n);
+	c = census_of(&w);
+	assert_closed_manifold(&c);
+	assert_int_equal(c.components, 3);
+	assert_int_equal(c.genus, 0);
+	assert_true(coverage(p, n, &w) < 2 * sqrt(4 * MR_PI / 7000));
+	assert_true(fabs(volume_of(&w) / (4 * MR_PI / 3 * (1 - 0.343 + 0.064)) - 1) < 0.02);
+}
+
 /* Three steps of the sampling between them. */
 static void
 near_spheres_stay_apart(void **state)
@@ -476,6 +501,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(eigenvectors_of_a_symmetric_matrix, setup, teardown),
 		cmocka_unit_test_setup_teardown(planes_of_a_sphere, setup, teardown),
 		cmocka_unit_test_setup_teardown(genus_and_volume_are_right, setup, teardown),
+		cmocka_unit_test_setup_teardown(nested_spheres_bound_a_cavity_and_a_body, setup, teardown),
 		cmocka_unit_test_setup_teardown(near_spheres_stay_apart, setup, teardown),
 		cmocka_unit_test_setup_teardown(hole_of_the_sampling_is_closed, setup, teardown),
 		cmocka_unit_test_setup_teardown(pit_before_an_open_neck_stays_a_pit, setup, teardown),
