@@ -7,8 +7,9 @@
  * to hidden ones.  Where normals are given that fit the points they tell the sides instead.  Then the
  * indicator of the inside is the solution of a Poisson equation (Kazhdan, Bolitho, Hoppe 2006), normals
  * against which it falls the wrong way are turned over, and it is solved again (Hou et al. 2022, where the
- * first signs are random).  The surface is where the indicator has the value that it has at the points
- * nearby, so that thin parts, where it never rises to a half, are not lost.
+ * first signs are random); and so are whole parts on which it is that of no body.  The surface is where the
+ * indicator has the value that it has at the points nearby, so that thin parts, where it never rises to a
+ * half, are not lost.
  */
 #include "volume/volume.h"
 
