@@ -168,8 +168,9 @@ help:
 setup:
 	@CC='$(CC)' THREE='$(THREE)' TRIED='$(if $(filter setup,$(MAKECMDGOALS)),,$(BUILD)/tried)' .ci/setup $(NEEDS)
 
+# Without what takes minutes in a browser, on a scheduler, of several processes: each has its target.
 check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
-	@$(RUN) tests/run $(T)
+	@$(RUN) tests/run $(or $(T),unit/ cmd/ pipe/ bad/ laws/ man/)
 
 check-long: $(TOOLS)
 	@LONG=1 LIMIT=14400 $(RUN) tests/run $(or $(T),bad/)
@@ -179,7 +180,7 @@ check-page: $(TOOLS)
 
 check-cluster: $(TOOLS)
 	@rm -f $(BUILD)/cluster.txt
-	@$(RUN) MODELS='$(MODELS)' LIMIT=14400 tests/run $(or $(T),laws/cluster)
+	@$(RUN) MODELS='$(MODELS)' LIMIT=14400 tests/run $(or $(T),cluster/)
 	@cat $(BUILD)/cluster.txt 2>/dev/null || true
 
 check-mpi: $(TOOLS) mpi
