@@ -109,6 +109,16 @@ mr_lerp(double t, mr_v3 a, mr_v3 b)
 	return mr_axpy(t, mr_sub(b, a), a);
 }
 
+/* Whether barycentric coordinates are those of a place within a triangle, but for rounding. */
+static inline bool
+mr_bary_within(mr_v3 w)
+{
+	const double rounding = 1e-6;
+
+	return w.x >= -rounding && w.y >= -rounding && w.z >= -rounding &&
+	       fabs(w.x + w.y + w.z - 1) <= rounding;
+}
+
 /* The point with barycentric coordinates w over the triangle a b c. */
 static inline mr_v3
 mr_bary_point(mr_v3 w, mr_v3 a, mr_v3 b, mr_v3 c)

@@ -258,16 +258,6 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 
 /* Decoding */
 
-/* Barycentric coordinates within a triangle, but for rounding. */
-static bool
-is_within(mr_v3 b)
-{
-	const double rounding = 1e-6;
-
-	return b.x >= -rounding && b.y >= -rounding && b.z >= -rounding &&
-	       fabs(b.x + b.y + b.z - 1) <= rounding;
-}
-
 /* What a row of detail is on a base of nf faces. */
 static mr_status
 check_row(mr_ctx *ctx, const mr_detail *d, size_t i, const char *base, size_t nf)
@@ -277,7 +267,7 @@ check_row(mr_ctx *ctx, const mr_detail *d, size_t i, const char *base, size_t nf
 	if (d->at.face[i] >= nf)
 		return mr_fail(ctx, MR_ERANGE, "mesh: detail_face %zu is %u, but %s has %zu faces", i,
 		    d->at.face[i], base, nf);
-	if (!is_within(b))
+	if (!mr_bary_within(b))
 		return mr_fail(ctx, MR_ERANGE,
 		    "mesh: detail_bary %zu (%g %g %g) is no place within a face of %s", i, b.x, b.y, b.z,
 		    base);
@@ -449,7 +439,7 @@ mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base)
 	print_faces(base, print);
 	return memcmp(known, print, sizeof print) ? mr_fail(ctx, MR_EMESH,
 							"%s has other triangles than those over which mesh "
-	                                                "was encoded: mr-encode comes after what "
+							"was encoded: mr-encode comes after what "
 							"changes them",
 							base->name)
 	                                          : MR_OK;

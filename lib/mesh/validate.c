@@ -9,7 +9,7 @@ static const struct {
 	const char *layer, *name; /* layer NULL: any */
 	const char *refers;       /* NULL: no indices; "": its own layer */
 	char element;
-	bool sum_is_one;
+	bool places;
 } laws[] = {
 	{ NULL, "triangles", "", 'v', false },
 	{ "mesh", "detail_face", "base", 'f', false },
@@ -99,15 +99,20 @@ check_below(mr_ctx *ctx, const mr_column *c, uint64_t end, const char *of)
 }
 
 static mr_status
-check_sum(mr_ctx *ctx, const mr_column *c)
+check_places(mr_ctx *ctx, const mr_column *c)
 {
 	const mr_v3 *w = c->data;
 
-	for (size_t i = 0; i < c->rows; i++)
+	for (size_t i = 0; i < c->rows; i++) {
 		if (!(fabs(w[i].x + w[i].y + w[i].z - 1) <= SUM_TOLERANCE))
 			return mr_fail(ctx, MR_ERANGE,
 			    "%s: column %s, row %zu: the coordinates have the sum %.17g", c->layer, c->name,
 			    i, w[i].x + w[i].y + w[i].z);
+		if (!mr_bary_within(w[i]))
+			return mr_fail(ctx, MR_ERANGE,
+			    "%s: column %s, row %zu: (%g %g %g) is no place within a face", c->layer, c->name,
+			    i, w[i].x, w[i].y, w[i].z);
+	}
 	return MR_OK;
 }
 
@@ -129,8 +134,8 @@ check_law(mr_ctx *ctx, const mr_frame *f, const mr_column *c)
 	for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
 		if (!is(c, laws[i].layer, laws[i].name))
 			continue;
-		if (laws[i].sum_is_one)
-			MR_TRY(check_sum(ctx, c));
+		if (laws[i].places)
+			MR_TRY(check_places(ctx, c));
 		if (laws[i].refers)
 			MR_TRY(check_reference(ctx, f, c, laws[i].refers, laws[i].element));
 	}

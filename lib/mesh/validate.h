@@ -3,7 +3,8 @@
  *
  * Contract: every column decodes, has the shape that convention gives it, as many
  * rows as its layer, and finite numbers; indices and regions are in range,
- * barycentric coordinates have the sum 1, and what refers to another layer finds it.
+ * barycentric coordinates are of a place within a face, and what refers to another
+ * layer finds it.
  */
 #ifndef MR_MESH_VALIDATE_H
 #define MR_MESH_VALIDATE_H

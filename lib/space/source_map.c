@@ -140,13 +140,15 @@ mr_status
 mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_places *map)
 {
 	for (size_t v = 0; v < base_nv; v++) {
+		mr_v3 w = map->bary[v];
 		if (map->face[v] >= mesh->nf)
 			return mr_fail(ctx, MR_ERANGE,
 			    "base: vertex %zu lies on face %u of %s, which has %zu", v, map->face[v],
 			    mesh->name, mesh->nf);
-		if (!mr_finite(map->bary[v]))
+		if (!mr_bary_within(w))
 			return mr_fail(ctx, MR_ERANGE,
-			    "base: the barycentric coordinates of vertex %zu are not finite", v);
+			    "base: source_bary %zu (%g %g %g) is no place within a face of %s", v, w.x, w.y,
+			    w.z, mesh->name);
 	}
 	return MR_OK;
 }

@@ -22,8 +22,7 @@ mr_status mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh 
     const mr_places *base_map, const mr_places *over, size_t n, mr_places *map);
 
 /*
- * MR_ERANGE where a face of the map, of base_nv vertices, is not one of the mesh's, or a coordinate is not
- * finite.
+ * MR_ERANGE where a place of the map, of base_nv vertices, is on no face of the mesh's or not within it.
  */
 mr_status mr_source_map_check(mr_ctx *ctx, const mr_mesh *mesh, size_t base_nv, const mr_places *map);
 

@@ -55,6 +55,20 @@ echo "exit $?, $(wc -c <out) bytes"
 printf 'OFF\n4 4 0\n0 0 0\n1e300 0 0\n0 1e300 0\n0 0 1e300\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n' >huge.off
 mr-import huge.off | mr-smooth -t 0 | mr-encode >out
 echo "exit $?, $(wc -c <out) bytes"
+mr-make sphere -n 42 | mr-smooth | mr-remesh | mr-cat -u -o placed.mrs
+python3 - <<'END' # the first vertex of the base far from the face that it is said to lie on
+import struct, zlib
+stream = bytearray(open("placed.mrs", "rb").read())
+head = stream.index(b"source_bary") - 16
+size, = struct.unpack_from("<Q", stream, head + 56)
+struct.pack_into("<3d", stream, head + 64, 1e200, -1e200, 1)
+struct.pack_into("<I", stream, head + 44, 0)
+struct.pack_into("<I", stream, head + 44, zlib.crc32(stream[head:head + 64 + size]))
+open("placed.mrs", "wb").write(stream)
+END
+mr-encode placed.mrs >out
+echo "exit $?, $(wc -c <out) bytes"
+mr-info --check placed.mrs >out; echo "exit $?"
 for name in ${DATA:+bunny00.off armadillo.off horse.ply igea.ply}; do
 	mr-import "$DATA/meshes/$name.gz" | mr-smooth | mr-remesh -o data.mrs &&
 	    check data 0.99 >verdict && back data >>verdict && ! grep bad verdict || echo "$name: bad: $(cat verdict)"

@@ -474,6 +474,11 @@ bad_columns_are_refused(void **state)
 	mr_places map = { face, bary };
 	assert_int_equal(mr_source_map_check(&ctx, &m, m.nv, &map), MR_ERANGE);
 	assert_string_equal(ctx.error, "base: vertex 3 lies on face 9 of base, which has 2");
+	face[3] = 1;
+	bary[2] = mr_vec(1e200, -1e200, 1);
+	assert_int_equal(mr_source_map_check(&ctx, &m, m.nv, &map), MR_ERANGE);
+	assert_string_equal(
+	    ctx.error, "base: source_bary 2 (1e+200 -1e+200 1) is no place within a face of base");
 	mr_ctx_free(&ctx);
 }
 

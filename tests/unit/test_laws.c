@@ -1,7 +1,7 @@
 /* Each law of the layers, broken once; and texts of reports. */
-#include "subdivide/displaced.h"
 #include "measure/report.h"
 #include "mesh/validate.h"
+#include "subdivide/displaced.h"
 
 #include <setjmp.h>
 #include <stdarg.h>
@@ -25,7 +25,7 @@ note(void *user, const char *sentence)
 static const mr_v3 p[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 }, { 1, 1, 0 } };
 static const mr_tri t[] = { { { 0, 1, 2 } }, { { 1, 3, 2 } } };
 static const uint32_t zero[4];
-static const mr_v3 bary[] = { { 1, 0, 0 }, { 0.5, 0.25, 0.25 }, { 0, 0, 1 }, { 2, -1, 0 } };
+static const mr_v3 bary[] = { { 1, 0, 0 }, { 0.5, 0.25, 0.25 }, { 0, 0, 1 }, { 0.25, 0.75, 0 } };
 static const mr_shape V3 = { 'v', 'd', 3 }, V1 = { 'v', 'u', 1 }, F3 = { 'f', 'u', 3 }, F1 = { 'f', 'u', 1 },
 		      TEXT = { '-', 't', 1 };
 
@@ -74,6 +74,7 @@ each_law(void **state)
 	static const uint32_t two[] = { 0, 0, 2, 0 }, region[] = { 0, 1, 2, 70000 };
 	static const mr_v3 nan_p[] = { { 0, 0, 0 }, { 1, NAN, 0 }, { 0, 1, 0 }, { 1, 1, 0 } };
 	static const mr_v3 off[] = { { 1, 0, 0 }, { 0.5, 0.25, 0.26 }, { 0, 0, 1 }, { 2, -1, 0 } };
+	static const mr_v3 beyond[] = { { 1, 0, 0 }, { 0.5, 0.25, 0.25 }, { 0, 0, 1 }, { 2, -1, 0 } };
 	static const struct {
 		const char *layer, *name;
 		mr_shape shape;
@@ -95,6 +96,8 @@ each_law(void **state)
 		    "base: column source_face, row 2 is 2 of 2 faces" },
 		{ "mesh", "detail_bary", { 'v', 'd', 3 }, off, 4, 1,
 		    "mesh: column detail_bary, row 1: the coordinates have the sum 1.01" },
+		{ "base", "source_bary", { 'v', 'd', 3 }, beyond, 4, 1,
+		    "base: column source_bary, row 3: (2 -1 0) is no place within a face" },
 		{ "base", "triangles", { 0, 0, 0 }, NULL, 0, 1,
 		    "mesh: column detail_face refers to faces of base, which is not there" },
 		{ "mesh", "group", { 'f', 'u', 1 }, two + 1, 2, 1,
@@ -181,7 +184,9 @@ displacements_fit_their_control_mesh(void **state)
 		{ 34, 3, true, "displacement: 34 heights, but level 3 of control has 130 vertices" },
 		{ 34, 4000000000, true, "displacement: level 4000000000 of at most 15" },
 		{ 34, 99, true, "displacement: no column level" },
-		{ 34, 2, false, "displacement: no layer control: mr-shrinkwrap makes control of points, mr-simplify --to control of "
+		{ 34, 2, false,
+		    "displacement: no layer control: mr-shrinkwrap makes control of points, mr-simplify --to "
+		    "control of "
 		    "mesh; the frame has mesh, base, own, displacement" },
 	};
 	const mr_report_opts opts = { .check = true };
