@@ -543,6 +543,18 @@ check_columns(mr_ctx *ctx, const char *layer, const mr_sampling *s, const double
 	return MR_OK;
 }
 
+/* Squares of lengths below 1e-162 are 0: what is measured in such spacings has no measure. */
+static mr_status
+check_usual(mr_ctx *ctx, const char *layer, const mr_sampling *s)
+{
+	if (s->places - s->outliers < 2 || s->usual > 0)
+		return MR_OK;
+	return mr_fail(ctx, MR_ERANGE,
+	    "%s: the median spacing of %zu points is 0: they lie closer to each other than can be computed "
+	    "with",
+	    layer, s->places - s->outliers);
+}
+
 mr_status
 mr_sampling_stored(mr_ctx *ctx, mr_frame *f, const char *layer, size_t n, mr_sampling *out, bool *stored)
 {
@@ -564,6 +576,7 @@ mr_sampling_stored(mr_ctx *ctx, mr_frame *f, const char *layer, size_t n, mr_sam
 	s.noise = ((const double *)whole)[0];
 	s.neighbours = (size_t)((const double *)whole)[1];
 	MR_TRY(find_figures(ctx, &s));
+	MR_TRY(check_usual(ctx, layer, &s));
 	*out = s;
 	*stored = true;
 	return MR_OK;
@@ -593,6 +606,7 @@ mr_sampling_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s)
 	MR_TRY(mr_sampling_stored(ctx, f, points->name, points->nv, s, &stored));
 	if (stored)
 		return MR_OK;
-	MR_TRY(find(ctx, points->p, points->nv, s));
+	MR_TRY(mr_prefix(ctx, find(ctx, points->p, points->nv, s), "%s", points->name));
+	MR_TRY(check_usual(ctx, points->name, s));
 	return faces && faces->rows ? MR_OK : put_columns(ctx, f, points->name, s);
 }

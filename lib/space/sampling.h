@@ -43,7 +43,8 @@ mr_status mr_sampling_find(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampl
 
 /*
  * That of a layer's points: by its columns, checked, or where these are not there,
- * found and, in a layer without triangles, put there.
+ * found and, in a layer without triangles, put there.  MR_ERANGE where a column is no sampling's, and where
+ * the median spacing of two points or more is 0.
  */
 mr_status mr_sampling_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s);
 

@@ -62,7 +62,7 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 
 	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_points(ctx, f, layer, &points));
-	MR_TRY(mr_prefix(ctx, mr_sampling_of(ctx, f, &points, &sampling), "%s", layer));
+	MR_TRY(mr_sampling_of(ctx, f, &points, &sampling));
 	if (o->template_mesh)
 		return wrap_control(ctx, f, &points, &sampling, o, result);
 	if (!o->ignore_normals)

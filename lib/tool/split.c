@@ -57,7 +57,29 @@ find_parts(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_split_opts *o, p
 	return MR_OK;
 }
 
-/* The frame without the other layers: these are not divided. */
+/* A layer of the frame besides the given one; NULL: there is none. */
+static const char *
+other_layer(const mr_frame *f, const char *layer)
+{
+	for (size_t i = 0; i < f->count; i++)
+		if (*f->columns[i].layer && strcmp(f->columns[i].layer, layer))
+			return f->columns[i].layer;
+	return NULL;
+}
+
+/* Drops the other layers, which are not divided, and what refers to them. */
+static void
+keep_only(mr_frame *f, const char *layer)
+{
+	char other[MR_LAYER_MAX + 1];
+
+	for (const char *name; (name = other_layer(f, layer));) {
+		snprintf(other, sizeof other, "%s", name);
+		mr_layer_changed(f, other, MR_RECONNECTED);
+		mr_frame_drop(f, other, NULL, 0);
+	}
+}
+
 static mr_status
 take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, size_t k, mr_frame **out)
 {
@@ -65,15 +87,11 @@ take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, siz
 	const mr_subset s = { p->vertex + p->first_vertex[k], p->face + p->first_face[k],
 		p->first_vertex[k + 1] - p->first_vertex[k], p->first_face[k + 1] - p->first_face[k],
 		p->number };
-	size_t kept = 0;
 
 	if (!part)
 		return MR_EMEM;
 	MR_TRY(mr_frame_copy(ctx, f, part));
-	for (size_t i = 0; i < part->count; i++)
-		if (!*part->columns[i].layer || !strcmp(part->columns[i].layer, layer))
-			part->columns[kept++] = part->columns[i];
-	part->count = kept;
+	keep_only(part, layer);
 	part->key = true;
 	part->name = mr_format(ctx, "%s-%zu", f->name, k + 1);
 	if (!part->name)

@@ -75,3 +75,8 @@ for f in old new; do
 		tr '\n' ' '
 	echo "in $f.mrs"
 done
+
+echo 'points whose distances are no numbers'
+mr-make sphere --points 200 | mr-export -f xyz - | awk '{ print $1, $2, $3 } END { for (i = 0; i < 400; i++) print i "e-300", 0, 0 }' >near.xyz
+mr-import near.xyz | mr-shrinkwrap >out
+echo "exit $?, $(wc -c <out) bytes"

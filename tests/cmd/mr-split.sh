@@ -51,6 +51,12 @@ cat all.obj
 echo 'what is left out is said'
 mr-smooth boxes.mrs | mr-split -l base >out.mrs
 
+echo 'and what refers to it goes with it'
+mr-smooth boxes.mrs | mr-remesh | mr-encode -o encoded.mrs
+for layer in mesh base; do
+	mr-split -q -l $layer encoded.mrs | mr-info --check >out; echo "$layer: exit $?"
+done
+
 echo 'refusals'
 refused() {
 	mr-split "$@" >out 2>err
