@@ -7,6 +7,7 @@
 #include "mesh/repair.h"
 
 #include "base/disjoint_sets.h"
+#include "mesh/alike.h"
 #include "mesh/edges.h"
 
 typedef struct surface {
@@ -41,65 +42,28 @@ degenerate(const mr_mesh *m, size_t f)
 	return mr_face_repeats(m, f) || mr_norm2(mr_face_cross(m, f)) == 0;
 }
 
-/* The three vertices in order. */
-static mr_tri
-sorted(mr_tri t)
-{
-	uint32_t a = t.v[0], b = t.v[1], c = t.v[2], x;
-
-	if (a > b)
-		x = a, a = b, b = x;
-	if (b > c)
-		x = b, b = c, c = x;
-	if (a > b)
-		x = a, a = b, b = x;
-	return (mr_tri){ { a, b, c } };
-}
-
-static size_t
-hash3(mr_tri t)
-{
-	uint64_t h = (uint64_t)t.v[0] << 32 | t.v[1];
-
-	h = (h ^ h >> 31) * 0x9e3779b97f4a7c15u;
-	h = (h ^ t.v[2] ^ h >> 29) * 0xbf58476d1ce4e5b9u;
-	return (size_t)(h ^ h >> 32);
-}
-
 static mr_status
 keep_faces(surface *s)
 {
-	size_t mask = 64;
-	uint32_t *slot;
+	uint32_t *first;
 	mr_mark mark;
 
 	s->t = MR_NEW(s->ctx, s->m->nf, mr_tri);
 	s->face_of = MR_NEW(s->ctx, s->m->nf, uint32_t);
 	mark = mr_mark_take(s->ctx);
-	while (mask < 2 * s->m->nf)
-		mask *= 2;
-	slot = MR_NEW_ZERO(s->ctx, mask--, uint32_t); /* number of a kept face + 1 */
-	if (!s->t || !s->face_of || !slot)
+	first = MR_NEW(s->ctx, s->m->nf, uint32_t);
+	if (!s->t || !s->face_of || !first)
 		return MR_EMEM;
+	MR_TRY(mr_first_alike(s->ctx, s->m, first));
 	for (size_t f = 0; f < s->m->nf; f++) {
-		mr_tri key = sorted(s->m->t[f]), other;
-		size_t at = hash3(key) & mask;
 		if (degenerate(s->m, f)) {
 			s->r.degenerate++;
-			continue;
-		}
-		for (; slot[at]; at = (at + 1) & mask) {
-			other = sorted(s->t[slot[at] - 1]);
-			if (!memcmp(&other, &key, sizeof key))
-				break;
-		}
-		if (slot[at]) {
+		} else if (first[f] != f) {
 			s->r.duplicate++;
-			continue;
+		} else {
+			s->t[s->nf] = s->m->t[f];
+			s->face_of[s->nf++] = (uint32_t)f;
 		}
-		s->t[s->nf] = s->m->t[f];
-		s->face_of[s->nf++] = (uint32_t)f;
-		slot[at] = (uint32_t)s->nf;
 	}
 	mr_mark_release(s->ctx, mark);
 	return MR_OK;

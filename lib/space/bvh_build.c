@@ -26,6 +26,7 @@ typedef struct task {
 	range r;
 	int depth;
 	size_t slot; /* its first bvh_node */
+	size_t hidden;
 } task;
 
 typedef struct builder {
@@ -33,6 +34,7 @@ typedef struct builder {
 	prim *prims;
 	task *tasks;
 	size_t task_count, task_size; /* ranges of at most task_size become tasks; 0: none */
+	size_t hidden;                /* faces, so far */
 } builder;
 
 static float
@@ -170,6 +172,56 @@ set_child_box(mr_bvh_node *d, int c, const prim *p, size_t n)
 	}
 }
 
+/*
+ * Of faces with the same vertices every query would look at each, and no split parts them: moves the lowest
+ * of each kind to the front, the others, which stay hidden, behind.  How many are in front.
+ */
+static size_t
+hide_repeated(const mr_mesh *m, prim *p, size_t n)
+{
+	enum { KINDS = 16 };
+	size_t kept = 0;
+
+	for (size_t i = 0; i < n; i++) {
+		size_t kind = 0, kinds = kept < KINDS ? kept : KINDS;
+		prim x = p[i];
+		while (kind < kinds && memcmp(&m->t[p[kind].face], &m->t[x.face], sizeof *m->t) != 0)
+			kind++;
+		if (kind == kinds) {
+			p[i] = p[kept];
+			p[kept++] = x;
+		} else if (x.face < p[kind].face) {
+			p[i] = p[kind];
+			p[kind] = x;
+		}
+	}
+	return kept;
+}
+
+static bool
+have_one_centroid(const prim *p, size_t n)
+{
+	for (size_t i = 1; i < n; i++)
+		for (int k = 0; k < 3; k++)
+			if (centroid(p + i, k) != centroid(p, k))
+				return false;
+	return true;
+}
+
+/* The range without what is hidden of faces that no split parts. */
+static range
+without_repeated(builder *b, range r)
+{
+	prim *p = b->prims + r.first;
+	size_t n;
+
+	if (r.n <= BVH_LEAF || !have_one_centroid(p, r.n))
+		return r;
+	n = hide_repeated(b->bvh->mesh, p, r.n);
+	b->hidden += r.n - n;
+	return (range){ r.first, n };
+}
+
 /* Cuts a range of more than BVH_LEAF prims, always the largest piece, until there are four. */
 static void
 cut(prim *prims, range r, int depth, range out[BVH_WIDE])
@@ -189,10 +241,10 @@ cut(prim *prims, range r, int depth, range out[BVH_WIDE])
 
 /* Builds the subtree of a range; its nodes take the places from *next on, the first its root. */
 static void
-build_range(builder *b, range r, int depth, size_t *next)
+build_range(builder *b, range whole, int depth, size_t *next)
 {
 	mr_bvh_node *d = &b->bvh->nodes[(*next)++];
-	range part[BVH_WIDE] = { r };
+	range r = without_repeated(b, whole), part[BVH_WIDE] = { r };
 	int parts = 1;
 
 	*d = (mr_bvh_node){ .child = { MR_NONE, MR_NONE, MR_NONE, MR_NONE } };
@@ -214,7 +266,7 @@ build_range(builder *b, range r, int depth, size_t *next)
 		}
 		d->child[c] = (uint32_t)*next;
 		if (part[c].n <= b->task_size) {
-			b->tasks[b->task_count++] = (task){ part[c], depth + 1, *next };
+			b->tasks[b->task_count++] = (task){ part[c], depth + 1, *next, 0 };
 			*next += bvh_node_bound(part[c].n);
 		} else {
 			build_range(b, part[c], depth + 1, next);
@@ -230,7 +282,9 @@ build_tasks(void *arg, size_t begin, size_t end)
 	b.task_size = 0;
 	for (size_t i = begin; i < end; i++) {
 		size_t next = b.tasks[i].slot;
+		b.hidden = 0;
 		build_range(&b, b.tasks[i].r, b.tasks[i].depth, &next);
+		b.tasks[i].hidden = b.hidden;
 	}
 }
 
@@ -292,8 +346,17 @@ mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 		mr_parallel(ctx, b.task_count, 1, build_tasks, &b);
 		for (size_t i = 0; i < m->nf; i++)
 			face[i] = b.prims[i].face;
+		bvh->hidden = b.hidden;
+		for (size_t i = 0; i < b.task_count; i++)
+			bvh->hidden += b.tasks[i].hidden;
 	}
 	mr_mark_release(ctx, mark);
 	*out = bvh;
 	return MR_OK;
+}
+
+size_t
+mr_bvh_hidden(const mr_bvh *bvh)
+{
+	return bvh->hidden;
 }

@@ -7,6 +7,7 @@
 #include "space/self_intersect.h"
 
 #include "base/parallel.h"
+#include "mesh/alike.h"
 #include "space/predicates.h"
 
 static bool
@@ -133,6 +134,30 @@ apart_intersect(const mr_v3 p[3], const mr_v3 q[3])
 	return inside_flat(q[0], p, k, turn);
 }
 
+/* Whether n . e > 0, whatever the rounding of e, a difference, and of the product. */
+static bool
+surely_ahead(mr_v3 n, mr_v3 e)
+{
+	double x = n.x * e.x, y = n.y * e.y, z = n.z * e.z;
+
+	return x + y + z > 8 * 0x1p-52 * (fabs(x) + fabs(y) + fabs(z)) + 1e-300;
+}
+
+/*
+ * Whether the plane through the common corner 0 that is square to the difference of the triangles' directions
+ * surely parts all else of them.  In a flat fan determinants are 0, which only exact arithmetic tells: around
+ * a vertex of 4,000 faces this is 25 times as fast.
+ */
+static bool
+surely_parted(const mr_v3 p[3], const mr_v3 q[3])
+{
+	mr_v3 a = mr_sub(p[1], p[0]), b = mr_sub(p[2], p[0]), c = mr_sub(q[1], q[0]), d = mr_sub(q[2], q[0]);
+	mr_v3 n = mr_sub(mr_add(mr_unit(a), mr_unit(b)), mr_add(mr_unit(c), mr_unit(d)));
+	mr_v3 m = mr_mul(-1, n);
+
+	return surely_ahead(n, a) && surely_ahead(n, b) && surely_ahead(m, c) && surely_ahead(m, d);
+}
+
 /*
  * Triangles whose corner 0 is common.  What they share is convex: where it is more
  * than the corner, it reaches the edge opposite the corner in one of them.
@@ -140,8 +165,12 @@ apart_intersect(const mr_v3 p[3], const mr_v3 q[3])
 static bool
 corner_intersect(const mr_v3 p[3], const mr_v3 q[3])
 {
-	int p1, p2, q1 = mr_orient3d(p[0], p[1], p[2], q[1]), q2 = mr_orient3d(p[0], p[1], p[2], q[2]);
+	int p1, p2, q1, q2;
 
+	if (surely_parted(p, q))
+		return false;
+	q1 = mr_orient3d(p[0], p[1], p[2], q[1]);
+	q2 = mr_orient3d(p[0], p[1], p[2], q[2]);
 	if (q1 * q2 > 0)
 		return false;
 	p1 = mr_orient3d(q[0], q[1], q[2], p[1]);
@@ -196,9 +225,18 @@ typedef struct search {
 	const mr_bvh *bvh;
 	const mr_mesh *m;
 	const unsigned char *flat; /* faces without area */
+	const uint32_t *first;     /* of the faces with the same vertices; NULL: none are hidden */
+	const size_t *alike;       /* of the first: how many there are */
 	bool *crosses;             /* of the faces; or NULL */
 	size_t *count;             /* per piece of faces */
 } search;
+
+/* How many faces this one stands for: 0 where an earlier one stands for it. */
+static size_t
+stands_for(const search *s, size_t face)
+{
+	return s->first ? s->alike[face] : 1;
+}
 
 typedef struct candidate {
 	const search *s;
@@ -223,13 +261,14 @@ visit(void *arg, uint32_t face)
 	candidate *c = arg;
 	mr_v3 q[3];
 	bool earlier = face < c->face;
+	size_t n = stands_for(c->s, face);
 
-	if (face == c->face || (earlier && !c->s->crosses) || c->s->flat[face])
+	if (face == c->face || (earlier && !c->s->crosses) || c->s->flat[face] || n == 0)
 		return true;
 	corners(c->s->m, face, q);
 	if (mr_triangles_intersect(c->p, q)) {
 		c->crosses = true;
-		c->count += !earlier;
+		c->count += earlier ? 0 : n;
 	}
 	return true;
 }
@@ -242,13 +281,15 @@ search_faces(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		candidate c = { .s = s, .face = (uint32_t)f };
-		if (!s->flat[f]) {
+		size_t n = stands_for(s, f);
+		if (!s->flat[f] && n > 0) {
 			corners(s->m, f, c.p);
 			mr_bvh_overlap(s->bvh, mr_box_of(c.p, 3), visit, &c);
+			c.crosses |= n > 1;
+			total += n * c.count + n * (n - 1) / 2;
 		}
 		if (s->crosses)
 			s->crosses[f] = c.crosses;
-		total += c.count;
 	}
 	s->count[begin / GRAIN] = total;
 }
@@ -270,20 +311,40 @@ find_flat(void *arg, size_t begin, size_t end)
 	}
 }
 
+static mr_status
+find_alike(mr_ctx *ctx, search *s)
+{
+	uint32_t *first = MR_NEW(ctx, s->m->nf, uint32_t);
+	size_t *alike = MR_NEW_ZERO(ctx, s->m->nf, size_t);
+
+	if (!first || !alike)
+		return MR_EMEM;
+	MR_TRY(mr_first_alike(ctx, s->m, first));
+	for (size_t f = 0; f < s->m->nf; f++)
+		alike[first[f]]++;
+	s->first = first;
+	s->alike = alike;
+	return MR_OK;
+}
+
 mr_status
 mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t pieces = (m->nf + GRAIN - 1) / GRAIN, total = 0;
 	flat_job flat = { m, MR_NEW(ctx, m->nf, unsigned char) };
-	search s = { bvh, m, flat.flat, crosses, MR_NEW(ctx, pieces, size_t) };
+	search s = { bvh, m, flat.flat, NULL, NULL, crosses, MR_NEW(ctx, pieces, size_t) };
 
 	if (!flat.flat || !s.count)
 		return MR_EMEM;
+	if (mr_bvh_hidden(bvh))
+		MR_TRY(find_alike(ctx, &s));
 	mr_parallel(ctx, m->nf, 4096, find_flat, &flat);
 	mr_parallel(ctx, m->nf, GRAIN, search_faces, &s);
 	for (size_t i = 0; i < pieces; i++)
 		total += s.count[i];
+	for (size_t f = 0; s.first && crosses && f < m->nf; f++)
+		crosses[f] = crosses[s.first[f]];
 	mr_mark_release(ctx, mark);
 	*count = total;
 	return MR_OK;
