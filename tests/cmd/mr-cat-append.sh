@@ -30,7 +30,7 @@ done
 mr-cat --append sphere.mrs torus.mrs -o both.mrs
 mr-info --check both.mrs >checked && echo sound
 mr-decode both.mrs | mr-compare -a mesh -b mesh --json both.mrs | grep -c '"vertex_max_relative":[0-9.]*e-1[0-9]'
-mr-split both.mrs -q | mr-info | grep -E 'frame|detail_face'
+mr-split both.mrs -q | mr-info | grep -E 'frame|vertices,|detail'
 
 echo 'columns that not all have, and layers of one frame'
 mr-make sphere --points 50 -o normals.mrs
