@@ -390,6 +390,16 @@ mr_decode(
 	return MR_OK;
 }
 
+void
+mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, mr_v3 *p)
+{
+	mr_mesh rest = *base;
+	decoder j = { .surface = { &rest, d->rest_normal }, .d = d, .gain = 1, .p = p };
+
+	rest.p = d->rest;
+	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
+}
+
 /* The columns */
 
 mr_status

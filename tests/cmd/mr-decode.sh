@@ -135,3 +135,9 @@ refused lost.mrs
 refused --gain x detail.mrs
 mr-make sphere -n 42 -o sphere.mrs
 refused sphere.mrs
+
+echo '-- a second pose begins where the first has ended'
+mr-make bumpy -n 2000 | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.5 --handle 1=above:y,0.85 | mr-encode |
+	mr-pose -H 1 --rotate 0,0,1,30 | mr-solve | mr-decode -o bent.mrs
+mr-pose -H 1 --rotate 0,0,1,10 bent.mrs | mr-solve | mr-decode -o further.mrs
+mr-decode bent.mrs -o again.mrs && mr-compare -a mesh -b mesh bent.mrs again.mrs --json | grep -o '"vertex_max":[^,]*'
