@@ -32,6 +32,7 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_decode_result, intersections),
 	CMD_COUNTED(mr_decode_result, far_intersections),
 	CMD_COUNTED(mr_decode_result, strayed_edges),
+	CMD_COUNTED(mr_decode_result, long_edges),
 	CMD_COUNTED(mr_decode_result, apart),
 	{ 0 },
 };

@@ -501,6 +501,7 @@ typedef struct mr_decode_opts {
 
 typedef struct mr_decode_result {
 	size_t folded_edges, strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
+	size_t long_edges; /* whose middles are a hundredth of the diagonal from where base takes them */
 	size_t intersections, far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */

@@ -27,8 +27,9 @@ typedef struct mr_connectivity_cache {
 	mr_mesh displaced;     /* the displaced surface on control.encoded */
 	mr_edges displaced_edges;
 	uint64_t displaced_serial, height_serial; /* of control.encoded and displacement.height; 0: none */
-	/* Since the last key: harm, what is far, what strayed, what came apart, what was not held. */
-	size_t told, told_far, told_strayed, told_apart, told_held;
+	/* Since the last key: harm, what is far, what strayed, what came apart, what was not held, long
+	 * edges. */
+	size_t told, told_far, told_strayed, told_apart, told_held, told_chords;
 	size_t looked_folds; /* of the last look for intersections since then */
 } mr_connectivity_cache;
 

@@ -1,6 +1,7 @@
 /* mr-decode: the reconstruction operator of both papers, detail onto a base or heights onto a subdivision
  * surface, posed by its response first where handles are there. */
 #include "base/text.h"
+#include "edit/chord.h"
 #include "edit/detail.h"
 #include "edit/held.h"
 #include "edit/pose_basis.h"
@@ -253,6 +254,33 @@ look_for_strayed(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edg
 	return s.edges;
 }
 
+/* Warns of straight edges that cut across a bend of base, or a twist. */
+static mr_status
+look_for_chords(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges, const mr_mesh *base,
+    const mr_incidence *inc, const mr_detail *d, const mr_v3 *p, size_t *count)
+{
+	const double far = 0.01; /* of the diagonal */
+	double diagonal = mr_mesh_diagonal(mesh);
+	size_t *told = cache ? &cache->connectivity.told_chords : NULL;
+	mr_chords c;
+
+	MR_TRY(mr_chords_find(ctx, mesh, edges, p, base, inc, d, far * diagonal, &c));
+	*count = c.edges;
+	if (!is_news(c.edges, told))
+		return MR_OK;
+	if (told)
+		*told = c.edges;
+	mr_warn(ctx,
+	    "%zu of %zu edges of mesh are too long to go where base goes: their middles miss it by up to "
+	    "%.3g %% "
+	    "of the diagonal, most at vertex %u (%.4g, %.4g, %.4g); split them first, by mr-subdivide "
+	    "--longest "
+	    "%.3g",
+	    c.edges, edges->count, 100 * c.farthest / diagonal, c.vertex, p[c.vertex].x, p[c.vertex].y,
+	    p[c.vertex].z, mr_mesh_edge_scale(ctx, base));
+	return MR_OK;
+}
+
 /* Parts that touched and do not any more; warns of them as tell does. */
 static size_t
 look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contacts *contacts, const mr_v3 *p)
@@ -327,7 +355,8 @@ folds_to_look_from(const mr_frame *f, const mr_cache *cache)
 static void
 forget_told(mr_connectivity_cache *kept)
 {
-	kept->told = kept->told_far = kept->told_strayed = kept->told_apart = kept->told_held = 0;
+	kept->told = kept->told_far = kept->told_strayed = kept->told_apart = kept->told_held =
+	    kept->told_chords = 0;
 	kept->looked_folds = 0;
 }
 
@@ -379,8 +408,8 @@ look_for_flaws(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *m
 /* The same of the frame's mesh, and of how it stands to base; d: its detail, of which not all is decoded
  * where that is not `whole`. */
 static mr_status
-look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_detail *d, bool whole,
-    const mr_v3 *p, mr_decode_result *result)
+look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_incidence *inc,
+    const mr_detail *d, bool whole, const mr_v3 *p, mr_decode_result *result)
 {
 	mr_contacts contacts;
 	mr_edges edges;
@@ -393,6 +422,7 @@ look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, co
 		rest = mesh;
 		MR_TRY(places_at_rest(ctx, f, cache, base, d, &rest.p));
 		result->strayed_edges = look_for_strayed(ctx, cache, &rest, &edges, base, d, p);
+		MR_TRY(look_for_chords(ctx, cache, &rest, &edges, base, inc, d, p, &result->long_edges));
 		MR_TRY(look_at_held(ctx, f, cache, &rest, base, d->rest, p));
 	}
 	result->apart = look_for_gaps(ctx, cache, &mesh, &contacts, p);
@@ -417,7 +447,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 		return MR_EMEM;
 	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
 	if (!o->blind && mr_layer_has(f, "mesh", "triangles"))
-		MR_TRY(look_for_harm(ctx, f, cache, &base, &detail, o->gain == 1, p, result));
+		MR_TRY(look_for_harm(ctx, f, cache, &base, &inc, &detail, o->gain == 1, p, result));
 	return mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n);
 }
 

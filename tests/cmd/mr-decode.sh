@@ -141,3 +141,15 @@ mr-make bumpy -n 2000 | mr-smooth | mr-remesh | mr-select --free all --fixed bel
 	mr-pose -H 1 --rotate 0,0,1,30 | mr-solve | mr-decode -o bent.mrs
 mr-pose -H 1 --rotate 0,0,1,10 bent.mrs | mr-solve | mr-decode -o further.mrs
 mr-decode bent.mrs -o again.mrs && mr-compare -a mesh -b mesh bent.mrs again.mrs --json | grep -o '"vertex_max":[^,]*'
+
+echo '-- straight edges from end to end do not bend: they are to be split first'
+awk 'BEGIN { print "OFF\n16 28 0"; for (z = 0; z < 2; z++) for (i = 0; i < 8; i++) print cos(0.785398 * i), sin(0.785398 * i), 10 * z
+	for (i = 0; i < 8; i++) { j = (i + 1) % 8; print 3, i, j, j + 8; print 3, i, j + 8, i + 8 }
+	for (i = 1; i < 7; i++) { print 3, 0, i + 1, i; print 3, 8, 8 + i, 9 + i } }' >rod.off
+mr-import rod.off -o rod.mrs
+mr-subdivide -q --longest 1.5 rod.mrs -o split.mrs
+for rod in rod split; do
+	mr-smooth -q $rod.mrs | mr-remesh -q -L 1 | mr-encode | mr-select --free all --fixed below:z,0.2 --handle 1=above:z,0.8 |
+		mr-pose -H 1 --rotate 1,0,0,60 | mr-solve | mr-decode --stats stats.json -o out.mrs
+	grep -o '"long_edges":[0-9]*' stats.json
+done
