@@ -365,8 +365,8 @@ mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files)
 		e = e ? e : end;
 		if (!are_beside(path, p, e) &&
 		    mr_names_escape(ctx, (mr_lines){ p, (size_t)(e - p) }, &shown, &changed) == MR_OK)
-			mr_warn(ctx, "%s has its materials in %.*s, which is not there", path,
-			    (int)shown.bytes, shown.text);
+			mr_warn(ctx, "its materials are in %.*s, which is not there", (int)shown.bytes,
+			    shown.text);
 		p = e + 1;
 	}
 }

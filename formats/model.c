@@ -378,23 +378,36 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 
 /* Frames */
 
-mr_status
-mr_import(
-    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
+/* Far from the origin doubles are too coarse for a model that is small there, whatever the file said. */
+static void
+warn_of_grain(mr_ctx *ctx, mr_box box)
 {
-	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
-	const mr_import_opts *o = opts ? opts : &defaults;
+	const double share = 1e-7; /* of the diagonal, as of what is written in float32 */
+	double grain = mr_box_grain(box), diagonal = mr_box_diagonal(box);
+
+	if (mr_box_largest(box) > diagonal && grain > share * diagonal && diagonal > 0)
+		mr_warn(ctx,
+		    "positions are known to %.2g of the diagonal only: so far from the origin doubles are no finer",
+		    grain / diagonal);
+}
+
+static mr_status
+import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame, mr_import_result *result)
+{
 	const char *name = mr_format_stem(ctx, path);
 	double unit;
 	mr_frame *f;
 	mr_model m;
+	mr_box box;
 
 	if (!name)
 		return MR_EMEM;
 	MR_TRY(mr_model_read(ctx, path, o->format, &m));
 	if (o->points)
 		mr_model_to_points(&m);
-	unit = o->weld_relative ? mr_box_diagonal(mr_box_of(m.p, m.nv)) : 1;
+	box = mr_box_of(m.p, m.nv);
+	warn_of_grain(ctx, box);
+	unit = o->weld_relative ? mr_box_diagonal(box) : 1;
 	if (o->weld)
 		MR_TRY(mr_model_weld(ctx, o->weld_distance * unit, &m));
 	if (o->repair)
@@ -408,6 +421,19 @@ mr_import(
 	if (result)
 		*result = m.counts;
 	return MR_OK;
+}
+
+mr_status
+mr_import(
+    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
+{
+	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
+	mr_status status;
+
+	ctx->subject = strcmp(path, "-") ? path : "stdin";
+	status = import(ctx, path, opts ? opts : &defaults, frame, result);
+	ctx->subject = NULL;
+	return status;
 }
 
 static bool

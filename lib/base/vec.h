@@ -199,4 +199,20 @@ mr_box_diagonal(mr_box b)
 	return b.min.x <= b.max.x ? mr_dist(b.min, b.max) : 0;
 }
 
+/* The largest size of a coordinate. */
+static inline double
+mr_box_largest(mr_box b)
+{
+	return fmax(fmax(-b.min.x, fmax(-b.min.y, -b.min.z)), fmax(b.max.x, fmax(b.max.y, b.max.z)));
+}
+
+/* How far apart doubles of that size are. */
+static inline double
+mr_box_grain(mr_box b)
+{
+	double largest = mr_box_largest(b);
+
+	return nextafter(largest, INFINITY) - largest;
+}
+
 #endif

@@ -430,22 +430,6 @@ map_values(const change *c, column_sort sort, double *x, size_t rows, size_t com
 		map_responses(c, x, n / 4);
 }
 
-static double
-largest_of(const mr_box *box)
-{
-	return fmax(fmax(-box->min.x, fmax(-box->min.y, -box->min.z)),
-	    fmax(box->max.x, fmax(box->max.y, box->max.z)));
-}
-
-/* How far apart doubles of about the size of a box's coordinates are. */
-static double
-grain_of(const mr_box *box)
-{
-	double largest = largest_of(box);
-
-	return nextafter(largest, INFINITY) - largest;
-}
-
 /* Far from the origin, or near 0, doubles are too coarse for a model that is small there. */
 static void
 warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr_v3 *mapped)
@@ -458,13 +442,13 @@ warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr
 
 	for (size_t i = 0; i < n; i++)
 		mr_box_add(&turned, mr_mat3_apply(&c->unit, mr_sub(p[i], p[0])));
-	old = grain_of(&before) / mr_dist(before.min, before.max);
-	off = ldexp(grain_of(&after), -c->exponent) / mr_dist(turned.min, turned.max);
+	old = mr_box_grain(before) / mr_box_diagonal(before);
+	off = ldexp(mr_box_grain(after), -c->exponent) / mr_box_diagonal(turned);
 	if (off > share && off > 4 * old && !isnan(old))
 		mr_warn(ctx,
 		    "%s: positions are rounded by up to %.2g of the diagonal: doubles are too coarse for "
 		    "this model %s",
-		    column->layer, off, largest_of(&after) < 1e-292 ? "so near 0" : "so far from the origin");
+		    column->layer, off, mr_box_largest(after) < 1e-292 ? "so near 0" : "so far from the origin");
 }
 
 static mr_status

@@ -36,6 +36,11 @@ mr-import model.obj 2>&1 >/dev/null | grep -c not.there
 rm here.mtl 'not there.mtl'
 mr-import model.obj 2>&1 >/dev/null | grep 'not there$'
 
+echo '-- so far from the origin that doubles are coarse; of which file it is said' >&2
+printf 'v 1e15 0 0\nv 1000000000000001 0 0\nv 1e15 1 0\nf 1 2 3\n' >far.obj
+printf 'v 1e6 0 0\nv 1000001 0 0\nv 1e6 1 0\nf 1 2 3\n' >near.obj
+mr-import near.obj far.obj >far.mrs
+
 echo '-- of a PLY' >&2
 cat >model.ply <<'X'
 ply
