@@ -11,7 +11,7 @@ static const cmd_opt table[] = {
 	{ 0, "level", CMD_COUNT, &level, 0, MR_LEVEL_MAX, "J",
 	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
 	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",
-	    "what to put the mesh together from (default: detail where it is there)", NULL },
+	    "what to put the mesh together from (default: what was worked on last)", NULL },
 	{ 0, "no-check", CMD_FLAG, &opts.blind, 0, 0, "",
 	    "do not look for folds and intersections that come of the motion", NULL },
 	{ 0 },

@@ -472,5 +472,6 @@ mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 		MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n));
 	else
 		mr_frame_drop(f, "mesh", "detail_offset", 0);
-	return mr_layer_worked(ctx, f, "mesh");
+	MR_TRY(mr_layer_worked(ctx, f, "mesh"));
+	return mr_layer_followed(ctx, f, base->name);
 }

@@ -9,7 +9,7 @@ change2(const mr_v3 *before, const mr_v3 *after, uint32_t a, uint32_t b)
 {
 	double was = mr_norm2(mr_sub(before[a], before[b])), is = mr_norm2(mr_sub(after[a], after[b]));
 
-	return was == 0 ? 1 : is >= was ? is / was : is > 0 ? was / is : INFINITY;
+	return was == 0 || is == was /* both beyond what has squares */ ? 1 : is >= was ? is / was : is > 0 ? was / is : INFINITY;
 }
 
 /* The most that an edge of a face of base has. */

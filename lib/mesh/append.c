@@ -30,7 +30,7 @@ static const char *const samplings[] = { "spacing", "outlier", "repeat", "sampli
 /* One column of a layer in all frames. */
 typedef struct joined {
 	mr_frame *const *frames;
-	size_t n;
+	size_t n, posable; /* how many have vertices that a handle moves */
 	const mr_column *first;
 	const char *layer, *name;
 } joined;
@@ -289,7 +289,7 @@ static bool
 is_of_one(const joined *j)
 {
 	if (!strcmp(j->layer, "handles"))
-		return frames_with(j, "handles") > 1;
+		return frames_with(j, "handles") > 1 || j->posable > 1;
 	if (!strcmp(j->layer, "displacement"))
 		return frames_with(j, "control") > 1 || frames_with(j, "displacement") > 1;
 	return frames_with(j, j->layer) > 1 && is_sampling(j->name);
@@ -405,7 +405,7 @@ seen_before(const joined *j, size_t i, size_t k)
 	return false;
 }
 
-/* A history, or a latest layer, that another frame has, too, is told once. */
+/* A history, or pending layers, that another frame has, too, are told once. */
 static mr_status
 join_lines(mr_ctx *ctx, const joined *j, const char *name, mr_frame *out)
 {
@@ -425,12 +425,35 @@ join_lines(mr_ctx *ctx, const joined *j, const char *name, mr_frame *out)
 	return all.s ? mr_frame_put(ctx, out, "", name, text, all.s, all.n) : MR_OK;
 }
 
+/* Whether a frame has vertices that a handle moves. */
+static mr_status
+find_posable(mr_ctx *ctx, mr_frame *f, bool *is)
+{
+	*is = false;
+	for (size_t i = 0; i < f->count; i++) {
+		mr_column *c = &f->columns[i];
+		const uint32_t *region;
+		if (strcmp(c->name, "region") || !same_shape(c->shape, (mr_shape){ 'v', 'u', 1 }))
+			continue;
+		MR_TRY(mr_column_decode(ctx, c));
+		region = c->data;
+		for (size_t k = 0; k < c->rows; k++)
+			*is |= region[k] >= MR_REGION_HANDLE;
+	}
+	return MR_OK;
+}
+
 mr_status
 mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 {
 	joined j = { .frames = frames, .n = n };
 	mr_frame *f;
 
+	for (size_t i = 0; i < n; i++) {
+		bool posable;
+		MR_TRY(find_posable(ctx, frames[i], &posable));
+		j.posable += posable;
+	}
 	MR_TRY(mr_frame_new(ctx, frames[0]->name, &f));
 	for (size_t i = 0; i < n; i++)
 		for (size_t k = 0; k < frames[i]->count; k++) {
@@ -439,7 +462,8 @@ mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 				MR_TRY(join_layer(ctx, &j, f));
 		}
 	MR_TRY(join_lines(ctx, &j, "history", f));
-	MR_TRY(join_lines(ctx, &j, "latest", f));
+	MR_TRY(join_lines(ctx, &j, "pending", f));
+	MR_TRY(mr_layer_join_latest(ctx, frames, n, f));
 	*out = f;
 	return MR_OK;
 }

@@ -1,4 +1,6 @@
-/* Which layer was worked on last, column `latest`, and what a tool takes that shows or writes one layer. */
+/* Which layer was worked on last, column `latest`, of which others no surface shows yet what was done to them,
+ * column `pending`, and what a tool takes that shows or writes one layer. */
+#include "base/text.h"
 #include "mesh/layers.h"
 
 static const mr_shape TEXT = { '-', 't', 1 };
@@ -28,35 +30,136 @@ has_line(const char *text, size_t n, const char *word)
 	return false;
 }
 
+/* The lines of a column, none where it is not there. */
+static mr_status
+get_lines(mr_ctx *ctx, mr_frame *f, const char *column, const char **text, size_t *n)
+{
+	const void *data = "";
+
+	*n = 0;
+	if (mr_layer_has(f, "", column))
+		MR_TRY(mr_frame_get(ctx, f, "", column, TEXT, &data, n));
+	*text = data;
+	return MR_OK;
+}
+
+/* Puts the lines that a frame does not have yet. */
+static mr_status
+put_lines(mr_ctx *ctx, mr_frame *f, const char *column, mr_text *lines)
+{
+	const char *old;
+	size_t n;
+
+	MR_TRY(mr_text_done(lines));
+	MR_TRY(get_lines(ctx, f, column, &old, &n));
+	if (n == lines->n && (n == 0 || !memcmp(old, lines->s, n)))
+		return MR_OK;
+	if (lines->n)
+		return mr_frame_put(ctx, f, "", column, TEXT, lines->s, lines->n);
+	mr_frame_drop(f, "", column, 0);
+	return MR_OK;
+}
+
+/* The tools that are missing where what was done to a layer shows in no surface yet, with what that is; else
+ * NULL. */
+static const char *
+missing_tools(const mr_frame *f, const char *layer, const char **what)
+{
+	bool detail = mr_layer_has(f, "mesh", "detail_face"), heights = mr_frame_has_layer(f, "displacement");
+	bool response = mr_layer_has(f, "base", "response") || mr_layer_has(f, "control", "response");
+
+	if (!mr_frame_has_layer(f, layer))
+		return NULL;
+	if (!strcmp(layer, "handles")) {
+		*what = "handles are posed, and nothing has followed them";
+		return response ? "mr-decode" : detail || heights ? "mr-solve | mr-decode" : "mr-solve";
+	}
+	if (!strcmp(layer, "base") && detail) {
+		*what = "base has moved, and mesh has not followed it";
+		return "mr-decode";
+	}
+	if (!strcmp(layer, "displacement") || (!strcmp(layer, "control") && heights)) {
+		*what = "the heights over control are no surface yet";
+		return detail ? "mr-decode --from control" : "mr-decode";
+	}
+	return NULL;
+}
+
+/* Layers that another one is to follow. */
+enum { LEADING = 4 };
+static const char *const leading[LEADING] = { "handles", "base", "displacement", "control" };
+
+/* Says of each of those whether it was worked on, and no surface shows that yet. */
+static mr_status
+find_pending(mr_ctx *ctx, mr_frame *f, bool is[])
+{
+	const char *latest, *pending, *what;
+	size_t n, m;
+
+	MR_TRY(get_lines(ctx, f, "latest", &latest, &n));
+	MR_TRY(get_lines(ctx, f, "pending", &pending, &m));
+	for (int i = 0; i < LEADING; i++)
+		is[i] = (has_line(latest, n, leading[i]) || has_line(pending, m, leading[i])) &&
+		        missing_tools(f, leading[i], &what);
+	return MR_OK;
+}
+
+/* Puts those, but for one. */
+static mr_status
+put_pending(mr_ctx *ctx, mr_frame *f, const bool is[], const char *but)
+{
+	mr_text lines = { .ctx = ctx };
+
+	for (int i = 0; i < LEADING; i++)
+		if (is[i] && strcmp(leading[i], but) != 0)
+			mr_text_add(&lines, "%s\n", leading[i]);
+	return put_lines(ctx, f, "pending", &lines);
+}
+
 mr_status
 mr_layer_worked(mr_ctx *ctx, mr_frame *f, const char *layer)
 {
-	bool there = mr_layer_has(f, "", "latest");
-	const void *old;
-	size_t n = 0;
-	char *line;
+	mr_text line = { .ctx = ctx };
+	bool pending[LEADING];
 
-	if (!there && !has_others(f, layer))
+	if (!mr_layer_has(f, "", "latest") && !has_others(f, layer))
 		return MR_OK;
-	if (there)
-		MR_TRY(mr_frame_get(ctx, f, "", "latest", TEXT, &old, &n));
-	if (n == strlen(layer) + 1 && has_line(old, n, layer))
-		return MR_OK;
-	line = mr_format(ctx, "%s\n", layer);
-	return line ? mr_frame_put(ctx, f, "", "latest", TEXT, line, strlen(line)) : MR_EMEM;
+	MR_TRY(find_pending(ctx, f, pending));
+	mr_text_add(&line, "%s\n", layer);
+	MR_TRY(put_lines(ctx, f, "latest", &line));
+	return put_pending(ctx, f, pending, layer);
+}
+
+mr_status
+mr_layer_is_pending(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
+{
+	bool pending[LEADING];
+
+	MR_TRY(find_pending(ctx, f, pending));
+	*is = false;
+	for (int i = 0; i < LEADING; i++)
+		*is |= pending[i] && !strcmp(leading[i], layer);
+	return MR_OK;
+}
+
+mr_status
+mr_layer_followed(mr_ctx *ctx, mr_frame *f, const char *layer)
+{
+	bool pending[LEADING];
+
+	MR_TRY(find_pending(ctx, f, pending));
+	return put_pending(ctx, f, pending, layer);
 }
 
 /* The layers that are there and said to be the latest, up to two: several where frames were merged. */
 static mr_status
 find_latest(mr_ctx *ctx, mr_frame *f, const char *layer[2])
 {
-	const void *text;
+	const char *text;
 	size_t n, found = 0;
 
 	layer[0] = layer[1] = NULL;
-	if (!mr_layer_has(f, "", "latest"))
-		return MR_OK;
-	MR_TRY(mr_frame_get(ctx, f, "", "latest", TEXT, &text, &n));
+	MR_TRY(get_lines(ctx, f, "latest", &text, &n));
 	for (size_t i = 0; i < f->count && found < 2; i++) {
 		const char *one = f->columns[i].layer;
 		if (!*one || !has_line(text, n, one) || (found && !strcmp(layer[0], one)))
@@ -66,6 +169,66 @@ find_latest(mr_ctx *ctx, mr_frame *f, const char *layer[2])
 			return MR_EMEM;
 	}
 	return MR_OK;
+}
+
+/* The first surface of a frame that does not say which is its latest, for want of others; NULL: it has none. */
+static const char *
+first_surface(const mr_frame *f)
+{
+	static const char *const surfaces[] = { "mesh", "control", "base" };
+
+	for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces; i++)
+		if (mr_frame_has_layer(f, surfaces[i]))
+			return surfaces[i];
+	return NULL;
+}
+
+/* Adds the layers of a frame that were worked on last and are not there yet. */
+static mr_status
+add_latest(mr_ctx *ctx, mr_frame *f, mr_text *all)
+{
+	const char *layer[2];
+
+	MR_TRY(find_latest(ctx, f, layer));
+	if (!mr_layer_has(f, "", "latest"))
+		layer[0] = first_surface(f);
+	for (int i = 0; i < 2 && layer[i]; i++)
+		if (!has_line(all->s, all->n, layer[i]))
+			mr_text_add(all, "%s\n", layer[i]);
+	return MR_OK;
+}
+
+/* Those of all frames; none where no frame says which it is. */
+static mr_status
+add_latest_of_all(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_text *all)
+{
+	bool said = false;
+
+	for (size_t i = 0; i < n; i++)
+		said |= mr_layer_has(frames[i], "", "latest");
+	for (size_t i = 0; said && i < n; i++)
+		MR_TRY(add_latest(ctx, frames[i], all));
+	return MR_OK;
+}
+
+mr_status
+mr_layer_join_latest(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame *out)
+{
+	mr_text all = { .ctx = ctx };
+
+	MR_TRY(add_latest_of_all(ctx, frames, n, &all));
+	return put_lines(ctx, out, "latest", &all);
+}
+
+mr_status
+mr_layers_merge(mr_ctx *ctx, mr_frame *f, mr_frame *from)
+{
+	mr_frame *const both[] = { f, from };
+	mr_text all = { .ctx = ctx };
+
+	MR_TRY(add_latest_of_all(ctx, both, 2, &all));
+	MR_TRY(mr_frame_merge(ctx, f, from));
+	return put_lines(ctx, f, "latest", &all);
 }
 
 mr_status
@@ -78,39 +241,19 @@ mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer)
 	return MR_OK;
 }
 
-/* The tools that are missing where what was worked on shows in no surface yet, with what that is; else NULL.
- */
-static const char *
-missing_tools(const mr_frame *f, const char *latest, const char **what)
-{
-	bool detail = mr_layer_has(f, "mesh", "detail_face"), heights = mr_frame_has_layer(f, "displacement");
-	bool response = mr_layer_has(f, "base", "response") || mr_layer_has(f, "control", "response");
-
-	if (!strcmp(latest, "handles")) {
-		*what = "handles are posed, and nothing has followed them";
-		return response ? "mr-decode" : detail || heights ? "mr-solve | mr-decode" : "mr-solve";
-	}
-	if (!strcmp(latest, "base") && detail) {
-		*what = "base has moved, and mesh has not followed it";
-		return "mr-decode";
-	}
-	if (!strcmp(latest, "displacement") || (!strcmp(latest, "control") && heights)) {
-		*what = "the heights over control are no surface yet";
-		return "mr-decode";
-	}
-	return NULL;
-}
-
 mr_status
 mr_layer_finished(mr_ctx *ctx, mr_frame *f)
 {
-	const char *layer[2], *tools, *what;
+	bool pending[LEADING];
+	const char *what;
 
-	MR_TRY(find_latest(ctx, f, layer));
-	for (int i = 0; i < 2 && layer[i]; i++)
-		if ((tools = missing_tools(f, layer[i], &what)))
+	MR_TRY(find_pending(ctx, f, pending));
+	for (int i = 0; i < LEADING; i++)
+		if (pending[i]) {
+			const char *tools = missing_tools(f, leading[i], &what);
 			return mr_fail(ctx, MR_EMISSING,
 			    "%s: %s goes before this, or -l names a layer to take as it is", what, tools);
+		}
 	return MR_OK;
 }
 

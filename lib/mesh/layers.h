@@ -81,14 +81,28 @@ mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *l
 
 /*
  * The layer that was worked on last (column `latest`, of no layer): made, moved, or given what stands over
- * it. mr_layer_put_mesh and mr_layer_move note it; a frame's only layer needs no note.
+ * it. mr_layer_put_mesh and mr_layer_move note it; a frame's only layer needs no note.  What was done to the
+ * layers before and shows in no surface yet stays noted, in `pending`.
  */
 mr_status mr_layer_worked(mr_ctx *ctx, mr_frame *f, const char *layer);
+
+/* Whether no surface shows yet what was done to the layer. */
+mr_status mr_layer_is_pending(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
+
+/* A surface shows it now. */
+mr_status mr_layer_followed(mr_ctx *ctx, mr_frame *f, const char *layer);
+
+/* Notes the latest layers of all frames that have become `out`: of one that does not say which it is, its
+ * surface.  Nothing where none does. */
+mr_status mr_layer_join_latest(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame *out);
+
+/* mr_frame_merge, and the same of the two. */
+mr_status mr_layers_merge(mr_ctx *ctx, mr_frame *f, mr_frame *from);
 
 /* That layer; NULL where it is not known, or frames with several were merged. */
 mr_status mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer);
 
-/* MR_EMISSING, with the tool that is missing, where what was worked on last shows in no surface yet. */
+/* MR_EMISSING, with the tool that is missing, where what was done shows in no surface yet. */
 mr_status mr_layer_finished(mr_ctx *ctx, mr_frame *f);
 
 /* The same as a warning, of key frames: for a tool that shows several layers, by their names. */

@@ -308,11 +308,12 @@ merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 	return mr_frame_put(ctx, frame, "", name, TEXT, text, n + m);
 }
 
-/* What frames have together, behind one another: their histories, and the layers that were worked on last. */
+/* What frames have together, behind one another: their histories, and layers that were worked on. */
 static bool
 is_joined(const mr_column *c)
 {
-	return !*c->layer && (!strcmp(c->name, "history") || !strcmp(c->name, "latest"));
+	return !*c->layer &&
+	       (!strcmp(c->name, "history") || !strcmp(c->name, "latest") || !strcmp(c->name, "pending"));
 }
 
 mr_status

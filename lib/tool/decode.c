@@ -448,7 +448,8 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
 	if (!o->blind && mr_layer_has(f, "mesh", "triangles"))
 		MR_TRY(look_for_harm(ctx, f, cache, &base, &inc, &detail, o->gain == 1, p, result));
-	return mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n);
+	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));
+	return mr_layer_followed(ctx, f, "base");
 }
 
 /* The displaced surface over d, but on the control mesh as it was encoded, and its edges. */
@@ -578,6 +579,8 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	d.m.p = p;
 	drop_columns(f);
 	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));
+	MR_TRY(mr_layer_followed(ctx, f, "control"));
+	MR_TRY(mr_layer_followed(ctx, f, "displacement"));
 	return put_columns(ctx, f, d.m.nv);
 }
 
@@ -597,10 +600,24 @@ look_at_gaps(mr_ctx *ctx, mr_frame *f, mr_gaps *gaps)
 	return known ? mr_gaps_measure(ctx, &mesh, points.p, &sampling, gaps) : MR_OK;
 }
 
+/* Whether it was the control mesh, or the heights over it, that were worked on last. */
 static mr_status
-choose(mr_ctx *ctx, const mr_frame *f, const mr_decode_opts *o, int *from)
+is_control_latest(mr_ctx *ctx, mr_frame *f, bool *is)
 {
-	bool detail = mr_layer_has(f, "mesh", "detail_face");
+	const char *latest;
+
+	MR_TRY(mr_layer_latest(ctx, f, &latest));
+	*is = latest && mr_frame_has_layer(f, "displacement") &&
+	      (!strcmp(latest, "displacement") || !strcmp(latest, "control") ||
+		  (!strcmp(latest, "handles") && mr_layer_has(f, "control", "response") &&
+		      !mr_layer_has(f, "base", "response")));
+	return MR_OK;
+}
+
+static mr_status
+choose(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, int *from)
+{
+	bool detail = mr_layer_has(f, "mesh", "detail_face"), control;
 
 	*from = o->from;
 	if (o->from != MR_FROM_ANY)
@@ -608,8 +625,9 @@ choose(mr_ctx *ctx, const mr_frame *f, const mr_decode_opts *o, int *from)
 	if (!detail && !mr_frame_has_layer(f, "displacement"))
 		return mr_fail(ctx, MR_EMISSING,
 		    "neither detail of mesh, which mr-encode makes, nor displacement, which mr-sample makes");
-	*from = detail ? MR_FROM_DETAIL : MR_FROM_CONTROL;
-	if (detail && o->level != MR_UNKNOWN)
+	MR_TRY(is_control_latest(ctx, f, &control));
+	*from = detail && !control ? MR_FROM_DETAIL : MR_FROM_CONTROL;
+	if (*from == MR_FROM_DETAIL && o->level != MR_UNKNOWN)
 		return mr_fail(
 		    ctx, MR_EUSAGE, "--level has no effect on the detail that is here: --from control");
 	return MR_OK;

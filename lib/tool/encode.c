@@ -1,6 +1,20 @@
 /* mr-encode: the mesh as detail over its base. */
 #include "edit/detail.h"
 
+/* A pose that mesh has not followed is lost to it. */
+static mr_status
+look_for_pose(mr_ctx *ctx, mr_frame *f)
+{
+	bool pending;
+
+	MR_TRY(mr_layer_is_pending(ctx, f, "base", &pending));
+	if (pending && f->key)
+		mr_warn(ctx,
+		    "base has moved, and mesh, which has not followed it, is encoded as it is: behind a pose "
+		    "mr-decode goes before this");
+	return MR_OK;
+}
+
 mr_status
 mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 {
@@ -9,6 +23,7 @@ mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 	mr_places map;
 	mr_detail detail;
 
+	MR_TRY(look_for_pose(ctx, f));
 	MR_TRY(mr_layer_points(ctx, f, "mesh", &mesh));
 	if (mr_layer_has(f, "mesh", "triangles"))
 		MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));

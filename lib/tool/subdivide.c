@@ -113,5 +113,10 @@ mr_subdivide_frame(
 		MR_TRY(subdivide(ctx, f, &m, o, cache, &r, &limit));
 	if (result)
 		*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, mr_seconds() - start };
-	return put(ctx, f, layer, &r, limit);
+	MR_TRY(put(ctx, f, layer, &r, limit));
+	if (!strcmp(layer, "control")) { /* without its heights, as was asked for */
+		MR_TRY(mr_layer_followed(ctx, f, "control"));
+		MR_TRY(mr_layer_followed(ctx, f, "displacement"));
+	}
+	return MR_OK;
 }

@@ -34,6 +34,7 @@ mr-pose -H 1 --translate 1,0,0 --frames 2 step1.mrs | mr-solve | mr-decode | mr-
     cmp posed-3.off out.off && echo 'a sequence ends with the pose'
 mr-solve --basis step1.mrs -o basis.mrs # moves nothing
 vertices basis.mrs
+cp step2.mrs step-posed.mrs
 mr-view page.html basis.mrs
 mr-pose -H 1 --translate 1,0,0 basis.mrs -o posed.mrs
 vertices posed.mrs
@@ -48,6 +49,7 @@ for i in 0 1 2 3; do
 done
 mr-equalize --gain 1,2 step3.mrs -o step4.mrs
 vertices step4.mrs
+mr-decode step4.mrs | mr-export equalized.off
 
 echo '-- a filter that takes another one says so'
 for tool in 'mr-subdivide -n 1' mr-simplify 'mr-crop --keep above:x,0.5' mr-normals; do
@@ -67,6 +69,24 @@ vertices both.mrs
 mr-info base.mrs | grep latest
 mr-info --json base.mrs | grep -o '"latest":"[a-z]*"'
 mr-info --json torus.mrs | grep -o '"latest":[a-z]*'
+
+echo '-- of a frame that never had a second surface, its own'
+mr-cat --append base.mrs torus.mrs >both.mrs
+vertices both.mrs
+
+echo '-- what no surface has followed stays known, whatever is worked on next'
+for next in mr-encode 'mr-encode | mr-solve | mr-decode' 'mr-crop --keep above:x,0.5' 'mr-remesh -l mesh' \
+    'mr-solve | mr-encode' 'mr-solve | mr-simplify -l mesh --to control'; do
+	echo "-- mr-pose | $next"
+	eval "$next" <step-posed.mrs >both.mrs
+	vertices both.mrs
+done
+mr-crop --keep above:x,0.5 step4.mrs -o both.mrs # the heights, equalized, over control
+vertices both.mrs
+mr-smooth step3.mrs | mr-encode | mr-equalize --gain 1,2 -o both.mrs
+mr-decode both.mrs | mr-export -f off - | cmp - equalized.off && echo 'decodes what was worked on last'
+mr-decode --from detail both.mrs -o both.mrs
+vertices both.mrs
 
 echo '-- the other sinks'
 mr-smooth torus.mrs | mr-encode | mr-smooth -o moved.mrs

@@ -40,6 +40,8 @@ mr-pose --translate 0,1,0 sphere.mrs -o posed.mrs
 mr-cat --append posed.mrs posed.mrs | mr-info | grep -c '^  handles'
 mr-cat --append posed.mrs | mr-info | grep -c '^  handles'
 mr-make sphere -n 50 | mr-cat --append normals.mrs - | mr-info | grep -E 'points:|mesh:'
+mr-cat --append posed.mrs torus.mrs | mr-info | grep -c '^  handles' # handle 0 is of both
+mr-select --reset --fixed all torus.mrs | mr-cat --append posed.mrs - | mr-info | grep -c '^  handles'
 
 echo 'a stream of no frames, and one that is cut'
 mr-cat --no-history normals.mrs | { head -c 64; tail -c 64 normals.mrs; } | mr-cat --append | mr-info

@@ -530,6 +530,11 @@ what_base_accounts_for_has_not_strayed(void **state)
 	p[7] = mr_mul(9, m.p[7]);
 	s = mr_strayed_find(&m, &edges, p, &base, &d);
 	assert_true(s.edges >= 3 && s.edges < 12 && mr_dist(m.p[s.vertex], m.p[7]) < 0.5);
+	for (size_t v = 0; v < m.nv; v++)
+		p[v] = mr_mul(1e200, m.p[v]); /* lengths without a square */
+	m = with_positions(m, p, "mesh");
+	s = mr_strayed_find(&m, &edges, p, &base, &d);
+	assert_true(s.edges == 0 && s.vertex == MR_NONE);
 	mr_ctx_free(&ctx);
 }
 
