@@ -32,6 +32,7 @@ struct cmd_state {
 	int out;            /* descriptor of the stream */
 	FILE *text, *stats; /* a sink's output; --stats */
 	mr_outfile output_file, held, stats_file;
+	place_guard places;
 
 	mr_text figures; /* of the frame at work, as they go into the line of --stats */
 
@@ -97,15 +98,22 @@ leave(cmd *c, int code)
 	exit(code);
 }
 
+static bool
+is_pipe(int fd)
+{
+	struct stat st;
+
+	return fstat(fd, &st) == 0 && (S_ISFIFO(st.st_mode) || S_ISSOCK(st.st_mode));
+}
+
 /* Tells the next tool of the pipe that this one has said why it fails: it need not say that it did. */
 static void
 pass_failure(cmd *c)
 {
 	struct cmd_state *s = c->state;
-	struct stat st;
 
 	signal(SIGPIPE, SIG_IGN); /* whether anyone is left who reads it or not */
-	if (s->writer && fstat(s->out, &st) == 0 && (S_ISFIFO(st.st_mode) || S_ISSOCK(st.st_mode)))
+	if (s->writer && is_pipe(s->out))
 		mr_writer_fail(&c->ctx, s->writer);
 }
 
@@ -359,6 +367,24 @@ cmd_layer_name(cmd *c, const char *option, const char *name)
 
 /* Opening and closing the outputs */
 
+/* No output takes the place of a file that is read, nor of another output. */
+static mr_status
+permit(mr_ctx *ctx, const char *path, bool writes)
+{
+	cmd *c = ctx->listener.user;
+
+	if (writes && c->tool->sink && place_is(STDIN_FILENO, path))
+		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
+	return place_claim(ctx, &c->state->places, path, writes);
+}
+
+/* A stream may take the place of the one that it is made of, nothing else. */
+static mr_status
+permit_stream(cmd *c, const char *path)
+{
+	return c->tool->sink ? permit(&c->ctx, path, false) : MR_OK;
+}
+
 static bool
 is_dash(const char *path)
 {
@@ -400,22 +426,6 @@ is_input(const cmd *c, const char *path)
 	return found;
 }
 
-/* A file with the name of a model that is no stream. */
-static bool
-is_model(const char *path)
-{
-	static const char magic[] = "mrmesh1\n";
-	char first[sizeof magic - 1];
-	int fd = mr_suffix_format(path) ? open(path, O_RDONLY) : -1;
-	bool model;
-
-	if (fd < 0)
-		return false;
-	model = read(fd, first, sizeof first) != sizeof first || memcmp(first, magic, sizeof first) != 0;
-	close(fd);
-	return model;
-}
-
 /* A stream takes the place of no model. */
 static void
 check_output(cmd *c)
@@ -431,16 +441,6 @@ check_output(cmd *c)
 			   path));
 	if (c->tool->source && is_input(c, path))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", path));
-}
-
-/* Nor does a file that an operand names. */
-static void
-check_operand(cmd *c)
-{
-	const char *input = c->state->input, *path = c->operands[0];
-
-	if (input && !is_dash(path) && is_model(input) && place_same(path, input))
-		die(c, mr_fail(&c->ctx, MR_EUSAGE, "%s: that is the model to read", path));
 }
 
 static void
@@ -470,8 +470,6 @@ open_copy(cmd *c, int fd, const char *path)
 static void
 open_text(cmd *c)
 {
-	if (c->tool->names_output)
-		check_operand(c);
 	open_output(c);
 	c->state->text = c->state->out == STDOUT_FILENO ? stdout : open_copy(c, c->state->out, c->output);
 }
@@ -720,12 +718,14 @@ static void
 read_stream(cmd *c, const char *path)
 {
 	bool from_stdin = is_dash(path);
-	int fd = from_stdin ? STDIN_FILENO : open(path, O_RDONLY);
 	const char *name = from_stdin ? "stdin" : path;
 	mr_reader *reader;
 	mr_frame *frame;
 	mr_status status;
+	int fd;
 
+	try(c, permit_stream(c, path));
+	fd = from_stdin ? STDIN_FILENO : open(path, O_RDONLY);
 	if (fd < 0)
 		die(c, fail_system(c, path));
 	if (isatty(fd))
@@ -734,7 +734,7 @@ read_stream(cmd *c, const char *path)
 	try(c, mr_prefix(&c->ctx, mr_reader_open(&c->ctx, fd, &reader), "%s", name));
 	while ((status = mr_reader_next(&c->ctx, reader, &frame)) == MR_OK)
 		one_frame(c, frame);
-	if (status < 0 && mr_reader_told(reader) && !c->verbose) {
+	if (status < 0 && is_pipe(fd) && mr_reader_told(reader) && !c->verbose) {
 		clear_progress(c);
 		pass_failure(c);
 		leave(c, EXIT_DATA);
@@ -760,8 +760,10 @@ cmd_side(cmd *c, const char *path, mr_side *side)
 {
 	mr_frame *frame;
 
-	if (!is_model(path))
+	if (!place_is_model(path)) {
+		MR_TRY(permit_stream(c, path));
 		return mr_side_open(&c->ctx, path, side);
+	}
 	MR_TRY(mr_import(&c->keep, path, NULL, &frame, NULL));
 	frame->number = 1;
 	*side = (mr_side){ .path = path, .frame = frame, .fd = STDIN_FILENO, .ended = true };
@@ -771,7 +773,7 @@ cmd_side(cmd *c, const char *path, mr_side *side)
 static void
 read_input(cmd *c, const char *path)
 {
-	if (is_model(path))
+	if (place_is_model(path))
 		read_model(c, path);
 	else
 		read_stream(c, path);
@@ -846,6 +848,8 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	signals_begin(c.name);
 	return_memory(tool->lean);
 	mr_ctx_init(&c.ctx, 0);
+	c.ctx.listener.user = &c;
+	c.ctx.permit = permit; /* options read files, too */
 	parse_command_line(&c, argc, argv);
 	if (state.threads)
 		c.ctx.threads = (unsigned)state.threads;
@@ -881,5 +885,6 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	mr_writer_free(state.writer);
 	mr_ctx_free(&c.ctx);
 	mr_ctx_free(&c.keep);
+	place_guard_free(&state.places);
 	return code;
 }

@@ -8,7 +8,7 @@
 
 static const char *format;
 static uint64_t written;
-static mr_outnames given;
+static mr_string_set given;
 static mr_scene scene = { .folder = "." };
 
 static const cmd_opt table[] = {

@@ -6,7 +6,7 @@ static mr_map_opts opts = MR_MAP_DEFAULTS;
 static const char *to, *from;
 static size_t level;
 static cmd_range range;
-static mr_outnames given;
+static mr_string_set given;
 
 static const cmd_opt table[] = {
 	{ 'w', "write", CMD_TEXT, &to, 0, 0, "NAME", "write NAME-height.png, NAME-normal.png and NAME.mtl",

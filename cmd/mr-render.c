@@ -12,7 +12,7 @@ static cmd_range range;
 static int up = 1, kind;  /* kind: mr_picture_kind */
 static bool sheet, piped; /* piped: one picture after another to stdout */
 static size_t written;
-static mr_outnames given;
+static mr_string_set given;
 static mr_gallery gallery;
 static mr_mark kept; /* of the arena that holds the gallery */
 

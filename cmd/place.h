@@ -1,17 +1,30 @@
 /*
- * place.h -- whether names lead to one file.
+ * place.h -- whether names lead to one file, and what is there.
  *
- * Layer rule: cmd; includes base only.
+ * Layer rule: cmd.
  */
 #ifndef PLACE_H
 #define PLACE_H
 
-#include "base/ctx.h"
+#include "base/string_set.h"
 
 /* Whether both names lead to one file, there or not yet; never for a device. */
 bool place_same(const char *a, const char *b);
 
 /* The same of a descriptor. */
 bool place_is(int fd, const char *name);
+
+/* Whether there is a file with the name of a model that is no stream. */
+bool place_is_model(const char *path);
+
+/* The files that a command reads, and those that it writes; starts zeroed. */
+typedef struct place_guard {
+	mr_string_set read, written;
+} place_guard;
+
+void place_guard_free(place_guard *g);
+
+/* MR_EUSAGE where a file is to be written that is read, or written already, or read that is written. */
+mr_status place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes) MR_WARN_UNUSED;
 
 #endif

@@ -234,10 +234,12 @@ mr_status
 mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_file_bytes *b)
 {
 	const char *name = shown(path, "stdin");
-	int fd = strcmp(path, "-") ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
 	mr_file_bytes got = { 0 };
 	mr_status status = MR_OK;
+	int fd;
 
+	MR_TRY(mr_permit(ctx, path, false));
+	fd = strcmp(path, "-") ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
 	if (fd < 0)
 		return failed(ctx, path, "cannot open");
 	if (!map_all(fd, &got))

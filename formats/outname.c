@@ -70,52 +70,15 @@ mr_outname(mr_ctx *ctx, const char *pattern, const char *frame, uint64_t number,
 	return MR_OK;
 }
 
-/* Where the name is, or is to be (FNV-1a, open addresses). */
-static char **
-slot_of(const mr_outnames *n, const char *name)
-{
-	uint64_t h = 0xcbf29ce484222325u;
-	size_t i;
-
-	for (const char *s = name; *s; s++)
-		h = (h ^ (unsigned char)*s) * 0x100000001b3u;
-	for (i = h & n->mask; n->slot[i] && strcmp(n->slot[i], name) != 0;)
-		i = (i + 1) & n->mask;
-	return &n->slot[i];
-}
-
-static mr_status
-make_room(mr_outnames *n)
-{
-	mr_outnames old = *n;
-
-	if (n->slot && 2 * n->count <= n->mask)
-		return MR_OK;
-	n->mask = old.slot ? 2 * old.mask + 1 : 63;
-	n->slot = MR_NEW_ZERO(&n->keep, n->mask + 1, char *);
-	if (!n->slot)
-		return MR_EMEM;
-	for (size_t i = 0; old.slot && i <= old.mask; i++)
-		if (old.slot[i])
-			*slot_of(n, old.slot[i]) = old.slot[i];
-	return MR_OK;
-}
-
 mr_status
 mr_outname_once(
-    mr_ctx *ctx, mr_outnames *given, const char *pattern, const char *frame, uint64_t number, char **name)
+    mr_ctx *ctx, mr_string_set *given, const char *pattern, const char *frame, uint64_t number, char **name)
 {
-	char **slot;
-
 	MR_TRY(mr_outname(ctx, pattern, frame, number, name));
-	MR_TRY(make_room(given));
-	slot = slot_of(given, *name);
-	if (*slot)
+	if (mr_string_set_has(given, *name))
 		return mr_fail(ctx, MR_EUSAGE,
 		    "%s holds an earlier frame: put %%d, the number of the frame, into the name", *name);
-	*slot = mr_format(&given->keep, "%s", *name);
-	given->count++;
-	return *slot ? MR_OK : MR_EMEM;
+	return mr_string_set_add(given, *name);
 }
 
 bool

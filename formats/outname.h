@@ -3,22 +3,15 @@
 #ifndef MR_OUTNAME_H
 #define MR_OUTNAME_H
 
-#include "base/ctx.h"
+#include "base/string_set.h"
 
 /* The name for a frame, in the arena; no folder is read out of the frame's name.  MR_EUSAGE where the pattern
  * has another % in it. */
 mr_status mr_outname(mr_ctx *ctx, const char *pattern, const char *frame, uint64_t number, char **name);
 
-/* The names that were given; starts zeroed. */
-typedef struct mr_outnames {
-	mr_ctx keep;
-	char **slot; /* a hash table */
-	size_t count, mask;
-} mr_outnames;
-
-/* The same, each name but once: MR_EUSAGE where an earlier frame has it. */
+/* The same, each name but once: MR_EUSAGE where it is among those that were given before. */
 mr_status mr_outname_once(
-    mr_ctx *ctx, mr_outnames *given, const char *pattern, const char *frame, uint64_t number, char **name);
+    mr_ctx *ctx, mr_string_set *given, const char *pattern, const char *frame, uint64_t number, char **name);
 
 /* True where names differ from frame to frame. */
 bool mr_outname_varies(const char *pattern);

@@ -141,6 +141,12 @@ mr_warn(mr_ctx *ctx, const char *format, ...)
 	va_end(args);
 }
 
+mr_status
+mr_permit(mr_ctx *ctx, const char *path, bool writes)
+{
+	return ctx->permit ? ctx->permit(ctx, path, writes) : MR_OK;
+}
+
 void
 mr_unfinished(mr_ctx *ctx, const char *file, bool on)
 {

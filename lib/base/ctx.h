@@ -45,6 +45,8 @@ struct mr_ctx {
 	/* From now on, or no longer, this file is to be removed if the process is ended; NULL: nobody does.
 	 */
 	void (*unfinished)(void *user, const char *file, bool on);
+	/* Before a file is read, or a whole one gets its name: may refuse that.  NULL: nobody minds. */
+	mr_status (*permit)(mr_ctx *ctx, const char *path, bool writes);
 	bool sync;                /* files are on the disk before they get their names */
 	const char *scratch;      /* folder for what is large, memory.h; NULL: none */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
@@ -70,6 +72,9 @@ void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 
 /* What is poor in a result that is given all the same, for every user. */
 void mr_warn(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
+
+/* Asks whether a file may be read, or be written under that name. */
+mr_status mr_permit(mr_ctx *ctx, const char *path, bool writes) MR_WARN_UNUSED;
 
 /* From now on, or no longer, this file is not to stay where the process is ended. */
 void mr_unfinished(mr_ctx *ctx, const char *file, bool on);

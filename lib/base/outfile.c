@@ -192,15 +192,29 @@ give_name(mr_ctx *ctx, mr_outfile *f)
 	return MR_OK;
 }
 
-/* old: what is there, whose mode is kept where that can be; NULL: nothing. */
+/* Who owns what is there, and may do what with it, stays so where that can be; what runs as its owner does not
+ * as another. */
+static void
+keep_mode(mr_ctx *ctx, const struct stat *old, mr_outfile *f)
+{
+	bool owned = fchown(f->fd, old->st_uid, old->st_gid) == 0;
+
+	if (fchmod(f->fd, old->st_mode & (owned ? 07777 : 00777)))
+		mr_note(ctx, "%s: cannot keep its mode: %s", f->path, strerror(errno));
+}
+
+/* old: what is there; NULL: nothing. */
 static mr_status
 open_file(mr_ctx *ctx, const struct stat *old, mr_outfile *f)
 {
+	if (old && access(f->path, W_OK))
+		return failed(ctx, f->path, "cannot write");
 	MR_TRY(follow(ctx, f->path, &f->target));
+	MR_TRY(mr_permit(ctx, f->target, true));
 	if (!open_nameless(f))
 		MR_TRY(appear(ctx, f, create));
-	if (old && fchmod(f->fd, old->st_mode & 07777))
-		mr_note(ctx, "%s: cannot keep its mode: %s", f->path, strerror(errno));
+	if (old)
+		keep_mode(ctx, old, f);
 	return MR_OK;
 }
 
@@ -211,17 +225,31 @@ open_directly(mr_ctx *ctx, mr_outfile *f)
 	return f->fd < 0 ? failed(ctx, f->path, "cannot open") : MR_OK;
 }
 
+/* Another descriptor of standard output, where that is the file: who writes to it goes on there; else -1. */
+static int
+standard_output(const struct stat *file)
+{
+	struct stat out;
+
+	return fstat(STDOUT_FILENO, &out) == 0 && out.st_dev == file->st_dev && out.st_ino == file->st_ino
+	           ? fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 0)
+	           : -1;
+}
+
 mr_status
 mr_outfile_open(mr_ctx *ctx, const char *path, mr_outfile *f)
 {
 	mr_outfile new = { .fd = -1, .path = strdup(path) };
 	struct stat st;
 	bool there = stat(path, &st) == 0;
-	mr_status status;
+	int through = there ? standard_output(&st) : -1;
+	mr_status status = MR_OK;
 
 	if (!new.path)
 		return no_memory(ctx, path);
-	if (there && !S_ISREG(st.st_mode))
+	if (through >= 0)
+		new.fd = through;
+	else if (there && !S_ISREG(st.st_mode))
 		status = open_directly(ctx, &new);
 	else
 		status = open_file(ctx, there ? &st : NULL, &new);

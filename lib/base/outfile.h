@@ -18,7 +18,7 @@ typedef struct mr_outfile {
 } mr_outfile;
 
 /*
- * Opens `path` for writing, or what a link of that name leads to, there or not yet.  It gets the mode of what
+ * Opens `path` for writing, or what a link of that name leads to, there or not yet.  It gets mode and owner of what
  * is there.  End it by one of the two below.
  */
 mr_status mr_outfile_open(mr_ctx *ctx, const char *path, mr_outfile *f) MR_WARN_UNUSED;

@@ -9,9 +9,11 @@ read_all(mr_ctx *ctx, const char *path, char **text, size_t *length)
 {
 	size_t room = 0, n = 0;
 	char *bytes = NULL;
-	FILE *in = fopen(path, "rb");
+	FILE *in;
 	mr_status status;
 
+	MR_TRY(mr_permit(ctx, path, false));
+	in = fopen(path, "rb");
 	if (!in)
 		return mr_fail(ctx, MR_EIO, "%s: %s", path, strerror(errno));
 	while ((status = MR_RESERVE(ctx, bytes, n, 4096, &room)) == MR_OK) {

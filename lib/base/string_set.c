@@ -1,0 +1,62 @@
+/* FNV-1a, open addresses. */
+#include "base/string_set.h"
+
+#include "base/text.h"
+
+/* Where the text is, or is to be. */
+static char **
+slot_of(const mr_string_set *set, const char *text)
+{
+	uint64_t h = 0xcbf29ce484222325u;
+	size_t i;
+
+	for (const char *s = text; *s; s++)
+		h = (h ^ (unsigned char)*s) * 0x100000001b3u;
+	for (i = h & set->mask; set->slot[i] && strcmp(set->slot[i], text) != 0;)
+		i = (i + 1) & set->mask;
+	return &set->slot[i];
+}
+
+static mr_status
+make_room(mr_string_set *set)
+{
+	mr_string_set old = *set;
+
+	if (set->slot && 2 * set->count <= set->mask)
+		return MR_OK;
+	set->mask = old.slot ? 2 * old.mask + 1 : 63;
+	set->slot = MR_NEW_ZERO(&set->keep, set->mask + 1, char *);
+	if (!set->slot)
+		return MR_EMEM;
+	for (size_t i = 0; old.slot && i <= old.mask; i++)
+		if (old.slot[i])
+			*slot_of(set, old.slot[i]) = old.slot[i];
+	return MR_OK;
+}
+
+void
+mr_string_set_free(mr_string_set *set)
+{
+	mr_ctx_free(&set->keep);
+	*set = (mr_string_set){ 0 };
+}
+
+bool
+mr_string_set_has(const mr_string_set *set, const char *text)
+{
+	return set->slot && *slot_of(set, text);
+}
+
+mr_status
+mr_string_set_add(mr_string_set *set, const char *text)
+{
+	char **slot;
+
+	MR_TRY(make_room(set));
+	slot = slot_of(set, text);
+	if (*slot)
+		return MR_OK;
+	*slot = mr_format(&set->keep, "%s", text);
+	set->count++;
+	return *slot ? MR_OK : MR_EMEM;
+}
