@@ -117,15 +117,27 @@ pass_failure(cmd *c)
 		mr_writer_fail(&c->ctx, s->writer);
 }
 
+/* Whether stdout is where the output goes. */
+static bool
+writes_stdout(const cmd *c)
+{
+	const char *output = c->tool->names_output ? c->operands[0] : c->output;
+
+	return !output || !strcmp(output, "-");
+}
+
+/* A wrong command line that a later frame shows, behind what is on standard output, is an error like others. */
 static _Noreturn void
 die(cmd *c, mr_status status)
 {
+	bool usage = status == MR_EUSAGE && (c->frame < 2 || !writes_stdout(c));
+
 	say_failure(c);
-	if (status != MR_EUSAGE)
-		pass_failure(c);
-	if (status == MR_EUSAGE)
+	if (usage)
 		fprintf(stderr, "Try '%s --help'.\n", c->name);
-	leave(c, status == MR_EUSAGE ? EXIT_USAGE : EXIT_DATA);
+	else
+		pass_failure(c);
+	leave(c, usage ? EXIT_USAGE : EXIT_DATA);
 }
 
 static void
@@ -404,15 +416,6 @@ open_output(cmd *c)
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--output: a file without a name"));
 	try(c, mr_outfile_open(&c->ctx, c->output, &s->output_file));
 	s->out = s->output_file.fd;
-}
-
-/* Whether stdout is where the output goes. */
-static bool
-writes_stdout(const cmd *c)
-{
-	if (c->tool->names_output)
-		return is_dash(c->operands[0]);
-	return !c->output || is_dash(c->output);
 }
 
 static bool

@@ -2,6 +2,7 @@
 #include "formats/bytes.h"
 
 #include "base/memory.h"
+#include "base/retry.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -98,7 +99,7 @@ read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_file_b
 		n = read(fd, memory + size, room - size);
 		if (n == 0)
 			break;
-		if (n < 0 && errno == EINTR)
+		if (n < 0 && mr_retry(fd, POLLIN))
 			continue;
 		if (n < 0) {
 			mr_memory_free(memory);
@@ -262,7 +263,7 @@ write_all(mr_sink *s, const void *data, size_t bytes)
 
 	while (bytes && s->status == MR_OK) {
 		ssize_t n = write(s->file.fd, p, bytes);
-		if (n < 0 && errno != EINTR)
+		if (n < 0 && !mr_retry(s->file.fd, POLLOUT))
 			s->status = failed(s->ctx, s->path, "cannot write");
 		if (n > 0) {
 			p += n;

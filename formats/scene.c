@@ -43,9 +43,20 @@ get_layers(mr_ctx *ctx, mr_frame *f, const char *list, layers *l)
 /* ---- nodes and poses ---- */
 
 static bool
+same_bytes(const void *a, const void *b, size_t n)
+{
+	return a == b || n == 0 || (a && b && !memcmp(a, b, n));
+}
+
+/* Whether the models differ in places and normals alone. */
+static bool
 same_surface(const mr_model *a, const mr_model *b)
 {
-	return a->nv == b->nv && a->nf == b->nf && (a->nf == 0 || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
+	return a->nv == b->nv && a->nf == b->nf && same_bytes(a->t, b->t, a->nf * sizeof *a->t) &&
+	       same_bytes(a->color, b->color, 4 * a->nv) &&
+	       same_bytes(a->texcoord, b->texcoord, 2 * a->nv * sizeof *a->texcoord) &&
+	       same_bytes(a->corner_texcoord, b->corner_texcoord, 6 * a->nf * sizeof *a->corner_texcoord) &&
+	       same_bytes(a->material, b->material, a->nf * sizeof *a->material);
 }
 
 /* Whether the frame shows what the open nodes show, in another pose. */

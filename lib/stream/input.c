@@ -1,6 +1,7 @@
 /* Bytes from a descriptor: a file is mapped, a pipe read into blocks. */
 #define _GNU_SOURCE /* F_SETPIPE_SZ, MADV_DONTNEED */
 
+#include "base/retry.h"
 #include "stream/stored.h"
 
 #include <errno.h>
@@ -114,7 +115,7 @@ read_some(mr_ctx *ctx, int fd, unsigned char *to, size_t n, size_t *got)
 
 	do
 		r = read(fd, to, n < most ? n : most);
-	while (r < 0 && errno == EINTR);
+	while (r < 0 && mr_retry(fd, POLLIN));
 	if (r < 0)
 		return mr_fail(ctx, MR_EIO, "cannot read: %s", strerror(errno));
 	*got = (size_t)r;

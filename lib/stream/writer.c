@@ -1,6 +1,7 @@
 /* Frames to records: of a delta what differs from what was sent before (man/mr-stream.5). */
 #include "stream/stored.h"
 
+#include "base/retry.h"
 #include "stream/fingerprint.h"
 
 #include <errno.h>
@@ -82,7 +83,7 @@ flush_with(mr_ctx *ctx, mr_writer *w, const void *p, size_t n)
 	while (v[0].iov_len || v[1].iov_len) {
 		int skip = v[0].iov_len == 0;
 		ssize_t r = writev(w->fd, v + skip, 2 - skip);
-		if (r < 0 && errno == EINTR)
+		if (r < 0 && mr_retry(w->fd, POLLOUT))
 			continue;
 		if (r < 0) {
 			w->failed = true;

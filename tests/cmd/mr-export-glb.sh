@@ -94,3 +94,21 @@ ls cut* 2>/dev/null
 echo '-- what floats round'
 mr-export -i torus.mrs --stats stats rounded.glb
 grep -o '"rounded_positions":[0-9]*' stats
+
+echo '-- a delta that changes colours is no pose'
+cat >colors.py <<'P'
+import sys, zlib
+def record(kind, payload=b"", layer="", element="-", type="t", components=1, rows=None):
+    rows = len(payload) if rows is None else rows
+    head = bytearray(layer.encode().ljust(16, b"\0") + kind.encode().ljust(24, b"\0") + element.encode() + type.encode() + bytes([components, 0]))
+    head += bytes(4) + rows.to_bytes(8, "little") + len(payload).to_bytes(8, "little")
+    head[44:48] = zlib.crc32(payload, zlib.crc32(head)).to_bytes(4, "little")
+    return bytes(head) + payload + bytes(-len(payload) % 64)
+stream = sys.stdin.buffer.read()
+end = stream.rindex(b"END\0") - 16
+delta = record("FRAME", b"delta red") + record("color", bytes([255, 0, 0, 255]) * 3, "mesh", "v", "b", 4, 3) + record("ENDFRAME")
+sys.stdout.buffer.write(stream[:end] + delta + stream[end:])
+P
+printf 'v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3\n' >white.obj
+mr-import white.obj | python3 colors.py >colors.mrs
+mr-export -i colors.mrs colors.glb && mr-import colors.glb | mr-export -q -f obj - | grep -c -e '1 0 0$' -e '1 1 1$'
