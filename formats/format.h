@@ -40,6 +40,9 @@ mr_status mr_ply_write_little(mr_sink *s, const mr_model *m);
 mr_status mr_ply_write_big(mr_sink *s, const mr_model *m);
 mr_status mr_ply_write_ascii(mr_sink *s, const mr_model *m);
 
+/* Whether the size is that of as many triangles as a binary file counts. */
+bool mr_stl_is_binary(const unsigned char *data, size_t size);
+
 /* Whether the bytes may be those that a binary file, whose end has not come, begins with. */
 bool mr_stl_begins(const unsigned char *data, size_t size);
 bool mr_stl_sniff(const unsigned char *data, size_t size);

@@ -127,20 +127,85 @@ mr_format_stem(mr_ctx *ctx, const char *path)
 
 /* ---- reading ---- */
 
-/* Text whose lines end in CR alone gets newlines; the rest is left as it is. */
+/* The end of the line at p: the first CR or LF. */
+static const unsigned char *
+line_end(const unsigned char *p, const unsigned char *end)
+{
+	while (p < end && *p != '\r' && *p != '\n')
+		p++;
+	return p;
+}
+
+/* Behind the end of a line: CR and LF are one, unless the file's first line ends in CR alone. */
+static const unsigned char *
+behind_end(const unsigned char *e, const unsigned char *end, bool alone)
+{
+	return e + (e < end) + (!alone && end - e > 1 && e[0] == '\r' && e[1] == '\n');
+}
+
+/* The bytes of a PLY or PCD that are text: all, or its header where binary data follow, of any bytes. */
+static size_t
+header_size(const unsigned char *data, size_t size)
+{
+	const unsigned char *end = data + size, *p = data, *e = line_end(p, end);
+	const bool alone = end - e > 1 && e[0] == '\r' && e[1] != '\n';
+	bool binary = false;
+
+	for (; p < end; p = behind_end(e, end, alone)) {
+		mr_scan line = mr_scan_of(NULL, p, (size_t)((e = line_end(p, end)) - p));
+		bool last = mr_scan_accept(&line, "end_header"), data_line = mr_scan_accept(&line, "DATA");
+		if (data_line || mr_scan_accept(&line, "format")) {
+			const char *w;
+			size_t n;
+			binary = mr_scan_word(&line, &w, &n) && n >= 6 && !memcmp(w, "binary", 6);
+		}
+		if (last || data_line)
+			return binary ? (size_t)(behind_end(e, end, alone) - data) : size;
+	}
+	return size;
+}
+
+/* How much of the file is text, from its beginning. */
+static size_t
+text_size(const unsigned char *data, size_t size)
+{
+	if (mr_ply_sniff(data, size) || mr_pcd_sniff(data, size))
+		return header_size(data, size);
+	return memchr(data, 0, size < 65536 ? size : 65536) ? 0 : size;
+}
+
+/* The next CRs that no LF follows, up to *behind; NULL: there are none. */
+static const unsigned char *
+lone_returns(const unsigned char *p, const unsigned char *end, const unsigned char **behind)
+{
+	while (p < end && (p = memchr(p, '\r', (size_t)(end - p)))) {
+		const unsigned char *e = p;
+		while (e < end && *e == '\r')
+			e++;
+		*behind = e;
+		if (e == end || *e != '\n')
+			return p;
+		p = e;
+	}
+	return NULL;
+}
+
+/* In text a CR alone ends a line, too, for which a newline comes to stand in a copy. */
 static mr_status
 normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 {
-	size_t head = size < 65536 ? size : 65536;
+	const unsigned char *end = *data + text_size(*data, size), *behind = NULL,
+			    *p = lone_returns(*data, end, &behind);
 	unsigned char *copy;
 
-	if (!memchr(*data, '\r', head) || memchr(*data, '\n', head) || memchr(*data, 0, head))
+	if (!p)
 		return MR_OK;
 	copy = mr_alloc(ctx, size, 1);
 	if (!copy)
 		return MR_EMEM;
-	for (size_t i = 0; i < size; i++)
-		copy[i] = (*data)[i] == '\r' ? '\n' : (*data)[i];
+	memcpy(copy, *data, size);
+	for (; p; p = lone_returns(behind, end, &behind))
+		memset(copy + (p - *data), '\n', (size_t)(behind - p));
 	*data = copy;
 	return MR_OK;
 }
@@ -193,10 +258,13 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	return MR_OK;
 }
 
-/* The mark that begins UTF-8 goes, and other text becomes lines of ASCII. */
+/* The mark that begins UTF-8 goes, and other text becomes lines of ASCII.  A binary STL begins with anything.
+ */
 static mr_status
 as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
 {
+	if (mr_stl_is_binary(*data, *size))
+		return MR_OK;
 	if (*size >= 3 && (*data)[0] == 0xef && (*data)[1] == 0xbb && (*data)[2] == 0xbf) {
 		*data += 3;
 		*size -= 3;

@@ -25,8 +25,8 @@ join_corners(mr_ctx *ctx, mr_v3 *p, size_t n, uint32_t *corner, size_t *nv)
 
 /* ---- binary ---- */
 
-static bool
-is_binary(const unsigned char *data, size_t size)
+bool
+mr_stl_is_binary(const unsigned char *data, size_t size)
 {
 	return size >= HEADER && (size - HEADER) % RECORD == 0 &&
 	       (size - HEADER) / RECORD == mr_load32(data + 80, false);
@@ -219,7 +219,7 @@ mr_stl_begins(const unsigned char *data, size_t size)
 bool
 mr_stl_sniff(const unsigned char *data, size_t size)
 {
-	return is_binary(data, size) || is_text(data, size);
+	return mr_stl_is_binary(data, size) || is_text(data, size);
 }
 
 mr_status
@@ -227,7 +227,7 @@ mr_stl_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	mr_scan text = mr_scan_of(ctx, data, size);
 
-	if (!is_binary(data, size) &&
+	if (!mr_stl_is_binary(data, size) &&
 	    (is_text(data, size) || (mr_scan_accept(&text, "solid") && !memchr(data, 0, size))))
 		return read_ascii(ctx, data, size, m);
 	if (size < HEADER)
