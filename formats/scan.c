@@ -322,6 +322,21 @@ mr_scan_accept(mr_scan *t, const char *word)
 	return true;
 }
 
+/* Skips what the text begins with, in either case of letters. */
+static bool
+begins(const char **p, const char *end, const char *what)
+{
+	size_t n = strlen(what);
+
+	if ((size_t)(end - *p) < n)
+		return false;
+	for (size_t i = 0; i < n; i++)
+		if (lower((*p)[i]) != what[i])
+			return false;
+	*p += n;
+	return true;
+}
+
 bool
 mr_word_not_finite(const char *w, size_t n)
 {
@@ -329,12 +344,17 @@ mr_word_not_finite(const char *w, size_t n)
 
 	if (n && (*w == '-' || *w == '+'))
 		w++;
-	if (end - w >= 3 && w[0] == '1' && w[1] == '.' && w[2] == '#')
-		return true;
-	if (end - w < 3)
-		return false;
-	return (lower(w[0]) == 'n' && lower(w[1]) == 'a' && lower(w[2]) == 'n') ||
-	       (lower(w[0]) == 'i' && lower(w[1]) == 'n' && lower(w[2]) == 'f');
+	if (begins(&w, end, "1.#")) { /* of Windows, with zeros behind */
+		if (!begins(&w, end, "inf") && !begins(&w, end, "ind") && !begins(&w, end, "qnan") &&
+		    !begins(&w, end, "snan"))
+			return false;
+		while (w < end && *w == '0')
+			w++;
+		return w == end;
+	}
+	if (begins(&w, end, "nan"))
+		return w == end || (*w == '(' && end[-1] == ')');
+	return begins(&w, end, "inf") && (w == end || (begins(&w, end, "inity") && w == end));
 }
 
 const char *
@@ -348,11 +368,11 @@ mr_word_shown(const char *w, size_t n, char text[MR_SHOWN])
 	return text;
 }
 
-/* A comment may stand right behind a number. */
+/* A comment may stand right behind a number, but 1.#INF is none with one. */
 static bool
 ends_word(const char *p, const char *end)
 {
-	return p == end || mr_is_blank(*p) || *p == '\n' || *p == '#';
+	return p == end || mr_is_blank(*p) || *p == '\n' || (*p == '#' && p[-1] != '.');
 }
 
 mr_status
@@ -396,6 +416,27 @@ mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n)
 		return mr_scan_fail(t, t->p, "%s is missing", what);
 	return mr_scan_fail(t, w, "%s is '%s', not a whole number from 0 to %" PRIu64, what,
 	    mr_word_shown(w, bytes, shown), most);
+}
+
+void
+mr_skip_comments(mr_scan *t)
+{
+	for (mr_skip_space(t); t->p < t->end && *t->p == '#'; mr_skip_space(t)) {
+		const char *e = memchr(t->p, '\n', (size_t)(t->end - t->p));
+		t->p = e ? e : t->end;
+	}
+}
+
+void
+mr_scan_rest(mr_scan *t, const char *last)
+{
+	mr_skip_comments(t);
+	for (const char *p = t->p; p < t->end; p++)
+		if (*p && *p != '\n' && !mr_is_blank(*p)) {
+			mr_warn(
+			    t->ctx, "%zu bytes behind the last %s left out", (size_t)(t->end - t->p), last);
+			return;
+		}
 }
 
 mr_status

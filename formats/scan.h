@@ -53,6 +53,13 @@ mr_skip_space(mr_scan *t)
 		t->p++;
 }
 
+/* The same, and comments, which begin with # and go to the end of the line. */
+void mr_skip_comments(mr_scan *t);
+
+/* Warns of what stands behind the last vertex or face, unless that is blank, a comment, or zeros that fill
+ * up. */
+void mr_scan_rest(mr_scan *t, const char *last);
+
 /* The line that begins at t->p, without its end, as a text of its own with the same start; t goes on behind
  * it. */
 bool mr_scan_line(mr_scan *t, mr_scan *line);
@@ -75,7 +82,7 @@ mr_status mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n
 /* Three finite numbers. */
 mr_status mr_scan_position(mr_scan *t, mr_v3 *p);
 
-/* True for "nan", "-nan(ind)", "inf", "Infinity", "1.#QNAN" and the like. */
+/* True for "nan", "-nan(ind)", "inf", "Infinity", "1.#QNAN" and the like, not for "infra" or "nancy". */
 bool mr_word_not_finite(const char *word, size_t bytes);
 
 /* The word as a sentence may show it: printable and not too long. */
