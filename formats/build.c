@@ -277,9 +277,15 @@ mr_build_property(mr_builder *b, const char *name, const char *type, char elemen
 {
 	bool byte = !strcmp(type, "uchar"), whole = !strcmp(type, "ushort") || !strcmp(type, "uint");
 	mr_shape shape = { element, byte ? 'b' : whole ? 'u' : 'd', 1 };
+	char *own = mr_format(b->ctx, "%s", name);
 
+	if (!own)
+		return MR_EMEM;
+	for (char *c = own; *c; c++) /* a name is a word of a PLY's header */
+		if (*c == ' ')
+			*c = '_';
 	MR_TRY(MR_RESERVE(b->ctx, b->kept, b->properties, 1, &b->property_room));
-	b->kept[b->properties++] = (mr_kept){ .p = { .name = name, .type = type, .shape = shape } };
+	b->kept[b->properties++] = (mr_kept){ .p = { .name = own, .type = type, .shape = shape } };
 	*number = b->properties;
 	return MR_OK;
 }
@@ -391,6 +397,29 @@ mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped)
 			odd++;
 		}
 	return mr_left_out(ctx, odd, n, "normals", dropped);
+}
+
+double
+mr_shade_full(const mr_shades *s)
+{
+	if (s->most <= 1 || (s->broken && s->most <= 2))
+		return 1;
+	return s->most <= 255.255 ? 255 : 65535;
+}
+
+void
+mr_shades_said(mr_ctx *ctx, const mr_shades *s)
+{
+	const double dark = 4096; /* of 65535: 12 bits, or 8 with a value too large */
+
+	if (s->clipped)
+		mr_warn(ctx, "%zu values of colors are clipped: they are not within 0 and %g", s->clipped,
+		    s->full);
+	if (s->full == 65535 && s->most > 0 && s->most < dark)
+		mr_warn(ctx,
+		    "colors are nearly black: the largest value, %g, is above 255, and read as a "
+		    "65535th",
+		    s->most);
 }
 
 void
@@ -665,9 +694,12 @@ put_marks(const mr_builder *b, mr_model *m)
 mr_status
 mr_build_finish(mr_builder *b, mr_model *m)
 {
-	mr_model made = {
-		.p = b->p, .nv = b->nv, .normal = b->normal, .color = b->color, .texcoord = b->texcoord
-	};
+	mr_model made = { .p = b->p,
+		.nv = b->nv,
+		.normal = b->normal,
+		.color = b->color,
+		.texcoord = b->texcoord,
+		.scanner = b->scanner };
 
 	if (b->faces == 0 && b->skipped)
 		return mr_fail(b->ctx, MR_EMESH, "none of the %zu faces has three corners", b->skipped);

@@ -32,7 +32,7 @@ typedef struct mr_marks {
 
 typedef struct mr_builder {
 	mr_ctx *ctx;
-	mr_v3 *p, *normal;
+	mr_v3 *p, *normal, *scanner;
 	unsigned char *color;
 	double *texcoord; /* of vertices; those of corners go before them */
 	size_t nv;
@@ -97,6 +97,41 @@ bool mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dr
  * Normals that are not finite become zero, which is none: says and counts how many.  False where all were so.
  */
 bool mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped) MR_WARN_UNUSED;
+
+/*
+ * Values of colours.  Where their type does not say what is full, those of the whole file do: 1, where none
+ * is above it, or not far and one is no whole number; else 255; else 65535.
+ */
+typedef struct mr_shades {
+	double most, full; /* of those that were seen; what becomes a byte of 255 */
+	bool broken;       /* one is no whole number */
+	size_t clipped;    /* not within 0 and full */
+} mr_shades;
+
+static inline void
+mr_shade_see(mr_shades *s, double x)
+{
+	s->most = x > s->most ? x : s->most;
+	s->broken = s->broken || x != floor(x);
+}
+
+/* What is full, by all that was seen. */
+double mr_shade_full(const mr_shades *s);
+
+/* Colours are bytes: what less than one of 1000 parts takes a value beyond full is not lost. */
+static inline unsigned char
+mr_shade_byte(mr_shades *s, double x)
+{
+	double v = 255 * x / s->full;
+
+	s->clipped += v < -0.255 || v > 255.255;
+	if (!(v > 0))
+		return 0;
+	return (unsigned char)(v >= 255 ? 255 : (float)v + 0.5F); /* a float of 0.9, too, is 230 */
+}
+
+/* Says how many were clipped, and where next to nothing is left of them. */
+void mr_shades_said(mr_ctx *ctx, const mr_shades *s);
 
 /* A column that is dropped: says so and counts it. */
 void mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why);

@@ -18,7 +18,7 @@ typedef struct obj {
 	double *uv;       /* vt_all pairs */
 	mr_v3 *vn_values; /* vn_all */
 	float *rgb;       /* three per vertex, NAN where it has none; NULL without any */
-	bool bright;      /* colours beyond 1: in 255ths */
+	mr_shades shades;
 	size_t lines_and_points, weights, depths, others; /* what is left out */
 	char other[MR_SHOWN];                             /* the first of the others */
 	size_t odd_colors, odd_texcoords;                 /* values that are not finite */
@@ -145,7 +145,7 @@ set_color(obj *o, const double *c)
 	}
 	for (int i = 0; i < 3; i++) {
 		o->rgb[3 * o->v + (size_t)i] = (float)c[i];
-		o->bright |= c[i] > 1;
+		mr_shade_see(&o->shades, c[i]);
 	}
 	o->odd_colors += !isfinite(c[0]) || !isfinite(c[1]) || !isfinite(c[2]);
 	return MR_OK;
@@ -542,16 +542,9 @@ count_lines(obj *o)
 
 /* ---- the model ---- */
 
-static unsigned char
-byte_of(double x)
-{
-	return (unsigned char)(x <= 0 ? 0 : x >= 255 ? 255 : x + 0.5);
-}
-
 static mr_status
 finish_colors(obj *o)
 {
-	float scale = o->bright ? 1 : 255;
 	size_t missing = 0;
 
 	if (!o->rgb)
@@ -561,13 +554,16 @@ finish_colors(obj *o)
 	o->b.color = MR_NEW(o->ctx, 4 * o->v_all, unsigned char);
 	if (!o->b.color)
 		return MR_EMEM;
+	o->shades.full = mr_shade_full(&o->shades);
 	for (size_t i = 0; i < o->v_all; i++) {
 		bool none = isnan(o->rgb[3 * i]);
 		for (size_t k = 0; k < 3; k++)
-			o->b.color[4 * i + k] = none ? 255 : byte_of((double)(scale * o->rgb[3 * i + k]));
+			o->b.color[4 * i + k] = none ? 255
+			                             : mr_shade_byte(&o->shades, (double)o->rgb[3 * i + k]);
 		o->b.color[4 * i + 3] = 255;
 		missing += none;
 	}
+	mr_shades_said(o->ctx, &o->shades);
 	if (missing)
 		mr_note(o->ctx, "%zu vertices without a colour are white", missing);
 	return MR_OK;

@@ -13,24 +13,15 @@ typedef struct off {
 	mr_builder b;
 	uint64_t nv, nf;
 	float *rgba;               /* four per vertex as given, NAN where there are none */
-	bool whole_colors;         /* all of them whole numbers: in 255ths */
+	mr_shades shades[2];       /* of all components, of alpha */
 	size_t odd_colors, odd_uv; /* values that are not finite */
+	size_t face_colors;        /* faces that have one */
 	size_t ignored;            /* numbers behind a vertex that the keyword does not announce */
 	uint32_t *corner;
 	size_t corner_room;
 } off;
 
 /* ---- the keyword ---- */
-
-/* Skips what is not to be read: blanks, empty lines, comments. */
-static void
-skip_comments(mr_scan *t)
-{
-	for (mr_skip_space(t); t->p < t->end && *t->p == '#'; mr_skip_space(t)) {
-		const char *e = memchr(t->p, '\n', (size_t)(t->end - t->p));
-		t->p = e ? e : t->end;
-	}
-}
 
 static bool
 take(mr_scan *t, const char *s)
@@ -49,7 +40,7 @@ keyword(off *f, bool *dimensions)
 {
 	mr_scan t = f->text;
 
-	skip_comments(&t);
+	mr_skip_comments(&t);
 	f->texcoords = take(&t, "ST");
 	f->colors = take(&t, "C");
 	f->normals = take(&t, "N");
@@ -88,7 +79,6 @@ arrays(off *f)
 		return MR_EMEM;
 	if (f->texcoords && !(f->b.texcoord = MR_NEW(f->ctx, 2 * f->b.nv, double)))
 		return MR_EMEM;
-	f->whole_colors = true;
 	return MR_OK;
 }
 
@@ -106,6 +96,9 @@ set_color(off *f, size_t vertex, const double *c, size_t n)
 	}
 	for (size_t i = 0; i < n; i++) {
 		f->rgba[4 * vertex + i] = (float)c[i];
+		mr_shade_see(&f->shades[0], c[i]);
+		if (i == 3)
+			mr_shade_see(&f->shades[1], c[i]);
 		odd |= !isfinite(c[i]);
 	}
 	f->odd_colors += odd;
@@ -126,16 +119,7 @@ set_texcoord(off *f, size_t vertex, const double *uv)
 	f->odd_uv += !isfinite(uv[0]) || !isfinite(uv[1]);
 }
 
-static bool
-looks_whole(const char *p, const char *end)
-{
-	for (; p < end; p++)
-		if (*p == '.' || *p == 'e' || *p == 'E')
-			return false;
-	return true;
-}
-
-/* The numbers left on the line; those that are colours tell by their look whether they are whole. */
+/* The numbers left on the line. */
 static mr_status
 line_rest(off *f, double *x, size_t most, size_t *count)
 {
@@ -143,12 +127,9 @@ line_rest(off *f, double *x, size_t most, size_t *count)
 
 	for (mr_skip_blanks(&f->text); f->text.p < f->text.end && *f->text.p != '\n' && *f->text.p != '#';
 	     mr_skip_blanks(&f->text)) {
-		const char *p = f->text.p;
 		if (n == most)
-			return mr_scan_fail(&f->text, p, "more numbers than a vertex can have");
+			return mr_scan_fail(&f->text, f->text.p, "more numbers than a vertex can have");
 		MR_TRY(mr_scan_real(&f->text, "a number of a vertex", &x[n++]));
-		if (!looks_whole(p, f->text.p))
-			f->whole_colors = false;
 	}
 	*count = n;
 	return MR_OK;
@@ -159,11 +140,10 @@ static mr_status
 text_vertex(off *f, size_t i)
 {
 	double x[9] = { 0 }, normal[3];
-	bool whole = f->whole_colors;
 	const char *where;
 	size_t n = 0, colors;
 
-	skip_comments(&f->text);
+	mr_skip_comments(&f->text);
 	where = f->text.p;
 	MR_TRY(mr_scan_position(&f->text, &f->b.p[i]));
 	for (int k = 0; f->normals && k < 3; k++)
@@ -177,12 +157,9 @@ text_vertex(off *f, size_t i)
 	if (f->texcoords)
 		set_texcoord(f, i, x + colors);
 	if (!f->colors) {
-		f->whole_colors = whole;
 		f->ignored += colors;
 		return MR_OK;
 	}
-	if (f->texcoords)
-		f->whole_colors = whole && x[0] == floor(x[0]) && x[1] == floor(x[1]) && x[2] == floor(x[2]);
 	if (colors != 3 && colors != 4)
 		return mr_scan_fail(
 		    &f->text, where, "a vertex with %zu colour components, not 3 or 4", colors);
@@ -192,18 +169,19 @@ text_vertex(off *f, size_t i)
 static mr_status
 finish_colors(off *f)
 {
-	double scale = f->whole_colors ? 1 : 255;
-
 	if (!f->rgba)
 		return MR_OK;
 	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors", &f->b.counts->dropped_colors))
 		return MR_OK;
 	if (!(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
 		return MR_EMEM;
-	for (size_t i = 0; i < 4 * f->b.nv; i++) {
-		double v = isnan(f->rgba[i]) ? 255 : scale * (double)f->rgba[i];
-		f->b.color[i] = (unsigned char)(v <= 0 ? 0 : v >= 255 ? 255 : v + 0.5);
-	}
+	for (size_t k = 0; k < 2; k++)
+		f->shades[k].full = mr_shade_full(&f->shades[k]);
+	for (size_t i = 0; i < 4 * f->b.nv; i++)
+		f->b.color[i] = isnan(f->rgba[i]) ? 255
+		                                  : mr_shade_byte(&f->shades[i % 4 == 3], (double)f->rgba[i]);
+	for (size_t k = 0; k < 2; k++)
+		mr_shades_said(f->ctx, &f->shades[k]);
 	return MR_OK;
 }
 
@@ -215,6 +193,10 @@ finish(off *f, mr_model *m)
 		f->b.normal = NULL;
 	if (!mr_all_left(f->ctx, f->odd_uv, f->b.nv, "texcoords", &f->b.counts->dropped_texcoords))
 		f->b.texcoord = NULL;
+	if (f->face_colors) {
+		mr_warn(f->ctx, "colors of %zu faces left out", f->face_colors);
+		f->b.counts->dropped_colors = f->face_colors;
+	}
 	if (f->ignored)
 		mr_warn(f->ctx, "%zu numbers behind vertices, which the keyword does not announce, left out",
 		    f->ignored);
@@ -239,7 +221,7 @@ text_face(off *f)
 	const char *where, *e;
 	uint64_t n, v;
 
-	skip_comments(&f->text);
+	mr_skip_comments(&f->text);
 	where = f->text.p;
 	MR_TRY(mr_scan_count(&f->text, "the number of corners of a face", UINT32_MAX, &n));
 	if (n > (size_t)(f->text.end - f->text.p) / 2 + 1)
@@ -253,8 +235,12 @@ text_face(off *f)
 			    (unsigned long long)f->nv);
 		f->corner[i] = (uint32_t)v;
 	}
-	e = f->text.p < f->text.end ? memchr(f->text.p, '\n', (size_t)(f->text.end - f->text.p)) : NULL;
-	f->text.p = e ? e : f->text.end; /* a colour of the face may stand here */
+	mr_skip_blanks(&f->text);
+	if (f->text.p < f->text.end && *f->text.p != '\n') {
+		f->face_colors += *f->text.p != '#';
+		e = memchr(f->text.p, '\n', (size_t)(f->text.end - f->text.p));
+		f->text.p = e ? e : f->text.end;
+	}
 	if (n == 3 && mr_build_triangle(&f->b, f->corner[0], f->corner[1], f->corner[2]))
 		return MR_OK;
 	return mr_build_face(&f->b, f->corner, NULL, NULL, (size_t)n);
@@ -268,7 +254,7 @@ text_counts(off *f)
 	size_t left;
 	const char *where;
 
-	skip_comments(&f->text);
+	mr_skip_comments(&f->text);
 	where = f->text.p;
 	MR_TRY(mr_scan_count(&f->text, "the number of vertices", UINT64_MAX / 16, &f->nv));
 	MR_TRY(mr_scan_count(&f->text, "the number of faces", UINT64_MAX / 16, &f->nf));
@@ -293,6 +279,7 @@ read_text(off *f, mr_model *m)
 		MR_TRY(text_vertex(f, i));
 	for (uint64_t i = 0; i < f->nf; i++)
 		MR_TRY(text_face(f));
+	mr_scan_rest(&f->text, f->nf ? "face" : "vertex");
 	return finish(f, m);
 }
 
@@ -344,7 +331,6 @@ binary_vertices(off *f, const unsigned char *p, layout l)
 	size_t floats = floats_per_vertex(f);
 	double x[12] = { 0 };
 
-	f->whole_colors = false;
 	for (size_t i = 0; i < f->b.nv; i++) {
 		const double *at = x;
 		for (size_t k = 0; k < floats; k++)
@@ -381,8 +367,10 @@ binary_faces(off *f, const unsigned char *p, layout l)
 				return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: vertex %u of %zu",
 				    (size_t)((const char *)p - f->text.start), f->corner[k], f->b.nv);
 		}
-		if (l.face_colors)
+		if (l.face_colors) {
+			f->face_colors += mr_load32(p, l.big) > 0;
 			p += 4 + 4 * (size_t)mr_load32(p, l.big);
+		}
 		MR_TRY(mr_build_face(&f->b, f->corner, NULL, NULL, n));
 	}
 	return MR_OK;
