@@ -3,6 +3,7 @@
  * any type in any order, lists, triangle strips.  Numbers of vertices and faces that are nothing to us are
  * kept under their names; other lists and elements are passed over.
  */
+#include "base/text.h"
 #include "formats/format.h"
 
 typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
@@ -29,6 +30,9 @@ typedef enum role {
 	ALPHA,
 	U,
 	V,
+	FROM_X,
+	FROM_Y,
+	FROM_Z,
 	INDICES,
 	UVS,
 	NORMALS,
@@ -68,6 +72,7 @@ typedef struct corner_list {
 	double *value; /* of all faces */
 	size_t count, room;
 	size_t had;      /* the count before the face at hand */
+	size_t odd;      /* faces with as many as make no sense */
 	uint32_t *place; /* of the corners at hand */
 	size_t place_room;
 } corner_list;
@@ -85,11 +90,15 @@ typedef struct ply {
 	size_t indices_count, indices_room;
 	corner_list uv, vn;
 	named_list names[3]; /* of groups, objects, materials */
+	mr_text files;       /* of materials, one a line */
 	double *row;         /* of the row at hand, value by value */
 	size_t row_room;
-	size_t odd_uv;             /* of vertices: not finite */
-	size_t textures, comments; /* that are left out */
-	size_t remarks;            /* comments that are not kept */
+	mr_shades shades[2];                    /* of colours, of alpha */
+	bool told[2];                           /* what is full is known */
+	bool wraps[2];                          /* a negative value is one above 127 */
+	size_t odd_uv, odd_colors, odd_scanner; /* of vertices: not finite */
+	size_t textures, comments;              /* that are left out */
+	size_t remarks;                         /* comments that are not kept */
 } ply;
 
 /* ---- failures ---- */
@@ -173,12 +182,13 @@ role_of(kind k, bool list, const char *w, size_t n)
 		{ VERTEX, false, U, "s" }, { VERTEX, false, V, "t" }, { VERTEX, false, U, "u" },
 		{ VERTEX, false, V, "v" }, { VERTEX, false, U, "texture_u" },
 		{ VERTEX, false, V, "texture_v" }, { VERTEX, false, U, "texture_s" },
-		{ VERTEX, false, V, "texture_t" }, { FACE, true, INDICES, "vertex_indices" },
-		{ FACE, true, INDICES, "vertex_index" }, { FACE, true, UVS, "texcoord" },
-		{ FACE, true, NORMALS, "corner_normal" }, { FACE, false, GROUP, "group" },
-		{ FACE, false, OBJECT, "object" }, { FACE, false, MATERIAL, "material" },
-		{ FACE, false, SMOOTHING, "smoothing" }, { STRIPS, true, INDICES, "vertex_indices" },
-		{ STRIPS, true, INDICES, "vertex_index" } };
+		{ VERTEX, false, V, "texture_t" }, { VERTEX, false, FROM_X, "scanner_x" },
+		{ VERTEX, false, FROM_Y, "scanner_y" }, { VERTEX, false, FROM_Z, "scanner_z" },
+		{ FACE, true, INDICES, "vertex_indices" }, { FACE, true, INDICES, "vertex_index" },
+		{ FACE, true, UVS, "texcoord" }, { FACE, true, NORMALS, "corner_normal" },
+		{ FACE, false, GROUP, "group" }, { FACE, false, OBJECT, "object" },
+		{ FACE, false, MATERIAL, "material" }, { FACE, false, SMOOTHING, "smoothing" },
+		{ STRIPS, true, INDICES, "vertex_indices" }, { STRIPS, true, INDICES, "vertex_index" } };
 
 	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
 		if (roles[i].kind == k && roles[i].list == list && is_word(w, n, roles[i].name))
@@ -276,7 +286,6 @@ static mr_status
 header_comment(ply *f, mr_scan *line)
 {
 	static const char *const words[] = { "group", "object", "material" };
-	mr_lines *files = &f->b.mtllib;
 
 	for (size_t i = 0; i < 3; i++)
 		if (mr_scan_accept(line, words[i])) {
@@ -289,11 +298,7 @@ header_comment(ply *f, mr_scan *line)
 		f->textures++;
 	} else if (mr_scan_accept(line, "mtllib")) {
 		mr_skip_blanks(line);
-		files->text = mr_format(f->ctx, "%s%s%.*s", files->bytes ? files->text : "",
-		    files->bytes ? "\n" : "", (int)(line->end - line->p), line->p);
-		if (!files->text)
-			return MR_EMEM;
-		files->bytes = strlen(files->text);
+		mr_text_add(&f->files, "%s%.*s", f->files.n ? "\n" : "", (int)(line->end - line->p), line->p);
 	} else {
 		f->comments++;
 	}
@@ -332,15 +337,14 @@ demote(element *e, const role *parts, size_t n)
 				e->property[i].role = NONE;
 }
 
-/* Numbers of objects and materials need names, smoothing groups a type without sign. */
+/* Numbers of groups, objects and materials need names, smoothing groups a type without sign: -1 is none. */
 static void
 demote_marks(ply *f, element *e)
 {
 	for (size_t i = 0; i < e->properties; i++) {
 		property *p = &e->property[i];
 		bool whole = p->value == UCHAR || p->value == USHORT || p->value == UINT;
-		if ((p->role == OBJECT && !f->names[1].count) ||
-		    (p->role == MATERIAL && !f->names[2].count) || (p->role == SMOOTHING && !whole))
+		if (p->role >= GROUP && (p->role == SMOOTHING ? !whole : !f->names[p->role - GROUP].count))
 			p->role = NONE;
 	}
 }
@@ -360,12 +364,25 @@ keep_properties(ply *f, kind k)
 	return MR_OK;
 }
 
+/* Lists that go with the corners of their faces, but for their length. */
+static void
+warn_of_lists(ply *f, const corner_list *l, const char *what, int width, size_t *dropped)
+{
+	if (l->odd == 0)
+		return;
+	mr_warn(f->ctx, "the lists %s of %zu faces are left out: they have not %d numbers for each corner",
+	    what, l->odd, width);
+	*dropped = *dropped == MR_UNKNOWN ? l->odd : *dropped + l->odd;
+}
+
 /* What is neither a role's nor a number of a vertex or a face. */
 static void
 warn_of_others(ply *f)
 {
 	if (f->textures)
 		mr_warn(f->ctx, "%zu names of textures (TextureFile) are left out", f->textures);
+	warn_of_lists(f, &f->uv, "texcoord", 2, &f->b.counts->dropped_texcoords);
+	warn_of_lists(f, &f->vn, "corner_normal", 3, &f->b.counts->dropped_normals);
 	if (f->comments)
 		mr_note(f->ctx, "%zu comments are left out", f->comments);
 	for (size_t i = 0; i < f->elements; i++) {
@@ -386,7 +403,7 @@ static mr_status
 choose_properties(ply *f)
 {
 	static const role normals[] = { NX, NY, NZ }, colors[] = { RED, GREEN, BLUE },
-			  alpha[] = { RED, ALPHA }, uv[] = { U, V };
+			  alpha[] = { RED, ALPHA }, uv[] = { U, V }, scanner[] = { FROM_X, FROM_Y, FROM_Z };
 
 	for (size_t i = 0; i < f->elements; i++) {
 		element *e = &f->element[i];
@@ -394,6 +411,7 @@ choose_properties(ply *f)
 			demote(e, normals, 3);
 			demote(e, colors, 3);
 			demote(e, uv, 2);
+			demote(e, scanner, 3);
 			if (!has(e, RED))
 				demote(e, alpha, 2);
 		} else if (e->kind == FACE)
@@ -535,22 +553,50 @@ vertex_arrays(ply *f, const element *e)
 		return MR_EMEM;
 	if (has(e, RED) && !(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
 		return MR_EMEM;
+	if (has(e, FROM_X) && !(f->b.scanner = MR_NEW(f->ctx, f->b.nv, mr_v3)))
+		return MR_EMEM;
 	if (has(e, U) && !(f->b.texcoord = MR_NEW(f->ctx, 2 * f->b.nv, double)))
 		return MR_EMEM;
 	return MR_OK;
 }
 
-/* Floats are shares of one, whole types of their own range. */
-static unsigned char
-color_byte(double x, type t)
+/* Bytes and 16 bits without sign say what is full; before all values are known, the others have the usual. */
+static void
+begin_shades(ply *f, const element *e)
 {
-	double v = t >= FLOAT           ? 255 * x
-	           : t >= INT           ? x
-	           : t >= SHORT         ? x / 257
-	           : t == CHAR && x < 0 ? x + 256
-	                                : x;
+	for (int i = 0; i < 2; i++) {
+		type t = type_of(e, i ? ALPHA : RED);
+		f->shades[i] = (mr_shades){ .full = t == USHORT ? 65535 : t >= FLOAT ? 1 : 255 };
+		f->told[i] = t <= UCHAR || t == USHORT;
+		f->wraps[i] = t == CHAR;
+	}
+}
 
-	return (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
+/* Whether it was not the usual after all. */
+static bool
+mend_shades(ply *f)
+{
+	bool other = false;
+
+	for (int i = 0; i < 2; i++) {
+		double full = f->told[i] ? f->shades[i].full : mr_shade_full(&f->shades[i]);
+		other |= full != f->shades[i].full;
+		f->shades[i].full = full;
+		f->told[i] = true;
+	}
+	return other;
+}
+
+static void
+set_color(ply *f, const double *v, unsigned char *c)
+{
+	f->odd_colors += isnan(v[0] + v[1] + v[2] + v[3]) ? 1 : 0;
+	for (int k = 0; k < 4; k++) {
+		mr_shades *s = &f->shades[k == 3];
+		if (!f->told[k == 3])
+			mr_shade_see(s, v[k]);
+		c[k] = mr_shade_byte(s, f->wraps[k == 3] && v[k] < 0 ? v[k] + 256 : v[k]);
+	}
 }
 
 static mr_status
@@ -580,10 +626,39 @@ read_value(ply *f, const element *e, uint64_t row, size_t i)
 	return next_value(f, t, &f->row[i]);
 }
 
+static size_t
+count_words(mr_scan t)
+{
+	const char *w;
+	size_t n = 0, bytes;
+
+	while (mr_scan_word(&t, &w, &bytes))
+		n++;
+	return n;
+}
+
+/* The row that began at `where` has been read: a number more in its line would move all that follows. */
+static mr_status
+end_row(ply *f, const element *e, const void *where)
+{
+	mr_scan row = { f->ctx, f->text.start, where, f->text.p }, line;
+
+	if (!f->ascii)
+		return MR_OK;
+	mr_skip_blanks(&f->text);
+	if (f->text.p == f->text.end || *f->text.p == '\n')
+		return MR_OK;
+	mr_scan_line(&f->text, &line);
+	return mr_scan_fail(&f->text, line.p, "%zu numbers, where this %s has %zu",
+	    count_words(row) + count_words(line), e->name, count_words(row));
+}
+
 /* Reads a row's values by role; lists are passed over. */
 static mr_status
 read_row(ply *f, const element *e, uint64_t row, double value[ROLES])
 {
+	const void *where = here(f);
+
 	if (!f->ascii && bytes_left(f) < row_bytes(e, false))
 		return early(f, e, row);
 	for (size_t i = 0; i < e->properties; i++) {
@@ -592,7 +667,7 @@ read_row(ply *f, const element *e, uint64_t row, double value[ROLES])
 		if (!p->list)
 			value[p->role] = f->row[i];
 	}
-	return MR_OK;
+	return end_row(f, e, where);
 }
 
 /* Keeps the row at hand as row `at` of the properties. */
@@ -606,44 +681,79 @@ keep_row(ply *f, const element *e, size_t at)
 }
 
 static mr_status
+read_vertex(ply *f, const element *e, size_t i, double v[ROLES])
+{
+	const void *where = here(f);
+
+	MR_TRY(read_row(f, e, i, v));
+	f->b.p[i] = mr_vec(v[X], v[Y], v[Z]);
+	if (!mr_finite(f->b.p[i]))
+		return bad(f, where, "position %zu (%g %g %g) is not finite", i, v[X], v[Y], v[Z]);
+	if (f->b.normal)
+		f->b.normal[i] = mr_vec(v[NX], v[NY], v[NZ]);
+	if (f->b.scanner) {
+		f->b.scanner[i] = mr_vec(v[FROM_X], v[FROM_Y], v[FROM_Z]);
+		f->odd_scanner += !mr_finite(f->b.scanner[i]);
+	}
+	if (f->b.color)
+		set_color(f, v + RED, f->b.color + 4 * i);
+	if (f->b.texcoord) {
+		f->b.texcoord[2 * i] = v[U];
+		f->b.texcoord[2 * i + 1] = v[V];
+		f->odd_uv += !isfinite(v[U]) || !isfinite(v[V]);
+	}
+	return keep_row(f, e, i);
+}
+
+static mr_status
+read_vertex_rows(ply *f, const element *e)
+{
+	double v[ROLES] = { 0 };
+
+	f->odd_colors = f->odd_uv = f->odd_scanner = 0;
+	f->shades[0].clipped = f->shades[1].clipped = 0;
+	v[ALPHA] = 1; /* where there is none */
+	for (size_t i = 0; i < f->b.nv; i++)
+		MR_TRY(read_vertex(f, e, i, v));
+	return MR_OK;
+}
+
+/* Columns that are left out as a whole where one of their values is no number. */
+static void
+finish_vertices(ply *f)
+{
+	mr_import_result *counts = f->b.counts;
+	size_t scanners; /* that are left out, which nobody counts */
+
+	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &counts->dropped_normals))
+		f->b.normal = NULL;
+	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors", &counts->dropped_colors))
+		f->b.color = NULL;
+	for (int i = 0; f->b.color && i < 2; i++)
+		mr_shades_said(f->ctx, &f->shades[i]);
+	if (!mr_all_left(f->ctx, f->odd_scanner, f->b.nv, "places of the scanner", &scanners))
+		f->b.scanner = NULL;
+}
+
+/* Where the values of colours tell that they are not of the usual kind, they are read again. */
+static mr_status
 read_vertices(ply *f, const element *e)
 {
-	type color = type_of(e, RED), alpha = type_of(e, ALPHA);
-	size_t odd_colors = 0;
-	double v[ROLES] = { 0 };
+	const unsigned char *binary = f->p;
+	const char *text = f->text.p;
 
 	if (!has(e, X) || !has(e, Y) || !has(e, Z))
 		return bad(f, here(f), "element vertex lacks x, y or z");
 	MR_TRY(begin_rows(f, e));
 	MR_TRY(vertex_arrays(f, e));
-	v[ALPHA] = !has(e, ALPHA) || alpha >= FLOAT ? 1 : 255;
-	for (size_t i = 0; i < f->b.nv; i++) {
-		const void *where = here(f);
-		MR_TRY(read_row(f, e, i, v));
-		f->b.p[i] = mr_vec(v[X], v[Y], v[Z]);
-		if (!mr_finite(f->b.p[i]))
-			return bad(f, where, "position %zu (%g %g %g) is not finite", i, v[X], v[Y], v[Z]);
-		MR_TRY(keep_row(f, e, i));
-		if (f->b.normal)
-			f->b.normal[i] = mr_vec(v[NX], v[NY], v[NZ]);
-		if (f->b.color) {
-			unsigned char *c = f->b.color + 4 * i;
-			odd_colors += isnan(v[RED] + v[GREEN] + v[BLUE] + v[ALPHA]) ? 1 : 0;
-			c[0] = color_byte(v[RED], color);
-			c[1] = color_byte(v[GREEN], color);
-			c[2] = color_byte(v[BLUE], color);
-			c[3] = has(e, ALPHA) ? color_byte(v[ALPHA], alpha) : 255;
-		}
-		if (f->b.texcoord) {
-			f->b.texcoord[2 * i] = v[U];
-			f->b.texcoord[2 * i + 1] = v[V];
-			f->odd_uv += !isfinite(v[U]) || !isfinite(v[V]);
-		}
+	begin_shades(f, e);
+	MR_TRY(read_vertex_rows(f, e));
+	if (f->b.color && mend_shades(f)) {
+		f->p = binary;
+		f->text.p = text;
+		MR_TRY(read_vertex_rows(f, e));
 	}
-	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &f->b.counts->dropped_normals))
-		f->b.normal = NULL;
-	if (!mr_all_left(f->ctx, odd_colors, f->b.nv, "colors", &f->b.counts->dropped_colors))
-		f->b.color = NULL;
+	finish_vertices(f);
 	return MR_OK;
 }
 
@@ -707,6 +817,7 @@ places_of(ply *f, corner_list *l, size_t width, const uint32_t **places)
 
 	*places = NULL;
 	if (l->count - l->had != width * n) {
+		l->odd += l->count > l->had;
 		l->count = l->had;
 		return MR_OK;
 	}
@@ -792,6 +903,7 @@ static mr_status
 read_face(ply *f, const element *e, uint64_t row)
 {
 	size_t faces = f->b.faces;
+	const void *begin = here(f);
 
 	for (size_t i = 0; i < e->properties; i++) {
 		const property *p = &e->property[i];
@@ -805,6 +917,7 @@ read_face(ply *f, const element *e, uint64_t row)
 		if (p->role >= GROUP)
 			MR_TRY(set_mark(f, p->role, f->row[i], where));
 	}
+	MR_TRY(end_row(f, e, begin));
 	MR_TRY(add_face(f, e->kind));
 	return f->b.faces > faces ? keep_row(f, e, faces) : MR_OK;
 }
@@ -861,6 +974,9 @@ read_elements(ply *f)
 		return mr_fail(f->ctx, MR_EMESH, "ply without a vertex");
 	MR_TRY(read_vertices(f, &f->element[vertices]));
 	MR_TRY(read_until_vertices(f, vertices + 1, true, &end));
+	if (!f->ascii)
+		f->text.p = (const char *)f->p;
+	mr_scan_rest(&f->text, "row");
 	f->p = binary;
 	f->text.p = text;
 	return read_until_vertices(f, 0, true, &end);
@@ -874,9 +990,12 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		.end = data + size,
 		.text = mr_scan_of(ctx, data, size),
 		.ascii = true,
+		.files = { .ctx = ctx },
 		.b = { .ctx = ctx, .counts = &m->counts } };
 
 	MR_TRY(read_header(&f));
+	MR_TRY(mr_text_done(&f.files));
+	f.b.mtllib = (mr_lines){ f.files.s, f.files.n };
 	MR_TRY(read_elements(&f));
 	if (!mr_all_left(ctx, f.odd_uv, f.b.nv, "texcoords", &f.b.counts->dropped_texcoords))
 		f.b.texcoord = NULL;

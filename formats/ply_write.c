@@ -180,6 +180,9 @@ put_vertex_lines(const output *w)
 		    "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar alpha\n");
 	if (m->texcoord)
 		mr_print(s, "property double s\nproperty double t\n");
+	if (m->scanner)
+		mr_print(
+		    s, "property double scanner_x\nproperty double scanner_y\nproperty double scanner_z\n");
 	put_property_lines(w, 'v');
 }
 
@@ -241,6 +244,8 @@ put_vertex(const output *w, size_t i)
 		mr_sink_fill(w->s, number(mr_sink_room(w->s), m->color[4 * i + k], UCHAR, w->order));
 	if (m->texcoord)
 		put_numbers(w, m->texcoord + 2 * i, 2);
+	if (m->scanner)
+		put_numbers(w, &m->scanner[i].x, 3);
 	put_properties(w, 'v', i);
 	end_row(w);
 }
