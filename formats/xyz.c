@@ -4,7 +4,8 @@
  * where all are whole numbers of 0 to 255 and some beyond 1; 7 intensity and colour, or colour and something;
  * 9 and more colour and normal in either order.  Other columns are properties, by their names; without names
  * the fourth of four or of seven with a colour behind is intensity.  A first line with one whole number is
- * the number of points; twice as many rows of three are points, then normals.
+ * the number of points, behind which those of another cloud may stand in the same way; twice as many rows of
+ * three are points, then normals.
  */
 #include "formats/format.h"
 
@@ -21,9 +22,11 @@ typedef struct table {
 	uint64_t count; /* as the file claims */
 	size_t columns, rows;
 	role role[COLUMNS];
-	bool byte[COLUMNS]; /* every value a whole number of 0 to 255 */
-	bool beyond_one[COLUMNS];
-	bool says[COLUMNS];    /* a value is not 0, as those are that fill up a column */
+	mr_shades seen[COLUMNS];
+	bool negative[COLUMNS]; /* has a value that is */
+	size_t color[4];        /* columns of red, green, blue, alpha */
+	mr_shades shades[2];    /* of all four, of alpha */
+	size_t odd_colors;
 	const char *first_row; /* for sentences */
 	const char *name[COLUMNS];
 	size_t name_bytes[COLUMNS];
@@ -37,11 +40,15 @@ separates(char c)
 	return mr_is_blank(c) || c == ',' || c == ';';
 }
 
-static void
+/* Goes on to the next cell; how many commas and semicolons stand before it: with two, one is empty. */
+static size_t
 skip_separators(mr_scan *line)
 {
-	while (line->p < line->end && separates(*line->p))
-		line->p++;
+	size_t commas = 0;
+
+	for (; line->p < line->end && separates(*line->p); line->p++)
+		commas += !mr_is_blank(*line->p);
+	return commas;
 }
 
 static bool
@@ -94,8 +101,13 @@ names(mr_scan line, role r[COLUMNS], const char *name[COLUMNS], size_t bytes[COL
 	bool there[ROLES] = { false };
 	size_t n = 0;
 
-	for (skip_separators(&line); line.p < line.end && n < COLUMNS; skip_separators(&line)) {
-		const char *w = line.p, *e;
+	for (;;) {
+		const char *w, *e;
+		for (size_t commas = skip_separators(&line); commas > (n > 0) && n < COLUMNS; commas--)
+			r[n] = SKIP, name[n] = line.p, bytes[n++] = 0;
+		if (line.p == line.end || n == COLUMNS)
+			break;
+		w = line.p;
 		if (*w == '"') {
 			w++;
 			e = memchr(w, '"', (size_t)(line.end - w));
@@ -137,9 +149,14 @@ row_values(const table *t, mr_scan *line, double x[COLUMNS], size_t *count)
 {
 	size_t n = 0;
 
-	for (skip_separators(line); line->p < line->end && *line->p != '#'; skip_separators(line)) {
+	for (;;) {
 		double value;
-		const char *e = mr_real_read(line->p, line->end, &value);
+		const char *e;
+		if (skip_separators(line) > (n > 0))
+			return mr_scan_fail(&t->text, line->p, "column %zu is empty", n + 1);
+		if (line->p == line->end || *line->p == '#')
+			break;
+		e = mr_real_read(line->p, line->end, &value);
 		if (!e || (e < line->end && !separates(*e))) {
 			for (e = line->p; e < line->end && !separates(*e); e++)
 				;
@@ -173,33 +190,25 @@ is_one_count(mr_scan line, uint64_t *n)
 	return true;
 }
 
-/* The lines before the rows: comments that name columns, names, a count. */
+/* The lines before the rows: comments that name columns, names, a count, in either order. */
 static mr_status
 read_head(table *t)
 {
 	mr_scan ahead = t->text, line;
 
-	while (mr_scan_line(&ahead, &line)) {
+	for (; mr_scan_line(&ahead, &line); t->text.p = ahead.p) {
 		mr_skip_blanks(&line);
 		if (is_comment(&line)) {
-			mr_scan rest = line;
-			while (rest.p < rest.end && (*rest.p == '#' || *rest.p == '/'))
-				rest.p++;
-			t->columns = names(rest, t->role, t->name, t->name_bytes);
-			t->named = t->in_comment = t->columns > 0;
-			if (!t->named) {
-				t->text.p = ahead.p;
-				continue;
-			}
-		} else if (is_one_count(line, &t->count))
+			while (line.p < line.end && (*line.p == '#' || *line.p == '/'))
+				line.p++;
+			if (!t->named)
+				t->columns = names(line, t->role, t->name, t->name_bytes);
+			t->in_comment = t->in_comment || (!t->named && t->columns > 0);
+		} else if (!t->counted && is_one_count(line, &t->count))
 			t->counted = true;
-		else if ((t->columns = names(line, t->role, t->name, t->name_bytes)) > 0)
-			t->named = true;
-		else
-			return MR_OK;
-		t->text.p = ahead.p;
-		if (t->named)
-			return MR_OK;
+		else if (t->named || !(t->columns = names(line, t->role, t->name, t->name_bytes)))
+			break;
+		t->named = t->columns > 0;
 	}
 	return MR_OK;
 }
@@ -228,6 +237,32 @@ decimal_comma(mr_scan line)
 	return words > 1 ? found : NULL;
 }
 
+/* Words that are no names we know are one with blanks in it, where that makes as many as there are columns.
+ */
+static void
+join_names(table *t, size_t columns)
+{
+	size_t first = 0, runs = 0, length = 0, more = t->columns - columns, rest;
+
+	for (size_t i = 0; i < t->columns; i++) {
+		if (t->role[i] != SKIP)
+			continue;
+		if (i == 0 || t->role[i - 1] != SKIP) {
+			first = i;
+			runs++;
+		}
+		length++;
+	}
+	if (runs != 1 || length != more + 1)
+		return;
+	t->name_bytes[first] = (size_t)(t->name[first + more] + t->name_bytes[first + more] - t->name[first]);
+	rest = columns - first - 1;
+	memmove(t->role + first + 1, t->role + first + length, rest * sizeof *t->role);
+	memmove(t->name + first + 1, t->name + first + length, rest * sizeof *t->name);
+	memmove(t->name_bytes + first + 1, t->name_bytes + first + length, rest * sizeof *t->name_bytes);
+	t->columns = columns;
+}
+
 /* What is told of the columns by the first row. */
 static mr_status
 begin_rows(table *t, const mr_scan *row, size_t n)
@@ -246,12 +281,29 @@ begin_rows(table *t, const mr_scan *row, size_t n)
 	}
 	if (n < 3)
 		return mr_scan_fail(&t->text, row->p, "%zu columns, where a point has 3 at least", n);
-	if (t->in_comment && n != t->columns)
+	if (t->named && n < t->columns)
+		join_names(t, n);
+	if (t->in_comment && n != t->columns) {
+		mr_warn(t->ctx, "a comment names %zu columns, where rows have %zu: its names are not used",
+		    t->columns, n);
 		t->named = false;
+	}
 	if (t->named && n != t->columns)
 		return mr_scan_fail(&t->text, row->p, "%zu columns, where %zu are named", n, t->columns);
 	t->columns = n;
 	return MR_OK;
+}
+
+/* Another cloud of the file: behind as many rows as were counted stands the number of more. */
+static bool
+begins_another(table *t, mr_scan row)
+{
+	uint64_t more;
+
+	if (!t->counted || t->rows != t->count || !is_one_count(row, &more))
+		return false;
+	t->count += more;
+	return true;
 }
 
 /* Looks at all rows: how many, of how many columns, and which could be colours. */
@@ -262,20 +314,19 @@ survey(table *t)
 	double x[COLUMNS] = { 0 };
 	size_t n = 0;
 
-	for (size_t i = 0; i < COLUMNS; i++)
-		t->byte[i] = true;
 	while (next_row(&text, &line)) {
 		const mr_scan row = line;
 		MR_TRY(row_values(t, &line, x, &n));
+		if (n == 1 && begins_another(t, row))
+			continue;
 		if (t->rows == 0)
 			MR_TRY(begin_rows(t, &row, n));
 		if (n != t->columns)
 			return mr_scan_fail(&t->text, row.p, "%zu columns, where line %zu has %zu", n,
 			    mr_line_number(&t->text, t->first_row), t->columns);
-		for (size_t i = 3; i < n; i++) {
-			t->byte[i] = t->byte[i] && x[i] >= 0 && x[i] <= 255 && x[i] == floor(x[i]);
-			t->beyond_one[i] = t->beyond_one[i] || x[i] > 1;
-			t->says[i] = t->says[i] || x[i] != 0;
+		for (size_t i = 0; i < n; i++) {
+			mr_shade_see(&t->seen[i], x[i]);
+			t->negative[i] = t->negative[i] || x[i] < 0;
 		}
 		t->rows++;
 	}
@@ -285,11 +336,23 @@ survey(table *t)
 	return MR_OK;
 }
 
+/* Every value a whole number of 0 to 255. */
+static bool
+is_byte(const table *t, size_t i)
+{
+	return !t->seen[i].broken && !t->negative[i] && t->seen[i].most <= 255;
+}
+
+static bool
+are_bytes(const table *t, size_t i)
+{
+	return is_byte(t, i) && is_byte(t, i + 1) && is_byte(t, i + 2);
+}
+
 static bool
 could_be_color(const table *t, size_t i)
 {
-	return t->byte[i] && t->byte[i + 1] && t->byte[i + 2] &&
-	       (t->beyond_one[i] || t->beyond_one[i + 1] || t->beyond_one[i + 2]);
+	return are_bytes(t, i) && (t->seen[i].most > 1 || t->seen[i + 1].most > 1 || t->seen[i + 2].most > 1);
 }
 
 static void
@@ -309,8 +372,7 @@ guess_roles(table *t)
 	assign(t, 0, X);
 	if (n == 6)
 		assign(t, 3, could_be_color(t, 3) ? RED : NX);
-	else if (n == 7 && (t->counted ? t->byte[4] && t->byte[5] && t->byte[6]
-				       : could_be_color(t, 4) && !could_be_color(t, 3)))
+	else if (n == 7 && (t->counted ? are_bytes(t, 4) : could_be_color(t, 4) && !could_be_color(t, 3)))
 		assign(t, 4, RED);
 	else if (n == 7 && could_be_color(t, 3))
 		assign(t, 3, RED);
@@ -366,30 +428,52 @@ is_part(const table *t, role r)
 	return r != SKIP && (r <= Z || has_three(t, r <= NZ ? NX : RED));
 }
 
+/* A value is not 0, as those are that fill up a column. */
+static bool
+says(const table *t, size_t i)
+{
+	return t->seen[i].most > 0 || t->negative[i] || t->seen[i].broken;
+}
+
 static mr_status
 begin_properties(table *t)
 {
 	const char *name;
 
 	for (size_t i = 0; i < t->columns; i++)
-		if (!is_part(t, t->role[i]) && t->says[i]) {
+		if (!is_part(t, t->role[i]) && says(t, i)) {
 			MR_TRY(name_of(t, i, &name));
 			MR_TRY(mr_build_property(&t->properties, name, "double", 'v', &t->property[i]));
 		}
 	return MR_OK;
 }
 
-/* In 255ths where the columns are whole, else in shares of one. */
-static unsigned char
-color_byte(const table *t, const double *x, role r)
+/* Columns that no names call colours are so because they are of 0 to 255. */
+static void
+begin_colors(table *t)
 {
-	size_t red = column_of(t, RED), at = column_of(t, r);
-	bool shares = !(t->byte[red] && t->byte[column_of(t, GREEN)] && t->byte[column_of(t, BLUE)]) &&
-	              !(t->beyond_one[red] || t->beyond_one[column_of(t, GREEN)] ||
-			  t->beyond_one[column_of(t, BLUE)]);
-	double v = at == COLUMNS ? 255 : shares ? 255 * x[at] : x[at];
+	for (size_t k = 0; k < 4; k++) {
+		size_t at = t->color[k] = column_of(t, (role)(RED + k));
+		for (mr_shades *s = t->shades; at < COLUMNS && s <= &t->shades[k == 3]; s++) {
+			s->most = fmax(s->most, t->seen[at].most);
+			s->broken |= t->seen[at].broken;
+		}
+	}
+	for (size_t k = 0; k < 2; k++)
+		t->shades[k].full = t->named ? mr_shade_full(&t->shades[k]) : 255;
+}
 
-	return (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
+static void
+set_color(table *t, const double *x, unsigned char *c)
+{
+	bool odd = false;
+
+	for (size_t k = 0; k < 4; k++) {
+		size_t at = t->color[k];
+		c[k] = at == COLUMNS ? 255 : mr_shade_byte(&t->shades[k == 3], x[at]);
+		odd |= at < COLUMNS && isnan(x[at]);
+	}
+	t->odd_colors += odd;
 }
 
 static mr_v3
@@ -427,16 +511,18 @@ fill(table *t, mr_v3 *p, mr_v3 *normal, unsigned char *color)
 	double x[COLUMNS] = { 0 };
 	size_t n = 0;
 
-	for (size_t i = 0; next_row(&text, &line); i++) {
+	for (size_t i = 0; next_row(&text, &line); i += n > 1) {
 		const char *where = line.p;
 		MR_TRY(row_values(t, &line, x, &n));
+		if (n == 1) /* the count of another cloud */
+			continue;
 		p[i] = three(t, x, X);
 		if (!mr_finite(p[i]))
 			return mr_scan_fail(&t->text, where, "a coordinate is not finite");
 		if (normal)
 			normal[i] = three(t, x, NX);
-		for (size_t k = 0; color && k < 4; k++)
-			color[4 * i + k] = color_byte(t, x, (role)(RED + (role)k));
+		if (color)
+			set_color(t, x, color + 4 * i);
 		for (size_t k = 0; k < t->columns; k++)
 			if (t->property[k])
 				MR_TRY(mr_build_value(&t->properties, t->property[k], i, x[k]));
@@ -461,7 +547,12 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	    (has_three(&t, RED) && !(color = mr_alloc(ctx, t.rows, 4))))
 		return MR_EMEM;
 	MR_TRY(begin_properties(&t));
+	begin_colors(&t);
 	MR_TRY(fill(&t, p, normal, color));
+	if (color && !mr_all_left(ctx, t.odd_colors, t.rows, "colors", &m->counts.dropped_colors))
+		color = NULL;
+	for (int i = 0; color && i < 2; i++)
+		mr_shades_said(ctx, &t.shades[i]);
 	n = halves(&t) ? t.rows / 2 : t.rows;
 	if (halves(&t))
 		normal = p + n;
