@@ -119,6 +119,9 @@ enum {
 };
 void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
 
+/* The same of alpha, which colours of `what` have not. */
+void mr_note_alpha(mr_sink *s, const mr_model *m, const char *what);
+
 /* The model's faces, polygons as they were; says and counts those that no longer are. */
 mr_status mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces) MR_WARN_UNUSED;
 

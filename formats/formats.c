@@ -559,6 +559,17 @@ mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 		mr_warn(s->ctx, "%s dropped: the format has no place for them", names);
 }
 
+void
+mr_note_alpha(mr_sink *s, const mr_model *m, const char *what)
+{
+	for (size_t i = 0; m->color && i < m->nv; i++)
+		if (m->color[4 * i + 3] < 255) {
+			mr_warn(s->ctx, "alpha dropped: colours of %s have none", what);
+			s->lost.dropped_alpha = 1;
+			return;
+		}
+}
+
 mr_status
 mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces)
 {

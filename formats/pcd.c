@@ -31,6 +31,8 @@ typedef struct pcd {
 	mr_v3 viewpoint;
 	mr_builder properties;
 	const field *of[ROLES];
+	bool alpha;     /* the colour is rgba */
+	size_t surplus; /* rows of text that have numbers of no field */
 } pcd;
 
 /* ---- the header ---- */
@@ -124,10 +126,16 @@ type_of(const field *d)
 	return d->size == 8 ? "double" : whole[d->type == 'U'][d->size / 2];
 }
 
-/* A field that we do not know is a property; "_" is none, but fills up. */
+/* A field that we do not know is a property, and so is one that cannot be four bytes; "_" is none, but fills
+ * up. */
 static mr_status
 keep_field(pcd *f, field *d)
 {
+	if (d->role == RGB && d->size != 4) {
+		mr_warn(
+		    f->ctx, "field %s is no colour, but a number: it has %u bytes, not 4", d->name, d->size);
+		d->role = SKIP;
+	}
 	if (d->role != SKIP || !strcmp(d->name, "_"))
 		return MR_OK;
 	if (d->count == 1)
@@ -169,6 +177,7 @@ check_header(pcd *f)
 	}
 	if (f->binary)
 		f->stride = offset;
+	f->alpha = f->of[RGB] && !strcmp(f->of[RGB]->name, "rgba") && f->of[RGB]->type != 'F';
 	if (!f->of[X] || !f->of[Y] || !f->of[Z])
 		return mr_scan_fail(&f->text, f->text.p, "the fields lack x, y or z");
 	if (!f->has_points)
@@ -302,7 +311,7 @@ color_bits(double value, const field *d)
 	uint32_t bits;
 
 	if (d->type != 'F')
-		return value >= 0 && value < 4294967296.0 ? (uint32_t)value : 0;
+		return value >= -2147483648.0 && value < 4294967296.0 ? (uint32_t)(int64_t)value : 0;
 	memcpy(&bits, &f, sizeof bits);
 	return bits;
 }
@@ -343,7 +352,7 @@ read_binary(pcd *f, uint64_t i, size_t row, double value[ROLES], uint32_t *rgb)
 		if (!is_wanted(f, d))
 			continue;
 		if (d->role == RGB)
-			*rgb = d->size == 4 ? mr_load32(at, false) : 0;
+			*rgb = mr_load32(at, false);
 		else
 			value[d->role] = binary_value(at, d);
 		MR_TRY(take_property(f, d, row, value[d->role]));
@@ -370,6 +379,8 @@ read_text(pcd *f, size_t row, double value[ROLES], uint32_t *rgb)
 				value[d->role] = x;
 			MR_TRY(take_property(f, d, row, x));
 		}
+	mr_skip_blanks(&line);
+	f->surplus += line.p < line.end;
 	if (f->of[RGB])
 		*rgb = color_bits(value[RGB], f->of[RGB]);
 	return MR_OK;
@@ -398,13 +409,38 @@ read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count
 			normal[n] = mr_vec(v[NX], v[NY], v[NZ]);
 		if (color) {
 			unsigned char c[4] = { (unsigned char)(rgb >> 16), (unsigned char)(rgb >> 8),
-				(unsigned char)rgb, 255 };
+				(unsigned char)rgb, f->alpha ? (unsigned char)(rgb >> 24) : 255 };
 			memcpy(color + 4 * n, c, 4);
 		}
 		n++;
 	}
 	*count = n;
 	return MR_OK;
+}
+
+/* Says what stands where no field or no point is. */
+static void
+warn_of_rest(pcd *f)
+{
+	const unsigned char *p = (const unsigned char *)f->text.p;
+
+	if (f->surplus)
+		mr_warn(
+		    f->ctx, "numbers behind %zu points left out: the fields are %zu", f->surplus, f->stride);
+	if (f->packed)
+		f->text.p += 8 + mr_load32(p, false);
+	mr_scan_rest(&f->text, "point");
+}
+
+/* Where no point can be seen, alpha was not told. */
+static void
+mend_alpha(unsigned char *color, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		if (color[4 * i + 3])
+			return;
+	for (size_t i = 0; i < n; i++)
+		color[4 * i + 3] = 255;
 }
 
 mr_status
@@ -425,6 +461,9 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	    (f.of[RGB] && !(color = mr_alloc(ctx, (size_t)f.points, 4))))
 		return MR_EMEM;
 	MR_TRY(read_points(&f, p, normal, color, &n));
+	warn_of_rest(&f);
+	if (color)
+		mend_alpha(color, n);
 	if (n < f.points)
 		mr_note(ctx, "%llu points that are not finite left out", (unsigned long long)f.points - n);
 	m->counts.points_left_out = (size_t)f.points - n;

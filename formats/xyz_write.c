@@ -13,6 +13,7 @@ mr_status
 mr_xyz_write(mr_sink *s, const mr_model *m)
 {
 	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
+	mr_note_alpha(s, m, "XYZ");
 	if (m->color)
 		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
 	for (size_t i = 0; i < m->nv; i++) {
@@ -29,6 +30,7 @@ mr_status
 mr_pts_write(mr_sink *s, const mr_model *m)
 {
 	mr_note_lost(s, m, MR_KEEPS_COLOR);
+	mr_note_alpha(s, m, "PTS");
 	mr_print(s, "%zu\n", m->nv);
 	for (size_t i = 0; i < m->nv; i++) {
 		mr_put_reals(s, &m->p[i].x, 3, m->color ? ' ' : '\n');
