@@ -3,6 +3,7 @@
  * offset; colours of 16 bits in some of the point formats.  Compressed files (LAZ) are refused.  What else a
  * point has is a property, unless it is 0 for all of them, as it is where a scanner did not tell.
  */
+#include "base/text.h"
 #include "formats/format.h"
 
 enum { SHORTEST_HEADER = 227, FORMATS = 11 };
@@ -160,6 +161,39 @@ read_fields(mr_ctx *ctx, const unsigned char *data, const las *l, mr_model *m)
 	return mr_build_properties(&b, m);
 }
 
+/* Records from byte `at` to `end`, whose length has `width` bytes; whether one says where on Earth the points
+ * are. */
+static size_t
+count_records(const unsigned char *d, uint64_t at, size_t end, uint64_t most, unsigned width, bool *place)
+{
+	const size_t head = 52 + width;
+	size_t n = 0;
+
+	for (; n < most && at <= end && end - at >= head; n++) {
+		uint64_t bytes = width == 8 ? mr_load64(d + at + 20, false) : mr_load16(d + at + 20, false);
+		*place |= !memcmp(d + at + 2, "LASF_Projection", 15);
+		if (bytes > end - at - head)
+			return n + 1;
+		at += head + bytes;
+	}
+	return n;
+}
+
+/* Variable length records stand before the points and, by version 1.4, behind them. */
+static void
+warn_of_records(mr_ctx *ctx, const unsigned char *d, size_t size, const las *l)
+{
+	bool place = false;
+	size_t n = count_records(
+	    d, mr_load16(d + 94, false), l->offset, mr_load32(d + 100, false), 2, &place);
+
+	if (d[25] >= 4 && size >= 247)
+		n += count_records(d, mr_load64(d + 235, false), size, mr_load32(d + 243, false), 8, &place);
+	if (n)
+		mr_warn(ctx, "%zu variable length record%s left out%s", n, mr_plural(n),
+		    place ? ", the coordinate system among them" : "");
+}
+
 mr_status
 mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
@@ -187,6 +221,7 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 									shift);
 	}
 	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color, .counts = m->counts };
+	warn_of_records(ctx, data, size, &l);
 	return read_fields(ctx, data, &l, m);
 }
 

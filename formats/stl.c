@@ -32,6 +32,26 @@ mr_stl_is_binary(const unsigned char *data, size_t size)
 	       (size - HEADER) / RECORD == mr_load32(data + 80, false);
 }
 
+/* Two bytes of each triangle, and words of the header, which some programs use for colours. */
+static void
+warn_of_attributes(mr_ctx *ctx, const unsigned char *data, size_t n)
+{
+	static const char *const words[] = { "COLOR=", "MATERIAL=" };
+	size_t used = 0;
+
+	for (size_t i = 0; i < n; i++)
+		used += mr_load16(data + HEADER + (i + 1) * RECORD - 2, false) != 0;
+	if (used)
+		mr_warn(
+		    ctx, "attribute bytes of %zu of %zu triangles, such as colors, are left out", used, n);
+	for (size_t k = 0; k < 2; k++)
+		for (size_t i = 0, bytes = strlen(words[k]); i + bytes <= 80; i++)
+			if (!memcmp(data + i, words[k], bytes)) {
+				mr_warn(ctx, "%s of the header is left out", words[k]);
+				break;
+			}
+}
+
 static mr_status
 read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
@@ -57,6 +77,7 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		if (!mr_finite(p[i]))
 			return mr_fail(ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", at);
 	}
+	warn_of_attributes(ctx, data, n);
 	MR_TRY(join_corners(ctx, p, 3 * n, corner, &m->nv));
 	m->p = p;
 	m->t = (const mr_tri *)corner;
@@ -179,8 +200,6 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	for (size_t i = 0; i < a.b.corners; i++)
 		a.b.corner[i] = map[a.b.corner[i]];
 	a.b.nv = nv;
-	if (a.solids < 2)
-		a.b.marks[MR_GROUP].used = false; /* one name for all says nothing of the faces */
 	return mr_build_finish(&a.b, m);
 }
 
@@ -246,11 +265,11 @@ unit_normal(const mr_model *m, size_t f)
 }
 
 static mr_status
-need_faces(mr_sink *s, const mr_model *m)
+need_faces(mr_sink *s, const mr_model *m, unsigned keeps)
 {
 	if (m->nf == 0)
 		return mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
-	mr_note_lost(s, m, MR_KEEPS_FACES);
+	mr_note_lost(s, m, MR_KEEPS_FACES | keeps);
 	return MR_OK;
 }
 
@@ -267,7 +286,7 @@ mr_stl_write(mr_sink *s, const mr_model *m)
 {
 	char header[80] = "binary STL";
 
-	MR_TRY(need_faces(s, m));
+	MR_TRY(need_faces(s, m, 0));
 	MR_TRY(mr_note_rounded(s, m));
 	mr_put(s, header, sizeof header);
 	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)m->nf, false));
@@ -282,22 +301,52 @@ mr_stl_write(mr_sink *s, const mr_model *m)
 	return MR_OK;
 }
 
+static void
+put_facet(mr_sink *s, const mr_model *m, size_t f)
+{
+	mr_v3 n = unit_normal(m, f);
+
+	mr_print(s, "facet normal ");
+	mr_put_reals(s, (double[]){ mr_as_float(n.x), mr_as_float(n.y), mr_as_float(n.z) }, 3, '\n');
+	mr_print(s, "outer loop\n");
+	for (int k = 0; k < 3; k++) {
+		mr_put(s, "vertex ", 7);
+		mr_put_reals(s, &m->p[m->t[f].v[k]].x, 3, '\n');
+	}
+	mr_print(s, "endloop\nendfacet\n");
+}
+
+/* "solid" or "endsolid" with the name of the face's group, of those that there are. */
+static void
+put_solid(mr_sink *s, const char *what, const mr_model *m, size_t f, const char *const *start, size_t names)
+{
+	uint32_t group = m->group ? m->group[f] : 0;
+
+	mr_put(s, what, strlen(what));
+	if (m->group && group < names) {
+		mr_put(s, " ", 1);
+		mr_put(s, start[group], (size_t)(start[group + 1] - start[group] - 1));
+	} else if (m->group)
+		mr_print(s, " group%u", (unsigned)group);
+	mr_put(s, "\n", 1);
+}
+
+/* Faces that follow each other in a group are a solid of its name. */
 mr_status
 mr_stl_write_ascii(mr_sink *s, const mr_model *m)
 {
-	MR_TRY(need_faces(s, m));
-	mr_print(s, "solid mr\n");
+	const char **start = NULL;
+	size_t names = 0;
+
+	MR_TRY(need_faces(s, m, MR_KEEPS_GROUP));
+	if (m->group)
+		MR_TRY(mr_lines_starts(s->ctx, m->groups, &start, &names));
 	for (size_t f = 0; f < m->nf; f++) {
-		mr_v3 n = unit_normal(m, f);
-		mr_print(s, "facet normal ");
-		mr_put_reals(s, (double[]){ mr_as_float(n.x), mr_as_float(n.y), mr_as_float(n.z) }, 3, '\n');
-		mr_print(s, "outer loop\n");
-		for (int k = 0; k < 3; k++) {
-			mr_put(s, "vertex ", 7);
-			mr_put_reals(s, &m->p[m->t[f].v[k]].x, 3, '\n');
-		}
-		mr_print(s, "endloop\nendfacet\n");
+		if (f == 0 || (m->group && m->group[f] != m->group[f - 1]))
+			put_solid(s, "solid", m, f, start, names);
+		put_facet(s, m, f);
+		if (f + 1 == m->nf || (m->group && m->group[f] != m->group[f + 1]))
+			put_solid(s, "endsolid", m, f, start, names);
 	}
-	mr_print(s, "endsolid mr\n");
 	return MR_OK;
 }

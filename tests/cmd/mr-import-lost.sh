@@ -153,3 +153,57 @@ f 2/1/1 5/2/1 3/3/1
 f 5/1/2 3/2/2 6/3/2
 X
 mr-import --repair turned.obj | mr-export -f obj - | grep '^[vf][nt ]'
+
+echo '-- what an STL has beside triangles' >&2
+python3 - <<'END'
+import struct
+facet = lambda i, color: struct.pack("<12fH", 0, 0, 1, i, 0, 0, i + 1, 0, 0, i, 1, 0, color)
+open("colors.stl", "wb").write(b"COLOR=\1\2\3\4,MATERIAL=\1\2\3".ljust(80) + struct.pack("<I", 3) + facet(0, 0) + facet(1, 7) + facet(2, 7))
+END
+mr-import colors.stl | mr-export -f stl-ascii - | grep solid
+printf 'solid a part\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n' >part.stl
+mr-import part.stl | mr-export -f stl-ascii - | grep solid
+
+echo '-- colours of faces of an OFF' >&2
+printf 'OFF\n3 2 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 255 0 0\n3 2 1 0 # none\n' | mr-import --stats - 2>&1 >/dev/null | sed 's/.*warning/warning/; s/.*"dropped_c/"dropped_c/'
+
+echo '-- lists that do not go with the corners; labels of faces, of which -1 is none; places of the scanner' >&2
+cat >lists.ply <<'X'
+ply
+format ascii 1.0
+element vertex 3
+property float x
+property float y
+property float z
+property float scanner_x
+property float scanner_y
+property float scanner_z
+element face 2
+property list uchar int vertex_indices
+property list uchar float texcoord
+property int group
+end_header
+0 0 0 1 2 3
+1 0 0 1 2 3
+0 1 0 1 2 3
+3 0 1 2 6 0 0 1 0 0 1 -1
+3 2 1 0 4 0 0 1 0 2
+X
+mr-import lists.ply -o lists.mrs
+mr-export -f ply-ascii -i lists.mrs - >once.ply
+mr-import once.ply | mr-export -f ply-ascii - | cmp once.ply
+sed -n '/scanner/p; /group/p; /header/,$p' once.ply
+
+echo '-- records of a LAS' >&2
+python3 - <<'END'
+import struct
+record = lambda user, data, form: struct.pack("<H16sH" + form + "32s", 0, user, 1, len(data), b"") + data
+head = bytearray(375)
+records = record(b"other", b"abc", "H") + record(b"LASF_Projection", b"wkt", "H")
+head[0:4], head[24:26] = b"LASF", bytes((1, 4))
+struct.pack_into("<HIIBHI", head, 94, 375, 375 + len(records), 2, 0, 20, 1)
+struct.pack_into("<6d", head, 131, 1, 1, 1, 0, 0, 0)
+struct.pack_into("<QI", head, 235, 375 + len(records) + 20, 1)
+open("records.las", "wb").write(bytes(head) + records + struct.pack("<3i8x", 1, 2, 3) + record(b"more", b"def", "Q"))
+END
+mr-import records.las -o /dev/null
