@@ -103,7 +103,8 @@ names(mr_scan line, role r[COLUMNS], const char *name[COLUMNS], size_t bytes[COL
 
 	for (;;) {
 		const char *w, *e;
-		for (size_t commas = skip_separators(&line); commas > (n > 0) && n < COLUMNS; commas--)
+		for (size_t commas = skip_separators(&line), due = n > 0; commas > due && n < COLUMNS;
+		     commas--)
 			r[n] = SKIP, name[n] = line.p, bytes[n++] = 0;
 		if (line.p == line.end || n == COLUMNS)
 			break;
@@ -581,7 +582,7 @@ mr_xyz_sniff(const unsigned char *data, size_t size)
 		return false;
 	if (names(line, r, name, bytes))
 		return true;
-	for (skip_separators(&line); line.p < line.end; n++, skip_separators(&line)) {
+	for (skip_separators(&line); line.p < line.end && *line.p != '#'; n++, skip_separators(&line)) {
 		double x;
 		const char *e = mr_real_read(line.p, line.end, &x);
 		if (!e || (e < line.end && !separates(*e)))

@@ -14,6 +14,7 @@ try "${ply}${face}end_header\n0 0 0\n1 0 0\n3 0 1 0 7\n"
 try "${ply}end_header\n0 0\n0\n1 0 0"
 echo '-- CR alone, CR LF and LF end lines'
 try '1 2 3\r4 5 6\r7 8 9\n'
+try '1 2 3 # one\n4 5 6\n'
 try '1 2 3\r\n4 5 6\r\r\n7 8 9\n'
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\n# c\rf 1 2 3\n' | mr-import | mr-export -f obj - | grep ^f
 printf 'ply\rformat binary_big_endian 1.0\relement vertex 1\rproperty uchar x\rproperty uchar y\rproperty uchar z\rend_header\r\n\r\n' >cr.ply
@@ -34,7 +35,7 @@ try '1,,3,4\n5,6,,8\n'
 try '1, ;3,4\n'
 try ',1,2,3\n'
 try '1,2,3,\n5,6,7,\n'
-try ',x,y,z\n7,1,2,3\n'
+try ',,x,y,z\n7,8,1,2,3\n'
 echo '-- names and columns'
 said '# x y z of points\n1 2 3\n'
 try 'x y z of points\n1 2 3\n'
