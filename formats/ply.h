@@ -1,0 +1,127 @@
+/*
+ * ply.h -- a PLY as it is read: its elements with their properties, and what comes of them.
+ *
+ * Contract: the names are short, since ply.c and ply_header.c alone include this.
+ * Layer rule: formats.
+ */
+#ifndef MR_PLY_H
+#define MR_PLY_H
+
+#include "base/text.h"
+#include "formats/format.h"
+
+typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
+
+typedef struct type_name {
+	const char *name, *alias;
+	unsigned char bytes;
+} type_name;
+
+extern const type_name mr_ply_types[TYPES];
+
+/* What a property is to us. */
+typedef enum role {
+	NONE,
+	X,
+	Y,
+	Z,
+	NX,
+	NY,
+	NZ,
+	RED,
+	GREEN,
+	BLUE,
+	ALPHA,
+	U,
+	V,
+	FROM_X,
+	FROM_Y,
+	FROM_Z,
+	INDICES,
+	UVS,
+	NORMALS,
+	GROUP,
+	OBJECT,
+	MATERIAL,
+	SMOOTHING,
+	ROLES
+} role;
+
+typedef struct property {
+	bool list;
+	type count, value; /* of a list: of its length and of its items */
+	role role;
+	const char *name;
+	size_t kept; /* its number from 1 among the properties of the builder; 0: it is none of them */
+} property;
+
+typedef enum kind { OTHER, VERTEX, FACE, STRIPS } kind;
+
+typedef struct element {
+	kind kind;
+	char name[MR_SHOWN];
+	uint64_t rows;
+	property *property;
+	size_t properties, room;
+} element;
+
+/* Names by comments, in the order of the numbers that faces have. */
+typedef struct named_list {
+	mr_lines *name;
+	size_t count, room;
+} named_list;
+
+/* Values of a list that each corner of a face has some of. */
+typedef struct corner_list {
+	double *value; /* of all faces */
+	size_t count, room;
+	size_t had;      /* the count before the face at hand */
+	size_t odd;      /* faces with as many as make no sense */
+	uint32_t *place; /* of the corners at hand */
+	size_t place_room;
+} corner_list;
+
+typedef struct ply {
+	mr_ctx *ctx;
+	const unsigned char *data, *end;
+	mr_scan text;           /* the header, then the rows of a text file */
+	const unsigned char *p; /* the rows of a binary file */
+	bool ascii, big;
+	element *element;
+	size_t elements, room;
+	mr_builder b;
+	uint32_t *indices; /* of the list at hand */
+	size_t indices_count, indices_room;
+	corner_list uv, vn;
+	named_list names[3]; /* of groups, objects, materials */
+	mr_text files;       /* of materials, one a line */
+	double *row;         /* of the row at hand, value by value */
+	size_t row_room;
+	mr_shades shades[2];                    /* of colours, of alpha */
+	bool told[2];                           /* what is full is known */
+	bool wraps[2];                          /* a negative value is one above 127 */
+	size_t odd_uv, odd_colors, odd_scanner; /* of vertices: not finite */
+	size_t textures, comments;              /* that are left out */
+	size_t remarks;                         /* comments that are not kept */
+} ply;
+
+/* The property of a role, or NULL. */
+static inline const property *
+find(const element *e, role r)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		if (e->property[i].role == r)
+			return &e->property[i];
+	return NULL;
+}
+
+static inline bool
+has(const element *e, role r)
+{
+	return find(e, r);
+}
+
+/* Reads the header; the properties then have their roles, or are kept as numbers. */
+mr_status mr_ply_header(ply *f) MR_WARN_UNUSED;
+
+#endif
