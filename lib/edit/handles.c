@@ -223,6 +223,26 @@ mr_handles_pose(
 	return MR_OK;
 }
 
+void
+mr_handles_drop(mr_frame *f)
+{
+	mr_frame_drop(f, "handles", "transform", 0);
+	mr_frame_drop(f, "handles", "turn", 0);
+}
+
+mr_status
+mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames)
+{
+	const void *announced;
+
+	*frames = 0;
+	if (!mr_layer_has(f, "handles", "frames"))
+		return MR_OK;
+	MR_TRY(mr_layer_get_rows(ctx, f, "handles", "frames", 1, &announced));
+	*frames = *(const uint32_t *)announced;
+	return MR_OK;
+}
+
 /* Scripts */
 
 typedef struct mr_script_line {

@@ -53,6 +53,12 @@ mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *ro
 mr_status mr_handles_pose(mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share,
     mr_handle_rows *row);
 
+/* Handles that have posed are used up; for how many frames they go on (handles.frames) stays. */
+void mr_handles_drop(mr_frame *f);
+
+/* How many deltas follow the key, as far as handles have said; 0: not known. */
+mr_status mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames);
+
 /*
  * A script of poses, one frame after another:
  *

@@ -539,7 +539,7 @@ mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map
 	c = change_of(&t);
 	if (layer && !mr_frame_has_layer(f, layer))
 		return mr_layer_missing(ctx, f, layer, layer);
-	if (layer && strcmp(layer, "points") && mr_frame_has_layer(f, "handles"))
+	if (layer && strcmp(layer, "points") && mr_layer_has(f, "handles", "transform"))
 		return mr_fail(ctx, MR_EMESH, "%s cannot go alone: handles are posed beside it", layer);
 	MR_TRY(check(ctx, f, layer, &c));
 	if (layer)

@@ -31,6 +31,7 @@ typedef struct mr_connectivity_cache {
 	 * edges. */
 	size_t told, told_far, told_strayed, told_apart, told_held, told_chords;
 	size_t looked_folds; /* of the last look for intersections since then */
+	size_t frames;       /* since then */
 } mr_connectivity_cache;
 
 struct mr_cache {

@@ -3,6 +3,7 @@
 #include "base/text.h"
 #include "edit/chord.h"
 #include "edit/detail.h"
+#include "edit/handles.h"
 #include "edit/held.h"
 #include "edit/pose_basis.h"
 #include "edit/strayed.h"
@@ -342,14 +343,25 @@ look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *mesh, con
 	return MR_OK;
 }
 
-/* Intersections take as long as decoding: of a delta they are looked for where folds have come, or doubled.
+/*
+ * Intersections take up to eight times as long as decoding: of a sequence they are looked for in frames 1, 2,
+ * 4, 8, ... behind the key, which of a thousand are ten, in the last one of those that mr-pose has made, and
+ * where folds have come, or doubled.
  */
-static size_t
-folds_to_look_from(const mr_frame *f, const mr_cache *cache)
+static mr_status
+folds_to_look_from(mr_ctx *ctx, mr_frame *f, const mr_cache *cache, size_t *enough)
 {
-	size_t told = cache ? cache->connectivity.looked_folds : 0;
+	size_t told, at, last;
 
-	return f->key ? 0 : told ? 2 * told : 1;
+	*enough = 0;
+	if (!cache || f->key)
+		return MR_OK;
+	told = cache->connectivity.looked_folds;
+	at = cache->connectivity.frames;
+	MR_TRY(mr_handles_frames(ctx, f, &last));
+	if (at != last && (at & (at - 1)))
+		*enough = told ? 2 * told : 1;
+	return MR_OK;
 }
 
 static void
@@ -357,7 +369,7 @@ forget_told(mr_connectivity_cache *kept)
 {
 	kept->told = kept->told_far = kept->told_strayed = kept->told_apart = kept->told_held =
 	    kept->told_chords = 0;
-	kept->looked_folds = 0;
+	kept->looked_folds = kept->frames = 0;
 }
 
 /* Where the vertices of mesh stood as they were encoded: now they may be in a pose already. */
@@ -387,14 +399,18 @@ places_at_rest(
 
 /* What the motion of mesh to p has done to it. */
 static mr_status
-look_for_flaws(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges,
+look_for_flaws(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges,
     const mr_mesh *base, const mr_v3 *p, mr_decode_result *result)
 {
+	size_t enough;
 	mr_harm harm;
 
 	if (cache && f->key)
 		forget_told(&cache->connectivity);
-	MR_TRY(mr_harm_find(ctx, mesh, edges, p, folds_to_look_from(f, cache), &harm));
+	else if (cache)
+		cache->connectivity.frames++;
+	MR_TRY(folds_to_look_from(ctx, f, cache, &enough));
+	MR_TRY(mr_harm_find(ctx, mesh, edges, p, enough, &harm));
 	if (cache && harm.pairs != MR_UNKNOWN)
 		cache->connectivity.looked_folds = harm.folds;
 	tell(ctx, cache, mesh, base, p, &harm);
@@ -648,6 +664,7 @@ mr_decode_frame(
 		MR_TRY(decode_detail(ctx, f, o, cache, &found));
 	else
 		MR_TRY(decode_control(ctx, f, o, cache, &found));
+	mr_frame_drop(f, "handles", NULL, 0);
 	if (result && from == MR_FROM_CONTROL)
 		MR_TRY(look_at_gaps(ctx, f, &found.gaps));
 	if (result)

@@ -112,7 +112,7 @@ read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **col
 static void
 drop_used(mr_frame *f, const char *layer)
 {
-	mr_frame_drop(f, "handles", NULL, 0);
+	mr_handles_drop(f);
 	mr_frame_drop(f, layer, "target", 0);
 }
 

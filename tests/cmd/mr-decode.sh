@@ -124,6 +124,17 @@ for ratio in 1.5 0.3; do
 	    mr-select --free all --fixed below:z,0.1 --handle 0=above:z,0.7 | mr-pose --rotate 1,0,0,70 | mr-solve | mr-decode -o ball.mrs
 done
 
+echo '-- sheets that pass through each other without a fold, in one pose and in the last frame of a sequence'
+mr-make cylinder -n 1500 -o body.mrs
+mr-transform --scale 1.03,1.03,0.6 body.mrs | mr-cat --append body.mrs - | mr-smooth | mr-remesh |
+	mr-select --free all --fixed below:z,0.2 --handle 1=above:z,0.8 | mr-encode -o sheets.mrs
+for frames in 0 7; do
+	mr-pose -H 1 --rotate 1,0,0,80 --frames $frames sheets.mrs | mr-solve | mr-decode --stats sheets.json -o out.mrs 2>&1 |
+		sed 's/^.*frame/frame/; s/, most.*//'
+	grep -c '"far_intersections"' sheets.json
+done
+mr-info out.mrs | grep -c handles
+
 echo 'refusals'
 refused() {
 	mr-decode "$@" >out
