@@ -456,6 +456,35 @@ mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base)
 }
 
 mr_status
+mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
+{
+	const void *encoded;
+
+	if (!mr_layer_has(f, before->name, "encoded") || strcmp(before->name, "base") != 0)
+		return MR_OK;
+	MR_TRY(mr_layer_get_rows(ctx, f, "base", "encoded", before->nv, &encoded));
+	if (memcmp(before->p, encoded, before->nv * sizeof *before->p))
+		return mr_layer_put(ctx, f, "base", "before", before->p, before->nv);
+	mr_frame_drop(f, "base", "before", 0);
+	return MR_OK;
+}
+
+mr_status
+mr_detail_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d, const mr_v3 **p)
+{
+	const void *before = d->rest;
+
+	if (mr_layer_has(f, base->name, "before"))
+		MR_TRY(mr_layer_get_rows(ctx, f, base->name, "before", base->nv, &before));
+	*p = before;
+	for (size_t v = 0; v < base->nv; v++)
+		if (!mr_finite((*p)[v]))
+			return mr_fail(ctx, MR_ERANGE, "%s: before %zu (%g %g %g) is not finite", base->name,
+			    v, (*p)[v].x, (*p)[v].y, (*p)[v].z);
+	return MR_OK;
+}
+
+mr_status
 mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 {
 	uint32_t *print = MR_NEW(ctx, 2, uint32_t);
@@ -468,6 +497,7 @@ mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
 	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded", d->rest, base->nv));
 	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded_faces", print, 1));
+	mr_frame_drop(f, base->name, "before", 0);
 	if (d->offset)
 		MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n));
 	else

@@ -11,6 +11,7 @@ typedef struct fit {
 	size_t n;
 	mr_v3 from, to;
 	mr_mat3 xx, yx; /* sums of x x^T and y x^T about them; then A is yx */
+	mr_mat3 turn;   /* the rotation nearest to A */
 	bool given;     /* places of its own to each vertex */
 } fit;
 
@@ -55,61 +56,92 @@ linear_part(const fit *f)
 
 /* That of fixed vertices is the identity. */
 static void
-fit_maps(const mr_mesh *base, const uint32_t *region, const mr_v3 *encoded, size_t regions, fit *fits)
+fit_maps(const mr_held_pose *h, size_t regions, fit *fits)
 {
-	for (size_t v = 0; v < base->nv; v++) {
+	const mr_v3 *from = h->base->p, *to = h->on_base;
+	const uint32_t *region = h->base_region;
+	size_t nv = h->base->nv;
+
+	for (size_t v = 0; v < nv; v++) {
 		fit *f = &fits[region[v]];
 		f->n++;
-		f->from = mr_add(f->from, encoded[v]);
-		f->to = mr_add(f->to, base->p[v]);
+		f->from = mr_add(f->from, from[v]);
+		f->to = mr_add(f->to, to[v]);
 	}
 	for (size_t r = 0; r < regions; r++) {
 		fits[r].from = mr_mul(1 / fmax(1, (double)fits[r].n), fits[r].from);
 		fits[r].to = r == MR_REGION_FIXED ? fits[r].from
 		                                  : mr_mul(1 / fmax(1, (double)fits[r].n), fits[r].to);
 	}
-	for (size_t v = 0; v < base->nv; v++) {
+	for (size_t v = 0; v < nv; v++) {
 		fit *f = &fits[region[v]];
-		mr_v3 x = mr_sub(encoded[v], f->from);
+		mr_v3 x = mr_sub(from[v], f->from);
 		add_product(&f->xx, x, x);
-		add_product(&f->yx, mr_sub(base->p[v], f->to), x);
+		add_product(&f->yx, mr_sub(to[v], f->to), x);
 	}
-	for (size_t r = 0; r < regions; r++)
+	for (size_t r = 0; r < regions; r++) {
 		fits[r].yx = r == MR_REGION_FIXED ? mr_mat3_identity() : linear_part(&fits[r]);
+		fits[r].turn = mr_rotation_nearest(&fits[r].yx);
+	}
 }
 
-static bool
-is_off(const fit *f, mr_v3 from, mr_v3 to, double far)
+static mr_v3
+map_of(const fit *f, mr_v3 from)
 {
-	return mr_dist(to, mr_add(f->to, mr_mat3_apply(&f->yx, mr_sub(from, f->from)))) > far;
+	return mr_add(f->to, mr_mat3_apply(&f->yx, mr_sub(from, f->from)));
+}
+
+/* Where vertex v belongs if what stands on base turns with it and keeps its length. */
+static mr_v3
+turned(const mr_held_pose *h, const fit *f, size_t v)
+{
+	mr_v3 foot = mr_place_point(h->base, mr_places_at(&h->at, v));
+
+	return mr_add(map_of(f, foot), mr_mat3_apply(&f->turn, mr_sub(h->mesh->p[v], foot)));
+}
+
+static void
+count_vertex(const mr_held_pose *pose, const fit *f, size_t v, double far, mr_held *h)
+{
+	uint32_t r = pose->region[v];
+	bool off = !f->given && (f->n || r == MR_REGION_FIXED) &&
+	           mr_dist(pose->p[v], map_of(f, pose->mesh->p[v])) > far;
+
+	if (!off)
+		return;
+	if (r == MR_REGION_FIXED)
+		h->moved++;
+	else if (mr_dist(pose->p[v], turned(pose, f, v)) > far)
+		h->missed++;
+	else
+		h->unscaled++;
 }
 
 mr_status
-mr_held_count(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const mr_v3 *p, const mr_mesh *base,
-    const uint32_t *on_base, const mr_v3 *encoded, double far, mr_held *held)
+mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 {
+	const mr_mesh *mesh = pose->mesh, *base = pose->base;
 	mr_mark mark = mr_mark_take(ctx);
-	mr_held h = { 0 };
 	size_t regions = MR_REGION_HANDLE;
+	mr_held h = { 0 };
 	fit *fits;
 
 	for (size_t v = 0; v < base->nv; v++)
-		regions = on_base[v] < regions ? regions : (size_t)on_base[v] + 1;
+		regions = pose->base_region[v] < regions ? regions : (size_t)pose->base_region[v] + 1;
 	fits = MR_NEW_ZERO(ctx, regions, fit);
 	if (!fits)
 		return MR_EMEM;
-	fit_maps(base, on_base, encoded, regions, fits);
-	for (size_t v = 0; v < base->nv; v++)
-		if (is_off(&fits[on_base[v]], encoded[v], base->p[v], far))
-			fits[on_base[v]].given = true;
+	fit_maps(pose, regions, fits);
+	for (size_t v = 0; v < base->nv; v++) {
+		fit *f = &fits[pose->base_region[v]];
+		f->given |= mr_dist(pose->on_base[v], map_of(f, base->p[v])) > far;
+	}
 	for (size_t v = 0; v < mesh->nv; v++) {
-		uint32_t r = region[v];
-		bool off = r != MR_REGION_FREE && r < regions && !fits[r].given &&
-		           (fits[r].n || r == MR_REGION_FIXED) && is_off(&fits[r], mesh->p[v], p[v], far);
+		uint32_t r = pose->region[v];
 		h.fixed += r == MR_REGION_FIXED;
-		h.moved += r == MR_REGION_FIXED && off;
 		h.handled += r >= MR_REGION_HANDLE;
-		h.missed += r >= MR_REGION_HANDLE && off;
+		if (r != MR_REGION_FREE && r < regions)
+			count_vertex(pose, &fits[r], v, far, &h);
 	}
 	mr_mark_release(ctx, mark);
 	*held = h;

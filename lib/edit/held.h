@@ -6,18 +6,25 @@
 
 #include "mesh/mesh.h"
 
+/* Where vertices stood when the pose began, and where they are now. */
+typedef struct mr_held_pose {
+	const mr_mesh *mesh, *base; /* as they stood */
+	const mr_v3 *p, *on_base;   /* now */
+	const uint32_t *region, *base_region;
+	mr_places at; /* of the mesh on base */
+} mr_held_pose;
+
 typedef struct mr_held {
 	size_t fixed, moved; /* vertices, and those that are not where they were */
-	size_t handled,
-	    missed; /* of handles, and those that are not where the map has them that moved base's */
+	/* Of handles, those that are not where the map has them that moved base's, and of those the ones that
+	 * are where it has them if it stretches base alone and turns what stands on it: they are not missed. */
+	size_t handled, missed, unscaled;
 } mr_held;
 
 /*
- * Counts those that are off by over `far`: p is where the vertices of the mesh are now, `encoded` where those
- * of base were.  A map is fitted to the vertices of base that a handle has; a region whose own are off by as
- * much, because each was given a place, is left out.  region, on_base: one per vertex of either.
+ * Counts those that are off by over `far`.  A map is fitted to the vertices of base that a handle has; a
+ * region whose own are off by as much, because each was given a place, is left out.
  */
-mr_status mr_held_count(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const mr_v3 *p,
-    const mr_mesh *base, const uint32_t *on_base, const mr_v3 *encoded, double far, mr_held *held);
+mr_status mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held);
 
 #endif

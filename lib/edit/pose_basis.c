@@ -3,6 +3,7 @@
 #include "edit/pose_basis.h"
 
 #include "edit/deform.h"
+#include "edit/detail.h"
 #include "edit/handles.h"
 #include "base/parallel.h"
 
@@ -109,6 +110,7 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
 	MR_TRY(largest_turn(ctx, f, m, &row, degrees));
 	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p));
 	mr_handles_drop(f);
+	MR_TRY(mr_detail_keep_before(ctx, f, m));
 	MR_TRY(mr_layer_move(ctx, f, m->name, MR_POSED, p, m->nv));
 	MR_TRY(mr_layer_points(ctx, f, m->name, &posed)); /* a response that is not finite shows here */
 	m->p = posed.p;

@@ -315,6 +315,7 @@ static const struct {
 	{ NULL, "rest", { 'v', 'd', 3 }, POSITIONS, false },
 	{ NULL, "target", { 'v', 'd', 3 }, POSITIONS, false },
 	{ NULL, "encoded", { 'v', 'd', 3 }, POSITIONS, false },
+	{ "base", "before", { 'v', 'd', 3 }, POSITIONS, false },
 	{ NULL, "scanner", { 'v', 'd', 3 }, POSITIONS, false },
 	{ NULL, "normal", { 'v', 'd', 3 }, NORMALS, false },
 	{ NULL, "corner_normal", { 'f', 'd', 9 }, NORMALS, false },

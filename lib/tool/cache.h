@@ -12,19 +12,25 @@
 #include "space/contact.h"
 #include "subdivide/displaced.h"
 
+/* Where the vertices of mesh stood once. */
+typedef struct mr_stood {
+	mr_v3 *p;
+	uint64_t serial[2]; /* of the column of base, and of mesh.detail_height */
+	size_t rows;
+} mr_stood;
+
 /* The faces around the vertices of base, its normals where it was encoded, mesh as it was then, the edges and
  * contacts of mesh, and what stood on control as it was encoded: a delta mostly keeps them. */
 typedef struct mr_connectivity_cache {
 	mr_incidence base;
-	mr_v3 *rest_normal, *at_rest; /* where the vertices of mesh stood as they were encoded */
+	mr_v3 *rest_normal;
+	mr_stood at_rest, before; /* as mesh was encoded, and when the pose began */
 	mr_edges mesh;
 	uint64_t base_serial, mesh_serial; /* of their triangles; 0: none */
 	uint64_t rest_serial;              /* of base.encoded; 0: none */
-	uint64_t at_rest_serial[2];        /* of base.encoded and mesh.detail_height */
-	size_t at_rest_rows;
-	mr_contacts contacts;  /* of mesh */
-	uint64_t place_serial; /* of mesh.position */
-	mr_mesh displaced;     /* the displaced surface on control.encoded */
+	mr_contacts contacts;              /* of mesh */
+	uint64_t place_serial;             /* of mesh.position */
+	mr_mesh displaced;                 /* the displaced surface on control.encoded */
 	mr_edges displaced_edges;
 	uint64_t displaced_serial, height_serial; /* of control.encoded and displacement.height; 0: none */
 	/* Since the last key: harm, what is far, what strayed, what came apart, what was not held, long

@@ -2,6 +2,7 @@
 #include "tool/solve.h"
 
 #include "base/memory.h"
+#include "edit/detail.h"
 #include "edit/handles.h"
 #include "edit/region_transfer.h"
 #include "edit/tie_transfer.h"
@@ -219,6 +220,8 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 		memcpy(p, m.p, m.nv * sizeof *p);
 	MR_TRY(check_solution(ctx, &m, p));
 	MR_TRY(keep_encoded(ctx, f, &m));
+	if (posing)
+		MR_TRY(mr_detail_keep_before(ctx, f, &m));
 	if (o->flatten)
 		look_at_flattened(ctx, &m, p);
 	if (posing)

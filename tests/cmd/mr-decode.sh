@@ -153,6 +153,22 @@ mr-make bumpy -n 2000 | mr-smooth | mr-remesh | mr-select --free all --fixed bel
 mr-pose -H 1 --rotate 0,0,1,10 bent.mrs | mr-solve | mr-decode -o further.mrs
 mr-decode bent.mrs -o again.mrs && mr-compare -a mesh -b mesh bent.mrs again.mrs --json | grep -o '"vertex_max":[^,]*'
 
+
+echo '-- what it holds is judged from there, with what the first has bent fixed in the second; by mr-solve or a response'
+mr-make bumpy -n 5000 | mr-smooth | mr-remesh -r 3 | mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 | mr-encode |
+	mr-pose -H 1 --rotate 0,0,1,60 | mr-solve -k 1 | mr-decode -q -o bent.mrs
+mr-select --reset --free all --fixed below:y,0.5 --handle 1=above:y,0.85 bent.mrs -o again.mrs
+mr-pose -H 1 --rotate 1,0,0,50 again.mrs | mr-solve -k 1 -o solved.mrs
+mr-info solved.mrs | grep -c ' before '
+mr-decode solved.mrs 2>&1 >twice.mrs | sed 's/.*warning: //; s/: base is.*//'
+mr-info twice.mrs | grep -c ' before '
+mr-transform --translate 1,2,3 --scale 2 solved.mrs | mr-decode 2>&1 >out.mrs | sed 's/.*warning: //; s/: base is.*//'
+mr-solve --basis -k 1 again.mrs | mr-pose -H 1 --rotate 1,0,0,50 | mr-decode 2>&1 >out.mrs | sed 's/.*warning: //; s/: base is.*//'
+
+echo '-- heights keep their length where a handle scales'
+mr-make bumpy -n 2000 | mr-smooth | mr-remesh | mr-encode | mr-select --free all --fixed below:y,0.2 --handle 0=above:y,0.8 |
+	mr-pose --scale 2 | mr-solve | mr-decode 2>&1 >out.mrs | sed 's/.*warning: //'
+
 echo '-- straight edges from end to end do not bend: they are to be split first'
 awk 'BEGIN { print "OFF\n16 28 0"; for (z = 0; z < 2; z++) for (i = 0; i < 8; i++) print cos(0.785398 * i), sin(0.785398 * i), 10 * z
 	for (i = 0; i < 8; i++) { j = (i + 1) % 8; print 3, i, j, j + 8; print 3, i, j + 8, i + 8 }
