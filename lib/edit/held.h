@@ -17,7 +17,8 @@ typedef struct mr_held_pose {
 typedef struct mr_held {
 	size_t fixed, moved; /* vertices, and those that are not where they were */
 	/* Of handles, those that are not where the map has them that moved base's, and of those the ones that
-	 * are where it has them if it stretches base alone and turns what stands on it: they are not missed. */
+	 * are where it has them if it stretches base alone and turns what stands on it: they are not missed.
+	 */
 	size_t handled, missed, unscaled;
 } mr_held;
 

@@ -32,24 +32,6 @@ mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *s
 	return MR_OK;
 }
 
-static bool
-is_same(mr_v3 a, mr_v3 b)
-{
-	return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-static size_t
-slot_of(mr_v3 p, uint32_t component, size_t slots)
-{
-	const double c[3] = { p.x + 0.0, p.y + 0.0, p.z + 0.0 }; /* either zero */
-	uint64_t bits[3], hash = component;
-
-	memcpy(bits, c, sizeof bits);
-	for (int i = 0; i < 3; i++)
-		hash = (hash ^ bits[i] ^ bits[i] >> 32) * 0x9e3779b97f4a7c15u;
-	return (size_t)(hash >> 20) % slots;
-}
-
 /* Vertices of the same component at the same place, in rings. */
 typedef struct slits {
 	uint32_t *next; /* itself where it is alone */
@@ -57,31 +39,110 @@ typedef struct slits {
 	bool any;
 } slits;
 
-/* By a table of open addresses. */
+/* A table of open addresses of the first vertices at each place, by cells. */
+typedef struct grid {
+	const mr_mesh *m;
+	const uint32_t *component;
+	uint32_t *table;
+	size_t slots;
+	double near, cell;
+} grid;
+
+/*
+ * What is as near as this is at one place: sides of a seam are apart by what their coordinates were rounded
+ * to, which of single precision is 1e-7 of the diagonal.  Where an edge is a hundred times as long as that no
+ * more, it is the edges that bound it, and not the diagonal, which of a model with a stray part says nothing.
+ */
+static double
+same_place(const mr_ctx *ctx, const mr_mesh *m)
+{
+	const double rounding = 1e-6, edge = 0.01, least = 1e-12;
+	double diagonal = mr_mesh_diagonal(m);
+
+	return fmax(least * diagonal, fmin(rounding * diagonal, edge * mr_mesh_edge_scale(ctx, m)));
+}
+
+static mr_v3
+cell_of(const grid *g, mr_v3 p)
+{
+	return mr_vec(floor(p.x / g->cell) + 0.0, floor(p.y / g->cell) + 0.0, floor(p.z / g->cell) + 0.0);
+}
+
+static size_t
+slot_of(const grid *g, mr_v3 cell, uint32_t component)
+{
+	uint64_t bits[3], hash = component;
+
+	memcpy(bits, &cell, sizeof bits);
+	for (int i = 0; i < 3; i++)
+		hash = (hash ^ bits[i] ^ bits[i] >> 32) * 0x9e3779b97f4a7c15u;
+	return (size_t)(hash >> 20) % g->slots;
+}
+
+/* The lowest of the cell that is where v is, or `best`. */
+static uint32_t
+lowest_in(const grid *g, mr_v3 cell, uint32_t v, uint32_t best)
+{
+	size_t i = slot_of(g, cell, g->component[v]);
+
+	for (; g->table[i] != MR_NONE; i = (i + 1) % g->slots) {
+		uint32_t u = g->table[i];
+		if (u < best && g->component[u] == g->component[v] &&
+		    mr_dist(g->m->p[u], g->m->p[v]) <= g->near)
+			best = u;
+	}
+	return best;
+}
+
+/* The first vertex where v is, or v: in the cells that are near enough, mostly one or two. */
+static uint32_t
+first_at(const grid *g, uint32_t v)
+{
+	mr_v3 p = g->m->p[v], reach = mr_vec(g->near, g->near, g->near);
+	mr_v3 low = cell_of(g, mr_sub(p, reach)), high = cell_of(g, mr_add(p, reach));
+	uint32_t best = v;
+
+	for (int i = 0; i <= (low.x != high.x); i++)
+		for (int j = 0; j <= (low.y != high.y); j++)
+			for (int k = 0; k <= (low.z != high.z); k++)
+				best = lowest_in(g,
+				    mr_vec(i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z), v,
+				    best);
+	return best;
+}
+
+static void
+put(grid *g, uint32_t v)
+{
+	size_t i = slot_of(g, cell_of(g, g->m->p[v]), g->component[v]);
+
+	while (g->table[i] != MR_NONE)
+		i = (i + 1) % g->slots;
+	g->table[i] = v;
+}
+
 static mr_status
 find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 {
-	size_t slots = 2 * m->nv + 1;
-	uint32_t *table = MR_NEW(ctx, slots, uint32_t);
+	grid g = { .m = m, .component = component, .slots = 2 * m->nv + 1, .near = same_place(ctx, m) };
 
+	g.cell = g.near > 0 ? 4 * g.near : 1;
+	g.table = MR_NEW(ctx, g.slots, uint32_t);
 	*s = (slits){ MR_NEW(ctx, m->nv, uint32_t), MR_NEW(ctx, m->nv, uint32_t), false };
-	if (!table || !s->next || !s->face)
+	if (!g.table || !s->next || !s->face)
 		return MR_EMEM;
-	memset(table, 0xff, slots * sizeof *table);
+	memset(g.table, 0xff, g.slots * sizeof *g.table);
 	for (uint32_t v = 0; v < m->nv; v++) {
-		size_t i = slot_of(m->p[v], component[v], slots);
-		uint32_t before;
+		uint32_t first;
 		s->next[v] = v;
 		if (component[v] == MR_NONE)
 			continue;
-		while (table[i] != MR_NONE &&
-		       !(component[table[i]] == component[v] && is_same(m->p[table[i]], m->p[v])))
-			i = (i + 1) % slots;
-		before = table[i] == MR_NONE ? v : table[i];
-		s->any |= before != v;
-		s->next[v] = s->next[before];
-		s->next[before] = v;
-		table[i] = before;
+		first = first_at(&g, v);
+		if (first == v)
+			put(&g, v);
+		s->any |= first != v;
+		s->next[v] = s->next[first];
+		s->next[first] = v;
 	}
 	for (size_t f = m->nf; f-- > 0;)
 		for (int k = 0; k < 3; k++)

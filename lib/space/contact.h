@@ -1,7 +1,8 @@
 /*
  * contact.h -- where the components of a surface touch, and where a component is slit.
  *
- * Components are of faces that share vertices; a slit is where vertices of one are at the same place.
+ * Components are of faces that share vertices; a slit is where vertices of one are at the same place, within a
+ * millionth of the diagonal.
  * Contract: deterministic for any number of threads.
  */
 #ifndef MR_SPACE_CONTACT_H

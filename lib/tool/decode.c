@@ -394,8 +394,8 @@ static mr_status
 look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *at_rest, const mr_mesh *base,
     const mr_incidence *inc, const mr_detail *d, const mr_v3 *p)
 {
-	/* As look_for_gaps has it.  Of 28 models, bent by 60 degrees over a base of the default, one has a vertex
-	 * that is off by so much, none by twice that. */
+	/* As look_for_gaps has it.  Of 28 models, bent by 60 degrees over a base of the default, one has a
+	 * vertex that is off by so much, none by twice that. */
 	const double share = 0.005;
 	mr_stood none = { 0 }, *kept = cache ? &cache->connectivity.before : &none;
 	size_t *told = cache ? &cache->connectivity.told_held : NULL;

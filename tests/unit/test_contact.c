@@ -99,21 +99,20 @@ test_takes_no_square_of_time(void **state)
 	assert_true(mr_seconds() - started < 30);
 }
 
-/* A vertex that is two, each of half the faces around it: where a lattice is slit. */
-static void
-test_slits_are_contacts(void **state)
+/* A lattice that is slit: three vertices are two each, of half the faces around them, so far apart. */
+static mr_mesh
+slit_lattice(mr_v3 apart)
 {
 	mr_mesh one = lattice(8), m = one;
 	mr_v3 *p = MR_NEW(&ctx, one.nv + 3, mr_v3);
 	mr_tri *t = MR_NEW(&ctx, one.nf, mr_tri);
-	mr_contacts c;
 
-	(void)state;
+	assert_true(p && t);
 	memcpy(p, one.p, one.nv * sizeof *p);
 	memcpy(t, one.t, one.nf * sizeof *t);
 	for (uint32_t i = 0; i < 3; i++) { /* vertices 3 to 5 of row 4: the faces above them get others */
 		uint32_t v = 9 * 4 + 3 + i;
-		p[one.nv + i] = p[v];
+		p[one.nv + i] = mr_add(p[v], apart);
 		for (size_t f = 2 * 8 * 4; f < one.nf; f++)
 			for (int k = 0; k < 3; k++)
 				t[f].v[k] = t[f].v[k] == v ? (uint32_t)one.nv + i : t[f].v[k];
@@ -121,6 +120,16 @@ test_slits_are_contacts(void **state)
 	m.p = p;
 	m.t = t;
 	m.nv += 3;
+	return m;
+}
+
+static void
+test_slits_are_contacts(void **state)
+{
+	mr_mesh one = lattice(8), m = slit_lattice(mr_vec(0, 0, 0));
+	mr_contacts c;
+
+	(void)state;
 	assert_int_equal(mr_contacts_find(&ctx, &m, 1e-9, &c), MR_OK);
 	assert_int_equal(c.vertices, 6);
 	assert_int_equal(c.start[m.nv], 6);
@@ -131,6 +140,27 @@ test_slits_are_contacts(void **state)
 			for (int k = 0; k < 3; k++)
 				assert_true(m.t[c.at[i].face].v[k] != v);
 		}
+}
+
+/* Whichever way the sides were rounded, and wherever the lattice is; further apart they are two places. */
+static void
+test_slits_that_are_rounded(void **state)
+{
+	(void)state;
+	for (int i = 0; i < 27; i++) {
+		mr_v3 way = mr_vec(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
+		mr_mesh m = slit_lattice(mr_mul(2e-7, way)), wide = slit_lattice(mr_vec(0, 0, 1e-4));
+		mr_v3 *p = MR_NEW(&ctx, m.nv, mr_v3);
+		mr_contacts c;
+		assert_non_null(p);
+		for (size_t v = 0; v < m.nv; v++)
+			p[v] = mr_add(m.p[v], mr_vec(i / 7.0, 100.0 * i, -i / 3.0));
+		m.p = p;
+		assert_int_equal(mr_contacts_find(&ctx, &m, 1e-9, &c), MR_OK);
+		assert_int_equal(c.start[m.nv], 6);
+		assert_int_equal(mr_contacts_find(&ctx, &wide, 1e-9, &c), MR_OK);
+		assert_int_equal(c.vertices, 0);
+	}
 }
 
 static void
@@ -177,6 +207,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_holds_to_all_neighbours, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_takes_no_square_of_time, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_slits_are_contacts, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_slits_that_are_rounded, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_one_component_has_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_opens, setup, teardown),
 	};
