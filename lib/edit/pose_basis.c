@@ -57,29 +57,34 @@ mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *respon
 	return MR_OK;
 }
 
-/*
- * The largest turn of a handle against what moves the whole, in degrees: what is fixed, or where nothing is
- * the lowest handle.
- */
-static mr_status
-largest_turn(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_handle_rows *row, double *degrees)
+/* By how many degrees handles a and b turn against each other; b = row->n: what is fixed. */
+static double
+turn_between(const mr_handle_rows *row, size_t a, size_t b)
 {
-	const uint32_t *region;
-	uint32_t lowest = UINT32_MAX;
-	mr_v3 whole = { 0, 0, 0 };
+	mr_v3 fixed = { 0, 0, 0 };
 
-	*degrees = 0;
-	if (!mr_layer_has(f, m->name, "region"))
-		return MR_OK;
-	MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &region));
-	for (size_t v = 0; v < m->nv; v++)
-		if (region[v] != MR_REGION_FREE && region[v] < lowest)
-			lowest = region[v];
-	if (lowest >= MR_REGION_HANDLE && lowest - MR_REGION_HANDLE < row->n)
-		whole = row->turn[lowest - MR_REGION_HANDLE];
-	for (size_t h = 0; h < row->n; h++)
-		*degrees = fmax(*degrees, mr_dist(row->turn[h], whole) * 180 / MR_PI);
-	return MR_OK;
+	return mr_dist(row->turn[a], b < row->n ? row->turn[b] : fixed) * 180 / MR_PI;
+}
+
+/* The largest turn of two constraints that have a share of this vertex. */
+static double
+turn_across(const mr_handle_rows *row, const double *response)
+{
+	const double least = 0.2; /* of a vertex half-way between two each has a half */
+	double degrees = 0, fixed = 1;
+
+	for (size_t a = 0; a < row->n; a++)
+		fixed -= response[4 * a + 3];
+	for (size_t a = 0; a < row->n; a++) {
+		if (response[4 * a + 3] < least)
+			continue;
+		for (size_t b = 0; b < a; b++)
+			if (response[4 * b + 3] >= least)
+				degrees = fmax(degrees, turn_between(row, a, b));
+		if (fixed >= least)
+			degrees = fmax(degrees, turn_between(row, a, row->n));
+	}
+	return degrees;
 }
 
 mr_status
@@ -107,7 +112,8 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
 		    column->shape.components, row.n);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(largest_turn(ctx, f, m, &row, degrees));
+	for (size_t v = 0; v < m->nv; v++)
+		*degrees = fmax(*degrees, turn_across(&row, (const double *)response + 4 * row.n * v));
 	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p));
 	mr_handles_drop(f);
 	MR_TRY(mr_detail_keep_before(ctx, f, m));

@@ -9,7 +9,8 @@
 /*
  * Poses the frame's layer, which is m, by its column `response`, where the frame has handles; both are used
  * up.  MR_EMISSING where there are handles and no response.  m: with the posed positions.  *degrees: by how
- * much a handle turns at most against what is fixed, which a response, being linear, can not do well.
+ * much two constraints turn at most against each other across what is between them, which a response, being
+ * linear, can not do well.
  */
 mr_status mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees);
 

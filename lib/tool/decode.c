@@ -98,8 +98,8 @@ respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
 	if (cache)
 		cache->turned_far = true;
 	mr_warn(ctx,
-	    "%s: a handle turns by %.0f degrees, and a response is linear: beyond %.0f it thins what is "
-	    "between; mr-solve does not",
+	    "%s: a handle turns by %.0f degrees against what is fixed or another, and a response is linear: "
+	    "beyond %.0f it thins what is between; mr-solve does not",
 	    m->name, degrees, most);
 	return MR_OK;
 }

@@ -87,6 +87,17 @@ mr-pose --rotate 1,2,3,240 --frames 8 basis.mrs | mr-decode 2>&1 >far.mrs | grep
 mr-pose --rotate 1,2,3,60 basis.mrs | mr-decode 2>&1 >far.mrs | grep response
 mr-pose --rotate 1,2,3,240 --frames 8 basis.mrs | mr-solve | mr-decode 2>&1 >far.mrs | grep response
 
+
+echo 'two handles turn against each other beside a part that is fixed; each against what is fixed between them'
+mr-transform --translate 6,0,0 base.mrs | mr-cat --append base.mrs - |
+	mr-select --free all --handle 0=below:y,0.2 --handle 1=above:y,0.8 --fixed above:x,0.6 | mr-solve --basis | mr-encode -o beside.mrs
+mr-select --free all --handle 0=below:y,0.2 --handle 1=above:y,0.8 base.mrs |
+	mr-select --fixed above:y,0.4+below:y,0.6 | mr-solve --basis | mr-encode -o between.mrs
+for file in beside between; do
+	mr-pose -H 1 --rotate 0,1,0,59 $file.mrs | mr-pose -H 0 --rotate 0,1,0,-59 | mr-decode 2>&1 >far.mrs | grep response
+	echo $file
+done
+
 echo 'parts that touch, held at one end and bent at the other, and then let come apart'
 mr-make cylinder -n 600 | mr-export -f off - | awk '
 	NR == 2 { n = $1; print 2 * $1, 2 * $2, 0; next }

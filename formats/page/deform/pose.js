@@ -55,11 +55,11 @@ export class Pose {
 		return this.rows().map(({ map }) => (map.some((x, i) => x !== IDENTITY[i]) ? map.map((x, i) => x - IDENTITY[i]) : null));
 	}
 
-	/* The largest turn against what is fixed, in degrees. */
+	/* The largest turn of handles against each other and what is fixed, in degrees. */
 	degrees() {
-		const rows = this.rows(), whole = this.whole === null ? [0, 0, 0] : rows[this.whole].turn;
+		const rows = this.rows(), turns = this.numbers.map((h) => rows[h].turn).concat(this.whole === null ? [[0, 0, 0]] : []);
 
-		return Math.max(0, ...rows.map(({ turn }) => norm(sub(turn, whole)) * 180 / Math.PI));
+		return Math.max(0, ...turns.flatMap((a) => turns.map((b) => norm(sub(a, b)) * 180 / Math.PI)));
 	}
 
 	/* The pose that dragging a handle changes: its last one, unless that has a centre of its own. */
