@@ -36,31 +36,42 @@ transfer(void *arg, size_t begin, size_t end)
 	}
 }
 
+static bool
+any_face_has(const mr_mesh *m, const uint32_t *region, uint32_t which)
+{
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			if (region[m->t[f].v[k]] == which)
+				return true;
+	return false;
+}
+
 /* Every handle of the mesh must have a vertex of the base. */
 static mr_status
 check_handles(
-    mr_ctx *ctx, const uint32_t *region, size_t n, const uint32_t *out, size_t base_nv, const char *base)
+    mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const uint32_t *out, const mr_mesh *base)
 {
 	enum { FIRST = MR_REGION_HANDLE };
 	mr_mark mark = mr_mark_take(ctx);
 	size_t handles = 0;
 	bool *reached;
 
-	for (size_t v = 0; v < n; v++)
+	for (size_t v = 0; v < mesh->nv; v++)
 		if (region[v] >= FIRST && region[v] - FIRST >= handles)
 			handles = region[v] - FIRST + 1;
 	reached = MR_NEW_ZERO(ctx, handles, bool);
 	if (!reached)
 		return MR_EMEM;
-	for (size_t v = 0; v < base_nv; v++)
+	for (size_t v = 0; v < base->nv; v++)
 		if (out[v] >= FIRST)
 			reached[out[v] - FIRST] = true;
-	for (size_t v = 0; v < n; v++)
+	for (size_t v = 0; v < mesh->nv; v++)
 		if (region[v] >= FIRST && !reached[region[v] - FIRST])
-			return mr_fail(ctx, MR_EMESH,
-			    "%s: handle %u reaches no vertex: it is smaller than a triangle; select more, "
-			    "or remesh finer",
-			    base, region[v] - FIRST);
+			return mr_fail(ctx, MR_EMESH, "%s: handle %u reaches no vertex: %s", base->name,
+			    region[v] - FIRST,
+			    any_face_has(mesh, region, region[v])
+				? "it is smaller than a triangle; select more, or remesh finer"
+				: "none of its vertices has a face");
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -80,7 +91,7 @@ transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const
 	}
 	mr_parallel(ctx, base->nv, 1024, transfer, &j);
 	mr_mark_release(ctx, mark);
-	return check_handles(ctx, region, mesh->nv, out, base->nv, base->name);
+	return check_handles(ctx, mesh, region, out, base);
 }
 
 bool
