@@ -221,7 +221,8 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 									shift);
 	}
 	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color, .counts = m->counts };
-	warn_of_records(ctx, data, size, &l);
+	if (l.points)
+		warn_of_records(ctx, data, size, &l);
 	return read_fields(ctx, data, &l, m);
 }
 

@@ -29,8 +29,8 @@ assimp_testline.obj|8 0 and a remark
 assimp_testmixed.obj|8 12 and a remark
 assimp_triangle_with_empty_solid.stl|3 1
 assimp_triangle_with_two_solids.stl|6 2
-pdal_bad-geotiff-keys.las|10 0
-pdal_bad_vlr_count.las|10 0
+pdal_bad-geotiff-keys.las|10 0 and a remark
+pdal_bad_vlr_count.las|10 0 and a remark
 pdal_badheader.txt|line 1: 'X' is not a number
 pdal_crlf_test.txt|10 0
 pdal_gps-time-nan.las|1 0
@@ -91,7 +91,7 @@ tinyobj_usemtl-issue-104.obj|12 6 and a remark
 tinyobj_usemtl-issue-68.obj|218 400 and a remark
 trimesh_7_8ths_cube.stl|14 24
 trimesh_busted.STL|1941 3878
-trimesh_comments.off|8 12
+trimesh_comments.off|8 12 and a remark
 trimesh_empty.obj|obj without a vertex
 trimesh_empty.ply|ply without a vertex
 trimesh_empty.stl|stl without a vertex
@@ -108,13 +108,13 @@ trimesh_ply_empty_header.ply|ply without a vertex
 trimesh_ply_points_ascii.ply|8 0
 trimesh_ply_points_bin.ply|8 0
 trimesh_points_ascii_with_lists.ply|5 0 and a remark
-trimesh_points_emptyascii.ply|12 0
+trimesh_points_emptyascii.ply|12 0 and a remark
 trimesh_points_emptyface.ply|1024 0
 trimesh_polygonfaces.obj|5 3 and a remark
 trimesh_stl_empty_ascii.stl|stl without a vertex
 trimesh_stl_empty_bin.stl|stl without a vertex
 trimesh_two_objects_mixed_case_names.stl|16 24
-trimesh_whitespace.off|8 12
+trimesh_whitespace.off|8 12 and a remark
 X
 fail=0
 while IFS='|' read -r name verdict; do
