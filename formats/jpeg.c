@@ -6,6 +6,8 @@
 
 #include <jpeglib.h>
 
+#include <jerror.h>
+
 _Static_assert(sizeof(mr_rgb) == 3, "rows of pixels are rows of bytes");
 
 typedef struct failure {
@@ -23,11 +25,24 @@ on_error(j_common_ptr info)
 	longjmp(f->back, 1);
 }
 
-/* Damage that libjpeg mends is none of the user's. */
-static void
-on_message(j_common_ptr info)
+/* Some good pictures have bytes before a marker that say nothing: 1 to 20 of them, as cameras write them.
+ * Where one bit of a picture was changed, 35 and more were left over. */
+static bool
+is_harmless(const struct jpeg_error_mgr *e)
 {
-	(void)info;
+	enum { PADDING = 32 };
+
+	return e->msg_code == JWRN_ADOBE_XFORM || e->msg_code == JWRN_JFIF_MAJOR ||
+	       e->msg_code == JWRN_NOT_SEQUENTIAL ||
+	       (e->msg_code == JWRN_EXTRANEOUS_DATA && e->msg_parm.i[0] <= PADDING);
+}
+
+/* libjpeg goes on behind damage, with grey for what is gone. */
+static void
+on_message(j_common_ptr info, int level)
+{
+	if (level < 0 && !is_harmless(info->err))
+		on_error(info);
 }
 
 static mr_status
@@ -59,7 +74,7 @@ mr_jpeg_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *imag
 
 	info.err = jpeg_std_error(&f.manager);
 	f.manager.error_exit = on_error;
-	f.manager.output_message = on_message;
+	f.manager.emit_message = on_message;
 	jpeg_create_decompress(&info);
 	status = decode(ctx, &info, &f, data, size, &made);
 	jpeg_destroy_decompress(&info);

@@ -48,6 +48,21 @@ head -c 60 away/torus.png >cut.png
 render none --texture cut.png
 printf '\377\330\377\340 no picture' >cut.jpg
 render none --texture cut.jpg
+small=$TOP/tests/fuzz/seeds/jpeg-small
+render whole --texture "$small"
+head -c 312 "$small" >cut.jpg
+render none --texture cut.jpg
+echo '-- bytes before the last marker that say nothing, and what may be the rest of a picture'
+padded() { # bytes
+	size=$(wc -c <"$small")
+	head -c $((size - 2)) "$small"
+	head -c "$1" /dev/zero
+	tail -c 2 "$small"
+}
+padded 4 >padded.jpg
+render padded --texture padded.jpg && differ whole padded
+padded 100 >damaged.jpg
+render none --texture damaged.jpg
 mr-make torus -n 300 | mr-render --texture away/torus.png none.png
 echo "exit $?"
 mr-make torus -n 300 | mr-render --materials away none.png
