@@ -1,5 +1,6 @@
 /* The table of formats: how each is recognised, read and written, and what it keeps. */
 #include "formats/formats.h"
+#include "base/utf8.h"
 #include "formats/format.h"
 #include "formats/names.h"
 #include "formats/suffix.h"
@@ -210,27 +211,58 @@ normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 	return MR_OK;
 }
 
-/* Text of 16-bit units, by the mark it begins with: what is not ASCII becomes '_', which can only be in
- * names. */
+/* The character at unit i of n, which moves behind it; half of one is U+FFFD. */
+static uint32_t
+from_units(const unsigned char *data, size_t n, bool big, size_t *i)
+{
+	uint32_t unit = mr_load16(data + 2 * (*i)++, big), low;
+
+	if (unit < 0xd800 || unit >= 0xe000)
+		return unit;
+	low = unit < 0xdc00 && *i < n ? mr_load16(data + 2 * *i, big) : 0;
+	if (low < 0xdc00 || low >= 0xe000)
+		return 0xfffd;
+	++*i;
+	return 0x10000 + ((unit - 0xd800) << 10) + (low - 0xdc00);
+}
+
+/* Text of 16-bit units, by the mark it begins with, as UTF-8. */
 static mr_status
 narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
 {
 	bool big = *size >= 2 && (*data)[0] == 0xfe && (*data)[1] == 0xff;
 	bool little = *size >= 2 && (*data)[0] == 0xff && (*data)[1] == 0xfe;
-	unsigned char *copy;
+	const unsigned char *units;
+	size_t n, bytes = 0;
+	char *copy, none[4];
 
 	if (!big && !little)
 		return MR_OK;
-	copy = mr_alloc(ctx, *size / 2, 1);
+	units = *data + 2;
+	n = *size / 2 - 1;
+	for (size_t i = 0; i < n;)
+		bytes += mr_utf8_write(none, from_units(units, n, big, &i));
+	copy = mr_alloc(ctx, bytes, 1);
 	if (!copy)
 		return MR_EMEM;
-	*size = *size / 2 - 1;
-	for (size_t i = 0; i < *size; i++) {
-		unsigned unit = mr_load16(*data + 2 + 2 * i, big);
-		copy[i] = (unsigned char)(unit < 128 ? unit : '_');
-	}
-	*data = copy;
+	*data = (const unsigned char *)copy;
+	*size = bytes;
+	for (size_t i = 0; i < n;)
+		copy += mr_utf8_write(copy, from_units(units, n, big, &i));
 	return MR_OK;
+}
+
+mr_status
+mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
+{
+	if (mr_stl_is_binary(*data, *size)) /* begins with anything */
+		return MR_OK;
+	if (*size >= 3 && (*data)[0] == 0xef && (*data)[1] == 0xbb && (*data)[2] == 0xbf) {
+		*data += 3;
+		*size -= 3;
+	}
+	MR_TRY(narrow(ctx, data, size));
+	return *size ? normalise_lines(ctx, data, *size) : MR_OK;
 }
 
 static mr_status
@@ -256,21 +288,6 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 		    ctx, MR_EFORMAT, "no format is recognised in its bytes; -f names one of %s", names);
 	*f = found;
 	return MR_OK;
-}
-
-/* The mark that begins UTF-8 goes, and other text becomes lines of ASCII.  A binary STL begins with anything.
- */
-static mr_status
-as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
-{
-	if (mr_stl_is_binary(*data, *size))
-		return MR_OK;
-	if (*size >= 3 && (*data)[0] == 0xef && (*data)[1] == 0xbb && (*data)[2] == 0xbf) {
-		*data += 3;
-		*size -= 3;
-	}
-	MR_TRY(narrow(ctx, data, size));
-	return *size ? normalise_lines(ctx, data, *size) : MR_OK;
 }
 
 /* A surface gets the normals that were left out from its faces. */
@@ -301,7 +318,7 @@ mr_model_parse(
 	mr_model got = { 0 };
 
 	mr_unmeasured(&got.counts, sizeof got.counts);
-	MR_TRY(as_text(ctx, &data, &size));
+	MR_TRY(mr_as_text(ctx, &data, &size));
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));
 	MR_TRY(f->read(ctx, data, size, &got));
 	if (got.nv == 0)
@@ -362,7 +379,7 @@ judge(mr_ctx *ctx, const void *user, const unsigned char *data, size_t size)
 	if (mr_is_gzip(data, size))
 		return MR_OK;
 	stl = mr_stl_begins(data, size);
-	MR_TRY(as_text(ctx, &data, &size));
+	MR_TRY(mr_as_text(ctx, &data, &size));
 	status = find_reader(ctx, s->path, s->format, data, size, &f);
 	if (status < 0)
 		return stl ? MR_OK : mr_prefix(ctx, status, "after %zu bytes", size);

@@ -15,3 +15,12 @@ echo '-- in a GLB, with the colours of both'
 mr-export --materials . model.glb <model.mrs
 grep -a -o '"name":"[^"]*"' model.glb
 grep -a -o '"baseColorFactor":[^]]*' model.glb
+
+echo '-- of UTF-16, whole and half characters'
+python3 - <<'END'
+text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl F\u00fc\u00dfe\nf 1 2 3\nusemtl F\u00e4\u00dfe\nf 3 2 1\nusemtl \U0001f600 \ud83d x\nf 2 1 3\nusemtl \ude00\ud83d\nf 2 1 3\n"
+for name in "utf-16-le", "utf-16-be":
+    open(name + ".obj", "wb").write(("\ufeff" + text).encode(name, "surrogatepass"))
+END
+mr-import utf-16-le.obj | mr-export -f obj - | tee little.obj | grep usemtl
+mr-import utf-16-be.obj | mr-export -f obj - | cmp - little.obj && echo same
