@@ -18,10 +18,11 @@ typedef struct obj {
 	double *uv;       /* vt_all pairs */
 	mr_v3 *vn_values; /* vn_all */
 	float *rgb;       /* three per vertex, NAN where it has none; NULL without any */
-	mr_shades shades;
+	float *alpha;     /* one per vertex, NAN where it has none; NULL without any */
+	mr_shades shades, alpha_shades;
 	size_t lines_and_points, weights, depths, others; /* what is left out */
 	char other[MR_SHOWN];                             /* the first of the others */
-	size_t odd_colors, odd_texcoords;                 /* values that are not finite */
+	size_t odd_colors, odd_alphas, odd_texcoords;     /* values that are not finite */
 	size_t no_normals, no_texcoords;                  /* corners that name one that is not there */
 	bool slashes;      /* the face at hand has a slash with nothing behind it */
 	uint32_t *corners; /* of the face at hand: vertices, texture coordinates, normals */
@@ -151,6 +152,24 @@ set_color(obj *o, const double *c)
 	return MR_OK;
 }
 
+static mr_status
+set_alpha(obj *o, double a)
+{
+	if (!o->alpha) {
+		o->alpha = MR_NEW(o->ctx, o->v_all, float);
+		if (!o->alpha)
+			return MR_EMEM;
+		for (size_t i = 0; i < o->v_all; i++)
+			o->alpha[i] = NAN;
+	}
+	if (isfinite(a)) {
+		o->alpha[o->v] = (float)a;
+		mr_shade_see(&o->alpha_shades, a);
+	} else
+		o->odd_alphas++;
+	return MR_OK;
+}
+
 /* v x y z [w | r g b [a]]: with four numbers the last is a weight, with six or seven there is a colour. */
 static mr_status
 position(obj *o, mr_scan *line)
@@ -167,6 +186,8 @@ position(obj *o, mr_scan *line)
 	o->weights += n == 4 && x[3] != 1;
 	if (n > 4)
 		MR_TRY(set_color(o, x + 3));
+	if (n > 6)
+		MR_TRY(set_alpha(o, x[6]));
 	o->v++;
 	return MR_OK;
 }
@@ -542,6 +563,12 @@ count_lines(obj *o)
 
 /* ---- the model ---- */
 
+static unsigned char
+alpha_of(obj *o, size_t i)
+{
+	return o->alpha && !isnan(o->alpha[i]) ? mr_shade_byte(&o->alpha_shades, (double)o->alpha[i]) : 255;
+}
+
 static mr_status
 finish_colors(obj *o)
 {
@@ -551,36 +578,26 @@ finish_colors(obj *o)
 		return MR_OK;
 	if (!mr_all_left(o->ctx, o->odd_colors, o->v_all, "colors", &o->b.counts->dropped_colors))
 		return MR_OK;
+	if (!mr_left_out(o->ctx, o->odd_alphas, o->v_all, "alphas", &o->b.counts->dropped_colors))
+		o->alpha = NULL;
 	o->b.color = MR_NEW(o->ctx, 4 * o->v_all, unsigned char);
 	if (!o->b.color)
 		return MR_EMEM;
 	o->shades.full = mr_shade_full(&o->shades);
+	o->alpha_shades.full = mr_shade_full(&o->alpha_shades);
 	for (size_t i = 0; i < o->v_all; i++) {
 		bool none = isnan(o->rgb[3 * i]);
 		for (size_t k = 0; k < 3; k++)
 			o->b.color[4 * i + k] = none ? 255
 			                             : mr_shade_byte(&o->shades, (double)o->rgb[3 * i + k]);
-		o->b.color[4 * i + 3] = 255;
+		o->b.color[4 * i + 3] = alpha_of(o, i);
 		missing += none;
 	}
 	mr_shades_said(o->ctx, &o->shades);
+	mr_shades_said(o->ctx, &o->alpha_shades);
 	if (missing)
 		mr_note(o->ctx, "%zu vertices without a colour are white", missing);
 	return MR_OK;
-}
-
-/* A normal of zero length is none. */
-static void
-leave_zeros(obj *o, mr_import_result *counts)
-{
-	size_t zero = 0;
-
-	for (size_t i = 0; i < o->vn; i++)
-		zero += mr_norm2(o->vn_values[i]) == 0;
-	if (zero == 0)
-		return;
-	mr_warn(o->ctx, "%zu of %zu normals are zero, which is none: their corners go without", zero, o->vn);
-	counts->dropped_normals = zero;
 }
 
 /* Corners that name what is not there, or no number, go without. */
@@ -593,21 +610,84 @@ count_absent(obj *o, const char *what, size_t corners, size_t *dropped)
 	*dropped = *dropped == MR_UNKNOWN ? corners : *dropped + corners;
 }
 
-/* A cloud that has as many normals as points has one for each. */
-static void
-finish_corners(obj *o)
+/* As many values as there are vertices, of which no corner names one, are those of the vertices. */
+static bool
+are_of_vertices(const obj *o, const uint32_t *place, size_t astray, size_t n)
 {
-	mr_import_result *counts = o->b.counts;
+	return !place && !astray && n == o->v_all;
+}
 
-	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, "texture coordinates", &counts->dropped_texcoords))
+/* Values, `width` numbers each: zeros that corners name, and others that they do not.  Zeros without a corner
+ * were written for vertices without a face. */
+static mr_status
+count_named(
+    obj *o, const uint32_t *place, const double *x, size_t n, size_t width, size_t *zero, size_t *rest)
+{
+	mr_mark mark = mr_mark_take(o->ctx);
+	bool *named = MR_NEW_ZERO(o->ctx, n, bool);
+
+	if (!named)
+		return MR_EMEM;
+	for (size_t c = 0; place && c < o->b.corners; c++)
+		if (place[c] != MR_NONE)
+			named[place[c]] = true;
+	for (size_t i = 0; i < n; i++, x += width) {
+		double square = x[0] * x[0] + x[1] * x[1] + (width > 2 ? x[2] * x[2] : 0);
+		*zero += named[i] && square == 0;
+		*rest += !named[i] && square > 0;
+	}
+	mr_mark_release(o->ctx, mark);
+	return MR_OK;
+}
+
+static void
+count_unnamed(obj *o, const char *what, size_t rest, size_t n, size_t *dropped)
+{
+	if (rest == 0)
+		return;
+	mr_warn(o->ctx, "%zu of %zu %s are left out: no corner names them", rest, n, what);
+	*dropped = *dropped == MR_UNKNOWN ? rest : *dropped + rest;
+}
+
+static mr_status
+finish_texcoords(obj *o)
+{
+	size_t *dropped = &o->b.counts->dropped_texcoords, zero = 0, rest = 0;
+
+	if (are_of_vertices(o, o->b.corner_uv, o->no_texcoords, o->vt)) {
+		if (mr_all_left(o->ctx, o->odd_texcoords, o->vt, "texture coordinates", dropped))
+			o->b.texcoord = o->uv;
+		return MR_OK;
+	}
+	MR_TRY(count_named(o, o->b.corner_uv, o->uv, o->vt, 2, &zero, &rest));
+	count_unnamed(o, "texture coordinates", rest, o->vt, dropped);
+	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, "texture coordinates", dropped))
 		o->b.corner_uv = NULL;
-	leave_zeros(o, counts);
-	if (!mr_normals_left(o->ctx, o->vn_values, o->vn, &counts->dropped_normals))
+	count_absent(o, "texture coordinates", o->no_texcoords, dropped);
+	return MR_OK;
+}
+
+/* A normal of zero length is none. */
+static mr_status
+finish_normals(obj *o)
+{
+	bool of_vertices = are_of_vertices(o, o->b.corner_vn, o->no_normals, o->vn);
+	size_t *dropped = &o->b.counts->dropped_normals, zero = 0, rest = 0;
+
+	if (!of_vertices)
+		MR_TRY(count_named(o, o->b.corner_vn, &o->vn_values->x, o->vn, 3, &zero, &rest));
+	if (zero) {
+		mr_warn(o->ctx, "%zu of %zu normals are zero, which is none: their corners go without", zero,
+		    o->vn);
+		*dropped = zero;
+	}
+	count_unnamed(o, "normals", rest, o->vn, dropped);
+	if (!mr_normals_left(o->ctx, o->vn_values, o->vn, dropped))
 		o->b.corner_vn = NULL;
-	else if (o->b.faces == 0 && o->vn_all == o->v_all)
+	else if (of_vertices)
 		o->b.normal = o->vn_values;
-	count_absent(o, "texture coordinates", o->no_texcoords, &counts->dropped_texcoords);
-	count_absent(o, "normals", o->no_normals, &counts->dropped_normals);
+	count_absent(o, "normals", o->no_normals, dropped);
+	return MR_OK;
 }
 
 static mr_status
@@ -615,7 +695,8 @@ finish(obj *o, mr_model *m)
 {
 	o->b.uv = o->uv;
 	o->b.vn = o->vn_values;
-	finish_corners(o);
+	MR_TRY(finish_texcoords(o));
+	MR_TRY(finish_normals(o));
 	MR_TRY(finish_colors(o));
 	if (o->lines_and_points)
 		mr_warn(o->ctx, "%zu elements of lines and points are left out", o->lines_and_points);

@@ -70,3 +70,30 @@ json.dump({"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"
     "bufferViews": [view(0, 36), view(36, 36), view(72, 24)], "accessors": [rows(0, "VEC3"), rows(1, "VEC3"), rows(2, "VEC2")]}, open("n.gltf", "w"))
 END
 mr-import n.gltf | mr-export -f obj - | grep '^[fv][nt]* '
+
+echo '-- of an OBJ whose faces name none: as many as vertices are theirs, others are counted'
+part() { # lines more
+	printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 5 5 5\n'
+	printf "$1"
+}
+part 'vn 0 0 1\nvn 0 1 0\nvn 1 0 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nf 1 2 3\n' >v.obj
+mr-import v.obj | mr-export -f obj - | grep '^[fv][nt]* '
+grep -v f v.obj | mr-import -f obj | mr-info | grep -o 'normal\|texcoord'
+part 'vn 0 0 1\nvn 0 1 0\nvn 1 0 0\nvn 0 0 1\nvt 0 0\nvt 1 0\nvt 1 1\nvt nan 1\nf 1 2 3\n' >v.obj
+mr-import v.obj | mr-export -f obj - | grep '^[fv][nt]* '
+part 'vn 0 0 1\nvn 0 1 0\nvt 0 0\nvt 1 0\nvt nan 0\nf 1//1 2//1 3//1\n' >v.obj
+mr-import v.obj | mr-export -f obj - | grep '^[fv][nt]* '
+part 'vn 0 0 1\nvn 0 1 0\n' >v.obj
+mr-import v.obj | mr-info | grep normal
+echo '-- zeros of a vertex without a face are none; those that a corner names are said' >&2
+part 'vn 0 0 1\nvn 0 0 0\nf 1//1 2//1 3//1\n' >v.obj
+mr-import v.obj | mr-export one.obj
+grep '^vn' one.obj
+mr-import one.obj | mr-export two.obj
+cmp one.obj two.obj && echo same
+part 'vn 0 0 1\nvn 0 0 0\nf 1//1 2//1 3//2\n' >v.obj
+mr-import v.obj >/dev/null
+
+echo '-- the fourth number of a colour'
+printf 'v 0 0 0 1 0 0 0.5\nv 1 0 0 1 0 0\nv 0 1 0 0 0 1 0\nf 1 2 3\n' | mr-import -f obj | mr-export -f ply-ascii - | tail -n 4
+printf 'v 0 0 0 255 0 0 1\nv 1 0 0 1 0 0 0\nv 0 1 0 0 0 1 nan\nf 1 2 3\n' | mr-import -f obj | mr-export -f ply-ascii - | tail -n 4
