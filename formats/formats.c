@@ -442,18 +442,23 @@ void
 mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files)
 {
 	const char *p = files.text, *end = files.bytes ? p + files.bytes : p;
-	mr_lines shown;
-	size_t changed;
+	mr_lines first = { "", 0 };
+	size_t gone = 0, changed;
 
 	while (files.bytes && strcmp(path, "-") && p < end) {
 		const char *e = memchr(p, '\n', (size_t)(end - p));
 		e = e ? e : end;
-		if (!are_beside(path, p, e) &&
-		    mr_names_escape(ctx, (mr_lines){ p, (size_t)(e - p) }, &shown, &changed) == MR_OK)
-			mr_warn(ctx, "its materials are in %.*s, which is not there", (int)shown.bytes,
-			    shown.text);
+		if (!are_beside(path, p, e) && gone++ == 0)
+			first = (mr_lines){ p, (size_t)(e - p) };
 		p = e + 1;
 	}
+	if (gone == 0 || mr_names_escape(ctx, first, &first, &changed) != MR_OK)
+		return;
+	if (gone == 1)
+		mr_warn(ctx, "its materials are in %.*s, which is not there", (int)first.bytes, first.text);
+	else
+		mr_warn(ctx, "its materials are in %zu files that are not there, the first of them %.*s",
+		    gone, (int)first.bytes, first.text);
 }
 
 /* ---- writing ---- */

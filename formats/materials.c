@@ -2,9 +2,9 @@
  * have added; the rest is for other programs. */
 #include "formats/materials.h"
 
-#include "base/text_file.h"
-#include "formats/scan.h"
+#include "formats/format.h"
 
+#include <limits.h>
 #include <strings.h>
 #include <sys/stat.h>
 
@@ -14,8 +14,14 @@ typedef struct finder {
 	const char **name; /* of the model's materials: count + 1 starts */
 	mr_material *list;
 	size_t count;
-	size_t at; /* the material that the file speaks of; count: none of the model's */
+	size_t *bare;         /* bytes of each name before a comment */
+	unsigned char *match; /* how well a name of a file has matched each */
+	size_t *at, ats;      /* the materials that the file speaks of */
+	size_t read, gone;    /* files that are there and that are not */
+	const char *last_read, *first_gone;
 } finder;
+
+enum { NO_MATCH, MATCH_BUT_COMMENT, MATCH };
 
 /* ---- files ---- */
 
@@ -97,15 +103,55 @@ behind_options(const char *s)
 	}
 }
 
+/* Bytes before a comment, which begins at a # behind a blank. */
+static size_t
+before_comment(const char *s, size_t bytes)
+{
+	size_t n = 1;
+
+	while (n < bytes && !(s[n] == '#' && mr_is_blank(s[n - 1])))
+		n++;
+	if (n >= bytes)
+		return bytes;
+	while (n && mr_is_blank(s[n - 1]))
+		n--;
+	return n;
+}
+
+static size_t
+name_bytes(const finder *f, size_t i)
+{
+	return (size_t)(f->name[i + 1] - f->name[i]) - 1;
+}
+
+/* A # may belong to the name, as in "Material #25", or begin a comment on either side. */
+static unsigned char
+match_of(const finder *f, size_t i, const char *name, size_t bytes, size_t bare)
+{
+	size_t own = name_bytes(f, i);
+
+	if (own == 0 || bytes == 0 || memcmp(f->name[i], name, own < bytes ? own : bytes))
+		return NO_MATCH;
+	if (own == bytes)
+		return MATCH;
+	return own == bare || f->bare[i] == bytes ? MATCH_BUT_COMMENT : NO_MATCH;
+}
+
+/* What is said of a name that matches better goes before all that was said so far. */
 static void
 new_material(finder *f, const char *name)
 {
-	size_t bytes = strlen(name);
+	size_t bytes = strlen(name), bare = before_comment(name, bytes);
 
-	for (f->at = 0; f->at < f->count; f->at++) {
-		const char *const *start = f->name + f->at;
-		if (bytes > 0 && (size_t)(start[1] - start[0]) == bytes + 1 && !memcmp(start[0], name, bytes))
-			return;
+	f->ats = 0;
+	for (size_t i = 0; i < f->count; i++) {
+		unsigned char match = match_of(f, i, name, bytes, bare);
+		if (match == NO_MATCH || match < f->match[i])
+			continue;
+		if (match > f->match[i])
+			f->list[i] = (mr_material){ 0 };
+		f->match[i] = match;
+		f->at[f->ats++] = i;
 	}
 }
 
@@ -127,16 +173,22 @@ diffuse(mr_material *m, const char *s)
 		m->color[n] = m->color[n] > 0 ? m->color[n] < 1 ? m->color[n] : 1 : 0;
 }
 
-/* to: the picture, of the material at hand. */
+/* to: the picture of material i. */
 static mr_status
-map(finder *f, const char *s, const char **to)
+map(finder *f, size_t i, const char *s, const char **to)
 {
-	const char *file = behind_options(s), *start = f->name[f->at];
+	const char *file = behind_options(s), *bare;
 
 	MR_TRY(find_file(f, file, to));
+	if (*to)
+		return MR_OK;
+	bare = mr_format(f->ctx, "%.*s", (int)before_comment(file, strlen(file)), file);
+	if (!bare)
+		return MR_EMEM;
+	MR_TRY(find_file(f, bare, to));
 	if (!*to)
 		mr_warn(f->ctx, "%.100s, the picture of material %.*s, is not in %s", file,
-		    (int)(f->name[f->at + 1] - start) - 1, start, f->folder);
+		    (int)name_bytes(f, i), f->name[i], f->folder);
 	return MR_OK;
 }
 
@@ -159,74 +211,145 @@ modify(mr_material *m, const char *s)
 }
 
 static mr_status
-statement(finder *f, const char *line)
+describe(finder *f, size_t i, const char *line)
 {
-	mr_material *m;
+	mr_material *m = &f->list[i];
 	const char *rest;
 
-	if ((rest = behind(line, "newmtl")))
-		new_material(f, rest);
-	if (f->at == f->count)
-		return MR_OK;
-	m = &f->list[f->at];
 	if ((rest = behind(line, "Kd")))
 		diffuse(m, rest);
 	if ((rest = behind(line, "map_Kd")))
-		MR_TRY(map(f, rest, &m->file));
+		MR_TRY(map(f, i, rest, &m->file));
 	if ((rest = behind(line, "norm")) || (rest = behind(line, "map_Kn")))
-		MR_TRY(map(f, rest, &m->normals));
+		MR_TRY(map(f, i, rest, &m->normals));
 	if ((rest = behind(line, "disp")) || (rest = behind(line, "map_disp"))) {
 		modify(m, rest);
-		MR_TRY(map(f, rest, &m->heights));
+		MR_TRY(map(f, i, rest, &m->heights));
 	}
+	return MR_OK;
+}
+
+static const char *
+text_of(mr_ctx *ctx, mr_scan line)
+{
+	ptrdiff_t n = line.end - line.p;
+
+	return mr_format(ctx, "%.*s", (int)(n < INT_MAX ? n : INT_MAX), line.p);
+}
+
+static mr_status
+statement(finder *f, mr_scan line)
+{
+	const char *text, *name;
+
+	mr_skip_blanks(&line);
+	while (line.end > line.p && mr_is_blank(line.end[-1]))
+		line.end--;
+	text = text_of(f->ctx, line);
+	if (!text)
+		return MR_EMEM;
+	if ((name = behind(text, "newmtl")))
+		new_material(f, name);
+	for (size_t k = 0; k < f->ats; k++)
+		MR_TRY(describe(f, f->at[k], text));
+	return MR_OK;
+}
+
+static mr_status
+statements(finder *f, const unsigned char *data, size_t size)
+{
+	mr_scan text, line;
+
+	MR_TRY(mr_as_text(f->ctx, &data, &size));
+	if (size && memchr(data, 0, size))
+		return mr_fail(f->ctx, MR_EFORMAT, "a zero byte: not a text file");
+	text = mr_scan_of(f->ctx, data, size);
+	while (mr_scan_line(&text, &line))
+		MR_TRY(statement(f, line));
 	return MR_OK;
 }
 
 static mr_status
 read_library(finder *f, const char *path)
 {
-	char **line;
-	size_t n;
+	mr_file_bytes b = { 0 };
+	mr_status status;
 
-	MR_TRY(mr_lines_read(f->ctx, path, &line, &n));
-	f->at = f->count;
-	for (size_t i = 0; i < n; i++)
-		MR_TRY(statement(f, line[i]));
-	return MR_OK;
+	MR_TRY(mr_file_bytes_read(f->ctx, path, NULL, &b));
+	f->ats = 0;
+	status = statements(f, b.data, b.size);
+	return mr_prefix(f->ctx, mr_file_bytes_end(f->ctx, &b, status), "%s", path);
 }
 
-/* The file of a name of so many bytes; *there: whether it is. */
+/* The file of a name; *there: whether it is. */
 static mr_status
-try_library(finder *f, const char *name, size_t bytes, bool *there)
+try_library(finder *f, const char *name, bool *there)
 {
-	char *text = mr_format(f->ctx, "%.*s", (int)bytes, name);
 	const char *path = NULL;
 
-	if (!text)
-		return MR_EMEM;
-	MR_TRY(find_file(f, text, &path));
+	MR_TRY(find_file(f, name, &path));
 	*there = path != NULL;
-	return path ? read_library(f, path) : MR_OK;
+	if (!path)
+		return MR_OK;
+	f->read++;
+	f->last_read = name;
+	return read_library(f, path);
 }
 
 /* A line names one file, whose name may have blanks in it, or several. */
 static mr_status
 read_libraries(finder *f, const char *line, size_t bytes)
 {
-	const char *end = line + bytes;
+	const char *end = line + bytes, *name = mr_format(f->ctx, "%.*s", (int)bytes, line);
 	bool there;
 
-	MR_TRY(try_library(f, line, bytes, &there));
+	if (!name)
+		return MR_EMEM;
+	MR_TRY(try_library(f, name, &there));
 	for (const char *p = line, *e; p < end && !there; p = e + 1) {
 		bool found = true;
 		e = memchr(p, ' ', (size_t)(end - p));
 		e = e ? e : end;
+		if (!(name = mr_format(f->ctx, "%.*s", (int)(e - p), p)))
+			return MR_EMEM;
 		if (e > p)
-			MR_TRY(try_library(f, p, (size_t)(e - p), &found));
-		if (!found)
-			mr_warn(f->ctx, "%.*s is not in %s: its materials are only names", (int)(e - p), p,
-			    f->folder);
+			MR_TRY(try_library(f, name, &found));
+		if (!found && f->gone++ == 0)
+			f->first_gone = name;
 	}
+	return MR_OK;
+}
+
+static void
+say_gone(const finder *f)
+{
+	if (f->gone == 1)
+		mr_warn(
+		    f->ctx, "%.100s is not in %s: its materials are only names", f->first_gone, f->folder);
+	else if (f->gone)
+		mr_warn(f->ctx,
+		    "%zu files of materials are not in %s, the first of them %.100s: their materials are "
+		    "only "
+		    "names",
+		    f->gone, f->folder, f->first_gone);
+}
+
+/* The model's materials that no file speaks of. */
+static mr_status
+say_unknown(const finder *f)
+{
+	const char *where = f->read == 1 ? f->last_read
+	                                 : mr_format(f->ctx, "%zu files of materials", f->read);
+	size_t unknown = 0, first = 0;
+
+	if (!where)
+		return MR_EMEM;
+	for (size_t i = 0; i < f->count; i++)
+		if (f->match[i] == NO_MATCH && name_bytes(f, i) && unknown++ == 0)
+			first = i;
+	if (f->read && unknown)
+		mr_warn(f->ctx, "%zu of %zu materials are not in %.100s: they are only names, the first %.*s",
+		    unknown, f->count, where, (int)name_bytes(f, first), f->name[first]);
 	return MR_OK;
 }
 
@@ -243,12 +366,19 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 		return MR_OK;
 	MR_TRY(mr_lines_starts(ctx, m->materials, &f.name, &f.count));
 	f.list = MR_NEW_ZERO(ctx, f.count, mr_material);
-	if (!f.list)
+	f.bare = MR_NEW(ctx, f.count, size_t);
+	f.match = MR_NEW_ZERO(ctx, f.count, unsigned char);
+	f.at = MR_NEW(ctx, f.count, size_t);
+	if (!f.list || !f.bare || !f.match || !f.at)
 		return MR_EMEM;
+	for (size_t i = 0; i < f.count; i++)
+		f.bare[i] = before_comment(f.name[i], name_bytes(&f, i));
 	if (m->mtllib.text && m->mtllib.bytes) {
 		MR_TRY(mr_lines_starts(ctx, m->mtllib, &library, &libraries));
 		for (size_t i = 0; i < libraries; i++)
 			MR_TRY(read_libraries(&f, library[i], (size_t)(library[i + 1] - library[i]) - 1));
+		say_gone(&f);
+		MR_TRY(say_unknown(&f));
 	}
 	*list = f.list;
 	*count = f.count;

@@ -34,7 +34,7 @@ grep '^[fgosu]' again.obj
 touch 'not there.mtl'
 mr-import model.obj 2>&1 >/dev/null | grep -c not.there
 rm here.mtl 'not there.mtl'
-mr-import model.obj 2>&1 >/dev/null | grep 'not there$'
+mr-import model.obj 2>&1 >/dev/null | grep 'not there'
 
 echo '-- so far from the origin that doubles are coarse; of which file it is said' >&2
 printf 'v 1e15 0 0\nv 1000000000000001 0 0\nv 1e15 1 0\nf 1 2 3\n' >far.obj

@@ -119,8 +119,10 @@ materials(void **state)
 	assert_false(look[2].colored);
 	assert_null(look[3].file);
 	assert_string_equal(look[4].file, "folder/absolute.png");
-	assert_string_equal(heard, "../outside.png, the picture of material out, is not in folder\n"
-				   "gone.mtl is not in folder: its materials are only names\n");
+	assert_string_equal(heard,
+	    "../outside.png, the picture of material out, is not in folder\n"
+	    "gone.mtl is not in folder: its materials are only names\n"
+	    "1 of 5 materials are not in sub\\m.mtl: they are only names, the first green\n");
 	mr_ctx_free(&ctx);
 }
 
