@@ -84,6 +84,13 @@ check_version(const mr_gltf *g)
 	return MR_OK;
 }
 
+mr_status
+mr_gltf_needs(const mr_gltf *g, const char *extension)
+{
+	return mr_fail(
+	    g->ctx, MR_EFORMAT, "the file needs the extension %.60s, which is not read", extension);
+}
+
 /* What changes no place of a vertex may be required. */
 static mr_status
 check_extensions(const mr_gltf *g)
@@ -98,9 +105,7 @@ check_extensions(const mr_gltf *g)
 		while (name && *h && strncmp(name, *h, strlen(*h)))
 			h++;
 		if (!name || !*h)
-			return mr_fail(g->ctx, MR_EFORMAT,
-			    "the file needs the extension %.60s, which is not read",
-			    name ? name : "without a name");
+			return mr_gltf_needs(g, name ? name : "without a name");
 	}
 	return MR_OK;
 }
@@ -226,11 +231,12 @@ decode64(mr_gltf *g, size_t number, const char *text, mr_gltf_buffer *b)
 	return MR_OK;
 }
 
-/* The bytes of a buffer: of the GLB, or in the URI. */
+/* The bytes of a buffer: of the GLB, or in the URI; what only an extension fills has none. */
 static mr_status
 find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 {
-	const json_t *uri = json_object_get(mr_gltf_at(g, "buffers", number), "uri");
+	json_t *json = mr_gltf_at(g, "buffers", number), *uri = json_object_get(json, "uri"),
+	       *extensions = json_object_get(json, "extensions");
 	const char *text = json_string_value(uri), *data = text ? strstr(text, ";base64,") : NULL;
 
 	if (uri && !text)
@@ -241,6 +247,8 @@ find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 		    strncmp(text, "data:", 5) ? text : "a URI without base 64");
 	if (text)
 		return decode64(g, number, data + strlen(";base64,"), b);
+	if (json_object_size(extensions))
+		return mr_gltf_needs(g, json_object_iter_key(json_object_iter(extensions)));
 	if (number > 0 || !g->bin)
 		return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu is not in the file", number);
 	*b = (mr_gltf_buffer){ g->bin, g->bin_bytes };
@@ -372,9 +380,6 @@ open_accessor(mr_gltf *g, const json_t *json, mr_accessor *a)
 		return mr_fail(g->ctx, MR_EFORMAT, "type %.20s of components %zu is not read",
 		    type ? type : "none", a->kind);
 	MR_TRY(find_rows(g, json, a->components * kind_bytes(a->kind), a->count, &a->data, &a->stride));
-	if (!a->data && a->count > g->file_bytes) /* zeros that nobody wrote */
-		return mr_fail(
-		    g->ctx, MR_EFORMAT, "%zu rows cannot be in a file of %zu bytes", a->count, g->file_bytes);
 	return sparse ? open_sparse(g, sparse, a) : MR_OK;
 }
 

@@ -67,6 +67,13 @@ mr_status mr_gltf_count(const mr_gltf *g, const json_t *object, const char *key,
 mr_status mr_gltf_index(
     const mr_gltf *g, const json_t *object, const char *key, const char *array, size_t *index) MR_WARN_UNUSED;
 
+/* `count` numbers under a key, if it is there. */
+mr_status mr_gltf_numbers(const mr_gltf *g, const json_t *object, const char *key, size_t count, double *x,
+    bool *there) MR_WARN_UNUSED;
+
+/* Refuses what only an extension can read. */
+mr_status mr_gltf_needs(const mr_gltf *g, const char *extension) MR_WARN_UNUSED;
+
 /* The name of a thing; NULL where it has none, or an empty one. */
 const char *mr_gltf_name(const json_t *thing);
 
@@ -77,12 +84,47 @@ typedef struct mr_gltf_instance {
 	const char *name; /* of the node, or else of the mesh; NULL: none.  The document's */
 } mr_gltf_instance;
 
-/*
- * The meshes of the scene that is to be shown, or, where there is no scene, all meshes as they are.  others:
- * how many more scenes there are.
- */
-mr_status
-mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *others) MR_WARN_UNUSED;
+/* What a document has that its scene does not show: other scenes, nodes with meshes that are not in it, and
+ * nodes whose mesh EXT_mesh_gpu_instancing shows several times. */
+typedef struct mr_gltf_unseen {
+	size_t scenes, nodes, several;
+} mr_gltf_unseen;
+
+/* The meshes of the scene that is to be shown, or, where there is no scene, all meshes as they are. */
+mr_status mr_gltf_scene(
+    const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr_gltf_unseen *unseen) MR_WARN_UNUSED;
+
+/* How the picture of a material's colour lies on the texture coordinates. */
+typedef struct mr_gltf_texture {
+	size_t set;    /* of coordinates */
+	bool moves;    /* these are to be mapped */
+	double map[6]; /* to u, and to v, by u, v and 1 */
+} mr_gltf_texture;
+
+/* By KHR_texture_transform.  material: may be MR_UNKNOWN. */
+mr_status mr_gltf_texture_of(const mr_gltf *g, size_t material, mr_gltf_texture *t) MR_WARN_UNUSED;
+
+/* How many materials have a colour, and how many a picture that lies otherwise than that of the colour. */
+typedef struct mr_gltf_looks {
+	size_t colors, transforms;
+} mr_gltf_looks;
+
+mr_gltf_looks mr_gltf_count_looks(const mr_gltf *g);
+
+/* What a document has and a model has not. */
+typedef struct mr_gltf_left {
+	size_t lines, targets;
+	mr_gltf_unseen unseen;
+	const char **attribute; /* the name of each; the document's */
+	size_t attributes, attribute_room;
+} mr_gltf_left;
+
+/* Notes what of a primitive that is drawn is not read.  texcoord: the name of the coordinates that are. */
+mr_status mr_gltf_note_attributes(
+    const mr_gltf *g, json_t *attributes, const char *texcoord, mr_gltf_left *left) MR_WARN_UNUSED;
+
+/* Warns of all that is left out, with its number. */
+mr_status mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left) MR_WARN_UNUSED;
 
 /* Values in a buffer, some of which others stand for. */
 typedef struct mr_accessor {

@@ -18,9 +18,9 @@ typedef struct instance {
 	bool numbered; /* its vertices are */
 } instance;
 
-/* The accessors of a primitive's vertices; MR_UNKNOWN: none. */
+/* The accessors of a primitive's vertices, and the material that moves the coordinates; MR_UNKNOWN: none. */
 typedef struct sources {
-	size_t position, normal, texcoord, color, number;
+	size_t position, normal, texcoord, color, number, mover;
 } sources;
 
 /* A primitive of an instance. */
@@ -31,11 +31,6 @@ typedef struct part {
 	bool own;            /* that no part before it has read */
 	size_t mode, indices, corners, material;
 } part;
-
-/* What the document has and a model has not. */
-typedef struct left_out {
-	size_t lines, targets, texcoords, scenes;
-} left_out;
 
 typedef struct gltf_reader {
 	mr_gltf g;
@@ -51,7 +46,10 @@ typedef struct gltf_reader {
 	uint32_t *join;       /* n: the vertex of the model */
 	mr_tri *t, *joined;   /* nf, of vertices as the file has them, and of the model's */
 	uint32_t *object, *material;
-	left_out left;
+	size_t zeros;       /* rows of accessors without a view */
+	const char *packed; /* the extension that holds the primitive at hand; NULL: none */
+	bool picks;         /* a part does */
+	mr_gltf_left left;
 	mr_model *m;
 } gltf_reader;
 
@@ -62,7 +60,7 @@ find_instances(gltf_reader *r)
 {
 	const mr_gltf_instance *list;
 
-	MR_TRY(mr_gltf_scene(&r->g, &list, &r->instances, &r->left.scenes));
+	MR_TRY(mr_gltf_scene(&r->g, &list, &r->instances, &r->left.unseen));
 	r->instance = MR_NEW_ZERO(r->g.ctx, r->instances, instance);
 	if (!r->instance)
 		return MR_EMEM;
@@ -78,16 +76,64 @@ faces_of(size_t mode, size_t corners)
 }
 
 static mr_status
-find_sources(gltf_reader *r, const json_t *attributes, sources *s)
+find_sources(gltf_reader *r, const json_t *attributes, const char *texcoord, sources *s)
 {
 	const mr_gltf *g = &r->g;
 
 	MR_TRY(mr_gltf_index(g, attributes, "POSITION", "accessors", &s->position));
 	MR_TRY(mr_gltf_index(g, attributes, "NORMAL", "accessors", &s->normal));
-	MR_TRY(mr_gltf_index(g, attributes, "TEXCOORD_0", "accessors", &s->texcoord));
+	MR_TRY(mr_gltf_index(g, attributes, texcoord, "accessors", &s->texcoord));
 	MR_TRY(mr_gltf_index(g, attributes, "COLOR_0", "accessors", &s->color));
-	MR_TRY(mr_gltf_index(g, attributes, MR_GLTF_NUMBER, "accessors", &s->number));
-	r->left.texcoords += json_object_get(attributes, "TEXCOORD_1") != NULL;
+	return mr_gltf_index(g, attributes, MR_GLTF_NUMBER, "accessors", &s->number);
+}
+
+/* The attributes that are read: of the coordinates those of the colour's picture, or the first ones. */
+static mr_status
+find_attributes(gltf_reader *r, const json_t *json, part *p)
+{
+	json_t *attributes = json_object_get(json, "attributes");
+	mr_gltf_texture t = { 0 };
+	char texcoord[32];
+
+	MR_TRY(mr_gltf_texture_of(&r->g, p->material, &t));
+	snprintf(texcoord, sizeof texcoord, "TEXCOORD_%zu", t.set);
+	if (!json_object_get(attributes, texcoord)) {
+		snprintf(texcoord, sizeof texcoord, "TEXCOORD_0");
+		t.moves = false;
+	}
+	p->from.mover = t.moves ? p->material : MR_UNKNOWN;
+	MR_TRY(find_sources(r, attributes, texcoord, &p->from));
+	return p->from.position == MR_UNKNOWN
+	           ? MR_OK
+	           : mr_gltf_note_attributes(&r->g, attributes, texcoord, &r->left);
+}
+
+/* The extension that holds what a primitive has, in a view of its own; NULL: none. */
+static const char *
+packed_by(const json_t *primitive)
+{
+	const char *name;
+	json_t *value;
+
+	json_object_foreach(json_object_get(primitive, "extensions"), name,
+	    value) if (json_object_get(value, "bufferView")) return name;
+	return NULL;
+}
+
+/* An accessor without a view: zeros that nobody wrote, of which there may be as many as the file has bytes,
+ * or what is packed elsewhere. */
+static mr_status
+check_zeros(gltf_reader *r, const mr_accessor *a)
+{
+	if (a->data)
+		return MR_OK;
+	if (r->packed && a->sparse == 0)
+		return mr_gltf_needs(&r->g, r->packed);
+	r->zeros += a->count;
+	if (r->zeros > r->g.file_bytes)
+		return mr_fail(r->g.ctx, MR_EFORMAT,
+		    "accessor %zu: %zu rows without values cannot be in a file of %zu bytes", a->number,
+		    r->zeros, r->g.file_bytes);
 	return MR_OK;
 }
 
@@ -98,6 +144,7 @@ count_rows(gltf_reader *r, size_t accessor, size_t width, size_t *rows)
 	mr_accessor a;
 
 	MR_TRY(mr_accessor_open(&r->g, accessor, &a));
+	MR_TRY(check_zeros(r, &a));
 	if (a.components < width || (width < 3 && a.components != width))
 		return mr_fail(r->g.ctx, MR_EFORMAT, "accessor %zu has rows of %zu numbers, not %zu",
 		    accessor, a.components, width);
@@ -106,6 +153,13 @@ count_rows(gltf_reader *r, size_t accessor, size_t width, size_t *rows)
 		    r->g.ctx, MR_EFORMAT, "accessor %zu has %zu rows, not %zu", accessor, a.count, *rows);
 	*rows = a.count;
 	return MR_OK;
+}
+
+/* Whether the indices name the points that there are. */
+static bool
+picks(const part *p)
+{
+	return p->mode == POINTS && p->indices != MR_UNKNOWN;
 }
 
 static mr_status
@@ -125,7 +179,8 @@ count_vertices(gltf_reader *r, part *p)
 		MR_TRY(count_rows(r, p->from.color, 3, &p->count));
 	if (p->from.number != MR_UNKNOWN)
 		MR_TRY(count_rows(r, p->from.number, 2, &p->count));
-	if (before && before->instance == p->instance && !memcmp(&before->from, &p->from, sizeof p->from)) {
+	if (before && before->instance == p->instance && !picks(before) && !picks(p) &&
+	    !memcmp(&before->from, &p->from, sizeof p->from)) {
 		p->first = before->first;
 		p->own = false;
 	}
@@ -150,7 +205,6 @@ count_corners(gltf_reader *r, part *p)
 static mr_status
 read_primitive(gltf_reader *r, const json_t *json, size_t number)
 {
-	const json_t *attributes = json_object_get(json, "attributes");
 	instance *i = &r->instance[number];
 	part p = { .instance = number };
 
@@ -160,9 +214,10 @@ read_primitive(gltf_reader *r, const json_t *json, size_t number)
 		r->left.lines++;
 		return MR_OK;
 	}
-	MR_TRY(find_sources(r, attributes, &p.from));
 	MR_TRY(mr_gltf_index(&r->g, json, "indices", "accessors", &p.indices));
 	MR_TRY(mr_gltf_index(&r->g, json, "material", "materials", &p.material));
+	MR_TRY(find_attributes(r, json, &p));
+	r->packed = packed_by(json);
 	if (p.from.position == MR_UNKNOWN) /* by the specification there is nothing to draw */
 		return MR_OK;
 	MR_TRY(count_vertices(r, &p));
@@ -170,6 +225,7 @@ read_primitive(gltf_reader *r, const json_t *json, size_t number)
 	if (p.own)
 		r->n += p.count;
 	r->nf += faces_of(p.mode, p.corners);
+	r->picks |= picks(&p);
 	i->faces |= p.mode != POINTS;
 	i->numbered &= p.from.number != MR_UNKNOWN;
 	i->last = r->n;
@@ -266,14 +322,27 @@ read_normals(gltf_reader *r, const part *p, const mr_accessor *a)
 	return MR_OK;
 }
 
+static void
+move(const mr_gltf_texture *t, double *uv)
+{
+	double u = uv[0], v = uv[1];
+
+	uv[0] = t->map[0] * u + t->map[1] * v + t->map[2];
+	uv[1] = t->map[3] * u + t->map[4] * v + t->map[5];
+}
+
 /* v runs down the picture in glTF, up in OBJ. */
 static mr_status
 read_texcoords(gltf_reader *r, const part *p, const mr_accessor *a)
 {
 	double *uv = r->uv + 2 * p->first;
+	mr_gltf_texture t = { 0 };
 
+	MR_TRY(mr_gltf_texture_of(&r->g, p->from.mover, &t));
 	MR_TRY(mr_accessor_reals(&r->g, a, 2, uv));
 	for (size_t i = 0; i < p->count; i++) {
+		if (t.moves)
+			move(&t, uv + 2 * i);
 		uv[2 * i + 1] = 1 - uv[2 * i + 1];
 		if (!isfinite(uv[2 * i]) || !isfinite(uv[2 * i + 1])) {
 			uv[2 * i] = uv[2 * i + 1] = NAN;
@@ -380,6 +449,79 @@ read_vertices(gltf_reader *r)
 		if (r->instance[p->instance].numbered)
 			MR_TRY(read_column(r, p, p->from.number, read_numbers));
 	}
+	return MR_OK;
+}
+
+static void
+move_vertex(gltf_reader *r, size_t to, size_t from)
+{
+	r->p[to] = r->p[from];
+	r->number[to] = r->number[from];
+	if (r->normal)
+		r->normal[to] = r->normal[from];
+	if (r->uv)
+		memmove(r->uv + 2 * to, r->uv + 2 * from, 2 * sizeof *r->uv);
+	if (r->color)
+		memmove(r->color + 4 * to, r->color + 4 * from, 4);
+}
+
+/* Which points of a part its indices name; all of another part. */
+static mr_status
+mark_points(gltf_reader *r, const part *p, bool **named)
+{
+	uint32_t *index;
+	mr_accessor a;
+
+	*named = NULL;
+	if (!picks(p))
+		return MR_OK;
+	MR_TRY(mr_accessor_open(&r->g, p->indices, &a));
+	index = MR_NEW(r->g.ctx, a.count, uint32_t);
+	*named = MR_NEW_ZERO(r->g.ctx, p->count, bool);
+	if (!index || !*named)
+		return MR_EMEM;
+	MR_TRY(mr_accessor_indices(&r->g, &a, p->count, index));
+	for (size_t i = 0; i < a.count; i++)
+		(*named)[index[i]] = true;
+	return MR_OK;
+}
+
+/* Moves a part's vertices to where the one before ends, but for points that no index names. */
+static mr_status
+pick_points(gltf_reader *r, part *p, size_t *to)
+{
+	mr_mark mark = mr_mark_take(r->g.ctx);
+	size_t from = p->first;
+	bool *named;
+
+	if (!p->own) {
+		p->first = p[-1].first;
+		return MR_OK;
+	}
+	MR_TRY(mark_points(r, p, &named));
+	p->first = *to;
+	for (size_t k = 0; k < p->count; k++)
+		if (!named || named[k])
+			move_vertex(r, (*to)++, from + k);
+	p->count = *to - p->first;
+	mr_mark_release(r->g.ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+drop_points(gltf_reader *r)
+{
+	size_t to = 0, k = 0;
+
+	if (!r->picks)
+		return MR_OK;
+	for (size_t i = 0; i < r->instances; i++) {
+		r->instance[i].first = to;
+		for (; k < r->parts && r->part[k].instance == i; k++)
+			MR_TRY(pick_points(r, &r->part[k], &to));
+		r->instance[i].last = to;
+	}
+	r->n = to;
 	return MR_OK;
 }
 
@@ -630,7 +772,7 @@ join_columns(gltf_reader *r)
 
 /* ---- names ---- */
 
-/* Names, cleaned, one a line. */
+/* Names, one a line: within one a tab stands for an end of line, and is warned of. */
 static mr_status
 add_line(mr_ctx *ctx, const char *name, bool first, mr_lines *l, size_t *room)
 {
@@ -640,7 +782,8 @@ add_line(mr_ctx *ctx, const char *name, bool first, mr_lines *l, size_t *room)
 	MR_TRY(MR_RESERVE(ctx, text, l->bytes, bytes + 2, room));
 	if (!first)
 		text[l->bytes++] = '\n';
-	l->bytes += mr_clean_name(text + l->bytes, name, bytes, false);
+	for (size_t i = 0; i < bytes; i++)
+		text[l->bytes++] = name[i] == '\n' || name[i] == '\r' ? '\t' : name[i];
 	l->text = text;
 	return MR_OK;
 }
@@ -694,31 +837,7 @@ name_materials(gltf_reader *r)
 	return add_lines(r->g.ctx, name, n + without, "material", &r->m->materials);
 }
 
-/* ---- what is left out ---- */
-
-static mr_status
-say_left_out(gltf_reader *r)
-{
-	const struct {
-		size_t count;
-		const char *what;
-	} lines[] = { { mr_gltf_size(&r->g, "images"), "image" }, { mr_gltf_size(&r->g, "skins"), "skin" },
-		{ mr_gltf_size(&r->g, "animations"), "animation" },
-		{ mr_gltf_size(&r->g, "cameras"), "camera" }, { r->left.targets, "morph target" },
-		{ r->left.texcoords, "TEXCOORD_1 attribute" }, { r->left.lines, "line primitive" },
-		{ r->left.scenes, "other scene" } };
-	const char *said = "";
-
-	for (size_t i = 0; i < sizeof lines / sizeof *lines && said; i++)
-		if (lines[i].count)
-			said = mr_format(r->g.ctx, "%s%s%zu %s%s", said, *said ? ", " : "", lines[i].count,
-			    lines[i].what, lines[i].count > 1 ? "s" : "");
-	if (!said)
-		return MR_EMEM;
-	if (*said)
-		mr_warn(r->g.ctx, "not kept of the file: %s", said);
-	return MR_OK;
-}
+/* ---- the document ---- */
 
 static mr_status
 read_document(gltf_reader *r)
@@ -726,6 +845,7 @@ read_document(gltf_reader *r)
 	MR_TRY(find_instances(r));
 	MR_TRY(find_parts(r));
 	MR_TRY(read_vertices(r));
+	MR_TRY(drop_points(r));
 	MR_TRY(read_faces(r));
 	MR_TRY(join_vertices(r));
 	MR_TRY(join_columns(r));
@@ -735,7 +855,7 @@ read_document(gltf_reader *r)
 	r->m->nf = r->nf;
 	r->m->object = r->nf ? r->object : NULL;
 	r->m->material = r->nf ? r->material : NULL;
-	return say_left_out(r);
+	return mr_gltf_say_left(&r->g, &r->left);
 }
 
 mr_status

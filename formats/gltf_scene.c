@@ -1,9 +1,8 @@
 /* The scene of a glTF document: its nodes, from which meshes hang, are walked from the roots. */
 #include "formats/gltf.h"
 
-/* `count` numbers under a key, if it is there. */
-static mr_status
-numbers(const mr_gltf *g, const json_t *object, const char *key, size_t count, double *x, bool *there)
+mr_status
+mr_gltf_numbers(const mr_gltf *g, const json_t *object, const char *key, size_t count, double *x, bool *there)
 {
 	json_t *list = json_object_get(object, key);
 
@@ -44,16 +43,16 @@ node_map(const mr_gltf *g, const json_t *node, mr_affine *map)
 	double m[16], t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
 	bool there;
 
-	MR_TRY(numbers(g, node, "matrix", 16, m, &there));
+	MR_TRY(mr_gltf_numbers(g, node, "matrix", 16, m, &there));
 	if (there) { /* by columns */
 		for (int i = 0; i < 3; i++)
 			for (int j = 0; j < 4; j++)
 				map->m[4 * i + j] = m[4 * j + i];
 		return MR_OK;
 	}
-	MR_TRY(numbers(g, node, "translation", 3, t, &there));
-	MR_TRY(numbers(g, node, "rotation", 4, q, &there));
-	MR_TRY(numbers(g, node, "scale", 3, s, &there));
+	MR_TRY(mr_gltf_numbers(g, node, "translation", 3, t, &there));
+	MR_TRY(mr_gltf_numbers(g, node, "rotation", 4, q, &there));
+	MR_TRY(mr_gltf_numbers(g, node, "scale", 3, s, &there));
 	*map = from_parts(t, q, s);
 	return MR_OK;
 }
@@ -78,6 +77,7 @@ typedef struct walk {
 	bool *seen; /* of each node */
 	mr_gltf_instance *found;
 	size_t instances, found_room;
+	size_t several; /* nodes that show their mesh several times */
 } walk;
 
 static mr_status
@@ -121,6 +121,8 @@ visit(walk *w, waiting at)
 	MR_TRY(node_map(w->g, node, &own));
 	map = mr_compose(&at.above, &own);
 	MR_TRY(mr_gltf_index(w->g, node, "mesh", "meshes", &mesh));
+	w->several += mesh != MR_UNKNOWN &&
+	              json_object_get(json_object_get(node, "extensions"), "EXT_mesh_gpu_instancing");
 	if (mesh != MR_UNKNOWN)
 		MR_TRY(push_instance(w, mesh, &map, mr_gltf_name(node)));
 	return pile_up(w, json_object_get(node, "children"), &map);
@@ -139,8 +141,19 @@ walk_scene(walk *w, size_t scene)
 	return MR_OK;
 }
 
+/* Nodes with a mesh that hang from no root of the scene. */
+static size_t
+count_unseen(const walk *w)
+{
+	size_t n = 0;
+
+	for (size_t i = 0; i < mr_gltf_size(w->g, "nodes"); i++)
+		n += !w->seen[i] && json_object_get(mr_gltf_at(w->g, "nodes", i), "mesh");
+	return n;
+}
+
 mr_status
-mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *others)
+mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr_gltf_unseen *unseen)
 {
 	const mr_affine identity = mr_identity();
 	size_t scene, scenes = mr_gltf_size(g, "scenes");
@@ -155,6 +168,6 @@ mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, si
 		MR_TRY(push_instance(&w, i, &identity, NULL));
 	*list = w.found;
 	*count = w.instances;
-	*others = scenes > 1 ? scenes - 1 : 0;
+	*unseen = (mr_gltf_unseen){ scenes > 1 ? scenes - 1 : 0, count_unseen(&w), w.several };
 	return MR_OK;
 }

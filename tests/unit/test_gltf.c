@@ -317,7 +317,8 @@ refused(void **state)
 	    "mesh 0, primitive 0: accessor 0: componentType is no whole number of 0 to 5126");
 	refuses("\"bufferView\":0,\"componentType\":5126,\"count\":6",
 	    "\"componentType\":5126,\"count\":4000000000",
-	    "mesh 0, primitive 0: accessor 0: 4000000000 rows cannot be in a file of 776 bytes");
+	    "mesh 0, primitive 0: accessor 0: 4000000000 rows without values cannot be in a file of 776 "
+	    "bytes");
 }
 
 static void

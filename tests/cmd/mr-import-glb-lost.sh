@@ -1,0 +1,108 @@
+# What a glTF has and a model has no place for is counted by its name; what only an extension can read is refused.
+cat >make.py <<'END'
+import base64, json, struct, sys
+numbers = [0, 0, 0, 1, 0, 0, 0, 1, 0, 5, 5, 5, 0, 0, 1, 0, 0, 1, 1, 1]
+data = struct.pack("<20f4B", *numbers, 1, 3, 1, 0)
+root = {"asset": {"version": "2.0"}, "scenes": [{"nodes": [0]}], "nodes": [{"mesh": 0}],
+    "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "mode": 0}]}],
+    "buffers": [{"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}],
+    "bufferViews": [{"buffer": 0, "byteLength": 48}, {"buffer": 0, "byteOffset": 48, "byteLength": 36}],
+    "accessors": [{"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"},
+        {"bufferView": 1, "componentType": 5126, "count": 4, "type": "VEC2"},
+        {"bufferView": 1, "byteOffset": 32, "componentType": 5121, "count": 3, "type": "SCALAR"}]}
+primitive = root["meshes"][0]["primitives"][0]
+exec(sys.stdin.read())
+json.dump(root, open(sys.argv[1], "w"))
+END
+make() {
+	python3 make.py a.gltf
+}
+refused() {
+	mr-import a.gltf >out
+	echo "exit $?, $(wc -c <out) bytes"
+}
+echo '-- what is packed, whether the file says that it needs the extension or not'
+make <<'END'
+primitive["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0}}
+END
+mr-import a.gltf | mr-info | grep box
+make <<'END'
+primitive["extensions"] = {"KHR_draco_mesh_compression": {"bufferView": 0}}
+root["accessors"][0].pop("bufferView")
+END
+refused
+make <<'END'
+root["buffers"].append({"byteLength": 48, "extensions": {"EXT_meshopt_compression": {"fallback": True}}})
+root["bufferViews"][0]["buffer"] = 1
+END
+refused
+
+echo '-- rows without values, one by one fewer than the file has bytes'
+make <<'END'
+root["accessors"] = [{"componentType": 5126, "count": 250, "type": "VEC3"}]
+root["meshes"][0]["primitives"] = 3 * [{"attributes": {"POSITION": 0}, "mode": 0}]
+END
+refused
+
+echo '-- points that indices name, beside a mesh'
+make <<'END'
+primitive["indices"] = 2
+primitives = root["meshes"][0]["primitives"]
+primitives += [dict(primitive, mode=4), dict(primitive, indices=2)]
+primitives[1].pop("indices")
+root["accessors"][0]["count"] = root["accessors"][1]["count"] = 3
+data = data[:80] + b"\x01\x02\x01"
+root["buffers"][0]["uri"] = "data:;base64," + base64.b64encode(data + b"\0").decode()
+END
+mr-import a.gltf | mr-export -f obj - | grep '^[vf]'
+make <<'END'
+primitive["indices"] = 2
+END
+mr-import a.gltf | mr-export -f xyz -
+
+echo '-- coordinates as the picture of the colour lies on them'
+make <<'END'
+primitive["material"] = 0
+lies = {"KHR_texture_transform": {"offset": [0.25, 0.5], "rotation": 3.141592653589793 / 6, "scale": [0.5, 2]}}
+root["materials"] = [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": lies}},
+    "normalTexture": {"index": 0, "extensions": lies}, "emissiveTexture": {"index": 0}}]
+END
+python3 - <<'END'
+from math import cos, pi, sin
+s, c = sin(pi / 6), cos(pi / 6)
+for u, v in ((0, 0), (1, 0), (0, 1), (1, 1)):
+    print("vt %.6g %.6g" % (0.25 + c * 0.5 * u + s * 2 * v, 1 - (0.5 - s * 0.5 * u + c * 2 * v)))
+END
+mr-import a.gltf | mr-export -f ply-ascii - | awk 'NF == 5 && $1 + 0 == $1 { printf "vt %.6g %.6g\n", $4, $5 }'
+make <<'END'
+primitive.update(material=1, attributes={"POSITION": 0, "TEXCOORD_0": 0, "TEXCOORD_1": 1})
+root["materials"] = [{}, {"pbrMetallicRoughness": {"baseColorTexture": {"index": 0, "extensions": {"KHR_texture_transform": {"texCoord": 1}}}}}]
+END
+mr-import a.gltf | mr-export -f ply-ascii - | tail -n 4
+
+echo '-- what is counted' >&2
+make <<'END'
+primitive["attributes"].update({"TANGENT": 0, "COLOR_1": 0, "COLOR_2": 0, "TEXCOORD_2": 1, "JOINTS_0": 0, "_HEAT": 0})
+primitive["attributes"].update({"_%02d" % i: 0 for i in range(20)})
+root["meshes"].append(dict(root["meshes"][0]))
+root["nodes"] = [{"mesh": 0, "extensions": {"EXT_mesh_gpu_instancing": {"attributes": {"TRANSLATION": 0}}}}, {"mesh": 0}, {}]
+root["materials"] = [{"pbrMetallicRoughness": {"baseColorFactor": [1, 0, 0, 1]}}, {"emissiveFactor": [0, 0, 0]},
+    {"pbrMetallicRoughness": {"baseColorFactor": [1, 1, 1, 1], "metallicFactor": 0}}, {"emissiveFactor": [0, 0, 1]}]
+END
+mr-import a.gltf >/dev/null
+make <<'END'
+primitive["attributes"].update({"JOINTS_0": 0, "WEIGHTS_0": 0})
+root["skins"] = [{}]
+END
+mr-import a.gltf >/dev/null
+
+echo '-- names with ends of lines, and other control characters' >&2
+make <<'END'
+primitive.pop("mode")
+root["accessors"][0]["count"] = root["accessors"][1]["count"] = 3
+root["nodes"][0]["name"] = "two\nlines\x01"
+root["materials"] = [{"name": "a\rb"}, {"name": "c"}]
+END
+mr-import a.gltf -o a.mrs
+mr-export b.glb <a.mrs
+grep -a -o '"name":"[^"]*"' b.glb
