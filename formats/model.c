@@ -411,9 +411,9 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	if (o->weld)
 		MR_TRY(mr_model_weld(ctx, o->weld_distance * unit, &m));
 	if (o->repair)
-		MR_TRY(mr_prefix(ctx, mr_model_repair(ctx, &m), "%s", path));
+		MR_TRY(mr_prefix(ctx, mr_model_repair(ctx, &m), "%s", ctx->subject));
 	MR_TRY(mr_frame_new(ctx, name, &f));
-	MR_TRY(mr_model_put(ctx, f, o->layer, &m));
+	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, o->layer, &m), "%s", ctx->subject));
 	*frame = f;
 	mr_warn_of_libraries(ctx, path, m.mtllib);
 	m.counts.vertices = m.nv;

@@ -65,3 +65,14 @@ printf '0 0 0\n1 2 3\n' >points
 mr-import -f xyz - - <points >out.mrs
 echo $?
 { mr-import -f xyz - >out.mrs; wc -c; } <points
+
+echo 'more columns than a frame has' >&2
+{
+	printf 'ply\nformat ascii 1.0\nelement vertex 1\n'
+	printf 'property float %s\n' x y z
+	seq -f 'property uchar p%.0f' 5000
+	printf 'end_header\n0 0 0'
+	yes ' 0' | head -n 5000 | tr -d '\n'
+	echo
+} >wide.ply
+mr-import wide.ply
