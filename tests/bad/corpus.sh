@@ -98,7 +98,7 @@ trimesh_empty.stl|stl without a vertex
 trimesh_jacked.obj|8 12 and a remark
 trimesh_multibody.stl|20 32
 trimesh_nancolor.obj|8 12 and a remark
-trimesh_negative_indices.obj|8 12
+trimesh_negative_indices.obj|8 12 and a remark
 trimesh_obj_empty.obj|obj without a vertex
 trimesh_obj_points.obj|8 0
 trimesh_obj_wireframe.obj|8 0 and a remark
