@@ -5,6 +5,7 @@
 #include "base/rotation.h"
 #include "mesh/fold.h"
 #include "space/self_intersect.h"
+#include "space/suspects.h"
 
 enum { NEAR = 12, GRAIN = 256 };
 
@@ -14,7 +15,7 @@ typedef struct tally {
 
 typedef struct motion {
 	const mr_mesh *before, *after;
-	const mr_bvh *bvh; /* of after */
+	mr_suspects suspects; /* of after */
 	const mr_edges *edges;
 	bool *fold;     /* of the edges: new */
 	uint32_t *edge; /* of each half-edge; MR_NONE of a face that has a vertex twice */
@@ -294,14 +295,12 @@ search_faces(void *arg, size_t begin, size_t end)
 
 	s.j = j;
 	for (size_t f = begin; f < end; f++) {
-		mr_v3 p[3];
 		if (!j->moved[f])
 			continue;
 		s.face = (uint32_t)f;
 		s.gathered = false;
 		s.found = s.later = (tally){ 0, 0 };
-		corners(j->after, s.face, p);
-		mr_bvh_overlap(j->bvh, mr_box_of(p, 3), visit, &s);
+		mr_suspects_of(&j->suspects, s.face, visit, &s);
 		j->harm[f] += (uint32_t)s.found.near;
 		j->met[f] += (uint32_t)s.found.far;
 		j->pairs[begin / GRAIN].near += s.later.near;
@@ -320,7 +319,7 @@ search_all(mr_ctx *ctx, motion *j, tally *sum)
 	if (!j->pairs)
 		return MR_EMEM;
 	MR_TRY(mr_bvh_build(ctx, j->after, &bvh));
-	j->bvh = bvh;
+	MR_TRY(mr_suspects_find(ctx, bvh, &j->suspects));
 	mr_parallel(ctx, j->before->nf, GRAIN, search_faces, j);
 	for (size_t i = 0; i < pieces; i++) {
 		sum->near += j->pairs[i].near;

@@ -367,13 +367,6 @@ face_meets(const mr_mesh *m, uint32_t f, mr_box b)
 	       min3(p.z, q.z, r.z) <= b.max.z && max3(p.z, q.z, r.z) >= b.min.z;
 }
 
-static bool
-box_meets(const mr_bvh_node *d, int c, mr_v3 lo, mr_v3 hi)
-{
-	return d->lo[0][c] <= hi.x && d->hi[0][c] >= lo.x && d->lo[1][c] <= hi.y && d->hi[1][c] >= lo.y &&
-	       d->lo[2][c] <= hi.z && d->hi[2][c] >= lo.z;
-}
-
 bool
 mr_bvh_overlap(const mr_bvh *bvh, mr_box box, bool (*visit)(void *arg, uint32_t face), void *arg)
 {
@@ -385,7 +378,7 @@ mr_bvh_overlap(const mr_bvh *bvh, mr_box box, bool (*visit)(void *arg, uint32_t 
 	while (top > stack) {
 		const mr_bvh_node *d = &bvh->nodes[*--top];
 		for (int c = 0; c < BVH_WIDE; c++) {
-			if (d->child[c] == MR_NONE || !box_meets(d, c, lo, hi))
+			if (d->child[c] == MR_NONE || !bvh_box_meets(d, c, lo, hi))
 				continue;
 			if (!d->count[c])
 				*top++ = d->child[c];

@@ -1,4 +1,4 @@
-/* The search of bvh.c, which leaves out what has its own label or what is found nearer already. */
+/* The searches of bvh.c, which leave out what has its own label or what is found nearer already. */
 #include "space/bvh_labels.h"
 
 #include "space/bvh_tree.h"
@@ -150,4 +150,76 @@ mr_bvh_closest_others(
 		}
 	}
 	return s.n;
+}
+
+/* What meets a triangle */
+
+typedef struct meeting {
+	const mr_bvh_labels *labels;
+	uint32_t own;
+	mr_v3 lo, hi; /* of the triangle, in units of the mesh, like all that follows */
+	mr_v3 p, n;   /* its plane; n is 0 where rounding could turn it by more than boxes are grown */
+} meeting;
+
+static meeting
+meeting_of(const mr_bvh_labels *labels, uint32_t own, const mr_v3 p[3])
+{
+	const double sure = 0x1p-24;
+	mr_box box = mr_box_of(p, 3);
+	const mr_bvh *bvh = labels->bvh;
+	mr_v3 o = bvh_unit(bvh, p[0]), a = mr_sub(bvh_unit(bvh, p[1]), o), b = mr_sub(bvh_unit(bvh, p[2]), o),
+	      n = mr_cross(a, b);
+
+	if (!(mr_norm(n) > sure * (mr_norm(a) + mr_norm(b))))
+		n = mr_vec(0, 0, 0);
+	return (meeting){ labels, own, bvh_unit(bvh, box.min), bvh_unit(bvh, box.max), o, n };
+}
+
+/* Whether the plane n (x - p) = 0 leaves the box, of centre c and half extent e, on one side: |n (c - p)| >
+ * |n| e. */
+static bool
+is_beside(const meeting *x, const mr_bvh_node *d, int i)
+{
+	mr_v3 lo = mr_vec((double)d->lo[0][i], (double)d->lo[1][i], (double)d->lo[2][i]),
+	      hi = mr_vec((double)d->hi[0][i], (double)d->hi[1][i], (double)d->hi[2][i]),
+	      e = mr_mul(0.5, mr_sub(hi, lo)), c = mr_add(lo, e);
+
+	return fabs(mr_dot(x->n, mr_sub(c, x->p))) >
+	       fabs(x->n.x) * e.x + fabs(x->n.y) * e.y + fabs(x->n.z) * e.z;
+}
+
+/* Whether child i of the node may have what meets the triangle. */
+static bool
+may_meet(const meeting *x, const mr_bvh_node *d, int i)
+{
+	if (d->child[i] == MR_NONE || (!d->count[i] && x->labels->node[d->child[i]] == x->own))
+		return false;
+	return bvh_box_meets(d, i, x->lo, x->hi) && !is_beside(x, d, i);
+}
+
+bool
+mr_bvh_meet_others(const mr_bvh_labels *labels, uint32_t own, const mr_v3 p[3],
+    bool (*visit)(void *arg, uint32_t face), void *arg)
+{
+	const mr_bvh *bvh = labels->bvh;
+	meeting x = meeting_of(labels, own, p);
+	uint32_t stack[BVH_STACK], *top = stack;
+
+	if (bvh->mesh->nf)
+		*top++ = 0;
+	while (top > stack) {
+		const mr_bvh_node *d = &bvh->nodes[*--top];
+		for (int c = 0; c < BVH_WIDE; c++) {
+			if (!may_meet(&x, d, c))
+				continue;
+			if (!d->count[c])
+				*top++ = d->child[c];
+			for (uint32_t i = 0; i < d->count[c]; i++) {
+				uint32_t f = bvh->face[d->child[c] + i];
+				if (labels->face[f] != own && !visit(arg, f))
+					return false;
+			}
+		}
+	}
+	return true;
 }

@@ -1,5 +1,5 @@
 /*
- * bvh_tree.h -- how the hierarchy of bvh.h lies in memory; for bvh_build.c, bvh.c and bvh_labels.c only.
+ * bvh_tree.h -- how the hierarchy of bvh.h lies in memory; for the files of this room only.
  *
  * Contract: a tree of four children a node, in single precision and units of the
  * mesh's own box, 128 bytes a node.  Why it is exact all the same: with c the
@@ -69,6 +69,14 @@ bvh_push_sorted(bvh_entry *top, const mr_bvh_node *d, const double bound[BVH_WID
 		top++;
 	}
 	return top;
+}
+
+/* Whether the box of child c meets that from lo to hi. */
+static inline bool
+bvh_box_meets(const mr_bvh_node *d, int c, mr_v3 lo, mr_v3 hi)
+{
+	return d->lo[0][c] <= hi.x && d->hi[0][c] >= lo.x && d->lo[1][c] <= hi.y && d->hi[1][c] >= lo.y &&
+	       d->lo[2][c] <= hi.z && d->hi[2][c] >= lo.z;
 }
 
 /* Squared distances from q to the four boxes, lowered by what rounding can do. */

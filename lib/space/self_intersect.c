@@ -9,6 +9,7 @@
 #include "base/parallel.h"
 #include "mesh/alike.h"
 #include "space/predicates.h"
+#include "space/suspects.h"
 
 static bool
 same(mr_v3 a, mr_v3 b)
@@ -222,7 +223,7 @@ mr_triangles_intersect(const mr_v3 p[3], const mr_v3 q[3])
 /* ---- all pairs of a surface ---- */
 
 typedef struct search {
-	const mr_bvh *bvh;
+	mr_suspects suspects;
 	const mr_mesh *m;
 	const unsigned char *flat; /* faces without area */
 	const uint32_t *first;     /* of the faces with the same vertices; NULL: none are hidden */
@@ -284,7 +285,7 @@ search_faces(void *arg, size_t begin, size_t end)
 		size_t n = stands_for(s, f);
 		if (!s->flat[f] && n > 0) {
 			corners(s->m, f, c.p);
-			mr_bvh_overlap(s->bvh, mr_box_of(c.p, 3), visit, &c);
+			mr_suspects_of(&s->suspects, c.face, visit, &c);
 			c.crosses |= n > 1;
 			total += n * c.count + n * (n - 1) / 2;
 		}
@@ -333,12 +334,13 @@ mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *cr
 	mr_mark mark = mr_mark_take(ctx);
 	size_t pieces = (m->nf + GRAIN - 1) / GRAIN, total = 0;
 	flat_job flat = { m, MR_NEW(ctx, m->nf, unsigned char) };
-	search s = { bvh, m, flat.flat, NULL, NULL, crosses, MR_NEW(ctx, pieces, size_t) };
+	search s = { .m = m, .flat = flat.flat, .crosses = crosses, .count = MR_NEW(ctx, pieces, size_t) };
 
 	if (!flat.flat || !s.count)
 		return MR_EMEM;
 	if (mr_bvh_hidden(bvh))
 		MR_TRY(find_alike(ctx, &s));
+	MR_TRY(mr_suspects_find(ctx, bvh, &s.suspects));
 	mr_parallel(ctx, m->nf, 4096, find_flat, &flat);
 	mr_parallel(ctx, m->nf, GRAIN, search_faces, &s);
 	for (size_t i = 0; i < pieces; i++)

@@ -215,12 +215,14 @@ count_equals_a_loop(void **state)
 
 	(void)state;
 	mr_ctx_init(&ctx, 2);
-	for (int round = 0; round < 5; round++) {
+	for (int round = 0; round < 7; round++) {
 		for (int i = 0; i < V; i++)
 			p[i] = lattice(&r, round % 2 ? 5 : 1000);
 		for (int f = 0; f < N; f++)
 			for (int i = 0; i < 3; i++)
 				t[f].v[i] = (uint32_t)(mr_random_bits(&r) % V);
+		for (int f = 0; round > 4 && f < N; f++) /* fans of all, or around two vertices */
+			t[f].v[f % 3] = (uint32_t)(round == 6 && f % 4 == 0);
 		for (int f = 20; round > 2 && f < N; f += 3) { /* some many times, turned */
 			mr_tri a = t[f % 2];
 			t[f] = (mr_tri){ { a.v[f % 5 % 3], a.v[(f % 5 + 1) % 3], a.v[(f % 5 + 2) % 3] } };
