@@ -5,6 +5,7 @@
  * into nodes set aside for it: the tree does not depend on their number.
  */
 #include "base/parallel.h"
+#include "base/sort.h"
 #include "space/bvh_tree.h"
 
 enum { BINS = 16, DEEP = 32, TASKS = 32, TASK_LEAST = 12288 };
@@ -35,6 +36,7 @@ typedef struct builder {
 	task *tasks;
 	size_t task_count, task_size; /* ranges of at most task_size become tasks; 0: none */
 	size_t hidden;                /* faces, so far */
+	float most;                   /* of the mesh, in its units */
 } builder;
 
 static float
@@ -159,16 +161,22 @@ split(prim *p, size_t n, int depth)
 	return i > 0 && i < n ? i : n / 2;
 }
 
+static float
+slack(const builder *b, float x)
+{
+	return SLACK * fmaxf(b->most, fabsf(x));
+}
+
 static void
-set_child_box(mr_bvh_node *d, int c, const prim *p, size_t n)
+set_child_box(const builder *r, mr_bvh_node *d, int c, const prim *p, size_t n)
 {
 	fbox b = fbox_empty();
 
 	for (size_t i = 0; i < n; i++)
 		fbox_add(&b, p[i].lo, p[i].hi);
 	for (int k = 0; k < 3; k++) {
-		d->lo[k][c] = b.lo[k] - SLACK;
-		d->hi[k][c] = b.hi[k] + SLACK;
+		d->lo[k][c] = b.lo[k] - slack(r, b.lo[k]);
+		d->hi[k][c] = b.hi[k] + slack(r, b.hi[k]);
 	}
 }
 
@@ -258,7 +266,7 @@ build_range(builder *b, range whole, int depth, size_t *next)
 		parts = BVH_WIDE;
 	}
 	for (int c = 0; c < parts; c++) {
-		set_child_box(d, c, b->prims + part[c].first, part[c].n);
+		set_child_box(b, d, c, b->prims + part[c].first, part[c].n);
 		if (part[c].n <= BVH_LEAF) {
 			d->child[c] = (uint32_t)part[c].first;
 			d->count[c] = (uint8_t)part[c].n;
@@ -307,16 +315,55 @@ fill_prims(void *arg, size_t begin, size_t end)
 	}
 }
 
+/* The box of the middle half of the vertices, along each axis, by some of them. */
+static mr_box
+box_of_most(const mr_mesh *m)
+{
+	enum { SOME = 255 };
+	size_t n = m->nv < SOME ? m->nv : SOME;
+	double x[SOME], low[3], high[3];
+
+	for (int k = 0; k < 3; k++) {
+		for (size_t i = 0; i < n; i++)
+			x[i] = mr_coordinate(m->p[i * m->nv / n], k);
+		low[k] = mr_kth(x, n, n / 4);
+		high[k] = mr_kth(x, n, n - 1 - n / 4);
+	}
+	return (mr_box){ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } };
+}
+
+static mr_v3
+middle(mr_box b)
+{
+	return mr_vec(b.min.x / 2 + b.max.x / 2, b.min.y / 2 + b.max.y / 2, b.min.z / 2 + b.max.z / 2);
+}
+
+/* The centre is where most is where that is tiny beside the whole: floats are fine near 0. */
+static mr_v3
+find_center(builder *b, mr_box whole)
+{
+	const double tiny = 0x1p-12, least = 0x1p-60;
+	mr_box most = box_of_most(b->bvh->mesh);
+	double share = mr_box_diagonal(most) / mr_box_diagonal(whole);
+
+	b->most = 1;
+	if (!(share < tiny))
+		return middle(whole);
+	b->most = (float)fmax(share, least);
+	return middle(most);
+}
+
 /* Centre and scale: every position within [-1, 1] of the unit. */
 static void
-set_unit(mr_bvh *bvh)
+set_unit(builder *r)
 {
+	mr_bvh *bvh = r->bvh;
 	const mr_mesh *m = bvh->mesh;
 	mr_box b = mr_box_of(m->p, m->nv);
 	double size = 0;
 	int exponent;
 
-	bvh->center = mr_vec(b.min.x / 2 + b.max.x / 2, b.min.y / 2 + b.max.y / 2, b.min.z / 2 + b.max.z / 2);
+	bvh->center = find_center(r, b);
 	size = fmax(size, fmax(b.max.x - bvh->center.x, bvh->center.x - b.min.x));
 	size = fmax(size, fmax(b.max.y - bvh->center.y, bvh->center.y - b.min.y));
 	size = fmax(size, fmax(b.max.z - bvh->center.z, bvh->center.z - b.min.z));
@@ -340,7 +387,7 @@ mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 	b.bvh = bvh;
 	b.task_size = m->nf / TASKS > TASK_LEAST ? m->nf / TASKS : TASK_LEAST;
 	if (m->nf) {
-		set_unit(bvh);
+		set_unit(&b);
 		mr_parallel(ctx, m->nf, 4096, fill_prims, &b);
 		build_range(&b, (range){ 0, m->nf }, 0, &next);
 		mr_parallel(ctx, b.task_count, 1, build_tasks, &b);

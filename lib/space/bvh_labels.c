@@ -158,21 +158,19 @@ typedef struct meeting {
 	const mr_bvh_labels *labels;
 	uint32_t own;
 	mr_v3 lo, hi; /* of the triangle, in units of the mesh, like all that follows */
-	mr_v3 p, n;   /* its plane; n is 0 where rounding could turn it by more than boxes are grown */
+	mr_v3 p, n;   /* its plane */
+	double error; /* of n times a distance, by rounding, at most */
 } meeting;
 
 static meeting
 meeting_of(const mr_bvh_labels *labels, uint32_t own, const mr_v3 p[3])
 {
-	const double sure = 0x1p-24;
 	mr_box box = mr_box_of(p, 3);
 	const mr_bvh *bvh = labels->bvh;
-	mr_v3 o = bvh_unit(bvh, p[0]), a = mr_sub(bvh_unit(bvh, p[1]), o), b = mr_sub(bvh_unit(bvh, p[2]), o),
-	      n = mr_cross(a, b);
+	mr_v3 o = bvh_unit(bvh, p[0]), a = mr_sub(bvh_unit(bvh, p[1]), o), b = mr_sub(bvh_unit(bvh, p[2]), o);
 
-	if (!(mr_norm(n) > sure * (mr_norm(a) + mr_norm(b))))
-		n = mr_vec(0, 0, 0);
-	return (meeting){ labels, own, bvh_unit(bvh, box.min), bvh_unit(bvh, box.max), o, n };
+	return (meeting){ labels, own, bvh_unit(bvh, box.min), bvh_unit(bvh, box.max), o, mr_cross(a, b),
+		0x1p-44 * (mr_norm(a) + mr_norm(b)) };
 }
 
 /* Whether the plane n (x - p) = 0 leaves the box, of centre c and half extent e, on one side: |n (c - p)| >
@@ -184,7 +182,7 @@ is_beside(const meeting *x, const mr_bvh_node *d, int i)
 	      hi = mr_vec((double)d->hi[0][i], (double)d->hi[1][i], (double)d->hi[2][i]),
 	      e = mr_mul(0.5, mr_sub(hi, lo)), c = mr_add(lo, e);
 
-	return fabs(mr_dot(x->n, mr_sub(c, x->p))) >
+	return fabs(mr_dot(x->n, mr_sub(c, x->p))) - x->error >
 	       fabs(x->n.x) * e.x + fabs(x->n.y) * e.y + fabs(x->n.z) * e.z;
 }
 

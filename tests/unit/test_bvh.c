@@ -119,6 +119,8 @@ closest_equals_a_loop(void **state)
 		for (size_t n = 1; n < 4000; n = 3 * n + 1) {
 			mr_mesh m = soup(&ctx, n, sizes[k], offset, n);
 			check_queries(&ctx, &m, sizes[k], offset, 200);
+			((mr_v3 *)m.p)[0].x = 1e12 * sizes[k]; /* one astray */
+			check_queries(&ctx, &m, sizes[k], offset, 200);
 		}
 	}
 	mr_mesh g = grid(&ctx, 30);
