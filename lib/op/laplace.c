@@ -49,15 +49,50 @@ neighbour(const laplace_job *j, size_t v, size_t i)
 	return a == v || b == v ? (uint32_t)v : i % 2 ? b : a;
 }
 
-/* The length of each row: the diagonal, and each neighbour once. */
+/* Neighbours with which a row is long: that each is there once is told by marks on the vertices. */
+enum { LONG = 512 };
+
+static size_t
+neighbours(const laplace_job *j, size_t v)
+{
+	return 2 * (j->inc->start[v + 1] - j->inc->start[v]);
+}
+
+static mr_status
+count_long_rows(mr_ctx *ctx, laplace_job *j)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *row = NULL; /* that each vertex is of, from 1 on */
+
+	for (size_t v = 0; v < j->m->nv; v++) {
+		size_t n = neighbours(j, v);
+		if (n < LONG)
+			continue;
+		if (!row && !(row = MR_NEW_ZERO(ctx, j->m->nv, uint32_t)))
+			return MR_EMEM;
+		j->l->start[v + 1] = 1;
+		row[v] = (uint32_t)v + 1;
+		for (size_t i = 0; i < n; i++) {
+			uint32_t w = neighbour(j, v, i);
+			j->l->start[v + 1] += row[w] != v + 1;
+			row[w] = (uint32_t)v + 1;
+		}
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The length of each other row: the diagonal, and each neighbour once. */
 static void
 count_rows(void *arg, size_t begin, size_t end)
 {
 	laplace_job *j = arg;
 
 	for (size_t v = begin; v < end; v++) {
-		size_t n = 2 * (j->inc->start[v + 1] - j->inc->start[v]);
+		size_t n = neighbours(j, v);
 		int length = 1;
+		if (n >= LONG)
+			continue;
 		for (size_t i = 0; i < n; i++) {
 			uint32_t w = neighbour(j, v, i);
 			size_t first = 0;
@@ -130,6 +165,7 @@ mr_laplace_build(mr_ctx *ctx, const mr_mesh *m, mr_sparse *l)
 	mark = mr_mark_take(ctx);
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	j.inc = &inc;
+	MR_TRY(count_long_rows(ctx, &j));
 	mr_parallel(ctx, m->nv, GRAIN, count_rows, &j);
 	mr_mark_release(ctx, mark);
 	MR_TRY(mr_sparse_starts(ctx, r.start + 1, &r));
