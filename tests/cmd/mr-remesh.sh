@@ -61,3 +61,11 @@ echo $?
 echo 'nor one whose faces no number counts'
 mr-make sphere -n 500 | mr-remesh -L 1e-300 >out.mrs
 echo $?
+echo 'a ring of thin wire loses volume rather than area'
+awk 'BEGIN { n = 150; k = 12; print "OFF\n" n * k, 2 * n * k, 0
+	for (i = 0; i < n; i++) for (j = 0; j < k; j++) {
+		a = 6.283185307 * i / n; b = 6.283185307 * j / k; r = 1 + .08 * cos(b); print r * cos(a), r * sin(a), .08 * sin(b) }
+	for (i = 0; i < n; i++) for (j = 0; j < k; j++) {
+		p = i * k + j; q = (i + 1) % n * k + j; s = i * k + (j + 1) % k; t = (i + 1) % n * k + (j + 1) % k
+		print 3, p, q, t; print 3, p, t, s } }' >ring.off
+mr-import ring.off | mr-remesh -r 2.5 >/dev/null
