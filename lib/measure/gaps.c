@@ -177,3 +177,92 @@ mr_gap_spots_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps, const mr_g
 		mr_warn(ctx, "points are up to %.2g spacings from %s, near (%.4g, %.4g, %.4g)",
 		    of_points->wide, what, of_points->at.x, of_points->at.y, of_points->at.z);
 }
+
+/*
+ * Shares of the diagonal that a surface and its mesh may be apart at any place, and but for so much of either.
+ * Of 36 models mr-fit and mr-sample leave 27 farther: all whose ears, horns, fingers or sharp edges are seen to
+ * be bent; of 57 others 25, and the next ten below are seen to be sound.
+ */
+static const double FAR_OF_MESH = 0.018, OFF = 0.005, OFF_MOST = 0.02;
+
+/* The distances of `from`'s places to bvh, n of equal parts of the area, then those of `corners` of its
+ * corners. */
+static mr_status
+measure_to_mesh(
+    mr_ctx *ctx, const mr_mesh *from, const mr_mesh *to, size_t samples, double off, mr_mesh_gaps *gaps)
+{
+	size_t corners = 3 * from->nf < samples ? 3 * from->nf : samples, n, beyond = 0;
+	mr_v3 *q = MR_NEW(ctx, samples + corners, mr_v3);
+	double *distance = MR_NEW(ctx, samples + corners, double);
+	mr_bvh *bvh;
+
+	if (!q || !distance)
+		return MR_EMEM;
+	n = spread_places(ctx, from, samples, q);
+	for (size_t i = 0; i < corners; i++) {
+		size_t h = i * 3 * from->nf / corners;
+		q[n + i] = from->p[from->t[h / 3].v[h % 3]];
+	}
+	MR_TRY(mr_bvh_build(ctx, to, &bvh));
+	mr_bvh_distances(ctx, bvh, q, n + corners, distance);
+	for (size_t i = 0; i < n + corners; i++) {
+		beyond += i < n && distance[i] > off;
+		if (distance[i] > gaps->widest) {
+			gaps->widest = distance[i];
+			gaps->at = q[i];
+		}
+	}
+	gaps->off = fmax(gaps->off, n ? (double)beyond / (double)n : 0);
+	gaps->surface = mr_gap_of(distance, n);
+	return MR_OK;
+}
+
+mr_status
+mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples, mr_mesh_gaps *gaps)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double off = OFF * mr_mesh_diagonal(mesh);
+	mr_mesh_gaps g = { .widest = 0 };
+
+	MR_TRY(measure_to_mesh(ctx, mesh, surface, samples, off, &g));
+	MR_TRY(measure_to_mesh(ctx, surface, mesh, samples, off, &g));
+	*gaps = g;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/*
+ * What brings a surface nearer.  With edges as coarse as a sixtieth of the diagonal split first the largest
+ * distances of four models fall from 22, 13, 8 and 7 % to 0.8, 0.7, 2 and 4; of finer meshes, with four times
+ * the faces, from 4 and 3.5 to 1.5 and 2, and finer levels alone do less.
+ */
+static void
+advise(mr_ctx *ctx, const mr_mesh *mesh, size_t faces, char *advice, size_t size)
+{
+	const double fine = 1.0 / 60;
+	double longest = fine * mr_mesh_diagonal(mesh);
+
+	if (mr_mesh_edge_scale(ctx, mesh) > longest)
+		snprintf(
+		    advice, size, "edges split before mr-simplify, by mr-subdivide --longest %.3g", longest);
+	else
+		snprintf(advice, size, "a control mesh of more faces, by mr-simplify -n %zu", 4 * faces);
+}
+
+void
+mr_mesh_gaps_warn(mr_ctx *ctx, const char *what, const mr_mesh_gaps *g, const mr_mesh *mesh, size_t faces)
+{
+	double diagonal = mr_mesh_diagonal(mesh);
+	char advice[120];
+
+	advise(ctx, mesh, faces, advice, sizeof advice);
+	if (g->widest > FAR_OF_MESH * diagonal || g->off > OFF_MOST)
+		mr_warn(ctx,
+		    "%s is up to %.2g %% of the diagonal from %s, near (%.4g, %.4g, %.4g), and %.2g %% of it "
+		    "over %g %%; what comes nearer: %s",
+		    what, 100 * g->widest / diagonal, mesh->name, g->at.x, g->at.y, g->at.z, 100 * g->off,
+		    100 * OFF, advice);
+	else
+		mr_note(ctx, "%s is up to %.2g %% of the diagonal from %s, %.2g %% of it over %g %%", what,
+		    100 * g->widest / diagonal, mesh->name, 100 * g->off, 100 * OFF);
+}

@@ -51,4 +51,20 @@ void mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps);
 void mr_gap_spots_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps, const mr_gap_spot *of_surface,
     const mr_gap_spot *of_points);
 
+/* How far a surface is from the mesh that it is made for, and this from it. */
+typedef struct mr_mesh_gaps {
+	mr_gap surface; /* of places of the surface, in equal parts of its area */
+	double widest;  /* of all that were looked at, of corners too; at the surface's side or the mesh's */
+	mr_v3 at;
+	double off; /* the share of the one that is too far from the other, of the two the larger */
+} mr_mesh_gaps;
+
+mr_status mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples,
+    mr_mesh_gaps *gaps) MR_WARN_UNUSED;
+
+/* Warns where `what`, the surface of a control mesh of so many faces, is too far from the mesh, and says what
+ * is nearer. */
+void
+mr_mesh_gaps_warn(mr_ctx *ctx, const char *what, const mr_mesh_gaps *gaps, const mr_mesh *mesh, size_t faces);
+
 #endif

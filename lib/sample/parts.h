@@ -58,7 +58,8 @@ typedef struct mr_sample_cloud {
 	const double *spacing;
 	double usual; /* of points: what each has to itself, and the median */
 	size_t n;
-	mr_near *near; /* alike */
+	mr_near *near;       /* alike */
+	const mr_mesh *mesh; /* else whose vertices they are */
 	double diagonal;
 	uint32_t *face; /* of the domain, nearest to each point */
 	mr_v3f *side;   /* its unit normal: which way the sheet that the point belongs to looks */

@@ -14,7 +14,7 @@
 #include "space/surface_walk.h"
 #include "subdivide/loop_self_intersect.h"
 
-enum { GRAIN = 512 };
+enum { GRAIN = 512, SAMPLES = 1 << 14 };
 
 typedef struct fit {
 	mr_sample_result *found;
@@ -230,14 +230,39 @@ widest_of_points(const mr_sample_cloud *c, const double *gap, double median)
 	return widest;
 }
 
-/* Of points also how far the surface is from them. */
+/* Between points and the surface, both ways. */
+static mr_status
+report_points(mr_ctx *ctx, const fit *x, const mr_gap_spot *of_points)
+{
+	const mr_sample_cloud *c = x->c;
+	mr_gaps *gaps = &x->found->gaps;
+	mr_gap_spot of_surface = { 0 };
+
+	MR_TRY(mr_gap_of_surface(ctx, &x->surface,
+	    &(mr_gap_cloud){ c->p, c->spacing, c->near, c->n, c->usual }, SAMPLES, gaps, &of_surface));
+	mr_gaps_note(ctx, "the displaced surface", gaps);
+	mr_gap_spots_warn(ctx, "the displaced surface", gaps, &of_surface, of_points);
+	return MR_OK;
+}
+
+/* Between the mesh and the surface, where its faces are too. */
+static mr_status
+report_mesh(mr_ctx *ctx, const fit *x)
+{
+	mr_mesh_gaps gaps;
+
+	MR_TRY(mr_gaps_to_mesh(ctx, &x->surface, x->c->mesh, SAMPLES, &gaps));
+	x->found->gaps.surface = gaps.surface;
+	mr_mesh_gaps_warn(ctx, "the displaced surface", &gaps, x->c->mesh, x->d->level[0].nf);
+	return MR_OK;
+}
+
 static mr_status
 report_gaps(mr_ctx *ctx, const fit *x)
 {
-	enum { SAMPLES = 1 << 14 };
 	mr_mark mark = mr_mark_take(ctx);
 	const mr_sample_cloud *c = x->c;
-	mr_gap_spot of_surface = { 0 }, of_points = { 0 };
+	mr_gap_spot of_points = { 0 };
 	mr_gaps *gaps = &x->found->gaps;
 	double *gap = MR_NEW(ctx, c->n, double), median;
 
@@ -252,13 +277,7 @@ report_gaps(mr_ctx *ctx, const fit *x)
 	x->found->gap_mean = gaps->points.mean / c->diagonal;
 	x->found->gap_max = gaps->points.max / c->diagonal;
 	mr_mark_release(ctx, mark);
-	if (!c->near)
-		return MR_OK;
-	MR_TRY(mr_gap_of_surface(ctx, &x->surface,
-	    &(mr_gap_cloud){ c->p, c->spacing, c->near, c->n, c->usual }, SAMPLES, gaps, &of_surface));
-	mr_gaps_note(ctx, "the displaced surface", gaps);
-	mr_gap_spots_warn(ctx, "the displaced surface", gaps, &of_surface, &of_points);
-	return MR_OK;
+	return c->mesh ? report_mesh(ctx, x) : report_points(ctx, x, &of_points);
 }
 
 /* Heights that follow noise make a surface of many spikes, and so much larger. */
@@ -270,11 +289,9 @@ report_area(mr_ctx *ctx, const fit *x)
 
 	x->found->area_ratio = ratio;
 	if (ratio > SPIKY && !x->weights->robust)
-		mr_warn(ctx,
-		    "the displaced surface has %.3g times the area of its domain: noise, for which there is "
-		    "-m "
-		    "robust, or the domain is far off",
-		    ratio);
+		mr_warn(ctx, "the displaced surface has %.3g times the area of its domain: %s", ratio,
+		    x->c->mesh ? "the control mesh has too few faces for the mesh"
+			       : "noise, for which there is -m robust, or the domain is far off");
 }
 
 static mr_status

@@ -261,7 +261,7 @@ mr_status
 mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts,
     double *height, mr_sample_result *result)
 {
-	mr_sample_cloud c = { .p = mesh->p, .n = mesh->nv, .diagonal = mr_mesh_diagonal(mesh) };
+	mr_sample_cloud c = { .p = mesh->p, .n = mesh->nv, .mesh = mesh, .diagonal = mr_mesh_diagonal(mesh) };
 	mr_fit_weights weights = { .fair = 1e-2, .pull = 1, .scale = 1e-3 * c.diagonal, .steps = 50 };
 	mr_mark mark = mr_mark_take(ctx);
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);

@@ -2,6 +2,24 @@
 #include "fit/fit.h"
 
 #include "mesh/layers.h"
+#include "tool/sample.h"
+
+/* How the points lie, of which a mesh's own are all on it, however far from others. */
+static mr_status
+find_sampling(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s)
+{
+	uint8_t *none;
+
+	MR_TRY(mr_sampling_of(ctx, f, points, s));
+	if (!mr_sample_meets_faces(f, points->name))
+		return MR_OK;
+	none = MR_NEW_ZERO(ctx, s->n, uint8_t);
+	if (!none)
+		return MR_EMEM;
+	s->outlier = none;
+	s->outliers = 0;
+	return MR_OK;
+}
 
 mr_status
 mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *result)
@@ -20,7 +38,7 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));
 	MR_TRY(mr_layer_points(ctx, f, from, &points));
 	if (o->method != MR_FIT_LOCAL) {
-		MR_TRY(mr_sampling_of(ctx, f, &points, &sampling));
+		MR_TRY(find_sampling(ctx, f, &points, &sampling));
 		known = &sampling;
 	}
 	p = MR_NEW(ctx, control.nv, mr_v3);

@@ -44,6 +44,12 @@ control plane -n 25 >plane.mrs
 frame plane.mrs flat.mrs | mr-sample --stats stats.json -o flat.out || exit
 check open "$(figure gap_mean) < 1e-3"
 
+echo "a mesh that its control mesh is too coarse for, and one with spikes, which are no outliers"
+mr-make cube -n 8 | mr-simplify --to control | mr-fit -q | mr-sample >/dev/null
+mr-make sphere -n 1500 | mr-export -f off - | awk 'NR > 2 && NF == 3 && NR % 300 == 0 { $0 = 2 * $1 " " 2 * $2 " " 2 * $3 } 1' >spikes.off
+mr-import spikes.off | mr-simplify --to control | mr-fit --stats stats.json | mr-sample >/dev/null
+check spikes "$(figure outliers) == 0"
+
 echo "the same bytes for any number of threads"
 for method in triangle robust; do
 	mr-sample --no-history -m $method -j 1 sphere.mrs >one
