@@ -51,6 +51,22 @@ average(void *arg, size_t begin, size_t end)
 }
 
 mr_status
+mr_heights_spread(mr_ctx *ctx, const mr_heights *e, size_t rounds, double *x)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *w = MR_NEW(ctx, e->n, double);
+
+	if (!w)
+		return MR_EMEM;
+	for (size_t round = 0; round < rounds; round++) {
+		mr_parallel(ctx, e->n, GRAIN, average, &(means){ &e->adj, x, w });
+		memcpy(x, w, e->n * sizeof *x);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
 mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor)
 {
 	/* what a ring or three show is the noise: of five models with 1 % of it the mean distance from the
@@ -64,10 +80,8 @@ mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double
 	if (!u || !w)
 		return MR_EMEM;
 	mr_parallel(ctx, e->n, GRAIN, square_differences, &(means){ &e->adj, height, u });
-	for (int round = 0; round < ROUNDS; round++) {
-		mr_parallel(ctx, e->n, GRAIN, average, &(means){ &e->adj, u, w });
-		memcpy(u, w, e->n * sizeof *u);
-	}
+	MR_TRY(mr_heights_spread(ctx, e, ROUNDS, u));
+	memcpy(w, u, e->n * sizeof *w);
 	middle = mr_kth(w, e->n, e->n / 2);
 	for (size_t i = 0; i < e->n; i++)
 		e->fair[i] = factor * fmin(fmax(middle / fmax(u[i], DBL_MIN), least), most);

@@ -99,11 +99,13 @@ size_t mr_find_folds(mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, co
 
 /* What the least squares weigh, beside the points, of which each counts 1. */
 typedef struct mr_fit_weights {
-	double fair;  /* of the fairness of the heights */
-	double pull;  /* of a height found */
-	double scale; /* gaps beyond it count less */
-	bool robust;  /* so much less that outliers do not count */
-	size_t steps; /* of conjugate gradients in a pass, at most */
+	double fair;     /* of the fairness of the heights */
+	double pull;     /* of a height found */
+	double scale;    /* gaps beyond it count less */
+	bool robust;     /* so much less that outliers do not count */
+	size_t steps;    /* of conjugate gradients in a pass, at most */
+	double *against; /* gets what speaks against them: crust, or where robust, order; NULL: not asked */
+	double most;     /* of that: where there is more, nothing is reported */
 } mr_fit_weights;
 
 /* What a point asks of the heights of its face's corners: sum c_i h_i = r. */
@@ -113,6 +115,20 @@ typedef struct mr_wish {
 	double c[3], r;
 	double gap; /* signed distance before the pass */
 } mr_wish;
+
+/* The share of the surface that is rough all over, as where heights follow noise.  e: of its domain.  crust.c
+ */
+mr_status mr_find_crust(mr_ctx *ctx, const mr_mesh *surface, const mr_heights *e, double *share);
+
+/*
+ * How alike the gaps of points are that lie side by side, from 0, where they are noise, to 1, where the
+ * surface lacks a shape (their correlation).  wish: of each point.  crust.c
+ */
+mr_status mr_find_order(
+    mr_ctx *ctx, const mr_mesh *surface, const mr_sample_cloud *c, const mr_wish *wish, double *order);
+
+/* x: of e's vertices, each so often to the mean of it and its neighbours'. */
+mr_status mr_heights_spread(mr_ctx *ctx, const mr_heights *e, size_t rounds, double *x);
 
 /* Sets the fairness: `factor` where the heights are bent as in the middle, less where more, and more where
  * less. */

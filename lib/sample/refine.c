@@ -294,6 +294,21 @@ report_area(mr_ctx *ctx, const fit *x)
 			       : "noise, for which there is -m robust, or the domain is far off");
 }
 
+/* Whether more speaks against the heights than may. */
+static mr_status
+judge(mr_ctx *ctx, const fit *x, bool *rejected)
+{
+	const mr_fit_weights *w = x->weights;
+
+	*rejected = false;
+	if (!w->against)
+		return MR_OK;
+	MR_TRY(w->robust ? mr_find_order(ctx, &x->surface, x->c, x->wish, w->against)
+			 : mr_find_crust(ctx, &x->surface, x->e, w->against));
+	*rejected = *w->against > w->most;
+	return MR_OK;
+}
+
 static mr_status
 fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 {
@@ -477,15 +492,19 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, cons
 	mr_mark mark = mr_mark_take(ctx);
 	fit x = { .found = r, .weights = weights, .e = e, .height = height, .fair = weights->fair };
 	size_t folds;
+	bool rejected;
 
 	MR_TRY(fit_new(ctx, d, c, &x));
 	MR_TRY(mr_heights_add_data(ctx, e));
 	MR_TRY(set_weights(ctx, d, hit, &x));
 	MR_TRY(fit_all(ctx, &x, passes, &folds));
 	place_all(ctx, &x);
+	r->fairness = x.fair;
+	MR_TRY(judge(ctx, &x, &rejected));
+	if (rejected)
+		return MR_OK;
 	MR_TRY(report_gaps(ctx, &x));
 	report_area(ctx, &x);
-	r->fairness = x.fair;
 	r->folds = folds;
 	if (folds > 0)
 		mr_warn(ctx, "%zu of %zu triangles of the displaced surface fold over or pass through others",

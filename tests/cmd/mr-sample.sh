@@ -55,3 +55,13 @@ for method in triangle robust; do
 	mr-sample --no-history -m $method -j 1 sphere.mrs >one
 	mr-sample --no-history -m $method -j 3 sphere.mrs | cmp one - && echo same
 done
+
+echo "noise on two fifths alone"
+mr-make sphere --points 6000 --noise 0.02 | mr-export -l points -f xyz - |
+	awk '{ r = $1 > 0.2 ? 1 : sqrt($1 * $1 + $2 * $2 + $3 * $3); print $1 / r, $2 / r, $3 / r }' >partly.xyz
+mr-import --points partly.xyz | frame ball.mrs - >partly.mrs
+for method in auto robust; do
+	mr-sample --no-history -m $method --stats stats.json partly.mrs -o $method.out
+	check $method "$(figure area_ratio) < 1.21"
+done
+cmp auto.out robust.out && echo by default the same
