@@ -48,6 +48,31 @@ look_for_layers(void *arg, size_t begin, size_t end)
 	}
 }
 
+/* Counts the looks around which most of the nearest ones see two layers. */
+static mr_status
+find_dense(mr_ctx *ctx, const mr_v3 *q, const double *apart, size_t looks, mr_layers *found)
+{
+	enum { AROUND = 9 };
+	size_t k = looks < AROUND ? looks : AROUND, dense = 0, most = 0;
+	uint32_t *index = MR_NEW(ctx, looks * k, uint32_t);
+
+	if (!index)
+		return MR_EMEM;
+	MR_TRY(mr_near_once(ctx, q, looks, q, looks, k, index, NULL));
+	for (size_t i = 0; i < looks; i++) {
+		size_t layered = 0;
+		for (size_t j = 0; j < k; j++)
+			layered += apart[index[i * k + j]] > 0;
+		dense += 2 * layered > k;
+		if (layered > most) {
+			most = layered;
+			found->at = q[i];
+		}
+	}
+	found->dense = (double)dense / (double)looks;
+	return MR_OK;
+}
+
 mr_status
 mr_find_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual, mr_layers *found)
 {
@@ -66,10 +91,10 @@ mr_find_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, doubl
 	MR_TRY(mr_near_query(ctx, near, q, looks, NEAREST, index, NULL));
 	mr_parallel(ctx, looks, GRAIN, look_for_layers, &(layering){ p, index, apart, usual });
 	for (size_t i = 0; i < looks; i++)
-		if (apart[i] > 0) {
-			found->at = count ? found->at : q[i];
+		if (apart[i] > 0)
 			all[count++] = apart[i];
-		}
+	if (count > 0)
+		MR_TRY(find_dense(ctx, q, apart, looks, found));
 	found->share = (double)count / (double)looks;
 	found->apart = count ? mr_kth(all, count, count / 2) : 0;
 	mr_mark_release(ctx, mark);

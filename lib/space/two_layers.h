@@ -7,8 +7,9 @@
 /* Points in two layers nearer to each other than points of one are, as of the sides of a thin plate. */
 typedef struct mr_layers {
 	double share; /* of the points */
+	double dense; /* of them, those around which most are */
 	double apart; /* how far, the median; 0 of none */
-	mr_v3 at;     /* one of the places */
+	mr_v3 at;     /* the place around which most are */
 } mr_layers;
 
 /* p: n places, near: alike, usual: their spacing.  Of some at equal strides. */

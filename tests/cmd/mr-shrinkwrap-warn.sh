@@ -46,5 +46,12 @@ for outer in 1.03 1; do
 	mr-import --points bowl.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'in two layers'
 done
 
+echo 'a strip of a cube that two scans see, three spacings out of register, and in register'
+for off in 0.09 0; do
+	mr-make cube --points 8000 --seed 3 | mr-export -l points -f xyz - |
+		awk -v off=$off '{ s = NR % 2 && $1 > -0.05 && $1 < 0.45 ? off : 0; print $1 + s, $2 + s, $3 + s }' >strip.xyz
+	mr-import --points strip.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'in two layers'
+done
+
 echo 'a surface that leaves its points at one place'
 mr-make knot --points 3000 | mr-shrinkwrap | mr-simplify -q --faces 40 | mr-fit -q | mr-sample -n 2 2>&1 >/dev/null | sed -n 's/.*the displaced surface is up to [0-9.]* spacings.*/too far/p; s/.*points are up to [0-9.]* spacings.*/too far from points/p'
