@@ -105,10 +105,16 @@ on_face(const mr_grid *g, size_t x, size_t y, size_t z)
 	return x == 0 || y == 0 || z == 0 || x + 1 == g->n[0] || y + 1 == g->n[1] || z + 1 == g->n[2];
 }
 
+static double
+offset_of(const leveling *l, int level)
+{
+	return RANGE * l->rise * (level - MIDDLE) / MIDDLE;
+}
+
 static mr_status
 try_level(mr_ctx *ctx, leveling *l, int level, int64_t *euler)
 {
-	const float offset = (float)(RANGE * l->rise * (level - MIDDLE) / MIDDLE);
+	const float offset = (float)offset_of(l, level);
 	const mr_grid *g = l->g;
 
 	for (size_t z = 0, i = 0; z < g->n[2]; z++)
@@ -162,20 +168,59 @@ lasting_run(const int64_t *euler)
 	return best;
 }
 
-/* The middle of the block that changes most. */
-static mr_v3
-place_of_change(const leveling *l, const int64_t *before)
+/* What half the Euler number rises by where the node comes inside after all lower ones. */
+static int
+change_at(const leveling *l, const size_t at[3])
 {
-	size_t most = 0, at[3];
+	const size_t *n = l->g->n, i = mr_grid_index(l->g, at[0], at[1], at[2]);
+	int change = 0;
+
+	for (unsigned own = 0; own < 8; own++) {
+		unsigned lower = 0;
+		for (unsigned c = 0; c < 8; c++) {
+			size_t j = i + (c & 1) + (c >> 1 & 1) * n[0] + (c >> 2) * n[0] * n[1] -
+			           ((own & 1) + (own >> 1 & 1) * n[0] + (own >> 2) * n[0] * n[1]);
+			lower |= (unsigned)(l->f[j] < l->f[i]) << c;
+		}
+		change += l->part[lower | 1u << own] - l->part[lower];
+	}
+	return change;
+}
+
+/* A node of the block where the number rises (sign 1) or falls (-1) between the levels; else its middle. */
+static mr_v3
+place_in(const leveling *l, const size_t block[3], double low, double high, int sign)
+{
+	size_t at[3], end[3];
+
+	for (int k = 0; k < 3; k++)
+		end[k] = (block[k] + 1) * BLOCK < l->g->n[k] - 1 ? (block[k] + 1) * BLOCK : l->g->n[k] - 1;
+	for (at[2] = block[2] * BLOCK; at[2] < end[2]; at[2]++)
+		for (at[1] = block[1] * BLOCK; at[1] < end[1]; at[1]++)
+			for (at[0] = block[0] * BLOCK; at[0] < end[0]; at[0]++) {
+				double f = (double)l->f[mr_grid_index(l->g, at[0], at[1], at[2])];
+				if (f >= low && f < high && !on_face(l->g, at[0], at[1], at[2]) &&
+				    sign * change_at(l, at) > 0)
+					return mr_grid_place(l->g, at[0], at[1], at[2]);
+			}
+	return mr_grid_place(
+	    l->g, block[0] * BLOCK + BLOCK / 2, block[1] * BLOCK + BLOCK / 2, block[2] * BLOCK + BLOCK / 2);
+}
+
+/* Where the number changes, in the block that changes most. */
+static mr_v3
+place_of_change(const leveling *l, const int64_t *before, int from, int to)
+{
+	size_t most = 0, block[3];
+	double low = offset_of(l, from < to ? from : to), high = offset_of(l, from < to ? to : from);
 
 	for (size_t i = 0; i < blocks_of(l); i++)
 		if (llabs(l->sum[i] - before[i]) > llabs(l->sum[most] - before[most]))
 			most = i;
-	at[0] = most % l->n[0];
-	at[1] = most / l->n[0] % l->n[1];
-	at[2] = most / l->n[0] / l->n[1];
-	return mr_grid_place(
-	    l->g, at[0] * BLOCK + BLOCK / 2, at[1] * BLOCK + BLOCK / 2, at[2] * BLOCK + BLOCK / 2);
+	block[0] = most % l->n[0];
+	block[1] = most / l->n[0] % l->n[1];
+	block[2] = most / l->n[0] / l->n[1];
+	return place_in(l, block, low, high, (l->sum[most] > before[most]) == (to > from) ? 1 : -1);
 }
 
 /* How the level beside the run differs, towards the middle or over it. */
@@ -183,15 +228,16 @@ static mr_status
 look_beside(mr_ctx *ctx, leveling *l, run r, mr_volume_result *result)
 {
 	bool below = r.last == LEVELS - 1 || (r.first > 0 && r.first + r.last > 2 * MIDDLE);
+	int from = below ? r.first : r.last, to = below ? r.first - 1 : r.last + 1;
 	int64_t *sum = MR_NEW(ctx, blocks_of(l), int64_t), euler;
 
 	if (!sum)
 		return MR_EMEM;
-	MR_TRY(try_level(ctx, l, below ? r.first : r.last, &euler));
+	MR_TRY(try_level(ctx, l, from, &euler));
 	memcpy(sum, l->sum, blocks_of(l) * sizeof *sum);
-	MR_TRY(try_level(ctx, l, below ? r.first - 1 : r.last + 1, &euler));
+	MR_TRY(try_level(ctx, l, to, &euler));
 	result->euler_beside = (double)euler;
-	result->uncertain = place_of_change(l, sum);
+	result->uncertain = place_of_change(l, sum, from, to);
 	return MR_OK;
 }
 
