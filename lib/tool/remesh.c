@@ -3,6 +3,7 @@
  */
 #include "remesh/remesh.h"
 
+#include "measure/crossings.h"
 #include "mesh/edges.h"
 
 /* What a closed surface encloses; 0 of others. */
@@ -57,6 +58,7 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	MR_TRY(mr_remesh(ctx, &m, o, &out, &over, result));
 	MR_TRY(look_at_loss(ctx, &m, &out));
+	MR_TRY(mr_crossings_warn(ctx, &m, NULL, &out));
 	MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &map, &mapped));
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &out));
 	return mapped ? mr_source_map_put(ctx, f, &map, out.nv) : MR_OK;

@@ -1,6 +1,7 @@
 /* mr-simplify: fewer faces, with what is known of the surface carried over. */
 #include "simplify/simplify.h"
 
+#include "measure/crossings.h"
 #include "measure/gaps.h"
 #include "mesh/layers.h"
 #include "simplify/creases.h"
@@ -218,6 +219,7 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	if (width > 0)
 		MR_TRY(sharpen(ctx, &m, &points, width, &sharp));
 	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, &r));
+	MR_TRY(mr_crossings_warn(ctx, &sharp, onto, &out));
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
 	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;

@@ -64,3 +64,9 @@ mr-info out.mrs | grep -o 'points\|control_face' | sort -u
 mr-info --json -l control out.mrs >after.json
 echo "$(figure faces after.json) faces"
 mr-simplify -l control -n 100 out.mrs | mr-info | grep -c control_face || :
+echo 'two shells near each other pass through each other where few faces are left'
+mr-make sphere -n 2000 | mr-export -f off - | awk 'NR == 2 { n = $1; m = $2 } NR > 2 && NR <= n + 2 { p[NR - 3] = $0 } NR > n + 2 { t[NR] = $0 }
+	END { print "OFF\n" 2 * n, 2 * m, 0; for (i = 0; i < n; i++) print p[i]
+		for (i = 0; i < n; i++) { split(p[i], x, " "); print .97 * x[1], .97 * x[2], .97 * x[3] }
+		for (i = n + 3; i <= NR; i++) { split(t[i], v, " "); print t[i]; print 3, v[2] + n, v[4] + n, v[3] + n } }' >shells.off
+mr-import shells.off | mr-simplify -n 150 2>&1 >/dev/null | sed 's/, as at.*//'

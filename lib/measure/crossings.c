@@ -1,0 +1,80 @@
+/* Intersections before and after; before, only where there are some after. */
+#include "measure/crossings.h"
+
+#include "space/self_intersect.h"
+
+static mr_status
+count_pairs(mr_ctx *ctx, const mr_mesh *m, bool *crosses, size_t *count)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_bvh *bvh;
+
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	MR_TRY(mr_self_intersections(ctx, bvh, m, crosses, count));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* The faces of m that became, in part, those of `after` that cross others. */
+static mr_status
+part_that_crosses(mr_ctx *ctx, const mr_mesh *m, const uint32_t *onto, const mr_mesh *after,
+    const bool *crosses, mr_mesh *part)
+{
+	bool *near = MR_NEW_ZERO(ctx, after->nv, bool);
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+
+	if (!near || !t)
+		return MR_EMEM;
+	for (size_t f = 0; f < after->nf; f++)
+		for (int k = 0; k < 3 && crosses[f]; k++)
+			near[after->t[f].v[k]] = true;
+	*part = *m;
+	part->t = t;
+	part->nf = 0;
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		if (near[onto[v[0]]] || near[onto[v[1]]] || near[onto[v[2]]])
+			t[part->nf++] = m->t[f];
+	}
+	return MR_OK;
+}
+
+/* A corner of the first face that crosses one. */
+static uint32_t
+first_vertex(const mr_mesh *m, const bool *crosses)
+{
+	size_t f = 0;
+
+	while (!crosses[f])
+		f++;
+	return m->t[f].v[0];
+}
+
+mr_status
+mr_crossings_warn(mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, const mr_mesh *after)
+{
+	enum { FEW = 5 };
+	mr_mark mark = mr_mark_take(ctx);
+	bool *crosses = MR_NEW(ctx, after->nf, bool);
+	size_t pairs, old = 0;
+	mr_mesh part = *before;
+	uint32_t v;
+
+	if (!crosses)
+		return MR_EMEM;
+	MR_TRY(count_pairs(ctx, after, crosses, &pairs));
+	if (pairs > FEW && onto)
+		MR_TRY(part_that_crosses(ctx, before, onto, after, crosses, &part));
+	if (pairs > FEW)
+		MR_TRY(count_pairs(ctx, &part, NULL, &old));
+	if (pairs > FEW + old) {
+		v = first_vertex(after, crosses);
+		mr_warn(ctx,
+		    "%zu pairs of faces of the result intersect, %zu did before: it is too coarse for what "
+		    "is thin "
+		    "or near, as at vertex %u (%.4g, %.4g, %.4g)",
+		    pairs, old, v, after->p[v].x, after->p[v].y, after->p[v].z);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,17 @@
+/*
+ * crossings.h -- faces that pass through each other since a surface was made anew.
+ */
+#ifndef MR_MEASURE_CROSSINGS_H
+#define MR_MEASURE_CROSSINGS_H
+
+#include "mesh/mesh.h"
+
+/*
+ * Warns where more pairs of faces intersect in `after` than in `before`, of which it was made.  onto: the
+ * vertex of after that each of before became, or NULL where that is not known: it is looked at as a whole
+ * then.
+ */
+mr_status mr_crossings_warn(
+    mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, const mr_mesh *after) MR_WARN_UNUSED;
+
+#endif
