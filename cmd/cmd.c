@@ -8,8 +8,8 @@
 #include "mesh/validate.h"
 #include "place.h"
 #include "signals.h"
-#include "terminal.h"
 #include "stream/record.h"
+#include "terminal.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -126,7 +126,8 @@ writes_stdout(const cmd *c)
 	return !output || !strcmp(output, "-");
 }
 
-/* A wrong command line that a later frame shows, behind what is on standard output, is an error like others. */
+/* A wrong command line that a later frame shows, behind what is on standard output, is an error like others.
+ */
 static _Noreturn void
 die(cmd *c, mr_status status)
 {

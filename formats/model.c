@@ -237,7 +237,8 @@ put_names(mr_ctx *ctx, mr_frame *f, const char *layer, const char *what, mr_line
 	MR_TRY(mr_names_escape(ctx, lines, &lines, &changed));
 	if (changed)
 		mr_warn(ctx,
-		    "%s: names that are not UTF-8, or hold control characters: %zu; %%E9 stands for a byte e9 "
+		    "%s: names that are not UTF-8, or hold control characters: %zu; %%E9 stands for a byte "
+		    "e9 "
 		    "until they are written",
 		    what, changed);
 	return mr_layer_put(ctx, f, layer, what, lines.text, lines.bytes);
@@ -387,7 +388,8 @@ warn_of_grain(mr_ctx *ctx, mr_box box)
 
 	if (mr_box_largest(box) > diagonal && grain > share * diagonal && diagonal > 0)
 		mr_warn(ctx,
-		    "positions are known to %.2g of the diagonal only: so far from the origin doubles are no finer",
+		    "positions are known to %.2g of the diagonal only: so far from the origin doubles are no "
+		    "finer",
 		    grain / diagonal);
 }
 

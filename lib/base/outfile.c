@@ -192,8 +192,8 @@ give_name(mr_ctx *ctx, mr_outfile *f)
 	return MR_OK;
 }
 
-/* Who owns what is there, and may do what with it, stays so where that can be; what runs as its owner does not
- * as another. */
+/* Who owns what is there, and may do what with it, stays so where that can be; what runs as its owner does
+ * not as another. */
 static void
 keep_mode(mr_ctx *ctx, const struct stat *old, mr_outfile *f)
 {

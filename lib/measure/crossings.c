@@ -67,12 +67,11 @@ mr_crossings_warn(mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, cons
 		MR_TRY(part_that_crosses(ctx, before, onto, after, crosses, &part));
 	if (pairs > FEW)
 		MR_TRY(count_pairs(ctx, &part, NULL, &old));
-	if (pairs > FEW + old) {
+	if (pairs > FEW + 2 * old) { /* bodies that crossed before do so in more or fewer pairs */
 		v = first_vertex(after, crosses);
 		mr_warn(ctx,
-		    "%zu pairs of faces of the result intersect, %zu did before: it is too coarse for what "
-		    "is thin "
-		    "or near, as at vertex %u (%.4g, %.4g, %.4g)",
+		    "%zu pairs of faces of the result intersect, %zu did before: it is too coarse for what is "
+		    "thin or near, as at vertex %u (%.4g, %.4g, %.4g)",
 		    pairs, old, v, after->p[v].x, after->p[v].y, after->p[v].z);
 	}
 	mr_mark_release(ctx, mark);

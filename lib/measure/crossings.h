@@ -7,7 +7,7 @@
 #include "mesh/mesh.h"
 
 /*
- * Warns where more pairs of faces intersect in `after` than in `before`, of which it was made.  onto: the
+ * Warns where over twice as many pairs of faces, and more than five, intersect in `after` than in `before`, of which it was made.  onto: the
  * vertex of after that each of before became, or NULL where that is not known: it is looked at as a whole
  * then.
  */

@@ -1,5 +1,5 @@
-/* Which layer was worked on last, column `latest`, of which others no surface shows yet what was done to them,
- * column `pending`, and what a tool takes that shows or writes one layer. */
+/* Which layer was worked on last, column `latest`, of which others no surface shows yet what was done to
+ * them, column `pending`, and what a tool takes that shows or writes one layer. */
 #include "base/text.h"
 #include "mesh/layers.h"
 
@@ -70,7 +70,7 @@ missing_tools(const mr_frame *f, const char *layer, const char **what)
 
 	if (!mr_frame_has_layer(f, layer))
 		return NULL;
-	if (!strcmp(layer, "handles")) {
+	if (!strcmp(layer, "handles") && mr_layer_has(f, "handles", "transform")) {
 		*what = "handles are posed, and nothing has followed them";
 		return response ? "mr-decode" : detail || heights ? "mr-solve | mr-decode" : "mr-solve";
 	}
@@ -171,7 +171,8 @@ find_latest(mr_ctx *ctx, mr_frame *f, const char *layer[2])
 	return MR_OK;
 }
 
-/* The first surface of a frame that does not say which is its latest, for want of others; NULL: it has none. */
+/* The first surface of a frame that does not say which is its latest, for want of others; NULL: it has none.
+ */
 static const char *
 first_surface(const mr_frame *f)
 {

@@ -641,17 +641,19 @@ look_at_gaps(mr_ctx *ctx, mr_frame *f, mr_gaps *gaps)
 	return known ? mr_gaps_measure(ctx, &mesh, points.p, &sampling, gaps) : MR_OK;
 }
 
-/* Whether it was the control mesh, or the heights over it, that were worked on last. */
+/* Whether it is the control mesh that handles pose, or else that, or the heights over it, that were worked on
+ * last. */
 static mr_status
 is_control_latest(mr_ctx *ctx, mr_frame *f, bool *is)
 {
+	bool base = mr_layer_has(f, "base", "response"), control = mr_layer_has(f, "control", "response");
 	const char *latest;
 
 	MR_TRY(mr_layer_latest(ctx, f, &latest));
-	*is = latest && mr_frame_has_layer(f, "displacement") &&
-	      (!strcmp(latest, "displacement") || !strcmp(latest, "control") ||
-		  (!strcmp(latest, "handles") && mr_layer_has(f, "control", "response") &&
-		      !mr_layer_has(f, "base", "response")));
+	*is = latest && (!strcmp(latest, "displacement") || !strcmp(latest, "control"));
+	if (mr_layer_has(f, "handles", "transform") && base != control)
+		*is = control;
+	*is = *is && mr_frame_has_layer(f, "displacement");
 	return MR_OK;
 }
 

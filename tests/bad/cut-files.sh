@@ -45,4 +45,4 @@ done
 { cat two.obj.gz; head -c 512 /dev/zero; } >zeros.obj.gz
 mr-import zeros.obj.gz >out 2>err && [ ! -s err ] || bad "zeros: $(cat err)"
 { cat two.obj.gz; echo more; } >more.obj.gz
-mr-import more.obj.gz >out 2>err && grep -q 'warning: 5 bytes behind' err || bad "more: $(cat err)"
+mr-import more.obj.gz >out 2>err && grep -q 'warning: more.obj.gz: 5 bytes behind' err || bad "more: $(cat err)"
