@@ -4,6 +4,7 @@
  */
 #include "base/disjoint_sets.h"
 #include "base/sort.h"
+#include "measure/gaps.h"
 #include "mesh/clip.h"
 #include "remesh/unfold.h"
 #include "wrap/parts.h"
@@ -87,30 +88,72 @@ find_flicker(mr_ctx *ctx, const support *s, size_t nv, bool *flickers)
 	return MR_OK;
 }
 
-/* set: of the vertices without support, those joined by edges; deepest: of a root, the vertex farthest from
- * points. */
+/* Of the vertices without support, those joined by edges. */
 static mr_status
-find_regions(mr_ctx *ctx, const mr_mesh *m, const double *far, uint32_t **set, uint32_t **deepest)
+find_regions(mr_ctx *ctx, const mr_mesh *m, const double *far, uint32_t **set)
 {
 	*set = mr_sets_new(ctx, m->nv);
-	*deepest = MR_NEW(ctx, m->nv, uint32_t);
-	if (!*set || !*deepest)
+	if (!*set)
 		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		if (far[mr_he_from(m, h)] > SUPPORTED && far[mr_he_to(m, h)] > SUPPORTED)
 			mr_sets_join(*set, mr_he_from(m, h), mr_he_to(m, h));
-	memcpy(*deepest, *set, m->nv * sizeof **set);
-	for (uint32_t v = 0; v < m->nv; v++) {
-		uint32_t *d = *deepest + mr_sets_root(*set, v);
-		*d = far[v] > far[*d] ? v : *d;
-	}
 	return MR_OK;
 }
 
-/* Takes a region to account, and says whether it is cut out. */
-static bool
-judge(mr_wrap_lids *lids, double half, mr_v3 at, int how)
+/* Places on a face between its corners, by thirds of its edges. */
+static void
+strew_face(const mr_mesh *m, size_t f, mr_v3 *p)
 {
+	const uint32_t *v = m->t[f].v;
+
+	for (int k = 0; k < 3; k++) {
+		*p++ = mr_lerp(1. / 3, m->p[v[k]], m->p[v[(k + 1) % 3]]);
+		*p++ = mr_lerp(2. / 3, m->p[v[k]], m->p[v[(k + 1) % 3]]);
+	}
+	*p = mr_mul(1. / 3, mr_add(m->p[v[0]], mr_add(m->p[v[1]], m->p[v[2]])));
+}
+
+/* The place of each region, by its root, that is farthest from points: vertices are two spacings apart, and
+ * may be beside the middle of a hole.  spot: m->nv, all 0, the caller's. */
+static mr_status
+find_spots(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, const double *far, uint32_t *set,
+    mr_gap_spot *spot)
+{
+	enum { PLACES = 7 };
+	uint32_t *root = MR_NEW(ctx, m->nf, uint32_t);
+	mr_v3 *p = MR_NEW(ctx, PLACES * m->nf, mr_v3);
+	size_t n = 0;
+	support s;
+
+	if (!root || !p)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			if (far[m->t[f].v[k]] > SUPPORTED) {
+				strew_face(m, f, p + PLACES * n);
+				root[n++] = mr_sets_root(set, m->t[f].v[k]);
+				break;
+			}
+	for (uint32_t v = 0; v < m->nv; v++) {
+		mr_gap_spot *of = spot + mr_sets_root(set, v);
+		if (far[v] > of->wide)
+			*of = (mr_gap_spot){ far[v], m->p[v] };
+	}
+	if (n == 0)
+		return MR_OK;
+	MR_TRY(measure(ctx, cloud, &(mr_mesh){ .p = p, .nv = PLACES * n }, &s));
+	for (size_t i = 0; i < PLACES * n; i++)
+		if (s.far[i] > spot[root[i / PLACES]].wide)
+			spot[root[i / PLACES]] = (mr_gap_spot){ s.far[i], p[i] };
+	return MR_OK;
+}
+
+/* Takes a region to account, by its deepest place, and says whether it is cut out. */
+static bool
+judge(mr_wrap_lids *lids, const mr_gap_spot *spot, int how)
+{
+	double half = spot->wide;
 	bool wide = half > (how == MR_LIDS_NONE ? HOLE : OPENING), cut = wide && !lids->flickers;
 	bool doubtful = how == MR_LIDS_AUTO && (cut ? half < DOUBT * OPENING : half > HOLE);
 
@@ -119,7 +162,7 @@ judge(mr_wrap_lids *lids, double half, mr_v3 at, int how)
 	lids->doubtful += doubtful;
 	if (doubtful && 2 * half > lids->width) {
 		lids->width = 2 * half;
-		lids->at = at;
+		lids->at = spot->at;
 	}
 	return cut;
 }
@@ -130,18 +173,20 @@ cut_openings(mr_ctx *ctx, const mr_wrap_cloud *cloud, int how, mr_wrap_lids *lid
 {
 	double *value = MR_NEW(ctx, m->nv, double);
 	bool *cut = MR_NEW_ZERO(ctx, m->nv, bool);
-	uint32_t *set, *deepest;
+	mr_gap_spot *spot = MR_NEW_ZERO(ctx, m->nv, mr_gap_spot);
+	uint32_t *set;
 	support s;
 
-	if (!value || !cut)
+	if (!value || !cut || !spot)
 		return MR_EMEM;
 	MR_TRY(measure(ctx, cloud, m, &s));
 	if (lids->flickers)
 		MR_TRY(find_flicker(ctx, &s, m->nv, &lids->flickers));
-	MR_TRY(find_regions(ctx, m, s.far, &set, &deepest));
+	MR_TRY(find_regions(ctx, m, s.far, &set));
+	MR_TRY(find_spots(ctx, cloud, m, s.far, set, spot));
 	for (uint32_t v = 0; v < m->nv; v++)
 		if (mr_sets_root(set, v) == v && s.far[v] > SUPPORTED)
-			cut[v] = judge(lids, s.far[deepest[v]], m->p[deepest[v]], how);
+			cut[v] = judge(lids, &spot[v], how);
 	for (uint32_t v = 0; v < m->nv; v++)
 		value[v] = cut[mr_sets_root(set, v)] ? s.far[v] - SUPPORTED
 		                                     : fmin(s.far[v] - SUPPORTED, -0.01);

@@ -70,6 +70,12 @@ echo 'what may be an opening or a hole is said'
 awk '!($1 > 0 && $2^2 + $3^2 < 0.045)' cup.xyz >doubt.xyz
 mr-import --points doubt.xyz | mr-shrinkwrap 2>&1 >/dev/null | sed 's/near (.*)/near (x, y, z)/; s/measures [0-9.]*/measures N/'
 
+echo 'and a hole seven sampling distances wide, wherever the vertices are'
+for seed in 1 2 3 4 5; do
+	mr-make sphere --points 10000 --seed $seed | mr-export -l points -f xyz - | awk '!($3 > 0 && $1^2 + $2^2 < 0.0154)' >hole.xyz
+	mr-import --points hole.xyz | mr-shrinkwrap 2>&1 >/dev/null | sed 's/.*measures \([67]\)\..*/\1/' | awk '{ print $1 == 6 || $1 == 7 ? "said" : $0 }'
+done
+
 echo 'flat faces without points are none'
 mr-make cube -n 3000 | mr-export -q -f xyz -l mesh - | awk '{ line[NR] = $0; for (k = 1; k <= 3; k++) if ($k > high) high = $k } END {
 	for (i = 1; i <= NR; i++) {
