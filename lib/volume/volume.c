@@ -483,6 +483,36 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	return MR_OK;
 }
 
+/*
+ * Along a normal that is on the right side the indicator falls.  Of shells three to five spacings thick, a
+ * third of whose normals are on the wrong one, it hardly does, or rises, at 3.4 to 6.2 % of the points; of 69
+ * other clouds, uniform, clean and noisy, at 1.7 at most, but of eight that are thin.
+ */
+static mr_status
+warn_of_sides(mr_ctx *ctx, volume *v, const float *u)
+{
+	static const double HARDLY = 0.25, SHARE = 0.03;
+	size_t unsure = 0, first = 0;
+	double half;
+
+	MR_TRY(half_rise(ctx, v, u, &half));
+	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, 0 });
+	for (size_t i = v->s.n; i-- > 0;)
+		if (-v->value[i] < HARDLY * 2 * half) {
+			unsure++;
+			first = i;
+		}
+	if ((double)unsure > SHARE * (double)v->s.n) {
+		mr_v3 p = v->s.p[first];
+		mr_warn(ctx,
+		    "%.2g %% of the points show no side that is outside, and more may be on the wrong one: "
+		    "body or gaps "
+		    "are thin, as near (%.4g, %.4g, %.4g)",
+		    100 * (double)unsure / (double)v->s.n, p.x, p.y, p.z);
+	}
+	return MR_OK;
+}
+
 mr_status
 mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 {
@@ -499,6 +529,7 @@ mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 	MR_TRY(orient_by_flood(ctx, &v, f));
 	MR_TRY(mr_multigrid_begin(ctx, v.grid[0].n, v.levels, f, false, &m));
 	MR_TRY(solve_indicator(ctx, &v, &m));
+	MR_TRY(warn_of_sides(ctx, &v, m.level[0].u));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -62,3 +62,13 @@ printf '0 0 0\n1 1 1\n2 2 2\n3 3 3\n' >line.xyz
 mr-import line.xyz | refused
 printf '0 0 0\n0 0 0\n1 0 0\n' >two.xyz
 mr-import two.xyz | refused
+
+echo 'a thin half shell, of few points and of enough'
+for n in 6000 30000; do
+	mr-make sphere --points $n | mr-export -l points -f xyz - | awk '$3 < 0 { # walls, and one point in ten on the rim
+		k = NR % 10; t = k < 5 ? 1.1 : k < 9 ? 0.9 : 0.9 + 0.2 * (NR % 7) / 6; r = sqrt($1^2 + $2^2)
+		if (k == 9) { $1 /= r; $2 /= r; $3 = 0 }
+		print 0.35 * t * $1, 0.25 * t * $2, 0.2 * t * $3
+	}' >shell.xyz
+	mr-import --points shell.xyz | mr-normals 2>&1 >/dev/null | grep -c 'no side that is outside'
+done
