@@ -323,7 +323,8 @@ report_lids(mr_ctx *ctx, const mr_wrap_lids *l)
 		mr_warn(ctx,
 		    "%zu opening%s closed, as the points support the wrap too unevenly to tell where they "
 		    "end: "
-		    "the widest measures %.3g sampling distances, near (%.4g, %.4g, %.4g)",
+		    "the widest measures %.3g sampling distances, near (%.4g, %.4g, %.4g); of an open sheet "
+		    "--lids none cuts them out",
 		    l->doubtful, l->doubtful == 1 ? " is" : "s are", l->width, l->at.x, l->at.y, l->at.z);
 	else if (l->doubtful > 0)
 		mr_warn(ctx,

@@ -95,3 +95,10 @@ mr-select --reset --free all --fixed below:y,0.3 --handle 0=above:y,0.7 scan.mrs
 topology mesh bent.mrs
 mr-equalize scan.mrs | mr-decode -o even.mrs
 topology mesh even.mrs
+
+echo 'nine tenths of a cylinder wrapped from both sides: the way to leave it open is named, and does'
+mr-make cylinder --points 12000 | mr-export -l points -f xyz - |
+	awk '$3 > -0.9 && $3 < 0.9 && sqrt(atan2($2, $1)^2) < 2.83 { print $1, $2, 0.44 * $3 }' >bent.xyz
+mr-import --points bent.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -o -e '--lids none'
+mr-import --points bent.xyz | mr-shrinkwrap -q --lids none -o bent.mrs
+topology control bent.mrs
