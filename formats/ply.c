@@ -193,8 +193,8 @@ set_color(ply *f, const double *v, unsigned char *c)
 static mr_status
 pass_list(ply *f, const property *p)
 {
+	size_t n = 0;
 	double x;
-	size_t n;
 
 	MR_TRY(next_length(f, p, &n));
 	if (!f->ascii) {

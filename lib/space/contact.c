@@ -100,11 +100,12 @@ first_at(const grid *g, uint32_t v)
 {
 	mr_v3 p = g->m->p[v], reach = mr_vec(g->near, g->near, g->near);
 	mr_v3 low = cell_of(g, mr_sub(p, reach)), high = cell_of(g, mr_add(p, reach));
+	int across = low.x != high.x ? 2 : 1, along = low.y != high.y ? 2 : 1, up = low.z != high.z ? 2 : 1;
 	uint32_t best = v;
 
-	for (int i = 0; i <= (low.x != high.x); i++)
-		for (int j = 0; j <= (low.y != high.y); j++)
-			for (int k = 0; k <= (low.z != high.z); k++)
+	for (int i = 0; i < across; i++)
+		for (int j = 0; j < along; j++)
+			for (int k = 0; k < up; k++)
 				best = lowest_in(g,
 				    mr_vec(i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z), v,
 				    best);

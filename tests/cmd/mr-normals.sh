@@ -63,8 +63,8 @@ mr-import line.xyz | refused
 printf '0 0 0\n0 0 0\n1 0 0\n' >two.xyz
 mr-import two.xyz | refused
 
-echo 'a thin half shell, of few points and of enough'
-for n in 6000 30000; do
+echo 'a thin half shell, of enough points and of few'
+for n in 30000 6000; do
 	mr-make sphere --points $n | mr-export -l points -f xyz - | awk '$3 < 0 { # walls, and one point in ten on the rim
 		k = NR % 10; t = k < 5 ? 1.1 : k < 9 ? 0.9 : 0.9 + 0.2 * (NR % 7) / 6; r = sqrt($1^2 + $2^2)
 		if (k == 9) { $1 /= r; $2 /= r; $3 = 0 }
