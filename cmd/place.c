@@ -60,39 +60,36 @@ place_is(int fd, const char *name)
 	return fstat(fd, &x) == 0 && stat(name, &y) == 0 && same(&x, &y);
 }
 
-/* The one name of a file, there or not yet; the caller's to free, NULL where its folder is not there. */
-static char *
-whole_name(const char *path)
-{
-	const char *last = last_part(path);
-	char *name = realpath(path, NULL), *folder, *in;
-	size_t n, m = strlen(last) + 1;
+/* Two names of a file: what is there, and its place, in which there may be nothing yet; empty where there is
+ * none. */
+typedef struct keys {
+	char there[64], place[4200];
+} keys;
 
-	if (name)
-		return name;
-	folder = last == path ? strdup(".") : strndup(path, (size_t)(last - path));
-	in = folder ? realpath(folder, NULL) : NULL;
-	free(folder);
-	n = in ? strlen(in) : 0;
-	name = in ? malloc(n + 1 + m) : NULL;
-	if (name) {
-		memcpy(name, in, n);
-		name[n] = '/';
-		memcpy(name + n + 1, last, m);
-	}
-	free(in);
-	return name;
+static void
+find_keys(const char *path, keys *k)
+{
+	struct stat s;
+
+	*k->there = *k->place = '\0';
+	if (stat(path, &s) == 0 && !is_device(&s))
+		snprintf(k->there, sizeof k->there, "%llu:%llu", (unsigned long long)s.st_dev,
+		    (unsigned long long)s.st_ino);
+	if (folder_of(path, &s))
+		snprintf(k->place, sizeof k->place, "%llu:%llu/%s", (unsigned long long)s.st_dev,
+		    (unsigned long long)s.st_ino, last_part(path));
+}
+
+static bool
+has(const mr_string_set *set, const char *key)
+{
+	return *key && mr_string_set_has(set, key);
 }
 
 static mr_status
-claim(mr_ctx *ctx, place_guard *g, const char *path, const char *name, bool writes)
+add(mr_string_set *set, const char *key)
 {
-	if (mr_string_set_has(&g->written, name))
-		return mr_fail(ctx, MR_EUSAGE, "%s: this command writes that file%s", path,
-		    writes ? " already" : ", and would read it");
-	if (writes && mr_string_set_has(&g->read, name))
-		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
-	return mr_string_set_add(writes ? &g->written : &g->read, name);
+	return *key ? mr_string_set_add(set, key) : MR_OK;
 }
 
 void
@@ -105,12 +102,19 @@ place_guard_free(place_guard *g)
 mr_status
 place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes)
 {
-	bool stdio = !writes && !strcmp(path, "-");
-	char *name = stdio ? NULL : whole_name(path);
-	mr_status status = name ? claim(ctx, g, path, name, writes) : MR_OK;
+	keys k;
 
-	free(name);
-	return status;
+	if (!writes && !strcmp(path, "-"))
+		return MR_OK;
+	find_keys(path, &k);
+	if (has(&g->written, k.there) || has(&g->written, k.place))
+		return mr_fail(ctx, MR_EUSAGE, "%s: this command writes that file%s", path,
+		    writes ? " already" : ", and would read it");
+	if (writes && has(&g->read, k.there))
+		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
+	if (writes)
+		MR_TRY(add(&g->written, k.place));
+	return add(writes ? &g->written : &g->read, k.there);
 }
 
 bool
