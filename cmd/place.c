@@ -71,7 +71,6 @@ find_keys(const char *path, keys *k)
 {
 	struct stat s;
 
-	*k->there = *k->place = '\0';
 	if (stat(path, &s) == 0 && !is_device(&s))
 		snprintf(k->there, sizeof k->there, "%llu:%llu", (unsigned long long)s.st_dev,
 		    (unsigned long long)s.st_ino);
@@ -102,7 +101,7 @@ place_guard_free(place_guard *g)
 mr_status
 place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes)
 {
-	keys k;
+	keys k = { 0 };
 
 	if (!writes && !strcmp(path, "-"))
 		return MR_OK;
