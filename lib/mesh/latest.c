@@ -194,7 +194,7 @@ add_latest(mr_ctx *ctx, mr_frame *f, mr_text *all)
 	if (!mr_layer_has(f, "", "latest"))
 		layer[0] = first_surface(f);
 	for (int i = 0; i < 2 && layer[i]; i++)
-		if (!has_line(all->s, all->n, layer[i]))
+		if (!has_line(all->n ? all->s : "", all->n, layer[i]))
 			mr_text_add(all, "%s\n", layer[i]);
 	return MR_OK;
 }
