@@ -361,31 +361,28 @@ places_on(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *on, co
 	return MR_OK;
 }
 
-/* Warns of constrained vertices that are not where they belong though base holds its own there: it has none
- * at theirs. */
+/* Warns of some constrained vertices, where there are any, and of why. */
+static void
+tell_some(mr_ctx *ctx, size_t some, size_t all, const char *which, double share, const char *why)
+{
+	if (some)
+		mr_warn(ctx, "%zu of %zu %s by over %g %% of the diagonal: %s", some, all, which, 100 * share, why);
+}
+
+/* Of those that are not where they belong though base holds its own there: it has none at theirs. */
 static void
 tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 {
-	double finer = mr_mesh_edge_scale(ctx, base) / 2; /* which held all, of six models */
+	static const char missed[] = "vertices of handles of mesh miss their place";
+	char coarse[128];
 
-	if (h->moved)
-		mr_warn(ctx,
-		    "%zu of %zu fixed vertices of mesh have moved by over %g %% of the diagonal: base is too "
-		    "coarse to "
-		    "hold them; mr-remesh -L %.2g makes it finer",
-		    h->moved, h->fixed, 100 * share, finer);
-	if (h->missed)
-		mr_warn(ctx,
-		    "%zu of %zu vertices of handles of mesh miss their place by over %g %% of the diagonal: "
-		    "base is too "
-		    "coarse to hold them; mr-remesh -L %.2g makes it finer",
-		    h->missed, h->handled, 100 * share, finer);
-	if (h->unscaled)
-		mr_warn(ctx,
-		    "%zu of %zu vertices of handles of mesh miss their place by over %g %% of the diagonal: "
-		    "the handle is scaled, and heights over base keep their length; mr-decode --gain scales "
-		    "all of them, mr-transform a whole model",
-		    h->unscaled, h->handled, 100 * share);
+	snprintf(coarse, sizeof coarse, "base is too coarse to hold them; mr-remesh -L %.2g makes it finer",
+	    mr_mesh_edge_scale(ctx, base) / 2); /* which held all, of six models */
+	tell_some(ctx, h->moved, h->fixed, "fixed vertices of mesh have moved", share, coarse);
+	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
+	tell_some(ctx, h->unscaled, h->handled, missed, share,
+	    "the handle is scaled, and heights over base keep their length; mr-decode --gain scales all of them, "
+	    "mr-transform a whole model");
 }
 
 /* Judges by where the pose began: an earlier one may have bent what is fixed now, or a handle.  at_rest: the
