@@ -408,6 +408,13 @@ mr_shade_full(const mr_shades *s)
 }
 
 void
+mr_colors_rounded(mr_ctx *ctx, size_t values)
+{
+	if (values)
+		mr_warn(ctx, "%zu values of colors are rounded: of their 16 bits 8 are kept", values);
+}
+
+void
 mr_shades_said(mr_ctx *ctx, const mr_shades *s)
 {
 	const double dark = 4096; /* of 65535: 12 bits, or 8 with a value too large */
@@ -420,6 +427,8 @@ mr_shades_said(mr_ctx *ctx, const mr_shades *s)
 		    "colors are nearly black: the largest value, %g, is above 255, and read as a "
 		    "65535th",
 		    s->most);
+	else
+		mr_colors_rounded(ctx, s->rounded);
 }
 
 void

@@ -106,6 +106,7 @@ typedef struct mr_shades {
 	double most, full; /* of those that were seen; what becomes a byte of 255 */
 	bool broken;       /* one is no whole number */
 	size_t clipped;    /* not within 0 and full */
+	size_t rounded;    /* of 16 bits, where the byte does not tell the lower ones */
 } mr_shades;
 
 static inline void
@@ -123,15 +124,20 @@ static inline unsigned char
 mr_shade_byte(mr_shades *s, double x)
 {
 	double v = 255 * x / s->full;
+	float near = (float)v + 0.5F; /* a float of 0.9, too, is 230 */
+	unsigned char byte = (unsigned char)(near > 0 ? fminf(near, 255) : 0);
+	bool clips = v < -0.255 || v > 255.255;
 
-	s->clipped += v < -0.255 || v > 255.255;
-	if (!(v > 0))
-		return 0;
-	return (unsigned char)(v >= 255 ? 255 : (float)v + 0.5F); /* a float of 0.9, too, is 230 */
+	s->clipped += clips;
+	s->rounded += !clips && s->full == 65535 && x != 257 * byte;
+	return byte;
 }
 
-/* Says how many were clipped, and where next to nothing is left of them. */
+/* Says how many were clipped or rounded, and where next to nothing is left of them. */
 void mr_shades_said(mr_ctx *ctx, const mr_shades *s);
+
+/* Says of how many values of colours the lower bits are lost. */
+void mr_colors_rounded(mr_ctx *ctx, size_t values);
 
 /* A column that is dropped: says so and counts it. */
 void mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why);

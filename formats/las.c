@@ -199,6 +199,7 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	unsigned char *color = NULL;
 	unsigned shift;
+	size_t rounded = 0;
 	mr_v3 *p;
 	las l = { 0 };
 
@@ -215,12 +216,16 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		if (!mr_finite(p[i]))
 			return mr_fail(
 			    ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", l.offset + i * l.record);
-		for (unsigned k = 0; color && k < 4; k++)
-			color[4 * i + k] = (unsigned char)(k == 3 ? 255
-								  : mr_load16(d + l.color + 2 * k, false) >>
-									shift);
+		for (unsigned k = 0; color && k < 3; k++) {
+			unsigned x = mr_load16(d + l.color + 2 * k, false), lower = shift ? x & 255 : 0;
+			color[4 * i + k] = (unsigned char)(x >> shift);
+			rounded += lower && lower != x >> 8;
+		}
+		if (color)
+			color[4 * i + 3] = 255;
 	}
 	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color, .counts = m->counts };
+	mr_colors_rounded(ctx, rounded);
 	if (l.points)
 		warn_of_records(ctx, data, size, &l);
 	return read_fields(ctx, data, &l, m);

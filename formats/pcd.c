@@ -29,6 +29,7 @@ typedef struct pcd {
 	bool has_points, binary, packed;
 	const unsigned char *planes; /* of packed ones: the fields, each of all points */
 	mr_v3 viewpoint;
+	bool turned; /* the viewpoint has an orientation */
 	mr_builder properties;
 	const field *of[ROLES];
 	bool alpha;     /* the colour is rgba */
@@ -112,6 +113,20 @@ data_kind(pcd *f, mr_scan *line)
 		f->binary = f->packed = true;
 	else if (!mr_scan_accept(line, "ascii"))
 		return mr_scan_fail(&f->text, line->p, "DATA is none of ascii, binary and binary_compressed");
+	return MR_OK;
+}
+
+/* A position and a quaternion, the real part first; files end behind the position, too. */
+static mr_status
+viewpoint(pcd *f, mr_scan *line)
+{
+	double q;
+
+	MR_TRY(mr_scan_position(line, &f->viewpoint));
+	for (int i = 0; i < 4 && (mr_skip_blanks(line), line->p < line->end); i++) {
+		MR_TRY(mr_scan_real(line, "the viewpoint's orientation", &q));
+		f->turned |= i > 0 && q != 0;
+	}
 	return MR_OK;
 }
 
@@ -220,7 +235,7 @@ read_header(pcd *f)
 			MR_TRY(mr_scan_count(&line, "POINTS", UINT64_MAX / 16, &f->points));
 			f->has_points = true;
 		} else if (mr_scan_accept(&line, "VIEWPOINT")) {
-			MR_TRY(mr_scan_position(&line, &f->viewpoint));
+			MR_TRY(viewpoint(f, &line));
 		} else if (!mr_scan_accept(&line, "VERSION")) {
 			mr_scan_word(&line, &w, &n);
 			return mr_scan_fail(
@@ -470,6 +485,8 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (normal && !mr_normals_left(ctx, normal, n, &m->counts.dropped_normals))
 		normal = NULL;
 	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };
+	if (f.turned)
+		mr_warn(ctx, "the viewpoint's orientation is left out");
 	/* the origin is what stands there where none is known */
 	if (!is_origin(f.viewpoint))
 		MR_TRY(mr_scanned_from(ctx, f.viewpoint, m));

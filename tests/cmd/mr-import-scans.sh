@@ -84,6 +84,24 @@ mr-import --no-history two.ptx -o two.mrs
 strings two.mrs | grep -xE 'scanner|intensity'
 mr-import two.ptx | mr-crop --keep column:intensity,0.2,0.3 | mr-info | grep -E 'points:|scanner'
 
+echo 'what of a scan has no place: how the scanner was turned, the lower bits of colours'
+printf 'VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nVIEWPOINT 1 2 3 %s\nDATA ascii\n0 0 0\n' '0.5 0.5 0.5 0.5' >turned.pcd
+printf 'VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nVIEWPOINT 1 2 3%s\nDATA ascii\n0 0 0\n' '' >place.pcd
+python3 - <<'END'
+import struct
+head = bytearray(227)
+head[:4], head[24:26], head[104] = b"LASF", b"\1\2", 2
+struct.pack_into("<HI", head, 94, 227, 227)
+struct.pack_into("<HI", head, 105, 26, 1)
+struct.pack_into("<3d", head, 131, 1, 1, 1)
+for name, color in ("coarse", (0x1200, 0xffff, 0x3434)), ("fine", (0x1200, 0xfffe, 0x3435)), ("bytes", (1, 2, 255)):
+    open(name + ".las", "wb").write(head + struct.pack("<3i8x3H", 1, 2, 3, *color))
+END
+for file in turned.pcd place.pcd coarse.las fine.las bytes.las; do
+	echo "$file: $(mr-import $file 2>&1 >out.mrs)"
+	mr-export -q -i out.mrs -f ply-ascii - | sed '1,/end_header/d'
+done
+
 echo 'LAZ'
 { printf 'LASF'; head -c 100 /dev/zero; printf '\202'; head -c 200 /dev/zero; } >packed.laz
 mr-import packed.laz
