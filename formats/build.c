@@ -411,7 +411,7 @@ void
 mr_colors_rounded(mr_ctx *ctx, size_t values)
 {
 	if (values)
-		mr_warn(ctx, "%zu values of colors are rounded: of their 16 bits 8 are kept", values);
+		mr_warn(ctx, "%zu values of colors are rounded to 8 bits", values);
 }
 
 void

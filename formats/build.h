@@ -106,7 +106,7 @@ typedef struct mr_shades {
 	double most, full; /* of those that were seen; what becomes a byte of 255 */
 	bool broken;       /* one is no whole number */
 	size_t clipped;    /* not within 0 and full */
-	size_t rounded;    /* of 16 bits, where the byte does not tell the lower ones */
+	size_t rounded;    /* that the byte does not tell */
 } mr_shades;
 
 static inline void
@@ -119,24 +119,26 @@ mr_shade_see(mr_shades *s, double x)
 /* What is full, by all that was seen. */
 double mr_shade_full(const mr_shades *s);
 
-/* Colours are bytes: what less than one of 1000 parts takes a value beyond full is not lost. */
+/* Colours are bytes: what is less than one of 1000 parts beyond full, or of a number off the byte, is not
+ * lost; of 16 bits every one is. */
 static inline unsigned char
 mr_shade_byte(mr_shades *s, double x)
 {
 	double v = 255 * x / s->full;
 	float near = (float)v + 0.5F; /* a float of 0.9, too, is 230 */
 	unsigned char byte = (unsigned char)(near > 0 ? fminf(near, 255) : 0);
-	bool clips = v < -0.255 || v > 255.255;
+	bool clips = v < -0.255 || v > 255.255,
+	     differs = s->full == 65535 ? x != 257 * byte : fabs(v - byte) > 0.255;
 
 	s->clipped += clips;
-	s->rounded += !clips && s->full == 65535 && x != 257 * byte;
+	s->rounded += !clips && differs;
 	return byte;
 }
 
 /* Says how many were clipped or rounded, and where next to nothing is left of them. */
 void mr_shades_said(mr_ctx *ctx, const mr_shades *s);
 
-/* Says of how many values of colours the lower bits are lost. */
+/* Says how many values of colours a byte does not tell. */
 void mr_colors_rounded(mr_ctx *ctx, size_t values);
 
 /* A column that is dropped: says so and counts it. */

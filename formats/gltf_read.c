@@ -42,6 +42,8 @@ typedef struct gltf_reader {
 	double *uv;           /* 2 n; NaN: none */
 	size_t uvs, odd_uv;   /* as the file has them; not finite */
 	unsigned char *color; /* 4 n */
+	mr_shades shades;     /* of 1 */
+	size_t odd_colors;    /* of vertices, with a NaN */
 	uint32_t *number;     /* n; MR_NONE: none */
 	uint32_t *join;       /* n: the vertex of the model */
 	mr_tri *t, *joined;   /* nf, of vertices as the file has them, and of the model's */
@@ -353,12 +355,6 @@ read_texcoords(gltf_reader *r, const part *p, const mr_accessor *a)
 	return MR_OK;
 }
 
-static unsigned char
-to_byte(double c)
-{
-	return (unsigned char)(c > 0 ? c < 1 ? 255 * c + 0.5 : 255 : 0);
-}
-
 /* Colours are linear there. */
 static mr_status
 read_colors(gltf_reader *r, const part *p, const mr_accessor *a)
@@ -371,8 +367,13 @@ read_colors(gltf_reader *r, const part *p, const mr_accessor *a)
 	for (size_t i = 0; i < p->count; i++)
 		x[4 * i + 3] = 1;
 	MR_TRY(mr_accessor_reals(&r->g, a, 4, x));
-	for (size_t i = 0; i < 4 * p->count; i++)
-		r->color[4 * p->first + i] = to_byte(i % 4 == 3 ? x[i] : mr_linear_to_srgb(x[i]));
+	for (size_t i = 0; i < p->count; i++) {
+		const double *c = x + 4 * i;
+		r->odd_colors += isnan(c[0] + c[1] + c[2] + c[3]) ? 1 : 0;
+		for (size_t k = 0; k < 4; k++)
+			r->color[4 * (p->first + i) + k] = mr_shade_byte(
+			    &r->shades, k == 3 ? c[k] : mr_linear_to_srgb(c[k]));
+	}
 	mr_mark_release(r->g.ctx, mark);
 	return MR_OK;
 }
@@ -720,6 +721,7 @@ join_colors(gltf_reader *r)
 		several += memcmp(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
 	if (several)
 		mr_warn(r->g.ctx, "%zu colours left out: a vertex keeps the first of several", several);
+	mr_shades_said(r->g.ctx, &r->shades);
 	r->m->color = color;
 	return MR_OK;
 }
@@ -757,6 +759,8 @@ join_columns(gltf_reader *r)
 		r->normal = NULL;
 	if (!mr_left_out(r->g.ctx, r->odd_uv, r->uvs, "texture coordinates", &counts->dropped_texcoords))
 		r->uv = NULL;
+	if (!mr_all_left(r->g.ctx, r->odd_colors, r->n, "colors", &counts->dropped_colors))
+		r->color = NULL;
 	if (r->color)
 		MR_TRY(join_colors(r));
 	if (r->uv)
@@ -862,7 +866,7 @@ mr_status
 mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	mr_model made = { .counts = m->counts };
-	gltf_reader r = { .m = &made };
+	gltf_reader r = { .m = &made, .shades.full = 1 };
 	mr_status status;
 
 	MR_TRY(mr_gltf_open(ctx, data, size, &r.g));

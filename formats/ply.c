@@ -302,7 +302,8 @@ read_vertex_rows(ply *f, const element *e)
 	double v[ROLES] = { 0 };
 
 	f->odd_colors = f->odd_uv = f->odd_scanner = 0;
-	f->shades[0].clipped = f->shades[1].clipped = 0;
+	for (int i = 0; i < 2; i++)
+		f->shades[i].clipped = f->shades[i].rounded = 0;
 	v[ALPHA] = 1; /* where there is none */
 	for (size_t i = 0; i < f->b.nv; i++)
 		MR_TRY(read_vertex(f, e, i, v));

@@ -3,18 +3,6 @@
 
 #include "space/self_intersect.h"
 
-static mr_status
-count_pairs(mr_ctx *ctx, const mr_mesh *m, bool *crosses, size_t *count)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_bvh *bvh;
-
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	MR_TRY(mr_self_intersections(ctx, bvh, m, crosses, count));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 /* The faces of m that became, in part, those of `after` that cross others. */
 static mr_status
 part_that_crosses(mr_ctx *ctx, const mr_mesh *m, const uint32_t *onto, const mr_mesh *after,
@@ -62,15 +50,16 @@ mr_crossings_warn(mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, cons
 
 	if (!crosses)
 		return MR_EMEM;
-	MR_TRY(count_pairs(ctx, after, crosses, &pairs));
+	MR_TRY(mr_self_intersections(ctx, NULL, after, crosses, &pairs));
 	if (pairs > FEW && onto)
 		MR_TRY(part_that_crosses(ctx, before, onto, after, crosses, &part));
 	if (pairs > FEW)
-		MR_TRY(count_pairs(ctx, &part, NULL, &old));
+		MR_TRY(mr_self_intersections(ctx, NULL, &part, NULL, &old));
 	if (pairs > FEW + 2 * old) { /* bodies that crossed before do so in more or fewer pairs */
 		v = first_vertex(after, crosses);
 		mr_warn(ctx,
-		    "%zu pairs of faces of the result intersect, %zu did before: it is too coarse for what is "
+		    "%zu pairs of faces of the result intersect, %zu did before: it is too coarse for what "
+		    "is "
 		    "thin or near, as at vertex %u (%.4g, %.4g, %.4g)",
 		    pairs, old, v, after->p[v].x, after->p[v].y, after->p[v].z);
 	}

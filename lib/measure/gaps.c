@@ -179,9 +179,9 @@ mr_gap_spots_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps, const mr_g
 }
 
 /*
- * Shares of the diagonal that a surface and its mesh may be apart at any place, and but for so much of either.
- * Of 36 models mr-fit and mr-sample leave 27 farther: all whose ears, horns, fingers or sharp edges are seen to
- * be bent; of 57 others 25, and the next ten below are seen to be sound.
+ * Shares of the diagonal that a surface and its mesh may be apart at any place, and but for so much of
+ * either. Of 36 models mr-fit and mr-sample leave 27 farther: all whose ears, horns, fingers or sharp edges
+ * are seen to be bent; of 57 others 25, and the next ten below are seen to be sound.
  */
 static const double FAR_OF_MESH = 0.018, OFF = 0.005, OFF_MOST = 0.02;
 

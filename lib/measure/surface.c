@@ -39,18 +39,6 @@ measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenne
 	return MR_OK;
 }
 
-static mr_status
-count_intersections(mr_ctx *ctx, const mr_mesh *m, size_t *count)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_bvh *bvh;
-
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, count));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 mr_status
 mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface_figures *out)
 {
@@ -64,7 +52,7 @@ mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface
 	MR_TRY(measure_evenness(ctx, m, &edges, &s.evenness));
 	mr_mark_release(ctx, mark);
 	if (intersections)
-		MR_TRY(count_intersections(ctx, m, &s.intersections));
+		MR_TRY(mr_self_intersections(ctx, NULL, m, NULL, &s.intersections));
 	*out = s;
 	return MR_OK;
 }

@@ -333,11 +333,16 @@ mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *cr
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t pieces = (m->nf + GRAIN - 1) / GRAIN, total = 0;
+	mr_bvh *own;
 	flat_job flat = { m, MR_NEW(ctx, m->nf, unsigned char) };
 	search s = { .m = m, .flat = flat.flat, .crosses = crosses, .count = MR_NEW(ctx, pieces, size_t) };
 
 	if (!flat.flat || !s.count)
 		return MR_EMEM;
+	if (!bvh) {
+		MR_TRY(mr_bvh_build(ctx, m, &own));
+		bvh = own;
+	}
 	if (mr_bvh_hidden(bvh))
 		MR_TRY(find_alike(ctx, &s));
 	MR_TRY(mr_suspects_find(ctx, bvh, &s.suspects));

@@ -366,7 +366,8 @@ static void
 tell_some(mr_ctx *ctx, size_t some, size_t all, const char *which, double share, const char *why)
 {
 	if (some)
-		mr_warn(ctx, "%zu of %zu %s by over %g %% of the diagonal: %s", some, all, which, 100 * share, why);
+		mr_warn(ctx, "%zu of %zu %s by over %g %% of the diagonal: %s", some, all, which, 100 * share,
+		    why);
 }
 
 /* Of those that are not where they belong though base holds its own there: it has none at theirs. */
@@ -381,7 +382,8 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 	tell_some(ctx, h->moved, h->fixed, "fixed vertices of mesh have moved", share, coarse);
 	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
 	tell_some(ctx, h->unscaled, h->handled, missed, share,
-	    "the handle is scaled, and heights over base keep their length; mr-decode --gain scales all of them, "
+	    "the handle is scaled, and heights over base keep their length; mr-decode --gain scales all of "
+	    "them, "
 	    "mr-transform a whole model");
 }
 

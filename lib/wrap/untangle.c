@@ -19,15 +19,10 @@ static mr_status
 find_crossings(mr_ctx *ctx, void *arg)
 {
 	const wrap *w = arg;
-	mr_mark mark = mr_mark_take(ctx);
 	mr_mesh m = mr_dyn_view(w->d, "control");
-	mr_bvh *bvh;
 	size_t count;
 
-	MR_TRY(mr_bvh_build(ctx, &m, &bvh));
-	MR_TRY(mr_self_intersections(ctx, bvh, &m, w->crosses, &count));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+	return mr_self_intersections(ctx, NULL, &m, w->crosses, &count);
 }
 
 static bool

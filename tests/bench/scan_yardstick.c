@@ -336,13 +336,11 @@ measure_surface(mr_ctx *ctx, const mr_mesh *m, bool *crosses, figures *figure)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_edges edges;
-	mr_bvh *bvh;
 	size_t bent = 0, acute = 0;
 
 	MR_TRY(mr_edges_build(ctx, m, &edges));
 	MR_TRY(mr_take_census(ctx, m, &edges, &figure->census));
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	MR_TRY(mr_self_intersections(ctx, bvh, m, crosses, &figure->pairs));
+	MR_TRY(mr_self_intersections(ctx, NULL, m, crosses, &figure->pairs));
 	for (size_t e = 0; e < edges.count; e++) {
 		const uint32_t *h = edges.he + edges.start[e];
 		bent += mr_edge_faces(&edges, e) == 2 &&

@@ -96,6 +96,18 @@ root["skins"] = [{}]
 END
 mr-import a.gltf >/dev/null
 
+echo '-- colours that a byte does not tell, that are beyond white, or no numbers' >&2
+for colors in '0, 1, 0.2158605, 0.5, 2, 0, 1e-6, -1, 1, 0, 0, 0' '0, 0, float("nan"), 1, 1, 1, 0, 0, 0, 1, 1, 1'; do
+	make <<-END
+	data += struct.pack("<12f", $colors)
+	root["buffers"][0] = {"byteLength": len(data), "uri": "data:;base64," + base64.b64encode(data).decode()}
+	root["bufferViews"].append({"buffer": 0, "byteOffset": 84, "byteLength": 48})
+	root["accessors"].append({"bufferView": 2, "componentType": 5126, "count": 4, "type": "VEC3"})
+	primitive["attributes"]["COLOR_0"] = 3
+	END
+	mr-import a.gltf | mr-export -f ply-ascii - | tail -n 4
+done
+
 echo '-- names with ends of lines, and other control characters' >&2
 make <<'END'
 primitive.pop("mode")
