@@ -160,6 +160,9 @@ ifneq ($(file <$(BUILD)/flags),$(FLAGS))
 $(shell mkdir -p $(BUILD))$(file >$(BUILD)/flags,$(FLAGS))
 endif
 
+# Those unit tests that T asks for.
+ASKED := $(if $(filter check,$(MAKECMDGOALS)),$(patsubst unit/%,$(BUILD)/tests/%,$(filter unit/%,$(shell BUILD='$(BUILD)' tests/run --list $(T)))))
+
 units: $(UNITS)
 
 help:
@@ -169,7 +172,7 @@ setup:
 	@CC='$(CC)' THREE='$(THREE)' TRIED='$(if $(filter setup,$(MAKECMDGOALS)),,$(BUILD)/tried)' .ci/setup $(NEEDS)
 
 # Without what takes minutes in a browser, on a scheduler, of several processes: each has its target.
-check: $(TOOLS) $(UNITS) $(if $(SAN),,$(BUILD)/$(SONAME))
+check: $(TOOLS) $(ASKED) $(if $(SAN),,$(BUILD)/$(SONAME))
 	@$(RUN) tests/run $(or $(T),unit/ cmd/ pipe/ bad/ laws/ man/)
 
 check-long: $(TOOLS)
