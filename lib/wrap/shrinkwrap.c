@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "measure/gaps.h"
 #include "remesh/unfold.h"
+#include "space/scatter.h"
 #include "space/two_layers.h"
 #include "volume/volume.h"
 #include "wrap/parts.h"
@@ -311,6 +312,23 @@ warn_of_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 	return MR_OK;
 }
 
+/* Of balls, cubes and bars that 300 points or more fill 0.163 and more, a slab of 4 spacings 0.14; of clouds
+ * of surfaces 0.1 at most, with noise of 1 % of the diagonal 0.12 but of what is as thin as that. */
+static const double SCATTERED = 0.16;
+
+static mr_status
+warn_of_scatter(mr_ctx *ctx, const mr_wrap_cloud *cloud)
+{
+	double scatter;
+
+	MR_TRY(mr_cloud_scatter(ctx, cloud->p, cloud->n, cloud->near, &scatter));
+	if (scatter > SCATTERED)
+		mr_warn(ctx, "the points hardly lie along a surface: they fill a volume, or scatter about it "
+		             "as widely as it "
+			     "bends, and what is wrapped may be chance");
+	return MR_OK;
+}
+
 /* What was left open, and where it might as well be closed, or the other way round. */
 static void
 report_lids(mr_ctx *ctx, const mr_wrap_lids *l)
@@ -373,6 +391,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 		if (c.d.twin[h] == MR_NONE && c.lids.loops == 0)
 			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
 	MR_TRY(warn_of_layers(ctx, cloud));
+	MR_TRY(warn_of_scatter(ctx, cloud));
 	report(ctx, cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
 	return MR_OK;
