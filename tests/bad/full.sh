@@ -1,6 +1,6 @@
 # A file that may have so many bytes and no more, as on a disk that is full: exit 1, one sentence, and what was there stays.  Every
 # number of bytes with LONG=1.  And a folder that cannot be written to.
-python3 "$TOP/tests/faults/by_output.py" full "$([ -n "$LONG" ] && echo 1 || echo 97)" || exit
+python3 "$TOP/tests/faults/by_output.py" full "$([ -n "$LONG" ] && echo 1 || echo $((97 * SPARSE)))" || exit
 
 mr-make cube -n 8 -o cube.mrs
 mkdir closed
