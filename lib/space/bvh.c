@@ -168,6 +168,10 @@ closest_in_leaf(const mr_bvh *bvh, bvh_entry leaf, mr_v3 q, mr_closest *best)
 	}
 }
 
+/* From so many sizes of the mesh all its faces are about as near: one of them is found, not the nearest by
+ * looking at all. */
+static const double FAR = 0x1p36;
+
 /* The nearest point of squared distance at most dist2. */
 static mr_closest
 closest_at_most(const mr_bvh *bvh, mr_v3 q, double dist2)
@@ -175,6 +179,7 @@ closest_at_most(const mr_bvh *bvh, mr_v3 q, double dist2)
 	mr_closest best = { .at.face = MR_NONE, .dist2 = dist2 };
 	mr_v3 u = bvh_unit(bvh, q);
 	double unit2 = bvh->scale * bvh->scale, limit = dist2 * unit2, bound[BVH_WIDE];
+	double enough = mr_norm2(u) > FAR * FAR ? unit2 * (1 - 0x1p-35) : unit2;
 	bvh_entry stack[BVH_STACK], *top = stack;
 
 	if (bvh->mesh->nf)
@@ -185,7 +190,7 @@ closest_at_most(const mr_bvh *bvh, mr_v3 q, double dist2)
 			continue;
 		if (e.count) {
 			closest_in_leaf(bvh, e, q, &best);
-			limit = best.dist2 * unit2;
+			limit = best.dist2 * enough;
 		} else {
 			bvh_box_distances(&bvh->nodes[e.child], u, bound);
 			top = bvh_push_sorted(top, &bvh->nodes[e.child], bound, limit);

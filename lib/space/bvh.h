@@ -5,8 +5,9 @@
  * doubles, and deterministic: of several nearest triangles the one with the
  * lowest index is returned, however many threads built the tree.  The tree lives
  * in the arena; the mesh must outlive it.  Queries only read: any number of
- * threads may ask at once.  Of many faces with the same vertices, in the same order, some or all but
- * one are hidden from every query; the lowest never is.
+ * threads may ask at once.  Of many faces with the same vertices, in the same order, and of many whose corners
+ * are all at one place, some or all but one are hidden from every query; the lowest never is.  From farther
+ * off than 2^36 sizes of the mesh a nearest point is farther than the nearest by 2^-35 of its distance at most.
  */
 #ifndef MR_SPACE_BVH_H
 #define MR_SPACE_BVH_H

@@ -64,10 +64,10 @@ fbox_add(fbox *b, const float lo[3], const float hi[3])
 	}
 }
 
-static float
+static double
 fbox_area(const fbox *b)
 {
-	float x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
+	double x = b->hi[0] - b->lo[0], y = b->hi[1] - b->lo[1], z = b->hi[2] - b->lo[2];
 
 	return x * y + y * z + z * x;
 }
@@ -103,7 +103,7 @@ bin_of(float c, float low, float factor)
 static int
 best_bin(const fbox box[BINS], const size_t count[BINS])
 {
-	float right_cost[BINS], best = INFINITY;
+	double right_cost[BINS], best = INFINITY;
 	fbox side = fbox_empty();
 	size_t n = 0;
 	int at = 0;
@@ -111,14 +111,14 @@ best_bin(const fbox box[BINS], const size_t count[BINS])
 	for (int b = BINS - 1; b > 0; b--) {
 		fbox_add(&side, box[b].lo, box[b].hi);
 		n += count[b];
-		right_cost[b] = n ? fbox_area(&side) * (float)n : INFINITY;
+		right_cost[b] = n ? fbox_area(&side) * (double)n : INFINITY;
 	}
 	side = fbox_empty();
 	n = 0;
 	for (int b = 0; b < BINS - 1; b++) {
 		fbox_add(&side, box[b].lo, box[b].hi);
 		n += count[b];
-		float cost = n ? fbox_area(&side) * (float)n + right_cost[b + 1] : INFINITY;
+		double cost = n ? fbox_area(&side) * (double)n + right_cost[b + 1] : INFINITY;
 		if (cost < best) {
 			best = cost;
 			at = b;
@@ -180,6 +180,26 @@ set_child_box(const builder *r, mr_bvh_node *d, int c, const prim *p, size_t n)
 	}
 }
 
+static bool
+at_one_place(mr_v3 a, mr_v3 b)
+{
+	return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+/* Whether no query tells the faces apart, but by their number. */
+static bool
+same_face(const mr_mesh *m, uint32_t f, uint32_t g)
+{
+	const uint32_t *a = m->t[f].v, *b = m->t[g].v;
+
+	if (!memcmp(a, b, sizeof m->t->v))
+		return true;
+	for (int k = 0; k < 3; k++)
+		if (!at_one_place(m->p[a[k]], m->p[a[0]]) || !at_one_place(m->p[b[k]], m->p[a[0]]))
+			return false;
+	return true;
+}
+
 /*
  * Of faces with the same vertices every query would look at each, and no split parts them: moves the lowest
  * of each kind to the front, the others, which stay hidden, behind.  How many are in front.
@@ -193,7 +213,7 @@ hide_repeated(const mr_mesh *m, prim *p, size_t n)
 	for (size_t i = 0; i < n; i++) {
 		size_t kind = 0, kinds = kept < KINDS ? kept : KINDS;
 		prim x = p[i];
-		while (kind < kinds && memcmp(&m->t[p[kind].face], &m->t[x.face], sizeof *m->t) != 0)
+		while (kind < kinds && !same_face(m, p[kind].face, x.face))
 			kind++;
 		if (kind == kinds) {
 			p[i] = p[kept];
@@ -342,7 +362,7 @@ middle(mr_box b)
 static mr_v3
 find_center(builder *b, mr_box whole)
 {
-	const double tiny = 0x1p-12, least = 0x1p-60;
+	const double tiny = 0x1p-12, least = 0x1p-100;
 	mr_box most = box_of_most(b->bvh->mesh);
 	double share = mr_box_diagonal(most) / mr_box_diagonal(whole);
 

@@ -2,7 +2,7 @@
 usage: columns.py STEP COMMAND...
 Each word of the command that names a stream is replaced by that stream damaged, in every STEP-th of the ways: each column's first,
 middle or last value, or all, is another, or it has fewer or more rows."""
-import math, struct, subprocess, sys, zlib
+import math, resource, signal, struct, subprocess, sys, zlib
 
 NUMBERS = {
     b"d": ("<d", [math.nan, math.inf, 1e300, -1e300, 1e31, 9e29, 1e-29, 5e-324, -1.0, 0.0]),
@@ -58,10 +58,10 @@ def is_lawful(stream):
 
 def fault(command, was_lawful):
     """What is wrong with the command's end, or nothing."""
-    try:
-        p = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, timeout=60)
-    except subprocess.TimeoutExpired:
-        return "no end within 60 s"
+    limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 70))
+    p = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limit)
+    if p.returncode == -signal.SIGXCPU:
+        return "no end within 60 s of computing"
     if p.returncode == 1 and p.stderr.startswith(command[0].encode() + b": "):
         return None
     if p.returncode:

@@ -176,6 +176,51 @@ hidden_faces_are_not_missed(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* Faces whose corners are all at one place win nowhere against the first of them. */
+static void
+points_are_not_looked_at_each(void **state)
+{
+	enum { N = 3000 };
+	mr_ctx ctx;
+	mr_bvh *bvh;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	mr_v3 *p = MR_NEW_ZERO(&ctx, N + 2, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, N, mr_tri);
+	for (uint32_t f = 0; f < N; f++)
+		t[f] = (mr_tri){ { f, f + 1, f + 2 } };
+	mr_mesh m = { "points", p, t, N + 2, N };
+	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	assert_int_equal(mr_bvh_hidden(bvh), N - 1);
+	assert_int_equal(mr_bvh_closest(bvh, mr_vec(1, 2, 2)).at.face, 0);
+	assert_true(mr_bvh_closest(bvh, mr_vec(1, 2, 2)).dist2 == 9);
+	mr_ctx_free(&ctx);
+}
+
+/* From afar some face that is about as near as the nearest; near one of 1e29 sizes the nearest all the same.
+ */
+static void
+all_sizes_have_a_nearest(void **state)
+{
+	mr_ctx ctx;
+	mr_bvh *bvh;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	mr_mesh m = soup(&ctx, 2000, 0.2, mr_vec(0, 0, 0), 9);
+	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	for (double far = 1e6; far < 1e30; far *= 1e3) {
+		mr_v3 q = mr_mul(far, mr_vec(0.6, 0, -0.8));
+		assert_true(fabs(sqrt(mr_bvh_closest(bvh, q).dist2) / far - 1) < 4 / far + 0x1p-35);
+		assert_int_not_equal(mr_bvh_closest_within(bvh, q, 4 * far * far).at.face, MR_NONE);
+		assert_int_equal(mr_bvh_closest_within(bvh, q, far * far / 4).at.face, MR_NONE);
+	}
+	((mr_v3 *)m.p)[m.t[0].v[0]] = mr_vec(1e29, 0, 0);
+	check_queries(&ctx, &m, 4, mr_vec(0, 0, 0), 100);
+	mr_ctx_free(&ctx);
+}
+
 /* The nearest point of a triangle: no point of a fine sampling is nearer, and it is where its coordinates
  * say. */
 static void
@@ -385,6 +430,8 @@ main(void)
 		cmocka_unit_test(closest_equals_a_loop),
 		cmocka_unit_test(equal_faces_are_found),
 		cmocka_unit_test(hidden_faces_are_not_missed),
+		cmocka_unit_test(points_are_not_looked_at_each),
+		cmocka_unit_test(all_sizes_have_a_nearest),
 		cmocka_unit_test(triangle_closest_is_least),
 		cmocka_unit_test(rays_equal_a_loop),
 		cmocka_unit_test(rays_do_not_slip_through),
