@@ -66,14 +66,20 @@ typedef struct walker {
 	double *dist2; /* from there to the vertex */
 } walker;
 
-/* The nearest place of the faces around a vertex. */
+/* The nearest place of the faces around a vertex, each once, even if it is there thousands of times. */
 static mr_closest
 nearest_around(const walker *w, uint32_t vertex, mr_v3 q)
 {
+	const mr_tri *t = w->lifted->t, *last = NULL;
 	mr_closest best = { .at.face = MR_NONE, .dist2 = INFINITY };
 
 	for (size_t i = w->inc->start[vertex]; i < w->inc->start[vertex + 1]; i++) {
-		mr_closest c = mr_face_closest(w->lifted, w->inc->face[i], q);
+		uint32_t f = w->inc->face[i];
+		mr_closest c;
+		if (last && !memcmp(last, &t[f], sizeof *last))
+			continue;
+		last = &t[f];
+		c = mr_face_closest(w->lifted, f, q);
 		if (c.dist2 < best.dist2)
 			best = c;
 	}

@@ -255,7 +255,7 @@ meet_neighbours(const mr_ground *g, mr_v3 p, uint32_t face, patch *s)
 {
 	for (int k = 0; k < 3; k++) {
 		uint32_t v = g->surface.m->t[face].v[k];
-		for (size_t i = g->inc->start[v]; i < g->inc->start[v + 1]; i++)
+		for (size_t i = g->inc->start[v]; i < g->inc->start[v + 1] && s->met < PATCH; i++)
 			meet(g, p, g->inc->face[i], s);
 	}
 }
