@@ -124,6 +124,9 @@ read_header(mr_ctx *ctx, const unsigned char *d, size_t size, las *l)
 		    (unsigned long long)l->points, l->record, l->offset, size);
 	if (!mr_finite(l->scale) || !mr_finite(l->origin))
 		return mr_fail(ctx, MR_EFORMAT, "byte 131: scale or offset is not finite");
+	if (l->scale.x == 0 || l->scale.y == 0 || l->scale.z == 0)
+		return mr_fail(ctx, MR_EFORMAT, "byte 131: the scale is %g, %g, %g, which leaves no shape",
+		    l->scale.x, l->scale.y, l->scale.z);
 	return MR_OK;
 }
 

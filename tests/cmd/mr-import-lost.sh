@@ -211,12 +211,12 @@ mr-import records.las -o /dev/null
 echo '-- what a LAS has behind the points that its header counts; records of its own, and zeros, are not that' >&2
 python3 - <<'END'
 import struct
-def las(name, count, points, behind=b"", count64=0, minor=4, form=0, flags=0, waves=0, records=0):
+def las(name, count, points, behind=b"", count64=0, minor=4, form=0, flags=0, waves=0, records=0, scale=1):
     size = {0: 20, 4: 57}[form]
     head = bytearray(375)
     head[0:4], head[6], head[24:26] = b"LASF", flags, bytes((1, minor))
     struct.pack_into("<HIIBHI", head, 94, 375, 375, 0, form, size, count)
-    struct.pack_into("<6d", head, 131, 1, 1, 1, 0, 0, 0)
+    struct.pack_into("<6d", head, 131, 1, 1, scale, 0, 0, 0)
     end = 375 + points * size
     struct.pack_into("<QQIQ", head, 227, waves and end + waves - 1, end, records, count64)
     open(name, "wb").write(bytes(head) + b"".join(struct.pack("<3i", i, 2, 3).ljust(size, b"\0") for i in range(points)) + behind)
@@ -234,8 +234,9 @@ las("counts.las", 2, 3, count64=3)
 las("same.las", 2, 2, count64=2)
 las("late.las", 0, 2, count64=2)
 las("none.las", 0, 2)
+las("flat.las", 2, 2, scale=0)
 END
-for file in more cut zeros record both unnamed waves waves-rest outside counts same late none; do
+for file in more cut zeros record both unnamed waves waves-rest outside counts same late none flat; do
 	echo "$file: $(mr-import $file.las -o $file.mrs 2>&1)" >&2
 done
 mr-info counts.mrs | grep points:
