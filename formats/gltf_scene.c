@@ -37,8 +37,27 @@ from_parts(const double t[3], const double q[4], const double s[3])
 	return a;
 }
 
+/* Makes it one of unit length, and counts it where more than its digits were rounded. */
 static mr_status
-node_map(const mr_gltf *g, const json_t *node, mr_affine *map)
+normalize(mr_ctx *ctx, double q[4], size_t *stretched)
+{
+	double most = fmax(fmax(fabs(q[0]), fabs(q[1])), fmax(fabs(q[2]), fabs(q[3]))), squares = 0;
+
+	if (most == 0)
+		return mr_fail(ctx, MR_EFORMAT, "rotation is zero, which is no quaternion of unit length");
+	for (int i = 0; i < 4; i++) {
+		q[i] /= most; /* squares neither over- nor underflow */
+		squares += q[i] * q[i];
+	}
+	*stretched += !(fabs(most * sqrt(squares) - 1) <= 1e-3);
+	for (int i = 0; i < 4; i++)
+		q[i] /= sqrt(squares);
+	return MR_OK;
+}
+
+/* stretched: counts a rotation that is not of unit length. */
+static mr_status
+node_map(const mr_gltf *g, const json_t *node, mr_affine *map, size_t *stretched)
 {
 	double m[16], t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
 	bool there;
@@ -52,6 +71,7 @@ node_map(const mr_gltf *g, const json_t *node, mr_affine *map)
 	}
 	MR_TRY(mr_gltf_numbers(g, node, "translation", 3, t, &there));
 	MR_TRY(mr_gltf_numbers(g, node, "rotation", 4, q, &there));
+	MR_TRY(normalize(g->ctx, q, stretched));
 	MR_TRY(mr_gltf_numbers(g, node, "scale", 3, s, &there));
 	*map = from_parts(t, q, s);
 	return MR_OK;
@@ -77,7 +97,8 @@ typedef struct walk {
 	bool *seen; /* of each node */
 	mr_gltf_instance *found;
 	size_t instances, found_room;
-	size_t several; /* nodes that show their mesh several times */
+	size_t several;   /* nodes that show their mesh several times */
+	size_t stretched; /* nodes whose rotation is not of unit length */
 } walk;
 
 static mr_status
@@ -118,7 +139,7 @@ visit(walk *w, waiting at)
 	mr_affine own, map;
 	size_t mesh;
 
-	MR_TRY(node_map(w->g, node, &own));
+	MR_TRY(node_map(w->g, node, &own, &w->stretched));
 	map = mr_compose(&at.above, &own);
 	MR_TRY(mr_gltf_index(w->g, node, "mesh", "meshes", &mesh));
 	w->several += mesh != MR_UNKNOWN &&
@@ -164,6 +185,8 @@ mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr
 	MR_TRY(mr_gltf_index(g, g->root, "scene", "scenes", &scene));
 	if (scenes)
 		MR_TRY(walk_scene(&w, scene == MR_UNKNOWN ? 0 : scene));
+	if (w.stretched)
+		mr_warn(g->ctx, "%zu rotations of nodes are brought to unit length", w.stretched);
 	for (size_t i = 0; scenes == 0 && i < mr_gltf_size(g, "meshes"); i++)
 		MR_TRY(push_instance(&w, i, &identity, NULL));
 	*list = w.found;
