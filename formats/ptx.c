@@ -9,11 +9,12 @@ typedef struct ptx {
 	mr_ctx *ctx;
 	mr_scan text;
 	mr_v3 *p, *scanner;
-	unsigned char *color;
+	float *rgb; /* of each point, NAN of one without; NULL: no point has any */
+	mr_shades shades;
 	mr_builder properties;
 	size_t intensity; /* the number of that property */
-	size_t count, room, scanner_room, color_room;
-	size_t colored, empty;
+	size_t count, room, scanner_room, rgb_room;
+	size_t colored, odd_colors, empty;
 } ptx;
 
 typedef struct scan {
@@ -80,8 +81,38 @@ static mr_status
 make_room(ptx *f, size_t more)
 {
 	MR_TRY(MR_RESERVE(f->ctx, f->p, f->count, more, &f->room));
-	MR_TRY(MR_RESERVE(f->ctx, f->scanner, f->count, more, &f->scanner_room));
-	return MR_RESERVE(f->ctx, f->color, 4 * f->count, 4 * more, &f->color_room);
+	return MR_RESERVE(f->ctx, f->scanner, f->count, more, &f->scanner_room);
+}
+
+/* Of the next point; those before the first that has a colour are without. */
+static mr_status
+keep_color(ptx *f, const double *rgb)
+{
+	const size_t at = 3 * f->count, kept = f->rgb ? at : 0;
+	bool odd = false;
+
+	MR_TRY(MR_RESERVE(f->ctx, f->rgb, kept, at - kept + 3, &f->rgb_room));
+	for (size_t i = kept; i < at; i++)
+		f->rgb[i] = NAN;
+	for (size_t k = 0; k < 3; k++) {
+		odd |= isnan(rgb[k]);
+		mr_shade_see(&f->shades, rgb[k]);
+		f->rgb[at + k] = (float)rgb[k];
+	}
+	f->colored++;
+	f->odd_colors += odd;
+	return MR_OK;
+}
+
+/* The next point has none. */
+static mr_status
+keep_no_color(ptx *f)
+{
+	if (!f->rgb)
+		return MR_OK;
+	MR_TRY(MR_RESERVE(f->ctx, f->rgb, 3 * f->count, 3, &f->rgb_room));
+	f->rgb[3 * f->count] = NAN;
+	return MR_OK;
 }
 
 static mr_status
@@ -104,14 +135,33 @@ read_point(ptx *f, const scan *s)
 	    m[2] * x[0] + m[6] * x[1] + m[10] * x[2] + m[14]);
 	if (!mr_finite(f->p[f->count]))
 		return mr_scan_fail(&f->text, where, "a coordinate is not finite");
-	for (size_t k = 0; k < 4; k++) {
-		double v = n < 7 || k == 3 ? 255 : x[4 + k];
-		f->color[4 * f->count + k] = (unsigned char)(!(v > 0) ? 0 : v >= 255 ? 255 : v + 0.5);
-	}
+	MR_TRY(n == 7 ? keep_color(f, x + 4) : keep_no_color(f));
 	f->scanner[f->count] = mr_vec(m[12], m[13], m[14]);
 	MR_TRY(mr_build_value(&f->properties, f->intensity, f->count, n > 3 ? x[3] : 0));
-	f->colored += n == 7;
 	f->count++;
+	return MR_OK;
+}
+
+/* Where some points have colours, those without are white. */
+static mr_status
+read_colors(ptx *f, mr_model *m)
+{
+	unsigned char *color;
+
+	if (!f->rgb || !mr_all_left(f->ctx, f->odd_colors, f->colored, "colors", &m->counts.dropped_colors))
+		return MR_OK;
+	color = mr_alloc(f->ctx, f->count, 4);
+	if (!color)
+		return MR_EMEM;
+	memset(color, 255, 4 * f->count);
+	f->shades.full = mr_shade_full(&f->shades);
+	for (size_t i = 0; i < f->count; i++)
+		for (size_t k = 0; k < 3 && !isnan(f->rgb[3 * i]); k++)
+			color[4 * i + k] = mr_shade_byte(&f->shades, (double)f->rgb[3 * i + k]);
+	mr_shades_said(f->ctx, &f->shades);
+	if (f->colored < f->count)
+		mr_note(f->ctx, "%zu points without a colour are white", f->count - f->colored);
+	m->color = color;
 	return MR_OK;
 }
 
@@ -130,11 +180,8 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	}
 	if (f.empty)
 		mr_note(ctx, "%zu rays without an answer left out", f.empty);
-	*m = (mr_model){ .p = f.p,
-		.nv = f.count,
-		.scanner = f.scanner,
-		.color = f.colored ? f.color : NULL,
-		.counts = m->counts };
+	*m = (mr_model){ .p = f.p, .nv = f.count, .scanner = f.scanner, .counts = m->counts };
+	MR_TRY(read_colors(&f, m));
 	return mr_build_properties(&f.properties, m);
 }
 

@@ -5,6 +5,10 @@ colors() {
 		{ echo '# x y z red green blue'; printf '0 0 0 %s %s %s\n' "$@"; } >c.xyz
 		printf 'v 0 0 0 %s %s %s\n' "$@" >c.obj
 		{ printf 'COFF\n%d 0 0\n' $(($# / 3)); printf '0 0 0 %s %s %s 1\n' "$@"; } >c.off
+		{
+			printf '%d\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 -1 1\n' $(($# / 3))
+			printf '0 0 1 0 %s %s %s\n' "$@"
+		} >c.ptx
 		for type in float int; do
 			{
 				printf 'ply\nformat ascii 1.0\nelement vertex %d\n' $(($# / 3))
@@ -15,9 +19,9 @@ colors() {
 			} >c-$type.ply
 		done
 		echo "-- $values"
-		for file in c.xyz c.obj c-float.ply c-int.ply c.off; do
+		for file in c.xyz c.obj c-float.ply c-int.ply c.off c.ptx; do
 			mr-import --no-history $file -o out.mrs 2>err
-			mr-export -q -i out.mrs -f ply-ascii - | sed '1,/end_header/d; s/^0 0 0//' | tr -d '\n'
+			mr-export -q -i out.mrs -f ply-ascii - | sed '1,/end_header/d; s/^0 0 0//; s/ 0 0 -1 0$//' | tr -d '\n'
 			echo "  $file $(cat err)"
 		done
 	done
@@ -54,3 +58,7 @@ for format in xyz pts obj; do
 done
 echo '-- colours that are no numbers'
 printf 'x y z red green blue\n0 0 0 1 nan 0\n' | mr-import 2>&1 >/dev/null
+printf '3\n1\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 0 1\n3 0 0 0\n1 0 0 0 0 nan 1\n2 0 0\n' >c.ptx
+mr-import c.ptx 2>&1 >/dev/null
+echo '-- points of a PTX without a colour beside one that has it'
+sed 's/nan/0.5/' c.ptx | mr-import -q | mr-export -q -f ply-ascii - | sed '1,/end_header/d'
