@@ -269,7 +269,8 @@ typedef struct mr_kept {
 	mr_property p;
 	void *data;
 	size_t room;
-	bool odd; /* a value is not of its type */
+	bool odd;       /* a value is not of its type */
+	size_t rounded; /* whole numbers that a double does not hold */
 } mr_kept;
 
 mr_status
@@ -317,6 +318,12 @@ mr_build_value(mr_builder *b, size_t number, size_t row, double x)
 	return MR_OK;
 }
 
+void
+mr_build_rounded(mr_builder *b, size_t number, size_t values)
+{
+	b->kept[number - 1].rounded += values;
+}
+
 /* Those that are kept, of triangles where faces are of several: `face` of each. */
 static mr_status
 put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
@@ -336,6 +343,10 @@ put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 			mr_warn(b->ctx, "property %s is left out: a value of it is no %s", p->name, p->type);
 			continue;
 		}
+		if (k->rounded)
+			mr_warn(b->ctx,
+			    "%zu values of property %s are rounded: they are whole numbers beyond 2^53",
+			    k->rounded, p->name);
 		if (p->shape.element == 'f' && face &&
 		    !(p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf)))
 			return MR_EMEM;

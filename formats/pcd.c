@@ -318,6 +318,20 @@ binary_value(const unsigned char *p, const field *d)
 	return d->type == 'I' ? (double)(int64_t)u : (double)u;
 }
 
+/* Whether a double does not hold the whole number: it takes more than 53 bits. */
+static bool
+binary_rounded(const unsigned char *p, const field *d)
+{
+	uint64_t u;
+
+	if (d->type == 'F' || d->size < 8)
+		return false;
+	u = mr_load64(p, false);
+	if (d->type == 'I' && u >> 63)
+		u = 0 - u;
+	return u && u >> __builtin_ctzll(u) >> 53;
+}
+
 /* A colour is four bytes, blue first, in a whole number or in the bits of a float. */
 static uint32_t
 color_bits(double value, const field *d)
@@ -348,9 +362,12 @@ is_wanted(const pcd *f, const field *d)
 }
 
 static mr_status
-take_property(pcd *f, const field *d, size_t row, double x)
+take_property(pcd *f, const field *d, size_t row, double x, bool is_rounded)
 {
-	return d->property ? mr_build_value(&f->properties, d->property, row, x) : MR_OK;
+	if (!d->property)
+		return MR_OK;
+	mr_build_rounded(&f->properties, d->property, is_rounded);
+	return mr_build_value(&f->properties, d->property, row, x);
 }
 
 static mr_status
@@ -370,7 +387,7 @@ read_binary(pcd *f, uint64_t i, size_t row, double value[ROLES], uint32_t *rgb)
 			*rgb = mr_load32(at, false);
 		else
 			value[d->role] = binary_value(at, d);
-		MR_TRY(take_property(f, d, row, value[d->role]));
+		MR_TRY(take_property(f, d, row, value[d->role], binary_rounded(at, d)));
 	}
 	if (!f->packed)
 		f->text.p += f->stride;
@@ -388,11 +405,14 @@ read_text(pcd *f, size_t row, double value[ROLES], uint32_t *rgb)
 	while (mr_skip_blanks(&line), line.p == line.end);
 	for (const field *d = f->field; d < f->field + f->fields; d++)
 		for (unsigned k = 0; k < d->count; k++) {
+			const char *word;
 			double x = 0;
+			mr_skip_space(&line);
+			word = line.p;
 			MR_TRY(mr_scan_real(&line, "a number of a point", &x));
 			if (is_wanted(f, d))
 				value[d->role] = x;
-			MR_TRY(take_property(f, d, row, x));
+			MR_TRY(take_property(f, d, row, x, mr_whole_rounded(word, line.p, x)));
 		}
 	mr_skip_blanks(&line);
 	f->surplus += line.p < line.end;

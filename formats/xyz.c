@@ -23,9 +23,10 @@ typedef struct table {
 	size_t columns, rows;
 	role role[COLUMNS];
 	mr_shades seen[COLUMNS];
-	bool negative[COLUMNS]; /* has a value that is */
-	size_t color[4];        /* columns of red, green, blue, alpha */
-	mr_shades shades[2];    /* of all four, of alpha */
+	bool negative[COLUMNS];  /* has a value that is */
+	size_t rounded[COLUMNS]; /* whole numbers that a double does not hold */
+	size_t color[4];         /* columns of red, green, blue, alpha */
+	mr_shades shades[2];     /* of all four, of alpha */
 	size_t odd_colors;
 	const char *first_row; /* for sentences */
 	const char *name[COLUMNS];
@@ -307,6 +308,24 @@ begins_another(table *t, mr_scan row)
 	return true;
 }
 
+/* Counts what of the row is rounded; most rows have no value so large. */
+static void
+count_rounded(table *t, mr_scan row, const double *x, size_t n)
+{
+	const char *w;
+	bool large = false;
+
+	for (size_t i = 0; i < n; i++)
+		large |= fabs(x[i]) >= 0x1p53;
+	for (size_t i = 0; large && i < n; i++) {
+		skip_separators(&row);
+		w = row.p;
+		while (row.p < row.end && !separates(*row.p))
+			row.p++;
+		t->rounded[i] += mr_whole_rounded(w, row.p, x[i]);
+	}
+}
+
 /* Looks at all rows: how many, of how many columns, and which could be colours. */
 static mr_status
 survey(table *t)
@@ -329,6 +348,7 @@ survey(table *t)
 			mr_shade_see(&t->seen[i], x[i]);
 			t->negative[i] = t->negative[i] || x[i] < 0;
 		}
+		count_rounded(t, row, x, n);
 		t->rows++;
 	}
 	if (t->counted && t->rows < t->count)
@@ -445,6 +465,7 @@ begin_properties(table *t)
 		if (!is_part(t, t->role[i]) && says(t, i)) {
 			MR_TRY(name_of(t, i, &name));
 			MR_TRY(mr_build_property(&t->properties, name, "double", 'v', &t->property[i]));
+			mr_build_rounded(&t->properties, t->property[i], t->rounded[i]);
 		}
 	return MR_OK;
 }
