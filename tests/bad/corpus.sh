@@ -21,7 +21,7 @@ assimp_malformed.obj|line 23: vertex 12 of 8
 assimp_malformed2.obj|8 10
 assimp_multiple_spaces.obj|4 1 and a remark
 assimp_number_formats.obj|line 11: a vertex has '3.1+e2' for a number
-assimp_only_a_part_of_vertexcolors.obj|5 3
+assimp_only_a_part_of_vertexcolors.obj|5 3 and a remark
 assimp_payload_JVN42386607|line 2: the format's version is not 1.0
 assimp_point_cloud.obj|3 0
 assimp_regr_3429812.obj|4 4 and a remark
