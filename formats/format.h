@@ -62,6 +62,10 @@ mr_status mr_off_write_binary(mr_sink *s, const mr_model *m);
 bool mr_xyz_sniff(const unsigned char *data, size_t size);
 mr_status mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_xyz_write(mr_sink *s, const mr_model *m);
+
+/* The comment of an XYZ whose colours, all dark, would be taken for parts of 1. */
+#define MR_XYZ_BYTES "colors of 0 to 255"
+
 mr_status mr_pts_write(mr_sink *s, const mr_model *m);
 mr_status mr_pwn_write(mr_sink *s, const mr_model *m);
 

@@ -20,6 +20,7 @@ typedef struct table {
 	bool in_comment; /* and was a comment: it may speak of something else */
 	bool counted;
 	uint64_t count; /* as the file claims */
+	double full;    /* of colours; 0: their values tell */
 	size_t columns, rows;
 	role role[COLUMNS];
 	mr_shades seen[COLUMNS];
@@ -192,6 +193,16 @@ is_one_count(mr_scan line, uint64_t *n)
 	return true;
 }
 
+/* A comment of the writer: a value of 1 is a dark byte, not full. */
+static bool
+tells_bytes(mr_scan line)
+{
+	const size_t n = strlen(MR_XYZ_BYTES);
+
+	mr_skip_blanks(&line);
+	return (size_t)(line.end - line.p) == n && !memcmp(line.p, MR_XYZ_BYTES, n);
+}
+
 /* The lines before the rows: comments that name columns, names, a count, in either order. */
 static mr_status
 read_head(table *t)
@@ -203,6 +214,8 @@ read_head(table *t)
 		if (is_comment(&line)) {
 			while (line.p < line.end && (*line.p == '#' || *line.p == '/'))
 				line.p++;
+			if (tells_bytes(line))
+				t->full = 255;
 			if (!t->named)
 				t->columns = names(line, t->role, t->name, t->name_bytes);
 			t->in_comment = t->in_comment || (!t->named && t->columns > 0);
@@ -390,6 +403,7 @@ guess_roles(table *t)
 	size_t n = t->columns;
 
 	memset(t->role, 0, sizeof t->role);
+	t->full = 255; /* of columns that are colours because of it */
 	assign(t, 0, X);
 	if (n == 6)
 		assign(t, 3, could_be_color(t, 3) ? RED : NX);
@@ -470,7 +484,6 @@ begin_properties(table *t)
 	return MR_OK;
 }
 
-/* Columns that no names call colours are so because they are of 0 to 255. */
 static void
 begin_colors(table *t)
 {
@@ -482,7 +495,7 @@ begin_colors(table *t)
 		}
 	}
 	for (size_t k = 0; k < 2; k++)
-		t->shades[k].full = t->named ? mr_shade_full(&t->shades[k]) : 255;
+		t->shades[k].full = t->full > 0 ? t->full : mr_shade_full(&t->shades[k]);
 }
 
 static void

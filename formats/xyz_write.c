@@ -8,6 +8,18 @@ put_color(mr_sink *s, const unsigned char *c)
 	mr_print(s, "%d %d %d\n", c[0], c[1], c[2]);
 }
 
+/* Every byte is 0 or 1, and one is 1, which a reader takes for white. */
+static bool
+are_dark(const mr_model *m)
+{
+	unsigned char most = 0;
+
+	for (size_t i = 0; i < 4 * m->nv; i++)
+		if (i % 4 < 3 && m->color[i] > most)
+			most = m->color[i];
+	return most == 1;
+}
+
 /* Colours are announced by a line of names, since columns of whole numbers may be anything. */
 mr_status
 mr_xyz_write(mr_sink *s, const mr_model *m)
@@ -16,6 +28,8 @@ mr_xyz_write(mr_sink *s, const mr_model *m)
 	mr_note_alpha(s, m, "XYZ");
 	if (m->color)
 		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
+	if (m->color && are_dark(m))
+		mr_print(s, "# %s\n", MR_XYZ_BYTES);
 	for (size_t i = 0; i < m->nv; i++) {
 		mr_put_reals(s, &m->p[i].x, 3, m->normal || m->color ? ' ' : '\n');
 		if (m->normal)
