@@ -107,6 +107,13 @@ mr_as_float(double x)
 	return (double)f;
 }
 
+/* Whether a normal is unit, in as few digits as files have. */
+static inline bool
+mr_has_unit_length(mr_v3 n)
+{
+	return fabs(mr_norm2(n) - 1) < 0.02;
+}
+
 /* Writes numbers with a blank between them, then `end`. */
 void mr_put_reals(mr_sink *s, const double *x, size_t n, char end);
 

@@ -20,14 +20,34 @@ are_dark(const mr_model *m)
 	return most == 1;
 }
 
-/* Colours are announced by a line of names, since columns of whole numbers may be anything. */
+/* No value is negative, and some normal is not unit. */
+static bool
+could_be_colors(const mr_v3 *normal, size_t n)
+{
+	bool odd = false;
+
+	for (size_t i = 0; i < n; i++) {
+		if (normal[i].x < 0 || normal[i].y < 0 || normal[i].z < 0)
+			return false;
+		odd |= mr_norm2(normal[i]) > 0 && !mr_has_unit_length(normal[i]);
+	}
+	return odd;
+}
+
+/* A line of names, where columns without it may be something else. */
+static void
+put_names(mr_sink *s, const mr_v3 *normal, const unsigned char *color, size_t n)
+{
+	if (color || (normal && could_be_colors(normal, n)))
+		mr_print(s, "# x y z%s%s\n", normal ? " nx ny nz" : "", color ? " red green blue" : "");
+}
+
 mr_status
 mr_xyz_write(mr_sink *s, const mr_model *m)
 {
 	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
 	mr_note_alpha(s, m, "XYZ");
-	if (m->color)
-		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
+	put_names(s, m->normal, m->color, m->nv);
 	if (m->color && are_dark(m))
 		mr_print(s, "# %s\n", MR_XYZ_BYTES);
 	for (size_t i = 0; i < m->nv; i++) {
@@ -62,6 +82,7 @@ mr_pwn_write(mr_sink *s, const mr_model *m)
 	if (!m->normal)
 		return mr_fail(s->ctx, MR_EMISSING, "pwn is points with normals, and there are no normals");
 	mr_note_lost(s, m, MR_KEEPS_NORMAL);
+	put_names(s, m->normal, NULL, m->nv);
 	for (size_t i = 0; i < m->nv; i++) {
 		mr_put_reals(s, &m->p[i].x, 3, ' ');
 		mr_put_reals(s, &m->normal[i].x, 3, '\n');
