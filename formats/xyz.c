@@ -2,10 +2,10 @@
  * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  Columns are told apart by names where
  * there are any, else by their number: 3 position; 4, 5 position and what we do not know; 6 normal, or colour
  * where all are whole numbers of 0 to 255 and some beyond 1; 7 intensity and colour, or colour and something;
- * 9 and more colour and normal in either order.  Other columns are properties, by their names; without names
- * the fourth of four or of seven with a colour behind is intensity.  A first line with one whole number is
- * the number of points, behind which those of another cloud may stand in the same way; twice as many rows of
- * three are points, then normals.
+ * 9 and more colour and normal in either order, the normal being the unit one.  Other columns are properties,
+ * by their names; without names the fourth of four or of seven with a colour behind is intensity.  A first
+ * line with one whole number is the number of points, behind which those of another cloud may stand in the
+ * same way; twice as many rows of three are points, then normals.
  */
 #include "formats/format.h"
 
@@ -24,10 +24,11 @@ typedef struct table {
 	size_t columns, rows;
 	role role[COLUMNS];
 	mr_shades seen[COLUMNS];
-	bool negative[COLUMNS];  /* has a value that is */
-	size_t rounded[COLUMNS]; /* whole numbers that a double does not hold */
-	size_t color[4];         /* columns of red, green, blue, alpha */
-	mr_shades shades[2];     /* of all four, of alpha */
+	bool negative[COLUMNS];     /* has a value that is */
+	size_t rounded[COLUMNS];    /* whole numbers that a double does not hold */
+	size_t units[2], others[2]; /* rows of columns 3 to 5, 6 to 8 of length 1, of neither 0 nor 1 */
+	size_t color[4];            /* columns of red, green, blue, alpha */
+	mr_shades shades[2];        /* of all four, of alpha */
 	size_t odd_colors;
 	const char *first_row; /* for sentences */
 	const char *name[COLUMNS];
@@ -339,6 +340,15 @@ count_rounded(table *t, mr_scan row, const double *x, size_t n)
 	}
 }
 
+static void
+see_length(table *t, size_t k, mr_v3 v)
+{
+	bool unit = mr_has_unit_length(v);
+
+	t->units[k] += unit;
+	t->others[k] += !unit && mr_norm2(v) > 0;
+}
+
 /* Looks at all rows: how many, of how many columns, and which could be colours. */
 static mr_status
 survey(table *t)
@@ -362,6 +372,8 @@ survey(table *t)
 			t->negative[i] = t->negative[i] || x[i] < 0;
 		}
 		count_rounded(t, row, x, n);
+		for (size_t k = 0; k < 2 && 6 + 3 * k <= n; k++)
+			see_length(t, k, mr_vec(x[3 + 3 * k], x[4 + 3 * k], x[5 + 3 * k]));
 		t->rows++;
 	}
 	if (t->counted && t->rows < t->count)
@@ -389,11 +401,60 @@ could_be_color(const table *t, size_t i)
 	return are_bytes(t, i) && (t->seen[i].most > 1 || t->seen[i + 1].most > 1 || t->seen[i + 2].most > 1);
 }
 
+/* Values of 0 to 1, not all of them 0. */
+static bool
+are_shares(const table *t, size_t i)
+{
+	double most = 0;
+
+	for (size_t k = i; k < i + 3; k++) {
+		if (t->negative[k])
+			return false;
+		most = fmax(most, t->seen[k].most);
+	}
+	return most > 0 && most <= 1;
+}
+
+/* Nearly all rows that are not zero are of length 1. */
+static bool
+are_unit(const table *t, size_t i)
+{
+	size_t k = i == 6;
+
+	return t->units[k] > 0 && t->others[k] <= t->rows / 100;
+}
+
 static void
 assign(table *t, size_t at, role first)
 {
 	for (size_t k = 0; k < 3; k++)
 		t->role[at + k] = (role)(first + (role)k);
+}
+
+/* Of two triples a unit one is the normal; of two such the first, unless only that could be a colour. */
+static bool
+normal_is_behind(const table *t)
+{
+	bool first = are_unit(t, 3), second = are_unit(t, 6);
+
+	if (first && second)
+		return are_shares(t, 3) && !are_shares(t, 6);
+	return first || second ? second : could_be_color(t, 3);
+}
+
+static void
+guess_pair(table *t)
+{
+	bool behind = normal_is_behind(t);
+	size_t normal = behind ? 6 : 3, color = behind ? 3 : 6;
+
+	assign(t, normal, NX);
+	if (could_be_color(t, color)) {
+		assign(t, color, RED);
+	} else if (are_unit(t, normal) && are_shares(t, color)) {
+		assign(t, color, RED);
+		t->full = 1;
+	}
 }
 
 /* What the columns are, where no names tell. */
@@ -411,14 +472,11 @@ guess_roles(table *t)
 		assign(t, 4, RED);
 	else if (n == 7 && could_be_color(t, 3))
 		assign(t, 3, RED);
-	else if (n >= 9 && could_be_color(t, 3)) {
-		assign(t, 3, RED);
-		assign(t, 6, NX);
-	} else if (n >= 9) {
-		assign(t, 3, NX);
-		if (could_be_color(t, 6))
-			assign(t, 6, RED);
-	}
+	else if (n >= 9)
+		guess_pair(t);
+	if (n == 6 && t->role[3] == NX && are_shares(t, 3) && !are_unit(t, 3))
+		mr_warn(t->ctx, "columns 4 to 6 are read as normals, though not of length 1: colors of 0 to "
+				"1 need the line '# x y z red green blue' before them");
 }
 
 /* ---- the model ---- */

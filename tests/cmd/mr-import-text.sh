@@ -58,3 +58,12 @@ said "${pcd}0 0 0\n1 0 0 7 8\n2 0 0\n"
 said "${pcd}0 0 0\n1 0 0\n# end\n\n"
 said 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 2 1 0\n'
 said 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 # a face\n# end\n'
+echo '-- normals are known from colours by their length'
+try '0 0 0 0.5 0.25 1 0 0 1\n1 0 0 0 0 1 0 0.6 0.8\n'
+try '0 0 0 0 0 1 0.5 0.25 1\n1 0 0 0 0.6 0.8 0 0 1\n'
+try '0 0 0 1 0 0 0 0 -1\n1 0 0 0 1 0 0 0.6 0.8\n'
+try '0 0 0 0.5 0.25 1 1 2 3\n'
+try '0 0 0 9 0 1 0 0 1\n'
+said '0 0 0 0.5 0.25 1\n1 0 0 0 0 1\n'
+said '0 0 0 0 0.6 0.8\n1 0 0 0 0 1\n2 0 0 0 0 0\n'
+said '# x y z red green blue\n0 0 0 1 0.2 1\n1 0 0 0 0 1\n'
