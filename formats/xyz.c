@@ -521,7 +521,7 @@ is_part(const table *t, role r)
 	return r != SKIP && (r <= Z || has_three(t, r <= NZ ? NX : RED));
 }
 
-/* A value is not 0, as those are that fill up a column. */
+/* A value is not 0, as those are that fill up a column without a name. */
 static bool
 says(const table *t, size_t i)
 {
@@ -534,7 +534,7 @@ begin_properties(table *t)
 	const char *name;
 
 	for (size_t i = 0; i < t->columns; i++)
-		if (!is_part(t, t->role[i]) && says(t, i)) {
+		if (!is_part(t, t->role[i]) && (t->named || says(t, i))) {
 			MR_TRY(name_of(t, i, &name));
 			MR_TRY(mr_build_property(&t->properties, name, "double", 'v', &t->property[i]));
 			mr_build_rounded(&t->properties, t->property[i], t->rounded[i]);
