@@ -92,25 +92,24 @@ value_of(const mr_property *p, size_t i)
 	return p->shape.type == 'u' ? ((const uint32_t *)p->data)[i] : ((const unsigned char *)p->data)[i];
 }
 
-/* Whether reading gives the number back; as text a float has all its digits. */
 static bool
-holds(type t, double x, order o)
+holds(type t, double x)
 {
-	if (t == FLOAT && o != ASCII)
+	if (t == FLOAT)
 		return isnan(x) || mr_as_float(x) == x;
-	return t >= FLOAT || (x >= types[t].least && x <= types[t].most && x == floor(x));
+	return t == DOUBLE || (x >= types[t].least && x <= types[t].most && x == floor(x));
 }
 
 /* The type that the property came with, or doubles where that does not hold its values. */
 static type
-choose_type(const mr_property *p, size_t n, order o)
+choose_type(const mr_property *p, size_t n)
 {
 	type t = CHAR;
 
 	while (t < DOUBLE && strcmp(types[t].name, p->type))
 		t++;
 	for (size_t i = 0; i < n; i++)
-		if (!holds(t, value_of(p, i), o))
+		if (!holds(t, value_of(p, i)))
 			return DOUBLE;
 	return t;
 }
@@ -125,7 +124,7 @@ choose_types(output *w)
 		return MR_EMEM;
 	for (size_t i = 0; i < m->properties; i++) {
 		const mr_property *p = &m->property[i];
-		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv, w->order);
+		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv);
 	}
 	return MR_OK;
 }
