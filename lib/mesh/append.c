@@ -354,6 +354,25 @@ came_before(const joined *j, size_t i, const char *name)
 	return false;
 }
 
+/* Warns of a surface that comes of fewer frames than another: what works on it leaves the rest out. */
+static void
+warn_of_absent(mr_ctx *ctx, const joined *j)
+{
+	static const char *const surfaces[] = { "mesh", "control", "base" };
+	size_t n = frames_with(j, j->layer), most = n;
+	const char *other = NULL;
+
+	for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces; i++) {
+		size_t with = frames_with(j, surfaces[i]);
+		other = with > most ? surfaces[i] : other;
+		most = with > most ? with : most;
+	}
+	if (other && !mr_layer_no_surface(j->layer))
+		mr_warn(ctx,
+		    "%s comes of %zu of %zu frames only, %s of %zu: tools that work on %s leave the rest out",
+		    j->layer, n, j->n, other, most, j->layer);
+}
+
 /* What triangles were, which several frames have more of. */
 static bool
 is_print(const joined *j)
@@ -366,6 +385,7 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 {
 	mr_text left = { .ctx = ctx };
 
+	warn_of_absent(ctx, j);
 	for (size_t i = 0; i < j->n; i++)
 		for (size_t k = 0; k < j->frames[i]->count; k++) {
 			const mr_column *c = &j->frames[i]->columns[k];

@@ -43,6 +43,11 @@ mr-make sphere -n 50 | mr-cat --append normals.mrs - | mr-info | grep -E 'points
 mr-cat --append posed.mrs torus.mrs | mr-info | grep -c '^  handles' # handle 0 is of both
 mr-select --reset --fixed all torus.mrs | mr-cat --append posed.mrs - | mr-info | grep -c '^  handles'
 
+echo 'a base of one part alone'
+mr-make torus -n 100 | mr-smooth -o smooth.mrs
+mr-make sphere -n 50 | mr-transform --translate 9,0,0 | mr-cat --append smooth.mrs - | mr-info | grep -E '^  (mesh|base):'
+mr-cat --append smooth.mrs smooth.mrs | mr-info | grep -E '^  (mesh|base):' # nothing to say
+
 echo 'a stream of no frames, and one that is cut'
 mr-cat --no-history normals.mrs | { head -c 64; tail -c 64 normals.mrs; } | mr-cat --append | mr-info
 head -c 500 normals.mrs | mr-cat --append >out
