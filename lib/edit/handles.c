@@ -243,6 +243,57 @@ mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames)
 	return MR_OK;
 }
 
+/* Marks the handles, of n, whose vertices are others than before. */
+static void
+mark_others(const uint32_t *before, const uint32_t *after, size_t nv, size_t n, bool *other)
+{
+	for (size_t v = 0; v < nv; v++) {
+		const uint32_t was = before ? before[v] : MR_REGION_FIXED, region[] = { was, after[v] };
+		for (int i = 0; was != after[v] && i < 2; i++)
+			if (region[i] >= MR_REGION_HANDLE && region[i] - MR_REGION_HANDLE < n)
+				other[region[i] - MR_REGION_HANDLE] = true;
+	}
+}
+
+static bool
+is_at_rest(const mr_handle_rows *row, size_t handle)
+{
+	const mr_affine rest = mr_identity();
+
+	for (int k = 0; k < 12; k++)
+		if (row->map[handle].m[k] != rest.m[k])
+			return false;
+	return mr_norm(row->turn[handle]) == 0;
+}
+
+mr_status
+mr_handles_reselected(mr_ctx *ctx, mr_frame *f, const uint32_t *before, const uint32_t *after, size_t nv)
+{
+	size_t frames, posed = 0, stale = 0, first = 0;
+	mr_handle_rows row;
+	bool *other;
+
+	if (!f->key || !mr_layer_has(f, "handles", "transform"))
+		return MR_OK;
+	MR_TRY(mr_handles_frames(ctx, f, &frames));
+	MR_TRY(mr_handles_rows(ctx, f, 0, &row));
+	if (!(other = MR_NEW_ZERO(ctx, row.n, bool)))
+		return MR_EMEM;
+	mark_others(before, after, nv, row.n, other);
+	for (size_t i = row.n; i-- > 0;)
+		if (frames > 0 || !is_at_rest(&row, i)) {
+			posed++;
+			stale += other[i];
+			first = other[i] ? i : first;
+		}
+	if (stale)
+		mr_warn(ctx,
+		    "%zu of %zu posed handles have other vertices now than their poses were set for, handle "
+		    "%zu the first, and keep these: mr-pose goes behind mr-select",
+		    stale, posed, first);
+	return MR_OK;
+}
+
 /* Scripts */
 
 typedef struct mr_script_line {

@@ -32,7 +32,8 @@ mr_status mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region,
 /* The same in the layer with the regions: `layer`, or where it is NULL mesh, else control. */
 mr_status mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h);
 
-/* Where handles are, and by how much each has turned on the way there: along the axis, as long as the angle. */
+/* Where handles are, and by how much each has turned on the way there: along the axis, as long as the angle.
+ */
 typedef struct mr_handle_rows {
 	size_t n;
 	mr_affine *map;
@@ -50,11 +51,18 @@ mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *ro
  * map[handle] = T map[handle], its turn that logarithm of it which is nearest to the sum of both turns.
  * MR_EMISSING where no vertex is of the handle.  row: at least h->n.
  */
-mr_status mr_handles_pose(mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share,
-    mr_handle_rows *row);
+mr_status mr_handles_pose(
+    mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_handle_rows *row);
 
 /* Handles that have posed are used up; for how many frames they go on (handles.frames) stays. */
 void mr_handles_drop(mr_frame *f);
+
+/*
+ * Warns, of key frames, of handles that are posed, or will be in a sequence, where other vertices are in
+ * them: before (NULL: no region was there) and after are the regions of nv vertices.
+ */
+mr_status
+mr_handles_reselected(mr_ctx *ctx, mr_frame *f, const uint32_t *before, const uint32_t *after, size_t nv);
 
 /* How many deltas follow the key, as far as handles have said; 0: not known. */
 mr_status mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames);

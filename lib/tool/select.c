@@ -1,6 +1,7 @@
 /* mr-select and mr-crop: regions by rules, and what is left of a layer by them. */
 #include "tool/select.h"
 
+#include "edit/handles.h"
 #include "mesh/subset.h"
 
 /* What names the faces: groups, objects and materials. */
@@ -39,6 +40,19 @@ first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool reset, uint32_t *
 	return MR_OK;
 }
 
+/* Poses belong to the vertices that their handles had. */
+static mr_status
+look_at_poses(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region)
+{
+	const uint32_t *before = NULL;
+
+	if (mr_layer_no_surface(m->name))
+		return MR_OK;
+	if (mr_layer_has(f, m->name, "region"))
+		MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &before));
+	return mr_handles_reselected(ctx, f, before, region, m->nv);
+}
+
 mr_status
 mr_select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
@@ -54,6 +68,7 @@ mr_select_by(
 	MR_TRY(read_groups(ctx, f, &m, groups));
 	MR_TRY(first_regions(ctx, f, &m, opts->reset, &region));
 	MR_TRY(mr_select(ctx, f, &m, groups, s, region, result));
+	MR_TRY(look_at_poses(ctx, f, &m, region));
 	return mr_layer_put_region(ctx, f, layer, region, m.nv);
 }
 
