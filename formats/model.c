@@ -1,5 +1,6 @@
 /* Models in and out of layers. */
 #include "formats/model.h"
+#include "base/text.h"
 #include "formats/build.h"
 #include "formats/names.h"
 #include "mesh/normals.h"
@@ -484,19 +485,40 @@ borrow(mr_ctx *ctx, mr_model *mesh, mr_model *m)
 	return MR_OK;
 }
 
+static bool
+has_property(const mr_model *m, const char *name)
+{
+	for (size_t i = 0; i < m->properties; i++)
+		if (!strcmp(m->property[i].name, name))
+			return true;
+	return false;
+}
+
 /* What the mesh has and the model, of other triangles, has not; polygons are none of it. */
-static void
+static mr_status
 warn_of_rest(mr_ctx *ctx, const char *layer, const mr_model *mesh, const mr_model *m)
 {
-	char lost[256];
-	size_t n = 0;
+	enum { NAMED = 12 };
+	mr_text lost = { .ctx = ctx };
+	size_t n = 0, more = 0;
 
 	for (size_t i = 0; i < COLUMNS; i++)
 		if (column_of(mesh, i) && !column_of(m, i) && strcmp(columns[i].name, "polygon"))
-			n += (size_t)snprintf(
-			    lost + n, sizeof lost - n, "%s%s", n ? ", " : "", columns[i].name);
+			mr_text_add(&lost, "%s%s", n++ ? ", " : "", columns[i].name);
+	for (size_t i = 0; i < mesh->properties; i++) {
+		if (has_property(m, mesh->property[i].name))
+			continue;
+		if (n < NAMED)
+			mr_text_add(&lost, "%s%s", n++ ? ", " : "", mesh->property[i].name);
+		else
+			more++;
+	}
+	if (more)
+		mr_text_add(&lost, " and %zu more", more);
+	MR_TRY(mr_text_done(&lost));
 	if (n)
-		mr_warn(ctx, "%s has other triangles than mesh, and not what that has: %s", layer, lost);
+		mr_warn(ctx, "%s has other triangles than mesh, and not what that has: %s", layer, lost.s);
+	return MR_OK;
 }
 
 /* Another surface of the frame's mesh is written with what that came with. */
@@ -510,8 +532,7 @@ complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 	MR_TRY(mr_model_get(ctx, f, "mesh", &mesh));
 	if (same_triangles(&mesh, m))
 		return borrow(ctx, &mesh, m);
-	warn_of_rest(ctx, layer, &mesh, m);
-	return MR_OK;
+	return warn_of_rest(ctx, layer, &mesh, m);
 }
 
 mr_status

@@ -103,6 +103,20 @@ sed 1,6d base.obj
 mr-remesh strip.mrs | mr-export -l base -f obj - | grep -c '^f'
 mr-simplify -n 2 strip.mrs | mr-export -f obj - | grep -c '^vn'
 
+echo "-- columns of the file's own, which a surface of other triangles has not" >&2
+cat >labels.py <<'X'
+import sys
+names = sys.argv[1:]
+print("ply\nformat ascii 1.0\nelement vertex 4", *("property float " + c for c in ["x", "y", "z"] + names), sep="\n")
+print("element face 2\nproperty list uchar int vertex_indices\nproperty int part\nend_header")
+for x in ("0 0 0", "1 0 0", "1 1 0", "0 1 0"):
+    print(x, *("1" for c in names))
+print("3 0 1 2 7\n3 0 2 3 8")
+X
+python3 labels.py label intensity | mr-import - | mr-remesh -L 0.5 | mr-export -f ply - >/dev/null
+python3 labels.py $(seq -f f%g 20) | mr-import - | mr-remesh -L 0.5 | mr-export -f ply - >/dev/null
+python3 labels.py label | mr-import - | mr-simplify -n 1 --to control | mr-export -f ply - >/dev/null
+
 echo '-- polygons that are none any more' >&2
 mr-subdivide --longest 0.6 strip.mrs | mr-export -f obj - | grep '^[fu]'
 
