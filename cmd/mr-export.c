@@ -52,6 +52,7 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_export_result, dropped_polygons),
 	CMD_COUNTED(mr_export_result, dropped_properties),
 	CMD_COUNTED(mr_export_result, dropped_faces),
+	CMD_COUNTED(mr_export_result, dropped_vertices),
 	CMD_COUNTED(mr_export_result, broken_polygons),
 	CMD_COUNTED(mr_export_result, rounded_positions),
 	{ 0 },

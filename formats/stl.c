@@ -265,12 +265,32 @@ unit_normal(const mr_model *m, size_t f)
 }
 
 static mr_status
+note_isolated(mr_sink *s, const mr_model *m)
+{
+	bool *used = MR_NEW_ZERO(s->ctx, m->nv, bool);
+	size_t left = m->nv;
+
+	if (!used)
+		return MR_EMEM;
+	for (size_t i = 0; i < 3 * m->nf; i++) {
+		uint32_t v = m->t[i / 3].v[i % 3];
+		left -= !used[v];
+		used[v] = true;
+	}
+	if (left == 0)
+		return MR_OK;
+	s->lost.dropped_vertices = left;
+	mr_warn(s->ctx, "%zu of %zu vertices dropped: no face has them, and stl has faces only", left, m->nv);
+	return MR_OK;
+}
+
+static mr_status
 need_faces(mr_sink *s, const mr_model *m, unsigned keeps)
 {
 	if (m->nf == 0)
 		return mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
 	mr_note_lost(s, m, MR_KEEPS_FACES | keeps);
-	return MR_OK;
+	return note_isolated(s, m);
 }
 
 static char *

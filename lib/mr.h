@@ -243,6 +243,7 @@ typedef struct mr_export_result {
 	size_t dropped_normals, dropped_colors, dropped_alpha; /* 1, or not known where none was */
 	size_t dropped_texcoords, dropped_groups, dropped_objects, dropped_materials, dropped_smoothing;
 	size_t dropped_polygons, dropped_properties, dropped_faces;
+	size_t dropped_vertices;  /* of no face, how many; else not known */
 	size_t broken_polygons;   /* that are written as their triangles */
 	size_t rounded_positions; /* of formats in float32: those that are no longer what they were */
 } mr_export_result;

@@ -13,6 +13,12 @@ for far in 0 1 100 1e6; do
 		mr-transform --translate $far,0,0 a.mrs | mr-export -f $format out 2>&1 | grep float32
 	done
 done
+echo "-- an STL has no vertices without a face"
+printf 'v 0 0 0\nv 9 9 9\nv 1 0 0\nv 0 1 0\nv 8 8 8\nf 1 3 4\n' | mr-import >loose.mrs
+for format in stl stl-ascii off; do
+	mr-export -i loose.mrs -f $format --stats stats out 2>&1
+	grep -o '"dropped_v[^,}]*' stats
+done
 printf 'v 1e300 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' | mr-import | mr-export -f stl never
 echo "exit $?"
 ls never 2>/dev/null
