@@ -92,24 +92,40 @@ value_of(const mr_property *p, size_t i)
 	return p->shape.type == 'u' ? ((const uint32_t *)p->data)[i] : ((const unsigned char *)p->data)[i];
 }
 
+/* Whether x is what a float is written as, in the 6 to 9 digits that programs give it: 0.1 is. */
 static bool
-holds(type t, double x)
+is_text_of_float(double x)
+{
+	char text[32];
+	double y;
+
+	for (int digits = 6; digits <= 9; digits++) {
+		int n = snprintf(text, sizeof text, "%.*g", digits, mr_as_float(x));
+		if (mr_real_read(text, text + n, &y) && y == x)
+			return true;
+	}
+	return false;
+}
+
+static bool
+holds(type t, double x, order o)
 {
 	if (t == FLOAT)
-		return isnan(x) || mr_as_float(x) == x;
+		return isnan(x) || mr_as_float(x) == x ||
+		       (o == ASCII && x != floor(x) && is_text_of_float(x));
 	return t == DOUBLE || (x >= types[t].least && x <= types[t].most && x == floor(x));
 }
 
 /* The type that the property came with, or doubles where that does not hold its values. */
 static type
-choose_type(const mr_property *p, size_t n)
+choose_type(const mr_property *p, size_t n, order o)
 {
 	type t = CHAR;
 
 	while (t < DOUBLE && strcmp(types[t].name, p->type))
 		t++;
 	for (size_t i = 0; i < n; i++)
-		if (!holds(t, value_of(p, i)))
+		if (!holds(t, value_of(p, i), o))
 			return DOUBLE;
 	return t;
 }
@@ -124,7 +140,7 @@ choose_types(output *w)
 		return MR_EMEM;
 	for (size_t i = 0; i < m->properties; i++) {
 		const mr_property *p = &m->property[i];
-		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv);
+		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv, w->order);
 	}
 	return MR_OK;
 }

@@ -1,5 +1,5 @@
-# A property has the type that it came with where that holds its values, in text as in binary.
-for value in 0.5 nan 0.1 16777217 1e300; do
+# A property has the type that it came with where that holds its values; in text, decimals of a float, too.
+for value in 0.5 nan 0.1 0.100000001 0.1000000001 16777217 100000010 1e300; do
 	{
 		printf 'ply\nformat ascii 1.0\nelement vertex 1\n'
 		printf 'property float %s\n' x y z quality
