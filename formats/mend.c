@@ -4,6 +4,68 @@
 #include "mesh/polygon.h"
 #include "mesh/repair.h"
 
+/* ---- materials ---- */
+
+/* Marks the numbers of these faces. */
+static void
+mark_numbers(const uint32_t *number, const uint32_t *face, size_t n, bool *marked)
+{
+	for (size_t i = 0; i < n; i++)
+		marked[number[face ? face[i] : i]] = true;
+}
+
+/* How many numbers of faces there are no more, and which is the first; those are below `most`. */
+static mr_status
+count_lost(mr_ctx *ctx, const uint32_t *number, size_t nf, const uint32_t *face_of, size_t kept, size_t most,
+    size_t *lost, size_t *first)
+{
+	bool *before = MR_NEW_ZERO(ctx, most, bool), *after = MR_NEW_ZERO(ctx, most, bool);
+
+	if (!before || !after)
+		return MR_EMEM;
+	mark_numbers(number, NULL, nf, before);
+	mark_numbers(number, face_of, kept, after);
+	*lost = 0;
+	for (size_t i = most; i-- > 0;)
+		if (before[i] && !after[i]) {
+			*first = i;
+			++*lost;
+		}
+	return MR_OK;
+}
+
+static size_t
+highest(const uint32_t *number, size_t n)
+{
+	uint32_t most = 0;
+
+	for (size_t i = 0; i < n; i++)
+		most = number[i] > most ? number[i] : most;
+	return most;
+}
+
+/* Materials that no face has any more, where only these are kept. */
+static mr_status
+warn_of_materials(mr_ctx *ctx, const char *step, const mr_model *m, const uint32_t *face_of, size_t kept)
+{
+	size_t lost, first, names;
+	const char **start;
+	bool named;
+
+	if (!m->material)
+		return MR_OK;
+	MR_TRY(count_lost(
+	    ctx, m->material, m->nf, face_of, kept, highest(m->material, m->nf) + 1, &lost, &first));
+	if (lost == 0)
+		return MR_OK;
+	MR_TRY(mr_lines_starts(ctx, m->materials, &start, &names));
+	named = first < names;
+	mr_warn(ctx, "%s: %zu material%s no face any more, the first of them %.*s", step, lost,
+	    lost == 1 ? " has" : "s have", named ? (int)(start[first + 1] - start[first]) - 1 : 0,
+	    named ? start[first] : "");
+	return MR_OK;
+}
+
 /* ---- weld ---- */
 
 static bool
@@ -31,8 +93,10 @@ rename_faces(mr_ctx *ctx, const uint32_t *map, mr_model *m)
 		of[kept++] = (uint32_t)f;
 	}
 	m->counts.weld_collapsed = m->nf - kept;
-	if (kept < m->nf)
-		mr_note(ctx, "weld: %zu faces collapsed", m->nf - kept);
+	if (kept < m->nf) {
+		mr_warn(ctx, "weld: %zu of %zu faces collapse, and are left out", m->nf - kept, m->nf);
+		MR_TRY(warn_of_materials(ctx, "weld", m, of, kept));
+	}
 	MR_TRY(mr_model_gather(ctx, m, true, of, kept));
 	m->t = t;
 	m->nf = kept;
@@ -206,68 +270,15 @@ follow_flips(mr_ctx *ctx, const mr_mesh *m, const bool *flipped, mr_model *done)
 	return done->normal || normal ? turn_normals(ctx, m, flipped, done) : MR_OK;
 }
 
-/* Marks the numbers of these faces. */
-static void
-mark_numbers(const uint32_t *number, const uint32_t *face, size_t n, bool *marked)
-{
-	for (size_t i = 0; i < n; i++)
-		marked[number[face ? face[i] : i]] = true;
-}
-
-/* How many numbers of faces there are no more, and which is the first; those are below `most`. */
-static mr_status
-count_lost(mr_ctx *ctx, const uint32_t *number, size_t nf, const uint32_t *face_of, size_t kept, size_t most,
-    size_t *lost, size_t *first)
-{
-	bool *before = MR_NEW_ZERO(ctx, most, bool), *after = MR_NEW_ZERO(ctx, most, bool);
-
-	if (!before || !after)
-		return MR_EMEM;
-	mark_numbers(number, NULL, nf, before);
-	mark_numbers(number, face_of, kept, after);
-	*lost = 0;
-	for (size_t i = most; i-- > 0;)
-		if (before[i] && !after[i]) {
-			*first = i;
-			++*lost;
-		}
-	return MR_OK;
-}
-
-static size_t
-highest(const uint32_t *number, size_t n)
-{
-	uint32_t most = 0;
-
-	for (size_t i = 0; i < n; i++)
-		most = number[i] > most ? number[i] : most;
-	return most;
-}
-
 /* Faces with an area that go, all of them copies, and materials that no face has any more. */
 static mr_status
 warn_of_dropped(
     mr_ctx *ctx, const mr_model *m, const uint32_t *face_of, size_t kept, const mr_repair_report *r)
 {
-	size_t lost, first, names;
-	const char **start;
-	bool named;
-
 	if (r->duplicate)
 		mr_warn(ctx, "repair: %zu face%s left out, with the corners of earlier ones", r->duplicate,
 		    r->duplicate == 1 ? " is" : "s are");
-	if (!m->material || r->duplicate + r->degenerate == 0)
-		return MR_OK;
-	MR_TRY(count_lost(
-	    ctx, m->material, m->nf, face_of, kept, highest(m->material, m->nf) + 1, &lost, &first));
-	if (lost == 0)
-		return MR_OK;
-	MR_TRY(mr_lines_starts(ctx, m->materials, &start, &names));
-	named = first < names;
-	mr_warn(ctx, "repair: %zu material%s no face any more, the first of them %.*s", lost,
-	    lost == 1 ? " has" : "s have", named ? (int)(start[first + 1] - start[first]) - 1 : 0,
-	    named ? start[first] : "");
-	return MR_OK;
+	return r->duplicate + r->degenerate ? warn_of_materials(ctx, "repair", m, face_of, kept) : MR_OK;
 }
 
 /* Polygons that edges are parted in, and those that lose triangles, and so corners. */

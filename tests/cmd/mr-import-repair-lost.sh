@@ -33,6 +33,10 @@ printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 1\nv .5 .5 -1\nf 1 2 3 4\nf 
 mr-import --repair cut.obj -o /dev/null
 printf 'v 0 0 0\nv 1 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4 5\n' >twice.obj
 mr-import --repair twice.obj -o /dev/null
+echo '-- faces that welding collapses, and their materials' >&2
+printf 'v 0 0 0\nv 0.001 0 0\nv 1 0 0\nv 0 1 0\nusemtl A\nf 1 2 3\nusemtl B\nf 1 3 4\n' >thin.obj
+mr-import --weld 0.01 thin.obj -o /dev/null
+mr-import --weld 0.0001 thin.obj -o /dev/null
 echo '-- what has neither is mended in silence' >&2
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4\nf 1 1 2\n' >quiet.obj
 mr-import --repair quiet.obj -o /dev/null
