@@ -1,6 +1,7 @@
 /* The tables of columns and of what goes stale, and meshes in and out of frames by them. */
 #include "mesh/layers.h"
 
+#include "base/text.h"
 #include "mesh/normals.h"
 
 /* The one table of what the columns are.  Extend it with each new column; man/mr.7 shows it. */
@@ -499,27 +500,49 @@ is_given(const mr_column *c, const char *layer)
 	return false;
 }
 
-static void
-warn_of_given(mr_ctx *ctx, const mr_frame *f, const char *layer)
+/* What a file gave to `from`, without what `has` has; how many there are. */
+static mr_status
+list_given(mr_ctx *ctx, const mr_frame *f, const char *from, const char *has, mr_text *names, size_t *n)
 {
-	char names[256];
-	size_t n = 0;
+	enum { NAMED = 12 };
 
-	for (size_t i = 0; f->key && i < f->count; i++)
-		if (is_given(&f->columns[i], layer) && n < sizeof names)
-			n += (size_t)snprintf(
-			    names + n, sizeof names - n, "%s%s", n ? ", " : "", f->columns[i].name);
+	*names = (mr_text){ .ctx = ctx };
+	*n = 0;
+	for (size_t i = 0; f->key && i < f->count; i++) {
+		const mr_column *c = &f->columns[i];
+		if (!is_given(c, from) || (has && mr_layer_has(f, has, c->name)))
+			continue;
+		if (++*n <= NAMED)
+			mr_text_add(names, "%s%s", *n > 1 ? ", " : "", c->name);
+	}
+	if (*n > NAMED)
+		mr_text_add(names, " and %zu more", *n - NAMED);
+	return mr_text_done(names);
+}
+
+mr_status
+mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
+{
+	mr_text names;
+	size_t n;
+
+	MR_TRY(list_given(ctx, f, from, layer, &names, &n));
 	if (n)
-		mr_warn(ctx, "%s is made anew, without its %s", layer, names);
+		mr_warn(ctx, "%s is made from %s, without what that has: %s", layer, from, names.s);
+	return MR_OK;
 }
 
 mr_status
 mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
 	bool normals = mr_layer_has(f, layer, "normal") || mr_layer_has(f, layer, "corner_normal");
+	mr_text names;
 	mr_v3 *normal;
+	size_t n;
 
-	warn_of_given(ctx, f, layer);
+	MR_TRY(list_given(ctx, f, layer, NULL, &names, &n));
+	if (n)
+		mr_warn(ctx, "%s is made anew, without its %s", layer, names.s);
 	MR_TRY(mr_layer_put_mesh(ctx, f, layer, m));
 	if (!normals)
 		return MR_OK;

@@ -58,6 +58,9 @@ mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer
  */
 mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m);
 
+/* Warns, of key frames, of what a file gave to `from` that `layer`, which was made from it, has not. */
+mr_status mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);
+
 /* Drops what the change makes stale, of the layer and of others. */
 void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 

@@ -621,7 +621,8 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));
 	MR_TRY(mr_layer_followed(ctx, f, "control"));
 	MR_TRY(mr_layer_followed(ctx, f, "displacement"));
-	return put_columns(ctx, f, d.m.nv);
+	MR_TRY(put_columns(ctx, f, d.m.nv));
+	return mr_layer_warn_of_rest(ctx, f, "mesh", "control");
 }
 
 /* How far mesh is from the points, where it is known how these lie. */

@@ -50,6 +50,25 @@ while at < len(data):
 print(*last)
 END
 
+echo 'what a control mesh has from a file is not on the mesh'
+cat >tet.obj <<'X'
+v 0 0 0 1 0 0
+v 1 0 0 0 1 0
+v 0 1 0 0 0 1
+v 0 0 1 1 1 1
+vt 0 0
+vt 1 0
+vt 0 1
+g side
+usemtl red
+f 1/1 3/2 2/3
+f 1/1 2/2 4/3
+f 2/1 3/2 4/3
+f 1/1 4/2 3/3
+X
+mr-import -q -l control tet.obj | mr-cat --merge - points.mrs | mr-sample -q -n 1 -o tet.mrs
+mr-decode tet.mrs 2>&1 >out.mrs
+
 echo 'refusals'
 refused() {
 	mr-decode "$@" >out 2>err
