@@ -45,20 +45,23 @@ value_at(const mr_carried *c, size_t at)
 	return c->shape.type == 'd' ? ((const double *)c->from)[at] : ((const uint8_t *)c->from)[at];
 }
 
-/* Means of what are numbers. */
+/* Means of what are numbers, counted from the first, so that equal ones have themselves as their mean. */
 static void
 put_means(const mr_carried *c, size_t row, const uint32_t *point, const double *weight, size_t n)
 {
 	size_t wide = c->shape.components;
 
 	for (size_t k = 0; k < wide; k++) {
-		double sum = 0, all = 0, mean;
+		double first = NAN, sum = 0, all = 0, mean;
 		for (size_t i = 0; i < n; i++) {
 			double x = value_at(c, point[i] * wide + k);
-			sum += isfinite(x) ? weight[i] * x : 0;
-			all += isfinite(x) ? weight[i] : 0;
+			if (!isfinite(x))
+				continue;
+			first = all > 0 ? first : x;
+			sum += weight[i] * (x - first);
+			all += weight[i];
 		}
-		mean = all > 0 ? sum / all : NAN;
+		mean = all > 0 ? first + sum / all : NAN;
 		if (c->shape.type == 'd')
 			((double *)c->to)[row * wide + k] = mean;
 		else

@@ -86,6 +86,13 @@ without sampled.mrs 'points.(color|intensity|label|height)' | mr-sample -q | mr-
 mr-sample --no-history -q -j 1 sampled.mrs -o one.mrs
 mr-sample --no-history -q -j 3 sampled.mrs | cmp - one.mrs && echo same
 
+echo 'what all points share comes out exactly'
+mr-make sphere --points 2000 | mr-export -f xyz - | awk 'BEGIN { print "ply\nformat ascii 1.0\nelement vertex 2000"
+	for (k = 1; k <= split("double x,double y,double z,double depth", p, ","); k++) print "property " p[k]
+	print "end_header" } { print $1, $2, $3, 0.1 }' >same.ply
+mr-import -q same.ply | mr-shrinkwrap -q | mr-simplify -q -n 100 | mr-sample -q | mr-decode | mr-export -q -f ply-ascii - |
+	awk 'body && NF == 4 && $0 !~ /^3 / { print $4 } /end_header/ { body = 1 }' | sort | uniq -c | wc -l
+
 echo 'columns that do not fit'
 python3 - sampled.mrs >short.mrs <<'END' # labels for half of the vertices
 import struct, sys, zlib

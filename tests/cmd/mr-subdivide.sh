@@ -56,6 +56,28 @@ end_header
 END
 mr-import colored.ply | mr-select --free box:0.5,-1,-1,2,2,2 | mr-subdivide -n 1 |
 	mr-export -f ply-ascii - | sed -n '/^end_header/,$p'
+cat >labels.ply <<'END'
+ply
+format ascii 1.0
+element vertex 4
+property double x
+property double y
+property double z
+property int label
+property float weight
+element face 2
+property list uchar int vertex_indices
+end_header
+0 0 0 10 1
+1 0 0 -20 2.5
+1 1 0 30 3
+0 1 0 10 4
+3 0 1 2
+3 0 2 3
+END
+for how in '-n 1' '--longest 1.2'; do
+	mr-import labels.ply | mr-subdivide $how | mr-export -f ply-ascii - | sed -n '/label/,$p'
+done
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 1\ng left\nf 1 2 3\ng right\nf 4 3 2\n' >grouped.obj
 mr-import grouped.obj | mr-subdivide -n 1 | mr-export -f obj - | grep '^[gf]'
 
