@@ -132,7 +132,7 @@ test_columns(void **state)
 		material[i / 3] = (uint32_t)(i / 3);
 	}
 	for (size_t v = 0; v < m.nv; v++) {
-		linear[v] = m.p[v].x - m.p[v].z;
+		linear[v] = 0.25 + m.p[v].x - m.p[v].z; /* whole numbers would be labels */
 		label[v] = (uint32_t)v;
 	}
 	assert_int_equal(mr_frame_new(&ctx, "test", &f), MR_OK);
@@ -160,7 +160,7 @@ test_columns(void **state)
 			assert_int_equal(((const uint32_t *)fine)[k], r.face[k]);
 		for (size_t v = 0; !strcmp(c[i].name, "quality") && v < r.fine.nv; v++)
 			assert_true(
-			    fabs(((const double *)fine)[v] - (r.fine.p[v].x - r.fine.p[v].z)) < 1e-14);
+			    fabs(((const double *)fine)[v] - (0.25 + r.fine.p[v].x - r.fine.p[v].z)) < 1e-14);
 		for (size_t v = 0; !strcmp(c[i].name, "label") && v < r.fine.nv; v++)
 			assert_true(v >= m.nv ? ((const uint32_t *)fine)[v] < m.nv
 					      : ((const uint32_t *)fine)[v] == v);
