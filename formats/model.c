@@ -498,23 +498,16 @@ has_property(const mr_model *m, const char *name)
 static mr_status
 warn_of_rest(mr_ctx *ctx, const char *layer, const mr_model *mesh, const mr_model *m)
 {
-	enum { NAMED = 12 };
 	mr_text lost = { .ctx = ctx };
-	size_t n = 0, more = 0;
+	size_t n = 0;
 
 	for (size_t i = 0; i < COLUMNS; i++)
 		if (column_of(mesh, i) && !column_of(m, i) && strcmp(columns[i].name, "polygon"))
-			mr_text_add(&lost, "%s%s", n++ ? ", " : "", columns[i].name);
-	for (size_t i = 0; i < mesh->properties; i++) {
-		if (has_property(m, mesh->property[i].name))
-			continue;
-		if (n < NAMED)
-			mr_text_add(&lost, "%s%s", n++ ? ", " : "", mesh->property[i].name);
-		else
-			more++;
-	}
-	if (more)
-		mr_text_add(&lost, " and %zu more", more);
+			mr_text_name(&lost, &n, columns[i].name);
+	for (size_t i = 0; i < mesh->properties; i++)
+		if (!has_property(m, mesh->property[i].name))
+			mr_text_name(&lost, &n, mesh->property[i].name);
+	mr_text_more(&lost, n);
 	MR_TRY(mr_text_done(&lost));
 	if (n)
 		mr_warn(ctx, "%s has other triangles than mesh, and not what that has: %s", layer, lost.s);

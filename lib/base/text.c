@@ -79,6 +79,23 @@ mr_text_line(mr_text *t, const char *s, size_t n)
 	}
 }
 
+enum { NAMED = 12 };
+
+void
+mr_text_name(mr_text *t, size_t *n, const char *name)
+{
+	if (*n < NAMED)
+		mr_text_add(t, "%s%s", *n ? ", " : "", name);
+	++*n;
+}
+
+void
+mr_text_more(mr_text *t, size_t n)
+{
+	if (n > NAMED)
+		mr_text_add(t, " and %zu more", n - NAMED);
+}
+
 void
 mr_text_number(mr_text *t, double x)
 {

@@ -504,19 +504,15 @@ is_given(const mr_column *c, const char *layer)
 static mr_status
 list_given(mr_ctx *ctx, const mr_frame *f, const char *from, const char *has, mr_text *names, size_t *n)
 {
-	enum { NAMED = 12 };
-
 	*names = (mr_text){ .ctx = ctx };
 	*n = 0;
 	for (size_t i = 0; f->key && i < f->count; i++) {
 		const mr_column *c = &f->columns[i];
 		if (!is_given(c, from) || (has && mr_layer_has(f, has, c->name)))
 			continue;
-		if (++*n <= NAMED)
-			mr_text_add(names, "%s%s", *n > 1 ? ", " : "", c->name);
+		mr_text_name(names, n, c->name);
 	}
-	if (*n > NAMED)
-		mr_text_add(names, " and %zu more", *n - NAMED);
+	mr_text_more(names, *n);
 	return mr_text_done(names);
 }
 
