@@ -373,6 +373,58 @@ warn_of_absent(mr_ctx *ctx, const joined *j)
 		    j->layer, n, j->n, other, most, j->layer);
 }
 
+/* The text of a frame's column, of no bytes where that has none. */
+static mr_status
+text_of(mr_ctx *ctx, const joined *j, size_t i, const char *name, const void **text, size_t *bytes)
+{
+	*text = "";
+	*bytes = 0;
+	return mr_layer_has(j->frames[i], j->layer, name)
+	           ? mr_layer_get(ctx, j->frames[i], j->layer, name, text, bytes)
+	           : MR_OK;
+}
+
+/* Warns of materials that have one name in different files: whoever reads the files takes one for all. */
+static mr_status
+warn_of_mixed(mr_ctx *ctx, const joined *j)
+{
+	struct {
+		const void *files; /* of the first frame that has the name */
+		size_t bytes;
+		bool mixed;
+	} *material = NULL;
+	lines names = { 0 };
+	size_t n, bytes, count, room = 0, mixed = 0;
+	const void *text, *files;
+	uint32_t *number;
+
+	for (size_t i = 0; i < j->n; i++) {
+		size_t known = names.count;
+		MR_TRY(text_of(ctx, j, i, "materials", &text, &n));
+		MR_TRY(text_of(ctx, j, i, "mtllib", &files, &bytes));
+		if (n == 0)
+			continue;
+		MR_TRY(add_lines(ctx, &names, text, n, &number, &count));
+		MR_TRY(MR_RESERVE(ctx, material, known, names.count - known, &room));
+		for (size_t k = 0; k < count; k++) {
+			size_t m = number[k];
+			if (m >= known) {
+				material[m].files = files;
+				material[m].bytes = bytes;
+				material[m].mixed = false;
+			} else if (material[m].bytes != bytes || memcmp(material[m].files, files, bytes)) {
+				mixed += !material[m].mixed;
+				material[m].mixed = true;
+			}
+		}
+	}
+	if (mixed)
+		mr_warn(ctx,
+		    "%s: frames with different mtllib have %zu material%s of the same name: it is one here",
+		    j->layer, mixed, mr_plural(mixed));
+	return MR_OK;
+}
+
 /* What triangles were, which several frames have more of. */
 static bool
 is_print(const joined *j)
@@ -386,6 +438,7 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 	mr_text left = { .ctx = ctx };
 
 	warn_of_absent(ctx, j);
+	MR_TRY(warn_of_mixed(ctx, j));
 	for (size_t i = 0; i < j->n; i++)
 		for (size_t k = 0; k < j->frames[i]->count; k++) {
 			const mr_column *c = &j->frames[i]->columns[k];

@@ -12,8 +12,9 @@
  * groups, objects and materials are those of all.  A column stays that every frame with the layer has in one
  * shape, of faces every one with faces; others are warned of.  handles and displacement, whose rows are no
  * vertices, and how points sample their surface do not stay where several frames have the layer that they are
- * of.  A surface that comes of fewer frames than another is warned of.  Histories are joined, equal ones
- * once.  *out is in the arena and borrows from the frames.
+ * of.  A surface that comes of fewer frames than another is warned of, and so are materials of one name that
+ * come of different files.  Histories are joined, equal ones once.  *out is in the arena and borrows from the
+ * frames.
  */
 mr_status mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out) MR_WARN_UNUSED;
 

@@ -52,3 +52,9 @@ echo 'a stream of no frames, and one that is cut'
 mr-cat --no-history normals.mrs | { head -c 64; tail -c 64 normals.mrs; } | mr-cat --append | mr-info
 head -c 500 normals.mrs | mr-cat --append >out
 echo "exit $?"
+
+echo 'materials of one name from two files'
+sed 's/^o one/mtllib a.mtl/' square.obj >a.obj
+sed 's/^o two/mtllib b.mtl/' triangle.obj >b.obj
+mr-import a.obj b.obj 2>/dev/null | mr-cat --append | mr-info | grep -c mtllib
+mr-import a.obj a.obj 2>/dev/null | mr-cat --append | mr-info | grep -c mtllib # nothing to say
