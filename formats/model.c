@@ -467,6 +467,37 @@ borrow_normals(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
 	return mr_turn_normals(ctx, &before, m->p, normal, corner);
 }
 
+static bool
+has_property(const mr_model *m, const char *name)
+{
+	for (size_t i = 0; i < m->properties; i++)
+		if (!strcmp(m->property[i].name, name))
+			return true;
+	return false;
+}
+
+static mr_status
+borrow_properties(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
+{
+	mr_property *all = MR_NEW(ctx, m->properties + mesh->properties, mr_property);
+	size_t n = 0;
+
+	if (!all)
+		return MR_EMEM;
+	for (int faces = 0; faces < 2; faces++) { /* those of vertices come first */
+		for (size_t i = 0; i < m->properties; i++)
+			if ((m->property[i].shape.element == 'f') == faces)
+				all[n++] = m->property[i];
+		for (size_t i = 0; i < mesh->properties; i++)
+			if ((mesh->property[i].shape.element == 'f') == faces &&
+			    !has_property(m, mesh->property[i].name))
+				all[n++] = mesh->property[i];
+	}
+	m->property = all;
+	m->properties = n;
+	return MR_OK;
+}
+
 /* What the mesh has and this layer has not, as far as the same triangles allow. */
 static mr_status
 borrow(mr_ctx *ctx, mr_model *mesh, mr_model *m)
@@ -478,20 +509,7 @@ borrow(mr_ctx *ctx, mr_model *mesh, mr_model *m)
 	for (size_t i = 0; i < NAMES; i++)
 		if (lines_of(m, i)->bytes == 0)
 			*lines_of(m, i) = *lines_of(mesh, i);
-	if (m->properties == 0) {
-		m->property = mesh->property;
-		m->properties = mesh->properties;
-	}
-	return MR_OK;
-}
-
-static bool
-has_property(const mr_model *m, const char *name)
-{
-	for (size_t i = 0; i < m->properties; i++)
-		if (!strcmp(m->property[i].name, name))
-			return true;
-	return false;
+	return borrow_properties(ctx, mesh, m);
 }
 
 /* What the mesh has and the model, of other triangles, has not; polygons are none of it. */
@@ -514,12 +532,27 @@ warn_of_rest(mr_ctx *ctx, const char *layer, const mr_model *mesh, const mr_mode
 	return MR_OK;
 }
 
-/* Another surface of the frame's mesh is written with what that came with. */
 static mr_status
-complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
+warn_of_creases(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf)
+{
+	const uint8_t *mark;
+	size_t n = 0;
+
+	MR_TRY(mr_layer_crease(ctx, f, layer, nf, &mark));
+	for (size_t c = 0; mark && c < 3 * nf; c++)
+		n += mark[c] != 0;
+	if (n)
+		mr_warn(ctx, "%s: %zu marks of creases dropped: no format has a place for them", layer, n);
+	return MR_OK;
+}
+
+mr_status
+mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 {
 	mr_model mesh;
 
+	MR_TRY(mr_model_get(ctx, f, layer, m));
+	MR_TRY(warn_of_creases(ctx, f, layer, m->nf));
 	if (!strcmp(layer, "mesh") || m->nf == 0 || !mr_layer_has(f, "mesh", "triangles"))
 		return MR_OK;
 	MR_TRY(mr_model_get(ctx, f, "mesh", &mesh));
@@ -535,8 +568,7 @@ mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, co
 	mr_model m;
 
 	MR_TRY(mr_layer_result(ctx, f, layer, &layer));
-	MR_TRY(mr_model_get(ctx, f, layer, &m));
-	MR_TRY(complete(ctx, f, layer, &m));
+	MR_TRY(mr_model_complete(ctx, f, layer, &m));
 	return mr_model_write(ctx, path, format, &m, held, result);
 }
 

@@ -34,7 +34,7 @@ get_layers(mr_ctx *ctx, mr_frame *f, const char *list, layers *l)
 		if (c && !name)
 			return MR_EMEM;
 		MR_TRY(mr_layer_result(ctx, f, name, &l->name[l->count]));
-		MR_TRY(mr_model_get(ctx, f, l->name[l->count], &l->model[l->count]));
+		MR_TRY(mr_model_complete(ctx, f, l->name[l->count], &l->model[l->count]));
 		c = c ? c + bytes + 1 : NULL;
 	}
 	return MR_OK;

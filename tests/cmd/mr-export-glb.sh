@@ -77,6 +77,10 @@ ls pose-*
 mr-export -i poses.mrs -f glb - | cmp - poses.glb && echo 'same on stdout'
 mr-export -i poses.mrs poses.glb.gz && gunzip <poses.glb.gz | cmp - poses.glb && echo 'same in gzip'
 
+echo '-- a base has what its mesh came with, as in any format'
+mr-make sphere -n 300 --texcoords | mr-smooth | mr-export base.glb
+mr-import base.glb | mr-info | grep texcoord
+
 echo '-- what fails leaves no file'
 head -c -64 poses.mrs >endless.mrs
 mr-export -i endless.mrs cut.glb

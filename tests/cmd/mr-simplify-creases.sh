@@ -19,6 +19,8 @@ creases=$(figure stats creases)
 round=$(off round.mrs) sharp=$(off sharp.mrs)
 [ "$round" -ge $((2 * sharp)) ] && echo 'edges are sharp' || echo "edges are $sharp off, and without creases $round"
 mr-info fit.mrs | grep 'crease ' | cut -c1-30
+mr-export -l control control.obj <fit.mrs
+mr-export -l control control.glb <fit.mrs
 mr-simplify -n 300 -j 1 wrap.mrs | cmp - simple.mrs && echo 'the same by one thread'
 
 echo 'edits, equalizing, maps and mirrors keep them'
