@@ -210,6 +210,19 @@ texture_info(glb *w, size_t texture)
 	return json;
 }
 
+static void
+set_emission(glb *w, json_t *material, const double emission[3])
+{
+	json_t *color;
+
+	if (!(emission[0] > 0 || emission[1] > 0 || emission[2] > 0))
+		return;
+	color = json_array();
+	for (int k = 0; k < 3; k++)
+		push(w, color, json_real(mr_srgb_to_linear(emission[k])));
+	set(w, material, "emissiveFactor", color);
+}
+
 /* What says nothing else is of metal to the format, and seen from one side. */
 static json_t *
 new_material(glb *w, const mr_material *look, size_t texture)
@@ -219,7 +232,7 @@ new_material(glb *w, const mr_material *look, size_t texture)
 
 	for (int k = 0; k < 3; k++)
 		push(w, color, json_real(colored ? mr_srgb_to_linear(look->color[k]) : 1));
-	push(w, color, json_real(1));
+	push(w, color, json_real(look ? 1 - look->transparency : 1));
 	set(w, surface, "baseColorFactor", color);
 	set(w, surface, "metallicFactor", json_real(0));
 	set(w, surface, "roughnessFactor", json_real(0.9));
@@ -227,6 +240,10 @@ new_material(glb *w, const mr_material *look, size_t texture)
 		set(w, surface, "baseColorTexture", texture_info(w, texture));
 	set(w, json, "pbrMetallicRoughness", surface);
 	set(w, json, "doubleSided", json_true());
+	if (look && look->transparency > 0)
+		set(w, json, "alphaMode", json_string("BLEND"));
+	if (look)
+		set_emission(w, json, look->emission);
 	return json;
 }
 
@@ -280,6 +297,7 @@ put_materials(glb *w, layer *l)
 	if (!l->material)
 		return MR_EMEM;
 	MR_TRY(mr_materials_find(w->ctx, &l->node->model, w->scene->folder, &look, &count));
+	MR_TRY(mr_warn_of_others(w->ctx, look, count));
 	for (size_t i = 0; i < l->sets.materials; i++) {
 		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture = MR_UNKNOWN;
 		json_t *json;

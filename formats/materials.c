@@ -1,7 +1,8 @@
-/* MTL (Wavefront, "Advanced Visualizer", appendix B2): newmtl, Kd, map_Kd and disp, and norm, which others
- * have added; the rest is for other programs. */
+/* MTL (Wavefront, "Advanced Visualizer", appendix B2): newmtl, Kd, Ke, d or Tr, map_Kd and disp, and norm,
+ * which others have added; the rest is for other programs. */
 #include "formats/materials.h"
 
+#include "base/text.h"
 #include "formats/format.h"
 
 #include <limits.h>
@@ -155,22 +156,69 @@ new_material(finder *f, const char *name)
 	}
 }
 
-/* One number is grey. */
-static void
-diffuse(mr_material *m, const char *s)
+/* Numbers of a line, at most three; how many. */
+static size_t
+numbers(const char *s, double x[3])
 {
 	const char *end = s + strlen(s);
 	size_t n = 0;
 
-	while (n < 3 && (s = mr_real_read(s, end, &m->color[n]))) {
+	while (n < 3 && (s = mr_real_read(s, end, &x[n]))) {
 		n++;
 		s += strspn(s, " \t");
 	}
-	m->colored = n == 1 || n == 3;
-	for (; n == 1 || n == 2; n++)
-		m->color[n] = m->color[0];
-	for (n = 0; n < 3; n++)
-		m->color[n] = m->color[n] > 0 ? m->color[n] < 1 ? m->color[n] : 1 : 0;
+	return n;
+}
+
+static double
+share(double x)
+{
+	return x > 0 ? x < 1 ? x : 1 : 0;
+}
+
+/* One number is grey.  Whether there was a colour. */
+static bool
+color(const char *s, double to[3])
+{
+	double x[3];
+	size_t n = numbers(s, x);
+
+	for (size_t k = 0; k < 3; k++)
+		to[k] = k < n ? share(x[k]) : n ? share(x[0]) : 0;
+	return n == 1 || n == 3;
+}
+
+/* What is opaque, or where `inverse` is true, transparent. */
+static void
+dissolve(mr_material *m, const char *s, bool inverse)
+{
+	double x[3];
+
+	if (!strncmp(s, "-halo", 5))
+		s += 5 + strspn(s + 5, " \t");
+	if (numbers(s, x) > 0)
+		m->transparency = share(inverse ? x[0] : 1 - x[0]);
+}
+
+/* Those that say nothing where all their numbers are zero. */
+static const char *const others[] = { "Ka", "Ks", "Ns", "Ni", "Tf", "illum", "sharpness", "map_Ka", "map_Ks",
+	"map_Ns", "map_d", "map_Ke", "bump", "map_bump", "decal", "refl", "Pr", "Pm", "Ps", "Pc", "Pcr",
+	"aniso", "anisor", "map_Pr", "map_Pm", "map_Ps" };
+
+static void
+note_others(mr_material *m, const char *line)
+{
+	double x[3];
+	size_t n;
+	const char *rest;
+
+	for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+		if ((rest = behind(line, others[k]))) {
+			for (n = numbers(rest, x); n > 0 && x[n - 1] == 0; n--)
+				;
+			if (n > 0 || numbers(rest, x) == 0)
+				m->others |= 1u << k;
+		}
 }
 
 /* to: the picture of material i. */
@@ -217,7 +265,13 @@ describe(finder *f, size_t i, const char *line)
 	const char *rest;
 
 	if ((rest = behind(line, "Kd")))
-		diffuse(m, rest);
+		m->colored = color(rest, m->color);
+	if ((rest = behind(line, "Ke")))
+		color(rest, m->emission);
+	if ((rest = behind(line, "d")))
+		dissolve(m, rest, false);
+	if ((rest = behind(line, "Tr")))
+		dissolve(m, rest, true);
 	if ((rest = behind(line, "map_Kd")))
 		MR_TRY(map(f, i, rest, &m->file));
 	if ((rest = behind(line, "norm")) || (rest = behind(line, "map_Kn")))
@@ -226,6 +280,7 @@ describe(finder *f, size_t i, const char *line)
 		modify(m, rest);
 		MR_TRY(map(f, i, rest, &m->heights));
 	}
+	note_others(m, line);
 	return MR_OK;
 }
 
@@ -382,5 +437,24 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	}
 	*list = f.list;
 	*count = f.count;
+	return MR_OK;
+}
+
+mr_status
+mr_warn_of_others(mr_ctx *ctx, const mr_material *list, size_t count)
+{
+	mr_text names = { .ctx = ctx };
+	unsigned all = 0;
+	size_t n = 0;
+
+	for (size_t i = 0; i < count; i++)
+		all |= list[i].others;
+	for (size_t k = 0; k < sizeof others / sizeof *others; k++)
+		if (all >> k & 1)
+			mr_text_name(&names, &n, others[k]);
+	mr_text_more(&names, n);
+	MR_TRY(mr_text_done(&names));
+	if (n)
+		mr_warn(ctx, "%s of the materials dropped: the format has no place for them", names.s);
 	return MR_OK;
 }

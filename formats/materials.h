@@ -12,10 +12,13 @@
 typedef struct mr_material {
 	bool colored;
 	double color[3];     /* Kd, from 0 to 1, as pictures have it */
+	double emission[3];  /* Ke, likewise */
+	double transparency; /* 1 - d, or Tr, from 0 to 1 */
 	const char *file;    /* the picture of map_Kd, which is there; NULL: none */
 	const char *normals; /* likewise of norm or map_Kn */
 	const char *heights; /* and of disp or map_disp: from 0 to 1, times the gain, plus the base */
 	double base, gain;
+	unsigned others; /* a bit for each statement that nothing here is made of */
 } mr_material;
 
 /*
@@ -24,5 +27,8 @@ typedef struct mr_material {
  */
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
+
+/* Warns of the statements that nothing was made of, each named once. */
+mr_status mr_warn_of_others(mr_ctx *ctx, const mr_material *list, size_t count) MR_WARN_UNUSED;
 
 #endif

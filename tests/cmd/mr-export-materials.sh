@@ -38,3 +38,21 @@ done
 colors
 printf 'newmtl red\n\0' >m.mtl
 mr-import -q model.obj | mr-export model.glb
+
+echo '-- transparency and light are kept, and what is not is named' >&2
+model red green blue >model.obj
+cat >m.mtl <<'MTL'
+newmtl red
+d 0.25
+Ke 1 0 0
+Ka 0 0 0
+Ns 100
+newmtl green
+Tr 0.5
+map_bump b.png
+newmtl blue
+d -halo 1
+Ke 0 0 0
+MTL
+mr-import model.obj | mr-export model.glb
+grep -a -o '"baseColorFactor":\[[^]]*\]\|"alphaMode":"[A-Z]*"\|"emissiveFactor":\[[^]]*\]' model.glb
