@@ -34,10 +34,16 @@ typedef struct obj {
 
 /* ---- lines ---- */
 
+/* Behind a backslash, unless that ends a comment. */
 static bool
 continues(const char *begin, const char *end)
 {
-	return end > begin && end[-1] == '\\' && *begin != '#';
+	if (end == begin || end[-1] != '\\')
+		return false;
+	for (const char *p = begin; (p = memchr(p, '#', (size_t)(end - p))); p++)
+		if (p == begin || mr_is_blank(p[-1]))
+			return false;
+	return true;
 }
 
 /* Puts a line that goes on behind a backslash together with what follows. */

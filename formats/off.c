@@ -279,6 +279,7 @@ read_text(off *f, mr_model *m)
 		MR_TRY(text_vertex(f, i));
 	for (uint64_t i = 0; i < f->nf; i++)
 		MR_TRY(text_face(f));
+	mr_skip_comments(&f->text);
 	mr_scan_rest(&f->text, f->nf ? "face" : "vertex");
 	return finish(f, m);
 }

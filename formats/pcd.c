@@ -464,6 +464,8 @@ warn_of_rest(pcd *f)
 		    f->ctx, "numbers behind %zu points left out: the fields are %zu", f->surplus, f->stride);
 	if (f->packed)
 		f->text.p += 8 + mr_load32(p, false);
+	if (!f->binary)
+		mr_skip_comments(&f->text);
 	mr_scan_rest(&f->text, "point");
 }
 

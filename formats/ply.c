@@ -601,7 +601,9 @@ read_elements(ply *f)
 		return mr_fail(f->ctx, MR_EMESH, "ply without a vertex");
 	MR_TRY(read_vertices(f, &f->element[vertices]));
 	MR_TRY(read_until_vertices(f, vertices + 1, true, &end));
-	if (!f->ascii)
+	if (f->ascii)
+		mr_skip_comments(&f->text);
+	else
 		f->text.p = (const char *)f->p;
 	mr_scan_rest(&f->text, "row");
 	f->p = binary;

@@ -448,7 +448,6 @@ mr_skip_comments(mr_scan *t)
 void
 mr_scan_rest(mr_scan *t, const char *last)
 {
-	mr_skip_comments(t);
 	for (const char *p = t->p; p < t->end; p++)
 		if (*p && *p != '\n' && !mr_is_blank(*p)) {
 			mr_warn(
