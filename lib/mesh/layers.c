@@ -130,6 +130,19 @@ mr_column_carried(const mr_column *c, const char *layer)
 }
 
 bool
+mr_are_labels(mr_shape shape, const void *values, size_t rows)
+{
+	const double *x = values;
+	size_t i = 0;
+
+	if (shape.type != 'd')
+		return true;
+	while (shape.components == 1 && i < rows && isfinite(x[i]) && x[i] == floor(x[i]))
+		i++;
+	return i > 0 && i == rows;
+}
+
+bool
 mr_layer_has(const mr_frame *f, const char *layer, const char *name)
 {
 	return mr_frame_find(f, layer, name) != NULL;

@@ -27,6 +27,10 @@ bool mr_column_known(const char *layer, const char *name);
  * or none by convention of any of these. */
 bool mr_column_carried(const mr_column *c, const char *layer);
 
+/* Whether the values are labels, which have no mean: other than doubles, or doubles, one a row, all of which are
+ * whole, as a file's int is and, of some programs, its float. */
+bool mr_are_labels(mr_shape shape, const void *values, size_t rows);
+
 /* True for a layer that by convention holds something else than a surface. */
 bool mr_layer_no_surface(const char *layer);
 

@@ -29,7 +29,7 @@ mr_status mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, c
 typedef struct mr_carried {
 	const char *name;
 	mr_shape shape;
-	bool mean;        /* of near points, by doubles or bytes; else the nearest point's, as of labels */
+	bool mean;        /* of near points, by doubles or bytes; else, of labels, the nearest point's */
 	const void *from; /* rows as many as points */
 	void *to;         /* d->m.nv rows */
 } mr_carried;

@@ -180,20 +180,6 @@ nearest(mr_ctx *ctx, const mr_refined *r, const mr_place *at, size_t bytes, cons
 	return MR_OK;
 }
 
-/* Whether doubles are labels, as a file's int and, of some programs, its float are: all of them are whole. */
-static bool
-are_labels(const mr_carried *c)
-{
-	const double *x = c->data;
-	size_t i = 0;
-
-	if (c->shape.type != 'd' || c->shape.components > 1)
-		return false;
-	while (i < c->rows && isfinite(x[i]) && x[i] == floor(x[i]))
-		i++;
-	return i == c->rows;
-}
-
 static mr_status
 vertex_column(mr_ctx *ctx, const mr_refined *r, const mr_place *at, const mr_carried *c, const void **out)
 {
@@ -205,7 +191,7 @@ vertex_column(mr_ctx *ctx, const mr_refined *r, const mr_place *at, const mr_car
 		return colors(ctx, r, at, c->data, out);
 	if (!strcmp(c->name, "normal"))
 		return linear(ctx, r, at, 3, true, c->data, out);
-	if (c->shape.type == 'd' && !are_labels(c))
+	if (!mr_are_labels(c->shape, c->data, (size_t)c->rows))
 		return numbers(ctx, r, at, width, c->data, out);
 	return nearest(ctx, r, at, width * mr_type_size(c->shape.type), c->data, out);
 }

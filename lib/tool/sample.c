@@ -48,7 +48,7 @@ get_column(mr_ctx *ctx, mr_frame *f, size_t i, size_t n, size_t nv, mr_carried *
 		    (unsigned long long)c->rows, n);
 	carried->name = mr_format(ctx, "%s", c->name);
 	carried->shape = c->shape;
-	carried->mean = c->shape.type == 'd' || !strcmp(c->name, "color");
+	carried->mean = !strcmp(c->name, "color") || !mr_are_labels(c->shape, c->data, n);
 	carried->from = c->data;
 	carried->to = mr_alloc(ctx, nv * c->shape.components, mr_type_size(c->shape.type));
 	return carried->name && carried->to ? MR_OK : MR_EMEM;

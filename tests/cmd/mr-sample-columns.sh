@@ -2,7 +2,7 @@
 awk 'BEGIN { # points of a bumpy sphere; red, green and intensity are linear in place, the label tells its halves
 	n = 6000
 	print "ply\nformat ascii 1.0\nelement vertex " n + 2
-	for (k = 1; k <= split("double x,double y,double z,uchar red,uchar green,uchar blue,float intensity,ushort label,float height", p, ","); k++)
+	for (k = 1; k <= split("double x,double y,double z,uchar red,uchar green,uchar blue,float intensity,ushort label,float height,int side", p, ","); k++)
 		print "property " p[k]
 	print "end_header"
 	for (i = 0; i < n; i++) {
@@ -13,7 +13,7 @@ awk 'BEGIN { # points of a bumpy sphere; red, green and intensity are linear in 
 	put(s * r * cos(a), s * r * sin(a), s * z, 1000, 7)
 }
 function put(x, y, z, intensity, label) {
-	print x, y, z, int(127.5 + 100 * x), int(127.5 + 100 * z), 255, intensity, 300 + label, 1
+	print x, y, z, int(127.5 + 100 * x), int(127.5 + 100 * z), 255, intensity, 300 + label, 1, (label > 1 ? 7 : 5 - 10 * label)
 }' >scan.ply
 mr-import scan.ply | mr-shrinkwrap -q | mr-simplify | mr-fit -q | mr-sample -o sampled.mrs || exit
 mr-info sampled.mrs | sed -n '/^  displacement/,$p'
@@ -26,7 +26,7 @@ data = open(sys.argv[1], 'rb').read()
 at = data.index(b'end_header\n') + 11
 head = data[:at].decode().split('element face')[0]
 names = re.findall(r'property (\w+) (\w+)', head)
-row = struct.Struct('<' + ''.join({'double': 'd', 'float': 'f', 'uchar': 'B', 'ushort': 'H'}[t] for t, _ in names))
+row = struct.Struct('<' + ''.join({'double': 'd', 'float': 'f', 'uchar': 'B', 'ushort': 'H', 'int': 'i'}[t] for t, _ in names))
 n = int(re.search(r'vertex (\d+)', head).group(1))
 print(' '.join(name for _, name in names))
 near, color, labels = 0, 0, 0
@@ -35,6 +35,7 @@ for i in range(n):
     near = max(near, abs(v['intensity'] - v['x'] - 2 * v['z']) / 5 ** 0.5)
     color = max(color, abs(v['red'] - 127 - 100 * v['x']) / 100, abs(v['green'] - 127 - 100 * v['z']) / 100)
     labels += abs(v['z']) > 0.06 and v['label'] != 300 + (v['z'] > 0)
+    labels += abs(v['z']) > 0.06 and v['side'] != 5 - 10 * (v['z'] > 0)
     labels += v['blue'] != 255 or v['alpha'] != 255
 print(n, 'vertices: intensity', 'near' if near < 0.045 else near, 'color', 'near' if color < 0.05 else color, 'labels wrong', labels)
 END
@@ -82,7 +83,7 @@ while at < len(data):
 END
 
 echo 'sampled anew without them they are gone; the same bytes for any number of threads'
-without sampled.mrs 'points.(color|intensity|label|height)' | mr-sample -q | mr-info | sed -n '/^  displacement/,$p'
+without sampled.mrs 'points.(color|intensity|label|height|side)' | mr-sample -q | mr-info | sed -n '/^  displacement/,$p'
 mr-sample --no-history -q -j 1 sampled.mrs -o one.mrs
 mr-sample --no-history -q -j 3 sampled.mrs | cmp - one.mrs && echo same
 
