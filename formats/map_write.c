@@ -1,6 +1,7 @@
 /* Heights over a control mesh as a picture (Lee, Moreton, Hoppe 2000), and normals of the surface as another.
  */
 #include "base/parallel.h"
+#include "base/text.h"
 #include "formats/bytes.h"
 #include "formats/map.h"
 #include "formats/names.h"
@@ -276,6 +277,23 @@ write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path
 	return mr_sink_close(&sink, MR_OK);
 }
 
+/* Warns of what control has of a file; those of earlier maps came with a range. */
+static mr_status
+warn_of_replaced(mr_ctx *ctx, const mr_frame *f)
+{
+	static const char *const columns[] = { "texcoord", "corner_texcoord", "material" };
+	mr_text names = { .ctx = ctx };
+	size_t n = 0;
+
+	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
+		if (mr_layer_has(f, "control", columns[i]))
+			mr_text_name(&names, &n, columns[i]);
+	MR_TRY(mr_text_done(&names));
+	if (n && !mr_layer_has(f, "displacement", "range"))
+		mr_warn(ctx, "control's own %s: replaced by those of the maps", names.s);
+	return MR_OK;
+}
+
 static mr_status
 put_texcoords(mr_ctx *ctx, mr_frame *f, const mr_atlas *a)
 {
@@ -383,6 +401,7 @@ mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts
 	MR_TRY(check_name(ctx, name));
 	MR_TRY(prepare(ctx, f, opts ? opts : &defaults, &m));
 	MR_TRY(write_files(ctx, &m, name, &found));
+	MR_TRY(warn_of_replaced(ctx, f));
 	MR_TRY(put_texcoords(ctx, f, &m.atlas));
 	MR_TRY(put_normals(ctx, f, &m));
 	MR_TRY(put_material(ctx, f, &m.atlas, name_of(name)));

@@ -92,6 +92,8 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 	mr_sampling s;
 	places q;
 
+	if (o->by_area)
+		return mr_fail(ctx, MR_EUSAGE, "%s has no faces: --weights is of surfaces", m->name);
 	MR_TRY(mr_sampling_of(ctx, f, m, &s));
 	if (o->neighbours)
 		s.neighbours = o->neighbours;

@@ -140,3 +140,8 @@ done
 mr-cat scan.mrs scan.mrs -o two.mrs
 mr-map -w no two.mrs -o out.mrs
 echo "exit $?"
+
+echo "-- control's own texture coordinates"
+mr-make sphere -n 60 --texcoords | mr-export own.obj
+mr-import -l control own.obj -o own.mrs
+mr-make sphere -n 900 | mr-cat --merge - own.mrs | mr-sample -q -n 1 | mr-map -w own | mr-map -w again | mr-info | grep texcoord

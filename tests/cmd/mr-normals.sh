@@ -57,6 +57,7 @@ refused --neighbours 129 ball.mrs
 refused --weights none cube.mrs
 refused --from 0,0,0 cube.mrs
 refused --neighbours 9 cube.mrs
+refused --weights area ball.mrs
 refused -l base ball.mrs
 printf '0 0 0\n1 1 1\n2 2 2\n3 3 3\n' >line.xyz
 mr-import line.xyz | refused
