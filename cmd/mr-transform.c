@@ -44,12 +44,14 @@ tell(cmd *c, const mr_affine *map)
 	}
 }
 
+/* What moves in a sequence goes on moving: its frames have the map of their key frame, and its box. */
 static mr_status
 transform_frame(cmd *c, mr_frame *f)
 {
-	mr_affine map;
+	static mr_affine map;
 
-	MR_TRY(mr_transform_map(&c->ctx, f, c->layer, &transform, &map));
+	if (f->key)
+		MR_TRY(mr_transform_map(&c->ctx, f, c->layer, &transform, &map));
 	tell(c, &map);
 	return mr_transform_frame(&c->ctx, f, c->layer, map.m);
 }
