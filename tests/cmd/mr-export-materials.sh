@@ -18,6 +18,11 @@ colors
 sed -i 's/a #1/b/;s/png/& # a picture/' m.mtl
 colors | grep png
 
+echo '-- what is no picture'
+printf 'newmtl B\nmap_Kd text.png\n' >m.mtl && echo text >text.png
+model B >model.obj
+colors
+
 echo '-- with a mark, CR alone, UTF-16'
 model red blue >model.obj
 printf '\357\273\277newmtl red\nKd 1 0 0\nnewmtl blue\nKd 0 0 1\n' >text

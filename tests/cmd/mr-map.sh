@@ -116,8 +116,8 @@ python3 - <<'END' # damaged: pictures by hand
 import struct, zlib
 def chunk(kind, body):
     return struct.pack('>I', len(body)) + kind + body + struct.pack('>I', zlib.crc32(kind + body))
-def png(name, width, height, depth, color, texts=(), rows=None):
-    row = b'\0' + bytes(width * depth // 8 * (3 if color == 2 else 1))
+def png(name, width, height, depth, color, texts=(), rows=None, slope=0):
+    row = b'\0' + bytes(k % slope if slope else 0 for k in range(width * depth // 8 * (3 if color == 2 else 1)))
     open(name, 'wb').write(b'\x89PNG\r\n\x1a\n' + chunk(b'IHDR', struct.pack('>IIBBBBB', width, height, depth, color, 0, 0, 0)) +
         b''.join(chunk(b'tEXt', t.encode()) for t in texts) +
         chunk(b'IDAT', zlib.compress(row * (height if rows is None else rows))) + chunk(b'IEND', b''))
@@ -133,10 +133,12 @@ png('word.png', 30, 30, 16, 0, ['Height level\000two'] + good[1:])
 png('reversed.png', 30, 30, 16, 0, good[:1] + ['Height range\0001 -1'] + good[2:])
 png('nan.png', 30, 30, 16, 0, good[:1] + ['Height range\000nan 1'] + good[2:])
 png('half.png', 30, 30, 16, 0, good[:1] + ['Height range\0001'] + good[2:])
+png('slope.png', 30, 30, 16, 0, good, slope=60)
 END
 for picture in bytes colors resized few huge level fraction word reversed nan half; do
 	refused -r $picture.png ranged.mrs
 done
+mr-map -r slope.png ranged.mrs -o out.mrs && echo 'seams are told'
 mr-cat scan.mrs scan.mrs -o two.mrs
 mr-map -w no two.mrs -o out.mrs
 echo "exit $?"
