@@ -69,3 +69,4 @@ awk 'BEGIN { n = 150; k = 12; print "OFF\n" n * k, 2 * n * k, 0
 		p = i * k + j; q = (i + 1) % n * k + j; s = i * k + (j + 1) % k; t = (i + 1) % n * k + (j + 1) % k
 		print 3, p, q, t; print 3, p, t, s } }' >ring.off
 mr-import ring.off | mr-remesh -r 2.5 >/dev/null
+mr-make boxes --genus 9 -n 4000 | mr-remesh --vertices 12 2>&1 >/dev/null | sed -n 's/.* vertices and .* faces are .* times as many as were wanted/more than wanted/p'

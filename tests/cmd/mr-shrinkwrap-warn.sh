@@ -31,6 +31,11 @@ for n in 4 6 8 20; do
 	nearest 0.07
 done
 
+echo 'so few that handles hide, and a few that lie apart'
+mr-make sphere --points 100 | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'so few hide handles'
+{ mr-make sphere --points 3000 | mr-export -l points -f xyz - && for i in 1 2 3 4 5 6 7 8 9; do echo 1.5 0.0$i 0.0$i 1 0 0; done; } |
+	mr-import -f xyz - | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'an outlier, or of a part that is left out'
+
 echo 'a solid has no surface, and gets a sound one'
 mr-make sphere --points 4000 | mr-export -l points -f xyz - |
 	awk '{ s = 1 - (NR % 10) / 11; print s * $1, s * $2, s * $3 }' >solid.xyz
