@@ -188,16 +188,28 @@ color(const char *s, double to[3])
 	return n == 1 || n == 3;
 }
 
-/* What is opaque, or where `inverse` is true, transparent. */
+/* d, with or without -halo, is 0 of what cannot be seen. */
 static void
-dissolve(mr_material *m, const char *s, bool inverse)
+dissolve(mr_material *m, const char *s)
 {
 	double x[3];
 
 	if (!strncmp(s, "-halo", 5))
 		s += 5 + strspn(s + 5, " \t");
-	if (numbers(s, x) > 0)
-		m->transparency = share(inverse ? x[0] : 1 - x[0]);
+	if (numbers(s, x) > 0) {
+		m->transparency = share(1 - x[0]);
+		m->dissolved = true;
+	}
+}
+
+/* Tr is the reverse of d, which goes before it; some programs write it as what d is, and 1 for all. */
+static void
+turn_transparent(mr_material *m, const char *s)
+{
+	double x[3];
+
+	if (!m->dissolved && numbers(s, x) > 0)
+		m->transparency = x[0] < 1 ? share(x[0]) : 0;
 }
 
 /* Those that say nothing where all their numbers are zero. */
@@ -269,9 +281,9 @@ describe(finder *f, size_t i, const char *line)
 	if ((rest = behind(line, "Ke")))
 		color(rest, m->emission);
 	if ((rest = behind(line, "d")))
-		dissolve(m, rest, false);
+		dissolve(m, rest);
 	if ((rest = behind(line, "Tr")))
-		dissolve(m, rest, true);
+		turn_transparent(m, rest);
 	if ((rest = behind(line, "map_Kd")))
 		MR_TRY(map(f, i, rest, &m->file));
 	if ((rest = behind(line, "norm")) || (rest = behind(line, "map_Kn")))

@@ -14,6 +14,7 @@ typedef struct mr_material {
 	double color[3];     /* Kd, from 0 to 1, as pictures have it */
 	double emission[3];  /* Ke, likewise */
 	double transparency; /* 1 - d, or Tr, from 0 to 1 */
+	bool dissolved;      /* by d */
 	const char *file;    /* the picture of map_Kd, which is there; NULL: none */
 	const char *normals; /* likewise of norm or map_Kn */
 	const char *heights; /* and of disp or map_disp: from 0 to 1, times the gain, plus the base */

@@ -48,7 +48,8 @@ echo '-- transparency and light are kept, and what is not is named' >&2
 model red green blue >model.obj
 cat >m.mtl <<'MTL'
 newmtl red
-d 0.25
+d -halo 0.25
+Tr 1
 Ke 1 0 0
 Ka 0 0 0
 Ns 100
@@ -56,7 +57,7 @@ newmtl green
 Tr 0.5
 map_bump b.png
 newmtl blue
-d -halo 1
+Tr 1
 Ke 0 0 0
 MTL
 mr-import model.obj | mr-export model.glb
