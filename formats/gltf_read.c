@@ -256,17 +256,6 @@ find_parts(gltf_reader *r)
 
 /* ---- vertices as the file has them ---- */
 
-static bool
-is_identity(const mr_affine *a)
-{
-	const mr_affine identity = mr_identity();
-
-	for (int i = 0; i < 12; i++)
-		if (a->m[i] != identity.m[i])
-			return false;
-	return true;
-}
-
 static mr_v3
 row(const mr_affine *a, int i)
 {
@@ -295,7 +284,7 @@ static mr_status
 read_positions(gltf_reader *r, const part *p, const mr_accessor *a)
 {
 	const mr_affine *map = &r->instance[p->instance].of->map;
-	bool moves = !is_identity(map);
+	bool moves = !mr_is_identity(map);
 
 	MR_TRY(mr_accessor_reals(&r->g, a, 3, &r->p[p->first].x));
 	for (size_t i = 0; i < p->count; i++) {
@@ -313,7 +302,7 @@ static mr_status
 read_normals(gltf_reader *r, const part *p, const mr_accessor *a)
 {
 	const mr_affine *map = &r->instance[p->instance].of->map;
-	bool moves = !is_identity(map);
+	bool moves = !mr_is_identity(map);
 
 	MR_TRY(mr_accessor_reals(&r->g, a, 3, &r->normal[p->first].x));
 	for (size_t i = 0; i < p->count; i++) {

@@ -26,9 +26,11 @@ typedef struct glb {
 	size_t bytes, room;
 	const char **image; /* files of the images so far */
 	size_t image_room;
-	size_t numbers; /* of vertices so far, over all layers */
-	bool numbered;  /* those of the layer at hand are, from there on */
-	size_t unnamed; /* the material of faces without one; MR_UNKNOWN: not there yet */
+	size_t numbers;  /* of vertices so far, over all layers */
+	bool numbered;   /* those of the layer at hand are, from there on */
+	size_t unnamed;  /* the material of faces without one; MR_UNKNOWN: not there yet */
+	unsigned unused; /* what materials have and the document has not, see materials.h */
+	size_t clipped;
 } glb;
 
 /* A layer on its way. */
@@ -228,22 +230,21 @@ static json_t *
 new_material(glb *w, const mr_material *look, size_t texture)
 {
 	json_t *json = json_object(), *surface = json_object(), *color = json_array();
-	bool colored = look && look->colored && texture == MR_UNKNOWN;
+	bool colored = look->colored && texture == MR_UNKNOWN;
 
 	for (int k = 0; k < 3; k++)
 		push(w, color, json_real(colored ? mr_srgb_to_linear(look->color[k]) : 1));
-	push(w, color, json_real(look ? 1 - look->transparency : 1));
+	push(w, color, json_real(look->opacity));
 	set(w, surface, "baseColorFactor", color);
-	set(w, surface, "metallicFactor", json_real(0));
-	set(w, surface, "roughnessFactor", json_real(0.9));
+	set(w, surface, "metallicFactor", json_real(look->metal));
+	set(w, surface, "roughnessFactor", json_real(look->roughness));
 	if (texture != MR_UNKNOWN)
 		set(w, surface, "baseColorTexture", texture_info(w, texture));
 	set(w, json, "pbrMetallicRoughness", surface);
 	set(w, json, "doubleSided", json_true());
-	if (look && look->transparency > 0)
+	if (look->opacity < 1)
 		set(w, json, "alphaMode", json_string("BLEND"));
-	if (look)
-		set_emission(w, json, look->emission);
+	set_emission(w, json, look->emission);
 	return json;
 }
 
@@ -297,7 +298,10 @@ put_materials(glb *w, layer *l)
 	if (!l->material)
 		return MR_EMEM;
 	MR_TRY(mr_materials_find(w->ctx, &l->node->model, w->scene->folder, &look, &count));
-	MR_TRY(mr_warn_of_others(w->ctx, look, count));
+	for (size_t i = 0; i < count; i++) {
+		w->unused |= look[i].unused;
+		w->clipped += look[i].clipped;
+	}
 	for (size_t i = 0; i < l->sets.materials; i++) {
 		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture = MR_UNKNOWN;
 		json_t *json;
@@ -320,7 +324,7 @@ material_of(glb *w, const layer *l, size_t f)
 	if (l->sets.material[f] < l->sets.materials)
 		return l->material[l->sets.material[f]];
 	if (w->unnamed == MR_UNKNOWN)
-		w->unnamed = push(w, w->materials, new_material(w, NULL, MR_UNKNOWN));
+		w->unnamed = push(w, w->materials, new_material(w, &mr_material_plain, MR_UNKNOWN));
 	return w->unnamed;
 }
 
@@ -853,6 +857,7 @@ put_document(glb *w)
 	mr_text json = { .ctx = w->ctx };
 
 	MR_TRY(put_scene(w));
+	MR_TRY(mr_materials_warn_of_lost(w->ctx, w->unused, w->clipped));
 	put_root(w);
 	put_lists(w);
 	if (w->failed || json_dump_callback(w->root, add_text, &json, JSON_COMPACT))

@@ -277,19 +277,37 @@ write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path
 	return mr_sink_close(&sink, MR_OK);
 }
 
-/* Warns of what control has of a file; those of earlier maps came with a range. */
+/* Whether control's material is of maps, as put_material has it. */
 static mr_status
-warn_of_replaced(mr_ctx *ctx, const mr_frame *f)
+is_mapped(mr_ctx *ctx, mr_frame *f, bool *is)
+{
+	const void *name, *file;
+	size_t n, bytes;
+
+	*is = mr_layer_has(f, "control", "materials") && mr_layer_has(f, "control", "mtllib");
+	if (!*is)
+		return MR_OK;
+	MR_TRY(mr_layer_get(ctx, f, "control", "materials", &name, &n));
+	MR_TRY(mr_layer_get(ctx, f, "control", "mtllib", &file, &bytes));
+	*is = bytes == n + 4 && !memcmp(file, name, n) && !memcmp((const char *)file + n, ".mtl", 4);
+	return MR_OK;
+}
+
+/* Warns of what control has that is not of earlier maps. */
+static mr_status
+warn_of_replaced(mr_ctx *ctx, mr_frame *f)
 {
 	static const char *const columns[] = { "texcoord", "corner_texcoord", "material" };
 	mr_text names = { .ctx = ctx };
+	bool mapped;
 	size_t n = 0;
 
-	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
+	MR_TRY(is_mapped(ctx, f, &mapped));
+	for (size_t i = 0; i < sizeof columns / sizeof *columns && !mapped; i++)
 		if (mr_layer_has(f, "control", columns[i]))
 			mr_text_name(&names, &n, columns[i]);
 	MR_TRY(mr_text_done(&names));
-	if (n && !mr_layer_has(f, "displacement", "range"))
+	if (n)
 		mr_warn(ctx, "control's own %s: replaced by those of the maps", names.s);
 	return MR_OK;
 }

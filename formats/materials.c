@@ -22,6 +22,8 @@ typedef struct finder {
 	const char *last_read, *first_gone;
 } finder;
 
+const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
+
 enum { NO_MATCH, MATCH_BUT_COMMENT, MATCH };
 
 /* ---- files ---- */
@@ -150,7 +152,7 @@ new_material(finder *f, const char *name)
 		if (match == NO_MATCH || match < f->match[i])
 			continue;
 		if (match > f->match[i])
-			f->list[i] = (mr_material){ 0 };
+			f->list[i] = mr_material_plain;
 		f->match[i] = match;
 		f->at[f->ats++] = i;
 	}
@@ -176,16 +178,20 @@ share(double x)
 	return x > 0 ? x < 1 ? x : 1 : 0;
 }
 
-/* One number is grey.  Whether there was a colour. */
+/* One number is grey.  false, and `to` as it is, where there is no colour; *clipped counts parts beyond 1. */
 static bool
-color(const char *s, double to[3])
+color(const char *s, double to[3], size_t *clipped)
 {
 	double x[3];
 	size_t n = numbers(s, x);
 
-	for (size_t k = 0; k < 3; k++)
-		to[k] = k < n ? share(x[k]) : n ? share(x[0]) : 0;
-	return n == 1 || n == 3;
+	if (n != 1 && n != 3)
+		return false;
+	for (size_t k = 0; k < 3; k++) {
+		to[k] = share(x[k < n ? k : 0]);
+		*clipped += x[k < n ? k : 0] > 1;
+	}
+	return true;
 }
 
 /* d, with or without -halo, is 0 of what cannot be seen. */
@@ -197,7 +203,7 @@ dissolve(mr_material *m, const char *s)
 	if (!strncmp(s, "-halo", 5))
 		s += 5 + strspn(s + 5, " \t");
 	if (numbers(s, x) > 0) {
-		m->transparency = share(1 - x[0]);
+		m->opacity = share(x[0]);
 		m->dissolved = true;
 	}
 }
@@ -209,28 +215,52 @@ turn_transparent(mr_material *m, const char *s)
 	double x[3];
 
 	if (!m->dissolved && numbers(s, x) > 0)
-		m->transparency = x[0] < 1 ? share(x[0]) : 0;
+		m->opacity = x[0] < 1 ? share(1 - x[0]) : 1;
 }
 
-/* Those that say nothing where all their numbers are zero. */
-static const char *const others[] = { "Ka", "Ks", "Ns", "Ni", "Tf", "illum", "sharpness", "map_Ka", "map_Ks",
-	"map_Ns", "map_d", "map_Ke", "bump", "map_bump", "decal", "refl", "Pr", "Pm", "Ps", "Pc", "Pcr",
-	"aniso", "anisor", "map_Pr", "map_Pm", "map_Ps" };
-
+/* One number from 0 to 1, where there is one. */
 static void
-note_others(mr_material *m, const char *line)
+set_share(double *to, const char *s)
 {
 	double x[3];
-	size_t n;
+
+	if (numbers(s, x) > 0)
+		*to = share(x[0]);
+}
+
+/* Statements that nothing is made of: those of numbers say nothing where all are neutral.  Ka, Ni, Ns and
+ * illum go with others, or are of a program's lights. */
+static const struct {
+	const char *name;
+	double neutral;
+} unused[] = { { "Ks", 0 }, { "Tf", 1 }, { "Ps", 0 }, { "Pc", 0 }, { "Pcr", 0 }, { "aniso", 0 },
+	{ "anisor", 0 }, { "map_Ka", 0 }, { "map_Ks", 0 }, { "map_Ns", 0 }, { "map_d", 0 }, { "map_Ke", 0 },
+	{ "bump", 0 }, { "map_bump", 0 }, { "decal", 0 }, { "refl", 0 }, { "map_Pr", 0 }, { "map_Pm", 0 },
+	{ "map_Ps", 0 } };
+
+enum { UNUSED = sizeof unused / sizeof *unused };
+
+_Static_assert(UNUSED <= 32, "a bit for each");
+
+static bool
+says_something(const char *s, double neutral)
+{
+	double x[3];
+	size_t n = numbers(s, x), same = 0;
+
+	while (same < n && x[same] == neutral)
+		same++;
+	return n == 0 || same < n;
+}
+
+static void
+note_unused(mr_material *m, const char *line)
+{
 	const char *rest;
 
-	for (size_t k = 0; k < sizeof others / sizeof *others; k++)
-		if ((rest = behind(line, others[k]))) {
-			for (n = numbers(rest, x); n > 0 && x[n - 1] == 0; n--)
-				;
-			if (n > 0 || numbers(rest, x) == 0)
-				m->others |= 1u << k;
-		}
+	for (size_t k = 0; k < UNUSED; k++)
+		if ((rest = behind(line, unused[k].name)) && says_something(rest, unused[k].neutral))
+			m->unused |= 1u << k;
 }
 
 /* to: the picture of material i. */
@@ -277,9 +307,9 @@ describe(finder *f, size_t i, const char *line)
 	const char *rest;
 
 	if ((rest = behind(line, "Kd")))
-		m->colored = color(rest, m->color);
+		m->colored |= color(rest, m->color, &m->clipped);
 	if ((rest = behind(line, "Ke")))
-		color(rest, m->emission);
+		color(rest, m->emission, &m->clipped);
 	if ((rest = behind(line, "d")))
 		dissolve(m, rest);
 	if ((rest = behind(line, "Tr")))
@@ -292,7 +322,11 @@ describe(finder *f, size_t i, const char *line)
 		modify(m, rest);
 		MR_TRY(map(f, i, rest, &m->heights));
 	}
-	note_others(m, line);
+	if ((rest = behind(line, "Pr")))
+		set_share(&m->roughness, rest);
+	if ((rest = behind(line, "Pm")))
+		set_share(&m->metal, rest);
+	note_unused(m, line);
 	return MR_OK;
 }
 
@@ -432,14 +466,16 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	if (!m->material || !m->materials.text)
 		return MR_OK;
 	MR_TRY(mr_lines_starts(ctx, m->materials, &f.name, &f.count));
-	f.list = MR_NEW_ZERO(ctx, f.count, mr_material);
+	f.list = MR_NEW(ctx, f.count, mr_material);
 	f.bare = MR_NEW(ctx, f.count, size_t);
 	f.match = MR_NEW_ZERO(ctx, f.count, unsigned char);
 	f.at = MR_NEW(ctx, f.count, size_t);
 	if (!f.list || !f.bare || !f.match || !f.at)
 		return MR_EMEM;
-	for (size_t i = 0; i < f.count; i++)
+	for (size_t i = 0; i < f.count; i++) {
+		f.list[i] = mr_material_plain;
 		f.bare[i] = before_comment(f.name[i], name_bytes(&f, i));
+	}
 	if (m->mtllib.text && m->mtllib.bytes) {
 		MR_TRY(mr_lines_starts(ctx, m->mtllib, &library, &libraries));
 		for (size_t i = 0; i < libraries; i++)
@@ -453,20 +489,19 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 }
 
 mr_status
-mr_warn_of_others(mr_ctx *ctx, const mr_material *list, size_t count)
+mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost, size_t clipped)
 {
 	mr_text names = { .ctx = ctx };
-	unsigned all = 0;
 	size_t n = 0;
 
-	for (size_t i = 0; i < count; i++)
-		all |= list[i].others;
-	for (size_t k = 0; k < sizeof others / sizeof *others; k++)
-		if (all >> k & 1)
-			mr_text_name(&names, &n, others[k]);
+	for (size_t k = 0; k < UNUSED; k++)
+		if (lost >> k & 1)
+			mr_text_name(&names, &n, unused[k].name);
 	mr_text_more(&names, n);
 	MR_TRY(mr_text_done(&names));
 	if (n)
-		mr_warn(ctx, "%s of the materials dropped: the format has no place for them", names.s);
+		mr_warn(ctx, "%s of the materials not kept", names.s);
+	if (clipped)
+		mr_warn(ctx, "%zu parts of colours of materials are clipped: they are beyond 1", clipped);
 	return MR_OK;
 }

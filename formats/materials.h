@@ -11,16 +11,21 @@
 
 typedef struct mr_material {
 	bool colored;
-	double color[3];     /* Kd, from 0 to 1, as pictures have it */
-	double emission[3];  /* Ke, likewise */
-	double transparency; /* 1 - d, or Tr, from 0 to 1 */
-	bool dissolved;      /* by d */
-	const char *file;    /* the picture of map_Kd, which is there; NULL: none */
-	const char *normals; /* likewise of norm or map_Kn */
-	const char *heights; /* and of disp or map_disp: from 0 to 1, times the gain, plus the base */
+	double color[3];         /* Kd, from 0 to 1, as pictures have it */
+	double emission[3];      /* Ke, likewise */
+	double opacity;          /* d, or 1 - Tr, from 0 to 1 */
+	bool dissolved;          /* by d */
+	double roughness, metal; /* Pr and Pm, from 0 to 1 */
+	const char *file;        /* the picture of map_Kd, which is there; NULL: none */
+	const char *normals;     /* likewise of norm or map_Kn */
+	const char *heights;     /* and of disp or map_disp: from 0 to 1, times the gain, plus the base */
 	double base, gain;
-	unsigned others; /* a bit for each statement that nothing here is made of */
+	unsigned unused; /* a bit for each statement that nothing here is made of */
+	size_t clipped;  /* parts of colours beyond 1 */
 } mr_material;
+
+/* What nothing is said of: opaque, of no metal, and rough as most things are. */
+extern const mr_material mr_material_plain;
 
 /*
  * What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
@@ -29,7 +34,8 @@ typedef struct mr_material {
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 
-/* Warns of the statements that nothing was made of, each named once. */
-mr_status mr_warn_of_others(mr_ctx *ctx, const mr_material *list, size_t count) MR_WARN_UNUSED;
+/* Warns of what a file cannot show: `unused` of all its materials, and how many parts of colours were
+ * clipped. */
+mr_status mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost, size_t clipped) MR_WARN_UNUSED;
 
 #endif

@@ -536,13 +536,14 @@ static mr_status
 warn_of_creases(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf)
 {
 	const uint8_t *mark;
-	size_t n = 0;
+	size_t sides = 0;
 
 	MR_TRY(mr_layer_crease(ctx, f, layer, nf, &mark));
 	for (size_t c = 0; mark && c < 3 * nf; c++)
-		n += mark[c] != 0;
-	if (n)
-		mr_warn(ctx, "%s: %zu marks of creases dropped: no format has a place for them", layer, n);
+		sides += mark[c] != 0;
+	if (sides)
+		mr_warn(
+		    ctx, "%s: %zu creases dropped: no format has a place for them", layer, (sides + 1) / 2);
 	return MR_OK;
 }
 
@@ -552,13 +553,14 @@ mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 	mr_model mesh;
 
 	MR_TRY(mr_model_get(ctx, f, layer, m));
-	MR_TRY(warn_of_creases(ctx, f, layer, m->nf));
+	if (f->key)
+		MR_TRY(warn_of_creases(ctx, f, layer, m->nf));
 	if (!strcmp(layer, "mesh") || m->nf == 0 || !mr_layer_has(f, "mesh", "triangles"))
 		return MR_OK;
 	MR_TRY(mr_model_get(ctx, f, "mesh", &mesh));
 	if (same_triangles(&mesh, m))
 		return borrow(ctx, &mesh, m);
-	return warn_of_rest(ctx, layer, &mesh, m);
+	return f->key ? warn_of_rest(ctx, layer, &mesh, m) : MR_OK;
 }
 
 mr_status

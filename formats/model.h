@@ -36,7 +36,7 @@ mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mod
 mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
 /* The same, as it is to be written: what the frame's mesh has on the same triangles and the layer has not is
- * added; what stays behind, of a mesh with other triangles, and creases, is warned of. */
+ * added; what stays behind, of a mesh with other triangles, and creases, is warned of with a key frame. */
 mr_status mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
 /* The texture coordinates of a corner, whose v runs upwards; NULL: none. */

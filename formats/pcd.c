@@ -18,6 +18,8 @@ typedef struct field {
 	size_t offset;
 	const char *name;
 	size_t property; /* its number, from 1; 0: none */
+	double value;    /* of the point at hand */
+	bool is_rounded;
 } field;
 
 typedef struct pcd {
@@ -361,17 +363,20 @@ is_wanted(const pcd *f, const field *d)
 	return d->property || f->of[d->role] == d;
 }
 
+/* The properties of the point that was read. */
 static mr_status
-take_property(pcd *f, const field *d, size_t row, double x, bool is_rounded)
+take_properties(pcd *f, size_t row)
 {
-	if (!d->property)
-		return MR_OK;
-	mr_build_rounded(&f->properties, d->property, is_rounded);
-	return mr_build_value(&f->properties, d->property, row, x);
+	for (const field *d = f->field; d < f->field + f->fields; d++)
+		if (d->property) {
+			mr_build_rounded(&f->properties, d->property, d->is_rounded);
+			MR_TRY(mr_build_value(&f->properties, d->property, row, d->value));
+		}
+	return MR_OK;
 }
 
 static mr_status
-read_binary(pcd *f, uint64_t i, size_t row, double value[ROLES], uint32_t *rgb)
+read_binary(pcd *f, uint64_t i, double value[ROLES], uint32_t *rgb)
 {
 	const unsigned char *p = (const unsigned char *)f->text.p;
 
@@ -379,15 +384,15 @@ read_binary(pcd *f, uint64_t i, size_t row, double value[ROLES], uint32_t *rgb)
 		return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: the file ends inside a point",
 		    (size_t)(f->text.end - f->text.start));
 	for (size_t k = 0; k < f->fields; k++) {
-		const field *d = &f->field[k];
+		field *d = &f->field[k];
 		const unsigned char *at = place_of(f, d, p, i);
 		if (!is_wanted(f, d))
 			continue;
 		if (d->role == RGB)
 			*rgb = mr_load32(at, false);
 		else
-			value[d->role] = binary_value(at, d);
-		MR_TRY(take_property(f, d, row, value[d->role], binary_rounded(at, d)));
+			value[d->role] = d->value = binary_value(at, d);
+		d->is_rounded = binary_rounded(at, d);
 	}
 	if (!f->packed)
 		f->text.p += f->stride;
@@ -395,7 +400,7 @@ read_binary(pcd *f, uint64_t i, size_t row, double value[ROLES], uint32_t *rgb)
 }
 
 static mr_status
-read_text(pcd *f, size_t row, double value[ROLES], uint32_t *rgb)
+read_text(pcd *f, double value[ROLES], uint32_t *rgb)
 {
 	mr_scan line;
 
@@ -403,7 +408,7 @@ read_text(pcd *f, size_t row, double value[ROLES], uint32_t *rgb)
 		if (!mr_scan_line(&f->text, &line))
 			return mr_scan_fail(&f->text, f->text.end, "the file ends before its last point");
 	while (mr_skip_blanks(&line), line.p == line.end);
-	for (const field *d = f->field; d < f->field + f->fields; d++)
+	for (field *d = f->field; d < f->field + f->fields; d++)
 		for (unsigned k = 0; k < d->count; k++) {
 			const char *word;
 			double x = 0;
@@ -412,7 +417,8 @@ read_text(pcd *f, size_t row, double value[ROLES], uint32_t *rgb)
 			MR_TRY(mr_scan_real(&line, "a number of a point", &x));
 			if (is_wanted(f, d))
 				value[d->role] = x;
-			MR_TRY(take_property(f, d, row, x, mr_whole_rounded(word, line.p, x)));
+			d->value = x;
+			d->is_rounded = mr_whole_rounded(word, line.p, x);
 		}
 	mr_skip_blanks(&line);
 	f->surplus += line.p < line.end;
@@ -436,10 +442,11 @@ read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count
 	size_t n = 0;
 
 	for (uint64_t i = 0; i < f->points; i++) {
-		MR_TRY(f->binary ? read_binary(f, i, n, v, &rgb) : read_text(f, n, v, &rgb));
+		MR_TRY(f->binary ? read_binary(f, i, v, &rgb) : read_text(f, v, &rgb));
 		p[n] = mr_vec(v[X], v[Y], v[Z]);
 		if (!mr_finite(p[n]))
 			continue;
+		MR_TRY(take_properties(f, n));
 		if (normal)
 			normal[n] = mr_vec(v[NX], v[NY], v[NZ]);
 		if (color) {

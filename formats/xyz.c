@@ -442,6 +442,17 @@ normal_is_behind(const table *t)
 	return first || second ? second : could_be_color(t, 3);
 }
 
+/* Warns where what is read as normals may be colours. */
+static void
+doubt_normals(const table *t, size_t at)
+{
+	if (are_shares(t, at) && !are_unit(t, at))
+		mr_warn(t->ctx,
+		    "columns %zu to %zu are read as normals, though not of length 1: colors of 0 to 1 need the "
+		    "line '# x y z red green blue' before them",
+		    at + 1, at + 3);
+}
+
 static void
 guess_pair(table *t)
 {
@@ -449,6 +460,7 @@ guess_pair(table *t)
 	size_t normal = behind ? 6 : 3, color = behind ? 3 : 6;
 
 	assign(t, normal, NX);
+	doubt_normals(t, normal);
 	if (could_be_color(t, color)) {
 		assign(t, color, RED);
 	} else if (are_unit(t, normal) && are_shares(t, color)) {
@@ -474,9 +486,8 @@ guess_roles(table *t)
 		assign(t, 3, RED);
 	else if (n >= 9)
 		guess_pair(t);
-	if (n == 6 && t->role[3] == NX && are_shares(t, 3) && !are_unit(t, 3))
-		mr_warn(t->ctx, "columns 4 to 6 are read as normals, though not of length 1: colors of 0 to "
-				"1 need the line '# x y z red green blue' before them");
+	if (n == 6 && t->role[3] == NX)
+		doubt_normals(t, 3);
 }
 
 /* ---- the model ---- */

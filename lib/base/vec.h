@@ -147,6 +147,17 @@ mr_identity(void)
 	return (mr_affine){ { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0 } };
 }
 
+static inline bool
+mr_is_identity(const mr_affine *a)
+{
+	const mr_affine identity = mr_identity();
+
+	for (int i = 0; i < 12; i++)
+		if (a->m[i] != identity.m[i])
+			return false;
+	return true;
+}
+
 /* a after b: the map x -> a(b(x)) */
 static inline mr_affine
 mr_compose(const mr_affine *a, const mr_affine *b)

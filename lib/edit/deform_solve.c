@@ -228,17 +228,6 @@ mr_deform_relax(mr_ctx *ctx, mr_deform *d, const mr_v3 *p, mr_v3 *out)
 
 /* Posing */
 
-static bool
-is_identity(const mr_affine *t)
-{
-	mr_affine identity = mr_identity();
-
-	for (int i = 0; i < 12; i++)
-		if (t->m[i] != identity.m[i])
-			return false;
-	return true;
-}
-
 mr_affine
 mr_deform_map(const mr_deform_maps *maps, uint32_t region)
 {
@@ -251,7 +240,7 @@ mr_deform_map(const mr_deform_maps *maps, uint32_t region)
 static mr_v3
 move(const mr_affine *t, mr_v3 p)
 {
-	return is_identity(t) ? p : mr_apply(t, p);
+	return mr_is_identity(t) ? p : mr_apply(t, p);
 }
 
 static mr_status
@@ -266,7 +255,7 @@ check_maps(mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps)
 		if (d->region[v] >= MR_REGION_HANDLE)
 			present[d->region[v] - MR_REGION_HANDLE] = true;
 	for (size_t h = 0; h < maps->count; h++)
-		if (!is_identity(&maps->t[h]) && (h >= d->handles || !present[h]))
+		if (!mr_is_identity(&maps->t[h]) && (h >= d->handles || !present[h]))
 			return mr_fail(ctx, MR_ERANGE, "handles: handle %zu has no vertex of %s to move", h,
 			    d->patch.mesh.name);
 	mr_mark_release(ctx, mark);

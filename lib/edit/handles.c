@@ -243,27 +243,25 @@ mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames)
 	return MR_OK;
 }
 
-/* Marks the handles, of n, whose vertices are others than before. */
+enum { HAD = 1, OTHERS = 2 };
+
+/* Of n handles those that had vertices before, and those whose vertices are others now. */
 static void
-mark_others(const uint32_t *before, const uint32_t *after, size_t nv, size_t n, bool *other)
+mark_handles(const uint32_t *before, const uint32_t *after, size_t nv, size_t n, uint8_t *mark)
 {
 	for (size_t v = 0; v < nv; v++) {
-		const uint32_t was = before ? before[v] : MR_REGION_FIXED, region[] = { was, after[v] };
-		for (int i = 0; was != after[v] && i < 2; i++)
+		const uint32_t region[] = { before[v], after[v] };
+		for (int i = 0; i < 2; i++)
 			if (region[i] >= MR_REGION_HANDLE && region[i] - MR_REGION_HANDLE < n)
-				other[region[i] - MR_REGION_HANDLE] = true;
+				mark[region[i] - MR_REGION_HANDLE] |=
+				    (uint8_t)((i == 0 ? HAD : 0) | (before[v] != after[v] ? OTHERS : 0));
 	}
 }
 
 static bool
 is_at_rest(const mr_handle_rows *row, size_t handle)
 {
-	const mr_affine rest = mr_identity();
-
-	for (int k = 0; k < 12; k++)
-		if (row->map[handle].m[k] != rest.m[k])
-			return false;
-	return mr_norm(row->turn[handle]) == 0;
+	return mr_is_identity(&row->map[handle]) && mr_norm(row->turn[handle]) == 0;
 }
 
 mr_status
@@ -271,20 +269,20 @@ mr_handles_reselected(mr_ctx *ctx, mr_frame *f, const uint32_t *before, const ui
 {
 	size_t frames, posed = 0, stale = 0, first = 0;
 	mr_handle_rows row;
-	bool *other;
+	uint8_t *mark;
 
 	if (!f->key || !mr_layer_has(f, "handles", "transform"))
 		return MR_OK;
 	MR_TRY(mr_handles_frames(ctx, f, &frames));
 	MR_TRY(mr_handles_rows(ctx, f, 0, &row));
-	if (!(other = MR_NEW_ZERO(ctx, row.n, bool)))
+	if (!(mark = MR_NEW_ZERO(ctx, row.n, uint8_t)))
 		return MR_EMEM;
-	mark_others(before, after, nv, row.n, other);
+	mark_handles(before, after, nv, row.n, mark);
 	for (size_t i = row.n; i-- > 0;)
-		if (frames > 0 || !is_at_rest(&row, i)) {
+		if ((mark[i] & HAD) && (frames > 0 || !is_at_rest(&row, i))) {
 			posed++;
-			stale += other[i];
-			first = other[i] ? i : first;
+			stale += (mark[i] & OTHERS) != 0;
+			first = mark[i] & OTHERS ? i : first;
 		}
 	if (stale)
 		mr_warn(ctx,

@@ -58,11 +58,11 @@ mr_status mr_handles_pose(
 void mr_handles_drop(mr_frame *f);
 
 /*
- * Warns, of key frames, of handles that are posed, or will be in a sequence, where other vertices are in
- * them: before (NULL: no region was there) and after are the regions of nv vertices.
+ * Warns, of key frames, of handles that are posed, or may be in a sequence, and have other vertices than they
+ * had: before and after are the regions of nv vertices.
  */
-mr_status
-mr_handles_reselected(mr_ctx *ctx, mr_frame *f, const uint32_t *before, const uint32_t *after, size_t nv);
+mr_status mr_handles_reselected(
+    mr_ctx *ctx, mr_frame *f, const uint32_t *before, const uint32_t *after, size_t nv) MR_WARN_UNUSED;
 
 /* How many deltas follow the key, as far as handles have said; 0: not known. */
 mr_status mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames);

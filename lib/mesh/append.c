@@ -354,23 +354,28 @@ came_before(const joined *j, size_t i, const char *name)
 	return false;
 }
 
-/* Warns of a surface that comes of fewer frames than another: what works on it leaves the rest out. */
+static bool
+has_surface(const mr_frame *f)
+{
+	for (size_t k = 0; k < f->count; k++)
+		if (*f->columns[k].layer && !mr_layer_no_surface(f->columns[k].layer))
+			return true;
+	return false;
+}
+
+/* Warns of a surface that not all frames with one have: what works on it leaves the rest out. */
 static void
 warn_of_absent(mr_ctx *ctx, const joined *j)
 {
-	static const char *const surfaces[] = { "mesh", "control", "base" };
-	size_t n = frames_with(j, j->layer), most = n;
-	const char *other = NULL;
+	size_t n = frames_with(j, j->layer), all = 0;
 
-	for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces; i++) {
-		size_t with = frames_with(j, surfaces[i]);
-		other = with > most ? surfaces[i] : other;
-		most = with > most ? with : most;
-	}
-	if (other && !mr_layer_no_surface(j->layer))
-		mr_warn(ctx,
-		    "%s comes of %zu of %zu frames only, %s of %zu: tools that work on %s leave the rest out",
-		    j->layer, n, j->n, other, most, j->layer);
+	if (mr_layer_no_surface(j->layer))
+		return;
+	for (size_t i = 0; i < j->n; i++)
+		all += has_surface(j->frames[i]);
+	if (n < all)
+		mr_warn(ctx, "%s comes of %zu of %zu frames only: tools that work on %s leave the rest out",
+		    j->layer, n, all, j->layer);
 }
 
 /* The text of a frame's column, of no bytes where that has none. */
@@ -384,40 +389,69 @@ text_of(mr_ctx *ctx, const joined *j, size_t i, const char *name, const void **t
 	           : MR_OK;
 }
 
-/* Warns of materials that have one name in different files: whoever reads the files takes one for all. */
+/* A material of the layer, and the files of the first frame that has it. */
+typedef struct source {
+	const char *files;
+	size_t bytes;
+	bool mixed;
+} source;
+
+/* Whether two lists of files have one in common. */
+static mr_status
+share_file(mr_ctx *ctx, const source *a, const source *b, bool *share)
+{
+	lines all = { 0 };
+	uint32_t *number;
+	size_t of_a, of_b, distinct;
+
+	MR_TRY(add_lines(ctx, &all, a->files, a->bytes, &number, &of_a));
+	distinct = all.count;
+	MR_TRY(add_lines(ctx, &all, b->files, b->bytes, &number, &of_b));
+	*share = false;
+	for (size_t k = 0; k < of_b; k++)
+		*share |= number[k] < distinct;
+	return MR_OK;
+}
+
+/* What a frame adds to the materials: number, of its names, is from `known` on of those that are new. */
+static mr_status
+note_source(mr_ctx *ctx, const source *own, const uint32_t *number, size_t count, size_t known, source *of)
+{
+	for (size_t k = 0; k < count; k++) {
+		source *first = &of[number[k]];
+		bool share = true;
+		if (number[k] >= known)
+			*first = *own;
+		else if (!first->mixed)
+			MR_TRY(share_file(ctx, first, own, &share));
+		first->mixed |= !share;
+	}
+	return MR_OK;
+}
+
+/* Warns of materials that have one name in different files: whoever reads these takes one for all. */
 static mr_status
 warn_of_mixed(mr_ctx *ctx, const joined *j)
 {
-	struct {
-		const void *files; /* of the first frame that has the name */
-		size_t bytes;
-		bool mixed;
-	} *material = NULL;
+	source *of = NULL, own = { 0 };
 	lines names = { 0 };
-	size_t n, bytes, count, room = 0, mixed = 0;
+	size_t n, count, room = 0, mixed = 0;
 	const void *text, *files;
 	uint32_t *number;
 
 	for (size_t i = 0; i < j->n; i++) {
 		size_t known = names.count;
 		MR_TRY(text_of(ctx, j, i, "materials", &text, &n));
-		MR_TRY(text_of(ctx, j, i, "mtllib", &files, &bytes));
+		MR_TRY(text_of(ctx, j, i, "mtllib", &files, &own.bytes));
+		own.files = files;
 		if (n == 0)
 			continue;
 		MR_TRY(add_lines(ctx, &names, text, n, &number, &count));
-		MR_TRY(MR_RESERVE(ctx, material, known, names.count - known, &room));
-		for (size_t k = 0; k < count; k++) {
-			size_t m = number[k];
-			if (m >= known) {
-				material[m].files = files;
-				material[m].bytes = bytes;
-				material[m].mixed = false;
-			} else if (material[m].bytes != bytes || memcmp(material[m].files, files, bytes)) {
-				mixed += !material[m].mixed;
-				material[m].mixed = true;
-			}
-		}
+		MR_TRY(MR_RESERVE(ctx, of, known, names.count - known, &room));
+		MR_TRY(note_source(ctx, &own, number, count, known, of));
 	}
+	for (size_t m = 0; m < names.count; m++)
+		mixed += of[m].mixed;
 	if (mixed)
 		mr_warn(ctx,
 		    "%s: frames with different mtllib have %zu material%s of the same name: it is one here",

@@ -133,13 +133,18 @@ bool
 mr_are_labels(mr_shape shape, const void *values, size_t rows)
 {
 	const double *x = values;
-	size_t i = 0;
+	size_t known = 0;
 
 	if (shape.type != 'd')
 		return true;
-	while (shape.components == 1 && i < rows && isfinite(x[i]) && x[i] == floor(x[i]))
-		i++;
-	return i > 0 && i == rows;
+	if (shape.components > 1)
+		return false;
+	for (size_t i = 0; i < rows; i++) {
+		if (isfinite(x[i]) && x[i] != floor(x[i]))
+			return false;
+		known += isfinite(x[i]);
+	}
+	return known > 0;
 }
 
 bool

@@ -28,7 +28,7 @@ bool mr_column_known(const char *layer, const char *name);
 bool mr_column_carried(const mr_column *c, const char *layer);
 
 /* Whether the values are labels, which have no mean: other than doubles, or doubles, one a row, all of which are
- * whole, as a file's int is and, of some programs, its float. */
+ * whole or missing (not finite), as a file's int is and, of some programs, its float. */
 bool mr_are_labels(mr_shape shape, const void *values, size_t rows);
 
 /* True for a layer that by convention holds something else than a surface. */

@@ -10,7 +10,8 @@ enum { FEWEST = 256, WIDEST = 512, LOOKS = 512, GRAIN = 16 };
 typedef struct look {
 	const mr_v3 *p;
 	size_t k;
-	const uint32_t *index; /* WIDEST of each, nearest first */
+	const uint32_t *index; /* `wide` of each, nearest first */
+	size_t wide;
 	double *variation;
 } look;
 
@@ -22,7 +23,7 @@ look_around(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		for (size_t j = 0; j < l->k; j++)
-			q[j] = l->p[l->index[i * WIDEST + j]];
+			q[j] = l->p[l->index[i * l->wide + j]];
 		mr_plane_fit(q, l->k, &l->variation[i]);
 	}
 }
@@ -31,21 +32,26 @@ mr_status
 mr_cloud_scatter(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double *scatter)
 {
 	static const size_t nearest[] = { 32, 128, WIDEST };
-	mr_mark mark = mr_mark_take(ctx);
-	size_t looks = n < LOOKS ? n : LOOKS;
-	mr_v3 *q = MR_NEW(ctx, looks, mr_v3);
-	uint32_t *index = MR_NEW(ctx, looks * WIDEST, uint32_t);
-	double *variation = MR_NEW(ctx, looks, double), least = 1;
+	const size_t sizes = n < 16 * WIDEST ? 2 : 3, wide = nearest[sizes - 1], looks = n < LOOKS ? n : LOOKS;
+	double *variation, least = 1;
+	uint32_t *index;
+	mr_mark mark;
+	mr_v3 *q;
 
-	*scatter = 0;
+	if (n < FEWEST) {
+		*scatter = 0;
+		return MR_OK;
+	}
+	mark = mr_mark_take(ctx);
+	q = MR_NEW(ctx, looks, mr_v3);
+	index = MR_NEW(ctx, looks * wide, uint32_t);
+	variation = MR_NEW(ctx, looks, double);
 	if (!q || !index || !variation)
 		return MR_EMEM;
-	if (n < FEWEST)
-		return MR_OK;
 	mr_at_strides(p, n, looks, q);
-	MR_TRY(mr_near_query(ctx, near, q, looks, WIDEST, index, NULL));
-	for (size_t i = 0; i < 3 && (i < 2 || n >= 16 * nearest[i]); i++) {
-		look l = { p, nearest[i], index, variation };
+	MR_TRY(mr_near_query(ctx, near, q, looks, wide, index, NULL));
+	for (size_t i = 0; i < sizes; i++) {
+		look l = { p, nearest[i], index, wide, variation };
 		mr_parallel(ctx, looks, GRAIN, look_around, &l);
 		least = fmin(least, mr_kth(variation, looks, looks / 2));
 	}

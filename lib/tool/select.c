@@ -44,12 +44,11 @@ first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool reset, uint32_t *
 static mr_status
 look_at_poses(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region)
 {
-	const uint32_t *before = NULL;
+	const uint32_t *before;
 
-	if (mr_layer_no_surface(m->name))
+	if (mr_layer_no_surface(m->name) || !mr_layer_has(f, m->name, "region"))
 		return MR_OK;
-	if (mr_layer_has(f, m->name, "region"))
-		MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &before));
+	MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &before));
 	return mr_handles_reselected(ctx, f, before, region, m->nv);
 }
 

@@ -58,3 +58,8 @@ sed 's/^o one/mtllib a.mtl/' square.obj >a.obj
 sed 's/^o two/mtllib b.mtl/' triangle.obj >b.obj
 mr-import a.obj b.obj 2>/dev/null | mr-cat --append | mr-info | grep -c mtllib
 mr-import a.obj a.obj 2>/dev/null | mr-cat --append | mr-info | grep -c mtllib # nothing to say
+sed 's/b\.mtl/&\nmtllib a.mtl/' b.obj >both.obj
+mr-import a.obj both.obj 2>/dev/null | mr-cat --append | mr-info | grep -c mtllib # may be the same
+
+echo 'surfaces of one frame each'
+mr-import -l control triangle.obj | mr-cat --append smooth.mrs - | mr-info | grep -E '^  (mesh|base|control):'
