@@ -277,18 +277,18 @@ write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path
 	return mr_sink_close(&sink, MR_OK);
 }
 
-/* Whether control's material is of maps, as put_material has it. */
+/* Whether the layer's material is of maps, as put_material has it. */
 static mr_status
-is_mapped(mr_ctx *ctx, mr_frame *f, bool *is)
+is_mapped(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
 {
 	const void *name, *file;
 	size_t n, bytes;
 
-	*is = mr_layer_has(f, "control", "materials") && mr_layer_has(f, "control", "mtllib");
+	*is = mr_layer_has(f, layer, "materials") && mr_layer_has(f, layer, "mtllib");
 	if (!*is)
 		return MR_OK;
-	MR_TRY(mr_layer_get(ctx, f, "control", "materials", &name, &n));
-	MR_TRY(mr_layer_get(ctx, f, "control", "mtllib", &file, &bytes));
+	MR_TRY(mr_layer_get(ctx, f, layer, "materials", &name, &n));
+	MR_TRY(mr_layer_get(ctx, f, layer, "mtllib", &file, &bytes));
 	*is = bytes == n + 4 && !memcmp(file, name, n) && !memcmp((const char *)file + n, ".mtl", 4);
 	return MR_OK;
 }
@@ -302,7 +302,7 @@ warn_of_replaced(mr_ctx *ctx, mr_frame *f)
 	bool mapped;
 	size_t n = 0;
 
-	MR_TRY(is_mapped(ctx, f, &mapped));
+	MR_TRY(is_mapped(ctx, f, "control", &mapped));
 	for (size_t i = 0; i < sizeof columns / sizeof *columns && !mapped; i++)
 		if (mr_layer_has(f, "control", columns[i]))
 			mr_text_name(&names, &n, columns[i]);
@@ -352,6 +352,34 @@ put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
 }
 
 /* ---- writing ---- */
+
+/* Refuses the name of a file that materials of the frame are in, and that no maps have made. */
+static mr_status
+check_library(mr_ctx *ctx, mr_frame *f, const char *name)
+{
+	static const char *const layers[] = { "mesh", "control", "base" };
+	const char *own = mr_format(ctx, "%s.mtl", name_of(name)), **library;
+	const void *files;
+	size_t bytes, count;
+	bool mapped;
+
+	if (!own)
+		return MR_EMEM;
+	for (size_t i = 0; i < sizeof layers / sizeof *layers; i++) {
+		if (!mr_layer_has(f, layers[i], "mtllib"))
+			continue;
+		MR_TRY(is_mapped(ctx, f, layers[i], &mapped));
+		MR_TRY(mr_layer_get(ctx, f, layers[i], "mtllib", &files, &bytes));
+		MR_TRY(mr_lines_starts(ctx, (mr_lines){ files, bytes }, &library, &count));
+		for (size_t k = 0; k < count && !mapped; k++)
+			if (!strncmp(library[k], own, strlen(own)) &&
+			    library[k + 1] - library[k] - 1 == (ptrdiff_t)strlen(own))
+				return mr_fail(ctx, MR_EUSAGE,
+				    "%s has the materials of %s, and would be lost: give another name", own,
+				    layers[i]);
+	}
+	return MR_OK;
+}
 
 /* It is a material's name, too, on a line of its own. */
 static mr_status
@@ -417,6 +445,7 @@ mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts
 
 	mr_unmeasured(&found, sizeof found);
 	MR_TRY(check_name(ctx, name));
+	MR_TRY(check_library(ctx, f, name));
 	MR_TRY(prepare(ctx, f, opts ? opts : &defaults, &m));
 	MR_TRY(write_files(ctx, &m, name, &found));
 	MR_TRY(warn_of_replaced(ctx, f));

@@ -147,3 +147,12 @@ echo "-- control's own texture coordinates"
 mr-make sphere -n 60 --texcoords | mr-export own.obj
 mr-import -l control own.obj -o own.mrs
 mr-make sphere -n 900 | mr-cat --merge - own.mrs | mr-sample -q -n 1 | mr-map -w own | mr-equalize -g 1 | mr-map -w again | mr-info | grep texcoord
+
+echo "-- a file of the model's own materials is not written over"
+{ echo 'mtllib keep.mtl' && cat own.obj; } >kept.obj
+echo 'newmtl own' >keep.mtl
+mr-make sphere -n 900 | mr-export body.obj
+mr-import -q -l control kept.obj -o kept.mrs
+mr-import body.obj | mr-cat --merge - kept.mrs | mr-sample -q -n 1 -o kept-scan.mrs
+refused -w keep kept-scan.mrs
+cat keep.mtl
