@@ -1,4 +1,4 @@
-/* The weights by which handles' rotations are interpolated, and the centroids of their sections. */
+/* The weights by which handles' rotations are interpolated. */
 #include "edit/deform_clusters.h"
 #include "op/laplace.h"
 
@@ -64,62 +64,18 @@ ease_weights(double *w, size_t n)
 		w[j] /= sum;
 }
 
-/* Centroids by the energy of the weight, area times its squared gradient: what does not turn has no say. */
-static void
-find_sections(const mr_deform *d, mr_rotations *r, size_t j)
-{
-	double sum[MR_SECTIONS + 1] = { 0 };
-	mr_v3 *c = r->section[j];
-	int last = -1;
-
-	memset(c, 0, sizeof *r->section);
-	for (size_t f = 0; f < d->patch.mesh.nf; f++) {
-		const uint32_t *v = d->patch.mesh.t[f].v;
-		double w[3], energy = 0, at;
-		mr_v3 center = mr_vec(0, 0, 0);
-		int k;
-		for (int i = 0; i < 3; i++) {
-			w[i] = r->weight[r->count * v[i] + j];
-			center = mr_axpy(1.0 / 3, d->patch.mesh.p[v[i]], center);
-		}
-		for (int i = 0; i < 3; i++) {
-			double difference = w[(i + 1) % 3] - w[(i + 2) % 3];
-			energy += r->cot[f][i] * difference * difference;
-		}
-		at = MR_SECTIONS * (w[0] + w[1] + w[2]) / 3;
-		k = at < MR_SECTIONS ? (int)at : MR_SECTIONS - 1;
-		for (int i = 0; i < 2 && energy > 0; i++) {
-			double share = energy * (i ? at - k : 1 - (at - k));
-			c[k + i] = mr_axpy(share, center, c[k + i]);
-			sum[k + i] += share;
-		}
-	}
-	for (int k = 0; k <= MR_SECTIONS; k++) {
-		if (!(sum[k] > 0))
-			continue;
-		c[k] = mr_mul(1 / sum[k], c[k]);
-		for (int i = last + 1; i < k; i++) /* those between have no face */
-			c[i] = last < 0 ? c[k] : mr_lerp((double)(i - last) / (k - last), c[last], c[k]);
-		last = k;
-	}
-	for (int k = last + 1; k <= MR_SECTIONS && last >= 0; k++)
-		c[k] = c[last];
-}
-
 static mr_status
 make_room(mr_ctx *ctx, const mr_mesh *m, mr_rotations *r)
 {
 	r->cot = mr_alloc(ctx, m->nf, sizeof *r->cot);
 	r->weight = MR_NEW(ctx, m->nv * r->count, double);
-	r->section = mr_alloc(ctx, r->count, sizeof *r->section);
 	r->rest = MR_NEW(ctx, m->nv, mr_v3);
 	r->q = MR_NEW(ctx, m->nv, mr_v3);
 	r->before = MR_NEW(ctx, m->nv, mr_v3);
 	r->map = MR_NEW(ctx, m->nv, mr_mat3);
 	r->face = MR_NEW(ctx, 9 * m->nf, double);
 	r->source = MR_NEW(ctx, 3 * m->nv, double);
-	if (!r->cot || !r->weight || !r->section || !r->rest || !r->q || !r->before || !r->map || !r->face ||
-	    !r->source)
+	if (!r->cot || !r->weight || !r->rest || !r->q || !r->before || !r->map || !r->face || !r->source)
 		return MR_EMEM;
 	return mr_incidence_build(ctx, m, &r->around);
 }
@@ -144,8 +100,7 @@ make(mr_ctx *ctx, mr_deform *d, mr_rotations *r)
 	MR_TRY(solve_weights(ctx, r->membrane, r));
 	for (size_t i = 0; i < m->nv; i++)
 		ease_weights(r->weight + r->count * i, r->count);
-	for (size_t j = 0; j < r->count; j++)
-		find_sections(d, r, j);
+	MR_TRY(mr_sections_find(ctx, m, r));
 	return d->opts.rounds || d->opts.fitted ? mr_volume_make(ctx, d, &r->volume) : MR_OK;
 }
 

@@ -141,20 +141,21 @@ interpolate(void *arg, size_t begin, size_t end)
 
 /* Sources */
 
-/* The centroid of the section of a handle through a face, of which `weight` is the mean. */
+/* The centroid of the section of handle j through a face, of which `weight` is the mean. */
 static mr_v3
-section_at(const mr_v3 *section, double weight)
+section_at(const mr_rotations *r, size_t f, size_t j, double weight)
 {
+	const uint32_t *section = r->section[r->count * f + j];
 	double at = MR_SECTIONS * weight;
-	int k = at < MR_SECTIONS ? (int)at : MR_SECTIONS - 1;
 
-	return mr_lerp(at - k, section[k], section[k + 1]);
+	return mr_lerp(at - mr_section_below(at), r->center[section[0]], r->center[section[1]]);
 }
 
 /* The place about which a face turns: the sections of several handles count by how much they turn there. */
 static mr_v3
-center_of(const turning *t, const uint32_t v[3])
+center_of(const turning *t, size_t f)
 {
+	const uint32_t *v = t->d->patch.mesh.t[f].v;
 	mr_v3 sum = mr_vec(0, 0, 0);
 	double all = 0;
 
@@ -166,7 +167,9 @@ center_of(const turning *t, const uint32_t v[3])
 			moves += t->by[j].m[i] * t->by[j].m[i];
 		share = fmax(a, fmax(b, c)) - fmin(a, fmin(b, c));
 		share *= share * moves;
-		sum = mr_axpy(share, section_at(t->r->section[j], (a + b + c) / 3), sum);
+		if (!(share > 0))
+			continue;
+		sum = mr_axpy(share, section_at(t->r, f, j, (a + b + c) / 3), sum);
 		all += share;
 	}
 	return all > 0 ? mr_mul(1 / all, sum) : t->r->rest[v[0]];
@@ -174,9 +177,10 @@ center_of(const turning *t, const uint32_t v[3])
 
 /* Where the corners of a face go, about their section. */
 static void
-move_about_section(const turning *t, const uint32_t v[3], mr_v3 p[3])
+move_about_section(const turning *t, size_t f, mr_v3 p[3])
 {
-	mr_v3 center = center_of(t, v);
+	const uint32_t *v = t->d->patch.mesh.t[f].v;
+	mr_v3 center = center_of(t, f);
 
 	for (int k = 0; k < 3; k++) {
 		mr_mat3 a = mr_mat3_axpy(-1, &t->whole, &t->r->map[v[k]]);
@@ -220,7 +224,7 @@ face_sources(void *arg, size_t begin, size_t end)
 		const uint32_t *v = t->d->patch.mesh.t[f].v;
 		mr_v3 *out = (mr_v3 *)t->r->face + 3 * f, p[3];
 		if (t->sections)
-			move_about_section(t, v, p);
+			move_about_section(t, f, p);
 		else
 			move_about_face(t, v, p);
 		for (int k = 0; k < 3; k++) {

@@ -14,8 +14,9 @@
  * Gradients that are turned and no more belong to no surface: a tube of radius r that is twisted by a radians
  * a unit of its length also shears, by r a, and where its gradients deny that it shrinks, to
  * r / (1 + r^2 a^2).  So each face takes the gradient of A (p - c), of which the weights' gradient is a part,
- * c being the centroid of the section through it, the level set of its weight: sections stay plane as a
- * beam's do.  A twist, by however many turns, is then exact.
+ * c being the centroid of the section through it, the piece of its weight's level set: sections stay plane as
+ * a beam's do.  A twist, by however many turns, is then exact.  Of several limbs, at one handle or where one
+ * branches, each has sections of its own.
  *
  * What is as rigid as possible is a shell, which rather pinches and buckles than stretches.  After a round,
  * where the free part encloses less than nine tenths of its volume, it is blown up to that by a pressure that
@@ -43,7 +44,9 @@ struct mr_rotations {
 	size_t count;        /* handles with weights: all but what moves the whole */
 	uint32_t *region;    /* of each, count */
 	double *weight;      /* count for each vertex */
-	mr_v3 (*section)[MR_SECTIONS + 1]; /* of each handle, by its weight */
+	mr_v3 *center;       /* of each section */
+	uint32_t (
+	    *section)[2]; /* of each face and handle, its sections at the levels below and above its weight */
 	/* Workspace, kept from pose to pose. */
 	mr_v3 *rest, *q, *before; /* a vertex each */
 	mr_mat3 *map;             /* A of each vertex */
@@ -52,6 +55,16 @@ struct mr_rotations {
 	mr_volume volume;         /* for rounds, and what is fitted */
 	mr_clusters *clusters;    /* NULL: rotations are interpolated, no more */
 };
+
+/* The level below a weight in levels, and not the last. */
+static inline int
+mr_section_below(double level)
+{
+	return level < MR_SECTIONS ? (int)level : MR_SECTIONS - 1;
+}
+
+/* Puts center and section, of weights that are there. */
+mr_status mr_sections_find(mr_ctx *ctx, const mr_mesh *m, mr_rotations *r);
 
 /* Makes d->rotations, once. */
 mr_status mr_rotations_make(mr_ctx *ctx, mr_deform *d);

@@ -1,6 +1,7 @@
 /* The volume of what is free, which rounds lose: pressure gives it back. */
 #include "edit/deform_volume.h"
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "mesh/edges.h"
 
@@ -22,6 +23,28 @@ open_sides(const mr_mesh *m, const mr_edges *edges, size_t e)
 	return sides;
 }
 
+/* Numbers the loops of the rim, each of which has a cap. */
+static mr_status
+number_caps(mr_ctx *ctx, size_t nv, mr_rim *rim, mr_volume *v)
+{
+	uint32_t *set = mr_sets_new(ctx, nv), *cap = MR_NEW(ctx, nv, uint32_t);
+
+	if (!set || !cap)
+		return MR_EMEM;
+	for (size_t i = 0; i < nv; i++)
+		cap[i] = MR_NONE;
+	for (size_t e = 0; e < v->rims; e++)
+		mr_sets_join(set, rim[e].from, rim[e].to);
+	for (size_t e = 0; e < v->rims; e++) {
+		uint32_t *own = &cap[mr_sets_root(set, rim[e].from)];
+		*own = *own == MR_NONE ? (uint32_t)v->caps++ : *own;
+		rim[e].cap = *own;
+	}
+	v->center = MR_NEW(ctx, v->caps, mr_v3);
+	v->sides = MR_NEW(ctx, v->caps, double);
+	return v->center && v->sides ? MR_OK : MR_EMEM;
+}
+
 /* A rim has to go as one constraint goes. */
 mr_status
 mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v)
@@ -34,15 +57,12 @@ mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v)
 	own.nf = d->patch.own; /* without the triangles between parts that touch */
 	MR_TRY(mr_edges_build(ctx, m, &edges));
 	rim = MR_NEW(ctx, edges.count, mr_rim);
-	v->center = MR_NEW(ctx, d->handles + 1, mr_v3);
-	v->sides = MR_NEW(ctx, d->handles + 1, double);
-	if (!rim || !v->center || !v->sides)
+	if (!rim)
 		return MR_EMEM;
 	v->encloses = true;
 	v->t = m->t;
 	v->nf = m->nf;
 	v->rim = rim;
-	v->caps = d->handles + 1;
 	for (size_t e = 0; e < edges.count; e++) {
 		uint32_t h = edges.he[edges.start[e]], a = mr_he_from(m, h), b = mr_he_to(m, h);
 		uint32_t region = d->region[d->patch.vertex[a]];
@@ -50,10 +70,9 @@ mr_volume_make(mr_ctx *ctx, const mr_deform *d, mr_volume *v)
 		if (sides == 0)
 			continue;
 		v->encloses &= region != MR_REGION_FREE && region == d->region[d->patch.vertex[b]];
-		rim[v->rims++] = (mr_rim){ a, b, sides,
-			region == MR_REGION_FIXED ? (uint32_t)d->handles : region - MR_REGION_HANDLE };
+		rim[v->rims++] = (mr_rim){ a, b, sides, 0 };
 	}
-	return MR_OK;
+	return number_caps(ctx, m->nv, rim, v);
 }
 
 static double
@@ -67,7 +86,7 @@ face_volume(void *arg, size_t f)
 	       6;
 }
 
-/* The middle of each constraint's rim, which goes as that does. */
+/* The middle of each loop of the rim, which goes as its constraint does. */
 static void
 find_centers(const solid *s)
 {

@@ -14,10 +14,10 @@
 typedef struct mr_rim {
 	uint32_t from, to;
 	int sides;
-	uint32_t cap; /* of its constraint */
+	uint32_t cap; /* of its loop */
 } mr_rim;
 
-/* Cones over the rims of each constraint close the surface. */
+/* Cones over the loops of the rim close the surface. */
 typedef struct mr_volume {
 	bool encloses; /* else there is none: the surface has a boundary that is free */
 	const mr_tri *t;
