@@ -547,16 +547,24 @@ mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const c
 }
 
 mr_status
+mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
+{
+	mr_text names;
+	size_t n;
+
+	MR_TRY(list_given(ctx, f, layer, from, &names, &n));
+	if (n)
+		mr_warn(ctx, "%s is made anew, without its %s", layer, names.s);
+	return MR_OK;
+}
+
+mr_status
 mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
 	bool normals = mr_layer_has(f, layer, "normal") || mr_layer_has(f, layer, "corner_normal");
-	mr_text names;
 	mr_v3 *normal;
-	size_t n;
 
-	MR_TRY(list_given(ctx, f, layer, NULL, &names, &n));
-	if (n)
-		mr_warn(ctx, "%s is made anew, without its %s", layer, names.s);
+	MR_TRY(mr_layer_warn_of_loss(ctx, f, layer, NULL));
 	MR_TRY(mr_layer_put_mesh(ctx, f, layer, m));
 	if (!normals)
 		return MR_OK;

@@ -27,8 +27,8 @@ bool mr_column_known(const char *layer, const char *name);
  * or none by convention of any of these. */
 bool mr_column_carried(const mr_column *c, const char *layer);
 
-/* Whether the values are labels, which have no mean: other than doubles, or doubles, one a row, all of which are
- * whole or missing (not finite), as a file's int is and, of some programs, its float. */
+/* Whether the values are labels, which have no mean: other than doubles, or doubles, one a row, all of which
+ * are whole or missing (not finite), as a file's int is and, of some programs, its float. */
 bool mr_are_labels(mr_shape shape, const void *values, size_t rows);
 
 /* True for a layer that by convention holds something else than a surface. */
@@ -61,6 +61,10 @@ mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer
  * normals, and warns, of key frames, of what else a file gave to that and this has not.
  */
 mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m);
+
+/* Warns, of key frames, of what a file gave to the layer that is to be replaced and `from`, of whose columns
+ * it will be (NULL: of none), has not. */
+mr_status mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);
 
 /* Warns, of key frames, of what a file gave to `from` that `layer`, which was made from it, has not. */
 mr_status mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);

@@ -223,6 +223,8 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
 	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;
+	if (o.to)
+		MR_TRY(mr_layer_warn_of_loss(ctx, f, o.to, NULL));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
 	if (width > 0)
 		MR_TRY(put_creases(ctx, f, &out, &points, width, &r.creases));

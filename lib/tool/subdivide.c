@@ -59,9 +59,10 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 	MR_TRY(mr_refine_columns(ctx, f, layer, r, &carried, &n));
 	if (r->level)
 		MR_TRY(turn_normals(ctx, r, carried, n));
-	if (strcmp(layer, "mesh"))
+	if (strcmp(layer, "mesh")) {
+		MR_TRY(mr_layer_warn_of_loss(ctx, f, "mesh", layer));
 		mr_frame_drop(f, "mesh", NULL, 0);
-	else if (mr_layer_has(f, "mesh", "detail_height"))
+	} else if (mr_layer_has(f, "mesh", "detail_height"))
 		mr_warn(ctx,
 		    "mesh has new vertices, and its detail over base is gone: subdivide before mr-encode");
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
