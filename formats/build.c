@@ -596,9 +596,14 @@ triangulate(mr_builder *b, triangles *r)
 	room = MR_NEW(b->ctx, most, mr_tri);
 	if (!r->t || !r->face || !r->place || !room)
 		return MR_EMEM;
-	for (size_t f = 0; f < b->faces; first += b->size[f++])
+	for (size_t f = 0; f < b->faces; first += b->size[f++]) {
+		size_t before = r->n;
 		MR_TRY(add_face(b, r, room, f, first));
-	return MR_OK;
+		b->vanished += r->n == before;
+	}
+	return r->n ? MR_OK
+	            : mr_fail(b->ctx, MR_EMESH, "none of the %zu faces has a triangle of three vertices",
+			  b->faces);
 }
 
 /* Whether a face of the outlines is that of the file: the same corners from the same one on. */
@@ -730,7 +735,10 @@ mr_build_finish(mr_builder *b, mr_model *m)
 		MR_TRY(put_properties(b, NULL, &made));
 	if (b->skipped)
 		mr_warn(b->ctx, "%zu faces of fewer than three corners are left out", b->skipped);
-	b->counts->faces_left_out = b->skipped;
+	if (b->vanished)
+		mr_warn(
+		    b->ctx, "%zu polygons without a triangle of three vertices are left out", b->vanished);
+	b->counts->faces_left_out = b->skipped + b->vanished;
 	b->counts->polygons = b->polygons;
 	made.counts = *b->counts;
 	*m = made;

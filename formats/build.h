@@ -47,6 +47,7 @@ typedef struct mr_builder {
 	struct mr_kept *kept; /* properties; of faces one row for each face */
 	size_t properties, property_room;
 	size_t skipped;           /* faces of fewer than three corners */
+	size_t vanished;          /* polygons all of whose triangles name a vertex twice */
 	size_t polygons;          /* faces of more */
 	mr_import_result *counts; /* of the model to be */
 	mr_marks marks[MR_MARKINGS];

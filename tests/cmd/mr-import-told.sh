@@ -46,3 +46,8 @@ json.dump(dict(asset=dict(version="2.0"), scenes=[dict(nodes=[0])], scene=0, nod
           open("two.gltf", "w"))
 END
 told two.gltf
+echo '-- a polygon of two edges there and back, beside others and alone'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 1 2 1 4\n' >back.obj
+told back.obj
+grep -v '3$' back.obj >alone.obj
+told alone.obj
