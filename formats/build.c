@@ -460,15 +460,15 @@ mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n)
 	return new;
 }
 
-static bool
-is_absent(const double *x, size_t width)
+bool
+mr_is_absent(const double *x, size_t width)
 {
 	return isnan(x[0]) || (width == 3 && x[0] == 0 && x[1] == 0 && x[2] == 0);
 }
 
 mr_status
 mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width, const double *corner,
-    const double **vertex, size_t *seams)
+    double **vertex, size_t *seams)
 {
 	enum { NEW, ONE, SEVERAL };
 	double *value = MR_NEW_ZERO(ctx, width * nv, double);
@@ -481,7 +481,7 @@ mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_
 	for (size_t i = 0; i < 3 * nf; i++) {
 		size_t v = t[i / 3].v[i % 3];
 		const double *x = corner + width * i;
-		if (is_absent(x, width))
+		if (mr_is_absent(x, width))
 			whole = false;
 		else if (seen[v] == NEW) {
 			memcpy(value + width * v, x, width * sizeof *x);
@@ -515,7 +515,8 @@ values_of(mr_ctx *ctx, const uint32_t *place, size_t n, size_t width, const doub
 static mr_status
 put_texcoords(mr_builder *b, const uint32_t *place, mr_model *m)
 {
-	const double *corner, *vertex;
+	const double *corner;
+	double *vertex;
 
 	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 2, b->uv, NAN, &corner));
 	MR_TRY(mr_corners_to_vertices(
@@ -530,7 +531,8 @@ put_texcoords(mr_builder *b, const uint32_t *place, mr_model *m)
 static mr_status
 put_normals(mr_builder *b, const uint32_t *place, mr_model *m)
 {
-	const double *corner, *vertex;
+	const double *corner;
+	double *vertex;
 
 	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 3, (const double *)b->vn, 0, &corner));
 	MR_TRY(mr_corners_to_vertices(

@@ -165,13 +165,16 @@ mr_build_triangle(mr_builder *b, uint32_t i, uint32_t j, uint32_t k)
 	return true;
 }
 
+/* Whether a value of `width` doubles is none: NaN, or where the width is 3 all zero. */
+bool mr_is_absent(const double *x, size_t width);
+
 /*
  * Values of corners, `width` doubles for each of 3 nf, as values of vertices where those of every vertex are
- * the same to the bit and no corner is without (NaN, or where the width is 3 all zero); else *vertex is NULL.
+ * the same to the bit and no corner is without; else *vertex is NULL.
  * Vertices of no face get zeros.  *seams: vertices of several.
  */
 mr_status mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
-    const double *corner, const double **vertex, size_t *seams) MR_WARN_UNUSED;
+    const double *corner, double **vertex, size_t *seams) MR_WARN_UNUSED;
 
 /* Warns of the files of materials that are not where the model at `path` ("-": nowhere) names them. */
 void mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files);

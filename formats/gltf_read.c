@@ -715,14 +715,40 @@ join_colors(gltf_reader *r)
 	return MR_OK;
 }
 
+/* What vertices without a face have goes to `vertex`, or where that is NULL, as the corners' do not agree, is
+ * left out. */
+static mr_status
+join_isolated(gltf_reader *r, const double *x, size_t width, double *vertex, const char *what)
+{
+	bool *used = MR_NEW_ZERO(r->g.ctx, r->m->nv, bool);
+	size_t lost = 0;
+
+	if (!used)
+		return MR_EMEM;
+	for (size_t c = 0; c < 3 * r->nf; c++)
+		used[r->joined[c / 3].v[c % 3]] = true;
+	for (size_t k = 0; k < r->n; k++) {
+		const double *row = x + width * k;
+		size_t v = r->join[k];
+		if (used[v] || mr_is_absent(row, width))
+			continue;
+		lost += !vertex;
+		if (vertex)
+			memcpy(vertex + width * v, row, width * sizeof *row);
+	}
+	if (lost)
+		mr_warn(r->g.ctx, "%zu %s of vertices without a face are left out", lost, what);
+	return MR_OK;
+}
+
 /* A column of rows of `width`, as the model has it: of vertices, where those of all corners agree, or of
  * corners.
  */
 static mr_status
-join_column(gltf_reader *r, const double *x, size_t width, const double **of_vertices,
+join_column(gltf_reader *r, const char *what, const double *x, size_t width, const double **of_vertices,
     const double **of_corners, size_t *several)
 {
-	double *corner = MR_NEW(r->g.ctx, 3 * width * r->nf, double);
+	double *corner = MR_NEW(r->g.ctx, 3 * width * r->nf, double), *vertex;
 
 	if (!corner)
 		return MR_EMEM;
@@ -732,10 +758,10 @@ join_column(gltf_reader *r, const double *x, size_t width, const double **of_ver
 	}
 	for (size_t c = 0; c < 3 * r->nf; c++)
 		memcpy(corner + width * c, x + width * r->t[c / 3].v[c % 3], width * sizeof *x);
-	MR_TRY(mr_corners_to_vertices(
-	    r->g.ctx, r->joined, r->nf, r->m->nv, width, corner, of_vertices, several));
-	*of_corners = *of_vertices ? NULL : corner;
-	return MR_OK;
+	MR_TRY(mr_corners_to_vertices(r->g.ctx, r->joined, r->nf, r->m->nv, width, corner, &vertex, several));
+	*of_vertices = vertex;
+	*of_corners = vertex ? NULL : corner;
+	return join_isolated(r, x, width, vertex, what);
 }
 
 static mr_status
@@ -753,11 +779,11 @@ join_columns(gltf_reader *r)
 	if (r->color)
 		MR_TRY(join_colors(r));
 	if (r->uv)
-		MR_TRY(join_column(
-		    r, r->uv, 2, &r->m->texcoord, &r->m->corner_texcoord, &r->m->counts.seam_vertices));
+		MR_TRY(join_column(r, "texture coordinates", r->uv, 2, &r->m->texcoord,
+		    &r->m->corner_texcoord, &r->m->counts.seam_vertices));
 	if (r->normal)
-		MR_TRY(
-		    join_column(r, &r->normal->x, 3, &normal, &corner_normal, &r->m->counts.crease_vertices));
+		MR_TRY(join_column(
+		    r, "normals", &r->normal->x, 3, &normal, &corner_normal, &r->m->counts.crease_vertices));
 	r->m->normal = (const mr_v3 *)(const void *)normal;
 	r->m->corner_normal = (const mr_v3 *)(const void *)corner_normal;
 	return MR_OK;

@@ -394,7 +394,9 @@ put_texcoords(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accesso
 
 	MR_TRY(new_values(w, v->count, 8, MR_GLTF_FLOAT, "VEC2", &to, accessor));
 	for (size_t i = 0; i < v->count; i++) {
-		const double *uv = v->corner[i] == MR_NONE ? NULL : mr_corner_texcoord(m, v->corner[i]);
+		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : NULL;
+		if (v->corner[i] != MR_NONE)
+			uv = mr_corner_texcoord(m, v->corner[i]);
 		to = mr_store_float(to, uv ? (float)uv[0] : 0, false);
 		to = mr_store_float(to, uv ? (float)(1 - uv[1]) : 0, false);
 	}

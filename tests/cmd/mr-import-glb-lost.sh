@@ -132,3 +132,11 @@ make <<'END'
 root["nodes"] = [{"rotation": [0, 0, 2, 2], "children": [1]}, {"mesh": 0, "rotation": [0, 0, 1, 1]}, {"rotation": [0, 0, 0, 0]}]
 END
 mr-import a.gltf | places
+
+echo '-- what a vertex without a face has is kept, or where corners differ, told' >&2
+printf 'ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float nx\nproperty float ny\nproperty float nz\nproperty float s\nproperty float t\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n0 0 0 0 0 1 0 0\n1 0 0 0 0 1 1 0\n0 1 0 0 0 1 0 1\n5 5 5 1 0 0 0.5 0.25\n3 0 1 2\n' >unused.ply
+mr-import unused.ply | mr-export unused.glb
+mr-import unused.glb | mr-export -f ply-ascii - | tail -n 2
+mr-make cylinder -n 800 -o edges.mrs
+mr-make knot --points 40 | mr-cat --merge edges.mrs - | mr-export -l mesh,points both.glb
+mr-import both.glb | mr-info | grep -E 'vertices,|isolated'
