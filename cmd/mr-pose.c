@@ -62,6 +62,19 @@ send(cmd *c, const mr_frame *f, const mr_handles *h, size_t number)
 	return MR_OK;
 }
 
+/* Warns of a sequence that ends before the motion does. */
+static mr_status
+warn_of_short(cmd *c, mr_frame *f, size_t length)
+{
+	size_t frames;
+
+	MR_TRY(mr_handles_frames(&c->ctx, f, &frames));
+	if (f->key && frames > 0 && frames < length)
+		mr_warn(&c->ctx, "%s has %zu frames, and the sequence ends with frame %zu",
+		    motion.script ? "the script" : "the motion", length, frames);
+	return MR_OK;
+}
+
 /*
  * The column handles.frames says how many deltas of a sequence follow its key: so one
  * mr-pose makes the sequence, and those behind it pose the frames that come.
@@ -75,6 +88,7 @@ pose_frame(cmd *c, mr_frame *f)
 	mr_handles h;
 
 	at = f->key ? 0 : at + 1;
+	MR_TRY(warn_of_short(c, f, length));
 	MR_TRY(mr_handles_of_frame(&c->ctx, f, c->layer, &h));
 	if (length == 0 || !f->key || mr_layer_has(f, "handles", "frames"))
 		return send(c, f, &h, length == 0 ? 0 : at);

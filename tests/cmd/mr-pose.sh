@@ -91,5 +91,7 @@ refused --script wrong
 printf 'frame\n1 scale=2\n' >wrong
 mr-pose --script wrong cube.mrs >out
 echo "exit $?"
+printf 'frame\n0 scale=2\nframe\n0 scale=3\nframe\n0 scale=4\n' >long
+mr-pose --translate 0,1,0 --frames 2 cube.mrs | mr-pose --script long | mr-info | grep -c '^cube'
 mr-make cube -n 8 | mr-pose --scale 2 >out
 mr-make cube -n 8 | mr-select --free all | mr-pose --scale 2 >out
