@@ -102,7 +102,7 @@ begins(const mr_scan *line, const char *word)
 
 /* ---- v, vt, vn ---- */
 
-/* A word that is no number: NAN where it is one such as nan. */
+/* A word that is nan or infinity, of any spelling. */
 static mr_status
 odd_number(obj *o, mr_scan *line, const char *what, double *x)
 {
@@ -111,8 +111,7 @@ odd_number(obj *o, mr_scan *line, const char *what, double *x)
 	size_t n;
 
 	mr_scan_word(line, &w, &n);
-	*x = NAN;
-	return mr_word_not_finite(w, n)
+	return mr_word_not_finite(w, n, x)
 	           ? MR_OK
 	           : bad(o, "%s has '%s' for a number", what, mr_word_shown(w, n, shown));
 }

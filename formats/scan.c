@@ -355,24 +355,41 @@ begins(const char **p, const char *end, const char *what)
 	return true;
 }
 
-bool
-mr_word_not_finite(const char *w, size_t n)
+/* Behind the sign: nan, 1.#IND and the like. */
+static bool
+is_nan(const char *w, const char *end)
 {
-	const char *end = w + n;
-
-	if (n && (*w == '-' || *w == '+'))
-		w++;
-	if (begins(&w, end, "1.#")) { /* of Windows, with zeros behind */
-		if (!begins(&w, end, "inf") && !begins(&w, end, "ind") && !begins(&w, end, "qnan") &&
-		    !begins(&w, end, "snan"))
-			return false;
-		while (w < end && *w == '0')
-			w++;
-		return w == end;
-	}
 	if (begins(&w, end, "nan"))
 		return w == end || (*w == '(' && end[-1] == ')');
-	return begins(&w, end, "inf") && (w == end || (begins(&w, end, "inity") && w == end));
+	if (!begins(&w, end, "1.#") ||
+	    (!begins(&w, end, "ind") && !begins(&w, end, "qnan") && !begins(&w, end, "snan")))
+		return false;
+	while (w < end && *w == '0') /* of Windows */
+		w++;
+	return w == end;
+}
+
+static bool
+is_infinity(const char *w, const char *end)
+{
+	if (begins(&w, end, "1.#inf"))
+		while (w < end && *w == '0')
+			w++;
+	else if (!begins(&w, end, "inf") || (w < end && !begins(&w, end, "inity")))
+		return false;
+	return w == end;
+}
+
+bool
+mr_word_not_finite(const char *w, size_t n, double *x)
+{
+	const char *end = w + n;
+	bool minus = n && *w == '-', infinite;
+
+	w += n && (*w == '-' || *w == '+');
+	infinite = is_infinity(w, end);
+	*x = !infinite ? (double)NAN : minus ? -(double)INFINITY : (double)INFINITY;
+	return infinite || is_nan(w, end);
 }
 
 const char *
@@ -408,9 +425,8 @@ mr_scan_real(mr_scan *t, const char *what, double *x)
 	}
 	if (!mr_scan_word(t, &w, &n))
 		return mr_scan_fail(t, t->p, "%s is missing", what);
-	if (!mr_word_not_finite(w, n))
+	if (!mr_word_not_finite(w, n, x))
 		return mr_scan_fail(t, w, "%s is '%s', not a number", what, mr_word_shown(w, n, shown));
-	*x = NAN;
 	return MR_OK;
 }
 

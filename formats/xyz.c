@@ -164,9 +164,8 @@ row_values(const table *t, mr_scan *line, double x[COLUMNS], size_t *count)
 		if (!e || (e < line->end && !separates(*e))) {
 			for (e = line->p; e < line->end && !separates(*e); e++)
 				;
-			if (!mr_word_not_finite(line->p, (size_t)(e - line->p)))
+			if (!mr_word_not_finite(line->p, (size_t)(e - line->p), &value))
 				return bad_word(t, line);
-			value = NAN;
 		}
 		if (n == COLUMNS)
 			return mr_scan_fail(&t->text, line->p, "more than %d columns", (int)COLUMNS);
