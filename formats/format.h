@@ -134,6 +134,9 @@ enum {
 };
 void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
 
+/* The value of row i. */
+double mr_property_value(const mr_property *p, size_t i);
+
 /* The same of alpha, which colours of `what` have not. */
 void mr_note_alpha(mr_sink *s, const mr_model *m, const char *what);
 

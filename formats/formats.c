@@ -5,6 +5,7 @@
 #include "formats/names.h"
 #include "formats/suffix.h"
 
+#include <float.h>
 #include <unistd.h>
 
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
@@ -544,36 +545,48 @@ mr_put_reals(mr_sink *s, const double *x, size_t n, char end)
 	mr_sink_fill(s, to);
 }
 
+double
+mr_property_value(const mr_property *p, size_t i)
+{
+	if (p->shape.type == 'd')
+		return ((const double *)p->data)[i];
+	return p->shape.type == 'u' ? ((const uint32_t *)p->data)[i] : ((const unsigned char *)p->data)[i];
+}
+
 void
 mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 {
 	bool corners = keeps & MR_KEEPS_CORNERS;
 	const struct {
 		bool lost;
-		size_t *count;
+		size_t *count, rows;
 		const char *what;
 	} columns[] = {
-		{ m->normal && !(keeps & MR_KEEPS_NORMAL), &s->lost.dropped_normals, "normals" },
-		{ m->corner_normal && !corners, &s->lost.dropped_normals, "normals of corners" },
-		{ m->color && !(keeps & MR_KEEPS_COLOR), &s->lost.dropped_colors, "colors" },
-		{ m->texcoord && !(keeps & MR_KEEPS_TEXCOORD), &s->lost.dropped_texcoords, "texcoords" },
-		{ m->corner_texcoord && !corners, &s->lost.dropped_texcoords, "texcoords of corners" },
-		{ m->group && !(keeps & MR_KEEPS_GROUP), &s->lost.dropped_groups, "groups" },
-		{ m->object && !(keeps & MR_KEEPS_OBJECT), &s->lost.dropped_objects, "objects" },
-		{ m->material && !(keeps & MR_KEEPS_MATERIAL), &s->lost.dropped_materials, "materials" },
-		{ m->smoothing && !(keeps & MR_KEEPS_SMOOTHING), &s->lost.dropped_smoothing,
+		{ m->normal && !(keeps & MR_KEEPS_NORMAL), &s->lost.dropped_normals, m->nv, "normals" },
+		{ m->corner_normal && !corners, &s->lost.dropped_normals, 3 * m->nf, "normals of corners" },
+		{ m->color && !(keeps & MR_KEEPS_COLOR), &s->lost.dropped_colors, m->nv, "colors" },
+		{ m->texcoord && !(keeps & MR_KEEPS_TEXCOORD), &s->lost.dropped_texcoords, m->nv,
+		    "texcoords" },
+		{ m->corner_texcoord && !corners, &s->lost.dropped_texcoords, 3 * m->nf,
+		    "texcoords of corners" },
+		{ m->group && !(keeps & MR_KEEPS_GROUP), &s->lost.dropped_groups, m->nf, "groups" },
+		{ m->object && !(keeps & MR_KEEPS_OBJECT), &s->lost.dropped_objects, m->nf, "objects" },
+		{ m->material && !(keeps & MR_KEEPS_MATERIAL), &s->lost.dropped_materials, m->nf,
+		    "materials" },
+		{ m->smoothing && !(keeps & MR_KEEPS_SMOOTHING), &s->lost.dropped_smoothing, m->nf,
 		    "smoothing groups" },
-		{ m->polygon && !(keeps & MR_KEEPS_POLYGON), &s->lost.dropped_polygons, "polygons" },
-		{ m->properties && !(keeps & MR_KEEPS_PROPERTY), &s->lost.dropped_properties, "properties" },
-		{ m->scanner != NULL, &s->lost.dropped_properties, "places of the scanner" },
-		{ m->nf && !(keeps & MR_KEEPS_FACES), &s->lost.dropped_faces, "faces" },
+		{ m->polygon && !(keeps & MR_KEEPS_POLYGON), &s->lost.dropped_polygons, m->nf, "polygons" },
+		{ m->properties && !(keeps & MR_KEEPS_PROPERTY), &s->lost.dropped_properties, m->properties,
+		    "properties" },
+		{ m->scanner != NULL, &s->lost.dropped_properties, 1, "places of the scanner" },
+		{ m->nf && !(keeps & MR_KEEPS_FACES), &s->lost.dropped_faces, m->nf, "faces" },
 	};
 	char names[256];
 	size_t n = 0;
 
 	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
 		if (columns[i].lost) {
-			*columns[i].count = 1;
+			*columns[i].count = columns[i].rows;
 			n += (size_t)snprintf(
 			    names + n, sizeof names - n, "%s%s", n ? ", " : "", columns[i].what);
 		}
@@ -624,10 +637,11 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 	s->lost.rounded_positions = changed;
 	if (off > share * diagonal)
 		mr_warn(s->ctx,
-		    "%zu of %zu positions are rounded to float32, by up to %.2g, which is %.2g of the "
-		    "diagonal: "
-		    "mr-transform --center brings them to the origin, where floats are finer",
-		    changed, m->nv, off, off / diagonal);
+		    "%zu of %zu positions are rounded to float32, by up to %.2g, %.2g of the diagonal: "
+		    "mr-transform %s, where floats are finer",
+		    changed, m->nv, off, off / diagonal,
+		    diagonal < FLT_MIN / share ? "--unit brings them to size 1"
+		                               : "--center brings them to the origin");
 	else if (changed)
 		mr_note(s->ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
 	return MR_OK;

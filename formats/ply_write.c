@@ -84,14 +84,6 @@ end_row(const output *w)
 
 /* ---- properties ---- */
 
-static double
-value_of(const mr_property *p, size_t i)
-{
-	if (p->shape.type == 'd')
-		return ((const double *)p->data)[i];
-	return p->shape.type == 'u' ? ((const uint32_t *)p->data)[i] : ((const unsigned char *)p->data)[i];
-}
-
 /* Whether x is what a float is written as, in the 6 to 9 digits that programs give it: 0.1 is. */
 static bool
 is_text_of_float(double x)
@@ -125,7 +117,7 @@ choose_type(const mr_property *p, size_t n, order o)
 	while (t < DOUBLE && strcmp(types[t].name, p->type))
 		t++;
 	for (size_t i = 0; i < n; i++)
-		if (!holds(t, value_of(p, i), o))
+		if (!holds(t, mr_property_value(p, i), o))
 			return DOUBLE;
 	return t;
 }
@@ -151,7 +143,8 @@ put_properties(const output *w, char element, size_t i)
 	for (size_t k = 0; k < w->m->properties; k++) {
 		const mr_property *p = &w->m->property[k];
 		if (p->shape.element == element)
-			mr_sink_fill(w->s, number(mr_sink_room(w->s), value_of(p, i), w->type[k], w->order));
+			mr_sink_fill(
+			    w->s, number(mr_sink_room(w->s), mr_property_value(p, i), w->type[k], w->order));
 	}
 }
 

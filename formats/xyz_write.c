@@ -60,18 +60,33 @@ mr_xyz_write(mr_sink *s, const mr_model *m)
 	return MR_OK;
 }
 
+/* What the points have of this name, from a PTS, PTX or LAS; NULL: nothing. */
+static const mr_property *
+intensity_of(const mr_model *m)
+{
+	for (size_t i = 0; i < m->properties; i++)
+		if (!strcmp(m->property[i].name, "intensity") && m->property[i].shape.element == 'v')
+			return &m->property[i];
+	return NULL;
+}
+
+/* A position, an intensity, which only points without a colour may lack, and a colour. */
 mr_status
 mr_pts_write(mr_sink *s, const mr_model *m)
 {
-	mr_note_lost(s, m, MR_KEEPS_COLOR);
+	const mr_property *intensity = intensity_of(m);
+
+	mr_note_lost(s, m, MR_KEEPS_COLOR | (intensity && m->properties == 1 ? MR_KEEPS_PROPERTY : 0));
 	mr_note_alpha(s, m, "PTS");
 	mr_print(s, "%zu\n", m->nv);
 	for (size_t i = 0; i < m->nv; i++) {
-		mr_put_reals(s, &m->p[i].x, 3, m->color ? ' ' : '\n');
-		if (m->color) {
-			mr_put(s, "0 ", 2);
+		bool more = intensity || m->color;
+		double x = intensity ? mr_property_value(intensity, i) : 0;
+		mr_put_reals(s, &m->p[i].x, 3, more ? ' ' : '\n');
+		if (more)
+			mr_put_reals(s, &x, 1, m->color ? ' ' : '\n');
+		if (m->color)
 			put_color(s, m->color + 4 * i);
-		}
 	}
 	return MR_OK;
 }

@@ -114,6 +114,8 @@ printf '0 0 0 9.5 1\n1 1 1 8.5 2\n' >plain.xyz
 for file in named.xyz scan.pts plain.xyz; do
 	mr-import $file | mr-export -q - -f ply-ascii | sed '/^ply/d; /^format/d; /^element/d'
 done
+mr-import scan.pts | mr-export -f pts - | cmp - scan.pts && echo 'a PTS comes back'
+mr-import plain.xyz | mr-export -f pts -
 echo 'and what a LAS tells, but for what is 0 everywhere'
 python3 - <<'END'
 import struct
