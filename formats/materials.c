@@ -263,12 +263,26 @@ note_unused(mr_material *m, const char *line)
 			m->unused |= 1u << k;
 }
 
+/* Warns of options that move, scale or disturb a picture, which nothing here follows. */
+static void
+warn_of_moved(const finder *f, size_t i, const char *s, const char *file)
+{
+	static const char *const moves[] = { "-s", "-o", "-t" };
+
+	for (; s < file; s += word_length(s), s += strspn(s, " \t"))
+		for (size_t k = 0; k < sizeof moves / sizeof *moves; k++)
+			if (word_length(s) == strlen(moves[k]) && !strncmp(s, moves[k], strlen(moves[k])))
+				mr_warn(f->ctx, "option %s of the picture of material %.*s is not followed",
+				    moves[k], (int)name_bytes(f, i), f->name[i]);
+}
+
 /* to: the picture of material i. */
 static mr_status
 map(finder *f, size_t i, const char *s, const char **to)
 {
 	const char *file = behind_options(s), *bare;
 
+	warn_of_moved(f, i, s, file);
 	MR_TRY(find_file(f, file, to));
 	if (*to)
 		return MR_OK;

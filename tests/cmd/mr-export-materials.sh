@@ -19,7 +19,7 @@ sed -i 's/a #1/b/;s/png/& # a picture/' m.mtl
 colors | grep png
 
 echo '-- what is no picture'
-printf 'newmtl B\nmap_Kd text.png\n' >m.mtl && echo text >text.png
+printf 'newmtl B\nmap_Kd -s 2 2 2 -o 0 0.5 -mm 0 1 text.png\n' >m.mtl && echo text >text.png
 model B >model.obj
 colors
 
