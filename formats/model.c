@@ -406,8 +406,13 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	if (!name)
 		return MR_EMEM;
 	MR_TRY(mr_model_read(ctx, path, o->format, &m));
-	if (o->points)
+	if (o->points) {
+		if (m.corner_normal || m.corner_texcoord)
+			mr_warn(ctx, "%s%s%s of corners go with the faces", m.corner_normal ? "normals" : "",
+			    m.corner_normal && m.corner_texcoord ? " and " : "",
+			    m.corner_texcoord ? "texture coordinates" : "");
 		mr_model_to_points(&m);
+	}
 	box = mr_box_of(m.p, m.nv);
 	warn_of_grain(ctx, box);
 	unit = o->weld_relative ? mr_box_diagonal(box) : 1;

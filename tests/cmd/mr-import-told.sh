@@ -51,3 +51,8 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 1 2 1 4\n' >back.obj
 told back.obj
 grep -v '3$' back.obj >alone.obj
 told alone.obj
+echo '-- what corners have, as points; a column that is called as one of the format'
+mr-make sphere -n 60 --texcoords | mr-export corners.obj
+mr-import --points corners.obj | mr-info | grep points$
+printf 'x y z x\n0 0 0 5\n1 0 0 6\n' >twice.xyz
+mr-import twice.xyz | mr-export -f ply-ascii - | grep property
