@@ -531,7 +531,7 @@ what_was_rounded(void **state)
 	ok(&ctx, mr_import(&ctx, "fine.obj", NULL, &f, NULL));
 	ok(&ctx, mr_export(&ctx, f, NULL, "floats.stl", NULL, &r));
 	assert_int_equal(r.rounded_positions, 2);
-	assert_int_equal(r.dropped_colors, 1);
+	assert_int_equal(r.dropped_colors, 3);
 	assert_true(r.dropped_normals == MR_UNKNOWN && r.dropped_faces == MR_UNKNOWN);
 	ok(&ctx, mr_export(&ctx, f, NULL, "points.pts", NULL, &r));
 	assert_int_equal(r.dropped_faces, 1);
