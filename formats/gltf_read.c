@@ -1,8 +1,7 @@
 /*
  * glTF 2.0, read: the meshes of the scene as one model.  What glTF must repeat where a seam of normals or
- * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, and
- * what their corners have is the corners'.  Where the file numbers its vertices, those of a number are
- * joined.
+ * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, or those
+ * of one number where the file numbers them, and what their corners have is the corners'.
  */
 #include "formats/gltf.h"
 #include "mesh/repair.h"
@@ -715,35 +714,27 @@ join_colors(gltf_reader *r)
 	return MR_OK;
 }
 
-/* What vertices without a face have goes to `vertex`, or where that is NULL, as the corners' do not agree, is
- * left out. */
+/* What vertices without a face have; where `vertex` is NULL, as corners do not agree, it is lost. */
 static mr_status
 join_isolated(gltf_reader *r, const double *x, size_t width, double *vertex, const char *what)
 {
-	bool *used = MR_NEW_ZERO(r->g.ctx, r->m->nv, bool);
-	size_t lost = 0;
+	size_t lost = 0, count;
+	bool *used;
 
-	if (!used)
-		return MR_EMEM;
-	for (size_t c = 0; c < 3 * r->nf; c++)
-		used[r->joined[c / 3].v[c % 3]] = true;
+	MR_TRY(mr_vertices_used(r->g.ctx, r->joined, r->nf, r->m->nv, &used, &count));
 	for (size_t k = 0; k < r->n; k++) {
-		const double *row = x + width * k;
 		size_t v = r->join[k];
-		if (used[v] || mr_is_absent(row, width))
-			continue;
-		lost += !vertex;
-		if (vertex)
-			memcpy(vertex + width * v, row, width * sizeof *row);
+		bool is_own = !used[v] && !mr_is_absent(x + width * k, width);
+		lost += is_own && !vertex;
+		if (is_own && vertex)
+			memcpy(vertex + width * v, x + width * k, width * sizeof *x);
 	}
 	if (lost)
 		mr_warn(r->g.ctx, "%zu %s of vertices without a face are left out", lost, what);
 	return MR_OK;
 }
 
-/* A column of rows of `width`, as the model has it: of vertices, where those of all corners agree, or of
- * corners.
- */
+/* A column of rows of `width`, of vertices where those of all corners agree, else of corners. */
 static mr_status
 join_column(gltf_reader *r, const char *what, const double *x, size_t width, const double **of_vertices,
     const double **of_corners, size_t *several)
@@ -780,10 +771,10 @@ join_columns(gltf_reader *r)
 		MR_TRY(join_colors(r));
 	if (r->uv)
 		MR_TRY(join_column(r, "texture coordinates", r->uv, 2, &r->m->texcoord,
-		    &r->m->corner_texcoord, &r->m->counts.seam_vertices));
+		    &r->m->corner_texcoord, &counts->seam_vertices));
 	if (r->normal)
 		MR_TRY(join_column(
-		    r, "normals", &r->normal->x, 3, &normal, &corner_normal, &r->m->counts.crease_vertices));
+		    r, "normals", &r->normal->x, 3, &normal, &corner_normal, &counts->crease_vertices));
 	r->m->normal = (const mr_v3 *)(const void *)normal;
 	r->m->corner_normal = (const mr_v3 *)(const void *)corner_normal;
 	return MR_OK;

@@ -114,16 +114,10 @@ sort_corners(mr_ctx *ctx, mr_sets *s)
 static mr_status
 find_isolated(mr_ctx *ctx, mr_sets *s)
 {
-	const uint32_t *v = s->m->t->v;
-	bool *used = MR_NEW_ZERO(ctx, s->m->nv, bool);
-	size_t count = 0;
+	size_t count;
+	bool *used;
 
-	if (!used)
-		return MR_EMEM;
-	for (size_t c = 0; c < 3 * s->m->nf; c++) {
-		count += !used[v[c]];
-		used[v[c]] = true;
-	}
+	MR_TRY(mr_vertices_used(ctx, s->m->t, s->m->nf, s->m->nv, &used, &count));
 	s->used = count < s->m->nv ? used : NULL;
 	return MR_OK;
 }

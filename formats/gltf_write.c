@@ -1,7 +1,5 @@
-/*
- * GLB, written: a node with a mesh for each object of each layer, a primitive for each of its materials, and
- * poses as morph targets that an animation shows one after the other.
- */
+/* GLB, written: a node with a mesh for each object of each layer, a primitive for each of its materials, and
+ * poses as morph targets that an animation shows one after the other. */
 #include "base/text.h"
 #include "formats/gltf.h"
 #include "formats/gltf_sets.h"
@@ -212,28 +210,25 @@ texture_info(glb *w, size_t texture)
 	return json;
 }
 
-static void
-set_emission(glb *w, json_t *material, const double emission[3])
+static json_t *
+linear_color(glb *w, const double color[3])
 {
-	json_t *color;
+	json_t *json = json_array();
 
-	if (!(emission[0] > 0 || emission[1] > 0 || emission[2] > 0))
-		return;
-	color = json_array();
 	for (int k = 0; k < 3; k++)
-		push(w, color, json_real(mr_srgb_to_linear(emission[k])));
-	set(w, material, "emissiveFactor", color);
+		push(w, json, json_real(mr_srgb_to_linear(color[k])));
+	return json;
 }
 
 /* What says nothing else is of metal to the format, and seen from one side. */
 static json_t *
 new_material(glb *w, const mr_material *look, size_t texture)
 {
-	json_t *json = json_object(), *surface = json_object(), *color = json_array();
-	bool colored = look->colored && texture == MR_UNKNOWN;
+	static const double white[3] = { 1, 1, 1 };
+	const double *light = look->emission;
+	json_t *json = json_object(), *surface = json_object(), *color;
 
-	for (int k = 0; k < 3; k++)
-		push(w, color, json_real(colored ? mr_srgb_to_linear(look->color[k]) : 1));
+	color = linear_color(w, look->colored && texture == MR_UNKNOWN ? look->color : white);
 	push(w, color, json_real(look->opacity));
 	set(w, surface, "baseColorFactor", color);
 	set(w, surface, "metallicFactor", json_real(look->metal));
@@ -244,7 +239,8 @@ new_material(glb *w, const mr_material *look, size_t texture)
 	set(w, json, "doubleSided", json_true());
 	if (look->opacity < 1)
 		set(w, json, "alphaMode", json_string("BLEND"));
-	set_emission(w, json, look->emission);
+	if (light[0] > 0 || light[1] > 0 || light[2] > 0)
+		set(w, json, "emissiveFactor", linear_color(w, light));
 	return json;
 }
 
@@ -298,15 +294,13 @@ put_materials(glb *w, layer *l)
 	if (!l->material)
 		return MR_EMEM;
 	MR_TRY(mr_materials_find(w->ctx, &l->node->model, w->scene->folder, &look, &count));
-	for (size_t i = 0; i < count; i++) {
-		w->unused |= look[i].unused;
-		w->clipped += look[i].clipped;
-	}
 	for (size_t i = 0; i < l->sets.materials; i++) {
 		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture = MR_UNKNOWN;
 		json_t *json;
 		if (bytes == 0) /* no face has it */
 			continue;
+		w->unused |= look[i].unused;
+		w->clipped += look[i].clipped;
 		if (look[i].file)
 			MR_TRY(embed(w, look[i].file, &texture));
 		json = new_material(w, &look[i], texture);

@@ -267,20 +267,15 @@ unit_normal(const mr_model *m, size_t f)
 static mr_status
 note_isolated(mr_sink *s, const mr_model *m)
 {
-	bool *used = MR_NEW_ZERO(s->ctx, m->nv, bool);
-	size_t left = m->nv;
+	size_t count;
+	bool *used;
 
-	if (!used)
-		return MR_EMEM;
-	for (size_t i = 0; i < 3 * m->nf; i++) {
-		uint32_t v = m->t[i / 3].v[i % 3];
-		left -= !used[v];
-		used[v] = true;
-	}
-	if (left == 0)
+	MR_TRY(mr_vertices_used(s->ctx, m->t, m->nf, m->nv, &used, &count));
+	if (count == m->nv)
 		return MR_OK;
-	s->lost.dropped_vertices = left;
-	mr_warn(s->ctx, "%zu of %zu vertices dropped: no face has them, and stl has faces only", left, m->nv);
+	s->lost.dropped_vertices = m->nv - count;
+	mr_warn(s->ctx, "%zu of %zu vertices dropped: no face has them, and stl has faces only",
+	    m->nv - count, m->nv);
 	return MR_OK;
 }
 

@@ -44,10 +44,7 @@ extern "C" {
 
 #define MR_UNKNOWN SIZE_MAX
 /* Values of all fields, as a line. */
-#define MR_DEFAULTS(...)                                                                                     \
-	{                                                                                                    \
-		__VA_ARGS__                                                                                  \
-	}
+#define MR_DEFAULTS(...) { __VA_ARGS__ }
 
 /* Contexts */
 
@@ -99,13 +96,9 @@ MR_API void mr_mark_release(mr_ctx *ctx, mr_mark mark);
 
 /* Meshes */
 
-typedef struct mr_v3 {
-	double x, y, z;
-} mr_v3;
+typedef struct mr_v3 { double x, y, z; } mr_v3;
 
-typedef struct mr_tri {
-	uint32_t v[3];
-} mr_tri; /* counter-clockwise, seen from outside */
+typedef struct mr_tri { uint32_t v[3]; } mr_tri; /* counter-clockwise, seen from outside */
 
 /* A view of arrays that somebody else keeps; without faces a cloud of points. */
 typedef struct mr_mesh {
@@ -375,9 +368,7 @@ typedef struct mr_normals_result {
 MR_API mr_status mr_normals_frame(
     mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_crop_result {
-	size_t vertices, faces, vertices_dropped, faces_dropped;
-} mr_crop_result;
+typedef struct mr_crop_result { size_t vertices, faces, vertices_dropped, faces_dropped; } mr_crop_result;
 
 /* Leaves what n rules, in their order, make free, and drops what they make fixed; where the first makes some
  * free the others are fixed to begin with.  layer: NULL: mesh, else control, else points. */
@@ -426,12 +417,7 @@ MR_API mr_status mr_pose_frame(
 
 typedef enum mr_solver_choice {
 	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
-	MR_SOLVER_CHOLESKY,
-	MR_SOLVER_LU,
-	MR_SOLVER_CG,
-	MR_SOLVER_BICGSTAB,
-	MR_SOLVER_MULTIGRID,
-	MR_SOLVER_VCYCLE
+	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_BICGSTAB, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
 } mr_solver_choice;
 
 typedef enum mr_areas {
@@ -491,9 +477,7 @@ typedef struct mr_solve_result {
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
     mr_solve_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_gap {
-	double mean, high, max;
-} mr_gap; /* of distances: 99 % are at most high */
+typedef struct mr_gap { double mean, high, max; } mr_gap; /* of distances: 99 % are at most high */
 
 /* How far points that count are from a surface, and it from them, in units of the positions. */
 typedef struct mr_gaps {
@@ -517,11 +501,9 @@ typedef struct mr_decode_opts {
 #define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN, false)
 
 typedef struct mr_decode_result {
-	size_t folded_edges,
-	    strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
+	size_t folded_edges, strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
 	size_t long_edges; /* whose middles are a hundredth of the diagonal from where base takes them */
-	size_t intersections,
-	    far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
+	size_t intersections, far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */
 } mr_decode_result;
@@ -531,8 +513,7 @@ MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts 
 
 /* Reconstruction: Jeong, Kim 2001 */
 
-/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled.
- */
+/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled. */
 typedef enum mr_wrap_method { MR_WRAP_AUTO, MR_WRAP_CUBE, MR_WRAP_VOLUME } mr_wrap_method;
 
 /* What the points leave open is closed: narrow holes of the sampling, all, none. */
@@ -555,10 +536,10 @@ typedef struct mr_wrap_opts {
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
-	size_t samples, nodes, sided; /* points that counted; of the grid; whose sides were given and used */
-	double spacing, cell;         /* side of the square that a point stands for; of a cell */
-	double noise;                 /* squares of so many spacings show a surface: at least 1 */
-	size_t grid;                  /* cells along the longest side of the points' box */
+	size_t samples, nodes, sided;   /* points that counted; of the grid; whose sides were given and used */
+	double spacing, cell;           /* side of the square that a point stands for; of a cell */
+	double noise;                   /* squares of so many spacings show a surface: at least 1 */
+	size_t grid;                    /* cells along the longest side of the points' box */
 	size_t regions, regions_turned; /* large flat ones; rounds of turning them over */
 	size_t rounds, turned;          /* of the Poisson equation; normals that the first turned over */
 	double level, inside;           /* the indicator's value at the surface; share of the nodes */
@@ -613,8 +594,7 @@ typedef struct mr_simplify_result {
 MR_API mr_status mr_simplify_frame(
     mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result) MR_WARN_UNUSED;
 
-/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once.
- */
+/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once. */
 typedef enum mr_fit_method { MR_FIT_LOCAL, MR_FIT_LEAST_SQUARES } mr_fit_method;
 
 typedef struct mr_fit_opts {
@@ -696,23 +676,14 @@ typedef struct mr_subdivide_result {
 MR_API mr_status mr_subdivide_frame(mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache,
     mr_subdivide_result *result) MR_WARN_UNUSED;
 
-/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1.
- */
+/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1. */
 MR_API mr_status mr_equalize_frame(
     mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache) MR_WARN_UNUSED;
 
 /* Models from nothing: mr-make */
 
 typedef enum mr_solid {
-	MR_SPHERE,
-	MR_TORUS,
-	MR_CUBE,
-	MR_PLANE,
-	MR_CYLINDER,
-	MR_KNOT,
-	MR_BUMPY,
-	MR_BOXES,
-	MR_SOLIDS
+	MR_SPHERE, MR_TORUS, MR_CUBE, MR_PLANE, MR_CYLINDER, MR_KNOT, MR_BUMPY, MR_BOXES, MR_SOLIDS
 } mr_solid;
 
 typedef struct mr_make_opts {
@@ -734,9 +705,7 @@ MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame
 
 /* Measuring: mr-info */
 
-typedef struct mr_box {
-	mr_v3 min, max;
-} mr_box;
+typedef struct mr_box { mr_v3 min, max; } mr_box;
 
 /*
  * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
@@ -910,9 +879,8 @@ typedef struct mr_map_opts {
 typedef struct mr_map_result {
 	size_t level, width, height; /* the last two in texels */
 	double low, high;
-	size_t clipped,
-	    turned;            /* written: texels of heights out of the range, of normals away from control */
-	size_t between, seams; /* read: vertices on no texel, and of other heights across a seam */
+	size_t clipped, turned; /* written: texels of heights out of the range, of normals away from control */
+	size_t between, seams;  /* read: vertices on no texel, and of other heights across a seam */
 } mr_map_result;
 
 /* Writes NAME-height.png, NAME-normal.png and NAME.mtl, which names them, and gives control a material,

@@ -120,6 +120,8 @@ materials(void **state)
 	assert_null(look[3].file);
 	assert_string_equal(look[4].file, "folder/absolute.png");
 	assert_string_equal(heard,
+	    "option -s of the picture of material blue two is not followed\n"
+	    "option -o of the picture of material blue two is not followed\n"
 	    "../outside.png, the picture of material out, is not in folder\n"
 	    "gone.mtl is not in folder: its materials are only names\n"
 	    "1 of 5 materials are not in sub\\m.mtl: they are only names, the first green\n");
