@@ -404,10 +404,12 @@ share_file(mr_ctx *ctx, const source *a, const source *b, bool *share)
 	uint32_t *number;
 	size_t of_a, of_b, distinct;
 
+	*share = a->bytes == b->bytes && !memcmp(a->files, b->files, a->bytes);
+	if (*share)
+		return MR_OK;
 	MR_TRY(add_lines(ctx, &all, a->files, a->bytes, &number, &of_a));
 	distinct = all.count;
 	MR_TRY(add_lines(ctx, &all, b->files, b->bytes, &number, &of_b));
-	*share = false;
 	for (size_t k = 0; k < of_b; k++)
 		*share |= number[k] < distinct;
 	return MR_OK;
