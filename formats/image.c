@@ -16,6 +16,15 @@ mr_is_jpeg(const unsigned char *data, size_t size)
 }
 
 mr_status
+mr_image_fits(mr_ctx *ctx, size_t width, size_t height, size_t bytes, size_t most)
+{
+	return width == 0 || height <= (bytes + 1) * most / width
+	           ? MR_OK
+	           : mr_fail(ctx, MR_EFORMAT, "a picture of %zux%zu pixels cannot be in %zu bytes", width,
+			 height, bytes);
+}
+
+mr_status
 mr_image_read(mr_ctx *ctx, const char *path, mr_image *image)
 {
 	mr_file_bytes b = { 0 };

@@ -53,6 +53,7 @@ decode(mr_ctx *ctx, struct jpeg_decompress_struct *info, failure *f, const unsig
 		return mr_fail(ctx, MR_EFORMAT, "%s", f->sentence);
 	jpeg_mem_src(info, data, size);
 	jpeg_read_header(info, TRUE);
+	MR_TRY(mr_image_fits(ctx, info->image_width, info->image_height, size, MR_JPEG_MOST));
 	info->out_color_space = JCS_RGB;
 	jpeg_start_decompress(info);
 	MR_TRY(mr_image_new(ctx, info->output_width, info->output_height, (mr_rgb){ 0, 0, 0 }, image));

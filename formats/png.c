@@ -146,7 +146,9 @@ mr_png_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image
 
 	if (png_image_begin_read_from_memory(&png, data, size)) {
 		png.format = PNG_FORMAT_RGB;
-		status = mr_image_new(ctx, png.width, png.height, (mr_rgb){ 0, 0, 0 }, &made);
+		status = mr_image_fits(ctx, png.width, png.height, size, MR_PNG_MOST);
+		if (status == MR_OK)
+			status = mr_image_new(ctx, png.width, png.height, (mr_rgb){ 0, 0, 0 }, &made);
 		if (status == MR_OK)
 			png_image_finish_read(&png, &white, made.pixel, (png_int_32)(3 * png.width), NULL);
 	}
@@ -201,7 +203,7 @@ get_texts(mr_ctx *ctx, png_structp png, png_infop info, mr_gray *gray)
 
 /* An arena's memory outlives the jump of a failure. */
 static mr_status
-decode_gray(mr_ctx *ctx, png_structp png, png_infop info, mr_gray *gray)
+decode_gray(mr_ctx *ctx, png_structp png, png_infop info, const source *s, mr_gray *gray)
 {
 	enum { MOST = 32767 };
 	int depth, color, passes;
@@ -217,6 +219,7 @@ decode_gray(mr_ctx *ctx, png_structp png, png_infop info, mr_gray *gray)
 	if (gray->width > MOST || gray->height > MOST)
 		return mr_fail(ctx, MR_ERANGE, "a picture of %zux%zu pixels is larger than %dx%d",
 		    gray->width, gray->height, MOST, MOST);
+	MR_TRY(mr_image_fits(ctx, gray->width, gray->height, s->left, MR_PNG_GRAY_MOST));
 	gray->pixel = MR_NEW(ctx, gray->width * gray->height, uint16_t);
 	if (!gray->pixel)
 		return MR_EMEM;
@@ -235,7 +238,7 @@ decode(mr_ctx *ctx, png_structp png, png_infop info, source *s, const char *sent
 	if (setjmp(png_jmpbuf(png)))
 		return mr_fail(ctx, MR_EFORMAT, "%s", sentence);
 	png_set_read_fn(png, s, read_bytes);
-	return decode_gray(ctx, png, info, gray);
+	return decode_gray(ctx, png, info, s, gray);
 }
 
 static mr_status

@@ -73,3 +73,19 @@ ls none.png 2>/dev/null
 
 echo '-- of the picture all frames but the first have the texture from before'
 mr-cat card.mrs card.mrs | mr-render -s 40x40 --texture away/torus.png 'card-%d.png' && differ card-1 card-2
+
+echo '-- pictures that announce more than their bytes can hold'
+python3 - <<'END'
+import struct, zlib
+chunk = lambda kind, body: struct.pack(">I", len(body)) + kind + body + struct.pack(">I", zlib.crc32(kind + body))
+open("huge.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 32767, 32767, 8, 2, 0, 0, 0)) +
+                             chunk(b"IDAT", zlib.compress(bytes(1000))) + chunk(b"IEND", b""))
+parts = b"\1\x11\0\2\x11\0\3\x11\0"
+open("huge.jpg", "wb").write(b"\xff\xd8\xff\xc0" + struct.pack(">HBHHB", 17, 8, 30000, 30000, 3) + parts +
+                             b"\xff\xda" + struct.pack(">HB", 12, 3) + b"\1\0\2\0\3\0\0\x3f\0" + bytes(1000))
+END
+mr-make sphere -n 60 --texcoords -o ball.mrs
+for picture in huge.png huge.jpg; do
+	mr-render --texture $picture --size 32x32 out.png <ball.mrs
+	echo "exit $?"
+done
