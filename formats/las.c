@@ -98,8 +98,7 @@ read_header(mr_ctx *ctx, const unsigned char *d, size_t size, las *l)
 	if (format & 0xc0)
 		return mr_fail(ctx, MR_EFORMAT,
 		    "byte 104: compressed points (LAZ) are not read: PDAL's `pdal translate in.laz out.las` "
-		    "or "
-		    "LAStools' las2las unpacks them");
+		    "or LAStools' las2las unpacks them");
 	if (format >= FORMATS)
 		return mr_fail(ctx, MR_EFORMAT, "byte 104: point format %u is not known", format);
 	*l = (las){ .format = format,

@@ -444,8 +444,7 @@ say_gone(const finder *f)
 	else if (f->gone)
 		mr_warn(f->ctx,
 		    "%zu files of materials are not in %s, the first of them %.100s: their materials are "
-		    "only "
-		    "names",
+		    "only names",
 		    f->gone, f->folder, f->first_gone);
 }
 

@@ -239,8 +239,7 @@ put_names(mr_ctx *ctx, mr_frame *f, const char *layer, const char *what, mr_line
 	if (changed)
 		mr_warn(ctx,
 		    "%s: names that are not UTF-8, or hold control characters: %zu; %%E9 stands for a byte "
-		    "e9 "
-		    "until they are written",
+		    "e9 until they are written",
 		    what, changed);
 	return mr_layer_put(ctx, f, layer, what, lines.text, lines.bytes);
 }

@@ -448,8 +448,7 @@ doubt_normals(const table *t, size_t at)
 	if (are_shares(t, at) && !are_unit(t, at))
 		mr_warn(t->ctx,
 		    "columns %zu to %zu are read as normals, though not of length 1: colors of 0 to 1 need "
-		    "the "
-		    "line '# x y z red green blue' before them",
+		    "the line '# x y z red green blue' before them",
 		    at + 1, at + 3);
 }
 

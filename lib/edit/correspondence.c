@@ -66,7 +66,8 @@ typedef struct walker {
 	double *dist2; /* from there to the vertex */
 } walker;
 
-/* The nearest place of the faces around a vertex, each once, even if it is there thousands of times. */
+/* The nearest place of the faces around a vertex; of equal ones in a row, as there may be thousands, one is
+ * looked at. */
 static mr_closest
 nearest_around(const walker *w, uint32_t vertex, mr_v3 q)
 {

@@ -449,7 +449,8 @@ warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr
 		mr_warn(ctx,
 		    "%s: positions are rounded by up to %.2g of the diagonal: doubles are too coarse for "
 		    "this model %s",
-		    column->layer, off, mr_box_largest(after) < 1e-292 ? "so near 0" : "so far from the origin");
+		    column->layer, off,
+		    mr_box_largest(after) < 1e-292 ? "so near 0" : "so far from the origin");
 }
 
 static mr_status
@@ -500,14 +501,12 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 		if (c->unit_scale == 0)
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: %s cannot be stretched in one direction more than in another: do that "
-			    "before "
-			    "it is made, or behind mr-decode",
+			    "before it is made, or behind mr-decode",
 			    column->layer, column->name);
 		if (c->mirrors && !strcmp(column->layer, "displacement"))
 			return mr_fail(ctx, MR_EMESH,
 			    "displacement: %s follows the faces of control, which a mirror turns over: "
-			    "mirror "
-			    "before mr-sample or behind mr-decode",
+			    "mirror before mr-sample or behind mr-decode",
 			    column->name);
 	}
 	return MR_OK;

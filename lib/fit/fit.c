@@ -192,8 +192,7 @@ check_valences(mr_ctx *ctx, const mr_mesh *control)
 	if (pairs > most)
 		return mr_fail(ctx, MR_EMESH,
 		    "%s: vertex %u has %u faces, whose vertices are coupled all with all: %.3g pairs over "
-		    "the mesh, "
-		    "where at most %.3g may be",
+		    "the mesh, where at most %.3g may be",
 		    control->name, highest, faces[highest], pairs, most);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

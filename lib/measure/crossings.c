@@ -59,8 +59,7 @@ mr_crossings_warn(mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, cons
 		v = first_vertex(after, crosses);
 		mr_warn(ctx,
 		    "%zu pairs of faces of the result intersect, %zu did before: it is too coarse for what "
-		    "is "
-		    "thin or near, as at vertex %u (%.4g, %.4g, %.4g)",
+		    "is thin or near, as at vertex %u (%.4g, %.4g, %.4g)",
 		    pairs, old, v, after->p[v].x, after->p[v].y, after->p[v].z);
 	}
 	mr_mark_release(ctx, mark);

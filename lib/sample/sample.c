@@ -291,8 +291,7 @@ see_through(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_
 	if (crust > CRUST_TOLD)
 		mr_warn(ctx,
 		    "%.3g %% of the displaced surface is rough all over: what is as thin as the points are "
-		    "apart, or "
-		    "noise, for which there is -m robust",
+		    "apart, or noise, for which there is -m robust",
 		    100 * crust);
 	return report_heights(ctx, d, c, height, r);
 }

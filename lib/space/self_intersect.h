@@ -20,7 +20,7 @@ bool mr_triangle_degenerate(mr_v3 a, mr_v3 b, mr_v3 c);
 
 /* How many pairs of faces intersect; faces without area are left out.  bvh: of m, where the caller has one,
  * or NULL.  crosses: m->nf, the caller's: which faces they are; or NULL, which is cheaper.  *count: pairs. */
-mr_status
-mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count);
+mr_status mr_self_intersections(
+    mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count) MR_WARN_UNUSED;
 
 #endif

@@ -230,8 +230,8 @@ tell_far(mr_ctx *ctx, mr_cache *cache, const mr_v3 *p, const mr_harm *h)
 		*told = h->far;
 	mr_warn(ctx,
 	    "%zu more intersecting pairs of faces of mesh that are far from each other along it, or of two "
-	    "parts: "
-	    "limbs meet, or sheets pass through each other, most of them at vertex %u (%.4g, %.4g, %.4g)",
+	    "parts: limbs meet, or sheets pass through each other, most of them at vertex %u (%.4g, %.4g, "
+	    "%.4g)",
 	    h->far, h->far_vertex, p[h->far_vertex].x, p[h->far_vertex].y, p[h->far_vertex].z);
 }
 
@@ -273,10 +273,8 @@ look_for_chords(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edge
 		*told = c.edges;
 	mr_warn(ctx,
 	    "%zu of %zu edges of mesh are too long to go where base goes: their middles miss it by up to "
-	    "%.3g %% "
-	    "of the diagonal, most at vertex %u (%.4g, %.4g, %.4g); split them first, by mr-subdivide "
-	    "--longest "
-	    "%.3g",
+	    "%.3g %% of the diagonal, most at vertex %u (%.4g, %.4g, %.4g); split them first, by "
+	    "mr-subdivide --longest %.3g",
 	    c.edges, edges->count, 100 * c.farthest / diagonal, c.vertex, p[c.vertex].x, p[c.vertex].y,
 	    p[c.vertex].z, mr_mesh_edge_scale(ctx, base));
 	return MR_OK;
@@ -383,8 +381,7 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
 	tell_some(ctx, h->unscaled, h->handled, missed, share,
 	    "the handle is scaled, and heights over base keep their length; mr-decode --gain scales all of "
-	    "them, "
-	    "mr-transform a whole model");
+	    "them, mr-transform a whole model");
 }
 
 /* Judges by where the pose began: an earlier one may have bent what is fixed now, or a handle.  at_rest: the

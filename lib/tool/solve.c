@@ -126,8 +126,7 @@ check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 		bad += !mr_finite(p[v]);
 	return bad ? mr_fail(ctx, MR_ERANGE,
 			 "%s: %zu of %zu vertices go beyond all numbers: its coordinates, or those of its "
-			 "handles or "
-			 "targets, are too large",
+	                 "handles or targets, are too large",
 			 m->name, bad, m->nv)
 	           : MR_OK;
 }

@@ -506,8 +506,7 @@ warn_of_sides(mr_ctx *ctx, volume *v, const float *u)
 		mr_v3 p = v->s.p[first];
 		mr_warn(ctx,
 		    "%.2g %% of the points show no side that is outside, and more may be on the wrong one: "
-		    "body or gaps "
-		    "are thin, as near (%.4g, %.4g, %.4g)",
+		    "body or gaps are thin, as near (%.4g, %.4g, %.4g)",
 		    100 * (double)unsure / (double)v->s.n, p.x, p.y, p.z);
 	}
 	return MR_OK;
@@ -576,8 +575,7 @@ are_consistent(mr_ctx *ctx, const mr_volume_sides *j, bool normals)
 	if (normals)
 		mr_warn(ctx,
 		    "the normals of the points are not used: %.3g %% are within 60 degrees of those of their "
-		    "neighbours' "
-		    "planes, %.3g %% of neighbours are on one side by them",
+		    "neighbours' planes, %.3g %% of neighbours are on one side by them",
 		    100 * j->near, 100 * j->alike);
 	else
 		mr_warn(ctx,

@@ -246,8 +246,7 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
 		mr_warn(ctx,
 		    "the topology is uncertain: Euler number %g, or %g where body or gaps are thin, first "
-		    "near "
-		    "(%.4g, %.4g, %.4g)",
+		    "near (%.4g, %.4g, %.4g)",
 		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z);
 	else if (c->found.method == MR_WRAP_AUTO)
 		mr_warn(ctx, "the topology is uncertain: the wrap is a sphere because it began as one");
@@ -324,7 +323,7 @@ warn_of_scatter(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 	MR_TRY(mr_cloud_scatter(ctx, cloud->p, cloud->n, cloud->near, &scatter));
 	if (scatter > SCATTERED)
 		mr_warn(ctx, "the points hardly lie along a surface: they fill a volume, or scatter about it "
-		             "as widely as it "
+			     "as widely as it "
 			     "bends, and what is wrapped may be chance");
 	return MR_OK;
 }
@@ -340,15 +339,14 @@ report_lids(mr_ctx *ctx, const mr_wrap_lids *l)
 	if (l->doubtful > 0 && l->flickers)
 		mr_warn(ctx,
 		    "%zu opening%s closed, as the points support the wrap too unevenly to tell where they "
-		    "end: "
-		    "the widest measures %.3g sampling distances, near (%.4g, %.4g, %.4g); of an open sheet "
+		    "end: the widest measures %.3g sampling distances, near (%.4g, %.4g, %.4g); of an open "
+		    "sheet "
 		    "--lids none cuts them out",
 		    l->doubtful, l->doubtful == 1 ? " is" : "s are", l->width, l->at.x, l->at.y, l->at.z);
 	else if (l->doubtful > 0)
 		mr_warn(ctx,
 		    "%zu opening%s of the points may be meant or not, those up to %g sampling distances wide "
-		    "are "
-		    "closed: the widest measures %.3g, near (%.4g, %.4g, %.4g)",
+		    "are closed: the widest measures %.3g, near (%.4g, %.4g, %.4g)",
 		    l->doubtful, mr_plural(l->doubtful), MR_WRAP_OPENING, l->width, l->at.x, l->at.y,
 		    l->at.z);
 }
