@@ -518,44 +518,39 @@ is_given(const mr_column *c, const char *layer)
 	return false;
 }
 
-/* What a file gave to `from`, without what `has` has; how many there are. */
+/* Warns, behind the sentence, of what a file gave to `from` and `has` (NULL: nothing) has not. */
 static mr_status
-list_given(mr_ctx *ctx, const mr_frame *f, const char *from, const char *has, mr_text *names, size_t *n)
+warn_of_given(mr_ctx *ctx, const mr_frame *f, const char *from, const char *has, const char *sentence)
 {
-	*names = (mr_text){ .ctx = ctx };
-	*n = 0;
+	mr_text names = { .ctx = ctx };
+	size_t n = 0;
+
 	for (size_t i = 0; f->key && i < f->count; i++) {
 		const mr_column *c = &f->columns[i];
-		if (!is_given(c, from) || (has && mr_layer_has(f, has, c->name)))
-			continue;
-		mr_text_name(names, n, c->name);
+		if (is_given(c, from) && !(has && mr_layer_has(f, has, c->name)))
+			mr_text_name(&names, &n, c->name);
 	}
-	mr_text_more(names, *n);
-	return mr_text_done(names);
+	mr_text_more(&names, n);
+	MR_TRY(mr_text_done(&names));
+	if (n)
+		mr_warn(ctx, "%s%s", sentence, names.s);
+	return MR_OK;
 }
 
 mr_status
 mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
 {
-	mr_text names;
-	size_t n;
+	const char *sentence = mr_format(ctx, "%s is made from %s, without what that has: ", layer, from);
 
-	MR_TRY(list_given(ctx, f, from, layer, &names, &n));
-	if (n)
-		mr_warn(ctx, "%s is made from %s, without what that has: %s", layer, from, names.s);
-	return MR_OK;
+	return sentence ? warn_of_given(ctx, f, from, layer, sentence) : MR_EMEM;
 }
 
 mr_status
 mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
 {
-	mr_text names;
-	size_t n;
+	const char *sentence = mr_format(ctx, "%s is made anew, without its ", layer);
 
-	MR_TRY(list_given(ctx, f, layer, from, &names, &n));
-	if (n)
-		mr_warn(ctx, "%s is made anew, without its %s", layer, names.s);
-	return MR_OK;
+	return sentence ? warn_of_given(ctx, f, layer, from, sentence) : MR_EMEM;
 }
 
 mr_status
