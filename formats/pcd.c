@@ -527,7 +527,7 @@ mr_pcd_sniff(const unsigned char *data, size_t size)
 {
 	mr_scan text = mr_scan_of(NULL, data, size), line;
 
-	if (mr_scan_accept(&text, "VERSION"))
+	if (mr_scan_accept(&text, "VERSION") || mr_scan_accept(&text, "FIELDS"))
 		return true;
 	return mr_scan_line(&text, &line) && mr_scan_accept(&line, "#") && mr_scan_accept(&line, ".PCD");
 }

@@ -252,9 +252,9 @@ mr_status
 mr_too_fine(mr_ctx *ctx, const mr_remesh_source *s, double faces, double most, double length)
 {
 	return mr_fail(ctx, MR_ERANGE,
-	    "%s: edges of length %g take about %.3g faces or more, where at most %.3g may be: take a length "
+	    "%s: edges of length %g take about %.6g faces or more, where at most %.6g may be: take a length "
 	    "of %.2g",
-	    s->m->name, s->uniform, faces, most, ROUNDED_UP * length);
+	    s->m->name, s->uniform, ceil(faces), floor(most), ROUNDED_UP * length);
 }
 
 double

@@ -16,7 +16,7 @@ far = max(map(lambda x, y: abs(x - y), a, b)) / diagonal
 print('equal' if len(a) == len(b) and far <= float(sys.argv[3]) else 'differ by %g' % far)
 END
 }
-mr-make bumpy -n 5000 | mr-smooth | mr-remesh -o base.mrs || exit
+mr-make bumpy -n 2500 | mr-smooth | mr-remesh -o base.mrs || exit
 mr-encode base.mrs -o detail.mrs
 
 echo 'on the base as it was'
@@ -166,7 +166,7 @@ mr-decode bent.mrs -o again.mrs && mr-compare -a mesh -b mesh bent.mrs again.mrs
 
 
 echo '-- what it holds is judged from there, with what the first has bent fixed in the second; by mr-solve or a response'
-mr-make bumpy -n 5000 | mr-smooth | mr-remesh -r 3 | mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 | mr-encode |
+mr-make bumpy -n 2500 | mr-smooth | mr-remesh -r 3 | mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 | mr-encode |
 	mr-pose -H 1 --rotate 0,0,1,60 | mr-solve -k 1 | mr-decode -q -o bent.mrs
 mr-select --reset --free all --fixed below:y,0.5 --handle 1=above:y,0.85 bent.mrs -o again.mrs
 mr-pose -H 1 --rotate 1,0,0,50 again.mrs | mr-solve -k 1 -o solved.mrs

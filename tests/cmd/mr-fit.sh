@@ -4,7 +4,7 @@ figure() { # name, file: a number of a line of JSON
 }
 for shape in sphere torus knot bumpy plane; do
 	mr-make $shape -n 600 | mr-export -f off - | mr-import -l control -o control.mrs
-	mr-make $shape --points 20000 -o points.mrs
+	mr-make $shape --points 8000 -o points.mrs
 	mr-cat --merge control.mrs points.mrs -o both.mrs
 	for m in local least-squares; do
 		mr-fit -q -m $m --stats stats.json both.mrs -o out.mrs || exit

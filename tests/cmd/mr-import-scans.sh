@@ -59,7 +59,8 @@ put("before.pcd", 3, 32 * n, b"\x20\x05\x00" * 2000)
 open("huge.pcd", "wb").write((head % "binary_compressed").replace("3000", "4000000000").encode() + struct.pack("<II", 8, 0))
 END
 echo 'a packed PCD is what it was'
-for file in packed plain text; do
+sed 1d text.pcd >bare.pcd
+for file in packed plain text bare; do
 	mr-import --no-history -q $file.pcd | mr-info | sed 's/^[a-z]*:/PCD:/' >$file.txt
 	mr-import -q $file.pcd | mr-export -q - -f ply-ascii >$file.ply
 	cmp packed.ply $file.ply

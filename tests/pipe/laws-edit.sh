@@ -37,7 +37,7 @@ quarter() {
 	awk '{ printf "%.17g %.17g %.17g\n", 1 - $2, 2 + $1, 3 + $3 }'
 }
 
-mr-make bumpy -n 6000 >model.mrs
+mr-make bumpy -n 3000 >model.mrs
 positions model <model.mrs
 regions='--reset --free all --fixed below:z,0.2 --handle 1=above:z,0.8'
 

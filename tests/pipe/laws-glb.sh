@@ -13,7 +13,7 @@ mr-make sphere -n 300 --texcoords -o sphere.mrs
 mr-make torus -n 500 --texcoords | mr-export torus.obj
 sed 's/^\(f .*\)/\1/; 0,/^f /s//o ring\nusemtl gold\nf /' torus.obj >named.obj
 mr-import named.obj -o torus.mrs
-mr-make bumpy -n 6000 -o bumpy.mrs
+mr-make bumpy -n 2500 -o bumpy.mrs
 mr-make knot --points 100 -o knot.mrs
 models='sphere torus bumpy knot'
 for model in spot.obj.gz spider.obj chair_model.obj.gz quadknot.obj mesh_with_colors.off pirate.obj.gz; do

@@ -193,22 +193,22 @@ sphere_from_points(void **state)
 	assert_true(mean < 2e-3 && most < paper_most);
 }
 
-/* Noise of a hundredth of the radius: the robust way comes nearer than the triangles, and is taken. */
+/* Noise of a fiftieth of the radius: the robust way comes nearer than the triangles, and is taken. */
 static void
 sphere_from_noise(void **state)
 {
-	mr_domain d = domain_of(MR_SPHERE, 42, 4, false);
+	mr_domain d = domain_of(MR_SPHERE, 42, 3, false);
 	double *height = MR_NEW(&ctx, d.m.nv, double), mean, most, triangle, triangle_most;
-	mr_v3 *p = sphere_points(8000, 0.01);
+	mr_v3 *p = sphere_points(6000, 0.02);
 	mr_sample_opts o = MR_SAMPLE_DEFAULTS;
 
 	(void)state;
 	o.method = MR_SAMPLE_TRIANGLE;
-	assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height, NULL), MR_OK);
+	assert_int_equal(mr_sample_points(&ctx, &d, p, 6000, NULL, &o, height, NULL), MR_OK);
 	sphere_errors(&d, height, &triangle, &triangle_most);
 	for (int i = 0; i < 2; i++) {
 		o.method = i ? MR_SAMPLE_AUTO : MR_SAMPLE_ROBUST;
-		assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height, NULL), MR_OK);
+		assert_int_equal(mr_sample_points(&ctx, &d, p, 6000, NULL, &o, height, NULL), MR_OK);
 		sphere_errors(&d, height, &mean, &most);
 		assert_true(mean < 0.5 * triangle && most < triangle_most);
 	}
@@ -218,7 +218,7 @@ sphere_from_noise(void **state)
 static void
 noise_makes_fair(void **state)
 {
-	mr_domain d = domain_of(MR_SPHERE, 42, 4, false);
+	mr_domain d = domain_of(MR_SPHERE, 42, 3, false);
 	double *height = MR_NEW(&ctx, d.m.nv, double), mean[2], most;
 	mr_sample_opts o = MR_SAMPLE_DEFAULTS;
 	mr_sample_result r[2];
@@ -226,8 +226,8 @@ noise_makes_fair(void **state)
 	(void)state;
 	o.method = MR_SAMPLE_ROBUST;
 	for (int i = 0; i < 2; i++) {
-		mr_v3 *p = sphere_points(8000, i ? 0.02 : 0.002);
-		assert_int_equal(mr_sample_points(&ctx, &d, p, 8000, NULL, &o, height, &r[i]), MR_OK);
+		mr_v3 *p = sphere_points(6000, i ? 0.02 : 0.002);
+		assert_int_equal(mr_sample_points(&ctx, &d, p, 6000, NULL, &o, height, &r[i]), MR_OK);
 		sphere_errors(&d, height, &mean[i], &most);
 	}
 	assert_true(r[1].fairness > 4 * r[0].fairness);
@@ -378,7 +378,7 @@ columns_keep_to_their_sheet(void **state)
 static void
 threads_do_not_matter(void **state)
 {
-	mr_domain d = domain_of(MR_SPHERE, 42, 4, false);
+	mr_domain d = domain_of(MR_SPHERE, 42, 3, false);
 	double *height[2] = { MR_NEW(&ctx, d.m.nv, double), MR_NEW(&ctx, d.m.nv, double) };
 	mr_v3 *p = sphere_points(9000, 0.01);
 	mr_sample_opts o = MR_SAMPLE_DEFAULTS;

@@ -1,0 +1,20 @@
+# What is poor is said: one model for each warning that no other test gets to hear.
+heard() { # what, the tool's words
+	echo "-- $1"
+	grep -o "$2" said | sort -u || sed 's/^/not heard: /' said
+}
+mr-make cylinder -n 3000 --noise 1% | mr-remesh --adaptive 5% --feature 40 2>said >out
+heard 'edges that are sharp by noise' 'sharp edges are gone'
+
+mr-make bumpy -n 5000 | mr-smooth -t 200 | mr-remesh -q -r 4 | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.5 |
+    mr-encode -q | mr-pose -H 1 --rotate 0,0,1,170 --scale 0.2 | mr-solve -q | mr-decode 2>said >out
+heard 'half a model shrunk in little room' 'detail is torn'
+
+mr-make knot --points 900 --noise 2% | mr-shrinkwrap 2>said >out
+heard 'too few points of a knot, with noise' 'the wrap is a sphere because it began as one'
+
+mr-make bumpy -n 60 | mr-export -f off - | mr-import -l control -o control.mrs
+mr-make torus --points 3000 | mr-cat --merge control.mrs - | mr-fit -m local 2>said -o fit.mrs
+heard 'a control mesh of something else' 'the limit surface has [0-9]* folded edges' | sed 's/[0-9][0-9]*/N/'
+mr-sample fit.mrs 2>said >out
+heard 'and its displaced surface' 'rough all over\|fold over or pass through others'
