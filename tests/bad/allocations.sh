@@ -30,10 +30,10 @@ judge() {
 	*) complain "exit $code: $*" ;;
 	esac
 }
-# Allocations 1 to 64, then every 1/16 further on.
+# Allocations 1 to 32, then 1/5 further on.
 every() {
 	[ -z "$LONG" ] || { seq "$1"; return; }
-	awk -v n="$1" 'BEGIN { for (k = 1; k <= n; k = k < 48 ? k + 1 : k + int(k / 6)) print k }'
+	awk -v n="$1" 'BEGIN { for (k = 1; k <= n; k = k < 32 ? k + 1 : k + int(k / 5)) print k }'
 }
 try() { # command
 	unset FAIL_AT

@@ -1,7 +1,7 @@
 # Large memory in files: the same bytes, whatever reads and writes, and nothing is left in the folder.
 [ -z "$SAN" ] || { echo "millions of points take minutes with sanitizers"; exit 77; }
 mkdir scratch
-n=3000000
+n=2800000
 mr-make torus -n 100 --points $n -o cloud.mrs
 both() { # command: the same with and without
 	"$@" >good && "$@" --scratch scratch >out && cmp good out && echo "$1: the same"

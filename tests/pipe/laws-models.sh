@@ -82,7 +82,7 @@ for file in own.obj own-little.ply own-big.ply "$DATA"/meshes/*; do
 	own*) ! grep -v 'left out: no corner names them' said || exit 1 ;; # of 300 that corners choose from
 	esac
 	# The largest are read by Python in no time that a test may take.
-	[ "$(wc -c <"$file")" -gt 3000000 ] || printf '%s\t%s\t%s\n' $format "$file" "out/$name"
+	[ "$(wc -c <"$file")" -gt 1000000 ] || printf '%s\t%s\t%s\n' $format "$file" "out/$name"
 done >list
 $python "$TOP/tests/pipe/same-model.py" <list || exit
 # In PLY all of an OBJ goes out and comes back, too.
