@@ -2,6 +2,7 @@
 #include "edit/handles.h"
 
 #include "base/rotation.h"
+#include "base/text.h"
 #include "base/text_file.h"
 #include "edit/region_transfer.h"
 
@@ -196,13 +197,19 @@ mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *row)
 static mr_status
 no_such_handle(mr_ctx *ctx, const mr_handles *h, size_t handle)
 {
-	char list[200] = "";
+	mr_text used = { .ctx = ctx };
+	char number[24];
 	size_t n = 0;
 
-	for (size_t i = 0; i < h->n && n < sizeof list - 24; i++)
-		if (h->count[i])
-			n += (size_t)snprintf(list + n, sizeof list - n, "%s%zu", n ? ", " : "", i);
-	return mr_fail(ctx, MR_EMISSING, "no vertex is in handle %zu; handles in use: %s", handle, list);
+	for (size_t i = 0; i < h->n; i++)
+		if (h->count[i]) {
+			snprintf(number, sizeof number, "%zu", i);
+			mr_text_name(&used, &n, number);
+		}
+	mr_text_more(&used, n);
+	MR_TRY(mr_text_done(&used));
+	return mr_fail(
+	    ctx, MR_EMISSING, "no vertex is in handle %zu; handles in use: %s", handle, n ? used.s : "none");
 }
 
 mr_status

@@ -472,6 +472,7 @@ static mr_status
 join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 {
 	mr_text left = { .ctx = ctx };
+	size_t n = 0;
 
 	warn_of_absent(ctx, j);
 	MR_TRY(warn_of_mixed(ctx, j));
@@ -489,10 +490,11 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 			if (!leave)
 				MR_TRY(join_column(ctx, j, out, &leave));
 			if (leave && !is_sampling(j->name))
-				mr_text_add(&left, "%s%s", left.n ? ", " : "", j->name);
+				mr_text_name(&left, &n, j->name);
 		}
+	mr_text_more(&left, n);
 	MR_TRY(mr_text_done(&left));
-	if (left.n)
+	if (n)
 		mr_warn(ctx,
 		    "%s is appended without %s: not all frames have that, in one shape, or its rows "
 		    "cannot be numbered anew",

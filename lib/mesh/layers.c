@@ -247,26 +247,42 @@ static const struct {
 	{ "handles", "mr-pose makes handles" },
 };
 
+static bool
+is_first_of_layer(const mr_frame *f, size_t i)
+{
+	for (size_t k = 0; k < i; k++)
+		if (!strcmp(f->columns[k].layer, f->columns[i].layer))
+			return false;
+	return true;
+}
+
+mr_status
+mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **names)
+{
+	mr_text list = { .ctx = ctx };
+	size_t n = 0;
+
+	for (size_t i = 0; i < f->count; i++) {
+		const char *layer = f->columns[i].layer;
+		if (*layer && !(except && !strcmp(layer, except)) && is_first_of_layer(f, i))
+			mr_text_name(&list, &n, layer);
+	}
+	mr_text_more(&list, n);
+	*names = n ? list.s : "";
+	return mr_text_done(&list);
+}
+
 /* In brackets: for make lint there is a macro of this name. */
 mr_status(mr_layer_missing)(mr_ctx *ctx, const mr_frame *f, const char *names, const char *layer)
 {
-	char there[160] = "";
-	const char *how = "";
-	size_t n = 0;
+	const char *there, *how = "";
 
 	for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
 		if (!strcmp(makers[i].layer, layer))
 			how = makers[i].how;
-	for (size_t i = 0; i < f->count && n < sizeof there; i++) {
-		const char *name = f->columns[i].layer;
-		size_t before = 0;
-		while (strcmp(f->columns[before].layer, name))
-			before++;
-		if (*name && before == i)
-			n += (size_t)snprintf(there + n, sizeof there - n, "%s%s", n ? ", " : "", name);
-	}
+	MR_TRY(mr_layer_names(ctx, f, NULL, &there));
 	return mr_fail(ctx, MR_EMISSING, "no layer %s%s%s; the frame has %s", names, *how ? ": " : "", how,
-	    n ? there : "none");
+	    *there ? there : "none");
 }
 
 /* Up to here, and down to its inverse, every tool gives the same bits at every power of two; at 1e57 wraps

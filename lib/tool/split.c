@@ -100,22 +100,15 @@ take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, siz
 	return mr_layer_keep(ctx, part, layer, &s);
 }
 
-static void
+static mr_status
 warn_of_layers(mr_ctx *ctx, const mr_frame *f, const char *layer)
 {
-	char names[128];
-	size_t n = 0;
+	const char *others;
 
-	for (size_t i = 0; i < f->count && n < sizeof names; i++) {
-		const char *other = f->columns[i].layer;
-		size_t before = 0;
-		while (strcmp(f->columns[before].layer, other))
-			before++;
-		if (*other && strcmp(other, layer) && before == i)
-			n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "", other);
-	}
-	if (n)
-		mr_warn(ctx, "%s alone is split: its parts are without %s", layer, names);
+	MR_TRY(mr_layer_names(ctx, f, layer, &others));
+	if (*others)
+		mr_warn(ctx, "%s alone is split: its parts are without %s", layer, others);
+	return MR_OK;
 }
 
 static void
@@ -159,7 +152,7 @@ mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***
 		return MR_EMEM;
 	for (size_t k = 0; k < p.given; k++)
 		MR_TRY(take_part(ctx, f, layer, &p, k, &part[k]));
-	warn_of_layers(ctx, f, layer);
+	MR_TRY(warn_of_layers(ctx, f, layer));
 	tell(ctx, &m, &p, &r);
 	*out = part;
 	if (result)
