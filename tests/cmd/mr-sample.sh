@@ -25,11 +25,11 @@ check refined "$(figure gap_mean) < 0.5 * $found && $(figure gap_mean) < 2e-4 &&
 mr-info sphere.out | sed -n '/displacement:/,$p'
 
 echo "noise"
-mr-make sphere --points 6000 --noise 0.01 -o noisy.mrs
+mr-make sphere --points 3000 --noise 0.01 -o noisy.mrs
 frame ball.mrs noisy.mrs | mr-sample -m robust --stats stats.json -o noisy.out || exit
-mr-make sphere --points 6000 --noise 0.04 | frame ball.mrs - | mr-sample -m triangle 2>&1 >/dev/null | grep -c 'times the area of its domain: noise'
+mr-make sphere --points 3000 --noise 0.04 | frame ball.mrs - | mr-sample -m triangle 2>&1 >/dev/null | grep -c 'times the area of its domain: noise'
 for method in auto robust; do
-	mr-make sphere --points 6000 --noise 0.03 | frame ball.mrs - | mr-sample --no-history -m $method -o $method.out
+	mr-make sphere --points 3000 --noise 0.03 | frame ball.mrs - | mr-sample --no-history -m $method -o $method.out
 done
 cmp auto.out robust.out && echo by default the same
 check noise "$(figure noise) > 0.0015 && $(figure noise) < 0.004 && $(figure fairness) > 1"
@@ -57,7 +57,7 @@ for method in triangle robust; do
 done
 
 echo "noise on two fifths alone"
-mr-make sphere --points 6000 --noise 0.02 | mr-export -l points -f xyz - |
+mr-make sphere --points 3000 --noise 0.02 | mr-export -l points -f xyz - |
 	awk '{ r = $1 > 0.2 ? 1 : sqrt($1 * $1 + $2 * $2 + $3 * $3); print $1 / r, $2 / r, $3 / r }' >partly.xyz
 mr-import --points partly.xyz | frame ball.mrs - >partly.mrs
 for method in auto robust; do
