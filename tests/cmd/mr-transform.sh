@@ -21,11 +21,11 @@ mr-export here.off <model.mrs
 cmp there.off here.off && echo same
 
 echo 'everything in a frame goes alike'
-mr-make bumpy -n 3000 | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.8 |
+mr-make bumpy -n 1500 | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.8 |
     mr-encode | mr-solve --basis -o rest.mrs
 mr-pose -H 1 --rotate 1,2,3,100 --scale 1.2 --translate 0.1,0.2,0.1 rest.mrs -o posed.mrs
 mr-make bumpy --points 300 >points.mrs
-mr-make bumpy -n 3000 | mr-simplify --to control -n 300 | mr-sample -n 1 -o levels.mrs
+mr-make bumpy -n 1500 | mr-simplify --to control -n 300 | mr-sample -n 1 -o levels.mrs
 near() { # what, two streams: vertex by vertex
 	mr-compare -a mesh -b mesh --json "$3" <"$2" | python3 -c '
 import json, sys

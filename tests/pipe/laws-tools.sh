@@ -8,7 +8,7 @@ bad() {
 
 # A frame that holds every layer that a filter may ask for.
 regions='--reset --free all --fixed below:z,0.2 --handle 1=above:z,0.8'
-mr-make bumpy -n 2000 | mr-smooth | mr-remesh | mr-select $regions | mr-solve --basis | mr-encode |
+mr-make bumpy -n 1000 | mr-smooth | mr-remesh | mr-select $regions | mr-solve --basis | mr-encode |
     mr-pose -H 1 --rotate 0,0,1,30 >edit.mrs || exit
 mr-make sphere --points 300 >points.mrs || exit
 mr-cat --merge edit.mrs points.mrs | mr-shrinkwrap -m cube -r 5 |
