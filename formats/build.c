@@ -268,7 +268,8 @@ mr_build_smoothing(mr_builder *b, uint32_t group)
 typedef struct mr_kept {
 	mr_property p;
 	void *data;
-	size_t room;
+	size_t rows, room;
+	size_t absent;  /* rows without a value, which are 0 */
 	bool odd;       /* a value is not of its type */
 	size_t rounded; /* whole numbers that a double does not hold */
 } mr_kept;
@@ -297,14 +298,33 @@ is_of_type(double x, char type)
 	return type == 'd' || (x >= 0 && x <= (type == 'b' ? 255.0 : 4294967295.0) && x == floor(x));
 }
 
+/* Rows below n that no value has come for, of faces that another element names, are 0. */
+static mr_status
+fill_rows(mr_builder *b, mr_kept *k, size_t n)
+{
+	size_t size = mr_type_size(k->p.shape.type);
+
+	if (k->rows >= n)
+		return MR_OK;
+	MR_TRY(mr_reserve(b->ctx, &k->data, size, k->rows, n - k->rows, &k->room));
+	memset((char *)k->data + k->rows * size, 0, (n - k->rows) * size);
+	k->absent += n - k->rows;
+	k->rows = n;
+	return MR_OK;
+}
+
 mr_status
 mr_build_value(mr_builder *b, size_t number, size_t row, double x)
 {
 	mr_kept *k = &b->kept[number - 1];
 	char type = k->p.shape.type;
 
+	if (row > k->rows)
+		MR_TRY(fill_rows(b, k, row));
 	if (row >= k->room)
 		MR_TRY(mr_reserve(b->ctx, &k->data, mr_type_size(type), row, 1, &k->room));
+	if (row == k->rows)
+		k->rows++;
 	if (!is_of_type(x, type)) {
 		k->odd = true;
 		x = 0;
@@ -333,12 +353,13 @@ put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 	if (!property)
 		return MR_EMEM;
 	for (size_t i = 0; i < b->properties; i++) {
-		const mr_kept *k = &b->kept[i];
+		mr_kept *k = &b->kept[i];
 		mr_property *p = &property[m->properties];
 		*p = k->p;
-		p->data = k->data;
 		if (p->shape.element == 'f' && m->nf == 0)
 			continue;
+		MR_TRY(fill_rows(b, k, p->shape.element == 'f' ? b->faces : m->nv));
+		p->data = k->data;
 		if (k->odd) {
 			mr_warn(b->ctx, "property %s is left out: a value of it is no %s", p->name, p->type);
 			continue;
@@ -347,6 +368,9 @@ put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 			mr_warn(b->ctx,
 			    "%zu values of property %s are rounded: they are whole numbers beyond 2^53",
 			    k->rounded, p->name);
+		if (k->absent)
+			mr_warn(b->ctx, "%zu of %zu faces have no property %s: it is 0 there", k->absent,
+			    k->rows, p->name);
 		if (p->shape.element == 'f' && face &&
 		    !(p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf)))
 			return MR_EMEM;

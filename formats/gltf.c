@@ -366,6 +366,23 @@ open_sparse(mr_gltf *g, const json_t *sparse, mr_accessor *a)
 	return MR_OK;
 }
 
+mr_status
+mr_gltf_vertex_numbers(const mr_gltf *g, const json_t *attributes, size_t *accessor)
+{
+	const json_t *json;
+	const char *type;
+
+	MR_TRY(mr_gltf_index(g, attributes, MR_GLTF_NUMBER, "accessors", accessor));
+	if (*accessor == MR_UNKNOWN)
+		return MR_OK;
+	json = mr_gltf_at(g, "accessors", *accessor);
+	type = json_string_value(json_object_get(json, "type"));
+	if (!type || strcmp(type, "VEC2") ||
+	    json_integer_value(json_object_get(json, "componentType")) != MR_GLTF_UNSIGNED_SHORT)
+		*accessor = MR_UNKNOWN;
+	return MR_OK;
+}
+
 static mr_status
 open_accessor(mr_gltf *g, const json_t *json, mr_accessor *a)
 {

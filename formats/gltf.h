@@ -104,9 +104,10 @@ typedef struct mr_gltf_texture {
 /* By KHR_texture_transform.  material: may be MR_UNKNOWN. */
 mr_status mr_gltf_texture_of(const mr_gltf *g, size_t material, mr_gltf_texture *t) MR_WARN_UNUSED;
 
-/* How many materials have a colour, and how many a picture that lies otherwise than that of the colour. */
+/* How many materials have a colour, how many are of metal, smooth, cut out by alpha or of an extension, and
+ * how many have a picture that lies otherwise than that of the colour. */
 typedef struct mr_gltf_looks {
-	size_t colors, transforms;
+	size_t colors, surfaces, transforms;
 } mr_gltf_looks;
 
 mr_gltf_looks mr_gltf_count_looks(const mr_gltf *g);
@@ -139,6 +140,9 @@ typedef struct mr_accessor {
 	size_t sparse_kind;
 	const unsigned char *instead; /* their values, one behind the other */
 } mr_accessor;
+
+/* The accessor of the vertices' numbers; MR_UNKNOWN: there is none, or another program's of that name. */
+mr_status mr_gltf_vertex_numbers(const mr_gltf *g, const json_t *attributes, size_t *accessor) MR_WARN_UNUSED;
 
 /* Accessor `number`, which the caller has from mr_gltf_index. */
 mr_status mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a) MR_WARN_UNUSED;

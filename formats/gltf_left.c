@@ -14,10 +14,12 @@ mr_status
 mr_gltf_note_attributes(const mr_gltf *g, json_t *attributes, const char *texcoord, mr_gltf_left *left)
 {
 	const char *read[] = { "POSITION", "NORMAL", texcoord, "COLOR_0", MR_GLTF_NUMBER }, *name;
-	const size_t count = sizeof read / sizeof *read;
 	bool skins = mr_gltf_size(g, "skins") > 0;
+	size_t count = sizeof read / sizeof *read, number;
 	json_t *value;
 
+	MR_TRY(mr_gltf_vertex_numbers(g, attributes, &number));
+	count -= number == MR_UNKNOWN;
 	json_object_foreach(attributes, name, value)
 	{
 		size_t i = 0;
@@ -66,6 +68,26 @@ add_attributes(mr_ctx *ctx, const char *said, const mr_gltf_left *left)
 	return add_count(ctx, said, left->attributes - i, "other attribute");
 }
 
+/* How many things an extension of the document lists. */
+static size_t
+listed(const mr_gltf *g, const char *extension, const char *list)
+{
+	const json_t *extensions = json_object_get(g->root, "extensions");
+
+	return json_array_size(json_object_get(json_object_get(extensions, extension), list));
+}
+
+/* How many of an array have what an application has added. */
+static size_t
+with_extras(const mr_gltf *g, const char *array)
+{
+	size_t count = 0;
+
+	for (size_t i = 0; i < mr_gltf_size(g, array); i++)
+		count += json_object_get(mr_gltf_at(g, array, i), "extras") != NULL;
+	return count;
+}
+
 mr_status
 mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left)
 {
@@ -75,11 +97,16 @@ mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left)
 		size_t count;
 		const char *what;
 	} lines[] = { { mr_gltf_size(g, "images"), "image" }, { looks.colors, "material colour" },
-		{ looks.transforms, "other texture transform" }, { mr_gltf_size(g, "skins"), "skin" },
-		{ mr_gltf_size(g, "animations"), "animation" }, { mr_gltf_size(g, "cameras"), "camera" },
-		{ left->targets, "morph target" }, { left->lines, "line primitive" },
-		{ left->unseen.scenes, "other scene" }, { left->unseen.nodes, "unshown mesh node" },
-		{ left->unseen.several, "EXT_mesh_gpu_instancing node" } };
+		{ looks.surfaces, "material surface" }, { looks.transforms, "other texture transform" },
+		{ listed(g, "KHR_materials_variants", "variants"), "material variant" },
+		{ mr_gltf_size(g, "skins"), "skin" }, { mr_gltf_size(g, "animations"), "animation" },
+		{ mr_gltf_size(g, "cameras"), "camera" },
+		{ listed(g, "KHR_lights_punctual", "lights"), "light" }, { left->targets, "morph target" },
+		{ left->lines, "line primitive" }, { left->unseen.scenes, "other scene" },
+		{ left->unseen.nodes, "unshown mesh node" },
+		{ left->unseen.several, "EXT_mesh_gpu_instancing node" },
+		{ with_extras(g, "nodes") + with_extras(g, "meshes") + with_extras(g, "materials"),
+		    "extra" } };
 
 	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
 		said = add_count(g->ctx, said, lines[i].count, lines[i].what);

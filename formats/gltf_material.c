@@ -1,6 +1,7 @@
 /* Materials of a glTF document: how their pictures lie on texture coordinates, and what a model does not
  * keep. */
 #include "formats/gltf.h"
+#include "formats/materials.h"
 
 /* An extension of a thing; NULL where it has none of that name. */
 static json_t *
@@ -61,6 +62,30 @@ is_colored(const json_t *object, const char *key, double plain)
 	return false;
 }
 
+/* Whether a factor is there, and another one than `plain`. */
+static bool
+is_other(const json_t *object, const char *key, double plain)
+{
+	const json_t *factor = json_object_get(object, key);
+
+	return factor && json_number_value(factor) != plain;
+}
+
+/* Whether more than a colour says how the surface looks; pictures, and the gloss of their extension, are told
+ * of elsewhere. */
+static bool
+has_surface(const json_t *material)
+{
+	const json_t *surface = json_object_get(material, "pbrMetallicRoughness");
+	const char *alpha = json_string_value(json_object_get(material, "alphaMode"));
+	size_t extensions = json_object_size(json_object_get(material, "extensions")),
+	       gloss = extension(material, "KHR_materials_pbrSpecularGlossiness") != NULL;
+
+	return is_other(surface, "metallicFactor", mr_material_plain.metal) ||
+	       is_other(surface, "roughnessFactor", mr_material_plain.roughness) ||
+	       (alpha && strcmp(alpha, "OPAQUE")) || extensions > gloss;
+}
+
 /* Whether another picture of the material lies otherwise on its coordinates than that of the colour. */
 static bool
 lies_otherwise(const json_t *material)
@@ -92,6 +117,7 @@ mr_gltf_count_looks(const mr_gltf *g)
 				    "baseColorFactor", 1) ||
 		                is_colored(material, "emissiveFactor", 0) ||
 		                is_colored(gloss, "diffuseFactor", 1);
+		looks.surfaces += has_surface(material);
 		looks.transforms += lies_otherwise(material);
 	}
 	return looks;

@@ -85,7 +85,7 @@ find_sources(gltf_reader *r, const json_t *attributes, const char *texcoord, sou
 	MR_TRY(mr_gltf_index(g, attributes, "NORMAL", "accessors", &s->normal));
 	MR_TRY(mr_gltf_index(g, attributes, texcoord, "accessors", &s->texcoord));
 	MR_TRY(mr_gltf_index(g, attributes, "COLOR_0", "accessors", &s->color));
-	return mr_gltf_index(g, attributes, MR_GLTF_NUMBER, "accessors", &s->number);
+	return mr_gltf_vertex_numbers(g, attributes, &s->number);
 }
 
 /* The attributes that are read: of the coordinates those of the colour's picture, or the first ones. */

@@ -229,14 +229,14 @@ set_share(double *to, const char *s)
 }
 
 /* Statements that nothing is made of: those of numbers say nothing where all are neutral.  Ka, Ni, Ns and
- * illum go with others, or are of a program's lights. */
+ * illum go with others, or are of a program's lights.  The first is none, but what a picture hides. */
 static const struct {
 	const char *name;
 	double neutral;
-} unused[] = { { "Ks", 0 }, { "Tf", 1 }, { "Ps", 0 }, { "Pc", 0 }, { "Pcr", 0 }, { "aniso", 0 },
-	{ "anisor", 0 }, { "map_Ka", 0 }, { "map_Ks", 0 }, { "map_Ns", 0 }, { "map_d", 0 }, { "map_Ke", 0 },
-	{ "bump", 0 }, { "map_bump", 0 }, { "decal", 0 }, { "refl", 0 }, { "map_Pr", 0 }, { "map_Pm", 0 },
-	{ "map_Ps", 0 } };
+} unused[] = { { "Kd beside map_Kd", 1 }, { "Ks", 0 }, { "Tf", 1 }, { "Ps", 0 }, { "Pc", 0 }, { "Pcr", 0 },
+	{ "aniso", 0 }, { "anisor", 0 }, { "map_Ka", 0 }, { "map_Ks", 0 }, { "map_Ns", 0 }, { "map_d", 0 },
+	{ "map_Ke", 0 }, { "bump", 0 }, { "map_bump", 0 }, { "decal", 0 }, { "refl", 0 }, { "map_Pr", 0 },
+	{ "map_Pm", 0 }, { "map_Ps", 0 } };
 
 enum { UNUSED = sizeof unused / sizeof *unused };
 
@@ -258,9 +258,19 @@ note_unused(mr_material *m, const char *line)
 {
 	const char *rest;
 
-	for (size_t k = 0; k < UNUSED; k++)
+	for (size_t k = 1; k < UNUSED; k++)
 		if ((rest = behind(line, unused[k].name)) && says_something(rest, unused[k].neutral))
 			m->unused |= 1u << k;
+}
+
+/* A colour multiplies the picture of its material. */
+static void
+note_hidden(mr_material *m)
+{
+	const double *c = m->color, neutral = unused[0].neutral;
+
+	if (m->file && m->colored && (c[0] != neutral || c[1] != neutral || c[2] != neutral))
+		m->unused |= 1;
 }
 
 /* Warns of options that move, scale or disturb a picture, which nothing here follows. */
@@ -496,6 +506,8 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 		say_gone(&f);
 		MR_TRY(say_unknown(&f));
 	}
+	for (size_t i = 0; i < f.count; i++)
+		note_hidden(&f.list[i]);
 	*list = f.list;
 	*count = f.count;
 	return MR_OK;

@@ -411,6 +411,19 @@ drop_dependents(mr_frame *f, const char *layer, mr_change change, bool own)
 }
 
 void
+mr_layer_warn_of_work(mr_ctx *ctx, const mr_frame *f, const char *layer, mr_change change)
+{
+	bool other = change == MR_RESHAPED || change == MR_RECONNECTED;
+
+	if (other && !strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
+		mr_warn(ctx, "control is another surface now, and its displacement is gone: mr-decode comes "
+			     "before, or mr-sample behind");
+	if (change == MR_RECONNECTED && !strcmp(layer, "base") && mr_layer_has(f, "mesh", "detail_height"))
+		mr_warn(ctx, "base is another surface now, and the detail of mesh over it is gone: mr-decode "
+			     "comes before, or mr-encode behind");
+}
+
+void
 mr_layer_changed(mr_frame *f, const char *layer, mr_change change)
 {
 	if (change == MR_RECONNECTED) {
@@ -485,6 +498,7 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 		MR_TRY(copy_normals(ctx, f, layer, "corner_normal", before.nf, 3, &corner));
 		MR_TRY(mr_turn_normals(ctx, &before, p, normal, corner));
 	}
+	mr_layer_warn_of_work(ctx, f, layer, change);
 	mr_layer_changed(f, layer, change);
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", p, nv));
 	if (normal)
@@ -500,9 +514,10 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	const mr_column *p = mr_frame_find(f, layer, "position");
 
 	MR_TRY(check_finite(ctx, m));
-	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m))
+	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m)) {
+		mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED);
 		mr_layer_changed(f, layer, MR_RECONNECTED);
-	else if (!same_positions(ctx, f, layer, m))
+	} else if (!same_positions(ctx, f, layer, m))
 		return move(ctx, f, layer, MR_RESHAPED, m->p, m->nv);
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", m->p, m->nv));
 	MR_TRY(mr_layer_put(ctx, f, layer, "triangles", m->t, m->nf));

@@ -62,3 +62,10 @@ Ke 0 0 0
 MTL
 mr-import model.obj | mr-export model.glb
 grep -a -o '"baseColorFactor":\[[^]]*\]\|"alphaMode":"[A-Z]*"\|"emissiveFactor":\[[^]]*\]' model.glb
+
+echo '-- a colour that its picture hides; one that changes nothing' >&2
+model red green >model.obj
+printf 'newmtl red\nKd 0.2 0.4 0.6\nmap_Kd b.png\nnewmtl green\nKd 1 0 0\n' >m.mtl
+mr-import model.obj | mr-export --materials . model.glb
+sed -i 's/0.2 0.4 0.6/1 1 1/' m.mtl
+mr-import model.obj | mr-export --materials . model.glb

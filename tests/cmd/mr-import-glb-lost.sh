@@ -140,3 +140,16 @@ mr-import unused.glb | mr-export -f ply-ascii - | tail -n 2
 mr-make cylinder -n 800 -o edges.mrs
 mr-make knot --points 40 | mr-cat --merge edges.mrs - | mr-export -l mesh,points both.glb
 mr-import both.glb | mr-info | grep -E 'vertices,|isolated'
+
+echo '-- how materials look but for their colour, lights, variants, extras, and another program'"'"'s _VERTEX' >&2
+make <<'END'
+primitive.pop("mode")
+root["accessors"][0]["count"] = root["accessors"][1]["count"] = 3
+root["accessors"].append(dict(root["accessors"][0], type="SCALAR"))
+primitive["attributes"]["_VERTEX"] = len(root["accessors"]) - 1
+plain = {"pbrMetallicRoughness": {"metallicFactor": 0, "roughnessFactor": 0.9}, "alphaMode": "OPAQUE"}
+root["materials"] = [plain, {"pbrMetallicRoughness": {"metallicFactor": 0.3}}, {"alphaMode": "MASK"}, {"extensions": {"KHR_materials_unlit": {}}}]
+root["extensions"] = {"KHR_lights_punctual": {"lights": [{}, {}]}, "KHR_materials_variants": {"variants": [{}]}}
+root["nodes"][0]["extras"] = {"a": 1}
+END
+mr-import a.gltf | mr-export -f ply-ascii - | grep element
