@@ -10,7 +10,7 @@ static const cmd_opt table[] = {
 	    NULL },
 	{ 'n', "least", CMD_COUNT, &opts.least, 0, 4294967295, "N",
 	    "leave out parts of fewer vertices; 0: of points those of a hundredth of the largest part's, of "
-	    "a mesh none",
+	    "a mesh vertices without a face",
 	    NULL },
 	{ 0 },
 };

@@ -378,7 +378,7 @@ MR_API mr_status mr_crop_frame(mr_ctx *ctx, mr_frame *f, const char *layer, cons
 typedef struct mr_split_opts {
 	double distance;        /* of points, at which they are connected; 0: four times their spacing */
 	bool distance_relative; /* distance is a share of the bounding box's diagonal */
-	size_t least;           /* vertices of a part; 0: of points a hundredth of the largest part's */
+	size_t least;           /* vertices of a part; 0: 2 of a mesh, of points a hundredth of the largest part's */
 	const char *layer;      /* NULL: mesh, else control, else points */
 } mr_split_opts;
 

@@ -2,8 +2,10 @@
 #include "mesh/subset.h"
 #include "space/connected.h"
 
-/* Parts smaller than this share of the largest are, of points, no parts but what lies around them. */
+/* Parts smaller than this share of the largest are, of points, no parts but what lies around them; of a
+ * surface a vertex without a face is none. */
 static const double LEAST = 0.01;
+enum { LEAST_VERTICES = 2 };
 
 /* The rows of all parts, one part behind the other. */
 typedef struct parts {
@@ -47,8 +49,8 @@ find_parts(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_split_opts *o, p
 		return MR_EMEM;
 	for (size_t i = 0; i < m->nv; i++)
 		p->number[p->vertex[i]] = (uint32_t)(i - p->first_vertex[p->of.part[p->vertex[i]]]);
-	if (least == 0 && m->nf == 0)
-		least = (size_t)ceil(LEAST * (double)p->of.size[0]);
+	if (least == 0)
+		least = m->nf ? LEAST_VERTICES : (size_t)ceil(LEAST * (double)p->of.size[0]);
 	for (p->given = 0; p->given < p->of.parts && p->of.size[p->given] >= least; p->given++)
 		;
 	if (p->given == 0)

@@ -70,3 +70,9 @@ refused --least 3001 cloud.mrs
 refused -l base cloud.mrs
 printf '0 0 0\n' >one.xyz
 mr-import one.xyz | mr-split | mr-info | head -n 1
+
+echo 'vertices without a face are no parts, unless they are asked for'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nv 6 6 6\nf 1 2 3\n' >stray.obj
+mr-import -q stray.obj | mr-split 2>&1 >out.mrs
+mr-export -f ply-ascii 'stray-%d.ply' <out.mrs && ls stray-*
+mr-import -q stray.obj | mr-split -n 1 | mr-info | grep -c '^stray'
