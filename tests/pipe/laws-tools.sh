@@ -40,8 +40,9 @@ kind() {
 	*) echo filter ;;
 	esac
 }
-one_sentence() { # file, tool: one line that begins with the tool's name
-	[ "$(wc -l <"$1")" -eq 1 ] && grep -q "^$2: ." "$1"
+one_sentence() { # file, tool: one line that begins with the tool's name, besides warnings
+	grep -v ': warning: ' "$1" >sentences
+	[ "$(wc -l <sentences)" -eq 1 ] && grep -q "^$2: ." sentences
 }
 # Runs a command line: $code, out, err.
 try() {
