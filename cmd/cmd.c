@@ -443,6 +443,9 @@ check_output(cmd *c)
 			   "-o %s: a stream under the name of a model: mr-export writes models, .mrs is for "
 			   "streams",
 			   path));
+	if (mr_suffix_gz(path))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: a stream is no gzip: mr-cat -z packs its columns",
+			   path));
 	if (c->tool->source && is_input(c, path))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", path));
 }

@@ -133,6 +133,12 @@ stranger(const mr_reader *r, const unsigned char *header, size_t got)
 	return !r->inside && memcmp(header, magic, n) != 0;
 }
 
+static bool
+is_gzip(const unsigned char *header, size_t got)
+{
+	return got > 1 && header[0] == 0x1f && header[1] == 0x8b;
+}
+
 /* One record.  MR_END: the input ends where a stream may end. */
 static mr_status
 read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
@@ -150,7 +156,9 @@ read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
 	if (stranger(r, header, got))
 		return mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here%s",
 		    (unsigned long long)p->offset,
-		    r->ended ? "" : "; mr-import makes a stream of a model's file");
+		    r->ended               ? ""
+		    : is_gzip(header, got) ? "; it is gzip, which gunzip unpacks"
+					   : "; mr-import makes a stream of a model's file");
 	if (got < MR_HEADER)
 		return cut_off(ctx, r);
 	MR_TRY(mr_record_parse(ctx, header, p->offset, &p->head));
