@@ -71,19 +71,17 @@ is_other(const json_t *object, const char *key, double plain)
 	return factor && json_number_value(factor) != plain;
 }
 
-/* Whether more than a colour says how the surface looks; pictures, and the gloss of their extension, are told
- * of elsewhere. */
+/* Whether more than a colour says how the surface looks; pictures are told of elsewhere. */
 static bool
 has_surface(const json_t *material)
 {
 	const json_t *surface = json_object_get(material, "pbrMetallicRoughness");
 	const char *alpha = json_string_value(json_object_get(material, "alphaMode"));
-	size_t extensions = json_object_size(json_object_get(material, "extensions")),
-	       gloss = extension(material, "KHR_materials_pbrSpecularGlossiness") != NULL;
 
 	return is_other(surface, "metallicFactor", mr_material_plain.metal) ||
 	       is_other(surface, "roughnessFactor", mr_material_plain.roughness) ||
-	       (alpha && strcmp(alpha, "OPAQUE")) || extensions > gloss;
+	       (alpha && strcmp(alpha, "OPAQUE")) ||
+	       json_object_size(json_object_get(material, "extensions")) > 0;
 }
 
 /* Whether another picture of the material lies otherwise on its coordinates than that of the colour. */

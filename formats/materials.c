@@ -229,7 +229,7 @@ set_share(double *to, const char *s)
 }
 
 /* Statements that nothing is made of: those of numbers say nothing where all are neutral.  Ka, Ni, Ns and
- * illum go with others, or are of a program's lights.  The first is none, but what a picture hides. */
+ * illum go with others, or are of a program's lights.  HIDDEN is none, but what a picture hides. */
 static const struct {
 	const char *name;
 	double neutral;
@@ -238,7 +238,7 @@ static const struct {
 	{ "map_Ke", 0 }, { "bump", 0 }, { "map_bump", 0 }, { "decal", 0 }, { "refl", 0 }, { "map_Pr", 0 },
 	{ "map_Pm", 0 }, { "map_Ps", 0 } };
 
-enum { UNUSED = sizeof unused / sizeof *unused };
+enum { HIDDEN, UNUSED = sizeof unused / sizeof *unused };
 
 _Static_assert(UNUSED <= 32, "a bit for each");
 
@@ -258,7 +258,7 @@ note_unused(mr_material *m, const char *line)
 {
 	const char *rest;
 
-	for (size_t k = 1; k < UNUSED; k++)
+	for (size_t k = HIDDEN + 1; k < UNUSED; k++)
 		if ((rest = behind(line, unused[k].name)) && says_something(rest, unused[k].neutral))
 			m->unused |= 1u << k;
 }
@@ -267,10 +267,10 @@ note_unused(mr_material *m, const char *line)
 static void
 note_hidden(mr_material *m)
 {
-	const double *c = m->color, neutral = unused[0].neutral;
+	const double *c = m->color, neutral = unused[HIDDEN].neutral;
 
 	if (m->file && m->colored && (c[0] != neutral || c[1] != neutral || c[2] != neutral))
-		m->unused |= 1;
+		m->unused |= 1u << HIDDEN;
 }
 
 /* Warns of options that move, scale or disturb a picture, which nothing here follows. */
