@@ -670,6 +670,7 @@ typedef struct mr_subdivide_opts {
 
 typedef struct mr_subdivide_result {
 	size_t vertices, faces;
+	size_t folded_before, folded; /* edges, by Loop's rules */
 	double seconds;
 } mr_subdivide_result;
 

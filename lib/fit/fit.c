@@ -70,9 +70,9 @@ local(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *point, size_t n, const mr_fit
 
 /* Of level 2. */
 static size_t
-count_folds(const mr_fit_surface *s)
+count_folds(const mr_ctx *ctx, const mr_fit_surface *s)
 {
-	return mr_count_folds(&s->m, s->level[MR_FIT_LEVEL].topo.twin);
+	return mr_count_folds(ctx, &s->m, s->level[MR_FIT_LEVEL].topo.twin);
 }
 
 static void
@@ -91,7 +91,7 @@ put_distances(const mr_fit_gap *before, const mr_fit_gap *after, mr_fit_result *
 static void
 warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, double noise, const mr_fit_foot *foot, size_t n)
 {
-	size_t folds = count_folds(s);
+	size_t folds = count_folds(ctx, s);
 	double far = mr_fit_measure(ctx, foot, n).mean;
 
 	if (folds > 0)
@@ -246,7 +246,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 		    ctx, &sampling, MR_FIT_NEAR * edge, sorted, spacing, foot, &n, &r.outliers));
 	noise = is_local || sampling.usual == 0 ? 0 : sampling.noise / sampling.usual;
 	before = mr_fit_measure(ctx, foot, n);
-	r.folded_edges_before = count_folds(&s);
+	r.folded_edges_before = count_folds(ctx, &s);
 	start = mr_seconds();
 	MR_TRY(is_local ? local(ctx, &s, sorted, n, opts, passes, x)
 			: mr_fit_least_squares(
@@ -261,7 +261,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	if (result) {
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 		after = mr_fit_measure(ctx, foot, n);
-		r.folded_edges_after = count_folds(&s);
+		r.folded_edges_after = count_folds(ctx, &s);
 		put_distances(&before, &after, &r);
 		*result = r;
 	}

@@ -1,15 +1,31 @@
 /* Folds, counted and kept from. */
 #include "mesh/fold.h"
 
-size_t
-mr_count_folds(const mr_mesh *m, const uint32_t *twin)
-{
-	size_t folds = 0;
+#include "base/parallel.h"
 
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		if (twin[h] != MR_NONE && h < twin[h])
-			folds += mr_folds(mr_face_cross(m, h / 3), mr_face_cross(m, twin[h] / 3), MR_FOLD);
+typedef struct counting {
+	const mr_mesh *m;
+	const uint32_t *twin;
+} counting;
+
+/* The folds towards later faces. */
+static double
+folds_of_face(void *arg, size_t f)
+{
+	const counting *c = arg;
+	mr_v3 n = mr_face_cross(c->m, f);
+	int folds = 0;
+
+	for (size_t h = 3 * f; h < 3 * f + 3; h++)
+		if (c->twin[h] != MR_NONE && h < c->twin[h])
+			folds += mr_folds(n, mr_face_cross(c->m, c->twin[h] / 3), MR_FOLD);
 	return folds;
+}
+
+size_t
+mr_count_folds(const mr_ctx *ctx, const mr_mesh *m, const uint32_t *twin)
+{
+	return (size_t)mr_parallel_sum(ctx, m->nf, folds_of_face, &(counting){ m, twin });
 }
 
 static double

@@ -1,8 +1,8 @@
 /*
  * fold.h -- what a fold is: an edge at which the normals of its two faces are more than 170 degrees apart.
  *
- * All that counts folds, and all that takes them out, means MR_FOLD.  What moves, flips or merges vertices stops
- * short of it, at MR_NEAR_FOLD: what is folded by 150 degrees is folded over by the next steps.
+ * All that counts folds, and all that takes them out, means MR_FOLD.  What moves, flips or merges vertices
+ * stops short of it, at MR_NEAR_FOLD: what is folded by 150 degrees is folded over by the next steps.
  */
 #ifndef MR_MESH_FOLD_H
 #define MR_MESH_FOLD_H
@@ -12,8 +12,8 @@
 static const double MR_FOLD = -0.984807753012208;      /* cosine of 170 degrees */
 static const double MR_NEAR_FOLD = -0.866025403784439; /* of 150 */
 
-/* True where faces with these normals, of any length, meet at more than the angle of that negative cosine; one
- * without a normal does not. */
+/* True where faces with these normals, of any length, meet at more than the angle of that negative cosine;
+ * one without a normal does not. */
 static inline bool
 mr_folds(mr_v3 m, mr_v3 n, double cosine)
 {
@@ -22,10 +22,10 @@ mr_folds(mr_v3 m, mr_v3 n, double cosine)
 }
 
 /* The folds of m; twin as in mr_topology. */
-size_t mr_count_folds(const mr_mesh *m, const uint32_t *twin);
+size_t mr_count_folds(const mr_ctx *ctx, const mr_mesh *m, const uint32_t *twin);
 
-/* True where face f meets a neighbour at more than the angle of that cosine in `to`, and at more than in `from`, the
- * same mesh elsewhere. */
+/* True where face f meets a neighbour at more than the angle of that cosine in `to`, and at more than in
+ * `from`, the same mesh elsewhere. */
 bool mr_folds_more(const mr_mesh *from, const mr_mesh *to, const uint32_t *twin, uint32_t f, double cosine);
 
 #endif

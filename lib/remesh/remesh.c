@@ -420,11 +420,11 @@ count_flaws(remesher *r, const mr_places *map)
 	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
 
 	r->flipped[1] = mr_count_flipped(&facing, &view, map);
-	r->folded[1] = mr_count_folds(&view, r->d.twin);
+	r->folded[1] = mr_count_folds(r->ctx, &view, r->d.twin);
 	if (!r->wanted)
 		return;
 	r->flipped[0] = mr_count_flipped_source(&facing);
-	r->folded[0] = mr_count_folds(r->source.m, r->source.topo->twin);
+	r->folded[0] = mr_count_folds(r->ctx, r->source.m, r->source.topo->twin);
 }
 
 static mr_status

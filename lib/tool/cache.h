@@ -46,8 +46,21 @@ struct mr_cache {
 	void (*drop_deform)(struct mr_cache *cache); /* by who made it; NULL: there is none */
 	mr_level_cache level;
 	mr_connectivity_cache connectivity;
-	bool turned_far; /* since the key, by a response: said once */
+	bool turned_far;    /* since the key, by a response: said once */
+	size_t told_folded; /* since the key, by mr-subdivide */
 };
+
+/* Whether to tell of n: of a sequence, that was told of *told, again where it has doubled.  told: NULL, no
+ * sequence. */
+static inline bool
+mr_is_news(size_t n, size_t *told)
+{
+	if (n == 0 || (told && n < 2 * *told))
+		return false;
+	if (told)
+		*told = n;
+	return true;
+}
 
 /* The arena `keep` of a cache, with the threads and the listener of the frame's. */
 mr_ctx *mr_cache_arena(const mr_ctx *ctx, mr_ctx *keep);

@@ -168,13 +168,6 @@ advise(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, uint32_t vertex, c
 		    longest, edge);
 }
 
-/* Of a sequence it is news again where it has doubled. */
-static bool
-is_news(size_t n, const size_t *told)
-{
-	return n > 0 && (!told || n >= 2 * *told);
-}
-
 /* "3 more folded edges of mesh and 40 more intersecting pairs of near faces", without what there is none of.
  */
 static void
@@ -202,15 +195,14 @@ tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, con
 	       *told = cache ? &cache->connectivity.told : NULL;
 	char advice[120] = "", found[160];
 
-	if (!is_news(all, told))
-		return;
 	name_harm(h, pairs, found, sizeof found);
 	if (h->folds <= FOLDS && pairs <= PAIRS) {
-		mr_note(ctx, "%s: few", found);
+		if (all)
+			mr_note(ctx, "%s: few", found);
 		return;
 	}
-	if (told)
-		*told = all;
+	if (!mr_is_news(all, told))
+		return;
 	if (base)
 		advise(ctx, mesh, base, h->vertex, advice, sizeof advice);
 	mr_warn(ctx, "%s, most of them at vertex %u (%.4g, %.4g, %.4g)%s", found, h->vertex, p[h->vertex].x,
@@ -224,10 +216,8 @@ tell_far(mr_ctx *ctx, mr_cache *cache, const mr_v3 *p, const mr_harm *h)
 	enum { PAIRS = 20 };
 	size_t *told = cache ? &cache->connectivity.told_far : NULL;
 
-	if (h->far == MR_UNKNOWN || h->far <= PAIRS || !is_news(h->far, told))
+	if (h->far == MR_UNKNOWN || h->far <= PAIRS || !mr_is_news(h->far, told))
 		return;
-	if (told)
-		*told = h->far;
 	mr_warn(ctx,
 	    "%zu more intersecting pairs of faces of mesh that are far from each other along it, or of two "
 	    "parts: limbs meet, or sheets pass through each other, most of them at vertex %u (%.4g, %.4g, "
@@ -244,10 +234,8 @@ look_for_strayed(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edg
 	size_t *told = cache ? &cache->connectivity.told_strayed : NULL;
 	mr_strayed s = mr_strayed_find(mesh, edges, p, base, d);
 
-	if (s.edges <= FEW || !is_news(s.edges, told))
+	if (s.edges <= FEW || !mr_is_news(s.edges, told))
 		return s.edges;
-	if (told)
-		*told = s.edges;
 	mr_warn(ctx,
 	    "detail is torn: %zu of %zu edges of mesh are over twice as long, or under half as long, as base "
 	    "has them there, most at vertex %u (%.4g, %.4g, %.4g)",
@@ -267,10 +255,8 @@ look_for_chords(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edge
 
 	MR_TRY(mr_chords_find(ctx, mesh, edges, p, base, inc, d, far * diagonal, &c));
 	*count = c.edges;
-	if (!is_news(c.edges, told))
+	if (!mr_is_news(c.edges, told))
 		return MR_OK;
-	if (told)
-		*told = c.edges;
 	mr_warn(ctx,
 	    "%zu of %zu edges of mesh are too long to go where base goes: their middles miss it by up to "
 	    "%.3g %% of the diagonal, most at vertex %u (%.4g, %.4g, %.4g); split them first, by "
@@ -291,10 +277,8 @@ look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contac
 	uint32_t v;
 	size_t n = mr_contacts_open(contacts, mesh, p, apart * mr_mesh_diagonal(mesh), &v);
 
-	if (!is_news(n, told))
+	if (!mr_is_news(n, told))
 		return n;
-	if (told)
-		*told = n;
 	mr_warn(ctx,
 	    "%zu of %zu vertices at which parts of mesh, or sides of a slit, touch have come apart by over "
 	    "%g %% of the diagonal, "
@@ -407,10 +391,8 @@ look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *at_rest, 
 	if (before.p != d->rest)
 		MR_TRY(places_on(ctx, f, cache, &before, "before", inc, d, kept, &mesh.p));
 	MR_TRY(mr_held_count(ctx, &pose, share * mr_mesh_diagonal(&mesh), &h));
-	if (!is_news(h.moved + h.missed + h.unscaled, told))
+	if (!mr_is_news(h.moved + h.missed + h.unscaled, told))
 		return MR_OK;
-	if (told)
-		*told = h.moved + h.missed + h.unscaled;
 	tell_held(ctx, &h, base, share);
 	return MR_OK;
 }

@@ -1,4 +1,6 @@
 /* mr-subdivide: a finer mesh, and its layer's columns on it. */
+#include "base/text.h"
+#include "mesh/fold.h"
 #include "mesh/normals.h"
 #include "subdivide/longest.h"
 #include "tool/cache.h"
@@ -86,6 +88,24 @@ subdivide(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_subdivide_opts *o
 	return refine(ctx, m, level, o, &r->fine, limit);
 }
 
+/* Folds that the rules have made, where triangles are long and thin; those of the input stay, in two edges
+ * each a step. */
+static void
+look_for_folds(mr_ctx *ctx, const mr_frame *f, const mr_refined *r, mr_cache *cache, size_t folded[2])
+{
+	size_t *told = cache ? &cache->told_folded : NULL;
+
+	folded[0] = mr_count_folds(ctx, &r->m, r->level[0].topo.twin);
+	folded[1] = mr_count_folds(ctx, &r->fine, r->level[r->n].topo.twin);
+	if (told && f->key)
+		*told = 0;
+	if (folded[1] > folded[0] << r->n && mr_is_news(folded[1], told))
+		mr_warn(ctx,
+		    "%zu folded edge%s of mesh, %zu before: Loop's rules fold long thin triangles, and "
+		    "mr-remesh makes better ones",
+		    folded[1], mr_plural(folded[1]), folded[0]);
+}
+
 static mr_status
 divide(mr_ctx *ctx, const mr_mesh *m, const mr_subdivide_opts *o, mr_refined *r)
 {
@@ -104,18 +124,22 @@ mr_subdivide_frame(
 	const mr_v3 *limit = NULL;
 	const char *layer;
 	mr_refined r;
-	double start;
+	size_t folded[2] = { 0 };
+	double seconds;
 	mr_mesh m;
 
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	start = mr_seconds();
+	seconds = mr_seconds();
 	if (o->longest > 0)
 		MR_TRY(divide(ctx, &m, o, &r));
 	else
 		MR_TRY(subdivide(ctx, f, &m, o, cache, &r, &limit));
+	seconds = mr_seconds() - seconds;
+	if (r.level)
+		look_for_folds(ctx, f, &r, cache, folded);
 	if (result)
-		*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, mr_seconds() - start };
+		*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, folded[0], folded[1], seconds };
 	MR_TRY(put(ctx, f, layer, &r, limit));
 	if (!strcmp(layer, "control")) { /* without its heights, as was asked for */
 		MR_TRY(mr_layer_followed(ctx, f, "control"));

@@ -21,7 +21,7 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const ch
 	double start = mr_seconds(), s = cloud->spacing;
 	const mr_gaps *g = &w->cover.gaps;
 
-	w->folds = mr_count_folds(&m, w->d.twin);
+	w->folds = mr_count_folds(ctx, &m, w->d.twin);
 	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, &w->cover));
 	w->found.seconds_measure = mr_seconds() - start;
 	mr_note(ctx,

@@ -184,7 +184,7 @@ test_steps_fold_nothing(void **state)
 		if (mr_dot(m.p[v], m.p[0]) < 0)
 			assert_true(mr_dist(x[v], mr_mul(1.01, m.p[v])) < 1e-12);
 	to.p = x;
-	assert_int_equal(mr_count_folds(&to, s.level[0].topo.twin), 0);
+	assert_int_equal(mr_count_folds(&ctx, &to, s.level[0].topo.twin), 0);
 	assert_int_equal(mr_self_intersections(&ctx, NULL, &to, NULL, &pairs), MR_OK);
 	assert_int_equal(pairs, 0);
 	assert_int_equal(mr_fit_crossing(guard), 0);
