@@ -24,10 +24,10 @@ typedef struct glb {
 	size_t bytes, room;
 	const char **image; /* files of the images so far */
 	size_t image_room;
-	size_t numbers;  /* of vertices so far, over all layers */
-	bool numbered;   /* those of the layer at hand are, from there on */
-	size_t unnamed;  /* the material of faces without one; MR_UNKNOWN: not there yet */
-	unsigned unused; /* what materials have and the document has not, see materials.h */
+	size_t numbers; /* of vertices so far, over all layers */
+	bool numbered;  /* those of the layer at hand are, from there on */
+	size_t unnamed; /* the material of faces without one; MR_UNKNOWN: not there yet */
+	unsigned lost;  /* what materials have and the document has not, see materials.h */
 	size_t clipped;
 } glb;
 
@@ -299,7 +299,7 @@ put_materials(glb *w, layer *l)
 		json_t *json;
 		if (bytes == 0) /* no face has it */
 			continue;
-		w->unused |= look[i].unused;
+		w->lost |= look[i].lost;
 		w->clipped += look[i].clipped;
 		if (look[i].file)
 			MR_TRY(embed(w, look[i].file, &texture));
@@ -853,7 +853,7 @@ put_document(glb *w)
 	mr_text json = { .ctx = w->ctx };
 
 	MR_TRY(put_scene(w));
-	MR_TRY(mr_materials_warn_of_lost(w->ctx, w->unused, w->clipped));
+	MR_TRY(mr_materials_warn_of_lost(w->ctx, w->lost, w->clipped));
 	put_root(w);
 	put_lists(w);
 	if (w->failed || json_dump_callback(w->root, add_text, &json, JSON_COMPACT))

@@ -26,6 +26,11 @@ const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
 
 enum { NO_MATCH, MATCH_BUT_COMMENT, MATCH };
 
+/* What is lost of a material: bits of `lost`, these first, then a bit for each statement of unused[]. */
+enum { HIDDEN, NO_COLOR, DESCRIBED_BEFORE, LOSSES };
+static const char *const losses[LOSSES] = { "Kd beside map_Kd", "Kd that is no colour",
+	"all but the last description" };
+
 /* ---- files ---- */
 
 static bool
@@ -121,10 +126,25 @@ before_comment(const char *s, size_t bytes)
 	return n;
 }
 
+/* Of line i of mr_lines_starts. */
+static size_t
+line_bytes(const char **line, size_t i)
+{
+	return (size_t)(line[i + 1] - line[i]) - 1;
+}
+
+static bool
+is_same_line(const char **line, size_t i, size_t k)
+{
+	size_t bytes = line_bytes(line, i);
+
+	return line_bytes(line, k) == bytes && !memcmp(line[i], line[k], bytes);
+}
+
 static size_t
 name_bytes(const finder *f, size_t i)
 {
-	return (size_t)(f->name[i + 1] - f->name[i]) - 1;
+	return line_bytes(f->name, i);
 }
 
 /* A # may belong to the name, as in "Material #25", or begin a comment on either side. */
@@ -151,8 +171,8 @@ new_material(finder *f, const char *name)
 		unsigned char match = match_of(f, i, name, bytes, bare);
 		if (match == NO_MATCH || match < f->match[i])
 			continue;
-		if (match > f->match[i])
-			f->list[i] = mr_material_plain;
+		f->list[i] = mr_material_plain;
+		f->list[i].lost = match == f->match[i] ? 1u << DESCRIBED_BEFORE : 0;
 		f->match[i] = match;
 		f->at[f->ats++] = i;
 	}
@@ -229,18 +249,18 @@ set_share(double *to, const char *s)
 }
 
 /* Statements that nothing is made of: those of numbers say nothing where all are neutral.  Ka, Ni, Ns and
- * illum go with others, or are of a program's lights.  HIDDEN is none, but what a picture hides. */
+ * illum go with others, or are of a program's lights. */
 static const struct {
 	const char *name;
 	double neutral;
-} unused[] = { { "Kd beside map_Kd", 1 }, { "Ks", 0 }, { "Tf", 1 }, { "Ps", 0 }, { "Pc", 0 }, { "Pcr", 0 },
-	{ "aniso", 0 }, { "anisor", 0 }, { "map_Ka", 0 }, { "map_Ks", 0 }, { "map_Ns", 0 }, { "map_d", 0 },
-	{ "map_Ke", 0 }, { "bump", 0 }, { "map_bump", 0 }, { "decal", 0 }, { "refl", 0 }, { "map_Pr", 0 },
-	{ "map_Pm", 0 }, { "map_Ps", 0 } };
+} unused[] = { { "Ks", 0 }, { "Tf", 1 }, { "Ps", 0 }, { "Pc", 0 }, { "Pcr", 0 }, { "aniso", 0 },
+	{ "anisor", 0 }, { "map_Ka", 0 }, { "map_Ks", 0 }, { "map_Ns", 0 }, { "map_d", 0 }, { "map_Ke", 0 },
+	{ "bump", 0 }, { "map_bump", 0 }, { "decal", 0 }, { "refl", 0 }, { "map_Pr", 0 }, { "map_Pm", 0 },
+	{ "map_Ps", 0 } };
 
-enum { HIDDEN, UNUSED = sizeof unused / sizeof *unused };
+enum { UNUSED = sizeof unused / sizeof *unused };
 
-_Static_assert(UNUSED <= 32, "a bit for each");
+_Static_assert(LOSSES + UNUSED <= 32, "a bit for each");
 
 static bool
 says_something(const char *s, double neutral)
@@ -258,19 +278,19 @@ note_unused(mr_material *m, const char *line)
 {
 	const char *rest;
 
-	for (size_t k = HIDDEN + 1; k < UNUSED; k++)
+	for (size_t k = 0; k < UNUSED; k++)
 		if ((rest = behind(line, unused[k].name)) && says_something(rest, unused[k].neutral))
-			m->unused |= 1u << k;
+			m->lost |= 1u << (LOSSES + k);
 }
 
 /* A colour multiplies the picture of its material. */
 static void
 note_hidden(mr_material *m)
 {
-	const double *c = m->color, neutral = unused[HIDDEN].neutral;
+	const double *c = m->color;
 
-	if (m->file && m->colored && (c[0] != neutral || c[1] != neutral || c[2] != neutral))
-		m->unused |= 1u << HIDDEN;
+	if (m->file && m->colored && (c[0] != 1 || c[1] != 1 || c[2] != 1))
+		m->lost |= 1u << HIDDEN;
 }
 
 /* Warns of options that move, scale or disturb a picture, which nothing here follows. */
@@ -324,6 +344,15 @@ modify(mr_material *m, const char *s)
 	}
 }
 
+static void
+set_color(mr_material *m, const char *s)
+{
+	if (color(s, m->color, &m->clipped))
+		m->colored = true;
+	else
+		m->lost |= 1u << NO_COLOR;
+}
+
 static mr_status
 describe(finder *f, size_t i, const char *line)
 {
@@ -331,7 +360,7 @@ describe(finder *f, size_t i, const char *line)
 	const char *rest;
 
 	if ((rest = behind(line, "Kd")))
-		m->colored |= color(rest, m->color, &m->clipped);
+		set_color(m, rest);
 	if ((rest = behind(line, "Ke")))
 		color(rest, m->emission, &m->clipped);
 	if ((rest = behind(line, "d")))
@@ -502,7 +531,8 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	if (m->mtllib.text && m->mtllib.bytes) {
 		MR_TRY(mr_lines_starts(ctx, m->mtllib, &library, &libraries));
 		for (size_t i = 0; i < libraries; i++)
-			MR_TRY(read_libraries(&f, library[i], (size_t)(library[i + 1] - library[i]) - 1));
+			if (i == 0 || !is_same_line(library, i - 1, i))
+				MR_TRY(read_libraries(&f, library[i], line_bytes(library, i)));
 		say_gone(&f);
 		MR_TRY(say_unknown(&f));
 	}
@@ -519,9 +549,9 @@ mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost, size_t clipped)
 	mr_text names = { .ctx = ctx };
 	size_t n = 0;
 
-	for (size_t k = 0; k < UNUSED; k++)
+	for (size_t k = 0; k < LOSSES + UNUSED; k++)
 		if (lost >> k & 1)
-			mr_text_name(&names, &n, unused[k].name);
+			mr_text_name(&names, &n, k < LOSSES ? losses[k] : unused[k - LOSSES].name);
 	mr_text_more(&names, n);
 	MR_TRY(mr_text_done(&names));
 	if (n)

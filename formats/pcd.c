@@ -514,6 +514,9 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (normal && !mr_normals_left(ctx, normal, n, &m->counts.dropped_normals))
 		normal = NULL;
 	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };
+	if (f.width > 1 && f.height > 1)
+		mr_warn(ctx, "the grid of %llu x %llu points is left out", (unsigned long long)f.width,
+		    (unsigned long long)f.height);
 	if (f.turned)
 		mr_warn(ctx, "the viewpoint's orientation is left out");
 	/* the origin is what stands there where none is known */

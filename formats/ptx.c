@@ -3,6 +3,7 @@
  * rows, by which each point is multiplied from the left, then columns x rows lines x y z intensity [r g b].
  * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, and left out.
  */
+#include "base/text.h"
 #include "formats/format.h"
 
 typedef struct ptx {
@@ -14,7 +15,7 @@ typedef struct ptx {
 	mr_builder properties;
 	size_t intensity; /* the number of that property */
 	size_t count, room, scanner_room, rgb_room;
-	size_t colored, odd_colors, empty;
+	size_t colored, odd_colors, empty, grids;
 } ptx;
 
 typedef struct scan {
@@ -71,6 +72,7 @@ read_head(ptx *f, scan *s)
 	for (int i = 0; i < 4; i++)
 		MR_TRY(exactly(f, s->matrix + 4 * i, 4));
 	s->points = columns * rows; /* below 2^64 */
+	f->grids += columns > 1 && rows > 1;
 	if (s->points > (size_t)(f->text.end - f->text.p) / 8 + 1)
 		return mr_scan_fail(&f->text, where, "%llu x %llu points, beyond the end of the file",
 		    (unsigned long long)columns, (unsigned long long)rows);
@@ -180,6 +182,8 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	}
 	if (f.empty)
 		mr_note(ctx, "%zu rays without an answer left out", f.empty);
+	if (f.grids)
+		mr_warn(ctx, "the grid of %zu scan%s is left out", f.grids, mr_plural(f.grids));
 	*m = (mr_model){ .p = f.p, .nv = f.count, .scanner = f.scanner, .counts = m->counts };
 	MR_TRY(read_colors(&f, m));
 	return mr_build_properties(&f.properties, m);

@@ -69,3 +69,9 @@ printf 'newmtl red\nKd 0.2 0.4 0.6\nmap_Kd b.png\nnewmtl green\nKd 1 0 0\n' >m.m
 mr-import model.obj | mr-export --materials . model.glb
 sed -i 's/0.2 0.4 0.6/1 1 1/' m.mtl
 mr-import model.obj | mr-export --materials . model.glb
+
+echo '-- a colour that is none, two descriptions of one, in a file that is named twice' >&2
+printf 'newmtl red\nKd spectral red.rfl\nnewmtl green\nKd 1 0 0\nmap_Kd b.png\nnewmtl green\nKd 0 1 0\n' >m.mtl
+sed -i 's/^mtllib.*/&\n&/' model.obj
+mr-import model.obj | mr-export --materials . model.glb
+grep -a -o '"baseColorFactor":\[[^]]*\]\|"baseColorTexture"' model.glb

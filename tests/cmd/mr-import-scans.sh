@@ -98,7 +98,9 @@ struct.pack_into("<3d", head, 131, 1, 1, 1)
 for name, color in ("coarse", (0x1200, 0xffff, 0x3434)), ("fine", (0x1200, 0xfffe, 0x3435)), ("bytes", (1, 2, 255)):
     open(name + ".las", "wb").write(head + struct.pack("<3i8x3H", 1, 2, 3, *color))
 END
-for file in turned.pcd place.pcd coarse.las fine.las bytes.las; do
+printf 'VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 2\nDATA ascii\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n' >grid.pcd
+printf '2\n2\n1 2 3\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n1 2 3 1\n1 1 1 .1\n2 1 1 .2\n1 2 1 .3\n2 2 1 .4\n' >grid.ptx
+for file in turned.pcd place.pcd grid.pcd grid.ptx coarse.las fine.las bytes.las; do
 	echo "$file: $(mr-import $file 2>&1 >out.mrs)"
 	mr-export -q -i out.mrs -f ply-ascii - | sed '1,/end_header/d'
 done
