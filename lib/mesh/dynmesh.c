@@ -2,7 +2,7 @@
 #include "mesh/dynmesh.h"
 
 unsigned
-mr_dyn_valence(const mr_dyn *d, uint32_t v)
+mr_dyn_valence(const mr_dyn *d, uint32_t v, unsigned most)
 {
 	uint32_t h = d->out[v];
 	unsigned n = 0;
@@ -10,8 +10,8 @@ mr_dyn_valence(const mr_dyn *d, uint32_t v)
 	do {
 		n++;
 		h = mr_dyn_ccw(d, h);
-	} while (h != MR_NONE && h != d->out[v]);
-	return n + (h == MR_NONE);
+	} while (h != MR_NONE && h != d->out[v] && n < most);
+	return n < most ? n + (h == MR_NONE) : most;
 }
 
 unsigned

@@ -148,8 +148,8 @@ mr_dyn_is_needle(mr_v3 cross, mr_v3 a, mr_v3 b, mr_v3 c)
  */
 mr_status mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feature, mr_dyn *d);
 
-/* Number of edges at v. */
-unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v);
+/* Number of edges at v, of which at most so many are looked for. */
+unsigned mr_dyn_valence(const mr_dyn *d, uint32_t v, unsigned most);
 
 /* The number of curve edges at v, and the ends of the first two. */
 unsigned mr_dyn_along(const mr_dyn *d, uint32_t v, uint32_t end[2]);

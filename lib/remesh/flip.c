@@ -21,7 +21,8 @@ excess_body(void *arg, size_t begin, size_t end)
 
 	for (uint32_t v = (uint32_t)begin; v < end; v++)
 		if (w->d->kind[v] != MR_DEAD)
-			w->excess[v] = (int)mr_dyn_valence(w->d, v) - (mr_dyn_on_boundary(w->d, v) ? 4 : 6);
+			w->excess[v] = (int)mr_dyn_valence(w->d, v, MR_NONE) -
+			               (mr_dyn_on_boundary(w->d, v) ? 4 : 6);
 }
 
 /* True where a face with that normal would be folded against the one beyond side h or g. */

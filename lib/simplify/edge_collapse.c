@@ -138,9 +138,9 @@ static double
 lack(const mr_dyn *d, const mr_site *site, uint32_t h)
 {
 	uint32_t v = mr_dyn_apex(d, h);
-	unsigned n = site[v].rim ? 5 : mr_dyn_valence(d, v) - 1;
+	unsigned left = site[v].rim ? 5 : mr_dyn_valence(d, v, 6) - 1;
 
-	return n < 5 ? square(5.0 - n) : 0;
+	return square(5.0 - left);
 }
 
 /* The factor of the cost by valences. */

@@ -107,7 +107,7 @@ what_is_as_it_was_comes_back_so(void **state)
 			assert_true(mr_dist(x.d.p[i], old.p[j]) == 0);
 			assert_int_equal(x.d.kind[i], old.kind[j]);
 			assert_int_equal(x.d.at[i], old.at[j]);
-			assert_int_equal(mr_dyn_valence(&x.d, i), mr_dyn_valence(&old, j));
+			assert_int_equal(mr_dyn_valence(&x.d, i, MR_NONE), mr_dyn_valence(&old, j, MR_NONE));
 		}
 		mr_ctx_free(&ctx);
 	}

@@ -5,7 +5,7 @@
 static int
 excess(const mr_dyn *d, uint32_t v)
 {
-	return (int)mr_dyn_valence(d, v) - (mr_dyn_on_boundary(d, v) ? 4 : 6);
+	return (int)mr_dyn_valence(d, v, MR_NONE) - (mr_dyn_on_boundary(d, v) ? 4 : 6);
 }
 
 static long
