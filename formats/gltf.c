@@ -243,8 +243,9 @@ find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 		return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu: its URI is no text", number);
 	if (text && (strncmp(text, "data:", 5) || !data))
 		return mr_fail(g->ctx, MR_EFORMAT,
-		    "buffer %zu is in another file, %.100s: only what is in the file itself is read", number,
-		    strncmp(text, "data:", 5) ? text : "a URI without base 64");
+		    "buffer %zu is in another file, %.100s: only what is in the file itself is read, as a "
+		    "glb has it",
+		    number, strncmp(text, "data:", 5) ? text : "a URI without base 64");
 	if (text)
 		return decode64(g, number, data + strlen(";base64,"), b);
 	if (json_object_size(extensions))
