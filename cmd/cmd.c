@@ -430,7 +430,7 @@ is_input(const cmd *c, const char *path)
 	return found;
 }
 
-/* A stream takes the place of no model. */
+/* A stream takes the place of streams only. */
 static void
 check_output(cmd *c)
 {
@@ -438,16 +438,9 @@ check_output(cmd *c)
 
 	if (!path || is_dash(path))
 		return;
-	if (mr_suffix_format(path))
-		die(c, mr_fail(&c->ctx, MR_EUSAGE,
-			   "-o %s: a stream under the name of a model: mr-export writes models, .mrs is for "
-			   "streams",
-			   path));
-	if (mr_suffix_gz(path))
-		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: a stream is no gzip: mr-cat -z packs its columns",
-			   path));
 	if (c->tool->source && is_input(c, path))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", path));
+	try(c, place_for_stream(&c->ctx, path));
 }
 
 static void
@@ -477,6 +470,8 @@ open_copy(cmd *c, int fd, const char *path)
 static void
 open_text(cmd *c)
 {
+	if (c->output)
+		try(c, place_for_text(&c->ctx, "-o", c->output));
 	open_output(c);
 	c->state->text = c->state->out == STDOUT_FILENO ? stdout : open_copy(c, c->state->out, c->output);
 }
@@ -505,6 +500,7 @@ open_stats(cmd *c)
 	                                                          : NULL;
 	if (s->stats)
 		return;
+	try(c, place_for_text(&c->ctx, "--stats", path));
 	try(c, mr_outfile_open(&c->ctx, path, &s->stats_file));
 	s->stats = open_copy(c, s->stats_file.fd, path);
 }

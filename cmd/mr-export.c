@@ -4,6 +4,7 @@
 #include "formats/outname.h"
 #include "formats/scene.h"
 
+#include <strings.h>
 #include <unistd.h>
 
 static const char *format;
@@ -22,7 +23,7 @@ static const cmd_opt table[] = {
 static mr_status
 check(cmd *c)
 {
-	const char *out;
+	const char *out, *end;
 	bool binary;
 	char *name;
 
@@ -33,6 +34,8 @@ check(cmd *c)
 	if (!strcmp(out, "-") && !format)
 		return mr_fail(&c->ctx, MR_EUSAGE, "OUT is stdout: -f FORMAT is needed");
 	MR_TRY(mr_format_check(&c->ctx, out, format, true, &binary));
+	if ((end = strrchr(out, '.')) && !strcasecmp(end, ".mtl"))
+		return mr_fail(&c->ctx, MR_EUSAGE, "%s: a model under the name of a file of materials", out);
 	MR_TRY(cmd_idle(
 	    c, "materials", !mr_scene_suits(out, format), "on this format, which holds no pictures"));
 	if (!strcmp(out, "-") && binary && isatty(STDOUT_FILENO))

@@ -116,18 +116,56 @@ place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes)
 	return add(writes ? &g->written : &g->read, k.there);
 }
 
-bool
-place_is_model(const char *path)
+typedef enum content { NOTHING, STREAM, OTHER } content;
+
+/* What a regular file is; NOTHING: empty, not there, or not to be read. */
+static content
+content_of(const char *path)
 {
 	static const char magic[] = "mrmesh1\n";
 	char first[sizeof magic - 1];
 	struct stat st;
-	bool file = mr_suffix_format(path) && stat(path, &st) == 0 && S_ISREG(st.st_mode), model;
-	int fd = file ? open(path, O_RDONLY) : -1;
+	bool is_file = stat(path, &st) == 0 && S_ISREG(st.st_mode);
+	int fd = is_file ? open(path, O_RDONLY) : -1;
+	ssize_t got;
 
 	if (fd < 0)
-		return false;
-	model = read(fd, first, sizeof first) != sizeof first || memcmp(first, magic, sizeof first) != 0;
+		return NOTHING;
+	got = read(fd, first, sizeof first);
 	close(fd);
-	return model;
+	if (got <= 0)
+		return NOTHING;
+	return got == sizeof first && !memcmp(first, magic, sizeof first) ? STREAM : OTHER;
+}
+
+bool
+place_is_model(const char *path)
+{
+	return mr_suffix_format(path) && content_of(path) == OTHER;
+}
+
+mr_status
+place_for_stream(mr_ctx *ctx, const char *path)
+{
+	if (mr_suffix_format(path))
+		return mr_fail(ctx, MR_EUSAGE,
+		    "-o %s: a stream under the name of a model: mr-export writes models, .mrs is for streams",
+		    path);
+	if (mr_suffix_gz(path))
+		return mr_fail(
+		    ctx, MR_EUSAGE, "-o %s: a stream is no gzip: mr-cat -z packs its columns", path);
+	if (content_of(path) == OTHER)
+		return mr_fail(ctx, MR_EUSAGE, "-o %s: that file is no stream, and would be lost", path);
+	return MR_OK;
+}
+
+mr_status
+place_for_text(mr_ctx *ctx, const char *option, const char *path)
+{
+	if (mr_suffix_format(path) && !mr_suffix_is_text(path))
+		return mr_fail(ctx, MR_EUSAGE, "%s %s: figures under the name of a model", option, path);
+	if (content_of(path) == STREAM)
+		return mr_fail(
+		    ctx, MR_EUSAGE, "%s %s: that file is a stream, and would be lost", option, path);
+	return MR_OK;
 }

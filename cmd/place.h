@@ -17,6 +17,13 @@ bool place_is(int fd, const char *name);
 /* Whether there is a file with the name of a model that is no stream. */
 bool place_is_model(const char *path);
 
+/* MR_EUSAGE where a stream would take the place, or the name, of anything but a stream. */
+mr_status place_for_stream(mr_ctx *ctx, const char *path) MR_WARN_UNUSED;
+
+/* MR_EUSAGE where the text that `option` asks for would take that of a stream, or of a model that is no
+ * columns of text. */
+mr_status place_for_text(mr_ctx *ctx, const char *option, const char *path) MR_WARN_UNUSED;
+
 /* The files that a command reads, and those that it writes; starts zeroed. */
 typedef struct place_guard {
 	mr_string_set read, written;

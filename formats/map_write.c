@@ -267,13 +267,14 @@ static mr_status
 write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path)
 {
 	const char *range = numbers(ctx, m->low, m->high - m->low);
+	bool goes_on = *name && name[strlen(name) - 1] == '\\'; /* the line, but for a blank behind that */
 	mr_sink sink;
 
 	if (!range)
 		return MR_EMEM;
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));
-	mr_print(&sink, "newmtl %s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm %s %s-height.png\n", name,
-	    name, range, name);
+	mr_print(&sink, "newmtl %s%s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm %s %s-height.png\n", name,
+	    goes_on ? " " : "", name, range, name);
 	return mr_sink_close(&sink, MR_OK);
 }
 

@@ -39,15 +39,30 @@ mr_suffix_gz(const char *path)
 	return n > 3 && !strcmp(path + n - 3, ".gz");
 }
 
+/* Whether a name of n bytes ends so, whatever the case. */
+static bool
+ends_in(const char *path, size_t n, const char *suffix)
+{
+	size_t k = strlen(suffix);
+
+	return n >= k && !strncasecmp(path + n - k, suffix, k);
+}
+
 const char *
 mr_suffix_format(const char *path)
 {
 	size_t n = strlen(path) - (mr_suffix_gz(path) ? 3 : 0);
 
-	for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++) {
-		size_t k = strlen(suffixes[i].suffix);
-		if (n >= k && !strncasecmp(path + n - k, suffixes[i].suffix, k))
+	for (size_t i = 0; i < sizeof suffixes / sizeof *suffixes; i++)
+		if (ends_in(path, n, suffixes[i].suffix))
 			return suffixes[i].format;
-	}
 	return NULL;
+}
+
+bool
+mr_suffix_is_text(const char *path)
+{
+	size_t n = strlen(path);
+
+	return ends_in(path, n, ".txt") || ends_in(path, n, ".csv") || ends_in(path, n, ".asc");
 }

@@ -24,3 +24,8 @@ for name in "utf-16-le", "utf-16-be":
 END
 mr-import utf-16-le.obj | mr-export -f obj - | tee little.obj | grep usemtl
 mr-import utf-16-be.obj | mr-export -f obj - | cmp - little.obj && echo same
+
+echo 'a backslash at the end of a name is no continued line'
+printf 'ply\nformat ascii 1.0\ncomment mtllib lib\\\ncomment object back\\\ncomment group a\\b\ncomment material c:\\\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face 2\nproperty list uchar int vertex_indices\nproperty uint object\nproperty uint group\nproperty uint material\nend_header\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2 0 0 0\n3 2 1 3 0 0 0\n' >back.ply
+mr-import -q back.ply | mr-export -q back.obj && grep -n '\\' back.obj
+mr-import -q back.obj | mr-export -q -f obj - | cmp - back.obj && mr-import -q back.obj | mr-export -f ply-ascii - | grep '^comment\|^3'

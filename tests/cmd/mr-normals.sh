@@ -24,8 +24,8 @@ mr-normals --from 9,0,-1 plane.mrs | sides
 mr-normals --from 0,0,5 --neighbours 7 --flip plane.mrs | sides
 printf '3\n3\n0 0 9\n1 0 0\n0 1 0\n0 0 1\n1 0 0 0\n0 1 0 0\n0 0 1 0\n0 0 9 1\n' >grid.ptx
 for i in 1 2 3; do printf "$i %s -9 0.5\n" 1 2 3 >>grid.ptx; done
-mr-import grid.ptx | mr-normals | sides
-mr-import grid.ptx | mr-normals --from 0,0,-9 | sides
+mr-import -q grid.ptx | mr-normals | sides
+mr-import -q grid.ptx | mr-normals --from 0,0,-9 | sides
 
 echo 'kept where they fit: not zero, not a number, not along the plane, and telling the rest'
 mr-crop --keep above:z,0.1 ball.mrs | mr-export - -f ply-ascii | awk '/end_header/ { body = 1; print; next } !body { print; next }

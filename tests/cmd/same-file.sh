@@ -47,3 +47,17 @@ echo 'a pipe by the name of a model' >&2
 mkfifo pipe.ply
 mr-export pipe.ply <s.mrs & mr-import pipe.ply | mr-info | grep vertices
 wait
+echo 'what is neither read nor a stream, and figures in the place of a stream or a model' >&2
+echo precious >scene.fbx
+cp s.mrs t.mrs t.obj scene.fbx kept
+mr-export -q -i t.mrs t.txt
+echo newmtl >t.mtl
+cp t.txt t.mtl kept
+refused 'mr-smooth -o scene.fbx t.mrs'
+refused 'mr-smooth --stats t.obj -o out.mrs t.mrs'
+refused 'mr-info --stats s.mrs t.mrs'
+refused 'mr-info -o t.obj t.mrs'
+refused 'mr-compare -o s.mrs t.mrs t.mrs'
+refused 'mr-info -o t.txt t.txt'
+refused 'mr-export -f obj t.mtl -i t.mrs'
+mr-info -o figures.txt t.mrs && mr-info -o figures.txt --stats figures.csv t.mrs && grep -c vertices figures.*
