@@ -132,72 +132,6 @@ mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const u
 
 /* ---- names ---- */
 
-static uint64_t
-hash_of(const char *s, size_t n)
-{
-	uint64_t h = 0xcbf29ce484222325u; /* FNV-1a */
-
-	for (size_t i = 0; i < n; i++)
-		h = (h ^ (unsigned char)s[i]) * 0x100000001b3u;
-	return h ^ h >> 29;
-}
-
-static size_t
-name_length(const mr_names *n, size_t i)
-{
-	return (i + 1 < n->count ? n->start[i + 1] : n->bytes) - n->start[i] - 1;
-}
-
-/* The slot of the name, or the empty one where it belongs. */
-static uint32_t *
-find_slot(const mr_names *n, const char *s, size_t bytes)
-{
-	size_t at = hash_of(s, bytes) & (n->slots - 1);
-
-	for (;; at = (at + 1) & (n->slots - 1)) {
-		uint32_t i = n->slot[at];
-		if (i == 0 ||
-		    (name_length(n, i - 1) == bytes && !memcmp(n->text + n->start[i - 1], s, bytes)))
-			return &n->slot[at];
-	}
-}
-
-static mr_status
-widen_slots(mr_ctx *ctx, mr_names *n)
-{
-	size_t slots = n->slots ? 4 * n->slots : 64;
-	uint32_t *slot = MR_NEW_ZERO(ctx, slots, uint32_t);
-
-	if (!slot)
-		return MR_EMEM;
-	n->slot = slot;
-	n->slots = slots;
-	for (size_t i = 0; i < n->count; i++)
-		*find_slot(n, n->text + n->start[i], name_length(n, i)) = (uint32_t)i + 1;
-	return MR_OK;
-}
-
-static mr_status
-name_number(mr_ctx *ctx, mr_names *n, const char *s, size_t bytes, uint32_t *number)
-{
-	uint32_t *slot;
-
-	if (2 * n->count >= n->slots)
-		MR_TRY(widen_slots(ctx, n));
-	slot = find_slot(n, s, bytes);
-	if (*slot == 0) {
-		MR_TRY(MR_RESERVE(ctx, n->text, n->bytes, bytes + 1, &n->room));
-		MR_TRY(MR_RESERVE(ctx, n->start, n->count, 1, &n->start_room));
-		memcpy(n->text + n->bytes, s, bytes);
-		n->text[n->bytes + bytes] = '\n';
-		n->start[n->count] = n->bytes;
-		n->bytes += bytes + 1;
-		*slot = (uint32_t)++n->count;
-	}
-	*number = *slot - 1;
-	return MR_OK;
-}
-
 size_t
 mr_clean_name(char *to, const char *from, size_t bytes, bool no_slash)
 {
@@ -218,14 +152,26 @@ mr_clean_name(char *to, const char *from, size_t bytes, bool no_slash)
 	return n;
 }
 
+/* The mark of faces that have none. */
+static const char *
+unmarked(const mr_builder *b, mr_marking what)
+{
+	return what == MR_GROUP && b->ungrouped ? b->ungrouped : "";
+}
+
 /* The faces so far are not marked, for which there is a name, too. */
 static mr_status
-start_marks(mr_builder *b, mr_marks *k, const char *none)
+start_marks(mr_builder *b, mr_marking what)
 {
+	const char *none = unmarked(b, what);
+	mr_marks *k = &b->marks[what];
+
+	if (k->used)
+		return MR_OK;
 	MR_TRY(MR_RESERVE(b->ctx, k->of, 0, b->corner_room / 3 + b->faces + 64, &k->room));
 	if (b->faces) {
-		if (none)
-			MR_TRY(name_number(b->ctx, &k->names, none, strlen(none), &k->current));
+		if (what != MR_SMOOTHING)
+			MR_TRY(mr_name_number(b->ctx, &k->names, none, strlen(none), &k->current));
 		memset(k->of, 0, b->faces * sizeof *k->of);
 	}
 	k->used = true;
@@ -233,32 +179,46 @@ start_marks(mr_builder *b, mr_marks *k, const char *none)
 	return MR_OK;
 }
 
-mr_status
-mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
+/* The name without blanks around it; where nothing is left, that of faces without a mark. */
+static mr_lines
+bare_name(const mr_builder *b, mr_marking what, const char *name, size_t bytes)
 {
-	enum { LONGEST = 1024 };
-	const char *none = what == MR_GROUP ? "default" : "";
-	mr_marks *k = &b->marks[what];
-
 	while (bytes && (unsigned char)*name <= ' ')
 		name++, bytes--;
 	while (bytes && (unsigned char)name[bytes - 1] <= ' ')
 		bytes--;
-	if (!k->used)
-		MR_TRY(start_marks(b, k, none));
-	if (bytes == 0)
-		return name_number(b->ctx, &k->names, none, strlen(none), &k->current);
-	return name_number(b->ctx, &k->names, name, bytes < LONGEST ? bytes : LONGEST, &k->current);
+	if (bytes == 0) {
+		name = unmarked(b, what);
+		bytes = strlen(name);
+	}
+	return (mr_lines){ name, bytes };
+}
+
+mr_status
+mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
+{
+	mr_lines bare = bare_name(b, what, name, bytes);
+	mr_marks *k = &b->marks[what];
+
+	MR_TRY(start_marks(b, what));
+	return mr_name_number(b->ctx, &k->names, bare.text, bare.bytes, &k->current);
+}
+
+mr_status
+mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
+{
+	mr_lines bare = bare_name(b, what, name, bytes);
+	mr_marks *k = &b->marks[what];
+
+	MR_TRY(start_marks(b, what));
+	return mr_name_add(b->ctx, &k->names, bare.text, bare.bytes, &k->current);
 }
 
 mr_status
 mr_build_smoothing(mr_builder *b, uint32_t group)
 {
-	mr_marks *k = &b->marks[MR_SMOOTHING];
-
-	if (!k->used)
-		MR_TRY(start_marks(b, k, NULL));
-	k->current = group;
+	MR_TRY(start_marks(b, MR_SMOOTHING));
+	b->marks[MR_SMOOTHING].current = group;
 	return MR_OK;
 }
 

@@ -8,16 +8,8 @@
 #ifndef MR_BUILD_H
 #define MR_BUILD_H
 
+#include "base/name_table.h"
 #include "formats/formats.h"
-
-/* Names, each once, numbered as they come. */
-typedef struct mr_names {
-	char *text; /* each followed by a newline */
-	size_t bytes, room;
-	size_t *start;  /* of each in text */
-	uint32_t *slot; /* a hash table of number + 1 */
-	size_t count, start_room, slots;
-} mr_names;
 
 /* What faces are marked with: each has the mark at hand when it comes. */
 typedef enum mr_marking { MR_GROUP, MR_OBJECT, MR_MATERIAL, MR_SMOOTHING, MR_MARKINGS } mr_marking;
@@ -27,7 +19,7 @@ typedef struct mr_marks {
 	uint32_t current; /* of the faces to come */
 	uint32_t *of;     /* of each face: the number of a name, or the number itself of smoothing */
 	size_t room;
-	mr_names names;
+	mr_name_table names;
 } mr_marks;
 
 typedef struct mr_builder {
@@ -51,6 +43,7 @@ typedef struct mr_builder {
 	size_t polygons;          /* faces of more */
 	mr_import_result *counts; /* of the model to be */
 	mr_marks marks[MR_MARKINGS];
+	const char *ungrouped; /* the group of faces before the first, and of one without a name; NULL: "" */
 	mr_lines mtllib;
 } mr_builder;
 
@@ -70,6 +63,9 @@ mr_status mr_build_face(
 
 /* The faces to come are marked with this name; blanks around it do not count. */
 mr_status mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
+
+/* The same, a mark of its own, though there may be others of that name. */
+mr_status mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
 
 /* The faces to come are of this smoothing group. */
 mr_status mr_build_smoothing(mr_builder *b, uint32_t group) MR_WARN_UNUSED;

@@ -718,9 +718,9 @@ finish(obj *o, mr_model *m)
 mr_status
 mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	obj o = {
-		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts }
-	};
+	obj o = { .ctx = ctx,
+		.text = mr_scan_of(ctx, data, size),
+		.b = { .ctx = ctx, .counts = &m->counts, .ungrouped = "default" } };
 	mr_obj_calls calls = { line_call, face_call, &o };
 
 	MR_TRY(count_lines(&o));

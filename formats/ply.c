@@ -459,8 +459,10 @@ set_mark(ply *f, role r, double x, const void *where)
 	if (r == SMOOTHING)
 		return mr_build_smoothing(&f->b, (uint32_t)x);
 	i = (size_t)x;
-	if (i < l->count)
-		return mr_build_mark(&f->b, (mr_marking)mark, l->name[i].text, l->name[i].bytes);
+	if (i < l->count) {
+		f->b.marks[mark].current = (uint32_t)(l->first + i);
+		return MR_OK;
+	}
 	snprintf(name, sizeof name, "%s%zu", what[mark], i);
 	return mr_build_mark(&f->b, (mr_marking)mark, name, strlen(name));
 }
@@ -483,11 +485,15 @@ add_face(ply *f, kind k)
 static mr_status
 name_marks(ply *f, const element *e)
 {
-	for (size_t k = 0; k < 3; k++)
-		for (size_t i = 0; has(e, (role)(GROUP + k)) && i < f->names[k].count; i++) {
-			const mr_lines *n = &f->names[k].name[i];
-			MR_TRY(mr_build_mark(&f->b, (mr_marking)k, n->text, n->bytes));
-		}
+	for (size_t k = 0; k < 3; k++) {
+		named_list *l = &f->names[k];
+		mr_marks *marks = &f->b.marks[k];
+		if (!has(e, (role)(GROUP + k)) || marks->used)
+			continue;
+		for (size_t i = 0; i < l->count; i++)
+			MR_TRY(mr_build_new_mark(&f->b, (mr_marking)k, l->name[i].text, l->name[i].bytes));
+		l->first = marks->names.count - l->count;
+	}
 	return MR_OK;
 }
 

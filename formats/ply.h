@@ -69,6 +69,7 @@ typedef struct element {
 typedef struct named_list {
 	mr_lines *name;
 	size_t count, room;
+	size_t first; /* the number of the first among the marks */
 } named_list;
 
 /* Values of a list that each corner of a face has some of. */

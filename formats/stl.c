@@ -154,7 +154,8 @@ statement(ascii *a, mr_scan *line, int *state)
 			mr_skip_blanks(line);
 			a->solids++;
 			return a->solids > 1 || line->p < line->end
-			           ? mr_build_mark(&a->b, MR_GROUP, line->p, (size_t)(line->end - line->p))
+			           ? mr_build_new_mark(
+					 &a->b, MR_GROUP, line->p, (size_t)(line->end - line->p))
 			           : MR_OK;
 		default:
 			return MR_OK;

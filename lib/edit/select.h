@@ -24,6 +24,7 @@
 #define MR_EDIT_SELECT_H
 
 #include "mesh/mesh.h"
+#include "mesh/name_lists.h"
 #include "stream/frame.h"
 
 /* Rules in the order of the command line; starts zeroed. */
@@ -33,10 +34,7 @@ typedef struct mr_selection {
 	bool may_miss; /* a rule may select no vertex */
 } mr_selection;
 
-/* What faces are named by: groups, objects, materials. */
-enum { MR_NAMINGS = 3 };
-
-/* Faces by one of them; `group` NULL: they have none. */
+/* Faces by what names them, one of groups, objects and materials; `group` NULL: they have none. */
 typedef struct mr_groups {
 	const uint32_t *group; /* nf: index into the names */
 	const char *names;     /* one a line */

@@ -1,7 +1,9 @@
 /* Layers appended: columns are joined by name, and indices in them follow what they refer to. */
 #include "mesh/append.h"
 
+#include "base/name_table.h"
 #include "base/text.h"
+#include "mesh/name_lists.h"
 
 #include <limits.h>
 
@@ -14,15 +16,6 @@ static const struct {
 	{ "mesh_face", "mesh" },
 	{ "base_face", "base" },
 	{ "control_face", "control" },
-};
-
-/* Columns of numbers of lines, and where these are. */
-static const struct {
-	const char *column, *names;
-} namings[] = {
-	{ "group", "groups" },
-	{ "object", "objects" },
-	{ "material", "materials" },
 };
 
 static const char *const samplings[] = { "spacing", "outlier", "repeat", "sampling" };
@@ -68,61 +61,19 @@ all_have(const joined *j)
 
 /* ---- text ---- */
 
-/* Lines of all frames, each once; where a frame's begin with those that are there, as they mostly do, nothing
- * is looked for. */
-typedef struct lines {
-	char *text; /* each ends with a newline */
-	size_t bytes, room, count;
-} lines;
-
-/* The number of a line, or how many there are. */
-static size_t
-find_line(const lines *l, const char *line, size_t bytes)
-{
-	const char *at = l->text;
-	size_t i = 0;
-
-	for (; i < l->count; i++) {
-		size_t n = (size_t)((const char *)memchr(at, '\n', l->bytes - (size_t)(at - l->text)) - at);
-		if (n == bytes && !memcmp(at, line, n))
-			break;
-		at += n + 1;
-	}
-	return i;
-}
-
-/* Whether line i begins at byte `at` and is this one. */
-static bool
-is_next(const lines *l, size_t at, const char *line, size_t bytes)
-{
-	return at + bytes < l->bytes && l->text[at + bytes] == '\n' && !memcmp(l->text + at, line, bytes);
-}
-
-/* number (NULL: not wanted): of each line of the text among all; in the arena. */
+/* number: of each line of the text among those of all frames; in the arena. */
 static mr_status
-add_lines(mr_ctx *ctx, lines *l, const char *text, size_t bytes, uint32_t **number, size_t *count)
+add_lines(mr_ctx *ctx, mr_name_table *all, const char *text, size_t bytes, uint32_t **number, size_t *count)
 {
 	const char *end = text + bytes;
-	size_t room = 0, at = 0;
-	bool same = true;
+	size_t room = 0;
 
 	*number = NULL;
 	for (*count = 0; text <= end; (*count)++) {
 		const char *stop = memchr(text, '\n', (size_t)(end - text));
-		size_t n = (size_t)((stop ? stop : end) - text), i = *count;
-		same = same && is_next(l, at, text, n);
-		if (!same)
-			i = find_line(l, text, n);
-		if (i == l->count) {
-			MR_TRY(MR_RESERVE(ctx, l->text, l->bytes, n + 1, &l->room));
-			memcpy(l->text + l->bytes, text, n);
-			l->text[l->bytes + n] = '\n';
-			l->bytes += n + 1;
-			l->count++;
-		}
+		size_t n = (size_t)((stop ? stop : end) - text);
 		MR_TRY(MR_RESERVE(ctx, *number, *count, 1, &room));
-		(*number)[*count] = (uint32_t)i;
-		at += n + 1;
+		MR_TRY(mr_name_number(ctx, all, text, n, &(*number)[*count]));
 		text += n + 1;
 	}
 	return MR_OK;
@@ -132,7 +83,7 @@ add_lines(mr_ctx *ctx, lines *l, const char *text, size_t bytes, uint32_t **numb
 static mr_status
 join_text(mr_ctx *ctx, const joined *j, mr_frame *out)
 {
-	lines l = { 0 };
+	mr_name_table l = { 0 };
 	const void *text;
 	uint32_t *number;
 	size_t bytes, count;
@@ -160,14 +111,14 @@ shift(mr_ctx *ctx, const joined *j, uint32_t *x, size_t n, uint64_t by)
 	return MR_OK;
 }
 
-/* How many rows of the layer the frames before i have. */
+/* How many rows of the column's element all frames have. */
 static uint64_t
-rows_before(const joined *j, size_t i, const char *layer, char element)
+rows_of_all(const joined *j)
 {
 	uint64_t n = 0;
 
-	while (i-- > 0)
-		n += rows_of(j->frames[i], layer, element);
+	for (size_t i = 0; i < j->n; i++)
+		n += rows_of(j->frames[i], j->layer, j->first->shape.element);
 	return n;
 }
 
@@ -183,35 +134,47 @@ layer_referred_to(const char *column)
 static const char *
 names_of(const char *column)
 {
-	for (size_t i = 0; i < sizeof namings / sizeof *namings; i++)
-		if (!strcmp(namings[i].column, column))
-			return namings[i].names;
+	for (size_t i = 0; i < MR_NAMINGS; i++)
+		if (!strcmp(mr_namings[i].column, column))
+			return mr_namings[i].list;
 	return NULL;
 }
 
-/* What the indices of frame i become: x, n values of it behind those of the frames before. */
-static mr_status
-follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, lines *l, uint64_t *polygons)
-{
-	const char *of = layer_referred_to(j->name), *names = names_of(j->name);
-	const void *text = "";
-	uint32_t *number, most = 0;
-	size_t bytes = 0, count;
+/* What the indices of the frames so far have come to. */
+typedef struct following {
+	uint64_t rows; /* of what they number: vertices, faces or polygons */
+	mr_name_table names;
+	uint32_t *frame; /* of each name the last one that has it, from 1 */
+	size_t room, namesakes;
+} following;
 
-	if (!strcmp(j->name, "triangles"))
-		return shift(ctx, j, x, n, rows_before(j, i, j->layer, 'v'));
-	if (of)
-		return shift(ctx, j, x, n, rows_before(j, i, of, 'f'));
-	if (!strcmp(j->name, "polygon")) {
-		MR_TRY(shift(ctx, j, x, n, *polygons));
-		for (size_t k = 0; k < n; k++)
-			most = x[k] > most ? x[k] : most;
-		*polygons = n ? (uint64_t)most + 1 : *polygons;
+/* Counts the names of frame i that are one with another of it. */
+static mr_status
+note_namesakes(mr_ctx *ctx, following *w, size_t i, const uint32_t *number, size_t count, size_t known)
+{
+	MR_TRY(MR_RESERVE(ctx, w->frame, known, w->names.count - known, &w->room));
+	for (size_t k = known; k < w->names.count; k++)
+		w->frame[k] = 0;
+	for (size_t k = 0; k < count; k++) {
+		w->namesakes += w->frame[number[k]] == i + 1;
+		w->frame[number[k]] = (uint32_t)i + 1;
 	}
-	if (!names || !mr_layer_has(j->frames[i], j->layer, names))
+	return MR_OK;
+}
+
+/* Names of frame i, of which x has the numbers. */
+static mr_status
+follow_names(mr_ctx *ctx, const joined *j, size_t i, const char *names, uint32_t *x, size_t n, following *w)
+{
+	const void *text = "";
+	uint32_t *number;
+	size_t bytes = 0, count, known = w->names.count;
+
+	if (!mr_layer_has(j->frames[i], j->layer, names))
 		return MR_OK;
 	MR_TRY(mr_layer_get(ctx, j->frames[i], j->layer, names, &text, &bytes));
-	MR_TRY(add_lines(ctx, l, text, bytes, &number, &count));
+	MR_TRY(add_lines(ctx, &w->names, text, bytes, &number, &count));
+	MR_TRY(note_namesakes(ctx, w, i, number, count, known));
 	for (size_t k = 0; k < n; k++) {
 		if (x[k] >= count)
 			return mr_fail(ctx, MR_ERANGE, "%s: row %zu of %s is %u of %zu", j->layer, k, j->name,
@@ -219,6 +182,40 @@ follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, lines *l, 
 		x[k] = number[x[k]];
 	}
 	return MR_OK;
+}
+
+static size_t
+polygons_of(const uint32_t *x, size_t n)
+{
+	uint32_t most = 0;
+
+	for (size_t k = 0; k < n; k++)
+		most = x[k] > most ? x[k] : most;
+	return n ? (size_t)most + 1 : 0;
+}
+
+/* x, n numbers of `more` rows, behind those of the frames before. */
+static mr_status
+follow_rows(mr_ctx *ctx, const joined *j, uint32_t *x, size_t n, size_t more, following *w)
+{
+	MR_TRY(shift(ctx, j, x, n, w->rows));
+	w->rows += more;
+	return MR_OK;
+}
+
+/* What the indices of frame i become. */
+static mr_status
+follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, following *w)
+{
+	const char *of = layer_referred_to(j->name), *names = names_of(j->name);
+
+	if (names)
+		return follow_names(ctx, j, i, names, x, n, w);
+	if (of)
+		return follow_rows(ctx, j, x, n, rows_of(j->frames[i], of, 'f'), w);
+	if (!strcmp(j->name, "triangles"))
+		return follow_rows(ctx, j, x, n, rows_of(j->frames[i], j->layer, 'v'), w);
+	return strcmp(j->name, "polygon") ? MR_OK : follow_rows(ctx, j, x, n, polygons_of(x, n), w);
 }
 
 /* The rows of frame i to x; *n: how many. */
@@ -245,20 +242,22 @@ static mr_status
 join_rows(mr_ctx *ctx, const joined *j, mr_frame *out)
 {
 	size_t each = j->first->shape.components, width = mr_type_size(j->first->shape.type) * each;
-	uint64_t rows = rows_before(j, j->n, j->layer, j->first->shape.element), polygons = 0;
+	uint64_t rows = rows_of_all(j);
 	char *x = mr_alloc(ctx, (size_t)rows, width);
 	size_t at = 0, n;
-	lines l = { 0 };
+	following w = { 0 };
 
 	if (!x)
 		return MR_EMEM;
 	for (size_t i = 0; i < j->n; i++) {
 		MR_TRY(copy_rows(ctx, j, i, x + at * width, &n));
 		if (j->first->shape.type == 'u')
-			MR_TRY(
-			    follow(ctx, j, i, (uint32_t *)(void *)(x + at * width), n * each, &l, &polygons));
+			MR_TRY(follow(ctx, j, i, (uint32_t *)(void *)(x + at * width), n * each, &w));
 		at += n;
 	}
+	if (w.namesakes)
+		mr_warn(ctx, "%s: %zu names of %ss stand for several in one frame: they are one here",
+		    j->layer, w.namesakes, j->name);
 	return mr_frame_put(ctx, out, j->layer, j->name, j->first->shape, x, at);
 }
 
@@ -317,8 +316,8 @@ same_values(mr_ctx *ctx, const joined *j, bool *same)
 static bool
 is_list(const char *name)
 {
-	for (size_t i = 0; i < sizeof namings / sizeof *namings; i++)
-		if (!strcmp(namings[i].names, name))
+	for (size_t i = 0; i < MR_NAMINGS; i++)
+		if (!strcmp(mr_namings[i].list, name))
 			return true;
 	return !strcmp(name, "mtllib") || !strcmp(name, "properties");
 }
@@ -400,7 +399,7 @@ typedef struct source {
 static mr_status
 share_file(mr_ctx *ctx, const source *a, const source *b, bool *share)
 {
-	lines all = { 0 };
+	mr_name_table all = { 0 };
 	uint32_t *number;
 	size_t of_a, of_b, distinct;
 
@@ -436,7 +435,7 @@ static mr_status
 warn_of_mixed(mr_ctx *ctx, const joined *j)
 {
 	source *of = NULL, own = { 0 };
-	lines names = { 0 };
+	mr_name_table names = { 0 };
 	size_t n, count, room = 0, mixed = 0;
 	const void *text, *files;
 	uint32_t *number;

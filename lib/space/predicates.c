@@ -166,8 +166,8 @@ exact3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d)
 	return -expansion_sign(n, sum);
 }
 
-int
-mr_orient3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d)
+bool
+mr_orient3d_is_plain(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d, int *side)
 {
 	mr_v3 u = mr_sub(a, d), v = mr_sub(b, d), w = mr_sub(c, d);
 	double vxwy = v.x * w.y, wxvy = w.x * v.y, wxuy = w.x * u.y, uxwy = u.x * w.y, uxvy = u.x * v.y,
@@ -177,9 +177,16 @@ mr_orient3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d)
 	                   (fabs(uxvy) + fabs(vxuy)) * fabs(w.z);
 	double bound = (7 + 56 * EPSILON) * EPSILON * permanent;
 
-	if (det > bound || -det > bound)
-		return -sign(det);
-	return exact3d(a, b, c, d);
+	*side = -sign(det);
+	return det > bound || -det > bound;
+}
+
+int
+mr_orient3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d)
+{
+	int side;
+
+	return mr_orient3d_is_plain(a, b, c, d, &side) ? side : exact3d(a, b, c, d);
 }
 
 static int

@@ -14,6 +14,9 @@
 /* The sign, 1, 0 or -1, of the volume of a b c d: 1 where a b c runs counter-clockwise seen from d. */
 int mr_orient3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d);
 
+/* The same without exact arithmetic: false where that would be needed. */
+bool mr_orient3d_is_plain(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d, int *side);
+
 /* The sign of the area of a b c in the plane of two coordinates (axis dropped: 0 x, 1 y, 2 z), in cyclic
  * order. */
 int mr_orient2d(mr_v3 a, mr_v3 b, mr_v3 c, int dropped);

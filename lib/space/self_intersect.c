@@ -81,6 +81,29 @@ meets_flat(mr_v3 a, mr_v3 b, const mr_v3 t[3])
 	return inside_flat(a, t, k, turn);
 }
 
+/* Whether a line through a side of t, in the plane without axis k, has q beyond it. */
+static bool
+side_parts(const mr_v3 t[3], const mr_v3 q[3], int k, int turn)
+{
+	for (int i = 0; i < 3; i++) {
+		bool beyond = true;
+		for (int j = 0; j < 3 && beyond; j++)
+			beyond = mr_orient2d(t[i], t[(i + 1) % 3], q[j], k) * turn < 0;
+		if (beyond)
+			return true;
+	}
+	return false;
+}
+
+/* Triangles of positive area in one plane: where they are apart, a side of one parts them. */
+static bool
+flat_intersect(const mr_v3 p[3], const mr_v3 q[3])
+{
+	int turn, k = projection(p, &turn), of_q = mr_orient2d(q[0], q[1], q[2], k);
+
+	return !side_parts(p, q, k, turn) && !side_parts(q, p, k, of_q);
+}
+
 /* The closed segment a b, whose ends lie on the sides sa and sb of the closed triangle's plane. */
 static bool
 segment_meets(mr_v3 a, mr_v3 b, int sa, int sb, const mr_v3 t[3])
@@ -112,27 +135,73 @@ one_sided(const int s[3])
 	return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
 }
 
-/* Triangles without a common corner. */
+/* Where the points of a triangle are along an axis, from an origin, whatever the rounding. */
+static void
+range_along(mr_v3 axis, const mr_v3 p[3], mr_v3 origin, double *low, double *high)
+{
+	*low = INFINITY;
+	*high = -INFINITY;
+	for (int i = 0; i < 3; i++) {
+		mr_v3 d = mr_sub(p[i], origin);
+		double x = axis.x * d.x, y = axis.y * d.y, z = axis.z * d.z,
+		       error = 8 * 0x1p-52 * (fabs(x) + fabs(y) + fabs(z)) + 1e-300;
+		*low = fmin(*low, x + y + z - error);
+		*high = fmax(*high, x + y + z + error);
+	}
+}
+
+/* Whether a plane through a side of p, square to p's own, surely has q beyond it. */
+static bool
+side_surely_parts(const mr_v3 p[3], const mr_v3 q[3])
+{
+	mr_v3 n = mr_cross(mr_sub(p[1], p[0]), mr_sub(p[2], p[0]));
+
+	for (int i = 0; i < 3; i++) {
+		mr_v3 axis = mr_cross(mr_sub(p[(i + 1) % 3], p[i]), n);
+		double low_p, high_p, low_q, high_q;
+		range_along(axis, p, p[i], &low_p, &high_p);
+		range_along(axis, q, p[i], &low_q, &high_q);
+		if (low_q > high_p)
+			return true;
+	}
+	return false;
+}
+
+/* Whether the corners of p lie by the plane of q so that it takes exact arithmetic to tell how. */
+static bool
+is_delicate(const mr_v3 p[3], const mr_v3 q[3])
+{
+	bool plain = true;
+	int side;
+
+	for (int i = 0; i < 3 && plain; i++)
+		plain = mr_orient3d_is_plain(q[0], q[1], q[2], p[i], &side);
+	return !plain;
+}
+
+/* Triangles without a common corner.  In a flat cap of many slivers most pairs are parted by a side of one.
+ */
 static bool
 apart_intersect(const mr_v3 p[3], const mr_v3 q[3])
 {
-	int sp[3], sq[3], turn, k;
+	int sp[3], sq[3];
 
+	if (is_delicate(p, q) && (side_surely_parts(p, q) || side_surely_parts(q, p)))
+		return false;
 	sides(q, p, sp);
 	if (one_sided(sp))
 		return false;
 	sides(p, q, sq);
 	if (one_sided(sq))
 		return false;
+	if (!sp[0] && !sp[1] && !sp[2])
+		return flat_intersect(p, q);
 	for (int i = 0; i < 3; i++) {
 		int j = (i + 1) % 3;
 		if (segment_meets(p[i], p[j], sp[i], sp[j], q) || segment_meets(q[i], q[j], sq[i], sq[j], p))
 			return true;
 	}
-	if (sp[0] || sp[1] || sp[2])
-		return false;
-	k = projection(p, &turn); /* in one plane, no edges meet: q may still hold p, or p hold q */
-	return inside_flat(q[0], p, k, turn);
+	return false;
 }
 
 /* Whether n . e > 0, whatever the rounding of e, a difference, and of the product. */

@@ -8,16 +8,15 @@
 static mr_status
 read_groups(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_groups g[MR_NAMINGS])
 {
-	static const char *const of[MR_NAMINGS] = { "group", "object", "material" },
-				 *const lists[MR_NAMINGS] = { "groups", "objects", "materials" };
 	const void *group, *names;
 
 	memset(g, 0, MR_NAMINGS * sizeof *g);
 	for (size_t i = 0; i < MR_NAMINGS; i++) {
-		if (m->nf == 0 || !mr_layer_has(f, m->name, of[i]) || !mr_layer_has(f, m->name, lists[i]))
+		mr_naming of = mr_namings[i];
+		if (m->nf == 0 || !mr_layer_has(f, m->name, of.column) || !mr_layer_has(f, m->name, of.list))
 			continue;
-		MR_TRY(mr_layer_get_rows(ctx, f, m->name, of[i], m->nf, &group));
-		MR_TRY(mr_layer_get(ctx, f, m->name, lists[i], &names, &g[i].length));
+		MR_TRY(mr_layer_get_rows(ctx, f, m->name, of.column, m->nf, &group));
+		MR_TRY(mr_layer_get(ctx, f, m->name, of.list, &names, &g[i].length));
 		g[i].group = group;
 		g[i].names = names;
 	}

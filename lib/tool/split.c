@@ -1,4 +1,5 @@
 /* mr-split: a frame for each part of a layer. */
+#include "mesh/name_lists.h"
 #include "mesh/subset.h"
 #include "space/connected.h"
 
@@ -83,7 +84,8 @@ keep_only(mr_frame *f, const char *layer)
 }
 
 static mr_status
-take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, size_t k, mr_frame **out)
+take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, const mr_name_lists *names,
+    size_t k, mr_frame **out)
 {
 	mr_frame *part = MR_NEW(ctx, 1, mr_frame);
 	const mr_subset s = { p->vertex + p->first_vertex[k], p->face + p->first_face[k],
@@ -99,7 +101,8 @@ take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, siz
 	if (!part->name)
 		return MR_EMEM;
 	*out = part;
-	return mr_layer_keep(ctx, part, layer, &s);
+	MR_TRY(mr_layer_keep(ctx, part, layer, &s));
+	return mr_name_lists_cut(ctx, names, part, layer);
 }
 
 static mr_status
@@ -137,6 +140,7 @@ mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***
 	const mr_split_opts *o = opts ? opts : &defaults;
 	const char *layer;
 	mr_split_result r;
+	mr_name_lists names;
 	mr_frame **part;
 	mr_mesh m;
 	parts p;
@@ -152,8 +156,9 @@ mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***
 	part = MR_NEW(ctx, p.given, mr_frame *);
 	if (!part)
 		return MR_EMEM;
+	MR_TRY(mr_name_lists_of(ctx, f, layer, &names));
 	for (size_t k = 0; k < p.given; k++)
-		MR_TRY(take_part(ctx, f, layer, &p, k, &part[k]));
+		MR_TRY(take_part(ctx, f, layer, &p, &names, k, &part[k]));
 	MR_TRY(warn_of_layers(ctx, f, layer));
 	tell(ctx, &m, &p, &r);
 	*out = part;

@@ -1,0 +1,27 @@
+/* name_table.h -- names, numbered as they come, in one text. */
+#ifndef MR_BASE_NAME_TABLE_H
+#define MR_BASE_NAME_TABLE_H
+
+#include "base/ctx.h"
+
+/* Starts zeroed; in the arena. */
+typedef struct mr_name_table {
+	char *text; /* each name and a newline */
+	size_t bytes, room;
+	size_t *start;  /* of each in text */
+	uint32_t *slot; /* a hash table of number + 1 */
+	size_t count, start_room, slots;
+} mr_name_table;
+
+/* Bytes of name i. */
+size_t mr_name_length(const mr_name_table *n, size_t i);
+
+/* The number of the first that is called so; a new one where none is. */
+mr_status mr_name_number(
+    mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number) MR_WARN_UNUSED;
+
+/* A new one, though there may be others that are called so. */
+mr_status
+mr_name_add(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number) MR_WARN_UNUSED;
+
+#endif
