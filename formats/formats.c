@@ -282,8 +282,8 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	for (size_t i = 0; i < FORMATS && !found; i++)
 		if (formats[i].sniff && formats[i].sniff(data, size))
 			found = &formats[i];
-	if (!found)
-		found = by_suffix(path); /* its reader says what is wrong */
+	if (!found || (found == by_name("xyz") && by_suffix(path) == by_name("off")))
+		found = by_suffix(path); /* whose reader says what is wrong; an OFF may lack its keyword */
 	if (!found)
 		return mr_fail(
 		    ctx, MR_EFORMAT, "no format is recognised in its bytes; -f names one of %s", names);

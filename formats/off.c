@@ -128,7 +128,7 @@ line_rest(off *f, double *x, size_t most, size_t *count)
 	for (mr_skip_blanks(&f->text); f->text.p < f->text.end && *f->text.p != '\n' && *f->text.p != '#';
 	     mr_skip_blanks(&f->text)) {
 		if (n == most)
-			return mr_scan_fail(&f->text, f->text.p, "more numbers than a vertex can have");
+			return mr_scan_fail(&f->text, f->text.p, "more numbers on a line than a vertex can have");
 		MR_TRY(mr_scan_real(&f->text, "a number of a vertex", &x[n++]));
 	}
 	*count = n;
@@ -408,6 +408,6 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	bool dimensions;
 
 	if (keyword(&f, &dimensions) && dimensions)
-		return mr_scan_fail(&f.text, f.text.p, "only vertices in three dimensions are read");
+		return mr_scan_fail(&f.text, f.text.p, "4OFF and nOFF are not read, which may have other than three dimensions");
 	return f.binary ? read_binary(&f, m) : read_text(&f, m);
 }

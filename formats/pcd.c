@@ -34,7 +34,9 @@ typedef struct pcd {
 	bool turned; /* the viewpoint has an orientation */
 	mr_builder properties;
 	const field *of[ROLES];
-	bool alpha;     /* the colour is rgba */
+	bool alpha;    /* the colour is rgba */
+	bool no_color; /* of the point at hand: the text has no number */
+	size_t no_colors;
 	size_t surplus; /* rows of text that have numbers of no field */
 } pcd;
 
@@ -422,8 +424,10 @@ read_text(pcd *f, double value[ROLES], uint32_t *rgb)
 		}
 	mr_skip_blanks(&line);
 	f->surplus += line.p < line.end;
-	if (f->of[RGB])
+	if (f->of[RGB]) {
+		f->no_color = isnan(value[RGB]);
 		*rgb = color_bits(value[RGB], f->of[RGB]);
+	}
 	return MR_OK;
 }
 
@@ -447,6 +451,7 @@ read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count
 		if (!mr_finite(p[n]))
 			continue;
 		MR_TRY(take_properties(f, n));
+		f->no_colors += f->no_color;
 		if (normal)
 			normal[n] = mr_vec(v[NX], v[NY], v[NZ]);
 		if (color) {
@@ -506,6 +511,8 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		return MR_EMEM;
 	MR_TRY(read_points(&f, p, normal, color, &n));
 	warn_of_rest(&f);
+	if (color && !mr_all_left(ctx, f.no_colors, n, "colors", &m->counts.dropped_colors))
+		color = NULL;
 	if (color)
 		mend_alpha(color, n);
 	if (n < f.points)

@@ -441,14 +441,15 @@ normal_is_behind(const table *t)
 	return first || second ? second : could_be_color(t, 3);
 }
 
-/* Warns where what is read as normals may be colours. */
+/* Warns where what is read as normals may be colours, or something else. */
 static void
 doubt_normals(const table *t, size_t at)
 {
-	if (are_shares(t, at) && !are_unit(t, at))
+	if (t->others[at == 6] > t->rows / 100)
 		mr_warn(t->ctx,
-		    "columns %zu to %zu are read as normals, though not of length 1: colors of 0 to 1 need "
-		    "the line '# x y z red green blue' before them",
+		    "columns %zu to %zu are read as normals, though not of length 1: colors need the line '# "
+		    "x y "
+		    "z red green blue' before them",
 		    at + 1, at + 3);
 }
 
@@ -586,11 +587,17 @@ three(const table *t, const double *x, role first)
 	    x[column_of(t, first)], x[column_of(t, (role)(first + 1))], x[column_of(t, (role)(first + 2))]);
 }
 
-/* Twice as many rows of three as counted: the second half are normals. */
+/* Twice as many rows of three as counted, of which the second half are of length 1, or 0: normals. */
 static bool
-halves(const table *t)
+halves(const table *t, const mr_v3 *p)
 {
-	return t->counted && t->columns == 3 && t->count > 0 && t->rows == 2 * t->count;
+	size_t others = 0;
+
+	if (!t->counted || t->columns != 3 || t->count == 0 || t->rows != 2 * t->count)
+		return false;
+	for (size_t i = t->rows / 2; i < t->rows; i++)
+		others += !mr_has_unit_length(p[i]) && mr_norm2(p[i]) > 0;
+	return others <= t->rows / 200;
 }
 
 static bool
@@ -656,8 +663,8 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		color = NULL;
 	for (int i = 0; color && i < 2; i++)
 		mr_shades_said(ctx, &t.shades[i]);
-	n = halves(&t) ? t.rows / 2 : t.rows;
-	if (halves(&t))
+	n = halves(&t, p) ? t.rows / 2 : t.rows;
+	if (n < t.rows)
 		normal = p + n;
 	else if (t.counted && t.rows > t.count)
 		mr_warn(ctx, "%zu points, where the file counts %llu", t.rows, (unsigned long long)t.count);

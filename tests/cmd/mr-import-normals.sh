@@ -107,3 +107,10 @@ for normal in '2 0 5' '1 0 1' '1 0 0' '-2 0 5'; do
 		mr-import whole.$format | mr-export -f $format - | cmp whole.$format
 	done
 done
+
+echo 'twice as many rows as counted are points and normals where these have a length of 1'
+printf '2\n0 0 0\n1 0 0\n0 0 1\n0 .6 .8\n' | mr-import | mr-export -f xyz -
+printf '2\n0 0 0\n1 0 0\n5 5 5\n6 6 6\n' | mr-import | mr-export -f xyz -
+echo 'a PCD whose text has nan for a colour, as four bytes in a float may be'
+printf 'VERSION .7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F F\nWIDTH 2\nHEIGHT 1\nDATA ascii\n0 0 0 nan\n1 1 1 2.3418e-38\n' >nan.pcd
+mr-import nan.pcd | mr-export -f ply-ascii - | sed '1,/end_header/d'

@@ -73,3 +73,9 @@ try 'x y z label\n0 0 0 0\n1 0 0 0\n'
 try '0 0 0 0\n1 0 0 0\n'
 echo '-- infinities of a column are no nan'
 try '4 0 0 1\n0 0 0 -inf\n1 0 0 1.#INF000\n2 0 0 nan\n3 0 0 +Infinity\n'
+echo '-- an OFF without its keyword'
+printf '3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >bare.off
+mr-import bare.off | mr-export -f off -
+mr-import <bare.off 2>&1 | strings -n 20 | tail -n 1
+printf 'nOFF\n3\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >n.off
+mr-import n.off 2>&1 | grep -a -o 'n.off:.*'
