@@ -68,18 +68,17 @@ parse(mr_gltf *g, const unsigned char *json, size_t bytes)
 	return MR_OK;
 }
 
-/* "2.0" and what a later minor version says it is compatible with. */
+/* 2, and of a later minor version what says that it needs 2.0 alone. */
 static mr_status
 check_version(const mr_gltf *g)
 {
 	const json_t *asset = json_object_get(g->root, "asset");
-	const char *version = json_string_value(json_object_get(asset, "minVersion"));
+	const char *least = json_string_value(json_object_get(asset, "minVersion")),
+		   *version = least ? least : json_string_value(json_object_get(asset, "version"));
 
 	if (!version)
-		version = json_string_value(json_object_get(asset, "version"));
-	if (!version)
 		return mr_fail(g->ctx, MR_EFORMAT, "JSON: no version of glTF in it");
-	if (strncmp(version, "2.", 2))
+	if (least ? strcmp(least, "2.0") != 0 : strncmp(version, "2.", 2) != 0)
 		return mr_fail(g->ctx, MR_EFORMAT, "version %.20s of glTF is not read, 2.0 is", version);
 	return MR_OK;
 }
@@ -241,11 +240,14 @@ find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 
 	if (uri && !text)
 		return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu: its URI is no text", number);
-	if (text && (strncmp(text, "data:", 5) || !data))
+	if (text && strncmp(text, "data:", 5) != 0)
 		return mr_fail(g->ctx, MR_EFORMAT,
 		    "buffer %zu is in another file, %.100s: only what is in the file itself is read, as a "
 		    "glb has it",
-		    number, strncmp(text, "data:", 5) ? text : "a URI without base 64");
+		    number, text);
+	if (text && !data)
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "buffer %zu is in a URI without base 64, which is not read", number);
 	if (text)
 		return decode64(g, number, data + strlen(";base64,"), b);
 	if (json_object_size(extensions))

@@ -88,8 +88,42 @@ with_extras(const mr_gltf *g, const char *array)
 	return count;
 }
 
-mr_status
-mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left)
+/* Nodes that others hang from: how, and what such a node without a mesh is called, goes. */
+static size_t
+parents(const mr_gltf *g)
+{
+	size_t count = 0;
+
+	for (size_t i = 0; i < mr_gltf_size(g, "nodes"); i++)
+		count += json_array_size(json_object_get(mr_gltf_at(g, "nodes", i), "children")) > 0;
+	return count;
+}
+
+static mr_status
+unused_materials(const mr_gltf *g, size_t *unused)
+{
+	size_t count = mr_gltf_size(g, "materials"), k;
+	bool *used = MR_NEW_ZERO(g->ctx, count, bool);
+	json_t *primitive;
+
+	if (!used)
+		return MR_EMEM;
+	for (size_t i = 0; i < mr_gltf_size(g, "meshes"); i++)
+		json_array_foreach(json_object_get(mr_gltf_at(g, "meshes", i), "primitives"), k, primitive)
+		{
+			json_t *material = json_object_get(primitive, "material");
+			json_int_t number = json_is_integer(material) ? json_integer_value(material) : -1;
+			if (number >= 0 && (size_t)number < count)
+				used[number] = true;
+		}
+	*unused = count;
+	for (size_t i = 0; i < count; i++)
+		*unused -= used[i];
+	return MR_OK;
+}
+
+static mr_status
+say(const mr_gltf *g, mr_gltf_left *left, size_t unused)
 {
 	const mr_gltf_looks looks = mr_gltf_count_looks(g);
 	const char *said = "";
@@ -98,12 +132,13 @@ mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left)
 		const char *what;
 	} lines[] = { { mr_gltf_size(g, "images"), "image" }, { looks.colors, "material colour" },
 		{ looks.surfaces, "material surface" }, { looks.transforms, "other texture transform" },
+		{ unused, "unused material" },
 		{ listed(g, "KHR_materials_variants", "variants"), "material variant" },
 		{ mr_gltf_size(g, "skins"), "skin" }, { mr_gltf_size(g, "animations"), "animation" },
 		{ mr_gltf_size(g, "cameras"), "camera" },
 		{ listed(g, "KHR_lights_punctual", "lights"), "light" }, { left->targets, "morph target" },
 		{ left->lines, "line primitive" }, { left->unseen.scenes, "other scene" },
-		{ left->unseen.nodes, "unshown mesh node" },
+		{ left->unseen.nodes, "unshown mesh node" }, { parents(g), "parent node" },
 		{ left->unseen.several, "EXT_mesh_gpu_instancing node" },
 		{ with_extras(g, "nodes") + with_extras(g, "meshes") + with_extras(g, "materials"),
 		    "extra" } };
@@ -116,4 +151,13 @@ mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left)
 	if (*said)
 		mr_warn(g->ctx, "not kept of the file: %s", said);
 	return MR_OK;
+}
+
+mr_status
+mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left)
+{
+	size_t unused;
+
+	MR_TRY(unused_materials(g, &unused));
+	return say(g, left, unused);
 }

@@ -94,8 +94,10 @@ parse_term(mr_ctx *ctx, const char *text, mr_select_term *t)
 	for (; !strncmp(text, "not:", 4); text += 4)
 		t->negate = !t->negate;
 	t->predicate = find_predicate(text);
-	if (!t->predicate || text[strlen(t->predicate->name)] == '+')
+	if (!t->predicate)
 		return no_predicate(ctx, text);
+	if (text[strlen(t->predicate->name)] == '+')
+		return no_predicate(ctx, text + strlen(t->predicate->name) + 1);
 	colon = strchr(text, ':');
 	if ((colon != NULL) == (t->predicate->parse == NULL))
 		return mr_fail(ctx, MR_EUSAGE,

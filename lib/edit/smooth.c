@@ -297,7 +297,7 @@ choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 
 /* What is left of area and volume. */
 static void
-measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
+measure_rest(mr_ctx *ctx, smoothing *s, bool plain, const mr_v3 *p)
 {
 	const double little = 0.5;
 	mr_mesh after = *s->m;
@@ -307,7 +307,7 @@ measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 	s->found.volume = mr_mesh_volume(ctx, &after) / s->found.volume;
 	if (s->found.area < little)
 		mr_warn(ctx, "%s: smoothing leaves %.2g %% of the area: smooth for less time%s", s->m->name,
-		    100 * s->found.area, s->found.bounded ? "" : ", or without --plain");
+		    100 * s->found.area, plain ? ", or without --plain" : "");
 }
 
 mr_status
@@ -322,7 +322,7 @@ mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out,
 	if (opts->time > 0 && s.edge2 > 0)
 		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, out)
 							  : explicit(ctx, &s, opts->method, out));
-	measure_rest(ctx, &s, out);
+	measure_rest(ctx, &s, opts->plain, out);
 	if (result)
 		*result = s.found;
 	mr_mark_release(ctx, mark);

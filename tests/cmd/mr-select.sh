@@ -61,6 +61,7 @@ refused --free vertices:absent
 refused
 refused --free
 refused --free nowhere
+refused --free all+bx:1 plane.mrs
 refused --free sphere:1,2,3
 refused --handle above:x,0.5
 refused --handle 70000=all

@@ -42,3 +42,6 @@ mr-info -l base out.mrs | sed -n 's/^ *topology *//p'
 mr-smooth -t 0 plane.mrs -o out.mrs
 mr-export -f off -l base - <out.mrs >base.off
 mr-export -f off -l mesh - <out.mrs | cmp - base.off && echo unchanged
+echo 'advice that helps: without --plain there is nothing to leave out'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >two.obj
+mr-smooth two.obj 2>&1 >out | grep -o 'leaves.*'
