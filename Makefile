@@ -75,7 +75,7 @@ BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.
 # What the page of mr-view is made of, and where three.js is.
 PAGE    := $(wildcard formats/page/* formats/page/*/*)
 THREE   ?= /usr/share/javascript/three
-PEERS   := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
+RIVALS  := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
 NEEDS   := build $(if $(filter setup check check-long check-page check-cluster coverage matrix bless units deb check-deb,$(MAKECMDGOALS)),check) \
 	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) \
 	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(if $(filter mpi check-mpi,$(MAKECMDGOALS)),check mpi) \
@@ -253,7 +253,7 @@ demo/clouds.txt: $(TOOLS) examples/reconstruct.sh examples/models.sh | demo/figu
 demo/index.html: $(BUILD)/bin/mr-view demo/figures.txt demo/clouds.txt
 	@$(RUN) mr-view -q $@ demo/edits/*.mrs demo/scans/*.mrs
 
-bench: $(TOOLS) $(BENCHES) $(PEERS)
+bench: $(TOOLS) $(BENCHES) $(RIVALS)
 	@$(RUN) tests/bench/run $(T)
 
 table1: $(TOOLS) $(BUILD)/bench/plot
