@@ -404,6 +404,13 @@ is_dash(const char *path)
 	return !strcmp(path, "-");
 }
 
+/* Whether -o names a file, other than stdout. */
+static bool
+names_file(const cmd *c)
+{
+	return c->output && !is_dash(c->output) && !place_is(STDOUT_FILENO, c->output);
+}
+
 /* The output as a descriptor: stdout, or -o. */
 static void
 open_output(cmd *c)
@@ -411,7 +418,7 @@ open_output(cmd *c)
 	struct cmd_state *s = c->state;
 
 	s->out = STDOUT_FILENO;
-	if (!c->output || is_dash(c->output) || place_is(STDOUT_FILENO, c->output))
+	if (!names_file(c))
 		return;
 	if (!*c->output)
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--output: a file without a name"));
@@ -434,13 +441,11 @@ is_input(const cmd *c, const char *path)
 static void
 check_output(cmd *c)
 {
-	const char *path = c->output;
-
-	if (!path || is_dash(path))
+	if (!names_file(c))
 		return;
-	if (c->tool->source && is_input(c, path))
-		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", path));
-	try(c, place_for_stream(&c->ctx, path));
+	if (c->tool->source && is_input(c, c->output))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", c->output));
+	try(c, place_for_stream(&c->ctx, c->output));
 }
 
 static void
@@ -470,7 +475,7 @@ open_copy(cmd *c, int fd, const char *path)
 static void
 open_text(cmd *c)
 {
-	if (c->output)
+	if (names_file(c))
 		try(c, place_for_text(&c->ctx, "-o", c->output));
 	open_output(c);
 	c->state->text = c->state->out == STDOUT_FILENO ? stdout : open_copy(c, c->state->out, c->output);

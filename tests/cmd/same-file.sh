@@ -43,6 +43,8 @@ mr-smooth -o t.mrs t.mrs && mr-smooth -o s.mrs <s.mrs && mr-info t.mrs s.mrs | g
 echo 'standard output by its name' >&2
 (echo first; mr-export -f off /dev/stdout <s.mrs; echo last) >log
 grep -c -e first -e last -e OFF log
+(echo first; mr-cat -o /dev/stdout s.mrs; mr-info -o /dev/stdout s.mrs; echo last) >log
+grep -a -c -e first -e last -e mrmesh1 -e vertices log
 echo 'a pipe by the name of a model' >&2
 mkfifo pipe.ply
 mr-export pipe.ply <s.mrs & mr-import pipe.ply | mr-info | grep vertices
