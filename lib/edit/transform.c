@@ -431,11 +431,20 @@ map_values(const change *c, column_sort sort, double *x, size_t rows, size_t com
 		map_responses(c, x, n / 4);
 }
 
+/* The longest side, which is a number where the square of a diagonal is none. */
+static double
+longest_side(mr_box b)
+{
+	mr_v3 size = mr_sub(b.max, b.min);
+
+	return fmax(size.x, fmax(size.y, size.z));
+}
+
 /* Far from the origin, or near 0, doubles are too coarse for a model that is small there. */
 static void
 warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr_v3 *mapped)
 {
-	const double share = 1e-7; /* of the diagonal, as of what is written in float32 */
+	const double share = 1e-7; /* of the longest side, as of what is written in float32 */
 	size_t n = (size_t)column->rows;
 	const mr_v3 *p = column->data;
 	mr_box before = mr_box_of(p, n), after = mr_box_of(mapped, n), turned = mr_box_empty();
@@ -443,13 +452,13 @@ warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr
 
 	for (size_t i = 0; i < n; i++)
 		mr_box_add(&turned, mr_mat3_apply(&c->unit, mr_sub(p[i], p[0])));
-	old = mr_box_grain(before) / mr_box_diagonal(before);
-	off = ldexp(mr_box_grain(after), -c->exponent) / mr_box_diagonal(turned);
+	old = mr_box_grain(before) / longest_side(before);
+	off = ldexp(mr_box_grain(after), -c->exponent) / longest_side(turned);
 	if (off > share && off > 4 * old && !isnan(old))
 		mr_warn(ctx,
-		    "%s: positions are rounded by up to %.2g of the diagonal: doubles are too coarse for "
+		    "%s: positions are rounded by up to %.2g of their extent: doubles are too coarse for "
 		    "this model %s",
-		    column->layer, off,
+		    column->layer, fmin(off, 1),
 		    mr_box_largest(after) < 1e-292 ? "so near 0" : "so far from the origin");
 }
 
