@@ -70,3 +70,12 @@ awk 'BEGIN { n = 150; k = 12; print "OFF\n" n * k, 2 * n * k, 0
 		print 3, p, q, t; print 3, p, t, s } }' >ring.off
 mr-import ring.off | mr-remesh -r 2.5 >/dev/null
 mr-make boxes --genus 9 -n 4000 | mr-remesh --vertices 12 2>&1 >/dev/null | sed -n 's/.* vertices and .* faces are .* times as many as were wanted/more than wanted/p'
+
+echo 'a rod of CAD, of faces as long as it'
+awk 'BEGIN { n = 64; for (k = 0; k < 2; k++) for (i = 0; i < n; i++) print "v", cos(6.2831853071795862 * i / n), sin(6.2831853071795862 * i / n), 50 * k
+	print "v 0 0 0"; print "v 0 0 50"
+	for (i = 0; i < n; i++) { a = i + 1; b = (i + 1) % n + 1; print "f", a, b, b + n; print "f", a, b + n, a + n; print "f", b, a, 2 * n + 1; print "f", a + n, b + n, 2 * n + 2 } }' >rod.obj
+mr-remesh -L 0.5 rod.obj -o rod.mrs
+mr-info --check rod.mrs >checked || cat checked
+mr-info -l base rod.mrs | sed -n '/base:/,$p' | grep -E 'topology|flaws|volume'
+mr-encode rod.mrs | mr-decode -o back.mrs && mr-compare -l mesh rod.mrs back.mrs | awk '/^  both  / { print ($5 < 1e-12 ? "and back" : $5) }'
