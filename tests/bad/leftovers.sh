@@ -29,7 +29,7 @@ begin() { # command
 }
 
 # INT and QUIT are ignored here by what runs behind a shell; XFSZ and a closed pipe have their own tests.
-outputs='mr-cat -o work/out
+outputs='mr-cat -o work/out.mrs
 mr-export -f obj work/out
 mr-export -f stl work/out.gz'
 [ -z "$LONG" ] || outputs="$outputs
@@ -43,14 +43,15 @@ for way in nameless named; do
 		while read -r command; do
 			echo old >work/out
 			echo older >work/out.gz
+			echo mrmesh1 >work/out.mrs
 			begin $command --stats work/stats
 			kill -$signal $pid
 			wait $pid 2>wait
 			code=$?
 			exec 3>&-
 			[ $code -gt 128 ] || bad "$command: exit $code after $signal: $(cat err)"
-			[ "$(ls work)" = "$(printf 'out\nout.gz')" ] || bad "$command: $signal leaves something"
-			[ "$(cat work/out work/out.gz)" = "$(printf 'old\nolder')" ] || bad "$command: $signal took what was there"
+			[ "$(ls work)" = "$(printf 'out\nout.gz\nout.mrs')" ] || bad "$command: $signal leaves something"
+			[ "$(cat work/out work/out.gz work/out.mrs)" = "$(printf 'old\nolder\nmrmesh1')" ] || bad "$command: $signal took what was there"
 			n=$((n + 1))
 		done <outputs
 	done
@@ -64,6 +65,6 @@ for signal in TERM HUP; do
 	until ls work | grep -q '~'; do sleep 0.01; done
 	kill -$signal $!
 	wait $! 2>wait && bad "mr-export: exit 0 after $signal"
-	[ "$(ls work)" = "$(printf 'out\nout.gz')" ] || bad "mr-export: $signal leaves something"
+	[ "$(ls work)" = "$(printf 'out\nout.gz\nout.mrs')" ] || bad "mr-export: $signal leaves something"
 done
 echo "$n ends"

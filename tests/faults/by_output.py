@@ -163,7 +163,7 @@ def flips(step):
 
 # ---- a full disk ----
 
-WRITERS = """mr-cat -o work/out
+WRITERS = """mr-cat -o work/out.mrs
 mr-info --stats work/out
 mr-export -q -l base -f obj work/out
 mr-export -q -l mesh -f ply work/out
@@ -180,14 +180,15 @@ def full(step):
         os.mkdir("work")
         output(command, stream)
         (name, good), = files().items()
+        old = b"mrmesh1\n" if name.endswith(".mrs") else b"old"
         for most in range(shift % step, len(good), step):
             shutil.rmtree("work")
             os.mkdir("work")
-            open("work/" + name, "wb").write(b"old")
+            open("work/" + name, "wb").write(old)
             limit = lambda: resource.setrlimit(resource.RLIMIT_FSIZE, (most, most))
             p = subprocess.run(shlex.split(command), input=stream, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limit)
             runs += 1
-            if p.returncode != 1 or not sentence(command, p.stderr) or files() != {name: b"old"}:
+            if p.returncode != 1 or not sentence(command, p.stderr) or files() != {name: old}:
                 bad("%s: no more than %d bytes: exit %d, %s: %s" % (command, most, p.returncode, files().keys(), p.stderr[:200]))
 
 
