@@ -369,7 +369,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 		mr_note(ctx, "%s: %zu faces are left, not %zu: fewer would be too far off", m->name, out->nf,
 		    s.target);
 	else if (out->nf > s.target && s.target && !isfinite(s.limit))
-		mr_note(ctx,
+		mr_warn(ctx,
 		    "%s: %zu faces are left, not %zu: no more could be merged without changing the "
 		    "topology or folding the surface",
 		    m->name, out->nf, s.target);

@@ -352,7 +352,8 @@ tell_some(mr_ctx *ctx, size_t some, size_t all, const char *which, double share,
 		    why);
 }
 
-/* Of those that are not where they belong though base holds its own there: it has none at theirs. */
+/* Of those that are not where they belong though base, where the pose began, holds its own there: it has none
+ * at theirs. */
 static void
 tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 {
@@ -393,7 +394,7 @@ look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *at_rest, 
 	MR_TRY(mr_held_count(ctx, &pose, share * mr_mesh_diagonal(&mesh), &h));
 	if (!mr_is_news(h.moved + h.missed + h.unscaled, told))
 		return MR_OK;
-	tell_held(ctx, &h, base, share);
+	tell_held(ctx, &h, &before, share);
 	return MR_OK;
 }
 

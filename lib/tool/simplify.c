@@ -6,6 +6,7 @@
 #include "mesh/layers.h"
 #include "simplify/creases.h"
 #include "space/sampling.h"
+#include "tool/shrinking.h"
 
 /* By default, but for control meshes. */
 enum { FACES_A_FACE = 10 };
@@ -220,6 +221,8 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 		MR_TRY(sharpen(ctx, &m, &points, width, &sharp));
 	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, &r));
 	MR_TRY(mr_crossings_warn(ctx, &sharp, onto, &out));
+	if (strcmp(layer, "control") != 0)
+		MR_TRY(mr_warn_of_shrinking(ctx, &m, &out, "more faces keep more"));
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
 	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;

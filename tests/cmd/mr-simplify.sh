@@ -70,3 +70,12 @@ mr-make sphere -n 2000 | mr-export -f off - | awk 'NR == 2 { n = $1; m = $2 } NR
 		for (i = 0; i < n; i++) { split(p[i], x, " "); print .97 * x[1], .97 * x[2], .97 * x[3] }
 		for (i = n + 3; i <= NR; i++) { split(t[i], v, " "); print t[i]; print 3, v[2] + n, v[4] + n, v[3] + n } }' >shells.off
 mr-import shells.off | mr-simplify -n 150 2>&1 >/dev/null | sed 's/, as at.*//'
+
+echo 'a rod of CAD, whose slivers are all alike; what is lost; what cannot be had'
+awk 'BEGIN { n = 96; for (k = 0; k < 2; k++) for (i = 0; i < n; i++) print "v", cos(6.2831853071795862 * i / n), sin(6.2831853071795862 * i / n), 20 * k
+	print "v 0 0 0"; print "v 0 0 20"
+	for (i = 0; i < n; i++) { a = i + 1; b = (i + 1) % n + 1; print "f", a, b, b + n; print "f", a, b + n, a + n; print "f", b, a, 2 * n + 1; print "f", a + n, b + n, 2 * n + 2 } }' >rod.obj
+mr-simplify -n 20 rod.obj | mr-info | grep -E 'faces|volume'
+printf 'v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n' >octahedron.obj
+mr-simplify -r .5 octahedron.obj 2>&1 >out.mrs | grep -o 'mesh: .*'
+mr-make boxes --genus 20 | mr-simplify -n 20 2>&1 >out.mrs | grep -o 'not 20.*'

@@ -1,0 +1,15 @@
+/*
+ * shrinking.h -- what a coarser surface has lost.
+ *
+ * Private to this room.
+ */
+#ifndef MR_TOOL_SHRINKING_H
+#define MR_TOOL_SHRINKING_H
+
+#include "mesh/mesh.h"
+
+/* Warns where `out`, which is made of m, has lost over a tenth of its area, or of its volume where m is
+ * closed, and says why. */
+mr_status mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why);
+
+#endif
