@@ -194,24 +194,30 @@ bare_name(const mr_builder *b, mr_marking what, const char *name, size_t bytes)
 	return (mr_lines){ name, bytes };
 }
 
-mr_status
-mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
+/* How a name gets its number. */
+typedef mr_status
+number_name(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number);
+
+static mr_status
+mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, number_name *number)
 {
 	mr_lines bare = bare_name(b, what, name, bytes);
 	mr_marks *k = &b->marks[what];
 
 	MR_TRY(start_marks(b, what));
-	return mr_name_number(b->ctx, &k->names, bare.text, bare.bytes, &k->current);
+	return number(b->ctx, &k->names, bare.text, bare.bytes, &k->current);
+}
+
+mr_status
+mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
+{
+	return mark(b, what, name, bytes, mr_name_number);
 }
 
 mr_status
 mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
 {
-	mr_lines bare = bare_name(b, what, name, bytes);
-	mr_marks *k = &b->marks[what];
-
-	MR_TRY(start_marks(b, what));
-	return mr_name_add(b->ctx, &k->names, bare.text, bare.bytes, &k->current);
+	return mark(b, what, name, bytes, mr_name_add);
 }
 
 mr_status
