@@ -4,6 +4,7 @@
 #include "formats/format.h"
 #include "formats/names.h"
 #include "formats/suffix.h"
+#include "mesh/name_lists.h"
 
 #include <float.h>
 #include <unistd.h>
@@ -467,24 +468,7 @@ mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files)
 mr_status
 mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count)
 {
-	const char *end = lines.text + lines.bytes, *p = lines.text;
-	const char **start;
-	size_t n = 1;
-
-	for (size_t i = 0; i < lines.bytes; i++)
-		n += lines.text[i] == '\n';
-	start = MR_NEW(ctx, n + 1, const char *);
-	if (!start)
-		return MR_EMEM;
-	for (size_t i = 0; i < n; i++) {
-		const char *e = p < end ? memchr(p, '\n', (size_t)(end - p)) : NULL;
-		start[i] = p;
-		p = e ? e + 1 : end + 1;
-	}
-	start[n] = end + 1;
-	*starts = start;
-	*count = n;
-	return MR_OK;
+	return mr_line_starts(ctx, lines.text, lines.bytes, starts, count);
 }
 
 /* Writes the model, or the scene. */
@@ -641,7 +625,7 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 		    "mr-transform %s, where floats are finer",
 		    changed, m->nv, off, off / diagonal,
 		    diagonal < FLT_MIN / share ? "--unit brings them to size 1"
-		                               : "--center brings them to the origin");
+					       : "--center brings them to the origin");
 	else if (changed)
 		mr_note(s->ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
 	return MR_OK;

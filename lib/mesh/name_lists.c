@@ -9,8 +9,8 @@ const mr_naming mr_namings[MR_NAMINGS] = {
 	{ "material", "materials" },
 };
 
-static mr_status
-find_lines(mr_ctx *ctx, const char *text, size_t bytes, const char ***line, size_t *count)
+mr_status
+mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count)
 {
 	const char *end = text + bytes, *p = text;
 	const char **start;
@@ -22,12 +22,12 @@ find_lines(mr_ctx *ctx, const char *text, size_t bytes, const char ***line, size
 	if (!start)
 		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
-		const char *stop = memchr(p, '\n', (size_t)(end - p));
+		const char *e = p < end ? memchr(p, '\n', (size_t)(end - p)) : NULL;
 		start[i] = p;
-		p = (stop ? stop : end) + 1;
+		p = e ? e + 1 : end + 1;
 	}
-	start[n] = p;
-	*line = start;
+	start[n] = end + 1;
+	*starts = start;
 	*count = n;
 	return MR_OK;
 }
@@ -42,7 +42,7 @@ mr_name_lists_of(mr_ctx *ctx, mr_frame *f, const char *layer, mr_name_lists *l)
 	for (size_t k = 0; k < MR_NAMINGS; k++)
 		if (mr_layer_has(f, layer, mr_namings[k].list)) {
 			MR_TRY(mr_layer_get(ctx, f, layer, mr_namings[k].list, &text, &bytes));
-			MR_TRY(find_lines(ctx, text, bytes, &l->line[k], &l->count[k]));
+			MR_TRY(mr_line_starts(ctx, text, bytes, &l->line[k], &l->count[k]));
 		}
 	return MR_OK;
 }

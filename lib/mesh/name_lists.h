@@ -7,6 +7,11 @@
 
 #include "mesh/layers.h"
 
+/* Where the lines of a text begin, count + 1 of them, each behind the newline of the one before; in the
+ * arena, over the text. */
+mr_status mr_line_starts(
+    mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count) MR_WARN_UNUSED;
+
 enum { MR_NAMINGS = 3 };
 
 /* The names of the columns; the lists are those of text. */
