@@ -64,8 +64,13 @@ static const cmd_field figures[] = {
 static mr_status
 prepare(cmd *c)
 {
+	bool factors = opts.solver == MR_SOLVER_CHOLESKY || opts.solver == MR_SOLVER_LU ||
+	               (opts.solver == MR_SOLVER_AUTO && opts.unsymmetric);
+
 	opts.layer = c->layer;
 	opts.memory = 1e6 * megabytes;
+	MR_TRY(cmd_idle(c, "iterations", factors, "on a direct solver"));
+	MR_TRY(cmd_idle(c, "memory", opts.solver > MR_SOLVER_LU, "on an iterative solver"));
 	return mr_solve_check(&c->ctx, &opts);
 }
 

@@ -19,15 +19,19 @@ numbers(const char *text, size_t n, double *x)
 	return mr_numbers(&text, n, x) && !*text;
 }
 
+/* Beyond 1e12 degrees rounding takes over 1e-4 of them from an angle. */
 static mr_status
 set_rotation(mr_ctx *ctx, mr_pose *pose, const char *text)
 {
+	const double most = 1e12;
 	double x[4];
 
 	if (!numbers(text, 4, x))
 		return mr_fail(ctx, MR_EUSAGE, "'%s' is not an axis and an angle, ax,ay,az,degrees", text);
 	if (!(mr_norm(vector_of(x)) > 0))
 		return mr_fail(ctx, MR_EUSAGE, "the axis %s has no direction", text);
+	if (!(fabs(x[3]) <= most))
+		return mr_fail(ctx, MR_EUSAGE, "an angle of %g degrees is not exact: at most %g", x[3], most);
 	pose->axis = vector_of(x);
 	pose->degrees = x[3];
 	return MR_OK;

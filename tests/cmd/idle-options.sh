@@ -9,6 +9,8 @@ mr-make sphere --genus 2
 mr-make cylinder --genus 0
 mr-make boxes --open
 mr-make cube --seed 2
+mr-solve -s lu --iterations 7
+mr-solve -s cg --memory 7
 mr-make cube -l mesh
 mr-cat -l mesh
 mr-encode -l mesh

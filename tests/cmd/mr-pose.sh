@@ -79,6 +79,7 @@ refused -H 3 --scale 2
 refused -H x
 refused --rotate 0,0,0,30
 refused --rotate 0,0,1
+refused --rotate 0,0,1,1e300
 refused --scale 1,2
 refused --translate 1,2,3,4
 refused --scale 0 --frames 3
