@@ -5,10 +5,12 @@
 #include "edit/smooth.h"
 
 #include "base/parallel.h"
+#include "base/text.h"
 #include "mesh/edges.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
 #include "solve/conjugate_gradients.h"
+#include "space/contact.h"
 #include "space/thickness.h"
 
 enum { GRAIN = 4096 };
@@ -295,19 +297,51 @@ choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 	return MR_OK;
 }
 
+/* A share of the area that is little to be left. */
+static const double LITTLE = 0.5;
+
+/* How many of the parts of m have little of their area left, which their sum does not tell. */
+static mr_status
+count_shrunken(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunken)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *part;
+	double *rest; /* of each part, at the vertex that stands for it: what is left beyond little */
+	bool several;
+
+	*shrunken = 0;
+	MR_TRY(mr_components_label(ctx, m, &part, &several));
+	rest = MR_NEW_ZERO(ctx, m->nv, double);
+	if (!rest)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++)
+		rest[part[m->t[f].v[0]]] += mr_norm(mr_face_cross(after, f)) -
+		                            LITTLE * mr_norm(mr_face_cross(m, f));
+	for (size_t v = 0; v < m->nv; v++)
+		*shrunken += rest[v] < 0;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 /* What is left of area and volume. */
-static void
+static mr_status
 measure_rest(mr_ctx *ctx, smoothing *s, bool plain, const mr_v3 *p)
 {
-	const double little = 0.5;
+	const char *advice = plain ? "smooth for less time, or without --plain" : "smooth for less time";
 	mr_mesh after = *s->m;
+	size_t shrunken;
 
 	after.p = p;
 	s->found.area = mr_mesh_area(ctx, &after) / mr_mesh_area(ctx, s->m);
 	s->found.volume = mr_mesh_volume(ctx, &after) / s->found.volume;
-	if (s->found.area < little)
-		mr_warn(ctx, "%s: smoothing leaves %.2g %% of the area: smooth for less time%s", s->m->name,
-		    100 * s->found.area, plain ? ", or without --plain" : "");
+	MR_TRY(count_shrunken(ctx, s->m, &after, &shrunken));
+	if (s->found.area < LITTLE)
+		mr_warn(ctx, "%s: smoothing leaves %.2g %% of the area: %s", s->m->name, 100 * s->found.area,
+		    advice);
+	else if (shrunken)
+		mr_warn(ctx, "%s: smoothing leaves less than half of the area of %zu part%s: %s", s->m->name,
+		    shrunken, mr_plural(shrunken), advice);
+	return MR_OK;
 }
 
 mr_status
@@ -322,7 +356,7 @@ mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out,
 	if (opts->time > 0 && s.edge2 > 0)
 		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, out)
 							  : explicit(ctx, &s, opts->method, out));
-	measure_rest(ctx, &s, opts->plain, out);
+	MR_TRY(measure_rest(ctx, &s, opts->plain, out));
 	if (result)
 		*result = s.found;
 	mr_mark_release(ctx, mark);

@@ -23,6 +23,7 @@ mr-smooth -t 1e6 --stats stats.json sphere.mrs | mr-info -l base | awk '/volume/
 	print "ball", (e * e < 1e-4 ? "ok" : "bad " e) }'
 grep -o '"bounded":[0-9]*' stats.json
 mr-smooth --plain -t 1e3 sphere.mrs -o out.mrs # says so
+mr-transform --scale 0.02 --translate 3,0,0 sphere.mrs | mr-cat --append sphere.mrs - | mr-smooth --plain -o out.mrs # of one
 
 # Noise goes: the area comes near that of the sphere, 12.566.
 mr-make sphere -n 5000 --noise 0.02 -o noisy.mrs
