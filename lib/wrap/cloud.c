@@ -10,8 +10,8 @@ look_at_extent(mr_ctx *ctx, mr_wrap_cloud *cloud)
 	int dimensions = mr_cloud_dimensions(cloud->p, cloud->n);
 
 	if (dimensions < 2)
-		return mr_fail(
-		    ctx, MR_EMESH, "%zu points lie on a line: they make no surface", cloud->sampling.n);
+		return mr_fail(ctx, MR_EMESH, "%zu of %zu points lie on a line: they make no surface",
+		    cloud->sampling.n - cloud->sampling.outliers, cloud->sampling.n);
 	cloud->flat = dimensions == 2;
 	return MR_OK;
 }
