@@ -9,7 +9,8 @@ digit(char c)
 	return c >= '0' && c <= '9' ? c - '0' : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
 }
 
-/* The byte that % and two digits at p stand for; -1 where they do not. */
+/* The byte that % and two digits at p stand for; -1 where they do not, or for one that would end a line, or
+ * what is text, in a file: it has no other form than this. */
 static int
 escaped(const char *p, const char *end)
 {
@@ -18,7 +19,9 @@ escaped(const char *p, const char *end)
 	if (end - p < 3 || *p != '%' || digit(p[1]) < 0 || digit(p[2]) < 0)
 		return -1;
 	byte = 16 * digit(p[1]) + digit(p[2]);
-	return (byte < ' ' && byte != '\n') || byte >= 0x7f || byte == '%' ? byte : -1;
+	if (byte == 0 || byte == '\n' || byte == '\r')
+		return -1;
+	return byte < ' ' || byte >= 0x7f || byte == '%' ? byte : -1;
 }
 
 /* Bytes at p that stand as they are; 0: the first does not. */

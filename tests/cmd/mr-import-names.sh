@@ -30,6 +30,10 @@ printf 'ply\nformat ascii 1.0\ncomment mtllib lib\\\ncomment object back\\\ncomm
 mr-import -q back.ply | mr-export -q back.obj && grep -n '\\' back.obj
 mr-import -q back.obj | mr-export -q -f obj - | cmp - back.obj && mr-import -q back.obj | mr-export -f ply-ascii - | grep '^comment\|^3'
 
+echo 'a name that holds a CR, as it may beside a NUL, ends no line of what is written'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\ng a\rf 1\ng b\000c\nf 1 2 3\ng a\rf 1\nf 1 3 2\n' >return.obj
+mr-import return.obj | mr-export return2.obj && grep -a '^g' return2.obj && mr-import return2.obj | mr-export -f obj - | cmp - return2.obj && echo same
+
 echo 'what is called alike stays apart, but where files have names alone, which is said'
 sed 's/object back./object back/; s/element face/comment object back\nelement face/; s/^3 2 1 3 0/3 2 1 3 1/' back.ply >alike.ply
 mr-import -q alike.ply -o alike.mrs && mr-export -q -i alike.mrs -f ply-ascii - | grep '^comment object\|^3'
