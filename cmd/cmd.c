@@ -323,11 +323,12 @@ parse_command_line(cmd *c, int argc, char **argv)
 	if (s->help || s->version)
 		exit(EXIT_GOOD);
 	try(c, cmd_parse(&c->ctx, argc, argv, tables, &s->args));
-	if (c->layer && !*c->layer) /* what else it may be is the tool's: of one it is a list */
-		try(c, cmd_layer_name(c, "--layer", c->layer));
+	if (c->layer && cmd_list_lacks(c->layer)) /* what else it may be is the tool's: of one it is a list */
+		try(c, cmd_layer_name(c, "--layer", ""));
 	try(c, compose_history(c, &s->args));
 	c->operands = s->args.operands;
 	c->operand_count = s->args.operand_count;
+	try(c, place_stdin_once(&c->ctx, c->operands, c->tool->names_output, c->operand_count));
 }
 
 bool
@@ -380,13 +381,14 @@ cmd_layer_name(cmd *c, const char *option, const char *name)
 
 /* Opening and closing the outputs */
 
-/* No output takes the place of a file that is read, nor of another output. */
+/* No output takes the place of a file that is read, but for a stream's, nor of another output. */
 static mr_status
 permit(mr_ctx *ctx, const char *path, bool writes)
 {
 	cmd *c = ctx->listener.user;
+	bool is_stream = !c->tool->sink && !c->state->writer; /* that of -o, which is opened first */
 
-	if (writes && c->tool->sink && place_is(STDIN_FILENO, path))
+	if (writes && !is_stream && place_is(STDIN_FILENO, path))
 		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
 	return place_claim(ctx, &c->state->places, path, writes);
 }
@@ -395,7 +397,7 @@ permit(mr_ctx *ctx, const char *path, bool writes)
 static mr_status
 permit_stream(cmd *c, const char *path)
 {
-	return c->tool->sink ? permit(&c->ctx, path, false) : MR_OK;
+	return c->tool->sink ? permit(&c->ctx, path, false) : place_claim_stream(&c->state->places, path);
 }
 
 static bool
@@ -689,7 +691,7 @@ one_frame(cmd *c, mr_frame *f)
 	mr_mark mark = mr_mark_take(&c->ctx);
 	mr_status status;
 
-	c->frame++;
+	f->number = ++c->frame; /* over all the streams */
 	if (s->lost_key && !f->key) {
 		s->lost++;
 		return;
@@ -717,7 +719,6 @@ read_model(cmd *c, const char *path)
 	mr_frame *frame;
 
 	try(c, mr_import(&c->ctx, path, NULL, &frame, NULL));
-	frame->number = 1;
 	one_frame(c, frame);
 	mr_mark_release(&c->ctx, mark);
 }

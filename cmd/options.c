@@ -57,6 +57,14 @@ fail_reals(mr_ctx *ctx, const char *what, const char *text, size_t count)
 	    ctx, MR_EUSAGE, "%s: '%s' is not %zu numbers with commas between them", what, text, count);
 }
 
+bool
+cmd_list_lacks(const char *list)
+{
+	size_t n = strlen(list);
+
+	return n == 0 || *list == ',' || list[n - 1] == ',' || strstr(list, ",,");
+}
+
 mr_status
 cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, double *values)
 {

@@ -77,6 +77,9 @@ cmd_parse_real(mr_ctx *ctx, const char *what, const char *text, double min, doub
 mr_status
 cmd_parse_count(mr_ctx *ctx, const char *what, const char *text, size_t min, size_t max, size_t *value);
 
+/* Whether a list with commas names nothing somewhere: "", "a,", "a,,b". */
+bool cmd_list_lacks(const char *list);
+
 /* Parses `count` numbers with commas between them. */
 mr_status cmd_parse_reals(mr_ctx *ctx, const char *what, const char *text, size_t count, double *values);
 

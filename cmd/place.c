@@ -2,6 +2,7 @@
 #include "place.h"
 
 #include "formats/suffix.h"
+#include "stream/record.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -116,14 +117,34 @@ place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes)
 	return add(writes ? &g->written : &g->read, k.there);
 }
 
+mr_status
+place_stdin_once(mr_ctx *ctx, char *const *name, size_t first, size_t end)
+{
+	size_t times = 0;
+
+	for (size_t i = first; i < end; i++)
+		times += !strcmp(name[i], "-");
+	return times < 2 ? MR_OK : mr_fail(ctx, MR_EUSAGE, "- is standard input, which can be read once");
+}
+
+mr_status
+place_claim_stream(place_guard *g, const char *path)
+{
+	keys k = { 0 };
+
+	if (!strcmp(path, "-"))
+		return MR_OK;
+	find_keys(path, &k);
+	return add(&g->read, k.there);
+}
+
 typedef enum content { NOTHING, STREAM, OTHER } content;
 
 /* What a regular file is; NOTHING: empty, not there, or not to be read. */
 static content
 content_of(const char *path)
 {
-	static const char magic[] = "mrmesh1\n";
-	char first[sizeof magic - 1];
+	char first[MR_MAGIC_BYTES];
 	struct stat st;
 	bool is_file = stat(path, &st) == 0 && S_ISREG(st.st_mode);
 	int fd = is_file ? open(path, O_RDONLY) : -1;
@@ -135,7 +156,7 @@ content_of(const char *path)
 	close(fd);
 	if (got <= 0)
 		return NOTHING;
-	return got == sizeof first && !memcmp(first, magic, sizeof first) ? STREAM : OTHER;
+	return got == sizeof first && !memcmp(first, MR_MAGIC, sizeof first) ? STREAM : OTHER;
 }
 
 bool

@@ -24,6 +24,9 @@ mr_status place_for_stream(mr_ctx *ctx, const char *path) MR_WARN_UNUSED;
  * columns of text. */
 mr_status place_for_text(mr_ctx *ctx, const char *option, const char *path) MR_WARN_UNUSED;
 
+/* MR_EUSAGE where several of the names from `first` to before `end` are "-". */
+mr_status place_stdin_once(mr_ctx *ctx, char *const *name, size_t first, size_t end) MR_WARN_UNUSED;
+
 /* The files that a command reads, and those that it writes; starts zeroed. */
 typedef struct place_guard {
 	mr_string_set read, written;
@@ -33,5 +36,8 @@ void place_guard_free(place_guard *g);
 
 /* MR_EUSAGE where a file is to be written that is read, or written already, or read that is written. */
 mr_status place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes) MR_WARN_UNUSED;
+
+/* Of a stream that is read, whose place may have been taken by the one that is made of it. */
+mr_status place_claim_stream(place_guard *g, const char *path) MR_WARN_UNUSED;
 
 #endif

@@ -5,6 +5,7 @@
 #include "formats/names.h"
 #include "formats/suffix.h"
 #include "mesh/name_lists.h"
+#include "stream/record.h"
 
 #include <float.h>
 #include <unistd.h>
@@ -285,6 +286,8 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 			found = &formats[i];
 	if (!found || (found == by_name("xyz") && by_suffix(path) == by_name("off")))
 		found = by_suffix(path); /* whose reader says what is wrong; an OFF may lack its keyword */
+	if (!found && size >= MR_MAGIC_BYTES && !memcmp(data, MR_MAGIC, MR_MAGIC_BYTES))
+		return mr_fail(ctx, MR_EFORMAT, "this is a stream already, for the tools behind mr-import");
 	if (!found)
 		return mr_fail(
 		    ctx, MR_EFORMAT, "no format is recognised in its bytes; -f names one of %s", names);

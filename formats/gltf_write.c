@@ -28,7 +28,6 @@ typedef struct glb {
 	bool numbered;  /* those of the layer at hand are, from there on */
 	size_t unnamed; /* the material of faces without one; MR_UNKNOWN: not there yet */
 	unsigned lost;  /* what materials have and the document has not, see materials.h */
-	size_t clipped;
 } glb;
 
 /* A layer on its way. */
@@ -300,7 +299,6 @@ put_materials(glb *w, layer *l)
 		if (bytes == 0) /* no face has it */
 			continue;
 		w->lost |= look[i].lost;
-		w->clipped += look[i].clipped;
 		if (look[i].file)
 			MR_TRY(embed(w, look[i].file, &texture));
 		json = new_material(w, &look[i], texture);
@@ -853,7 +851,7 @@ put_document(glb *w)
 	mr_text json = { .ctx = w->ctx };
 
 	MR_TRY(put_scene(w));
-	MR_TRY(mr_materials_warn_of_lost(w->ctx, w->lost, w->clipped));
+	MR_TRY(mr_materials_warn_of_lost(w->ctx, w->lost));
 	put_root(w);
 	put_lists(w);
 	if (w->failed || json_dump_callback(w->root, add_text, &json, JSON_COMPACT))

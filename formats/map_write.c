@@ -8,6 +8,8 @@
 #include "formats/scan.h"
 #include "subdivide/atlas.h"
 
+#include <sys/stat.h>
+
 enum { GRAIN = 16 };
 
 /* Control at work, its heights, and where they go. */
@@ -261,21 +263,52 @@ name_of(const char *path)
 	return slash ? slash + 1 : path;
 }
 
+/* What the file of a material begins with, but for what the heights are.  NULL: no memory. */
+static const char *
+material_begins(mr_ctx *ctx, const char *name)
+{
+	bool goes_on = *name && name[strlen(name) - 1] == '\\'; /* the line, but for a blank behind that */
+
+	return mr_format(ctx, "newmtl %s%s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm ", name,
+	    goes_on ? " " : "", name);
+}
+
 /* disp and its option -mm (Wavefront, "Advanced Visualizer", appendix B2): a texel's value is times the gain
  * and plus the base.  norm is what programs of today add. */
 static mr_status
 write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path)
 {
-	const char *range = numbers(ctx, m->low, m->high - m->low);
-	bool goes_on = *name && name[strlen(name) - 1] == '\\'; /* the line, but for a blank behind that */
+	const char *begins = material_begins(ctx, name), *range = numbers(ctx, m->low, m->high - m->low);
 	mr_sink sink;
 
-	if (!range)
+	if (!begins || !range)
 		return MR_EMEM;
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));
-	mr_print(&sink, "newmtl %s%s\nKd 0.8 0.8 0.8\nnorm %s-normal.png\ndisp -mm %s %s-height.png\n", name,
-	    goes_on ? " " : "", name, range, name);
+	mr_print(&sink, "%s%s %s-height.png\n", begins, range, name);
 	return mr_sink_close(&sink, MR_OK);
+}
+
+/* Refuses the place of a file that write_material has not made. */
+static mr_status
+check_place(mr_ctx *ctx, const char *name, const char *path)
+{
+	const char *begins = material_begins(ctx, name);
+	size_t n = begins ? strlen(begins) : 0;
+	char *first = MR_NEW(ctx, n + 1, char);
+	struct stat st;
+	bool own = true;
+	FILE *file;
+
+	if (!begins || !first)
+		return MR_EMEM;
+	file = stat(path, &st) == 0 && S_ISREG(st.st_mode) ? fopen(path, "rb") : NULL;
+	if (file) {
+		size_t got = fread(first, 1, n, file);
+		own = got == 0 || (got == n && !memcmp(first, begins, n));
+		fclose(file);
+	}
+	return own ? MR_OK
+	           : mr_fail(ctx, MR_EUSAGE, "%s is of no map, and would be lost: give another name", path);
 }
 
 /* Whether the layer's material is of maps, as put_material has it. */
@@ -412,7 +445,12 @@ prepare(mr_ctx *ctx, mr_frame *f, const mr_map_opts *o, mapping *m)
 		return MR_EMEM;
 	m->low = o->low;
 	m->high = o->high;
-	return o->ranged ? MR_OK : find_range(ctx, m);
+	if (!o->ranged)
+		MR_TRY(find_range(ctx, m));
+	return isfinite(m->high - m->low)
+	           ? MR_OK
+	           : mr_fail(ctx, MR_ERANGE, "displacement: no picture holds heights from %g to %g", m->low,
+			 m->high);
 }
 
 static mr_status
@@ -424,6 +462,7 @@ write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 
 	if (!heights || !normals || !material)
 		return MR_EMEM;
+	MR_TRY(check_place(ctx, name_of(name), material));
 	MR_TRY(write_heights(ctx, m, heights));
 	found->clipped = count_rows(m);
 	MR_TRY(write_normals(ctx, m, normals));

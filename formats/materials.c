@@ -20,6 +20,8 @@ typedef struct finder {
 	size_t *at, ats;      /* the materials that the file speaks of */
 	size_t read, gone;    /* files that are there and that are not */
 	const char *last_read, *first_gone;
+	size_t wrong, clipped; /* statements without their numbers, numbers that are not from 0 to 1 */
+	const char *first_wrong;
 } finder;
 
 const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
@@ -27,9 +29,8 @@ const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
 enum { NO_MATCH, MATCH_BUT_COMMENT, MATCH };
 
 /* What is lost of a material: bits of `lost`, these first, then a bit for each statement of unused[]. */
-enum { HIDDEN, NO_COLOR, DESCRIBED_BEFORE, LOSSES };
-static const char *const losses[LOSSES] = { "Kd beside map_Kd", "Kd that is no colour",
-	"all but the last description" };
+enum { HIDDEN, DESCRIBED_BEFORE, LOSSES };
+static const char *const losses[LOSSES] = { "Kd beside map_Kd", "all but the last description" };
 
 /* ---- files ---- */
 
@@ -178,74 +179,97 @@ new_material(finder *f, const char *name)
 	}
 }
 
-/* Numbers of a line, at most three; how many. */
+/* Numbers of a line, at most three, before what is none; how many. */
 static size_t
 numbers(const char *s, double x[3])
 {
-	const char *end = s + strlen(s);
+	const char *end = s + strlen(s), *behind_one;
 	size_t n = 0;
 
-	while (n < 3 && (s = mr_real_read(s, end, &x[n]))) {
+	while (n < 3 && (behind_one = mr_real_read(s, end, &x[n])) && isfinite(x[n]) &&
+	       strchr(" \t#", *behind_one)) {
 		n++;
-		s += strspn(s, " \t");
+		s = behind_one + strspn(behind_one, " \t");
 	}
 	return n;
 }
 
 static double
-share(double x)
+share(finder *f, double x)
 {
+	f->clipped += x < 0 || x > 1;
 	return x > 0 ? x < 1 ? x : 1 : 0;
 }
 
-/* One number is grey.  false, and `to` as it is, where there is no colour; *clipped counts parts beyond 1. */
+/* One number is grey.  false, and `to` as it is, where there is no colour. */
 static bool
-color(const char *s, double to[3], size_t *clipped)
+set_color(finder *f, const char *s, double to[3])
 {
 	double x[3];
 	size_t n = numbers(s, x);
 
 	if (n != 1 && n != 3)
 		return false;
-	for (size_t k = 0; k < 3; k++) {
-		to[k] = share(x[k < n ? k : 0]);
-		*clipped += x[k < n ? k : 0] > 1;
-	}
+	for (size_t k = 0; k < n; k++)
+		to[k] = share(f, x[k]);
+	if (n == 1)
+		to[1] = to[2] = to[0];
+	return true;
+}
+
+/* One number from 0 to 1. */
+static bool
+set_share(finder *f, const char *s, double *to)
+{
+	double x[3];
+
+	if (numbers(s, x) == 0)
+		return false;
+	*to = share(f, x[0]);
 	return true;
 }
 
 /* d, with or without -halo, is 0 of what cannot be seen. */
-static void
-dissolve(mr_material *m, const char *s)
+static bool
+dissolve(finder *f, mr_material *m, const char *s)
 {
-	double x[3];
-
 	if (!strncmp(s, "-halo", 5))
 		s += 5 + strspn(s + 5, " \t");
-	if (numbers(s, x) > 0) {
-		m->opacity = share(x[0]);
-		m->dissolved = true;
-	}
+	return set_share(f, s, &m->opacity) && (m->dissolved = true);
 }
 
 /* Tr is the reverse of d, which goes before it; some programs write it as what d is, and 1 for all. */
-static void
-turn_transparent(mr_material *m, const char *s)
+static bool
+turn_transparent(finder *f, mr_material *m, const char *s)
 {
-	double x[3];
+	double opaque;
 
-	if (!m->dissolved && numbers(s, x) > 0)
-		m->opacity = x[0] < 1 ? share(1 - x[0]) : 1;
+	if (!set_share(f, s, &opaque))
+		return false;
+	if (!m->dissolved)
+		m->opacity = opaque < 1 ? 1 - opaque : 1;
+	return true;
 }
 
-/* One number from 0 to 1, where there is one. */
-static void
-set_share(double *to, const char *s)
+/* Takes what a statement of numbers says; false: it has not those that it wants. */
+static bool
+set_numbers(finder *f, mr_material *m, const char *line)
 {
-	double x[3];
+	const char *rest;
 
-	if (numbers(s, x) > 0)
-		*to = share(x[0]);
+	if ((rest = behind(line, "Kd")))
+		return set_color(f, rest, m->color) && (m->colored = true);
+	if ((rest = behind(line, "Ke")))
+		return set_color(f, rest, m->emission);
+	if ((rest = behind(line, "d")))
+		return dissolve(f, m, rest);
+	if ((rest = behind(line, "Tr")))
+		return turn_transparent(f, m, rest);
+	if ((rest = behind(line, "Pr")))
+		return set_share(f, rest, &m->roughness);
+	if ((rest = behind(line, "Pm")))
+		return set_share(f, rest, &m->metal);
+	return true;
 }
 
 /* Statements that nothing is made of: those of numbers say nothing where all are neutral.  Ka, Ni, Ns and
@@ -321,7 +345,7 @@ map(finder *f, size_t i, const char *s, const char **to)
 		return MR_EMEM;
 	MR_TRY(find_file(f, bare, to));
 	if (!*to)
-		mr_warn(f->ctx, "%.100s, the picture of material %.*s, is not in %s", file,
+		mr_warn(f->ctx, "%.100s, the picture of material %.*s, is no file in %s", file,
 		    (int)name_bytes(f, i), f->name[i], f->folder);
 	return MR_OK;
 }
@@ -344,29 +368,14 @@ modify(mr_material *m, const char *s)
 	}
 }
 
-static void
-set_color(mr_material *m, const char *s)
-{
-	if (color(s, m->color, &m->clipped))
-		m->colored = true;
-	else
-		m->lost |= 1u << NO_COLOR;
-}
-
 static mr_status
 describe(finder *f, size_t i, const char *line)
 {
 	mr_material *m = &f->list[i];
 	const char *rest;
 
-	if ((rest = behind(line, "Kd")))
-		set_color(m, rest);
-	if ((rest = behind(line, "Ke")))
-		color(rest, m->emission, &m->clipped);
-	if ((rest = behind(line, "d")))
-		dissolve(m, rest);
-	if ((rest = behind(line, "Tr")))
-		turn_transparent(m, rest);
+	if (!set_numbers(f, m, line) && f->wrong++ == 0)
+		f->first_wrong = line;
 	if ((rest = behind(line, "map_Kd")))
 		MR_TRY(map(f, i, rest, &m->file));
 	if ((rest = behind(line, "norm")) || (rest = behind(line, "map_Kn")))
@@ -375,10 +384,6 @@ describe(finder *f, size_t i, const char *line)
 		modify(m, rest);
 		MR_TRY(map(f, i, rest, &m->heights));
 	}
-	if ((rest = behind(line, "Pr")))
-		set_share(&m->roughness, rest);
-	if ((rest = behind(line, "Pm")))
-		set_share(&m->metal, rest);
 	note_unused(m, line);
 	return MR_OK;
 }
@@ -478,13 +483,26 @@ static void
 say_gone(const finder *f)
 {
 	if (f->gone == 1)
-		mr_warn(
-		    f->ctx, "%.100s is not in %s: its materials are only names", f->first_gone, f->folder);
+		mr_warn(f->ctx, "%.100s is no file in %s: its materials are only names", f->first_gone,
+		    f->folder);
 	else if (f->gone)
 		mr_warn(f->ctx,
-		    "%zu files of materials are not in %s, the first of them %.100s: their materials are "
+		    "%zu of the files of materials are none in %s, the first of them %.100s: their materials "
+		    "are "
 		    "only names",
 		    f->gone, f->folder, f->first_gone);
+}
+
+/* What of the files is wrong. */
+static void
+say_wrong(const finder *f)
+{
+	if (f->wrong)
+		mr_warn(f->ctx, "%zu statement%s of materials not understood, the first '%.60s'", f->wrong,
+		    mr_plural(f->wrong), f->first_wrong);
+	if (f->clipped)
+		mr_warn(f->ctx, "%zu number%s of materials clipped: not within 0 and 1", f->clipped,
+		    mr_plural(f->clipped));
 }
 
 /* The model's materials that no file speaks of. */
@@ -534,6 +552,7 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 			if (i == 0 || !is_same_line(library, i - 1, i))
 				MR_TRY(read_libraries(&f, library[i], line_bytes(library, i)));
 		say_gone(&f);
+		say_wrong(&f);
 		MR_TRY(say_unknown(&f));
 	}
 	for (size_t i = 0; i < f.count; i++)
@@ -544,7 +563,7 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 }
 
 mr_status
-mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost, size_t clipped)
+mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost)
 {
 	mr_text names = { .ctx = ctx };
 	size_t n = 0;
@@ -556,7 +575,5 @@ mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost, size_t clipped)
 	MR_TRY(mr_text_done(&names));
 	if (n)
 		mr_warn(ctx, "%s of the materials not kept", names.s);
-	if (clipped)
-		mr_warn(ctx, "%zu parts of colours of materials are clipped: they are beyond 1", clipped);
 	return MR_OK;
 }

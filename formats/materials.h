@@ -20,8 +20,7 @@ typedef struct mr_material {
 	const char *normals;     /* likewise of norm or map_Kn */
 	const char *heights;     /* and of disp or map_disp: from 0 to 1, times the gain, plus the base */
 	double base, gain;
-	unsigned lost;  /* a bit for each thing said of it that nothing here is made of */
-	size_t clipped; /* parts of colours beyond 1 */
+	unsigned lost; /* a bit for each thing said of it that nothing here is made of */
 } mr_material;
 
 /* What nothing is said of: opaque, of no metal, and rough as most things are. */
@@ -29,13 +28,13 @@ extern const mr_material mr_material_plain;
 
 /*
  * What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
- * there is warned of, no failure.  list: *count, in the arena; none of a model without materials.
+ * there is warned of, no failure, and so are statements without their numbers, and numbers out of range.
+ * list: *count, in the arena; none of a model without materials.
  */
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 
-/* Warns of what a file cannot show: `lost` of all its materials, and how many parts of colours were
- * clipped. */
-mr_status mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost, size_t clipped) MR_WARN_UNUSED;
+/* Warns of what a file cannot show: `lost` of all its materials. */
+mr_status mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost) MR_WARN_UNUSED;
 
 #endif

@@ -146,6 +146,7 @@ mr_png_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_image *image
 
 	if (png_image_begin_read_from_memory(&png, data, size)) {
 		png.format = PNG_FORMAT_RGB;
+		png.flags |= PNG_IMAGE_FLAG_16BIT_sRGB; /* as pictures are, whatever their depth */
 		status = mr_image_fits(ctx, png.width, png.height, size, MR_PNG_MOST);
 		if (status == MR_OK)
 			status = mr_image_new(ctx, png.width, png.height, (mr_rgb){ 0, 0, 0 }, &made);

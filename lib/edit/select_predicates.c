@@ -168,8 +168,10 @@ eval_sphere(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool
 	double r = length_of(s, t);
 
 	(void)ctx;
-	for (size_t v = 0; v < s->m->nv; v++)
-		in[v] = mr_dist(s->m->p[v], point_of(t)) <= r;
+	for (size_t v = 0; v < s->m->nv; v++) {
+		mr_v3 d = mr_sub(s->m->p[v], point_of(t));
+		in[v] = hypot(hypot(d.x, d.y), d.z) <= r; /* whose squares doubles may not hold */
+	}
 	return MR_OK;
 }
 

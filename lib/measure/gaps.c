@@ -32,7 +32,7 @@ mr_gap_of(double *distance, size_t n)
 		sum += distance[i];
 	side.mean = sum / (double)n;
 	side.max = mr_kth(distance, n, n - 1);
-	side.high = mr_kth(distance, n, (size_t)(0.99 * (double)(n - 1)));
+	side.high = mr_kth(distance, n, (size_t)ceil(0.99 * (double)n) - 1);
 	return side;
 }
 
@@ -258,11 +258,11 @@ mr_mesh_gaps_warn(mr_ctx *ctx, const char *what, const mr_mesh_gaps *g, const mr
 	advise(ctx, mesh, faces, advice, sizeof advice);
 	if (g->widest > FAR_OF_MESH * diagonal || g->off > OFF_MOST)
 		mr_warn(ctx,
-		    "%s is up to %.2g %% of the diagonal from %s, near (%.4g, %.4g, %.4g), and %.2g %% of it "
+		    "%s is up to %.3g %% of the diagonal from %s, near (%.4g, %.4g, %.4g), and %.3g %% of it "
 		    "over %g %%; what comes nearer: %s",
 		    what, 100 * g->widest / diagonal, mesh->name, g->at.x, g->at.y, g->at.z, 100 * g->off,
 		    100 * OFF, advice);
 	else
-		mr_note(ctx, "%s is up to %.2g %% of the diagonal from %s, %.2g %% of it over %g %%", what,
+		mr_note(ctx, "%s is up to %.3g %% of the diagonal from %s, %.3g %% of it over %g %%", what,
 		    100 * g->widest / diagonal, mesh->name, 100 * g->off, 100 * OFF);
 }

@@ -80,16 +80,16 @@ take_normals(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_panel *p)
 static double
 number_at(const mr_column *c, size_t row)
 {
-	double sum = 0, x = 0;
+	double length = 0, x = 0;
 
 	for (size_t k = 0; k < c->shape.components; k++) {
 		size_t i = row * c->shape.components + k;
 		x = c->shape.type == 'd'   ? ((const double *)c->data)[i]
 		    : c->shape.type == 'u' ? ((const uint32_t *)c->data)[i]
 		                           : ((const unsigned char *)c->data)[i];
-		sum += x * x;
+		length = hypot(length, x);
 	}
-	return c->shape.components == 1 ? x : sqrt(sum);
+	return c->shape.components == 1 ? x : length;
 }
 
 static mr_status

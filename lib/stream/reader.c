@@ -127,10 +127,7 @@ check_piece(mr_ctx *ctx, const piece *p)
 static bool
 stranger(const mr_reader *r, const unsigned char *header, size_t got)
 {
-	static const char magic[] = "mrmesh1\n";
-	size_t n = got < sizeof magic - 1 ? got : sizeof magic - 1;
-
-	return !r->inside && memcmp(header, magic, n) != 0;
+	return !r->inside && memcmp(header, MR_MAGIC, got < MR_MAGIC_BYTES ? got : MR_MAGIC_BYTES) != 0;
 }
 
 static bool

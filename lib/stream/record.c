@@ -18,8 +18,6 @@ enum {
 	STORED = 56
 };
 
-static const char MAGIC[] = "mrmesh1\n";
-
 static const char *const kinds[] = { NULL, "START", "FRAME", "DROP", "ENDFRAME", "END" };
 
 enum { KINDS = sizeof kinds / sizeof *kinds };
@@ -111,7 +109,7 @@ mr_record_of(mr_kind kind, const char *layer, size_t stored)
 		.kind = kind, .shape = { '-', 't', 1 }, .rows = stored, .stored = stored, .size = stored
 	};
 
-	snprintf(r.layer, sizeof r.layer, "%s", kind == MR_START ? MAGIC : layer);
+	snprintf(r.layer, sizeof r.layer, "%s", kind == MR_START ? MR_MAGIC : layer);
 	snprintf(r.name, sizeof r.name, "%s", kinds[kind]);
 	return r;
 }
@@ -175,13 +173,13 @@ mr_record_parse(mr_ctx *ctx, const unsigned char header[MR_HEADER], uint64_t off
 	mr_record r = { .shape = { (char)header[ELEMENT], (char)header[TYPE], header[COMPONENTS] },
 		.rows = load(header + ROWS, 8),
 		.stored = load(header + STORED, 8) };
-	bool start = !memcmp(header + LAYER, MAGIC, sizeof MAGIC - 1);
+	bool start = !memcmp(header + LAYER, MR_MAGIC, MR_MAGIC_BYTES);
 
 	if (!field(r.name, header + NAME, MR_COLUMN_MAX) || !*r.name)
 		return mr_fail(ctx, MR_EFORMAT, "byte %llu: no record begins here: bad name of a column", at);
 	r.kind = kind_of(r.name);
-	if ((r.kind == MR_START) != start || !field(r.layer, header + LAYER + (start ? sizeof MAGIC - 1 : 0),
-						 MR_LAYER_MAX - (start ? sizeof MAGIC - 1 : 0)))
+	if ((r.kind == MR_START) != start || !field(r.layer, header + LAYER + (start ? MR_MAGIC_BYTES : 0),
+						 MR_LAYER_MAX - (start ? MR_MAGIC_BYTES : 0)))
 		return mr_fail(ctx, MR_EFORMAT, "byte %llu: no record begins here: bad name of a layer", at);
 	if (!mr_shape_size(r.shape, r.rows, &r.size))
 		return mr_fail(ctx, MR_EFORMAT,

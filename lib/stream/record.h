@@ -16,6 +16,10 @@ enum {
 	MR_RATIO = 1032          /* deflate packs no more than this many bytes into one */
 };
 
+/* The bytes that a stream begins with. */
+enum { MR_MAGIC_BYTES = 8 };
+static const char MR_MAGIC[] = "mrmesh1\n";
+
 typedef enum mr_kind { MR_COLUMN, MR_START, MR_FRAME, MR_DROP, MR_ENDFRAME, MR_STOP } mr_kind;
 
 typedef enum mr_codec { MR_RAW = 0, MR_PACKED = 1 } mr_codec;

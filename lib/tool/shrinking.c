@@ -32,7 +32,7 @@ mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const ch
 	less = 1 - fabs(mr_mesh_volume(ctx, out)) / volume;
 	thin = volume > 0 && less > fmax(MUCH, lost);
 	if (area > 0 && (thin || lost > MUCH))
-		mr_warn(ctx, "%s: %.2g %% of its %s is lost: %s", m->name, 100 * (thin ? less : lost),
+		mr_warn(ctx, "%s: %.3g %% of its %s is lost: %s", m->name, 100 * (thin ? less : lost),
 		    thin ? "volume" : "area", why);
 	return MR_OK;
 }

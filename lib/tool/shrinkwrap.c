@@ -70,5 +70,5 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 	MR_TRY(mr_prefix(ctx,
 	    mr_shrinkwrap(ctx, points.p, points.nv, &sampling, sides.toward ? &sides : NULL, o, &out, result),
 	    "%s", layer));
-	return mr_layer_put_mesh(ctx, f, "control", &out);
+	return mr_layer_replace(ctx, f, "control", &out);
 }

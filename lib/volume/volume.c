@@ -505,7 +505,7 @@ warn_of_sides(mr_ctx *ctx, volume *v, const float *u)
 	if ((double)unsure > SHARE * (double)v->s.n) {
 		mr_v3 p = v->s.p[first];
 		mr_warn(ctx,
-		    "%.2g %% of the points show no side that is outside, and more may be on the wrong one: "
+		    "%.3g %% of the points show no side that is outside, and more may be on the wrong one: "
 		    "body or gaps are thin, as near (%.4g, %.4g, %.4g)",
 		    100 * (double)unsure / (double)v->s.n, p.x, p.y, p.z);
 	}

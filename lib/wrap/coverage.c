@@ -31,6 +31,7 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *p = MR_NEW(ctx, n, mr_v3), *q = MR_NEW(ctx, n, mr_v3);
 	double *distance = MR_NEW(ctx, n, double);
+	size_t missed = 0;
 	mr_bvh *bvh;
 
 	if (!p || !q || !distance)
@@ -39,6 +40,9 @@ measure_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t
 	MR_TRY(mr_zorder_points(ctx, p, n, q)); /* what close ones look up is in the cache */
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	mr_bvh_distances(ctx, bvh, q, n, distance);
+	for (size_t i = 0; i < n; i++)
+		missed += distance[i] > MR_WRAP_ENOUGH.points.high * cloud->spacing;
+	c->missed = n ? (double)missed / (double)n : 0;
 	c->gaps.points = mr_gap_of(distance, n);
 	c->points_most = mr_kth(distance, n, (size_t)(MOST * (double)(n - 1)));
 	MR_TRY(count_lost(ctx, cloud, bvh, MR_WRAP_SAMPLES, c));

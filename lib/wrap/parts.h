@@ -86,6 +86,7 @@ mr_status mr_wrap_box_to_points(mr_ctx *ctx, const mr_wrap_cloud *cloud, const m
 typedef struct mr_wrap_cover {
 	mr_gaps gaps;
 	double points_most; /* 90 % of the points are within */
+	double missed;      /* the share of them that are farther than MR_WRAP_ENOUGH leaves out */
 	size_t lost;        /* outliers that are no nearer than points of a part that it lacks */
 	size_t crossings;   /* pairs of its faces that intersect */
 } mr_wrap_cover;

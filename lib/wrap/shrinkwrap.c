@@ -268,9 +268,9 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    c->cover.lost, cloud->sampling.places, c->cover.lost == 1 ? "is" : "are", MR_WRAP_LACKS);
 	if (points > MR_WRAP_ENOUGH.points.high)
 		mr_warn(ctx,
-		    "1 %% of the points are more than %.3g sampling distances from the wrap: outliers, or it "
-		    "does not reach them",
-		    points);
+		    "%.3g %% of the points are more than %g sampling distances from the wrap, up to %.3g: "
+		    "outliers, or of a part that it does not reach",
+		    100 * c->cover.missed, MR_WRAP_ENOUGH.points.high, g->points.max / cloud->spacing);
 	else if (g->points.max > MR_WRAP_LACKS * cloud->spacing)
 		mr_warn(ctx,
 		    "a point is %.3g sampling distances from the wrap: an outlier, or of a part that is left "
@@ -305,7 +305,7 @@ warn_of_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 	MR_TRY(mr_find_layers(ctx, cloud->p, cloud->n, cloud->near, cloud->spacing, &l));
 	if (l.share > LAYERED || l.dense > DENSELY)
 		mr_warn(ctx,
-		    "%.2g %% of the points lie in two layers, %.2g sampling distances apart, as near "
+		    "%.3g %% of the points lie in two layers, %.2g sampling distances apart, as near "
 		    "(%.4g, %.4g, %.4g): sides of what is too thin to tell, or scans out of register",
 		    100 * l.share, l.apart / cloud->spacing, l.at.x, l.at.y, l.at.z);
 	return MR_OK;

@@ -40,6 +40,15 @@ for tool in compare crop export fit import info normals pose remesh render sampl
 	mr-$tool -l '' cube.mrs >out 2>err
 	echo "mr-$tool: exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
 done
+for list in , mesh, ,mesh a,,b; do
+	mr-export -l $list out.obj <cube.mrs 2>err
+	echo "exit $?: $(head -n 1 err)"
+done
+# and standard input that is named twice.
+for tool in cat import smooth; do
+	mr-$tool - - <cube.mrs >out 2>err
+	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+done
 mr-compare -a '' -b mesh cube.mrs >out 2>&1
 echo "exit $?: $(head -n 1 out)"
 # and those that have one

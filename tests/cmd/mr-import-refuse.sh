@@ -62,7 +62,8 @@ echo 'control characters of a name stay out of the sentence' >&2
 mr-import "$(printf 'a\nb\033[31m.obj')"
 echo 'what was read of a file by stdin is read' >&2
 printf '0 0 0\n1 2 3\n' >points
-mr-import -f xyz - - <points >out.mrs
+mr-make plane -n 2 -o stream.mrs
+mr-import stream.mrs >out.mrs
 echo $?
 { mr-import -f xyz - >out.mrs; wc -c; } <points
 

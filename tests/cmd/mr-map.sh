@@ -156,3 +156,12 @@ mr-import -q -l control kept.obj -o kept.mrs
 mr-import body.obj | mr-cat --merge - kept.mrs | mr-sample -q -n 1 -o kept-scan.mrs
 refused -w keep kept-scan.mrs
 cat keep.mtl
+echo '-- nor is any that no map is of; its own is'
+echo notes >notes.mtl
+refused -w notes scan.mrs
+cat notes.mtl
+mr-map -w twice scan.mrs -o out.mrs && mr-map -w twice scan.mrs -o out.mrs && echo twice
+echo '-- each frame of several streams has its number'
+mr-map -w several-%d scan.mrs scan.mrs -o out.mrs && ls several-*
+echo '-- no picture holds what is infinitely far apart'
+refused -w no --range=-1e308,1e308 scan.mrs

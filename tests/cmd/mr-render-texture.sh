@@ -89,3 +89,18 @@ for picture in huge.png huge.jpg; do
 	mr-render --texture $picture --size 32x32 out.png <ball.mrs
 	echo "exit $?"
 done
+
+echo '-- 16 bits are as bright as 8'
+python3 - <<'END'
+import struct, zlib
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+for depth in 8, 16:
+    open("gray%d.png" % depth, "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, depth, 0, 0, 0, 0)) +
+        chunk(b"IDAT", zlib.compress(b"\0" + b"\x9c" * (depth // 8))) + chunk(b"IEND", b""))
+END
+render eight --texture gray8.png && render sixteen --texture gray16.png && differ eight sixteen
+
+echo '-- statements that are no numbers, and numbers that are no shares'
+printf 'newmtl front\nKd red green blue\nKd 1,0,0\nd nan\nnewmtl back\nKd 2 0 -1\nd 2\n' >card.mtl
+render odd --materials .

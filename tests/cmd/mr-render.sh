@@ -21,6 +21,7 @@ mr-render -s 100x90 -l base base.png <layers.mrs && size base.png
 for color in region source_face source_bary position; do
 	mr-render -s 100x90 --color $color -i layers.mrs $color.png && size $color.png
 done
+mr-render -s 60x60 --view 1,2,3 -i layers.mrs near.png && mr-render -s 60x60 --view 1e180,2e180,3e180 -i layers.mrs far.png && cmp near.png far.png
 for view in front back left right top bottom iso 1,2,3; do
 	mr-render -s 60x60 --view $view --up z --wire --flat -i layers.mrs view.png || echo "$view fails"
 done

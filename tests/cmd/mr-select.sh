@@ -69,3 +69,5 @@ refused --handle 0=
 refused --free part:2
 refused --free column:region,0,1
 mr-select --free boundary points.mrs 2>&1 >out || echo "exit $?"
+mr-make torus -n 100 | mr-select --free not:sphere:1e200,0,0,1e201 -o out || echo "exit $?"
+mr-make torus -n 100 | mr-select --free sphere:1e200,0,0,1e201 --stats - 2>&1 >out | grep -o '"free":[0-9]*'

@@ -22,6 +22,23 @@ mr-cat out 2>/dev/null >&2 || echo 'no whole stream'
 mr-crop --keep above:x,0.2 inf.mrs >out
 mr-normals inf.mrs | mr-export -f xyz - | grep -ciE 'inf|nan'
 
+echo '-- coordinates of corners: none, or finite'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 7.5 0\nvt 1 1\nvt 0 1\nvt 1 0\nf 1/1 2/2 3/3\nf 1/4 3 2/3\n' >corners.obj
+mr-import -q corners.obj -o corners.mrs && mr-export -f obj - -i corners.mrs | grep -c vt
+python3 - <<'END'
+import struct, zlib
+stream = bytearray(open("corners.mrs", "rb").read())
+head = stream.index(b"corner_texcoord") - 16
+size, = struct.unpack_from("<Q", stream, head + 56)
+at = stream.index(struct.pack("<d", 7.5), head + 64)
+struct.pack_into("<d", stream, at, float("inf"))
+struct.pack_into("<I", stream, head + 44, 0)
+struct.pack_into("<I", stream, head + 44, zlib.crc32(stream[head:head + 64 + size]))
+open("corners.mrs", "wb").write(stream)
+END
+mr-export -f obj - -i corners.mrs
+mr-info --check corners.mrs | grep -o 'mesh: column.*'
+
 echo '-- what a float does not hold'
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e300 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\n' >far.obj
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1e300 0 0\nf 1//1 2//1 3//1\n' >steep.obj

@@ -63,3 +63,14 @@ refused 'mr-compare -o s.mrs t.mrs t.mrs'
 refused 'mr-info -o t.txt t.txt'
 refused 'mr-export -f obj t.mtl -i t.mrs'
 mr-info -o figures.txt t.mrs && mr-info -o figures.txt --stats figures.csv t.mrs && grep -c vertices figures.*
+echo 'what mr-map reads' >&2
+mr-make cube -n 8 | mr-export -q -f obj cube.obj
+mr-make sphere -n 900 | mr-export -q sphere.obj
+mr-import -q -l control cube.obj -o control.mrs
+mr-import -q sphere.obj | mr-cat --merge - control.mrs | mr-sample -q -n 1 -o a.mtl
+cp a.mtl b-height.png
+cp a.mtl c.mtl
+cp a.mtl b-height.png c.mtl kept
+refused 'mr-map -w a a.mtl -o out.mrs'
+refused 'mr-map -w b b-height.png -o out.mrs'
+refused 'mr-map -w c -o out.mrs <c.mtl'

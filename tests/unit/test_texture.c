@@ -122,8 +122,9 @@ materials(void **state)
 	assert_string_equal(heard,
 	    "option -s of the picture of material blue two is not followed\n"
 	    "option -o of the picture of material blue two is not followed\n"
-	    "../outside.png, the picture of material out, is not in folder\n"
-	    "gone.mtl is not in folder: its materials are only names\n"
+	    "../outside.png, the picture of material out, is no file in folder\n"
+	    "gone.mtl is no file in folder: its materials are only names\n"
+	    "1 number of materials clipped: not within 0 and 1\n"
 	    "1 of 5 materials are not in sub\\m.mtl: they are only names, the first green\n");
 	mr_ctx_free(&ctx);
 }
