@@ -109,6 +109,12 @@ mr_lerp(double t, mr_v3 a, mr_v3 b)
 	return mr_axpy(t, mr_sub(b, a), a);
 }
 
+static inline mr_v3
+mr_mean3(mr_v3 a, mr_v3 b, mr_v3 c)
+{
+	return mr_mul(1.0 / 3, mr_add(a, mr_add(b, c)));
+}
+
 /* Whether barycentric coordinates are those of a place within a triangle, but for rounding. */
 static inline bool
 mr_bary_within(mr_v3 w)
@@ -191,6 +197,13 @@ mr_box_add(mr_box *b, mr_v3 p)
 	    p.z < b->min.z ? p.z : b->min.z);
 	b->max = mr_vec(p.x > b->max.x ? p.x : b->max.x, p.y > b->max.y ? p.y : b->max.y,
 	    p.z > b->max.z ? p.z : b->max.z);
+}
+
+static inline bool
+mr_box_has(mr_box b, mr_v3 p)
+{
+	return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
+	       p.z <= b.max.z;
 }
 
 /* The bounding box of n points; empty (min > max) for none. */

@@ -26,7 +26,7 @@ typedef struct piece {
 static mr_v3
 centroid(const mr_v3 v[3])
 {
-	return mr_mul(1.0 / 3, mr_add(v[0], mr_add(v[1], v[2])));
+	return mr_mean3(v[0], v[1], v[2]);
 }
 
 static double

@@ -1,7 +1,11 @@
 /* Intersections before and after; before, only where there are some after. */
 #include "measure/crossings.h"
 
+#include "space/bvh.h"
 #include "space/self_intersect.h"
+
+/* Pairs, or faces, that say nothing. */
+enum { FEW = 5 };
 
 /* The faces of m that became, in part, those of `after` that cross others. */
 static mr_status
@@ -38,15 +42,52 @@ first_vertex(const mr_mesh *m, const bool *crosses)
 	return m->t[f].v[0];
 }
 
+/* How many of the faces that cross are where none of m did. */
+static mr_status
+count_new(mr_ctx *ctx, const mr_mesh *m, const bool *crossed, const mr_mesh *after, const bool *crosses,
+    size_t *count)
+{
+	mr_bvh *bvh;
+
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	*count = 0;
+	for (size_t f = 0; f < after->nf; f++) {
+		const uint32_t *v = after->t[f].v;
+		uint32_t g;
+		if (!crosses[f])
+			continue;
+		g = mr_bvh_closest(bvh, mr_mean3(after->p[v[0]], after->p[v[1]], after->p[v[2]])).at.face;
+		*count += g == MR_NONE || !crossed[g];
+	}
+	return MR_OK;
+}
+
+static mr_status
+warn(mr_ctx *ctx, const mr_mesh *before, const mr_mesh *after, const bool *crosses, size_t pairs)
+{
+	bool *crossed = MR_NEW(ctx, before->nf, bool);
+	uint32_t v = first_vertex(after, crosses);
+	size_t old, others;
+
+	if (!crossed)
+		return MR_EMEM;
+	MR_TRY(mr_self_intersections(ctx, NULL, before, crossed, &old));
+	MR_TRY(count_new(ctx, before, crossed, after, crosses, &others));
+	mr_warn(ctx,
+	    "%zu pairs of faces of the result intersect, %zu did before%s, as at vertex %u (%.4g, %.4g, "
+	    "%.4g)",
+	    pairs, old, others > FEW ? ": it is too coarse for what is thin or near" : ", in the same places",
+	    v, after->p[v].x, after->p[v].y, after->p[v].z);
+	return MR_OK;
+}
+
 mr_status
 mr_crossings_warn(mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, const mr_mesh *after)
 {
-	enum { FEW = 5 };
 	mr_mark mark = mr_mark_take(ctx);
 	bool *crosses = MR_NEW(ctx, after->nf, bool);
 	size_t pairs, old = 0;
 	mr_mesh part = *before;
-	uint32_t v;
 
 	if (!crosses)
 		return MR_EMEM;
@@ -55,13 +96,8 @@ mr_crossings_warn(mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, cons
 		MR_TRY(part_that_crosses(ctx, before, onto, after, crosses, &part));
 	if (pairs > FEW)
 		MR_TRY(mr_self_intersections(ctx, NULL, &part, NULL, &old));
-	if (pairs > FEW + 2 * old) { /* bodies that crossed before do so in more or fewer pairs */
-		v = first_vertex(after, crosses);
-		mr_warn(ctx,
-		    "%zu pairs of faces of the result intersect, %zu did before: it is too coarse for what "
-		    "is thin or near, as at vertex %u (%.4g, %.4g, %.4g)",
-		    pairs, old, v, after->p[v].x, after->p[v].y, after->p[v].z);
-	}
+	if (pairs > FEW + 2 * old) /* bodies that crossed before do so in more or fewer pairs */
+		MR_TRY(warn(ctx, &part, after, crosses, pairs));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

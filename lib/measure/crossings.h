@@ -7,7 +7,8 @@
 #include "mesh/mesh.h"
 
 /*
- * Warns where over twice as many pairs of faces, and more than five, intersect in `after` than in `before`, of which it was made.  onto: the
+ * Warns where over twice as many pairs of faces, and more than five, intersect in `after` than in `before`, of which it was made, and says
+ * whether they are in the same places.  onto: the
  * vertex of after that each of before became, or NULL where that is not known: it is looked at as a whole
  * then.
  */

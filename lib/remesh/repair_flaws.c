@@ -145,7 +145,7 @@ mend_over_surface(mender *w, uint32_t v, unsigned flaws)
 	for (size_t i = 0; i < n; i++) {
 		const uint32_t *t = w->s->m->t[list[i]].v;
 		const mr_v3 *p = w->s->m->p;
-		if (try_spot(w, v, mr_mul(1.0 / 3, mr_add(p[t[0]], mr_add(p[t[1]], p[t[2]]))), true, flaws))
+		if (try_spot(w, v, mr_mean3(p[t[0]], p[t[1]], p[t[2]]), true, flaws))
 			return true;
 		for (uint32_t k = 0; k < 3; k++) {
 			uint32_t g = w->s->topo->twin[3 * list[i] + k];

@@ -1,4 +1,4 @@
-/* Area and volume that a coarser surface has lost. */
+/* Area and volume that a coarser or rounder surface has lost. */
 #include "tool/shrinking.h"
 
 #include "mesh/edges.h"

@@ -1,5 +1,5 @@
 /*
- * shrinking.h -- what a coarser surface has lost.
+ * shrinking.h -- what a coarser or rounder surface has lost.
  *
  * Private to this room.
  */

@@ -4,6 +4,7 @@
 #include "mesh/normals.h"
 #include "subdivide/longest.h"
 #include "tool/cache.h"
+#include "tool/shrinking.h"
 
 /* The finer mesh, and its limit normals (NULL: not asked for). */
 static mr_status
@@ -138,6 +139,9 @@ mr_subdivide_frame(
 	seconds = mr_seconds() - seconds;
 	if (r.level)
 		look_for_folds(ctx, f, &r, cache, folded);
+	if (r.level && f->key && strcmp(layer, "control") != 0)
+		MR_TRY(mr_warn_of_shrinking(ctx, &m, &r.fine,
+		    "Loop's rules round what is coarse; --crease keeps sharp edges, --longest the shape"));
 	if (result)
 		*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, folded[0], folded[1], seconds };
 	MR_TRY(put(ctx, f, layer, &r, limit));

@@ -79,3 +79,7 @@ mr-remesh -L 0.5 rod.obj -o rod.mrs
 mr-info --check rod.mrs >checked || cat checked
 mr-info -l base rod.mrs | sed -n '/base:/,$p' | grep -E 'topology|flaws|volume'
 mr-encode rod.mrs | mr-decode -o back.mrs && mr-compare -l mesh rod.mrs back.mrs | awk '/^  both  / { print ($5 < 1e-8 ? "and back" : $5) }'
+
+echo 'bodies that share a wall: finer, more pairs of faces coincide, in the same places' >&2
+mr-make cube -n 12 -o cube.mrs
+mr-transform --translate 2,0,0 cube.mrs | mr-cat --append cube.mrs - | mr-remesh -L 8% --feature auto 2>&1 >out | sed 's/vertex.*/vertex/' >&2

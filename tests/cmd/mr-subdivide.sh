@@ -87,3 +87,8 @@ mr-pose --translate 0,0,1 --frames 3 solved.mrs | mr-solve | mr-subdivide -l bas
 mr-pose --translate 0,0,1 solved.mrs | mr-solve | mr-subdivide -l base -n 2 -o last.mrs
 mr-export -f off - <last.mrs >last.off
 mr-export frame%d.off <film.mrs && ls frame*.off && cmp frame4.off last.off && echo equal
+
+echo 'a coarse body is rounded, which is said'
+mr-make cube -n 12 | mr-subdivide 2>&1 >out
+mr-make cube -n 12 | mr-subdivide --crease 30 2>&1 >out
+mr-make sphere -n 300 | mr-subdivide 2>&1 >out
