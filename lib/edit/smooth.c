@@ -300,25 +300,36 @@ choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 /* A share of the area that is little to be left. */
 static const double LITTLE = 0.5;
 
-/* How many of the parts of m have little of their area left, which their sum does not tell. */
+/* A part, at the vertex that stands for it: what is left of its area beyond little, and its faces. */
+typedef struct part {
+	double rest;
+	size_t faces;
+} part;
+
+/* How many of the parts of m have little of their area left, which their sum does not tell, and how many are
+ * a single face. */
 static mr_status
-count_shrunken(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunken)
+count_parts(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunken, size_t *single)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *part;
-	double *rest; /* of each part, at the vertex that stands for it: what is left beyond little */
+	uint32_t *of;
+	part *parts;
 	bool several;
 
-	*shrunken = 0;
-	MR_TRY(mr_components_label(ctx, m, &part, &several));
-	rest = MR_NEW_ZERO(ctx, m->nv, double);
-	if (!rest)
+	*shrunken = *single = 0;
+	MR_TRY(mr_components_label(ctx, m, &of, &several));
+	parts = MR_NEW_ZERO(ctx, m->nv, part);
+	if (!parts)
 		return MR_EMEM;
-	for (size_t f = 0; f < m->nf; f++)
-		rest[part[m->t[f].v[0]]] += mr_norm(mr_face_cross(after, f)) -
-		                            LITTLE * mr_norm(mr_face_cross(m, f));
-	for (size_t v = 0; v < m->nv; v++)
-		*shrunken += rest[v] < 0;
+	for (size_t f = 0; f < m->nf; f++) {
+		part *p = &parts[of[m->t[f].v[0]]];
+		p->rest += mr_norm(mr_face_cross(after, f)) - LITTLE * mr_norm(mr_face_cross(m, f));
+		p->faces++;
+	}
+	for (size_t v = 0; v < m->nv; v++) {
+		*shrunken += parts[v].rest < 0;
+		*single += parts[v].faces == 1;
+	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -329,18 +340,22 @@ measure_rest(mr_ctx *ctx, smoothing *s, bool plain, const mr_v3 *p)
 {
 	const char *advice = plain ? "smooth for less time, or without --plain" : "smooth for less time";
 	mr_mesh after = *s->m;
-	size_t shrunken;
+	size_t shrunken, single;
 
 	after.p = p;
 	s->found.area = mr_mesh_area(ctx, &after) / mr_mesh_area(ctx, s->m);
 	s->found.volume = mr_mesh_volume(ctx, &after) / s->found.volume;
-	MR_TRY(count_shrunken(ctx, s->m, &after, &shrunken));
+	MR_TRY(count_parts(ctx, s->m, &after, &shrunken, &single));
 	if (s->found.area < LITTLE)
 		mr_warn(ctx, "%s: smoothing leaves %.2g %% of the area: %s", s->m->name, 100 * s->found.area,
 		    advice);
 	else if (shrunken)
 		mr_warn(ctx, "%s: smoothing leaves less than half of the area of %zu part%s: %s", s->m->name,
 		    shrunken, mr_plural(shrunken), advice);
+	if (single > s->m->nf / 2 && single > 1)
+		mr_warn(ctx,
+		    "%s: %zu of %zu faces are alone, and stay: mr-import --weld joins corners that are near",
+		    s->m->name, single, s->m->nf);
 	return MR_OK;
 }
 

@@ -46,3 +46,7 @@ mr-export -f off -l mesh - <out.mrs | cmp - base.off && echo unchanged
 echo 'advice that helps: without --plain there is nothing to leave out'
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 3 2\n' >two.obj
 mr-smooth two.obj 2>&1 >out | grep -o 'leaves.*'
+echo 'faces that share no corner' >&2
+mr-make sphere -n 100 | mr-export -f stl-ascii - | awk '$1 == "vertex" { print "v", $2 + 1e-6 * NR, $3, $4; if (++n % 3 == 0) print "f", n - 2, n - 1, n }' >soup.obj
+mr-import soup.obj | mr-smooth -o out
+mr-import -q --weld 0.1% soup.obj | mr-smooth -o out
