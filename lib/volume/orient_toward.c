@@ -39,7 +39,7 @@ mr_volume_sides
 mr_volume_judge(const mr_volume_cloud *s, const mr_v3 *toward)
 {
 	size_t links = s->plane.links, there = 0, near = 0, pairs = 0, alike = 0;
-	mr_volume_sides j = { 0 };
+	mr_volume_sides j = { .unlike = UINT32_MAX };
 
 	for (size_t i = 0; i < s->n; i++) {
 		double side = side_of(s, toward, i);
@@ -48,11 +48,15 @@ mr_volume_judge(const mr_volume_cloud *s, const mr_v3 *toward)
 		near += fabs(side) >= NEAR;
 		for (size_t l = i * links; side != 0 && l < (i + 1) * links; l++) {
 			uint32_t other = s->plane.neighbor[l];
+			bool same;
 			double like = other == UINT32_MAX ? 0 : mr_volume_likeness(s, (uint32_t)i, other);
 			if (fabs(like) < ALIKE || side_of(s, toward, other) == 0)
 				continue;
 			pairs++;
-			alike += side * side_of(s, toward, other) * like > 0;
+			same = side * side_of(s, toward, other) * like > 0;
+			alike += same;
+			if (!same && j.unlike == UINT32_MAX)
+				j.unlike = (uint32_t)i;
 		}
 	}
 	j.near = (double)near / (double)there;

@@ -42,6 +42,7 @@ mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *
 typedef struct mr_volume_sides {
 	size_t told;
 	double near, alike;
+	uint32_t unlike; /* the first point that has a neighbour of another sign; UINT32_MAX: none */
 } mr_volume_sides;
 
 mr_volume_sides mr_volume_judge(const mr_volume_cloud *s, const mr_v3 *toward);

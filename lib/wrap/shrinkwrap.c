@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "measure/gaps.h"
 #include "remesh/unfold.h"
+#include "space/rows.h"
 #include "space/scatter.h"
 #include "space/two_layers.h"
 #include "volume/volume.h"
@@ -246,8 +247,9 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
 		mr_warn(ctx,
 		    "the topology is uncertain: Euler number %g, or %g where body or gaps are thin, first "
-		    "near (%.4g, %.4g, %.4g)",
-		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z);
+		    "near (%.4g, %.4g, %.4g)%s",
+		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z,
+		    cloud->sides ? "" : "; denser points would tell, or their normals");
 	else if (c->found.method == MR_WRAP_AUTO)
 		mr_warn(ctx, "the topology is uncertain: the wrap is a sphere because it began as one");
 }
@@ -308,6 +310,24 @@ warn_of_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 		    "%.3g %% of the points lie in two layers, %.2g sampling distances apart, as near "
 		    "(%.4g, %.4g, %.4g): sides of what is too thin to tell, or scans out of register",
 		    100 * l.share, l.apart / cloud->spacing, l.at.x, l.at.y, l.at.z);
+	return MR_OK;
+}
+
+static const double ROWS = 5;
+
+/* Points in rows say little of what is between these: of a height field whose rows are 6 times as far apart
+ * as their points a closed body is made, of rows 5 times as far apart a sheet. */
+static mr_status
+warn_of_rows(mr_ctx *ctx, const mr_wrap_cloud *cloud)
+{
+	mr_rows r;
+
+	MR_TRY(mr_find_rows(ctx, cloud->p, cloud->n, cloud->near, &r));
+	if (r.across > ROWS * r.along)
+		mr_warn(ctx,
+		    "the points stand in rows, %.3g apart and %.3g along: what is between is chance; mr-crop "
+		    "--keep spaced:%.2g before makes them as dense across as along",
+		    r.across, r.along, r.across / 2);
 	return MR_OK;
 }
 
@@ -390,6 +410,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
 	MR_TRY(warn_of_layers(ctx, cloud));
 	MR_TRY(warn_of_scatter(ctx, cloud));
+	MR_TRY(warn_of_rows(ctx, cloud));
 	report(ctx, cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
 	return MR_OK;
