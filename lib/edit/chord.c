@@ -33,7 +33,7 @@ mr_chords_find(mr_ctx *ctx, const mr_mesh *mesh, const mr_edges *edges, const mr
 	uint32_t *side = MR_NEW(ctx, n, uint32_t);
 	mr_v3 *before = MR_NEW(ctx, n, mr_v3), *after = MR_NEW(ctx, n, mr_v3);
 	mr_mesh middles = { .name = mesh->name, .p = before, .nv = n }, rest = *base;
-	mr_chords c = { 0, 0, MR_NONE };
+	mr_chords c = { .vertex = MR_NONE, .enough = INFINITY };
 	mr_detail detail;
 
 	*found = c;
@@ -54,7 +54,12 @@ mr_chords_find(mr_ctx *ctx, const mr_mesh *mesh, const mr_edges *edges, const mr
 			c.farthest = off;
 			c.vertex = mr_he_from(mesh, side[i]);
 		}
-		c.edges += off > far;
+		if (off > far) {
+			double length = mr_dist(
+			    mesh->p[mr_he_from(mesh, side[i])], mesh->p[mr_he_to(mesh, side[i])]);
+			c.enough = fmin(c.enough, length * sqrt(far / off));
+			c.edges++;
+		}
 	}
 	mr_mark_release(ctx, mark);
 	*found = c;

@@ -11,6 +11,7 @@ typedef struct mr_chords {
 	size_t edges;    /* whose middle is farther than `far` from where base takes it */
 	double farthest; /* of these middles */
 	uint32_t vertex; /* an end of that edge; MR_NONE without any */
+	double enough;   /* edges of this length would go within `far`, as arcs do; infinite without any */
 } mr_chords;
 
 /*

@@ -262,7 +262,7 @@ look_for_chords(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edge
 	    "%.3g %% of the diagonal, most at vertex %u (%.4g, %.4g, %.4g); split them first, by "
 	    "mr-subdivide --longest %.3g",
 	    c.edges, edges->count, 100 * c.farthest / diagonal, c.vertex, p[c.vertex].x, p[c.vertex].y,
-	    p[c.vertex].z, mr_mesh_edge_scale(ctx, base));
+	    p[c.vertex].z, fmin(c.enough, mr_mesh_edge_scale(ctx, base)));
 	return MR_OK;
 }
 
