@@ -84,14 +84,22 @@ pose_frame(cmd *c, mr_frame *f)
 {
 	static size_t at; /* frames since the key */
 	static uint32_t announced;
+	static bool made; /* a sequence of the last key */
 	size_t length = mr_motion_length(&motion);
 	mr_handles h;
 
 	at = f->key ? 0 : at + 1;
+	made &= !f->key;
 	MR_TRY(warn_of_short(c, f, length));
 	MR_TRY(mr_handles_of_frame(&c->ctx, f, c->layer, &h));
+	if (made && !f->key)
+		return mr_fail(&c->ctx, MR_EUSAGE,
+		    "this frame is one of a sequence, and not the first, and --frames or --script makes one "
+		    "of each: "
+		    "pose it before mr-decode, or without them");
 	if (length == 0 || !f->key || mr_layer_has(f, "handles", "frames"))
 		return send(c, f, &h, length == 0 ? 0 : at);
+	made = true;
 	announced = (uint32_t)length;
 	MR_TRY(mr_frame_put(&c->ctx, f, "handles", "frames", (mr_shape){ '-', 'u', 1 }, &announced, 1));
 	for (size_t i = 0; i <= length; i++)

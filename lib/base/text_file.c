@@ -29,6 +29,10 @@ read_all(mr_ctx *ctx, const char *path, char **text, size_t *length)
 	if (status != MR_OK)
 		return status;
 	bytes[n] = '\0';
+	if (!strncmp(bytes, "\xef\xbb\xbf", 3)) { /* the mark that begins UTF-8 */
+		n -= 3;
+		memmove(bytes, bytes + 3, n + 1);
+	}
 	*text = bytes;
 	*length = n;
 	return MR_OK;

@@ -460,8 +460,12 @@ mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 {
 	const void *encoded;
 
-	if (!mr_layer_has(f, before->name, "encoded") || strcmp(before->name, "base") != 0)
+	if (strcmp(before->name, "base") != 0)
 		return MR_OK;
+	if (!mr_layer_has(f, "base", "encoded"))
+		return mr_layer_has(f, "base", "source_face")
+		           ? mr_layer_put(ctx, f, "base", "before", before->p, before->nv)
+		           : MR_OK;
 	MR_TRY(mr_layer_get_rows(ctx, f, "base", "encoded", before->nv, &encoded));
 	if (memcmp(before->p, encoded, before->nv * sizeof *before->p))
 		return mr_layer_put(ctx, f, "base", "before", before->p, before->nv);

@@ -57,7 +57,7 @@ mr_status mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base);
 
 /*
  * Where base stood when its last pose began, which its posed positions do not tell: the column base.before,
- * or where there is none, as it was encoded.  Notes it down, of a base that a mesh is encoded over.
+ * or where there is none, as it was encoded.  Notes it down, of a base that a mesh is encoded over, or may be.
  */
 mr_status mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before);
 

@@ -226,6 +226,11 @@ mr_handles_pose(
 
 	if (handle >= h->n || h->count[handle] == 0)
 		return no_such_handle(ctx, h, handle);
+	if ((pose->scale.x < 0) != ((pose->scale.y < 0) != (pose->scale.z < 0)))
+		mr_warn(ctx,
+		    "handle %zu is mirrored, and what goes with it comes inside out: mr-transform mirrors a "
+		    "whole model",
+		    handle);
 	center = pose->centered ? pose->center : mr_apply(&row->map[handle], h->centroid[handle]);
 	t = mr_pose_map(pose, center, share);
 	row->map[handle] = mr_compose(&t, &row->map[handle]);
@@ -323,10 +328,23 @@ next_word(char **text)
 	return word;
 }
 
+/* Which of the words of a pose it is; as many as there are: none. */
+static size_t
+word_number(const char *word)
+{
+	static const char *const words[] = { "translate", "rotate", "scale", "center" };
+	size_t i = 0;
+
+	while (i < sizeof words / sizeof *words && strcmp(word, words[i]) != 0)
+		i++;
+	return i;
+}
+
 static mr_status
 parse_script_line(mr_ctx *ctx, char *text, script_line *line)
 {
 	const char *at = next_word(&text), *first = at;
+	unsigned said = 0; /* a bit for each word */
 	uint64_t handle;
 	char *word;
 
@@ -341,8 +359,12 @@ parse_script_line(mr_ctx *ctx, char *text, script_line *line)
 		*equals = '\0';
 		if (mr_pose_set(ctx, &line->pose, word, equals + 1) < 0)
 			return MR_EFORMAT;
+		if (said >> word_number(word) & 1)
+			return mr_fail(
+			    ctx, MR_EFORMAT, "%s twice: poses that add up stand on lines of their own", word);
+		said |= 1u << word_number(word);
 	}
-	return MR_OK;
+	return said ? MR_OK : mr_fail(ctx, MR_EFORMAT, "handle %zu has no pose", line->handle);
 }
 
 mr_status

@@ -111,7 +111,7 @@ count_vertex(const mr_held_pose *pose, const fit *f, size_t v, double far, mr_he
 		return;
 	if (r == MR_REGION_FIXED)
 		h->moved++;
-	else if (mr_dist(pose->p[v], turned(pose, f, v)) > far)
+	else if (mr_mat3_determinant(&f->yx) >= 0 && mr_dist(pose->p[v], turned(pose, f, v)) > far)
 		h->missed++;
 	else
 		h->unscaled++;

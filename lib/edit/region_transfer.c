@@ -70,7 +70,8 @@ check_handles(
 			return mr_fail(ctx, MR_EMESH, "%s: handle %u reaches no vertex: %s", base->name,
 			    region[v] - FIRST,
 			    any_face_has(mesh, region, region[v])
-				? "it is smaller than a triangle; select more, or remesh finer"
+				? "it is smaller than a triangle, or farther from it than from others; "
+			          "select more, or remesh finer"
 				: "none of its vertices has a face");
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -365,8 +365,8 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 	tell_some(ctx, h->moved, h->fixed, "fixed vertices of mesh have moved", share, coarse);
 	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
 	tell_some(ctx, h->unscaled, h->handled, missed, share,
-	    "the handle is scaled, and heights over base keep their length; mr-decode --gain scales all of "
-	    "them, mr-transform a whole model");
+	    "the handle is scaled or mirrored, and heights over base keep their length and turn; mr-decode "
+	    "--gain scales all of them, mr-transform a whole model");
 }
 
 /* Judges by where the pose began: an earlier one may have bent what is fixed now, or a handle.  at_rest: the
@@ -667,6 +667,10 @@ mr_decode_frame(
 
 	mr_unmeasured(&found, sizeof found);
 	MR_TRY(choose(ctx, f, o, &from));
+	if (mr_layer_has(f, from == MR_FROM_DETAIL ? "base" : "control", "target"))
+		return mr_fail(ctx, MR_EMISSING,
+		    "%s has targets and has not gone there: mr-solve comes before",
+		    from == MR_FROM_DETAIL ? "base" : "control");
 	if (from == MR_FROM_DETAIL)
 		MR_TRY(decode_detail(ctx, f, o, cache, &found));
 	else

@@ -8,10 +8,11 @@ look_for_pose(mr_ctx *ctx, mr_frame *f)
 	bool pending;
 
 	MR_TRY(mr_layer_is_pending(ctx, f, "base", &pending));
+	pending |= mr_layer_has(f, "base", "before");
 	if (pending && f->key)
-		mr_warn(ctx,
-		    "base has moved, and mesh, which has not followed it, is encoded as it is: behind a pose "
-		    "mr-decode goes before this");
+		mr_warn(ctx, "base has moved, and mesh, which has not followed it, is encoded as it is: "
+		             "mr-encode goes "
+			     "before mr-solve, or behind mr-decode");
 	return MR_OK;
 }
 

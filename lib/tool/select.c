@@ -51,6 +51,22 @@ look_at_poses(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region
 	return mr_handles_reselected(ctx, f, before, region, m->nv);
 }
 
+/* Warns where mr-solve goes by the regions of another layer: it takes base, with those of mesh, else control.
+ */
+static void
+warn_of_others(mr_ctx *ctx, const mr_frame *f, const char *layer)
+{
+	bool base = mr_frame_has_layer(f, "base");
+
+	if (!f->key)
+		return;
+	if (!strcmp(layer, "mesh") && !base && mr_layer_has(f, "control", "region"))
+		mr_warn(ctx,
+		    "mr-solve goes by the regions of control, which these do not change: -l control does");
+	if (!strcmp(layer, "control") && base)
+		mr_warn(ctx, "mr-solve takes base, and not control, unless it is told -l control, too");
+}
+
 mr_status
 mr_select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
@@ -67,6 +83,7 @@ mr_select_by(
 	MR_TRY(first_regions(ctx, f, &m, opts->reset, &region));
 	MR_TRY(mr_select(ctx, f, &m, groups, s, region, result));
 	MR_TRY(look_at_poses(ctx, f, &m, region));
+	warn_of_others(ctx, f, layer);
 	return mr_layer_put_region(ctx, f, layer, region, m.nv);
 }
 

@@ -96,3 +96,17 @@ printf 'frame\n0 scale=2\nframe\n0 scale=3\nframe\n0 scale=4\n' >long
 mr-pose --translate 0,1,0 --frames 2 cube.mrs | mr-pose --script long | mr-info | grep -c '^cube'
 mr-make cube -n 8 | mr-pose --scale 2 >out
 mr-make cube -n 8 | mr-select --free all | mr-pose --scale 2 >out
+
+echo 'words twice, a handle without any, the mark of UTF-8, a mirror'
+printf 'frame\n0 translate=1,0,0 translate=0,1,0\n' >wrong
+refused --script wrong
+printf 'frame\n0\n' >wrong
+refused --script wrong
+printf '\357\273\277frame\n0 translate=0,0,1\n' >marked
+mr-pose --script marked cube.mrs | values
+mr-pose --scale -1,1,1 cube.mrs 2>&1 >out
+echo 'a film that has been decoded is posed as it is, and made into no other'
+mr-make sphere -n 200 | mr-smooth -t 0 | mr-select --free all --fixed below:z,0.2 --handle 0=above:z,0.8 | mr-encode |
+    mr-pose --translate 0,0,1 --frames 2 | mr-solve | mr-decode -o film.mrs
+mr-pose --translate 1,0,0 --frames 2 film.mrs 2>&1 >out | grep -o 'this frame.*'
+mr-pose --translate 1,0,0 film.mrs | mr-solve | mr-decode | mr-info | grep -c '^sphere'

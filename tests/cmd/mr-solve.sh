@@ -148,6 +148,7 @@ while at < len(data):
     at = end
 END
 python3 targets.py >targets.mrs
+mr-encode targets.mrs | mr-decode 2>&1 >out | grep -o "base has targets.*"
 mr-solve targets.mrs -o r.mrs
 off q.mrs base >q.off
 off r.mrs base >r.off
