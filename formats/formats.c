@@ -622,7 +622,7 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 		off = fmax(off, mr_dist(p, q));
 	}
 	s->lost.rounded_positions = changed;
-	if (off > share * diagonal)
+	if (diagonal > 0 && off > share * diagonal) /* a single place is as near as floats are */
 		mr_warn(s->ctx,
 		    "%zu of %zu positions are rounded to float32, by up to %.2g, %.2g of the diagonal: "
 		    "mr-transform %s, where floats are finer",

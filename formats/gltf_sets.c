@@ -54,21 +54,21 @@ corner_normal(const mr_model *m, size_t c)
 	return m->corner_normal ? m->corner_normal + c : m->normal ? m->normal + m->t[c / 3].v[c % 3] : NULL;
 }
 
-/* What all corners of a face have. */
+/* What all corners of a face have; counts what only some have. */
 static uint32_t
-face_kind(const mr_model *m, size_t f)
+face_kind(mr_sets *s, size_t f)
 {
-	unsigned kind = MR_SET_TEXCOORDS | MR_SET_NORMALS;
+	size_t texcoords = 0, normals = 0;
 
 	for (size_t c = 3 * f; c < 3 * f + 3; c++) {
-		const double *uv = mr_corner_texcoord(m, c);
-		const mr_v3 *n = corner_normal(m, c);
-		if (!uv || !isfinite(uv[0]) || !isfinite(uv[1]))
-			kind &= ~(unsigned)MR_SET_TEXCOORDS;
-		if (!n || !mr_is_direction(*n))
-			kind &= ~(unsigned)MR_SET_NORMALS;
+		const double *uv = mr_corner_texcoord(s->m, c);
+		const mr_v3 *n = corner_normal(s->m, c);
+		texcoords += uv && isfinite(uv[0]) && isfinite(uv[1]);
+		normals += n && mr_is_direction(*n);
 	}
-	return kind;
+	s->partial_texcoords += texcoords % 3;
+	s->partial_normals += normals % 3;
+	return (texcoords == 3 ? MR_SET_TEXCOORDS : 0) | (normals == 3 ? MR_SET_NORMALS : 0);
 }
 
 static bool
@@ -86,7 +86,7 @@ sort_faces(mr_ctx *ctx, mr_sets *s)
 
 	for (size_t f = 0; f < nf; f++) {
 		s->face[f] = (uint32_t)f;
-		s->kind[f] = face_kind(s->m, f);
+		s->kind[f] = face_kind(s, f);
 	}
 	MR_TRY(sort_by(ctx, s->material, s->materials + 1, 1, s->face, nf));
 	MR_TRY(sort_by(ctx, s->kind, MR_SET_KINDS, 1, s->face, nf));
@@ -143,6 +143,27 @@ mr_sets_begin(mr_ctx *ctx, const mr_model *m, mr_sets *s)
 	MR_TRY(find_isolated(ctx, &made));
 	*s = made;
 	return MR_OK;
+}
+
+static void
+count_lost(size_t *lost, size_t n)
+{
+	if (n)
+		*lost = *lost == MR_UNKNOWN ? n : *lost + n;
+}
+
+void
+mr_sets_note_partial(mr_sink *s, size_t normals, size_t texcoords)
+{
+	count_lost(&s->lost.dropped_normals, normals);
+	count_lost(&s->lost.dropped_texcoords, texcoords);
+	if (normals)
+		mr_warn(s->ctx, "%zu normals dropped: others of their triangle, or of the cloud, are none",
+		    normals);
+	if (texcoords)
+		mr_warn(s->ctx,
+		    "%zu texture coordinates of corners dropped: their triangle has none at others",
+		    texcoords);
 }
 
 static mr_status
@@ -279,5 +300,27 @@ mr_set_make(mr_ctx *ctx, mr_sets *s, size_t first, size_t last, mr_vertex_set *v
 	}
 	add_isolated(&made, used, next, (uint32_t)s->m->nv);
 	*v = made;
+	return MR_OK;
+}
+
+mr_status
+mr_set_cloud(mr_sink *s, const mr_model *m, mr_vertex_set *v)
+{
+	size_t normals = 0;
+
+	*v = (mr_vertex_set){ .count = m->nv,
+		.vertex = MR_NEW(s->ctx, m->nv, uint32_t),
+		.corner = MR_NEW(s->ctx, m->nv, uint32_t) };
+	if (!v->vertex || !v->corner)
+		return MR_EMEM;
+	for (size_t i = 0; i < m->nv; i++) {
+		v->vertex[i] = (uint32_t)i;
+		v->corner[i] = MR_NONE;
+		normals += m->normal && mr_is_direction(m->normal[i]);
+	}
+	if (normals == m->nv)
+		v->kind = MR_SET_NORMALS;
+	else
+		mr_sets_note_partial(s, normals, 0);
 	return MR_OK;
 }

@@ -9,6 +9,7 @@
 #ifndef MR_GLTF_SETS_H
 #define MR_GLTF_SETS_H
 
+#include "formats/bytes.h"
 #include "formats/model.h"
 
 /* What all corners of the faces of a set have. */
@@ -24,8 +25,9 @@ typedef struct mr_sets {
 	uint32_t *set;             /* nf: the set that the face belongs to */
 	uint32_t *corner;          /* 3 nf, by set, vertex and index */
 	uint32_t *index;           /* 3 nf: the number of a corner's vertex in its set, once that is made */
-	const bool *used;          /* nv: whether a face has the vertex; NULL: all are used */
-	struct mr_distinct *group; /* workspace */
+	size_t partial_normals, partial_texcoords; /* of corners of faces that have some and not all */
+	const bool *used;                          /* nv: whether a face has the vertex; NULL: all are used */
+	struct mr_distinct *group;                 /* workspace */
 	size_t group_room;
 } mr_sets;
 
@@ -36,6 +38,9 @@ typedef struct mr_vertex_set {
 	unsigned kind; /* MR_SET_... */
 } mr_vertex_set;
 
+/* Warns of normals and texture coordinates that go because others beside them are none, and counts them. */
+void mr_sets_note_partial(mr_sink *s, size_t normals, size_t texcoords);
+
 /* Orders the faces of a model that has some. */
 mr_status mr_sets_begin(mr_ctx *ctx, const mr_model *m, mr_sets *s) MR_WARN_UNUSED;
 
@@ -44,6 +49,9 @@ size_t mr_set_end(const mr_sets *s, size_t first);
 
 /* The set of faces `first` to `last` in the order.  Isolated vertices are in the first set of all. */
 mr_status mr_set_make(mr_ctx *ctx, mr_sets *s, size_t first, size_t last, mr_vertex_set *v) MR_WARN_UNUSED;
+
+/* All points as a set, with normals where all of them have some. */
+mr_status mr_set_cloud(mr_sink *s, const mr_model *m, mr_vertex_set *v) MR_WARN_UNUSED;
 
 /*
  * Whether a reader that joins the vertices of an object that are at one place, in floats, would join others

@@ -691,29 +691,11 @@ put_surface(glb *w, layer *l)
 	size_t at = 0;
 
 	MR_TRY(mr_sets_begin(w->ctx, &l->node->model, &l->sets));
+	mr_sets_note_partial(w->s, l->sets.partial_normals, l->sets.partial_texcoords);
 	MR_TRY(put_materials(w, l));
 	MR_TRY(mr_sets_ambiguous(w->ctx, &l->sets, &w->numbered));
 	while (at < l->node->model.nf)
 		MR_TRY(put_object(w, l, &at));
-	return MR_OK;
-}
-
-/* All points as a set; they have normals where all of them do. */
-static mr_status
-make_cloud(mr_ctx *ctx, const mr_model *m, mr_vertex_set *v)
-{
-	*v = (mr_vertex_set){ .kind = m->normal ? MR_SET_NORMALS : 0,
-		.count = m->nv,
-		.vertex = MR_NEW(ctx, m->nv, uint32_t),
-		.corner = MR_NEW(ctx, m->nv, uint32_t) };
-	if (!v->vertex || !v->corner)
-		return MR_EMEM;
-	for (size_t i = 0; i < m->nv; i++) {
-		v->vertex[i] = (uint32_t)i;
-		v->corner[i] = MR_NONE;
-		if (m->normal && !mr_is_direction(m->normal[i]))
-			v->kind = 0;
-	}
 	return MR_OK;
 }
 
@@ -722,7 +704,7 @@ put_cloud(glb *w, const layer *l)
 {
 	json_t *primitives = json_array(), *attributes = json_object(), *targets = json_array();
 	mr_vertex_set v;
-	mr_status status = make_cloud(w->ctx, &l->node->model, &v);
+	mr_status status = mr_set_cloud(w->s, &l->node->model, &v);
 
 	if (status == MR_OK)
 		status = put_attributes(w, &l->node->model, &v, false, attributes);

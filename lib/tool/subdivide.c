@@ -67,7 +67,7 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 		mr_frame_drop(f, "mesh", NULL, 0);
 		if (!strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
 			mr_warn(ctx, "mesh is control without its displacement: mr-decode adds that");
-	} else if (mr_layer_has(f, "mesh", "detail_height"))
+	} else if (r->fine.nv > r->m.nv && mr_layer_has(f, "mesh", "detail_height"))
 		mr_warn(ctx,
 		    "mesh has new vertices, and its detail over base is gone: subdivide before mr-encode");
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));

@@ -116,3 +116,9 @@ P
 printf 'v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3\n' >white.obj
 mr-import white.obj | python3 colors.py >colors.mrs
 mr-export -i colors.mrs colors.glb && mr-import colors.glb | mr-export -q -f obj - | grep -c -e '1 0 0$' -e '1 1 1$'
+
+echo '-- what only some corners of a triangle, or some points, have'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2 3\nf 1/1/1 3/2/1 4/3/1\n' >some.obj
+mr-import some.obj | mr-export some.glb && mr-import some.glb | mr-export -f obj - | grep '^[vf][nt ]* .*/\|^f'
+mr-make sphere --points 20 | mr-export -f xyz - | awk 'NR == 3 { $4 = $5 = $6 = 0 } { print } BEGIN { print "# x y z nx ny nz" }' >some.xyz
+mr-import -q --points some.xyz | mr-export some.glb && mr-import some.glb | mr-info | grep -c normal

@@ -82,3 +82,4 @@ BEGIN { seed = 5; while (n++ < 20000) { w = u() * 333
 	else if (w < 326) point(2.6 * sqrt(u()), 0.4); else point(sqrt(6.76 + 2.24 * u()), 8) } }' >cup.xyz
 mr-import --points cup.xyz | mr-normals 2>&1 >out | grep -o 'neighbours have normals on unlike sides' >&2
 mr-make sphere --points 20000 | mr-normals -o out
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n' | mr-import | mr-normals -o out

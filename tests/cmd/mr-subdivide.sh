@@ -92,3 +92,9 @@ echo 'a coarse body is rounded, which is said'
 mr-make cube -n 12 | mr-subdivide 2>&1 >out
 mr-make cube -n 12 | mr-subdivide --crease 30 2>&1 >out
 mr-make sphere -n 300 | mr-subdivide 2>&1 >out
+
+echo 'detail stays where nothing is divided, and the length that is advised is taken'
+mr-make torus -n 300 | mr-smooth | mr-encode -o enc.mrs
+mr-subdivide -n 0 enc.mrs 2>&1 | mr-info | grep -c detail_
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >t.obj
+mr-subdivide --longest 1e-9 t.obj 2>&1 >out | sed 's/.*a length of \([^ ]*\).*/\1/'
