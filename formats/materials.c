@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "formats/format.h"
 
+#include <ctype.h>
 #include <limits.h>
 #include <strings.h>
 #include <sys/stat.h>
@@ -91,25 +92,68 @@ word_length(const char *s)
 	return strcspn(s, " \t");
 }
 
-/* The file name behind the options of a map, whose values are numbers, "on" and "off". */
+static const char *
+next_word(const char *s)
+{
+	s += word_length(s);
+	return s + strspn(s, " \t");
+}
+
+/* Options of maps: values that change nothing, the first and the others; `word`: it has one, that is none. */
+static const struct {
+	const char *name;
+	double first, others;
+	bool word;
+} map_options[] = { { "-s", 1, 1, false }, { "-o", 0, 0, false }, { "-t", 0, 0, false },
+	{ "-mm", 0, 1, false }, { "-boost", 0, 0, false }, { "-bm", 1, 1, false }, { "-clamp", 0, 0, false },
+	{ "-cc", 0, 0, false }, { "-blendu", 1, 1, false }, { "-blendv", 1, 1, false },
+	{ "-imfchan", 0, 0, true }, { "-type", 0, 0, true } };
+
+enum { MAP_OPTIONS = sizeof map_options / sizeof *map_options };
+
+/* Which option a word is; MAP_OPTIONS: none of these. */
+static size_t
+map_option(const char *s)
+{
+	size_t n = word_length(s), k = 0;
+
+	while (k < MAP_OPTIONS && (strlen(map_options[k].name) != n || strncmp(s, map_options[k].name, n)))
+		k++;
+	return k;
+}
+
+static bool
+is_option(const char *s)
+{
+	return *s == '-' && isalpha((unsigned char)s[1]);
+}
+
+/* A number, "on" or "off", as a number; false: the word is none. */
+static bool
+is_value(const char *s, double *x)
+{
+	size_t n = word_length(s);
+
+	*x = n == 2; /* "on" */
+	return mr_real_read(s, s + n, x) == s + n || (n == 2 && !strncmp(s, "on", 2)) ||
+	       (n == 3 && !strncmp(s, "off", 3));
+}
+
+/* The file name behind the options of a map. */
 static const char *
 behind_options(const char *s)
 {
-	bool option = false;
+	double x;
 
-	for (;;) {
-		size_t n = word_length(s);
-		double x;
-		bool value = option &&
-		             (mr_real_read(s, s + n, &x) == s + n || (n == 2 && !strncmp(s, "on", 2)) ||
-				 (n == 3 && !strncmp(s, "off", 3)));
-		if (*s != '-' && !value)
-			return s;
-		option = true;
-		if (s[n] == 0)
-			return s + n;
-		s += n + strspn(s + n, " \t");
+	while (is_option(s)) {
+		size_t k = map_option(s);
+		s = next_word(s);
+		if (k < MAP_OPTIONS && map_options[k].word)
+			s = next_word(s);
+		while (is_value(s, &x))
+			s = next_word(s);
 	}
+	return s;
 }
 
 /* Bytes before a comment, which begins at a # behind a blank. */
@@ -317,17 +361,30 @@ note_hidden(mr_material *m)
 		m->lost |= 1u << HIDDEN;
 }
 
-/* Warns of options that move, scale or disturb a picture, which nothing here follows. */
-static void
-warn_of_moved(const finder *f, size_t i, const char *s, const char *file)
+/* Whether an option, its values up to `end`, is as if it were not there. */
+static bool
+changes_nothing(const char *s, const char *end)
 {
-	static const char *const moves[] = { "-s", "-o", "-t" };
+	size_t k = map_option(s), n = 0;
+	bool nothing = k < MAP_OPTIONS && !map_options[k].word;
+	double x;
 
-	for (; s < file; s += word_length(s), s += strspn(s, " \t"))
-		for (size_t k = 0; k < sizeof moves / sizeof *moves; k++)
-			if (word_length(s) == strlen(moves[k]) && !strncmp(s, moves[k], strlen(moves[k])))
-				mr_warn(f->ctx, "option %s of the picture of material %.*s is not followed",
-				    moves[k], (int)name_bytes(f, i), f->name[i]);
+	for (s = next_word(s); nothing && s < end && !is_option(s) && is_value(s, &x); s = next_word(s))
+		nothing = x == (n++ ? map_options[k].others : map_options[k].first);
+	return nothing;
+}
+
+/* Warns of options of a picture that nothing here follows, but for the range of heights. */
+static void
+warn_of_options(const finder *f, size_t i, const char *s, const char *file, bool heights)
+{
+	for (; s < file; s = next_word(s)) {
+		bool followed = (heights && map_option(s) < MAP_OPTIONS && !strncmp(s, "-mm", 3)) ||
+		                !strncmp(s, "-texres", 7);
+		if (is_option(s) && !followed && !changes_nothing(s, file))
+			mr_warn(f->ctx, "option %.*s of the picture of material %.*s is not followed",
+			    (int)word_length(s), s, (int)name_bytes(f, i), f->name[i]);
+	}
 }
 
 /* to: the picture of material i. */
@@ -336,7 +393,7 @@ map(finder *f, size_t i, const char *s, const char **to)
 {
 	const char *file = behind_options(s), *bare;
 
-	warn_of_moved(f, i, s, file);
+	warn_of_options(f, i, s, file, to == &f->list[i].heights);
 	MR_TRY(find_file(f, file, to));
 	if (*to)
 		return MR_OK;
