@@ -77,7 +77,7 @@ mr-import model.obj | mr-export --materials . model.glb
 grep -a -o '"baseColorFactor":\[[^]]*\]\|"baseColorTexture"' model.glb
 
 echo '-- options of a picture: that change nothing, that nothing follows, that have a word' >&2
-mr-make plane -n 8 | mr-render -q -s 8x8 b.png
+mr-make plane -n 8 | mr-render -q -s 16x16 b.png
 printf 'mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 0 2\nusemtl m\nf 1/1 2/2 3/3\n' >u.obj
 for options in '-s 1 1 1 -o 0 0 0 -clamp off -texres 64' '-clamp on' '-imfchan r' '-o 0.1 -0.2' '-unheard -of'; do
 	printf 'newmtl m\nmap_Kd %s b.png\n' "$options" >x.mtl

@@ -121,7 +121,8 @@ materials(void **state)
 	assert_string_equal(look[4].file, "folder/absolute.png");
 	assert_string_equal(heard,
 	    "option -s of the picture of material blue two is not followed\n"
-	    "option -o of the picture of material blue two is not followed\n"
+	    "option -clamp of the picture of material blue two is not followed\n"
+	    "option -bm of the picture of material blue two is not followed\n"
 	    "../outside.png, the picture of material out, is no file in folder\n"
 	    "gone.mtl is no file in folder: its materials are only names\n"
 	    "1 number of materials clipped: not within 0 and 1\n"
