@@ -562,35 +562,6 @@ cmd_figure(cmd *c, const char *name, double value)
 	mr_text_number(t, value);
 }
 
-void
-cmd_figures(cmd *c, const cmd_field *table, const void *result)
-{
-	for (; c->stats && table->name; table++) {
-		const char *field = (const char *)result + table->offset;
-		size_t count = table->count ? *(const size_t *)(const void *)field : 0;
-		double value = table->count ? (double)count : *(const double *)(const void *)field;
-		if (count != MR_UNKNOWN && !isnan(value))
-			cmd_figure(c, table->name, value);
-	}
-}
-
-void
-cmd_gaps(cmd *c, const mr_gaps *gaps)
-{
-	static const cmd_field figures[] = {
-		{ "points_to_surface_mean", false, offsetof(mr_gaps, points.mean) },
-		{ "points_to_surface_99", false, offsetof(mr_gaps, points.high) },
-		{ "points_to_surface_max", false, offsetof(mr_gaps, points.max) },
-		{ "surface_to_points_mean", false, offsetof(mr_gaps, surface.mean) },
-		{ "surface_to_points_99", false, offsetof(mr_gaps, surface.high) },
-		{ "surface_to_points_max", false, offsetof(mr_gaps, surface.max) },
-		{ "bare", false, offsetof(mr_gaps, bare) },
-		{ 0 },
-	};
-
-	cmd_figures(c, figures, gaps);
-}
-
 /* One line of --stats: a JSON object. */
 static mr_status
 print_stats(cmd *c, double seconds)
@@ -711,15 +682,28 @@ one_frame(cmd *c, mr_frame *f)
 	mr_mark_release(&c->ctx, mark);
 }
 
+/* With -k: what cannot be read counts as a frame that failed. */
+static void
+leave_out_input(cmd *c, mr_status status)
+{
+	if (!c->keep_going || status == MR_EUSAGE)
+		die(c, status);
+	c->frame++;
+	leave_out(c);
+}
+
 /* One frame, as mr-import makes it. */
 static void
 read_model(cmd *c, const char *path)
 {
 	mr_mark mark = mr_mark_take(&c->ctx);
 	mr_frame *frame;
+	mr_status status = mr_import(&c->ctx, path, NULL, &frame, NULL);
 
-	try(c, mr_import(&c->ctx, path, NULL, &frame, NULL));
-	one_frame(c, frame);
+	if (status >= 0)
+		one_frame(c, frame);
+	else
+		leave_out_input(c, status);
 	mr_mark_release(&c->ctx, mark);
 }
 
@@ -735,8 +719,10 @@ read_stream(cmd *c, const char *path)
 
 	try(c, permit_stream(c, path));
 	fd = from_stdin ? STDIN_FILENO : open(path, O_RDONLY);
-	if (fd < 0)
-		die(c, fail_system(c, path));
+	if (fd < 0) {
+		leave_out_input(c, fail_system(c, path));
+		return;
+	}
 	if (isatty(fd))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "%s is a terminal: pipe a stream in, or name a FILE%s",
 			   name, is_filter_or_sink_of_streams(c->tool) ? "" : " by -i"));

@@ -9,6 +9,7 @@
 #include "edit/handles.h"
 
 #include <ctype.h>
+#include <unistd.h>
 
 /* ---- steps ---- */
 
@@ -101,6 +102,9 @@ parse_matrix(mr_ctx *ctx, const char *text, mr_affine *map)
 	char **line;
 
 	if (!read_numbers(text, x, 16, &n)) {
+		if (strchr(text, ',') && access(text, F_OK))
+			return mr_fail(
+			    ctx, MR_EUSAGE, "'%.100s' is neither 12 or 16 numbers nor a file", text);
 		MR_TRY(mr_lines_read(ctx, text, &line, &lines));
 		n = 0;
 		for (size_t i = 0; i < lines; i++)

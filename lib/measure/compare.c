@@ -67,9 +67,8 @@ measure_stretch(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, mr_deviation *d
 	MR_TRY(mr_edges_build(ctx, a, &edges));
 	for (size_t e = 0; e < edges.count; e++) {
 		uint32_t h = edges.he[edges.start[e]], from = mr_he_from(a, h), to = mr_he_to(a, h);
-		double length = mr_dist(a->p[from], a->p[to]);
-		double stretch = mr_dist(b->p[from], b->p[to]) / length;
-		if (!(length > 0))
+		double stretch = mr_dist(b->p[from], b->p[to]) / mr_dist(a->p[from], a->p[to]);
+		if (isnan(stretch)) /* of length 0 in both */
 			continue;
 		low = fmin(low, stretch);
 		high = fmax(high, stretch);

@@ -41,3 +41,13 @@ mr-smooth <s.mrs.gz >out.mrs
 mr-make cube -n 8 -o out.mrs.gz
 ls out.mrs.gz 2>/dev/null
 true
+
+echo '-- with -k what cannot be read is left out'
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n' >ok.obj
+echo garbage >bad.obj
+for tool in import smooth; do
+	mr-$tool -k ok.obj bad.obj absent.obj ok.obj -o kept.mrs
+	echo "exit $?, $(mr-info kept.mrs | grep -c '^ok: frame') frames"
+	mr-$tool ok.obj bad.obj -o none.mrs
+	echo "exit $?, $(ls none.mrs 2>/dev/null | wc -l) files"
+done

@@ -111,3 +111,6 @@ echo 'a sequence moves on about the place of its key frame'
 mr-make sphere -n 200 | mr-transform --translate 5,0,0 | mr-smooth | mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 |
     mr-encode | mr-pose -H 1 --frames 2 --translate 0,2,0 | mr-solve | mr-decode -q -o moves.mrs
 mr-transform --unit moves.mrs | mr-info -l mesh | grep box
+
+mr-make cube -n 8 | mr-transform -m nan,0,0,0,0,1,0,0,0,0,1,0 >out
+echo "exit $?"
