@@ -597,6 +597,9 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	if (!o->blind)
 		MR_TRY(look_at_posed(ctx, f, cache, &d, height, o->gain, p, result));
 	d.m.p = p;
+	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
+		mr_warn(ctx, "mesh, which has detail over base, is made anew from control, without what base has "
+			     "done to it");
 	drop_columns(f);
 	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));
 	MR_TRY(mr_layer_followed(ctx, f, "control"));

@@ -22,3 +22,4 @@ mr-encode chosen.mrs | mr-pose --translate 1,0,0 | mr-solve | mr-decode | mr-enc
 mr-select --free above:y,0.3 --handle 0=above:y,0.8 scan.mrs | mr-pose --translate 0,0,1 | mr-solve | mr-decode -q -o posed.mrs
 mr-select --free below:y,0.6 --handle 0=below:y,0.2 posed.mrs 2>&1 >after.mrs | grep -o 'mr-solve.*'
 mr-smooth -l mesh posed.mrs | mr-select -l control --free below:y,0.6 2>&1 >after.mrs | grep -o 'mr-solve.*'
+mr-decode -q scan.mrs | mr-smooth | mr-remesh -q | mr-encode | mr-decode --from control 2>&1 >after.mrs | grep -o 'mesh, which.*'
