@@ -83,3 +83,9 @@ BEGIN { seed = 5; while (n++ < 20000) { w = u() * 333
 mr-import --points cup.xyz | mr-normals 2>&1 >out | grep -o 'neighbours have normals on unlike sides' >&2
 mr-make sphere --points 20000 | mr-normals -o out
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n' | mr-import | mr-normals -o out
+
+echo 'a tetrahedron, at whose sharp edges planes across from each other are alike' >&2
+awk 'function u() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
+BEGIN { seed = 7; while (n++ < 10000) { a = u(); b = u(); if (a + b > 1) { a = 1 - a; b = 1 - b }
+	w = u() * 2.366; if (w < 0.5) print a, b, 0; else if (w < 1) print a, 0, b; else if (w < 1.5) print 0, a, b; else print a, b, 1 - a - b } }' >tetra.xyz
+mr-import --points tetra.xyz | mr-normals 2>&1 >out | grep -o 'of what is seen.*found' >&2
