@@ -62,20 +62,37 @@ set_vector(mr_ctx *ctx, mr_v3 *v, const char *text)
 	return MR_OK;
 }
 
+enum { TRANSLATE, ROTATE, SCALE, CENTER, WORDS };
+
+/* Which of the words of a pose it is; WORDS: none. */
+static int
+word_number(const char *word)
+{
+	static const char *const words[WORDS] = { "translate", "rotate", "scale", "center" };
+	int i = 0;
+
+	while (i < WORDS && strcmp(word, words[i]) != 0)
+		i++;
+	return i;
+}
+
 mr_status
 mr_pose_set(mr_ctx *ctx, mr_pose *pose, const char *what, const char *text)
 {
-	if (!strcmp(what, "translate"))
+	switch (word_number(what)) {
+	case TRANSLATE:
 		return set_vector(ctx, &pose->translate, text);
-	if (!strcmp(what, "rotate"))
+	case ROTATE:
 		return set_rotation(ctx, pose, text);
-	if (!strcmp(what, "scale"))
+	case SCALE:
 		return set_scale(ctx, pose, text);
-	if (strcmp(what, "center"))
+	case CENTER:
+		MR_TRY(set_vector(ctx, &pose->center, text));
+		pose->centered = true;
+		return MR_OK;
+	default:
 		return mr_fail(ctx, MR_EUSAGE, "'%s' is none of translate, rotate, scale, center", what);
-	MR_TRY(set_vector(ctx, &pose->center, text));
-	pose->centered = true;
-	return MR_OK;
+	}
 }
 
 mr_status
@@ -326,18 +343,6 @@ next_word(char **text)
 	*text = *end ? end + 1 : end;
 	*end = '\0';
 	return word;
-}
-
-/* Which of the words of a pose it is; as many as there are: none. */
-static size_t
-word_number(const char *word)
-{
-	static const char *const words[] = { "translate", "rotate", "scale", "center" };
-	size_t i = 0;
-
-	while (i < sizeof words / sizeof *words && strcmp(word, words[i]) != 0)
-		i++;
-	return i;
 }
 
 static mr_status
