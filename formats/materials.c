@@ -111,13 +111,20 @@ static const struct {
 
 enum { MAP_OPTIONS = sizeof map_options / sizeof *map_options };
 
+/* Whether a text begins with this word. */
+static bool
+is_word(const char *s, const char *word)
+{
+	return word_length(s) == strlen(word) && !strncmp(s, word, strlen(word));
+}
+
 /* Which option a word is; MAP_OPTIONS: none of these. */
 static size_t
 map_option(const char *s)
 {
-	size_t n = word_length(s), k = 0;
+	size_t k = 0;
 
-	while (k < MAP_OPTIONS && (strlen(map_options[k].name) != n || strncmp(s, map_options[k].name, n)))
+	while (k < MAP_OPTIONS && !is_word(s, map_options[k].name))
 		k++;
 	return k;
 }
@@ -132,11 +139,13 @@ is_option(const char *s)
 static bool
 is_value(const char *s, double *x)
 {
-	size_t n = word_length(s);
+	const char *end = s + word_length(s);
 
-	*x = n == 2; /* "on" */
-	return mr_real_read(s, s + n, x) == s + n || (n == 2 && !strncmp(s, "on", 2)) ||
-	       (n == 3 && !strncmp(s, "off", 3));
+	if (is_word(s, "on") || is_word(s, "off")) {
+		*x = is_word(s, "on");
+		return true;
+	}
+	return mr_real_read(s, end, x) == end;
 }
 
 /* The file name behind the options of a map. */
@@ -379,8 +388,7 @@ static void
 warn_of_options(const finder *f, size_t i, const char *s, const char *file, bool heights)
 {
 	for (; s < file; s = next_word(s)) {
-		bool followed = (heights && map_option(s) < MAP_OPTIONS && !strncmp(s, "-mm", 3)) ||
-		                !strncmp(s, "-texres", 7);
+		bool followed = is_word(s, "-texres") || (heights && is_word(s, "-mm"));
 		if (is_option(s) && !followed && !changes_nothing(s, file))
 			mr_warn(f->ctx, "option %.*s of the picture of material %.*s is not followed",
 			    (int)word_length(s), s, (int)name_bytes(f, i), f->name[i]);
