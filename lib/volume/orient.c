@@ -2,7 +2,7 @@
  * Signs of the planes' normals.  As in Hoppe et al. 1992 they spread along a spanning tree of the neighbour
  * graph that prefers alike planes; but the sign of one normal is compared with the other's mirrored between
  * the two points (Koenig, Gumhold 2009), which holds around edges too, and two parts of the tree whose own
- * votes say otherwise stay apart.
+ * votes say otherwise may stay apart.
  */
 #include "volume/parts.h"
 
@@ -10,16 +10,22 @@
 
 enum { BINS = 256, GRAIN = 4096 };
 
-/* Mean vote per point from which a part knows its own sign.  Of the wraps that volume.c counts 130 of 164 are
- * right, by half or twice as much 129. */
-static const double SURE = 0.1;
+/*
+ * From where a point, or a part on the mean, knows its own sign: the flood says so as loud, of the mean vote
+ * (it falls off more slowly on a finer grid, and so do its votes), and comes to one side of it alone.  Of 177
+ * clouds of 59 closed bodies 147 wraps are right by 0.25 and 0.65 to 0.8; by a vote of 0.1 of the flood 142,
+ * and a face of a tetrahedron was inside out.  By 0.25 alone 147, but of 59 bodies cut open 32, not 51.
+ */
+static const double LOUD = 0.25, ONE_SIDED = 0.7;
 
 /* Parts joined so far: the sign of a point is its own times those up to the root. */
 typedef struct parts {
 	uint32_t *parent;
 	int8_t *sign; /* against the parent's */
 	uint32_t *size;
-	double *vote; /* of a root: for its own sign */
+	double *vote;  /* of a root: for its own sign */
+	double *flood; /* of a root: on both sides of its points */
+	double loud;   /* a vote that is; infinite: none is */
 } parts;
 
 static uint32_t
@@ -47,7 +53,7 @@ root_of(parts *q, uint32_t x, int8_t *sign)
 static bool
 is_sure(const parts *q, uint32_t root)
 {
-	return fabs(q->vote[root]) > SURE * q->size[root];
+	return fabs(q->vote[root]) > fmax(q->loud * q->size[root], ONE_SIDED * q->flood[root]);
 }
 
 /* Joins the parts of a and b so that their signs' product is `same`, unless both know better. */
@@ -71,6 +77,7 @@ join(parts *q, uint32_t a, uint32_t b, int8_t same)
 	q->sign[rb] = s;
 	q->size[ra] += q->size[rb];
 	q->vote[ra] += s * q->vote[rb];
+	q->flood[ra] += q->flood[rb];
 }
 
 double
@@ -139,26 +146,38 @@ sort_links(mr_ctx *ctx, const mr_volume_cloud *s, order *o)
 	return MR_OK;
 }
 
+double
+mr_volume_loud(const double *vote, size_t n)
+{
+	double all = 0;
+
+	for (size_t i = 0; i < n; i++)
+		all += fabs(vote[i]);
+	return n > 0 ? LOUD * all / (double)n : 0;
+}
+
 static mr_status
-begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, parts *q)
+begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, const double *flood, parts *q)
 {
 	q->parent = MR_NEW(ctx, s->n, uint32_t);
 	q->sign = MR_NEW(ctx, s->n, int8_t);
 	q->size = MR_NEW(ctx, s->n, uint32_t);
 	q->vote = MR_NEW(ctx, s->n, double);
-	if (!q->parent || !q->sign || !q->size || !q->vote)
+	q->flood = MR_NEW(ctx, s->n, double);
+	if (!q->parent || !q->sign || !q->size || !q->vote || !q->flood)
 		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++) {
 		q->parent[i] = (uint32_t)i;
 		q->sign[i] = 1;
 		q->size[i] = 1;
 		q->vote[i] = vote[i];
+		q->flood[i] = flood ? flood[i] : 0;
 	}
 	return MR_OK;
 }
 
 mr_status
-mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote)
+mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote, const double *flood, bool apart)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t links = s->plane.links;
@@ -167,7 +186,8 @@ mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote)
 
 	if (s->n > UINT32_MAX / links)
 		return mr_fail(ctx, MR_ERANGE, "%zu points are too many for a volume", s->n);
-	MR_TRY(begin(ctx, s, vote, &q));
+	MR_TRY(begin(ctx, s, vote, flood, &q));
+	q.loud = apart ? mr_volume_loud(vote, s->n) : INFINITY;
 	MR_TRY(sort_links(ctx, s, &o));
 	for (size_t k = 0; k < o.count; k++) {
 		uint32_t l = o.sorted[k];

@@ -278,7 +278,7 @@ apply_signs(mr_ctx *ctx, const regions *r, const double sign[REGIONS], mr_volume
 		if (sign[r->of[i]] < 0)
 			s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
 	}
-	return mr_volume_orient(ctx, s, vote);
+	return mr_volume_orient(ctx, s, vote, NULL, true);
 }
 
 static bool

@@ -51,8 +51,13 @@ mr_volume_sides mr_volume_judge(const mr_volume_cloud *s, const mr_v3 *toward);
 double mr_volume_likeness(const mr_volume_cloud *s, uint32_t i, uint32_t j);
 
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
- * (positive: the sign is right) on the whole.  orient.c */
-mr_status mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote);
+ * (positive: the sign is right) on the whole; apart: parts whose own votes say otherwise go by these, where
+ * votes are not much less than the flood on both sides of the points (NULL: none).  orient.c */
+mr_status
+mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote, const double *flood, bool apart);
+
+/* From which size on one of n such votes counts: in proportion to them all.  orient.c */
+double mr_volume_loud(const double *vote, size_t n);
 
 /*
  * Turns the normals of whole regions over where all agree better then and the flood's votes (positive: the

@@ -84,8 +84,16 @@ mr-import --points cup.xyz | mr-normals 2>&1 >out | grep -o 'neighbours have nor
 mr-make sphere --points 20000 | mr-normals -o out
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 5 5 5\nf 1 2 3\n' | mr-import | mr-normals -o out
 
-echo 'a tetrahedron, at whose sharp edges planes across from each other are alike' >&2
+echo 'a tetrahedron, across whose sharp edges planes look alike with the wrong sign'
 awk 'function u() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
 BEGIN { seed = 7; while (n++ < 10000) { a = u(); b = u(); if (a + b > 1) { a = 1 - a; b = 1 - b }
 	w = u() * 2.366; if (w < 0.5) print a, b, 0; else if (w < 1) print a, 0, b; else if (w < 1.5) print 0, a, b; else print a, b, 1 - a - b } }' >tetra.xyz
-mr-import --points tetra.xyz | mr-normals 2>&1 >out | grep -o 'of what is seen.*found' >&2
+mr-import --points tetra.xyz | mr-normals | mr-export -q - -f ply-ascii | awk 'body { # the normal of the face that the point is on
+	out = $3 < 1e-9 ? -$6 : $2 < 1e-9 ? -$5 : $1 < 1e-9 ? -$4 : $4 + $5 + $6; bad += out < 0 } /end_header/ { body = 1 }
+	END { print bad < 100 ? "at most 1 % are inside out" : bad " of 10000 are inside out" }'
+
+echo 'an open sheet, of hills and valleys: one side, and that it is arbitrary' >&2
+awk 'function u() { seed = (seed * 16807) % 2147483647; return seed / 2147483647 }
+BEGIN { seed = 9; while (n++ < 20000) { x = 12 * u(); y = 9 * u(); print x, y, 0.6 * sin(2 * x) * cos(2 * y) } }' >hills.xyz
+mr-import --points hills.xyz | mr-normals | mr-export -q - -f ply-ascii | awk 'body { up += $6 > 0 } /end_header/ { body = 1 }
+	END { print "hills:", up == 0 || up == 20000 ? "all on one side" : up " of 20000 up" }'

@@ -57,7 +57,7 @@ most_votes_orient_a_smooth_surface(void **state)
 		mr_v3 *truth;
 		mr_volume_cloud s = sampled(&m, 4000, seed, &truth);
 		double *v = vote(&s, truth, &r, 0.01 * (double)seed, 0.4);
-		assert_int_equal(mr_volume_orient(&ctx, &s, v), MR_OK);
+		assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
 		assert_int_equal(count_wrong(&s, truth), 0);
 		mr_ctx_free(&ctx);
 	}
@@ -76,7 +76,7 @@ votes_and_not_signs_decide(void **state)
 	(void)state;
 	for (size_t i = 0; i < s.n; i++)
 		assert_true(fabs(mr_norm(s.plane.normal[i]) - 1) < 1e-12);
-	assert_int_equal(mr_volume_orient(&ctx, &s, v), MR_OK);
+	assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
 	assert_int_equal(count_wrong(&s, truth), s.n);
 	for (size_t i = 0; i < s.n; i++)
 		assert_true(fabs(mr_norm(s.plane.normal[i]) - 1) < 1e-12);
@@ -98,7 +98,7 @@ parts_that_are_apart_have_votes_of_their_own(void **state)
 			v[i] = -v[i];
 			truth[i] = mr_mul(-1, truth[i]);
 		}
-	assert_int_equal(mr_volume_orient(&ctx, &s, v), MR_OK);
+	assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
 	assert_int_equal(count_wrong(&s, truth), 0);
 }
 
@@ -127,7 +127,7 @@ signs_pass_around_a_rim(void **state)
 		double *v = vote(&s, truth, &r, 0.05, 0);
 		for (size_t i = 0; i < s.n; i++)
 			v[i] *= truth[i].z > 0;
-		assert_int_equal(mr_volume_orient(&ctx, &s, v), MR_OK);
+		assert_int_equal(mr_volume_orient(&ctx, &s, v, NULL, false), MR_OK);
 		assert_true(count_wrong(&s, truth) < s.n / 200); /* on the rim itself */
 	}
 }
@@ -140,7 +140,7 @@ parts_that_are_sure_stay_apart(void **state)
 	mr_random r = { 3 };
 	mr_v3 *truth;
 	mr_volume_cloud s = sampled(&m, 4000, 3, &truth);
-	double *v = vote(&s, truth, &r, 1, 0);
+	double *v = vote(&s, truth, &r, 1, 0), *flood = MR_NEW(&ctx, s.n, double);
 
 	(void)state;
 	for (size_t i = 0; i < s.n; i++)
@@ -148,9 +148,33 @@ parts_that_are_sure_stay_apart(void **state)
 			v[i] = -v[i];
 			truth[i] = mr_mul(-1, truth[i]);
 		}
-	assert_int_equal(mr_volume_orient(&ctx, &s, v), MR_OK);
+	for (size_t i = 0; i < s.n; i++)
+		flood[i] = 1.1; /* 0.05 of it on the other side */
+	assert_int_equal(mr_volume_orient(&ctx, &s, v, flood, true), MR_OK);
 	assert_true(
 	    count_wrong(&s, truth) < s.n / 100); /* along the equator they may take the other's side */
+}
+
+/* But they do follow them where that is not asked for, and where the flood is on both sides. */
+static void
+unsure_parts_stay_together(void **state)
+{
+	mr_mesh m = shape(MR_SPHERE, 20000);
+	mr_random r = { 3 };
+	mr_v3 *truth;
+	mr_volume_cloud s = sampled(&m, 4000, 3, &truth);
+	double *flood = MR_NEW(&ctx, s.n, double);
+
+	(void)state;
+	for (size_t i = 0; i < s.n; i++)
+		flood[i] = 2;
+	for (int apart = 0; apart < 2; apart++) {
+		double *v = vote(&s, truth, &r, 1, 0);
+		for (size_t i = 0; i < s.n; i++)
+			v[i] *= s.p[i].z < -0.3 ? -1 : 1;
+		assert_int_equal(mr_volume_orient(&ctx, &s, v, flood, apart), MR_OK);
+		assert_int_equal(count_wrong(&s, truth), 0);
+	}
 }
 
 static size_t
@@ -283,6 +307,7 @@ main(void)
 		    parts_that_are_apart_have_votes_of_their_own, setup, teardown),
 		cmocka_unit_test_setup_teardown(signs_pass_around_a_rim, setup, teardown),
 		cmocka_unit_test_setup_teardown(parts_that_are_sure_stay_apart, setup, teardown),
+		cmocka_unit_test_setup_teardown(unsure_parts_stay_together, setup, teardown),
 		cmocka_unit_test_setup_teardown(sides_of_a_cube_are_turned_over, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_the_flood_knows_is_not_turned, setup, teardown),
 	};
