@@ -569,12 +569,53 @@ drop_columns(mr_frame *f)
 	}
 }
 
+/* Whether triangles and positions of m are what a decoding has made: of any level, with positions p of d's.
+ * A transform has moved both by rounding. */
+static bool
+is_as_decoded(const mr_mesh *m, const mr_domain *d, const mr_mesh *control, const mr_v3 *p)
+{
+	static const double ROUNDING = 1e-9; /* of the diagonal */
+	double most = ROUNDING * mr_box_diagonal(mr_box_of(m->p, m->nv));
+	size_t nf = control->nf;
+
+	while (nf < m->nf)
+		nf *= 4;
+	if (nf != m->nf)
+		return false;
+	for (size_t i = 0; p && m->nv == d->m.nv && i < m->nv; i++)
+		if (!(mr_norm(mr_sub(m->p[i], p[i])) <= most))
+			return false;
+	return true;
+}
+
+/* What was done to mesh after control and displacement, as a crop, goes with it; p: what is to be its
+ * positions, or NULL where these are not what they were. */
+static mr_status
+warn_of_changed(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, const mr_domain *d, const mr_v3 *p)
+{
+	const char *latest;
+	mr_mesh m;
+
+	MR_TRY(mr_layer_latest(ctx, f, &latest));
+	if (!f->key || !latest || strcmp(latest, "mesh") != 0 || !mr_frame_has_layer(f, "mesh"))
+		return MR_OK;
+	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &m));
+	if (!is_as_decoded(&m, d, control, p))
+		mr_warn(ctx,
+		    "mesh of %zu triangles, which was worked on last, is not what control and displacement "
+		    "make, "
+		    "and is made anew from them: what was done to it is gone; do that after mr-decode",
+		    m.nf);
+	return MR_OK;
+}
+
 /* Level J of the surface needs the first heights alone. */
 static mr_status
 decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache, mr_decode_result *result)
 {
 	const mr_loop *refined;
 	const double *height;
+	bool posed = mr_layer_has(f, "handles", "transform") || mr_layer_has(f, "control", "encoded");
 	mr_mesh control;
 	mr_domain d;
 	mr_v3 *p;
@@ -596,10 +637,13 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	mr_domain_displace(ctx, &d, height, o->gain, p);
 	if (!o->blind)
 		MR_TRY(look_at_posed(ctx, f, cache, &d, height, o->gain, p, result));
-	d.m.p = p;
 	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
-		mr_warn(ctx, "mesh, which has detail over base, is made anew from control, without what base has "
-			     "done to it");
+		mr_warn(ctx,
+		    "mesh, which has detail over base, is made anew from control, without what base has "
+		    "done to it");
+	else
+		MR_TRY(warn_of_changed(ctx, f, &control, &d, o->gain == 1 && !posed ? p : NULL));
+	d.m.p = p;
 	drop_columns(f);
 	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));
 	MR_TRY(mr_layer_followed(ctx, f, "control"));

@@ -14,6 +14,20 @@ mr-decode torus.mrs -o out.mrs
 off out.mrs | cmp - full.off && echo 'the default is all'
 mr-decode --level 1 torus.mrs | mr-decode -o out.mrs
 off out.mrs | cmp - full.off && echo 'the heights are still there'
+
+echo 'what was done to mesh since is gone, and is told; what is as it was made, is not' >&2
+mr-decode torus.mrs -o out.mrs
+again() { # what was done
+	mr-decode 2>&1 >again.mrs | sed "s/^/$1: /" >&2
+	mr-info again.mrs | grep -q "mesh: 3840 vertices" || echo "$1: not the whole"
+}
+mr-crop -l mesh --keep above:z,0.5 out.mrs | again crop
+mr-transform -l mesh --translate 0,0,0.1 out.mrs | again move
+mr-simplify -q -l mesh -n 500 out.mrs | again simplify
+mr-decode --level 1 out.mrs | again level
+mr-decode --gain 2 out.mrs | again gain
+mr-normals -l mesh out.mrs | again normals
+mr-transform --scale 2 out.mrs | mr-transform --scale 0.5 | again transform
 mr-make torus -n 3000 -o round.mrs
 mr-compare --json -a mesh -b mesh round.mrs <out.mrs | sed 's/.*"hausdorff":\([^,}]*\).*/\1/' |
 	awk '{ print ($1 < 0.05 ? "near the torus" : "far: " $1) }'
