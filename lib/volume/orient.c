@@ -14,7 +14,7 @@ enum { BINS = 256, GRAIN = 4096 };
  * From where a point, or a part on the mean, knows its own sign: the flood says so as loud, of the mean vote
  * (it falls off more slowly on a finer grid, and so do its votes), and comes to one side of it alone.  Of 177
  * clouds of 59 closed bodies 147 wraps are right by 0.25 and 0.65 to 0.8; by a vote of 0.1 of the flood 142,
- * and a face of a tetrahedron was inside out.  By 0.25 alone 147, but of 59 bodies cut open 32, not 51.
+ * and a face of a tetrahedron was inside out.  By 0.25 alone 147, but of 59 bodies cut open 32, not 50.
  */
 static const double LOUD = 0.25, ONE_SIDED = 0.7;
 
