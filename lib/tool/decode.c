@@ -597,14 +597,13 @@ warn_of_changed(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, const mr_domai
 	mr_mesh m;
 
 	MR_TRY(mr_layer_latest(ctx, f, &latest));
-	if (!f->key || !latest || strcmp(latest, "mesh") != 0 || !mr_frame_has_layer(f, "mesh"))
+	if (!f->key || !latest || strcmp(latest, "mesh") != 0 || !mr_layer_has(f, "mesh", "triangles"))
 		return MR_OK;
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &m));
 	if (!is_as_decoded(&m, d, control, p))
 		mr_warn(ctx,
 		    "mesh of %zu triangles, which was worked on last, is not what control and displacement "
-		    "make, "
-		    "and is made anew from them: what was done to it is gone; do that after mr-decode",
+		    "make, and is made anew from them: what was done to it is gone; do that after mr-decode",
 		    m.nf);
 	return MR_OK;
 }
