@@ -487,6 +487,8 @@ mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts
 	MR_TRY(check_name(ctx, name));
 	MR_TRY(check_library(ctx, f, name));
 	MR_TRY(prepare(ctx, f, opts ? opts : &defaults, &m));
+	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
+		mr_warn(ctx, "maps are of control and its heights, without what base has done to mesh");
 	MR_TRY(write_files(ctx, &m, name, &found));
 	MR_TRY(warn_of_replaced(ctx, f));
 	MR_TRY(put_texcoords(ctx, f, &m.atlas));

@@ -1,6 +1,6 @@
 #!/bin/sh
 # report.sh -- what a batch has come to; usage: report.sh IN OUT PAGE SUFFIXES
-# Writes in OUT: failed.txt, the files of IN without a result, and why; figures.tsv, a row for each result of all figures that
+# Says which files of IN have another suffix, but those of materials.  Writes in OUT: failed.txt, the files of IN without a result, and why; figures.tsv, a row for each result of all figures that
 # the tools gave; index.html, their pictures, each of which leads to a page of PAGE models to turn.
 in=$(cd "$1" && pwd) && mkdir -p "$2" && cd "$2" || exit
 page=$3 suffixes=$4
@@ -14,9 +14,11 @@ why() { # folder
 	cat "$1"/*.log 2>/dev/null | grep -v ': warning: ' | tail -n 1 | grep . || echo "ended without a word"
 }
 
+(cd "$in" && find . -maxdepth 1 ! -type d) | sed 's,^\./,,' | LC_ALL=C sort >"$work/all"
 for suffix in $suffixes; do
-	(cd "$in" && find . -maxdepth 1 -name "*.$suffix" | sed 's,^\./,,')
-done | LC_ALL=C sort -u | while read -r name; do
+	echo "\.$suffix\$"
+done >"$work/suffixes"
+grep -f "$work/suffixes" "$work/all" | while read -r name; do
 	if [ -e "$name/picture.png" ]; then
 		echo "$name" >>"$work/done"
 	else
@@ -67,4 +69,6 @@ split -d -a 4 -l "$page" "$work/done" "$work/page-"
 mv "$work/failed.txt" "$work/figures.tsv" "$work/index.html" .
 echo "$(wc -l <"$work/done") made, $(wc -l <failed.txt) failed: $PWD/failed.txt, figures.tsv, index.html"
 head -n 10 failed.txt
+grep -v -f "$work/suffixes" "$work/all" | grep -v -i -E '\.(mtl|bin|png|jpe?g)$' >"$work/left" &&
+    echo "$(wc -l <"$work/left") of other suffixes left out: $(head -n 5 "$work/left" | paste -sd ' ' -)"
 [ ! -s failed.txt ]

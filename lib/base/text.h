@@ -43,6 +43,15 @@ mr_plural(size_t n)
 	return n == 1 ? "" : "s";
 }
 
+/* Whether a list that NULL ends has the name. */
+static inline bool
+mr_is_one_of(const char *name, const char *const *names)
+{
+	while (*names && strcmp(name, *names))
+		names++;
+	return *names;
+}
+
 /* MR_EMEM where any of it was lost. */
 mr_status mr_text_done(const mr_text *t) MR_WARN_UNUSED;
 

@@ -7,6 +7,7 @@
 #include "base/rotation.h"
 #include "base/text_file.h"
 #include "edit/handles.h"
+#include "subdivide/displaced.h"
 
 #include <ctype.h>
 #include <unistd.h>
@@ -336,6 +337,7 @@ static const struct {
 	{ "mesh", "detail_height", { 'v', 'd', 1 }, LENGTHS, true },
 	{ "mesh", "detail_offset", { 'v', 'd', 3 }, OFFSETS, true },
 	{ "displacement", "height", { 'v', 'd', 1 }, LENGTHS, true },
+	{ "displacement", "range", { '-', 'd', 2 }, LENGTHS, true },
 	{ "base", "response", { 'v', 'd', 0 }, RESPONSES, true },
 	{ "control", "response", { 'v', 'd', 0 }, RESPONSES, true },
 	{ "handles", "transform", { 'v', 'd', 12 }, MAPS, true },
@@ -514,12 +516,12 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 		if (c->unit_scale == 0)
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: %s cannot be stretched in one direction more than in another: do that "
-			    "before it is made, or behind mr-decode",
+			    "before it is made, or behind mr-decode with -l mesh",
 			    column->layer, column->name);
 		if (c->mirrors && !strcmp(column->layer, "displacement"))
 			return mr_fail(ctx, MR_EMESH,
 			    "displacement: %s follows the faces of control, which a mirror turns over: "
-			    "mirror before mr-sample or behind mr-decode",
+			    "mirror before mr-sample, or behind mr-decode with -l mesh",
 			    column->name);
 	}
 	return MR_OK;
@@ -554,9 +556,11 @@ mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map
 		return mr_layer_missing(ctx, f, layer, layer);
 	if (layer && strcmp(layer, "points") && mr_layer_has(f, "handles", "transform"))
 		return mr_fail(ctx, MR_EMESH, "%s cannot go alone: handles are posed beside it", layer);
-	MR_TRY(check(ctx, f, layer, &c));
 	if (layer)
 		MR_TRY(cut_loose(ctx, f, layer));
+	MR_TRY(check(ctx, f, layer, &c));
+	if (!layer && fabs(c.scale - 1) > 1e-9)
+		mr_displacement_warn_of_map(ctx, f);
 	if (c.mirrors)
 		mr_frame_drop(f, "base", "encoded_faces", 0);
 	for (size_t i = f->count; i-- > 0;) {

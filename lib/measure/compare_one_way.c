@@ -341,9 +341,8 @@ measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, d
 	size_t samples = opts->samples ? opts->samples : SAMPLES;
 	sums vertices, faces;
 
-	j->used = used_vertices(ctx, j->a);
 	j->bound = MR_NEW(ctx, j->a->nf, double);
-	if (!j->used || !j->bound)
+	if (!j->bound)
 		return MR_EMEM;
 	j->piece_area = area / (double)samples;
 	MR_TRY(measure(ctx, j, j->a->nv, measure_vertices, &vertices));
@@ -375,6 +374,11 @@ mr_compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_com
 
 	MR_TRY(mr_bvh_build(ctx, b, &bvh));
 	j.bvh = bvh;
+	if (a->nf > 0 && !opts->vertices_only) {
+		j.used = used_vertices(ctx, a);
+		if (!j.used)
+			return MR_EMEM;
+	}
 	if (area > 0)
 		MR_TRY(measure_surface(ctx, &j, opts, area, scale, out));
 	else

@@ -467,6 +467,17 @@ is_print(const joined *j)
 	return !strcmp(j->name, "encoded_faces") && frames_with(j, j->layer) > 1;
 }
 
+/* Why columns of the layer are left out, and what helps. */
+static const char *
+why_left(const joined *j)
+{
+	if (!strcmp(j->layer, "displacement") && frames_with(j, "control") > 1)
+		return "heights are of one control mesh; mr-decode before makes mesh of each";
+	if (!strcmp(j->layer, "handles"))
+		return "several frames have handles; mr-solve goes before";
+	return "not all frames have that, in one shape, or its rows cannot be numbered anew";
+}
+
 static mr_status
 join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 {
@@ -494,10 +505,7 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 	mr_text_more(&left, n);
 	MR_TRY(mr_text_done(&left));
 	if (n)
-		mr_warn(ctx,
-		    "%s is appended without %s: not all frames have that, in one shape, or its rows "
-		    "cannot be numbered anew",
-		    j->layer, left.s);
+		mr_warn(ctx, "%s is appended without %s: %s", j->layer, left.s, why_left(j));
 	return MR_OK;
 }
 

@@ -294,11 +294,14 @@ mr_layer_choose_warned(
     mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer)
 {
 	const char *latest;
+	bool can;
 
 	MR_TRY(mr_layer_choose(ctx, f, only, layers, layer));
 	MR_TRY(mr_layer_latest(ctx, f, &latest));
-	if (!only && f->key && latest && strcmp(latest, *layer) != 0 && mr_layer_has(f, latest, "position"))
-		mr_warn(ctx, "%s is taken, not %s, which was worked on last: -l %s takes that", *layer,
-		    latest, latest);
+	if (only || !f->key || !latest || !strcmp(latest, *layer) || !mr_layer_has(f, latest, "position"))
+		return MR_OK;
+	can = mr_is_one_of(latest, layers) || mr_layer_has(f, latest, "triangles");
+	mr_warn(ctx, "%s is taken, not %s, which was worked on last%s%s%s", *layer, latest,
+	    can ? ": -l " : "", can ? latest : "", can ? " takes that" : "");
 	return MR_OK;
 }

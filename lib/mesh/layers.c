@@ -47,7 +47,7 @@ const mr_column_info mr_columns[] = {
 	{ "base", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
 	{ "base", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
 	{ "base", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
-	{ "control", "encoded", { 'v', 'd', 3 }, "positions on which displacement was sampled" },
+	{ "control", "encoded", { 'v', 'd', 3 }, "positions before mr-solve moved it" },
 	{ "control", "crease", { 'f', 'b', 3 }, "1 where the edge from that corner on is sharp, else 0" },
 	{ "control", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
 	{ "control", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
@@ -541,12 +541,7 @@ is_given(const mr_column *c, const char *layer)
 
 	if (strcmp(c->layer, layer) || c->shape.element == '-')
 		return false;
-	if (!info_of(layer, c->name))
-		return true;
-	for (const char *const *name = names; *name; name++)
-		if (!strcmp(c->name, *name))
-			return true;
-	return false;
+	return !info_of(layer, c->name) || mr_is_one_of(c->name, names);
 }
 
 /* Warns, behind the sentence, of what a file gave to `from` and `has` (NULL: nothing) has not. */
@@ -582,6 +577,13 @@ mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const c
 	const char *sentence = mr_format(ctx, "%s is made anew, without its ", layer);
 
 	return sentence ? warn_of_given(ctx, f, layer, from, sentence) : MR_EMEM;
+}
+
+void
+mr_layer_warn_of_place(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *by)
+{
+	if (f->key && mr_layer_has(f, layer, "position"))
+		mr_warn(ctx, "%s is %s now: the surface that it was is gone", layer, by);
 }
 
 mr_status

@@ -66,6 +66,9 @@ mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr
  * it will be (NULL: of none), has not. */
 mr_status mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);
 
+/* Warns, of key frames, where the layer is there and another surface, that of `by`, is to take its place. */
+void mr_layer_warn_of_place(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *by);
+
 /* Warns, of key frames, of what a file gave to `from` that `layer`, which was made from it, has not. */
 mr_status mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);
 

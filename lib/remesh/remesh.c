@@ -235,12 +235,15 @@ faces_wanted(const mr_remesh_opts *o)
 	return o->faces > 0 ? (double)o->faces : 2 * (double)o->vertices;
 }
 
-/* The length that will about give the number that is wanted. */
+/*
+ * The length that will about give the number that is wanted, by area alone: where the surface is thinner than
+ * its edges that is too short, which the rounds mend. One too long they cannot: it flattens limbs for good.
+ */
 static void
 aim(remesher *r)
 {
 	if (faces_wanted(r->o) > 0)
-		lengthen(r, factor_for(mr_remesh_demand(&r->d, &r->source), faces_wanted(r->o)));
+		lengthen(r, sqrt(mr_remesh_demand(&r->d, &r->source).area / faces_wanted(r->o)));
 }
 
 /* How many times as many as are wanted there are; 1 where none is. */

@@ -230,7 +230,7 @@ mr_demand
 mr_remesh_demand(const mr_dyn *d, const mr_remesh_source *s)
 {
 	resampler r = { .d = (mr_dyn *)(uintptr_t)d, .s = s };
-	mr_demand sum = { 0, 0 };
+	mr_demand sum = { 0 };
 
 	for (uint32_t f = 0; f < d->nf; f++) {
 		double l, longest = 0, area;
@@ -241,6 +241,7 @@ mr_remesh_demand(const mr_dyn *d, const mr_remesh_source *s)
 			longest = fmax(longest, edge_length2(d, h));
 		longest = sqrt(longest) / l;
 		area = mr_norm(mr_dyn_cross(d, d->p, f)) / (2 * EQUILATERAL * l * l);
+		sum.area += area;
 		*(area > longest ? &sum.flat : &sum.thin) += fmax(area, longest);
 	}
 	return sum;

@@ -18,10 +18,11 @@ typedef struct mr_resampled {
 	size_t room;
 } mr_resampled;
 
-/* About how many faces the surface will have, by area where it is wider than an edge, and by length where it
- * is thinner. */
+/* How many faces the surface may take, by area where its own are wider than an edge, and by length where they
+ * are thinner; and how many equilateral ones have its area. */
 typedef struct mr_demand {
 	double flat, thin;
+	double area;
 } mr_demand;
 
 /* MR_ERANGE with a sentence that names the length to take instead. */

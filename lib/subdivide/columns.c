@@ -1,6 +1,8 @@
 /* Each kind of column has its own way to a finer mesh. */
 #include "subdivide/columns.h"
 
+#include "base/text.h"
+
 /* Where the corners of a fine triangle are in the triangle that it is a part of. */
 typedef struct corners {
 	uint32_t face;
@@ -242,14 +244,6 @@ face_column(mr_ctx *ctx, const mr_refined *r, const mr_carried *c, const void **
 
 /* ---- all of them ---- */
 
-static bool
-is_one_of(const char *name, const char *const *names)
-{
-	while (*names && strcmp(name, *names))
-		names++;
-	return *names;
-}
-
 /* Those by convention that go along, and all that are none by convention. */
 static bool
 goes_along(const mr_column *c, const char *layer, const mr_refined *r)
@@ -266,7 +260,7 @@ goes_along(const mr_column *c, const char *layer, const mr_refined *r)
 		return !r->level || r->n == 0;
 	if (!mr_column_known(layer, c->name))
 		return element != '-';
-	return is_one_of(c->name, element == 'v' ? vertex : element == 'f' ? face : names);
+	return mr_is_one_of(c->name, element == 'v' ? vertex : element == 'f' ? face : names);
 }
 
 /* The column on the fine mesh, in place. */

@@ -64,17 +64,22 @@ mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, mr_frame *f, const mr_me
     size_t n, const mr_loop **level)
 {
 	const mr_column *mark = mr_frame_find(f, m->name, "crease");
-	uint64_t serial = mr_frame_find(f, m->name, "triangles")->serial, mark_serial = mark ? mark->serial : 0;
+	uint64_t serial = mr_frame_find(f, m->name, "triangles")->serial,
+		 mark_serial = mark ? mark->serial : 0;
 	mr_status status;
 
 	*level = cache->level;
 	if (cache->level && !f->key && serial && serial == cache->serial && n == cache->n &&
-	    mark_serial == cache->mark_serial &&
-	    crease == cache->crease && crease >= 180) /* creases move with the positions */
+	    mark_serial == cache->mark_serial && crease == cache->crease &&
+	    crease >= 180) /* creases move with the positions */
 		return MR_OK;
 	if (cache->level)
 		mr_mark_release(keep, cache->mark);
-	*cache = (mr_level_cache){ .n = n, .crease = crease, .mark = mr_mark_take(keep), .serial = serial, .mark_serial = mark_serial };
+	*cache = (mr_level_cache){ .n = n,
+		.crease = crease,
+		.mark = mr_mark_take(keep),
+		.serial = serial,
+		.mark_serial = mark_serial };
 	status = fill_cache(cache, keep, f, m);
 	if (status != MR_OK)
 		mr_mark_release(keep, cache->mark);
@@ -201,6 +206,14 @@ mr_displacement_check(mr_ctx *ctx, mr_frame *f)
 	return stored_heights(ctx, f, &control, &n, &height, &rows);
 }
 
+void
+mr_displacement_warn_of_map(mr_ctx *ctx, const mr_frame *f)
+{
+	if (f->key && mr_layer_has(f, "displacement", "range") && mr_layer_has(f, "control", "mtllib"))
+		mr_warn(ctx, "the pictures of control by mr-map have other heights than these: mr-map -w "
+			     "makes them again");
+}
+
 mr_status
 mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *height)
 {
@@ -210,6 +223,7 @@ mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *
 		return MR_EMEM;
 	*level = (uint32_t)d->n;
 	mr_frame_drop(f, "displacement", "range", 0);
+	mr_frame_drop(f, "control", "encoded", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", height, d->m.nv));
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "level", level, 1));
 	return mr_layer_worked(ctx, f, "displacement");

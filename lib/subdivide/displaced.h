@@ -1,6 +1,6 @@
 /*
- * displaced.h -- displaced subdivision surfaces: a control mesh and one scalar a vertex (Lee et al. 2000; Jeong,
- * Kim 2001, section 5).
+ * displaced.h -- displaced subdivision surfaces: a control mesh and one scalar a vertex (Lee et al. 2000;
+ * Jeong, Kim 2001, section 5).
  *
  * The domain of level n has the limit points v and unit limit normals n of the vertices on level n of Loop's
  * subdivision of the control mesh; the surface is v + h n.  A vertex has the same v and n on every level, so
@@ -11,7 +11,6 @@
 
 #include "mesh/layers.h"
 #include "subdivide/loop.h"
-
 
 typedef struct mr_domain {
 	size_t n;             /* its level */
@@ -39,7 +38,7 @@ typedef struct mr_level_cache {
 	mr_loop *level; /* NULL: empty */
 	size_t n;
 	double crease;
-	mr_mark mark;    /* of the arena that outlives frames */
+	mr_mark mark;                 /* of the arena that outlives frames */
 	uint64_t serial, mark_serial; /* of the layer's triangles, of its creases (0: none) */
 } mr_level_cache;
 
@@ -63,5 +62,9 @@ mr_displacement_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t *n,
 mr_status mr_displacement_check(mr_ctx *ctx, mr_frame *f);
 
 mr_status mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *height);
+
+/* Warns, of key frames, where the heights are to be others than those of the pictures that mr-map has made of
+ * control. */
+void mr_displacement_warn_of_map(mr_ctx *ctx, const mr_frame *f);
 
 #endif

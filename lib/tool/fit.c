@@ -41,6 +41,8 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 		MR_TRY(find_sampling(ctx, f, &points, &sampling));
 		known = &sampling;
 	}
+	if (!strcmp(layer, "control"))
+		MR_TRY(mr_sample_warn_of_move(ctx, f, from, "mr-fit goes before mr-solve"));
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;

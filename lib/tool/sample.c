@@ -14,6 +14,40 @@ mr_sample_meets_faces(const mr_frame *f, const char *layer)
 	return strcmp(from, "points") && faces && faces->rows;
 }
 
+/* Whether control is not where it was before mr-solve. */
+static mr_status
+find_moved(mr_ctx *ctx, mr_frame *f, bool *moved)
+{
+	const void *p, *before;
+	mr_mesh control;
+
+	*moved = false;
+	if (!mr_layer_has(f, "control", "encoded"))
+		return MR_OK;
+	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
+	p = control.p;
+	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", control.nv, &before));
+	*moved = memcmp(p, before, control.nv * sizeof *control.p) != 0;
+	return MR_OK;
+}
+
+mr_status
+mr_sample_warn_of_move(mr_ctx *ctx, mr_frame *f, const char *from, const char *remedy)
+{
+	bool moved, pending;
+
+	MR_TRY(find_moved(ctx, f, &moved));
+	MR_TRY(mr_layer_is_pending(ctx, f, "control", &pending));
+	if (!strcmp(from, "mesh") && mr_frame_has_layer(f, "displacement") && !pending)
+		moved = false; /* mr-decode has made it anew */
+	if (moved && f->key)
+		mr_warn(ctx,
+		    "mr-solve has moved control, and not %s, which mr-fit and mr-sample go by: that is lost; "
+		    "%s",
+		    from, remedy);
+	return MR_OK;
+}
+
 /* The layer to sample: points, or else the mesh, as its points alone where it has no faces. */
 static mr_status
 get_target(mr_ctx *ctx, mr_frame *f, const char *only, mr_mesh *target)
@@ -110,6 +144,7 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 	MR_TRY(get_target(ctx, f, o->layer, &target));
 	if (n == MR_UNKNOWN)
 		MR_TRY(choose_level(ctx, &control, target.nv, &n));
+	MR_TRY(mr_sample_warn_of_move(ctx, f, target.name, "mr-sample goes before mr-solve"));
 	MR_TRY(mr_domain_of(ctx, f, &control, n, &d));
 	height = MR_NEW(ctx, d.m.nv, double);
 	if (!height)
@@ -124,6 +159,7 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 		result->level = n;
 		result->vertices = d.m.nv;
 	}
+	mr_displacement_warn_of_map(ctx, f);
 	mr_frame_drop(f, "displacement", NULL, 0);
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
 	return target.nf ? MR_OK : put_columns(ctx, f, &d, &target, &sampling, height);

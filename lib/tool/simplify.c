@@ -1,11 +1,13 @@
 /* mr-simplify: fewer faces, with what is known of the surface carried over. */
 #include "simplify/simplify.h"
 
+#include "edit/detail.h"
 #include "measure/crossings.h"
 #include "measure/gaps.h"
 #include "mesh/layers.h"
 #include "simplify/creases.h"
 #include "space/sampling.h"
+#include "tool/sample.h"
 #include "tool/shrinking.h"
 
 /* By default, but for control meshes. */
@@ -91,6 +93,7 @@ put_map(mr_ctx *ctx, mr_frame *f, const char *map_layer, const mr_mesh *m, const
 	MR_TRY(mr_simplify_map(ctx, m, out, onto, &map));
 	snprintf(face, sizeof face, "%s_face", m->name);
 	snprintf(bary, sizeof bary, "%s_bary", m->name);
+	mr_layer_warn_of_place(ctx, f, map_layer, m->name);
 	MR_TRY(mr_layer_put_mesh(ctx, f, map_layer, m));
 	MR_TRY(mr_layer_put(ctx, f, map_layer, face, map.face, m->nv));
 	return mr_layer_put(ctx, f, map_layer, bary, map.bary, m->nv);
@@ -107,6 +110,8 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 		MR_TRY(mr_simplify_source(ctx, m, out, onto, &over));
 		MR_TRY(mr_source_map_follow(ctx, f, m, &over, out->nv, &source, &mapped));
 	}
+	if (!strcmp(m->name, "mesh"))
+		MR_TRY(mr_detail_warn_of_loss(ctx, f));
 	MR_TRY(mr_layer_replace(ctx, f, m->name, out));
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
@@ -226,6 +231,9 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
 	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;
+	if (points.nv > 0)
+		MR_TRY(
+		    mr_sample_warn_of_move(ctx, f, points.name, "mr-export and mr-import take mesh alone"));
 	if (o.to)
 		MR_TRY(mr_layer_warn_of_loss(ctx, f, o.to, NULL));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));

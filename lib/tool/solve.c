@@ -126,7 +126,7 @@ check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 		bad += !mr_finite(p[v]);
 	return bad ? mr_fail(ctx, MR_ERANGE,
 			 "%s: %zu of %zu vertices go beyond all numbers: its coordinates, or those of its "
-	                 "handles or targets, are too large",
+			 "handles or targets, are too large",
 			 m->name, bad, m->nv)
 	           : MR_OK;
 }
@@ -164,12 +164,14 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
 }
 
-/* A control mesh that leaves its displacement's place for the first time: where that was. */
+/* A control mesh that leaves for the first time the place of its displacement, or is posed without one: where
+ * that was. */
 static mr_status
-keep_encoded(mr_ctx *ctx, mr_frame *f, const mr_mesh *m)
+keep_encoded(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool posing)
 {
-	if (strcmp(m->name, "control") != 0 || !mr_frame_has_layer(f, "displacement") ||
-	    mr_layer_has(f, m->name, "encoded"))
+	bool leaves = posing || mr_frame_has_layer(f, "displacement");
+
+	if (strcmp(m->name, "control") != 0 || !leaves || mr_layer_has(f, m->name, "encoded"))
 		return MR_OK;
 	return mr_layer_put(ctx, f, m->name, "encoded", m->p, m->nv);
 }
@@ -218,7 +220,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	else
 		memcpy(p, m.p, m.nv * sizeof *p);
 	MR_TRY(check_solution(ctx, &m, p));
-	MR_TRY(keep_encoded(ctx, f, &m));
+	MR_TRY(keep_encoded(ctx, f, &m, posing));
 	if (posing)
 		MR_TRY(mr_detail_keep_before(ctx, f, &m));
 	if (o->flatten)

@@ -1,5 +1,6 @@
 /* mr-subdivide: a finer mesh, and its layer's columns on it. */
 #include "base/text.h"
+#include "edit/detail.h"
 #include "mesh/fold.h"
 #include "mesh/normals.h"
 #include "subdivide/longest.h"
@@ -63,13 +64,14 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 	if (r->level)
 		MR_TRY(turn_normals(ctx, r, carried, n));
 	if (strcmp(layer, "mesh")) {
+		if (strcmp(layer, "control") != 0)
+			mr_layer_warn_of_place(ctx, f, "mesh", layer);
 		MR_TRY(mr_layer_warn_of_loss(ctx, f, "mesh", layer));
 		mr_frame_drop(f, "mesh", NULL, 0);
 		if (!strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
 			mr_warn(ctx, "mesh is control without its displacement: mr-decode adds that");
-	} else if (r->fine.nv > r->m.nv && mr_layer_has(f, "mesh", "detail_height"))
-		mr_warn(ctx,
-		    "mesh has new vertices, and its detail over base is gone: subdivide before mr-encode");
+	} else if (r->fine.nv > r->m.nv)
+		MR_TRY(mr_detail_warn_of_loss(ctx, f));
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
 	for (size_t i = 0; i < n; i++)
 		MR_TRY(mr_frame_put(

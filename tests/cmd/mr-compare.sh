@@ -53,3 +53,8 @@ cmp one two && echo "threads ok"
 # for people: what is rounding here is not printed
 mr-make plane -n 9 >plane.mrs
 mr-compare -i plane.mrs plane.mrs | sed 's/[0-9.]*e-[0-9]*/0/g; s/  *0/ 0/g'
+
+# a surface without area has its faces' vertices alone
+printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 5\nf 1 2 3\n' >line.obj
+mr-compare --json line.obj line.obj >json || exit
+near "isolated of no area" "$(first json both hausdorff)" 0 1e-12

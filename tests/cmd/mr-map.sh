@@ -165,3 +165,5 @@ echo '-- each frame of several streams has its number'
 mr-map -w several-%d scan.mrs scan.mrs -o out.mrs && ls several-*
 echo '-- no picture holds what is infinitely far apart'
 refused -w no --range=-1e308,1e308 scan.mrs
+echo '-- maps are of control'
+mr-smooth -q -l mesh kept-scan.mrs | mr-encode | mr-map -w based 2>&1 >out.mrs | grep -o 'maps are.*'

@@ -83,3 +83,10 @@ mr-encode rod.mrs | mr-decode -o back.mrs && mr-compare -l mesh rod.mrs back.mrs
 echo 'bodies that share a wall: finer, more pairs of faces coincide, in the same places' >&2
 mr-make cube -n 12 -o cube.mrs
 mr-transform --translate 2,0,0 cube.mrs | mr-cat --append cube.mrs - | mr-remesh -L 8% --feature auto 2>&1 >out | sed 's/vertex.*/vertex/' >&2
+
+echo 'so many vertices as a surface has room for, limbs thinner than an edge is long at half as many: no warning, none flat' >&2
+mr-make torus -n 1000 | mr-remesh --vertices 320 -o torus.mrs
+mr-compare -a base -b mesh <torus.mrs | awk '/^  both, %/ { print ($6 < 1 ? "near" : $6) }'
+mr-make knot -n 2000 | mr-remesh --vertices 1000 >/dev/null
+mr-make cylinder -n 6000 | mr-transform --scale 0.2,0.2,1 | mr-remesh --vertices 1000 --stats stats.json >/dev/null
+sed 's/.*"vertices":\([0-9]*\).*/\1/' stats.json | awk '{ print ($1 > 950 && $1 < 1050 ? "a thousand" : $1) }'

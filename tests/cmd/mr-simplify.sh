@@ -79,3 +79,13 @@ mr-simplify -n 20 rod.obj | mr-info | grep -E 'faces|volume'
 printf 'v 1 0 0\nv -1 0 0\nv 0 1 0\nv 0 -1 0\nv 0 0 1\nv 0 0 -1\nf 1 3 5\nf 3 2 5\nf 2 4 5\nf 4 1 5\nf 3 1 6\nf 2 3 6\nf 4 2 6\nf 1 4 6\n' >octahedron.obj
 mr-simplify -r .5 octahedron.obj 2>&1 >out.mrs | grep -o 'mesh: .*'
 mr-make boxes --genus 20 | mr-simplify -n 20 2>&1 >out.mrs | grep -o 'not 20.*'
+echo 'what takes the place of another surface, and what goes with detail'
+mr-make torus -n 500 | mr-smooth -o smooth.mrs
+mr-simplify -q -l base -r 0.5 --map fine smooth.mrs -o fine.mrs
+for layer in mesh fine; do
+	mr-simplify -l base -r 0.7 --map $layer fine.mrs 2>&1 >out.mrs | grep -o "$layer is.*"
+done
+mr-encode smooth.mrs | mr-simplify -l mesh -r 0.5 2>&1 >out.mrs | grep -o 'mesh has.*'
+mr-select --free all --handle 0=above:x,0.8 smooth.mrs | mr-encode | mr-pose --translate 0,0,1 | mr-solve -o posed.mrs
+mr-simplify -l mesh -r 0.5 posed.mrs 2>&1 >out.mrs | grep -o 'mesh has.*'
+mr-decode -q posed.mrs | mr-simplify -l mesh -r 0.5 2>&1 >out.mrs && echo none behind mr-decode

@@ -114,3 +114,23 @@ mr-transform --unit moves.mrs | mr-info -l mesh | grep box
 
 mr-make cube -n 8 | mr-transform -m nan,0,0,0,0,1,0,0,0,0,1,0 >out
 echo "exit $?"
+echo 'what keeps detail from following is left behind with -l mesh'
+mr-make torus -n 300 | mr-smooth | mr-encode | mr-decode -o encoded.mrs
+mr-transform -l mesh --scale 1,2,1 encoded.mrs | mr-export -l mesh stretched.off
+mr-make torus -n 300 | mr-transform --scale 1,2,1 | mr-export same.off
+mr-compare stretched.off same.off | awk '/^  vertex / { print ($3 < 1e-12 ? "same" : $3) }'
+echo 'pictures of heights keep their size, and that is told; the range does not'
+mr-make sphere -n 60 | mr-simplify --to control -n 40 | mr-sample -q -n 1 | mr-map -w relief -o mapped.mrs
+for change in '--scale 2' '--rotate 1,2,3,40' '-l mesh --scale 2'; do
+	mr-transform $change mapped.mrs 2>&1 >out.mrs | grep -o 'the pictures.*'
+done
+mr-transform -q --scale 2 mapped.mrs -o out.mrs
+python3 - mapped.mrs out.mrs <<'END'
+import struct, sys
+def numbers(path):
+    data = open(path, "rb").read()
+    at = data.index(b"displacement\0\0\0\0range\0")
+    return struct.unpack("<2d", data[at + 64:at + 80])
+one, two = map(numbers, sys.argv[1:])
+print("range", "twice" if two == (2 * one[0], 2 * one[1]) else (one, two))
+END

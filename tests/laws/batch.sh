@@ -19,6 +19,8 @@ for seed in 1 2 3 4; do
 	mr-make sphere --points 200 --seed $seed | mr-export models/ball.$seed.xyz
 done
 mr-make boxes -n 200 | mr-export models/-boxes.obj
+mr-make torus -n 200 | mr-export models/ring.off.gz
+mr-make sphere --points 200 | mr-export models/cloud.pts && mv models/cloud.pts models/CLOUD.PTS
 head -c 1000 models/torus-1.ply >models/broken.ply
 echo 'no model' >models/README
 
@@ -29,15 +31,16 @@ done
 
 batch peace >peace.log 2>&1 && complain "make succeeds with a broken model"
 [ ! -e gone ] || complain "the name of a file is run"
-[ "$(cat peace/*/picture.png | grep -ac IHDR)" -eq 9 ] || { cat peace.log; complain "not nine pictures"; }
-[ "$(ls peace/*/surface.ply | wc -l)" -eq 9 ] || complain "not nine surfaces"
-[ "$(wc -l <peace/figures.tsv)" -eq 10 ] || complain "not nine rows of figures"
+[ "$(cat peace/*/picture.png | grep -ac IHDR)" -eq 11 ] || { cat peace.log; complain "not eleven pictures"; }
+grep -q "^1 of other suffixes left out: README$" peace.log || complain "what is no model is not told of"
+[ "$(ls peace/*/surface.ply | wc -l)" -eq 11 ] || complain "not eleven surfaces"
+[ "$(wc -l <peace/figures.tsv)" -eq 12 ] || complain "not eleven rows of figures"
 awk -F '\t' 'NR == 1 { n = NF; if ($2 !~ /^mr-[a-z]*\./) exit 1 } NF != n || (NR > 1 && $2 !~ /^[0-9.e-]+$/) { exit 1 }' peace/figures.tsv ||
     { cut -c1-200 peace/figures.tsv; complain "the figures are no table"; }
 [ "$(wc -l <peace/failed.txt)" -eq 10 ] || { cat peace/failed.txt; complain "not ten failures"; }
 grep -q "^broken.ply	mr-import: .*models/broken.ply: byte" peace/failed.txt || complain "a broken model without its sentence"
 grep -q "^two words.ply	not begun; no names with blanks" peace/failed.txt || complain "a name with blanks is not told of"
-[ "$(grep -o '<img' peace/index.html | wc -l)" -eq 9 ] && [ -s peace/page-0000.html ] || complain "the gallery is not of nine models"
+[ "$(grep -o '<img' peace/index.html | wc -l)" -eq 11 ] && [ -s peace/page-0000.html ] || complain "the gallery is not of eleven models"
 
 # Killed at some time, with all that it started; a model whose file is newer is made again, and only that.
 for pause in 0.1 0.3 0.6; do
