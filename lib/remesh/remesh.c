@@ -362,21 +362,30 @@ check_demand(remesher *r)
 	return mr_too_fine(r->ctx, &r->source, faces, most, r->source.uniform * factor_for(n, most));
 }
 
+/*
+ * Between rounds the length grows by the root of how many times too many there are, since faces go with its
+ * square; where there still are when the rounds are over, the surface is thinner than its edges, and they go
+ * with the length itself.
+ */
 static mr_status
 run(remesher *r)
 {
 	enum {
 		SETTLED = 2
 	}; /* the rounds before make the density what it is to be, which may be less even */
-	double start = mr_seconds(), middle, before = INFINITY, after;
+	double start = mr_seconds(), middle, before = INFINITY, after, had = 1;
 	size_t rounds = r->o->rounds;
 
 	if (rounds > 0)
 		MR_TRY(thin_out(r));
 	MR_TRY(check_demand(r));
 	for (size_t i = 0; i < rounds; i++) {
-		if (i > 0)
-			lengthen(r, i < r->o->rounds ? sqrt(excess(r)) : excess(r));
+		if (i > 0) {
+			double now = excess(r);
+			bool thin = i >= r->o->rounds && had > 1 && now > 1;
+			lengthen(r, thin ? now : sqrt(now));
+			had = now;
+		}
 		MR_TRY(one_round(r, i == 0));
 		mr_refine_grade(&r->d, &r->source);
 		MR_TRY(area_variance(r, &after));
