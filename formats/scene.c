@@ -128,19 +128,36 @@ add_layers(mr_ctx *keep, mr_scene *scene, const mr_frame *f, const layers *l)
 	return MR_OK;
 }
 
+/* Poses have normals in the file where all of the node have some, the first too. */
+static void
+warn_of_normals(mr_ctx *ctx, const mr_scene_node *n, const mr_model *m)
+{
+	const mr_target *last = n->targets ? &n->target[n->targets - 1] : NULL;
+	bool had = last ? last->normal || last->corner_normal : n->model.normal || n->model.corner_normal;
+	bool has = m->normal || m->corner_normal;
+
+	if (had != has)
+		mr_warn(ctx, "%s: normals of poses are left out: this frame has %s, the one before %s",
+		    n->layer, has ? "some" : "none", has ? "none" : "some");
+}
+
 mr_status
 mr_scene_add(
     mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *list, mr_export_result *result)
 {
 	mr_sink losses = { .ctx = ctx };
 	layers l;
+	bool pose;
 
 	mr_unmeasured(&losses.lost, sizeof losses.lost);
 	MR_TRY(get_layers(ctx, f, list, &l));
+	pose = is_pose(scene, f, &l);
 	for (size_t i = 0; i < l.count; i++) {
-		mr_status status = is_pose(scene, f, &l) ? mr_note_rounded(&losses, &l.model[i])
-		                                         : mr_glb_note_lost(&losses, &l.model[i]);
+		mr_status status = pose ? mr_note_rounded(&losses, &l.model[i])
+		                        : mr_glb_note_lost(&losses, &l.model[i]);
 		MR_TRY(mr_prefix(ctx, status, "%s", l.name[i]));
+		if (pose)
+			warn_of_normals(ctx, &scene->node[scene->open + i], &l.model[i]);
 	}
 	*result = losses.lost;
 	return add_layers(keep, scene, f, &l) < 0 ? no_memory(ctx, keep) : MR_OK;

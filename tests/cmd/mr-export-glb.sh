@@ -100,8 +100,8 @@ mr-export -i torus.mrs --stats stats rounded.glb
 grep -o '"rounded_positions":[0-9]*' stats
 
 echo '-- a delta that changes colours is no pose'
-cat >colors.py <<'P'
-import sys, zlib
+cat >delta.py <<'P'
+import struct, sys, zlib
 def record(kind, payload=b"", layer="", element="-", type="t", components=1, rows=None):
     rows = len(payload) if rows is None else rows
     head = bytearray(layer.encode().ljust(16, b"\0") + kind.encode().ljust(24, b"\0") + element.encode() + type.encode() + bytes([components, 0]))
@@ -110,12 +110,18 @@ def record(kind, payload=b"", layer="", element="-", type="t", components=1, row
     return bytes(head) + payload + bytes(-len(payload) % 64)
 stream = sys.stdin.buffer.read()
 end = stream.rindex(b"END\0") - 16
-delta = record("FRAME", b"delta red") + record("color", bytes([255, 0, 0, 255]) * 3, "mesh", "v", "b", 4, 3) + record("ENDFRAME")
+columns = {"color": record("color", bytes([255, 0, 0, 255]) * 3, "mesh", "v", "b", 4, 3),
+           "normal": record("normal", struct.pack("<9d", *3 * [0, 0, 1]), "mesh", "v", "d", 3, 3)}
+delta = record("FRAME", b"delta red") + columns[sys.argv[1]] + record("ENDFRAME")
 sys.stdout.buffer.write(stream[:end] + delta + stream[end:])
 P
 printf 'v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3\n' >white.obj
-mr-import white.obj | python3 colors.py >colors.mrs
+mr-import white.obj | python3 delta.py color >colors.mrs
 mr-export -i colors.mrs colors.glb && mr-import colors.glb | mr-export -q -f obj - | grep -c -e '1 0 0$' -e '1 1 1$'
+
+echo '-- nor has a file normals of poses alone'
+mr-import white.obj | python3 delta.py normal | mr-export normals.glb
+mr-import normals.glb | mr-info | grep -c 'normal '
 
 echo '-- what only some corners of a triangle, or some points, have'
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2 3\nf 1/1/1 3/2/1 4/3/1\n' >some.obj
