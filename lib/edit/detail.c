@@ -473,22 +473,6 @@ mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 	return MR_OK;
 }
 
-/* Whether base is where mesh was encoded. */
-static mr_status
-is_at_rest(mr_ctx *ctx, mr_frame *f, bool *is)
-{
-	const void *p, *encoded;
-	size_t n;
-
-	*is = true;
-	if (!mr_layer_has(f, "base", "encoded"))
-		return MR_OK;
-	MR_TRY(mr_layer_get(ctx, f, "base", "position", &p, &n));
-	MR_TRY(mr_layer_get_rows(ctx, f, "base", "encoded", n, &encoded));
-	*is = !memcmp(p, encoded, n * sizeof(mr_v3));
-	return MR_OK;
-}
-
 mr_status
 mr_detail_warn_of_loss(mr_ctx *ctx, mr_frame *f)
 {
@@ -496,7 +480,7 @@ mr_detail_warn_of_loss(mr_ctx *ctx, mr_frame *f)
 
 	if (!f->key || !mr_layer_has(f, "mesh", "detail_height"))
 		return MR_OK;
-	MR_TRY(is_at_rest(ctx, f, &rest));
+	MR_TRY(mr_layer_is_as_encoded(ctx, f, "base", &rest));
 	MR_TRY(mr_layer_is_pending(ctx, f, "base", &pending));
 	if (rest || pending)
 		mr_warn(ctx, "mesh has other vertices, and its detail over base is gone: that goes before "

@@ -463,6 +463,21 @@ same_positions(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	       !memcmp(p, m->p, nv * sizeof *m->p);
 }
 
+mr_status
+mr_layer_is_as_encoded(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
+{
+	const void *p = NULL, *encoded = NULL;
+	size_t n;
+
+	*is = true;
+	if (!mr_layer_has(f, layer, "encoded"))
+		return MR_OK;
+	MR_TRY(mr_layer_get(ctx, f, layer, "position", &p, &n));
+	MR_TRY(mr_layer_get_rows(ctx, f, layer, "encoded", n, &encoded));
+	*is = !memcmp(p, encoded, n * sizeof(mr_v3));
+	return MR_OK;
+}
+
 /* A copy of a column of normals, or NULL where the layer has none. */
 static mr_status
 copy_normals(

@@ -99,6 +99,9 @@ mr_status mr_layer_missing(mr_ctx *ctx, const mr_frame *f, const char *names, co
 mr_status
 mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer);
 
+/* Whether the layer is where its column `encoded` has it, to the bit, or has none. */
+mr_status mr_layer_is_as_encoded(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
+
 /*
  * The layer that was worked on last (column `latest`, of no layer): made, moved, or given what stands over
  * it. mr_layer_put_mesh and mr_layer_move note it; a frame's only layer needs no note.  What was done to the

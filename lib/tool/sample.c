@@ -14,33 +14,16 @@ mr_sample_meets_faces(const mr_frame *f, const char *layer)
 	return strcmp(from, "points") && faces && faces->rows;
 }
 
-/* Whether control is not where it was before mr-solve. */
-static mr_status
-find_moved(mr_ctx *ctx, mr_frame *f, bool *moved)
-{
-	const void *p, *before;
-	mr_mesh control;
-
-	*moved = false;
-	if (!mr_layer_has(f, "control", "encoded"))
-		return MR_OK;
-	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
-	p = control.p;
-	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", control.nv, &before));
-	*moved = memcmp(p, before, control.nv * sizeof *control.p) != 0;
-	return MR_OK;
-}
-
 mr_status
 mr_sample_warn_of_move(mr_ctx *ctx, mr_frame *f, const char *from, const char *remedy)
 {
-	bool moved, pending;
+	bool still, pending;
 
-	MR_TRY(find_moved(ctx, f, &moved));
+	MR_TRY(mr_layer_is_as_encoded(ctx, f, "control", &still));
 	MR_TRY(mr_layer_is_pending(ctx, f, "control", &pending));
 	if (!strcmp(from, "mesh") && mr_frame_has_layer(f, "displacement") && !pending)
-		moved = false; /* mr-decode has made it anew */
-	if (moved && f->key)
+		still = true; /* mr-decode has made it anew */
+	if (!still && f->key)
 		mr_warn(ctx,
 		    "mr-solve has moved control, and not %s, which mr-fit and mr-sample go by: that is lost; "
 		    "%s",
