@@ -153,7 +153,7 @@ MR_API mr_status mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_m
 /* The layer's positions, checked; faces are not looked at (m->t NULL, nf 0). */
 MR_API mr_status mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m) MR_WARN_UNUSED;
 
-/* Puts positions, which must be finite, and triangles; where they are other ones drops what is stale. */
+/* Puts positions, which must be finite, and triangles; where others were drops what is stale, and warns. */
 MR_API mr_status mr_layer_put_mesh(
     mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m) MR_WARN_UNUSED;
 

@@ -523,6 +523,71 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 	return mr_layer_worked(ctx, f, layer);
 }
 
+/* What a file gave to a surface, by convention or not, that a surface made anew has not; polygons are none.
+ */
+static bool
+is_given(const mr_column *c)
+{
+	static const char *const names[] = { "color", "texcoord", "corner_texcoord", "group", "object",
+		"material", "smoothing", NULL };
+
+	return c->shape.element != '-' && (!info_of(c->layer, c->name) || mr_is_one_of(c->name, names));
+}
+
+/* What mr-select has done, where it is nowhere else: base has mesh's regions by mr-solve. */
+static bool
+is_selection(const mr_frame *f, const mr_column *c)
+{
+	const char *other = !strcmp(c->layer, "mesh") ? "base" : !strcmp(c->layer, "base") ? "mesh" : NULL;
+
+	return !strcmp(c->name, "region") && !(other && mr_layer_has(f, other, "region"));
+}
+
+/* Warns, behind the sentence, of what a file gave to `from`, and with `selected` of what was selected there,
+ * that `has` (NULL: nothing) has not. */
+static mr_status
+warn_of_lack(
+    mr_ctx *ctx, const mr_frame *f, const char *from, bool selected, const char *has, const char *sentence)
+{
+	mr_text names = { .ctx = ctx };
+	size_t n = 0;
+
+	for (size_t i = 0; f->key && i < f->count; i++) {
+		const mr_column *c = &f->columns[i];
+		if (!strcmp(c->layer, from) && (is_given(c) || (selected && is_selection(f, c))) &&
+		    !(has && mr_layer_has(f, has, c->name)))
+			mr_text_name(&names, &n, c->name);
+	}
+	mr_text_more(&names, n);
+	MR_TRY(mr_text_done(&names));
+	if (n)
+		mr_warn(ctx, "%s%s", sentence, names.s);
+	return MR_OK;
+}
+
+mr_status
+mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
+{
+	const char *sentence = mr_format(ctx, "%s is made from %s, without what that has: ", layer, from);
+
+	return sentence ? warn_of_lack(ctx, f, from, false, layer, sentence) : MR_EMEM;
+}
+
+mr_status
+mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
+{
+	const char *sentence = mr_format(ctx, "%s is made anew, without its ", layer);
+
+	return sentence ? warn_of_lack(ctx, f, layer, true, from, sentence) : MR_EMEM;
+}
+
+void
+mr_layer_warn_of_place(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *by)
+{
+	if (f->key && mr_layer_has(f, layer, "position"))
+		mr_warn(ctx, "%s is %s now: the surface that it was is gone", layer, by);
+}
+
 mr_status
 mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
@@ -530,6 +595,7 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 
 	MR_TRY(check_finite(ctx, m));
 	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m)) {
+		MR_TRY(mr_layer_warn_of_loss(ctx, f, layer, NULL));
 		mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED);
 		mr_layer_changed(f, layer, MR_RECONNECTED);
 	} else if (!same_positions(ctx, f, layer, m))
@@ -546,68 +612,12 @@ mr_layer_move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, con
 	return move(ctx, f, layer, change, p, nv);
 }
 
-/* What a file gave to a surface, by convention or not, that a surface made anew has not; polygons are none.
- */
-static bool
-is_given(const mr_column *c, const char *layer)
-{
-	static const char *const names[] = { "color", "texcoord", "corner_texcoord", "group", "object",
-		"material", "smoothing", NULL };
-
-	if (strcmp(c->layer, layer) || c->shape.element == '-')
-		return false;
-	return !info_of(layer, c->name) || mr_is_one_of(c->name, names);
-}
-
-/* Warns, behind the sentence, of what a file gave to `from` and `has` (NULL: nothing) has not. */
-static mr_status
-warn_of_given(mr_ctx *ctx, const mr_frame *f, const char *from, const char *has, const char *sentence)
-{
-	mr_text names = { .ctx = ctx };
-	size_t n = 0;
-
-	for (size_t i = 0; f->key && i < f->count; i++) {
-		const mr_column *c = &f->columns[i];
-		if (is_given(c, from) && !(has && mr_layer_has(f, has, c->name)))
-			mr_text_name(&names, &n, c->name);
-	}
-	mr_text_more(&names, n);
-	MR_TRY(mr_text_done(&names));
-	if (n)
-		mr_warn(ctx, "%s%s", sentence, names.s);
-	return MR_OK;
-}
-
-mr_status
-mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
-{
-	const char *sentence = mr_format(ctx, "%s is made from %s, without what that has: ", layer, from);
-
-	return sentence ? warn_of_given(ctx, f, from, layer, sentence) : MR_EMEM;
-}
-
-mr_status
-mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
-{
-	const char *sentence = mr_format(ctx, "%s is made anew, without its ", layer);
-
-	return sentence ? warn_of_given(ctx, f, layer, from, sentence) : MR_EMEM;
-}
-
-void
-mr_layer_warn_of_place(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *by)
-{
-	if (f->key && mr_layer_has(f, layer, "position"))
-		mr_warn(ctx, "%s is %s now: the surface that it was is gone", layer, by);
-}
-
 mr_status
 mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
 	bool normals = mr_layer_has(f, layer, "normal") || mr_layer_has(f, layer, "corner_normal");
 	mr_v3 *normal;
 
-	MR_TRY(mr_layer_warn_of_loss(ctx, f, layer, NULL));
 	MR_TRY(mr_layer_put_mesh(ctx, f, layer, m));
 	if (!normals)
 		return MR_OK;

@@ -56,14 +56,11 @@ mr_status mr_layer_mesh_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer,
 /* The layer's surface, or its positions where it has no faces. */
 mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 
-/*
- * mr_layer_put_mesh of a surface that is made anew in place of the layer's: has `normal` where that had
- * normals, and warns, of key frames, of what else a file gave to that and this has not.
- */
+/* mr_layer_put_mesh of a surface that has `normal` where the one before had normals. */
 mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m);
 
-/* Warns, of key frames, of what a file gave to the layer that is to be replaced and `from`, of whose columns
- * it will be (NULL: of none), has not. */
+/* Warns, of key frames, of what a file gave to the layer, or was selected of it, that is gone with its
+ * triangles, and that `from`, of whose columns those to come will be (NULL: of none), has not. */
 mr_status mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);
 
 /* Warns, of key frames, where the layer is there and another surface, that of `by`, is to take its place. */

@@ -234,8 +234,6 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	if (points.nv > 0)
 		MR_TRY(
 		    mr_sample_warn_of_move(ctx, f, points.name, "mr-export and mr-import take mesh alone"));
-	if (o.to)
-		MR_TRY(mr_layer_warn_of_loss(ctx, f, o.to, NULL));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
 	if (width > 0)
 		MR_TRY(put_creases(ctx, f, &out, &points, width, &r.creases));

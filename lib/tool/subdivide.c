@@ -70,8 +70,10 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 		mr_frame_drop(f, "mesh", NULL, 0);
 		if (!strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
 			mr_warn(ctx, "mesh is control without its displacement: mr-decode adds that");
-	} else if (r->fine.nv > r->m.nv)
+	} else if (r->fine.nv > r->m.nv) {
 		MR_TRY(mr_detail_warn_of_loss(ctx, f));
+		mr_layer_changed(f, "mesh", MR_RECONNECTED);
+	}
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
 	for (size_t i = 0; i < n; i++)
 		MR_TRY(mr_frame_put(

@@ -23,3 +23,11 @@ mr-select --free above:y,0.3 --handle 0=above:y,0.8 scan.mrs | mr-pose --transla
 mr-select --free below:y,0.6 --handle 0=below:y,0.2 posed.mrs 2>&1 >after.mrs | grep -o 'mr-solve.*'
 mr-smooth -l mesh posed.mrs | mr-select -l control --free below:y,0.6 2>&1 >after.mrs | grep -o 'mr-solve.*'
 mr-decode -q scan.mrs | mr-smooth | mr-remesh -q | mr-encode | mr-decode --from control 2>&1 >after.mrs | grep -o 'mesh, which.*'
+
+echo '-- what was selected goes with the triangles, but where what is made of them has it'
+mr-make bumpy -n 1000 | mr-select --free all --handle 0=above:y,0.8 -o selected.mrs
+mr-simplify -r 0.5 selected.mrs 2>&1 >after.mrs | grep -o 'mesh is.*'
+mr-subdivide selected.mrs -o after.mrs
+mr-smooth -q selected.mrs | mr-remesh -q | mr-encode | mr-pose --translate 0,0.2,0 | mr-solve | mr-remesh -q 2>/dev/null -o after.mrs
+mr-select -l base --free all edit.mrs | mr-decode | mr-remesh -l base 2>&1 >after.mrs | grep -o 'base is made.*'
+mr-select -l control --free all scan.mrs | mr-simplify -l control -r 0.5 2>&1 >after.mrs | grep -o 'control is made.*'
