@@ -203,16 +203,6 @@ any_offset(const encoder *e)
 	return false;
 }
 
-/* 1e-14 of the diagonal, but no less than what rounding leaves of coordinates far from the origin. */
-static double
-tolerance_for(const mr_mesh *mesh, double diagonal)
-{
-	mr_box b = mr_box_of(mesh->p, mesh->nv);
-	double far = fmax(fmax(fmax(-b.min.x, b.max.x), fmax(-b.min.y, b.max.y)), fmax(-b.min.z, b.max.z));
-
-	return fmax(1e-14 * diagonal, 8 * 0x1p-52 * fmax(far, 0));
-}
-
 mr_status
 mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *source, mr_detail *d,
     mr_encode_result *result)
@@ -236,7 +226,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 		return MR_EMEM;
 	MR_TRY(mr_incidence_build(ctx, base, &inc));
 	MR_TRY(mr_vertex_normals(ctx, base, &inc, normal));
-	e.ground = (mr_ground){ { base, normal }, &inc, tolerance_for(mesh, diagonal) };
+	e.ground = (mr_ground){ { base, normal }, &inc, mr_mesh_tolerance(mesh, 1e-14) };
 	if (source)
 		MR_TRY(mr_correspond(ctx, mesh, base, &inc, source, e.face, e.bary));
 	else

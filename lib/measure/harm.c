@@ -94,7 +94,7 @@ went_as_one(const mr_mesh *before, const mr_mesh *after)
 {
 	const double little = 1e-9; /* of the diagonal */
 	mr_v3 from = centroid(before->p, before->nv), to = centroid(after->p, before->nv);
-	double most = little * mr_mesh_diagonal(before);
+	double most = mr_mesh_tolerance(before, little);
 	mr_mat3 c = { { 0 } };
 
 	for (size_t v = 0; v < before->nv; v++) {

@@ -43,6 +43,17 @@ same_shape(mr_shape a, mr_shape b)
 	return a.element == b.element && a.type == b.type && a.components == b.components;
 }
 
+/* Whether frame f, without the column, says what rows of zeros do. */
+static bool
+is_as_zero(const joined *j, const mr_frame *f)
+{
+	static const char *const none[] = { "crease", "smoothing", NULL };
+
+	if (!strcmp(j->name, "detail_offset"))
+		return mr_frame_find(f, j->layer, "detail_face") != NULL;
+	return mr_is_one_of(j->name, none);
+}
+
 /* Whether every frame that has the layer, and rows of the element in it, has the column too.  Without
  * polygons each triangle is one. */
 static bool
@@ -53,7 +64,8 @@ all_have(const joined *j)
 	for (size_t i = 0; i < j->n; i++) {
 		const mr_column *c = mr_frame_find(j->frames[i], j->layer, j->name);
 		if (c ? !same_shape(c->shape, j->first->shape)
-		      : rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
+		      : rows_of(j->frames[i], j->layer, j->first->shape.element) > 0 &&
+			    !is_as_zero(j, j->frames[i]))
 			return false;
 	}
 	return true;
@@ -234,6 +246,9 @@ copy_rows(mr_ctx *ctx, const joined *j, size_t i, char *x, size_t *n)
 		*n = rows_of(j->frames[i], j->layer, 'f');
 		for (size_t k = 0; k < *n; k++)
 			polygon[k] = (uint32_t)k;
+	} else {
+		*n = rows_of(j->frames[i], j->layer, j->first->shape.element);
+		memset(x, 0, *n * width);
 	}
 	return MR_OK;
 }
@@ -474,7 +489,9 @@ why_left(const joined *j)
 	if (!strcmp(j->layer, "displacement") && frames_with(j, "control") > 1)
 		return "heights are of one control mesh; mr-decode before makes mesh of each";
 	if (!strcmp(j->layer, "handles"))
-		return "several frames have handles; mr-solve goes before";
+		return frames_with(j, "handles") > 1
+		           ? "several frames have handles; mr-solve goes before"
+		           : "they would move vertices of other frames, too; mr-solve goes before";
 	return "not all frames have that, in one shape, or its rows cannot be numbered anew";
 }
 

@@ -234,6 +234,15 @@ mr_mesh_diagonal(const mr_mesh *m)
 }
 
 double
+mr_mesh_tolerance(const mr_mesh *m, double share)
+{
+	const double operations = 16;
+	mr_box b = mr_box_of(m->p, m->nv);
+
+	return fmax(share * mr_box_diagonal(b), operations * mr_box_grain(b));
+}
+
+double
 mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m)
 {
 	return m->nf ? sqrt(4 * mr_mesh_area(ctx, m) / (sqrt(3) * (double)m->nf)) : 0;

@@ -129,6 +129,10 @@ double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
 double mr_mesh_diagonal(const mr_mesh *m);
 
+/* A length that is none: `share` of the diagonal, and no less than what rounding leaves of coordinates far
+ * from the origin. */
+double mr_mesh_tolerance(const mr_mesh *m, double share);
+
 /* Edge of the equilateral triangle of mean area, sqrt(4 Area / (sqrt(3) F)); 0 without faces. */
 double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
 

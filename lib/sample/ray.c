@@ -10,6 +10,7 @@ typedef struct rays {
 	const mr_mesh *mesh;
 	const mr_sample_cloud *c; /* its vertices */
 	const mr_bvh *bvh;
+	double apart; /* from one hit to the next */
 	double *height;
 	bool *hit;
 } rays;
@@ -39,7 +40,7 @@ first_front(const rays *r, mr_v3 v, mr_v3 n, double sign, double most, double *h
 			*height = sign * hit.t;
 			return true;
 		}
-		from = hit.t + 1e-9 * r->c->diagonal;
+		from = hit.t + r->apart;
 	}
 	return false;
 }
@@ -58,7 +59,7 @@ shoot(void *arg, size_t begin, size_t end)
 		if (!(mr_norm2(n) > 0))
 			continue;
 		/* the near sheet: not much farther than the surface is in any direction */
-		most = 4 * sqrt(mr_bvh_closest(r->bvh, v).dist2) + 1e-9 * r->c->diagonal;
+		most = 4 * sqrt(mr_bvh_closest(r->bvh, v).dist2) + r->apart;
 		above = first_front(r, v, n, 1, most, &up);
 		below = first_front(r, v, n, -1, above ? up : most, &down);
 		r->hit[i] = above || below;
@@ -72,7 +73,12 @@ mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_bvh *bvh;
-	rays r = { .d = d, .mesh = mesh, .c = c, .height = height, .hit = hit };
+	rays r = { .d = d,
+		.mesh = mesh,
+		.c = c,
+		.apart = mr_mesh_tolerance(mesh, 1e-9),
+		.height = height,
+		.hit = hit };
 
 	MR_TRY(mr_bvh_build(ctx, mesh, &bvh));
 	r.bvh = bvh;

@@ -59,7 +59,8 @@ same_place(const mr_ctx *ctx, const mr_mesh *m)
 	const double rounding = 1e-6, edge = 0.01, least = 1e-12;
 	double diagonal = mr_mesh_diagonal(m);
 
-	return fmax(least * diagonal, fmin(rounding * diagonal, edge * mr_mesh_edge_scale(ctx, m)));
+	return fmax(
+	    mr_mesh_tolerance(m, least), fmin(rounding * diagonal, edge * mr_mesh_edge_scale(ctx, m)));
 }
 
 static mr_v3

@@ -115,7 +115,7 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	MR_TRY(mr_vertex_normals(ctx, m, &inc, normal));
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
 	mr_parallel(ctx, m->nf, 256, cast_faces,
-	    &(caster){ m, normal, bvh, most, apart * mr_mesh_diagonal(m), across });
+	    &(caster){ m, normal, bvh, most, mr_mesh_tolerance(m, apart), across });
 	for (size_t v = 0; v < m->nv; v++)
 		thickness[v] = median_around(&inc, v, across, most);
 	walk(m, thickness);

@@ -575,7 +575,7 @@ static bool
 is_as_decoded(const mr_mesh *m, const mr_domain *d, const mr_mesh *control, const mr_v3 *p)
 {
 	static const double ROUNDING = 1e-9; /* of the diagonal */
-	double most = ROUNDING * mr_box_diagonal(mr_box_of(m->p, m->nv));
+	double most = mr_mesh_tolerance(m, ROUNDING);
 	size_t nf = control->nf;
 
 	while (nf < m->nf)

@@ -30,5 +30,7 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 	MR_TRY(mr_crossings_warn(ctx, &m, NULL, &out));
 	MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &map, &mapped));
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &out));
+	if (strcmp(layer, "mesh") != 0) /* of which mr-export knows how it lies on base */
+		MR_TRY(mr_layer_warn_of_rest(ctx, f, "base", layer));
 	return mapped ? mr_source_map_put(ctx, f, &map, out.nv) : MR_OK;
 }
