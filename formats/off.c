@@ -1,8 +1,8 @@
 /*
- * Object File Format (Geomview), read: the keyword [ST][C][N]OFF, which says what a vertex has besides its
- * position, then text or "BINARY".  Binary files are big-endian with a number of colour components behind
- * each face, as Geomview has them, or little-endian without, as others write them: the one that fits the size
- * to the byte is meant.
+ * Object File Format (Geomview), read: the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, which says what a
+ * vertex has besides its position, then text or "BINARY".  Binary files are big-endian with a number of
+ * colour components behind each face, as Geomview has them, or little-endian without, as others write them:
+ * the one that fits the size to the byte is meant.
  */
 #include "formats/format.h"
 
@@ -44,6 +44,7 @@ keyword(off *f, bool *dimensions)
 	f->texcoords = take(&t, "ST");
 	f->colors = take(&t, "C");
 	f->normals = take(&t, "N");
+	f->texcoords |= take(&t, "ST");
 	*dimensions = take(&t, "4") || take(&t, "n");
 	if (!take(&t, "OFF"))
 		return false;
@@ -128,7 +129,8 @@ line_rest(off *f, double *x, size_t most, size_t *count)
 	for (mr_skip_blanks(&f->text); f->text.p < f->text.end && *f->text.p != '\n' && *f->text.p != '#';
 	     mr_skip_blanks(&f->text)) {
 		if (n == most)
-			return mr_scan_fail(&f->text, f->text.p, "more numbers on a line than a vertex can have");
+			return mr_scan_fail(
+			    &f->text, f->text.p, "more numbers on a line than a vertex can have");
 		MR_TRY(mr_scan_real(&f->text, "a number of a vertex", &x[n++]));
 	}
 	*count = n;
@@ -399,6 +401,22 @@ read_binary(off *f, mr_model *m)
 	return finish(f, m);
 }
 
+/* Of a text that begins with no keyword. */
+static mr_status
+check_variant(const off *f)
+{
+	char shown[MR_SHOWN];
+	mr_scan t = f->text;
+	const char *w;
+	size_t n;
+
+	mr_skip_comments(&t);
+	if (!mr_scan_word(&t, &w, &n) || n < 3 || memcmp(w + n - 3, "OFF", 3) != 0)
+		return MR_OK;
+	return mr_scan_fail(&f->text, w, "'%s' is not read: OFF with ST, C and N before it is, in this order",
+	    mr_word_shown(w, n, shown));
+}
+
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
@@ -407,7 +425,10 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	};
 	bool dimensions;
 
-	if (keyword(&f, &dimensions) && dimensions)
-		return mr_scan_fail(&f.text, f.text.p, "4OFF and nOFF are not read, which may have other than three dimensions");
+	if (!keyword(&f, &dimensions))
+		MR_TRY(check_variant(&f));
+	else if (dimensions)
+		return mr_scan_fail(&f.text, f.text.p,
+		    "4OFF and nOFF are not read, which may have other than three dimensions");
 	return f.binary ? read_binary(&f, m) : read_text(&f, m);
 }

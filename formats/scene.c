@@ -141,6 +141,17 @@ warn_of_normals(mr_ctx *ctx, const mr_scene_node *n, const mr_model *m)
 		    n->layer, has ? "some" : "none", has ? "none" : "some");
 }
 
+/* A sequence of which frames differ in more than places and normals does not move. */
+static void
+warn_of_break(mr_ctx *ctx, const mr_frame *f, mr_scene *scene)
+{
+	if (!f->key && !scene->broken && scene->nodes)
+		mr_warn(ctx,
+		    "frames of this sequence have other triangles, colors or materials than those before: "
+		    "they stand beside these, and nothing moves from one to the next");
+	scene->broken = !f->key;
+}
+
 mr_status
 mr_scene_add(
     mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *list, mr_export_result *result)
@@ -152,6 +163,8 @@ mr_scene_add(
 	mr_unmeasured(&losses.lost, sizeof losses.lost);
 	MR_TRY(get_layers(ctx, f, list, &l));
 	pose = is_pose(scene, f, &l);
+	if (!pose)
+		warn_of_break(ctx, f, scene);
 	for (size_t i = 0; i < l.count; i++) {
 		mr_status status = pose ? mr_note_rounded(&losses, &l.model[i])
 		                        : mr_glb_note_lost(&losses, &l.model[i]);

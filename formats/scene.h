@@ -28,6 +28,7 @@ typedef struct mr_scene {
 	mr_scene_node *node;
 	size_t nodes, room, takes;
 	size_t open;        /* the nodes from here on are those that a delta poses */
+	bool broken;        /* a delta of this sequence poses none: told once */
 	const char *folder; /* of files of materials */
 } mr_scene;
 

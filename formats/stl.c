@@ -122,41 +122,68 @@ add_vertex(ascii *a, mr_scan *line)
 	return mr_scan_position(line, &a->p[a->corners++]);
 }
 
-/* The statement of one line; *state is how deep it stands: 0 outside, 1 in a solid, 2 in a facet, 3 in a
- * loop. */
+static const char *const statements[] = { "vertex", "facet", "outer", "endloop", "endfacet", "endsolid",
+	"solid", NULL };
+
+/* The name of a solid is what is left of its line; it begins a group, but for a first one without a name. */
+static mr_status
+begin_solid(ascii *a, mr_scan *line)
+{
+	mr_scan name;
+
+	mr_skip_blanks(line);
+	name = *line;
+	line->p = line->end;
+	return a->solids++ > 0 || name.p < name.end
+	           ? mr_build_new_mark(&a->b, MR_GROUP, name.p, (size_t)(name.end - name.p))
+	           : MR_OK;
+}
+
+static void
+pass_normal(mr_scan *line)
+{
+	const char *w;
+	size_t n;
+
+	if (mr_scan_accept(line, "normal"))
+		for (int i = 0; i < 3; i++)
+			mr_scan_word(line, &w, &n);
+}
+
+/* The statement that the line begins with; *state is how deep it stands: 0 outside, 1 in a solid, 2 in a
+ * facet, 3 in a loop. */
 static mr_status
 statement(ascii *a, mr_scan *line, int *state)
 {
 	static const struct {
-		const char *word;
 		int from, to;
-	} steps[] = { { "vertex", 3, 3 }, { "facet", 1, 2 }, { "outer", 2, 3 }, { "endloop", 3, 2 },
-		{ "endfacet", 2, 1 }, { "endsolid", 1, 0 }, { "solid", 0, 1 } };
+	} steps[] = { { 3, 3 }, { 1, 2 }, { 2, 3 }, { 3, 2 }, { 2, 1 }, { 1, 0 }, { 0, 1 } };
 	char shown[MR_SHOWN];
 	const char *w = line->p;
 	size_t n = 0;
 
-	for (size_t i = 0; i < sizeof steps / sizeof *steps; i++) {
-		if (!mr_scan_accept(line, steps[i].word))
+	for (size_t i = 0; statements[i]; i++) {
+		if (!mr_scan_accept(line, statements[i]))
 			continue;
 		if (*state != steps[i].from)
-			return mr_scan_fail(&a->text, line->p, "'%s' stands where it may not", steps[i].word);
+			return mr_scan_fail(&a->text, w, "'%s' stands where it may not", statements[i]);
 		*state = steps[i].to;
 		switch (i) {
 		case 0:
 			return add_vertex(a, line);
+		case 1:
+			pass_normal(line);
+			return MR_OK;
 		case 2:
 			a->first = a->corners;
 			return MR_OK;
 		case 3:
 			return end_facet(a, line);
+		case 5: /* and its name */
+			line->p = line->end;
+			return MR_OK;
 		case 6:
-			mr_skip_blanks(line);
-			a->solids++;
-			return a->solids > 1 || line->p < line->end
-			           ? mr_build_new_mark(
-					 &a->b, MR_GROUP, line->p, (size_t)(line->end - line->p))
-			           : MR_OK;
+			return begin_solid(a, line);
 		default:
 			return MR_OK;
 		}
@@ -166,15 +193,33 @@ statement(ascii *a, mr_scan *line, int *state)
 	           : MR_OK;
 }
 
-/* How many vertices there can be, by the word that begins each. */
+/* Whether another statement follows on the line; what is none is passed over. */
+static bool
+find_next(mr_scan *line)
+{
+	const char *w;
+	size_t n;
+
+	while (mr_scan_word(line, &w, &n))
+		for (size_t i = 0; statements[i]; i++) {
+			mr_scan word = { .p = w, .end = w + n };
+			if (mr_scan_accept(&word, statements[i])) {
+				line->p = w;
+				return true;
+			}
+		}
+	return false;
+}
+
+/* How many vertices there can be, by the word before each. */
 static size_t
 count_vertices(const mr_scan *t)
 {
-	mr_scan text = *t, line;
 	size_t n = 0;
 
-	while (mr_scan_line(&text, &line))
-		n += mr_scan_accept(&line, "vertex");
+	for (const char *v = "vV"; *v; v++)
+		for (const char *p = t->p; p < t->end && (p = memchr(p, *v, (size_t)(t->end - p))); p++)
+			n += mr_scan_accept(&(mr_scan){ .p = p, .end = t->end }, "vertex");
 	return n;
 }
 
@@ -192,7 +237,9 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(mr_build_reserve(&a.b, a.room / 3));
 	a.p = a.b.p;
 	while (mr_scan_line(&a.text, &line))
-		MR_TRY(statement(&a, &line, &state));
+		do
+			MR_TRY(statement(&a, &line, &state));
+		while (find_next(&line));
 	if (state)
 		return mr_scan_fail(&a.text, a.text.end, "the file ends inside a solid");
 	if (!(map = MR_NEW(ctx, a.corners, uint32_t)))

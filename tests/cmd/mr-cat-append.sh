@@ -61,5 +61,18 @@ mr-import a.obj a.obj 2>/dev/null | mr-cat --append | mr-info | grep -c mtllib #
 sed 's/b\.mtl/&\nmtllib a.mtl/' b.obj >both.obj
 mr-import a.obj both.obj 2>/dev/null | mr-cat --append | mr-info | grep -c mtllib # may be the same
 
+echo 'detail of which one frame has offsets is that of both'
+mr-make bumpy -n 3000 -o rough.mrs
+mr-make sphere -n 300 | mr-transform --translate 5,0,0 -o beside.mrs
+mr-smooth rough.mrs | mr-remesh -q -r 4 | mr-encode -o rough-detail.mrs
+mr-smooth beside.mrs | mr-encode -o beside-detail.mrs
+mr-info rough-detail.mrs beside-detail.mrs | grep -c detail_offset
+for order in 'rough beside' 'beside rough'; do
+	set -- $order
+	mr-cat --append $1-detail.mrs $2-detail.mrs | mr-decode -o decoded.mrs
+	mr-cat --append $1.mrs $2.mrs | mr-compare --json - decoded.mrs | grep -o '"vertex_max":[^,]*' |
+	    awk -F: '{ print ($2 < 1e-13 ? "the same" : $2) }'
+done
+
 echo 'surfaces of one frame each'
 mr-import -l control triangle.obj | mr-cat --append smooth.mrs - | mr-info | grep -E '^  (mesh|base|control):'

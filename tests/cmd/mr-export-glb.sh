@@ -123,6 +123,10 @@ echo '-- nor has a file normals of poses alone'
 mr-import white.obj | python3 delta.py normal | mr-export normals.glb
 mr-import normals.glb | mr-info | grep -c 'normal '
 
+echo '-- nor does it move on to a frame with other triangles'
+mr-make torus -n 500 | mr-select --free all --handle 0=above:x,0.8 | mr-smooth | mr-encode | mr-pose -F 3 --rotate 1,0,0,60 |
+    mr-solve | mr-decode -q | mr-crop -q -l mesh --keep above:y,0.5 | mr-export apart.glb && mr-import apart.glb | mr-info | grep -c faces
+
 echo '-- what only some corners of a triangle, or some points, have'
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\nvn 0 0 1\nf 1/1/1 2/2 3\nf 1/1/1 3/2/1 4/3/1\n' >some.obj
 mr-import some.obj | mr-export some.glb && mr-import some.glb | mr-export -f obj - | grep '^[vf][nt ]* .*/\|^f'

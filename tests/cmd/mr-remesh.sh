@@ -90,3 +90,9 @@ mr-compare -a base -b mesh <torus.mrs | awk '/^  both, %/ { print ($6 < 1 ? "nea
 mr-make knot -n 2000 | mr-remesh --vertices 1000 >/dev/null
 mr-make cylinder -n 6000 | mr-transform --scale 0.2,0.2,1 | mr-remesh --vertices 1000 --stats stats.json >/dev/null
 sed 's/.*"vertices":\([0-9]*\).*/\1/' stats.json | awk '{ print ($1 > 950 && $1 < 1050 ? "a thousand" : $1) }'
+
+echo 'what another layer than mesh had from its file'
+printf 'COFF\n4 4 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n0 0 1 9 9 9 255\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >colors.off
+for layer in base fine mesh; do
+	mr-import -l $layer colors.off | mr-remesh -l $layer -L 0.3 2>&1 >out.mrs | sed -n 's/.*\(base is made\)/\1/p'
+done
