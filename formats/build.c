@@ -450,21 +450,6 @@ mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n)
 	return new;
 }
 
-mr_status
-mr_vertices_used(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool **used, size_t *count)
-{
-	*used = MR_NEW_ZERO(ctx, nv, bool);
-	if (!*used)
-		return MR_EMEM;
-	*count = 0;
-	for (size_t c = 0; c < 3 * nf; c++) {
-		bool *own = &(*used)[t[c / 3].v[c % 3]];
-		*count += !*own;
-		*own = true;
-	}
-	return MR_OK;
-}
-
 bool
 mr_is_absent(const double *x, size_t width)
 {

@@ -161,10 +161,6 @@ mr_build_triangle(mr_builder *b, uint32_t i, uint32_t j, uint32_t k)
 	return true;
 }
 
-/* Which of nv vertices have a face; *count: how many do. */
-mr_status mr_vertices_used(
-    mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool **used, size_t *count) MR_WARN_UNUSED;
-
 /* Whether a value of `width` doubles is none: NaN, or where the width is 3 all zero. */
 bool mr_is_absent(const double *x, size_t width);
 

@@ -609,7 +609,7 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 {
 	const double share =
 	    1e-7; /* of the diagonal: about what a float is off of a model about the origin */
-	const mr_box box = mr_box_of(m->p, m->nv);
+	const mr_box box = mr_mesh_box(&(mr_mesh){ .p = m->p, .nv = m->nv, .t = m->t, .nf = m->nf });
 	double off = 0, diagonal = mr_dist(box.min, box.max);
 	size_t changed = 0;
 

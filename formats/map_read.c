@@ -210,6 +210,7 @@ mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts,
 	MR_TRY(mr_png_read_gray(ctx, path, &g));
 	MR_TRY(mr_prefix(ctx, understand(ctx, &g, opts ? opts : &defaults, range, &found.level), "%s", path));
 	MR_TRY(read_heights(ctx, &g, &control, &m, range, &d, &height, &found));
+	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
 	MR_TRY(mr_map_put_range(ctx, f, range[0], range[1]));
 	found.width = g.width;

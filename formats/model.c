@@ -412,7 +412,7 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 			    m.corner_texcoord ? "texture coordinates" : "");
 		mr_model_to_points(&m);
 	}
-	box = mr_box_of(m.p, m.nv);
+	box = mr_mesh_box(&(mr_mesh){ .p = m.p, .nv = m.nv, .t = m.t, .nf = m.nf });
 	warn_of_grain(ctx, box);
 	unit = o->weld_relative ? mr_box_diagonal(box) : 1;
 	if (o->weld)

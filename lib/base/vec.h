@@ -216,7 +216,7 @@ mr_box_of(const mr_v3 *p, size_t n)
 	return b;
 }
 
-/* Length of the diagonal: the unit of every relative length and error; 0 for an empty box. */
+/* Length of the diagonal; 0 for an empty box. */
 static inline double
 mr_box_diagonal(mr_box b)
 {

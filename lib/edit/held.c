@@ -101,7 +101,7 @@ turned(const mr_held_pose *h, const fit *f, size_t v)
 }
 
 static void
-count_vertex(const mr_held_pose *pose, const fit *f, size_t v, double far, mr_held *h)
+count_vertex(const mr_held_pose *pose, const fit *f, size_t v, bool faceless, double far, mr_held *h)
 {
 	uint32_t r = pose->region[v];
 	bool off = !f->given && (f->n || r == MR_REGION_FIXED) &&
@@ -109,7 +109,9 @@ count_vertex(const mr_held_pose *pose, const fit *f, size_t v, double far, mr_he
 
 	if (!off)
 		return;
-	if (r == MR_REGION_FIXED)
+	if (faceless)
+		h->faceless++;
+	else if (r == MR_REGION_FIXED)
 		h->moved++;
 	else if (mr_mat3_determinant(&f->yx) >= 0 && mr_dist(pose->p[v], turned(pose, f, v)) > far)
 		h->missed++;
@@ -124,6 +126,8 @@ mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 	mr_mark mark = mr_mark_take(ctx);
 	size_t regions = MR_REGION_HANDLE;
 	mr_held h = { 0 };
+	size_t count;
+	bool *used;
 	fit *fits;
 
 	for (size_t v = 0; v < base->nv; v++)
@@ -131,6 +135,7 @@ mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 	fits = MR_NEW_ZERO(ctx, regions, fit);
 	if (!fits)
 		return MR_EMEM;
+	MR_TRY(mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count));
 	fit_maps(pose, regions, fits);
 	for (size_t v = 0; v < base->nv; v++) {
 		fit *f = &fits[pose->base_region[v]];
@@ -138,10 +143,10 @@ mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 	}
 	for (size_t v = 0; v < mesh->nv; v++) {
 		uint32_t r = pose->region[v];
-		h.fixed += r == MR_REGION_FIXED;
-		h.handled += r >= MR_REGION_HANDLE;
+		h.fixed += used[v] && r == MR_REGION_FIXED;
+		h.handled += used[v] && r >= MR_REGION_HANDLE;
 		if (r != MR_REGION_FREE && r < regions)
-			count_vertex(pose, &fits[r], v, far, &h);
+			count_vertex(pose, &fits[r], v, !used[v], far, &h);
 	}
 	mr_mark_release(ctx, mark);
 	*held = h;

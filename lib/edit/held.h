@@ -20,6 +20,8 @@ typedef struct mr_held {
 	 * are where it has them if it stretches base alone and turns what stands on it: they are not missed.
 	 */
 	size_t handled, missed, unscaled;
+	size_t faceless; /* constrained vertices without a face, which stand on no surface, and are not where
+	                  * they belong: not counted above */
 } mr_held;
 
 /*

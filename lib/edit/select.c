@@ -237,7 +237,7 @@ mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups, c
 	bool *one = MR_NEW(ctx, m->nv, bool), *in = MR_NEW(ctx, m->nv, bool);
 	uint32_t *selected = MR_NEW(ctx, m->nv, uint32_t);
 	mr_incidence inc;
-	mr_select_scene sc = { f, m, groups, &inc, mr_box_of(m->p, m->nv), selected, 0 };
+	mr_select_scene sc = { f, m, groups, &inc, mr_mesh_box(m), selected, 0 };
 
 	if (!one || !in || !selected)
 		return MR_EMEM;

@@ -354,7 +354,7 @@ measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
 mr_status
 mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geometry *out)
 {
-	mr_geometry g = { .box = mr_box_of(m->p, m->nv), .volume = NAN };
+	mr_geometry g = { .box = mr_mesh_box(m), .volume = NAN };
 	job j = { .m = m, .edges = edges };
 
 	g.diagonal = mr_box_diagonal(g.box);

@@ -222,22 +222,50 @@ cone(void *arg, size_t f)
 double
 mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m)
 {
-	mr_box box = mr_box_of(m->p, m->nv);
+	mr_box box = mr_mesh_box(m);
 
 	return mr_parallel_sum(ctx, m->nf, cone, &(cones){ m, mr_lerp(0.5, box.min, box.max) }) / 6;
+}
+
+mr_status
+mr_vertices_used(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool **used, size_t *count)
+{
+	*used = MR_NEW_ZERO(ctx, nv, bool);
+	if (!*used)
+		return MR_EMEM;
+	*count = 0;
+	for (size_t c = 0; c < 3 * nf; c++) {
+		bool *own = &(*used)[t[c / 3].v[c % 3]];
+		*count += !*own;
+		*own = true;
+	}
+	return MR_OK;
+}
+
+mr_box
+mr_mesh_box(const mr_mesh *m)
+{
+	mr_box b = mr_box_empty();
+
+	if (m->nf == 0)
+		return mr_box_of(m->p, m->nv);
+	for (size_t f = 0; f < m->nf; f++)
+		for (int i = 0; i < 3; i++)
+			mr_box_add(&b, m->p[m->t[f].v[i]]);
+	return b;
 }
 
 double
 mr_mesh_diagonal(const mr_mesh *m)
 {
-	return mr_box_diagonal(mr_box_of(m->p, m->nv));
+	return mr_box_diagonal(mr_mesh_box(m));
 }
 
 double
 mr_mesh_tolerance(const mr_mesh *m, double share)
 {
 	const double operations = 16;
-	mr_box b = mr_box_of(m->p, m->nv);
+	mr_box b = mr_mesh_box(m);
 
 	return fmax(share * mr_box_diagonal(b), operations * mr_box_grain(b));
 }

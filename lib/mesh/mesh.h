@@ -122,11 +122,20 @@ mr_face_cross(const mr_mesh *m, size_t f)
 	return mr_cross(mr_sub(m->p[m->t[f].v[1]], a), mr_sub(m->p[m->t[f].v[2]], a));
 }
 
+/* Which of nv vertices have a face; *count: how many do. */
+mr_status mr_vertices_used(
+    mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool **used, size_t *count) MR_WARN_UNUSED;
+
 double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
 
 /* What the faces enclose, positive where their normals point outward; of a surface that encloses something. */
 double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
+/* The bounding box of the vertices that a face has, of a mesh without faces of all: one that no face has, as at
+ * the origin of a model that is far from it, says nothing of the surface. */
+mr_box mr_mesh_box(const mr_mesh *m);
+
+/* Of that box: the unit of every relative length and error. */
 double mr_mesh_diagonal(const mr_mesh *m);
 
 /* A length that is none: `share` of the diagonal, and no less than what rounding leaves of coordinates far

@@ -364,6 +364,12 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 	    mr_mesh_edge_scale(ctx, base) / 2); /* which held all, of six models */
 	tell_some(ctx, h->moved, h->fixed, "fixed vertices of mesh have moved", share, coarse);
 	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
+	if (h->faceless)
+		mr_warn(ctx,
+		    "%zu vert%s of mesh that no face has %s fixed or of a handle, and %s with the surface "
+		    "nearest to them",
+		    h->faceless, h->faceless == 1 ? "ex" : "ices", h->faceless == 1 ? "is" : "are",
+		    h->faceless == 1 ? "goes" : "go");
 	tell_some(ctx, h->unscaled, h->handled, missed, share,
 	    "the handle is scaled or mirrored, and heights over base keep their length and turn; mr-decode "
 	    "--gain scales all of them, mr-transform a whole model");
@@ -392,7 +398,7 @@ look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *at_rest, 
 	if (before.p != d->rest)
 		MR_TRY(places_on(ctx, f, cache, &before, "before", inc, d, kept, &mesh.p));
 	MR_TRY(mr_held_count(ctx, &pose, share * mr_mesh_diagonal(&mesh), &h));
-	if (!mr_is_news(h.moved + h.missed + h.unscaled, told))
+	if (!mr_is_news(h.moved + h.missed + h.unscaled + h.faceless, told))
 		return MR_OK;
 	tell_held(ctx, &h, &before, share);
 	return MR_OK;
@@ -569,45 +575,6 @@ drop_columns(mr_frame *f)
 	}
 }
 
-/* Whether triangles and positions of m are what a decoding has made: of any level, with positions p of d's.
- * A transform has moved both by rounding. */
-static bool
-is_as_decoded(const mr_mesh *m, const mr_domain *d, const mr_mesh *control, const mr_v3 *p)
-{
-	static const double ROUNDING = 1e-9; /* of the diagonal */
-	double most = mr_mesh_tolerance(m, ROUNDING);
-	size_t nf = control->nf;
-
-	while (nf < m->nf)
-		nf *= 4;
-	if (nf != m->nf)
-		return false;
-	for (size_t i = 0; p && m->nv == d->m.nv && i < m->nv; i++)
-		if (!(mr_norm(mr_sub(m->p[i], p[i])) <= most))
-			return false;
-	return true;
-}
-
-/* What was done to mesh after control and displacement, as a crop, goes with it; p: what is to be its
- * positions, or NULL where these are not what they were. */
-static mr_status
-warn_of_changed(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, const mr_domain *d, const mr_v3 *p)
-{
-	const char *latest;
-	mr_mesh m;
-
-	MR_TRY(mr_layer_latest(ctx, f, &latest));
-	if (!f->key || !latest || strcmp(latest, "mesh") != 0 || !mr_layer_has(f, "mesh", "triangles"))
-		return MR_OK;
-	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &m));
-	if (!is_as_decoded(&m, d, control, p))
-		mr_warn(ctx,
-		    "mesh of %zu triangles, which was worked on last, is not what control and displacement "
-		    "make, and is made anew from them: what was done to it is gone; do that after mr-decode",
-		    m.nf);
-	return MR_OK;
-}
-
 /* Level J of the surface needs the first heights alone. */
 static mr_status
 decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache, mr_decode_result *result)
@@ -641,7 +608,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 		    "mesh, which has detail over base, is made anew from control, without what base has "
 		    "done to it");
 	else
-		MR_TRY(warn_of_changed(ctx, f, &control, &d, o->gain == 1 && !posed ? p : NULL));
+		MR_TRY(mr_displaced_warn_of_change(ctx, f, &control, &d, o->gain == 1 && !posed ? p : NULL));
 	d.m.p = p;
 	drop_columns(f);
 	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));

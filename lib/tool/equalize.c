@@ -25,6 +25,7 @@ mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr
 	memcpy(x, height, level[n].nv * sizeof *x);
 	MR_TRY(mr_equalize(ctx, level, n, all, x));
 	mr_displacement_warn_of_map(ctx, f);
+	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	mr_frame_drop(f, "displacement", "range", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", x, level[n].nv));
 	return mr_layer_worked(ctx, f, "displacement");

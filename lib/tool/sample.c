@@ -143,6 +143,7 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 		result->vertices = d.m.nv;
 	}
 	mr_displacement_warn_of_map(ctx, f);
+	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	mr_frame_drop(f, "displacement", NULL, 0);
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
 	return target.nf ? MR_OK : put_columns(ctx, f, &d, &target, &sampling, height);

@@ -34,7 +34,7 @@ mr-select --reset --free above:z,0.5 base.mrs | try --basis
 echo '-- a handle too small for the base'
 mr-make sphere -n 500 | mr-remesh -r 6 | mr-select --free above:z,0.5 --handle 3=rings:100,0 | try
 mr-make sphere -n 100 | mr-export -f off - | awk 'NR == 2 { n = ++$1 } { print } n && NR == n + 1 { print "0 0 9" }' | mr-import - |
-	mr-smooth -t 0 | mr-select --free all --fixed below:z,0.05 --handle 0=above:z,0.9 | try
+	mr-smooth -t 0 | mr-select --free all --fixed below:z,0.05 --handle 0=sphere:0,0,9,0.1 | try
 echo '-- a handle that no vertex has'
 mr-solve s.mrs | mr-pose --translate 0,0,1 | mr-select --reset --free above:z,0.5 | try
 echo '-- regions without a map, parts without a constraint'

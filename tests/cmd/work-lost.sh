@@ -31,3 +31,20 @@ mr-subdivide selected.mrs -o after.mrs
 mr-smooth -q selected.mrs | mr-remesh -q | mr-encode | mr-pose --translate 0,0.2,0 | mr-solve | mr-remesh -q 2>/dev/null -o after.mrs
 mr-select -l base --free all edit.mrs | mr-decode | mr-remesh -l base 2>&1 >after.mrs | grep -o 'base is made.*'
 mr-select -l control --free all scan.mrs | mr-simplify -l control -r 0.5 2>&1 >after.mrs | grep -o 'control is made.*'
+
+echo '-- what was done to mesh, which mr-decode makes anew, behind any tool; none where it was decoded'
+mr-decode -q scan.mrs | mr-crop -q -l mesh --keep above:y,0.5 -o half.mrs
+mr-decode -q scan.mrs | mr-transform -q -l mesh -s 2 -o twice.mrs
+mr-decode -q scan.mrs -o decoded.mrs
+mr-map -q -w map decoded.mrs -o mapped.mrs
+for frame in half twice decoded; do
+	for tool in mr-decode 'mr-equalize -g 1,2' mr-sample 'mr-map -r map-height.png'; do
+		case $tool in mr-map*) mr-map -q -w map $frame.mrs -o mapped.mrs ;; *) cp $frame.mrs mapped.mrs ;; esac
+		echo "$frame, $tool: $($tool mapped.mrs 2>&1 >after.mrs | grep -o 'what was done to it.*')"
+	done
+	echo "$frame, mr-pose: $(mr-select -l control --free all --fixed below:y,0.2 --handle 0=above:y,0.8 $frame.mrs |
+	    mr-pose -l control --translate 0,1,0 2>&1 >after.mrs | grep -o 'what was done to it.*')"
+done
+mr-select -l control --free all --fixed below:y,0.2 --handle 0=above:y,0.8 decoded.mrs | mr-pose --translate 0,1,0 | mr-solve |
+    mr-transform -r 1,2,3,40 | mr-decode -q | mr-equalize -g 1,2 2>&1 >after.mrs | grep 'what was done to it' || echo none behind a pose
+mr-decode -q --level 1 scan.mrs | mr-equalize -g 1,2 2>&1 >after.mrs | grep 'what was done to it' || echo none of a coarser level
