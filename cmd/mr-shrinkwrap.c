@@ -24,13 +24,15 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
-	if (opts.grid && opts.method == MR_WRAP_CUBE)
-		return mr_fail(&c->ctx, MR_EUSAGE, "--grid has no effect on -m cube");
-	if (opts.lids && opts.method == MR_WRAP_CUBE)
-		return mr_fail(&c->ctx, MR_EUSAGE, "--lids has no effect on -m cube");
-	if (opts.template_mesh && (opts.grid || opts.resolution || opts.lids || opts.method != MR_WRAP_AUTO))
+	static const char *const by_volume[] = { "grid", "lids", "ignore-normals" };
+
+	for (size_t i = 0; i < 3; i++)
+		MR_TRY(cmd_idle(c, by_volume[i], opts.method == MR_WRAP_CUBE, "on -m cube"));
+	if (opts.template_mesh &&
+	    (opts.grid || opts.resolution || opts.lids || opts.ignore_normals || opts.method != MR_WRAP_AUTO))
 		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "--template wraps the mesh that is there: -m, -r, --grid and --lids have no effect");
+		    "--template wraps the mesh that is there: -m, -r, --grid, --lids and --ignore-normals "
+		    "have no effect");
 	return MR_OK;
 }
 

@@ -4,7 +4,7 @@
 set -e
 model=${1:-bumpy.off}
 frames=${2:-${MR_SMALL:+6}}
-[ -e "$model" ] || mr-make bumpy -n "${MR_SMALL:-40000}" | mr-export "$model"
+[ -n "$1" ] || [ -e "$model" ] || mr-make bumpy -n "${MR_SMALL:-40000}" | mr-export "$model"
 mkdir -p frames
 
 mr-import "$model" |

@@ -172,7 +172,10 @@ open_solver(mr_ctx *ctx, mr_deform *d, double started)
 	if (status == MR_ENUMERIC)
 		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
 		    d->patch.mesh.name, k, n,
-		    k > 1 ? " has no solution in doubles (a lower -k may have)" : "");
+		    mr_solver_iterates(d->opts.solver.kind)
+			? " has no preconditioner of this kind in doubles (-s cholesky may solve it)"
+		    : k > 1 ? " has no solution in doubles (a lower -k may have)"
+			    : "");
 	return status;
 }
 

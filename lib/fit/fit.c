@@ -149,8 +149,6 @@ look_at_gaps(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, const dou
 	    ctx, &s->m, &(mr_gap_cloud){ point, spacing, near, n, usual }, MR_GAP_SAMPLES, gaps, NULL);
 	mr_near_free(near);
 	MR_TRY(status);
-	mr_gaps_note(ctx, "the limit surface", gaps);
-	mr_gaps_warn(ctx, "the limit surface", gaps);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

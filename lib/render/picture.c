@@ -76,6 +76,18 @@ find_range(const mr_gallery *g, size_t first, size_t count, const mr_render_opts
 	s->high = o->ranged ? o->high : low <= high ? high : 0;
 }
 
+/* A range is of numbers: colours, regions and labels have none. */
+static mr_status
+check_range(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *o)
+{
+	for (size_t i = first; o->ranged && i < first + count; i++)
+		if (g->panel[i].value)
+			return MR_OK;
+	return o->ranged
+	           ? mr_fail(ctx, MR_EUSAGE, "--range has no effect on %s, which is no number", o->color)
+	           : MR_OK;
+}
+
 mr_status
 mr_shot_aim(
     mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *o, mr_shot *shot)
@@ -85,6 +97,7 @@ mr_shot_aim(
 	size_t panels = b->first + b->count - a->first;
 
 	MR_TRY(aim(ctx, g, a->first, panels, o, &s.camera));
+	MR_TRY(check_range(ctx, g, a->first, panels, o));
 	find_range(g, a->first, panels, o, &s);
 	*shot = s;
 	return MR_OK;

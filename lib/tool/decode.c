@@ -664,8 +664,8 @@ choose(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, int *from)
 	MR_TRY(is_control_latest(ctx, f, &control));
 	*from = detail && !control ? MR_FROM_DETAIL : MR_FROM_CONTROL;
 	if (*from == MR_FROM_DETAIL && o->level != MR_UNKNOWN)
-		return mr_fail(
-		    ctx, MR_EUSAGE, "--level has no effect on the detail that is here: --from control");
+		return mr_fail(ctx, MR_EUSAGE, "--level has no effect on the detail that is here%s",
+		    mr_frame_has_layer(f, "displacement") ? ": --from control" : "");
 	return MR_OK;
 }
 

@@ -1,6 +1,7 @@
 /* mr-fit: a control mesh to where its limit surface is near the points. */
 #include "fit/fit.h"
 
+#include "measure/gaps.h"
 #include "mesh/layers.h"
 #include "tool/sample.h"
 
@@ -31,6 +32,7 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	mr_mesh control, points;
 	mr_sampling sampling, *known = NULL;
 	const uint8_t *crease;
+	mr_fit_result r;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
@@ -46,6 +48,12 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, result));
+	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, &r));
+	if (known && !strcmp(from, "points")) { /* the vertices of a mesh do not say where it is */
+		mr_gaps_note(ctx, "the limit surface", &r.gaps);
+		mr_gaps_warn(ctx, "the limit surface", &r.gaps);
+	}
+	if (result)
+		*result = r;
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }

@@ -217,6 +217,9 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 		MR_TRY(mr_wrap_is_sheet(ctx, cloud, axis, &is_sheet));
 	if (is_sheet) {
 		c->found.method = SHEET;
+		if (o->grid || o->iterations)
+			mr_warn(ctx,
+			    "the points are a height field, on which --grid and --iterations have no effect");
 		return mr_wrap_sheet(ctx, cloud, o, axis, c);
 	}
 	if (cloud->flat)

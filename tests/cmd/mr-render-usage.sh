@@ -17,3 +17,5 @@ mr-cat cube.mrs cube.mrs | mr-render -s 16x16 'name-%s.png'
 echo "exit $?"
 mr-cat cube.mrs cube.mrs | mr-render -s 16x16 'name-%s-%d.png'
 ls name-*
+mr-select --free all cube.mrs | mr-render -c region --range 0,1 -s 16x16 region.png
+echo "exit $?"

@@ -20,6 +20,7 @@ for seed in 1 2 3 4; do
 done
 mr-make boxes -n 200 | mr-export models/-boxes.obj
 mr-make torus -n 200 | mr-export models/ring.off.gz
+ln -s nothing models/nowhere.ply
 mr-make sphere --points 200 | mr-export models/cloud.pts && mv models/cloud.pts models/CLOUD.PTS
 head -c 1000 models/torus-1.ply >models/broken.ply
 echo 'no model' >models/README
@@ -37,7 +38,12 @@ grep -q "^1 of other suffixes left out: README$" peace.log || complain "what is 
 [ "$(wc -l <peace/figures.tsv)" -eq 12 ] || complain "not eleven rows of figures"
 awk -F '\t' 'NR == 1 { n = NF; if ($2 !~ /^mr-[a-z]*\./) exit 1 } NF != n || (NR > 1 && $2 !~ /^[0-9.e-]+$/) { exit 1 }' peace/figures.tsv ||
     { cut -c1-200 peace/figures.tsv; complain "the figures are no table"; }
-[ "$(wc -l <peace/failed.txt)" -eq 10 ] || { cat peace/failed.txt; complain "not ten failures"; }
+[ "$(wc -l <peace/failed.txt)" -eq 11 ] || { cat peace/failed.txt; complain "not eleven failures"; }
+grep -q "^nowhere.ply	a link to what is not there$" peace/failed.txt || complain "a link to nothing is not told of"
+warned=$(cat peace/*/*.log | grep -c ': warning: ')
+[ "$warned" -gt 0 ] && [ "$(wc -l <peace/warned.txt)" -eq "$warned" ] || complain "$warned warnings, of which warned.txt has not all"
+grep -q "^11 made, $(grep -l ': warning: ' peace/*/*.log | sed 's,/[^/]*$,,' | sort -u | wc -l) of them with warnings, 11 failed: " peace.log ||
+    { cat peace.log; complain "what was made with warnings is not counted"; }
 grep -q "^broken.ply	mr-import: .*models/broken.ply: byte" peace/failed.txt || complain "a broken model without its sentence"
 grep -q "^two words.ply	not begun; no names with blanks" peace/failed.txt || complain "a name with blanks is not told of"
 [ "$(grep -o '<img' peace/index.html | wc -l)" -eq 11 ] && [ -s peace/page-0000.html ] || complain "the gallery is not of eleven models"
@@ -63,7 +69,7 @@ mr-make torus -n 200 --noise 1% --seed 3 | mr-export models/torus-3.ply
 # What is read is not written over.
 cp -r models models.before
 make -s -k -f "$batch/Makefile" IN="$PWD/models" OUT="$PWD/models" models >/dev/null 2>&1 && complain "results go where the models are"
-diff -r models models.before || complain "models are written over"
+diff -r --no-dereference models models.before || complain "models are written over"
 
 if parallel --version 2>/dev/null | grep -q GNU; then
 	batch parallel names | parallel -j 2 -n 4 make -s -k -f "$batch/Makefile" IN="$PWD/models" OUT="$PWD/parallel" >parallel.log 2>&1
