@@ -2,10 +2,13 @@
 #include "formats/model.h"
 #include "base/text.h"
 #include "formats/build.h"
+#include "formats/format.h"
 #include "formats/names.h"
 #include "mesh/normals.h"
 #include "mesh/validate.h"
 #include "stream/record.h"
+
+#include <float.h>
 
 /* What a model has of each vertex, or of each face, besides positions and triangles. */
 static const struct {
@@ -379,18 +382,38 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 
 /* Frames */
 
-/* Far from the origin doubles are too coarse for a model that is small there, whatever the file said. */
-static void
-warn_of_grain(mr_ctx *ctx, mr_box box)
+/* Whether all positions are floats, but not all whole numbers. */
+static bool
+are_floats(const mr_v3 *p, size_t n)
 {
-	const double share = 1e-7; /* of the diagonal, as of what is written in float32 */
-	double grain = mr_box_grain(box), diagonal = mr_box_diagonal(box);
+	bool whole = true;
 
-	if (mr_box_largest(box) > diagonal && grain > share * diagonal && diagonal > 0)
+	for (size_t i = 0; i < n; i++) {
+		mr_v3 q = { mr_as_float(p[i].x), mr_as_float(p[i].y), mr_as_float(p[i].z) };
+		if (q.x != p[i].x || q.y != p[i].y || q.z != p[i].z)
+			return false;
+		whole &= q.x == floor(q.x) && q.y == floor(q.y) && q.z == floor(q.z);
+	}
+	return !whole;
+}
+
+/* Far from the origin doubles are too coarse for a model that is small there, whatever the file said, and
+ * long before them the floats that most files have. */
+static void
+warn_of_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
+{
+	const double fine = 1e-7;  /* of the diagonal, as of what is written in float32 */
+	const double rough = 1e-4; /* of which an edge may have a hundred: a tenth of one is some faces */
+	double grain = mr_box_grain(box), diagonal = mr_box_diagonal(box);
+	double of_floats = ldexp(grain, DBL_MANT_DIG - FLT_MANT_DIG);
+	bool floats = diagonal > 0 && of_floats > rough * diagonal && are_floats(m->p, m->nv);
+
+	if (floats || (mr_box_largest(box) > diagonal && grain > fine * diagonal && diagonal > 0))
 		mr_warn(ctx,
-		    "positions are known to %.2g of the diagonal only: so far from the origin doubles are no "
+		    "positions are known to %.2g of the diagonal only: so far from the origin %s are no "
 		    "finer",
-		    grain / diagonal);
+		    (floats ? of_floats : grain) / diagonal,
+		    floats ? "floats, which all of them are," : "doubles");
 }
 
 static mr_status
@@ -413,7 +436,7 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 		mr_model_to_points(&m);
 	}
 	box = mr_mesh_box(&(mr_mesh){ .p = m.p, .nv = m.nv, .t = m.t, .nf = m.nf });
-	warn_of_grain(ctx, box);
+	warn_of_grain(ctx, &m, box);
 	unit = o->weld_relative ? mr_box_diagonal(box) : 1;
 	if (o->weld)
 		MR_TRY(mr_model_weld(ctx, o->weld_distance * unit, &m));

@@ -2,6 +2,7 @@
 #include "tool/shrinking.h"
 
 #include "mesh/edges.h"
+#include "space/bvh.h"
 
 /* What a closed surface encloses; 0 of others. */
 static mr_status
@@ -34,5 +35,39 @@ mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const ch
 	if (area > 0 && (thin || lost > MUCH))
 		mr_warn(ctx, "%s: %.3g %% of its %s is lost: %s", m->name, 100 * (thin ? less : lost),
 		    thin ? "volume" : "area", why);
+	return MR_OK;
+}
+
+/*
+ * Of 95 models that are left with a tenth of their faces 16 are farther off somewhere, seven of which have not
+ * lost the share above: ears, blades, small bodies.
+ */
+static const double FAR = 0.05;
+
+mr_status
+mr_warn_of_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+{
+	enum { SAMPLES = 1 << 16 };
+	mr_mark mark = mr_mark_take(ctx);
+	size_t corners = 3 * m->nf, n = corners < SAMPLES ? corners : SAMPLES, widest = 0;
+	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
+	double *distance = MR_NEW(ctx, n, double), diagonal = mr_mesh_diagonal(m);
+	mr_bvh *bvh;
+
+	if (!q || !distance)
+		return MR_EMEM;
+	MR_TRY(mr_bvh_build(ctx, out, &bvh));
+	for (size_t i = 0; i < n; i++) {
+		size_t h = (size_t)((double)i / (double)n * (double)corners);
+		q[i] = m->p[m->t[h / 3].v[h % 3]];
+	}
+	mr_bvh_distances(ctx, bvh, q, n, distance);
+	for (size_t i = 0; i < n; i++)
+		widest = distance[i] > distance[widest] ? i : widest;
+	if (n && distance[widest] > FAR * diagonal)
+		mr_warn(ctx,
+		    "%s: what was near (%.4g, %.4g, %.4g) is %.3g %% of the diagonal from what is left: %s",
+		    m->name, q[widest].x, q[widest].y, q[widest].z, 100 * distance[widest] / diagonal, why);
+	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

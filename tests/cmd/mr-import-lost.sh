@@ -40,6 +40,8 @@ echo '-- so far from the origin that doubles are coarse; of which file it is sai
 printf 'v 1e15 0 0\nv 1000000000000001 0 0\nv 1e15 1 0\nf 1 2 3\n' >far.obj
 printf 'v 1e6 0 0\nv 1000001 0 0\nv 1e6 1 0\nf 1 2 3\n' >near.obj
 mr-import near.obj far.obj >far.mrs
+mr-make sphere -n 500 | mr-transform --translate 500000,5800000,100 | mr-export -q floats.stl && mr-import floats.stl >far.mrs
+mr-make sphere -n 500 | mr-transform --translate 5000,0,100 | mr-export -q floats.stl && mr-import floats.stl >far.mrs
 
 echo '-- of a PLY' >&2
 cat >model.ply <<'X'

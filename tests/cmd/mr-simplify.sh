@@ -89,3 +89,7 @@ mr-encode smooth.mrs | mr-simplify -l mesh -r 0.5 2>&1 >out.mrs | grep -o 'mesh 
 mr-select --free all --handle 0=above:x,0.8 smooth.mrs | mr-encode | mr-pose --translate 0,0,1 | mr-solve -o posed.mrs
 mr-simplify -l mesh -r 0.5 posed.mrs 2>&1 >out.mrs | grep -o 'mesh has.*'
 mr-decode -q posed.mrs | mr-simplify -l mesh -r 0.5 2>&1 >out.mrs && echo none behind mr-decode
+echo 'a part that is cut off, though little of the area is lost'
+for n in 60 200; do
+	mr-make bumpy -n 3000 | mr-simplify -n $n 2>&1 >out.mrs | grep -o 'what was near.*' || echo "none of $n faces"
+done
