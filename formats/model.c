@@ -382,19 +382,23 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 
 /* Frames */
 
-/* Whether all positions are floats, but not all whole numbers. */
+/* Whether all positions are floats, and not all of them multiples of 16 times their grain there, as whole
+ * numbers may be. */
 static bool
-are_floats(const mr_v3 *p, size_t n)
+are_rounded_floats(const mr_v3 *p, size_t n, double grain)
 {
-	bool whole = true;
+	const double step = 16 * grain;
+	bool coarse = true;
 
 	for (size_t i = 0; i < n; i++) {
-		mr_v3 q = { mr_as_float(p[i].x), mr_as_float(p[i].y), mr_as_float(p[i].z) };
-		if (q.x != p[i].x || q.y != p[i].y || q.z != p[i].z)
-			return false;
-		whole &= q.x == floor(q.x) && q.y == floor(q.y) && q.z == floor(q.z);
+		const double x[3] = { p[i].x, p[i].y, p[i].z };
+		for (int k = 0; k < 3; k++) {
+			if (mr_as_float(x[k]) != x[k])
+				return false;
+			coarse &= x[k] == step * rint(x[k] / step);
+		}
 	}
-	return !whole;
+	return !coarse;
 }
 
 /* Far from the origin doubles are too coarse for a model that is small there, whatever the file said, and
@@ -406,7 +410,8 @@ warn_of_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
 	const double rough = 1e-4; /* of which an edge may have a hundred: a tenth of one is some faces */
 	double grain = mr_box_grain(box), diagonal = mr_box_diagonal(box);
 	double of_floats = ldexp(grain, DBL_MANT_DIG - FLT_MANT_DIG);
-	bool floats = diagonal > 0 && of_floats > rough * diagonal && are_floats(m->p, m->nv);
+	bool floats = diagonal > 0 && of_floats > rough * diagonal &&
+	              are_rounded_floats(m->p, m->nv, of_floats);
 
 	if (floats || (mr_box_largest(box) > diagonal && grain > fine * diagonal && diagonal > 0))
 		mr_warn(ctx,

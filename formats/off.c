@@ -413,7 +413,8 @@ check_variant(const off *f)
 	mr_skip_comments(&t);
 	if (!mr_scan_word(&t, &w, &n) || n < 3 || memcmp(w + n - 3, "OFF", 3) != 0)
 		return MR_OK;
-	return mr_scan_fail(&f->text, w, "'%s' is not read: OFF with ST, C and N before it is, in this order",
+	return mr_scan_fail(&f->text, w,
+	    "'%s' is not read: OFF is with ST, C and N before it, or C, N and ST",
 	    mr_word_shown(w, n, shown));
 }
 

@@ -137,13 +137,40 @@ round_number(double x)
 	return isfinite(y) ? y : x;
 }
 
+/* The box of places of the layer's vertices, of what is drawn. */
+static mr_status
+box_of_places(mr_ctx *ctx, mr_frame *f, const mr_column *c, mr_box *box)
+{
+	mr_mesh m;
+
+	MR_TRY(mr_layer_surface_or_points(ctx, f, c->layer, &m));
+	m.p = c->data;
+	*box = mr_mesh_box(&m);
+	return MR_OK;
+}
+
+/* Puts vertices that no face has, which are not drawn, where they make no step larger: to the box. */
+static mr_status
+clamp_places(mr_ctx *ctx, mr_column *c, mr_box box)
+{
+	size_t n = (size_t)c->rows;
+	const mr_v3 *p = c->data;
+	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
+
+	if (!q)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++)
+		q[i] = mr_vec(fmin(fmax(p[i].x, box.min.x), box.max.x),
+		    fmin(fmax(p[i].y, box.min.y), box.max.y), fmin(fmax(p[i].z, box.min.z), box.max.z));
+	c->data = q;
+	return MR_OK;
+}
+
 /* Positions count from the corner of their box, so that they are whole steps wherever the model is. */
 static mr_steps
-steps_of_places(const mr_column *c)
+steps_of_places(mr_box box)
 {
-	const mr_v3 *p = c->data;
-	mr_box box = mr_box_of(p, (size_t)c->rows);
-	mr_v3 size = c->rows ? mr_sub(box.max, box.min) : mr_vec(0, 0, 0);
+	mr_v3 size = box.min.x <= box.max.x ? mr_sub(box.max, box.min) : mr_vec(0, 0, 0);
 	double extent = fmax(size.x, fmax(size.y, size.z)), step = mr_step_of(extent);
 
 	if (!(step < extent)) /* one place, or next to it */
@@ -161,19 +188,22 @@ is_texcoord(const mr_column *c)
 	return !strcmp(c->name, "texcoord") || !strcmp(c->name, "corner_texcoord");
 }
 
+static bool
+is_place(const mr_column *c)
+{
+	return !strcmp(c->name, "position") || (!strcmp(c->layer, "base") && !strcmp(c->name, "encoded"));
+}
+
 /* Of barycentric coordinates the third is what the two leave of 1. */
 static mr_steps
 steps_of_column(const mr_column *c)
 {
 	size_t n = (size_t)c->rows * c->shape.components;
 	const double *x = c->data;
-	bool is_encoded = !strcmp(c->layer, "base") && !strcmp(c->name, "encoded");
 	double most = 0;
 
 	if (c->shape.type == 'u')
 		return (mr_steps){ 0, { 0 }, c->shape.components };
-	if (!strcmp(c->name, "position") || is_encoded)
-		return steps_of_places(c);
 	if (!(is_posing(c) || is_texcoord(c)) || !strcmp(c->name, "detail_offset"))
 		return (mr_steps){ 0 };
 	for (size_t i = 0; i < n; i++) {
@@ -200,8 +230,8 @@ centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 
 	if (!w)
 		return MR_EMEM;
-	MR_TRY(mr_layer_points(ctx, f, c->layer, &posed));
-	box = mr_box_of(posed.p, posed.nv);
+	MR_TRY(mr_layer_surface_or_points(ctx, f, c->layer, &posed));
+	box = mr_mesh_box(&posed);
 	for (int k = 0; k < 3; k++)
 		centre[k] = (mr_coordinate(box.min, k) + mr_coordinate(box.max, k)) / 2;
 	memcpy(w, c->data, n * sizeof *w);
@@ -225,6 +255,7 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_
 	mr_column c = *column;
 	double *rounded, centre[3];
 	mr_steps steps;
+	mr_box box;
 
 	if ((c.shape.type != 'd' && c.shape.type != 'u') || !strcmp(c.layer, "handles"))
 		return mr_frame_pass(ctx, to, column);
@@ -233,7 +264,12 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_
 		return mr_page_displaced_put(ctx, to, &c, d, notes);
 	if (is_posing(&c) && !strcmp(c.name, "response"))
 		MR_TRY(centre_response(ctx, from, &c, centre));
-	steps = steps_of_column(&c);
+	if (is_place(&c)) {
+		MR_TRY(box_of_places(ctx, from, &c, &box));
+		MR_TRY(clamp_places(ctx, &c, box));
+		steps = steps_of_places(box);
+	} else
+		steps = steps_of_column(&c);
 	if (is_posing(&c) && !strcmp(c.name, "response"))
 		memcpy(steps.origin, centre, sizeof centre);
 	if (steps.components)

@@ -74,7 +74,7 @@ mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
 		return MR_EMEM;
 	MR_TRY(mr_layer_crease(ctx, f, control.name, control.nf, &mark));
 	MR_TRY(mr_loop_levels_marked(ctx, &control, 180, mark, r.n, level));
-	box = mr_box_of(control.p, control.nv);
+	box = mr_mesh_box(&control);
 	r.extent = fmax(box.max.x - box.min.x, fmax(box.max.y - box.min.y, box.max.z - box.min.z));
 	r.level = level;
 	r.at = r.n;

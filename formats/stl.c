@@ -92,10 +92,8 @@ typedef struct ascii {
 	mr_builder b;
 	mr_v3 *p; /* corners of all facets */
 	size_t corners, room;
-	size_t first;     /* corner of the facet at hand */
-	size_t solids;    /* so far */
-	const char *name; /* of the solid at hand */
-	size_t name_bytes;
+	size_t first;  /* corner of the facet at hand */
+	size_t solids; /* so far */
 } ascii;
 
 /* Corners are vertices of their own until all are there; a facet is a face of them. */
@@ -175,6 +173,7 @@ statement(ascii *a, mr_scan *line, int *state)
 			pass_normal(line);
 			return MR_OK;
 		case 2:
+			mr_scan_accept(line, "loop");
 			a->first = a->corners;
 			return MR_OK;
 		case 3:

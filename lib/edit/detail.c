@@ -466,13 +466,10 @@ mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 mr_status
 mr_detail_warn_of_loss(mr_ctx *ctx, mr_frame *f)
 {
-	bool rest, pending;
+	bool has;
 
-	if (!f->key || !mr_layer_has(f, "mesh", "detail_height"))
-		return MR_OK;
-	MR_TRY(mr_layer_is_as_encoded(ctx, f, "base", &rest));
-	MR_TRY(mr_layer_is_pending(ctx, f, "base", &pending));
-	if (rest || pending)
+	MR_TRY(mr_layer_has_standing_detail(ctx, f, &has));
+	if (has && f->key)
 		mr_warn(ctx, "mesh has other vertices, and its detail over base is gone: that goes before "
 			     "mr-encode, or behind mr-decode");
 	return MR_OK;

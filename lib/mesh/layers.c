@@ -410,17 +410,36 @@ drop_dependents(mr_frame *f, const char *layer, mr_change change, bool own)
 	}
 }
 
-void
-mr_layer_warn_of_work(mr_ctx *ctx, const mr_frame *f, const char *layer, mr_change change)
+mr_status
+mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has)
 {
-	bool other = change == MR_RESHAPED || change == MR_RECONNECTED;
+	bool rest, pending;
 
+	*has = false;
+	if (!mr_layer_has(f, "mesh", "detail_height"))
+		return MR_OK;
+	MR_TRY(mr_layer_is_as_encoded(ctx, f, "base", &rest));
+	MR_TRY(mr_layer_is_pending(ctx, f, "base", &pending));
+	*has = rest || pending;
+	return MR_OK;
+}
+
+mr_status
+mr_layer_warn_of_work(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change)
+{
+	bool other = change == MR_RESHAPED || change == MR_RECONNECTED, detail = false;
+
+	if (!f->key)
+		return MR_OK;
 	if (other && !strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
 		mr_warn(ctx, "control is another surface now, and its displacement is gone: mr-decode comes "
 			     "before, or mr-sample behind");
-	if (change == MR_RECONNECTED && !strcmp(layer, "base") && mr_layer_has(f, "mesh", "detail_height"))
+	if (change == MR_RECONNECTED && !strcmp(layer, "base"))
+		MR_TRY(mr_layer_has_standing_detail(ctx, f, &detail));
+	if (detail)
 		mr_warn(ctx, "base is another surface now, and the detail of mesh over it is gone: mr-decode "
 			     "comes before, or mr-encode behind");
+	return MR_OK;
 }
 
 void
@@ -513,7 +532,7 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 		MR_TRY(copy_normals(ctx, f, layer, "corner_normal", before.nf, 3, &corner));
 		MR_TRY(mr_turn_normals(ctx, &before, p, normal, corner));
 	}
-	mr_layer_warn_of_work(ctx, f, layer, change);
+	MR_TRY(mr_layer_warn_of_work(ctx, f, layer, change));
 	mr_layer_changed(f, layer, change);
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", p, nv));
 	if (normal)
@@ -596,7 +615,7 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	MR_TRY(check_finite(ctx, m));
 	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m)) {
 		MR_TRY(mr_layer_warn_of_loss(ctx, f, layer, NULL));
-		mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED);
+		MR_TRY(mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED));
 		mr_layer_changed(f, layer, MR_RECONNECTED);
 	} else if (!same_positions(ctx, f, layer, m))
 		return move(ctx, f, layer, MR_RESHAPED, m->p, m->nv);

@@ -72,8 +72,13 @@ mr_status mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *laye
 /* Drops what the change makes stale, of the layer and of others. */
 void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 
-/* Warns where what the change makes stale is the work of a tool: heights over control, detail over base. */
-void mr_layer_warn_of_work(mr_ctx *ctx, const mr_frame *f, const char *layer, mr_change change);
+/* Whether mesh has detail over base of which mr-decode is still to come: once it has, the detail has served.
+ */
+mr_status mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has);
+
+/* Warns, of key frames, where what the change makes stale is the work of a tool: heights over control,
+ * standing detail over base. */
+mr_status mr_layer_warn_of_work(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change);
 
 /* The layer's rows have other numbers: drops what refers to them from elsewhere. */
 void mr_layer_renumbered(mr_frame *f, const char *layer);

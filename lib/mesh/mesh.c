@@ -247,11 +247,8 @@ mr_mesh_box(const mr_mesh *m)
 {
 	mr_box b = mr_box_empty();
 
-	if (m->nf == 0)
-		return mr_box_of(m->p, m->nv);
-	for (size_t f = 0; f < m->nf; f++)
-		for (int i = 0; i < 3; i++)
-			mr_box_add(&b, m->p[m->t[f].v[i]]);
+	for (size_t i = 0; i < mr_mesh_places(m); i++)
+		mr_box_add(&b, mr_mesh_place(m, i));
 	return b;
 }
 

@@ -128,11 +128,25 @@ mr_status mr_vertices_used(
 
 double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
 
-/* What the faces enclose, positive where their normals point outward; of a surface that encloses something. */
+/* What the faces enclose, positive where their normals point outward; of a surface that encloses something.
+ */
 double mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m);
 
-/* The bounding box of the vertices that a face has, of a mesh without faces of all: one that no face has, as at
- * the origin of a model that is far from it, says nothing of the surface. */
+/* Where the mesh is: the corners of its faces, of one without faces the vertices.  A vertex that no face has,
+ * as at the origin of a model that is far from it, says nothing of the surface. */
+static inline size_t
+mr_mesh_places(const mr_mesh *m)
+{
+	return m->nf ? 3 * m->nf : m->nv;
+}
+
+static inline mr_v3
+mr_mesh_place(const mr_mesh *m, size_t i)
+{
+	return m->p[m->nf ? m->t[i / 3].v[i % 3] : i];
+}
+
+/* The bounding box of its places. */
 mr_box mr_mesh_box(const mr_mesh *m);
 
 /* Of that box: the unit of every relative length and error. */

@@ -133,7 +133,7 @@ mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 	if (detail)
 		on = *encoded;
 	drop_sampling(f, layer);
-	mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED);
+	MR_TRY(mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED));
 	for (size_t i = 0; i < f->count; i++)
 		if (!strcmp(f->columns[i].layer, layer) && f->columns[i].shape.element != '-')
 			MR_TRY(keep_rows(ctx, f, &f->columns[i], s));

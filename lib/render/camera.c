@@ -56,10 +56,10 @@ to_axes(const mr_camera *c, mr_v3 p)
 }
 
 void
-mr_camera_box(const mr_camera *c, const mr_v3 *p, size_t n, mr_box *box)
+mr_camera_box(const mr_camera *c, const mr_mesh *m, mr_box *box)
 {
-	for (size_t i = 0; i < n; i++)
-		mr_box_add(box, to_axes(c, p[i]));
+	for (size_t i = 0; i < mr_mesh_places(m); i++)
+		mr_box_add(box, to_axes(c, mr_mesh_place(m, i)));
 }
 
 void
@@ -82,14 +82,14 @@ mr_camera_see(const mr_camera *c, mr_v3 p)
 }
 
 void
-mr_camera_cover(const mr_camera *c, const mr_v3 *p, size_t n, mr_box *covered)
+mr_camera_cover(const mr_camera *c, const mr_mesh *m, mr_box *covered)
 {
 	mr_camera unit = *c;
 
 	unit.scale = 1;
 	unit.x = unit.y = 0;
-	for (size_t i = 0; i < n; i++) {
-		mr_seen s = mr_camera_see(&unit, p[i]);
+	for (size_t i = 0; i < mr_mesh_places(m); i++) {
+		mr_seen s = mr_camera_see(&unit, mr_mesh_place(m, i));
 		mr_box_add(covered, mr_vec(s.x, s.y, 0));
 	}
 }

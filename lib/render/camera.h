@@ -7,7 +7,7 @@
 #ifndef MR_RENDER_CAMERA_H
 #define MR_RENDER_CAMERA_H
 
-#include "base/vec.h"
+#include "mesh/mesh.h"
 
 typedef struct mr_camera {
 	mr_v3 right, up, toward; /* orthonormal; `toward` points from the scene to the eye */
@@ -35,15 +35,15 @@ typedef struct mr_seen {
  */
 mr_status mr_camera_look(mr_ctx *ctx, mr_v3 from, mr_v3 up, mr_camera *c);
 
-/* The box of n points along the camera's axes: x right, y up, z towards the eye. */
-void mr_camera_box(const mr_camera *c, const mr_v3 *p, size_t n, mr_box *box);
+/* Grows the box of the mesh's places along the camera's axes: x right, y up, z towards the eye. */
+void mr_camera_box(const mr_camera *c, const mr_mesh *m, mr_box *box);
 
 /* Puts the centre into the middle of the box; the eye at four half diagonals, or infinitely far for a
  * `parallel` one. */
 void mr_camera_aim(mr_camera *c, mr_box box, bool parallel);
 
-/* Grows the rectangle (x, y of the box) that n points cover in the picture at a scale of 1. */
-void mr_camera_cover(const mr_camera *c, const mr_v3 *p, size_t n, mr_box *covered);
+/* Grows the rectangle (x, y of the box) that they cover in the picture at a scale of 1. */
+void mr_camera_cover(const mr_camera *c, const mr_mesh *m, mr_box *covered);
 
 /* Sets scale and place so that the covered rectangle, times `zoom`, fills the middle of w by h pixels at
  * (left, top). */

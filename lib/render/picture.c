@@ -40,10 +40,10 @@ aim(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_rende
 
 	MR_TRY(mr_camera_look(ctx, o->from, o->up, &c));
 	for (size_t i = first; i < first + count; i++)
-		mr_camera_box(&c, g->panel[i].subject.mesh.p, g->panel[i].subject.mesh.nv, &box);
+		mr_camera_box(&c, &g->panel[i].subject.mesh, &box);
 	mr_camera_aim(&c, box, o->parallel);
 	for (size_t i = first; i < first + count; i++)
-		mr_camera_cover(&c, g->panel[i].subject.mesh.p, g->panel[i].subject.mesh.nv, &covered);
+		mr_camera_cover(&c, &g->panel[i].subject.mesh, &covered);
 	mr_camera_fit(&c, covered, o->zoom, margin, margin, w - 2 * margin, h - label - 2 * margin);
 	*camera = c;
 	return MR_OK;

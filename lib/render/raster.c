@@ -219,7 +219,7 @@ covering_radius(const mr_raster_view *v)
 	mr_box covered = mr_box_empty();
 	double area;
 
-	mr_camera_cover(v->camera, v->subject->mesh.p, v->subject->mesh.nv, &covered);
+	mr_camera_cover(v->camera, &v->subject->mesh, &covered);
 	area = (covered.max.x - covered.min.x) * (covered.max.y - covered.min.y);
 	area *= v->camera->scale * v->camera->scale;
 	return fmin(fmax(1.1 * sqrt(area / (double)v->subject->mesh.nv), 1), 8);

@@ -143,8 +143,8 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, 
 	return mr_heights_fill(ctx, e, hit, height, &r->filled);
 }
 
-/* Where points fit them later it is their gaps that tell whether heights are missing: of a clean gear a quarter
- * of the vertices, at its edges, find none, and the surface is within 2 spacings all over. */
+/* Where points fit them later it is their gaps that tell whether heights are missing: of a clean gear a
+ * quarter of the vertices, at its edges, find none, and the surface is within 2 spacings all over. */
 static void
 warn_of_filled(mr_ctx *ctx, const mr_domain *d, bool fitted, const mr_sample_result *r)
 {
@@ -347,6 +347,30 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 	return MR_OK;
 }
 
+/* A vertex that no face has is not to be reached. */
+static mr_status
+leave_isolated(mr_ctx *ctx, mr_sample_cloud *c)
+{
+	const mr_mesh *mesh = c->mesh;
+	size_t count, n = 0;
+	bool *used;
+	mr_v3 *p;
+
+	MR_TRY(mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count));
+	p = MR_NEW(ctx, count, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	for (size_t v = 0; v < mesh->nv; v++)
+		if (used[v]) {
+			p[n] = mesh->p[v];
+			c->face[n] = c->face[v];
+			c->side[n++] = c->side[v];
+		}
+	c->p = p;
+	c->n = n;
+	return MR_OK;
+}
+
 mr_status
 mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts,
     double *height, mr_sample_result *result)
@@ -363,6 +387,7 @@ mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 	mr_unmeasured(&r, sizeof r);
 	MR_TRY(mr_sample_place(ctx, d, &c, NULL));
 	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit, &r));
+	MR_TRY(leave_isolated(ctx, &c));
 	MR_TRY(mend(ctx, d, &e, hit, height, &r));
 	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height, &r));
 	warn_of_filled(ctx, d, false, &r);

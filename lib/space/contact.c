@@ -11,15 +11,15 @@ mr_status
 mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
 {
 	uint32_t *set = mr_sets_new(ctx, m->nv);
-	bool *used = MR_NEW_ZERO(ctx, m->nv, bool);
+	size_t count;
+	bool *used;
 
-	if (!set || !used)
+	if (!set)
 		return MR_EMEM;
+	MR_TRY(mr_vertices_used(ctx, m->t, m->nf, m->nv, &used, &count));
 	for (size_t f = 0; f < m->nf; f++) {
 		mr_sets_join(set, m->t[f].v[0], m->t[f].v[1]);
 		mr_sets_join(set, m->t[f].v[1], m->t[f].v[2]);
-		for (int k = 0; k < 3; k++)
-			used[m->t[f].v[k]] = true;
 	}
 	for (uint32_t v = 0; v < m->nv; v++)
 		set[v] = mr_sets_root(set, v);

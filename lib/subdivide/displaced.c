@@ -220,7 +220,7 @@ is_displaced(const mr_mesh *m, const mr_domain *d, const mr_mesh *control, const
 		nf *= 4;
 	if (nf != m->nf)
 		return false;
-	for (size_t i = 0; p && m->nv == d->m.nv && i < m->nv; i++)
+	for (size_t i = 0; p && i < m->nv && i < d->m.nv; i++) /* those of a coarser level are the first */
 		if (!(mr_norm(mr_sub(m->p[i], p[i])) <= most))
 			return false;
 	return true;
@@ -262,6 +262,7 @@ mr_displacement_warn_of_mesh(mr_ctx *ctx, mr_frame *f)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	const double *height = NULL;
+	mr_status status;
 	mr_mesh control;
 	mr_domain d;
 	size_t n = 0;
@@ -272,8 +273,9 @@ mr_displacement_warn_of_mesh(mr_ctx *ctx, mr_frame *f)
 	if (!is || !mr_frame_has_layer(f, "displacement"))
 		return MR_OK;
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
-	if (mr_displacement_get(ctx, f, &control, &n, &height) != MR_OK)
-		return MR_OK;
+	status = mr_displacement_get(ctx, f, &control, &n, &height);
+	if (status != MR_OK)
+		return status == MR_EMEM ? status : MR_OK;
 	MR_TRY(mr_domain_of(ctx, f, &control, n, &d));
 	p = MR_NEW(ctx, d.m.nv, mr_v3);
 	if (!p)

@@ -366,10 +366,10 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
 	if (h->faceless)
 		mr_warn(ctx,
-		    "%zu vert%s of mesh that no face has %s fixed or of a handle, and %s with the surface "
-		    "nearest to them",
-		    h->faceless, h->faceless == 1 ? "ex" : "ices", h->faceless == 1 ? "is" : "are",
-		    h->faceless == 1 ? "goes" : "go");
+		    "%zu constrained vert%s of mesh with no face: what no face has goes with the surface "
+		    "nearest "
+		    "to it",
+		    h->faceless, h->faceless == 1 ? "ex" : "ices");
 	tell_some(ctx, h->unscaled, h->handled, missed, share,
 	    "the handle is scaled or mirrored, and heights over base keep their length and turn; mr-decode "
 	    "--gain scales all of them, mr-transform a whole model");

@@ -22,6 +22,28 @@ find_sampling(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s)
 	return MR_OK;
 }
 
+/* The points to be fitted to: of a mesh the vertices that a face has. */
+static mr_status
+get_points(mr_ctx *ctx, mr_frame *f, const char *from, mr_mesh *points)
+{
+	size_t count, n = 0;
+	bool *used;
+	mr_v3 *p;
+
+	MR_TRY(mr_layer_surface_or_points(ctx, f, from, points));
+	if (points->nf == 0)
+		return MR_OK;
+	MR_TRY(mr_vertices_used(ctx, points->t, points->nf, points->nv, &used, &count));
+	p = MR_NEW(ctx, count, mr_v3);
+	if (!p)
+		return MR_EMEM;
+	for (size_t v = 0; v < points->nv; v++)
+		if (used[v])
+			p[n++] = points->p[v];
+	*points = (mr_mesh){ .name = from, .p = p, .nv = count };
+	return MR_OK;
+}
+
 mr_status
 mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *result)
 {
@@ -38,7 +60,7 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
 	MR_TRY(mr_layer_crease(ctx, f, layer, control.nf, &crease));
 	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));
-	MR_TRY(mr_layer_points(ctx, f, from, &points));
+	MR_TRY(get_points(ctx, f, from, &points));
 	if (o->method != MR_FIT_LOCAL) {
 		MR_TRY(find_sampling(ctx, f, &points, &sampling));
 		known = &sampling;

@@ -26,7 +26,7 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 	    mr_mesh_edge_scale(ctx, &out));
 	if (!why)
 		return MR_EMEM;
-	MR_TRY(mr_warn_of_shrinking(ctx, &m, &out, why));
+	MR_TRY(mr_warn_of_coarseness(ctx, &m, &out, why));
 	MR_TRY(mr_crossings_warn(ctx, &m, NULL, &out));
 	MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &map, &mapped));
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &out));

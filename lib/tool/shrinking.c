@@ -23,8 +23,8 @@ volume_of(mr_ctx *ctx, const mr_mesh *m, double *volume)
  */
 static const double MUCH = 0.1;
 
-mr_status
-mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+static mr_status
+look_for_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why, bool *told)
 {
 	double area = mr_mesh_area(ctx, m), volume, lost = 1 - mr_mesh_area(ctx, out) / area, less;
 	bool thin;
@@ -32,20 +32,29 @@ mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const ch
 	MR_TRY(volume_of(ctx, m, &volume));
 	less = 1 - fabs(mr_mesh_volume(ctx, out)) / volume;
 	thin = volume > 0 && less > fmax(MUCH, lost);
-	if (area > 0 && (thin || lost > MUCH))
+	*told = area > 0 && (thin || lost > MUCH);
+	if (*told)
 		mr_warn(ctx, "%s: %.3g %% of its %s is lost: %s", m->name, 100 * (thin ? less : lost),
 		    thin ? "volume" : "area", why);
 	return MR_OK;
 }
 
+mr_status
+mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+{
+	bool told;
+
+	return look_for_shrinking(ctx, m, out, why, &told);
+}
+
 /*
- * Of 95 models that are left with a tenth of their faces 16 are farther off somewhere, seven of which have not
- * lost the share above: ears, blades, small bodies.
+ * Of 95 models that are left with a tenth of their faces 16 are farther off somewhere, seven of which have
+ * not lost the share above: ears, blades, small bodies.
  */
 static const double FAR = 0.05;
 
-mr_status
-mr_warn_of_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+static mr_status
+look_at_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
 {
 	enum { SAMPLES = 1 << 16 };
 	mr_mark mark = mr_mark_take(ctx);
@@ -70,4 +79,13 @@ mr_warn_of_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const cha
 		    m->name, q[widest].x, q[widest].y, q[widest].z, 100 * distance[widest] / diagonal, why);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+mr_status
+mr_warn_of_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+{
+	bool told;
+
+	MR_TRY(look_for_shrinking(ctx, m, out, why, &told));
+	return told ? MR_OK : look_at_distance(ctx, m, out, why);
 }

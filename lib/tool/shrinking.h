@@ -12,8 +12,8 @@
  * closed, and says why. */
 mr_status mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why);
 
-/* Warns where a place of m is farther than a twentieth of its diagonal from `out`, and says why; of at most
+/* The same; else warns where a place of m is farther than a twentieth of its diagonal from `out`: of at most
  * 65,536 corners at equal strides. */
-mr_status mr_warn_of_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why);
+mr_status mr_warn_of_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why);
 
 #endif

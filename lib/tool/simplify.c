@@ -195,15 +195,6 @@ put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_mesh *points,
 	return *count ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
 }
 
-static mr_status
-warn_of_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out)
-{
-	static const char advice[] = "more faces keep more";
-
-	MR_TRY(mr_warn_of_shrinking(ctx, m, out, advice));
-	return mr_warn_of_distance(ctx, m, out, advice);
-}
-
 mr_status
 mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result)
 {
@@ -236,7 +227,7 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, &r));
 	MR_TRY(mr_crossings_warn(ctx, &sharp, onto, &out));
 	if (strcmp(layer, "control") != 0)
-		MR_TRY(warn_of_coarseness(ctx, &m, &out));
+		MR_TRY(mr_warn_of_coarseness(ctx, &m, &out, "more faces keep more"));
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
 	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;

@@ -66,6 +66,8 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 	if (strcmp(layer, "mesh")) {
 		if (strcmp(layer, "control") != 0)
 			mr_layer_warn_of_place(ctx, f, "mesh", layer);
+		else
+			MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 		MR_TRY(mr_layer_warn_of_loss(ctx, f, "mesh", layer));
 		mr_frame_drop(f, "mesh", NULL, 0);
 		if (!strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))

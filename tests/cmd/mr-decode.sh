@@ -195,4 +195,4 @@ done
 echo '-- a vertex that no face has goes with the surface, though it is fixed'
 mr-make bumpy -n 2000 | mr-export -f off - | awk 'NR == 2 { n = $1; $1++ } NR == n + 2 { print; print "0 2.5 0"; next } { print }' >above.off
 mr-import above.off | mr-smooth | mr-select --free all --fixed below:y,0.3 --handle 0=above:y,0.7 --fixed sphere:0,2.5,0,0.1 |
-    mr-encode | mr-pose --rotate 1,0,0,60 | mr-solve | mr-decode 2>&1 >out.mrs | grep -o '1 vertex of.*'
+    mr-encode | mr-pose --rotate 1,0,0,60 | mr-solve | mr-decode 2>&1 >out.mrs | grep -o '1 constrained.*'

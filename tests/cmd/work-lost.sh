@@ -48,3 +48,10 @@ done
 mr-select -l control --free all --fixed below:y,0.2 --handle 0=above:y,0.8 decoded.mrs | mr-pose --translate 0,1,0 | mr-solve |
     mr-transform -r 1,2,3,40 | mr-decode -q | mr-equalize -g 1,2 2>&1 >after.mrs | grep 'what was done to it' || echo none behind a pose
 mr-decode -q --level 1 scan.mrs | mr-equalize -g 1,2 2>&1 >after.mrs | grep 'what was done to it' || echo none of a coarser level
+
+echo '-- the same at another level, and by mr-subdivide of control; a second edit, whose detail has served'
+mr-decode -q --level 1 scan.mrs | mr-transform -q -l mesh -t 1,0,0 | mr-decode 2>&1 >after.mrs | grep -o 'what was done to it.*'
+mr-subdivide -l control half.mrs 2>&1 >after.mrs | grep -o 'what was done to it.*'
+mr-subdivide -q -l control decoded.mrs -o after.mrs
+mr-select --free all --handle 0=above:y,0.8 edit.mrs | mr-pose --translate 0,0.2,0 | mr-solve | mr-decode | mr-smooth -l mesh 2>&1 >after.mrs |
+    grep 'detail' || echo none

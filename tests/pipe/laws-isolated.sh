@@ -10,6 +10,9 @@ mr-remesh --adaptive 1% | mr-export -q
 mr-simplify -e 0.2% | mr-export -q
 mr-subdivide --longest 2% | mr-export -q
 mr-crop --keep above:y,0.5 | mr-export -q
+mr-transform --center --unit | mr-export -q
+mr-simplify -q --to control -n 300 | mr-fit -q | mr-export -q -l control
+mr-simplify -q --to control -n 300 | mr-sample -q | mr-decode -q | mr-export -q
 mr-smooth | mr-remesh -q -r 5 | mr-select --free all --fixed below:y,0.4 --handle 0=above:y,0.6 | mr-encode | mr-pose --rotate 1,0,0,80 | mr-solve | mr-decode | mr-export
 JOBS
 # The vertex, wherever it is, taken out: faces are behind those before it; what is left is compared.
@@ -35,4 +38,11 @@ for model in one more; do
 	mr-import --weld 1% $model.off 2>/dev/null | mr-export -q -f off - | stripped >$model.out
 done
 cmp one.out more.out || { echo "--weld: another surface"; fail=1; }
+for model in one more; do
+	mr-import $model.off | mr-render -s 100x100 --no-labels $model.png
+	mr-import $model.off | mr-view -q $model.html
+done
+cmp one.png more.png || { echo "another picture"; fail=1; }
+[ $(wc -c <more.html) -lt $(($(wc -c <one.html) + 1000)) ] && [ $(wc -c <more.html) -gt $(($(wc -c <one.html) - 1000)) ] ||
+    { echo "a page of other steps"; fail=1; }
 exit $fail

@@ -44,9 +44,9 @@ camera_for(const mr_mesh *m, mr_v3 from, bool parallel, double w, double h)
 	mr_camera c;
 
 	assert_int_equal(mr_camera_look(&ctx, from, mr_vec(0, 1, 0), &c), MR_OK);
-	mr_camera_box(&c, m->p, m->nv, &box);
+	mr_camera_box(&c, m, &box);
 	mr_camera_aim(&c, box, parallel);
-	mr_camera_cover(&c, m->p, m->nv, &covered);
+	mr_camera_cover(&c, m, &covered);
 	mr_camera_fit(&c, covered, 1, 0, 0, w, h);
 	return c;
 }
