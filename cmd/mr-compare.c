@@ -77,6 +77,10 @@ choose_results(cmd *c, mr_frame *f, mr_frame *second, const char *first, const c
 		return mr_layer_choose(&c->ctx, second, layer_b ? layer_b : *a, NULL, b);
 	MR_TRY(mr_layer_result(&c->ctx, second, NULL, &result));
 	*b = mr_frame_has_layer(second, *a) ? *a : result;
+	if (f->key && strcmp(*b, result) != 0)
+		mr_warn(&c->ctx,
+		    "%s of the second is taken, not %s, which was worked on last there: -b %s takes that", *b,
+		    result, result);
 	return MR_OK;
 }
 

@@ -228,7 +228,6 @@ paces(mr_ctx *ctx, const smoothing *s, double limit, double **pace)
 
 typedef struct step_job {
 	const double *pace;
-	double factor;
 	const mr_v3 *lp;
 	mr_v3 *p;
 } step_job;
@@ -239,15 +238,15 @@ step(void *arg, size_t begin, size_t end)
 	step_job *j = arg;
 
 	for (size_t v = begin; v < end; v++)
-		j->p[v] = mr_axpy(-j->factor * j->pace[v], j->lp[v], j->p[v]);
+		j->p[v] = mr_axpy(-j->pace[v], j->lp[v], j->p[v]);
 }
 
-/* p -= factor pace L p */
+/* p -= pace L p */
 static void
-take_step(mr_ctx *ctx, const smoothing *s, const double *pace, double factor, mr_v3 *lp, mr_v3 *p)
+take_step(mr_ctx *ctx, const smoothing *s, const double *pace, mr_v3 *lp, mr_v3 *p)
 {
 	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &lp->x);
-	mr_parallel(ctx, s->m->nv, GRAIN, step, &(step_job){ pace, factor, lp, p });
+	mr_parallel(ctx, s->m->nv, GRAIN, step, &(step_job){ pace, lp, p });
 }
 
 /* The largest share of the way to the neighbours' mean that a pass may go. */
@@ -264,20 +263,40 @@ share_of(double time)
 	return 4 * time;
 }
 
+/*
+ * Taubin's step back, mu of 1 / lambda + 1 / mu = pass band, which is the same for all vertices: where one
+ * goes at a part of the pace its mu is nearer to -lambda.  With one ratio for all the band of the slow ones
+ * is so wide that all of their noise is in it, and grows.
+ */
+static mr_status
+paces_back(mr_ctx *ctx, const smoothing *s, const double *pace, double **back)
+{
+	static const double pass_band = 0.1; /* Taubin's choice */
+	double most = s->step * s->edge2, lambda = share_of(s->step), *c = MR_NEW(ctx, s->m->nv, double);
+
+	if (!c)
+		return MR_EMEM;
+	for (size_t v = 0; v < s->m->nv; v++)
+		c[v] = most > 0 ? pace[v] / (pass_band * lambda * (s->time[v] / most) - 1) : 0;
+	*back = c;
+	return MR_OK;
+}
+
 static mr_status explicit(mr_ctx *ctx, const smoothing *s, int method, mr_v3 *p)
 {
-	static const double pass_band = 0.1; /* 1 / lambda + 1 / mu, Taubin's choice */
-	double lambda = share_of(s->step), mu = 1 / (pass_band - 1 / lambda), *pace;
 	mr_v3 *lp = MR_NEW(ctx, s->m->nv, mr_v3);
+	double *pace, *back = NULL;
 
 	if (!lp)
 		return MR_EMEM;
 	MR_TRY(paces(ctx, s, limit_of(method), &pace));
+	if (method == MR_SMOOTH_TAUBIN)
+		MR_TRY(paces_back(ctx, s, pace, &back));
 	for (size_t i = 0; i < s->found.passes; i++) {
 		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
-		take_step(ctx, s, pace, 1, lp, p);
-		if (method == MR_SMOOTH_TAUBIN)
-			take_step(ctx, s, pace, mu / lambda, lp, p);
+		take_step(ctx, s, pace, lp, p);
+		if (back)
+			take_step(ctx, s, back, lp, p);
 	}
 	return MR_OK;
 }

@@ -702,15 +702,19 @@ are_consistent(mr_ctx *ctx, const mr_volume_sides *j, bool normals)
 
 	if (j->alike >= ALIKE_LEAST && (!normals || j->near >= NEAR_LEAST))
 		return true;
-	if (normals)
+	if (normals && !(j->near >= NEAR_LEAST))
 		mr_warn(ctx,
 		    "the normals of the points are not used: %.3g %% are within 60 degrees of those of their "
-		    "neighbours' planes, %.3g %% of neighbours are on one side by them",
-		    100 * j->near, 100 * j->alike);
+		    "neighbours' planes",
+		    100 * fmax(j->near, 0));
+	else if (normals)
+		mr_warn(ctx,
+		    "the normals of the points are not used: %.3g %% of neighbours are on one side by them",
+		    100 * fmax(j->alike, 0));
 	else
 		mr_warn(ctx,
 		    "the places of the scanner are not used: %.3g %% of neighbours are on one side by them",
-		    100 * j->alike);
+		    100 * fmax(j->alike, 0));
 	return false;
 }
 

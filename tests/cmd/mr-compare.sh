@@ -58,3 +58,9 @@ mr-compare -i plane.mrs plane.mrs | sed 's/[0-9.]*e-[0-9]*/0/g; s/  *0/ 0/g'
 printf 'v 0 0 0\nv 1 0 0\nv 2 0 0\nv 0 0 5\nf 1 2 3\n' >line.obj
 mr-compare --json line.obj line.obj >json || exit
 near "isolated of no area" "$(first json both hausdorff)" 0 1e-12
+echo '-- the layer of one name, where the second was worked on in another'
+mr-make bumpy -n 500 -o bumpy.mrs
+mr-remesh -q bumpy.mrs -o remeshed.mrs
+mr-compare bumpy.mrs remeshed.mrs 2>&1 >out | grep -o 'mesh of the second.*'
+mr-compare -b base bumpy.mrs remeshed.mrs 2>&1 >out
+mr-compare remeshed.mrs bumpy.mrs 2>&1 >out
