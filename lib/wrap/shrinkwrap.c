@@ -236,6 +236,14 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 	}
 }
 
+/* The end of a sentence on what may be wrong: sides that agree among neighbours may still be those of parts.
+ */
+static const char *
+doubt_of_sides(const mr_wrap_cloud *cloud)
+{
+	return cloud->sides ? "; sides that are given may be wrong, and --ignore-normals finds others" : "";
+}
+
 /* Where its topology hangs on the level, or nothing tells it. */
 static void
 warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
@@ -252,9 +260,10 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    "the topology is uncertain: Euler number %g, or %g where body or gaps are thin, first "
 		    "near (%.4g, %.4g, %.4g)%s",
 		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z,
-		    cloud->sides ? "" : "; denser points would tell, or their normals");
+		    cloud->sides ? doubt_of_sides(cloud) : "; denser points would tell, or their normals");
 	else if (c->found.method == MR_WRAP_AUTO)
-		mr_warn(ctx, "the topology is uncertain: the wrap is a sphere because it began as one");
+		mr_warn(ctx, "the topology is uncertain: the wrap is a sphere because it began as one%s",
+		    doubt_of_sides(cloud));
 }
 
 /* Where a wrap is poor by the same measure. */
@@ -274,8 +283,9 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	if (points > MR_WRAP_ENOUGH.points.high)
 		mr_warn(ctx,
 		    "%.3g %% of the points are more than %g sampling distances from the wrap, up to %.3g: "
-		    "outliers, or of a part that it does not reach",
-		    100 * c->cover.missed, MR_WRAP_ENOUGH.points.high, g->points.max / cloud->spacing);
+		    "outliers, or of a part that it does not reach%s",
+		    100 * c->cover.missed, MR_WRAP_ENOUGH.points.high, g->points.max / cloud->spacing,
+		    doubt_of_sides(cloud));
 	else if (g->points.max > MR_WRAP_LACKS * cloud->spacing)
 		mr_warn(ctx,
 		    "a point is %.3g sampling distances from the wrap: an outlier, or of a part that is left "
