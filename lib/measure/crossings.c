@@ -62,42 +62,33 @@ count_new(mr_ctx *ctx, const mr_mesh *m, const bool *crossed, const mr_mesh *aft
 	return MR_OK;
 }
 
-static mr_status
-warn(mr_ctx *ctx, const mr_mesh *before, const mr_mesh *after, const bool *crosses, size_t pairs)
-{
-	bool *crossed = MR_NEW(ctx, before->nf, bool);
-	uint32_t v = first_vertex(after, crosses);
-	size_t old, others;
-
-	if (!crossed)
-		return MR_EMEM;
-	MR_TRY(mr_self_intersections(ctx, NULL, before, crossed, &old));
-	MR_TRY(count_new(ctx, before, crossed, after, crosses, &others));
-	mr_warn(ctx,
-	    "%zu pairs of faces of the result intersect, %zu did before%s, as at vertex %u (%.4g, %.4g, "
-	    "%.4g)",
-	    pairs, old, others > FEW ? ": it is too coarse for what is thin or near" : ", in the same places",
-	    v, after->p[v].x, after->p[v].y, after->p[v].z);
-	return MR_OK;
-}
-
 mr_status
 mr_crossings_warn(mr_ctx *ctx, const mr_mesh *before, const uint32_t *onto, const mr_mesh *after)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	bool *crosses = MR_NEW(ctx, after->nf, bool);
-	size_t pairs, old = 0;
+	bool *crosses = MR_NEW(ctx, after->nf, bool), *crossed = MR_NEW(ctx, before->nf, bool);
+	size_t pairs, old = 0, others;
 	mr_mesh part = *before;
+	mr_v3 at;
 
-	if (!crosses)
+	if (!crosses || !crossed)
 		return MR_EMEM;
 	MR_TRY(mr_self_intersections(ctx, NULL, after, crosses, &pairs));
 	if (pairs > FEW && onto)
 		MR_TRY(part_that_crosses(ctx, before, onto, after, crosses, &part));
 	if (pairs > FEW)
-		MR_TRY(mr_self_intersections(ctx, NULL, &part, NULL, &old));
-	if (pairs > FEW + 2 * old) /* bodies that crossed before do so in more or fewer pairs */
-		MR_TRY(warn(ctx, &part, after, crosses, pairs));
+		MR_TRY(mr_self_intersections(ctx, NULL, &part, crossed, &old));
+	if (pairs > FEW + 2 * old) { /* bodies that crossed before do so in more or fewer pairs */
+		uint32_t v = first_vertex(after, crosses);
+		MR_TRY(count_new(ctx, &part, crossed, after, crosses, &others));
+		at = after->p[v];
+		mr_warn(ctx,
+		    "%zu pairs of faces of the result intersect, where %zu did before%s, as at vertex %u "
+		    "(%.4g, %.4g, %.4g)",
+		    pairs, old,
+		    others > FEW ? ": it is too coarse for what is thin or near" : ", in the same places", v,
+		    at.x, at.y, at.z);
+	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
