@@ -262,7 +262,9 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z,
 		    cloud->sides ? doubt_of_sides(cloud) : "; denser points would tell, or their normals");
 	else if (c->found.method == MR_WRAP_AUTO)
-		mr_warn(ctx, "the topology is uncertain: the wrap is a sphere because it began as one%s",
+		mr_warn(ctx,
+		    "the topology is uncertain: but for openings it is that of the sphere as which the wrap "
+		    "began%s",
 		    doubt_of_sides(cloud));
 }
 

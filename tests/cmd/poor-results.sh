@@ -6,7 +6,7 @@ heard() { # what, the tool's words
 mr-make cylinder -n 3000 --noise 1% | mr-remesh --adaptive 5% --feature 40 2>said >out
 heard 'edges that are sharp by noise' 'sharp edges are gone'
 
-mr-make bumpy -n 5000 | mr-smooth -t 200 | mr-remesh -q -r 4 | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.5 |
+mr-make bumpy -n 5000 | mr-smooth -q -t 200 | mr-remesh -q -r 4 | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.5 |
     mr-encode -q | mr-pose -H 1 --rotate 0,0,1,170 --scale 0.2 | mr-solve -q | mr-decode 2>said >out
 heard 'half a model shrunk in little room' 'detail is torn'
 
@@ -23,7 +23,7 @@ for options in '-n 0' '--longest 10%'; do mr-subdivide $options disc.off -o out;
 mr-subdivide sphere.mrs -o out
 
 mr-make knot --points 900 --noise 2% | mr-shrinkwrap 2>said >out
-heard 'too few points of a knot, with noise' 'the wrap is a sphere because it began as one'
+heard 'too few points of a knot, with noise' 'but for openings it is that of the sphere as which the wrap began'
 
 mr-make sphere -n 42 | mr-export -f off - | mr-import -l control -o control.mrs
 mr-make knot --points 1500 | mr-cat --merge control.mrs - | mr-fit -m local 2>said -o fit.mrs
