@@ -1,5 +1,5 @@
 # Undeformed solves and poses through the pipe: what must be exact is, and shortcuts change nothing.
-mr-make bumpy -n 2000 | mr-smooth -t 20 | mr-select --free above:z,0.2 --handle 0=above:z,0.85 -o s.mrs
+mr-make bumpy -n 2000 | mr-smooth -q -t 20 | mr-select --free above:z,0.2 --handle 0=above:z,0.85 -o s.mrs
 off() { mr-export -f off -l "$2" - <"$1"; }
 far() { # the largest difference of two OFF files, against a tolerance
 	paste "$1" "$2" | awk -v tol="$3" 'NR > 2 && NF == 6 { for (i = 1; i <= 3; i++) {
