@@ -159,15 +159,6 @@ is_position(const mr_column *c, const char *layer)
 }
 
 static mr_status
-surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
-{
-	const mr_column *t = mr_frame_find(f, layer, "triangles");
-
-	return t && t->rows ? mr_layer_mesh_of_any_size(ctx, f, layer, m)
-	                    : mr_layer_points_of_any_size(ctx, f, layer, m);
-}
-
-static mr_status
 find_box(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_affine *map, mr_box *box)
 {
 	mr_mesh m;
@@ -175,7 +166,7 @@ find_box(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_affine *map, mr_b
 	*box = mr_box_empty();
 	for (size_t i = 0; i < f->count; i++)
 		if (is_position(&f->columns[i], layer)) {
-			MR_TRY(surface_or_points(ctx, f, f->columns[i].layer, &m));
+			MR_TRY(mr_layer_surface_or_points_of_any_size(ctx, f, f->columns[i].layer, &m));
 			for (size_t k = 0; k < mr_mesh_places(&m); k++)
 				mr_box_add(box, mr_apply(map, mr_mesh_place(&m, k)));
 		}

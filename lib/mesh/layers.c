@@ -366,11 +366,23 @@ mr_layer_mesh_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *
 }
 
 mr_status
-mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+mr_layer_surface_or_points_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
 	const mr_column *faces = mr_frame_find(f, layer, "triangles");
 
-	return faces && faces->rows ? mr_layer_mesh(ctx, f, layer, m) : mr_layer_points(ctx, f, layer, m);
+	return faces && faces->rows ? mr_layer_mesh_of_any_size(ctx, f, layer, m)
+	                            : mr_layer_points_of_any_size(ctx, f, layer, m);
+}
+
+mr_status
+mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+{
+	mr_mesh r;
+
+	MR_TRY(mr_layer_surface_or_points_of_any_size(ctx, f, layer, &r));
+	MR_TRY(check_size(ctx, &r));
+	*m = r;
+	return MR_OK;
 }
 
 /* Drops the columns of a name from every layer. */

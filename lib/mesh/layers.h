@@ -54,6 +54,7 @@ mr_status mr_layer_points_of_any_size(mr_ctx *ctx, mr_frame *f, const char *laye
 mr_status mr_layer_mesh_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 
 /* The layer's surface, or its positions where it has no faces. */
+mr_status mr_layer_surface_or_points_of_any_size(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m);
 
 /* mr_layer_put_mesh of a surface that has `normal` where the one before had normals. */
