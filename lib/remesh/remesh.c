@@ -525,8 +525,9 @@ cut_flaws(const remesher *r, mr_patch *patch)
 /*
  * The last resort, around the flaws that are left: once as it is, then with edges half as long there, as long
  * as that leaves fewer; the state with the fewest stays, the first of them.  Where the finer edges leave more
- * than MANY times as many the surface is thinner than they are all over: of 63 such rounds 24 did:
- * nine tenths of all flaws were theirs, and mending them took out a quarter of what all took out.
+ * than MANY times as many, or there are more than are tried, the surface is thinner than they are all over:
+ * of 63 such rounds 24 did: nine tenths of all flaws were theirs, and mending them took out a quarter of what
+ * all took out.
  */
 static mr_status
 try_again(remesher *r)
@@ -547,7 +548,7 @@ try_again(remesher *r)
 			break; /* more than may be: what was found stays */
 		MR_TRY(status);
 		MR_TRY(count_flawed(&part, &left));
-		if (left > MANY * least)
+		if (left > MANY * least || left > mr_mendable(&part.d))
 			break;
 		MR_TRY(mr_mend_flaws(r->ctx, &part.d, &part.source, true));
 		MR_TRY(count_flawed(&part, &left));

@@ -350,13 +350,8 @@ free_stuck(const mender *w)
 	return left;
 }
 
-/*
- * One face of 16, and a thousand more: real models have less than one in 400 tried, or a few, while the tip
- * of a spike, far off and thinner than its edges all the way, has half of all faces flawed and takes minutes,
- * for nothing.
- */
-static size_t
-enough(const mr_dyn *d)
+size_t
+mr_mendable(const mr_dyn *d)
 {
 	return 1000 + d->nf / 16;
 }
@@ -365,7 +360,7 @@ mr_status
 mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mender w = { .d = d, .s = s, .left = enough(d), .last = last };
+	mender w = { .d = d, .s = s, .left = mr_mendable(d), .last = last };
 	bool flawed;
 	size_t count;
 

@@ -209,9 +209,12 @@ place_middle(resampler *r, uint32_t m)
 {
 	const mr_remesh_source *s = r->s;
 	mr_dyn *d = r->d;
+	double far2 = square(MR_FAR * mr_remesh_length(s, d, m));
 	mr_closest c = mr_project_walk(s->m, s->topo, d->at[m], d->p[m]);
 
-	if (c.dist2 > square(MR_FAR * mr_remesh_length(s, d, m)))
+	if (c.dist2 > far2)
+		c = mr_project_walk_around(s->m, s->topo, d->at[m], d->p[m]);
+	if (c.dist2 > far2)
 		c = mr_remesh_place(s, d, m, d->p[m], mr_dyn_normal_around(d, m));
 	d->at[m] = c.at.face;
 }

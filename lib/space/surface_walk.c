@@ -31,11 +31,10 @@ nearest_around(const mr_mesh *m, const mr_topology *topo, uint32_t v, mr_v3 q)
 	return best;
 }
 
-mr_closest
-mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
+/* Steps from a place on to a local minimum. */
+static mr_closest
+walk_on(const mr_mesh *m, const mr_topology *topo, mr_closest near, mr_v3 q)
 {
-	mr_closest near = mr_face_closest(m, f, q);
-
 	for (;;) {
 		mr_closest next = near;
 		int corner = corner_of(near), side = corner < 0 ? side_of(near) : -1;
@@ -50,6 +49,25 @@ mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
 			return near;
 		near = next;
 	}
+}
+
+mr_closest
+mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
+{
+	return walk_on(m, topo, mr_face_closest(m, f, q), q);
+}
+
+mr_closest
+mr_project_walk_around(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q)
+{
+	mr_closest best = { .dist2 = INFINITY };
+
+	for (int k = 0; k < 3; k++) {
+		mr_closest near = nearest_around(m, topo, m->t[f].v[k], q);
+		if (near.dist2 < best.dist2)
+			best = near;
+	}
+	return walk_on(m, topo, best, q);
 }
 
 /* The other curve half-edge at vertex v than the edge of h; MR_NONE where not exactly two curve edges meet.

@@ -14,6 +14,10 @@
 /* The nearest point met by walking from face f over edges and vertices. */
 mr_closest mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q);
 
+/* The same from the nearest place of the faces that meet f: a point just beyond an acute edge is near the
+ * inside of f as well, from where no step comes nearer. */
+mr_closest mr_project_walk_around(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q);
+
 /*
  * The nearest point on the curve that half-edge h lies on: walks along marked
  * half-edges and stops at vertices where other than two meet.

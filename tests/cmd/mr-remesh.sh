@@ -71,6 +71,12 @@ awk 'BEGIN { n = 150; k = 12; print "OFF\n" n * k, 2 * n * k, 0
 mr-import ring.off | mr-remesh -r 2.5 >/dev/null
 mr-make boxes --genus 9 -n 4000 | mr-remesh --vertices 12 2>&1 >/dev/null | sed -n 's/.* vertices and .* faces are .* times as many as were wanted/more than wanted/p'
 
+echo 'four faces that meet at acute edges'
+printf 'OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n' >corner.off
+for length in 10% 5% 2%; do
+	mr-remesh -q -L $length corner.off | mr-info -l base | sed -n '/base:/,$p' | awk '/area/ { area = $2 > 1.8 && $2 < 2.366 } /flaws/ { print area, $2 }'
+done
+
 echo 'a rod of CAD, of faces as long as it'
 awk 'BEGIN { n = 64; for (k = 0; k < 2; k++) for (i = 0; i < n; i++) print "v", cos(6.2831853071795862 * i / n), sin(6.2831853071795862 * i / n), 50 * k
 	print "v 0 0 0"; print "v 0 0 50"
