@@ -77,7 +77,8 @@ mr_outname_once(
 	MR_TRY(mr_outname(ctx, pattern, frame, number, name));
 	if (mr_string_set_has(given, *name))
 		return mr_fail(ctx, MR_EUSAGE,
-		    "%s holds an earlier frame: put %%d, the number of the frame, into the name", *name);
+		    "%s holds an earlier frame than frame %llu: put %%d, the number of the frame, into the name",
+		    *name, (unsigned long long)number);
 	return mr_string_set_add(given, *name);
 }
 
