@@ -325,17 +325,24 @@ lower(char c)
 }
 
 bool
+mr_word_is(const char *text, size_t n, const char *word)
+{
+	size_t i = 0;
+
+	while (i < n && word[i] && lower(text[i]) == lower(word[i]))
+		i++;
+	return i == n && !word[i];
+}
+
+bool
 mr_scan_accept(mr_scan *t, const char *word)
 {
 	mr_scan ahead = *t;
 	const char *w;
 	size_t n;
 
-	if (!mr_scan_word(&ahead, &w, &n) || n != strlen(word))
+	if (!mr_scan_word(&ahead, &w, &n) || !mr_word_is(w, n, word))
 		return false;
-	for (size_t i = 0; i < n; i++)
-		if (lower(w[i]) != lower(word[i]))
-			return false;
 	*t = ahead;
 	return true;
 }

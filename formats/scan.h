@@ -70,6 +70,9 @@ bool mr_scan_line(mr_scan *t, mr_scan *line);
 /* The next word of the text, of non-blanks; false at the end.  Crosses lines where the text has any. */
 bool mr_scan_word(mr_scan *t, const char **word, size_t *bytes);
 
+/* Whether a text of n bytes is this word, in either case of letters. */
+bool mr_word_is(const char *text, size_t n, const char *word);
+
 /* True, and skips it, where the next word is this one, in either case of letters. */
 bool mr_scan_accept(mr_scan *t, const char *word);
 

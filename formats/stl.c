@@ -98,7 +98,7 @@ typedef struct ascii {
 
 /* Corners are vertices of their own until all are there; a facet is a face of them. */
 static mr_status
-end_facet(ascii *a, const mr_scan *line)
+end_facet(ascii *a, mr_scan *line)
 {
 	size_t n = a->corners - a->first;
 	uint32_t small[16], *c = small;
@@ -120,9 +120,6 @@ add_vertex(ascii *a, mr_scan *line)
 	return mr_scan_position(line, &a->p[a->corners++]);
 }
 
-static const char *const statements[] = { "vertex", "facet", "outer", "endloop", "endfacet", "endsolid",
-	"solid", NULL };
-
 /* The name of a solid is what is left of its line; it begins a group, but for a first one without a name. */
 static mr_status
 begin_solid(ascii *a, mr_scan *line)
@@ -137,77 +134,94 @@ begin_solid(ascii *a, mr_scan *line)
 	           : MR_OK;
 }
 
-static void
-pass_normal(mr_scan *line)
-{
-	const char *w;
-	size_t n;
-
-	if (mr_scan_accept(line, "normal"))
-		for (int i = 0; i < 3; i++)
-			mr_scan_word(line, &w, &n);
-}
-
-/* The statement that the line begins with; *state is how deep it stands: 0 outside, 1 in a solid, 2 in a
- * facet, 3 in a loop. */
 static mr_status
-statement(ascii *a, mr_scan *line, int *state)
+pass_name(ascii *a, mr_scan *line)
 {
-	static const struct {
-		int from, to;
-	} steps[] = { { 3, 3 }, { 1, 2 }, { 2, 3 }, { 3, 2 }, { 2, 1 }, { 1, 0 }, { 0, 1 } };
-	char shown[MR_SHOWN];
-	const char *w = line->p;
-	size_t n = 0;
-
-	for (size_t i = 0; statements[i]; i++) {
-		if (!mr_scan_accept(line, statements[i]))
-			continue;
-		if (*state != steps[i].from)
-			return mr_scan_fail(&a->text, w, "'%s' stands where it may not", statements[i]);
-		*state = steps[i].to;
-		switch (i) {
-		case 0:
-			return add_vertex(a, line);
-		case 1:
-			pass_normal(line);
-			return MR_OK;
-		case 2:
-			mr_scan_accept(line, "loop");
-			a->first = a->corners;
-			return MR_OK;
-		case 3:
-			return end_facet(a, line);
-		case 5: /* and its name */
-			line->p = line->end;
-			return MR_OK;
-		case 6:
-			return begin_solid(a, line);
-		default:
-			return MR_OK;
-		}
-	}
-	return mr_scan_word(line, &w, &n)
-	           ? mr_scan_fail(&a->text, w, "'%s' begins no statement of STL", mr_word_shown(w, n, shown))
-	           : MR_OK;
+	(void)a;
+	line->p = line->end;
+	return MR_OK;
 }
 
-/* Whether another statement follows on the line; what is none is passed over. */
-static bool
-find_next(mr_scan *line)
+static mr_status
+pass_numbers(ascii *a, mr_scan *line)
 {
 	const char *w;
 	size_t n;
 
-	while (mr_scan_word(line, &w, &n))
-		for (size_t i = 0; statements[i]; i++) {
-			mr_scan word = { .p = w, .end = w + n };
-			if (mr_scan_accept(&word, statements[i])) {
-				line->p = w;
-				return true;
-			}
-		}
-	return false;
+	(void)a;
+	for (int i = 0; i < 3; i++)
+		mr_scan_word(line, &w, &n);
+	return MR_OK;
+}
+
+static mr_status
+begin_loop(ascii *a, mr_scan *line)
+{
+	(void)line;
+	a->first = a->corners;
+	return MR_OK;
+}
+
+/* How deep a statement stands. */
+enum { OUTSIDE, IN_SOLID, IN_FACET, IN_LOOP };
+
+typedef struct statement {
+	const char *word;
+	int from, to;                               /* how deep */
+	mr_status (*read)(ascii *a, mr_scan *line); /* what is behind the word; NULL: nothing */
+} statement;
+
+static const statement statements[] = {
+	{ "vertex", IN_LOOP, IN_LOOP, add_vertex },
+	{ "facet", IN_SOLID, IN_FACET, NULL },
+	{ "normal", IN_FACET, IN_FACET, pass_numbers },
+	{ "outer", IN_FACET, IN_LOOP, begin_loop },
+	{ "loop", IN_LOOP, IN_LOOP, NULL },
+	{ "endloop", IN_LOOP, IN_FACET, end_facet },
+	{ "endfacet", IN_FACET, IN_SOLID, NULL },
+	{ "endsolid", IN_SOLID, OUTSIDE, pass_name },
+	{ "solid", OUTSIDE, IN_SOLID, begin_solid },
+	{ NULL, 0, 0, NULL },
+};
+
+/* The statement that a word begins; its own word is NULL where there is none. */
+static const statement *
+find_statement(const char *w, size_t n)
+{
+	const statement *s = statements;
+
+	while (s->word && !mr_word_is(w, n, s->word))
+		s++;
+	return s;
+}
+
+/* Reads on behind a word of the line, w; *depth is where it stands. */
+static mr_status
+read_statement(ascii *a, const char *w, size_t n, mr_scan *line, int *depth)
+{
+	const statement *s = find_statement(w, n);
+	char shown[MR_SHOWN];
+
+	if (!s->word)
+		return mr_scan_fail(
+		    &a->text, w, "'%s' begins no statement of STL", mr_word_shown(w, n, shown));
+	if (*depth != s->from)
+		return mr_scan_fail(&a->text, w, "'%s' stands where it may not", s->word);
+	*depth = s->to;
+	return s->read ? s->read(a, line) : MR_OK;
+}
+
+/* The statements of a line; what stands between them and is none is passed over. */
+static mr_status
+read_line(ascii *a, mr_scan *line, int *depth)
+{
+	const char *w;
+	size_t n;
+
+	for (bool first = true; mr_scan_word(line, &w, &n); first = false)
+		if (first || find_statement(w, n)->word)
+			MR_TRY(read_statement(a, w, n, line, depth));
+	return MR_OK;
 }
 
 /* How many vertices there can be, by the word before each. */
@@ -228,7 +242,7 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	ascii a = { .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts } };
 	uint32_t *map;
 	mr_scan line;
-	int state = 0;
+	int depth = OUTSIDE;
 	size_t nv;
 
 	a.room = count_vertices(&a.text);
@@ -236,10 +250,8 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(mr_build_reserve(&a.b, a.room / 3));
 	a.p = a.b.p;
 	while (mr_scan_line(&a.text, &line))
-		do
-			MR_TRY(statement(&a, &line, &state));
-		while (find_next(&line));
-	if (state)
+		MR_TRY(read_line(&a, &line, &depth));
+	if (depth != OUTSIDE)
 		return mr_scan_fail(&a.text, a.text.end, "the file ends inside a solid");
 	if (!(map = MR_NEW(ctx, a.corners, uint32_t)))
 		return MR_EMEM;

@@ -80,7 +80,7 @@ mr-import <bare.off 2>&1 | strings -n 20 | tail -n 1
 printf 'nOFF\n3\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n' >n.off
 mr-import n.off 2>&1 | grep -a -o 'n.off:.*'
 echo '-- an STL of several statements a line, and of a facet without its normal'
-printf 'solid a facet\nfacet normal 0 0 1 outer loop vertex 0 0 1 vertex 1 0 1\rvertex 0 1 1 endloop endfacet\nFACET OUTER LOOP\nvertex 0 0 1 7\nvertex 1 0 1\nvertex 0 1 2\nendloop endfacet endsolid facet\n' >lines.stl
+printf 'solid a facet\nfacet normal 0 0 1 outer loop vertex 0 0 1 vertex 1 0 1\rvertex 0 1 1 endloop endfacet\nFACET\nNORMAL 0 0 1 OUTER\nLOOP\nvertex 0 0 1 7\nvertex 1 0 1\nvertex 0 1 2\nendloop endfacet endsolid facet\n' >lines.stl
 mr-import lines.stl | mr-export -q -f obj -
 printf 'solid\nfacet\nouter loop\nvertex 0 0 1 vertex 1 0 1 endloop' | mr-import -f stl - 2>&1 >/dev/null
 echo '-- an OFF with its texture coordinates behind its colours, and one that is not known'
