@@ -111,6 +111,27 @@ check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 	return MR_OK;
 }
 
+/* Where no vertex is free the faces between regions alone give way. */
+static void
+look_for_room(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
+{
+	double longest = 0;
+	size_t between = 0;
+
+	for (size_t h = 0; d->free == 0 && h < 3 * rest->nf; h++) {
+		uint32_t a = mr_he_from(rest, (uint32_t)h), b = mr_he_to(rest, (uint32_t)h);
+		if (d->region[a] == d->region[b])
+			continue;
+		longest = fmax(longest, mr_dist(rest->p[a], rest->p[b]));
+		between++;
+	}
+	if (between)
+		mr_warn(ctx,
+		    "%s: no vertex is free, and all that gives way are edges from region to region: free "
+		    "some, or make more first, by mr-subdivide --longest %.2g",
+		    rest->name, longest / 4);
+}
+
 /* Says what becomes of parts that no constraint reaches.  follows: riders, and then what is to follow. */
 static mr_status
 settle_loose(
@@ -158,6 +179,7 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 		return MR_EMEM;
 	count_regions(d);
 	MR_TRY(check_problem(ctx, d, rest));
+	look_for_room(ctx, d, rest);
 	stitched = *rest;
 	if (!d->opts.apart)
 		MR_TRY(mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched, follows));
@@ -271,6 +293,10 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 		report_solver(ctx, d, &result);
 	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", result.free, d->fixed,
 	    d->handled, d->residual);
+	if (!mr_solver_iterates(d->opts.solver.kind) && !d->rough && d->residual > d->opts.tol)
+		mr_warn(ctx,
+		    "the residual %.1e is over the %.1e that was to be reached: rounding keeps it there",
+		    d->residual, d->opts.tol);
 	if (d->narrow)
 		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
 		    d->narrow, d->opts.order);

@@ -2,10 +2,10 @@
  * functions. */
 #include "edit/pose_basis.h"
 
+#include "base/parallel.h"
 #include "edit/deform.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
-#include "base/parallel.h"
 
 typedef struct response_job {
 	const mr_v3 *p0;
@@ -102,7 +102,7 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
 	if (!column)
 		return mr_fail(ctx, MR_EMISSING,
 		    "handles, but no %s.response: pose %s by mr-solve, or give it its response by mr-solve "
-		    "--basis",
+		    "--basis before mr-pose",
 		    m->name, m->name);
 	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
 	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &row));

@@ -185,18 +185,18 @@ name_harm(const mr_harm *h, size_t pairs, char *text, size_t size)
 /*
  * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone:
  * over 5 folds or 20 pairs have 41 of 318 edits of 106 models, all 14 that are wrecked among them; one of
- * either have 90.  base: that it follows, or NULL.
+ * either have 90; of few faces fewer do.  base: that it follows, or NULL.
  */
 static void
 tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, const mr_v3 *p, const mr_harm *h)
 {
 	enum { FOLDS = 5, PAIRS = 20 };
-	size_t pairs = h->pairs == MR_UNKNOWN ? 0 : h->pairs, all = h->folds + pairs,
+	size_t pairs = h->pairs == MR_UNKNOWN ? 0 : h->pairs, all = h->folds + pairs, nf = mesh->nf,
 	       *told = cache ? &cache->connectivity.told : NULL;
 	char advice[120] = "", found[160];
 
 	name_harm(h, pairs, found, sizeof found);
-	if (h->folds <= FOLDS && pairs <= PAIRS) {
+	if (h->folds <= (nf < 12 * FOLDS ? nf / 12 : FOLDS) && pairs <= (nf < 5 * PAIRS ? nf / 5 : PAIRS)) {
 		if (all)
 			mr_note(ctx, "%s: few", found);
 		return;
@@ -478,10 +478,10 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 	return mr_layer_followed(ctx, f, "base");
 }
 
-/* The displaced surface over d, but on the control mesh as it was encoded, and its edges. */
+/* The displaced surface over d at a gain of 1, but on the control mesh as it was encoded, and its edges. */
 static mr_status
-build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const double *height, double gain,
-    mr_mesh *surface, mr_edges *edges)
+build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const double *height, mr_mesh *surface,
+    mr_edges *edges)
 {
 	mr_domain before;
 	mr_v3 *p;
@@ -490,7 +490,7 @@ build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const dou
 	p = MR_NEW(ctx, before.m.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	mr_domain_displace(ctx, &before, height, gain, p);
+	mr_domain_displace(ctx, &before, height, 1, p);
 	*surface = before.m;
 	surface->p = p;
 	return mr_edges_build(ctx, surface, edges);
@@ -498,7 +498,7 @@ build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const dou
 
 /* The same of the frame, kept as long as it is. */
 static mr_status
-find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, const double *height, double gain,
+find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, const double *height,
     mr_mesh *surface, mr_edges *edges)
 {
 	mr_connectivity_cache *kept = cache ? &cache->connectivity : NULL;
@@ -511,13 +511,12 @@ find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, cons
 	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", encoded.nv, &p));
 	encoded.p = p;
 	if (!kept)
-		return build_encoded(ctx, d, &encoded, height, gain, surface, edges);
+		return build_encoded(ctx, d, &encoded, height, surface, edges);
 	if (kept->height_serial != heights)
 		kept->displaced_serial = 0;
 	if (!still_there(ctx, f, "control", "encoded", &kept->displaced_serial, keep)) {
 		MR_TRY(mr_cache_say(ctx, keep,
-		    build_encoded(
-			keep, d, &encoded, height, gain, &kept->displaced, &kept->displaced_edges)));
+		    build_encoded(keep, d, &encoded, height, &kept->displaced, &kept->displaced_edges)));
 		kept->displaced_serial = mr_frame_find(f, "control", "encoded")->serial;
 		kept->height_serial = heights;
 	}
@@ -526,18 +525,21 @@ find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, cons
 	return MR_OK;
 }
 
-/* What posing the control mesh has done to the surface, now at p. */
+/* What posing the control mesh, or the gain, has done to the surface, now at p. */
 static mr_status
-look_at_posed(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const double *height,
-    double gain, const mr_v3 *p, mr_decode_result *result)
+look_at_displaced(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const mr_mesh *control,
+    const double *height, double gain, const mr_v3 *p, mr_decode_result *result)
 {
-	mr_mesh encoded;
+	mr_mesh before;
 	mr_edges edges;
 
-	if (!mr_layer_has(f, "control", "encoded"))
+	if (mr_layer_has(f, "control", "encoded"))
+		MR_TRY(find_encoded(ctx, cache, f, d, height, &before, &edges));
+	else if (gain != 1)
+		MR_TRY(build_encoded(ctx, d, control, height, &before, &edges));
+	else
 		return MR_OK;
-	MR_TRY(find_encoded(ctx, cache, f, d, height, gain, &encoded, &edges));
-	return look_for_flaws(ctx, f, cache, &encoded, &edges, NULL, p, result);
+	return look_for_flaws(ctx, f, cache, &before, &edges, NULL, p, result);
 }
 
 /* What mr-sample found of the points' columns at the vertices, those of coarse levels first. */
@@ -602,7 +604,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 		return MR_EMEM;
 	mr_domain_displace(ctx, &d, height, o->gain, p);
 	if (!o->blind)
-		MR_TRY(look_at_posed(ctx, f, cache, &d, height, o->gain, p, result));
+		MR_TRY(look_at_displaced(ctx, f, cache, &d, &control, height, o->gain, p, result));
 	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
 		mr_warn(ctx,
 		    "mesh, which has detail over base, is made anew from control, without what base has "

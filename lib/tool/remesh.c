@@ -15,6 +15,7 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 	mr_places over, map;
 	const char *layer, *why;
 	mr_mesh m, out;
+	uint32_t *from;
 	bool mapped;
 
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
@@ -26,7 +27,12 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 	    mr_mesh_edge_scale(ctx, &out));
 	if (!why)
 		return MR_EMEM;
-	MR_TRY(mr_warn_of_coarseness(ctx, &m, &out, why));
+	from = MR_NEW(ctx, out.nv, uint32_t);
+	if (!from)
+		return MR_EMEM;
+	for (size_t v = 0; v < out.nv; v++)
+		from[v] = m.t[over.face[v]].v[0];
+	MR_TRY(mr_warn_of_coarseness(ctx, &m, &out, from, why));
 	MR_TRY(mr_crossings_warn(ctx, &m, NULL, &out));
 	MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &map, &mapped));
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &out));

@@ -3,6 +3,7 @@
 
 #include "mesh/edges.h"
 #include "space/bvh.h"
+#include "space/contact.h"
 
 /* What a closed surface encloses; 0 of others. */
 static mr_status
@@ -47,6 +48,79 @@ mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const ch
 	return look_for_shrinking(ctx, m, out, why, &told);
 }
 
+/* Before and after. */
+typedef struct part {
+	double area[2], volume[2];
+} part;
+
+/* Adds the faces of m to the part of their first vertex; of: the vertex of `whole` that stands for it. */
+static void
+add_faces(part *parts, const mr_mesh *whole, const mr_mesh *m, const uint32_t *of, int after)
+{
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		mr_v3 cross = mr_face_cross(m, f);
+		parts[of[v[0]]].area[after] += mr_norm(cross);
+		parts[of[v[0]]].volume[after] += mr_dot(cross, mr_sub(m->p[v[0]], whole->p[of[v[0]]]));
+	}
+}
+
+/* Of the area, or of the volume where there is any, what is left of the less. */
+static double
+rest_of(const part *p, bool closed)
+{
+	double area = p->area[0] > 0 ? p->area[1] / p->area[0] : 1;
+
+	return closed && p->volume[0] != 0 ? fmin(area, p->volume[1] / p->volume[0]) : area;
+}
+
+/* As mr-smooth has it of area. */
+static const double LITTLE = 0.5;
+
+/* Parts that the sum does not tell of; from: the vertex of m that each of out stands for. */
+static mr_status
+look_at_parts(
+    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *from, const char *why, bool *told)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *of, *of_out, worst = MR_NONE;
+	size_t count = 0, shrunken = 0;
+	double volume, least = LITTLE;
+	part *parts;
+	bool several;
+
+	*told = false;
+	MR_TRY(mr_components_label(ctx, m, &of, &several));
+	if (!several)
+		return MR_OK;
+	parts = MR_NEW_ZERO(ctx, m->nv, part);
+	of_out = MR_NEW(ctx, out->nv, uint32_t);
+	if (!parts || !of_out)
+		return MR_EMEM;
+	MR_TRY(volume_of(ctx, m, &volume));
+	for (size_t v = 0; v < out->nv; v++)
+		of_out[v] = of[from[v]];
+	add_faces(parts, m, m, of, 0);
+	add_faces(parts, m, out, of_out, 1);
+	for (uint32_t v = 0; v < m->nv; v++) {
+		double rest = rest_of(&parts[v], volume > 0);
+		count += parts[v].area[0] > 0;
+		shrunken += rest < LITTLE;
+		if (rest < least) {
+			least = rest;
+			worst = v;
+		}
+	}
+	*told = shrunken > 0;
+	if (*told)
+		mr_warn(ctx,
+		    "%s: over half of the area or volume of %zu of %zu parts is lost, of the one at "
+		    "(%.4g, %.4g, %.4g) all but %.2g %%: %s",
+		    m->name, shrunken, count, m->p[worst].x, m->p[worst].y, m->p[worst].z, 100 * least, why);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
 /*
  * Of 95 models that are left with a tenth of their faces 16 are farther off somewhere, seven of which have
  * not lost the share above: ears, blades, small bodies.
@@ -82,10 +156,13 @@ look_at_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *
 }
 
 mr_status
-mr_warn_of_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+mr_warn_of_coarseness(
+    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *from, const char *why)
 {
 	bool told;
 
 	MR_TRY(look_for_shrinking(ctx, m, out, why, &told));
+	if (!told)
+		MR_TRY(look_at_parts(ctx, m, out, from, why, &told));
 	return told ? MR_OK : look_at_distance(ctx, m, out, why);
 }

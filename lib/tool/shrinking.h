@@ -12,8 +12,10 @@
  * closed, and says why. */
 mr_status mr_warn_of_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why);
 
-/* The same; else warns where a place of m is farther than a twentieth of its diagonal from `out`: of at most
- * 65,536 corners at equal strides. */
-mr_status mr_warn_of_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why);
+/* The same; else warns where a part has lost over half of it, or else where a place of m is farther than a
+ * twentieth of its diagonal from `out`: of at most 65,536 corners at equal strides.  from: a vertex of m,
+ * that each of `out` comes from. */
+mr_status mr_warn_of_coarseness(
+    mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *from, const char *why);
 
 #endif

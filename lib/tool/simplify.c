@@ -195,6 +195,19 @@ put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_mesh *points,
 	return *count ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
 }
 
+static mr_status
+look_for_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
+{
+	uint32_t *from = MR_NEW_ZERO(ctx, out->nv, uint32_t);
+
+	if (!from)
+		return MR_EMEM;
+	for (uint32_t v = 0; v < m->nv; v++)
+		if (onto[v] != MR_NONE)
+			from[onto[v]] = v;
+	return mr_warn_of_coarseness(ctx, m, out, from, "more faces keep more");
+}
+
 mr_status
 mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result)
 {
@@ -227,7 +240,7 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, &r));
 	MR_TRY(mr_crossings_warn(ctx, &sharp, onto, &out));
 	if (strcmp(layer, "control") != 0)
-		MR_TRY(mr_warn_of_coarseness(ctx, &m, &out, "more faces keep more"));
+		MR_TRY(look_for_coarseness(ctx, &m, &out, onto));
 	mr_unmeasured(&r.gaps, sizeof r.gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
 	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;

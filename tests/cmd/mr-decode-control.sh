@@ -118,3 +118,8 @@ with open('mixed.mrs', 'wb') as out:
         out.write(r)
 END
 refused mixed.mrs
+
+echo 'heights that are scaled until the surface folds' >&2
+mr-make bumpy -n 4000 --points 4000 | mr-shrinkwrap | mr-simplify | mr-fit | mr-sample -o heights.mrs
+mr-decode heights.mrs >/dev/null
+mr-decode -g 20 heights.mrs 2>&1 >/dev/null | sed 's/[0-9][0-9]* more/N more/g; s/, most of.*//' >&2

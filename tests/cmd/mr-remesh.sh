@@ -102,3 +102,9 @@ printf 'COFF\n4 4 0\n0 0 0 255 0 0 255\n1 0 0 0 255 0 255\n0 1 0 0 0 255 255\n0 
 for layer in base fine mesh; do
 	mr-import -l $layer colors.off | mr-remesh -l $layer -L 0.3 2>&1 >out.mrs | sed -n 's/.*\(base is made\)/\1/p'
 done
+
+echo 'parts that are thinner than the edges, of which the sum does not tell' >&2
+mr-make cube -n 602 -o body.mrs
+mr-make cube -n 8 | mr-transform -s 0.02,1,0.02 -t 1.5,0,0 -o pole.mrs
+mr-cat --append body.mrs pole.mrs | tee parts.mrs | mr-remesh >/dev/null
+mr-simplify -n 300 parts.mrs >/dev/null
