@@ -469,6 +469,22 @@ guess_pair(table *t)
 	}
 }
 
+/* Seven columns: intensity and colour, or colour and something. */
+static void
+guess_seven(table *t)
+{
+	bool first = could_be_color(t, 3), last = t->counted ? are_bytes(t, 4) : could_be_color(t, 4);
+
+	if (first && last && !t->counted)
+		mr_warn(t->ctx,
+		    "columns 4 to 6 are read as colors, which columns 5 to 7 could be, too: a line '# x y z "
+		    "intensity red green blue' before them tells");
+	if (last && (t->counted || !first))
+		assign(t, 4, RED);
+	else if (first)
+		assign(t, 3, RED);
+}
+
 /* What the columns are, where no names tell. */
 static void
 guess_roles(table *t)
@@ -480,10 +496,8 @@ guess_roles(table *t)
 	assign(t, 0, X);
 	if (n == 6)
 		assign(t, 3, could_be_color(t, 3) ? RED : NX);
-	else if (n == 7 && (t->counted ? are_bytes(t, 4) : could_be_color(t, 4) && !could_be_color(t, 3)))
-		assign(t, 4, RED);
-	else if (n == 7 && could_be_color(t, 3))
-		assign(t, 3, RED);
+	else if (n == 7)
+		guess_seven(t);
 	else if (n >= 9)
 		guess_pair(t);
 	if (n == 6 && t->role[3] == NX)

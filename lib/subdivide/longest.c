@@ -132,7 +132,7 @@ check_size(pass *s)
 	if (s->length != asked)
 		return mr_fail(s->ctx, MR_ERANGE,
 		    "edges of %g at most may take %.3g triangles, more than %d: a length of %.3g does not",
-		    asked, most, (int)MR_LONGEST_MOST, 2 * s->length); /* nor do the diagonals of strips */
+		    asked, most, (int)MR_LONGEST_MOST, 3 * s->length); /* nor do the diagonals of strips */
 	return MR_OK;
 }
 

@@ -103,8 +103,8 @@ mr_volume_samples(
 		thin_out(s, share);
 		if (s->n < TOLD_LEAST)
 			return mr_fail(ctx, MR_ERANGE,
-			    "%zu points lie so far apart that the grid tells %zu of them: take a finer one "
-			    "(--grid), or split them with mr-split",
+			    "%zu points lie so far apart that the grid tells %zu of them: split them with "
+			    "mr-split, or take a finer one, by --grid up to 4096",
 			    n, s->n);
 		MR_TRY(sample_again(ctx, &of, s));
 		MR_TRY(check(ctx, s, n));

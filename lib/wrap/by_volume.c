@@ -15,6 +15,7 @@ wrap_volume_of(
 	volume.sampling = &cloud->sampling;
 	volume.sides = c->found.volume.sided > 0 ? cloud->sides : NULL; /* 0: they did not fit */
 	MR_TRY(mr_volume_wrap(ctx, cloud->given, cloud->sampling.n, &volume, &m, &c->found.volume));
+	c->sided = volume.sides && c->found.volume.sided > 0;
 	middle = mr_seconds();
 	c->found.seconds_volume = middle - start;
 	MR_TRY(mr_wrap_remesh(ctx, &m, mr_wrap_length(cloud, o), &c->d));

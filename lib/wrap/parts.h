@@ -124,6 +124,7 @@ typedef struct mr_wrap {
 	mr_wrap_cover cover;
 	mr_wrap_lids lids;
 	size_t folds;
+	bool sided;           /* by sides of the points that were given */
 	mr_wrap_result found; /* method, and what it took; the rest at the end */
 } mr_wrap;
 

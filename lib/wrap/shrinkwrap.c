@@ -201,9 +201,35 @@ wrap_body(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 		MR_TRY(try_volume(ctx, cloud, o, &volume, &enclosed));
 	if (enclosed)
 		MR_TRY(is_better(ctx, &box, &volume, &better));
+	box.sided = volume.sided; /* which may be why the volume is not good */
 	*c = better ? box : volume;
 	mr_wrap_tried(c, better ? middle - start : mr_seconds() - middle);
 	return mr_wrap_open(ctx, cloud, o, c);
+}
+
+/* Turns axis[2] to the side on which most directions of the points are; by right all are. */
+static void
+face_sides(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3])
+{
+	static const double MIXED = 0.05;
+	double side[2] = { 0 }, less;
+
+	for (size_t i = 0; cloud->sides && i < cloud->sampling.n; i++) {
+		double up = mr_dot(cloud->sides->toward[i], axis[2]);
+		side[0] += up > 0;
+		side[1] += up < 0;
+	}
+	less = fmin(side[0], side[1]);
+	if (less > MIXED * (side[0] + side[1]))
+		mr_warn(ctx,
+		    "%.3g %% of the %s are on the other side of the height field than most, whose side it "
+		    "faces",
+		    100 * less / (side[0] + side[1]),
+		    cloud->sides->normals ? "normals of the points" : "places of the scanner");
+	if (side[1] > side[0]) {
+		axis[1] = mr_mul(-1, axis[1]);
+		axis[2] = mr_mul(-1, axis[2]);
+	}
 }
 
 /* A height field as one, unless it is to be closed. */
@@ -220,6 +246,7 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 		if (o->grid || o->iterations)
 			mr_warn(ctx,
 			    "the points are a height field, on which --grid and --iterations have no effect");
+		face_sides(ctx, cloud, axis);
 		return mr_wrap_sheet(ctx, cloud, o, axis, c);
 	}
 	if (cloud->flat)
@@ -239,9 +266,9 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 /* The end of a sentence on what may be wrong: sides that agree among neighbours may still be those of parts.
  */
 static const char *
-doubt_of_sides(const mr_wrap_cloud *cloud)
+doubt_of_sides(const mr_wrap *c)
 {
-	return cloud->sides ? "; sides that are given may be wrong, and --ignore-normals finds others" : "";
+	return c->sided ? "; sides that are given may be wrong, and --ignore-normals finds others" : "";
 }
 
 /* Where its topology hangs on the level, or nothing tells it. */
@@ -260,12 +287,12 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    "the topology is uncertain: Euler number %g, or %g where body or gaps are thin, first "
 		    "near (%.4g, %.4g, %.4g)%s",
 		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z,
-		    cloud->sides ? doubt_of_sides(cloud) : "; denser points would tell, or their normals");
+		    c->sided ? doubt_of_sides(c) : "; denser points would tell, or their normals");
 	else if (c->found.method == MR_WRAP_AUTO)
 		mr_warn(ctx,
 		    "the topology is uncertain: but for openings it is that of the sphere as which the wrap "
 		    "began%s",
-		    doubt_of_sides(cloud));
+		    doubt_of_sides(c));
 }
 
 /* Where a wrap is poor by the same measure. */
@@ -287,7 +314,7 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    "%.3g %% of the points are more than %g sampling distances from the wrap, up to %.3g: "
 		    "outliers, or of a part that it does not reach%s",
 		    100 * c->cover.missed, MR_WRAP_ENOUGH.points.high, g->points.max / cloud->spacing,
-		    doubt_of_sides(cloud));
+		    doubt_of_sides(c));
 	else if (g->points.max > MR_WRAP_LACKS * cloud->spacing)
 		mr_warn(ctx,
 		    "a point is %.3g sampling distances from the wrap: an outlier, or of a part that is left "
@@ -337,6 +364,8 @@ warn_of_rows(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 {
 	mr_rows r;
 
+	if (cloud->n < SURE_LEAST)
+		return MR_OK;
 	MR_TRY(mr_find_rows(ctx, cloud->p, cloud->n, cloud->near, &r));
 	if (r.across > ROWS * r.along)
 		mr_warn(ctx,
@@ -419,6 +448,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 
 	mr_unmeasured(&c.found, sizeof c.found);
 	c.lids = (mr_wrap_lids){ 0 };
+	c.sided = false;
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
 		if (c.d.twin[h] == MR_NONE && c.lids.loops == 0)

@@ -67,3 +67,9 @@ pcd rgba 4 U 4278255617 | mr-import | mr-export -f xyz dark.xyz
 cat dark.xyz
 mr-import dark.xyz | mr-export -f xyz - | cmp dark.xyz
 pcd rgba 4 U 4278321408 | mr-import | mr-export -f xyz -
+
+echo '-- seven columns that could be read either way' >&2
+printf '0 0 0 12 200 100 50\n1 0 0 30 200 100 50\n0 1 0 99 200 100 50\n' >seven.pts
+mr-import seven.pts >/dev/null
+{ echo '# x y z intensity red green blue'; cat seven.pts; } >named.pts
+mr-import named.pts | mr-export -q -f xyz -

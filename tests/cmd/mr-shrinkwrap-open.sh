@@ -54,3 +54,10 @@ mr-import flat.xyz | mr-shrinkwrap --lids all
 echo "exit $?"
 { cat knot.xyz; echo 1e7 0 0; } >farther.xyz
 mr-import farther.xyz | mr-shrinkwrap -q | mr-simplify | mr-fit -q | mr-sample -q | mr-decode | mr-info -l mesh - | sed -n 's/^ *topology *//p'
+
+echo 'a height field faces the side of the normals, of the scanner, or of most' >&2
+awk 'BEGIN { print "# x y z nx ny nz"; for (i = 0; i < 1600; i++) { x = i % 40 / 20; y = int(i / 40) / 20; print x + sin(i) / 90, y + cos(i) / 90, 0.1 * x * x, 0.2 * x, 0, -1 } }' >down.xyz
+awk '!/#/ { $6 = NR % 3 ? -1 : 1; $4 = 0 } 1' down.xyz >mixed.xyz
+for cloud in down mixed; do
+	mr-shrinkwrap $cloud.xyz | mr-normals -l control | mr-export -q -l control -f xyz - | awk '!/#/ { n[$6 > 0 ? "up" : "down"]++ } END { for (i in n) print i }'
+done
