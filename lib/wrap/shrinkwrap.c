@@ -212,10 +212,13 @@ static void
 face_sides(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3])
 {
 	static const double MIXED = 0.05;
+	const mr_outer_sides *sides = cloud->sides;
 	double side[2] = { 0 }, less;
 
-	for (size_t i = 0; cloud->sides && i < cloud->sampling.n; i++) {
-		double up = mr_dot(cloud->sides->toward[i], axis[2]);
+	if (!sides)
+		return;
+	for (size_t i = 0; i < cloud->sampling.n; i++) {
+		double up = mr_dot(sides->toward[i], axis[2]);
 		side[0] += up > 0;
 		side[1] += up < 0;
 	}
@@ -225,7 +228,7 @@ face_sides(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3])
 		    "%.3g %% of the %s are on the other side of the height field than most, whose side it "
 		    "faces",
 		    100 * less / (side[0] + side[1]),
-		    cloud->sides->normals ? "normals of the points" : "places of the scanner");
+		    sides->normals ? "normals of the points" : "places of the scanner");
 	if (side[1] > side[0]) {
 		axis[1] = mr_mul(-1, axis[1]);
 		axis[2] = mr_mul(-1, axis[2]);
