@@ -1,6 +1,40 @@
 /* mr-equalize: wavelet analysis of the heights, a gain for each level, synthesis. */
+#include "mesh/fold.h"
 #include "subdivide/wavelet.h"
 #include "tool/cache.h"
+
+/* The folds of the surface that heights make over d. */
+static mr_status
+count_folds(mr_ctx *ctx, const mr_domain *d, const double *height, size_t *folds)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 *p = MR_NEW(ctx, d->m.nv, mr_v3);
+	mr_mesh m = d->m;
+
+	if (!p)
+		return MR_EMEM;
+	mr_domain_displace(ctx, d, height, 1, p);
+	m.p = p;
+	*folds = mr_count_folds(ctx, &m, d->level[d->n].topo.twin);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Warns where other heights fold the surface; few are told of as by mr-decode. */
+static mr_status
+look_for_folds(mr_ctx *ctx, const mr_domain *d, const double *before, const double *after)
+{
+	enum { FEW = 5 };
+	size_t folds[2];
+
+	MR_TRY(count_folds(ctx, d, before, &folds[0]));
+	MR_TRY(count_folds(ctx, d, after, &folds[1]));
+	if (folds[1] > folds[0] + FEW)
+		mr_warn(ctx,
+		    "%zu folded edges of the surface over control, %zu before: smaller gains fold less",
+		    folds[1], folds[0]);
+	return MR_OK;
+}
 
 mr_status
 mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache)
@@ -9,6 +43,7 @@ mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr
 	const mr_loop *level;
 	const double *height;
 	mr_mesh control;
+	mr_domain d;
 	size_t n;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
@@ -24,6 +59,10 @@ mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr
 		return MR_EMEM;
 	memcpy(x, height, level[n].nv * sizeof *x);
 	MR_TRY(mr_equalize(ctx, level, n, all, x));
+	if (f->key) {
+		MR_TRY(mr_domain_on(ctx, &control, level, n, &d));
+		MR_TRY(look_for_folds(ctx, &d, height, x));
+	}
 	mr_displacement_warn_of_map(ctx, f);
 	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	mr_frame_drop(f, "displacement", "range", 0);
