@@ -94,9 +94,8 @@ pose_frame(cmd *c, mr_frame *f)
 	MR_TRY(mr_handles_of_frame(&c->ctx, f, c->layer, &h));
 	if (made && !f->key)
 		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "this frame is one of a sequence, and not the first, and --frames or --script makes one "
-		    "of each: "
-		    "pose it before mr-decode, or without them");
+		    "this frame is one of a sequence, whose length is not known any more, and --frames or "
+		    "--script would make one of each frame: pose it without them");
 	if (length == 0 || !f->key || mr_layer_has(f, "handles", "frames"))
 		return send(c, f, &h, length == 0 ? 0 : at);
 	made = true;

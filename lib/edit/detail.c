@@ -453,7 +453,7 @@ mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 	if (strcmp(before->name, "base") != 0)
 		return MR_OK;
 	if (!mr_layer_has(f, "base", "encoded"))
-		return mr_layer_has(f, "base", "source_face")
+		return mr_layer_has(f, "mesh", "triangles")
 		           ? mr_layer_put(ctx, f, "base", "before", before->p, before->nv)
 		           : MR_OK;
 	MR_TRY(mr_layer_get_rows(ctx, f, "base", "encoded", before->nv, &encoded));
@@ -466,12 +466,15 @@ mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 mr_status
 mr_detail_warn_of_loss(mr_ctx *ctx, mr_frame *f)
 {
-	bool has;
+	bool has, posed;
 
 	MR_TRY(mr_layer_has_standing_detail(ctx, f, &has));
+	MR_TRY(mr_layer_is_posed(ctx, f, "base", &posed));
 	if (has && f->key)
-		mr_warn(ctx, "mesh has other vertices, and its detail over base is gone: that goes before "
-			     "mr-encode, or behind mr-decode");
+		mr_warn(ctx,
+		    "mesh has other vertices, and its detail over base%s is gone: that goes %sbehind "
+		    "mr-decode",
+		    posed ? ", which has moved," : "", posed ? "" : "before mr-encode, or ");
 	return MR_OK;
 }
 

@@ -423,6 +423,17 @@ drop_dependents(mr_frame *f, const char *layer, mr_change change, bool own)
 }
 
 mr_status
+mr_layer_is_posed(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
+{
+	bool rest, pending;
+
+	MR_TRY(mr_layer_is_as_encoded(ctx, f, layer, &rest));
+	MR_TRY(mr_layer_is_pending(ctx, f, layer, &pending));
+	*is = !rest && pending;
+	return MR_OK;
+}
+
+mr_status
 mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has)
 {
 	bool rest, pending;
@@ -439,18 +450,23 @@ mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has)
 mr_status
 mr_layer_warn_of_work(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change)
 {
-	bool other = change == MR_RESHAPED || change == MR_RECONNECTED, detail = false;
+	bool other = change == MR_RESHAPED || change == MR_RECONNECTED, detail = false, posed;
 
 	if (!f->key)
 		return MR_OK;
+	MR_TRY(mr_layer_is_posed(ctx, f, layer, &posed));
 	if (other && !strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
-		mr_warn(ctx, "control is another surface now, and its displacement is gone: mr-decode comes "
-			     "before, or mr-sample behind");
+		mr_warn(ctx,
+		    "control%s is another surface now, and its displacement is gone: mr-decode comes "
+		    "before%s",
+		    posed ? ", which has moved," : "", posed ? "" : ", or mr-sample behind");
 	if (change == MR_RECONNECTED && !strcmp(layer, "base"))
 		MR_TRY(mr_layer_has_standing_detail(ctx, f, &detail));
 	if (detail)
-		mr_warn(ctx, "base is another surface now, and the detail of mesh over it is gone: mr-decode "
-			     "comes before, or mr-encode behind");
+		mr_warn(ctx,
+		    "base%s is another surface now, and the detail of mesh over it is gone: mr-decode comes "
+		    "before%s",
+		    posed ? ", which has moved," : "", posed ? "" : ", or mr-encode behind");
 	return MR_OK;
 }
 

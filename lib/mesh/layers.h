@@ -73,6 +73,9 @@ mr_status mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *laye
 /* Drops what the change makes stale, of the layer and of others. */
 void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 
+/* Whether the layer has moved since it was encoded, and what is over it has not followed. */
+mr_status mr_layer_is_posed(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
+
 /* Whether mesh has detail over base of which mr-decode is still to come: once it has, the detail has served.
  */
 mr_status mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has);
