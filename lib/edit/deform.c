@@ -129,7 +129,7 @@ look_for_room(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 		mr_warn(ctx,
 		    "%s: no vertex is free, and all that gives way are edges from region to region: free "
 		    "some, or make more first, by mr-subdivide --longest %.2g",
-		    rest->name, longest / 4);
+		    rest->name, longest / 2);
 }
 
 /* Says what becomes of parts that no constraint reaches.  follows: riders, and then what is to follow. */

@@ -19,7 +19,8 @@ typedef struct motion {
 	const mr_edges *edges;
 	bool *fold;     /* of the edges: new */
 	uint32_t *edge; /* of each half-edge; MR_NONE of a face that has a vertex twice */
-	double deep;    /* what passes by less rubs */
+	double deep;    /* what passes by less rubs, */
+	double wide;    /* unless it was farther apart */
 	bool *moved;    /* of the faces */
 	uint32_t *harm; /* of the faces, by what is near */
 	uint32_t *met;  /* by what is far */
@@ -240,8 +241,23 @@ reach(const mr_v3 p[3], const mr_v3 q[3])
 	return fmin(-low, high);
 }
 
-/* Whether faces go through each other by so much that they can be seen to, of small faces a tenth: others
- * rub. */
+/* How far p and q are apart along the normal of p, at least. */
+static double
+apart(const mr_v3 p[3], const mr_v3 q[3])
+{
+	mr_v3 n = mr_unit(mr_cross(mr_sub(p[1], p[0]), mr_sub(p[2], p[0])));
+	double low = mr_dot(n, mr_sub(q[0], p[0])), high = low;
+
+	for (int i = 1; i < 3; i++) {
+		double d = mr_dot(n, mr_sub(q[i], p[0]));
+		low = fmin(low, d);
+		high = fmax(high, d);
+	}
+	return fmax(low, -high);
+}
+
+/* Whether faces go through each other by so much that they can be seen to, of small faces a tenth, or were as
+ * far apart, as walls that go through each other at a small angle: others rub. */
 static bool
 passes(const motion *j, uint32_t f, uint32_t g)
 {
@@ -252,7 +268,11 @@ passes(const motion *j, uint32_t f, uint32_t g)
 	corners(j->after, f, p);
 	corners(j->after, g, q);
 	size = fmin(mr_box_diagonal(mr_box_of(p, 3)), mr_box_diagonal(mr_box_of(q, 3)));
-	return fmin(reach(p, q), reach(q, p)) > fmin(j->deep, share * size);
+	if (fmin(reach(p, q), reach(q, p)) > fmin(j->deep, share * size))
+		return true;
+	corners(j->before, f, p);
+	corners(j->before, g, q);
+	return fmax(apart(p, q), apart(q, p)) > j->wide;
 }
 
 typedef struct search {
@@ -339,7 +359,7 @@ count_pairs(mr_ctx *ctx, const motion *m, tally *count)
 	*count = came;
 	if (went_as_one(m->before, m->after))
 		return MR_OK;
-	forth.deep = deep * mr_mesh_diagonal(m->before);
+	forth.deep = forth.wide = deep * mr_mesh_diagonal(m->before);
 	forth.edge = MR_NEW(ctx, 3 * m->before->nf, uint32_t);
 	forth.moved = MR_NEW_ZERO(ctx, m->before->nf, bool);
 	if (!forth.edge || !forth.moved)
@@ -351,6 +371,7 @@ count_pairs(mr_ctx *ctx, const motion *m, tally *count)
 	back = forth;
 	back.before = m->after;
 	back.after = m->before;
+	back.wide = INFINITY;                             /* what touched and has come apart did not pass */
 	back.harm = MR_NEW(ctx, m->before->nf, uint32_t); /* for no one */
 	back.met = MR_NEW(ctx, m->before->nf, uint32_t);
 	if (!back.harm || !back.met)

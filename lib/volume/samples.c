@@ -90,6 +90,9 @@ sample_again(mr_ctx *ctx, mr_sampling *of, mr_volume_cloud *s)
 	return mr_sampling_places(ctx, s->p, of, &s->p, NULL, &s->n);
 }
 
+/* Of the diagonal: spacings that the grid tells. */
+static const double THINNER = 0.01;
+
 mr_status
 mr_volume_samples(
     mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *sampling, double share, mr_volume_cloud *s)
@@ -103,9 +106,11 @@ mr_volume_samples(
 		thin_out(s, share);
 		if (s->n < TOLD_LEAST)
 			return mr_fail(ctx, MR_ERANGE,
-			    "%zu points lie so far apart that the grid tells %zu of them: split them with "
-			    "mr-split, or take a finer one, by --grid up to 4096",
-			    n, s->n);
+			    "%zu points lie so far apart, for how near their neighbours are, that the grid "
+			    "tells "
+			    "%zu of them: mr-split parts those of several bodies, mr-crop --keep spaced:%.2g "
+			    "thins those of one",
+			    n, s->n, THINNER * mr_box_diagonal(mr_box_of(place, n)));
 		MR_TRY(sample_again(ctx, &of, s));
 		MR_TRY(check(ctx, s, n));
 	}

@@ -310,7 +310,9 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    c->cover.crossings);
 	if (c->cover.lost > 0)
 		mr_warn(ctx,
-		    "%zu of %zu places %s more than %g sampling distances from the wrap: outliers, left out",
+		    "%zu of %zu places %s more than %g sampling distances from the wrap, and left out: "
+		    "outliers, "
+		    "or of a part that it does not reach",
 		    c->cover.lost, cloud->sampling.places, c->cover.lost == 1 ? "is" : "are", MR_WRAP_LACKS);
 	if (points > MR_WRAP_ENOUGH.points.high)
 		mr_warn(ctx,

@@ -204,3 +204,10 @@ mr-transform -t 0,0,2 low.mrs | mr-cat --append low.mrs - | mr-smooth -t 0 | mr-
 echo 'a bar of twelve faces, none of whose vertices is free' >&2
 mr-transform -s 1,1,12 low.mrs | tee bar.mrs | mr-smooth -t 0 | mr-select --free all --fixed below:z,0.2 --handle 0=above:z,0.8 |
 	mr-encode | mr-pose -r 0,0,1,180 | mr-solve | mr-decode >/dev/null
+echo 'a thin double wall that is bent: the walls pass through each other at a small angle' >&2
+awk 'BEGIN { n = 40; m = 20; print "OFF\n" 2 * n * (m + 1), 4 * n * m + 2 * n, 0
+	for (k = 0; k < 2; k++) for (j = 0; j <= m; j++) for (i = 0; i < n; i++) { a = 6.283185307 * i / n; r = k ? 0.47 : 0.5; print r * cos(a), r * sin(a), 5 * j / m }
+	for (k = 0; k < 2; k++) for (j = 0; j < m; j++) for (i = 0; i < n; i++) { a = k * n * (m + 1) + j * n + i; b = k * n * (m + 1) + j * n + (i + 1) % n
+		if (k) { print 3, a, b + n, b; print 3, a, a + n, b + n } else { print 3, a, b, b + n; print 3, a, b + n, a + n } }
+	for (i = 0; i < n; i++) { a = i; b = (i + 1) % n; c = n * (m + 1); print 3, a, a + c, b + c; print 3, a, b + c, b } }' >tube.off
+mr-smooth -q tube.off | mr-remesh -q | mr-select --free all --fixed below:z,0.2 --handle 0=above:z,0.8 | mr-encode | mr-pose -r 1,0,0,90 | mr-solve -q | mr-decode -o out.mrs
