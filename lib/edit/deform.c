@@ -111,21 +111,18 @@ check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 	return MR_OK;
 }
 
-/* Where no vertex is free the faces between regions alone give way. */
+/* Where no vertex is free the edges from region to region alone give way. */
 static void
 look_for_room(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
 {
 	double longest = 0;
-	size_t between = 0;
 
 	for (size_t h = 0; d->free == 0 && h < 3 * rest->nf; h++) {
 		uint32_t a = mr_he_from(rest, (uint32_t)h), b = mr_he_to(rest, (uint32_t)h);
-		if (d->region[a] == d->region[b])
-			continue;
-		longest = fmax(longest, mr_dist(rest->p[a], rest->p[b]));
-		between++;
+		if (d->region[a] != d->region[b])
+			longest = fmax(longest, mr_dist(rest->p[a], rest->p[b]));
 	}
-	if (between)
+	if (longest > 0)
 		mr_warn(ctx,
 		    "%s: no vertex is free, and all that gives way are edges from region to region: free "
 		    "some, or make more first, by mr-subdivide --longest %.2g",

@@ -7,28 +7,40 @@
 /* Pairs, or faces, that say nothing. */
 enum { FEW = 5 };
 
+/* The faces of m that are kept. */
+static mr_status
+take_faces(mr_ctx *ctx, const mr_mesh *m, const bool *keep, mr_mesh *part)
+{
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+
+	if (!t)
+		return MR_EMEM;
+	*part = *m;
+	part->t = t;
+	part->nf = 0;
+	for (size_t f = 0; f < m->nf; f++)
+		if (keep[f])
+			t[part->nf++] = m->t[f];
+	return MR_OK;
+}
+
 /* The faces of m that became, in part, those of `after` that cross others. */
 static mr_status
 part_that_crosses(mr_ctx *ctx, const mr_mesh *m, const uint32_t *onto, const mr_mesh *after,
     const bool *crosses, mr_mesh *part)
 {
-	bool *near = MR_NEW_ZERO(ctx, after->nv, bool);
-	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	bool *near = MR_NEW_ZERO(ctx, after->nv, bool), *keep = MR_NEW(ctx, m->nf, bool);
 
-	if (!near || !t)
+	if (!near || !keep)
 		return MR_EMEM;
 	for (size_t f = 0; f < after->nf; f++)
 		for (int k = 0; k < 3 && crosses[f]; k++)
 			near[after->t[f].v[k]] = true;
-	*part = *m;
-	part->t = t;
-	part->nf = 0;
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
-		if (near[onto[v[0]]] || near[onto[v[1]]] || near[onto[v[2]]])
-			t[part->nf++] = m->t[f];
+		keep[f] = near[onto[v[0]]] || near[onto[v[1]]] || near[onto[v[2]]];
 	}
-	return MR_OK;
+	return take_faces(ctx, m, keep, part);
 }
 
 /* A corner of the first face that crosses one. */
@@ -42,23 +54,6 @@ first_vertex(const mr_mesh *m, const bool *crosses)
 	return m->t[f].v[0];
 }
 
-/* The faces of m that `crossed`. */
-static mr_status
-take_crossed(mr_ctx *ctx, const mr_mesh *m, const bool *crossed, mr_mesh *part)
-{
-	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
-
-	if (!t)
-		return MR_EMEM;
-	*part = *m;
-	part->t = t;
-	part->nf = 0;
-	for (size_t f = 0; f < m->nf; f++)
-		if (crossed[f])
-			t[part->nf++] = m->t[f];
-	return MR_OK;
-}
-
 /* The share of the faces that cross which are farther than they are long from those of m that did. */
 static mr_status
 find_new(mr_ctx *ctx, const mr_mesh *m, const bool *crossed, const mr_mesh *after, const bool *crosses,
@@ -68,7 +63,7 @@ find_new(mr_ctx *ctx, const mr_mesh *m, const bool *crossed, const mr_mesh *afte
 	mr_mesh old;
 	mr_bvh *bvh;
 
-	MR_TRY(take_crossed(ctx, m, crossed, &old));
+	MR_TRY(take_faces(ctx, m, crossed, &old));
 	MR_TRY(mr_bvh_build(ctx, &old, &bvh));
 	for (size_t f = 0; f < after->nf; f++) {
 		const uint32_t *v = after->t[f].v;
