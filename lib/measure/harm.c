@@ -226,34 +226,20 @@ mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t
 	return true;
 }
 
-/* How far the corners p reach beyond the plane of q, on the side where they reach less. */
+/* How far the corners p reach beyond the plane of q, on the side where they reach less; where they are all on
+ * one side, less than 0 by their distance. */
 static double
 reach(const mr_v3 p[3], const mr_v3 q[3])
 {
 	mr_v3 n = mr_unit(mr_cross(mr_sub(q[1], q[0]), mr_sub(q[2], q[0])));
-	double low = 0, high = 0;
+	double low = mr_dot(n, mr_sub(p[0], q[0])), high = low;
 
-	for (int i = 0; i < 3; i++) {
+	for (int i = 1; i < 3; i++) {
 		double d = mr_dot(n, mr_sub(p[i], q[0]));
 		low = fmin(low, d);
 		high = fmax(high, d);
 	}
 	return fmin(-low, high);
-}
-
-/* How far p and q are apart along the normal of p, at least. */
-static double
-apart(const mr_v3 p[3], const mr_v3 q[3])
-{
-	mr_v3 n = mr_unit(mr_cross(mr_sub(p[1], p[0]), mr_sub(p[2], p[0])));
-	double low = mr_dot(n, mr_sub(q[0], p[0])), high = low;
-
-	for (int i = 1; i < 3; i++) {
-		double d = mr_dot(n, mr_sub(q[i], p[0]));
-		low = fmin(low, d);
-		high = fmax(high, d);
-	}
-	return fmax(low, -high);
 }
 
 /* Whether faces go through each other by so much that they can be seen to, of small faces a tenth, or were as
@@ -272,7 +258,7 @@ passes(const motion *j, uint32_t f, uint32_t g)
 		return true;
 	corners(j->before, f, p);
 	corners(j->before, g, q);
-	return fmax(apart(p, q), apart(q, p)) > j->wide;
+	return fmin(reach(p, q), reach(q, p)) < -j->wide;
 }
 
 typedef struct search {
