@@ -436,14 +436,14 @@ mr_layer_is_posed(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
 mr_status
 mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has)
 {
-	bool rest, pending;
+	bool rest, posed;
 
 	*has = false;
 	if (!mr_layer_has(f, "mesh", "detail_height"))
 		return MR_OK;
 	MR_TRY(mr_layer_is_as_encoded(ctx, f, "base", &rest));
-	MR_TRY(mr_layer_is_pending(ctx, f, "base", &pending));
-	*has = rest || pending;
+	MR_TRY(mr_layer_is_posed(ctx, f, "base", &posed));
+	*has = rest || posed;
 	return MR_OK;
 }
 
