@@ -527,6 +527,29 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 	return MR_OK;
 }
 
+/* MR_EMESH where a layer that goes alone would leave behind a pose that no surface shows yet. */
+static mr_status
+check_poses(mr_ctx *ctx, mr_frame *f, const char *layer)
+{
+	static const struct {
+		const char *layer, *posed;
+	} parts[] = { { "mesh", "base" }, { "base", "base" }, { "control", "control" },
+		{ "displacement", "control" } };
+	bool posed;
+
+	if (strcmp(layer, "points") != 0 && mr_layer_has(f, "handles", "transform"))
+		return mr_fail(ctx, MR_EMESH, "%s cannot go alone: handles are posed beside it", layer);
+	for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
+		MR_TRY(mr_layer_is_posed(ctx, f, parts[i].posed, &posed));
+		if (posed && !strcmp(layer, parts[i].layer))
+			return mr_fail(ctx, MR_EMESH,
+			    "%s cannot go alone: %s has moved, and mesh has not followed it: mr-decode comes "
+			    "before",
+			    layer, parts[i].posed);
+	}
+	return MR_OK;
+}
+
 /* A layer that goes alone is no more where the others have it. */
 static mr_status
 cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
@@ -554,10 +577,10 @@ mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map
 	c = change_of(&t);
 	if (layer && !mr_frame_has_layer(f, layer))
 		return mr_layer_missing(ctx, f, layer, layer);
-	if (layer && strcmp(layer, "points") && mr_layer_has(f, "handles", "transform"))
-		return mr_fail(ctx, MR_EMESH, "%s cannot go alone: handles are posed beside it", layer);
-	if (layer)
+	if (layer) {
+		MR_TRY(check_poses(ctx, f, layer));
 		MR_TRY(cut_loose(ctx, f, layer));
+	}
 	MR_TRY(check(ctx, f, layer, &c));
 	if (!layer && fabs(c.scale - 1) > 1e-9)
 		mr_displacement_warn_of_map(ctx, f);

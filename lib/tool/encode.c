@@ -5,11 +5,11 @@
 static mr_status
 look_for_pose(mr_ctx *ctx, mr_frame *f)
 {
-	bool pending;
+	bool posed;
 
-	MR_TRY(mr_layer_is_pending(ctx, f, "base", &pending));
-	pending |= mr_layer_has(f, "base", "before");
-	if (pending && f->key)
+	MR_TRY(mr_layer_is_posed(ctx, f, "base", &posed));
+	posed |= mr_layer_has(f, "base", "before");
+	if (posed && f->key)
 		mr_warn(ctx, "base has moved, and mesh, which has not followed it, is encoded as it is: "
 		             "mr-encode goes "
 			     "before mr-solve, or behind mr-decode");
