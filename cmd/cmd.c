@@ -277,6 +277,16 @@ heeds(const cmd_tool *tool, char letter)
 	}
 }
 
+/* Whether one of the tool's own options has the letter: the shared one has its name alone there. */
+static bool
+takes(const cmd_tool *tool, char letter)
+{
+	for (const cmd_opt *o = tool->options; o && o->name; o++)
+		if (o->letter == letter)
+			return true;
+	return false;
+}
+
 static void
 parse_command_line(cmd *c, int argc, char **argv)
 {
@@ -308,8 +318,10 @@ parse_command_line(cmd *c, int argc, char **argv)
 	size_t n = 0;
 
 	for (const cmd_opt *o = standard; o->name; o++)
-		if (heeds(c->tool, o->letter))
-			heeded[n++] = *o;
+		if (heeds(c->tool, o->letter)) {
+			heeded[n] = *o;
+			heeded[n++].letter = takes(c->tool, o->letter) ? 0 : o->letter;
+		}
 	for (int i = 1; i < argc && strcmp(argv[i], "--"); i++) { /* before a mistake elsewhere can hide it */
 		s->help |= !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h");
 		s->version |= !strcmp(argv[i], "--version") || !strcmp(argv[i], "-V");

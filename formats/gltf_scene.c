@@ -149,12 +149,42 @@ visit(walk *w, waiting at)
 	return pile_up(w, json_object_get(node, "children"), &map);
 }
 
+/* Puts the nodes that hang from none on the pile, the first last: without scenes all are shown. */
+static mr_status
+pile_up_roots(walk *w)
+{
+	size_t nodes = mr_gltf_size(w->g, "nodes");
+	bool *hangs = MR_NEW_ZERO(w->g->ctx, nodes, bool);
+
+	if (!hangs)
+		return MR_EMEM;
+	for (size_t i = 0; i < nodes; i++) {
+		const json_t *list = json_object_get(mr_gltf_at(w->g, "nodes", i), "children");
+		for (size_t k = 0; k < json_array_size(list); k++) {
+			json_int_t child = json_integer_value(json_array_get(list, k));
+			if (child >= 0 && (uint64_t)child < nodes)
+				hangs[child] = true;
+		}
+	}
+	MR_TRY(MR_RESERVE(w->g->ctx, w->pile, w->count, nodes, &w->room));
+	for (size_t i = nodes; i-- > 0;)
+		if (!hangs[i]) {
+			w->seen[i] = true;
+			w->pile[w->count++] = (waiting){ i, mr_identity() };
+		}
+	return MR_OK;
+}
+
+/* scene: MR_UNKNOWN where there are none. */
 static mr_status
 walk_scene(walk *w, size_t scene)
 {
 	const mr_affine identity = mr_identity();
 
-	MR_TRY(pile_up(w, json_object_get(mr_gltf_at(w->g, "scenes", scene), "nodes"), &identity));
+	if (scene == MR_UNKNOWN)
+		MR_TRY(pile_up_roots(w));
+	else
+		MR_TRY(pile_up(w, json_object_get(mr_gltf_at(w->g, "scenes", scene), "nodes"), &identity));
 	while (w->count) {
 		waiting at = w->pile[--w->count];
 		MR_TRY(mr_prefix(w->g->ctx, visit(w, at), "node %zu", at.node));
@@ -183,11 +213,12 @@ mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr
 	if (!w.seen)
 		return MR_EMEM;
 	MR_TRY(mr_gltf_index(g, g->root, "scene", "scenes", &scene));
-	if (scenes)
-		MR_TRY(walk_scene(&w, scene == MR_UNKNOWN ? 0 : scene));
+	if (scenes && scene == MR_UNKNOWN)
+		scene = 0;
+	MR_TRY(walk_scene(&w, scene));
 	if (w.stretched)
 		mr_warn(g->ctx, "%zu rotations of nodes are brought to unit length", w.stretched);
-	for (size_t i = 0; scenes == 0 && i < mr_gltf_size(g, "meshes"); i++)
+	for (size_t i = 0; scenes + w.instances == 0 && i < mr_gltf_size(g, "meshes"); i++)
 		MR_TRY(push_instance(&w, i, &identity, NULL));
 	*list = w.found;
 	*count = w.instances;

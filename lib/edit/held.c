@@ -95,7 +95,7 @@ map_of(const fit *f, mr_v3 from)
 static mr_v3
 turned(const mr_held_pose *h, const fit *f, size_t v)
 {
-	mr_v3 foot = mr_place_point(h->base, mr_places_at(&h->at, v));
+	mr_v3 foot = h->foot ? h->foot[v] : mr_place_point(h->base, mr_places_at(&h->at, v));
 
 	return mr_add(map_of(f, foot), mr_mat3_apply(&f->turn, mr_sub(h->mesh->p[v], foot)));
 }

@@ -1,5 +1,6 @@
 /*
- * held.h -- constrained vertices of a mesh that its base, which is posed, does not hold where they belong.
+ * held.h -- constrained vertices of a mesh that its base, which is posed, does not hold where they belong; or
+ * of a displaced surface, its control mesh.
  */
 #ifndef MR_EDIT_HELD_H
 #define MR_EDIT_HELD_H
@@ -11,7 +12,8 @@ typedef struct mr_held_pose {
 	const mr_mesh *mesh, *base; /* as they stood */
 	const mr_v3 *p, *on_base;   /* now */
 	const uint32_t *region, *base_region;
-	mr_places at; /* of the mesh on base */
+	mr_places at;      /* of the mesh on base */
+	const mr_v3 *foot; /* what its vertices stand on, as it stood; NULL: those places */
 } mr_held_pose;
 
 typedef struct mr_held {

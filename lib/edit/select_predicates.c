@@ -32,6 +32,15 @@ parse_numbers(mr_ctx *ctx, const char *text, mr_select_term *t)
 }
 
 static mr_status
+parse_halfspace(mr_ctx *ctx, const char *text, mr_select_term *t)
+{
+	MR_TRY(parse_numbers(ctx, text, t));
+	if (t->x[0] == 0 && t->x[1] == 0 && t->x[2] == 0)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' has no direction", text);
+	return MR_OK;
+}
+
+static mr_status
 parse_axis(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
 	const char *at = text + 1;
@@ -472,7 +481,7 @@ const mr_predicate mr_predicates[] = {
 	{ "all", NULL, eval_all, 0, false, false },
 	{ "sphere", parse_numbers, eval_sphere, 4, true, false },
 	{ "box", parse_numbers, eval_box, 6, false, false },
-	{ "halfspace", parse_numbers, eval_halfspace, 4, false, false },
+	{ "halfspace", parse_halfspace, eval_halfspace, 4, false, false },
 	{ "above", parse_axis, eval_above, 0, false, false },
 	{ "below", parse_axis, eval_below, 0, false, false },
 	{ "geodesic", parse_numbers, eval_geodesic, 4, true, true },

@@ -561,7 +561,8 @@ cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
 
 	mr_layer_renumbered(f, layer);
 	for (const char *const *name = ties; *name; name++)
-		mr_frame_drop(f, layer, *name, 0);
+		if (mr_column_known(layer, *name))
+			mr_frame_drop(f, layer, *name, 0);
 	if (f->count < before)
 		mr_warn(ctx, "%s goes alone: what tied it to other layers is dropped", layer);
 	return MR_OK;

@@ -377,12 +377,33 @@ has_surface(const mr_frame *f)
 	return false;
 }
 
-/* Warns of a surface that not all frames with one have: what works on it leaves the rest out. */
+/* Warns of points of frames without a surface, where others have a surface alone: what works on one layer
+ * takes that. */
+static void
+warn_of_points(mr_ctx *ctx, const joined *j)
+{
+	size_t points = 0, surfaces = 0;
+
+	for (size_t i = 0; i < j->n; i++) {
+		bool surface = has_surface(j->frames[i]), has = mr_frame_has_layer(j->frames[i], j->layer);
+		points += has && !surface;
+		surfaces += surface && !has;
+	}
+	if (points && surfaces)
+		mr_warn(ctx,
+		    "of %zu frames %zu %s points and no surface: tools that work on one layer leave them "
+		    "out, unless -l names points",
+		    j->n, points, points == 1 ? "has" : "have");
+}
+
+/* Warns of a layer that not all frames have: what works on it, or on another, leaves the rest out. */
 static void
 warn_of_absent(mr_ctx *ctx, const joined *j)
 {
 	size_t n = frames_with(j, j->layer), all = 0;
 
+	if (!strcmp(j->layer, "points"))
+		warn_of_points(ctx, j);
 	if (mr_layer_no_surface(j->layer))
 		return;
 	for (size_t i = 0; i < j->n; i++)

@@ -243,6 +243,17 @@ mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer)
 }
 
 mr_status
+mr_layer_is_latest(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
+{
+	const char *text;
+	size_t n;
+
+	MR_TRY(get_lines(ctx, f, "latest", &text, &n));
+	*is = has_line(text, n, layer);
+	return MR_OK;
+}
+
+mr_status
 mr_layer_finished(mr_ctx *ctx, mr_frame *f)
 {
 	bool pending[LEADING];

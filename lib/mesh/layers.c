@@ -109,7 +109,7 @@ static const mr_column_info *
 info_of(const char *layer, const char *name)
 {
 	for (const mr_column_info *c = mr_columns; c->name; c++)
-		if ((!c->layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name))
+		if ((!c->layer || !layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name))
 			return c;
 	return NULL;
 }
@@ -405,13 +405,15 @@ concerns(mr_change change, const char *layer, size_t i)
 	       (!dependents[i].changed || !strcmp(dependents[i].changed, layer));
 }
 
-/* own: whether columns of the layer itself go too. */
+/* own: whether columns of the layer itself go too, but for a file's own of such a name. */
 static void
 drop_dependents(mr_frame *f, const char *layer, mr_change change, bool own)
 {
 	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++) {
 		const char *of = dependents[i].layer;
-		if (!concerns(change, layer, i) || (of && *of == '=' && !own))
+		if (!concerns(change, layer, i))
+			continue;
+		if (of && *of == '=' && !(own && mr_column_known(layer, dependents[i].name)))
 			continue;
 		if (of)
 			mr_frame_drop(f, *of == '=' ? layer : of, dependents[i].name, 0);
@@ -515,7 +517,7 @@ mr_layer_is_as_encoded(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
 	size_t n;
 
 	*is = true;
-	if (!mr_layer_has(f, layer, "encoded"))
+	if (!mr_column_known(layer, "encoded") || !mr_layer_has(f, layer, "encoded"))
 		return MR_OK;
 	MR_TRY(mr_layer_get(ctx, f, layer, "position", &p, &n));
 	MR_TRY(mr_layer_get_rows(ctx, f, layer, "encoded", n, &encoded));

@@ -20,7 +20,7 @@ typedef struct mr_column_info {
 /* Every column by convention; ends with a name of NULL. */
 extern const mr_column_info mr_columns[];
 
-/* Whether a column of this name is one by convention. */
+/* Whether a column of this name is one by convention, in any layer where `layer` is NULL. */
 bool mr_column_known(const char *layer, const char *name);
 
 /* Whether it is a column of the layer's vertices that goes along from points by displacement to mesh: colour,
@@ -130,6 +130,9 @@ mr_status mr_layers_merge(mr_ctx *ctx, mr_frame *f, mr_frame *from);
 
 /* That layer; NULL where it is not known, or frames with several were merged. */
 mr_status mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer);
+
+/* Whether the layer is that, or one of several. */
+mr_status mr_layer_is_latest(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
 
 /* MR_EMISSING, with the tool that is missing, where what was done shows in no surface yet. */
 mr_status mr_layer_finished(mr_ctx *ctx, mr_frame *f);

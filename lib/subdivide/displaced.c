@@ -230,10 +230,8 @@ is_displaced(const mr_mesh *m, const mr_domain *d, const mr_mesh *control, const
 static mr_status
 is_mesh_latest(mr_ctx *ctx, mr_frame *f, bool *is)
 {
-	const char *latest;
-
-	MR_TRY(mr_layer_latest(ctx, f, &latest));
-	*is = f->key && latest && !strcmp(latest, "mesh") && mr_layer_has(f, "mesh", "triangles");
+	MR_TRY(mr_layer_is_latest(ctx, f, "mesh", is));
+	*is &= f->key && mr_layer_has(f, "mesh", "triangles");
 	return MR_OK;
 }
 

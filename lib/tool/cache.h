@@ -32,6 +32,7 @@ typedef struct mr_connectivity_cache {
 	uint64_t place_serial;             /* of mesh.position */
 	mr_mesh displaced;                 /* the displaced surface on control.encoded */
 	mr_edges displaced_edges;
+	const mr_v3 *displaced_foot;              /* the limit points that it is displaced from */
 	uint64_t displaced_serial, height_serial; /* of control.encoded and displacement.height; 0: none */
 	/* Since the last key: harm, what is far, what strayed, what came apart, what was not held, long
 	 * edges. */

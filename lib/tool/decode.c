@@ -352,16 +352,24 @@ tell_some(mr_ctx *ctx, size_t some, size_t all, const char *which, double share,
 		    why);
 }
 
-/* Of those that are not where they belong though base, where the pose began, holds its own there: it has none
- * at theirs. */
+/* Of those that are not where they belong though base, where the pose began, or control holds its own there:
+ * it has none at theirs. */
 static void
-tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
+tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *on, double share)
 {
 	static const char missed[] = "vertices of handles of mesh miss their place";
-	char coarse[128];
+	bool base = !strcmp(on->name, "base");
+	char coarse[160];
 
-	snprintf(coarse, sizeof coarse, "base is too coarse to hold them; mr-remesh -L %.2g makes it finer",
-	    mr_mesh_edge_scale(ctx, base) / 2); /* which held all, of six models */
+	if (base) /* half the length held all, of six models */
+		snprintf(coarse, sizeof coarse,
+		    "base is too coarse to hold them; mr-remesh -L %.2g makes it finer",
+		    mr_mesh_edge_scale(ctx, on) / 2);
+	else /* four times the faces, of four scans */
+		snprintf(coarse, sizeof coarse,
+		    "control is too coarse to hold them; one of more faces, as mr-simplify -n %zu makes, "
+		    "holds more",
+		    4 * on->nf);
 	tell_some(ctx, h->moved, h->fixed, "fixed vertices of mesh have moved", share, coarse);
 	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
 	if (h->faceless)
@@ -371,8 +379,25 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *base, double share)
 		    "to it",
 		    h->faceless, h->faceless == 1 ? "ex" : "ices");
 	tell_some(ctx, h->unscaled, h->handled, missed, share,
-	    "the handle is scaled or mirrored, and heights over base keep their length and turn; mr-decode "
-	    "--gain scales all of them, mr-transform a whole model");
+	    base ? "the handle is scaled or mirrored, and heights over base keep their length and turn; "
+		   "mr-decode --gain scales all of them, mr-transform a whole model"
+		 : "the handle is scaled or mirrored, and heights over control keep their length and turn; "
+		   "mr-decode --gain scales all of them, mr-transform a whole model");
+}
+
+static mr_status
+look_at_pose(mr_ctx *ctx, mr_cache *cache, const mr_held_pose *pose)
+{
+	/* As look_for_gaps has it.  Of 28 models, bent by 60 degrees over a base of the default, one has a
+	 * vertex that is off by so much, none by twice that. */
+	const double share = 0.005;
+	size_t *told = cache ? &cache->connectivity.told_held : NULL;
+	mr_held h;
+
+	MR_TRY(mr_held_count(ctx, pose, share * mr_mesh_diagonal(pose->mesh), &h));
+	if (mr_is_news(h.moved + h.missed + h.unscaled + h.faceless, told))
+		tell_held(ctx, &h, pose->base, share);
+	return MR_OK;
 }
 
 /* Judges by where the pose began: an earlier one may have bent what is fixed now, or a handle.  at_rest: the
@@ -381,14 +406,9 @@ static mr_status
 look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *at_rest, const mr_mesh *base,
     const mr_incidence *inc, const mr_detail *d, const mr_v3 *p)
 {
-	/* As look_for_gaps has it.  Of 28 models, bent by 60 degrees over a base of the default, one has a
-	 * vertex that is off by so much, none by twice that. */
-	const double share = 0.005;
 	mr_stood none = { 0 }, *kept = cache ? &cache->connectivity.before : &none;
-	size_t *told = cache ? &cache->connectivity.told_held : NULL;
 	mr_mesh mesh = *at_rest, before = *base;
 	mr_held_pose pose = { .mesh = &mesh, .base = &before, .p = p, .on_base = base->p, .at = d->at };
-	mr_held h;
 
 	if (!mr_layer_has(f, "mesh", "region") || !mr_layer_has(f, base->name, "region"))
 		return MR_OK;
@@ -397,11 +417,7 @@ look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *at_rest, 
 	MR_TRY(mr_detail_before(ctx, f, base, d, &before.p));
 	if (before.p != d->rest)
 		MR_TRY(places_on(ctx, f, cache, &before, "before", inc, d, kept, &mesh.p));
-	MR_TRY(mr_held_count(ctx, &pose, share * mr_mesh_diagonal(&mesh), &h));
-	if (!mr_is_news(h.moved + h.missed + h.unscaled + h.faceless, told))
-		return MR_OK;
-	tell_held(ctx, &h, &before, share);
-	return MR_OK;
+	return look_at_pose(ctx, cache, &pose);
 }
 
 /* What the motion of mesh to p has done to it. */
@@ -478,10 +494,11 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 	return mr_layer_followed(ctx, f, "base");
 }
 
-/* The displaced surface over d at a gain of 1, but on the control mesh as it was encoded, and its edges. */
+/* The displaced surface over d at a gain of 1, but on the control mesh as it was encoded, its edges, and what
+ * it stands on. */
 static mr_status
 build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const double *height, mr_mesh *surface,
-    mr_edges *edges)
+    mr_edges *edges, const mr_v3 **foot)
 {
 	mr_domain before;
 	mr_v3 *p;
@@ -492,6 +509,7 @@ build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const dou
 		return MR_EMEM;
 	mr_domain_displace(ctx, &before, height, 1, p);
 	*surface = before.m;
+	*foot = before.m.p;
 	surface->p = p;
 	return mr_edges_build(ctx, surface, edges);
 }
@@ -499,7 +517,7 @@ build_encoded(mr_ctx *ctx, const mr_domain *d, const mr_mesh *encoded, const dou
 /* The same of the frame, kept as long as it is. */
 static mr_status
 find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, const double *height,
-    mr_mesh *surface, mr_edges *edges)
+    mr_mesh *surface, mr_edges *edges, const mr_v3 **foot)
 {
 	mr_connectivity_cache *kept = cache ? &cache->connectivity : NULL;
 	mr_ctx *keep = cache ? &cache->displaced_keep : ctx;
@@ -511,18 +529,62 @@ find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, cons
 	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", encoded.nv, &p));
 	encoded.p = p;
 	if (!kept)
-		return build_encoded(ctx, d, &encoded, height, surface, edges);
+		return build_encoded(ctx, d, &encoded, height, surface, edges, foot);
 	if (kept->height_serial != heights)
 		kept->displaced_serial = 0;
 	if (!still_there(ctx, f, "control", "encoded", &kept->displaced_serial, keep)) {
 		MR_TRY(mr_cache_say(ctx, keep,
-		    build_encoded(keep, d, &encoded, height, &kept->displaced, &kept->displaced_edges)));
+		    build_encoded(keep, d, &encoded, height, &kept->displaced, &kept->displaced_edges,
+			&kept->displaced_foot)));
 		kept->displaced_serial = mr_frame_find(f, "control", "encoded")->serial;
 		kept->height_serial = heights;
 	}
 	*surface = kept->displaced;
 	*edges = kept->displaced_edges;
+	*foot = kept->displaced_foot;
 	return MR_OK;
+}
+
+/* Of each vertex over d the region of the control vertices that it lies between, free where these have
+ * several. */
+static mr_status
+regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, const uint32_t **region)
+{
+	uint32_t *r = MR_NEW(ctx, d->m.nv, uint32_t);
+
+	if (!r)
+		return MR_EMEM;
+	memcpy(r, control, d->level[0].nv * sizeof *r);
+	for (size_t n = 1; n <= d->n; n++) {
+		const mr_loop *level = &d->level[n], *below = level - 1;
+		for (size_t v = level->coarse_nv; v < level->nv; v++) {
+			uint32_t h = level->edge[v - level->coarse_nv];
+			uint32_t a = r[below->t[h / 3].v[h % 3]], b = r[below->t[h / 3].v[(h + 1) % 3]];
+			r[v] = a == b ? a : MR_REGION_FREE;
+		}
+	}
+	*region = r;
+	return MR_OK;
+}
+
+/* What control does not hold of the surface; pose: that, as it stood, with what it stands on, and where it is
+ * now. */
+static mr_status
+look_at_held_by_control(
+    mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const mr_mesh *control, mr_held_pose *pose)
+{
+	mr_mesh encoded = *control;
+	const void *p;
+
+	if (!mr_layer_has(f, "control", "region"))
+		return MR_OK;
+	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", encoded.nv, &p));
+	encoded.p = p;
+	pose->base = &encoded;
+	pose->on_base = control->p;
+	MR_TRY(mr_layer_region(ctx, f, "control", control->nv, &pose->base_region));
+	MR_TRY(regions_of_levels(ctx, d, pose->base_region, &pose->region));
+	return look_at_pose(ctx, cache, pose);
 }
 
 /* What posing the control mesh, or the gain, has done to the surface, now at p. */
@@ -530,16 +592,20 @@ static mr_status
 look_at_displaced(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const mr_mesh *control,
     const double *height, double gain, const mr_v3 *p, mr_decode_result *result)
 {
+	bool posed = mr_layer_has(f, "control", "encoded");
+	mr_held_pose pose = { .p = p };
 	mr_mesh before;
 	mr_edges edges;
 
-	if (mr_layer_has(f, "control", "encoded"))
-		MR_TRY(find_encoded(ctx, cache, f, d, height, &before, &edges));
+	if (posed)
+		MR_TRY(find_encoded(ctx, cache, f, d, height, &before, &edges, &pose.foot));
 	else if (gain != 1)
-		MR_TRY(build_encoded(ctx, d, control, height, &before, &edges));
+		MR_TRY(build_encoded(ctx, d, control, height, &before, &edges, &pose.foot));
 	else
 		return MR_OK;
-	return look_for_flaws(ctx, f, cache, &before, &edges, NULL, p, result);
+	MR_TRY(look_for_flaws(ctx, f, cache, &before, &edges, NULL, p, result));
+	pose.mesh = &before;
+	return posed && gain == 1 ? look_at_held_by_control(ctx, f, cache, d, control, &pose) : MR_OK;
 }
 
 /* What mr-sample found of the points' columns at the vertices, those of coarse levels first. */

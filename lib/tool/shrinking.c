@@ -1,7 +1,8 @@
-/* Area and volume that a coarser or rounder surface has lost. */
+/* Area and volume that a coarser or rounder surface has lost or gained, and how far it is from the other. */
 #include "tool/shrinking.h"
 
 #include "mesh/edges.h"
+#include "shape/shape.h"
 #include "space/bvh.h"
 #include "space/contact.h"
 
@@ -28,13 +29,16 @@ static mr_status
 look_for_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why, bool *told)
 {
 	double area = mr_mesh_area(ctx, m), volume, lost = 1 - mr_mesh_area(ctx, out) / area, less;
-	bool thin;
+	bool thin, thick;
 
 	MR_TRY(volume_of(ctx, m, &volume));
 	less = 1 - fabs(mr_mesh_volume(ctx, out)) / volume;
 	thin = volume > 0 && less > fmax(MUCH, lost);
-	*told = area > 0 && (thin || lost > MUCH);
-	if (*told)
+	thick = volume > 0 && -less > fmax(MUCH, lost);
+	*told = area > 0 && (thin || thick || lost > MUCH);
+	if (*told && thick)
+		mr_warn(ctx, "%s: its volume has grown by %.3g %%: %s", m->name, 100 * -less, why);
+	else if (*told)
 		mr_warn(ctx, "%s: %.3g %% of its %s is lost: %s", m->name, 100 * (thin ? less : lost),
 		    thin ? "volume" : "area", why);
 	return MR_OK;
@@ -127,31 +131,86 @@ look_at_parts(
  */
 static const double FAR = 0.05;
 
+/* Corners of m, at equal strides where there are more, and places drawn by area: n in all. */
 static mr_status
-look_at_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+places_of(mr_ctx *ctx, const mr_mesh *m, mr_v3 **place, size_t *n)
 {
-	enum { SAMPLES = 1 << 16 };
-	mr_mark mark = mr_mark_take(ctx);
-	size_t corners = 3 * m->nf, n = corners < SAMPLES ? corners : SAMPLES, widest = 0;
-	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
-	double *distance = MR_NEW(ctx, n, double), diagonal = mr_mesh_diagonal(m);
-	mr_bvh *bvh;
+	enum { CORNERS = 1 << 16, DRAWN = 1 << 14 };
+	size_t all = 3 * m->nf, corners = all < CORNERS ? all : CORNERS;
+	mr_v3 *q = MR_NEW(ctx, corners + DRAWN, mr_v3), *drawn, *normal;
 
-	if (!q || !distance)
+	if (!q)
 		return MR_EMEM;
-	MR_TRY(mr_bvh_build(ctx, out, &bvh));
-	for (size_t i = 0; i < n; i++) {
-		size_t h = (size_t)((double)i / (double)n * (double)corners);
+	for (size_t i = 0; i < corners; i++) {
+		size_t h = (size_t)((double)i / (double)corners * (double)all);
 		q[i] = m->p[m->t[h / 3].v[h % 3]];
 	}
+	MR_TRY(mr_surface_sample(ctx, m, DRAWN, 1, &drawn, &normal));
+	memcpy(q + corners, drawn, DRAWN * sizeof *q);
+	*place = q;
+	*n = corners + DRAWN;
+	return MR_OK;
+}
+
+/* The place of m that is farthest from `to`, and how far that is. */
+static mr_status
+farthest(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *to, mr_v3 *at, double *far)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double *distance;
+	size_t n, widest = 0;
+	mr_bvh *bvh;
+	mr_v3 *q;
+
+	MR_TRY(places_of(ctx, m, &q, &n));
+	MR_TRY(mr_bvh_build(ctx, to, &bvh));
+	distance = MR_NEW(ctx, n, double);
+	if (!distance)
+		return MR_EMEM;
 	mr_bvh_distances(ctx, bvh, q, n, distance);
 	for (size_t i = 0; i < n; i++)
 		widest = distance[i] > distance[widest] ? i : widest;
-	if (n && distance[widest] > FAR * diagonal)
+	*at = q[widest];
+	*far = distance[widest];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Whether a face may be so far from a surface that its corners are on. */
+static bool
+has_wide_faces(const mr_mesh *m, double far)
+{
+	for (size_t h = 0; h < 3 * m->nf; h++) {
+		const uint32_t *v = m->t[h / 3].v;
+		if (mr_dist(m->p[v[h % 3]], m->p[v[(h + 1) % 3]]) > sqrt(3) * far)
+			return true;
+	}
+	return false;
+}
+
+static mr_status
+look_at_distance(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why)
+{
+	double diagonal = mr_mesh_diagonal(m), far = 0;
+	mr_v3 at;
+
+	if (!(mr_mesh_area(ctx, m) > 0 && mr_mesh_area(ctx, out) > 0))
+		return MR_OK;
+	MR_TRY(farthest(ctx, m, out, &at, &far));
+	if (far > FAR * diagonal) {
 		mr_warn(ctx,
 		    "%s: what was near (%.4g, %.4g, %.4g) is %.3g %% of the diagonal from what is left: %s",
-		    m->name, q[widest].x, q[widest].y, q[widest].z, 100 * distance[widest] / diagonal, why);
-	mr_mark_release(ctx, mark);
+		    m->name, at.x, at.y, at.z, 100 * far / diagonal, why);
+		return MR_OK;
+	}
+	if (!has_wide_faces(out, FAR * diagonal))
+		return MR_OK;
+	MR_TRY(farthest(ctx, out, m, &at, &far));
+	if (far > FAR * diagonal)
+		mr_warn(ctx,
+		    "%s: what is near (%.4g, %.4g, %.4g) now is %.3g %% of the diagonal from what was there: "
+		    "%s",
+		    m->name, at.x, at.y, at.z, 100 * far / diagonal, why);
 	return MR_OK;
 }
 

@@ -334,32 +334,6 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		mr_gaps_warn(ctx, "the wrap", g);
 }
 
-/* A share of the points in two layers that is no chance: of 162 clouds of 54 models, uniform, with noise of 1
- * % and of vertices, five have more, of a plate and of vertices in rows; of thin cups 0.3 and more. */
-static const double LAYERED = 0.05;
-
-/*
- * And one that is none where they lie together, as in the strip that two scans share.  Of strips that are a
- * quarter of a cube, half of their points 2 or 3 spacings off, 0.019 to 0.04; of 30 uniform clouds 0.005 at
- * most, but of slots and walls thinner than that, of 20 of vertices 0.006, but of three with vertices in
- * rows.
- */
-static const double DENSELY = 0.01;
-
-static mr_status
-warn_of_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud)
-{
-	mr_layers l;
-
-	MR_TRY(mr_find_layers(ctx, cloud->p, cloud->n, cloud->near, cloud->spacing, &l));
-	if (l.share > LAYERED || l.dense > DENSELY)
-		mr_warn(ctx,
-		    "%.3g %% of the points lie in two layers, %.2g sampling distances apart, as near "
-		    "(%.4g, %.4g, %.4g): sides of what is too thin to tell, or scans out of register",
-		    100 * l.share, l.apart / cloud->spacing, l.at.x, l.at.y, l.at.z);
-	return MR_OK;
-}
-
 static const double ROWS = 5;
 
 /* Points in rows say little of what is between these: of a height field whose rows are 6 times as far apart
@@ -458,7 +432,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
 		if (c.d.twin[h] == MR_NONE && c.lids.loops == 0)
 			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
-	MR_TRY(warn_of_layers(ctx, cloud));
+	MR_TRY(mr_warn_of_layers(ctx, cloud->p, cloud->n, cloud->near, cloud->spacing));
 	MR_TRY(warn_of_scatter(ctx, cloud));
 	MR_TRY(warn_of_rows(ctx, cloud));
 	report(ctx, cloud, &c, result);

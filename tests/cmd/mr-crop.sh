@@ -92,6 +92,7 @@ refused --keep part:0 plane.mrs
 refused --keep part:x plane.mrs
 refused --keep part:1,0 plane.mrs
 refused --keep part:1,1x plane.mrs
+refused --keep halfspace:0,0,0,1 plane.mrs
 refused --keep spaced: plane.mrs
 refused --keep spaced:-1 plane.mrs
 refused --keep spaced:1,2 plane.mrs

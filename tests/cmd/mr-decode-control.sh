@@ -123,3 +123,12 @@ echo 'heights that are scaled until the surface folds' >&2
 mr-make bumpy -n 4000 --points 4000 | mr-shrinkwrap | mr-simplify | mr-fit | mr-sample -o heights.mrs
 mr-decode heights.mrs >/dev/null
 mr-decode -g 20 heights.mrs 2>&1 >/dev/null | sed 's/[0-9][0-9]* more/N more/g; s/, most of.*//' >&2
+
+echo 'what stands on vertices that are fixed, or of a handle, goes with free ones beside them where control is coarse' >&2
+bend() { mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.8 | mr-pose --rotate 0,1,0,60 | mr-solve -q | mr-decode -o out.mrs; }
+mr-make bumpy --points 3000 | mr-shrinkwrap -q -o wrap.mrs
+for n in 400 1600; do
+	mr-simplify -q -n $n wrap.mrs | mr-sample -q | bend
+done
+echo 'a mesh from elsewhere beside control and its heights' >&2
+mr-make sphere -n 100 | mr-cat --merge - torus.mrs | mr-decode >out.mrs

@@ -43,3 +43,9 @@ head -c 5000 t.glb >e.glb
 refused e.glb
 head -c 16 t.glb >e.glb
 refused e.glb
+
+echo '-- without scenes all nodes are shown, without nodes all meshes'
+document '{"children":[1]},{"mesh":0,"translation":[5,0,0]},{"mesh":0,"scale":[2,2,2]}' | sed 's/"scenes":[^]]*\]}\],//' >f.gltf
+mr-import f.gltf | mr-export -f obj - | grep '^[vf] '
+document | sed 's/"scenes":[^]]*\]}\],//; s/"nodes":[^]]*\],*/"nodes":[],/' >f.gltf
+mr-import f.gltf | mr-export -f obj - | grep '^[vf] '

@@ -278,3 +278,13 @@ printf 'v 0 0 0 # C:\\\nv 1 0 0\n# C:\\\nv 0 1 \\\n0\nf 1 2 3\n' >backslash.obj
 mr-import backslash.obj | mr-info | grep vertices
 { printf 'ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty uchar x\nproperty uchar y\nproperty uchar z\nend_header\n'; printf 'abc#rest'; } >rest.ply
 mr-import rest.ply -o rest.mrs
+
+echo '-- properties that are called as columns of some layer come out again, behind tools that write such columns'
+for name in response encoded detail_height height source_face target; do
+	awk -v name=$name 'BEGIN { print "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\nproperty float z\nproperty float " name
+		print "element face 4\nproperty list uchar int vertex_indices\nend_header\n0 0 0 1.5\n1 0 0 2.5\n0 1 0 3.5\n0 0 1 4.5"
+		print "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3" }' >named.ply
+	for how in 'mr-select --free all' 'mr-crop --keep all' 'mr-transform -l mesh --translate 1,0,0' 'mr-subdivide --longest 2'; do
+		mr-import named.ply | $how | mr-export -f ply-ascii - | grep -E "$name|4.5\$"
+	done
+done | sort | uniq -c

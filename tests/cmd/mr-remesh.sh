@@ -108,3 +108,15 @@ mr-make cube -n 602 -o body.mrs
 mr-make cube -n 8 | mr-transform -s 0.02,1,0.02 -t 1.5,0,0 -o pole.mrs
 mr-cat --append body.mrs pole.mrs | tee parts.mrs | mr-remesh >/dev/null
 mr-simplify -n 300 parts.mrs >/dev/null
+
+echo 'an angle iron whose fillet long edges cut across, so that there is more of it' >&2
+awk 'function p(a, b) { x[n] = a; y[n++] = b }
+BEGIN { n = 0; w = 0.06; r = 0.3; p(0, 0); p(1, 0); p(1, w)
+	for (i = 0; i <= 8; i++) { a = -1.570796 - 1.570796 * i / 8; p(w + r + r * cos(a), w + r + r * sin(a)) }
+	p(w, 1); p(0, 1)
+	for (z = 0; z < 2; z++) for (i = 0; i < n; i++) print "v", x[i], y[i], z
+	for (i = 1; i < n - 1; i++) { print "f", 1, i + 2, i + 1; print "f", n + 1, n + i + 1, n + i + 2 }
+	for (i = 0; i < n; i++) { j = (i + 1) % n; print "f", i + 1, j + 1, n + j + 1; print "f", i + 1, n + j + 1, n + i + 1 } }' |
+	mr-import -f obj -o iron.mrs
+mr-remesh -r 20 --feature auto iron.mrs >/dev/null
+mr-remesh -r 6 --feature auto iron.mrs >/dev/null
