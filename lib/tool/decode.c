@@ -571,7 +571,7 @@ regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, cons
  * now. */
 static mr_status
 look_at_held_by_control(
-    mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const mr_mesh *control, mr_held_pose *pose)
+    mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const mr_mesh *control, mr_held_pose pose)
 {
 	mr_mesh encoded = *control;
 	const void *p;
@@ -580,11 +580,11 @@ look_at_held_by_control(
 		return MR_OK;
 	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", encoded.nv, &p));
 	encoded.p = p;
-	pose->base = &encoded;
-	pose->on_base = control->p;
-	MR_TRY(mr_layer_region(ctx, f, "control", control->nv, &pose->base_region));
-	MR_TRY(regions_of_levels(ctx, d, pose->base_region, &pose->region));
-	return look_at_pose(ctx, cache, pose);
+	pose.base = &encoded;
+	pose.on_base = control->p;
+	MR_TRY(mr_layer_region(ctx, f, "control", control->nv, &pose.base_region));
+	MR_TRY(regions_of_levels(ctx, d, pose.base_region, &pose.region));
+	return look_at_pose(ctx, cache, &pose);
 }
 
 /* What posing the control mesh, or the gain, has done to the surface, now at p. */
@@ -605,7 +605,7 @@ look_at_displaced(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d,
 		return MR_OK;
 	MR_TRY(look_for_flaws(ctx, f, cache, &before, &edges, NULL, p, result));
 	pose.mesh = &before;
-	return posed && gain == 1 ? look_at_held_by_control(ctx, f, cache, d, control, &pose) : MR_OK;
+	return posed && gain == 1 ? look_at_held_by_control(ctx, f, cache, d, control, pose) : MR_OK;
 }
 
 /* What mr-sample found of the points' columns at the vertices, those of coarse levels first. */
