@@ -189,12 +189,12 @@ column_name(char to[MR_COLUMN_MAX + 1], const char *prefix, const char *name)
 static bool
 is_free(const mr_frame *f, const char *layer, const char *name)
 {
-	return *name && mr_name_valid(name, MR_COLUMN_MAX) && !mr_column_known(NULL, name) &&
-	       !mr_layer_has(f, layer, name);
+	return *name && mr_name_valid(name, MR_COLUMN_MAX) && !mr_column_known(layer, name) &&
+	       !mr_column_of_surfaces(name) && !mr_layer_has(f, layer, name);
 }
 
-/* Its own name or, where there is such a column, as of vertices, or one by convention of any layer, a similar
- * one. */
+/* Its own name or, where there is such a column, as of vertices, or one by convention of this layer or of a
+ * surface, a similar one. */
 static bool
 choose_name(const mr_frame *f, const char *layer, const char *name, char to[MR_COLUMN_MAX + 1])
 {

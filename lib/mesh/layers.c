@@ -109,7 +109,7 @@ static const mr_column_info *
 info_of(const char *layer, const char *name)
 {
 	for (const mr_column_info *c = mr_columns; c->name; c++)
-		if ((!c->layer || !layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name))
+		if ((!c->layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name))
 			return c;
 	return NULL;
 }
@@ -118,6 +118,12 @@ bool
 mr_column_known(const char *layer, const char *name)
 {
 	return info_of(layer, name) != NULL;
+}
+
+bool
+mr_column_of_surfaces(const char *name)
+{
+	return info_of("mesh", name) || info_of("base", name) || info_of("control", name);
 }
 
 bool

@@ -20,8 +20,11 @@ typedef struct mr_column_info {
 /* Every column by convention; ends with a name of NULL. */
 extern const mr_column_info mr_columns[];
 
-/* Whether a column of this name is one by convention, in any layer where `layer` is NULL. */
+/* Whether a column of this name is one by convention. */
 bool mr_column_known(const char *layer, const char *name);
+
+/* Whether it is one in any layer that is a surface, as which others may be taken. */
+bool mr_column_of_surfaces(const char *name);
 
 /* Whether it is a column of the layer's vertices that goes along from points by displacement to mesh: colour,
  * or none by convention of any of these. */
