@@ -205,7 +205,7 @@ coverage:
 # more here.  cppcheck, which takes as long as all of that, begins first.
 NODES   ?= 20000
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
-LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(if $(shell command -v $(MPICC)),,$(MPI)),$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c)))
+LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(if $(shell echo '\#include <dmumps_c.h>' | $(MPICC) -E - 2>/dev/null),,$(MPI)),$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c)))
 lint: $(BUILD)/lint/cppcheck $(BUILD)/lint/eslint $(LINT)
 
 $(patsubst %,$(BUILD)/lint/%,$(MPI)): INCLUDE += $$(printf " -isystem %s" $$($(MPICC) --showme:incdirs))

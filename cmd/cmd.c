@@ -126,8 +126,7 @@ writes_stdout(const cmd *c)
 	return !output || !strcmp(output, "-");
 }
 
-/* A wrong command line that a later frame shows, behind what is on standard output, is an error like others.
- */
+/* A wrong command line that a later frame shows, behind what is on stdout, is an error like others. */
 static _Noreturn void
 die(cmd *c, mr_status status)
 {
@@ -801,9 +800,9 @@ read_streams(cmd *c)
 	}
 }
 
-/* With -k: what was left out; the exit code. */
+/* With -k: says what was left out; the exit code.  Where nothing is left, the command stops as without -k. */
 static int
-account(const cmd *c)
+account(cmd *c)
 {
 	const struct cmd_state *s = c->state;
 
@@ -813,6 +812,10 @@ account(const cmd *c)
 	if (s->lost)
 		say(c, "%llu more were deltas of those and were left out with them",
 		    (unsigned long long)s->lost);
+	if (s->failed + s->lost == c->frame) {
+		pass_failure(c);
+		leave(c, EXIT_DATA);
+	}
 	return EXIT_DATA;
 }
 
@@ -882,12 +885,12 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		try(&c, tool->source(&c));
 	else
 		read_streams(&c);
+	code = account(&c);
 	if (tool->finish)
 		try(&c, tool->finish(&c));
 	close_outputs(&c);
 	if (tool->after)
 		try(&c, tool->after(&c));
-	code = account(&c);
 	mr_cache_delete(c.cache);
 	mr_writer_free(state.writer);
 	mr_ctx_free(&c.ctx);

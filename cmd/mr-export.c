@@ -108,8 +108,6 @@ finish(cmd *c)
 	mr_outfile held = { 0 };
 	char *path;
 
-	if (mr_outname_varies(out))
-		return MR_OK;
 	if (written == 0)
 		return mr_fail(&c->ctx, MR_EMISSING, "the stream has no frame to write");
 	if (scene.nodes == 0)

@@ -241,6 +241,9 @@ narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
 
 	if (!big && !little)
 		return MR_OK;
+	if (*size % 2)
+		return mr_fail(
+		    ctx, MR_EFORMAT, "UTF-16 of %zu bytes, which are odd: the file ends early", *size);
 	units = *data + 2;
 	n = *size / 2 - 1;
 	for (size_t i = 0; i < n;)

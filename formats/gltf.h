@@ -84,10 +84,10 @@ typedef struct mr_gltf_instance {
 	const char *name; /* of the node, or else of the mesh; NULL: none.  The document's */
 } mr_gltf_instance;
 
-/* What a document has that its scene does not show: other scenes, nodes with meshes that are not in it, and
- * nodes whose mesh EXT_mesh_gpu_instancing shows several times. */
+/* What a document has that its scene does not show: other scenes, nodes with meshes that are not in it,
+ * meshes that no node has, and nodes whose mesh EXT_mesh_gpu_instancing shows several times. */
 typedef struct mr_gltf_unseen {
-	size_t scenes, nodes, several;
+	size_t scenes, nodes, meshes, several;
 } mr_gltf_unseen;
 
 /* The meshes of the scene that is to be shown, or, where there is no scene, all meshes as they are. */

@@ -138,7 +138,8 @@ say(const mr_gltf *g, mr_gltf_left *left, size_t unused)
 		{ mr_gltf_size(g, "cameras"), "camera" },
 		{ listed(g, "KHR_lights_punctual", "lights"), "light" }, { left->targets, "morph target" },
 		{ left->lines, "line primitive" }, { left->unseen.scenes, "other scene" },
-		{ left->unseen.nodes, "unshown mesh node" }, { parents(g), "parent node" },
+		{ left->unseen.nodes, "unshown mesh node" },
+		{ left->unseen.meshes, "unreferenced mesh object" }, { parents(g), "parent node" },
 		{ left->unseen.several, "EXT_mesh_gpu_instancing node" },
 		{ with_extras(g, "nodes") + with_extras(g, "meshes") + with_extras(g, "materials"),
 		    "extra" } };

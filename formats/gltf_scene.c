@@ -203,6 +203,27 @@ count_unseen(const walk *w)
 	return n;
 }
 
+/* Meshes that no node has. */
+static mr_status
+count_unnamed(const mr_gltf *g, size_t *count)
+{
+	size_t meshes = mr_gltf_size(g, "meshes"), mesh;
+	bool *named = MR_NEW_ZERO(g->ctx, meshes, bool);
+
+	if (!named)
+		return MR_EMEM;
+	for (size_t i = 0; i < mr_gltf_size(g, "nodes"); i++) {
+		MR_TRY(mr_prefix(g->ctx, mr_gltf_index(g, mr_gltf_at(g, "nodes", i), "mesh", "meshes", &mesh),
+		    "node %zu", i));
+		if (mesh != MR_UNKNOWN)
+			named[mesh] = true;
+	}
+	*count = 0;
+	for (size_t i = 0; i < meshes; i++)
+		*count += !named[i];
+	return MR_OK;
+}
+
 mr_status
 mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr_gltf_unseen *unseen)
 {
@@ -218,10 +239,13 @@ mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr
 	MR_TRY(walk_scene(&w, scene));
 	if (w.stretched)
 		mr_warn(g->ctx, "%zu rotations of nodes are brought to unit length", w.stretched);
-	for (size_t i = 0; scenes + w.instances == 0 && i < mr_gltf_size(g, "meshes"); i++)
-		MR_TRY(push_instance(&w, i, &identity, NULL));
+	*unseen = (mr_gltf_unseen){ scenes > 1 ? scenes - 1 : 0, count_unseen(&w), 0, w.several };
+	if (scenes + w.instances > 0)
+		MR_TRY(count_unnamed(g, &unseen->meshes));
+	else
+		for (size_t i = 0; i < mr_gltf_size(g, "meshes"); i++)
+			MR_TRY(push_instance(&w, i, &identity, NULL));
 	*list = w.found;
 	*count = w.instances;
-	*unseen = (mr_gltf_unseen){ scenes > 1 ? scenes - 1 : 0, count_unseen(&w), w.several };
 	return MR_OK;
 }

@@ -78,7 +78,13 @@ def record(layer, name, shape, rows, payload):
 text = b"-t\1"
 open("empty.mrs", "wb").write(record(b"mrmesh1\n", b"START", text, 0, b"") + record(b"", b"FRAME", text, 9, b"key empty")
 	+ record(b"points", b"position", b"vd\3", 0, b"") + record(b"", b"ENDFRAME", text, 0, b"") + record(b"", b"END", text, 0, b""))
+open("none.mrs", "wb").write(record(b"mrmesh1\n", b"START", text, 0, b"") + record(b"", b"END", text, 0, b""))
 X
 for suffix in obj ply off glb xyz pts pwn; do
 	mr-export -i empty.mrs empty.$suffix || ls empty.$suffix 2>/dev/null
+done
+echo '-- a stream without a frame'
+for out in one.obj %d.obj %d.glb; do
+	mr-export -i none.mrs "$out"
+	echo "exit $?"
 done

@@ -153,3 +153,9 @@ root["extensions"] = {"KHR_lights_punctual": {"lights": [{}, {}]}, "KHR_material
 root["nodes"][0]["extras"] = {"a": 1}
 END
 mr-import a.gltf | mr-export -f ply-ascii - | grep element
+
+echo '-- meshes that no node has' >&2
+make <<'END'
+root["meshes"] += root["meshes"] + root["meshes"]
+END
+mr-import a.gltf | mr-info | grep vertices

@@ -8,3 +8,13 @@ mr-import a.off bad.off a.off >cut.mrs
 echo "exit $?"
 mr-info cut.mrs >/dev/null
 echo "exit $?"
+echo '-- where nothing is left the old file stays, and every later tool fails'
+cp kept.mrs old.mrs
+mr-import -k bad.off bad.off -o old.mrs
+echo "exit $?"
+cmp kept.mrs old.mrs
+mr-import -k bad.off | mr-smooth | mr-export '%d.obj'
+echo "exit $?"
+mr-import -k bad.off | mr-info -k
+echo "exit $?"
+ls *.mrs

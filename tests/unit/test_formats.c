@@ -345,7 +345,8 @@ refusals(void **state)
 {
 	(void)state;
 	refused("", "", "the file is empty");
-	refused("", "\377\376v", "the file is empty");
+	refused("", "\377\376", "the file is empty");
+	refused("", "\377\376v", "UTF-16 of 3 bytes");
 	refused("", "hello world\n", "no format is recognised");
 	refused("a.obj", "# nothing\n", "obj without a vertex");
 	refused("", TRIANGLE "f 1 2 4\n", "line 4: vertex 4 of 3");
