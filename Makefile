@@ -79,6 +79,7 @@ RIVALS  := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*
 NEEDS   := build $(if $(filter setup check check-long check-page check-cluster coverage matrix bless units deb check-deb,$(MAKECMDGOALS)),check) \
 	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) \
 	$(if $(filter check-cluster,$(MAKECMDGOALS)),cluster) $(if $(filter mpi check-mpi,$(MAKECMDGOALS)),check mpi) \
+	$(if $(filter lint,$(MAKECMDGOALS)),$(shell command -v mpicc >/dev/null && echo mpi)) \
 	$(patsubst check-%,%,$(filter lint bench deb check-deb check-arm64,$(MAKECMDGOALS)))
 RUN     := PATH='$(abspath $(BUILD))/bin:$(PATH)' BUILD='$(abspath $(BUILD))' DATA='$(DATA)' SAN='$(SAN)' JOBS='$(JOBS)'
 
@@ -205,7 +206,7 @@ coverage:
 # more here.  cppcheck, which takes as long as all of that, begins first.
 NODES   ?= 20000
 HEADERS := $(wildcard lib/*.h lib/*/*.h formats/*.h cmd/*.h)
-LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(if $(shell echo '\#include <dmumps_c.h>' | $(MPICC) -E - 2>/dev/null),,$(MPI)),$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c)))
+LINT    := $(patsubst %,$(BUILD)/lint/%,$(filter-out $(if $(shell command -v $(MPICC)),,$(MPI)),$(wildcard lib/*/*.c formats/*.c formats/page/*/*.c cmd/*.c)))
 lint: $(BUILD)/lint/cppcheck $(BUILD)/lint/eslint $(LINT)
 
 $(patsubst %,$(BUILD)/lint/%,$(MPI)): INCLUDE += $$(printf " -isystem %s" $$($(MPICC) --showme:incdirs))
