@@ -214,17 +214,19 @@ normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 	return MR_OK;
 }
 
-/* The character at unit i of n, which moves behind it; half of one is U+FFFD. */
+/* The character at unit i of n, which moves behind it; half of one is U+FFFD, and counted. */
 static uint32_t
-from_units(const unsigned char *data, size_t n, bool big, size_t *i)
+from_units(const unsigned char *data, size_t n, bool big, size_t *i, size_t *halves)
 {
 	uint32_t unit = mr_load16(data + 2 * (*i)++, big), low;
 
 	if (unit < 0xd800 || unit >= 0xe000)
 		return unit;
 	low = unit < 0xdc00 && *i < n ? mr_load16(data + 2 * *i, big) : 0;
-	if (low < 0xdc00 || low >= 0xe000)
+	if (low < 0xdc00 || low >= 0xe000) {
+		++*halves;
 		return 0xfffd;
+	}
 	++*i;
 	return 0x10000 + ((unit - 0xd800) << 10) + (low - 0xdc00);
 }
@@ -236,7 +238,7 @@ narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
 	bool big = *size >= 2 && (*data)[0] == 0xfe && (*data)[1] == 0xff;
 	bool little = *size >= 2 && (*data)[0] == 0xff && (*data)[1] == 0xfe;
 	const unsigned char *units;
-	size_t n, bytes = 0;
+	size_t n, bytes = 0, halves = 0;
 	char *copy, none[4];
 
 	if (!big && !little)
@@ -247,14 +249,16 @@ narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
 	units = *data + 2;
 	n = *size / 2 - 1;
 	for (size_t i = 0; i < n;)
-		bytes += mr_utf8_write(none, from_units(units, n, big, &i));
+		bytes += mr_utf8_write(none, from_units(units, n, big, &i, &halves));
+	if (halves)
+		mr_warn(ctx, "half characters of UTF-16, which become U+FFFD: %zu", halves);
 	copy = mr_alloc(ctx, bytes, 1);
 	if (!copy)
 		return MR_EMEM;
 	*data = (const unsigned char *)copy;
 	*size = bytes;
 	for (size_t i = 0; i < n;)
-		copy += mr_utf8_write(copy, from_units(units, n, big, &i));
+		copy += mr_utf8_write(copy, from_units(units, n, big, &i, &halves));
 	return MR_OK;
 }
 

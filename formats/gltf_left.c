@@ -88,6 +88,43 @@ with_extras(const mr_gltf *g, const char *array)
 	return count;
 }
 
+/* Extensions of a thing that are neither read nor counted by what they are. */
+static size_t
+other_extensions(const json_t *thing)
+{
+	static const char *const known[] = { "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression",
+		"KHR_lights_punctual", "KHR_materials_variants" };
+	size_t count = 0;
+	const char *name;
+	json_t *value;
+
+	json_object_foreach(json_object_get(thing, "extensions"), name, value)
+	{
+		size_t i = 0;
+		while (i < sizeof known / sizeof *known && strcmp(name, known[i]))
+			i++;
+		count += i == sizeof known / sizeof *known;
+	}
+	return count;
+}
+
+/* The same of all but materials, whose surfaces are counted. */
+static size_t
+all_other_extensions(const mr_gltf *g)
+{
+	static const char *const arrays[] = { "scenes", "nodes", "meshes" };
+	size_t count = other_extensions(g->root), k;
+	json_t *primitive;
+
+	for (size_t a = 0; a < sizeof arrays / sizeof *arrays; a++)
+		for (size_t i = 0; i < mr_gltf_size(g, arrays[a]); i++)
+			count += other_extensions(mr_gltf_at(g, arrays[a], i));
+	for (size_t i = 0; i < mr_gltf_size(g, "meshes"); i++)
+		json_array_foreach(json_object_get(mr_gltf_at(g, "meshes", i), "primitives"), k, primitive)
+		    count += other_extensions(primitive);
+	return count;
+}
+
 /* Nodes that others hang from: how, and what such a node without a mesh is called, goes. */
 static size_t
 parents(const mr_gltf *g)
@@ -141,6 +178,7 @@ say(const mr_gltf *g, mr_gltf_left *left, size_t unused)
 		{ left->unseen.nodes, "unshown mesh node" },
 		{ left->unseen.meshes, "unreferenced mesh object" }, { parents(g), "parent node" },
 		{ left->unseen.several, "EXT_mesh_gpu_instancing node" },
+		{ all_other_extensions(g), "other extension" },
 		{ with_extras(g, "nodes") + with_extras(g, "meshes") + with_extras(g, "materials"),
 		    "extra" } };
 

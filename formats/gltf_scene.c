@@ -67,6 +67,9 @@ node_map(const mr_gltf *g, const json_t *node, mr_affine *map, size_t *stretched
 		for (int i = 0; i < 3; i++)
 			for (int j = 0; j < 4; j++)
 				map->m[4 * i + j] = m[4 * j + i];
+		if (m[3] != 0 || m[7] != 0 || m[11] != 0 || m[15] != 1)
+			return mr_fail(g->ctx, MR_EFORMAT,
+			    "matrix is not affine: its last row is %g, %g, %g, %g", m[3], m[7], m[11], m[15]);
 		return MR_OK;
 	}
 	MR_TRY(mr_gltf_numbers(g, node, "translation", 3, t, &there));

@@ -159,3 +159,15 @@ make <<'END'
 root["meshes"] += root["meshes"] + root["meshes"]
 END
 mr-import a.gltf | mr-export -f xyz - | wc -l
+
+echo '-- extensions of which nothing is known, and a map that is not affine' >&2
+make <<'END'
+root["extensions"] = {"KHR_xmp_json_ld": {"packets": [{}]}}
+root["nodes"][0]["extensions"] = {"KHR_node_visibility": {"visible": False}}
+primitive["extensions"] = {"ACME_wear": {}}
+END
+mr-import a.gltf | mr-export -f xyz - | wc -l
+make <<'END'
+root["nodes"][0]["matrix"] = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2]
+END
+refused
