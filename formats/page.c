@@ -1,6 +1,7 @@
 /* The page's data are a stream: what a browser shows of the frames, packed, in base64 between two halves of
  * HTML. */
 #include "formats/page.h"
+#include "base/text.h"
 
 #include "edit/detail.h"
 #include "edit/handles.h"
@@ -33,14 +34,6 @@ static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "m
 
 /* Texts that name the values of other columns. */
 static const char *const texts[] = { "groups", "objects", "materials", NULL };
-
-static bool
-is_one_of(const char *name, const char *const *list)
-{
-	while (*list && strcmp(*list, name))
-		list++;
-	return *list != NULL;
-}
 
 /* Whether a comma list, or NULL for any, has the name. */
 static bool
@@ -78,7 +71,7 @@ is_posing(const mr_column *c)
 	char name[MR_LAYER_MAX + MR_COLUMN_MAX + 2];
 
 	snprintf(name, sizeof name, "%s.%s", c->layer, c->name);
-	return is_one_of(name, posing);
+	return mr_is_one_of(name, posing);
 }
 
 /* Of displacement, the page takes what its vertices have; and the mesh that they are, it makes itself. */
@@ -118,10 +111,10 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_pag
 	    !mr_layer_has(f, c->layer, "position"))
 		return false;
 	if (c->shape.element == '-' || c->shape.type == 't')
-		return is_one_of(c->name, texts);
+		return mr_is_one_of(c->name, texts);
 	if (surface && !strcmp(c->name, "normal"))
 		return false;
-	return c->shape.components <= 4 && !is_one_of(c->name, unseen);
+	return c->shape.components <= 4 && !mr_is_one_of(c->name, unseen);
 }
 
 /* The nearest of the numbers that have 24 significant bits, as a float has, whatever the exponent. */
