@@ -1,6 +1,8 @@
 /* What a glTF document has and a model has not: counted, and said in one line. */
 #include "formats/gltf.h"
 
+#include "base/text.h"
+
 #include <stdlib.h>
 
 /* Joints and weights go with skins, which are said. */
@@ -93,18 +95,13 @@ static size_t
 other_extensions(const json_t *thing)
 {
 	static const char *const known[] = { "EXT_mesh_gpu_instancing", "KHR_draco_mesh_compression",
-		"KHR_lights_punctual", "KHR_materials_variants" };
+		"KHR_lights_punctual", "KHR_materials_variants", NULL };
 	size_t count = 0;
 	const char *name;
 	json_t *value;
 
 	json_object_foreach(json_object_get(thing, "extensions"), name, value)
-	{
-		size_t i = 0;
-		while (i < sizeof known / sizeof *known && strcmp(name, known[i]))
-			i++;
-		count += i == sizeof known / sizeof *known;
-	}
+	    count += !mr_is_one_of(name, known);
 	return count;
 }
 

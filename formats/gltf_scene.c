@@ -208,22 +208,22 @@ count_unseen(const walk *w)
 
 /* Meshes that no node has. */
 static mr_status
-count_unnamed(const mr_gltf *g, size_t *count)
+count_unreferenced(const mr_gltf *g, size_t *count)
 {
 	size_t meshes = mr_gltf_size(g, "meshes"), mesh;
-	bool *named = MR_NEW_ZERO(g->ctx, meshes, bool);
+	bool *referenced = MR_NEW_ZERO(g->ctx, meshes, bool);
 
-	if (!named)
+	if (!referenced)
 		return MR_EMEM;
 	for (size_t i = 0; i < mr_gltf_size(g, "nodes"); i++) {
 		MR_TRY(mr_prefix(g->ctx, mr_gltf_index(g, mr_gltf_at(g, "nodes", i), "mesh", "meshes", &mesh),
 		    "node %zu", i));
 		if (mesh != MR_UNKNOWN)
-			named[mesh] = true;
+			referenced[mesh] = true;
 	}
 	*count = 0;
 	for (size_t i = 0; i < meshes; i++)
-		*count += !named[i];
+		*count += !referenced[i];
 	return MR_OK;
 }
 
@@ -244,7 +244,7 @@ mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr
 		mr_warn(g->ctx, "%zu rotations of nodes are brought to unit length", w.stretched);
 	*unseen = (mr_gltf_unseen){ scenes > 1 ? scenes - 1 : 0, count_unseen(&w), 0, w.several };
 	if (scenes + w.instances > 0)
-		MR_TRY(count_unnamed(g, &unseen->meshes));
+		MR_TRY(count_unreferenced(g, &unseen->meshes));
 	else
 		for (size_t i = 0; i < mr_gltf_size(g, "meshes"); i++)
 			MR_TRY(push_instance(&w, i, &identity, NULL));
