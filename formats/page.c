@@ -1,8 +1,8 @@
 /* The page's data are a stream: what a browser shows of the frames, packed, in base64 between two halves of
  * HTML. */
 #include "formats/page.h"
-#include "base/text.h"
 
+#include "base/text.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
 #include "formats/bytes.h"
