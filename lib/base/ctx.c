@@ -10,7 +10,8 @@
 /*
  * The arena: a stack of blocks, the newest on top.  Small requests share a
  * block; a large one gets a block of its own, whose memory goes back to the
- * system as soon as it is released.
+ * system as soon as it is released.  One shared block is kept when it is
+ * released: workspace taken again and again may begin at a block's end.
  */
 enum { ALIGN = 64, SHARED = 1 << 18, LARGE = 1 << 15 };
 
@@ -36,6 +37,8 @@ void
 mr_ctx_free(mr_ctx *ctx)
 {
 	mr_mark_release(ctx, (mr_mark){ 0, 0 });
+	mr_memory_free(ctx->spare);
+	ctx->spare = NULL;
 }
 
 const char *
@@ -207,10 +210,13 @@ no_memory(mr_ctx *ctx, size_t count, size_t size)
 static mr_block *
 block_new(mr_ctx *ctx, size_t size)
 {
-	mr_block *b = mr_memory(ctx, NULL, sizeof *b + size);
+	bool kept = size == SHARED && ctx->spare;
+	mr_block *b = kept ? ctx->spare : mr_memory(ctx, NULL, sizeof *b + size);
 
 	if (!b)
 		return NULL;
+	if (kept)
+		ctx->spare = NULL;
 	*b = (mr_block){ .below = ctx->top, .serial = ++ctx->blocks, .size = size };
 	return ctx->top = b;
 }
@@ -337,7 +343,10 @@ mr_mark_release(mr_ctx *ctx, mr_mark mark)
 	while (ctx->top && ctx->top->serial > mark.serial) {
 		mr_block *b = ctx->top;
 		ctx->top = b->below;
-		mr_memory_free(b);
+		if (b->size == SHARED && !ctx->spare)
+			ctx->spare = b;
+		else
+			mr_memory_free(b);
 	}
 	if (ctx->top && ctx->top->serial == mark.serial)
 		ctx->top->used = mark.used;

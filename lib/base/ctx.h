@@ -53,6 +53,7 @@ struct mr_ctx {
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
 	mr_block *top;            /* newest block of the arena */
+	mr_block *spare;          /* a released block for the next that is wanted; NULL: none */
 	uint64_t blocks;          /* how many the arena ever had */
 };
 

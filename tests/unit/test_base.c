@@ -91,6 +91,27 @@ memory_is_aligned_and_released_in_order(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* Workspace taken again at the end of a block asks the system for memory once. */
+static void
+a_released_block_is_kept_for_the_next(void **state)
+{
+	mr_ctx ctx;
+	mr_mark mark;
+	char *p;
+
+	(void)state;
+	mr_ctx_init(&ctx, 1);
+	mark = mr_mark_take(&ctx);
+	p = MR_NEW(&ctx, 100, char);
+	mr_mark_release(&ctx, mark);
+	assert_null(ctx.top);
+	assert_non_null(ctx.spare);
+	assert_ptr_equal(MR_NEW(&ctx, 100, char), p);
+	assert_null(ctx.spare);
+	mr_ctx_free(&ctx);
+	assert_null(ctx.spare);
+}
+
 /* An array that grows past large sizes frees its old places; marks taken meanwhile stay good. */
 static void
 growing_keeps_contents_and_marks(void **state)
@@ -280,6 +301,7 @@ main(void)
 		cmocka_unit_test(memory_grows_and_shrinks),
 		cmocka_unit_test(large_memory_lies_in_a_file),
 		cmocka_unit_test(memory_is_aligned_and_released_in_order),
+		cmocka_unit_test(a_released_block_is_kept_for_the_next),
 		cmocka_unit_test(growing_keeps_contents_and_marks),
 		cmocka_unit_test(reserving_doubles),
 		cmocka_unit_test(impossible_sizes_are_refused),
