@@ -193,31 +193,42 @@ read_heights(mr_ctx *ctx, const mr_gray *g, const mr_mesh *control, const mr_mod
 	return MR_OK;
 }
 
-mr_status
-mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts, mr_map_result *result)
+static mr_status
+read_map(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *o, mr_map_result *r)
 {
-	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
-	mr_map_result found;
 	double range[2] = { 0, 0 }, *height;
 	mr_mesh control;
 	mr_domain d;
 	mr_model m;
 	mr_gray g;
 
-	mr_unmeasured(&found, sizeof found);
+	mr_unmeasured(r, sizeof *r);
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
 	MR_TRY(get_texcoords(ctx, f, &m));
 	MR_TRY(mr_png_read_gray(ctx, path, &g));
-	MR_TRY(mr_prefix(ctx, understand(ctx, &g, opts ? opts : &defaults, range, &found.level), "%s", path));
-	MR_TRY(read_heights(ctx, &g, &control, &m, range, &d, &height, &found));
+	MR_TRY(mr_prefix(ctx, understand(ctx, &g, o, range, &r->level), "%s", path));
+	MR_TRY(read_heights(ctx, &g, &control, &m, range, &d, &height, r));
 	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
 	MR_TRY(mr_map_put_range(ctx, f, range[0], range[1]));
-	found.width = g.width;
-	found.height = g.height;
-	found.low = range[0];
-	found.high = range[1];
+	r->width = g.width;
+	r->height = g.height;
+	r->low = range[0];
+	r->high = range[1];
+	return MR_OK;
+}
+
+mr_status
+mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts, mr_map_result *result)
+{
+	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
+	mr_map_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(read_map(ctx, &done, path, opts ? opts : &defaults, &r));
+	*f = done;
 	if (result)
-		*result = found;
+		*result = r;
 	return MR_OK;
 }

@@ -476,31 +476,42 @@ write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 	return MR_OK;
 }
 
-mr_status
-mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts, mr_map_result *result)
+static mr_status
+write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_map_result *r)
 {
-	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
-	mr_map_result found;
 	mapping m;
 
-	mr_unmeasured(&found, sizeof found);
+	mr_unmeasured(r, sizeof *r);
 	MR_TRY(check_name(ctx, name));
 	MR_TRY(check_library(ctx, f, name));
-	MR_TRY(prepare(ctx, f, opts ? opts : &defaults, &m));
+	MR_TRY(prepare(ctx, f, o, &m));
 	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
 		mr_warn(ctx, "maps are of control and its heights, without what base has done to mesh");
-	MR_TRY(write_files(ctx, &m, name, &found));
+	MR_TRY(write_files(ctx, &m, name, r));
 	MR_TRY(warn_of_replaced(ctx, f));
 	MR_TRY(put_texcoords(ctx, f, &m.atlas));
 	MR_TRY(put_normals(ctx, f, &m));
 	MR_TRY(put_material(ctx, f, &m.atlas, name_of(name)));
 	MR_TRY(mr_map_put_range(ctx, f, m.low, m.high));
-	found.level = m.atlas.level;
-	found.width = m.atlas.width;
-	found.height = m.atlas.height;
-	found.low = m.low;
-	found.high = m.high;
+	r->level = m.atlas.level;
+	r->width = m.atlas.width;
+	r->height = m.atlas.height;
+	r->low = m.low;
+	r->high = m.high;
+	return MR_OK;
+}
+
+mr_status
+mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts, mr_map_result *result)
+{
+	static const mr_map_opts defaults = MR_MAP_DEFAULTS;
+	mr_map_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(write_map(ctx, &done, name, opts ? opts : &defaults, &r));
+	*f = done;
 	if (result)
-		*result = found;
+		*result = r;
 	return MR_OK;
 }

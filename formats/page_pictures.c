@@ -12,12 +12,6 @@
 /* The most pixels a side that graphics cards of some years ago take. */
 static const size_t LARGEST_SIDE = 8192;
 
-static mr_status
-no_memory(mr_ctx *ctx, const mr_ctx *keep)
-{
-	return mr_fail(ctx, MR_EMEM, "%s", keep->error);
-}
-
 static size_t
 big_endian(const unsigned char *p, size_t n)
 {
@@ -106,7 +100,7 @@ keep_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, const mr_file_b
 
 	MR_TRY(check_picture(ctx, path, b));
 	if (!new.path || !new.data || MR_RESERVE(p->keep, p->picture, p->count, 1, &p->room) != MR_OK)
-		return no_memory(ctx, p->keep);
+		return mr_fail_as(ctx, p->keep, MR_EMEM);
 	new.size = (mr_is_png(b->data, b->size) ? strip_png : strip_jpeg)(b->data, b->size, new.data);
 	p->bytes += new.size;
 	p->picture[p->count++] = new;

@@ -5,12 +5,6 @@
 #include "formats/materials.h"
 #include "formats/model.h"
 
-static mr_status
-no_memory(mr_ctx *ctx, const mr_ctx *keep)
-{
-	return mr_fail(ctx, MR_EMEM, "%s", keep->error);
-}
-
 /* The coordinates of the corners, kept. */
 static mr_status
 keep_corners(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const double **corners)
@@ -18,7 +12,7 @@ keep_corners(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const double **corner
 	double *uv = MR_NEW(keep, 6 * m->nf, double);
 
 	if (!uv)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	for (size_t c = 0; c < 3 * m->nf; c++)
 		memcpy(uv + 2 * c,
 		    m->corner_texcoord ? m->corner_texcoord + 2 * c
@@ -37,7 +31,7 @@ read_texture(mr_ctx *ctx, mr_ctx *keep, const char *file, mr_texture *texture)
 	mr_image image;
 
 	if (mr_image_read(keep, file, &image) < 0 || mr_texture_make(keep, &image, texture) < 0)
-		return mr_fail(ctx, MR_EFORMAT, "%s", keep->error);
+		return mr_fail_as(ctx, keep, MR_EFORMAT);
 	return MR_OK;
 }
 
@@ -49,7 +43,7 @@ wear_one(mr_ctx *ctx, mr_ctx *keep, const char *file, size_t nf, mr_paint *paint
 	uint32_t *of = MR_NEW_ZERO(keep, nf, uint32_t);
 
 	if (!texture || !of)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	MR_TRY(read_texture(ctx, keep, file, texture));
 	paint->texture = texture;
 	paint->of = of;
@@ -98,7 +92,7 @@ wear_materials(
 	if (!number)
 		return MR_EMEM;
 	if (!texture || !of || !color)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	MR_TRY(read_pictures(ctx, keep, look, count, texture, number));
 	for (size_t f = 0; f < m->nf; f++) {
 		const mr_material *l = m->material[f] < count ? &look[m->material[f]] : NULL;

@@ -3,12 +3,6 @@
 
 #include "mesh/layers.h"
 
-static mr_status
-no_memory(mr_ctx *ctx, const mr_ctx *keep)
-{
-	return mr_fail(ctx, MR_EMEM, "%s", keep->error);
-}
-
 /* ---- the layers of a frame ---- */
 
 /* What is to be written of a frame. */
@@ -173,5 +167,5 @@ mr_scene_add(
 			warn_of_normals(ctx, &scene->node[scene->open + i], &l.model[i]);
 	}
 	*result = losses.lost;
-	return add_layers(keep, scene, f, &l) < 0 ? no_memory(ctx, keep) : MR_OK;
+	return add_layers(keep, scene, f, &l) < 0 ? mr_fail_as(ctx, keep, MR_EMEM) : MR_OK;
 }

@@ -90,6 +90,12 @@ mr_status(mr_fail)(mr_ctx *ctx, mr_status status, const char *format, ...)
 }
 
 mr_status
+mr_fail_as(mr_ctx *ctx, const mr_ctx *other, mr_status status)
+{
+	return status < 0 && other != ctx ? mr_fail(ctx, status, "%s", other->error) : status;
+}
+
+mr_status
 mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...)
 {
 	char sentence[MR_ERROR_MAX];

@@ -69,6 +69,9 @@ mr_status mr_fail(mr_ctx *ctx, mr_status status, const char *format, ...) MR_PRI
 /* Puts "text: " before the sentence of the last failure and returns `status` unchanged; good ones pass. */
 mr_status mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...) MR_PRINTF(3, 4);
 
+/* Takes over the sentence of a failure in another context, such as one that outlives frames, or this one. */
+mr_status mr_fail_as(mr_ctx *ctx, const mr_ctx *other, mr_status status);
+
 /* A remark for the user who asked for them. */
 void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 

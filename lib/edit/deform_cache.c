@@ -50,7 +50,7 @@ mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame 
 		status = mr_deform_new(keep, rest, &ties, region, opts, &cache->deform);
 		if (status < 0) {
 			mr_mark_release(keep, cache->mark);
-			return mr_fail(ctx, status, "%s", keep->error);
+			return mr_fail_as(ctx, keep, status);
 		}
 		memcpy(cache->part, part, sizeof part);
 	}

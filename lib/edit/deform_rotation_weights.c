@@ -129,7 +129,7 @@ mr_rotations_make(mr_ctx *ctx, mr_deform *d)
 		free_membrane(d, r);
 	if (status < 0) {
 		d->rotations = NULL;
-		return d->keep != ctx ? mr_fail(ctx, status, "%s", d->keep->error) : status;
+		return mr_fail_as(ctx, d->keep, status);
 	}
 	return MR_OK;
 }

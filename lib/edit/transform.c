@@ -568,8 +568,8 @@ cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
 	return MR_OK;
 }
 
-mr_status
-mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
+static mr_status
+transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 {
 	mr_affine t;
 	change c;
@@ -600,5 +600,16 @@ mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map
 			MR_TRY(map_column(ctx, f, column, &c, sorts[sort].sort));
 		}
 	}
+	return MR_OK;
+}
+
+mr_status
+mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
+{
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(transform(ctx, &done, layer, map));
+	*f = done;
 	return MR_OK;
 }

@@ -3,12 +3,6 @@
 
 #include "mesh/layers.h"
 
-static mr_status
-no_memory(mr_ctx *ctx, const mr_ctx *keep)
-{
-	return mr_fail(ctx, MR_EMEM, "%s", keep->error);
-}
-
 /* A copy in the arena that is kept, or NULL. */
 static void *
 copy_of(mr_ctx *keep, const void *data, size_t count, size_t size)
@@ -52,7 +46,7 @@ take_mesh(mr_ctx *ctx, mr_ctx *keep, const mr_gallery *g, mr_frame *frame, mr_pa
 	else if (m->nf)
 		m->t = copy_of(keep, m->t, m->nf, sizeof *m->t);
 	if (!m->p || (m->nf && !m->t))
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	return MR_OK;
 }
 
@@ -69,7 +63,7 @@ take_normals(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_panel *p)
 	MR_TRY(mr_layer_get_rows(ctx, frame, p->layer, "normal", nv, &data));
 	normal = copy_of(keep, data, nv, sizeof *normal);
 	if (!normal)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	for (size_t i = 0; i < nv; i++)
 		normal[i] = mr_finite(normal[i]) ? mr_unit(normal[i]) : mr_vec(0, 0, 0);
 	p->subject.normal = normal;
@@ -97,7 +91,7 @@ take_numbers(mr_ctx *ctx, mr_ctx *keep, const mr_column *c, mr_panel *p)
 {
 	p->value = MR_NEW(keep, c->rows, double);
 	if (!p->value)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	for (size_t i = 0; i < c->rows; i++)
 		p->value[i] = number_at(c, i);
 	p->coloring = MR_COLOR_NUMBERS;
@@ -124,7 +118,7 @@ take_colors(mr_ctx *ctx, mr_ctx *keep, const mr_column *c, mr_panel *p)
 	bool own = c->shape.type == 'b';
 
 	if (!color)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	p->coloring = own ? MR_COLOR_OWN : !strcmp(c->name, "region") ? MR_COLOR_REGIONS : MR_COLOR_KINDS;
 	for (size_t i = 0; i < c->rows; i++) {
 		const unsigned char *b = (const unsigned char *)c->data + i * c->shape.components;
@@ -168,7 +162,7 @@ static mr_status
 push_panel(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_panel *p)
 {
 	if (MR_RESERVE(keep, g->panel, g->panels, 1, &g->panel_room) != MR_OK)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	g->panel[g->panels++] = *p;
 	return MR_OK;
 }
@@ -177,7 +171,7 @@ static mr_status
 push_frame(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_shown *f)
 {
 	if (MR_RESERVE(keep, g->frame, g->frames, 1, &g->frame_room) != MR_OK)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	g->frame[g->frames++] = *f;
 	return MR_OK;
 }
@@ -189,7 +183,7 @@ add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char 
 	mr_panel p = { .layer = mr_format(keep, "%s", layer), .frame = mr_format(keep, "%s", frame->name) };
 
 	if (!p.layer || !p.frame)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	MR_TRY(take_mesh(ctx, keep, g, frame, &p));
 	MR_TRY(take_normals(ctx, keep, frame, &p));
 	if (opts->color)
@@ -231,7 +225,7 @@ mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const 
 	mr_status status;
 
 	if (!shown.name)
-		return no_memory(ctx, keep);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	status = add_layers(ctx, keep, g, frame, opts, &colored);
 	if (status == MR_OK && g->panels == shown.first)
 		status = mr_fail(ctx, MR_EMISSING, "the frame has no layer with positions: nothing to draw");

@@ -333,7 +333,7 @@ krylov_setup(
 	                                         : cg_iterate;
 	status = precondition(k, system);
 	if (status < 0)
-		return mr_fail(ctx, status, "%s", k->own.error);
+		return mr_fail_as(ctx, &k->own, status);
 	*report = (mr_solver_report){ .seconds_factor = mr_seconds() - start,
 		.nnz_factor = k->b.nnz,
 		.bytes_factor = k->b.nnz * (sizeof(double) + sizeof(int)) };

@@ -30,10 +30,3 @@ mr_cache_arena(const mr_ctx *ctx, mr_ctx *keep)
 	keep->listener = ctx->listener;
 	return keep;
 }
-
-/* What failed in the arena that outlives frames is said in the frame's. */
-mr_status
-mr_cache_say(mr_ctx *ctx, const mr_ctx *keep, mr_status status)
-{
-	return status < 0 && keep != ctx ? mr_fail(ctx, status, "%s", keep->error) : status;
-}

@@ -66,9 +66,6 @@ mr_is_news(size_t n, size_t *told)
 /* The arena `keep` of a cache, with the threads and the listener of the frame's. */
 mr_ctx *mr_cache_arena(const mr_ctx *ctx, mr_ctx *keep);
 
-/* A failure in an arena that outlives frames, said in the frame's. */
-mr_status mr_cache_say(mr_ctx *ctx, const mr_ctx *keep, mr_status status);
-
 /* Levels 0 to n of the frame's layer m: those of the cache, if there is one and it still has them. */
 mr_status mr_cache_levels(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_mesh *m, double crease,
     size_t n, const mr_loop **level);

@@ -38,7 +38,7 @@ base_incidence(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_mesh *base, m
 	kept = &cache->connectivity;
 	if (!still_there(ctx, f, base->name, "triangles", &kept->base_serial, &cache->base_keep)) {
 		MR_TRY(mr_detail_check_faces(ctx, f, base));
-		MR_TRY(mr_cache_say(
+		MR_TRY(mr_fail_as(
 		    ctx, &cache->base_keep, mr_incidence_build(&cache->base_keep, base, &kept->base)));
 		kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
 		kept->rest_serial = 0;
@@ -69,7 +69,7 @@ rest_normals(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *bas
 	if (!normal)
 		normal = MR_NEW(keep, base->nv, mr_v3);
 	if (!normal)
-		return mr_cache_say(ctx, keep, MR_EMEM);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	MR_TRY(mr_vertex_normals(ctx, &rest, inc, normal));
 	d->rest_normal = normal;
 	if (cache) {
@@ -128,7 +128,7 @@ mesh_neighbours(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *
 	if (kept->place_serial != mr_frame_find(f, mesh->name, "position")->serial)
 		kept->mesh_serial = 0; /* parts may touch elsewhere */
 	if (!still_there(ctx, f, mesh->name, "triangles", &kept->mesh_serial, &cache->mesh_keep)) {
-		MR_TRY(mr_cache_say(ctx, &cache->mesh_keep,
+		MR_TRY(mr_fail_as(ctx, &cache->mesh_keep,
 		    find_neighbours(&cache->mesh_keep, mesh, &kept->mesh, &kept->contacts)));
 		kept->mesh_serial = mr_frame_find(f, mesh->name, "triangles")->serial;
 		kept->place_serial = mr_frame_find(f, mesh->name, "position")->serial;
@@ -332,7 +332,7 @@ places_on(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *on, co
 		return MR_OK;
 	}
 	if (!kept->p)
-		return mr_cache_say(ctx, keep, MR_EMEM);
+		return mr_fail_as(ctx, keep, MR_EMEM);
 	if (on->p == d->rest)
 		mr_decode_at_rest(ctx, on, d, kept->p);
 	else
@@ -533,7 +533,7 @@ find_encoded(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_domain *d, cons
 	if (kept->height_serial != heights)
 		kept->displaced_serial = 0;
 	if (!still_there(ctx, f, "control", "encoded", &kept->displaced_serial, keep)) {
-		MR_TRY(mr_cache_say(ctx, keep,
+		MR_TRY(mr_fail_as(ctx, keep,
 		    build_encoded(keep, d, &encoded, height, &kept->displaced, &kept->displaced_edges,
 			&kept->displaced_foot)));
 		kept->displaced_serial = mr_frame_find(f, "control", "encoded")->serial;
@@ -737,30 +737,40 @@ choose(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, int *from)
 	return MR_OK;
 }
 
-mr_status
-mr_decode_frame(
-    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache, mr_decode_result *result)
+/* gaps: whether those are looked at. */
+static mr_status
+decode(
+    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache, bool gaps, mr_decode_result *result)
 {
-	static const mr_decode_opts defaults = MR_DECODE_DEFAULTS;
-	const mr_decode_opts *o = opts ? opts : &defaults;
-	mr_decode_result found;
 	int from;
 
-	mr_unmeasured(&found, sizeof found);
+	mr_unmeasured(result, sizeof *result);
 	MR_TRY(choose(ctx, f, o, &from));
 	if (mr_layer_has(f, from == MR_FROM_DETAIL ? "base" : "control", "target"))
 		return mr_fail(ctx, MR_EMISSING,
 		    "%s has targets and has not gone there: mr-solve comes before",
 		    from == MR_FROM_DETAIL ? "base" : "control");
 	if (from == MR_FROM_DETAIL)
-		MR_TRY(decode_detail(ctx, f, o, cache, &found));
+		MR_TRY(decode_detail(ctx, f, o, cache, result));
 	else
-		MR_TRY(decode_control(ctx, f, o, cache, &found));
+		MR_TRY(decode_control(ctx, f, o, cache, result));
 	mr_frame_drop(f, "handles", NULL, 0);
 	mr_frame_drop(f, "base", "before", 0);
-	if (result && from == MR_FROM_CONTROL)
-		MR_TRY(look_at_gaps(ctx, f, &found.gaps));
+	return gaps && from == MR_FROM_CONTROL ? look_at_gaps(ctx, f, &result->gaps) : MR_OK;
+}
+
+mr_status
+mr_decode_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache, mr_decode_result *result)
+{
+	static const mr_decode_opts defaults = MR_DECODE_DEFAULTS;
+	mr_decode_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(decode(ctx, &done, opts ? opts : &defaults, cache, result, &r));
+	*f = done;
 	if (result)
-		*result = found;
+		*result = r;
 	return MR_OK;
 }

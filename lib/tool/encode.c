@@ -16,8 +16,8 @@ look_for_pose(mr_ctx *ctx, mr_frame *f)
 	return MR_OK;
 }
 
-mr_status
-mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
+static mr_status
+encode(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 {
 	bool mapped = mr_layer_has(f, "base", "source_face");
 	mr_mesh mesh, base;
@@ -33,4 +33,18 @@ mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 		MR_TRY(mr_source_map_get(ctx, f, &mesh, base.nv, &map));
 	MR_TRY(mr_encode(ctx, &mesh, &base, mapped ? &map : NULL, &detail, result));
 	return mr_detail_put(ctx, f, &base, &detail);
+}
+
+mr_status
+mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
+{
+	mr_encode_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(encode(ctx, &done, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }

@@ -36,8 +36,8 @@ look_for_folds(mr_ctx *ctx, const mr_domain *d, const double *before, const doub
 	return MR_OK;
 }
 
-mr_status
-mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache)
+static mr_status
+equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache)
 {
 	double all[MR_LEVEL_MAX + 1], *x;
 	const mr_loop *level;
@@ -68,4 +68,15 @@ mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr
 	mr_frame_drop(f, "displacement", "range", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", x, level[n].nv));
 	return mr_layer_worked(ctx, f, "displacement");
+}
+
+mr_status
+mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache)
+{
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(equalize(ctx, &done, gain, gains, cache));
+	*f = done;
+	return MR_OK;
 }

@@ -44,17 +44,14 @@ get_points(mr_ctx *ctx, mr_frame *f, const char *from, mr_mesh *points)
 	return MR_OK;
 }
 
-mr_status
-mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *result)
+static mr_status
+fit(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *o, mr_fit_result *r)
 {
-	static const mr_fit_opts defaults = MR_FIT_DEFAULTS;
 	static const char *const reads[] = { "points", "mesh", NULL };
-	const mr_fit_opts *o = opts ? opts : &defaults;
 	const char *layer = o->layer ? o->layer : "control", *from;
 	mr_mesh control, points;
 	mr_sampling sampling, *known = NULL;
 	const uint8_t *crease;
-	mr_fit_result r;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
@@ -70,12 +67,25 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, &r));
+	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, r));
 	if (known && !strcmp(from, "points")) { /* the vertices of a mesh do not say where it is */
-		mr_gaps_note(ctx, "the limit surface", &r.gaps);
-		mr_gaps_warn(ctx, "the limit surface", &r.gaps);
+		mr_gaps_note(ctx, "the limit surface", &r->gaps);
+		mr_gaps_warn(ctx, "the limit surface", &r->gaps);
 	}
+	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
+}
+
+mr_status
+mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *result)
+{
+	static const mr_fit_opts defaults = MR_FIT_DEFAULTS;
+	mr_fit_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(fit(ctx, &done, opts ? opts : &defaults, &r));
+	*f = done;
 	if (result)
 		*result = r;
-	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
+	return MR_OK;
 }

@@ -161,13 +161,10 @@ tell(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *normal, const mr_normals_result
 		mr_note(ctx, "%.2f %% of the normals there were are on the side of these", 100 * r->agree);
 }
 
-mr_status
-mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result)
+static mr_status
+put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_result *r)
 {
 	static const char *const reads[] = { "mesh", "control", "points", NULL };
-	static const mr_normals_opts defaults;
-	const mr_normals_opts *o = opts ? opts : &defaults;
-	mr_normals_result r = { 0 };
 	const void *there = NULL;
 	const char *layer;
 	mr_v3 *normal;
@@ -180,11 +177,24 @@ mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_norma
 	normal = MR_NEW(ctx, m.nv, mr_v3);
 	if (!normal)
 		return MR_EMEM;
-	MR_TRY(m.nf ? of_surface(ctx, &m, o, normal) : of_points(ctx, f, &m, o, there, normal, &r));
-	finish(o, there, m.nv, normal, &r);
-	tell(ctx, &m, normal, &r);
-	if (result)
-		*result = r;
+	MR_TRY(m.nf ? of_surface(ctx, &m, o, normal) : of_points(ctx, f, &m, o, there, normal, r));
+	finish(o, there, m.nv, normal, r);
+	tell(ctx, &m, normal, r);
 	mr_frame_drop(f, layer, "corner_normal", 0);
 	return mr_layer_put(ctx, f, layer, "normal", normal, m.nv);
+}
+
+mr_status
+mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result)
+{
+	static const mr_normals_opts defaults;
+	mr_normals_result r = { 0 };
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(put_normals(ctx, &done, opts ? opts : &defaults, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }

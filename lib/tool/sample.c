@@ -112,11 +112,9 @@ put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points,
 	return mr_layer_put(ctx, f, "displacement", "properties", types, bytes);
 }
 
-mr_status
-mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_result *result)
+static mr_status
+sample(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *o, mr_sample_result *result)
 {
-	static const mr_sample_opts defaults = MR_SAMPLE_DEFAULTS;
-	const mr_sample_opts *o = opts ? opts : &defaults;
 	mr_mesh control, target;
 	size_t n = o->level;
 	double *height;
@@ -138,13 +136,26 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 		MR_TRY(mr_sampling_of(ctx, f, &target, &sampling));
 		MR_TRY(mr_sample_points(ctx, &d, target.p, target.nv, &sampling, o, height, result));
 	}
-	if (result) {
-		result->level = n;
-		result->vertices = d.m.nv;
-	}
+	result->level = n;
+	result->vertices = d.m.nv;
 	mr_displacement_warn_of_map(ctx, f);
 	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	mr_frame_drop(f, "displacement", NULL, 0);
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
 	return target.nf ? MR_OK : put_columns(ctx, f, &d, &target, &sampling, height);
+}
+
+mr_status
+mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_result *result)
+{
+	static const mr_sample_opts defaults = MR_SAMPLE_DEFAULTS;
+	mr_sample_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(sample(ctx, &done, opts ? opts : &defaults, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }

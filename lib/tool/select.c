@@ -67,8 +67,8 @@ warn_of_others(mr_ctx *ctx, const mr_frame *f, const char *layer)
 		mr_warn(ctx, "mr-solve takes base, and not control, unless it is told -l control, too");
 }
 
-mr_status
-mr_select_by(
+static mr_status
+select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
 {
 	static const char *const reads[] = { "mesh", "control", "points", NULL };
@@ -88,7 +88,22 @@ mr_select_by(
 }
 
 mr_status
-mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_crop_result *result)
+mr_select_by(
+    mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
+{
+	mr_select_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(select_by(ctx, &done, s, opts, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
+}
+
+static mr_status
+crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_crop_result *result)
 {
 	static const char *const reads[] = { "mesh", "control", "points", NULL };
 	mr_groups groups[MR_NAMINGS];
@@ -114,9 +129,22 @@ mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, m
 		return mr_fail(ctx, MR_EMESH, "nothing would be left of the %zu %s of %s", m.nf ? m.nf : m.nv,
 		    m.nf ? "faces" : "points", layer);
 	mr_note(ctx, "%zu of %zu vertices are left", subset.nv, m.nv);
-	if (result)
-		*result = (mr_crop_result){ subset.nv, subset.nf, m.nv - subset.nv, m.nf - subset.nf };
+	*result = (mr_crop_result){ subset.nv, subset.nf, m.nv - subset.nv, m.nf - subset.nf };
 	return mr_layer_keep(ctx, f, layer, &subset);
+}
+
+mr_status
+mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_crop_result *result)
+{
+	mr_crop_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(crop_by(ctx, &done, layer, s, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }
 
 /* What the tool calls a rule for this region. */

@@ -49,12 +49,10 @@ get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides
 	return MR_OK;
 }
 
-mr_status
-mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_result *result)
+static mr_status
+shrinkwrap(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *o, mr_wrap_result *result)
 {
-	static const mr_wrap_opts defaults = MR_WRAP_DEFAULTS;
 	static const char *const reads[] = { "points", NULL };
-	const mr_wrap_opts *o = opts ? opts : &defaults;
 	const char *layer;
 	mr_outer_sides sides = { NULL, false };
 	mr_mesh points, out;
@@ -71,4 +69,19 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 	    mr_shrinkwrap(ctx, points.p, points.nv, &sampling, sides.toward ? &sides : NULL, o, &out, result),
 	    "%s", layer));
 	return mr_layer_replace(ctx, f, "control", &out);
+}
+
+mr_status
+mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_result *result)
+{
+	static const mr_wrap_opts defaults = MR_WRAP_DEFAULTS;
+	mr_wrap_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(shrinkwrap(ctx, &done, opts ? opts : &defaults, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }

@@ -208,19 +208,15 @@ look_for_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uin
 	return mr_warn_of_coarseness(ctx, m, out, from, "more faces keep more");
 }
 
-mr_status
-mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result)
+static mr_status
+simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 {
 	static const char *const reads[] = { "control", "base", "mesh", NULL };
-	mr_simplify_opts o = MR_SIMPLIFY_DEFAULTS;
 	mr_mesh m, points, sharp, out;
 	const char *layer;
-	mr_simplify_result r;
 	uint32_t *onto;
 	double width;
 
-	if (opts)
-		o = *opts;
 	MR_TRY(mr_layer_choose_warned(ctx, f, o.layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	if ((o.map && !strcmp(o.map, layer)) || (o.to && !strcmp(o.to, layer)))
@@ -237,22 +233,35 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	sharp = m;
 	if (width > 0)
 		MR_TRY(sharpen(ctx, &m, &points, width, &sharp));
-	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, &r));
+	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, r));
 	MR_TRY(mr_crossings_warn(ctx, &sharp, onto, &out));
 	if (strcmp(layer, "control") != 0)
 		MR_TRY(look_for_coarseness(ctx, &m, &out, onto));
-	mr_unmeasured(&r.gaps, sizeof r.gaps);
-	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r.gaps));
-	r.creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;
+	mr_unmeasured(&r->gaps, sizeof r->gaps);
+	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r->gaps));
+	r->creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;
 	if (points.nv > 0)
 		MR_TRY(
 		    mr_sample_warn_of_move(ctx, f, points.name, "mr-export and mr-import take mesh alone"));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
 	if (width > 0)
-		MR_TRY(put_creases(ctx, f, &out, &points, width, &r.creases));
-	if (result)
-		*result = r;
+		MR_TRY(put_creases(ctx, f, &out, &points, width, &r->creases));
 	if (o.map && !o.to)
 		MR_TRY(put_map(ctx, f, o.map, &m, &out, onto));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);
+}
+
+mr_status
+mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result)
+{
+	static const mr_simplify_opts defaults = MR_SIMPLIFY_DEFAULTS;
+	mr_simplify_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(simplify(ctx, &done, opts ? *opts : defaults, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }

@@ -3,13 +3,12 @@
 
 #include "space/source_map.h"
 
-mr_status
-mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_result *result)
+static const mr_smooth_opts defaults = MR_SMOOTH_DEFAULTS;
+
+static mr_status
+smooth(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *o, mr_smooth_result *r)
 {
-	static const mr_smooth_opts defaults = MR_SMOOTH_DEFAULTS;
 	static const char *const reads[] = { "base", "mesh", NULL };
-	const mr_smooth_opts *o = opts ? opts : &defaults;
-	mr_smooth_result r;
 	mr_places map;
 	const char *layer;
 	bool from_mesh;
@@ -22,18 +21,30 @@ mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_smooth(ctx, &m, o, p, &r));
-	if (f->key && o->time > defaults.time && r.bounded == m.nv)
+	MR_TRY(mr_smooth(ctx, &m, o, p, r));
+	if (f->key && o->time > defaults.time && r->bounded == m.nv)
 		mr_warn(ctx,
 		    "all vertices are smoothed for less than a time of %g, and no longer time has an effect: "
 		    "the "
 		    "body is thin there, which --plain does not look at",
 		    o->time);
-	if (result)
-		*result = r;
 	if (from_mesh)
 		MR_TRY(mr_source_map_identity(ctx, &m, &map));
 	m.p = p;
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &m));
 	return from_mesh ? mr_source_map_put(ctx, f, &map, m.nv) : MR_OK;
+}
+
+mr_status
+mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_result *result)
+{
+	mr_smooth_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(smooth(ctx, &done, opts ? opts : &defaults, &r));
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }

@@ -159,8 +159,7 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	if (mr_transfer_applies(f, m->name))
 		MR_TRY(mr_layer_put(ctx, f, m->name, "region", region, m->nv));
 	mr_note(ctx, "%s stays as it is: there are neither handles nor --basis nor --flatten", m->name);
-	if (result)
-		mr_unmeasured(result, sizeof *result);
+	mr_unmeasured(result, sizeof *result);
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
 }
 
@@ -193,7 +192,6 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 {
 	static const char *const reads[] = { "base", "control", NULL };
 	const char *layer, *column;
-	mr_solve_result figures;
 	mr_deform_task task;
 	mr_deform_opts opts;
 	mr_mesh m, rest;
@@ -231,11 +229,9 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 		MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
 	if (o->basis)
 		MR_TRY(mr_deform_put_basis(ctx, f, &m, d, p));
-	figures = mr_deform_report(ctx, d);
+	*result = mr_deform_report(ctx, d);
 	if (o->verify)
-		MR_TRY(verify(ctx, f, &rest, d, &task, p, &figures));
-	if (result)
-		*result = figures;
+		MR_TRY(verify(ctx, f, &rest, d, &task, p, result));
 	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);
 }
 
@@ -251,13 +247,21 @@ mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *ca
 	static const mr_solve_opts defaults = MR_SOLVE_DEFAULTS;
 	const mr_solve_opts *o = opts ? opts : &defaults;
 	mr_deform_cache own = { 0 };
+	mr_solve_result r;
 	mr_status status;
+	mr_frame done;
 
+	MR_TRY(mr_frame_copy(ctx, f, &done));
 	if (cache) {
 		cache->drop_deform = drop_deform;
-		return solve(ctx, f, o, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, result);
+		status = solve(ctx, &done, o, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, &r);
+	} else {
+		status = solve(ctx, &done, o, ctx, &own, &r);
+		mr_deform_free(own.deform);
 	}
-	status = solve(ctx, f, o, ctx, &own, result);
-	mr_deform_free(own.deform);
-	return status;
+	MR_TRY(status);
+	*f = done;
+	if (result)
+		*result = r;
+	return MR_OK;
 }

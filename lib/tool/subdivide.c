@@ -121,13 +121,11 @@ divide(mr_ctx *ctx, const mr_mesh *m, const mr_subdivide_opts *o, mr_refined *r)
 	return mr_prefix(ctx, mr_divide_longest(ctx, m, o->longest * unit, r), "%s", m->name);
 }
 
-mr_status
-mr_subdivide_frame(
-    mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache, mr_subdivide_result *result)
+static mr_status
+subdivide_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *o, mr_cache *cache, mr_subdivide_result *result)
 {
-	static const mr_subdivide_opts defaults = MR_SUBDIVIDE_DEFAULTS;
 	static const char *const reads[] = { "control", "mesh", NULL };
-	const mr_subdivide_opts *o = opts ? opts : &defaults;
 	const mr_v3 *limit = NULL;
 	const char *layer;
 	mr_refined r;
@@ -148,12 +146,27 @@ mr_subdivide_frame(
 	if (r.level && f->key && strcmp(layer, "control") != 0)
 		MR_TRY(mr_warn_of_shrinking(ctx, &m, &r.fine,
 		    "Loop's rules round what is coarse; --crease keeps sharp edges, --longest the shape"));
-	if (result)
-		*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, folded[0], folded[1], seconds };
+	*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, folded[0], folded[1], seconds };
 	MR_TRY(put(ctx, f, layer, &r, limit));
 	if (!strcmp(layer, "control")) { /* without its heights, as was asked for */
 		MR_TRY(mr_layer_followed(ctx, f, "control"));
 		MR_TRY(mr_layer_followed(ctx, f, "displacement"));
 	}
+	return MR_OK;
+}
+
+mr_status
+mr_subdivide_frame(
+    mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache, mr_subdivide_result *result)
+{
+	static const mr_subdivide_opts defaults = MR_SUBDIVIDE_DEFAULTS;
+	mr_subdivide_result r;
+	mr_frame done;
+
+	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_TRY(subdivide_frame(ctx, &done, opts ? opts : &defaults, cache, &r));
+	*f = done;
+	if (result)
+		*result = r;
 	return MR_OK;
 }
