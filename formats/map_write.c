@@ -1,5 +1,6 @@
 /* Heights over a control mesh as a picture (Lee, Moreton, Hoppe 2000), and normals of the surface as another.
  */
+#include "base/options.h"
 #include "base/parallel.h"
 #include "base/text.h"
 #include "formats/bytes.h"
@@ -430,6 +431,10 @@ prepare(mr_ctx *ctx, mr_frame *f, const mr_map_opts *o, mapping *m)
 {
 	size_t n;
 
+	MR_TRY(mr_check_number(ctx, "side", (double)o->side, 1, 32767));
+	MR_TRY(mr_check_number(ctx, "gutter", (double)o->gutter, 1, 256));
+	if (o->ranged && !(o->low < o->high))
+		return mr_fail(ctx, MR_EUSAGE, "the range %g to %g is none", o->low, o->high);
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &m->control));
 	MR_TRY(mr_displacement_get(ctx, f, &m->control, &n, &m->height));
 	if (o->level != MR_UNKNOWN && o->level > n)

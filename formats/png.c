@@ -1,6 +1,7 @@
 /* libpng, whose failures jump. */
 #include "formats/png.h"
 
+#include "base/options.h"
 #include "formats/bytes.h"
 #include "formats/image.h"
 #include "formats/paint.h"
@@ -285,6 +286,18 @@ render(mr_ctx *ctx, mr_ctx *keep, mr_frame *f, const mr_render_opts *o, const ch
 	return mr_png_write(ctx, path, &image);
 }
 
+static mr_status
+check_options(mr_ctx *ctx, const mr_render_opts *o)
+{
+	MR_TRY(mr_check_number(ctx, "width", (double)o->width, 1, 16384));
+	MR_TRY(mr_check_number(ctx, "height", (double)o->height, 1, 16384));
+	MR_TRY(mr_check_number(ctx, "zoom", o->zoom, 1e-3, 1e3));
+	MR_TRY(mr_check_number(ctx, "columns", (double)o->columns, 0, 10000));
+	MR_TRY(mr_check_number(ctx, "samples", (double)o->raster.samples, 1, 8));
+	MR_TRY(mr_check_number(ctx, "crease", o->raster.crease, 0, 180));
+	return mr_check_number(ctx, "point_radius", o->raster.point_radius, 0, 1000);
+}
+
 mr_status
 mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path)
 {
@@ -293,6 +306,7 @@ mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path
 	mr_status status;
 	mr_ctx keep;
 
+	MR_TRY(check_options(ctx, opts ? opts : &defaults));
 	mr_ctx_init(&keep, ctx->threads);
 	keep.scratch = ctx->scratch;
 	status = render(ctx, &keep, f, opts ? opts : &defaults, path);

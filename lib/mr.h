@@ -20,8 +20,8 @@
  * accepts NULL.  What is put into a frame is borrowed by it.
  * Threads.  One context serves one thread at a time; inside, functions use as many threads as the context
  * has, and give the same bytes for any number.
- * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too.  A result that is not wanted is NULL; a
- * figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
+ * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An mr_..._result
+ * may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
  */
 #ifndef MR_H
 #define MR_H
@@ -202,7 +202,7 @@ MR_API mr_status mr_writer_put(mr_ctx *ctx, mr_writer *writer, const mr_frame *f
 /* Says that a frame was left out: the next one is sent complete. */
 MR_API void mr_writer_skipped(mr_writer *writer);
 
-/* Writes END: call it only when all went well. */
+/* Writes END, behind which nothing can be written: call it only when all went well. */
 MR_API mr_status mr_writer_end(mr_ctx *ctx, mr_writer *writer) MR_WARN_UNUSED;
 
 MR_API void mr_writer_free(mr_writer *writer);

@@ -75,7 +75,7 @@ mr_error(const mr_ctx *ctx)
 void
 mr_listen(mr_ctx *ctx, const mr_listener *listener)
 {
-	ctx->listener = *listener;
+	ctx->listener = listener ? *listener : (mr_listener){ 0 };
 }
 
 /* In brackets: for make lint there is a macro of this name. */

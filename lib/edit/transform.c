@@ -93,13 +93,24 @@ unit_of(const mr_affine *map, int *exponent)
 	return l;
 }
 
+/* Of what has infinities the positions tell. */
+static mr_status
+check_inverse(mr_ctx *ctx, const mr_affine *map)
+{
+	int exponent;
+	mr_mat3 l = unit_of(map, &exponent);
+	double det = mr_mat3_determinant(&l);
+
+	if (det == 0 || isinf(1 / det))
+		return mr_fail(ctx, MR_EUSAGE, "the matrix has no inverse: its determinant is %g", det);
+	return MR_OK;
+}
+
 static mr_status
 parse_matrix(mr_ctx *ctx, const char *text, mr_affine *map)
 {
-	double x[16], det;
+	double x[16];
 	size_t n = 0, lines;
-	mr_mat3 l;
-	int exponent;
 	char **line;
 
 	if (!read_numbers(text, x, 16, &n)) {
@@ -120,11 +131,7 @@ parse_matrix(mr_ctx *ctx, const char *text, mr_affine *map)
 		return mr_fail(ctx, MR_EUSAGE, "the last row is %g %g %g %g, where an affine map has 0 0 0 1",
 		    x[12], x[13], x[14], x[15]);
 	memcpy(map->m, x, sizeof map->m);
-	l = unit_of(map, &exponent);
-	det = mr_mat3_determinant(&l);
-	if (!(det > 0 || det < 0) || !isfinite(1 / det))
-		return mr_fail(ctx, MR_EUSAGE, "the matrix has no inverse: its determinant is %g", det);
-	return MR_OK;
+	return check_inverse(ctx, map);
 }
 
 mr_status
@@ -575,6 +582,7 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 	change c;
 
 	memcpy(t.m, map, sizeof t.m);
+	MR_TRY(check_inverse(ctx, &t));
 	c = change_of(&t);
 	if (layer && !mr_frame_has_layer(f, layer))
 		return mr_layer_missing(ctx, f, layer, layer);

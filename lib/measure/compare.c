@@ -5,6 +5,8 @@
  * max_bound.
  */
 #include "measure/compare_parts.h"
+
+#include "base/options.h"
 #include "mesh/edges.h"
 
 /* A cloud as a mesh of faces without area, one a point. */
@@ -93,15 +95,18 @@ join(const mr_distance *a, const mr_distance *b)
 mr_status
 mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, mr_comparison *out)
 {
+	static const mr_compare_opts defaults = MR_COMPARE_DEFAULTS;
+	const mr_compare_opts *o = opts ? opts : &defaults;
 	mr_mark mark = mr_mark_take(ctx);
 	mr_comparison c = { .corresponds = corresponds(a, b), .diagonal = mr_mesh_diagonal(b) };
 	double scale = fmax(mr_mesh_diagonal(a), c.diagonal);
 	mr_mesh fa, fb;
 
+	MR_TRY(mr_check_number(ctx, "tolerance", o->tolerance, 1e-9, 1));
 	MR_TRY(with_faces(ctx, a, &fa));
 	MR_TRY(with_faces(ctx, b, &fb));
-	MR_TRY(mr_compare_one_way(ctx, &fa, &fb, opts, scale, &c.ab));
-	MR_TRY(mr_compare_one_way(ctx, &fb, &fa, opts, scale, &c.ba));
+	MR_TRY(mr_compare_one_way(ctx, &fa, &fb, o, scale, &c.ab));
+	MR_TRY(mr_compare_one_way(ctx, &fb, &fa, o, scale, &c.ba));
 	c.both = join(&c.ab, &c.ba);
 	if (c.corresponds) {
 		measure_deviation(a, b, &c.deviation);

@@ -43,7 +43,7 @@ mr_status
 mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface_figures *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_surface_figures s = { .intersections = 0 };
+	mr_surface_figures s = { .intersections = MR_UNKNOWN };
 	mr_edges edges;
 
 	MR_TRY(mr_edges_build(ctx, m, &edges));

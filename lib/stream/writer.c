@@ -24,9 +24,9 @@ typedef struct sent {
 struct mr_writer {
 	int fd;
 	mr_packing packing;
-	bool started, whole,
-	    failed; /* START is written; the next frame is a key; nothing more can be written */
-	sent *sent; /* the frame that the next tool has, in its order */
+	bool started, whole; /* START is written; the next frame is a key */
+	bool ended, failed;  /* nothing more can be written */
+	sent *sent;          /* the frame that the next tool has, in its order */
 	size_t count, room;
 	size_t used; /* bytes of the buffer */
 	unsigned char buffer[BUFFER];
@@ -50,7 +50,7 @@ mr_writer_open(mr_ctx *ctx, int fd, mr_packing packing, mr_writer **writer)
 		return MR_EMEM;
 	w->fd = fd;
 	w->packing = packing;
-	w->started = w->failed = false;
+	w->started = w->ended = w->failed = false;
 	w->whole = true;
 	w->sent = NULL;
 	w->count = w->room = w->used = 0;
@@ -274,10 +274,18 @@ emit_frame(mr_ctx *ctx, mr_writer *w, const mr_frame *f, bool key, const plan *p
 }
 
 static mr_status
+check_open(mr_ctx *ctx, const mr_writer *w)
+{
+	if (w->failed || w->ended)
+		return mr_fail(
+		    ctx, MR_EIO, "nothing can be written behind %s", w->ended ? "the end" : "an error");
+	return MR_OK;
+}
+
+static mr_status
 check(mr_ctx *ctx, const mr_writer *w, const mr_frame *f)
 {
-	if (w->failed)
-		return mr_fail(ctx, MR_EIO, "nothing can be written behind an error");
+	MR_TRY(check_open(ctx, w));
 	if (!mr_frame_name_valid(f->name, strlen(f->name)))
 		return mr_fail(ctx, MR_ERANGE, "a frame cannot be called '%s'", f->name);
 	return mr_frame_check_rows(ctx, f, MR_ERANGE);
@@ -341,10 +349,10 @@ mr_writer_put(mr_ctx *ctx, mr_writer *w, const mr_frame *frame)
 mr_status
 mr_writer_end(mr_ctx *ctx, mr_writer *w)
 {
-	if (w->failed)
-		return mr_fail(ctx, MR_EIO, "nothing can be written behind an error");
+	MR_TRY(check_open(ctx, w));
 	MR_TRY(emit_start(ctx, w));
 	MR_TRY(emit_structure(ctx, w, MR_STOP, "", ""));
+	w->ended = true;
 	return flush_with(ctx, w, NULL, 0);
 }
 

@@ -1,5 +1,6 @@
 /* mr-decode: the reconstruction operator of both papers, detail onto a base or heights onto a subdivision
  * surface, posed by its response first where handles are there. */
+#include "base/options.h"
 #include "base/text.h"
 #include "edit/chord.h"
 #include "edit/detail.h"
@@ -745,6 +746,8 @@ decode(
 	int from;
 
 	mr_unmeasured(result, sizeof *result);
+	MR_TRY(mr_check_number(ctx, "gain", o->gain, -1e6, 1e6));
+	MR_TRY(mr_check_choice(ctx, "from", o->from, MR_FROM_CONTROL));
 	MR_TRY(choose(ctx, f, o, &from));
 	if (mr_layer_has(f, from == MR_FROM_DETAIL ? "base" : "control", "target"))
 		return mr_fail(ctx, MR_EMISSING,

@@ -1,5 +1,7 @@
 /* mr-equalize: wavelet analysis of the heights, a gain for each level, synthesis. */
 #include "mesh/fold.h"
+
+#include "base/options.h"
 #include "subdivide/wavelet.h"
 #include "tool/cache.h"
 
@@ -51,6 +53,8 @@ equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *c
 	if (gains > n + 1)
 		return mr_fail(ctx, MR_ERANGE,
 		    "%zu gains, but displacement has level %zu: %zu of them at most", gains, n, n + 1);
+	for (size_t i = 0; i < gains; i++)
+		MR_TRY(mr_check_number(ctx, "gain", gain[i], -1e6, 1e6));
 	for (size_t i = 0; i <= n; i++)
 		all[i] = i < gains ? gain[i] : 1;
 	MR_TRY(mr_cache_levels(ctx, cache, f, &control, 180, n, &level));

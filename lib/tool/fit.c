@@ -1,6 +1,7 @@
 /* mr-fit: a control mesh to where its limit surface is near the points. */
 #include "fit/fit.h"
 
+#include "base/options.h"
 #include "measure/gaps.h"
 #include "mesh/layers.h"
 #include "tool/sample.h"
@@ -54,6 +55,9 @@ fit(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *o, mr_fit_result *r)
 	const uint8_t *crease;
 	mr_v3 *p;
 
+	MR_TRY(mr_check_choice(ctx, "method", o->method, MR_FIT_LEAST_SQUARES));
+	MR_TRY(mr_check_number(ctx, "step", o->step, 0, 1));
+	MR_TRY(mr_check_number(ctx, "fairness", o->fairness, 0, 1e6));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &control));
 	MR_TRY(mr_layer_crease(ctx, f, layer, control.nf, &crease));
 	MR_TRY(mr_layer_choose(ctx, f, NULL, reads, &from));

@@ -1,5 +1,7 @@
 /* mr-make: a solid, as a mesh or as a cloud of points of it. */
 #include "mesh/layers.h"
+
+#include "base/options.h"
 #include "shape/shape.h"
 
 static double
@@ -47,6 +49,9 @@ mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame)
 	mr_frame *f;
 	mr_mesh m;
 
+	MR_TRY(mr_check_choice(ctx, "solid", (int)o->solid, MR_SOLIDS - 1));
+	MR_TRY(mr_check_number(ctx, "noise", o->noise, 0, 1e300));
+	MR_TRY(mr_check_number(ctx, "genus", (double)o->genus, 0, 100000));
 	MR_TRY(mr_solid_make(ctx, o, &m));
 	MR_TRY(mr_frame_new(ctx, m.name, &f));
 	MR_TRY(o->points ? put_points(ctx, f, o, &m) : put_mesh(ctx, f, o, &m));

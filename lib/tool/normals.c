@@ -1,5 +1,7 @@
 /* mr-normals: normals of points and of surfaces. */
 #include "volume/normals.h"
+
+#include "base/options.h"
 #include "mesh/layers.h"
 #include "space/near.h"
 #include "space/two_layers.h"
@@ -170,6 +172,7 @@ put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_resul
 	mr_v3 *normal;
 	mr_mesh m;
 
+	MR_TRY(mr_check_number(ctx, "neighbours", (double)o->neighbours, 0, 128));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
 	if (mr_layer_has(f, layer, "normal"))

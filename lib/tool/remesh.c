@@ -3,8 +3,19 @@
  */
 #include "remesh/remesh.h"
 
+#include "base/options.h"
 #include "measure/crossings.h"
 #include "tool/shrinking.h"
+
+static mr_status
+check_options(mr_ctx *ctx, const mr_remesh_opts *o)
+{
+	MR_TRY(mr_check_number(ctx, "length", o->length, 0, 1e300));
+	MR_TRY(mr_check_number(ctx, "ratio", o->ratio, 1e-6, 1e6));
+	MR_TRY(mr_check_number(ctx, "gravity", o->gravity, 0, 4));
+	MR_TRY(mr_check_number(ctx, "feature", o->feature, 0, 180));
+	return mr_check_number(ctx, "adaptive", o->adaptive, 0, 1e300);
+}
 
 static mr_status
 remesh(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *o, mr_remesh_result *r)
@@ -16,6 +27,7 @@ remesh(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *o, mr_remesh_result *r)
 	uint32_t *from;
 	bool mapped;
 
+	MR_TRY(check_options(ctx, o));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	MR_TRY(mr_remesh(ctx, &m, o, &out, &over, r));

@@ -1,6 +1,7 @@
 /* mr-sample: heights over the limit surface of the control mesh. */
 #include "tool/sample.h"
 
+#include "base/options.h"
 #include "sample/sample.h"
 
 static const char *const reads[] = { "points", "mesh", NULL };
@@ -121,6 +122,10 @@ sample(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *o, mr_sample_result *resu
 	mr_sampling sampling;
 	mr_domain d;
 
+	MR_TRY(mr_check_choice(ctx, "method", o->method, MR_SAMPLE_ROBUST));
+	MR_TRY(mr_check_number(ctx, "neighbours", (double)o->neighbours, 3, MR_SAMPLE_MOST));
+	if (o->level != MR_UNKNOWN)
+		MR_TRY(mr_check_number(ctx, "level", (double)o->level, 0, MR_LEVEL_MAX));
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
 	MR_TRY(get_target(ctx, f, o->layer, &target));
 	if (n == MR_UNKNOWN)

@@ -1,6 +1,7 @@
 /* mr-select and mr-crop: regions by rules, and what is left of a layer by them. */
 #include "tool/select.h"
 
+#include "base/options.h"
 #include "edit/handles.h"
 #include "mesh/subset.h"
 
@@ -162,7 +163,9 @@ static mr_status
 add_rules(mr_ctx *ctx, const mr_rule *rules, size_t n, mr_selection *s)
 {
 	for (size_t i = 0; i < n; i++) {
-		const char *option = option_of(ctx, rules[i].region);
+		const char *option;
+		MR_TRY(mr_check_number(ctx, "region", rules[i].region, 0, MR_REGION_HANDLE + 65535));
+		option = option_of(ctx, rules[i].region);
 		if (!option)
 			return MR_EMEM;
 		MR_TRY(mr_selection_add(ctx, s, rules[i].region, option, rules[i].predicate));

@@ -1,6 +1,7 @@
 /* mr-shrinkwrap: points to a control mesh around them. */
 #include "wrap/shrinkwrap.h"
 
+#include "base/options.h"
 #include "mesh/layers.h"
 
 /* The triangles stay, and with them all that the layer has but what followed from the positions. */
@@ -50,6 +51,17 @@ get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides
 }
 
 static mr_status
+check_options(mr_ctx *ctx, const mr_wrap_opts *o)
+{
+	MR_TRY(mr_check_choice(ctx, "method", o->method, MR_WRAP_VOLUME));
+	MR_TRY(mr_check_choice(ctx, "lids", o->lids, MR_LIDS_NONE));
+	MR_TRY(mr_check_number(ctx, "resolution", (double)o->resolution, 0, 10000));
+	MR_TRY(mr_check_number(ctx, "grid", (double)o->grid, 0, 4096));
+	MR_TRY(mr_check_number(ctx, "alpha", o->alpha, 0, 1));
+	return mr_check_number(ctx, "lambda", o->lambda, 0, 1);
+}
+
+static mr_status
 shrinkwrap(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *o, mr_wrap_result *result)
 {
 	static const char *const reads[] = { "points", NULL };
@@ -58,6 +70,7 @@ shrinkwrap(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *o, mr_wrap_result *resu
 	mr_mesh points, out;
 	mr_sampling sampling;
 
+	MR_TRY(check_options(ctx, o));
 	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_points(ctx, f, layer, &points));
 	MR_TRY(mr_sampling_of(ctx, f, &points, &sampling));

@@ -1,6 +1,7 @@
 /* mr-simplify: fewer faces, with what is known of the surface carried over. */
 #include "simplify/simplify.h"
 
+#include "base/options.h"
 #include "edit/detail.h"
 #include "measure/crossings.h"
 #include "measure/gaps.h"
@@ -217,6 +218,9 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	uint32_t *onto;
 	double width;
 
+	MR_TRY(mr_check_number(ctx, "ratio", o.ratio, 0, 1));
+	MR_TRY(mr_check_number(ctx, "error", o.error, 0, 1e300));
+	MR_TRY(mr_check_number(ctx, "boundary", o.boundary, 0, 1e6));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o.layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	if ((o.map && !strcmp(o.map, layer)) || (o.to && !strcmp(o.to, layer)))

@@ -1,6 +1,7 @@
 /* mr-smooth: a mesh, or a base again, to a smooth base that knows where its vertices lie on the mesh. */
 #include "edit/smooth.h"
 
+#include "base/options.h"
 #include "space/source_map.h"
 
 static const mr_smooth_opts defaults = MR_SMOOTH_DEFAULTS;
@@ -15,6 +16,8 @@ smooth(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *o, mr_smooth_result *r)
 	mr_mesh m;
 	mr_v3 *p;
 
+	MR_TRY(mr_check_choice(ctx, "method", o->method, MR_SMOOTH_TAUBIN));
+	MR_TRY(mr_check_number(ctx, "time", o->time, 0, 1e9));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	from_mesh = !strcmp(layer, "mesh");

@@ -2,11 +2,27 @@
 #include "tool/solve.h"
 
 #include "base/memory.h"
+#include "base/options.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
 #include "edit/region_transfer.h"
 #include "edit/tie_transfer.h"
 #include "tool/cache.h"
+
+/* Each option by itself. */
+static mr_status
+check_options(mr_ctx *ctx, const mr_solve_opts *o)
+{
+	MR_TRY(mr_check_number(ctx, "order", (double)o->order, 1, 3));
+	MR_TRY(mr_check_choice(ctx, "solver", o->solver, MR_SOLVER_VCYCLE));
+	MR_TRY(mr_check_choice(ctx, "areas", o->areas, MR_AREAS_MEAN));
+	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_FITTED));
+	MR_TRY(mr_check_choice(ctx, "loose", o->loose, MR_LOOSE_REFUSE));
+	MR_TRY(mr_check_choice(ctx, "precondition", o->precondition, 3));
+	MR_TRY(mr_check_number(ctx, "tol", o->tol, 0, 1));
+	MR_TRY(mr_check_number(ctx, "memory", o->memory, 0, 1e18));
+	return mr_check_number(ctx, "iterations", (double)o->iterations, 1, 1e9);
+}
 
 /* The solver that the options ask for; MR_EUSAGE where they contradict each other. */
 static mr_status
@@ -15,6 +31,7 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	bool iterates = o->solver == MR_SOLVER_CG || o->solver == MR_SOLVER_BICGSTAB;
 
 	*deform = (mr_deform_opts)MR_DEFORM_DEFAULTS;
+	MR_TRY(check_options(ctx, o));
 	if (o->layer && strcmp(o->layer, "base") && strcmp(o->layer, "control"))
 		return mr_fail(ctx, MR_EUSAGE,
 		    "--layer: %s cannot be solved for, only base or control: mr-smooth makes the base of a "

@@ -1,5 +1,7 @@
 /* mr-split: a frame for each part of a layer. */
 #include "mesh/name_lists.h"
+
+#include "base/options.h"
 #include "mesh/subset.h"
 #include "space/connected.h"
 
@@ -145,6 +147,7 @@ mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***
 	mr_mesh m;
 	parts p;
 
+	MR_TRY(mr_check_number(ctx, "distance", o->distance, 0, 1e300));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_surface_or_points(ctx, f, layer, &m));
 	if (m.nv == 0)

@@ -1,4 +1,5 @@
 /* mr-subdivide: a finer mesh, and its layer's columns on it. */
+#include "base/options.h"
 #include "base/text.h"
 #include "edit/detail.h"
 #include "mesh/fold.h"
@@ -133,6 +134,9 @@ subdivide_frame(
 	double seconds;
 	mr_mesh m;
 
+	MR_TRY(mr_check_number(ctx, "level", (double)o->level, 0, MR_LEVEL_MAX));
+	MR_TRY(mr_check_number(ctx, "crease", o->crease, 0, 180));
+	MR_TRY(mr_check_number(ctx, "longest", o->longest, 0, 1e300));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	seconds = mr_seconds();

@@ -202,6 +202,94 @@ test_wrong_options(void **state)
 	mr_ctx_delete(ctx);
 }
 
+/* What the tools' command lines refuse is refused of a program too, and changes nothing. */
+static void
+test_options_that_cannot_be(void **state)
+{
+	static const double flat[12] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 0, 0 };
+	static const mr_rule beyond = { MR_REGION_HANDLE + 65536, "all" };
+	static const double gain = NAN;
+	mr_ctx *ctx = context();
+	mr_frame *f = creature(ctx);
+	mr_smooth_opts smooth = MR_SMOOTH_DEFAULTS;
+	mr_remesh_opts remesh = MR_REMESH_DEFAULTS;
+	mr_subdivide_opts subdivide = MR_SUBDIVIDE_DEFAULTS;
+	mr_simplify_opts simplify = MR_SIMPLIFY_DEFAULTS;
+	mr_solve_opts solve = MR_SOLVE_DEFAULTS;
+	mr_decode_opts decode = MR_DECODE_DEFAULTS;
+	mr_wrap_opts wrap = MR_WRAP_DEFAULTS;
+	mr_render_opts render = MR_RENDER_DEFAULTS;
+	mr_make_opts make = MR_MAKE_DEFAULTS;
+	mr_pose pose = MR_POSE_REST;
+	mr_frame *none = NULL;
+
+	(void)state;
+	smooth.method = MR_SMOOTH_TAUBIN + 1;
+	assert_int_equal(mr_smooth_frame(ctx, f, &smooth, NULL), MR_EUSAGE);
+	assert_string_equal(mr_error(ctx), "method is 3, where 0 to 2 can be");
+	smooth = (mr_smooth_opts)MR_SMOOTH_DEFAULTS;
+	smooth.time = NAN;
+	assert_int_equal(mr_smooth_frame(ctx, f, &smooth, NULL), MR_EUSAGE);
+	remesh.length = -1;
+	assert_int_equal(mr_remesh_frame(ctx, f, &remesh, NULL), MR_EUSAGE);
+	subdivide.level = MR_LEVEL_MAX + 1;
+	assert_int_equal(mr_subdivide_frame(ctx, f, &subdivide, NULL, NULL), MR_EUSAGE);
+	simplify.ratio = 2;
+	assert_int_equal(mr_simplify_frame(ctx, f, &simplify, NULL), MR_EUSAGE);
+	assert_int_equal(mr_transform_frame(ctx, f, NULL, flat), MR_EUSAGE);
+	assert_int_equal(mr_select_frame(ctx, f, &beyond, 1, NULL, NULL), MR_EUSAGE);
+	prepare(ctx, f, false);
+	pose.translate.x = INFINITY;
+	assert_int_equal(mr_pose_frame(ctx, f, NULL, 0, &pose), MR_EUSAGE);
+	pose = (mr_pose)MR_POSE_REST;
+	pose.degrees = 30;
+	pose.axis.z = 0;
+	assert_int_equal(mr_pose_frame(ctx, f, NULL, 0, &pose), MR_EUSAGE);
+	assert_false(mr_frame_has_layer(f, "handles"));
+	solve.order = 0;
+	assert_int_equal(mr_solve_frame(ctx, f, &solve, NULL, NULL), MR_EUSAGE);
+	decode.gain = INFINITY;
+	assert_int_equal(mr_decode_frame(ctx, f, &decode, NULL, NULL), MR_EUSAGE);
+	render.zoom = 0;
+	assert_int_equal(mr_render(ctx, f, &render, "no.png"), MR_EUSAGE);
+	make.noise = NAN;
+	assert_int_equal(mr_make(ctx, &make, &none), MR_EUSAGE);
+	assert_null(none);
+	make = (mr_make_opts)MR_MAKE_DEFAULTS;
+	make.points = 500;
+	assert_int_equal(mr_make(ctx, &make, &f), MR_OK);
+	wrap.alpha = 2;
+	assert_int_equal(mr_shrinkwrap_frame(ctx, f, &wrap, NULL), MR_EUSAGE);
+	assert_int_equal(mr_shrinkwrap_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_simplify_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_sample_frame(ctx, f, NULL, NULL), MR_OK);
+	assert_int_equal(mr_equalize_frame(ctx, f, &gain, 1, NULL), MR_EUSAGE);
+	mr_ctx_delete(ctx);
+}
+
+/* NULL is the defaults of what compares, too, and a listener that is none; what was not looked for has no
+ * number. */
+static void
+test_defaults_and_nobody(void **state)
+{
+	mr_ctx *ctx = context();
+	mr_frame *f = creature(ctx);
+	mr_surface_figures figures;
+	mr_comparison c;
+	mr_mesh m;
+
+	(void)state;
+	mr_listen(ctx, NULL);
+	assert_int_equal(mr_layer_mesh(ctx, f, "mesh", &m), MR_OK);
+	assert_int_equal(mr_compare(ctx, &m, &m, NULL, &c), MR_OK);
+	assert_true(c.corresponds && c.both.max <= 1e-15);
+	assert_int_equal(mr_measure_surface(ctx, &m, false, &figures), MR_OK);
+	assert_int_equal(figures.intersections, MR_UNKNOWN);
+	assert_int_equal(mr_measure_surface(ctx, &m, true, &figures), MR_OK);
+	assert_int_equal(figures.intersections, 0);
+	mr_ctx_delete(ctx);
+}
+
 /* A scan of a torus becomes one again: what each step says of itself is what measuring says of it. */
 static void
 test_results_agree_with_measures(void **state)
@@ -313,6 +401,7 @@ main(void)
 		cmocka_unit_test(test_other_triangles_are_refused),
 		cmocka_unit_test(test_cache_changes_nothing),
 		cmocka_unit_test(test_sentences_notes_and_columns), cmocka_unit_test(test_wrong_options),
+		cmocka_unit_test(test_options_that_cannot_be), cmocka_unit_test(test_defaults_and_nobody),
 		cmocka_unit_test(test_results_agree_with_measures),
 		cmocka_unit_test(test_crop_keeps_what_is_chosen),
 		cmocka_unit_test(test_columns_that_do_not_fit_are_refused) };
