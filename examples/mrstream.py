@@ -210,7 +210,7 @@ class Frame:
         """Puts text, or rows of numbers: of vertices (element "v"), faces ("f") or neither ("-")."""
         old = self.columns.get((layer, name))
         kind, components, payload, rows = _encoded(f"{layer}.{name}", values, old.type if old else None)
-        if name in KINDS:
+        if name in KINDS or "\0" in layer + name:
             raise StreamError(f"{layer}.{name}: no name of a column")
         if not element and (old or kind == "t"):
             element = old.element if old else "-"
@@ -403,8 +403,14 @@ def _output(path):
     """A regular file gets its name when all has gone well: it may be the one that is mapped and read."""
     path, regular = os.path.realpath(path), os.path.isfile(path) or not os.path.exists(path)
     beside = f"{path}.{os.getpid()}~" if regular else path
+    mode = None
+    if regular and os.path.exists(path):
+        with open(path, "r+b") as old:  # fails where it may not be written
+            mode = os.fstat(old.fileno()).st_mode & 0o7777
     with open(beside, "wb") as file:
         try:
+            if mode is not None:
+                os.chmod(beside, mode)
             yield file
             if regular:
                 os.replace(beside, path)

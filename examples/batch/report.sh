@@ -11,11 +11,12 @@ touch "$work/done" "$work/failed.txt"
 # The last thing said that is no warning.
 why() { # folder
 	[ -e "$in/$1" ] || { echo "a link to what is not there"; return; }
-	[ -d "./$1" ] || { echo "not begun; no names with blanks, or with signs of make and shells, can be"; return; }
+	[ ! -d "$in/$1" ] || { echo "a folder"; return; }
+	[ -d "./$1" ] || { echo "not begun; no hidden names can be, nor any with blanks, or with signs of make and shells"; return; }
 	cat "./$1"/*.log 2>/dev/null | grep -v ': warning: ' | tail -n 1 | grep . || echo "ended without a word"
 }
 
-(cd "$in" && find . -maxdepth 1 ! -type d) | sed 's,^\./,,' | LC_ALL=C sort >"$work/all"
+(cd "$in" && find . -mindepth 1 -maxdepth 1) | sed 's,^\./,,' | LC_ALL=C sort >"$work/all"
 for suffix in $suffixes; do
 	echo "\.$suffix\$"
 done >"$work/suffixes"

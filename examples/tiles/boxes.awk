@@ -1,4 +1,5 @@
-# boxes.awk -- from the figures of a cloud, mr-info --json, the boxes of four tiles and of the seams between them, a name and a predicate a line
+# boxes.awk -- from the figures of a cloud, mr-info --json, the boxes of four tiles and of the seams between them, a name and a predicate a line;
+# fails where these did not come whole
 function figure(name) {
 	match($0, "\"" name "\":[^,}]*")
 	return substr($0, RSTART + length(name) + 3, RLENGTH - length(name) - 3)
@@ -6,7 +7,7 @@ function figure(name) {
 function box(name, x0, x1, y0, y1) {
 	printf "%s box:%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n", name, x0, y0, b[3] - far, x1, y1, b[6] + far
 }
-{
+/^{.*}$/ {
 	match($0, /"box":\[\[[^]]*\],\[[^]]*\]\]/)
 	text = substr($0, RSTART + 6, RLENGTH - 6)
 	gsub(/[][]/, "", text)
@@ -27,3 +28,4 @@ function box(name, x0, x1, y0, y1) {
 		box(j "0-" j "1", x[j], x[j + 1], y[1] - over / 3, y[1] + over / 3)
 	}
 }
+END { exit !spacing }

@@ -29,6 +29,8 @@ echo 'no model' >models/README
 for name in 'two words' 'a;touch gone;' 'a:b=c' 'b%' "it's" '$(shell touch gone)' 'x&y' '<b>' 'a,b'; do
 	cp models/torus-1.ply "models/$name.ply"
 done
+cp models/torus-1.ply models/.hidden.ply
+mkdir models/folder.ply
 
 batch peace >peace.log 2>&1 && complain "make succeeds with a broken model"
 [ ! -e gone ] || complain "the name of a file is run"
@@ -38,14 +40,15 @@ grep -q "^1 of other suffixes left out: README$" peace.log || complain "what is 
 [ "$(wc -l <peace/figures.tsv)" -eq 12 ] || complain "not eleven rows of figures"
 awk -F '\t' 'NR == 1 { n = NF; if ($2 !~ /^mr-[a-z]*\./) exit 1 } NF != n || (NR > 1 && $2 !~ /^[0-9.e-]+$/) { exit 1 }' peace/figures.tsv ||
     { cut -c1-200 peace/figures.tsv; complain "the figures are no table"; }
-[ "$(wc -l <peace/failed.txt)" -eq 11 ] || { cat peace/failed.txt; complain "not eleven failures"; }
+[ "$(wc -l <peace/failed.txt)" -eq 13 ] || { cat peace/failed.txt; complain "not thirteen failures"; }
+grep -q "^folder.ply	a folder$" peace/failed.txt || complain "a folder is not told of"
 grep -q "^nowhere.ply	a link to what is not there$" peace/failed.txt || complain "a link to nothing is not told of"
 warned=$(cat peace/*/*.log | grep -c ': warning: ')
 [ "$warned" -gt 0 ] && [ "$(wc -l <peace/warned.txt)" -eq "$warned" ] || complain "$warned warnings, of which warned.txt has not all"
-grep -q "^11 made, $(grep -l ': warning: ' peace/*/*.log | sed 's,/[^/]*$,,' | sort -u | wc -l) of them with warnings, 11 failed: " peace.log ||
+grep -q "^11 made, $(grep -l ': warning: ' peace/*/*.log | sed 's,/[^/]*$,,' | sort -u | wc -l) of them with warnings, 13 failed: " peace.log ||
     { cat peace.log; complain "what was made with warnings is not counted"; }
 grep -q "^broken.ply	mr-import: .*models/broken.ply: byte" peace/failed.txt || complain "a broken model without its sentence"
-grep -q "^two words.ply	not begun; no names with blanks" peace/failed.txt || complain "a name with blanks is not told of"
+grep -q "^two words.ply	not begun; no hidden names can be, nor any with blanks" peace/failed.txt || complain "a name with blanks is not told of"
 [ "$(grep -o '<img' peace/index.html | wc -l)" -eq 11 ] && [ -s peace/page-0000.html ] || complain "the gallery is not of eleven models"
 
 # Killed at some time, with all that it started; a model whose file is newer is made again, and only that.

@@ -354,6 +354,8 @@ for what, act in {
     "element vf": lambda: put([1, 2, 3], element="vf"),
     "a long layer": lambda: put([1], "l" * 17, "r", "-"),
     "a long name": lambda: put([1], "l", "r" * 25, "-"),
+    "a NUL": lambda: put([1], "l\0", "r", "-"),
+    "a NUL behind": lambda: put([1], "l", "r\0", "-"),
     "a blank": lambda: put([1], "l", "a b", "-"),
     "no name": lambda: put([1], "l", "", "-"),
     "DROP": lambda: mrstream.Frame("x").put("", "DROP", ""),
@@ -460,5 +462,10 @@ narrow = Narrow()
 mrstream.write(narrow, mrstream.read("small.mrs"), history=None)
 mrstream.write(narrow, mrstream.read("walk.mrs"), history=None)
 check(narrow.taken == data("small.mrs") + data("walk.mrs"), "a file that takes a part of what it is given")
+
+# A file that is replaced stays as private as it was.
+os.chmod("walk.mrs", 0o600)
+mrstream.write("walk.mrs", mrstream.read("walk.mrs"))
+check(os.stat("walk.mrs").st_mode & 0o777 == 0o600, "a private file is readable for all")
 
 sys.exit(failed)
