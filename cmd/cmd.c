@@ -408,20 +408,15 @@ permit(mr_ctx *ctx, const char *path, bool writes)
 static mr_status
 permit_stream(cmd *c, const char *path)
 {
-	return c->tool->sink ? permit(&c->ctx, path, false) : place_claim_stream(&c->state->places, path);
-}
-
-static bool
-is_dash(const char *path)
-{
-	return !strcmp(path, "-");
+	return c->tool->sink ? permit(&c->ctx, path, false)
+	                     : place_claim_stream(&c->ctx, &c->state->places, path);
 }
 
 /* Whether -o names a file, other than stdout. */
 static bool
 names_file(const cmd *c)
 {
-	return c->output && !is_dash(c->output) && !place_is(STDOUT_FILENO, c->output);
+	return c->output && !place_is_dash(c->output) && !place_is(STDOUT_FILENO, c->output);
 }
 
 /* The output as a descriptor: stdout, or -o. */
@@ -513,9 +508,9 @@ open_stats(cmd *c)
 	if (is_input(c, path) || is_output(c, path))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--stats: %s is the %s as well", path,
 			   is_input(c, path) ? "input" : "output"));
-	s->stats = is_dash(path) || place_is(STDERR_FILENO, path) ? stderr
-	           : place_is(STDOUT_FILENO, path)                ? stdout
-	                                                          : NULL;
+	s->stats = place_is_dash(path) || place_is(STDERR_FILENO, path) ? stderr
+	           : place_is(STDOUT_FILENO, path)                      ? stdout
+	                                                                : NULL;
 	if (s->stats)
 		return;
 	try(c, place_for_text(&c->ctx, "--stats", path));
@@ -721,7 +716,7 @@ read_model(cmd *c, const char *path)
 static void
 read_stream(cmd *c, const char *path)
 {
-	bool from_stdin = is_dash(path);
+	bool from_stdin = place_is_dash(path);
 	const char *name = from_stdin ? "stdin" : path;
 	mr_reader *reader;
 	mr_frame *frame;
@@ -795,7 +790,7 @@ read_streams(cmd *c)
 	if (first >= end)
 		read_input(c, c->state->input ? c->state->input : "-");
 	for (size_t i = first; i < end; i++) {
-		c->file = is_dash(c->operands[i]) ? NULL : c->operands[i];
+		c->file = place_is_dash(c->operands[i]) ? NULL : c->operands[i];
 		read_input(c, c->operands[i]);
 	}
 }

@@ -87,9 +87,9 @@ has(const mr_string_set *set, const char *key)
 }
 
 static mr_status
-add(mr_string_set *set, const char *key)
+add(mr_ctx *ctx, mr_string_set *set, const char *key)
 {
-	return *key ? mr_string_set_add(set, key) : MR_OK;
+	return *key ? mr_string_set_add(ctx, set, key) : MR_OK;
 }
 
 void
@@ -104,7 +104,7 @@ place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes)
 {
 	keys k = { 0 };
 
-	if (!writes && !strcmp(path, "-"))
+	if (!writes && place_is_dash(path))
 		return MR_OK;
 	find_keys(path, &k);
 	if (has(&g->written, k.there) || has(&g->written, k.place))
@@ -113,8 +113,8 @@ place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes)
 	if (writes && has(&g->read, k.there))
 		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
 	if (writes)
-		MR_TRY(add(&g->written, k.place));
-	return add(writes ? &g->written : &g->read, k.there);
+		MR_TRY(add(ctx, &g->written, k.place));
+	return add(ctx, writes ? &g->written : &g->read, k.there);
 }
 
 mr_status
@@ -123,19 +123,19 @@ place_stdin_once(mr_ctx *ctx, char *const *name, size_t first, size_t end)
 	size_t times = 0;
 
 	for (size_t i = first; i < end; i++)
-		times += !strcmp(name[i], "-");
+		times += place_is_dash(name[i]);
 	return times < 2 ? MR_OK : mr_fail(ctx, MR_EUSAGE, "- is standard input, which can be read once");
 }
 
 mr_status
-place_claim_stream(place_guard *g, const char *path)
+place_claim_stream(mr_ctx *ctx, place_guard *g, const char *path)
 {
 	keys k = { 0 };
 
-	if (!strcmp(path, "-"))
+	if (place_is_dash(path))
 		return MR_OK;
 	find_keys(path, &k);
-	return add(&g->read, k.there);
+	return add(ctx, &g->read, k.there);
 }
 
 typedef enum content { NOTHING, STREAM, OTHER } content;

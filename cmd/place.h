@@ -8,6 +8,13 @@
 
 #include "base/string_set.h"
 
+/* The name of standard input, or output. */
+static inline bool
+place_is_dash(const char *path)
+{
+	return !strcmp(path, "-");
+}
+
 /* Whether both names lead to one file, there or not yet; never for a device. */
 bool place_same(const char *a, const char *b);
 
@@ -38,6 +45,6 @@ void place_guard_free(place_guard *g);
 mr_status place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes) MR_WARN_UNUSED;
 
 /* Of a stream that is read, whose place may have been taken by the one that is made of it. */
-mr_status place_claim_stream(place_guard *g, const char *path) MR_WARN_UNUSED;
+mr_status place_claim_stream(mr_ctx *ctx, place_guard *g, const char *path) MR_WARN_UNUSED;
 
 #endif

@@ -59,7 +59,7 @@ parse(mr_gltf *g, const unsigned char *json, size_t bytes)
 	json_error_t error;
 
 	g->root = json_loadb((const char *)json, bytes, 0, &error);
-	if (!g->root && json_error_code(&error) == json_error_out_of_memory)
+	if (!g->root && (json_error_code(&error) == json_error_out_of_memory || !*error.text))
 		return mr_fail(g->ctx, MR_EMEM, "no memory for %zu bytes of JSON", bytes);
 	if (!g->root)
 		return mr_fail(g->ctx, MR_EFORMAT, "JSON, line %d: %s", error.line, error.text);

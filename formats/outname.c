@@ -84,7 +84,7 @@ mr_outname_once(
 		    "%s holds an earlier frame than frame %llu: put %%d, the number of the frame, into the "
 		    "name",
 		    *name, (unsigned long long)number);
-	return mr_string_set_add(given, *name);
+	return mr_string_set_add(ctx, given, *name);
 }
 
 bool

@@ -20,14 +20,17 @@ slot_of(const mr_string_set *set, const char *text)
 static mr_status
 make_room(mr_string_set *set)
 {
-	mr_string_set old = *set;
+	const mr_string_set old = *set;
+	size_t mask = old.slot ? 2 * old.mask + 1 : 63;
+	char **slot;
 
-	if (set->slot && 2 * set->count <= set->mask)
+	if (old.slot && 2 * old.count <= old.mask)
 		return MR_OK;
-	set->mask = old.slot ? 2 * old.mask + 1 : 63;
-	set->slot = MR_NEW_ZERO(&set->keep, set->mask + 1, char *);
-	if (!set->slot)
+	slot = MR_NEW_ZERO(&set->keep, mask + 1, char *);
+	if (!slot)
 		return MR_EMEM;
+	set->slot = slot;
+	set->mask = mask;
 	for (size_t i = 0; old.slot && i <= old.mask; i++)
 		if (old.slot[i])
 			*slot_of(set, old.slot[i]) = old.slot[i];
@@ -48,15 +51,18 @@ mr_string_set_has(const mr_string_set *set, const char *text)
 }
 
 mr_status
-mr_string_set_add(mr_string_set *set, const char *text)
+mr_string_set_add(mr_ctx *ctx, mr_string_set *set, const char *text)
 {
 	char **slot;
 
-	MR_TRY(make_room(set));
+	if (make_room(set) < 0)
+		return mr_fail_as(ctx, &set->keep, MR_EMEM);
 	slot = slot_of(set, text);
 	if (*slot)
 		return MR_OK;
 	*slot = mr_format(&set->keep, "%s", text);
+	if (!*slot)
+		return mr_fail_as(ctx, &set->keep, MR_EMEM);
 	set->count++;
-	return *slot ? MR_OK : MR_EMEM;
+	return MR_OK;
 }

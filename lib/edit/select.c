@@ -194,6 +194,9 @@ apply_rule(
 			region[v] = r->region;
 			n++;
 		}
+	if (n == 0 && !may_miss && s->m->nv == 0)
+		return mr_fail(ctx, MR_EMESH, "%s%s selects none of the 0 vertices of %s", r->option, r->text,
+		    s->m->name);
 	if (n == 0 && !may_miss)
 		return mr_fail(ctx, MR_EMESH,
 		    "%s%s selects no vertex of %s, whose box is %g %g %g to %g %g %g", r->option, r->text,

@@ -114,7 +114,7 @@ static const double LAYERED = 0.05;
 static const double DENSELY = 0.01;
 
 mr_status
-mr_warn_of_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual)
+mr_warn_of_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual, const char *end)
 {
 	mr_layers l;
 
@@ -122,7 +122,7 @@ mr_warn_of_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, do
 	if (l.share > LAYERED || l.dense > DENSELY)
 		mr_warn(ctx,
 		    "%.3g %% of the points lie in two layers, %.2g sampling distances apart, as near "
-		    "(%.4g, %.4g, %.4g): sides of what is too thin to tell, or scans out of register",
-		    100 * l.share, l.apart / usual, l.at.x, l.at.y, l.at.z);
+		    "(%.4g, %.4g, %.4g): sides of what is too thin to tell, or scans out of register%s",
+		    100 * l.share, l.apart / usual, l.at.x, l.at.y, l.at.z, end);
 	return MR_OK;
 }

@@ -287,9 +287,10 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    cloud->n, 100 * cloud->spacing / cloud->diagonal);
 	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
 		mr_warn(ctx,
-		    "the topology is uncertain: Euler number %g, or %g where body or gaps are thin, first "
+		    "the topology is uncertain: %sEuler number %g, or %g where body or gaps are thin, first "
 		    "near (%.4g, %.4g, %.4g)%s",
-		    v->euler, v->euler_beside, v->uncertain.x, v->uncertain.y, v->uncertain.z,
+		    c->lids.loops > 0 ? "before the wrap was opened " : "", v->euler, v->euler_beside,
+		    v->uncertain.x, v->uncertain.y, v->uncertain.z,
 		    c->sided ? doubt_of_sides(c) : "; denser points would tell, or their normals");
 	else if (c->found.method == MR_WRAP_AUTO)
 		mr_warn(ctx,
@@ -334,6 +335,22 @@ warn(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		mr_gaps_warn(ctx, "the wrap", g);
 }
 
+/* Of two sides that are nearer to each other than a sheet's points the wrap makes one, with a rim. */
+static mr_status
+warn_of_layers(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t loops)
+{
+	const char *end = loops == 0
+	                      ? ""
+	                      : mr_format(ctx,
+				    "; the wrap is open, in %zu loop%s: rims, perhaps, where such sides "
+				    "became one sheet",
+				    loops, mr_plural(loops));
+
+	if (!end)
+		return MR_EMEM;
+	return mr_warn_of_layers(ctx, cloud->p, cloud->n, cloud->near, cloud->spacing, end);
+}
+
 static const double ROWS = 5;
 
 /* Points in rows say little of what is between these: of a height field whose rows are 6 times as far apart
@@ -365,9 +382,9 @@ warn_of_scatter(mr_ctx *ctx, const mr_wrap_cloud *cloud)
 
 	MR_TRY(mr_cloud_scatter(ctx, cloud->p, cloud->n, cloud->near, &scatter));
 	if (scatter > SCATTERED)
-		mr_warn(ctx, "the points hardly lie along a surface: they fill a volume, or scatter about it "
-			     "as widely as it "
-			     "bends, and what is wrapped may be chance");
+		mr_warn(ctx, "the points hardly lie along a surface: they fill a volume, scatter about it as "
+			     "widely as it bends, or lie along several close by, and what is wrapped may be "
+			     "chance");
 	return MR_OK;
 }
 
@@ -388,8 +405,8 @@ report_lids(mr_ctx *ctx, const mr_wrap_lids *l)
 		    l->doubtful, l->doubtful == 1 ? " is" : "s are", l->width, l->at.x, l->at.y, l->at.z);
 	else if (l->doubtful > 0)
 		mr_warn(ctx,
-		    "%zu opening%s of the points may be meant or not, those up to %g sampling distances wide "
-		    "are closed: the widest measures %.3g, near (%.4g, %.4g, %.4g)",
+		    "%zu opening%s of the points may be meant or not: those up to %g sampling distances wide "
+		    "are closed, wider ones are not, and the widest measures %.3g, near (%.4g, %.4g, %.4g)",
 		    l->doubtful, mr_plural(l->doubtful), MR_WRAP_OPENING, l->width, l->at.x, l->at.y,
 		    l->at.z);
 }
@@ -432,7 +449,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
 		if (c.d.twin[h] == MR_NONE && c.lids.loops == 0)
 			return mr_fail(ctx, MR_EMESH, "the wrap of %zu faces is open at one", c.d.nf);
-	MR_TRY(mr_warn_of_layers(ctx, cloud->p, cloud->n, cloud->near, cloud->spacing));
+	MR_TRY(warn_of_layers(ctx, cloud, c.lids.loops));
 	MR_TRY(warn_of_scatter(ctx, cloud));
 	MR_TRY(warn_of_rows(ctx, cloud));
 	report(ctx, cloud, &c, result);
