@@ -37,7 +37,8 @@ struct mr_frame {
 /* Bytes of one value of a type: 8, 4 or 1. */
 size_t mr_type_size(char type);
 
-/* Copies the list of columns, so that what is put into the copy stays out of `frame`; the rest is shared. */
+/* Copies the list of columns, so that what is put into the copy stays out of `frame`; the rest is shared.
+ * Tools work on such a copy, which becomes the frame at their end: one that fails has changed nothing. */
 mr_status mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 
 /* A copy of all that the frame has, decoded, which may outlive it: in the arena of `keep`. */
