@@ -291,7 +291,8 @@ warn_of_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    "near (%.4g, %.4g, %.4g)%s",
 		    c->lids.loops > 0 ? "before the wrap was opened " : "", v->euler, v->euler_beside,
 		    v->uncertain.x, v->uncertain.y, v->uncertain.z,
-		    c->sided ? doubt_of_sides(c) : "; denser points would tell, or their normals");
+		    c->sided ? doubt_of_sides(c)
+			     : "; denser points would tell, or their normals, but of a one-sided surface");
 	else if (c->found.method == MR_WRAP_AUTO)
 		mr_warn(ctx,
 		    "the topology is uncertain: but for openings it is that of the sphere as which the wrap "
