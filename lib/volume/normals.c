@@ -17,6 +17,23 @@ flat_planes(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, mr_volum
 	    ctx, place, n, k, k - 1 < LINKS ? k - 1 : LINKS, of->neighbours <= NEAREST, &s->plane);
 }
 
+/* By directions, and where a part has none, as without them. */
+static mr_status
+orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, bool flat)
+{
+	size_t untold = 0;
+
+	if (!flat)
+		MR_TRY(mr_volume_untold(ctx, s, toward, &untold));
+	if (untold > 0)
+		MR_TRY(mr_volume_orient_outward(ctx, s));
+	MR_TRY(mr_volume_orient_toward(ctx, s, toward));
+	if (untold < s->n)
+		mr_volume_warn_of_patches(
+		    ctx, s, "some of the directions that tell the sides are wrong, or body or gaps are thin");
+	return MR_OK;
+}
+
 mr_status
 mr_places_normals(
     mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, const mr_v3 *toward, mr_v3 *normal)
@@ -30,7 +47,10 @@ mr_places_normals(
 		return mr_fail(
 		    ctx, MR_EMESH, "%zu distinct points%s have no normals", n, n < 3 ? "" : " on a line");
 	MR_TRY(flat ? flat_planes(ctx, place, n, of, &s) : mr_volume_samples(ctx, place, n, of, 1, &s));
-	MR_TRY(toward || flat ? mr_volume_orient_toward(ctx, &s, toward) : mr_volume_orient_outward(ctx, &s));
+	if (toward)
+		MR_TRY(orient_toward(ctx, &s, toward, flat));
+	else
+		MR_TRY(flat ? mr_volume_orient_toward(ctx, &s, NULL) : mr_volume_orient_outward(ctx, &s));
 	memcpy(normal, s.plane.normal, n * sizeof *normal);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -36,6 +36,12 @@ mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
  * number where none is known: there neighbours tell, as everywhere where toward is NULL.  orient_toward.c */
 mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward);
 
+/* How many points are of parts, by the links, in which no direction tells a side.  orient_toward.c */
+mr_status mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
+
+/* Warns where neighbours on alike planes have signs that are not; why: the end of the sentence.  volume.c */
+void mr_volume_warn_of_patches(mr_ctx *ctx, const mr_volume_cloud *s, const char *why);
+
 /* What directions are worth: how many tell a side; what share of those that are there is within 60 degrees of
  * their planes' normals; and what share of neighbours on alike planes get signs from them that are alike. NaN
  * of none. */

@@ -164,12 +164,7 @@ static mr_status
 orient_by_sides(mr_ctx *ctx, volume *v)
 {
 	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward));
-	if (!turn_outward(&v->s))
-		return MR_OK;
-	if (v->side.normals)
-		mr_warn(ctx, "the normals of the points point inward: turned over");
-	else
-		mr_note(ctx, "the points were seen from within");
+	v->found.inward = turn_outward(&v->s);
 	return MR_OK;
 }
 
@@ -575,20 +570,24 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
  * one on which 0.95 % are, and else 0.06 % at most, also where a whole face is the wrong way round.  With
  * noise of 0.3 % of the diagonal it is 0.13 % and more of four that have 0.5 to 1.2 % of wrong ones.
  */
+void
+mr_volume_warn_of_patches(mr_ctx *ctx, const mr_volume_cloud *s, const char *why)
+{
+	static const double UNLIKE = 1e-3;
+	mr_volume_sides j = mr_volume_judge(s, s->plane.normal);
+
+	if (1 - j.alike > UNLIKE) {
+		mr_v3 p = s->p[j.unlike];
+		mr_warn(ctx,
+		    "%.2g %% of neighbours have normals on unlike sides, first near (%.4g, %.4g, %.4g): %s",
+		    100 * (1 - j.alike), p.x, p.y, p.z, why);
+	}
+}
+
 static void
 warn_of_patches(mr_ctx *ctx, const volume *v)
 {
-	static const double UNLIKE = 1e-3;
-	mr_volume_sides j = mr_volume_judge(&v->s, v->s.plane.normal);
-
-	if (1 - j.alike > UNLIKE) {
-		mr_v3 p = v->s.p[j.unlike];
-		mr_warn(ctx,
-		    "%.2g %% of neighbours have normals on unlike sides, first near (%.4g, %.4g, %.4g): "
-		    "patches "
-		    "of them point inward, as where body or gaps are thin",
-		    100 * (1 - j.alike), p.x, p.y, p.z);
-	}
+	mr_volume_warn_of_patches(ctx, &v->s, "patches of them point inward, as where body or gaps are thin");
 }
 
 /*
@@ -700,6 +699,11 @@ are_consistent(mr_ctx *ctx, const mr_volume_sides *j, bool normals)
 {
 	static const double NEAR_LEAST = 0.7, ALIKE_LEAST = 0.9;
 
+	if (j->told == 0) {
+		mr_warn(ctx, "the %s are not used: none tells a side",
+		    normals ? "normals of the points" : "places of the scanner");
+		return false;
+	}
 	if (j->alike >= ALIKE_LEAST && (!normals || j->near >= NEAR_LEAST))
 		return true;
 	if (normals && !(j->near >= NEAR_LEAST))
@@ -732,7 +736,7 @@ take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *side
 	for (size_t i = 0; i < v->s.n; i++)
 		toward[i] = sides->toward[of[i]];
 	judged = mr_volume_judge(&v->s, toward);
-	v->found.sided = 0;
+	v->found.sided = v->found.inward = 0;
 	if (!are_consistent(ctx, &judged, sides->normals))
 		return MR_OK;
 	v->found.sided = judged.told;

@@ -421,6 +421,11 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result
 	mr_note(ctx, "by the %s", names[r.method]);
 	report_lids(ctx, &c->lids);
 	warn(ctx, cloud, c);
+	if (r.method == MR_WRAP_VOLUME && r.volume.inward == 1)
+		mr_warn(ctx, "%s",
+		    cloud->sides->normals
+			? "the normals of the points point inward: turned over"
+			: "the points were seen from within: the wrap faces away from the scanner");
 	if (c->found.method != TEMPLATE)
 		warn_of_topology(ctx, cloud, c);
 	r.places = cloud->sampling.places;

@@ -36,6 +36,21 @@ mr-import some.ply | agree --keep | sed 's/agree:.*/agree/'
 mr-export -q - -f ply-ascii <out.mrs | awk 'body { n++; d = $1 * $4 + $2 * $5 + $3 * $6; if (d > 0) bad++; if (d < -2) long++ }
 	/end_header/ { body = 1 } END { print n, bad + 0, "on the other side,", long, "as long as they were" }'
 
+echo 'a part of which no direction tells is as without them; directions that contradict each other are told of'
+outward() { # of two balls six apart: normals that point away from their own, of each
+	mr-export -q - -f ply-ascii | awk 'body { k = $1 > 3; n[k]++; if (($1 - 6 * k) * $4 + $2 * $5 + $3 * $6 > 0) out[k]++ }
+		/end_header/ { body = 1 } END { print out[0] + 0, "of", n[0], "and", out[1] + 0, "of", n[1] }'
+}
+mr-transform --translate 6,0,0 ball.mrs | mr-cat --append ball.mrs - >two.mrs
+mr-normals two.mrs | mr-export -q - -f ply-ascii >two.ply
+awk '!body { print } body { print $1, $2, $3, $4 * ($1 < 3), $5 * ($1 < 3), $6 * ($1 < 3) } /end_header/ { body = 1 }' two.ply >half.ply
+mr-import half.ply | mr-normals --keep | outward
+awk '!body { print } body { print $1, $2, $3, 0, 0, 0 } /end_header/ { body = 1 }' two.ply >none.ply
+mr-import none.ply | mr-normals --keep | outward
+awk '!body { print } body { n++; s = n % 5 ? 1 : -1; print $1, $2, $3, s * $4, s * $5, s * $6 } /end_header/ { body = 1 }' two.ply >fifth.ply
+mr-import fifth.ply | mr-normals --keep 2>err | outward
+sed 's/first near ([^)]*)/first near .../; s/[0-9.]* % of neighbours/.../' err
+
 echo 'repeated points have one normal, outliers that of the nearest point'
 printf '0 0 0\n1 0 0\n0 1 0\n1 1 0\n1 1 0\n' >twice.xyz
 mr-import twice.xyz | mr-normals --from 0,0,1 | mr-export -q - -f ply-ascii | sed '1,/end_header/d'
