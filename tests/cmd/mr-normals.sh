@@ -44,7 +44,8 @@ outward() { # of two balls six apart: normals that point away from their own, of
 mr-transform --translate 6,0,0 ball.mrs | mr-cat --append ball.mrs - >two.mrs
 mr-normals two.mrs | mr-export -q - -f ply-ascii >two.ply
 awk '!body { print } body { print $1, $2, $3, $4 * ($1 < 3), $5 * ($1 < 3), $6 * ($1 < 3) } /end_header/ { body = 1 }' two.ply >half.ply
-mr-import half.ply | mr-normals --keep | outward
+mr-import half.ply | mr-normals --keep 2>&1 >half.mrs
+outward <half.mrs
 awk '!body { print } body { print $1, $2, $3, 0, 0, 0 } /end_header/ { body = 1 }' two.ply >none.ply
 mr-import none.ply | mr-normals --keep | outward
 awk '!body { print } body { n++; s = n % 5 ? 1 : -1; print $1, $2, $3, s * $4, s * $5, s * $6 } /end_header/ { body = 1 }' two.ply >fifth.ply
