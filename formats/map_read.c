@@ -227,8 +227,5 @@ mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts,
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(read_map(ctx, &done, path, opts ? opts : &defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

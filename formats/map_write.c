@@ -515,8 +515,5 @@ mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(write_map(ctx, &done, name, opts ? opts : &defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

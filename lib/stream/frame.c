@@ -42,6 +42,15 @@ mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy)
 	return MR_OK;
 }
 
+mr_status
+mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes)
+{
+	*frame = *copy;
+	if (result)
+		memcpy(result, found, bytes);
+	return MR_OK;
+}
+
 static mr_column *
 find(const mr_frame *f, const char *layer, const char *name)
 {

@@ -41,6 +41,10 @@ size_t mr_type_size(char type);
  * Tools work on such a copy, which becomes the frame at their end: one that fails has changed nothing. */
 mr_status mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 
+/* What a tool ends with: its copy becomes the frame, and what it found the result, unless that is NULL. */
+mr_status
+mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes);
+
 /* A copy of all that the frame has, decoded, which may outlive it: in the arena of `keep`. */
 mr_status mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **copy);
 

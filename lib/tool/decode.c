@@ -772,8 +772,5 @@ mr_decode_frame(
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(decode(ctx, &done, opts ? opts : &defaults, cache, result, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

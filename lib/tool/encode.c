@@ -43,8 +43,5 @@ mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(encode(ctx, &done, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

@@ -196,8 +196,5 @@ mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_norma
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(put_normals(ctx, &done, opts ? opts : &defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

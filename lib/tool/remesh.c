@@ -60,8 +60,5 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(remesh(ctx, &done, opts ? opts : &defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

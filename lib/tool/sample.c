@@ -159,8 +159,5 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(sample(ctx, &done, opts ? opts : &defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

@@ -97,10 +97,7 @@ mr_select_by(
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(select_by(ctx, &done, s, opts, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }
 
 static mr_status
@@ -142,10 +139,7 @@ mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, m
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(crop_by(ctx, &done, layer, s, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }
 
 /* What the tool calls a rule for this region. */

@@ -93,8 +93,5 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(shrinkwrap(ctx, &done, opts ? opts : &defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

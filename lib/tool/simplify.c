@@ -264,8 +264,5 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(simplify(ctx, &done, opts ? *opts : defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

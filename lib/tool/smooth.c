@@ -46,8 +46,5 @@ mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(smooth(ctx, &done, opts ? opts : &defaults, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

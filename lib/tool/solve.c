@@ -277,8 +277,5 @@ mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *ca
 		mr_deform_free(own.deform);
 	}
 	MR_TRY(status);
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }

@@ -169,8 +169,5 @@ mr_subdivide_frame(
 
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	MR_TRY(subdivide_frame(ctx, &done, opts ? opts : &defaults, cache, &r));
-	*f = done;
-	if (result)
-		*result = r;
-	return MR_OK;
+	return mr_frame_finish(f, &done, result, &r, sizeof r);
 }
