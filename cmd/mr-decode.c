@@ -34,6 +34,7 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_decode_result, strayed_edges),
 	CMD_COUNTED(mr_decode_result, long_edges),
 	CMD_COUNTED(mr_decode_result, apart),
+	CMD_MEASURED(mr_decode_result, volume),
 	{ 0 },
 };
 

@@ -468,9 +468,8 @@ typedef struct mr_solve_result {
 	double negative_weights; /* share of the edges */
 	double nnz_factor, bytes_factor;
 	double seconds_assemble, seconds_analyse, seconds_factor, seconds_solve;
-	size_t iterations;
+	size_t iterations, refinements;
 	double rcond, residual;
-	size_t refinements;
 	double error, condition; /* of verify */
 } mr_solve_result;
 
@@ -503,6 +502,7 @@ typedef struct mr_decode_opts {
 typedef struct mr_decode_result {
 	size_t folded_edges, strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
 	size_t long_edges; /* whose middles are a hundredth of the diagonal from where base takes them */
+	double volume; /* of that before the last pose, where that was by handles and the surface encloses one */
 	size_t intersections, far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */

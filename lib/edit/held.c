@@ -119,6 +119,34 @@ count_vertex(const mr_held_pose *pose, const fit *f, size_t v, bool faceless, do
 		h->unscaled++;
 }
 
+static bool
+is_rigid(const fit *f)
+{
+	const double little = 0.01;
+
+	return !f->given && fabs(mr_mat3_determinant(&f->yx) - 1) < little;
+}
+
+/* The turn of mr_held. */
+static double
+turn_of(const fit *fits, size_t regions)
+{
+	const fit *lowest = NULL;
+	double most = 0;
+
+	for (size_t r = 0; r < regions; r++) {
+		mr_mat3 between;
+		if (!fits[r].n || r == MR_REGION_FREE)
+			continue;
+		if (!is_rigid(&fits[r]))
+			return 0;
+		lowest = lowest ? lowest : &fits[r];
+		between = mr_mat3_multiply_transposed(&lowest->turn, &fits[r].turn);
+		most = fmax(most, mr_norm(mr_rotation_log(&between, mr_vec(0, 0, 0))));
+	}
+	return most * (180 / MR_PI);
+}
+
 mr_status
 mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 {
@@ -141,6 +169,7 @@ mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 		fit *f = &fits[pose->base_region[v]];
 		f->given |= mr_dist(pose->on_base[v], map_of(f, base->p[v])) > far;
 	}
+	h.turn = turn_of(fits, regions);
 	for (size_t v = 0; v < mesh->nv; v++) {
 		uint32_t r = pose->region[v];
 		h.fixed += used[v] && r == MR_REGION_FIXED;

@@ -35,8 +35,8 @@ typedef struct mr_connectivity_cache {
 	const mr_v3 *displaced_foot;              /* the limit points that it is displaced from */
 	uint64_t displaced_serial, height_serial; /* of control.encoded and displacement.height; 0: none */
 	/* Since the last key: harm, what is far, what strayed, what came apart, what was not held, long
-	 * edges. */
-	size_t told, told_far, told_strayed, told_apart, told_held, told_chords;
+	 * edges, percent of the volume. */
+	size_t told, told_far, told_strayed, told_apart, told_held, told_chords, told_volume;
 	size_t looked_folds; /* of the last look for intersections since then */
 	size_t frames;       /* since then */
 } mr_connectivity_cache;
