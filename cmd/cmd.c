@@ -392,7 +392,8 @@ cmd_layer_name(cmd *c, const char *option, const char *name)
 
 /* Opening and closing the outputs */
 
-/* No output takes the place of a file that is read, but for a stream's, nor of another output. */
+/* No output takes the place of a file that is read, but for a stream's, nor of another output, nor what is no
+ * stream that of a stream. */
 static mr_status
 permit(mr_ctx *ctx, const char *path, bool writes)
 {
@@ -401,6 +402,8 @@ permit(mr_ctx *ctx, const char *path, bool writes)
 
 	if (writes && !is_stream && place_is(STDIN_FILENO, path))
 		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
+	if (writes && !is_stream && place_is_stream(path))
+		return mr_fail(ctx, MR_EUSAGE, "%s: that file is a stream, and would be lost", path);
 	return place_claim(ctx, &c->state->places, path, writes);
 }
 

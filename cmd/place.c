@@ -165,6 +165,12 @@ place_is_model(const char *path)
 	return mr_suffix_format(path) && content_of(path) == OTHER;
 }
 
+bool
+place_is_stream(const char *path)
+{
+	return content_of(path) == STREAM;
+}
+
 mr_status
 place_for_stream(mr_ctx *ctx, const char *path)
 {
@@ -185,8 +191,5 @@ place_for_text(mr_ctx *ctx, const char *option, const char *path)
 {
 	if (mr_suffix_format(path) && !mr_suffix_is_text(path))
 		return mr_fail(ctx, MR_EUSAGE, "%s %s: figures under the name of a model", option, path);
-	if (content_of(path) == STREAM)
-		return mr_fail(
-		    ctx, MR_EUSAGE, "%s %s: that file is a stream, and would be lost", option, path);
 	return MR_OK;
 }

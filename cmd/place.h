@@ -24,11 +24,14 @@ bool place_is(int fd, const char *name);
 /* Whether there is a file with the name of a model that is no stream. */
 bool place_is_model(const char *path);
 
+/* Whether there is a file that is a stream. */
+bool place_is_stream(const char *path);
+
 /* MR_EUSAGE where a stream would take the place, or the name, of anything but a stream. */
 mr_status place_for_stream(mr_ctx *ctx, const char *path) MR_WARN_UNUSED;
 
-/* MR_EUSAGE where the text that `option` asks for would take that of a stream, or of a model that is no
- * columns of text. */
+/* MR_EUSAGE where the text that `option` asks for would take the name of a model that is no columns of text.
+ */
 mr_status place_for_text(mr_ctx *ctx, const char *option, const char *path) MR_WARN_UNUSED;
 
 /* MR_EUSAGE where several of the names from `first` to before `end` are "-". */

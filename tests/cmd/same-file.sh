@@ -62,6 +62,7 @@ refused 'mr-info -o t.obj t.mrs'
 refused 'mr-compare -o s.mrs t.mrs t.mrs'
 refused 'mr-info -o t.txt t.txt'
 refused 'mr-export -f obj t.mtl -i t.mrs'
+refused 'mr-export -f ply s.mrs -i t.mrs'
 mr-info -o figures.txt t.mrs && mr-info -o figures.txt --stats figures.csv t.mrs && grep -c vertices figures.*
 echo 'what mr-map reads' >&2
 mr-make cube -n 8 | mr-export -q -f obj cube.obj
@@ -73,4 +74,5 @@ cp a.mtl c.mtl
 cp a.mtl b-height.png c.mtl kept
 refused 'mr-map -w a a.mtl -o out.mrs'
 refused 'mr-map -w b b-height.png -o out.mrs'
+refused 'mr-map -w b a.mtl -o out.mrs'
 refused 'mr-map -w c -o out.mrs <c.mtl'
