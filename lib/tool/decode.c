@@ -1,16 +1,9 @@
 /* mr-decode: the reconstruction operator of both papers, detail onto a base or heights onto a subdivision
  * surface, posed by its response first where handles are there. */
 #include "base/options.h"
-#include "base/text.h"
-#include "edit/chord.h"
-#include "edit/detail.h"
-#include "edit/handles.h"
-#include "edit/held.h"
 #include "edit/pose_basis.h"
-#include "edit/strayed.h"
 #include "measure/gaps.h"
-#include "measure/harm.h"
-#include "tool/cache.h"
+#include "tool/moved.h"
 
 /* Whether what was kept of a column is still true of the frame; where it is not, the arena is emptied. */
 static bool
@@ -139,184 +132,6 @@ mesh_neighbours(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *
 	return MR_OK;
 }
 
-static double
-longest_edge_at(const mr_mesh *m, uint32_t vertex)
-{
-	double longest = 0;
-
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++)
-			if (m->t[f].v[k] == vertex || m->t[f].v[(k + 1) % 3] == vertex)
-				longest = fmax(
-				    longest, mr_dist(m->p[m->t[f].v[k]], m->p[m->t[f].v[(k + 1) % 3]]));
-	return longest;
-}
-
-/*
- * Where the edges at the harm are too long to follow the base, the step that splits them as finely as that
- * is. It was tried on 23 edits with harm: of 16 with edges of over five of the base's lengths 12 had none
- * after that, of the others none.
- */
-static void
-advise(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, uint32_t vertex, char *advice, size_t size)
-{
-	const double coarse = 5;
-	double edge = mr_mesh_edge_scale(ctx, base), longest = longest_edge_at(mesh, vertex);
-
-	if (longest > coarse * edge)
-		snprintf(advice, size,
-		    "; its edges are long, up to %.3g: split them first, by mr-subdivide --longest %.3g",
-		    longest, edge);
-}
-
-/* "3 more folded edges of mesh and 40 more intersecting pairs of near faces", without what there is none of.
- */
-static void
-name_harm(const mr_harm *h, size_t pairs, char *text, size_t size)
-{
-	int n = 0;
-
-	if (h->folds)
-		n = snprintf(text, size, "%zu more folded edge%s of mesh", h->folds, mr_plural(h->folds));
-	if (pairs)
-		snprintf(text + n, size - (size_t)n, "%s%zu more intersecting pair%s of near faces%s",
-		    n ? " and " : "", pairs, mr_plural(pairs), n ? "" : " of mesh");
-}
-
-/*
- * Tells of harm: of a sequence again where it is twice as much as was told.  Few are told under -v alone:
- * over 5 folds or 20 pairs have 41 of 318 edits of 106 models, all 14 that are wrecked among them; one of
- * either have 90; of few faces fewer do.  base: that it follows, or NULL.
- */
-static void
-tell(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_mesh *base, const mr_v3 *p, const mr_harm *h)
-{
-	enum { FOLDS = 5, PAIRS = 20 };
-	size_t pairs = h->pairs == MR_UNKNOWN ? 0 : h->pairs, all = h->folds + pairs, nf = mesh->nf,
-	       *told = cache ? &cache->connectivity.told : NULL;
-	char advice[120] = "", found[160];
-
-	name_harm(h, pairs, found, sizeof found);
-	if (h->folds <= (nf < 12 * FOLDS ? nf / 12 : FOLDS) && pairs <= (nf < 5 * PAIRS ? nf / 5 : PAIRS)) {
-		if (all)
-			mr_note(ctx, "%s: few", found);
-		return;
-	}
-	if (!mr_is_news(all, told))
-		return;
-	if (base)
-		advise(ctx, mesh, base, h->vertex, advice, sizeof advice);
-	mr_warn(ctx, "%s, most of them at vertex %u (%.4g, %.4g, %.4g)%s", found, h->vertex, p[h->vertex].x,
-	    p[h->vertex].y, p[h->vertex].z, advice);
-}
-
-/* The same of far faces, and of parts. */
-static void
-tell_far(mr_ctx *ctx, mr_cache *cache, const mr_v3 *p, const mr_harm *h)
-{
-	enum { PAIRS = 20 };
-	size_t *told = cache ? &cache->connectivity.told_far : NULL;
-
-	if (h->far == MR_UNKNOWN || h->far <= PAIRS || !mr_is_news(h->far, told))
-		return;
-	mr_warn(ctx,
-	    "%zu more intersecting pairs of faces of mesh that are far from each other along it, or of two "
-	    "parts: limbs meet, or sheets pass through each other, most of them at vertex %u (%.4g, %.4g, "
-	    "%.4g)",
-	    h->far, h->far_vertex, p[h->far_vertex].x, p[h->far_vertex].y, p[h->far_vertex].z);
-}
-
-/* Warns of detail that is torn where base is not. */
-static size_t
-look_for_strayed(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges,
-    const mr_mesh *base, const mr_detail *d, const mr_v3 *p)
-{
-	enum { FEW = 5 };
-	size_t *told = cache ? &cache->connectivity.told_strayed : NULL;
-	mr_strayed s = mr_strayed_find(mesh, edges, p, base, d);
-
-	if (s.edges <= FEW || !mr_is_news(s.edges, told))
-		return s.edges;
-	mr_warn(ctx,
-	    "detail is torn: %zu of %zu edges of mesh are over twice as long, or under half as long, as base "
-	    "has them there, most at vertex %u (%.4g, %.4g, %.4g)",
-	    s.edges, edges->count, s.vertex, p[s.vertex].x, p[s.vertex].y, p[s.vertex].z);
-	return s.edges;
-}
-
-/* Warns of straight edges that cut across a bend of base, or a twist. */
-static mr_status
-look_for_chords(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges, const mr_mesh *base,
-    const mr_incidence *inc, const mr_detail *d, const mr_v3 *p, size_t *count)
-{
-	const double far = 0.01; /* of the diagonal */
-	double diagonal = mr_mesh_diagonal(mesh);
-	size_t *told = cache ? &cache->connectivity.told_chords : NULL;
-	mr_chords c;
-
-	MR_TRY(mr_chords_find(ctx, mesh, edges, p, base, inc, d, far * diagonal, &c));
-	*count = c.edges;
-	if (!mr_is_news(c.edges, told))
-		return MR_OK;
-	mr_warn(ctx,
-	    "%zu of %zu edges of mesh are too long to go where base goes: their middles miss it by up to "
-	    "%.3g %% of the diagonal, most at vertex %u (%.4g, %.4g, %.4g); split them first, by "
-	    "mr-subdivide --longest %.3g",
-	    c.edges, edges->count, 100 * c.farthest / diagonal, c.vertex, p[c.vertex].x, p[c.vertex].y,
-	    p[c.vertex].z, fmin(c.enough, mr_mesh_edge_scale(ctx, base)));
-	return MR_OK;
-}
-
-/* Parts that touched and do not any more; warns of them as tell does. */
-static size_t
-look_for_gaps(mr_ctx *ctx, mr_cache *cache, const mr_mesh *mesh, const mr_contacts *contacts, const mr_v3 *p)
-{
-	/* Of the diagonal, which is five pixels of a picture of a thousand: of 357 edits 80 have such slits,
-	 * 51 twice as wide. */
-	const double apart = 0.005;
-	size_t *told = cache ? &cache->connectivity.told_apart : NULL;
-	uint32_t v;
-	size_t n = mr_contacts_open(contacts, mesh, p, apart * mr_mesh_diagonal(mesh), &v);
-
-	if (!mr_is_news(n, told))
-		return n;
-	mr_warn(ctx,
-	    "%zu of %zu vertices at which parts of mesh, or sides of a slit, touch have come apart by over "
-	    "%g %% of the diagonal, "
-	    "vertex %u (%.4g, %.4g, %.4g) the farthest",
-	    n, contacts->vertices, 100 * apart, v, p[v].x, p[v].y, p[v].z);
-	return n;
-}
-
-/*
- * Intersections take up to eight times as long as decoding: of a sequence they are looked for in frames 1, 2,
- * 4, 8, ... behind the key, which of a thousand are ten, in the last one of those that mr-pose has made, and
- * where folds have come, or doubled.
- */
-static mr_status
-folds_to_look_from(mr_ctx *ctx, mr_frame *f, const mr_cache *cache, size_t *enough)
-{
-	size_t told, at, last;
-
-	*enough = 0;
-	if (!cache || f->key)
-		return MR_OK;
-	told = cache->connectivity.looked_folds;
-	at = cache->connectivity.frames;
-	MR_TRY(mr_handles_frames(ctx, f, &last));
-	if (at != last && (at & (at - 1)))
-		*enough = told ? 2 * told : 1;
-	return MR_OK;
-}
-
-static void
-forget_told(mr_connectivity_cache *kept)
-{
-	kept->told = kept->told_far = kept->told_strayed = kept->told_apart = kept->told_held =
-	    kept->told_chords = kept->told_volume = 0;
-	kept->looked_folds = kept->frames = 0;
-}
-
 /* Where the vertices of mesh stood when base was where its column `name` has it. */
 static mr_status
 places_on(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *on, const char *name,
@@ -344,171 +159,50 @@ places_on(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *on, co
 	return MR_OK;
 }
 
-/* Warns of some constrained vertices, where there are any, and of why. */
-static void
-tell_some(mr_ctx *ctx, size_t some, size_t all, const char *which, double share, const char *why)
-{
-	if (some)
-		mr_warn(ctx, "%zu of %zu %s by over %g %% of the diagonal: %s", some, all, which, 100 * share,
-		    why);
-}
-
-/* Of those that are not where they belong though base, where the pose began, or control holds its own there:
- * it has none at theirs. */
-static void
-tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *on, double share)
-{
-	static const char missed[] = "vertices of handles of mesh miss their place";
-	bool base = !strcmp(on->name, "base");
-	char coarse[160];
-
-	if (base) /* half the length held all, of six models */
-		snprintf(coarse, sizeof coarse,
-		    "base is too coarse to hold them; mr-remesh -L %.2g makes it finer",
-		    mr_mesh_edge_scale(ctx, on) / 2);
-	else /* four times the faces, of four scans */
-		snprintf(coarse, sizeof coarse,
-		    "control is too coarse to hold them; one of more faces, as mr-simplify -n %zu makes, "
-		    "holds more",
-		    4 * on->nf);
-	tell_some(ctx, h->moved, h->fixed, "fixed vertices of mesh have moved", share, coarse);
-	tell_some(ctx, h->missed, h->handled, missed, share, coarse);
-	if (h->faceless)
-		mr_warn(ctx,
-		    "%zu constrained vert%s of mesh with no face: what no face has goes with the surface "
-		    "nearest "
-		    "to it",
-		    h->faceless, h->faceless == 1 ? "ex" : "ices");
-	tell_some(ctx, h->unscaled, h->handled, missed, share,
-	    base ? "the handle is scaled or mirrored, and heights over base keep their length and turn; "
-		   "mr-decode --gain scales all of them, mr-transform a whole model"
-		 : "the handle is scaled or mirrored, and heights over control keep their length and turn; "
-		   "mr-decode --gain scales all of them, mr-transform a whole model");
-}
-
-static double
-volume_ratio(const mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p)
-{
-	mr_mesh now = *before;
-
-	now.p = p;
-	return fabs(mr_mesh_volume(ctx, &now) / mr_mesh_volume(ctx, before));
-}
-
-/*
- * Warns where handles that only turn and move have changed the volume; by translations alone that is what
- * they ask for.  Of 132 bends and twists by 60 degrees 17 lost a tenth and more.  Fitted rotations lost less
- * in 10 of 12 where base had lost as much of its own, and in 1 of 5 where only mesh had, which has long
- * edges.
- */
-static void
-tell_volume(mr_ctx *ctx, mr_cache *cache, const mr_held_pose *pose, double ratio, double degrees)
-{
-	const double much = 0.1, least_turn = 1;
-	size_t *told = cache ? &cache->connectivity.told_volume : NULL;
-	bool lost = ratio < 1;
-
-	if (degrees < least_turn || !(fabs(ratio - 1) > much) ||
-	    !mr_is_news((size_t)fmin(1e6, 100 * fabs(ratio - 1)), told))
-		return;
-	mr_warn(ctx, "mesh has %s %.2g %% of its volume between handles that turn by up to %.0f degrees%s",
-	    lost ? "lost" : "gained", 100 * fabs(ratio - 1), degrees,
-	    lost && volume_ratio(ctx, pose->base, pose->on_base) < 1 - much
-		? "; mr-solve --rotations fitted keeps more of it on most models"
-		: "");
-}
-
-/* edges: of pose->mesh. */
-static mr_status
-look_at_pose(
-    mr_ctx *ctx, mr_cache *cache, const mr_held_pose *pose, const mr_edges *edges, mr_decode_result *result)
-{
-	/* As look_for_gaps has it.  Of 28 models, bent by 60 degrees over a base of the default, one has a
-	 * vertex that is off by so much, none by twice that. */
-	const double share = 0.005;
-	size_t *told = cache ? &cache->connectivity.told_held : NULL;
-	mr_held h;
-
-	MR_TRY(mr_held_count(ctx, pose, share * mr_mesh_diagonal(pose->mesh), &h));
-	if (mr_is_news(h.moved + h.missed + h.unscaled + h.faceless, told))
-		tell_held(ctx, &h, pose->base, share);
-	if (mr_edges_enclose(pose->mesh, edges) && mr_mesh_volume(ctx, pose->mesh) != 0) {
-		result->volume = volume_ratio(ctx, pose->mesh, pose->p);
-		tell_volume(ctx, cache, pose, result->volume, h.turn);
-	}
-	return MR_OK;
-}
-
-/* Judges by where the pose began: an earlier one may have bent what is fixed now, or a handle.  at_rest: the
+/* Judges by where the pose began: an earlier one may have bent what is fixed now, or a handle.  m: of the
  * mesh as it was encoded. */
 static mr_status
-look_at_held(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *at_rest, const mr_mesh *base,
-    const mr_edges *edges, const mr_incidence *inc, const mr_detail *d, const mr_v3 *p,
-    mr_decode_result *result)
+look_at_pose(mr_ctx *ctx, const mr_moved *m)
 {
-	mr_stood none = { 0 }, *kept = cache ? &cache->connectivity.before : &none;
-	mr_mesh mesh = *at_rest, before = *base;
-	mr_held_pose pose = { .mesh = &mesh, .base = &before, .p = p, .on_base = base->p, .at = d->at };
+	mr_stood none = { 0 }, *kept = m->cache ? &m->cache->connectivity.before : &none;
+	mr_mesh mesh = *m->mesh, before = *m->base;
+	mr_held_pose pose = {
+		.mesh = &mesh, .base = &before, .p = m->p, .on_base = m->base->p, .at = m->detail->at
+	};
 
-	if (!mr_layer_has(f, "mesh", "region") || !mr_layer_has(f, base->name, "region"))
+	if (!mr_layer_has(m->f, "mesh", "region") || !mr_layer_has(m->f, before.name, "region"))
 		return MR_OK;
-	MR_TRY(mr_layer_region(ctx, f, base->name, base->nv, &pose.base_region));
-	MR_TRY(mr_layer_region(ctx, f, "mesh", mesh.nv, &pose.region));
-	MR_TRY(mr_detail_before(ctx, f, base, d, &before.p));
-	if (before.p != d->rest)
-		MR_TRY(places_on(ctx, f, cache, &before, "before", inc, d, kept, &mesh.p));
-	return look_at_pose(ctx, cache, &pose, edges, result);
+	MR_TRY(mr_layer_region(ctx, m->f, before.name, before.nv, &pose.base_region));
+	MR_TRY(mr_layer_region(ctx, m->f, "mesh", mesh.nv, &pose.region));
+	MR_TRY(mr_detail_before(ctx, m->f, m->base, m->detail, &before.p));
+	if (before.p != m->detail->rest)
+		MR_TRY(places_on(ctx, m->f, m->cache, &before, "before", m->inc, m->detail, kept, &mesh.p));
+	return mr_moved_pose(ctx, m, &pose);
 }
 
-/* What the motion of mesh to p has done to it. */
+/* What the motion of the frame's mesh has done to it, and how it stands to base.  m: without mesh and edges;
+ * whole: all of its detail is decoded. */
 static mr_status
-look_for_flaws(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *mesh, const mr_edges *edges,
-    const mr_mesh *base, const mr_v3 *p, mr_decode_result *result)
-{
-	size_t enough;
-	mr_harm harm;
-
-	if (cache && f->key)
-		forget_told(&cache->connectivity);
-	else if (cache)
-		cache->connectivity.frames++;
-	MR_TRY(folds_to_look_from(ctx, f, cache, &enough));
-	MR_TRY(mr_harm_find(ctx, mesh, edges, p, enough, &harm));
-	if (cache && harm.pairs != MR_UNKNOWN)
-		cache->connectivity.looked_folds = harm.folds;
-	tell(ctx, cache, mesh, base, p, &harm);
-	tell_far(ctx, cache, p, &harm);
-	result->folded_edges = harm.folds;
-	result->intersections = harm.pairs;
-	result->far_intersections = harm.far;
-	return MR_OK;
-}
-
-/* The same of the frame's mesh, and of how it stands to base; d: its detail, of which not all is decoded
- * where that is not `whole`. */
-static mr_status
-look_for_harm(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_mesh *base, const mr_incidence *inc,
-    const mr_detail *d, bool whole, const mr_v3 *p, mr_decode_result *result)
+look_at_detail(mr_ctx *ctx, mr_moved m, bool whole)
 {
 	mr_contacts contacts;
 	mr_edges edges;
-	mr_mesh mesh, rest, encoded;
-	mr_stood none = { 0 }, *kept = cache ? &cache->connectivity.at_rest : &none;
+	mr_mesh mesh, encoded = *m.base;
+	mr_stood none = { 0 }, *kept = m.cache ? &m.cache->connectivity.at_rest : &none;
 
-	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
-	MR_TRY(mesh_neighbours(ctx, cache, f, &mesh, &edges, &contacts));
-	MR_TRY(look_for_flaws(ctx, f, cache, &mesh, &edges, base, p, result));
-	if (whole && d->rest) {
-		rest = mesh;
-		encoded = *base;
-		encoded.p = d->rest;
-		MR_TRY(places_on(ctx, f, cache, &encoded, "encoded", inc, d, kept, &rest.p));
-		result->strayed_edges = look_for_strayed(ctx, cache, &rest, &edges, base, d, p);
-		MR_TRY(look_for_chords(ctx, cache, &rest, &edges, base, inc, d, p, &result->long_edges));
-		MR_TRY(look_at_held(ctx, f, cache, &rest, base, &edges, inc, d, p, result));
-	}
-	result->apart = look_for_gaps(ctx, cache, &mesh, &contacts, p);
-	return MR_OK;
+	MR_TRY(mr_layer_mesh(ctx, m.f, "mesh", &mesh));
+	MR_TRY(mesh_neighbours(ctx, m.cache, m.f, &mesh, &edges, &contacts));
+	m.mesh = &mesh;
+	m.edges = &edges;
+	MR_TRY(mr_moved_harm(ctx, &m));
+	mr_moved_gaps(ctx, &m, &contacts);
+	if (!whole || !m.detail->rest)
+		return MR_OK;
+	encoded.p = m.detail->rest;
+	MR_TRY(places_on(ctx, m.f, m.cache, &encoded, "encoded", m.inc, m.detail, kept, &mesh.p));
+	mr_moved_strayed(ctx, &m);
+	MR_TRY(mr_moved_chords(ctx, &m));
+	return look_at_pose(ctx, &m);
 }
 
 static mr_status
@@ -529,7 +223,15 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 		return MR_EMEM;
 	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
 	if (!o->blind && mr_layer_has(f, "mesh", "triangles"))
-		MR_TRY(look_for_harm(ctx, f, cache, &base, &inc, &detail, o->gain == 1, p, result));
+		MR_TRY(look_at_detail(ctx,
+		    (mr_moved){ .f = f,
+			.cache = cache,
+			.p = p,
+			.base = &base,
+			.inc = &inc,
+			.detail = &detail,
+			.result = result },
+		    o->gain == 1));
 	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));
 	return mr_layer_followed(ctx, f, "base");
 }
@@ -607,24 +309,23 @@ regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, cons
 	return MR_OK;
 }
 
-/* What control does not hold of the surface; pose: that, as it stood, with what it stands on, and where it is
- * now. */
+/* What posing it has done to the surface over d.  foot: what that stood on. */
 static mr_status
-look_at_held_by_control(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d, const mr_mesh *control,
-    mr_held_pose pose, const mr_edges *edges, mr_decode_result *result)
+look_at_control(mr_ctx *ctx, const mr_moved *m, const mr_domain *d, const mr_mesh *control, const mr_v3 *foot)
 {
 	mr_mesh encoded = *control;
+	mr_held_pose pose = {
+		.mesh = m->mesh, .base = &encoded, .p = m->p, .on_base = control->p, .foot = foot
+	};
 	const void *p;
 
-	if (!mr_layer_has(f, "control", "region"))
+	if (!mr_layer_has(m->f, "control", "region"))
 		return MR_OK;
-	MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", encoded.nv, &p));
+	MR_TRY(mr_layer_get_rows(ctx, m->f, "control", "encoded", encoded.nv, &p));
 	encoded.p = p;
-	pose.base = &encoded;
-	pose.on_base = control->p;
-	MR_TRY(mr_layer_region(ctx, f, "control", control->nv, &pose.base_region));
+	MR_TRY(mr_layer_region(ctx, m->f, "control", control->nv, &pose.base_region));
 	MR_TRY(regions_of_levels(ctx, d, pose.base_region, &pose.region));
-	return look_at_pose(ctx, cache, &pose, edges, result);
+	return mr_moved_pose(ctx, m, &pose);
 }
 
 /* What posing the control mesh, or the gain, has done to the surface, now at p. */
@@ -633,20 +334,19 @@ look_at_displaced(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d,
     const double *height, double gain, const mr_v3 *p, mr_decode_result *result)
 {
 	bool posed = mr_layer_has(f, "control", "encoded");
-	mr_held_pose pose = { .p = p };
 	mr_mesh before;
 	mr_edges edges;
+	mr_moved m = { .f = f, .cache = cache, .mesh = &before, .edges = &edges, .p = p, .result = result };
+	const mr_v3 *foot;
 
 	if (posed)
-		MR_TRY(find_encoded(ctx, cache, f, d, height, &before, &edges, &pose.foot));
+		MR_TRY(find_encoded(ctx, cache, f, d, height, &before, &edges, &foot));
 	else if (gain != 1)
-		MR_TRY(build_encoded(ctx, d, control, height, &before, &edges, &pose.foot));
+		MR_TRY(build_encoded(ctx, d, control, height, &before, &edges, &foot));
 	else
 		return MR_OK;
-	MR_TRY(look_for_flaws(ctx, f, cache, &before, &edges, NULL, p, result));
-	pose.mesh = &before;
-	return posed && gain == 1 ? look_at_held_by_control(ctx, f, cache, d, control, pose, &edges, result)
-	                          : MR_OK;
+	MR_TRY(mr_moved_harm(ctx, &m));
+	return posed && gain == 1 ? look_at_control(ctx, &m, d, control, foot) : MR_OK;
 }
 
 /* What mr-sample found of the points' columns at the vertices, those of coarse levels first. */
