@@ -106,17 +106,6 @@ is_pipe(int fd)
 	return fstat(fd, &st) == 0 && (S_ISFIFO(st.st_mode) || S_ISSOCK(st.st_mode));
 }
 
-/* Tells the next tool of the pipe that this one has said why it fails: it need not say that it did. */
-static void
-pass_failure(cmd *c)
-{
-	struct cmd_state *s = c->state;
-
-	signal(SIGPIPE, SIG_IGN); /* whether anyone is left who reads it or not */
-	if (s->writer && is_pipe(s->out))
-		mr_writer_fail(&c->ctx, s->writer);
-}
-
 /* Whether stdout is where the output goes. */
 static bool
 writes_stdout(const cmd *c)
@@ -124,6 +113,19 @@ writes_stdout(const cmd *c)
 	const char *output = c->tool->names_output ? c->operands[0] : c->output;
 
 	return !output || !strcmp(output, "-");
+}
+
+/* Tells the next tool of the pipe that this one has said why it fails: it need not say that it did. */
+static void
+pass_failure(cmd *c)
+{
+	struct cmd_state *s = c->state;
+
+	if (c->tool->sink || !writes_stdout(c) || !is_pipe(STDOUT_FILENO))
+		return;
+	signal(SIGPIPE, SIG_IGN); /* whether anyone is left who reads it or not */
+	if (s->writer || mr_writer_open(&c->ctx, STDOUT_FILENO, c->packing, &s->writer) == MR_OK)
+		mr_writer_fail(&c->ctx, s->writer);
 }
 
 /* A wrong command line that a later frame shows, behind what is on stdout, is an error like others. */
@@ -398,7 +400,7 @@ static mr_status
 permit(mr_ctx *ctx, const char *path, bool writes)
 {
 	cmd *c = ctx->listener.user;
-	bool is_stream = !c->tool->sink && !c->state->writer; /* that of -o, which is opened first */
+	bool is_stream = !c->tool->sink && c->output && place_same(path, c->output);
 
 	if (writes && !is_stream && place_is(STDIN_FILENO, path))
 		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);

@@ -617,7 +617,8 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 	const double share =
 	    1e-7; /* of the diagonal: about what a float is off of a model about the origin */
 	const mr_box box = mr_mesh_box(&(mr_mesh){ .p = m->p, .nv = m->nv, .t = m->t, .nf = m->nf });
-	double off = 0, diagonal = mr_dist(box.min, box.max);
+	mr_v3 far = { 0, 0, 0 }, across = mr_sub(box.max, box.min);
+	double off, diagonal = hypot(hypot(across.x, across.y), across.z); /* 1e-300 has no square */
 	size_t changed = 0;
 
 	for (size_t i = 0; i < m->nv; i++) {
@@ -626,8 +627,10 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 			return mr_fail(s->ctx, MR_ERANGE, "position %zu (%g %g %g) is too large for float32",
 			    i, p.x, p.y, p.z);
 		changed += q.x != p.x || q.y != p.y || q.z != p.z;
-		off = fmax(off, mr_dist(p, q));
+		far = mr_vec(
+		    fmax(far.x, fabs(p.x - q.x)), fmax(far.y, fabs(p.y - q.y)), fmax(far.z, fabs(p.z - q.z)));
 	}
+	off = hypot(hypot(far.x, far.y), far.z);
 	s->lost.rounded_positions = changed;
 	if (diagonal > 0 && off > share * diagonal) /* a single place is as near as floats are */
 		mr_warn(s->ctx,

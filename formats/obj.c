@@ -637,9 +637,9 @@ count_named(
 		if (place[c] != MR_NONE)
 			named[place[c]] = true;
 	for (size_t i = 0; i < n; i++, x += width) {
-		double square = x[0] * x[0] + x[1] * x[1] + (width > 2 ? x[2] * x[2] : 0);
-		*zero += named[i] && square == 0;
-		*rest += !named[i] && square > 0;
+		double sum = fabs(x[0]) + fabs(x[1]) + (width > 2 ? fabs(x[2]) : 0); /* of NaN neither */
+		*zero += named[i] && sum == 0;
+		*rest += !named[i] && sum > 0;
 	}
 	mr_mark_release(o->ctx, mark);
 	return MR_OK;

@@ -381,10 +381,10 @@ mr_decode(
 }
 
 void
-mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, mr_v3 *p)
+mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p)
 {
 	mr_mesh rest = *base;
-	decoder j = { .surface = { &rest, d->rest_normal }, .d = d, .gain = 1, .p = p };
+	decoder j = { .surface = { &rest, d->rest_normal }, .d = d, .gain = gain, .p = p };
 
 	rest.p = d->rest;
 	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
@@ -449,8 +449,12 @@ mr_status
 mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 {
 	const void *encoded;
+	bool posed;
 
 	if (strcmp(before->name, "base") != 0)
+		return MR_OK;
+	MR_TRY(mr_layer_is_posed(ctx, f, "base", &posed));
+	if (posed) /* mesh has not followed it yet: the pose goes on */
 		return MR_OK;
 	if (!mr_layer_has(f, "base", "encoded"))
 		return mr_layer_has(f, "mesh", "triangles")

@@ -45,7 +45,7 @@ mr_status mr_decode(
     mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p);
 
 /* Decodes onto the base as it was encoded: d has rest and rest_normal.  p: d->n, the caller's. */
-void mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, mr_v3 *p);
+void mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p);
 
 /* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
 mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);

@@ -246,15 +246,15 @@ mr_handles_pose(
 
 	if (handle >= h->n || h->count[handle] == 0)
 		return no_such_handle(ctx, h, handle);
-	if ((pose->scale.x < 0) != ((pose->scale.y < 0) != (pose->scale.z < 0)))
-		mr_warn(ctx,
-		    "handle %zu is mirrored, and what goes with it comes inside out: mr-transform mirrors a "
-		    "whole model",
-		    handle);
 	center = pose->centered ? pose->center : mr_apply(&row->map[handle], h->centroid[handle]);
 	t = mr_pose_map(pose, center, share);
 	row->map[handle] = mr_compose(&t, &row->map[handle]);
 	a = mr_affine_linear(&row->map[handle]);
+	if (mr_mat3_determinant(&a) < 0)
+		mr_warn(ctx,
+		    "handle %zu is mirrored, and what goes with it comes inside out: mr-transform mirrors a "
+		    "whole model",
+		    handle);
 	row->turn[handle] = mr_rotation_log(&a, mr_add(row->turn[handle], turn_of(pose, share)));
 	return MR_OK;
 }
@@ -276,6 +276,47 @@ mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames)
 		return MR_OK;
 	MR_TRY(mr_layer_get_rows(ctx, f, "handles", "frames", 1, &announced));
 	*frames = *(const uint32_t *)announced;
+	return MR_OK;
+}
+
+/* Whether it does more than translate. */
+static bool
+turns_or_scales(const mr_handle_rows *row, size_t handle)
+{
+	const double little = 0.01;
+	mr_mat3 a = mr_affine_linear(&row->map[handle]), identity = mr_mat3_identity();
+	double most = mr_norm(row->turn[handle]);
+
+	for (int i = 0; i < 9; i++)
+		most = fmax(most, fabs(a.m[i] - identity.m[i]));
+	return most > little;
+}
+
+mr_status
+mr_handles_warn_of_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region, bool *told)
+{
+	const size_t enough = 3;
+	bool few = told && !f->key && *told;
+	mr_handle_rows row;
+	size_t *count;
+
+	MR_TRY(mr_handles_rows(ctx, f, 1, &row));
+	if (!(count = MR_NEW_ZERO(ctx, row.n, size_t)))
+		return MR_EMEM;
+	for (size_t v = 0; v < m->nv; v++)
+		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE < row.n)
+			count[region[v] - MR_REGION_HANDLE]++;
+	for (size_t i = 0; i < row.n && !few; i++) {
+		few = count[i] > 0 && count[i] < enough && turns_or_scales(&row, i);
+		if (few)
+			mr_warn(ctx,
+			    "handle %zu turns or scales, but %s has %zu vert%s of it, which cannot: a larger "
+			    "handle does, or shorter edges there, as %s makes",
+			    i, m->name, count[i], count[i] == 1 ? "ex" : "ices",
+			    strcmp(m->name, "base") != 0 ? "mr-simplify with more faces" : "mr-remesh -L");
+	}
+	if (told)
+		*told = few;
 	return MR_OK;
 }
 

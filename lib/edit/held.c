@@ -127,24 +127,28 @@ is_rigid(const fit *f)
 	return !f->given && fabs(mr_mat3_determinant(&f->yx) - 1) < little;
 }
 
-/* The turn of mr_held. */
-static double
-turn_of(const fit *fits, size_t regions)
+/* Whether the maps ask for no other volume: handles turn, or are where they were.  far: that is no move. */
+static bool
+keeps_volume(const fit *fits, size_t regions, double far, bool *turned)
 {
+	const double least = MR_PI / 180;
 	const fit *lowest = NULL;
-	double most = 0;
+	bool moved = false;
 
+	*turned = false;
 	for (size_t r = 0; r < regions; r++) {
+		const fit *own = &fits[r];
 		mr_mat3 between;
-		if (!fits[r].n || r == MR_REGION_FREE)
+		if (!own->n || r == MR_REGION_FREE)
 			continue;
-		if (!is_rigid(&fits[r]))
-			return 0;
-		lowest = lowest ? lowest : &fits[r];
-		between = mr_mat3_multiply_transposed(&lowest->turn, &fits[r].turn);
-		most = fmax(most, mr_norm(mr_rotation_log(&between, mr_vec(0, 0, 0))));
+		if (!is_rigid(own))
+			return false;
+		lowest = lowest ? lowest : own;
+		between = mr_mat3_multiply_transposed(&lowest->turn, &own->turn);
+		*turned |= mr_norm(mr_rotation_log(&between, mr_vec(0, 0, 0))) >= least;
+		moved |= mr_dist(own->to, map_of(lowest, own->from)) > far;
 	}
-	return most * (180 / MR_PI);
+	return *turned || !moved;
 }
 
 mr_status
@@ -169,7 +173,7 @@ mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 		fit *f = &fits[pose->base_region[v]];
 		f->given |= mr_dist(pose->on_base[v], map_of(f, base->p[v])) > far;
 	}
-	h.turn = turn_of(fits, regions);
+	h.keeps_volume = keeps_volume(fits, regions, far, &h.turned);
 	for (size_t v = 0; v < mesh->nv; v++) {
 		uint32_t r = pose->region[v];
 		h.fixed += used[v] && r == MR_REGION_FIXED;

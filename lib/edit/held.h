@@ -24,8 +24,8 @@ typedef struct mr_held {
 	size_t handled, missed, unscaled;
 	size_t faceless; /* constrained vertices without a face, which stand on no surface, and are not where
 	                  * they belong: not counted above */
-	double turn;     /* the most by which a region turns against the lowest, in degrees; of rigid maps,
-	                  * else 0 */
+	bool turned;     /* a map turns against the lowest one */
+	bool keeps_volume; /* no map scales, and none but translates: that stretches what is between */
 } mr_held;
 
 /*

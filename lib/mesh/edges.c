@@ -84,15 +84,21 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 }
 
 bool
+mr_edge_is_closed(const mr_mesh *m, const mr_edges *edges, size_t e)
+{
+	const uint32_t *h = edges->he + edges->start[e];
+	uint32_t n = mr_edge_faces(edges, e), same = 0;
+
+	for (uint32_t i = 0; i < n; i++)
+		same += mr_same_direction(m, h[0], h[i]);
+	return 2 * same == n;
+}
+
+bool
 mr_edges_enclose(const mr_mesh *m, const mr_edges *edges)
 {
-	for (size_t e = 0; e < edges->count; e++) {
-		const uint32_t *h = edges->he + edges->start[e];
-		uint32_t n = mr_edge_faces(edges, e), same = 0;
-		for (uint32_t i = 0; i < n; i++)
-			same += mr_same_direction(m, h[0], h[i]);
-		if (2 * same != n)
+	for (size_t e = 0; e < edges->count; e++)
+		if (!mr_edge_is_closed(m, edges, e))
 			return false;
-	}
 	return edges->count > 0;
 }

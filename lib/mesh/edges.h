@@ -21,14 +21,18 @@ typedef struct mr_edges {
 /* The edges of m, in the arena. */
 mr_status mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *edges);
 
-/* Whether two half-edges of one edge run along it in the same direction: their faces are not oriented alike. */
+/* Whether two half-edges of one edge run along it in the same direction: their faces are not oriented alike.
+ */
 static inline bool
 mr_same_direction(const mr_mesh *m, uint32_t h, uint32_t g)
 {
 	return mr_he_from(m, h) == mr_he_from(m, g);
 }
 
-/* Whether the surface encloses a volume: every edge has an even number of faces, as many one way as the other. */
+/* Whether edge e has an even number of faces, as many one way as the other. */
+bool mr_edge_is_closed(const mr_mesh *m, const mr_edges *edges, size_t e);
+
+/* Whether the surface encloses a volume: every edge is closed. */
 bool mr_edges_enclose(const mr_mesh *m, const mr_edges *edges);
 
 /* Faces of edge e. */

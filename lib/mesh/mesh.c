@@ -82,7 +82,7 @@ match_twins(mr_ctx *ctx, const mr_mesh *m, const spokes *s, uint32_t *twin)
 		if (same > 1)
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: the two faces at edge %u-%u have opposite orientations: mr-import --repair "
-			    "turns them",
+			    "turns them, and slits what has one side",
 			    m->name, a, b);
 		twin[h] = opposite ? against->he : MR_NONE;
 	}

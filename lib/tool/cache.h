@@ -16,6 +16,7 @@
 typedef struct mr_stood {
 	mr_v3 *p;
 	uint64_t serial[2]; /* of the column of base, and of mesh.detail_height */
+	double gain;
 	size_t rows;
 } mr_stood;
 
@@ -48,6 +49,7 @@ struct mr_cache {
 	mr_level_cache level;
 	mr_connectivity_cache connectivity;
 	bool turned_far;    /* since the key, by a response: said once */
+	bool told_few;      /* since the key, of handles: said once */
 	size_t told_folded; /* since the key, by mr-subdivide */
 };
 

@@ -1,6 +1,7 @@
 /* mr-decode: the reconstruction operator of both papers, detail onto a base or heights onto a subdivision
  * surface, posed by its response first where handles are there. */
 #include "base/options.h"
+#include "edit/handles.h"
 #include "edit/pose_basis.h"
 #include "measure/gaps.h"
 #include "tool/moved.h"
@@ -82,8 +83,13 @@ static mr_status
 respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
 {
 	static const double most = 60;
+	const uint32_t *region;
 	double degrees;
 
+	if (mr_layer_has(f, "handles", "transform") && mr_layer_has(f, m->name, "region")) {
+		MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &region));
+		MR_TRY(mr_handles_warn_of_few(ctx, f, m, region, cache ? &cache->told_few : NULL));
+	}
 	MR_TRY(mr_response_apply(ctx, f, m, &degrees));
 	if (cache && f->key)
 		cache->turned_far = false;
@@ -134,26 +140,30 @@ mesh_neighbours(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *
 
 /* Where the vertices of mesh stood when base was where its column `name` has it. */
 static mr_status
-places_on(mr_ctx *ctx, const mr_frame *f, mr_cache *cache, const mr_mesh *on, const char *name,
-    const mr_incidence *inc, const mr_detail *d, mr_stood *kept, const mr_v3 **p)
+places_on(
+    mr_ctx *ctx, const mr_moved *m, const mr_mesh *on, const char *name, mr_stood *kept, const mr_v3 **p)
 {
-	mr_ctx *keep = cache ? &cache->base_keep : ctx;
+	const mr_frame *f = m->f;
+	const mr_detail *d = m->detail;
+	mr_ctx *keep = m->cache ? &m->cache->base_keep : ctx;
 	uint64_t serial[2] = { mr_frame_find(f, on->name, name)->serial,
 		mr_frame_find(f, "mesh", "detail_height")->serial };
 
 	if (!kept->p || kept->rows < d->n)
 		kept->p = MR_NEW(keep, d->n, mr_v3);
-	else if (!f->key && serial[0] && serial[1] && !memcmp(serial, kept->serial, sizeof serial)) {
+	else if (!f->key && serial[0] && serial[1] && kept->gain == m->gain &&
+		 !memcmp(serial, kept->serial, sizeof serial)) {
 		*p = kept->p;
 		return MR_OK;
 	}
 	if (!kept->p)
 		return mr_fail_as(ctx, keep, MR_EMEM);
 	if (on->p == d->rest)
-		mr_decode_at_rest(ctx, on, d, kept->p);
+		mr_decode_at_rest(ctx, on, d, m->gain, kept->p);
 	else
-		MR_TRY(mr_decode(ctx, on, inc, d, 1, kept->p));
+		MR_TRY(mr_decode(ctx, on, m->inc, d, m->gain, kept->p));
 	kept->rows = d->n;
+	kept->gain = m->gain;
 	memcpy(kept->serial, serial, sizeof serial);
 	*p = kept->p;
 	return MR_OK;
@@ -176,14 +186,14 @@ look_at_pose(mr_ctx *ctx, const mr_moved *m)
 	MR_TRY(mr_layer_region(ctx, m->f, "mesh", mesh.nv, &pose.region));
 	MR_TRY(mr_detail_before(ctx, m->f, m->base, m->detail, &before.p));
 	if (before.p != m->detail->rest)
-		MR_TRY(places_on(ctx, m->f, m->cache, &before, "before", m->inc, m->detail, kept, &mesh.p));
+		MR_TRY(places_on(ctx, m, &before, "before", kept, &mesh.p));
 	return mr_moved_pose(ctx, m, &pose);
 }
 
-/* What the motion of the frame's mesh has done to it, and how it stands to base.  m: without mesh and edges;
- * whole: all of its detail is decoded. */
+/* What the motion of the frame's mesh has done to it, and how it stands to base.  m: without mesh and edges.
+ */
 static mr_status
-look_at_detail(mr_ctx *ctx, mr_moved m, bool whole)
+look_at_detail(mr_ctx *ctx, mr_moved m)
 {
 	mr_contacts contacts;
 	mr_edges edges;
@@ -196,10 +206,10 @@ look_at_detail(mr_ctx *ctx, mr_moved m, bool whole)
 	m.edges = &edges;
 	MR_TRY(mr_moved_harm(ctx, &m));
 	mr_moved_gaps(ctx, &m, &contacts);
-	if (!whole || !m.detail->rest)
+	if (!m.detail->rest)
 		return MR_OK;
 	encoded.p = m.detail->rest;
-	MR_TRY(places_on(ctx, m.f, m.cache, &encoded, "encoded", m.inc, m.detail, kept, &mesh.p));
+	MR_TRY(places_on(ctx, &m, &encoded, "encoded", kept, &mesh.p));
 	mr_moved_strayed(ctx, &m);
 	MR_TRY(mr_moved_chords(ctx, &m));
 	return look_at_pose(ctx, &m);
@@ -223,15 +233,8 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 		return MR_EMEM;
 	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
 	if (!o->blind && mr_layer_has(f, "mesh", "triangles"))
-		MR_TRY(look_at_detail(ctx,
-		    (mr_moved){ .f = f,
-			.cache = cache,
-			.p = p,
-			.base = &base,
-			.inc = &inc,
-			.detail = &detail,
-			.result = result },
-		    o->gain == 1));
+		MR_TRY(look_at_detail(
+		    ctx, (mr_moved){ f, cache, NULL, NULL, p, &base, &inc, &detail, o->gain, result }));
 	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));
 	return mr_layer_followed(ctx, f, "base");
 }
@@ -309,18 +312,24 @@ regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, cons
 	return MR_OK;
 }
 
-/* What posing it has done to the surface over d.  foot: what that stood on. */
+/* What posing it has done to the surface over d.  m: at a gain of 1; foot: what that stood on. */
 static mr_status
 look_at_control(mr_ctx *ctx, const mr_moved *m, const mr_domain *d, const mr_mesh *control, const mr_v3 *foot)
 {
-	mr_mesh encoded = *control;
+	mr_mesh surface = *m->mesh, encoded = *control;
 	mr_held_pose pose = {
-		.mesh = m->mesh, .base = &encoded, .p = m->p, .on_base = control->p, .foot = foot
+		.mesh = &surface, .base = &encoded, .p = m->p, .on_base = control->p, .foot = foot
 	};
+	mr_v3 *at = MR_NEW(ctx, surface.nv, mr_v3);
 	const void *p;
 
 	if (!mr_layer_has(m->f, "control", "region"))
 		return MR_OK;
+	if (!at)
+		return MR_EMEM;
+	for (size_t v = 0; v < surface.nv; v++)
+		at[v] = mr_lerp(m->gain, foot[v], surface.p[v]);
+	surface.p = at;
 	MR_TRY(mr_layer_get_rows(ctx, m->f, "control", "encoded", encoded.nv, &p));
 	encoded.p = p;
 	MR_TRY(mr_layer_region(ctx, m->f, "control", control->nv, &pose.base_region));
@@ -336,7 +345,7 @@ look_at_displaced(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d,
 	bool posed = mr_layer_has(f, "control", "encoded");
 	mr_mesh before;
 	mr_edges edges;
-	mr_moved m = { .f = f, .cache = cache, .mesh = &before, .edges = &edges, .p = p, .result = result };
+	mr_moved m = { f, cache, &before, &edges, p, NULL, NULL, NULL, gain, result };
 	const mr_v3 *foot;
 
 	if (posed)
@@ -346,7 +355,7 @@ look_at_displaced(mr_ctx *ctx, mr_frame *f, mr_cache *cache, const mr_domain *d,
 	else
 		return MR_OK;
 	MR_TRY(mr_moved_harm(ctx, &m));
-	return posed && gain == 1 ? look_at_control(ctx, &m, d, control, foot) : MR_OK;
+	return posed ? look_at_control(ctx, &m, d, control, foot) : MR_OK;
 }
 
 /* What mr-sample found of the points' columns at the vertices, those of coarse levels first. */

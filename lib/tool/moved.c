@@ -7,6 +7,7 @@
 #include "edit/handles.h"
 #include "edit/strayed.h"
 #include "measure/harm.h"
+#include "space/enclosed.h"
 
 static double
 longest_edge_at(const mr_mesh *m, uint32_t vertex)
@@ -231,36 +232,49 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *on, double share)
 		   "mr-decode --gain scales all of them, mr-transform a whole model");
 }
 
-static double
-volume_ratio(const mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p)
-{
-	mr_mesh now = *before;
+static const double MUCH = 0.1;
 
-	now.p = p;
-	return fabs(mr_mesh_volume(ctx, &now) / mr_mesh_volume(ctx, before));
+/* What would have kept more of the volume. */
+static mr_status
+advise_on_volume(mr_ctx *ctx, const mr_held_pose *pose, const char **advice)
+{
+	mr_edges edges;
+	double share;
+
+	MR_TRY(mr_edges_build(ctx, pose->base, &edges));
+	MR_TRY(mr_enclosed_share(ctx, pose->base, &edges, pose->on_base, &share));
+	if (share < 1 - MUCH)
+		*advice = "; mr-solve --rotations fitted keeps more of it on most models";
+	return MR_OK;
 }
 
 /*
  * Warns where handles that only turn and move have changed the volume; by translations alone that is what
- * they ask for.  Of 132 bends and twists by 60 degrees 17 lost a tenth and more.  Fitted rotations lost less
- * in 10 of 12 where base had lost as much of its own, and in 1 of 5 where only mesh had, which has long
- * edges.
+ * they ask for, but not that mesh turns inside out.  Of 132 bends and twists by 60 degrees 17 lost a tenth
+ * and more.  Fitted rotations lost less in 10 of 12 where base had lost as much of its own, and in 1 of 5
+ * where only mesh had, which has long edges.
  */
-static void
-tell_volume(mr_ctx *ctx, const mr_moved *m, const mr_held_pose *pose, double ratio, double degrees)
+static mr_status
+look_at_volume(mr_ctx *ctx, const mr_moved *m, const mr_held_pose *pose, const mr_held *h)
 {
-	const double much = 0.1, least_turn = 1;
 	size_t *told = m->cache ? &m->cache->connectivity.told_volume : NULL;
-	bool lost = ratio < 1;
+	const char *advice = "", *since = m->base ? "" : " since control was sampled";
+	double share;
 
-	if (degrees < least_turn || !(fabs(ratio - 1) > much) ||
-	    !mr_is_news((size_t)fmin(1e6, 100 * fabs(ratio - 1)), told))
-		return;
-	mr_warn(ctx, "mesh has %s %.2g %% of its volume between handles that turn by up to %.0f degrees%s",
-	    lost ? "lost" : "gained", 100 * fabs(ratio - 1), degrees,
-	    lost && volume_ratio(ctx, pose->base, pose->on_base) < 1 - much
-		? "; mr-solve --rotations fitted keeps more of it on most models"
-		: "");
+	MR_TRY(mr_enclosed_share(ctx, pose->mesh, m->edges, pose->p, &share));
+	m->result->volume = share;
+	if (!(fabs(share - 1) > MUCH) || (!h->keeps_volume && share > 0) ||
+	    !mr_is_news((size_t)fmin(1e6, 100 * fabs(share - 1)), told))
+		return MR_OK;
+	if (h->turned && share > 0 && share < 1)
+		MR_TRY(advise_on_volume(ctx, pose, &advice));
+	if (share > 0)
+		mr_warn(ctx, "mesh has %s %.2g %% of its volume%s, though its handles only turn and move%s",
+		    share < 1 ? "lost" : "gained", 100 * fabs(share - 1), since, advice);
+	else
+		mr_warn(
+		    ctx, "mesh has turned inside out%s: its volume is %.2g times what it was", since, share);
+	return MR_OK;
 }
 
 mr_status
@@ -273,13 +287,11 @@ mr_moved_pose(mr_ctx *ctx, const mr_moved *m, const mr_held_pose *pose)
 	mr_held h;
 
 	MR_TRY(mr_held_count(ctx, pose, share * mr_mesh_diagonal(pose->mesh), &h));
+	if (m->gain != 1) /* it may be what scales them along */
+		h.unscaled = 0;
 	if (mr_is_news(h.moved + h.missed + h.unscaled + h.faceless, told))
 		tell_held(ctx, &h, pose->base, share);
-	if (mr_edges_enclose(pose->mesh, m->edges) && mr_mesh_volume(ctx, pose->mesh) != 0) {
-		m->result->volume = volume_ratio(ctx, pose->mesh, pose->p);
-		tell_volume(ctx, m, pose, m->result->volume, h.turn);
-	}
-	return MR_OK;
+	return look_at_volume(ctx, m, pose, &h);
 }
 
 mr_status

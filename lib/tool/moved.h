@@ -19,6 +19,7 @@ typedef struct mr_moved {
 	const mr_mesh *base;     /* that it follows, now; NULL: none, as for those that say so */
 	const mr_incidence *inc; /* of base */
 	const mr_detail *detail;
+	double gain; /* of detail, or heights */
 	mr_decode_result *result;
 } mr_moved;
 

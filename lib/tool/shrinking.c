@@ -1,20 +1,19 @@
 /* Area and volume that a coarser or rounder surface has lost or gained, and how far it is from the other. */
 #include "tool/shrinking.h"
 
-#include "mesh/edges.h"
 #include "shape/shape.h"
 #include "space/bvh.h"
 #include "space/contact.h"
+#include "space/enclosed.h"
 
-/* What a closed surface encloses; 0 of others. */
 static mr_status
-volume_of(mr_ctx *ctx, const mr_mesh *m, double *volume)
+find_closed(mr_ctx *ctx, const mr_mesh *m, bool *closed)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_edges edges;
 
 	MR_TRY(mr_edges_build(ctx, m, &edges));
-	*volume = mr_edges_enclose(m, &edges) ? fabs(mr_mesh_volume(ctx, m)) : 0;
+	*closed = mr_edges_enclose(m, &edges);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -28,13 +27,16 @@ static const double MUCH = 0.1;
 static mr_status
 look_for_shrinking(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const char *why, bool *told)
 {
-	double area = mr_mesh_area(ctx, m), volume, lost = 1 - mr_mesh_area(ctx, out) / area, less;
+	double area = mr_mesh_area(ctx, m), volume, rest, lost = 1 - mr_mesh_area(ctx, out) / area, less = 0;
 	bool thin, thick;
 
-	MR_TRY(volume_of(ctx, m, &volume));
-	less = 1 - fabs(mr_mesh_volume(ctx, out)) / volume;
-	thin = volume > 0 && less > fmax(MUCH, lost);
-	thick = volume > 0 && -less > fmax(MUCH, lost);
+	MR_TRY(mr_enclosed_volume(ctx, m, &volume));
+	if (volume > 0) {
+		MR_TRY(mr_enclosed_volume(ctx, out, &rest));
+		less = 1 - rest / volume;
+	}
+	thin = less > fmax(MUCH, lost);
+	thick = -less > fmax(MUCH, lost);
 	*told = area > 0 && (thin || thick || lost > MUCH);
 	if (*told && thick)
 		mr_warn(ctx, "%s: its volume has grown by %.3g %%: %s", m->name, 100 * -less, why);
@@ -89,9 +91,9 @@ look_at_parts(
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *of, *of_out, worst = MR_NONE;
 	size_t count = 0, shrunken = 0;
-	double volume, least = LITTLE;
+	double least = LITTLE;
 	part *parts;
-	bool several;
+	bool several, closed;
 
 	*told = false;
 	MR_TRY(mr_components_label(ctx, m, &of, &several));
@@ -101,13 +103,13 @@ look_at_parts(
 	of_out = MR_NEW(ctx, out->nv, uint32_t);
 	if (!parts || !of_out)
 		return MR_EMEM;
-	MR_TRY(volume_of(ctx, m, &volume));
+	MR_TRY(find_closed(ctx, m, &closed));
 	for (size_t v = 0; v < out->nv; v++)
 		of_out[v] = of[from[v]];
 	add_faces(parts, m, m, of, 0);
 	add_faces(parts, m, out, of_out, 1);
 	for (uint32_t v = 0; v < m->nv; v++) {
-		double rest = rest_of(&parts[v], volume > 0);
+		double rest = rest_of(&parts[v], closed);
 		count += parts[v].area[0] > 0;
 		shrunken += rest < LITTLE;
 		if (rest < least) {

@@ -204,7 +204,7 @@ verify(mr_ctx *ctx, mr_frame *f, const mr_mesh *rest, const mr_deform *d, const 
 
 /* keep: the arena of the system. */
 static mr_status
-solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_cache *kept,
+solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_cache *cache, mr_ctx *keep, mr_deform_cache *kept,
     mr_solve_result *result)
 {
 	static const char *const reads[] = { "base", "control", NULL };
@@ -230,6 +230,9 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 		return MR_EMEM;
 	MR_TRY(mr_deform_cache_get(kept, ctx, keep, f, &rest, column, &opts, &d));
 	MR_TRY(check_target(ctx, &m, &task, mr_deform_region(d)));
+	if (task.maps)
+		MR_TRY(
+		    mr_handles_warn_of_few(ctx, f, &m, mr_deform_region(d), cache ? &cache->told_few : NULL));
 	if (posing || o->flatten)
 		MR_TRY(mr_deform_solve(ctx, d, &task, p));
 	else
@@ -271,9 +274,10 @@ mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *ca
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	if (cache) {
 		cache->drop_deform = drop_deform;
-		status = solve(ctx, &done, o, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, &r);
+		status = solve(
+		    ctx, &done, o, cache, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, &r);
 	} else {
-		status = solve(ctx, &done, o, ctx, &own, &r);
+		status = solve(ctx, &done, o, NULL, ctx, &own, &r);
 		mr_deform_free(own.deform);
 	}
 	MR_TRY(status);

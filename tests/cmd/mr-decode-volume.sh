@@ -29,6 +29,27 @@ bent cylinder z '--translate 0,0,1' ''
 bent cylinder z '--translate 0,0,-1' ''
 bent cylinder z '--rotate 0,0,1,20 --scale 1.5' ''
 
+echo 'handles that turn all the way around are where they were'
+bent sphere z '--rotate 0,1,0,720' ''
+echo 'a translation may turn it inside out'
+bent cylinder z '--translate 0,0,-9' ''
+
+echo 'a pose that goes on is judged as a whole, and at any gain'
+bent cylinder z '--rotate 0,0,1,90' '--rotations linear'
+mr-pose --rotate 0,0,1,90 rest.mrs | mr-solve --rotations linear | mr-pose --translate 0,0,0.01 | mr-solve |
+    mr-decode 2>&1 >/dev/null | grep volume
+mr-pose --rotate 0,0,1,90 rest.mrs | mr-solve --rotations linear | mr-decode --gain 1.5 2>&1 >/dev/null | grep volume
+mr-pose --rotate 0,0,1,90 rest.mrs | mr-solve --rotations linear | mr-decode -q | mr-pose --translate 0,0,0.01 | mr-solve |
+    mr-decode --stats - 2>&1 >/dev/null | sed 's/.*"volume":\([^,}]*\).*/decoded between: \1/; s/\(1.00\).*/\1/' | tail -1
+
+echo "parts count that are closed, whichever way they turn, as do all others"
+mr-make cylinder -o tube.mrs
+mr-make plane -n 9 | mr-transform --translate 5,0,0 -o sheet.mrs
+mr-export -q -f off - <tube.mrs | awk 'NF == 4 { print $1, $2, $4, $3; next } { print }' | mr-import - | mr-transform --translate 9,0,0 -o inward.mrs
+for other in sheet inward; do
+	mr-cat --append tube.mrs $other.mrs | mr-smooth | mr-remesh | ends z | mr-encode | mr-pose --rotate 0,0,1,90 |
+	    mr-solve --rotations linear | mr-decode 2>&1 >/dev/null | grep volume
+done
 echo "a surface with a boundary encloses none"
 bent plane x '--rotate 0,0,1,90' '--rotations linear'
 
@@ -40,3 +61,10 @@ echo 'a control mesh that is posed does it to its displaced surface'
 mr-make cylinder --points 3000 -o points.mrs
 mr-make cylinder -n 500 | mr-export -f off - | mr-import -q -l control - | mr-cat --merge - points.mrs | mr-sample -q |
     ends z | mr-pose --rotate 0,0,1,90 | mr-solve --rotations linear | mr-decode --stats stats.json 2>&1 >/dev/null | grep volume
+
+echo 'a handle that turns has vertices enough to hold that, or it is said'
+mr-make torus -n 3000 | mr-smooth -q | mr-remesh -q -r 6 | mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.95 |
+    mr-encode -o few.mrs
+mr-pose --rotate 0,1,0,20 --frames 3 few.mrs | mr-solve 2>&1 >/dev/null | grep handle
+mr-pose --translate 0,0,0.1 few.mrs | mr-solve 2>&1 >/dev/null | grep -c handle
+mr-solve --basis few.mrs | mr-encode | mr-pose --rotate 0,1,0,20 | mr-decode 2>&1 >/dev/null | grep turns

@@ -23,6 +23,7 @@ echo "tube $(figure tube.mrs euler) $(figure tube.mrs boundary_loops) $(figure t
 mr-make plane -n 100 >plane.mrs
 mr-info plane.mrs
 echo "without a search: $(mr-info --no-intersections --json torus.mrs | grep -c '"intersecting_pairs":null')"
+echo "in words: $(mr-info --no-intersections torus.mrs | grep flaws)"
 
 # a frame a line; a delta reports what it holds
 mr-cat sphere.mrs torus.mrs | mr-info --json | grep -c '^{"frame":[12],"name":"[a-z]*","key":true,.*}$'

@@ -58,6 +58,8 @@ cp t.txt t.mtl kept
 refused 'mr-smooth -o scene.fbx t.mrs'
 refused 'mr-smooth --stats t.obj -o out.mrs t.mrs'
 refused 'mr-info --stats s.mrs t.mrs'
+refused 'mr-smooth --stats s.mrs -o out.mrs t.mrs'
+refused 'mr-smooth --stats s.mrs t.mrs'
 refused 'mr-info -o t.obj t.mrs'
 refused 'mr-compare -o s.mrs t.mrs t.mrs'
 refused 'mr-info -o t.txt t.txt'
