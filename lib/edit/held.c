@@ -127,7 +127,7 @@ is_rigid(const fit *f)
 	return !f->given && fabs(mr_mat3_determinant(&f->yx) - 1) < little;
 }
 
-/* Whether the maps ask for no other volume: handles turn, or are where they were.  far: that is no move. */
+/* keeps_volume of mr_held: handles turn, or are where they were.  far: that is no move. */
 static bool
 keeps_volume(const fit *fits, size_t regions, double far, bool *turned)
 {

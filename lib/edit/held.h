@@ -25,7 +25,7 @@ typedef struct mr_held {
 	size_t faceless; /* constrained vertices without a face, which stand on no surface, and are not where
 	                  * they belong: not counted above */
 	bool turned;     /* a map turns against the lowest one */
-	bool keeps_volume; /* no map scales, and none but translates: that stretches what is between */
+	bool keeps_volume; /* no map scales, nor do they translate alone, which stretches what is between */
 } mr_held;
 
 /*

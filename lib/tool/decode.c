@@ -312,7 +312,8 @@ regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, cons
 	return MR_OK;
 }
 
-/* What posing it has done to the surface over d.  m: at a gain of 1; foot: what that stood on. */
+/* What posing it has done to the surface over d.  m: its mesh at a gain of 1; foot: what
+ * that stood on. */
 static mr_status
 look_at_control(mr_ctx *ctx, const mr_moved *m, const mr_domain *d, const mr_mesh *control, const mr_v3 *foot)
 {
