@@ -232,7 +232,7 @@ tell_held(mr_ctx *ctx, const mr_held *h, const mr_mesh *on, double share)
 		   "mr-decode --gain scales all of them, mr-transform a whole model");
 }
 
-static const double MUCH = 0.1;
+static const double MUCH = 0.1; /* of the volume: fitted rotations keep nine tenths of what is free */
 
 /* What would have kept more of the volume. */
 static mr_status
