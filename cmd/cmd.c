@@ -228,34 +228,20 @@ append_word(mr_text *line, const char *word)
 	mr_text_add(line, quote ? " '%s'" : " %s", word);
 }
 
-/*
- * "mr 1.0: mr-smooth -t 20 -l mesh".  Other options that all tools share stay out of it: they
- * do not change the result, and -j must not change a byte.  Every key frame has the line: of many names, and
- * of a list that fills a page, the first stand in it, and how many more there were.
- */
+/* "mr 1.0: mr-smooth -t 20 -l mesh".  Other options that all tools share stay out of it: they do not change
+ * the result.  Every key frame has the line, and there may be as many as names: it is cut to a page. */
 static mr_status
 compose_history(cmd *c, const cmd_args *args)
 {
-	enum { NAMES, OPTIONS };
-	size_t room[] = { [NAMES] = 1024, [OPTIONS] = 4096 }, names = 0, left = 0;
+	enum { MOST = 4096 };
 	mr_text line = { .ctx = &c->ctx };
+	size_t i = 0;
 
 	mr_text_add(&line, "mr " MR_VERSION ": %s", c->name);
-	for (size_t i = 0; i < args->typed_count; i++) {
-		const char *word = args->typed[i];
-		bool name = names < args->operand_count && word == args->operands[names];
-		size_t *rest = &room[name ? NAMES : OPTIONS], bytes = strlen(word) + 1;
-		names += name;
-		if (bytes > *rest) {
-			left++;
-			*rest = 0;
-		} else {
-			append_word(&line, word);
-			*rest -= bytes;
-		}
-	}
-	if (left)
-		mr_text_add(&line, " ... (%zu word%s more)", left, mr_plural(left));
+	for (; i < args->typed_count && line.n < MOST; i++)
+		append_word(&line, args->typed[i]);
+	if (i < args->typed_count)
+		mr_text_add(&line, " ...");
 	MR_TRY(mr_text_done(&line));
 	make_line(line.s);
 	c->state->history = line.s;

@@ -18,8 +18,8 @@
 
 typedef struct mr_file_format {
 	const char *name;
-	bool binary;          /* what is written is not for a terminal */
-	bool lines;           /* what is read is lines of text throughout */
+	bool binary;                                           /* what is written is not for a terminal */
+	bool lines;                                            /* what is read is lines of text throughout */
 	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by name or suffix only */
 	mr_status (*read)(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 	mr_status (*write)(mr_sink *s, const mr_model *m);           /* NULL: read only */
@@ -30,8 +30,8 @@ typedef struct mr_file_format {
 mr_status mr_model_parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data,
     size_t size, mr_model *m) MR_WARN_UNUSED;
 
-/* Text without the mark that begins UTF-8, that of UTF-16 as UTF-8, and with newlines for ends of lines that are
- * CR alone; what is no text stays as it is.  In the arena where it changes. */
+/* Text without the mark that begins UTF-8, that of UTF-16 as UTF-8, and with newlines for ends of lines that
+ * are CR alone; what is no text stays as it is.  In the arena where it changes. */
 mr_status mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size) MR_WARN_UNUSED;
 
 bool mr_obj_sniff(const unsigned char *data, size_t size);
@@ -40,8 +40,7 @@ mr_status mr_obj_write(mr_sink *s, const mr_model *m);
 
 bool mr_ply_sniff(const unsigned char *data, size_t size);
 mr_status mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
-mr_status mr_ply_write_little(mr_sink *s, const mr_model *m);
-mr_status mr_ply_write_big(mr_sink *s, const mr_model *m);
+mr_status mr_ply_write(mr_sink *s, const mr_model *m);
 mr_status mr_ply_write_ascii(mr_sink *s, const mr_model *m);
 
 /* Whether the size is that of as many triangles as a binary file counts. */
@@ -57,7 +56,6 @@ mr_status mr_stl_write_ascii(mr_sink *s, const mr_model *m);
 bool mr_off_sniff(const unsigned char *data, size_t size);
 mr_status mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_off_write(mr_sink *s, const mr_model *m);
-mr_status mr_off_write_binary(mr_sink *s, const mr_model *m);
 
 bool mr_xyz_sniff(const unsigned char *data, size_t size);
 mr_status mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
@@ -190,28 +188,29 @@ mr_load_double(const unsigned char *p, bool big)
 	return d;
 }
 
+/* A number as little-endian bytes; returns the end. */
 static inline char *
-mr_store32(char *to, uint32_t v, bool big)
+mr_store32(char *to, uint32_t v)
 {
-	v = big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap32(v);
+	v = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? v : __builtin_bswap32(v);
 	memcpy(to, &v, 4);
 	return to + 4;
 }
 
 static inline char *
-mr_store_float(char *to, float f, bool big)
+mr_store_float(char *to, float f)
 {
 	uint32_t v;
 	memcpy(&v, &f, 4);
-	return mr_store32(to, v, big);
+	return mr_store32(to, v);
 }
 
 static inline char *
-mr_store_double(char *to, double d, bool big)
+mr_store_double(char *to, double d)
 {
 	uint64_t v;
 	memcpy(&v, &d, 8);
-	v = big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap64(v);
+	v = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? v : __builtin_bswap64(v);
 	memcpy(to, &v, 8);
 	return to + 8;
 }

@@ -133,9 +133,9 @@ set_bounds(glb *w, size_t accessor, const double *low, const double *high, size_
 static char *
 put_floats(char *to, mr_v3 a)
 {
-	to = mr_store_float(to, (float)a.x, false);
-	to = mr_store_float(to, (float)a.y, false);
-	return mr_store_float(to, (float)a.z, false);
+	to = mr_store_float(to, (float)a.x);
+	to = mr_store_float(to, (float)a.y);
+	return mr_store_float(to, (float)a.z);
 }
 
 static mr_v3
@@ -389,8 +389,8 @@ put_texcoords(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accesso
 		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : NULL;
 		if (v->corner[i] != MR_NONE)
 			uv = mr_corner_texcoord(m, v->corner[i]);
-		to = mr_store_float(to, uv ? (float)uv[0] : 0, false);
-		to = mr_store_float(to, uv ? (float)(1 - uv[1]) : 0, false);
+		to = mr_store_float(to, uv ? (float)uv[0] : 0);
+		to = mr_store_float(to, uv ? (float)(1 - uv[1]) : 0);
 	}
 	return MR_OK;
 }
@@ -429,7 +429,7 @@ put_tangents(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor
 		if (!mr_is_direction(t)) /* a triangle without area: any */
 			t = mr_cross(n, fabs(n.x) < 0.5 ? mr_vec(1, 0, 0) : mr_vec(0, 1, 0));
 		to = put_floats(to, mr_unit(t));
-		to = mr_store_float(to, (float)side, false);
+		to = mr_store_float(to, (float)side);
 	}
 	return MR_OK;
 }
@@ -459,7 +459,7 @@ put_numbers(glb *w, const mr_vertex_set *v, size_t *accessor)
 
 	MR_TRY(new_values(w, v->count, 4, MR_GLTF_UNSIGNED_SHORT, "VEC2", &to, accessor));
 	for (size_t i = 0; i < v->count; i++)
-		to = mr_store32(to, (uint32_t)(w->numbers + v->vertex[i]), false);
+		to = mr_store32(to, (uint32_t)(w->numbers + v->vertex[i]));
 	return MR_OK;
 }
 
@@ -526,7 +526,7 @@ put_indices(glb *w, const mr_sets *s, size_t first, size_t last, size_t *accesso
 	MR_TRY(new_view(w, 12 * (last - first), MR_GLTF_ELEMENTS, &view, &to));
 	for (size_t i = first; i < last; i++)
 		for (size_t k = 0; k < 3; k++)
-			to = mr_store32(to, s->index[3 * (size_t)s->face[i] + k], false);
+			to = mr_store32(to, s->index[3 * (size_t)s->face[i] + k]);
 	*accessor = new_accessor(w, view, MR_GLTF_UNSIGNED_INT, 3 * (last - first), "SCALAR");
 	return MR_OK;
 }
@@ -604,13 +604,13 @@ put_frames(glb *w, size_t targets, size_t *input, size_t *output)
 
 	MR_TRY(new_view(w, 4 * frames, 0, &view, &to));
 	for (size_t i = 0; i < frames; i++)
-		to = mr_store_float(to, (float)((double)i / FRAMES_A_SECOND), false);
+		to = mr_store_float(to, (float)((double)i / FRAMES_A_SECOND));
 	*input = new_accessor(w, view, MR_GLTF_FLOAT, frames, "SCALAR");
 	set_bounds(w, *input, &low, &high, 1);
 	MR_TRY(new_view(w, 4 * frames * targets, 0, &view, &to));
 	for (size_t i = 0; i < frames; i++)
 		for (size_t k = 0; k < targets; k++)
-			to = mr_store_float(to, i == k + 1 ? 1 : 0, false);
+			to = mr_store_float(to, i == k + 1 ? 1 : 0);
 	*output = new_accessor(w, view, MR_GLTF_FLOAT, frames * targets, "SCALAR");
 	return MR_OK;
 }
@@ -795,7 +795,7 @@ put_lists(glb *w)
 static void
 put_word(mr_sink *s, size_t n)
 {
-	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)n, false));
+	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)n));
 }
 
 /* Header, JSON filled up with blanks, bytes. */

@@ -5,8 +5,6 @@
  */
 #include "formats/format.h"
 
-typedef enum order { ASCII, LITTLE, BIG } order;
-
 /* Types of properties, and the numbers that they hold; whole ones but the last two. */
 typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
 
@@ -20,7 +18,7 @@ static const struct {
 typedef struct output {
 	mr_sink *s;
 	const mr_model *m;
-	order order;
+	bool text;
 	type *type; /* of each property of the model */
 	mr_polygons faces;
 	type count; /* of the lengths of lists: bytes where they can be */
@@ -29,25 +27,23 @@ typedef struct output {
 /* ---- numbers ---- */
 
 static char *
-number(char *to, double x, type t, order o)
+number(char *to, double x, type t, bool text)
 {
-	bool big = o == BIG;
-
-	if (o == ASCII) {
+	if (text) {
 		to = mr_real_write(to, x);
 		*to++ = ' ';
 		return to;
 	}
 	if (t == FLOAT)
-		return mr_store_float(to, (float)x, big);
+		return mr_store_float(to, (float)x);
 	if (t == DOUBLE)
-		return mr_store_double(to, x, big);
+		return mr_store_double(to, x);
 	if (t == INT || t == UINT)
-		return mr_store32(to, x < 0 ? (uint32_t)(int32_t)x : (uint32_t)x, big);
+		return mr_store32(to, x < 0 ? (uint32_t)(int32_t)x : (uint32_t)x);
 	if (t == SHORT || t == USHORT) {
 		unsigned v = x < 0 ? (unsigned)(int)x : (unsigned)x;
-		to[big] = (char)(v & 255);
-		to[!big] = (char)(v >> 8 & 255);
+		to[0] = (char)(v & 255);
+		to[1] = (char)(v >> 8 & 255);
 		return to + 2;
 	}
 	*to = (char)(x < 0 ? (unsigned)(int)x : (unsigned)x);
@@ -55,10 +51,10 @@ number(char *to, double x, type t, order o)
 }
 
 static char *
-count(char *to, uint32_t n, order o)
+count(char *to, uint32_t n, bool text)
 {
-	if (o != ASCII)
-		return mr_store32(to, n, o == BIG);
+	if (!text)
+		return mr_store32(to, n);
 	to = mr_count_write(to, n);
 	*to++ = ' ';
 	return to;
@@ -70,7 +66,7 @@ put_numbers(const output *w, const double *x, size_t n)
 	char *to = mr_sink_room(w->s);
 
 	for (size_t i = 0; i < n; i++)
-		to = number(to, x[i], DOUBLE, w->order);
+		to = number(to, x[i], DOUBLE, w->text);
 	mr_sink_fill(w->s, to);
 }
 
@@ -78,7 +74,7 @@ put_numbers(const output *w, const double *x, size_t n)
 static void
 end_row(const output *w)
 {
-	if (w->order == ASCII)
+	if (w->text)
 		w->s->buffer[w->s->used - 1] = '\n';
 }
 
@@ -100,24 +96,23 @@ is_text_of_float(double x)
 }
 
 static bool
-holds(type t, double x, order o)
+holds(type t, double x, bool text)
 {
 	if (t == FLOAT)
-		return isnan(x) || mr_as_float(x) == x ||
-		       (o == ASCII && x != floor(x) && is_text_of_float(x));
+		return isnan(x) || mr_as_float(x) == x || (text && x != floor(x) && is_text_of_float(x));
 	return t == DOUBLE || (x >= types[t].least && x <= types[t].most && x == floor(x));
 }
 
 /* The type that the property came with, or doubles where that does not hold its values. */
 static type
-choose_type(const mr_property *p, size_t n, order o)
+choose_type(const mr_property *p, size_t n, bool text)
 {
 	type t = CHAR;
 
 	while (t < DOUBLE && strcmp(types[t].name, p->type))
 		t++;
 	for (size_t i = 0; i < n; i++)
-		if (!holds(t, mr_property_value(p, i), o))
+		if (!holds(t, mr_property_value(p, i), text))
 			return DOUBLE;
 	return t;
 }
@@ -132,7 +127,7 @@ choose_types(output *w)
 		return MR_EMEM;
 	for (size_t i = 0; i < m->properties; i++) {
 		const mr_property *p = &m->property[i];
-		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv, w->order);
+		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv, w->text);
 	}
 	return MR_OK;
 }
@@ -144,7 +139,7 @@ put_properties(const output *w, char element, size_t i)
 		const mr_property *p = &w->m->property[k];
 		if (p->shape.element == element)
 			mr_sink_fill(
-			    w->s, number(mr_sink_room(w->s), mr_property_value(p, i), w->type[k], w->order));
+			    w->s, number(mr_sink_room(w->s), mr_property_value(p, i), w->type[k], w->text));
 	}
 }
 
@@ -254,10 +249,9 @@ put_face_lines(const output *w)
 static void
 put_header(const output *w)
 {
-	static const char *const names[] = { "ascii", "binary_little_endian", "binary_big_endian" };
 	const mr_model *m = w->m;
 
-	mr_print(w->s, "ply\nformat %s 1.0\n", names[w->order]);
+	mr_print(w->s, "ply\nformat %s 1.0\n", w->text ? "ascii" : "binary_little_endian");
 	if (m->mtllib.bytes)
 		put_names(w, "mtllib", m->mtllib);
 	if (m->group)
@@ -283,7 +277,7 @@ put_vertex(const output *w, size_t i)
 	if (m->normal)
 		put_numbers(w, &m->normal[i].x, 3);
 	for (size_t k = 0; m->color && k < 4; k++)
-		mr_sink_fill(w->s, number(mr_sink_room(w->s), m->color[4 * i + k], UCHAR, w->order));
+		mr_sink_fill(w->s, number(mr_sink_room(w->s), m->color[4 * i + k], UCHAR, w->text));
 	if (m->texcoord)
 		put_numbers(w, m->texcoord + 2 * i, 2);
 	if (m->scanner)
@@ -298,7 +292,7 @@ put_corners(const output *w, size_t face, const double *value, size_t width)
 {
 	size_t first = mr_polygon_begin(&w->faces, face), end = mr_polygon_begin(&w->faces, face + 1);
 
-	mr_sink_fill(w->s, number(mr_sink_room(w->s), (double)(width * (end - first)), w->count, w->order));
+	mr_sink_fill(w->s, number(mr_sink_room(w->s), (double)(width * (end - first)), w->count, w->text));
 	for (size_t i = first; i < end; i++)
 		put_numbers(w, value + width * mr_polygon_corner(&w->faces, i), width);
 }
@@ -312,10 +306,10 @@ put_face(const output *w, size_t face)
 	const mr_model *m = w->m;
 	mr_sink *s = w->s;
 
-	mr_sink_fill(s, number(mr_sink_room(s), (double)(end - first), w->count, w->order));
+	mr_sink_fill(s, number(mr_sink_room(s), (double)(end - first), w->count, w->text));
 	for (size_t i = first; i < end; i++) {
 		uint32_t h = mr_polygon_corner(&w->faces, i);
-		mr_sink_fill(s, count(mr_sink_room(s), m->t[h / 3].v[h % 3], w->order));
+		mr_sink_fill(s, count(mr_sink_room(s), m->t[h / 3].v[h % 3], w->text));
 	}
 	if (m->corner_texcoord)
 		put_corners(w, face, m->corner_texcoord, 2);
@@ -323,16 +317,16 @@ put_face(const output *w, size_t face)
 		put_corners(w, face, (const double *)m->corner_normal, 3);
 	for (size_t k = 0; k < 4; k++)
 		if (marks[k])
-			mr_sink_fill(s, count(mr_sink_room(s), marks[k][f], w->order));
+			mr_sink_fill(s, count(mr_sink_room(s), marks[k][f], w->text));
 	put_properties(w, 'f', f);
 	end_row(w);
 }
 
 static mr_status
-put(mr_sink *s, const mr_model *m, order o)
+put(mr_sink *s, const mr_model *m, bool text)
 {
 	enum { MOST = 255 };
-	output w = { .s = s, .m = m, .order = o, .count = UCHAR };
+	output w = { .s = s, .m = m, .text = text, .count = UCHAR };
 
 	MR_TRY(choose_types(&w));
 	MR_TRY(mr_faces_of(s, m, &w.faces));
@@ -347,19 +341,13 @@ put(mr_sink *s, const mr_model *m, order o)
 }
 
 mr_status
-mr_ply_write_little(mr_sink *s, const mr_model *m)
+mr_ply_write(mr_sink *s, const mr_model *m)
 {
-	return put(s, m, LITTLE);
-}
-
-mr_status
-mr_ply_write_big(mr_sink *s, const mr_model *m)
-{
-	return put(s, m, BIG);
+	return put(s, m, false);
 }
 
 mr_status
 mr_ply_write_ascii(mr_sink *s, const mr_model *m)
 {
-	return put(s, m, ASCII);
+	return put(s, m, true);
 }

@@ -350,9 +350,9 @@ need_faces(mr_sink *s, const mr_model *m, unsigned keeps)
 static char *
 put_floats(char *to, mr_v3 a)
 {
-	to = mr_store_float(to, (float)a.x, false);
-	to = mr_store_float(to, (float)a.y, false);
-	return mr_store_float(to, (float)a.z, false);
+	to = mr_store_float(to, (float)a.x);
+	to = mr_store_float(to, (float)a.y);
+	return mr_store_float(to, (float)a.z);
 }
 
 mr_status
@@ -363,7 +363,7 @@ mr_stl_write(mr_sink *s, const mr_model *m)
 	MR_TRY(need_faces(s, m, 0));
 	MR_TRY(mr_note_rounded(s, m));
 	mr_put(s, header, sizeof header);
-	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)m->nf, false));
+	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)m->nf));
 	for (size_t f = 0; f < m->nf; f++) {
 		char *to = put_floats(mr_sink_room(s), unit_normal(m, f));
 		for (int k = 0; k < 3; k++)

@@ -266,14 +266,13 @@ MR_API void mr_cache_delete(mr_cache *cache);
 
 typedef enum mr_smooth_method {
 	MR_SMOOTH_IMPLICIT, /* (M + t L) p' = M p, by conjugate gradients: any time in one pass */
-	MR_SMOOTH_EXPLICIT, /* p' = p - t M^-1 L p: a pass may last a quarter of a squared edge length */
 	MR_SMOOTH_TAUBIN    /* a pass forth and one back, so the volume stays: up to 0.15 a pass */
 } mr_smooth_method;
 
 typedef struct mr_smooth_opts {
 	int method;    /* mr_smooth_method */
 	double time;   /* in all, in squared mean edge lengths of the input */
-	size_t passes; /* 0: 1 implicit pass; of the others 8 for each unit of time */
+	size_t passes; /* 0: 1 implicit pass; of Taubin's 8 for each unit of time */
 	bool plain;    /* the same time everywhere, as in the paper; else no more than fits the thickness */
 	const char *layer; /* NULL: base, else mesh */
 } mr_smooth_opts;

@@ -204,26 +204,31 @@ implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
 	return MR_OK;
 }
 
-/* Explicit */
+/* Taubin */
 
-/* A vertex goes at the pace of its area, or where that would overshoot at `limit` of the way to its
- * neighbours' mean. */
-static mr_status
-paces(mr_ctx *ctx, const smoothing *s, double limit, double **pace)
+/* The largest share of the way to the neighbours' mean that a pass may go; on a regular mesh a time of t
+ * squared edges goes 4 t of it. */
+static const double FURTHEST = 0.6, SHARE = 4;
+
+/*
+ * A vertex goes at the pace of its area, or where that would overshoot as far as it may, and then back by mu,
+ * 1 / lambda + 1 / mu = pass band, which is the same for all: where one goes at a part of the pace its mu is
+ * nearer to -lambda.  With one ratio for all, the band of the slow ones would hold all of their noise.
+ */
+static void
+paces(const smoothing *s, double *forth, double *back)
 {
+	static const double pass_band = 0.1; /* Taubin's choice */
+	const double most = s->step * s->edge2, lambda = SHARE * s->step;
 	const mr_sparse *l = &s->l;
-	double *c = MR_NEW(ctx, s->m->nv, double);
 
-	if (!c)
-		return MR_EMEM;
 	for (size_t v = 0; v < s->m->nv; v++) {
 		double sum = 0;
 		for (int e = l->start[v]; e < l->start[v + 1]; e++)
 			sum += l->index[e] == (int)v ? 0 : fabs(l->value[e]);
-		c[v] = s->stays[v] ? 0 : fmin(s->time[v] / s->area[v], limit / sum);
+		forth[v] = s->stays[v] ? 0 : fmin(s->time[v] / s->area[v], FURTHEST / sum);
+		back[v] = forth[v] / (pass_band * lambda * (s->time[v] / most) - 1);
 	}
-	*pace = c;
-	return MR_OK;
 }
 
 typedef struct step_job {
@@ -241,62 +246,20 @@ step(void *arg, size_t begin, size_t end)
 		j->p[v] = mr_axpy(-j->pace[v], j->lp[v], j->p[v]);
 }
 
-/* p -= pace L p */
-static void
-take_step(mr_ctx *ctx, const smoothing *s, const double *pace, mr_v3 *lp, mr_v3 *p)
-{
-	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &lp->x);
-	mr_parallel(ctx, s->m->nv, GRAIN, step, &(step_job){ pace, lp, p });
-}
-
-/* The largest share of the way to the neighbours' mean that a pass may go. */
-static double
-limit_of(int method)
-{
-	return method == MR_SMOOTH_TAUBIN ? 0.6 : 1;
-}
-
-/* On a regular mesh a time of t squared edges goes 4 t of the way to the neighbours' mean. */
-static double
-share_of(double time)
-{
-	return 4 * time;
-}
-
-/*
- * Taubin's step back, mu of 1 / lambda + 1 / mu = pass band, which is the same for all vertices: where one
- * goes at a part of the pace its mu is nearer to -lambda.  With one ratio for all the band of the slow ones
- * is so wide that all of their noise is in it, and grows.
- */
 static mr_status
-paces_back(mr_ctx *ctx, const smoothing *s, const double *pace, double **back)
+taubin(mr_ctx *ctx, const smoothing *s, mr_v3 *p)
 {
-	static const double pass_band = 0.1; /* Taubin's choice */
-	double most = s->step * s->edge2, lambda = share_of(s->step), *c = MR_NEW(ctx, s->m->nv, double);
+	const size_t n = s->m->nv;
+	mr_v3 *lp = MR_NEW(ctx, n, mr_v3);
+	double *pace[] = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) };
 
-	if (!c)
+	if (!lp || !pace[0] || !pace[1])
 		return MR_EMEM;
-	for (size_t v = 0; v < s->m->nv; v++)
-		c[v] = most > 0 ? pace[v] / (pass_band * lambda * (s->time[v] / most) - 1) : 0;
-	*back = c;
-	return MR_OK;
-}
-
-static mr_status explicit(mr_ctx *ctx, const smoothing *s, int method, mr_v3 *p)
-{
-	mr_v3 *lp = MR_NEW(ctx, s->m->nv, mr_v3);
-	double *pace, *back = NULL;
-
-	if (!lp)
-		return MR_EMEM;
-	MR_TRY(paces(ctx, s, limit_of(method), &pace));
-	if (method == MR_SMOOTH_TAUBIN)
-		MR_TRY(paces_back(ctx, s, pace, &back));
-	for (size_t i = 0; i < s->found.passes; i++) {
-		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
-		take_step(ctx, s, pace, lp, p);
-		if (back)
-			take_step(ctx, s, back, lp, p);
+	paces(s, pace[0], pace[1]);
+	for (size_t i = 0; i < 2 * s->found.passes; i++) {
+		mr_progress(ctx, "smoothing", (double)i / (double)(2 * s->found.passes));
+		mr_sparse_apply(ctx, &s->l, NULL, n, 3, &p->x, &lp->x); /* p -= pace L p */
+		mr_parallel(ctx, n, GRAIN, step, &(step_job){ pace[i % 2], lp, p });
 	}
 	return MR_OK;
 }
@@ -305,7 +268,7 @@ static mr_status
 choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 {
 	bool one = opts->method == MR_SMOOTH_IMPLICIT;
-	double least = one ? 1 : fmax(1, ceil(share_of(opts->time) / limit_of(opts->method)));
+	double least = one ? 1 : fmax(1, ceil(SHARE * opts->time / FURTHEST));
 
 	s->found.passes = opts->passes ? opts->passes : one ? 1 : (size_t)fmax(1, ceil(8 * opts->time));
 	if ((double)s->found.passes < least)
@@ -388,8 +351,7 @@ mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out,
 	memcpy(out, m->p, m->nv * sizeof *out);
 	MR_TRY(study(ctx, &s, opts->plain));
 	if (opts->time > 0 && s.edge2 > 0)
-		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, out)
-							  : explicit(ctx, &s, opts->method, out));
+		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, out) : taubin(ctx, &s, out));
 	MR_TRY(measure_rest(ctx, &s, opts->plain, out));
 	if (result)
 		*result = s.found;

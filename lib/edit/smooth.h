@@ -1,5 +1,5 @@
 /*
- * smooth.h -- low-pass filters of the surface: diffusion, implicit and explicit, and Taubin's.
+ * smooth.h -- low-pass filters of the surface: implicit diffusion, and Taubin's.
  *
  * Contract: any mesh with valid indices and finite positions, non-manifold too: cotangent weights need
  * no more than triangles, and the boundary is where an edge has one face.  Boundary vertices and

@@ -27,7 +27,7 @@ for left in 0 64 4096 $((size + 5000)) $((3 * size + 100000)) $((3 * size + 4096
 	cut_while $left mr-cat --no-history big.mrs
 	cut_while $left mr-cat -z big.mrs
 	cut_while $left mr-transform --translate 1,0,0 big.mrs
-	cut_while $left mr-smooth -m explicit big.mrs
+	cut_while $left mr-smooth -m taubin big.mrs
 done
 
 # gzip: a last member that is cut anywhere; what is no member is told, zeros are nothing.

@@ -33,7 +33,7 @@ outputs='mr-cat -o work/out.mrs
 mr-export -f obj work/out
 mr-export -f stl work/out.gz'
 [ -z "$LONG" ] || outputs="$outputs
-$(for format in obj ply ply-ascii ply-big stl-ascii off off-binary xyz pts; do echo "mr-export -q -f $format work/out.gz"; done)
+$(for format in obj ply ply-ascii stl-ascii off xyz pts; do echo "mr-export -q -f $format work/out.gz"; done)
 mr-info -o work/out"
 echo "$outputs" >outputs
 ends="HUP ILL TRAP ABRT BUS FPE USR1 SEGV USR2 PIPE ALRM TERM XCPU VTALRM PROF SYS 16 29 30 34 50 64"

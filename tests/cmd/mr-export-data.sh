@@ -13,7 +13,7 @@ for file in "$DATA"/meshes/*.* "$DATA"/points/*.*; do
 	esac
 	mr-import -q "$file" -o a.mrs || continue
 	mr-export -q -i a.mrs -f ply a
-	for format in ply-ascii ply-big; do
+	for format in ply-ascii; do
 		mr-export -q -i a.mrs -f $format b
 		mr-import -q b | mr-export -q -f ply c
 		differ a c

@@ -1,7 +1,7 @@
 # What a format cannot hold is said under -v and counted under --stats.
 printf 'v 0.1 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 1 0 0 0 1\nvt 0 0\nvt 1 0\nvt 0 1\ng a\nf 1/1 2/2 3/3\n' >a.obj
 mr-import a.obj -o a.mrs
-for format in stl stl-ascii off off-binary obj ply xyz pts; do
+for format in stl stl-ascii off obj ply xyz pts; do
 	echo "-- $format"
 	mr-export -v -i a.mrs -f $format --stats stats out 2>&1
 	sed 's/"seconds":[^,]*,"peak_bytes":[0-9]*//' stats
@@ -9,7 +9,7 @@ done
 echo "-- far from the origin a float is coarse"
 for far in 0 1 100 1e6; do
 	echo "by $far"
-	for format in stl off-binary glb; do
+	for format in stl glb; do
 		mr-transform --translate $far,0,0 a.mrs | mr-export -f $format out 2>&1 | grep float32
 	done
 done

@@ -8,7 +8,7 @@ mr-make sphere -n 300 -o sphere.mrs
 echo '-- every format that keeps doubles gives the positions back, bit for bit'
 mr-export -i torus.mrs first.ply
 mr-import first.ply -o first.mrs
-for format in obj ply ply-big ply-ascii off; do
+for format in obj ply ply-ascii off; do
 	mr-export -i first.mrs -f $format out
 	mr-import out | mr-export -f ply second.ply
 	same $format first.ply second.ply

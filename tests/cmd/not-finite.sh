@@ -13,7 +13,7 @@ struct.pack_into("<I", stream, head + 44, zlib.crc32(stream[head:head + 64 + siz
 open("inf.mrs", "wb").write(stream)
 END
 mr-cat --no-history inf.mrs | cmp - inf.mrs && echo 'what is only passed on stays'
-for format in obj ply ply-ascii stl off off-binary xyz pts pwn glb; do
+for format in obj ply ply-ascii stl off xyz pts pwn glb; do
 	mr-export -f $format out <inf.mrs 2>err
 	echo "$format: exit $?, $(ls out 2>/dev/null | wc -l) files, $(cut -d: -f2- err)"
 done
@@ -44,7 +44,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvt 1e300 0\nvt 1 1\nvt 0 1\nf 1/1 2/2 3/3\n' 
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1e300 0 0\nf 1//1 2//1 3//1\n' >steep.obj
 for model in far steep; do
 	mr-import $model.obj -o model.mrs
-	for format in obj ply-ascii off off-binary glb; do
+	for format in obj ply-ascii off glb; do
 		mr-export -f $format out -i model.mrs 2>err
 		echo "$format: exit $?, $(cut -d: -f2- err)"
 	done

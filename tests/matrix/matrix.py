@@ -55,7 +55,6 @@ JOBS = [
     ("normals-cloud", "cloud", "mr-normals", c.unit_normals),
     ("choose", "import", "mr-select --reset --fixed all --handle 1=above:y,0.5", c.chosen),
     ("smooth", "import", "mr-smooth", c.same_triangles(["base", "mesh"], "base")),
-    ("explicit", "import", "mr-smooth -m explicit", c.same_triangles(["base", "mesh"], "base")),
     ("taubin", "import", "mr-smooth -m taubin", c.same_triangles(["base", "mesh"], "base")),
     ("remesh", "smooth", "mr-remesh", c.same_topology("base", "base")),
     ("remesh-rough", "import", "mr-remesh", c.same_topology("base", "mesh", "base")),
@@ -90,7 +89,7 @@ JOBS = [
     ("surface", "sample", "mr-decode", c.heights),
 ]
 
-SECOND = {"repair", "cat", "off", "glb", "xyz", "split-cloud", "explicit", "taubin", "adaptive", "flatten", "arap", "multigrid", "longest",
+SECOND = {"repair", "cat", "off", "glb", "xyz", "split-cloud", "taubin", "adaptive", "flatten", "arap", "multigrid", "longest",
           "fit-mesh", "fit-local", "robust", "coarse-creases", "choose", "remesh-rough"}
 BETWEEN = tuple(f"size-1e{e}.obj" for e in (-200, -29, -12, 12, 29, 200))
 
