@@ -88,7 +88,7 @@ say = $(if $(V),,@echo "  $(1) $@";)
 
 all: $(TOOLS)
 
-$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd figures options place signals terminal) $(BUILD)/libmr.a
+$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd figures findings options place signals terminal) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS)
 
@@ -103,7 +103,7 @@ $(patsubst %,$(BUILD)/%.o,$(MPI)): | setup
 $(BUILD)/cmd/mpi-solve.c.o: cmd/mr-solve.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,compile)$(CC) $(ALL_C) -Dmain=mr_solve_main -MMD -MP -c -o $@ $<
-$(BUILD)/mpi/mr-solve-mpi: $(patsubst %,$(BUILD)/%.o,$(MPI) $(patsubst %,cmd/%.c,mpi-solve cmd figures options place signals)) $(BUILD)/libmr.a
+$(BUILD)/mpi/mr-solve-mpi: $(patsubst %,$(BUILD)/%.o,$(MPI) $(patsubst %,cmd/%.c,mpi-solve cmd figures findings options place signals)) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS) -ldmumps $$($(MPICC) --showme:link)
 

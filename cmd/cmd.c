@@ -3,6 +3,7 @@
 
 #include "base/memory.h"
 #include "base/text.h"
+#include "findings.h"
 #include "formats/outname.h"
 #include "formats/suffix.h"
 #include "mesh/validate.h"
@@ -35,6 +36,8 @@ struct cmd_state {
 	place_guard places;
 
 	mr_text figures; /* of the frame at work, as they go into the line of --stats */
+	findings found;  /* of the frame at work */
+	findings known;  /* that this tool said since the last key */
 
 	const char *frame_name;
 	bool lost_key;         /* the key failed: its deltas go with it */
@@ -170,6 +173,43 @@ show_warning(void *user, const char *text)
 
 	snprintf(sentence, sizeof sentence, "warning: %s", text);
 	say_of_frame(user, sentence);
+}
+
+static void
+collect_finding(void *user, const mr_finding *f)
+{
+	cmd *c = user;
+	mr_kept_finding k;
+
+	mr_finding_keep(&k, c->name, f);
+	findings_add(&c->state->found, &k);
+}
+
+static void
+add_all(findings *all, const findings *more)
+{
+	for (size_t i = 0; i < more->n; i++)
+		findings_add(all, &more->k[i]);
+}
+
+/* Says what was found in the frame at work and is news, and lets the frame carry all that is known of it. */
+static mr_status
+settle_findings(cmd *c, mr_frame *f)
+{
+	struct cmd_state *s = c->state;
+	findings all = { 0 };
+
+	if (f->key)
+		s->known.n = 0;
+	if (!s->found.n && !s->known.n)
+		return MR_OK;
+	MR_TRY(findings_read(&c->ctx, f, &all));
+	add_all(&all, &s->known);
+	if (!c->quiet)
+		findings_say(&s->found, &all, show_warning, c);
+	add_all(&s->known, &s->found);
+	add_all(&all, &s->found);
+	return c->tool->sink ? MR_OK : findings_put(&c->ctx, f, &all);
 }
 
 /* After a second of work, at most ten times a second. */
@@ -559,6 +599,25 @@ cmd_figure(cmd *c, const char *name, double value)
 	mr_text_number(t, value);
 }
 
+/* ,"findings":{"folded":12}: counts by kind, where there are any. */
+static void
+add_findings(mr_text *line, const findings *found)
+{
+	size_t count[MR_FINDING_KINDS] = { 0 };
+	const char *before = ",\"findings\":{";
+
+	for (size_t i = 0; i < found->n; i++)
+		count[found->k[i].f.kind] += found->k[i].f.count ? found->k[i].f.count : 1;
+	for (int kind = 0; kind < MR_FINDING_KINDS; kind++)
+		if (count[kind]) {
+			mr_text_add(line, "%s\"%s\":%zu", before, mr_finding_name((mr_finding_kind)kind),
+			    count[kind]);
+			before = ",";
+		}
+	if (found->n)
+		mr_text_add(line, "}");
+}
+
 /* One line of --stats: a JSON object. */
 static mr_status
 print_stats(cmd *c, double seconds)
@@ -574,7 +633,9 @@ print_stats(cmd *c, double seconds)
 	mr_text_json(&line, name, strlen(name));
 	mr_text_add(&line, ",\"seconds\":%.6f,\"peak_bytes\":%.0f", seconds, mr_memory_peak());
 	MR_TRY(mr_text_done(&s->figures));
-	mr_text_add(&line, "%s}\n", s->figures.s ? s->figures.s : "");
+	mr_text_add(&line, "%s", s->figures.s ? s->figures.s : "");
+	add_findings(&line, &s->found);
+	mr_text_add(&line, "}\n");
 	MR_TRY(mr_text_done(&line));
 	if (fputs(line.s, s->stats) < 0 || fflush(s->stats))
 		die(c, fail_system(c, s->stats_path));
@@ -590,6 +651,7 @@ begin_frame(cmd *c, const char *name)
 	c->state->frame_name = name;
 	c->state->started = mr_seconds();
 	c->state->figures = (mr_text){ .ctx = &c->ctx };
+	c->state->found.n = 0;
 }
 
 mr_status
@@ -603,6 +665,7 @@ cmd_send(cmd *c, const mr_frame *f)
 		if (!c->state->no_history)
 			MR_TRY(mr_frame_add_history(&c->ctx, &with_history, c->state->history));
 	}
+	MR_TRY(settle_findings(c, &with_history));
 	MR_TRY(mr_check_made(&c->ctx, &with_history));
 	MR_TRY(mr_writer_put(&c->ctx, c->state->writer, &with_history));
 	if (c->tool->source) {
@@ -620,7 +683,9 @@ work_on(cmd *c, mr_frame *f)
 	if (!tool->sink && !c->state->no_history)
 		MR_TRY(mr_frame_add_history(&c->ctx, f, c->state->history));
 	MR_TRY(tool->frame(c, f));
-	return tool->sink || tool->sends ? MR_OK : cmd_send(c, f);
+	if (tool->sink)
+		return settle_findings(c, f);
+	return tool->sends ? MR_OK : cmd_send(c, f);
 }
 
 static void
@@ -849,7 +914,8 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	parse_command_line(&c, argc, argv);
 	if (state.threads)
 		c.ctx.threads = (unsigned)state.threads;
-	c.ctx.listener = (mr_listener){ .warn = c.quiet ? NULL : show_warning,
+	c.ctx.listener = (mr_listener){ .found = c.quiet && !state.stats_path ? NULL : collect_finding,
+		.warn = c.quiet ? NULL : show_warning,
 		.note = c.verbose ? show_note : NULL,
 		.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
 		.user = &c };

@@ -75,9 +75,66 @@ MR_API void mr_ctx_delete(mr_ctx *ctx);
 /* The sentence of the last failure, until the next; empty before the first. */
 MR_API const char *mr_error(const mr_ctx *ctx);
 
+typedef struct mr_v3 { double x, y, z; } mr_v3;
+
+/* Findings: what a user should know of a result that is given all the same (man/mr-findings.7). */
+typedef enum mr_finding_kind {
+	/* of a surface, found by comparing it with what it was */
+	MR_FOLDED,   /* edges fold over */
+	MR_CROSSING, /* faces intersect others near them */
+	MR_COLLIDED, /* faces intersect others far from them along the surface */
+	MR_TORN,     /* edges stretch or shrink more than their base */
+	MR_COARSE,   /* edges are too long to bend as their base does */
+	MR_APART,    /* vertices where parts touched have come apart */
+	MR_MISSED,   /* constrained vertices miss their place */
+	MR_VOLUME,   /* the enclosed volume has changed */
+	MR_SHRUNK,   /* the area has shrunk */
+	MR_DISTANT,  /* a place is far from what was there */
+	MR_GONE,     /* parts are gone, or nearly */
+	/* of a frame or a file, by what is not there any more */
+	MR_LOST,     /* data that the result or the format has no place for */
+	MR_STALE,    /* the work of an earlier tool no longer fits, and is dropped */
+	MR_ROUNDED,  /* numbers are rounded or clipped */
+	MR_GUESSED,  /* a file can be read in two ways */
+	MR_MISSING,  /* a file that another names is not there */
+	MR_REPAIRED, /* faces or vertices of a file are changed */
+	/* of the work, which its algorithm alone knows */
+	MR_UNCERTAIN, /* the topology may be another */
+	MR_UNREACHED, /* points lie off the surface */
+	MR_BARE,      /* surface lies off the points */
+	MR_SCATTERED, /* points are noisy, in rows, or fill a volume */
+	MR_ROUGH,     /* heights are rough or fold */
+	MR_FILLED,    /* heights or normals were not found and are interpolated */
+	MR_INEXACT,   /* a solver stopped short of its tolerance */
+	MR_UNHELD,    /* nothing holds a part, or nothing can move */
+	MR_HANDLE,    /* a handle cannot do what it is asked to */
+	MR_LIMIT,     /* an option could not be met */
+	MR_LAYER,     /* another layer was worked on last */
+	MR_FINDING_KINDS
+} mr_finding_kind;
+
+/* Strings belong to who reports it, until the call returns. */
+typedef struct mr_finding {
+	mr_finding_kind kind;
+	const char *layer; /* NULL: of none */
+	const char *what;  /* a few words where the kind does not say all, NULL: none */
+	size_t count, of;  /* how many, of how many; 0: not counted */
+	double value;      /* a share, or a number as the kind has it; 0: none */
+	double limit;      /* a length that would do, for the remedy; 0: none */
+	bool placed;       /* at the worst place: vertex (MR_NO_VERTEX: none) and where that is */
+	uint32_t vertex;
+	mr_v3 at;
+} mr_finding;
+
+#define MR_NO_VERTEX UINT32_MAX
+
+/* "folded", as streams and --stats have it; NULL beyond the last. */
+MR_API const char *mr_finding_name(mr_finding_kind kind);
+
 /* Who wants to hear; NULLs do not. */
 typedef struct mr_listener {
-	void (*warn)(void *user, const char *text);                   /* what is poor in a result */
+	void (*found)(void *user, const mr_finding *finding);         /* what is poor in a result */
+	void (*warn)(void *user, const char *text);                   /* the same as a sentence */
 	void (*note)(void *user, const char *text);                   /* remarks, as of -v */
 	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1 */
 	void *user;                                                   /* passed to all */
@@ -95,8 +152,6 @@ MR_API mr_mark mr_mark_take(const mr_ctx *ctx);
 MR_API void mr_mark_release(mr_ctx *ctx, mr_mark mark);
 
 /* Meshes */
-
-typedef struct mr_v3 { double x, y, z; } mr_v3;
 
 typedef struct mr_tri { uint32_t v[3]; } mr_tri; /* counter-clockwise, seen from outside */
 

@@ -150,6 +150,20 @@ mr_warn(mr_ctx *ctx, const char *format, ...)
 	va_end(args);
 }
 
+void
+mr_found(const mr_ctx *ctx, const mr_finding *finding)
+{
+	if (ctx->listener.found)
+		ctx->listener.found(ctx->listener.user, finding);
+}
+
+void
+mr_lost(const mr_ctx *ctx, const char *layer, size_t count, const char *what)
+{
+	if (count > 0)
+		mr_found(ctx, &(mr_finding){ .kind = MR_LOST, .layer = layer, .what = what, .count = count });
+}
+
 mr_status
 mr_permit(mr_ctx *ctx, const char *path, bool writes)
 {

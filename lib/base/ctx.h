@@ -75,7 +75,20 @@ mr_status mr_fail_as(mr_ctx *ctx, const mr_ctx *other, mr_status status);
 /* A remark for the user who asked for them. */
 void mr_note(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 
-/* What is poor in a result that is given all the same, for every user. */
+/* Reports what is poor in a result that is given all the same. */
+void mr_found(const mr_ctx *ctx, const mr_finding *finding);
+
+/* Whether anybody listens: else nothing need be looked for. */
+static inline bool
+mr_listens(const mr_ctx *ctx)
+{
+	return ctx->listener.found != NULL;
+}
+
+/* Reports `count` (0: none, and nothing is reported) of `what` as lost; layer may be NULL. */
+void mr_lost(const mr_ctx *ctx, const char *layer, size_t count, const char *what);
+
+/* What is poor in a result, as a sentence: mr_found is to take its place. */
 void mr_warn(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
 
 /* Asks whether a file may be read, or be written under that name. */

@@ -618,6 +618,7 @@ mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 				MR_TRY(join_layer(ctx, &j, f));
 		}
 	MR_TRY(join_lines(ctx, &j, "history", f));
+	MR_TRY(join_lines(ctx, &j, "findings", f));
 	MR_TRY(join_lines(ctx, &j, "pending", f));
 	MR_TRY(mr_layer_join_latest(ctx, frames, n, f));
 	*out = f;

@@ -321,8 +321,8 @@ merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 static bool
 is_joined(const mr_column *c)
 {
-	return !*c->layer &&
-	       (!strcmp(c->name, "history") || !strcmp(c->name, "latest") || !strcmp(c->name, "pending"));
+	return !*c->layer && (!strcmp(c->name, "history") || !strcmp(c->name, "findings") ||
+				 !strcmp(c->name, "latest") || !strcmp(c->name, "pending"));
 }
 
 mr_status

@@ -1,0 +1,295 @@
+/* The one table of what is said of findings. */
+#include "findings.h"
+
+#include <math.h>
+
+/*
+ * In a sentence {n} is the count, {of} " of 12" where that is known, {s} the plural of what is counted,
+ * {layer}, {what}, {tool}, {pct} the value in percent, {value}, {limit}; {at} " at vertex 5 (x, y, z)".
+ */
+typedef struct entry {
+	verdict worst; /* what a frame with it is at most */
+	double
+	    unusable; /* the share, count over of or the value, from which a poor one is unusable; 0: none */
+	const char *sentence, *remedy;
+	const char *meaning; /* for mr-findings(7) */
+} entry;
+
+static const entry table[MR_FINDING_KINDS] = {
+	[MR_FOLDED] = { VERDICT_POOR, 0.02, "{layer}: {n} more folded edge{s}{at}", "",
+	    "Faces meet at an edge by more than 170 degrees, and did not before." },
+	[MR_CROSSING] = { VERDICT_POOR, 0.02, "{layer}: {n} more intersecting pair{s} of near faces{at}", "",
+	    "Faces pass through others near them along the surface, and did not before." },
+	[MR_COLLIDED] = { VERDICT_POOR, 0,
+	    "{layer}: limbs or sheets meet: {n} intersecting pair{s} of far faces{at}", "",
+	    "Faces pass through others far from them along the surface, or of another part." },
+	[MR_TORN] = { VERDICT_POOR, 0.1,
+	    "{layer}: detail is torn: {n}{of} edge{s} change by over twice what base does{at}", "",
+	    "Edges of the mesh have become twice as long, or half as long, where no edge of base has." },
+	[MR_COARSE] = { VERDICT_POOR, 0.5, "{layer}: {n}{of} edge{s} are too long to bend with base{at}",
+	    "mr-subdivide --longest {limit} splits them first",
+	    "The middles of long edges miss base by over 1 % of the diagonal." },
+	[MR_APART] = { VERDICT_POOR, 0, "{layer}: {n}{of} vert{ex} where parts touch came apart{at}", "",
+	    "Parts, or the sides of a slit, touched and are over 0.5 % of the diagonal apart." },
+	[MR_MISSED] = { VERDICT_POOR, 0.5, "{layer}: {n}{of} constrained vert{ex} miss their place{what}", "",
+	    "Fixed vertices have moved, or those of a handle did not follow it." },
+	[MR_VOLUME] = { VERDICT_POOR, 0.5, "{layer}: the volume has changed by {pct} %{what}", "",
+	    "Closed parts enclose over a tenth more or less, though handles only turn or faces only merge." },
+	[MR_SHRUNK] = { VERDICT_POOR, 0.9, "{layer}: {pct} % of the area is lost{what}", "",
+	    "The surface has lost over a tenth of its area." },
+	[MR_DISTANT] = { VERDICT_POOR, 0,
+	    "{layer}: a place is {pct} % of the diagonal from what was there{at}", "{what}",
+	    "The result strays from its input somewhere by over 5 % of the diagonal." },
+	[MR_GONE] = { VERDICT_POOR, 0.5, "{layer}: {n}{of} part{s} lost over half of their area{at}",
+	    "{what}", "Parts of the surface have collapsed." },
+	[MR_LOST] = { VERDICT_GOOD, 0, "lost: {what} ({n})", "",
+	    "Columns, materials or other data that the result or the file format has no place for." },
+	[MR_STALE] = { VERDICT_POOR, 0, "{layer}: {what} no longer fits and is dropped", "",
+	    "Heights, detail or a selection made by an earlier tool belong to a surface that is not there "
+	    "any more." },
+	[MR_ROUNDED] = { VERDICT_GOOD, 0, "{n}{of} {what} rounded or clipped", "",
+	    "Numbers changed because a format, or doubles so far from the origin, hold no more digits." },
+	[MR_GUESSED] = { VERDICT_GOOD, 0, "{what}", "",
+	    "A file can be read in two ways, and one was taken." },
+	[MR_MISSING] = { VERDICT_GOOD, 0, "{what} is missing", "",
+	    "A file that is named in another is not there." },
+	[MR_REPAIRED] = { VERDICT_GOOD, 0, "repaired: {what} ({n})", "",
+	    "Faces or vertices were changed to make an oriented manifold, or joined." },
+	[MR_UNCERTAIN] = { VERDICT_POOR, 0, "the topology is uncertain{what}{at}", "",
+	    "Points are too few or too noisy to tell handles and openings." },
+	[MR_UNREACHED] = { VERDICT_POOR, 0.5, "{n}{of} point{s} lie off the surface{what}{at}", "",
+	    "Outliers, or a part that the surface does not reach." },
+	[MR_BARE] = { VERDICT_POOR, 0.5, "{pct} % of the surface is far from all points{what}{at}", "",
+	    "The surface closes what points leave open." },
+	[MR_SCATTERED] = { VERDICT_POOR, 0, "{what}", "",
+	    "Points are noisy, stand in rows, or fill a volume rather than lie on a surface." },
+	[MR_ROUGH] = { VERDICT_POOR, 0, "{what}", "", "Heights are rough, or the displaced surface folds." },
+	[MR_FILLED] = { VERDICT_GOOD, 0, "{n}{of} {what} not found and filled in smoothly", "",
+	    "Nothing was found there, and neighbours give the value." },
+	[MR_INEXACT] = { VERDICT_POOR, 0, "{what}", "",
+	    "Rounding or a limit of iterations stopped a solver." },
+	[MR_UNHELD] = { VERDICT_POOR, 0, "{layer}: {what}", "",
+	    "No constraint holds a part, or no vertex is free." },
+	[MR_HANDLE] = { VERDICT_POOR, 0, "{what}", "", "A handle is asked for what it cannot do." },
+	[MR_LIMIT] = { VERDICT_GOOD, 0, "{what}", "", "An option has no effect, or could not be met." },
+	[MR_LAYER] = { VERDICT_GOOD, 0, "{what}", "", "Another layer than the latest is taken." },
+};
+
+void
+findings_add(findings *all, const mr_kept_finding *k)
+{
+	size_t i = 0;
+
+	while (i < all->n && !mr_finding_same(&all->k[i], k))
+		i++;
+	if (i == FINDINGS_MOST)
+		i--;
+	if (i == all->n)
+		all->n++;
+	else if (k->f.count < all->k[i].f.count)
+		return;
+	all->k[i] = *k;
+	all->k[i].f.layer = *k->layer ? all->k[i].layer : NULL;
+	all->k[i].f.what = *k->what ? all->k[i].what : NULL;
+}
+
+static const mr_shape TEXT = { '-', 't', 1 };
+
+mr_status
+findings_read(mr_ctx *ctx, mr_frame *f, findings *all)
+{
+	mr_kept_finding k;
+	const void *text;
+	const char *at;
+	size_t n;
+
+	if (!mr_layer_has(f, "", "findings"))
+		return MR_OK;
+	MR_TRY(mr_frame_get(ctx, f, "", "findings", TEXT, &text, &n));
+	at = text;
+	for (const char *end = at + n; at < end;)
+		if (mr_finding_read(&at, end, &k))
+			findings_add(all, &k);
+	return MR_OK;
+}
+
+mr_status
+findings_put(mr_ctx *ctx, mr_frame *f, const findings *all)
+{
+	mr_text text = { .ctx = ctx };
+
+	if (!all->n)
+		return MR_OK;
+	for (size_t i = 0; i < all->n; i++)
+		mr_finding_write(&text, &all->k[i]);
+	MR_TRY(mr_text_done(&text));
+	return mr_frame_put(ctx, f, "", "findings", TEXT, text.s, text.n);
+}
+
+/* Sentences */
+
+static void
+add_place(const mr_finding *f, char *text, size_t size)
+{
+	if (f->placed && f->vertex != MR_NO_VERTEX)
+		snprintf(text, size, ", most at vertex %u (%.4g, %.4g, %.4g)", f->vertex, f->at.x, f->at.y,
+		    f->at.z);
+	else if (f->placed)
+		snprintf(text, size, ", near (%.4g, %.4g, %.4g)", f->at.x, f->at.y, f->at.z);
+}
+
+/* The words for the name in braces. */
+static void
+put_word(const mr_kept_finding *k, const char *name, char *text, size_t size)
+{
+	const mr_finding *f = &k->f;
+
+	*text = '\0';
+	if (!strncmp(name, "{n}", 3))
+		snprintf(text, size, "%zu", f->count);
+	else if (!strncmp(name, "{of}", 4) && f->of)
+		snprintf(text, size, " of %zu", f->of);
+	else if (!strncmp(name, "{s}", 3))
+		snprintf(text, size, "%s", mr_plural(f->of ? f->of : f->count));
+	else if (!strncmp(name, "{ex}", 4))
+		snprintf(text, size, "%s", (f->of ? f->of : f->count) == 1 ? "ex" : "ices");
+	else if (!strncmp(name, "{layer}", 7))
+		snprintf(text, size, "%s", *k->layer ? k->layer : "frame");
+	else if (!strncmp(name, "{what}", 6))
+		snprintf(text, size, "%s", k->what);
+	else if (!strncmp(name, "{tool}", 6))
+		snprintf(text, size, "%s", k->tool);
+	else if (!strncmp(name, "{pct}", 5))
+		snprintf(text, size, "%.2g", 100 * f->value);
+	else if (!strncmp(name, "{value}", 7))
+		snprintf(text, size, "%.3g", f->value);
+	else if (!strncmp(name, "{limit}", 7))
+		snprintf(text, size, "%.3g", f->limit);
+	else if (!strncmp(name, "{at}", 4))
+		add_place(f, text, size);
+}
+
+static void
+fill_in(const mr_kept_finding *k, const char *sentence, char *text, size_t size)
+{
+	size_t n = strlen(text);
+
+	while (*sentence && n + 1 < size) {
+		if (*sentence != '{') {
+			text[n++] = *sentence++;
+			text[n] = '\0';
+			continue;
+		}
+		put_word(k, sentence, text + n, size - n);
+		n += strlen(text + n);
+		sentence = strchr(sentence, '}') + 1;
+	}
+}
+
+void
+finding_sentence(const mr_kept_finding *k, char *text, size_t size)
+{
+	const entry *e = &table[k->f.kind];
+	size_t n;
+
+	*text = '\0';
+	fill_in(k, e->sentence, text, size);
+	n = strlen(text);
+	if (*e->remedy && n + 2 < size) {
+		memcpy(text + n, ": ", 3);
+		fill_in(k, e->remedy, text, size);
+		if (!text[n + 2])
+			text[n] = '\0';
+	}
+}
+
+static bool
+is_news(const findings *known, const mr_kept_finding *k)
+{
+	for (size_t i = 0; i < known->n; i++) {
+		const mr_kept_finding *old = &known->k[i];
+		if (mr_finding_same(old, k) && k->f.count < 2 * old->f.count + (old->f.count == 0))
+			return false;
+	}
+	return true;
+}
+
+/* All that is lost, as a list in one line. */
+static void
+say_losses(
+    const findings *found, const findings *known, void (*say)(void *user, const char *text), void *user)
+{
+	char text[MR_ERROR_MAX] = "lost: ";
+	size_t n = strlen(text), begun = n;
+
+	for (size_t i = 0; i < found->n && n + 1 < sizeof text; i++) {
+		const mr_kept_finding *k = &found->k[i];
+		if (k->f.kind != MR_LOST || !is_news(known, k))
+			continue;
+		n += (size_t)snprintf(text + n, sizeof text - n, "%s%s%s%s", n > begun ? ", " : "", k->what,
+		    *k->layer ? " of " : "", k->layer);
+		if (k->f.count > 1 && n + 1 < sizeof text)
+			n += (size_t)snprintf(text + n, sizeof text - n, " (%zu)", k->f.count);
+	}
+	if (n == begun)
+		return;
+	if (n > sizeof text - 8)
+		n = sizeof text - 8;
+	memcpy(text + n, " [lost]", 8);
+	say(user, text);
+}
+
+void
+findings_say(
+    const findings *found, const findings *known, void (*say)(void *user, const char *text), void *user)
+{
+	char text[MR_ERROR_MAX];
+
+	say_losses(found, known, say, user);
+	for (size_t i = 0; i < found->n; i++) {
+		const mr_kept_finding *k = &found->k[i];
+		size_t n;
+		if (k->f.kind == MR_LOST || !is_news(known, k))
+			continue;
+		finding_sentence(k, text, sizeof text - 20);
+		n = strlen(text);
+		snprintf(text + n, sizeof text - n, " [%s]", mr_finding_name(k->f.kind));
+		say(user, text);
+	}
+}
+
+/* Verdicts */
+
+static verdict
+verdict_of(const mr_finding *f)
+{
+	const entry *e = &table[f->kind];
+	double share = f->of ? (double)f->count / (double)f->of : fabs(f->value);
+
+	return e->worst == VERDICT_POOR && e->unusable > 0 && share >= e->unusable ? VERDICT_UNUSABLE
+	                                                                           : e->worst;
+}
+
+verdict
+findings_verdict(const findings *all, const char **why)
+{
+	verdict worst = VERDICT_GOOD;
+
+	*why = "";
+	for (size_t i = 0; i < all->n; i++) {
+		verdict v = verdict_of(&all->k[i].f);
+		if (v <= worst)
+			continue;
+		worst = v;
+		*why = mr_finding_name(all->k[i].f.kind);
+	}
+	return worst;
+}
+
+const char *
+verdict_name(verdict v)
+{
+	static const char *const names[] = { "good", "poor", "unusable" };
+
+	return names[v];
+}
