@@ -72,9 +72,10 @@ TOOLS   := $(patsubst cmd/%.c,$(BUILD)/bin/%,$(wildcard cmd/mr-*.c))
 OBJECTS := $(patsubst %,$(BUILD)/%.o,$(filter-out $(MPI),$(sort $(wildcard lib/*/*.c lib/*/*.cc formats/*.c formats/*.cc))))
 UNITS   := $(patsubst tests/unit/%.c,$(BUILD)/tests/%,$(wildcard tests/unit/*.c))
 BENCHES := $(patsubst tests/bench/%.c,$(BUILD)/bench/%,$(wildcard tests/bench/*.c))
-# What the page of mr-view is made of, and where three.js is.
+# What the page of mr-view is made of, and where three.js and the C library for WebAssembly are.
 PAGE    := $(wildcard formats/page/* formats/page/*/*)
 THREE   ?= /usr/share/javascript/three
+WASI    ?= /usr
 RIVALS  := $(patsubst tests/bench/%.cc,$(BUILD)/bench/%,$(wildcard tests/bench/*.cc))
 NEEDS   := build $(if $(filter setup check check-long check-page check-cluster coverage matrix bless units deb check-deb,$(MAKECMDGOALS)),check) \
 	$(if $(filter check-page picture,$(MAKECMDGOALS)),page) \
@@ -115,6 +116,18 @@ $(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/pa
 	$(call say,page   )sed $(call put,style,formats/page/page.css) $(call put,load,formats/page/load.js) \
 		$(call put,program,$(BUILD)/page/main.gz) $(call put,worker,$(BUILD)/page/worker.gz) $< >$@
 
+# The part of the library that the page runs, as WebAssembly, by the compiler that knows it.
+WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) lib/base/ctx.c lib/base/rotation.c lib/base/sort.c \
+	$(addprefix lib/mesh/,edges.c mesh.c fold.c) $(addprefix lib/subdivide/,displaced.c loop.c loop_limit.c wavelet.c))
+$(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
+	@mkdir -p $(@D)
+	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 -O3 -ffunction-sections -fno-math-errno -ffp-contract=off \
+		$(WARN) $(INCLUDE) -MMD -MP -c -o $@ $<
+$(BUILD)/page/library.wasm: $(WASM)
+	@mkdir -p $(@D)
+	$(call say,link   )clang --target=wasm32-wasi --sysroot=$(WASI) -nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--export=malloc,--export=free \
+		-nodefaultlibs -o $@ $^ -lc -lm
+
 # What the page's workers compute with, by the compiler that knows WebAssembly.
 $(BUILD)/page/kernel.wasm: formats/page/deform/kernel.c | setup
 	@mkdir -p $(@D)
@@ -122,10 +135,10 @@ $(BUILD)/page/kernel.wasm: formats/page/deform/kernel.c | setup
 		-Wl,--no-entry,--export-dynamic,--export=__heap_base,--strip-all -o $@ $<
 
 # Of each program of the page one script of all its modules, three.js included, packed, as text.
-$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/kernel.wasm | setup
+$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/library.wasm $(BUILD)/page/kernel.wasm | setup
 	@mkdir -p $(@D)
 	$(call say,bundle )esbuild formats/page/$*.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
-		--alias:three=$(THREE) --alias:kernel.wasm=$(abspath $(BUILD))/page/kernel.wasm --loader:.wasm=binary --log-level=warning --outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
+		--alias:three=$(THREE) --alias:kernel.wasm=$(abspath $(BUILD))/page/kernel.wasm --alias:library.wasm=$(abspath $(BUILD))/page/library.wasm --loader:.wasm=binary --log-level=warning --outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)
@@ -170,7 +183,7 @@ help:
 	@sed -n 's/^#\tmake/make/p' Makefile
 
 setup:
-	@CC='$(CC)' THREE='$(THREE)' TRIED='$(if $(filter setup,$(MAKECMDGOALS)),,$(BUILD)/tried)' .ci/setup $(NEEDS)
+	@CC='$(CC)' THREE='$(THREE)' WASI='$(WASI)' TRIED='$(if $(filter setup,$(MAKECMDGOALS)),,$(BUILD)/tried)' .ci/setup $(NEEDS)
 
 # Without what takes minutes in a browser, on a scheduler, of several processes: each has its target.
 check: $(TOOLS) $(ASKED) $(if $(SAN),,$(BUILD)/$(SONAME))

@@ -22,7 +22,9 @@
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
     "mr is for little-endian machines: values are used as they stand in the stream");
+#ifndef __wasm__ /* the page reads no streams by the library */
 _Static_assert(sizeof(size_t) == 8, "mr is for machines of 64 bits: sizes of columns are sizes in memory");
+#endif
 
 #define MR_PRINTF(f, a) __attribute__((format(printf, f, a)))
 

@@ -4,8 +4,7 @@
  * that it has at first.
  */
 import { Column } from "../stream/codec.js";
-import { controlOf, predict, refine, subdivide } from "./loop.js";
-import { limitOf } from "./loop_limit.js";
+import { Library } from "../library/library.js";
 import { columnOf, keyOf } from "../stream/stream.js";
 
 const HEIGHTS = "displacement";
@@ -41,28 +40,37 @@ class Surface {
 		this.columns = []; /* of each level, those that have been asked for */
 	}
 
-	/* Levels of connectivity up to this one, each made once. */
-	async connect(level) {
-		const { position, triangles, crease } = this.parts;
+	/* The levels in the library's memory. */
+	async begin() {
+		const { position, triangles, crease } = this.parts, library = await Library.load();
+		const [p, t, c] = await Promise.all([position.values(), triangles.values(), crease && crease.values()]);
 
-		if (!this.levels)
-			this.levels = [controlOf(position.rows, await triangles.values(), crease ? await crease.values() : null)];
-		while (this.levels.length <= level)
-			this.levels.push(refine(this.levels[this.levels.length - 1]));
-		return this.levels;
+		this.levels = library.had(library.run.levels_new(library.put(p), position.rows, library.put(t), triangles.rows, library.put(c)));
+		return library;
+	}
+
+	/* Does it with the library when this level is made. */
+	async with(level, act) {
+		this.began = this.began || this.begin();
+		const library = await this.began;
+		return act(library, library.had(library.run.levels_triangles(this.levels, level)));
+	}
+
+	triangles(level) {
+		return this.with(level, (library, at) => library.get(Uint32Array, at, 3 * this.parts.triangles.rows * 4 ** level));
 	}
 
 	/* Heights from how much each differs from what the level before predicts. */
 	async heights(level) {
-		const levels = await this.connect(level), out = Float64Array.from((await this.parts.height.values()).subarray(0, this.vertices[level]));
+		const differences = (await this.parts.height.values()).subarray(0, this.vertices[level]);
 
-		for (let i = 1; i <= level; i++) {
-			const predicted = new Float64Array(this.vertices[i]);
-			predict(levels[i - 1], levels[i], 1, out, predicted);
-			for (let v = this.vertices[i - 1]; v < this.vertices[i]; v++)
-				out[v] += predicted[v];
-		}
-		return out;
+		return this.with(level, (library) => {
+			const at = library.put(differences);
+			library.had(library.run.levels_heights(this.levels, level, at));
+			const heights = library.get(Float64Array, at, differences.length);
+			library.free(at);
+			return heights;
+		});
 	}
 
 	async positions(level) {
@@ -71,14 +79,15 @@ class Surface {
 
 	/* Over the control mesh at p. */
 	async positionsOver(level, p) {
-		const levels = await this.connect(level), height = await this.at(level).height.values();
+		const height = await this.at(level).height.values();
 
-		for (let i = 0; i < level; i++)
-			p = subdivide(levels[i], levels[i + 1], 3, p);
-		const { limit, normal } = limitOf(levels[level], p);
-		for (let i = 0; i < limit.length; i++)
-			limit[i] += height[Math.floor(i / 3)] * normal[i];
-		return limit;
+		return this.with(level, (library) => {
+			const [control, heights, out] = [library.put(p), library.put(height), library.take(24 * height.length)];
+			library.had(library.run.levels_displaced(this.levels, level, control, heights, out));
+			const places = library.get(Float64Array, out, 3 * height.length);
+			library.free(control, heights, out);
+			return places;
+		});
 	}
 
 	/* The columns of a level. */
@@ -88,7 +97,7 @@ class Surface {
 		this.columns[level] = this.columns[level] || {
 			position: new Made(this.layer, "position", { ...vertex, components: 3 }, () => this.positions(level)),
 			triangles: new Made(this.layer, "triangles", { element: "f", type: "u", components: 3, rows: this.parts.triangles.rows * 4 ** level },
-				async () => (await this.connect(level))[level].t),
+				() => this.triangles(level)),
 			height: new Made(this.layer, "height", { ...vertex, components: 1 }, () => this.heights(level)),
 			others: new Map(),
 		};
