@@ -446,11 +446,9 @@ report(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c, mr_wrap_result
 static mr_status
 wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *out, mr_wrap_result *result)
 {
-	mr_wrap c;
+	mr_wrap c = { 0 };
 
 	mr_unmeasured(&c.found, sizeof c.found);
-	c.lids = (mr_wrap_lids){ 0 };
-	c.sided = false;
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	for (size_t h = 0; h < 3 * c.d.nf; h++)
 		if (c.d.twin[h] == MR_NONE && c.lids.loops == 0)
@@ -484,10 +482,9 @@ wrap_template(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *start, con
 {
 	size_t iterations = o->iterations ? o->iterations : TEMPLATE_ITERATIONS;
 	double edge = mr_mesh_edge_scale(ctx, start);
-	mr_wrap c;
+	mr_wrap c = { 0 };
 
 	mr_unmeasured(&c.found, sizeof c.found);
-	c.lids = (mr_wrap_lids){ 0 };
 	c.found.method = TEMPLATE;
 	c.found.iterations = iterations;
 	if (!(edge > 0))

@@ -66,6 +66,7 @@ for f in both out; do
 done
 cmp both.faces out.faces && echo same faces
 worst 0.03 <out.mrs
+mr-shrinkwrap --template -n 1 both.mrs 2>&1 >out.mrs | grep -c 'sides that are given'
 
 echo 'a template loses what followed from where it was: responses and heights'
 mr-select --free above:z,0.3 --handle 0=above:z,0.8 both.mrs | mr-solve --flatten | mr-solve --basis | mr-sample -n 1 -o old.mrs
