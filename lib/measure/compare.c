@@ -105,8 +105,8 @@ mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opt
 	MR_TRY(mr_check_number(ctx, "tolerance", o->tolerance, 1e-9, 1));
 	MR_TRY(with_faces(ctx, a, &fa));
 	MR_TRY(with_faces(ctx, b, &fb));
-	MR_TRY(mr_compare_one_way(ctx, &fa, &fb, o, scale, &c.ab));
-	MR_TRY(mr_compare_one_way(ctx, &fb, &fa, o, scale, &c.ba));
+	MR_TRY(mr_compare_one_way(ctx, &fa, &fb, o, c.corresponds, scale, &c.ab));
+	MR_TRY(mr_compare_one_way(ctx, &fb, &fa, o, c.corresponds, scale, &c.ba));
 	c.both = join(&c.ab, &c.ba);
 	if (c.corresponds) {
 		measure_deviation(a, b, &c.deviation);

@@ -84,6 +84,7 @@ typedef struct job {
 	const mr_mesh *a, *b;
 	const mr_bvh *bvh; /* of b */
 	const bool *used;  /* vertices of a that count; NULL: all */
+	bool alike;        /* the faces of a and b have the same corners by number */
 	double piece_area; /* faces are cut into pieces of at most this */
 	sums *sums;        /* per grain of vertices or faces */
 	double *bound;     /* per face of a */
@@ -95,6 +96,13 @@ typedef struct job {
 
 /* ---- vertices and integrals ---- */
 
+/* Whether vertex i of a, which a face has, is where that of b is. */
+static bool
+stays(const job *j, size_t i)
+{
+	return j->alike && mr_dist(j->a->p[i], j->b->p[i]) == 0;
+}
+
 static void
 measure_vertices(void *arg, size_t begin, size_t end)
 {
@@ -103,7 +111,7 @@ measure_vertices(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++)
 		if (!j->used || j->used[i])
-			sums_add(&s, sqrt(mr_bvh_closest(j->bvh, j->a->p[i]).dist2), 1);
+			sums_add(&s, stays(j, i) ? 0 : sqrt(mr_bvh_closest(j->bvh, j->a->p[i]).dist2), 1);
 	j->sums[begin / GRAIN] = s;
 }
 
@@ -151,8 +159,12 @@ measure_faces(void *arg, size_t begin, size_t end)
 	sums s = SUMS_NONE;
 
 	for (size_t f = begin; f < end; f++) {
+		const uint32_t *t = j->a->t[f].v;
 		j->bound[f] = 0;
-		measure_face(j, f, &s, &j->bound[f]);
+		if (stays(j, t[0]) && stays(j, t[1]) && stays(j, t[2]))
+			sums_add(&s, 0, mr_norm(mr_face_cross(j->a, f)) / 2);
+		else
+			measure_face(j, f, &s, &j->bound[f]);
 	}
 	j->sums[begin / GRAIN] = s;
 }
@@ -364,11 +376,11 @@ measure_points(mr_ctx *ctx, job *j, mr_distance *d)
 }
 
 mr_status
-mr_compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, double scale,
-    mr_distance *out)
+mr_compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, bool alike,
+    double scale, mr_distance *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	job j = { .a = a, .b = b };
+	job j = { .a = a, .b = b, .alike = alike && !opts->vertices_only };
 	double area = opts->vertices_only ? 0 : mr_mesh_area(ctx, a);
 	mr_bvh *bvh;
 

@@ -4,6 +4,7 @@
 
 #include <setjmp.h>
 #include <stdarg.h>
+#include <time.h>
 
 #include <cmocka.h>
 
@@ -299,6 +300,32 @@ clouds_correspond(void **state)
 	mr_ctx_free(&ctx);
 }
 
+/* The boxes of long thin faces say little of them: those that stay where they are need no search. */
+static void
+a_fan_is_at_itself(void **state)
+{
+	enum { N = 20000 };
+	mr_ctx ctx;
+
+	(void)state;
+	mr_ctx_init(&ctx, 2);
+	mr_v3 *p = MR_NEW(&ctx, N + 1, mr_v3);
+	mr_tri *t = MR_NEW(&ctx, N, mr_tri);
+	assert_non_null(p);
+	assert_non_null(t);
+	p[N] = mr_vec(0, 0, 0);
+	for (uint32_t i = 0; i < N; i++) {
+		p[i] = mr_vec(cos(2 * MR_PI * i / N), sin(2 * MR_PI * i / N), 0);
+		t[i] = (mr_tri){ { N, i, (i + 1) % N } };
+	}
+	const mr_mesh m = { "fan", p, t, N + 1, N };
+	clock_t start = clock();
+	mr_comparison c = compare(&ctx, &m, &m, NULL);
+	assert_true(clock() - start < CLOCKS_PER_SEC);
+	assert_near(c.both.max_bound, 0, 0);
+	mr_ctx_free(&ctx);
+}
+
 static void
 threads_do_not_matter(void **state)
 {
@@ -350,6 +377,7 @@ main(void)
 		cmocka_unit_test(a_surface_is_at_itself),
 		cmocka_unit_test(soups_and_clouds),
 		cmocka_unit_test(clouds_correspond),
+		cmocka_unit_test(a_fan_is_at_itself),
 		cmocka_unit_test(threads_do_not_matter),
 		cmocka_unit_test(memory_may_run_out),
 	};
