@@ -109,6 +109,15 @@ mr_lerp(double t, mr_v3 a, mr_v3 b)
 	return mr_axpy(t, mr_sub(b, a), a);
 }
 
+/* Whether p parts the segment a b into two that are both shorter: not where rounding puts it on an end. */
+static inline bool
+mr_divides(mr_v3 p, mr_v3 a, mr_v3 b)
+{
+	double whole2 = mr_norm2(mr_sub(b, a));
+
+	return mr_norm2(mr_sub(p, a)) < whole2 && mr_norm2(mr_sub(p, b)) < whole2;
+}
+
 static inline mr_v3
 mr_mean3(mr_v3 a, mr_v3 b, mr_v3 c)
 {

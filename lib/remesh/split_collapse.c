@@ -219,13 +219,6 @@ place_middle(resampler *r, uint32_t m)
 	d->at[m] = c.at.face;
 }
 
-/* Far from the origin there may be no number between those of two ends. */
-static bool
-is_same(mr_v3 a, mr_v3 b)
-{
-	return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
 /* The area of the equilateral triangle with a side of 1. */
 static const double EQUILATERAL = 0.4330127018922193;
 
@@ -286,7 +279,7 @@ mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser,
 		while (may_be_due(&r, h) && is_edge(d, h) && too_long(&r, h)) {
 			uint32_t g = locally_longest(d, h), m;
 			mr_v3 a = d->p[d->v[g]], b = d->p[mr_dyn_to(d, g)], middle = mr_lerp(0.5, a, b);
-			if (!mr_dyn_can_split(d, g) || is_same(middle, a) || is_same(middle, b))
+			if (!mr_dyn_can_split(d, g) || !mr_divides(middle, a, b))
 				break;
 			if (d->nf >= done->most)
 				return mr_too_fine(ctx, s, (double)d->nf, (double)done->most, 2 * s->uniform);

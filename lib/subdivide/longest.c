@@ -136,6 +136,29 @@ check_size(pass *s)
 	return MR_OK;
 }
 
+/* The new vertices of the edge from low to high, which are apart: else no pass would make it shorter. */
+static mr_status
+divide_edge(pass *s, mr_v3 low, mr_v3 high, uint32_t pieces)
+{
+	mr_v3 last = low, at = low;
+
+	MR_TRY(MR_RESERVE(s->ctx, s->p, s->nv, pieces, &s->p_room));
+	for (uint32_t k = 1; k <= pieces; k++) {
+		mr_v3 next = k < pieces ? mr_lerp((double)k / pieces, low, high) : high;
+		if (k > 1 && !mr_divides(at, last, next))
+			return mr_fail(s->ctx, MR_ERANGE,
+			    "edges of %g at most cannot be made near (%.4g, %.4g, %.4g): positions there are "
+			    "no "
+			    "finer",
+			    s->length, at.x, at.y, at.z);
+		if (k < pieces)
+			s->p[s->nv++] = next;
+		last = at;
+		at = next;
+	}
+	return MR_OK;
+}
+
 /* The new vertices of edges; false in *more where there is none. */
 static mr_status
 divide_edges(pass *s, bool *more)
@@ -151,9 +174,7 @@ divide_edges(pass *s, bool *more)
 		done++;
 		s->pieces[e] = (uint32_t)pieces_of(s, length_of(s, h));
 		s->first[e] = (uint32_t)s->nv;
-		MR_TRY(MR_RESERVE(s->ctx, s->p, s->nv, s->pieces[e], &s->p_room));
-		for (uint32_t k = 1; k < s->pieces[e]; k++)
-			s->p[s->nv++] = mr_lerp((double)k / s->pieces[e], s->m.p[low], s->m.p[high]);
+		MR_TRY(divide_edge(s, s->m.p[low], s->m.p[high], s->pieces[e]));
 		*more |= s->pieces[e] > 1;
 	}
 	return MR_OK;

@@ -167,6 +167,22 @@ test_columns(void **state)
 	}
 }
 
+/* Midpoints of an edge may be one of its ends: refused, not divided for ever. */
+static void
+test_no_finer(void **state)
+{
+	const mr_v3 p[] = { { 1e15, 0, 0 }, { 1e15 + 0.125, 0, 0 }, { 1e15, 0.1, 0 } };
+	const mr_mesh m = { "mesh", p, (const mr_tri[]){ { { 0, 1, 2 } } }, 3, 1 };
+	mr_refined r;
+
+	(void)state;
+	assert_int_equal(mr_divide_longest(&ctx, &m, 0.05, &r), MR_ERANGE);
+	assert_non_null(strstr(ctx.error, "no finer"));
+	assert_int_equal(mr_divide_longest(&ctx, &m, 0.2, &r), MR_OK);
+	assert_false(mr_divides(mr_lerp(0.5, p[0], p[1]), p[0], p[1]));
+	assert_true(mr_divides(mr_lerp(0.5, p[0], p[2]), p[0], p[2]));
+}
+
 /* Too many triangles are refused before any work, with a length that is not. */
 static void
 test_refusals(void **state)
@@ -201,6 +217,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_slivers, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_not_manifold, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_columns, setup, teardown),
+		cmocka_unit_test_setup_teardown(test_no_finer, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_refusals, setup, teardown),
 	};
 
