@@ -118,7 +118,7 @@ $(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/pa
 
 # The part of the library that the page runs, as WebAssembly, by the compiler that knows it.
 WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) lib/base/ctx.c lib/base/rotation.c lib/base/sort.c \
-	$(addprefix lib/mesh/,edges.c mesh.c fold.c) $(addprefix lib/subdivide/,displaced.c loop.c loop_limit.c wavelet.c))
+	$(addprefix lib/mesh/,edges.c mesh.c fold.c) $(addprefix lib/edit/,phong.c pose_basis.c) $(addprefix lib/subdivide/,displaced.c loop.c loop_limit.c wavelet.c))
 $(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
 	@mkdir -p $(@D)
 	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 -O3 -ffunction-sections -fno-math-errno -ffp-contract=off \
@@ -128,17 +128,11 @@ $(BUILD)/page/library.wasm: $(WASM)
 	$(call say,link   )clang --target=wasm32-wasi --sysroot=$(WASI) -nostartfiles -Wl,--no-entry,--gc-sections,--strip-all,--export=malloc,--export=free \
 		-nodefaultlibs -o $@ $^ -lc -lm
 
-# What the page's workers compute with, by the compiler that knows WebAssembly.
-$(BUILD)/page/kernel.wasm: formats/page/deform/kernel.c | setup
-	@mkdir -p $(@D)
-	$(call say,compile)clang --target=wasm32 -msimd128 -std=c11 -O3 -ffreestanding -fvisibility=default $(WARN) -nostdlib \
-		-Wl,--no-entry,--export-dynamic,--export=__heap_base,--strip-all -o $@ $<
-
 # Of each program of the page one script of all its modules, three.js included, packed, as text.
-$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/library.wasm $(BUILD)/page/kernel.wasm | setup
+$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/library.wasm | setup
 	@mkdir -p $(@D)
 	$(call say,bundle )esbuild formats/page/$*.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
-		--alias:three=$(THREE) --alias:kernel.wasm=$(abspath $(BUILD))/page/kernel.wasm --alias:library.wasm=$(abspath $(BUILD))/page/library.wasm --loader:.wasm=binary --log-level=warning --outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
+		--alias:three=$(THREE) --alias:library.wasm=$(abspath $(BUILD))/page/library.wasm --loader:.wasm=binary --log-level=warning --outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a
 	@mkdir -p $(@D)

@@ -1,41 +1,38 @@
 /*
- * worker.js -- a worker that poses a part of a base with the detail on it: told once what that is (parts.js), then how the
- * handles' maps have changed, it answers with the places of both, in floats.  It writes them where it had written them before, if
- * it is given that back.
+ * worker.js -- a worker that poses a part of a base with the detail on it (library/body.c): told once what the whole is and which
+ * part, then the handles' maps, it answers with the places of both, in floats.  It writes them where it had written them before,
+ * if it is given that back.
  */
-import { Base, Detail } from "./deform/decode.js";
-import { Kernel } from "./deform/kernel.js";
-import { offsetIn, phongNormals } from "./deform/phong.js";
-import { Turns } from "./deform/turns.js";
+import { Library } from "./library/library.js";
 
-let base, detail, turns, offsets;
+const ARRAYS = ["position", "rest", "triangles", "response", "face", "bary", "height", "offset"];
+let library, body, maps;
 
-/* Offsets in place of heights as vectors at rest: { row, corners, weights, vector }. */
-function prepare(part) {
-	const kernel = new Kernel(), normals = phongNormals(part.rest, part.triangles);
+/* The whole as body.c has it: places of arrays, how many of each, the origin of the response. */
+async function begin({ module, values, counts, origin, part, parts }) {
+	library = await Library.load(module);
+	const places = ARRAYS.map((name) => library.put(values[name]));
+	const whole = library.put(new Uint8Array(await new Blob([Uint32Array.from([...places, ...counts]), Float64Array.from(origin)]).arrayBuffer()));
 
-	base = new Base(kernel, part);
-	turns = new Turns(kernel, part.rest, part.triangles, normals);
-	detail = new Detail(kernel, part);
-	offsets = part.offsets.map(({ row, corners, weights, offset }) => ({ row, corners, weights, vector: offsetIn(part.rest, normals, corners, weights, offset) }));
+	body = library.had(library.run.body_new(whole, part, parts));
+	library.free(...places.filter(Boolean), whole);
+	maps = library.take(96 * counts[3]);
+	return { vertices: rows(Uint32Array, "body_rows", true, 1), rows: rows(Uint32Array, "body_rows", false, 1) };
 }
 
-function addOffset({ row, corners, weights, vector: [x, y, z] }, out) {
-	const m = turns.mean(corners, weights);
-
-	for (let c = 0; c < 3; c++)
-		out[3 * row + c] += m[3 * c] * x + m[3 * c + 1] * y + m[3 * c + 2] * z;
+/* Of base, or else of the detail: so many numbers a row. */
+function rows(Type, what, ofBase, n, out) {
+	return library.get(Type, library.run[what](body, ofBase), n * library.run.body_count(body, ofBase), out);
 }
 
-const buffersOf = (places) => Object.values(places).map((floats) => floats.buffer);
+function pose(values, { base, mesh } = {}) {
+	library.set(maps, values);
+	library.had(library.run.body_pose(body, maps));
+	return { base: rows(Float32Array, "body_places", true, 3, base), mesh: rows(Float32Array, "body_places", false, 3, mesh) };
+}
 
-addEventListener("message", ({ data: { part, changes, places = {} } }) => {
-	if (part)
-		prepare(part);
-	const began = performance.now();
-	base.pose(changes);
-	turns.find(base.places);
-	const now = { base: base.floats(places.base), mesh: detail.floats(base.places, turns.turned, places.mesh) };
-	offsets.forEach((offset) => addOffset(offset, now.mesh));
-	postMessage({ places: now, took: performance.now() - began }, buffersOf(now));
+addEventListener("message", async ({ data }) => {
+	const known = data.module && await begin(data), began = performance.now(), places = pose(data.maps, data.places);
+
+	postMessage({ known, places, took: performance.now() - began }, [places.base.buffer, places.mesh.buffer]);
 });

@@ -2,8 +2,9 @@
  * deformer.js -- base and mesh as the handles pose them: workers have a part each, and what is shown when nothing moves any more
  * is what mr-decode makes.
  */
+import { compile } from "../library/compile.js";
+import { IDENTITY } from "../mesh/rotation.js";
 import { textOf } from "../stream/data.js";
-import { split } from "./parts.js";
 import { columnOf } from "../stream/stream.js";
 
 const WORKERS = 4; /* at most */
@@ -32,10 +33,13 @@ function scatter(from, rows, to) {
 	}
 }
 
+/* As many maps as a response is to, in a row. */
+export const flat = (maps, handles) => Float64Array.from({ length: 12 * handles }, (_, i) => (maps[Math.floor(i / 12)] || IDENTITY)[i % 12]);
+
 /* A worker with a part; it answers one question at a time. */
 class Hand {
-	constructor(url, { vertices, rows }) {
-		Object.assign(this, { vertices, rows, worker: new Worker(url) });
+	constructor(url) {
+		this.worker = new Worker(url);
 	}
 
 	/* A promise of how long it took; then it has `places`, which go back to it with the next question. */
@@ -44,6 +48,7 @@ class Hand {
 
 		return new Promise((done, failed) => {
 			this.worker.onmessage = ({ data }) => {
+				Object.assign(this, data.known); /* of which vertices and rows its places are */
 				this.places = data.places;
 				done(data.took);
 			};
@@ -70,17 +75,18 @@ export class Deformer {
 	async prepare(centre) {
 		const keys = Object.keys(this.columns).filter((key) => this.columns[key]);
 		const values = Object.fromEntries(await Promise.all(keys.map(async (key) => [key, await this.columns[key].values()])));
-		const { components, steps: { origin } } = this.columns.response, handles = components / 4;
+		const { components, steps: { origin } } = this.columns.response, { position, triangles, height } = values;
 
 		this.centre = centre;
-		values.rest = less(values.encoded || values.position, centre);
-		values.position = less(values.position, centre);
-		this.places = { base: new Float32Array(values.position.length), mesh: new Float32Array(3 * values.height.length) };
-		const count = Math.min(WORKERS, navigator.hardwareConcurrency || 1, Math.ceil(values.position.length / 3 / VERTICES));
-		const url = URL.createObjectURL(new Blob([await textOf("worker")], { type: "text/javascript" }));
-		const parts = split(values, handles, count);
-		this.hands = parts.map((part) => new Hand(url, part));
-		await this.all((i) => ({ part: { ...parts[i].part, handles, origin }, changes: [] }));
+		this.handles = components / 4;
+		values.rest = less(values.encoded || position, centre);
+		values.position = less(position, centre);
+		this.places = { base: new Float32Array(position.length), mesh: new Float32Array(3 * height.length) };
+		const counts = [position.length / 3, triangles.length / 3, height.length, this.handles];
+		const parts = Math.min(WORKERS, navigator.hardwareConcurrency || 1, Math.ceil(counts[0] / VERTICES));
+		const url = URL.createObjectURL(new Blob([await textOf("worker")], { type: "text/javascript" })), module = await compile();
+		this.hands = Array.from({ length: parts }, () => new Hand(url));
+		await this.all((part) => ({ module, values, counts, origin, part, parts, maps: flat([], this.handles) }));
 		URL.revokeObjectURL(url);
 		return this;
 	}
@@ -94,16 +100,16 @@ export class Deformer {
 		}
 	}
 
-	/* Poses by the changes of the handles' maps, as Pose says them; what is asked meanwhile comes next, the last of it. */
-	async pose(changes) {
-		this.next = changes;
+	/* Poses by the handles' maps; what is asked meanwhile comes next, the last of it. */
+	async pose(maps) {
+		this.next = maps;
 		if (this.working)
 			return;
 		this.working = true;
 		while (this.next) {
 			const now = this.next;
 			this.next = null;
-			await this.all(() => ({ changes: now }));
+			await this.all(() => ({ maps: flat(now, this.handles) }));
 			this.working = Boolean(this.next);
 			this.changed();
 		}

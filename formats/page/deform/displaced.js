@@ -2,7 +2,8 @@
  * displaced.js -- a control mesh as its handles pose it, by its response to them, lib/edit/pose_basis.c, and the displaced surface
  * over it on the level that is shown, as mr-decode makes it: few vertices are posed, and then subdivided (mesh/levels.js).
  */
-import { about } from "./decode.js";
+import { flat } from "./deformer.js";
+import { library as load } from "../library/compile.js";
 import { columnOf } from "../stream/stream.js";
 
 /* The columns that it is made of; null where the frame has not all of them. */
@@ -14,21 +15,6 @@ export function controlOf(frame) {
 	return frame.levels && columns.response ? columns : null;
 }
 
-/* p + A w of each vertex for each change A, of as many handles as there are. */
-function posed(p, response, handles, origin, changes) {
-	const out = p.slice();
-
-	changes.slice(0, handles).forEach((change, h) => {
-		if (!change)
-			return;
-		const a = about(change, origin);
-		for (let i = 0, k = 4 * h; i < out.length; i += 3, k += 4 * handles)
-			for (let c = 0; c < 3; c++)
-				out[i + c] += a[4 * c] * response[k] + a[4 * c + 1] * response[k + 1] + a[4 * c + 2] * response[k + 2] + a[4 * c + 3] * response[k + 3];
-	});
-	return out;
-}
-
 const less = (position, centre) => Float32Array.from(position, (x, i) => x - centre[i % 3]);
 
 export class DisplacedDeformer {
@@ -37,7 +23,7 @@ export class DisplacedDeformer {
 		this.surface = frame.levels.surface;
 		this.columns = columns;
 		this.changed = changed;
-		this.changes = [];
+		this.maps = [];
 		this.places = {};
 		this.working = false;
 	}
@@ -51,6 +37,7 @@ export class DisplacedDeformer {
 		this.centre = centre;
 		this.position = await this.columns.position.values();
 		this.response = await this.columns.response.values();
+		this.library = await load();
 		return this;
 	}
 
@@ -60,20 +47,31 @@ export class DisplacedDeformer {
 			return;
 		this.level = frame.levels.at;
 		this.places = {};
-		if (this.changes.length)
-			this.pose(this.changes);
+		if (this.maps.length)
+			this.pose(this.maps);
 	}
 
-	/* Poses by the changes of the handles' maps, as Pose says them; what is asked meanwhile comes next, the last of it. */
-	async pose(changes) {
-		this.changes = this.next = changes;
+	/* The control mesh by these maps of the handles. */
+	posed(maps) {
+		const { library, position, response, columns: { response: { components, steps: { origin } } } } = this, handles = components / 4;
+		const places = [position, response, Float64Array.from(origin), flat(maps, handles), position].map((values) => library.put(values));
+
+		library.had(library.run.pose_by_response(places[0], position.length / 3, places[1], handles, ...places.slice(2)));
+		const out = library.get(Float64Array, places[4], position.length);
+		library.free(...places);
+		return out;
+	}
+
+	/* Poses by the handles' maps; what is asked meanwhile comes next, the last of it. */
+	async pose(maps) {
+		this.maps = this.next = maps;
 		if (this.working)
 			return;
 		this.working = true;
 		while (this.next) {
-			const now = this.next, { level, surface, centre, columns: { response } } = this;
+			const now = this.next, { level, surface, centre } = this;
 			this.next = null;
-			const control = posed(this.position, this.response, response.components / 4, response.steps.origin, now);
+			const control = this.posed(now);
 			const places = { control: less(control, centre), [surface.layer]: less(await surface.positionsOver(level, control), centre) };
 			if (level === this.level)
 				this.places = places;

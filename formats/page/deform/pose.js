@@ -50,9 +50,8 @@ export class Pose {
 		return rows;
 	}
 
-	/* Of each handle by how much its map is more than the identity, or null where it is not. */
-	changes() {
-		return this.rows().map(({ map }) => (map.some((x, i) => x !== IDENTITY[i]) ? map.map((x, i) => x - IDENTITY[i]) : null));
+	maps() {
+		return this.rows().map(({ map }) => map);
 	}
 
 	/* The largest turn of handles against each other and what is fixed, in degrees. */

@@ -3,6 +3,7 @@ import { regionColor, regionName } from "../draw/colors.js";
 import { Deformer, posedBy as baseOf } from "./deformer.js";
 import { controlOf, DisplacedDeformer } from "./displaced.js";
 import { HANDLE, lacking, poseOf } from "./handles.js";
+import { IDENTITY } from "../mesh/rotation.js";
 import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
 
 const $ = (id) => document.getElementById(id);
@@ -116,16 +117,16 @@ export class Posing {
 
 	/* Brings everything to the pose as it is. */
 	apply() {
-		const changes = this.pose.changes();
+		const maps = this.pose.maps();
 
-		if (this.moved || changes.some(Boolean))
-			this.deform(changes);
+		if (this.moved || maps.some((map) => map.some((x, i) => x !== IDENTITY[i])))
+			this.deform(maps);
 		this.show();
 	}
 
-	/* Poses by these changes in the next picture: the hand may be faster. */
-	deform(changes) {
-		this.next = changes;
+	/* Poses by these maps in the next picture: the hand may be faster. */
+	deform(maps) {
+		this.next = maps;
 		this.moved = true;
 		$("poseline").setAttribute("aria-busy", "true");
 		this.ask();
@@ -164,7 +165,7 @@ export class Posing {
 	drag(to) {
 		$("said").textContent = "";
 		this.pose.drag(this.handle, to);
-		this.deform(this.pose.changes());
+		this.deform(this.pose.maps());
 		this.showLine();
 	}
 

@@ -2,23 +2,13 @@
  * library.js -- the library as WebAssembly, and arrays in its memory: they are at a number there, and move out of it as copies,
  * for what is in it moves when it grows.
  */
-import code from "library.wasm";
-
-let compiled;
-
-/* Compiled once; a worker is given what is. */
-export function compile() {
-	compiled = compiled || WebAssembly.compile(code);
-	return compiled;
-}
-
 export class Library {
 	constructor(run) {
 		this.run = run;
 	}
 
-	static async load(module = compile()) {
-		return new Library((await WebAssembly.instantiate(await module)).exports);
+	static async load(module) {
+		return new Library((await WebAssembly.instantiate(module)).exports);
 	}
 
 	/* What it answered, unless that is 0: then there was no memory. */
@@ -35,10 +25,10 @@ export class Library {
 
 	/* An array put there; of none 0. */
 	put(values) {
-		if (!values)
-			return 0;
-		const at = this.take(values.byteLength);
+		return values ? this.set(this.take(values.byteLength), values) : 0;
+	}
 
+	set(at, values) {
 		new values.constructor(this.run.memory.buffer, at, values.length).set(values);
 		return at;
 	}

@@ -4,7 +4,7 @@
  * that it has at first.
  */
 import { Column } from "../stream/codec.js";
-import { Library } from "../library/library.js";
+import { library as load } from "../library/compile.js";
 import { columnOf, keyOf } from "../stream/stream.js";
 
 const HEIGHTS = "displacement";
@@ -42,7 +42,7 @@ class Surface {
 
 	/* The levels in the library's memory. */
 	async begin() {
-		const { position, triangles, crease } = this.parts, library = await Library.load();
+		const { position, triangles, crease } = this.parts, library = await load();
 		const [p, t, c] = await Promise.all([position.values(), triangles.values(), crease && crease.values()]);
 
 		this.levels = library.had(library.run.levels_new(library.put(p), position.rows, library.put(t), triangles.rows, library.put(c)));
