@@ -85,8 +85,7 @@ def scripts(b):
         check(("mesh", "detail_face") in columns("run/a-model-painted.mrs"), name + ": there are no details")
         check(("mr-solve --basis --rotations linear |" in script) == (name == "edit"), name + ": the solver is told otherwise")
     shutil.copy("a model.off", "run")
-    subprocess.run(["sh", "script.sh"], cwd="run", check=True)
-    check(regions_in("run/a-model-painted.mrs") == regions, "the script does not find the file of the history")
+    check(subprocess.run(["sh", "script.sh"], cwd="run", check=False, stderr=subprocess.DEVNULL).returncode == 2, "the script reads a file that the history names")
     regions = paint(b, "plain.html")
     code, said = run(saved(b, "save-script", "a-model.sh"), model)
     check(code == 0 and regions_in("run/a-model-painted.mrs") == regions and same("run/a-model-painted.mrs", "plain.mrs", *FORM[:2]), "plain: %d %s" % (code, said))
@@ -176,7 +175,7 @@ def files(b):
 def hostile(b):
     """Histories and names are words of a script, never commands."""
     b.open("evil.html")
-    for i in range(13):
+    for i in range(16):
         b.press("p")
         b.press("a")
         b.eval("document.getElementById('take').open = true")

@@ -26,7 +26,9 @@ evil = [b"mr 1.0: mr-import '$(touch pwned)'\n", b"mr 1.0: mr-import a; touch pw
 	b"mr 1.0: mr-import ''\\'';touch pwned'\n", b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-smooth -o pwned '|' touch pwned\n", b"mr 1.0: mr-constructor x\n",
 	b"mr 1.0: mr-import 'a b' >pwned\n", b"touch pwned\n", b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-select --free 'all'\n mr-x\n",
 	b"mr 1.0: mr-cat -zo pwned a.mrs\n", b"mr 1.0: mr-make cube --stats=pwned\n",
-	b"mr 1.0: mr-import a.obj\nmr 1.0: mr-map -w pwned\n"]
+	b"mr 1.0: mr-import a.obj\nmr 1.0: mr-map -w pwned\n",
+	b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-smooth -k --stats=pwned\n", b"mr 1.0: mr-make cube -n 8 -qo pwned\n",
+	b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-select --free all --from /etc/passwd\n"]
 with open("evil.mrs", "wb") as f:
 	f.write(record(b"mrmesh1\n", b"START", b"-t\1", 0, b""))
 	for i, history in enumerate(evil):
