@@ -46,8 +46,9 @@ typedef struct tally {
 typedef struct encoder {
 	mr_ground ground;
 	const mr_mesh *mesh;
-	const double *thickness; /* of the base, a vertex */
-	const mr_bvh *bvh;       /* of the base, where the source map reaches nothing */
+	const mr_bvh *bvh; /* of the base, where the source map reaches nothing */
+	mr_foot *foot;     /* that may be sound; else its face is MR_NONE */
+	double *thickness; /* of the base, a vertex: as far as feet ask for it */
 	uint32_t *face;
 	mr_v3 *bary, *offset;
 	double *height;
@@ -70,10 +71,13 @@ thickness_at(const encoder *e, mr_place at)
 static bool
 sound(const encoder *e, const mr_foot *foot)
 {
-	double height = fabs(foot->height);
+	return foot->at.face != MR_NONE && fabs(foot->height) < thickness_at(e, foot->at);
+}
 
-	return height * mr_phong_curvature(&e->ground.surface, foot->at) < 1 &&
-	       height < thickness_at(e, foot->at);
+static bool
+below_curvature(const encoder *e, const mr_foot *foot)
+{
+	return fabs(foot->height) * mr_phong_curvature(&e->ground.surface, foot->at) < 1;
 }
 
 /* The full offset from the place where a vertex stands, for want of a sound height. */
@@ -113,35 +117,64 @@ find_foot(const encoder *e, mr_v3 p, mr_place start, mr_foot *foot, tally *t)
 }
 
 static void
-encode_vertex(const encoder *e, size_t i, tally *t)
-{
-	mr_v3 p = e->mesh->p[i];
-	mr_place start = { e->face[i], e->bary[i] };
-	mr_foot foot;
-
-	if (start.face == MR_NONE)
-		start = mr_bvh_closest(e->bvh, p).at;
-	if (find_foot(e, p, start, &foot, t) && sound(e, &foot)) {
-		keep_height(e, i, &foot);
-	} else {
-		keep_offset(e, i, start);
-		t->offsets++;
-	}
-}
-
-static void
-encode_piece(void *arg, size_t begin, size_t end)
+find_feet(void *arg, size_t begin, size_t end)
 {
 	const encoder *e = arg;
-	mr_detail d = { e->mesh->nv, { e->face, e->bary }, e->height, e->offset, NULL, NULL };
 	tally t = { 0 };
 
 	for (size_t i = begin; i < end; i++) {
-		encode_vertex(e, i, &t);
-		t.residual = fmax(t.residual, mr_dist(displaced(&e->ground.surface, &d, i), e->mesh->p[i]));
-		t.height = fmax(t.height, fabs(e->height[i]));
+		mr_v3 p = e->mesh->p[i];
+		if (e->face[i] == MR_NONE) {
+			mr_place at = mr_bvh_closest(e->bvh, p).at;
+			e->face[i] = at.face;
+			e->bary[i] = at.bary;
+		}
+		if (!find_foot(e, p, (mr_place){ e->face[i], e->bary[i] }, &e->foot[i], &t) ||
+		    !below_curvature(e, &e->foot[i]))
+			e->foot[i].at.face = MR_NONE;
 	}
 	e->tally[begin / GRAIN] = t;
+}
+
+/* Where no corner of a face is thinner than the height over it and its sides, none is than the height. */
+static mr_status
+find_thickness(mr_ctx *ctx, const encoder *e)
+{
+	const mr_mesh *base = e->ground.surface.m;
+
+	for (size_t v = 0; v < base->nv; v++)
+		e->thickness[v] = 0;
+	for (size_t i = 0; i < e->mesh->nv; i++) {
+		const uint32_t *v = base->t[e->foot[i].at.face == MR_NONE ? 0 : e->foot[i].at.face].v;
+		double side = 0;
+		if (e->foot[i].at.face == MR_NONE)
+			continue;
+		for (int k = 0; k < 3; k++)
+			side = fmax(side, mr_dist(base->p[v[k]], base->p[v[(k + 1) % 3]]));
+		for (int k = 0; k < 3; k++)
+			e->thickness[v[k]] = fmax(
+			    e->thickness[v[k]], 1.001 * (fabs(e->foot[i].height) + side));
+	}
+	return mr_thickness(ctx, base, e->thickness);
+}
+
+static void
+keep_piece(void *arg, size_t begin, size_t end)
+{
+	const encoder *e = arg;
+	mr_detail d = { e->mesh->nv, { e->face, e->bary }, e->height, e->offset, NULL, NULL };
+	tally *t = &e->tally[begin / GRAIN];
+
+	for (size_t i = begin; i < end; i++) {
+		if (sound(e, &e->foot[i])) {
+			keep_height(e, i, &e->foot[i]);
+		} else {
+			keep_offset(e, i, (mr_place){ e->face[i], e->bary[i] });
+			t->offsets++;
+		}
+		t->residual = fmax(t->residual, mr_dist(displaced(&e->ground.surface, &d, i), e->mesh->p[i]));
+		t->height = fmax(t->height, fabs(e->height[i]));
+	}
 }
 
 /* Builds the search tree where a vertex has no start. */
@@ -216,13 +249,14 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 		.height = MR_NEW(ctx, n, double) };
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
-	double *thickness = MR_NEW(ctx, base->nv, double);
 	mr_incidence inc;
 	mr_encode_result figures;
 	mr_detail found;
 
+	e.foot = MR_NEW(ctx, n, mr_foot);
+	e.thickness = MR_NEW(ctx, base->nv, double);
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
-	if (!e.face || !e.bary || !e.offset || !e.height || !normal || !thickness || !e.tally)
+	if (!e.face || !e.bary || !e.offset || !e.height || !normal || !e.foot || !e.thickness || !e.tally)
 		return MR_EMEM;
 	MR_TRY(mr_incidence_build(ctx, base, &inc));
 	MR_TRY(mr_vertex_normals(ctx, base, &inc, normal));
@@ -231,10 +265,10 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 		MR_TRY(mr_correspond(ctx, mesh, base, &inc, source, e.face, e.bary));
 	else
 		memset(e.face, 0xff, n * sizeof *e.face);
-	MR_TRY(mr_thickness(ctx, base, diagonal, thickness));
-	e.thickness = thickness;
 	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
-	mr_parallel(ctx, n, GRAIN, encode_piece, &e);
+	mr_parallel(ctx, n, GRAIN, find_feet, &e);
+	MR_TRY(find_thickness(ctx, &e));
+	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
 	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL, base->p,
 		NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */

@@ -88,7 +88,7 @@ choose_times(mr_ctx *ctx, smoothing *s, bool plain)
 	for (size_t v = 0; v < s->m->nv; v++)
 		s->time[v] = reach;
 	if (!plain && most > 0)
-		MR_TRY(mr_thickness(ctx, s->m, reach, s->time));
+		MR_TRY(mr_thickness(ctx, s->m, s->time));
 	for (size_t v = 0; v < s->m->nv; v++) {
 		s->found.bounded += s->time[v] < reach;
 		s->time[v] = s->time[v] < reach ? share * s->time[v] * s->time[v] / passes : most;

@@ -3,6 +3,14 @@
 #include "base/parallel.h"
 #include "space/bvh_tree.h"
 
+/* Four boxes at once where the processor can, to the same bits. */
+#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&    \
+    !defined(__SANITIZE_THREAD__)
+#define VECTORS __attribute__((target_clones("avx2", "default")))
+#else
+#define VECTORS
+#endif
+
 /* ---- the nearest point of a triangle ---- */
 
 static double
@@ -248,7 +256,7 @@ typedef struct ray {
 	double start[3], inverse[3]; /* in units of the mesh, for the boxes */
 } ray;
 
-static ray
+static inline ray
 ray_make(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir)
 {
 	double d[3] = { dir.x, dir.y, dir.z };
@@ -269,7 +277,7 @@ ray_make(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir)
 }
 
 /* (x, y) in the sheared plane of the ray, z along it in units of t. */
-static mr_v3
+static inline mr_v3
 shear(const ray *r, mr_v3 p)
 {
 	mr_v3 d = mr_sub(p, r->origin);
@@ -278,7 +286,7 @@ shear(const ray *r, mr_v3 p)
 	return mr_vec(c[r->kx] - r->sx * c[r->kz], c[r->ky] - r->sy * c[r->kz], r->sz * c[r->kz]);
 }
 
-static bool
+static inline bool
 hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 {
 	double u, v, w, sum;
@@ -299,13 +307,13 @@ hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 	return true;
 }
 
-/* Where the ray enters each of the four boxes; infinite where it misses it.  NaN (0 times infinity) bounds
- * nothing. */
-static void
+/* How far along each of the four boxes the ray begins; infinite where it misses it.  NaN (0 times infinity)
+ * bounds nothing. */
+static inline void
 box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double out[BVH_WIDE])
 {
 	for (int c = 0; c < BVH_WIDE; c++) {
-		double enter = tmin, leave = tmax;
+		double enter = tmin, leave = tmax, before, behind;
 		for (int k = 0; k < 3; k++) {
 			bool back = r->inverse[k] < 0;
 			double t0 = ((double)(back ? d->hi : d->lo)[k][c] - r->start[k]) * r->inverse[k];
@@ -315,27 +323,31 @@ box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double
 			enter = t0 > enter ? t0 : enter;
 			leave = t1 < leave ? t1 : leave;
 		}
-		out[c] = enter <= leave ? enter : INFINITY;
+		before = enter > 0 ? enter : 0;
+		behind = leave < 0 ? -leave : before;
+		out[c] = enter <= leave ? behind : INFINITY;
 	}
 }
 
-static void
-hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, mr_ray_hit *best)
+/* both: hits before the origin count as those behind it. */
+static inline void
+hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, bool both, mr_ray_hit *best)
 {
 	const mr_mesh *m = bvh->mesh;
 
 	for (uint32_t i = 0; i < leaf.count; i++) {
 		mr_ray_hit h = { .at.face = bvh->face[leaf.child + i] };
 		const uint32_t *v = m->t[h.at.face].v;
-		if (!hit_triangle(r, m->p[v[0]], m->p[v[1]], m->p[v[2]], &h) || h.t < tmin)
+		if (!hit_triangle(r, m->p[v[0]], m->p[v[1]], m->p[v[2]], &h))
 			continue;
-		if (h.t < best->t || (h.t == best->t && h.at.face < best->at.face))
+		h.t = both ? fabs(h.t) : h.t;
+		if (h.t >= tmin && (h.t < best->t || (h.t == best->t && h.at.face < best->at.face)))
 			*best = h;
 	}
 }
 
-bool
-mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
+static inline bool
+cast(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, bool both, mr_ray_hit *hit)
 {
 	mr_ray_hit best = { .at.face = MR_NONE, .t = tmax };
 	ray r = ray_make(bvh, origin, dir);
@@ -349,9 +361,9 @@ mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax,
 		if (e.bound > best.t)
 			continue;
 		if (e.count) {
-			hit_in_leaf(bvh, e, &r, tmin, &best);
+			hit_in_leaf(bvh, e, &r, tmin, both, &best);
 		} else {
-			box_entries(&bvh->nodes[e.child], &r, tmin, best.t, enter);
+			box_entries(&bvh->nodes[e.child], &r, both ? -best.t : tmin, best.t, enter);
 			top = bvh_push_sorted(top, &bvh->nodes[e.child], enter,
 			    best.t < INFINITY ? best.t : 0x1.fffffffffffffp1023);
 		}
@@ -360,6 +372,26 @@ mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax,
 		return false;
 	*hit = best;
 	return true;
+}
+
+VECTORS bool
+mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
+{
+	return cast(bvh, origin, dir, tmin, tmax, false, hit);
+}
+
+VECTORS double
+mr_bvh_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax)
+{
+	mr_ray_hit hit;
+
+	return cast(bvh, origin, dir, tmin, tmax, true, &hit) ? hit.t : tmax;
+}
+
+const uint32_t *
+mr_bvh_order(const mr_bvh *bvh)
+{
+	return bvh->face;
 }
 
 static bool

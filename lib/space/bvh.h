@@ -5,9 +5,10 @@
  * doubles, and deterministic: of several nearest triangles the one with the
  * lowest index is returned, however many threads built the tree.  The tree lives
  * in the arena; the mesh must outlive it.  Queries only read: any number of
- * threads may ask at once.  Of many faces with the same vertices, in the same order, and of many whose corners
- * are all at one place, some or all but one are hidden from every query; the lowest never is.  From farther
- * off than 2^36 sizes of the mesh a nearest point is farther than the nearest by 2^-35 of its distance at most.
+ * threads may ask at once.  Of many faces with the same vertices, in the same order, and of many whose
+ * corners are all at one place, some or all but one are hidden from every query; the lowest never is.  From
+ * farther off than 2^36 sizes of the mesh a nearest point is farther than the nearest by 2^-35 of its
+ * distance at most.
  */
 #ifndef MR_SPACE_BVH_H
 #define MR_SPACE_BVH_H
@@ -50,6 +51,13 @@ mr_closest mr_bvh_closest_within(const mr_bvh *bvh, mr_v3 q, double dist2);
  * one of its faces. True where there is one; *hit is written only then.
  */
 bool mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit);
+
+/* How far the nearest hit is, before the origin or behind it, that is no nearer than tmin; tmax where none is
+ * nearer than that. */
+double mr_bvh_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax);
+
+/* All faces, those that are near each other side by side: work in this order finds its data in the cache. */
+const uint32_t *mr_bvh_order(const mr_bvh *bvh);
 
 /*
  * Calls visit(arg, face) for every face whose bounding box meets the box, in an order fixed by the tree,

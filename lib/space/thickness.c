@@ -9,7 +9,8 @@ typedef struct caster {
 	const mr_mesh *m;
 	const mr_v3 *normal; /* of the vertices */
 	const mr_bvh *bvh;
-	double most, least; /* length of a ray; where it begins */
+	const double *most; /* of the vertices */
+	double least;       /* where a ray begins */
 	double *across;     /* of each face */
 } caster;
 
@@ -21,11 +22,9 @@ direction_of(const caster *c, const uint32_t *v)
 }
 
 static double
-cast(const caster *c, mr_v3 from, mr_v3 along)
+most_of(const caster *c, const uint32_t *v)
 {
-	mr_ray_hit hit;
-
-	return mr_bvh_ray(c->bvh, from, along, c->least, c->most, &hit) ? hit.t : c->most;
+	return fmax(c->most[v[0]], fmax(c->most[v[1]], c->most[v[2]]));
 }
 
 static void
@@ -34,12 +33,12 @@ cast_faces(void *arg, size_t begin, size_t end)
 	static const mr_v3 centre = { 1. / 3, 1. / 3, 1. / 3 };
 	caster *c = arg;
 
-	for (size_t f = begin; f < end; f++) {
-		mr_v3 n = direction_of(c, c->m->t[f].v);
-		mr_v3 from = mr_place_point(c->m, (mr_place){ (uint32_t)f, centre });
-		c->across[f] = c->most;
-		if (mr_norm2(n) > 0)
-			c->across[f] = fmin(cast(c, from, n), cast(c, from, mr_mul(-1, n)));
+	for (size_t i = begin; i < end; i++) {
+		uint32_t f = mr_bvh_order(c->bvh)[i];
+		mr_v3 from = mr_place_point(c->m, (mr_place){ f, centre }), n = direction_of(c, c->m->t[f].v);
+		c->across[f] = most_of(c, c->m->t[f].v);
+		if (c->across[f] > c->least)
+			c->across[f] = mr_bvh_across(c->bvh, from, n, c->least, c->across[f]);
 	}
 }
 
@@ -61,7 +60,7 @@ median_around(const mr_incidence *inc, size_t v, const double *across, double mo
 			sorted[k] = sorted[k - 1];
 		sorted[k] = x;
 	}
-	return sorted[(n - 1) / 2];
+	return fmin(sorted[(n - 1) / 2], most);
 }
 
 /* thickness[a] <= thickness[b] + |a - b| over the edges of a face; true where that lowered one. */
@@ -99,8 +98,23 @@ walk(const mr_mesh *m, double *thickness)
 	}
 }
 
+/* What is asked for at a vertex concerns those around it, by as much less as they are off. */
+static void
+spread(const mr_mesh *m, double *most)
+{
+	double all = 0;
+
+	for (size_t v = 0; v < m->nv; v++)
+		all = fmax(all, most[v]);
+	for (size_t v = 0; v < m->nv; v++)
+		most[v] = all - most[v];
+	walk(m, most);
+	for (size_t v = 0; v < m->nv; v++)
+		most[v] = all - most[v];
+}
+
 mr_status
-mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
+mr_thickness(mr_ctx *ctx, const mr_mesh *m, double *thickness)
 {
 	const double apart = 1e-9; /* of the diagonal: a ray does not meet the face that it leaves */
 	mr_mark mark = mr_mark_take(ctx);
@@ -114,10 +128,11 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	MR_TRY(mr_vertex_normals(ctx, m, &inc, normal));
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	spread(m, thickness);
 	mr_parallel(ctx, m->nf, 256, cast_faces,
-	    &(caster){ m, normal, bvh, most, mr_mesh_tolerance(m, apart), across });
+	    &(caster){ m, normal, bvh, thickness, mr_mesh_tolerance(m, apart), across });
 	for (size_t v = 0; v < m->nv; v++)
-		thickness[v] = median_around(&inc, v, across, most);
+		thickness[v] = median_around(&inc, v, across, thickness[v]);
 	walk(m, thickness);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -8,10 +8,11 @@
 
 /*
  * The distance to the surface on the other side, inwards or outwards, whichever is less, for each vertex:
- * measured along the normal (the shape diameter of Shapira, Shamir, Cohen-Or 2008, of one ray a face), no
- * more than `most`, and made a distance that grows along the surface no faster than one walks, as a local
- * feature size does.  Of any mesh; `most` where there is no other side.  thickness: nv, the caller's.
+ * measured along the normal (the shape diameter of Shapira, Shamir, Cohen-Or 2008, of one ray a face), and
+ * made a distance that grows along the surface no faster than one walks, as a local feature size does.  Of
+ * any mesh.  thickness, nv, has the most that matters at each vertex, and rays are no longer than that takes:
+ * what is thicker, or has no other side, gets that or more.
  */
-mr_status mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness);
+mr_status mr_thickness(mr_ctx *ctx, const mr_mesh *m, double *thickness);
 
 #endif
