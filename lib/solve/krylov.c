@@ -130,53 +130,9 @@ cg_iterate(
 
 /* BiCGSTAB, preconditioned from the right */
 
-/*
- * Its residual may rise by many orders before it falls, and what is carried along then no longer is b - A x.
- * So x is gathered in groups, and r taken anew for each (Sleijpen, van der Vorst 1996: Reliable updated
- * residuals in hybrid Bi-CG methods).
- */
-typedef struct group {
-	double *x;    /* since the group began */
-	double *from; /* the residual then */
-	double peak;  /* the greatest |r|^2 since */
-} group;
-
-static double
-total(mr_multivector s, const double *norm2)
-{
-	double sum = 0;
-
-	for (size_t c = 0; c < s.width; c++)
-		sum += norm2[c];
-	return sum;
-}
-
-/* Ends a group where r has fallen enough to be worth it: x and r become true, q is workspace. */
-static void
-end_group(mr_ctx *ctx, const krylov *k, mr_multivector s, bool now, group *g, double *x, double *r, double *q,
-    double *rr)
-{
-	static const double one[MR_WIDTH] = { 1, 1, 1, 1 }, minus[MR_WIDTH] = { -1, -1, -1, -1 };
-	static const double fall = 1e-4; /* of |r|^2; 0.1 and 1e-12 take up to 12 % more iterations */
-	size_t size = s.n * s.width;
-
-	g->peak = fmax(g->peak, total(s, rr));
-	if (!now && !(total(s, rr) <= fall * g->peak))
-		return;
-	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, g->x, q);
-	memcpy(r, g->from, size * sizeof *r);
-	mr_multivector_add(ctx, s, minus, q, r);
-	mr_multivector_add(ctx, s, one, g->x, x);
-	memset(g->x, 0, size * sizeof *g->x);
-	memcpy(g->from, r, size * sizeof *r);
-	mr_multivector_dot(ctx, s, r, r, rr);
-	g->peak = total(s, rr);
-}
-
 typedef struct bicgstab {
 	double *shadow, *p, *v, *z, *t;
 	double last[MR_WIDTH], alpha[MR_WIDTH], omega[MR_WIDTH];
-	group g;
 } bicgstab;
 
 static mr_status
@@ -186,18 +142,17 @@ bicgstab_begin(mr_ctx *ctx, mr_multivector s, const double *r, bicgstab *b)
 
 	*b = (bicgstab){ MR_NEW(ctx, size, double), MR_NEW_ZERO(ctx, size, double),
 		MR_NEW_ZERO(ctx, size, double), MR_NEW(ctx, size, double), MR_NEW(ctx, size, double),
-		.last = { 1, 1, 1, 1 },
-		.g = { MR_NEW_ZERO(ctx, size, double), MR_NEW(ctx, size, double), 0 } };
-	if (!b->shadow || !b->p || !b->v || !b->z || !b->t || !b->g.x || !b->g.from)
+		.last = { 1, 1, 1, 1 } };
+	if (!b->shadow || !b->p || !b->v || !b->z || !b->t)
 		return MR_EMEM;
 	memcpy(b->shadow, r, size * sizeof *r);
-	memcpy(b->g.from, r, size * sizeof *r);
 	return MR_OK;
 }
 
 /* The step of BiCG: false where it has broken down in every column. */
 static mr_status
-bicgstab_step(mr_ctx *ctx, krylov *k, mr_multivector s, const bool *done, bicgstab *b, double *r, bool *stuck)
+bicgstab_step(mr_ctx *ctx, krylov *k, mr_multivector s, const bool *done, bicgstab *b, double *x, double *r,
+    bool *stuck)
 {
 	double rho[MR_WIDTH], d[MR_WIDTH], f[MR_WIDTH];
 
@@ -216,7 +171,7 @@ bicgstab_step(mr_ctx *ctx, krylov *k, mr_multivector s, const bool *done, bicgst
 		b->alpha[c] = done[c] ? 0 : mr_ratio(rho[c], d[c]);
 		*stuck = *stuck && b->alpha[c] == 0;
 	}
-	mr_multivector_add(ctx, s, b->alpha, b->z, b->g.x);
+	mr_multivector_add(ctx, s, b->alpha, b->z, x);
 	negate(s, b->alpha, f);
 	mr_multivector_add(ctx, s, f, b->v, r);
 	return MR_OK;
@@ -224,7 +179,7 @@ bicgstab_step(mr_ctx *ctx, krylov *k, mr_multivector s, const bool *done, bicgst
 
 /* The step of steepest descent behind it. */
 static mr_status
-stabilize(mr_ctx *ctx, krylov *k, mr_multivector s, bicgstab *b, double *r)
+stabilize(mr_ctx *ctx, krylov *k, mr_multivector s, bicgstab *b, double *x, double *r)
 {
 	double d[MR_WIDTH], e[MR_WIDTH];
 
@@ -234,7 +189,7 @@ stabilize(mr_ctx *ctx, krylov *k, mr_multivector s, bicgstab *b, double *r)
 	mr_multivector_dot(ctx, s, b->t, b->t, e);
 	for (size_t c = 0; c < s.width; c++)
 		b->omega[c] = b->alpha[c] != 0 ? mr_ratio(d[c], e[c]) : 0;
-	mr_multivector_add(ctx, s, b->omega, b->z, b->g.x);
+	mr_multivector_add(ctx, s, b->omega, b->z, x);
 	negate(s, b->omega, d);
 	mr_multivector_add(ctx, s, d, b->t, r);
 	return MR_OK;
@@ -251,18 +206,15 @@ bicgstab_iterate(
 
 	MR_TRY(bicgstab_begin(ctx, s, r, &b));
 	mr_multivector_dot(ctx, s, r, r, rr);
-	b.g.peak = total(s, rr);
 	for (; *iterations < k->opts.iterations && !mr_multivector_within(s, rr, goal) && !stuck;
 	     ++*iterations) {
 		bool done[MR_WIDTH];
 		for (size_t c = 0; c < s.width; c++)
 			done[c] = rr[c] <= goal[c] * goal[c];
-		MR_TRY(bicgstab_step(ctx, k, s, done, &b, r, &stuck));
-		MR_TRY(stabilize(ctx, k, s, &b, r));
+		MR_TRY(bicgstab_step(ctx, k, s, done, &b, x, r, &stuck));
+		MR_TRY(stabilize(ctx, k, s, &b, x, r));
 		mr_multivector_dot(ctx, s, r, r, rr);
-		end_group(ctx, k, s, mr_multivector_within(s, rr, goal), &b.g, x, r, b.t, rr);
 	}
-	end_group(ctx, k, s, true, &b.g, x, r, b.t, rr);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

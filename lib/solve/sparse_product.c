@@ -2,6 +2,8 @@
  * permuted transposition), and parts of matrices. */
 #include "solve/sparse.h"
 
+#include "base/parallel.h"
+
 /* Row lengths to row starts. */
 mr_status
 mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a)
@@ -74,86 +76,168 @@ mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *
 	return MR_OK;
 }
 
-/* A row being computed: the columns in `list` are in use, `value` is dense, mark[column] is the row's number.
- */
+/* A row being computed: the columns in `list` are in use, `value` is dense, mark[column] is `stamp` if in
+ * use. */
 typedef struct product_row {
 	int *list, *mark;
 	double *value;
-	int n;
+	int n, stamp;
 } product_row;
 
-/* row = a_i b */
+/* c = a W b; each thread has a block of rows and a row of workspace. */
+typedef struct product_job {
+	const mr_sparse *a, *b;
+	const double *w; /* NULL: ones */
+	int columns;     /* of c; those of b beyond are left out */
+	bool lower;      /* so are those above the diagonal */
+	size_t blocks;
+	product_row *row;
+	int *length;
+	mr_sparse c;
+} product_job;
+
 static void
-multiply_row(const mr_sparse *a, const mr_sparse *b, int i, product_row *row)
+multiply_row(const product_job *j, int i, product_row *row)
 {
+	const mr_sparse *a = j->a, *b = j->b;
+	const int limit = j->lower ? i + 1 : j->columns;
+
 	row->n = 0;
+	row->stamp++;
 	for (int e = a->start[i]; e < a->start[i + 1]; e++) {
 		int m = a->index[e];
-		for (int g = b->start[m]; g < b->start[m + 1]; g++) {
+		double x = j->w ? a->value[e] * j->w[m] : a->value[e];
+		for (int g = b->start[m]; g < b->start[m + 1] && b->index[g] < limit; g++) {
 			int c = b->index[g];
-			if (row->mark[c] != i) {
-				row->mark[c] = i;
+			if (row->mark[c] != row->stamp) {
+				row->mark[c] = row->stamp;
 				row->value[c] = 0;
 				row->list[row->n++] = c;
 			}
-			row->value[c] += a->value[e] * b->value[g];
+			row->value[c] += x * b->value[g];
 		}
 	}
 }
 
 static int
-count_row(const mr_sparse *a, const mr_sparse *b, int i, product_row *row)
+block_begin(const product_job *j, size_t block)
 {
-	row->n = 0;
-	for (int e = a->start[i]; e < a->start[i + 1]; e++)
-		for (int m = a->index[e], g = b->start[m]; g < b->start[m + 1]; g++)
-			if (row->mark[b->index[g]] != i) {
-				row->mark[b->index[g]] = i;
-				row->n++;
-			}
-	return row->n;
+	return (int)((size_t)j->c.n * block / j->blocks);
 }
 
 static void
-fill_rows(const mr_sparse *a, const mr_sparse *b, product_row *row, mr_sparse *r)
+count_rows(void *arg, size_t begin, size_t end)
 {
-	for (int i = 0; i < a->n; i++) {
-		int at = r->start[i];
-		multiply_row(a, b, i, row);
-		mr_sparse_sort(row->list, row->n);
-		for (int k = 0; k < row->n; k++) {
-			r->index[at + k] = row->list[k];
-			r->value[at + k] = row->value[row->list[k]];
+	product_job *j = arg;
+
+	for (size_t b = begin; b < end; b++)
+		for (int i = block_begin(j, b); i < block_begin(j, b + 1); i++) {
+			multiply_row(j, i, &j->row[b]);
+			j->length[i] = j->row[b].n;
 		}
-	}
 }
 
 static void
-unmark(product_row *row, size_t columns)
+fill_rows(void *arg, size_t begin, size_t end)
 {
-	for (size_t c = 0; c < columns; c++)
-		row->mark[c] = -1;
+	product_job *j = arg;
+
+	for (size_t b = begin; b < end; b++)
+		for (int i = block_begin(j, b); i < block_begin(j, b + 1); i++) {
+			const product_row *row = &j->row[b];
+			int at = j->c.start[i];
+			multiply_row(j, i, &j->row[b]);
+			mr_sparse_sort(row->list, row->n);
+			for (int k = 0; k < row->n; k++, at++) {
+				j->c.index[at] = row->list[k];
+				j->c.value[at] = row->value[row->list[k]];
+			}
+		}
+}
+
+static mr_status
+make_rows(mr_ctx *ctx, product_job *j)
+{
+	size_t n = (size_t)j->columns;
+
+	for (size_t b = 0; b < j->blocks; b++) {
+		product_row r = { MR_NEW(ctx, n, int), MR_NEW_ZERO(ctx, n, int), MR_NEW(ctx, n, double), 0,
+			0 };
+		if (!r.list || !r.mark || !r.value)
+			return MR_EMEM;
+		j->row[b] = r;
+	}
+	return MR_OK;
+}
+
+/* Fills c, which has its number of rows. */
+static mr_status
+multiply(mr_ctx *ctx, product_job *j)
+{
+	size_t n = (size_t)j->c.n;
+	mr_mark mark;
+
+	j->blocks = ctx->threads;
+	j->row = MR_NEW(ctx, j->blocks, product_row);
+	j->length = MR_NEW(ctx, n, int);
+	j->c.start = MR_NEW(ctx, n + 1, int);
+	if (!j->row || !j->length || !j->c.start)
+		return MR_EMEM;
+	mark = mr_mark_take(ctx);
+	MR_TRY(make_rows(ctx, j));
+	mr_parallel(ctx, j->blocks, 1, count_rows, j);
+	mr_mark_release(ctx, mark);
+	MR_TRY(mr_sparse_starts(ctx, j->length, &j->c));
+	j->c.index = MR_NEW(ctx, (size_t)j->c.start[n], int);
+	j->c.value = MR_NEW(ctx, (size_t)j->c.start[n], double);
+	if (!j->c.index || !j->c.value)
+		return MR_EMEM;
+	mark = mr_mark_take(ctx);
+	MR_TRY(make_rows(ctx, j));
+	mr_parallel(ctx, j->blocks, 1, fill_rows, j);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 mr_status
 mr_sparse_multiply(mr_ctx *ctx, const mr_sparse *a, const mr_sparse *b, size_t columns, mr_sparse *c)
 {
-	product_row row = { MR_NEW(ctx, columns, int), MR_NEW(ctx, columns, int),
-		MR_NEW(ctx, columns, double), 0 };
-	mr_sparse r = { a->n, MR_NEW_ZERO(ctx, (size_t)a->n + 1, int), NULL, NULL };
+	product_job j = { .a = a, .b = b, .columns = (int)columns, .c.n = a->n };
 
-	if (!row.list || !row.mark || !row.value || !r.start)
+	MR_TRY(multiply(ctx, &j));
+	*c = j.c;
+	return MR_OK;
+}
+
+/* The first n rows and columns. */
+static mr_status
+crop(mr_ctx *ctx, const mr_sparse *l, size_t n, bool lower, mr_sparse *out)
+{
+	uint32_t *row = MR_NEW(ctx, n, uint32_t);
+
+	if (!row)
 		return MR_EMEM;
-	unmark(&row, columns);
-	for (int i = 0; i < a->n; i++)
-		r.start[i + 1] = count_row(a, b, i, &row);
-	MR_TRY(mr_sparse_starts(ctx, r.start + 1, &r));
-	r.index = MR_NEW(ctx, (size_t)r.start[r.n], int);
-	r.value = MR_NEW(ctx, (size_t)r.start[r.n], double);
-	if (!r.index || !r.value)
-		return MR_EMEM;
-	unmark(&row, columns);
-	fill_rows(a, b, &row, &r);
-	*c = r;
+	for (size_t i = 0; i < n; i++)
+		row[i] = (uint32_t)i;
+	return mr_sparse_restrict(ctx, l, row, n, lower, out);
+}
+
+mr_status
+mr_sparse_power(
+    mr_ctx *ctx, const mr_sparse *l, const double *w, size_t k, size_t n, bool lower, mr_sparse *out)
+{
+	mr_sparse rows = { (int)n, l->start, l->index, l->value };
+
+	if (k == 1)
+		return crop(ctx, l, n, lower, out);
+	for (size_t step = 2; step <= k; step++) {
+		product_job j = {
+			.a = &rows, .b = l, .w = w, .columns = step < k ? l->n : (int)n, .c.n = (int)n
+		};
+		j.lower = lower && step == k;
+		MR_TRY(multiply(ctx, &j));
+		rows = j.c;
+	}
+	*out = rows;
 	return MR_OK;
 }
