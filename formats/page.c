@@ -27,7 +27,7 @@ static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offs
 	"encoded", "before", "rest", "target", "response", "texcoord", "corner_texcoord", "polygon", NULL };
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
-	"base.encoded", "base.response", "control.response", "handles.transform", "handles.turn", NULL };
+	"base.encoded", "base.response", "control.response", "handles.transform", NULL };
 
 /* What the page has of faces that intersect. */
 #define CROSSING "self_intersections"

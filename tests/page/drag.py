@@ -107,16 +107,16 @@ def touch(b):
 
 
 LINES = ["mr-pose -H 1 --rotate 0,0,1,40 --translate 0.1,0.2,0 | mr-pose -H 3 --scale 1.4 | mr-decode",
-         "mr-pose -H1 -s1.2,0.8,1 -r '1,1,0,-75' --center 0.1,0.9,0 | mr-pose --handle=1 --translate=0,.1,-5e-2 \\\n | mr-pose \"-H\" 3 -t 0,-0.2,0",
+         "mr-pose -H 1 -s 1.2,0.8,1 -r 1,1,0,-75 --center 0.1,0.9,0 | mr-pose --handle 1 --translate 0,.1,-5e-2 | mr-pose -H 3 -t 0,-0.2,0",
          "mr-pose -H 3 -r 0,0,2,200 -r 0,1,0,300|mr-decode"]
 
-HOSTILE = [("rm -rf /", "only mr-pose and mr-decode"), ("mr-pose -H 1 -t 1,0,0; reboot", "; reboot"), ("mr-pose -H $(reboot)", "$(reboot)"),
-           ("mr-pose -H 1 -t 1,2", "three numbers"), ("mr-pose -H 1 -t nan,0,0", "three numbers"), ("mr-pose -H 1 -t 1e999,0,0", "three numbers"),
-           ("mr-pose -H 1 -r 0,0,0,20", "no direction"), ("mr-pose -H 1 -s 1,2", "one factor"), ("mr-pose -t 1,0,0", "handles in use: 1, 3"),
-           ("mr-pose -H 7 -t 1,0,0", "handles in use: 1, 3"), ("mr-pose -H", "wants a value"), ("mr-pose -H 1 --frames 4", "one pose"),
-           ("mr-pose --script x", "reads no file"), ("mr-pose -H 1 | mr-decode --gain 2", "for the pipe"), ("mr-pose -H 1 | | mr-decode", "beside |"),
-           ("mr-pose --__proto__ 1", "for the pipe"), ("mr-pose -H 1 -t 1,0,0 <img src=x onerror=alert(1)>", "nothing that the page takes"),
-           ("mr-pose -H 1 \u202e -t 1,0,0", "control characters"), ("mr-pose -H 1 -t 1,0,0\nreboot", "control characters"), ("mr-pose -H " + "9" * 100000, "not the number"), ("</textarea><script>alert(1)</script>", "nothing that the page takes")]
+TAKES = "nothing that the page takes"
+HOSTILE = [("rm -rf /", TAKES), ("mr-pose -H 1 -t 1,0,0; reboot", TAKES), ("mr-pose -H $(reboot)", TAKES), ("mr-pose -H 1 -t 1,2", TAKES),
+           ("mr-pose -H 1 -t nan,0,0", TAKES), ("mr-pose -H 1 -t 1e999,0,0", TAKES), ("mr-pose -H 1 -r 0,0,0,20", TAKES), ("mr-pose -H 1 -s 1,2", TAKES),
+           ("mr-pose -t 1,0,0", "handles in use: 1, 3"), ("mr-pose -H 7 -t 1,0,0", "handles in use: 1, 3"), ("mr-pose -H", TAKES),
+           ("mr-pose -H 1 --frames 4", TAKES), ("mr-pose -H 1 | mr-decode --gain 2", TAKES), ("mr-pose -H 1 | | mr-decode", TAKES),
+           ("mr-pose --__proto__ 1", TAKES), ("mr-pose -H 1 -t 1,0,0 <img src=x onerror=alert(1)>", TAKES), ("mr-pose -H 1 \u202e -t 1,0,0", TAKES),
+           ("mr-pose -H " + "9" * 100000, TAKES), ("</textarea><script>alert(1)</script>", TAKES)]
 
 
 def lines(b):

@@ -5,14 +5,11 @@ import { boxOf } from "../mesh/surface.js";
 
 export const HANDLE = 2; /* the region of handle 0 */
 
-/* Sums over the vertices of each handle; the lowest region that is not free. */
-function handlesOf(region, position) {
-	const sums = [], centroids = [];
-	let lowest = Infinity;
+/* The middle of the vertices of each handle. */
+function centroidsOf(region, position) {
+	const sums = [];
 
 	for (let v = 0; v < region.length; v++) {
-		if (region[v] !== 1)
-			lowest = Math.min(lowest, region[v]);
 		if (region[v] < HANDLE)
 			continue;
 		const sum = sums[region[v] - HANDLE] = sums[region[v] - HANDLE] || [0, 0, 0, 0];
@@ -20,18 +17,14 @@ function handlesOf(region, position) {
 			sum[c] += position[3 * v + c];
 		sum[3]++;
 	}
-	sums.forEach(([x, y, z, n], h) => {
-		centroids[h] = [x / n, y / n, z / n];
-	});
-	return { centroids, whole: lowest >= HANDLE && lowest < Infinity ? lowest - HANDLE : null };
+	return sums.map(([x, y, z, n]) => [x / n, y / n, z / n]);
 }
 
-/* Rows of numbers: those of a column, none where there is no such column. */
-async function rowsOf(frame, name) {
-	const column = columnOf(frame, "handles", name), n = column ? column.components : 1;
-	const values = column ? await column.values() : [];
+/* The maps of the stream; none where it has none. */
+async function startOf(frame) {
+	const column = columnOf(frame, "handles", "transform"), values = column ? await column.values() : [];
 
-	return Array.from({ length: values.length / n }, (_, i) => Array.from(values.subarray(n * i, n * i + n)));
+	return Array.from({ length: values.length / 12 }, (_, i) => Array.from(values.subarray(12 * i, 12 * i + 12)));
 }
 
 /* The layer whose regions are the handles: mr-pose goes by mesh where that has any. */
@@ -39,10 +32,9 @@ const handled = (frame) => (ownRegion(frame, "mesh") ? "mesh" : "control");
 
 export async function poseOf(frame) {
 	const layer = handled(frame), region = await ownRegion(frame, layer).values(), position = await columnOf(frame, layer, "position").values();
-	const { centroids, whole } = handlesOf(region, position), box = boxOf(position);
-	const start = { maps: await rowsOf(frame, "transform"), turns: await rowsOf(frame, "turn") };
+	const box = boxOf(position);
 
-	return new Pose(centroids, start, Math.hypot(...box.low.map((x, c) => box.high[c] - x)), whole);
+	return new Pose(centroidsOf(region, position), await startOf(frame), Math.hypot(...box.low.map((x, c) => box.high[c] - x)));
 }
 
 /* The commands that a page with handles lacks, or an empty text. */

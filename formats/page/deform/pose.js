@@ -2,7 +2,7 @@
  * pose.js -- where handles go: poses in the order in which mr-pose applies them, lib/edit/handles.c, and the steps back and
  * forth between them.
  */
-import { IDENTITY, add, apply, compose, exponential, linear, logarithm, norm, sub, times, unit } from "../mesh/rotation.js";
+import { IDENTITY, add, apply, compose, exponential, norm, sub, times, unit } from "../mesh/rotation.js";
 import { lineOf, parseLine, rest } from "./poseline.js";
 
 /* About which axis a pose turns, by how many radians. */
@@ -22,14 +22,13 @@ const rounded = (x, decimals) => Number(x.toFixed(decimals)) || 0;
 
 export class Pose {
 	/*
-	 * centroids: of the handles at rest, by number, holes where a number is not in use; start: maps and turns that the
-	 * stream has already; extent: of the model; whole: the handle that moves it as a whole, or null.
+	 * centroids: of the handles at rest, by number, holes where a number is not in use; start: maps that the stream has
+	 * already; extent: of the model.
 	 */
-	constructor(centroids, start, extent, whole) {
+	constructor(centroids, start, extent) {
 		this.centroids = centroids;
 		this.numbers = Object.keys(centroids).map(Number);
 		this.start = start;
-		this.whole = whole;
 		this.decimals = Math.min(Math.max(5 - Math.floor(Math.log10(extent)), 0), 20);
 		this.most = this.level = null; /* the finest level of a displaced surface, and the one that is shown */
 		this.poses = [];
@@ -37,28 +36,20 @@ export class Pose {
 		this.future = [];
 	}
 
-	/* Map and turn of each handle, after all poses but those from `end` on. */
-	rows(end) {
-		const n = Math.max(this.centroids.length, this.start.maps.length);
-		const rows = Array.from({ length: n }, (_, h) => ({ map: this.start.maps[h] || IDENTITY, turn: this.start.turns[h] || [0, 0, 0] }));
+	/* The map of each handle, after all poses but those from `end` on. */
+	maps(end) {
+		const n = Math.max(this.centroids.length, this.start.length), maps = Array.from({ length: n }, (_, h) => this.start[h] || IDENTITY);
 
 		for (const pose of this.poses.slice(0, end)) {
-			const row = rows[pose.handle];
-			row.map = compose(mapOf(pose, pose.center || apply(row.map, this.centroids[pose.handle])), row.map);
-			row.turn = logarithm(linear(row.map), add(row.turn, turnOf(pose)));
+			const map = maps[pose.handle];
+			maps[pose.handle] = compose(mapOf(pose, pose.center || apply(map, this.centroids[pose.handle])), map);
 		}
-		return rows;
+		return maps;
 	}
 
-	maps() {
-		return this.rows().map(({ map }) => map);
-	}
-
-	/* The largest turn of handles against each other and what is fixed, in degrees. */
+	/* The largest turn, in degrees. */
 	degrees() {
-		const rows = this.rows(), turns = this.numbers.map((h) => rows[h].turn).concat(this.whole === null ? [[0, 0, 0]] : []);
-
-		return Math.max(0, ...turns.flatMap((a) => turns.map((b) => norm(sub(a, b)) * 180 / Math.PI)));
+		return Math.max(0, ...this.poses.map((pose) => Math.abs(pose.rotate[3])));
 	}
 
 	/* The pose that dragging a handle changes: its last one, unless that has a centre of its own. */
@@ -71,7 +62,7 @@ export class Pose {
 	/* Where that begins, and what it is: { centre, translate, turn, scale }. */
 	grip(handle) {
 		const at = this.live(handle), pose = at < 0 ? rest(handle) : this.poses[at];
-		const { map } = this.rows(at < 0 ? undefined : at)[handle];
+		const map = this.maps(at < 0 ? undefined : at)[handle];
 
 		return { centre: apply(map, this.centroids[handle]), translate: pose.translate, turn: turnOf(pose), scale: pose.scale };
 	}

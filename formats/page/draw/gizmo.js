@@ -68,10 +68,9 @@ export class Gizmo {
 
 	/* Where it has been dragged: { translate, turn, scale }, turns beyond half a circle counted. */
 	read() {
-		const m = new THREE.Matrix4().makeRotationFromQuaternion(this.at.quaternion).elements;
 		const place = this.at.position.toArray();
 
-		this.turn = logarithm([m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]], this.turn);
+		this.turn = logarithm(this.at.quaternion, this.turn);
 		return {
 			translate: place.map((x, c) => x + this.centre[c] - this.grip.centre[c]),
 			turn: this.turn,

@@ -1,7 +1,4 @@
-/*
- * rotation.js -- 3x3 matrices as rows, affine maps as three rows of four, rotations and their logarithms: lib/base/rotation.c
- * for the few that handles need.
- */
+/* rotation.js -- vectors, affine maps as three rows of four, rotations and their logarithms, for the few that handles need. */
 
 export const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 
@@ -39,66 +36,9 @@ export function compose(a, b) {
 	});
 }
 
-/* The rows and columns of an affine map that turn and stretch. */
-export function linear(t) {
-	return [t[0], t[1], t[2], t[4], t[5], t[6], t[8], t[9], t[10]];
-}
-
-/* Horn's matrix, shifted so that its largest eigenvalue is the largest by its amount too. */
-function horn(m) {
-	const s = 0.6 * Math.sqrt(m.reduce((sum, x) => sum + x * x, 0));
-
-	return [
-		m[0] + m[4] + m[8] + s, m[7] - m[5], m[2] - m[6], m[3] - m[1],
-		m[7] - m[5], m[0] - m[4] - m[8] + s, m[1] + m[3], m[2] + m[6],
-		m[2] - m[6], m[1] + m[3], m[4] - m[0] - m[8] + s, m[5] + m[7],
-		m[3] - m[1], m[2] + m[6], m[5] + m[7], m[8] - m[0] - m[4] + s,
-	];
-}
-
-const trace = (s) => s[0] + s[5] + s[10] + s[15];
-
-function square(s) {
-	const f = 1 / trace(s) ** 2;
-
-	return s.map((_, k) => {
-		const i = k - k % 4, j = k % 4;
-		return f * (s[i] * s[j] + s[i + 1] * s[j + 4] + s[i + 2] * s[j + 8] + s[i + 3] * s[j + 12]);
-	});
-}
-
-/*
- * The unit quaternion, scalar first and not negative, of the rotation nearest to a matrix: squared again and again Horn's
- * matrix becomes the projection on its largest eigenvector (Horn 1987).
- */
-export function nearestQuaternion(m) {
-	const most = Math.max(...m.map(Math.abs));
-	let s = horn(most > 0 ? m.map((x) => x / most) : m);
-
-	if (!(trace(s) > 0))
-		return [1, 0, 0, 0];
-	for (let i = 0; i < 45; i++) {
-		s = square(s);
-		if (s.reduce((sum, x) => sum + x * x, 0) >= (1 - 1e-15) * trace(s) ** 2)
-			break;
-	}
-	const best = [0, 1, 2, 3].reduce((b, i) => (s[5 * i] > s[5 * b] ? i : b), 0), q = s.slice(4 * best, 4 * best + 4);
-	const length = Math.sqrt(q.reduce((sum, x) => sum + x * x, 0)) * (q[0] < 0 ? -1 : 1);
-	return q.map((x) => x / length);
-}
-
-/* The matrix of a unit quaternion. */
-export function matrixOf([w, x, y, z]) {
-	return [
-		1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y),
-		2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x),
-		2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y),
-	];
-}
-
-/* Of all vectors along the axis of that rotation, as long as its angle and whole turns, the one nearest to `near`. */
-export function logarithm(m, near) {
-	const q = nearestQuaternion(m), axis = q.slice(1), sine = norm(axis), angle = 2 * Math.atan2(sine, q[0]);
+/* Of all vectors along the axis of a rotation, as long as its angle and whole turns, the one nearest to `near`. */
+export function logarithm({ x, y, z, w }, near) {
+	const axis = times(w < 0 ? -1 : 1, [x, y, z]), sine = norm(axis), angle = 2 * Math.atan2(sine, Math.abs(w));
 
 	if (angle < 1e-6)
 		return add(times(2, axis), times(2 * Math.PI * Math.round(norm(near) / (2 * Math.PI)), unit(near)));
