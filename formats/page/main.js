@@ -1,6 +1,7 @@
 /* main.js -- begins: reads the page's data, and connects its controls. */
 import { App } from "./app.js";
 import { takeBytes, takePictures } from "./stream/data.js";
+import { begin as loadLibrary } from "./library/compile.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
 import { addLevels } from "./mesh/levels.js";
@@ -70,6 +71,9 @@ function fail(error) {
 async function begin() {
 	if (!canDraw())
 		throw new Error("This browser cannot draw the model: WebGL is missing or switched off.");
+	await loadLibrary().catch(() => {
+		throw new Error("This browser is too old for the page: it has no WebAssembly with vectors.");
+	});
 	const frames = await parseStream(takeBytes());
 	frames.forEach(addLevels);
 	$("side").hidden = false;

@@ -2,7 +2,7 @@
 import { namesOf } from "./stream/layers.js";
 import { numberAt } from "./draw/column_colors.js";
 import { regionName } from "./draw/colors.js";
-import { nearestCorner, nearestFace, nearestPoint } from "./draw/pick.js";
+import { nearestCorner, nearestPoint } from "./draw/pick.js";
 import { columnOf } from "./stream/stream.js";
 import { element, number, place } from "./stream/text.js";
 
@@ -15,11 +15,9 @@ export function pickAt(ray) {
 	for (const [name, drawn] of ray.layers) {
 		const p = drawn.position;
 		if (drawn.triangles) {
-			const hit = nearestFace(p, drawn.triangles, ray.from, ray.along);
-			if (!hit || (best && best.t <= hit.t))
-				continue;
-			const at = ray.from.map((x, c) => x + hit.t * ray.along[c]);
-			best = { name, held: ray.held, t: hit.t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, at), at };
+			const hit = drawn.solid.hit(ray.from, ray.along), t = hit && Math.hypot(...hit.at.map((x, c) => x - ray.from[c]));
+			if (hit && !(best && best.t <= t))
+				best = { name, held: ray.held, t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, hit.at), at: hit.at };
 		} else {
 			const hit = nearestPoint(p, ray.projection, ray.right, ray.top, NEAR * ray.pixel, ray.aspect);
 			if (hit && !(best && best.t <= hit.t))

@@ -102,19 +102,17 @@ nearest_point(const mr_mesh *m, mr_v3 p)
 }
 
 mr_status
-mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance)
+mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t face, mr_v3 source,
+    double reach, double *distance)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_closest source = nearest_point(m, p);
-	march j = { m, source.point, distance, { 0 } };
-	mr_incidence inc;
+	march j = { m, source, distance, { 0 } };
 
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	for (size_t v = 0; v < m->nv; v++)
 		distance[v] = INFINITY;
-	for (int k = 0; k < 3 && source.at.face != MR_NONE; k++) {
-		uint32_t v = m->t[source.at.face].v[k];
-		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source.point), 0));
+	for (int k = 0; k < 3 && face != MR_NONE; k++) {
+		uint32_t v = m->t[face].v[k];
+		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source), 0));
 	}
 	while (j.front.n > 0) {
 		entry e;
@@ -123,12 +121,25 @@ mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, doub
 			break;
 		if (e.distance > distance[e.vertex])
 			continue;
-		for (size_t i = inc.start[e.vertex]; i < inc.start[e.vertex + 1]; i++)
-			MR_TRY(relax_face(ctx, &j, e.vertex, m->t[inc.face[i]].v));
+		for (size_t i = inc->start[e.vertex]; i < inc->start[e.vertex + 1]; i++)
+			MR_TRY(relax_face(ctx, &j, e.vertex, m->t[inc->face[i]].v));
 	}
 	for (size_t v = 0; v < m->nv; v++)
 		if (distance[v] > reach)
 			distance[v] = INFINITY;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_closest source = nearest_point(m, p);
+	mr_incidence inc;
+
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	MR_TRY(mr_geodesic_from(ctx, m, &inc, source.at.face, source.point, reach, distance));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

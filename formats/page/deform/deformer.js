@@ -2,7 +2,7 @@
  * deformer.js -- base and mesh as the handles pose them: workers have a part each, and what is shown when nothing moves any more
  * is what mr-decode makes.
  */
-import { compile } from "../library/compile.js";
+import { module } from "../library/compile.js";
 import { IDENTITY } from "../mesh/rotation.js";
 import { textOf } from "../stream/data.js";
 import { columnOf } from "../stream/stream.js";
@@ -84,7 +84,7 @@ export class Deformer {
 		this.places = { base: new Float32Array(position.length), mesh: new Float32Array(3 * height.length) };
 		const counts = [position.length / 3, triangles.length / 3, height.length, this.handles];
 		const parts = Math.min(WORKERS, navigator.hardwareConcurrency || 1, Math.ceil(counts[0] / VERTICES));
-		const url = URL.createObjectURL(new Blob([await textOf("worker")], { type: "text/javascript" })), module = await compile();
+		const url = URL.createObjectURL(new Blob([await textOf("worker")], { type: "text/javascript" }));
 		this.hands = Array.from({ length: parts }, () => new Hand(url));
 		await this.all((part) => ({ module, values, counts, origin, part, parts, maps: flat([], this.handles) }));
 		URL.revokeObjectURL(url);

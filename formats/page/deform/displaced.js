@@ -3,7 +3,7 @@
  * over it on the level that is shown, as mr-decode makes it: few vertices are posed, and then subdivided (mesh/levels.js).
  */
 import { flat } from "./deformer.js";
-import { library as load } from "../library/compile.js";
+import { library } from "../library/compile.js";
 import { columnOf } from "../stream/stream.js";
 
 /* The columns that it is made of; null where the frame has not all of them. */
@@ -37,7 +37,6 @@ export class DisplacedDeformer {
 		this.centre = centre;
 		this.position = await this.columns.position.values();
 		this.response = await this.columns.response.values();
-		this.library = await load();
 		return this;
 	}
 
@@ -53,7 +52,7 @@ export class DisplacedDeformer {
 
 	/* The control mesh by these maps of the handles. */
 	posed(maps) {
-		const { library, position, response, columns: { response: { components, steps: { origin } } } } = this, handles = components / 4;
+		const { position, response, columns: { response: { components, steps: { origin } } } } = this, handles = components / 4;
 		const places = [position, response, Float64Array.from(origin), flat(maps, handles), position].map((values) => library.put(values));
 
 		library.had(library.run.pose_by_response(places[0], position.length / 3, places[1], handles, ...places.slice(2)));

@@ -4,6 +4,7 @@ import { PLAIN, regionColor } from "./colors.js";
 import { bodies, materialsFor, wornMaterial } from "./materials.js";
 import { Slots } from "./sharp.js";
 import { apart, gather, seamed, sorted } from "../mesh/seams.js";
+import { Solid } from "../mesh/solid.js";
 import { edgesOf, shade, spacingOf, surfaceOf } from "../mesh/surface.js";
 
 const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);
@@ -83,9 +84,22 @@ export class Drawn {
 		this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2 * this.extent);
 	}
 
+	/* The surface in the library's memory, where its vertices are now. */
+	get solid() {
+		if (!this.body)
+			return null;
+		if (!this.made)
+			this.made = new Solid(this.position, this.triangles);
+		else if (this.moved)
+			this.made.move();
+		this.moved = false;
+		return this.made;
+	}
+
 	/* The same vertices at other places. */
 	move(position) {
 		this.position.set(position);
+		this.moved = true;
 		shade(this.surface, this.position);
 		const arrays = this.parts ? gather(this.surface, this.parts) : this.surface;
 		for (const name of ["position", "normal"]) {
@@ -221,6 +235,8 @@ export class Drawn {
 	/* Frees what the graphics card has of it, but for materials that it shares with `after`. */
 	dispose(after) {
 		this.setMarks(null);
+		if (this.made)
+			this.made.free();
 		for (const child of this.group.children)
 			child.geometry.dispose();
 		if (!after || after.materials !== this.materials)

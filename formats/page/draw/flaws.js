@@ -4,7 +4,6 @@
  */
 import * as THREE from "three/build/three.module.js";
 import { pointMaterial } from "./materials.js";
-import { endsOf, foldsOf, pairsOf } from "../mesh/folds.js";
 import { CROSSING } from "../stream/layers.js";
 import { columnOf } from "../stream/stream.js";
 import { count } from "../stream/text.js";
@@ -27,14 +26,6 @@ const materials = {
 	face: new THREE.MeshBasicMaterial({ color: colorOf(VIOLET), side: THREE.DoubleSide, polygonOffset: true, polygonOffsetFactor: -1, polygonOffsetUnits: -1 }),
 	dot: pointMaterial(DISC, { size: 1, least: 9, most: 9 }, { depthTest: false, transparent: true }),
 };
-
-const pairs = new WeakMap(); /* of triangles: the edges that may be folded */
-
-function pairsAt(vertices, triangles) {
-	if (!pairs.has(triangles))
-		pairs.set(triangles, pairsOf(vertices, triangles));
-	return pairs.get(triangles);
-}
 
 /* The mean of n vertices, next to each other in a list. */
 function middlesOf(vertices, n, p) {
@@ -71,7 +62,7 @@ class Marks {
 	}
 
 	mark() {
-		const { position, triangles } = this.drawn, ends = endsOf(foldsOf(pairsAt(position.length / 3, triangles), position, triangles), triangles);
+		const { position, solid } = this.drawn, ends = solid.folds();
 		const places = [middlesOf(ends, 2, position), middlesOf(this.faces, 3, position)], tint = new Uint8Array(places[0].length + places[1].length);
 
 		this.folds = ends.length / 2;

@@ -1,16 +1,11 @@
-/* compile.js -- the library, compiled once for the page and its workers. */
+/* compile.js -- the library of the page, compiled once for it and its workers. */
 import code from "library.wasm";
 import { Library } from "./library.js";
 
-let compiled, loaded;
+export let module, library;
 
-export function compile() {
-	compiled = compiled || WebAssembly.compile(code);
-	return compiled;
-}
-
-/* That of the page. */
-export function library() {
-	loaded = loaded || compile().then(Library.load);
-	return loaded;
+/* Before anything asks for it. */
+export async function begin() {
+	module = await WebAssembly.compile(code);
+	library = await Library.load(module);
 }

@@ -4,7 +4,7 @@
  * that it has at first.
  */
 import { Column } from "../stream/codec.js";
-import { library as load } from "../library/compile.js";
+import { library } from "../library/compile.js";
 import { columnOf, keyOf } from "../stream/stream.js";
 
 const HEIGHTS = "displacement";
@@ -42,35 +42,33 @@ class Surface {
 
 	/* The levels in the library's memory. */
 	async begin() {
-		const { position, triangles, crease } = this.parts, library = await load();
+		const { position, triangles, crease } = this.parts;
 		const [p, t, c] = await Promise.all([position.values(), triangles.values(), crease && crease.values()]);
 
-		this.levels = library.had(library.run.levels_new(library.put(p), position.rows, library.put(t), triangles.rows, library.put(c)));
-		return library;
+		return library.had(library.run.levels_new(library.put(p), position.rows, library.put(t), triangles.rows, library.put(c)));
 	}
 
-	/* Does it with the library when this level is made. */
-	async with(level, act) {
-		this.began = this.began || this.begin();
-		const library = await this.began;
-		return act(library, library.had(library.run.levels_triangles(this.levels, level)));
+	/* Makes this level, where it is not there: { levels, at }, and its triangles there. */
+	async make(level) {
+		this.levels = this.levels || this.begin();
+		const levels = await this.levels;
+		return { levels, at: library.had(library.run.levels_triangles(levels, level)) };
 	}
 
-	triangles(level) {
-		return this.with(level, (library, at) => library.get(Uint32Array, at, 3 * this.parts.triangles.rows * 4 ** level));
+	async triangles(level) {
+		return library.get(Uint32Array, (await this.make(level)).at, 3 * this.parts.triangles.rows * 4 ** level);
 	}
 
 	/* Heights from how much each differs from what the level before predicts. */
 	async heights(level) {
 		const differences = (await this.parts.height.values()).subarray(0, this.vertices[level]);
 
-		return this.with(level, (library) => {
-			const at = library.put(differences);
-			library.had(library.run.levels_heights(this.levels, level, at));
-			const heights = library.get(Float64Array, at, differences.length);
-			library.free(at);
-			return heights;
-		});
+		const { levels } = await this.make(level), at = library.put(differences);
+
+		library.had(library.run.levels_heights(levels, level, at));
+		const heights = library.get(Float64Array, at, differences.length);
+		library.free(at);
+		return heights;
 	}
 
 	async positions(level) {
@@ -80,14 +78,12 @@ class Surface {
 	/* Over the control mesh at p. */
 	async positionsOver(level, p) {
 		const height = await this.at(level).height.values();
+		const { levels } = await this.make(level), places = [library.put(p), library.put(height), library.take(24 * height.length)];
 
-		return this.with(level, (library) => {
-			const [control, heights, out] = [library.put(p), library.put(height), library.take(24 * height.length)];
-			library.had(library.run.levels_displaced(this.levels, level, control, heights, out));
-			const places = library.get(Float64Array, out, 3 * height.length);
-			library.free(control, heights, out);
-			return places;
-		});
+		library.had(library.run.levels_displaced(levels, level, ...places));
+		const out = library.get(Float64Array, places[2], 3 * height.length);
+		library.free(...places);
+		return out;
 	}
 
 	/* The columns of a level. */

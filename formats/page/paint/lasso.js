@@ -12,16 +12,16 @@ function inside(polygon, x, y) {
 	return odd;
 }
 
-/* The vertices of a screen that are in the picture and inside of the polygon; through: also those that are hidden. */
-export function within(screen, polygon, through) {
-	const { x, y, depth, t } = screen, { near, width, height } = screen.view, out = [];
-	const xs = polygon.map((q) => q[0]), ys = polygon.map((q) => q[1]);
-	const x0 = Math.max(Math.min(...xs), 0), x1 = Math.min(Math.max(...xs), width);
-	const y0 = Math.max(Math.min(...ys), 0), y1 = Math.min(Math.max(...ys), height);
+/* The vertices at p, in a view (stage.js), that are in its picture and inside of the polygon. */
+export function within(p, { m, near, width, height }, polygon) {
+	const out = [];
 
-	for (let v = 0; v < x.length; v++)
-		if (x[v] >= x0 && x[v] <= x1 && y[v] >= y0 && y[v] <= y1 && depth[v] >= near &&
-			inside(polygon, x[v], y[v]) && (through || !t || screen.sees(v)))
-			out.push(v);
+	for (let i = 0; i < p.length; i += 3) {
+		const depth = m[3] * p[i] + m[7] * p[i + 1] + m[11] * p[i + 2] + m[15];
+		const x = ((m[0] * p[i] + m[4] * p[i + 1] + m[8] * p[i + 2] + m[12]) / depth + 1) / 2 * width;
+		const y = (1 - (m[1] * p[i] + m[5] * p[i + 1] + m[9] * p[i + 2] + m[13]) / depth) / 2 * height;
+		if (depth >= near && x >= 0 && x <= width && y >= 0 && y <= height && inside(polygon, x, y))
+			out.push(i / 3);
+	}
 	return out;
 }

@@ -3,22 +3,30 @@
  * a connected part.  Meanwhile the right button or two fingers turn the model, and so does a stroke that begins beside it.
  */
 import * as THREE from "three/build/three.module.js";
-import { Discs, ball } from "../mesh/geodesic.js";
 import { within } from "./lasso.js";
 import { nearestPoint } from "../draw/pick.js";
-import { Screen } from "../draw/screen.js";
 
 const NEAR = 9; /* pixels about a point */
 const REST = 150; /* milliseconds without a move */
 const FINE = 3; /* pixels between corners of a lasso */
 const $ = (id) => document.getElementById(id);
 
+/* The points in a ball. */
+function ball(p, place, radius) {
+	const out = [];
+
+	for (let i = 0; i < p.length; i += 3)
+		if ((p[i] - place[0]) ** 2 + (p[i + 1] - place[1]) ** 2 + (p[i + 2] - place[2]) ** 2 <= radius * radius)
+			out.push(i / 3);
+	return out;
+}
+
 export class Strokes {
 	constructor(painter, stage) {
 		this.painter = painter;
 		this.stage = stage;
 		this.on = false;
-		this.stroke = null; /* { id, view, last } of a brush, { id, view, line } of a lasso */
+		this.stroke = null; /* { id, scene, last } of a brush, { id, scene, line } of a lasso */
 		const canvas = stage.canvas;
 		canvas.addEventListener("pointerdown", (e) => this.down(e));
 		canvas.addEventListener("pointermove", (e) => this.move(e));
@@ -50,30 +58,21 @@ export class Strokes {
 	/* Of another model nothing is known. */
 	forget() {
 		this.cancel();
-		this.screen = this.discs = this.of = null;
 	}
 
-	/* The layer in the view at a place of the window, sorted by its tiles, once as long as nothing moves; null: not there. */
+	/* What is drawn of the layer, in the view at a place of the window: { view, drawn }; null: not there. */
 	see(clientX, clientY) {
 		const view = this.stage.viewAt(clientX, clientY), { drawn } = this.painter;
 
-		if (!view || !drawn || !view.layers.some(([, d]) => d === drawn))
-			return null;
-		const of = [drawn, drawn.geometry.attributes.position.version, view.width, view.height, ...view.m];
-		if (!this.of || of.some((x, i) => x !== this.of[i])) {
-			this.screen = new Screen(drawn.position, drawn.triangles, view);
-			this.of = of;
-		}
-		this.screen.view = view;
-		return this.screen;
+		return view && drawn && view.layers.some(([, d]) => d === drawn) ? { view, drawn } : null;
 	}
 
 	/* What is under a place of the window: { face, at, vertex }; null: nothing. */
-	hit(screen, clientX, clientY) {
-		const { view, p } = screen, x = clientX - view.left, y = clientY - view.top;
+	hit({ view, drawn: { position: p, solid } }, clientX, clientY) {
+		const x = clientX - view.left, y = clientY - view.top;
 
-		if (screen.t)
-			return screen.hit(x, y, this.stage.along(view, x, y));
+		if (solid)
+			return solid.hit(view.eye, this.stage.along(view, x, y));
 		const found = nearestPoint(p, view.m, x / view.width * 2 - 1, 1 - y / view.height * 2, NEAR * 2 / view.height, view.width / view.height);
 		return found && { face: null, vertex: found.vertex, at: Array.from(p.subarray(3 * found.vertex, 3 * found.vertex + 3)) };
 	}
@@ -85,28 +84,28 @@ export class Strokes {
 			this.cancel();
 			return;
 		}
-		const screen = this.see(e.clientX, e.clientY), { tool } = this.painter;
-		const found = screen && tool !== "lasso" ? this.hit(screen, e.clientX, e.clientY) : null;
+		const scene = this.see(e.clientX, e.clientY), { tool } = this.painter;
+		const found = scene && tool !== "lasso" ? this.hit(scene, e.clientX, e.clientY) : null;
 		this.lead(tool !== "lasso" && !found);
-		if (!screen || (tool !== "lasso" && !found))
+		if (!scene || (tool !== "lasso" && !found))
 			return;
 		this.stage.canvas.setPointerCapture(e.pointerId);
 		if (tool === "part")
-			this.part(screen, found);
+			this.part(scene, found);
 		else
-			this.begin(e, screen, tool);
+			this.begin(e, scene, tool);
 	}
 
-	part(screen, found) {
-		if (screen.t)
-			this.painter.part(screen.t[3 * found.face]);
+	part({ drawn: { triangles } }, found) {
+		if (triangles)
+			this.painter.part(triangles[3 * found.face]);
 	}
 
-	begin(e, screen, tool) {
+	begin(e, scene, tool) {
 		const at = [e.clientX, e.clientY];
 
 		this.painter.work.regions.begin();
-		this.stroke = { id: e.pointerId, screen, line: tool === "lasso" ? [at] : null, last: at };
+		this.stroke = { id: e.pointerId, scene, line: tool === "lasso" ? [at] : null, last: at };
 		if (tool === "brush")
 			this.brush(...at);
 		this.drawLine();
@@ -129,19 +128,19 @@ export class Strokes {
 		}
 	}
 
-	/* Sorts the layer while the pointer rests, so that the next stroke does not wait for it. */
+	/* Readies the layer while the pointer rests, so that the next stroke does not wait for it. */
 	prepare(clientX, clientY) {
 		clearTimeout(this.resting);
 		this.resting = setTimeout(() => {
-			const screen = this.on && !this.stroke && this.see(clientX, clientY);
-			if (screen && screen.t)
-				this.discsOn(screen);
+			const scene = this.on && !this.stroke && this.see(clientX, clientY);
+			if (scene && scene.drawn.solid)
+				scene.drawn.solid.prepare();
 		}, REST);
 	}
 
 	/* Discs close enough to each other that the stroke has no notches. */
 	brushTo(x, y) {
-		const { last, screen } = this.stroke, [x0, y0] = last, { view } = screen;
+		const { last, scene: { view } } = this.stroke, [x0, y0] = last;
 		const step = Math.max(this.stage.pixels(view, this.painter.radius, view.far) / 3, 2);
 		const n = Math.ceil(Math.hypot(x - x0, y - y0) / step);
 
@@ -151,27 +150,14 @@ export class Strokes {
 	}
 
 	brush(x, y) {
-		const { painter } = this, { screen } = this.stroke, found = this.hit(screen, x, y);
+		const { painter } = this, { scene } = this.stroke, { drawn: { position, solid }, view } = scene, found = this.hit(scene, x, y);
 
 		if (!found)
 			return;
-		const disc = this.disc(screen, found), seen = screen.t && !painter.through.brush;
-		const changed = painter.work.regions.set(seen ? disc.filter((v) => screen.sees(v)) : disc, painter.region);
+		const disc = solid ? solid.disc(found.face, found.at, painter.radius) : ball(position, found.at, painter.radius);
+		const changed = painter.work.regions.set(solid && !painter.through.brush ? solid.seen(view.eye, view.near, disc) : disc, painter.region);
 		if (changed.length)
 			painter.changed(changed);
-	}
-
-	/* The vertices within the brush's radius of a place: over the surface, of points in space. */
-	disc(screen, found) {
-		if (!screen.t)
-			return ball(screen.p, found.at, this.painter.radius);
-		return this.discsOn(screen).around(found.face, found.at, this.painter.radius);
-	}
-
-	discsOn(screen) {
-		if (!this.discs || this.discs.p !== screen.p)
-			this.discs = new Discs(screen.p, screen.t);
-		return this.discs;
 	}
 
 	up(e) {
@@ -188,11 +174,10 @@ export class Strokes {
 	}
 
 	/* What the lasso holds is painted. */
-	close({ screen, line }) {
-		const { painter } = this, { left, top } = screen.view;
-		const polygon = line.map(([x, y]) => [x - left, y - top]);
+	close({ scene: { view, drawn: { position, solid } }, line }) {
+		const { painter } = this, held = within(position, view, line.map(([x, y]) => [x - view.left, y - view.top]));
 
-		painter.work.regions.set(within(screen, polygon, painter.through.lasso), painter.region);
+		painter.work.regions.set(solid && !painter.through.lasso ? solid.seen(view.eye, view.near, held) : held, painter.region);
 	}
 
 	/* As if the stroke had not begun: a second finger came, or another tool or model. */
