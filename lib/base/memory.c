@@ -1,4 +1,5 @@
 /* Memory: from malloc, or a file where it is large and that is wanted. */
+#define _GNU_SOURCE /* MADV_HUGEPAGE */
 #include "base/memory.h"
 
 #include <errno.h>
@@ -6,7 +7,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
-enum { ALIGN = 64, LARGE = 1 << 26 };
+enum { ALIGN = 64, LARGE = 1 << 26, HUGE = 1 << 21 };
 
 /* What stands before the memory. */
 typedef struct head {
@@ -44,6 +45,22 @@ is_there(size_t bytes)
 	return bytes <= LARGE || (double)bytes <= mr_memory_available();
 }
 
+/* Touched for the first time, pages of 2 MB cost a quarter of what as much of 4 kB does. */
+static void
+ask_for_huge_pages(char *begin, size_t size)
+{
+#ifdef MADV_HUGEPAGE
+	uintptr_t first = ((uintptr_t)begin + HUGE - 1) / HUGE * HUGE,
+		  end = ((uintptr_t)begin + size) / HUGE * HUGE;
+
+	if (size >= 2 * (size_t)HUGE)
+		madvise((void *)first, end - first, MADV_HUGEPAGE);
+#else
+	(void)begin;
+	(void)size;
+#endif
+}
+
 /* By malloc; the system moves what is large without copying it, so that there are never two of an array that
  * grows. */
 static void *
@@ -58,6 +75,7 @@ on_heap(void *old, size_t size)
 		errno = ENOMEM;
 		return NULL;
 	}
+	ask_for_huge_pages(begin, size);
 	if (old && aligned(begin) != begin + shift)
 		memmove(aligned(begin), begin + shift, was.size < size ? was.size : size);
 	return headed(begin, size, -1);

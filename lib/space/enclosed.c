@@ -6,7 +6,7 @@
 #include <math.h>
 
 typedef struct part {
-	bool open;
+	uint64_t open;         /* not 0 where an edge has not as many faces one way as the other */
 	double rest, all, now; /* all: the sum of the tetrahedra without their signs */
 } part;
 
@@ -27,9 +27,35 @@ encloses(const part *p)
 	return !p->open && fabs(p->rest) > little * p->all;
 }
 
+/* Of an edge, so many bits that sums of others are not 0 by chance: the last step of splitmix64. */
+static uint64_t
+print_of(uint32_t a, uint32_t b)
+{
+	uint64_t x = ((uint64_t)a << 32 | b) + 0x9e3779b97f4a7c15u;
+
+	x = (x ^ x >> 30) * 0xbf58476d1ce4e5b9u;
+	x = (x ^ x >> 27) * 0x94d049bb133111ebu;
+	return x ^ x >> 31;
+}
+
+/* What its sides add one way and take away the other; 0 where it has a vertex twice. */
+static uint64_t
+print_of_sides(const uint32_t v[3])
+{
+	uint64_t sum = 0;
+
+	if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0])
+		return 0;
+	for (int k = 0; k < 3; k++) {
+		uint32_t a = v[k], b = v[(k + 1) % 3];
+		sum += a < b ? print_of(a, b) : -print_of(b, a);
+	}
+	return sum;
+}
+
 /* parts: one for each vertex, that of the vertex which stands for it; in the arena. */
 static mr_status
-find_parts(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *p, part **parts)
+find_parts(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, part **parts)
 {
 	part *found = MR_NEW_ZERO(ctx, m->nv, part);
 	uint32_t *of;
@@ -38,15 +64,14 @@ find_parts(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *p,
 	if (!found)
 		return MR_EMEM;
 	MR_TRY(mr_components_label(ctx, m, &of, &several));
-	for (size_t e = 0; e < edges->count; e++)
-		if (!mr_edge_is_closed(m, edges, e))
-			found[of[mr_he_from(m, edges->he[edges->start[e]])]].open = true;
 	for (size_t f = 0; f < m->nf; f++) {
-		uint32_t own = of[m->t[f].v[0]];
-		double rest = tetrahedron(&m->t[f], m->p, own);
-		found[own].rest += rest;
-		found[own].all += fabs(rest);
-		found[own].now += tetrahedron(&m->t[f], p, own);
+		part *own = &found[of[m->t[f].v[0]]];
+		uint32_t apex = of[m->t[f].v[0]];
+		double rest = tetrahedron(&m->t[f], m->p, apex);
+		own->open += print_of_sides(m->t[f].v);
+		own->rest += rest;
+		own->all += fabs(rest);
+		own->now += p == m->p ? rest : tetrahedron(&m->t[f], p, apex);
 	}
 	*parts = found;
 	return MR_OK;
@@ -54,12 +79,12 @@ find_parts(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *p,
 
 /* Six times. */
 static mr_status
-sum(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *p, double *rest, double *now)
+sum(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, double *rest, double *now)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	part *parts;
 
-	MR_TRY(find_parts(ctx, m, edges, p, &parts));
+	MR_TRY(find_parts(ctx, m, p, &parts));
 	*rest = *now = 0;
 	for (size_t v = 0; v < m->nv; v++)
 		if (encloses(&parts[v])) {
@@ -73,23 +98,19 @@ sum(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *p, double
 mr_status
 mr_enclosed_volume(mr_ctx *ctx, const mr_mesh *m, double *volume)
 {
-	mr_mark mark = mr_mark_take(ctx);
 	double rest, now;
-	mr_edges edges;
 
-	MR_TRY(mr_edges_build(ctx, m, &edges));
-	MR_TRY(sum(ctx, m, &edges, m->p, &rest, &now));
-	mr_mark_release(ctx, mark);
+	MR_TRY(sum(ctx, m, m->p, &rest, &now));
 	*volume = rest / 6;
 	return MR_OK;
 }
 
 mr_status
-mr_enclosed_share(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *p, double *share)
+mr_enclosed_share(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, double *share)
 {
 	double rest, now;
 
-	MR_TRY(sum(ctx, m, edges, p, &rest, &now));
+	MR_TRY(sum(ctx, m, p, &rest, &now));
 	*share = now / rest;
 	return MR_OK;
 }

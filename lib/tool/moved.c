@@ -238,11 +238,9 @@ static const double MUCH = 0.1; /* of the volume: fitted rotations keep nine ten
 static mr_status
 advise_on_volume(mr_ctx *ctx, const mr_held_pose *pose, const char **advice)
 {
-	mr_edges edges;
 	double share;
 
-	MR_TRY(mr_edges_build(ctx, pose->base, &edges));
-	MR_TRY(mr_enclosed_share(ctx, pose->base, &edges, pose->on_base, &share));
+	MR_TRY(mr_enclosed_share(ctx, pose->base, pose->on_base, &share));
 	if (share < 1 - MUCH)
 		*advice = "; mr-solve --rotations fitted keeps more of it on most models";
 	return MR_OK;
@@ -261,7 +259,7 @@ look_at_volume(mr_ctx *ctx, const mr_moved *m, const mr_held_pose *pose, const m
 	const char *advice = "", *since = m->base ? "" : " since control was sampled";
 	double share;
 
-	MR_TRY(mr_enclosed_share(ctx, pose->mesh, m->edges, pose->p, &share));
+	MR_TRY(mr_enclosed_share(ctx, pose->mesh, pose->p, &share));
 	m->result->volume = share;
 	if (!(fabs(share - 1) > MUCH) || (!h->keeps_volume && share > 0) ||
 	    !mr_is_news((size_t)fmin(1e6, 100 * fabs(share - 1)), told))

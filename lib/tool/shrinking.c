@@ -1,6 +1,7 @@
 /* Area and volume that a coarser or rounder surface has lost or gained, and how far it is from the other. */
 #include "tool/shrinking.h"
 
+#include "mesh/edges.h"
 #include "shape/shape.h"
 #include "space/bvh.h"
 #include "space/contact.h"
