@@ -8,7 +8,6 @@ import { Flaws } from "./draw/flaws.js";
 import { Pictures } from "./draw/pictures.js";
 import { firstLayer, layersOf } from "./stream/layers.js";
 import { setLevel, showLevel } from "./mesh/levels.js";
-import { Held, nameOf } from "./held.js";
 import { pickAt, rowsOf, tell } from "./picked.js";
 import { Painter } from "./paint/painter.js";
 import { Posing } from "./deform/posing.js";
@@ -34,7 +33,6 @@ export class App {
 		this.pictures = new Pictures(pictures, this.stage.renderer);
 		this.choice = { frame: 0, visible: null, level: null, beside: false, flat: false, wire: false, flaws: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
-		this.held = null; /* what stays beside it */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
 		this.picked = null;
@@ -77,33 +75,18 @@ export class App {
 		listLayers(layers, visible, (name, on) => this.turn(name, on));
 		offerShading(seen);
 		await this.load(frame, seen.length ? seen : layers);
-		const sides = [{ frame, layers: seen, drawn: this.drawn }, ...(this.held ? [this.held] : [])];
-		this.color = await colour(sides, this.choice, this.pictures);
-		for (const { layers: those, drawn } of sides)
-			for (const layer of those)
-				drawn.get(layer.name).drawn.look(this.choice.flat, this.choice.wire);
-		await this.flaws.show(sides, this.choice.flaws);
-		this.put(sides);
+		const side = { frame, layers: seen, drawn: this.drawn };
+		this.color = await colour(side, this.choice, this.pictures);
+		for (const { name } of seen)
+			this.drawn.get(name).drawn.look(this.choice.flat, this.choice.wire);
+		await this.flaws.show(side, this.choice.flaws);
+		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
 		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);
 		this.shown = { frame, seen };
 		await this.posing.load(frame, this.centre);
 		await this.painter.meet(frame, layers, visible);
-		$("holds").hidden = this.frames.length < 2 && !frame.levels && !this.posing.pose && !this.held;
 		await this.tellPicked();
-	}
-
-	/* Puts on the stage what is shown, and what is held beside it. */
-	put([{ frame, layers, drawn }]) {
-		const those = (of, by) => of.map((l) => [l.name, by.get(l.name).drawn]), { held } = this;
-
-		if (held)
-			held.place(this.centre, this.boxes());
-		this.stage.show(
-			{ title: nameOf(frame, this.choice.frame, this.frames.length, false), layers: those(layers, drawn) },
-			held && { title: held.title, layers: those(held.layers, held.drawn), offset: held.offset, held: true },
-			this.choice.beside,
-		);
 	}
 
 	/* Each layer on its own, or no longer: of one layer that is seen alone all others, too. */
@@ -111,20 +94,6 @@ export class App {
 		const names = layersOf(this.shown.frame).map((l) => l.name);
 
 		await this.change(beside && this.shown.seen.length < 2 ? { beside, visible: new Set(names) } : { beside });
-		this.fit();
-	}
-
-	/* Keeps what is shown beside what comes, or no longer. */
-	async hold(on) {
-		const before = this.held;
-
-		await this.working;
-		this.held = on ? await Held.of(this) : null;
-		if (this.picked && this.picked.held)
-			this.picked = null;
-		await this.change({});
-		if (before)
-			before.dispose();
 		this.fit();
 	}
 
@@ -202,9 +171,7 @@ export class App {
 
 	/* All that is seen in view. */
 	fit(from) {
-		if (this.held)
-			this.held.place(this.centre, this.boxes());
-		const boxes = [...this.boxes(), ...(this.held ? this.held.boxes() : [])];
+		const boxes = this.boxes();
 
 		if (boxes.length)
 			this.stage.fit({
@@ -220,7 +187,7 @@ export class App {
 		if (this.stage.gizmo.busy)
 			return;
 		this.picked = ray && pickAt(ray);
-		if (this.picked && !this.picked.held)
+		if (this.picked)
 			await this.posing.take(this.shown.frame, this.picked);
 		await this.tellPicked();
 	}
@@ -231,37 +198,22 @@ export class App {
 		return this.tellPicked();
 	}
 
-	/* What is shown, or what is held, if that was picked. */
-	sideOf(picked) {
-		return picked && picked.held ? this.held : { frame: this.shown.frame, layers: this.shown.seen, drawn: this.drawn, centre: this.centre };
-	}
-
 	/* Marks a vertex of a layer; null: none. */
 	mark(layer, picked) {
-		const { drawn: all } = this.sideOf(picked);
-
-		for (const by of [this.drawn, ...(this.held ? [this.held.drawn] : [])])
-			for (const [name, { drawn }] of by)
-				drawn.pointTo(layer && by === all && name === layer.name ? picked.vertex : null);
+		for (const [name, { drawn }] of this.drawn)
+			drawn.pointTo(layer && name === layer.name ? picked.vertex : null);
 		this.stage.ask();
-	}
-
-	/* What the card says of it. */
-	rowsOf(layer, picked) {
-		const { frame, drawn, centre } = this.sideOf(picked), posed = picked.held ? drawn.get(layer.name).places : this.posing.placesOf(layer.name);
-
-		return rowsOf(frame, layer, picked, centre, drawn.get(layer.name).drawn.extent, this.color, posed);
 	}
 
 	/* Marks what was picked, as long as it is there, and says what it is, unless something else is picked meanwhile. */
 	async tellPicked() {
-		const picked = this.picked, turn = ++this.telling;
-		const layer = picked && this.sideOf(picked).layers.find((l) => l.name === picked.name && l.position.rows > picked.vertex);
+		const picked = this.picked, turn = ++this.telling, { frame, seen } = this.shown;
+		const layer = picked && seen.find((l) => l.name === picked.name && l.position.rows > picked.vertex);
 		const there = layer && (picked.face === null || (layer.triangles && layer.triangles.rows > picked.face));
 
 		this.mark(there ? layer : null, picked);
 		$("picked").setAttribute("aria-busy", "true");
-		const rows = there ? await this.rowsOf(layer, picked) : [];
+		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.color, this.posing.placesOf(layer.name)) : [];
 		if (turn !== this.telling)
 			return;
 		tell($("picked"), rows);

@@ -1,6 +1,6 @@
 /*
- * coloring.js -- what gives the colours: a column, what layers wear, or nothing; of all that is seen, a frame that is held beside
- * it too.  A side is { frame, layers, drawn }: layers that are seen, and what is drawn of each by its name.
+ * coloring.js -- what gives the colours: a column, what layers wear, or nothing; of all that is seen.  A
+ * side is { frame, layers, drawn }: layers that are seen, and what is drawn of each by its name.
  */
 import { kindOf, kindsOf, paint, rangeOf } from "./draw/column_colors.js";
 import { costumeOf } from "./draw/pictures.js";
@@ -30,16 +30,14 @@ async function paintBy(drawn, column, range) {
 	if (isKey(drawn.painted, key))
 		return;
 	drawn.painted = key;
-	if (column && kindOf(column) === "region" && column.element === "v" && drawn.paintRegions(await column.values()))
-		return;
 	drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) && column.element === "f");
 }
 
 /* What layers wear, or their own colours, unless they are all the same: black, where a format has a place for them and no more. */
-async function ownColor(all) {
+async function ownColor(frame, all) {
 	if (all.some(({ layer }) => layer.wears))
 		return TEXTURE;
-	for (const { frame, layer } of all) {
+	for (const { layer } of all) {
 		const column = columnOf(frame, layer.name, "color");
 		const values = column ? await column.values() : [];
 		if (values.some((x, i) => x !== values[i % column.components]))
@@ -49,8 +47,8 @@ async function ownColor(all) {
 }
 
 /* What the colours mean, over all layers that are seen; a range stays until it is chosen anew. */
-async function legend(all, name, choice) {
-	const those = all.filter(({ frame, layer }) => columnOf(frame, layer.name, name)), columns = those.map(({ frame, layer }) => columnOf(frame, layer.name, name));
+async function legend(frame, all, name, choice) {
+	const columns = all.map(({ layer }) => columnOf(frame, layer.name, name)).filter(Boolean);
 	const kind = kindOf(columns[0]), values = await Promise.all(columns.map((c) => c.values()));
 
 	if (kind === "number" && !choice.range) {
@@ -58,21 +56,21 @@ async function legend(all, name, choice) {
 		choice.range = { low: Math.min(...ranges.map((r) => r.low)), high: Math.max(...ranges.map((r) => r.high)) };
 	}
 	const kinds = kind === "region" || kind === "kind" ? kindsOf(values.flatMap((v) => kindsOf(v))) : [];
-	return { kind, range: choice.range, kinds, names: kinds.length ? await namesOf(those[0].frame, columns[0].layer, name) : [] };
+	return { kind, range: choice.range, kinds, names: kinds.length ? await namesOf(frame, columns[0].layer, name) : [] };
 }
 
 /*
- * Colours all sides by the choice { color, range }, whose range it finds where there is none; returns what colours: the one chosen,
+ * Colours a side by the choice { color, range }, whose range it finds where there is none; returns what colours: the one chosen,
  * before any is, what the layers wear or their own colours.
  */
-export async function colour(sides, choice, pictures) {
-	const all = sides.flatMap(({ frame, layers, drawn }) => layers.map((layer) => ({ frame, layer, drawn: drawn.get(layer.name).drawn })));
+export async function colour({ frame, layers, drawn: by }, choice, pictures) {
+	const all = layers.map((layer) => ({ layer, drawn: by.get(layer.name).drawn }));
 	const names = [...new Set(all.flatMap(({ layer }) => [...(layer.wears ? [TEXTURE] : []), ...layer.colors.map((c) => c.name)]))];
-	const chosen = choice.color === null ? await ownColor(all) : choice.color, name = names.includes(chosen) ? chosen : "";
+	const chosen = choice.color === null ? await ownColor(frame, all) : choice.color, name = names.includes(chosen) ? chosen : "";
 
 	listColors(names, name);
-	showLegend(name && name !== TEXTURE ? await legend(all, name, choice) : null);
-	for (const { frame, layer, drawn } of all)
+	showLegend(name && name !== TEXTURE ? await legend(frame, all, name, choice) : null);
+	for (const { layer, drawn } of all)
 		if (name === TEXTURE && layer.wears)
 			await dress(drawn, layer, pictures);
 		else

@@ -1,6 +1,6 @@
 /* keys.js -- the keyboard: each key does what a control of the page does. */
 import { paintKey } from "./paint/paint_side.js";
-import { stepModel } from "./strip.js";
+import { stepModel } from "./models.js";
 
 const $ = (id) => document.getElementById(id);
 
@@ -24,7 +24,6 @@ const KEYS = {
 	PageUp: () => stepLevel(1),
 	PageDown: () => stepLevel(-1),
 	b: () => $("besides").hidden || $("beside").click(),
-	h: () => $("holds").hidden || $("hold").click(),
 	c: () => cycle($("color")),
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),
 	e: () => $("wire").click(),

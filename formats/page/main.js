@@ -4,11 +4,11 @@ import { takeBytes, takePictures } from "./stream/data.js";
 import { begin as loadLibrary } from "./library/compile.js";
 import { Film } from "./film.js";
 import { listen } from "./keys.js";
+import { listModels } from "./models.js";
 import { addLevels } from "./mesh/levels.js";
 import { showRuler } from "./draw/ruler.js";
 import { canDraw } from "./draw/stage.js";
 import { parseStream } from "./stream/stream.js";
-import { Strip } from "./strip.js";
 
 const CLICK = 6; /* pixels that a click may move */
 const $ = (id) => document.getElementById(id);
@@ -39,7 +39,6 @@ function connect(app) {
 	const view = () => $("view").value.split(",").map(Number);
 
 	$("beside").addEventListener("change", () => app.part($("beside").checked));
-	$("hold").addEventListener("change", () => app.hold($("hold").checked));
 	$("level").addEventListener("input", () => app.change({ level: $("level").valueAsNumber }));
 	$("color").addEventListener("change", () => app.change({ color: $("color").value, range: null }));
 	for (const end of ["low", "high"])
@@ -79,10 +78,10 @@ async function begin() {
 	$("side").hidden = false;
 	const app = window.mrView = new App(frames, takePictures()); /* for the console, and the tests */
 	const film = new Film(frames.length, (frame) => {
-		strip.mark(frame);
+		$("model").value = frames[frame].group;
 		return app.change({ frame }).catch(fail);
 	});
-	const strip = new Strip(app, (frame) => film.go(frame));
+	listModels(frames, (frame) => film.go(frame));
 	await film.turn(0);
 	connect(app);
 }

@@ -8,7 +8,7 @@ import { element, number, place } from "./stream/text.js";
 
 const NEAR = 9; /* pixels about a point */
 
-/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at, held }, at in the layer's floats, held: whether it is of what is held beside; or null. */
+/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at }, at in the layer's floats; or null. */
 export function pickAt(ray) {
 	let best = null;
 
@@ -17,11 +17,11 @@ export function pickAt(ray) {
 		if (drawn.triangles) {
 			const hit = drawn.solid.hit(ray.from, ray.along), t = hit && Math.hypot(...hit.at.map((x, c) => x - ray.from[c]));
 			if (hit && !(best && best.t <= t))
-				best = { name, held: ray.held, t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, hit.at), at: hit.at };
+				best = { name, t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, hit.at), at: hit.at };
 		} else {
 			const hit = nearestPoint(p, ray.projection, ray.right, ray.top, NEAR * ray.pixel, ray.aspect);
 			if (hit && !(best && best.t <= hit.t))
-				best = { name, held: ray.held, t: hit.t, face: null, vertex: hit.vertex, at: null };
+				best = { name, t: hit.t, face: null, vertex: hit.vertex, at: null };
 		}
 	}
 	return best;

@@ -12,7 +12,7 @@ POSE = "mr-pose -H 1 --rotate 0,0,1,40 --translate -8,-14,0 | mr-pose -H 2 --rot
 
 with Browser(1200, 760, scale=1) as b:
     b.open(sys.argv[1])
-    if not b.eval("(e => e && (e.click(), true))([...document.querySelectorAll('#strip button')].find(e => e.textContent === %s))" % json.dumps(MODEL)):
+    if not b.eval("""(e => [...e.options].some((o, i) => o.textContent === %s && (e.selectedIndex = i, e.dispatchEvent(new Event("change")))))(document.getElementById("model"))""" % json.dumps(MODEL)):
         sys.exit("%s: there is no %s" % (sys.argv[1], MODEL))
     b.settle()
     b.choose("color", "region")
@@ -24,7 +24,6 @@ with Browser(1200, 760, scale=1) as b:
         b.call("Input.dispatchMouseEvent", type="mouseWheel", x=left + width / 2, y=top + height / 4, deltaX=0, deltaY=120)
         b.settle()
     b.eval("document.querySelector('#handles button:last-child').click(); document.getElementById('turn').click()")
-    b.wait("[...document.querySelectorAll('#strip button')].every(e => { const r = e.getBoundingClientRect(); return r.left >= innerWidth || e.firstChild.width === 192 })")
     b.settle()
     if b.said or b.text("said"):
         sys.exit("%s %s" % (b.said, b.text("said")))

@@ -5,6 +5,7 @@ import { controlOf, DisplacedDeformer } from "./displaced.js";
 import { HANDLE, lacking, poseOf } from "./handles.js";
 import { IDENTITY } from "../mesh/rotation.js";
 import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
+import { copy } from "../stream/text.js";
 
 const $ = (id) => document.getElementById(id);
 const FAR = 60; /* degrees beyond which mr-decode warns */
@@ -44,8 +45,12 @@ export class Posing {
 				this.readLine();
 			}
 		});
-		$("copy").addEventListener("click", () => this.copy(this.pose.line(), $("line")));
-		$("copy-lacking").addEventListener("click", () => this.copy($("lacking").textContent, $("lacking")));
+		$("copy").addEventListener("click", () => {
+			$("said").textContent = "";
+			this.showLine();
+			return copy($("line"));
+		});
+		$("copy-lacking").addEventListener("click", () => copy($("lacking")));
 	}
 
 	/* Makes what the frame can be posed by, where that is another than before. */
@@ -254,22 +259,5 @@ export class Posing {
 			$("said").textContent = error.message;
 			this.showLine();
 		}
-	}
-
-	/* The clipboard is not there for every page from the disk: then what is selected is copied. */
-	async copy(text, element) {
-		const button = element.parentElement.querySelector("button");
-		const written = navigator.clipboard ? await navigator.clipboard.writeText(text).then(() => true, () => false) : false;
-
-		if (!written) {
-			$("said").textContent = "";
-			this.showLine();
-			getSelection().selectAllChildren(element);
-			if (element.select)
-				element.select();
-			document.execCommand("copy");
-		}
-		button.classList.add("copied");
-		setTimeout(() => button.classList.remove("copied"), 1200);
 	}
 }

@@ -2,7 +2,6 @@
 import * as THREE from "three/build/three.module.js";
 import { PLAIN, regionColor } from "./colors.js";
 import { bodies, materialsFor, wornMaterial } from "./materials.js";
-import { Slots } from "./sharp.js";
 import { apart, gather, seamed, sorted } from "../mesh/seams.js";
 import { Solid } from "../mesh/solid.js";
 import { edgesOf, shade, spacingOf, surfaceOf } from "../mesh/surface.js";
@@ -75,7 +74,7 @@ export class Drawn {
 		this.count = arrays.position.length / 3;
 		this.geometry.setAttribute("position", attribute(arrays.position, 3));
 		this.geometry.setAttribute("normal", attribute(arrays.normal, 3));
-		for (const name of ["color", "tint", "slot", "uv"])
+		for (const name of ["color", "tint", "uv"])
 			this.geometry.deleteAttribute(name);
 		this.geometry.clearGroups();
 		if (this.body)
@@ -131,8 +130,6 @@ export class Drawn {
 	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
 	paint(colors, perFace) {
 		this.part(perFace);
-		if (this.surface)
-			this.materials.body.userData.sharp.value = 0;
 		this.geometry.setAttribute(this.surface ? "color" : "tint", attribute(spread(colors, this.source, this.count), 3, true));
 	}
 
@@ -153,40 +150,18 @@ export class Drawn {
 		this.geometry.setAttribute("color", attribute(color, 3, true));
 		this.geometry.setAttribute("uv", attribute(this.parts.uv, 2));
 		groups.forEach(({ start, count }, i) => this.geometry.addGroup(start, count, i));
-		this.materials.body.userData.sharp.value = 0;
 		this.body.material = groups.map(({ look }) => wornMaterial(this.materials, looks[look].texture));
 	}
 
-	/* Paints a surface by regions of its vertices, with sharp borders; false where they are too many for that. */
-	paintRegions(values) {
-		this.part(false);
-		const { sharp, slotColors } = this.materials.body.userData;
-		this.slots = this.surface ? new Slots(slotColors.value, regionColor) : null;
-		const slots = this.slots && this.slots.all(values, this.source, this.count);
-		if (!slots) {
-			this.geometry.deleteAttribute("slot");
-			return false;
-		}
-		this.geometry.setAttribute("slot", attribute(slots, 1));
-		sharp.value = 1;
-		return true;
-	}
-
-	/* Paints other regions at some vertices of what was painted by regions; false where they are too many now. */
+	/* Paints other regions at some vertices of what was painted by regions. */
 	repaintRegions(values, vertices) {
-		const { slot, tint } = this.geometry.attributes, changed = this.surface ? slot : tint;
+		const { color, tint } = this.geometry.attributes, changed = color || tint;
 
-		if (!changed || (this.surface && vertices.some((v) => this.slots.of(values[v]) < 0)))
-			return false;
 		for (const v of vertices)
-			if (this.surface)
-				slot.array[v] = this.slots.of(values[v]);
-			else
-				tint.array.set(regionColor(values[v]), 3 * v);
-		if (this.surface)
-			this.slots.copy(slot.array, values.length, this.source);
+			changed.array.set(regionColor(values[v]), 3 * v);
+		for (let i = values.length; this.source && i < this.source.length; i++)
+			changed.array.set(regionColor(values[this.source[i]]), 3 * i);
 		changed.needsUpdate = true;
-		return true;
 	}
 
 	look(flat, wire) {

@@ -101,25 +101,18 @@ export class Flaws {
 		$("flaws-of").textContent = this.known ? "Folds, intersections" : "Folded edges";
 	}
 
-	/* Marks what is seen, if it is to be marked, and tells of the first side (coloring.js); another one is held beside it. */
-	async show(sides, on) {
+	/* Marks what is seen, if it is to be marked. */
+	async show({ frame, layers, drawn: all }, on) {
 		this.marks = [];
-		for (const side of sides) {
-			for (const { drawn } of side.drawn.values())
-				drawn.setMarks(null);
-			for (const layer of on ? side.layers.filter((l) => l.triangles && l.triangles.rows) : [])
-				await this.mark(side, layer, side === sides[0]);
+		for (const { drawn } of all.values())
+			drawn.setMarks(null);
+		for (const layer of on ? layers.filter((l) => l.triangles && l.triangles.rows) : []) {
+			const column = columnOf(frame, layer.name, CROSSING), { drawn } = all.get(layer.name);
+			const marks = new Marks(drawn, column ? await column.values() : null, () => this.tell());
+			drawn.setMarks(marks);
+			this.marks.push(marks);
 		}
 		this.tell();
-	}
-
-	async mark({ frame, drawn }, layer, told) {
-		const column = columnOf(frame, layer.name, CROSSING), there = drawn.get(layer.name), known = column && !there.places;
-		const marks = new Marks(there.drawn, known ? await column.values() : null, () => this.tell());
-
-		there.drawn.setMarks(marks);
-		if (told)
-			this.marks.push(marks);
 	}
 
 	/* How many there are, of all layers that are seen. */

@@ -14,7 +14,7 @@ export class Gizmo {
 		this.controls = new TransformControls(stage.camera, {
 			addEventListener: (...what) => stage.canvas.addEventListener(...what),
 			removeEventListener: (...what) => stage.canvas.removeEventListener(...what),
-			getBoundingClientRect: () => stage.place(), /* where it is drawn: not in what is held beside it */
+			getBoundingClientRect: () => stage.place(),
 		});
 		this.controls.setSize(SIZE);
 		stage.scene.add(this.at, this.controls);
@@ -59,11 +59,6 @@ export class Gizmo {
 			this.controls.detach();
 		this.controls.enabled = on;
 		this.stage.ask();
-	}
-
-	/* Whether it is in the next panel that is drawn. */
-	see(on) {
-		this.controls.visible = on && this.controls.object !== undefined;
 	}
 
 	/* Where it has been dragged: { translate, turn, scale }, turns beyond half a circle counted. */

@@ -1,6 +1,5 @@
 /* materials.js -- what layers are drawn with: lit surfaces, with a picture on them or none, edges, points as small balls. */
 import * as THREE from "three/build/three.module.js";
-import { sharpen, sharpness } from "./sharp.js";
 
 const POINT_VERTEX = `
 uniform float size, scale, least, most;
@@ -46,7 +45,6 @@ export function pointMaterial(fragmentShader, uniforms, more) {
 
 /* Shaded by the light of the eye; the inside is bluish, as in mr-render.  map: the picture on it, or null. */
 function surfaceMaterial(map) {
-	const uniforms = sharpness();
 	const material = new THREE.MeshPhongMaterial({
 		map,
 		vertexColors: THREE.VertexColors,
@@ -58,9 +56,7 @@ function surfaceMaterial(map) {
 	});
 
 	material.extensions = { derivatives: true };
-	material.userData = uniforms;
 	material.onBeforeCompile = (shader) => {
-		sharpen(shader, uniforms);
 		shader.fragmentShader = shader.fragmentShader.replace("#include <color_fragment>",
 			"#include <color_fragment>\nif (!gl_FrontFacing) diffuseColor.rgb *= vec3(0.66, 0.78, 0.98);");
 	};

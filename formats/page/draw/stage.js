@@ -1,4 +1,4 @@
-/* stage.js -- the canvas: a camera, light that comes with it, and the layers, in one panel or one for each, and beside them what is held. */
+/* stage.js -- the canvas: a camera, light that comes with it, and the layers, in one panel or one for each. */
 import * as THREE from "three/build/three.module.js";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Gizmo } from "./gizmo.js";
@@ -53,7 +53,7 @@ export class Stage {
 		this.gizmo = new Gizmo(this);
 		this.up("y");
 		this.layers = []; /* [name, drawn], those to be seen */
-		this.cells = [{ title: "", layers: [], offset: [0, 0, 0], held: false }]; /* what each panel has */
+		this.cells = [{ title: "", layers: [] }]; /* what each panel has */
 		this.paints = false;
 		this.radius = 1;
 		this.drawn = () => {}; /* what is to be done after each picture */
@@ -97,19 +97,13 @@ export class Stage {
 	/* Whether handles can be dragged: not while the left button paints. */
 	offer(paints = this.paints) {
 		this.paints = paints;
-		this.gizmo.offer(this.cells.filter((cell) => !cell.held).length === 1 && !paints);
+		this.gizmo.offer(this.cells.length === 1 && !paints);
 	}
 
-	/*
-	 * Puts these on the stage: { title, layers }, and in panels of its own what is held beside it, { title, layers, offset, held }, or
-	 * null.  beside: each layer in a panel of its own.
-	 */
-	show(now, held, beside) {
-		const sides = (held ? [held] : []).concat({ ...now, title: held ? now.title : "", offset: [0, 0, 0], held: false });
-
-		this.layers = now.layers;
-		this.cells = sides.flatMap((side) => (!beside || side.layers.length < 2 ? [side] :
-			side.layers.map((layer) => ({ ...side, layers: [layer], title: side.title + (side.title ? " \u00b7 " : "") + layer[0] }))));
+	/* Puts layers, [name, drawn], on the stage; beside: each in a panel of its own. */
+	show(layers, beside) {
+		this.layers = layers;
+		this.cells = beside && layers.length > 1 ? layers.map((layer) => ({ title: layer[0], layers: [layer] })) : [{ title: "", layers }];
 		this.offer();
 		this.label();
 		this.ask();
@@ -127,7 +121,7 @@ export class Stage {
 
 	/* Where in the window the panel is in which handles are dragged. */
 	place() {
-		const box = this.canvas.getBoundingClientRect(), panel = this.panels().find((p) => !p.held);
+		const box = this.canvas.getBoundingClientRect(), [panel] = this.panels();
 
 		return { left: box.left + panel.x, top: box.top + panel.y, width: panel.width, height: panel.height };
 	}
@@ -189,7 +183,6 @@ export class Stage {
 				drawn.scale(panel.height * ratio / 2 / Math.tan(ANGLE / 2 * Math.PI / 180));
 				this.scene.add(drawn.group);
 			}
-			this.gizmo.see(!panel.held);
 			this.renderer.render(this.scene, this.camera);
 			for (const [, drawn] of panel.layers)
 				this.scene.remove(drawn.group);
@@ -246,14 +239,12 @@ export class Stage {
 
 		if (!panel)
 			return null;
-		const shift = new THREE.Matrix4().makeTranslation(...panel.offset);
 		const right = (clientX - panel.left) / panel.width * 2 - 1, top = 1 - (clientY - panel.top) / panel.height * 2;
 		return {
 			layers: panel.layers,
-			held: panel.held,
-			from: panel.eye.map((x, c) => x - panel.offset[c]),
+			from: panel.eye,
 			along: this.along(panel, clientX - panel.left, clientY - panel.top),
-			projection: new THREE.Matrix4().fromArray(panel.m).multiply(shift).elements,
+			projection: panel.m,
 			right,
 			top,
 			aspect: this.camera.aspect,

@@ -50,7 +50,7 @@ function showButtons(painter) {
 
 	$("paint-undo").disabled = regions.past.length === 0;
 	$("paint-redo").disabled = regions.future.length === 0;
-	$("grow").disabled = $("shrink").disabled = !surface;
+	$("grow").disabled = !surface;
 	$("clear").disabled = painter.region === 0;
 	document.querySelector("#tools [value=part]").hidden = !surface;
 	$("through-row").hidden = !surface || !(painter.tool in painter.through);
@@ -77,7 +77,7 @@ export function showPaint(painter) {
 export function connectPaint(painter) {
 	for (const button of document.querySelectorAll("#tools button"))
 		button.addEventListener("click", () => painter.choose(button.value));
-	for (const what of ["grow", "shrink", "invert", "clear", "fill"])
+	for (const what of ["grow", "clear", "fill"])
 		$(what).addEventListener("click", () => painter.edit(what));
 	$("paint-undo").addEventListener("click", () => painter.back(false));
 	$("paint-redo").addEventListener("click", () => painter.back(true));
@@ -90,18 +90,11 @@ const TOOLS = { p: "brush", l: "lasso", k: "part" };
 const KEYS = {
 	z: (painter) => painter.back(false),
 	y: (painter) => painter.back(true),
-	t: (painter) => painter.choose("turn"),
 	Escape: (painter) => painter.leave(),
 	x: (painter) => painter.take(0),
 	0: (painter) => painter.take(1),
 	"[": (painter) => painter.resize(painter.size - 5),
 	"]": (painter) => painter.resize(painter.size + 5),
-	h: () => $("through-row").hidden || $("through").click(),
-	"+": (painter) => painter.edit("grow"),
-	"-": (painter) => painter.edit("shrink"),
-	i: (painter) => painter.edit("invert"),
-	a: (painter) => painter.edit("fill"),
-	Delete: (painter) => painter.edit("clear"),
 	...Object.fromEntries(Array.from({ length: HANDLES }, (_, i) => [i + 1, (painter) => painter.take(HANDLE + i + 1)])),
 };
 

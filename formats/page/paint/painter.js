@@ -133,8 +133,10 @@ export class Painter {
 		const { drawn, work } = this;
 
 		work.column.version++;
-		if (drawn && this.app.color === "region" && drawn.repaintRegions(work.regions.values, vertices))
+		if (drawn && this.app.color === "region") {
+			drawn.repaintRegions(work.regions.values, vertices);
 			drawn.painted = null;
+		}
 		this.app.stage.ask();
 		showPaint(this);
 	}
@@ -145,18 +147,13 @@ export class Painter {
 		return vertices.length || !this.work.painted ? this.show() : Promise.resolve();
 	}
 
-	/* Grow, shrink, invert, clear, fill: `what` names it. */
-	edit(what) {
-		const { work, region, layer } = this, ring = what === "grow" || what === "shrink";
+	/* Grow, clear, fill: `what` names it. */
+	async edit(what) {
+		const { work, region, layer } = this;
 
-		if (!work || work.regions.change || (ring && !layer.triangles) || (what === "clear" && region === FIXED))
-			return Promise.resolve();
-		return ring ? this.ring(what) : this.done(work.regions[what](region));
-	}
-
-	async ring(what) {
-		const { work, region } = this, t = await this.triangles();
-
+		if (!work || work.regions.change || (what === "grow" && !layer.triangles) || (what === "clear" && region === FIXED))
+			return undefined;
+		const t = what === "grow" ? await this.triangles() : null;
 		return work === this.work ? this.done(work.regions[what](region, t)) : undefined;
 	}
 

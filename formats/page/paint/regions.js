@@ -121,13 +121,6 @@ export class Regions {
 		return this.replace(vertices, vertices.map(() => FIXED));
 	}
 
-	/* What was in the region is fixed, or free where the region is fixed; all else that is in no handle is in it. */
-	invert(region) {
-		const vertices = this.where((r) => r === region || r < HANDLE), other = region === FIXED ? FREE : FIXED;
-
-		return this.replace(vertices, vertices.map((v) => (this.values[v] === region ? other : region)));
-	}
-
 	/* A ring of vertices of no handle around the region gets into it: fixed ones into free, free ones into fixed. */
 	grow(region, t) {
 		const at = facesAt(t, this.values.length);
@@ -140,36 +133,5 @@ export class Regions {
 		});
 
 		return this.replace(vertices, vertices.map(() => region));
-	}
-
-	/* The outermost ring of the region gets into what most of its neighbours are in, of as many into the first. */
-	shrink(region, t) {
-		const at = facesAt(t, this.values.length), others = [];
-		const vertices = this.where((r, v) => {
-			if (r !== region)
-				return false;
-			const other = this.most(t, at, v, region);
-			if (other >= 0)
-				others.push(other);
-			return other >= 0;
-		});
-
-		return this.replace(vertices, others);
-	}
-
-	/* The region that most faces at v have at their other corners, besides this one; -1: none. */
-	most(t, at, v, region) {
-		const seen = new Map();
-		let best = -1;
-
-		around(t, at, v, (u) => {
-			const r = this.values[u];
-			if (r !== region)
-				seen.set(r, (seen.get(r) || 0) + 1);
-		});
-		for (const [r, n] of seen)
-			if (best < 0 || n > seen.get(best) || (n === seen.get(best) && r < best))
-				best = r;
-		return best;
 	}
 }

@@ -1,11 +1,10 @@
-/* takeaway.js -- painted regions out of the page and into it: as a file, as text, and as a script that makes them again. */
+/* takeaway.js -- painted regions out of the page: as a file, and as a script that makes them again. */
 import { HANDLE } from "./regions.js";
 import { basisLine, script } from "./recipe.js";
-import { read, write } from "./selection_file.js";
+import { write } from "./selection_file.js";
+import { copy } from "../stream/text.js";
 import { columnOf, linesOf, fileOf } from "../stream/stream.js";
-import { count } from "../stream/text.js";
 
-const LARGEST = 1e8; /* characters of a file */
 const $ = (id) => document.getElementById(id);
 
 function save(name, text) {
@@ -17,17 +16,6 @@ function save(name, text) {
 	setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/* To the clipboard, by the old way where a browser keeps the new one from files. */
-async function copy(text) {
-	try {
-		await navigator.clipboard.writeText(text);
-	} catch (error) {
-		$("text").select();
-		if (!document.execCommand("copy"))
-			throw new Error("The browser does not let the page copy: take the text from the field.");
-	}
-}
-
 /* What makes the layer, where the page makes it of control mesh and heights. */
 function decodeLine({ levels }, layer) {
 	return levels && levels.surface.layer === layer ? "mr-decode --from control --level " + levels.at : "";
@@ -36,41 +24,9 @@ function decodeLine({ levels }, layer) {
 export class TakeAway {
 	constructor(painter) {
 		this.painter = painter;
-		this.on("save-regions", async () => save((await this.work()).name + ".regions", await this.text()));
-		this.on("copy-regions", async () => this.give(await this.text()));
-		this.on("save-script", async () => save((await this.work()).name + ".sh", await this.script()));
-		this.on("copy-script", async () => this.give(await this.script()));
-		this.on("copy-basis", async () => {
-			$("take").open = true;
-			return this.give($("basis-line").textContent);
-		});
-		this.on("apply", () => this.apply($("text").value));
-		this.on("open-regions", () => $("file").click());
-		$("file").addEventListener("change", () => this.say(() => this.open()));
-		$("take").addEventListener("toggle", () => this.show());
-	}
-
-	on(id, act) {
-		$(id).addEventListener("click", () => this.say(act));
-	}
-
-	/* Does it, and says what came of it. */
-	async say(act) {
-		$("take-said").textContent = "";
-		$("take").setAttribute("aria-busy", "true");
-		try {
-			$("take-said").textContent = (await act()) || "";
-		} catch (error) {
-			$("take-said").textContent = error.message;
-		}
-		$("take").removeAttribute("aria-busy");
-	}
-
-	/* The text as one to copy, and copied. */
-	async give(text) {
-		$("text").value = text;
-		await copy(text);
-		return "Copied: what stands above.";
+		$("save-regions").addEventListener("click", async () => save((await this.work()).name + ".regions", await this.text()));
+		$("save-script").addEventListener("click", async () => save((await this.work()).name + ".sh", await this.script()));
+		$("copy-basis").addEventListener("click", () => copy($("basis-line")));
 	}
 
 	/* What is taken away: what is painted on the layer in view, or what the stream came with. */
@@ -128,28 +84,6 @@ export class TakeAway {
 		const history = await linesOf(this.painter.app.shown.frame, "", "history");
 
 		return script({ ...await this.work(), text: await this.text() }, history);
-	}
-
-	async apply(text) {
-		const { painter } = this, { work } = painter, { vertices, regions } = read(text, await this.model());
-
-		if (work !== painter.work || work.regions.change)
-			return "";
-		const changed = work.regions.replace(vertices, regions);
-		work.painted = true;
-		await painter.done(changed);
-		return count(vertices.length) + " vertices have their regions, " + count(changed.length) + " of them other ones than before.";
-	}
-
-	async open() {
-		const file = $("file").files[0];
-
-		$("file").value = "";
-		if (!file)
-			return "";
-		if (file.size > LARGEST)
-			throw new Error("The file has " + count(file.size) + " bytes: it is no file of regions.");
-		return this.apply(await file.text());
 	}
 
 	/* The line for a basis, where there are handles to drag and the page has none for them. */
