@@ -35,9 +35,10 @@ struct cmd_state {
 	mr_outfile output_file, held, stats_file;
 	place_guard places;
 
-	mr_text figures; /* of the frame at work, as they go into the line of --stats */
-	findings found;  /* of the frame at work */
-	findings known;  /* that this tool said since the last key */
+	mr_text figures;  /* of the frame at work, as they go into the line of --stats */
+	findings found;   /* of the frame at work */
+	findings known;   /* that this tool said since the last key */
+	findings carried; /* of all frames, for what is found after the last of them */
 
 	const char *frame_name;
 	bool lost_key;         /* the key failed: its deltas go with it */
@@ -169,7 +170,7 @@ show_note(void *user, const char *text)
 static void
 show_warning(void *user, const char *text)
 {
-	char sentence[MR_ERROR_MAX];
+	char sentence[MR_ERROR_MAX + 16];
 
 	snprintf(sentence, sizeof sentence, "warning: %s", text);
 	say_of_frame(user, sentence);
@@ -201,15 +202,29 @@ settle_findings(cmd *c, mr_frame *f)
 
 	if (f->key)
 		s->known.n = 0;
-	if (!s->found.n && !s->known.n)
+	if (!s->found.n && !s->known.n && !c->tool->finish)
 		return MR_OK;
 	MR_TRY(findings_read(&c->ctx, f, &all));
+	add_all(&s->carried, &all);
 	add_all(&all, &s->known);
 	if (!c->quiet)
 		findings_say(&s->found, &all, show_warning, c);
 	add_all(&s->known, &s->found);
+	add_all(&s->carried, &s->found);
 	add_all(&all, &s->found);
 	return c->tool->sink ? MR_OK : findings_put(&c->ctx, f, &all);
+}
+
+/* What the tool does after the last frame, and says of it. */
+static void
+finish(cmd *c)
+{
+	struct cmd_state *s = c->state;
+
+	s->found.n = 0;
+	try(c, c->tool->finish(c));
+	if (!c->quiet)
+		findings_say(&s->found, &s->carried, show_warning, c);
 }
 
 /* After a second of work, at most ten times a second. */
@@ -939,7 +954,7 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 		read_streams(&c);
 	code = account(&c);
 	if (tool->finish)
-		try(&c, tool->finish(&c));
+		finish(&c);
 	close_outputs(&c);
 	if (tool->after)
 		try(&c, tool->after(&c));

@@ -43,24 +43,6 @@ check(cmd *c)
 	return mr_outname(&c->ctx, out, "", 1, &name);
 }
 
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_export_result, dropped_normals),
-	CMD_COUNTED(mr_export_result, dropped_colors),
-	CMD_COUNTED(mr_export_result, dropped_alpha),
-	CMD_COUNTED(mr_export_result, dropped_texcoords),
-	CMD_COUNTED(mr_export_result, dropped_groups),
-	CMD_COUNTED(mr_export_result, dropped_objects),
-	CMD_COUNTED(mr_export_result, dropped_materials),
-	CMD_COUNTED(mr_export_result, dropped_smoothing),
-	CMD_COUNTED(mr_export_result, dropped_polygons),
-	CMD_COUNTED(mr_export_result, dropped_properties),
-	CMD_COUNTED(mr_export_result, dropped_faces),
-	CMD_COUNTED(mr_export_result, dropped_vertices),
-	CMD_COUNTED(mr_export_result, broken_polygons),
-	CMD_COUNTED(mr_export_result, rounded_positions),
-	{ 0 },
-};
-
 /* A file that holds several frames waits for the last of them; where names vary, each frame has one. */
 static mr_status
 add_to_scene(cmd *c, mr_frame *f)
@@ -68,12 +50,9 @@ add_to_scene(cmd *c, mr_frame *f)
 	const char *out = c->operands[0];
 	mr_scene own = { .folder = scene.folder };
 	bool varies = mr_outname_varies(out);
-	mr_export_result result;
 	char *path;
 
-	MR_TRY(
-	    mr_scene_add(&c->ctx, varies ? &c->ctx : &c->keep, varies ? &own : &scene, f, c->layer, &result));
-	cmd_figures(c, figures, &result);
+	MR_TRY(mr_scene_add(&c->ctx, varies ? &c->ctx : &c->keep, varies ? &own : &scene, f, c->layer));
 	written++;
 	if (!varies)
 		return MR_OK;
@@ -87,14 +66,12 @@ export_frame(cmd *c, mr_frame *f)
 	const char *out = c->operands[0];
 	bool varies = mr_outname_varies(out);
 	mr_outfile held = { 0 };
-	mr_export_result result;
 	char *path;
 
 	if (mr_scene_suits(out, format))
 		return add_to_scene(c, f);
 	MR_TRY(mr_outname_once(&c->ctx, &given, out, f->name, f->number, &path));
-	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held, &result));
-	cmd_figures(c, figures, &result);
+	MR_TRY(mr_export_held(&c->ctx, f, c->layer, path, format, varies ? NULL : &held));
 	written++;
 	if (!varies)
 		cmd_hold(c, &held); /* of one frame: another may come, or the stream break off */

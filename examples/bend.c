@@ -58,7 +58,7 @@ main(int argc, char **argv)
 		return 2;
 	}
 	good = mr_import(ctx, argv[1], NULL, &f, NULL) == MR_OK && prepare(ctx, f) == MR_OK &&
-	       bend(ctx, f, 30) == MR_OK && mr_export(ctx, f, NULL, argv[2], NULL, NULL) == MR_OK;
+	       bend(ctx, f, 30) == MR_OK && mr_export(ctx, f, NULL, argv[2], NULL) == MR_OK;
 	if (!good)
 		fprintf(stderr, "bend: %s\n", mr_error(ctx));
 	mr_ctx_delete(ctx);

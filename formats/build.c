@@ -121,7 +121,7 @@ mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const u
 	MR_TRY(keep_places(b, &b->corner_vn, &b->vn_room, vn, n));
 	if (n > 3) {
 		kept = without_repeats(b, n);
-		b->polygons++;
+		b->counts.polygons++;
 	}
 	if (kept < 3) {
 		b->skipped++;
@@ -235,7 +235,6 @@ typedef struct mr_kept {
 	mr_property p;
 	void *data;
 	size_t rows, room;
-	size_t absent;  /* rows without a value, which are 0 */
 	bool odd;       /* a value is not of its type */
 	size_t rounded; /* whole numbers that a double does not hold */
 } mr_kept;
@@ -274,7 +273,6 @@ fill_rows(mr_builder *b, mr_kept *k, size_t n)
 		return MR_OK;
 	MR_TRY(mr_reserve(b->ctx, &k->data, size, k->rows, n - k->rows, &k->room));
 	memset((char *)k->data + k->rows * size, 0, (n - k->rows) * size);
-	k->absent += n - k->rows;
 	k->rows = n;
 	return MR_OK;
 }
@@ -326,17 +324,10 @@ put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 			continue;
 		MR_TRY(fill_rows(b, k, p->shape.element == 'f' ? b->faces : m->nv));
 		p->data = k->data;
-		if (k->odd) {
-			mr_warn(b->ctx, "property %s is left out: a value of it is no %s", p->name, p->type);
+		mr_tell(b->ctx, MR_LOST, k->odd, "property %s", p->name);
+		if (k->odd)
 			continue;
-		}
-		if (k->rounded)
-			mr_warn(b->ctx,
-			    "%zu values of property %s are rounded: they are whole numbers beyond 2^53",
-			    k->rounded, p->name);
-		if (k->absent)
-			mr_warn(b->ctx, "%zu of %zu faces have no property %s: it is 0 there", k->absent,
-			    k->rows, p->name);
+		mr_tell(b->ctx, MR_ROUNDED, k->rounded, "values of property %s", p->name);
 		if (p->shape.element == 'f' && face &&
 		    !(p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf)))
 			return MR_EMEM;
@@ -368,27 +359,21 @@ mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m)
 /* ---- attributes ---- */
 
 bool
-mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped)
+mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what)
 {
-	if (!odd)
-		return true;
-	mr_warn(ctx, "%zu of %zu %s are left out: they are not finite numbers", odd, n, what);
-	*dropped = *dropped == MR_UNKNOWN ? odd : *dropped + odd;
-	return odd < n;
+	mr_lost(ctx, NULL, odd, what);
+	return odd < n || n == 0;
 }
 
 bool
-mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped)
+mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what)
 {
-	if (!odd)
-		return true;
-	mr_warn(ctx, "%s dropped: %zu of %zu are not finite numbers", what, odd, n);
-	*dropped = 1;
-	return false;
+	mr_lost(ctx, NULL, odd ? n : 0, what);
+	return odd == 0;
 }
 
 bool
-mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped)
+mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n)
 {
 	size_t odd = 0;
 
@@ -397,7 +382,7 @@ mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped)
 			normal[i] = mr_vec(0, 0, 0);
 			odd++;
 		}
-	return mr_left_out(ctx, odd, n, "normals", dropped);
+	return mr_left_out(ctx, odd, n, "normals");
 }
 
 double
@@ -409,34 +394,15 @@ mr_shade_full(const mr_shades *s)
 }
 
 void
-mr_colors_rounded(mr_ctx *ctx, size_t values)
-{
-	if (values)
-		mr_warn(ctx, "%zu values of colors are rounded to 8 bits", values);
-}
-
-void
 mr_shades_said(mr_ctx *ctx, const mr_shades *s)
 {
 	const double dark = 4096; /* of 65535: 12 bits, or 8 with a value too large */
 
-	if (s->clipped)
-		mr_warn(ctx, "%zu values of colors are clipped: they are not within 0 and %g", s->clipped,
-		    s->full);
 	if (s->full == 65535 && s->most > 0 && s->most < dark)
-		mr_warn(ctx,
-		    "colors are nearly black: the largest value, %g, is above 255, and read as a "
-		    "65535th",
-		    s->most);
+		mr_tell(
+		    ctx, MR_GUESSED, 1, "colors up to %g are read as parts of 65535: nearly black", s->most);
 	else
-		mr_colors_rounded(ctx, s->rounded);
-}
-
-void
-mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why)
-{
-	mr_warn(ctx, "%s dropped: %s", what, why);
-	*count = 1;
+		mr_tell(ctx, MR_ROUNDED, s->rounded, "values of colors");
 }
 
 void *
@@ -509,10 +475,10 @@ put_texcoords(mr_builder *b, const uint32_t *place, mr_model *m)
 	double *vertex;
 
 	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 2, b->uv, NAN, &corner));
-	MR_TRY(mr_corners_to_vertices(
-	    b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &b->counts->seam_vertices));
+	MR_TRY(
+	    mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &b->counts.seam_vertices));
 	if (m->texcoord && (!vertex || memcmp(vertex, m->texcoord, 2 * m->nv * sizeof *vertex)))
-		mr_warn(b->ctx, "texture coordinates of vertices are left out: those of corners differ");
+		mr_lost(b->ctx, NULL, m->nv, "texture coordinates of vertices");
 	m->texcoord = vertex;
 	m->corner_texcoord = vertex ? NULL : corner;
 	return MR_OK;
@@ -526,7 +492,7 @@ put_normals(mr_builder *b, const uint32_t *place, mr_model *m)
 
 	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 3, (const double *)b->vn, 0, &corner));
 	MR_TRY(mr_corners_to_vertices(
-	    b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &b->counts->crease_vertices));
+	    b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &b->counts.crease_vertices));
 	m->normal = (const mr_v3 *)vertex;
 	m->corner_normal = vertex ? NULL : (const mr_v3 *)corner;
 	return MR_OK;
@@ -591,7 +557,7 @@ triangulate(mr_builder *b, triangles *r)
 	for (size_t f = 0; f < b->faces; first += b->size[f++]) {
 		size_t before = r->n;
 		MR_TRY(add_face(b, r, room, f, first));
-		b->vanished += r->n == before;
+		b->skipped += r->n == before;
 	}
 	return r->n ? MR_OK
 	            : mr_fail(b->ctx, MR_EMESH, "none of the %zu faces has a triangle of three vertices",
@@ -638,8 +604,7 @@ number_polygons(mr_builder *b, const triangles *r, const uint32_t **polygon)
 		for (size_t k = f; k < end; k++)
 			number[k] = k == f || !same ? next++ : next - 1;
 	}
-	if (torn)
-		mr_warn(b->ctx, "%zu polygons that touch themselves become triangles", torn);
+	mr_lost(b->ctx, NULL, torn, "polygons that touch themselves");
 	*polygon = number;
 	return MR_OK;
 }
@@ -725,14 +690,8 @@ mr_build_finish(mr_builder *b, mr_model *m)
 		MR_TRY(put_faces(b, &made));
 	} else
 		MR_TRY(put_properties(b, NULL, &made));
-	if (b->skipped)
-		mr_warn(b->ctx, "%zu faces of fewer than three corners are left out", b->skipped);
-	if (b->vanished)
-		mr_warn(
-		    b->ctx, "%zu polygons without a triangle of three vertices are left out", b->vanished);
-	b->counts->faces_left_out = b->skipped + b->vanished;
-	b->counts->polygons = b->polygons;
-	made.counts = *b->counts;
+	mr_lost(b->ctx, NULL, b->skipped, "faces without three corners");
+	made.counts = b->counts;
 	*m = made;
 	return MR_OK;
 }

@@ -38,10 +38,8 @@ typedef struct mr_builder {
 	bool plain;           /* faces are triangles with nothing but vertices so far: see mr_build_reserve */
 	struct mr_kept *kept; /* properties; of faces one row for each face */
 	size_t properties, property_room;
-	size_t skipped;           /* faces of fewer than three corners */
-	size_t vanished;          /* polygons all of whose triangles name a vertex twice */
-	size_t polygons;          /* faces of more */
-	mr_import_result *counts; /* of the model to be */
+	size_t skipped;          /* faces without three corners */
+	mr_import_result counts; /* of the model to be */
 	mr_marks marks[MR_MARKINGS];
 	const char *ungrouped; /* the group of faces before the first, and of one without a name; NULL: "" */
 	mr_lines mtllib;
@@ -72,7 +70,7 @@ mr_status mr_build_smoothing(mr_builder *b, uint32_t group) MR_WARN_UNUSED;
 
 /*
  * A property under its name, of a type of PLY; those of vertices come before those of faces.  number: from 1.
- * Its values come row by row; a whole type that one is not of drops it in the end, which is said.
+ * Its values come row by row; a whole type that one is not of drops it in the end.
  */
 mr_status mr_build_property(
     mr_builder *b, const char *name, const char *type, char element, size_t *number) MR_WARN_UNUSED;
@@ -87,16 +85,14 @@ mr_status mr_build_properties(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
 /* All points of the model were seen from there. */
 mr_status mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m) MR_WARN_UNUSED;
 
-/* Of n values these are not finite numbers: says so, and counts them.  False where no other is left. */
-bool mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped) MR_WARN_UNUSED;
+/* Reports values that are not finite as lost.  False where all n are. */
+bool mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what) MR_WARN_UNUSED;
 
-/* The same of a column that has no value for none: it is dropped where one is odd, and this is false. */
-bool mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what, size_t *dropped) MR_WARN_UNUSED;
+/* The same of a column that has no value for none: with one odd value all are lost, and this is false. */
+bool mr_all_left(mr_ctx *ctx, size_t odd, size_t n, const char *what) MR_WARN_UNUSED;
 
-/*
- * Normals that are not finite become zero, which is none: says and counts how many.  False where all were so.
- */
-bool mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped) MR_WARN_UNUSED;
+/* Normals that are not finite become zero, which is none, and are reported.  False where all are. */
+bool mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n) MR_WARN_UNUSED;
 
 /*
  * Values of colours.  Where their type does not say what is full, those of the whole file do: 1, where none
@@ -105,8 +101,7 @@ bool mr_normals_left(mr_ctx *ctx, mr_v3 *normal, size_t n, size_t *dropped) MR_W
 typedef struct mr_shades {
 	double most, full; /* of those that were seen; what becomes a byte of 255 */
 	bool broken;       /* one is no whole number */
-	size_t clipped;    /* not within 0 and full */
-	size_t rounded;    /* that the byte does not tell */
+	size_t rounded;    /* clipped, or not told by the byte */
 } mr_shades;
 
 static inline void
@@ -127,24 +122,15 @@ mr_shade_byte(mr_shades *s, double x)
 	double v = 255 * x / s->full;
 	float near = (float)v + 0.5F; /* a float of 0.9, too, is 230 */
 	unsigned char byte = (unsigned char)(near > 0 ? fminf(near, 255) : 0);
-	bool clips = v < -0.255 || v > 255.255,
-	     differs = s->full == 65535 ? x != 257 * byte : fabs(v - byte) > 0.255;
 
-	s->clipped += clips;
-	s->rounded += !clips && differs;
+	s->rounded += s->full == 65535 ? x != 257 * byte : fabs(v - byte) > 0.255;
 	return byte;
 }
 
-/* Says how many were clipped or rounded, and where next to nothing is left of them. */
+/* Reports those that were rounded or clipped, and where next to nothing is left of them. */
 void mr_shades_said(mr_ctx *ctx, const mr_shades *s);
 
-/* Says how many values of colours a byte does not tell. */
-void mr_colors_rounded(mr_ctx *ctx, size_t values);
-
-/* A column that is dropped: says so and counts it. */
-void mr_dropped(mr_ctx *ctx, size_t *count, const char *what, const char *why);
-
-/* The model; says and counts what it could not keep. */
+/* The model; reports what it could not keep. */
 mr_status mr_build_finish(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
 
 /* True where a triangle was added without looking further: the usual case, kept short. */
@@ -172,8 +158,8 @@ bool mr_is_absent(const double *x, size_t width);
 mr_status mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
     const double *corner, double **vertex, size_t *seams) MR_WARN_UNUSED;
 
-/* Warns of the files of materials that are not where the model at `path` ("-": nowhere) names them. */
-void mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files);
+/* Reports files of materials that are not where the model at `path` ("-": nowhere) names them. */
+void mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files);
 
 /* x[of[i]] for rows of `size` bytes, in the arena; NULL where memory cannot be had. */
 void *mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n) MR_WARN_UNUSED;

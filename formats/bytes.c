@@ -158,17 +158,6 @@ may_be_gzip(const unsigned char *data, size_t size)
 	return size > 0 && !memcmp(data, magic, size < sizeof magic ? size : sizeof magic);
 }
 
-/* What stands behind the last member: zeros fill the blocks of a tape, anything else is told. */
-static void
-note_rest(mr_ctx *ctx, const unsigned char *data, size_t size)
-{
-	for (size_t i = 0; i < size; i++)
-		if (data[i]) {
-			mr_warn(ctx, "%zu bytes behind the gzip data are left out", size);
-			return;
-		}
-}
-
 static mr_status
 inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judge *judge,
     unsigned char **memory, size_t *size)
@@ -195,10 +184,8 @@ inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judg
 		done += space - z->avail_out;
 		*size = done;
 		if (r == Z_STREAM_END) {
-			if (!may_be_gzip(in->data + given, in->size - given)) {
-				note_rest(ctx, in->data + given, in->size - given);
+			if (!may_be_gzip(in->data + given, in->size - given))
 				return MR_OK;
-			}
 			inflateReset(z);
 		} else if (r == Z_BUF_ERROR && given == in->size) {
 			return mr_fail(ctx, MR_EFORMAT, "gzip data end early, after %zu bytes", in->size);
@@ -358,7 +345,6 @@ mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
 {
 	mr_sink new = { .ctx = ctx, .path = path };
 
-	mr_unmeasured(&new.lost, sizeof new.lost);
 	if (!(new.buffer = mr_alloc(ctx, MR_SINK_BUFFER, 1)))
 		return MR_EMEM;
 	MR_TRY(open_target(&new));

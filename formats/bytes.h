@@ -54,7 +54,6 @@ typedef struct mr_sink {
 	char *buffer;
 	size_t used;
 	mr_status status;
-	mr_export_result lost; /* what the format has no place for, which its writer counts */
 } mr_sink;
 
 enum { MR_SINK_BUFFER = 1 << 16, MR_SINK_ROOM = 4096 };

@@ -2,9 +2,7 @@
  * format.h -- the table of formats, and what each one's file gives to it.
  *
  * Contract: `sniff` looks at bytes only; `read` fails with "line N: ..." or "byte N: ...",
- * before which mr_model_read puts the file's name, and counts what it leaves out in
- * `counts` of the model, which comes empty but for them, and keeps them; `write` leaves
- * failures to the sink, and counts in its `lost`.
+ * before which mr_model_read puts the file's name; `write` leaves failures to the sink.
  * Layer rule: formats.
  */
 #ifndef MR_FORMAT_H
@@ -83,7 +81,7 @@ mr_status mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_m
 mr_status mr_glb_write(mr_sink *s, const mr_model *m);
 mr_status mr_glb_write_scene(mr_sink *s, const mr_scene *scene);
 
-/* Says and counts what a GLB does not keep of the model. */
+/* Reports what a GLB does not keep of the model. */
 mr_status mr_glb_note_lost(mr_sink *s, const mr_model *m);
 
 /* A text over the bytes. */
@@ -115,7 +113,7 @@ mr_has_unit_length(mr_v3 n)
 /* Writes numbers with a blank between them, then `end`. */
 void mr_put_reals(mr_sink *s, const double *x, size_t n, char end);
 
-/* Says and counts what a format leaves out: what the model has and the flags do not name. */
+/* Reports as lost what the model has and the flags do not name. */
 enum {
 	MR_KEEPS_NORMAL = 1,
 	MR_KEEPS_COLOR = 2,
@@ -128,20 +126,21 @@ enum {
 	MR_KEEPS_SMOOTHING = 256,
 	MR_KEEPS_POLYGON = 512,
 	MR_KEEPS_PROPERTY = 1024,
-	MR_KEEPS_ALL = 2047
+	MR_KEEPS_SCANNER = 2048,
+	MR_KEEPS_ALPHA = 4096
 };
 void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
 
 /* The value of row i. */
 double mr_property_value(const mr_property *p, size_t i);
 
-/* The same of alpha, which colours of `what` have not. */
-void mr_note_alpha(mr_sink *s, const mr_model *m, const char *what);
-
-/* The model's faces, polygons as they were; says and counts those that no longer are. */
+/* The model's faces, polygons as they were; reports those that no longer are. */
 mr_status mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces) MR_WARN_UNUSED;
 
-/* Says and counts the positions that do not survive in float32; MR_ERANGE where one overflows it. */
+/* Reports that `count` of n positions are off by up to a share of the diagonal. */
+void mr_coarse(mr_ctx *ctx, size_t count, size_t n, double share);
+
+/* Reports positions that float32 moves visibly; MR_ERANGE where one overflows it. */
 mr_status mr_note_rounded(mr_sink *s, const mr_model *m);
 
 /* MR_ERANGE where a normal or a texture coordinate is too large for a float. */

@@ -2,12 +2,10 @@
 #include "formats/formats.h"
 #include "base/utf8.h"
 #include "formats/format.h"
-#include "formats/names.h"
 #include "formats/suffix.h"
 #include "mesh/name_lists.h"
 #include "stream/record.h"
 
-#include <float.h>
 #include <unistd.h>
 
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
@@ -29,6 +27,20 @@ static const mr_file_format formats[] = {
 };
 
 enum { FORMATS = sizeof formats / sizeof *formats, LONGEST_LINE = 1 << 22 };
+
+void
+mr_tell(mr_ctx *ctx, mr_finding_kind kind, size_t count, const char *format, ...)
+{
+	char what[MR_ERROR_MAX];
+	va_list args;
+
+	if (count == 0)
+		return;
+	va_start(args, format);
+	vsnprintf(what, sizeof what, format, args);
+	va_end(args);
+	mr_found(ctx, &(mr_finding){ .kind = kind, .what = what, .count = count });
+}
 
 /* ---- names ---- */
 
@@ -212,19 +224,17 @@ normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 	return MR_OK;
 }
 
-/* The character at unit i of n, which moves behind it; half of one is U+FFFD, and counted. */
+/* The character at unit i of n, which moves behind it; half of one is U+FFFD. */
 static uint32_t
-from_units(const unsigned char *data, size_t n, bool big, size_t *i, size_t *halves)
+from_units(const unsigned char *data, size_t n, bool big, size_t *i)
 {
 	uint32_t unit = mr_load16(data + 2 * (*i)++, big), low;
 
 	if (unit < 0xd800 || unit >= 0xe000)
 		return unit;
 	low = unit < 0xdc00 && *i < n ? mr_load16(data + 2 * *i, big) : 0;
-	if (low < 0xdc00 || low >= 0xe000) {
-		++*halves;
+	if (low < 0xdc00 || low >= 0xe000)
 		return 0xfffd;
-	}
 	++*i;
 	return 0x10000 + ((unit - 0xd800) << 10) + (low - 0xdc00);
 }
@@ -236,7 +246,7 @@ narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
 	bool big = *size >= 2 && (*data)[0] == 0xfe && (*data)[1] == 0xff;
 	bool little = *size >= 2 && (*data)[0] == 0xff && (*data)[1] == 0xfe;
 	const unsigned char *units;
-	size_t n, bytes = 0, halves = 0;
+	size_t n, bytes = 0;
 	char *copy, none[4];
 
 	if (!big && !little)
@@ -247,16 +257,14 @@ narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
 	units = *data + 2;
 	n = *size / 2 - 1;
 	for (size_t i = 0; i < n;)
-		bytes += mr_utf8_write(none, from_units(units, n, big, &i, &halves));
-	if (halves)
-		mr_warn(ctx, "half characters of UTF-16, which become U+FFFD: %zu", halves);
+		bytes += mr_utf8_write(none, from_units(units, n, big, &i));
 	copy = mr_alloc(ctx, bytes, 1);
 	if (!copy)
 		return MR_EMEM;
 	*data = (const unsigned char *)copy;
 	*size = bytes;
 	for (size_t i = 0; i < n;)
-		copy += mr_utf8_write(copy, from_units(units, n, big, &i, &halves));
+		copy += mr_utf8_write(copy, from_units(units, n, big, &i));
 	return MR_OK;
 }
 
@@ -300,14 +308,24 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	return MR_OK;
 }
 
-/* A surface gets the normals that were left out from its faces. */
+static bool
+has_gaps(const mr_model *m)
+{
+	size_t i = 0;
+
+	while (i < m->nv && mr_norm2(m->normal[i]) > 0)
+		i++;
+	return i < m->nv;
+}
+
+/* A surface gets the normals that are none from its faces. */
 static mr_status
 mend_normals(mr_ctx *ctx, mr_model *m)
 {
 	const mr_mesh mesh = { .name = "mesh", .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
 	mr_v3 *normal;
 
-	if (!m->nf || !m->normal || m->counts.dropped_normals == MR_UNKNOWN)
+	if (!m->nf || !m->normal || !has_gaps(m))
 		return MR_OK;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
 	if (!normal)
@@ -327,7 +345,6 @@ mr_model_parse(
 	const mr_file_format *f = NULL;
 	mr_model got = { 0 };
 
-	mr_unmeasured(&got.counts, sizeof got.counts);
 	MR_TRY(mr_as_text(ctx, &data, &size));
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));
 	MR_TRY(f->read(ctx, data, size, &got));
@@ -449,26 +466,17 @@ are_beside(const char *path, const char *p, const char *end)
 }
 
 void
-mr_warn_of_libraries(mr_ctx *ctx, const char *path, mr_lines files)
+mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files)
 {
 	const char *p = files.text, *end = files.bytes ? p + files.bytes : p;
-	mr_lines first = { "", 0 };
-	size_t gone = 0, changed;
 
 	while (files.bytes && strcmp(path, "-") && p < end) {
 		const char *e = memchr(p, '\n', (size_t)(end - p));
 		e = e ? e : end;
-		if (!are_beside(path, p, e) && gone++ == 0)
-			first = (mr_lines){ p, (size_t)(e - p) };
+		if (!are_beside(path, p, e))
+			mr_tell(ctx, MR_MISSING, 1, "%.*s", (int)(e - p), p);
 		p = e + 1;
 	}
-	if (gone == 0 || mr_names_escape(ctx, first, &first, &changed) != MR_OK)
-		return;
-	if (gone == 1)
-		mr_warn(ctx, "its materials are in %.*s, which is not there", (int)first.bytes, first.text);
-	else
-		mr_warn(ctx, "its materials are in %zu files that are not there, the first of them %.*s",
-		    gone, (int)first.bytes, first.text);
 }
 
 /* ---- writing ---- */
@@ -482,7 +490,7 @@ mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count
 /* Writes the model, or the scene. */
 static mr_status
 write_file(mr_ctx *ctx, const char *path, const mr_file_format *f, const mr_model *m, const mr_scene *scene,
-    mr_outfile *held, mr_export_result *result)
+    mr_outfile *held)
 {
 	mr_sink sink;
 
@@ -491,21 +499,18 @@ write_file(mr_ctx *ctx, const char *path, const mr_file_format *f, const mr_mode
 	MR_TRY(mr_sink_close(&sink, scene ? f->write_scene(&sink, scene) : f->write(&sink, m)));
 	if (held)
 		*held = sink.file;
-	if (result)
-		*result = sink.lost;
 	return MR_OK;
 }
 
 mr_status
-mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_outfile *held,
-    mr_export_result *result)
+mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_outfile *held)
 {
 	const mr_file_format *f = NULL;
 
 	MR_TRY(find_writer(ctx, path, format, &f));
 	if (m->nv == 0)
 		return mr_fail(ctx, MR_EMESH, "a layer without a vertex cannot be written as %s", f->name);
-	return write_file(ctx, path, f, m, NULL, held, result);
+	return write_file(ctx, path, f, m, NULL, held);
 }
 
 bool
@@ -522,7 +527,7 @@ mr_scene_write(mr_ctx *ctx, const char *path, const char *format, const mr_scene
 	const mr_file_format *f = NULL;
 
 	MR_TRY(find_writer(ctx, path, format, &f));
-	return write_file(ctx, path, f, NULL, scene, held, NULL);
+	return write_file(ctx, path, f, NULL, scene, held);
 }
 
 void
@@ -548,65 +553,51 @@ mr_property_value(const mr_property *p, size_t i)
 void
 mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 {
-	bool corners = keeps & MR_KEEPS_CORNERS;
 	const struct {
-		bool lost;
-		size_t *count, rows;
+		const void *column;
+		unsigned kept;
+		size_t rows;
 		const char *what;
-	} columns[] = {
-		{ m->normal && !(keeps & MR_KEEPS_NORMAL), &s->lost.dropped_normals, m->nv, "normals" },
-		{ m->corner_normal && !corners, &s->lost.dropped_normals, 3 * m->nf, "normals of corners" },
-		{ m->color && !(keeps & MR_KEEPS_COLOR), &s->lost.dropped_colors, m->nv, "colors" },
-		{ m->texcoord && !(keeps & MR_KEEPS_TEXCOORD), &s->lost.dropped_texcoords, m->nv,
-		    "texcoords" },
-		{ m->corner_texcoord && !corners, &s->lost.dropped_texcoords, 3 * m->nf,
-		    "texcoords of corners" },
-		{ m->group && !(keeps & MR_KEEPS_GROUP), &s->lost.dropped_groups, m->nf, "groups" },
-		{ m->object && !(keeps & MR_KEEPS_OBJECT), &s->lost.dropped_objects, m->nf, "objects" },
-		{ m->material && !(keeps & MR_KEEPS_MATERIAL), &s->lost.dropped_materials, m->nf,
-		    "materials" },
-		{ m->smoothing && !(keeps & MR_KEEPS_SMOOTHING), &s->lost.dropped_smoothing, m->nf,
-		    "smoothing groups" },
-		{ m->polygon && !(keeps & MR_KEEPS_POLYGON), &s->lost.dropped_polygons, m->nf, "polygons" },
-		{ m->properties && !(keeps & MR_KEEPS_PROPERTY), &s->lost.dropped_properties, m->properties,
-		    "properties" },
-		{ m->scanner != NULL, &s->lost.dropped_properties, 1, "places of the scanner" },
-		{ m->nf && !(keeps & MR_KEEPS_FACES), &s->lost.dropped_faces, m->nf, "faces" },
-	};
-	char names[256];
-	size_t n = 0;
+	} columns[] = { { m->normal, MR_KEEPS_NORMAL, m->nv, "normals" },
+		{ m->corner_normal, MR_KEEPS_CORNERS, 3 * m->nf, "normals of corners" },
+		{ m->color, MR_KEEPS_COLOR, m->nv, "colors" },
+		{ m->texcoord, MR_KEEPS_TEXCOORD, m->nv, "texture coordinates" },
+		{ m->corner_texcoord, MR_KEEPS_CORNERS, 3 * m->nf, "texture coordinates of corners" },
+		{ m->group, MR_KEEPS_GROUP, m->nf, "groups" },
+		{ m->object, MR_KEEPS_OBJECT, m->nf, "objects" },
+		{ m->material, MR_KEEPS_MATERIAL, m->nf, "materials" },
+		{ m->smoothing, MR_KEEPS_SMOOTHING, m->nf, "smoothing groups" },
+		{ m->polygon, MR_KEEPS_POLYGON, m->nf, "polygons" },
+		{ m->property, MR_KEEPS_PROPERTY, m->properties, "properties" },
+		{ m->scanner, MR_KEEPS_SCANNER, m->nv, "places of the scanner" },
+		{ m->t, MR_KEEPS_FACES, m->nf, "faces" } };
+	size_t clear = 0;
 
 	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
-		if (columns[i].lost) {
-			*columns[i].count = columns[i].rows;
-			n += (size_t)snprintf(
-			    names + n, sizeof names - n, "%s%s", n ? ", " : "", columns[i].what);
-		}
-	if (n)
-		mr_warn(s->ctx, "%s dropped: the format has no place for them", names);
-}
-
-void
-mr_note_alpha(mr_sink *s, const mr_model *m, const char *what)
-{
+		if (columns[i].column && !(keeps & columns[i].kept))
+			mr_lost(s->ctx, NULL, columns[i].rows, columns[i].what);
 	for (size_t i = 0; m->color && i < m->nv; i++)
-		if (m->color[4 * i + 3] < 255) {
-			mr_warn(s->ctx, "alpha dropped: colours of %s have none", what);
-			s->lost.dropped_alpha = 1;
-			return;
-		}
+		clear += m->color[4 * i + 3] < 255;
+	if ((keeps & (MR_KEEPS_COLOR | MR_KEEPS_ALPHA)) == MR_KEEPS_COLOR)
+		mr_lost(s->ctx, NULL, clear, "alpha");
 }
 
 mr_status
 mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces)
 {
 	MR_TRY(mr_polygons_find(s->ctx, m->t, m->nf, m->polygon, faces));
-	if (m->polygon)
-		s->lost.broken_polygons = faces->broken;
-	if (faces->broken)
-		mr_warn(s->ctx, "%zu polygons are none any more: they are written as their triangles",
-		    faces->broken);
+	mr_lost(s->ctx, NULL, faces->broken, "polygons that are none any more");
 	return MR_OK;
+}
+
+void
+mr_coarse(mr_ctx *ctx, size_t count, size_t n, double share)
+{
+	char what[64];
+
+	snprintf(what, sizeof what, "positions (up to %.1g of the diagonal)", share);
+	mr_found(
+	    ctx, &(mr_finding){ .kind = MR_ROUNDED, .what = what, .count = count, .of = n, .value = share });
 }
 
 mr_status
@@ -629,16 +620,8 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 		    fmax(far.x, fabs(p.x - q.x)), fmax(far.y, fabs(p.y - q.y)), fmax(far.z, fabs(p.z - q.z)));
 	}
 	off = hypot(hypot(far.x, far.y), far.z);
-	s->lost.rounded_positions = changed;
 	if (diagonal > 0 && off > share * diagonal) /* a single place is as near as floats are */
-		mr_warn(s->ctx,
-		    "%zu of %zu positions are rounded to float32, by up to %.2g, %.2g of the diagonal: "
-		    "mr-transform %s, where floats are finer",
-		    changed, m->nv, off, off / diagonal,
-		    diagonal < FLT_MIN / share ? "--unit brings them to size 1"
-					       : "--center brings them to the origin");
-	else if (changed)
-		mr_note(s->ctx, "%zu of %zu positions are rounded to float32", changed, m->nv);
+		mr_coarse(s->ctx, changed, m->nv, off / diagonal);
 	return MR_OK;
 }
 

@@ -5,7 +5,7 @@
  * of any format is read from a file or a pipe.  Every index is checked and every
  * position is finite, so a model that was read is a valid layer.  Text numbers
  * are read and written so that doubles survive bit for bit.  What a format
- * cannot hold is said by a note and counted.
+ * cannot hold is reported as a finding.
  * Layer rule: formats include base, mesh and themselves; zlib in bytes.c, tinyobj
  * in obj_shim.cc.
  */
@@ -14,6 +14,9 @@
 
 #include "base/outfile.h"
 #include "mesh/mesh.h"
+
+/* Reports `count` of what the words say; nothing of none. */
+void mr_tell(mr_ctx *ctx, mr_finding_kind kind, size_t count, const char *format, ...) MR_PRINTF(4, 5);
 
 /* Names, one a line: each followed by a newline but the last.  An empty one names nothing. */
 typedef struct mr_lines {
@@ -54,7 +57,7 @@ typedef struct mr_model {
 	mr_lines mtllib;                           /* files of materials, as the file names them */
 	const mr_property *property;               /* properties of them */
 	size_t nv, nf, properties;
-	mr_import_result counts; /* of a model that was read: what was lost so far */
+	mr_import_result counts; /* of a model that was read */
 } mr_model;
 
 /*
@@ -68,10 +71,10 @@ mr_status mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_mo
 /*
  * Writes a file ("-": stdout).  `format` NULL: by the suffix, before `.gz`, which compresses.
  * A regular file is seen whole or not at all (base/outfile.h); where `held` is not NULL it is the caller's to
- * keep or to drop.  result: or NULL.
+ * keep or to drop.
  */
-mr_status mr_model_write(mr_ctx *ctx, const char *path, const char *format, const mr_model *m,
-    mr_outfile *held, mr_export_result *result) MR_WARN_UNUSED;
+mr_status mr_model_write(
+    mr_ctx *ctx, const char *path, const char *format, const mr_model *m, mr_outfile *held) MR_WARN_UNUSED;
 
 /* MR_EUSAGE, naming those there are, where the format is unknown or cannot be written.  `binary`: not for a
  * terminal. */

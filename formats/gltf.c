@@ -35,8 +35,6 @@ open_chunks(
 	if (all > size)
 		return mr_fail(
 		    g->ctx, MR_EFORMAT, "byte 8: the file should have %zu bytes, and has %zu", all, size);
-	if (all < size)
-		mr_warn(g->ctx, "%zu bytes behind the end left out", size - all);
 	if (all < HEADER || !next_chunk(data, all, &at, &kind, json_bytes) || kind != MR_GLTF_JSON)
 		return mr_fail(g->ctx, MR_EFORMAT, "byte %d: no whole chunk of JSON", (int)HEADER);
 	*json = data + at;

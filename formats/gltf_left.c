@@ -1,4 +1,4 @@
-/* What a glTF document has and a model has not: counted, and said in one line. */
+/* What a glTF document has and a model has not. */
 #include "formats/gltf.h"
 
 #include "base/text.h"
@@ -35,39 +35,27 @@ mr_gltf_note_attributes(const mr_gltf *g, json_t *attributes, const char *texcoo
 	return MR_OK;
 }
 
-/* What is said, and "2 images"; NULL where memory cannot be had. */
-static const char *
-add_count(mr_ctx *ctx, const char *said, size_t count, const char *what)
-{
-	if (!said || count == 0)
-		return said;
-	return mr_format(ctx, "%s%s%zu %s%s", said, *said ? ", " : "", count, what, count > 1 ? "s" : "");
-}
-
 static int
 by_text(const void *a, const void *b)
 {
 	return strcmp(*(const char *const *)a, *(const char *const *)b);
 }
 
-/* The attributes, each name with its number; the names of many are no help. */
-static const char *
-add_attributes(mr_ctx *ctx, const char *said, const mr_gltf_left *left)
+/* Each name with its number; the names of many are no help. */
+static void
+say_attributes(mr_ctx *ctx, const mr_gltf_left *left)
 {
 	enum { NAMES = 8 };
-	size_t names = 0, i = 0;
+	size_t i = 0, names = 0;
 
 	if (left->attributes)
 		qsort(left->attribute, left->attributes, sizeof *left->attribute, by_text);
 	for (size_t first = 0; first < left->attributes && names < NAMES; first = i, names++) {
-		const char *name = left->attribute[first], *what = mr_format(ctx, "%.60s attribute", name);
-		while (i < left->attributes && !strcmp(name, left->attribute[i]))
+		while (i < left->attributes && !strcmp(left->attribute[first], left->attribute[i]))
 			i++;
-		said = what ? add_count(ctx, said, i - first, what) : NULL;
-		if (!said)
-			return NULL;
+		mr_tell(ctx, MR_LOST, i - first, "attribute %s", left->attribute[first]);
 	}
-	return add_count(ctx, said, left->attributes - i, "other attribute");
+	mr_lost(ctx, NULL, left->attributes - i, "other attributes");
 }
 
 /* How many things an extension of the document lists. */
@@ -156,44 +144,33 @@ unused_materials(const mr_gltf *g, size_t *unused)
 	return MR_OK;
 }
 
-static mr_status
-say(const mr_gltf *g, mr_gltf_left *left, size_t unused)
-{
-	const mr_gltf_looks looks = mr_gltf_count_looks(g);
-	const char *said = "";
-	const struct {
-		size_t count;
-		const char *what;
-	} lines[] = { { mr_gltf_size(g, "images"), "image" }, { looks.colors, "material colour" },
-		{ looks.surfaces, "material surface" }, { looks.transforms, "other texture transform" },
-		{ unused, "unused material" },
-		{ listed(g, "KHR_materials_variants", "variants"), "material variant" },
-		{ mr_gltf_size(g, "skins"), "skin" }, { mr_gltf_size(g, "animations"), "animation" },
-		{ mr_gltf_size(g, "cameras"), "camera" },
-		{ listed(g, "KHR_lights_punctual", "lights"), "light" }, { left->targets, "morph target" },
-		{ left->lines, "line primitive" }, { left->unseen.scenes, "other scene" },
-		{ left->unseen.nodes, "unshown mesh node" },
-		{ left->unseen.meshes, "unreferenced mesh object" }, { parents(g), "parent node" },
-		{ left->unseen.several, "EXT_mesh_gpu_instancing node" },
-		{ all_other_extensions(g), "other extension" },
-		{ with_extras(g, "nodes") + with_extras(g, "meshes") + with_extras(g, "materials"),
-		    "extra" } };
-
-	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
-		said = add_count(g->ctx, said, lines[i].count, lines[i].what);
-	said = add_attributes(g->ctx, said, left);
-	if (!said)
-		return MR_EMEM;
-	if (*said)
-		mr_warn(g->ctx, "not kept of the file: %s", said);
-	return MR_OK;
-}
-
 mr_status
 mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left)
 {
-	size_t unused;
+	const mr_gltf_looks looks = mr_gltf_count_looks(g);
+	size_t unused = 0;
+	mr_status status = unused_materials(g, &unused);
+	const struct {
+		size_t count;
+		const char *what;
+	} lines[] = { { mr_gltf_size(g, "images"), "images" }, { looks.colors, "material colours" },
+		{ looks.surfaces, "material surfaces" }, { looks.transforms, "other texture transforms" },
+		{ unused, "unused materials" },
+		{ listed(g, "KHR_materials_variants", "variants"), "material variants" },
+		{ mr_gltf_size(g, "skins"), "skins" }, { mr_gltf_size(g, "animations"), "animations" },
+		{ mr_gltf_size(g, "cameras"), "cameras" },
+		{ listed(g, "KHR_lights_punctual", "lights"), "lights" }, { left->targets, "morph targets" },
+		{ left->lines, "line primitives" }, { left->unseen.scenes, "other scenes" },
+		{ left->unseen.nodes, "unshown mesh nodes" },
+		{ left->unseen.meshes, "unreferenced mesh objects" }, { parents(g), "parent nodes" },
+		{ left->unseen.several, "EXT_mesh_gpu_instancing nodes" },
+		{ all_other_extensions(g), "other extensions" },
+		{ with_extras(g, "nodes") + with_extras(g, "meshes") + with_extras(g, "materials"),
+		    "extras" } };
 
-	MR_TRY(unused_materials(g, &unused));
-	return say(g, left, unused);
+	MR_TRY(status);
+	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++)
+		mr_lost(g->ctx, NULL, lines[i].count, lines[i].what);
+	say_attributes(g->ctx, left);
+	return MR_OK;
 }

@@ -1,7 +1,7 @@
 /*
  * glTF 2.0, read: the meshes of the scene as one model.  What glTF must repeat where a seam of normals or
- * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, or those
- * of one number where the file numbers them, and what their corners have is the corners'.
+ * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, or
+ * those of one number where the file numbers them, and what their corners have is the corners'.
  */
 #include "formats/gltf.h"
 #include "mesh/repair.h"
@@ -707,8 +707,7 @@ join_colors(gltf_reader *r)
 		memcpy(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
 	for (size_t k = 0; k < r->n; k++)
 		several += memcmp(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
-	if (several)
-		mr_warn(r->g.ctx, "%zu colours left out: a vertex keeps the first of several", several);
+	mr_lost(r->g.ctx, NULL, several, "colors of joined vertices");
 	mr_shades_said(r->g.ctx, &r->shades);
 	r->m->color = color;
 	return MR_OK;
@@ -729,8 +728,7 @@ join_isolated(gltf_reader *r, const double *x, size_t width, double *vertex, con
 		if (is_own && vertex)
 			memcpy(vertex + width * v, x + width * k, width * sizeof *x);
 	}
-	if (lost)
-		mr_warn(r->g.ctx, "%zu %s of vertices without a face are left out", lost, what);
+	mr_tell(r->g.ctx, MR_LOST, lost, "%s of isolated vertices", what);
 	return MR_OK;
 }
 
@@ -761,11 +759,11 @@ join_columns(gltf_reader *r)
 	const double *normal = NULL, *corner_normal = NULL;
 	mr_import_result *counts = &r->m->counts;
 
-	if (r->normal && !mr_normals_left(r->g.ctx, r->normal, r->n, &counts->dropped_normals))
+	if (r->normal && !mr_normals_left(r->g.ctx, r->normal, r->n))
 		r->normal = NULL;
-	if (!mr_left_out(r->g.ctx, r->odd_uv, r->uvs, "texture coordinates", &counts->dropped_texcoords))
+	if (!mr_left_out(r->g.ctx, r->odd_uv, r->uvs, "texture coordinates"))
 		r->uv = NULL;
-	if (!mr_all_left(r->g.ctx, r->odd_colors, r->n, "colors", &counts->dropped_colors))
+	if (!mr_all_left(r->g.ctx, r->odd_colors, r->n, "colors"))
 		r->color = NULL;
 	if (r->color)
 		MR_TRY(join_colors(r));
@@ -871,7 +869,7 @@ read_document(gltf_reader *r)
 mr_status
 mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	mr_model made = { .counts = m->counts };
+	mr_model made = { 0 };
 	gltf_reader r = { .m = &made, .shades.full = 1 };
 	mr_status status;
 

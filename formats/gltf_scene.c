@@ -240,8 +240,7 @@ mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr
 	if (scenes && scene == MR_UNKNOWN)
 		scene = 0;
 	MR_TRY(walk_scene(&w, scene));
-	if (w.stretched)
-		mr_warn(g->ctx, "%zu rotations of nodes are brought to unit length", w.stretched);
+	mr_tell(g->ctx, MR_ROUNDED, w.stretched, "rotations of nodes");
 	*unseen = (mr_gltf_unseen){ scenes > 1 ? scenes - 1 : 0, count_unseen(&w), 0, w.several };
 	if (scenes + w.instances > 0)
 		MR_TRY(count_unreferenced(g, &unseen->meshes));

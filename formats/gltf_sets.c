@@ -145,27 +145,6 @@ mr_sets_begin(mr_ctx *ctx, const mr_model *m, mr_sets *s)
 	return MR_OK;
 }
 
-static void
-count_lost(size_t *lost, size_t n)
-{
-	if (n)
-		*lost = *lost == MR_UNKNOWN ? n : *lost + n;
-}
-
-void
-mr_sets_note_partial(mr_sink *s, size_t normals, size_t texcoords)
-{
-	count_lost(&s->lost.dropped_normals, normals);
-	count_lost(&s->lost.dropped_texcoords, texcoords);
-	if (normals)
-		mr_warn(s->ctx, "%zu normals dropped: others of their triangle, or of the cloud, are none",
-		    normals);
-	if (texcoords)
-		mr_warn(s->ctx,
-		    "%zu texture coordinates of corners dropped: their triangle has none at others",
-		    texcoords);
-}
-
 static mr_status
 shares_vertices(mr_ctx *ctx, const mr_sets *s, bool *shared)
 {
@@ -321,6 +300,6 @@ mr_set_cloud(mr_sink *s, const mr_model *m, mr_vertex_set *v)
 	if (normals == m->nv)
 		v->kind = MR_SET_NORMALS;
 	else
-		mr_sets_note_partial(s, normals, 0);
+		mr_lost(s->ctx, NULL, normals, "normals beside points without");
 	return MR_OK;
 }

@@ -38,9 +38,6 @@ typedef struct mr_vertex_set {
 	unsigned kind; /* MR_SET_... */
 } mr_vertex_set;
 
-/* Warns of normals and texture coordinates that go because others beside them are none, and counts them. */
-void mr_sets_note_partial(mr_sink *s, size_t normals, size_t texcoords);
-
 /* Orders the faces of a model that has some. */
 mr_status mr_sets_begin(mr_ctx *ctx, const mr_model *m, mr_sets *s) MR_WARN_UNUSED;
 

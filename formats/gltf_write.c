@@ -195,7 +195,7 @@ embed(glb *w, const char *file, size_t *texture)
 	if (image_type(&b))
 		status = put_image(w, file, &b, texture);
 	else
-		mr_warn(w->ctx, "%s is neither PNG nor JPEG: it is left out", file);
+		mr_tell(w->ctx, MR_LOST, 1, "picture %s, which is neither PNG nor JPEG", file);
 	return mr_prefix(w->ctx, mr_file_bytes_end(w->ctx, &b, status), "%s", file);
 }
 
@@ -275,9 +275,8 @@ text_of(glb *w, const char *name, size_t bytes)
 {
 	json_t *json = json_stringn(name, bytes);
 	mr_lines text;
-	size_t changed;
 
-	if (json || mr_names_escape(w->ctx, (mr_lines){ name, bytes }, &text, &changed) < 0)
+	if (json || mr_names_escape(w->ctx, (mr_lines){ name, bytes }, &text) < 0)
 		return json;
 	return json_stringn(text.text, text.bytes);
 }
@@ -691,7 +690,8 @@ put_surface(glb *w, layer *l)
 	size_t at = 0;
 
 	MR_TRY(mr_sets_begin(w->ctx, &l->node->model, &l->sets));
-	mr_sets_note_partial(w->s, l->sets.partial_normals, l->sets.partial_texcoords);
+	mr_lost(w->ctx, NULL, l->sets.partial_normals, "normals of triangles that lack others");
+	mr_lost(w->ctx, NULL, l->sets.partial_texcoords, "texture coordinates of triangles that lack others");
 	MR_TRY(put_materials(w, l));
 	MR_TRY(mr_sets_ambiguous(w->ctx, &l->sets, &w->numbered));
 	while (at < l->node->model.nf)
@@ -833,7 +833,7 @@ put_document(glb *w)
 	mr_text json = { .ctx = w->ctx };
 
 	MR_TRY(put_scene(w));
-	MR_TRY(mr_materials_warn_of_lost(w->ctx, w->lost));
+	mr_materials_lost(w->ctx, w->lost);
 	put_root(w);
 	put_lists(w);
 	if (w->failed || json_dump_callback(w->root, add_text, &json, JSON_COMPACT))
@@ -863,8 +863,8 @@ mr_status
 mr_glb_note_lost(mr_sink *s, const mr_model *m)
 {
 	mr_note_lost(s, m,
-	    MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES | MR_KEEPS_CORNERS |
-		MR_KEEPS_OBJECT | MR_KEEPS_MATERIAL);
+	    MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_ALPHA | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES |
+		MR_KEEPS_CORNERS | MR_KEEPS_OBJECT | MR_KEEPS_MATERIAL);
 	MR_TRY(mr_check_floats(s, m));
 	return mr_note_rounded(s, m);
 }

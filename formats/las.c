@@ -74,12 +74,6 @@ typedef struct las {
 	mr_v3 scale, origin;
 } las;
 
-static bool
-has_waveforms(const las *l)
-{
-	return l->format == 4 || l->format == 5 || l->format >= 9;
-}
-
 static mr_v3
 three(const unsigned char *p)
 {
@@ -109,9 +103,6 @@ read_header(mr_ctx *ctx, const unsigned char *d, size_t size, las *l)
 		.scale = three(d + 131),
 		.origin = three(d + 155) };
 	points = d[25] >= 4 && size >= 255 ? mr_load64(d + 247, false) : 0;
-	if (points && l->points && points != l->points)
-		mr_warn(ctx, "%llu points are read, where the count of older versions is %llu",
-		    (unsigned long long)points, (unsigned long long)l->points);
 	if (points)
 		l->points = points;
 	if (l->record < formats[format].bytes)
@@ -121,6 +112,9 @@ read_header(mr_ctx *ctx, const unsigned char *d, size_t size, las *l)
 		return mr_fail(ctx, MR_EFORMAT,
 		    "byte 96: %llu points of %zu bytes at %zu, where the file has %zu bytes",
 		    (unsigned long long)l->points, l->record, l->offset, size);
+	if (l->points == 0 && size - l->offset >= l->record)
+		return mr_fail(ctx, MR_EFORMAT,
+		    "byte 107: the header counts no point, but %zu bytes are there", size - l->offset);
 	if (!mr_finite(l->scale) || !mr_finite(l->origin))
 		return mr_fail(ctx, MR_EFORMAT, "byte 131: scale or offset is not finite");
 	if (l->scale.x == 0 || l->scale.y == 0 || l->scale.z == 0)
@@ -166,120 +160,23 @@ read_fields(mr_ctx *ctx, const unsigned char *data, const las *l, mr_model *m)
 	for (size_t i = 0; i < FIELDS; i++)
 		if (has_field(l->format, i))
 			MR_TRY(read_field(&b, data, l, i));
-	if (l->record > formats[l->format].bytes)
-		mr_warn(
-		    ctx, "%zu bytes more of each point are left out", l->record - formats[l->format].bytes);
-	if (has_waveforms(l))
-		mr_warn(ctx, "waveforms of the points are left out");
+	mr_lost(ctx, NULL, l->record - formats[l->format].bytes, "more bytes of each point");
 	return mr_build_properties(&b, m);
 }
 
-/* Bytes of the file, from one to before another. */
-typedef struct extent {
-	uint64_t from, to;
-} extent;
-
-/* Records in the extent, which ends behind them then, and whose length has `width` bytes; whether one says
- * where on Earth the points are. */
-static size_t
-count_records(const unsigned char *d, extent *e, uint64_t most, unsigned width, bool *place)
+/* Whether a record of the header says where on Earth the points are. */
+static bool
+has_projection(const unsigned char *d, const las *l)
 {
-	const size_t head = 52 + width;
-	uint64_t at = e->from, end = e->to;
-	size_t n = 0;
+	const uint64_t most = mr_load32(d + 100, false);
+	uint64_t at = mr_load16(d + 94, false);
 
-	for (; n < most && at <= end && end - at >= head; n++) {
-		uint64_t bytes = width == 8 ? mr_load64(d + at + 20, false) : mr_load16(d + at + 20, false);
-		*place |= !memcmp(d + at + 2, "LASF_Projection", 15);
-		if (bytes > end - at - head)
-			return n + 1;
-		at += head + bytes;
+	for (uint64_t n = 0; n < most && at + 54 <= l->offset; n++) {
+		if (!memcmp(d + at + 2, "LASF_Projection", 15))
+			return true;
+		at += 54 + (uint64_t)mr_load16(d + at + 20, false);
 	}
-	e->to = at;
-	return n;
-}
-
-/* Variable length records stand before the points and, by version 1.4, behind them. */
-typedef struct records {
-	size_t count;
-	bool place;
-	extent behind;
-} records;
-
-static records
-find_records(const unsigned char *d, size_t size, const las *l)
-{
-	extent before = { mr_load16(d + 94, false), l->offset };
-	records r = { .behind = { size, size } };
-
-	r.count = count_records(d, &before, mr_load32(d + 100, false), 2, &r.place);
-	if (d[25] >= 4 && size >= 247 && mr_load64(d + 235, false) <= size) {
-		r.behind.from = mr_load64(d + 235, false);
-		r.count += count_records(d, &r.behind, mr_load32(d + 243, false), 8, &r.place);
-	}
-	return r;
-}
-
-/* The record of waveforms that the file itself has, since version 1.3; one without a length is all the rest.
- */
-static extent
-waveforms(const unsigned char *d, size_t size, const las *l)
-{
-	enum { INSIDE = 2, HEAD = 60 };
-	uint64_t from, bytes;
-
-	if (!has_waveforms(l) || d[25] < 3 || size < 235 || !(d[6] & INSIDE))
-		return (extent){ size, size };
-	from = mr_load64(d + 227, false);
-	if (from > size || size - from < HEAD)
-		return (extent){ size, size };
-	bytes = mr_load64(d + from + 20, false);
-	return (extent){ from, bytes && bytes <= size - from - HEAD ? from + HEAD + bytes : size };
-}
-
-/* How many bytes there are, unless all are zeros, which fill up. */
-static uint64_t
-count_bytes(const unsigned char *d, uint64_t from, uint64_t to)
-{
-	for (uint64_t i = from; i < to; i++)
-		if (d[i])
-			return to - from;
-	return 0;
-}
-
-/* Bytes behind the points that belong neither to waveforms nor to `own` records. */
-static uint64_t
-count_rest(const unsigned char *d, size_t size, const las *l, extent own)
-{
-	const extent waves = waveforms(d, size, l), a = waves.from < own.from ? waves : own,
-		     b = waves.from < own.from ? own : waves;
-	uint64_t at = l->offset + l->points * l->record, rest = count_bytes(d, at, a.from);
-
-	at = a.to > at ? a.to : at;
-	rest += count_bytes(d, at, b.from);
-	at = b.to > at ? b.to : at;
-	return rest + count_bytes(d, at, size);
-}
-
-/* Says what of the file is no point. */
-static mr_status
-warn_of_others(mr_ctx *ctx, const unsigned char *d, size_t size, const las *l)
-{
-	const records r = find_records(d, size, l);
-	unsigned long long rest = count_rest(d, size, l, r.behind);
-
-	if (l->points == 0)
-		return rest < l->record
-		           ? MR_OK
-		           : mr_fail(ctx, MR_EFORMAT,
-				 "byte 107: the header counts no point, but %llu bytes are there", rest);
-	if (r.count)
-		mr_warn(ctx, "%zu variable length record%s left out%s", r.count, mr_plural(r.count),
-		    r.place ? ", the coordinate system among them" : "");
-	if (rest)
-		mr_warn(ctx, "%llu bytes behind the last point left out: the header counts %llu points", rest,
-		    (unsigned long long)l->points);
-	return MR_OK;
+	return false;
 }
 
 mr_status
@@ -312,9 +209,9 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		if (color)
 			color[4 * i + 3] = 255;
 	}
-	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color, .counts = m->counts };
-	mr_colors_rounded(ctx, rounded);
-	MR_TRY(warn_of_others(ctx, data, size, &l));
+	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color };
+	mr_tell(ctx, MR_ROUNDED, rounded, "values of colors");
+	mr_lost(ctx, NULL, has_projection(data, &l), "the coordinate system");
 	return read_fields(ctx, data, &l, m);
 }
 

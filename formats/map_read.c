@@ -157,20 +157,6 @@ take_heights(const gathered *of, size_t nv, const double range[2], double *heigh
 	}
 }
 
-static void
-tell(mr_ctx *ctx, const mr_map_result *found, size_t nv)
-{
-	if (found->between)
-		mr_warn(ctx,
-		    "%zu of %zu vertices of level %zu are not at the centre of a texel: their heights are "
-		    "interpolated",
-		    found->between, nv, found->level);
-	if (found->seams)
-		mr_warn(ctx,
-		    "%zu of %zu vertices have different heights on the sides of a seam: they get their mean",
-		    found->seams, nv);
-}
-
 static mr_status
 read_heights(mr_ctx *ctx, const mr_gray *g, const mr_mesh *control, const mr_model *m, const double range[2],
     mr_domain *d, double **height, mr_map_result *found)
@@ -189,7 +175,8 @@ read_heights(mr_ctx *ctx, const mr_gray *g, const mr_mesh *control, const mr_mod
 		return MR_EMEM;
 	sample_all(g, m, &level[d->n], d->n, of);
 	take_heights(of, d->m.nv, range, *height, found);
-	tell(ctx, found, d->m.nv);
+	mr_tell(ctx, MR_ROUNDED, found->between, "vertices beside the centre of a texel");
+	mr_tell(ctx, MR_ROUNDED, found->seams, "vertices with several heights at a seam");
 	return MR_OK;
 }
 

@@ -328,22 +328,16 @@ is_mapped(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
 	return MR_OK;
 }
 
-/* Warns of what control has that is not of earlier maps. */
+/* What control has that is not of earlier maps. */
 static mr_status
-warn_of_replaced(mr_ctx *ctx, mr_frame *f)
+lose_replaced(mr_ctx *ctx, mr_frame *f)
 {
 	static const char *const columns[] = { "texcoord", "corner_texcoord", "material" };
-	mr_text names = { .ctx = ctx };
 	bool mapped;
-	size_t n = 0;
 
 	MR_TRY(is_mapped(ctx, f, "control", &mapped));
 	for (size_t i = 0; i < sizeof columns / sizeof *columns && !mapped; i++)
-		if (mr_layer_has(f, "control", columns[i]))
-			mr_text_name(&names, &n, columns[i]);
-	MR_TRY(mr_text_done(&names));
-	if (n)
-		mr_warn(ctx, "control's own %s: replaced by those of the maps", names.s);
+		mr_lost(ctx, "control", mr_layer_has(f, "control", columns[i]), columns[i]);
 	return MR_OK;
 }
 
@@ -375,12 +369,11 @@ put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
 	uint32_t *material = MR_NEW_ZERO(ctx, a->faces, uint32_t);
 	const char *file = mr_format(ctx, "%s.mtl", name);
 	mr_lines own, library;
-	size_t changed;
 
 	if (!material || !file)
 		return MR_EMEM;
-	MR_TRY(mr_names_escape(ctx, (mr_lines){ name, strlen(name) }, &own, &changed));
-	MR_TRY(mr_names_escape(ctx, (mr_lines){ file, strlen(file) }, &library, &changed));
+	MR_TRY(mr_names_escape(ctx, (mr_lines){ name, strlen(name) }, &own));
+	MR_TRY(mr_names_escape(ctx, (mr_lines){ file, strlen(file) }, &library));
 	MR_TRY(mr_layer_put(ctx, f, "control", "material", material, a->faces));
 	MR_TRY(mr_layer_put(ctx, f, "control", "materials", own.text, own.bytes));
 	return mr_layer_put(ctx, f, "control", "mtllib", library.text, library.bytes);
@@ -473,11 +466,7 @@ write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 	MR_TRY(write_normals(ctx, m, normals));
 	found->turned = count_rows(m);
 	MR_TRY(write_material(ctx, m, name_of(name), material));
-	if (found->clipped)
-		mr_warn(ctx, "%zu texels have heights beyond %g to %g: they are as high as that",
-		    found->clipped, m->low, m->high);
-	if (found->turned)
-		mr_note(ctx, "%zu normals look away from control: they are flat in the map", found->turned);
+	mr_tell(ctx, MR_ROUNDED, found->clipped, "heights of texels");
 	return MR_OK;
 }
 
@@ -491,9 +480,9 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 	MR_TRY(check_library(ctx, f, name));
 	MR_TRY(prepare(ctx, f, o, &m));
 	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
-		mr_warn(ctx, "maps are of control and its heights, without what base has done to mesh");
+		mr_lost(ctx, "base", 1, "the pose");
 	MR_TRY(write_files(ctx, &m, name, r));
-	MR_TRY(warn_of_replaced(ctx, f));
+	MR_TRY(lose_replaced(ctx, f));
 	MR_TRY(put_texcoords(ctx, f, &m.atlas));
 	MR_TRY(put_normals(ctx, f, &m));
 	MR_TRY(put_material(ctx, f, &m.atlas, name_of(name)));

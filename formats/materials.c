@@ -2,7 +2,6 @@
  * which others have added; the rest is for other programs. */
 #include "formats/materials.h"
 
-#include "base/text.h"
 #include "formats/format.h"
 
 #include <ctype.h>
@@ -16,13 +15,12 @@ typedef struct finder {
 	const char **name; /* of the model's materials: count + 1 starts */
 	mr_material *list;
 	size_t count;
-	size_t *bare;         /* bytes of each name before a comment */
-	unsigned char *match; /* how well a name of a file has matched each */
-	size_t *at, ats;      /* the materials that the file speaks of */
-	size_t read, gone;    /* files that are there and that are not */
-	const char *last_read, *first_gone;
+	size_t *bare;          /* bytes of each name before a comment */
+	unsigned char *match;  /* how well a name of a file has matched each */
+	size_t *at, ats;       /* the materials that the file speaks of */
+	size_t read;           /* files that are there */
 	size_t wrong, clipped; /* statements without their numbers, numbers that are not from 0 to 1 */
-	const char *first_wrong;
+	size_t options;        /* of pictures, that are not followed */
 } finder;
 
 const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
@@ -383,15 +381,13 @@ changes_nothing(const char *s, const char *end)
 	return nothing;
 }
 
-/* Warns of options of a picture that nothing here follows, but for the range of heights. */
+/* Counts options of a picture that nothing here follows, but for the range of heights. */
 static void
-warn_of_options(const finder *f, size_t i, const char *s, const char *file, bool heights)
+count_options(finder *f, const char *s, const char *file, bool heights)
 {
 	for (; s < file; s = next_word(s)) {
 		bool followed = is_word(s, "-texres") || (heights && is_word(s, "-mm"));
-		if (is_option(s) && !followed && !changes_nothing(s, file))
-			mr_warn(f->ctx, "option %.*s of the picture of material %.*s is not followed",
-			    (int)word_length(s), s, (int)name_bytes(f, i), f->name[i]);
+		f->options += is_option(s) && !followed && !changes_nothing(s, file);
 	}
 }
 
@@ -401,7 +397,7 @@ map(finder *f, size_t i, const char *s, const char **to)
 {
 	const char *file = behind_options(s), *bare;
 
-	warn_of_options(f, i, s, file, to == &f->list[i].heights);
+	count_options(f, s, file, to == &f->list[i].heights);
 	MR_TRY(find_file(f, file, to));
 	if (*to)
 		return MR_OK;
@@ -409,9 +405,7 @@ map(finder *f, size_t i, const char *s, const char **to)
 	if (!bare)
 		return MR_EMEM;
 	MR_TRY(find_file(f, bare, to));
-	if (!*to)
-		mr_warn(f->ctx, "%.100s, the picture of material %.*s, is no file in %s", file,
-		    (int)name_bytes(f, i), f->name[i], f->folder);
+	mr_tell(f->ctx, MR_MISSING, !*to, "%s", file);
 	return MR_OK;
 }
 
@@ -439,8 +433,7 @@ describe(finder *f, size_t i, const char *line)
 	mr_material *m = &f->list[i];
 	const char *rest;
 
-	if (!set_numbers(f, m, line) && f->wrong++ == 0)
-		f->first_wrong = line;
+	f->wrong += !set_numbers(f, m, line);
 	if ((rest = behind(line, "map_Kd")))
 		MR_TRY(map(f, i, rest, &m->file));
 	if ((rest = behind(line, "norm")) || (rest = behind(line, "map_Kn")))
@@ -516,7 +509,6 @@ try_library(finder *f, const char *name, bool *there)
 	if (!path)
 		return MR_OK;
 	f->read++;
-	f->last_read = name;
 	return read_library(f, path);
 }
 
@@ -538,55 +530,25 @@ read_libraries(finder *f, const char *line, size_t bytes)
 			return MR_EMEM;
 		if (e > p)
 			MR_TRY(try_library(f, name, &found));
-		if (!found && f->gone++ == 0)
-			f->first_gone = name;
+		mr_tell(f->ctx, MR_MISSING, !found, "%s", name);
 	}
 	return MR_OK;
 }
 
-static void
-say_gone(const finder *f)
-{
-	if (f->gone == 1)
-		mr_warn(f->ctx, "%.100s is no file in %s: its materials are only names", f->first_gone,
-		    f->folder);
-	else if (f->gone)
-		mr_warn(f->ctx,
-		    "%zu of the files of materials are none in %s, the first of them %.100s: their materials "
-		    "are "
-		    "only names",
-		    f->gone, f->folder, f->first_gone);
-}
-
-/* What of the files is wrong. */
-static void
-say_wrong(const finder *f)
-{
-	if (f->wrong)
-		mr_warn(f->ctx, "%zu statement%s of materials not understood, the first '%.60s'", f->wrong,
-		    mr_plural(f->wrong), f->first_wrong);
-	if (f->clipped)
-		mr_warn(f->ctx, "%zu number%s of materials clipped: not within 0 and 1", f->clipped,
-		    mr_plural(f->clipped));
-}
-
 /* The model's materials that no file speaks of. */
-static mr_status
+static void
 say_unknown(const finder *f)
 {
-	const char *where = f->read == 1 ? f->last_read
-	                                 : mr_format(f->ctx, "%zu files of materials", f->read);
 	size_t unknown = 0, first = 0;
 
-	if (!where)
-		return MR_EMEM;
-	for (size_t i = 0; i < f->count; i++)
-		if (f->match[i] == NO_MATCH && name_bytes(f, i) && unknown++ == 0)
+	for (size_t i = f->count; i-- > 0;)
+		if (f->match[i] == NO_MATCH && name_bytes(f, i)) {
 			first = i;
-	if (f->read && unknown)
-		mr_warn(f->ctx, "%zu of %zu materials are not in %.100s: they are only names, the first %.*s",
-		    unknown, f->count, where, (int)name_bytes(f, first), f->name[first]);
-	return MR_OK;
+			unknown++;
+		}
+	if (f->read)
+		mr_tell(f->ctx, MR_MISSING, unknown, "material %.*s%s", (int)name_bytes(f, first),
+		    f->name[first], unknown > 1 ? ", and others," : "");
 }
 
 mr_status
@@ -616,9 +578,10 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 		for (size_t i = 0; i < libraries; i++)
 			if (i == 0 || !is_same_line(library, i - 1, i))
 				MR_TRY(read_libraries(&f, library[i], line_bytes(library, i)));
-		say_gone(&f);
-		say_wrong(&f);
-		MR_TRY(say_unknown(&f));
+		mr_lost(ctx, NULL, f.wrong, "statements of materials");
+		mr_lost(ctx, NULL, f.options, "options of pictures");
+		mr_tell(ctx, MR_ROUNDED, f.clipped, "numbers of materials");
+		say_unknown(&f);
 	}
 	for (size_t i = 0; i < f.count; i++)
 		note_hidden(&f.list[i]);
@@ -627,18 +590,9 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	return MR_OK;
 }
 
-mr_status
-mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost)
+void
+mr_materials_lost(mr_ctx *ctx, unsigned lost)
 {
-	mr_text names = { .ctx = ctx };
-	size_t n = 0;
-
 	for (size_t k = 0; k < LOSSES + UNUSED; k++)
-		if (lost >> k & 1)
-			mr_text_name(&names, &n, k < LOSSES ? losses[k] : unused[k - LOSSES].name);
-	mr_text_more(&names, n);
-	MR_TRY(mr_text_done(&names));
-	if (n)
-		mr_warn(ctx, "%s of the materials not kept", names.s);
-	return MR_OK;
+		mr_lost(ctx, "materials", lost >> k & 1, k < LOSSES ? losses[k] : unused[k - LOSSES].name);
 }

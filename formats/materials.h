@@ -28,13 +28,13 @@ extern const mr_material mr_material_plain;
 
 /*
  * What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
- * there is warned of, no failure, and so are statements without their numbers, and numbers out of range.
+ * there is reported, no failure, and so are statements without their numbers, and numbers out of range.
  * list: *count, in the arena; none of a model without materials.
  */
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 
-/* Warns of what a file cannot show: `lost` of all its materials. */
-mr_status mr_materials_warn_of_lost(mr_ctx *ctx, unsigned lost) MR_WARN_UNUSED;
+/* Reports what a file cannot show: `lost` of all its materials. */
+void mr_materials_lost(mr_ctx *ctx, unsigned lost);
 
 #endif

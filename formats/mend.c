@@ -1,70 +1,7 @@
 /* Models mended: welding and repair, all that vertices, faces and corners have carried along. */
 #include "formats/build.h"
 #include "formats/model.h"
-#include "mesh/polygon.h"
 #include "mesh/repair.h"
-
-/* ---- materials ---- */
-
-/* Marks the numbers of these faces. */
-static void
-mark_numbers(const uint32_t *number, const uint32_t *face, size_t n, bool *marked)
-{
-	for (size_t i = 0; i < n; i++)
-		marked[number[face ? face[i] : i]] = true;
-}
-
-/* How many numbers of faces there are no more, and which is the first; those are below `most`. */
-static mr_status
-count_lost(mr_ctx *ctx, const uint32_t *number, size_t nf, const uint32_t *face_of, size_t kept, size_t most,
-    size_t *lost, size_t *first)
-{
-	bool *before = MR_NEW_ZERO(ctx, most, bool), *after = MR_NEW_ZERO(ctx, most, bool);
-
-	if (!before || !after)
-		return MR_EMEM;
-	mark_numbers(number, NULL, nf, before);
-	mark_numbers(number, face_of, kept, after);
-	*lost = 0;
-	for (size_t i = most; i-- > 0;)
-		if (before[i] && !after[i]) {
-			*first = i;
-			++*lost;
-		}
-	return MR_OK;
-}
-
-static size_t
-highest(const uint32_t *number, size_t n)
-{
-	uint32_t most = 0;
-
-	for (size_t i = 0; i < n; i++)
-		most = number[i] > most ? number[i] : most;
-	return most;
-}
-
-/* Materials that no face has any more, where only these are kept. */
-static mr_status
-warn_of_materials(mr_ctx *ctx, const char *step, const mr_model *m, const uint32_t *face_of, size_t kept)
-{
-	size_t lost, first, names;
-	const char **start;
-	bool named;
-
-	if (!m->material)
-		return MR_OK;
-	MR_TRY(count_lost(
-	    ctx, m->material, m->nf, face_of, kept, highest(m->material, m->nf) + 1, &lost, &first));
-	if (lost == 0)
-		return MR_OK;
-	MR_TRY(mr_lines_starts(ctx, m->materials, &start, &names));
-	named = first < names;
-	mr_warn(ctx, "%s: %zu material%s no face any more, the first of them %.*s", step, lost,
-	    lost == 1 ? " has" : "s have", named ? (int)(start[first + 1] - start[first]) - 1 : 0,
-	    named ? start[first] : "");
-	return MR_OK;
-}
 
 /* ---- weld ---- */
 
@@ -92,11 +29,7 @@ rename_faces(mr_ctx *ctx, const uint32_t *map, mr_model *m)
 		t[kept] = now;
 		of[kept++] = (uint32_t)f;
 	}
-	m->counts.weld_collapsed = m->nf - kept;
-	if (kept < m->nf) {
-		mr_warn(ctx, "weld: %zu of %zu faces collapse, and are left out", m->nf - kept, m->nf);
-		MR_TRY(warn_of_materials(ctx, "weld", m, of, kept));
-	}
+	mr_lost(ctx, NULL, m->nf - kept, "faces that welding collapses");
 	MR_TRY(mr_model_gather(ctx, m, true, of, kept));
 	m->t = t;
 	m->nf = kept;
@@ -113,13 +46,6 @@ count_others(const void *column, size_t bytes, const uint32_t *map, const uint32
 	for (size_t i = 0; i < nv; i++)
 		n += memcmp(row + bytes * i, row + bytes * of[map[i]], bytes) != 0;
 	return n;
-}
-
-static void
-warn_of_joined(mr_ctx *ctx, const char *what, size_t n)
-{
-	if (n)
-		mr_warn(ctx, "weld: %zu vertices take the %s of those they are joined to", n, what);
 }
 
 /* The values of vertices as those of the corners there. */
@@ -150,12 +76,13 @@ keep_differences(mr_ctx *ctx, const uint32_t *map, const uint32_t *of, mr_model 
 		m->normal = NULL;
 	}
 	if (m->color)
-		warn_of_joined(ctx, "color", count_others(m->color, 4, map, of, m->nv));
+		mr_lost(ctx, NULL, count_others(m->color, 4, map, of, m->nv), "colors of joined vertices");
 	for (size_t i = 0; i < m->properties; i++) {
 		const mr_property *p = &m->property[i];
 		if (p->shape.element == 'v')
-			warn_of_joined(
-			    ctx, p->name, count_others(p->data, mr_type_size(p->shape.type), map, of, m->nv));
+			mr_tell(ctx, MR_LOST,
+			    count_others(p->data, mr_type_size(p->shape.type), map, of, m->nv),
+			    "%s of joined vertices", p->name);
 	}
 	return MR_OK;
 }
@@ -173,8 +100,7 @@ mr_model_weld(mr_ctx *ctx, double eps, mr_model *m)
 	for (size_t i = 0; i < m->nv; i++)
 		if (map[i] == next)
 			of[next++] = (uint32_t)i;
-	w.counts.weld_joined = m->nv - n;
-	mr_note(ctx, "weld: %zu vertices joined to others", m->nv - n);
+	mr_tell(ctx, MR_REPAIRED, m->nv - n, "vertices joined");
 	MR_TRY(keep_differences(ctx, map, of, &w));
 	MR_TRY(mr_model_gather(ctx, &w, false, of, n));
 	if (!(w.p = mr_gather(ctx, m->p, sizeof *m->p, of, n)))
@@ -190,26 +116,27 @@ mr_model_weld(mr_ctx *ctx, double eps, mr_model *m)
 
 /* ---- repair ---- */
 
+/* One finding, whose words have the counts. */
 static void
-report(mr_ctx *ctx, const mr_repair_report *r, mr_import_result *counts)
+report(mr_ctx *ctx, const mr_repair_report *r)
 {
 	const struct {
-		size_t *to, count;
+		size_t count;
 		const char *what;
-	} lines[] = { { &counts->repair_degenerate, r->degenerate, "degenerate faces dropped" },
-		{ &counts->repair_duplicate, r->duplicate, "duplicate faces dropped" },
-		{ &counts->repair_isolated, r->isolated, "isolated vertices dropped" },
-		{ &counts->repair_split_edges, r->split_edges, "edges of more than two faces split" },
-		{ &counts->repair_split_vertices, r->split_vertices,
-		    "vertices added where fans were parted" },
-		{ &counts->repair_flipped, r->flipped, "faces turned over" },
-		{ &counts->repair_cut_edges, r->cut_edges, "edges cut" } };
+	} lines[] = { { r->degenerate, "degenerate faces" }, { r->duplicate, "duplicate faces" },
+		{ r->isolated, "isolated vertices" }, { r->split_edges, "edges split" },
+		{ r->split_vertices, "vertices split" }, { r->flipped, "faces turned" },
+		{ r->cut_edges, "edges cut" } };
+	char what[256] = "";
+	size_t n = 0, all = 0;
 
 	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
-		*lines[i].to = lines[i].count;
+		all += lines[i].count;
 		if (lines[i].count)
-			mr_note(ctx, "repair: %zu %s", lines[i].count, lines[i].what);
+			n += (size_t)snprintf(what + n, sizeof what - n, "%s%zu %s", n ? ", " : "",
+			    lines[i].count, lines[i].what);
 	}
+	mr_tell(ctx, MR_REPAIRED, all, "%s", what);
 }
 
 /* Values of corners in the order of the corners that the faces have now. */
@@ -270,49 +197,6 @@ follow_flips(mr_ctx *ctx, const mr_mesh *m, const bool *flipped, mr_model *done)
 	return done->normal || normal ? turn_normals(ctx, m, flipped, done) : MR_OK;
 }
 
-/* Faces with an area that go, all of them copies, and materials that no face has any more. */
-static mr_status
-warn_of_dropped(
-    mr_ctx *ctx, const mr_model *m, const uint32_t *face_of, size_t kept, const mr_repair_report *r)
-{
-	if (r->duplicate)
-		mr_warn(ctx, "repair: %zu face%s left out, with the corners of earlier ones", r->duplicate,
-		    r->duplicate == 1 ? " is" : "s are");
-	return r->duplicate + r->degenerate ? warn_of_materials(ctx, "repair", m, face_of, kept) : MR_OK;
-}
-
-/* Polygons that edges are parted in, and those that lose triangles, and so corners. */
-static mr_status
-warn_of_polygons(mr_ctx *ctx, const mr_model *m, const mr_model *done)
-{
-	size_t most, *had, *has, cut, less = 0;
-	mr_polygons before, after;
-
-	if (!m->polygon)
-		return MR_OK;
-	most = highest(m->polygon, m->nf) + 1;
-	had = MR_NEW_ZERO(ctx, most, size_t);
-	has = MR_NEW_ZERO(ctx, most, size_t);
-	if (!had || !has)
-		return MR_EMEM;
-	MR_TRY(mr_polygons_find(ctx, m->t, m->nf, m->polygon, &before));
-	MR_TRY(mr_polygons_find(ctx, done->t, done->nf, done->polygon, &after));
-	cut = after.broken > before.broken ? after.broken - before.broken : 0;
-	for (size_t f = 0; f < m->nf; f++)
-		had[m->polygon[f]]++;
-	for (size_t f = 0; f < done->nf; f++)
-		has[done->polygon[f]]++;
-	for (size_t i = 0; i < most; i++)
-		less += has[i] && has[i] < had[i];
-	if (cut)
-		mr_warn(
-		    ctx, "repair: %zu polygon%s cut, and will be triangles", cut, cut == 1 ? " is" : "s are");
-	if (less)
-		mr_warn(ctx, "repair: %zu polygon%s corners, at triangles without area", less,
-		    less == 1 ? " loses" : "s lose");
-	return MR_OK;
-}
-
 mr_status
 mr_model_repair(mr_ctx *ctx, mr_model *m)
 {
@@ -337,9 +221,7 @@ mr_model_repair(mr_ctx *ctx, mr_model *m)
 	done.nv = out.nv;
 	done.t = out.t;
 	done.nf = out.nf;
-	report(ctx, &r, &done.counts);
-	MR_TRY(warn_of_dropped(ctx, m, face_of, out.nf, &r));
-	MR_TRY(warn_of_polygons(ctx, m, &done));
+	report(ctx, &r);
 	*m = done;
 	return MR_OK;
 }

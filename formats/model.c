@@ -1,6 +1,5 @@
 /* Models in and out of layers. */
 #include "formats/model.h"
-#include "base/text.h"
 #include "formats/build.h"
 #include "formats/format.h"
 #include "formats/names.h"
@@ -218,9 +217,7 @@ put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 		const mr_property *p = &m->property[i];
 		char name[MR_COLUMN_MAX + 1];
 		if (!choose_name(f, layer, p->name, name)) {
-			mr_warn(ctx,
-			    "property %s is left out: columns of this name and similar ones are there",
-			    p->name);
+			mr_tell(ctx, MR_LOST, 1, "property %s", p->name);
 			continue;
 		}
 		MR_TRY(mr_frame_put(
@@ -235,16 +232,9 @@ put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 static mr_status
 put_names(mr_ctx *ctx, mr_frame *f, const char *layer, const char *what, mr_lines lines)
 {
-	size_t changed;
-
 	if (!lines.text)
 		return MR_OK;
-	MR_TRY(mr_names_escape(ctx, lines, &lines, &changed));
-	if (changed)
-		mr_warn(ctx,
-		    "%s: names that are not UTF-8, or hold control characters: %zu; %%E9 stands for a byte "
-		    "e9 until they are written",
-		    what, changed);
+	MR_TRY(mr_names_escape(ctx, lines, &lines));
 	return mr_layer_put(ctx, f, layer, what, lines.text, lines.bytes);
 }
 
@@ -405,7 +395,7 @@ are_rounded_floats(const mr_v3 *p, size_t n, double grain)
 /* Far from the origin doubles are too coarse for a model that is small there, whatever the file said, and
  * long before them the floats that most files have. */
 static void
-warn_of_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
+judge_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
 {
 	const double fine = 1e-7;  /* of the diagonal, as of what is written in float32 */
 	const double rough = 1e-4; /* of which an edge may have a hundred: a tenth of one is some faces */
@@ -415,16 +405,15 @@ warn_of_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
 	              are_rounded_floats(m->p, m->nv, of_floats);
 
 	if (floats || (mr_box_largest(box) > diagonal && grain > fine * diagonal && diagonal > 0))
-		mr_warn(ctx,
-		    "positions are known to %.2g of the diagonal only: so far from the origin %s are no "
-		    "finer",
-		    (floats ? of_floats : grain) / diagonal,
-		    floats ? "floats, which all of them are," : "doubles");
+		mr_coarse(ctx, m->nv, m->nv, (floats ? of_floats : grain) / diagonal);
 }
 
-static mr_status
-import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame, mr_import_result *result)
+mr_status
+mr_import(
+    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
 {
+	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
+	const mr_import_opts *o = opts ? opts : &defaults;
 	const char *name = mr_format_stem(ctx, path);
 	double unit;
 	mr_frame *f;
@@ -435,41 +424,26 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 		return MR_EMEM;
 	MR_TRY(mr_model_read(ctx, path, o->format, &m));
 	if (o->points) {
-		if (m.corner_normal || m.corner_texcoord)
-			mr_warn(ctx, "%s%s%s of corners go with the faces", m.corner_normal ? "normals" : "",
-			    m.corner_normal && m.corner_texcoord ? " and " : "",
-			    m.corner_texcoord ? "texture coordinates" : "");
+		mr_lost(ctx, NULL, m.corner_normal ? 3 * m.nf : 0, "normals of corners");
+		mr_lost(ctx, NULL, m.corner_texcoord ? 3 * m.nf : 0, "texture coordinates of corners");
 		mr_model_to_points(&m);
 	}
 	box = mr_mesh_box(&(mr_mesh){ .p = m.p, .nv = m.nv, .t = m.t, .nf = m.nf });
-	warn_of_grain(ctx, &m, box);
+	judge_grain(ctx, &m, box);
 	unit = o->weld_relative ? mr_box_diagonal(box) : 1;
 	if (o->weld)
 		MR_TRY(mr_model_weld(ctx, o->weld_distance * unit, &m));
 	if (o->repair)
-		MR_TRY(mr_prefix(ctx, mr_model_repair(ctx, &m), "%s", ctx->subject));
+		MR_TRY(mr_prefix(ctx, mr_model_repair(ctx, &m), "%s", path));
 	MR_TRY(mr_frame_new(ctx, name, &f));
-	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, o->layer, &m), "%s", ctx->subject));
+	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, o->layer, &m), "%s", path));
 	*frame = f;
-	mr_warn_of_libraries(ctx, path, m.mtllib);
+	mr_libraries_missing(ctx, path, m.mtllib);
 	m.counts.vertices = m.nv;
 	m.counts.triangles = m.nf;
 	if (result)
 		*result = m.counts;
 	return MR_OK;
-}
-
-mr_status
-mr_import(
-    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
-{
-	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
-	mr_status status;
-
-	ctx->subject = strcmp(path, "-") ? path : "stdin";
-	status = import(ctx, path, opts ? opts : &defaults, frame, result);
-	ctx->subject = NULL;
-	return status;
 }
 
 static bool
@@ -546,27 +520,20 @@ borrow(mr_ctx *ctx, mr_model *mesh, mr_model *m)
 }
 
 /* What the mesh has and the model, of other triangles, has not; polygons are none of it. */
-static mr_status
-warn_of_rest(mr_ctx *ctx, const char *layer, const mr_model *mesh, const mr_model *m)
+static void
+lose_rest(mr_ctx *ctx, const mr_model *mesh, const mr_model *m)
 {
-	mr_text lost = { .ctx = ctx };
-	size_t n = 0;
-
 	for (size_t i = 0; i < COLUMNS; i++)
 		if (column_of(mesh, i) && !column_of(m, i) && strcmp(columns[i].name, "polygon"))
-			mr_text_name(&lost, &n, columns[i].name);
+			mr_lost(ctx, "mesh", columns[i].of_faces ? mesh->nf : mesh->nv, columns[i].name);
 	for (size_t i = 0; i < mesh->properties; i++)
 		if (!has_property(m, mesh->property[i].name))
-			mr_text_name(&lost, &n, mesh->property[i].name);
-	mr_text_more(&lost, n);
-	MR_TRY(mr_text_done(&lost));
-	if (n)
-		mr_warn(ctx, "%s has other triangles than mesh, and not what that has: %s", layer, lost.s);
-	return MR_OK;
+			mr_lost(ctx, "mesh", mesh->property[i].shape.element == 'f' ? mesh->nf : mesh->nv,
+			    mesh->property[i].name);
 }
 
 static mr_status
-warn_of_creases(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf)
+lose_creases(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf)
 {
 	const uint8_t *mark;
 	size_t sides = 0;
@@ -574,9 +541,7 @@ warn_of_creases(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf)
 	MR_TRY(mr_layer_crease(ctx, f, layer, nf, &mark));
 	for (size_t c = 0; mark && c < 3 * nf; c++)
 		sides += mark[c] != 0;
-	if (sides)
-		mr_warn(
-		    ctx, "%s: %zu creases dropped: no format has a place for them", layer, (sides + 1) / 2);
+	mr_lost(ctx, layer, (sides + 1) / 2, "creases");
 	return MR_OK;
 }
 
@@ -587,32 +552,33 @@ mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 
 	MR_TRY(mr_model_get(ctx, f, layer, m));
 	if (f->key)
-		MR_TRY(warn_of_creases(ctx, f, layer, m->nf));
+		MR_TRY(lose_creases(ctx, f, layer, m->nf));
 	if (!strcmp(layer, "mesh") || m->nf == 0 || !mr_layer_has(f, "mesh", "triangles"))
 		return MR_OK;
 	MR_TRY(mr_model_get(ctx, f, "mesh", &mesh));
 	if (same_triangles(&mesh, m))
 		return borrow(ctx, &mesh, m);
-	return f->key ? warn_of_rest(ctx, layer, &mesh, m) : MR_OK;
+	if (f->key)
+		lose_rest(ctx, &mesh, m);
+	return MR_OK;
 }
 
 mr_status
-mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
-    mr_outfile *held, mr_export_result *result)
+mr_export_held(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format, mr_outfile *held)
 {
 	mr_model m;
 
 	MR_TRY(mr_layer_result(ctx, f, layer, &layer));
 	MR_TRY(mr_model_complete(ctx, f, layer, &m));
-	return mr_model_write(ctx, path, format, &m, held, result);
+	return mr_model_write(ctx, path, format, &m, held);
 }
 
 mr_status
-mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
-    mr_export_result *result)
+mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format)
 {
 	bool binary;
 
 	MR_TRY(mr_format_check(ctx, path, format, true, &binary));
-	return mr_export_held(ctx, f, layer, path, format, NULL, result);
+	return mr_export_held(ctx, f, layer, path, format, NULL);
 }

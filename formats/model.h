@@ -18,11 +18,11 @@ mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, siz
 /*
  * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes, but for
  * texture coordinates and normals, which become those of corners where they differ.  Faces that lose a corner
- * by it go; those that had a vertex twice before stay.  Says and counts what was done.
+ * by it go; those that had a vertex twice before stay.  Reports what was done.
  */
 mr_status mr_model_weld(mr_ctx *ctx, double eps, mr_model *m) MR_WARN_UNUSED;
 
-/* mr_repair, attributes carried along.  Points stay as they are.  Says and counts what was done. */
+/* mr_repair, attributes carried along.  Points stay as they are.  Reports what was done. */
 mr_status mr_model_repair(mr_ctx *ctx, mr_model *m) MR_WARN_UNUSED;
 
 /*
@@ -36,7 +36,7 @@ mr_status mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mod
 mr_status mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
 /* The same, as it is to be written: what the frame's mesh has on the same triangles and the layer has not is
- * added; what stays behind, of a mesh with other triangles, and creases, is warned of with a key frame. */
+ * added; what stays behind, of a mesh with other triangles, and creases, is reported with a key frame. */
 mr_status mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m) MR_WARN_UNUSED;
 
 /* The texture coordinates of a corner, whose v runs upwards; NULL: none. */
@@ -47,6 +47,6 @@ mr_status mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy) MR_WARN
 
 /* mr_export where the format is checked, and the file is the caller's to keep where `held` is not NULL. */
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
-    mr_outfile *held, mr_export_result *result) MR_WARN_UNUSED;
+    mr_outfile *held) MR_WARN_UNUSED;
 
 #endif

@@ -38,15 +38,13 @@ plain(const char *p, const char *end)
 }
 
 mr_status
-mr_names_escape(mr_ctx *ctx, mr_lines from, mr_lines *to, size_t *changed)
+mr_names_escape(mr_ctx *ctx, mr_lines from, mr_lines *to)
 {
 	static const char digits[] = "0123456789ABCDEF";
 	const char *p = from.text, *end = from.bytes ? p + from.bytes : p;
-	bool counted = false;
 	size_t n, bytes = 0;
 	char *text;
 
-	*changed = 0;
 	*to = from;
 	while (p < end && (n = plain(p, end)) > 0)
 		p += n;
@@ -57,12 +55,6 @@ mr_names_escape(mr_ctx *ctx, mr_lines from, mr_lines *to, size_t *changed)
 		return MR_EMEM;
 	for (p = from.text; p < end; p += n ? n : 1) {
 		n = plain(p, end);
-		if (*p == '\n')
-			counted = false;
-		if (n == 0 && *p != '%' && !counted) {
-			++*changed;
-			counted = true;
-		}
 		if (n) {
 			memcpy(text + bytes, p, n);
 			bytes += n;

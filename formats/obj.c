@@ -21,7 +21,6 @@ typedef struct obj {
 	float *alpha;     /* one per vertex, NAN where it has none; NULL without any */
 	mr_shades shades, alpha_shades;
 	size_t lines_and_points, weights, depths, others; /* what is left out */
-	char other[MR_SHOWN];                             /* the first of the others */
 	size_t odd_colors, odd_alphas, odd_texcoords;     /* values that are not finite */
 	size_t no_normals, no_texcoords;                  /* corners that name one that is not there */
 	bool slashes;      /* the face at hand has a slash with nothing behind it */
@@ -349,14 +348,6 @@ face_call(void *user, const mr_obj_corner *c, int n)
 
 /* ---- names ---- */
 
-/* A statement that is left out. */
-static void
-count_other(obj *o, const char *word, size_t n)
-{
-	if (o->others++ == 0)
-		mr_word_shown(word, n, o->other);
-}
-
 /* What stands behind the statement's word. */
 static void
 skip_statement(mr_scan *line, const char *word)
@@ -376,7 +367,7 @@ smoothing(obj *o, mr_scan *line)
 		group = 10 * group + (uint64_t)(*p - '0');
 	if (p > line->p ? group <= UINT32_MAX && (p == line->end || mr_is_blank(*p)) : begins(line, "off"))
 		return mr_build_smoothing(&o->b, (uint32_t)group);
-	count_other(o, "s", 1);
+	o->others++;
 	return MR_OK;
 }
 
@@ -458,8 +449,6 @@ one_line(obj *o, mr_scan *line, bool *pass)
 	size_t left = (size_t)(line->end - line->p);
 	char c = left ? *line->p : '#', d = left > 1 ? line->p[1] : ' ';
 	mr_status status = MR_OK;
-	const char *word;
-	size_t n;
 
 	*pass = o->slashes = false;
 	if (c == '#')
@@ -478,8 +467,8 @@ one_line(obj *o, mr_scan *line, bool *pass)
 		o->lines_and_points++;
 	else if (!known(line))
 		return unknown_statement(o, line);
-	else if (mr_scan_word(line, &word, &n))
-		count_other(o, word, n);
+	else
+		o->others++;
 	return MR_OK;
 }
 
@@ -577,13 +566,9 @@ alpha_of(obj *o, size_t i)
 static mr_status
 finish_colors(obj *o)
 {
-	size_t missing = 0;
-
-	if (!o->rgb)
+	if (!o->rgb || !mr_all_left(o->ctx, o->odd_colors, o->v_all, "colors"))
 		return MR_OK;
-	if (!mr_all_left(o->ctx, o->odd_colors, o->v_all, "colors", &o->b.counts->dropped_colors))
-		return MR_OK;
-	if (!mr_left_out(o->ctx, o->odd_alphas, o->v_all, "alphas", &o->b.counts->dropped_colors))
+	if (!mr_left_out(o->ctx, o->odd_alphas, o->v_all, "alphas"))
 		o->alpha = NULL;
 	o->b.color = MR_NEW(o->ctx, 4 * o->v_all, unsigned char);
 	if (!o->b.color)
@@ -596,23 +581,10 @@ finish_colors(obj *o)
 			o->b.color[4 * i + k] = none ? 255
 			                             : mr_shade_byte(&o->shades, (double)o->rgb[3 * i + k]);
 		o->b.color[4 * i + 3] = alpha_of(o, i);
-		missing += none;
 	}
 	mr_shades_said(o->ctx, &o->shades);
 	mr_shades_said(o->ctx, &o->alpha_shades);
-	if (missing)
-		mr_note(o->ctx, "%zu vertices without a colour are white", missing);
 	return MR_OK;
-}
-
-/* Corners that name what is not there, or no number, go without. */
-static void
-count_absent(obj *o, const char *what, size_t corners, size_t *dropped)
-{
-	if (corners == 0)
-		return;
-	mr_warn(o->ctx, "%zu corners name %s that are not there, and go without", corners, what);
-	*dropped = *dropped == MR_UNKNOWN ? corners : *dropped + corners;
 }
 
 /* As many values as there are vertices, of which no corner names one, are those of the vertices. */
@@ -622,14 +594,14 @@ are_of_vertices(const obj *o, const uint32_t *place, size_t astray, size_t n)
 	return !place && !astray && n == o->v_all;
 }
 
-/* Values, `width` numbers each: zeros that corners name, and others that they do not.  Zeros without a corner
- * were written for vertices without a face. */
+/* Reports values, `width` numbers each, that no corner names; zeros were written for vertices without a face.
+ */
 static mr_status
-count_named(
-    obj *o, const uint32_t *place, const double *x, size_t n, size_t width, size_t *zero, size_t *rest)
+lose_unnamed(obj *o, const uint32_t *place, const double *x, size_t n, size_t width, const char *what)
 {
 	mr_mark mark = mr_mark_take(o->ctx);
 	bool *named = MR_NEW_ZERO(o->ctx, n, bool);
+	size_t lost = 0;
 
 	if (!named)
 		return MR_EMEM;
@@ -638,60 +610,42 @@ count_named(
 			named[place[c]] = true;
 	for (size_t i = 0; i < n; i++, x += width) {
 		double sum = fabs(x[0]) + fabs(x[1]) + (width > 2 ? fabs(x[2]) : 0); /* of NaN neither */
-		*zero += named[i] && sum == 0;
-		*rest += !named[i] && sum > 0;
+		lost += !named[i] && sum > 0;
 	}
+	mr_tell(o->ctx, MR_LOST, lost, "%s that no corner names", what);
 	mr_mark_release(o->ctx, mark);
 	return MR_OK;
-}
-
-static void
-count_unnamed(obj *o, const char *what, size_t rest, size_t n, size_t *dropped)
-{
-	if (rest == 0)
-		return;
-	mr_warn(o->ctx, "%zu of %zu %s are left out: no corner names them", rest, n, what);
-	*dropped = *dropped == MR_UNKNOWN ? rest : *dropped + rest;
 }
 
 static mr_status
 finish_texcoords(obj *o)
 {
-	size_t *dropped = &o->b.counts->dropped_texcoords, zero = 0, rest = 0;
+	const char *what = "texture coordinates";
 
 	if (are_of_vertices(o, o->b.corner_uv, o->no_texcoords, o->vt)) {
-		if (mr_all_left(o->ctx, o->odd_texcoords, o->vt, "texture coordinates", dropped))
+		if (mr_all_left(o->ctx, o->odd_texcoords, o->vt, what))
 			o->b.texcoord = o->uv;
 		return MR_OK;
 	}
-	MR_TRY(count_named(o, o->b.corner_uv, o->uv, o->vt, 2, &zero, &rest));
-	count_unnamed(o, "texture coordinates", rest, o->vt, dropped);
-	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, "texture coordinates", dropped))
+	MR_TRY(lose_unnamed(o, o->b.corner_uv, o->uv, o->vt, 2, what));
+	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, what))
 		o->b.corner_uv = NULL;
-	count_absent(o, "texture coordinates", o->no_texcoords, dropped);
+	mr_lost(o->ctx, NULL, o->no_texcoords, "texture coordinates that are not there");
 	return MR_OK;
 }
 
-/* A normal of zero length is none. */
 static mr_status
 finish_normals(obj *o)
 {
 	bool of_vertices = are_of_vertices(o, o->b.corner_vn, o->no_normals, o->vn);
-	size_t *dropped = &o->b.counts->dropped_normals, zero = 0, rest = 0;
 
 	if (!of_vertices)
-		MR_TRY(count_named(o, o->b.corner_vn, &o->vn_values->x, o->vn, 3, &zero, &rest));
-	if (zero) {
-		mr_warn(o->ctx, "%zu of %zu normals are zero, which is none: their corners go without", zero,
-		    o->vn);
-		*dropped = zero;
-	}
-	count_unnamed(o, "normals", rest, o->vn, dropped);
-	if (!mr_normals_left(o->ctx, o->vn_values, o->vn, dropped))
+		MR_TRY(lose_unnamed(o, o->b.corner_vn, &o->vn_values->x, o->vn, 3, "normals"));
+	if (!mr_normals_left(o->ctx, o->vn_values, o->vn))
 		o->b.corner_vn = NULL;
 	else if (of_vertices)
 		o->b.normal = o->vn_values;
-	count_absent(o, "normals", o->no_normals, dropped);
+	mr_lost(o->ctx, NULL, o->no_normals, "normals that are not there");
 	return MR_OK;
 }
 
@@ -703,24 +657,19 @@ finish(obj *o, mr_model *m)
 	MR_TRY(finish_texcoords(o));
 	MR_TRY(finish_normals(o));
 	MR_TRY(finish_colors(o));
-	if (o->lines_and_points)
-		mr_warn(o->ctx, "%zu elements of lines and points are left out", o->lines_and_points);
-	if (o->weights)
-		mr_warn(o->ctx, "%zu weights of vertices are left out", o->weights);
-	if (o->depths)
-		mr_warn(o->ctx, "%zu third texture coordinates are left out", o->depths);
-	if (o->others)
-		mr_warn(
-		    o->ctx, "%zu other statements are left out, the first of them '%s'", o->others, o->other);
+	mr_lost(o->ctx, NULL, o->lines_and_points, "lines and points");
+	mr_lost(o->ctx, NULL, o->weights, "weights of vertices");
+	mr_lost(o->ctx, NULL, o->depths, "third texture coordinates");
+	mr_lost(o->ctx, NULL, o->others, "other statements");
 	return mr_build_finish(&o->b, m);
 }
 
 mr_status
 mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	obj o = { .ctx = ctx,
-		.text = mr_scan_of(ctx, data, size),
-		.b = { .ctx = ctx, .counts = &m->counts, .ungrouped = "default" } };
+	obj o = {
+		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .ungrouped = "default" }
+	};
 	mr_obj_calls calls = { line_call, face_call, &o };
 
 	MR_TRY(count_lines(&o));

@@ -161,7 +161,7 @@ put_mark(mr_sink *s, marks *k, size_t f)
 
 /* Whoever reads the file takes what is called alike for one. */
 static mr_status
-warn_of_namesakes(mr_sink *s, const marks *k, size_t nf)
+lose_namesakes(mr_sink *s, const marks *k, size_t nf)
 {
 	bool *used = MR_NEW_ZERO(s->ctx, k->names, bool);
 	mr_name_table names = { 0 };
@@ -179,9 +179,7 @@ warn_of_namesakes(mr_sink *s, const marks *k, size_t nf)
 			    (size_t)(k->start[i + 1] - k->start[i]) - 1, &number));
 			count++;
 		}
-	if (names.count < count)
-		mr_warn(s->ctx, "%zu %ss have %zu name%s: those of one name are one in an OBJ", count, k->what,
-		    names.count, mr_plural(names.count));
+	mr_tell(s->ctx, MR_LOST, count - names.count, "%ss of the same name", k->what);
 	return MR_OK;
 }
 
@@ -211,7 +209,7 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 	for (size_t k = 0; k < 3; k++)
 		if (all[k].of) {
 			MR_TRY(mr_lines_starts(s->ctx, names[k], &all[k].start, &all[k].names));
-			MR_TRY(warn_of_namesakes(s, &all[k], m->nf));
+			MR_TRY(lose_namesakes(s, &all[k], m->nf));
 		}
 	MR_TRY(mr_faces_of(s, m, &faces));
 	for (size_t i = 0; i < faces.count; i++) {
@@ -247,18 +245,13 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 {
 	values x[2] = { { 't', 2, m->texcoord, m->corner_texcoord, NULL },
 		{ 'n', 3, (const double *)m->normal, (const double *)m->corner_normal, NULL } };
-	size_t opaque = 0;
 
-	mr_note_lost(s, m, MR_KEEPS_ALL & ~MR_KEEPS_PROPERTY);
+	mr_note_lost(s, m, ~(unsigned)(MR_KEEPS_PROPERTY | MR_KEEPS_SCANNER | MR_KEEPS_ALPHA));
 	put_libraries(s, m->mtllib);
 	for (size_t i = 0; i < m->nv; i++)
 		put_vertex(s, m, i);
-	for (size_t i = 0; m->color && i < m->nv; i++)
-		opaque += m->color[4 * i + 3] == 255;
-	if (m->color && opaque < m->nv)
-		mr_dropped(s->ctx, &s->lost.dropped_alpha, "alpha", "colours of OBJ have none");
 	MR_TRY(put_values(s, m, &x[0]));
 	MR_TRY(put_values(s, m, &x[1]));
-	mr_warn_of_libraries(s->ctx, s->file.target ? s->path : "-", m->mtllib);
+	mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib);
 	return put_faces(s, m, x);
 }

@@ -173,7 +173,7 @@ finish_colors(off *f)
 {
 	if (!f->rgba)
 		return MR_OK;
-	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors", &f->b.counts->dropped_colors))
+	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors"))
 		return MR_OK;
 	if (!(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
 		return MR_EMEM;
@@ -191,17 +191,12 @@ static mr_status
 finish(off *f, mr_model *m)
 {
 	MR_TRY(finish_colors(f));
-	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &f->b.counts->dropped_normals))
+	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv))
 		f->b.normal = NULL;
-	if (!mr_all_left(f->ctx, f->odd_uv, f->b.nv, "texcoords", &f->b.counts->dropped_texcoords))
+	if (!mr_all_left(f->ctx, f->odd_uv, f->b.nv, "texture coordinates"))
 		f->b.texcoord = NULL;
-	if (f->face_colors) {
-		mr_warn(f->ctx, "colors of %zu faces left out", f->face_colors);
-		f->b.counts->dropped_colors = f->face_colors;
-	}
-	if (f->ignored)
-		mr_warn(f->ctx, "%zu numbers behind vertices, which the keyword does not announce, left out",
-		    f->ignored);
+	mr_lost(f->ctx, NULL, f->face_colors, "colors of faces");
+	mr_lost(f->ctx, NULL, f->ignored, "numbers behind vertices");
 	return mr_build_finish(&f->b, m);
 }
 
@@ -282,7 +277,7 @@ read_text(off *f, mr_model *m)
 	for (uint64_t i = 0; i < f->nf; i++)
 		MR_TRY(text_face(f));
 	mr_skip_comments(&f->text);
-	mr_scan_rest(&f->text, f->nf ? "face" : "vertex");
+	mr_scan_rest(&f->text);
 	return finish(f, m);
 }
 
@@ -421,9 +416,7 @@ check_variant(const off *f)
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	off f = {
-		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts }
-	};
+	off f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 	bool dimensions;
 
 	if (!keyword(&f, &dimensions))

@@ -65,7 +65,7 @@ read_pictures(
 		if (!look[i].file || number[i] != MR_NONE)
 			continue;
 		if (read_texture(ctx, keep, look[i].file, &texture[n]) < 0)
-			mr_warn(ctx, "%s: its material is drawn without a picture", ctx->error);
+			mr_tell(ctx, MR_MISSING, 1, "%s, a picture", ctx->error);
 		else
 			number[i] = n++;
 	}

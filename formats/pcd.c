@@ -150,16 +150,13 @@ type_of(const field *d)
 static mr_status
 keep_field(pcd *f, field *d)
 {
-	if (d->role == RGB && d->size != 4) {
-		mr_warn(
-		    f->ctx, "field %s is no colour, but a number: it has %u bytes, not 4", d->name, d->size);
+	if (d->role == RGB && d->size != 4)
 		d->role = SKIP;
-	}
 	if (d->role != SKIP || !strcmp(d->name, "_"))
 		return MR_OK;
 	if (d->count == 1)
 		return mr_build_property(&f->properties, d->name, type_of(d), 'v', &d->property);
-	mr_warn(f->ctx, "field %s is left out: it has %u numbers a point", d->name, d->count);
+	mr_tell(f->ctx, MR_LOST, 1, "field %s", d->name);
 	return MR_OK;
 }
 
@@ -471,14 +468,12 @@ warn_of_rest(pcd *f)
 {
 	const unsigned char *p = (const unsigned char *)f->text.p;
 
-	if (f->surplus)
-		mr_warn(
-		    f->ctx, "numbers behind %zu points left out: the fields are %zu", f->surplus, f->stride);
+	mr_lost(f->ctx, NULL, f->surplus, "numbers behind points");
 	if (f->packed)
 		f->text.p += 8 + mr_load32(p, false);
 	if (!f->binary)
 		mr_skip_comments(&f->text);
-	mr_scan_rest(&f->text, "point");
+	mr_scan_rest(&f->text);
 }
 
 /* Where no point can be seen, alpha was not told. */
@@ -511,21 +506,15 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		return MR_EMEM;
 	MR_TRY(read_points(&f, p, normal, color, &n));
 	warn_of_rest(&f);
-	if (color && !mr_all_left(ctx, f.no_colors, n, "colors", &m->counts.dropped_colors))
+	if (color && !mr_all_left(ctx, f.no_colors, n, "colors"))
 		color = NULL;
 	if (color)
 		mend_alpha(color, n);
-	if (n < f.points)
-		mr_note(ctx, "%llu points that are not finite left out", (unsigned long long)f.points - n);
-	m->counts.points_left_out = (size_t)f.points - n;
-	if (normal && !mr_normals_left(ctx, normal, n, &m->counts.dropped_normals))
+	if (normal && !mr_normals_left(ctx, normal, n))
 		normal = NULL;
-	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };
-	if (f.width > 1 && f.height > 1)
-		mr_warn(ctx, "the grid of %llu x %llu points is left out", (unsigned long long)f.width,
-		    (unsigned long long)f.height);
-	if (f.turned)
-		mr_warn(ctx, "the viewpoint's orientation is left out");
+	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color };
+	mr_lost(ctx, NULL, f.width > 1 && f.height > 1, "the grid of points");
+	mr_lost(ctx, NULL, f.turned, "the viewpoint's orientation");
 	/* the origin is what stands there where none is known */
 	if (!is_origin(f.viewpoint))
 		MR_TRY(mr_scanned_from(ctx, f.viewpoint, m));

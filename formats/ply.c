@@ -303,7 +303,7 @@ read_vertex_rows(ply *f, const element *e)
 
 	f->odd_colors = f->odd_uv = f->odd_scanner = 0;
 	for (int i = 0; i < 2; i++)
-		f->shades[i].clipped = f->shades[i].rounded = 0;
+		f->shades[i].rounded = 0;
 	v[ALPHA] = 1; /* where there is none */
 	for (size_t i = 0; i < f->b.nv; i++)
 		MR_TRY(read_vertex(f, e, i, v));
@@ -314,16 +314,13 @@ read_vertex_rows(ply *f, const element *e)
 static void
 finish_vertices(ply *f)
 {
-	mr_import_result *counts = f->b.counts;
-	size_t scanners; /* that are left out, which nobody counts */
-
-	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv, &counts->dropped_normals))
+	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv))
 		f->b.normal = NULL;
-	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors", &counts->dropped_colors))
+	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors"))
 		f->b.color = NULL;
 	for (int i = 0; f->b.color && i < 2; i++)
 		mr_shades_said(f->ctx, &f->shades[i]);
-	if (!mr_all_left(f->ctx, f->odd_scanner, f->b.nv, "places of the scanner", &scanners))
+	if (!mr_all_left(f->ctx, f->odd_scanner, f->b.nv, "places of the scanner"))
 		f->b.scanner = NULL;
 }
 
@@ -546,37 +543,21 @@ pass_rows(ply *f, const element *e)
 
 /* ---- the file ---- */
 
-/* Lists that go with the corners of their faces, but for their length. */
-static void
-warn_of_lists(ply *f, const corner_list *l, const char *what, int width, size_t *dropped)
-{
-	if (l->odd == 0)
-		return;
-	mr_warn(f->ctx, "the lists %s of %zu faces are left out: they have not %d numbers for each corner",
-	    what, l->odd, width);
-	*dropped = *dropped == MR_UNKNOWN ? l->odd : *dropped + l->odd;
-}
-
 /* What is neither a role's nor a number of a vertex or a face. */
 static void
-warn_of_others(ply *f)
+lose_others(ply *f)
 {
-	if (f->textures)
-		mr_warn(f->ctx, "%zu names of textures (TextureFile) are left out", f->textures);
-	warn_of_lists(f, &f->uv, "texcoord", 2, &f->b.counts->dropped_texcoords);
-	warn_of_lists(f, &f->vn, "corner_normal", 3, &f->b.counts->dropped_normals);
-	if (f->comments)
-		mr_note(f->ctx, "%zu comments are left out", f->comments);
+	mr_lost(f->ctx, NULL, f->textures, "names of textures");
+	mr_lost(f->ctx, NULL, f->uv.odd, "lists texcoord of another length");
+	mr_lost(f->ctx, NULL, f->vn.odd, "lists corner_normal of another length");
 	for (size_t i = 0; i < f->elements; i++) {
 		const element *e = &f->element[i];
-		if (e->kind == OTHER && e->rows)
-			mr_warn(
-			    f->ctx, "%llu of element %s are left out", (unsigned long long)e->rows, e->name);
+		if (e->kind == OTHER)
+			mr_tell(f->ctx, MR_LOST, e->rows, "element %s", e->name);
 		for (size_t k = 0; e->kind != OTHER && k < e->properties; k++) {
 			const property *p = &e->property[k];
-			if (p->role == NONE && !p->kept && e->rows)
-				mr_warn(f->ctx, "%s %s of element %s is left out",
-				    p->list ? "the list" : "property", p->name, e->name);
+			if (p->role == NONE && !p->kept)
+				mr_tell(f->ctx, MR_LOST, e->rows, "%s of element %s", p->name, e->name);
 		}
 	}
 }
@@ -611,7 +592,7 @@ read_elements(ply *f)
 		mr_skip_comments(&f->text);
 	else
 		f->text.p = (const char *)f->p;
-	mr_scan_rest(&f->text, "row");
+	mr_scan_rest(&f->text);
 	f->p = binary;
 	f->text.p = text;
 	return read_until_vertices(f, 0, true, &end);
@@ -626,15 +607,15 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		.text = mr_scan_of(ctx, data, size),
 		.ascii = true,
 		.files = { .ctx = ctx },
-		.b = { .ctx = ctx, .counts = &m->counts } };
+		.b = { .ctx = ctx } };
 
 	MR_TRY(mr_ply_header(&f));
 	MR_TRY(mr_text_done(&f.files));
 	f.b.mtllib = (mr_lines){ f.files.s, f.files.n };
 	MR_TRY(read_elements(&f));
-	if (!mr_all_left(ctx, f.odd_uv, f.b.nv, "texcoords", &f.b.counts->dropped_texcoords))
+	if (!mr_all_left(ctx, f.odd_uv, f.b.nv, "texture coordinates"))
 		f.b.texcoord = NULL;
-	warn_of_others(&f);
+	lose_others(&f);
 	f.b.uv = f.uv.value;
 	f.b.vn = (const mr_v3 *)f.vn.value;
 	return mr_build_finish(&f.b, m);

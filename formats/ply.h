@@ -102,8 +102,7 @@ typedef struct ply {
 	bool told[2];                           /* what is full is known */
 	bool wraps[2];                          /* a negative value is one above 127 */
 	size_t odd_uv, odd_colors, odd_scanner; /* of vertices: not finite */
-	size_t textures, comments;              /* that are left out */
-	size_t remarks;                         /* comments that are not kept */
+	size_t textures;                        /* that are left out */
 } ply;
 
 /* The property of a role, or NULL. */

@@ -156,13 +156,11 @@ header_comment(ply *f, mr_scan *line)
 			l->name[l->count++] = (mr_lines){ line->p, (size_t)(line->end - line->p) };
 			return MR_OK;
 		}
-	if (mr_scan_accept(line, "TextureFile")) {
+	if (mr_scan_accept(line, "TextureFile"))
 		f->textures++;
-	} else if (mr_scan_accept(line, "mtllib")) {
+	else if (mr_scan_accept(line, "mtllib")) {
 		mr_skip_blanks(line);
 		mr_text_add(&f->files, "%s%.*s", f->files.n ? "\n" : "", (int)(line->end - line->p), line->p);
-	} else {
-		f->comments++;
 	}
 	return MR_OK;
 }

@@ -196,9 +196,6 @@ put_property_lines(const output *w, char element)
 		if (p->shape.element != element)
 			continue;
 		taken = is_taken(w->m, i);
-		if (taken)
-			mr_warn(w->s->ctx, "property %s is written as other_%s: there is one of that name",
-			    p->name, p->name);
 		mr_print(w->s, "property %s %s%s\n", types[w->type[i]].name, taken ? "other_" : "", p->name);
 	}
 }

@@ -15,7 +15,7 @@ typedef struct ptx {
 	mr_builder properties;
 	size_t intensity; /* the number of that property */
 	size_t count, room, scanner_room, rgb_room;
-	size_t colored, odd_colors, empty, grids;
+	size_t colored, odd_colors, grids;
 } ptx;
 
 typedef struct scan {
@@ -128,10 +128,8 @@ read_point(ptx *f, const scan *s)
 	MR_TRY(numbers_of_line(f, x, 7, &n));
 	if (n != 3 && n != 4 && n != 7)
 		return mr_scan_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
-	if (x[0] == 0 && x[1] == 0 && x[2] == 0) {
-		f->empty++;
+	if (x[0] == 0 && x[1] == 0 && x[2] == 0)
 		return MR_OK;
-	}
 	f->p[f->count] = mr_vec(m[0] * x[0] + m[4] * x[1] + m[8] * x[2] + m[12],
 	    m[1] * x[0] + m[5] * x[1] + m[9] * x[2] + m[13],
 	    m[2] * x[0] + m[6] * x[1] + m[10] * x[2] + m[14]);
@@ -150,7 +148,7 @@ read_colors(ptx *f, mr_model *m)
 {
 	unsigned char *color;
 
-	if (!f->rgb || !mr_all_left(f->ctx, f->odd_colors, f->colored, "colors", &m->counts.dropped_colors))
+	if (!f->rgb || !mr_all_left(f->ctx, f->odd_colors, f->colored, "colors"))
 		return MR_OK;
 	color = mr_alloc(f->ctx, f->count, 4);
 	if (!color)
@@ -161,8 +159,6 @@ read_colors(ptx *f, mr_model *m)
 		for (size_t k = 0; k < 3 && !isnan(f->rgb[3 * i]); k++)
 			color[4 * i + k] = mr_shade_byte(&f->shades, (double)f->rgb[3 * i + k]);
 	mr_shades_said(f->ctx, &f->shades);
-	if (f->colored < f->count)
-		mr_note(f->ctx, "%zu points without a colour are white", f->count - f->colored);
 	m->color = color;
 	return MR_OK;
 }
@@ -180,11 +176,8 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		for (uint64_t i = 0; i < s.points; i++)
 			MR_TRY(read_point(&f, &s));
 	}
-	if (f.empty)
-		mr_note(ctx, "%zu rays without an answer left out", f.empty);
-	if (f.grids)
-		mr_warn(ctx, "the grid of %zu scan%s is left out", f.grids, mr_plural(f.grids));
-	*m = (mr_model){ .p = f.p, .nv = f.count, .scanner = f.scanner, .counts = m->counts };
+	mr_lost(ctx, NULL, f.grids, "grids of scans");
+	*m = (mr_model){ .p = f.p, .nv = f.count, .scanner = f.scanner };
 	MR_TRY(read_colors(&f, m));
 	return mr_build_properties(&f.properties, m);
 }

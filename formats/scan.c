@@ -469,14 +469,13 @@ mr_skip_comments(mr_scan *t)
 }
 
 void
-mr_scan_rest(mr_scan *t, const char *last)
+mr_scan_rest(mr_scan *t)
 {
-	for (const char *p = t->p; p < t->end; p++)
-		if (*p && *p != '\n' && !mr_is_blank(*p)) {
-			mr_warn(
-			    t->ctx, "%zu bytes behind the last %s left out", (size_t)(t->end - t->p), last);
-			return;
-		}
+	const char *p = t->p;
+
+	while (p < t->end && (!*p || *p == '\n' || mr_is_blank(*p)))
+		p++;
+	mr_lost(t->ctx, NULL, (size_t)(t->end - p), "bytes behind the last row");
 }
 
 mr_status

@@ -60,8 +60,8 @@ mr_skip_space(mr_scan *t)
 /* The same, and comments, which begin with # and go to the end of the line. */
 void mr_skip_comments(mr_scan *t);
 
-/* Warns of what stands behind the last vertex or face, unless that is blank, or zeros that fill up. */
-void mr_scan_rest(mr_scan *t, const char *last);
+/* Reports what stands behind the last row, unless that is blank, or zeros that fill up. */
+void mr_scan_rest(mr_scan *t);
 
 /* The line that begins at t->p, without its end, as a text of its own with the same start; t goes on behind
  * it. */

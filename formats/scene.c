@@ -123,49 +123,33 @@ add_layers(mr_ctx *keep, mr_scene *scene, const mr_frame *f, const layers *l)
 }
 
 /* Poses have normals in the file where all of the node have some, the first too. */
-static void
-warn_of_normals(mr_ctx *ctx, const mr_scene_node *n, const mr_model *m)
+static bool
+has_normals_alike(const mr_scene_node *n, const mr_model *m)
 {
 	const mr_target *last = n->targets ? &n->target[n->targets - 1] : NULL;
 	bool had = last ? last->normal || last->corner_normal : n->model.normal || n->model.corner_normal;
-	bool has = m->normal || m->corner_normal;
 
-	if (had != has)
-		mr_warn(ctx, "%s: normals of poses are left out: this frame has %s, the one before %s",
-		    n->layer, has ? "some" : "none", has ? "none" : "some");
-}
-
-/* A sequence of which frames differ in more than places and normals does not move. */
-static void
-warn_of_break(mr_ctx *ctx, const mr_frame *f, mr_scene *scene)
-{
-	if (!f->key && !scene->broken && scene->nodes)
-		mr_warn(ctx,
-		    "frames of this sequence have other triangles, colors or materials than those before: "
-		    "they stand beside these, and nothing moves from one to the next");
-	scene->broken = !f->key;
+	return had == (m->normal || m->corner_normal);
 }
 
 mr_status
-mr_scene_add(
-    mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *list, mr_export_result *result)
+mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *list)
 {
 	mr_sink losses = { .ctx = ctx };
 	layers l;
 	bool pose;
 
-	mr_unmeasured(&losses.lost, sizeof losses.lost);
 	MR_TRY(get_layers(ctx, f, list, &l));
 	pose = is_pose(scene, f, &l);
-	if (!pose)
-		warn_of_break(ctx, f, scene);
+	if (!pose && !f->key && scene->nodes)
+		mr_lost(ctx, NULL, 1,
+		    "motion: triangles, colors or materials differ from those of the frame before");
 	for (size_t i = 0; i < l.count; i++) {
 		mr_status status = pose ? mr_note_rounded(&losses, &l.model[i])
 		                        : mr_glb_note_lost(&losses, &l.model[i]);
 		MR_TRY(mr_prefix(ctx, status, "%s", l.name[i]));
-		if (pose)
-			warn_of_normals(ctx, &scene->node[scene->open + i], &l.model[i]);
+		if (pose && !has_normals_alike(&scene->node[scene->open + i], &l.model[i]))
+			mr_lost(ctx, l.name[i], 1, "normals of poses");
 	}
-	*result = losses.lost;
 	return add_layers(keep, scene, f, &l) < 0 ? mr_fail_as(ctx, keep, MR_EMEM) : MR_OK;
 }

@@ -28,16 +28,15 @@ typedef struct mr_scene {
 	mr_scene_node *node;
 	size_t nodes, room, takes;
 	size_t open;        /* the nodes from here on are those that a delta poses */
-	bool broken;        /* a delta of this sequence poses none: told once */
 	const char *folder; /* of files of materials */
 } mr_scene;
 
 /*
  * Adds a frame.  layers: with commas between, or NULL: the one that mr_layer_result chooses.  keep: the arena
- * of what outlives the frame.  result: what the format cannot keep of it.
+ * of what outlives the frame.
  */
-mr_status mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *layers,
-    mr_export_result *result) MR_WARN_UNUSED;
+mr_status
+mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *layers) MR_WARN_UNUSED;
 
 /* Whether what is written there can hold several frames and layers. */
 bool mr_scene_suits(const char *path, const char *format);

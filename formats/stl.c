@@ -32,30 +32,10 @@ mr_stl_is_binary(const unsigned char *data, size_t size)
 	       (size - HEADER) / RECORD == mr_load32(data + 80, false);
 }
 
-/* Two bytes of each triangle, and words of the header, which some programs use for colours. */
-static void
-warn_of_attributes(mr_ctx *ctx, const unsigned char *data, size_t n)
-{
-	static const char *const words[] = { "COLOR=", "MATERIAL=" };
-	size_t used = 0;
-
-	for (size_t i = 0; i < n; i++)
-		used += mr_load16(data + HEADER + (i + 1) * RECORD - 2, false) != 0;
-	if (used)
-		mr_warn(
-		    ctx, "attribute bytes of %zu of %zu triangles, such as colors, are left out", used, n);
-	for (size_t k = 0; k < 2; k++)
-		for (size_t i = 0, bytes = strlen(words[k]); i + bytes <= 80; i++)
-			if (!memcmp(data + i, words[k], bytes)) {
-				mr_warn(ctx, "%s of the header is left out", words[k]);
-				break;
-			}
-}
-
 static mr_status
 read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	size_t n = mr_load32(data + 80, false);
+	size_t n = mr_load32(data + 80, false), used = 0;
 	uint32_t *corner;
 	mr_v3 *p;
 
@@ -64,8 +44,6 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		    "byte 80: %zu triangles cannot be in the %zu bytes that follow", n, size - HEADER);
 	if (n > (MR_NONE - 1) / 3)
 		return mr_fail(ctx, MR_ERANGE, "%zu triangles are more than indices can name", n);
-	if (size - HEADER > n * RECORD)
-		mr_warn(ctx, "%zu bytes behind the last triangle left out", size - HEADER - n * RECORD);
 	corner = MR_NEW(ctx, 3 * n, uint32_t);
 	p = MR_NEW(ctx, 3 * n, mr_v3);
 	if (!corner || !p)
@@ -77,7 +55,10 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		if (!mr_finite(p[i]))
 			return mr_fail(ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", at);
 	}
-	warn_of_attributes(ctx, data, n);
+	for (size_t i = 0; i < n; i++) /* which some programs use for colours */
+		used += mr_load16(data + HEADER + (i + 1) * RECORD - 2, false) != 0;
+	mr_lost(ctx, NULL, used, "attributes of triangles");
+	mr_lost(ctx, NULL, size - HEADER - n * RECORD, "bytes behind the last triangle");
 	MR_TRY(join_corners(ctx, p, 3 * n, corner, &m->nv));
 	m->p = p;
 	m->t = (const mr_tri *)corner;
@@ -239,7 +220,7 @@ count_vertices(const mr_scan *t)
 static mr_status
 read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ascii a = { .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .counts = &m->counts } };
+	ascii a = { .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 	uint32_t *map;
 	mr_scan line;
 	int depth = OUTSIDE;
@@ -330,11 +311,7 @@ note_isolated(mr_sink *s, const mr_model *m)
 	bool *used;
 
 	MR_TRY(mr_vertices_used(s->ctx, m->t, m->nf, m->nv, &used, &count));
-	if (count == m->nv)
-		return MR_OK;
-	s->lost.dropped_vertices = m->nv - count;
-	mr_warn(s->ctx, "%zu of %zu vertices dropped: no face has them, and stl has faces only",
-	    m->nv - count, m->nv);
+	mr_lost(s->ctx, NULL, m->nv - count, "isolated vertices");
 	return MR_OK;
 }
 

@@ -299,8 +299,8 @@ begin_rows(table *t, const mr_scan *row, size_t n)
 	if (t->named && n < t->columns)
 		join_names(t, n);
 	if (t->in_comment && n != t->columns) {
-		mr_warn(t->ctx, "a comment names %zu columns, where rows have %zu: its names are not used",
-		    t->columns, n);
+		mr_tell(
+		    t->ctx, MR_GUESSED, 1, "a comment of %zu words names no columns of %zu", t->columns, n);
 		t->named = false;
 	}
 	if (t->named && n != t->columns)
@@ -446,10 +446,7 @@ static void
 doubt_normals(const table *t, size_t at)
 {
 	if (t->others[at == 6] > t->rows / 100)
-		mr_warn(t->ctx,
-		    "columns %zu to %zu are read as normals, though not of length 1: colors need the line '# "
-		    "x y "
-		    "z red green blue' before them",
+		mr_tell(t->ctx, MR_GUESSED, 1, "columns %zu to %zu are read as normals, not of length 1",
 		    at + 1, at + 3);
 }
 
@@ -476,9 +473,8 @@ guess_seven(table *t)
 	bool first = could_be_color(t, 3), last = t->counted ? are_bytes(t, 4) : could_be_color(t, 4);
 
 	if (first && last && !t->counted)
-		mr_warn(t->ctx,
-		    "columns 4 to 6 are read as colors, which columns 5 to 7 could be, too: a line '# x y z "
-		    "intensity red green blue' before them tells");
+		mr_tell(
+		    t->ctx, MR_GUESSED, 1, "columns 4 to 6 are read as colors: columns 5 to 7 could be, too");
 	if (last && (t->counted || !first))
 		assign(t, 4, RED);
 	else if (first)
@@ -615,17 +611,15 @@ halves(const table *t, const mr_v3 *p)
 }
 
 static bool
-useful(mr_ctx *ctx, mr_v3 *n, size_t count, size_t *dropped)
+useful(mr_ctx *ctx, mr_v3 *n, size_t count)
 {
-	bool any = false;
+	size_t zero = 0;
 
-	if (!mr_normals_left(ctx, n, count, dropped))
+	if (!mr_normals_left(ctx, n, count))
 		return false;
 	for (size_t i = 0; i < count; i++)
-		any |= mr_norm2(n[i]) > 0;
-	if (!any)
-		mr_dropped(ctx, dropped, "normals", "all are zero");
-	return any;
+		zero += mr_norm2(n[i]) == 0;
+	return zero < count;
 }
 
 static mr_status
@@ -673,7 +667,7 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(begin_properties(&t));
 	begin_colors(&t);
 	MR_TRY(fill(&t, p, normal, color));
-	if (color && !mr_all_left(ctx, t.odd_colors, t.rows, "colors", &m->counts.dropped_colors))
+	if (color && !mr_all_left(ctx, t.odd_colors, t.rows, "colors"))
 		color = NULL;
 	for (int i = 0; color && i < 2; i++)
 		mr_shades_said(ctx, &t.shades[i]);
@@ -681,10 +675,11 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	if (n < t.rows)
 		normal = p + n;
 	else if (t.counted && t.rows > t.count)
-		mr_warn(ctx, "%zu points, where the file counts %llu", t.rows, (unsigned long long)t.count);
-	if (normal && n && !useful(ctx, normal, n, &m->counts.dropped_normals))
+		mr_tell(ctx, MR_GUESSED, 1, "%zu points, where the file counts %llu", t.rows,
+		    (unsigned long long)t.count);
+	if (normal && n && !useful(ctx, normal, n))
 		normal = NULL;
-	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color, .counts = m->counts };
+	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color };
 	return mr_build_properties(&t.properties, m);
 }
 

@@ -46,7 +46,6 @@ mr_status
 mr_xyz_write(mr_sink *s, const mr_model *m)
 {
 	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
-	mr_note_alpha(s, m, "XYZ");
 	put_names(s, m->normal, m->color, m->nv);
 	if (m->color && are_dark(m))
 		mr_print(s, "# %s\n", MR_XYZ_BYTES);
@@ -77,7 +76,6 @@ mr_pts_write(mr_sink *s, const mr_model *m)
 	const mr_property *intensity = intensity_of(m);
 
 	mr_note_lost(s, m, MR_KEEPS_COLOR | (intensity && m->properties == 1 ? MR_KEEPS_PROPERTY : 0));
-	mr_note_alpha(s, m, "PTS");
 	mr_print(s, "%zu\n", m->nv);
 	for (size_t i = 0; i < m->nv; i++) {
 		bool more = intensity || m->color;

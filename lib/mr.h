@@ -9,7 +9,7 @@
  *	mr_frame *f;
  *
  *	if (mr_import(ctx, "bunny.obj", NULL, &f, NULL) < 0 || mr_smooth_frame(ctx, f, NULL, NULL) < 0 ||
- *	    mr_export(ctx, f, "base", "smooth.obj", NULL, NULL) < 0)
+ *	    mr_export(ctx, f, "base", "smooth.obj", NULL) < 0)
  *		fprintf(stderr, "%s\n", mr_error(ctx));
  *	mr_ctx_delete(ctx);
  *
@@ -20,8 +20,8 @@
  * accepts NULL.  What is put into a frame is borrowed by it.
  * Threads.  One context serves one thread at a time; inside, functions use as many threads as the context
  * has, and give the same bytes for any number.
- * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An mr_..._result
- * may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
+ * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An
+ *mr_..._result may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
  */
 #ifndef MR_H
 #define MR_H
@@ -44,7 +44,10 @@ extern "C" {
 
 #define MR_UNKNOWN SIZE_MAX
 /* Values of all fields, as a line. */
-#define MR_DEFAULTS(...) { __VA_ARGS__ }
+#define MR_DEFAULTS(...)                                                                                     \
+	{                                                                                                    \
+		__VA_ARGS__                                                                                  \
+	}
 
 /* Contexts */
 
@@ -75,7 +78,9 @@ MR_API void mr_ctx_delete(mr_ctx *ctx);
 /* The sentence of the last failure, until the next; empty before the first. */
 MR_API const char *mr_error(const mr_ctx *ctx);
 
-typedef struct mr_v3 { double x, y, z; } mr_v3;
+typedef struct mr_v3 {
+	double x, y, z;
+} mr_v3;
 
 /* Findings: what a user should know of a result that is given all the same (man/mr-findings.7). */
 typedef enum mr_finding_kind {
@@ -153,7 +158,9 @@ MR_API void mr_mark_release(mr_ctx *ctx, mr_mark mark);
 
 /* Meshes */
 
-typedef struct mr_tri { uint32_t v[3]; } mr_tri; /* counter-clockwise, seen from outside */
+typedef struct mr_tri {
+	uint32_t v[3];
+} mr_tri; /* counter-clockwise, seen from outside */
 
 /* A view of arrays that somebody else keeps; without faces a cloud of points. */
 typedef struct mr_mesh {
@@ -276,37 +283,21 @@ typedef struct mr_import_opts {
 
 #define MR_IMPORT_DEFAULTS MR_DEFAULTS(NULL, NULL, false, false, false, 0, false)
 
-/* What was read, and what of the file could not be kept. */
+/* What was read; what of the file could not be kept is reported as findings. */
 typedef struct mr_import_result {
-	size_t vertices, triangles;             /* of the frame */
-	size_t polygons;                        /* faces of more than three corners */
-	size_t faces_left_out, points_left_out; /* of fewer than three corners; not finite */
-	size_t seam_vertices, crease_vertices;  /* of several texture coordinates; of several normals */
-	size_t dropped_normals, dropped_colors, dropped_texcoords;   /* how many, or 1: all; else not known */
-	size_t weld_joined, weld_collapsed;                          /* vertices; faces */
-	size_t repair_degenerate, repair_duplicate, repair_isolated; /* dropped: faces, faces, vertices */
-	size_t repair_split_edges, repair_split_vertices; /* of over two faces; where fans were parted */
-	size_t repair_flipped, repair_cut_edges; /* faces turned over; where the surface is one-sided */
+	size_t vertices, triangles;            /* of the frame */
+	size_t polygons;                       /* faces of more than three corners */
+	size_t seam_vertices, crease_vertices; /* of several texture coordinates; of several normals */
 } mr_import_result;
 
 /* Reads a file ("-": stdin) as a key frame that is named by its stem. */
 MR_API mr_status mr_import(mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame,
     mr_import_result *result) MR_WARN_UNUSED;
 
-/* What of the layer the format could not keep. */
-typedef struct mr_export_result {
-	size_t dropped_normals, dropped_colors, dropped_alpha; /* rows, not known where none was; alpha: 1 */
-	size_t dropped_texcoords, dropped_groups, dropped_objects, dropped_materials, dropped_smoothing;
-	size_t dropped_polygons, dropped_properties, dropped_faces;
-	size_t dropped_vertices;  /* of no face, how many; else not known */
-	size_t broken_polygons;   /* that are written as their triangles */
-	size_t rounded_positions; /* of formats in float32: those that are no longer what they were */
-} mr_export_result;
-
 /* Writes a layer (NULL: the one worked on last, else mesh, control, points or base) to a file ("-": stdout),
- * whole or not at all.  format: NULL: by the suffix. */
-MR_API mr_status mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
-    mr_export_result *result) MR_WARN_UNUSED;
+ * whole or not at all.  format: NULL: by the suffix.  What the format cannot keep is reported as findings. */
+MR_API mr_status mr_export(
+    mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format) MR_WARN_UNUSED;
 
 /* What may outlive a frame: a factorization, an index.  A frame that is a delta and left unchanged what it
  * depends on finds it again; never does it change a byte, and it may be NULL wherever it is given. */
@@ -422,7 +413,9 @@ typedef struct mr_normals_result {
 MR_API mr_status mr_normals_frame(
     mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_crop_result { size_t vertices, faces, vertices_dropped, faces_dropped; } mr_crop_result;
+typedef struct mr_crop_result {
+	size_t vertices, faces, vertices_dropped, faces_dropped;
+} mr_crop_result;
 
 /* Leaves what n rules, in their order, make free, and drops what they make fixed; where the first makes some
  * free the others are fixed to begin with.  layer: NULL: mesh, else control, else points. */
@@ -432,8 +425,8 @@ MR_API mr_status mr_crop_frame(mr_ctx *ctx, mr_frame *f, const char *layer, cons
 typedef struct mr_split_opts {
 	double distance;        /* of points, at which they are connected; 0: four times their spacing */
 	bool distance_relative; /* distance is a share of the bounding box's diagonal */
-	size_t least;           /* vertices of a part; 0: 2 of a mesh, of points a hundredth of the largest part's */
-	const char *layer;      /* NULL: mesh, else control, else points */
+	size_t least; /* vertices of a part; 0: 2 of a mesh, of points a hundredth of the largest part's */
+	const char *layer; /* NULL: mesh, else control, else points */
 } mr_split_opts;
 
 typedef struct mr_split_result {
@@ -471,7 +464,12 @@ MR_API mr_status mr_pose_frame(
 
 typedef enum mr_solver_choice {
 	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
-	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_BICGSTAB, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
+	MR_SOLVER_CHOLESKY,
+	MR_SOLVER_LU,
+	MR_SOLVER_CG,
+	MR_SOLVER_BICGSTAB,
+	MR_SOLVER_MULTIGRID,
+	MR_SOLVER_VCYCLE
 } mr_solver_choice;
 
 typedef enum mr_areas {
@@ -530,7 +528,9 @@ typedef struct mr_solve_result {
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
     mr_solve_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_gap { double mean, high, max; } mr_gap; /* of distances: 99 % are at most high */
+typedef struct mr_gap {
+	double mean, high, max;
+} mr_gap; /* of distances: 99 % are at most high */
 
 /* How far points that count are from a surface, and it from them, in units of the positions. */
 typedef struct mr_gaps {
@@ -554,10 +554,13 @@ typedef struct mr_decode_opts {
 #define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN, false)
 
 typedef struct mr_decode_result {
-	size_t folded_edges, strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
+	size_t folded_edges,
+	    strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
 	size_t long_edges; /* whose middles are a hundredth of the diagonal from where base takes them */
-	double volume; /* of that before the last pose, where that was by handles and the surface encloses one */
-	size_t intersections, far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
+	double
+	    volume; /* of that before the last pose, where that was by handles and the surface encloses one */
+	size_t intersections,
+	    far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
 	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */
 } mr_decode_result;
@@ -567,7 +570,8 @@ MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts 
 
 /* Reconstruction: Jeong, Kim 2001 */
 
-/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled. */
+/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled.
+ */
 typedef enum mr_wrap_method { MR_WRAP_AUTO, MR_WRAP_CUBE, MR_WRAP_VOLUME } mr_wrap_method;
 
 /* What the points leave open is closed: narrow holes of the sampling, all, none. */
@@ -590,10 +594,11 @@ typedef struct mr_wrap_opts {
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
-	size_t samples, nodes, sided, inward; /* points that counted; of the grid; whose sides were used; 1: turned over */
-	double spacing, cell;           /* side of the square that a point stands for; of a cell */
-	double noise;                   /* squares of so many spacings show a surface: at least 1 */
-	size_t grid;                    /* cells along the longest side of the points' box */
+	size_t samples, nodes, sided,
+	    inward;           /* points that counted; of the grid; whose sides were used; 1: turned over */
+	double spacing, cell; /* side of the square that a point stands for; of a cell */
+	double noise;         /* squares of so many spacings show a surface: at least 1 */
+	size_t grid;          /* cells along the longest side of the points' box */
 	size_t regions, regions_turned; /* large flat ones; rounds of turning them over */
 	size_t rounds, turned;          /* of the Poisson equation; normals that the first turned over */
 	double level, inside;           /* the indicator's value at the surface; share of the nodes */
@@ -648,7 +653,8 @@ typedef struct mr_simplify_result {
 MR_API mr_status mr_simplify_frame(
     mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result) MR_WARN_UNUSED;
 
-/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once. */
+/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once.
+ */
 typedef enum mr_fit_method { MR_FIT_LOCAL, MR_FIT_LEAST_SQUARES } mr_fit_method;
 
 typedef struct mr_fit_opts {
@@ -731,14 +737,23 @@ typedef struct mr_subdivide_result {
 MR_API mr_status mr_subdivide_frame(mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache,
     mr_subdivide_result *result) MR_WARN_UNUSED;
 
-/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1. */
+/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1.
+ */
 MR_API mr_status mr_equalize_frame(
     mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache) MR_WARN_UNUSED;
 
 /* Models from nothing: mr-make */
 
 typedef enum mr_solid {
-	MR_SPHERE, MR_TORUS, MR_CUBE, MR_PLANE, MR_CYLINDER, MR_KNOT, MR_BUMPY, MR_BOXES, MR_SOLIDS
+	MR_SPHERE,
+	MR_TORUS,
+	MR_CUBE,
+	MR_PLANE,
+	MR_CYLINDER,
+	MR_KNOT,
+	MR_BUMPY,
+	MR_BOXES,
+	MR_SOLIDS
 } mr_solid;
 
 typedef struct mr_make_opts {
@@ -760,7 +775,9 @@ MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame
 
 /* Measuring: mr-info */
 
-typedef struct mr_box { mr_v3 min, max; } mr_box;
+typedef struct mr_box {
+	mr_v3 min, max;
+} mr_box;
 
 /*
  * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
@@ -934,8 +951,9 @@ typedef struct mr_map_opts {
 typedef struct mr_map_result {
 	size_t level, width, height; /* the last two in texels */
 	double low, high;
-	size_t clipped, turned; /* written: texels of heights out of the range, of normals away from control */
-	size_t between, seams;  /* read: vertices on no texel, and of other heights across a seam */
+	size_t clipped,
+	    turned;            /* written: texels of heights out of the range, of normals away from control */
+	size_t between, seams; /* read: vertices on no texel, and of other heights across a seam */
 } mr_map_result;
 
 /* Writes NAME-height.png, NAME-normal.png and NAME.mtl, which names them, and gives control a material,

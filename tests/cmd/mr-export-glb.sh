@@ -95,10 +95,6 @@ mr-export -i torus.mrs -f glb /dev/full
 echo "exit $?"
 ls cut* 2>/dev/null
 
-echo '-- what floats round'
-mr-export -i torus.mrs --stats stats rounded.glb
-grep -o '"rounded_positions":[0-9]*' stats
-
 echo '-- a delta that changes colours is no pose'
 cat >delta.py <<'P'
 import struct, sys, zlib

@@ -22,7 +22,7 @@ colors() {
 		for file in c.xyz c.obj c-float.ply c-int.ply c.off c.ptx; do
 			mr-import --no-history $file -o out.mrs 2>err
 			mr-export -q -i out.mrs -f ply-ascii - | sed '1,/end_header/d; s/^0 0 0//; s/ 0 0 -1 0$//' | tr -d '\n'
-			echo "  $file $(cat err)"
+			echo "  $file $(sed 's/.*warning: //' err)"
 		done
 	done
 }

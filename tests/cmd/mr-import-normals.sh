@@ -33,7 +33,7 @@ end_header
 1 0 0 nan nan nan
 0 1 0 0 0 1
 X
-mr-import --stats - n.obj 2>&1 >n.mrs | sed 's/.*"dropped_normals"/"dropped_normals"/'
+mr-import --stats - n.obj 2>&1 >n.mrs | sed 's/.*"findings"/"findings"/'
 mr-export -f obj -i n.mrs - | grep '^[fv][nt]* '
 for model in n.off n.ply; do
 	mr-import $model | mr-export -q -f xyz -
@@ -55,7 +55,7 @@ X
 printf 'STCOFF\n3 1 0\n0 0 0 1 1 1 1 nan 0\n1 0 0 1 nan 1 1 1 0\n0 1 0 1 1 1 1 0 1\n3 0 1 2\n' >c.off
 printf 'v 0 0 0 1 nan 1\nv 1 0 0 1 1 1\nv 0 1 0 0 0 nan\nf 1 2 3\n' >c.obj
 for model in c.ply c.off c.obj; do
-	mr-import --stats - $model 2>&1 >/dev/null | sed 's/,"seconds.*polygons/ .../'
+	mr-import --stats - $model 2>&1 >/dev/null | sed 's/,"seconds.*,"findings/ .../'
 done
 echo '-- and normals and texture coordinates of a glTF'
 python3 - <<'END'

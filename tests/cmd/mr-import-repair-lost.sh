@@ -1,4 +1,4 @@
-# What goes with a repair is said: faces that cover others, materials that had no other face, polygons.
+# What a repair does is said in one line.
 cat >model.obj <<'E'
 v 0 0 0
 v 1 0 0
@@ -26,8 +26,7 @@ usemtl copy of two
 f 4 3 6
 f 3 6 4
 E
-mr-import --repair --stats stats.json model.obj -o /dev/null
-grep -o -e '"dropped_normals":[0-9]*' -e '"repair_d[a-z]*":[0-9]*' stats.json
+mr-import --repair model.obj 2>&1 >model.mrs | sed 's/.*repaired: //'
 echo '-- a polygon at whose diagonal two faces stand, and one with two corners at one place' >&2
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv .5 .5 1\nv .5 .5 -1\nf 1 2 3 4\nf 1 3 5\nf 3 1 6\n' >cut.obj
 mr-import --repair cut.obj -o /dev/null

@@ -56,15 +56,3 @@ mr-make sphere -n 60 --texcoords | mr-export corners.obj
 mr-import --points corners.obj | mr-info | grep points$
 printf 'x y z x\n0 0 0 5\n1 0 0 6\n' >twice.xyz
 mr-import twice.xyz | mr-export -f ply-ascii - | grep property
-echo '-- a property of faces that the triangles of strips have not, whichever come first'
-strips() { # elements, rows
-	printf "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n$1end_header\n0 0 0\n1 0 0\n0 1 0\n$2"
-}
-strip='element tristrips 1\nproperty list int int vertex_indices\n'
-face='element face 1\nproperty list uchar int vertex_indices\nproperty uchar q\n'
-strips "$strip$face" '4 0 1 2 1\n3 0 1 2 7\n' >before.ply
-strips "$face$strip" '3 0 1 2 7\n4 0 1 2 1\n' >behind.ply
-for file in before behind; do
-	told $file.ply
-	mr-import -q $file.ply | mr-export -f ply-ascii - | sed '1,/end_header/d' | grep ^3
-done

@@ -165,9 +165,6 @@ echo '-- each frame of several streams has its number'
 mr-map -w several-%d scan.mrs scan.mrs -o out.mrs && ls several-*
 echo '-- no picture holds what is infinitely far apart'
 refused -w no --range=-1e308,1e308 scan.mrs
-echo '-- maps are of control'
-mr-smooth -q -l mesh kept-scan.mrs | mr-encode | mr-map -w based 2>&1 >out.mrs | grep -o 'maps are.*'
-
 echo '-- columns of the displacement go to a coarser level, not to a finer one'
 mr-make sphere -n 500 | mr-export -f obj - | awk '/^v / { print $2, $3, $4, int(127 + 100 * $2), 127, 127 }' >colors.xyz
 mr-import colors.xyz | mr-shrinkwrap -q | mr-simplify -q -n 60 | mr-fit -q | mr-sample -q -n 2 | mr-map -w colors -n 2 -o colors.mrs

@@ -65,7 +65,7 @@ write_again(mr_ctx *ctx, const mr_model *m, const char *format)
 		return;
 	insist(mr_frame_new(ctx, "model", &frame) == MR_OK);
 	if (mr_model_put(ctx, frame, layer, m) == MR_OK && mr_model_get(ctx, frame, layer, &there) == MR_OK &&
-	    mr_model_write(ctx, name, format, &there, NULL, NULL) == MR_OK) {
+	    mr_model_write(ctx, name, format, &there, NULL) == MR_OK) {
 		insist(mr_model_read(ctx, name, format, &again) == MR_OK);
 		check(&again);
 		insist(again.nf <= m->nf);

@@ -226,7 +226,7 @@ static mr_status export(const job *j)
 	mr_frame *again;
 
 	path_of(path, suffixes[j->way % 6]);
-	MR_TRY(mr_export(j->ctx, j->f, NULL, path, NULL, NULL));
+	MR_TRY(mr_export(j->ctx, j->f, NULL, path, NULL));
 	insist(mr_import(j->ctx, path, NULL, &again, NULL) == MR_OK, mr_error(j->ctx));
 	unlink(path);
 	return MR_OK;

@@ -26,7 +26,7 @@ add_word(bytes *b, uint32_t word)
 {
 	char text[4];
 
-	mr_store32(text, word, false);
+	mr_store32(text, word);
 	add(b, text, 4);
 }
 
@@ -35,7 +35,7 @@ add_float(bytes *b, double x)
 {
 	char text[4];
 
-	mr_store_float(text, (float)x, false);
+	mr_store_float(text, (float)x);
 	add(b, text, 4);
 }
 

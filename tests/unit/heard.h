@@ -1,4 +1,4 @@
-/* heard.h -- the warnings that a test hears. */
+/* heard.h -- the warnings and findings that a test hears. */
 #ifndef TEST_HEARD_H
 #define TEST_HEARD_H
 
@@ -13,11 +13,20 @@ hear(void *user, const char *text)
 	snprintf(heard + strlen(heard), sizeof heard - strlen(heard), "%s\n", text);
 }
 
+static inline void
+hear_finding(void *user, const mr_finding *f)
+{
+	(void)user;
+	snprintf(heard + strlen(heard), sizeof heard - strlen(heard), "%zu %s\n", f->count,
+	    f->what ? f->what : mr_finding_name(f->kind));
+}
+
 /* From now on, nothing heard yet. */
 static inline void
 listen_to(mr_ctx *ctx)
 {
 	ctx->listener.warn = hear;
+	ctx->listener.found = hear_finding;
 	heard[0] = 0;
 }
 

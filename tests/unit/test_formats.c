@@ -146,7 +146,7 @@ round_trips(void **state)
 				continue;
 			mr_ctx_init(&ctx, 1);
 			m = restrict_to(make_model(&ctx, 40, 60, false), with);
-			ok(&ctx, mr_model_write(&ctx, written[i].path, written[i].format, &m, NULL, NULL));
+			ok(&ctx, mr_model_write(&ctx, written[i].path, written[i].format, &m, NULL));
 			ok(&ctx, mr_model_read(&ctx, written[i].path, NULL, &back));
 			same_model(&m, &back);
 			mr_ctx_free(&ctx);
@@ -215,7 +215,7 @@ whole_models(void **state)
 		assert_true(m.corner_texcoord && m.corner_normal && m.object && m.group && m.material &&
 			    m.smoothing && m.polygon && m.mtllib.bytes == 13);
 		for (int i = 0; i < 3; i++) {
-			ok(&ctx, mr_model_write(&ctx, paths[i], formats[i], &m, NULL, NULL));
+			ok(&ctx, mr_model_write(&ctx, paths[i], formats[i], &m, NULL));
 			ok(&ctx, mr_model_read(&ctx, paths[i], NULL, &back));
 			same_model(&m, &back);
 		}
@@ -265,7 +265,7 @@ properties(void **state)
 	same_model(&m, &back);
 	for (int i = 0; i < 2; i++) {
 		mr_model again;
-		ok(&ctx, mr_model_write(&ctx, "properties.ply", formats[i], &m, NULL, NULL));
+		ok(&ctx, mr_model_write(&ctx, "properties.ply", formats[i], &m, NULL));
 		ok(&ctx, mr_model_read(&ctx, "properties.ply", NULL, &again));
 		if (i == 0)
 			same_model(&m, &again);
@@ -287,7 +287,7 @@ stl_round_trip(void **state)
 		mr_model m, back;
 		mr_ctx_init(&ctx, 1);
 		m = make_model(&ctx, 40, 60, !ascii);
-		ok(&ctx, mr_model_write(&ctx, "m.stl", ascii ? "stl-ascii" : NULL, &m, NULL, NULL));
+		ok(&ctx, mr_model_write(&ctx, "m.stl", ascii ? "stl-ascii" : NULL, &m, NULL));
 		ok(&ctx, mr_model_read(&ctx, "m.stl", NULL, &back));
 		assert_int_equal(back.nf, m.nf);
 		assert_int_equal(back.nv, m.nv);
@@ -466,48 +466,49 @@ put_file(const char *path, const char *text)
 	assert_int_equal(fclose(f), 0);
 }
 
-/* What an import could not keep, or had to mend, is in its result; the rest is not known. */
+/* How much was found of each kind. */
+typedef struct heard {
+	size_t count[MR_FINDING_KINDS];
+} heard;
+
+static void
+hear(void *user, const mr_finding *f)
+{
+	((heard *)user)->count[f->kind] += f->count;
+}
+
+/* What an import could not keep, or had to mend, is found. */
 static void
 what_was_lost(void **state)
 {
 	mr_import_opts o = MR_IMPORT_DEFAULTS;
 	mr_import_result r;
+	heard h = { 0 };
 	mr_frame *f;
 	mr_ctx ctx;
 
 	(void)state;
 	mr_ctx_init(&ctx, 1);
+	ctx.listener = (mr_listener){ .found = hear, .user = &h };
 	put_file("lost.obj", TRIANGLE "v 1 1 0\nv 1 1 0\nvt 0 0\nvt 1 0\nvn 0 0 1\nvn 0 1 0\n"
 				      "f 1/1/1 2/2/1 4/2/1 3/1/1\nf 3/2/2 5/1/2 4/1/2\nf 1 2\nf 1 2 2\n");
 	ok(&ctx, mr_import(&ctx, "lost.obj", &o, &f, &r));
 	assert_int_equal(r.vertices, 5);
 	assert_int_equal(r.triangles, 4);
 	assert_int_equal(r.polygons, 1);
-	assert_int_equal(r.faces_left_out, 1);
 	assert_int_equal(r.seam_vertices, 2);
 	assert_int_equal(r.crease_vertices, 2);
-	assert_true(r.dropped_normals == MR_UNKNOWN);
-	assert_true(r.dropped_texcoords == MR_UNKNOWN && r.points_left_out == MR_UNKNOWN);
-	assert_true(r.weld_joined == MR_UNKNOWN && r.repair_degenerate == MR_UNKNOWN);
+	assert_int_equal(h.count[MR_LOST], 1); /* a face of two corners */
+	assert_int_equal(h.count[MR_REPAIRED], 0);
 
+	h = (heard){ 0 };
 	o.weld = o.repair = true;
 	ok(&ctx, mr_import(&ctx, "lost.obj", &o, &f, &r));
-	assert_int_equal(r.weld_joined, 1);
-	assert_int_equal(r.weld_collapsed, 1);
-	assert_int_equal(r.repair_degenerate, 1);
-	assert_int_equal(r.repair_duplicate, 0);
+	assert_int_equal(h.count[MR_LOST], 2);     /* and one that collapses */
+	assert_int_equal(h.count[MR_REPAIRED], 2); /* vertices joined, a degenerate face */
 	assert_int_equal(r.vertices, 4);
 	assert_int_equal(r.triangles, 2);
 	assert_int_equal(r.seam_vertices, 2); /* of the file */
-
-	put_file("lost.pcd",
-	    "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nWIDTH 2\nHEIGHT 1\nDATA ascii\n"
-	    "0 0 nan\n1 2 3\n");
-	ok(&ctx, mr_import(&ctx, "lost.pcd", NULL, &f, &r));
-	assert_int_equal(r.points_left_out, 1);
-	assert_int_equal(r.vertices, 1);
-	assert_int_equal(r.triangles, 0);
-	assert_true(r.polygons == MR_UNKNOWN && r.crease_vertices == MR_UNKNOWN);
 
 	r.vertices = 4711;
 	put_file("bad.obj", TRIANGLE "f 1 2 4\n");
@@ -516,30 +517,31 @@ what_was_lost(void **state)
 	mr_ctx_free(&ctx);
 }
 
-/* What the format of an export has no place for, or rounds, is in its result. */
+/* What the format of an export has no place for, or rounds, is found. */
 static void
 what_was_rounded(void **state)
 {
-	mr_export_result r;
+	heard h = { 0 };
 	mr_frame *f;
 	mr_ctx ctx;
 
 	(void)state;
 	mr_ctx_init(&ctx, 1);
-	put_file("fine.obj", "v 0.1 0 0 1 0 0\nv 1 0 0 0 1 0\nv 0 0.3 0 0 0 1\nf 1 2 3\n");
+	put_file("fine.obj", "v 10000.1 0 0 1 0 0\nv 10001 0 0 0 1 0\nv 10000 0.3 0 0 0 1\nf 1 2 3\n");
 	ok(&ctx, mr_import(&ctx, "fine.obj", NULL, &f, NULL));
-	ok(&ctx, mr_export(&ctx, f, NULL, "floats.stl", NULL, &r));
-	assert_int_equal(r.rounded_positions, 2);
-	assert_int_equal(r.dropped_colors, 3);
-	assert_true(r.dropped_normals == MR_UNKNOWN && r.dropped_faces == MR_UNKNOWN);
-	ok(&ctx, mr_export(&ctx, f, NULL, "points.pts", NULL, &r));
-	assert_int_equal(r.dropped_faces, 1);
-	assert_true(r.rounded_positions == MR_UNKNOWN && r.dropped_colors == MR_UNKNOWN);
+	ctx.listener = (mr_listener){ .found = hear, .user = &h };
+	ok(&ctx, mr_export(&ctx, f, NULL, "floats.stl", NULL));
+	assert_int_equal(h.count[MR_ROUNDED], 2);
+	assert_int_equal(h.count[MR_LOST], 3);
+	h = (heard){ 0 };
+	ok(&ctx, mr_export(&ctx, f, NULL, "points.pts", NULL));
+	assert_int_equal(h.count[MR_ROUNDED], 0);
+	assert_int_equal(h.count[MR_LOST], 1);
 	ok(&ctx, mr_import(&ctx, "floats.stl", NULL, &f, NULL));
-	ok(&ctx, mr_export(&ctx, f, NULL, "again.stl", NULL, &r));
-	assert_int_equal(r.rounded_positions, 0); /* they are floats already */
-	assert_int_equal(mr_export(&ctx, f, NULL, "no/such/folder/a.pts", NULL, &r), MR_EIO);
-	assert_int_equal(r.rounded_positions, 0);
+	h = (heard){ 0 };
+	ok(&ctx, mr_export(&ctx, f, NULL, "again.stl", NULL));
+	assert_int_equal(h.count[MR_ROUNDED], 0); /* they are floats already */
+	assert_int_equal(mr_export(&ctx, f, NULL, "no/such/folder/a.pts", NULL), MR_EIO);
 	mr_ctx_free(&ctx);
 }
 
@@ -579,14 +581,14 @@ whole_or_not(void **state)
 	mr_ctx_init(&ctx, 1);
 	m = make_model(&ctx, 10, 10, false);
 	none = restrict_to(m, 0);
-	ok(&ctx, mr_model_write(&ctx, "old.pwn", NULL, &m, NULL, NULL));
-	assert_int_equal(mr_model_write(&ctx, "old.pwn", NULL, &none, NULL, NULL), MR_EMISSING);
+	ok(&ctx, mr_model_write(&ctx, "old.pwn", NULL, &m, NULL));
+	assert_int_equal(mr_model_write(&ctx, "old.pwn", NULL, &none, NULL), MR_EMISSING);
 	ok(&ctx, mr_model_read(&ctx, "old.pwn", NULL, &back));
 	assert_int_equal(back.nv, 10);
-	assert_int_equal(mr_model_write(&ctx, "new.pwn", NULL, &none, NULL, NULL), MR_EMISSING);
+	assert_int_equal(mr_model_write(&ctx, "new.pwn", NULL, &none, NULL), MR_EMISSING);
 	assert_int_equal(access("new.pwn", F_OK), -1);
-	assert_int_equal(mr_model_write(&ctx, "/dev/full", "ply", &m, NULL, NULL), MR_EIO);
-	assert_int_equal(mr_model_write(&ctx, "no/such/folder/a.ply", NULL, &m, NULL, NULL), MR_EIO);
+	assert_int_equal(mr_model_write(&ctx, "/dev/full", "ply", &m, NULL), MR_EIO);
+	assert_int_equal(mr_model_write(&ctx, "no/such/folder/a.ply", NULL, &m, NULL), MR_EIO);
 	mr_ctx_free(&ctx);
 }
 

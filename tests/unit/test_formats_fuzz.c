@@ -156,7 +156,7 @@ written_damaged(void **state)
 		mr_file_bytes b = { 0 };
 		mr_ctx_init(&ctx, 1);
 		m = make_model(&ctx, 4, 3, true);
-		assert_int_equal(mr_model_write(&ctx, "fuzz", names[i], &m, NULL, NULL), MR_OK);
+		assert_int_equal(mr_model_write(&ctx, "fuzz", names[i], &m, NULL), MR_OK);
 		read_back("fuzz", &b);
 		damage(names[i], b.data, b.size);
 		mr_file_bytes_free(&b);
@@ -190,7 +190,7 @@ gzip_damaged(void **state)
 	m = make_model(&ctx, 6, 0, true);
 	m.normal = NULL;
 	m.color = NULL;
-	assert_int_equal(mr_model_write(&ctx, "fuzz.xyz.gz", NULL, &m, NULL, NULL), MR_OK);
+	assert_int_equal(mr_model_write(&ctx, "fuzz.xyz.gz", NULL, &m, NULL), MR_OK);
 	f = fopen("fuzz.xyz.gz", "rb");
 	assert_non_null(f);
 	size = fread(raw, 1, sizeof raw, f);
@@ -252,7 +252,7 @@ memory_fails_writing(void **state)
 			m = make_model(&ctx, 10, 10, true);
 			ctx.fail_at = k;
 			unlink("memory.gz");
-			status = mr_model_write(&ctx, "memory.gz", names[i], &m, NULL, NULL);
+			status = mr_model_write(&ctx, "memory.gz", names[i], &m, NULL);
 			assert_true(status == MR_OK || status == MR_EMEM);
 			assert_int_equal(access("memory.gz", F_OK), status == MR_OK ? 0 : -1);
 			mr_ctx_free(&ctx);

@@ -198,7 +198,7 @@ test_wrong_options(void **state)
 	solve.precondition = 2;
 	assert_int_equal(mr_solve_frame(ctx, f, &solve, NULL, NULL), MR_EUSAGE);
 	assert_int_equal(mr_select_frame(ctx, f, &rule, 1, NULL, NULL), MR_EUSAGE);
-	assert_int_equal(mr_export(ctx, f, NULL, "model.unknown", NULL, NULL), MR_EUSAGE);
+	assert_int_equal(mr_export(ctx, f, NULL, "model.unknown", NULL), MR_EUSAGE);
 	mr_ctx_delete(ctx);
 }
 
