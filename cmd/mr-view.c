@@ -13,8 +13,6 @@ static const cmd_opt table[] = {
 	{ 0, "texture", CMD_TEXT, &page.pictures.texture, 0, 0, "FILE", "picture on surfaces", NULL },
 	{ 0, "materials", CMD_TEXT, &page.pictures.materials, 0, 0, "DIR", "folder of files of materials",
 	    NULL },
-	{ 0, "intersections", CMD_FLAG, &page.intersections, 0, 0, NULL,
-	    "look for faces that intersect, to mark them", NULL },
 	{ 0 },
 };
 

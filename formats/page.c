@@ -9,7 +9,6 @@
 #include "formats/formats.h"
 #include "formats/page_displaced.h"
 #include "formats/page_steps.h"
-#include "space/self_intersect.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -28,9 +27,6 @@ static const char *const unseen[] = { "detail_face", "detail_bary", "detail_offs
 
 static const char *const posing[] = { "mesh.detail_face", "mesh.detail_bary", "mesh.detail_offset",
 	"base.encoded", "base.response", "control.response", "handles.transform", NULL };
-
-/* What the page has of faces that intersect. */
-#define CROSSING "self_intersections"
 
 /* Texts that name the values of other columns. */
 static const char *const texts[] = { "groups", "objects", "materials", NULL };
@@ -105,8 +101,6 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_pag
 		return is_control_posable(f, d) || is_posable(f, layers);
 	if (d->there && is_of_displaced(c))
 		return true;
-	if (!strcmp(c->name, CROSSING))
-		return false;
 	if (is_made(c, d) || !(control || is_listed(c->layer, layers)) ||
 	    !mr_layer_has(f, c->layer, "position"))
 		return false;
@@ -428,46 +422,6 @@ take_columns(
 	return mr_text_done(notes);
 }
 
-/* Of each face of a surface whether it intersects another: 1 or 0. */
-static mr_status
-put_crossings(mr_ctx *ctx, const char *layer, const mr_mesh *m, mr_frame *to)
-{
-	bool *crosses = MR_NEW(ctx, m->nf, bool);
-	uint8_t *marks = MR_NEW(ctx, m->nf, uint8_t);
-	mr_mark mark = mr_mark_take(ctx);
-	mr_bvh *bvh;
-	size_t pairs;
-
-	if (!crosses || !marks)
-		return MR_EMEM;
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	MR_TRY(mr_self_intersections(ctx, bvh, m, crosses, &pairs));
-	mr_mark_release(ctx, mark);
-	for (size_t i = 0; i < m->nf; i++)
-		marks[i] = crosses[i];
-	return mr_frame_put(ctx, to, layer, CROSSING, (mr_shape){ 'f', 'b', 1 }, marks, m->nf);
-}
-
-/* The same of all surfaces that the page has, and of the one that it makes, on the level that is shown first.
- */
-static mr_status
-put_all_crossings(mr_ctx *ctx, mr_frame *from, const bool *shown, const mr_page_displaced *d, mr_frame *to)
-{
-	mr_mesh m;
-
-	for (size_t i = 0; i < from->count; i++) {
-		const mr_column *c = &from->columns[i];
-		if (!shown[i] || !*c->layer || strcmp(c->name, "triangles") != 0 || c->rows == 0)
-			continue;
-		MR_TRY(mr_layer_mesh(ctx, from, c->layer, &m));
-		MR_TRY(put_crossings(ctx, c->layer, &m, to));
-	}
-	if (!d->there)
-		return MR_OK;
-	MR_TRY(mr_page_displaced_mesh(ctx, from, d, &m));
-	return put_crossings(ctx, "displacement", &m, to);
-}
-
 /* Which file a frame is from, by its name without folder and suffix. */
 static mr_status
 tell_file(mr_ctx *ctx, const char *path, mr_text *notes)
@@ -520,8 +474,6 @@ take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const
 	r->layers += d->there;
 	MR_TRY(tell_file(ctx, page->from, &notes));
 	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
-	if (page->intersections)
-		MR_TRY(put_all_crossings(ctx, from, shown, d, to));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
 }

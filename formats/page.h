@@ -11,8 +11,6 @@
 
 /* A page in the making; starts zeroed. */
 typedef struct mr_page {
-	bool intersections; /* whether to look for faces that intersect: the caller's, before the first frame
-	                     */
 	FILE *file;         /* without a name: the stream, until the page is written */
 	mr_writer *writer;
 	size_t frames;

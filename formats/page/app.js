@@ -38,7 +38,7 @@ export class App {
 		this.picked = null;
 		this.telling = 0;
 		this.painter = new Painter(this);
-		this.flaws = new Flaws(frames);
+		this.flaws = new Flaws(() => this.stage.ask());
 		this.posing = new Posing(this);
 	}
 
@@ -79,7 +79,7 @@ export class App {
 		this.color = await colour(side, this.choice, this.pictures);
 		for (const { name } of seen)
 			this.drawn.get(name).drawn.look(this.choice.flat, this.choice.wire);
-		await this.flaws.show(side, this.choice.flaws);
+		this.flaws.show(side, this.choice.flaws);
 		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
 		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);

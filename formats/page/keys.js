@@ -28,7 +28,6 @@ const KEYS = {
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),
 	e: () => $("wire").click(),
 	d: () => $("shading").hidden || $("flaws").click(),
-	r: () => $("scale-on").click(),
 	v: () => cycle($("view")),
 	f: () => $("fit").click(),
 	n: (shift) => stepModel(shift ? -1 : 1),

@@ -6,7 +6,6 @@ import { Film } from "./film.js";
 import { listen } from "./keys.js";
 import { listModels } from "./models.js";
 import { addLevels } from "./mesh/levels.js";
-import { showRuler } from "./draw/ruler.js";
 import { canDraw } from "./draw/stage.js";
 import { parseStream } from "./stream/stream.js";
 
@@ -48,11 +47,6 @@ function connect(app) {
 		shade.addEventListener("change", () => app.change({ flat: $("flat").checked }));
 	$("wire").addEventListener("change", () => app.change({ wire: $("wire").checked }));
 	$("flaws").addEventListener("change", () => app.change({ flaws: $("flaws").checked }));
-	app.stage.drawn = () => showRuler(app.stage);
-	$("scale-on").addEventListener("change", () => {
-		$("ruler").hidden = !$("scale-on").checked;
-		app.stage.ask();
-	});
 	$("view").addEventListener("change", () => app.fit(view()));
 	$("fit").addEventListener("click", () => app.fit());
 	$("up").addEventListener("change", () => {

@@ -173,9 +173,6 @@ done
 surface with-mesh.mrs | grep -v control
 surface decoded.mrs -l mesh
 surface scan.mrs -l displacement
-echo '-- faces that intersect, of each surface'
-mr-view --intersections -i decoded.mrs scan.html && stream_of scan.html >scan.back && columns scan.back | grep self
-mr-view --intersections -i edit.mrs scan.html && stream_of scan.html >scan.back && columns scan.back | grep self
 echo '-- one that mr-decode would refuse is refused'
 mr-view -l displacement -i edit.mrs none.html; echo "exit $?"
 mr-view -l displacement -i cube.mrs none.html; echo "exit $?"

@@ -2,9 +2,9 @@
 import * as THREE from "three/build/three.module.js";
 import { PLAIN, regionColor } from "./colors.js";
 import { bodies, materialsFor, wornMaterial } from "./materials.js";
-import { apart, gather, seamed, sorted } from "../mesh/seams.js";
+import { apart, gather } from "../mesh/seams.js";
 import { Solid } from "../mesh/solid.js";
-import { edgesOf, shade, spacingOf, surfaceOf } from "../mesh/surface.js";
+import { edgesOf, spacingOf } from "../mesh/surface.js";
 
 const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);
 
@@ -43,10 +43,10 @@ export class Drawn {
 	}
 
 	beSurface() {
-		this.surface = surfaceOf(this.position, this.triangles);
+		this.solid = new Solid(this.position, this.triangles);
 		this.body = new THREE.Mesh(this.geometry, this.materials.body);
 		this.group.add(this.body);
-		this.shape(this.surface);
+		this.shape(this.solid);
 	}
 
 	/* So large that they about cover the surface. */
@@ -83,24 +83,12 @@ export class Drawn {
 		this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2 * this.extent);
 	}
 
-	/* The surface in the library's memory, where its vertices are now. */
-	get solid() {
-		if (!this.body)
-			return null;
-		if (!this.made)
-			this.made = new Solid(this.position, this.triangles);
-		else if (this.moved)
-			this.made.move();
-		this.moved = false;
-		return this.made;
-	}
-
 	/* The same vertices at other places. */
 	move(position) {
 		this.position.set(position);
-		this.moved = true;
-		shade(this.surface, this.position);
-		const arrays = this.parts ? gather(this.surface, this.parts) : this.surface;
+		this.solid.move(this.position);
+		this.solid.shade(this.position);
+		const arrays = this.parts ? gather(this.solid, this.parts) : this.solid;
 		for (const name of ["position", "normal"]) {
 			const { array } = this.geometry.attributes[name];
 			if (array !== arrays[name])
@@ -130,26 +118,36 @@ export class Drawn {
 	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
 	paint(colors, perFace) {
 		this.part(perFace);
-		this.geometry.setAttribute(this.surface ? "color" : "tint", attribute(spread(colors, this.source, this.count), 3, true));
+		this.geometry.setAttribute(this.solid ? "color" : "tint", attribute(spread(colors, this.source, this.count), 3, true));
 	}
 
 	part(perFace) {
-		if (!this.surface || (perFace ? this.parts && !this.parts.index : !this.parts))
+		if (!this.solid || (perFace ? this.parts && !this.worn : !this.parts))
 			return;
-		this.parts = perFace ? apart(this.surface) : null;
-		this.shape(perFace ? { ...this.parts, ...gather(this.surface, this.parts) } : this.surface);
+		this.worn = false;
+		this.parts = perFace ? apart(this.solid) : null;
+		this.shape(perFace ? { ...this.parts, ...gather(this.solid, this.parts) } : this.solid);
 	}
 
-	/* Dresses a surface (pictures.js). */
+	/* Dresses a surface (pictures.js): faces of one look stand together. */
 	wear({ looks, faces, places }) {
-		const { index, groups } = (this.parts = seamed(this.surface, places, faces), sorted(this.parts.index, faces));
-		const color = new Uint8Array(3 * this.parts.from.length);
+		const order = Uint32Array.from(faces.keys()).sort((a, b) => faces[a] - faces[b] || a - b), n = 3 * faces.length;
+		const color = new Uint8Array(3 * n), uv = new Float32Array(2 * n), groups = [];
 
-		this.shape({ ...this.parts, index, ...gather(this.surface, this.parts) });
-		this.parts.look.forEach((look, i) => color.set(looks[look].texture ? [255, 255, 255] : looks[look].color, 3 * i));
+		this.worn = true;
+		this.parts = apart(this.solid, order);
+		this.shape({ ...this.parts, ...gather(this.solid, this.parts) });
+		order.forEach((f, i) => {
+			const look = faces[f], { texture, color: plain } = looks[look];
+			for (let k = 3 * i; k < 3 * i + 3; k++)
+				color.set(texture ? [255, 255, 255] : plain, 3 * k);
+			uv.set(places.subarray(6 * f, 6 * f + 6), 6 * i);
+			if (groups.length === 0 || groups[groups.length - 1].look !== look)
+				groups.push({ look, start: 3 * i });
+		});
 		this.geometry.setAttribute("color", attribute(color, 3, true));
-		this.geometry.setAttribute("uv", attribute(this.parts.uv, 2));
-		groups.forEach(({ start, count }, i) => this.geometry.addGroup(start, count, i));
+		this.geometry.setAttribute("uv", attribute(uv, 2));
+		groups.forEach(({ start }, i) => this.geometry.addGroup(start, (i + 1 < groups.length ? groups[i + 1].start : n) - start, i));
 		this.body.material = groups.map(({ look }) => wornMaterial(this.materials, looks[look].texture));
 	}
 
@@ -165,7 +163,7 @@ export class Drawn {
 	}
 
 	look(flat, wire) {
-		if (!this.surface)
+		if (!this.solid)
 			return;
 		for (const body of bodies(this.materials)) {
 			body.polygonOffset = wire; /* so that faces do not hide their edges */
@@ -203,15 +201,15 @@ export class Drawn {
 	/* Pixels that a unit has at distance 1. */
 	scale(pixels) {
 		this.materials.mark.uniforms.scale.value = pixels;
-		if (!this.surface)
+		if (!this.solid)
 			this.materials.body.uniforms.scale.value = pixels;
 	}
 
 	/* Frees what the graphics card has of it, but for materials that it shares with `after`. */
 	dispose(after) {
 		this.setMarks(null);
-		if (this.made)
-			this.made.free();
+		if (this.solid)
+			this.solid.free();
 		for (const child of this.group.children)
 			child.geometry.dispose();
 		if (!after || after.materials !== this.materials)

@@ -1,13 +1,12 @@
 /*
- * flaws.js -- what is marked of surfaces: folded edges, which follow where vertices go, and the faces that intersect, which
- * mr-view --intersections has looked for and says in a column.  Marks are seen through the model: flaws are small, and often inside.
+ * flaws.js -- what is marked of surfaces: folded edges, which follow where vertices go, and the faces that intersect, when these
+ * rest.  Marks are seen through the model: flaws are small, and often inside.
  */
 import * as THREE from "three/build/three.module.js";
 import { pointMaterial } from "./materials.js";
-import { CROSSING } from "../stream/layers.js";
-import { columnOf } from "../stream/stream.js";
 import { count } from "../stream/text.js";
 
+const REST = 400; /* milliseconds without a move */
 const RED = [226, 38, 44], VIOLET = [150, 70, 226];
 const $ = (id) => document.getElementById(id);
 const colorOf = (rgb) => new THREE.Color("rgb(" + rgb.join(",") + ")");
@@ -38,20 +37,16 @@ function middlesOf(vertices, n, p) {
 	return out;
 }
 
-/* The marks of a layer as it is drawn; crossing: 1 of each face that intersects, or null where that is not known. */
+/* The marks of a layer as it is drawn. */
 class Marks {
-	constructor(drawn, crossing, changed) {
+	constructor(drawn, changed) {
 		this.drawn = drawn;
-		this.crossing = crossing;
 		this.changed = changed;
-		this.faces = new Uint32Array(0);
-		if (crossing)
-			this.faces = drawn.triangles.filter((_, k) => crossing[Math.floor(k / 3)]);
 		this.group = new THREE.Group();
 		this.lines = this.add(new THREE.LineSegments(new THREE.BufferGeometry(), materials.line));
 		this.body = this.add(new THREE.Mesh(new THREE.BufferGeometry(), materials.face));
 		this.dots = this.add(new THREE.Points(new THREE.BufferGeometry(), materials.dot));
-		this.mark();
+		this.mark(drawn.solid.crossings());
 	}
 
 	add(object) {
@@ -61,15 +56,17 @@ class Marks {
 		return object;
 	}
 
-	mark() {
+	/* faces: the corners of those that intersect; null: they are moving. */
+	mark(faces) {
 		const { position, solid } = this.drawn, ends = solid.folds();
-		const places = [middlesOf(ends, 2, position), middlesOf(this.faces, 3, position)], tint = new Uint8Array(places[0].length + places[1].length);
+		const places = [middlesOf(ends, 2, position), middlesOf(faces || [], 3, position)], tint = new Uint8Array(places[0].length + places[1].length);
 
 		this.folds = ends.length / 2;
+		this.faces = faces;
 		for (let i = 0; i < tint.length; i += 3)
 			tint.set(i < places[0].length ? RED : VIOLET, i);
 		this.give(this.lines, position, ends);
-		this.give(this.body, position, this.faces);
+		this.give(this.body, position, faces || new Uint32Array(0));
 		this.give(this.dots, Float32Array.from([...places[0], ...places[1]]), null);
 		this.dots.geometry.setAttribute("tint", new THREE.BufferAttribute(tint, 3, true));
 	}
@@ -79,49 +76,53 @@ class Marks {
 		geometry.setIndex(index && new THREE.BufferAttribute(index, 1));
 	}
 
-	/* The vertices are elsewhere: what intersects there nobody has looked for. */
+	/* The vertices are elsewhere. */
 	follow() {
-		this.crossing = null;
-		this.faces = new Uint32Array(0);
-		this.dispose();
-		this.mark();
+		this.again(null);
+		clearTimeout(this.resting);
+		this.resting = setTimeout(() => this.again(this.drawn.solid.crossings()), REST);
+	}
+
+	again(faces) {
+		this.free();
+		this.mark(faces);
 		this.changed();
 	}
 
 	dispose() {
+		clearTimeout(this.resting);
+		this.free();
+	}
+
+	free() {
 		for (const { geometry } of this.group.children)
 			geometry.dispose();
 	}
 }
 
 export class Flaws {
-	constructor(frames) {
-		this.known = frames.some((frame) => [...frame.columns.values()].some((c) => c.name === CROSSING));
+	/* changed(): there is something else to be drawn. */
+	constructor(changed) {
 		this.marks = [];
-		$("flaws-of").textContent = this.known ? "Folds, intersections" : "Folded edges";
+		this.changed = changed;
 	}
 
 	/* Marks what is seen, if it is to be marked. */
-	async show({ frame, layers, drawn: all }, on) {
-		this.marks = [];
+	show({ layers, drawn: all }, on) {
 		for (const { drawn } of all.values())
 			drawn.setMarks(null);
-		for (const layer of on ? layers.filter((l) => l.triangles && l.triangles.rows) : []) {
-			const column = columnOf(frame, layer.name, CROSSING), { drawn } = all.get(layer.name);
-			const marks = new Marks(drawn, column ? await column.values() : null, () => this.tell());
-			drawn.setMarks(marks);
-			this.marks.push(marks);
-		}
+		this.marks = (on ? layers.filter((l) => l.triangles && l.triangles.rows) : []).map(({ name }) => new Marks(all.get(name).drawn, () => this.tell()));
+		this.marks.forEach((marks) => marks.drawn.setMarks(marks));
 		this.tell();
 	}
 
 	/* How many there are, of all layers that are seen. */
 	tell() {
-		const folds = this.marks.reduce((n, m) => n + m.folds, 0), faces = this.marks.reduce((n, m) => n + m.faces.length / 3, 0);
-		const unknown = this.marks.some((m) => !m.crossing), items = [[RED, count(folds) + (folds === 1 ? " folded edge" : " folded edges")]];
+		const folds = this.marks.reduce((n, m) => n + m.folds, 0), faces = this.marks.reduce((n, m) => n + (m.faces ? m.faces.length / 3 : NaN), 0);
+		const items = [[RED, count(folds) + (folds === 1 ? " folded edge" : " folded edges")],
+			[VIOLET, (Number.isNaN(faces) ? "…" : count(faces)) + (faces === 1 ? " intersecting face" : " intersecting faces")]];
 
-		if (this.known)
-			items.push([VIOLET, unknown ? "intersections: not looked for here" : count(faces) + (faces === 1 ? " intersecting face" : " intersecting faces")]);
+		this.changed();
 		$("flaw-list").replaceChildren(...(this.marks.length ? items : []).map(([color, words]) => {
 			const item = document.createElement("li"), swatch = document.createElement("i");
 			swatch.style.background = "rgb(" + color.join(",") + ")";

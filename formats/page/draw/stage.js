@@ -56,7 +56,6 @@ export class Stage {
 		this.cells = [{ title: "", layers: [] }]; /* what each panel has */
 		this.paints = false;
 		this.radius = 1;
-		this.drawn = () => {}; /* what is to be done after each picture */
 		const observer = new ResizeObserver(() => this.resize());
 		observer.observe(canvas);
 		observer.observe(foot);
@@ -187,12 +186,6 @@ export class Stage {
 			for (const [, drawn] of panel.layers)
 				this.scene.remove(drawn.group);
 		}
-		this.drawn();
-	}
-
-	/* How long a pixel is where the middle of the view is. */
-	unitsPerPixel() {
-		return 2 * Math.tan(ANGLE / 2 * Math.PI / 180) * this.camera.position.distanceTo(this.controls.target) / this.panels()[0].height;
 	}
 
 	/*

@@ -1,19 +1,26 @@
-/* A surface as the page shows it: what a ray meets, what the eye sees, discs over it, its folded edges. */
+/* A surface as the page shows it: with what normals, what a ray meets, what the eye sees, discs over it, its
+ * flaws. */
 #include "formats/page/library/export.h"
 #include "mesh/edges.h"
 #include "mesh/fold.h"
 #include "space/bvh.h"
 #include "space/geodesic.h"
+#include "space/self_intersect.h"
 
 typedef struct surface {
-	mr_ctx ctx, tree, keep; /* of what stands; of the tree, as long as nothing moves; of the edges */
+	mr_ctx ctx, tree, list; /* of what stands; of the tree; of what was found last */
 	mr_mesh m;
-	mr_v3 *p;
+	mr_v3 *p, *cross; /* of the vertices, and of the faces, as mr_face_cross has it */
 	mr_incidence around;
 	mr_bvh *bvh;    /* NULL: not made yet */
 	mr_edges edges; /* of no count: not made yet */
 	double *distance;
 	uint32_t *found;
+	/* What is drawn: the vertices, and behind them one for each corner at a crease, with the faces that
+	 * it is shaded with */
+	size_t n;
+	uint32_t *index, *source, *end, *face;
+	float (*normal)[3];
 } surface;
 
 /* The vertices are at p, three floats each. */
@@ -23,7 +30,10 @@ surface_move(surface *s, const float (*p)[3])
 {
 	for (size_t v = 0; v < s->m.nv; v++)
 		s->p[v] = mr_vec(p[v][0], p[v][1], p[v][2]);
+	for (size_t f = 0; f < s->m.nf; f++)
+		s->cross[f] = mr_face_cross(&s->m, f);
 	mr_ctx_free(&s->tree);
+	mr_ctx_init(&s->tree, 1);
 	s->bvh = NULL;
 }
 
@@ -31,10 +41,10 @@ static mr_status
 begin(surface *s)
 {
 	s->p = MR_NEW(&s->ctx, s->m.nv, mr_v3);
+	s->cross = MR_NEW(&s->ctx, s->m.nf, mr_v3);
 	s->distance = MR_NEW(&s->ctx, s->m.nv, double);
-	s->found = MR_NEW(&s->ctx, s->m.nv + 6 * s->m.nf, uint32_t);
 	s->m.p = s->p;
-	return s->p && s->distance && s->found ? mr_incidence_build(&s->ctx, &s->m, &s->around) : MR_EMEM;
+	return s->p && s->cross && s->distance ? mr_incidence_build(&s->ctx, &s->m, &s->around) : MR_EMEM;
 }
 
 MR_EXPORT(surface_free)
@@ -43,7 +53,7 @@ surface_free(surface *s)
 {
 	mr_ctx_free(&s->ctx);
 	mr_ctx_free(&s->tree);
-	mr_ctx_free(&s->keep);
+	mr_ctx_free(&s->list);
 	free((void *)(uintptr_t)s->m.t);
 	free(s);
 }
@@ -59,7 +69,7 @@ surface_new(size_t nv, const mr_tri *t, size_t nf)
 		return NULL;
 	mr_ctx_init(&s->ctx, 1);
 	mr_ctx_init(&s->tree, 1);
-	mr_ctx_init(&s->keep, 1);
+	mr_ctx_init(&s->list, 1);
 	s->m = (mr_mesh){ "surface", NULL, t, nv, nf };
 	if (begin(s) == MR_OK)
 		return s;
@@ -106,18 +116,28 @@ surface_seen(const surface *s, const mr_v3 *eye, double near, uint32_t *vertex, 
 	return kept;
 }
 
+/* Room for a list of what is found; false: there is none. */
+static bool
+make_list(surface *s, size_t n)
+{
+	mr_ctx_free(&s->list);
+	mr_ctx_init(&s->list, 1);
+	s->found = MR_NEW(&s->list, n, uint32_t);
+	return s->found;
+}
+
 /* The vertices no farther over the surface than that from a place on a face: how many; surface_found has
  * them. */
 MR_EXPORT(surface_disc)
 size_t
 surface_disc(surface *s, uint32_t face, const mr_v3 *place, double radius)
 {
-	mr_mark mark = mr_mark_take(&s->ctx);
 	size_t n = 0;
 
-	if (mr_geodesic_from(&s->ctx, &s->m, &s->around, face, *place, radius, s->distance) != MR_OK)
+	if (mr_geodesic_from(&s->list, &s->m, &s->around, face, *place, radius, s->distance) != MR_OK)
 		return 0;
-	mr_mark_release(&s->ctx, mark);
+	if (!make_list(s, s->m.nv))
+		return 0;
 	for (uint32_t v = 0; v < s->m.nv; v++)
 		if (s->distance[v] <= radius)
 			s->found[n++] = v;
@@ -132,13 +152,15 @@ surface_folds(surface *s)
 	const mr_mesh *m = &s->m;
 	size_t n = 0;
 
-	if (!s->edges.count && mr_edges_build(&s->keep, m, &s->edges) != MR_OK)
+	if (!s->edges.count && mr_edges_build(&s->ctx, m, &s->edges) != MR_OK)
+		return 0;
+	if (!make_list(s, 2 * s->edges.count))
 		return 0;
 	for (size_t e = 0; e < s->edges.count; e++) {
 		const uint32_t *h = s->edges.he + s->edges.start[e];
 		if (mr_edge_faces(&s->edges, e) != 2)
 			continue;
-		mr_v3 a = mr_face_cross(m, h[0] / 3), b = mr_face_cross(m, h[1] / 3);
+		mr_v3 a = s->cross[h[0] / 3], b = s->cross[h[1] / 3];
 		if (!mr_folds(a, mr_same_direction(m, h[0], h[1]) ? mr_mul(-1, b) : b, MR_FOLD))
 			continue;
 		s->found[n++] = mr_he_from(m, h[0]);
@@ -147,9 +169,138 @@ surface_folds(surface *s)
 	return n / 2;
 }
 
+/* How many faces intersect others; surface_found has their corners.  With its tree. */
+MR_EXPORT(surface_crossings)
+size_t
+surface_crossings(surface *s)
+{
+	mr_mark mark = mr_mark_take(&s->tree);
+	bool *crosses = MR_NEW(&s->tree, s->m.nf, bool);
+	size_t pairs, n = 0;
+
+	if (!crosses || mr_self_intersections(&s->tree, s->bvh, &s->m, crosses, &pairs) != MR_OK ||
+	    !make_list(s, 3 * s->m.nf))
+		return 0;
+	for (size_t k = 0; k < 3 * s->m.nf; k++)
+		if (crosses[k / 3])
+			s->found[n++] = s->m.t[k / 3].v[k % 3];
+	mr_mark_release(&s->tree, mark);
+	return n / 3;
+}
+
 MR_EXPORT(surface_found)
 const uint32_t *
 surface_found(const surface *s)
 {
 	return s->found;
+}
+
+/* Faces farther apart are not shaded as one, as in mr-render; a vertex is asked whose normal is farther from
+ * a face. */
+static const double CREASE = 0.70710678118654752,
+		    BENT = 0.90630778703664996; /* cosines of 45 and 25 degrees */
+
+static mr_v3
+sum_faces(const surface *s, const uint32_t *face, size_t n)
+{
+	mr_v3 sum = { 0, 0, 0 };
+
+	for (size_t i = 0; i < n; i++)
+		sum = mr_add(sum, s->cross[face[i]]);
+	return mr_unit(sum);
+}
+
+static bool
+within(const surface *s, mr_v3 normal, uint32_t f, double cosine)
+{
+	return mr_dot(normal, s->cross[f]) >= cosine * mr_norm(s->cross[f]);
+}
+
+/* Gives the corners of a vertex at a crease vertices of their own. */
+static mr_status
+part_vertex(surface *s, uint32_t v, size_t *room, size_t *faces, size_t *face_room)
+{
+	const uint32_t *f = s->around.face + s->around.start[v];
+	size_t n = s->around.start[v + 1] - s->around.start[v];
+
+	for (size_t i = 0; i < n; i++) {
+		size_t source_room = *room;
+		mr_v3 own = mr_unit(s->cross[f[i]]);
+		MR_TRY(MR_RESERVE(&s->ctx, s->source, s->n, 1, &source_room));
+		MR_TRY(MR_RESERVE(&s->ctx, s->end, s->n, 1, room));
+		MR_TRY(MR_RESERVE(&s->ctx, s->face, *faces, n, face_room));
+		for (size_t j = 0; j < n; j++)
+			if (j == i || within(s, own, f[j], CREASE))
+				s->face[(*faces)++] = f[j];
+		for (int k = 0; k < 3; k++)
+			if (s->m.t[f[i]].v[k] == v)
+				s->index[3 * f[i] + (uint32_t)k] = (uint32_t)(s->m.nv + s->n);
+		s->source[s->n] = v;
+		s->end[s->n++] = (uint32_t)*faces;
+	}
+	return MR_OK;
+}
+
+static mr_status
+part(surface *s)
+{
+	size_t room = 0, faces = 0, face_room = 0;
+
+	s->index = MR_NEW(&s->ctx, 3 * s->m.nf, uint32_t);
+	if (!s->index)
+		return MR_EMEM;
+	memcpy(s->index, s->m.t, 3 * s->m.nf * sizeof *s->index);
+	for (uint32_t v = 0; v < s->m.nv; v++) {
+		size_t first = s->around.start[v], n = s->around.start[v + 1] - first;
+		mr_v3 normal = sum_faces(s, s->around.face + first, n);
+		bool bent = false;
+		for (size_t i = 0; i < n && !bent; i++)
+			bent = !within(s, normal, s->around.face[first + i], BENT);
+		if (bent)
+			MR_TRY(part_vertex(s, v, &room, &faces, &face_room));
+	}
+	s->normal = mr_alloc(&s->ctx, s->m.nv + s->n, sizeof *s->normal);
+	return s->normal ? MR_OK : MR_EMEM;
+}
+
+/* Parts its vertices where it has creases now: how many vertices there are beside its own, or MR_NONE; and of
+ * these which they stand for; the triangles of all. */
+MR_EXPORT(surface_part)
+size_t
+surface_part(surface *s)
+{
+	return part(s) == MR_OK ? s->n : MR_NONE;
+}
+
+MR_EXPORT(surface_source)
+const uint32_t *
+surface_source(const surface *s)
+{
+	return s->source;
+}
+
+MR_EXPORT(surface_index)
+const uint32_t *
+surface_index(const surface *s)
+{
+	return s->index;
+}
+
+/* Unit normals of all these vertices, as they are now. */
+MR_EXPORT(surface_normals)
+const void *
+surface_normals(surface *s)
+{
+	size_t nv = s->m.nv;
+
+	for (size_t i = 0; i < nv + s->n; i++) {
+		const uint32_t *face = i < nv ? s->around.face : s->face;
+		size_t first = i < nv ? s->around.start[i] : i == nv ? 0 : s->end[i - nv - 1];
+		size_t end = i < nv ? s->around.start[i + 1] : s->end[i - nv];
+		mr_v3 normal = sum_faces(s, face + first, end - first);
+		s->normal[i][0] = (float)normal.x;
+		s->normal[i][1] = (float)normal.y;
+		s->normal[i][2] = (float)normal.z;
+	}
+	return s->normal;
 }

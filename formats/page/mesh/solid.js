@@ -1,21 +1,43 @@
-/* solid.js -- a surface that is drawn in the library's memory: what a ray meets, what the eye sees, discs over it, folds. */
+/* solid.js -- a surface that is drawn in the library's memory: how it is shaded, what a ray meets, what the eye sees, discs over it, flaws. */
 import { library } from "../library/compile.js";
 
 const NONE = 0xffffffff;
 
 export class Solid {
-	/* position: of floats, and may change: then it is to be told by move(). */
+	/* position: of floats, and may change: then it is to be told by move().  Its creases are where they are now. */
 	constructor(position, triangles) {
-		this.position = position;
-		this.at = library.had(library.run.surface_new(position.length / 3, library.put(triangles), triangles.length / 3));
-		this.move();
+		this.vertices = position.length / 3;
+		this.at = library.had(library.run.surface_new(this.vertices, library.put(triangles), triangles.length / 3));
+		this.move(position);
+		const parted = library.run.surface_part(this.at) >>> 0;
+		library.had(parted !== NONE);
+		this.index = library.get(Uint32Array, library.run.surface_index(this.at), triangles.length);
+		this.source = Uint32Array.from({ length: this.vertices + parted }, (_, v) => v);
+		this.source.set(library.get(Uint32Array, library.run.surface_source(this.at), parted), this.vertices);
+		this.position = new Float32Array(3 * this.source.length);
+		this.normal = new Float32Array(3 * this.source.length);
+		this.shade(position);
 	}
 
-	move() {
-		const at = library.put(this.position);
+	move(position) {
+		const at = library.put(position);
 
 		library.run.surface_move(this.at, at);
 		library.free(at);
+	}
+
+	/* Places and normals of what is drawn: position, normal, index, and `source`, the vertex that each drawn one stands for. */
+	shade(p) {
+		const { position, source } = this;
+
+		position.set(p);
+		for (let i = p.length; i < position.length; i += 3) {
+			const v = 3 * source[i / 3];
+			position[i] = p[v];
+			position[i + 1] = p[v + 1];
+			position[i + 2] = p[v + 2];
+		}
+		library.get(Float32Array, library.run.surface_normals(this.at), position.length, this.normal);
 	}
 
 	/* Makes what rays ask for, which takes a moment, where it is not there. */
@@ -56,6 +78,14 @@ export class Solid {
 		const n = library.run.surface_folds(this.at);
 
 		return library.get(Uint32Array, library.run.surface_found(this.at), 2 * n);
+	}
+
+	/* The corners of faces that intersect others. */
+	crossings() {
+		this.prepare();
+		const n = library.run.surface_crossings(this.at);
+
+		return library.get(Uint32Array, library.run.surface_found(this.at), 3 * n);
 	}
 
 	free() {

@@ -1,11 +1,8 @@
 /* layers.js -- what a frame has to show: its layers with positions, their columns, and which layer comes first. */
 import { columnOf, linesOf } from "./stream.js";
 
-/* Faces that intersect, 1, and others, 0: they are marked. */
-export const CROSSING = "self_intersections";
-
 /* Columns that are no values to colour by: places, and what poses or subdivides them. */
-const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease", "texcoord", "corner_texcoord", CROSSING]);
+const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease", "texcoord", "corner_texcoord"]);
 
 /* In place of a column to colour by: no column's name has a blank. */
 export const TEXTURE = " texture";
