@@ -1,9 +1,8 @@
 """flaws.py -- see flaws.sh, which made the pages."""
 import json
-import math
 
 from browser import Browser
-from checks import Camera, box, check, columns, cross, dot, end, sub
+from checks import box, check, columns, cross, dot, end, sub
 
 
 def red(p):
