@@ -27,7 +27,7 @@ function rows(Type, what, ofBase, n, out) {
 
 function pose(values, { base, mesh } = {}) {
 	library.set(maps, values);
-	library.had(library.run.body_pose(body, maps));
+	library.run.body_pose(body, maps);
 	return { base: rows(Float32Array, "body_places", true, 3, base), mesh: rows(Float32Array, "body_places", false, 3, mesh) };
 }
 

@@ -1,12 +1,13 @@
 /*
  * A base with its detail that handles pose, for the page: one of several parts of it, each a worker's.  A
- * part is a range of the base's vertices, with so many rings around it that it turns as the whole does, and
- * the rows of detail that stand there.
+ * part is a range of the base's vertices along the Z curve, with so many rings around it that it turns as the
+ * whole does, and the rows of detail that stand there, all in that order: memory far apart is slow.
  */
 #include "edit/deform.h"
 #include "edit/phong.h"
 #include "formats/page/library/export.h"
 #include "formats/page/library/turning.h"
+#include "mesh/zorder.h"
 
 /* What the page has of all of it, malloc's. */
 typedef struct whole {
@@ -36,15 +37,15 @@ typedef struct body {
 	mr_ctx ctx;
 	size_t handles;
 	mr_v3 origin;
-	const mr_v3 *position;
-	const double *response;
+	const d4 *position;
+	const v4 *response; /* of the vertices to handle 0, of room for `stride`; then to the next */
+	size_t stride;
 	mr_mesh base; /* at rest */
 	mr_turning turning;
 	size_t rows, offsets;
 	stand *stand;
 	apart *apart;
-	mr_v3 *places; /* of the base, as posed */
-	d4 *wide;
+	d4 *places; /* of the base, as posed */
 	float (*out)[3], (*base_out)[3];
 	const uint32_t *vertex, *row; /* of the whole */
 } body;
@@ -64,73 +65,109 @@ grow(const whole *w, bool *set, bool *grown)
 	memcpy(set, grown, w->nv);
 }
 
-/* The rows whose face's first corner is within [first, end), and in `set` all vertices that the part asks
- * for. */
+/* The order of n things by keys below `keys`, equal ones as they were. */
 static mr_status
-choose(body *b, const whole *w, size_t first, size_t end, bool *set)
+order_by(mr_ctx *ctx, const uint32_t *key, size_t n, size_t keys, uint32_t **order)
 {
-	bool *grown = MR_NEW(&b->ctx, w->nv, bool);
-	uint32_t *row = MR_NEW(&b->ctx, w->n, uint32_t);
+	uint32_t *next = MR_NEW_ZERO(ctx, keys + 1, uint32_t);
 
-	if (!grown || !row)
+	*order = MR_NEW(ctx, n, uint32_t);
+	if (!next || !*order)
 		return MR_EMEM;
-	memset(set + first, true, end - first);
-	for (uint32_t i = 0; i < w->n; i++) {
-		const uint32_t *v = w->triangles[w->face[i]].v;
-		if (v[0] < first || v[0] >= end)
-			continue;
-		set[v[1]] = set[v[2]] = true;
-		row[b->rows++] = i;
-	}
-	for (int i = 0; i < RINGS && end - first < w->nv; i++)
-		grow(w, set, grown);
-	b->row = row;
+	for (size_t i = 0; i < n; i++)
+		next[key[i] + 1]++;
+	for (size_t k = 0; k < keys; k++)
+		next[k + 1] += next[k];
+	for (uint32_t i = 0; i < n; i++)
+		(*order)[next[key[i]]++] = i;
 	return MR_OK;
 }
 
-/* The vertices that are set, with what is known of them; place: where each has come. */
+/* The rows by the rank of their face's first corner, of those where that is within [first, end), and in `set`
+ * all vertices that the part asks for. */
 static mr_status
-take_vertices(body *b, const whole *w, const bool *set, uint32_t *place)
+choose(body *b, const whole *w, const uint32_t *rank, size_t first, size_t end, bool *set)
 {
-	size_t width = 4 * w->handles, nv = 0;
+	bool *grown = MR_NEW(&b->ctx, w->nv, bool);
+	uint32_t *key = MR_NEW(&b->ctx, w->n, uint32_t), *row;
+	size_t before = 0;
+
+	if (!grown || !key)
+		return MR_EMEM;
+	for (size_t v = 0; v < w->nv; v++)
+		set[v] = rank[v] >= first && rank[v] < end;
+	for (uint32_t i = 0; i < w->n; i++) {
+		const uint32_t *v = w->triangles[w->face[i]].v;
+		key[i] = rank[v[0]];
+		before += key[i] < first;
+		if (key[i] < first || key[i] >= end)
+			continue;
+		set[v[1]] = set[v[2]] = true;
+		b->rows++;
+	}
+	for (int i = 0; i < RINGS && end - first < w->nv; i++)
+		grow(w, set, grown);
+	MR_TRY(order_by(&b->ctx, key, w->n, w->nv, &row));
+	b->row = row + before;
+	return MR_OK;
+}
+
+/* The vertices that are set, in that order, with what is known of them; place: where each has come. */
+static mr_status
+take_vertices(body *b, const whole *w, const uint32_t *order, const bool *set, uint32_t *place)
+{
+	size_t nv = 0;
 	uint32_t *vertex = MR_NEW(&b->ctx, w->nv, uint32_t);
-	mr_v3 *position = MR_NEW(&b->ctx, w->nv, mr_v3), *rest = MR_NEW(&b->ctx, w->nv, mr_v3);
-	double *response = mr_alloc(&b->ctx, w->nv, width * sizeof *response);
+	mr_v3 *rest = MR_NEW(&b->ctx, w->nv, mr_v3);
+	d4 *position = MR_NEW(&b->ctx, w->nv, d4);
+	v4 *response = mr_alloc(&b->ctx, w->nv * w->handles, sizeof *response);
 
 	if (!vertex || !position || !rest || !response)
 		return MR_EMEM;
-	for (uint32_t v = 0; v < w->nv; v++) {
+	for (size_t i = 0; i < w->nv; i++) {
+		uint32_t v = order[i];
 		place[v] = set[v] ? (uint32_t)nv : MR_NONE;
 		if (!set[v])
 			continue;
 		vertex[nv] = v;
-		position[nv] = w->position[v];
+		position[nv] = (d4){ w->position[v].x, w->position[v].y, w->position[v].z, 0 };
 		rest[nv] = w->rest[v];
-		memcpy(response + width * nv, w->response + width * v, width * sizeof *response);
+		for (size_t h = 0; h < w->handles; h++) {
+			const double *r = w->response + 4 * (w->handles * v + h);
+			response[w->nv * h + nv] = (v4){ (float)r[0], (float)r[1], (float)r[2], (float)r[3] };
+		}
 		nv++;
 	}
 	b->vertex = vertex;
 	b->position = position;
 	b->response = response;
+	b->stride = w->nv;
 	b->base = (mr_mesh){ "base", rest, NULL, nv, 0 };
 	return MR_OK;
 }
 
-/* The faces between them. */
+/* The faces between them, by their first vertex. */
 static mr_status
 take_faces(body *b, const whole *w, const uint32_t *place)
 {
 	mr_tri *t = MR_NEW(&b->ctx, w->nf, mr_tri);
+	uint32_t *least = MR_NEW(&b->ctx, w->nf, uint32_t), *order;
 
-	if (!t)
+	if (!t || !least)
 		return MR_EMEM;
-	b->base.t = t;
 	for (size_t f = 0; f < w->nf; f++) {
 		const uint32_t *v = w->triangles[f].v;
-		const uint32_t a = place[v[0]], c = place[v[1]], d = place[v[2]];
-		if (a != MR_NONE && c != MR_NONE && d != MR_NONE)
-			t[b->base.nf++] = (mr_tri){ { a, c, d } };
+		uint32_t a = place[v[0]], c = place[v[1]], d = place[v[2]], low = a < c ? a : c;
+		bool there = a != MR_NONE && c != MR_NONE && d != MR_NONE;
+		least[f] = there ? low < d ? low : d : (uint32_t)b->base.nv;
+		b->base.nf += there;
 	}
+	MR_TRY(order_by(&b->ctx, least, w->nf, b->base.nv + 1, &order));
+	for (size_t f = 0; f < b->base.nf; f++) {
+		const uint32_t *v = w->triangles[order[f]].v;
+		t[f] = (mr_tri){ { place[v[0]], place[v[1]], place[v[2]] } };
+	}
+	b->base.t = t;
 	return MR_OK;
 }
 
@@ -176,23 +213,26 @@ take_rows(body *b, const whole *w, const mr_v3 *normal, const uint32_t *place)
 static mr_status
 take_part(body *b, const whole *w, size_t k, size_t parts)
 {
+	uint32_t *order = MR_NEW(&b->ctx, w->nv, uint32_t), *rank = MR_NEW(&b->ctx, w->nv, uint32_t);
 	uint32_t *place = MR_NEW(&b->ctx, w->nv, uint32_t);
-	bool *set = MR_NEW_ZERO(&b->ctx, w->nv, bool);
+	bool *set = MR_NEW(&b->ctx, w->nv, bool);
 	mr_v3 *normal = MR_NEW(&b->ctx, w->nv, mr_v3);
 
-	if (!place || !set || !normal)
+	if (!order || !rank || !place || !set || !normal)
 		return MR_EMEM;
-	MR_TRY(choose(b, w, w->nv * k / parts, w->nv * (k + 1) / parts, set));
-	MR_TRY(take_vertices(b, w, set, place));
+	MR_TRY(mr_zorder(&b->ctx, w->rest, w->nv, MR_ZORDER_CELLS, order));
+	for (uint32_t i = 0; i < w->nv; i++)
+		rank[order[i]] = i;
+	MR_TRY(choose(b, w, rank, w->nv * k / parts, w->nv * (k + 1) / parts, set));
+	MR_TRY(take_vertices(b, w, order, set, place));
 	MR_TRY(take_faces(b, w, place));
 	MR_TRY(mr_vertex_normals(&b->ctx, &b->base, NULL, normal));
 	MR_TRY(mr_turning_begin(&b->ctx, &b->base, normal, &b->turning));
 	MR_TRY(take_rows(b, w, normal, place));
-	b->places = MR_NEW(&b->ctx, b->base.nv, mr_v3);
-	b->wide = MR_NEW(&b->ctx, b->base.nv, d4);
+	b->places = MR_NEW(&b->ctx, b->base.nv, d4);
 	b->out = mr_alloc(&b->ctx, b->rows, sizeof *b->out);
 	b->base_out = mr_alloc(&b->ctx, b->base.nv, sizeof *b->base_out);
-	return b->places && b->wide && b->out && b->base_out ? MR_OK : MR_EMEM;
+	return b->places && b->out && b->base_out ? MR_OK : MR_EMEM;
 }
 
 /* NULL where there is no memory. */
@@ -210,38 +250,53 @@ body_new(const whole *w, size_t k, size_t parts)
 	return take_part(b, w, k, parts) == MR_OK ? b : NULL;
 }
 
-/* Places of n vertices by their response, to maps about `origin`, and a map for each handle. */
-static mr_status
-respond(mr_ctx *ctx, const mr_v3 *p, size_t n, const double *response, size_t handles, mr_v3 origin,
-    const mr_affine *map, mr_v3 *out)
+/* The map about the origin that does what another does about `origin`. */
+static mr_affine
+about(const mr_affine *map, mr_v3 origin)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	mr_affine *about = MR_NEW(ctx, handles, mr_affine);
-	mr_status status;
+	mr_v3 moved = mr_sub(mr_apply(map, origin), origin);
+	mr_affine a = *map;
 
-	if (!about)
-		return MR_EMEM;
-	for (size_t h = 0; h < handles; h++) {
-		mr_v3 moved = mr_sub(mr_apply(&map[h], origin), origin);
-		about[h] = map[h];
-		about[h].m[3] = moved.x, about[h].m[7] = moved.y, about[h].m[11] = moved.z;
-	}
-	status = mr_pose_by_response(ctx, p, n, response, handles, about, out);
-	mr_mark_release(ctx, mark);
-	return status;
+	a.m[3] = moved.x, a.m[7] = moved.y, a.m[11] = moved.z;
+	return a;
 }
 
-/* The same without a body. */
+/* As mr_pose_by_response does, handle by handle: those that do not move cost nothing. */
+static void
+respond(body *b, const mr_affine *map)
+{
+	const d4 *from = b->position;
+
+	for (size_t h = 0; h < b->handles; h++) {
+		const mr_affine a = about(&map[h], b->origin);
+		const double *m = a.m;
+		const d4 x = { m[0] - 1, m[4], m[8], 0 }, y = { m[1], m[5] - 1, m[9], 0 };
+		const d4 z = { m[2], m[6], m[10] - 1, 0 }, one = { m[3], m[7], m[11], 0 };
+		if (mr_is_identity(&map[h]))
+			continue;
+		for (size_t v = 0; v < b->base.nv; v++) {
+			const d4 w = __builtin_convertvector(b->response[b->stride * h + v], d4);
+			b->places[v] = from[v] + x * w[0] + y * w[1] + z * w[2] + one * w[3];
+		}
+		from = b->places;
+	}
+	if (from == b->position)
+		memcpy(b->places, from, b->base.nv * sizeof *from);
+}
+
+/* Places of n vertices by their response to maps about `origin`, a map for each handle; map: changed. */
 MR_EXPORT(pose_by_response)
 bool
 pose_by_response(const mr_v3 *p, size_t n, const double *response, size_t handles, const mr_v3 *origin,
-    const mr_affine *map, mr_v3 *out)
+    mr_affine *map, mr_v3 *out)
 {
 	mr_ctx ctx;
 	mr_status status;
 
+	for (size_t h = 0; h < handles; h++)
+		map[h] = about(&map[h], *origin);
 	mr_ctx_init(&ctx, 1);
-	status = respond(&ctx, p, n, response, handles, *origin, map, out);
+	status = mr_pose_by_response(&ctx, p, n, response, handles, map, out);
 	mr_ctx_free(&ctx);
 	return status == MR_OK;
 }
@@ -249,13 +304,9 @@ pose_by_response(const mr_v3 *p, size_t n, const double *response, size_t handle
 static void
 put_base(body *b)
 {
-	for (size_t v = 0; v < b->base.nv; v++) {
-		mr_v3 p = b->places[v];
-		b->wide[v] = (d4){ p.x, p.y, p.z, 0 };
-		b->base_out[v][0] = (float)p.x;
-		b->base_out[v][1] = (float)p.y;
-		b->base_out[v][2] = (float)p.z;
-	}
+	for (size_t v = 0; v < b->base.nv; v++)
+		for (int k = 0; k < 3; k++)
+			b->base_out[v][k] = (float)b->places[v][k];
 }
 
 /* b + h n.  Where the normals of its corners cancel there is no height that mr-encode calls sound. */
@@ -266,8 +317,8 @@ put_row(const body *b, const stand *s, float out[3])
 	const v4 *n = b->turning.turned;
 	const v4 m = s->weight[0] * n[c[0]] + s->weight[1] * n[c[1]] + s->weight[2] * n[c[2]], m2 = m * m;
 	const float size = m2[0] + m2[1] + m2[2];
-	const d4 p = s->weight[0] * b->wide[c[0]] + s->weight[1] * b->wide[c[1]] +
-	             s->weight[2] * b->wide[c[2]];
+	const d4 p = s->weight[0] * b->places[c[0]] + s->weight[1] * b->places[c[1]] +
+	             s->weight[2] * b->places[c[2]];
 	const v4 at = __builtin_convertvector(p, v4) + m * (size > 0 ? s->height / __builtin_sqrtf(size) : 0);
 
 	for (int k = 0; k < 3; k++)
@@ -288,19 +339,16 @@ add_offset(const body *b, const apart *a)
 
 /* Poses it by a map for each handle. */
 MR_EXPORT(body_pose)
-bool
+void
 body_pose(body *b, const mr_affine *map)
 {
-	if (respond(&b->ctx, b->position, b->base.nv, b->response, b->handles, b->origin, map, b->places) !=
-	    MR_OK)
-		return false;
+	respond(b, map);
 	put_base(b);
-	mr_turning_find(&b->turning, b->wide);
+	mr_turning_find(&b->turning, b->places);
 	for (size_t i = 0; i < b->rows; i++)
 		put_row(b, &b->stand[i], b->out[i]);
 	for (size_t i = 0; i < b->offsets; i++)
 		add_offset(b, &b->apart[i]);
-	return true;
 }
 
 /* Of base, or else of the detail: the places as floats, how many there are, and which of the whole. */
