@@ -7,19 +7,6 @@
 
 #include <limits.h>
 
-/* Columns of numbers of triangles of a layer. */
-static const struct {
-	const char *column, *of;
-} references[] = {
-	{ "detail_face", "base" },
-	{ "source_face", "mesh" },
-	{ "mesh_face", "mesh" },
-	{ "base_face", "base" },
-	{ "control_face", "control" },
-};
-
-static const char *const samplings[] = { "spacing", "outlier", "repeat", "sampling" };
-
 /* One column of a layer in all frames. */
 typedef struct joined {
 	mr_frame *const *frames;
@@ -135,15 +122,6 @@ rows_of_all(const joined *j)
 }
 
 static const char *
-layer_referred_to(const char *column)
-{
-	for (size_t i = 0; i < sizeof references / sizeof *references; i++)
-		if (!strcmp(references[i].column, column))
-			return references[i].of;
-	return NULL;
-}
-
-static const char *
 names_of(const char *column)
 {
 	for (size_t i = 0; i < MR_NAMINGS; i++)
@@ -219,12 +197,13 @@ follow_rows(mr_ctx *ctx, const joined *j, uint32_t *x, size_t n, size_t more, fo
 static mr_status
 follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, following *w)
 {
-	const char *of = layer_referred_to(j->name), *names = names_of(j->name);
+	const mr_column_info *info = mr_column_of(j->layer, j->name);
+	const char *names = names_of(j->name);
 
 	if (names)
 		return follow_names(ctx, j, i, names, x, n, w);
-	if (of)
-		return follow_rows(ctx, j, x, n, rows_of(j->frames[i], of, 'f'), w);
+	if (info && info->kind == MR_NUMBER)
+		return follow_rows(ctx, j, x, n, rows_of(j->frames[i], info->refers, 'f'), w);
 	if (!strcmp(j->name, "triangles"))
 		return follow_rows(ctx, j, x, n, rows_of(j->frames[i], j->layer, 'v'), w);
 	return strcmp(j->name, "polygon") ? MR_OK : follow_rows(ctx, j, x, n, polygons_of(x, n), w);
@@ -290,12 +269,11 @@ frames_with(const joined *j, const char *layer)
 }
 
 static bool
-is_sampling(const char *name)
+is_sampling(const joined *j)
 {
-	for (size_t i = 0; i < sizeof samplings / sizeof *samplings; i++)
-		if (!strcmp(samplings[i], name))
-			return true;
-	return false;
+	const mr_column_info *info = mr_column_of(j->layer, j->name);
+
+	return info && info->kind == MR_SAMPLED;
 }
 
 /* Whether the column belongs to one frame alone. */
@@ -306,7 +284,7 @@ is_of_one(const joined *j)
 		return frames_with(j, "handles") > 1 || j->posable > 1;
 	if (!strcmp(j->layer, "displacement"))
 		return frames_with(j, "control") > 1 || frames_with(j, "displacement") > 1;
-	return frames_with(j, j->layer) > 1 && is_sampling(j->name);
+	return frames_with(j, j->layer) > 1 && is_sampling(j);
 }
 
 /* Whether a column of no rows says the same in all frames with the layer. */
@@ -537,7 +515,7 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 			leave = is_of_one(j);
 			if (!leave)
 				MR_TRY(join_column(ctx, j, out, &leave));
-			if (leave && !is_sampling(j->name))
+			if (leave && !is_sampling(j))
 				mr_text_name(&left, &n, j->name);
 		}
 	mr_text_more(&left, n);

@@ -4,66 +4,10 @@
 #include "base/text.h"
 #include "mesh/normals.h"
 
-/* The one table of what the columns are.  Extend it with each new column; man/mr.7 shows it. */
-const mr_column_info mr_columns[] = {
-	{ NULL, "position", { 'v', 'd', 3 }, "where the vertex is" },
-	{ NULL, "triangles", { 'f', 'u', 3 }, "corners, counter-clockwise seen from outside" },
-	{ NULL, "normal", { 'v', 'd', 3 }, "unit normal" },
-	{ NULL, "color", { 'v', 'b', 4 }, "red, green, blue, alpha" },
-	{ NULL, "texcoord", { 'v', 'd', 2 }, "texture coordinates" },
-	{ NULL, "corner_texcoord", { 'f', 'd', 6 }, "those of the corners, NaN of one without" },
-	{ NULL, "corner_normal", { 'f', 'd', 9 }, "normals of the corners, 0 of one without" },
-	{ NULL, "polygon", { 'f', 'u', 1 }, "the polygon that the triangle is a part of" },
-	{ NULL, "group", { 'f', 'u', 1 }, "index into groups" },
-	{ NULL, "groups", { '-', 't', 1 }, "names of the groups, one a line" },
-	{ NULL, "object", { 'f', 'u', 1 }, "index into objects" },
-	{ NULL, "objects", { '-', 't', 1 }, "names of the objects, one a line" },
-	{ NULL, "material", { 'f', 'u', 1 }, "index into materials" },
-	{ NULL, "materials", { '-', 't', 1 }, "names of the materials, one a line" },
-	{ NULL, "mtllib", { '-', 't', 1 }, "files of the materials, one a line" },
-	{ NULL, "smoothing", { 'f', 'u', 1 }, "smoothing group, 0 none" },
-	{ NULL, "properties", { '-', 't', 1 }, "types of the columns that PLY adds, one a line" },
-	{ NULL, "region", { 'v', 'u', 1 }, "0 fixed, 1 free, 2 + N handle N" },
-	{ NULL, "mesh_face", { 'v', 'u', 1 }, "triangle of mesh that the vertex lies on" },
-	{ NULL, "mesh_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
-	{ NULL, "base_face", { 'v', 'u', 1 }, "triangle of base that the vertex lies on" },
-	{ NULL, "base_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
-	{ NULL, "control_face", { 'v', 'u', 1 }, "triangle of control that the vertex lies on" },
-	{ NULL, "control_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
-	{ NULL, "scanner", { 'v', 'd', 3 }, "from where the point was seen" },
-	{ NULL, "spacing", { 'v', 'd', 1 }, "side of the square of surface that the point has to itself" },
-	{ NULL, "outlier", { 'v', 'b', 1 }, "1 where the point is on no surface, else 0" },
-	{ NULL, "repeat", { 'v', 'b', 1 }, "1 where an earlier point is at the same place, else 0" },
-	{ NULL, "sampling", { '-', 'd', 2 }, "noise, and how many nearest points show the surface" },
-	{ "mesh", "detail_face", { 'v', 'u', 1 }, "base triangle below the vertex" },
-	{ "mesh", "detail_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
-	{ "mesh", "detail_height", { 'v', 'd', 1 }, "height along the base's Phong normal" },
-	{ "mesh", "detail_offset", { 'v', 'd', 3 }, "offset in the base's frame, where there is no height" },
-	{ "base", "source_face", { 'v', 'u', 1 }, "triangle of mesh that the vertex lies on" },
-	{ "base", "source_bary", { 'v', 'd', 3 }, "barycentric coordinates in it" },
-	{ "base", "encoded", { 'v', 'd', 3 }, "positions on which mesh was encoded" },
-	{ "base", "encoded_faces", { '-', 'u', 2 }, "fingerprint of the triangles that it had then" },
-	{ "base", "before", { 'v', 'd', 3 }, "positions from which its last pose began" },
-	{ "base", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
-	{ "base", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
-	{ "base", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
-	{ "control", "encoded", { 'v', 'd', 3 }, "positions before mr-solve moved it" },
-	{ "control", "crease", { 'f', 'b', 3 }, "1 where the edge from that corner on is sharp, else 0" },
-	{ "control", "rest", { 'v', 'd', 3 }, "positions on which the system is assembled" },
-	{ "control", "target", { 'v', 'd', 3 }, "free positions of constrained vertices" },
-	{ "control", "response", { 'v', 'd', 0 }, "what each handle's affine map does, 4 a handle" },
-	{ "handles", "transform", { 'v', 'd', 12 }, "3x4 affine map, row-major, on the rest position" },
-	{ "handles", "turn", { 'v', 'd', 3 }, "how it turned there: axis times radians, however many" },
-	{ "handles", "frames", { '-', 'u', 1 }, "how many deltas of a sequence follow the key" },
-	{ "displacement", "height", { 'v', 'd', 1 }, "height along the limit normal" },
-	{ "displacement", "level", { '-', 'u', 1 }, "subdivision level" },
-	{ "displacement", "range", { '-', 'd', 2 }, "heights of black and of white in their picture" },
-	{ NULL, NULL, { 0, 0, 0 }, NULL },
-};
-
 /*
- * What goes stale when a layer changes: its own columns (layer "="), another's, those of a name in any layer
- * (NULL), or all of a layer (name NULL).  `changed` NULL: any layer.
+ * What goes stale when a layer changes: its own columns (layer "="), another's,
+ * or all of a layer (name NULL), beside what refers to its triangles (mr_columns).  `changed` NULL: any
+ * layer.
  */
 static const struct {
 	mr_change change;
@@ -72,10 +16,6 @@ static const struct {
 	{ MR_POSED, NULL, "=", "normal" },
 	{ MR_POSED, NULL, "=", "corner_normal" },
 	{ MR_POSED, NULL, "=", "response" },
-	{ MR_POSED, NULL, "=", "spacing" },
-	{ MR_POSED, NULL, "=", "outlier" },
-	{ MR_POSED, NULL, "=", "repeat" },
-	{ MR_POSED, NULL, "=", "sampling" },
 	{ MR_RESHAPED, NULL, "=", "rest" },
 	{ MR_RESHAPED, "base", "base", "before" },
 	{ MR_RESHAPED, "control", "displacement", NULL },
@@ -85,73 +25,11 @@ static const struct {
 	{ MR_RECONNECTED, NULL, "=", "materials" },
 	{ MR_RECONNECTED, NULL, "=", "mtllib" },
 	{ MR_RECONNECTED, NULL, "=", "properties" },
-	{ MR_RECONNECTED, "base", "mesh", "detail_face" },
-	{ MR_RECONNECTED, "base", "mesh", "detail_bary" },
-	{ MR_RECONNECTED, "base", "mesh", "detail_height" },
-	{ MR_RECONNECTED, "base", "mesh", "detail_offset" },
-	{ MR_RECONNECTED, "mesh", "base", "source_face" },
-	{ MR_RECONNECTED, "mesh", "base", "source_bary" },
-	{ MR_RECONNECTED, "mesh", "base", "encoded" },
-	{ MR_RECONNECTED, "mesh", "base", "encoded_faces" },
 	{ MR_RECONNECTED, "base", "base", "encoded_faces" },
-	{ MR_RECONNECTED, "mesh", NULL, "mesh_face" },
-	{ MR_RECONNECTED, "mesh", NULL, "mesh_bary" },
-	{ MR_RECONNECTED, "base", NULL, "base_face" },
-	{ MR_RECONNECTED, "base", NULL, "base_bary" },
-	{ MR_RECONNECTED, "control", NULL, "control_face" },
-	{ MR_RECONNECTED, "control", NULL, "control_bary" },
 	{ MR_RESELECTED, NULL, "=", "response" },
 	{ MR_RESELECTED, "mesh", "base", "region" },
 	{ MR_RESELECTED, "mesh", "base", "response" },
 };
-
-static const mr_column_info *
-info_of(const char *layer, const char *name)
-{
-	for (const mr_column_info *c = mr_columns; c->name; c++)
-		if ((!c->layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name))
-			return c;
-	return NULL;
-}
-
-bool
-mr_column_known(const char *layer, const char *name)
-{
-	return info_of(layer, name) != NULL;
-}
-
-bool
-mr_column_of_surfaces(const char *name)
-{
-	return info_of("mesh", name) || info_of("base", name) || info_of("control", name);
-}
-
-bool
-mr_column_carried(const mr_column *c, const char *layer)
-{
-	if (strcmp(c->layer, layer) || c->shape.element != 'v' || c->shape.type == 't')
-		return false;
-	return !strcmp(c->name, "color") ||
-	       !(info_of(layer, c->name) || info_of("displacement", c->name) || info_of("mesh", c->name));
-}
-
-bool
-mr_are_labels(mr_shape shape, const void *values, size_t rows)
-{
-	const double *x = values;
-	size_t known = 0;
-
-	if (shape.type != 'd')
-		return true;
-	if (shape.components > 1)
-		return false;
-	for (size_t i = 0; i < rows; i++) {
-		if (isfinite(x[i]) && x[i] != floor(x[i]))
-			return false;
-		known += isfinite(x[i]);
-	}
-	return known > 0;
-}
 
 bool
 mr_layer_has(const mr_frame *f, const char *layer, const char *name)
@@ -174,7 +52,7 @@ unknown(mr_ctx *ctx, const char *layer, const char *name)
 mr_status
 mr_layer_get(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void **data, size_t *rows)
 {
-	const mr_column_info *c = info_of(layer, name);
+	const mr_column_info *c = mr_column_of(layer, name);
 	const mr_column *column = mr_frame_find(f, layer, name);
 	mr_shape shape;
 
@@ -203,7 +81,7 @@ mr_layer_get_rows(
 mr_status
 mr_layer_put(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, const void *data, size_t rows)
 {
-	const mr_column_info *c = info_of(layer, name);
+	const mr_column_info *c = mr_column_of(layer, name);
 
 	return c ? mr_frame_put(ctx, f, layer, name, c->shape, data, rows) : unknown(ctx, layer, name);
 }
@@ -212,7 +90,7 @@ mr_status
 mr_layer_put_wide(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, uint8_t components,
     const void *data, size_t rows)
 {
-	const mr_column_info *c = info_of(layer, name);
+	const mr_column_info *c = mr_column_of(layer, name);
 
 	if (!c)
 		return unknown(ctx, layer, name);
@@ -411,20 +289,42 @@ concerns(mr_change change, const char *layer, size_t i)
 	       (!dependents[i].changed || !strcmp(dependents[i].changed, layer));
 }
 
+void
+mr_layer_drop_kind(mr_frame *f, const char *layer, mr_attribute kind)
+{
+	for (const mr_column_info *c = mr_columns; c->name; c++)
+		if (c->kind == kind)
+			mr_frame_drop(f, layer, c->name, 0);
+}
+
+/* What refers to the layer's triangles. */
+static void
+drop_references(mr_frame *f, const char *layer)
+{
+	for (const mr_column_info *c = mr_columns; c->name; c++)
+		if (c->refers && !strcmp(c->refers, layer)) {
+			if (c->layer)
+				mr_frame_drop(f, c->layer, c->name, 0);
+			else
+				drop_everywhere(f, c->name);
+		}
+}
+
 /* own: whether columns of the layer itself go too, but for a file's own of such a name. */
 static void
 drop_dependents(mr_frame *f, const char *layer, mr_change change, bool own)
 {
+	if (change == MR_RECONNECTED)
+		drop_references(f, layer);
+	if (own && change != MR_RESELECTED)
+		mr_layer_drop_kind(f, layer, MR_SAMPLED);
 	for (size_t i = 0; i < sizeof dependents / sizeof *dependents; i++) {
 		const char *of = dependents[i].layer;
 		if (!concerns(change, layer, i))
 			continue;
-		if (of && *of == '=' && !(own && mr_column_known(layer, dependents[i].name)))
+		if (*of == '=' && !(own && mr_column_known(layer, dependents[i].name)))
 			continue;
-		if (of)
-			mr_frame_drop(f, *of == '=' ? layer : of, dependents[i].name, 0);
-		else
-			drop_everywhere(f, dependents[i].name);
+		mr_frame_drop(f, *of == '=' ? layer : of, dependents[i].name, 0);
 	}
 }
 
@@ -581,10 +481,10 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 static bool
 is_given(const mr_column *c)
 {
-	static const char *const names[] = { "color", "texcoord", "corner_texcoord", "group", "object",
-		"material", "smoothing", NULL };
+	const mr_column_info *info = mr_column_of(c->layer, c->name);
 
-	return c->shape.element != '-' && (!info_of(c->layer, c->name) || mr_is_one_of(c->name, names));
+	return c->shape.element != '-' && (!info || info->kind == MR_MEAN ||
+					      (info->kind == MR_LABEL && strcmp(c->name, "polygon") != 0));
 }
 
 /* What mr-select has done, where it is nowhere else: base has mesh's regions by mr-solve. */

@@ -8,31 +8,8 @@
 #ifndef MR_MESH_LAYERS_H
 #define MR_MESH_LAYERS_H
 
+#include "mesh/attributes.h"
 #include "mesh/mesh.h"
-#include "stream/frame.h"
-
-typedef struct mr_column_info {
-	const char *layer, *name; /* layer NULL: any */
-	mr_shape shape;           /* components 0: any number */
-	const char *what;
-} mr_column_info;
-
-/* Every column by convention; ends with a name of NULL. */
-extern const mr_column_info mr_columns[];
-
-/* Whether a column of this name is one by convention. */
-bool mr_column_known(const char *layer, const char *name);
-
-/* Whether it is one in any layer that is a surface, as which others may be taken. */
-bool mr_column_of_surfaces(const char *name);
-
-/* Whether it is a column of the layer's vertices that goes along from points by displacement to mesh: colour,
- * or none by convention of any of these. */
-bool mr_column_carried(const mr_column *c, const char *layer);
-
-/* Whether the values are labels, which have no mean: other than doubles, or doubles, one a row, all of which
- * are whole or missing (not finite), as a file's int is and, of some programs, its float. */
-bool mr_are_labels(mr_shape shape, const void *values, size_t rows);
 
 /* True for a layer that by convention holds something else than a surface. */
 bool mr_layer_no_surface(const char *layer);
@@ -86,6 +63,9 @@ mr_status mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has);
 /* Warns, of key frames, where what the change makes stale is the work of a tool: heights over control,
  * standing detail over base. */
 mr_status mr_layer_warn_of_work(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change);
+
+/* Drops the columns of a kind. */
+void mr_layer_drop_kind(mr_frame *f, const char *layer, mr_attribute kind);
 
 /* The layer's rows have other numbers: drops what refers to them from elsewhere. */
 void mr_layer_renumbered(mr_frame *f, const char *layer);

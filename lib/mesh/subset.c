@@ -74,17 +74,6 @@ mr_subset_find(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *keep, mr_
 	return MR_OK;
 }
 
-/* The rows of x that are kept, in the arena; NULL where memory cannot be had. */
-static void *
-gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *row, size_t n)
-{
-	char *kept = mr_alloc(ctx, n, size);
-
-	for (size_t i = 0; kept && i < n; i++)
-		memcpy(kept + i * size, (const char *)x + row[i] * size, size);
-	return kept;
-}
-
 static void
 renumber(mr_tri *t, size_t n, const uint32_t *number)
 {
@@ -94,30 +83,20 @@ renumber(mr_tri *t, size_t n, const uint32_t *number)
 }
 
 static mr_status
-keep_rows(mr_ctx *ctx, mr_frame *f, mr_column *c, const mr_subset *s)
+keep_rows(mr_ctx *ctx, mr_frame *f, size_t i, const mr_subset *s)
 {
-	bool faces = c->shape.element == 'f';
-	size_t n = faces ? s->nf : s->nv;
-	void *rows;
+	bool faces = f->columns[i].shape.element == 'f';
+	mr_rows_from kept = { faces ? s->nf : s->nv, 1, faces ? s->face : s->vertex, NULL };
+	char layer[MR_LAYER_MAX + 1];
+	mr_carried c;
 
-	MR_TRY(mr_column_decode(ctx, c));
-	rows = gather(
-	    ctx, c->data, mr_type_size(c->shape.type) * c->shape.components, faces ? s->face : s->vertex, n);
-	if (!rows)
-		return MR_EMEM;
-	if (!strcmp(c->name, "triangles"))
-		renumber(rows, n, s->number);
-	return mr_frame_put(ctx, f, c->layer, c->name, c->shape, rows, n);
-}
-
-/* The neighbourhoods of the points are others now. */
-static void
-drop_sampling(mr_frame *f, const char *layer)
-{
-	mr_frame_drop(f, layer, "spacing", 0);
-	mr_frame_drop(f, layer, "outlier", 0);
-	mr_frame_drop(f, layer, "repeat", 0);
-	mr_frame_drop(f, layer, "sampling", 0);
+	memcpy(layer, f->columns[i].layer, sizeof layer);
+	MR_TRY(mr_carried_begin(ctx, f, i, (size_t)f->columns[i].rows, kept.n, &c));
+	c.kind = MR_LABEL;
+	mr_carried_make(ctx, &c, 1, 0, kept);
+	if (!strcmp(c.name, "triangles"))
+		renumber(c.to, kept.n, s->number);
+	return mr_carried_put(ctx, f, layer, &c);
 }
 
 mr_status
@@ -132,11 +111,11 @@ mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 		return mr_layer_worked(ctx, f, layer);
 	if (detail)
 		on = *encoded;
-	drop_sampling(f, layer);
+	mr_layer_drop_kind(f, layer, MR_SAMPLED); /* the neighbourhoods of the points are others now */
 	MR_TRY(mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED));
 	for (size_t i = 0; i < f->count; i++)
 		if (!strcmp(f->columns[i].layer, layer) && f->columns[i].shape.element != '-')
-			MR_TRY(keep_rows(ctx, f, &f->columns[i], s));
+			MR_TRY(keep_rows(ctx, f, i, s));
 	mr_layer_renumbered(f, layer);
 	if (detail) /* what is left is still over the base on which it was encoded */
 		MR_TRY(mr_frame_pass(ctx, f, &on));

@@ -3,49 +3,24 @@
 
 static const double SUM_TOLERANCE = 1e-9;
 
-/* What a column is held to, besides its shape: `refers` names the layer, and element, that its values index.
- */
-static const struct {
-	const char *layer, *name; /* layer NULL: any */
-	const char *refers;       /* NULL: no indices; "": its own layer */
-	char element;
-	bool places;
-} laws[] = {
-	{ NULL, "triangles", "", 'v', false },
-	{ "mesh", "detail_face", "base", 'f', false },
-	{ "mesh", "detail_bary", NULL, 0, true },
-	{ "base", "source_face", "mesh", 'f', false },
-	{ "base", "source_bary", NULL, 0, true },
-	{ NULL, "mesh_face", "mesh", 'f', false },
-	{ NULL, "mesh_bary", NULL, 0, true },
-	{ NULL, "base_face", "base", 'f', false },
-	{ NULL, "base_bary", NULL, 0, true },
-	{ NULL, "control_face", "control", 'f', false },
-	{ NULL, "control_bary", NULL, 0, true },
-};
-
 static bool
-is(const mr_column *c, const char *layer, const char *name)
+is(const mr_column *c, const char *name)
 {
-	return (!layer || !strcmp(c->layer, layer)) && !strcmp(c->name, name);
+	return !strcmp(c->name, name);
 }
 
 static mr_status
 check_shape(mr_ctx *ctx, const mr_column *c)
 {
-	for (const mr_column_info *i = mr_columns; i->name; i++) {
-		mr_shape s = i->shape;
-		if (!*c->layer || !is(c, i->layer, i->name))
-			continue;
-		if (s.components == 0)
-			s.components = c->shape.components;
-		if (s.element == c->shape.element && s.type == c->shape.type &&
-		    s.components == c->shape.components)
-			return MR_OK;
-		return mr_fail(ctx, MR_ERANGE, "%s: column %s is %c %c%u, not %c %c%u", c->layer, c->name,
-		    c->shape.element, c->shape.type, c->shape.components, s.element, s.type, s.components);
-	}
-	return MR_OK;
+	const mr_column_info *info = mr_column_of(c->layer, c->name);
+	mr_shape s = info ? info->shape : c->shape;
+
+	if (s.components == 0)
+		s.components = c->shape.components;
+	if (s.element == c->shape.element && s.type == c->shape.type && s.components == c->shape.components)
+		return MR_OK;
+	return mr_fail(ctx, MR_ERANGE, "%s: column %s is %c %c%u, not %c %c%u", c->layer, c->name,
+	    c->shape.element, c->shape.type, c->shape.components, s.element, s.type, s.components);
 }
 
 /* How many vertices or faces a layer has; false where nothing says so. */
@@ -75,7 +50,7 @@ mr_check_finite(mr_ctx *ctx, const mr_column *c)
 {
 	const double *x = c->data;
 	size_t width = c->shape.components;
-	bool may_lack = is(c, NULL, "corner_texcoord"); /* NaN: a corner without */
+	bool may_lack = is(c, "corner_texcoord"); /* NaN: a corner without */
 
 	if (c->shape.type != 'd' || !mr_column_known(c->layer, c->name))
 		return MR_OK; /* a file's own numbers may be anything */
@@ -118,29 +93,27 @@ check_places(mr_ctx *ctx, const mr_column *c)
 }
 
 static mr_status
-check_reference(mr_ctx *ctx, const mr_frame *f, const mr_column *c, const char *refers, char element)
+check_reference(mr_ctx *ctx, const mr_frame *f, const mr_column *c, const char *layer, char element)
 {
-	const char *layer = *refers ? refers : c->layer;
+	const char *elements = element == 'v' ? "vertices" : "faces";
 	uint64_t rows;
 
 	if (!layer_rows(f, layer, element, &rows))
 		return mr_fail(ctx, MR_EMISSING, "%s: column %s refers to %s of %s, which is not there",
-		    c->layer, c->name, element == 'v' ? "vertices" : "faces", layer);
-	return check_below(ctx, c, rows, element == 'v' ? "vertices" : "faces");
+		    c->layer, c->name, elements, layer);
+	return check_below(ctx, c, rows, elements);
 }
 
 static mr_status
 check_law(mr_ctx *ctx, const mr_frame *f, const mr_column *c)
 {
-	for (size_t i = 0; i < sizeof laws / sizeof *laws; i++) {
-		if (!is(c, laws[i].layer, laws[i].name))
-			continue;
-		if (laws[i].places)
-			MR_TRY(check_places(ctx, c));
-		if (laws[i].refers)
-			MR_TRY(check_reference(ctx, f, c, laws[i].refers, laws[i].element));
-	}
-	return MR_OK;
+	const mr_column_info *info = mr_column_of(c->layer, c->name);
+
+	if (!strcmp(c->name, "triangles"))
+		return check_reference(ctx, f, c, c->layer, 'v');
+	if (info && info->kind == MR_NUMBER)
+		return check_reference(ctx, f, c, info->refers, 'f');
+	return info && info->kind == MR_PLACE ? check_places(ctx, c) : MR_OK;
 }
 
 /* Numbers of lines of a column of names. */
@@ -170,9 +143,9 @@ check_column(mr_ctx *ctx, mr_frame *f, mr_column *c)
 	MR_TRY(check_shape(ctx, c));
 	MR_TRY(check_rows(ctx, f, c));
 	MR_TRY(mr_check_finite(ctx, c));
-	if (is(c, NULL, "region"))
+	if (is(c, "region"))
 		return mr_layer_region(ctx, f, c->layer, c->rows, &region);
-	if (is(c, NULL, "group") || is(c, NULL, "object") || is(c, NULL, "material")) {
+	if (is(c, "group") || is(c, "object") || is(c, "material")) {
 		char list[MR_COLUMN_MAX + 1];
 		snprintf(list, sizeof list, "%.*ss", MR_COLUMN_MAX - 1, c->name);
 		return check_names(ctx, f, c, list);

@@ -11,8 +11,8 @@ typedef struct job {
 	size_t k, first;
 	const uint32_t *nearest; /* k of each vertex from the first, and their squared distances */
 	const double *dist2;
-	const mr_carried *column;
-	size_t count;
+	uint32_t *parent; /* NEAREST of each vertex from the first, and their weights, 0 of none */
+	double *weight;
 } job;
 
 /* Squared distances below this share of the farthest that is looked at are as good as none. */
@@ -20,7 +20,7 @@ static const double THERE = 1e-12;
 
 /* The nearest points of a vertex's own sheet, or of any where none is, and their weights: inverse squares, as
  * higher powers come no nearer to what is linear in place. */
-static size_t
+static void
 weigh(const job *j, size_t i, uint32_t point[NEAREST], double weight[NEAREST])
 {
 	const uint32_t *near = j->nearest + i * j->k;
@@ -35,75 +35,41 @@ weigh(const job *j, size_t i, uint32_t point[NEAREST], double weight[NEAREST])
 			point[n] = j->of[near[k]];
 			weight[n++] = 1 / fmax(dist2[k] / dist2[j->k - 1], THERE);
 		}
-	return n;
-}
-
-/* The value of component `at` of a row. */
-static double
-value_at(const mr_carried *c, size_t at)
-{
-	return c->shape.type == 'd' ? ((const double *)c->from)[at] : ((const uint8_t *)c->from)[at];
-}
-
-/* Means of what are numbers, counted from the first, so that equal ones have themselves as their mean. */
-static void
-put_means(const mr_carried *c, size_t row, const uint32_t *point, const double *weight, size_t n)
-{
-	size_t wide = c->shape.components;
-
-	for (size_t k = 0; k < wide; k++) {
-		double first = NAN, sum = 0, all = 0, mean;
-		for (size_t i = 0; i < n; i++) {
-			double x = value_at(c, point[i] * wide + k);
-			if (!isfinite(x))
-				continue;
-			first = all > 0 ? first : x;
-			sum += weight[i] * (x - first);
-			all += weight[i];
-		}
-		mean = all > 0 ? first + sum / all : NAN;
-		if (c->shape.type == 'd')
-			((double *)c->to)[row * wide + k] = mean;
-		else
-			((uint8_t *)c->to)[row * wide + k] = (uint8_t)(mean + 0.5);
+	for (; n < NEAREST; n++) {
+		point[n] = point[0];
+		weight[n] = 0;
 	}
 }
 
 static void
-carry_to_vertices(void *arg, size_t begin, size_t end)
+weigh_vertices(void *arg, size_t begin, size_t end)
 {
 	const job *j = arg;
-	uint32_t point[NEAREST] = { 0 };
-	double weight[NEAREST];
 
-	for (size_t i = begin; i < end; i++) {
-		size_t n = weigh(j, i, point, weight);
-		for (const mr_carried *c = j->column; c < j->column + j->count; c++) {
-			size_t bytes = mr_type_size(c->shape.type) * c->shape.components;
-			if (c->mean)
-				put_means(c, j->first + i, point, weight, n);
-			else
-				memcpy((char *)c->to + (j->first + i) * bytes,
-				    (const char *)c->from + point[0] * bytes, bytes);
-		}
-	}
+	for (size_t i = begin; i < end; i++)
+		weigh(j, i, j->parent + i * NEAREST, j->weight + i * NEAREST);
 }
 
 static mr_status
-carry(mr_ctx *ctx, job *j, const mr_v3 *vertex)
+carry(mr_ctx *ctx, job *j, const mr_v3 *vertex, const mr_carried *column, size_t count)
 {
 	size_t nv = j->d->m.nv, chunk = nv < CHUNK ? nv : CHUNK;
 	uint32_t *nearest = MR_NEW(ctx, chunk * j->k, uint32_t);
 	double *dist2 = MR_NEW(ctx, chunk * j->k, double);
 
-	if (!nearest || !dist2)
+	j->parent = MR_NEW(ctx, chunk * NEAREST, uint32_t);
+	j->weight = MR_NEW(ctx, chunk * NEAREST, double);
+	if (!nearest || !dist2 || !j->parent || !j->weight)
 		return MR_EMEM;
 	j->nearest = nearest;
 	j->dist2 = dist2;
 	for (j->first = 0; j->first < nv; j->first += chunk) {
 		size_t n = nv - j->first < chunk ? nv - j->first : chunk;
 		MR_TRY(mr_near_query(ctx, j->c->near, vertex + j->first, n, j->k, nearest, dist2));
-		mr_parallel(ctx, n, GRAIN, carry_to_vertices, j);
+		mr_parallel(ctx, n, GRAIN, weigh_vertices, j);
+		for (size_t i = 0; i < count; i++)
+			mr_carried_make(
+			    ctx, &column[i], 1, j->first, (mr_rows_from){ n, NEAREST, j->parent, j->weight });
 	}
 	return MR_OK;
 }
@@ -114,7 +80,7 @@ mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const m
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *vertex = MR_NEW(ctx, d->m.nv, mr_v3), *p;
-	job j = { .d = d, .column = column, .count = count };
+	job j = { .d = d };
 	mr_sample_cloud c = { 0 };
 	uint32_t *of;
 	mr_status status;
@@ -129,7 +95,7 @@ mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const m
 	j.c = &c;
 	j.of = of;
 	j.k = c.n < LOOKED_AT ? c.n : LOOKED_AT;
-	status = carry(ctx, &j, vertex);
+	status = carry(ctx, &j, vertex, column, count);
 	mr_near_free(c.near);
 	MR_TRY(status);
 	mr_mark_release(ctx, mark);

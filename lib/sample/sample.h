@@ -25,15 +25,6 @@ mr_status mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, 
 mr_status mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_opts *opts,
     double *height, mr_sample_result *result);
 
-/* A column of points, and what becomes of it at vertices. */
-typedef struct mr_carried {
-	const char *name;
-	mr_shape shape;
-	bool mean;        /* of near points, by doubles or bytes; else, of labels, the nearest point's */
-	const void *from; /* rows as many as points */
-	void *to;         /* d->m.nv rows */
-} mr_carried;
-
 /* Carries columns of the points to the vertices of the displaced surface, each from the places that count and
  * lie on its sheet; at most six of the nearest, weighted by the inverse squares of the distances. */
 mr_status mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const mr_v3 *point,

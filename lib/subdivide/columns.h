@@ -19,13 +19,6 @@ typedef struct mr_refined {
 	size_t n;
 } mr_refined;
 
-typedef struct mr_carried {
-	char name[MR_COLUMN_MAX + 1];
-	mr_shape shape;
-	const void *data;
-	size_t rows;
-} mr_carried;
-
 /*
  * The columns that go along.  Numbers of vertices are subdivided as positions are, by Loop's rules or
  * linearly; normals, and what corners have, always linearly, normals keeping the mean of the lengths.  A new

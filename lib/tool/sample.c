@@ -54,24 +54,6 @@ choose_level(mr_ctx *ctx, const mr_mesh *control, size_t vertices, size_t *n)
 	return MR_OK;
 }
 
-/* One that goes along: n rows at points, nv at vertices. */
-static mr_status
-get_column(mr_ctx *ctx, mr_frame *f, size_t i, size_t n, size_t nv, mr_carried *carried)
-{
-	mr_column *c = &f->columns[i];
-
-	MR_TRY(mr_column_decode(ctx, c));
-	if (c->rows != n)
-		return mr_fail(ctx, MR_ERANGE, "%s: %s has %llu rows for %zu points", c->layer, c->name,
-		    (unsigned long long)c->rows, n);
-	carried->name = mr_format(ctx, "%s", c->name);
-	carried->shape = c->shape;
-	carried->mean = !strcmp(c->name, "color") || !mr_are_labels(c->shape, c->data, n);
-	carried->from = c->data;
-	carried->to = mr_alloc(ctx, nv * c->shape.components, mr_type_size(c->shape.type));
-	return carried->name && carried->to ? MR_OK : MR_EMEM;
-}
-
 /* The columns of the points that go along, and says which cannot.  carried: f->count, the caller's. */
 static mr_status
 get_columns(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, size_t nv, mr_carried *carried, size_t *count)
@@ -79,7 +61,7 @@ get_columns(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, size_t nv, mr_carri
 	for (size_t i = 0; i < f->count; i++) {
 		const mr_column *c = &f->columns[i];
 		if (mr_column_carried(c, points->name))
-			MR_TRY(get_column(ctx, f, i, points->nv, nv, &carried[(*count)++]));
+			MR_TRY(mr_carried_begin(ctx, f, i, points->nv, nv, &carried[(*count)++]));
 		else if (!strcmp(c->layer, points->name) && c->shape.element == 'v' &&
 			 !mr_column_known(points->name, c->name))
 			mr_warn(ctx,
@@ -105,8 +87,7 @@ put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points,
 		return MR_OK;
 	MR_TRY(mr_sample_columns(ctx, d, height, points->p, s, carried, count));
 	for (size_t i = 0; i < count; i++)
-		MR_TRY(mr_frame_put(
-		    ctx, f, "displacement", carried[i].name, carried[i].shape, carried[i].to, d->m.nv));
+		MR_TRY(mr_carried_put(ctx, f, "displacement", &carried[i]));
 	if (!mr_layer_has(f, points->name, "properties"))
 		return MR_OK;
 	MR_TRY(mr_layer_get(ctx, f, points->name, "properties", &types, &bytes));

@@ -41,9 +41,9 @@ turn_normals(mr_ctx *ctx, const mr_refined *r, const mr_carried *carried, size_t
 
 	for (size_t i = 0; i < n; i++)
 		if (!strcmp(carried[i].name, "normal"))
-			vertex = (mr_v3 *)(uintptr_t)carried[i].data;
+			vertex = carried[i].to;
 		else if (!strcmp(carried[i].name, "corner_normal"))
-			corner = (mr_v3 *)(uintptr_t)carried[i].data;
+			corner = carried[i].to;
 	if (!vertex && !corner)
 		return MR_OK;
 	p = MR_NEW(ctx, r->fine.nv, mr_v3);
@@ -79,8 +79,7 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 	}
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
 	for (size_t i = 0; i < n; i++)
-		MR_TRY(mr_frame_put(
-		    ctx, f, "mesh", carried[i].name, carried[i].shape, carried[i].data, carried[i].rows));
+		MR_TRY(mr_carried_put(ctx, f, "mesh", &carried[i]));
 	return limit ? mr_layer_put(ctx, f, "mesh", "normal", limit, r->fine.nv) : MR_OK;
 }
 

@@ -147,7 +147,7 @@ test_columns(void **state)
 	assert_int_equal(mr_refine_columns(&ctx, f, "mesh", &r, &c, &n), MR_OK);
 	assert_int_equal(n, 4);
 	for (size_t i = 0; i < n; i++) {
-		fine = c[i].data;
+		fine = c[i].to;
 		assert_int_equal(c[i].rows, c[i].shape.element == 'f' ? r.fine.nf : r.fine.nv);
 		for (size_t k = 0; !strcmp(c[i].name, "corner_texcoord") && k < 3 * r.fine.nf; k++) {
 			mr_v3 x = r.fine.p[r.fine.t[k / 3].v[k % 3]];

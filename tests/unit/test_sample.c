@@ -358,9 +358,11 @@ columns_keep_to_their_sheet(void **state)
 	s.repeat = spared[1];
 	s.spacing = MR_NEW_ZERO(&ctx, N + 2, double);
 	s.n = N + 2;
-	mr_carried c[3] = { { "color", { 'v', 'b', 4 }, true, color, MR_NEW(&ctx, 4 * d.m.nv, uint8_t) },
-		{ "value", { 'v', 'd', 1 }, true, value, MR_NEW(&ctx, d.m.nv, double) },
-		{ "label", { 'v', 'u', 1 }, false, label, MR_NEW(&ctx, d.m.nv, uint32_t) } };
+	mr_carried c[3] = {
+		{ "color", { 'v', 'b', 4 }, MR_MEAN, color, MR_NEW(&ctx, 4 * d.m.nv, uint8_t), d.m.nv },
+		{ "value", { 'v', 'd', 1 }, MR_MEAN, value, MR_NEW(&ctx, d.m.nv, double), d.m.nv },
+		{ "label", { 'v', 'u', 1 }, MR_LABEL, label, MR_NEW(&ctx, d.m.nv, uint32_t), d.m.nv }
+	};
 	assert_int_equal(mr_sample_columns(&ctx, &d, height, p, &s, c, 3), MR_OK);
 	for (size_t v = 0; v < d.m.nv; v++) {
 		mr_v3 q = d.m.p[v];

@@ -145,7 +145,7 @@ carried(const mr_carried *c, size_t n, const char *name, size_t rows)
 	for (size_t i = 0; i < n; i++)
 		if (!strcmp(c[i].name, name)) {
 			assert_int_equal(c[i].rows, rows);
-			return c[i].data;
+			return c[i].to;
 		}
 	return NULL;
 }
