@@ -595,13 +595,12 @@ typedef struct mr_wrap_opts {
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
 	size_t samples, nodes, sided,
-	    inward;           /* points that counted; of the grid; whose sides were used; 1: turned over */
-	double spacing, cell; /* side of the square that a point stands for; of a cell */
-	double noise;         /* squares of so many spacings show a surface: at least 1 */
-	size_t grid;          /* cells along the longest side of the points' box */
-	size_t regions, regions_turned; /* large flat ones; rounds of turning them over */
-	size_t rounds, turned;          /* of the Poisson equation; normals that the first turned over */
-	double level, inside;           /* the indicator's value at the surface; share of the nodes */
+	    inward;            /* points that counted; of the grid; whose sides were used; 1: turned over */
+	double spacing, cell;  /* side of the square that a point stands for; of a cell */
+	double noise;          /* squares of so many spacings show a surface: at least 1 */
+	size_t grid;           /* cells along the longest side of the points' box */
+	size_t rounds, turned; /* of the Poisson equation; normals that the first turned over */
+	double level, inside;  /* the indicator's value at the surface; share of the nodes */
 	size_t parts_dropped, cavities_filled, levels_alike; /* alike: around it, of the same topology */
 	double euler, euler_beside; /* Euler number; that of a level nearby which is not alike */
 	mr_v3 uncertain;            /* about where they differ */
@@ -609,15 +608,14 @@ typedef struct mr_volume_result {
 } mr_volume_result;
 
 typedef struct mr_wrap_result {
-	size_t method;                          /* 0 box, 1 cube, 2 volume, 3 template, 4 height field */
-	size_t places, outliers;                /* of the points */
-	double sampling;                        /* distance of the places */
-	size_t resolution, iterations, coarser; /* coarser: 1 where such a volume was better, 0 where tried */
-	size_t faces, folded_edges, intersecting_pairs, lost; /* outliers beyond five such distances */
-	size_t loops, openings, holes;                        /* of the boundary; left open; closed */
+	size_t method;           /* 1 cube, 2 volume, 3 template, 4 height field */
+	size_t places, outliers; /* of the points */
+	double sampling;         /* distance of the places */
+	size_t resolution, iterations, faces, folded_edges, intersecting_pairs;
+	size_t unreached;              /* places beyond five such distances, outliers too */
+	size_t loops, openings, holes; /* of the boundary; left open; closed */
 	mr_gaps gaps;
-	double seconds_box, seconds_levels, seconds_pull, seconds_volume, seconds_remesh, seconds_settle,
-	    seconds_measure, seconds_tried; /* tried: for wraps that were not better */
+	double seconds_pull, seconds_volume, seconds_remesh, seconds_settle, seconds_measure;
 	mr_volume_result volume;
 } mr_wrap_result;
 

@@ -158,24 +158,31 @@ mr_gaps_note(mr_ctx *ctx, const char *what, const mr_gaps *g)
 void
 mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *g)
 {
+	(void)what;
 	if (g->bare > BARE_MOST)
-		mr_warn(ctx, "%.3g %% of %s is farther from all points than %g of their spacings, up to %.3g",
-		    100 * g->bare, what, FAR, g->surface.max);
+		mr_found(ctx, &(mr_finding){ .kind = MR_BARE, .value = g->bare });
 }
 
 void
 mr_gap_spots_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps, const mr_gap_spot *of_surface,
     const mr_gap_spot *of_points)
 {
-	if (gaps->bare > BARE_MOST)
+	mr_finding f = { .kind = MR_BARE, .placed = true, .vertex = MR_NO_VERTEX, .at = of_surface->at };
+
+	if (gaps->bare > BARE_MOST) {
 		mr_gaps_warn(ctx, what, gaps);
-	else if (of_surface->wide > WIDE)
-		mr_warn(ctx,
-		    "%s is up to %.2g spacings of the points from all of them, near (%.4g, %.4g, %.4g)", what,
-		    of_surface->wide, of_surface->at.x, of_surface->at.y, of_surface->at.z);
-	if (of_points->wide > WIDE)
-		mr_warn(ctx, "points are up to %.2g spacings from %s, near (%.4g, %.4g, %.4g)",
-		    of_points->wide, what, of_points->at.x, of_points->at.y, of_points->at.z);
+	} else if (of_surface->wide > WIDE) {
+		f.what = mr_format(ctx, ", a place by %.2g of their spacings", of_surface->wide);
+		f.value = gaps->bare;
+		mr_found(ctx, &f);
+	}
+	if (of_points->wide > WIDE) {
+		f.kind = MR_UNREACHED;
+		f.what = mr_format(ctx, ", by up to %.2g spacings", of_points->wide);
+		f.count = 1;
+		f.at = of_points->at;
+		mr_found(ctx, &f);
+	}
 }
 
 /*

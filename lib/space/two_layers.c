@@ -101,28 +101,23 @@ mr_find_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, doubl
 	return MR_OK;
 }
 
-/* A share of the points in two layers that is no chance: of 162 clouds of 54 models, uniform, with noise of 1
- * % and of vertices, five have more, of a plate and of vertices in rows; of thin cups 0.3 and more. */
-static const double LAYERED = 0.05;
-
-/*
- * And one that is none where they lie together, as in the strip that two scans share.  Of strips that are a
- * quarter of a cube, half of their points 2 or 3 spacings off, 0.019 to 0.04; of 30 uniform clouds 0.005 at
- * most, but of slots and walls thinner than that, of 20 of vertices 0.006, but of three with vertices in
- * rows.
- */
-static const double DENSELY = 0.01;
+/* Shares of the points in two layers that are no chance: in all, and where they lie together, as in the strip
+ * that two scans share. */
+static const double LAYERED = 0.05, DENSELY = 0.01;
 
 mr_status
-mr_warn_of_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual, const char *end)
+mr_report_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual)
 {
 	mr_layers l;
 
 	MR_TRY(mr_find_layers(ctx, p, n, near, usual, &l));
 	if (l.share > LAYERED || l.dense > DENSELY)
-		mr_warn(ctx,
-		    "%.3g %% of the points lie in two layers, %.2g sampling distances apart, as near "
-		    "(%.4g, %.4g, %.4g): sides of what is too thin to tell, or scans out of register%s",
-		    100 * l.share, l.apart / usual, l.at.x, l.at.y, l.at.z, end);
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_UNCERTAIN,
+			.what = ": points lie in two layers, sides of a thin wall or scans out of register",
+			.value = l.share,
+			.placed = true,
+			.vertex = MR_NO_VERTEX,
+			.at = l.at });
 	return MR_OK;
 }

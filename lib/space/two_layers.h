@@ -16,8 +16,7 @@ typedef struct mr_layers {
 mr_status
 mr_find_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual, mr_layers *found);
 
-/* Warns where more points lie so than chance, or noise, would have it. */
-mr_status
-mr_warn_of_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual, const char *end);
+/* Reports MR_UNCERTAIN where more points lie so than chance, or noise, would have it. */
+mr_status mr_report_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double usual);
 
 #endif

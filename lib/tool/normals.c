@@ -93,7 +93,7 @@ look_for_walls(mr_ctx *ctx, const mr_v3 *place, size_t n, const mr_sampling *s)
 	mr_near *near;
 
 	MR_TRY(mr_near_build(ctx, place, n, &near));
-	status = mr_warn_of_layers(ctx, place, n, near, s->usual, "");
+	status = mr_report_layers(ctx, place, n, near, s->usual);
 	mr_near_free(near);
 	return status;
 }

@@ -6,10 +6,6 @@
 
 enum { NEAREST = 16, LINKS = 8 };
 
-/* The share of the points from which it is told that nothing shows their sides, as of those without
- * directions. */
-static const double MANY = 0.03;
-
 /* The planes of a cloud that encloses nothing. */
 static mr_status
 flat_planes(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, mr_volume_cloud *s)
@@ -21,23 +17,6 @@ flat_planes(mr_ctx *ctx, mr_v3 *place, size_t n, const mr_sampling *of, mr_volum
 	    ctx, place, n, k, k - 1 < LINKS ? k - 1 : LINKS, of->neighbours <= NEAREST, &s->plane);
 }
 
-/* The others as without directions, of which what would be warned holds of these alone. */
-static mr_status
-orient_untold(mr_ctx *ctx, mr_volume_cloud *s, size_t untold)
-{
-	const mr_listener heard = ctx->listener;
-	mr_status status;
-
-	ctx->listener.warn = NULL;
-	status = mr_volume_orient_outward(ctx, s);
-	ctx->listener = heard;
-	if ((double)untold > MANY * (double)s->n)
-		mr_warn(ctx,
-		    "%zu of %zu places are of parts that no direction tells the side of: they point outward",
-		    untold, s->n);
-	return status;
-}
-
 /* By directions, and where a part has none, as without them. */
 static mr_status
 orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, bool flat)
@@ -46,13 +25,12 @@ orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, bool flat)
 
 	if (!flat)
 		MR_TRY(mr_volume_untold(ctx, s, toward, &untold));
-	if (untold == s->n)
-		return mr_volume_orient_outward(ctx, s);
 	if (untold > 0)
-		MR_TRY(orient_untold(ctx, s, untold));
+		MR_TRY(mr_volume_orient_outward(ctx, s));
+	if (untold == s->n)
+		return MR_OK;
 	MR_TRY(mr_volume_orient_toward(ctx, s, toward));
-	mr_volume_warn_of_patches(
-	    ctx, s, "some of the directions that tell the sides are wrong, or body or gaps are thin");
+	mr_volume_report_patches(ctx, s);
 	return MR_OK;
 }
 

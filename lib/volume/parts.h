@@ -39,8 +39,8 @@ mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *
 /* How many points are of parts, by the links, in which no direction tells a side.  orient_toward.c */
 mr_status mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
 
-/* Warns where neighbours on alike planes have signs that are not; why: the end of the sentence.  volume.c */
-void mr_volume_warn_of_patches(mr_ctx *ctx, const mr_volume_cloud *s, const char *why);
+/* Reports MR_UNCERTAIN where neighbours on alike planes have signs that are not.  volume.c */
+void mr_volume_report_patches(mr_ctx *ctx, const mr_volume_cloud *s);
 
 /* What directions are worth: how many tell a side; what share of those that are there is within 60 degrees of
  * their planes' normals; and what share of neighbours on alike planes get signs from them that are alike. NaN
@@ -64,13 +64,6 @@ mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote, const doub
 
 /* From which size on one of n such votes counts: in proportion to them all.  orient.c */
 double mr_volume_loud(const double *vote, size_t n);
-
-/*
- * Turns the normals of whole regions over where all agree better then and the flood's votes (positive: the
- * sign is right) are not for it.  g: of so many levels; a step twice the grid's will do.  orient_regions.c
- */
-mr_status mr_volume_regions(mr_ctx *ctx, mr_volume_cloud *s, const double *flood, const mr_grid *g,
-    size_t levels, mr_volume_result *result);
 
 /* Turns the normals of parts that are inside out over by the indicator u, which rises by so much across most
  * of the surface.  *turned: how many points these have.  orient_parts.c */

@@ -30,10 +30,8 @@ enum {
 	PARTS_MOST = 4         /* of turning parts over */
 };
 
-/* Spacings.  Over 164 clouds of 41 closed meshes, their vertices and points strewn on them, clean, noisy and
- * with outliers: 125 wraps have the right topology, by 1.4 125, by 1.45 123, by 1.35 130, at distances 2 %
- * less; but by less than 1.45 a sphere with noise of a spacing and outliers gets a handle, and sheets come
- * apart. */
+/* Spacings.  By 1.35 of 164 wraps five more have the right topology, at distances 2 % less; but a sphere with
+ * noise of a spacing and outliers gets a handle, and sheets come apart. */
 static const double CELL = 1.5;
 
 static const double COARSER = 1.25;      /* than that: points are too many for the grid */
@@ -51,13 +49,6 @@ static const double LEVEL_LEAST = 0.3, LEVEL_MOST = 1.7; /* of half the rise acr
  * those bodies, 0.5 on one whose walls are thinner than its points are apart; on 59 that are cut open 0.28.
  */
 static const double TORN = 1, BOTH = 0.35;
-
-/*
- * What they buy, by cells of 1.35 spacings, where 130 of those wraps are right.  SPARSE 0.65: 124; without it
- * 130, but the points of 49 scans are 7 % farther from the surface.  ABSORPTION 10 or 40, TURNED_LEAST 0 or
- * 2e-3, COARSER 1 or 1.6: 130.  THIN 0.9: 125, 2.7: 128, without: 126.  LEVEL_LEAST 0.15 and LEVEL_MOST 1.85:
- * 124; 0.6 and 1.4: 132, at distances 5 % longer.
- */
 
 typedef struct volume {
 	mr_volume_cloud s;
@@ -165,6 +156,12 @@ orient_by_sides(mr_ctx *ctx, volume *v)
 {
 	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward));
 	v->found.inward = turn_outward(&v->s);
+	if (v->found.inward)
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_GUESSED,
+			.layer = "points",
+			.what = v->side.normals ? "the normals of the points point inward, and are turned over"
+			                        : "the points were seen from within: their surface faces away" });
 	return MR_OK;
 }
 
@@ -292,10 +289,6 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 	mr_multigrid_full(ctx, &m);
 	mr_mark_release(ctx, mark);
 	MR_TRY(orient_by_votes(ctx, v, w));
-	if (v->depths > 1) {
-		MR_TRY(mr_volume_regions(ctx, &v->s, v->value, &v->grid[1], v->levels - 1, &v->found));
-		measure_votes(ctx, v, w);
-	}
 	mark_seen(v);
 	return MR_OK;
 }
@@ -563,40 +556,30 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	return MR_OK;
 }
 
-/*
- * Patches of a surface that are on the wrong side end at neighbours whose planes are alike and signs are not.
- * Of 63 clouds of closed bodies, 20,000 points each, 0.11 % and more of these pairs are so of seven on which
- * over 2 % of the normals are wrong, bodies hardly thicker than their points are apart, and of deep cups; of
- * one on which 0.95 % are, and else 0.06 % at most, also where a whole face is the wrong way round.  With
- * noise of 0.3 % of the diagonal it is 0.13 % and more of four that have 0.5 to 1.2 % of wrong ones.
- */
+static void
+report_uncertain(mr_ctx *ctx, const char *what, mr_v3 at)
+{
+	mr_finding f = { .kind = MR_UNCERTAIN, .what = what, .placed = true, .vertex = MR_NO_VERTEX, .at = at };
+
+	mr_found(ctx, &f);
+}
+
+/* Patches on the wrong side end at neighbours whose planes are alike and signs are not: 0.06 % of these pairs
+ * at most where all is right. */
 void
-mr_volume_warn_of_patches(mr_ctx *ctx, const mr_volume_cloud *s, const char *why)
+mr_volume_report_patches(mr_ctx *ctx, const mr_volume_cloud *s)
 {
 	static const double UNLIKE = 1e-3;
 	mr_volume_sides j = mr_volume_judge(s, s->plane.normal);
 
-	if (1 - j.alike > UNLIKE) {
-		mr_v3 p = s->p[j.unlike];
-		mr_warn(ctx,
-		    "%.2g %% of neighbours have normals on unlike sides, first near (%.4g, %.4g, %.4g): %s",
-		    100 * (1 - j.alike), p.x, p.y, p.z, why);
-	}
+	if (1 - j.alike > UNLIKE)
+		report_uncertain(ctx, ": neighbours have normals on unlike sides", s->p[j.unlike]);
 }
 
-static void
-warn_of_patches(mr_ctx *ctx, const volume *v)
-{
-	mr_volume_warn_of_patches(ctx, &v->s, "patches of them point inward, as where body or gaps are thin");
-}
-
-/*
- * Along a normal that is on the right side the indicator falls.  Of shells three to five spacings thick, a
- * third of whose normals are on the wrong one, it hardly does, or rises, at 3.4 to 6.2 % of the points; of 69
- * other clouds, uniform, clean and noisy, at 1.7 at most, but of eight that are thin.
- */
+/* Along a normal that is on the right side the indicator u falls: of clouds thick enough it hardly does at
+ * 1.7 % of the points at most. */
 static mr_status
-warn_of_sides(mr_ctx *ctx, volume *v, const float *u)
+report_sides(mr_ctx *ctx, volume *v, const float *u)
 {
 	static const double HARDLY = 0.25, SHARE = 0.03;
 	size_t unsure = 0, first = 0;
@@ -609,25 +592,11 @@ warn_of_sides(mr_ctx *ctx, volume *v, const float *u)
 			unsure++;
 			first = i;
 		}
-	if ((double)unsure > SHARE * (double)v->s.n) {
-		mr_v3 p = v->s.p[first];
-		mr_warn(ctx,
-		    "%.3g %% of the points show no side that is outside, and more may be on the wrong one: "
-		    "body or gaps are thin, as near (%.4g, %.4g, %.4g)",
-		    100 * (double)unsure / (double)v->s.n, p.x, p.y, p.z);
-	} else {
-		warn_of_patches(ctx, v);
-	}
+	if ((double)unsure > SHARE * (double)v->s.n)
+		report_uncertain(ctx, ": body or gaps are too thin to show which side is outside", v->s.p[first]);
+	else
+		mr_volume_report_patches(ctx, &v->s);
 	return MR_OK;
-}
-
-static void
-warn_of_sheet(mr_ctx *ctx, const volume *v)
-{
-	mr_warn(ctx,
-	    "outside is on both sides of the points, as of an open sheet or of walls thinner than their "
-	    "distances: on which the normals are is arbitrary, --from tells it");
-	warn_of_patches(ctx, v);
 }
 
 /* By the indicator, with f for the while. */
@@ -638,7 +607,7 @@ orient_body(mr_ctx *ctx, volume *v, float *f)
 
 	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m));
 	MR_TRY(solve_indicator(ctx, v, &m));
-	return warn_of_sides(ctx, v, m.level[0].u);
+	return report_sides(ctx, v, m.level[0].u);
 }
 
 mr_status
@@ -655,7 +624,7 @@ mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 		return MR_EMEM;
 	MR_TRY(orient_by_flood(ctx, &v, f));
 	if (v.sheet)
-		warn_of_sheet(ctx, &v);
+		report_uncertain(ctx, ": outside is on both sides of the points", v.s.p[0]);
 	else
 		MR_TRY(orient_body(ctx, &v, f));
 	mr_mark_release(ctx, mark);
@@ -691,35 +660,14 @@ report(const volume *v, const float *f)
 /*
  * Whether sides that are given are worth more than those that the flood finds.  Of the true normals of 120
  * clouds those of four are not so good, whose bodies are thinner than their points are apart; at random half
- * of the directions are near and half of the neighbours alike.  With them 94 of 120 wraps are right, without
- * 92; where the indicator turns some over again 24 of 30, without that 26.
+ * of the directions are near and half of the neighbours alike.
  */
 static bool
-are_consistent(mr_ctx *ctx, const mr_volume_sides *j, bool normals)
+are_consistent(const mr_volume_sides *j, bool normals)
 {
 	static const double NEAR_LEAST = 0.7, ALIKE_LEAST = 0.9;
 
-	if (j->told == 0) {
-		mr_warn(ctx, "the %s are not used: none tells a side",
-		    normals ? "normals of the points" : "places of the scanner");
-		return false;
-	}
-	if (j->alike >= ALIKE_LEAST && (!normals || j->near >= NEAR_LEAST))
-		return true;
-	if (normals && !(j->near >= NEAR_LEAST))
-		mr_warn(ctx,
-		    "the normals of the points are not used: %.3g %% are within 60 degrees of those of their "
-		    "neighbours' planes",
-		    100 * fmax(j->near, 0));
-	else if (normals)
-		mr_warn(ctx,
-		    "the normals of the points are not used: %.3g %% of neighbours are on one side by them",
-		    100 * fmax(j->alike, 0));
-	else
-		mr_warn(ctx,
-		    "the places of the scanner are not used: %.3g %% of neighbours are on one side by them",
-		    100 * fmax(j->alike, 0));
-	return false;
+	return j->told > 0 && j->alike >= ALIKE_LEAST && (!normals || j->near >= NEAR_LEAST);
 }
 
 /* What is known of the sides of the points that count, if it fits them. */
@@ -737,8 +685,15 @@ take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *side
 		toward[i] = sides->toward[of[i]];
 	judged = mr_volume_judge(&v->s, toward);
 	v->found.sided = v->found.inward = 0;
-	if (!are_consistent(ctx, &judged, sides->normals))
+	if (!are_consistent(&judged, sides->normals)) {
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_GUESSED,
+			.layer = "points",
+			.what = sides->normals
+			            ? "the normals of the points contradict their places, and are not used"
+			            : "the places of the scanner contradict the points, and are not used" });
 		return MR_OK;
+	}
 	v->found.sided = judged.told;
 	v->side = (mr_outer_sides){ toward, sides->normals };
 	return MR_OK;

@@ -67,21 +67,3 @@ mr_wrap_cloud_open(
 	MR_TRY(set_outliers_apart(ctx, cloud));
 	return mr_near_build(ctx, p, cloud->n, &cloud->near);
 }
-
-mr_status
-mr_wrap_cloud_thin(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t count, mr_wrap_cloud *thin)
-{
-	mr_v3 *p;
-
-	*thin = *cloud;
-	thin->near = NULL;
-	thin->own = NULL;
-	thin->n = count < cloud->n ? count : cloud->n;
-	p = MR_NEW(ctx, thin->n, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	mr_at_strides(cloud->p, cloud->n, thin->n, p);
-	thin->p = p;
-	thin->spacing = cloud->spacing * sqrt((double)cloud->n / (double)thin->n);
-	return mr_near_build(ctx, p, thin->n, &thin->near);
-}

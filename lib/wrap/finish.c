@@ -1,62 +1,125 @@
 /* The last steps of a wrap that is near the points: onto them, without folds, and not through itself. */
+#include "base/sort.h"
+#include "measure/gaps.h"
+#include "mesh/zorder.h"
+#include "remesh/remesh.h"
 #include "remesh/unfold.h"
+#include "space/self_intersect.h"
 #include "wrap/parts.h"
 
-enum { ITERATIONS = 4 /* by default */ };
+enum { ITERATIONS = 4 /* by default */, PARTINGS = 3 };
 
-const mr_gaps MR_WRAP_ENOUGH = { .points = { .max = 10, .high = 4 }, .surface = { .max = 6, .high = 2.5 } };
+/* At most about so many edges along the diagonal: few points need no fewer faces. */
+static const double LEAST_EDGES = 10;
 
-void
-mr_wrap_tried(mr_wrap *w, double seconds)
+double
+mr_wrap_length(const mr_wrap_cloud *cloud, const mr_wrap_opts *o)
 {
-	double before = w->found.seconds_tried;
+	mr_v3 size = mr_sub(cloud->box.max, cloud->box.min);
 
-	w->found.seconds_tried = isnan(before) ? seconds : before + seconds;
+	if (o->resolution)
+		return fmax(size.x, fmax(size.y, size.z)) / (double)o->resolution;
+	/* faces of sqrt(3) / 4 l^2, two points for each */
+	return fmin(2.07 * sqrt(cloud->area / (double)cloud->n), cloud->diagonal / LEAST_EDGES);
 }
 
 mr_status
-mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, size_t samples, const char *what, mr_wrap *w)
+mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
+{
+	mr_remesh_opts o = MR_REMESH_DEFAULTS;
+	mr_places map;
+	mr_mesh out;
+
+	o.length = length;
+	o.rounds = 1;
+	o.area_passes = 0;
+	MR_TRY(mr_remesh(ctx, m, &o, &out, &map, NULL));
+	return mr_wrap_dyn(ctx, &out, d);
+}
+
+/* Of n places, from some of them at equal strides: adds those that are far from the surface to
+ * c->unreached, the farthest to c->at; *distance: of the `some`, the caller's. */
+static mr_status
+look_at_places(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_bvh *bvh, const mr_v3 *p, size_t n,
+    size_t some, double *distance, double *farthest, mr_wrap_cover *c)
+{
+	mr_v3 *q = MR_NEW(ctx, some, mr_v3), *sorted = MR_NEW(ctx, some, mr_v3);
+	size_t far = 0;
+
+	if (!q || !sorted)
+		return MR_EMEM;
+	mr_at_strides(p, n, some, q);
+	MR_TRY(mr_zorder_points(ctx, q, some, sorted)); /* what close ones look up is in the cache */
+	mr_bvh_distances(ctx, bvh, sorted, some, distance);
+	for (size_t i = 0; i < some; i++) {
+		far += distance[i] > MR_WRAP_LACKS * cloud->spacing;
+		if (distance[i] > *farthest) {
+			*farthest = distance[i];
+			c->at = sorted[i];
+		}
+	}
+	c->unreached += some ? far * n / some : 0;
+	return MR_OK;
+}
+
+static size_t
+at_most(size_t n, size_t most)
+{
+	return n < most ? n : most;
+}
+
+mr_status
+mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_t samples, mr_wrap_cover *c)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t outliers = cloud->sampling.outliers, some = at_most(cloud->n, samples);
+	mr_gap_cloud places = { cloud->p, cloud->own, cloud->near, cloud->n, cloud->spacing };
+	double *distance = MR_NEW(ctx, samples, double), farthest = 0;
+	mr_bvh *bvh;
+
+	if (!distance)
+		return MR_EMEM;
+	*c = (mr_wrap_cover){ 0 };
+	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	MR_TRY(look_at_places(
+	    ctx, cloud, bvh, cloud->outlier, outliers, at_most(outliers, samples), distance, &farthest, c));
+	MR_TRY(look_at_places(ctx, cloud, bvh, cloud->p, cloud->n, some, distance, &farthest, c));
+	c->gaps.points = mr_gap_of(distance, some);
+	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
+	MR_TRY(mr_gap_of_surface(ctx, m, &places, samples, &c->gaps, NULL));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+mr_status
+mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
 {
 	mr_mesh m = mr_dyn_view(&w->d, "control");
-	double start = mr_seconds(), s = cloud->spacing;
-	const mr_gaps *g = &w->cover.gaps;
-
-	w->folds = mr_count_folds(ctx, &m, w->d.twin);
-	MR_TRY(mr_wrap_measure(ctx, cloud, &m, samples, &w->cover));
-	w->found.seconds_measure = mr_seconds() - start;
-	mr_note(ctx,
-	    "%s, %zu faces: points are within %.3g sampling distances of it, 99 %% within %.3g, "
-	    "it is within %.3g of points, 99 %% within %.3g",
-	    what, w->d.nf, g->points.max / s, g->points.high / s, g->surface.max / s, g->surface.high / s);
-	return MR_OK;
-}
-
-/* Onto the points. */
-static mr_status
-settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w)
-{
 	double start = mr_seconds();
 
-	w->found.iterations = o->iterations ? o->iterations : ITERATIONS;
-	MR_TRY(mr_wrap_settle(ctx, cloud, o, w->found.iterations, &w->d));
-	w->found.seconds_settle = mr_seconds() - start;
+	w->folds = mr_count_folds(ctx, &m, w->d.twin);
+	MR_TRY(mr_wrap_measure(ctx, cloud, &m, MR_WRAP_SAMPLES, &w->cover));
+	w->found.seconds_measure = mr_seconds() - start;
+	mr_gaps_note(ctx, "the wrap", &w->cover.gaps);
 	return MR_OK;
 }
 
 mr_status
-mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, const char *what, mr_wrap *w)
+mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *w)
 {
-	enum { MOST = 3 };
 	mr_v3 *home = MR_NEW(ctx, w->d.nv, mr_v3);
+	double start = mr_seconds();
 
 	if (!home)
 		return MR_EMEM;
 	memcpy(home, w->d.p, w->d.nv * sizeof *home);
-	MR_TRY(settle(ctx, cloud, o, w));
+	w->found.iterations = o->iterations ? o->iterations : ITERATIONS;
+	MR_TRY(mr_wrap_settle(ctx, cloud, o, w->found.iterations, &w->d));
+	w->found.seconds_settle = mr_seconds() - start;
 	for (int round = 0;; round++) {
 		mr_unfold(&w->d, true);
-		MR_TRY(mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, what, w));
-		if (w->cover.crossings == 0 || round == MOST)
+		MR_TRY(mr_wrap_assess(ctx, cloud, w));
+		if (w->cover.crossings == 0 || round == PARTINGS)
 			return MR_OK;
 		MR_TRY(mr_wrap_part(ctx, home, &w->d));
 	}

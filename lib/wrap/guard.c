@@ -1,16 +1,15 @@
-/* A guarded move (mesh/guarded_move.h) of a wrap that folds nothing. */
+/* Guarded moves (mesh/guarded_move.h) of a wrap: they fold nothing, and take back what passes through itself.
+ */
 #include "mesh/guarded_move.h"
+
+#include "space/self_intersect.h"
 #include "wrap/parts.h"
 
-/*
- * Cosine of 60 degrees, by which a face may turn at once.  At 37 or 90 degrees as many wraps of 133 clouds
- * are sound, at distances that differ by 1 %; but at 90 one around a handful of points folds in on itself and
- * ends a tenth of its size off them.
- */
+/* Cosine of 60 degrees, by which a face may turn at once: at 90 a wrap of a handful of points folds in on
+ * itself. */
 static const double TURN = 0.5;
 
-/* Height over longest edge of a face that would soon have no normal.  Without it one of 68 wraps that have
- * passed through themselves does not come apart; a quarter to five times as much leaves as many. */
+/* Height over longest edge of a face that would soon have no normal. */
 static const double SLIVER = 0.02;
 
 typedef struct guard {
@@ -29,7 +28,7 @@ shape_of(const mr_mesh *m, uint32_t f)
 /* True where the move turns face f too far, closes it against a neighbour, or leaves it a worse
  * sliver. */
 static bool
-is_bad(const void *arg, uint32_t f)
+turns(const void *arg, uint32_t f)
 {
 	const guard *s = arg;
 	mr_v3 before = mr_face_cross(&s->from, f), after = mr_face_cross(&s->to, f);
@@ -47,9 +46,50 @@ mr_wrap_move(mr_ctx *ctx, mr_v3 *to, mr_dyn *d)
 	mr_guard g = mr_dyn_guard(d);
 
 	s.to.p = to;
-	g.is_bad = is_bad;
+	g.is_bad = turns;
 	g.arg = &s;
 	MR_TRY(mr_guarded_move(ctx, &g, d->p, to));
 	memcpy(d->p, to, d->nv * sizeof *to);
+	return MR_OK;
+}
+
+typedef struct crossing {
+	const mr_dyn *d;
+	bool *crosses; /* each face */
+} crossing;
+
+static mr_status
+find_crossings(mr_ctx *ctx, void *arg)
+{
+	const crossing *w = arg;
+	mr_mesh m = mr_dyn_view(w->d, "control");
+	size_t count;
+
+	return mr_self_intersections(ctx, NULL, &m, w->crosses, &count);
+}
+
+static bool
+crosses(const void *arg, uint32_t f)
+{
+	return ((const crossing *)arg)->crosses[f];
+}
+
+/* Without the ring sheets of which one has settled into the next are left with folds. */
+mr_status
+mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	crossing w = { d, MR_NEW(ctx, d->nf, bool) };
+	mr_guard g = mr_dyn_guard(d);
+
+	if (!w.crosses)
+		return MR_EMEM;
+	g.halves = 2;
+	g.rings = 1;
+	g.look = find_crossings;
+	g.is_bad = crosses;
+	g.arg = &w;
+	MR_TRY(mr_guarded_move(ctx, &g, home, d->p));
+	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -12,27 +12,19 @@
 /* Spacings from a point: of a surface strewn with points one place in 1,200 is farther from them. */
 static const double SUPPORTED = 1.5;
 
-/*
- * Half the width, in spacings, of an opening; and of a hole, which is no gap of the sampling: among 50,000
- * points strewn one is 2.2 at most.  Of 486 wraps of 54 closed models, clean, noisy, uneven and holed, 20
- * have what is wider than an opening, two of those whose topology is right; of the same cut in half by a
- * plane the lids that are 10 spacings wide measure 6.4 or more.
- */
+/* Half the width, in spacings, of an opening; and of a hole, which is no gap of the sampling: among 50,000
+ * points strewn one is 2.2 at most. */
 static const double OPENING = MR_WRAP_OPENING / 2, HOLE = 2.5;
 
 /* Beside an opening a place has so many times its spacing to itself, as neighbours are missing on one side.
  */
 static const double BESIDE = 1.25;
 
-/* Doubtful are holes, and openings by so much wider.  Of 54 uniform clouds five have a hole, all of them
- * wrong ones; of those thinned out to a sixtieth ten, of vertices nine. */
+/* Doubtful are holes, and openings by so much wider. */
 static const double DOUBT = 1.4;
 
-/*
- * Spacings, of those that are seen at all, that nine tenths of a wrap are within where the points support it.
- * Of wraps of bodies and halves of bodies that is 0.47 to 1.14; of vertices that leave flat faces bare, of
- * open sheets that are wrapped from both sides and where the topology is lost, 1.25 to 1.8.
- */
+/* Spacings, of those that are seen at all, that nine tenths of a wrap are within where the points support it:
+ * 0.47 to 1.14 of bodies, more where flat faces are bare or an open sheet is wrapped from both sides. */
 static const double FLICKERING = 1.2, SEEN = 2;
 
 /*
@@ -101,52 +93,15 @@ find_regions(mr_ctx *ctx, const mr_mesh *m, const double *far, uint32_t **set)
 	return MR_OK;
 }
 
-/* Places on a face between its corners, by thirds of its edges. */
+/* The place of each region, by its root, that is farthest from points.  spot: m->nv, all 0, the caller's. */
 static void
-strew_face(const mr_mesh *m, size_t f, mr_v3 *p)
+find_spots(const mr_mesh *m, const double *far, uint32_t *set, mr_gap_spot *spot)
 {
-	const uint32_t *v = m->t[f].v;
-
-	for (int k = 0; k < 3; k++) {
-		*p++ = mr_lerp(1. / 3, m->p[v[k]], m->p[v[(k + 1) % 3]]);
-		*p++ = mr_lerp(2. / 3, m->p[v[k]], m->p[v[(k + 1) % 3]]);
-	}
-	*p = mr_mul(1. / 3, mr_add(m->p[v[0]], mr_add(m->p[v[1]], m->p[v[2]])));
-}
-
-/* The place of each region, by its root, that is farthest from points: vertices are two spacings apart, and
- * may be beside the middle of a hole.  spot: m->nv, all 0, the caller's. */
-static mr_status
-find_spots(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, const double *far, uint32_t *set,
-    mr_gap_spot *spot)
-{
-	enum { PLACES = 7 };
-	uint32_t *root = MR_NEW(ctx, m->nf, uint32_t);
-	mr_v3 *p = MR_NEW(ctx, PLACES * m->nf, mr_v3);
-	size_t n = 0;
-	support s;
-
-	if (!root || !p)
-		return MR_EMEM;
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++)
-			if (far[m->t[f].v[k]] > SUPPORTED) {
-				strew_face(m, f, p + PLACES * n);
-				root[n++] = mr_sets_root(set, m->t[f].v[k]);
-				break;
-			}
 	for (uint32_t v = 0; v < m->nv; v++) {
 		mr_gap_spot *of = spot + mr_sets_root(set, v);
 		if (far[v] > of->wide)
 			*of = (mr_gap_spot){ far[v], m->p[v] };
 	}
-	if (n == 0)
-		return MR_OK;
-	MR_TRY(measure(ctx, cloud, &(mr_mesh){ .p = p, .nv = PLACES * n }, &s));
-	for (size_t i = 0; i < PLACES * n; i++)
-		if (s.far[i] > spot[root[i / PLACES]].wide)
-			spot[root[i / PLACES]] = (mr_gap_spot){ s.far[i], p[i] };
-	return MR_OK;
 }
 
 /* Takes a region to account, by its deepest place, and says whether it is cut out. */
@@ -183,7 +138,7 @@ cut_openings(mr_ctx *ctx, const mr_wrap_cloud *cloud, int how, mr_wrap_lids *lid
 	if (lids->flickers)
 		MR_TRY(find_flicker(ctx, &s, m->nv, &lids->flickers));
 	MR_TRY(find_regions(ctx, m, s.far, &set));
-	MR_TRY(find_spots(ctx, cloud, m, s.far, set, spot));
+	find_spots(m, s.far, set, spot);
 	for (uint32_t v = 0; v < m->nv; v++)
 		if (mr_sets_root(set, v) == v && s.far[v] > SUPPORTED)
 			cut[v] = judge(lids, &spot[v], how);
@@ -323,7 +278,7 @@ mr_status
 mr_wrap_assess_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
 {
 	MR_TRY(count_loops(ctx, &w->d, &w->lids.loops));
-	return mr_wrap_assess(ctx, cloud, MR_WRAP_SAMPLES, "open", w);
+	return mr_wrap_assess(ctx, cloud, w);
 }
 
 mr_status

@@ -4,18 +4,29 @@
 
 enum { GRAIN = 2048 };
 
+/* d's vertices to `to`. */
+static mr_status
+move(mr_ctx *ctx, bool guarded, mr_v3 *to, mr_dyn *d)
+{
+	if (guarded)
+		return mr_wrap_move(ctx, to, d);
+	memcpy(d->p, to, d->nv * sizeof *to);
+	return MR_OK;
+}
+
 mr_status
-mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, mr_dyn *d)
+mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, bool guarded, mr_dyn *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *nearest = MR_NEW(ctx, d->nv, uint32_t);
+	mr_v3 *to = MR_NEW(ctx, d->nv, mr_v3);
 
-	if (!nearest)
+	if (!nearest || !to)
 		return MR_EMEM;
 	MR_TRY(mr_near_query(ctx, cloud->near, d->p, d->nv, 1, nearest, NULL));
 	for (size_t v = 0; v < d->nv; v++)
-		if (d->kind[v] != MR_DEAD)
-			d->p[v] = mr_lerp(alpha, d->p[v], cloud->p[nearest[v]]);
+		to[v] = d->kind[v] == MR_DEAD ? d->p[v] : mr_lerp(alpha, d->p[v], cloud->p[nearest[v]]);
+	MR_TRY(move(ctx, guarded, to, d));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -67,10 +78,7 @@ mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d)
 	if (!p)
 		return MR_EMEM;
 	mr_parallel(ctx, d->nv, GRAIN, smooth_body, &(smoothing){ d, lambda, p });
-	if (guarded)
-		MR_TRY(mr_wrap_move(ctx, p, d));
-	else
-		memcpy(d->p, p, d->nv * sizeof *p);
+	MR_TRY(move(ctx, guarded, p, d));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

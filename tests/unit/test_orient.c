@@ -177,73 +177,6 @@ unsure_parts_stay_together(void **state)
 	}
 }
 
-static size_t
-facet_of(mr_v3 n)
-{
-	return fabs(n.x) > 0.9 ? 0 + (n.x > 0) : fabs(n.y) > 0.9 ? 2 + (n.y > 0) : 4 + (n.z > 0);
-}
-
-/*
- * The sides of a cube, up to three of them turned inwards: those that the flood knows nothing of follow the
- * others, if it knows the largest.
- */
-static void
-sides_of_a_cube_are_turned_over(void **state)
-{
-	mr_grid g = { { -2, -2, -2 }, 0.125, { 33, 33, 33 } };
-	size_t rounds = 0;
-
-	(void)state;
-	for (unsigned turned = 0; turned < 64; turned++) {
-		mr_mesh m = shape(MR_CUBE, 10000);
-		mr_v3 *truth;
-		mr_volume_cloud s = sampled(&m, 6000, 4, &truth);
-		double *flood = MR_NEW_ZERO(&ctx, s.n, double);
-		size_t inward = 0, sides = 0, points[6] = { 0 }, largest = 0;
-		for (size_t i = 0; i < s.n; i++) {
-			bool is_turned = turned >> facet_of(truth[i]) & 1;
-			s.plane.normal[i] = mr_mul(is_turned ? -1 : 1, truth[i]);
-			flood[i] = is_turned ? 0 : 1;
-			inward += is_turned;
-			points[facet_of(truth[i])]++;
-		}
-		for (size_t k = 0; k < 6; k++) {
-			sides += turned >> k & 1;
-			largest = points[k] > points[largest] ? k : largest;
-		}
-		if (sides <= 3 && !(turned >> largest & 1)) {
-			assert_int_equal(count_wrong(&s, truth), inward);
-			assert_int_equal(
-			    mr_volume_regions(&ctx, &s, flood, &g, 3, &(mr_volume_result){ 0 }), MR_OK);
-			assert_int_equal(count_wrong(&s, truth), 0);
-			rounds++;
-		}
-		mr_ctx_free(&ctx);
-	}
-	assert_int_equal(rounds, 1 + 5 + 10 + 10);
-}
-
-/* What the flood is sure of is not turned, however wrong it looks. */
-static void
-what_the_flood_knows_is_not_turned(void **state)
-{
-	mr_mesh m = shape(MR_CUBE, 10000);
-	mr_grid g = { { -2, -2, -2 }, 0.125, { 33, 33, 33 } };
-	mr_v3 *truth;
-	mr_volume_cloud s = sampled(&m, 6000, 5, &truth);
-	double *flood = MR_NEW(&ctx, s.n, double);
-
-	(void)state;
-	for (size_t i = 0; i < s.n; i++) {
-		if (facet_of(truth[i]) == 3)
-			truth[i] = mr_mul(-1, truth[i]);
-		s.plane.normal[i] = truth[i];
-		flood[i] = 1;
-	}
-	assert_int_equal(mr_volume_regions(&ctx, &s, flood, &g, 3, &(mr_volume_result){ 0 }), MR_OK);
-	assert_int_equal(count_wrong(&s, truth), 0);
-}
-
 /* A third of the directions has no length, a third is no number; the others are right, of any length. */
 static void
 directions_tell_sides(void **state)
@@ -308,8 +241,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(signs_pass_around_a_rim, setup, teardown),
 		cmocka_unit_test_setup_teardown(parts_that_are_sure_stay_apart, setup, teardown),
 		cmocka_unit_test_setup_teardown(unsure_parts_stay_together, setup, teardown),
-		cmocka_unit_test_setup_teardown(sides_of_a_cube_are_turned_over, setup, teardown),
-		cmocka_unit_test_setup_teardown(what_the_flood_knows_is_not_turned, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
