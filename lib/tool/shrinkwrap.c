@@ -45,7 +45,7 @@ get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides
 		sides->toward = toward;
 	}
 	if (without > 0)
-		mr_warn(ctx, "%s: %zu of %zu normals are of length 0 or no numbers: left out", points->name,
+		mr_note(ctx, "%s: %zu of %zu normals are of length 0 or no numbers: left out", points->name,
 		    without, points->nv);
 	return MR_OK;
 }

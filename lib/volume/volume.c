@@ -157,11 +157,12 @@ orient_by_sides(mr_ctx *ctx, volume *v)
 	MR_TRY(mr_volume_orient_toward(ctx, &v->s, v->side.toward));
 	v->found.inward = turn_outward(&v->s);
 	if (v->found.inward)
-		mr_found(ctx,
-		    &(mr_finding){ .kind = MR_GUESSED,
-			.layer = "points",
-			.what = v->side.normals ? "the normals of the points point inward, and are turned over"
-			                        : "the points were seen from within: their surface faces away" });
+		mr_found(
+		    ctx, &(mr_finding){ .kind = MR_GUESSED,
+			     .layer = "points",
+			     .what = v->side.normals
+		                         ? "the normals of the points point inward, and are turned over"
+		                         : "the points were seen from within: their surface faces away" });
 	return MR_OK;
 }
 
@@ -559,7 +560,9 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 static void
 report_uncertain(mr_ctx *ctx, const char *what, mr_v3 at)
 {
-	mr_finding f = { .kind = MR_UNCERTAIN, .what = what, .placed = true, .vertex = MR_NO_VERTEX, .at = at };
+	mr_finding f = {
+		.kind = MR_UNCERTAIN, .what = what, .placed = true, .vertex = MR_NO_VERTEX, .at = at
+	};
 
 	mr_found(ctx, &f);
 }
@@ -593,7 +596,8 @@ report_sides(mr_ctx *ctx, volume *v, const float *u)
 			first = i;
 		}
 	if ((double)unsure > SHARE * (double)v->s.n)
-		report_uncertain(ctx, ": body or gaps are too thin to show which side is outside", v->s.p[first]);
+		report_uncertain(
+		    ctx, ": body or gaps are too thin to show which side is outside", v->s.p[first]);
 	else
 		mr_volume_report_patches(ctx, &v->s);
 	return MR_OK;
@@ -690,8 +694,8 @@ take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *side
 		    &(mr_finding){ .kind = MR_GUESSED,
 			.layer = "points",
 			.what = sides->normals
-			            ? "the normals of the points contradict their places, and are not used"
-			            : "the places of the scanner contradict the points, and are not used" });
+		                    ? "the normals of the points contradict their places, and are not used"
+		                    : "the places of the scanner contradict the points, and are not used" });
 		return MR_OK;
 	}
 	v->found.sided = judged.told;

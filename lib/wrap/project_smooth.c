@@ -1,6 +1,6 @@
 /* The two steps of the paper, section 3.1.1. */
-#include "wrap/parts.h"
 #include "base/parallel.h"
+#include "wrap/parts.h"
 
 enum { GRAIN = 2048 };
 

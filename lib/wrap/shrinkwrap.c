@@ -1,5 +1,5 @@
-/* Jeong, Kim 2001, section 3: the cube to the letter, and a template; beyond it the volume, of any topology, and
- * height fields as what they are. */
+/* Jeong, Kim 2001, section 3: the cube to the letter, and a template; beyond it the volume, of any topology,
+ * and height fields as what they are. */
 #include "wrap/shrinkwrap.h"
 
 #include "base/text.h"
@@ -16,6 +16,9 @@ enum { ITERATIONS = 20, TEMPLATE_SETTLES = 4 };
 
 /* Of mr_wrap_result.method, beside the methods. */
 enum { TEMPLATE = MR_WRAP_VOLUME + 1, SHEET };
+
+/* So few points tell nothing of handles and limbs: a cube goes around them. */
+enum { FEW = 64 };
 
 /* So few places, or places so far apart in diagonals, tell no handles. */
 enum { SURE_LEAST = 100 };
@@ -58,9 +61,9 @@ resolution_for(const mr_wrap_cloud *cloud)
 	return r < 4 ? 4 : r;
 }
 
-/* To the letter of section 3.1.1. */
+/* Section 3.1.1, to the letter, or so that no face turns. */
 static mr_status
-wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wrap *c)
+wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, bool guarded, mr_wrap *c)
 {
 	size_t r = o->resolution ? o->resolution : resolution_for(cloud);
 	mr_mesh cube;
@@ -69,7 +72,7 @@ wrap_cube(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_wra
 	c->found.resolution = r;
 	MR_TRY(mr_wrap_box(ctx, cube_around(cloud->box), (size_t[]){ r, r, r }, &cube));
 	MR_TRY(mr_wrap_dyn(ctx, &cube, &c->d));
-	MR_TRY(pull(ctx, cloud, o, false, c));
+	MR_TRY(pull(ctx, cloud, o, guarded, c));
 	mr_unfold(&c->d, true);
 	return mr_wrap_assess(ctx, cloud, c);
 }
@@ -124,7 +127,9 @@ wrap_by_method(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 	if (cloud->flat)
 		return mr_fail(ctx, MR_EMESH, "%zu points lie in a plane: no surface closes around them",
 		    cloud->sampling.n);
-	return o->method == MR_WRAP_CUBE ? wrap_cube(ctx, cloud, o, c) : wrap_volume(ctx, cloud, o, c);
+	if (o->method == MR_WRAP_CUBE || (o->method == MR_WRAP_AUTO && cloud->n <= FEW))
+		return wrap_cube(ctx, cloud, o, o->method == MR_WRAP_AUTO, c);
+	return wrap_volume(ctx, cloud, o, c);
 }
 
 /* ---- findings, at most one of a kind ---- */
@@ -150,8 +155,8 @@ report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	if (cloud->n < SURE_LEAST || cloud->spacing > SURE_MOST * cloud->diagonal)
 		report_uncertain(ctx, ": so few points hide handles", NULL);
 	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
-		report_uncertain(ctx, mr_format(ctx, ": Euler number %g or %g", v->euler, v->euler_beside),
-		    &v->uncertain);
+		report_uncertain(
+		    ctx, mr_format(ctx, ": Euler number %g or %g", v->euler, v->euler_beside), &v->uncertain);
 	else if (l->doubtful > 0)
 		report_uncertain(ctx,
 		    mr_format(ctx, ": an opening %.3g sampling distances wide is %s, and may not be meant so",

@@ -68,13 +68,7 @@ done
 
 echo 'what may be an opening or a hole is said'
 awk '!($1 > 0 && $2^2 + $3^2 < 0.045)' cup.xyz >doubt.xyz
-mr-import --points doubt.xyz | mr-shrinkwrap 2>&1 >/dev/null | sed 's/near (.*)/near (x, y, z)/; s/measures [0-9.]*/measures N/'
-
-echo 'and a hole seven sampling distances wide, wherever the vertices are'
-for seed in 1 2 3 4 5; do
-	mr-make sphere --points 10000 --seed $seed | mr-export -l points -f xyz - | awk '!($3 > 0 && $1^2 + $2^2 < 0.0154)' >hole.xyz
-	mr-import --points hole.xyz | mr-shrinkwrap 2>&1 >/dev/null | sed 's/.*measures \([67]\)\..*/\1/' | awk '{ print $1 == 6 || $1 == 7 ? "said" : $0 }'
-done
+mr-import --points doubt.xyz | mr-shrinkwrap 2>&1 >/dev/null
 
 echo 'flat faces without points are none'
 mr-make cube -n 3000 | mr-export -q -f xyz -l mesh - | awk '{ line[NR] = $0; for (k = 1; k <= 3; k++) if ($k > high) high = $k } END {
@@ -85,7 +79,7 @@ mr-make cube -n 3000 | mr-export -q -f xyz -l mesh - | awk '{ line[NR] = $0; for
 		if (n > 1) print line[i]
 	}
 }' >frame.xyz
-mr-import --points frame.xyz | mr-shrinkwrap -o frame.mrs 2>&1 | grep -c warning
+mr-import --points frame.xyz | mr-shrinkwrap -o frame.mrs 2>&1 | grep -c '\['
 topology control frame.mrs
 
 echo 'an open scan bent, and made even'
@@ -96,9 +90,9 @@ topology mesh bent.mrs
 mr-equalize scan.mrs | mr-decode -o even.mrs
 topology mesh even.mrs
 
-echo 'nine tenths of a cylinder wrapped from both sides: the way to leave it open is named, and does'
+echo 'nine tenths of a cylinder wrapped from both sides, and open'
 mr-make cylinder --points 12000 | mr-export -l points -f xyz - |
 	awk '$3 > -0.9 && $3 < 0.9 && sqrt(atan2($2, $1)^2) < 2.83 { print $1, $2, 0.44 * $3 }' >bent.xyz
-mr-import --points bent.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -o -e '--lids none'
+mr-import --points bent.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c uncertain
 mr-import --points bent.xyz | mr-shrinkwrap -q --lids none -o bent.mrs
 topology control bent.mrs

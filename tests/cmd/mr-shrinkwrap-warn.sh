@@ -15,7 +15,7 @@ echo 'half a sphere, closed by a lid'
 mr-make sphere --points 3000 --seed 5 | mr-export -l points -f xyz - | awk '$3 > 0' >half.xyz
 reconstruct half.xyz 2>err
 nearest 0.001
-sed 's/[0-9.]* sampling/N sampling/; s/at [0-9]* of [0-9]*/at N of N/' err
+cat err
 
 echo 'the same, quietly'
 mr-import --points half.xyz | mr-shrinkwrap -q --lids all -o quiet.mrs
@@ -32,31 +32,31 @@ for n in 4 6 8 20; do
 done
 
 echo 'so few that handles hide, and a few that lie apart'
-mr-make sphere --points 100 | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'so few hide handles'
+mr-make sphere --points 100 | mr-shrinkwrap 2>&1 >/dev/null | grep -c uncertain
 { mr-make sphere --points 3000 | mr-export -l points -f xyz - && for i in 1 2 3 4 5 6 7 8 9; do echo 1.5 0.0$i 0.0$i 1 0 0; done; } |
-	mr-import -f xyz - | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'an outlier, or of a part that is left out'
+	mr-import -f xyz - | mr-shrinkwrap 2>&1 >/dev/null | grep -c unreached
 
 echo 'a solid has no surface, and gets a sound one'
 mr-make sphere --points 4000 | mr-export -l points -f xyz - |
 	awk '{ s = 1 - (NR % 10) / 11; print s * $1, s * $2, s * $3 }' >solid.xyz
-mr-import --points solid.xyz | mr-shrinkwrap -o solid.mrs 2>&1 | sed -n 's/.*the topology is uncertain.*/uncertain/p; s/.*the points hardly lie along a surface.*/scattered/p'
+mr-import --points solid.xyz | mr-shrinkwrap -o solid.mrs 2>&1
 flaws control solid.mrs
 
 echo 'a cube drawn around limbs'
-mr-make knot --points 3000 | mr-shrinkwrap -m cube 2>&1 >/dev/null | grep -c 'warning: the wrap has .* pairs of faces that intersect'
+mr-make knot --points 3000 | mr-shrinkwrap -m cube 2>&1 >/dev/null | grep -c crossing
 
 echo 'a bowl that is thinner than its points are apart, and one of one sheet'
 for outer in 1.03 1; do
 	awk -v outer=$outer '{ s = NR % 2 ? outer : 1; print s * $1, s * $2, s * $3 }' half.xyz >bowl.xyz
-	mr-import --points bowl.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'in two layers'
+	mr-import --points bowl.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c uncertain
 done
 
 echo 'a strip of a cube that two scans see, three spacings out of register, and in register'
 for off in 0.09 0; do
 	mr-make cube --points 8000 --seed 3 | mr-export -l points -f xyz - |
 		awk -v off=$off '{ s = NR % 2 && $1 > -0.05 && $1 < 0.45 ? off : 0; print $1 + s, $2 + s, $3 + s }' >strip.xyz
-	mr-import --points strip.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c 'in two layers'
+	mr-import --points strip.xyz | mr-shrinkwrap 2>&1 >/dev/null | grep -c uncertain
 done
 
 echo 'a surface that leaves its points at one place'
-mr-make knot --points 3000 | mr-shrinkwrap | mr-simplify -q --faces 40 | mr-fit -q | mr-sample -n 2 2>&1 >/dev/null | sed -n 's/.*the displaced surface is up to [0-9.]* spacings.*/too far/p; s/.*points are up to [0-9.]* spacings.*/too far from points/p'
+mr-make knot --points 3000 | mr-shrinkwrap | mr-simplify -q --faces 40 | mr-fit -q | mr-sample -n 2 2>&1 >/dev/null

@@ -66,7 +66,6 @@ for f in both out; do
 done
 cmp both.faces out.faces && echo same faces
 worst 0.03 <out.mrs
-mr-shrinkwrap --template -n 1 both.mrs 2>&1 >out.mrs | grep -c 'sides that are given'
 
 echo 'a template loses what followed from where it was: responses and heights'
 mr-select --free above:z,0.3 --handle 0=above:z,0.8 both.mrs | mr-solve --flatten | mr-solve --basis | mr-sample -n 1 -o old.mrs
@@ -85,5 +84,5 @@ echo "exit $?, $(wc -c <out) bytes"
 echo 'rows far apart' >&2
 awk 'BEGIN { for (j = 0; j < 20; j++) for (i = 0; i < 200; i++) print i / 20, j / 2, sin(i / 20) * cos(j / 2) }' >rows.xyz
 mr-import --points rows.xyz -o rows.mrs
-mr-shrinkwrap rows.mrs 2>&1 >out | grep -o 'the points stand in rows.*' >&2
+mr-shrinkwrap rows.mrs 2>&1 >out | grep -c scattered
 mr-crop --keep spaced:0.25 rows.mrs | mr-shrinkwrap | mr-info -l control | sed -n 's/^ *topology *//p'
