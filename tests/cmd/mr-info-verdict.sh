@@ -1,13 +1,16 @@
 # One word for each frame, by the findings that it carries.
-mr-make sphere -n 200 -o good.mrs
-PYTHONPATH="$TOP/examples" python3 - <<'X'
-import mrstream
-def frames():
-	for lines in ([], [("lost", 3, 0)], [("lost", 3, 0), ("folded", 1, 900)], [("folded", 1, 900), ("crossing", 90, 900)]):
-		for frame in mrstream.read("good.mrs"):
-			if lines:
-				frame.put("", "findings", "".join("mr-x\t%s\tmesh\t%d\t%d\t0\t0\t\t\t\t\t\n" % line for line in lines))
-			yield frame
-mrstream.write("all.mrs", frames())
+python3 - >all.mrs <<'X'
+import struct, sys, zlib
+def record(name, data=b"", layer=b""):
+	head = layer.ljust(16, b"\0") + name.ljust(24, b"\0") + b"-t\1\0"
+	tail = struct.pack("<QQ", len(data), len(data))
+	crc = struct.pack("<I", zlib.crc32(data, zlib.crc32(head + bytes(4) + tail)))
+	return head + crc + tail + data + bytes(-len(data) % 64)
+def line(kind, count):
+	return b"mr-x\t%s\tmesh\t%d\t900\t0\t0\t\t\t\t\t\n" % (kind, count)
+out = record(b"START", layer=b"mrmesh1\n")
+for lines in ([], [(b"lost", 3)], [(b"lost", 3), (b"folded", 1)], [(b"folded", 1), (b"crossing", 90)]):
+	out += record(b"FRAME", b"key x") + record(b"findings", b"".join(line(*x) for x in lines)) + record(b"ENDFRAME")
+sys.stdout.buffer.write(out + record(b"END"))
 X
 mr-info --verdict all.mrs
