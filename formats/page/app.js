@@ -29,9 +29,9 @@ export class App {
 	/* pictures: the bytes of each. */
 	constructor(frames, pictures) {
 		this.frames = frames;
-		this.stage = new Stage($("canvas"), { labels: $("labels"), foot: $("foot") }, mostFaces(frames) < FINE);
+		this.stage = new Stage($("canvas"), $("foot"), mostFaces(frames) < FINE);
 		this.pictures = new Pictures(pictures, this.stage.renderer);
-		this.choice = { frame: 0, visible: null, level: null, beside: false, flat: false, wire: false, flaws: false, color: null, range: null };
+		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, flaws: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
@@ -80,21 +80,13 @@ export class App {
 		for (const { name } of seen)
 			this.drawn.get(name).drawn.look(this.choice.flat, this.choice.wire);
 		this.flaws.show(side, this.choice.flaws);
-		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]), this.choice.beside);
+		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]));
 		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);
 		this.shown = { frame, seen };
 		await this.posing.load(frame, this.centre);
 		await this.painter.meet(frame, layers, visible);
 		await this.tellPicked();
-	}
-
-	/* Each layer on its own, or no longer: of one layer that is seen alone all others, too. */
-	async part(beside) {
-		const names = layersOf(this.shown.frame).map((l) => l.name);
-
-		await this.change(beside && this.shown.seen.length < 2 ? { beside, visible: new Set(names) } : { beside });
-		this.fit();
 	}
 
 	/* The layers that are switched on; at first, and of another model that has none of them, the one that comes first. */

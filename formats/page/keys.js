@@ -23,7 +23,6 @@ const KEYS = {
 	ArrowRight: () => $("after").click(),
 	PageUp: () => stepLevel(1),
 	PageDown: () => stepLevel(-1),
-	b: () => $("besides").hidden || $("beside").click(),
 	c: () => cycle($("color")),
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),
 	e: () => $("wire").click(),

@@ -37,7 +37,6 @@ function readRange() {
 function connect(app) {
 	const view = () => $("view").value.split(",").map(Number);
 
-	$("beside").addEventListener("change", () => app.part($("beside").checked));
 	$("level").addEventListener("input", () => app.change({ level: $("level").valueAsNumber }));
 	$("color").addEventListener("change", () => app.change({ color: $("color").value, range: null }));
 	for (const end of ["low", "high"])

@@ -24,7 +24,6 @@ function layerSwitch(layer, shown, change) {
 /* A switch for each layer. */
 export function listLayers(layers, visible, change) {
 	$("layers").replaceChildren(...layers.map((layer) => layerSwitch(layer, visible.has(layer.name), change)));
-	$("besides").hidden = layers.length < 2;
 }
 
 /* Edges and smoothness are of surfaces. */

@@ -33,7 +33,7 @@ def sphere(b):
 
 
 def layers(b):
-    """The latest first; switches, side by side."""
+    """The latest first; switches."""
     b.open("film.html")
     rows = b.eval("[...document.querySelectorAll('#layers label')].map(e => [e.querySelector('bdi').textContent, e.querySelector('.size').textContent, e.querySelector('input').checked])")
     values = columns("film.mrs")
@@ -46,14 +46,6 @@ def layers(b):
     base = b.picture()
     check(mesh != base, "the base looks like the mesh")
     b.press("1")
-    b.press("b")
-    labels = b.eval("[...document.querySelectorAll('#labels span')].map(e => e.textContent)")
-    check(labels == ["mesh", "base"], "side by side: %s" % labels)
-    left, top, width, height = b.canvas()
-    picture = b.picture()
-    halves = [picture.share((x, top + 40, width / 2, height - 140), lambda p: far(p, LIGHT)) for x in (left, left + width / 2)]
-    check(min(halves) > 0.05 and abs(halves[0] - halves[1]) < 0.05, "side by side: shares %s" % halves)
-    b.press("b")
     b.press("2")
     check(b.picture() == mesh, "the mesh alone looks otherwise than at first")
 

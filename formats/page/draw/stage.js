@@ -1,10 +1,9 @@
-/* stage.js -- the canvas: a camera, light that comes with it, and the layers, in one panel or one for each. */
+/* stage.js -- the canvas: a camera, light that comes with it, and the layers. */
 import * as THREE from "three/build/three.module.js";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { Gizmo } from "./gizmo.js";
-import { element } from "../stream/text.js";
 
-const ANGLE = 30; /* degrees, of the height of a panel */
+const ANGLE = 30; /* degrees, of the height of the picture */
 const LOW = 440; /* pixels of a window in which nothing is to lie over the model: of a phone on its side */
 
 /* Whether the browser can draw at all. */
@@ -12,20 +11,6 @@ export function canDraw() {
 	const canvas = document.createElement("canvas");
 
 	return Boolean(canvas.getContext("webgl2") || canvas.getContext("webgl"));
-}
-
-/* Columns of a grid of n panels that are as little stretched as can be. */
-function columnsFor(n, width, height) {
-	let best = 1, most = 0;
-
-	for (let columns = 1; columns <= n; columns++) {
-		const side = Math.min(width / columns, height / Math.ceil(n / columns));
-		if (side > most) {
-			most = side;
-			best = columns;
-		}
-	}
-	return best;
 }
 
 /* Light that comes with the camera. */
@@ -39,21 +24,18 @@ export function lightUp(scene, camera) {
 }
 
 export class Stage {
-	/* labels, foot: lie over the canvas; smooth: whether edges are, which costs four times the pixels. */
-	constructor(canvas, { labels, foot }, smooth) {
+	/* foot: lies over the canvas; smooth: whether edges are, which costs four times the pixels. */
+	constructor(canvas, foot, smooth) {
 		this.canvas = canvas;
-		this.labels = labels;
 		this.foot = foot;
 		this.renderer = new THREE.WebGLRenderer({ canvas, antialias: smooth, alpha: true });
 		this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
-		this.renderer.autoClear = false;
 		this.scene = new THREE.Scene();
 		this.camera = new THREE.PerspectiveCamera(ANGLE, 1, 1, 10);
 		lightUp(this.scene, this.camera);
 		this.gizmo = new Gizmo(this);
 		this.up("y");
 		this.layers = []; /* [name, drawn], those to be seen */
-		this.cells = [{ title: "", layers: [] }]; /* what each panel has */
 		this.paints = false;
 		this.radius = 1;
 		const observer = new ResizeObserver(() => this.resize());
@@ -96,55 +78,35 @@ export class Stage {
 	/* Whether handles can be dragged: not while the left button paints. */
 	offer(paints = this.paints) {
 		this.paints = paints;
-		this.gizmo.offer(this.cells.length === 1 && !paints);
+		this.gizmo.offer(!paints);
 	}
 
-	/* Puts layers, [name, drawn], on the stage; beside: each in a panel of its own. */
-	show(layers, beside) {
+	/* Puts layers, [name, drawn], on the stage. */
+	show(layers) {
+		for (const [, drawn] of this.layers)
+			this.scene.remove(drawn.group);
+		for (const [, drawn] of layers)
+			this.scene.add(drawn.group);
 		this.layers = layers;
-		this.cells = beside && layers.length > 1 ? layers.map((layer) => ({ title: layer[0], layers: [layer] })) : [{ title: "", layers }];
 		this.offer();
-		this.label();
 		this.ask();
 	}
 
-	/* The panels: place in the canvas, from its top left corner, and what is there; several, and one in a low window, end above the foot. */
-	panels() {
-		const box = this.canvas.getBoundingClientRect(), n = this.cells.length;
-		const width = this.canvas.clientWidth, whole = this.canvas.clientHeight;
-		const height = n > 1 || whole < LOW ? Math.max(this.foot.getBoundingClientRect().top - box.top, 1) : whole;
-		const columns = columnsFor(n, width, height), w = width / columns, h = height / Math.ceil(n / columns);
-
-		return this.cells.map((cell, i) => ({ ...cell, x: i % columns * w, y: Math.floor(i / columns) * h, width: w, height: h }));
-	}
-
-	/* Where in the window the panel is in which handles are dragged. */
+	/* Where in the window the picture is: all of the canvas, or, of a low one, what is above the foot. */
 	place() {
-		const box = this.canvas.getBoundingClientRect(), [panel] = this.panels();
+		const { left, top } = this.canvas.getBoundingClientRect(), { clientWidth: width, clientHeight: whole } = this.canvas;
 
-		return { left: box.left + panel.x, top: box.top + panel.y, width: panel.width, height: panel.height };
+		return { left, top, width, height: whole < LOW ? Math.max(this.foot.getBoundingClientRect().top - top, 1) : whole };
 	}
 
 	aspect() {
-		const panel = this.panels()[0];
+		const { width, height } = this.place();
 
-		return panel.width / panel.height || 1;
-	}
-
-	label() {
-		this.labels.replaceChildren();
-		for (const panel of this.panels().filter((p) => p.title)) {
-			const label = element("span", panel.title);
-			label.style.left = panel.x + "px";
-			label.style.top = panel.y + "px";
-			label.style.maxWidth = panel.width + "px";
-			this.labels.append(label);
-		}
+		return width / height || 1;
 	}
 
 	resize() {
 		this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
-		this.label();
 		this.draw();
 	}
 
@@ -154,7 +116,7 @@ export class Stage {
 			this.asked = requestAnimationFrame(() => this.draw());
 	}
 
-	/* The camera as a panel has it. */
+	/* The camera as the picture has it. */
 	aim() {
 		const far = this.camera.position.distanceTo(this.controls.target);
 
@@ -166,44 +128,27 @@ export class Stage {
 	}
 
 	draw() {
-		const ratio = this.renderer.getPixelRatio(), height = this.canvas.clientHeight;
+		const { width, height } = this.place(), pixels = height * this.renderer.getPixelRatio() / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
 
 		cancelAnimationFrame(this.asked);
 		this.asked = 0;
 		this.aim();
-		this.renderer.setScissorTest(false);
-		this.renderer.clear();
-		this.renderer.setScissorTest(true);
-		for (const panel of this.panels()) {
-			const place = [panel.x, height - panel.y - panel.height, panel.width, panel.height];
-			this.renderer.setViewport(...place);
-			this.renderer.setScissor(...place);
-			for (const [, drawn] of panel.layers) {
-				drawn.scale(panel.height * ratio / 2 / Math.tan(ANGLE / 2 * Math.PI / 180));
-				this.scene.add(drawn.group);
-			}
-			this.renderer.render(this.scene, this.camera);
-			for (const [, drawn] of panel.layers)
-				this.scene.remove(drawn.group);
-		}
+		for (const [, drawn] of this.layers)
+			drawn.scale(pixels);
+		this.renderer.setViewport(0, this.canvas.clientHeight - height, width, height);
+		this.renderer.render(this.scene, this.camera);
 	}
 
-	/*
-	 * The panel at a place of the window: its layers, its place in the window, and what the camera has there; null
-	 * outside.
-	 */
+	/* Of a place of the window that is in the picture: where that is, and what the camera has there; null outside. */
 	viewAt(clientX, clientY) {
-		const box = this.canvas.getBoundingClientRect(), x = clientX - box.left, y = clientY - box.top;
-		const panel = this.panels().find((p) => x >= p.x && x < p.x + p.width && y >= p.y && y < p.y + p.height);
+		const place = this.place(), x = clientX - place.left, y = clientY - place.top;
 
-		if (!panel)
+		if (x < 0 || y < 0 || x >= place.width || y >= place.height)
 			return null;
 		this.aim();
 		const projection = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
 		return {
-			...panel,
-			left: box.left + panel.x,
-			top: box.top + panel.y,
+			...place,
 			m: projection.elements,
 			eye: this.camera.position.toArray(),
 			near: this.camera.near,
@@ -224,24 +169,24 @@ export class Stage {
 	}
 
 	/*
-	 * What a pick needs to know of a place of the window: the layers there, the ray, and for points the projection
-	 * with the place in it; null outside.
+	 * What a pick needs to know of a place of the window: the layers, the ray, and for points the projection with the
+	 * place in it; null outside.
 	 */
 	rayAt(clientX, clientY) {
-		const panel = this.viewAt(clientX, clientY);
+		const view = this.viewAt(clientX, clientY);
 
-		if (!panel)
+		if (!view)
 			return null;
-		const right = (clientX - panel.left) / panel.width * 2 - 1, top = 1 - (clientY - panel.top) / panel.height * 2;
+		const right = (clientX - view.left) / view.width * 2 - 1, top = 1 - (clientY - view.top) / view.height * 2;
 		return {
-			layers: panel.layers,
-			from: panel.eye,
-			along: this.along(panel, clientX - panel.left, clientY - panel.top),
-			projection: panel.m,
+			layers: this.layers,
+			from: view.eye,
+			along: this.along(view, clientX - view.left, clientY - view.top),
+			projection: view.m,
 			right,
 			top,
 			aspect: this.camera.aspect,
-			pixel: 2 / panel.height,
+			pixel: 2 / view.height,
 		};
 	}
 }

@@ -64,7 +64,7 @@ export class Strokes {
 	see(clientX, clientY) {
 		const view = this.stage.viewAt(clientX, clientY), { drawn } = this.painter;
 
-		return view && drawn && view.layers.some(([, d]) => d === drawn) ? { view, drawn } : null;
+		return view && drawn ? { view, drawn } : null;
 	}
 
 	/* What is under a place of the window: { face, at, vertex }; null: nothing. */
