@@ -121,7 +121,7 @@ WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) l
 	$(addprefix lib/mesh/,edges.c mesh.c fold.c zorder.c) $(addprefix lib/edit/,phong.c pose_basis.c) $(addprefix lib/space/,bvh.c bvh_build.c bvh_labels.c geodesic.c predicates.c self_intersect.c suspects.c) lib/mesh/alike.c $(addprefix lib/subdivide/,displaced.c loop.c loop_limit.c wavelet.c))
 $(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
 	@mkdir -p $(@D)
-	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 -O3 -ffunction-sections -fno-math-errno -ffp-contract=off \
+	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 $(if $(findstring library,$<),-O3,-Os) -ffunction-sections -fno-math-errno -ffp-contract=off \
 		$(WARN) $(INCLUDE) -MMD -MP -c -o $@ $<
 $(BUILD)/page/library.wasm: $(WASM)
 	@mkdir -p $(@D)

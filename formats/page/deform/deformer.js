@@ -1,6 +1,6 @@
 /*
- * deformer.js -- base and mesh as the handles pose them: workers have a part each, and what is shown when nothing moves any more
- * is what mr-decode makes.
+ * deformer.js -- what follows the handles, as mr-decode makes it when nothing moves any more: base and mesh, of which workers
+ * have a part each, or the displaced surface over a control mesh (displaced.js).
  */
 import { module } from "../library/compile.js";
 import { IDENTITY } from "../mesh/rotation.js";
@@ -10,18 +10,18 @@ import { columnOf } from "../stream/stream.js";
 const WORKERS = 4; /* at most */
 const VERTICES = 10000; /* of a base, for which a worker more is worth the while */
 
+/* Columns of the frame by other names. */
+export const columnsOf = (frame, named) => Object.fromEntries(Object.entries(named).map(([key, name]) => [key, columnOf(frame, ...name.split(" "))]));
+
 /* The columns that it is made of; null where the frame has not all of them. */
 export function posedBy(frame) {
-	const named = { position: "base position", triangles: "base triangles", encoded: "base encoded", response: "base response",
-		face: "mesh detail_face", bary: "mesh detail_bary", height: "mesh detail_height", offset: "mesh detail_offset" };
-	const columns = Object.fromEntries(Object.entries(named).map(([key, name]) => [key, columnOf(frame, ...name.split(" "))]));
+	const columns = columnsOf(frame, { position: "base position", triangles: "base triangles", encoded: "base encoded", response: "base response",
+		face: "mesh detail_face", bary: "mesh detail_bary", height: "mesh detail_height", offset: "mesh detail_offset" });
 
 	return columns.response && columns.height ? columns : null;
 }
 
-function less(position, centre) {
-	return Float64Array.from(position, (x, i) => x - centre[i % 3]);
-}
+const less = (position, centre) => position.map((x, i) => x - centre[i % 3]);
 
 /* Rows of three floats, where `to` has them. */
 function scatter(from, rows, to) {
@@ -58,12 +58,11 @@ class Hand {
 	}
 }
 
-export class Deformer {
-	/* changed(): there are other places to be drawn. */
+/* What poses: prepare(centre) makes it ready, compute(maps) changes its `places`, of layers by their names. */
+export class Poser {
+	/* columns: that it is made of; changed(): there are other places to be drawn. */
 	constructor(columns, changed) {
-		this.columns = columns;
-		this.changed = changed;
-		this.working = false; /* whether the workers have more to say */
+		Object.assign(this, { columns, changed, places: {}, maps: [], working: false });
 	}
 
 	/* Whether it is made of these. */
@@ -71,6 +70,29 @@ export class Deformer {
 		return centre === this.centre && Object.keys(columns).every((key) => columns[key] === this.columns[key]);
 	}
 
+	/* Poses by the handles' maps; what is asked meanwhile comes next, the last of it. */
+	async pose(maps) {
+		this.maps = this.next = maps;
+		if (this.working)
+			return;
+		this.working = true;
+		while (this.next) {
+			this.next = null;
+			await this.compute(this.maps);
+			this.working = Boolean(this.next);
+			this.changed();
+		}
+	}
+
+	/* Goes with the level of the frame. */
+	follow() {}
+
+	end() {
+		this.next = null;
+	}
+}
+
+export class Deformer extends Poser {
 	/* Reads the columns, around the centre, and waits for the places at rest. */
 	async prepare(centre) {
 		const keys = Object.keys(this.columns).filter((key) => this.columns[key]);
@@ -100,25 +122,12 @@ export class Deformer {
 		}
 	}
 
-	/* Poses by the handles' maps; what is asked meanwhile comes next, the last of it. */
-	async pose(maps) {
-		this.next = maps;
-		if (this.working)
-			return;
-		this.working = true;
-		while (this.next) {
-			const now = this.next;
-			this.next = null;
-			await this.all(() => ({ maps: flat(now, this.handles) }));
-			this.working = Boolean(this.next);
-			this.changed();
-		}
+	compute(maps) {
+		return this.all(() => ({ maps: flat(maps, this.handles) }));
 	}
 
-	/* Base and mesh have one level. */
-	follow() {}
-
 	end() {
+		super.end();
 		this.hands.forEach(({ worker }) => worker.terminate());
 	}
 }

@@ -2,35 +2,23 @@
  * displaced.js -- a control mesh as its handles pose it, by its response to them, lib/edit/pose_basis.c, and the displaced surface
  * over it on the level that is shown, as mr-decode makes it: few vertices are posed, and then subdivided (mesh/levels.js).
  */
-import { flat } from "./deformer.js";
+import { Poser, columnsOf, flat } from "./deformer.js";
 import { library } from "../library/compile.js";
-import { columnOf } from "../stream/stream.js";
 
 /* The columns that it is made of; null where the frame has not all of them. */
 export function controlOf(frame) {
-	const named = { position: "control position", triangles: "control triangles", response: "control response", region: "control region",
-		height: "displacement height" };
-	const columns = Object.fromEntries(Object.entries(named).map(([key, name]) => [key, columnOf(frame, ...name.split(" "))]));
+	const columns = columnsOf(frame, { position: "control position", triangles: "control triangles", response: "control response",
+		region: "control region", height: "displacement height" });
 
 	return frame.levels && columns.response ? columns : null;
 }
 
 const less = (position, centre) => Float32Array.from(position, (x, i) => x - centre[i % 3]);
 
-export class DisplacedDeformer {
-	/* changed(): there are other places to be drawn. */
+export class DisplacedDeformer extends Poser {
 	constructor(frame, columns, changed) {
+		super(columns, changed);
 		this.surface = frame.levels.surface;
-		this.columns = columns;
-		this.changed = changed;
-		this.maps = [];
-		this.places = {};
-		this.working = false;
-	}
-
-	/* Whether it is made of these. */
-	isOf(columns, centre) {
-		return centre === this.centre && Object.keys(columns).every((key) => columns[key] === this.columns[key]);
 	}
 
 	async prepare(centre) {
@@ -40,7 +28,6 @@ export class DisplacedDeformer {
 		return this;
 	}
 
-	/* Goes with the level that the frame is on. */
 	follow(frame) {
 		if (this.level === frame.levels.at)
 			return;
@@ -61,22 +48,12 @@ export class DisplacedDeformer {
 		return out;
 	}
 
-	/* Poses by the handles' maps; what is asked meanwhile comes next, the last of it. */
-	async pose(maps) {
-		this.maps = this.next = maps;
-		if (this.working)
-			return;
-		this.working = true;
-		while (this.next) {
-			const now = this.next, { level, surface, centre } = this;
-			this.next = null;
-			const control = this.posed(now);
-			const places = { control: less(control, centre), [surface.layer]: less(await surface.positionsOver(level, control), centre) };
-			if (level === this.level)
-				this.places = places;
-			this.working = Boolean(this.next);
-			this.changed();
-		}
+	async compute(maps) {
+		const { level, surface, centre } = this, control = this.posed(maps);
+		const places = { control: less(control, centre), [surface.layer]: less(await surface.positionsOver(level, control), centre) };
+
+		if (level === this.level)
+			this.places = places;
 	}
 
 	/* The region of the control vertex nearest to where a vertex of the surface is at rest. */
@@ -90,9 +67,5 @@ export class DisplacedDeformer {
 				[best, least] = [v, away];
 		}
 		return (await this.columns.region.values())[best];
-	}
-
-	end() {
-		this.next = null;
 	}
 }
