@@ -35,10 +35,8 @@ struct cmd_state {
 	mr_outfile output_file, held, stats_file;
 	place_guard places;
 
-	mr_text figures;  /* of the frame at work, as they go into the line of --stats */
-	findings found;   /* of the frame at work */
-	findings known;   /* that this tool said since the last key */
-	findings carried; /* of all frames, for what is found after the last of them */
+	mr_text figures;    /* of the frame at work, as they go into the line of --stats */
+	findings_book book; /* what was found */
 
 	const char *frame_name;
 	bool lost_key;         /* the key failed: its deltas go with it */
@@ -180,39 +178,8 @@ static void
 collect_finding(void *user, const mr_finding *f)
 {
 	cmd *c = user;
-	mr_kept_finding k;
 
-	mr_finding_keep(&k, c->name, f);
-	findings_add(&c->state->found, &k);
-}
-
-static void
-add_all(findings *all, const findings *more)
-{
-	for (size_t i = 0; i < more->n; i++)
-		findings_add(all, &more->k[i]);
-}
-
-/* Says what was found in the frame at work and is news, and lets the frame carry all that is known of it. */
-static mr_status
-settle_findings(cmd *c, mr_frame *f)
-{
-	struct cmd_state *s = c->state;
-	findings all = { 0 };
-
-	if (f->key)
-		s->known.n = 0;
-	if (!s->found.n && !s->known.n && !c->tool->finish)
-		return MR_OK;
-	MR_TRY(findings_read(&c->ctx, f, &all));
-	add_all(&s->carried, &all);
-	add_all(&all, &s->known);
-	if (!c->quiet)
-		findings_say(&s->found, &all, show_warning, c);
-	add_all(&s->known, &s->found);
-	add_all(&s->carried, &s->found);
-	add_all(&all, &s->found);
-	return c->tool->sink ? MR_OK : findings_put(&c->ctx, f, &all);
+	findings_collect(&c->state->book, c->name, f);
 }
 
 /* What the tool does after the last frame, and says of it. */
@@ -221,10 +188,10 @@ finish(cmd *c)
 {
 	struct cmd_state *s = c->state;
 
-	s->found.n = 0;
+	s->book.found.n = 0;
 	try(c, c->tool->finish(c));
 	if (!c->quiet)
-		findings_say(&s->found, &s->carried, show_warning, c);
+		findings_say(&s->book.found, &s->book.carried, show_warning, c);
 }
 
 /* After a second of work, at most ten times a second. */
@@ -614,25 +581,6 @@ cmd_figure(cmd *c, const char *name, double value)
 	mr_text_number(t, value);
 }
 
-/* ,"findings":{"folded":12}: counts by kind, where there are any. */
-static void
-add_findings(mr_text *line, const findings *found)
-{
-	size_t count[MR_FINDING_KINDS] = { 0 };
-	const char *before = ",\"findings\":{";
-
-	for (size_t i = 0; i < found->n; i++)
-		count[found->k[i].f.kind] += found->k[i].f.count ? found->k[i].f.count : 1;
-	for (int kind = 0; kind < MR_FINDING_KINDS; kind++)
-		if (count[kind]) {
-			mr_text_add(line, "%s\"%s\":%zu", before, mr_finding_name((mr_finding_kind)kind),
-			    count[kind]);
-			before = ",";
-		}
-	if (found->n)
-		mr_text_add(line, "}");
-}
-
 /* One line of --stats: a JSON object. */
 static mr_status
 print_stats(cmd *c, double seconds)
@@ -649,7 +597,7 @@ print_stats(cmd *c, double seconds)
 	mr_text_add(&line, ",\"seconds\":%.6f,\"peak_bytes\":%.0f", seconds, mr_memory_peak());
 	MR_TRY(mr_text_done(&s->figures));
 	mr_text_add(&line, "%s", s->figures.s ? s->figures.s : "");
-	add_findings(&line, &s->found);
+	findings_count(&line, &s->book.found);
 	mr_text_add(&line, "}\n");
 	MR_TRY(mr_text_done(&line));
 	if (fputs(line.s, s->stats) < 0 || fflush(s->stats))
@@ -666,7 +614,7 @@ begin_frame(cmd *c, const char *name)
 	c->state->frame_name = name;
 	c->state->started = mr_seconds();
 	c->state->figures = (mr_text){ .ctx = &c->ctx };
-	c->state->found.n = 0;
+	c->state->book.found.n = 0;
 }
 
 mr_status
@@ -680,7 +628,7 @@ cmd_send(cmd *c, const mr_frame *f)
 		if (!c->state->no_history)
 			MR_TRY(mr_frame_add_history(&c->ctx, &with_history, c->state->history));
 	}
-	MR_TRY(settle_findings(c, &with_history));
+	MR_TRY(findings_settle(&c->ctx, &c->state->book, &with_history, c->quiet ? NULL : show_warning));
 	MR_TRY(mr_check_made(&c->ctx, &with_history));
 	MR_TRY(mr_writer_put(&c->ctx, c->state->writer, &with_history));
 	if (c->tool->source) {
@@ -694,12 +642,18 @@ static mr_status
 work_on(cmd *c, mr_frame *f)
 {
 	const cmd_tool *tool = c->tool;
+	mr_frame before = { 0 };
 
+	if (!tool->sink)
+		MR_TRY(mr_frame_copy(&c->ctx, f, &before));
 	if (!tool->sink && !c->state->no_history)
 		MR_TRY(mr_frame_add_history(&c->ctx, f, c->state->history));
 	MR_TRY(tool->frame(c, f));
 	if (tool->sink)
-		return settle_findings(c, f);
+		return findings_settle(&c->ctx, &c->state->book, f, c->quiet ? NULL : show_warning);
+	MR_TRY(mr_judge_losses(&c->ctx, &before, f));
+	if (tool->judged && !c->no_check)
+		MR_TRY(findings_judge(&c->ctx, &c->state->book, &before, f));
 	return tool->sends ? MR_OK : cmd_send(c, f);
 }
 

@@ -58,6 +58,7 @@ typedef struct cmd_tool {
 	bool sends;        /* `frame` sends by cmd_send itself */
 	bool fixed_layers; /* works on what it works on: it has no -l */
 	bool caches;       /* `frame` has c->cache */
+	bool judged;       /* what becomes of the surface is looked at: mr_judge */
 	bool lean;         /* gives smaller blocks back to the system too, which costs time in many frames */
 } cmd_tool;
 
@@ -74,6 +75,7 @@ struct cmd {
 	mr_cache *cache; /* over the frames of a tool that `caches` */
 	uint64_t frame;  /* number of the frame at work, from 1; in finish, how many there were */
 	bool verbose, quiet, keep_going;
+	bool no_check;      /* a judged tool is not judged */
 	bool stats;         /* figures are asked for: --stats */
 	mr_packing packing; /* what the writer does with columns; mr-cat sets it in prepare */
 	struct cmd_state *state;

@@ -113,8 +113,8 @@ findings_read(mr_ctx *ctx, mr_frame *f, findings *all)
 	return MR_OK;
 }
 
-mr_status
-findings_put(mr_ctx *ctx, mr_frame *f, const findings *all)
+static mr_status
+put(mr_ctx *ctx, mr_frame *f, const findings *all)
 {
 	mr_text text = { .ctx = ctx };
 
@@ -160,7 +160,7 @@ put_word(const mr_kept_finding *k, const char *name, char *text, size_t size)
 	else if (!strncmp(name, "{tool}", 6))
 		snprintf(text, size, "%s", k->tool);
 	else if (!strncmp(name, "{pct}", 5))
-		snprintf(text, size, "%.2g", 100 * f->value);
+		snprintf(text, size, "%.3g", 100 * f->value);
 	else if (!strncmp(name, "{value}", 7))
 		snprintf(text, size, "%.3g", f->value);
 	else if (!strncmp(name, "{limit}", 7))
@@ -186,8 +186,8 @@ fill_in(const mr_kept_finding *k, const char *sentence, char *text, size_t size)
 	}
 }
 
-void
-finding_sentence(const mr_kept_finding *k, char *text, size_t size)
+static void
+make_sentence(const mr_kept_finding *k, char *text, size_t size)
 {
 	const entry *e = &table[k->f.kind];
 	size_t n;
@@ -251,11 +251,90 @@ findings_say(
 		size_t n;
 		if (k->f.kind == MR_LOST || !is_news(known, k))
 			continue;
-		finding_sentence(k, text, sizeof text - 20);
+		make_sentence(k, text, sizeof text - 20);
 		n = strlen(text);
 		snprintf(text + n, sizeof text - n, " [%s]", mr_finding_name(k->f.kind));
 		say(user, text);
 	}
+}
+
+/* The book */
+
+void
+findings_collect(findings_book *book, const char *tool, const mr_finding *f)
+{
+	mr_kept_finding k;
+
+	mr_finding_keep(&k, tool, f);
+	findings_add(&book->found, &k);
+}
+
+/* Whether the frame is the last of a sequence that says how long it is. */
+static bool
+is_last(mr_ctx *ctx, const findings_book *book, mr_frame *f)
+{
+	const void *frames;
+	size_t rows;
+
+	return mr_layer_has(f, "handles", "frames") &&
+	       mr_frame_get(ctx, f, "handles", "frames", (mr_shape){ '-', 'u', 1 }, &frames, &rows) ==
+	           MR_OK &&
+	       rows == 1 && f->number - book->key == *(const uint32_t *)frames;
+}
+
+mr_status
+findings_judge(mr_ctx *ctx, findings_book *book, mr_frame *before, mr_frame *after)
+{
+	if (after->key) {
+		book->key = after->number;
+		book->judged = 0;
+	}
+	return mr_judge(ctx, before, after, is_last(ctx, book, before) ? NULL : &book->judged);
+}
+
+static void
+add_all(findings *all, const findings *more)
+{
+	for (size_t i = 0; i < more->n; i++)
+		findings_add(all, &more->k[i]);
+}
+
+mr_status
+findings_settle(mr_ctx *ctx, findings_book *book, mr_frame *f, void (*say)(void *user, const char *text))
+{
+	findings all = { 0 };
+
+	if (f->key)
+		book->known.n = 0;
+	MR_TRY(findings_read(ctx, f, &all));
+	add_all(&book->carried, &all);
+	add_all(&book->carried, &book->found);
+	if (!book->found.n && !book->known.n)
+		return MR_OK;
+	add_all(&all, &book->known);
+	if (say)
+		findings_say(&book->found, &all, say, ctx->listener.user);
+	add_all(&book->known, &book->found);
+	add_all(&all, &book->found);
+	return put(ctx, f, &all);
+}
+
+void
+findings_count(mr_text *line, const findings *found)
+{
+	size_t count[MR_FINDING_KINDS] = { 0 };
+	const char *before = ",\"findings\":{";
+
+	for (size_t i = 0; i < found->n; i++)
+		count[found->k[i].f.kind] += found->k[i].f.count ? found->k[i].f.count : 1;
+	for (int kind = 0; kind < MR_FINDING_KINDS; kind++)
+		if (count[kind]) {
+			mr_text_add(line, "%s\"%s\":%zu", before, mr_finding_name((mr_finding_kind)kind),
+			    count[kind]);
+			before = ",";
+		}
+	if (found->n)
+		mr_text_add(line, "}");
 }
 
 /* Verdicts */

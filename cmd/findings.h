@@ -25,15 +25,32 @@ void findings_add(findings *all, const mr_kept_finding *k);
 /* Adds those of the frame's column, if it has one. */
 mr_status findings_read(mr_ctx *ctx, mr_frame *f, findings *all);
 
-/* Puts the column, or nothing where there are none. */
-mr_status findings_put(mr_ctx *ctx, mr_frame *f, const findings *all);
-
-/* The sentence of a finding: what, how many, where, and what helps. */
-void finding_sentence(const mr_kept_finding *k, char *text, size_t size);
+/* What a command knows from frame to frame. */
+typedef struct findings_book {
+	findings found;   /* of the frame at work */
+	findings known;   /* that this tool said since the last key */
+	findings carried; /* of all frames, for what is found after the last of them */
+	double judged;    /* since then, of mr_judge: what has moved by less is not judged */
+	uint64_t key;     /* number of the last key frame */
+} findings_book;
 
 /* Says those of `found` that are news against `known`: each by one call, all that is lost by one. */
 void findings_say(
     const findings *found, const findings *known, void (*say)(void *user, const char *text), void *user);
+
+void findings_collect(findings_book *book, const char *tool, const mr_finding *f);
+
+/* Judges the frame at work; of a sequence the key, the last, and what has moved twice as far as what was
+ * judged. */
+mr_status findings_judge(mr_ctx *ctx, findings_book *book, mr_frame *before, mr_frame *after);
+
+/* Says what was found in the frame and is news (say NULL: nobody listens), and lets it carry all that is
+ * known of it. */
+mr_status
+findings_settle(mr_ctx *ctx, findings_book *book, mr_frame *f, void (*say)(void *user, const char *text));
+
+/* For --stats: ,"findings":{"folded":12}, counts by kind, where there are any. */
+void findings_count(mr_text *line, const findings *found);
 
 /* "good", "poor" or "unusable", and of the worst finding its name ("" of good). */
 verdict findings_verdict(const findings *all, const char **why);

@@ -5,6 +5,7 @@
 static mr_decode_opts opts = MR_DECODE_DEFAULTS;
 static size_t level;
 static int from;
+static bool blind;
 
 static const cmd_opt table[] = {
 	{ 'g', "gain", CMD_REAL, &opts.gain, -1e6, 1e6, "G", "multiply the detail by G", NULL },
@@ -12,7 +13,7 @@ static const cmd_opt table[] = {
 	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
 	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",
 	    "what to put the mesh together from (default: what was worked on last)", NULL },
-	{ 0, "no-check", CMD_FLAG, &opts.blind, 0, 0, "",
+	{ 0, "no-check", CMD_FLAG, &blind, 0, 0, "",
 	    "do not look for folds and intersections that come of the motion", NULL },
 	{ 0 },
 };
@@ -24,19 +25,9 @@ prepare(cmd *c)
 		opts.level = level;
 	if (cmd_given(c, "from"))
 		opts.from = MR_FROM_DETAIL + from;
+	c->no_check = blind;
 	return cmd_idle(c, "level", opts.from == MR_FROM_DETAIL, "with --from detail");
 }
-
-static const cmd_field figures[] = {
-	CMD_COUNTED(mr_decode_result, folded_edges),
-	CMD_COUNTED(mr_decode_result, intersections),
-	CMD_COUNTED(mr_decode_result, far_intersections),
-	CMD_COUNTED(mr_decode_result, strayed_edges),
-	CMD_COUNTED(mr_decode_result, long_edges),
-	CMD_COUNTED(mr_decode_result, apart),
-	CMD_MEASURED(mr_decode_result, volume),
-	{ 0 },
-};
 
 static mr_status
 decode_frame(cmd *c, mr_frame *f)
@@ -44,7 +35,6 @@ decode_frame(cmd *c, mr_frame *f)
 	mr_decode_result result;
 
 	MR_TRY(mr_decode_frame(&c->ctx, f, &opts, c->cache, c->stats ? &result : NULL));
-	cmd_figures(c, figures, &result);
 	cmd_gaps(c, &result.gaps);
 	return MR_OK;
 }
@@ -58,5 +48,6 @@ main(int argc, char **argv)
 		.prepare = prepare,
 		.frame = decode_frame,
 		.caches = true,
+		.judged = true,
 		.fixed_layers = true });
 }

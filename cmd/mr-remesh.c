@@ -85,5 +85,6 @@ main(int argc, char **argv)
 		.options = table,
 		.prepare = prepare,
 		.frame = remesh_frame,
+		.judged = true,
 		.lean = true });
 }

@@ -77,5 +77,6 @@ main(int argc, char **argv)
 	    &(cmd_tool){ .summary = "simplify a surface by quadric error metrics",
 		.options = table,
 		.prepare = prepare,
-		.frame = simplify_frame });
+		.frame = simplify_frame,
+		.judged = true });
 }

@@ -73,7 +73,7 @@ widen(mr_ctx *ctx, unsigned char **memory, size_t *room, size_t least)
 
 /* Has the judge look where there is twice as much as when it did before; *looked 0: never. */
 static mr_status
-consider(mr_ctx *ctx, const mr_judge *judge, const unsigned char *memory, size_t size, size_t *looked)
+consider(mr_ctx *ctx, const mr_taster *judge, const unsigned char *memory, size_t size, size_t *looked)
 {
 	if (!judge || size < HEAD || size / 2 < *looked)
 		return MR_OK;
@@ -82,7 +82,7 @@ consider(mr_ctx *ctx, const mr_judge *judge, const unsigned char *memory, size_t
 }
 
 static mr_status
-read_all(mr_ctx *ctx, const char *path, int fd, const mr_judge *judge, mr_file_bytes *b)
+read_all(mr_ctx *ctx, const char *path, int fd, const mr_taster *judge, mr_file_bytes *b)
 {
 	unsigned char *memory = NULL;
 	size_t size = 0, room = 0, looked = 0;
@@ -159,7 +159,7 @@ may_be_gzip(const unsigned char *data, size_t size)
 }
 
 static mr_status
-inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judge *judge,
+inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_taster *judge,
     unsigned char **memory, size_t *size)
 {
 	const size_t claimed = claimed_size(in);
@@ -199,7 +199,7 @@ inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_judg
 }
 
 static mr_status
-gunzip(mr_ctx *ctx, const mr_judge *judge, mr_file_bytes *b)
+gunzip(mr_ctx *ctx, const mr_taster *judge, mr_file_bytes *b)
 {
 	z_stream z = { 0 };
 	unsigned char *memory = NULL;
@@ -219,7 +219,7 @@ gunzip(mr_ctx *ctx, const mr_judge *judge, mr_file_bytes *b)
 }
 
 mr_status
-mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_judge *judge, mr_file_bytes *b)
+mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_taster *judge, mr_file_bytes *b)
 {
 	const char *name = shown(path, "stdin");
 	mr_file_bytes got = { 0 };

@@ -427,7 +427,7 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 	mr_file_bytes bytes = { 0 };
 	mr_status status;
 
-	MR_TRY(mr_file_bytes_read(ctx, path, &(mr_judge){ judge, &s }, &bytes));
+	MR_TRY(mr_file_bytes_read(ctx, path, &(mr_taster){ judge, &s }, &bytes));
 	status = mr_model_parse(ctx, path, format, bytes.data, bytes.size, m);
 	status = mr_file_bytes_end(ctx, &bytes, status);
 	if (status == MR_EUSAGE)

@@ -195,7 +195,6 @@ read_map(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *o, mr_ma
 	MR_TRY(mr_png_read_gray(ctx, path, &g));
 	MR_TRY(mr_prefix(ctx, understand(ctx, &g, o, range, &r->level), "%s", path));
 	MR_TRY(read_heights(ctx, &g, &control, &m, range, &d, &height, r));
-	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
 	MR_TRY(mr_map_put_range(ctx, f, range[0], range[1]));
 	r->width = g.width;

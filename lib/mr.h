@@ -82,39 +82,16 @@ typedef struct mr_v3 {
 	double x, y, z;
 } mr_v3;
 
-/* Findings: what a user should know of a result that is given all the same (man/mr-findings.7). */
+/* Findings: what a user should know of a result that is given all the same; man/mr-findings.7 explains each kind. */
 typedef enum mr_finding_kind {
-	/* of a surface, found by comparing it with what it was */
-	MR_FOLDED,   /* edges fold over */
-	MR_CROSSING, /* faces intersect others near them */
-	MR_COLLIDED, /* faces intersect others far from them along the surface */
-	MR_TORN,     /* edges stretch or shrink more than their base */
-	MR_COARSE,   /* edges are too long to bend as their base does */
-	MR_APART,    /* vertices where parts touched have come apart */
-	MR_MISSED,   /* constrained vertices miss their place */
-	MR_VOLUME,   /* the enclosed volume has changed */
-	MR_SHRUNK,   /* the area has shrunk */
-	MR_DISTANT,  /* a place is far from what was there */
-	MR_GONE,     /* parts are gone, or nearly */
-	/* of a frame or a file, by what is not there any more */
-	MR_LOST,     /* data that the result or the format has no place for */
-	MR_STALE,    /* the work of an earlier tool no longer fits, and is dropped */
-	MR_ROUNDED,  /* numbers are rounded or clipped */
-	MR_GUESSED,  /* a file can be read in two ways */
-	MR_MISSING,  /* a file that another names is not there */
-	MR_REPAIRED, /* faces or vertices of a file are changed */
+	/* of a surface, by comparing it with what it was */
+	MR_FOLDED, MR_CROSSING, MR_COLLIDED, MR_TORN, MR_COARSE, MR_APART, MR_MISSED, MR_VOLUME, MR_SHRUNK, MR_DISTANT,
+	MR_GONE,
+	/* of data, by what is not there any more or is not as it was */
+	MR_LOST, MR_STALE, MR_ROUNDED, MR_GUESSED, MR_MISSING, MR_REPAIRED,
 	/* of the work, which its algorithm alone knows */
-	MR_UNCERTAIN, /* the topology may be another */
-	MR_UNREACHED, /* points lie off the surface */
-	MR_BARE,      /* surface lies off the points */
-	MR_SCATTERED, /* points are noisy, in rows, or fill a volume */
-	MR_ROUGH,     /* heights are rough or fold */
-	MR_FILLED,    /* heights or normals were not found and are interpolated */
-	MR_INEXACT,   /* a solver stopped short of its tolerance */
-	MR_UNHELD,    /* nothing holds a part, or nothing can move */
-	MR_HANDLE,    /* a handle cannot do what it is asked to */
-	MR_LIMIT,     /* an option could not be met */
-	MR_LAYER,     /* another layer was worked on last */
+	MR_UNCERTAIN, MR_UNREACHED, MR_BARE, MR_SCATTERED, MR_ROUGH, MR_FILLED, MR_INEXACT, MR_UNHELD, MR_HANDLE,
+	MR_LIMIT, MR_LAYER,
 	MR_FINDING_KINDS
 } mr_finding_kind;
 
@@ -548,20 +525,11 @@ typedef struct mr_decode_opts {
 	double gain;  /* multiplies the detail */
 	int from;     /* mr_decode_source */
 	size_t level; /* subdivisions of the control mesh; MR_UNKNOWN: as many as have heights */
-	bool blind;   /* do not look for what the motion did to the mesh */
 } mr_decode_opts;
 
-#define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN, false)
+#define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN)
 
 typedef struct mr_decode_result {
-	size_t folded_edges,
-	    strayed_edges; /* by more than 170 degrees; changed by over twice as much as base */
-	size_t long_edges; /* whose middles are a hundredth of the diagonal from where base takes them */
-	double
-	    volume; /* of that before the last pose, where that was by handles and the surface encloses one */
-	size_t intersections,
-	    far_intersections; /* of faces at most 12 apart, and others; of deltas where folds came */
-	size_t apart; /* vertices that touched another part, by more than a hundredth of the diagonal */
 	mr_gaps gaps; /* of heights, where the points and how they lie are known */
 } mr_decode_result;
 
@@ -892,6 +860,16 @@ typedef struct mr_comparison {
 /* Two surfaces or clouds.  MR_EMESH where a or b has no points. */
 MR_API mr_status mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts,
     mr_comparison *comparison) MR_WARN_UNUSED;
+
+/*
+ * Judging: what became of a frame, told to who listens for findings; nothing is looked for where nobody does.
+ * mr_judge compares the surface that a tool made or moved with what it was.  least: NULL, or of a sequence, at first
+ * 0: nothing is judged that has moved by less, and *least becomes twice the largest distance that was.
+ */
+MR_API mr_status mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least) MR_WARN_UNUSED;
+
+/* Compares the columns: what a file gave, or an earlier tool made, that is not there any more. */
+MR_API mr_status mr_judge_losses(mr_ctx *ctx, mr_frame *before, mr_frame *after) MR_WARN_UNUSED;
 
 /* Pictures: mr-render */
 

@@ -179,7 +179,7 @@ keep_piece(void *arg, size_t begin, size_t end)
 
 /* Builds the search tree where a vertex has no start. */
 static mr_status
-prepare_nearest(mr_ctx *ctx, encoder *e, bool mapped)
+prepare_nearest(mr_ctx *ctx, encoder *e)
 {
 	size_t without = 0;
 	mr_bvh *bvh;
@@ -188,21 +188,13 @@ prepare_nearest(mr_ctx *ctx, encoder *e, bool mapped)
 		without += e->face[i] == MR_NONE;
 	if (without == 0)
 		return MR_OK;
-	if (mapped)
-		mr_note(ctx,
-		    "%zu vertices begin at the nearest point of %s: the source map reaches none of their "
-		    "component",
-		    without, e->ground.surface.m->name);
-	else
-		mr_note(ctx, "%s has no source map: every vertex begins at its nearest point",
-		    e->ground.surface.m->name);
 	MR_TRY(mr_bvh_build(ctx, e->ground.surface.m, &bvh));
 	e->bvh = bvh;
 	return MR_OK;
 }
 
 static mr_encode_result
-report(mr_ctx *ctx, const encoder *e, double diagonal)
+report(const encoder *e, double diagonal)
 {
 	size_t n = e->mesh->nv;
 	tally sum = { 0 };
@@ -216,8 +208,6 @@ report(mr_ctx *ctx, const encoder *e, double diagonal)
 		sum.residual = fmax(sum.residual, t->residual);
 		sum.height = fmax(sum.height, t->height);
 	}
-	mr_note(ctx, "%zu of %zu vertices have a height (%.4g %%), %zu an offset", n - sum.offsets, n,
-	    n ? 100 * (double)(n - sum.offsets) / (double)n : 100, sum.offsets);
 	return (mr_encode_result){ .heights = n - sum.offsets,
 		.offsets = sum.offsets,
 		.searched = sum.searched,
@@ -265,14 +255,14 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 		MR_TRY(mr_correspond(ctx, mesh, base, &inc, source, e.face, e.bary));
 	else
 		memset(e.face, 0xff, n * sizeof *e.face);
-	MR_TRY(prepare_nearest(ctx, &e, source != NULL));
+	MR_TRY(prepare_nearest(ctx, &e));
 	mr_parallel(ctx, n, GRAIN, find_feet, &e);
 	MR_TRY(find_thickness(ctx, &e));
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
 	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL, base->p,
 		NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
-	figures = report(ctx, &e, diagonal);
+	figures = report(&e, diagonal);
 	*d = found;
 	if (result)
 		*result = figures;
@@ -498,36 +488,6 @@ mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 	if (memcmp(before->p, encoded, before->nv * sizeof *before->p))
 		return mr_layer_put(ctx, f, "base", "before", before->p, before->nv);
 	mr_frame_drop(f, "base", "before", 0);
-	return MR_OK;
-}
-
-mr_status
-mr_detail_warn_of_loss(mr_ctx *ctx, mr_frame *f)
-{
-	bool has, posed;
-
-	MR_TRY(mr_layer_has_standing_detail(ctx, f, &has));
-	MR_TRY(mr_layer_is_posed(ctx, f, "base", &posed));
-	if (has && f->key)
-		mr_warn(ctx,
-		    "mesh has other vertices, and its detail over base%s is gone: that goes %sbehind "
-		    "mr-decode",
-		    posed ? ", which has moved," : "", posed ? "" : "before mr-encode, or ");
-	return MR_OK;
-}
-
-mr_status
-mr_detail_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d, const mr_v3 **p)
-{
-	const void *before = d->rest;
-
-	if (mr_layer_has(f, base->name, "before"))
-		MR_TRY(mr_layer_get_rows(ctx, f, base->name, "before", base->nv, &before));
-	*p = before;
-	for (size_t v = 0; v < base->nv; v++)
-		if (!mr_finite((*p)[v]))
-			return mr_fail(ctx, MR_ERANGE, "%s: before %zu (%g %g %g) is not finite", base->name,
-			    v, (*p)[v].x, (*p)[v].y, (*p)[v].z);
 	return MR_OK;
 }
 

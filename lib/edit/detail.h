@@ -62,13 +62,6 @@ mr_status mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base);
  */
 mr_status mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before);
 
-/* The same, read; d: of this base, its rest known.  *p: d->rest itself where it stood there. */
-mr_status
-mr_detail_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d, const mr_v3 **p);
-
-/* Warns, of key frames, where mesh is to get other vertices while it has not followed base by its detail. */
-mr_status mr_detail_warn_of_loss(mr_ctx *ctx, mr_frame *f);
-
 /* Puts the columns; an offset that was there and is no longer is dropped.  d: of this base, encoded; kept
  * until the frame is written. */
 mr_status mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d);

@@ -173,8 +173,6 @@ mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h)
 		return mr_fail(ctx, MR_EMISSING, "no regions: they come from mr-select");
 	MR_TRY(mr_layer_points(ctx, f, layer, &m));
 	MR_TRY(mr_layer_region(ctx, f, layer, m.nv, &region));
-	if (!strcmp(layer, "control"))
-		MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	return mr_handles_find(ctx, &m, region, h);
 }
 

@@ -318,9 +318,8 @@ count_parts(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunke
 
 /* What is left of area and volume. */
 static mr_status
-measure_rest(mr_ctx *ctx, smoothing *s, bool plain, const mr_v3 *p)
+measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 {
-	const char *advice = plain ? "smooth for less time, or without --plain" : "smooth for less time";
 	mr_mesh after = *s->m;
 	size_t shrunken, single;
 
@@ -328,16 +327,16 @@ measure_rest(mr_ctx *ctx, smoothing *s, bool plain, const mr_v3 *p)
 	s->found.area = mr_mesh_area(ctx, &after) / mr_mesh_area(ctx, s->m);
 	s->found.volume = mr_mesh_volume(ctx, &after) / s->found.volume;
 	MR_TRY(count_parts(ctx, s->m, &after, &shrunken, &single));
-	if (s->found.area < LITTLE)
-		mr_warn(ctx, "%s: smoothing leaves %.2g %% of the area: %s", s->m->name, 100 * s->found.area,
-		    advice);
-	else if (shrunken)
-		mr_warn(ctx, "%s: smoothing leaves less than half of the area of %zu part%s: %s", s->m->name,
-		    shrunken, mr_plural(shrunken), advice);
+	if (s->found.area < LITTLE || shrunken)
+		mr_found(ctx, &(mr_finding){ .kind = s->found.area < LITTLE ? MR_SHRUNK : MR_GONE,
+				  .layer = "base",
+				  .count = shrunken,
+				  .value = 1 - s->found.area });
 	if (single > s->m->nf / 2 && single > 1)
-		mr_warn(ctx,
-		    "%s: %zu of %zu faces are alone, and stay: mr-import --weld joins corners that are near",
-		    s->m->name, single, s->m->nf);
+		mr_found(
+		    ctx, &(mr_finding){ .kind = MR_LIMIT,
+			     .layer = s->m->name,
+			     .what = "most faces are alone and stay: mr-import --weld joins their corners" });
 	return MR_OK;
 }
 
@@ -352,7 +351,7 @@ mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out,
 	MR_TRY(study(ctx, &s, opts->plain));
 	if (opts->time > 0 && s.edge2 > 0)
 		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, out) : taubin(ctx, &s, out));
-	MR_TRY(measure_rest(ctx, &s, opts->plain, out));
+	MR_TRY(measure_rest(ctx, &s, out));
 	if (result)
 		*result = s.found;
 	mr_mark_release(ctx, mark);

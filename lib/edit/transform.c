@@ -591,8 +591,6 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 		MR_TRY(cut_loose(ctx, f, layer));
 	}
 	MR_TRY(check(ctx, f, layer, &c));
-	if (!layer && fabs(c.scale - 1) > 1e-9)
-		mr_displacement_warn_of_map(ctx, f);
 	if (c.mirrors)
 		mr_frame_drop(f, "base", "encoded_faces", 0);
 	for (size_t i = f->count; i-- > 0;) {

@@ -53,10 +53,8 @@ place_in(const mr_mesh *m, size_t face, size_t i)
 	    a, mr_sub(m->p[v[1]], m->p[v[0]]), mr_axpy(b, mr_sub(m->p[v[2]], m->p[v[0]]), m->p[v[0]]));
 }
 
-/* A place in each of n equal parts of the area, in the order of the faces; as many as there are: 0 of no
- * area. */
-static size_t
-spread_places(mr_ctx *ctx, const mr_mesh *m, size_t n, mr_v3 *q)
+size_t
+mr_spread_places(mr_ctx *ctx, const mr_mesh *m, size_t n, mr_v3 *q)
 {
 	double step = 2 * mr_mesh_area(ctx, m) / (double)n, sum = 0;
 	size_t i = 0;
@@ -81,7 +79,7 @@ mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size
 
 	if (!q || !nearest || !distance)
 		return MR_EMEM;
-	n = spread_places(ctx, m, samples, q);
+	n = mr_spread_places(ctx, m, samples, q);
 	MR_TRY(mr_near_query(ctx, cloud->near, q, n, 1, nearest, distance));
 	for (size_t i = 0; i < n; i++) {
 		double wide;
@@ -145,44 +143,31 @@ mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling
 }
 
 void
-mr_gaps_note(mr_ctx *ctx, const char *what, const mr_gaps *g)
+mr_gaps_report(mr_ctx *ctx, const char *layer, const mr_gaps *g)
 {
-	mr_note(ctx,
-	    "points are %.3g from %s on the mean, 99 %% within %.3g, all within %.3g; it is %.3g from "
-	    "points, 99 %% "
-	    "within %.3g, all within %.3g",
-	    g->points.mean, what, g->points.high, g->points.max, g->surface.mean, g->surface.high,
-	    g->surface.max);
-}
-
-void
-mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *g)
-{
-	(void)what;
 	if (g->bare > BARE_MOST)
-		mr_found(ctx, &(mr_finding){ .kind = MR_BARE, .value = g->bare });
+		mr_found(ctx, &(mr_finding){ .kind = MR_BARE, .layer = layer, .value = g->bare });
 }
 
 void
-mr_gap_spots_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps, const mr_gap_spot *of_surface,
+mr_gap_spots_report(mr_ctx *ctx, const char *layer, const mr_gaps *gaps, const mr_gap_spot *of_surface,
     const mr_gap_spot *of_points)
 {
-	mr_finding f = { .kind = MR_BARE, .placed = true, .vertex = MR_NO_VERTEX, .at = of_surface->at };
-
-	if (gaps->bare > BARE_MOST) {
-		mr_gaps_warn(ctx, what, gaps);
-	} else if (of_surface->wide > WIDE) {
-		f.what = mr_format(ctx, ", a place by %.2g of their spacings", of_surface->wide);
-		f.value = gaps->bare;
-		mr_found(ctx, &f);
-	}
-	if (of_points->wide > WIDE) {
-		f.kind = MR_UNREACHED;
-		f.what = mr_format(ctx, ", by up to %.2g spacings", of_points->wide);
-		f.count = 1;
-		f.at = of_points->at;
-		mr_found(ctx, &f);
-	}
+	mr_gaps_report(ctx, layer, gaps);
+	if (gaps->bare <= BARE_MOST && of_surface->wide > WIDE)
+		mr_found(ctx, &(mr_finding){ .kind = MR_BARE,
+				  .layer = layer,
+				  .value = gaps->bare,
+				  .placed = true,
+				  .vertex = MR_NO_VERTEX,
+				  .at = of_surface->at });
+	if (of_points->wide > WIDE)
+		mr_found(ctx, &(mr_finding){ .kind = MR_UNREACHED,
+				  .layer = layer,
+				  .count = 1,
+				  .placed = true,
+				  .vertex = MR_NO_VERTEX,
+				  .at = of_points->at });
 }
 
 /*
@@ -205,7 +190,7 @@ measure_to_mesh(
 
 	if (!q || !distance)
 		return MR_EMEM;
-	n = spread_places(ctx, from, samples, q);
+	n = mr_spread_places(ctx, from, samples, q);
 	for (size_t i = 0; i < corners; i++) {
 		size_t h = i * 3 * from->nf / corners;
 		q[n + i] = from->p[from->t[h / 3].v[h % 3]];
@@ -238,38 +223,17 @@ mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t
 	return MR_OK;
 }
 
-/*
- * What brings a surface nearer.  With edges as coarse as a sixtieth of the diagonal split first the largest
- * distances of four models fall from 22, 13, 8 and 7 % to 0.8, 0.7, 2 and 4; of finer meshes, with four times
- * the faces, from 4 and 3.5 to 1.5 and 2, and finer levels alone do less.
- */
-static void
-advise(mr_ctx *ctx, const mr_mesh *mesh, size_t faces, char *advice, size_t size)
-{
-	const double fine = 1.0 / 60;
-	double longest = fine * mr_mesh_diagonal(mesh);
-
-	if (mr_mesh_edge_scale(ctx, mesh) > longest)
-		snprintf(
-		    advice, size, "edges split before mr-simplify, by mr-subdivide --longest %.3g", longest);
-	else
-		snprintf(advice, size, "a control mesh of more faces, by mr-simplify -n %zu", 4 * faces);
-}
-
 void
-mr_mesh_gaps_warn(mr_ctx *ctx, const char *what, const mr_mesh_gaps *g, const mr_mesh *mesh, size_t faces)
+mr_mesh_gaps_report(mr_ctx *ctx, const char *layer, const mr_mesh_gaps *g, const mr_mesh *mesh)
 {
 	double diagonal = mr_mesh_diagonal(mesh);
-	char advice[120];
 
-	advise(ctx, mesh, faces, advice, sizeof advice);
 	if (g->widest > FAR_OF_MESH * diagonal || g->off > OFF_MOST)
-		mr_warn(ctx,
-		    "%s is up to %.3g %% of the diagonal from %s, near (%.4g, %.4g, %.4g), and %.3g %% of it "
-		    "over %g %%; what comes nearer: %s",
-		    what, 100 * g->widest / diagonal, mesh->name, g->at.x, g->at.y, g->at.z, 100 * g->off,
-		    100 * OFF, advice);
-	else
-		mr_note(ctx, "%s is up to %.3g %% of the diagonal from %s, %.3g %% of it over %g %%", what,
-		    100 * g->widest / diagonal, mesh->name, 100 * g->off, 100 * OFF);
+		mr_found(ctx, &(mr_finding){ .kind = MR_DISTANT,
+				  .layer = layer,
+				  .what = "more faces, by mr-simplify --to control -n, come nearer",
+				  .value = g->widest / diagonal,
+				  .placed = true,
+				  .vertex = MR_NO_VERTEX,
+				  .at = g->at });
 }

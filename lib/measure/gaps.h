@@ -41,14 +41,11 @@ mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_
 /* Both, of the points of a sampling, which are indexed for it. */
 mr_status mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling *s, mr_gaps *gaps);
 
-/* Says both, of `what`, to those who want to hear. */
-void mr_gaps_note(mr_ctx *ctx, const char *what, const mr_gaps *gaps);
-
-/* Warns where too much of `what` is bare. */
-void mr_gaps_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps);
+/* Reports where too much of a layer is bare. */
+void mr_gaps_report(mr_ctx *ctx, const char *layer, const mr_gaps *gaps);
 
 /* The same of a result; else where any place of it is too far from the points, or a point from it. */
-void mr_gap_spots_warn(mr_ctx *ctx, const char *what, const mr_gaps *gaps, const mr_gap_spot *of_surface,
+void mr_gap_spots_report(mr_ctx *ctx, const char *layer, const mr_gaps *gaps, const mr_gap_spot *of_surface,
     const mr_gap_spot *of_points);
 
 /* How far a surface is from the mesh that it is made for, and this from it. */
@@ -62,9 +59,10 @@ typedef struct mr_mesh_gaps {
 mr_status mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples,
     mr_mesh_gaps *gaps) MR_WARN_UNUSED;
 
-/* Warns where `what`, the surface of a control mesh of so many faces, is too far from the mesh, and says what
- * is nearer. */
-void
-mr_mesh_gaps_warn(mr_ctx *ctx, const char *what, const mr_mesh_gaps *gaps, const mr_mesh *mesh, size_t faces);
+/* Reports where a layer, the surface of a control mesh, is too far from the mesh that it is made of. */
+void mr_mesh_gaps_report(mr_ctx *ctx, const char *layer, const mr_mesh_gaps *gaps, const mr_mesh *mesh);
+
+/* A place in each of n equal parts of the area, in the order of the faces; how many: 0 of no area.  q: n. */
+size_t mr_spread_places(mr_ctx *ctx, const mr_mesh *m, size_t n, mr_v3 *q);
 
 #endif

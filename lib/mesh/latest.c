@@ -277,7 +277,7 @@ mr_layer_finished_or_warn(mr_ctx *ctx, mr_frame *f)
 	if (status != MR_EMISSING)
 		return status;
 	if (f->key)
-		mr_warn(ctx, "%s", ctx->error);
+		mr_found(ctx, &(mr_finding){ .kind = MR_LAYER, .what = ctx->error });
 	*ctx->error = '\0';
 	return MR_OK;
 }
@@ -305,14 +305,11 @@ mr_layer_choose_warned(
     mr_ctx *ctx, mr_frame *f, const char *only, const char *const *layers, const char **layer)
 {
 	const char *latest;
-	bool can;
 
 	MR_TRY(mr_layer_choose(ctx, f, only, layers, layer));
 	MR_TRY(mr_layer_latest(ctx, f, &latest));
 	if (only || !f->key || !latest || !strcmp(latest, *layer) || !mr_layer_has(f, latest, "position"))
 		return MR_OK;
-	can = mr_is_one_of(latest, layers) || mr_layer_has(f, latest, "triangles");
-	mr_warn(ctx, "%s is taken, not %s, which was worked on last%s%s%s", *layer, latest,
-	    can ? ": -l " : "", can ? latest : "", can ? " takes that" : "");
+	mr_found(ctx, &(mr_finding){ .kind = MR_LAYER, .layer = *layer, .what = latest });
 	return MR_OK;
 }

@@ -353,29 +353,6 @@ mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has)
 	return MR_OK;
 }
 
-mr_status
-mr_layer_warn_of_work(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change)
-{
-	bool other = change == MR_RESHAPED || change == MR_RECONNECTED, detail = false, posed;
-
-	if (!f->key)
-		return MR_OK;
-	MR_TRY(mr_layer_is_posed(ctx, f, layer, &posed));
-	if (other && !strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
-		mr_warn(ctx,
-		    "control%s is another surface now, and its displacement is gone: mr-decode comes "
-		    "before%s",
-		    posed ? ", which has moved," : "", posed ? "" : ", or mr-sample behind");
-	if (change == MR_RECONNECTED && !strcmp(layer, "base"))
-		MR_TRY(mr_layer_has_standing_detail(ctx, f, &detail));
-	if (detail)
-		mr_warn(ctx,
-		    "base%s is another surface now, and the detail of mesh over it is gone: mr-decode comes "
-		    "before%s",
-		    posed ? ", which has moved," : "", posed ? "" : ", or mr-encode behind");
-	return MR_OK;
-}
-
 void
 mr_layer_changed(mr_frame *f, const char *layer, mr_change change)
 {
@@ -466,7 +443,6 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 		MR_TRY(copy_normals(ctx, f, layer, "corner_normal", before.nf, 3, &corner));
 		MR_TRY(mr_turn_normals(ctx, &before, p, normal, corner));
 	}
-	MR_TRY(mr_layer_warn_of_work(ctx, f, layer, change));
 	mr_layer_changed(f, layer, change);
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", p, nv));
 	if (normal)
@@ -476,71 +452,6 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 	return mr_layer_worked(ctx, f, layer);
 }
 
-/* What a file gave to a surface, by convention or not, that a surface made anew has not; polygons are none.
- */
-static bool
-is_given(const mr_column *c)
-{
-	const mr_column_info *info = mr_column_of(c->layer, c->name);
-
-	return c->shape.element != '-' && (!info || info->kind == MR_MEAN ||
-					      (info->kind == MR_LABEL && strcmp(c->name, "polygon") != 0));
-}
-
-/* What mr-select has done, where it is nowhere else: base has mesh's regions by mr-solve. */
-static bool
-is_selection(const mr_frame *f, const mr_column *c)
-{
-	const char *other = !strcmp(c->layer, "mesh") ? "base" : !strcmp(c->layer, "base") ? "mesh" : NULL;
-
-	return !strcmp(c->name, "region") && !(other && mr_layer_has(f, other, "region"));
-}
-
-/* Warns, behind the sentence, of what a file gave to `from`, and with `selected` of what was selected there,
- * that `has` (NULL: nothing) has not. */
-static mr_status
-warn_of_lack(
-    mr_ctx *ctx, const mr_frame *f, const char *from, bool selected, const char *has, const char *sentence)
-{
-	mr_text names = { .ctx = ctx };
-	size_t n = 0;
-
-	for (size_t i = 0; f->key && i < f->count; i++) {
-		const mr_column *c = &f->columns[i];
-		if (!strcmp(c->layer, from) && (is_given(c) || (selected && is_selection(f, c))) &&
-		    !(has && mr_layer_has(f, has, c->name)))
-			mr_text_name(&names, &n, c->name);
-	}
-	mr_text_more(&names, n);
-	MR_TRY(mr_text_done(&names));
-	if (n)
-		mr_warn(ctx, "%s%s", sentence, names.s);
-	return MR_OK;
-}
-
-mr_status
-mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
-{
-	const char *sentence = mr_format(ctx, "%s is made from %s, without what that has: ", layer, from);
-
-	return sentence ? warn_of_lack(ctx, f, from, false, layer, sentence) : MR_EMEM;
-}
-
-mr_status
-mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from)
-{
-	const char *sentence = mr_format(ctx, "%s is made anew, without its ", layer);
-
-	return sentence ? warn_of_lack(ctx, f, layer, true, from, sentence) : MR_EMEM;
-}
-
-void
-mr_layer_warn_of_place(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *by)
-{
-	if (f->key && mr_layer_has(f, layer, "position"))
-		mr_warn(ctx, "%s is %s now: the surface that it was is gone", layer, by);
-}
-
 mr_status
 mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
@@ -548,8 +459,6 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 
 	MR_TRY(check_finite(ctx, m));
 	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m)) {
-		MR_TRY(mr_layer_warn_of_loss(ctx, f, layer, NULL));
-		MR_TRY(mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED));
 		mr_layer_changed(f, layer, MR_RECONNECTED);
 	} else if (!same_positions(ctx, f, layer, m))
 		return move(ctx, f, layer, MR_RESHAPED, m->p, m->nv);

@@ -40,16 +40,6 @@ mr_status mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer
 /* mr_layer_put_mesh of a surface that has `normal` where the one before had normals. */
 mr_status mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m);
 
-/* Warns, of key frames, of what a file gave to the layer, or was selected of it, that is gone with its
- * triangles, and that `from`, of whose columns those to come will be (NULL: of none), has not. */
-mr_status mr_layer_warn_of_loss(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);
-
-/* Warns, of key frames, where the layer is there and another surface, that of `by`, is to take its place. */
-void mr_layer_warn_of_place(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *by);
-
-/* Warns, of key frames, of what a file gave to `from` that `layer`, which was made from it, has not. */
-mr_status mr_layer_warn_of_rest(mr_ctx *ctx, const mr_frame *f, const char *layer, const char *from);
-
 /* Drops what the change makes stale, of the layer and of others. */
 void mr_layer_changed(mr_frame *f, const char *layer, mr_change change);
 
@@ -59,10 +49,6 @@ mr_status mr_layer_is_posed(mr_ctx *ctx, mr_frame *f, const char *layer, bool *i
 /* Whether mesh has detail over base of which mr-decode is still to come: once it has, the detail has served.
  */
 mr_status mr_layer_has_standing_detail(mr_ctx *ctx, mr_frame *f, bool *has);
-
-/* Warns, of key frames, where what the change makes stale is the work of a tool: heights over control,
- * standing detail over base. */
-mr_status mr_layer_warn_of_work(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change);
 
 /* Drops the columns of a kind. */
 void mr_layer_drop_kind(mr_frame *f, const char *layer, mr_attribute kind);

@@ -112,7 +112,6 @@ mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 	if (detail)
 		on = *encoded;
 	mr_layer_drop_kind(f, layer, MR_SAMPLED); /* the neighbourhoods of the points are others now */
-	MR_TRY(mr_layer_warn_of_work(ctx, f, layer, MR_RECONNECTED));
 	for (size_t i = 0; i < f->count; i++)
 		if (!strcmp(f->columns[i].layer, layer) && f->columns[i].shape.element != '-')
 			MR_TRY(keep_rows(ctx, f, i, s));

@@ -240,8 +240,7 @@ report_points(mr_ctx *ctx, const fit *x, const mr_gap_spot *of_points)
 
 	MR_TRY(mr_gap_of_surface(ctx, &x->surface,
 	    &(mr_gap_cloud){ c->p, c->spacing, c->near, c->n, c->usual }, SAMPLES, gaps, &of_surface));
-	mr_gaps_note(ctx, "the displaced surface", gaps);
-	mr_gap_spots_warn(ctx, "the displaced surface", gaps, &of_surface, of_points);
+	mr_gap_spots_report(ctx, "displacement", gaps, &of_surface, of_points);
 	return MR_OK;
 }
 
@@ -253,7 +252,7 @@ report_mesh(mr_ctx *ctx, const fit *x)
 
 	MR_TRY(mr_gaps_to_mesh(ctx, &x->surface, x->c->mesh, SAMPLES, &gaps));
 	x->found->gaps.surface = gaps.surface;
-	mr_mesh_gaps_warn(ctx, "the displaced surface", &gaps, x->c->mesh, x->d->level[0].nf);
+	mr_mesh_gaps_report(ctx, "displacement", &gaps, x->c->mesh);
 	return MR_OK;
 }
 

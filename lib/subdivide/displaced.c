@@ -207,99 +207,11 @@ mr_displacement_check(mr_ctx *ctx, mr_frame *f)
 	return stored_heights(ctx, f, &control, &n, &height, &rows);
 }
 
-/* Whether triangles and positions of m are those of the displaced surface: of any level, with positions p of
- * d's.  A transform has moved both by rounding. */
-static bool
-is_displaced(const mr_mesh *m, const mr_domain *d, const mr_mesh *control, const mr_v3 *p)
-{
-	static const double ROUNDING = 1e-9; /* of the diagonal */
-	double most = mr_mesh_tolerance(m, ROUNDING);
-	size_t nf = control->nf;
-
-	while (nf < m->nf)
-		nf *= 4;
-	if (nf != m->nf)
-		return false;
-	for (size_t i = 0; p && i < m->nv && i < d->m.nv; i++) /* those of a coarser level are the first */
-		if (!(mr_norm(mr_sub(m->p[i], p[i])) <= most))
-			return false;
-	return true;
-}
-
-/* Whether mesh is there, and was worked on last, in a key frame. */
-static mr_status
-is_mesh_latest(mr_ctx *ctx, mr_frame *f, bool *is)
-{
-	MR_TRY(mr_layer_is_latest(ctx, f, "mesh", is));
-	*is &= f->key && mr_layer_has(f, "mesh", "triangles");
-	return MR_OK;
-}
-
-mr_status
-mr_displaced_warn_of_change(
-    mr_ctx *ctx, mr_frame *f, const mr_mesh *control, const mr_domain *d, const mr_v3 *p)
-{
-	mr_mesh m;
-	bool is;
-
-	MR_TRY(is_mesh_latest(ctx, f, &is));
-	if (!is)
-		return MR_OK;
-	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &m));
-	if (!is_displaced(&m, d, control, p))
-		mr_warn(ctx,
-		    "mesh of %zu triangles, which was worked on last, is not what control and displacement "
-		    "make, and mr-decode makes it anew from them: what was done to it goes; do that after "
-		    "mr-decode",
-		    m.nf);
-	return MR_OK;
-}
-
-mr_status
-mr_displacement_warn_of_mesh(mr_ctx *ctx, mr_frame *f)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	const double *height = NULL;
-	mr_status status;
-	mr_mesh control;
-	mr_domain d;
-	size_t n = 0;
-	mr_v3 *p;
-	bool is;
-
-	MR_TRY(is_mesh_latest(ctx, f, &is));
-	if (!is || !mr_frame_has_layer(f, "displacement"))
-		return MR_OK;
-	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
-	status = mr_displacement_get(ctx, f, &control, &n, &height);
-	if (status != MR_OK)
-		return status == MR_EMEM ? status : MR_OK;
-	MR_TRY(mr_domain_of(ctx, f, &control, n, &d));
-	p = MR_NEW(ctx, d.m.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	mr_domain_displace(ctx, &d, height, 1, p);
-	MR_TRY(mr_displaced_warn_of_change(ctx, f, &control, &d, p));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
-void
-mr_displacement_warn_of_map(mr_ctx *ctx, const mr_frame *f)
-{
-	if (f->key && mr_layer_has(f, "displacement", "range") && mr_layer_has(f, "control", "mtllib"))
-		mr_warn(ctx, "the pictures of control by mr-map have other heights than these: mr-map -w "
-			     "makes them again");
-}
-
 /* What vertices of the displaced surface have besides heights: those of a coarser level are the first ones.
  */
 static mr_status
 fit_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
 {
-	mr_text names = { .ctx = ctx };
-	size_t n = 0;
-
 	for (size_t i = f->count; i-- > 0;) {
 		mr_column c = f->columns[i];
 		if (strcmp(c.layer, "displacement") || c.shape.element != 'v' || c.rows == nv)
@@ -310,15 +222,9 @@ fit_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
 			continue;
 		}
 		if (strcmp(c.name, "height") != 0)
-			mr_text_name(&names, &n, c.name);
+			mr_lost(ctx, "displacement", 1, c.name);
 		mr_frame_drop(f, c.layer, c.name, 0);
 	}
-	mr_text_more(&names, n);
-	MR_TRY(mr_text_done(&names));
-	if (n && f->key)
-		mr_warn(ctx,
-		    "displacement has more vertices now, and is without its %s, which mr-sample gives",
-		    names.s);
 	return MR_OK;
 }
 

@@ -63,17 +63,4 @@ mr_status mr_displacement_check(mr_ctx *ctx, mr_frame *f);
 
 mr_status mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *height);
 
-/* Warns, of key frames, where the heights are to be others than those of the pictures that mr-map has made of
- * control. */
-void mr_displacement_warn_of_map(mr_ctx *ctx, const mr_frame *f);
-
-/* Warns, of key frames, where mesh was worked on last and is not the displaced surface d of `control`, of any
- * level, with positions p (NULL: any): mr-decode leaves nothing of what was done to it. */
-mr_status mr_displaced_warn_of_change(
-    mr_ctx *ctx, mr_frame *f, const mr_mesh *control, const mr_domain *d, const mr_v3 *p);
-
-/* The same by the control mesh and the heights that are in the frame, which are to be others; nothing where
- * these do not fit each other. */
-mr_status mr_displacement_warn_of_mesh(mr_ctx *ctx, mr_frame *f);
-
 #endif

@@ -18,8 +18,6 @@ mr_cache_delete(mr_cache *cache)
 	mr_ctx_free(&cache->deform_keep);
 	mr_ctx_free(&cache->level_keep);
 	mr_ctx_free(&cache->base_keep);
-	mr_ctx_free(&cache->mesh_keep);
-	mr_ctx_free(&cache->displaced_keep);
 	free(cache);
 }
 

@@ -10,9 +10,9 @@ look_for_pose(mr_ctx *ctx, mr_frame *f)
 	MR_TRY(mr_layer_is_posed(ctx, f, "base", &posed));
 	posed |= mr_layer_has(f, "base", "before");
 	if (posed && f->key)
-		mr_warn(ctx, "base has moved, and mesh, which has not followed it, is encoded as it is: "
-		             "mr-encode goes "
-			     "before mr-solve, or behind mr-decode");
+		mr_found(ctx, &(mr_finding){ .kind = MR_STALE,
+				  .layer = "base",
+				  .what = "its pose, which mesh has not followed," });
 	return MR_OK;
 }
 

@@ -22,7 +22,7 @@ count_folds(mr_ctx *ctx, const mr_domain *d, const double *height, size_t *folds
 	return MR_OK;
 }
 
-/* Warns where other heights fold the surface; few are told of as by mr-decode. */
+/* Reports where other heights fold the surface. */
 static mr_status
 look_for_folds(mr_ctx *ctx, const mr_domain *d, const double *before, const double *after)
 {
@@ -32,9 +32,8 @@ look_for_folds(mr_ctx *ctx, const mr_domain *d, const double *before, const doub
 	MR_TRY(count_folds(ctx, d, before, &folds[0]));
 	MR_TRY(count_folds(ctx, d, after, &folds[1]));
 	if (folds[1] > folds[0] + FEW)
-		mr_warn(ctx,
-		    "%zu folded edges of the surface over control, %zu before: smaller gains fold less",
-		    folds[1], folds[0]);
+		mr_found(ctx, &(mr_finding){
+				  .kind = MR_FOLDED, .layer = "displacement", .count = folds[1] - folds[0] });
 	return MR_OK;
 }
 
@@ -67,8 +66,6 @@ equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *c
 		MR_TRY(mr_domain_on(ctx, &control, level, n, &d));
 		MR_TRY(look_for_folds(ctx, &d, height, x));
 	}
-	mr_displacement_warn_of_map(ctx, f);
-	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	mr_frame_drop(f, "displacement", "range", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", x, level[n].nv));
 	return mr_layer_worked(ctx, f, "displacement");

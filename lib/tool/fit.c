@@ -73,8 +73,7 @@ fit(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *o, mr_fit_result *r)
 		return MR_EMEM;
 	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, r));
 	if (known && !strcmp(from, "points")) { /* the vertices of a mesh do not say where it is */
-		mr_gaps_note(ctx, "the limit surface", &r->gaps);
-		mr_gaps_warn(ctx, "the limit surface", &r->gaps);
+		mr_gaps_report(ctx, "control", &r->gaps);
 	}
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }

@@ -4,8 +4,6 @@
 #include "remesh/remesh.h"
 
 #include "base/options.h"
-#include "measure/crossings.h"
-#include "tool/shrinking.h"
 
 static mr_status
 check_options(mr_ctx *ctx, const mr_remesh_opts *o)
@@ -22,32 +20,16 @@ remesh(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *o, mr_remesh_result *r)
 {
 	static const char *const reads[] = { "base", "mesh", NULL };
 	mr_places over, map;
-	const char *layer, *why;
+	const char *layer;
 	mr_mesh m, out;
-	uint32_t *from;
 	bool mapped;
 
 	MR_TRY(check_options(ctx, o));
 	MR_TRY(mr_layer_choose_warned(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	MR_TRY(mr_remesh(ctx, &m, o, &out, &over, r));
-	why = mr_format(ctx,
-	    "edges of about %.3g cut across what is thinner or more tightly bent; shorter ones, by -L, keep "
-	    "more",
-	    o->adaptive > 0 ? mr_mesh_edge_scale(ctx, &out) : r->length);
-	if (!why)
-		return MR_EMEM;
-	from = MR_NEW(ctx, out.nv, uint32_t);
-	if (!from)
-		return MR_EMEM;
-	for (size_t v = 0; v < out.nv; v++)
-		from[v] = m.t[over.face[v]].v[0];
-	MR_TRY(mr_warn_of_coarseness(ctx, &m, &out, from, why));
-	MR_TRY(mr_crossings_warn(ctx, &m, NULL, &out));
 	MR_TRY(mr_source_map_follow(ctx, f, &m, &over, out.nv, &map, &mapped));
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &out));
-	if (strcmp(layer, "mesh") != 0) /* of which mr-export knows how it lies on base */
-		MR_TRY(mr_layer_warn_of_rest(ctx, f, "base", layer));
 	return mapped ? mr_source_map_put(ctx, f, &map, out.nv) : MR_OK;
 }
 

@@ -124,8 +124,6 @@ sample(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *o, mr_sample_result *resu
 	}
 	result->level = n;
 	result->vertices = d.m.nv;
-	mr_displacement_warn_of_map(ctx, f);
-	MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
 	mr_frame_drop(f, "displacement", NULL, 0);
 	MR_TRY(mr_displacement_put(ctx, f, &d, height));
 	return target.nf ? MR_OK : put_columns(ctx, f, &d, &target, &sampling, height);

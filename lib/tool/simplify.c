@@ -3,13 +3,11 @@
 
 #include "base/options.h"
 #include "edit/detail.h"
-#include "measure/crossings.h"
 #include "measure/gaps.h"
 #include "mesh/layers.h"
 #include "simplify/creases.h"
 #include "space/sampling.h"
 #include "tool/sample.h"
-#include "tool/shrinking.h"
 
 /* By default, but for control meshes. */
 enum { FACES_A_FACE = 10 };
@@ -94,7 +92,6 @@ put_map(mr_ctx *ctx, mr_frame *f, const char *map_layer, const mr_mesh *m, const
 	MR_TRY(mr_simplify_map(ctx, m, out, onto, &map));
 	snprintf(face, sizeof face, "%s_face", m->name);
 	snprintf(bary, sizeof bary, "%s_bary", m->name);
-	mr_layer_warn_of_place(ctx, f, map_layer, m->name);
 	MR_TRY(mr_layer_put_mesh(ctx, f, map_layer, m));
 	MR_TRY(mr_layer_put(ctx, f, map_layer, face, map.face, m->nv));
 	return mr_layer_put(ctx, f, map_layer, bary, map.bary, m->nv);
@@ -111,8 +108,6 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 		MR_TRY(mr_simplify_source(ctx, m, out, onto, &over));
 		MR_TRY(mr_source_map_follow(ctx, f, m, &over, out->nv, &source, &mapped));
 	}
-	if (!strcmp(m->name, "mesh"))
-		MR_TRY(mr_detail_warn_of_loss(ctx, f));
 	MR_TRY(mr_layer_replace(ctx, f, m->name, out));
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
@@ -129,8 +124,7 @@ look_at_gaps(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_mesh *out
 	if (!known)
 		return MR_OK;
 	MR_TRY(mr_gaps_measure(ctx, out, points->p, &sampling, gaps));
-	mr_gaps_note(ctx, "the control mesh", gaps);
-	mr_gaps_warn(ctx, "the control mesh", gaps);
+	mr_gaps_report(ctx, "control", gaps);
 	return MR_OK;
 }
 
@@ -197,19 +191,6 @@ put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_mesh *points,
 }
 
 static mr_status
-look_for_coarseness(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint32_t *onto)
-{
-	uint32_t *from = MR_NEW_ZERO(ctx, out->nv, uint32_t);
-
-	if (!from)
-		return MR_EMEM;
-	for (uint32_t v = 0; v < m->nv; v++)
-		if (onto[v] != MR_NONE)
-			from[onto[v]] = v;
-	return mr_warn_of_coarseness(ctx, m, out, from, "more faces keep more");
-}
-
-static mr_status
 simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 {
 	static const char *const reads[] = { "control", "base", "mesh", NULL };
@@ -238,9 +219,6 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	if (width > 0)
 		MR_TRY(sharpen(ctx, &m, &points, width, &sharp));
 	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, r));
-	MR_TRY(mr_crossings_warn(ctx, &sharp, onto, &out));
-	if (strcmp(layer, "control") != 0)
-		MR_TRY(look_for_coarseness(ctx, &m, &out, onto));
 	mr_unmeasured(&r->gaps, sizeof r->gaps);
 	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r->gaps));
 	r->creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;

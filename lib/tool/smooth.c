@@ -26,11 +26,8 @@ smooth(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *o, mr_smooth_result *r)
 		return MR_EMEM;
 	MR_TRY(mr_smooth(ctx, &m, o, p, r));
 	if (f->key && o->time > defaults.time && r->bounded == m.nv)
-		mr_warn(ctx,
-		    "all vertices are smoothed for less than a time of %g, and no longer time has an effect: "
-		    "the "
-		    "body is thin there, which --plain does not look at",
-		    o->time);
+		mr_found(
+		    ctx, &(mr_finding){ .kind = MR_LIMIT, .what = "the body is too thin for a longer time" });
 	if (from_mesh)
 		MR_TRY(mr_source_map_identity(ctx, &m, &map));
 	m.p = p;

@@ -1,12 +1,10 @@
 /* mr-subdivide: a finer mesh, and its layer's columns on it. */
 #include "base/options.h"
-#include "base/text.h"
 #include "edit/detail.h"
 #include "mesh/fold.h"
 #include "mesh/normals.h"
 #include "subdivide/longest.h"
 #include "tool/cache.h"
-#include "tool/shrinking.h"
 
 /* The finer mesh, and its limit normals (NULL: not asked for). */
 static mr_status
@@ -65,16 +63,8 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 	if (r->level)
 		MR_TRY(turn_normals(ctx, r, carried, n));
 	if (strcmp(layer, "mesh")) {
-		if (strcmp(layer, "control") != 0)
-			mr_layer_warn_of_place(ctx, f, "mesh", layer);
-		else
-			MR_TRY(mr_displacement_warn_of_mesh(ctx, f));
-		MR_TRY(mr_layer_warn_of_loss(ctx, f, "mesh", layer));
 		mr_frame_drop(f, "mesh", NULL, 0);
-		if (!strcmp(layer, "control") && mr_layer_has(f, "displacement", "height"))
-			mr_warn(ctx, "mesh is control without its displacement: mr-decode adds that");
 	} else if (r->fine.nv > r->m.nv) {
-		MR_TRY(mr_detail_warn_of_loss(ctx, f));
 		mr_layer_changed(f, "mesh", MR_RECONNECTED);
 	}
 	MR_TRY(mr_layer_put_mesh(ctx, f, "mesh", &r->fine));
@@ -98,19 +88,13 @@ subdivide(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_subdivide_opts *o
 /* Folds that the rules have made, where triangles are long and thin; those of the input stay, in two edges
  * each a step. */
 static void
-look_for_folds(mr_ctx *ctx, const mr_frame *f, const mr_refined *r, mr_cache *cache, size_t folded[2])
+look_for_folds(mr_ctx *ctx, const mr_refined *r, size_t folded[2])
 {
-	size_t *told = cache ? &cache->told_folded : NULL;
-
 	folded[0] = mr_count_folds(ctx, &r->m, r->level[0].topo.twin);
 	folded[1] = mr_count_folds(ctx, &r->fine, r->level[r->n].topo.twin);
-	if (told && f->key)
-		*told = 0;
-	if (folded[1] > folded[0] << r->n && mr_is_news(folded[1], told))
-		mr_warn(ctx,
-		    "%zu folded edge%s of mesh, %zu before: Loop's rules fold long thin triangles, and "
-		    "mr-remesh makes better ones",
-		    folded[1], mr_plural(folded[1]), folded[0]);
+	if (folded[1] > folded[0] << r->n)
+		mr_found(
+		    ctx, &(mr_finding){ .kind = MR_FOLDED, .layer = "mesh", .count = folded[1] - folded[0] });
 }
 
 static mr_status
@@ -145,10 +129,7 @@ subdivide_frame(
 		MR_TRY(subdivide(ctx, f, &m, o, cache, &r, &limit));
 	seconds = mr_seconds() - seconds;
 	if (r.level)
-		look_for_folds(ctx, f, &r, cache, folded);
-	if (r.level && f->key && strcmp(layer, "control") != 0)
-		MR_TRY(mr_warn_of_shrinking(ctx, &m, &r.fine,
-		    "Loop's rules round what is coarse; --crease keeps sharp edges, --longest the shape"));
+		look_for_folds(ctx, &r, folded);
 	*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, folded[0], folded[1], seconds };
 	MR_TRY(put(ctx, f, layer, &r, limit));
 	if (!strcmp(layer, "control")) { /* without its heights, as was asked for */

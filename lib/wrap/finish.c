@@ -100,7 +100,6 @@ mr_wrap_assess(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
 	w->folds = mr_count_folds(ctx, &m, w->d.twin);
 	MR_TRY(mr_wrap_measure(ctx, cloud, &m, MR_WRAP_SAMPLES, &w->cover));
 	w->found.seconds_measure = mr_seconds() - start;
-	mr_gaps_note(ctx, "the wrap", &w->cover.gaps);
 	return MR_OK;
 }
 

@@ -212,7 +212,7 @@ report_cover(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 	f.at = c->cover.at;
 	if (c->cover.unreached > 0)
 		mr_found(ctx, &f);
-	mr_gaps_warn(ctx, "the wrap", &c->cover.gaps);
+	mr_gaps_report(ctx, "control", &c->cover.gaps);
 }
 
 static void

@@ -2,11 +2,10 @@
 ends() { # axis: fixed below, a handle above
 	mr-select --reset --free all --fixed "below:$1,0.2" --handle "0=above:$1,0.8"
 }
-bent() { # shape, axis, pose, how to solve: the warnings of volume, and what is measured of it
+bent() { # shape, axis, pose, how to solve: what is said of the volume
 	mr-make "$1" | mr-smooth | mr-remesh -q | ends "$2" | mr-encode -o rest.mrs
-	mr-pose $3 rest.mrs | mr-solve $4 | mr-decode --stats stats.json -o posed.mrs 2>said
-	grep 'volume' said | sed 's/.*warning: //'
-	sed 's/.*"volume":\([^,}]*\).*/\1/; t; s/.*/none/' stats.json | awk '{ print $1 == "none" ? $1 : sprintf("%.2f", $1) }'
+	mr-pose $3 rest.mrs | mr-solve $4 | mr-decode -o posed.mrs 2>said
+	grep -o 'the volume .*' said || echo none
 }
 volume() { # of a stream's mesh, by an OFF of it
 	mr-export -f off - <"$1" | awk '
@@ -20,8 +19,8 @@ volume() { # of a stream's mesh, by an OFF of it
 }
 echo 'a twist by a right angle, linearly, thins a limb, and an interpolated one keeps it'
 bent cylinder z '--rotate 0,0,1,90' '--rotations linear'
-echo "$(volume rest.mrs) $(volume posed.mrs) $(sed 's/.*"volume":\([^,}]*\).*/\1/' stats.json)" |
-    awk '{ d = $2 / $1 - $3; print "as the volumes of the two surfaces are:", d * d < 1e-8 ? "ok" : d }'
+echo "$(volume rest.mrs) $(volume posed.mrs) $(sed -n 's/.*volume has changed by \([-0-9]*\) .*/\1/p' said)" |
+    awk '{ d = 100 * ($2 / $1 - 1) - $3; print "as the volumes of the two surfaces are:", d * d < 0.3 ? "ok" : d }'
 bent cylinder z '--rotate 0,0,1,90' ''
 
 echo 'what is asked for is not warned of: translations, scales'
@@ -40,7 +39,7 @@ mr-pose --rotate 0,0,1,90 rest.mrs | mr-solve --rotations linear | mr-pose --tra
     mr-decode 2>&1 >/dev/null | grep volume
 mr-pose --rotate 0,0,1,90 rest.mrs | mr-solve --rotations linear | mr-decode --gain 1.5 2>&1 >/dev/null | grep volume
 mr-pose --rotate 0,0,1,90 rest.mrs | mr-solve --rotations linear | mr-decode -q | mr-pose --translate 0,0,0.01 | mr-solve |
-    mr-decode --stats - 2>&1 >/dev/null | sed 's/.*"volume":\([^,}]*\).*/decoded between: \1/; s/\(1.00\).*/\1/' | tail -1
+    mr-decode 2>&1 >/dev/null | grep volume || echo 'decoded between: none'
 
 echo "parts count that are closed, whichever way they turn, as do all others"
 mr-make cylinder -o tube.mrs
@@ -60,7 +59,7 @@ mr-cat poses.mrs poses.mrs | mr-solve --rotations linear | mr-decode 2>&1 >/dev/
 echo 'a control mesh that is posed does it to its displaced surface'
 mr-make cylinder --points 3000 -o points.mrs
 mr-make cylinder -n 500 | mr-export -f off - | mr-import -q -l control - | mr-cat --merge - points.mrs | mr-sample -q |
-    ends z | mr-pose --rotate 0,0,1,90 | mr-solve --rotations linear | mr-decode --stats stats.json 2>&1 >/dev/null | grep volume
+    ends z | mr-pose --rotate 0,0,1,90 | mr-solve --rotations linear | mr-decode 2>&1 >/dev/null | grep volume
 
 echo 'a handle that turns has vertices enough to hold that, or it is said'
 mr-make torus -n 3000 | mr-smooth -q | mr-remesh -q -r 6 | mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.95 |

@@ -13,6 +13,7 @@ hear(void *user, const char *text)
 	snprintf(heard + strlen(heard), sizeof heard - strlen(heard), "%s\n", text);
 }
 
+/* A finding: its kind, count and words. */
 static inline void
 hear_finding(void *user, const mr_finding *f)
 {

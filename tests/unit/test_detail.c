@@ -2,7 +2,7 @@
 #include "base/random.h"
 #include "edit/correspondence.h"
 #include "edit/detail.h"
-#include "edit/strayed.h"
+#include "judge/strayed.h"
 #include "shape/shape.h"
 #include "space/bvh.h"
 
@@ -503,11 +503,21 @@ every_allocation_may_fail(void **state)
 	mr_ctx_free(&ctx);
 }
 
+static mr_strayed
+strayed(const mr_mesh *m, const mr_v3 *now, const mr_edges *edges, const mr_mesh *rest, const mr_v3 *q,
+    const mr_detail *d)
+{
+	mr_motion motion = { .then = m, .now = now, .edges = edges, .diagonal = 2 };
+	mr_ground ground = { .then = *rest, .now = q, .at = d->at };
+
+	return mr_strayed_find(&motion, &ground);
+}
+
 /* Edges that change as base does have not strayed; those of a vertex that is thrown away have. */
 static void
 what_base_accounts_for_has_not_strayed(void **state)
 {
-	mr_mesh m, base;
+	mr_mesh m, rest;
 	mr_ctx ctx;
 	mr_detail d;
 	mr_edges edges;
@@ -517,23 +527,22 @@ what_base_accounts_for_has_not_strayed(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	m = solid(&ctx, MR_SPHERE, 500);
-	base = with_positions(m, m.p, "base");
-	assert_int_equal(mr_encode(&ctx, &m, &base, NULL, &d, NULL), MR_OK);
+	rest = with_positions(m, m.p, "base");
+	assert_int_equal(mr_encode(&ctx, &m, &rest, NULL, &d, NULL), MR_OK);
 	assert_int_equal(mr_edges_build(&ctx, &m, &edges), MR_OK);
 	p = MR_NEW(&ctx, m.nv, mr_v3);
 	q = MR_NEW(&ctx, m.nv, mr_v3);
 	for (size_t v = 0; v < m.nv; v++)
 		p[v] = q[v] = mr_mul(3, m.p[v]);
-	base.p = q;
-	s = mr_strayed_find(&m, &edges, p, &base, &d);
+	s = strayed(&m, p, &edges, &rest, q, &d);
 	assert_true(s.edges == 0 && s.vertex == MR_NONE);
 	p[7] = mr_mul(9, m.p[7]);
-	s = mr_strayed_find(&m, &edges, p, &base, &d);
+	s = strayed(&m, p, &edges, &rest, q, &d);
 	assert_true(s.edges >= 3 && s.edges < 12 && mr_dist(m.p[s.vertex], m.p[7]) < 0.5);
 	for (size_t v = 0; v < m.nv; v++)
 		p[v] = mr_mul(1e200, m.p[v]); /* lengths without a square */
 	m = with_positions(m, p, "mesh");
-	s = mr_strayed_find(&m, &edges, p, &base, &d);
+	s = strayed(&m, p, &edges, &rest, q, &d);
 	assert_true(s.edges == 0 && s.vertex == MR_NONE);
 	mr_ctx_free(&ctx);
 }

@@ -142,10 +142,10 @@ reports_what_is_bare(void **state)
 	(void)state;
 	ctx.listener.found = hear_finding;
 	ctx.listener.user = &heard;
-	mr_gaps_warn(&ctx, "the wrap", &g);
+	mr_gaps_report(&ctx, "control", &g);
 	assert_int_equal(heard.count, 7);
 	g.bare = 0.015;
-	mr_gaps_warn(&ctx, "the wrap", &g);
+	mr_gaps_report(&ctx, "control", &g);
 	assert_true(heard.kind == MR_BARE && heard.value == 0.015);
 }
 

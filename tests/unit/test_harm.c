@@ -1,5 +1,5 @@
 /* Folds and intersections that a motion makes, and those that it does not. */
-#include "measure/harm.h"
+#include "judge/harm.h"
 #include "shapes.h"
 
 static mr_harm

@@ -1,8 +1,8 @@
 /*
  * harm.h -- what a motion did to a surface: folds, and faces that pass through others near them.
  */
-#ifndef MR_MEASURE_HARM_H
-#define MR_MEASURE_HARM_H
+#ifndef MR_JUDGE_HARM_H
+#define MR_JUDGE_HARM_H
 
 #include "mesh/edges.h"
 

@@ -1,5 +1,5 @@
 /* The maps of regions by least squares, and who is off them. */
-#include "edit/held.h"
+#include "judge/held.h"
 
 #include "base/rotation.h"
 #include "mesh/layers.h"
@@ -56,11 +56,11 @@ linear_part(const fit *f)
 
 /* That of fixed vertices is the identity. */
 static void
-fit_maps(const mr_held_pose *h, size_t regions, fit *fits)
+fit_maps(const mr_ground *g, size_t regions, fit *fits)
 {
-	const mr_v3 *from = h->base->p, *to = h->on_base;
-	const uint32_t *region = h->base_region;
-	size_t nv = h->base->nv;
+	const mr_v3 *from = g->then.p, *to = g->now;
+	const uint32_t *region = g->region;
+	size_t nv = g->then.nv;
 
 	for (size_t v = 0; v < nv; v++) {
 		fit *f = &fits[region[v]];
@@ -93,19 +93,20 @@ map_of(const fit *f, mr_v3 from)
 
 /* Where vertex v belongs if what stands on base turns with it and keeps its length. */
 static mr_v3
-turned(const mr_held_pose *h, const fit *f, size_t v)
+turned(const mr_motion *m, const mr_ground *g, const fit *f, size_t v)
 {
-	mr_v3 foot = h->foot ? h->foot[v] : mr_place_point(h->base, mr_places_at(&h->at, v));
+	mr_v3 foot = g->foot ? g->foot[v] : mr_place_point(&g->then, mr_places_at(&g->at, v));
 
-	return mr_add(map_of(f, foot), mr_mat3_apply(&f->turn, mr_sub(h->mesh->p[v], foot)));
+	return mr_add(map_of(f, foot), mr_mat3_apply(&f->turn, mr_sub(m->then->p[v], foot)));
 }
 
 static void
-count_vertex(const mr_held_pose *pose, const fit *f, size_t v, bool faceless, double far, mr_held *h)
+count_vertex(
+    const mr_motion *m, const mr_ground *g, const fit *f, size_t v, bool faceless, double far, mr_held *h)
 {
-	uint32_t r = pose->region[v];
+	uint32_t r = g->surface_region[v];
 	bool off = !f->given && (f->n || r == MR_REGION_FIXED) &&
-	           mr_dist(pose->p[v], map_of(f, pose->mesh->p[v])) > far;
+	           mr_dist(m->now[v], map_of(f, m->then->p[v])) > far;
 
 	if (!off)
 		return;
@@ -113,7 +114,7 @@ count_vertex(const mr_held_pose *pose, const fit *f, size_t v, bool faceless, do
 		h->faceless++;
 	else if (r == MR_REGION_FIXED)
 		h->moved++;
-	else if (mr_mat3_determinant(&f->yx) >= 0 && mr_dist(pose->p[v], turned(pose, f, v)) > far)
+	else if (mr_mat3_determinant(&f->yx) >= 0 && mr_dist(m->now[v], turned(m, g, f, v)) > far)
 		h->missed++;
 	else
 		h->unscaled++;
@@ -131,7 +132,7 @@ is_rigid(const fit *f)
 static bool
 keeps_volume(const fit *fits, size_t regions, double far, bool *turned)
 {
-	const double least = MR_PI / 180;
+	const double least = MR_PI / 6; /* of a pull, which may change the volume, handles turn by less */
 	const fit *lowest = NULL;
 	bool moved = false;
 
@@ -152,9 +153,9 @@ keeps_volume(const fit *fits, size_t regions, double far, bool *turned)
 }
 
 mr_status
-mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
+mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_held *held)
 {
-	const mr_mesh *mesh = pose->mesh, *base = pose->base;
+	const mr_mesh *mesh = m->then, *base = &g->then;
 	mr_mark mark = mr_mark_take(ctx);
 	size_t regions = MR_REGION_HANDLE;
 	mr_held h = { 0 };
@@ -163,23 +164,23 @@ mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held)
 	fit *fits;
 
 	for (size_t v = 0; v < base->nv; v++)
-		regions = pose->base_region[v] < regions ? regions : (size_t)pose->base_region[v] + 1;
+		regions = g->region[v] < regions ? regions : (size_t)g->region[v] + 1;
 	fits = MR_NEW_ZERO(ctx, regions, fit);
 	if (!fits)
 		return MR_EMEM;
 	MR_TRY(mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count));
-	fit_maps(pose, regions, fits);
+	fit_maps(g, regions, fits);
 	for (size_t v = 0; v < base->nv; v++) {
-		fit *f = &fits[pose->base_region[v]];
-		f->given |= mr_dist(pose->on_base[v], map_of(f, base->p[v])) > far;
+		fit *f = &fits[g->region[v]];
+		f->given |= mr_dist(g->now[v], map_of(f, base->p[v])) > far;
 	}
 	h.keeps_volume = keeps_volume(fits, regions, far, &h.turned);
 	for (size_t v = 0; v < mesh->nv; v++) {
-		uint32_t r = pose->region[v];
+		uint32_t r = g->surface_region[v];
 		h.fixed += used[v] && r == MR_REGION_FIXED;
 		h.handled += used[v] && r >= MR_REGION_HANDLE;
 		if (r != MR_REGION_FREE && r < regions)
-			count_vertex(pose, &fits[r], v, !used[v], far, &h);
+			count_vertex(m, g, &fits[r], v, !used[v], far, &h);
 	}
 	mr_mark_release(ctx, mark);
 	*held = h;

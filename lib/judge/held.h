@@ -2,19 +2,10 @@
  * held.h -- constrained vertices of a mesh that its base, which is posed, does not hold where they belong; or
  * of a displaced surface, its control mesh.
  */
-#ifndef MR_EDIT_HELD_H
-#define MR_EDIT_HELD_H
+#ifndef MR_JUDGE_HELD_H
+#define MR_JUDGE_HELD_H
 
-#include "mesh/mesh.h"
-
-/* Where vertices stood when the pose began, and where they are now. */
-typedef struct mr_held_pose {
-	const mr_mesh *mesh, *base; /* as they stood */
-	const mr_v3 *p, *on_base;   /* now */
-	const uint32_t *region, *base_region;
-	mr_places at;      /* of the mesh on base */
-	const mr_v3 *foot; /* what its vertices stand on, as it stood; NULL: those places */
-} mr_held_pose;
+#include "judge/judge.h"
 
 typedef struct mr_held {
 	size_t fixed, moved; /* vertices, and those that are not where they were */
@@ -32,6 +23,6 @@ typedef struct mr_held {
  * Counts those that are off by over `far`.  A map is fitted to the vertices of base that a handle has; a
  * region whose own are off by as much, because each was given a place, is left out.
  */
-mr_status mr_held_count(mr_ctx *ctx, const mr_held_pose *pose, double far, mr_held *held);
+mr_status mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_held *held);
 
 #endif

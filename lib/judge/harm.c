@@ -1,5 +1,5 @@
 /* Folds and intersections that a motion makes, looked for only where it is not rigid. */
-#include "measure/harm.h"
+#include "judge/harm.h"
 
 #include "base/parallel.h"
 #include "base/rotation.h"

@@ -1,0 +1,228 @@
+/* Which surface to compare with which: the layer worked on last with what it was, or was made of. */
+#include "judge/judge.h"
+
+#include "edit/detail.h"
+#include "subdivide/displaced.h"
+
+/* The layer's surface where it has one; t NULL: none. */
+static mr_status
+surface_of(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
+{
+	*m = (mr_mesh){ .name = layer };
+	if (!layer || !mr_layer_has(f, layer, "position") || !mr_layer_has(f, layer, "triangles"))
+		return MR_OK;
+	return mr_layer_mesh_of_any_size(ctx, f, layer, m);
+}
+
+static bool
+same_triangles(const mr_mesh *a, const mr_mesh *b)
+{
+	return a->nv == b->nv && a->nf == b->nf &&
+	       (a->t == b->t || !memcmp(a->t, b->t, a->nf * sizeof *a->t));
+}
+
+static bool
+same_places(const mr_v3 *a, const mr_v3 *b, size_t n)
+{
+	return a == b || !memcmp(a, b, n * sizeof *a);
+}
+
+double
+mr_farthest(const mr_v3 *then, const mr_v3 *now, size_t n)
+{
+	double most = 0;
+
+	for (size_t v = 0; v < n; v++)
+		most = fmax(most, mr_norm2(mr_sub(now[v], then[v])));
+	return sqrt(most);
+}
+
+static mr_status
+read_regions(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv, const uint32_t **region)
+{
+	*region = NULL;
+	return mr_layer_has(f, layer, "region") ? mr_layer_region(ctx, f, layer, nv, region) : MR_OK;
+}
+
+/* Where base stood when mesh did: where its last pose began, else where mesh was encoded; then->p NULL: not
+ * known. */
+static mr_status
+base_then(mr_ctx *ctx, mr_frame *before, mr_frame *after, mr_mesh *then)
+{
+	const void *p = NULL;
+	mr_frame *f = mr_layer_has(before, "base", "before") ? before : after;
+	const char *column = f == before ? "before" : "encoded";
+
+	if (mr_layer_has(f, "base", column))
+		MR_TRY(mr_layer_get_rows(ctx, f, "base", column, then->nv, &p));
+	then->p = p;
+	return MR_OK;
+}
+
+/* mesh, which has followed base by its detail. */
+static mr_status
+judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m)
+{
+	mr_ground g = { .then.name = "base" };
+	mr_detail detail;
+	mr_mesh base;
+
+	MR_TRY(mr_judge_contacts(ctx, m));
+	MR_TRY(surface_of(ctx, after, "base", &base));
+	if (!base.t || !mr_layer_has(after, "mesh", "detail_face"))
+		return MR_OK;
+	MR_TRY(mr_detail_get(ctx, after, &base, &detail));
+	g.then = base;
+	g.now = base.p;
+	g.at = detail.at;
+	MR_TRY(base_then(ctx, before, after, &g.then));
+	if (!g.then.p)
+		return MR_OK;
+	MR_TRY(read_regions(ctx, after, "base", base.nv, &g.region));
+	MR_TRY(read_regions(ctx, after, "mesh", m->then->nv, &g.surface_region));
+	MR_TRY(mr_judge_detail(ctx, m, &g));
+	return g.region && g.surface_region ? mr_judge_pose(ctx, m, &g) : MR_OK;
+}
+
+/* Of each vertex over d the region of the control vertices that it lies between; free where these differ. */
+static mr_status
+regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, const uint32_t **region)
+{
+	uint32_t *r = MR_NEW(ctx, d->m.nv, uint32_t);
+
+	if (!r)
+		return MR_EMEM;
+	memcpy(r, control, d->level[0].nv * sizeof *r);
+	for (size_t n = 1; n <= d->n; n++) {
+		const mr_loop *level = &d->level[n], *below = level - 1;
+		for (size_t v = level->coarse_nv; v < level->nv; v++) {
+			uint32_t h = level->edge[v - level->coarse_nv];
+			uint32_t a = r[below->t[h / 3].v[h % 3]], b = r[below->t[h / 3].v[(h + 1) % 3]];
+			r[v] = a == b ? a : MR_REGION_FREE;
+		}
+	}
+	*region = r;
+	return MR_OK;
+}
+
+/* The displaced surface of a frame on its control mesh where that was encoded, over d: foot and surface. */
+static mr_status
+displaced_then(mr_ctx *ctx, mr_frame *f, size_t n, mr_mesh *control, mr_domain *d, mr_v3 **surface)
+{
+	const double *height;
+	const void *p;
+	size_t all;
+
+	MR_TRY(surface_of(ctx, f, "control", control));
+	MR_TRY(mr_displacement_get(ctx, f, control, &all, &height));
+	if (mr_layer_has(f, "control", "encoded")) {
+		MR_TRY(mr_layer_get_rows(ctx, f, "control", "encoded", control->nv, &p));
+		control->p = p;
+	}
+	MR_TRY(mr_domain_of(ctx, f, control, n < all ? n : all, d));
+	*surface = MR_NEW(ctx, d->m.nv, mr_v3);
+	if (!*surface)
+		return MR_EMEM;
+	mr_domain_displace(ctx, d, height, 1, *surface);
+	return MR_OK;
+}
+
+static mr_status
+judge_motion(mr_ctx *ctx, const mr_mesh *then, const mr_v3 *now, mr_edges *edges, mr_motion *m)
+{
+	MR_TRY(mr_edges_build(ctx, then, edges));
+	*m = (mr_motion){ then, now, edges, mr_mesh_diagonal(then) };
+	return mr_judge_harm(ctx, m);
+}
+
+/* mesh, made of control and its heights: unposed and at a gain of 1 nothing has moved. */
+static mr_status
+judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *mesh)
+{
+	mr_mesh control, surface;
+	mr_ground g = { .then.name = "control" };
+	mr_edges edges;
+	mr_motion m;
+	mr_domain d;
+	mr_v3 *then;
+	size_t n;
+
+	MR_TRY(displaced_then(ctx, before, 0, &control, &d, &then));
+	if (mesh->nv >= control.nv &&
+	    mr_farthest(then, mesh->p, control.nv) <= mr_mesh_tolerance(&control, 1e-9))
+		return MR_OK;
+	MR_TRY(mr_domain_level(ctx, &control, mesh->nv, &n));
+	MR_TRY(displaced_then(ctx, before, n, &control, &d, &then));
+	if (d.m.nv != mesh->nv || !same_triangles(&d.m, mesh))
+		return MR_OK;
+	surface = d.m;
+	surface.name = mesh->name;
+	surface.p = then;
+	MR_TRY(judge_motion(ctx, &surface, mesh->p, &edges, &m));
+	if (!mr_layer_has(after, "control", "region") || !mr_layer_has(after, "control", "encoded"))
+		return MR_OK;
+	g.then = control;
+	MR_TRY(surface_of(ctx, after, "control", &control));
+	g.now = control.p;
+	g.foot = d.m.p;
+	MR_TRY(read_regions(ctx, after, "control", control.nv, &g.region));
+	MR_TRY(regions_of_levels(ctx, &d, g.region, &g.surface_region));
+	return mr_judge_pose(ctx, &m, &g);
+}
+
+/* What `layer` was, or was made of: the surface worked on last before; t NULL: none. */
+static mr_status
+surface_then(mr_ctx *ctx, mr_frame *before, const char *layer, mr_mesh *then)
+{
+	const char *latest;
+
+	MR_TRY(surface_of(ctx, before, layer, then));
+	if (then->t)
+		return MR_OK;
+	MR_TRY(mr_layer_latest(ctx, before, &latest));
+	return surface_of(ctx, before, latest ? latest : "mesh", then);
+}
+
+static mr_status
+judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer, double *least)
+{
+	mr_mesh then, now;
+	mr_edges edges;
+	mr_motion m;
+
+	MR_TRY(surface_of(ctx, after, layer, &now));
+	MR_TRY(surface_then(ctx, before, layer, &then));
+	if (!now.t)
+		return MR_OK;
+	if (!strcmp(layer, "mesh") && !mr_layer_has(after, "mesh", "detail_face") &&
+	    mr_layer_has(before, "displacement", "height"))
+		return judge_on_control(ctx, before, after, &now);
+	if (!then.t || (then.p == now.p && then.t == now.t))
+		return MR_OK;
+	if (!same_triangles(&then, &now))
+		return mr_judge_remade(ctx, &then, &now);
+	if (same_places(then.p, now.p, now.nv))
+		return MR_OK;
+	if (least) {
+		double most = mr_farthest(then.p, now.p, now.nv);
+		if (most < *least)
+			return MR_OK;
+		*least = 2 * most;
+	}
+	MR_TRY(judge_motion(ctx, &then, now.p, &edges, &m));
+	return judge_on_base(ctx, before, after, &m);
+}
+
+mr_status
+mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	const char *layer;
+
+	if (!mr_listens(ctx))
+		return MR_OK;
+	MR_TRY(mr_layer_latest(ctx, after, &layer));
+	MR_TRY(judge_surface(ctx, before, after, layer ? layer : "mesh", least));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}

@@ -1,0 +1,203 @@
+/* A surface of other triangles against what it was: area, volume, distance, parts, intersections. */
+#include "judge/judge.h"
+
+#include "measure/gaps.h"
+#include "space/contact.h"
+#include "space/enclosed.h"
+#include "space/self_intersect.h"
+
+static const double MUCH = 0.1; /* of the area or volume */
+
+static mr_status
+judge_size(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
+{
+	double area = mr_mesh_area(ctx, then), lost = area > 0 ? 1 - mr_mesh_area(ctx, now) / area : 0,
+	       change = 0;
+	double volume, rest;
+
+	MR_TRY(mr_enclosed_volume(ctx, then, &volume));
+	if (volume > 0) {
+		MR_TRY(mr_enclosed_volume(ctx, now, &rest));
+		change = rest / volume - 1;
+	}
+	if (fabs(change) > fmax(MUCH, lost))
+		mr_found(ctx, &(mr_finding){ .kind = MR_VOLUME, .layer = now->name, .value = change });
+	else if (lost > MUCH)
+		mr_found(ctx, &(mr_finding){ .kind = MR_SHRUNK, .layer = now->name, .value = lost });
+	return MR_OK;
+}
+
+/* The area of each part, by the vertex of `whole` that stands for it: of a face the nearest one of whole. */
+static void
+add_areas(const mr_mesh *m, const uint32_t *part, double *area)
+{
+	for (size_t f = 0; f < m->nf; f++)
+		area[part[m->t[f].v[0]]] += mr_norm(mr_face_cross(m, f));
+}
+
+/* For each vertex of now, by its part, the part of then that a face of it is nearest to. */
+static mr_status
+match_parts(mr_ctx *ctx, const mr_mesh *then, const uint32_t *of, const mr_bvh *bvh, const mr_mesh *now,
+    uint32_t **match)
+{
+	uint32_t *own, *to = MR_NEW(ctx, now->nv, uint32_t);
+	bool several;
+
+	MR_TRY(mr_components_label(ctx, now, &own, &several));
+	if (!to)
+		return MR_EMEM;
+	memset(to, 0xff, now->nv * sizeof *to);
+	for (size_t f = 0; f < now->nf; f++) {
+		const uint32_t *v = now->t[f].v;
+		mr_closest c;
+		if (to[own[*v]] != MR_NONE)
+			continue;
+		c = mr_bvh_closest(bvh, mr_mean3(now->p[v[0]], now->p[v[1]], now->p[v[2]]));
+		to[own[*v]] = of[then->t[c.at.face].v[0]];
+	}
+	for (size_t v = 0; v < now->nv; v++)
+		own[v] = own[v] == MR_NONE ? MR_NONE : to[own[v]];
+	*match = own;
+	return MR_OK;
+}
+
+/* Parts that have lost over half of their area. */
+static mr_status
+judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh, const mr_mesh *now, const uint32_t *of)
+{
+	const double half = 0.5;
+	double *was = MR_NEW_ZERO(ctx, then->nv, double), *is = MR_NEW_ZERO(ctx, then->nv, double),
+	       least = half;
+	mr_finding f = { .kind = MR_GONE, .layer = now->name, .vertex = MR_NO_VERTEX };
+	uint32_t *match;
+
+	if (!was || !is)
+		return MR_EMEM;
+	MR_TRY(match_parts(ctx, then, of, bvh, now, &match));
+	add_areas(then, of, was);
+	add_areas(now, match, is);
+	for (size_t v = 0; v < then->nv; v++) {
+		f.of += was[v] > 0;
+		if (!(is[v] < half * was[v]))
+			continue;
+		f.count++;
+		if (is[v] < least * was[v]) {
+			least = is[v] / was[v];
+			f.placed = true;
+			f.at = then->p[v];
+		}
+	}
+	if (f.count)
+		mr_found(ctx, &f);
+	return MR_OK;
+}
+
+enum { SAMPLES = 2048 };
+
+/* Corners at equal strides, and places in equal parts of the area. */
+static mr_status
+places_of(mr_ctx *ctx, const mr_mesh *m, mr_v3 **place, size_t *n)
+{
+	size_t all = 3 * m->nf, corners = all < 2 * SAMPLES ? all : 2 * SAMPLES;
+	mr_v3 *q = MR_NEW(ctx, corners + SAMPLES, mr_v3);
+
+	if (!q)
+		return MR_EMEM;
+	for (size_t i = 0; i < corners; i++) {
+		size_t h = i * all / corners;
+		q[i] = m->p[m->t[h / 3].v[h % 3]];
+	}
+	*place = q;
+	*n = corners + mr_spread_places(ctx, m, SAMPLES, q + corners);
+	return MR_OK;
+}
+
+/* The place of m that is farthest from `to`. */
+static mr_status
+farthest(mr_ctx *ctx, const mr_mesh *m, const mr_bvh *to, mr_v3 *at, double *far)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t n, most = 0;
+	double *distance;
+	mr_v3 *q;
+
+	MR_TRY(places_of(ctx, m, &q, &n));
+	distance = MR_NEW(ctx, n, double);
+	if (!distance)
+		return MR_EMEM;
+	mr_bvh_distances(ctx, to, q, n, distance);
+	for (size_t i = 0; i < n; i++)
+		most = distance[i] > distance[most] ? i : most;
+	*at = q[most];
+	*far = distance[most];
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+static mr_status
+judge_distance(
+    mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh_then, const mr_mesh *now, const mr_bvh *bvh)
+{
+	const double most = 0.05; /* of the diagonal */
+	double diagonal = mr_mesh_diagonal(then), far, back;
+	mr_v3 at, at_back;
+
+	MR_TRY(farthest(ctx, then, bvh, &at, &far));
+	MR_TRY(farthest(ctx, now, bvh_then, &at_back, &back));
+	if (fmax(far, back) > most * diagonal)
+		mr_found(ctx, &(mr_finding){ .kind = MR_DISTANT,
+				  .layer = now->name,
+				  .value = fmax(far, back) / diagonal,
+				  .placed = true,
+				  .vertex = MR_NO_VERTEX,
+				  .at = far >= back ? at : at_back });
+	return MR_OK;
+}
+
+/* Where what was there intersects already, a coarser surface has fewer pairs of it, or some more. */
+static mr_status
+judge_intersections(
+    mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh_then, const mr_mesh *now, const mr_bvh *bvh)
+{
+	enum { FEW = 5 };
+	bool *crosses = MR_NEW(ctx, now->nf, bool);
+	size_t pairs, old, f = 0;
+
+	if (!crosses)
+		return MR_EMEM;
+	MR_TRY(mr_self_intersections(ctx, bvh, now, crosses, &pairs));
+	if (pairs <= FEW)
+		return MR_OK;
+	MR_TRY(mr_self_intersections(ctx, bvh_then, then, NULL, &old));
+	if (pairs <= FEW + 2 * old)
+		return MR_OK;
+	while (!crosses[f])
+		f++;
+	mr_found(ctx, &(mr_finding){ .kind = MR_CROSSING,
+			  .layer = now->name,
+			  .count = pairs - old,
+			  .of = now->nf,
+			  .placed = true,
+			  .vertex = now->t[f].v[0],
+			  .at = now->p[now->t[f].v[0]] });
+	return MR_OK;
+}
+
+mr_status
+mr_judge_remade(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
+{
+	mr_bvh *bvh_then, *bvh;
+	uint32_t *of;
+	bool several;
+
+	MR_TRY(judge_size(ctx, then, now));
+	if (!(mr_mesh_area(ctx, then) > 0 && mr_mesh_area(ctx, now) > 0))
+		return MR_OK;
+	MR_TRY(mr_components_label(ctx, then, &of, &several));
+	MR_TRY(mr_bvh_build(ctx, then, &bvh_then));
+	if (several)
+		MR_TRY(judge_parts(ctx, then, bvh_then, now, of));
+	MR_TRY(mr_bvh_build(ctx, now, &bvh));
+	MR_TRY(judge_distance(ctx, then, bvh_then, now, bvh));
+	return judge_intersections(ctx, then, bvh_then, now, bvh);
+}
