@@ -76,8 +76,8 @@ only() { # layer, name
 	mr-export -l "$1" "work/parts/$name.ply" && mr-import -l "$2" "work/parts/$name.ply" | mr-select -l "$2" --reset
 }
 
-# Three pairs of pictures: the model and its base; the regions, and the remeshed base with those that it took from the model;
-# the bent base and the result.
+# Three pairs of pictures: the model and its base; the regions, and the remeshed base with those that it took from the
+# model; the bent base and the result.
 pictures() { # view
 	only mesh original <$w.original.mrs >$w.one.mrs
 	only base base <$w.smooth.mrs | mr-cat --merge $w.one.mrs - >$w.first.mrs

@@ -6,8 +6,9 @@ model=${1:-bumpy.off}
 out=${2:-bent.obj}
 [ -n "$1" ] || [ -e "$model" ] || mr-make bumpy -n "${MR_SMALL:-40000}" | mr-export "$model"
 
-# The steps, in order: read; take the detail away; give what is left good triangles; the bottom fifth stays, the top fifth is
-# the handle (y is up; of a model that stands along z, z); store the detail over the base; tilt the handle; bend the surface after it; put the detail back; write.
+# The steps, in order: read; take the detail away; give what is left good triangles; the bottom fifth stays, the top
+# fifth is the handle (y is up; of a model that stands along z, z); store the detail over the base; tilt the handle;
+# bend the surface after it; put the detail back; write.
 mr-import "$model" |
     mr-smooth |
     mr-remesh |

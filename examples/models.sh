@@ -1,6 +1,7 @@
 # models.sh -- real models for the examples: `model NAME` and `cloud NAME` print a file to import.
 # They are those of Debian's package libcgal-demo, fetched and unpacked into ./cache, not installed.  Where it cannot be
-# had, with NOSETUP, or where MR_SMALL=N asks for it, $real is empty and every name means a creature that mr-make makes (of N vertices).
+# had, with NOSETUP, or where MR_SMALL=N asks for it, $real is empty and every name means a creature that mr-make
+# makes (of N vertices).
 
 fetch_models() {
 	[ ! -e cache/points_3/kitten.xyz ] || [ -e cache/unpacked ] || return 0

@@ -1,9 +1,9 @@
 #!/bin/sh
 # reconstruct.sh -- scans become displaced subdivision surfaces, and are edited as such; usage: reconstruct.sh [DIR]
 #
-# Leaves in DIR (default demo): NAME-scan.png for each scan, the cloud, its wrap, the control mesh, the domain surface, the
-# result, the result edited, and five levels of detail; NAME.ply, the result; scans/NAME.mrs, the same as a stream, with the cloud
-# and the control mesh; and clouds.txt, the table that is printed.
+# Leaves in DIR (default demo): NAME-scan.png for each scan, the cloud, its wrap, the control mesh, the domain
+# surface, the result, the result edited, and five levels of detail; NAME.ply, the result; scans/NAME.mrs, the same as
+# a stream, with the cloud and the control mesh; and clouds.txt, the table that is printed.
 # Of the models of demo.sh; where these cannot be had, of points of a creature.
 set -e
 here=$(cd "$(dirname "$0")" && pwd)

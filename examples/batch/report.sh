@@ -1,8 +1,9 @@
 #!/bin/sh
 # report.sh -- what a batch has come to; usage: report.sh IN OUT PAGE SUFFIXES
-# Says which files of IN have another suffix, but those of materials.  Writes in OUT: failed.txt, the files of IN without a
-# result, and why; figures.tsv, a row for each result with its verdict and all figures that the tools gave; figures.json,
-# the same, a line each, and of what failed; index.html, their pictures, each of which leads to a page of PAGE models.
+# Says which files of IN have another suffix, but those of materials.  Writes in OUT: failed.txt, the files of IN
+# without a result, and why; figures.tsv, a row for each result with its verdict and all figures that the tools gave;
+# figures.json, the same, a line each, and of what failed; index.html, their pictures, each of which leads to a page
+# of PAGE models.
 in=$(cd "$1" && pwd) && mkdir -p "$2" && cd "$2" || exit
 page=$3 suffixes=$4
 work=$(mktemp -d) || exit
@@ -12,7 +13,10 @@ touch "$work/done" "$work/failed.txt"
 why() { # folder
 	[ -e "$in/$1" ] || { echo "a link to what is not there"; return; }
 	[ ! -d "$in/$1" ] || { echo "a folder"; return; }
-	[ -d "./$1" ] || { echo "not begun; no hidden names can be, nor any with blanks, or signs of make and shells"; return; }
+	[ -d "./$1" ] || {
+		echo "not begun; no hidden names can be, nor any with blanks, or signs of make and shells"
+		return
+	}
 	cat "./$1"/*.log 2>/dev/null | tail -n 1 | grep . || echo "ended without a word"
 }
 
@@ -36,10 +40,13 @@ done
 many() { # verdict
 	grep -c "	$1" "$work/done"
 }
-made="$(wc -l <"$work/done") made, $(many good) good, $(many poor) poor, $(many unusable) unusable; $(wc -l <"$work/failed.txt") failed"
+made="$(wc -l <"$work/done") made, $(many good) good, $(many poor) poor, $(many unusable) unusable"
+made="$made; $(wc -l <"$work/failed.txt") failed"
 
-# A line for each tool of each model, and of these, read twice, a row for each model: columns TOOL.FIGURE, then their numbers.
-find . -mindepth 2 -maxdepth 2 -name 'mr-*.json' | LC_ALL=C sort | xargs -r -d '\n' awk '{ print FILENAME "\t" $0 }' >"$work/all.json"
+# A line for each tool of each model, and of these, read twice, a row for each model: columns TOOL.FIGURE, then their
+# numbers.
+find . -mindepth 2 -maxdepth 2 -name 'mr-*.json' | LC_ALL=C sort |
+    xargs -r -d '\n' awk '{ print FILENAME "\t" $0 }' >"$work/all.json"
 sed 's,^\./\([^/]*\)[^	]*	{,\1\t,; s/}$//; s/"name":"\([^"\\]\|\\.\)*",//; s/"//g' "$work/all.json" >"$work/figures"
 awk -F '\t' '
 	pass == 0 { verdict[$1] = $2; next }

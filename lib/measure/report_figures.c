@@ -107,7 +107,8 @@ flaws_text(mr_text *t, const mr_surface_figures *s, bool intersections)
 	flaw(t, c->duplicate_faces, "duplicate face", "duplicate faces", &any);
 	flaw(t, c->isolated_vertices, "isolated vertex", "isolated vertices", &any);
 	flaw(t, c->folded_edges, "folded edge", "folded edges", &any);
-	flaw(t, intersections ? s->intersections : 0, "intersecting pair of faces", "intersecting pairs of faces", &any);
+	flaw(t, intersections ? s->intersections : 0, "intersecting pair of faces",
+	    "intersecting pairs of faces", &any);
 	mr_text_add(t, "%s%s\n", any ? "" : "none", intersections ? "" : " (intersections not looked for)");
 }
 

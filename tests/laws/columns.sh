@@ -1,0 +1,9 @@
+# Lines have at most 120 columns, tabs at every eighth, but for rows of tables and what a page shows as it is.
+cd "$TOP" || exit
+find lib cmd formats man .github -type f ! -path 'formats/page/*' ! -name '*.png' | LC_ALL=C sort | while read -r file; do
+	expand "$file" | LC_ALL=C.UTF-8 awk -v file="$file" '
+		/^\|/ || /^ *echo / { next }
+		length($0) > 120 { print file ":" NR ": " length($0) " columns" }'
+done >"$OLDPWD/long"
+cat "$OLDPWD/long"
+[ ! -s "$OLDPWD/long" ]
