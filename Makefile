@@ -276,6 +276,7 @@ table1: $(TOOLS) $(BUILD)/bench/plot
 
 readme:
 	@tests/readme >$(BUILD)/README.md && cat $(BUILD)/README.md >README.md
+	@tests/findings >$(BUILD)/findings.7 && cat $(BUILD)/findings.7 >man/mr-findings.7
 
 picture: demo/index.html
 	@PYTHONDONTWRITEBYTECODE=1 python3 tests/page/picture.py $< examples/page.png

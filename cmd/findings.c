@@ -21,10 +21,10 @@ static const entry table[MR_FINDING_KINDS] = {
 	[MR_CROSSING] = { VERDICT_POOR, 0.02, "{layer}: {n} more intersecting pair{s} of near faces{at}", "",
 	    "Faces pass through others near them along the surface, and did not before." },
 	[MR_COLLIDED] = { VERDICT_POOR, 0,
-	    "{layer}: limbs or sheets meet: {n} intersecting pair{s} of far faces{at}", "",
+	    "{layer}: limbs or sheets meet, {n} pair{s} of far faces{at}", "",
 	    "Faces pass through others far from them along the surface, or of another part." },
 	[MR_TORN] = { VERDICT_POOR, 0.1,
-	    "{layer}: detail is torn: {n}{of} edge{s} change by over twice what base does{at}", "",
+	    "{layer}: detail is torn at {n}{of} edge{s}{at}", "",
 	    "Edges of the mesh have become twice as long, or half as long, where no edge of base has." },
 	[MR_COARSE] = { VERDICT_POOR, 0.5, "{layer}: {n}{of} edge{s} are too long to bend with base{at}",
 	    "mr-subdivide --longest {limit} splits them first",
@@ -132,10 +132,10 @@ static void
 add_place(const mr_finding *f, char *text, size_t size)
 {
 	if (f->placed && f->vertex != MR_NO_VERTEX)
-		snprintf(text, size, ", most at vertex %u (%.4g, %.4g, %.4g)", f->vertex, f->at.x, f->at.y,
+		snprintf(text, size, ", vertex %u (%.3g, %.3g, %.3g)", f->vertex, f->at.x, f->at.y,
 		    f->at.z);
 	else if (f->placed)
-		snprintf(text, size, ", near (%.4g, %.4g, %.4g)", f->at.x, f->at.y, f->at.z);
+		snprintf(text, size, ", near (%.3g, %.3g, %.3g)", f->at.x, f->at.y, f->at.z);
 }
 
 /* The words for the name in braces. */

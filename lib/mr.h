@@ -78,22 +78,23 @@ MR_API void mr_ctx_delete(mr_ctx *ctx);
 /* The sentence of the last failure, until the next; empty before the first. */
 MR_API const char *mr_error(const mr_ctx *ctx);
 
-typedef struct mr_v3 {
-	double x, y, z;
-} mr_v3;
+typedef struct mr_v3 { double x, y, z; } mr_v3;
 
-/* Findings: what a user should know of a result that is given all the same; man/mr-findings.7 explains each kind. */
-typedef enum mr_finding_kind {
-	/* of a surface, by comparing it with what it was */
-	MR_FOLDED, MR_CROSSING, MR_COLLIDED, MR_TORN, MR_COARSE, MR_APART, MR_MISSED, MR_VOLUME, MR_SHRUNK, MR_DISTANT,
-	MR_GONE,
-	/* of data, by what is not there any more or is not as it was */
-	MR_LOST, MR_STALE, MR_ROUNDED, MR_GUESSED, MR_MISSING, MR_REPAIRED,
-	/* of the work, which its algorithm alone knows */
-	MR_UNCERTAIN, MR_UNREACHED, MR_BARE, MR_SCATTERED, MR_ROUGH, MR_FILLED, MR_INEXACT, MR_UNHELD, MR_HANDLE,
-	MR_LIMIT, MR_LAYER,
-	MR_FINDING_KINDS
-} mr_finding_kind;
+/* Findings: what a user should know of a result that is given all the same; man/mr-findings.7 explains each kind.
+ * First those of a surface, by comparing it with what it was; then of data; then those that an algorithm alone knows. */
+#define MR_FINDINGS(X) \
+	X(FOLDED, "folded") X(CROSSING, "crossing") X(COLLIDED, "collided") X(TORN, "torn") \
+	X(COARSE, "coarse") X(APART, "apart") X(MISSED, "missed") X(VOLUME, "volume") X(SHRUNK, "shrunk") \
+	X(DISTANT, "distant") X(GONE, "gone") \
+	X(LOST, "lost") X(STALE, "stale") X(ROUNDED, "rounded") X(GUESSED, "guessed") X(MISSING, "missing") \
+	X(REPAIRED, "repaired") \
+	X(UNCERTAIN, "uncertain") X(UNREACHED, "unreached") X(BARE, "bare") X(SCATTERED, "scattered") \
+	X(ROUGH, "rough") X(FILLED, "filled") X(INEXACT, "inexact") X(UNHELD, "unheld") X(HANDLE, "handle") \
+	X(LIMIT, "limit") X(LAYER, "layer")
+
+#define MR_FINDING_KIND(kind, name) MR_##kind,
+typedef enum mr_finding_kind { MR_FINDINGS(MR_FINDING_KIND) MR_FINDING_KINDS } mr_finding_kind;
+#undef MR_FINDING_KIND
 
 /* Strings belong to who reports it, until the call returns. */
 typedef struct mr_finding {

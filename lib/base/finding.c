@@ -3,36 +3,8 @@
 
 #include <math.h>
 
-static const char *const names[MR_FINDING_KINDS] = {
-	[MR_FOLDED] = "folded",
-	[MR_CROSSING] = "crossing",
-	[MR_COLLIDED] = "collided",
-	[MR_TORN] = "torn",
-	[MR_COARSE] = "coarse",
-	[MR_APART] = "apart",
-	[MR_MISSED] = "missed",
-	[MR_VOLUME] = "volume",
-	[MR_SHRUNK] = "shrunk",
-	[MR_DISTANT] = "distant",
-	[MR_GONE] = "gone",
-	[MR_LOST] = "lost",
-	[MR_STALE] = "stale",
-	[MR_ROUNDED] = "rounded",
-	[MR_GUESSED] = "guessed",
-	[MR_MISSING] = "missing",
-	[MR_REPAIRED] = "repaired",
-	[MR_UNCERTAIN] = "uncertain",
-	[MR_UNREACHED] = "unreached",
-	[MR_BARE] = "bare",
-	[MR_SCATTERED] = "scattered",
-	[MR_ROUGH] = "rough",
-	[MR_FILLED] = "filled",
-	[MR_INEXACT] = "inexact",
-	[MR_UNHELD] = "unheld",
-	[MR_HANDLE] = "handle",
-	[MR_LIMIT] = "limit",
-	[MR_LAYER] = "layer",
-};
+#define NAME(kind, name) [MR_##kind] = name,
+static const char *const names[MR_FINDING_KINDS] = { MR_FINDINGS(NAME) };
 
 const char *
 mr_finding_name(mr_finding_kind kind)
