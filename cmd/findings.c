@@ -20,11 +20,9 @@ static const entry table[MR_FINDING_KINDS] = {
 	    "Faces meet at an edge by more than 170 degrees, and did not before." },
 	[MR_CROSSING] = { VERDICT_POOR, 0.02, "{layer}: {n} more intersecting pair{s} of near faces{at}", "",
 	    "Faces pass through others near them along the surface, and did not before." },
-	[MR_COLLIDED] = { VERDICT_POOR, 0,
-	    "{layer}: limbs or sheets meet, {n} pair{s} of far faces{at}", "",
+	[MR_COLLIDED] = { VERDICT_POOR, 0, "{layer}: limbs or sheets meet, {n} pair{s} of far faces{at}", "",
 	    "Faces pass through others far from them along the surface, or of another part." },
-	[MR_TORN] = { VERDICT_POOR, 0.1,
-	    "{layer}: detail is torn at {n}{of} edge{s}{at}", "",
+	[MR_TORN] = { VERDICT_POOR, 0.1, "{layer}: detail is torn at {n}{of} edge{s}{at}", "",
 	    "Edges of the mesh have become twice as long, or half as long, where no edge of base has." },
 	[MR_COARSE] = { VERDICT_POOR, 0.5, "{layer}: {n}{of} edge{s} are too long to bend with base{at}",
 	    "mr-subdivide --longest {limit} splits them first",
@@ -72,7 +70,8 @@ static const entry table[MR_FINDING_KINDS] = {
 	    "No constraint holds a part, or no vertex is free." },
 	[MR_HANDLE] = { VERDICT_POOR, 0, "{what}", "", "A handle is asked for what it cannot do." },
 	[MR_LIMIT] = { VERDICT_GOOD, 0, "{what}", "", "An option has no effect, or could not be met." },
-	[MR_LAYER] = { VERDICT_GOOD, 0, "{what}", "", "Another layer than the latest is taken." },
+	[MR_LAYER] = { VERDICT_GOOD, 0, "{layer} is taken, not {what}, which was worked on last", "",
+	    "Another layer than the latest is taken." },
 };
 
 void
@@ -132,8 +131,7 @@ static void
 add_place(const mr_finding *f, char *text, size_t size)
 {
 	if (f->placed && f->vertex != MR_NO_VERTEX)
-		snprintf(text, size, ", vertex %u (%.3g, %.3g, %.3g)", f->vertex, f->at.x, f->at.y,
-		    f->at.z);
+		snprintf(text, size, ", vertex %u (%.3g, %.3g, %.3g)", f->vertex, f->at.x, f->at.y, f->at.z);
 	else if (f->placed)
 		snprintf(text, size, ", near (%.3g, %.3g, %.3g)", f->at.x, f->at.y, f->at.z);
 }

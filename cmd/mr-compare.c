@@ -78,9 +78,7 @@ choose_results(cmd *c, mr_frame *f, mr_frame *second, const char *first, const c
 	MR_TRY(mr_layer_result(&c->ctx, second, NULL, &result));
 	*b = mr_frame_has_layer(second, *a) ? *a : result;
 	if (f->key && strcmp(*b, result) != 0)
-		mr_warn(&c->ctx,
-		    "%s of the second is taken, not %s, which was worked on last there: -b %s takes that", *b,
-		    result, result);
+		mr_found(&c->ctx, &(mr_finding){ .kind = MR_LAYER, .layer = *b, .what = result });
 	return MR_OK;
 }
 

@@ -70,8 +70,8 @@ warn_of_short(cmd *c, mr_frame *f, size_t length)
 
 	MR_TRY(mr_handles_frames(&c->ctx, f, &frames));
 	if (f->key && frames > 0 && frames < length)
-		mr_warn(&c->ctx, "%s has %zu frames, and the sequence ends with frame %zu",
-		    motion.script ? "the script" : "the motion", length, frames);
+		mr_found(&c->ctx,
+		    &(mr_finding){ .kind = MR_LIMIT, .what = "the sequence ends before the motion does" });
 	return MR_OK;
 }
 

@@ -78,16 +78,15 @@ decode(mr_ctx *ctx, const mr_file_bytes *b, mr_image *image)
 
 /* What a browser could not decode is refused here. */
 static mr_status
-check_picture(mr_ctx *ctx, const char *path, const mr_file_bytes *b)
+check_picture(mr_ctx *ctx, const mr_file_bytes *b)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_image image;
 
 	MR_TRY(decode(ctx, b, &image));
 	if (image.width > LARGEST_SIDE || image.height > LARGEST_SIDE)
-		mr_warn(ctx,
-		    "%s: a picture of %zu x %zu pixels: many browsers take %zu a side, and show it smaller",
-		    path, image.width, image.height, LARGEST_SIDE);
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_LIMIT, .what = "a picture is larger than many browsers show" });
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -98,7 +97,7 @@ keep_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, const mr_file_b
 	mr_page_picture new = { .path = mr_format(p->keep, "%s", path),
 		.data = MR_NEW(p->keep, b->size, unsigned char) };
 
-	MR_TRY(check_picture(ctx, path, b));
+	MR_TRY(check_picture(ctx, b));
 	if (!new.path || !new.data || MR_RESERVE(p->keep, p->picture, p->count, 1, &p->room) != MR_OK)
 		return mr_fail_as(ctx, p->keep, MR_EMEM);
 	new.size = (mr_is_png(b->data, b->size) ? strip_png : strip_jpeg)(b->data, b->size, new.data);
@@ -139,7 +138,7 @@ wear_material(
 	bool pictured = false;
 
 	if (m->file && find_picture(ctx, p, m->file, &number) < 0)
-		mr_warn(ctx, "%s: its material is drawn without a picture", ctx->error);
+		mr_found(ctx, &(mr_finding){ .kind = MR_MISSING, .what = m->file });
 	else
 		pictured = m->file != NULL;
 	if (!pictured && !m->colored)

@@ -459,8 +459,9 @@ look_at_sharp(remesher *r)
 {
 	MR_TRY(mr_feature_loss(r->ctx, &r->d, &r->source, &r->sharp[0], &r->sharp[1]));
 	if (r->sharp[1])
-		mr_warn(r->ctx, "%s: %zu of %zu sharp edges are gone: shorter edges keep more of them",
-		    r->source.m->name, r->sharp[1], r->sharp[0]);
+		mr_found(r->ctx,
+		    &(mr_finding){
+			.kind = MR_LOST, .layer = "base", .what = "sharp edges", .count = r->sharp[1] });
 	return MR_OK;
 }
 
@@ -608,8 +609,9 @@ remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_
 	}
 	MR_TRY(look_at_sharp(&r));
 	if (misses(excess(&r)))
-		mr_warn(ctx, "%s: %zu vertices and %zu faces are %.3g times as many as were wanted", m->name,
-		    r.d.nv, r.d.nf, excess(&r));
+		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
+				  .layer = "base",
+				  .what = "thin parts need more vertices than asked for" });
 	if (result)
 		*result = report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
