@@ -1,79 +1,9 @@
 /* Differences of rows, their bytes apart, deflated (man/mr-stream.5, codec 1). */
+#include "stream/planes.h"
 #include "stream/stored.h"
 
 #include <limits.h>
 #include <zlib.h>
-
-/*
- * Codec 1: smooth data differ little from row to row, and then the high bytes
- * of the differences are alike.  A block of 32,768 rows is turned into planes:
- * for each component, for each byte of its differences, the least significant
- * first, that byte of all rows.  deflate, level 1, does the rest.
- */
-enum { ROWS = 32768 };
-
-/* One value, widened.  `size` is a constant wherever this is inlined, and so it is below. */
-static inline uint64_t
-load(const unsigned char *p, size_t size)
-{
-	uint64_t v = 0;
-
-	memcpy(&v, p, size); /* little-endian, as the wire */
-	return v;
-}
-
-/* Component after component of n rows: differences of its values, their bytes in planes. */
-static inline void
-split_sized(const unsigned char *rows, size_t n, size_t components, unsigned char *planes, size_t size)
-{
-	for (size_t c = 0; c < components; c++, planes += n * size) {
-		uint64_t before = 0;
-		for (size_t i = 0; i < n; i++) {
-			uint64_t v = load(rows + (i * components + c) * size, size), d = v - before;
-			for (size_t b = 0; b < size; b++)
-				planes[b * n + i] = (unsigned char)(d >> 8 * b);
-			before = v;
-		}
-	}
-}
-
-/* The inverse: sums of what the planes hold. */
-static inline void
-join_sized(const unsigned char *planes, size_t n, size_t components, unsigned char *rows, size_t size)
-{
-	for (size_t c = 0; c < components; c++, planes += n * size) {
-		uint64_t v = 0;
-		for (size_t i = 0; i < n; i++) {
-			uint64_t d = 0;
-			for (size_t b = 0; b < size; b++)
-				d |= (uint64_t)planes[b * n + i] << 8 * b;
-			v += d;
-			memcpy(rows + (i * components + c) * size, &v, size);
-		}
-	}
-}
-
-static void
-split(const unsigned char *rows, size_t n, size_t components, size_t size, unsigned char *planes)
-{
-	if (size == 8)
-		split_sized(rows, n, components, planes, 8);
-	else if (size == 4)
-		split_sized(rows, n, components, planes, 4);
-	else
-		split_sized(rows, n, components, planes, 1);
-}
-
-static void
-join(const unsigned char *planes, size_t n, size_t components, size_t size, unsigned char *rows)
-{
-	if (size == 8)
-		join_sized(planes, n, components, rows, 8);
-	else if (size == 4)
-		join_sized(planes, n, components, rows, 4);
-	else
-		join_sized(planes, n, components, rows, 1);
-}
 
 /* zlib's memory is had from the heap like all other. */
 static voidpf
@@ -128,9 +58,9 @@ deflate_blocks(
 {
 	size_t size = mr_type_size(h->shape.type), row = size * h->shape.components;
 
-	for (uint64_t first = 0; first < h->rows; first += ROWS) {
-		size_t n = h->rows - first < ROWS ? (size_t)(h->rows - first) : ROWS;
-		split(data + first * row, n, h->shape.components, size, planes);
+	for (uint64_t first = 0; first < h->rows; first += MR_PLANE_ROWS) {
+		size_t n = h->rows - first < MR_PLANE_ROWS ? (size_t)(h->rows - first) : MR_PLANE_ROWS;
+		mr_planes_split(data + first * row, n, h->shape.components, size, planes);
 		if (!deflate_all(z, planes, n * row, room, Z_NO_FLUSH))
 			return false;
 	}
@@ -140,7 +70,8 @@ deflate_blocks(
 static size_t
 block_bytes(const mr_record *h)
 {
-	return (size_t)(h->rows < ROWS ? h->rows : ROWS) * h->shape.components * mr_type_size(h->shape.type);
+	return (size_t)(h->rows < MR_PLANE_ROWS ? h->rows : MR_PLANE_ROWS) * h->shape.components *
+	       mr_type_size(h->shape.type);
 }
 
 mr_status
@@ -206,8 +137,8 @@ inflate_blocks(mr_ctx *ctx, z_stream *z, const mr_record *h, unsigned char *plan
 	size_t size = mr_type_size(h->shape.type), row = size * h->shape.components, left = (size_t)h->stored;
 	int code = Z_OK;
 
-	for (uint64_t first = 0; first < h->rows; first += ROWS) {
-		size_t n = h->rows - first < ROWS ? (size_t)(h->rows - first) : ROWS;
+	for (uint64_t first = 0; first < h->rows; first += MR_PLANE_ROWS) {
+		size_t n = h->rows - first < MR_PLANE_ROWS ? (size_t)(h->rows - first) : MR_PLANE_ROWS;
 		if (!inflate_all(z, &left, planes, n * row, &code))
 			return code == Z_MEM_ERROR
 			           ? MR_EMEM
@@ -215,7 +146,7 @@ inflate_blocks(mr_ctx *ctx, z_stream *z, const mr_record *h, unsigned char *plan
 					 "%s%s%s: packed bytes break off or are damaged in row %llu of %llu",
 					 h->layer, *h->layer ? ": " : "", h->name, (unsigned long long)first,
 					 (unsigned long long)h->rows);
-		join(planes, n, h->shape.components, size, data + first * row);
+		mr_planes_join(planes, n, h->shape.components, size, data + first * row);
 	}
 	if (!at_end(z, &left, &code))
 		return mr_fail(ctx, MR_EFORMAT, "%s%s%s: packed bytes do not end with row %llu", h->layer,

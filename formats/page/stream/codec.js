@@ -2,7 +2,8 @@
  * codec.js -- the values of a column: raw, or packed (mr-stream 5, codec 1): differences of rows, their bytes in planes,
  * deflated.  Unpacked values are kept as long as there is room for them.
  */
-const ROWS = 32768;
+import { library } from "../library/compile.js";
+
 const ROOM = 256 << 20; /* bytes of unpacked columns that are kept */
 const SIZE = { d: 8, u: 4, b: 1, t: 1 };
 const ARRAY = { d: Float64Array, u: Uint32Array, b: Uint8Array, t: Uint8Array };
@@ -13,53 +14,15 @@ async function inflate(bytes) {
 	return new Uint8Array(await new Response(stream).arrayBuffer());
 }
 
-/* Sums of the differences of one component of n rows of 8 bytes, as halves of 4, of which `out` has two a value. */
-function join8(planes, at, n, out, first, step) {
-	let low = 0, high = 0;
-
-	for (let i = at, o = first; i < at + n; i++, o += step) {
-		const d = (planes[i] | planes[i + n] << 8 | planes[i + 2 * n] << 16 | planes[i + 3 * n] << 24) >>> 0;
-		low = (low + d) >>> 0;
-		high = (high + (low < d ? 1 : 0) + (planes[i + 4 * n] | planes[i + 5 * n] << 8 | planes[i + 6 * n] << 16 | planes[i + 7 * n] << 24)) | 0;
-		out[2 * o] = low;
-		out[2 * o + 1] = high;
-	}
-}
-
-function join4(planes, at, n, out, first, step) {
-	let sum = 0;
-
-	for (let i = at, o = first; i < at + n; i++, o += step) {
-		sum = (sum + (planes[i] | planes[i + n] << 8 | planes[i + 2 * n] << 16 | planes[i + 3 * n] << 24)) >>> 0;
-		out[o] = sum;
-	}
-}
-
-function join1(planes, at, n, out, first, step) {
-	let sum = 0;
-
-	for (let i = at, o = first; i < at + n; i++, o += step) {
-		sum = (sum + planes[i]) & 255;
-		out[o] = sum;
-	}
-}
-
-const JOIN = { 8: join8, 4: join4, 1: join1 };
-const UNIT = { 8: Uint32Array, 4: Uint32Array, 1: Uint8Array };
-
-/* The inverse of the differences and planes, block by block. */
+/* The inverse of the differences and planes. */
 function join(planes, rows, components, size) {
-	const buffer = new ArrayBuffer(rows * components * size);
-	const out = new UNIT[size](buffer);
-	let at = 0;
-
-	if (planes.length !== buffer.byteLength)
+	if (planes.length !== rows * components * size)
 		throw new Error("The data of the page are damaged: save it again.");
-	for (let first = 0; first < rows; first += ROWS) {
-		const n = Math.min(ROWS, rows - first);
-		for (let c = 0; c < components; c++, at += n * size)
-			JOIN[size](planes, at, n, out, first * components + c, components);
-	}
+	const at = library.put(planes), out = library.take(planes.length);
+
+	library.run.column_join(at, rows, components, size, out);
+	const { buffer } = library.get(Uint8Array, out, planes.length);
+	library.free(at, out);
 	return buffer;
 }
 
