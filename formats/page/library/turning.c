@@ -244,7 +244,7 @@ mr_turning_begin(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *normal, mr_turning 
 	*t = (mr_turning){ .nv = m->nv,
 		.nf = m->nf,
 		.t = m->t,
-		.rest = rest,
+		.rest = (const float(*)[9])rest,
 		.normal = packed,
 		.sum = MR_NEW(ctx, n, mat),
 		.other = MR_NEW_ZERO(ctx, n, mat),
