@@ -14,7 +14,7 @@ export function canDraw() {
 }
 
 /* Light that comes with the camera. */
-export function lightUp(scene, camera) {
+function lightUp(scene, camera) {
 	const lamp = new THREE.DirectionalLight(0xffffff, 0.56), sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.46);
 
 	lamp.position.set(-0.3, 0.5, 0.9);

@@ -1,6 +1,4 @@
 /* regions.js -- the region of each vertex as it is painted: counts, changes that can be taken back, changes along edges. */
-import { around, facesAt } from "../mesh/topology.js";
-
 export const FIXED = 0, FREE = 1, HANDLE = 2;
 const MOST = 8e6; /* vertices that all changes together may hold to be taken back */
 
@@ -121,17 +119,14 @@ export class Regions {
 		return this.replace(vertices, vertices.map(() => FIXED));
 	}
 
-	/* A ring of vertices of no handle around the region gets into it: fixed ones into free, free ones into fixed. */
+	/* A ring of vertices of no handle around the region gets into it. */
 	grow(region, t) {
-		const at = facesAt(t, this.values.length);
-		const vertices = this.where((r, v) => {
-			let beside = false;
-			if (r === region || r >= HANDLE)
-				return false;
-			around(t, at, v, (u) => (beside = beside || this.values[u] === region));
-			return beside;
-		});
+		const { values } = this, beside = new Uint8Array(values.length);
 
+		for (let k = 0; k < t.length; k += 3)
+			if (values[t[k]] === region || values[t[k + 1]] === region || values[t[k + 2]] === region)
+				beside[t[k]] = beside[t[k + 1]] = beside[t[k + 2]] = 1;
+		const vertices = this.where((r, v) => beside[v] && r !== region && r < HANDLE);
 		return this.replace(vertices, vertices.map(() => region));
 	}
 }
