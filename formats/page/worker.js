@@ -17,18 +17,15 @@ async function begin({ module, values, counts, origin, part, parts }) {
 	body = library.had(library.run.body_new(whole, part, parts));
 	library.free(...places.filter(Boolean), whole);
 	maps = library.take(96 * counts[3]);
-	return { vertices: rows(Uint32Array, "body_rows", true, 1), rows: rows(Uint32Array, "body_rows", false, 1) };
-}
-
-/* Of base, or else of the detail: so many numbers a row. */
-function rows(Type, what, ofBase, n, out) {
-	return library.get(Type, library.run[what](body, ofBase), n * library.run.body_count(body, ofBase), out);
+	const [, , vertex, row, vertices, rows] = library.get(Uint32Array, body, 6);
+	return { vertices: library.get(Uint32Array, vertex, vertices), rows: library.get(Uint32Array, row, rows) };
 }
 
 function pose(values, { base, mesh } = {}) {
 	library.set(maps, values);
 	library.run.body_pose(body, maps);
-	return { base: rows(Float32Array, "body_places", true, 3, base), mesh: rows(Float32Array, "body_places", false, 3, mesh) };
+	const [onBase, places, , , vertices, rows] = library.get(Uint32Array, body, 6);
+	return { base: library.get(Float32Array, onBase, 3 * vertices, base), mesh: library.get(Float32Array, places, 3 * rows, mesh) };
 }
 
 addEventListener("message", async ({ data }) => {

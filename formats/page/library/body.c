@@ -34,6 +34,11 @@ typedef struct apart {
 } apart;
 
 typedef struct body {
+	/* For the page to read: places as floats, of base and of the detail, which of the whole they are, how
+	 * many */
+	float (*base_out)[3], (*out)[3];
+	const uint32_t *vertex, *row;
+	size_t vertices, rows;
 	mr_ctx ctx;
 	size_t handles;
 	mr_v3 origin;
@@ -42,12 +47,10 @@ typedef struct body {
 	size_t stride;
 	mr_mesh base; /* at rest */
 	mr_turning turning;
-	size_t rows, offsets;
+	size_t offsets;
 	stand *stand;
 	apart *apart;
 	d4 *places; /* of the base, as posed */
-	float (*out)[3], (*base_out)[3];
-	const uint32_t *vertex, *row; /* of the whole */
 } body;
 
 enum { RINGS = 3 }; /* a vertex's turn asks for the faces around it, and two rings have theirs smoothed */
@@ -139,6 +142,7 @@ take_vertices(body *b, const whole *w, const uint32_t *order, const bool *set, u
 		nv++;
 	}
 	b->vertex = vertex;
+	b->vertices = nv;
 	b->position = position;
 	b->response = response;
 	b->stride = w->nv;
@@ -349,26 +353,4 @@ body_pose(body *b, const mr_affine *map)
 		put_row(b, &b->stand[i], b->out[i]);
 	for (size_t i = 0; i < b->offsets; i++)
 		add_offset(b, &b->apart[i]);
-}
-
-/* Of base, or else of the detail: the places as floats, how many there are, and which of the whole. */
-MR_EXPORT(body_places)
-const void *
-body_places(const body *b, bool base)
-{
-	return base ? b->base_out : b->out;
-}
-
-MR_EXPORT(body_count)
-size_t
-body_count(const body *b, bool base)
-{
-	return base ? b->base.nv : b->rows;
-}
-
-MR_EXPORT(body_rows)
-const uint32_t *
-body_rows(const body *b, bool base)
-{
-	return base ? b->vertex : b->row;
 }

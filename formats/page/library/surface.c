@@ -8,6 +8,12 @@
 #include "space/self_intersect.h"
 
 typedef struct surface {
+	/* For the page to read: what was found last; what is drawn: triangles of the vertices, and, behind
+	 * them, of one for each corner at a crease; of which vertex each of these is; normals of all */
+	uint32_t *found, *index, *source;
+	float (*normal)[3];
+	size_t n;               /* of those at creases, */
+	uint32_t *end, *face;   /* and the faces that each is shaded with */
 	mr_ctx ctx, tree, list; /* of what stands; of the tree; of what was found last */
 	mr_mesh m;
 	mr_v3 *p, *cross; /* of the vertices, and of the faces, as mr_face_cross has it */
@@ -15,12 +21,6 @@ typedef struct surface {
 	mr_bvh *bvh;    /* NULL: not made yet */
 	mr_edges edges; /* of no count: not made yet */
 	double *distance;
-	uint32_t *found;
-	/* What is drawn: the vertices, and behind them one for each corner at a crease, with the faces that
-	 * it is shaded with */
-	size_t n;
-	uint32_t *index, *source, *end, *face;
-	float (*normal)[3];
 } surface;
 
 /* The vertices are at p, three floats each. */
@@ -126,7 +126,7 @@ make_list(surface *s, size_t n)
 	return s->found;
 }
 
-/* The vertices no farther over the surface than that from a place on a face: how many; surface_found has
+/* The vertices no farther over the surface than that from a place on a face: how many; `found` has
  * them. */
 MR_EXPORT(surface_disc)
 size_t
@@ -144,7 +144,7 @@ surface_disc(surface *s, uint32_t face, const mr_v3 *place, double radius)
 	return n;
 }
 
-/* How many edges between two faces are folded; surface_found has the two ends of each. */
+/* How many edges between two faces are folded; `found` has the two ends of each. */
 MR_EXPORT(surface_folds)
 size_t
 surface_folds(surface *s)
@@ -169,7 +169,7 @@ surface_folds(surface *s)
 	return n / 2;
 }
 
-/* How many faces intersect others; surface_found has their corners.  With its tree. */
+/* How many faces intersect others; `found` has their corners.  With its tree. */
 MR_EXPORT(surface_crossings)
 size_t
 surface_crossings(surface *s)
@@ -186,13 +186,6 @@ surface_crossings(surface *s)
 			s->found[n++] = s->m.t[k / 3].v[k % 3];
 	mr_mark_release(&s->tree, mark);
 	return n / 3;
-}
-
-MR_EXPORT(surface_found)
-const uint32_t *
-surface_found(const surface *s)
-{
-	return s->found;
 }
 
 /* Faces farther apart are not shaded as one, as in mr-render; a vertex is asked whose normal is farther from
@@ -272,23 +265,9 @@ surface_part(surface *s)
 	return part(s) == MR_OK ? s->n : MR_NONE;
 }
 
-MR_EXPORT(surface_source)
-const uint32_t *
-surface_source(const surface *s)
-{
-	return s->source;
-}
-
-MR_EXPORT(surface_index)
-const uint32_t *
-surface_index(const surface *s)
-{
-	return s->index;
-}
-
 /* Unit normals of all these vertices, as they are now. */
 MR_EXPORT(surface_normals)
-const void *
+void
 surface_normals(surface *s)
 {
 	size_t nv = s->m.nv;
@@ -302,5 +281,4 @@ surface_normals(surface *s)
 		s->normal[i][1] = (float)normal.y;
 		s->normal[i][2] = (float)normal.z;
 	}
-	return s->normal;
 }

@@ -62,7 +62,6 @@ class Surface {
 	/* Heights from how much each differs from what the level before predicts. */
 	async heights(level) {
 		const differences = (await this.parts.height.values()).subarray(0, this.vertices[level]);
-
 		const { levels } = await this.make(level), at = library.put(differences);
 
 		library.had(library.run.levels_heights(levels, level, at));

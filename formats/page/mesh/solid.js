@@ -11,12 +11,17 @@ export class Solid {
 		this.move(position);
 		const parted = library.run.surface_part(this.at) >>> 0;
 		library.had(parted !== NONE);
-		this.index = library.get(Uint32Array, library.run.surface_index(this.at), triangles.length);
+		this.index = this.read(Uint32Array, 1, triangles.length);
 		this.source = Uint32Array.from({ length: this.vertices + parted }, (_, v) => v);
-		this.source.set(library.get(Uint32Array, library.run.surface_source(this.at), parted), this.vertices);
+		this.source.set(this.read(Uint32Array, 2, parted), this.vertices);
 		this.position = new Float32Array(3 * this.source.length);
 		this.normal = new Float32Array(3 * this.source.length);
 		this.shade(position);
+	}
+
+	/* So many numbers of the k-th array that it has for the page (library/surface.c). */
+	read(Type, k, length, out) {
+		return library.get(Type, library.get(Uint32Array, this.at, 4)[k], length, out);
 	}
 
 	move(position) {
@@ -37,7 +42,8 @@ export class Solid {
 			position[i + 1] = p[v + 1];
 			position[i + 2] = p[v + 2];
 		}
-		library.get(Float32Array, library.run.surface_normals(this.at), position.length, this.normal);
+		library.run.surface_normals(this.at);
+		this.read(Float32Array, 3, position.length, this.normal);
 	}
 
 	/* Makes what rays ask for, which takes a moment, where it is not there. */
@@ -70,14 +76,14 @@ export class Solid {
 		const at = library.put(Float64Array.from(place)), n = library.run.surface_disc(this.at, face, at, radius);
 
 		library.free(at);
-		return library.get(Uint32Array, library.run.surface_found(this.at), n);
+		return this.read(Uint32Array, 0, n);
 	}
 
 	/* The two ends of each folded edge: between faces whose normals are more than 170 degrees apart. */
 	folds() {
 		const n = library.run.surface_folds(this.at);
 
-		return library.get(Uint32Array, library.run.surface_found(this.at), 2 * n);
+		return this.read(Uint32Array, 0, 2 * n);
 	}
 
 	/* The corners of faces that intersect others. */
@@ -85,7 +91,7 @@ export class Solid {
 		this.prepare();
 		const n = library.run.surface_crossings(this.at);
 
-		return library.get(Uint32Array, library.run.surface_found(this.at), 3 * n);
+		return this.read(Uint32Array, 0, 3 * n);
 	}
 
 	free() {
