@@ -31,14 +31,15 @@ climbs() { # room, pattern of the rooms it may import from
 	bad=$(grep -nE 'from "\.' formats/page/$1/*.js | grep -vE "from \"(\./[a-z_]+|\.\./($2)/[a-z_]+)\.js\"")
 	[ -z "$bad" ] || { echo "formats/page/$1 imports what is above it:"; echo "$bad"; fail=1; }
 }
-climbs stream none
-climbs mesh stream
-climbs draw 'stream|mesh'
-climbs deform 'stream|mesh|draw'
-climbs paint 'stream|mesh|draw'
+climbs library none
+climbs stream library
+climbs mesh 'library|stream'
+climbs draw 'library|stream|mesh'
+climbs deform 'library|stream|mesh|draw'
+climbs paint 'library|stream|mesh|draw'
 
 # Quoted includes name their layer, so that the rule can be seen: no file beside the file, no climbing.
-bad=$(grep -rnE '^[ \t]*#[ \t]*include[ \t]*"' --include='*.[ch]' --include='*.cc' lib formats | grep -vE "\"(${house}[a-z0-9_]+\.(h|inc)|mr\.h)\"")
+bad=$(grep -rnE '^[ \t]*#[ \t]*include[ \t]*"' --include='*.[ch]' --include='*.cc' lib formats | grep -vE "\"(${house}([a-z]+/)*[a-z0-9_]+\.(h|inc)|mr\.h)\"")
 [ -z "$bad" ] || { echo "an include that does not name its layer:"; echo "$bad"; fail=1; }
 
 # A header that says it is private to its room is included by that room alone.

@@ -16,7 +16,7 @@ for target in $(sed -n 's/^\.PHONY: all units //p' Makefile); do
 done
 would=$(make -n -W lib/space/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
 for source in $(echo "$would"); do
-	grep -qs 'lib/space/bvh.h' "$BUILD/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
+	grep -qs 'lib/space/bvh.h' "$BUILD/$source.d" "$BUILD/wasm/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
 done
 for source in $(grep -lE 'include "space/bvh.h"' lib/*/*.c cmd/*.c); do
 	case " $(echo $would) " in

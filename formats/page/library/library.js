@@ -20,7 +20,7 @@ export class Library {
 
 	/* Room for so many bytes. */
 	take(bytes) {
-		return this.had(this.run.malloc(Math.max(bytes, 1)));
+		return this.had(this.run.malloc(Math.max(bytes, 1))) >>> 0; /* not below 0 from 2 GB on */
 	}
 
 	/* An array put there; of none 0. */
@@ -39,7 +39,7 @@ export class Library {
 
 	/* So many numbers from there, into `out` where there is such a one. */
 	get(Type, at, length, out = new Type(length)) {
-		out.set(new Type(this.run.memory.buffer, at, length));
+		out.set(new Type(this.run.memory.buffer, at >>> 0, length));
 		return out;
 	}
 }
