@@ -235,8 +235,7 @@ typedef struct mr_kept {
 	mr_property p;
 	void *data;
 	size_t rows, room;
-	bool odd;       /* a value is not of its type */
-	size_t rounded; /* whole numbers that a double does not hold */
+	bool odd; /* a value is not of its type */
 } mr_kept;
 
 mr_status
@@ -302,12 +301,6 @@ mr_build_value(mr_builder *b, size_t number, size_t row, double x)
 	return MR_OK;
 }
 
-void
-mr_build_rounded(mr_builder *b, size_t number, size_t values)
-{
-	b->kept[number - 1].rounded += values;
-}
-
 /* Those that are kept, of triangles where faces are of several: `face` of each. */
 static mr_status
 put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
@@ -327,7 +320,6 @@ put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 		mr_tell(b->ctx, MR_LOST, k->odd, "property %s", p->name);
 		if (k->odd)
 			continue;
-		mr_tell(b->ctx, MR_ROUNDED, k->rounded, "values of property %s", p->name);
 		if (p->shape.element == 'f' && face &&
 		    !(p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf)))
 			return MR_EMEM;

@@ -76,9 +76,6 @@ mr_status mr_build_property(
     mr_builder *b, const char *name, const char *type, char element, size_t *number) MR_WARN_UNUSED;
 mr_status mr_build_value(mr_builder *b, size_t number, size_t row, double x) MR_WARN_UNUSED;
 
-/* So many values more of the property are whole numbers that a double does not hold: said in the end. */
-void mr_build_rounded(mr_builder *b, size_t number, size_t values);
-
 /* Gives the properties alone to a model of points that its reader makes itself. */
 mr_status mr_build_properties(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
 

@@ -71,27 +71,15 @@ widen(mr_ctx *ctx, unsigned char **memory, size_t *room, size_t least)
 	return MR_OK;
 }
 
-/* Has the judge look where there is twice as much as when it did before; *looked 0: never. */
 static mr_status
-consider(mr_ctx *ctx, const mr_taster *judge, const unsigned char *memory, size_t size, size_t *looked)
-{
-	if (!judge || size < HEAD || size / 2 < *looked)
-		return MR_OK;
-	*looked = size;
-	return judge->look(ctx, judge->user, memory, size);
-}
-
-static mr_status
-read_all(mr_ctx *ctx, const char *path, int fd, const mr_taster *judge, mr_file_bytes *b)
+read_all(mr_ctx *ctx, const char *path, int fd, mr_file_bytes *b)
 {
 	unsigned char *memory = NULL;
-	size_t size = 0, room = 0, looked = 0;
+	size_t size = 0, room = 0;
 
 	for (;;) {
-		mr_status status = consider(ctx, judge, memory, size, &looked);
+		mr_status status = room - size < CHUNK ? widen(ctx, &memory, &room, size + CHUNK) : MR_OK;
 		ssize_t n;
-		if (status == MR_OK && room - size < CHUNK)
-			status = widen(ctx, &memory, &room, size + CHUNK);
 		if (status < 0) {
 			mr_memory_free(memory);
 			return mr_prefix(ctx, status, "%s", path);
@@ -159,11 +147,10 @@ may_be_gzip(const unsigned char *data, size_t size)
 }
 
 static mr_status
-inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_taster *judge,
-    unsigned char **memory, size_t *size)
+inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, unsigned char **memory, size_t *size)
 {
 	const size_t claimed = claimed_size(in);
-	size_t room = 0, given = 0, done = 0, looked = 0;
+	size_t room = 0, given = 0, done = 0;
 
 	MR_TRY(widen(ctx, memory, &room, claimed < HEAD ? claimed + 64 : HEAD));
 	for (;;) {
@@ -171,7 +158,6 @@ inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_tast
 		uInt space;
 		int r;
 
-		MR_TRY(consider(ctx, judge, *memory, done, &looked));
 		if (room == done)
 			MR_TRY(widen(ctx, memory, &room, done < claimed ? claimed + 64 : 0));
 		space = room - done > CHUNK ? CHUNK : (uInt)(room - done);
@@ -199,7 +185,7 @@ inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, const mr_tast
 }
 
 static mr_status
-gunzip(mr_ctx *ctx, const mr_taster *judge, mr_file_bytes *b)
+gunzip(mr_ctx *ctx, mr_file_bytes *b)
 {
 	z_stream z = { 0 };
 	unsigned char *memory = NULL;
@@ -208,7 +194,7 @@ gunzip(mr_ctx *ctx, const mr_taster *judge, mr_file_bytes *b)
 
 	if (inflateInit2(&z, 15 + 16) != Z_OK)
 		return mr_fail(ctx, MR_EMEM, "no memory to inflate");
-	status = inflate_members(ctx, &z, b, judge, &memory, &size);
+	status = inflate_members(ctx, &z, b, &memory, &size);
 	inflateEnd(&z);
 	status = mr_file_bytes_end(ctx, b, status);
 	if (status < 0)
@@ -219,7 +205,7 @@ gunzip(mr_ctx *ctx, const mr_taster *judge, mr_file_bytes *b)
 }
 
 mr_status
-mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_taster *judge, mr_file_bytes *b)
+mr_file_bytes_read(mr_ctx *ctx, const char *path, mr_file_bytes *b)
 {
 	const char *name = shown(path, "stdin");
 	mr_file_bytes got = { 0 };
@@ -231,12 +217,12 @@ mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_taster *judge, mr_fil
 	if (fd < 0)
 		return failed(ctx, path, "cannot open");
 	if (!map_all(fd, &got))
-		status = read_all(ctx, name, fd, judge, &got);
+		status = read_all(ctx, name, fd, &got);
 	if (!got.map && fd != STDIN_FILENO)
 		close(fd);
 	MR_TRY(status);
 	if (mr_is_gzip(got.data, got.size))
-		MR_TRY(mr_prefix(ctx, gunzip(ctx, judge, &got), "%s", name));
+		MR_TRY(mr_prefix(ctx, gunzip(ctx, &got), "%s", name));
 	*b = got;
 	return MR_OK;
 }

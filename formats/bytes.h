@@ -16,19 +16,9 @@ typedef struct mr_file_bytes {
 	int fd; /* of the map */
 } mr_file_bytes;
 
-/* Looks at what has come of a file so far; a failure ends the reading. */
-typedef struct mr_taster {
-	mr_status (*look)(mr_ctx *ctx, const void *user, const unsigned char *data, size_t size);
-	const void *user;
-} mr_taster;
-
-/*
- * Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  What is no regular file may
- * never end, and a few bytes inflate to many: the judge (NULL: none) looks at the first 16 MiB and again
- * whenever that has doubled.  End them with mr_file_bytes_end.
- */
-mr_status
-mr_file_bytes_read(mr_ctx *ctx, const char *path, const mr_taster *judge, mr_file_bytes *b) MR_WARN_UNUSED;
+/* Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  End them with
+ * mr_file_bytes_end. */
+mr_status mr_file_bytes_read(mr_ctx *ctx, const char *path, mr_file_bytes *b) MR_WARN_UNUSED;
 
 /* Frees the bytes of which `status` came.  It becomes MR_EIO where a mapped file has been cut since: there
  * were zeros to be read instead. */

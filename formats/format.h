@@ -17,7 +17,6 @@
 typedef struct mr_file_format {
 	const char *name;
 	bool binary;                                           /* what is written is not for a terminal */
-	bool lines;                                            /* what is read is lines of text throughout */
 	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by name or suffix only */
 	mr_status (*read)(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 	mr_status (*write)(mr_sink *s, const mr_model *m);           /* NULL: read only */
@@ -44,8 +43,6 @@ mr_status mr_ply_write_ascii(mr_sink *s, const mr_model *m);
 /* Whether the size is that of as many triangles as a binary file counts. */
 bool mr_stl_is_binary(const unsigned char *data, size_t size);
 
-/* Whether the bytes may be those that a binary file, whose end has not come, begins with. */
-bool mr_stl_begins(const unsigned char *data, size_t size);
 bool mr_stl_sniff(const unsigned char *data, size_t size);
 mr_status mr_stl_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_stl_write(mr_sink *s, const mr_model *m);

@@ -10,23 +10,23 @@
 
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
 static const mr_file_format formats[] = {
-	{ "glb", true, false, mr_glb_sniff, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
-	{ "gltf", false, false, mr_gltf_sniff, mr_gltf_read, NULL, NULL },
-	{ "ply", true, false, mr_ply_sniff, mr_ply_read, mr_ply_write, NULL },
-	{ "ply-ascii", false, false, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
-	{ "las", true, false, mr_las_sniff, mr_las_read, NULL, NULL },
-	{ "stl", true, false, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
-	{ "stl-ascii", false, false, NULL, mr_stl_read, mr_stl_write_ascii, NULL },
-	{ "off", false, false, mr_off_sniff, mr_off_read, mr_off_write, NULL },
-	{ "pcd", true, false, mr_pcd_sniff, mr_pcd_read, NULL, NULL },
-	{ "obj", false, true, mr_obj_sniff, mr_obj_read, mr_obj_write, NULL },
-	{ "ptx", false, true, mr_ptx_sniff, mr_ptx_read, NULL, NULL },
-	{ "xyz", false, true, mr_xyz_sniff, mr_xyz_read, mr_xyz_write, NULL },
-	{ "pts", false, true, NULL, mr_xyz_read, mr_pts_write, NULL },
-	{ "pwn", false, true, NULL, mr_xyz_read, mr_pwn_write, NULL },
+	{ "glb", true, mr_glb_sniff, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
+	{ "gltf", false, mr_gltf_sniff, mr_gltf_read, NULL, NULL },
+	{ "ply", true, mr_ply_sniff, mr_ply_read, mr_ply_write, NULL },
+	{ "ply-ascii", false, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
+	{ "las", true, mr_las_sniff, mr_las_read, NULL, NULL },
+	{ "stl", true, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
+	{ "stl-ascii", false, NULL, mr_stl_read, mr_stl_write_ascii, NULL },
+	{ "off", false, mr_off_sniff, mr_off_read, mr_off_write, NULL },
+	{ "pcd", true, mr_pcd_sniff, mr_pcd_read, NULL, NULL },
+	{ "obj", false, mr_obj_sniff, mr_obj_read, mr_obj_write, NULL },
+	{ "ptx", false, mr_ptx_sniff, mr_ptx_read, NULL, NULL },
+	{ "xyz", false, mr_xyz_sniff, mr_xyz_read, mr_xyz_write, NULL },
+	{ "pts", false, NULL, mr_xyz_read, mr_pts_write, NULL },
+	{ "pwn", false, NULL, mr_xyz_read, mr_pwn_write, NULL },
 };
 
-enum { FORMATS = sizeof formats / sizeof *formats, LONGEST_LINE = 1 << 22 };
+enum { FORMATS = sizeof formats / sizeof *formats };
 
 void
 mr_tell(mr_ctx *ctx, mr_finding_kind kind, size_t count, const char *format, ...)
@@ -141,85 +141,42 @@ mr_format_stem(mr_ctx *ctx, const char *path)
 
 /* ---- reading ---- */
 
-/* The end of the line at p: the first CR or LF. */
-static const unsigned char *
-line_end(const unsigned char *p, const unsigned char *end)
+static bool
+holds(const unsigned char *data, size_t size, const char *word)
 {
-	while (p < end && *p != '\r' && *p != '\n')
+	const size_t n = strlen(word);
+	size_t i = 0;
+
+	while (i + n <= size && memcmp(data + i, word, n))
+		i++;
+	return i + n <= size;
+}
+
+/* The next CR that no LF follows; NULL: there is none. */
+static const unsigned char *
+lone_return(const unsigned char *p, const unsigned char *end)
+{
+	while ((p = memchr(p, '\r', (size_t)(end - p))) && p + 1 < end && p[1] == '\n')
 		p++;
 	return p;
-}
-
-/* Behind the end of a line: CR and LF are one, unless the file's first line ends in CR alone. */
-static const unsigned char *
-behind_end(const unsigned char *e, const unsigned char *end, bool alone)
-{
-	return e + (e < end) + (!alone && end - e > 1 && e[0] == '\r' && e[1] == '\n');
-}
-
-/* The bytes of a PLY or PCD that are text: all, or its header where binary data follow, of any bytes. */
-static size_t
-header_size(const unsigned char *data, size_t size)
-{
-	const unsigned char *end = data + size, *p = data, *e = line_end(p, end);
-	const bool alone = end - e > 1 && e[0] == '\r' && e[1] != '\n';
-	bool binary = false;
-
-	for (; p < end; p = behind_end(e, end, alone)) {
-		mr_scan line = mr_scan_of(NULL, p, (size_t)((e = line_end(p, end)) - p));
-		bool last = mr_scan_accept(&line, "end_header"), data_line = mr_scan_accept(&line, "DATA");
-		if (data_line || mr_scan_accept(&line, "format")) {
-			const char *w;
-			size_t n;
-			binary = mr_scan_word(&line, &w, &n) && n >= 6 && !memcmp(w, "binary", 6);
-		}
-		if (last || data_line)
-			return binary ? (size_t)(behind_end(e, end, alone) - data) : size;
-	}
-	return size;
-}
-
-/* How much of the file is text, from its beginning. */
-static size_t
-text_size(const unsigned char *data, size_t size)
-{
-	if (mr_ply_sniff(data, size) || mr_pcd_sniff(data, size))
-		return header_size(data, size);
-	return memchr(data, 0, size < 65536 ? size : 65536) ? 0 : size;
-}
-
-/* The next CRs that no LF follows, up to *behind; NULL: there are none. */
-static const unsigned char *
-lone_returns(const unsigned char *p, const unsigned char *end, const unsigned char **behind)
-{
-	while (p < end && (p = memchr(p, '\r', (size_t)(end - p)))) {
-		const unsigned char *e = p;
-		while (e < end && *e == '\r')
-			e++;
-		*behind = e;
-		if (e == end || *e != '\n')
-			return p;
-		p = e;
-	}
-	return NULL;
 }
 
 /* In text a CR alone ends a line, too, for which a newline comes to stand in a copy. */
 static mr_status
 normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 {
-	const unsigned char *end = *data + text_size(*data, size), *behind = NULL,
-			    *p = lone_returns(*data, end, &behind);
+	const unsigned char *end = *data + size;
+	const size_t head = size < 4096 ? size : 4096;
 	unsigned char *copy;
 
-	if (!p)
+	if (memchr(*data, 0, size < 65536 ? size : 65536) || holds(*data, head, "binary") ||
+	    !lone_return(*data, end))
 		return MR_OK;
-	copy = mr_alloc(ctx, size, 1);
-	if (!copy)
+	if (!(copy = mr_alloc(ctx, size, 1)))
 		return MR_EMEM;
 	memcpy(copy, *data, size);
-	for (; p; p = lone_returns(behind, end, &behind))
-		memset(copy + (p - *data), '\n', (size_t)(behind - p));
+	for (const unsigned char *p = *data; (p = lone_return(p, end)); p++)
+		copy[p - *data] = '\n';
 	*data = copy;
 	return MR_OK;
 }
@@ -356,78 +313,13 @@ mr_model_parse(
 	return MR_OK;
 }
 
-typedef struct source {
-	const char *path, *format;
-} source;
-
-/* Whether a reader that takes such bytes says that they are its own. */
-static bool
-is_recognised(const mr_file_format *f, const unsigned char *data, size_t size)
-{
-	for (size_t i = 0; i < FORMATS; i++)
-		if (formats[i].read == f->read && formats[i].sniff && formats[i].sniff(data, size))
-			return true;
-	return false;
-}
-
-/* What does not begin as the format that was asked for must be readable all the same.  Where the reader says
- * one thing of two lengths of it, not its end is wrong. */
-static mr_status
-check_beginning(mr_ctx *ctx, const mr_file_format *f, const unsigned char *data, size_t size)
-{
-	const size_t most = 1 << 17, length = size < most ? size : most;
-	char first[MR_ERROR_MAX];
-	mr_model m = { 0 };
-	mr_status status;
-
-	if (is_recognised(f, data, length))
-		return MR_OK;
-	if (f->read == mr_stl_read) /* of which the size alone tells */
-		return mr_stl_begins(data, size) ? MR_OK : mr_fail(ctx, MR_EFORMAT, "this is no STL");
-	status = f->read(ctx, data, length / 2, &m);
-	if (status != MR_EFORMAT)
-		return MR_OK;
-	memcpy(first, ctx->error, sizeof first);
-	status = f->read(ctx, data, length, &m);
-	return status == MR_EFORMAT && !strcmp(first, ctx->error) ? status : MR_OK;
-}
-
-/* What has no end in sight must be of a known format by now, and text must have ends of lines. */
-static mr_status
-judge(mr_ctx *ctx, const void *user, const unsigned char *data, size_t size)
-{
-	const source *s = user;
-	const mr_file_format *f;
-	mr_mark mark = mr_mark_take(ctx);
-	mr_status status;
-	size_t line;
-	bool stl;
-
-	if (mr_is_gzip(data, size))
-		return MR_OK;
-	stl = mr_stl_begins(data, size);
-	MR_TRY(mr_as_text(ctx, &data, &size));
-	status = find_reader(ctx, s->path, s->format, data, size, &f);
-	if (status < 0)
-		return stl ? MR_OK : mr_prefix(ctx, status, "after %zu bytes", size);
-	MR_TRY(check_beginning(ctx, f, data, size));
-	for (line = size; f->lines && line > 0 && data[line - 1] != '\n'; line--)
-		;
-	if (f->lines && size - line > LONGEST_LINE)
-		return mr_fail(ctx, MR_EFORMAT, "byte %zu: a line of more than %d bytes is no %s", line,
-		    (int)LONGEST_LINE, f->name);
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 mr_status
 mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 {
-	const source s = { path, format };
 	mr_file_bytes bytes = { 0 };
 	mr_status status;
 
-	MR_TRY(mr_file_bytes_read(ctx, path, &(mr_taster){ judge, &s }, &bytes));
+	MR_TRY(mr_file_bytes_read(ctx, path, &bytes));
 	status = mr_model_parse(ctx, path, format, bytes.data, bytes.size, m);
 	status = mr_file_bytes_end(ctx, &bytes, status);
 	if (status == MR_EUSAGE)

@@ -191,7 +191,7 @@ embed(glb *w, const char *file, size_t *texture)
 	MR_TRY(MR_RESERVE(w->ctx, w->image, known, 1, &w->image_room));
 	w->image[known] = file;
 	*texture = MR_UNKNOWN;
-	MR_TRY(mr_file_bytes_read(w->ctx, file, NULL, &b));
+	MR_TRY(mr_file_bytes_read(w->ctx, file, &b));
 	if (image_type(&b))
 		status = put_image(w, file, &b, texture);
 	else

@@ -30,7 +30,7 @@ mr_image_read(mr_ctx *ctx, const char *path, mr_image *image)
 	mr_file_bytes b = { 0 };
 	mr_status status;
 
-	MR_TRY(mr_file_bytes_read(ctx, path, NULL, &b));
+	MR_TRY(mr_file_bytes_read(ctx, path, &b));
 	if (mr_is_png(b.data, b.size))
 		status = mr_png_read(ctx, b.data, b.size, image);
 	else if (mr_is_jpeg(b.data, b.size))

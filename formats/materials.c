@@ -15,8 +15,7 @@ typedef struct finder {
 	const char **name; /* of the model's materials: count + 1 starts */
 	mr_material *list;
 	size_t count;
-	size_t *bare;          /* bytes of each name before a comment */
-	unsigned char *match;  /* how well a name of a file has matched each */
+	bool *match;           /* a file speaks of it */
 	size_t *at, ats;       /* the materials that the file speaks of */
 	size_t read;           /* files that are there */
 	size_t wrong, clipped; /* statements without their numbers, numbers that are not from 0 to 1 */
@@ -24,8 +23,6 @@ typedef struct finder {
 } finder;
 
 const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
-
-enum { NO_MATCH, MATCH_BUT_COMMENT, MATCH };
 
 /* What is lost of a material: bits of `lost`, these first, then a bit for each statement of unused[]. */
 enum { HIDDEN, DESCRIBED_BEFORE, LOSSES };
@@ -163,21 +160,6 @@ behind_options(const char *s)
 	return s;
 }
 
-/* Bytes before a comment, which begins at a # behind a blank. */
-static size_t
-before_comment(const char *s, size_t bytes)
-{
-	size_t n = 1;
-
-	while (n < bytes && !(s[n] == '#' && mr_is_blank(s[n - 1])))
-		n++;
-	if (n >= bytes)
-		return bytes;
-	while (n && mr_is_blank(s[n - 1]))
-		n--;
-	return n;
-}
-
 /* Of line i of mr_lines_starts. */
 static size_t
 line_bytes(const char **line, size_t i)
@@ -199,33 +181,19 @@ name_bytes(const finder *f, size_t i)
 	return line_bytes(f->name, i);
 }
 
-/* A # may belong to the name, as in "Material #25", or begin a comment on either side. */
-static unsigned char
-match_of(const finder *f, size_t i, const char *name, size_t bytes, size_t bare)
-{
-	size_t own = name_bytes(f, i);
-
-	if (own == 0 || bytes == 0 || memcmp(f->name[i], name, own < bytes ? own : bytes))
-		return NO_MATCH;
-	if (own == bytes)
-		return MATCH;
-	return own == bare || f->bare[i] == bytes ? MATCH_BUT_COMMENT : NO_MATCH;
-}
-
-/* What is said of a name that matches better goes before all that was said so far. */
+/* The last description of a name holds. */
 static void
 new_material(finder *f, const char *name)
 {
-	size_t bytes = strlen(name), bare = before_comment(name, bytes);
+	size_t bytes = strlen(name);
 
 	f->ats = 0;
-	for (size_t i = 0; i < f->count; i++) {
-		unsigned char match = match_of(f, i, name, bytes, bare);
-		if (match == NO_MATCH || match < f->match[i])
+	for (size_t i = 0; bytes && i < f->count; i++) {
+		if (name_bytes(f, i) != bytes || memcmp(f->name[i], name, bytes))
 			continue;
 		f->list[i] = mr_material_plain;
-		f->list[i].lost = match == f->match[i] ? 1u << DESCRIBED_BEFORE : 0;
-		f->match[i] = match;
+		f->list[i].lost = f->match[i] ? 1u << DESCRIBED_BEFORE : 0;
+		f->match[i] = true;
 		f->at[f->ats++] = i;
 	}
 }
@@ -395,16 +363,10 @@ count_options(finder *f, const char *s, const char *file, bool heights)
 static mr_status
 map(finder *f, size_t i, const char *s, const char **to)
 {
-	const char *file = behind_options(s), *bare;
+	const char *file = behind_options(s);
 
 	count_options(f, s, file, to == &f->list[i].heights);
 	MR_TRY(find_file(f, file, to));
-	if (*to)
-		return MR_OK;
-	bare = mr_format(f->ctx, "%.*s", (int)before_comment(file, strlen(file)), file);
-	if (!bare)
-		return MR_EMEM;
-	MR_TRY(find_file(f, bare, to));
 	mr_tell(f->ctx, MR_MISSING, !*to, "%s", file);
 	return MR_OK;
 }
@@ -492,7 +454,7 @@ read_library(finder *f, const char *path)
 	mr_file_bytes b = { 0 };
 	mr_status status;
 
-	MR_TRY(mr_file_bytes_read(f->ctx, path, NULL, &b));
+	MR_TRY(mr_file_bytes_read(f->ctx, path, &b));
 	f->ats = 0;
 	status = statements(f, b.data, b.size);
 	return mr_prefix(f->ctx, mr_file_bytes_end(f->ctx, &b, status), "%s", path);
@@ -542,7 +504,7 @@ say_unknown(const finder *f)
 	size_t unknown = 0, first = 0;
 
 	for (size_t i = f->count; i-- > 0;)
-		if (f->match[i] == NO_MATCH && name_bytes(f, i)) {
+		if (!f->match[i] && name_bytes(f, i)) {
 			first = i;
 			unknown++;
 		}
@@ -564,15 +526,12 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 		return MR_OK;
 	MR_TRY(mr_lines_starts(ctx, m->materials, &f.name, &f.count));
 	f.list = MR_NEW(ctx, f.count, mr_material);
-	f.bare = MR_NEW(ctx, f.count, size_t);
-	f.match = MR_NEW_ZERO(ctx, f.count, unsigned char);
+	f.match = MR_NEW_ZERO(ctx, f.count, bool);
 	f.at = MR_NEW(ctx, f.count, size_t);
-	if (!f.list || !f.bare || !f.match || !f.at)
+	if (!f.list || !f.match || !f.at)
 		return MR_EMEM;
-	for (size_t i = 0; i < f.count; i++) {
+	for (size_t i = 0; i < f.count; i++)
 		f.list[i] = mr_material_plain;
-		f.bare[i] = before_comment(f.name[i], name_bytes(&f, i));
-	}
 	if (m->mtllib.text && m->mtllib.bytes) {
 		MR_TRY(mr_lines_starts(ctx, m->mtllib, &library, &libraries));
 		for (size_t i = 0; i < libraries; i++)

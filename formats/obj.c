@@ -18,13 +18,12 @@ typedef struct obj {
 	double *uv;       /* vt_all pairs */
 	mr_v3 *vn_values; /* vn_all */
 	float *rgb;       /* three per vertex, NAN where it has none; NULL without any */
-	float *alpha;     /* one per vertex, NAN where it has none; NULL without any */
-	mr_shades shades, alpha_shades;
-	size_t lines_and_points, weights, depths, others; /* what is left out */
-	size_t odd_colors, odd_alphas, odd_texcoords;     /* values that are not finite */
-	size_t no_normals, no_texcoords;                  /* corners that name one that is not there */
-	bool slashes;      /* the face at hand has a slash with nothing behind it */
-	uint32_t *corners; /* of the face at hand: vertices, texture coordinates, normals */
+	mr_shades shades;
+	size_t lines_and_points, weights, alphas, depths, others; /* what is left out */
+	size_t odd_colors, odd_texcoords;                         /* values that are not finite */
+	size_t no_normals, no_texcoords; /* corners that name one that is not there */
+	bool slashes;                    /* the face at hand has a slash with nothing behind it */
+	uint32_t *corners;               /* of the face at hand: vertices, texture coordinates, normals */
 	size_t corner_room;
 	char *libraries; /* of materials, one a line */
 	size_t library_bytes, library_room;
@@ -156,24 +155,6 @@ set_color(obj *o, const double *c)
 	return MR_OK;
 }
 
-static mr_status
-set_alpha(obj *o, double a)
-{
-	if (!o->alpha) {
-		o->alpha = MR_NEW(o->ctx, o->v_all, float);
-		if (!o->alpha)
-			return MR_EMEM;
-		for (size_t i = 0; i < o->v_all; i++)
-			o->alpha[i] = NAN;
-	}
-	if (isfinite(a)) {
-		o->alpha[o->v] = (float)a;
-		mr_shade_see(&o->alpha_shades, a);
-	} else
-		o->odd_alphas++;
-	return MR_OK;
-}
-
 /* v x y z [w | r g b [a]]: with four numbers the last is a weight, with six or seven there is a colour. */
 static mr_status
 position(obj *o, mr_scan *line)
@@ -190,8 +171,7 @@ position(obj *o, mr_scan *line)
 	o->weights += n == 4 && x[3] != 1;
 	if (n > 4)
 		MR_TRY(set_color(o, x + 3));
-	if (n > 6)
-		MR_TRY(set_alpha(o, x[6]));
+	o->alphas += n > 6 && x[6] != 1;
 	o->v++;
 	return MR_OK;
 }
@@ -557,33 +537,23 @@ count_lines(obj *o)
 
 /* ---- the model ---- */
 
-static unsigned char
-alpha_of(obj *o, size_t i)
-{
-	return o->alpha && !isnan(o->alpha[i]) ? mr_shade_byte(&o->alpha_shades, (double)o->alpha[i]) : 255;
-}
-
 static mr_status
 finish_colors(obj *o)
 {
 	if (!o->rgb || !mr_all_left(o->ctx, o->odd_colors, o->v_all, "colors"))
 		return MR_OK;
-	if (!mr_left_out(o->ctx, o->odd_alphas, o->v_all, "alphas"))
-		o->alpha = NULL;
 	o->b.color = MR_NEW(o->ctx, 4 * o->v_all, unsigned char);
 	if (!o->b.color)
 		return MR_EMEM;
 	o->shades.full = mr_shade_full(&o->shades);
-	o->alpha_shades.full = mr_shade_full(&o->alpha_shades);
 	for (size_t i = 0; i < o->v_all; i++) {
 		bool none = isnan(o->rgb[3 * i]);
 		for (size_t k = 0; k < 3; k++)
 			o->b.color[4 * i + k] = none ? 255
 			                             : mr_shade_byte(&o->shades, (double)o->rgb[3 * i + k]);
-		o->b.color[4 * i + 3] = alpha_of(o, i);
+		o->b.color[4 * i + 3] = 255;
 	}
 	mr_shades_said(o->ctx, &o->shades);
-	mr_shades_said(o->ctx, &o->alpha_shades);
 	return MR_OK;
 }
 
@@ -659,6 +629,7 @@ finish(obj *o, mr_model *m)
 	MR_TRY(finish_colors(o));
 	mr_lost(o->ctx, NULL, o->lines_and_points, "lines and points");
 	mr_lost(o->ctx, NULL, o->weights, "weights of vertices");
+	mr_lost(o->ctx, NULL, o->alphas, "alpha");
 	mr_lost(o->ctx, NULL, o->depths, "third texture coordinates");
 	mr_lost(o->ctx, NULL, o->others, "other statements");
 	return mr_build_finish(&o->b, m);

@@ -19,7 +19,6 @@ typedef struct field {
 	const char *name;
 	size_t property; /* its number, from 1; 0: none */
 	double value;    /* of the point at hand */
-	bool is_rounded;
 } field;
 
 typedef struct pcd {
@@ -319,20 +318,6 @@ binary_value(const unsigned char *p, const field *d)
 	return d->type == 'I' ? (double)(int64_t)u : (double)u;
 }
 
-/* Whether a double does not hold the whole number: it takes more than 53 bits. */
-static bool
-binary_rounded(const unsigned char *p, const field *d)
-{
-	uint64_t u;
-
-	if (d->type == 'F' || d->size < 8)
-		return false;
-	u = mr_load64(p, false);
-	if (d->type == 'I' && u >> 63)
-		u = 0 - u;
-	return u && u >> __builtin_ctzll(u) >> 53;
-}
-
 /* A colour is four bytes, blue first, in a whole number or in the bits of a float. */
 static uint32_t
 color_bits(double value, const field *d)
@@ -367,10 +352,8 @@ static mr_status
 take_properties(pcd *f, size_t row)
 {
 	for (const field *d = f->field; d < f->field + f->fields; d++)
-		if (d->property) {
-			mr_build_rounded(&f->properties, d->property, d->is_rounded);
+		if (d->property)
 			MR_TRY(mr_build_value(&f->properties, d->property, row, d->value));
-		}
 	return MR_OK;
 }
 
@@ -391,7 +374,6 @@ read_binary(pcd *f, uint64_t i, double value[ROLES], uint32_t *rgb)
 			*rgb = mr_load32(at, false);
 		else
 			value[d->role] = d->value = binary_value(at, d);
-		d->is_rounded = binary_rounded(at, d);
 	}
 	if (!f->packed)
 		f->text.p += f->stride;
@@ -409,15 +391,11 @@ read_text(pcd *f, double value[ROLES], uint32_t *rgb)
 	while (mr_skip_blanks(&line), line.p == line.end);
 	for (field *d = f->field; d < f->field + f->fields; d++)
 		for (unsigned k = 0; k < d->count; k++) {
-			const char *word;
 			double x = 0;
-			mr_skip_space(&line);
-			word = line.p;
 			MR_TRY(mr_scan_real(&line, "a number of a point", &x));
 			if (is_wanted(f, d))
 				value[d->role] = x;
 			d->value = x;
-			d->is_rounded = mr_whole_rounded(word, line.p, x);
 		}
 	mr_skip_blanks(&line);
 	f->surplus += line.p < line.end;

@@ -159,7 +159,6 @@ begin_shades(ply *f, const element *e)
 		type t = type_of(e, i ? ALPHA : RED);
 		f->shades[i] = (mr_shades){ .full = t == USHORT ? 65535 : t >= FLOAT ? 1 : 255 };
 		f->told[i] = t <= UCHAR || t == USHORT;
-		f->wraps[i] = t == CHAR;
 	}
 }
 
@@ -186,7 +185,7 @@ set_color(ply *f, const double *v, unsigned char *c)
 		mr_shades *s = &f->shades[k == 3];
 		if (!f->told[k == 3])
 			mr_shade_see(s, v[k]);
-		c[k] = mr_shade_byte(s, f->wraps[k == 3] && v[k] < 0 ? v[k] + 256 : v[k]);
+		c[k] = mr_shade_byte(s, v[k]);
 	}
 }
 
@@ -562,40 +561,28 @@ lose_others(ply *f)
 	}
 }
 
-/* Elements from number i on, to the vertices if these come; *end is where it stopped.  known: the vertices
- * are. */
-static mr_status
-read_until_vertices(ply *f, size_t i, bool known, size_t *end)
-{
-	for (; i < f->elements && f->element[i].kind != VERTEX; i++) {
-		const element *e = &f->element[i];
-		MR_TRY(known && e->kind != OTHER ? read_faces(f, e) : pass_rows(f, e));
-	}
-	*end = i;
-	return MR_OK;
-}
-
-/* Faces that stand before the vertices are passed over, and read when these are known. */
 static mr_status
 read_elements(ply *f)
 {
-	const unsigned char *binary = f->p;
-	const char *text = f->text.p;
-	size_t vertices, end;
+	bool known = false;
 
-	MR_TRY(read_until_vertices(f, 0, false, &vertices));
-	if (vertices == f->elements)
+	for (size_t i = 0; i < f->elements; i++) {
+		const element *e = &f->element[i];
+		if (!known && (e->kind == FACE || e->kind == STRIPS) && e->rows)
+			return bad(f, here(f), "element %s before the vertices is not read", e->name);
+		MR_TRY(e->kind == VERTEX  ? read_vertices(f, e)
+		       : e->kind == OTHER ? pass_rows(f, e)
+					  : read_faces(f, e));
+		known |= e->kind == VERTEX;
+	}
+	if (!known)
 		return mr_fail(f->ctx, MR_EMESH, "ply without a vertex");
-	MR_TRY(read_vertices(f, &f->element[vertices]));
-	MR_TRY(read_until_vertices(f, vertices + 1, true, &end));
 	if (f->ascii)
 		mr_skip_comments(&f->text);
 	else
 		f->text.p = (const char *)f->p;
 	mr_scan_rest(&f->text);
-	f->p = binary;
-	f->text.p = text;
-	return read_until_vertices(f, 0, true, &end);
+	return MR_OK;
 }
 
 mr_status

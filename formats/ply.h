@@ -100,7 +100,6 @@ typedef struct ply {
 	size_t row_room;
 	mr_shades shades[2];                    /* of colours, of alpha */
 	bool told[2];                           /* what is full is known */
-	bool wraps[2];                          /* a negative value is one above 127 */
 	size_t odd_uv, odd_colors, odd_scanner; /* of vertices: not finite */
 	size_t textures;                        /* that are left out */
 } ply;

@@ -135,24 +135,6 @@ mr_real_read(const char *p, const char *end, double *x)
 	return p;
 }
 
-bool
-mr_whole_rounded(const char *p, const char *end, double x)
-{
-	char exact[400];
-	int n;
-
-	if (!(fabs(x) >= 0x1p53))
-		return false;
-	p += *p == '-' || *p == '+';
-	while (p < end && *p == '0')
-		p++;
-	for (const char *c = p; c < end; c++)
-		if (!mr_is_digit(*c))
-			return false;
-	n = snprintf(exact, sizeof exact, "%.0f", fabs(x));
-	return n != end - p || memcmp(exact, p, (size_t)n);
-}
-
 char *
 mr_count_write(char *to, uint64_t n)
 {

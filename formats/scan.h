@@ -20,10 +20,6 @@ typedef struct mr_scan {
 /* Returns the place behind the number that begins at p, or NULL where none does. */
 const char *mr_real_read(const char *p, const char *end, double *x);
 
-/* Whether the number from p to before end is a whole one, in digits alone, that x, as which it was read, is
- * not: beyond 2^53. */
-bool mr_whole_rounded(const char *p, const char *end, double x);
-
 /* Writes x and returns the place behind it; at most MR_REAL_MAX bytes, no NUL. */
 enum { MR_REAL_MAX = 32 };
 char *mr_real_write(char *to, double x);

@@ -2,7 +2,6 @@
  * Stereolithography: triangles without connectivity, whose corners are joined where equal.  A binary file may
  * begin with "solid", as a text does: its size tells, 84 bytes and 50 for each triangle.
  */
-#include "base/memory.h"
 #include "formats/format.h"
 #include "mesh/repair.h"
 
@@ -256,23 +255,6 @@ is_text(const unsigned char *data, size_t size)
 	mr_scan_line(&text, &line);
 	return mr_scan_accept(&text, "facet") || mr_scan_accept(&text, "endsolid") ||
 	       mr_scan_accept(&text, "solid");
-}
-
-/* A binary one tells by its size only when it is whole, which it must have room to be; a text by one word. */
-bool
-mr_stl_begins(const unsigned char *data, size_t size)
-{
-	size_t n = size < HEADER ? 0 : mr_load32(data + 80, false), there = (size - HEADER) / RECORD;
-	mr_scan text = mr_scan_of(NULL, data, size);
-
-	if (mr_scan_accept(&text, "solid") && !memchr(data, 0, size))
-		return true;
-	if (n == 0 || n < there || (double)n * RECORD > mr_memory_available())
-		return false;
-	for (size_t i = 0; i < 12 * there; i++)
-		if (!isfinite(mr_load_float(data + HEADER + i / 12 * RECORD + i % 12 * 4, false)))
-			return false;
-	return true;
 }
 
 bool

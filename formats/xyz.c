@@ -25,7 +25,6 @@ typedef struct table {
 	role role[COLUMNS];
 	mr_shades seen[COLUMNS];
 	bool negative[COLUMNS];     /* has a value that is */
-	size_t rounded[COLUMNS];    /* whole numbers that a double does not hold */
 	size_t units[2], others[2]; /* rows of columns 3 to 5, 6 to 8 of length 1, of neither 0 nor 1 */
 	size_t color[4];            /* columns of red, green, blue, alpha */
 	mr_shades shades[2];        /* of all four, of alpha */
@@ -321,24 +320,6 @@ begins_another(table *t, mr_scan row)
 	return true;
 }
 
-/* Counts what of the row is rounded; most rows have no value so large. */
-static void
-count_rounded(table *t, mr_scan row, const double *x, size_t n)
-{
-	const char *w;
-	bool large = false;
-
-	for (size_t i = 0; i < n; i++)
-		large |= fabs(x[i]) >= 0x1p53;
-	for (size_t i = 0; large && i < n; i++) {
-		skip_separators(&row);
-		w = row.p;
-		while (row.p < row.end && !separates(*row.p))
-			row.p++;
-		t->rounded[i] += mr_whole_rounded(w, row.p, x[i]);
-	}
-}
-
 static void
 see_length(table *t, size_t k, mr_v3 v)
 {
@@ -370,7 +351,6 @@ survey(table *t)
 			mr_shade_see(&t->seen[i], x[i]);
 			t->negative[i] = t->negative[i] || x[i] < 0;
 		}
-		count_rounded(t, row, x, n);
 		for (size_t k = 0; k < 2 && 6 + 3 * k <= n; k++)
 			see_length(t, k, mr_vec(x[3 + 3 * k], x[4 + 3 * k], x[5 + 3 * k]));
 		t->rows++;
@@ -558,7 +538,6 @@ begin_properties(table *t)
 		if (!is_part(t, t->role[i]) && (t->named || says(t, i))) {
 			MR_TRY(name_of(t, i, &name));
 			MR_TRY(mr_build_property(&t->properties, name, "double", 'v', &t->property[i]));
-			mr_build_rounded(&t->properties, t->property[i], t->rounded[i]);
 		}
 	return MR_OK;
 }

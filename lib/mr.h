@@ -20,8 +20,8 @@
  * accepts NULL.  What is put into a frame is borrowed by it.
  * Threads.  One context serves one thread at a time; inside, functions use as many threads as the context
  * has, and give the same bytes for any number.
- * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An
- *mr_..._result may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
+ * Options.  NULL is the defaults, which are MR_..._DEFAULTS, too; what cannot be is MR_EUSAGE.  An mr_..._result
+ * may be NULL; in it a figure that was not measured is NaN, or MR_UNKNOWN where it is a count.
  */
 #ifndef MR_H
 #define MR_H
@@ -44,10 +44,7 @@ extern "C" {
 
 #define MR_UNKNOWN SIZE_MAX
 /* Values of all fields, as a line. */
-#define MR_DEFAULTS(...)                                                                                     \
-	{                                                                                                    \
-		__VA_ARGS__                                                                                  \
-	}
+#define MR_DEFAULTS(...) { __VA_ARGS__ }
 
 /* Contexts */
 
@@ -136,9 +133,7 @@ MR_API void mr_mark_release(mr_ctx *ctx, mr_mark mark);
 
 /* Meshes */
 
-typedef struct mr_tri {
-	uint32_t v[3];
-} mr_tri; /* counter-clockwise, seen from outside */
+typedef struct mr_tri { uint32_t v[3]; } mr_tri; /* counter-clockwise, seen from outside */
 
 /* A view of arrays that somebody else keeps; without faces a cloud of points. */
 typedef struct mr_mesh {
@@ -391,9 +386,7 @@ typedef struct mr_normals_result {
 MR_API mr_status mr_normals_frame(
     mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_normals_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_crop_result {
-	size_t vertices, faces, vertices_dropped, faces_dropped;
-} mr_crop_result;
+typedef struct mr_crop_result { size_t vertices, faces, vertices_dropped, faces_dropped; } mr_crop_result;
 
 /* Leaves what n rules, in their order, make free, and drops what they make fixed; where the first makes some
  * free the others are fixed to begin with.  layer: NULL: mesh, else control, else points. */
@@ -403,8 +396,8 @@ MR_API mr_status mr_crop_frame(mr_ctx *ctx, mr_frame *f, const char *layer, cons
 typedef struct mr_split_opts {
 	double distance;        /* of points, at which they are connected; 0: four times their spacing */
 	bool distance_relative; /* distance is a share of the bounding box's diagonal */
-	size_t least; /* vertices of a part; 0: 2 of a mesh, of points a hundredth of the largest part's */
-	const char *layer; /* NULL: mesh, else control, else points */
+	size_t least;           /* vertices of a part; 0: 2 of a mesh, of points a hundredth of the largest part's */
+	const char *layer;      /* NULL: mesh, else control, else points */
 } mr_split_opts;
 
 typedef struct mr_split_result {
@@ -442,12 +435,7 @@ MR_API mr_status mr_pose_frame(
 
 typedef enum mr_solver_choice {
 	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
-	MR_SOLVER_CHOLESKY,
-	MR_SOLVER_LU,
-	MR_SOLVER_CG,
-	MR_SOLVER_BICGSTAB,
-	MR_SOLVER_MULTIGRID,
-	MR_SOLVER_VCYCLE
+	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_BICGSTAB, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
 } mr_solver_choice;
 
 typedef enum mr_areas {
@@ -506,9 +494,7 @@ typedef struct mr_solve_result {
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
     mr_solve_result *result) MR_WARN_UNUSED;
 
-typedef struct mr_gap {
-	double mean, high, max;
-} mr_gap; /* of distances: 99 % are at most high */
+typedef struct mr_gap { double mean, high, max; } mr_gap; /* of distances: 99 % are at most high */
 
 /* How far points that count are from a surface, and it from them, in units of the positions. */
 typedef struct mr_gaps {
@@ -539,8 +525,7 @@ MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts 
 
 /* Reconstruction: Jeong, Kim 2001 */
 
-/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled.
- */
+/* Whichever covers the points; the paper's cube, to the letter: genus 0; an implicit surface, then settled. */
 typedef enum mr_wrap_method { MR_WRAP_AUTO, MR_WRAP_CUBE, MR_WRAP_VOLUME } mr_wrap_method;
 
 /* What the points leave open is closed: narrow holes of the sampling, all, none. */
@@ -563,8 +548,7 @@ typedef struct mr_wrap_opts {
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
-	size_t samples, nodes, sided,
-	    inward;            /* points that counted; of the grid; whose sides were used; 1: turned over */
+	size_t samples, nodes, sided, inward; /* points that counted; of the grid; whose sides were used; 1: turned over */
 	double spacing, cell;  /* side of the square that a point stands for; of a cell */
 	double noise;          /* squares of so many spacings show a surface: at least 1 */
 	size_t grid;           /* cells along the longest side of the points' box */
@@ -620,8 +604,7 @@ typedef struct mr_simplify_result {
 MR_API mr_status mr_simplify_frame(
     mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_simplify_result *result) MR_WARN_UNUSED;
 
-/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once.
- */
+/* Each vertex by the point nearest its limit point (Suzuki et al. 1999, as the paper has it); or all at once. */
 typedef enum mr_fit_method { MR_FIT_LOCAL, MR_FIT_LEAST_SQUARES } mr_fit_method;
 
 typedef struct mr_fit_opts {
@@ -704,23 +687,14 @@ typedef struct mr_subdivide_result {
 MR_API mr_status mr_subdivide_frame(mr_ctx *ctx, mr_frame *f, const mr_subdivide_opts *opts, mr_cache *cache,
     mr_subdivide_result *result) MR_WARN_UNUSED;
 
-/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1.
- */
+/* gain: `gains` factors, of the control mesh's heights and of each level's, coarse first; further ones are 1. */
 MR_API mr_status mr_equalize_frame(
     mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache) MR_WARN_UNUSED;
 
 /* Models from nothing: mr-make */
 
 typedef enum mr_solid {
-	MR_SPHERE,
-	MR_TORUS,
-	MR_CUBE,
-	MR_PLANE,
-	MR_CYLINDER,
-	MR_KNOT,
-	MR_BUMPY,
-	MR_BOXES,
-	MR_SOLIDS
+	MR_SPHERE, MR_TORUS, MR_CUBE, MR_PLANE, MR_CYLINDER, MR_KNOT, MR_BUMPY, MR_BOXES, MR_SOLIDS
 } mr_solid;
 
 typedef struct mr_make_opts {
@@ -742,9 +716,7 @@ MR_API mr_status mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame
 
 /* Measuring: mr-info */
 
-typedef struct mr_box {
-	mr_v3 min, max;
-} mr_box;
+typedef struct mr_box { mr_v3 min, max; } mr_box;
 
 /*
  * Counts.  Faces that have a vertex twice count as degenerate and nowhere else.
@@ -928,9 +900,8 @@ typedef struct mr_map_opts {
 typedef struct mr_map_result {
 	size_t level, width, height; /* the last two in texels */
 	double low, high;
-	size_t clipped,
-	    turned;            /* written: texels of heights out of the range, of normals away from control */
-	size_t between, seams; /* read: vertices on no texel, and of other heights across a seam */
+	size_t clipped, turned; /* written: texels of heights out of the range, of normals away from control */
+	size_t between, seams;  /* read: vertices on no texel, and of other heights across a seam */
 } mr_map_result;
 
 /* Writes NAME-height.png, NAME-normal.png and NAME.mtl, which names them, and gives control a material,

@@ -249,9 +249,7 @@ join_rows(mr_ctx *ctx, const joined *j, mr_frame *out)
 			MR_TRY(follow(ctx, j, i, (uint32_t *)(void *)(x + at * width), n * each, &w));
 		at += n;
 	}
-	if (w.namesakes)
-		mr_warn(ctx, "%s: %zu names of %ss stand for several in one frame: they are one here",
-		    j->layer, w.namesakes, j->name);
+	mr_lost(ctx, j->layer, w.namesakes, "names that stand for several");
 	return mr_frame_put(ctx, out, j->layer, j->name, j->first->shape, x, at);
 }
 
@@ -368,10 +366,8 @@ warn_of_points(mr_ctx *ctx, const joined *j)
 		surfaces += surface && !has;
 	}
 	if (points && surfaces)
-		mr_warn(ctx,
-		    "of %zu frames %zu %s points and no surface: tools that work on one layer leave them "
-		    "out, unless -l names points",
-		    j->n, points, points == 1 ? "has" : "have");
+		mr_found(ctx, &(mr_finding){ .kind = MR_LAYER,
+				  .what = "frames with points and no surface: -l points works on those" });
 }
 
 /* Warns of a layer that not all frames have: what works on it, or on another, leaves the rest out. */
@@ -387,91 +383,11 @@ warn_of_absent(mr_ctx *ctx, const joined *j)
 	for (size_t i = 0; i < j->n; i++)
 		all += has_surface(j->frames[i]);
 	if (n < all)
-		mr_warn(ctx, "%s comes of %zu of %zu frames only: tools that work on %s leave the rest out",
-		    j->layer, n, all, j->layer);
-}
-
-/* The text of a frame's column, of no bytes where that has none. */
-static mr_status
-text_of(mr_ctx *ctx, const joined *j, size_t i, const char *name, const void **text, size_t *bytes)
-{
-	*text = "";
-	*bytes = 0;
-	return mr_layer_has(j->frames[i], j->layer, name)
-	           ? mr_layer_get(ctx, j->frames[i], j->layer, name, text, bytes)
-	           : MR_OK;
-}
-
-/* A material of the layer, and the files of the first frame that has it. */
-typedef struct source {
-	const char *files;
-	size_t bytes;
-	bool mixed;
-} source;
-
-/* Whether two lists of files have one in common. */
-static mr_status
-share_file(mr_ctx *ctx, const source *a, const source *b, bool *share)
-{
-	mr_name_table all = { 0 };
-	uint32_t *number;
-	size_t of_a, of_b, distinct;
-
-	*share = a->bytes == b->bytes && !memcmp(a->files, b->files, a->bytes);
-	if (*share)
-		return MR_OK;
-	MR_TRY(add_lines(ctx, &all, a->files, a->bytes, &number, &of_a));
-	distinct = all.count;
-	MR_TRY(add_lines(ctx, &all, b->files, b->bytes, &number, &of_b));
-	for (size_t k = 0; k < of_b; k++)
-		*share |= number[k] < distinct;
-	return MR_OK;
-}
-
-/* What a frame adds to the materials: number, of its names, is from `known` on of those that are new. */
-static mr_status
-note_source(mr_ctx *ctx, const source *own, const uint32_t *number, size_t count, size_t known, source *of)
-{
-	for (size_t k = 0; k < count; k++) {
-		source *first = &of[number[k]];
-		bool share = true;
-		if (number[k] >= known)
-			*first = *own;
-		else if (!first->mixed)
-			MR_TRY(share_file(ctx, first, own, &share));
-		first->mixed |= !share;
-	}
-	return MR_OK;
-}
-
-/* Warns of materials that have one name in different files: whoever reads these takes one for all. */
-static mr_status
-warn_of_mixed(mr_ctx *ctx, const joined *j)
-{
-	source *of = NULL, own = { 0 };
-	mr_name_table names = { 0 };
-	size_t n, count, room = 0, mixed = 0;
-	const void *text, *files;
-	uint32_t *number;
-
-	for (size_t i = 0; i < j->n; i++) {
-		size_t known = names.count;
-		MR_TRY(text_of(ctx, j, i, "materials", &text, &n));
-		MR_TRY(text_of(ctx, j, i, "mtllib", &files, &own.bytes));
-		own.files = files;
-		if (n == 0)
-			continue;
-		MR_TRY(add_lines(ctx, &names, text, n, &number, &count));
-		MR_TRY(MR_RESERVE(ctx, of, known, names.count - known, &room));
-		MR_TRY(note_source(ctx, &own, number, count, known, of));
-	}
-	for (size_t m = 0; m < names.count; m++)
-		mixed += of[m].mixed;
-	if (mixed)
-		mr_warn(ctx,
-		    "%s: frames with different mtllib have %zu material%s of the same name: it is one here",
-		    j->layer, mixed, mr_plural(mixed));
-	return MR_OK;
+		mr_found(ctx, &(mr_finding){ .kind = MR_LAYER,
+				  .layer = j->layer,
+				  .what = "not all frames have the layer",
+				  .count = n,
+				  .of = all });
 }
 
 /* What triangles were, which several frames have more of. */
@@ -481,27 +397,10 @@ is_print(const joined *j)
 	return !strcmp(j->name, "encoded_faces") && frames_with(j, j->layer) > 1;
 }
 
-/* Why columns of the layer are left out, and what helps. */
-static const char *
-why_left(const joined *j)
-{
-	if (!strcmp(j->layer, "displacement") && frames_with(j, "control") > 1)
-		return "heights are of one control mesh; mr-decode before makes mesh of each";
-	if (!strcmp(j->layer, "handles"))
-		return frames_with(j, "handles") > 1
-		           ? "several frames have handles; mr-solve goes before"
-		           : "they would move vertices of other frames, too; mr-solve goes before";
-	return "not all frames have that, in one shape, or its rows cannot be numbered anew";
-}
-
 static mr_status
 join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 {
-	mr_text left = { .ctx = ctx };
-	size_t n = 0;
-
 	warn_of_absent(ctx, j);
-	MR_TRY(warn_of_mixed(ctx, j));
 	for (size_t i = 0; i < j->n; i++)
 		for (size_t k = 0; k < j->frames[i]->count; k++) {
 			const mr_column *c = &j->frames[i]->columns[k];
@@ -516,12 +415,8 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 			if (!leave)
 				MR_TRY(join_column(ctx, j, out, &leave));
 			if (leave && !is_sampling(j))
-				mr_text_name(&left, &n, j->name);
+				mr_lost(ctx, j->layer, 1, j->name);
 		}
-	mr_text_more(&left, n);
-	MR_TRY(mr_text_done(&left));
-	if (n)
-		mr_warn(ctx, "%s is appended without %s: %s", j->layer, left.s, why_left(j));
 	return MR_OK;
 }
 

@@ -147,20 +147,16 @@ of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *norma
 }
 
 static void
-tell(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *normal, const mr_normals_result *r)
+tell(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *normal)
 {
 	size_t none = 0;
 
 	for (size_t i = 0; m->nf && i < m->nv; i++)
 		none += mr_norm2(normal[i]) == 0;
 	if (none)
-		mr_warn(ctx,
-		    "%zu of %zu vertices of %s get no normal: they have no face with an area, or faces that "
-		    "cancel out",
-		    none, m->nv, m->name);
-	mr_note(ctx, "%zu normals kept, %zu made", r->kept, r->estimated);
-	if (!isnan(r->agree))
-		mr_note(ctx, "%.2f %% of the normals there were are on the side of these", 100 * r->agree);
+		mr_found(ctx,
+		    &(mr_finding){
+			.kind = MR_FILLED, .layer = m->name, .what = "normals", .count = none, .of = m->nv });
 }
 
 static mr_status
@@ -182,7 +178,7 @@ put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_resul
 		return MR_EMEM;
 	MR_TRY(m.nf ? of_surface(ctx, &m, o, normal) : of_points(ctx, f, &m, o, there, normal, r));
 	finish(o, there, m.nv, normal, r);
-	tell(ctx, &m, normal, r);
+	tell(ctx, &m, normal);
 	mr_frame_drop(f, layer, "corner_normal", 0);
 	return mr_layer_put(ctx, f, layer, "normal", normal, m.nv);
 }

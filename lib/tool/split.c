@@ -108,30 +108,25 @@ take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, con
 }
 
 static mr_status
-warn_of_layers(mr_ctx *ctx, const mr_frame *f, const char *layer)
+lose_layers(mr_ctx *ctx, const mr_frame *f, const char *layer)
 {
 	const char *others;
 
 	MR_TRY(mr_layer_names(ctx, f, layer, &others));
 	if (*others)
-		mr_warn(ctx, "%s alone is split: its parts are without %s", layer, others);
+		mr_lost(ctx, layer, 1, others);
 	return MR_OK;
 }
 
 static void
 tell(mr_ctx *ctx, const mr_mesh *m, const parts *p, mr_split_result *r)
 {
-	const char *what = m->nf ? "vertices" : "points";
-
 	*r = (mr_split_result){ .parts = p->given,
 		.dropped = p->of.parts - p->given,
 		.largest = p->of.size[0],
 		.smallest = p->of.size[p->given - 1] };
 	r->dropped_vertices = m->nv - p->first_vertex[p->given];
-	mr_note(ctx, "%zu parts of %zu to %zu %s", r->parts, r->smallest, r->largest, what);
-	if (r->dropped)
-		mr_warn(ctx, "%zu of %zu %s are left out, in %zu parts of at most %zu", r->dropped_vertices,
-		    m->nv, what, r->dropped, p->of.size[p->given]);
+	mr_lost(ctx, m->name, r->dropped, "small parts");
 }
 
 mr_status
@@ -162,7 +157,7 @@ mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***
 	MR_TRY(mr_name_lists_of(ctx, f, layer, &names));
 	for (size_t k = 0; k < p.given; k++)
 		MR_TRY(take_part(ctx, f, layer, &p, &names, k, &part[k]));
-	MR_TRY(warn_of_layers(ctx, f, layer));
+	MR_TRY(lose_layers(ctx, f, layer));
 	tell(ctx, &m, &p, &r);
 	*out = part;
 	if (result)

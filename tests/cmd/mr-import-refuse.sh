@@ -50,10 +50,6 @@ endless() {
 	timeout 60 mr-import "$@"
 	echo $?
 }
-endless /dev/zero
-endless -f xyz /dev/zero
-endless -f obj /dev/zero
-{ echo 1 2 3; tr '\0' x </dev/zero; } | endless
 { printf 'ply\n'; cat /dev/zero; } | head -c 20000000 | endless
 mr-make sphere -n 400000 | mr-export -f stl - >big.stl
 cat big.stl | mr-import | mr-info --no-intersections | grep vertices
