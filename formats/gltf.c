@@ -125,7 +125,7 @@ open_document(mr_gltf *g, const unsigned char *data, size_t size)
 mr_status
 mr_gltf_open(mr_ctx *ctx, const unsigned char *data, size_t size, mr_gltf *g)
 {
-	mr_gltf made = { .ctx = ctx, .file_bytes = size };
+	mr_gltf made = { .ctx = ctx };
 	mr_status status = open_document(&made, data, size);
 
 	if (status < 0)
@@ -349,24 +349,6 @@ find_rows(
 	return MR_OK;
 }
 
-static mr_status
-open_sparse(mr_gltf *g, const json_t *sparse, mr_accessor *a)
-{
-	const json_t *which = json_object_get(sparse, "indices"),
-		     *instead = json_object_get(sparse, "values");
-	size_t stride = 0;
-
-	MR_TRY(mr_gltf_count(g, sparse, "count", 0, a->count, &a->sparse));
-	MR_TRY(mr_gltf_count(g, which, "componentType", 0, MR_GLTF_FLOAT, &a->sparse_kind));
-	if (a->sparse_kind % 2 == 0 || kind_bytes(a->sparse_kind) == 0)
-		return mr_fail(g->ctx, MR_EFORMAT, "sparse indices of type %zu", a->sparse_kind);
-	MR_TRY(find_rows(g, which, kind_bytes(a->sparse_kind), a->sparse, &a->which, &stride));
-	MR_TRY(find_rows(g, instead, a->components * kind_bytes(a->kind), a->sparse, &a->instead, &stride));
-	if (!a->which || !a->instead)
-		return mr_fail(g->ctx, MR_EFORMAT, "sparse values without a buffer view");
-	return MR_OK;
-}
-
 mr_status
 mr_gltf_vertex_numbers(const mr_gltf *g, const json_t *attributes, size_t *accessor)
 {
@@ -388,17 +370,18 @@ static mr_status
 open_accessor(mr_gltf *g, const json_t *json, mr_accessor *a)
 {
 	const char *type = json_string_value(json_object_get(json, "type"));
-	const json_t *sparse = json_object_get(json, "sparse");
 
 	MR_TRY(mr_gltf_count(g, json, "componentType", 0, MR_GLTF_FLOAT, &a->kind));
 	MR_TRY(mr_gltf_count(g, json, "count", 0, MR_NONE - 1, &a->count));
+	if (json_object_get(json, "sparse"))
+		return mr_fail(g->ctx, MR_EFORMAT, "sparse values are not read");
 	a->components = type_components(type);
 	a->normalized = json_is_true(json_object_get(json, "normalized"));
 	if (a->components == 0 || kind_bytes(a->kind) == 0)
 		return mr_fail(g->ctx, MR_EFORMAT, "type %.20s of components %zu is not read",
 		    type ? type : "none", a->kind);
 	MR_TRY(find_rows(g, json, a->components * kind_bytes(a->kind), a->count, &a->data, &a->stride));
-	return sparse ? open_sparse(g, sparse, a) : MR_OK;
+	return MR_OK;
 }
 
 mr_status
@@ -454,48 +437,20 @@ row_reals(const mr_accessor *a, const unsigned char *p, size_t width, double *x)
 	}
 }
 
-/* Which row sparse row i stands for. */
-static mr_status
-sparse_row(const mr_gltf *g, const mr_accessor *a, size_t i, size_t *row)
+void
+mr_accessor_reals(const mr_accessor *a, size_t width, double *x)
 {
-	*row = (size_t)component(a->which + i * kind_bytes(a->sparse_kind), a->sparse_kind);
-	if (*row >= a->count)
-		return mr_fail(g->ctx, MR_EFORMAT, "accessor %zu: sparse row %zu stands for row %zu of %zu",
-		    a->number, i, *row, a->count);
-	return MR_OK;
-}
-
-mr_status
-mr_accessor_reals(mr_gltf *g, const mr_accessor *a, size_t width, double *x)
-{
-	size_t most = a->components < width ? a->components : width, row = 0;
-
-	for (size_t i = 0; i < a->count; i++) {
-		if (a->data)
-			row_reals(a, a->data + i * a->stride, width, x + i * width);
-		else
-			memset(x + i * width, 0, most * sizeof *x);
-	}
-	for (size_t i = 0; i < a->sparse; i++) {
-		MR_TRY(sparse_row(g, a, i, &row));
-		row_reals(a, a->instead + i * a->components * kind_bytes(a->kind), width, x + row * width);
-	}
-	return MR_OK;
+	for (size_t i = 0; i < a->count; i++)
+		row_reals(a, a->data + i * a->stride, width, x + i * width);
 }
 
 mr_status
 mr_accessor_indices(mr_gltf *g, const mr_accessor *a, size_t limit, uint32_t *index)
 {
-	size_t row = 0;
-
 	if (a->components != 1 || a->kind % 2 == 0)
 		return mr_fail(g->ctx, MR_EFORMAT, "accessor %zu holds no indices", a->number);
 	for (size_t i = 0; i < a->count; i++)
-		index[i] = a->data ? (uint32_t)component(a->data + i * a->stride, a->kind) : 0;
-	for (size_t i = 0; i < a->sparse; i++) {
-		MR_TRY(sparse_row(g, a, i, &row));
-		index[row] = (uint32_t)component(a->instead + i * kind_bytes(a->kind), a->kind);
-	}
+		index[i] = (uint32_t)component(a->data + i * a->stride, a->kind);
 	for (size_t i = 0; i < a->count; i++)
 		if (index[i] >= limit)
 			return mr_fail(g->ctx, MR_ERANGE, "accessor %zu: index %zu is vertex %u of %zu",

@@ -42,7 +42,6 @@ typedef struct mr_gltf {
 	json_t *root;
 	const unsigned char *bin; /* the chunk of bytes of a GLB; NULL: there is none */
 	size_t bin_bytes;
-	size_t file_bytes;
 	mr_gltf_buffer *buffer; /* as many as the document has */
 } mr_gltf;
 
@@ -84,15 +83,10 @@ typedef struct mr_gltf_instance {
 	const char *name; /* of the node, or else of the mesh; NULL: none.  The document's */
 } mr_gltf_instance;
 
-/* What a document has that its scene does not show: other scenes, nodes with meshes that are not in it,
- * meshes that no node has, and nodes whose mesh EXT_mesh_gpu_instancing shows several times. */
-typedef struct mr_gltf_unseen {
-	size_t scenes, nodes, meshes, several;
-} mr_gltf_unseen;
-
-/* The meshes of the scene that is to be shown, or, where there is no scene, all meshes as they are. */
-mr_status mr_gltf_scene(
-    const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr_gltf_unseen *unseen) MR_WARN_UNUSED;
+/* The meshes of the scene that is to be shown, or, where there is no scene, all meshes as they are.  unseen:
+ * meshes that it does not show; several: nodes whose mesh EXT_mesh_gpu_instancing shows several times. */
+mr_status mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *unseen,
+    size_t *several) MR_WARN_UNUSED;
 
 /* How the picture of a material's colour lies on the texture coordinates. */
 typedef struct mr_gltf_texture {
@@ -104,41 +98,26 @@ typedef struct mr_gltf_texture {
 /* By KHR_texture_transform.  material: may be MR_UNKNOWN. */
 mr_status mr_gltf_texture_of(const mr_gltf *g, size_t material, mr_gltf_texture *t) MR_WARN_UNUSED;
 
-/* How many materials have a colour, how many are of metal, smooth, cut out by alpha or of an extension, and
- * how many have a picture that lies otherwise than that of the colour. */
-typedef struct mr_gltf_looks {
-	size_t colors, surfaces, transforms;
-} mr_gltf_looks;
-
-mr_gltf_looks mr_gltf_count_looks(const mr_gltf *g);
-
 /* What a document has and a model has not. */
 typedef struct mr_gltf_left {
-	size_t lines, targets;
-	mr_gltf_unseen unseen;
-	const char **attribute; /* the name of each; the document's */
-	size_t attributes, attribute_room;
+	size_t lines, targets, unseen, several, attributes;
 } mr_gltf_left;
 
 /* Notes what of a primitive that is drawn is not read.  texcoord: the name of the coordinates that are. */
 mr_status mr_gltf_note_attributes(
     const mr_gltf *g, json_t *attributes, const char *texcoord, mr_gltf_left *left) MR_WARN_UNUSED;
 
-/* Warns of all that is left out, with its number. */
-mr_status mr_gltf_say_left(const mr_gltf *g, mr_gltf_left *left) MR_WARN_UNUSED;
+/* Reports all that is left out. */
+void mr_gltf_say_left(const mr_gltf *g, const mr_gltf_left *left);
 
-/* Values in a buffer, some of which others stand for. */
+/* Values in a buffer. */
 typedef struct mr_accessor {
 	size_t number; /* of it in the document */
 	size_t count, components;
 	size_t kind; /* of a component, as the format numbers them: 5120 to 5126 */
 	bool normalized;
-	const unsigned char *data; /* NULL: zeros */
+	const unsigned char *data;
 	size_t stride;
-	size_t sparse;              /* rows that are replaced */
-	const unsigned char *which; /* their indices, of sparse_kind */
-	size_t sparse_kind;
-	const unsigned char *instead; /* their values, one behind the other */
 } mr_accessor;
 
 /* The accessor of the vertices' numbers; MR_UNKNOWN: there is none, or another program's of that name. */
@@ -151,7 +130,7 @@ mr_status mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a) MR_WARN_UN
  * The values as reals, normalised ones from -1 or 0 to 1.  x: a->count rows of `width`; what the accessor has
  * no component for is as it was.
  */
-mr_status mr_accessor_reals(mr_gltf *g, const mr_accessor *a, size_t width, double *x) MR_WARN_UNUSED;
+void mr_accessor_reals(const mr_accessor *a, size_t width, double *x);
 
 /* Whole numbers, each below `limit`.  index: a->count. */
 mr_status mr_accessor_indices(mr_gltf *g, const mr_accessor *a, size_t limit, uint32_t *index) MR_WARN_UNUSED;

@@ -47,9 +47,7 @@ typedef struct gltf_reader {
 	uint32_t *join;       /* n: the vertex of the model */
 	mr_tri *t, *joined;   /* nf, of vertices as the file has them, and of the model's */
 	uint32_t *object, *material;
-	size_t zeros;       /* rows of accessors without a view */
 	const char *packed; /* the extension that holds the primitive at hand; NULL: none */
-	bool picks;         /* a part does */
 	mr_gltf_left left;
 	mr_model *m;
 } gltf_reader;
@@ -61,7 +59,7 @@ find_instances(gltf_reader *r)
 {
 	const mr_gltf_instance *list;
 
-	MR_TRY(mr_gltf_scene(&r->g, &list, &r->instances, &r->left.unseen));
+	MR_TRY(mr_gltf_scene(&r->g, &list, &r->instances, &r->left.unseen, &r->left.several));
 	r->instance = MR_NEW_ZERO(r->g.ctx, r->instances, instance);
 	if (!r->instance)
 		return MR_EMEM;
@@ -121,23 +119,6 @@ packed_by(const json_t *primitive)
 	return NULL;
 }
 
-/* An accessor without a view: zeros that nobody wrote, of which there may be as many as the file has bytes,
- * or what is packed elsewhere. */
-static mr_status
-check_zeros(gltf_reader *r, const mr_accessor *a)
-{
-	if (a->data)
-		return MR_OK;
-	if (r->packed && a->sparse == 0)
-		return mr_gltf_needs(&r->g, r->packed);
-	r->zeros += a->count;
-	if (r->zeros > r->g.file_bytes)
-		return mr_fail(r->g.ctx, MR_EFORMAT,
-		    "accessor %zu: %zu rows without values cannot be in a file of %zu bytes", a->number,
-		    r->zeros, r->g.file_bytes);
-	return MR_OK;
-}
-
 /* The number of rows of an accessor whose values a column of `width` is made of. */
 static mr_status
 count_rows(gltf_reader *r, size_t accessor, size_t width, size_t *rows)
@@ -145,7 +126,10 @@ count_rows(gltf_reader *r, size_t accessor, size_t width, size_t *rows)
 	mr_accessor a;
 
 	MR_TRY(mr_accessor_open(&r->g, accessor, &a));
-	MR_TRY(check_zeros(r, &a));
+	if (!a.data && r->packed)
+		return mr_gltf_needs(&r->g, r->packed);
+	if (!a.data)
+		return mr_fail(r->g.ctx, MR_EFORMAT, "accessor %zu has no buffer view", accessor);
 	if (a.components < width || (width < 3 && a.components != width))
 		return mr_fail(r->g.ctx, MR_EFORMAT, "accessor %zu has rows of %zu numbers, not %zu",
 		    accessor, a.components, width);
@@ -154,13 +138,6 @@ count_rows(gltf_reader *r, size_t accessor, size_t width, size_t *rows)
 		    r->g.ctx, MR_EFORMAT, "accessor %zu has %zu rows, not %zu", accessor, a.count, *rows);
 	*rows = a.count;
 	return MR_OK;
-}
-
-/* Whether the indices name the points that there are. */
-static bool
-picks(const part *p)
-{
-	return p->mode == POINTS && p->indices != MR_UNKNOWN;
 }
 
 static mr_status
@@ -180,8 +157,7 @@ count_vertices(gltf_reader *r, part *p)
 		MR_TRY(count_rows(r, p->from.color, 3, &p->count));
 	if (p->from.number != MR_UNKNOWN)
 		MR_TRY(count_rows(r, p->from.number, 2, &p->count));
-	if (before && before->instance == p->instance && !picks(before) && !picks(p) &&
-	    !memcmp(&before->from, &p->from, sizeof p->from)) {
+	if (before && before->instance == p->instance && !memcmp(&before->from, &p->from, sizeof p->from)) {
 		p->first = before->first;
 		p->own = false;
 	}
@@ -226,7 +202,6 @@ read_primitive(gltf_reader *r, const json_t *json, size_t number)
 	if (p.own)
 		r->n += p.count;
 	r->nf += faces_of(p.mode, p.corners);
-	r->picks |= picks(&p);
 	i->faces |= p.mode != POINTS;
 	i->numbered &= p.from.number != MR_UNKNOWN;
 	i->last = r->n;
@@ -285,7 +260,7 @@ read_positions(gltf_reader *r, const part *p, const mr_accessor *a)
 	const mr_affine *map = &r->instance[p->instance].of->map;
 	bool moves = !mr_is_identity(map);
 
-	MR_TRY(mr_accessor_reals(&r->g, a, 3, &r->p[p->first].x));
+	mr_accessor_reals(a, 3, &r->p[p->first].x);
 	for (size_t i = 0; i < p->count; i++) {
 		mr_v3 *x = &r->p[p->first + i];
 		if (moves)
@@ -303,7 +278,7 @@ read_normals(gltf_reader *r, const part *p, const mr_accessor *a)
 	const mr_affine *map = &r->instance[p->instance].of->map;
 	bool moves = !mr_is_identity(map);
 
-	MR_TRY(mr_accessor_reals(&r->g, a, 3, &r->normal[p->first].x));
+	mr_accessor_reals(a, 3, &r->normal[p->first].x);
 	for (size_t i = 0; i < p->count; i++) {
 		mr_v3 *n = &r->normal[p->first + i];
 		if (moves && mr_finite(*n))
@@ -329,7 +304,7 @@ read_texcoords(gltf_reader *r, const part *p, const mr_accessor *a)
 	mr_gltf_texture t = { 0 };
 
 	MR_TRY(mr_gltf_texture_of(&r->g, p->from.mover, &t));
-	MR_TRY(mr_accessor_reals(&r->g, a, 2, uv));
+	mr_accessor_reals(a, 2, uv);
 	for (size_t i = 0; i < p->count; i++) {
 		if (t.moves)
 			move(&t, uv + 2 * i);
@@ -354,7 +329,7 @@ read_colors(gltf_reader *r, const part *p, const mr_accessor *a)
 		return MR_EMEM;
 	for (size_t i = 0; i < p->count; i++)
 		x[4 * i + 3] = 1;
-	MR_TRY(mr_accessor_reals(&r->g, a, 4, x));
+	mr_accessor_reals(a, 4, x);
 	for (size_t i = 0; i < p->count; i++) {
 		const double *c = x + 4 * i;
 		r->odd_colors += isnan(c[0] + c[1] + c[2] + c[3]) ? 1 : 0;
@@ -374,7 +349,7 @@ read_numbers(gltf_reader *r, const part *p, const mr_accessor *a)
 
 	if (!x)
 		return MR_EMEM;
-	MR_TRY(mr_accessor_reals(&r->g, a, 2, x));
+	mr_accessor_reals(a, 2, x);
 	for (size_t i = 0; i < p->count; i++) {
 		double number = x[2 * i] + 65536 * x[2 * i + 1];
 		r->number[p->first + i] = number >= 0 && number < MR_NONE ? (uint32_t)number : MR_NONE;
@@ -438,79 +413,6 @@ read_vertices(gltf_reader *r)
 		if (r->instance[p->instance].numbered)
 			MR_TRY(read_column(r, p, p->from.number, read_numbers));
 	}
-	return MR_OK;
-}
-
-static void
-move_vertex(gltf_reader *r, size_t to, size_t from)
-{
-	r->p[to] = r->p[from];
-	r->number[to] = r->number[from];
-	if (r->normal)
-		r->normal[to] = r->normal[from];
-	if (r->uv)
-		memmove(r->uv + 2 * to, r->uv + 2 * from, 2 * sizeof *r->uv);
-	if (r->color)
-		memmove(r->color + 4 * to, r->color + 4 * from, 4);
-}
-
-/* Which points of a part its indices name; all of another part. */
-static mr_status
-mark_points(gltf_reader *r, const part *p, bool **named)
-{
-	uint32_t *index;
-	mr_accessor a;
-
-	*named = NULL;
-	if (!picks(p))
-		return MR_OK;
-	MR_TRY(mr_accessor_open(&r->g, p->indices, &a));
-	index = MR_NEW(r->g.ctx, a.count, uint32_t);
-	*named = MR_NEW_ZERO(r->g.ctx, p->count, bool);
-	if (!index || !*named)
-		return MR_EMEM;
-	MR_TRY(mr_accessor_indices(&r->g, &a, p->count, index));
-	for (size_t i = 0; i < a.count; i++)
-		(*named)[index[i]] = true;
-	return MR_OK;
-}
-
-/* Moves a part's vertices to where the one before ends, but for points that no index names. */
-static mr_status
-pick_points(gltf_reader *r, part *p, size_t *to)
-{
-	mr_mark mark = mr_mark_take(r->g.ctx);
-	size_t from = p->first;
-	bool *named;
-
-	if (!p->own) {
-		p->first = p[-1].first;
-		return MR_OK;
-	}
-	MR_TRY(mark_points(r, p, &named));
-	p->first = *to;
-	for (size_t k = 0; k < p->count; k++)
-		if (!named || named[k])
-			move_vertex(r, (*to)++, from + k);
-	p->count = *to - p->first;
-	mr_mark_release(r->g.ctx, mark);
-	return MR_OK;
-}
-
-static mr_status
-drop_points(gltf_reader *r)
-{
-	size_t to = 0, k = 0;
-
-	if (!r->picks)
-		return MR_OK;
-	for (size_t i = 0; i < r->instances; i++) {
-		r->instance[i].first = to;
-		for (; k < r->parts && r->part[k].instance == i; k++)
-			MR_TRY(pick_points(r, &r->part[k], &to));
-		r->instance[i].last = to;
-	}
-	r->n = to;
 	return MR_OK;
 }
 
@@ -853,7 +755,6 @@ read_document(gltf_reader *r)
 	MR_TRY(find_instances(r));
 	MR_TRY(find_parts(r));
 	MR_TRY(read_vertices(r));
-	MR_TRY(drop_points(r));
 	MR_TRY(read_faces(r));
 	MR_TRY(join_vertices(r));
 	MR_TRY(join_columns(r));
@@ -863,7 +764,8 @@ read_document(gltf_reader *r)
 	r->m->nf = r->nf;
 	r->m->object = r->nf ? r->object : NULL;
 	r->m->material = r->nf ? r->material : NULL;
-	return mr_gltf_say_left(&r->g, &r->left);
+	mr_gltf_say_left(&r->g, &r->left);
+	return MR_OK;
 }
 
 mr_status

@@ -37,9 +37,9 @@ from_parts(const double t[3], const double q[4], const double s[3])
 	return a;
 }
 
-/* Makes it one of unit length, and counts it where more than its digits were rounded. */
+/* Makes it one of unit length. */
 static mr_status
-normalize(mr_ctx *ctx, double q[4], size_t *stretched)
+normalize(mr_ctx *ctx, double q[4])
 {
 	double most = fmax(fmax(fabs(q[0]), fabs(q[1])), fmax(fabs(q[2]), fabs(q[3]))), squares = 0;
 
@@ -49,15 +49,13 @@ normalize(mr_ctx *ctx, double q[4], size_t *stretched)
 		q[i] /= most; /* squares neither over- nor underflow */
 		squares += q[i] * q[i];
 	}
-	*stretched += !(fabs(most * sqrt(squares) - 1) <= 1e-3);
 	for (int i = 0; i < 4; i++)
 		q[i] /= sqrt(squares);
 	return MR_OK;
 }
 
-/* stretched: counts a rotation that is not of unit length. */
 static mr_status
-node_map(const mr_gltf *g, const json_t *node, mr_affine *map, size_t *stretched)
+node_map(const mr_gltf *g, const json_t *node, mr_affine *map)
 {
 	double m[16], t[3] = { 0, 0, 0 }, q[4] = { 0, 0, 0, 1 }, s[3] = { 1, 1, 1 };
 	bool there;
@@ -74,7 +72,7 @@ node_map(const mr_gltf *g, const json_t *node, mr_affine *map, size_t *stretched
 	}
 	MR_TRY(mr_gltf_numbers(g, node, "translation", 3, t, &there));
 	MR_TRY(mr_gltf_numbers(g, node, "rotation", 4, q, &there));
-	MR_TRY(normalize(g->ctx, q, stretched));
+	MR_TRY(normalize(g->ctx, q));
 	MR_TRY(mr_gltf_numbers(g, node, "scale", 3, s, &there));
 	*map = from_parts(t, q, s);
 	return MR_OK;
@@ -100,8 +98,7 @@ typedef struct walk {
 	bool *seen; /* of each node */
 	mr_gltf_instance *found;
 	size_t instances, found_room;
-	size_t several;   /* nodes that show their mesh several times */
-	size_t stretched; /* nodes whose rotation is not of unit length */
+	size_t several; /* nodes that show their mesh several times */
 } walk;
 
 static mr_status
@@ -142,7 +139,7 @@ visit(walk *w, waiting at)
 	mr_affine own, map;
 	size_t mesh;
 
-	MR_TRY(node_map(w->g, node, &own, &w->stretched));
+	MR_TRY(node_map(w->g, node, &own));
 	map = mr_compose(&at.above, &own);
 	MR_TRY(mr_gltf_index(w->g, node, "mesh", "meshes", &mesh));
 	w->several += mesh != MR_UNKNOWN &&
@@ -195,40 +192,24 @@ walk_scene(walk *w, size_t scene)
 	return MR_OK;
 }
 
-/* Nodes with a mesh that hang from no root of the scene. */
-static size_t
-count_unseen(const walk *w)
-{
-	size_t n = 0;
-
-	for (size_t i = 0; i < mr_gltf_size(w->g, "nodes"); i++)
-		n += !w->seen[i] && json_object_get(mr_gltf_at(w->g, "nodes", i), "mesh");
-	return n;
-}
-
-/* Meshes that no node has. */
 static mr_status
-count_unreferenced(const mr_gltf *g, size_t *count)
+count_unseen(const walk *w, size_t *count)
 {
-	size_t meshes = mr_gltf_size(g, "meshes"), mesh;
-	bool *referenced = MR_NEW_ZERO(g->ctx, meshes, bool);
+	size_t meshes = mr_gltf_size(w->g, "meshes");
+	bool *seen = MR_NEW_ZERO(w->g->ctx, meshes, bool);
 
-	if (!referenced)
+	if (!seen)
 		return MR_EMEM;
-	for (size_t i = 0; i < mr_gltf_size(g, "nodes"); i++) {
-		MR_TRY(mr_prefix(g->ctx, mr_gltf_index(g, mr_gltf_at(g, "nodes", i), "mesh", "meshes", &mesh),
-		    "node %zu", i));
-		if (mesh != MR_UNKNOWN)
-			referenced[mesh] = true;
+	*count = meshes;
+	for (size_t i = 0; i < w->instances; i++) {
+		*count -= !seen[w->found[i].mesh];
+		seen[w->found[i].mesh] = true;
 	}
-	*count = 0;
-	for (size_t i = 0; i < meshes; i++)
-		*count += !referenced[i];
 	return MR_OK;
 }
 
 mr_status
-mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr_gltf_unseen *unseen)
+mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *unseen, size_t *several)
 {
 	const mr_affine identity = mr_identity();
 	size_t scene, scenes = mr_gltf_size(g, "scenes");
@@ -240,13 +221,10 @@ mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, mr
 	if (scenes && scene == MR_UNKNOWN)
 		scene = 0;
 	MR_TRY(walk_scene(&w, scene));
-	mr_tell(g->ctx, MR_ROUNDED, w.stretched, "rotations of nodes");
-	*unseen = (mr_gltf_unseen){ scenes > 1 ? scenes - 1 : 0, count_unseen(&w), 0, w.several };
-	if (scenes + w.instances > 0)
-		MR_TRY(count_unreferenced(g, &unseen->meshes));
-	else
-		for (size_t i = 0; i < mr_gltf_size(g, "meshes"); i++)
-			MR_TRY(push_instance(&w, i, &identity, NULL));
+	for (size_t i = 0; scenes + w.instances == 0 && i < mr_gltf_size(g, "meshes"); i++)
+		MR_TRY(push_instance(&w, i, &identity, NULL));
+	MR_TRY(count_unseen(&w, unseen));
+	*several = w.several;
 	*list = w.found;
 	*count = w.instances;
 	return MR_OK;

@@ -381,34 +381,6 @@ put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
 
 /* ---- writing ---- */
 
-/* Refuses the name of a file that materials of the frame are in, and that no maps have made. */
-static mr_status
-check_library(mr_ctx *ctx, mr_frame *f, const char *name)
-{
-	static const char *const layers[] = { "mesh", "control", "base" };
-	const char *own = mr_format(ctx, "%s.mtl", name_of(name)), **library;
-	const void *files;
-	size_t bytes, count;
-	bool mapped;
-
-	if (!own)
-		return MR_EMEM;
-	for (size_t i = 0; i < sizeof layers / sizeof *layers; i++) {
-		if (!mr_layer_has(f, layers[i], "mtllib"))
-			continue;
-		MR_TRY(is_mapped(ctx, f, layers[i], &mapped));
-		MR_TRY(mr_layer_get(ctx, f, layers[i], "mtllib", &files, &bytes));
-		MR_TRY(mr_lines_starts(ctx, (mr_lines){ files, bytes }, &library, &count));
-		for (size_t k = 0; k < count && !mapped; k++)
-			if (!strncmp(library[k], own, strlen(own)) &&
-			    library[k + 1] - library[k] - 1 == (ptrdiff_t)strlen(own))
-				return mr_fail(ctx, MR_EUSAGE,
-				    "%s has the materials of %s, and would be lost: give another name", own,
-				    layers[i]);
-	}
-	return MR_OK;
-}
-
 /* It is a material's name, too, on a line of its own. */
 static mr_status
 check_name(mr_ctx *ctx, const char *name)
@@ -477,7 +449,6 @@ write_map(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *o, mr_m
 
 	mr_unmeasured(r, sizeof *r);
 	MR_TRY(check_name(ctx, name));
-	MR_TRY(check_library(ctx, f, name));
 	MR_TRY(prepare(ctx, f, o, &m));
 	if (f->key && mr_layer_has(f, "mesh", "detail_face"))
 		mr_lost(ctx, "base", 1, "the pose");

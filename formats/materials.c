@@ -24,10 +24,6 @@ typedef struct finder {
 
 const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
 
-/* What is lost of a material: bits of `lost`, these first, then a bit for each statement of unused[]. */
-enum { HIDDEN, DESCRIBED_BEFORE, LOSSES };
-static const char *const losses[LOSSES] = { "Kd beside map_Kd", "all but the last description" };
-
 /* ---- files ---- */
 
 static bool
@@ -192,7 +188,6 @@ new_material(finder *f, const char *name)
 		if (name_bytes(f, i) != bytes || memcmp(f->name[i], name, bytes))
 			continue;
 		f->list[i] = mr_material_plain;
-		f->list[i].lost = f->match[i] ? 1u << DESCRIBED_BEFORE : 0;
 		f->match[i] = true;
 		f->at[f->ats++] = i;
 	}
@@ -303,7 +298,7 @@ static const struct {
 
 enum { UNUSED = sizeof unused / sizeof *unused };
 
-_Static_assert(LOSSES + UNUSED <= 32, "a bit for each");
+_Static_assert(UNUSED <= 32, "a bit for each");
 
 static bool
 says_something(const char *s, double neutral)
@@ -323,17 +318,7 @@ note_unused(mr_material *m, const char *line)
 
 	for (size_t k = 0; k < UNUSED; k++)
 		if ((rest = behind(line, unused[k].name)) && says_something(rest, unused[k].neutral))
-			m->lost |= 1u << (LOSSES + k);
-}
-
-/* A colour multiplies the picture of its material. */
-static void
-note_hidden(mr_material *m)
-{
-	const double *c = m->color;
-
-	if (m->file && m->colored && (c[0] != 1 || c[1] != 1 || c[2] != 1))
-		m->lost |= 1u << HIDDEN;
+			m->lost |= 1u << k;
 }
 
 /* Whether an option, its values up to `end`, is as if it were not there. */
@@ -542,8 +527,6 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 		mr_tell(ctx, MR_ROUNDED, f.clipped, "numbers of materials");
 		say_unknown(&f);
 	}
-	for (size_t i = 0; i < f.count; i++)
-		note_hidden(&f.list[i]);
 	*list = f.list;
 	*count = f.count;
 	return MR_OK;
@@ -552,6 +535,6 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 void
 mr_materials_lost(mr_ctx *ctx, unsigned lost)
 {
-	for (size_t k = 0; k < LOSSES + UNUSED; k++)
-		mr_lost(ctx, "materials", lost >> k & 1, k < LOSSES ? losses[k] : unused[k - LOSSES].name);
+	for (size_t k = 0; k < UNUSED; k++)
+		mr_lost(ctx, "materials", lost >> k & 1, unused[k].name);
 }

@@ -1,6 +1,4 @@
 /* OBJ: polygons, corners with what the model has, and what the faces are marked with wherever it changes. */
-#include "base/name_table.h"
-#include "base/text.h"
 #include "formats/format.h"
 
 /* The vt or vn lines: one for each vertex, or for each value that corners have. */
@@ -159,30 +157,6 @@ put_mark(mr_sink *s, marks *k, size_t f)
 	}
 }
 
-/* Whoever reads the file takes what is called alike for one. */
-static mr_status
-lose_namesakes(mr_sink *s, const marks *k, size_t nf)
-{
-	bool *used = MR_NEW_ZERO(s->ctx, k->names, bool);
-	mr_name_table names = { 0 };
-	size_t count = 0;
-	uint32_t number;
-
-	if (!used)
-		return MR_EMEM;
-	for (size_t f = 0; f < nf; f++)
-		if (k->of[f] < k->names)
-			used[k->of[f]] = true;
-	for (size_t i = 0; i < k->names; i++)
-		if (used[i]) {
-			MR_TRY(mr_name_number(s->ctx, &names, k->start[i],
-			    (size_t)(k->start[i + 1] - k->start[i]) - 1, &number));
-			count++;
-		}
-	mr_tell(s->ctx, MR_LOST, count - names.count, "%ss of the same name", k->what);
-	return MR_OK;
-}
-
 static void
 put_smoothing(mr_sink *s, marks *k, size_t f)
 {
@@ -207,10 +181,8 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 	mr_polygons faces;
 
 	for (size_t k = 0; k < 3; k++)
-		if (all[k].of) {
+		if (all[k].of)
 			MR_TRY(mr_lines_starts(s->ctx, names[k], &all[k].start, &all[k].names));
-			MR_TRY(lose_namesakes(s, &all[k], m->nf));
-		}
 	MR_TRY(mr_faces_of(s, m, &faces));
 	for (size_t i = 0; i < faces.count; i++) {
 		size_t f = mr_polygon_corner(&faces, mr_polygon_begin(&faces, i)) / 3;

@@ -159,45 +159,12 @@ put_names(const output *w, const char *what, mr_lines names)
 	}
 }
 
-/* Whether the header has that name already: one of ours, or an earlier property's. */
-static bool
-is_taken(const mr_model *m, size_t property)
-{
-	const struct {
-		const char *name;
-		char element;
-		bool there;
-	} own[] = { { "x", 'v', true }, { "y", 'v', true }, { "z", 'v', true }, { "nx", 'v', m->normal },
-		{ "ny", 'v', m->normal }, { "nz", 'v', m->normal }, { "red", 'v', m->color },
-		{ "green", 'v', m->color }, { "blue", 'v', m->color }, { "alpha", 'v', m->color },
-		{ "s", 'v', m->texcoord }, { "t", 'v', m->texcoord }, { "scanner_x", 'v', m->scanner },
-		{ "scanner_y", 'v', m->scanner }, { "scanner_z", 'v', m->scanner },
-		{ "vertex_indices", 'f', true }, { "texcoord", 'f', m->corner_texcoord },
-		{ "corner_normal", 'f', m->corner_normal }, { "group", 'f', m->group },
-		{ "object", 'f', m->object }, { "material", 'f', m->material },
-		{ "smoothing", 'f', m->smoothing } };
-	const mr_property *p = &m->property[property];
-
-	for (size_t k = 0; k < sizeof own / sizeof *own; k++)
-		if (own[k].there && own[k].element == p->shape.element && !strcmp(own[k].name, p->name))
-			return true;
-	for (size_t i = 0; i < property; i++)
-		if (m->property[i].shape.element == p->shape.element && !strcmp(m->property[i].name, p->name))
-			return true;
-	return false;
-}
-
 static void
 put_property_lines(const output *w, char element)
 {
-	for (size_t i = 0; i < w->m->properties; i++) {
-		const mr_property *p = &w->m->property[i];
-		bool taken;
-		if (p->shape.element != element)
-			continue;
-		taken = is_taken(w->m, i);
-		mr_print(w->s, "property %s %s%s\n", types[w->type[i]].name, taken ? "other_" : "", p->name);
-	}
+	for (size_t i = 0; i < w->m->properties; i++)
+		if (w->m->property[i].shape.element == element)
+			mr_print(w->s, "property %s %s\n", types[w->type[i]].name, w->m->property[i].name);
 }
 
 static void

@@ -119,14 +119,10 @@ static void
 tell(const mr_ctx *ctx, void (*hear)(void *user, const char *text), const char *format, va_list args)
 {
 	char text[MR_ERROR_MAX];
-	int n = 0;
 
 	if (!hear)
 		return;
-	if (ctx->subject)
-		n = snprintf(text, sizeof text / 2, "%s: ", ctx->subject);
-	n = n < (int)sizeof text / 2 ? n : (int)sizeof text / 2 - 1;
-	vsnprintf(text + n, sizeof text - (size_t)n, format, args);
+	vsnprintf(text, sizeof text, format, args);
 	hear(ctx->listener.user, text);
 }
 

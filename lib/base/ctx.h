@@ -43,8 +43,6 @@ typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
 struct mr_ctx {
 	unsigned threads; /* at least 1 */
 	mr_listener listener;
-	const char
-	    *subject; /* of remarks and warnings, before which it stands: the file that is read; NULL: none */
 	/* From now on, or no longer, this file is to be removed if the process is ended; NULL: nobody does.
 	 */
 	void (*unfinished)(void *user, const char *file, bool on);
