@@ -159,12 +159,22 @@ put_names(const output *w, const char *what, mr_lines names)
 	}
 }
 
+/* A column of a table may be called as a coordinate, too. */
+static bool
+is_coordinate(const mr_property *p)
+{
+	return p->shape.element == 'v' && strchr("xyz", *p->name) && !p->name[1];
+}
+
 static void
 put_property_lines(const output *w, char element)
 {
-	for (size_t i = 0; i < w->m->properties; i++)
-		if (w->m->property[i].shape.element == element)
-			mr_print(w->s, "property %s %s\n", types[w->type[i]].name, w->m->property[i].name);
+	for (size_t i = 0; i < w->m->properties; i++) {
+		const mr_property *p = &w->m->property[i];
+		if (p->shape.element == element)
+			mr_print(w->s, "property %s %s%s\n", types[w->type[i]].name,
+			    is_coordinate(p) ? "other_" : "", p->name);
+	}
 }
 
 static void
