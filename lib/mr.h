@@ -77,8 +77,8 @@ MR_API const char *mr_error(const mr_ctx *ctx);
 
 typedef struct mr_v3 { double x, y, z; } mr_v3;
 
-/* Findings: what a user should know of a result that is given all the same; man/mr-findings.7 explains each kind.
- * First those of a surface, by comparing it with what it was; then of data; then those that an algorithm alone knows. */
+/* Findings: what a user should know of a result that is given all the same; man/mr-findings.7 explains each.
+ * First those of a surface, by comparing it with what it was; then of data; then what algorithms alone know. */
 #define MR_FINDINGS(X) \
 	X(FOLDED, "folded") X(CROSSING, "crossing") X(COLLIDED, "collided") X(TORN, "torn") \
 	X(COARSE, "coarse") X(APART, "apart") X(MISSED, "missed") X(VOLUME, "volume") X(SHRUNK, "shrunk") \

@@ -123,7 +123,7 @@ mr_column_kind(const mr_column *c)
 	for (size_t i = 0; c->shape.type == 'd' && i < c->rows; i++) {
 		if (isfinite(x[i]) && x[i] != floor(x[i]))
 			return MR_MEAN;
-		known += isfinite(x[i]);
+		known += isfinite(x[i]) ? 1 : 0;
 	}
 	return known || c->shape.type != 'd' ? MR_LABEL : MR_MEAN;
 }

@@ -374,18 +374,31 @@ cast(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, bool 
 	return true;
 }
 
-VECTORS bool
-mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
+/* Clones are static: their resolvers would be visible outside of the library. */
+VECTORS static bool
+cast_first(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
 {
 	return cast(bvh, origin, dir, tmin, tmax, false, hit);
 }
 
-VECTORS double
+VECTORS static bool
+cast_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
+{
+	return cast(bvh, origin, dir, tmin, tmax, true, hit);
+}
+
+bool
+mr_bvh_ray(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
+{
+	return cast_first(bvh, origin, dir, tmin, tmax, hit);
+}
+
+double
 mr_bvh_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax)
 {
 	mr_ray_hit hit;
 
-	return cast(bvh, origin, dir, tmin, tmax, true, &hit) ? hit.t : tmax;
+	return cast_across(bvh, origin, dir, tmin, tmax, &hit) ? hit.t : tmax;
 }
 
 const uint32_t *
