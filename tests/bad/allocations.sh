@@ -3,12 +3,16 @@
 [ -z "$SAN" ] || { echo "a sanitizer has its own malloc"; exit 77; }
 cc -shared -fPIC -O1 -o malloc.so "$TOP/tests/faults/malloc.c" || exit
 export OPENBLAS_NUM_THREADS=1 OMP_NUM_THREADS=1
-shown=0 runs=0 failed=0
+runs=0 failed=0
+mkdir made
 
+is_empty() { # folder
+	set -- "$1"/*
+	[ ! -e "$1" ]
+}
 # What came of one run: in $code and the files out, made and err.
 run() { # command
-	rm -rf made
-	mkdir made
+	is_empty made || rm -rf made/*
 	timeout 60 env LD_PRELOAD="$PWD/malloc.so" "$@" >out 2>err
 	code=$?
 }
@@ -19,7 +23,7 @@ complain() {
 judge() {
 	case $code in
 	0)
-		cmp -s out good && diff -r made good.made >differences 2>&1 || complain "other bytes: $*"
+		cmp -s out good && { is_empty made && is_empty good.made || diff -r made good.made >differences 2>&1; } || complain "other bytes: $*"
 		;;
 	1)
 		grep -q . err && ! grep -q ': *$' err || complain "no sentence: $*"
@@ -30,10 +34,10 @@ judge() {
 	*) complain "exit $code: $*" ;;
 	esac
 }
-# Allocations 1 to 32, then 1/5 further on.
+# Allocations 1 to 12, then 2/5 further on.
 every() {
 	[ -z "$LONG" ] || { seq "$1"; return; }
-	awk -v n="$1" 'BEGIN { for (k = 1; k <= n; k = k < 32 ? k + 1 : k + int(k / 5)) print k }'
+	awk -v n="$1" 'BEGIN { for (k = 1; k <= n; k += k < 12 ? 1 : int(2 * k / 5)) print k }'
 }
 try() { # command
 	unset FAIL_AT

@@ -1,5 +1,6 @@
 # More data than a browser takes: one sentence that says what to do, and no page; fewer layers of the same make one.
 [ -z "$SAN" ] || { echo "gigabytes, in which sanitizers see what is in megabytes"; exit 77; }
+[ -n "$LONG" ] || { echo "gigabytes: make check-long"; exit 77; }
 cat >noise.py <<'X'
 import random, struct, sys, zlib
 random.seed(1)

@@ -69,7 +69,7 @@ END
 mr-encode placed.mrs >out
 echo "exit $?, $(wc -c <out) bytes"
 mr-info --check placed.mrs >out; echo "exit $?"
-[ -n "$SAN" ] || others='armadillo.off horse.ply igea.ply'
+[ -z "$LONG" ] || others='armadillo.off horse.ply igea.ply'
 for name in ${DATA:+bunny00.off $others}; do
 	mr-import "$DATA/meshes/$name.gz" | mr-smooth | mr-remesh -o data.mrs &&
 	    check data 0.99 >verdict && back data >>verdict && ! grep bad verdict || echo "$name: bad: $(cat verdict)"

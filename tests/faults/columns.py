@@ -2,7 +2,7 @@
 usage: columns.py STEP COMMAND...
 Each word of the command that names a stream is replaced by that stream damaged, in every STEP-th of the ways: each column's first,
 middle or last value, or all, is another, or it has fewer or more rows."""
-import math, resource, signal, struct, subprocess, sys, zlib
+import itertools, math, resource, signal, struct, subprocess, sys, zlib
 
 NUMBERS = {
     b"d": ("<d", [math.nan, math.inf, 1e300, -1e300, 1e31, 9e29, 1e-29, 5e-324, -1.0, 0.0]),
@@ -49,15 +49,15 @@ def damaged(stream):
         changes += [("%d rows of %d" % (k, rows), k, (data + data)[: k * row]) for k in (0, rows // 2, rows - 1, rows + 1)]
         end = at + 64 + (len(data) + 63) // 64 * 64
         for what, k, other in changes:
-            yield "%s of %s: %s" % (name, layer, what), stream[:at] + record(head, k, other) + stream[end:]
+            yield "%s of %s: %s" % (name, layer, what), (at, end, head, k, other)
 
 
 def is_lawful(stream):
     return subprocess.run(["mr-info", "--check"], input=stream, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL).returncode == 0
 
 
-def fault(command, was_lawful):
-    """What is wrong with the command's end, or nothing."""
+def fault(command, stream):
+    """What is wrong with the end of the command, which was given the stream, or nothing."""
     limit = lambda: resource.setrlimit(resource.RLIMIT_CPU, (60, 70))
     p = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, preexec_fn=limit)
     if p.returncode == -signal.SIGXCPU:
@@ -66,7 +66,7 @@ def fault(command, was_lawful):
         return None
     if p.returncode:
         return "exit %d: %s" % (p.returncode, p.stderr[:200])
-    if p.stdout.startswith(b"mrmeshs1") and was_lawful and not is_lawful(p.stdout):
+    if p.stdout.startswith(b"mrmesh1") and is_lawful(stream) and not is_lawful(p.stdout):
         return "a result that breaks a law"
     return None
 
@@ -80,10 +80,12 @@ for i, word in enumerate(command):
     if not word.endswith(".mrs") or command[i - 1] == "-o":
         continue
     stream = subprocess.run(["mr-cat", "-u", word], stdout=subprocess.PIPE, check=True).stdout
-    for what, other in list(damaged(stream))[zlib.crc32(" ".join(command).encode()) % step :: step]:
+    first = zlib.crc32(" ".join(command).encode()) % step
+    for what, (at, end, head, rows, data) in itertools.islice(damaged(stream), first, None, step):
+        other = stream[:at] + record(head, rows, data) + stream[end:]
         open("damaged.mrs", "wb").write(other)
         runs += 1
-        told = fault(command[:i] + ["damaged.mrs"] + command[i + 1 :], is_lawful(other))
+        told = fault(command[:i] + ["damaged.mrs"] + command[i + 1 :], other)
         if told:
             wrong += 1
             print("%s: %s: %s" % (" ".join(command), what, told))

@@ -187,13 +187,15 @@ def row(task):
     return tally, lines, slow
 
 
-def models(small):
-    made = [path for path in uglies.write(os.path.abspath("uglies")) if not small or not path.endswith(BETWEEN)]
+def models(small, pattern):
+    def wanted(path):
+        return any(pattern in f"{os.path.basename(path)} {job[0]}" for job in JOBS)
+    made = uglies.write(os.path.abspath("uglies"), lambda path: wanted(path) and not (small and path.endswith(BETWEEN)))
     data = os.environ.get("DATA") if not small else None
     found = [os.path.join(where, name) for folder in ("meshes", "points", "malformed", "faults")
              for where, _, names in os.walk(os.path.join(data, folder)) for name in names
              if not name.endswith((".mtl", ".md", ".mrs", ".png", ".jpg"))] if data else []
-    return made + sorted(found, key=lambda path: (os.path.getsize(path), path))
+    return made + sorted(filter(wanted, found), key=lambda path: (os.path.getsize(path), path))
 
 
 def by_default_signals():
@@ -205,7 +207,7 @@ def main(arguments):
     small = arguments[:1] == ["--small"]
     pattern = "".join(arguments[small:])
     sparse = int(os.environ.get("SPARSE") or 1) if small else 1
-    tasks = [(model, pattern, small) for model in models(small) if any(pattern in f"{os.path.basename(model)} {job[0]}" for job in JOBS)][::sparse]
+    tasks = [(model, pattern, small) for model in models(small, pattern)][::sparse]
     total, worst, done = {"good": 0, "refused": 0, "wrong": 0}, [], 0
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:

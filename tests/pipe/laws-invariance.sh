@@ -5,6 +5,10 @@ bad() {
 	fail=1
 }
 
+some() { # words: some of them, or all with LONG=1
+	"$TOP/tests/sampled" 3 "$@"
+}
+
 # What is done to a model: mesh.off; points.off and control.off, a control mesh for them.
 smooth() { mr-import mesh.off | mr-smooth | mr-export -l base -f off -; }
 taubin() { mr-import mesh.off | mr-smooth -m taubin | mr-export -l base -f off -; }
@@ -139,63 +143,63 @@ turn_back="$t $t -$o  -$o $t $t  $t -$o $t  0 0 0"
 # A power of two scales all numbers and rounds none: decision by decision the same.
 all='smooth taubin remesh simplify edit wrap cube volume fit paper heights unfitted robust whole'
 model bumpy 3000
-for do in $all; do
+for do in $(some $all); do
 	carry smaller "$down" "$up" $do && near 0 || bad "$what: fails"
 done
 [ -z "$SAN" ] || exit $fail # a sanitizer has seen what there is to see
 model knot 3000
-for do in $all; do
+for do in $(some $all); do
 	carry larger "$up" "$down" $do && near 0 || bad "$what: fails"
 done
 
 # Moved, all is as it was but for rounding: 5e-15 of the diagonal.  (Through mr-smooth and mr-remesh together that may turn
 # a decision over, and does.)
-for do in smooth taubin remesh simplify wrap fit paper heights unfitted robust; do
+for do in $(some smooth taubin remesh simplify wrap fit paper heights unfitted robust); do
 	carry moved "$away" "$back" $do && near 1e-13 || bad "$what: fails"
 done
 carry moved "$away" "$back" bend && near 1e-9 || bad "$what: fails" # 1e-11, by the condition of a thin plate
 
 # A million diagonals away a number has 31 bits of the 52 left: 5e-10 of the diagonal, and no decision is another one.  (Measured
 # were 1.4e-8, and 2e-7 of wraps, which go many small ways.)
-for do in smooth taubin remesh simplify paper heights robust bend; do
+for do in $(some smooth taubin remesh simplify paper heights robust bend); do
 	carry 'far away' "$far" "$near_again" $do && near 3e-8 || bad "$what: fails"
 done
-for do in cube volume fit; do
+for do in $(some cube volume fit); do
 	carry 'far away' "$far" "$near_again" $do && near 1e-6 || bad "$what: fails"
 done
 
 # At fifty million diagonals, as of a hand in a country's coordinates, 2e-8 of the diagonal is left, and still no decision is
 # another one.  (Measured were 7e-7, and 2e-5 of heights.)
-for do in smooth taubin remesh simplify edit paper bend; do
+for do in $(some smooth taubin remesh simplify edit paper bend); do
 	carry 'very far away' "$very_far" "$near_once_more" $do && near 1e-5 || bad "$what: fails"
 done
-for do in fit heights robust; do
+for do in $(some fit heights robust); do
 	carry 'very far away' "$very_far" "$near_once_more" $do && near 1e-4 || bad "$what: fails"
 done
 
 # A half turn changes signs and rounds nothing.
-for do in smooth taubin paper unfitted; do
+for do in $(some smooth taubin paper unfitted); do
 	carry 'half a turn' "$half" "$half" $do && near 0 || bad "$what: fails"
 done
 
 # What does not look at the axes turns with them but for rounding: 1e-15 of the diagonal.  (A point at the edge of two
 # triangles of a displaced surface may stand on either of them: heights are fitted to it a little otherwise.)
-for do in smooth taubin fit paper heights unfitted robust; do
+for do in $(some smooth taubin fit paper heights unfitted robust); do
 	case $do in heights | robust) bound=1e-5 ;; *) bound=1e-13 ;; esac
 	carry 'a third of a turn' "$third" "$third_back" $do && near 1e-13 || bad "$what: fails"
 	carry turned "$turn" "$turn_back" $do && near $bound || bad "$what: fails"
 done
-for do in remesh simplify wrap whole; do
+for do in $(some remesh simplify wrap whole); do
 	case $do in remesh | simplify) truth=mesh ;; *) truth=truth ;; esac
 	carry 'a third of a turn' "$third" "$third_back" $do && alike $truth || bad "$what: fails"
 	carry turned "$turn" "$turn_back" $do && alike $truth || bad "$what: fails"
 done
 
 # The order of points is that of sums; those over the cells of a volume are of single precision.
-for do in cube paper unfitted; do
+for do in $(some cube paper unfitted); do
 	reorder $do && near 0 || bad "$what: fails"
 done
-for do in fit heights robust; do
+for do in $(some fit heights robust); do
 	reorder $do && near 1e-13 || bad "$what: fails"
 done
 reorder volume && near 1e-7 || bad "$what: fails"
@@ -203,7 +207,7 @@ reorder volume && near 1e-7 || bad "$what: fails"
 # wrap, what a control mesh is dense by: in another order others do.
 reorder whole && alike truth || bad "$what: fails"
 model boxes 8000
-for do in fit heights robust; do
+for do in $(some fit heights robust); do
 	reorder $do && near 1e-12 || bad "$what: fails"
 done
 reorder wrap && alike truth || bad "$what: fails"

@@ -7,8 +7,8 @@ bad() {
 	echo "$*"
 	fail=1
 }
-mr-make bumpy -n 9000 -o mesh.mrs
-mr-make bumpy --points 9000 --noise 0.002 -o points.mrs
+mr-make bumpy -n 6000 -o mesh.mrs
+mr-make bumpy --points 6000 --noise 0.002 -o points.mrs
 try() { # result or -, command
 	made=$1
 	shift
@@ -21,7 +21,7 @@ try() { # result or -, command
 	fi
 	[ "$made" = - ] || mv eight "$made"
 }
-try - mr-make bumpy -n 9000 --noise 0.001
+try - mr-make bumpy -n 6000 --noise 0.001
 try off mr-export -f off -i mesh.mrs -
 try - mr-import -f off off
 try smooth.mrs mr-smooth mesh.mrs
@@ -43,11 +43,11 @@ try - mr-normals -l points points.mrs
 try - mr-shrinkwrap -m volume points.mrs
 try wrap.mrs mr-shrinkwrap -m cube -r 16 points.mrs
 try control.mrs mr-simplify -n 400 wrap.mrs
-try fit.mrs mr-fit control.mrs
-try - mr-fit -m local control.mrs
-try displaced.mrs mr-sample fit.mrs
-try - mr-sample -m robust fit.mrs
-try - mr-sample -m triangle fit.mrs
+try fit.mrs mr-fit -n 2 control.mrs
+try - mr-fit -n 2 -m local control.mrs
+try displaced.mrs mr-sample -n 2 fit.mrs
+try - mr-sample -n 2 -m robust fit.mrs
+try - mr-sample -n 2 -m triangle fit.mrs
 try - mr-decode displaced.mrs
 try - mr-equalize --gain 1,0.5 displaced.mrs
 try - mr-subdivide -n 2 --limit control.mrs
