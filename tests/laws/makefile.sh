@@ -1,5 +1,5 @@
 # A changed header rebuilds what includes it and nothing else; changed flags rebuild everything; a staged install is whole;
-# make help tells of every target.
+# make help-all tells of every target.
 command -v make >/dev/null || { echo "no make"; exit 77; }
 here=$PWD
 cd "$TOP" || exit
@@ -10,9 +10,9 @@ if make -n all | grep -q ' -c -o '; then
 	echo "the sources have changed since they were built"
 	exit 77
 fi
-make help >"$here/help" 2>&1
-for target in $(sed -n 's/^\.PHONY: all units //p' Makefile); do
-	grep -q "^make $target  *[^ ]" "$here/help" || { echo "make help does not tell of $target"; fail=1; }
+make help-all >"$here/help" 2>&1
+for target in $(sed -n 's/^\.PHONY: \(all units help help-all \)*//p' Makefile .ci/*.mk); do
+	grep -q "^make $target  *[^ ]" "$here/help" || { echo "make help-all does not tell of $target"; fail=1; }
 done
 would=$(make -n -W lib/space/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
 for source in $(echo "$would"); do

@@ -14,13 +14,13 @@ sh -e ../blocks >../said 2>&1 || { cat ../said; echo "an example of README.md fa
 cd .. || exit
 
 # Pages, and the targets that they call by `make X` or on a line of their own.
-for page in README.md .github/CONTRIBUTING.md .github/CHANGES.md lib/README.md tests/bench/README.md; do
+for page in README.md .github/CONTRIBUTING.md .github/CHANGES.md lib/README.md tests/README.md tests/bench/README.md; do
 	file=$TOP/$page
 	for link in $(grep -oE '\]\([^)#]*\)' "$file" | sed 's/](//; s/)$//' | grep -v '^http'); do
 		[ -e "$(dirname "$file")/$link" ] || { echo "$page names $link, which is not there"; fail=1; }
 	done
 	for target in $(grep -oE '(`|^)make [a-z][a-z0-9]*' "$file" | sed 's/.* //' | sort -u); do
-		grep -q "^$target:" "$TOP/Makefile" || { echo "$page names make $target, which is not there"; fail=1; }
+		grep -q "^$target:" "$TOP/Makefile" "$TOP"/.ci/*.mk || { echo "$page names make $target, which is not there"; fail=1; }
 	done
 	for bench in $(grep -oE 'make bench T=[a-z]+' "$file" | sed 's/.*=//' | sort -u); do
 		[ -e "$TOP/tests/bench/bench_$bench.sh" ] || [ $bench = NAME ] || { echo "$page names bench $bench, which is not there"; fail=1; }

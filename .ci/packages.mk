@@ -1,0 +1,37 @@
+# Packages
+#
+#	make dist         the sources as a tarball, mr-VERSION.tar.gz, in $(BUILD)
+#	make deb          Debian packages of tools, library and headers, by .debian, in $(BUILD)/deb
+#	make check-deb    builds them twice, elsewhere: the same bytes; tries them in a new system; as root
+#	make check-arm64  builds for arm64 and compares what the tools give, under qemu, with these; as root
+
+# The tracked files as they stand, or, where there is no git, all; in one order, as of the last commit: the same bytes
+# anywhere.
+DIST   := mr-$(VERSION)
+EPOCH   = $(or $(SOURCE_DATE_EPOCH),$(shell git log -1 --format=%ct 2>/dev/null || date -r Makefile +%s))
+SOURCES = $(if $(wildcard .git),git ls-files,find . -type f ! -path './build/*' ! -path './demo/*' | sed 's,^\./,,')
+dist:
+	@mkdir -p $(BUILD)
+	$(call say,pack   )$(SOURCES) | LC_ALL=C sort | tar -cf $(BUILD)/$(DIST).tar --no-recursion --mtime=@$(EPOCH) \
+		--owner=0 --group=0 --numeric-owner \
+		--mode=u+rw,go+rX,go-w,a-s --format=ustar --transform='s,^,$(DIST)/,' -T - && gzip -9nf \
+		$(BUILD)/$(DIST).tar
+
+# Packages are built from the tarball, in which .debian has the name that Debian asks for.
+deb: dist | setup
+	rm -rf $(BUILD)/deb && mkdir -p $(BUILD)/deb && tar -xzf $(BUILD)/$(DIST).tar.gz -C $(BUILD)/deb
+	cp $(BUILD)/$(DIST).tar.gz $(BUILD)/deb/mr-tools_$(VERSION).orig.tar.gz
+	cp -pR $(BUILD)/deb/$(DIST)/.debian $(BUILD)/deb/$(DIST)/debian && chmod -R u=rwX,go=rX \
+		$(BUILD)/deb/$(DIST)/debian
+	cd $(BUILD)/deb/$(DIST) && env -u MAKEFLAGS -u MFLAGS -u MAKELEVEL -u BUILD \
+		DEB_BUILD_OPTIONS='parallel=$(JOBS) $(DEB_BUILD_OPTIONS)' \
+		dpkg-buildpackage -us -uc $(DEBFLAGS) >../build.log 2>&1 || { tail -n 30 ../build.log; exit 1; }
+	@ls $(BUILD)/deb/*.deb
+
+check-deb: dist $(TOOLS) $(BUILD)/$(SONAME) | setup
+	@$(RUN) tests/deb '$(abspath $(BUILD))/$(DIST).tar.gz' '$(abspath $(BUILD))/check-deb'
+
+check-arm64: $(TOOLS) | setup
+	@$(RUN) tests/arm64 '$(abspath $(BUILD))/arm64'
+
+.PHONY: dist deb check-deb check-arm64

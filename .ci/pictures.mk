@@ -1,0 +1,18 @@
+# What README.md shows
+#
+#	make readme   its generated parts
+#	make picture  examples/page.png, the picture of the page, by Chromium, which it installs
+#	make table1   the paper's comparison of solvers, as text and picture, in $(BUILD)/table1
+
+table1: $(TOOLS) $(BUILD)/bench/plot
+	@$(RUN) PATH='$(abspath $(BUILD))/bin:$(abspath $(BUILD))/bench:$(PATH)' sh tests/bench/table1.sh \
+		'$(BUILD)/table1'
+
+readme:
+	@tests/readme >$(BUILD)/README.md && cat $(BUILD)/README.md >README.md
+	@tests/findings >$(BUILD)/findings.7 && cat $(BUILD)/findings.7 >man/mr-findings.7
+
+picture: demo/index.html
+	@PYTHONDONTWRITEBYTECODE=1 python3 tests/page/picture.py $< examples/page.png
+
+.PHONY: table1 readme picture
