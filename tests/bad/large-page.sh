@@ -2,27 +2,24 @@
 [ -z "$SAN" ] || { echo "gigabytes, in which sanitizers see what is in megabytes"; exit 77; }
 [ -n "$LONG" ] || { echo "gigabytes: make check-long"; exit 77; }
 cat >noise.py <<'X'
-import random, struct, sys, zlib
+import random, struct, sys
+from records import END, START, record
 random.seed(1)
-def record(layer, name, shape=(b"-", b"t", 1), rows=0, data=b""):
-	h = layer.ljust(16, b"\0") + name.ljust(24, b"\0") + shape[0] + shape[1] + bytes([shape[2], 0])
-	tail = struct.pack("<QQ", rows, len(data))
-	return h + struct.pack("<I", zlib.crc32(data, zlib.crc32(h + b"\0\0\0\0" + tail))) + tail + data + b"\0" * (-len(data) % 64)
 n = 2000000
 noise = random.randbytes(4 * n)
 def frame(name):
-	yield record(b"", b"FRAME", rows=len(name) + 4, data=b"key " + name)
+	yield record(b"", b"FRAME", data=b"key " + name)
 	for layer, columns in ((b"points", 6), (b"few", 0)):
 		rows = n if columns else 3
-		yield record(layer, b"position", (b"v", b"d", 3), rows, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes(24 * (rows - 3)))
+		yield record(layer, b"position", b"vd\3", rows, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0) + bytes(24 * (rows - 3)))
 		for i in range(columns):
-			yield record(layer, b"noise%d" % i, (b"v", b"b", 4), rows, noise[i:] + noise[:i])
+			yield record(layer, b"noise%d" % i, b"vb\4", rows, noise[i:] + noise[:i])
 	yield record(b"", b"ENDFRAME")
-sys.stdout.buffer.write(record(b"mrmesh1\n", b"START"))
+sys.stdout.buffer.write(START)
 for i in range(int(sys.argv[1])):
 	for piece in frame(b"noise-%d" % i):
 		sys.stdout.buffer.write(piece)
-sys.stdout.buffer.write(record(b"", b"END"))
+sys.stdout.buffer.write(END)
 X
 python3 noise.py 7 | mr-view page.html 2>err
 code=$?

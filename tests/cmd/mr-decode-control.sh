@@ -51,16 +51,13 @@ mr-solve --basis solved.mrs | mr-pose --translate 0.2,0,0.5 | mr-decode -o last.
 off last.mrs | cmp - frame4.off && echo 'as alone'
 mr-decode -j 1 film.mrs | cmp - decoded.mrs && echo same
 python3 - decoded.mrs <<'END'
-import struct, sys
-data, at = open(sys.argv[1], 'rb').read(), 0
+import records, sys
 sent = []
-while at < len(data):
-    size, = struct.unpack_from('<Q', data, at + 56)
-    layer, name = (data[at + a:at + b].replace(b'\0', b'').decode() for a, b in ((0, 16), (16, 40)))
+for layer, name, *_ in records.read(open(sys.argv[1], 'rb').read()):
+    layer, name = layer.decode(), name.decode()
     sent = [] if name == 'FRAME' else sent + [layer + '.' + name]
     if name == 'ENDFRAME':
         last = [s for s in sent if '.' in s[1:]]
-    at += 64 + (size + 63) // 64 * 64
 print(*last)
 END
 
@@ -103,19 +100,13 @@ mr-pose --scale 2 solved.mrs -o lost.mrs
 refused lost.mrs
 mr-make sphere -n 42 | mr-export -f off - | mr-import -l control - -o other.mrs
 python3 - torus.mrs other.mrs <<'END' # the displacement of one over the control mesh of the other
-import struct, sys
-def records(path):
-    data, at = open(path, 'rb').read(), 0
-    while at < len(data):
-        size, = struct.unpack_from('<Q', data, at + 56)
-        end = at + 64 + (size + 63) // 64 * 64
-        yield data[at:at + 16].replace(b'\0', b''), data[at:end]
-        at = end
-heights = [r for layer, r in records(sys.argv[1]) if layer == b'displacement']
+import records, sys
+one, other = (open(path, 'rb').read() for path in sys.argv[1:])
+heights = b''.join(records.record(*r) for r in records.read(one) if r[0] == b'displacement')
 with open('mixed.mrs', 'wb') as out:
-    for layer, r in records(sys.argv[2]):
-        out.write(b''.join(heights) if r[16:24] == b'ENDFRAME' else b'')
-        out.write(r)
+    for r in records.read(other):
+        out.write(heights if r[1] == b'ENDFRAME' else b'')
+        out.write(records.record(*r))
 END
 refused mixed.mrs
 

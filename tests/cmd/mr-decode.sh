@@ -1,16 +1,8 @@
 # The detail on its base, on other bases, exaggerated; posing by the base's response.
 compare() { # file, file, tolerance relative to the diagonal: mesh.position of their last frames
 	python3 - "$@" <<'END'
-import struct, sys
-def positions(path):
-    data, at, found = open(path, 'rb').read(), 0, None
-    while at < len(data):
-        size, = struct.unpack_from('<Q', data, at + 56)
-        if data[at:at + 40].replace(b'\0', b'') == b'meshposition':
-            found = struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
-        at += 64 + (size + 63) // 64 * 64
-    return found
-a, b = map(positions, sys.argv[1:3])
+import records, sys
+a, b = (records.column(path, b'mesh', b'position') for path in sys.argv[1:3])
 diagonal = sum((max(a[k::3]) - min(a[k::3])) ** 2 for k in range(3)) ** .5
 far = max(map(lambda x, y: abs(x - y), a, b)) / diagonal
 print('equal' if len(a) == len(b) and far <= float(sys.argv[3]) else 'differ by %g' % far)
@@ -30,15 +22,8 @@ for gain in 0 1 3; do
 	mr-decode --gain $gain detail.mrs -o gain$gain.mrs
 done
 python3 - gain0.mrs gain1.mrs gain3.mrs <<'END'
-import struct, sys
-def positions(path):
-    data, at = open(path, 'rb').read(), 0
-    while at < len(data):
-        size, = struct.unpack_from('<Q', data, at + 56)
-        if data[at:at + 40].replace(b'\0', b'') == b'meshposition':
-            return struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
-        at += 64 + (size + 63) // 64 * 64
-a, b, c = map(positions, sys.argv[1:])
+import records, sys
+a, b, c = (records.column(path, b'mesh', b'position') for path in sys.argv[1:])
 print('ok' if max(abs(x + 3 * (y - x) - z) for x, y, z in zip(a, b, c)) < 1e-13 else 'bad')
 END
 mr-encode --stats flat.json gain0.mrs -o flat.mrs
@@ -59,15 +44,10 @@ mr-select --free all --handle 0=below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr
     mr-pose --rotate 1,1,0,70 --center 0,0,0 | mr-pose -H 1 --rotate 1,1,0,70 --center 0,0,0 | mr-decode -o turned.mrs
 mr-select --free all --handle 0=below:y,0.2 base.mrs | mr-pose --rotate 1,1,0,70 --center 0,0,0 >turn.mrs
 python3 - base.mrs turn.mrs turned.mrs <<'END'
-import struct, sys
-def column(path, name):
-    data, at = open(path, 'rb').read(), 0
-    while at < len(data):
-        size, = struct.unpack_from('<Q', data, at + 56)
-        if data[at:at + 40].replace(b'\0', b'') == name:
-            return struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
-        at += 64 + (size + 63) // 64 * 64
-p, t, q = column(sys.argv[1], b'meshposition'), column(sys.argv[2], b'handlestransform'), column(sys.argv[3], b'meshposition')
+import sys
+from records import column
+p, t = column(sys.argv[1], b'mesh', b'position'), column(sys.argv[2], b'handles', b'transform')
+q = column(sys.argv[3], b'mesh', b'position')
 far = 0
 for i in range(0, len(p), 3):
     for k in range(3):

@@ -13,15 +13,8 @@ check() { # model: the share of true heights, what comes back
 # What mr-decode wrote lies where the mesh lay, to 1e-12 of the diagonal.
 back() { # model
 	python3 - "$1.mrs" "$1-back.mrs" <<'END'
-import struct, sys
-def positions(path):
-    data, at = open(path, 'rb').read(), 0
-    while at < len(data):
-        size, = struct.unpack_from('<Q', data, at + 56)
-        if data[at:at + 40].replace(b'\0', b'') == b'meshposition':
-            return struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
-        at += 64 + (size + 63) // 64 * 64
-a, b = map(positions, sys.argv[1:])
+import records, sys
+a, b = (records.column(path, b'mesh', b'position') for path in sys.argv[1:])
 diagonal = sum((max(a[k::3]) - min(a[k::3])) ** 2 for k in range(3)) ** .5
 print('back:', 'ok' if len(a) == len(b) and max(map(lambda x, y: abs(x - y), a, b)) < 1e-12 * diagonal else 'bad')
 END
@@ -57,14 +50,11 @@ mr-import huge.off | mr-smooth -t 0 | mr-encode >out
 echo "exit $?, $(wc -c <out) bytes"
 mr-make sphere -n 42 | mr-smooth | mr-remesh | mr-cat -u -o placed.mrs
 python3 - <<'END' # the first vertex of the base far from the face that it is said to lie on
-import struct, zlib
-stream = bytearray(open("placed.mrs", "rb").read())
-head = stream.index(b"source_bary") - 16
-size, = struct.unpack_from("<Q", stream, head + 56)
-struct.pack_into("<3d", stream, head + 64, 1e200, -1e200, 1)
-struct.pack_into("<I", stream, head + 44, 0)
-struct.pack_into("<I", stream, head + 44, zlib.crc32(stream[head:head + 64 + size]))
-open("placed.mrs", "wb").write(stream)
+import records, struct
+def far(layer, name, shape, rows, data):
+    return layer, name, shape, rows, struct.pack("<3d", 1e200, -1e200, 1) + data[24:] if name == b"source_bary" else data
+stream = open("placed.mrs", "rb").read()
+open("placed.mrs", "wb").write(records.changed(stream, far))
 END
 mr-encode placed.mrs >out
 echo "exit $?, $(wc -c <out) bytes"

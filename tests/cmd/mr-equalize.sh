@@ -4,13 +4,8 @@ mr-make torus -n 60 | mr-export -f off - | mr-import -l control - | mr-cat --mer
 	mr-sample -n 3 --no-history -o torus.mrs || exit
 heights() { # file, how many (of all): one a line
 	python3 - "$@" <<'END'
-import struct, sys
-data, at = open(sys.argv[1], 'rb').read(), 0
-while at < len(data):
-    size, = struct.unpack_from('<Q', data, at + 56)
-    if data[at:at + 40].replace(b'\0', b'') == b'displacementheight':
-        h = struct.unpack('<%dd' % (size // 8), data[at + 64:at + 64 + size])
-    at += 64 + (size + 63) // 64 * 64
+import records, sys
+h = records.column(sys.argv[1], b'displacement', b'height')
 print('\n'.join('%.17g' % x for x in h[:int(sys.argv[2])] ))
 END
 }

@@ -97,18 +97,13 @@ ls cut* 2>/dev/null
 
 echo '-- a delta that changes colours is no pose'
 cat >delta.py <<'P'
-import struct, sys, zlib
-def record(kind, payload=b"", layer="", element="-", type="t", components=1, rows=None):
-    rows = len(payload) if rows is None else rows
-    head = bytearray(layer.encode().ljust(16, b"\0") + kind.encode().ljust(24, b"\0") + element.encode() + type.encode() + bytes([components, 0]))
-    head += bytes(4) + rows.to_bytes(8, "little") + len(payload).to_bytes(8, "little")
-    head[44:48] = zlib.crc32(payload, zlib.crc32(head)).to_bytes(4, "little")
-    return bytes(head) + payload + bytes(-len(payload) % 64)
+import struct, sys
+from records import frame, record
 stream = sys.stdin.buffer.read()
 end = stream.rindex(b"END\0") - 16
-columns = {"color": record("color", bytes([255, 0, 0, 255]) * 3, "mesh", "v", "b", 4, 3),
-           "normal": record("normal", struct.pack("<9d", *3 * [0, 0, 1]), "mesh", "v", "d", 3, 3)}
-delta = record("FRAME", b"delta red") + columns[sys.argv[1]] + record("ENDFRAME")
+columns = {"color": record(b"mesh", b"color", b"vb\4", 3, bytes([255, 0, 0, 255]) * 3),
+           "normal": record(b"mesh", b"normal", b"vd\3", 3, struct.pack("<9d", *3 * [0, 0, 1]))}
+delta = frame(b"delta red", columns[sys.argv[1]])
 sys.stdout.buffer.write(stream[:end] + delta + stream[end:])
 P
 printf 'v 0 0 0 1 1 1\nv 1 0 0 1 1 1\nv 0 1 0 1 1 1\nf 1 2 3\n' >white.obj

@@ -70,15 +70,9 @@ ls -l real.obj | cut -c1-10
 
 echo '-- a layer without a vertex'
 python3 - <<'X'
-import struct, zlib
-def record(layer, name, shape, rows, payload):
-	head = struct.pack("<16s24scccBIQQ", layer, name, shape[:1], shape[1:2], bytes([shape[2]]), 0, 0, rows, len(payload))
-	head = head[:44] + struct.pack("<I", zlib.crc32(head + payload)) + head[48:]
-	return head + payload + bytes(-len(payload) % 64)
-text = b"-t\1"
-open("empty.mrs", "wb").write(record(b"mrmesh1\n", b"START", text, 0, b"") + record(b"", b"FRAME", text, 9, b"key empty")
-	+ record(b"points", b"position", b"vd\3", 0, b"") + record(b"", b"ENDFRAME", text, 0, b"") + record(b"", b"END", text, 0, b""))
-open("none.mrs", "wb").write(record(b"mrmesh1\n", b"START", text, 0, b"") + record(b"", b"END", text, 0, b""))
+from records import START, END, frame, record
+open("empty.mrs", "wb").write(START + frame(b"key empty", record(b"points", b"position", b"vd\3", 0)) + END)
+open("none.mrs", "wb").write(START + END)
 X
 for suffix in obj ply off glb xyz pts pwn; do
 	mr-export -i empty.mrs empty.$suffix || ls empty.$suffix 2>/dev/null

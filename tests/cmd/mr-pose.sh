@@ -1,21 +1,16 @@
 # Where handles go: single poses, chains, sequences, scripts.
 cat >values.py <<'END'
 # What each frame of a stream sends of handles.transform, or of its turns, rounded; nothing where it sends none.
-import math, struct, sys
+import math, records, sys
 wanted, unit = (b'turn', 180 / math.pi) if sys.argv[1:] else (b'transform', 1)
-data, at, name = sys.stdin.buffer.read(), 0, None
-while at < len(data):
-    layer, column = data[at:at + 16].rstrip(b'\0'), data[at + 16:at + 40].rstrip(b'\0')
-    size, = struct.unpack_from('<Q', data, at + 56)
-    body = data[at + 64:at + 64 + size]
+for layer, column, shape, _, body in records.read(sys.stdin.buffer.read()):
     if column == b'FRAME':
         print(body.decode() + ':', end='')
     elif column == b'ENDFRAME':
         print()
     elif (layer, column) == (b'handles', wanted):
-        for x in struct.unpack('<%dd' % (size // 8), body):
+        for x in records.numbers(shape, body):
             print('', format(round(x * unit, 6) + 0, 'g'), end='')
-    at += 64 + (size + 63) // 64 * 64
 END
 values() {
 	python3 values.py

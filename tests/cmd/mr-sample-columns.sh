@@ -45,15 +45,10 @@ mr-decode --level 2 sampled.mrs -o coarse.mrs && judge coarse.mrs
 
 without() { # stream, pattern of LAYER.COLUMN: the stream without those
 	python3 - "$@" <<'END'
-import re, struct, sys
-data, at, out = open(sys.argv[1], 'rb').read(), 0, b''
-while at < len(data):
-    size, = struct.unpack_from('<Q', data, at + 56)
-    end = at + 64 + (size + 63) // 64 * 64
-    layer, name = (data[at + a:at + b].replace(b'\0', b'').decode() for a, b in ((0, 16), (16, 40)))
-    out += b'' if re.fullmatch(sys.argv[2], layer + '.' + name) else data[at:end]
-    at = end
-sys.stdout.buffer.write(out)
+import re, records, sys
+def kept(layer, name, *rest):
+    return None if re.fullmatch(sys.argv[2], (layer + b'.' + name).decode()) else (layer, name, *rest)
+sys.stdout.buffer.write(records.changed(open(sys.argv[1], 'rb').read(), kept))
 END
 }
 echo 'without points, and onto a mesh that has them already: nothing is lost, so there is no warning'
@@ -71,15 +66,13 @@ mr-select --free all --fixed below:z,0.2 --handle 0=above:z,0.8 sampled.mrs | mr
 	mr-pose --rotate 1,0,0,40 --frames 3 | mr-decode -o film.mrs
 
 python3 - film.mrs <<'END'
-import struct, sys
-data, at, sent = open(sys.argv[1], 'rb').read(), 0, []
-while at < len(data):
-    size, = struct.unpack_from('<Q', data, at + 56)
-    layer, name = (data[at + a:at + b].replace(b'\0', b'').decode() for a, b in ((0, 16), (16, 40)))
+import records, sys
+sent = []
+for layer, name, *_ in records.read(open(sys.argv[1], 'rb').read()):
+    layer, name = layer.decode(), name.decode()
     sent = [] if name == 'FRAME' else sent + [layer + '.' + name] if layer == 'mesh' else sent
     if name == 'ENDFRAME':
         print(*sent)
-    at += 64 + (size + 63) // 64 * 64
 END
 
 echo 'sampled anew without them they are gone; the same bytes for any number of threads'
@@ -96,21 +89,13 @@ mr-import -q same.ply | mr-shrinkwrap -q | mr-simplify -q -n 100 | mr-sample -q 
 
 echo 'columns that do not fit'
 python3 - sampled.mrs >short.mrs <<'END' # labels for half of the vertices
-import struct, sys, zlib
-data, at = open(sys.argv[1], 'rb').read(), 0
-while at < len(data):
-    size, = struct.unpack_from('<Q', data, at + 56)
-    end = at + 64 + (size + 63) // 64 * 64
-    r = bytearray(data[at:end])
-    if r[:12] == b'displacement' and r[16:21] == b'label':
-        rows, = struct.unpack_from('<Q', r, 48)
+import records, sys
+def half(layer, name, shape, rows, data):
+    if (layer, name) == (b'displacement', b'label'):
         rows //= 2
-        r = r[:64 + (4 * rows + 63) // 64 * 64]
-        r[64 + 4 * rows:] = bytes(len(r) - 64 - 4 * rows)
-        struct.pack_into('<IQQ', r, 44, 0, rows, 4 * rows)
-        struct.pack_into('<I', r, 44, zlib.crc32(r[:64 + 4 * rows]))
-    sys.stdout.buffer.write(r)
-    at = end
+        data = data[:4 * rows]
+    return layer, name, shape, rows, data
+sys.stdout.buffer.write(records.changed(open(sys.argv[1], 'rb').read(), half))
 END
 mr-decode short.mrs -o out.mrs
 echo "exit $?"

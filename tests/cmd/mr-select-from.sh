@@ -1,33 +1,20 @@
 # Regions from a file, as the page of mr-view saves them: exactly those vertices, of this model alone; malformed ones by their line.
 mr-make plane -n 121 -o plane.mrs # 11 by 11
 mr-make sphere --points 500 -o points.mrs
-cat >records.py <<'Y'
-import struct, subprocess, sys
-def columns(path):
-	"""The columns of the first frame: {(layer, name): values}."""
-	data, at, out = subprocess.run(["mr-cat", "-u", path], stdout=subprocess.PIPE, check=True).stdout, 0, {}
-	while at < len(data):
-		rows, stored = struct.unpack("<QQ", data[at + 48:at + 64])
-		layer, name = data[at:at + 16].rstrip(b"\0").decode(), data[at + 16:at + 40].rstrip(b"\0").decode()
-		raw = data[at + 64:at + 64 + stored]
-		if chr(data[at + 41]) in "ud":
-			out[layer, name] = struct.unpack("<%d%s" % ((stored // 4, "I") if chr(data[at + 41]) == "u" else (stored // 8, "d")), raw)
-		at += 64 + (stored + 63) // 64 * 64
-	return out
+cat >selection.py <<'Y'
+import records
 def head(path, layer="mesh"):
-	c, total = columns(path), 2166136261
-	corners = c.get((layer, "triangles"), ())
-	for v in corners:
+	c, total = records.first_frame(path), 2166136261
+	triangles = c.get((layer, "triangles"), ())
+	for v in (v for triangle in triangles for v in triangle):
 		total = (total ^ v) * 16777619 % 2 ** 32
-	return "mr-selection 1 %s %d %d %08x" % (layer, len(c[layer, "position"]) // 3, len(corners) // 3, total)
+	return "mr-selection 1 %s %d %d %08x" % (layer, len(c[layer, "position"]), len(triangles), total)
 Y
-head=$(python3 -c 'from records import head; print(head("plane.mrs"))')
+head=$(python3 -c 'from selection import head; print(head("plane.mrs"))')
 regions() { # stream: vertices of each region, as ranges
 	python3 - "$1" <<'Y'
-import sys
-from records import columns
-c = columns(sys.argv[1])
-region = next(v for k, v in c.items() if k[1] == "region")
+import records, sys
+region = next([r for r, in v] for k, v in records.first_frame(sys.argv[1]).items() if k[1] == "region")
 for r in sorted(set(region)):
 	print(("fixed", "free")[r] if r < 2 else "handle %d" % (r - 2), *[v for v in range(len(region)) if region[v] == r])
 Y
@@ -72,7 +59,7 @@ refused --from cloud plane.mrs
 mr-make plane -n 100 -o small.mrs
 refused --from all small.mrs
 python3 - <<'Y'
-from records import head
+from selection import head
 with open("turned", "w") as f:
 	f.write(head("plane.mrs")[:-8] + "00000000\nfree 1\n")
 Y

@@ -42,19 +42,10 @@ cmp once.off twice.off && echo same
 echo 'a template keeps its connectivity and goes onto the points'
 rename() { # mesh becomes control
 	python3 -c '
-import sys, zlib
-data, at, out = sys.stdin.buffer.read(), 0, b""
-while at < len(data):
-    size = int.from_bytes(data[at + 56:at + 64], "little")
-    head = bytearray(data[at:at + 64])
-    if head[:16].rstrip(b"\0") == b"mesh":
-        head[:16] = b"control".ljust(16, b"\0")
-        head[44:48] = bytes(4)
-        head[44:48] = zlib.crc32(data[at + 64:at + 64 + size], zlib.crc32(head)).to_bytes(4, "little")
-    end = at + 64 + (size + 63) // 64 * 64
-    out += head + data[at + 64:end]
-    at = end
-sys.stdout.buffer.write(out)'
+import records, sys
+def other(layer, *rest):
+    return (b"control" if layer == b"mesh" else layer, *rest)
+sys.stdout.buffer.write(records.changed(sys.stdin.buffer.read(), other))'
 }
 mr-make sphere -n 500 | mr-export -f off - |
 	awk 'NR > 2 && NF == 3 { $0 = 1.3 * $1 " " 1.1 * $2 " " $3 + 0.2 } 1' >start.off

@@ -126,26 +126,17 @@ mr-solve -o p0.mrs s.mrs
 mr-pose --translate 0.2,0.1,0.3 p0.mrs -o posed.mrs
 mr-solve posed.mrs -o q.mrs
 cat >targets.py <<'END'
-import struct, sys, zlib
-data, at = open('p0.mrs', 'rb').read(), 0
-def record(layer, column, shape, payload, rows):
-    head = struct.pack('<16s24sccBBIQQ', layer, column, *shape, 0, 0, rows, len(payload))
-    crc = zlib.crc32(payload, zlib.crc32(head))
-    return head[:44] + struct.pack('<I', crc) + head[48:] + payload + bytes(-len(payload) % 64)
+import records, struct, sys
 columns = {}
-while at < len(data):
-    layer, column = data[at:at + 16].rstrip(b'\0'), data[at + 16:at + 40].rstrip(b'\0')
-    size = struct.unpack('<Q', data[at + 56:at + 64])[0]
-    columns[layer, column] = data[at + 64:at + 64 + size]
+for layer, column, shape, rows, data in records.read(open('p0.mrs', 'rb').read()):
+    columns[layer, column] = data
     if column == b'ENDFRAME':
         place = list(struct.iter_unpack('<3d', columns[b'base', b'position']))
         region = [r for r, in struct.iter_unpack('<I', columns[b'base', b'region'])]
         place = [(x + 0.2, y + 0.1, z + 0.3) if r == 2 else (x, y, z) for (x, y, z), r in zip(place, region)]
         target = b''.join(struct.pack('<3d', *p) for p in place)
-        sys.stdout.buffer.write(record(b'base', b'target', (b'v', b'd', 3), target, len(place)))
-    end = at + 64 + (size + 63) // 64 * 64
-    sys.stdout.buffer.write(data[at:end])
-    at = end
+        sys.stdout.buffer.write(records.record(b'base', b'target', b'vd\3', len(place), target))
+    sys.stdout.buffer.write(records.record(layer, column, shape, rows, data))
 END
 python3 targets.py >targets.mrs
 mr-encode targets.mrs | mr-decode 2>&1 >out | grep -o "base has targets.*"

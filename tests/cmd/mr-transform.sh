@@ -92,13 +92,11 @@ mr-make sphere --points 300 | mr-shrinkwrap -q -o wrap.mrs
 there_and_back() { # there, back, stream
 	mr-transform --scale "$1" "$3" | mr-transform --scale "$2" -o back.mrs
 	python3 - "$1" "$3" <<'END'
-import re, struct, sys
-values = lambda head, data: struct.unpack("<%dd" % (len(data) // 8), data) if head[41:42] == b"d" else data  # where -0 is 0
-columns = lambda data: {data[i:i + 40]: values(data[i:], data[i + 64:i + 64 + int.from_bytes(data[i + 56:i + 64], "little")]) for i in range(0, len(data), 64)
-                        if re.match(rb"(mesh|control|points|handles)\0", data[i:i + 40])}
-a, b = columns(open(sys.argv[2], "rb").read()), columns(open("back.mrs", "rb").read())
+import sys
+from records import first_frame
+a, b = ({key: rows for key, rows in first_frame(path).items() if key[0]} for path in (sys.argv[2], "back.mrs"))
 assert a.keys() == b.keys() and len(a) >= 4
-print(float(sys.argv[1]).hex(), [key[16:].rstrip(b"\0").decode() for key in a if a[key] != b[key]] or "the same")
+print(float(sys.argv[1]).hex(), [name for layer, name in a if a[layer, name] != b[layer, name]] or "the same")
 END
 }
 for stream in turned.mrs wrap.mrs; do
@@ -130,11 +128,7 @@ for change in '--scale 2' '--rotate 1,2,3,40' '-l mesh --scale 2'; do
 done
 mr-transform -q --scale 2 mapped.mrs -o out.mrs
 python3 - mapped.mrs out.mrs <<'END'
-import struct, sys
-def numbers(path):
-    data = open(path, "rb").read()
-    at = data.index(b"displacement\0\0\0\0range\0")
-    return struct.unpack("<2d", data[at + 64:at + 80])
-one, two = map(numbers, sys.argv[1:])
+import records, sys
+one, two = (records.column(path, b"displacement", b"range") for path in sys.argv[1:])
 print("range", "twice" if two == (2 * one[0], 2 * one[1]) else (one, two))
 END

@@ -9,17 +9,12 @@ P
 }
 told() { # page: each frame, and what its text says of the file
 	stream_of "$1" >told.mrs && mr-cat -u --no-history told.mrs | python3 -c '
-import struct, sys
-data, at = sys.stdin.buffer.read(), 0
-while at < len(data):
-	h = data[at:at + 64]
-	stored, = struct.unpack("<Q", h[56:64])
-	name, text = h[16:40].rstrip(b"\0").decode(), data[at + 64:at + 64 + stored]
-	if name == "FRAME":
+import records, sys
+for _, name, _, _, text in records.read(sys.stdin.buffer.read()):
+	if name == b"FRAME":
 		print(text.decode())
-	if name == "page":
-		print("\t" + " ".join(line for line in text.decode().split("\n") if line.startswith("file")))
-	at += 64 + (stored + 63) // 64 * 64'
+	if name == b"page":
+		print("\t" + " ".join(line for line in text.decode().split("\n") if line.startswith("file")))'
 }
 mr-make torus -n 100 | mr-smooth | mr-select --free all --handle 0=above:z,0.8 | mr-pose --frames 1 --translate 1,0,0 | mr-solve -q -o film.mrs
 mr-make cube -n 100 -o cube.mrs

@@ -9,15 +9,13 @@ X
 }
 columns() { # stream: layer, column, shape and rows of each frame
 	mr-cat -u --no-history "$1" | python3 -c '
-import struct, sys
-data, at = sys.stdin.buffer.read(), 0
-while at < len(data):
-	h = data[at:at + 64]
-	rows, stored = struct.unpack("<QQ", h[48:64])
-	layer, name = h[:16].rstrip(b"\0").decode(), h[16:40].rstrip(b"\0").decode()
-	text = data[at + 64:at + 64 + stored].decode() if name == "FRAME" else ""
-	print(("%s %s %s%s%d %d" % (layer, name, chr(h[40]), chr(h[41]), h[42], rows)).strip() if not name.isupper() else (name + " " + text).strip())
-	at += 64 + (stored + 63) // 64 * 64' | grep -v START
+import records, sys
+for layer, name, shape, rows, data in records.read(sys.stdin.buffer.read()):
+	layer, name = layer.decode(), name.decode()
+	if name.isupper():
+		print((name + " " + (data.decode() if name == "FRAME" else "")).strip())
+	else:
+		print(("%s %s %s%d %d" % (layer, name, shape[:2].decode(), shape[2], rows)).strip())' | grep -v START
 }
 echo '-- what is taken of an edit'
 mr-make bumpy -n 400 --texcoords | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 |
@@ -32,18 +30,10 @@ sed -E 's/"(seconds|peak_bytes)":[^,}]*,?//g' stats
 
 echo '-- positions, places and responses within 24 bits of the extent, other numbers within 24 of their own, wherever the model is'
 cat >near.py <<'X'
-import struct, subprocess, sys
+import records, sys
 def columns(path):
 	"""Of the first frame, as the page reads them: sums of steps as numbers, and what is stored once under each of its names."""
-	data, at, out = subprocess.run(["mr-cat", "-u", path], stdout=subprocess.PIPE, check=True).stdout, 0, {}
-	while at < len(data):
-		rows, stored = struct.unpack("<QQ", data[at + 48:at + 64])
-		layer, name = (data[at + i:at + j].rstrip(b"\0").decode() for i, j in ((0, 16), (16, 40)))
-		if name == "ENDFRAME":
-			break
-		raw, kind, n = data[at + 64:at + 64 + stored], chr(data[at + 41]).replace("u", "I"), data[at + 42]
-		out[layer, name] = raw if kind == "t" else [row for row in struct.iter_unpack("<%d%s" % (n, kind), raw)]
-		at += 64 + (stored + 63) // 64 * 64
+	out = records.first_frame(path)
 	for how, layer, name, *more in (line.split(" ") for line in out.get(("", "page"), b"").decode().splitlines()):
 		out[layer, name] = out[tuple(more)] if how == "same" else sums(out[layer, name], [float(x) for x in more])
 	return out
@@ -85,27 +75,14 @@ mr-view -i edit.mrs link.html && [ -L link.html ] && cmp edit.html real.html && 
 mr-view --sync -i edit.mrs one.HTML && cmp edit.html one.HTML && echo 'same on the disk'
 
 echo '-- names are in the data alone'
-cat >records.py <<'X'
-import struct, sys, zlib
-def record(layer, name, shape=(b"-", b"t", 1), rows=0, data=b""):
-	h = layer.ljust(16, b"\0") + name.ljust(24, b"\0") + shape[0] + shape[1] + bytes([shape[2], 0])
-	tail = struct.pack("<QQ", rows, len(data))
-	crc = zlib.crc32(data, zlib.crc32(h + b"\0\0\0\0" + tail))
-	return h + struct.pack("<I", crc) + tail + data + b"\0" * (-len(data) % 64)
-def text(layer, name, s):
-	return record(layer, name, rows=len(s), data=s)
-def frame(name, *records):
-	return text(b"", b"FRAME", name.encode()) + b"".join(records) + record(b"", b"ENDFRAME")
-def write(*frames):
-	sys.stdout.buffer.write(record(b"mrmesh1\n", b"START") + b"".join(frames) + record(b"", b"END"))
-X
 python3 - >hostile.mrs <<'X'
-from records import *
+import struct, sys
+from records import START, END, frame, record
 evil = b"<script>alert(1)</script>"[:16]
-write(frame("key x<!--<script>'\"&\u202egnp",
-	record(evil, b"position", (b"v", b"d", 3), 3, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0)),
-	record(evil, b"triangles", (b"f", b"u", 3), 1, struct.pack("<3I", 0, 1, 2)),
-	record(evil, b"<script>alert(1)", (b"v", b"d", 1), 3, struct.pack("<3d", 0, 1, 2))))
+sys.stdout.buffer.write(START + frame("key x<!--<script>'\"&\u202egnp".encode(),
+	record(evil, b"position", b"vd\3", 3, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0)),
+	record(evil, b"triangles", b"fu\3", 1, struct.pack("<3I", 0, 1, 2)),
+	record(evil, b"<script>alert(1)", b"vd\1", 3, struct.pack("<3d", 0, 1, 2))) + END)
 X
 mr-view -i hostile.mrs hostile.html && stream_of hostile.html >hostile.back && columns hostile.back
 cut() { # page, without its data
@@ -115,7 +92,10 @@ cut hostile.html >a && cut edit.html | cmp - a && echo 'the same around them'
 
 echo '-- a frame without a layer to see is a page, a stream without a frame is not'
 mr-make cube -n 8 | mr-select --free all -o cube.mrs
-python3 -c 'from records import *; write(frame("key void", record(b"handles", b"transform", (b"v", b"d", 12), 1, bytes(96))))' >void.mrs
+python3 -c '
+from records import *
+void = frame(b"key void", record(b"handles", b"transform", b"vd\14", 1, bytes(96)))
+__import__("sys").stdout.buffer.write(START + void + END)' >void.mrs
 mr-view -i void.mrs void.html && stream_of void.html >void.back && columns void.back
 head -c 64 cube.mrs >empty.mrs && tail -c 64 cube.mrs >>empty.mrs
 mr-view -i empty.mrs none.html; echo "exit $?"
@@ -133,22 +113,19 @@ mr-view -i edit.mrs no/such/folder.html; echo "exit $?"
 ls none.html* mr-*~ 2>/dev/null || echo 'no page'
 echo '-- a basis that mr-decode would refuse is not taken; without the base it is not asked for'
 cat >change.py <<'X'
-import struct, subprocess, sys, zlib
 """The stream, with the first values, or the components, of a column changed."""
-data, at = subprocess.run(["mr-cat", "-u", "edit.mrs"], stdout=subprocess.PIPE, check=True).stdout, 0
-name, what, value = sys.argv[1:]
-while at < len(data):
-	h, (rows, stored) = bytearray(data[at:at + 64]), struct.unpack("<QQ", data[at + 48:at + 64])
-	raw, at = bytearray(data[at + 64:at + 64 + stored]), at + 64 + (stored + 63) // 64 * 64
-	if h[16:40].rstrip(b"\0") == name.encode():
-		if what == "components":
-			h[42] = int(value)
-			raw = raw[:rows * 8 * h[42]]
-		else:
-			raw[:struct.calcsize(what)] = struct.pack(what, float(value) if what == "<d" else int(value))
-	h[44:64] = bytes(4) + struct.pack("<QQ", rows, len(raw))
-	h[44:48] = struct.pack("<I", zlib.crc32(raw, zlib.crc32(h)))
-	sys.stdout.buffer.write(bytes(h) + bytes(raw) + bytes(-len(raw) % 64))
+import records, struct, subprocess, sys
+wanted, what, value = sys.argv[1:]
+def other(layer, name, shape, rows, data):
+	if name != wanted.encode():
+		return layer, name, shape, rows, data
+	if what == "components":
+		n = int(value)
+		return layer, name, shape[:2] + bytes([n, 0]), rows, data[:rows * 8 * n]
+	first = struct.pack(what, float(value) if what == "<d" else int(value))
+	return layer, name, shape, rows, first + data[len(first):]
+stream = subprocess.run(["mr-cat", "-u", "edit.mrs"], stdout=subprocess.PIPE, check=True).stdout
+sys.stdout.buffer.write(records.changed(stream, other))
 X
 for change in 'response <d nan' 'response components 5' 'detail_face <I 1000000' 'detail_bary <d 7' 'encoded <d inf' 'encoded_faces <I 1'; do
 	python3 change.py $change >changed.mrs

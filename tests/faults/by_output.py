@@ -3,7 +3,7 @@ usage: by_output.py killed TIMES | stalls STEP | flips STEP | full STEP
 killed: a stage of a pipe is killed at some moment, TIMES times.  stalls: a producer that stops for a while, or for good, behind
 every STEP-th byte.  flips: every STEP-th bit of a stream's headers, and as many of its payloads.  full: a file may have no more
 than every STEP-th number of bytes."""
-import os, random, resource, shlex, shutil, signal, subprocess, sys, time
+import os, random, records, resource, shlex, shutil, signal, subprocess, sys, time
 
 wrong = runs = 0
 
@@ -139,18 +139,18 @@ def stalls(step):
             refused(command, "cut at byte %d" % k, k >= len(stream) - 64, *feed(command, stream[:k]))
 
 
-def records(stream):
+def places(stream):
+    """Where each record begins, and how many bytes it stores."""
     at = 0
-    while at < len(stream):
-        stored = int.from_bytes(stream[at + 56 : at + 64], "little")
-        yield at, stored
-        at += 64 + (stored + 63) // 64 * 64
+    for *_, data in records.read(stream):
+        yield at, len(data)
+        at += 64 + (len(data) + 63) // 64 * 64
 
 
 def flips(step):
     stream = small_stream()
-    headers = [8 * at + bit for at, _ in records(stream) for bit in range(512)]
-    payloads = [8 * (at + 64) + bit for at, stored in records(stream) for bit in range(8 * ((stored + 63) // 64 * 64))]
+    headers = [8 * at + bit for at, _ in places(stream) for bit in range(512)]
+    payloads = [8 * (at + 64) + bit for at, stored in places(stream) for bit in range(8 * ((stored + 63) // 64 * 64))]
     for shift, command in enumerate(SINKS):
         output(command, stream)
         every = max(1, len(payloads) * step // len(headers))

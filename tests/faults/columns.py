@@ -2,7 +2,7 @@
 usage: columns.py STEP COMMAND...
 Each word of the command that names a stream is replaced by that stream damaged, in every STEP-th of the ways: each column's first,
 middle or last value, or all, is another, or it has fewer or more rows."""
-import itertools, math, resource, signal, struct, subprocess, sys, zlib
+import itertools, math, records, resource, signal, struct, subprocess, sys, zlib
 
 NUMBERS = {
     b"d": ("<d", [math.nan, math.inf, 1e300, -1e300, 1e31, 9e29, 1e-29, 5e-324, -1.0, 0.0]),
@@ -12,26 +12,12 @@ NUMBERS = {
 }
 
 
-def records(stream):
-    at = 0
-    while at < len(stream):
-        stored, = struct.unpack_from("<Q", stream, at + 56)
-        yield at, stream[at : at + 64], stream[at + 64 : at + 64 + stored]
-        at += 64 + (stored + 63) // 64 * 64
-
-
-def record(head, rows, data):
-    head = head[:44] + bytes(4) + struct.pack("<QQ", rows, len(data))
-    crc = zlib.crc32(data, zlib.crc32(head))
-    return head[:44] + struct.pack("<I", crc) + head[48:] + data + bytes(-len(data) % 64)
-
-
-def values(head, data):
+def values(shape, data):
     """The column with other values: each with its name."""
-    form, others = NUMBERS[head[41:42]]
+    form, others = NUMBERS[shape[1:2]]
     size = struct.calcsize(form)
     n = len(data) // size
-    for x in others + [max(n // head[42] - 1, 0)] * (form == "<I"):
+    for x in others + [max(n // shape[2] - 1, 0)] * (form == "<I"):
         raw = struct.pack(form, x)
         yield "all are %g" % x, raw * n
         for i in sorted({0, n // 2, n - 1}):
@@ -39,17 +25,16 @@ def values(head, data):
 
 
 def damaged(stream):
-    for at, head, data in records(stream):
-        rows, = struct.unpack_from("<Q", head, 48)
-        layer, name = (head[k : k + w].rstrip(b"\0").decode() for k, w in ((0, 16), (16, 24)))
-        if not layer or not rows:
+    end = 0
+    for layer, name, shape, rows, data in records.read(stream):
+        at, end = end, end + 64 + (len(data) + 63) // 64 * 64
+        if not layer or layer == b"mrmesh1\n" or not rows:
             continue
         row = len(data) // rows
-        changes = [(what, rows, other) for what, other in values(head, data)]
+        changes = [(what, rows, other) for what, other in values(shape, data)]
         changes += [("%d rows of %d" % (k, rows), k, (data + data)[: k * row]) for k in (0, rows // 2, rows - 1, rows + 1)]
-        end = at + 64 + (len(data) + 63) // 64 * 64
         for what, k, other in changes:
-            yield "%s of %s: %s" % (name, layer, what), (at, end, head, k, other)
+            yield "%s of %s: %s" % (name.decode(), layer.decode(), what), (at, end, (layer, name, shape, k, other))
 
 
 def is_lawful(stream):
@@ -81,8 +66,8 @@ for i, word in enumerate(command):
         continue
     stream = subprocess.run(["mr-cat", "-u", word], stdout=subprocess.PIPE, check=True).stdout
     first = zlib.crc32(" ".join(command).encode()) % step
-    for what, (at, end, head, rows, data) in itertools.islice(damaged(stream), first, None, step):
-        other = stream[:at] + record(head, rows, data) + stream[end:]
+    for what, (at, end, parts) in itertools.islice(damaged(stream), first, None, step):
+        other = stream[:at] + records.record(*parts) + stream[end:]
         open("damaged.mrs", "wb").write(other)
         runs += 1
         told = fault(command[:i] + ["damaged.mrs"] + command[i + 1 :], other)

@@ -1,8 +1,8 @@
 """checks.py -- what the tests of the page share: counting what fails, and values of a stream as numbers."""
 import math
-import struct
-import subprocess
 import sys
+
+from records import first_frame as columns
 
 failed = 0
 
@@ -16,27 +16,6 @@ def check(good, what):
 
 def end():
     sys.exit(1 if failed else 0)
-
-
-def columns(path):
-    """The columns of a stream's first frame: {(layer, name): rows as tuples}; text columns are bytes."""
-    data = subprocess.run(["mr-cat", "-u", "--no-history", path], stdout=subprocess.PIPE, check=True).stdout
-    at, out = 0, {}
-    while at < len(data):
-        head = data[at:at + 64]
-        layer, name = (head[i:j].rstrip(b"\0").decode() for i, j in ((0, 16), (16, 40)))
-        kind, n = chr(head[41]), head[42]
-        rows, stored = struct.unpack("<QQ", head[48:64])
-        raw = data[at + 64:at + 64 + stored]
-        if name == "ENDFRAME":
-            break
-        if kind == "t":
-            out[layer, name] = raw
-        else:
-            flat = struct.unpack("<%d%s" % (rows * n, {"d": "d", "u": "I", "b": "B"}[kind]), raw)
-            out[layer, name] = [flat[n * i:n * i + n] for i in range(rows)]
-        at += 64 + (stored + 63) // 64 * 64
-    return out
 
 
 def box(points):

@@ -2,22 +2,15 @@
 import random
 import struct
 import sys
-import zlib
 
 from checks import box, columns, length, sub
-
-
-def record(layer, name, shape=(b"-", b"t", 1), rows=0, data=b""):
-    h = layer.ljust(16, b"\0") + name.ljust(24, b"\0") + shape[0] + shape[1] + bytes([shape[2], 0])
-    tail = struct.pack("<QQ", rows, len(data))
-    crc = zlib.crc32(data, zlib.crc32(h + b"\0\0\0\0" + tail))
-    return h + struct.pack("<I", crc) + tail + data + b"\0" * (-len(data) % 64)
+from records import END, START, frame, record
 
 
 def column(layer, name, element, kind, rows):
     flat = [x for row in rows for x in row]
     data = struct.pack("<%d%s" % (len(flat), {b"d": "d", b"u": "I", b"b": "B"}[kind]), *flat)
-    return record(layer, name, (element, kind, len(rows[0])), len(rows), data)
+    return record(layer, name, element + kind + bytes([len(rows[0])]), len(rows), data)
 
 
 path, level, share, seed = sys.argv[1], int(sys.argv[2]), float(sys.argv[3]), int(sys.argv[4])
@@ -40,8 +33,8 @@ extent = length(sub(*box(p)))
 heights = [(extent * chance.gauss(0, 0.01),) for _ in range(nv)]
 colors = [tuple(chance.randrange(256) for _ in range(4)) for _ in range(nv)]
 sys.stdout.buffer.write(
-    record(b"mrmesh1\n", b"START") + record(b"", b"FRAME", rows=11, data=b"key heights") +
-    column(b"control", b"position", b"v", b"d", p) + column(b"control", b"triangles", b"f", b"u", t) +
-    (column(b"control", b"crease", b"f", b"b", crease) if share else b"") +
-    column(b"displacement", b"height", b"v", b"d", heights) + column(b"displacement", b"level", b"-", b"u", [(level,)]) +
-    column(b"displacement", b"color", b"v", b"b", colors) + record(b"", b"ENDFRAME") + record(b"", b"END"))
+    START + frame(
+        b"key heights", column(b"control", b"position", b"v", b"d", p), column(b"control", b"triangles", b"f", b"u", t),
+        column(b"control", b"crease", b"f", b"b", crease) if share else b"",
+        column(b"displacement", b"height", b"v", b"d", heights), column(b"displacement", b"level", b"-", b"u", [(level,)]),
+        column(b"displacement", b"color", b"v", b"b", colors)) + END)

@@ -8,13 +8,9 @@ mr-view -i film.mrs film.html || exit
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng red <b>\nf 1 2 3\ng green\nf 1 3 4\n' | mr-import | mr-view groups.html || exit
 mr-make torus --points 500 | mr-view points.html || exit
 python3 - >void.mrs <<'X'
-import struct, sys, zlib
-def record(layer, name, shape=(b"-", b"t", 1), rows=0, data=b""):
-	h = layer.ljust(16, b"\0") + name.ljust(24, b"\0") + shape[0] + shape[1] + bytes([shape[2], 0])
-	tail = struct.pack("<QQ", rows, len(data))
-	return h + struct.pack("<I", zlib.crc32(data, zlib.crc32(h + b"\0\0\0\0" + tail))) + tail + data + b"\0" * (-len(data) % 64)
-sys.stdout.buffer.write(record(b"mrmesh1\n", b"START") + record(b"", b"FRAME", rows=8, data=b"key void")
-	+ record(b"handles", b"transform", (b"v", b"d", 12), 1, bytes(96)) + record(b"", b"ENDFRAME") + record(b"", b"END"))
+import sys
+from records import END, START, frame, record
+sys.stdout.buffer.write(START + frame(b"key void", record(b"handles", b"transform", b"vd\14", 1, bytes(96))) + END)
 X
 mr-view -i void.mrs void.html || exit
 exec python3 "$TOP/tests/page/look.py"

@@ -14,14 +14,9 @@ mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 |
 	mr-select -q --free all --fixed below:y,0.2 --handle 1=above:y,0.8 | mr-solve -q --basis -o handled.mrs || exit
 python3 - <<'Y'
-import struct, subprocess, zlib
+import struct
+from records import END, START, frame, record
 # Histories and names that want to be run.
-def record(layer, name, shape, rows, data):
-	h = layer.ljust(16, b"\0") + name.ljust(24, b"\0") + shape[:2] + bytes([shape[2], 0])
-	tail = struct.pack("<QQ", rows, len(data))
-	return h + struct.pack("<I", zlib.crc32(data, zlib.crc32(h + b"\0\0\0\0" + tail))) + tail + data + b"\0" * (-len(data) % 64)
-def text(name, s):
-	return record(b"", name, b"-t\1", len(s), s)
 evil = [b"mr 1.0: mr-import '$(touch pwned)'\n", b"mr 1.0: mr-import a; touch pwned\n", b"mr 1.0: mr-import `touch pwned`\n", b"mr 1.0: touch pwned\n",
 	b"mr 1.0: mr-import ''\\'';touch pwned'\n", b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-smooth -o pwned '|' touch pwned\n", b"mr 1.0: mr-constructor x\n",
 	b"mr 1.0: mr-import 'a b' >pwned\n", b"touch pwned\n", b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-select --free 'all'\n mr-x\n",
@@ -30,12 +25,12 @@ evil = [b"mr 1.0: mr-import '$(touch pwned)'\n", b"mr 1.0: mr-import a; touch pw
 	b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-smooth -k --stats=pwned\n", b"mr 1.0: mr-make cube -n 8 -qo pwned\n",
 	b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-select --free all --from /etc/passwd\n"]
 with open("evil.mrs", "wb") as f:
-	f.write(record(b"mrmesh1\n", b"START", b"-t\1", 0, b""))
+	f.write(START)
 	for i, history in enumerate(evil):
-		f.write(text(b"FRAME", b"key %d';touch pwned;'$(touch pwned)" % i)
-			+ record(b"mesh", b"position", b"vd\3", 3, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0))
-			+ record(b"mesh", b"triangles", b"fu\3", 1, struct.pack("<3I", 0, 1, 2)) + text(b"history", history) + record(b"", b"ENDFRAME", b"-t\1", 0, b""))
-	f.write(record(b"", b"END", b"-t\1", 0, b""))
+		f.write(frame(b"key %d';touch pwned;'$(touch pwned)" % i,
+			record(b"mesh", b"position", b"vd\3", 3, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0)),
+			record(b"mesh", b"triangles", b"fu\3", 1, struct.pack("<3I", 0, 1, 2)), record(b"", b"history", data=history)))
+	f.write(END)
 Y
 for model in base edit rest plain silent shape control scan handled evil; do
 	mr-view -q -i $model.mrs $model.html || exit
