@@ -852,19 +852,14 @@ typedef struct mr_raster_opts {
 	double crease;       /* degrees: faces that meet at more are not shaded as one */
 	bool wire;           /* draw edges */
 	bool occlusion;      /* darken hollows */
-	double point_radius; /* of a ball, in pixels; 0: so that the balls about cover the surface */
 } mr_raster_opts;
 
-#define MR_RASTER_DEFAULTS MR_DEFAULTS(2, false, 45, false, true, 0)
+#define MR_RASTER_DEFAULTS MR_DEFAULTS(2, false, 45, false, true)
 
 typedef struct mr_render_opts {
 	size_t width, height;  /* of a panel, in pixels */
 	mr_v3 from, up;        /* direction in which the eye stands, and which is upwards */
-	double zoom;           /* 1: the shot fills the panel */
-	bool parallel;         /* no perspective */
-	bool fit;              /* a camera for each panel */
 	bool labels;           /* name each panel, and show legends */
-	bool axes;             /* x, y and z in a corner of each panel */
 	const char *layers;    /* comma between them; NULL: all with positions */
 	const char *color;     /* column that gives colours; NULL: none */
 	const char *texture;   /* picture, PNG or JPEG, on what has texture coordinates; NULL: none */
@@ -878,8 +873,8 @@ typedef struct mr_render_opts {
 } mr_render_opts;
 
 #define MR_RENDER_DEFAULTS                                                                                   \
-	MR_DEFAULTS(800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, 1, false, false, true, false, NULL, NULL, NULL, \
-	    NULL, false, 0, 0, NULL, false, 0, MR_RASTER_DEFAULTS)
+	MR_DEFAULTS(800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, true, NULL, NULL, NULL, NULL, false, 0, 0,      \
+	    NULL, false, 0, MR_RASTER_DEFAULTS)
 
 /* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */
 MR_API mr_status mr_render(

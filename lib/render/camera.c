@@ -32,7 +32,7 @@ direction(mr_v3 v)
 mr_status
 mr_camera_look(mr_ctx *ctx, mr_v3 from, mr_v3 up, mr_camera *c)
 {
-	mr_camera r = { .distance = INFINITY, .scale = 1, .toward = direction(from) };
+	mr_camera r = { .distance = 1, .scale = 1, .toward = direction(from) };
 	mr_v3 upward = direction(up);
 
 	if (!(mr_norm2(r.toward) > 0) || !(mr_norm2(upward) > 0))
@@ -63,20 +63,20 @@ mr_camera_box(const mr_camera *c, const mr_mesh *m, mr_box *box)
 }
 
 void
-mr_camera_aim(mr_camera *c, mr_box box, bool parallel)
+mr_camera_aim(mr_camera *c, mr_box box)
 {
 	mr_v3 m = mr_lerp(0.5, box.min, box.max);
 	double half = mr_box_diagonal(box) / 2;
 
 	c->center = mr_axpy(m.x, c->right, mr_axpy(m.y, c->up, mr_mul(m.z, c->toward)));
-	c->distance = parallel ? INFINITY : half > 0 ? 4 * half : 1;
+	c->distance = half > 0 ? 4 * half : 1;
 }
 
 mr_seen
 mr_camera_see(const mr_camera *c, mr_v3 p)
 {
 	mr_v3 q = to_axes(c, mr_sub(p, c->center));
-	double e = isinf(c->distance) ? 1 : c->distance / (c->distance - q.z);
+	double e = c->distance / (c->distance - q.z);
 
 	return (mr_seen){ c->x + c->scale * e * q.x, c->y - c->scale * e * q.y, e, q.z };
 }
@@ -95,13 +95,13 @@ mr_camera_cover(const mr_camera *c, const mr_mesh *m, mr_box *covered)
 }
 
 void
-mr_camera_fit(mr_camera *c, mr_box covered, double zoom, double left, double top, double w, double h)
+mr_camera_fit(mr_camera *c, mr_box covered, double left, double top, double w, double h)
 {
 	double width = covered.max.x - covered.min.x, height = covered.max.y - covered.min.y;
 	double across = width > 0 ? w / width : INFINITY, down = height > 0 ? h / height : INFINITY;
 	double scale = fmin(across, down);
 
-	c->scale = zoom * (isinf(scale) ? 1 : scale);
+	c->scale = isinf(scale) ? 1 : scale;
 	c->x = left + w / 2 - c->scale * (covered.min.x + covered.max.x) / 2;
 	c->y = top + h / 2 - c->scale * (covered.min.y + covered.max.y) / 2;
 }

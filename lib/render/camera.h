@@ -12,7 +12,7 @@
 typedef struct mr_camera {
 	mr_v3 right, up, toward; /* orthonormal; `toward` points from the scene to the eye */
 	mr_v3 center;            /* what the eye looks at */
-	double distance;         /* of the eye from the centre; INFINITY: parallel projection */
+	double distance;         /* of the eye from the centre */
 	double scale;            /* pixels per unit at the centre */
 	double x, y;             /* pixel of the centre, from the panel's upper left corner, y downwards */
 } mr_camera;
@@ -38,16 +38,15 @@ mr_status mr_camera_look(mr_ctx *ctx, mr_v3 from, mr_v3 up, mr_camera *c);
 /* Grows the box of the mesh's places along the camera's axes: x right, y up, z towards the eye. */
 void mr_camera_box(const mr_camera *c, const mr_mesh *m, mr_box *box);
 
-/* Puts the centre into the middle of the box; the eye at four half diagonals, or infinitely far for a
- * `parallel` one. */
-void mr_camera_aim(mr_camera *c, mr_box box, bool parallel);
+/* Puts the centre into the middle of the box; the eye at four half diagonals. */
+void mr_camera_aim(mr_camera *c, mr_box box);
 
 /* Grows the rectangle (x, y of the box) that they cover in the picture at a scale of 1. */
 void mr_camera_cover(const mr_camera *c, const mr_mesh *m, mr_box *covered);
 
-/* Sets scale and place so that the covered rectangle, times `zoom`, fills the middle of w by h pixels at
+/* Sets scale and place so that the covered rectangle fills the middle of w by h pixels at
  * (left, top). */
-void mr_camera_fit(mr_camera *c, mr_box covered, double zoom, double left, double top, double w, double h);
+void mr_camera_fit(mr_camera *c, mr_box covered, double left, double top, double w, double h);
 
 mr_seen mr_camera_see(const mr_camera *c, mr_v3 p);
 

@@ -2,7 +2,6 @@
 #include "render/gallery.h"
 
 #include "mesh/layers.h"
-#include "render/axes.h"
 
 static const mr_rgb PAPER = { 252, 252, 250 }, INK = { 58, 60, 66 }, PALE = { 140, 142, 148 };
 
@@ -41,10 +40,10 @@ aim(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_rende
 	MR_TRY(mr_camera_look(ctx, o->from, o->up, &c));
 	for (size_t i = first; i < first + count; i++)
 		mr_camera_box(&c, &g->panel[i].subject.mesh, &box);
-	mr_camera_aim(&c, box, o->parallel);
+	mr_camera_aim(&c, box);
 	for (size_t i = first; i < first + count; i++)
 		mr_camera_cover(&c, &g->panel[i].subject.mesh, &covered);
-	mr_camera_fit(&c, covered, o->zoom, margin, margin, w - 2 * margin, h - label - 2 * margin);
+	mr_camera_fit(&c, covered, margin, margin, w - 2 * margin, h - label - 2 * margin);
 	*camera = c;
 	return MR_OK;
 }
@@ -260,15 +259,10 @@ draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool
     const mr_render_opts *o, mr_image *image)
 {
 	const mr_panel *p = &g->panel[i];
-	mr_camera own = shot->camera;
 	mr_subject subject;
 
-	if (o->fit)
-		MR_TRY(aim(ctx, g, i, 1, o, &own));
 	MR_TRY(color_subject(ctx, shot, p, &subject));
-	MR_TRY(mr_raster(ctx, &subject, &own, &o->raster, image));
-	if (o->axes)
-		mr_axes_draw(image, &own, text_unit(o), (double)o->height - label_height(o));
+	MR_TRY(mr_raster(ctx, &subject, &shot->camera, &o->raster, image));
 	if (o->labels)
 		draw_label(image, shot, p, several, o);
 	return MR_OK;

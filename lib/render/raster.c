@@ -64,8 +64,6 @@ item_extent(const mr_raster_view *v, size_t item, range *x, range *y)
 	if (v->subject->mesh.nf == 0) {
 		const mr_placed *p = &v->at[item];
 		int64_t r = (int64_t)(v->radius * p->near * STEP) + 1;
-		if (is_parallel(v->camera))
-			r = (int64_t)(v->radius * STEP) + 1;
 		*x = samples_in(p->x - r, p->x + r, v->w);
 		*y = samples_in(p->y - r, p->y + r, v->h);
 	} else {
@@ -167,7 +165,7 @@ static void
 draw_point(const mr_raster_view *v, size_t point, range x, range y)
 {
 	const mr_placed *p = &v->at[point];
-	double enlarged = is_parallel(v->camera) ? 1 : p->near, r = v->radius * enlarged;
+	double r = v->radius * p->near;
 	double z = height_of(v->camera, p->near);
 	double unit = v->radius / (v->camera->scale * (double)v->opts->samples); /* the radius in space */
 
@@ -241,8 +239,7 @@ mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, const
 	if (!v.at || !v.near || !v.item)
 		return MR_EMEM;
 	if (subject->mesh.nf == 0)
-		v.radius = (opts->point_radius > 0 ? opts->point_radius : covering_radius(&v)) *
-		           (double)opts->samples;
+		v.radius = covering_radius(&v) * (double)opts->samples;
 	mr_parallel(ctx, subject->mesh.nv, 4096, place_vertices, &v);
 	MR_TRY(fill_bands(ctx, &v));
 	mr_parallel(ctx, (v.h + BAND - 1) / BAND, 1, draw_bands, &v);

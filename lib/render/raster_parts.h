@@ -41,23 +41,17 @@ edge_functions(const mr_placed p[3], int64_t x, int64_t y, int64_t e[3])
 	}
 }
 
-static inline bool
-is_parallel(const mr_camera *c)
-{
-	return isinf(c->distance) != 0;
-}
-
 /* `near` of the height z towards the eye, and back. */
 static inline double
 near_of(const mr_camera *c, double z)
 {
-	return is_parallel(c) ? z : c->distance / (c->distance - z);
+	return c->distance / (c->distance - z);
 }
 
 static inline double
 height_of(const mr_camera *c, double near)
 {
-	return is_parallel(c) ? near : c->distance - c->distance / near;
+	return c->distance - c->distance / near;
 }
 
 /* Colours the samples that see something, and puts the pixels into the image: shade.c. */

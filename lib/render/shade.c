@@ -282,7 +282,7 @@ shade_face_sample(const shading *s, facet *f, size_t at, size_t x, size_t y, gat
 		set_up_face(s, s->v->item[at], f);
 	edge_functions(f->p, (int64_t)x * STEP + STEP / 2, (int64_t)y * STEP + STEP / 2, e);
 	for (int i = 0; i < 3; i++) { /* weights linear in space, not in the picture */
-		w[i] = fabs((double)e[i]) * (is_parallel(c) ? 1 : (double)f->p[i].near);
+		w[i] = fabs((double)e[i]) * (double)f->p[i].near;
 		sum += w[i];
 	}
 	top = w[0] >= w[1] ? (w[0] >= w[2] ? 0 : 2) : (w[1] >= w[2] ? 1 : 2);
@@ -312,7 +312,7 @@ shade_point_sample(const shading *s, size_t at, size_t x, size_t y, gathered *g)
 	const mr_camera *c = s->v->camera;
 	uint32_t point = s->v->item[at];
 	const mr_placed *p = &s->v->at[point];
-	double r = s->v->radius * (is_parallel(c) ? 1 : p->near);
+	double r = s->v->radius * p->near;
 	double a = ((double)x + 0.5 - (double)p->x / STEP) / r,
 	       b = ((double)y + 0.5 - (double)p->y / STEP) / r;
 	double rest = 1 - a * a - b * b;
@@ -361,7 +361,7 @@ place_of(const shading *s, size_t x, size_t y)
 {
 	const mr_camera *c = s->v->camera;
 	double z = s->pixel[y * s->v->image->width + x].z;
-	double scale = c->scale * (is_parallel(c) ? 1 : c->distance / (c->distance - z));
+	double scale = c->scale * c->distance / (c->distance - z);
 
 	return mr_vec(((double)x - c->x) / scale, (c->y - (double)y) / scale, z);
 }

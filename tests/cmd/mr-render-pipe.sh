@@ -1,4 +1,4 @@
-# Pictures one behind the other: those of the frames, each whole, as another program reads them; and the axes in their corner.
+# Pictures one behind the other: those of the frames, each whole, as another program reads them.
 cat >pictures.py <<'P'
 import struct, sys, zlib
 def ppm(data, at):
@@ -57,30 +57,3 @@ mr-render -f ppm - <empty.mrs >none 2>err; echo "exit $?, $(wc -c <none) bytes: 
 head -c $(($(wc -c <frames.mrs) - 64)) frames.mrs | mr-render -q -s 64x48 -f ppm - >cut.ppm 2>err; echo "exit $?"
 python3 -c 'from pictures import *; print(len(all_of("cut.ppm")), "whole pictures")'
 mr-render -q -f ppm - <frames.mrs | head -c 100 >/dev/null; echo 'nobody reads on'
-
-echo '-- axes: which way each goes, and nothing else of the picture'
-cat >axes.py <<'P'
-from pictures import *
-import sys
-(width, height, rows), (_, _, plain) = all_of(sys.argv[1])[0], all_of(sys.argv[2])[0]
-seen = {}
-for y in range(height):
-	for x in range(width):
-		p = rows[y][3 * x:3 * x + 3]
-		if p == plain[y][3 * x:3 * x + 3]:
-			continue
-		assert x < 70 and y >= height - 70 - 15, (x, y)
-		low, high = min(p), max(p)
-		if high - low > 60:
-			seen.setdefault("xyz"[p.index(high)], []).append((x - 35, height - 15 - 35 - y))
-for axis in sorted(seen):
-	x, y = (sum(v[c] for v in seen[axis]) / len(seen[axis]) for c in (0, 1))
-	print(axis, "to the", " ".join(filter(None, ("right" if x > 8 else "left" if x < -8 else "", "top" if y > 8 else "bottom" if y < -8 else ""))) or "eye, or away", end="; ")
-print()
-P
-for view in front back left right top bottom iso; do
-	printf '%s: ' $view
-	mr-render -s 300x200 -f ppm --axes --view $view axes.ppm <cube.mrs && mr-render -s 300x200 -f ppm --view $view plain.ppm <cube.mrs && python3 axes.py axes.ppm plain.ppm
-done
-printf 'front, z upwards: '
-mr-render -s 300x200 -f ppm --axes --view front --up z axes.ppm <cube.mrs && mr-render -s 300x200 -f ppm --view front --up z plain.ppm <cube.mrs && python3 axes.py axes.ppm plain.ppm

@@ -38,16 +38,16 @@ made(mr_solid solid, size_t n)
 
 /* A camera that fits the points into all of w by h pixels. */
 static mr_camera
-camera_for(const mr_mesh *m, mr_v3 from, bool parallel, double w, double h)
+camera_for(const mr_mesh *m, mr_v3 from, double w, double h)
 {
 	mr_box box = mr_box_empty(), covered = mr_box_empty();
 	mr_camera c;
 
 	assert_int_equal(mr_camera_look(&ctx, from, mr_vec(0, 1, 0), &c), MR_OK);
 	mr_camera_box(&c, m, &box);
-	mr_camera_aim(&c, box, parallel);
+	mr_camera_aim(&c, box);
 	mr_camera_cover(&c, m, &covered);
-	mr_camera_fit(&c, covered, 1, 0, 0, w, h);
+	mr_camera_fit(&c, covered, 0, 0, w, h);
 	return c;
 }
 
@@ -77,7 +77,7 @@ covered_pixels(const mr_image *image)
 	return n;
 }
 
-/* Both projections: of a sphere, perspective enlarges the outline until it fits, so the area is that of the
+/* Of a sphere, perspective enlarges the outline until it fits, so the area is that of the
  * disc. */
 static void
 sphere_covers_a_disc(void **state)
@@ -87,17 +87,15 @@ sphere_covers_a_disc(void **state)
 
 	(void)state;
 	o.samples = 1;
-	for (int parallel = 0; parallel < 2; parallel++) {
-		mr_camera c = camera_for(&m, mr_vec(0.3, 0.2, 1), parallel, 300, 300);
-		mr_image image = drawn(&(mr_subject){ .mesh = m }, &c, o, 300, 300);
-		double n = (double)covered_pixels(&image), disc = MR_PI * 150 * 150;
+	mr_camera c = camera_for(&m, mr_vec(0.3, 0.2, 1), 300, 300);
+	mr_image image = drawn(&(mr_subject){ .mesh = m }, &c, o, 300, 300);
+	double n = (double)covered_pixels(&image), disc = MR_PI * 150 * 150;
 
-		assert_true(fabs(n - disc) < 0.01 * disc);
-		for (size_t y = 0; y < 300; y++) /* and no gap inside */
-			for (size_t x = 0; x < 300; x++)
-				if (hypot((double)x - 149.5, (double)y - 149.5) < 147)
-					assert_false(same(image.pixel[y * 300 + x], paper));
-	}
+	assert_true(fabs(n - disc) < 0.01 * disc);
+	for (size_t y = 0; y < 300; y++) /* and no gap inside */
+		for (size_t x = 0; x < 300; x++)
+			if (hypot((double)x - 149.5, (double)y - 149.5) < 147)
+				assert_false(same(image.pixel[y * 300 + x], paper));
 }
 
 static void
@@ -106,16 +104,14 @@ depth_of_the_middle(void **state)
 	mr_mesh m = made(MR_SPHERE, 10000);
 
 	(void)state;
-	for (int parallel = 0; parallel < 2; parallel++) {
-		mr_camera c = camera_for(&m, mr_vec(0, 0, 1), parallel, 300, 300);
-		mr_seen s = mr_camera_see(&c, mr_vec(0, 0, 1));
+	mr_camera c = camera_for(&m, mr_vec(0, 0, 1), 300, 300);
+	mr_seen s = mr_camera_see(&c, mr_vec(0, 0, 1));
 
-		assert_true(fabs(s.x - 150) < 0.5 && fabs(s.y - 150) < 0.5);
-		assert_true(fabs(s.z - 1) < 1e-3);
-		for (double z = -1; z <= 1; z += 0.25)
-			assert_true(fabs(height_of(&c, near_of(&c, z)) - z) < 1e-12);
-		assert_true(near_of(&c, 0.5) > near_of(&c, 0.25));
-	}
+	assert_true(fabs(s.x - 150) < 0.5 && fabs(s.y - 150) < 0.5);
+	assert_true(fabs(s.z - 1) < 1e-3);
+	for (double z = -1; z <= 1; z += 0.25)
+		assert_true(fabs(height_of(&c, near_of(&c, z)) - z) < 1e-12);
+	assert_true(near_of(&c, 0.5) > near_of(&c, 0.25));
 }
 
 /* Turned with the camera by a quarter about the upward axis, which moves coordinates exactly, a model looks
@@ -134,9 +130,9 @@ turning_all_changes_nothing(void **state)
 	for (size_t i = 0; i < m.nv; i++)
 		p[i] = mr_vec(m.p[i].z, m.p[i].y, -m.p[i].x);
 	turned.p = p;
-	c = camera_for(&m, mr_vec(0.5, 0.3, 1), false, 200, 200);
+	c = camera_for(&m, mr_vec(0.5, 0.3, 1), 200, 200);
 	a = drawn(&(mr_subject){ .mesh = m }, &c, o, 200, 200);
-	c = camera_for(&turned, mr_vec(1, 0.3, -0.5), false, 200, 200);
+	c = camera_for(&turned, mr_vec(1, 0.3, -0.5), 200, 200);
 	b = drawn(&(mr_subject){ .mesh = turned }, &c, o, 200, 200);
 	for (size_t i = 0; i < 200 * 200; i++)
 		different += abs(a.pixel[i].g - b.pixel[i].g) > 2;
@@ -148,7 +144,7 @@ threads_do_not_matter(void **state)
 {
 	mr_mesh m = made(MR_BUMPY, 5000), cloud = m;
 	mr_raster_opts o = MR_RASTER_DEFAULTS;
-	mr_camera c = camera_for(&m, mr_vec(1, 1, 1), false, 160, 120);
+	mr_camera c = camera_for(&m, mr_vec(1, 1, 1), 160, 120);
 
 	(void)state;
 	o.wire = true;
@@ -200,7 +196,7 @@ nearer_hides_and_first_wins(void **state)
 	for (size_t k = 0; k < 3; k++) {
 		mr_mesh m = squares(heights[k], 2);
 		mr_subject s = { .mesh = m, .color = color, .per_face = true };
-		mr_camera c = camera_for(&m, mr_vec(0, 0, 1), true, 40, 40);
+		mr_camera c = camera_for(&m, mr_vec(0, 0, 1), 40, 40);
 		mr_image image = drawn(&s, &c, o, 40, 40);
 		for (size_t i = 0; i < 40 * 40; i++)
 			assert_int_equal(image.pixel[i].r > image.pixel[i].g, red_wins[k]);
@@ -216,7 +212,7 @@ kinds_change_in_the_middle(void **state)
 	const mr_rgb color[] = { red, red, green, green };
 	mr_subject s = { .mesh = m, .color = color, .nearest = true };
 	mr_raster_opts o = MR_RASTER_DEFAULTS;
-	mr_camera c = camera_for(&m, mr_vec(0, -1.5, 1), false, 400, 200);
+	mr_camera c = camera_for(&m, mr_vec(0, -1.5, 1), 400, 200);
 	mr_seen middle, top, bottom;
 	mr_image image = drawn(&s, &c, o, 400, 200);
 	size_t x, y = 0;
@@ -245,7 +241,7 @@ inside_is_bluish(void **state)
 
 	(void)state;
 	for (int back = 0; back < 2; back++) {
-		mr_camera c = camera_for(&m, mr_vec(0, 0, back ? -1 : 1), true, 40, 40);
+		mr_camera c = camera_for(&m, mr_vec(0, 0, back ? -1 : 1), 40, 40);
 		mr_image image = drawn(&(mr_subject){ .mesh = m }, &c, o, 40, 40);
 		mr_rgb middle = image.pixel[20 * 40 + 20];
 		assert_int_equal(middle.b > middle.r, back);
@@ -265,7 +261,7 @@ edges_are_of_one_width(void **state)
 	o.wire = true;
 	for (int k = 0; k < 2; k++) {
 		size_t side = k ? 400 : 200;
-		mr_camera c = camera_for(&m, mr_vec(0, 0, 1), true, (double)side, (double)side);
+		mr_camera c = camera_for(&m, mr_vec(0, 0, 1), (double)side, (double)side);
 		mr_image image = drawn(&(mr_subject){ .mesh = m }, &c, o, side, side);
 		mr_rgb plain = image.pixel[side / 2 * side + side / 4];
 		for (size_t i = 0; i < side * side; i++)
@@ -280,7 +276,7 @@ static void
 far_outside_is_cut(void **state)
 {
 	mr_mesh m = made(MR_SPHERE, 1000);
-	mr_camera c = camera_for(&m, mr_vec(0, 0, 1), false, 64, 48);
+	mr_camera c = camera_for(&m, mr_vec(0, 0, 1), 64, 48);
 	mr_raster_opts o = MR_RASTER_DEFAULTS;
 	mr_image image;
 
@@ -342,7 +338,7 @@ static void
 out_of_memory(void **state)
 {
 	mr_mesh m = made(MR_SPHERE, 100);
-	mr_camera c = camera_for(&m, mr_vec(0, 0, 1), false, 32, 32);
+	mr_camera c = camera_for(&m, mr_vec(0, 0, 1), 32, 32);
 	mr_raster_opts o = MR_RASTER_DEFAULTS;
 	mr_status s = MR_EMEM;
 	mr_image image;

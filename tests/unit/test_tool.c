@@ -250,7 +250,7 @@ test_options_that_cannot_be(void **state)
 	assert_int_equal(mr_solve_frame(ctx, f, &solve, NULL, NULL), MR_EUSAGE);
 	decode.gain = INFINITY;
 	assert_int_equal(mr_decode_frame(ctx, f, &decode, NULL, NULL), MR_EUSAGE);
-	render.zoom = 0;
+	render.width = 0;
 	assert_int_equal(mr_render(ctx, f, &render, "no.png"), MR_EUSAGE);
 	make.noise = NAN;
 	assert_int_equal(mr_make(ctx, &make, &none), MR_EUSAGE);
