@@ -234,111 +234,19 @@ turn(surface *s, uint32_t f)
 	s->r.flipped++;
 }
 
-/* The connected parts of the faces. */
-typedef struct parts {
-	uint32_t *face;  /* nf: those of a part stand together */
-	uint32_t *start; /* of each part, and behind the last */
-	bool *closed;    /* each part */
-	bool *against;   /* and outside out against most of its faces */
-	size_t count;
-	size_t doubtful; /* parts that are so */
-} parts;
-
-static mr_status
-parts_new(const surface *s, parts *p)
-{
-	*p = (parts){ .face = MR_NEW(s->ctx, s->nf, uint32_t),
-		.start = MR_NEW(s->ctx, s->nf + 1, uint32_t),
-		.closed = MR_NEW(s->ctx, s->nf, bool),
-		.against = MR_NEW(s->ctx, s->nf, bool) };
-	return p->face && p->start && p->closed && p->against ? MR_OK : MR_EMEM;
-}
-
+/* The faces of a part agree: they are as most of them are, so that a hollow stays one; of a closed part where
+ * that is less than three quarters they come outside out. */
 static void
-turn_part(const parts *p, size_t i, bool *turned)
+orient_part(const surface *s, const uint32_t *face, size_t n, bool closed, bool *turned)
 {
-	for (size_t k = p->start[i]; k < p->start[i + 1]; k++)
-		turned[p->face[k]] = !turned[p->face[k]];
-}
-
-/* The faces of a part agree: of a closed one in which some had to turn they come outside out, of another they
- * are as most are. */
-static void
-orient_part(surface *s, parts *p, size_t i, bool *turned)
-{
-	const uint32_t *face = p->face + p->start[i];
-	size_t n = p->start[i + 1] - p->start[i], count = 0;
-	bool inward, other;
+	size_t count = 0;
 
 	for (size_t k = 0; k < n; k++)
 		count += turned[face[k]];
-	inward = p->closed[i] && count > 0 && volume(s, face, n, turned) < 0;
-	other = p->closed[i] && count > 0 ? inward : 2 * count > n;
-	p->against[i] = p->closed[i] && count > 0 && (other ? 2 * count < n : 2 * count > n);
-	p->doubtful += p->against[i];
-	if (other)
-		turn_part(p, i, turned);
-}
-
-static mr_box
-box_of_part(const surface *s, const parts *p, size_t i)
-{
-	mr_box box = mr_box_empty();
-
-	for (size_t k = p->start[i]; k < p->start[i + 1]; k++)
-		for (int c = 0; c < 3; c++)
-			mr_box_add(&box, s->m->p[s->t[p->face[k]].v[c]]);
-	return box;
-}
-
-/* Whether a point is within a closed part, whose solid angle is the whole sphere there: A. Van Oosterom, J.
- * Strackee, The solid angle of a plane triangle, IEEE Trans. Biomedical Engineering 30(2), 1983. */
-static bool
-is_within(const surface *s, const parts *p, size_t i, const bool *turned, mr_v3 q)
-{
-	double sum = 0;
-
-	for (size_t k = p->start[i]; k < p->start[i + 1]; k++) {
-		const uint32_t *v = s->t[p->face[k]].v;
-		mr_v3 a = mr_unit(mr_sub(s->m->p[v[0]], q)), b = mr_unit(mr_sub(s->m->p[v[1]], q)),
-		      c = mr_unit(mr_sub(s->m->p[v[2]], q));
-		double half = atan2(
-		    mr_dot(a, mr_cross(b, c)), 1 + mr_dot(a, b) + mr_dot(b, c) + mr_dot(c, a));
-		sum += turned[p->face[k]] ? -half : half;
-	}
-	return fabs(sum) > MR_PI;
-}
-
-/* In how many closed parts the first face of a part is. */
-static size_t
-depth_of(const surface *s, const parts *p, const mr_box *box, size_t i, const bool *turned)
-{
-	mr_tri t = s->t[p->face[p->start[i]]];
-	mr_v3 q = mr_mean3(s->m->p[t.v[0]], s->m->p[t.v[1]], s->m->p[t.v[2]]);
-	size_t depth = 0;
-
-	for (size_t k = 0; k < p->count; k++)
-		depth += k != i && p->closed[k] && mr_box_has(box[k], q) && is_within(s, p, k, turned, q);
-	return depth;
-}
-
-/* A part that is the hollow of another is as most of its faces are. */
-static mr_status
-keep_hollows(const surface *s, const parts *p, bool *turned)
-{
-	mr_box *box;
-
-	if (p->doubtful == 0)
-		return MR_OK;
-	box = MR_NEW(s->ctx, p->count, mr_box);
-	if (!box)
-		return MR_EMEM;
-	for (size_t i = 0; i < p->count; i++)
-		box[i] = box_of_part(s, p, i);
-	for (size_t i = 0; i < p->count; i++)
-		if (p->against[i] && depth_of(s, p, box, i, turned) % 2)
-			turn_part(p, i, turned);
-	return MR_OK;
+	if (closed && 4 * count >= n && 4 * count <= 3 * n ? volume(s, face, n, turned) >= 0 : 2 * count <= n)
+		return;
+	for (size_t k = 0; k < n; k++)
+		turned[face[k]] = !turned[face[k]];
 }
 
 static mr_status
@@ -346,22 +254,18 @@ orient(surface *s)
 {
 	mr_mark mark = mr_mark_take(s->ctx);
 	bool *seen = MR_NEW_ZERO(s->ctx, s->nf, bool), *turned = MR_NEW_ZERO(s->ctx, s->nf, bool);
-	parts p;
+	uint32_t *face = MR_NEW(s->ctx, s->nf, uint32_t);
+	bool closed;
 
-	MR_TRY(parts_new(s, &p));
-	if (!seen || !turned)
+	if (!seen || !turned || !face)
 		return MR_EMEM;
-	p.start[0] = 0;
-	for (uint32_t f = 0; f < s->nf; f++) {
-		size_t i = p.count;
-		if (seen[f])
-			continue;
-		p.face[p.start[i]] = f;
-		p.start[++p.count] = p.start[i] +
-		                     (uint32_t)spread(s, p.face + p.start[i], seen, turned, &p.closed[i]);
-		orient_part(s, &p, i, turned);
-	}
-	MR_TRY(keep_hollows(s, &p, turned));
+	for (uint32_t f = 0; f < s->nf; f++)
+		if (!seen[f]) {
+			size_t n;
+			face[0] = f;
+			n = spread(s, face, seen, turned, &closed);
+			orient_part(s, face, n, closed, turned);
+		}
 	for (uint32_t f = 0; f < s->nf; f++)
 		if (turned[f])
 			turn(s, f);

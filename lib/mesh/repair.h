@@ -31,8 +31,8 @@ typedef struct mr_repair_report {
 /*
  * An oriented manifold with boundary of the triangles of `m`.  Faces that are degenerate or duplicate go.  At
  * an edge of more than two faces those that bound the same wedge of the solid, by their orientations, stay
- * together; the others are parted.  Components are oriented consistently: a closed one that was not,
- * outwards; others as most of their faces were.  Fans at a vertex are parted.
+ * together; the others are parted.  Components are oriented consistently: as most of their faces were,
+ * a closed one where that is less than three quarters outwards.  Fans at a vertex are parted.
  *
  * out: arrays of the arena.  vertex_of, face_of: for each vertex and face of `out`, the one of `m` that it
  * comes from; one turned over keeps its first vertex.  MR_EMESH where no face is left.

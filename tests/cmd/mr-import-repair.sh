@@ -43,7 +43,7 @@ mr-import --weld 20% p.xyz | mr-export -f xyz - | wc -l
 echo '-- tools that need a manifold name the way to one'
 mr-import bad.obj | mr-remesh 2>&1 >/dev/null | tail -n 1
 
-echo '-- a hollow keeps its side, and a body outside one comes outside out, whatever is turned in them'
+echo '-- a hollow keeps its side, and a body its own, of whatever few faces are turned in them'
 ball() { # NAME, scale, shift, inside out
 	mr-make sphere -n 500 | mr-transform --scale "$2" --translate "$3,0,0" | mr-export -q "$1.obj"
 	[ "$4" != yes ] || { awk '$1 == "f" { print $1, $2, $4, $3; next } { print }' "$1.obj" >turned && mv turned "$1.obj"; }
@@ -51,8 +51,8 @@ ball() { # NAME, scale, shift, inside out
 }
 ball shell 1 0 no
 ball hollow 0.5 0.1 yes
-ball kernel 0.2 0 yes
-ball apart 0.5 3 yes
+ball kernel 0.2 0 no
+ball apart 0.5 3 no
 for bodies in 'shell' 'shell hollow' 'shell hollow kernel' 'shell hollow kernel apart'; do
 	mr-import $(printf '%s.obj ' $bodies) | mr-cat --append | mr-export -q all.obj
 	mr-import --repair all.obj | mr-info --no-intersections | grep -o 'volume.*' # 4.1 (1 - 1/8 + 1/125 + 1/8)
