@@ -332,7 +332,7 @@ typedef struct mr_remesh_result {
 	size_t splits, collapses, flips, tips; /* tips: of thin limbs, kept */
 	size_t vertices, faces;                /* of the result */
 	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
-	size_t flipped_before, flipped, folded_before, folded; /* faces against the input; edges */
+	size_t flipped, folded; /* faces against the input; edges */
 	double feature;                 /* the angle from which edges are kept, 180: none are */
 	size_t sharp_edges, sharp_lost; /* of the input: kept, and those from which the kept ones are gone */
 	double seconds_rounds, seconds_areas;

@@ -505,10 +505,11 @@ map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_
 /* ---- frames ---- */
 
 static bool
-is_sampling(const char *name)
+is_sampling(const mr_column *c)
 {
-	return !strcmp(name, "spacing") || !strcmp(name, "outlier") || !strcmp(name, "repeat") ||
-	       !strcmp(name, "sampling");
+	const mr_column_info *info = mr_column_of(c->layer, c->name);
+
+	return info && info->kind == MR_SAMPLED;
 }
 
 /* MR_EMESH where a column cannot follow the map. */
@@ -561,15 +562,12 @@ check_poses(mr_ctx *ctx, mr_frame *f, const char *layer)
 static mr_status
 cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
 {
-	static const char *const ties[] = { "detail_face", "detail_bary", "detail_height", "detail_offset",
-		"source_face", "source_bary", "encoded", "mesh_face", "mesh_bary", "base_face", "base_bary",
-		"control_face", "control_bary", NULL };
 	size_t before = f->count;
 
 	mr_layer_renumbered(f, layer);
-	for (const char *const *name = ties; *name; name++)
-		if (mr_column_known(layer, *name))
-			mr_frame_drop(f, layer, *name, 0);
+	for (const mr_column_info *c = mr_columns; c->name; c++)
+		if ((c->refers || !strcmp(c->name, "encoded")) && (!c->layer || !strcmp(c->layer, layer)))
+			mr_frame_drop(f, layer, c->name, 0);
 	if (f->count < before)
 		mr_warn(ctx, "%s goes alone: what tied it to other layers is dropped", layer);
 	return MR_OK;
@@ -598,7 +596,7 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 		size_t sort = sort_of(column);
 		if (sort == sizeof sorts / sizeof *sorts || (layer && strcmp(layer, column->layer)))
 			continue;
-		if (!(c.unit_scale > 0) && is_sampling(column->name)) {
+		if (!(c.unit_scale > 0) && is_sampling(column)) {
 			char of[MR_LAYER_MAX + 1];
 			memcpy(of, column->layer, sizeof of);
 			mr_frame_drop(f, of, column->name, 0);

@@ -39,36 +39,6 @@ mr_facing_normal(const mr_facing *s, mr_place at)
 	return n;
 }
 
-/* True where no face around v points against n: then neither does their mean. */
-static bool
-all_along(const mr_facing *s, uint32_t v, mr_v3 n)
-{
-	uint32_t h = s->topo->out[v];
-
-	do {
-		if (mr_dot(mr_face_cross(s->m, h / 3), n) < 0)
-			return false;
-		h = mr_he_ccw(s->topo, h);
-	} while (h != MR_NONE && h != s->topo->out[v]);
-	return true;
-}
-
-size_t
-mr_count_flipped_source(const mr_facing *s)
-{
-	size_t flipped = 0;
-
-	for (size_t f = 0; f < s->m->nf; f++) {
-		const uint32_t *v = s->m->t[f].v;
-		mr_v3 n = mr_face_cross(s->m, f);
-		unsigned against = 0;
-		for (int k = 0; k < 3 && against == (unsigned)k; k++)
-			against += !all_along(s, v[k], n) && mr_dot(vertex_normal(s, v[k]), n) < 0;
-		flipped += against == 3;
-	}
-	return flipped;
-}
-
 size_t
 mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_places *map)
 {

@@ -21,7 +21,4 @@ mr_v3 mr_facing_normal(const mr_facing *s, mr_place at);
 /* The flipped faces of m, whose vertices lie on the source as the map says. */
 size_t mr_count_flipped(const mr_facing *s, const mr_mesh *m, const mr_places *map);
 
-/* The flipped faces of the source itself. */
-size_t mr_count_flipped_source(const mr_facing *s);
-
 #endif

@@ -34,13 +34,12 @@ typedef struct remesher {
 	mr_resampled changes;
 	double feature; /* the angle from which an edge is kept */
 	size_t flips, tips;
-	size_t tidied;                /* splits and collapses when neighbours were last brought together */
-	size_t flipped[2], folded[2]; /* faces and edges, of the input and of the result */
-	size_t sharp[2];              /* edges of the input: kept, and lost all the same */
+	size_t tidied;          /* splits and collapses when neighbours were last brought together */
+	size_t flipped, folded; /* faces and edges, of the result */
+	size_t sharp[2];        /* edges of the input: kept, and lost all the same */
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 	double seconds_rounds, seconds_areas;
-	bool wanted; /* the figures */
 } remesher;
 
 static double
@@ -439,19 +438,15 @@ map_to_source(remesher *r, mr_places *map)
 	return MR_OK;
 }
 
-/* Triangles flipped and edges folded, of the input and of the result. */
+/* Triangles flipped and edges folded. */
 static void
 count_flaws(remesher *r, const mr_places *map)
 {
 	const mr_facing facing = { r->source.m, r->source.topo };
 	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
 
-	r->flipped[1] = mr_count_flipped(&facing, &view, map);
-	r->folded[1] = mr_count_folds(r->ctx, &view, r->d.twin);
-	if (!r->wanted)
-		return;
-	r->flipped[0] = mr_count_flipped_source(&facing);
-	r->folded[0] = mr_count_folds(r->ctx, r->source.m, r->source.topo->twin);
+	r->flipped = mr_count_flipped(&facing, &view, map);
+	r->folded = mr_count_folds(r->ctx, &view, r->d.twin);
 }
 
 static mr_status
@@ -477,7 +472,7 @@ settle(remesher *r, mr_places *map)
 static size_t
 flaws_of(const remesher *r)
 {
-	return r->flipped[1] + r->folded[1];
+	return r->flipped + r->folded;
 }
 
 static mr_status
@@ -577,10 +572,8 @@ report(const remesher *r)
 		.faces = r->d.nf,
 		.area_variance_before = r->variance[0],
 		.area_variance_after = r->variance[1],
-		.flipped_before = r->flipped[0],
-		.flipped = r->flipped[1],
-		.folded_before = r->folded[0],
-		.folded = r->folded[1],
+		.flipped = r->flipped,
+		.folded = r->folded,
 		.feature = r->feature,
 		.sharp_edges = r->sharp[0],
 		.sharp_lost = r->sharp[1],
@@ -592,7 +585,7 @@ static mr_status
 remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result)
 {
-	remesher r = { .ctx = ctx, .o = o, .wanted = result != NULL };
+	remesher r = { .ctx = ctx, .o = o };
 	mr_topology topo;
 	mr_mark mark;
 

@@ -19,8 +19,8 @@ edit() { # model, file, order of the solve
 	echo "$1: $(figure vertices remesh.json) base vertices, area error $(figure voronoi_error base.json)," \
 	    "angle error $(figure angle_error base.json), valence 6 $(figure valence6 base.json)," \
 	    "heights $(figure heights encode.json), offsets $(figure offsets encode.json), rcond $(figure rcond pose.json)," \
-	    "folded edges $(figure folded_before remesh.json) to $(figure folded remesh.json)," \
-	    "flipped triangles $(figure flipped_before remesh.json) to $(figure flipped remesh.json)," \
+	    "folded edges $(figure folded remesh.json)," \
+	    "flipped triangles $(figure flipped remesh.json)," \
 	    "remeshing $(figure peak_bytes remesh.json) bytes"
 }
 mr-make bumpy -n 200000 -o bumpy.mrs && mr-export bumpy.ply -i bumpy.mrs && edit bumpy-400k bumpy.ply

@@ -10,7 +10,7 @@ for shape in torus knot bumpy boxes plane; do
 		[ "$a" = "$b" ] && echo "$shape: $name: ok" || echo "$shape: $name: $b became $a"
 	done
 	for name in flipped folded; do
-		echo "$shape: $name: $(figure $name stats.json) of $(figure ${name}_before stats.json)"
+		echo "$shape: $name: $(figure $name stats.json)"
 	done
 	awk -v b="$(figure area_variance_before stats.json)" -v a="$(figure area_variance_after stats.json)" -v s=$shape \
 	    'BEGIN { print s ": area variance", (a < b / 2 ? "ok" : "bad: " b " " a) }'
