@@ -548,7 +548,8 @@ typedef struct mr_wrap_opts {
 
 /* Of the implicit surface. */
 typedef struct mr_volume_result {
-	size_t samples, nodes, sided, inward; /* points that counted; of the grid; whose sides were used; 1: turned over */
+	/* points that counted; of the grid; whose sides were used; 1: turned over */
+	size_t samples, nodes, sided, inward;
 	double spacing, cell;  /* side of the square that a point stands for; of a cell */
 	double noise;          /* squares of so many spacings show a surface: at least 1 */
 	size_t grid;           /* cells along the longest side of the points' box */

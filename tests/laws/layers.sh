@@ -59,7 +59,7 @@ foreign() {
 foreign 'cholmod.*' 'lib/solve/[a-z_]+\.[ch]' 1
 foreign 'umfpack.*' 'lib/solve/[a-z_]+\.[ch]' 1
 foreign 'flann/.*' 'lib/space/near_shim\.cc' 2
-foreign 'zlib\.h' 'lib/stream/[a-z_]+\.[ch]|formats/[a-z_]+\.[ch]' 4
+foreign 'zlib\.h' 'lib/stream/[a-z0-9_]+\.[ch]|formats/[a-z_]+\.[ch]' 4
 foreign 'dmumps_c\.h' 'lib/solve/mumps\.c' 1
 foreign 'mpi\.h' 'lib/solve/mumps\.c|cmd/mpi\.c' 2
 foreign 'png\.h' '(lib/render|formats)/[a-z_]+\.[ch]' 1
