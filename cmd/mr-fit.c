@@ -46,7 +46,6 @@ fit_frame(cmd *c, mr_frame *f)
 	opts.layer = c->layer;
 	MR_TRY(mr_fit_frame(&c->ctx, f, &opts, c->stats ? &result : NULL));
 	cmd_figures(c, figures, &result);
-	cmd_gaps(c, &result.gaps);
 	return MR_OK;
 }
 

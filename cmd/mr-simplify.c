@@ -66,7 +66,6 @@ simplify_frame(cmd *c, mr_frame *f)
 	opts.layer = c->layer;
 	MR_TRY(mr_simplify_frame(&c->ctx, f, &opts, &result));
 	cmd_figures(c, figures, &result);
-	cmd_gaps(c, &result.gaps);
 	return MR_OK;
 }
 

@@ -599,7 +599,6 @@ typedef struct mr_simplify_result {
 	size_t creases;                   /* edges of the result that are marked to be sharp */
 	double error;                     /* the largest that was made */
 	double seconds_begin, seconds_merge;
-	mr_gaps gaps; /* of control meshes */
 } mr_simplify_result;
 
 MR_API mr_status mr_simplify_frame(
@@ -626,7 +625,6 @@ typedef struct mr_fit_result {
 	size_t damped, crossing_faces; /* vertices that did not go all the way; control faces */
 	double cg_steps;               /* an iteration, on the mean */
 	double seconds_iteration;
-	mr_gaps gaps; /* of the limit surface; of least squares */
 } mr_fit_result;
 
 MR_API mr_status mr_fit_frame(

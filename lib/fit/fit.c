@@ -5,7 +5,6 @@
 #include "fit/fit.h"
 
 #include "fit/least_squares.h"
-#include "measure/gaps.h"
 #include "mesh/fold.h"
 #include "mesh/zorder.h"
 #include "solve/sparse.h"
@@ -89,17 +88,19 @@ put_distances(const mr_fit_gap *before, const mr_fit_gap *after, mr_fit_result *
 /* Where the result is poor: it folds, or the points, less their noise, are as far as the control mesh is
  * coarse. */
 static void
-warn(mr_ctx *ctx, const mr_fit_surface *s, double edge, double noise, const mr_fit_foot *foot, size_t n)
+report(mr_ctx *ctx, const mr_fit_surface *s, double edge, double noise, const mr_fit_foot *foot, size_t n)
 {
-	size_t folds = count_folds(ctx, s);
+	mr_finding f = { .kind = MR_FOLDED, .layer = "control", .count = count_folds(ctx, s) };
 	double far = mr_fit_measure(ctx, foot, n).mean;
 
-	if (folds > 0)
-		mr_warn(ctx, "the limit surface has %zu folded edges", folds);
+	if (f.count > 0)
+		mr_found(ctx, &f);
+	f = (mr_finding){
+		.kind = MR_DISTANT, .layer = "control", .what = "a finer control mesh comes nearer"
+	};
+	f.value = far / mr_mesh_diagonal(&s->m);
 	if (far > FAR * edge + noise)
-		mr_warn(ctx,
-		    "the points are %.3g from the limit surface on the mean, where a control edge is %.3g",
-		    far, edge);
+		mr_found(ctx, &f);
 }
 
 /* Takes the outliers of *n points out, and their feet; s: their sampling. */
@@ -125,30 +126,6 @@ drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, dou
 		foot[kept++] = foot[i];
 	}
 	*n = kept;
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
-/* How far the limit surface and its points are from one another, where it is known how these lie. */
-static mr_status
-look_at_gaps(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, const double *spacing, double usual,
-    const mr_fit_foot *foot, size_t n, mr_gaps *gaps)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	double *off = MR_NEW(ctx, n, double);
-	mr_near *near;
-	mr_status status;
-
-	if (!off)
-		return MR_EMEM;
-	for (size_t i = 0; i < n; i++)
-		off[i] = foot[i].dist;
-	gaps->points = mr_gap_of(off, n);
-	MR_TRY(mr_near_build(ctx, point, n, &near));
-	status = mr_gap_of_surface(
-	    ctx, &s->m, &(mr_gap_cloud){ point, spacing, near, n, usual }, MR_GAP_SAMPLES, gaps, NULL);
-	mr_near_free(near);
-	MR_TRY(status);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -253,9 +230,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
-	warn(ctx, &s, edge, is_local ? 0 : sampling.noise, foot, n);
-	if (!is_local)
-		MR_TRY(look_at_gaps(ctx, &s, sorted, spacing, sampling.usual, foot, n, &r.gaps));
+	report(ctx, &s, edge, is_local ? 0 : sampling.noise, foot, n);
 	if (result) {
 		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
 		after = mr_fit_measure(ctx, foot, n);

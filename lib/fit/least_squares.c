@@ -106,8 +106,8 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, c
 	result->cg_steps = (double)steps / (double)passes;
 	result->crossing_faces = mr_fit_crossing(guard);
 	if (result->crossing_faces > 0)
-		mr_warn(ctx, "the limit surface passes through itself at %zu of %zu control faces",
-		    result->crossing_faces, surface->level[0].nf);
+		mr_found(ctx, &(mr_finding){
+				  .kind = MR_CROSSING, .layer = "control", .count = result->crossing_faces });
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

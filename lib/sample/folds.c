@@ -1,7 +1,7 @@
 /* Where a displaced surface breaks: faces that turn over, sharp folds, faces that pass through others. */
-#include "sample/parts.h"
 #include "base/parallel.h"
 #include "mesh/fold.h"
+#include "sample/parts.h"
 
 enum { GRAIN = 512 };
 

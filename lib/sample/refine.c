@@ -281,16 +281,22 @@ report_gaps(mr_ctx *ctx, const fit *x)
 
 /* Heights that follow noise make a surface of many spikes, and so much larger. */
 static void
-report_area(mr_ctx *ctx, const fit *x)
+report_rough(mr_ctx *ctx, const fit *x, size_t folds)
 {
 	static const double SPIKY = 1.5;
-	double ratio = mr_mesh_area(ctx, &x->surface) / mr_mesh_area(ctx, &x->d->m);
+	mr_finding f = { .kind = MR_ROUGH, .count = folds, .of = x->d->m.nf };
 
-	x->found->area_ratio = ratio;
-	if (ratio > SPIKY && !x->weights->robust)
-		mr_warn(ctx, "the displaced surface has %.3g times the area of its domain: %s", ratio,
-		    x->c->mesh ? "the control mesh has too few faces for the mesh"
-			       : "noise, for which there is -m robust, or the domain is far off");
+	x->found->folds = folds;
+	x->found->area_ratio = mr_mesh_area(ctx, &x->surface) / mr_mesh_area(ctx, &x->d->m);
+	if (folds > 0)
+		f.what = mr_format(ctx,
+		    "%zu of %zu triangles of the displaced surface fold over or pass through others", folds,
+		    x->d->m.nf);
+	else if (x->found->area_ratio > SPIKY && !x->weights->robust)
+		f.what = mr_format(
+		    ctx, "the displaced surface has %.3g times the area of its domain", x->found->area_ratio);
+	if (f.what)
+		mr_found(ctx, &f);
 }
 
 /* Whether more speaks against the heights than may. */
@@ -503,11 +509,7 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, cons
 	if (rejected)
 		return MR_OK;
 	MR_TRY(report_gaps(ctx, &x));
-	report_area(ctx, &x);
-	r->folds = folds;
-	if (folds > 0)
-		mr_warn(ctx, "%zu of %zu triangles of the displaced surface fold over or pass through others",
-		    folds, d->m.nf);
+	report_rough(ctx, &x, folds);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

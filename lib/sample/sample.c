@@ -146,11 +146,11 @@ mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, 
 /* Where points fit them later it is their gaps that tell whether heights are missing: of a clean gear a
  * quarter of the vertices, at its edges, find none, and the surface is within 2 spacings all over. */
 static void
-warn_of_filled(mr_ctx *ctx, const mr_domain *d, bool fitted, const mr_sample_result *r)
+report_filled(mr_ctx *ctx, const mr_domain *d, bool fitted, const mr_sample_result *r)
 {
 	if (!fitted && (double)r->filled > FILLED_MOST * (double)d->m.nv)
-		mr_warn(
-		    ctx, "no height is found at %zu of %zu vertices: filled in smoothly", r->filled, d->m.nv);
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_FILLED, .count = r->filled, .of = d->m.nv, .what = "heights" });
 }
 
 /*
@@ -291,10 +291,13 @@ see_through(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_
 		return MR_OK;
 	}
 	if (crust > CRUST_TOLD)
-		mr_warn(ctx,
-		    "%.3g %% of the displaced surface is rough all over: what is as thin as the points are "
-		    "apart, or noise, for which there is -m robust",
-		    100 * crust);
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_ROUGH,
+			.value = crust,
+			.what = mr_format(ctx,
+			    "%.3g %% of the displaced surface is rough all over, by noise or as thin as the "
+			    "points are apart",
+			    100 * crust) });
 	return report_heights(ctx, d, c, height, r);
 }
 
@@ -311,7 +314,7 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cl
 	MR_TRY(find_heights(ctx, d, c, opts, robust, ask ? &crust : NULL, height, r));
 	if (crust > CRUST)
 		MR_TRY(see_through(ctx, d, c, opts, crust, height, r));
-	warn_of_filled(ctx, d, opts->refine > 0, r);
+	report_filled(ctx, d, opts->refine > 0, r);
 	return MR_OK;
 }
 
@@ -390,7 +393,7 @@ mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 	MR_TRY(leave_isolated(ctx, &c));
 	MR_TRY(mend(ctx, d, &e, hit, height, &r));
 	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height, &r));
-	warn_of_filled(ctx, d, false, &r);
+	report_filled(ctx, d, false, &r);
 	mr_mark_release(ctx, mark);
 	if (result)
 		*result = r;

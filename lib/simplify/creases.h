@@ -10,10 +10,11 @@
 
 /*
  * The vertices of m, an oriented manifold that is near n points and finer than its sharp edges are apart,
- * with those near a sharp edge or a corner moved onto it, as far as nothing folds.  to: m->nv, the caller's.
+ * with those near a sharp edge or a corner moved onto it, as far as nothing folds.  to: m->nv, the caller's,
+ * unless *any says that hardly any are sharp: then nothing.
  */
-mr_status mr_sharpen(
-    mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double width, mr_v3 *to) MR_WARN_UNUSED;
+mr_status mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double width, mr_v3 *to,
+    bool *any) MR_WARN_UNUSED;
 
 /*
  * Marks the edges of m that points on both sides show to be sharp, but for short pieces.  mark: 3 m->nf, the

@@ -369,10 +369,12 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 		mr_note(ctx, "%s: %zu faces are left, not %zu: fewer would be too far off", m->name, out->nf,
 		    s.target);
 	else if (out->nf > s.target && s.target && !isfinite(s.limit))
-		mr_warn(ctx,
-		    "%s: %zu faces are left, not %zu: no more could be merged without changing the "
-		    "topology or folding the surface",
-		    m->name, out->nf, s.target);
+		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
+				  .layer = m->name,
+				  .what = mr_format(ctx,
+				      "%s: %zu faces are left, not %zu: merging more would change the "
+				      "topology or fold it",
+				      m->name, out->nf, s.target) });
 	if (result)
 		*result = (mr_simplify_result){ .vertices = out->nv,
 			.faces = out->nf,

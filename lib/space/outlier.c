@@ -20,8 +20,8 @@ mr_find_outliers(
 		*count += outlier[i];
 	}
 	if (*count > 0)
-		mr_found(ctx,
-		    &(mr_finding){
-			.kind = MR_UNREACHED, .what = ", and are left out", .count = *count, .of = s->n });
+		mr_note(ctx,
+		    "outliers, no nearer to the surface than to others, are left out: %zu of %zu points",
+		    *count, s->n);
 	return MR_OK;
 }

@@ -2,7 +2,6 @@
 #include "fit/fit.h"
 
 #include "base/options.h"
-#include "measure/gaps.h"
 #include "mesh/layers.h"
 #include "tool/sample.h"
 
@@ -67,14 +66,11 @@ fit(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *o, mr_fit_result *r)
 		known = &sampling;
 	}
 	if (!strcmp(layer, "control"))
-		MR_TRY(mr_sample_warn_of_move(ctx, f, from, "mr-fit goes before mr-solve"));
+		MR_TRY(mr_sample_report_move(ctx, f, from));
 	p = MR_NEW(ctx, control.nv, mr_v3);
 	if (!p)
 		return MR_EMEM;
 	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, r));
-	if (known && !strcmp(from, "points")) { /* the vertices of a mesh do not say where it is */
-		mr_gaps_report(ctx, "control", &r->gaps);
-	}
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }
 

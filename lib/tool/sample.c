@@ -16,7 +16,7 @@ mr_sample_meets_faces(const mr_frame *f, const char *layer)
 }
 
 mr_status
-mr_sample_warn_of_move(mr_ctx *ctx, mr_frame *f, const char *from, const char *remedy)
+mr_sample_report_move(mr_ctx *ctx, mr_frame *f, const char *from)
 {
 	bool still, pending;
 
@@ -25,10 +25,7 @@ mr_sample_warn_of_move(mr_ctx *ctx, mr_frame *f, const char *from, const char *r
 	if (!strcmp(from, "mesh") && mr_frame_has_layer(f, "displacement") && !pending)
 		still = true; /* mr-decode has made it anew */
 	if (!still && f->key)
-		mr_warn(ctx,
-		    "mr-solve has moved control, and not %s, which mr-fit and mr-sample go by: that is lost; "
-		    "%s",
-		    from, remedy);
+		mr_found(ctx, &(mr_finding){ .kind = MR_STALE, .layer = "control", .what = "its motion" });
 	return MR_OK;
 }
 
@@ -64,9 +61,7 @@ get_columns(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, size_t nv, mr_carri
 			MR_TRY(mr_carried_begin(ctx, f, i, points->nv, nv, &carried[(*count)++]));
 		else if (!strcmp(c->layer, points->name) && c->shape.element == 'v' &&
 			 !mr_column_known(points->name, c->name))
-			mr_warn(ctx,
-			    "%s: %s is left out: displacement or mesh has another column of that name",
-			    points->name, c->name);
+			mr_lost(ctx, points->name, c->rows, c->name);
 	}
 	return MR_OK;
 }
@@ -111,7 +106,7 @@ sample(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *o, mr_sample_result *resu
 	MR_TRY(get_target(ctx, f, o->layer, &target));
 	if (n == MR_UNKNOWN)
 		MR_TRY(choose_level(ctx, &control, target.nv, &n));
-	MR_TRY(mr_sample_warn_of_move(ctx, f, target.name, "mr-sample goes before mr-solve"));
+	MR_TRY(mr_sample_report_move(ctx, f, target.name));
 	MR_TRY(mr_domain_of(ctx, f, &control, n, &d));
 	height = MR_NEW(ctx, d.m.nv, double);
 	if (!height)

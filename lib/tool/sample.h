@@ -10,8 +10,8 @@
  */
 bool mr_sample_meets_faces(const mr_frame *f, const char *layer);
 
-/* Warns, of key frames, where mr-solve has moved control and `from`, which mr-fit and mr-sample go by, has
- * not followed.  remedy: the end of the sentence. */
-mr_status mr_sample_warn_of_move(mr_ctx *ctx, mr_frame *f, const char *from, const char *remedy);
+/* Reports MR_STALE, of key frames, where control has moved and `from`, which is fitted and sampled, has not
+ * followed. */
+mr_status mr_sample_report_move(mr_ctx *ctx, mr_frame *f, const char *from);
 
 #endif

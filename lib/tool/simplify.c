@@ -3,7 +3,6 @@
 
 #include "base/options.h"
 #include "edit/detail.h"
-#include "measure/gaps.h"
 #include "mesh/layers.h"
 #include "simplify/creases.h"
 #include "space/sampling.h"
@@ -12,12 +11,8 @@
 /* By default, but for control meshes. */
 enum { FACES_A_FACE = 10 };
 
-/*
- * Spacings of the points that a control mesh may be off by default, beyond their noise: what is thinner would
- * be webbed where it joins.  Of 50,000 points of 18 models one has more faces so, by a twelfth; of the
- * vertices of these eight, and are 4 % nearer to the truth on the mean; of 10,000 points of frames, trees and
- * lattices, with twice to four times the faces, the largest distances fall from 3 to 7 spacings to 1.5 to 3.
- */
+/* Spacings of the points that a control mesh may be off by default, beyond their noise: what is thinner would
+ * be webbed where it joins. */
 static const double OFF = 0.5;
 
 /* The points that a control mesh is for: those of the frame, if there are any. */
@@ -112,22 +107,6 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 
-/* How far a control mesh is from its points, where it is known how they lie. */
-static mr_status
-look_at_gaps(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_mesh *out, mr_gaps *gaps)
-{
-	mr_sampling sampling;
-	bool known = false;
-
-	if (points->nv > 0)
-		MR_TRY(mr_sampling_stored(ctx, f, points->name, points->nv, &sampling, &known));
-	if (!known)
-		return MR_OK;
-	MR_TRY(mr_gaps_measure(ctx, out, points->p, &sampling, gaps));
-	mr_gaps_report(ctx, "control", gaps);
-	return MR_OK;
-}
-
 /* Whether sharp edges are looked for; where they are to be but cannot, MR_EMISSING. */
 static mr_status
 wants_creases(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, const mr_simplify_opts *o, bool *wanted)
@@ -159,22 +138,26 @@ crease_width(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *points, 
 	if (s.noise < noisy * s.usual)
 		*width = s.usual;
 	else if (o->creases)
-		mr_warn(ctx, "the points have a noise of %.2g spacings, and show no sharp edges",
-		    s.noise / s.usual);
+		mr_found(ctx, &(mr_finding){
+				  .kind = MR_LIMIT, .what = "the points are too noisy to show sharp edges" });
 	return MR_OK;
 }
 
-/* The surface to be simplified, sharp where the points are. */
+/* The surface to be simplified, sharp where the points are; *width becomes 0 where they hardly are. */
 static mr_status
-sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, double width, mr_mesh *sharp)
+sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, double *width, mr_mesh *sharp)
 {
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	bool any;
 
+	*sharp = *m;
 	if (!p)
 		return MR_EMEM;
-	MR_TRY(mr_sharpen(ctx, m, points->p, points->nv, width, p));
-	*sharp = *m;
-	sharp->p = p;
+	MR_TRY(mr_sharpen(ctx, m, points->p, points->nv, *width, p, &any));
+	if (any)
+		sharp->p = p;
+	else
+		*width = 0;
 	return MR_OK;
 }
 
@@ -198,6 +181,7 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	const char *layer;
 	uint32_t *onto;
 	double width;
+	bool looked;
 
 	MR_TRY(mr_check_number(ctx, "ratio", o.ratio, 0, 1));
 	MR_TRY(mr_check_number(ctx, "error", o.error, 0, 1e300));
@@ -216,15 +200,13 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 		return MR_EMEM;
 	MR_TRY(crease_width(ctx, f, &m, &points, &o, &width));
 	sharp = m;
-	if (width > 0)
-		MR_TRY(sharpen(ctx, &m, &points, width, &sharp));
+	looked = width > 0;
+	if (looked)
+		MR_TRY(sharpen(ctx, &m, &points, &width, &sharp));
 	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, r));
-	mr_unmeasured(&r->gaps, sizeof r->gaps);
-	MR_TRY(look_at_gaps(ctx, f, &points, &out, &r->gaps));
-	r->creases = width > 0 || o.creases ? 0 : MR_UNKNOWN;
+	r->creases = looked || o.creases ? 0 : MR_UNKNOWN;
 	if (points.nv > 0)
-		MR_TRY(
-		    mr_sample_warn_of_move(ctx, f, points.name, "mr-export and mr-import take mesh alone"));
+		MR_TRY(mr_sample_report_move(ctx, f, points.name));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
 	if (width > 0)
 		MR_TRY(put_creases(ctx, f, &out, &points, width, &r->creases));

@@ -13,7 +13,7 @@ for shape in sphere torus knot bumpy plane; do
 			awk -v a="$a" -v b="$b" -v s="$shape $m $f" \
 			    'BEGIN { print s ":", (a < 0.8 * b || a < 1e-3 ? "ok" : "bad: " b " became " a) }'
 		done
-		mr-fit -q -j 1 -m $m both.mrs | cmp - out.mrs && echo same for -j 1
+		mr-fit -q -j 1 -m $m --stats j1.json both.mrs | cmp - out.mrs && echo same for -j 1
 	done
 	echo "folded: $(figure folded_edges_after stats.json)"
 done
