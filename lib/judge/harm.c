@@ -5,9 +5,8 @@
 #include "base/rotation.h"
 #include "mesh/fold.h"
 #include "space/self_intersect.h"
-#include "space/suspects.h"
 
-enum { NEAR = 12, GRAIN = 256 };
+enum { NEAR = 12 };
 
 typedef struct tally {
 	size_t near, far;
@@ -15,7 +14,6 @@ typedef struct tally {
 
 typedef struct motion {
 	const mr_mesh *before, *after;
-	mr_suspects suspects; /* of after */
 	const mr_edges *edges;
 	bool *fold;     /* of the edges: new */
 	uint32_t *edge; /* of each half-edge; MR_NONE of a face that has a vertex twice */
@@ -24,7 +22,7 @@ typedef struct motion {
 	bool *moved;    /* of the faces */
 	uint32_t *harm; /* of the faces, by what is near */
 	uint32_t *met;  /* by what is far */
-	tally *pairs;   /* per piece of faces */
+	tally *pairs;
 } motion;
 
 /* Folds */
@@ -261,77 +259,38 @@ passes(const motion *j, uint32_t f, uint32_t g)
 	return fmin(reach(p, q), reach(q, p)) < -j->wide;
 }
 
-typedef struct search {
-	const motion *j;
-	uint32_t face;
-	bool gathered; /* what is near: where something intersects */
-	patch near;
-	tally found, later; /* pairs; those that no other face finds */
-} search;
-
-static bool
-visit(void *arg, uint32_t g)
-{
-	search *s = arg;
-	const motion *j = s->j;
-	bool later = g > s->face || !j->moved[g];
-
-	if (g == s->face || !intersect(j->after, s->face, g) || intersect(j->before, s->face, g) ||
-	    mr_faces_stand(j->before, j->after, s->face, g))
-		return true;
-	if (!s->gathered) {
-		gather_near(j, s->face, &s->near);
-		s->gathered = true;
-	}
-	if (s->near.slot[slot_of(&s->near, g)] == g) {
-		s->found.near++;
-		s->later.near += later;
-	} else if (passes(j, s->face, g)) {
-		s->found.far++;
-		s->later.far += later;
-	}
-	return true;
-}
-
 static void
-search_faces(void *arg, size_t begin, size_t end)
+add_one(uint32_t *count, const bool *moved, uint32_t f)
 {
-	motion *j = arg;
-	search s;
-
-	s.j = j;
-	for (size_t f = begin; f < end; f++) {
-		if (!j->moved[f])
-			continue;
-		s.face = (uint32_t)f;
-		s.gathered = false;
-		s.found = s.later = (tally){ 0, 0 };
-		mr_suspects_of(&j->suspects, s.face, visit, &s);
-		j->harm[f] += (uint32_t)s.found.near;
-		j->met[f] += (uint32_t)s.found.far;
-		j->pairs[begin / GRAIN].near += s.later.near;
-		j->pairs[begin / GRAIN].far += s.later.far;
-	}
+	if (moved[f])
+		__atomic_fetch_add(&count[f], 1, __ATOMIC_RELAXED);
 }
 
 /* Those that intersect after and did not before. */
+static void
+visit(void *arg, uint32_t f, uint32_t g)
+{
+	const motion *j = arg;
+	patch around;
+	bool near;
+
+	if (intersect(j->before, f, g) || mr_faces_stand(j->before, j->after, f, g))
+		return;
+	gather_near(j, f, &around);
+	near = around.slot[slot_of(&around, g)] == g;
+	if (!near && !passes(j, f, g))
+		return;
+	__atomic_fetch_add(near ? &j->pairs->near : &j->pairs->far, 1, __ATOMIC_RELAXED);
+	add_one(near ? j->harm : j->met, j->moved, f);
+	add_one(near ? j->harm : j->met, j->moved, g);
+}
+
 static mr_status
 search_all(mr_ctx *ctx, motion *j, tally *sum)
 {
-	size_t pieces = (j->before->nf + GRAIN - 1) / GRAIN;
-	mr_bvh *bvh;
-
-	j->pairs = MR_NEW_ZERO(ctx, pieces, tally);
-	if (!j->pairs)
-		return MR_EMEM;
-	MR_TRY(mr_bvh_build(ctx, j->after, &bvh));
-	MR_TRY(mr_suspects_find(ctx, bvh, &j->suspects));
-	mr_parallel(ctx, j->before->nf, GRAIN, search_faces, j);
-	for (size_t i = 0; i < pieces; i++) {
-		sum->near += j->pairs[i].near;
-		sum->far += j->pairs[i].far;
-	}
-	return MR_OK;
+	*sum = (tally){ 0, 0 };
+	j->pairs = sum;
+	return mr_intersections_visit(ctx, NULL, j->after, j->moved, visit, j);
 }
 
 /* More pairs than there were: where a surface intersects already, others go while some come. */

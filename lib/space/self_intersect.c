@@ -237,6 +237,9 @@ corner_intersect(const mr_v3 p[3], const mr_v3 q[3])
 {
 	int p1, p2, q1, q2;
 
+	if (mr_orient3d_is_plain(p[0], p[1], p[2], q[1], &q1) &&
+	    mr_orient3d_is_plain(p[0], p[1], p[2], q[2], &q2) && q1 * q2 > 0)
+		return false;
 	if (surely_parted(p, q))
 		return false;
 	q1 = mr_orient3d(p[0], p[1], p[2], q[1]);
@@ -291,33 +294,6 @@ mr_triangles_intersect(const mr_v3 p[3], const mr_v3 q[3])
 
 /* ---- all pairs of a surface ---- */
 
-typedef struct search {
-	mr_suspects suspects;
-	const mr_mesh *m;
-	const unsigned char *flat; /* faces without area */
-	const uint32_t *first;     /* of the faces with the same vertices; NULL: none are hidden */
-	const size_t *alike;       /* of the first: how many there are */
-	bool *crosses;             /* of the faces; or NULL */
-	size_t *count;             /* per piece of faces */
-} search;
-
-/* How many faces this one stands for: 0 where an earlier one stands for it. */
-static size_t
-stands_for(const search *s, size_t face)
-{
-	return s->first ? s->alike[face] : 1;
-}
-
-typedef struct candidate {
-	const search *s;
-	uint32_t face;
-	mr_v3 p[3];
-	bool crosses;
-	size_t count; /* of pairs with later ones */
-} candidate;
-
-enum { GRAIN = 512 };
-
 static void
 corners(const mr_mesh *m, size_t f, mr_v3 p[3])
 {
@@ -325,103 +301,130 @@ corners(const mr_mesh *m, size_t f, mr_v3 p[3])
 		p[i] = m->p[m->t[f].v[i]];
 }
 
-static bool
-visit(void *arg, uint32_t face)
-{
-	candidate *c = arg;
-	mr_v3 q[3];
-	bool earlier = face < c->face;
-	size_t n = stands_for(c->s, face);
-
-	if (face == c->face || (earlier && !c->s->crosses) || c->s->flat[face] || n == 0)
-		return true;
-	corners(c->s->m, face, q);
-	if (mr_triangles_intersect(c->p, q)) {
-		c->crosses = true;
-		c->count += earlier ? 0 : n;
-	}
-	return true;
-}
-
-static void
-search_faces(void *arg, size_t begin, size_t end)
-{
-	search *s = arg;
-	size_t total = 0;
-
-	for (size_t f = begin; f < end; f++) {
-		candidate c = { .s = s, .face = (uint32_t)f };
-		size_t n = stands_for(s, f);
-		if (!s->flat[f] && n > 0) {
-			corners(s->m, f, c.p);
-			mr_suspects_of(&s->suspects, c.face, visit, &c);
-			c.crosses |= n > 1;
-			total += n * c.count + n * (n - 1) / 2;
-		}
-		if (s->crosses)
-			s->crosses[f] = c.crosses;
-	}
-	s->count[begin / GRAIN] = total;
-}
-
-typedef struct flat_job {
+typedef struct search {
 	const mr_mesh *m;
-	unsigned char *flat;
-} flat_job;
+	const bool *among;
+	bool *flat; /* faces without area */
+	void (*visit)(void *arg, uint32_t f, uint32_t g);
+	void *arg;
+} search;
 
 static void
 find_flat(void *arg, size_t begin, size_t end)
 {
-	flat_job *j = arg;
+	search *s = arg;
 
 	for (size_t f = begin; f < end; f++) {
 		mr_v3 p[3];
-		corners(j->m, f, p);
-		j->flat[f] = mr_triangle_degenerate(p[0], p[1], p[2]);
+		corners(s->m, f, p);
+		s->flat[f] = mr_triangle_degenerate(p[0], p[1], p[2]);
 	}
 }
 
-static mr_status
-find_alike(mr_ctx *ctx, search *s)
+static void
+look_at_pair(void *arg, uint32_t f, uint32_t g)
 {
-	uint32_t *first = MR_NEW(ctx, s->m->nf, uint32_t);
-	size_t *alike = MR_NEW_ZERO(ctx, s->m->nf, size_t);
+	const search *s = arg;
+	mr_v3 p[3], q[3];
 
-	if (!first || !alike)
+	if (s->flat[f] || s->flat[g] || (s->among && !s->among[f] && !s->among[g]))
+		return;
+	corners(s->m, f, p);
+	corners(s->m, g, q);
+	if (mr_triangles_intersect(p, q))
+		s->visit(s->arg, f, g);
+}
+
+mr_status
+mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const bool *among,
+    void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	search s = { m, among, MR_NEW(ctx, m->nf, bool), visit, arg };
+	mr_bvh *own;
+
+	if (!s.flat)
 		return MR_EMEM;
-	MR_TRY(mr_first_alike(ctx, s->m, first));
-	for (size_t f = 0; f < s->m->nf; f++)
-		alike[first[f]]++;
-	s->first = first;
-	s->alike = alike;
+	if (!bvh) {
+		MR_TRY(mr_bvh_build(ctx, m, &own));
+		bvh = own;
+	}
+	mr_parallel(ctx, m->nf, 4096, find_flat, &s);
+	MR_TRY(mr_suspects_visit(ctx, bvh, look_at_pair, &s));
+	mr_mark_release(ctx, mark);
 	return MR_OK;
+}
+
+typedef struct counting {
+	uint32_t *first; /* of the faces with the same vertices; NULL: none are hidden */
+	size_t *alike;   /* of the first: how many there are */
+	bool *crosses;   /* of the faces; or NULL */
+	size_t count;
+} counting;
+
+static void
+count_pair(void *arg, uint32_t f, uint32_t g)
+{
+	counting *c = arg;
+	size_t pairs = c->first ? c->alike[f] * c->alike[g] : 1;
+
+	__atomic_fetch_add(&c->count, pairs, __ATOMIC_RELAXED);
+	if (c->crosses && pairs) {
+		__atomic_store_n(&c->crosses[f], true, __ATOMIC_RELAXED);
+		__atomic_store_n(&c->crosses[g], true, __ATOMIC_RELAXED);
+	}
+}
+
+/* Faces with the same vertices intersect each other, and what the first of them does. */
+static mr_status
+find_alike(mr_ctx *ctx, const mr_mesh *m, counting *c)
+{
+	c->first = MR_NEW(ctx, m->nf, uint32_t);
+	c->alike = MR_NEW_ZERO(ctx, m->nf, size_t);
+	if (!c->first || !c->alike)
+		return MR_EMEM;
+	MR_TRY(mr_first_alike(ctx, m, c->first));
+	for (size_t f = 0; f < m->nf; f++)
+		c->alike[c->first[f]]++;
+	return MR_OK;
+}
+
+static void
+count_alike(const mr_mesh *m, counting *c)
+{
+	for (size_t f = 0; f < m->nf; f++) {
+		size_t n = c->alike[f];
+		mr_v3 p[3];
+		corners(m, f, p);
+		if (n < 2 || mr_triangle_degenerate(p[0], p[1], p[2]))
+			continue;
+		c->count += n * (n - 1) / 2;
+		if (c->crosses)
+			c->crosses[f] = true;
+	}
+	for (size_t f = 0; c->crosses && f < m->nf; f++)
+		c->crosses[f] = c->crosses[c->first[f]];
 }
 
 mr_status
 mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	size_t pieces = (m->nf + GRAIN - 1) / GRAIN, total = 0;
+	counting c = { .crosses = crosses };
 	mr_bvh *own;
-	flat_job flat = { m, MR_NEW(ctx, m->nf, unsigned char) };
-	search s = { .m = m, .flat = flat.flat, .crosses = crosses, .count = MR_NEW(ctx, pieces, size_t) };
 
-	if (!flat.flat || !s.count)
-		return MR_EMEM;
 	if (!bvh) {
 		MR_TRY(mr_bvh_build(ctx, m, &own));
 		bvh = own;
 	}
 	if (mr_bvh_hidden(bvh))
-		MR_TRY(find_alike(ctx, &s));
-	MR_TRY(mr_suspects_find(ctx, bvh, &s.suspects));
-	mr_parallel(ctx, m->nf, 4096, find_flat, &flat);
-	mr_parallel(ctx, m->nf, GRAIN, search_faces, &s);
-	for (size_t i = 0; i < pieces; i++)
-		total += s.count[i];
-	for (size_t f = 0; s.first && crosses && f < m->nf; f++)
-		crosses[f] = crosses[s.first[f]];
+		MR_TRY(find_alike(ctx, m, &c));
+	if (crosses)
+		memset(crosses, 0, m->nf * sizeof *crosses);
+	MR_TRY(mr_intersections_visit(ctx, bvh, m, NULL, count_pair, &c));
+	if (c.first)
+		count_alike(m, &c);
 	mr_mark_release(ctx, mark);
-	*count = total;
+	*count = c.count;
 	return MR_OK;
 }

@@ -1,5 +1,5 @@
 /*
- * suspects.h -- the faces of a mesh that a face may intersect.
+ * suspects.h -- the pairs of faces of a mesh that may intersect.
  *
  * Contract: boxes of all faces around a vertex meet there, so that of the faces of a fan each would be
  * looked at with each.  Such faces intersect where their directions, as seen from the vertex, do: an index of
@@ -8,20 +8,11 @@
 #ifndef MR_SPACE_SUSPECTS_H
 #define MR_SPACE_SUSPECTS_H
 
-#include "space/bvh_labels.h"
+#include "space/bvh.h"
 
-typedef struct mr_fan mr_fan;
-
-typedef struct mr_suspects {
-	mr_bvh_labels fans; /* the fan that a face is of, or MR_NONE */
-	const mr_fan *fan;  /* NULL without any */
-} mr_suspects;
-
-/* Of the mesh of bvh, which is kept; in the arena. */
-mr_status mr_suspects_find(mr_ctx *ctx, const mr_bvh *bvh, mr_suspects *s) MR_WARN_UNUSED;
-
-/* Calls visit(arg, g) for every face g that may have more in common with face than a corner, among others,
- * as mr_bvh_overlap does. */
-bool mr_suspects_of(const mr_suspects *s, uint32_t face, bool (*visit)(void *arg, uint32_t face), void *arg);
+/* Calls visit(arg, f, g) once for every pair of faces that may have more in common than a corner, among
+ * others, from several threads at once. */
+mr_status mr_suspects_visit(mr_ctx *ctx, const mr_bvh *bvh, void (*visit)(void *arg, uint32_t f, uint32_t g),
+    void *arg) MR_WARN_UNUSED;
 
 #endif
