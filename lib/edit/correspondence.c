@@ -66,13 +66,37 @@ typedef struct walker {
 	double *dist2; /* from there to the vertex */
 } walker;
 
-/* The nearest place of the faces around a vertex; of equal ones in a row, as there may be thousands, one is
- * looked at. */
+static inline double
+outside(double x, double a, double b, double c)
+{
+	double low = a < b ? a : b, high = a > b ? a : b, below, above, most;
+
+	low = c < low ? c : low;
+	high = c > high ? c : high;
+	below = low - x;
+	above = x - high;
+	most = below > above ? below : above;
+	return most > 0 ? most : 0;
+}
+
+/* Whether the face's box is nearer: its nearest point lies within that, so that rounding tells no other way. */
+static inline bool
+may_be_nearer(const walker *w, uint32_t f, mr_v3 q, double dist2)
+{
+	const uint32_t *v = w->lifted->t[f].v;
+	mr_v3 a = w->lifted->p[v[0]], b = w->lifted->p[v[1]], c = w->lifted->p[v[2]];
+
+	return mr_norm2(mr_vec(outside(q.x, a.x, b.x, c.x), outside(q.y, a.y, b.y, c.y),
+		   outside(q.z, a.z, b.z, c.z))) < dist2;
+}
+
+/* The nearest place of the faces around a vertex that is nearer than sqrt(dist2), else on MR_NONE; of equal faces in a
+ * row, as there may be thousands, one is looked at. */
 static mr_closest
-nearest_around(const walker *w, uint32_t vertex, mr_v3 q)
+nearest_around(const walker *w, uint32_t vertex, mr_v3 q, double dist2)
 {
 	const mr_tri *t = w->lifted->t, *last = NULL;
-	mr_closest best = { .at.face = MR_NONE, .dist2 = INFINITY };
+	mr_closest best = { .at.face = MR_NONE, .dist2 = dist2 };
 
 	for (size_t i = w->inc->start[vertex]; i < w->inc->start[vertex + 1]; i++) {
 		uint32_t f = w->inc->face[i];
@@ -80,6 +104,8 @@ nearest_around(const walker *w, uint32_t vertex, mr_v3 q)
 		if (last && !memcmp(last, &t[f], sizeof *last))
 			continue;
 		last = &t[f];
+		if (!may_be_nearer(w, f, q, best.dist2))
+			continue;
 		c = mr_face_closest(w->lifted, f, q);
 		if (c.dist2 < best.dist2)
 			best = c;
@@ -91,13 +117,13 @@ nearest_around(const walker *w, uint32_t vertex, mr_v3 q)
 static mr_closest
 walk(const walker *w, uint32_t vertex, mr_v3 q)
 {
-	mr_closest near = nearest_around(w, vertex, q);
+	mr_closest near = nearest_around(w, vertex, q, INFINITY);
 
 	for (;;) {
 		mr_closest best = near;
 		for (int k = 0; k < 3; k++) {
 			uint32_t v = w->lifted->t[near.at.face].v[k];
-			mr_closest c = v == vertex ? near : nearest_around(w, v, q);
+			mr_closest c = v == vertex ? near : nearest_around(w, v, q, best.dist2);
 			if (c.dist2 < best.dist2) {
 				best = c;
 				vertex = v;
@@ -131,13 +157,13 @@ walk_piece(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* Whether a place is so much nearer to vertex i than its own that the walk ended too early. */
-static bool
-nearer(const walker *w, uint32_t i, const mr_closest *c)
+/* The squared distance from vertex i of a place so much nearer than its own that the walk ended too early. */
+static double
+nearer(const walker *w, uint32_t i)
 {
 	static const double less = 0.98; /* of the squared distance: rounding is no reason to go on */
 
-	return c->dist2 < less * w->dist2[i];
+	return less * w->dist2[i];
 }
 
 /* Walks from where a neighbour stands if that is nearer; true where it is. */
@@ -147,13 +173,14 @@ improve(const walker *w, uint32_t i, uint32_t neighbour)
 	uint32_t face = w->face[neighbour];
 	mr_closest c;
 
-	if (!(w->dist2[neighbour] < w->dist2[i]) || face == w->face[i])
+	if (!(w->dist2[neighbour] < w->dist2[i]) || face == w->face[i] ||
+	    !may_be_nearer(w, face, w->mesh->p[i], nearer(w, i)))
 		return false;
 	c = mr_face_closest(w->lifted, face, w->mesh->p[i]);
-	if (!nearer(w, i, &c))
+	if (!(c.dist2 < nearer(w, i)))
 		return false;
 	c = walk(w, w->lifted->t[face].v[0], w->mesh->p[i]);
-	if (!nearer(w, i, &c))
+	if (!(c.dist2 < nearer(w, i)))
 		return false;
 	stand(w, i, &c);
 	return true;
