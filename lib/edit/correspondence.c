@@ -79,7 +79,8 @@ outside(double x, double a, double b, double c)
 	return most > 0 ? most : 0;
 }
 
-/* Whether the face's box is nearer: its nearest point lies within that, so that rounding tells no other way. */
+/* Whether the face's box is nearer: its nearest point lies within that, so that rounding tells no other way.
+ */
 static inline bool
 may_be_nearer(const walker *w, uint32_t f, mr_v3 q, double dist2)
 {
@@ -90,8 +91,8 @@ may_be_nearer(const walker *w, uint32_t f, mr_v3 q, double dist2)
 		   outside(q.z, a.z, b.z, c.z))) < dist2;
 }
 
-/* The nearest place of the faces around a vertex that is nearer than sqrt(dist2), else on MR_NONE; of equal faces in a
- * row, as there may be thousands, one is looked at. */
+/* The nearest place of the faces around a vertex that is nearer than sqrt(dist2), else on MR_NONE; of equal
+ * faces in a row, as there may be thousands, one is looked at. */
 static mr_closest
 nearest_around(const walker *w, uint32_t vertex, mr_v3 q, double dist2)
 {

@@ -48,6 +48,7 @@ typedef struct encoder {
 	const mr_mesh *mesh;
 	const mr_bvh *bvh; /* of the base, where the source map reaches nothing */
 	mr_foot *foot;     /* that may be sound; else its face is MR_NONE */
+	bool *sound;       /* that are */
 	double *thickness; /* of the base, a vertex: as far as feet ask for it */
 	uint32_t *face;
 	mr_v3 *bary, *offset;
@@ -65,15 +66,9 @@ thickness_at(const encoder *e, mr_place at)
 }
 
 /*
- * Whether a height is sound: below the base's radius of curvature and its thickness.  Beyond, the normals on
- * the way meet or pass through another sheet, and any motion of the base tears the heights apart.
+ * A height is sound below the base's radius of curvature and its thickness.  Beyond, the normals on the way
+ * meet or pass through another sheet, and any motion of the base tears the heights apart.
  */
-static bool
-sound(const encoder *e, const mr_foot *foot)
-{
-	return foot->at.face != MR_NONE && fabs(foot->height) < thickness_at(e, foot->at);
-}
-
 static bool
 below_curvature(const encoder *e, const mr_foot *foot)
 {
@@ -136,26 +131,68 @@ find_feet(void *arg, size_t begin, size_t end)
 	e->tally[begin / GRAIN] = t;
 }
 
-/* Where no corner of a face is thinner than the height over it and its sides, none is than the height. */
-static mr_status
-find_thickness(mr_ctx *ctx, const encoder *e)
+/* Asks for the thickness that the corners of a foot's face have, as far as that matters. */
+static void
+ask(const encoder *e, const mr_foot *foot, double most)
 {
-	const mr_mesh *base = e->ground.surface.m;
+	const uint32_t *v = e->ground.surface.m->t[foot->at.face].v;
 
-	for (size_t v = 0; v < base->nv; v++)
-		e->thickness[v] = 0;
+	for (int k = 0; k < 3; k++)
+		e->thickness[v[k]] = fmax(e->thickness[v[k]], most);
+}
+
+static double
+longest_side(const mr_mesh *m, uint32_t f)
+{
+	double longest = 0;
+
+	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
+		longest = fmax(longest, mr_dist(m->p[mr_he_from(m, h)], m->p[mr_he_to(m, h)]));
+	return longest;
+}
+
+static bool
+all_corners_are_thicker(const encoder *e, const mr_foot *foot)
+{
+	const uint32_t *v = e->ground.surface.m->t[foot->at.face].v;
+	double least = fmin(e->thickness[v[0]], fmin(e->thickness[v[1]], e->thickness[v[2]]));
+
+	return fabs(foot->height) < least;
+}
+
+/*
+ * Tells which feet are sound.  Where all corners of a face are thicker than the height over it, so is the
+ * face: rays need be no longer than that.  For the few that this leaves they are longer by the face's longest
+ * side: where one corner is thicker than that, all are thicker than the height.
+ */
+static mr_status
+find_sound(mr_ctx *ctx, const encoder *e, const mr_sounding *base)
+{
+	const double enough = 1.001;
+	const double least = mr_mesh_tolerance(base->m, MR_RAY_BEGINS);
+	size_t left = 0;
+
+	memset(e->thickness, 0, base->m->nv * sizeof *e->thickness);
+	for (size_t i = 0; i < e->mesh->nv; i++)
+		if (e->foot[i].at.face != MR_NONE)
+			ask(e, &e->foot[i], enough * fabs(e->foot[i].height) + least);
+	MR_TRY(mr_thickness(ctx, base, e->thickness));
 	for (size_t i = 0; i < e->mesh->nv; i++) {
-		const uint32_t *v = base->t[e->foot[i].at.face == MR_NONE ? 0 : e->foot[i].at.face].v;
-		double side = 0;
-		if (e->foot[i].at.face == MR_NONE)
-			continue;
-		for (int k = 0; k < 3; k++)
-			side = fmax(side, mr_dist(base->p[v[k]], base->p[v[(k + 1) % 3]]));
-		for (int k = 0; k < 3; k++)
-			e->thickness[v[k]] = fmax(
-			    e->thickness[v[k]], 1.001 * (fabs(e->foot[i].height) + side));
+		e->sound[i] = e->foot[i].at.face != MR_NONE && all_corners_are_thicker(e, &e->foot[i]);
+		left += e->foot[i].at.face != MR_NONE && !e->sound[i];
 	}
-	return mr_thickness(ctx, base, e->thickness);
+	if (left == 0)
+		return MR_OK;
+	memset(e->thickness, 0, base->m->nv * sizeof *e->thickness);
+	for (size_t i = 0; i < e->mesh->nv; i++)
+		if (e->foot[i].at.face != MR_NONE && !e->sound[i])
+			ask(e, &e->foot[i],
+			    enough * (fabs(e->foot[i].height) + longest_side(base->m, e->foot[i].at.face)));
+	MR_TRY(mr_thickness(ctx, base, e->thickness));
+	for (size_t i = 0; i < e->mesh->nv; i++)
+		if (e->foot[i].at.face != MR_NONE && !e->sound[i])
+			e->sound[i] = fabs(e->foot[i].height) < thickness_at(e, e->foot[i].at);
+	return MR_OK;
 }
 
 static void
@@ -166,7 +203,7 @@ keep_piece(void *arg, size_t begin, size_t end)
 	tally *t = &e->tally[begin / GRAIN];
 
 	for (size_t i = begin; i < end; i++) {
-		if (sound(e, &e->foot[i])) {
+		if (e->sound[i]) {
 			keep_height(e, i, &e->foot[i]);
 		} else {
 			keep_offset(e, i, (mr_place){ e->face[i], e->bary[i] });
@@ -175,22 +212,6 @@ keep_piece(void *arg, size_t begin, size_t end)
 		t->residual = fmax(t->residual, mr_dist(displaced(&e->ground.surface, &d, i), e->mesh->p[i]));
 		t->height = fmax(t->height, fabs(e->height[i]));
 	}
-}
-
-/* Builds the search tree where a vertex has no start. */
-static mr_status
-prepare_nearest(mr_ctx *ctx, encoder *e)
-{
-	size_t without = 0;
-	mr_bvh *bvh;
-
-	for (size_t i = 0; i < e->mesh->nv; i++)
-		without += e->face[i] == MR_NONE;
-	if (without == 0)
-		return MR_OK;
-	MR_TRY(mr_bvh_build(ctx, e->ground.surface.m, &bvh));
-	e->bvh = bvh;
-	return MR_OK;
 }
 
 static mr_encode_result
@@ -238,26 +259,25 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 		.offset = MR_NEW(ctx, n, mr_v3),
 		.height = MR_NEW(ctx, n, double) };
 	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
-	mr_incidence inc;
 	mr_encode_result figures;
 	mr_detail found;
+	mr_sounding body;
 
 	e.foot = MR_NEW(ctx, n, mr_foot);
+	e.sound = MR_NEW(ctx, n, bool);
 	e.thickness = MR_NEW(ctx, base->nv, double);
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
-	if (!e.face || !e.bary || !e.offset || !e.height || !normal || !e.foot || !e.thickness || !e.tally)
+	if (!e.face || !e.bary || !e.offset || !e.height || !e.foot || !e.sound || !e.thickness || !e.tally)
 		return MR_EMEM;
-	MR_TRY(mr_incidence_build(ctx, base, &inc));
-	MR_TRY(mr_vertex_normals(ctx, base, &inc, normal));
-	e.ground = (mr_ground){ { base, normal }, &inc, mr_mesh_tolerance(mesh, 1e-14) };
+	MR_TRY(mr_sounding_build(ctx, base, &body));
+	e.ground = (mr_ground){ { base, body.normal }, body.inc, mr_mesh_tolerance(mesh, 1e-14) };
+	e.bvh = body.bvh;
 	if (source)
-		MR_TRY(mr_correspond(ctx, mesh, base, &inc, source, e.face, e.bary));
+		MR_TRY(mr_correspond(ctx, mesh, base, body.inc, source, e.face, e.bary));
 	else
 		memset(e.face, 0xff, n * sizeof *e.face);
-	MR_TRY(prepare_nearest(ctx, &e));
 	mr_parallel(ctx, n, GRAIN, find_feet, &e);
-	MR_TRY(find_thickness(ctx, &e));
+	MR_TRY(find_sound(ctx, &e, &body));
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
 	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL, base->p,
 		NULL };

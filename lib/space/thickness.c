@@ -6,9 +6,7 @@
 #include "space/bvh.h"
 
 typedef struct caster {
-	const mr_mesh *m;
-	const mr_v3 *normal; /* of the vertices */
-	const mr_bvh *bvh;
+	const mr_sounding *body;
 	const double *most; /* of the vertices */
 	double least;       /* where a ray begins */
 	double *across;     /* of each face */
@@ -18,7 +16,9 @@ typedef struct caster {
 static mr_v3
 direction_of(const caster *c, const uint32_t *v)
 {
-	return mr_unit(mr_add(c->normal[v[0]], mr_add(c->normal[v[1]], c->normal[v[2]])));
+	const mr_v3 *n = c->body->normal;
+
+	return mr_unit(mr_add(n[v[0]], mr_add(n[v[1]], n[v[2]])));
 }
 
 static double
@@ -32,13 +32,15 @@ cast_faces(void *arg, size_t begin, size_t end)
 {
 	static const mr_v3 centre = { 1. / 3, 1. / 3, 1. / 3 };
 	caster *c = arg;
+	const mr_mesh *m = c->body->m;
 
 	for (size_t i = begin; i < end; i++) {
-		uint32_t f = mr_bvh_order(c->bvh)[i];
-		mr_v3 from = mr_place_point(c->m, (mr_place){ f, centre }), n = direction_of(c, c->m->t[f].v);
-		c->across[f] = most_of(c, c->m->t[f].v);
+		uint32_t f = mr_bvh_order(c->body->bvh)[i];
+		const uint32_t *v = m->t[f].v;
+		c->across[f] = most_of(c, v);
 		if (c->across[f] > c->least)
-			c->across[f] = mr_bvh_across(c->bvh, from, n, c->least, c->across[f]);
+			c->across[f] = mr_bvh_across(c->body->bvh, mr_place_point(m, (mr_place){ f, centre }),
+			    direction_of(c, v), c->least, c->across[f]);
 	}
 }
 
@@ -114,25 +116,35 @@ spread(const mr_mesh *m, double *most)
 }
 
 mr_status
-mr_thickness(mr_ctx *ctx, const mr_mesh *m, double *thickness)
+mr_sounding_build(mr_ctx *ctx, const mr_mesh *m, mr_sounding *body)
 {
-	const double apart = 1e-9; /* of the diagonal: a ray does not meet the face that it leaves */
-	mr_mark mark = mr_mark_take(ctx);
+	mr_incidence *inc = MR_NEW(ctx, 1, mr_incidence);
 	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3);
-	double *across = MR_NEW(ctx, m->nf, double);
-	mr_incidence inc;
 	mr_bvh *bvh;
 
-	if (!normal || !across)
+	if (!inc || !normal)
 		return MR_EMEM;
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
-	MR_TRY(mr_vertex_normals(ctx, m, &inc, normal));
+	MR_TRY(mr_incidence_build(ctx, m, inc));
+	MR_TRY(mr_vertex_normals(ctx, m, inc, normal));
 	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	*body = (mr_sounding){ m, inc, normal, bvh };
+	return MR_OK;
+}
+
+mr_status
+mr_thickness(mr_ctx *ctx, const mr_sounding *body, double *thickness)
+{
+	const mr_mesh *m = body->m;
+	mr_mark mark = mr_mark_take(ctx);
+	double *across = MR_NEW(ctx, m->nf, double);
+
+	if (!across)
+		return MR_EMEM;
 	spread(m, thickness);
 	mr_parallel(ctx, m->nf, 256, cast_faces,
-	    &(caster){ m, normal, bvh, thickness, mr_mesh_tolerance(m, apart), across });
+	    &(caster){ body, thickness, mr_mesh_tolerance(m, MR_RAY_BEGINS), across });
 	for (size_t v = 0; v < m->nv; v++)
-		thickness[v] = median_around(&inc, v, across, thickness[v]);
+		thickness[v] = median_around(body->inc, v, across, thickness[v]);
 	walk(m, thickness);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

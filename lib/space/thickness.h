@@ -4,7 +4,21 @@
 #ifndef MR_SPACE_THICKNESS_H
 #define MR_SPACE_THICKNESS_H
 
-#include "mesh/mesh.h"
+#include "space/bvh.h"
+
+/* Where rays begin, of the diagonal: none meets the face that it leaves. */
+#define MR_RAY_BEGINS 1e-9
+
+/* What rays are cast from and meet. */
+typedef struct mr_sounding {
+	const mr_mesh *m;
+	const mr_incidence *inc;
+	const mr_v3 *normal; /* of the vertices */
+	const mr_bvh *bvh;
+} mr_sounding;
+
+/* Of m, in the arena. */
+mr_status mr_sounding_build(mr_ctx *ctx, const mr_mesh *m, mr_sounding *body) MR_WARN_UNUSED;
 
 /*
  * The distance to the surface on the other side, inwards or outwards, whichever is less, for each vertex:
@@ -13,6 +27,6 @@
  * any mesh.  thickness, nv, has the most that matters at each vertex, and rays are no longer than that takes:
  * what is thicker, or has no other side, gets that or more.
  */
-mr_status mr_thickness(mr_ctx *ctx, const mr_mesh *m, double *thickness);
+mr_status mr_thickness(mr_ctx *ctx, const mr_sounding *body, double *thickness) MR_WARN_UNUSED;
 
 #endif

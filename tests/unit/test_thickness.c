@@ -2,6 +2,15 @@
 #include "shapes.h"
 #include "space/thickness.h"
 
+static mr_status
+thickness_at(const mr_mesh *m, double *d)
+{
+	mr_sounding body;
+
+	MR_TRY(mr_sounding_build(&ctx, m, &body));
+	return mr_thickness(&ctx, &body, d);
+}
+
 static double *
 thickness_of(const mr_mesh *m, double most)
 {
@@ -9,7 +18,7 @@ thickness_of(const mr_mesh *m, double most)
 
 	for (size_t v = 0; v < m->nv; v++)
 		d[v] = most;
-	assert_int_equal(mr_thickness(&ctx, m, d), MR_OK);
+	assert_int_equal(thickness_at(m, d), MR_OK);
 	return d;
 }
 
@@ -80,7 +89,7 @@ test_asked_for_at_one_vertex(void **state)
 	for (size_t v = 0; v < two.nv; v += 50) {
 		memset(d, 0, two.nv * sizeof *d);
 		d[v] = 5;
-		assert_int_equal(mr_thickness(&ctx, &two, d), MR_OK);
+		assert_int_equal(thickness_at(&two, d), MR_OK);
 		assert_true(fabs(d[v] - all[v]) < 1e-5);
 	}
 }
@@ -96,7 +105,7 @@ test_memory_failures_are_reported(void **state)
 		mr_mark mark = mr_mark_take(&ctx);
 		mr_status status;
 		ctx.fail_at = k;
-		status = mr_thickness(&ctx, &m, d);
+		status = thickness_at(&m, d);
 		ctx.fail_at = 0;
 		mr_mark_release(&ctx, mark);
 		if (status == MR_OK)
