@@ -7,8 +7,10 @@
 #if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&    \
     !defined(__SANITIZE_THREAD__)
 #define VECTORS __attribute__((target_clones("avx2", "default")))
+#define INLINED inline __attribute__((always_inline))
 #else
 #define VECTORS
+#define INLINED inline
 #endif
 
 /* ---- the nearest point of a triangle ---- */
@@ -256,7 +258,7 @@ typedef struct ray {
 	double start[3], inverse[3]; /* in units of the mesh, for the boxes */
 } ray;
 
-static inline ray
+static INLINED ray
 ray_make(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir)
 {
 	double d[3] = { dir.x, dir.y, dir.z };
@@ -277,7 +279,7 @@ ray_make(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir)
 }
 
 /* (x, y) in the sheared plane of the ray, z along it in units of t. */
-static inline mr_v3
+static INLINED mr_v3
 shear(const ray *r, mr_v3 p)
 {
 	mr_v3 d = mr_sub(p, r->origin);
@@ -286,7 +288,7 @@ shear(const ray *r, mr_v3 p)
 	return mr_vec(c[r->kx] - r->sx * c[r->kz], c[r->ky] - r->sy * c[r->kz], r->sz * c[r->kz]);
 }
 
-static inline bool
+static INLINED bool
 hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 {
 	double u, v, w, sum;
@@ -309,28 +311,35 @@ hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 
 /* How far along each of the four boxes the ray begins; infinite where it misses it.  NaN (0 times infinity)
  * bounds nothing. */
-static inline void
+static INLINED void
 box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double out[BVH_WIDE])
 {
+	double enter[BVH_WIDE], leave[BVH_WIDE];
+
 	for (int c = 0; c < BVH_WIDE; c++) {
-		double enter = tmin, leave = tmax, before, behind;
-		for (int k = 0; k < 3; k++) {
-			bool back = r->inverse[k] < 0;
-			double t0 = ((double)(back ? d->hi : d->lo)[k][c] - r->start[k]) * r->inverse[k];
-			double t1 = ((double)(back ? d->lo : d->hi)[k][c] - r->start[k]) * r->inverse[k];
+		enter[c] = tmin;
+		leave[c] = tmax;
+	}
+	for (int k = 0; k < 3; k++) {
+		const float *near = r->inverse[k] < 0 ? d->hi[k] : d->lo[k];
+		const float *far = r->inverse[k] < 0 ? d->lo[k] : d->hi[k];
+		for (int c = 0; c < BVH_WIDE; c++) {
+			double t0 = ((double)near[c] - r->start[k]) * r->inverse[k];
+			double t1 = ((double)far[c] - r->start[k]) * r->inverse[k];
 			t0 *= t0 > 0 ? 1 - 0x1p-40 : 1 + 0x1p-40; /* infinity stays */
 			t1 *= t1 > 0 ? 1 + 0x1p-40 : 1 - 0x1p-40;
-			enter = t0 > enter ? t0 : enter;
-			leave = t1 < leave ? t1 : leave;
+			enter[c] = t0 > enter[c] ? t0 : enter[c];
+			leave[c] = t1 < leave[c] ? t1 : leave[c];
 		}
-		before = enter > 0 ? enter : 0;
-		behind = leave < 0 ? -leave : before;
-		out[c] = enter <= leave ? behind : INFINITY;
+	}
+	for (int c = 0; c < BVH_WIDE; c++) {
+		double before = enter[c] > 0 ? enter[c] : 0, behind = leave[c] < 0 ? -leave[c] : before;
+		out[c] = enter[c] <= leave[c] ? behind : INFINITY;
 	}
 }
 
 /* both: hits before the origin count as those behind it. */
-static inline void
+static INLINED void
 hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, bool both, mr_ray_hit *best)
 {
 	const mr_mesh *m = bvh->mesh;
@@ -346,7 +355,7 @@ hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, bool b
 	}
 }
 
-static inline bool
+static INLINED bool
 cast(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, bool both, mr_ray_hit *hit)
 {
 	mr_ray_hit best = { .at.face = MR_NONE, .t = tmax };
