@@ -445,8 +445,7 @@ typedef enum mr_areas {
 
 typedef enum mr_rotations_choice {
 	MR_ROTATIONS_INTERPOLATED, /* their logarithms: any angle */
-	MR_ROTATIONS_LINEAR,       /* their matrices, as a response does: up to a third of a turn */
-	MR_ROTATIONS_FITTED        /* few, from the first: as rigid as they make it, up to half a turn */
+	MR_ROTATIONS_LINEAR        /* their matrices, as a response does: up to a third of a turn */
 } mr_rotations_choice;
 
 typedef enum mr_loose_choice {

@@ -1,72 +1,88 @@
-/*
- * Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4; the symmetric form
- * with true areas is ours.
- */
+/* Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4: what is solved for, and
+ * for what. */
+#include "edit/deform.h"
+
 #include "base/disjoint_sets.h"
 #include "base/text.h"
+#include "edit/deform_energy.h"
 #include "edit/deform_loose.h"
-#include "edit/deform_rotations.h"
 #include "edit/deform_stitch.h"
+
+struct mr_deform {
+	mr_deform_opts opts;
+	size_t nv;
+	uint32_t *region; /* nv */
+	uint32_t lowest;  /* region that moves the whole: fixed, or the lowest handle's */
+	size_t handles;   /* the highest, and one */
+	size_t fixed, handled, loose, loose_vertices; /* vertices, and components without a constraint */
+	size_t narrow; /* constrained vertices with less than k rings behind them */
+	mr_deform_system system;
+	mr_energies *energies; /* NULL: poses are linear */
+	mr_loose followers;
+	double seconds_solve;
+};
 
 /* Regions */
 
-static void
-count_regions(mr_deform *d)
+static mr_status
+count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 {
+	size_t free = 0;
+
 	d->lowest = UINT32_MAX;
 	for (size_t v = 0; v < d->nv; v++) {
 		uint32_t r = d->region[v];
-		d->free += r == MR_REGION_FREE;
+		if (!mr_finite(rest->p[v]))
+			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
+		free += r == MR_REGION_FREE;
 		d->fixed += r == MR_REGION_FIXED;
-		d->handled += r >= MR_REGION_HANDLE;
 		if (r >= MR_REGION_HANDLE && r - MR_REGION_HANDLE >= d->handles)
 			d->handles = r - MR_REGION_HANDLE + 1;
 		if (r != MR_REGION_FREE && r < d->lowest)
 			d->lowest = r;
 	}
+	d->handled = d->nv - free - d->fixed;
+	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
+		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
+	if (free == 0 && d->handled == 0)
+		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
+		    rest->name, d->nv);
+	if (free == d->nv)
+		return mr_fail(ctx, MR_EMESH,
+		    "%s: all %zu vertices are free: nothing holds the surface; select some as fixed or "
+		    "handle",
+		    rest->name, d->nv);
+	if (free == 0)
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_UNHELD, .layer = rest->name, .what = "no vertex is free" });
+	return MR_OK;
 }
 
-/* Joins the free vertices of each face. */
-static void
-join_free(const mr_mesh *m, const uint32_t *region, uint32_t *parent)
-{
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++) {
-			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
-			if (region[a] == MR_REGION_FREE && region[b] == MR_REGION_FREE)
-				mr_sets_join(parent, a, b);
-		}
-}
-
-/* The free vertices whose component has a constrained neighbour: the others would make K singular.  parent:
- * sets of one vertex each, which become the components' with their roots.  Riders are none of the loose ones.
+/*
+ * The free vertices whose component has a constrained neighbour: the others would make K singular.  part:
+ * sets of one vertex each, which become the components' roots.
  */
 static mr_status
-find_anchored(
-    mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *rides, bool *anchored, uint32_t *parent)
+find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored, uint32_t *part)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	bool *root_anchored = MR_NEW_ZERO(ctx, d->nv, bool);
+	bool *held = MR_NEW_ZERO(ctx, d->nv, bool);
 
-	if (!root_anchored)
+	if (!held)
 		return MR_EMEM;
-	join_free(m, d->region, parent);
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++) {
-			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
-			if (d->region[a] != MR_REGION_FREE || d->region[b] != MR_REGION_FREE)
-				root_anchored[mr_sets_root(parent, a)] =
-				    root_anchored[mr_sets_root(parent, b)] = true;
+	for (int pass = 0; pass < 2; pass++)
+		for (size_t h = 0; h < 3 * m->nf; h++) {
+			uint32_t a = mr_he_from(m, (uint32_t)h), b = mr_he_to(m, (uint32_t)h);
+			bool both = d->region[a] == MR_REGION_FREE && d->region[b] == MR_REGION_FREE;
+			if (pass == 0 && both)
+				mr_sets_join(part, a, b);
+			if (pass == 1 && !both)
+				held[mr_sets_root(part, a)] = held[mr_sets_root(part, b)] = true;
 		}
 	for (uint32_t v = 0; v < d->nv; v++) {
-		anchored[v] = d->region[v] == MR_REGION_FREE && root_anchored[mr_sets_root(parent, v)];
-		if (d->region[v] == MR_REGION_FREE && !anchored[v] && !rides[v]) {
-			d->loose_vertices++;
-			d->loose += parent[v] == v;
-		}
+		part[v] = mr_sets_root(part, v);
+		anchored[v] = d->region[v] == MR_REGION_FREE && held[part[v]];
 	}
-	for (uint32_t v = 0; v < d->nv; v++)
-		parent[v] = mr_sets_root(parent, v);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -92,74 +108,38 @@ count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
 	return MR_OK;
 }
 
-static mr_status
-check_problem(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
-{
-	for (size_t v = 0; v < d->nv; v++)
-		if (!mr_finite(rest->p[v]))
-			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
-	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
-		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
-	if (d->free == 0 && d->handled == 0)
-		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
-		    rest->name, d->nv);
-	if (d->free == d->nv)
-		return mr_fail(ctx, MR_EMESH,
-		    "%s: all %zu vertices are free: nothing holds the surface; select some as fixed or "
-		    "handle",
-		    rest->name, d->nv);
-	return MR_OK;
-}
-
-/* Where no vertex is free the edges from region to region alone give way. */
-static void
-look_for_room(mr_ctx *ctx, const mr_deform *d, const mr_mesh *rest)
-{
-	double longest = 0;
-
-	for (size_t h = 0; d->free == 0 && h < 3 * rest->nf; h++) {
-		uint32_t a = mr_he_from(rest, (uint32_t)h), b = mr_he_to(rest, (uint32_t)h);
-		if (d->region[a] != d->region[b])
-			longest = fmax(longest, mr_dist(rest->p[a], rest->p[b]));
-	}
-	if (longest > 0)
-		mr_warn(ctx,
-		    "%s: no vertex is free, and all that gives way are edges from region to region: free "
-		    "some, or make more first, by mr-subdivide --longest %.2g",
-		    rest->name, longest / 2);
-}
-
-/* Says what becomes of parts that no constraint reaches.  follows: riders, and then what is to follow. */
+/* Says what becomes of parts that no constraint reaches.  follows: small ones, and then all that are to. */
 static mr_status
 settle_loose(
-    mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part, bool *follows)
+    mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, bool *anchored, const uint32_t *part, bool *follows)
 {
-	static const char *const does[] = { "follows the surface nearest to it", "stays" };
-
+	for (size_t v = 0; v < d->nv; v++)
+		if (d->region[v] == MR_REGION_FREE && !anchored[v] && !follows[v]) {
+			d->loose_vertices++;
+			d->loose += part[v] == v;
+		}
 	if (d->loose && d->opts.loose == MR_LOOSE_REFUSE)
 		return mr_fail(ctx, MR_EMESH,
 		    "%s: %zu part%s (%zu of %zu vertices) without a constrained vertex: select some of them "
 		    "as fixed or handle",
 		    rest->name, d->loose, mr_plural(d->loose), d->loose_vertices, d->nv);
 	if (d->loose)
-		mr_warn(ctx, "%s: %zu part%s (%zu of %zu vertices) without a constrained vertex: each %s",
-		    rest->name, d->loose, mr_plural(d->loose), d->loose_vertices, d->nv, does[d->opts.loose]);
-	for (size_t v = 0; d->opts.loose == MR_LOOSE_FOLLOW && v < d->nv; v++)
-		follows[v] |= d->region[v] == MR_REGION_FREE && !anchored[v];
-	return mr_loose_make(ctx, d, rest, anchored, follows, part);
-}
-
-static mr_status
-make_workspace(mr_ctx *ctx, mr_deform *d)
-{
-	size_t n = d->patch.mesh.nv * WIDTH;
-	mr_patch_field f = { .u = MR_NEW(ctx, n, double),
-		.stage = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) },
-		.r = MR_NEW(ctx, d->patch.end[0] * WIDTH, double) };
-
-	if (!f.u || !f.stage[0] || !f.stage[1] || !f.r)
-		return MR_EMEM;
-	d->work = f;
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_UNHELD,
+			.layer = rest->name,
+			.count = d->loose,
+			.what =
+			    d->opts.loose == MR_LOOSE_STAY
+				? "parts without a constrained vertex stay"
+				: "parts without a constrained vertex follow the surface nearest to them" });
+	for (size_t v = 0; v < d->nv; v++)
+		follows[v] = d->opts.loose == MR_LOOSE_FOLLOW && d->region[v] == MR_REGION_FREE &&
+		             !anchored[v];
+	for (size_t v = 0; v < d->nv; v++)
+		anchored[v] |= d->region[v] != MR_REGION_FREE;
+	MR_TRY(mr_loose_make(ctx, rest, anchored, follows, part, &d->followers));
+	for (size_t v = 0; v < d->nv; v++)
+		anchored[v] &= d->region[v] == MR_REGION_FREE;
 	return MR_OK;
 }
 
@@ -170,30 +150,20 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 	bool *anchored = MR_NEW(ctx, d->nv, bool), *follows = MR_NEW_ZERO(ctx, d->nv, bool);
 	uint32_t *part = mr_sets_new(ctx, d->nv);
 	const mr_ties none = { 0 };
-	mr_mesh stitched;
+	mr_mesh stitched = *rest;
+	mr_patch patch;
 
 	if (!anchored || !follows || !part)
 		return MR_EMEM;
-	count_regions(d);
-	MR_TRY(check_problem(ctx, d, rest));
-	look_for_room(ctx, d, rest);
-	stitched = *rest;
+	MR_TRY(count_regions(ctx, d, rest));
 	if (!d->opts.apart)
 		MR_TRY(mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched, follows));
-	MR_TRY(find_anchored(ctx, d, &stitched, follows, anchored, part));
+	MR_TRY(find_anchored(ctx, d, &stitched, anchored, part));
 	MR_TRY(settle_loose(ctx, d, rest, anchored, part, follows));
 	MR_TRY(count_narrow(ctx, d, rest, anchored));
-	MR_TRY(mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &d->patch));
-	MR_TRY(make_workspace(ctx, d));
-	return mr_deform_assemble(ctx, d, rest, started);
-}
-
-/* Incomplete factors stall on systems of high order. */
-static void
-choose_preconditioner(mr_deform_opts *o)
-{
-	if (o->solver.precondition == MR_BY_ORDER && o->order > (o->solver.kind == MR_BICGSTAB ? 1 : 2))
-		o->solver.precondition = MR_VCYCLES;
+	MR_TRY(mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &patch));
+	MR_TRY(mr_system_make(ctx, rest, &patch, &d->opts, started, &d->system));
+	return mr_energies_make(ctx, &d->system, d->region, d->lowest, &d->energies);
 }
 
 mr_status
@@ -201,20 +171,25 @@ mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint3
     const mr_deform_opts *opts, mr_deform **deform)
 {
 	mr_deform *d = MR_NEW_ZERO(ctx, 1, mr_deform);
+	mr_solver_opts *solver;
+	mr_status status;
 
 	if (!d)
 		return MR_EMEM;
 	d->opts = *opts;
-	d->keep = ctx;
-	choose_preconditioner(&d->opts);
 	d->nv = rest->nv;
 	d->region = MR_NEW(ctx, d->nv, uint32_t);
 	if (!d->region)
 		return MR_EMEM;
 	memcpy(d->region, region, d->nv * sizeof *region);
-	MR_TRY(set_up(ctx, d, rest, ties));
-	*deform = d;
-	return MR_OK;
+	solver = &d->opts.solver; /* incomplete factors stall on systems of high order */
+	if (solver->precondition == MR_BY_ORDER && opts->order > (solver->kind == MR_BICGSTAB ? 1 : 2))
+		solver->precondition = MR_VCYCLES;
+	status = set_up(ctx, d, rest, ties);
+	if (status < 0)
+		mr_deform_free(d);
+	*deform = status < 0 ? NULL : d;
+	return status;
 }
 
 void
@@ -222,8 +197,8 @@ mr_deform_free(mr_deform *d)
 {
 	if (!d)
 		return;
-	mr_rotations_free(d);
-	mr_solver_free(d->solver);
+	mr_energies_free(d->energies);
+	mr_system_free(&d->system);
 }
 
 const uint32_t *
@@ -240,62 +215,242 @@ mr_deform_handles(const mr_deform *d)
 
 /* Figures */
 
-static void
-report_solver(mr_ctx *ctx, const mr_deform *d, mr_solve_result *result)
-{
-	static const double worst = 1e-13;
-	mr_solver_report r = mr_solver_reported(d->solver);
-
-	result->nnz_factor = r.nnz_factor;
-	result->seconds_analyse = r.seconds_analyse;
-	result->seconds_factor = r.seconds_factor;
-	result->bytes_factor = r.bytes_factor;
-	if (mr_solver_iterates(d->opts.solver.kind)) {
-		result->iterations = r.iterations;
-		mr_note(ctx, "%zu iterations", r.iterations);
-		return;
-	}
-	result->rcond = r.rcond;
-	if (r.rcond < worst)
-		mr_note(
-		    ctx, "the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order, r.rcond);
-}
-
 mr_solve_result
 mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 {
-	mr_solve_result result = { .free = d->patch.end[0],
+	static const double worst = 1e-13;
+	const mr_deform_system *s = &d->system;
+	bool iterates = mr_solver_iterates(s->opts.solver.kind);
+	mr_solver_report r = { .rcond = NAN,
+		.nnz_factor = NAN,
+		.bytes_factor = NAN,
+		.seconds_analyse = NAN,
+		.seconds_factor = NAN };
+
+	if (s->solver)
+		r = mr_solver_reported(s->solver);
+	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", s->patch.end[0], d->fixed,
+	    d->handled, s->residual);
+	if (s->solver && iterates)
+		mr_note(ctx, "%zu iterations", r.iterations);
+	if (!iterates && r.rcond < worst)
+		mr_note(
+		    ctx, "the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order, r.rcond);
+	if (!iterates && s->residual > d->opts.tol)
+		mr_found(ctx, &(mr_finding){ .kind = MR_INEXACT,
+				  .value = s->residual,
+				  .what = "rounding keeps the residual over --tol" });
+	if (d->narrow)
+		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
+		    d->narrow, d->opts.order);
+	return (mr_solve_result){ .free = s->patch.end[0],
 		.fixed = d->fixed,
 		.handle_vertices = d->handled,
 		.handles = d->handles,
 		.isolated_components = d->loose,
 		.isolated_vertices = d->loose_vertices,
 		.narrow_strip_vertices = d->narrow,
-		.nnz_matrix = d->nnz,
-		.negative_weights = d->negative,
-		.seconds_assemble = d->seconds_assemble,
+		.nnz_matrix = s->nnz,
+		.negative_weights = s->negative,
+		.seconds_assemble = s->seconds_assemble,
 		.seconds_solve = d->seconds_solve,
-		.residual = d->residual,
-		.refinements = d->refinements,
-		.nnz_factor = NAN,
-		.seconds_analyse = NAN,
-		.seconds_factor = NAN,
-		.bytes_factor = NAN,
-		.iterations = MR_UNKNOWN,
-		.rcond = NAN,
+		.residual = s->residual,
+		.refinements = s->refinements,
+		.nnz_factor = r.nnz_factor,
+		.seconds_analyse = r.seconds_analyse,
+		.seconds_factor = r.seconds_factor,
+		.bytes_factor = r.bytes_factor,
+		.iterations = s->solver && iterates ? r.iterations : MR_UNKNOWN,
+		.rcond = iterates ? NAN : r.rcond,
 		.error = NAN,
 		.condition = NAN };
+}
 
-	if (d->solver)
-		report_solver(ctx, d, &result);
-	mr_note(ctx, "%zu free, %zu fixed, %zu handle vertices; residual %.1e", result.free, d->fixed,
-	    d->handled, d->residual);
-	if (!mr_solver_iterates(d->opts.solver.kind) && !d->rough && d->residual > d->opts.tol)
-		mr_warn(ctx,
-		    "the residual %.1e is over the %.1e that was to be reached: rounding keeps it there",
-		    d->residual, d->opts.tol);
-	if (d->narrow)
-		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
-		    d->narrow, d->opts.order);
-	return result;
+/* Tasks */
+
+/* The undeformed solve. */
+static mr_status
+relax(mr_ctx *ctx, mr_deform *d, mr_v3 *p)
+{
+	mr_deform_system *s = &d->system;
+	mr_box box = mr_box_of(p, d->nv);
+	mr_v3 origin = mr_lerp(0.5, box.min, box.max);
+	mr_field f;
+
+	if (!s->solver)
+		return MR_OK;
+	f = mr_system_field(s, 3);
+	for (size_t i = s->patch.end[0]; i < s->patch.mesh.nv; i++) {
+		mr_v3 x = mr_sub(p[s->patch.vertex[i]], origin);
+		memcpy(f.u + 3 * i, (double[]){ x.x, x.y, x.z }, 3 * sizeof *f.u);
+	}
+	MR_TRY(mr_system_solve(ctx, s, &f));
+	for (size_t i = 0; i < s->patch.end[0]; i++)
+		p[s->patch.vertex[i]] = mr_add(mr_vec(f.u[3 * i], f.u[3 * i + 1], f.u[3 * i + 2]), origin);
+	return MR_OK;
+}
+
+static mr_status
+check_maps(mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	bool *present = MR_NEW_ZERO(ctx, d->handles, bool);
+
+	if (!present)
+		return MR_EMEM;
+	for (size_t v = 0; v < d->nv; v++)
+		if (d->region[v] >= MR_REGION_HANDLE)
+			present[d->region[v] - MR_REGION_HANDLE] = true;
+	for (size_t h = 0; h < maps->count; h++)
+		if (!mr_is_identity(&maps->t[h]) && (h >= d->handles || !present[h]))
+			return mr_fail(ctx, MR_ERANGE, "handles: handle %zu has no vertex of %s to move", h,
+			    d->system.patch.mesh.name);
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Constraints go where the task has them, and all else follows.  p: p0 at first. */
+static mr_status
+pose(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *p)
+{
+	mr_affine whole = task->maps ? mr_deform_map(task->maps, d->lowest) : mr_identity();
+
+	for (size_t v = 0; v < d->nv; v++) {
+		mr_affine map = task->maps ? mr_deform_map(task->maps, d->region[v]) : mr_identity();
+		if (!mr_is_identity(&map))
+			p[v] = mr_apply(&map, p[v]);
+		if (task->target && d->region[v] != MR_REGION_FREE)
+			p[v] = task->target[v];
+	}
+	if (d->energies)
+		MR_TRY(mr_energies_follow(ctx, d->energies, &whole, task->p0, task->maps, p));
+	else if (d->system.solver)
+		MR_TRY(mr_system_follow(ctx, &d->system, &whole, task->p0, NULL, p));
+	mr_loose_follow(ctx, &d->followers, task->p0, p);
+	return MR_OK;
+}
+
+mr_status
+mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double started = mr_seconds();
+	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
+
+	if (!p)
+		return MR_EMEM;
+	memcpy(p, task->p0, d->nv * sizeof *p);
+	if (task->maps)
+		MR_TRY(check_maps(ctx, d, task->maps));
+	if (task->maps || task->target)
+		MR_TRY(pose(ctx, d, task, p));
+	else
+		MR_TRY(relax(ctx, d, p));
+	memcpy(out, p, d->nv * sizeof *out);
+	mr_mark_release(ctx, mark);
+	d->seconds_solve = mr_seconds() - started;
+	return MR_OK;
+}
+
+static mr_status
+verify(mr_ctx *ctx, mr_deform *direct, const mr_deform_task *task, const mr_v3 *p, double *error,
+    double *condition)
+{
+	double diagonal = mr_box_diagonal(mr_box_of(p, direct->nv)), most = 0;
+	mr_v3 *q = MR_NEW(ctx, direct->nv, mr_v3);
+
+	if (!q)
+		return MR_EMEM;
+	MR_TRY(mr_deform_solve(ctx, direct, task, q));
+	for (size_t v = 0; v < direct->nv; v++)
+		most = fmax(most, mr_dist(p[v], q[v]));
+	*error = diagonal > 0 ? most / diagonal : 0;
+	*condition = 1;
+	return direct->system.solver ? mr_system_condition(ctx, &direct->system, condition) : MR_OK;
+}
+
+mr_status
+mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const mr_deform *d,
+    const mr_deform_task *task, const mr_v3 *p, double *error, double *condition)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	mr_deform_opts opts = d->opts;
+	mr_deform *direct = NULL;
+	mr_status status;
+
+	opts.unsymmetric = false;
+	opts.solver.kind = MR_CHOLESKY;
+	MR_TRY(mr_deform_new(ctx, rest, ties, d->region, &opts, &direct));
+	status = verify(ctx, direct, task, p, error, condition);
+	mr_deform_free(direct);
+	mr_mark_release(ctx, mark);
+	return status;
+}
+
+/* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5.
+ */
+
+static void
+row_of(mr_v3 p, double row[4])
+{
+	memcpy(row, (double[]){ p.x, p.y, p.z, 1 }, 4 * sizeof *row);
+}
+
+/* The responses to handle h: (x, y, z, 1) of its own vertices, 0 of the other constraints. */
+static mr_status
+respond_to(mr_ctx *ctx, mr_deform *d, size_t h, const mr_v3 *p0, double *response)
+{
+	mr_field f = mr_system_field(&d->system, 4);
+	const mr_patch *patch = &d->system.patch;
+
+	for (size_t i = patch->end[0]; i < patch->mesh.nv; i++)
+		if (d->region[patch->vertex[i]] == MR_REGION_HANDLE + h)
+			row_of(p0[patch->vertex[i]], f.u + 4 * i);
+	MR_TRY(mr_system_solve(ctx, &d->system, &f));
+	for (size_t i = 0; i < patch->end[0]; i++)
+		memcpy(response + 4 * (d->handles * patch->vertex[i] + h), f.u + 4 * i, 4 * sizeof *response);
+	return MR_OK;
+}
+
+/*
+ * Where nothing is fixed the lowest handle moves the whole, p = T p0 + z: its response is
+ * what the others leave of (x, y, z, 1).
+ */
+static void
+respond_to_whole(const mr_deform *d, const mr_v3 *p0, double *response)
+{
+	size_t lowest = d->lowest - MR_REGION_HANDLE;
+
+	for (size_t i = 0; i < d->system.patch.end[0]; i++) {
+		uint32_t v = d->system.patch.vertex[i];
+		double *row = response + 4 * d->handles * v, rest[4];
+		row_of(p0[v], rest);
+		for (size_t h = 0; h < d->handles; h++)
+			for (size_t c = 0; h != lowest && c < 4; c++)
+				rest[c] -= row[4 * h + c];
+		memcpy(row + 4 * lowest, rest, sizeof rest);
+	}
+}
+
+mr_status
+mr_deform_basis(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, double *response)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	double started = mr_seconds();
+
+	memset(response, 0, d->nv * d->handles * 4 * sizeof *response);
+	for (size_t v = 0; v < d->nv; v++)
+		if (d->region[v] >= MR_REGION_HANDLE)
+			row_of(p0[v], response + 4 * (d->handles * v + d->region[v] - MR_REGION_HANDLE));
+	for (size_t h = 0; d->system.solver && h < d->handles; h++) {
+		mr_progress(ctx, "basis", (double)h / (double)d->handles);
+		if (MR_REGION_HANDLE + h != d->lowest)
+			MR_TRY(respond_to(ctx, d, h, p0, response));
+		mr_mark_release(ctx, mark);
+	}
+	if (d->system.solver && d->lowest >= MR_REGION_HANDLE)
+		respond_to_whole(d, p0, response);
+	mr_loose_respond(&d->followers, d->handles, p0, response);
+	d->seconds_solve = mr_seconds() - started;
+	return MR_OK;
 }

@@ -8,16 +8,16 @@
 #ifndef MR_EDIT_DEFORM_STITCH_H
 #define MR_EDIT_DEFORM_STITCH_H
 
-#include "edit/deform_parts.h"
+#include "edit/deform_opts.h"
 
 /*
- * rest, and a triangle from each vertex that touches another component to two corners of the face there: of
- * the three that which is best shaped; so too for each of the ties.  None where all is constrained.  region:
- * one a vertex.  stitched: rest at first; its faces come into the arena where there are more.  Riders
- * (deform_riders.h) get none, and are true in rides: one a vertex, false at first; none where ties are not
- * known.
+ * rest, and a triangle from each vertex that is near another component, to two corners of the face there; so
+ * too for each of the ties.  None where all is constrained.  What is free, small beside what it is near, and
+ * not among the ties, if those are known, gets none and is true in follows (one a vertex, false at first): it
+ * has no shape of its own to solve for, and bends for nothing to cancel what the large part bends.
+ * stitched: its faces are rest's, or in the arena.
  */
 mr_status mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
-    mr_mesh *stitched, bool *rides);
+    mr_mesh *stitched, bool *follows) MR_WARN_UNUSED;
 
 #endif

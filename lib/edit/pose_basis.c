@@ -3,7 +3,6 @@
 #include "edit/pose_basis.h"
 
 #include "base/parallel.h"
-#include "edit/deform.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
 

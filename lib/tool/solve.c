@@ -16,7 +16,7 @@ check_options(mr_ctx *ctx, const mr_solve_opts *o)
 	MR_TRY(mr_check_number(ctx, "order", (double)o->order, 1, 3));
 	MR_TRY(mr_check_choice(ctx, "solver", o->solver, MR_SOLVER_VCYCLE));
 	MR_TRY(mr_check_choice(ctx, "areas", o->areas, MR_AREAS_MEAN));
-	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_FITTED));
+	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_LINEAR));
 	MR_TRY(mr_check_choice(ctx, "loose", o->loose, MR_LOOSE_REFUSE));
 	MR_TRY(mr_check_choice(ctx, "precondition", o->precondition, 3));
 	MR_TRY(mr_check_number(ctx, "tol", o->tol, 0, 1));
@@ -47,8 +47,7 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	deform->order = o->order;
 	deform->areas = o->areas;
 	deform->unsymmetric = o->unsymmetric;
-	deform->turned = o->rotations != MR_ROTATIONS_LINEAR;
-	deform->fitted = o->rotations == MR_ROTATIONS_FITTED;
+	deform->rotations = o->basis || o->flatten ? MR_ROTATIONS_LINEAR : o->rotations;
 	deform->rounds = o->arap;
 	deform->loose = o->flatten && !o->basis && o->loose == MR_LOOSE_FOLLOW ? MR_LOOSE_STAY : o->loose;
 	deform->apart = o->apart || o->flatten;

@@ -1,6 +1,7 @@
 /* Boundary-constraint modelling against a dense solve of the paper's own definition, and its invariants. */
 #include "base/random.h"
 #include "edit/deform.h"
+#include "edit/pose_basis.h"
 #include "mesh/layers.h"
 #include "op/voronoi_area.h"
 #include "shapes.h"
@@ -281,7 +282,7 @@ places(const mr_mesh *m)
 static void
 relax(mr_deform *d, const mr_v3 *p, mr_v3 *out)
 {
-	assert_int_equal(mr_deform_relax(&ctx, d, p, out), MR_OK);
+	assert_int_equal(mr_deform_solve(&ctx, d, &(mr_deform_task){ p, NULL, NULL }, out), MR_OK);
 }
 
 static void
@@ -289,7 +290,7 @@ pose(mr_deform *d, const mr_v3 *p, const mr_affine *t, size_t handles, mr_v3 *ou
 {
 	mr_deform_maps maps = { t, NULL, handles };
 
-	assert_int_equal(mr_deform_pose(&ctx, d, p, &maps, out), MR_OK);
+	assert_int_equal(mr_deform_solve(&ctx, d, &(mr_deform_task){ p, &maps, NULL }, out), MR_OK);
 }
 
 /* The pose of all handles from what each of their maps does. */
@@ -502,7 +503,7 @@ test_targets_are_reached(void **state)
 	for (size_t k = 1; k <= 3; k++) {
 		mr_deform *d = of_order(&m, region, k);
 		pose(d, m.p, &t, 1, p);
-		assert_int_equal(mr_deform_reach(&ctx, d, m.p, target, q), MR_OK);
+		assert_int_equal(mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, NULL, target }, q), MR_OK);
 		assert_memory_equal(p, q, m.nv * sizeof *p);
 		mr_deform_free(d);
 	}
@@ -610,7 +611,7 @@ test_parts_that_touch_stay_together(void **state)
 		region[one.nv + v] = one.p[v].x > 0.8 ? HANDLE : FREE;
 	}
 	for (int turned = 0; turned < 2; turned++) {
-		opts.turned = turned;
+		opts.rotations = turned ? MR_ROTATIONS_INTERPOLATED : MR_ROTATIONS_LINEAR;
 		opts.apart = false;
 		d = deform_of(&two, region, opts);
 		pose(d, two.p, maps, 1, p);
@@ -675,6 +676,7 @@ test_refusals(void **state)
 	uint32_t *region = MR_NEW_ZERO(&ctx, m.nv, uint32_t);
 	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
 	mr_affine t[3] = { mr_identity(), mr_identity(), screw(1, 1, 1) };
+	mr_deform_maps three = { t, NULL, 3 };
 	mr_v3 *p = places(&m);
 	mr_deform *d = NULL;
 
@@ -692,7 +694,7 @@ test_refusals(void **state)
 	region[6] = HANDLE + 4;
 	d = deform_of(&m, region, opts);
 	assert_int_equal(mr_deform_handles(d), 5);
-	assert_int_equal(mr_deform_pose(&ctx, d, m.p, &(mr_deform_maps){ t, NULL, 3 }, p), MR_ERANGE);
+	assert_int_equal(mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, &three, NULL }, p), MR_ERANGE);
 	assert_non_null(strstr(ctx.error, "handle 2 has no vertex"));
 	pose(d, m.p, t, 2, p);
 	mr_deform_free(d);
@@ -733,7 +735,7 @@ test_memory_failures_are_reported(void **state)
 	double *response = MR_NEW(&ctx, 8 * m.nv, double);
 
 	(void)state;
-	opts.turned = true;
+	opts.rotations = MR_ROTATIONS_INTERPOLATED;
 	opts.rounds = 2;
 	for (uint64_t k = 1;; k++) {
 		mr_mark mark = mr_mark_take(&ctx);
@@ -742,9 +744,9 @@ test_memory_failures_are_reported(void **state)
 		ctx.fail_at = k;
 		status = mr_deform_new(&ctx, &m, NULL, region, &opts, &d);
 		if (status == MR_OK)
-			status = mr_deform_relax(&ctx, d, m.p, p);
+			status = mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, NULL, NULL }, p);
 		if (status == MR_OK)
-			status = mr_deform_pose(&ctx, d, m.p, &maps, p);
+			status = mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, &maps, NULL }, p);
 		if (status == MR_OK)
 			status = mr_deform_basis(&ctx, d, m.p, response);
 		mr_deform_free(d);

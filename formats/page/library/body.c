@@ -3,8 +3,8 @@
  * part is a range of the base's vertices along the Z curve, with so many rings around it that it turns as the
  * whole does, and the rows of detail that stand there, all in that order: memory far apart is slow.
  */
-#include "edit/deform.h"
 #include "edit/phong.h"
+#include "edit/pose_basis.h"
 #include "formats/page/library/export.h"
 #include "formats/page/library/turning.h"
 #include "mesh/zorder.h"

@@ -1,0 +1,482 @@
+/* Energies as deform_energy.h has them; rounds with the spokes and rims of Chao, Pinkall, Sanan, Schroeder
+ * 2010. */
+#include "edit/deform_energy.h"
+
+#include "base/parallel.h"
+#include "base/rotation.h"
+#include "edit/deform_sections.h"
+#include "edit/deform_volume.h"
+#include "op/laplace.h"
+
+enum { GRAIN = 1024 };
+
+/* Vertices and faces are those of the patch. */
+struct mr_energies {
+	mr_deform_system *s, membrane; /* of order 1, for rounds; no solver where s does */
+	const uint32_t *region;        /* of the mesh */
+	uint32_t lowest;
+	size_t count;        /* handles with weights: all but what moves the whole */
+	uint32_t *handle;    /* their regions */
+	double *weight;      /* count for each vertex */
+	double (*cot)[3];    /* of each face */
+	mr_incidence around; /* faces of each vertex */
+	mr_sections sections;
+	mr_inside inside; /* for rounds */
+	/* Workspace, kept from pose to pose. */
+	mr_v3 *rest, *q, *before; /* a vertex each */
+	mr_mat3 *map;             /* A of each vertex */
+	mr_v3 *corner;            /* 3 for each face */
+	double *source;           /* 3 for each vertex */
+};
+
+/* A pose. */
+typedef struct turning {
+	const mr_energies *e;
+	const mr_deform_maps *maps; /* NULL: none, and nothing is known of rotations */
+	mr_mat3 whole;              /* of what moves the whole: R S */
+	mr_mat3 rotation, stretch;  /* R, S */
+	mr_v3 *log;                 /* of each handle's rotation relative to that */
+	mr_mat3 *by;                /* its stretch less that */
+	bool turns;                 /* or stretches */
+	bool stretches;             /* beyond rounding */
+	const struct energy *energy;
+} turning;
+
+/*
+ * An energy: the local step gives each free vertex a map, and the corners of a face shall be, up to a shift,
+ * where `place` has them, less where the whole has.
+ */
+typedef struct energy {
+	mr_mat3 (*local)(const turning *t, size_t i);
+	void (*place)(const turning *t, size_t f, mr_v3 corner[3]);
+} energy;
+
+/* Handles' maps */
+
+static mr_v3
+turn_of(const mr_deform_maps *maps, uint32_t region)
+{
+	size_t h = region - MR_REGION_HANDLE;
+
+	return maps->turn && region >= MR_REGION_HANDLE && h < maps->count ? maps->turn[h] : mr_vec(0, 0, 0);
+}
+
+static mr_mat3
+linear_of(const turning *t, uint32_t region)
+{
+	mr_affine map = mr_deform_map(t->maps, region);
+
+	return mr_affine_linear(&map);
+}
+
+/* What handle j does beyond the whole, which has turned by w. */
+static void
+decompose_handle(turning *t, size_t j, mr_v3 w)
+{
+	static const double none = 1e-14;
+	bool stretches = false;
+	uint32_t region = t->e->handle[j];
+	mr_mat3 a = linear_of(t, region), r = mr_rotation_nearest(&a), relative = mr_mat3_identity(), stretch;
+	mr_v3 turn = mr_rotation_log(&a, turn_of(t->maps, region));
+
+	if (memcmp(&a, &t->whole, sizeof a))
+		relative = mr_mat3_multiply_transposed(&t->rotation, &r);
+	t->log[j] = mr_rotation_log(&relative, mr_sub(turn, w));
+	stretch = mr_mat3_multiply_transposed(&r, &a);
+	t->by[j] = mr_mat3_axpy(-1, &t->stretch, &stretch);
+	for (int i = 0; i < 9; i++)
+		stretches |= fabs(t->by[j].m[i]) > none;
+	if (!stretches) /* so that it makes no difference whether another handle does */
+		t->by[j] = (mr_mat3){ { 0 } };
+	t->stretches |= stretches;
+	t->turns |= memcmp(&a, &t->whole, sizeof a) || mr_norm(t->log[j]) > 0;
+}
+
+/* Polar decompositions of the maps. */
+static mr_status
+decompose(mr_ctx *ctx, turning *t)
+{
+	size_t n = t->e->count;
+	mr_v3 w;
+
+	t->whole = t->rotation = t->stretch = mr_mat3_identity();
+	if (!t->maps)
+		return MR_OK;
+	t->log = MR_NEW(ctx, n, mr_v3);
+	t->by = MR_NEW(ctx, n, mr_mat3);
+	if (!t->log || !t->by)
+		return MR_EMEM;
+	t->whole = linear_of(t, t->e->lowest);
+	t->rotation = mr_rotation_nearest(&t->whole);
+	t->stretch = mr_mat3_multiply_transposed(&t->rotation, &t->whole);
+	w = mr_rotation_log(&t->whole, turn_of(t->maps, t->e->lowest));
+	for (size_t j = 0; j < n; j++)
+		decompose_handle(t, j, w);
+	return MR_OK;
+}
+
+/* Energies */
+
+static mr_mat3
+stretch_at(const turning *t, size_t i)
+{
+	mr_mat3 s = t->stretch;
+
+	for (size_t j = 0; t->stretches && j < t->e->count; j++)
+		s = mr_mat3_axpy(t->e->weight[t->e->count * i + j], &t->by[j], &s);
+	return s;
+}
+
+/* The interpolated map. */
+static mr_mat3
+interpolate(const turning *t, size_t i)
+{
+	mr_mat3 r, s = stretch_at(t, i);
+	mr_v3 w = mr_vec(0, 0, 0);
+
+	for (size_t j = 0; j < t->e->count; j++)
+		w = mr_axpy(t->e->weight[t->e->count * i + j], t->log[j], w);
+	r = mr_rotation_exp(w);
+	r = mr_mat3_multiply(&t->rotation, &r);
+	return mr_mat3_multiply(&r, &s);
+}
+
+/* The place about which a face turns: the sections of several handles count by how much they turn there. */
+static mr_v3
+center_of(const turning *t, size_t f)
+{
+	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
+	size_t n = t->e->count;
+	mr_v3 sum = mr_vec(0, 0, 0);
+	double all = 0;
+
+	for (size_t j = 0; j < n; j++) {
+		const double *w = t->e->weight + j;
+		double a = w[n * v[0]], b = w[n * v[1]], c = w[n * v[2]], moves = mr_norm2(t->log[j]), share;
+		for (int i = 0; i < 9; i++)
+			moves += t->by[j].m[i] * t->by[j].m[i];
+		share = fmax(a, fmax(b, c)) - fmin(a, fmin(b, c));
+		share *= share * moves;
+		if (!(share > 0))
+			continue;
+		sum = mr_axpy(share, mr_section_at(&t->e->sections, n, f, j, (a + b + c) / 3), sum);
+		all += share;
+	}
+	return all > 0 ? mr_mul(1 / all, sum) : t->e->rest[v[0]];
+}
+
+static void
+place_about_section(const turning *t, size_t f, mr_v3 corner[3])
+{
+	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
+	mr_v3 center = center_of(t, f);
+
+	for (int k = 0; k < 3; k++) {
+		mr_mat3 a = mr_mat3_axpy(-1, &t->whole, &t->e->map[v[k]]);
+		corner[k] = mr_mat3_apply(&a, mr_sub(t->e->rest[v[k]], center));
+	}
+}
+
+/* The local step of rounds: the rotation that takes the faces around a vertex best to where they are, times
+ * its stretch. */
+static mr_mat3
+fit(const turning *t, size_t i)
+{
+	const mr_energies *e = t->e;
+	mr_mat3 sum = { { 0 } }, s = stretch_at(t, i), r;
+
+	for (size_t n = e->around.start[i]; n < e->around.start[i + 1]; n++) {
+		const uint32_t *v = e->s->patch.mesh.t[e->around.face[n]].v;
+		for (int k = 0; k < 3; k++) {
+			uint32_t a = v[k], b = v[(k + 1) % 3];
+			double w = e->cot[e->around.face[n]][(k + 2) % 3];
+			mr_v3 x = mr_mat3_apply(&s, mr_sub(e->rest[a], e->rest[b]));
+			mr_v3 y = mr_sub(e->q[a], e->q[b]);
+			mr_mat3 yx = { { y.x * x.x, y.x * x.y, y.x * x.z, y.y * x.x, y.y * x.y, y.y * x.z,
+			    y.z * x.x, y.z * x.y, y.z * x.z } };
+			sum = mr_mat3_axpy(w, &yx, &sum); /* symmetric at rest, to the bit */
+		}
+	}
+	r = mr_rotation_nearest(&sum);
+	return mr_mat3_multiply(&r, &s);
+}
+
+/* By the mean of the corners' maps. */
+static void
+place_about_face(const turning *t, size_t f, mr_v3 corner[3])
+{
+	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
+	const mr_mat3 *a = &t->e->map[v[0]], *b = &t->e->map[v[1]], *c = &t->e->map[v[2]];
+	mr_mat3 mean;
+
+	for (int i = 0; i < 9; i++)
+		mean.m[i] = (a->m[i] + b->m[i] + c->m[i]) / 3 - t->whole.m[i];
+	for (int k = 0; k < 3; k++)
+		corner[k] = mr_mat3_apply(&mean, mr_sub(t->e->rest[v[k]], t->e->rest[v[0]]));
+}
+
+static const energy interpolated = { interpolate, place_about_section }, rigid = { fit, place_about_face };
+
+/* By mr_rotations_choice: what a pose starts with, and how many rounds are rigid, of those that are not asked
+ * for. */
+static const struct {
+	const energy *first;
+	size_t rounds;
+} ways[] = {
+	[MR_ROTATIONS_INTERPOLATED] = { &interpolated, 0 },
+	[MR_ROTATIONS_LINEAR] = { NULL, 0 },
+};
+
+/* Steps */
+
+/* Constraints that have maps have those. */
+static void
+local_step(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+	const mr_patch *patch = &t->e->s->patch;
+
+	for (size_t i = begin; i < end; i++)
+		t->e->map[i] = t->maps && i >= patch->end[0] ? linear_of(t, t->e->region[patch->vertex[i]])
+		                                             : t->energy->local(t, i);
+}
+
+/* What each corner of a face has of the divergence of its gradient. */
+static void
+face_sources(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+
+	for (size_t f = begin; f < end; f++) {
+		const double *cot = t->e->cot[f];
+		mr_v3 *out = t->e->corner + 3 * f, p[3];
+		t->energy->place(t, f, p);
+		for (int k = 0; k < 3; k++) {
+			int next = (k + 1) % 3, last = (k + 2) % 3;
+			out[k] = mr_add(mr_mul(cot[last] / 2, mr_sub(p[k], p[next])),
+			    mr_mul(cot[next] / 2, mr_sub(p[k], p[last])));
+		}
+	}
+}
+
+static void
+gather_sources(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+	const mr_incidence *around = &t->e->around;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 sum = mr_vec(0, 0, 0);
+		for (size_t n = around->start[i]; n < around->start[i + 1]; n++) {
+			size_t f = around->face[n];
+			const uint32_t *v = t->e->s->patch.mesh.t[f].v;
+			sum = mr_add(sum, t->e->corner[3 * f + (v[0] == i ? 0 : v[1] == i ? 1 : 2)]);
+		}
+		memcpy(t->e->source + 3 * i, &sum, sizeof sum);
+	}
+}
+
+/* What the system shall have as source. */
+static const double *
+source_of(mr_ctx *ctx, turning *t, const energy *of)
+{
+	const mr_deform_system *s = t->e->s;
+
+	t->energy = of;
+	mr_parallel(ctx, s->patch.mesh.nv, GRAIN, local_step, t);
+	mr_parallel(ctx, s->patch.mesh.nf, GRAIN, face_sources, t);
+	mr_parallel(ctx, s->patch.end[s->opts.order - 1], GRAIN, gather_sources, t);
+	return t->e->source;
+}
+
+/* Where the patch is, and how much further it would go: four rounds then do what seven do without. */
+static void
+extrapolate(const turning *t, const mr_v3 *p, bool first)
+{
+	static const double further = 0.7;
+	const mr_energies *e = t->e;
+
+	for (size_t i = 0; i < e->s->patch.mesh.nv; i++) {
+		mr_v3 at = p[e->s->patch.vertex[i]];
+		e->q[i] = first ? at : mr_axpy(further, mr_sub(at, e->before[i]), at);
+		e->before[i] = at;
+	}
+}
+
+/*
+ * How much of its volume the patch has to have, by the mean of what the stretches ask for; 0 where that is no
+ * body but a sheet or a dent, which has lost most of it before any round, or places tell no stretch.  Rounds
+ * leave 42 to 97 % without this; all of it costs twice the stretch of edges that nine tenths cost.
+ */
+static double
+volume_to_keep(mr_ctx *ctx, const turning *t, const mr_v3 *p0, const mr_v3 *p)
+{
+	static const double kept = 0.9, body = 0.4; /* limbs that are bent and twisted have 0.79 to 1.02 */
+	const mr_energies *e = t->e;
+	size_t n = e->s->patch.end[0];
+	double rest, sum = 0;
+
+	if (!t->maps || !e->inside.t)
+		return 0;
+	rest = mr_inside_volume(ctx, &e->inside, &e->s->patch, p0);
+	if (!(mr_inside_volume(ctx, &e->inside, &e->s->patch, p) / rest >= body))
+		return 0;
+	for (size_t i = 0; i < n; i++) {
+		mr_mat3 s = stretch_at(t, i);
+		sum += mr_mat3_determinant(&s);
+	}
+	return kept * sum / (double)n * rest;
+}
+
+/* The last of the global steps is of the system's own order, so that the surface is as smooth as it asks. */
+static mr_status
+rounds(
+    mr_ctx *ctx, mr_energies *e, turning *t, size_t count, const mr_affine *whole, const mr_v3 *p0, mr_v3 *p)
+{
+	double least = count ? volume_to_keep(ctx, t, p0, p) : 0;
+
+	for (size_t round = 0; round < count; round++) {
+		mr_deform_system *s = round + 1 < count && e->membrane.solver ? &e->membrane : e->s;
+		extrapolate(t, p, round == 0);
+		MR_TRY(mr_system_follow(ctx, s, whole, p0, source_of(ctx, t, &rigid), p));
+		if (least != 0 && mr_inside_volume(ctx, &e->inside, &e->s->patch, p) / least < 1)
+			MR_TRY(mr_inside_keep(ctx, s, &e->inside, least, p));
+	}
+	return MR_OK;
+}
+
+static size_t
+rounds_of(const mr_deform_opts *o, bool maps)
+{
+	return o->rounds ? o->rounds : maps ? ways[o->rotations].rounds : 0;
+}
+
+mr_status
+mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr_v3 *p0,
+    const mr_deform_maps *maps, mr_v3 *p)
+{
+	turning t = { .e = e, .maps = maps };
+	const energy *first = maps ? ways[e->s->opts.rotations].first : NULL;
+
+	for (size_t i = 0; i < e->s->patch.mesh.nv; i++)
+		e->rest[i] = p0[e->s->patch.vertex[i]];
+	MR_TRY(decompose(ctx, &t));
+	MR_TRY(
+	    mr_system_follow(ctx, e->s, whole, p0, t.turns && first ? source_of(ctx, &t, first) : NULL, p));
+	return rounds(ctx, e, &t, rounds_of(&e->s->opts, maps), whole, p0, p);
+}
+
+/* Set-up */
+
+/* The regions that have weights, in their order. */
+static mr_status
+find_handles(mr_ctx *ctx, mr_energies *e)
+{
+	const mr_patch *patch = &e->s->patch;
+	size_t regions = 0;
+	bool *present;
+
+	for (size_t i = patch->end[0]; i < patch->mesh.nv; i++)
+		regions = e->region[patch->vertex[i]] < regions ? regions
+		                                                : e->region[patch->vertex[i]] + (size_t)1;
+	present = MR_NEW_ZERO(ctx, regions, bool);
+	e->handle = MR_NEW(ctx, regions, uint32_t);
+	if (!present || !e->handle)
+		return MR_EMEM;
+	for (size_t i = patch->end[0]; i < patch->mesh.nv; i++)
+		present[e->region[patch->vertex[i]]] = true;
+	for (uint32_t r = MR_REGION_HANDLE; r < regions; r++)
+		if (present[r] && r != e->lowest)
+			e->handle[e->count++] = r;
+	return MR_OK;
+}
+
+/* Not beyond 0 and 1, with what is left of 1. */
+static void
+clamp_weights(double *w, size_t n)
+{
+	double rest = 1, sum = 0;
+
+	for (size_t j = 0; j < n; j++) {
+		rest -= w[j];
+		w[j] = fmin(fmax(w[j], 0), 1);
+		sum += w[j];
+	}
+	sum += fmin(fmax(rest, 0), 1);
+	for (size_t j = 0; j < n && sum > 0; j++)
+		w[j] /= sum;
+}
+
+/* Some at a time. */
+static mr_status
+solve_weights(mr_ctx *ctx, mr_energies *e)
+{
+	const mr_patch *patch = &e->s->patch;
+
+	for (size_t j = 0; j < e->count; j += MR_FIELD_WIDTH) {
+		size_t width = e->count - j < MR_FIELD_WIDTH ? e->count - j : MR_FIELD_WIDTH;
+		mr_field f = mr_system_field(e->s, width);
+		for (size_t i = patch->end[0]; i < patch->mesh.nv; i++)
+			for (size_t c = 0; c < width; c++)
+				f.u[width * i + c] = e->region[patch->vertex[i]] == e->handle[j + c];
+		MR_TRY(mr_system_solve(ctx, e->s, &f));
+		for (size_t i = 0; i < patch->mesh.nv; i++)
+			memcpy(e->weight + e->count * i + j, f.u + width * i, width * sizeof *f.u);
+	}
+	for (size_t i = 0; i < patch->mesh.nv; i++)
+		clamp_weights(e->weight + e->count * i, e->count);
+	return MR_OK;
+}
+
+static mr_status
+make_room(mr_ctx *ctx, mr_energies *e)
+{
+	const mr_mesh *m = &e->s->patch.mesh;
+
+	e->cot = mr_alloc(ctx, m->nf, sizeof *e->cot);
+	e->weight = MR_NEW(ctx, m->nv * e->count, double);
+	e->rest = MR_NEW(ctx, m->nv, mr_v3);
+	e->q = MR_NEW(ctx, m->nv, mr_v3);
+	e->before = MR_NEW(ctx, m->nv, mr_v3);
+	e->map = MR_NEW(ctx, m->nv, mr_mat3);
+	e->corner = MR_NEW(ctx, 3 * m->nf, mr_v3);
+	e->source = MR_NEW(ctx, 3 * m->nv, double);
+	if (!e->cot || !e->weight || !e->rest || !e->q || !e->before || !e->map || !e->corner || !e->source)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++)
+		mr_cotangents(m->p[m->t[f].v[0]], m->p[m->t[f].v[1]], m->p[m->t[f].v[2]], e->cot[f]);
+	return mr_incidence_build(ctx, m, &e->around);
+}
+
+mr_status
+mr_energies_make(
+    mr_ctx *ctx, mr_deform_system *s, const uint32_t *region, uint32_t lowest, mr_energies **energies)
+{
+	size_t most = rounds_of(&s->opts, true);
+	mr_energies *e;
+
+	*energies = NULL;
+	if (!s->solver || (!ways[s->opts.rotations].first && most == 0))
+		return MR_OK;
+	if (!(e = MR_NEW_ZERO(ctx, 1, mr_energies)))
+		return MR_EMEM;
+	e->s = s;
+	e->region = region;
+	e->lowest = lowest;
+	MR_TRY(find_handles(ctx, e));
+	MR_TRY(make_room(ctx, e));
+	MR_TRY(solve_weights(ctx, e));
+	MR_TRY(mr_sections_find(
+	    ctx, &s->patch.mesh, e->weight, e->count, (const double(*)[3])e->cot, &e->sections));
+	if (most > 0)
+		MR_TRY(mr_inside_make(ctx, &s->patch, region, &e->inside));
+	*energies = e;
+	return most > 1 && s->opts.order > 1 ? mr_system_membrane(ctx, s, &e->membrane) : MR_OK;
+}
+
+void
+mr_energies_free(mr_energies *e)
+{
+	if (e)
+		mr_system_free(&e->membrane);
+}

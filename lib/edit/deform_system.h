@@ -1,0 +1,67 @@
+/*
+ * deform_system.h -- the linear system of a deformation: the k-th power of the Laplacian on a patch.
+ *
+ * With L the cotangent Laplacian and M the areas, D = -M^-1 L and, for free rows f, (D^k)_ff =
+ * (-1)^k M_f^-1 [L (M^-1 L)^(k-1)]_ff: a row scaling of a symmetric matrix, called K.  Multiplying
+ * comes before restricting, so K reaches k rings into the constraints.
+ * Private to this room.
+ */
+#ifndef MR_EDIT_DEFORM_SYSTEM_H
+#define MR_EDIT_DEFORM_SYSTEM_H
+
+#include "edit/deform_opts.h"
+#include "edit/k_ring.h"
+
+enum { MR_FIELD_WIDTH = 4 }; /* right-hand sides solved together, at most */
+
+/* A field over the patch: `width` values per vertex, next to each other. */
+typedef struct mr_field {
+	double *u;        /* on the constraints given, on the free vertices solved for */
+	double *stage[2]; /* workspace of as many rows */
+	double *r;        /* of the free vertices, one column after another */
+	size_t width;
+	const double *source; /* K u = L (W L)^(k-2) W source instead of 0, its rows as those of u; NULL: 0 */
+} mr_field;
+
+typedef struct mr_deform_system {
+	mr_deform_opts opts;
+	mr_patch patch; /* the free vertices that are solved for, and k rings */
+	mr_sparse l;    /* of the patch */
+	double *w;      /* mean area by area, per vertex of the patch: W = M^-1 */
+	mr_sparse l_ff; /* L of the free vertices alone, for multigrid */
+	mr_sparse a;    /* K, which iterative solvers borrow */
+	mr_hierarchy hierarchy;
+	mr_solver *solver; /* NULL where nothing is to be solved */
+	mr_field work;     /* kept from solve to solve: fresh pages cost as much as the arithmetic */
+	size_t nnz, refinements;
+	double negative; /* share of the edges at free vertices whose weight is negative */
+	double seconds_assemble, residual;
+	double rounding; /* of a solution of size 1, before it is refined */
+} mr_deform_system;
+
+/* Assembles the system of the patch, which is of the mesh `rest`, and sets up its solver.  started: when. */
+mr_status mr_system_make(mr_ctx *ctx, const mr_mesh *rest, const mr_patch *patch, const mr_deform_opts *opts,
+    double started, mr_deform_system *s);
+
+/* The system of order 1 on the same patch.  m: to be freed; borrows s's. */
+mr_status mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m);
+
+void mr_system_free(mr_deform_system *s);
+
+/* The workspace as a field of this width, all 0. */
+mr_field mr_system_field(const mr_deform_system *s, size_t width);
+
+/* The columns of u on the free vertices, 0 at first, from those on the constraints. */
+mr_status mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f);
+
+/*
+ * p has the constraints where they go, of all vertices of the mesh; the free ones follow from p0, where the
+ * whole has them.  source: of the differentials less those of the whole, or NULL.
+ */
+mr_status mr_system_follow(mr_ctx *ctx, mr_deform_system *s, const mr_affine *whole, const mr_v3 *p0,
+    const double *source, mr_v3 *p);
+
+/* An estimate of the condition number from below. */
+mr_status mr_system_condition(mr_ctx *ctx, mr_deform_system *s, double *condition);
+
+#endif
