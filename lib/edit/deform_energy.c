@@ -24,7 +24,7 @@ struct mr_energies {
 	mr_inside inside; /* for rounds */
 	/* Workspace, kept from pose to pose. */
 	mr_v3 *rest, *q, *before; /* a vertex each */
-	mr_mat3 *map;             /* A of each vertex */
+	mr_mat3 *map;             /* A of each vertex, less that of the whole */
 	mr_v3 *corner;            /* 3 for each face */
 	double *source;           /* 3 for each vertex */
 };
@@ -37,6 +37,7 @@ typedef struct turning {
 	mr_mat3 rotation, stretch;  /* R, S */
 	mr_v3 *log;                 /* of each handle's rotation relative to that */
 	mr_mat3 *by;                /* its stretch less that */
+	double *moves;              /* how much it does of both, squared */
 	bool turns;                 /* or stretches */
 	bool stretches;             /* beyond rounding */
 	const struct energy *energy;
@@ -89,6 +90,9 @@ decompose_handle(turning *t, size_t j, mr_v3 w)
 	if (!stretches) /* so that it makes no difference whether another handle does */
 		t->by[j] = (mr_mat3){ { 0 } };
 	t->stretches |= stretches;
+	t->moves[j] = mr_norm2(t->log[j]);
+	for (int i = 0; i < 9; i++)
+		t->moves[j] += t->by[j].m[i] * t->by[j].m[i];
 	t->turns |= memcmp(&a, &t->whole, sizeof a) || mr_norm(t->log[j]) > 0;
 }
 
@@ -104,7 +108,8 @@ decompose(mr_ctx *ctx, turning *t)
 		return MR_OK;
 	t->log = MR_NEW(ctx, n, mr_v3);
 	t->by = MR_NEW(ctx, n, mr_mat3);
-	if (!t->log || !t->by)
+	t->moves = MR_NEW(ctx, n, double);
+	if (!t->log || !t->by || !t->moves)
 		return MR_EMEM;
 	t->whole = linear_of(t, t->e->lowest);
 	t->rotation = mr_rotation_nearest(&t->whole);
@@ -141,25 +146,29 @@ interpolate(const turning *t, size_t i)
 	return mr_mat3_multiply(&r, &s);
 }
 
+static double
+spread(double a, double b, double c)
+{
+	double low = a < b ? a : b, high = a < b ? b : a;
+
+	return (c > high ? c : high) - (c < low ? c : low);
+}
+
 /* The place about which a face turns: the sections of several handles count by how much they turn there. */
 static mr_v3
-center_of(const turning *t, size_t f)
+center_of(const turning *t, size_t f, const uint32_t v[3])
 {
-	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
 	size_t n = t->e->count;
+	const double *a = t->e->weight + n * v[0], *b = t->e->weight + n * v[1], *c = t->e->weight + n * v[2];
 	mr_v3 sum = mr_vec(0, 0, 0);
 	double all = 0;
 
 	for (size_t j = 0; j < n; j++) {
-		const double *w = t->e->weight + j;
-		double a = w[n * v[0]], b = w[n * v[1]], c = w[n * v[2]], moves = mr_norm2(t->log[j]), share;
-		for (int i = 0; i < 9; i++)
-			moves += t->by[j].m[i] * t->by[j].m[i];
-		share = fmax(a, fmax(b, c)) - fmin(a, fmin(b, c));
-		share *= share * moves;
+		double share = spread(a[j], b[j], c[j]);
+		share *= share * t->moves[j];
 		if (!(share > 0))
 			continue;
-		sum = mr_axpy(share, mr_section_at(&t->e->sections, n, f, j, (a + b + c) / 3), sum);
+		sum = mr_axpy(share, mr_section_at(&t->e->sections, n, f, j, (a[j] + b[j] + c[j]) / 3), sum);
 		all += share;
 	}
 	return all > 0 ? mr_mul(1 / all, sum) : t->e->rest[v[0]];
@@ -169,12 +178,10 @@ static void
 place_about_section(const turning *t, size_t f, mr_v3 corner[3])
 {
 	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
-	mr_v3 center = center_of(t, f);
+	mr_v3 center = center_of(t, f, v);
 
-	for (int k = 0; k < 3; k++) {
-		mr_mat3 a = mr_mat3_axpy(-1, &t->whole, &t->e->map[v[k]]);
-		corner[k] = mr_mat3_apply(&a, mr_sub(t->e->rest[v[k]], center));
-	}
+	for (int k = 0; k < 3; k++)
+		corner[k] = mr_mat3_apply(&t->e->map[v[k]], mr_sub(t->e->rest[v[k]], center));
 }
 
 /* The local step of rounds: the rotation that takes the faces around a vertex best to where they are, times
@@ -210,7 +217,7 @@ place_about_face(const turning *t, size_t f, mr_v3 corner[3])
 	mr_mat3 mean;
 
 	for (int i = 0; i < 9; i++)
-		mean.m[i] = (a->m[i] + b->m[i] + c->m[i]) / 3 - t->whole.m[i];
+		mean.m[i] = (a->m[i] + b->m[i] + c->m[i]) / 3;
 	for (int k = 0; k < 3; k++)
 		corner[k] = mr_mat3_apply(&mean, mr_sub(t->e->rest[v[k]], t->e->rest[v[0]]));
 }
@@ -236,9 +243,11 @@ local_step(void *arg, size_t begin, size_t end)
 	const turning *t = arg;
 	const mr_patch *patch = &t->e->s->patch;
 
-	for (size_t i = begin; i < end; i++)
-		t->e->map[i] = t->maps && i >= patch->end[0] ? linear_of(t, t->e->region[patch->vertex[i]])
-		                                             : t->energy->local(t, i);
+	for (size_t i = begin; i < end; i++) {
+		mr_mat3 a = t->maps && i >= patch->end[0] ? linear_of(t, t->e->region[patch->vertex[i]])
+		                                          : t->energy->local(t, i);
+		t->e->map[i] = mr_mat3_axpy(-1, &t->whole, &a);
+	}
 }
 
 /* What each corner of a face has of the divergence of its gradient. */

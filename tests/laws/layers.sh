@@ -26,6 +26,21 @@ for layer in $rooms; do
 done
 check formats "$below|formats/"
 
+# Within a room there is an order, too: no circle of files, but for a source, its header and the private ones between them.
+for room in $rooms; do
+	bad=$(includes lib/$room | sed -nE "s|^lib/$room/([a-z0-9_]+)\.[a-z]+:$room/([a-z0-9_]+)\.h\$|\1 \2|p" | awk '
+		$1 != $2 { reaches[$1, $2] = 1; file[$1]; file[$2] }
+		END {
+			for (k in file) for (i in file) if ((i, k) in reaches) for (j in file) if ((k, j) in reaches) reaches[i, j] = 1
+			for (i in file) {
+				circle = ""
+				for (j in file) if ((i, j) in reaches && (j, i) in reaches) circle = circle " " j
+				if (split(circle, files, " ") > 3) print circle
+			}
+		}' | head -n 1)
+	[ -z "$bad" ] || { echo "lib/$room: files that include each other in a circle:$bad"; fail=1; }
+done
+
 # So do the rooms of the page, the modules beside them see all.
 climbs() { # room, pattern of the rooms it may import from
 	bad=$(grep -nE 'from "\.' formats/page/$1/*.js | grep -vE "from \"(\./[a-z_]+|\.\./($2)/[a-z_]+)\.js\"")
