@@ -62,9 +62,9 @@ send(cmd *c, const mr_frame *f, const mr_handles *h, size_t number)
 	return MR_OK;
 }
 
-/* Warns of a sequence that ends before the motion does. */
+/* Whether the sequence ends before the motion does. */
 static mr_status
-warn_of_short(cmd *c, mr_frame *f, size_t length)
+look_at_length(cmd *c, mr_frame *f, size_t length)
 {
 	size_t frames;
 
@@ -90,7 +90,7 @@ pose_frame(cmd *c, mr_frame *f)
 
 	at = f->key ? 0 : at + 1;
 	made &= !f->key;
-	MR_TRY(warn_of_short(c, f, length));
+	MR_TRY(look_at_length(c, f, length));
 	MR_TRY(mr_handles_of_frame(&c->ctx, f, c->layer, &h));
 	if (made && !f->key)
 		return mr_fail(&c->ctx, MR_EUSAGE,

@@ -249,10 +249,8 @@ mr_handles_pose(
 	row->map[handle] = mr_compose(&t, &row->map[handle]);
 	a = mr_affine_linear(&row->map[handle]);
 	if (mr_mat3_determinant(&a) < 0)
-		mr_warn(ctx,
-		    "handle %zu is mirrored, and what goes with it comes inside out: mr-transform mirrors a "
-		    "whole model",
-		    handle);
+		mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
+				  .what = "a handle is mirrored: what goes with it comes inside out" });
 	row->turn[handle] = mr_rotation_log(&a, mr_add(row->turn[handle], turn_of(pose, share)));
 	return MR_OK;
 }
@@ -291,10 +289,9 @@ turns_or_scales(const mr_handle_rows *row, size_t handle)
 }
 
 mr_status
-mr_handles_warn_of_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region, bool *told)
+mr_handles_check_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region)
 {
 	const size_t enough = 3;
-	bool few = told && !f->key && *told;
 	mr_handle_rows row;
 	size_t *count;
 
@@ -304,66 +301,34 @@ mr_handles_warn_of_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_
 	for (size_t v = 0; v < m->nv; v++)
 		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE < row.n)
 			count[region[v] - MR_REGION_HANDLE]++;
-	for (size_t i = 0; i < row.n && !few; i++) {
-		few = count[i] > 0 && count[i] < enough && turns_or_scales(&row, i);
-		if (few)
-			mr_warn(ctx,
-			    "handle %zu turns or scales, but %s has %zu vert%s of it, which cannot: a larger "
-			    "handle does, or shorter edges there, as %s makes",
-			    i, m->name, count[i], count[i] == 1 ? "ex" : "ices",
-			    strcmp(m->name, "base") != 0 ? "mr-simplify with more faces" : "mr-remesh -L");
-	}
-	if (told)
-		*told = few;
+	for (size_t i = 0; i < row.n; i++)
+		if (count[i] > 0 && count[i] < enough && turns_or_scales(&row, i))
+			mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
+					  .layer = m->name,
+					  .what = "a handle turns or scales, but has too few vertices to "
+			                          "hold that: select more" });
 	return MR_OK;
-}
-
-enum { HAD = 1, OTHERS = 2 };
-
-/* Of n handles those that had vertices before, and those whose vertices are others now. */
-static void
-mark_handles(const uint32_t *before, const uint32_t *after, size_t nv, size_t n, uint8_t *mark)
-{
-	for (size_t v = 0; v < nv; v++) {
-		const uint32_t region[] = { before[v], after[v] };
-		for (int i = 0; i < 2; i++)
-			if (region[i] >= MR_REGION_HANDLE && region[i] - MR_REGION_HANDLE < n)
-				mark[region[i] - MR_REGION_HANDLE] |=
-				    (uint8_t)((i == 0 ? HAD : 0) | (before[v] != after[v] ? OTHERS : 0));
-	}
-}
-
-static bool
-is_at_rest(const mr_handle_rows *row, size_t handle)
-{
-	return mr_is_identity(&row->map[handle]) && mr_norm(row->turn[handle]) == 0;
 }
 
 mr_status
 mr_handles_reselected(mr_ctx *ctx, mr_frame *f, const uint32_t *before, const uint32_t *after, size_t nv)
 {
-	size_t frames, posed = 0, stale = 0, first = 0;
+	size_t others = 0, frames;
 	mr_handle_rows row;
-	uint8_t *mark;
 
 	if (!f->key || !mr_layer_has(f, "handles", "transform"))
 		return MR_OK;
 	MR_TRY(mr_handles_frames(ctx, f, &frames));
 	MR_TRY(mr_handles_rows(ctx, f, 0, &row));
-	if (!(mark = MR_NEW_ZERO(ctx, row.n, uint8_t)))
-		return MR_EMEM;
-	mark_handles(before, after, nv, row.n, mark);
-	for (size_t i = row.n; i-- > 0;)
-		if ((mark[i] & HAD) && (frames > 0 || !is_at_rest(&row, i))) {
-			posed++;
-			stale += (mark[i] & OTHERS) != 0;
-			first = mark[i] & OTHERS ? i : first;
-		}
-	if (stale)
-		mr_warn(ctx,
-		    "%zu of %zu posed handles have other vertices now than their poses were set for, handle "
-		    "%zu the first, and keep these: mr-pose goes behind mr-select",
-		    stale, posed, first);
+	for (size_t v = 0; v < nv; v++) {
+		size_t h = (before[v] >= MR_REGION_HANDLE ? before[v] : after[v]) - MR_REGION_HANDLE;
+		others += before[v] != after[v] && h < row.n && (frames > 0 || !mr_is_identity(&row.map[h]));
+	}
+	if (others)
+		mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
+				  .count = others,
+				  .what = "posed handles have other vertices than their poses were set for: "
+		                          "mr-pose goes behind mr-select" });
 	return MR_OK;
 }
 

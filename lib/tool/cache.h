@@ -24,7 +24,6 @@ struct mr_cache {
 	void (*drop_deform)(struct mr_cache *cache); /* by who made it; NULL: there is none */
 	mr_level_cache level;
 	mr_connectivity_cache connectivity;
-	bool told_few; /* since the key, of handles: said once */
 };
 
 /* The arena `keep` of a cache, with the threads and the listener of the frame's. */

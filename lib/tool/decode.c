@@ -86,7 +86,7 @@ respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
 
 	if (mr_layer_has(f, "handles", "transform") && mr_layer_has(f, m->name, "region")) {
 		MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &region));
-		MR_TRY(mr_handles_warn_of_few(ctx, f, m, region, cache ? &cache->told_few : NULL));
+		MR_TRY(mr_handles_check_few(ctx, f, m, region));
 	}
 	MR_TRY(mr_response_apply(ctx, f, m, &degrees));
 	if (degrees > most * (1 + 1e-9))

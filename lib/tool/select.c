@@ -40,6 +40,42 @@ first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool reset, uint32_t *
 	return MR_OK;
 }
 
+/* A handle that free vertices follow and that meets fixed ones too, as a half-selected hand does, tears or
+ * folds there: nothing between them can give way. */
+static mr_status
+look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
+{
+	mr_finding found = { .kind = MR_HANDLE,
+		.layer = m->name,
+		.what = "a handle meets fixed vertices with nothing free between: free a ring around it, or "
+		        "select "
+			"all of the limb" };
+	uint32_t regions = MR_REGION_HANDLE;
+	bool *leads;
+
+	for (size_t v = 0; v < m->nv; v++)
+		regions = region[v] < regions ? regions : region[v] + 1;
+	leads = MR_NEW_ZERO(ctx, regions, bool);
+	if (!leads)
+		return MR_EMEM;
+	for (uint32_t h = 0; h < 3 * m->nf; h++)
+		leads[region[mr_he_from(m, h)]] |= region[mr_he_to(m, h)] == MR_REGION_FREE;
+	for (uint32_t h = 0; h < 3 * m->nf; h++) {
+		uint32_t a = mr_he_from(m, h);
+		if (region[a] < MR_REGION_HANDLE || region[mr_he_to(m, h)] != MR_REGION_FIXED ||
+		    !leads[region[a]])
+			continue;
+		if (found.count++ == 0) {
+			found.placed = true;
+			found.vertex = a;
+			found.at = m->p[a];
+		}
+	}
+	if (found.count)
+		mr_found(ctx, &found);
+	return MR_OK;
+}
+
 /* Poses belong to the vertices that their handles had. */
 static mr_status
 look_at_poses(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region)
@@ -52,20 +88,22 @@ look_at_poses(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region
 	return mr_handles_reselected(ctx, f, before, region, m->nv);
 }
 
-/* Warns where mr-solve goes by the regions of another layer: it takes base, with those of mesh, else control.
- */
+/* mr-solve takes base, with the regions of mesh, else control. */
 static void
-warn_of_others(mr_ctx *ctx, const mr_frame *f, const char *layer)
+look_at_others(mr_ctx *ctx, const mr_frame *f, const char *layer)
 {
 	bool base = mr_frame_has_layer(f, "base");
 
 	if (!f->key)
 		return;
 	if (!strcmp(layer, "mesh") && !base && mr_layer_has(f, "control", "region"))
-		mr_warn(ctx,
-		    "mr-solve goes by the regions of control, which these do not change: -l control does");
+		mr_found(ctx, &(mr_finding){ .kind = MR_LAYER,
+				  .what = "mr-solve goes by the regions of control, which these do not "
+					  "change: -l control does" });
 	if (!strcmp(layer, "control") && base)
-		mr_warn(ctx, "mr-solve takes base, and not control, unless it is told -l control, too");
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_LAYER,
+			.what = "mr-solve takes base, and not control, unless it is told -l control, too" });
 }
 
 static mr_status
@@ -84,7 +122,8 @@ select_by(
 	MR_TRY(first_regions(ctx, f, &m, opts->reset, &region));
 	MR_TRY(mr_select(ctx, f, &m, groups, s, region, result));
 	MR_TRY(look_at_poses(ctx, f, &m, region));
-	warn_of_others(ctx, f, layer);
+	look_at_others(ctx, f, layer);
+	MR_TRY(look_at_borders(ctx, &m, region));
 	return mr_layer_put_region(ctx, f, layer, region, m.nv);
 }
 

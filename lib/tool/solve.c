@@ -16,7 +16,7 @@ check_options(mr_ctx *ctx, const mr_solve_opts *o)
 	MR_TRY(mr_check_number(ctx, "order", (double)o->order, 1, 3));
 	MR_TRY(mr_check_choice(ctx, "solver", o->solver, MR_SOLVER_VCYCLE));
 	MR_TRY(mr_check_choice(ctx, "areas", o->areas, MR_AREAS_MEAN));
-	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_LINEAR));
+	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_CHOICES - 1));
 	MR_TRY(mr_check_choice(ctx, "loose", o->loose, MR_LOOSE_REFUSE));
 	MR_TRY(mr_check_choice(ctx, "precondition", o->precondition, 3));
 	MR_TRY(mr_check_number(ctx, "tol", o->tol, 0, 1));
@@ -147,7 +147,7 @@ check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 	           : MR_OK;
 }
 
-/* Says where the undeformed solve has shrunk what is under it. */
+/* The undeformed solve shrinks limbs and plates, and detail over them is not sound. */
 static void
 look_at_flattened(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 {
@@ -158,11 +158,7 @@ look_at_flattened(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 	flat.p = p;
 	share = mr_mesh_area(ctx, &flat) / mr_mesh_area(ctx, m);
 	if (share < little)
-		mr_warn(ctx,
-		    "%s: the undeformed solve leaves %.2g %% of the area: limbs and plates have shrunk, and "
-		    "detail over them "
-		    "is not sound: leave out --flatten, or free less",
-		    m->name, 100 * share);
+		mr_found(ctx, &(mr_finding){ .kind = MR_SHRUNK, .layer = m->name, .value = 1 - share });
 }
 
 /* Nothing is to be solved for: the positions are those of rest. */
@@ -203,7 +199,7 @@ verify(mr_ctx *ctx, mr_frame *f, const mr_mesh *rest, const mr_deform *d, const 
 
 /* keep: the arena of the system. */
 static mr_status
-solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_cache *cache, mr_ctx *keep, mr_deform_cache *kept,
+solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_cache *kept,
     mr_solve_result *result)
 {
 	static const char *const reads[] = { "base", "control", NULL };
@@ -230,8 +226,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_cache *cache, mr_ctx 
 	MR_TRY(mr_deform_cache_get(kept, ctx, keep, f, &rest, column, &opts, &d));
 	MR_TRY(check_target(ctx, &m, &task, mr_deform_region(d)));
 	if (task.maps)
-		MR_TRY(
-		    mr_handles_warn_of_few(ctx, f, &m, mr_deform_region(d), cache ? &cache->told_few : NULL));
+		MR_TRY(mr_handles_check_few(ctx, f, &m, mr_deform_region(d)));
 	if (posing || o->flatten)
 		MR_TRY(mr_deform_solve(ctx, d, &task, p));
 	else
@@ -273,10 +268,9 @@ mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *ca
 	MR_TRY(mr_frame_copy(ctx, f, &done));
 	if (cache) {
 		cache->drop_deform = drop_deform;
-		status = solve(
-		    ctx, &done, o, cache, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, &r);
+		status = solve(ctx, &done, o, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, &r);
 	} else {
-		status = solve(ctx, &done, o, NULL, ctx, &own, &r);
+		status = solve(ctx, &done, o, ctx, &own, &r);
 		mr_deform_free(own.deform);
 	}
 	MR_TRY(status);
