@@ -446,11 +446,12 @@ typedef enum mr_areas {
 typedef enum mr_rotations_choice {
 	MR_ROTATIONS_INTERPOLATED, /* their logarithms: any angle */
 	MR_ROTATIONS_LINEAR,       /* their matrices, as a response does: up to a third of a turn */
+	MR_ROTATIONS_FITTED,       /* the first, then as rigid as possible: up to half a turn */
 	MR_ROTATIONS_CHOICES
 } mr_rotations_choice;
 
 /* As options name them, in that order. */
-#define MR_ROTATIONS_NAMES "interpolated|linear"
+#define MR_ROTATIONS_NAMES "interpolated|linear|fitted"
 
 typedef enum mr_loose_choice {
 	MR_LOOSE_FOLLOW, /* they move as the surface nearest to them does */

@@ -232,6 +232,7 @@ static const struct {
 } ways[] = {
 	[MR_ROTATIONS_INTERPOLATED] = { &interpolated, 0 },
 	[MR_ROTATIONS_LINEAR] = { NULL, 0 },
+	[MR_ROTATIONS_FITTED] = { &interpolated, 5 },
 };
 
 /* Steps */
