@@ -40,49 +40,15 @@ term_length(const char *text)
 	return strlen(text);
 }
 
-/* How many letters to insert, leave out or change make one word of n letters of the other; 9 of long words.
- */
-static size_t
-letters_apart(const char *a, size_t n, const char *b)
-{
-	enum { LONG = 16 };
-	size_t m = strlen(b), row[LONG + 1];
-
-	if (n > LONG || m > LONG)
-		return 9;
-	for (size_t j = 0; j <= m; j++)
-		row[j] = j;
-	for (size_t i = 1; i <= n; i++) {
-		size_t before = row[0]++;
-		for (size_t j = 1; j <= m; j++) {
-			size_t change = before + (a[i - 1] != b[j - 1]);
-			size_t step = 1 + (row[j] < row[j - 1] ? row[j] : row[j - 1]);
-			before = row[j];
-			row[j] = change < step ? change : step;
-		}
-	}
-	return row[m];
-}
-
-/* Names all predicates, and the one that may be meant, of up to two other letters. */
 static mr_status
 no_predicate(mr_ctx *ctx, const char *text)
 {
-	size_t length = strcspn(text, ":+"), least = 3, apart, n = 0;
-	const char *near = NULL;
 	char names[200];
+	size_t n = 0;
 
-	for (const mr_predicate *p = mr_predicates; p->name; p++) {
+	for (const mr_predicate *p = mr_predicates; p->name; p++)
 		n += (size_t)snprintf(names + n, sizeof names - n, "%s%s", n ? ", " : "", p->name);
-		apart = letters_apart(text, length, p->name);
-		if (apart < least && apart < strlen(p->name)) {
-			least = apart;
-			near = p->name;
-		}
-	}
-	return near ? mr_fail(ctx, MR_EUSAGE, "'%s' is not a predicate: perhaps %s%s; there are %s", text,
-			  near, text + length, names)
-	            : mr_fail(ctx, MR_EUSAGE, "'%s' is not a predicate: there are %s", text, names);
+	return mr_fail(ctx, MR_EUSAGE, "'%s' is not a predicate: there are %s", text, names);
 }
 
 static mr_status

@@ -53,27 +53,20 @@ parse_axis(mr_ctx *ctx, const char *text, mr_select_term *t)
 	return MR_OK;
 }
 
+/* "VERTEX,RINGS", or of grow "RINGS". */
 static mr_status
 parse_rings(mr_ctx *ctx, const char *text, mr_select_term *t)
 {
+	bool vertex = t->predicate->numbers > 1;
 	const char *at = text;
-	uint64_t v, k;
+	uint64_t v = 0, k;
 
-	if (!mr_whole(&at, MR_NONE - 1, &v) || *at++ != ',' || !mr_whole(&at, MR_NONE, &k) || *at)
+	if (vertex && (!mr_whole(&at, MR_NONE - 1, &v) || *at++ != ','))
 		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a vertex, a comma and a number of rings", text);
-	t->vertex = (uint32_t)v;
-	t->count = (size_t)k;
-	return MR_OK;
-}
-
-static mr_status
-parse_count(mr_ctx *ctx, const char *text, mr_select_term *t)
-{
-	const char *at = text;
-	uint64_t k;
-
 	if (!mr_whole(&at, MR_NONE, &k) || *at)
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a number of rings", text);
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not %s number of rings", text,
+		    vertex ? "a vertex, a comma and a" : "a");
+	t->vertex = (uint32_t)v;
 	t->count = (size_t)k;
 	return MR_OK;
 }
@@ -219,22 +212,11 @@ level_of(const mr_select_scene *s, const mr_select_term *t)
 static mr_status
 eval_above(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
-	double level = level_of(s, t);
+	double level = level_of(s, t), side = *t->predicate->name == 'a' ? 1 : -1;
 
 	(void)ctx;
 	for (size_t v = 0; v < s->m->nv; v++)
-		in[v] = mr_coordinate(s->m->p[v], t->axis) >= level;
-	return MR_OK;
-}
-
-static mr_status
-eval_below(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
-{
-	double level = level_of(s, t);
-
-	(void)ctx;
-	for (size_t v = 0; v < s->m->nv; v++)
-		in[v] = mr_coordinate(s->m->p[v], t->axis) <= level;
+		in[v] = side * (mr_coordinate(s->m->p[v], t->axis) - level) >= 0;
 	return MR_OK;
 }
 
@@ -483,13 +465,13 @@ const mr_predicate mr_predicates[] = {
 	{ "box", parse_numbers, eval_box, 6, false, false },
 	{ "halfspace", parse_halfspace, eval_halfspace, 4, false, false },
 	{ "above", parse_axis, eval_above, 0, false, false },
-	{ "below", parse_axis, eval_below, 0, false, false },
+	{ "below", parse_axis, eval_above, 0, false, false },
 	{ "geodesic", parse_numbers, eval_geodesic, 4, true, true },
-	{ "rings", parse_rings, eval_rings, 0, false, true },
+	{ "rings", parse_rings, eval_rings, 2, false, true },
 	{ "component", parse_numbers, eval_component, 3, false, false },
 	{ "group", parse_name, eval_group, 0, false, true },
 	{ "boundary", NULL, eval_boundary, 0, false, true },
-	{ "grow", parse_count, eval_grow, 0, false, true },
+	{ "grow", parse_rings, eval_grow, 1, false, true },
 	{ "vertices", parse_list, eval_list, 0, false, false },
 	{ "part", parse_part, eval_part, 0, false, false },
 	{ "spaced", parse_numbers, eval_spaced, 1, true, false },

@@ -78,7 +78,7 @@ rest_normals(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *bas
 /* Poses the layer by its response, which is linear: half-way to a handle that turns by 60 degrees a limb is
  * 0.87 times as wide, by 90 degrees 0.7. */
 static mr_status
-respond(mr_ctx *ctx, mr_frame *f, mr_cache *cache, mr_mesh *m)
+respond(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 {
 	static const double most = 60;
 	const uint32_t *region;
@@ -108,7 +108,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
 	MR_TRY(base_incidence(ctx, cache, f, &base, &inc));
-	MR_TRY(respond(ctx, f, cache, &base));
+	MR_TRY(respond(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
 	MR_TRY(rest_normals(ctx, cache, f, &base, &inc, &detail));
 	p = MR_NEW(ctx, detail.n, mr_v3);
@@ -172,7 +172,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 		    ctx, MR_ERANGE, "--level %zu, but displacement ends with level %zu", o->level, n);
 	if (o->level != MR_UNKNOWN)
 		n = o->level;
-	MR_TRY(respond(ctx, f, cache, &control));
+	MR_TRY(respond(ctx, f, &control));
 	MR_TRY(mr_cache_levels(ctx, cache, f, &control, 180, n, &refined));
 	MR_TRY(mr_domain_on(ctx, &control, refined, n, &d));
 	p = MR_NEW(ctx, d.m.nv, mr_v3);
