@@ -884,7 +884,6 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	if (state.threads)
 		c.ctx.threads = (unsigned)state.threads;
 	c.ctx.listener = (mr_listener){ .found = c.quiet && !state.stats_path ? NULL : collect_finding,
-		.warn = c.quiet ? NULL : show_warning,
 		.note = c.verbose ? show_note : NULL,
 		.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
 		.user = &c };

@@ -114,7 +114,6 @@ MR_API const char *mr_finding_name(mr_finding_kind kind);
 /* Who wants to hear; NULLs do not. */
 typedef struct mr_listener {
 	void (*found)(void *user, const mr_finding *finding);         /* what is poor in a result */
-	void (*warn)(void *user, const char *text);                   /* the same as a sentence */
 	void (*note)(void *user, const char *text);                   /* remarks, as of -v */
 	void (*progress)(void *user, const char *what, double share); /* share done, 0 to 1 */
 	void *user;                                                   /* passed to all */

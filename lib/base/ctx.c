@@ -137,16 +137,6 @@ mr_note(mr_ctx *ctx, const char *format, ...)
 }
 
 void
-mr_warn(mr_ctx *ctx, const char *format, ...)
-{
-	va_list args;
-
-	va_start(args, format);
-	tell(ctx, ctx->listener.warn, format, args);
-	va_end(args);
-}
-
-void
 mr_found(const mr_ctx *ctx, const mr_finding *finding)
 {
 	if (ctx->listener.found)

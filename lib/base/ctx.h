@@ -88,9 +88,6 @@ mr_listens(const mr_ctx *ctx)
 /* Reports `count` (0: none, and nothing is reported) of `what` as lost; layer may be NULL. */
 void mr_lost(const mr_ctx *ctx, const char *layer, size_t count, const char *what);
 
-/* What is poor in a result, as a sentence: mr_found is to take its place. */
-void mr_warn(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
-
 /* Asks whether a file may be read, or be written under that name. */
 mr_status mr_permit(mr_ctx *ctx, const char *path, bool writes) MR_WARN_UNUSED;
 

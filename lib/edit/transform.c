@@ -468,11 +468,11 @@ warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr
 	old = mr_box_grain(before) / longest_side(before);
 	off = ldexp(mr_box_grain(after), -c->exponent) / longest_side(turned);
 	if (off > share && off > 4 * old && !isnan(old))
-		mr_warn(ctx,
-		    "%s: positions are rounded by up to %.2g of their extent: doubles are too coarse for "
-		    "this model %s",
-		    column->layer, fmin(off, 1),
-		    mr_box_largest(after) < 1e-292 ? "so near 0" : "so far from the origin");
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_ROUNDED,
+			.layer = column->layer,
+			.what = "positions, by doubles so far from the origin, are",
+			.count = 1 });
 }
 
 static mr_status
@@ -569,7 +569,7 @@ cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
 		if ((c->refers || !strcmp(c->name, "encoded")) && (!c->layer || !strcmp(c->layer, layer)))
 			mr_frame_drop(f, layer, c->name, 0);
 	if (f->count < before)
-		mr_warn(ctx, "%s goes alone: what tied it to other layers is dropped", layer);
+		mr_found(ctx, &(mr_finding){ .kind = MR_STALE, .layer = layer, .what = "what tied it to other layers" });
 	return MR_OK;
 }
 

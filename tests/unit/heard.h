@@ -6,13 +6,6 @@
 
 static char heard[2048]; /* one a line */
 
-static inline void
-hear(void *user, const char *text)
-{
-	(void)user;
-	snprintf(heard + strlen(heard), sizeof heard - strlen(heard), "%s\n", text);
-}
-
 /* A finding: its kind, count and words. */
 static inline void
 hear_finding(void *user, const mr_finding *f)
@@ -26,7 +19,6 @@ hear_finding(void *user, const mr_finding *f)
 static inline void
 listen_to(mr_ctx *ctx)
 {
-	ctx->listener.warn = hear;
 	ctx->listener.found = hear_finding;
 	heard[0] = 0;
 }
