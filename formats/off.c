@@ -1,13 +1,15 @@
 /*
  * Object File Format (Geomview), read: the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, which says what a
- * vertex has besides its position, then text.
+ * vertex has besides its position, then text or "BINARY".  Binary files are big-endian with a number of
+ * colour components behind each face, as Geomview has them, or little-endian without, as others write them:
+ * the one that fits the size to the byte is meant.
  */
 #include "formats/format.h"
 
 typedef struct off {
 	mr_ctx *ctx;
 	mr_scan text;
-	bool normals, colors, texcoords;
+	bool normals, colors, texcoords, binary;
 	mr_builder b;
 	uint64_t nv, nf;
 	float *rgba;               /* four per vertex as given, NAN where there are none */
@@ -49,6 +51,13 @@ keyword(off *f, bool *dimensions)
 	if (t.p < t.end && !mr_is_blank(*t.p) && *t.p != '\n' && *t.p != '#' && !mr_is_digit(*t.p))
 		return false;
 	f->text.p = t.p;
+	mr_skip_blanks(&t);
+	if (take(&t, "BINARY")) {
+		mr_scan rest = t, line;
+		f->binary = true;
+		mr_scan_line(&rest, &line);
+		f->text.p = rest.p;
+	}
 	return true;
 }
 
@@ -98,6 +107,12 @@ set_color(off *f, size_t vertex, const double *c, size_t n)
 }
 
 static void
+set_normal(off *f, size_t vertex, const double *n)
+{
+	f->b.normal[vertex] = mr_vec(n[0], n[1], n[2]);
+}
+
+static void
 set_texcoord(off *f, size_t vertex, const double *uv)
 {
 	f->b.texcoord[2 * vertex] = uv[0];
@@ -136,7 +151,7 @@ text_vertex(off *f, size_t i)
 	for (int k = 0; f->normals && k < 3; k++)
 		MR_TRY(mr_scan_real(&f->text, "a normal", &normal[k]));
 	if (f->normals)
-		f->b.normal[i] = mr_vec(normal[0], normal[1], normal[2]);
+		set_normal(f, i, normal);
 	MR_TRY(line_rest(f, x, 8, &n));
 	if (f->texcoords && n < 2)
 		return mr_scan_fail(&f->text, where, "a vertex lacks its texture coordinates");
@@ -266,6 +281,121 @@ read_text(off *f, mr_model *m)
 	return finish(f, m);
 }
 
+/* ---- binary ---- */
+
+typedef struct layout {
+	bool big, face_colors;
+} layout;
+
+static size_t
+floats_per_vertex(const off *f)
+{
+	return (size_t)(3 + 3 * f->normals + 4 * f->colors + 2 * f->texcoords);
+}
+
+/* Walks over the faces; true where they end with the file. */
+static bool
+fits(const off *f, const unsigned char *p, const unsigned char *end, layout l)
+{
+	uint64_t left = (uint64_t)(end - p), nv, nf, vertices;
+
+	if (left < 12)
+		return false;
+	nv = mr_load32(p, l.big);
+	nf = mr_load32(p + 4, l.big);
+	vertices = nv * 4 * floats_per_vertex(f);
+	if (vertices > left - 12)
+		return false;
+	for (p += 12 + vertices; nf > 0 && (size_t)(end - p) >= 4; nf--) {
+		uint64_t n = mr_load32(p, l.big);
+		p += 4;
+		if (4 * (n + l.face_colors) > (uint64_t)(end - p))
+			return false;
+		p += 4 * n;
+		if (l.face_colors) {
+			uint64_t colors = mr_load32(p, l.big);
+			p += 4;
+			if (4 * colors > (uint64_t)(end - p))
+				return false;
+			p += 4 * colors;
+		}
+	}
+	return nf == 0 && p == end;
+}
+
+static mr_status
+binary_vertices(off *f, const unsigned char *p, layout l)
+{
+	size_t floats = floats_per_vertex(f);
+	double x[12] = { 0 };
+
+	for (size_t i = 0; i < f->b.nv; i++) {
+		const double *at = x;
+		for (size_t k = 0; k < floats; k++)
+			x[k] = (double)mr_load_float(p + 4 * (i * floats + k), l.big);
+		f->b.p[i] = mr_vec(x[0], x[1], x[2]);
+		if (!mr_finite(f->b.p[i]))
+			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite",
+			    (size_t)((const char *)p - f->text.start) + 4 * i * floats);
+		at += 3;
+		if (f->normals) {
+			set_normal(f, i, at);
+			at += 3;
+		}
+		if (f->colors) {
+			MR_TRY(set_color(f, i, at, 4));
+			at += 4;
+		}
+		if (f->texcoords)
+			set_texcoord(f, i, at);
+	}
+	return MR_OK;
+}
+
+static mr_status
+binary_faces(off *f, const unsigned char *p, layout l)
+{
+	for (uint64_t i = 0; i < f->nf; i++) {
+		size_t n = mr_load32(p, l.big);
+		MR_TRY(corner_room(f, n));
+		p += 4;
+		for (size_t k = 0; k < n; k++, p += 4) {
+			f->corner[k] = mr_load32(p, l.big);
+			if (f->corner[k] >= f->nv)
+				return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: vertex %u of %zu",
+				    (size_t)((const char *)p - f->text.start), f->corner[k], f->b.nv);
+		}
+		if (l.face_colors) {
+			f->face_colors += mr_load32(p, l.big) > 0;
+			p += 4 + 4 * (size_t)mr_load32(p, l.big);
+		}
+		MR_TRY(mr_build_face(&f->b, f->corner, NULL, NULL, n));
+	}
+	return MR_OK;
+}
+
+static mr_status
+read_binary(off *f, mr_model *m)
+{
+	static const layout layouts[] = { { true, true }, { false, false }, { false, true },
+		{ true, false } };
+	const unsigned char *p = (const unsigned char *)f->text.p, *end = (const unsigned char *)f->text.end;
+	size_t i = 0;
+
+	while (i < 4 && !fits(f, p, end, layouts[i]))
+		i++;
+	if (i == 4)
+		return mr_fail(f->ctx, MR_EFORMAT,
+		    "byte %zu: the numbers of vertices and faces, in neither byte order, fit the %zu bytes",
+		    (size_t)(f->text.p - f->text.start), (size_t)(end - p));
+	f->nv = mr_load32(p, layouts[i].big);
+	f->nf = mr_load32(p + 4, layouts[i].big);
+	MR_TRY(arrays(f));
+	MR_TRY(binary_vertices(f, p + 12, layouts[i]));
+	MR_TRY(binary_faces(f, p + 12 + 4 * f->nv * floats_per_vertex(f), layouts[i]));
+	return finish(f, m);
+}
+
 /* Of a text that begins with no keyword. */
 static mr_status
 check_variant(const off *f)
@@ -294,7 +424,5 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	else if (dimensions)
 		return mr_scan_fail(&f.text, f.text.p,
 		    "4OFF and nOFF are not read, which may have other than three dimensions");
-	if (mr_scan_accept(&f.text, "BINARY"))
-		return mr_scan_fail(&f.text, f.text.p, "a binary OFF is not read");
-	return read_text(&f, m);
+	return f.binary ? read_binary(&f, m) : read_text(&f, m);
 }

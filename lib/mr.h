@@ -449,9 +449,6 @@ typedef enum mr_rotations_choice {
 	MR_ROTATIONS_CHOICES
 } mr_rotations_choice;
 
-/* As options name them, in that order. */
-#define MR_ROTATIONS_NAMES "interpolated|linear|fitted"
-
 typedef enum mr_loose_choice {
 	MR_LOOSE_FOLLOW, /* they move as the surface nearest to them does */
 	MR_LOOSE_STAY,

@@ -569,7 +569,8 @@ cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
 		if ((c->refers || !strcmp(c->name, "encoded")) && (!c->layer || !strcmp(c->layer, layer)))
 			mr_frame_drop(f, layer, c->name, 0);
 	if (f->count < before)
-		mr_found(ctx, &(mr_finding){ .kind = MR_STALE, .layer = layer, .what = "what tied it to other layers" });
+		mr_found(ctx,
+		    &(mr_finding){ .kind = MR_STALE, .layer = layer, .what = "what tied it to other layers" });
 	return MR_OK;
 }
 

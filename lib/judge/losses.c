@@ -39,10 +39,10 @@ mr_judge_losses(mr_ctx *ctx, mr_frame *before, mr_frame *after)
 			mr_found(ctx,
 			    &(mr_finding){ .kind = MR_LOST, .layer = c->layer, .what = c->name, .count = 1 });
 	}
-	if (!after->key || !mr_frame_has_layer(after, "mesh"))
+	if (!after->key)
 		return MR_OK;
 	MR_TRY(mr_layer_has_standing_detail(ctx, before, &standing));
-	if (standing && !mr_layer_has(after, "mesh", "detail_height"))
+	if (standing && mr_frame_has_layer(after, "mesh") && !mr_layer_has(after, "mesh", "detail_height"))
 		report_stale(ctx, "mesh", "its detail over base");
 	if (mr_layer_has(before, "displacement", "height") && mr_frame_has_layer(after, "control") &&
 	    !mr_layer_has(after, "displacement", "height"))

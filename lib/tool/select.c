@@ -97,12 +97,12 @@ look_at_others(mr_ctx *ctx, const mr_frame *f, const char *layer)
 	if (!f->key)
 		return;
 	if (!strcmp(layer, "mesh") && !base && mr_layer_has(f, "control", "region"))
-		mr_found(ctx, &(mr_finding){ .kind = MR_LAYER,
+		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
 				  .what = "mr-solve goes by the regions of control, which these do not "
 					  "change: -l control does" });
 	if (!strcmp(layer, "control") && base)
 		mr_found(ctx,
-		    &(mr_finding){ .kind = MR_LAYER,
+		    &(mr_finding){ .kind = MR_LIMIT,
 			.what = "mr-solve takes base, and not control, unless it is told -l control, too" });
 }
 

@@ -170,5 +170,5 @@ mr-make sphere -n 500 | mr-export -f obj - | awk '/^v / { print $2, $3, $4, int(
 mr-import colors.xyz | mr-shrinkwrap -q | mr-simplify -q -n 60 | mr-fit -q | mr-sample -q -n 2 | mr-map -w colors -n 2 -o colors.mrs
 for n in 1 2 3; do
 	mr-map -r colors-height.png -n $n colors.mrs 2>said -o out.mrs && mr-info --check out.mrs | sed -n '/^  displacement/,/^  [a-z]*:/p' | grep -c 'color  '
-	grep -o 'displacement has.*' said
+	grep -o 'lost: .*' said || true
 done
