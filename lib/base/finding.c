@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-#define NAME(kind, name) [MR_##kind] = name,
+#define NAME(kind, name) [MR_##kind] = (name),
 static const char *const names[MR_FINDING_KINDS] = { MR_FINDINGS(NAME) };
 
 const char *
