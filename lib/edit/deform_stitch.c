@@ -35,7 +35,7 @@ stitch_of(const mr_mesh *m, mr_tie joint)
 {
 	const uint32_t *v = m->t[joint.face].v;
 	double most = -1;
-	mr_tri best;
+	mr_tri best = { { joint.vertex, v[0], v[1] } };
 
 	for (int k = 0; k < 3; k++) {
 		uint32_t a = v[k], b = v[(k + 1) % 3];
