@@ -339,7 +339,7 @@ find_rows(
 	MR_TRY(open_view(g, view, offset, &b, &step));
 	if (step == 0)
 		step = row;
-	if (step < row)
+	if (step < row || step == 0)
 		return mr_fail(
 		    g->ctx, MR_EFORMAT, "rows of %zu bytes follow each other after %zu", row, step);
 	if (count && (b.bytes < row || count - 1 > (b.bytes - row) / step))
