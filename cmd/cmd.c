@@ -182,7 +182,7 @@ collect_finding(void *user, const mr_finding *f)
 	findings_collect(&c->state->book, c->name, f);
 }
 
-/* What the tool does after the last frame, and says of it. */
+/* Runs the last act of a tool, and reports what it found. */
 static void
 finish(cmd *c)
 {

@@ -25,7 +25,7 @@ void findings_add(findings *all, const mr_kept_finding *k);
 /* Adds those of the frame's column, if it has one. */
 mr_status findings_read(mr_ctx *ctx, mr_frame *f, findings *all);
 
-/* What a command knows from frame to frame. */
+/* The state of a command between frames. */
 typedef struct findings_book {
 	findings found;   /* of the frame at work */
 	findings known;   /* that this tool said since the last key */
