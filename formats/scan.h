@@ -10,6 +10,7 @@
 #define MR_SCAN_H
 
 #include "base/vec.h"
+#include "formats/numbers.h"
 
 /* A place in a text; the line number is found when an error needs it. */
 typedef struct mr_scan {
@@ -17,12 +18,6 @@ typedef struct mr_scan {
 	const char *start, *p, *end;
 } mr_scan;
 
-/* Returns the place behind the number that begins at p, or NULL where none does. */
-const char *mr_real_read(const char *p, const char *end, double *x);
-
-/* Writes x and returns the place behind it; at most MR_REAL_MAX bytes, no NUL. */
-enum { MR_REAL_MAX = 32 };
-char *mr_real_write(char *to, double x);
 char *mr_count_write(char *to, uint64_t n);
 
 static inline bool

@@ -1,0 +1,20 @@
+/* numbers.h -- numbers as text, exactly.  Layer rule: formats; C++ includes this, too. */
+#ifndef MR_NUMBERS_H
+#define MR_NUMBERS_H
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* Returns the place behind the number that begins at p, or NULL where none does. */
+const char *mr_real_read(const char *p, const char *end, double *x);
+
+/* Writes x and returns the place behind it; at most MR_REAL_MAX bytes, no NUL. */
+enum { MR_REAL_MAX = 32 };
+char *mr_real_write(char *to, double x);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
