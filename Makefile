@@ -95,14 +95,15 @@ $(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/pa
 		$(call put,program,$(BUILD)/page/main.gz) $(call put,worker,$(BUILD)/page/worker.gz) $< >$@
 
 # The part of the library that the page runs, as WebAssembly, by the compiler that knows it.
-WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) lib/base/ctx.c lib/base/rotation.c \
-		lib/base/sort.c \
-	$(addprefix lib/mesh/,edges.c mesh.c fold.c zorder.c) $(addprefix lib/edit/,phong.c pose_basis.c) \
-		$(addprefix lib/space/,bvh.c bvh_build.c bvh_labels.c geodesic.c predicates.c self_intersect.c suspects.c) lib/mesh/alike.c lib/render/colormap.c lib/stream/planes.c $(addprefix lib/subdivide/,displaced.c loop.c loop_limit.c wavelet.c))
+WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) $(addprefix lib/, \
+	$(addsuffix .c,$(addprefix base/,ctx rotation sort) $(addprefix mesh/,alike edges fold mesh zorder) \
+		$(addprefix edit/,detail phong pose_basis turns) render/colormap stream/planes \
+		$(addprefix space/,bvh bvh_build bvh_labels geodesic predicates self_intersect suspects) \
+		$(addprefix subdivide/,displaced loop loop_limit wavelet))))
 $(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
 	@mkdir -p $(@D)
 	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 \
-		$(if $(findstring library,$<),-O3,-Os) -ffunction-sections -fno-math-errno -ffp-contract=off \
+		$(if $(findstring edit,$<)$(findstring rotation,$<),-O3,-Os) -ffunction-sections -fno-math-errno -ffp-contract=off \
 		$(WARN) $(INCLUDE) -MMD -MP -c -o $@ $<
 $(BUILD)/page/library.wasm: $(WASM)
 	@mkdir -p $(@D)

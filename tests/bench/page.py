@@ -9,16 +9,15 @@ DRAG = """(async () => {
 	const { posing } = mrView, { deformer, pose } = posing, times = { deformation: [], computing: [], normals: [] };
 	for (let i = 0; i < %d; i++) {
 		pose.drag(1, { translate: [0.002 * i, 0, 0], turn: [0, 0, 0.01 * i], scale: [1, 1, 1] });
-		const maps = new Float64Array(pose.maps().slice(0, deformer.handles).flat());
 		let began = performance.now();
-		await deformer.all(() => ({ maps }));
+		await deformer.compute(pose.maps());
 		times.deformation.push(performance.now() - began);
 		times.computing.push(deformer.took);
 		began = performance.now();
 		mrView.drawn.get("mesh").drawn.move(deformer.places.mesh);
 		times.normals.push(performance.now() - began);
 	}
-	return { workers: deformer.hands.length, vertices: [deformer.places.mesh.length / 3, deformer.places.base.length / 3],
+	return { vertices: [deformer.places.mesh.length / 3, deformer.places.base.length / 3],
 		...Object.fromEntries(Object.entries(times).map(([k, t]) => [k, (s => [s[s.length >> 1], s[0]])(t.sort((a, b) => a - b))])) };
 })()""" % FRAMES
 
@@ -27,7 +26,7 @@ with Browser(scale=1) as b:
         name = os.path.basename(page)[:-len(".html")]
         b.open(page)
         got = b.eval(DRAG)
-        print("%s: %d vertices, base %d, %d workers" % (name, *got["vertices"], got["workers"]))
+        print("%s: %d vertices, base %d" % (name, *got["vertices"]))
         for what in ("deformation", "computing", "normals"):
             print("%s-%s mr %.3g ms" % (name, what, got[what][0]))
             print("%s-%s-fastest mr %.3g ms" % (name, what, got[what][1]))

@@ -195,16 +195,6 @@ def lacking(b):
     check(b.eval("document.getElementById('poseline').hidden && document.getElementById('lack').hidden"), "a page without handles has something on them")
 
 
-def parts(b):
-    """Of a large model each worker has a part: together they are the whole, where the parts meet as well."""
-    script = b.call("Page.addScriptToEvaluateOnNewDocument", source="Object.defineProperty(navigator, 'hardwareConcurrency', { value: 3 })")["identifier"]
-    b.open("large.html")
-    check(b.eval("mrView.posing.deformer.hands.length") == 3, "%d workers for three cores" % b.eval("mrView.posing.deformer.hands.length"))
-    type_line(b, LINES[0])
-    same(b, "large.mrs", LINES[0], "in three parts")
-    b.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
-
-
 def without_workers(b):
     """A browser that has none shows the model all the same, and says why its handles stay."""
     script = b.call("Page.addScriptToEvaluateOnNewDocument", source="delete window.Worker")["identifier"]
@@ -215,7 +205,7 @@ def without_workers(b):
 
 
 with Browser() as browser:
-    for test in (gizmo, touch, lines, far, two, parts, lacking, without_workers):
+    for test in (gizmo, touch, lines, far, two, lacking, without_workers):
         browser.draw(test is two)
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)

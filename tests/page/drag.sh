@@ -7,6 +7,4 @@ mr-view -i rest.mrs rest.html && mr-view -i picked.mrs picked.html && mr-make to
 mr-make cylinder -n 1500 --open --noise 0.5% | mr-transform --translate 5e5,4e6,-3e5 | mr-smooth -t 3 | mr-remesh |
 	mr-select --free all --fixed below:x,0.1 --handle 1=above:x,0.9 --handle 3=above:y,0.9 | mr-solve --basis | mr-encode -o far.mrs || exit
 mr-pose -H 3 --rotate 0,0,1,20 --translate 0,0.1,0 far.mrs -o posed.mrs && mr-view -q -i posed.mrs posed.html && cat rest.mrs far.mrs | mr-view -q two.html || exit
-# Large enough for three workers.
-mr-make bumpy -n 21000 | mr-smooth | mr-remesh | mr-select $regions | mr-solve --basis | mr-encode -o large.mrs && mr-view -q -i large.mrs large.html || exit
 exec python3 "$TOP/tests/page/drag.py"
