@@ -111,17 +111,12 @@ $(BUILD)/page/library.wasm: $(WASM)
 		-Wl,--no-entry,--gc-sections,--strip-all,--export=malloc,--export=free \
 		-nodefaultlibs -o $@ $^ -lc -lm
 
-# The tools' own tables of options, by which the page reads histories.
-$(BUILD)/page/options.js: formats/page/paint/options.awk cmd/cmd.c $(wildcard cmd/mr-*.c)
-	@mkdir -p $(@D)
-	$(call say,options)awk -f $^ >$@
-
 # Of each program of the page one script of all its modules, three.js included, packed, as text.
-$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/options.js $(BUILD)/page/library.wasm | setup
+$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/library.wasm | setup
 	@mkdir -p $(@D)
 	$(call say,bundle )esbuild formats/page/$*.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
 		--alias:three=$(THREE) --alias:library.wasm=$(abspath $(BUILD))/page/library.wasm \
-		--alias:tool-options=$(abspath $(BUILD))/page/options.js --loader:.wasm=binary --log-level=warning \
+		--loader:.wasm=binary --log-level=warning \
 		--outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@
 
 $(BUILD)/tests/%: $(BUILD)/tests/unit/%.c.o $(BUILD)/libmr.a

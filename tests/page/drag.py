@@ -1,7 +1,6 @@
 """drag.py -- see drag.sh, which made the pages."""
 import math
 import shlex
-import subprocess
 
 from browser import Browser
 from checks import Camera, box, check, columns, end, length, sub
@@ -182,19 +181,6 @@ def two(b):
     check(line(b) == "" and b.text("name") == "bumpy", "back at %s: %s" % (b.text("name"), line(b)))
 
 
-def lacking(b):
-    """Without a basis the page tells the commands, and they make one; of the mesh alone there is nothing to tell."""
-    b.open("picked.html")
-    text = b.text("lacking")
-    check(text == "mr-solve --basis model.mrs | mr-encode | mr-view page.html", "lacking: " + text)
-    subprocess.run(["sh", "-c", text.replace("model.mrs", "picked.mrs")], check=True)
-    b.open("page.html")
-    type_line(b, LINES[0])
-    same(b, "rest.mrs", LINES[0], "the page made by what another told")
-    b.open("none.html")
-    check(b.eval("document.getElementById('poseline').hidden && document.getElementById('lack').hidden"), "a page without handles has something on them")
-
-
 def without_workers(b):
     """A browser that has none shows the model all the same, and says why its handles stay."""
     script = b.call("Page.addScriptToEvaluateOnNewDocument", source="delete window.Worker")["identifier"]
@@ -205,7 +191,7 @@ def without_workers(b):
 
 
 with Browser() as browser:
-    for test in (gizmo, touch, lines, far, two, lacking, without_workers):
+    for test in (gizmo, touch, lines, far, two, without_workers):
         browser.draw(test is two)
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)

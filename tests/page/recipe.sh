@@ -1,5 +1,5 @@
-# What the page saves: a script that makes the model and its painted regions again from the original file, a line for a basis,
-# files; nothing of a history or a name is run.
+# What the page saves: a script that gives the page's stream the painted regions and a basis of their handles, and a file of
+# the regions; nothing of a history or a name is run.
 . "$TOP/tests/page/begin"
 mr-make bumpy -n 3000 | mr-export -q 'a model.off' || exit
 mr-import 'a model.off' | mr-smooth -t 5 | mr-remesh -o base.mrs || exit
@@ -7,7 +7,6 @@ mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr-so
 	mr-pose -H 1 --rotate 0,0,1,20 | mr-decode -q -o edit.mrs || exit
 mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr-solve --basis | mr-encode -o rest.mrs || exit
 mr-import 'a model.off' -o plain.mrs || exit
-mr-import --no-history 'a model.off' -o silent.mrs || exit
 mr-make torus -n 400 | mr-transform --translate 1,2,3 -o shape.mrs || exit
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 -o control.mrs || exit
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 | mr-decode -q -o scan.mrs || exit
@@ -16,23 +15,13 @@ mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 
 python3 - <<'Y'
 import struct
 from records import END, START, frame, record
-# Histories and names that want to be run.
-evil = [b"mr 1.0: mr-import '$(touch pwned)'\n", b"mr 1.0: mr-import a; touch pwned\n", b"mr 1.0: mr-import `touch pwned`\n", b"mr 1.0: touch pwned\n",
-	b"mr 1.0: mr-import ''\\'';touch pwned'\n", b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-smooth -o pwned '|' touch pwned\n", b"mr 1.0: mr-constructor x\n",
-	b"mr 1.0: mr-import 'a b' >pwned\n", b"touch pwned\n", b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-select --free 'all'\n mr-x\n",
-	b"mr 1.0: mr-cat -zo pwned a.mrs\n", b"mr 1.0: mr-make cube --stats=pwned\n",
-	b"mr 1.0: mr-import a.obj\nmr 1.0: mr-map -w pwned\n",
-	b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-smooth -k --stats=pwned\n", b"mr 1.0: mr-make cube -n 8 -qo pwned\n",
-	b"mr 1.0: mr-make cube -n 8\nmr 1.0: mr-select --free all --from /etc/passwd\n"]
 with open("evil.mrs", "wb") as f:
-	f.write(START)
-	for i, history in enumerate(evil):
-		f.write(frame(b"key %d';touch pwned;'$(touch pwned)" % i,
-			record(b"mesh", b"position", b"vd\3", 3, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0)),
-			record(b"mesh", b"triangles", b"fu\3", 1, struct.pack("<3I", 0, 1, 2)), record(b"", b"history", data=history)))
-	f.write(END)
+	f.write(START + frame(b"key ';touch pwned;'$(touch pwned)",
+		record(b"mesh", b"position", b"vd\3", 3, struct.pack("<9d", 0, 0, 0, 1, 0, 0, 0, 1, 0)),
+		record(b"mesh", b"triangles", b"fu\3", 1, struct.pack("<3I", 0, 1, 2)),
+		record(b"", b"history", data=b"mr 1.0: mr-import '$(touch pwned)'\n")) + END)
 Y
-for model in base edit rest plain silent shape control scan handled evil; do
+for model in base edit rest plain shape control scan handled evil; do
 	mr-view -q -i $model.mrs $model.html || exit
 done
 exec python3 "$TOP/tests/page/recipe.py"

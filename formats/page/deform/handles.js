@@ -1,6 +1,6 @@
-/* handles.js -- the handles of a frame, at rest or as the stream has posed them, and the commands that it lacks to have them dragged. */
+/* handles.js -- the handles of a frame, at rest or as the stream has posed them. */
 import { Pose } from "./pose.js";
-import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
+import { columnOf, ownRegion } from "../stream/stream.js";
 import { boxOf } from "../mesh/surface.js";
 
 export const HANDLE = 2; /* the region of handle 0 */
@@ -35,17 +35,4 @@ export async function poseOf(frame) {
 	const box = boxOf(position);
 
 	return new Pose(centroidsOf(region, position), await startOf(frame), Math.hypot(...box.low.map((x, c) => box.high[c] - x)));
-}
-
-/* The commands that a page with handles lacks, or an empty text. */
-export async function lacking(frame) {
-	const has = (layer, name) => columnOf(frame, layer, name);
-	const layer = handled(frame), region = ownRegion(frame, layer);
-
-	if (!region || !(await region.values()).some((r) => r >= HANDLE))
-		return "";
-	if (layer === "control")
-		return frame.levels ? "mr-solve --basis " + streamOf(frame) + " | mr-view page.html" : "";
-	return [has("base", "position") ? "" : "mr-smooth | mr-remesh", "mr-solve --basis", has("base", "position") && has("mesh", "detail_height") ? "" : "mr-encode", "mr-view page.html"]
-		.filter(Boolean).join(" | ").replace(/^(\S+( --basis)?)/, "$1 " + streamOf(frame));
 }

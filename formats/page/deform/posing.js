@@ -1,8 +1,8 @@
-/* posing.js -- handles to drag, and the line of commands below them; or how to come by them. */
+/* posing.js -- handles to drag, and the line of commands below them. */
 import { regionColor, regionName } from "../draw/colors.js";
 import { Deformer, posedBy as baseOf } from "./deformer.js";
 import { controlOf, DisplacedDeformer } from "./displaced.js";
-import { HANDLE, lacking, poseOf } from "./handles.js";
+import { HANDLE, poseOf } from "./handles.js";
 import { IDENTITY } from "../mesh/rotation.js";
 import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
 import { copy } from "../stream/text.js";
@@ -50,7 +50,6 @@ export class Posing {
 			this.showLine();
 			return copy($("line"));
 		});
-		$("copy-lacking").addEventListener("click", () => copy($("lacking")));
 	}
 
 	/* Makes what the frame can be posed by, where that is another than before. */
@@ -98,9 +97,6 @@ export class Posing {
 		if (columns)
 			this.deformer = await this.deformerOf(frame, columns).prepare(centre).catch(() => null);
 		$("no-worker").hidden = !columns || Boolean(this.deformer);
-		const said = columns ? "" : await lacking(frame);
-		$("lack").hidden = !said;
-		$("lacking").textContent = said;
 		this.show();
 	}
 

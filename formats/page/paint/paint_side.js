@@ -65,7 +65,7 @@ export function showPaint(painter) {
 	for (const button of document.querySelectorAll("#tools button"))
 		button.setAttribute("aria-pressed", button.value === painter.tool);
 	$("painting").hidden = !paints;
-	$("take").hidden = !painter.work || !painter.work.painted;
+	$("take").hidden = !painter.work || !(painter.work.painted || painter.takeAway.taken.column.origin);
 	if (!painter.work)
 		return;
 	$("size-row").hidden = painter.tool !== "brush";

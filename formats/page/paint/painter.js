@@ -65,7 +65,6 @@ export class Painter {
 		this.given = given ? await this.workOf(frame, given) : work;
 		this.layer = layer;
 		showPaint(this);
-		await this.takeAway.show();
 	}
 
 	/* The work on a layer, as it was left, or that begins with the regions of the stream. */

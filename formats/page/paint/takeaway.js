@@ -1,9 +1,10 @@
-/* takeaway.js -- painted regions out of the page: as a file, and as a script that makes them again. */
+/*
+ * takeaway.js -- painted regions out of the page: as a file for mr-select, and as a script that gives them to the page's stream.
+ * No word of the script comes from the stream but for its file's name, of which fileOf keeps letters, digits and few signs.
+ */
 import { HANDLE } from "./regions.js";
-import { basisLine, script } from "./recipe.js";
 import { write } from "./selection_file.js";
-import { copy } from "../stream/text.js";
-import { columnOf, linesOf, fileOf } from "../stream/stream.js";
+import { columnOf, fileOf } from "../stream/stream.js";
 
 const $ = (id) => document.getElementById(id);
 
@@ -16,17 +17,48 @@ function save(name, text) {
 	setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
-/* What makes the layer, where the page makes it of control mesh and heights. */
-function decodeLine({ levels }, layer) {
-	return levels && levels.surface.layer === layer ? "mr-decode --from control --level " + levels.at : "";
+/* The commands from the stream to the one with the regions and, where these have handles, a basis. */
+function commandsOf({ name: layer, regions }, frame, pose, several) {
+	const has = (column) => Boolean(columnOf(frame, ...column.split(".")));
+	const { surface, at } = frame.levels || {}, first = ["mesh", "control", "points"].find((l) => has(l + ".position"));
+	const handles = layer !== "points" && [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0), onMesh = handles && layer === "mesh";
+
+	return [
+		surface && surface.layer === layer && "mr-decode --from control --level " + at,
+		onMesh && !has("base.position") && "mr-smooth | mr-remesh",
+		"mr-select" + (layer === first ? "" : " -l " + layer) + " --from \"$regions\"" + (several ? " -k" : ""),
+		handles && "mr-solve --basis",
+		onMesh && !has("mesh.detail_height") && "mr-encode",
+		pose,
+	].filter(Boolean).join(" | ").replace(/( \||$)/, " \"$@\"$1").split(" | ");
+}
+
+function script(name, text, commands) {
+	return [
+		"#!/bin/sh",
+		"# Makes " + name + "-painted.mrs: the stream of a page with the regions that were painted there; and a page of it.",
+		"# usage: sh " + name + ".sh STREAM.mrs",
+		"[ $# -gt 0 ] || { echo 'usage: sh " + name + ".sh STREAM.mrs' >&2; exit 2; }",
+		"set -e",
+		"regions=$(mktemp)",
+		"trap 'rm -f \"$regions\"' EXIT",
+		"cat >\"$regions\" <<'END'",
+		text + "END",
+		commands.join(" |\n\t") + " -o " + name + "-painted.mrs",
+		"mr-view -i " + name + "-painted.mrs " + name + "-painted.html",
+		"",
+	].join("\n");
 }
 
 export class TakeAway {
 	constructor(painter) {
 		this.painter = painter;
-		$("save-regions").addEventListener("click", async () => save((await this.work()).name + ".regions", await this.text()));
-		$("save-script").addEventListener("click", async () => save((await this.work()).name + ".sh", await this.script()));
-		$("copy-basis").addEventListener("click", () => copy($("basis-line")));
+		$("save-regions").addEventListener("click", async () => save(this.name + ".regions", await this.text()));
+		$("save-script").addEventListener("click", async () => save(this.name + ".sh", await this.script()));
+	}
+
+	get name() {
+		return fileOf(this.painter.app.shown.frame);
 	}
 
 	/* What is taken away: what is painted on the layer in view, or what the stream came with. */
@@ -36,66 +68,23 @@ export class TakeAway {
 		return work.painted || work.column.origin ? work : given;
 	}
 
-	async model({ name, rows, triangles } = this.painter.work) {
-		const { painter } = this, seen = name === painter.work.name;
-
-		return { layer: name, vertices: rows, triangles: seen ? await painter.triangles() : triangles ? await triangles.values() : null };
-	}
-
 	async text() {
-		return write(await this.model(this.taken), this.taken.regions.values);
-	}
+		const { name, rows, triangles, regions } = this.taken, t = triangles && await triangles.values();
 
-	/* Whether the regions are those of the stream. */
-	async unchanged() {
-		const { column, regions } = this.taken, own = column.origin && await column.origin.values();
-
-		return Boolean(own) && regions.values.every((r, v) => r === own[v]);
+		return write({ layer: name, vertices: rows, triangles: t }, regions.values);
 	}
 
 	/* The line of the page's pose, where it is of these regions and begins at rest; or an empty text. */
 	async pose(frame) {
-		const { pose } = this.painter.app.posing;
+		const { pose } = this.painter.app.posing, { column, regions } = this.taken, own = column.origin && await column.origin.values();
+		const same = own && regions.values.every((r, v) => r === own[v]);
 
-		return pose && !columnOf(frame, "handles", "transform") && await this.unchanged() ? pose.line() : "";
-	}
-
-	/* What a script needs to know of the frame. */
-	async work() {
-		const { frame } = this.painter.app.shown, { name, regions } = this.taken;
-		const encoded = columnOf(frame, "base", "encoded"); /* a copy of the positions, where base is as it was then */
-		const first = ["mesh", "control", "points"].find((l) => columnOf(frame, l, "position"));
-
-		return {
-			name: fileOf(frame),
-			layer: name,
-			option: name !== first,
-			decode: decodeLine(frame, name),
-			base: Boolean(columnOf(frame, "base", "position")) || name === "control",
-			encoded: ["detail_height", "detail_offset"].some((c) => columnOf(frame, "mesh", c)),
-			still: Boolean(encoded) && encoded.of === columnOf(frame, "base", "position"),
-			pose: await this.pose(frame),
-			handles: [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0),
-			several: this.painter.app.frames.some((f) => f.group !== frame.group),
-		};
+		return pose && same && !columnOf(frame, "handles", "transform") ? pose.line() : "";
 	}
 
 	async script() {
-		const history = await linesOf(this.painter.app.shown.frame, "", "history");
+		const { frame } = this.painter.app.shown, several = this.painter.app.frames.some((f) => f.group !== frame.group);
 
-		return script({ ...await this.work(), text: await this.text() }, history);
-	}
-
-	/* The line for a basis, where there are handles to drag and the page has none for them. */
-	async show() {
-		const { painter } = this;
-
-		if (!painter.work)
-			return;
-		const work = await this.work(), free = painter.work.regions.counts.get(1) > 0;
-		$("basis").hidden = !work.handles || !painter.work.painted || work.layer === "points" || await this.unchanged();
-		$("basis-why").textContent = (free ? "" : "No vertex is free: paint what is to follow the handles. ") +
-			"To drag the painted handles: save the regions, and where they and the page's stream, " + work.name + ".mrs, are, run the line below. It makes a page that has their basis.";
-		$("basis-line").textContent = basisLine(work);
+		return script(this.name, await this.text(), commandsOf(this.taken, frame, await this.pose(frame), several));
 	}
 }
