@@ -194,6 +194,19 @@ bare_name(const mr_builder *b, mr_marking what, const char *name, size_t bytes)
 	return (mr_lines){ name, bytes };
 }
 
+mr_status
+mr_build_library(mr_builder *b, const char *name, size_t bytes)
+{
+	mr_lines bare = bare_name(b, MR_MATERIAL, name, bytes);
+	uint32_t number;
+
+	if (bare.bytes == 0)
+		return MR_OK;
+	MR_TRY(MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room));
+	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
+	return mr_name_number(b->ctx, &b->libraries, b->clean, bytes, &number);
+}
+
 /* How a name gets its number. */
 typedef mr_status
 number_name(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number);
@@ -205,7 +218,9 @@ mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, number_name
 	mr_marks *k = &b->marks[what];
 
 	MR_TRY(start_marks(b, what));
-	return number(b->ctx, &k->names, bare.text, bare.bytes, &k->current);
+	MR_TRY(MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room));
+	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
+	return number(b->ctx, &k->names, b->clean, bytes, &k->current);
 }
 
 mr_status
@@ -411,7 +426,51 @@ mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n)
 bool
 mr_is_absent(const double *x, size_t width)
 {
-	return isnan(x[0]) || (width == 3 && x[0] == 0 && x[1] == 0 && x[2] == 0);
+	return isnan(x[0] + x[1]) || (width == 3 && x[0] == 0 && x[1] == 0 && x[2] == 0);
+}
+
+static size_t
+hash_of(const double *value, size_t width)
+{
+	uint64_t bits[3], h = 0;
+
+	memcpy(bits, value, width * sizeof *bits);
+	for (size_t k = 0; k < width; k++) {
+		h = (h ^ bits[k]) * 0x9e3779b97f4a7c15u;
+		h ^= h >> 32;
+	}
+	return (size_t)h;
+}
+
+mr_status
+mr_number_rows(
+    mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count)
+{
+	size_t mask = 64, bytes = width * sizeof *x;
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *slot, used = 0; /* number + 1 */
+
+	while (mask < n + n / 2)
+		mask *= 2;
+	slot = MR_NEW_ZERO(ctx, mask--, uint32_t);
+	if (!slot)
+		return MR_EMEM;
+	for (size_t i = 0; i < n; i++) {
+		size_t at = hash_of(x + width * i, width) & mask;
+		number[i] = MR_NONE;
+		if (mr_is_absent(x + width * i, width))
+			continue;
+		while (slot[at] && memcmp(x + width * i, x + width * first[slot[at] - 1], bytes))
+			at = (at + 1) & mask;
+		if (slot[at] == 0) {
+			first[used] = (uint32_t)i;
+			slot[at] = ++used;
+		}
+		number[i] = slot[at] - 1;
+	}
+	*count = used;
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 mr_status
@@ -643,10 +702,9 @@ put_faces(mr_builder *b, mr_model *m)
 }
 
 static mr_lines
-lines_of(const mr_marks *k)
+lines_of(const mr_name_table *names)
 {
-	return k->used && k->names.bytes ? (mr_lines){ k->names.text, k->names.bytes - 1 }
-	                                 : (mr_lines){ NULL, 0 };
+	return names->bytes ? (mr_lines){ names->text, names->bytes - 1 } : (mr_lines){ NULL, 0 };
 }
 
 /* What faces are marked with, once there are faces. */
@@ -659,10 +717,10 @@ put_marks(const mr_builder *b, mr_model *m)
 	m->object = k[MR_OBJECT].used ? k[MR_OBJECT].of : NULL;
 	m->material = k[MR_MATERIAL].used ? k[MR_MATERIAL].of : NULL;
 	m->smoothing = k[MR_SMOOTHING].used ? k[MR_SMOOTHING].of : NULL;
-	m->groups = lines_of(&k[MR_GROUP]);
-	m->objects = lines_of(&k[MR_OBJECT]);
-	m->materials = lines_of(&k[MR_MATERIAL]);
-	m->mtllib = b->mtllib;
+	m->groups = lines_of(&k[MR_GROUP].names);
+	m->objects = lines_of(&k[MR_OBJECT].names);
+	m->materials = lines_of(&k[MR_MATERIAL].names);
+	m->mtllib = lines_of(&b->libraries);
 }
 
 mr_status

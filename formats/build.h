@@ -42,7 +42,9 @@ typedef struct mr_builder {
 	mr_import_result counts; /* of the model to be */
 	mr_marks marks[MR_MARKINGS];
 	const char *ungrouped; /* the group of faces before the first, and of one without a name; NULL: "" */
-	mr_lines mtllib;
+	mr_name_table libraries; /* files of materials */
+	char *clean;             /* a name on its way */
+	size_t clean_room;
 } mr_builder;
 
 /* Positions for nv vertices, not set; MR_ERANGE beyond what indices can name. */
@@ -59,8 +61,11 @@ mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;
 mr_status mr_build_face(
     mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n) MR_WARN_UNUSED;
 
-/* The faces to come are marked with this name; blanks around it do not count. */
+/* The faces to come are marked with this name, cleaned and without blanks around it. */
 mr_status mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
+
+/* A file of materials more; none where it is the last one again. */
+mr_status mr_build_library(mr_builder *b, const char *name, size_t bytes) MR_WARN_UNUSED;
 
 /* The same, a mark of its own, though there may be others of that name. */
 mr_status mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
@@ -154,6 +159,13 @@ bool mr_is_absent(const double *x, size_t width);
  */
 mr_status mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
     const double *corner, double **vertex, size_t *seams) MR_WARN_UNUSED;
+
+/*
+ * Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one
+ * that is none.  first: of each number, its first row.
+ */
+mr_status mr_number_rows(mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number,
+    uint32_t *first, size_t *count) MR_WARN_UNUSED;
 
 /* Reports files of materials that are not where the model at `path` ("-": nowhere) names them. */
 void mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files);

@@ -187,6 +187,32 @@ mr_gltf_index(const mr_gltf *g, const json_t *object, const char *key, const cha
 	return MR_OK;
 }
 
+mr_status
+mr_gltf_numbers(const mr_gltf *g, const json_t *object, const char *key, size_t count, double *x, bool *there)
+{
+	json_t *list = json_object_get(object, key);
+
+	*there = list != NULL;
+	if (list && json_array_size(list) != count)
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "%s has %zu numbers, not %zu", key, json_array_size(list), count);
+	for (size_t i = 0; list && i < count; i++) {
+		json_t *value = json_array_get(list, i);
+		if (!json_is_number(value))
+			return mr_fail(g->ctx, MR_EFORMAT, "%s: value %zu is no number", key, i);
+		x[i] = json_number_value(value);
+	}
+	return MR_OK;
+}
+
+const char *
+mr_gltf_name(const json_t *thing)
+{
+	const char *name = json_string_value(json_object_get(thing, "name"));
+
+	return name && *name ? name : NULL;
+}
+
 /* ---- buffers ---- */
 
 /* The six bits of a digit of base 64 (RFC 4648); 64 for what is none. */
@@ -346,23 +372,6 @@ find_rows(
 		return mr_fail(g->ctx, MR_EFORMAT, "%zu rows cannot be in %zu bytes", count, b.bytes);
 	*data = b.data;
 	*stride = step;
-	return MR_OK;
-}
-
-mr_status
-mr_gltf_vertex_numbers(const mr_gltf *g, const json_t *attributes, size_t *accessor)
-{
-	const json_t *json;
-	const char *type;
-
-	MR_TRY(mr_gltf_index(g, attributes, MR_GLTF_NUMBER, "accessors", accessor));
-	if (*accessor == MR_UNKNOWN)
-		return MR_OK;
-	json = mr_gltf_at(g, "accessors", *accessor);
-	type = json_string_value(json_object_get(json, "type"));
-	if (!type || strcmp(type, "VEC2") ||
-	    json_integer_value(json_object_get(json, "componentType")) != MR_GLTF_UNSIGNED_SHORT)
-		*accessor = MR_UNKNOWN;
 	return MR_OK;
 }
 

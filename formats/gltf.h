@@ -26,12 +26,6 @@ enum {
 	MR_GLTF_ELEMENTS = 34963
 };
 
-/*
- * The attribute by which vertices are numbered where their places do not tell them apart: two unsigned
- * shorts, the lower one first.
- */
-#define MR_GLTF_NUMBER "_VERTEX"
-
 typedef struct mr_gltf_buffer {
 	const unsigned char *data; /* NULL: not looked at yet */
 	size_t bytes;
@@ -83,32 +77,16 @@ typedef struct mr_gltf_instance {
 	const char *name; /* of the node, or else of the mesh; NULL: none.  The document's */
 } mr_gltf_instance;
 
-/* The meshes of the scene that is to be shown, or, where there is no scene, all meshes as they are.  unseen:
- * meshes that it does not show; several: nodes whose mesh EXT_mesh_gpu_instancing shows several times. */
-mr_status mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *unseen,
-    size_t *several) MR_WARN_UNUSED;
+typedef struct mr_gltf_scene {
+	mr_gltf_instance *instance;
+	size_t count;
+	size_t unseen;  /* nodes with a mesh that the scene does not show */
+	size_t several; /* nodes whose mesh EXT_mesh_gpu_instancing shows several times */
+} mr_gltf_scene;
 
-/* How the picture of a material's colour lies on the texture coordinates. */
-typedef struct mr_gltf_texture {
-	size_t set;    /* of coordinates */
-	bool moves;    /* these are to be mapped */
-	double map[6]; /* to u, and to v, by u, v and 1 */
-} mr_gltf_texture;
-
-/* By KHR_texture_transform.  material: may be MR_UNKNOWN. */
-mr_status mr_gltf_texture_of(const mr_gltf *g, size_t material, mr_gltf_texture *t) MR_WARN_UNUSED;
-
-/* What a document has and a model has not. */
-typedef struct mr_gltf_left {
-	size_t lines, targets, unseen, several, attributes;
-} mr_gltf_left;
-
-/* Notes what of a primitive that is drawn is not read.  texcoord: the name of the coordinates that are. */
-mr_status mr_gltf_note_attributes(
-    const mr_gltf *g, json_t *attributes, const char *texcoord, mr_gltf_left *left) MR_WARN_UNUSED;
-
-/* Reports all that is left out. */
-void mr_gltf_say_left(const mr_gltf *g, const mr_gltf_left *left);
+/* The meshes of the scene that is to be shown, or, where there is no scene and no node, all meshes as they
+ * are. */
+mr_status mr_gltf_scene_find(const mr_gltf *g, mr_gltf_scene *s) MR_WARN_UNUSED;
 
 /* Values in a buffer. */
 typedef struct mr_accessor {
@@ -119,9 +97,6 @@ typedef struct mr_accessor {
 	const unsigned char *data;
 	size_t stride;
 } mr_accessor;
-
-/* The accessor of the vertices' numbers; MR_UNKNOWN: there is none, or another program's of that name. */
-mr_status mr_gltf_vertex_numbers(const mr_gltf *g, const json_t *attributes, size_t *accessor) MR_WARN_UNUSED;
 
 /* Accessor `number`, which the caller has from mr_gltf_index. */
 mr_status mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a) MR_WARN_UNUSED;

@@ -1,72 +1,44 @@
 /*
  * glTF 2.0, read: the meshes of the scene as one model.  What glTF must repeat where a seam of normals or
- * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, or
- * those of one number where the file numbers them, and what their corners have is the corners'.
+ * texture coordinates runs is one vertex again: within a mesh, vertices at the same place are joined, and
+ * what their corners have is the corners'.
  */
 #include "formats/gltf.h"
+#include "formats/materials.h"
 #include "mesh/repair.h"
 
 /* How a primitive makes faces of its vertices. */
 enum { POINTS = 0, LINE_STRIP = 3, TRIANGLES = 4, STRIP = 5, FAN = 6 };
 
-/* What a mesh of the scene has of the vertices. */
-typedef struct instance {
-	const mr_gltf_instance *of;
-	size_t first, last;
-	bool faces;    /* it has some */
-	bool numbered; /* its vertices are */
-} instance;
-
-/* The accessors of a primitive's vertices, and the material that moves the coordinates; MR_UNKNOWN: none. */
-typedef struct sources {
-	size_t position, normal, texcoord, color, number, mover;
-} sources;
-
-/* A primitive of an instance. */
+/* A primitive of a mesh of the scene, and its accessors; MR_UNKNOWN: none. */
 typedef struct part {
-	size_t instance;
-	sources from;
+	const mr_gltf_instance *of;
+	size_t position, normal, texcoord, color, indices, material;
+	size_t mode, corners;
 	size_t first, count; /* its vertices */
 	bool own;            /* that no part before it has read */
-	size_t mode, indices, corners, material;
+	bool joined;         /* with others of its places */
 } part;
 
-typedef struct gltf_reader {
+typedef struct reader {
 	mr_gltf g;
-	instance *instance;
+	mr_builder b;
+	mr_gltf_scene scene;
 	part *part;
-	size_t instances, parts, part_room;
-	size_t n, nf;         /* vertices as the file has them; faces, at most while they are not yet read */
+	size_t parts, part_room;
+	size_t n, nf;         /* vertices as the file has them; faces, at most */
 	mr_v3 *p, *normal;    /* n; zero: none */
 	double *uv;           /* 2 n; NaN: none */
-	size_t uvs, odd_uv;   /* as the file has them; not finite */
 	unsigned char *color; /* 4 n */
 	mr_shades shades;     /* of 1 */
-	size_t odd_colors;    /* of vertices, with a NaN */
-	uint32_t *number;     /* n; MR_NONE: none */
-	uint32_t *join;       /* n: the vertex of the model */
-	mr_tri *t, *joined;   /* nf, of vertices as the file has them, and of the model's */
-	uint32_t *object, *material;
-	const char *packed; /* the extension that holds the primitive at hand; NULL: none */
-	mr_gltf_left left;
-	mr_model *m;
-} gltf_reader;
+	size_t odd_uv, odd_colors;
+	uint32_t *join;                    /* n: the vertex of the model */
+	uint32_t *index;                   /* of the part at hand */
+	const char *packed;                /* the extension that holds the primitive at hand; NULL: none */
+	size_t lines, targets, attributes; /* that are left out */
+} reader;
 
 /* ---- the primitives of the scene ---- */
-
-static mr_status
-find_instances(gltf_reader *r)
-{
-	const mr_gltf_instance *list;
-
-	MR_TRY(mr_gltf_scene(&r->g, &list, &r->instances, &r->left.unseen, &r->left.several));
-	r->instance = MR_NEW_ZERO(r->g.ctx, r->instances, instance);
-	if (!r->instance)
-		return MR_EMEM;
-	for (size_t i = 0; i < r->instances; i++)
-		r->instance[i].of = &list[i];
-	return MR_OK;
-}
 
 static size_t
 faces_of(size_t mode, size_t corners)
@@ -75,36 +47,22 @@ faces_of(size_t mode, size_t corners)
 }
 
 static mr_status
-find_sources(gltf_reader *r, const json_t *attributes, const char *texcoord, sources *s)
+find_accessors(reader *r, const json_t *json, part *p)
 {
-	const mr_gltf *g = &r->g;
+	const json_t *attributes = json_object_get(json, "attributes");
+	const struct {
+		const char *name;
+		size_t *accessor;
+	} read[] = { { "POSITION", &p->position }, { "NORMAL", &p->normal }, { "TEXCOORD_0", &p->texcoord },
+		{ "COLOR_0", &p->color } };
 
-	MR_TRY(mr_gltf_index(g, attributes, "POSITION", "accessors", &s->position));
-	MR_TRY(mr_gltf_index(g, attributes, "NORMAL", "accessors", &s->normal));
-	MR_TRY(mr_gltf_index(g, attributes, texcoord, "accessors", &s->texcoord));
-	MR_TRY(mr_gltf_index(g, attributes, "COLOR_0", "accessors", &s->color));
-	return mr_gltf_vertex_numbers(g, attributes, &s->number);
-}
-
-/* The attributes that are read: of the coordinates those of the colour's picture, or the first ones. */
-static mr_status
-find_attributes(gltf_reader *r, const json_t *json, part *p)
-{
-	json_t *attributes = json_object_get(json, "attributes");
-	mr_gltf_texture t = { 0 };
-	char texcoord[32];
-
-	MR_TRY(mr_gltf_texture_of(&r->g, p->material, &t));
-	snprintf(texcoord, sizeof texcoord, "TEXCOORD_%zu", t.set);
-	if (!json_object_get(attributes, texcoord)) {
-		snprintf(texcoord, sizeof texcoord, "TEXCOORD_0");
-		t.moves = false;
+	r->attributes += json_object_size(attributes);
+	for (size_t i = 0; i < sizeof read / sizeof *read; i++) {
+		MR_TRY(mr_gltf_index(&r->g, attributes, read[i].name, "accessors", read[i].accessor));
+		r->attributes -= *read[i].accessor != MR_UNKNOWN;
 	}
-	p->from.mover = t.moves ? p->material : MR_UNKNOWN;
-	MR_TRY(find_sources(r, attributes, texcoord, &p->from));
-	return p->from.position == MR_UNKNOWN
-	           ? MR_OK
-	           : mr_gltf_note_attributes(&r->g, attributes, texcoord, &r->left);
+	MR_TRY(mr_gltf_index(&r->g, json, "material", "materials", &p->material));
+	return mr_gltf_index(&r->g, json, "indices", "accessors", &p->indices);
 }
 
 /* The extension that holds what a primitive has, in a view of its own; NULL: none. */
@@ -121,10 +79,12 @@ packed_by(const json_t *primitive)
 
 /* The number of rows of an accessor whose values a column of `width` is made of. */
 static mr_status
-count_rows(gltf_reader *r, size_t accessor, size_t width, size_t *rows)
+count_rows(reader *r, size_t accessor, size_t width, size_t *rows)
 {
 	mr_accessor a;
 
+	if (accessor == MR_UNKNOWN)
+		return MR_OK;
 	MR_TRY(mr_accessor_open(&r->g, accessor, &a));
 	if (!a.data && r->packed)
 		return mr_gltf_needs(&r->g, r->packed);
@@ -140,90 +100,70 @@ count_rows(gltf_reader *r, size_t accessor, size_t width, size_t *rows)
 	return MR_OK;
 }
 
+/* Primitives of one place in space share vertices, as those of a mesh with several materials. */
+static bool
+shares_vertices(const part *p, const part *before)
+{
+	return before && p->position == before->position &&
+	       !memcmp(&p->of->map, &before->of->map, sizeof p->of->map) &&
+	       (p->mode == POINTS) == (before->mode == POINTS);
+}
+
 static mr_status
-count_vertices(gltf_reader *r, part *p)
+count_part(reader *r, part *p)
 {
 	const part *before = r->parts ? &r->part[r->parts - 1] : NULL;
 
-	p->count = MR_UNKNOWN;
-	p->first = r->n;
-	p->own = true;
-	MR_TRY(count_rows(r, p->from.position, 3, &p->count));
-	if (p->from.normal != MR_UNKNOWN)
-		MR_TRY(count_rows(r, p->from.normal, 3, &p->count));
-	if (p->from.texcoord != MR_UNKNOWN)
-		MR_TRY(count_rows(r, p->from.texcoord, 2, &p->count));
-	if (p->from.color != MR_UNKNOWN)
-		MR_TRY(count_rows(r, p->from.color, 3, &p->count));
-	if (p->from.number != MR_UNKNOWN)
-		MR_TRY(count_rows(r, p->from.number, 2, &p->count));
-	if (before && before->instance == p->instance && !memcmp(&before->from, &p->from, sizeof p->from)) {
-		p->first = before->first;
-		p->own = false;
-	}
-	return MR_OK;
-}
-
-static mr_status
-count_corners(gltf_reader *r, part *p)
-{
-	size_t corners = p->count;
-
-	if (p->indices != MR_UNKNOWN) {
-		corners = MR_UNKNOWN;
-		MR_TRY(count_rows(r, p->indices, 1, &corners));
-	}
-	if (p->mode == TRIANGLES && corners % 3)
-		return mr_fail(r->g.ctx, MR_EFORMAT, "triangles of %zu corners", corners);
-	p->corners = corners;
-	return MR_OK;
-}
-
-static mr_status
-read_primitive(gltf_reader *r, const json_t *json, size_t number)
-{
-	instance *i = &r->instance[number];
-	part p = { .instance = number };
-
-	MR_TRY(mr_gltf_count(&r->g, json, "mode", TRIANGLES, FAN, &p.mode));
-	r->left.targets += json_array_size(json_object_get(json, "targets"));
-	if (p.mode != POINTS && p.mode <= LINE_STRIP) {
-		r->left.lines++;
-		return MR_OK;
-	}
-	MR_TRY(mr_gltf_index(&r->g, json, "indices", "accessors", &p.indices));
-	MR_TRY(mr_gltf_index(&r->g, json, "material", "materials", &p.material));
-	MR_TRY(find_attributes(r, json, &p));
-	r->packed = packed_by(json);
-	if (p.from.position == MR_UNKNOWN) /* by the specification there is nothing to draw */
-		return MR_OK;
-	MR_TRY(count_vertices(r, &p));
-	MR_TRY(count_corners(r, &p));
-	if (p.own)
-		r->n += p.count;
-	r->nf += faces_of(p.mode, p.corners);
-	i->faces |= p.mode != POINTS;
-	i->numbered &= p.from.number != MR_UNKNOWN;
-	i->last = r->n;
+	p->count = p->corners = MR_UNKNOWN;
+	MR_TRY(count_rows(r, p->position, 3, &p->count));
+	MR_TRY(count_rows(r, p->normal, 3, &p->count));
+	MR_TRY(count_rows(r, p->texcoord, 2, &p->count));
+	MR_TRY(count_rows(r, p->color, 3, &p->count));
+	MR_TRY(count_rows(r, p->indices, 1, &p->corners));
+	if (p->indices == MR_UNKNOWN)
+		p->corners = p->count;
+	if (p->mode == TRIANGLES && p->corners % 3)
+		return mr_fail(r->g.ctx, MR_EFORMAT, "triangles of %zu corners", p->corners);
+	p->own = !shares_vertices(p, before);
+	p->first = p->own ? r->n : before->first;
+	r->n += p->own ? p->count : 0;
+	r->nf += faces_of(p->mode, p->corners);
 	if (r->n >= MR_NONE || r->nf > (MR_NONE - 1) / 3)
 		return mr_fail(r->g.ctx, MR_ERANGE,
 		    "%zu vertices and %zu faces are more than indices can name", r->n, r->nf);
+	return MR_OK;
+}
+
+static mr_status
+add_part(reader *r, const json_t *json, const mr_gltf_instance *of)
+{
+	part p = { .of = of };
+
+	MR_TRY(mr_gltf_count(&r->g, json, "mode", TRIANGLES, FAN, &p.mode));
+	r->targets += json_array_size(json_object_get(json, "targets"));
+	if (p.mode != POINTS && p.mode <= LINE_STRIP) {
+		r->lines++;
+		return MR_OK;
+	}
+	MR_TRY(find_accessors(r, json, &p));
+	r->packed = packed_by(json);
+	if (p.position == MR_UNKNOWN) /* by the specification there is nothing to draw */
+		return MR_OK;
+	MR_TRY(count_part(r, &p));
 	MR_TRY(MR_RESERVE(r->g.ctx, r->part, r->parts, 1, &r->part_room));
 	r->part[r->parts++] = p;
 	return MR_OK;
 }
 
 static mr_status
-find_parts(gltf_reader *r)
+find_parts(reader *r)
 {
-	for (size_t i = 0; i < r->instances; i++) {
-		size_t mesh = r->instance[i].of->mesh;
-		json_t *list = json_object_get(mr_gltf_at(&r->g, "meshes", mesh), "primitives");
-		r->instance[i].first = r->instance[i].last = r->n;
-		r->instance[i].numbered = true;
+	for (size_t i = 0; i < r->scene.count; i++) {
+		const mr_gltf_instance *of = &r->scene.instance[i];
+		json_t *list = json_object_get(mr_gltf_at(&r->g, "meshes", of->mesh), "primitives");
 		for (size_t k = 0; k < json_array_size(list); k++)
-			MR_TRY(mr_prefix(r->g.ctx, read_primitive(r, json_array_get(list, k), i),
-			    "mesh %zu, primitive %zu", mesh, k));
+			MR_TRY(mr_prefix(r->g.ctx, add_part(r, json_array_get(list, k), of),
+			    "mesh %zu, primitive %zu", of->mesh, k));
 	}
 	return MR_OK;
 }
@@ -255,16 +195,15 @@ apply_to_normal(const mr_affine *a, mr_v3 n)
 }
 
 static mr_status
-read_positions(gltf_reader *r, const part *p, const mr_accessor *a)
+read_positions(reader *r, const part *p, const mr_accessor *a)
 {
-	const mr_affine *map = &r->instance[p->instance].of->map;
-	bool moves = !mr_is_identity(map);
+	bool moves = !mr_is_identity(&p->of->map);
 
 	mr_accessor_reals(a, 3, &r->p[p->first].x);
 	for (size_t i = 0; i < p->count; i++) {
 		mr_v3 *x = &r->p[p->first + i];
 		if (moves)
-			*x = mr_apply(map, *x);
+			*x = mr_apply(&p->of->map, *x);
 		if (!mr_finite(*x))
 			return mr_fail(
 			    r->g.ctx, MR_EFORMAT, "accessor %zu: position %zu is not finite", a->number, i);
@@ -273,54 +212,36 @@ read_positions(gltf_reader *r, const part *p, const mr_accessor *a)
 }
 
 static mr_status
-read_normals(gltf_reader *r, const part *p, const mr_accessor *a)
+read_normals(reader *r, const part *p, const mr_accessor *a)
 {
-	const mr_affine *map = &r->instance[p->instance].of->map;
-	bool moves = !mr_is_identity(map);
+	bool moves = !mr_is_identity(&p->of->map);
 
 	mr_accessor_reals(a, 3, &r->normal[p->first].x);
 	for (size_t i = 0; i < p->count; i++) {
 		mr_v3 *n = &r->normal[p->first + i];
 		if (moves && mr_finite(*n))
-			*n = apply_to_normal(map, *n);
+			*n = apply_to_normal(&p->of->map, *n);
 	}
 	return MR_OK;
 }
 
-static void
-move(const mr_gltf_texture *t, double *uv)
-{
-	double u = uv[0], v = uv[1];
-
-	uv[0] = t->map[0] * u + t->map[1] * v + t->map[2];
-	uv[1] = t->map[3] * u + t->map[4] * v + t->map[5];
-}
-
 /* v runs down the picture in glTF, up in OBJ. */
 static mr_status
-read_texcoords(gltf_reader *r, const part *p, const mr_accessor *a)
+read_texcoords(reader *r, const part *p, const mr_accessor *a)
 {
 	double *uv = r->uv + 2 * p->first;
-	mr_gltf_texture t = { 0 };
 
-	MR_TRY(mr_gltf_texture_of(&r->g, p->from.mover, &t));
 	mr_accessor_reals(a, 2, uv);
 	for (size_t i = 0; i < p->count; i++) {
-		if (t.moves)
-			move(&t, uv + 2 * i);
 		uv[2 * i + 1] = 1 - uv[2 * i + 1];
-		if (!isfinite(uv[2 * i]) || !isfinite(uv[2 * i + 1])) {
-			uv[2 * i] = uv[2 * i + 1] = NAN;
-			r->odd_uv++;
-		}
+		r->odd_uv += !isfinite(uv[2 * i]) || !isfinite(uv[2 * i + 1]);
 	}
-	r->uvs += p->count;
 	return MR_OK;
 }
 
 /* Colours are linear there. */
 static mr_status
-read_colors(gltf_reader *r, const part *p, const mr_accessor *a)
+read_colors(reader *r, const part *p, const mr_accessor *a)
 {
 	mr_mark mark = mr_mark_take(r->g.ctx);
 	double *x = MR_NEW(r->g.ctx, 4 * p->count, double);
@@ -330,41 +251,24 @@ read_colors(gltf_reader *r, const part *p, const mr_accessor *a)
 	for (size_t i = 0; i < p->count; i++)
 		x[4 * i + 3] = 1;
 	mr_accessor_reals(a, 4, x);
-	for (size_t i = 0; i < p->count; i++) {
-		const double *c = x + 4 * i;
-		r->odd_colors += isnan(c[0] + c[1] + c[2] + c[3]) ? 1 : 0;
-		for (size_t k = 0; k < 4; k++)
-			r->color[4 * (p->first + i) + k] = mr_shade_byte(
-			    &r->shades, k == 3 ? c[k] : mr_linear_to_srgb(c[k]));
+	for (size_t i = 0; i < 4 * p->count; i++) {
+		r->odd_colors += isnan(x[i]) ? 1 : 0;
+		r->color[4 * p->first + i] = mr_shade_byte(
+		    &r->shades, i % 4 == 3 ? x[i] : mr_linear_to_srgb(x[i]));
 	}
 	mr_mark_release(r->g.ctx, mark);
 	return MR_OK;
 }
 
-static mr_status
-read_numbers(gltf_reader *r, const part *p, const mr_accessor *a)
-{
-	mr_mark mark = mr_mark_take(r->g.ctx);
-	double *x = MR_NEW(r->g.ctx, 2 * p->count, double);
+typedef mr_status read_values(reader *r, const part *p, const mr_accessor *a);
 
-	if (!x)
-		return MR_EMEM;
-	mr_accessor_reals(a, 2, x);
-	for (size_t i = 0; i < p->count; i++) {
-		double number = x[2 * i] + 65536 * x[2 * i + 1];
-		r->number[p->first + i] = number >= 0 && number < MR_NONE ? (uint32_t)number : MR_NONE;
-	}
-	mr_mark_release(r->g.ctx, mark);
-	return MR_OK;
-}
-
+/* Values of vertices, unless the part before has read them. */
 static mr_status
-read_column(gltf_reader *r, const part *p, size_t accessor,
-    mr_status (*read)(gltf_reader *r, const part *p, const mr_accessor *a))
+read_column(reader *r, const part *p, size_t accessor, size_t before, read_values *read)
 {
 	mr_accessor a;
 
-	if (accessor == MR_UNKNOWN)
+	if (accessor == MR_UNKNOWN || (!p->own && accessor == before))
 		return MR_OK;
 	MR_TRY(mr_accessor_open(&r->g, accessor, &a));
 	return read(r, p, &a);
@@ -372,414 +276,278 @@ read_column(gltf_reader *r, const part *p, size_t accessor,
 
 /* What some parts have, the others have not yet. */
 static mr_status
-make_columns(gltf_reader *r)
+make_columns(reader *r)
 {
 	mr_ctx *ctx = r->g.ctx;
 	bool normal = false, texcoord = false, color = false;
 
-	for (size_t i = 0; i < r->parts; i++) {
-		normal |= r->part[i].from.normal != MR_UNKNOWN;
-		texcoord |= r->part[i].from.texcoord != MR_UNKNOWN;
-		color |= r->part[i].from.color != MR_UNKNOWN;
+	for (const part *p = r->part; p < r->part + r->parts; p++) {
+		normal |= p->normal != MR_UNKNOWN;
+		texcoord |= p->texcoord != MR_UNKNOWN;
+		color |= p->color != MR_UNKNOWN;
 	}
 	r->p = MR_NEW(ctx, r->n, mr_v3);
 	r->join = MR_NEW(ctx, r->n, uint32_t);
-	r->number = MR_NEW(ctx, r->n, uint32_t);
-	if (!r->p || !r->join || !r->number || (normal && !(r->normal = MR_NEW_ZERO(ctx, r->n, mr_v3))) ||
+	if (!r->p || !r->join || (normal && !(r->normal = MR_NEW_ZERO(ctx, r->n, mr_v3))) ||
 	    (texcoord && !(r->uv = MR_NEW(ctx, 2 * r->n, double))) ||
 	    (color && !(r->color = MR_NEW(ctx, 4 * r->n, unsigned char))))
 		return MR_EMEM;
 	for (size_t i = 0; texcoord && i < 2 * r->n; i++)
 		r->uv[i] = NAN;
-	for (size_t i = 0; i < r->n; i++)
-		r->number[i] = MR_NONE;
 	if (color)
 		memset(r->color, 255, 4 * r->n);
 	return MR_OK;
 }
 
 static mr_status
-read_vertices(gltf_reader *r)
+read_vertices(reader *r)
 {
+	static const part none = { .normal = MR_UNKNOWN, .texcoord = MR_UNKNOWN, .color = MR_UNKNOWN };
+
 	MR_TRY(make_columns(r));
 	for (size_t i = 0; i < r->parts; i++) {
-		const part *p = &r->part[i];
-		if (!p->own)
-			continue;
-		MR_TRY(read_column(r, p, p->from.position, read_positions));
-		MR_TRY(read_column(r, p, p->from.normal, read_normals));
-		MR_TRY(read_column(r, p, p->from.texcoord, read_texcoords));
-		MR_TRY(read_column(r, p, p->from.color, read_colors));
-		if (r->instance[p->instance].numbered)
-			MR_TRY(read_column(r, p, p->from.number, read_numbers));
+		const part *p = &r->part[i], *before = i ? p - 1 : &none;
+		MR_TRY(read_column(r, p, p->position, p->position, read_positions));
+		MR_TRY(read_column(r, p, p->normal, before->normal, read_normals));
+		MR_TRY(read_column(r, p, p->texcoord, before->texcoord, read_texcoords));
+		MR_TRY(read_column(r, p, p->color, before->color, read_colors));
+	}
+	if (r->normal && !mr_normals_left(r->g.ctx, r->normal, r->n))
+		r->normal = NULL;
+	if (!mr_left_out(r->g.ctx, r->odd_uv, r->n, "texture coordinates"))
+		r->uv = NULL;
+	if (!mr_all_left(r->g.ctx, r->odd_colors, r->n, "colors"))
+		r->color = NULL;
+	mr_shades_said(r->g.ctx, &r->shades);
+	return MR_OK;
+}
+
+/* ---- vertices as the model has them ---- */
+
+/* Joins the places of each mesh, from part i on; *end: the part behind it. */
+static mr_status
+join_mesh(reader *r, size_t i, size_t *end)
+{
+	size_t first = r->part[i].first, last = first, joined;
+	bool faces = false;
+
+	for (; i < r->parts && (r->part[i].of == r->part[*end].of || !r->part[i].own); i++) {
+		last = r->part[i].own ? r->part[i].first + r->part[i].count : last;
+		faces |= r->part[i].mode != POINTS;
+	}
+	*end = i;
+	joined = last - first;
+	for (size_t k = first; k < last; k++)
+		r->join[k] = (uint32_t)(k - first);
+	if (faces)
+		MR_TRY(mr_weld(r->g.ctx, r->p + first, joined, 0, r->join + first, &joined));
+	for (size_t k = first; k < last; k++)
+		r->join[k] += (uint32_t)r->b.nv;
+	r->b.nv += joined;
+	return MR_OK;
+}
+
+/* Each vertex has the first colour that it is given. */
+static mr_status
+join_colors(reader *r)
+{
+	size_t several = 0;
+
+	if (!r->color)
+		return MR_OK;
+	if (!(r->b.color = MR_NEW(r->g.ctx, 4 * r->b.nv, unsigned char)))
+		return MR_EMEM;
+	for (size_t k = r->n; k-- > 0;)
+		memcpy(r->b.color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
+	for (size_t k = 0; k < r->n; k++)
+		several += memcmp(r->b.color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
+	mr_lost(r->g.ctx, NULL, several, "colors of joined vertices");
+	return MR_OK;
+}
+
+static mr_status
+join_vertices(reader *r)
+{
+	size_t nv;
+
+	for (size_t i = 0; i < r->parts;) {
+		size_t end = i;
+		MR_TRY(join_mesh(r, i, &end));
+		i = end;
+	}
+	nv = r->b.nv;
+	MR_TRY(mr_build_vertices(&r->b, nv));
+	for (size_t k = r->n; k-- > 0;)
+		r->b.p[r->join[k]] = r->p[k];
+	MR_TRY(join_colors(r));
+	r->b.uv = r->uv;
+	r->b.vn = r->normal;
+	if (r->nf == 0) { /* points are not joined */
+		r->b.normal = r->normal;
+		r->b.texcoord = r->uv;
 	}
 	return MR_OK;
 }
 
 /* ---- faces ---- */
 
-/* Face k of corners in a row. */
-static mr_tri
-face_of(size_t mode, const uint32_t *c, size_t k)
-{
-	if (mode == FAN)
-		return (mr_tri){ { c[k + 1], c[k + 2], c[0] } };
-	if (mode == STRIP)
-		return (mr_tri){ { c[k], c[k + 1 + k % 2], c[k + 2 - k % 2] } };
-	return (mr_tri){ { c[3 * k], c[3 * k + 1], c[3 * k + 2] } };
-}
-
-static bool
-repeats(mr_tri t)
-{
-	return t.v[0] == t.v[1] || t.v[1] == t.v[2] || t.v[2] == t.v[0];
-}
-
+/* Corners of face k, in the order of the file. */
 static void
-add_face(gltf_reader *r, const part *p, mr_tri t, bool turned)
+corners_of(size_t mode, size_t k, size_t c[3])
 {
-	uint32_t first = (uint32_t)p->first;
-
-	r->t[r->nf] = (mr_tri){ { first + t.v[0], first + t.v[turned ? 2 : 1],
-	    first + t.v[turned ? 1 : 2] } };
-	if (r->object)
-		r->object[r->nf] = (uint32_t)p->instance;
-	if (r->material)
-		r->material[r->nf] = (uint32_t)(p->material != MR_UNKNOWN ? p->material
-									  : mr_gltf_size(&r->g, "materials"));
-	r->nf++;
+	c[0] = mode == FAN ? k + 1 : mode == STRIP ? k : 3 * k;
+	c[1] = mode == FAN ? k + 2 : mode == STRIP ? k + 1 + k % 2 : 3 * k + 1;
+	c[2] = mode == FAN ? 0 : mode == STRIP ? k + 2 - k % 2 : 3 * k + 2;
 }
 
 static mr_status
-read_part_faces(gltf_reader *r, const part *p)
+add_face(reader *r, const part *p, size_t k, bool turned)
 {
-	mr_mark mark = mr_mark_take(r->g.ctx);
-	uint32_t *corner = MR_NEW(r->g.ctx, p->corners, uint32_t);
-	bool turned = determinant(&r->instance[p->instance].of->map) < 0;
-	mr_accessor a;
+	uint32_t v[3], uv[3], vn[3];
+	size_t c[3];
 
-	if (!corner)
-		return MR_EMEM;
-	for (size_t i = 0; i < p->corners && p->indices == MR_UNKNOWN; i++)
-		corner[i] = (uint32_t)i;
-	if (p->indices != MR_UNKNOWN) {
-		MR_TRY(mr_accessor_open(&r->g, p->indices, &a));
-		MR_TRY(mr_accessor_indices(&r->g, &a, p->count, corner));
+	corners_of(p->mode, k, c);
+	for (size_t i = 0; i < 3; i++) {
+		size_t corner = c[turned && i ? 3 - i : i],
+		       at = p->first + (r->index ? r->index[corner] : corner);
+		v[i] = r->join[at];
+		uv[i] = p->texcoord != MR_UNKNOWN && r->uv && isfinite(r->uv[2 * at] + r->uv[2 * at + 1])
+		            ? (uint32_t)at
+		            : MR_NONE;
+		vn[i] = p->normal != MR_UNKNOWN && r->normal ? (uint32_t)at : MR_NONE;
 	}
-	for (size_t k = 0; k < faces_of(p->mode, p->corners); k++) {
-		mr_tri t = face_of(p->mode, corner, k);
-		if (p->mode == TRIANGLES || !repeats(t)) /* a strip goes on elsewhere by such faces */
-			add_face(r, p, t, turned);
+	if (p->mode != TRIANGLES && (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]))
+		return MR_OK; /* a strip goes on elsewhere by such faces */
+	return mr_build_face(&r->b, v, r->uv ? uv : NULL, r->normal ? vn : NULL, 3);
+}
+
+/* Names of n things, in their order; of several without a name each is called `what` and its number. */
+static mr_status
+name_marks(reader *r, mr_marking kind, const char *const *name, size_t n, const char *what)
+{
+	size_t unnamed = 0;
+
+	for (size_t i = 0; i < n; i++)
+		unnamed += !name[i];
+	for (size_t i = 0; i < n; i++) {
+		const char *own = name[i]        ? name[i]
+		                  : unnamed == 1 ? ""
+		                                 : mr_format(r->g.ctx, "%s%zu", what, i);
+		if (!own)
+			return MR_EMEM;
+		MR_TRY(mr_build_new_mark(&r->b, kind, own, strlen(own)));
 	}
-	mr_mark_release(r->g.ctx, mark);
 	return MR_OK;
 }
 
 /* Faces have objects where these have names or are several, and materials where there are any. */
 static mr_status
-read_faces(gltf_reader *r)
+name_all(reader *r)
 {
-	mr_ctx *ctx = r->g.ctx;
-	bool objects = r->instances > 1 || (r->instances == 1 && r->instance[0].of->name);
-	size_t n = mr_gltf_size(&r->g, "materials");
-	bool materials = n > 1 || (n == 1 && mr_gltf_name(mr_gltf_at(&r->g, "materials", 0)));
+	size_t objects = r->scene.count, materials = mr_gltf_size(&r->g, "materials");
+	const char **name = MR_NEW(r->g.ctx, objects + materials, const char *);
 
-	r->t = MR_NEW(ctx, r->nf, mr_tri);
-	if (!r->t || (objects && !(r->object = MR_NEW(ctx, r->nf, uint32_t))) ||
-	    (materials && !(r->material = MR_NEW(ctx, r->nf, uint32_t))))
+	if (!name)
 		return MR_EMEM;
-	r->nf = 0;
-	for (size_t i = 0; i < r->parts; i++)
-		if (r->part[i].mode != POINTS)
-			MR_TRY(read_part_faces(r, &r->part[i]));
-	return MR_OK;
-}
-
-/* ---- vertices as the model has them ---- */
-
-static mr_status
-join_faces(gltf_reader *r)
-{
-	r->joined = MR_NEW(r->g.ctx, r->nf, mr_tri);
-	if (!r->joined)
-		return MR_EMEM;
-	for (size_t c = 0; c < 3 * r->nf; c++)
-		r->joined[c / 3].v[c % 3] = r->join[r->t[c / 3].v[c % 3]];
+	for (size_t i = 0; i < objects; i++)
+		name[i] = r->scene.instance[i].name;
+	if (objects > 1 || (objects == 1 && *name))
+		MR_TRY(name_marks(r, MR_OBJECT, name, objects, "mesh"));
+	for (size_t i = 0; i < materials; i++)
+		name[i] = mr_gltf_name(mr_gltf_at(&r->g, "materials", i));
+	if (materials > 1 || (materials == 1 && *name))
+		MR_TRY(name_marks(r, MR_MATERIAL, name, materials, "material"));
 	return MR_OK;
 }
 
 static mr_status
-join_by_place(gltf_reader *r, const instance *at, size_t *nv)
+read_faces(reader *r, const part *p)
 {
-	size_t joined = at->last - at->first;
+	bool turned = determinant(&p->of->map) < 0;
+	mr_accessor a;
 
-	for (size_t k = at->first; k < at->last; k++)
-		r->join[k] = (uint32_t)(k - at->first);
-	if (at->faces)
-		MR_TRY(mr_weld(r->g.ctx, r->p + at->first, joined, 0, r->join + at->first, &joined));
-	for (size_t k = at->first; k < at->last; k++)
-		r->join[k] += (uint32_t)*nv;
-	*nv += joined;
-	return MR_OK;
-}
-
-static bool
-same_place(mr_v3 a, mr_v3 b)
-{
-	return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-/* In the order of the numbers; what somebody has moved away from others of its number comes behind them. */
-static mr_status
-join_by_number(gltf_reader *r, size_t *nv)
-{
-	uint32_t *first = MR_NEW(r->g.ctx, r->n, uint32_t), next = 0;
-
-	if (!first)
-		return MR_EMEM;
-	for (size_t k = 0; k < r->n; k++)
-		first[k] = MR_NONE;
-	for (size_t k = r->n; k-- > 0;)
-		if (r->number[k] != MR_NONE)
-			first[r->number[k]] = (uint32_t)k;
-	for (size_t i = 0; i < r->n; i++)
-		if (first[i] != MR_NONE)
-			r->join[first[i]] = next++;
-	for (size_t k = 0; k < r->n; k++) {
-		uint32_t other = r->number[k] != MR_NONE ? first[r->number[k]] : (uint32_t)k;
-		if (other != k)
-			r->join[k] = same_place(r->p[k], r->p[other]) ? r->join[other] : next++;
+	r->b.marks[MR_OBJECT].current = (uint32_t)(p->of - r->scene.instance);
+	if (p->material != MR_UNKNOWN)
+		r->b.marks[MR_MATERIAL].current = (uint32_t)p->material;
+	else if (r->b.marks[MR_MATERIAL].used)
+		MR_TRY(mr_build_mark(&r->b, MR_MATERIAL, "", 0));
+	r->index = NULL;
+	if (p->indices != MR_UNKNOWN) {
+		MR_TRY(mr_accessor_open(&r->g, p->indices, &a));
+		r->index = MR_NEW(r->g.ctx, a.count, uint32_t);
+		if (!r->index)
+			return MR_EMEM;
+		MR_TRY(mr_accessor_indices(&r->g, &a, p->count, r->index));
 	}
-	*nv = next;
+	for (size_t k = 0; k < faces_of(p->mode, p->corners); k++)
+		MR_TRY(add_face(r, p, k, turned));
 	return MR_OK;
 }
 
-/* Numbers are those of a model's vertices, of which the file repeats some: others are another program's. */
+/* ---- what is left out ---- */
+
+/* Whether a material has more than a name and pictures. */
 static bool
-numbers_make_sense(const gltf_reader *r, const instance *at)
+has_look(const json_t *material)
 {
-	for (size_t k = at->first; k < at->last; k++)
-		if (r->number[k] >= r->n)
-			return false;
-	return true;
+	const json_t *surface = json_object_get(material, "pbrMetallicRoughness"),
+		     *color = json_object_get(surface, "baseColorFactor");
+	const json_t *metal = json_object_get(surface, "metallicFactor"),
+		     *rough = json_object_get(surface, "roughnessFactor");
+
+	for (size_t i = 0; i < json_array_size(color); i++)
+		if (json_number_value(json_array_get(color, i)) != 1)
+			return true;
+	return (metal && json_number_value(metal) != mr_material_plain.metal) ||
+	       (rough && json_number_value(rough) != mr_material_plain.roughness) ||
+	       json_object_get(material, "emissiveFactor") || json_object_get(material, "alphaMode") ||
+	       json_object_get(material, "extensions");
 }
 
 static void
-forget_numbers(gltf_reader *r, instance *at)
+say_left(const reader *r)
 {
-	for (size_t k = at->first; k < at->last; k++)
-		r->number[k] = MR_NONE;
-	at->numbered = false;
-}
+	static const char *const arrays[] = { "images", "skins", "animations", "cameras" };
+	size_t looks = 0;
 
-/* Joins vertices, and gathers their places. */
-static mr_status
-join_vertices(gltf_reader *r)
-{
-	size_t nv = 0;
-	mr_v3 *p;
-
-	for (size_t i = 0; i < r->instances; i++)
-		if (!numbers_make_sense(r, &r->instance[i]))
-			forget_numbers(r, &r->instance[i]);
-	MR_TRY(join_by_number(r, &nv));
-	for (size_t i = 0; i < r->instances; i++)
-		if (!r->instance[i].numbered)
-			MR_TRY(join_by_place(r, &r->instance[i], &nv));
-	p = MR_NEW(r->g.ctx, nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	for (size_t k = r->n; k-- > 0;)
-		p[r->join[k]] = r->p[k];
-	r->m->p = p;
-	r->m->nv = nv;
-	return join_faces(r);
-}
-
-/* Each vertex has the first colour that it is given. */
-static mr_status
-join_colors(gltf_reader *r)
-{
-	unsigned char *color = MR_NEW(r->g.ctx, 4 * r->m->nv, unsigned char);
-	size_t several = 0;
-
-	if (!color)
-		return MR_EMEM;
-	for (size_t k = r->n; k-- > 0;)
-		memcpy(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
-	for (size_t k = 0; k < r->n; k++)
-		several += memcmp(color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
-	mr_lost(r->g.ctx, NULL, several, "colors of joined vertices");
-	mr_shades_said(r->g.ctx, &r->shades);
-	r->m->color = color;
-	return MR_OK;
-}
-
-/* What vertices without a face have; where `vertex` is NULL, as corners do not agree, it is lost. */
-static mr_status
-join_isolated(gltf_reader *r, const double *x, size_t width, double *vertex, const char *what)
-{
-	size_t lost = 0, count;
-	bool *used;
-
-	MR_TRY(mr_vertices_used(r->g.ctx, r->joined, r->nf, r->m->nv, &used, &count));
-	for (size_t k = 0; k < r->n; k++) {
-		size_t v = r->join[k];
-		bool is_own = !used[v] && !mr_is_absent(x + width * k, width);
-		lost += is_own && !vertex;
-		if (is_own && vertex)
-			memcpy(vertex + width * v, x + width * k, width * sizeof *x);
-	}
-	mr_tell(r->g.ctx, MR_LOST, lost, "%s of isolated vertices", what);
-	return MR_OK;
-}
-
-/* A column of rows of `width`, of vertices where those of all corners agree, else of corners. */
-static mr_status
-join_column(gltf_reader *r, const char *what, const double *x, size_t width, const double **of_vertices,
-    const double **of_corners, size_t *several)
-{
-	double *corner = MR_NEW(r->g.ctx, 3 * width * r->nf, double), *vertex;
-
-	if (!corner)
-		return MR_EMEM;
-	if (r->nf == 0) { /* points are not joined */
-		*of_vertices = x;
-		return MR_OK;
-	}
-	for (size_t c = 0; c < 3 * r->nf; c++)
-		memcpy(corner + width * c, x + width * r->t[c / 3].v[c % 3], width * sizeof *x);
-	MR_TRY(mr_corners_to_vertices(r->g.ctx, r->joined, r->nf, r->m->nv, width, corner, &vertex, several));
-	*of_vertices = vertex;
-	*of_corners = vertex ? NULL : corner;
-	return join_isolated(r, x, width, vertex, what);
-}
-
-static mr_status
-join_columns(gltf_reader *r)
-{
-	const double *normal = NULL, *corner_normal = NULL;
-	mr_import_result *counts = &r->m->counts;
-
-	if (r->normal && !mr_normals_left(r->g.ctx, r->normal, r->n))
-		r->normal = NULL;
-	if (!mr_left_out(r->g.ctx, r->odd_uv, r->uvs, "texture coordinates"))
-		r->uv = NULL;
-	if (!mr_all_left(r->g.ctx, r->odd_colors, r->n, "colors"))
-		r->color = NULL;
-	if (r->color)
-		MR_TRY(join_colors(r));
-	if (r->uv)
-		MR_TRY(join_column(r, "texture coordinates", r->uv, 2, &r->m->texcoord,
-		    &r->m->corner_texcoord, &counts->seam_vertices));
-	if (r->normal)
-		MR_TRY(join_column(
-		    r, "normals", &r->normal->x, 3, &normal, &corner_normal, &counts->crease_vertices));
-	r->m->normal = (const mr_v3 *)(const void *)normal;
-	r->m->corner_normal = (const mr_v3 *)(const void *)corner_normal;
-	return MR_OK;
-}
-
-/* ---- names ---- */
-
-/* Names, one a line: within one a tab stands for an end of line, and is warned of. */
-static mr_status
-add_line(mr_ctx *ctx, const char *name, bool first, mr_lines *l, size_t *room)
-{
-	char *text = (char *)(size_t)l->text;
-	size_t bytes = strlen(name);
-
-	MR_TRY(MR_RESERVE(ctx, text, l->bytes, bytes + 2, room));
-	if (!first)
-		text[l->bytes++] = '\n';
-	for (size_t i = 0; i < bytes; i++)
-		text[l->bytes++] = name[i] == '\n' || name[i] == '\r' ? '\t' : name[i];
-	l->text = text;
-	return MR_OK;
-}
-
-/* The names of n things, NULL where they have none: the only one without has an empty name, of several each
- * is called `what` and its number. */
-static mr_status
-add_lines(mr_ctx *ctx, const char *const *name, size_t n, const char *what, mr_lines *l)
-{
-	size_t unnamed = 0, room = 0;
-
-	for (size_t i = 0; i < n; i++)
-		unnamed += !name[i];
-	for (size_t i = 0; i < n; i++) {
-		const char *own = name[i] ? name[i] : unnamed == 1 ? "" : mr_format(ctx, "%s%zu", what, i);
-		if (!own)
-			return MR_EMEM;
-		MR_TRY(add_line(ctx, own, i == 0, l, &room));
-	}
-	return MR_OK;
-}
-
-static mr_status
-name_objects(gltf_reader *r)
-{
-	const char **name = MR_NEW(r->g.ctx, r->instances, const char *);
-
-	if (!name)
-		return MR_EMEM;
-	for (size_t i = 0; i < r->instances; i++)
-		name[i] = r->instance[i].of->name;
-	return r->object ? add_lines(r->g.ctx, name, r->instances, "mesh", &r->m->objects) : MR_OK;
-}
-
-/* An empty name more is that of faces without a material. */
-static mr_status
-name_materials(gltf_reader *r)
-{
-	size_t n = mr_gltf_size(&r->g, "materials"), without = 0;
-	const char **name = MR_NEW(r->g.ctx, n + 1, const char *);
-
-	if (!name)
-		return MR_EMEM;
-	if (!r->material)
-		return MR_OK;
-	for (size_t i = 0; i < n; i++)
-		name[i] = mr_gltf_name(mr_gltf_at(&r->g, "materials", i));
-	name[n] = "";
-	for (size_t f = 0; f < r->nf && !without; f++)
-		without = r->material[f] == n;
-	return add_lines(r->g.ctx, name, n + without, "material", &r->m->materials);
+	for (size_t i = 0; i < sizeof arrays / sizeof *arrays; i++)
+		mr_lost(r->g.ctx, NULL, mr_gltf_size(&r->g, arrays[i]), arrays[i]);
+	for (size_t i = 0; i < mr_gltf_size(&r->g, "materials"); i++)
+		looks += has_look(mr_gltf_at(&r->g, "materials", i));
+	mr_lost(r->g.ctx, NULL, looks, "looks of materials");
+	mr_lost(r->g.ctx, NULL, r->targets, "morph targets");
+	mr_lost(r->g.ctx, NULL, r->lines, "lines");
+	mr_lost(r->g.ctx, NULL, r->scene.unseen, "meshes that the scene does not show");
+	mr_lost(r->g.ctx, NULL, r->scene.several, "instances of meshes");
+	mr_lost(r->g.ctx, NULL, r->attributes, "other attributes");
 }
 
 /* ---- the document ---- */
 
 static mr_status
-read_document(gltf_reader *r)
+read_document(reader *r, mr_model *m)
 {
-	MR_TRY(find_instances(r));
+	MR_TRY(mr_gltf_scene_find(&r->g, &r->scene));
 	MR_TRY(find_parts(r));
 	MR_TRY(read_vertices(r));
-	MR_TRY(read_faces(r));
 	MR_TRY(join_vertices(r));
-	MR_TRY(join_columns(r));
-	MR_TRY(name_objects(r));
-	MR_TRY(name_materials(r));
-	r->m->t = r->nf ? r->joined : NULL;
-	r->m->nf = r->nf;
-	r->m->object = r->nf ? r->object : NULL;
-	r->m->material = r->nf ? r->material : NULL;
-	mr_gltf_say_left(&r->g, &r->left);
-	return MR_OK;
+	if (r->nf)
+		MR_TRY(name_all(r));
+	for (size_t i = 0; i < r->parts; i++)
+		MR_TRY(read_faces(r, &r->part[i]));
+	say_left(r);
+	return mr_build_finish(&r->b, m);
 }
 
 mr_status
 mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	mr_model made = { 0 };
-	gltf_reader r = { .m = &made, .shades.full = 1 };
+	reader r = { .b.ctx = ctx, .shades.full = 1 };
 	mr_status status;
 
 	MR_TRY(mr_gltf_open(ctx, data, size, &r.g));
-	status = read_document(&r);
+	status = read_document(&r, m);
 	mr_gltf_free(&r.g);
-	if (status >= 0)
-		*m = made;
 	return status;
 }
 

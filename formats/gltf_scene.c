@@ -1,23 +1,5 @@
-/* The scene of a glTF document: its nodes, from which meshes hang, are walked from the roots. */
+/* The scene of a glTF document: its nodes, from which meshes hang. */
 #include "formats/gltf.h"
-
-mr_status
-mr_gltf_numbers(const mr_gltf *g, const json_t *object, const char *key, size_t count, double *x, bool *there)
-{
-	json_t *list = json_object_get(object, key);
-
-	*there = list != NULL;
-	if (list && json_array_size(list) != count)
-		return mr_fail(
-		    g->ctx, MR_EFORMAT, "%s has %zu numbers, not %zu", key, json_array_size(list), count);
-	for (size_t i = 0; list && i < count; i++) {
-		json_t *value = json_array_get(list, i);
-		if (!json_is_number(value))
-			return mr_fail(g->ctx, MR_EFORMAT, "%s: value %zu is no number", key, i);
-		x[i] = json_number_value(value);
-	}
-	return MR_OK;
-}
 
 /* T R S, of a unit quaternion x, y, z, w. */
 static mr_affine
@@ -78,154 +60,136 @@ node_map(const mr_gltf *g, const json_t *node, mr_affine *map)
 	return MR_OK;
 }
 
-const char *
-mr_gltf_name(const json_t *thing)
-{
-	const char *name = json_string_value(json_object_get(thing, "name"));
-
-	return name && *name ? name : NULL;
-}
-
-typedef struct waiting {
-	size_t node;
-	mr_affine above; /* of what it hangs from */
-} waiting;
-
+/* The walk up from each node to what it hangs from. */
 typedef struct walk {
 	const mr_gltf *g;
-	waiting *pile; /* nodes that are still to be looked at, the next one last */
-	size_t count, room;
-	bool *seen; /* of each node */
-	mr_gltf_instance *found;
-	size_t instances, found_room;
-	size_t several; /* nodes that show their mesh several times */
+	size_t nodes;
+	size_t *parent; /* of each node; MR_UNKNOWN: it hangs from none */
+	mr_affine *map; /* of those that are done */
+	bool *done, *shown;
+	size_t *path; /* workspace */
+	mr_gltf_scene *s;
+	size_t room;
 } walk;
 
 static mr_status
-push_instance(walk *w, size_t mesh, const mr_affine *map, const char *name)
+find_parents(walk *w)
 {
-	MR_TRY(MR_RESERVE(w->g->ctx, w->found, w->instances, 1, &w->found_room));
-	w->found[w->instances++] = (mr_gltf_instance){ .mesh = mesh,
+	for (size_t i = 0; i < w->nodes; i++)
+		w->parent[i] = MR_UNKNOWN;
+	for (size_t i = 0; i < w->nodes; i++) {
+		const json_t *list = json_object_get(mr_gltf_at(w->g, "nodes", i), "children");
+		for (size_t k = 0; k < json_array_size(list); k++) {
+			json_int_t child = json_integer_value(json_array_get(list, k));
+			if (child < 0 || (uint64_t)child >= w->nodes)
+				return mr_fail(w->g->ctx, MR_EFORMAT,
+				    "node %zu: a child is none of the %zu nodes", i, w->nodes);
+			if (w->parent[child] != MR_UNKNOWN)
+				return mr_fail(w->g->ctx, MR_EFORMAT, "node %zu hangs from more than one",
+				    (size_t)child);
+			w->parent[child] = i;
+		}
+	}
+	return MR_OK;
+}
+
+/* Of the scene, or where there is none, all that hang from none. */
+static mr_status
+show_roots(walk *w, size_t scene)
+{
+	const json_t *list = json_object_get(mr_gltf_at(w->g, "scenes", scene), "nodes");
+
+	for (size_t i = 0; scene == MR_UNKNOWN && i < w->nodes; i++)
+		w->shown[i] = w->parent[i] == MR_UNKNOWN;
+	for (size_t i = 0; i < json_array_size(list); i++) {
+		json_int_t node = json_integer_value(json_array_get(list, i));
+		if (node < 0 || (uint64_t)node >= w->nodes)
+			return mr_fail(w->g->ctx, MR_EFORMAT,
+			    "the scene names a node that is none of the %zu", w->nodes);
+		w->shown[node] = true;
+	}
+	return MR_OK;
+}
+
+/* Composes the maps down to a node, and to those between that have none yet. */
+static mr_status
+place(walk *w, size_t node)
+{
+	size_t n = 0;
+
+	for (size_t at = node; at != MR_UNKNOWN && !w->done[at]; at = w->parent[at]) {
+		if (n == w->nodes)
+			return mr_fail(w->g->ctx, MR_EFORMAT, "node %zu hangs from itself", node);
+		w->path[n++] = at;
+	}
+	while (n-- > 0) {
+		size_t at = w->path[n], above = w->parent[at];
+		MR_TRY(mr_prefix(
+		    w->g->ctx, node_map(w->g, mr_gltf_at(w->g, "nodes", at), &w->map[at]), "node %zu", at));
+		if (above != MR_UNKNOWN) {
+			w->map[at] = mr_compose(&w->map[above], &w->map[at]);
+			w->shown[at] |= w->shown[above];
+		}
+		w->done[at] = true;
+	}
+	return MR_OK;
+}
+
+static mr_status
+add_instance(walk *w, size_t mesh, const mr_affine *map, const char *name)
+{
+	mr_gltf_scene *s = w->s;
+
+	MR_TRY(MR_RESERVE(w->g->ctx, s->instance, s->count, 1, &w->room));
+	s->instance[s->count++] = (mr_gltf_instance){ .mesh = mesh,
 		.map = *map,
 		.name = name ? name : mr_gltf_name(mr_gltf_at(w->g, "meshes", mesh)) };
 	return MR_OK;
 }
 
-/* Puts a list of nodes on the pile, the first last. */
 static mr_status
-pile_up(walk *w, json_t *list, const mr_affine *above)
+visit(walk *w, size_t node)
 {
-	mr_ctx *ctx = w->g->ctx;
-	size_t n = json_array_size(list), nodes = mr_gltf_size(w->g, "nodes");
-
-	MR_TRY(MR_RESERVE(ctx, w->pile, w->count, n, &w->room));
-	for (size_t i = n; i-- > 0;) {
-		json_t *value = json_array_get(list, i);
-		json_int_t node = json_integer_value(value);
-		if (!json_is_integer(value) || node < 0 || (uint64_t)node >= nodes)
-			return mr_fail(ctx, MR_EFORMAT, "a node names a node that is none of the %zu", nodes);
-		if (w->seen[node]) /* a tree by the specification: else it might have no end */
-			return mr_fail(ctx, MR_EFORMAT, "node %zu hangs from more than one", (size_t)node);
-		w->seen[node] = true;
-		w->pile[w->count++] = (waiting){ (size_t)node, *above };
-	}
-	return MR_OK;
-}
-
-static mr_status
-visit(walk *w, waiting at)
-{
-	const json_t *node = mr_gltf_at(w->g, "nodes", at.node);
-	mr_affine own, map;
+	const json_t *json = mr_gltf_at(w->g, "nodes", node);
 	size_t mesh;
 
-	MR_TRY(node_map(w->g, node, &own));
-	map = mr_compose(&at.above, &own);
-	MR_TRY(mr_gltf_index(w->g, node, "mesh", "meshes", &mesh));
-	w->several += mesh != MR_UNKNOWN &&
-	              json_object_get(json_object_get(node, "extensions"), "EXT_mesh_gpu_instancing");
-	if (mesh != MR_UNKNOWN)
-		MR_TRY(push_instance(w, mesh, &map, mr_gltf_name(node)));
-	return pile_up(w, json_object_get(node, "children"), &map);
-}
-
-/* Puts the nodes that hang from none on the pile, the first last: without scenes all are shown. */
-static mr_status
-pile_up_roots(walk *w)
-{
-	size_t nodes = mr_gltf_size(w->g, "nodes");
-	bool *hangs = MR_NEW_ZERO(w->g->ctx, nodes, bool);
-
-	if (!hangs)
-		return MR_EMEM;
-	for (size_t i = 0; i < nodes; i++) {
-		const json_t *list = json_object_get(mr_gltf_at(w->g, "nodes", i), "children");
-		for (size_t k = 0; k < json_array_size(list); k++) {
-			json_int_t child = json_integer_value(json_array_get(list, k));
-			if (child >= 0 && (uint64_t)child < nodes)
-				hangs[child] = true;
-		}
-	}
-	MR_TRY(MR_RESERVE(w->g->ctx, w->pile, w->count, nodes, &w->room));
-	for (size_t i = nodes; i-- > 0;)
-		if (!hangs[i]) {
-			w->seen[i] = true;
-			w->pile[w->count++] = (waiting){ i, mr_identity() };
-		}
-	return MR_OK;
-}
-
-/* scene: MR_UNKNOWN where there are none. */
-static mr_status
-walk_scene(walk *w, size_t scene)
-{
-	const mr_affine identity = mr_identity();
-
-	if (scene == MR_UNKNOWN)
-		MR_TRY(pile_up_roots(w));
-	else
-		MR_TRY(pile_up(w, json_object_get(mr_gltf_at(w->g, "scenes", scene), "nodes"), &identity));
-	while (w->count) {
-		waiting at = w->pile[--w->count];
-		MR_TRY(mr_prefix(w->g->ctx, visit(w, at), "node %zu", at.node));
-	}
-	return MR_OK;
-}
-
-static mr_status
-count_unseen(const walk *w, size_t *count)
-{
-	size_t meshes = mr_gltf_size(w->g, "meshes");
-	bool *seen = MR_NEW_ZERO(w->g->ctx, meshes, bool);
-
-	if (!seen)
-		return MR_EMEM;
-	*count = meshes;
-	for (size_t i = 0; i < w->instances; i++) {
-		*count -= !seen[w->found[i].mesh];
-		seen[w->found[i].mesh] = true;
-	}
-	return MR_OK;
+	MR_TRY(place(w, node));
+	MR_TRY(mr_prefix(w->g->ctx, mr_gltf_index(w->g, json, "mesh", "meshes", &mesh), "node %zu", node));
+	if (mesh == MR_UNKNOWN)
+		return MR_OK;
+	w->s->unseen += !w->shown[node];
+	if (!w->shown[node])
+		return MR_OK;
+	w->s->several += json_object_get(json_object_get(json, "extensions"), "EXT_mesh_gpu_instancing") !=
+	                 NULL;
+	return add_instance(w, mesh, &w->map[node], mr_gltf_name(json));
 }
 
 mr_status
-mr_gltf_scene(const mr_gltf *g, const mr_gltf_instance **list, size_t *count, size_t *unseen, size_t *several)
+mr_gltf_scene_find(const mr_gltf *g, mr_gltf_scene *s)
 {
 	const mr_affine identity = mr_identity();
-	size_t scene, scenes = mr_gltf_size(g, "scenes");
-	walk w = { .g = g, .seen = MR_NEW_ZERO(g->ctx, mr_gltf_size(g, "nodes"), bool) };
+	size_t n = mr_gltf_size(g, "nodes"), scenes = mr_gltf_size(g, "scenes"), scene;
+	walk w = { .g = g,
+		.nodes = n,
+		.s = s,
+		.parent = MR_NEW(g->ctx, n, size_t),
+		.path = MR_NEW(g->ctx, n, size_t),
+		.map = MR_NEW(g->ctx, n, mr_affine),
+		.done = MR_NEW_ZERO(g->ctx, n, bool),
+		.shown = MR_NEW_ZERO(g->ctx, n, bool) };
 
-	if (!w.seen)
+	if (!w.parent || !w.path || !w.map || !w.done || !w.shown)
 		return MR_EMEM;
+	*s = (mr_gltf_scene){ 0 };
 	MR_TRY(mr_gltf_index(g, g->root, "scene", "scenes", &scene));
 	if (scenes && scene == MR_UNKNOWN)
 		scene = 0;
-	MR_TRY(walk_scene(&w, scene));
-	for (size_t i = 0; scenes + w.instances == 0 && i < mr_gltf_size(g, "meshes"); i++)
-		MR_TRY(push_instance(&w, i, &identity, NULL));
-	MR_TRY(count_unseen(&w, unseen));
-	*several = w.several;
-	*list = w.found;
-	*count = w.instances;
+	MR_TRY(find_parents(&w));
+	MR_TRY(show_roots(&w, scene));
+	for (size_t i = 0; i < n; i++)
+		MR_TRY(visit(&w, i));
+	for (size_t i = 0; scenes + s->count == 0 && i < mr_gltf_size(g, "meshes"); i++)
+		MR_TRY(add_instance(&w, i, &identity, NULL));
 	return MR_OK;
 }

@@ -1,42 +1,42 @@
 /* GLB, written: a node with a mesh for each object of each layer, a primitive for each of its materials, and
- * poses as morph targets that an animation shows one after the other. */
+ * poses as morph targets that an animation shows one after the other.  All of a layer share its vertices. */
 #include "base/text.h"
 #include "formats/gltf.h"
-#include "formats/gltf_sets.h"
+#include "formats/gltf_vertices.h"
 #include "formats/image.h"
 #include "formats/materials.h"
-#include "formats/names.h"
-
-#include <stdlib.h>
 
 enum { POINTS = 0, FRAMES_A_SECOND = 24 };
+
+/* What all corners of a face have. */
+enum { TEXCOORDS = 1, NORMALS = 2, KINDS = 4 };
 
 /* The document on its way.  What jansson has no memory for is noted, and told of in the end. */
 typedef struct glb {
 	mr_sink *s;
 	mr_ctx *ctx;
 	const mr_scene *scene;
-	json_t *root;
-	json_t *nodes, *meshes, *views, *accessors, *materials, *images, *textures; /* of the root */
-	json_t *samplers, *channels;                                                /* of the animation */
+	json_t *nodes, *meshes, *views, *accessors, *materials, *images, *textures, *samplers, *channels;
 	bool failed;
 	unsigned char *bin; /* the second chunk */
 	size_t bytes, room;
 	const char **image; /* files of the images so far */
 	size_t image_room;
-	size_t numbers; /* of vertices so far, over all layers */
-	bool numbered;  /* those of the layer at hand are, from there on */
 	size_t unnamed; /* the material of faces without one; MR_UNKNOWN: not there yet */
-	unsigned lost;  /* what materials have and the document has not, see materials.h */
 } glb;
 
-/* A layer on its way. */
+/* A layer on its way: accessors of its vertices, MR_UNKNOWN of what they have not. */
 typedef struct layer {
 	const mr_scene_node *node;
 	const char *name; /* of its nodes, before that of an object */
-	mr_sets sets;
-	size_t *material; /* of each of its names, the material of the document */
-	bool relief;      /* one of them has a picture of normals */
+	mr_gltf_vertices v;
+	mr_face_names object, material;
+	uint32_t *kind;    /* of each face: what all its corners have */
+	uint32_t *face;    /* nf, by object, material and kind */
+	size_t *materials; /* of each of its names, the material of the document */
+	size_t position, normal, texcoord, color;
+	json_t *targets, *bare_targets; /* poses, and without their normals */
+	size_t sampler;                 /* of the poses' weights */
 } layer;
 
 /* ---- pieces of JSON and bytes ---- */
@@ -45,31 +45,30 @@ typedef struct layer {
 static size_t
 push(glb *w, json_t *array, json_t *thing)
 {
-	if (json_array_append_new(array, thing)) {
-		w->failed = true;
-		return 0;
-	}
-	return json_array_size(array) - 1;
+	size_t n = json_array_size(array);
+
+	w->failed |= json_array_append_new(array, thing) != 0;
+	return n;
 }
 
-static void
-set(glb *w, json_t *object, const char *key, json_t *value)
-{
-	w->failed |= json_object_set_new(object, key, value) != 0;
-}
-
-static json_t *
+static json_int_t
 number(size_t n)
 {
-	return json_integer((json_int_t)n);
+	return (json_int_t)n;
 }
 
-/* Sets an array where it is not empty, which the format forbids. */
-static void
-set_array(glb *w, json_t *object, const char *key, json_t *array)
+/* An array where it is not empty, which the format forbids, for "o*". */
+static json_t *
+filled(json_t *array)
 {
-	if (json_array_size(array))
-		set(w, object, key, json_incref(array));
+	return json_array_size(array) ? json_incref(array) : NULL;
+}
+
+/* An index for "o*": NULL where there is none. */
+static json_t *
+index_of(size_t n)
+{
+	return n != MR_UNKNOWN ? json_integer(number(n)) : NULL;
 }
 
 /* Room for bytes of the second chunk, up to a multiple of four, and a view of it. */
@@ -77,14 +76,10 @@ static mr_status
 new_view(glb *w, size_t bytes, size_t target, size_t *view, char **to)
 {
 	size_t padded = (bytes + 3) / 4 * 4;
-	json_t *json = json_object();
 
-	set(w, json, "buffer", number(0));
-	set(w, json, "byteOffset", number(w->bytes));
-	set(w, json, "byteLength", number(bytes));
-	if (target)
-		set(w, json, "target", number(target));
-	*view = push(w, w->views, json);
+	*view = push(w, w->views,
+	    json_pack("{s:i, s:I, s:I, s:o*}", "buffer", 0, "byteOffset", number(w->bytes), "byteLength",
+		number(bytes), "target", index_of(target)));
 	MR_TRY(MR_RESERVE(w->ctx, w->bin, w->bytes, padded, &w->room));
 	*to = (char *)w->bin + w->bytes;
 	memset(*to + bytes, 0, padded - bytes);
@@ -92,42 +87,27 @@ new_view(glb *w, size_t bytes, size_t target, size_t *view, char **to)
 	return MR_OK;
 }
 
-/* An accessor over a whole view. */
-static size_t
-new_accessor(glb *w, size_t view, size_t kind, size_t count, const char *type)
-{
-	json_t *json = json_object();
-
-	set(w, json, "bufferView", number(view));
-	set(w, json, "componentType", number(kind));
-	set(w, json, "count", number(count));
-	set(w, json, "type", json_string(type));
-	return push(w, w->accessors, json);
-}
-
-/* A view of values of vertices, `size` bytes each, to be filled from `to` on, and the accessor over it. */
+/* A view of `count` values, `size` bytes each, to be filled from `to` on, and the accessor over it. */
 static mr_status
-new_values(glb *w, size_t count, size_t size, size_t kind, const char *type, char **to, size_t *accessor)
+new_values(glb *w, size_t count, size_t size, size_t target, size_t kind, const char *type, char **to,
+    size_t *accessor)
 {
 	size_t view = 0;
 
-	MR_TRY(new_view(w, size * count, MR_GLTF_ARRAY, &view, to));
-	*accessor = new_accessor(w, view, kind, count, type);
+	MR_TRY(new_view(w, size * count, target, &view, to));
+	*accessor = push(w, w->accessors,
+	    json_pack("{s:I, s:I, s:I, s:s}", "bufferView", number(view), "componentType", number(kind),
+		"count", number(count), "type", type));
 	return MR_OK;
 }
 
 /* The least and the greatest of its values. */
 static void
-set_bounds(glb *w, size_t accessor, const double *low, const double *high, size_t n)
+set_bounds(glb *w, size_t accessor, json_t *min, json_t *max)
 {
-	json_t *json = json_array_get(w->accessors, accessor), *min = json_array(), *max = json_array();
+	json_t *json = json_array_get(w->accessors, accessor);
 
-	for (size_t k = 0; k < n; k++) {
-		push(w, min, json_real(low[k]));
-		push(w, max, json_real(high[k]));
-	}
-	set(w, json, "min", min);
-	set(w, json, "max", max);
+	w->failed |= json_object_set_new(json, "min", min) || json_object_set_new(json, "max", max);
 }
 
 static char *
@@ -158,24 +138,20 @@ image_type(const mr_file_bytes *b)
 static mr_status
 put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 {
-	const char *slash = strrchr(file, '/'), *type = image_type(b);
-	json_t *image, *shows;
-	size_t view = 0;
+	const char *slash = strrchr(file, '/');
+	size_t view = 0, image;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, b->size, 0, &view, &to));
+	MR_TRY(new_view(w, b->size, MR_UNKNOWN, &view, &to));
 	memcpy(to, b->data, b->size);
-	image = json_object();
-	shows = json_object();
-	set(w, image, "bufferView", number(view));
-	set(w, image, "mimeType", json_string(type));
-	set(w, image, "name", json_string(slash ? slash + 1 : file));
-	set(w, shows, "source", number(push(w, w->images, image)));
-	*texture = push(w, w->textures, shows);
+	image = push(w, w->images,
+	    json_pack("{s:I, s:s, s:s}", "bufferView", number(view), "mimeType", image_type(b), "name",
+		slash ? slash + 1 : file));
+	*texture = push(w, w->textures, json_pack("{s:I}", "source", number(image)));
 	return MR_OK;
 }
 
-/* MR_UNKNOWN where the picture is of a kind that glTF does not have. */
+/* The texture of a picture; MR_UNKNOWN where there is none, or of a kind that glTF does not have. */
 static mr_status
 embed(glb *w, const char *file, size_t *texture)
 {
@@ -183,14 +159,14 @@ embed(glb *w, const char *file, size_t *texture)
 	mr_file_bytes b = { 0 };
 	mr_status status = MR_OK;
 
-	for (size_t i = 0; i < known; i++)
-		if (!strcmp(w->image[i], file)) {
+	*texture = MR_UNKNOWN;
+	for (size_t i = 0; file && i < known; i++)
+		if (!strcmp(w->image[i], file))
 			*texture = i;
-			return MR_OK;
-		}
+	if (!file || *texture != MR_UNKNOWN)
+		return MR_OK;
 	MR_TRY(MR_RESERVE(w->ctx, w->image, known, 1, &w->image_room));
 	w->image[known] = file;
-	*texture = MR_UNKNOWN;
 	MR_TRY(mr_file_bytes_read(w->ctx, file, &b));
 	if (image_type(&b))
 		status = put_image(w, file, &b, texture);
@@ -199,111 +175,52 @@ embed(glb *w, const char *file, size_t *texture)
 	return mr_prefix(w->ctx, mr_file_bytes_end(w->ctx, &b, status), "%s", file);
 }
 
-/* A reference to a texture. */
+/* A reference to a texture, for "o*". */
 static json_t *
-texture_info(glb *w, size_t texture)
+shows(size_t texture)
 {
-	json_t *json = json_object();
-
-	set(w, json, "index", number(texture));
-	return json;
-}
-
-static json_t *
-linear_color(glb *w, const double color[3])
-{
-	json_t *json = json_array();
-
-	for (int k = 0; k < 3; k++)
-		push(w, json, json_real(mr_srgb_to_linear(color[k])));
-	return json;
+	return texture != MR_UNKNOWN ? json_pack("{s:I}", "index", number(texture)) : NULL;
 }
 
 /* What says nothing else is of metal to the format, and seen from one side. */
 static json_t *
-new_material(glb *w, const mr_material *look, size_t texture)
+new_material(const mr_material *look, const char *name, size_t bytes, size_t texture, size_t normals)
 {
-	static const double white[3] = { 1, 1, 1 };
 	const double *light = look->emission;
-	json_t *json = json_object(), *surface = json_object(), *color;
+	bool shines = light[0] > 0 || light[1] > 0 || light[2] > 0;
+	double c[3], e[3];
 
-	color = linear_color(w, look->colored && texture == MR_UNKNOWN ? look->color : white);
-	push(w, color, json_real(look->opacity));
-	set(w, surface, "baseColorFactor", color);
-	set(w, surface, "metallicFactor", json_real(look->metal));
-	set(w, surface, "roughnessFactor", json_real(look->roughness));
-	if (texture != MR_UNKNOWN)
-		set(w, surface, "baseColorTexture", texture_info(w, texture));
-	set(w, json, "pbrMetallicRoughness", surface);
-	set(w, json, "doubleSided", json_true());
-	if (look->opacity < 1)
-		set(w, json, "alphaMode", json_string("BLEND"));
-	if (light[0] > 0 || light[1] > 0 || light[2] > 0)
-		set(w, json, "emissiveFactor", linear_color(w, light));
-	return json;
-}
-
-/* Normals, and heights, for which the format has no place of its own: in what is left to programs. */
-static mr_status
-put_relief(glb *w, layer *l, const mr_material *look, json_t *json)
-{
-	size_t texture = MR_UNKNOWN;
-	json_t *extras;
-
-	if (look->normals)
-		MR_TRY(embed(w, look->normals, &texture));
-	if (texture != MR_UNKNOWN) {
-		l->relief = true;
-		set(w, json, "normalTexture", texture_info(w, texture));
+	for (int k = 0; k < 3; k++) {
+		c[k] = look->colored && texture == MR_UNKNOWN ? mr_srgb_to_linear(look->color[k]) : 1;
+		e[k] = mr_srgb_to_linear(light[k]);
 	}
-	texture = MR_UNKNOWN;
-	if (look->heights)
-		MR_TRY(embed(w, look->heights, &texture));
-	if (texture == MR_UNKNOWN)
-		return MR_OK;
-	extras = json_object();
-	set(w, extras, "displacementTexture", texture_info(w, texture));
-	set(w, extras, "displacementBias", json_real(look->base));
-	set(w, extras, "displacementScale", json_real(look->gain));
-	set(w, json, "extras", extras);
-	return MR_OK;
-}
-
-/* A text of JSON: any that is not UTF-8 as a stream has it. */
-static json_t *
-text_of(glb *w, const char *name, size_t bytes)
-{
-	json_t *json = json_stringn(name, bytes);
-	mr_lines text;
-
-	if (json || mr_names_escape(w->ctx, (mr_lines){ name, bytes }, &text) < 0)
-		return json;
-	return json_stringn(text.text, text.bytes);
+	return json_pack("{s:{s:[f, f, f, f], s:f, s:f, s:o*}, s:b, s:s*, s:o*, s:o*, s:o*}",
+	    "pbrMetallicRoughness", "baseColorFactor", c[0], c[1], c[2], look->opacity, "metallicFactor",
+	    look->metal, "roughnessFactor", look->roughness, "baseColorTexture", shows(texture),
+	    "doubleSided", 1, "alphaMode", look->opacity < 1 ? "BLEND" : NULL, "emissiveFactor",
+	    shines ? json_pack("[f, f, f]", e[0], e[1], e[2]) : NULL, "normalTexture", shows(normals), "name",
+	    bytes ? json_stringn(name, bytes) : NULL);
 }
 
 static mr_status
 put_materials(glb *w, layer *l)
 {
-	const char **name = l->sets.material_name;
+	const char **name = l->material.start;
 	mr_material *look = NULL;
 	size_t count = 0;
 
-	l->material = MR_NEW(w->ctx, l->sets.materials, size_t);
-	if (!l->material)
+	l->materials = MR_NEW(w->ctx, l->material.count, size_t);
+	if (!l->materials)
 		return MR_EMEM;
 	MR_TRY(mr_materials_find(w->ctx, &l->node->model, w->scene->folder, &look, &count));
-	for (size_t i = 0; i < l->sets.materials; i++) {
-		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture = MR_UNKNOWN;
-		json_t *json;
+	for (size_t i = 0; i < l->material.count; i++) {
+		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture, normals;
 		if (bytes == 0) /* no face has it */
 			continue;
-		w->lost |= look[i].lost;
-		if (look[i].file)
-			MR_TRY(embed(w, look[i].file, &texture));
-		json = new_material(w, &look[i], texture);
-		set(w, json, "name", text_of(w, name[i], bytes));
-		l->material[i] = push(w, w->materials, json);
-		MR_TRY(put_relief(w, l, &look[i], json));
+		MR_TRY(embed(w, look[i].file, &texture));
+		MR_TRY(embed(w, look[i].normals, &normals));
+		l->materials[i] = push(
+		    w, w->materials, new_material(&look[i], name[i], bytes, texture, normals));
 	}
 	return MR_OK;
 }
@@ -312,23 +229,24 @@ put_materials(glb *w, layer *l)
 static size_t
 material_of(glb *w, const layer *l, size_t f)
 {
-	if (l->sets.material[f] < l->sets.materials)
-		return l->material[l->sets.material[f]];
+	if (l->material.of[f] < l->material.count)
+		return l->materials[l->material.of[f]];
 	if (w->unnamed == MR_UNKNOWN)
-		w->unnamed = push(w, w->materials, new_material(w, &mr_material_plain, MR_UNKNOWN));
+		w->unnamed = push(
+		    w, w->materials, new_material(&mr_material_plain, NULL, 0, MR_UNKNOWN, MR_UNKNOWN));
 	return w->unnamed;
 }
 
-/* ---- attributes ---- */
+/* ---- vertices ---- */
 
 /* Positions, or how far a pose moves them: the difference of floats, so that nothing is rounded twice. */
 static mr_status
-put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_vertex_set *v, size_t *accessor)
+put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_gltf_vertices *v, size_t *accessor)
 {
 	mr_box box = mr_box_empty();
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 12, MR_GLTF_FLOAT, "VEC3", &to, accessor));
+	MR_TRY(new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor));
 	for (size_t i = 0; i < v->count; i++) {
 		mr_v3 x = as_floats(p[v->vertex[i]]);
 		if (from)
@@ -336,8 +254,16 @@ put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_vertex_set *v,
 		to = put_floats(to, x);
 		mr_box_add(&box, x);
 	}
-	set_bounds(w, *accessor, &box.min.x, &box.max.x, 3);
+	set_bounds(w, *accessor, json_pack("[f, f, f]", box.min.x, box.min.y, box.min.z),
+	    json_pack("[f, f, f]", box.max.x, box.max.y, box.max.z));
 	return MR_OK;
+}
+
+/* Whether it can be made unit. */
+static bool
+is_direction(mr_v3 n)
+{
+	return isfinite(mr_norm2(n)) && mr_norm2(n) > 0;
 }
 
 /* A normal that is a unit vector to the four digits of most files stays as it is; the format asks for three.
@@ -350,373 +276,303 @@ as_unit(mr_v3 n)
 	return fabs(mr_norm2(f) - 1) < 5e-4 ? f : as_floats(mr_unit(n));
 }
 
-/* The normal of a vertex of a set; along z where none is known, as of isolated vertices. */
+/* The normal of a vertex; along z where none is known, as of isolated vertices. */
 static mr_v3
-set_normal(const mr_v3 *of_vertices, const mr_v3 *of_corners, const mr_vertex_set *v, size_t i)
+normal_of(const mr_v3 *of_vertices, const mr_v3 *of_corners, const mr_gltf_vertices *v, size_t i)
 {
 	const mr_v3 *n = of_vertices ? of_vertices + v->vertex[i] : NULL;
 
 	if (of_corners)
 		n = v->corner[i] != MR_NONE ? of_corners + v->corner[i] : NULL;
-	return n && mr_is_direction(*n) ? as_unit(*n) : mr_vec(0, 0, 1);
+	return n && is_direction(*n) ? as_unit(*n) : mr_vec(0, 0, 1);
 }
 
 /* pose: NULL, or the one that turns them. */
 static mr_status
-put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_vertex_set *v, size_t *accessor)
+put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_gltf_vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 12, MR_GLTF_FLOAT, "VEC3", &to, accessor));
+	MR_TRY(new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor));
 	for (size_t i = 0; i < v->count; i++) {
-		mr_v3 n = set_normal(m->normal, m->corner_normal, v, i);
+		mr_v3 n = normal_of(m->normal, m->corner_normal, v, i);
 		if (pose)
-			n = mr_sub(set_normal(pose->normal, pose->corner_normal, v, i), n);
+			n = mr_sub(normal_of(pose->normal, pose->corner_normal, v, i), n);
 		to = put_floats(to, n);
 	}
 	return MR_OK;
 }
 
+static bool
+has_texcoord(const double *uv)
+{
+	return uv && isfinite(uv[0]) && isfinite(uv[1]);
+}
+
 /* v runs down the picture in glTF. */
 static mr_status
-put_texcoords(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
+put_texcoords(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 8, MR_GLTF_FLOAT, "VEC2", &to, accessor));
+	MR_TRY(new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC2", &to, accessor));
 	for (size_t i = 0; i < v->count; i++) {
 		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : NULL;
-		if (v->corner[i] != MR_NONE)
-			uv = mr_corner_texcoord(m, v->corner[i]);
-		to = mr_store_float(to, uv ? (float)uv[0] : 0);
-		to = mr_store_float(to, uv ? (float)(1 - uv[1]) : 0);
-	}
-	return MR_OK;
-}
-
-/* Where u increases on a corner's triangle, and 1 where v then increases to the left of it, else -1. */
-static mr_v3
-tangent_of(const mr_model *m, size_t corner, double *side)
-{
-	size_t f = corner / 3;
-	const double *a = mr_corner_texcoord(m, 3 * f), *b = mr_corner_texcoord(m, 3 * f + 1),
-		     *c = mr_corner_texcoord(m, 3 * f + 2);
-	mr_v3 ab = mr_sub(m->p[m->t[f].v[1]], m->p[m->t[f].v[0]]);
-	mr_v3 ac = mr_sub(m->p[m->t[f].v[2]], m->p[m->t[f].v[0]]);
-	double area = (b[0] - a[0]) * (c[1] - a[1]) - (c[0] - a[0]) * (b[1] - a[1]);
-
-	*side = area < 0 ? -1 : 1;
-	return mr_mul(*side, mr_sub(mr_mul(c[1] - a[1], ab), mr_mul(b[1] - a[1], ac)));
-}
-
-/*
- * The frames of a picture of normals where no two triangles have a vertex of the set together, as in an
- * atlas: what Mikkelsen's rule gives there, which the format asks viewers for where a file has none; some
- * take another one.
- */
-static mr_status
-put_tangents(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
-{
-	char *to = NULL;
-
-	MR_TRY(new_values(w, v->count, 16, MR_GLTF_FLOAT, "VEC4", &to, accessor));
-	for (size_t i = 0; i < v->count; i++) {
-		mr_v3 n = set_normal(m->normal, m->corner_normal, v, i), t;
-		double side = 1;
-		t = tangent_of(m, v->corner[i], &side);
-		t = mr_sub(t, mr_mul(mr_dot(t, n) / mr_norm2(n), n));
-		if (!mr_is_direction(t)) /* a triangle without area: any */
-			t = mr_cross(n, fabs(n.x) < 0.5 ? mr_vec(1, 0, 0) : mr_vec(0, 1, 0));
-		to = put_floats(to, mr_unit(t));
-		to = mr_store_float(to, (float)side);
+		if (m->corner_texcoord && v->corner[i] != MR_NONE)
+			uv = m->corner_texcoord + 2 * (size_t)v->corner[i];
+		to = mr_store_float(to, has_texcoord(uv) ? (float)uv[0] : 0);
+		to = mr_store_float(to, has_texcoord(uv) ? (float)(1 - uv[1]) : 0);
 	}
 	return MR_OK;
 }
 
 /* Linear there, where sixteen bits give every byte back. */
 static mr_status
-put_colors(glb *w, const mr_model *m, const mr_vertex_set *v, size_t *accessor)
+put_colors(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 8, MR_GLTF_UNSIGNED_SHORT, "VEC4", &to, accessor));
+	MR_TRY(new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_UNSIGNED_SHORT, "VEC4", &to, accessor));
 	for (size_t i = 0; i < 4 * v->count; i++) {
 		double c = m->color[4 * (size_t)v->vertex[i / 4] + i % 4] / 255.0;
 		unsigned x = (unsigned)(65535 * (i % 4 == 3 ? c : mr_srgb_to_linear(c)) + 0.5);
 		*to++ = (char)(x & 255);
 		*to++ = (char)(x >> 8);
 	}
-	set(w, json_array_get(w->accessors, *accessor), "normalized", json_true());
+	w->failed |= json_object_set_new(
+			 json_array_get(w->accessors, *accessor), "normalized", json_true()) != 0;
 	return MR_OK;
 }
 
-/* What tells vertices at one place apart. */
 static mr_status
-put_numbers(glb *w, const mr_vertex_set *v, size_t *accessor)
+put_vertices(glb *w, layer *l)
 {
+	const mr_model *m = &l->node->model;
+
+	l->normal = l->texcoord = l->color = MR_UNKNOWN;
+	MR_TRY(put_positions(w, m->p, NULL, &l->v, &l->position));
+	if (m->normal || m->corner_normal)
+		MR_TRY(put_normals(w, m, NULL, &l->v, &l->normal));
+	if (m->texcoord || m->corner_texcoord)
+		MR_TRY(put_texcoords(w, m, &l->v, &l->texcoord));
+	return m->color ? put_colors(w, m, &l->v, &l->color) : MR_OK;
+}
+
+/* ---- poses ---- */
+
+/* Frame 0 is the key, at frame i target i - 1 alone weighs 1: when, and how much. */
+static mr_status
+put_weights(glb *w, size_t targets, size_t *sampler)
+{
+	size_t frames = targets + 1, input = 0, output = 0;
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 4, MR_GLTF_UNSIGNED_SHORT, "VEC2", &to, accessor));
-	for (size_t i = 0; i < v->count; i++)
-		to = mr_store32(to, (uint32_t)(w->numbers + v->vertex[i]));
-	return MR_OK;
-}
-
-static mr_status
-put_attributes(glb *w, const mr_model *m, const mr_vertex_set *v, bool tangents, json_t *attributes)
-{
-	size_t accessor = 0;
-
-	MR_TRY(put_positions(w, m->p, NULL, v, &accessor));
-	set(w, attributes, "POSITION", number(accessor));
-	if (v->kind & MR_SET_NORMALS) {
-		MR_TRY(put_normals(w, m, NULL, v, &accessor));
-		set(w, attributes, "NORMAL", number(accessor));
-	}
-	if (v->kind & MR_SET_TEXCOORDS) {
-		MR_TRY(put_texcoords(w, m, v, &accessor));
-		set(w, attributes, "TEXCOORD_0", number(accessor));
-	}
-	if (tangents) {
-		MR_TRY(put_tangents(w, m, v, &accessor));
-		set(w, attributes, "TANGENT", number(accessor));
-	}
-	if (m->color) {
-		MR_TRY(put_colors(w, m, v, &accessor));
-		set(w, attributes, "COLOR_0", number(accessor));
-	}
-	if (w->numbered) {
-		MR_TRY(put_numbers(w, v, &accessor));
-		set(w, attributes, MR_GLTF_NUMBER, number(accessor));
-	}
+	MR_TRY(new_values(w, frames, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &input));
+	for (size_t i = 0; i < frames; i++)
+		to = mr_store_float(to, (float)((double)i / FRAMES_A_SECOND));
+	set_bounds(
+	    w, input, json_pack("[f]", 0.), json_pack("[f]", mr_as_float((double)targets / FRAMES_A_SECOND)));
+	MR_TRY(new_values(w, frames * targets, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &output));
+	for (size_t i = 0; i < frames; i++)
+		for (size_t k = 0; k < targets; k++)
+			to = mr_store_float(to, i == k + 1 ? 1 : 0);
+	*sampler = push(
+	    w, w->samplers, json_pack("{s:I, s:I}", "input", number(input), "output", number(output)));
 	return MR_OK;
 }
 
 /* What the poses do to the vertices; to normals only where every pose has some. */
 static mr_status
-put_targets(glb *w, const mr_scene_node *node, const mr_vertex_set *v, json_t *targets)
+put_poses(glb *w, layer *l)
 {
-	bool normals = (v->kind & MR_SET_NORMALS) != 0;
-	size_t accessor = 0;
+	const mr_scene_node *node = l->node;
+	bool turned = l->normal != MR_UNKNOWN;
+	size_t position = 0, normal = MR_UNKNOWN;
 
 	for (size_t i = 0; i < node->targets; i++)
-		normals = normals && (node->target[i].normal || node->target[i].corner_normal);
+		turned = turned && (node->target[i].normal || node->target[i].corner_normal);
 	for (size_t i = 0; i < node->targets; i++) {
-		json_t *target = json_object();
-		push(w, targets, target);
-		MR_TRY(put_positions(w, node->target[i].p, node->model.p, v, &accessor));
-		set(w, target, "POSITION", number(accessor));
-		if (normals) {
-			MR_TRY(put_normals(w, &node->model, &node->target[i], v, &accessor));
-			set(w, target, "NORMAL", number(accessor));
-		}
+		MR_TRY(put_positions(w, node->target[i].p, node->model.p, &l->v, &position));
+		if (turned)
+			MR_TRY(put_normals(w, &node->model, &node->target[i], &l->v, &normal));
+		push(w, l->targets,
+		    json_pack("{s:I, s:o*}", "POSITION", number(position), "NORMAL", index_of(normal)));
+		push(w, l->bare_targets, json_pack("{s:I}", "POSITION", number(position)));
 	}
-	return MR_OK;
+	return node->targets ? put_weights(w, node->targets, &l->sampler) : MR_OK;
 }
 
 /* ---- primitives, meshes, nodes ---- */
 
-static mr_status
-put_indices(glb *w, const mr_sets *s, size_t first, size_t last, size_t *accessor)
+/* A primitive of vertices that have normals and texture coordinates, or not. */
+static json_t *
+new_primitive(const layer *l, bool normals, bool texcoords, size_t indices, size_t material, size_t mode)
 {
-	size_t view = 0;
+	return json_pack("{s:{s:I, s:o*, s:o*, s:o*}, s:o*, s:o*, s:o*, s:o*}", "attributes", "POSITION",
+	    number(l->position), "NORMAL", index_of(normals ? l->normal : MR_UNKNOWN), "TEXCOORD_0",
+	    index_of(texcoords ? l->texcoord : MR_UNKNOWN), "COLOR_0", index_of(l->color), "targets",
+	    filled(normals ? l->targets : l->bare_targets), "indices", index_of(indices), "material",
+	    index_of(material), "mode", index_of(mode));
+}
+
+/* The primitive of faces `first` to `last` in the order. */
+static mr_status
+put_primitive(glb *w, const layer *l, size_t first, size_t last, json_t *primitives)
+{
+	uint32_t f = l->face[first];
+	size_t accessor = 0;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, 12 * (last - first), MR_GLTF_ELEMENTS, &view, &to));
+	MR_TRY(new_values(
+	    w, 3 * (last - first), 4, MR_GLTF_ELEMENTS, MR_GLTF_UNSIGNED_INT, "SCALAR", &to, &accessor));
 	for (size_t i = first; i < last; i++)
 		for (size_t k = 0; k < 3; k++)
-			to = mr_store32(to, s->index[3 * (size_t)s->face[i] + k]);
-	*accessor = new_accessor(w, view, MR_GLTF_UNSIGNED_INT, 3 * (last - first), "SCALAR");
+			to = mr_store32(to, l->v.index[3 * (size_t)l->face[i] + k]);
+	push(w, primitives,
+	    new_primitive(
+		l, l->kind[f] & NORMALS, l->kind[f] & TEXCOORDS, accessor, material_of(w, l, f), MR_UNKNOWN));
 	return MR_OK;
 }
 
-/* A primitive on these attributes, which it shares with others. */
-static json_t *
-new_primitive(glb *w, json_t *primitives, json_t *attributes, json_t *targets)
+/* A node and its mesh; takes the primitives. */
+static void
+put_node(glb *w, const layer *l, const char *name, json_t *primitives)
 {
-	json_t *primitive = json_object();
+	const char *own = *name ? name : NULL;
+	size_t mesh = push(w, w->meshes, json_pack("{s:o, s:s*}", "primitives", primitives, "name", own));
+	size_t node = push(w, w->nodes, json_pack("{s:I, s:s*}", "mesh", number(mesh), "name", own));
 
-	set(w, primitive, "attributes", json_incref(attributes));
-	set_array(w, primitive, "targets", targets);
-	push(w, primitives, primitive);
-	return primitive;
-}
-
-/* The primitives of faces `first` to `last` in the order, which are a set: one for each material. */
-static mr_status
-put_materials_of_set(
-    glb *w, layer *l, size_t first, size_t last, json_t *primitives, json_t *attributes, json_t *targets)
-{
-	const mr_sets *s = &l->sets;
-	size_t indices = 0;
-
-	for (size_t i = first, end; i < last; i = end) {
-		json_t *primitive;
-		for (end = i + 1; end < last && s->material[s->face[end]] == s->material[s->face[i]];)
-			end++;
-		MR_TRY(put_indices(w, s, i, end, &indices));
-		primitive = new_primitive(w, primitives, attributes, targets);
-		set(w, primitive, "indices", number(indices));
-		set(w, primitive, "material", number(material_of(w, l, s->face[i])));
-	}
-	return MR_OK;
-}
-
-/* Whether each corner of the faces of a set is a vertex of its own, with all that a frame needs. */
-static bool
-has_frames(const mr_vertex_set *v, size_t faces)
-{
-	if (v->count != 3 * faces || !(v->kind & MR_SET_TEXCOORDS) || !(v->kind & MR_SET_NORMALS))
-		return false;
-	for (size_t i = 0; i < v->count; i++)
-		if (v->corner[i] == MR_NONE)
-			return false;
-	return true;
-}
-
-static mr_status
-put_set(glb *w, layer *l, size_t first, size_t last, json_t *primitives)
-{
-	json_t *attributes = json_object(), *targets = json_array();
-	mr_vertex_set v;
-	mr_status status = mr_set_make(w->ctx, &l->sets, first, last, &v);
-
-	if (status == MR_OK)
-		status = put_attributes(
-		    w, &l->node->model, &v, l->relief && has_frames(&v, last - first), attributes);
-	if (status == MR_OK)
-		status = put_targets(w, l->node, &v, targets);
-	if (status == MR_OK)
-		status = put_materials_of_set(w, l, first, last, primitives, attributes, targets);
-	json_decref(attributes);
-	json_decref(targets);
-	return status;
-}
-
-/* Frame 0 is the key, at frame i target i - 1 alone weighs 1: when, and how much. */
-static mr_status
-put_frames(glb *w, size_t targets, size_t *input, size_t *output)
-{
-	const double low = 0, high = mr_as_float((double)targets / FRAMES_A_SECOND);
-	size_t frames = targets + 1, view = 0;
-	char *to = NULL;
-
-	MR_TRY(new_view(w, 4 * frames, 0, &view, &to));
-	for (size_t i = 0; i < frames; i++)
-		to = mr_store_float(to, (float)((double)i / FRAMES_A_SECOND));
-	*input = new_accessor(w, view, MR_GLTF_FLOAT, frames, "SCALAR");
-	set_bounds(w, *input, &low, &high, 1);
-	MR_TRY(new_view(w, 4 * frames * targets, 0, &view, &to));
-	for (size_t i = 0; i < frames; i++)
-		for (size_t k = 0; k < targets; k++)
-			to = mr_store_float(to, i == k + 1 ? 1 : 0);
-	*output = new_accessor(w, view, MR_GLTF_FLOAT, frames * targets, "SCALAR");
-	return MR_OK;
-}
-
-static mr_status
-animate(glb *w, size_t node, size_t targets)
-{
-	json_t *sampler, *channel, *target;
-	size_t input = 0, output = 0;
-
-	MR_TRY(put_frames(w, targets, &input, &output));
-	sampler = json_object();
-	set(w, sampler, "input", number(input));
-	set(w, sampler, "output", number(output));
-	target = json_object();
-	set(w, target, "node", number(node));
-	set(w, target, "path", json_string("weights"));
-	channel = json_object();
-	set(w, channel, "sampler", number(push(w, w->samplers, sampler)));
-	set(w, channel, "target", target);
-	push(w, w->channels, channel);
-	return MR_OK;
-}
-
-/* A node and its mesh. */
-static mr_status
-put_node(glb *w, const mr_scene_node *from, const char *name, json_t *primitives)
-{
-	json_t *node = json_object(), *mesh = json_object();
-	size_t at;
-
-	set(w, mesh, "primitives", json_incref(primitives));
-	if (*name) {
-		set(w, mesh, "name", text_of(w, name, strlen(name)));
-		set(w, node, "name", text_of(w, name, strlen(name)));
-	}
-	set(w, node, "mesh", number(push(w, w->meshes, mesh)));
-	at = push(w, w->nodes, node);
-	return from->targets ? animate(w, at, from->targets) : MR_OK;
+	if (l->node->targets)
+		push(w, w->channels,
+		    json_pack("{s:I, s:{s:I, s:s}}", "sampler", number(l->sampler), "target", "node",
+			number(node), "path", "weights"));
 }
 
 /* The layer's name, and behind it the object's. */
 static char *
 object_name(glb *w, const layer *l, uint32_t object)
 {
-	const char **name = l->sets.object_name;
+	const char **name = l->object.start;
 
-	if (object >= l->sets.objects)
+	if (object >= l->object.count)
 		return mr_format(w->ctx, "%s", l->name);
 	return mr_format(w->ctx, "%s%s%.*s", l->name, *l->name ? ": " : "",
 	    (int)(name[object + 1] - name[object]) - 1, name[object]);
 }
 
-/* The sets of one object, from face *at in the order on, which goes behind them. */
-static mr_status
-put_object(glb *w, layer *l, size_t *at)
+/* Whether two faces can be of one primitive. */
+static bool
+is_alike(const layer *l, uint32_t f, uint32_t g)
 {
-	const mr_sets *s = &l->sets;
-	uint32_t object = s->object[s->face[*at]];
+	return l->object.of[f] == l->object.of[g] && l->material.of[f] == l->material.of[g] &&
+	       l->kind[f] == l->kind[g];
+}
+
+/* The primitives of one object, from face *at in the order on, which goes behind them. */
+static mr_status
+put_object(glb *w, const layer *l, size_t *at)
+{
+	uint32_t object = l->object.of[l->face[*at]];
 	char *name = object_name(w, l, object);
 	json_t *primitives = json_array();
 	mr_status status = name ? MR_OK : MR_EMEM;
 
-	while (*at < s->m->nf && s->object[s->face[*at]] == object && status == MR_OK) {
-		size_t end = mr_set_end(s, *at);
-		status = put_set(w, l, *at, end, primitives);
+	while (*at < l->node->model.nf && l->object.of[l->face[*at]] == object && status == MR_OK) {
+		size_t end = *at + 1;
+		while (end < l->node->model.nf && is_alike(l, l->face[*at], l->face[end]))
+			end++;
+		status = put_primitive(w, l, *at, end, primitives);
 		*at = end;
 	}
 	if (status == MR_OK)
-		status = put_node(w, l->node, name, primitives);
-	json_decref(primitives);
+		put_node(w, l, name, primitives);
+	else
+		json_decref(primitives);
 	return status;
 }
 
+/* What all corners of each face have; what only some have is lost. */
 static mr_status
-put_surface(glb *w, layer *l)
+find_kinds(glb *w, layer *l)
 {
-	size_t at = 0;
+	const mr_model *m = &l->node->model;
+	size_t some_normals = 0, some_texcoords = 0;
 
-	MR_TRY(mr_sets_begin(w->ctx, &l->node->model, &l->sets));
-	mr_lost(w->ctx, NULL, l->sets.partial_normals, "normals of triangles that lack others");
-	mr_lost(w->ctx, NULL, l->sets.partial_texcoords, "texture coordinates of triangles that lack others");
-	MR_TRY(put_materials(w, l));
-	MR_TRY(mr_sets_ambiguous(w->ctx, &l->sets, &w->numbered));
-	while (at < l->node->model.nf)
-		MR_TRY(put_object(w, l, &at));
+	l->kind = MR_NEW(w->ctx, m->nf, uint32_t);
+	if (!l->kind)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++) {
+		size_t texcoords = 0, normals = 0;
+		for (size_t c = 3 * f; c < 3 * f + 3; c++) {
+			const mr_v3 *n = m->corner_normal ? m->corner_normal + c
+			                 : m->normal      ? m->normal + m->t[f].v[c % 3]
+			                                  : NULL;
+			texcoords += has_texcoord(mr_corner_texcoord(m, c));
+			normals += n && is_direction(*n);
+		}
+		some_texcoords += texcoords % 3;
+		some_normals += normals % 3;
+		l->kind[f] = (texcoords == 3 ? TEXCOORDS : 0u) | (normals == 3 ? NORMALS : 0u);
+	}
+	mr_lost(w->ctx, NULL, some_normals, "normals of triangles that lack others");
+	mr_lost(w->ctx, NULL, some_texcoords, "texture coordinates of triangles that lack others");
 	return MR_OK;
 }
 
+/* Faces by object, material and kind. */
 static mr_status
+order_faces(glb *w, layer *l)
+{
+	const mr_model *m = &l->node->model;
+
+	MR_TRY(find_kinds(w, l));
+	MR_TRY(mr_face_names_find(w->ctx, m->object, m->objects, m->nf, &l->object));
+	MR_TRY(mr_face_names_find(w->ctx, m->material, m->materials, m->nf, &l->material));
+	l->face = MR_NEW(w->ctx, m->nf, uint32_t);
+	if (!l->face)
+		return MR_EMEM;
+	for (size_t f = 0; f < m->nf; f++)
+		l->face[f] = (uint32_t)f;
+	MR_TRY(mr_sort_by(w->ctx, l->kind, KINDS, l->face, m->nf));
+	MR_TRY(mr_sort_by(w->ctx, l->material.of, l->material.count, l->face, m->nf));
+	return mr_sort_by(w->ctx, l->object.of, l->object.count, l->face, m->nf);
+}
+
+/* Points have normals where all of them have some. */
+static void
 put_cloud(glb *w, const layer *l)
 {
-	json_t *primitives = json_array(), *attributes = json_object(), *targets = json_array();
-	mr_vertex_set v;
-	mr_status status = mr_set_cloud(w->s, &l->node->model, &v);
+	const mr_model *m = &l->node->model;
+	json_t *primitives = json_array();
+	size_t normals = 0;
 
-	if (status == MR_OK)
-		status = put_attributes(w, &l->node->model, &v, false, attributes);
-	if (status == MR_OK)
-		status = put_targets(w, l->node, &v, targets);
-	set(w, new_primitive(w, primitives, attributes, targets), "mode", number(POINTS));
-	if (status == MR_OK)
-		status = put_node(w, l->node, l->name, primitives);
-	json_decref(primitives);
-	json_decref(attributes);
-	json_decref(targets);
-	return status;
+	for (size_t i = 0; m->normal && i < m->nv; i++)
+		normals += is_direction(m->normal[i]);
+	mr_lost(w->ctx, NULL, normals % m->nv, "normals beside points without");
+	push(w, primitives, new_primitive(l, normals == m->nv, true, MR_UNKNOWN, MR_UNKNOWN, POINTS));
+	put_node(w, l, l->name, primitives);
+}
+
+static mr_status
+put_layer(glb *w, layer *l)
+{
+	const mr_model *m = &l->node->model;
+	size_t at = 0;
+
+	if (m->nv == 0)
+		return mr_fail(w->ctx, MR_EMESH, "a layer without a vertex cannot be written as glb");
+	MR_TRY(mr_gltf_vertices_find(w->ctx, m, &l->v));
+	MR_TRY(put_vertices(w, l));
+	MR_TRY(put_poses(w, l));
+	if (m->nf == 0) {
+		put_cloud(w, l);
+		return MR_OK;
+	}
+	MR_TRY(order_faces(w, l));
+	MR_TRY(put_materials(w, l));
+	while (at < m->nf)
+		MR_TRY(put_object(w, l, &at));
+	return MR_OK;
 }
 
 /* ---- the file ---- */
@@ -739,57 +595,34 @@ static mr_status
 put_scene(glb *w)
 {
 	for (size_t i = 0; i < w->scene->nodes; i++) {
-		const mr_scene_node *n = &w->scene->node[i];
-		layer l = { .node = n, .name = node_name(w->ctx, w->scene, n) };
-		if (!l.name)
-			return MR_EMEM;
-		if (n->model.nv == 0)
-			return mr_fail(w->ctx, MR_EMESH, "a layer without a vertex cannot be written as glb");
-		w->numbered = false;
-		MR_TRY(n->model.nf ? put_surface(w, &l) : put_cloud(w, &l));
-		w->numbers += n->model.nv;
+		layer l = { .node = &w->scene->node[i],
+			.name = node_name(w->ctx, w->scene, &w->scene->node[i]),
+			.targets = json_array(),
+			.bare_targets = json_array() };
+		mr_status status = l.name ? put_layer(w, &l) : MR_EMEM;
+		json_decref(l.targets);
+		json_decref(l.bare_targets);
+		MR_TRY(status);
 	}
 	return MR_OK;
 }
 
 /* All nodes stand beside each other in one scene. */
-static void
-put_root(glb *w)
+static json_t *
+new_root(glb *w)
 {
-	json_t *asset = json_object(), *scene = json_object(), *scenes = json_array(), *list = json_array(),
-	       *buffer = json_object(), *buffers = json_array(), *animation = json_object(),
-	       *animations = json_array();
+	json_t *list = json_array(), *animations = NULL;
 
-	set(w, asset, "version", json_string("2.0"));
-	set(w, asset, "generator", json_string("mr " MR_VERSION));
-	set(w, w->root, "asset", asset);
 	for (size_t i = 0; i < json_array_size(w->nodes); i++)
-		push(w, list, number(i));
-	set(w, scene, "nodes", list);
-	push(w, scenes, scene);
-	set(w, w->root, "scene", number(0));
-	set(w, w->root, "scenes", scenes);
-	set(w, buffer, "byteLength", number(w->bytes));
-	push(w, buffers, buffer);
-	set(w, w->root, "buffers", buffers);
-	set_array(w, animation, "samplers", w->samplers);
-	set_array(w, animation, "channels", w->channels);
-	push(w, animations, animation);
+		push(w, list, json_integer(number(i)));
 	if (json_array_size(w->channels))
-		set(w, w->root, "animations", json_incref(animations));
-	json_decref(animations);
-}
-
-static void
-put_lists(glb *w)
-{
-	set_array(w, w->root, "nodes", w->nodes);
-	set_array(w, w->root, "meshes", w->meshes);
-	set_array(w, w->root, "materials", w->materials);
-	set_array(w, w->root, "textures", w->textures);
-	set_array(w, w->root, "images", w->images);
-	set_array(w, w->root, "accessors", w->accessors);
-	set_array(w, w->root, "bufferViews", w->views);
+		animations = json_pack("[{s:O, s:O}]", "samplers", w->samplers, "channels", w->channels);
+	return json_pack(
+	    "{s:{s:s, s:s}, s:i, s:[{s:o}], s:[{s:I}], s:o*, s:o*, s:o*, s:o*, s:o*, s:o*, s:o*, s:o*}",
+	    "asset", "version", "2.0", "generator", "mr " MR_VERSION, "scene", 0, "scenes", "nodes", list,
+	    "buffers", "byteLength", number(w->bytes), "animations", animations, "nodes", filled(w->nodes),
+	    "meshes", filled(w->meshes), "materials", filled(w->materials), "textures", filled(w->textures),
+	    "images", filled(w->images), "accessors", filled(w->accessors), "bufferViews", filled(w->views));
 }
 
 static void
@@ -831,12 +664,13 @@ static mr_status
 put_document(glb *w)
 {
 	mr_text json = { .ctx = w->ctx };
+	json_t *root;
 
 	MR_TRY(put_scene(w));
-	mr_materials_lost(w->ctx, w->lost);
-	put_root(w);
-	put_lists(w);
-	if (w->failed || json_dump_callback(w->root, add_text, &json, JSON_COMPACT))
+	root = new_root(w);
+	w->failed |= json_dump_callback(root, add_text, &json, JSON_COMPACT) != 0;
+	json_decref(root);
+	if (w->failed)
 		return mr_fail(w->ctx, MR_EMEM, "no memory for the JSON of a glb");
 	MR_TRY(mr_text_done(&json));
 	return put_chunks(w, json.s);
@@ -845,7 +679,7 @@ put_document(glb *w)
 mr_status
 mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
 {
-	glb w = { .s = s, .ctx = s->ctx, .scene = scene, .root = json_object(), .unnamed = MR_UNKNOWN };
+	glb w = { .s = s, .ctx = s->ctx, .scene = scene, .unnamed = MR_UNKNOWN };
 	json_t **const lists[] = { &w.nodes, &w.meshes, &w.views, &w.accessors, &w.materials, &w.images,
 		&w.textures, &w.samplers, &w.channels };
 	mr_status status;
@@ -855,7 +689,6 @@ mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
 	status = put_document(&w);
 	for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
 		json_decref(*lists[i]);
-	json_decref(w.root);
 	return status;
 }
 

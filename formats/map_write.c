@@ -3,9 +3,9 @@
 #include "base/options.h"
 #include "base/parallel.h"
 #include "base/text.h"
+#include "formats/build.h"
 #include "formats/bytes.h"
 #include "formats/map.h"
-#include "formats/names.h"
 #include "formats/scan.h"
 #include "subdivide/atlas.h"
 
@@ -367,16 +367,15 @@ static mr_status
 put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
 {
 	uint32_t *material = MR_NEW_ZERO(ctx, a->faces, uint32_t);
-	const char *file = mr_format(ctx, "%s.mtl", name);
-	mr_lines own, library;
+	char *file = mr_format(ctx, "%s.mtl", name);
+	size_t bytes;
 
 	if (!material || !file)
 		return MR_EMEM;
-	MR_TRY(mr_names_escape(ctx, (mr_lines){ name, strlen(name) }, &own));
-	MR_TRY(mr_names_escape(ctx, (mr_lines){ file, strlen(file) }, &library));
+	bytes = mr_clean_name(file, file, strlen(file), false);
 	MR_TRY(mr_layer_put(ctx, f, "control", "material", material, a->faces));
-	MR_TRY(mr_layer_put(ctx, f, "control", "materials", own.text, own.bytes));
-	return mr_layer_put(ctx, f, "control", "mtllib", library.text, library.bytes);
+	MR_TRY(mr_layer_put(ctx, f, "control", "materials", file, bytes - strlen(".mtl")));
+	return mr_layer_put(ctx, f, "control", "mtllib", file, bytes);
 }
 
 /* ---- writing ---- */

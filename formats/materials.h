@@ -14,13 +14,9 @@ typedef struct mr_material {
 	double color[3];         /* Kd, from 0 to 1, as pictures have it */
 	double emission[3];      /* Ke, likewise */
 	double opacity;          /* d, or 1 - Tr, from 0 to 1 */
-	bool dissolved;          /* by d */
 	double roughness, metal; /* Pr and Pm, from 0 to 1 */
 	const char *file;        /* the picture of map_Kd, which is there; NULL: none */
 	const char *normals;     /* likewise of norm or map_Kn */
-	const char *heights;     /* and of disp or map_disp: from 0 to 1, times the gain, plus the base */
-	double base, gain;
-	unsigned lost; /* a bit for each thing said of it that nothing here is made of */
 } mr_material;
 
 /* What nothing is said of: opaque, of no metal, and rough as most things are. */
@@ -28,13 +24,9 @@ extern const mr_material mr_material_plain;
 
 /*
  * What the files of the model's mtllib in `folder` say of each line of its materials.  A file that is not
- * there is reported, no failure, and so are statements without their numbers, and numbers out of range.
- * list: *count, in the arena; none of a model without materials.
+ * there is reported, no failure.  list: *count, in the arena; none of a model without materials.
  */
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
-
-/* Reports what a file cannot show: `lost` of all its materials. */
-void mr_materials_lost(mr_ctx *ctx, unsigned lost);
 
 #endif

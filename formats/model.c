@@ -2,7 +2,6 @@
 #include "formats/model.h"
 #include "formats/build.h"
 #include "formats/format.h"
-#include "formats/names.h"
 #include "mesh/normals.h"
 #include "mesh/validate.h"
 #include "stream/record.h"
@@ -229,15 +228,6 @@ put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 	return *text ? mr_layer_put(ctx, f, layer, "properties", text, strlen(text)) : MR_OK;
 }
 
-static mr_status
-put_names(mr_ctx *ctx, mr_frame *f, const char *layer, const char *what, mr_lines lines)
-{
-	if (!lines.text)
-		return MR_OK;
-	MR_TRY(mr_names_escape(ctx, lines, &lines));
-	return mr_layer_put(ctx, f, layer, what, lines.text, lines.bytes);
-}
-
 mr_status
 mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
@@ -255,9 +245,10 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 		if (column_of(m, i))
 			MR_TRY(mr_layer_put(ctx, f, layer, columns[i].name, column_of(m, i),
 			    columns[i].of_faces ? m->nf : m->nv));
-	for (size_t i = 0; i < NAMES; i++) {
-		MR_TRY(put_names(ctx, f, layer, names[i].name, *lines_of(&all, i)));
-	}
+	for (size_t i = 0; i < NAMES; i++)
+		if (lines_of(&all, i)->text)
+			MR_TRY(mr_layer_put(
+			    ctx, f, layer, names[i].name, lines_of(&all, i)->text, lines_of(&all, i)->bytes));
 	return put_properties(ctx, f, layer, m);
 }
 
@@ -364,7 +355,6 @@ mr_model_get(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 			continue;
 		MR_TRY(mr_layer_get(ctx, f, layer, names[i].name, &data, &l->bytes));
 		l->text = data;
-		MR_TRY(mr_names_raw(ctx, *l, l));
 	}
 	MR_TRY(get_properties(ctx, f, layer, &got));
 	*m = got;

@@ -25,8 +25,6 @@ typedef struct obj {
 	bool slashes;                    /* the face at hand has a slash with nothing behind it */
 	uint32_t *corners;               /* of the face at hand: vertices, texture coordinates, normals */
 	size_t corner_room;
-	char *libraries; /* of materials, one a line */
-	size_t library_bytes, library_room;
 	mr_status status; /* of the first failure, after which nothing is read */
 } obj;
 
@@ -351,24 +349,6 @@ smoothing(obj *o, mr_scan *line)
 	return MR_OK;
 }
 
-static mr_status
-library(obj *o, const mr_scan *line)
-{
-	size_t n = (size_t)(line->end - line->p);
-
-	while (n && mr_is_blank(line->p[n - 1]))
-		n--;
-	if (n == 0)
-		return MR_OK;
-	MR_TRY(MR_RESERVE(o->ctx, o->libraries, o->library_bytes, n + 1, &o->library_room));
-	if (o->library_bytes)
-		o->libraries[o->library_bytes++] = '\n';
-	memcpy(o->libraries + o->library_bytes, line->p, n);
-	o->library_bytes += n;
-	o->b.mtllib = (mr_lines){ o->libraries, o->library_bytes };
-	return MR_OK;
-}
-
 /* A statement that marks the faces to come, or names materials' files; false for any other. */
 static bool
 is_mark(obj *o, mr_scan *line, mr_status *status)
@@ -388,7 +368,7 @@ is_mark(obj *o, mr_scan *line, mr_status *status)
 	if (words[i].what == MR_SMOOTHING)
 		*status = smoothing(o, line);
 	else if (words[i].what == MR_MARKINGS)
-		*status = library(o, line);
+		*status = mr_build_library(&o->b, line->p, (size_t)(line->end - line->p));
 	else
 		*status = mr_build_mark(&o->b, words[i].what, line->p, (size_t)(line->end - line->p));
 	return true;

@@ -6,8 +6,8 @@ typedef struct values {
 	char letter; /* t or n */
 	size_t width;
 	const double *vertex, *corner;
-	uint32_t *place; /* of the corners' values: line from 1, 0 of one without; NULL where they are of
-	                    vertices */
+	uint32_t *place; /* of the corners' values: line from 0, MR_NONE of one without; NULL where they are
+	                    of vertices */
 } values;
 
 static void
@@ -31,55 +31,19 @@ put_value(mr_sink *s, const values *x, const double *value)
 	mr_put_reals(s, value, x->width, '\n');
 }
 
-static bool
-is_absent(const values *x, const double *value)
-{
-	return x->width == 2 ? isnan(value[0]) || isnan(value[1])
-	                     : value[0] == 0 && value[1] == 0 && value[2] == 0;
-}
-
-static size_t
-hash_of(const double *value, size_t width)
-{
-	uint64_t bits[3], h = 0;
-
-	memcpy(bits, value, width * sizeof *bits);
-	for (size_t k = 0; k < width; k++) {
-		h = (h ^ bits[k]) * 0x9e3779b97f4a7c15u;
-		h ^= h >> 32;
-	}
-	return (size_t)h;
-}
-
 /* Writes each value of corners once, in order of first use. */
 static mr_status
 put_corner_values(mr_sink *s, values *x, size_t corners)
 {
-	size_t mask = 64, bytes = x->width * sizeof *x->corner;
-	uint32_t *slot, *first, lines = 0;
+	uint32_t *first = MR_NEW(s->ctx, corners, uint32_t);
+	size_t lines;
 
-	while (mask < corners + corners / 2)
-		mask *= 2;
-	slot = MR_NEW_ZERO(s->ctx, mask--, uint32_t);
-	first = MR_NEW(s->ctx, corners, uint32_t);
 	x->place = MR_NEW(s->ctx, corners, uint32_t);
-	if (!slot || !first || !x->place)
+	if (!first || !x->place)
 		return MR_EMEM;
-	for (size_t i = 0; i < corners; i++) {
-		const double *value = x->corner + x->width * i;
-		size_t at = hash_of(value, x->width) & mask;
-		x->place[i] = 0;
-		if (is_absent(x, value))
-			continue;
-		while (slot[at] && memcmp(value, x->corner + x->width * first[slot[at] - 1], bytes))
-			at = (at + 1) & mask;
-		if (slot[at] == 0) {
-			first[lines] = (uint32_t)i;
-			slot[at] = ++lines;
-			put_value(s, x, value);
-		}
-		x->place[i] = slot[at];
-	}
+	MR_TRY(mr_number_rows(s->ctx, x->corner, x->width, corners, x->place, first, &lines));
+	for (size_t i = 0; i < lines; i++)
+		put_value(s, x, x->corner + x->width * first[i]);
 	return MR_OK;
 }
 
@@ -95,7 +59,9 @@ put_values(mr_sink *s, const mr_model *m, values *x)
 static uint64_t
 line_of(const values *x, uint32_t corner, uint32_t vertex)
 {
-	return x->vertex ? (uint64_t)vertex + 1 : x->place ? x->place[corner] : 0;
+	if (x->vertex)
+		return (uint64_t)vertex + 1;
+	return x->place && x->place[corner] != MR_NONE ? (uint64_t)x->place[corner] + 1 : 0;
 }
 
 static void

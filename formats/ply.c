@@ -593,12 +593,9 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		.end = data + size,
 		.text = mr_scan_of(ctx, data, size),
 		.ascii = true,
-		.files = { .ctx = ctx },
 		.b = { .ctx = ctx } };
 
 	MR_TRY(mr_ply_header(&f));
-	MR_TRY(mr_text_done(&f.files));
-	f.b.mtllib = (mr_lines){ f.files.s, f.files.n };
 	MR_TRY(read_elements(&f));
 	if (!mr_all_left(ctx, f.odd_uv, f.b.nv, "texture coordinates"))
 		f.b.texcoord = NULL;

@@ -7,7 +7,6 @@
 #ifndef MR_PLY_H
 #define MR_PLY_H
 
-#include "base/text.h"
 #include "formats/format.h"
 
 typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
@@ -95,7 +94,6 @@ typedef struct ply {
 	size_t indices_count, indices_room;
 	corner_list uv, vn;
 	named_list names[3]; /* of groups, objects, materials */
-	mr_text files;       /* of materials, one a line */
 	double *row;         /* of the row at hand, value by value */
 	size_t row_room;
 	mr_shades shades[2];                    /* of colours, of alpha */

@@ -158,10 +158,8 @@ header_comment(ply *f, mr_scan *line)
 		}
 	if (mr_scan_accept(line, "TextureFile"))
 		f->textures++;
-	else if (mr_scan_accept(line, "mtllib")) {
-		mr_skip_blanks(line);
-		mr_text_add(&f->files, "%s%.*s", f->files.n ? "\n" : "", (int)(line->end - line->p), line->p);
-	}
+	else if (mr_scan_accept(line, "mtllib"))
+		return mr_build_library(&f->b, line->p, (size_t)(line->end - line->p));
 	return MR_OK;
 }
 

@@ -44,7 +44,7 @@ colors
 printf 'newmtl red\n\0' >m.mtl
 mr-import -q model.obj | mr-export model.glb
 
-echo '-- transparency and light are kept, and what is not is named' >&2
+echo '-- transparency and light are kept' >&2
 model red green blue >model.obj
 cat >m.mtl <<'MTL'
 newmtl red
@@ -63,23 +63,8 @@ MTL
 mr-import model.obj | mr-export model.glb
 grep -a -o '"baseColorFactor":\[[^]]*\]\|"alphaMode":"[A-Z]*"\|"emissiveFactor":\[[^]]*\]' model.glb
 
-echo '-- a colour that its picture hides; one that changes nothing' >&2
-model red green >model.obj
-printf 'newmtl red\nKd 0.2 0.4 0.6\nmap_Kd b.png\nnewmtl green\nKd 1 0 0\n' >m.mtl
-mr-import model.obj | mr-export --materials . model.glb
-sed -i 's/0.2 0.4 0.6/1 1 1/' m.mtl
-mr-import model.obj | mr-export --materials . model.glb
-
 echo '-- a colour that is none, two descriptions of one, in a file that is named twice' >&2
 printf 'newmtl red\nKd spectral red.rfl\nnewmtl green\nKd 1 0 0\nmap_Kd b.png\nnewmtl green\nKd 0 1 0\n' >m.mtl
 sed -i 's/^mtllib.*/&\n&/' model.obj
 mr-import model.obj | mr-export --materials . model.glb
 grep -a -o '"baseColorFactor":\[[^]]*\]\|"baseColorTexture"' model.glb
-
-echo '-- options of a picture: that change nothing, that nothing follows, that have a word' >&2
-mr-make plane -n 8 | mr-render -q -s 16x16 b.png
-printf 'mtllib x.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 2 0\nvt 0 2\nusemtl m\nf 1/1 2/2 3/3\n' >u.obj
-for options in '-s 1 1 1 -o 0 0 0 -clamp off -texres 64' '-clamp on' '-imfchan r' '-o 0.1 -0.2' '-unheard -of'; do
-	printf 'newmtl m\nmap_Kd %s b.png\n' "$options" >x.mtl
-	mr-export -i u.obj u.glb
-done

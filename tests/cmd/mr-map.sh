@@ -59,10 +59,6 @@ mr-map -w ranged --range=-2,2 --gutter 1 scan.mrs --stats stats -o ranged.mrs
 figures stats
 mr-map -w cut --range=-0.1,0.1 --level 1 scan.mrs -o cut.mrs
 mr-map -w '%s-%d' scan.mrs -o named.mrs && ls *-1-*
-for name in 'a%%41b' "$(printf 'b\351')"; do # what looks like an escaped byte, and one that is not UTF-8
-	mr-map -w "$name" scan.mrs | mr-export -l control "$name.obj" && file=$(printf "$name").obj &&
-	    mr-import "$file" -o named.mrs 2>&1 && grep -a mtllib "$file" | od -An -c | head -n 1
-done
 python3 - <<'END' # the same without its texts
 import struct
 data, at, out = open('ranged-height.png', 'rb').read(), 8, b'\x89PNG\r\n\x1a\n'

@@ -134,7 +134,7 @@ for both in sides.values():
             differ = max(differ, abs(a - b))
 check(differ < 0.5, 'the sides of a seam differ by', differ, 'steps')
 
-# Normals, at the corners of control, where GLB has the frames: within what 8 bits round, where the map has them.
+# Normals, at the corners of control, in the frames that the format asks viewers for: within what 8 bits round, where the map has them.
 data = open(sys.argv[3], 'rb').read()
 size = struct.unpack('<I', data[12:16])[0]
 doc, blob = json.loads(data[20:20 + size]), data[28 + size:]
@@ -147,9 +147,19 @@ def values(accessor, width, kind='f'):
     return [flat[i:i + width] for i in range(0, len(flat), width)]
 
 
+def tangent(corners, normal):
+    """Where u increases on a triangle, across the normal, and to which side of it v then does (Mikkelsen)."""
+    p, q = [place[i] for i in corners], [uv[i] for i in corners]
+    ab, ac, (du, dv), (eu, ev) = sub(p[1], p[0]), sub(p[2], p[0]), sub(q[1], q[0]), sub(q[2], q[0])
+    side = 1 if du * ev - eu * dv < 0 else -1  # v runs down
+    t = [side * (dv * y - ev * x) for x, y in zip(ab, ac)]
+    along = dot(t, normal) / dot(normal, normal)
+    return unit([x - along * y for x, y in zip(t, normal)]), side
+
+
 part = doc['meshes'][0]['primitives'][0]
 n, uv = values(part['attributes']['NORMAL'], 3), values(part['attributes']['TEXCOORD_0'], 2)
-tangent, index = values(part['attributes']['TANGENT'], 4), values(part['indices'], 1, 'I')
+index, place = values(part['indices'], 1, 'I'), values(part['attributes']['POSITION'], 3)
 level = int(text['Height level'])
 true = vertex_normals(truth, decoded)
 most = used = 0
@@ -161,7 +171,8 @@ for f in range(len(index) // 3):
         x, y = uv[i][0] * width - 0.5, uv[i][1] * height - 0.5
         check(abs(x - round(x)) < 0.01 and abs(y - round(y)) < 0.01, 'a corner is on no texel')
         c = [2 * b / 255 - 1 for b in normals[2][round(y)][3 * round(x):3 * round(x) + 3]]
-        t, b = tangent[i][:3], [tangent[i][3] * d for d in cross(n[i], tangent[i][:3])]
+        t, side = tangent([index[3 * f + j][0] for j in range(3)], n[i])
+        b = [side * d for d in cross(n[i], t)]
         shown = unit([c[0] * p + c[1] * q + c[2] * r for p, q, r in zip(t, b, n[i])])
         check(abs(dot(t, n[i])) < 1e-5 and abs(dot(t, t) - 1) < 1e-5, 'no frame')
         if dot(true[decoded[fine][k][0]], n[i]) > 0.05:
@@ -171,6 +182,5 @@ check(used > 0.9 * len(index), 'only', used, 'of', len(index), 'corners look the
 check(most < 0.5, 'normals are', most, 'degrees off')
 material = doc['materials'][part['material']]
 check('normalTexture' in material, 'no picture of normals')
-check(material['extras']['displacementBias'] == low, 'another range')
 print('steps', worst / step, 'seams', differ, 'degrees', most, file=sys.stderr)
 sys.exit(fail)
