@@ -94,7 +94,7 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_pag
 	bool control = d->there && !strcmp(c->layer, "control");
 
 	if (!*c->layer)
-		return !strcmp(c->name, "history") || !strcmp(c->name, "latest");
+		return !strcmp(c->name, "history") || !strcmp(c->name, "latest") || !strcmp(c->name, "findings");
 	if (is_posing(c) && strcmp(c->layer, "handles") != 0)
 		return control ? is_control_posable(f, d) : is_posable(f, layers);
 	if (is_posing(c))

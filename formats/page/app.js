@@ -4,7 +4,6 @@
  */
 import { colour } from "./coloring.js";
 import { Drawn } from "./draw/drawn.js";
-import { Flaws } from "./draw/flaws.js";
 import { Pictures } from "./draw/pictures.js";
 import { firstLayer, layersOf } from "./stream/layers.js";
 import { setLevel, showLevel } from "./mesh/levels.js";
@@ -31,14 +30,13 @@ export class App {
 		this.frames = frames;
 		this.stage = new Stage($("canvas"), $("foot"), mostFaces(frames) < FINE);
 		this.pictures = new Pictures(pictures, this.stage.renderer);
-		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, flaws: false, color: null, range: null };
+		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, color: null, range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
 		this.picked = null;
 		this.telling = 0;
 		this.painter = new Painter(this);
-		this.flaws = new Flaws(() => this.stage.ask());
 		this.posing = new Posing(this);
 	}
 
@@ -70,7 +68,7 @@ export class App {
 		this.painter.dress(frame);
 		const layers = layersOf(frame);
 		showLevel(frame);
-		showName(frame, await linesOf(frame, "", "history"));
+		showName(frame, await linesOf(frame, "", "history"), await linesOf(frame, "", "findings"));
 		const visible = await this.visible(frame, layers), seen = layers.filter((l) => visible.has(l.name));
 		listLayers(layers, visible, (name, on) => this.turn(name, on));
 		offerShading(seen);
@@ -79,7 +77,6 @@ export class App {
 		this.color = await colour(side, this.choice, this.pictures);
 		for (const { name } of seen)
 			this.drawn.get(name).drawn.look(this.choice.flat, this.choice.wire);
-		this.flaws.show(side, this.choice.flaws);
 		this.stage.show(seen.map((l) => [l.name, this.drawn.get(l.name).drawn]));
 		this.posing.drawAgain(frame, this.centre);
 		$("message").textContent = this.nothing(layers, seen);

@@ -26,7 +26,6 @@ const KEYS = {
 	c: () => cycle($("color")),
 	s: () => document.querySelector("input[name=shade]:not(:checked)").click(),
 	e: () => $("wire").click(),
-	d: () => $("shading").hidden || $("flaws").click(),
 	v: () => cycle($("view")),
 	f: () => $("fit").click(),
 	n: (shift) => stepModel(shift ? -1 : 1),

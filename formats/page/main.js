@@ -45,7 +45,6 @@ function connect(app) {
 	for (const shade of document.querySelectorAll("input[name=shade]"))
 		shade.addEventListener("change", () => app.change({ flat: $("flat").checked }));
 	$("wire").addEventListener("change", () => app.change({ wire: $("wire").checked }));
-	$("flaws").addEventListener("change", () => app.change({ flaws: $("flaws").checked }));
 	$("view").addEventListener("change", () => app.fit(view()));
 	$("fit").addEventListener("click", () => app.fit());
 	$("up").addEventListener("change", () => {

@@ -83,10 +83,20 @@ export function showLegend(legend) {
 	$("high").value = Number(legend.range.high.toPrecision(5));
 }
 
-export function showName(frame, history) {
+/* A finding, as lib/base/finding.c writes it, in words. */
+function sayFinding(line) {
+	const [tool, kind, layer, count, of, , , vertex, , , , what] = line.split("\t");
+	const many = count > 0 ? " (" + count + (of > 0 ? " of " + of : "") + ")" : "";
+
+	return tool + ": " + (layer ? layer + " " : "") + kind + many + (vertex ? ", vertex " + vertex : "") + (what ? ": " + what : "");
+}
+
+export function showName(frame, history, findings) {
 	$("name").textContent = "";
 	$("name").append(element("bdi", titleOf(frame)));
 	document.title = $("name").textContent;
+	$("found").hidden = findings.length === 0;
+	$("findings").replaceChildren(...findings.map((line) => element("div", sayFinding(line))));
 	$("past").hidden = history.length === 0;
 	$("history").replaceChildren(...history.map((line) => element("div", line)));
 }

@@ -100,19 +100,6 @@ export class Drawn {
 			this.edges.geometry.attributes.position.needsUpdate = true;
 		if (this.mark.visible)
 			this.pointTo(this.marked);
-		if (this.marks)
-			this.marks.follow();
-	}
-
-	/* Marks of flaws, or none, in place of those before. */
-	setMarks(marks) {
-		if (this.marks) {
-			this.group.remove(this.marks.group);
-			this.marks.dispose();
-		}
-		this.marks = marks;
-		if (marks)
-			this.group.add(marks.group);
 	}
 
 	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
@@ -207,7 +194,6 @@ export class Drawn {
 
 	/* Frees what the graphics card has of it, but for materials that it shares with `after`. */
 	dispose(after) {
-		this.setMarks(null);
 		if (this.solid)
 			this.solid.free();
 		for (const child of this.group.children)

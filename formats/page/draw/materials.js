@@ -34,7 +34,7 @@ void main() {
 	gl_FragColor = out2 > 0.45 ? vec4(1.0) : vec4(0.85, 0.1, 0.15, 1.0);
 }`;
 
-export function pointMaterial(fragmentShader, uniforms, more) {
+function pointMaterial(fragmentShader, uniforms, more) {
 	return new THREE.ShaderMaterial({
 		vertexShader: POINT_VERTEX,
 		fragmentShader,

@@ -1,11 +1,7 @@
-/* A surface as the page shows it: with what normals, what a ray meets, what the eye sees, discs over it, its
- * flaws. */
+/* A surface as the page shows it: with what normals, what a ray meets, what the eye sees, discs over it. */
 #include "formats/page/library/export.h"
-#include "mesh/edges.h"
-#include "mesh/fold.h"
 #include "space/bvh.h"
 #include "space/geodesic.h"
-#include "space/self_intersect.h"
 
 typedef struct surface {
 	/* For the page to read: what was found last; what is drawn: triangles of the vertices, and, behind
@@ -19,7 +15,6 @@ typedef struct surface {
 	mr_v3 *p, *cross; /* of the vertices, and of the faces, as mr_face_cross has it */
 	mr_incidence around;
 	mr_bvh *bvh;    /* NULL: not made yet */
-	mr_edges edges; /* of no count: not made yet */
 	double *distance;
 } surface;
 
@@ -142,50 +137,6 @@ surface_disc(surface *s, uint32_t face, const mr_v3 *place, double radius)
 		if (s->distance[v] <= radius)
 			s->found[n++] = v;
 	return n;
-}
-
-/* How many edges between two faces are folded; `found` has the two ends of each. */
-MR_EXPORT(surface_folds)
-size_t
-surface_folds(surface *s)
-{
-	const mr_mesh *m = &s->m;
-	size_t n = 0;
-
-	if (!s->edges.count && mr_edges_build(&s->ctx, m, &s->edges) != MR_OK)
-		return 0;
-	if (!make_list(s, 2 * s->edges.count))
-		return 0;
-	for (size_t e = 0; e < s->edges.count; e++) {
-		const uint32_t *h = s->edges.he + s->edges.start[e];
-		if (mr_edge_faces(&s->edges, e) != 2)
-			continue;
-		mr_v3 a = s->cross[h[0] / 3], b = s->cross[h[1] / 3];
-		if (!mr_folds(a, mr_same_direction(m, h[0], h[1]) ? mr_mul(-1, b) : b, MR_FOLD))
-			continue;
-		s->found[n++] = mr_he_from(m, h[0]);
-		s->found[n++] = mr_he_to(m, h[0]);
-	}
-	return n / 2;
-}
-
-/* How many faces intersect others; `found` has their corners.  With its tree. */
-MR_EXPORT(surface_crossings)
-size_t
-surface_crossings(surface *s)
-{
-	mr_mark mark = mr_mark_take(&s->tree);
-	bool *crosses = MR_NEW(&s->tree, s->m.nf, bool);
-	size_t pairs, n = 0;
-
-	if (!crosses || mr_self_intersections(&s->tree, s->bvh, &s->m, crosses, &pairs) != MR_OK ||
-	    !make_list(s, 3 * s->m.nf))
-		return 0;
-	for (size_t k = 0; k < 3 * s->m.nf; k++)
-		if (crosses[k / 3])
-			s->found[n++] = s->m.t[k / 3].v[k % 3];
-	mr_mark_release(&s->tree, mark);
-	return n / 3;
 }
 
 /* Faces farther apart are not shaded as one, as in mr-render; a vertex is asked whose normal is farther from

@@ -1,4 +1,4 @@
-/* solid.js -- a surface that is drawn in the library's memory: how it is shaded, what a ray meets, what the eye sees, discs over it, flaws. */
+/* solid.js -- a surface that is drawn in the library's memory: how it is shaded, what a ray meets, what the eye sees, discs over it. */
 import { library } from "../library/compile.js";
 
 const NONE = 0xffffffff;
@@ -77,21 +77,6 @@ export class Solid {
 
 		library.free(at);
 		return this.read(Uint32Array, 0, n);
-	}
-
-	/* The two ends of each folded edge: between faces whose normals are more than 170 degrees apart. */
-	folds() {
-		const n = library.run.surface_folds(this.at);
-
-		return this.read(Uint32Array, 0, 2 * n);
-	}
-
-	/* The corners of faces that intersect others. */
-	crossings() {
-		this.prepare();
-		const n = library.run.surface_crossings(this.at);
-
-		return this.read(Uint32Array, 0, 3 * n);
 	}
 
 	free() {

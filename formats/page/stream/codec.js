@@ -1,10 +1,9 @@
 /*
  * codec.js -- the values of a column: raw, or packed (mr-stream 5, codec 1): differences of rows, their bytes in planes,
- * deflated.  Unpacked values are kept as long as there is room for them.
+ * deflated.
  */
 import { library } from "../library/compile.js";
 
-const ROOM = 256 << 20; /* bytes of unpacked columns that are kept */
 const SIZE = { d: 8, u: 4, b: 1, t: 1 };
 const ARRAY = { d: Float64Array, u: Uint32Array, b: Uint8Array, t: Uint8Array };
 
@@ -49,38 +48,18 @@ function fromSums(sums, components, { step, origin }) {
 	return out;
 }
 
-/* Columns whose values are kept, the one asked for longest ago first. */
-const kept = new Map();
-let used = 0;
-
-function keep(column, values) {
-	kept.set(column, values);
-	used += values.byteLength;
-	for (const [old, its] of kept) {
-		if (used <= ROOM || old === column)
-			break;
-		kept.delete(old);
-		used -= its.byteLength;
-	}
-	return values;
-}
-
 /* A column: its shape, and its values when they are asked for. */
 export class Column {
 	constructor(record) {
 		Object.assign(this, record);
 	}
 
-	/* rows x components values, not to be written to. */
+	/* rows x components values, not to be written to; kept as long as the browser has room for them. */
 	async values() {
-		const there = kept.get(this);
+		const there = this.kept && this.kept.deref(), values = there || await this.read();
 
-		if (there) {
-			kept.delete(this);
-			kept.set(this, there);
-			return there;
-		}
-		return keep(this, await this.read());
+		this.kept = there ? this.kept : new WeakRef(values);
+		return values;
 	}
 
 	async read() {
