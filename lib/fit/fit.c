@@ -130,16 +130,35 @@ drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, dou
 	return MR_OK;
 }
 
-/* The points in an order in which what close ones look up is in the cache, with their sampling where it is of
- * use. */
+/* Points for each control face, at most: more move it no further. */
+enum { ENOUGH = 24 };
+
+/* Some of the points, at equal strides along the Z curve, where what close ones look up is in the cache, and
+ * their sampling. */
 static mr_status
-sort_points(mr_ctx *ctx, const mr_v3 *point, size_t n, bool is_local, const mr_sampling *known, mr_v3 *sorted,
+take_points(mr_ctx *ctx, const mr_v3 *point, size_t *n, size_t faces, const mr_sampling *known, mr_v3 *p,
     mr_sampling *s)
 {
-	if (is_local)
-		return mr_zorder_points(ctx, point, n, sorted);
-	MR_TRY(mr_sampling_find(ctx, point, n, known, s));
-	return mr_sampling_sort(ctx, point, s, sorted, s);
+	size_t some = *n < ENOUGH * faces ? *n : ENOUGH * faces;
+	uint8_t *outlier = MR_NEW(ctx, some, uint8_t), *repeat = MR_NEW(ctx, some, uint8_t);
+	double *spacing = MR_NEW(ctx, some, double);
+
+	if (!outlier || !repeat || !spacing)
+		return MR_EMEM;
+	MR_TRY(mr_sampling_find(ctx, point, *n, known, s));
+	MR_TRY(mr_sampling_sort(ctx, point, s, p, s));
+	for (size_t i = 0; i < some; i++) {
+		size_t from = i * *n / some;
+		p[i] = p[from];
+		spacing[i] = s->spacing[from];
+		outlier[i] = s->outlier[from];
+		repeat[i] = s->repeat[from];
+	}
+	s->spacing = spacing;
+	s->outlier = outlier;
+	s->repeat = repeat;
+	s->n = *n = some;
+	return MR_OK;
 }
 
 /* Each face couples the neighbours of its corners, all with all: 22 bytes a pair, and some 300 pairs where
@@ -200,7 +219,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	mr_fit_foot *foot = mr_alloc(ctx, n, sizeof *foot);
 	mr_v3 *sorted = MR_NEW(ctx, n, mr_v3);
 	double *spacing = MR_NEW(ctx, n, double);
-	size_t given = n;
+	size_t given;
 	double edge = mr_mesh_edge_scale(ctx, control);
 	double start, noise;
 	mr_sampling sampling;
@@ -212,7 +231,11 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	MR_TRY(check(ctx, control, point, n));
 	if (!x || !foot || !sorted || !spacing)
 		return MR_EMEM;
-	MR_TRY(sort_points(ctx, point, n, is_local, known, sorted, &sampling));
+	if (is_local)
+		MR_TRY(mr_zorder_points(ctx, point, n, sorted));
+	else
+		MR_TRY(take_points(ctx, point, &n, control->nf, known, sorted, &sampling));
+	given = n;
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, crease, &s));
 	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));

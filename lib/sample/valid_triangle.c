@@ -3,7 +3,7 @@
 #include "base/parallel.h"
 #include "sample/parts.h"
 
-enum { CHUNK = 1 << 12, GRAIN = 256 };
+enum { CHUNK = 1 << 12, GRAIN = 256, FIRST = 12 };
 
 /* Two unit vectors across n, so that (a, b, n) is right-handed (Duff et al. 2017). */
 static void
@@ -117,8 +117,9 @@ mr_valid_triangle(const mr_sight *s, size_t n, const mr_bounds *bounds)
 typedef struct search {
 	const mr_domain *d;
 	const mr_sample_cloud *c;
-	size_t k, first;       /* of this chunk of vertices */
-	const uint32_t *index; /* k nearest points of each */
+	size_t k;
+	const uint32_t *vertex; /* of a chunk */
+	const uint32_t *index;  /* k nearest points of each */
 	const double *dist2;
 	double *height;
 	bool *hit;
@@ -145,7 +146,7 @@ search_vertices(void *arg, size_t begin, size_t end)
 	mr_sight sight[MR_SAMPLE_MOST];
 
 	for (size_t i = begin; i < end; i++) {
-		size_t v = s->first + i, n, near;
+		size_t v = s->vertex[i], n, near;
 		mr_v3 normal = s->d->normal[v];
 		mr_bounds bounds;
 		mr_valid found;
@@ -185,26 +186,56 @@ report_tries(const search *s, size_t nv, mr_sample_result *r)
 	r->rejected = met - taken;
 }
 
+/* Of the n vertices of the list, among k points. */
+static mr_status
+search_list(mr_ctx *ctx, const uint32_t *list, size_t n, search *s)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t chunk = n < CHUNK ? n : CHUNK;
+	uint32_t *index = MR_NEW(ctx, chunk * s->k, uint32_t);
+	double *dist2 = MR_NEW(ctx, chunk * s->k, double);
+	mr_v3 *q = MR_NEW(ctx, chunk, mr_v3);
+
+	if (!index || !dist2 || !q)
+		return MR_EMEM;
+	s->index = index;
+	s->dist2 = dist2;
+	for (size_t first = 0; first < n; first += chunk) {
+		size_t m = n - first < chunk ? n - first : chunk;
+		s->vertex = list + first;
+		for (size_t i = 0; i < m; i++)
+			q[i] = s->d->m.p[s->vertex[i]];
+		MR_TRY(mr_near_query(ctx, s->c->near, q, m, s->k, index, dist2));
+		mr_parallel(ctx, m, GRAIN, search_vertices, s);
+	}
+	mr_mark_release(ctx, mark);
+	return MR_OK;
+}
+
+/* Most vertices find their triangle among few points; all others look at all. */
 mr_status
 mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
     double *height, bool *hit, mr_sample_result *r)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	size_t nv = d->m.nv, chunk = nv < CHUNK ? nv : CHUNK, k = neighbours;
-	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
-	double *dist2 = MR_NEW(ctx, chunk * k, double);
-	search s = { .d = d, .c = c, .k = k, .index = index, .dist2 = dist2, .height = height, .hit = hit };
+	uint32_t *list = MR_NEW(ctx, d->m.nv, uint32_t);
+	search s = { .d = d, .c = c, .height = height, .hit = hit };
+	size_t missed = 0;
 
-	s.points = MR_NEW(ctx, nv, uint8_t);
-	if (!index || !dist2 || !s.points)
+	s.k = neighbours < FIRST ? neighbours : FIRST;
+	s.points = MR_NEW(ctx, d->m.nv, uint8_t);
+	if (!list || !s.points)
 		return MR_EMEM;
-	for (s.first = 0; s.first < nv; s.first += chunk) {
-		size_t n = nv - s.first < chunk ? nv - s.first : chunk;
-		MR_TRY(mr_near_query(ctx, c->near, d->m.p + s.first, n, k, index, dist2));
-		mr_parallel(ctx, n, GRAIN, search_vertices, &s);
-		mr_progress(ctx, "sampling", (double)(s.first + n) / (double)nv);
-	}
-	report_tries(&s, nv, r);
+	for (uint32_t v = 0; v < d->m.nv; v++)
+		list[v] = v;
+	MR_TRY(search_list(ctx, list, d->m.nv, &s));
+	for (uint32_t v = 0; v < d->m.nv; v++)
+		if (!hit[v])
+			list[missed++] = v;
+	s.k = neighbours;
+	if (neighbours > FIRST)
+		MR_TRY(search_list(ctx, list, missed, &s));
+	report_tries(&s, d->m.nv, r);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -5,7 +5,7 @@
 #include "base/sort.h"
 
 /* Rows up to half so many times as far apart as their points are told. */
-enum { NEAREST = 256, LOOKS = 512 };
+enum { NEAREST = 256, LOOKS = 128 };
 
 /* In a row it is the second on one side; the first may be of a pair that is nearly one point. */
 enum { NEXT = 4 };

@@ -5,7 +5,7 @@
 #include "base/sort.h"
 #include "space/local_planes.h"
 
-enum { FEWEST = 256, WIDEST = 512, LOOKS = 512, GRAIN = 16 };
+enum { FEWEST = 256, WIDEST = 512, LOOKS = 128, GRAIN = 16 };
 
 typedef struct look {
 	const mr_v3 *p;

@@ -28,19 +28,34 @@ rows_of(const mr_grid *g)
 	return g->n[1] * g->n[2];
 }
 
-static mr_status
-find_runs(mr_ctx *ctx, const mr_grid *g, const float *f, runs *r)
+mr_status
+mr_inside_new(mr_ctx *ctx, const mr_grid *g, mr_inside *in)
 {
-	size_t rows = rows_of(g), n = 0;
+	in->g = g;
+	in->words = (g->n[0] + 63) / 64;
+	in->bit = MR_NEW_ZERO(ctx, in->words * rows_of(g), uint64_t);
+	return in->bit ? MR_OK : MR_EMEM;
+}
 
-	*r = (runs){ .g = g, .first = MR_NEW(ctx, rows + 1, size_t) };
+/* The nodes of word w of a row that are not as the one before is. */
+static uint64_t
+changes(const uint64_t *row, size_t w)
+{
+	return row[w] ^ (row[w] << 1 | (w > 0 ? row[w - 1] >> 63 : 0));
+}
+
+static mr_status
+find_runs(mr_ctx *ctx, const mr_inside *in, runs *r)
+{
+	size_t rows = rows_of(in->g), n = 0;
+
+	*r = (runs){ .g = in->g, .first = MR_NEW(ctx, rows + 1, size_t) };
 	if (!r->first)
 		return MR_EMEM;
 	for (size_t row = 0; row < rows; row++) {
-		const float *q = f + row * g->n[0];
 		r->first[row] = n++;
-		for (size_t x = 1; x < g->n[0]; x++)
-			n += (q[x] < 0) != (q[x - 1] < 0);
+		for (size_t w = 0; w < in->words; w++)
+			n += (size_t)__builtin_popcountll(changes(in->bit + row * in->words, w));
 	}
 	r->first[rows] = r->n = n;
 	if (n >= UINT32_MAX)
@@ -50,12 +65,11 @@ find_runs(mr_ctx *ctx, const mr_grid *g, const float *f, runs *r)
 	if (!r->start || !r->part)
 		return MR_EMEM;
 	for (size_t row = 0; row < rows; row++) {
-		const float *q = f + row * g->n[0];
 		size_t at = r->first[row];
 		r->start[at++] = 0;
-		for (size_t x = 1; x < g->n[0]; x++)
-			if ((q[x] < 0) != (q[x - 1] < 0))
-				r->start[at++] = (uint32_t)x;
+		for (size_t w = 0; w < in->words; w++)
+			for (uint64_t c = changes(in->bit + row * in->words, w); c; c &= c - 1)
+				r->start[at++] = (uint32_t)(64 * w) + (uint32_t)__builtin_ctzll(c);
 	}
 	return MR_OK;
 }
@@ -225,30 +239,29 @@ judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool
 }
 
 static void
-turn_runs(const runs *r, const bool *inside, float *f)
+turn_runs(const runs *r, const bool *inside, mr_inside *in)
 {
 	for (size_t row = 0; row < rows_of(r->g); row++)
-		for (size_t k = r->first[row]; k < r->first[row + 1]; k++) {
-			bool in = inside[r->part[k]];
-			if (in != is_inside(r, row, k))
+		for (size_t k = r->first[row]; k < r->first[row + 1]; k++)
+			if (inside[r->part[k]] != is_inside(r, row, k))
 				for (uint32_t x = r->start[k]; x < run_end(r, row, k); x++)
-					f[row * r->g->n[0] + x] *= -1;
-		}
+					in->bit[row * in->words + x / 64] ^= (uint64_t)1 << x % 64;
 }
 
 mr_status
-mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, float *f, mr_cleaning *c)
+mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_inside *in, mr_cleaning *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_cleaning made = { 0, 0 };
 	bool *inside;
 	tally t;
 	runs r;
-	MR_TRY(find_runs(ctx, g, f, &r));
+
+	MR_TRY(find_runs(ctx, in, &r));
 	join_runs(&r);
 	MR_TRY(count_all(ctx, s, &r, &t));
 	MR_TRY(judge(ctx, s, &r, &t, &inside, &made));
-	turn_runs(&r, inside, f);
+	turn_runs(&r, inside, in);
 	*c = made;
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -26,7 +26,8 @@ typedef struct leveling {
 	const mr_grid *g;
 	const float *f;   /* negative inside, at the level that is wanted */
 	double rise;      /* of the indicator */
-	float *at;        /* the field at another level, cleaned */
+	float offset;     /* of a level from that */
+	mr_inside at;     /* what is inside at it, cleaned */
 	mr_cleaning *c;   /* what that left out */
 	size_t n[3];      /* blocks */
 	int8_t part[256]; /* of each cube */
@@ -59,19 +60,34 @@ cube_part(unsigned inside)
 	return part;
 }
 
+/* The nodes after those of word w of a row. */
+static uint64_t
+next_of(const uint64_t *row, size_t w, size_t words)
+{
+	return row[w] >> 1 | (w + 1 < words ? row[w + 1] << 63 : 0);
+}
+
+/* Cubes have parts where not all corners are alike. */
 static void
 count_row(const leveling *l, size_t y, size_t z, int64_t *sum)
 {
-	const mr_grid *g = l->g;
-	const float *q = l->at + mr_grid_index(g, 0, y, z), *up = q + g->n[0] * g->n[1];
-	unsigned inside = 0;
+	size_t words = l->at.words;
 
-	for (size_t x = 0; x < g->n[0]; x++) {
-		unsigned next = (unsigned)(q[x] < 0) << 1 | (unsigned)(q[x + g->n[0]] < 0) << 3 |
-		                (unsigned)(up[x] < 0) << 5 | (unsigned)(up[x + g->n[0]] < 0) << 7;
-		inside = (inside >> 1 & 0x55) | next;
-		if (x > 0)
-			sum[(x - 1) / BLOCK] += l->part[inside];
+	for (size_t w = 0; w < words; w++) {
+		uint64_t corner[8], any = 0, all = UINT64_MAX;
+		for (size_t c = 0; c < 8; c += 2) {
+			const uint64_t *row = l->at.bit + ((z + c / 4) * l->g->n[1] + y + c / 2 % 2) * words;
+			corner[c] = row[w];
+			corner[c + 1] = next_of(row, w, words);
+			any |= corner[c] | corner[c + 1];
+			all &= corner[c] & corner[c + 1];
+		}
+		for (uint64_t left = any & ~all; left; left &= left - 1) {
+			unsigned x = (unsigned)__builtin_ctzll(left), inside = 0;
+			for (unsigned c = 0; c < 8; c++)
+				inside |= (unsigned)(corner[c] >> x & 1) << c;
+			sum[(64 * w + x) / BLOCK] += l->part[inside];
+		}
 	}
 }
 
@@ -111,19 +127,45 @@ offset_of(const leveling *l, int level)
 	return RANGE * l->rise * (level - MIDDLE) / MIDDLE;
 }
 
+static void
+mark_layers(void *arg, size_t begin, size_t end)
+{
+	leveling *l = arg;
+	const mr_grid *g = l->g;
+
+	for (size_t z = begin; z < end; z++)
+		for (size_t y = 0; y < g->n[1]; y++) {
+			const float *f = l->f + mr_grid_index(g, 0, y, z);
+			uint64_t *row = l->at.bit + (z * g->n[1] + y) * l->at.words;
+			memset(row, 0, l->at.words * sizeof *row);
+			for (size_t x = 1; x + 1 < g->n[0] && !on_face(g, 1, y, z); x++)
+				row[x / 64] |= (uint64_t)(f[x] < l->offset) << x % 64;
+		}
+}
+
 static mr_status
 try_level(mr_ctx *ctx, leveling *l, int level, int64_t *euler)
 {
-	const float offset = (float)offset_of(l, level);
+	l->offset = (float)offset_of(l, level);
+	mr_parallel(ctx, l->g->n[2], 1, mark_layers, l);
+	MR_TRY(mr_volume_clean(ctx, l->s, &l->at, l->c));
+	*euler = count_euler(ctx, l);
+	return MR_OK;
+}
+
+/* f at the level tried last, as cleaned. */
+static void
+take_level(const leveling *l, float *f)
+{
 	const mr_grid *g = l->g;
 
 	for (size_t z = 0, i = 0; z < g->n[2]; z++)
 		for (size_t y = 0; y < g->n[1]; y++)
-			for (size_t x = 0; x < g->n[0]; x++, i++)
-				l->at[i] = l->f[i] - (on_face(g, x, y, z) ? 0 : offset);
-	MR_TRY(mr_volume_clean(ctx, l->s, g, l->at, l->c));
-	*euler = count_euler(ctx, l);
-	return MR_OK;
+			for (size_t x = 0; x < g->n[0]; x++, i++) {
+				const uint64_t *row = l->at.bit + (z * g->n[1] + y) * l->at.words;
+				f[i] -= on_face(g, x, y, z) ? 0 : l->offset;
+				f[i] = row[x / 64] >> x % 64 & 1 ? -fabsf(f[i]) : fabsf(f[i]);
+			}
 }
 
 typedef struct run {
@@ -249,15 +291,15 @@ begin(mr_ctx *ctx, leveling *l)
 	for (unsigned inside = 0; inside < 256; inside++)
 		l->part[inside] = (int8_t)cube_part(inside);
 	l->sum = MR_NEW(ctx, blocks_of(l), int64_t);
-	return l->sum ? MR_OK : MR_EMEM;
+	return l->sum ? mr_inside_new(ctx, l->g, &l->at) : MR_EMEM;
 }
 
 mr_status
-mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *scratch,
-    float *f, mr_cleaning *c, mr_volume_result *result)
+mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f,
+    mr_cleaning *c, mr_volume_result *result)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	leveling l = { .s = s, .g = g, .f = f, .rise = rise, .at = scratch, .c = c };
+	leveling l = { .s = s, .g = g, .f = f, .rise = rise, .c = c };
 	int64_t euler[LEVELS];
 	run r;
 
@@ -270,7 +312,7 @@ mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double 
 	if (result->levels_alike < LEVELS)
 		MR_TRY(look_beside(ctx, &l, r, result));
 	MR_TRY(try_level(ctx, &l, nearest_of(r), &euler[r.first]));
-	memcpy(f, scratch, mr_grid_nodes(g) * sizeof *f);
+	take_level(&l, f);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -177,7 +177,7 @@ begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, const double *f
 }
 
 mr_status
-mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote, const double *flood, bool apart)
+mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *flood, bool apart)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t links = s->plane.links;
@@ -196,8 +196,10 @@ mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote, const doub
 	for (uint32_t i = 0; i < s->n; i++) {
 		int8_t sign;
 		uint32_t root = root_of(&q, i, &sign);
-		if (q.vote[root] * sign < 0)
+		if (q.vote[root] * sign < 0) {
 			s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
+			vote[i] *= -1;
+		}
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;

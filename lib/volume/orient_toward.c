@@ -30,8 +30,8 @@ mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward)
 	for (size_t i = 0; toward && i < s->n; i++)
 		vote[i] = side_of(s, toward, i);
 	MR_TRY(mr_volume_orient(ctx, s, vote, NULL, true));
-	for (size_t i = 0; toward && i < s->n; i++)
-		if (side_of(s, toward, i) < 0)
+	for (size_t i = 0; i < s->n; i++)
+		if (vote[i] < 0)
 			s->plane.normal[i] = mr_mul(-1, s->plane.normal[i]);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

@@ -58,9 +58,9 @@ double mr_volume_likeness(const mr_volume_cloud *s, uint32_t i, uint32_t j);
 
 /* Tries normals' signs that agree with their neighbours' where planes are alike, and with the votes
  * (positive: the sign is right) on the whole; apart: parts whose own votes say otherwise go by these, where
- * votes are not much less than the flood on both sides of the points (NULL: none).  orient.c */
-mr_status
-mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, const double *vote, const double *flood, bool apart);
+ * votes are not much less than the flood on both sides of the points (NULL: none).  The votes become those
+ * for the signs.  orient.c */
+mr_status mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *flood, bool apart);
 
 /* From which size on one of n such votes counts: in proportion to them all.  orient.c */
 double mr_volume_loud(const double *vote, size_t n);
@@ -138,20 +138,30 @@ typedef struct mr_cleaning {
 	size_t parts, cavities; /* dropped */
 } mr_cleaning;
 
+/* Which nodes of a grid are inside: bits, x in rows of whole words; none on the faces of the grid. */
+typedef struct mr_inside {
+	const mr_grid *g;
+	size_t words; /* of a row */
+	uint64_t *bit;
+} mr_inside;
+
+/* All outside. */
+mr_status mr_inside_new(mr_ctx *ctx, const mr_grid *g, mr_inside *in);
+
 /*
- * Turns the sign of f (negative inside) in parts of the inside, and in cavities, whose walls have few points
- * for their size; the largest part stays.
+ * Turns parts of the inside, and cavities, whose walls have few points for their size; the largest part
+ * stays.
  */
-mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, float *f, mr_cleaning *c);
+mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_inside *in, mr_cleaning *c);
 
 /* ---- level.c ---- */
 
 /*
  * Moves f, negative inside, to the level whose topology lasts, and cleans it.  rise: of the indicator across
- * the surface, the unit of f; scratch: of the grid's nodes.  Fills the result's euler, levels_alike and,
- * where these are not all, euler_beside and uncertain.
+ * the surface, the unit of f.  Fills the result's euler, levels_alike and, where these are not all,
+ * euler_beside and uncertain.
  */
-mr_status mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise,
-    float *scratch, float *f, mr_cleaning *c, mr_volume_result *result);
+mr_status mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f,
+    mr_cleaning *c, mr_volume_result *result);
 
 #endif

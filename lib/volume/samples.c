@@ -71,23 +71,18 @@ limit_areas(mr_ctx *ctx, mr_volume_cloud *s)
 	return MR_OK;
 }
 
-/* At equal strides along the curve, so that every place keeps its share. */
+/* At equal strides along the curve, so that every place keeps its share: what is left may be less noisy. */
 static void
-thin_out(mr_volume_cloud *s, double share)
+thin_out(mr_volume_cloud *s, double share, mr_sampling *of)
 {
 	size_t n = (size_t)ceil(share * (double)s->n);
 
 	for (size_t i = 0; i < n; i++)
 		s->p[i] = s->p[i * s->n / n];
 	s->n = n;
-}
-
-/* The points as they are now: their sampling, without what are outliers of it. */
-static mr_status
-sample_again(mr_ctx *ctx, mr_sampling *of, mr_volume_cloud *s)
-{
-	MR_TRY(mr_sampling_find(ctx, s->p, s->n, NULL, of));
-	return mr_sampling_places(ctx, s->p, of, &s->p, NULL, &s->n);
+	of->usual /= sqrt(share);
+	if (of->noise < MR_NOISY * of->usual)
+		of->neighbours = NEAREST;
 }
 
 /* Of the diagonal: spacings that the grid tells. */
@@ -103,7 +98,7 @@ mr_volume_samples(
 	s->n = n;
 	MR_TRY(check(ctx, s, of.n));
 	if (share < 1) {
-		thin_out(s, share);
+		thin_out(s, share, &of);
 		if (s->n < TOLD_LEAST)
 			return mr_fail(ctx, MR_ERANGE,
 			    "%zu points lie so far apart, for how near their neighbours are, that the grid "
@@ -111,7 +106,6 @@ mr_volume_samples(
 			    "%zu of them: mr-split parts those of several bodies, mr-crop --keep spaced:%.2g "
 			    "thins those of one",
 			    n, s->n, THINNER * mr_box_diagonal(mr_box_of(place, n)));
-		MR_TRY(sample_again(ctx, &of, s));
 		MR_TRY(check(ctx, s, n));
 	}
 	MR_TRY(find_planes(ctx, &of, s));

@@ -194,24 +194,20 @@ measure_across(void *arg, size_t begin, size_t end)
 		a->out[i] = across_at(a, i);
 }
 
-/* v->value: how much more of the flood there is on a normal's side than behind it. */
+/* value: how much more of the flood, 1 - u, there is on a normal's side than behind it; out: what of it is on
+ * both. */
 static void
-measure_votes(mr_ctx *ctx, volume *v, const float *w)
+measure_flood(void *arg, size_t begin, size_t end)
 {
-	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, w, v->value, 1, 0 });
-	for (size_t i = 0; i < v->s.n; i++)
-		v->value[i] = -v->value[i];
-}
+	const across *a = arg;
+	const mr_volume_cloud *s = &a->v->s;
 
-/* What of the flood, 1 - w, is on both sides of each point. */
-static void
-measure_flood(const volume *v, const float *w, double *flood)
-{
-	const mr_grid *g = &v->grid[0];
-
-	for (size_t i = 0; i < v->s.n; i++) {
-		mr_v3 p = v->s.p[i], d = mr_mul(g->step, v->s.plane.normal[i]);
-		flood[i] = 2 - mr_volume_at(g, w, mr_add(p, d)) - mr_volume_at(g, w, mr_sub(p, d));
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 d = mr_mul(a->v->grid[0].step, s->plane.normal[i]);
+		double before = mr_volume_at(&a->v->grid[0], a->u, mr_add(s->p[i], d));
+		double behind = mr_volume_at(&a->v->grid[0], a->u, mr_sub(s->p[i], d));
+		a->v->value[i] = behind - before;
+		a->out[i] = 2 - before - behind;
 	}
 }
 
@@ -245,14 +241,10 @@ orient_by_votes(mr_ctx *ctx, volume *v, const float *w)
 
 	if (!flood)
 		return MR_EMEM;
-	measure_flood(v, w, flood);
-	measure_votes(ctx, v, w);
+	mr_parallel(ctx, v->s.n, GRAIN, measure_flood, &(across){ v, w, flood, 1, 0 });
 	MR_TRY(mr_volume_orient(ctx, &v->s, v->value, flood, true));
-	measure_votes(ctx, v, w);
-	if (is_torn(v)) {
+	if (is_torn(v))
 		MR_TRY(mr_volume_orient(ctx, &v->s, v->value, flood, false));
-		measure_votes(ctx, v, w);
-	}
 	v->sheet = against_share(v) > BOTH;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -550,7 +542,7 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	v->found.seconds_indicator = mr_seconds() - start;
 	start = mr_seconds();
 	MR_TRY(make_level(ctx, v, &m));
-	MR_TRY(mr_volume_level(ctx, &v->s, &v->grid[0], v->found.level, m.level[0].b, f, &c, &v->found));
+	MR_TRY(mr_volume_level(ctx, &v->s, &v->grid[0], v->found.level, f, &c, &v->found));
 	v->found.parts_dropped = c.parts;
 	v->found.cavities_filled = c.cavities;
 	v->found.seconds_level = mr_seconds() - start;
