@@ -77,13 +77,12 @@ say = $(if $(V),,@echo "  $(1) $@";)
 
 all: $(TOOLS)
 
-$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd figures findings options place signals \
-		terminal) $(BUILD)/libmr.a
+$(BUILD)/bin/%: $(BUILD)/cmd/%.c.o $(patsubst %,$(BUILD)/cmd/%.c.o,cmd figures findings options place \
+		signals) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS)
 
-# Alone it may start a program: cmd/open.c.
-$(BUILD)/bin/mr-view: $(BUILD)/page/page.o $(BUILD)/cmd/open.c.o
+$(BUILD)/bin/mr-view: $(BUILD)/page/page.o
 
 $(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
 	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<

@@ -7,10 +7,10 @@
 mpi: $(BUILD)/mpi/mr-solve-mpi
 $(patsubst %,$(BUILD)/%.o,$(MPI)): ALL_C += $$($(MPICC) --showme:compile)
 $(patsubst %,$(BUILD)/%.o,$(MPI)): | setup
-$(BUILD)/cmd/mpi-solve.c.o: cmd/mr-solve.c $(BUILD)/flags
+$(BUILD)/cmd/mpi-cmd.c.o: cmd/cmd.c $(BUILD)/flags
 	@mkdir -p $(@D)
 	$(call say,compile)$(CC) $(ALL_C) -Dmain=mr_solve_main -MMD -MP -c -o $@ $<
-$(BUILD)/mpi/mr-solve-mpi: $(patsubst %,$(BUILD)/%.o,$(MPI) $(patsubst %,cmd/%.c,mpi-solve cmd figures findings \
+$(BUILD)/mpi/mr-solve-mpi: $(patsubst %,$(BUILD)/%.o,$(MPI) $(patsubst %,cmd/%.c,mpi-cmd mr-solve figures findings \
 		options place signals)) $(BUILD)/libmr.a
 	@mkdir -p $(@D)
 	$(call say,link   )$(CC) $(ALL_C) -pie $(SAFE) $(LDFLAGS) -o $@ $^ $(LIBS) -ldmumps $$($(MPICC) --showme:link)

@@ -10,7 +10,6 @@
 #include "place.h"
 #include "signals.h"
 #include "stream/record.h"
-#include "terminal.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -34,6 +33,7 @@ struct cmd_state {
 	FILE *text, *stats; /* a sink's output; --stats */
 	mr_outfile output_file, held, stats_file;
 	place_guard places;
+	bool opens_stream; /* the file that is opened is that of the stream */
 
 	mr_text figures;    /* of the frame at work, as they go into the line of --stats */
 	findings_book book; /* what was found */
@@ -98,6 +98,15 @@ leave(cmd *c, int code)
 	mr_outfile_drop(&c->ctx, &c->state->held);
 	mr_outfile_drop(&c->ctx, &c->state->stats_file);
 	exit(code);
+}
+
+bool cmd_piped;
+
+/* Whether somebody sits in front of it. */
+static bool
+is_terminal(int fd)
+{
+	return isatty(fd) && !(cmd_piped && fd == STDOUT_FILENO);
 }
 
 static bool
@@ -402,27 +411,13 @@ cmd_layer_name(cmd *c, const char *option, const char *name)
 
 /* Opening and closing the outputs */
 
-/* No output takes the place of a file that is read, but for a stream's, nor of another output, nor what is no
- * stream that of a stream. */
 static mr_status
 permit(mr_ctx *ctx, const char *path, bool writes)
 {
-	cmd *c = ctx->listener.user;
-	bool is_stream = !c->tool->sink && c->output && place_same(path, c->output);
+	struct cmd_state *s = ((cmd *)ctx->listener.user)->state;
+	place_use use = !writes ? PLACE_READ : s->opens_stream ? PLACE_STREAM : PLACE_WRITE;
 
-	if (writes && !is_stream && place_is(STDIN_FILENO, path))
-		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
-	if (writes && !is_stream && place_is_stream(path))
-		return mr_fail(ctx, MR_EUSAGE, "%s: that file is a stream, and would be lost", path);
-	return place_claim(ctx, &c->state->places, path, writes);
-}
-
-/* A stream may take the place of the one that it is made of, nothing else. */
-static mr_status
-permit_stream(cmd *c, const char *path)
-{
-	return c->tool->sink ? permit(&c->ctx, path, false)
-	                     : place_claim_stream(&c->ctx, &c->state->places, path);
+	return place_claim(ctx, &s->places, path, use);
 }
 
 /* Whether -o names a file, other than stdout. */
@@ -447,38 +442,21 @@ open_output(cmd *c)
 	s->out = s->output_file.fd;
 }
 
-static bool
-is_input(const cmd *c, const char *path)
-{
-	const struct cmd_state *s = c->state;
-	bool found = place_is(STDIN_FILENO, path) || (s->input && place_same(path, s->input));
-
-	for (size_t i = c->tool->names_output; i < c->operand_count; i++)
-		found |= access(path, F_OK) == 0 && place_same(path, c->operands[i]);
-	return found;
-}
-
-/* A stream takes the place of streams only. */
-static void
-check_output(cmd *c)
-{
-	if (!names_file(c))
-		return;
-	if (c->tool->source && is_input(c, c->output))
-		die(c, mr_fail(&c->ctx, MR_EUSAGE, "-o %s: that is the model to read", c->output));
-	try(c, place_for_stream(&c->ctx, c->output));
-}
-
 static void
 open_writer(cmd *c)
 {
-	check_output(c);
+	struct cmd_state *s = c->state;
+
+	if (names_file(c))
+		try(c, place_check_name(&c->ctx, "-o", c->output, PLACE_STREAM));
+	s->opens_stream = true;
 	open_output(c);
-	if (is_terminal(c->state->out))
+	s->opens_stream = false;
+	if (is_terminal(s->out))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE,
 			   "a stream is binary and is not written to a terminal: pipe it on, or name a file "
 			   "by -o"));
-	try(c, mr_writer_open(&c->ctx, c->state->out, c->packing, &c->state->writer));
+	try(c, mr_writer_open(&c->ctx, s->out, c->packing, &s->writer));
 }
 
 /* To write text to a file, which stays open when that is closed. */
@@ -497,17 +475,9 @@ static void
 open_text(cmd *c)
 {
 	if (names_file(c))
-		try(c, place_for_text(&c->ctx, "-o", c->output));
+		try(c, place_check_name(&c->ctx, "-o", c->output, PLACE_WRITE));
 	open_output(c);
 	c->state->text = c->state->out == STDOUT_FILENO ? stdout : open_copy(c, c->state->out, c->output);
-}
-
-static bool
-is_output(const cmd *c, const char *path)
-{
-	const char *output = c->tool->names_output ? c->operands[0] : c->output;
-
-	return writes_stdout(c) ? place_is(STDOUT_FILENO, path) : place_same(path, output);
 }
 
 static void
@@ -518,15 +488,14 @@ open_stats(cmd *c)
 
 	if (!path)
 		return;
-	if (is_input(c, path) || is_output(c, path))
-		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--stats: %s is the %s as well", path,
-			   is_input(c, path) ? "input" : "output"));
+	if (writes_stdout(c) && place_is(STDOUT_FILENO, path))
+		die(c, mr_fail(&c->ctx, MR_EUSAGE, "--stats: %s is the output as well", path));
 	s->stats = place_is_dash(path) || place_is(STDERR_FILENO, path) ? stderr
 	           : place_is(STDOUT_FILENO, path)                      ? stdout
 	                                                                : NULL;
 	if (s->stats)
 		return;
-	try(c, place_for_text(&c->ctx, "--stats", path));
+	try(c, place_check_name(&c->ctx, "--stats", path, PLACE_WRITE));
 	try(c, mr_outfile_open(&c->ctx, path, &s->stats_file));
 	s->stats = open_copy(c, s->stats_file.fd, path);
 }
@@ -748,7 +717,6 @@ read_stream(cmd *c, const char *path)
 	mr_status status;
 	int fd;
 
-	try(c, permit_stream(c, path));
 	fd = from_stdin ? STDIN_FILENO : open(path, O_RDONLY);
 	if (fd < 0) {
 		leave_out_input(c, fail_system(c, path));
@@ -786,10 +754,8 @@ cmd_side(cmd *c, const char *path, mr_side *side)
 {
 	mr_frame *frame;
 
-	if (!place_is_model(path)) {
-		MR_TRY(permit_stream(c, path));
+	if (!place_is_model(path))
 		return mr_side_open(&c->ctx, path, side);
-	}
 	MR_TRY(mr_import(&c->keep, path, NULL, &frame, NULL));
 	frame->number = 1;
 	*side = (mr_side){ .path = path, .frame = frame, .fd = STDIN_FILENO, .ended = true };
@@ -868,8 +834,9 @@ fill_closed(void)
 }
 
 int
-cmd_main(int argc, char **argv, const cmd_tool *tool)
+main(int argc, char **argv)
 {
+	const cmd_tool *tool = &cmd_this;
 	struct cmd_state state = { .out = -1 };
 	cmd c = { .tool = tool, .name = base_name(argv[0]), .state = &state };
 	int code;
@@ -909,8 +876,6 @@ cmd_main(int argc, char **argv, const cmd_tool *tool)
 	if (tool->finish)
 		finish(&c);
 	close_outputs(&c);
-	if (tool->after)
-		try(&c, tool->after(&c));
 	mr_cache_delete(c.cache);
 	mr_writer_free(state.writer);
 	mr_ctx_free(&c.ctx);

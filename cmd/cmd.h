@@ -14,12 +14,9 @@
  *		return MR_OK;
  *	}
  *
- *	int
- *	main(int argc, char **argv)
- *	{
- *		return cmd_main(argc, argv,
- *		    &(cmd_tool){ .summary = "...", .options = table, .frame = smooth_frame });
- *	}
+ *	const cmd_tool cmd_this = {
+ *		.summary = "...", .options = table, .frame = smooth_frame
+ *	};
  *
  * Only cmd.c prints and exits: 0 good, 1 data or I/O, 2 usage.
  */
@@ -48,9 +45,6 @@ typedef struct cmd_tool {
 
 	/* After the last frame; may be NULL. */
 	mr_status (*finish)(cmd *c);
-
-	/* After that, when the outputs are whole and have their names; may be NULL. */
-	mr_status (*after)(cmd *c);
 
 	bool sink;         /* writes no stream; with operands of its own it reads -i FILE or stdin */
 	bool names_output; /* a sink that names its output by an operand: it has no -o */
@@ -81,7 +75,11 @@ struct cmd {
 	struct cmd_state *state;
 };
 
-int cmd_main(int argc, char **argv, const cmd_tool *tool);
+/* Each command's own. */
+extern const cmd_tool cmd_this;
+
+/* Standard output is a pipe, though the system says that it is a terminal: under MPI. */
+extern bool cmd_piped;
 
 /* Whether an option of the tool's own table stood on the command line. */
 bool cmd_given(const cmd *c, const char *name);

@@ -1,24 +1,15 @@
 /*
  * mpi.c -- mr-solve in several processes of MPI: rank 0 is mr-solve, the others hold parts of its factors.
- * Linked with mr-solve.c, whose main is mr_solve_main here, and with lib/solve/mumps.c.
+ * Linked with cmd.c, whose main is mr_solve_main here, and with lib/solve/mumps.c.
  */
+#include "cmd.h"
 #include "solve/mumps.h"
-#include "terminal.h"
 
 #include <mpi.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <unistd.h>
 
 int mr_solve_main(int argc, char **argv);
-
-/* Whoever starts the ranks gives them a pseudo-terminal for standard output, which passes all bytes on:
- * nobody sits in front of it. */
-bool
-is_terminal(int fd)
-{
-	return fd != STDOUT_FILENO && isatty(fd);
-}
 
 /* However rank 0 exits. */
 static void
@@ -43,5 +34,6 @@ main(int argc, char **argv)
 		fputs("mr-solve-mpi: cannot say what is to be done at exit\n", stderr);
 		MPI_Abort(MPI_COMM_WORLD, 1);
 	}
+	cmd_piped = true; /* a pseudo-terminal of who started the ranks, which passes all bytes on */
 	return mr_solve_main(argc, argv);
 }

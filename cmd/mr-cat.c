@@ -92,15 +92,12 @@ finish(cmd *c)
 	return send_appended(c);
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "put streams one after another, or merge their layers or frames",
-		.options = table,
-		.prepare = prepare,
-		.frame = cat_frame,
-		.finish = finish,
-		.sends = true,
-		.fixed_layers = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "put streams one after another, or merge their layers or frames",
+	.options = table,
+	.prepare = prepare,
+	.frame = cat_frame,
+	.finish = finish,
+	.sends = true,
+	.fixed_layers = true,
+};

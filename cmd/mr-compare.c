@@ -123,15 +123,12 @@ finish(cmd *c)
 	return other.path ? mr_side_end(&c->ctx, &other, c->frame) : MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "measure how far two surfaces or clouds are apart",
-		.operands = "[[FILE_A] FILE_B]",
-		.options = table,
-		.prepare = open_other,
-		.frame = compare,
-		.finish = finish,
-		.sink = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "measure how far two surfaces or clouds are apart",
+	.operands = "[[FILE_A] FILE_B]",
+	.options = table,
+	.prepare = open_other,
+	.frame = compare,
+	.finish = finish,
+	.sink = true,
+};

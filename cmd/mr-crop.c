@@ -50,12 +50,9 @@ crop_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "keep or drop some vertices of a layer",
-		.options = table,
-		.prepare = prepare,
-		.frame = crop_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "keep or drop some vertices of a layer",
+	.options = table,
+	.prepare = prepare,
+	.frame = crop_frame,
+};

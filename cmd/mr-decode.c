@@ -39,15 +39,12 @@ decode_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "put detail or heights back onto their smooth surface",
-		.options = table,
-		.prepare = prepare,
-		.frame = decode_frame,
-		.caches = true,
-		.judged = true,
-		.fixed_layers = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "put detail or heights back onto their smooth surface",
+	.options = table,
+	.prepare = prepare,
+	.frame = decode_frame,
+	.caches = true,
+	.judged = true,
+	.fixed_layers = true,
+};

@@ -22,11 +22,8 @@ encode_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "store a mesh as detail over its base surface",
-		.frame = encode_frame,
-		.fixed_layers = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "store a mesh as detail over its base surface",
+	.frame = encode_frame,
+	.fixed_layers = true,
+};

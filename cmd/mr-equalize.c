@@ -31,14 +31,11 @@ equalize_frame(cmd *c, mr_frame *f)
 	return mr_equalize_frame(&c->ctx, f, gain, gains, c->cache);
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "weigh the levels of a displacement against each other",
-		.options = table,
-		.prepare = prepare,
-		.frame = equalize_frame,
-		.caches = true,
-		.fixed_layers = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "weigh the levels of a displacement against each other",
+	.options = table,
+	.prepare = prepare,
+	.frame = equalize_frame,
+	.caches = true,
+	.fixed_layers = true,
+};

@@ -95,16 +95,13 @@ finish(cmd *c)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "write a layer of each frame to a file",
-		.operands = "OUT",
-		.options = table,
-		.prepare = check,
-		.frame = export_frame,
-		.finish = finish,
-		.sink = true,
-		.names_output = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "write a layer of each frame to a file",
+	.operands = "OUT",
+	.options = table,
+	.prepare = check,
+	.frame = export_frame,
+	.finish = finish,
+	.sink = true,
+	.names_output = true,
+};

@@ -24,16 +24,11 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_fit_result, iterations),
 	CMD_COUNTED(mr_fit_result, outliers),
 	CMD_MEASURED(mr_fit_result, distance_mean_before),
-	CMD_MEASURED(mr_fit_result, distance_rms_before),
-	CMD_MEASURED(mr_fit_result, distance_max_before),
-	CMD_MEASURED(mr_fit_result, distance_mean_after),
 	CMD_MEASURED(mr_fit_result, distance_rms_after),
-	CMD_MEASURED(mr_fit_result, distance_max_after),
 	CMD_COUNTED(mr_fit_result, folded_edges_before),
 	CMD_COUNTED(mr_fit_result, folded_edges_after),
 	CMD_COUNTED(mr_fit_result, damped),
 	CMD_COUNTED(mr_fit_result, crossing_faces),
-	CMD_MEASURED(mr_fit_result, cg_steps),
 	CMD_MEASURED(mr_fit_result, seconds_iteration),
 	{ 0 },
 };
@@ -49,12 +44,9 @@ fit_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "move a control mesh so that its limit surface comes close to points",
-		.options = table,
-		.prepare = prepare,
-		.frame = fit_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "move a control mesh so that its limit surface comes close to points",
+	.options = table,
+	.prepare = prepare,
+	.frame = fit_frame,
+};

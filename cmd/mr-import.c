@@ -58,13 +58,10 @@ import_all(cmd *c)
 	return cmd_each_operand(c, import);
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "read models from files",
-		.operands = "[FILE...]",
-		.options = table,
-		.prepare = check,
-		.source = import_all });
-}
+const cmd_tool cmd_this = {
+	.summary = "read models from files",
+	.operands = "[FILE...]",
+	.options = table,
+	.prepare = check,
+	.source = import_all,
+};

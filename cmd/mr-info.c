@@ -62,13 +62,10 @@ fail_where_broken(cmd *c)
 	    broken_frames == 1 ? " is" : "s are");
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "report what a stream holds, and measure its surfaces",
-		.options = table,
-		.frame = report,
-		.finish = fail_where_broken,
-		.sink = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "report what a stream holds, and measure its surfaces",
+	.options = table,
+	.frame = report,
+	.finish = fail_where_broken,
+	.sink = true,
+};

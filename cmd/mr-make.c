@@ -65,14 +65,11 @@ make(cmd *c)
 	return cmd_send(c, f);
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "generate a surface, or a cloud of points of it",
-		.operands = "SHAPE",
-		.options = table,
-		.prepare = prepare,
-		.source = make,
-		.fixed_layers = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "generate a surface, or a cloud of points of it",
+	.operands = "SHAPE",
+	.options = table,
+	.prepare = prepare,
+	.source = make,
+	.fixed_layers = true,
+};

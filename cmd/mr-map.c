@@ -67,13 +67,10 @@ map_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "write heights over a control mesh as pictures, and read them",
-		.options = table,
-		.prepare = check,
-		.frame = map_frame,
-		.fixed_layers = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "write heights over a control mesh as pictures, and read them",
+	.options = table,
+	.prepare = check,
+	.frame = map_frame,
+	.fixed_layers = true,
+};

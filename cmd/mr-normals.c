@@ -61,12 +61,9 @@ normals_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "estimate and orient normals of points, or of a surface",
-		.options = table,
-		.prepare = prepare,
-		.frame = normals_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "estimate and orient normals of points, or of a surface",
+	.options = table,
+	.prepare = prepare,
+	.frame = normals_frame,
+};

@@ -106,13 +106,10 @@ pose_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "say where a handle goes",
-		.options = table,
-		.prepare = prepare,
-		.frame = pose_frame,
-		.sends = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "say where a handle goes",
+	.options = table,
+	.prepare = prepare,
+	.frame = pose_frame,
+	.sends = true,
+};

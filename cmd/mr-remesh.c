@@ -75,14 +75,11 @@ remesh_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "remesh a surface isotropically, with equal vertex areas",
-		.options = table,
-		.prepare = prepare,
-		.frame = remesh_frame,
-		.judged = true,
-		.lean = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "remesh a surface isotropically, with equal vertex areas",
+	.options = table,
+	.prepare = prepare,
+	.frame = remesh_frame,
+	.judged = true,
+	.lean = true,
+};

@@ -140,16 +140,13 @@ finish(cmd *c)
 	return write_picture(c, &gallery.frame[0], &image);
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "draw a shaded picture of each frame",
-		.operands = "OUT.png",
-		.options = table,
-		.prepare = prepare,
-		.frame = render_frame,
-		.finish = finish,
-		.sink = true,
-		.names_output = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "draw a shaded picture of each frame",
+	.operands = "OUT.png",
+	.options = table,
+	.prepare = prepare,
+	.frame = render_frame,
+	.finish = finish,
+	.sink = true,
+	.names_output = true,
+};

@@ -72,12 +72,9 @@ sample_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "sample the displacement of a subdivision surface to points or a mesh",
-		.options = table,
-		.prepare = prepare,
-		.frame = sample_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "sample the displacement of a subdivision surface to points or a mesh",
+	.options = table,
+	.prepare = prepare,
+	.frame = sample_frame,
+};

@@ -97,12 +97,9 @@ select_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "choose which vertices are fixed, free, or in a handle",
-		.options = table,
-		.prepare = prepare,
-		.frame = select_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "choose which vertices are fixed, free, or in a handle",
+	.options = table,
+	.prepare = prepare,
+	.frame = select_frame,
+};

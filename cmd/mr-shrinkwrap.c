@@ -50,11 +50,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_wrap_result, loops),
 	CMD_COUNTED(mr_wrap_result, openings),
 	CMD_COUNTED(mr_wrap_result, holes),
-	CMD_MEASURED(mr_wrap_result, seconds_pull),
-	CMD_MEASURED(mr_wrap_result, seconds_volume),
-	CMD_MEASURED(mr_wrap_result, seconds_remesh),
-	CMD_MEASURED(mr_wrap_result, seconds_settle),
-	CMD_MEASURED(mr_wrap_result, seconds_measure),
 	{ 0 },
 };
 
@@ -70,16 +65,7 @@ static const cmd_field volume_figures[] = {
 	CMD_COUNTED(mr_volume_result, turned),
 	CMD_MEASURED(mr_volume_result, level),
 	CMD_MEASURED(mr_volume_result, inside),
-	CMD_COUNTED(mr_volume_result, parts_dropped),
-	CMD_COUNTED(mr_volume_result, cavities_filled),
-	CMD_COUNTED(mr_volume_result, levels_alike),
 	CMD_MEASURED(mr_volume_result, euler),
-	CMD_MEASURED(mr_volume_result, euler_beside),
-	CMD_MEASURED(mr_volume_result, seconds_planes),
-	CMD_MEASURED(mr_volume_result, seconds_flood),
-	CMD_MEASURED(mr_volume_result, seconds_indicator),
-	CMD_MEASURED(mr_volume_result, seconds_level),
-	CMD_MEASURED(mr_volume_result, seconds_isosurface),
 	{ 0 },
 };
 
@@ -96,12 +82,9 @@ shrinkwrap_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "draw a mesh tight around points",
-		.options = table,
-		.prepare = prepare,
-		.frame = shrinkwrap_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "draw a mesh tight around points",
+	.options = table,
+	.prepare = prepare,
+	.frame = shrinkwrap_frame,
+};

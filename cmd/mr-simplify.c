@@ -69,13 +69,10 @@ simplify_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "simplify a surface by quadric error metrics",
-		.options = table,
-		.prepare = prepare,
-		.frame = simplify_frame,
-		.judged = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "simplify a surface by quadric error metrics",
+	.options = table,
+	.prepare = prepare,
+	.frame = simplify_frame,
+	.judged = true,
+};

@@ -15,8 +15,6 @@ static const cmd_opt table[] = {
 
 static const cmd_field figures[] = {
 	CMD_COUNTED(mr_smooth_result, passes),
-	CMD_MEASURED(mr_smooth_result, mean_edge),
-	CMD_COUNTED(mr_smooth_result, boundary_vertices),
 	CMD_COUNTED(mr_smooth_result, bounded),
 	CMD_COUNTED(mr_smooth_result, iterations),
 	CMD_MEASURED(mr_smooth_result, area),
@@ -35,11 +33,8 @@ smooth_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "low-pass filter a mesh into its base surface",
-		.options = table,
-		.frame = smooth_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "low-pass filter a mesh into its base surface",
+	.options = table,
+	.frame = smooth_frame,
+};

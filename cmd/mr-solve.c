@@ -38,12 +38,10 @@ static const cmd_opt table[] = {
 static const cmd_field figures[] = {
 	CMD_COUNTED(mr_solve_result, free),
 	CMD_COUNTED(mr_solve_result, fixed),
-	CMD_COUNTED(mr_solve_result, handle_vertices),
 	CMD_COUNTED(mr_solve_result, handles),
 	CMD_COUNTED(mr_solve_result, isolated_components),
 	CMD_COUNTED(mr_solve_result, isolated_vertices),
 	CMD_COUNTED(mr_solve_result, narrow_strip_vertices),
-	CMD_COUNTED(mr_solve_result, nnz_matrix),
 	CMD_MEASURED(mr_solve_result, negative_weights),
 	CMD_MEASURED(mr_solve_result, seconds_assemble),
 	CMD_MEASURED(mr_solve_result, seconds_solve),
@@ -52,7 +50,6 @@ static const cmd_field figures[] = {
 	CMD_MEASURED(mr_solve_result, nnz_factor),
 	CMD_MEASURED(mr_solve_result, seconds_analyse),
 	CMD_MEASURED(mr_solve_result, seconds_factor),
-	CMD_MEASURED(mr_solve_result, bytes_factor),
 	CMD_COUNTED(mr_solve_result, iterations),
 	CMD_MEASURED(mr_solve_result, rcond),
 	CMD_MEASURED(mr_solve_result, error),
@@ -83,13 +80,10 @@ solve_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "move the free vertices of a base to where its constraints have them",
-		.options = table,
-		.prepare = prepare,
-		.frame = solve_frame,
-		.caches = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "move the free vertices of a base to where its constraints have them",
+	.options = table,
+	.prepare = prepare,
+	.frame = solve_frame,
+	.caches = true,
+};

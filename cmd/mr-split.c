@@ -47,13 +47,10 @@ split_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "make a frame of each connected part of a surface or a cloud",
-		.options = table,
-		.prepare = prepare,
-		.frame = split_frame,
-		.sends = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "make a frame of each connected part of a surface or a cloud",
+	.options = table,
+	.prepare = prepare,
+	.frame = split_frame,
+	.sends = true,
+};

@@ -48,13 +48,10 @@ subdivide_frame(cmd *c, mr_frame *f)
 	return MR_OK;
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "refine a mesh by Loop subdivision",
-		.options = table,
-		.prepare = check,
-		.frame = subdivide_frame,
-		.caches = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "refine a mesh by Loop subdivision",
+	.options = table,
+	.prepare = check,
+	.frame = subdivide_frame,
+	.caches = true,
+};

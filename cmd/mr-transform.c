@@ -56,12 +56,9 @@ transform_frame(cmd *c, mr_frame *f)
 	return mr_transform_frame(&c->ctx, f, c->layer, map.m);
 }
 
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "move, turn and scale all that a frame holds",
-		.options = table,
-		.prepare = prepare,
-		.frame = transform_frame });
-}
+const cmd_tool cmd_this = {
+	.summary = "move, turn and scale all that a frame holds",
+	.options = table,
+	.prepare = prepare,
+	.frame = transform_frame,
+};

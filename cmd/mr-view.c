@@ -1,15 +1,12 @@
 /* mr-view -- all frames as a page for browsers.  See man/mr-view.1. */
 #include "cmd.h"
 #include "formats/page.h"
-#include "open.h"
 
 extern const char mr_page_html[]; /* formats/page, in one text */
 
 static mr_page page;
-static bool opens;
 
 static const cmd_opt table[] = {
-	{ 0, "open", CMD_FLAG, &opens, 0, 0, NULL, "show the page by xdg-open", NULL },
 	{ 0, "texture", CMD_TEXT, &page.pictures.texture, 0, 0, "FILE", "picture on surfaces", NULL },
 	{ 0, "materials", CMD_TEXT, &page.pictures.materials, 0, 0, "DIR", "folder of files of materials",
 	    NULL },
@@ -29,7 +26,7 @@ prepare(cmd *c)
 	MR_TRY(cmd_output_name(c, "PAGE.html", ".html"));
 	MR_TRY(cmd_idle(c, "materials", page.pictures.texture != NULL, "with --texture"));
 	page.pictures.keep = &c->keep;
-	return cmd_idle(c, "open", !strcmp(c->operands[0], "-"), "on standard output");
+	return MR_OK;
 }
 
 static mr_status
@@ -56,24 +53,14 @@ finish(cmd *c)
 	return MR_OK;
 }
 
-static mr_status
-after(cmd *c)
-{
-	return opens ? open_file(&c->ctx, c->operands[0]) : MR_OK;
-}
-
-int
-main(int argc, char **argv)
-{
-	return cmd_main(argc, argv,
-	    &(cmd_tool){ .summary = "write all frames as a page for browsers",
-		.operands = "PAGE.html [FILE...]",
-		.options = table,
-		.prepare = prepare,
-		.frame = view_frame,
-		.finish = finish,
-		.after = after,
-		.sink = true,
-		.names_output = true,
-		.reads_rest = true });
-}
+const cmd_tool cmd_this = {
+	.summary = "write all frames as a page for browsers",
+	.operands = "PAGE.html [FILE...]",
+	.options = table,
+	.prepare = prepare,
+	.frame = view_frame,
+	.finish = finish,
+	.sink = true,
+	.names_output = true,
+	.reads_rest = true,
+};

@@ -14,12 +14,6 @@ is_device(const struct stat *s)
 	return S_ISCHR(s->st_mode) || S_ISBLK(s->st_mode);
 }
 
-static bool
-same(const struct stat *a, const struct stat *b)
-{
-	return a->st_dev == b->st_dev && a->st_ino == b->st_ino && !is_device(a);
-}
-
 /* The folder that a name stands in; false where there is none such. */
 static bool
 folder_of(const char *name, struct stat *s)
@@ -41,24 +35,12 @@ last_part(const char *name)
 }
 
 bool
-place_same(const char *a, const char *b)
-{
-	struct stat x, y;
-	bool there = stat(a, &x) == 0;
-
-	if (there != (stat(b, &y) == 0))
-		return false;
-	if (there)
-		return same(&x, &y);
-	return !strcmp(last_part(a), last_part(b)) && folder_of(a, &x) && folder_of(b, &y) && same(&x, &y);
-}
-
-bool
 place_is(int fd, const char *name)
 {
 	struct stat x, y;
 
-	return fstat(fd, &x) == 0 && stat(name, &y) == 0 && same(&x, &y);
+	return fstat(fd, &x) == 0 && stat(name, &y) == 0 && x.st_dev == y.st_dev && x.st_ino == y.st_ino &&
+	       !is_device(&x);
 }
 
 /* Two names of a file: what is there, and its place, in which there may be nothing yet; empty where there is
@@ -99,45 +81,6 @@ place_guard_free(place_guard *g)
 	mr_string_set_free(&g->written);
 }
 
-mr_status
-place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes)
-{
-	keys k = { 0 };
-
-	if (!writes && place_is_dash(path))
-		return MR_OK;
-	find_keys(path, &k);
-	if (has(&g->written, k.there) || has(&g->written, k.place))
-		return mr_fail(ctx, MR_EUSAGE, "%s: this command writes that file%s", path,
-		    writes ? " already" : ", and would read it");
-	if (writes && has(&g->read, k.there))
-		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
-	if (writes)
-		MR_TRY(add(ctx, &g->written, k.place));
-	return add(ctx, writes ? &g->written : &g->read, k.there);
-}
-
-mr_status
-place_stdin_once(mr_ctx *ctx, char *const *name, size_t first, size_t end)
-{
-	size_t times = 0;
-
-	for (size_t i = first; i < end; i++)
-		times += place_is_dash(name[i]);
-	return times < 2 ? MR_OK : mr_fail(ctx, MR_EUSAGE, "- is standard input, which can be read once");
-}
-
-mr_status
-place_claim_stream(mr_ctx *ctx, place_guard *g, const char *path)
-{
-	keys k = { 0 };
-
-	if (place_is_dash(path))
-		return MR_OK;
-	find_keys(path, &k);
-	return add(ctx, &g->read, k.there);
-}
-
 typedef enum content { NOTHING, STREAM, OTHER } content;
 
 /* What a regular file is; NOTHING: empty, not there, or not to be read. */
@@ -165,31 +108,50 @@ place_is_model(const char *path)
 	return mr_suffix_format(path) && content_of(path) == OTHER;
 }
 
-bool
-place_is_stream(const char *path)
+mr_status
+place_claim(mr_ctx *ctx, place_guard *g, const char *path, place_use use)
 {
-	return content_of(path) == STREAM;
+	bool writes = use != PLACE_READ;
+	content there = writes ? content_of(path) : NOTHING;
+	keys k = { 0 };
+
+	if (!writes && place_is_dash(path))
+		return MR_OK;
+	find_keys(path, &k);
+	if (there == STREAM && use == PLACE_WRITE)
+		return mr_fail(ctx, MR_EUSAGE, "%s: that file is a stream, and would be lost", path);
+	if (there == OTHER && use == PLACE_STREAM)
+		return mr_fail(ctx, MR_EUSAGE, "%s: that file is no stream, and would be lost", path);
+	if (has(&g->written, k.there) || has(&g->written, k.place))
+		return mr_fail(ctx, MR_EUSAGE, "%s: this command writes that file%s", path,
+		    writes ? " already" : ", and would read it");
+	if (writes && has(&g->read, k.there))
+		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
+	if (writes)
+		MR_TRY(add(ctx, &g->written, k.place));
+	return add(ctx, writes ? &g->written : &g->read, k.there);
 }
 
 mr_status
-place_for_stream(mr_ctx *ctx, const char *path)
+place_stdin_once(mr_ctx *ctx, char *const *name, size_t first, size_t end)
 {
-	if (mr_suffix_format(path))
+	size_t times = 0;
+
+	for (size_t i = first; i < end; i++)
+		times += place_is_dash(name[i]);
+	return times < 2 ? MR_OK : mr_fail(ctx, MR_EUSAGE, "- is standard input, which can be read once");
+}
+
+mr_status
+place_check_name(mr_ctx *ctx, const char *option, const char *path, place_use use)
+{
+	bool is_model = mr_suffix_format(path);
+
+	if (is_model && use == PLACE_STREAM)
 		return mr_fail(ctx, MR_EUSAGE,
-		    "-o %s: a stream under the name of a model: mr-export writes models, .mrs is for streams",
-		    path);
-	if (mr_suffix_gz(path))
-		return mr_fail(
-		    ctx, MR_EUSAGE, "-o %s: a stream is no gzip: mr-cat -z packs its columns", path);
-	if (content_of(path) == OTHER)
-		return mr_fail(ctx, MR_EUSAGE, "-o %s: that file is no stream, and would be lost", path);
-	return MR_OK;
-}
-
-mr_status
-place_for_text(mr_ctx *ctx, const char *option, const char *path)
-{
-	if (mr_suffix_format(path) && !mr_suffix_is_text(path))
+		    "%s %s: a stream under the name of a model: mr-export writes models, .mrs is for streams",
+		    option, path);
+	if (is_model && !mr_suffix_is_text(path))
 		return mr_fail(ctx, MR_EUSAGE, "%s %s: figures under the name of a model", option, path);
 	return MR_OK;
 }

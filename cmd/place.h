@@ -15,24 +15,17 @@ place_is_dash(const char *path)
 	return !strcmp(path, "-");
 }
 
-/* Whether both names lead to one file, there or not yet; never for a device. */
-bool place_same(const char *a, const char *b);
-
-/* The same of a descriptor. */
+/* Whether a name leads to the file of a descriptor; never for a device. */
 bool place_is(int fd, const char *name);
 
 /* Whether there is a file with the name of a model that is no stream. */
 bool place_is_model(const char *path);
 
-/* Whether there is a file that is a stream. */
-bool place_is_stream(const char *path);
+/* What a command does with a file. */
+typedef enum place_use { PLACE_READ, PLACE_WRITE, PLACE_STREAM /* a stream is written */ } place_use;
 
-/* MR_EUSAGE where a stream would take the place, or the name, of anything but a stream. */
-mr_status place_for_stream(mr_ctx *ctx, const char *path) MR_WARN_UNUSED;
-
-/* MR_EUSAGE where the text that `option` asks for would take the name of a model that is no columns of text.
- */
-mr_status place_for_text(mr_ctx *ctx, const char *option, const char *path) MR_WARN_UNUSED;
+/* MR_EUSAGE where a stream, or the text that `option` asks for, would take the name of a model. */
+mr_status place_check_name(mr_ctx *ctx, const char *option, const char *path, place_use use) MR_WARN_UNUSED;
 
 /* MR_EUSAGE where several of the names from `first` to before `end` are "-". */
 mr_status place_stdin_once(mr_ctx *ctx, char *const *name, size_t first, size_t end) MR_WARN_UNUSED;
@@ -44,10 +37,8 @@ typedef struct place_guard {
 
 void place_guard_free(place_guard *g);
 
-/* MR_EUSAGE where a file is to be written that is read, or written already, or read that is written. */
-mr_status place_claim(mr_ctx *ctx, place_guard *g, const char *path, bool writes) MR_WARN_UNUSED;
-
-/* Of a stream that is read, whose place may have been taken by the one that is made of it. */
-mr_status place_claim_stream(mr_ctx *ctx, place_guard *g, const char *path) MR_WARN_UNUSED;
+/* MR_EUSAGE where a file is to be written that is read, or written already, or read that is written; or where
+ * a stream would take the place of anything else, or anything else that of a stream. */
+mr_status place_claim(mr_ctx *ctx, place_guard *g, const char *path, place_use use) MR_WARN_UNUSED;
 
 #endif

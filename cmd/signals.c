@@ -41,28 +41,6 @@ say_cut(int signal_number, siginfo_t *info, void *context)
 	raise(signal_number);
 }
 
-/* Whether the signal, left alone, ends the process. */
-static bool
-ends(int s)
-{
-	switch (s) {
-	case SIGKILL:
-	case SIGSTOP:
-	case SIGTSTP:
-	case SIGTTIN:
-	case SIGTTOU:
-	case SIGCHLD:
-	case SIGCONT:
-	case SIGURG:
-#ifdef SIGWINCH
-	case SIGWINCH:
-#endif
-		return false;
-	default:
-		return true;
-	}
-}
-
 /* What is ignored, as under nohup, stays so. */
 static void
 tidy_up_on(int signal_number)
@@ -87,13 +65,14 @@ signals_begin(const char *name)
 void
 signals_unfinished(void *user, const char *file, bool on)
 {
+	static const int ending[] = { SIGHUP, SIGINT, SIGQUIT, SIGILL, SIGABRT, SIGFPE, SIGSEGV, SIGPIPE,
+		SIGALRM, SIGTERM, SIGUSR1, SIGUSR2, SIGTRAP, SIGSYS, SIGVTALRM, SIGXCPU };
 	int i = 0;
 
 	(void)user;
 	while (i < LEFTOVERS - 1 && leftover[i] != (on ? NULL : file))
 		i++;
 	leftover[i] = on ? file : NULL;
-	for (int s = 1; on && s <= SIGRTMAX; s++)
-		if (ends(s))
-			tidy_up_on(s);
+	for (size_t s = 0; on && s < sizeof ending / sizeof *ending; s++)
+		tidy_up_on(ending[s]);
 }

@@ -38,7 +38,6 @@ echo '-- a stream under gzip, and under its name' >&2
 mr-make cube -n 8 | gzip >s.mrs.gz
 mr-smooth s.mrs.gz -o out.mrs
 mr-smooth <s.mrs.gz >out.mrs
-mr-make cube -n 8 -o out.mrs.gz
 ls out.mrs.gz 2>/dev/null
 true
 

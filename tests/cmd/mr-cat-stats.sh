@@ -4,7 +4,7 @@ cp a.mrs b.mrs
 cp a.mrs kept.mrs
 refused() {
 	"$@" <"${input:-/dev/null}" >out 2>err
-	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err)"
+	echo "exit $?, $(wc -c <out) bytes: $(head -n 1 err | sed "s,$PWD/,,")"
 	cmp a.mrs kept.mrs
 }
 refused mr-cat --stats a.mrs a.mrs

@@ -1,4 +1,4 @@
-# Several streams in one page: their frames one behind the other, each with the name of its file; --open shows a page that is whole.
+# Several streams in one page: their frames one behind the other, each with the name of its file.
 stream_of() { # page: the stream that it holds
 	python3 - "$1" <<'P'
 import base64, re, sys
@@ -35,18 +35,3 @@ done
 ls none.html mr-*~ 2>/dev/null || echo 'no page'
 mr-view --stats cube.mrs none.html film.mrs cube.mrs 2>err; echo "exit $?: $(head -n 1 err)"
 mr-info cube.mrs >/dev/null && echo 'the stream is there'
-
-echo '-- --open: a program of that name, here one that tells, gets the path of the page, which is whole, and no shell'
-mkdir bin
-printf '#!/bin/sh\necho "$# word, ${1#$PWD/}: $(wc -c <"$1" | sed "s/[0-9]\\{5,\\}/whole/")" >>opened\necho noise\nexit ${CODE:-0}\n' >bin/xdg-open && chmod +x bin/xdg-open
-open() { # arguments
-	PATH=$PWD/bin:$PATH mr-view --open "$@"; echo "exit $?"
-}
-open -i cube.mrs page.html
-open -q ./-'$(touch ran)'.html cube.mrs film.mrs
-CODE=3 open kept.html cube.mrs
-open none.html cut.mrs
-rm bin/xdg-open
-PATH=$PWD/bin "$BUILD/bin/mr-view" --open kept-too.html cube.mrs; echo "exit $?"
-cat opened
-[ -s kept.html ] && [ -s kept-too.html ] && [ ! -e none.html ] && [ ! -e ran ] && echo 'pages that are whole are there'
