@@ -10,6 +10,7 @@
 
 #include "formats/build.h"
 #include "formats/bytes.h"
+#include "formats/rows.h"
 #include "formats/scan.h"
 #include "formats/scene.h"
 #include "mesh/polygon.h"
@@ -182,6 +183,26 @@ mr_load_double(const unsigned char *p, bool big)
 	double d;
 	memcpy(&d, &v, 8);
 	return d;
+}
+
+/* A number of 1, 2, 4 or 8 bytes: I with a sign, U without, F a float of 4 or 8. */
+static inline double
+mr_load_number(const unsigned char *p, char kind, size_t bytes, bool big)
+{
+	uint64_t u;
+
+	if (kind == 'F')
+		return bytes == 8 ? mr_load_double(p, big) : (double)mr_load_float(p, big);
+	u = bytes == 1   ? *p
+	    : bytes == 2 ? mr_load16(p, big)
+	    : bytes == 4 ? mr_load32(p, big)
+	                 : mr_load64(p, big);
+	if (kind == 'U')
+		return (double)u;
+	return bytes == 1   ? (double)(int8_t)u
+	       : bytes == 2 ? (double)(int16_t)u
+	       : bytes == 4 ? (double)(int32_t)u
+	                    : (double)(int64_t)u;
 }
 
 /* A number as little-endian bytes; returns the end. */

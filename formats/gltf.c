@@ -408,20 +408,7 @@ mr_accessor_open(mr_gltf *g, size_t number, mr_accessor *a)
 static double
 component(const unsigned char *p, size_t kind)
 {
-	switch (kind) {
-	case 5120:
-		return (double)(int8_t)p[0];
-	case 5121:
-		return (double)p[0];
-	case 5122:
-		return (double)(int16_t)mr_load16(p, false);
-	case MR_GLTF_UNSIGNED_SHORT:
-		return (double)mr_load16(p, false);
-	case MR_GLTF_UNSIGNED_INT:
-		return (double)mr_load32(p, false);
-	default:
-		return (double)mr_load_float(p, false);
-	}
+	return mr_load_number(p, "IUIU?UF"[kind - 5120], kind_bytes(kind), false);
 }
 
 /* What a normalised component of 1 is stored as. */

@@ -3,7 +3,6 @@
  * offset; colours of 16 bits in some of the point formats.  Compressed files (LAZ) are refused.  What else a
  * point has is a property, unless it is 0 for all of them, as it is where a scanner did not tell.
  */
-#include "base/text.h"
 #include "formats/format.h"
 
 enum { SHORTEST_HEADER = 227, FORMATS = 11 };
@@ -134,36 +133,6 @@ color_shift(const unsigned char *d, const las *l)
 	return 0;
 }
 
-static mr_status
-read_field(mr_builder *b, const unsigned char *data, const las *l, size_t i)
-{
-	size_t number, k = 0;
-	double x;
-
-	while (k < l->points && field_of(data + l->offset + k * l->record, l->format >= 6, i) == 0)
-		k++;
-	if (k == l->points)
-		return MR_OK;
-	MR_TRY(mr_build_property(b, fields[i].name, fields[i].type, 'v', &number));
-	for (k = 0; k < l->points; k++) {
-		x = field_of(data + l->offset + k * l->record, l->format >= 6, i);
-		MR_TRY(mr_build_value(b, number, k, x));
-	}
-	return MR_OK;
-}
-
-static mr_status
-read_fields(mr_ctx *ctx, const unsigned char *data, const las *l, mr_model *m)
-{
-	mr_builder b = { .ctx = ctx };
-
-	for (size_t i = 0; i < FIELDS; i++)
-		if (has_field(l->format, i))
-			MR_TRY(read_field(&b, data, l, i));
-	mr_lost(ctx, NULL, l->record - formats[l->format].bytes, "more bytes of each point");
-	return mr_build_properties(&b, m);
-}
-
 /* Whether a record of the header says where on Earth the points are. */
 static bool
 has_projection(const unsigned char *d, const las *l)
@@ -179,40 +148,80 @@ has_projection(const unsigned char *d, const las *l)
 	return false;
 }
 
+/* Whether any point has another value than 0, as a field has that is not told. */
+static bool
+is_told(const unsigned char *data, const las *l, size_t i)
+{
+	uint64_t k = 0;
+
+	while (k < l->points && field_of(data + l->offset + k * l->record, l->format >= 6, i) == 0)
+		k++;
+	return k < l->points;
+}
+
+/* Columns of place and colour, then of the fields that are told. */
+static mr_status
+add_columns(const unsigned char *data, const las *l, mr_rows *r, bool told[FIELDS])
+{
+	for (mr_role k = MR_X; k <= MR_Z; k++)
+		MR_TRY(mr_rows_add(r, k, "", 0, NULL));
+	for (mr_role k = MR_RED; l->color && k <= MR_BLUE; k++)
+		MR_TRY(mr_rows_add(r, k, "", 0, NULL));
+	for (size_t i = 0; i < FIELDS; i++) {
+		told[i] = has_field(l->format, i) && is_told(data, l, i);
+		if (told[i])
+			MR_TRY(mr_rows_add(
+			    r, MR_NO_ROLE, fields[i].name, strlen(fields[i].name), fields[i].type));
+	}
+	r->shades[0].full = 255;
+	MR_TRY(mr_rows_begin(r));
+	return mr_rows_room(r, l->points);
+}
+
+static mr_status
+read_points(mr_ctx *ctx, const unsigned char *data, const las *l, mr_rows *r)
+{
+	unsigned shift = l->color ? color_shift(data, l) : 0;
+	size_t rounded = 0;
+	bool told[FIELDS];
+
+	MR_TRY(add_columns(data, l, r, told));
+	for (const unsigned char *d = data + l->offset; r->n < l->points; d += l->record) {
+		double x[6 + FIELDS];
+		size_t n = 3;
+		x[0] = l->scale.x * (int32_t)mr_load32(d, false) + l->origin.x;
+		x[1] = l->scale.y * (int32_t)mr_load32(d + 4, false) + l->origin.y;
+		x[2] = l->scale.z * (int32_t)mr_load32(d + 8, false) + l->origin.z;
+		if (!mr_finite(mr_rows_position(r, x)))
+			return mr_fail(
+			    ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", (size_t)(d - data));
+		for (size_t k = 0; l->color && k < 3; k++) {
+			unsigned c = mr_load16(d + l->color + 2 * k, false), lower = shift ? c & 255 : 0;
+			x[n++] = c >> shift;
+			rounded += lower && lower != c >> 8;
+		}
+		for (size_t i = 0; i < FIELDS; i++)
+			if (told[i])
+				x[n++] = field_of(d, l->format >= 6, i);
+		MR_TRY(mr_rows_put(r, x));
+	}
+	mr_tell(ctx, MR_ROUNDED, rounded, "values of colors");
+	return MR_OK;
+}
+
 mr_status
 mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	unsigned char *color = NULL;
-	unsigned shift;
-	size_t rounded = 0;
-	mr_v3 *p;
+	mr_builder b = { .ctx = ctx };
+	mr_rows r = { .b = &b };
 	las l = { 0 };
 
 	MR_TRY(read_header(ctx, data, size, &l));
-	p = MR_NEW(ctx, (size_t)l.points, mr_v3);
-	if (!p || (l.color && !(color = mr_alloc(ctx, (size_t)l.points, 4))))
-		return MR_EMEM;
-	shift = l.color ? color_shift(data, &l) : 0;
-	for (size_t i = 0; i < l.points; i++) {
-		const unsigned char *d = data + l.offset + i * l.record;
-		p[i] = mr_vec(l.scale.x * (int32_t)mr_load32(d, false) + l.origin.x,
-		    l.scale.y * (int32_t)mr_load32(d + 4, false) + l.origin.y,
-		    l.scale.z * (int32_t)mr_load32(d + 8, false) + l.origin.z);
-		if (!mr_finite(p[i]))
-			return mr_fail(
-			    ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", l.offset + i * l.record);
-		for (unsigned k = 0; color && k < 3; k++) {
-			unsigned x = mr_load16(d + l.color + 2 * k, false), lower = shift ? x & 255 : 0;
-			color[4 * i + k] = (unsigned char)(x >> shift);
-			rounded += lower && lower != x >> 8;
-		}
-		if (color)
-			color[4 * i + 3] = 255;
-	}
-	*m = (mr_model){ .p = p, .nv = (size_t)l.points, .color = color };
-	mr_tell(ctx, MR_ROUNDED, rounded, "values of colors");
+	MR_TRY(read_points(ctx, data, &l, &r));
+	mr_lost(ctx, NULL, l.record - formats[l.format].bytes, "more bytes of each point");
 	mr_lost(ctx, NULL, has_projection(data, &l), "the coordinate system");
-	return read_fields(ctx, data, &l, m);
+	MR_TRY(mr_rows_end(&r));
+	return mr_build_finish(&b, m);
 }
 
 bool

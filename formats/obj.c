@@ -15,12 +15,11 @@ typedef struct obj {
 	size_t joined_room;
 	size_t v, vt, vn; /* lines so far */
 	size_t v_all, vt_all, vn_all, f_all;
-	double *uv;       /* vt_all pairs */
-	mr_v3 *vn_values; /* vn_all */
-	float *rgb;       /* three per vertex, NAN where it has none; NULL without any */
-	mr_shades shades;
+	double *uv;                                               /* vt_all pairs */
+	mr_v3 *vn_values;                                         /* vn_all */
+	mr_rows rows;                                             /* of vertices: positions and colours */
 	size_t lines_and_points, weights, alphas, depths, others; /* what is left out */
-	size_t odd_colors, odd_texcoords;                         /* values that are not finite */
+	size_t odd_texcoords;                                     /* that are not finite */
 	size_t no_normals, no_texcoords; /* corners that name one that is not there */
 	bool slashes;                    /* the face at hand has a slash with nothing behind it */
 	uint32_t *corners;               /* of the face at hand: vertices, texture coordinates, normals */
@@ -135,24 +134,6 @@ numbers(obj *o, mr_scan *line, const char *what, size_t least, size_t most, doub
 	return MR_OK;
 }
 
-static mr_status
-set_color(obj *o, const double *c)
-{
-	if (!o->rgb) {
-		o->rgb = MR_NEW(o->ctx, 3 * o->v_all, float);
-		if (!o->rgb)
-			return MR_EMEM;
-		for (size_t i = 0; i < 3 * o->v_all; i++)
-			o->rgb[i] = NAN;
-	}
-	for (int i = 0; i < 3; i++) {
-		o->rgb[3 * o->v + (size_t)i] = (float)c[i];
-		mr_shade_see(&o->shades, c[i]);
-	}
-	o->odd_colors += !isfinite(c[0]) || !isfinite(c[1]) || !isfinite(c[2]);
-	return MR_OK;
-}
-
 /* v x y z [w | r g b [a]]: with four numbers the last is a weight, with six or seven there is a colour. */
 static mr_status
 position(obj *o, mr_scan *line)
@@ -165,13 +146,13 @@ position(obj *o, mr_scan *line)
 		return bad(o, "a vertex has 5 numbers, not 3, 4, 6 or 7");
 	if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2]))
 		return bad(o, "a coordinate is not finite");
-	o->b.p[o->v] = mr_vec(x[0], x[1], x[2]);
 	o->weights += n == 4 && x[3] != 1;
-	if (n > 4)
-		MR_TRY(set_color(o, x + 3));
+	o->rows.odd_colors += n > 4 && !isfinite(x[3] + x[4] + x[5]);
+	if (n <= 4)
+		x[3] = x[4] = x[5] = (double)NAN;
 	o->alphas += n > 6 && x[6] != 1;
 	o->v++;
-	return MR_OK;
+	return mr_rows_put(&o->rows, x);
 }
 
 static mr_status
@@ -517,26 +498,6 @@ count_lines(obj *o)
 
 /* ---- the model ---- */
 
-static mr_status
-finish_colors(obj *o)
-{
-	if (!o->rgb || !mr_all_left(o->ctx, o->odd_colors, o->v_all, "colors"))
-		return MR_OK;
-	o->b.color = MR_NEW(o->ctx, 4 * o->v_all, unsigned char);
-	if (!o->b.color)
-		return MR_EMEM;
-	o->shades.full = mr_shade_full(&o->shades);
-	for (size_t i = 0; i < o->v_all; i++) {
-		bool none = isnan(o->rgb[3 * i]);
-		for (size_t k = 0; k < 3; k++)
-			o->b.color[4 * i + k] = none ? 255
-			                             : mr_shade_byte(&o->shades, (double)o->rgb[3 * i + k]);
-		o->b.color[4 * i + 3] = 255;
-	}
-	mr_shades_said(o->ctx, &o->shades);
-	return MR_OK;
-}
-
 /* As many values as there are vertices, of which no corner names one, are those of the vertices. */
 static bool
 are_of_vertices(const obj *o, const uint32_t *place, size_t astray, size_t n)
@@ -604,15 +565,28 @@ finish(obj *o, mr_model *m)
 {
 	o->b.uv = o->uv;
 	o->b.vn = o->vn_values;
+	MR_TRY(mr_rows_end(&o->rows));
 	MR_TRY(finish_texcoords(o));
 	MR_TRY(finish_normals(o));
-	MR_TRY(finish_colors(o));
 	mr_lost(o->ctx, NULL, o->lines_and_points, "lines and points");
 	mr_lost(o->ctx, NULL, o->weights, "weights of vertices");
 	mr_lost(o->ctx, NULL, o->alphas, "alpha");
 	mr_lost(o->ctx, NULL, o->depths, "third texture coordinates");
 	mr_lost(o->ctx, NULL, o->others, "other statements");
 	return mr_build_finish(&o->b, m);
+}
+
+static mr_status
+begin_vertices(obj *o)
+{
+	static const mr_role roles[] = { MR_X, MR_Y, MR_Z, MR_RED, MR_GREEN, MR_BLUE };
+
+	o->rows.b = &o->b;
+	o->rows.sparse = true;
+	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
+		MR_TRY(mr_rows_add(&o->rows, roles[i], "", 0, NULL));
+	MR_TRY(mr_rows_begin(&o->rows));
+	return mr_rows_room(&o->rows, o->v_all);
 }
 
 mr_status
@@ -626,7 +600,7 @@ mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(count_lines(&o));
 	if (o.vn_all >= MR_NONE || o.vt_all >= MR_NONE)
 		return mr_fail(ctx, MR_ERANGE, "more normals or texture coordinates than indices can name");
-	MR_TRY(mr_build_vertices(&o.b, o.v_all));
+	MR_TRY(begin_vertices(&o));
 	MR_TRY(mr_build_reserve(&o.b, o.f_all));
 	o.uv = MR_NEW(ctx, 2 * o.vt_all, double);
 	o.vn_values = MR_NEW(ctx, o.vn_all, mr_v3);

@@ -11,12 +11,10 @@ typedef struct off {
 	mr_scan text;
 	bool normals, colors, texcoords, binary;
 	mr_builder b;
+	mr_rows rows;
 	uint64_t nv, nf;
-	float *rgba;               /* four per vertex as given, NAN where there are none */
-	mr_shades shades[2];       /* of all components, of alpha */
-	size_t odd_colors, odd_uv; /* values that are not finite */
-	size_t face_colors;        /* faces that have one */
-	size_t ignored;            /* numbers behind a vertex that the keyword does not announce */
+	size_t face_colors; /* faces that have one */
+	size_t ignored;     /* numbers behind a vertex that the keyword does not announce */
 	uint32_t *corner;
 	size_t corner_room;
 } off;
@@ -72,52 +70,21 @@ mr_off_sniff(const unsigned char *data, size_t size)
 
 /* ---- vertices ---- */
 
-static mr_status
-arrays(off *f)
-{
-	MR_TRY(mr_build_vertices(&f->b, f->nv));
-	if (f->normals && !(f->b.normal = MR_NEW(f->ctx, f->b.nv, mr_v3)))
-		return MR_EMEM;
-	if (f->texcoords && !(f->b.texcoord = MR_NEW(f->ctx, 2 * f->b.nv, double)))
-		return MR_EMEM;
-	return MR_OK;
-}
+/* The numbers of a vertex: three, then of the normal, the colour, and the texture coordinates. */
+enum { MOST = 3 + 3 + 4 + 2 };
 
 static mr_status
-set_color(off *f, size_t vertex, const double *c, size_t n)
+begin_vertices(off *f)
 {
-	bool odd = false;
+	static const mr_role roles[MOST] = { MR_X, MR_Y, MR_Z, MR_NX, MR_NY, MR_NZ, MR_RED, MR_GREEN, MR_BLUE,
+		MR_ALPHA, MR_U, MR_V };
 
-	if (!f->rgba) {
-		f->rgba = MR_NEW(f->ctx, 4 * f->b.nv, float);
-		if (!f->rgba)
-			return MR_EMEM;
-		for (size_t i = 0; i < 4 * f->b.nv; i++)
-			f->rgba[i] = NAN;
-	}
-	for (size_t i = 0; i < n; i++) {
-		f->rgba[4 * vertex + i] = (float)c[i];
-		mr_shade_see(&f->shades[0], c[i]);
-		if (i == 3)
-			mr_shade_see(&f->shades[1], c[i]);
-		odd |= !isfinite(c[i]);
-	}
-	f->odd_colors += odd;
-	return MR_OK;
-}
-
-static void
-set_normal(off *f, size_t vertex, const double *n)
-{
-	f->b.normal[vertex] = mr_vec(n[0], n[1], n[2]);
-}
-
-static void
-set_texcoord(off *f, size_t vertex, const double *uv)
-{
-	f->b.texcoord[2 * vertex] = uv[0];
-	f->b.texcoord[2 * vertex + 1] = uv[1];
-	f->odd_uv += !isfinite(uv[0]) || !isfinite(uv[1]);
+	for (size_t i = 0; i < MOST; i++)
+		if (i < 3 || (i < 6 && f->normals) || (i >= 6 && i < 10 && f->colors) ||
+		    (i >= 10 && f->texcoords))
+			MR_TRY(mr_rows_add(&f->rows, roles[i], "", 0, NULL));
+	MR_TRY(mr_rows_begin(&f->rows));
+	return mr_rows_room(&f->rows, f->nv);
 }
 
 /* The numbers left on the line. */
@@ -139,78 +106,42 @@ line_rest(off *f, double *x, size_t most, size_t *count)
 
 /* x y z [nx ny nz] [r g b [a]] [s t], on one line from the third number on. */
 static mr_status
-text_vertex(off *f, size_t i)
+text_vertex(off *f)
 {
-	double x[9] = { 0 }, normal[3];
+	size_t n = 3, rest = 0, colors, wanted = f->texcoords ? 2 : 0;
+	double x[MOST] = { 0 }, more[8] = { 0 };
 	const char *where;
-	size_t n = 0, colors;
+	mr_v3 p;
 
 	mr_skip_comments(&f->text);
 	where = f->text.p;
-	MR_TRY(mr_scan_position(&f->text, &f->b.p[i]));
+	MR_TRY(mr_scan_position(&f->text, &p));
+	x[0] = p.x, x[1] = p.y, x[2] = p.z;
 	for (int k = 0; f->normals && k < 3; k++)
-		MR_TRY(mr_scan_real(&f->text, "a normal", &normal[k]));
-	if (f->normals)
-		set_normal(f, i, normal);
-	MR_TRY(line_rest(f, x, 8, &n));
-	if (f->texcoords && n < 2)
+		MR_TRY(mr_scan_real(&f->text, "a normal", &x[n++]));
+	MR_TRY(line_rest(f, more, 8, &rest));
+	if (rest < wanted)
 		return mr_scan_fail(&f->text, where, "a vertex lacks its texture coordinates");
-	colors = n - (f->texcoords ? 2 : 0);
-	if (f->texcoords)
-		set_texcoord(f, i, x + colors);
-	if (!f->colors) {
-		f->ignored += colors;
-		return MR_OK;
-	}
-	if (colors != 3 && colors != 4)
+	colors = rest - wanted;
+	if (f->colors && colors != 3 && colors != 4)
 		return mr_scan_fail(
 		    &f->text, where, "a vertex with %zu colour components, not 3 or 4", colors);
-	return set_color(f, i, x, colors);
-}
-
-static mr_status
-finish_colors(off *f)
-{
-	if (!f->rgba)
-		return MR_OK;
-	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors"))
-		return MR_OK;
-	if (!(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
-		return MR_EMEM;
-	for (size_t k = 0; k < 2; k++)
-		f->shades[k].full = mr_shade_full(&f->shades[k]);
-	for (size_t i = 0; i < 4 * f->b.nv; i++)
-		f->b.color[i] = isnan(f->rgba[i]) ? 255
-		                                  : mr_shade_byte(&f->shades[i % 4 == 3], (double)f->rgba[i]);
-	for (size_t k = 0; k < 2; k++)
-		mr_shades_said(f->ctx, &f->shades[k]);
-	return MR_OK;
+	for (size_t k = 0; f->colors && k < 4; k++)
+		x[n++] = k < colors ? more[k] : (double)NAN;
+	f->ignored += f->colors ? 0 : colors;
+	memcpy(x + n, more + colors, wanted * sizeof *x);
+	return mr_rows_put(&f->rows, x);
 }
 
 static mr_status
 finish(off *f, mr_model *m)
 {
-	MR_TRY(finish_colors(f));
-	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv))
-		f->b.normal = NULL;
-	if (!mr_all_left(f->ctx, f->odd_uv, f->b.nv, "texture coordinates"))
-		f->b.texcoord = NULL;
 	mr_lost(f->ctx, NULL, f->face_colors, "colors of faces");
 	mr_lost(f->ctx, NULL, f->ignored, "numbers behind vertices");
 	return mr_build_finish(&f->b, m);
 }
 
 /* ---- text ---- */
-
-static mr_status
-corner_room(off *f, size_t n)
-{
-	if (n <= f->corner_room)
-		return MR_OK;
-	f->corner_room = n + n / 2;
-	f->corner = MR_NEW(f->ctx, f->corner_room, uint32_t);
-	return f->corner ? MR_OK : MR_EMEM;
-}
 
 static mr_status
 text_face(off *f)
@@ -224,7 +155,7 @@ text_face(off *f)
 	if (n > (size_t)(f->text.end - f->text.p) / 2 + 1)
 		return mr_scan_fail(&f->text, where, "a face of %llu corners, beyond the end of the file",
 		    (unsigned long long)n);
-	MR_TRY(corner_room(f, (size_t)n));
+	MR_TRY(MR_RESERVE(f->ctx, f->corner, 0, (size_t)n, &f->corner_room));
 	for (size_t i = 0; i < n; i++) {
 		MR_TRY(mr_scan_count(&f->text, "a corner of a face", UINT32_MAX, &v));
 		if (v >= f->nv)
@@ -270,10 +201,11 @@ static mr_status
 read_text(off *f, mr_model *m)
 {
 	MR_TRY(text_counts(f));
-	MR_TRY(arrays(f));
+	MR_TRY(begin_vertices(f));
 	MR_TRY(mr_build_reserve(&f->b, f->nf < MR_NONE / 3 ? (size_t)f->nf : 0));
-	for (size_t i = 0; i < f->b.nv; i++)
-		MR_TRY(text_vertex(f, i));
+	for (uint64_t i = 0; i < f->nv; i++)
+		MR_TRY(text_vertex(f));
+	MR_TRY(mr_rows_end(&f->rows));
 	for (uint64_t i = 0; i < f->nf; i++)
 		MR_TRY(text_face(f));
 	mr_skip_comments(&f->text);
@@ -287,12 +219,6 @@ typedef struct layout {
 	bool big, face_colors;
 } layout;
 
-static size_t
-floats_per_vertex(const off *f)
-{
-	return (size_t)(3 + 3 * f->normals + 4 * f->colors + 2 * f->texcoords);
-}
-
 /* Walks over the faces; true where they end with the file. */
 static bool
 fits(const off *f, const unsigned char *p, const unsigned char *end, layout l)
@@ -303,7 +229,7 @@ fits(const off *f, const unsigned char *p, const unsigned char *end, layout l)
 		return false;
 	nv = mr_load32(p, l.big);
 	nf = mr_load32(p + 4, l.big);
-	vertices = nv * 4 * floats_per_vertex(f);
+	vertices = nv * 4 * f->rows.columns;
 	if (vertices > left - 12)
 		return false;
 	for (p += 12 + vertices; nf > 0 && (size_t)(end - p) >= 4; nf--) {
@@ -326,30 +252,18 @@ fits(const off *f, const unsigned char *p, const unsigned char *end, layout l)
 static mr_status
 binary_vertices(off *f, const unsigned char *p, layout l)
 {
-	size_t floats = floats_per_vertex(f);
-	double x[12] = { 0 };
+	double x[MOST];
 
-	for (size_t i = 0; i < f->b.nv; i++) {
-		const double *at = x;
-		for (size_t k = 0; k < floats; k++)
-			x[k] = (double)mr_load_float(p + 4 * (i * floats + k), l.big);
-		f->b.p[i] = mr_vec(x[0], x[1], x[2]);
-		if (!mr_finite(f->b.p[i]))
+	MR_TRY(mr_rows_room(&f->rows, f->nv));
+	for (uint64_t i = 0; i < f->nv; i++) {
+		for (size_t k = 0; k < f->rows.columns; k++, p += 4)
+			x[k] = (double)mr_load_float(p, l.big);
+		if (!mr_finite(mr_rows_position(&f->rows, x)))
 			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite",
-			    (size_t)((const char *)p - f->text.start) + 4 * i * floats);
-		at += 3;
-		if (f->normals) {
-			set_normal(f, i, at);
-			at += 3;
-		}
-		if (f->colors) {
-			MR_TRY(set_color(f, i, at, 4));
-			at += 4;
-		}
-		if (f->texcoords)
-			set_texcoord(f, i, at);
+			    (size_t)((const char *)p - f->text.start) - 4 * f->rows.columns);
+		MR_TRY(mr_rows_put(&f->rows, x));
 	}
-	return MR_OK;
+	return mr_rows_end(&f->rows);
 }
 
 static mr_status
@@ -357,7 +271,7 @@ binary_faces(off *f, const unsigned char *p, layout l)
 {
 	for (uint64_t i = 0; i < f->nf; i++) {
 		size_t n = mr_load32(p, l.big);
-		MR_TRY(corner_room(f, n));
+		MR_TRY(MR_RESERVE(f->ctx, f->corner, 0, n, &f->corner_room));
 		p += 4;
 		for (size_t k = 0; k < n; k++, p += 4) {
 			f->corner[k] = mr_load32(p, l.big);
@@ -382,6 +296,7 @@ read_binary(off *f, mr_model *m)
 	const unsigned char *p = (const unsigned char *)f->text.p, *end = (const unsigned char *)f->text.end;
 	size_t i = 0;
 
+	MR_TRY(begin_vertices(f));
 	while (i < 4 && !fits(f, p, end, layouts[i]))
 		i++;
 	if (i == 4)
@@ -390,9 +305,8 @@ read_binary(off *f, mr_model *m)
 		    (size_t)(f->text.p - f->text.start), (size_t)(end - p));
 	f->nv = mr_load32(p, layouts[i].big);
 	f->nf = mr_load32(p + 4, layouts[i].big);
-	MR_TRY(arrays(f));
 	MR_TRY(binary_vertices(f, p + 12, layouts[i]));
-	MR_TRY(binary_faces(f, p + 12 + 4 * f->nv * floats_per_vertex(f), layouts[i]));
+	MR_TRY(binary_faces(f, p + 12 + 4 * f->nv * f->rows.columns, layouts[i]));
 	return finish(f, m);
 }
 
@@ -419,6 +333,7 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	off f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 	bool dimensions;
 
+	f.rows.b = &f.b;
 	if (!keyword(&f, &dimensions))
 		MR_TRY(check_variant(&f));
 	else if (dimensions)

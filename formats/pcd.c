@@ -4,38 +4,32 @@
  */
 #include "formats/format.h"
 
-enum { FIELDS = 64 };
+enum { FIELDS = 64, COLUMNS = FIELDS + 7 };
 
 /* Three bytes of LZF stand for 264 at most. */
 enum { SWELLS = 88 };
 
-typedef enum role { SKIP, X, Y, Z, NX, NY, NZ, RGB, ROLES } role;
-
 typedef struct field {
-	role role;
-	char type; /* I, U or F */
-	unsigned size, count;
-	size_t offset;
 	const char *name;
-	size_t property; /* its number, from 1; 0: none */
-	double value;    /* of the point at hand */
+	size_t name_bytes;
+	char type; /* I, U or F */
+	size_t size, count, offset;
 } field;
 
 typedef struct pcd {
 	mr_ctx *ctx;
 	mr_scan text;
 	field field[FIELDS];
-	size_t fields, sizes, kinds, counts, stride;
+	size_t fields, stride; /* stride: of numbers in text, of bytes else */
 	uint64_t width, height, points;
 	bool has_points, binary, packed;
 	const unsigned char *planes; /* of packed ones: the fields, each of all points */
+	const field *rgb;            /* four bytes, blue first, in a whole number or in the bits of a float */
 	mr_v3 viewpoint;
 	bool turned; /* the viewpoint has an orientation */
-	mr_builder properties;
-	const field *of[ROLES];
-	bool alpha;    /* the colour is rgba */
-	bool no_color; /* of the point at hand: the text has no number */
-	size_t no_colors;
+	mr_builder b;
+	mr_rows rows; /* of fields, then of colours, then of the viewpoint */
+	double x[COLUMNS];
 	size_t surplus; /* rows of text that have numbers of no field */
 } pcd;
 
@@ -44,25 +38,15 @@ typedef struct pcd {
 static mr_status
 field_names(pcd *f, mr_scan *line)
 {
-	static const struct {
-		const char *name;
-		role role;
-	} roles[] = { { "x", X }, { "y", Y }, { "z", Z }, { "normal_x", NX }, { "normal_y", NY },
-		{ "normal_z", NZ }, { "rgb", RGB }, { "rgba", RGB } };
 	const char *w;
 	size_t n;
 
 	for (f->fields = 0; mr_scan_word(line, &w, &n); f->fields++) {
-		char *name = mr_alloc(f->ctx, n + 1, 1);
 		if (f->fields == FIELDS)
 			return mr_scan_fail(&f->text, w, "more than %d fields", (int)FIELDS);
-		if (!name)
-			return MR_EMEM;
-		mr_clean_name(name, w, n, false);
-		f->field[f->fields] = (field){ .type = 'F', .size = 4, .count = 1, .name = name };
-		for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-			if (strlen(roles[i].name) == n && !memcmp(roles[i].name, w, n))
-				f->field[f->fields].role = roles[i].role;
+		f->field[f->fields] = (field){
+			.name = w, .name_bytes = n, .type = 'F', .size = 4, .count = 1
+		};
 	}
 	return MR_OK;
 }
@@ -76,7 +60,7 @@ field_sizes(pcd *f, mr_scan *line)
 		MR_TRY(mr_scan_count(line, "a field's size", 8, &n));
 		if (n != 1 && n != 2 && n != 4 && n != 8)
 			return mr_scan_fail(&f->text, line->p, "a field of %u bytes", (unsigned)n);
-		f->field[i].size = (unsigned)n;
+		f->field[i].size = (size_t)n;
 	}
 	return MR_OK;
 }
@@ -102,7 +86,7 @@ field_counts(pcd *f, mr_scan *line)
 
 	for (size_t i = 0; i < f->fields; i++) {
 		MR_TRY(mr_scan_count(line, "a field's count", 1 << 20, &n));
-		f->field[i].count = (unsigned)n;
+		f->field[i].count = (size_t)n;
 	}
 	return MR_OK;
 }
@@ -133,6 +117,8 @@ viewpoint(pcd *f, mr_scan *line)
 	return MR_OK;
 }
 
+/* ---- columns ---- */
+
 /* What PLY calls the type of a field. */
 static const char *
 type_of(const field *d)
@@ -144,30 +130,52 @@ type_of(const field *d)
 	return d->size == 8 ? "double" : whole[d->type == 'U'][d->size / 2];
 }
 
-/* A field that we do not know is a property, and so is one that cannot be four bytes; "_" is none, but fills
- * up. */
-static mr_status
-keep_field(pcd *f, field *d)
+static bool
+is_named(const field *d, const char *name)
 {
-	if (d->role == RGB && d->size != 4)
-		d->role = SKIP;
-	if (d->role != SKIP || !strcmp(d->name, "_"))
-		return MR_OK;
-	if (d->count == 1)
-		return mr_build_property(&f->properties, d->name, type_of(d), 'v', &d->property);
-	mr_tell(f->ctx, MR_LOST, 1, "field %s", d->name);
-	return MR_OK;
+	return mr_word_is(d->name, d->name_bytes, name);
+}
+
+/* "_" only fills up. */
+static mr_status
+add_field(pcd *f, field *d)
+{
+	bool one = d->count == 1, packed = one && d->size == 4 && (is_named(d, "rgb") || is_named(d, "rgba"));
+
+	if (packed && !f->rgb)
+		f->rgb = d;
+	if (!one && !is_named(d, "_"))
+		mr_tell(f->ctx, MR_LOST, 1, "field %.*s", (int)d->name_bytes, d->name);
+	return mr_rows_add(&f->rows, one ? mr_role_of(d->name, d->name_bytes) : MR_NO_ROLE, d->name,
+	    d->name_bytes, one && !is_named(d, "_") && d != f->rgb ? type_of(d) : NULL);
+}
+
+static mr_status
+add_columns(pcd *f)
+{
+	bool seen = f->viewpoint.x != 0 || f->viewpoint.y != 0 || f->viewpoint.z != 0; /* else not known */
+
+	for (size_t i = 0; i < f->fields; i++)
+		MR_TRY(add_field(f, &f->field[i]));
+	for (mr_role k = MR_RED; f->rgb && k <= MR_ALPHA; k++)
+		if (k != MR_ALPHA || (is_named(f->rgb, "rgba") && f->rgb->type != 'F'))
+			MR_TRY(mr_rows_add(&f->rows, k, "", 0, NULL));
+	if (f->rgb)
+		f->rows.shades[0].full = f->rows.shades[1].full = 255;
+	for (mr_role k = MR_FROM_X; seen && k <= MR_FROM_Z; k++)
+		MR_TRY(mr_rows_add(&f->rows, k, "", 0, NULL));
+	return mr_rows_begin(&f->rows);
 }
 
 /* Whether the file may hold so many points. */
 static bool
 can_hold(const pcd *f)
 {
-	size_t left = (size_t)(f->text.end - f->text.p);
+	uint64_t left = (uint64_t)(f->text.end - f->text.p);
 
 	if (f->packed)
 		/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) x, y and z have bytes */
-		return f->points <= (uint64_t)left * SWELLS / f->stride;
+		return f->points <= left * SWELLS / f->stride;
 	/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) the same */
 	return f->points <= left / (f->binary ? f->stride : 2) + 1;
 }
@@ -175,32 +183,21 @@ can_hold(const pcd *f)
 static mr_status
 check_header(pcd *f)
 {
-	size_t offset = 0;
-
-	for (size_t i = 0; i < f->fields; i++) {
-		field *d = &f->field[i];
-		d->offset = f->binary ? offset : f->stride;
-		offset += (size_t)d->size * d->count;
-		f->stride += d->count;
+	for (field *d = f->field; d < f->field + f->fields; d++) {
 		if (d->type == 'F' && d->size < 4)
-			return mr_scan_fail(&f->text, f->text.p, "a field of type F and %u bytes", d->size);
-		if (d->role != SKIP && (d->count != 1 || f->of[d->role]))
-			d->role = SKIP;
-		MR_TRY(keep_field(f, d));
-		if (d->role != SKIP)
-			f->of[d->role] = d;
+			return mr_scan_fail(&f->text, f->text.p, "a field of type F and %zu bytes", d->size);
+		d->offset = f->stride;
+		f->stride += f->binary ? d->size * d->count : d->count;
 	}
-	if (f->binary)
-		f->stride = offset;
-	f->alpha = f->of[RGB] && !strcmp(f->of[RGB]->name, "rgba") && f->of[RGB]->type != 'F';
-	if (!f->of[X] || !f->of[Y] || !f->of[Z])
+	MR_TRY(add_columns(f));
+	if (!f->rows.at[MR_X] || !f->rows.at[MR_Y] || !f->rows.at[MR_Z])
 		return mr_scan_fail(&f->text, f->text.p, "the fields lack x, y or z");
 	if (!f->has_points)
 		f->points = f->width * f->height;
 	if (!can_hold(f))
 		return mr_scan_fail(&f->text, f->text.p, "%llu points, beyond the end of the file",
 		    (unsigned long long)f->points);
-	return MR_OK;
+	return mr_rows_room(&f->rows, f->points);
 }
 
 static mr_status
@@ -303,23 +300,30 @@ unpack_planes(pcd *f)
 
 /* ---- points ---- */
 
-static double
-binary_value(const unsigned char *p, const field *d)
+static mr_status
+read_binary(pcd *f, uint64_t i)
 {
-	uint64_t u = d->size == 1   ? *p
-	             : d->size == 2 ? mr_load16(p, false)
-	             : d->size == 4 ? mr_load32(p, false)
-	                            : mr_load64(p, false);
+	const unsigned char *row = (const unsigned char *)f->text.p;
 
-	if (d->type == 'F')
-		return d->size == 8 ? mr_load_double(p, false) : (double)mr_load_float(p, false);
-	if (d->type == 'I' && d->size < 8 && u >> (8 * d->size - 1))
-		return (double)u - (double)(UINT64_C(1) << (8 * d->size));
-	return d->type == 'I' ? (double)(int64_t)u : (double)u;
+	if (!f->packed && (size_t)(f->text.end - f->text.p) < f->stride)
+		return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: the file ends inside a point",
+		    (size_t)(f->text.end - f->text.start));
+	for (size_t k = 0; k < f->fields; k++) {
+		const field *d = &f->field[k];
+		const unsigned char *at = f->packed
+		                              ? f->planes + d->offset * f->points + i * d->size * d->count
+		                              : row + d->offset;
+		f->x[k] = d == f->rgb ? mr_load32(at, false)
+		          : d->count  ? mr_load_number(at, d->type, d->size, false)
+		                      : 0;
+	}
+	if (!f->packed)
+		f->text.p += f->stride;
+	return MR_OK;
 }
 
-/* A colour is four bytes, blue first, in a whole number or in the bits of a float. */
-static uint32_t
+/* The four bytes of a colour that was written as a number. */
+static double
 color_bits(double value, const field *d)
 {
 	float f = (float)value;
@@ -328,60 +332,11 @@ color_bits(double value, const field *d)
 	if (d->type != 'F')
 		return value >= -2147483648.0 && value < 4294967296.0 ? (uint32_t)(int64_t)value : 0;
 	memcpy(&bits, &f, sizeof bits);
-	return bits;
-}
-
-/* Where a binary field of point i is; `row` is the point, of a file that is not packed. */
-static const unsigned char *
-place_of(const pcd *f, const field *d, const unsigned char *row, uint64_t i)
-{
-	size_t width = (size_t)d->size * d->count;
-
-	return f->packed ? f->planes + d->offset * f->points + i * width : row + d->offset;
-}
-
-/* Fields whose numbers are wanted. */
-static bool
-is_wanted(const pcd *f, const field *d)
-{
-	return d->property || f->of[d->role] == d;
-}
-
-/* The properties of the point that was read. */
-static mr_status
-take_properties(pcd *f, size_t row)
-{
-	for (const field *d = f->field; d < f->field + f->fields; d++)
-		if (d->property)
-			MR_TRY(mr_build_value(&f->properties, d->property, row, d->value));
-	return MR_OK;
+	return isnan(value) ? value : bits;
 }
 
 static mr_status
-read_binary(pcd *f, uint64_t i, double value[ROLES], uint32_t *rgb)
-{
-	const unsigned char *p = (const unsigned char *)f->text.p;
-
-	if (!f->packed && (size_t)(f->text.end - f->text.p) < f->stride)
-		return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: the file ends inside a point",
-		    (size_t)(f->text.end - f->text.start));
-	for (size_t k = 0; k < f->fields; k++) {
-		field *d = &f->field[k];
-		const unsigned char *at = place_of(f, d, p, i);
-		if (!is_wanted(f, d))
-			continue;
-		if (d->role == RGB)
-			*rgb = mr_load32(at, false);
-		else
-			value[d->role] = d->value = binary_value(at, d);
-	}
-	if (!f->packed)
-		f->text.p += f->stride;
-	return MR_OK;
-}
-
-static mr_status
-read_text(pcd *f, double value[ROLES], uint32_t *rgb)
+read_text(pcd *f)
 {
 	mr_scan line;
 
@@ -389,69 +344,28 @@ read_text(pcd *f, double value[ROLES], uint32_t *rgb)
 		if (!mr_scan_line(&f->text, &line))
 			return mr_scan_fail(&f->text, f->text.end, "the file ends before its last point");
 	while (mr_skip_blanks(&line), line.p == line.end);
-	for (field *d = f->field; d < f->field + f->fields; d++)
-		for (unsigned k = 0; k < d->count; k++) {
-			double x = 0;
-			MR_TRY(mr_scan_real(&line, "a number of a point", &x));
-			if (is_wanted(f, d))
-				value[d->role] = x;
-			d->value = x;
-		}
+	for (size_t i = 0; i < f->fields; i++) {
+		for (size_t k = 0; k < f->field[i].count; k++)
+			MR_TRY(mr_scan_real(&line, "a number of a point", &f->x[i]));
+		if (&f->field[i] == f->rgb)
+			f->x[i] = color_bits(f->x[i], f->rgb);
+	}
 	mr_skip_blanks(&line);
 	f->surplus += line.p < line.end;
-	if (f->of[RGB]) {
-		f->no_color = isnan(value[RGB]);
-		*rgb = color_bits(value[RGB], f->of[RGB]);
-	}
 	return MR_OK;
 }
 
-static bool
-is_origin(mr_v3 p)
-{
-	return p.x == 0 && p.y == 0 && p.z == 0;
-}
-
-/* The points: as many as are finite. */
-static mr_status
-read_points(pcd *f, mr_v3 *p, mr_v3 *normal, unsigned char *color, size_t *count)
-{
-	double v[ROLES] = { 0 };
-	uint32_t rgb = 0;
-	size_t n = 0;
-
-	for (uint64_t i = 0; i < f->points; i++) {
-		MR_TRY(f->binary ? read_binary(f, i, v, &rgb) : read_text(f, v, &rgb));
-		p[n] = mr_vec(v[X], v[Y], v[Z]);
-		if (!mr_finite(p[n]))
-			continue;
-		MR_TRY(take_properties(f, n));
-		f->no_colors += f->no_color;
-		if (normal)
-			normal[n] = mr_vec(v[NX], v[NY], v[NZ]);
-		if (color) {
-			unsigned char c[4] = { (unsigned char)(rgb >> 16), (unsigned char)(rgb >> 8),
-				(unsigned char)rgb, f->alpha ? (unsigned char)(rgb >> 24) : 255 };
-			memcpy(color + 4 * n, c, 4);
-		}
-		n++;
-	}
-	*count = n;
-	return MR_OK;
-}
-
-/* Says what stands where no field or no point is. */
+/* The parts of the colour into columns of their own. */
 static void
-warn_of_rest(pcd *f)
+part_color(pcd *f)
 {
-	const unsigned char *p = (const unsigned char *)f->text.p;
+	double whole = f->x[f->rgb - f->field];
+	uint32_t bits = isnan(whole) ? 0 : (uint32_t)whole;
 
-	mr_lost(f->ctx, NULL, f->surplus, "numbers behind points");
-	if (f->packed)
-		f->text.p += 8 + mr_load32(p, false);
-	if (!f->binary)
-		mr_skip_comments(&f->text);
-	mr_scan_rest(&f->text);
+	for (int k = 0; k < 4; k++)
+		f->x[f->fields + (size_t)k] = isnan(whole)
+		                                  ? whole
+		                                  : (double)(bits >> (k < 3 ? 16 - 8 * k : 24) & 255);
 }
 
 /* Where no point can be seen, alpha was not told. */
@@ -465,38 +379,54 @@ mend_alpha(unsigned char *color, size_t n)
 		color[4 * i + 3] = 255;
 }
 
+/* The points: as many as are finite. */
+static mr_status
+read_points(pcd *f)
+{
+	size_t seen = f->rows.at[MR_FROM_X];
+	double from[3] = { f->viewpoint.x, f->viewpoint.y, f->viewpoint.z };
+
+	for (uint64_t i = 0; i < f->points; i++) {
+		MR_TRY(f->binary ? read_binary(f, i) : read_text(f));
+		if (f->rgb)
+			part_color(f);
+		if (seen)
+			memcpy(f->x + seen - 1, from, sizeof from);
+		if (mr_finite(mr_rows_position(&f->rows, f->x)))
+			MR_TRY(mr_rows_put(&f->rows, f->x));
+	}
+	return MR_OK;
+}
+
+/* Says what stands where no field or no point is. */
+static void
+say_rest(pcd *f)
+{
+	mr_lost(f->ctx, NULL, f->surplus, "numbers behind points");
+	if (f->packed)
+		f->text.p += 8 + mr_load32((const unsigned char *)f->text.p, false);
+	if (!f->binary)
+		mr_skip_comments(&f->text);
+	mr_scan_rest(&f->text);
+	mr_lost(f->ctx, NULL, f->width > 1 && f->height > 1, "the grid of points");
+	mr_lost(f->ctx, NULL, f->turned, "the viewpoint's orientation");
+}
+
 mr_status
 mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	pcd f = {
-		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .height = 1, .properties = { .ctx = ctx }
-	};
-	mr_v3 *p, *normal = NULL;
-	unsigned char *color = NULL;
-	size_t n;
+	pcd f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .height = 1, .b = { .ctx = ctx } };
 
+	f.rows.b = &f.b;
 	MR_TRY(read_header(&f));
 	if (f.packed)
 		MR_TRY(unpack_planes(&f));
-	p = MR_NEW(ctx, (size_t)f.points, mr_v3);
-	if (!p || (f.of[NX] && f.of[NY] && f.of[NZ] && !(normal = MR_NEW(ctx, (size_t)f.points, mr_v3))) ||
-	    (f.of[RGB] && !(color = mr_alloc(ctx, (size_t)f.points, 4))))
-		return MR_EMEM;
-	MR_TRY(read_points(&f, p, normal, color, &n));
-	warn_of_rest(&f);
-	if (color && !mr_all_left(ctx, f.no_colors, n, "colors"))
-		color = NULL;
-	if (color)
-		mend_alpha(color, n);
-	if (normal && !mr_normals_left(ctx, normal, n))
-		normal = NULL;
-	*m = (mr_model){ .p = p, .nv = n, .normal = normal, .color = color };
-	mr_lost(ctx, NULL, f.width > 1 && f.height > 1, "the grid of points");
-	mr_lost(ctx, NULL, f.turned, "the viewpoint's orientation");
-	/* the origin is what stands there where none is known */
-	if (!is_origin(f.viewpoint))
-		MR_TRY(mr_scanned_from(ctx, f.viewpoint, m));
-	return mr_build_properties(&f.properties, m);
+	MR_TRY(read_points(&f));
+	say_rest(&f);
+	MR_TRY(mr_rows_end(&f.rows));
+	if (f.b.color)
+		mend_alpha(f.b.color, f.b.nv);
+	return mr_build_finish(&f.b, m);
 }
 
 bool

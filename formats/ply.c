@@ -47,36 +47,13 @@ here(ply *f)
 
 /* ---- values ---- */
 
-static double
-binary_value(const unsigned char *p, type t, bool big)
-{
-	switch (t) {
-	case CHAR:
-		return (signed char)*p;
-	case UCHAR:
-		return *p;
-	case SHORT:
-		return (int16_t)mr_load16(p, big);
-	case USHORT:
-		return mr_load16(p, big);
-	case INT:
-		return (int32_t)mr_load32(p, big);
-	case UINT:
-		return mr_load32(p, big);
-	case FLOAT:
-		return (double)mr_load_float(p, big);
-	default:
-		return mr_load_double(p, big);
-	}
-}
-
 /* The next value; in a binary file its bytes are known to be there. */
 static mr_status
 next_value(ply *f, type t, double *x)
 {
 	if (f->ascii)
 		return mr_scan_real(&f->text, "a value", x); /* all its digits, even of a float */
-	*x = binary_value(f->p, t, f->big);
+	*x = mr_load_number(f->p, mr_ply_types[t].kind, mr_ply_types[t].bytes, f->big);
 	f->p += mr_ply_types[t].bytes;
 	return MR_OK;
 }
@@ -128,65 +105,6 @@ begin_rows(ply *f, const element *e)
 		return bad(f, here(f), "%llu rows of element %s cannot be in the %zu bytes that are left",
 		    (unsigned long long)e->rows, e->name, left);
 	return MR_RESERVE(f->ctx, f->row, 0, e->properties, &f->row_room);
-}
-
-static type
-type_of(const element *e, role r)
-{
-	return has(e, r) ? find(e, r)->value : DOUBLE;
-}
-
-static mr_status
-vertex_arrays(ply *f, const element *e)
-{
-	MR_TRY(mr_build_vertices(&f->b, e->rows));
-	if (has(e, NX) && !(f->b.normal = MR_NEW(f->ctx, f->b.nv, mr_v3)))
-		return MR_EMEM;
-	if (has(e, RED) && !(f->b.color = mr_alloc(f->ctx, f->b.nv, 4)))
-		return MR_EMEM;
-	if (has(e, FROM_X) && !(f->b.scanner = MR_NEW(f->ctx, f->b.nv, mr_v3)))
-		return MR_EMEM;
-	if (has(e, U) && !(f->b.texcoord = MR_NEW(f->ctx, 2 * f->b.nv, double)))
-		return MR_EMEM;
-	return MR_OK;
-}
-
-/* Bytes and 16 bits without sign say what is full; before all values are known, the others have the usual. */
-static void
-begin_shades(ply *f, const element *e)
-{
-	for (int i = 0; i < 2; i++) {
-		type t = type_of(e, i ? ALPHA : RED);
-		f->shades[i] = (mr_shades){ .full = t == USHORT ? 65535 : t >= FLOAT ? 1 : 255 };
-		f->told[i] = t <= UCHAR || t == USHORT;
-	}
-}
-
-/* Whether it was not the usual after all. */
-static bool
-mend_shades(ply *f)
-{
-	bool other = false;
-
-	for (int i = 0; i < 2; i++) {
-		double full = f->told[i] ? f->shades[i].full : mr_shade_full(&f->shades[i]);
-		other |= full != f->shades[i].full;
-		f->shades[i].full = full;
-		f->told[i] = true;
-	}
-	return other;
-}
-
-static void
-set_color(ply *f, const double *v, unsigned char *c)
-{
-	f->odd_colors += isnan(v[0] + v[1] + v[2] + v[3]) ? 1 : 0;
-	for (int k = 0; k < 4; k++) {
-		mr_shades *s = &f->shades[k == 3];
-		if (!f->told[k == 3])
-			mr_shade_see(s, v[k]);
-		c[k] = mr_shade_byte(s, v[k]);
-	}
 }
 
 static mr_status
@@ -243,9 +161,9 @@ end_row(ply *f, const element *e, const void *where)
 	    count_words(row) + count_words(line), e->name, count_words(row));
 }
 
-/* Reads a row's values by role; lists are passed over. */
+/* Reads a row's values; lists are passed over. */
 static mr_status
-read_row(ply *f, const element *e, uint64_t row, double value[ROLES])
+read_row(ply *f, const element *e, uint64_t row)
 {
 	const void *where = here(f);
 
@@ -254,95 +172,30 @@ read_row(ply *f, const element *e, uint64_t row, double value[ROLES])
 	for (size_t i = 0; i < e->properties; i++) {
 		const property *p = &e->property[i];
 		MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
-		if (!p->list)
-			value[p->role] = f->row[i];
 	}
 	return end_row(f, e, where);
 }
 
-/* Keeps the row at hand as row `at` of the properties. */
-static mr_status
-keep_row(ply *f, const element *e, size_t at)
-{
-	for (size_t i = 0; i < e->properties; i++)
-		if (e->property[i].kept)
-			MR_TRY(mr_build_value(&f->b, e->property[i].kept, at, f->row[i]));
-	return MR_OK;
-}
-
-static mr_status
-read_vertex(ply *f, const element *e, size_t i, double v[ROLES])
-{
-	const void *where = here(f);
-
-	MR_TRY(read_row(f, e, i, v));
-	f->b.p[i] = mr_vec(v[X], v[Y], v[Z]);
-	if (!mr_finite(f->b.p[i]))
-		return bad(f, where, "position %zu (%g %g %g) is not finite", i, v[X], v[Y], v[Z]);
-	if (f->b.normal)
-		f->b.normal[i] = mr_vec(v[NX], v[NY], v[NZ]);
-	if (f->b.scanner) {
-		f->b.scanner[i] = mr_vec(v[FROM_X], v[FROM_Y], v[FROM_Z]);
-		f->odd_scanner += !mr_finite(f->b.scanner[i]);
-	}
-	if (f->b.color)
-		set_color(f, v + RED, f->b.color + 4 * i);
-	if (f->b.texcoord) {
-		f->b.texcoord[2 * i] = v[U];
-		f->b.texcoord[2 * i + 1] = v[V];
-		f->odd_uv += !isfinite(v[U]) || !isfinite(v[V]);
-	}
-	return keep_row(f, e, i);
-}
-
-static mr_status
-read_vertex_rows(ply *f, const element *e)
-{
-	double v[ROLES] = { 0 };
-
-	f->odd_colors = f->odd_uv = f->odd_scanner = 0;
-	for (int i = 0; i < 2; i++)
-		f->shades[i].rounded = 0;
-	v[ALPHA] = 1; /* where there is none */
-	for (size_t i = 0; i < f->b.nv; i++)
-		MR_TRY(read_vertex(f, e, i, v));
-	return MR_OK;
-}
-
-/* Columns that are left out as a whole where one of their values is no number. */
-static void
-finish_vertices(ply *f)
-{
-	if (f->b.normal && !mr_normals_left(f->ctx, f->b.normal, f->b.nv))
-		f->b.normal = NULL;
-	if (!mr_all_left(f->ctx, f->odd_colors, f->b.nv, "colors"))
-		f->b.color = NULL;
-	for (int i = 0; f->b.color && i < 2; i++)
-		mr_shades_said(f->ctx, &f->shades[i]);
-	if (!mr_all_left(f->ctx, f->odd_scanner, f->b.nv, "places of the scanner"))
-		f->b.scanner = NULL;
-}
-
-/* Where the values of colours tell that they are not of the usual kind, they are read again. */
 static mr_status
 read_vertices(ply *f, const element *e)
 {
-	const unsigned char *binary = f->p;
-	const char *text = f->text.p;
+	const size_t *at = f->rows.at;
 
-	if (!has(e, X) || !has(e, Y) || !has(e, Z))
+	if (!at[MR_X] || !at[MR_Y] || !at[MR_Z])
 		return bad(f, here(f), "element vertex lacks x, y or z");
 	MR_TRY(begin_rows(f, e));
-	MR_TRY(vertex_arrays(f, e));
-	begin_shades(f, e);
-	MR_TRY(read_vertex_rows(f, e));
-	if (f->b.color && mend_shades(f)) {
-		f->p = binary;
-		f->text.p = text;
-		MR_TRY(read_vertex_rows(f, e));
+	MR_TRY(mr_rows_room(&f->rows, e->rows));
+	for (uint64_t i = 0; i < e->rows; i++) {
+		const void *where = here(f);
+		mr_v3 p;
+		MR_TRY(read_row(f, e, i));
+		p = mr_rows_position(&f->rows, f->row);
+		if (!mr_finite(p))
+			return bad(
+			    f, where, "position %zu (%g %g %g) is not finite", (size_t)i, p.x, p.y, p.z);
+		MR_TRY(mr_rows_put(&f->rows, f->row));
 	}
-	finish_vertices(f);
-	return MR_OK;
+	return mr_rows_end(&f->rows);
 }
 
 /* ---- faces ---- */
@@ -493,6 +346,16 @@ name_marks(ply *f, const element *e)
 	return MR_OK;
 }
 
+/* Keeps the row at hand as row `at` of the properties. */
+static mr_status
+keep_row(ply *f, const element *e, size_t at)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		if (e->property[i].kept)
+			MR_TRY(mr_build_value(&f->b, e->property[i].kept, at, f->row[i]));
+	return MR_OK;
+}
+
 static mr_status
 read_face(ply *f, const element *e, uint64_t row)
 {
@@ -532,11 +395,9 @@ read_faces(ply *f, const element *e)
 static mr_status
 pass_rows(ply *f, const element *e)
 {
-	double v[ROLES];
-
 	MR_TRY(begin_rows(f, e));
 	for (uint64_t row = 0; e->properties && row < e->rows; row++)
-		MR_TRY(read_row(f, e, row, v));
+		MR_TRY(read_row(f, e, row));
 	return MR_OK;
 }
 
@@ -555,7 +416,7 @@ lose_others(ply *f)
 			mr_tell(f->ctx, MR_LOST, e->rows, "element %s", e->name);
 		for (size_t k = 0; e->kind != OTHER && k < e->properties; k++) {
 			const property *p = &e->property[k];
-			if (p->role == NONE && !p->kept)
+			if (p->list && p->role == NONE)
 				mr_tell(f->ctx, MR_LOST, e->rows, "%s of element %s", p->name, e->name);
 		}
 	}
@@ -595,10 +456,9 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		.ascii = true,
 		.b = { .ctx = ctx } };
 
+	f.rows.b = &f.b;
 	MR_TRY(mr_ply_header(&f));
 	MR_TRY(read_elements(&f));
-	if (!mr_all_left(ctx, f.odd_uv, f.b.nv, "texture coordinates"))
-		f.b.texcoord = NULL;
 	lose_others(&f);
 	f.b.uv = f.uv.value;
 	f.b.vn = (const mr_v3 *)f.vn.value;

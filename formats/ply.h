@@ -14,44 +14,20 @@ typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES 
 typedef struct type_name {
 	const char *name, *alias;
 	unsigned char bytes;
+	char kind; /* as of mr_load_number */
 } type_name;
 
 extern const type_name mr_ply_types[TYPES];
 
-/* What a property is to us. */
-typedef enum role {
-	NONE,
-	X,
-	Y,
-	Z,
-	NX,
-	NY,
-	NZ,
-	RED,
-	GREEN,
-	BLUE,
-	ALPHA,
-	U,
-	V,
-	FROM_X,
-	FROM_Y,
-	FROM_Z,
-	INDICES,
-	UVS,
-	NORMALS,
-	GROUP,
-	OBJECT,
-	MATERIAL,
-	SMOOTHING,
-	ROLES
-} role;
+/* What a property of faces is to us. */
+typedef enum role { NONE, INDICES, UVS, NORMALS, GROUP, OBJECT, MATERIAL, SMOOTHING } role;
 
 typedef struct property {
 	bool list;
 	type count, value; /* of a list: of its length and of its items */
 	role role;
 	const char *name;
-	size_t kept; /* its number from 1 among the properties of the builder; 0: it is none of them */
+	size_t kept; /* of a face's: its number from 1 among the properties of the builder; 0: none of them */
 } property;
 
 typedef enum kind { OTHER, VERTEX, FACE, STRIPS } kind;
@@ -96,10 +72,8 @@ typedef struct ply {
 	named_list names[3]; /* of groups, objects, materials */
 	double *row;         /* of the row at hand, value by value */
 	size_t row_room;
-	mr_shades shades[2];                    /* of colours, of alpha */
-	bool told[2];                           /* what is full is known */
-	size_t odd_uv, odd_colors, odd_scanner; /* of vertices: not finite */
-	size_t textures;                        /* that are left out */
+	mr_rows rows;    /* of vertices */
+	size_t textures; /* that are left out */
 } ply;
 
 /* The property of a role, or NULL. */

@@ -1,9 +1,9 @@
 /* The header of a PLY, and what its properties are to us. */
 #include "formats/ply.h"
 
-const type_name mr_ply_types[TYPES] = { { "char", "int8", 1 }, { "uchar", "uint8", 1 },
-	{ "short", "int16", 2 }, { "ushort", "uint16", 2 }, { "int", "int32", 4 }, { "uint", "uint32", 4 },
-	{ "float", "float32", 4 }, { "double", "float64", 8 } };
+const type_name mr_ply_types[TYPES] = { { "char", "int8", 1, 'I' }, { "uchar", "uint8", 1, 'U' },
+	{ "short", "int16", 2, 'I' }, { "ushort", "uint16", 2, 'U' }, { "int", "int32", 4, 'I' },
+	{ "uint", "uint32", 4, 'U' }, { "float", "float32", 4, 'F' }, { "double", "float64", 8, 'F' } };
 
 static bool
 is_word(const char *w, size_t n, const char *word)
@@ -30,30 +30,17 @@ static role
 role_of(kind k, bool list, const char *w, size_t n)
 {
 	static const struct {
-		kind kind;
 		bool list;
 		role role;
 		const char *name;
-	} roles[] = { { VERTEX, false, X, "x" }, { VERTEX, false, Y, "y" }, { VERTEX, false, Z, "z" },
-		{ VERTEX, false, NX, "nx" }, { VERTEX, false, NY, "ny" }, { VERTEX, false, NZ, "nz" },
-		{ VERTEX, false, RED, "red" }, { VERTEX, false, GREEN, "green" },
-		{ VERTEX, false, BLUE, "blue" }, { VERTEX, false, ALPHA, "alpha" },
-		{ VERTEX, false, RED, "r" }, { VERTEX, false, GREEN, "g" }, { VERTEX, false, BLUE, "b" },
-		{ VERTEX, false, ALPHA, "a" }, { VERTEX, false, RED, "diffuse_red" },
-		{ VERTEX, false, GREEN, "diffuse_green" }, { VERTEX, false, BLUE, "diffuse_blue" },
-		{ VERTEX, false, U, "s" }, { VERTEX, false, V, "t" }, { VERTEX, false, U, "u" },
-		{ VERTEX, false, V, "v" }, { VERTEX, false, U, "texture_u" },
-		{ VERTEX, false, V, "texture_v" }, { VERTEX, false, U, "texture_s" },
-		{ VERTEX, false, V, "texture_t" }, { VERTEX, false, FROM_X, "scanner_x" },
-		{ VERTEX, false, FROM_Y, "scanner_y" }, { VERTEX, false, FROM_Z, "scanner_z" },
-		{ FACE, true, INDICES, "vertex_indices" }, { FACE, true, INDICES, "vertex_index" },
-		{ FACE, true, UVS, "texcoord" }, { FACE, true, NORMALS, "corner_normal" },
-		{ FACE, false, GROUP, "group" }, { FACE, false, OBJECT, "object" },
-		{ FACE, false, MATERIAL, "material" }, { FACE, false, SMOOTHING, "smoothing" },
-		{ STRIPS, true, INDICES, "vertex_indices" }, { STRIPS, true, INDICES, "vertex_index" } };
+	} roles[] = { { true, INDICES, "vertex_indices" }, { true, INDICES, "vertex_index" },
+		{ true, UVS, "texcoord" }, { true, NORMALS, "corner_normal" }, { false, GROUP, "group" },
+		{ false, OBJECT, "object" }, { false, MATERIAL, "material" },
+		{ false, SMOOTHING, "smoothing" } };
 
 	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-		if (roles[i].kind == k && roles[i].list == list && is_word(w, n, roles[i].name))
+		if (roles[i].list == list && is_word(w, n, roles[i].name) &&
+		    (k == FACE || (k == STRIPS && i < 2)))
 			return roles[i].role;
 	return NONE;
 }
@@ -165,20 +152,6 @@ header_comment(ply *f, mr_scan *line)
 
 /* ---- which properties are kept, and as what ---- */
 
-/* Parts without the whole are numbers as any others. */
-static void
-demote(element *e, const role *parts, size_t n)
-{
-	bool whole = true;
-
-	for (size_t i = 0; i < n; i++)
-		whole &= has(e, parts[i]);
-	for (size_t i = 0; i < e->properties && !whole; i++)
-		for (size_t k = 0; k < n; k++)
-			if (e->property[i].role == parts[k])
-				e->property[i].role = NONE;
-}
-
 /* Numbers of groups, objects and materials need names, smoothing groups a type without sign: -1 is none. */
 static void
 demote_marks(ply *f, element *e)
@@ -191,41 +164,48 @@ demote_marks(ply *f, element *e)
 	}
 }
 
-/* Those of vertices come first, whatever the order of the elements. */
-static mr_status
-keep_properties(ply *f, kind k)
+/* What is full of a colour: bytes and 16 bits without sign say it. */
+static double
+full_of(const element *e, const mr_rows *r, mr_role of)
 {
-	for (size_t i = 0; i < f->elements; i++) {
-		element *e = &f->element[i];
-		for (size_t j = 0; e->kind == k && j < e->properties; j++)
-			if (e->property[j].role == NONE && !e->property[j].list)
-				MR_TRY(mr_build_property(&f->b, e->property[j].name,
-				    mr_ply_types[e->property[j].value].name, k == VERTEX ? 'v' : 'f',
-				    &e->property[j].kept));
-	}
-	return MR_OK;
+	type t = r->at[of] ? e->property[r->at[of] - 1].value : DOUBLE;
+
+	return t <= UCHAR ? 255 : t == USHORT ? 65535 : 0;
+}
+
+/* Of vertices all are columns of rows; of faces, those that are nothing else. */
+static mr_status
+choose_vertex_properties(ply *f, const element *e)
+{
+	for (const property *p = e->property; p < e->property + e->properties; p++)
+		MR_TRY(mr_rows_add(&f->rows, p->list ? MR_NO_ROLE : mr_role_of(p->name, strlen(p->name)),
+		    p->name, strlen(p->name), p->list ? NULL : mr_ply_types[p->value].name));
+	f->rows.shades[0].full = full_of(e, &f->rows, MR_RED);
+	f->rows.shades[1].full = full_of(e, &f->rows, MR_ALPHA);
+	return mr_rows_begin(&f->rows);
 }
 
 static mr_status
+choose_face_properties(ply *f, element *e)
+{
+	demote_marks(f, e);
+	for (property *p = e->property; p < e->property + e->properties; p++)
+		if (p->role == NONE && !p->list)
+			MR_TRY(mr_build_property(&f->b, p->name, mr_ply_types[p->value].name, 'f', &p->kept));
+	return MR_OK;
+}
+
+/* Those of vertices come first, whatever the order of the elements. */
+static mr_status
 choose_properties(ply *f)
 {
-	static const role normals[] = { NX, NY, NZ }, colors[] = { RED, GREEN, BLUE },
-			  alpha[] = { RED, ALPHA }, uv[] = { U, V }, scanner[] = { FROM_X, FROM_Y, FROM_Z };
-
-	for (size_t i = 0; i < f->elements; i++) {
-		element *e = &f->element[i];
-		if (e->kind == VERTEX) {
-			demote(e, normals, 3);
-			demote(e, colors, 3);
-			demote(e, uv, 2);
-			demote(e, scanner, 3);
-			if (!has(e, RED))
-				demote(e, alpha, 2);
-		} else if (e->kind == FACE)
-			demote_marks(f, e);
-	}
-	MR_TRY(keep_properties(f, VERTEX));
-	return keep_properties(f, FACE);
+	for (size_t i = 0; i < f->elements; i++)
+		if (f->element[i].kind == VERTEX)
+			MR_TRY(choose_vertex_properties(f, &f->element[i]));
+	for (size_t i = 0; i < f->elements; i++)
+		if (f->element[i].kind == FACE)
+			MR_TRY(choose_face_properties(f, &f->element[i]));
+	return MR_OK;
 }
 
 /* ---- the lines ---- */

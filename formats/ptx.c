@@ -3,19 +3,14 @@
  * rows, by which each point is multiplied from the left, then columns x rows lines x y z intensity [r g b].
  * The scanner is where its own origin comes to lie.  A ray without an answer is 0 0 0, and left out.
  */
-#include "base/text.h"
 #include "formats/format.h"
 
 typedef struct ptx {
 	mr_ctx *ctx;
 	mr_scan text;
-	mr_v3 *p, *scanner;
-	float *rgb; /* of each point, NAN of one without; NULL: no point has any */
-	mr_shades shades;
-	mr_builder properties;
-	size_t intensity; /* the number of that property */
-	size_t count, room, scanner_room, rgb_room;
-	size_t colored, odd_colors, grids;
+	mr_builder b;
+	mr_rows rows;
+	size_t grids;
 } ptx;
 
 typedef struct scan {
@@ -79,107 +74,62 @@ read_head(ptx *f, scan *s)
 	return MR_OK;
 }
 
-static mr_status
-make_room(ptx *f, size_t more)
-{
-	MR_TRY(MR_RESERVE(f->ctx, f->p, f->count, more, &f->room));
-	return MR_RESERVE(f->ctx, f->scanner, f->count, more, &f->scanner_room);
-}
-
-/* Of the next point; those before the first that has a colour are without. */
-static mr_status
-keep_color(ptx *f, const double *rgb)
-{
-	const size_t at = 3 * f->count, kept = f->rgb ? at : 0;
-	bool odd = false;
-
-	MR_TRY(MR_RESERVE(f->ctx, f->rgb, kept, at - kept + 3, &f->rgb_room));
-	for (size_t i = kept; i < at; i++)
-		f->rgb[i] = NAN;
-	for (size_t k = 0; k < 3; k++) {
-		odd |= isnan(rgb[k]);
-		mr_shade_see(&f->shades, rgb[k]);
-		f->rgb[at + k] = (float)rgb[k];
-	}
-	f->colored++;
-	f->odd_colors += odd;
-	return MR_OK;
-}
-
-/* The next point has none. */
-static mr_status
-keep_no_color(ptx *f)
-{
-	if (!f->rgb)
-		return MR_OK;
-	MR_TRY(MR_RESERVE(f->ctx, f->rgb, 3 * f->count, 3, &f->rgb_room));
-	f->rgb[3 * f->count] = NAN;
-	return MR_OK;
-}
-
+/* A row of the columns: place, intensity, colour, the scanner's place. */
 static mr_status
 read_point(ptx *f, const scan *s)
 {
 	const char *where = f->text.p;
 	const double *m = s->matrix;
-	double x[7] = { 0 };
+	double x[10] = { 0 };
 	size_t n = 0;
+	mr_v3 p;
 
 	MR_TRY(numbers_of_line(f, x, 7, &n));
 	if (n != 3 && n != 4 && n != 7)
 		return mr_scan_fail(&f->text, where, "%zu numbers, where a point has 3, 4 or 7", n);
 	if (x[0] == 0 && x[1] == 0 && x[2] == 0)
 		return MR_OK;
-	f->p[f->count] = mr_vec(m[0] * x[0] + m[4] * x[1] + m[8] * x[2] + m[12],
+	f->rows.odd_colors += n == 7 && !isfinite(x[4] + x[5] + x[6]);
+	if (n < 7)
+		x[4] = x[5] = x[6] = (double)NAN;
+	p = mr_vec(m[0] * x[0] + m[4] * x[1] + m[8] * x[2] + m[12],
 	    m[1] * x[0] + m[5] * x[1] + m[9] * x[2] + m[13],
 	    m[2] * x[0] + m[6] * x[1] + m[10] * x[2] + m[14]);
-	if (!mr_finite(f->p[f->count]))
+	if (!mr_finite(p))
 		return mr_scan_fail(&f->text, where, "a coordinate is not finite");
-	MR_TRY(n == 7 ? keep_color(f, x + 4) : keep_no_color(f));
-	f->scanner[f->count] = mr_vec(m[12], m[13], m[14]);
-	MR_TRY(mr_build_value(&f->properties, f->intensity, f->count, n > 3 ? x[3] : 0));
-	f->count++;
-	return MR_OK;
+	x[0] = p.x, x[1] = p.y, x[2] = p.z;
+	memcpy(x + 7, m + 12, 3 * sizeof *m);
+	return mr_rows_put(&f->rows, x);
 }
 
-/* Where some points have colours, those without are white. */
 static mr_status
-read_colors(ptx *f, mr_model *m)
+begin(ptx *f)
 {
-	unsigned char *color;
+	static const mr_role roles[] = { MR_X, MR_Y, MR_Z, MR_NO_ROLE, MR_RED, MR_GREEN, MR_BLUE, MR_FROM_X,
+		MR_FROM_Y, MR_FROM_Z };
 
-	if (!f->rgb || !mr_all_left(f->ctx, f->odd_colors, f->colored, "colors"))
-		return MR_OK;
-	color = mr_alloc(f->ctx, f->count, 4);
-	if (!color)
-		return MR_EMEM;
-	memset(color, 255, 4 * f->count);
-	f->shades.full = mr_shade_full(&f->shades);
-	for (size_t i = 0; i < f->count; i++)
-		for (size_t k = 0; k < 3 && !isnan(f->rgb[3 * i]); k++)
-			color[4 * i + k] = mr_shade_byte(&f->shades, (double)f->rgb[3 * i + k]);
-	mr_shades_said(f->ctx, &f->shades);
-	m->color = color;
-	return MR_OK;
+	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
+		MR_TRY(mr_rows_add(&f->rows, roles[i], "intensity", strlen("intensity"), "double"));
+	return mr_rows_begin(&f->rows);
 }
 
 mr_status
 mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .properties = { .ctx = ctx } };
+	ptx f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx }, .rows.sparse = true };
 	scan s;
 
-	MR_TRY(mr_build_property(&f.properties, "intensity", "double", 'v', &f.intensity));
+	f.rows.b = &f.b;
+	MR_TRY(begin(&f));
 	for (mr_skip_space(&f.text); f.text.p < f.text.end; mr_skip_space(&f.text)) {
 		MR_TRY(read_head(&f, &s));
-		MR_TRY(make_room(&f, (size_t)s.points));
+		MR_TRY(mr_rows_room(&f.rows, s.points));
 		for (uint64_t i = 0; i < s.points; i++)
 			MR_TRY(read_point(&f, &s));
 	}
 	mr_lost(ctx, NULL, f.grids, "grids of scans");
-	*m = (mr_model){ .p = f.p, .nv = f.count, .scanner = f.scanner };
-	MR_TRY(read_colors(&f, m));
-	return mr_build_properties(&f.properties, m);
+	MR_TRY(mr_rows_end(&f.rows));
+	return mr_build_finish(&f.b, m);
 }
 
 /* How many numbers the line has; 0 where it has anything else. */

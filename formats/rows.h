@@ -1,0 +1,74 @@
+/*
+ * rows.h -- vertices as rows of numbers, which columns by their roles make a model of.
+ *
+ * Contract: a reader names the columns, begins, and puts row after row into the builder: what three columns
+ * make together is position, normal, colour or the scanner's place, what two make texture coordinates; the
+ * others are properties by their names.  Layer rule: formats.
+ */
+#ifndef MR_ROWS_H
+#define MR_ROWS_H
+
+#include "formats/build.h"
+
+typedef enum mr_role {
+	MR_NO_ROLE,
+	MR_X,
+	MR_Y,
+	MR_Z,
+	MR_NX,
+	MR_NY,
+	MR_NZ,
+	MR_RED,
+	MR_GREEN,
+	MR_BLUE,
+	MR_ALPHA,
+	MR_U,
+	MR_V,
+	MR_FROM_X,
+	MR_FROM_Y,
+	MR_FROM_Z,
+	MR_ROLES
+} mr_role;
+
+/* The role of a name in files, in either case of letters. */
+mr_role mr_role_of(const char *name, size_t bytes);
+
+typedef struct mr_rows_column {
+	mr_role role;
+	const char *name, *type; /* type: of PLY; NULL: what has no role is passed over */
+	size_t property;         /* its number, from 1; 0: none */
+} mr_rows_column;
+
+typedef struct mr_rows {
+	mr_builder *b;
+	mr_rows_column *column;
+	size_t columns, column_room;
+	size_t at[MR_ROLES]; /* the column of a role, from 1; 0: none */
+	size_t n;            /* rows so far */
+	size_t room[5];
+	float *rgba;         /* 4 n; NaN of what is not there; NULL: nothing is */
+	mr_shades shades[2]; /* of colours, of alpha; full: 0 where the values tell */
+	bool sparse;         /* rows may be without a colour: those are white */
+	size_t odd_colors, odd_uv, odd_scanner;
+} mr_rows;
+
+/* A column more; the first of a role has it.  The name is copied, cleaned. */
+mr_status
+mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char *type) MR_WARN_UNUSED;
+
+/* Parts without the whole are properties from now on. */
+mr_status mr_rows_begin(mr_rows *r) MR_WARN_UNUSED;
+
+/* Room for rows; MR_ERANGE beyond what indices can name. */
+mr_status mr_rows_room(mr_rows *r, uint64_t more) MR_WARN_UNUSED;
+
+/* The position of a row of all columns. */
+mr_v3 mr_rows_position(const mr_rows *r, const double *x);
+
+/* The next row, whose position is finite, where there is room. */
+mr_status mr_rows_put(mr_rows *r, const double *x) MR_WARN_UNUSED;
+
+/* Gives the vertices to the builder; reports what was lost of them. */
+mr_status mr_rows_end(mr_rows *r) MR_WARN_UNUSED;
+
+#endif
