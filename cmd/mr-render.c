@@ -2,22 +2,21 @@
 #include "cmd.h"
 #include "formats/outname.h"
 #include "formats/paint.h"
-#include "formats/picture.h"
+#include "formats/png.h"
 #include "render/gallery.h"
 
 static mr_render_opts opts = MR_RENDER_DEFAULTS;
 static cmd_size size = { 800, 600 };
 static const char *view = "quarter";
 static cmd_range range;
-static int up = 1, kind;  /* kind: mr_picture_kind */
-static bool sheet, piped; /* piped: one picture after another to stdout */
+static int up = 1;
+static bool sheet;
 static size_t written;
 static mr_string_set given;
 static mr_gallery gallery;
 static mr_mark kept; /* of the arena that holds the gallery */
 
 static const cmd_opt table[] = {
-	{ 'f', "format", CMD_CHOICE, &kind, 0, 0, "png|ppm", "write this format", NULL },
 	{ 's', "size", CMD_SIZE, &size, 16, 16384, "WxH", "pixels of a panel", NULL },
 	{ 0, "view", CMD_TEXT, &view, 0, 0, "DIR",
 	    "front, back, left, right, top, bottom, iso, quarter, or where the eye stands as x,y,z", NULL },
@@ -27,14 +26,9 @@ static const cmd_opt table[] = {
 	{ 0, "texture", CMD_TEXT, &opts.texture, 0, 0, "FILE", "picture on surfaces", NULL },
 	{ 0, "materials", CMD_TEXT, &opts.materials, 0, 0, "DIR", "folder of files of materials", NULL },
 	{ 0, "range", CMD_RANGE, &range, 0, 0, "LOW,HIGH", "values that the colours span", NULL },
-	{ 0, "flat", CMD_FLAG, &opts.raster.flat, 0, 0, NULL, "shade each triangle on its own", NULL },
-	{ 0, "crease", CMD_REAL, &opts.raster.crease, 0, 180, "DEG", "shade over smaller angles only", NULL },
-	{ 'w', "wire", CMD_FLAG, &opts.raster.wire, 0, 0, NULL, "draw edges", NULL },
-	{ 0, "plain", CMD_OFF, &opts.raster.occlusion, 0, 0, NULL, "do not darken hollows", NULL },
-	{ 0, "samples", CMD_COUNT, &opts.raster.samples, 1, 8, "N", "N by N samples a pixel", NULL },
+	{ 'w', "wire", CMD_FLAG, &opts.wire, 0, 0, NULL, "draw edges", NULL },
 	{ 0, "sheet", CMD_FLAG, &sheet, 0, 0, NULL, "all frames in one picture", NULL },
 	{ 0, "columns", CMD_COUNT, &opts.columns, 0, 10000, "N", "of the sheet; 0: for 3 by 2", NULL },
-	{ 0, "title", CMD_TEXT, &opts.title, 0, 0, "TEXT", "over the picture", NULL },
 	{ 0, "no-labels", CMD_OFF, &opts.labels, 0, 0, NULL, "neither names nor legends", NULL },
 	{ 0 },
 };
@@ -58,10 +52,8 @@ prepare(cmd *c)
 {
 	char *path;
 
-	MR_TRY(cmd_output_name(c, "OUT.png", mr_picture_suffix((mr_picture_kind)kind)));
-	piped = !sheet && cmd_given(c, "format") && !strcmp(c->operands[0], "-");
+	MR_TRY(cmd_output_name(c, "OUT.png", ".png"));
 	MR_TRY(cmd_idle(c, "columns", !sheet, "without --sheet"));
-	MR_TRY(cmd_idle(c, "crease", opts.raster.flat, "with --flat"));
 	MR_TRY(cmd_idle(c, "materials", opts.texture != NULL, "with --texture"));
 	MR_TRY(cmd_idle(c, "range", !opts.color, "without --color"));
 	opts.layers = c->layer;
@@ -76,20 +68,13 @@ prepare(cmd *c)
 	return parse_view(&c->ctx);
 }
 
-static bool
-draws_each_frame(const cmd *c)
-{
-	return piped || mr_outname_varies(c->operands[0]);
-}
-
 static mr_status
 write_picture(cmd *c, const mr_shown *frame, const mr_image *image)
 {
-	char *path = c->operands[0];
+	char *path;
 
-	if (!piped)
-		MR_TRY(mr_outname_once(&c->ctx, &given, c->operands[0], frame->name, frame->number, &path));
-	return mr_picture_write(&c->ctx, path, (mr_picture_kind)kind, image);
+	MR_TRY(mr_outname_once(&c->ctx, &given, c->operands[0], frame->name, frame->number, &path));
+	return mr_png_write(&c->ctx, path, image);
 }
 
 /* Draws the frames that were collected, one picture each, and forgets them. */
@@ -101,10 +86,10 @@ write_frames(cmd *c)
 
 	if (gallery.frames == 0)
 		return MR_OK;
-	if (written + gallery.frames > 1 && !draws_each_frame(c))
+	if (written + gallery.frames > 1 && !mr_outname_varies(c->operands[0]))
 		return mr_fail(&c->ctx, MR_EUSAGE,
-		    "%s is one picture, of several frames: put %%d or %%s into its name, or use --sheet%s",
-		    c->operands[0], strcmp(c->operands[0], "-") ? "" : " or -f");
+		    "%s is one picture, of several frames: put %%d or %%s into its name, or use --sheet",
+		    c->operands[0]);
 	MR_TRY(mr_shot_aim(&c->ctx, &gallery, 0, gallery.frames, &opts, &shot));
 	for (size_t i = 0; i < gallery.frames; i++) {
 		mr_mark mark = mr_mark_take(&c->ctx);
@@ -122,7 +107,7 @@ write_frames(cmd *c)
 static mr_status
 render_frame(cmd *c, mr_frame *f)
 {
-	if (f->key && !sheet && !opts.same && draws_each_frame(c))
+	if (f->key && !sheet && !opts.same && mr_outname_varies(c->operands[0]))
 		MR_TRY(write_frames(c));
 	return mr_gallery_add_painted(&c->ctx, &c->keep, &gallery, f, &opts);
 }

@@ -84,7 +84,7 @@ pictures() { # view
 	only base base <$w.result.mrs >$w.one.mrs
 	only mesh result <$w.result.mrs | mr-cat --merge $w.one.mrs - >$w.last.mrs
 	mr-cat $w.first.mrs $w.rest.mrs $w.last.mrs >$w.sheet.mrs
-	mr-render --sheet --columns 3 --size $panel --view "$1" -c region --title "$name" "$name.png" <$w.sheet.mrs
+	mr-render --sheet --columns 3 --size $panel --view "$1" -c region "$name.png" <$w.sheet.mrs
 }
 
 # One edit, one pipe.  tee keeps what the pictures and the figures are made of.

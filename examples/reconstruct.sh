@@ -45,7 +45,7 @@ pictures() { # scan, view
 		mr-decode --level $level <$w.levels.mrs | mr-export -l mesh $w/level-$level.ply
 	done
 	mr-import $w/cloud.ply $w/wrap.ply $w/control.ply $w/domain.ply $w/result.ply $w/edited.ply $w/level-?.ply |
-	    mr-render --sheet --columns 6 --size $panel --view "$2" --title "$1" "$1-scan.png"
+	    mr-render --sheet --columns 6 --size $panel --view "$2" "$1-scan.png"
 }
 
 # One scan, one pipe; then an edit of what came out: the control mesh moves, the scanned detail stays on it.

@@ -291,9 +291,7 @@ check_options(mr_ctx *ctx, const mr_render_opts *o)
 {
 	MR_TRY(mr_check_number(ctx, "width", (double)o->width, 1, 16384));
 	MR_TRY(mr_check_number(ctx, "height", (double)o->height, 1, 16384));
-	MR_TRY(mr_check_number(ctx, "columns", (double)o->columns, 0, 10000));
-	MR_TRY(mr_check_number(ctx, "samples", (double)o->raster.samples, 1, 8));
-	return mr_check_number(ctx, "crease", o->raster.crease, 0, 180);
+	return mr_check_number(ctx, "columns", (double)o->columns, 0, 10000);
 }
 
 mr_status

@@ -845,16 +845,6 @@ MR_API mr_status mr_judge_losses(mr_ctx *ctx, mr_frame *before, mr_frame *after)
 
 /* Pictures: mr-render */
 
-typedef struct mr_raster_opts {
-	size_t samples;      /* a side of a pixel, 1 to 8: its square is taken of each pixel */
-	bool flat;           /* shade faces, not vertices */
-	double crease;       /* degrees: faces that meet at more are not shaded as one */
-	bool wire;           /* draw edges */
-	bool occlusion;      /* darken hollows */
-} mr_raster_opts;
-
-#define MR_RASTER_DEFAULTS MR_DEFAULTS(2, false, 45, false, true)
-
 typedef struct mr_render_opts {
 	size_t width, height;  /* of a panel, in pixels */
 	mr_v3 from, up;        /* direction in which the eye stands, and which is upwards */
@@ -865,15 +855,14 @@ typedef struct mr_render_opts {
 	const char *materials; /* folder of files of materials, which are drawn; NULL: none */
 	bool ranged;           /* numbers low to high span the colours; else least to greatest of the shot */
 	double low, high;
-	const char *title; /* over a whole picture; NULL: none */
 	bool same;         /* a sheet is one shot; else each key frame begins one */
 	size_t columns;    /* of a sheet; 0: so that it is about 3 by 2 */
-	mr_raster_opts raster;
+	bool wire;         /* draw edges */
 } mr_render_opts;
 
 #define MR_RENDER_DEFAULTS                                                                                   \
 	MR_DEFAULTS(800, 600, { 0.5, 0.35, 1 }, { 0, 1, 0 }, true, NULL, NULL, NULL, NULL, false, 0, 0,      \
-	    NULL, false, 0, MR_RASTER_DEFAULTS)
+	    false, 0, false)
 
 /* The frame's layers side by side, as a PNG file ("-": stdout), whole or not at all. */
 MR_API mr_status mr_render(

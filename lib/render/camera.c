@@ -20,20 +20,11 @@ mr_camera_view(const char *name, mr_v3 up, mr_v3 *from)
 	return false;
 }
 
-/* The unit vector along one that may be as long, or as short, as a double may; zero stays zero. */
-static mr_v3
-direction(mr_v3 v)
-{
-	double most = fmax(fabs(v.x), fmax(fabs(v.y), fabs(v.z)));
-
-	return most > 0 ? mr_unit(mr_vec(v.x / most, v.y / most, v.z / most)) : v;
-}
-
 mr_status
 mr_camera_look(mr_ctx *ctx, mr_v3 from, mr_v3 up, mr_camera *c)
 {
-	mr_camera r = { .distance = 1, .scale = 1, .toward = direction(from) };
-	mr_v3 upward = direction(up);
+	mr_camera r = { .distance = 1, .scale = 1, .toward = mr_unit(from) };
+	mr_v3 upward = mr_unit(up);
 
 	if (!(mr_norm2(r.toward) > 0) || !(mr_norm2(upward) > 0))
 		return mr_fail(ctx, MR_EUSAGE, "a direction of view and the upward one must not be zero");

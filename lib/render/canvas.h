@@ -21,9 +21,6 @@ void mr_image_copy(mr_image *to, size_t x, size_t y, const mr_image *from);
 
 void mr_image_fill(mr_image *image, double x, double y, double w, double h, mr_rgb color);
 
-/* A line with round ends, `width` pixels wide. */
-void mr_image_line(mr_image *image, const double from[2], const double to[2], double width, mr_rgb color);
-
 /* Advance of a letter, and the height of a line, in units of text. */
 enum { MR_TEXT_ADVANCE = 6, MR_TEXT_LINE = 10 };
 

@@ -64,7 +64,7 @@ typedef struct mr_shot {
 mr_status mr_shot_aim(
     mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *opts, mr_shot *shot);
 
-/* Draws frame i, of the shot: its panels side by side under the title.  image: in the arena. */
+/* Draws frame i, of the shot: its panels side by side.  image: in the arena. */
 mr_status mr_shot_draw(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i,
     const mr_render_opts *opts, mr_image *image);
 

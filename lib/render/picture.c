@@ -10,22 +10,15 @@ static double
 text_unit(const mr_render_opts *o)
 {
 	size_t side = o->width < o->height ? o->width : o->height;
-	double unit = (double)side / 340;
 
-	return unit < 1 ? 1 : unit > 3 ? 3 : unit;
+	return side < 510 ? 1 : side < 1020 ? 2 : 3;
 }
 
-/* Height of the strip of labels under a panel, and of the title over a picture. */
+/* Height of the strip of labels under a panel. */
 static double
 label_height(const mr_render_opts *o)
 {
 	return o->labels ? 15 * text_unit(o) : 0;
-}
-
-static size_t
-title_height(const mr_render_opts *o)
-{
-	return o->title ? (size_t)(30 * text_unit(o)) : 0;
 }
 
 /* Aims a camera at panels of the gallery. */
@@ -75,18 +68,6 @@ find_range(const mr_gallery *g, size_t first, size_t count, const mr_render_opts
 	s->high = o->ranged ? o->high : low <= high ? high : 0;
 }
 
-/* A range is of numbers: colours, regions and labels have none. */
-static mr_status
-check_range(mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *o)
-{
-	for (size_t i = first; o->ranged && i < first + count; i++)
-		if (g->panel[i].value)
-			return MR_OK;
-	return o->ranged
-	           ? mr_fail(ctx, MR_EUSAGE, "--range has no effect on %s, which is no number", o->color)
-	           : MR_OK;
-}
-
 mr_status
 mr_shot_aim(
     mr_ctx *ctx, const mr_gallery *g, size_t first, size_t count, const mr_render_opts *o, mr_shot *shot)
@@ -96,7 +77,6 @@ mr_shot_aim(
 	size_t panels = b->first + b->count - a->first;
 
 	MR_TRY(aim(ctx, g, a->first, panels, o, &s.camera));
-	MR_TRY(check_range(ctx, g, a->first, panels, o));
 	find_range(g, a->first, panels, o, &s);
 	*shot = s;
 	return MR_OK;
@@ -221,29 +201,17 @@ draw_regions(strip *s, uint32_t regions)
 	}
 }
 
-/* "69,451" */
-static void
-count_text(char *text, size_t size, size_t n)
-{
-	if (n < 1000)
-		snprintf(text, size, "%zu", n);
-	else if (n < 1000000)
-		snprintf(text, size, "%zu,%03zu", n / 1000, n % 1000);
-	else
-		snprintf(text, size, "%zu,%03zu,%03zu", n / 1000000, n / 1000 % 1000, n % 1000);
-}
-
 /* The strip under a panel: its name, what it consists of, the legend of its colours. */
 static void
 draw_label(mr_image *image, const mr_shot *shot, const mr_panel *p, bool several, const mr_render_opts *o)
 {
 	double unit = text_unit(o), edge = 8 * unit;
 	strip s = { image, edge, (double)o->width - edge, (double)o->height - 12 * unit, unit };
-	char name[256], number[32], size[64];
+	char name[256], size[64];
 
 	snprintf(name, sizeof name, several ? "%s: %s" : "%s", p->frame, p->layer);
-	count_text(number, sizeof number, p->subject.mesh.nf ? p->subject.mesh.nf : p->subject.mesh.nv);
-	snprintf(size, sizeof size, "%s %s", number, p->subject.mesh.nf ? "triangles" : "points");
+	snprintf(size, sizeof size, "%zu %s", p->subject.mesh.nf ? p->subject.mesh.nf : p->subject.mesh.nv,
+	    p->subject.mesh.nf ? "triangles" : "points");
 	if (p->coloring == MR_COLOR_NUMBERS)
 		draw_scale(&s, shot);
 	write_left(&s, name, INK, true);
@@ -262,7 +230,7 @@ draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool
 	mr_subject subject;
 
 	MR_TRY(color_subject(ctx, shot, p, &subject));
-	MR_TRY(mr_raster(ctx, &subject, &shot->camera, &o->raster, image));
+	MR_TRY(mr_raster(ctx, &subject, &shot->camera, o->wire, image));
 	if (o->labels)
 		draw_label(image, shot, p, several, o);
 	return MR_OK;
@@ -284,18 +252,6 @@ draw_frame(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, const mr_shown
 	return MR_OK;
 }
 
-static void
-draw_title(mr_image *image, const mr_render_opts *o)
-{
-	double unit = 1.5 * text_unit(o);
-	strip s = { image, 0, (double)image->width, 8 * text_unit(o), unit };
-
-	if (!o->title)
-		return;
-	s.left = fmax(0, (s.right - text_width(&s, o->title)) / 2);
-	write_left(&s, o->title, INK, true);
-}
-
 mr_status
 mr_shot_draw(
     mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, const mr_render_opts *o, mr_image *image)
@@ -303,9 +259,8 @@ mr_shot_draw(
 	const mr_shown *f = &g->frame[i];
 	mr_image r;
 
-	MR_TRY(mr_image_new(ctx, f->count * o->width, o->height + title_height(o), PAPER, &r));
-	draw_title(&r, o);
-	MR_TRY(draw_frame(ctx, g, shot, f, 0, title_height(o), o, &r));
+	MR_TRY(mr_image_new(ctx, f->count * o->width, o->height, PAPER, &r));
+	MR_TRY(draw_frame(ctx, g, shot, f, 0, 0, o, &r));
 	*image = r;
 	return MR_OK;
 }
@@ -330,13 +285,13 @@ choose_columns(size_t cells, double w, double h)
 
 /* How a sheet is divided into cells of one frame each. */
 typedef struct cells {
-	size_t columns, rows, width, height, top; /* width, height and what is above them: pixels */
+	size_t columns, rows, width, height; /* the last two in pixels */
 } cells;
 
 static cells
 divide_sheet(const mr_gallery *g, const mr_render_opts *o)
 {
-	cells s = { .width = o->width, .height = o->height, .top = title_height(o), .columns = o->columns };
+	cells s = { .width = o->width, .height = o->height, .columns = o->columns };
 
 	for (size_t i = 0; i < g->frames; i++)
 		if (g->frame[i].count * o->width > s.width)
@@ -368,10 +323,9 @@ mr_sheet_draw(mr_ctx *ctx, const mr_gallery *g, const mr_render_opts *o, mr_imag
 	mr_shot shot = { 0 };
 	mr_image r;
 
-	MR_TRY(mr_image_new(ctx, s.columns * s.width, s.rows * s.height + s.top, PAPER, &r));
-	draw_title(&r, o);
+	MR_TRY(mr_image_new(ctx, s.columns * s.width, s.rows * s.height, PAPER, &r));
 	for (size_t i = 0; i < g->frames; i++) {
-		size_t x = i % s.columns * s.width, y = i / s.columns * s.height + s.top;
+		size_t x = i % s.columns * s.width, y = i / s.columns * s.height;
 		if (i == shot.first + shot.count)
 			MR_TRY(next_shot(ctx, g, i, o, &shot));
 		mr_progress(ctx, "drawing", (double)i / (double)g->frames);

@@ -20,7 +20,7 @@ static void
 place_vertices(void *arg, size_t begin, size_t end)
 {
 	const mr_raster_view *v = arg;
-	const double steps = (double)(STEP * v->opts->samples);
+	const double steps = (double)(STEP * SAMPLES);
 
 	for (size_t i = begin; i < end; i++) {
 		mr_seen s = mr_camera_see(v->camera, v->subject->mesh.p[i]);
@@ -167,7 +167,7 @@ draw_point(const mr_raster_view *v, size_t point, range x, range y)
 	const mr_placed *p = &v->at[point];
 	double r = v->radius * p->near;
 	double z = height_of(v->camera, p->near);
-	double unit = v->radius / (v->camera->scale * (double)v->opts->samples); /* the radius in space */
+	double unit = v->radius / (v->camera->scale * SAMPLES); /* the radius in space */
 
 	for (size_t j = y.begin; j < y.end; j++) {
 		for (size_t i = x.begin; i < x.end; i++) {
@@ -224,22 +224,21 @@ covering_radius(const mr_raster_view *v)
 }
 
 mr_status
-mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, const mr_raster_opts *opts,
-    mr_image *image)
+mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_raster_view v = { .subject = subject, .camera = camera, .opts = opts, .image = image };
+	mr_raster_view v = { .subject = subject, .camera = camera, .wire = wire, .image = image };
 	mr_status status;
 
-	v.w = image->width * opts->samples;
-	v.h = image->height * opts->samples;
+	v.w = image->width * SAMPLES;
+	v.h = image->height * SAMPLES;
 	v.at = MR_NEW(ctx, subject->mesh.nv, mr_placed);
 	v.near = MR_NEW(ctx, v.w * v.h, float);
 	v.item = MR_NEW(ctx, v.w * v.h, uint32_t);
 	if (!v.at || !v.near || !v.item)
 		return MR_EMEM;
 	if (subject->mesh.nf == 0)
-		v.radius = covering_radius(&v) * (double)opts->samples;
+		v.radius = covering_radius(&v) * SAMPLES;
 	mr_parallel(ctx, subject->mesh.nv, 4096, place_vertices, &v);
 	MR_TRY(fill_bands(ctx, &v));
 	mr_parallel(ctx, (v.h + BAND - 1) / BAND, 1, draw_bands, &v);

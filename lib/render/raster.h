@@ -25,10 +25,10 @@ typedef struct mr_subject {
 } mr_subject;
 
 /*
- * Draws the subject over what the image shows.  Workspace: about 32 bytes a pixel, 8 a sample,
+ * Draws the subject over what the image shows; wire: with its edges.  Workspace: about 50 bytes a pixel,
  * 50 a vertex and 20 a face, released.
  */
-mr_status mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera,
-    const mr_raster_opts *opts, mr_image *image);
+mr_status
+mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool wire, mr_image *image);
 
 #endif

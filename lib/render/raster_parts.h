@@ -7,8 +7,8 @@
 
 #include "render/raster.h"
 
-/* A sample's side has 256 steps. */
-enum { STEP_BITS = 8, STEP = 1 << STEP_BITS };
+/* SAMPLES by SAMPLES samples are taken of a pixel; a sample's side has 256 steps. */
+enum { SAMPLES = 2, STEP_BITS = 8, STEP = 1 << STEP_BITS };
 
 /* A vertex in the picture, in steps; `near` is linear in the picture, and larger for what is nearer. */
 typedef struct mr_placed {
@@ -20,7 +20,7 @@ typedef struct mr_placed {
 typedef struct mr_raster_view {
 	const mr_subject *subject;
 	const mr_camera *camera;
-	const mr_raster_opts *opts;
+	bool wire;
 	mr_image *image;
 	size_t w, h;    /* samples */
 	mr_placed *at;  /* the vertices */

@@ -1,7 +1,5 @@
 /*
- * Colours of what is seen: three lights and a bright sky over a matte surface, hollows
- * darkened by what lies in front of them in the picture (the estimator of McGuire,
- * Osman, Bukowski, Hennessy 2011, "The Alchemy screen-space ambient obscurance algorithm").
+ * Colours of what is seen: three lights and a bright sky over a matte surface.
  * Light is computed in linear values, and becomes sRGB in the end.
  */
 #include "render/raster_parts.h"
@@ -10,28 +8,24 @@
 
 static const mr_rgb INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
 
-enum { LEVELS = 4096, TAPS = 16, TURN = 4 };
+enum { LEVELS = 4096 };
+
+static const double CREASE = 0.70710678118654752; /* faces at more than 45 degrees are not shaded as one */
 
 /* What a pixel has gathered from its samples. */
 typedef struct gathered {
 	float r, g, b; /* light, summed over the samples that see something */
 	float share;   /* of the samples that do */
-	float nx, ny, nz,
-	    z; /* normal along the camera's axes and height towards the eye, at the first that does */
 } gathered;
 
 typedef struct shading {
 	const mr_raster_view *v;
-	mr_incidence around; /* faces of each vertex; smooth shading only */
-	mr_v3 *normal;       /* of vertices, unit; NULL: flat */
+	mr_incidence around; /* faces of each vertex;  */
+	mr_v3 *normal;       /* of vertices, unit */
 	bool *creased;       /* vertices with faces that are not shaded as one */
-	double crease;       /* cosine */
 	gathered *pixel;
-	double reach;                    /* how far hollows are looked for, in pixels */
-	float *open;                     /* share of the sky that a pixel sees, before smoothing */
-	float tap[TURN * TURN][TAPS][2]; /* offsets to look at, in pixels, in each of 4 by 4 pixels */
-	double linear[256];              /* of an sRGB value */
-	uint8_t srgb[LEVELS];            /* of a linear value, in LEVELS steps */
+	double linear[256];   /* of an sRGB value */
+	uint8_t srgb[LEVELS]; /* of a linear value, in LEVELS steps */
 } shading;
 
 static void
@@ -60,29 +54,13 @@ to_srgb(const shading *s, double c)
 	return s->srgb[c > 0 ? c < 1 ? (size_t)(c * LEVELS) : LEVELS - 1 : 0];
 }
 
-/* Places on a spiral, which turns within a square of 4 by 4 pixels: smoothing averages over it. */
-static void
-prepare_taps(shading *s, double reach)
-{
-	static const uint8_t order[TURN * TURN] = { 0, 8, 2, 10, 12, 4, 14, 6, 3, 11, 1, 9, 15, 7, 13, 5 };
-
-	for (int i = 0; i < TURN * TURN; i++) {
-		for (int k = 0; k < TAPS; k++) {
-			double r = reach * (k + 0.5) / TAPS,
-			       a = 2 * MR_PI * order[i] / (TURN * TURN) + 6.24 * k;
-			s->tap[i][k][0] = (float)(r * cos(a));
-			s->tap[i][k][1] = (float)(r * sin(a));
-		}
-	}
-}
-
 /* Normals of vertices, from their faces weighted by area, and whether a face is far from them. */
 static void
 vertex_shades(void *arg, size_t begin, size_t end)
 {
 	const shading *s = arg;
 	const mr_mesh *m = &s->v->subject->mesh;
-	const double half = sqrt((1 + s->crease) / 2); /* cosine of half the angle */
+	const double half = sqrt((1 + CREASE) / 2); /* cosine of half the angle */
 
 	for (size_t i = begin; i < end; i++) {
 		size_t first = s->around.start[i], last = s->around.start[i + 1];
@@ -109,7 +87,7 @@ creased_normal(const shading *s, size_t face, uint32_t vertex)
 
 	for (size_t k = s->around.start[vertex]; k < s->around.start[vertex + 1]; k++) {
 		mr_v3 n = mr_face_cross(m, s->around.face[k]);
-		if (mr_dot(n, own) >= s->crease * mr_norm(n))
+		if (mr_dot(n, own) >= CREASE * mr_norm(n))
 			sum = mr_add(sum, n);
 	}
 	return mr_unit(sum);
@@ -178,16 +156,13 @@ set_up_face(const shading *s, uint32_t face, facet *f)
 {
 	const mr_mesh *m = &s->v->subject->mesh;
 	const uint32_t *t = m->t[face].v;
-	mr_v3 own = mr_unit(mr_face_cross(m, face));
 	double longest = 0;
 
 	f->face = face;
 	for (int i = 0; i < 3; i++) {
 		f->p[i] = s->v->at[t[i]];
 		f->color[i] = item_color(s, t[i], face);
-		f->normal[i] = !s->normal         ? own
-		               : s->creased[t[i]] ? creased_normal(s, face, t[i])
-		                                  : s->normal[t[i]];
+		f->normal[i] = s->creased[t[i]] ? creased_normal(s, face, t[i]) : s->normal[t[i]];
 	}
 	f->area = (double)(f->p[1].x - f->p[0].x) * (double)(f->p[2].y - f->p[0].y) -
 	          (double)(f->p[1].y - f->p[0].y) * (double)(f->p[2].x - f->p[0].x);
@@ -201,8 +176,7 @@ set_up_face(const shading *s, uint32_t face, facet *f)
 		if (f->back && !s->v->subject->color)
 			f->color[i] = to_linear(s, INSIDE);
 	}
-	f->fade = fabs(f->area) / longest / (double)(STEP * s->v->opts->samples) /
-	          7; /* the height in pixels */
+	f->fade = fabs(f->area) / longest / (double)(STEP * SAMPLES) / 7; /* the height in pixels */
 	f->fade = f->fade < 1 ? f->fade : 1;
 }
 
@@ -233,7 +207,7 @@ gleam_on(mr_v3 n)
 
 /* Adds what one sample sees, with normal n (any length) along the camera's axes. */
 static void
-gather(gathered *g, mr_v3 color, mr_v3 n, double z, double line, mr_v3 line_color)
+gather(gathered *g, mr_v3 color, mr_v3 n, double line, mr_v3 line_color)
 {
 	double light, gleam;
 
@@ -244,12 +218,6 @@ gather(gathered *g, mr_v3 color, mr_v3 n, double z, double line, mr_v3 line_colo
 	gleam = gleam_on(n);
 	color = mr_add(mr_mul(light, color), mr_vec(gleam, gleam, gleam));
 	color = mr_lerp(line, color, line_color);
-	if (g->share == 0) {
-		g->nx = (float)n.x;
-		g->ny = (float)n.y;
-		g->nz = (float)n.z;
-		g->z = (float)z;
-	}
 	g->r += (float)color.x;
 	g->g += (float)color.y;
 	g->b += (float)color.z;
@@ -258,9 +226,9 @@ gather(gathered *g, mr_v3 color, mr_v3 n, double z, double line, mr_v3 line_colo
 
 /* How dark an edge is at the distances e over length from the edges, in steps. */
 static double
-line_at(const shading *s, const facet *f, const int64_t e[3])
+line_at(const facet *f, const int64_t e[3])
 {
-	const double half = 0.55, pixel = (double)(STEP * s->v->opts->samples);
+	const double half = 0.55, pixel = (double)(STEP * SAMPLES);
 	double d = INFINITY, share;
 
 	for (int i = 0; i < 3; i++)
@@ -299,10 +267,10 @@ shade_face_sample(const shading *s, facet *f, size_t at, size_t x, size_t y, gat
 		n = mr_mul(-1, n);
 	if (f->back && (s->v->subject->color || f->texture)) /* the inside keeps its colour, bluish */
 		color = mr_lerp(0.5, color, to_linear(s, INSIDE));
-	if (s->v->opts->wire)
-		line = line_at(s, f, e);
-	gather(g, color, mr_vec(mr_dot(n, c->right), mr_dot(n, c->up), mr_dot(n, c->toward)),
-	    height_of(c, s->v->near[at]), line, to_linear(s, LINE));
+	if (s->v->wire)
+		line = line_at(f, e);
+	gather(g, color, mr_vec(mr_dot(n, c->right), mr_dot(n, c->up), mr_dot(n, c->toward)), line,
+	    to_linear(s, LINE));
 }
 
 /* A ball; where the surface's normal is known, mostly lit as the surface is. */
@@ -327,7 +295,7 @@ shade_point_sample(const shading *s, size_t at, size_t x, size_t y, gathered *g)
 		}
 		n = mr_lerp(0.3, known, n);
 	}
-	gather(g, color, n, height_of(c, s->v->near[at]), 0, mr_vec(0, 0, 0));
+	gather(g, color, n, 0, mr_vec(0, 0, 0));
 }
 
 static void
@@ -335,7 +303,7 @@ gather_rows(void *arg, size_t begin, size_t end)
 {
 	const shading *s = arg;
 	const mr_raster_view *v = s->v;
-	size_t n = v->opts->samples, width = v->image->width;
+	const size_t n = SAMPLES, width = v->image->width;
 	facet f = { .face = MR_NONE };
 
 	for (size_t y = begin; y < end; y++) {
@@ -355,92 +323,21 @@ gather_rows(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* The place of a pixel's first sample along the camera's axes. */
-static mr_v3
-place_of(const shading *s, size_t x, size_t y)
-{
-	const mr_camera *c = s->v->camera;
-	double z = s->pixel[y * s->v->image->width + x].z;
-	double scale = c->scale * c->distance / (c->distance - z);
-
-	return mr_vec(((double)x - c->x) / scale, (c->y - (double)y) / scale, z);
-}
-
-/* The share of the sky that is open over a pixel: 1 where nothing is in front. */
-static double
-openness(const shading *s, size_t x, size_t y)
-{
-	const size_t width = s->v->image->width, height = s->v->image->height;
-	const gathered *g = &s->pixel[y * width + x];
-	const float(*tap)[2] = s->tap[y % TURN * TURN + x % TURN];
-	const double unit = s->v->camera->scale / s->reach;
-	mr_v3 p = place_of(s, x, y), n = mr_vec(g->nx, g->ny, g->nz);
-	double sum = 0;
-
-	for (int k = 0; k < TAPS; k++) {
-		double tx = (double)x + 0.5 + tap[k][0], ty = (double)y + 0.5 + tap[k][1], along;
-		const gathered *o;
-		mr_v3 d;
-		if (tx < 0 || ty < 0 || tx >= (double)width || ty >= (double)height)
-			continue;
-		o = &s->pixel[(size_t)ty * width + (size_t)tx];
-		if (o->share == 0)
-			continue;
-		d = mr_mul(unit, mr_sub(place_of(s, (size_t)tx, (size_t)ty), p)); /* in reaches */
-		along = mr_dot(d, n) - 0.02;
-		if (along > 0)
-			sum += along / (mr_norm2(d) + 0.02);
-	}
-	return fmax(0, 1 - 0.95 * sum / TAPS);
-}
-
-static void
-open_rows(void *arg, size_t begin, size_t end)
-{
-	const shading *s = arg;
-	size_t width = s->v->image->width;
-
-	for (size_t i = begin * width; i < end * width; i++)
-		s->open[i] = s->pixel[i].share > 0 ? (float)openness(s, i % width, i / width) : 1;
-}
-
-/* The mean of `open` over the 4 by 4 pixels around that lie at about the same depth. */
-static double
-smoothed(const shading *s, size_t x, size_t y)
-{
-	size_t width = s->v->image->width, height = s->v->image->height;
-	double z = s->pixel[y * width + x].z, sum = 0, weight = 0;
-	double near = 0.02 * (double)(width < height ? width : height) / s->v->camera->scale;
-
-	for (size_t j = y > 2 ? y - 2 : 0; j < y + 2 && j < height; j++) {
-		for (size_t i = x > 2 ? x - 2 : 0; i < x + 2 && i < width; i++) {
-			size_t k = j * width + i;
-			if (s->pixel[k].share > 0 && fabs(s->pixel[k].z - z) < near) {
-				sum += s->open[k];
-				weight += 1;
-			}
-		}
-	}
-	return weight > 0 ? sum / weight : 1;
-}
-
 static void
 finish_rows(void *arg, size_t begin, size_t end)
 {
 	const shading *s = arg;
 	const mr_image *image = s->v->image;
-	double all = (double)(s->v->opts->samples * s->v->opts->samples);
+	const double all = SAMPLES * SAMPLES;
 
 	for (size_t i = begin * image->width; i < end * image->width; i++) {
 		const gathered *g = &s->pixel[i];
 		mr_v3 behind = to_linear(s, image->pixel[i]);
-		double rest = 1 - g->share / all, open;
+		double rest = 1 - g->share / all;
 		if (g->share == 0)
 			continue;
-		open = (s->open ? smoothed(s, i % image->width, i / image->width) : 1) / all;
-		image->pixel[i] = (mr_rgb){ to_srgb(s, open * g->r + rest * behind.x),
-			to_srgb(s, open * g->g + rest * behind.y),
-			to_srgb(s, open * g->b + rest * behind.z) };
+		image->pixel[i] = (mr_rgb){ to_srgb(s, g->r / all + rest * behind.x),
+			to_srgb(s, g->g / all + rest * behind.y), to_srgb(s, g->b / all + rest * behind.z) };
 	}
 }
 
@@ -453,7 +350,6 @@ prepare_normals(mr_ctx *ctx, shading *s)
 	s->creased = MR_NEW(ctx, m->nv, bool);
 	if (!s->normal || !s->creased)
 		return MR_EMEM;
-	s->crease = cos(s->v->opts->crease * MR_PI / 180);
 	MR_TRY(mr_incidence_build(ctx, m, &s->around));
 	mr_parallel(ctx, m->nv, 1024, vertex_shades, s);
 	return MR_OK;
@@ -467,18 +363,12 @@ mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 	shading s = { .v = v };
 
 	s.pixel = MR_NEW(ctx, pixels, gathered);
-	if (v->opts->occlusion)
-		s.open = MR_NEW(ctx, pixels, float);
-	if (!s.pixel || (v->opts->occlusion && !s.open))
+	if (!s.pixel)
 		return MR_EMEM;
 	prepare_tables(&s);
-	s.reach = 0.055 * (double)(v->image->width < v->image->height ? v->image->width : v->image->height);
-	prepare_taps(&s, s.reach);
-	if (v->subject->mesh.nf && !v->opts->flat)
+	if (v->subject->mesh.nf)
 		MR_TRY(prepare_normals(ctx, &s));
 	mr_parallel(ctx, v->image->height, ROWS, gather_rows, &s);
-	if (s.open)
-		mr_parallel(ctx, v->image->height, ROWS, open_rows, &s);
 	mr_parallel(ctx, v->image->height, ROWS, finish_rows, &s);
 	return MR_OK;
 }

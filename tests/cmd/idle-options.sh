@@ -32,7 +32,6 @@ mr-compare -l mesh -a mesh
 mr-compare --vertices --samples 7
 mr-compare --vertices --tolerance 0.1
 mr-render --columns 2 a.png
-mr-render --flat --crease 20 a.png
 mr-render --range 0,1 a.png
 LINES
 # So is a layer without a name, of every tool that has -l.

@@ -35,11 +35,11 @@ for p in pixels:
 	hue, saturation, _ = colorsys.rgb_to_hsv(*(x / 255 for x in p))
 	if saturation > 0.25:
 		hues[round(12 * hue) % 12] = hues.get(round(12 * hue) % 12, 0) + 1
-print(sum(n > 40 for n in hues.values()), "hues")
+print(sum(n > 90 for n in hues.values()), "hues")
 X
 }
 draw() {
-	mr-render --size 80x60 --view front --flat --plain --no-labels --samples 1 "$@" && colours picture.png
+	mr-render --size 80x60 --view front --no-labels "$@" && colours picture.png
 }
 echo '-- by a column of faces, of bytes, of text, of one that is not there'
 printf 'v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\ng a\nf 1 2 3\ng b\nf 1 3 4\n' | mr-import -o groups.mrs

@@ -73,5 +73,5 @@ cp text.png torus.png && mr-view --materials . -i card.mrs card.html && stored c
 mkdir away && mr-view --materials away -i card.mrs card.html; stored card.html
 
 echo '-- one that is too large for graphics cards'
-mr-make torus -n 300 | mr-render -s 8193x16 --no-labels --samples 1 wide.png
+mr-make torus -n 300 | mr-render -s 8193x16 --no-labels wide.png
 mr-view --texture wide.png -i card.mrs wide.html && stored wide.html | sed -n 1p

@@ -7,7 +7,7 @@ import struct
 import sys
 import zlib
 
-from browser import Browser
+from browser import Browser, Picture
 from checks import box, check, columns, end, length, sub
 
 GROUND, PLAIN = (244, 243, 240), (212, 204, 193)
@@ -33,15 +33,12 @@ def pictures():
         file.write("newmtl picture\nKd 0 0 0\nmap_Kd checks.png\nnewmtl colour\nKd 0.1 0.2 0.9\nnewmtl neither\n")
 
 
-def ppm(path):
+def pixels_of(path):
     """Rows of its pixels."""
     with open(path, "rb") as file:
-        data = file.read()
-    kind, width, height, most = data.split(None, 4)[:4]
-    assert (kind, most) == (b"P6", b"255")
-    width, height = int(width), int(height)
-    flat = data[len(data) - 3 * width * height:]
-    return [[tuple(flat[3 * i:3 * i + 3]) for i in range(width * y, width * (y + 1))] for y in range(height)]
+        picture = Picture(file.read(), 1)
+    n = picture.n
+    return [[tuple(row[n * x:n * x + 3]) for x in range(picture.width)] for row in picture.rows]
 
 
 def bare(p):
@@ -59,7 +56,7 @@ def as_rendered(b, model):
     low, high = box(points)
     middle, far = [(x + y) / 2 for x, y in zip(low, high)], 2 * length(sub(high, low))
     for view, toward in (("front", (0, 0, 1)), ("back", (0, 0, -1)), ("left", (-1, 0, 0))):
-        pixels = ppm("%s-%s.ppm" % (model, view))
+        pixels = pixels_of("%s-%s.png" % (model, view))
         width, height, paper = len(pixels[0]), len(pixels), pixels[0][0]
         right = [toward[2], 0, -toward[0]]
         seen = [[sum(r * x for r, x in zip(axis, sub(p, middle))) for axis in (right, (0, 1, 0), toward)] for p in points]

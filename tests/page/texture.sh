@@ -7,7 +7,7 @@ mr-view --texture checks.png both.html sphere.mrs torus.mrs || exit
 for model in sphere torus; do
 	mr-view --texture checks.png -i $model.mrs $model.html || exit
 	for view in front back left; do
-		mr-render -f ppm -s 984x800 --plain --no-labels --view $view --texture checks.png -i $model.mrs $model-$view.ppm || exit
+		mr-render -s 984x800 --no-labels --view $view --texture checks.png -i $model.mrs $model-$view.png || exit
 	done
 done
 cat >card.obj <<'END'
