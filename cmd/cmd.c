@@ -273,7 +273,6 @@ compose_history(cmd *c, const cmd_args *args)
 		append_word(&line, args->typed[i]);
 	if (i < args->typed_count)
 		mr_text_add(&line, " ...");
-	MR_TRY(mr_text_done(&line));
 	make_line(line.s);
 	c->state->history = line.s;
 	return MR_OK;
@@ -564,11 +563,9 @@ print_stats(cmd *c, double seconds)
 	    &line, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)c->frame);
 	mr_text_json(&line, name, strlen(name));
 	mr_text_add(&line, ",\"seconds\":%.6f,\"peak_bytes\":%.0f", seconds, mr_memory_peak());
-	MR_TRY(mr_text_done(&s->figures));
 	mr_text_add(&line, "%s", s->figures.s ? s->figures.s : "");
 	findings_count(&line, &s->book.found);
 	mr_text_add(&line, "}\n");
-	MR_TRY(mr_text_done(&line));
 	if (fputs(line.s, s->stats) < 0 || fflush(s->stats))
 		die(c, fail_system(c, s->stats_path));
 	return MR_OK;
@@ -613,8 +610,9 @@ work_on(cmd *c, mr_frame *f)
 	const cmd_tool *tool = c->tool;
 	mr_frame before = { 0 };
 
+	MR_ENTER(&c->ctx);
 	if (!tool->sink)
-		MR_TRY(mr_frame_copy(&c->ctx, f, &before));
+		mr_frame_copy(&c->ctx, f, &before);
 	if (!tool->sink && !c->state->no_history)
 		MR_TRY(mr_frame_add_history(&c->ctx, f, c->state->history));
 	MR_TRY(tool->frame(c, f));
@@ -833,49 +831,66 @@ fill_closed(void)
 			exit(EXIT_DATA);
 }
 
+static void
+listen_to(cmd *c)
+{
+	c->ctx.listener = (mr_listener){ .found = c->quiet && !c->state->stats_path ? NULL : collect_finding,
+		.note = c->verbose ? show_note : NULL,
+		.progress = !c->quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
+		.user = c };
+	c->ctx.unfinished = signals_unfinished;
+	c->stats = c->state->stats_path != NULL;
+	mr_keep(&c->ctx, &c->keep);
+	c->keep.permit = c->ctx.permit;
+	c->keep.unfinished = c->ctx.unfinished;
+	c->keep.sync = c->ctx.sync;
+}
+
+static mr_status
+run(cmd *c, int argc, char **argv, int *code)
+{
+	const cmd_tool *tool = c->tool;
+
+	MR_ENTER(&c->ctx);
+	parse_command_line(c, argc, argv);
+	if (c->state->threads)
+		c->ctx.threads = (unsigned)c->state->threads;
+	listen_to(c);
+	if (tool->prepare)
+		MR_TRY(tool->prepare(c));
+	if (tool->caches && !(c->cache = mr_cache_new()))
+		return mr_fail(&c->ctx, MR_EMEM, "no memory for a cache");
+	open_stats(c);
+	if (tool->sink)
+		open_text(c);
+	else
+		open_writer(c);
+	begin_frame(c, NULL);
+	if (tool->source)
+		MR_TRY(tool->source(c));
+	else
+		read_streams(c);
+	*code = account(c);
+	if (tool->finish)
+		finish(c);
+	close_outputs(c);
+	return MR_OK;
+}
+
 int
 main(int argc, char **argv)
 {
-	const cmd_tool *tool = &cmd_this;
 	struct cmd_state state = { .out = -1 };
-	cmd c = { .tool = tool, .name = base_name(argv[0]), .state = &state };
-	int code;
+	cmd c = { .tool = &cmd_this, .name = base_name(argv[0]), .state = &state };
+	int code = EXIT_DATA;
 
 	fill_closed();
 	signals_begin(c.name);
-	return_memory(tool->lean);
+	return_memory(c.tool->lean);
 	mr_ctx_init(&c.ctx, 0);
 	c.ctx.listener.user = &c;
 	c.ctx.permit = permit; /* options read files, too */
-	parse_command_line(&c, argc, argv);
-	if (state.threads)
-		c.ctx.threads = (unsigned)state.threads;
-	c.ctx.listener = (mr_listener){ .found = c.quiet && !state.stats_path ? NULL : collect_finding,
-		.note = c.verbose ? show_note : NULL,
-		.progress = !c.quiet && isatty(STDERR_FILENO) ? show_progress : NULL,
-		.user = &c };
-	c.ctx.unfinished = signals_unfinished;
-	c.stats = state.stats_path != NULL;
-	c.keep = c.ctx;
-	c.keep.top = NULL;
-	if (tool->prepare)
-		try(&c, tool->prepare(&c));
-	if (tool->caches && !(c.cache = mr_cache_new()))
-		die(&c, mr_fail(&c.ctx, MR_EMEM, "no memory for a cache"));
-	open_stats(&c);
-	if (tool->sink)
-		open_text(&c);
-	else
-		open_writer(&c);
-	begin_frame(&c, NULL);
-	if (tool->source)
-		try(&c, tool->source(&c));
-	else
-		read_streams(&c);
-	code = account(&c);
-	if (tool->finish)
-		finish(&c);
-	close_outputs(&c);
+	try(&c, run(&c, argc, argv, &code));
 	mr_cache_delete(c.cache);
 	mr_writer_free(state.writer);
 	mr_ctx_free(&c.ctx);

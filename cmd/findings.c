@@ -120,7 +120,6 @@ put(mr_ctx *ctx, mr_frame *f, const findings *all)
 		return MR_OK;
 	for (size_t i = 0; i < all->n; i++)
 		mr_finding_write(&text, &all->k[i]);
-	MR_TRY(mr_text_done(&text));
 	return mr_frame_put(ctx, f, "", "findings", TEXT, text.s, text.n);
 }
 

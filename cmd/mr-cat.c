@@ -32,8 +32,6 @@ open_sides(cmd *c)
 	side_count = c->operand_count - 1;
 	c->operand_count = 1;
 	sides = MR_NEW(&c->keep, side_count, mr_side);
-	if (!sides)
-		return MR_EMEM;
 	for (size_t i = 0; i < side_count; i++)
 		MR_TRY(cmd_side(c, c->operands[i + 1], &sides[i]));
 	return MR_OK;
@@ -53,7 +51,7 @@ prepare(cmd *c)
 static mr_status
 keep_frame(cmd *c, mr_frame *f)
 {
-	MR_TRY(MR_RESERVE(&c->keep, kept, kept_count, 1, &kept_room));
+	MR_RESERVE(&c->keep, kept, kept_count, 1, &kept_room);
 	MR_TRY(mr_frame_keep(&c->ctx, &c->keep, f, &kept[kept_count]));
 	kept_count++;
 	return MR_OK;

@@ -112,7 +112,6 @@ compare(cmd *c, mr_frame *f)
 	MR_TRY(mr_compare(&c->ctx, &ma, &mb, &opts, &r));
 	cmd_figures(c, figures, &r.both);
 	mr_report_comparison(&r, f, a, b, json, &text);
-	MR_TRY(mr_text_done(&text));
 	cmd_print(c, "%s", text.s);
 	return MR_OK;
 }

@@ -43,8 +43,6 @@ prepare(cmd *c)
 
 	MR_TRY(choose_solid(c));
 	shape = mr_format(&c->ctx, "on %s", c->operands[0]);
-	if (!shape)
-		return MR_EMEM;
 	MR_TRY(cmd_idle(c, "genus", opts.solid != MR_BOXES, shape));
 	MR_TRY(cmd_idle(c, "open", opts.solid != MR_CYLINDER, shape));
 	MR_TRY(cmd_idle(c, "texcoords", !mr_solid_has_texcoords(opts.solid), shape));

@@ -49,12 +49,10 @@ send(cmd *c, const mr_frame *f, const mr_handles *h, size_t number)
 	mr_mark mark = mr_mark_take(&c->ctx);
 	mr_frame copy;
 
-	MR_TRY(mr_frame_copy(&c->ctx, f, &copy));
+	mr_frame_copy(&c->ctx, f, &copy);
 	if (number > 0 && f->key) {
 		copy.key = false;
 		copy.name = mr_format(&c->ctx, "%s-%04zu", f->name, number);
-		if (!copy.name)
-			return MR_EMEM;
 	}
 	MR_TRY(mr_motion_put(&c->ctx, &copy, h, &motion, number));
 	MR_TRY(cmd_send(c, &copy));

@@ -32,8 +32,6 @@ add_handle(mr_ctx *ctx, const cmd_opt *o, const char *text)
 		return mr_fail(
 		    ctx, MR_EUSAGE, "'%s' is not a handle from 0 to 65535, = and a predicate", text);
 	option = mr_format(ctx, "--handle %u=", (unsigned)handle);
-	if (!option)
-		return MR_EMEM;
 	return mr_selection_add(ctx, &selection, MR_REGION_HANDLE + (uint32_t)handle, option, at);
 }
 

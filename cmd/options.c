@@ -88,8 +88,6 @@ parse_length(mr_ctx *ctx, const cmd_opt *o, const char *what, const char *text)
 	char *end;
 	double x;
 
-	if (!number)
-		return MR_EMEM;
 	if (!number_at(number, &end, &x) || *end)
 		return mr_fail(ctx, MR_EUSAGE, "%s: '%s' is neither a number nor a percentage", what, text);
 	MR_TRY(cmd_parse_real(ctx, what, number, o->min, o->max, &x));
@@ -295,8 +293,6 @@ cmd_parse(mr_ctx *ctx, int argc, char **argv, const cmd_opt *const tables[2], cm
 
 	*args = (cmd_args){ .operands = MR_NEW(ctx, (size_t)argc, char *),
 		.typed = MR_NEW(ctx, (size_t)argc, char *) };
-	if (!args->operands || !args->typed)
-		return MR_EMEM;
 	for (; p.at < argc; p.at++) {
 		char *word = argv[p.at];
 		if (options && !strcmp(word, "--")) {

@@ -68,10 +68,11 @@ has(const mr_string_set *set, const char *key)
 	return *key && mr_string_set_has(set, key);
 }
 
-static mr_status
+static void
 add(mr_ctx *ctx, mr_string_set *set, const char *key)
 {
-	return *key ? mr_string_set_add(ctx, set, key) : MR_OK;
+	if (*key)
+		mr_string_set_add(ctx, set, key);
 }
 
 void
@@ -128,8 +129,9 @@ place_claim(mr_ctx *ctx, place_guard *g, const char *path, place_use use)
 	if (writes && has(&g->read, k.there))
 		return mr_fail(ctx, MR_EUSAGE, "%s: this command reads that file, which would be lost", path);
 	if (writes)
-		MR_TRY(add(ctx, &g->written, k.place));
-	return add(ctx, writes ? &g->written : &g->read, k.there);
+		add(ctx, &g->written, k.place);
+	add(ctx, writes ? &g->written : &g->read, k.there);
+	return MR_OK;
 }
 
 mr_status

@@ -15,7 +15,7 @@ mr_build_vertices(mr_builder *b, uint64_t nv)
 		    (unsigned long long)nv);
 	b->nv = (size_t)nv;
 	b->p = MR_NEW(b->ctx, b->nv, mr_v3);
-	return b->p ? MR_OK : MR_EMEM;
+	return MR_OK;
 }
 
 mr_status
@@ -26,37 +26,36 @@ mr_build_reserve(mr_builder *b, size_t faces)
 	b->plain = b->faces == 0 && !b->corner_uv && !b->corner_vn;
 	for (int i = 0; i < MR_MARKINGS; i++)
 		b->plain &= !b->marks[i].used;
-	return MR_RESERVE(b->ctx, b->corner, b->corners, 3 * faces, &b->corner_room);
+	MR_RESERVE(b->ctx, b->corner, b->corners, 3 * faces, &b->corner_room);
+	return MR_OK;
 }
 
 /* ---- faces ---- */
 
 /* From now on the faces' sizes are kept. */
-static mr_status
+static void
 keep_sizes(mr_builder *b)
 {
-	MR_TRY(MR_RESERVE(b->ctx, b->size, 0, b->faces + b->faces / 2 + 1024, &b->face_room));
+	MR_RESERVE(b->ctx, b->size, 0, b->faces + b->faces / 2 + 1024, &b->face_room);
 	for (size_t i = 0; i < b->faces; i++)
 		b->size[i] = 3;
 	b->plain = false;
-	return MR_OK;
 }
 
 /* The places of n corners behind those there are, of which the first had none. */
-static mr_status
+static void
 keep_places(mr_builder *b, uint32_t **places, size_t *room, const uint32_t *new, size_t n)
 {
 	bool first = !*places;
 
 	if (!new &&first)
-		return MR_OK;
-	MR_TRY(MR_RESERVE(b->ctx, *places, first ? 0 : b->corners, (first ? b->corners : 0) + n, room));
+		return;
+	MR_RESERVE(b->ctx, *places, first ? 0 : b->corners, (first ? b->corners : 0) + n, room);
 	for (size_t i = 0; first && i < b->corners; i++)
 		(*places)[i] = MR_NONE;
 	for (size_t i = 0; i < n; i++)
 		(*places)[b->corners + i] = new ? new[i] : MR_NONE;
 	b->plain = false;
-	return MR_OK;
 }
 
 static void
@@ -85,49 +84,48 @@ without_repeats(mr_builder *b, size_t n)
 }
 
 /* The face at the end of the corners is there: what else is known of it. */
-static mr_status
+static void
 mark_face(mr_builder *b, size_t corners)
 {
 	if (corners > 3 && !b->size)
-		MR_TRY(keep_sizes(b));
+		keep_sizes(b);
 	if (b->size) {
-		MR_TRY(MR_RESERVE(b->ctx, b->size, b->faces, 1, &b->face_room));
+		MR_RESERVE(b->ctx, b->size, b->faces, 1, &b->face_room);
 		b->size[b->faces] = (uint32_t)corners;
 	}
 	for (int i = 0; i < MR_MARKINGS; i++) {
 		mr_marks *k = &b->marks[i];
 		if (!k->used)
 			continue;
-		MR_TRY(MR_RESERVE(b->ctx, k->of, b->faces, 1, &k->room));
+		MR_RESERVE(b->ctx, k->of, b->faces, 1, &k->room);
 		k->of[b->faces] = k->current;
 	}
 	b->corners += corners;
 	b->faces++;
-	return MR_OK;
 }
 
-mr_status
+void
 mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n)
 {
 	size_t kept = n;
 
 	if (n < 3) {
 		b->skipped++;
-		return MR_OK;
+		return;
 	}
-	MR_TRY(MR_RESERVE(b->ctx, b->corner, b->corners, n, &b->corner_room));
+	MR_RESERVE(b->ctx, b->corner, b->corners, n, &b->corner_room);
 	memcpy(b->corner + b->corners, corner, n * sizeof *corner);
-	MR_TRY(keep_places(b, &b->corner_uv, &b->uv_room, uv, n));
-	MR_TRY(keep_places(b, &b->corner_vn, &b->vn_room, vn, n));
+	keep_places(b, &b->corner_uv, &b->uv_room, uv, n);
+	keep_places(b, &b->corner_vn, &b->vn_room, vn, n);
 	if (n > 3) {
 		kept = without_repeats(b, n);
 		b->counts.polygons++;
 	}
 	if (kept < 3) {
 		b->skipped++;
-		return MR_OK;
+		return;
 	}
-	return mark_face(b, kept);
+	mark_face(b, kept);
 }
 
 /* ---- names ---- */
@@ -168,7 +166,7 @@ start_marks(mr_builder *b, mr_marking what)
 
 	if (k->used)
 		return MR_OK;
-	MR_TRY(MR_RESERVE(b->ctx, k->of, 0, b->corner_room / 3 + b->faces + 64, &k->room));
+	MR_RESERVE(b->ctx, k->of, 0, b->corner_room / 3 + b->faces + 64, &k->room);
 	if (b->faces) {
 		if (what != MR_SMOOTHING)
 			MR_TRY(mr_name_number(b->ctx, &k->names, none, strlen(none), &k->current));
@@ -202,7 +200,7 @@ mr_build_library(mr_builder *b, const char *name, size_t bytes)
 
 	if (bare.bytes == 0)
 		return MR_OK;
-	MR_TRY(MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room));
+	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
 	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
 	return mr_name_number(b->ctx, &b->libraries, b->clean, bytes, &number);
 }
@@ -218,7 +216,7 @@ mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, number_name
 	mr_marks *k = &b->marks[what];
 
 	MR_TRY(start_marks(b, what));
-	MR_TRY(MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room));
+	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
 	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
 	return number(b->ctx, &k->names, b->clean, bytes, &k->current);
 }
@@ -253,22 +251,19 @@ typedef struct mr_kept {
 	bool odd; /* a value is not of its type */
 } mr_kept;
 
-mr_status
+void
 mr_build_property(mr_builder *b, const char *name, const char *type, char element, size_t *number)
 {
 	bool byte = !strcmp(type, "uchar"), whole = !strcmp(type, "ushort") || !strcmp(type, "uint");
 	mr_shape shape = { element, byte ? 'b' : whole ? 'u' : 'd', 1 };
 	char *own = mr_format(b->ctx, "%s", name);
 
-	if (!own)
-		return MR_EMEM;
 	for (char *c = own; *c; c++) /* a name is a word of a PLY's header */
 		if (*c == ' ')
 			*c = '_';
-	MR_TRY(MR_RESERVE(b->ctx, b->kept, b->properties, 1, &b->property_room));
+	MR_RESERVE(b->ctx, b->kept, b->properties, 1, &b->property_room);
 	b->kept[b->properties++] = (mr_kept){ .p = { .name = own, .type = type, .shape = shape } };
 	*number = b->properties;
-	return MR_OK;
 }
 
 static bool
@@ -278,29 +273,28 @@ is_of_type(double x, char type)
 }
 
 /* Rows below n that no value has come for, of faces that another element names, are 0. */
-static mr_status
+static void
 fill_rows(mr_builder *b, mr_kept *k, size_t n)
 {
 	size_t size = mr_type_size(k->p.shape.type);
 
 	if (k->rows >= n)
-		return MR_OK;
-	MR_TRY(mr_reserve(b->ctx, &k->data, size, k->rows, n - k->rows, &k->room));
+		return;
+	mr_reserve(b->ctx, &k->data, size, k->rows, n - k->rows, &k->room);
 	memset((char *)k->data + k->rows * size, 0, (n - k->rows) * size);
 	k->rows = n;
-	return MR_OK;
 }
 
-mr_status
+void
 mr_build_value(mr_builder *b, size_t number, size_t row, double x)
 {
 	mr_kept *k = &b->kept[number - 1];
 	char type = k->p.shape.type;
 
 	if (row > k->rows)
-		MR_TRY(fill_rows(b, k, row));
+		fill_rows(b, k, row);
 	if (row >= k->room)
-		MR_TRY(mr_reserve(b->ctx, &k->data, mr_type_size(type), row, 1, &k->room));
+		mr_reserve(b->ctx, &k->data, mr_type_size(type), row, 1, &k->room);
 	if (row == k->rows)
 		k->rows++;
 	if (!is_of_type(x, type)) {
@@ -313,54 +307,46 @@ mr_build_value(mr_builder *b, size_t number, size_t row, double x)
 		((uint32_t *)k->data)[row] = (uint32_t)x;
 	else
 		((unsigned char *)k->data)[row] = (unsigned char)x;
-	return MR_OK;
 }
 
 /* Those that are kept, of triangles where faces are of several: `face` of each. */
-static mr_status
+static void
 put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 {
 	mr_property *property = MR_NEW(b->ctx, b->properties, mr_property);
 
-	if (!property)
-		return MR_EMEM;
 	for (size_t i = 0; i < b->properties; i++) {
 		mr_kept *k = &b->kept[i];
 		mr_property *p = &property[m->properties];
 		*p = k->p;
 		if (p->shape.element == 'f' && m->nf == 0)
 			continue;
-		MR_TRY(fill_rows(b, k, p->shape.element == 'f' ? b->faces : m->nv));
+		fill_rows(b, k, p->shape.element == 'f' ? b->faces : m->nv);
 		p->data = k->data;
 		mr_tell(b->ctx, MR_LOST, k->odd, "property %s", p->name);
 		if (k->odd)
 			continue;
-		if (p->shape.element == 'f' && face &&
-		    !(p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf)))
-			return MR_EMEM;
+		if (p->shape.element == 'f' && face)
+			p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf);
 		m->properties++;
 	}
 	m->property = property;
-	return MR_OK;
 }
 
-mr_status
+void
 mr_build_properties(mr_builder *b, mr_model *m)
 {
-	return put_properties(b, NULL, m);
+	put_properties(b, NULL, m);
 }
 
-mr_status
+void
 mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m)
 {
 	mr_v3 *from = MR_NEW(ctx, m->nv, mr_v3);
 
-	if (!from)
-		return MR_EMEM;
 	for (size_t i = 0; i < m->nv; i++)
 		from[i] = scanner;
 	m->scanner = from;
-	return MR_OK;
 }
 
 /* ---- attributes ---- */
@@ -442,7 +428,7 @@ hash_of(const double *value, size_t width)
 	return (size_t)h;
 }
 
-mr_status
+void
 mr_number_rows(
     mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count)
 {
@@ -453,8 +439,6 @@ mr_number_rows(
 	while (mask < n + n / 2)
 		mask *= 2;
 	slot = MR_NEW_ZERO(ctx, mask--, uint32_t);
-	if (!slot)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		size_t at = hash_of(x + width * i, width) & mask;
 		number[i] = MR_NONE;
@@ -470,10 +454,9 @@ mr_number_rows(
 	}
 	*count = used;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width, const double *corner,
     double **vertex, size_t *seams)
 {
@@ -482,8 +465,6 @@ mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_
 	unsigned char *seen = MR_NEW_ZERO(ctx, nv, unsigned char);
 	bool whole = true;
 
-	if (!value || !seen)
-		return MR_EMEM;
 	*seams = 0;
 	for (size_t i = 0; i < 3 * nf; i++) {
 		size_t v = t[i / 3].v[i % 3];
@@ -499,54 +480,46 @@ mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_
 		}
 	}
 	*vertex = whole && *seams == 0 ? value : NULL;
-	return MR_OK;
 }
 
 /* The values of corners that stand at `place` of a list. */
-static mr_status
+static void
 values_of(mr_ctx *ctx, const uint32_t *place, size_t n, size_t width, const double *list, double none,
     const double **values)
 {
 	double *x = MR_NEW(ctx, width * n, double);
 
-	if (!x)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		for (size_t k = 0; k < width; k++)
 			x[width * i + k] = place[i] == MR_NONE ? none : list[width * place[i] + k];
 	*values = x;
-	return MR_OK;
 }
 
 /* Texture coordinates of corners go before those of vertices. */
-static mr_status
+static void
 put_texcoords(mr_builder *b, const uint32_t *place, mr_model *m)
 {
 	const double *corner;
 	double *vertex;
 
-	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 2, b->uv, NAN, &corner));
-	MR_TRY(
-	    mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &b->counts.seam_vertices));
+	values_of(b->ctx, place, 3 * m->nf, 2, b->uv, NAN, &corner);
+	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 2, corner, &vertex, &b->counts.seam_vertices);
 	if (m->texcoord && (!vertex || memcmp(vertex, m->texcoord, 2 * m->nv * sizeof *vertex)))
 		mr_lost(b->ctx, NULL, m->nv, "texture coordinates of vertices");
 	m->texcoord = vertex;
 	m->corner_texcoord = vertex ? NULL : corner;
-	return MR_OK;
 }
 
-static mr_status
+static void
 put_normals(mr_builder *b, const uint32_t *place, mr_model *m)
 {
 	const double *corner;
 	double *vertex;
 
-	MR_TRY(values_of(b->ctx, place, 3 * m->nf, 3, (const double *)b->vn, 0, &corner));
-	MR_TRY(mr_corners_to_vertices(
-	    b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &b->counts.crease_vertices));
+	values_of(b->ctx, place, 3 * m->nf, 3, (const double *)b->vn, 0, &corner);
+	mr_corners_to_vertices(b->ctx, m->t, m->nf, m->nv, 3, corner, &vertex, &b->counts.crease_vertices);
 	m->normal = (const mr_v3 *)vertex;
 	m->corner_normal = vertex ? NULL : (const mr_v3 *)corner;
-	return MR_OK;
 }
 
 /* ---- faces to triangles ---- */
@@ -603,8 +576,6 @@ triangulate(mr_builder *b, triangles *r)
 		.face = MR_NEW(b->ctx, total, uint32_t),
 		.place = MR_NEW(b->ctx, 3 * total, uint32_t) };
 	room = MR_NEW(b->ctx, most, mr_tri);
-	if (!r->t || !r->face || !r->place || !room)
-		return MR_EMEM;
 	for (size_t f = 0; f < b->faces; first += b->size[f++]) {
 		size_t before = r->n;
 		MR_TRY(add_face(b, r, room, f, first));
@@ -633,16 +604,14 @@ is_same_face(const triangles *r, const mr_polygons *found, size_t i, size_t firs
  * The numbers of the polygons.  One that touches itself along an edge cannot be told by its outline: its
  * triangles are faces of their own.
  */
-static mr_status
+static void
 number_polygons(mr_builder *b, const triangles *r, const uint32_t **polygon)
 {
 	uint32_t *number = MR_NEW(b->ctx, r->n, uint32_t), next = 0;
 	size_t face = 0, first = 0, torn = 0;
 	mr_polygons found;
 
-	if (!number)
-		return MR_EMEM;
-	MR_TRY(mr_polygons_find(b->ctx, r->t, r->n, r->face, &found));
+	mr_polygons_find(b->ctx, r->t, r->n, r->face, &found);
 	for (size_t i = 0, f = 0, end; f < r->n; f = end) {
 		bool same;
 		for (end = f; end < r->n && r->face[end] == r->face[f]; end++)
@@ -657,20 +626,17 @@ number_polygons(mr_builder *b, const triangles *r, const uint32_t **polygon)
 	}
 	mr_lost(b->ctx, NULL, torn, "polygons that touch themselves");
 	*polygon = number;
-	return MR_OK;
 }
 
 /* Rows of faces as rows of triangles. */
-static mr_status
+static void
 spread(mr_builder *b, const triangles *r, mr_model *m)
 {
 	const uint32_t **marks[MR_MARKINGS] = { &m->group, &m->object, &m->material, &m->smoothing };
 
 	for (int i = 0; i < MR_MARKINGS; i++)
-		if (*marks[i] &&
-		    !(*marks[i] = mr_gather(b->ctx, *marks[i], sizeof **marks[i], r->face, r->n)))
-			return MR_EMEM;
-	return MR_OK;
+		if (*marks[i])
+			*marks[i] = mr_gather(b->ctx, *marks[i], sizeof **marks[i], r->face, r->n);
 }
 
 /* Triangles, with what the faces and their corners have. */
@@ -686,19 +652,21 @@ put_faces(mr_builder *b, mr_model *m)
 		MR_TRY(triangulate(b, &r));
 		m->t = r.t;
 		m->nf = r.n;
-		MR_TRY(number_polygons(b, &r, &m->polygon));
-		MR_TRY(spread(b, &r, m));
-		MR_TRY(put_properties(b, r.face, m));
-		if (uv && !(uv = mr_gather(b->ctx, uv, sizeof *uv, r.place, 3 * r.n)))
-			return MR_EMEM;
-		if (vn && !(vn = mr_gather(b->ctx, vn, sizeof *vn, r.place, 3 * r.n)))
-			return MR_EMEM;
+		number_polygons(b, &r, &m->polygon);
+		spread(b, &r, m);
+		put_properties(b, r.face, m);
+		if (uv)
+			uv = mr_gather(b->ctx, uv, sizeof *uv, r.place, 3 * r.n);
+		if (vn)
+			vn = mr_gather(b->ctx, vn, sizeof *vn, r.place, 3 * r.n);
 	}
 	if (!b->size)
-		MR_TRY(put_properties(b, NULL, m));
+		put_properties(b, NULL, m);
 	if (uv)
-		MR_TRY(put_texcoords(b, uv, m));
-	return vn ? put_normals(b, vn, m) : MR_OK;
+		put_texcoords(b, uv, m);
+	if (vn)
+		put_normals(b, vn, m);
+	return MR_OK;
 }
 
 static mr_lines
@@ -739,7 +707,7 @@ mr_build_finish(mr_builder *b, mr_model *m)
 		put_marks(b, &made);
 		MR_TRY(put_faces(b, &made));
 	} else
-		MR_TRY(put_properties(b, NULL, &made));
+		put_properties(b, NULL, &made);
 	mr_lost(b->ctx, NULL, b->skipped, "faces without three corners");
 	made.counts = b->counts;
 	*m = made;

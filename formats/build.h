@@ -58,8 +58,7 @@ mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;
  * uv, vn: places of the corners' texture coordinates and normals in the arrays of the builder, MR_NONE of a
  * corner without; NULL where no corner has one.
  */
-mr_status mr_build_face(
-    mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n) MR_WARN_UNUSED;
+void mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n);
 
 /* The faces to come are marked with this name, cleaned and without blanks around it. */
 mr_status mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
@@ -77,15 +76,14 @@ mr_status mr_build_smoothing(mr_builder *b, uint32_t group) MR_WARN_UNUSED;
  * A property under its name, of a type of PLY; those of vertices come before those of faces.  number: from 1.
  * Its values come row by row; a whole type that one is not of drops it in the end.
  */
-mr_status mr_build_property(
-    mr_builder *b, const char *name, const char *type, char element, size_t *number) MR_WARN_UNUSED;
-mr_status mr_build_value(mr_builder *b, size_t number, size_t row, double x) MR_WARN_UNUSED;
+void mr_build_property(mr_builder *b, const char *name, const char *type, char element, size_t *number);
+void mr_build_value(mr_builder *b, size_t number, size_t row, double x);
 
 /* Gives the properties alone to a model of points that its reader makes itself. */
-mr_status mr_build_properties(mr_builder *b, mr_model *m) MR_WARN_UNUSED;
+void mr_build_properties(mr_builder *b, mr_model *m);
 
 /* All points of the model were seen from there. */
-mr_status mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m) MR_WARN_UNUSED;
+void mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m);
 
 /* Reports values that are not finite as lost.  False where all n are. */
 bool mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what) MR_WARN_UNUSED;
@@ -157,15 +155,15 @@ bool mr_is_absent(const double *x, size_t width);
  * the same to the bit and no corner is without; else *vertex is NULL.
  * Vertices of no face get zeros.  *seams: vertices of several.
  */
-mr_status mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
-    const double *corner, double **vertex, size_t *seams) MR_WARN_UNUSED;
+void mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
+    const double *corner, double **vertex, size_t *seams);
 
 /*
  * Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one
  * that is none.  first: of each number, its first row.
  */
-mr_status mr_number_rows(mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number,
-    uint32_t *first, size_t *count) MR_WARN_UNUSED;
+void mr_number_rows(
+    mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count);
 
 /* Reports files of materials that are not where the model at `path` ("-": nowhere) names them. */
 void mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files);

@@ -331,8 +331,7 @@ mr_sink_open(mr_ctx *ctx, const char *path, bool compress, mr_sink *s)
 {
 	mr_sink new = { .ctx = ctx, .path = path };
 
-	if (!(new.buffer = mr_alloc(ctx, MR_SINK_BUFFER, 1)))
-		return MR_EMEM;
+	new.buffer = mr_alloc(ctx, MR_SINK_BUFFER, 1);
 	MR_TRY(open_target(&new));
 	*s = new;
 	if (!compress)

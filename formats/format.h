@@ -133,7 +133,7 @@ void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
 double mr_property_value(const mr_property *p, size_t i);
 
 /* The model's faces, polygons as they were; reports those that no longer are. */
-mr_status mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces) MR_WARN_UNUSED;
+void mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces);
 
 /* Reports that `count` of n positions are off by up to a share of the diagonal. */
 void mr_coarse(mr_ctx *ctx, size_t count, size_t n, double share);

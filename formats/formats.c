@@ -89,8 +89,6 @@ find_writer(mr_ctx *ctx, const char *path, const char *format, const mr_file_for
 	const mr_file_format *found = format ? by_name(format) : by_suffix(path);
 	const char *names = names_of_formats(ctx, true);
 
-	if (!names)
-		return MR_EMEM;
 	if (format && !found)
 		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names);
 	if (!found)
@@ -110,9 +108,8 @@ mr_format_check(mr_ctx *ctx, const char *path, const char *format, bool writable
 	if (writable)
 		MR_TRY(find_writer(ctx, path, format, &f));
 	else if (format && !f) {
-		const char *names = names_of_formats(ctx, false);
-		return names ? mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names)
-		             : MR_EMEM;
+		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format,
+		    names_of_formats(ctx, false));
 	}
 	*binary = f && (f->binary || mr_suffix_gz(path));
 	return MR_OK;
@@ -162,7 +159,7 @@ lone_return(const unsigned char *p, const unsigned char *end)
 }
 
 /* In text a CR alone ends a line, too, for which a newline comes to stand in a copy. */
-static mr_status
+static void
 normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 {
 	const unsigned char *end = *data + size;
@@ -171,14 +168,12 @@ normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 
 	if (memchr(*data, 0, size < 65536 ? size : 65536) || holds(*data, head, "binary") ||
 	    !lone_return(*data, end))
-		return MR_OK;
-	if (!(copy = mr_alloc(ctx, size, 1)))
-		return MR_EMEM;
+		return;
+	copy = mr_alloc(ctx, size, 1);
 	memcpy(copy, *data, size);
 	for (const unsigned char *p = *data; (p = lone_return(p, end)); p++)
 		copy[p - *data] = '\n';
 	*data = copy;
-	return MR_OK;
 }
 
 /* The character at unit i of n, which moves behind it; half of one is U+FFFD. */
@@ -216,8 +211,6 @@ narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
 	for (size_t i = 0; i < n;)
 		bytes += mr_utf8_write(none, from_units(units, n, big, &i));
 	copy = mr_alloc(ctx, bytes, 1);
-	if (!copy)
-		return MR_EMEM;
 	*data = (const unsigned char *)copy;
 	*size = bytes;
 	for (size_t i = 0; i < n;)
@@ -235,7 +228,9 @@ mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
 		*size -= 3;
 	}
 	MR_TRY(narrow(ctx, data, size));
-	return *size ? normalise_lines(ctx, data, *size) : MR_OK;
+	if (*size)
+		normalise_lines(ctx, data, *size);
+	return MR_OK;
 }
 
 static mr_status
@@ -245,8 +240,6 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	const char *names = names_of_formats(ctx, false);
 	const mr_file_format *found = format ? by_name(format) : NULL;
 
-	if (!names)
-		return MR_EMEM;
 	if (format && !found)
 		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names);
 	if (size == 0)
@@ -285,8 +278,6 @@ mend_normals(mr_ctx *ctx, mr_model *m)
 	if (!m->nf || !m->normal || !has_gaps(m))
 		return MR_OK;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
-	if (!normal)
-		return MR_EMEM;
 	MR_TRY(mr_vertex_normals(ctx, &mesh, NULL, normal));
 	for (size_t i = 0; i < m->nv; i++)
 		if (mr_norm2(m->normal[i]) > 0)
@@ -295,9 +286,8 @@ mend_normals(mr_ctx *ctx, mr_model *m)
 	return MR_OK;
 }
 
-mr_status
-mr_model_parse(
-    mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size, mr_model *m)
+static mr_status
+parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size, mr_model *m)
 {
 	const mr_file_format *f = NULL;
 	mr_model got = { 0 };
@@ -311,6 +301,14 @@ mr_model_parse(
 	mr_note(ctx, "%s: %zu vertices, %zu triangles", f->name, got.nv, got.nf);
 	*m = got;
 	return MR_OK;
+}
+
+mr_status
+mr_model_parse(
+    mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size, mr_model *m)
+{
+	MR_ENTER(ctx);
+	return parse(ctx, path, format, data, size, m);
 }
 
 mr_status
@@ -373,10 +371,17 @@ mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files)
 
 /* ---- writing ---- */
 
-mr_status
+void
 mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count)
 {
-	return mr_line_starts(ctx, lines.text, lines.bytes, starts, count);
+	mr_line_starts(ctx, lines.text, lines.bytes, starts, count);
+}
+
+static mr_status
+write_into(mr_sink *s, const mr_file_format *f, const mr_model *m, const mr_scene *scene)
+{
+	MR_ENTER(s->ctx);
+	return scene ? f->write_scene(s, scene) : f->write(s, m);
 }
 
 /* Writes the model, or the scene. */
@@ -388,7 +393,7 @@ write_file(mr_ctx *ctx, const char *path, const mr_file_format *f, const mr_mode
 
 	MR_TRY(mr_sink_open(ctx, path, mr_suffix_gz(path), &sink));
 	sink.hold = held != NULL;
-	MR_TRY(mr_sink_close(&sink, scene ? f->write_scene(&sink, scene) : f->write(&sink, m)));
+	MR_TRY(mr_sink_close(&sink, write_into(&sink, f, m, scene)));
 	if (held)
 		*held = sink.file;
 	return MR_OK;
@@ -474,12 +479,11 @@ mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 		mr_lost(s->ctx, NULL, clear, "alpha");
 }
 
-mr_status
+void
 mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces)
 {
-	MR_TRY(mr_polygons_find(s->ctx, m->t, m->nf, m->polygon, faces));
+	mr_polygons_find(s->ctx, m->t, m->nf, m->polygon, faces);
 	mr_lost(s->ctx, NULL, faces->broken, "polygons that are none any more");
-	return MR_OK;
 }
 
 void

@@ -26,7 +26,7 @@ typedef struct mr_lines {
 
 /* Where each name starts: count + 1, the last a byte behind the newline that the last name lacks; in the
  * arena. */
-mr_status mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count) MR_WARN_UNUSED;
+void mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count);
 
 /* A number that each vertex or each face has under a name of its own, as PLY has them. */
 typedef struct mr_property {

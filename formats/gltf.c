@@ -117,9 +117,7 @@ open_document(mr_gltf *g, const unsigned char *data, size_t size)
 		MR_TRY(open_chunks(g, data, size, &json, &bytes));
 	MR_TRY(parse(g, json, bytes));
 	MR_TRY(check_version(g));
-	MR_TRY(check_extensions(g));
-	g->buffer = MR_NEW_ZERO(g->ctx, mr_gltf_size(g, "buffers"), mr_gltf_buffer);
-	return g->buffer ? MR_OK : MR_EMEM;
+	return check_extensions(g);
 }
 
 mr_status
@@ -235,8 +233,6 @@ decode64(mr_gltf *g, size_t number, const char *text, mr_gltf_buffer *b)
 	unsigned char *data = mr_alloc(g->ctx, n / 4 * 3 + 3, 1);
 	unsigned bits = 0, held = 0;
 
-	if (!data)
-		return MR_EMEM;
 	while (n > 0 && text[n - 1] == '=')
 		n--;
 	for (size_t i = 0; i < n; i++) {

@@ -150,7 +150,7 @@ add_part(reader *r, const json_t *json, const mr_gltf_instance *of)
 	if (p.position == MR_UNKNOWN) /* by the specification there is nothing to draw */
 		return MR_OK;
 	MR_TRY(count_part(r, &p));
-	MR_TRY(MR_RESERVE(r->g.ctx, r->part, r->parts, 1, &r->part_room));
+	MR_RESERVE(r->g.ctx, r->part, r->parts, 1, &r->part_room);
 	r->part[r->parts++] = p;
 	return MR_OK;
 }
@@ -246,8 +246,6 @@ read_colors(reader *r, const part *p, const mr_accessor *a)
 	mr_mark mark = mr_mark_take(r->g.ctx);
 	double *x = MR_NEW(r->g.ctx, 4 * p->count, double);
 
-	if (!x)
-		return MR_EMEM;
 	for (size_t i = 0; i < p->count; i++)
 		x[4 * i + 3] = 1;
 	mr_accessor_reals(a, 4, x);
@@ -275,7 +273,7 @@ read_column(reader *r, const part *p, size_t accessor, size_t before, read_value
 }
 
 /* What some parts have, the others have not yet. */
-static mr_status
+static void
 make_columns(reader *r)
 {
 	mr_ctx *ctx = r->g.ctx;
@@ -288,15 +286,16 @@ make_columns(reader *r)
 	}
 	r->p = MR_NEW(ctx, r->n, mr_v3);
 	r->join = MR_NEW(ctx, r->n, uint32_t);
-	if (!r->p || !r->join || (normal && !(r->normal = MR_NEW_ZERO(ctx, r->n, mr_v3))) ||
-	    (texcoord && !(r->uv = MR_NEW(ctx, 2 * r->n, double))) ||
-	    (color && !(r->color = MR_NEW(ctx, 4 * r->n, unsigned char))))
-		return MR_EMEM;
+	if (normal)
+		r->normal = MR_NEW_ZERO(ctx, r->n, mr_v3);
+	if (texcoord)
+		r->uv = MR_NEW(ctx, 2 * r->n, double);
+	if (color)
+		r->color = MR_NEW(ctx, 4 * r->n, unsigned char);
 	for (size_t i = 0; texcoord && i < 2 * r->n; i++)
 		r->uv[i] = NAN;
 	if (color)
 		memset(r->color, 255, 4 * r->n);
-	return MR_OK;
 }
 
 static mr_status
@@ -304,7 +303,7 @@ read_vertices(reader *r)
 {
 	static const part none = { .normal = MR_UNKNOWN, .texcoord = MR_UNKNOWN, .color = MR_UNKNOWN };
 
-	MR_TRY(make_columns(r));
+	make_columns(r);
 	for (size_t i = 0; i < r->parts; i++) {
 		const part *p = &r->part[i], *before = i ? p - 1 : &none;
 		MR_TRY(read_column(r, p, p->position, p->position, read_positions));
@@ -325,7 +324,7 @@ read_vertices(reader *r)
 /* ---- vertices as the model has them ---- */
 
 /* Joins the places of each mesh, from part i on; *end: the part behind it. */
-static mr_status
+static void
 join_mesh(reader *r, size_t i, size_t *end)
 {
 	size_t first = r->part[i].first, last = first, joined;
@@ -340,29 +339,26 @@ join_mesh(reader *r, size_t i, size_t *end)
 	for (size_t k = first; k < last; k++)
 		r->join[k] = (uint32_t)(k - first);
 	if (faces)
-		MR_TRY(mr_weld(r->g.ctx, r->p + first, joined, 0, r->join + first, &joined));
+		mr_weld(r->g.ctx, r->p + first, joined, 0, r->join + first, &joined);
 	for (size_t k = first; k < last; k++)
 		r->join[k] += (uint32_t)r->b.nv;
 	r->b.nv += joined;
-	return MR_OK;
 }
 
 /* Each vertex has the first colour that it is given. */
-static mr_status
+static void
 join_colors(reader *r)
 {
 	size_t several = 0;
 
 	if (!r->color)
-		return MR_OK;
-	if (!(r->b.color = MR_NEW(r->g.ctx, 4 * r->b.nv, unsigned char)))
-		return MR_EMEM;
+		return;
+	r->b.color = MR_NEW(r->g.ctx, 4 * r->b.nv, unsigned char);
 	for (size_t k = r->n; k-- > 0;)
 		memcpy(r->b.color + 4 * (size_t)r->join[k], r->color + 4 * k, 4);
 	for (size_t k = 0; k < r->n; k++)
 		several += memcmp(r->b.color + 4 * (size_t)r->join[k], r->color + 4 * k, 4) != 0;
 	mr_lost(r->g.ctx, NULL, several, "colors of joined vertices");
-	return MR_OK;
 }
 
 static mr_status
@@ -372,14 +368,14 @@ join_vertices(reader *r)
 
 	for (size_t i = 0; i < r->parts;) {
 		size_t end = i;
-		MR_TRY(join_mesh(r, i, &end));
+		join_mesh(r, i, &end);
 		i = end;
 	}
 	nv = r->b.nv;
 	MR_TRY(mr_build_vertices(&r->b, nv));
 	for (size_t k = r->n; k-- > 0;)
 		r->b.p[r->join[k]] = r->p[k];
-	MR_TRY(join_colors(r));
+	join_colors(r);
 	r->b.uv = r->uv;
 	r->b.vn = r->normal;
 	if (r->nf == 0) { /* points are not joined */
@@ -400,7 +396,7 @@ corners_of(size_t mode, size_t k, size_t c[3])
 	c[2] = mode == FAN ? 0 : mode == STRIP ? k + 2 - k % 2 : 3 * k + 2;
 }
 
-static mr_status
+static void
 add_face(reader *r, const part *p, size_t k, bool turned)
 {
 	uint32_t v[3], uv[3], vn[3];
@@ -417,8 +413,8 @@ add_face(reader *r, const part *p, size_t k, bool turned)
 		vn[i] = p->normal != MR_UNKNOWN && r->normal ? (uint32_t)at : MR_NONE;
 	}
 	if (p->mode != TRIANGLES && (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]))
-		return MR_OK; /* a strip goes on elsewhere by such faces */
-	return mr_build_face(&r->b, v, r->uv ? uv : NULL, r->normal ? vn : NULL, 3);
+		return; /* a strip goes on elsewhere by such faces */
+	mr_build_face(&r->b, v, r->uv ? uv : NULL, r->normal ? vn : NULL, 3);
 }
 
 /* Names of n things, in their order; of several without a name each is called `what` and its number. */
@@ -433,8 +429,6 @@ name_marks(reader *r, mr_marking kind, const char *const *name, size_t n, const 
 		const char *own = name[i]        ? name[i]
 		                  : unnamed == 1 ? ""
 		                                 : mr_format(r->g.ctx, "%s%zu", what, i);
-		if (!own)
-			return MR_EMEM;
 		MR_TRY(mr_build_new_mark(&r->b, kind, own, strlen(own)));
 	}
 	return MR_OK;
@@ -447,8 +441,6 @@ name_all(reader *r)
 	size_t objects = r->scene.count, materials = mr_gltf_size(&r->g, "materials");
 	const char **name = MR_NEW(r->g.ctx, objects + materials, const char *);
 
-	if (!name)
-		return MR_EMEM;
 	for (size_t i = 0; i < objects; i++)
 		name[i] = r->scene.instance[i].name;
 	if (objects > 1 || (objects == 1 && *name))
@@ -475,12 +467,10 @@ read_faces(reader *r, const part *p)
 	if (p->indices != MR_UNKNOWN) {
 		MR_TRY(mr_accessor_open(&r->g, p->indices, &a));
 		r->index = MR_NEW(r->g.ctx, a.count, uint32_t);
-		if (!r->index)
-			return MR_EMEM;
 		MR_TRY(mr_accessor_indices(&r->g, &a, p->count, r->index));
 	}
 	for (size_t k = 0; k < faces_of(p->mode, p->corners); k++)
-		MR_TRY(add_face(r, p, k, turned));
+		add_face(r, p, k, turned);
 	return MR_OK;
 }
 
@@ -527,6 +517,8 @@ say_left(const reader *r)
 static mr_status
 read_document(reader *r, mr_model *m)
 {
+	MR_ENTER(r->g.ctx);
+	r->g.buffer = MR_NEW_ZERO(r->g.ctx, mr_gltf_size(&r->g, "buffers"), mr_gltf_buffer);
 	MR_TRY(mr_gltf_scene_find(&r->g, &r->scene));
 	MR_TRY(find_parts(r));
 	MR_TRY(read_vertices(r));

@@ -135,16 +135,15 @@ place(walk *w, size_t node)
 	return MR_OK;
 }
 
-static mr_status
+static void
 add_instance(walk *w, size_t mesh, const mr_affine *map, const char *name)
 {
 	mr_gltf_scene *s = w->s;
 
-	MR_TRY(MR_RESERVE(w->g->ctx, s->instance, s->count, 1, &w->room));
+	MR_RESERVE(w->g->ctx, s->instance, s->count, 1, &w->room);
 	s->instance[s->count++] = (mr_gltf_instance){ .mesh = mesh,
 		.map = *map,
 		.name = name ? name : mr_gltf_name(mr_gltf_at(w->g, "meshes", mesh)) };
-	return MR_OK;
 }
 
 static mr_status
@@ -162,7 +161,8 @@ visit(walk *w, size_t node)
 		return MR_OK;
 	w->s->several += json_object_get(json_object_get(json, "extensions"), "EXT_mesh_gpu_instancing") !=
 	                 NULL;
-	return add_instance(w, mesh, &w->map[node], mr_gltf_name(json));
+	add_instance(w, mesh, &w->map[node], mr_gltf_name(json));
+	return MR_OK;
 }
 
 mr_status
@@ -179,8 +179,6 @@ mr_gltf_scene_find(const mr_gltf *g, mr_gltf_scene *s)
 		.done = MR_NEW_ZERO(g->ctx, n, bool),
 		.shown = MR_NEW_ZERO(g->ctx, n, bool) };
 
-	if (!w.parent || !w.path || !w.map || !w.done || !w.shown)
-		return MR_EMEM;
 	*s = (mr_gltf_scene){ 0 };
 	MR_TRY(mr_gltf_index(g, g->root, "scene", "scenes", &scene));
 	if (scenes && scene == MR_UNKNOWN)
@@ -190,6 +188,6 @@ mr_gltf_scene_find(const mr_gltf *g, mr_gltf_scene *s)
 	for (size_t i = 0; i < n; i++)
 		MR_TRY(visit(&w, i));
 	for (size_t i = 0; scenes + s->count == 0 && i < mr_gltf_size(g, "meshes"); i++)
-		MR_TRY(add_instance(&w, i, &identity, NULL));
+		add_instance(&w, i, &identity, NULL);
 	return MR_OK;
 }

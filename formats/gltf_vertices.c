@@ -3,15 +3,13 @@
 
 #include "formats/build.h"
 
-mr_status
+void
 mr_sort_by(mr_ctx *ctx, const uint32_t *key, size_t most, uint32_t *order, size_t n)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t *start = MR_NEW_ZERO(ctx, most + 2, size_t);
 	uint32_t *to = MR_NEW(ctx, n, uint32_t);
 
-	if (!start || !to)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		start[key[order[i]] + 1]++;
 	for (size_t k = 0; k <= most; k++)
@@ -20,28 +18,24 @@ mr_sort_by(mr_ctx *ctx, const uint32_t *key, size_t most, uint32_t *order, size_
 		to[start[key[order[i]]]++] = order[i];
 	memcpy(order, to, n * sizeof *to);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_face_names_find(mr_ctx *ctx, const uint32_t *column, mr_lines lines, size_t nf, mr_face_names *names)
 {
 	*names = (mr_face_names){ .of = MR_NEW_ZERO(ctx, nf, uint32_t) };
-	if (!names->of)
-		return MR_EMEM;
 	if (!column || !lines.text)
-		return MR_OK;
-	MR_TRY(mr_lines_starts(ctx, lines, &names->start, &names->count));
+		return;
+	mr_lines_starts(ctx, lines, &names->start, &names->count);
 	for (size_t f = 0; f < nf; f++) {
 		uint32_t i = column[f];
 		bool named = i < names->count && names->start[i + 1] > names->start[i] + 1;
 		names->of[f] = named ? i : (uint32_t)names->count;
 	}
-	return MR_OK;
 }
 
 /* Numbers the corners by vertex, texture coordinates and normal: `key` of each three numbers. */
-static mr_status
+static void
 make_keys(mr_ctx *ctx, const mr_model *m, double **key)
 {
 	size_t corners = 3 * m->nf, count;
@@ -49,18 +43,15 @@ make_keys(mr_ctx *ctx, const mr_model *m, double **key)
 		 *first = MR_NEW(ctx, corners, uint32_t);
 
 	*key = MR_NEW(ctx, 3 * corners, double);
-	if (!uv || !vn || !first || !*key)
-		return MR_EMEM;
 	if (m->corner_texcoord)
-		MR_TRY(mr_number_rows(ctx, m->corner_texcoord, 2, corners, uv, first, &count));
+		mr_number_rows(ctx, m->corner_texcoord, 2, corners, uv, first, &count);
 	if (m->corner_normal)
-		MR_TRY(mr_number_rows(ctx, &m->corner_normal->x, 3, corners, vn, first, &count));
+		mr_number_rows(ctx, &m->corner_normal->x, 3, corners, vn, first, &count);
 	for (size_t c = 0; c < corners; c++) {
 		(*key)[3 * c] = m->t[c / 3].v[c % 3];
 		(*key)[3 * c + 1] = uv[c];
 		(*key)[3 * c + 2] = vn[c] + 1.0; /* never all zero, which is none */
 	}
-	return MR_OK;
 }
 
 /* The first distinct corner of a vertex is that vertex, the others come behind all. */
@@ -82,25 +73,20 @@ number_vertices(
 	}
 }
 
-mr_status
+void
 mr_gltf_vertices_find(mr_ctx *ctx, const mr_model *m, mr_gltf_vertices *v)
 {
 	size_t corners = 3 * m->nf, distinct = 0;
 	uint32_t *number = MR_NEW(ctx, corners, uint32_t), *first = MR_NEW(ctx, corners, uint32_t), *place;
 	double *key;
 
-	MR_TRY(make_keys(ctx, m, &key));
-	if (!number || !first)
-		return MR_EMEM;
-	MR_TRY(mr_number_rows(ctx, key, 3, corners, number, first, &distinct));
+	make_keys(ctx, m, &key);
+	mr_number_rows(ctx, key, 3, corners, number, first, &distinct);
 	*v = (mr_gltf_vertices){ .vertex = MR_NEW(ctx, m->nv + distinct, uint32_t),
 		.corner = MR_NEW(ctx, m->nv + distinct, uint32_t),
 		.index = number };
 	place = MR_NEW(ctx, distinct, uint32_t);
-	if (!v->vertex || !v->corner || !place)
-		return MR_EMEM;
 	number_vertices(m, first, distinct, place, v);
 	for (size_t c = 0; c < corners; c++)
 		v->index[c] = place[number[c]];
-	return MR_OK;
 }

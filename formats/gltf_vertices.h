@@ -15,7 +15,7 @@ typedef struct mr_gltf_vertices {
 	uint32_t *index; /* 3 nf: the vertex of each corner */
 } mr_gltf_vertices;
 
-mr_status mr_gltf_vertices_find(mr_ctx *ctx, const mr_model *m, mr_gltf_vertices *v) MR_WARN_UNUSED;
+void mr_gltf_vertices_find(mr_ctx *ctx, const mr_model *m, mr_gltf_vertices *v);
 
 /* Names of objects or materials, and which each face has: `count` for one without. */
 typedef struct mr_face_names {
@@ -24,10 +24,9 @@ typedef struct mr_face_names {
 	uint32_t *of; /* nf */
 } mr_face_names;
 
-mr_status mr_face_names_find(
-    mr_ctx *ctx, const uint32_t *column, mr_lines lines, size_t nf, mr_face_names *names) MR_WARN_UNUSED;
+void mr_face_names_find(mr_ctx *ctx, const uint32_t *column, mr_lines lines, size_t nf, mr_face_names *names);
 
 /* Sorts `order` by key[order[i]], stably; keys are at most `most`. */
-mr_status mr_sort_by(mr_ctx *ctx, const uint32_t *key, size_t most, uint32_t *order, size_t n) MR_WARN_UNUSED;
+void mr_sort_by(mr_ctx *ctx, const uint32_t *key, size_t most, uint32_t *order, size_t n);
 
 #endif

@@ -72,7 +72,7 @@ index_of(size_t n)
 }
 
 /* Room for bytes of the second chunk, up to a multiple of four, and a view of it. */
-static mr_status
+static void
 new_view(glb *w, size_t bytes, size_t target, size_t *view, char **to)
 {
 	size_t padded = (bytes + 3) / 4 * 4;
@@ -80,25 +80,23 @@ new_view(glb *w, size_t bytes, size_t target, size_t *view, char **to)
 	*view = push(w, w->views,
 	    json_pack("{s:i, s:I, s:I, s:o*}", "buffer", 0, "byteOffset", number(w->bytes), "byteLength",
 		number(bytes), "target", index_of(target)));
-	MR_TRY(MR_RESERVE(w->ctx, w->bin, w->bytes, padded, &w->room));
+	MR_RESERVE(w->ctx, w->bin, w->bytes, padded, &w->room);
 	*to = (char *)w->bin + w->bytes;
 	memset(*to + bytes, 0, padded - bytes);
 	w->bytes += padded;
-	return MR_OK;
 }
 
 /* A view of `count` values, `size` bytes each, to be filled from `to` on, and the accessor over it. */
-static mr_status
+static void
 new_values(glb *w, size_t count, size_t size, size_t target, size_t kind, const char *type, char **to,
     size_t *accessor)
 {
 	size_t view = 0;
 
-	MR_TRY(new_view(w, size * count, target, &view, to));
+	new_view(w, size * count, target, &view, to);
 	*accessor = push(w, w->accessors,
 	    json_pack("{s:I, s:I, s:I, s:s}", "bufferView", number(view), "componentType", number(kind),
 		"count", number(count), "type", type));
-	return MR_OK;
 }
 
 /* The least and the greatest of its values. */
@@ -142,7 +140,8 @@ put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 	size_t view = 0, image;
 	char *to = NULL;
 
-	MR_TRY(new_view(w, b->size, MR_UNKNOWN, &view, &to));
+	MR_ENTER(w->ctx);
+	new_view(w, b->size, MR_UNKNOWN, &view, &to);
 	memcpy(to, b->data, b->size);
 	image = push(w, w->images,
 	    json_pack("{s:I, s:s, s:s}", "bufferView", number(view), "mimeType", image_type(b), "name",
@@ -165,7 +164,7 @@ embed(glb *w, const char *file, size_t *texture)
 			*texture = i;
 	if (!file || *texture != MR_UNKNOWN)
 		return MR_OK;
-	MR_TRY(MR_RESERVE(w->ctx, w->image, known, 1, &w->image_room));
+	MR_RESERVE(w->ctx, w->image, known, 1, &w->image_room);
 	w->image[known] = file;
 	MR_TRY(mr_file_bytes_read(w->ctx, file, &b));
 	if (image_type(&b))
@@ -210,8 +209,6 @@ put_materials(glb *w, layer *l)
 	size_t count = 0;
 
 	l->materials = MR_NEW(w->ctx, l->material.count, size_t);
-	if (!l->materials)
-		return MR_EMEM;
 	MR_TRY(mr_materials_find(w->ctx, &l->node->model, w->scene->folder, &look, &count));
 	for (size_t i = 0; i < l->material.count; i++) {
 		size_t bytes = (size_t)(name[i + 1] - name[i]) - 1, texture, normals;
@@ -240,13 +237,13 @@ material_of(glb *w, const layer *l, size_t f)
 /* ---- vertices ---- */
 
 /* Positions, or how far a pose moves them: the difference of floats, so that nothing is rounded twice. */
-static mr_status
+static void
 put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_gltf_vertices *v, size_t *accessor)
 {
 	mr_box box = mr_box_empty();
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor));
+	new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor);
 	for (size_t i = 0; i < v->count; i++) {
 		mr_v3 x = as_floats(p[v->vertex[i]]);
 		if (from)
@@ -256,7 +253,6 @@ put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_gltf_vertices 
 	}
 	set_bounds(w, *accessor, json_pack("[f, f, f]", box.min.x, box.min.y, box.min.z),
 	    json_pack("[f, f, f]", box.max.x, box.max.y, box.max.z));
-	return MR_OK;
 }
 
 /* Whether it can be made unit. */
@@ -288,19 +284,18 @@ normal_of(const mr_v3 *of_vertices, const mr_v3 *of_corners, const mr_gltf_verti
 }
 
 /* pose: NULL, or the one that turns them. */
-static mr_status
+static void
 put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_gltf_vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor));
+	new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor);
 	for (size_t i = 0; i < v->count; i++) {
 		mr_v3 n = normal_of(m->normal, m->corner_normal, v, i);
 		if (pose)
 			n = mr_sub(normal_of(pose->normal, pose->corner_normal, v, i), n);
 		to = put_floats(to, n);
 	}
-	return MR_OK;
 }
 
 static bool
@@ -310,12 +305,12 @@ has_texcoord(const double *uv)
 }
 
 /* v runs down the picture in glTF. */
-static mr_status
+static void
 put_texcoords(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC2", &to, accessor));
+	new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC2", &to, accessor);
 	for (size_t i = 0; i < v->count; i++) {
 		const double *uv = m->texcoord ? m->texcoord + 2 * (size_t)v->vertex[i] : NULL;
 		if (m->corner_texcoord && v->corner[i] != MR_NONE)
@@ -323,16 +318,15 @@ put_texcoords(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *acce
 		to = mr_store_float(to, has_texcoord(uv) ? (float)uv[0] : 0);
 		to = mr_store_float(to, has_texcoord(uv) ? (float)(1 - uv[1]) : 0);
 	}
-	return MR_OK;
 }
 
 /* Linear there, where sixteen bits give every byte back. */
-static mr_status
+static void
 put_colors(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
-	MR_TRY(new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_UNSIGNED_SHORT, "VEC4", &to, accessor));
+	new_values(w, v->count, 8, MR_GLTF_ARRAY, MR_GLTF_UNSIGNED_SHORT, "VEC4", &to, accessor);
 	for (size_t i = 0; i < 4 * v->count; i++) {
 		double c = m->color[4 * (size_t)v->vertex[i / 4] + i % 4] / 255.0;
 		unsigned x = (unsigned)(65535 * (i % 4 == 3 ? c : mr_srgb_to_linear(c)) + 0.5);
@@ -341,48 +335,47 @@ put_colors(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accesso
 	}
 	w->failed |= json_object_set_new(
 			 json_array_get(w->accessors, *accessor), "normalized", json_true()) != 0;
-	return MR_OK;
 }
 
-static mr_status
+static void
 put_vertices(glb *w, layer *l)
 {
 	const mr_model *m = &l->node->model;
 
 	l->normal = l->texcoord = l->color = MR_UNKNOWN;
-	MR_TRY(put_positions(w, m->p, NULL, &l->v, &l->position));
+	put_positions(w, m->p, NULL, &l->v, &l->position);
 	if (m->normal || m->corner_normal)
-		MR_TRY(put_normals(w, m, NULL, &l->v, &l->normal));
+		put_normals(w, m, NULL, &l->v, &l->normal);
 	if (m->texcoord || m->corner_texcoord)
-		MR_TRY(put_texcoords(w, m, &l->v, &l->texcoord));
-	return m->color ? put_colors(w, m, &l->v, &l->color) : MR_OK;
+		put_texcoords(w, m, &l->v, &l->texcoord);
+	if (m->color)
+		put_colors(w, m, &l->v, &l->color);
 }
 
 /* ---- poses ---- */
 
 /* Frame 0 is the key, at frame i target i - 1 alone weighs 1: when, and how much. */
-static mr_status
+static void
 put_weights(glb *w, size_t targets, size_t *sampler)
 {
 	size_t frames = targets + 1, input = 0, output = 0;
 	char *to = NULL;
 
-	MR_TRY(new_values(w, frames, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &input));
+	new_values(w, frames, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &input);
 	for (size_t i = 0; i < frames; i++)
 		to = mr_store_float(to, (float)((double)i / FRAMES_A_SECOND));
 	set_bounds(
 	    w, input, json_pack("[f]", 0.), json_pack("[f]", mr_as_float((double)targets / FRAMES_A_SECOND)));
-	MR_TRY(new_values(w, frames * targets, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &output));
+	new_values(w, frames * targets, 4, MR_UNKNOWN, MR_GLTF_FLOAT, "SCALAR", &to, &output);
 	for (size_t i = 0; i < frames; i++)
 		for (size_t k = 0; k < targets; k++)
 			to = mr_store_float(to, i == k + 1 ? 1 : 0);
 	*sampler = push(
 	    w, w->samplers, json_pack("{s:I, s:I}", "input", number(input), "output", number(output)));
-	return MR_OK;
 }
 
 /* What the poses do to the vertices; to normals only where every pose has some. */
-static mr_status
+static void
 put_poses(glb *w, layer *l)
 {
 	const mr_scene_node *node = l->node;
@@ -392,14 +385,15 @@ put_poses(glb *w, layer *l)
 	for (size_t i = 0; i < node->targets; i++)
 		turned = turned && (node->target[i].normal || node->target[i].corner_normal);
 	for (size_t i = 0; i < node->targets; i++) {
-		MR_TRY(put_positions(w, node->target[i].p, node->model.p, &l->v, &position));
+		put_positions(w, node->target[i].p, node->model.p, &l->v, &position);
 		if (turned)
-			MR_TRY(put_normals(w, &node->model, &node->target[i], &l->v, &normal));
+			put_normals(w, &node->model, &node->target[i], &l->v, &normal);
 		push(w, l->targets,
 		    json_pack("{s:I, s:o*}", "POSITION", number(position), "NORMAL", index_of(normal)));
 		push(w, l->bare_targets, json_pack("{s:I}", "POSITION", number(position)));
 	}
-	return node->targets ? put_weights(w, node->targets, &l->sampler) : MR_OK;
+	if (node->targets)
+		put_weights(w, node->targets, &l->sampler);
 }
 
 /* ---- primitives, meshes, nodes ---- */
@@ -423,8 +417,8 @@ put_primitive(glb *w, const layer *l, size_t first, size_t last, json_t *primiti
 	size_t accessor = 0;
 	char *to = NULL;
 
-	MR_TRY(new_values(
-	    w, 3 * (last - first), 4, MR_GLTF_ELEMENTS, MR_GLTF_UNSIGNED_INT, "SCALAR", &to, &accessor));
+	new_values(
+	    w, 3 * (last - first), 4, MR_GLTF_ELEMENTS, MR_GLTF_UNSIGNED_INT, "SCALAR", &to, &accessor);
 	for (size_t i = first; i < last; i++)
 		for (size_t k = 0; k < 3; k++)
 			to = mr_store32(to, l->v.index[3 * (size_t)l->face[i] + k]);
@@ -475,7 +469,7 @@ put_object(glb *w, const layer *l, size_t *at)
 	uint32_t object = l->object.of[l->face[*at]];
 	char *name = object_name(w, l, object);
 	json_t *primitives = json_array();
-	mr_status status = name ? MR_OK : MR_EMEM;
+	mr_status status = MR_OK;
 
 	while (*at < l->node->model.nf && l->object.of[l->face[*at]] == object && status == MR_OK) {
 		size_t end = *at + 1;
@@ -492,15 +486,13 @@ put_object(glb *w, const layer *l, size_t *at)
 }
 
 /* What all corners of each face have; what only some have is lost. */
-static mr_status
+static void
 find_kinds(glb *w, layer *l)
 {
 	const mr_model *m = &l->node->model;
 	size_t some_normals = 0, some_texcoords = 0;
 
 	l->kind = MR_NEW(w->ctx, m->nf, uint32_t);
-	if (!l->kind)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		size_t texcoords = 0, normals = 0;
 		for (size_t c = 3 * f; c < 3 * f + 3; c++) {
@@ -516,26 +508,23 @@ find_kinds(glb *w, layer *l)
 	}
 	mr_lost(w->ctx, NULL, some_normals, "normals of triangles that lack others");
 	mr_lost(w->ctx, NULL, some_texcoords, "texture coordinates of triangles that lack others");
-	return MR_OK;
 }
 
 /* Faces by object, material and kind. */
-static mr_status
+static void
 order_faces(glb *w, layer *l)
 {
 	const mr_model *m = &l->node->model;
 
-	MR_TRY(find_kinds(w, l));
-	MR_TRY(mr_face_names_find(w->ctx, m->object, m->objects, m->nf, &l->object));
-	MR_TRY(mr_face_names_find(w->ctx, m->material, m->materials, m->nf, &l->material));
+	find_kinds(w, l);
+	mr_face_names_find(w->ctx, m->object, m->objects, m->nf, &l->object);
+	mr_face_names_find(w->ctx, m->material, m->materials, m->nf, &l->material);
 	l->face = MR_NEW(w->ctx, m->nf, uint32_t);
-	if (!l->face)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		l->face[f] = (uint32_t)f;
-	MR_TRY(mr_sort_by(w->ctx, l->kind, KINDS, l->face, m->nf));
-	MR_TRY(mr_sort_by(w->ctx, l->material.of, l->material.count, l->face, m->nf));
-	return mr_sort_by(w->ctx, l->object.of, l->object.count, l->face, m->nf);
+	mr_sort_by(w->ctx, l->kind, KINDS, l->face, m->nf);
+	mr_sort_by(w->ctx, l->material.of, l->material.count, l->face, m->nf);
+	mr_sort_by(w->ctx, l->object.of, l->object.count, l->face, m->nf);
 }
 
 /* Points have normals where all of them have some. */
@@ -561,14 +550,14 @@ put_layer(glb *w, layer *l)
 
 	if (m->nv == 0)
 		return mr_fail(w->ctx, MR_EMESH, "a layer without a vertex cannot be written as glb");
-	MR_TRY(mr_gltf_vertices_find(w->ctx, m, &l->v));
-	MR_TRY(put_vertices(w, l));
-	MR_TRY(put_poses(w, l));
+	mr_gltf_vertices_find(w->ctx, m, &l->v);
+	put_vertices(w, l);
+	put_poses(w, l);
 	if (m->nf == 0) {
 		put_cloud(w, l);
 		return MR_OK;
 	}
-	MR_TRY(order_faces(w, l));
+	order_faces(w, l);
 	MR_TRY(put_materials(w, l));
 	while (at < m->nf)
 		MR_TRY(put_object(w, l, &at));
@@ -599,7 +588,7 @@ put_scene(glb *w)
 			.name = node_name(w->ctx, w->scene, &w->scene->node[i]),
 			.targets = json_array(),
 			.bare_targets = json_array() };
-		mr_status status = l.name ? put_layer(w, &l) : MR_EMEM;
+		mr_status status = put_layer(w, &l);
 		json_decref(l.targets);
 		json_decref(l.bare_targets);
 		MR_TRY(status);
@@ -666,13 +655,13 @@ put_document(glb *w)
 	mr_text json = { .ctx = w->ctx };
 	json_t *root;
 
+	MR_ENTER(w->ctx);
 	MR_TRY(put_scene(w));
 	root = new_root(w);
 	w->failed |= json_dump_callback(root, add_text, &json, JSON_COMPACT) != 0;
 	json_decref(root);
 	if (w->failed)
 		return mr_fail(w->ctx, MR_EMEM, "no memory for the JSON of a glb");
-	MR_TRY(mr_text_done(&json));
 	return put_chunks(w, json.s);
 }
 

@@ -49,6 +49,7 @@ static mr_status
 decode(mr_ctx *ctx, struct jpeg_decompress_struct *info, failure *f, const unsigned char *data, size_t size,
     mr_image *image)
 {
+	MR_ENTER(ctx);
 	if (setjmp(f->back))
 		return mr_fail(ctx, MR_EFORMAT, "%s", f->sentence);
 	jpeg_mem_src(info, data, size);

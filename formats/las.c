@@ -164,17 +164,16 @@ static mr_status
 add_columns(const unsigned char *data, const las *l, mr_rows *r, bool told[FIELDS])
 {
 	for (mr_role k = MR_X; k <= MR_Z; k++)
-		MR_TRY(mr_rows_add(r, k, "", 0, NULL));
+		mr_rows_add(r, k, "", 0, NULL);
 	for (mr_role k = MR_RED; l->color && k <= MR_BLUE; k++)
-		MR_TRY(mr_rows_add(r, k, "", 0, NULL));
+		mr_rows_add(r, k, "", 0, NULL);
 	for (size_t i = 0; i < FIELDS; i++) {
 		told[i] = has_field(l->format, i) && is_told(data, l, i);
 		if (told[i])
-			MR_TRY(mr_rows_add(
-			    r, MR_NO_ROLE, fields[i].name, strlen(fields[i].name), fields[i].type));
+			mr_rows_add(r, MR_NO_ROLE, fields[i].name, strlen(fields[i].name), fields[i].type);
 	}
 	r->shades[0].full = 255;
-	MR_TRY(mr_rows_begin(r));
+	mr_rows_begin(r);
 	return mr_rows_room(r, l->points);
 }
 
@@ -203,7 +202,7 @@ read_points(mr_ctx *ctx, const unsigned char *data, const las *l, mr_rows *r)
 		for (size_t i = 0; i < FIELDS; i++)
 			if (told[i])
 				x[n++] = field_of(d, l->format >= 6, i);
-		MR_TRY(mr_rows_put(r, x));
+		mr_rows_put(r, x);
 	}
 	mr_tell(ctx, MR_ROUNDED, rounded, "values of colors");
 	return MR_OK;
@@ -220,7 +219,7 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(read_points(ctx, data, &l, &r));
 	mr_lost(ctx, NULL, l.record - formats[l.format].bytes, "more bytes of each point");
 	mr_lost(ctx, NULL, has_projection(data, &l), "the coordinate system");
-	MR_TRY(mr_rows_end(&r));
+	mr_rows_end(&r);
 	return mr_build_finish(&b, m);
 }
 

@@ -58,8 +58,6 @@ mr_map_put_range(mr_ctx *ctx, mr_frame *f, double low, double high)
 {
 	double *range = MR_NEW(ctx, 2, double);
 
-	if (!range)
-		return MR_EMEM;
 	range[0] = low;
 	range[1] = high;
 	return mr_layer_put(ctx, f, "displacement", "range", range, 1);
@@ -164,15 +162,11 @@ read_heights(mr_ctx *ctx, const mr_gray *g, const mr_mesh *control, const mr_mod
 	mr_loop *level = MR_NEW(ctx, found->level + 1, mr_loop);
 	gathered *of;
 
-	if (!level)
-		return MR_EMEM;
 	MR_TRY(mr_loop_levels(ctx, control, 180, found->level, level));
 	d->n = found->level;
 	d->m.nv = level[d->n].nv;
 	*height = MR_NEW(ctx, d->m.nv, double);
 	of = MR_NEW_ZERO(ctx, d->m.nv, gathered);
-	if (!*height || !of)
-		return MR_EMEM;
 	sample_all(g, m, &level[d->n], d->n, of);
 	take_heights(of, d->m.nv, range, *height, found);
 	mr_tell(ctx, MR_ROUNDED, found->between, "vertices beside the centre of a texel");
@@ -211,7 +205,9 @@ mr_map_read(mr_ctx *ctx, mr_frame *f, const char *path, const mr_map_opts *opts,
 	mr_map_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(read_map(ctx, &done, path, opts ? opts : &defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

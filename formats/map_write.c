@@ -55,13 +55,11 @@ find_rows(void *arg, size_t begin, size_t end)
 }
 
 /* Of what stands in the gutter, too. */
-static mr_status
+static void
 find_range(mr_ctx *ctx, mapping *m)
 {
 	m->least = MR_NEW(ctx, m->atlas.height, double);
 	m->greatest = MR_NEW(ctx, m->atlas.height, double);
-	if (!m->least || !m->greatest)
-		return MR_EMEM;
 	mr_parallel(ctx, m->atlas.height, GRAIN, find_rows, m);
 	m->low = INFINITY;
 	m->high = -INFINITY;
@@ -69,7 +67,6 @@ find_range(mr_ctx *ctx, mapping *m)
 		m->low = fmin(m->low, m->least[y]);
 		m->high = fmax(m->high, m->greatest[y]);
 	}
-	return MR_OK;
 }
 
 static double
@@ -140,8 +137,6 @@ write_heights(mr_ctx *ctx, mapping *m, const char *path)
 
 	m->gray = (mr_gray){ .width = m->atlas.width, .height = m->atlas.height, .text = text, .texts = 3 };
 	m->gray.pixel = MR_NEW(ctx, m->gray.width * m->gray.height, uint16_t);
-	if (!text[0].text || !text[1].text || !text[2].text || !m->gray.pixel)
-		return MR_EMEM;
 	mr_parallel(ctx, m->atlas.height, GRAIN, draw_heights, m);
 	MR_TRY(mr_png_write_gray(ctx, path, &m->gray));
 	mr_mark_release(ctx, mark);
@@ -231,8 +226,6 @@ displaced_normals(mr_ctx *ctx, mapping *m)
 	m->normal = MR_NEW(ctx, surface.nv, mr_v3);
 	mark = mr_mark_take(ctx);
 	p = MR_NEW(ctx, surface.nv, mr_v3);
-	if (!m->normal || !p)
-		return MR_EMEM;
 	mr_domain_displace(ctx, &m->domain, m->height, 1, p);
 	surface.p = p;
 	MR_TRY(mr_vertex_normals(ctx, &surface, NULL, m->normal));
@@ -282,8 +275,6 @@ write_material(mr_ctx *ctx, const mapping *m, const char *name, const char *path
 	const char *begins = material_begins(ctx, name), *range = numbers(ctx, m->low, m->high - m->low);
 	mr_sink sink;
 
-	if (!begins || !range)
-		return MR_EMEM;
 	MR_TRY(mr_sink_open(ctx, path, false, &sink));
 	mr_print(&sink, "%s%s %s-height.png\n", begins, range, name);
 	return mr_sink_close(&sink, MR_OK);
@@ -300,8 +291,6 @@ check_place(mr_ctx *ctx, const char *name, const char *path)
 	bool own = true;
 	FILE *file;
 
-	if (!begins || !first)
-		return MR_EMEM;
 	file = stat(path, &st) == 0 && S_ISREG(st.st_mode) ? fopen(path, "rb") : NULL;
 	if (file) {
 		size_t got = fread(first, 1, n, file);
@@ -346,8 +335,6 @@ put_texcoords(mr_ctx *ctx, mr_frame *f, const mr_atlas *a)
 {
 	double *uv = MR_NEW(ctx, 6 * a->faces, double);
 
-	if (!uv)
-		return MR_EMEM;
 	for (size_t face = 0; face < a->faces; face++)
 		mr_atlas_texcoords(a, face, uv + 6 * face);
 	mr_frame_drop(f, "control", "texcoord", 0);
@@ -370,8 +357,6 @@ put_material(mr_ctx *ctx, mr_frame *f, const mr_atlas *a, const char *name)
 	char *file = mr_format(ctx, "%s.mtl", name);
 	size_t bytes;
 
-	if (!material || !file)
-		return MR_EMEM;
 	bytes = mr_clean_name(file, file, strlen(file), false);
 	MR_TRY(mr_layer_put(ctx, f, "control", "material", material, a->faces));
 	MR_TRY(mr_layer_put(ctx, f, "control", "materials", file, bytes - strlen(".mtl")));
@@ -408,14 +393,12 @@ prepare(mr_ctx *ctx, mr_frame *f, const mr_map_opts *o, mapping *m)
 	MR_TRY(mr_prefix(
 	    ctx, mr_atlas_plan(ctx, m->control.nf, n, o->gutter, o->side, &m->atlas), "displacement"));
 	MR_TRY(mr_domain_of(ctx, f, &m->control, n, &m->domain));
-	MR_TRY(mr_atlas_fill(ctx, m->domain.m.t, &m->atlas));
+	mr_atlas_fill(ctx, m->domain.m.t, &m->atlas);
 	m->count = MR_NEW(ctx, m->atlas.height, size_t);
-	if (!m->count)
-		return MR_EMEM;
 	m->low = o->low;
 	m->high = o->high;
 	if (!o->ranged)
-		MR_TRY(find_range(ctx, m));
+		find_range(ctx, m);
 	return isfinite(m->high - m->low)
 	           ? MR_OK
 	           : mr_fail(ctx, MR_ERANGE, "displacement: no picture holds heights from %g to %g", m->low,
@@ -429,8 +412,6 @@ write_files(mr_ctx *ctx, mapping *m, const char *name, mr_map_result *found)
 	const char *normals = mr_format(ctx, "%s-normal.png", name),
 		   *material = mr_format(ctx, "%s.mtl", name);
 
-	if (!heights || !normals || !material)
-		return MR_EMEM;
 	MR_TRY(check_place(ctx, name_of(name), material));
 	MR_TRY(write_heights(ctx, m, heights));
 	found->clipped = count_rows(m);
@@ -472,7 +453,9 @@ mr_map_write(mr_ctx *ctx, mr_frame *f, const char *name, const mr_map_opts *opts
 	mr_map_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(write_map(ctx, &done, name, opts ? opts : &defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

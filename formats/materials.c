@@ -139,14 +139,12 @@ describe(finder *f, mr_material *m, mr_scan *t)
 }
 
 /* The last description of a name holds. */
-static mr_status
+static void
 begin_material(finder *f, const mr_scan *t)
 {
 	size_t bytes = (size_t)(t->end - t->p);
 	char *name = mr_alloc(f->ctx, bytes + 1, 1);
 
-	if (!name)
-		return MR_EMEM;
 	bytes = mr_clean_name(name, t->p, bytes, false);
 	for (size_t i = 0; i < f->count; i++) {
 		f->current[i] = bytes && (size_t)(f->name[i + 1] - f->name[i]) == bytes + 1 &&
@@ -155,7 +153,6 @@ begin_material(finder *f, const mr_scan *t)
 		if (f->current[i])
 			f->list[i] = mr_material_plain;
 	}
-	return MR_OK;
 }
 
 static mr_status
@@ -163,6 +160,7 @@ statements(finder *f, const unsigned char *data, size_t size)
 {
 	mr_scan text, line;
 
+	MR_ENTER(f->ctx);
 	MR_TRY(mr_as_text(f->ctx, &data, &size));
 	if (size && memchr(data, 0, size))
 		return mr_fail(f->ctx, MR_EFORMAT, "a zero byte: not a text file");
@@ -173,7 +171,7 @@ statements(finder *f, const unsigned char *data, size_t size)
 			line.end--;
 		if (mr_scan_accept(&line, "newmtl")) {
 			mr_skip_blanks(&line);
-			MR_TRY(begin_material(f, &line));
+			begin_material(f, &line);
 		}
 		for (size_t i = 0; i < f->count; i++)
 			f->wrong += f->current[i] && !describe(f, &f->list[i],
@@ -243,16 +241,14 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	*count = 0;
 	if (!m->material || !m->materials.text)
 		return MR_OK;
-	MR_TRY(mr_lines_starts(ctx, m->materials, &f.name, &f.count));
+	mr_lines_starts(ctx, m->materials, &f.name, &f.count);
 	f.list = MR_NEW(ctx, f.count, mr_material);
 	f.known = MR_NEW_ZERO(ctx, f.count, bool);
 	f.current = MR_NEW_ZERO(ctx, f.count, bool);
-	if (!f.list || !f.known || !f.current)
-		return MR_EMEM;
 	for (size_t i = 0; i < f.count; i++)
 		f.list[i] = mr_material_plain;
 	if (m->mtllib.bytes)
-		MR_TRY(mr_lines_starts(ctx, m->mtllib, &library, &libraries));
+		mr_lines_starts(ctx, m->mtllib, &library, &libraries);
 	for (size_t i = 0; i < libraries; i++)
 		MR_TRY(read_libraries(&f, library[i], (size_t)(library[i + 1] - library[i]) - 1));
 	mr_lost(ctx, NULL, f.wrong, "statements of materials");

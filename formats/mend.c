@@ -12,15 +12,13 @@ proper(mr_tri t)
 }
 
 /* Faces by their new vertices, without those that had three corners and have not now. */
-static mr_status
+static void
 rename_faces(mr_ctx *ctx, const uint32_t *map, mr_model *m)
 {
 	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
 	uint32_t *of = MR_NEW(ctx, m->nf, uint32_t);
 	size_t kept = 0;
 
-	if (!t || !of)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
 		mr_tri now = { { map[v[0]], map[v[1]], map[v[2]] } };
@@ -30,10 +28,9 @@ rename_faces(mr_ctx *ctx, const uint32_t *map, mr_model *m)
 		of[kept++] = (uint32_t)f;
 	}
 	mr_lost(ctx, NULL, m->nf - kept, "faces that welding collapses");
-	MR_TRY(mr_model_gather(ctx, m, true, of, kept));
+	mr_model_gather(ctx, m, true, of, kept);
 	m->t = t;
 	m->nf = kept;
-	return MR_OK;
 }
 
 /* How many vertices have another row than the one that stands for them. */
@@ -49,29 +46,28 @@ count_others(const void *column, size_t bytes, const uint32_t *map, const uint32
 }
 
 /* The values of vertices as those of the corners there. */
-static mr_status
+static void
 to_corners(mr_ctx *ctx, const mr_model *m, const void *vertex, size_t bytes, const void **corner)
 {
 	*corner = mr_gather(ctx, vertex, bytes, m->t->v, 3 * m->nf);
-	return *corner ? MR_OK : MR_EMEM;
 }
 
 /*
  * What differs between vertices that become one: texture coordinates and normals are those of the corners
  * from now on, else the first vertex's count.
  */
-static mr_status
+static void
 keep_differences(mr_ctx *ctx, const uint32_t *map, const uint32_t *of, mr_model *m)
 {
 	const void *corner;
 
 	if (m->nf && m->texcoord && count_others(m->texcoord, 2 * sizeof *m->texcoord, map, of, m->nv)) {
-		MR_TRY(to_corners(ctx, m, m->texcoord, 2 * sizeof *m->texcoord, &corner));
+		to_corners(ctx, m, m->texcoord, 2 * sizeof *m->texcoord, &corner);
 		m->corner_texcoord = corner;
 		m->texcoord = NULL;
 	}
 	if (m->nf && m->normal && count_others(m->normal, sizeof *m->normal, map, of, m->nv)) {
-		MR_TRY(to_corners(ctx, m, m->normal, sizeof *m->normal, &corner));
+		to_corners(ctx, m, m->normal, sizeof *m->normal, &corner);
 		m->corner_normal = corner;
 		m->normal = NULL;
 	}
@@ -84,7 +80,6 @@ keep_differences(mr_ctx *ctx, const uint32_t *map, const uint32_t *of, mr_model 
 			    count_others(p->data, mr_type_size(p->shape.type), map, of, m->nv),
 			    "%s of joined vertices", p->name);
 	}
-	return MR_OK;
 }
 
 mr_status
@@ -94,20 +89,17 @@ mr_model_weld(mr_ctx *ctx, double eps, mr_model *m)
 	uint32_t *map = MR_NEW(ctx, m->nv, uint32_t), *of = MR_NEW(ctx, m->nv, uint32_t);
 	size_t n = 0, next = 0;
 
-	if (!map || !of)
-		return MR_EMEM;
-	MR_TRY(mr_weld(ctx, m->p, m->nv, eps, map, &n));
+	mr_weld(ctx, m->p, m->nv, eps, map, &n);
 	for (size_t i = 0; i < m->nv; i++)
 		if (map[i] == next)
 			of[next++] = (uint32_t)i;
 	mr_tell(ctx, MR_REPAIRED, m->nv - n, "vertices joined");
-	MR_TRY(keep_differences(ctx, map, of, &w));
-	MR_TRY(mr_model_gather(ctx, &w, false, of, n));
-	if (!(w.p = mr_gather(ctx, m->p, sizeof *m->p, of, n)))
-		return MR_EMEM;
+	keep_differences(ctx, map, of, &w);
+	mr_model_gather(ctx, &w, false, of, n);
+	w.p = mr_gather(ctx, m->p, sizeof *m->p, of, n);
 	w.nv = n;
 	if (m->nf)
-		MR_TRY(rename_faces(ctx, map, &w));
+		rename_faces(ctx, map, &w);
 	if (m->nf && w.nf == 0)
 		return mr_fail(ctx, MR_EMESH, "welding within %g leaves no face of %zu", eps, m->nf);
 	*m = w;
@@ -140,19 +132,16 @@ report(mr_ctx *ctx, const mr_repair_report *r)
 }
 
 /* Values of corners in the order of the corners that the faces have now. */
-static mr_status
+static void
 turn_corners(mr_ctx *ctx, const void **corner, size_t bytes, const bool *flipped, size_t nf)
 {
 	uint32_t *of = MR_NEW(ctx, 3 * nf, uint32_t);
 
 	if (!*corner)
-		return MR_OK;
-	if (!of)
-		return MR_EMEM;
+		return;
 	for (uint32_t i = 0; i < 3 * nf; i++)
 		of[i] = flipped[i / 3] && i % 3 ? i / 3 * 3 + 3 - i % 3 : i;
 	*corner = mr_gather(ctx, *corner, bytes, of, 3 * nf);
-	return *corner ? MR_OK : MR_EMEM;
 }
 
 /* n, or where it points against the surface, which was turned over there, the other way. */
@@ -169,8 +158,6 @@ turn_normals(mr_ctx *ctx, const mr_mesh *m, const bool *flipped, mr_model *done)
 	      *corner = MR_NEW(ctx, 3 * m->nf, mr_v3);
 	bool *touched = MR_NEW_ZERO(ctx, m->nv, bool);
 
-	if (!surface || !normal || !corner || !touched)
-		return MR_EMEM;
 	MR_TRY(mr_vertex_normals(ctx, m, NULL, surface));
 	for (size_t i = 0; i < 3 * m->nf; i++) {
 		touched[m->t[i / 3].v[i % 3]] |= flipped[i / 3];
@@ -190,8 +177,8 @@ follow_flips(mr_ctx *ctx, const mr_mesh *m, const bool *flipped, mr_model *done)
 {
 	const void *texcoord = done->corner_texcoord, *normal = done->corner_normal;
 
-	MR_TRY(turn_corners(ctx, &texcoord, 2 * sizeof(double), flipped, m->nf));
-	MR_TRY(turn_corners(ctx, &normal, sizeof(mr_v3), flipped, m->nf));
+	turn_corners(ctx, &texcoord, 2 * sizeof(double), flipped, m->nf);
+	turn_corners(ctx, &normal, sizeof(mr_v3), flipped, m->nf);
 	done->corner_texcoord = texcoord;
 	done->corner_normal = normal;
 	return done->normal || normal ? turn_normals(ctx, m, flipped, done) : MR_OK;
@@ -209,10 +196,9 @@ mr_model_repair(mr_ctx *ctx, mr_model *m)
 	if (m->nf == 0)
 		return MR_OK;
 	MR_TRY(mr_repair(ctx, &in, &out, &vertex_of, &face_of, &r));
-	MR_TRY(mr_model_gather(ctx, &done, false, vertex_of, out.nv));
-	MR_TRY(mr_model_gather(ctx, &done, true, face_of, out.nf));
-	if (!(flipped = MR_NEW(ctx, out.nf, bool)))
-		return MR_EMEM;
+	mr_model_gather(ctx, &done, false, vertex_of, out.nv);
+	mr_model_gather(ctx, &done, true, face_of, out.nf);
+	flipped = MR_NEW(ctx, out.nf, bool);
 	for (size_t f = 0; f < out.nf; f++)
 		flipped[f] = vertex_of[out.t[f].v[1]] != m->t[face_of[f]].v[1];
 	if (r.flipped)

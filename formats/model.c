@@ -71,88 +71,74 @@ mr_corner_texcoord(const mr_model *m, size_t c)
 
 /* ---- attributes follow their vertices and faces ---- */
 
-mr_status
+void
 mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n)
 {
 	mr_property *property = MR_NEW(ctx, m->properties, mr_property);
 
-	if (!property)
-		return MR_EMEM;
 	for (size_t i = 0; i < COLUMNS; i++) {
 		const void *data = column_of(m, i);
 		if (columns[i].of_faces != of_faces || !data)
 			continue;
-		if (!(data = mr_gather(ctx, data, columns[i].bytes, of, n)))
-			return MR_EMEM;
+		data = mr_gather(ctx, data, columns[i].bytes, of, n);
 		set_column(m, i, data);
 	}
 	for (size_t i = 0; i < m->properties; i++) {
 		mr_property *p = &property[i];
 		*p = m->property[i];
-		if ((p->shape.element == 'f') == of_faces &&
-		    !(p->data = mr_gather(ctx, p->data, mr_type_size(p->shape.type), of, n)))
-			return MR_EMEM;
+		if ((p->shape.element == 'f') == of_faces)
+			p->data = mr_gather(ctx, p->data, mr_type_size(p->shape.type), of, n);
 	}
 	m->property = property;
-	return MR_OK;
 }
 
 /* A copy of n rows of `size` bytes; NULL stays NULL. */
-static mr_status
+static void
 copy_rows(mr_ctx *keep, const void **data, size_t n, size_t size)
 {
 	void *copy = *data ? mr_alloc(keep, n, size) : NULL;
 
-	if (*data && !copy)
-		return MR_EMEM;
 	*data = copy ? memcpy(copy, *data, n * size) : NULL;
-	return MR_OK;
 }
 
-static mr_status
+static void
 copy_properties(mr_ctx *keep, mr_model *m)
 {
 	mr_property *property = MR_NEW(keep, m->properties, mr_property);
 
-	if (!property)
-		return MR_EMEM;
 	for (size_t i = 0; i < m->properties; i++) {
 		mr_property *p = &property[i];
 		*p = m->property[i];
 		p->name = mr_format(keep, "%s", p->name);
-		if (!p->name)
-			return MR_EMEM;
-		MR_TRY(copy_rows(
-		    keep, &p->data, p->shape.element == 'f' ? m->nf : m->nv, mr_type_size(p->shape.type)));
+		copy_rows(
+		    keep, &p->data, p->shape.element == 'f' ? m->nf : m->nv, mr_type_size(p->shape.type));
 	}
 	m->property = property;
-	return MR_OK;
 }
 
-mr_status
+void
 mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy)
 {
 	const void *p = m->p, *t = m->t;
 	mr_model made = *m;
 
-	MR_TRY(copy_rows(keep, &p, m->nv, sizeof *m->p));
-	MR_TRY(copy_rows(keep, &t, m->nf, sizeof *m->t));
+	copy_rows(keep, &p, m->nv, sizeof *m->p);
+	copy_rows(keep, &t, m->nf, sizeof *m->t);
 	made.p = p;
 	made.t = t;
 	for (size_t i = 0; i < COLUMNS; i++) {
 		const void *data = column_of(m, i);
-		MR_TRY(copy_rows(keep, &data, columns[i].of_faces ? m->nf : m->nv, columns[i].bytes));
+		copy_rows(keep, &data, columns[i].of_faces ? m->nf : m->nv, columns[i].bytes);
 		set_column(&made, i, data);
 	}
 	for (size_t i = 0; i < NAMES; i++) {
 		mr_lines *l = lines_of(&made, i);
 		const void *text = l->text;
-		MR_TRY(copy_rows(keep, &text, l->bytes, 1));
+		copy_rows(keep, &text, l->bytes, 1);
 		l->text = text;
 	}
-	MR_TRY(copy_properties(keep, &made));
+	copy_properties(keep, &made);
 	*copy = made;
-	return MR_OK;
 }
 
 void
@@ -222,8 +208,6 @@ put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 		MR_TRY(mr_frame_put(
 		    ctx, f, layer, name, p->shape, p->data, p->shape.element == 'f' ? m->nf : m->nv));
 		text = mr_format(ctx, "%s%s%s %s %s", text, *text ? "\n" : "", name, p->type, p->name);
-		if (!text)
-			return MR_EMEM;
 	}
 	return *text ? mr_layer_put(ctx, f, layer, "properties", text, strlen(text)) : MR_OK;
 }
@@ -266,7 +250,7 @@ take_word(mr_ctx *ctx, const char **p, const char *end)
 }
 
 /* What `properties` says of a column; else its own name, and the type of its shape. */
-static mr_status
+static void
 describe(mr_ctx *ctx, mr_lines lines, const mr_column *c, mr_property *property)
 {
 	const char *p = lines.text, *end = p + lines.bytes;
@@ -281,11 +265,10 @@ describe(mr_ctx *ctx, mr_lines lines, const mr_column *c, mr_property *property)
 			p += length + 1;
 			property->type = take_word(ctx, &p, e);
 			property->name = take_word(ctx, &p, e);
-			return property->type && property->name ? MR_OK : MR_EMEM;
+			return;
 		}
 		p = e + 1;
 	}
-	return MR_OK;
 }
 
 static bool
@@ -304,8 +287,6 @@ get_properties(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 	const void *data;
 	size_t n = 0, rows;
 
-	if (!property)
-		return MR_EMEM;
 	if (mr_layer_has(f, layer, "properties")) {
 		MR_TRY(mr_layer_get(ctx, f, layer, "properties", &data, &types.bytes));
 		types.text = data;
@@ -320,7 +301,7 @@ get_properties(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 				return mr_fail(ctx, MR_ERANGE, "%s: column %s has %zu rows, not %zu", layer,
 				    c->name, rows, faces ? m->nf : m->nv);
 			property[n] = (mr_property){ .shape = c->shape, .data = data };
-			MR_TRY(describe(ctx, types, c, &property[n++]));
+			describe(ctx, types, c, &property[n++]);
 		}
 	m->property = property;
 	m->properties = n;
@@ -398,20 +379,15 @@ judge_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
 		mr_coarse(ctx, m->nv, m->nv, (floats ? of_floats : grain) / diagonal);
 }
 
-mr_status
-mr_import(
-    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
+static mr_status
+import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame, mr_import_result *result)
 {
-	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
-	const mr_import_opts *o = opts ? opts : &defaults;
 	const char *name = mr_format_stem(ctx, path);
 	double unit;
 	mr_frame *f;
 	mr_model m;
 	mr_box box;
 
-	if (!name)
-		return MR_EMEM;
 	MR_TRY(mr_model_read(ctx, path, o->format, &m));
 	if (o->points) {
 		mr_lost(ctx, NULL, m.corner_normal ? 3 * m.nf : 0, "normals of corners");
@@ -436,6 +412,16 @@ mr_import(
 	return MR_OK;
 }
 
+mr_status
+mr_import(
+    mr_ctx *ctx, const char *path, const mr_import_opts *opts, mr_frame **frame, mr_import_result *result)
+{
+	static const mr_import_opts defaults = MR_IMPORT_DEFAULTS;
+
+	MR_ENTER(ctx);
+	return import(ctx, path, opts ? opts : &defaults, frame, result);
+}
+
 static bool
 same_triangles(const mr_model *a, const mr_model *b)
 {
@@ -443,25 +429,25 @@ same_triangles(const mr_model *a, const mr_model *b)
 }
 
 /* The normals of a mesh on another surface of its triangles. */
-static mr_status
+static void
 borrow_normals(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
 {
 	const mr_mesh before = { .name = "mesh", .p = mesh->p, .t = mesh->t, .nv = mesh->nv, .nf = mesh->nf };
 	mr_v3 *normal = NULL, *corner = NULL;
 
 	if (m->normal || m->corner_normal)
-		return MR_OK;
-	if (mesh->normal && !(normal = MR_NEW(ctx, m->nv, mr_v3)))
-		return MR_EMEM;
-	if (mesh->corner_normal && !(corner = MR_NEW(ctx, 3 * m->nf, mr_v3)))
-		return MR_EMEM;
+		return;
+	if (mesh->normal)
+		normal = MR_NEW(ctx, m->nv, mr_v3);
+	if (mesh->corner_normal)
+		corner = MR_NEW(ctx, 3 * m->nf, mr_v3);
 	if (normal)
 		memcpy(normal, mesh->normal, m->nv * sizeof *normal);
 	if (corner)
 		memcpy(corner, mesh->corner_normal, 3 * m->nf * sizeof *corner);
 	m->normal = normal;
 	m->corner_normal = corner;
-	return mr_turn_normals(ctx, &before, m->p, normal, corner);
+	mr_turn_normals(ctx, &before, m->p, normal, corner);
 }
 
 static bool
@@ -473,14 +459,12 @@ has_property(const mr_model *m, const char *name)
 	return false;
 }
 
-static mr_status
+static void
 borrow_properties(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
 {
 	mr_property *all = MR_NEW(ctx, m->properties + mesh->properties, mr_property);
 	size_t n = 0;
 
-	if (!all)
-		return MR_EMEM;
 	for (int faces = 0; faces < 2; faces++) { /* those of vertices come first */
 		for (size_t i = 0; i < m->properties; i++)
 			if ((m->property[i].shape.element == 'f') == faces)
@@ -492,21 +476,20 @@ borrow_properties(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
 	}
 	m->property = all;
 	m->properties = n;
-	return MR_OK;
 }
 
 /* What the mesh has and this layer has not, as far as the same triangles allow. */
-static mr_status
+static void
 borrow(mr_ctx *ctx, mr_model *mesh, mr_model *m)
 {
-	MR_TRY(borrow_normals(ctx, mesh, m));
+	borrow_normals(ctx, mesh, m);
 	for (size_t i = 0; i < COLUMNS; i++)
 		if (!column_of(m, i) && !strstr(columns[i].name, "normal"))
 			set_column(m, i, column_of(mesh, i));
 	for (size_t i = 0; i < NAMES; i++)
 		if (lines_of(m, i)->bytes == 0)
 			*lines_of(m, i) = *lines_of(mesh, i);
-	return borrow_properties(ctx, mesh, m);
+	borrow_properties(ctx, mesh, m);
 }
 
 /* What the mesh has and the model, of other triangles, has not; polygons are none of it. */
@@ -546,8 +529,10 @@ mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 	if (!strcmp(layer, "mesh") || m->nf == 0 || !mr_layer_has(f, "mesh", "triangles"))
 		return MR_OK;
 	MR_TRY(mr_model_get(ctx, f, "mesh", &mesh));
-	if (same_triangles(&mesh, m))
-		return borrow(ctx, &mesh, m);
+	if (same_triangles(&mesh, m)) {
+		borrow(ctx, &mesh, m);
+		return MR_OK;
+	}
 	if (f->key)
 		lose_rest(ctx, &mesh, m);
 	return MR_OK;
@@ -569,6 +554,7 @@ mr_export(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const c
 {
 	bool binary;
 
+	MR_ENTER(ctx);
 	MR_TRY(mr_format_check(ctx, path, format, true, &binary));
 	return mr_export_held(ctx, f, layer, path, format, NULL);
 }

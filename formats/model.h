@@ -12,8 +12,7 @@ void mr_model_to_points(mr_model *m);
 
 /* All that the model has of vertices, or of faces, for those that are left: row i is that of of[i]. Positions
  * and triangles stay. */
-mr_status
-mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n) MR_WARN_UNUSED;
+void mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n);
 
 /*
  * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes, but for
@@ -43,7 +42,7 @@ mr_status mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mode
 const double *mr_corner_texcoord(const mr_model *m, size_t corner);
 
 /* A copy of the model and all that it has, in an arena that may outlive it. */
-mr_status mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy) MR_WARN_UNUSED;
+void mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy);
 
 /* mr_export where the format is checked, and the file is the caller's to keep where `held` is not NULL. */
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,

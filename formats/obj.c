@@ -42,7 +42,7 @@ continues(const char *begin, const char *end)
 }
 
 /* Puts a line that goes on behind a backslash together with what follows. */
-static mr_status
+static void
 join(obj *o, mr_scan *line)
 {
 	size_t n = 0;
@@ -51,7 +51,7 @@ join(obj *o, mr_scan *line)
 	while (more) {
 		size_t bytes = (size_t)(line->end - line->p);
 		more = continues(line->p, line->end);
-		MR_TRY(MR_RESERVE(o->ctx, o->joined, n, bytes + 1, &o->joined_room));
+		MR_RESERVE(o->ctx, o->joined, n, bytes + 1, &o->joined_room);
 		memcpy(o->joined + n, line->p, bytes);
 		n += bytes;
 		if (more)
@@ -60,7 +60,6 @@ join(obj *o, mr_scan *line)
 	}
 	o->joined[n] = '\n';
 	*line = (mr_scan){ o->ctx, o->joined, o->joined, o->joined + n };
-	return MR_OK;
 }
 
 /* The next line, without leading blanks and joined where it goes on; MR_END at the end. */
@@ -71,7 +70,9 @@ next_line(obj *o, mr_scan *line)
 	if (!mr_scan_line(&o->text, line))
 		return MR_END;
 	mr_skip_blanks(line);
-	return continues(line->p, line->end) ? join(o, line) : MR_OK;
+	if (continues(line->p, line->end))
+		join(o, line);
+	return MR_OK;
 }
 
 /* "line N: ..." for the line at hand: a failure found in a part of it says nothing of places. */
@@ -152,7 +153,8 @@ position(obj *o, mr_scan *line)
 		x[3] = x[4] = x[5] = (double)NAN;
 	o->alphas += n > 6 && x[6] != 1;
 	o->v++;
-	return mr_rows_put(&o->rows, x);
+	mr_rows_put(&o->rows, x);
+	return MR_OK;
 }
 
 static mr_status
@@ -281,7 +283,7 @@ add_face(obj *o, const mr_obj_corner *c, size_t n)
 	bool uv = false, vn = false;
 	uint32_t *v, *t, *s;
 
-	MR_TRY(MR_RESERVE(o->ctx, o->corners, 0, 3 * n, &o->corner_room));
+	MR_RESERVE(o->ctx, o->corners, 0, 3 * n, &o->corner_room);
 	v = o->corners, t = v + n, s = t + n;
 	for (size_t i = 0; i < n; i++) {
 		if (!resolve(c[i].v, o->v, o->v_all, &v[i]))
@@ -293,7 +295,8 @@ add_face(obj *o, const mr_obj_corner *c, size_t n)
 	}
 	if (n == 3 && !uv && !vn && mr_build_triangle(&o->b, v[0], v[1], v[2]))
 		return MR_OK;
-	return mr_build_face(&o->b, v, uv ? t : NULL, vn ? s : NULL, n);
+	mr_build_face(&o->b, v, uv ? t : NULL, vn ? s : NULL, n);
+	return MR_OK;
 }
 
 static void
@@ -417,7 +420,7 @@ one_line(obj *o, mr_scan *line, bool *pass)
  * A line for tinyobj: a copy where it lacks its newline, holds a blank that tinyobj does not know, or a slash
  * with nothing behind it: there tinyobj takes the next corner's index.
  */
-static mr_status
+static void
 hand_over(obj *o, const mr_scan *line, const char **begin, const char **end)
 {
 	size_t n = (size_t)(line->end - line->p);
@@ -429,13 +432,11 @@ hand_over(obj *o, const mr_scan *line, const char **begin, const char **end)
 	if (whole) {
 		*begin = line->p;
 		*end = line->end + 1;
-		return MR_OK;
+		return;
 	}
 	if (o->joined_room < n + 2 || line->p == o->joined) {
 		o->joined_room = 2 * n + 256;
 		o->joined = mr_grow(o->ctx, NULL, 0, o->joined_room, 1);
-		if (!o->joined)
-			return MR_EMEM;
 	}
 	o->joined[n] = ' ';
 	o->joined[n + 1] = '\n';
@@ -446,7 +447,6 @@ hand_over(obj *o, const mr_scan *line, const char **begin, const char **end)
 	}
 	*begin = o->joined;
 	*end = o->joined + n + 2;
-	return MR_OK;
 }
 
 static mr_status
@@ -461,7 +461,8 @@ next_for_tinyobj(obj *o, const char **begin, const char **end)
 			return status;
 		MR_TRY(one_line(o, &line, &pass));
 	}
-	return hand_over(o, &line, begin, end);
+	hand_over(o, &line, begin, end);
+	return MR_OK;
 }
 
 static bool
@@ -507,15 +508,13 @@ are_of_vertices(const obj *o, const uint32_t *place, size_t astray, size_t n)
 
 /* Reports values, `width` numbers each, that no corner names; zeros were written for vertices without a face.
  */
-static mr_status
+static void
 lose_unnamed(obj *o, const uint32_t *place, const double *x, size_t n, size_t width, const char *what)
 {
 	mr_mark mark = mr_mark_take(o->ctx);
 	bool *named = MR_NEW_ZERO(o->ctx, n, bool);
 	size_t lost = 0;
 
-	if (!named)
-		return MR_EMEM;
 	for (size_t c = 0; place && c < o->b.corners; c++)
 		if (place[c] != MR_NONE)
 			named[place[c]] = true;
@@ -525,10 +524,9 @@ lose_unnamed(obj *o, const uint32_t *place, const double *x, size_t n, size_t wi
 	}
 	mr_tell(o->ctx, MR_LOST, lost, "%s that no corner names", what);
 	mr_mark_release(o->ctx, mark);
-	return MR_OK;
 }
 
-static mr_status
+static void
 finish_texcoords(obj *o)
 {
 	const char *what = "texture coordinates";
@@ -536,28 +534,26 @@ finish_texcoords(obj *o)
 	if (are_of_vertices(o, o->b.corner_uv, o->no_texcoords, o->vt)) {
 		if (mr_all_left(o->ctx, o->odd_texcoords, o->vt, what))
 			o->b.texcoord = o->uv;
-		return MR_OK;
+		return;
 	}
-	MR_TRY(lose_unnamed(o, o->b.corner_uv, o->uv, o->vt, 2, what));
+	lose_unnamed(o, o->b.corner_uv, o->uv, o->vt, 2, what);
 	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, what))
 		o->b.corner_uv = NULL;
 	mr_lost(o->ctx, NULL, o->no_texcoords, "texture coordinates that are not there");
-	return MR_OK;
 }
 
-static mr_status
+static void
 finish_normals(obj *o)
 {
 	bool of_vertices = are_of_vertices(o, o->b.corner_vn, o->no_normals, o->vn);
 
 	if (!of_vertices)
-		MR_TRY(lose_unnamed(o, o->b.corner_vn, &o->vn_values->x, o->vn, 3, "normals"));
+		lose_unnamed(o, o->b.corner_vn, &o->vn_values->x, o->vn, 3, "normals");
 	if (!mr_normals_left(o->ctx, o->vn_values, o->vn))
 		o->b.corner_vn = NULL;
 	else if (of_vertices)
 		o->b.normal = o->vn_values;
 	mr_lost(o->ctx, NULL, o->no_normals, "normals that are not there");
-	return MR_OK;
 }
 
 static mr_status
@@ -565,9 +561,9 @@ finish(obj *o, mr_model *m)
 {
 	o->b.uv = o->uv;
 	o->b.vn = o->vn_values;
-	MR_TRY(mr_rows_end(&o->rows));
-	MR_TRY(finish_texcoords(o));
-	MR_TRY(finish_normals(o));
+	mr_rows_end(&o->rows);
+	finish_texcoords(o);
+	finish_normals(o);
 	mr_lost(o->ctx, NULL, o->lines_and_points, "lines and points");
 	mr_lost(o->ctx, NULL, o->weights, "weights of vertices");
 	mr_lost(o->ctx, NULL, o->alphas, "alpha");
@@ -584,8 +580,8 @@ begin_vertices(obj *o)
 	o->rows.b = &o->b;
 	o->rows.sparse = true;
 	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-		MR_TRY(mr_rows_add(&o->rows, roles[i], "", 0, NULL));
-	MR_TRY(mr_rows_begin(&o->rows));
+		mr_rows_add(&o->rows, roles[i], "", 0, NULL);
+	mr_rows_begin(&o->rows);
 	return mr_rows_room(&o->rows, o->v_all);
 }
 
@@ -604,8 +600,6 @@ mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(mr_build_reserve(&o.b, o.f_all));
 	o.uv = MR_NEW(ctx, 2 * o.vt_all, double);
 	o.vn_values = MR_NEW(ctx, o.vn_all, mr_v3);
-	if (!o.uv || !o.vn_values)
-		return MR_EMEM;
 	if (!mr_obj_parse(&calls))
 		return mr_fail(ctx, MR_EMEM, "no memory for a line of the file");
 	return o.status < 0 ? o.status : finish(&o, m);

@@ -39,9 +39,7 @@ put_corner_values(mr_sink *s, values *x, size_t corners)
 	size_t lines;
 
 	x->place = MR_NEW(s->ctx, corners, uint32_t);
-	if (!first || !x->place)
-		return MR_EMEM;
-	MR_TRY(mr_number_rows(s->ctx, x->corner, x->width, corners, x->place, first, &lines));
+	mr_number_rows(s->ctx, x->corner, x->width, corners, x->place, first, &lines);
 	for (size_t i = 0; i < lines; i++)
 		put_value(s, x, x->corner + x->width * first[i]);
 	return MR_OK;
@@ -136,7 +134,7 @@ put_smoothing(mr_sink *s, marks *k, size_t f)
 		mr_print(s, "s off\n");
 }
 
-static mr_status
+static void
 put_faces(mr_sink *s, const mr_model *m, const values x[2])
 {
 	marks all[] = { { .word = "o", .what = "object", .of = m->object },
@@ -148,8 +146,8 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 
 	for (size_t k = 0; k < 3; k++)
 		if (all[k].of)
-			MR_TRY(mr_lines_starts(s->ctx, names[k], &all[k].start, &all[k].names));
-	MR_TRY(mr_faces_of(s, m, &faces));
+			mr_lines_starts(s->ctx, names[k], &all[k].start, &all[k].names);
+	mr_faces_of(s, m, &faces);
 	for (size_t i = 0; i < faces.count; i++) {
 		size_t f = mr_polygon_corner(&faces, mr_polygon_begin(&faces, i)) / 3;
 		for (size_t k = 0; k < 3; k++)
@@ -162,7 +160,6 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 			put_corner(s, m, x, mr_polygon_corner(&faces, c));
 		mr_put(s, "\n", 1);
 	}
-	return MR_OK;
 }
 
 static void
@@ -191,5 +188,6 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 	MR_TRY(put_values(s, m, &x[0]));
 	MR_TRY(put_values(s, m, &x[1]));
 	mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib);
-	return put_faces(s, m, x);
+	put_faces(s, m, x);
+	return MR_OK;
 }

@@ -82,8 +82,8 @@ begin_vertices(off *f)
 	for (size_t i = 0; i < MOST; i++)
 		if (i < 3 || (i < 6 && f->normals) || (i >= 6 && i < 10 && f->colors) ||
 		    (i >= 10 && f->texcoords))
-			MR_TRY(mr_rows_add(&f->rows, roles[i], "", 0, NULL));
-	MR_TRY(mr_rows_begin(&f->rows));
+			mr_rows_add(&f->rows, roles[i], "", 0, NULL);
+	mr_rows_begin(&f->rows);
 	return mr_rows_room(&f->rows, f->nv);
 }
 
@@ -130,7 +130,8 @@ text_vertex(off *f)
 		x[n++] = k < colors ? more[k] : (double)NAN;
 	f->ignored += f->colors ? 0 : colors;
 	memcpy(x + n, more + colors, wanted * sizeof *x);
-	return mr_rows_put(&f->rows, x);
+	mr_rows_put(&f->rows, x);
+	return MR_OK;
 }
 
 static mr_status
@@ -155,7 +156,7 @@ text_face(off *f)
 	if (n > (size_t)(f->text.end - f->text.p) / 2 + 1)
 		return mr_scan_fail(&f->text, where, "a face of %llu corners, beyond the end of the file",
 		    (unsigned long long)n);
-	MR_TRY(MR_RESERVE(f->ctx, f->corner, 0, (size_t)n, &f->corner_room));
+	MR_RESERVE(f->ctx, f->corner, 0, (size_t)n, &f->corner_room);
 	for (size_t i = 0; i < n; i++) {
 		MR_TRY(mr_scan_count(&f->text, "a corner of a face", UINT32_MAX, &v));
 		if (v >= f->nv)
@@ -171,7 +172,8 @@ text_face(off *f)
 	}
 	if (n == 3 && mr_build_triangle(&f->b, f->corner[0], f->corner[1], f->corner[2]))
 		return MR_OK;
-	return mr_build_face(&f->b, f->corner, NULL, NULL, (size_t)n);
+	mr_build_face(&f->b, f->corner, NULL, NULL, (size_t)n);
+	return MR_OK;
 }
 
 /* Vertices, faces and, which nobody needs, edges: on one line. */
@@ -205,7 +207,7 @@ read_text(off *f, mr_model *m)
 	MR_TRY(mr_build_reserve(&f->b, f->nf < MR_NONE / 3 ? (size_t)f->nf : 0));
 	for (uint64_t i = 0; i < f->nv; i++)
 		MR_TRY(text_vertex(f));
-	MR_TRY(mr_rows_end(&f->rows));
+	mr_rows_end(&f->rows);
 	for (uint64_t i = 0; i < f->nf; i++)
 		MR_TRY(text_face(f));
 	mr_skip_comments(&f->text);
@@ -261,9 +263,10 @@ binary_vertices(off *f, const unsigned char *p, layout l)
 		if (!mr_finite(mr_rows_position(&f->rows, x)))
 			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite",
 			    (size_t)((const char *)p - f->text.start) - 4 * f->rows.columns);
-		MR_TRY(mr_rows_put(&f->rows, x));
+		mr_rows_put(&f->rows, x);
 	}
-	return mr_rows_end(&f->rows);
+	mr_rows_end(&f->rows);
+	return MR_OK;
 }
 
 static mr_status
@@ -271,7 +274,7 @@ binary_faces(off *f, const unsigned char *p, layout l)
 {
 	for (uint64_t i = 0; i < f->nf; i++) {
 		size_t n = mr_load32(p, l.big);
-		MR_TRY(MR_RESERVE(f->ctx, f->corner, 0, n, &f->corner_room));
+		MR_RESERVE(f->ctx, f->corner, 0, n, &f->corner_room);
 		p += 4;
 		for (size_t k = 0; k < n; k++, p += 4) {
 			f->corner[k] = mr_load32(p, l.big);
@@ -283,7 +286,7 @@ binary_faces(off *f, const unsigned char *p, layout l)
 			f->face_colors += mr_load32(p, l.big) > 0;
 			p += 4 + 4 * (size_t)mr_load32(p, l.big);
 		}
-		MR_TRY(mr_build_face(&f->b, f->corner, NULL, NULL, n));
+		mr_build_face(&f->b, f->corner, NULL, NULL, n);
 	}
 	return MR_OK;
 }

@@ -15,7 +15,7 @@ mr_off_write(mr_sink *s, const mr_model *m)
 	mr_note_lost(s, m,
 	    MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_ALPHA | MR_KEEPS_TEXCOORD | MR_KEEPS_POLYGON |
 		MR_KEEPS_FACES);
-	MR_TRY(mr_faces_of(s, m, &faces));
+	mr_faces_of(s, m, &faces);
 	mr_print(s, "%s%s%sOFF\n", m->texcoord ? "ST" : "", m->color ? "C" : "", m->normal ? "N" : "");
 	mr_print(s, "%zu %zu 0\n", m->nv, faces.count);
 	for (size_t i = 0; i < m->nv; i++) {

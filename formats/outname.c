@@ -37,8 +37,6 @@ mr_outname(mr_ctx *ctx, const char *pattern, const char *frame, uint64_t number,
 {
 	char *made = mr_format(ctx, "%s", ""), *file = file_part(ctx, frame);
 
-	if (!file)
-		return MR_EMEM;
 	for (const char *s = pattern; made && *s;) {
 		size_t plain = strcspn(s, "%");
 		const char *after;
@@ -64,8 +62,6 @@ mr_outname(mr_ctx *ctx, const char *pattern, const char *frame, uint64_t number,
 	}
 	if (made && !strcmp(made, "-") && strcmp(pattern, "-") != 0)
 		made = mr_format(ctx, "./-"); /* a frame of that name is no standard output */
-	if (!made)
-		return MR_EMEM;
 	*name = made;
 	return MR_OK;
 }
@@ -84,7 +80,8 @@ mr_outname_once(
 		    "%s holds an earlier frame than frame %llu: put %%d, the number of the frame, into the "
 		    "name",
 		    *name, (unsigned long long)number);
-	return mr_string_set_add(ctx, given, *name);
+	mr_string_set_add(ctx, given, *name);
+	return MR_OK;
 }
 
 bool

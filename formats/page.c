@@ -94,7 +94,8 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_pag
 	bool control = d->there && !strcmp(c->layer, "control");
 
 	if (!*c->layer)
-		return !strcmp(c->name, "history") || !strcmp(c->name, "latest") || !strcmp(c->name, "findings");
+		return !strcmp(c->name, "history") || !strcmp(c->name, "latest") ||
+		       !strcmp(c->name, "findings");
 	if (is_posing(c) && strcmp(c->layer, "handles") != 0)
 		return control ? is_control_posable(f, d) : is_posable(f, layers);
 	if (is_posing(c))
@@ -137,20 +138,17 @@ box_of_places(mr_ctx *ctx, mr_frame *f, const mr_column *c, mr_box *box)
 }
 
 /* Puts vertices that no face has, which are not drawn, where they make no step larger: to the box. */
-static mr_status
+static void
 clamp_places(mr_ctx *ctx, mr_column *c, mr_box box)
 {
 	size_t n = (size_t)c->rows;
 	const mr_v3 *p = c->data;
 	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
 
-	if (!q)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		q[i] = mr_vec(fmin(fmax(p[i].x, box.min.x), box.max.x),
 		    fmin(fmax(p[i].y, box.min.y), box.max.y), fmin(fmax(p[i].z, box.min.z), box.max.z));
 	c->data = q;
-	return MR_OK;
 }
 
 /* Positions count from the corner of their box, so that they are whole steps wherever the model is. */
@@ -215,8 +213,6 @@ centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 	mr_mesh posed;
 	mr_box box;
 
-	if (!w)
-		return MR_EMEM;
 	MR_TRY(mr_layer_surface_or_points(ctx, f, c->layer, &posed));
 	box = mr_mesh_box(&posed);
 	for (int k = 0; k < 3; k++)
@@ -253,7 +249,7 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_
 		MR_TRY(centre_response(ctx, from, &c, centre));
 	if (is_place(&c)) {
 		MR_TRY(box_of_places(ctx, from, &c, &box));
-		MR_TRY(clamp_places(ctx, &c, box));
+		clamp_places(ctx, &c, box);
 		steps = steps_of_places(box);
 	} else
 		steps = steps_of_column(&c);
@@ -264,8 +260,6 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_
 	if (!strcmp(c.name, "position")) /* one place */
 		return mr_frame_pass(ctx, to, &c);
 	rounded = MR_NEW(ctx, (size_t)c.rows * c.shape.components, double);
-	if (!rounded)
-		return MR_EMEM;
 	for (size_t i = 0; i < (size_t)c.rows * c.shape.components; i++)
 		rounded[i] = round_number(((const double *)c.data)[i]);
 	return mr_frame_put(ctx, to, c.layer, c.name, c.shape, rounded, (size_t)c.rows);
@@ -320,8 +314,6 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const mr_page_displaced
 	while (list) {
 		size_t n = strcspn(list, ",");
 		char *layer = mr_format(ctx, "%.*s", (int)n, list);
-		if (!layer)
-			return MR_EMEM;
 		if (strcmp(layer, "displacement") != 0) /* that was checked when it was found */
 			MR_TRY(check_layer(ctx, f, layer));
 		list = list[n] ? list + n + 1 : NULL;
@@ -419,20 +411,17 @@ take_columns(
 	}
 	if (d->there)
 		mr_text_add(notes, "surface %s %zu %zu\n", surface_name(from, shown), d->at, d->n);
-	return mr_text_done(notes);
+	return MR_OK;
 }
 
 /* Which file a frame is from, by its name without folder and suffix. */
-static mr_status
+static void
 tell_file(mr_ctx *ctx, const char *path, mr_text *notes)
 {
 	const char *stem = path ? mr_format_stem(ctx, path) : NULL;
 
-	if (path && !stem)
-		return MR_EMEM;
 	if (stem)
 		mr_text_add(notes, "file %s\n", stem);
-	return MR_OK;
 }
 
 /* What the surfaces that are shown wear, and the columns that place it. */
@@ -459,8 +448,6 @@ take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const
 	bool *shown = MR_NEW(ctx, from->count, bool);
 	mr_text notes = { .ctx = ctx };
 
-	if (!shown)
-		return MR_EMEM;
 	for (size_t i = 0; i < from->count; i++) {
 		const mr_column *c = &from->columns[i];
 		shown[i] = is_shown(from, c, layers, d);
@@ -472,7 +459,7 @@ take_frame(mr_ctx *ctx, mr_frame *from, mr_page *page, const char *layers, const
 		r->left_out += !shown[i];
 	}
 	r->layers += d->there;
-	MR_TRY(tell_file(ctx, page->from, &notes));
+	tell_file(ctx, page->from, &notes);
 	MR_TRY(take_columns(ctx, from, shown, d, to, &notes));
 	return notes.n ? mr_frame_put(ctx, to, "", "page", (mr_shape){ '-', 't', 1 }, notes.s, notes.n)
 	               : MR_OK;
@@ -575,6 +562,7 @@ put_page(mr_sink *s, const mr_page *page, const char *html)
 	static const char mark[] = "<!-- stream -->\n";
 	const char *at = strstr(html, mark);
 
+	MR_ENTER(s->ctx);
 	mr_put(s, html, (size_t)(at - html));
 	MR_TRY(put_stream(s, page->file));
 	MR_TRY(mr_page_pictures_put(s, &page->pictures));

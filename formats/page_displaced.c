@@ -24,10 +24,8 @@ mr_page_displaced_mesh(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, mr_
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
-	MR_TRY(mr_domain_on(ctx, &control, d->level, d->at, &domain));
+	mr_domain_on(ctx, &control, d->level, d->at, &domain);
 	p = MR_NEW(ctx, domain.m.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
 	mr_domain_displace(ctx, &domain, d->height, 1, p);
 	*m = domain.m;
 	m->p = p;
@@ -70,8 +68,6 @@ mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
 	MR_TRY(mr_displacement_get(ctx, f, &control, &r.n, &r.height));
 	level = MR_NEW(ctx, r.n + 1, mr_loop);
-	if (!level)
-		return MR_EMEM;
 	MR_TRY(mr_layer_crease(ctx, f, control.name, control.nf, &mark));
 	MR_TRY(mr_loop_levels_marked(ctx, &control, 180, mark, r.n, level));
 	box = mr_mesh_box(&control);
@@ -92,10 +88,8 @@ mr_page_displaced_put(
 	double *x = MR_NEW(ctx, n, double), most = d->extent;
 	mr_column c = *height;
 
-	if (!x)
-		return MR_EMEM;
 	memcpy(x, d->height, n * sizeof *x);
-	MR_TRY(mr_wavelet_analyse(ctx, d->level, d->n, x));
+	mr_wavelet_analyse(ctx, d->level, d->n, x);
 	for (size_t i = 0; i < n; i++)
 		most = fmax(most, fabs(x[i]));
 	if (!isfinite(most))

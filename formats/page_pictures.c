@@ -94,12 +94,12 @@ check_picture(mr_ctx *ctx, const mr_file_bytes *b)
 static mr_status
 keep_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, const mr_file_bytes *b)
 {
-	mr_page_picture new = { .path = mr_format(p->keep, "%s", path),
-		.data = MR_NEW(p->keep, b->size, unsigned char) };
+	mr_ctx *keep = mr_keep(ctx, p->keep);
+	mr_page_picture new = { .path = mr_format(keep, "%s", path),
+		.data = MR_NEW(keep, b->size, unsigned char) };
 
 	MR_TRY(check_picture(ctx, b));
-	if (!new.path || !new.data || MR_RESERVE(p->keep, p->picture, p->count, 1, &p->room) != MR_OK)
-		return mr_fail_as(ctx, p->keep, MR_EMEM);
+	MR_RESERVE(keep, p->picture, p->count, 1, &p->room);
 	new.size = (mr_is_png(b->data, b->size) ? strip_png : strip_jpeg)(b->data, b->size, new.data);
 	p->bytes += new.size;
 	p->picture[p->count++] = new;
@@ -130,7 +130,7 @@ to_byte(double x)
 }
 
 /* The line of a material: its number, its colour or -, the number of its picture or -. */
-static mr_status
+static void
 wear_material(
     mr_ctx *ctx, mr_page_pictures *p, const char *layer, size_t i, const mr_material *m, mr_text *notes)
 {
@@ -142,7 +142,7 @@ wear_material(
 	else
 		pictured = m->file != NULL;
 	if (!pictured && !m->colored)
-		return MR_OK;
+		return;
 	mr_text_add(notes, "material %s %zu", layer, i);
 	if (m->colored)
 		mr_text_add(
@@ -154,7 +154,6 @@ wear_material(
 	else
 		mr_text_add(notes, " -\n");
 	p->worn = true;
-	return MR_OK;
 }
 
 static mr_status
@@ -165,7 +164,7 @@ wear_materials(mr_ctx *ctx, mr_page_pictures *p, const mr_model *m, const char *
 
 	MR_TRY(mr_materials_find(ctx, m, p->materials, &look, &count));
 	for (size_t i = 0; i < count; i++)
-		MR_TRY(wear_material(ctx, p, layer, i, &look[i], notes));
+		wear_material(ctx, p, layer, i, &look[i], notes);
 	p->worn = true;
 	return MR_OK;
 }

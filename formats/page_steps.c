@@ -54,8 +54,6 @@ mr_steps_put(mr_ctx *ctx, mr_frame *to, const mr_column *c, const mr_steps *s, m
 	mr_shape shape = { c->shape.element, 'u', s->components };
 	uint32_t *sums = MR_NEW(ctx, (size_t)c->rows * s->components, uint32_t);
 
-	if (!sums)
-		return MR_EMEM;
 	sum_steps(c, s, sums);
 	mr_text_add(notes, "steps %s %s", c->layer, c->name);
 	if (s->step > 0)

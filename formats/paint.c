@@ -6,13 +6,11 @@
 #include "formats/model.h"
 
 /* The coordinates of the corners, kept. */
-static mr_status
-keep_corners(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const double **corners)
+static void
+keep_corners(mr_ctx *keep, const mr_model *m, const double **corners)
 {
 	double *uv = MR_NEW(keep, 6 * m->nf, double);
 
-	if (!uv)
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	for (size_t c = 0; c < 3 * m->nf; c++)
 		memcpy(uv + 2 * c,
 		    m->corner_texcoord ? m->corner_texcoord + 2 * c
@@ -22,7 +20,6 @@ keep_corners(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const double **corner
 		if (!isfinite(uv[i]))
 			uv[i] = NAN;
 	*corners = uv;
-	return MR_OK;
 }
 
 static mr_status
@@ -42,8 +39,6 @@ wear_one(mr_ctx *ctx, mr_ctx *keep, const char *file, size_t nf, mr_paint *paint
 	mr_texture *texture = MR_NEW(keep, 1, mr_texture);
 	uint32_t *of = MR_NEW_ZERO(keep, nf, uint32_t);
 
-	if (!texture || !of)
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	MR_TRY(read_texture(ctx, keep, file, texture));
 	paint->texture = texture;
 	paint->of = of;
@@ -51,7 +46,7 @@ wear_one(mr_ctx *ctx, mr_ctx *keep, const char *file, size_t nf, mr_paint *paint
 }
 
 /* The pictures of materials, each file read once; number: of each material's, or MR_NONE. */
-static mr_status
+static void
 read_pictures(
     mr_ctx *ctx, mr_ctx *keep, const mr_material *look, size_t count, mr_texture *texture, uint32_t *number)
 {
@@ -69,7 +64,6 @@ read_pictures(
 		else
 			number[i] = n++;
 	}
-	return MR_OK;
 }
 
 static mr_rgb
@@ -80,7 +74,7 @@ to_rgb(const double c[3])
 }
 
 /* The picture of each face's material, or its colour. */
-static mr_status
+static void
 wear_materials(
     mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const mr_material *look, size_t count, mr_subject *s)
 {
@@ -89,11 +83,7 @@ wear_materials(
 	mr_rgb *color = MR_NEW(keep, m->nf, mr_rgb);
 	bool colored = false;
 
-	if (!number)
-		return MR_EMEM;
-	if (!texture || !of || !color)
-		return mr_fail_as(ctx, keep, MR_EMEM);
-	MR_TRY(read_pictures(ctx, keep, look, count, texture, number));
+	read_pictures(ctx, keep, look, count, texture, number);
 	for (size_t f = 0; f < m->nf; f++) {
 		const mr_material *l = m->material[f] < count ? &look[m->material[f]] : NULL;
 		of[f] = l ? number[m->material[f]] : MR_NONE;
@@ -104,7 +94,6 @@ wear_materials(
 	s->paint.of = of;
 	s->color = colored ? color : NULL;
 	s->per_face = colored;
-	return MR_OK;
 }
 
 /* What the paint of a layer is made of. */
@@ -140,11 +129,12 @@ dress(mr_ctx *ctx, mr_ctx *keep, const mr_model *m, const mr_render_opts *opts, 
 	size_t count;
 
 	if (m->texcoord || m->corner_texcoord)
-		MR_TRY(keep_corners(ctx, keep, m, &s->paint.uv));
+		keep_corners(keep, m, &s->paint.uv);
 	if (opts->texture)
 		return wear_one(ctx, keep, opts->texture, m->nf, &s->paint);
 	MR_TRY(mr_materials_find(ctx, m, opts->materials, &look, &count));
-	return wear_materials(ctx, keep, m, look, count, s);
+	wear_materials(ctx, keep, m, look, count, s);
+	return MR_OK;
 }
 
 static mr_status

@@ -137,7 +137,7 @@ is_named(const field *d, const char *name)
 }
 
 /* "_" only fills up. */
-static mr_status
+static void
 add_field(pcd *f, field *d)
 {
 	bool one = d->count == 1, packed = one && d->size == 4 && (is_named(d, "rgb") || is_named(d, "rgba"));
@@ -146,25 +146,25 @@ add_field(pcd *f, field *d)
 		f->rgb = d;
 	if (!one && !is_named(d, "_"))
 		mr_tell(f->ctx, MR_LOST, 1, "field %.*s", (int)d->name_bytes, d->name);
-	return mr_rows_add(&f->rows, one ? mr_role_of(d->name, d->name_bytes) : MR_NO_ROLE, d->name,
-	    d->name_bytes, one && !is_named(d, "_") && d != f->rgb ? type_of(d) : NULL);
+	mr_rows_add(&f->rows, one ? mr_role_of(d->name, d->name_bytes) : MR_NO_ROLE, d->name, d->name_bytes,
+	    one && !is_named(d, "_") && d != f->rgb ? type_of(d) : NULL);
 }
 
-static mr_status
+static void
 add_columns(pcd *f)
 {
 	bool seen = f->viewpoint.x != 0 || f->viewpoint.y != 0 || f->viewpoint.z != 0; /* else not known */
 
 	for (size_t i = 0; i < f->fields; i++)
-		MR_TRY(add_field(f, &f->field[i]));
+		add_field(f, &f->field[i]);
 	for (mr_role k = MR_RED; f->rgb && k <= MR_ALPHA; k++)
 		if (k != MR_ALPHA || (is_named(f->rgb, "rgba") && f->rgb->type != 'F'))
-			MR_TRY(mr_rows_add(&f->rows, k, "", 0, NULL));
+			mr_rows_add(&f->rows, k, "", 0, NULL);
 	if (f->rgb)
 		f->rows.shades[0].full = f->rows.shades[1].full = 255;
 	for (mr_role k = MR_FROM_X; seen && k <= MR_FROM_Z; k++)
-		MR_TRY(mr_rows_add(&f->rows, k, "", 0, NULL));
-	return mr_rows_begin(&f->rows);
+		mr_rows_add(&f->rows, k, "", 0, NULL);
+	mr_rows_begin(&f->rows);
 }
 
 /* Whether the file may hold so many points. */
@@ -189,7 +189,7 @@ check_header(pcd *f)
 		d->offset = f->stride;
 		f->stride += f->binary ? d->size * d->count : d->count;
 	}
-	MR_TRY(add_columns(f));
+	add_columns(f);
 	if (!f->rows.at[MR_X] || !f->rows.at[MR_Y] || !f->rows.at[MR_Z])
 		return mr_scan_fail(&f->text, f->text.p, "the fields lack x, y or z");
 	if (!f->has_points)
@@ -290,8 +290,6 @@ unpack_planes(pcd *f)
 		return mr_scan_fail(&f->text, f->text.p, "%u bytes are packed, where %llu points take %zu",
 		    mr_load32(p + 4, false), (unsigned long long)f->points, size);
 	planes = mr_alloc(f->ctx, size, 1);
-	if (!planes)
-		return MR_EMEM;
 	if (!unpack(p + 8, mr_load32(p, false), planes, size))
 		return mr_scan_fail(&f->text, f->text.p, "the packed points are damaged");
 	f->planes = planes;
@@ -393,7 +391,7 @@ read_points(pcd *f)
 		if (seen)
 			memcpy(f->x + seen - 1, from, sizeof from);
 		if (mr_finite(mr_rows_position(&f->rows, f->x)))
-			MR_TRY(mr_rows_put(&f->rows, f->x));
+			mr_rows_put(&f->rows, f->x);
 	}
 	return MR_OK;
 }
@@ -423,7 +421,7 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		MR_TRY(unpack_planes(&f));
 	MR_TRY(read_points(&f));
 	say_rest(&f);
-	MR_TRY(mr_rows_end(&f.rows));
+	mr_rows_end(&f.rows);
 	if (f.b.color)
 		mend_alpha(f.b.color, f.b.nv);
 	return mr_build_finish(&f.b, m);

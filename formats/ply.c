@@ -104,7 +104,8 @@ begin_rows(ply *f, const element *e)
 	if (e->rows && bytes && e->rows > (left + f->ascii) / bytes)
 		return bad(f, here(f), "%llu rows of element %s cannot be in the %zu bytes that are left",
 		    (unsigned long long)e->rows, e->name, left);
-	return MR_RESERVE(f->ctx, f->row, 0, e->properties, &f->row_room);
+	MR_RESERVE(f->ctx, f->row, 0, e->properties, &f->row_room);
+	return MR_OK;
 }
 
 static mr_status
@@ -193,9 +194,10 @@ read_vertices(ply *f, const element *e)
 		if (!mr_finite(p))
 			return bad(
 			    f, where, "position %zu (%g %g %g) is not finite", (size_t)i, p.x, p.y, p.z);
-		MR_TRY(mr_rows_put(&f->rows, f->row));
+		mr_rows_put(&f->rows, f->row);
 	}
-	return mr_rows_end(&f->rows);
+	mr_rows_end(&f->rows);
+	return MR_OK;
 }
 
 /* ---- faces ---- */
@@ -207,7 +209,7 @@ read_indices(ply *f, const property *p, bool strips)
 	size_t n = 0, size = mr_ply_types[p->value].bytes;
 
 	MR_TRY(next_length(f, p, &n));
-	MR_TRY(MR_RESERVE(f->ctx, f->indices, 0, n, &f->indices_room));
+	MR_RESERVE(f->ctx, f->indices, 0, n, &f->indices_room);
 	f->indices_count = n;
 	for (size_t i = 0; i < n; i++) {
 		const void *where = here(f);
@@ -242,7 +244,7 @@ read_corners(ply *f, const property *p, corner_list *l)
 	size_t n = 0;
 
 	MR_TRY(next_length(f, p, &n));
-	MR_TRY(MR_RESERVE(f->ctx, l->value, l->count, n, &l->room));
+	MR_RESERVE(f->ctx, l->value, l->count, n, &l->room);
 	l->had = l->count;
 	for (size_t i = 0; i < n; i++)
 		MR_TRY(next_value(f, p->value, &l->value[l->count++]));
@@ -251,7 +253,7 @@ read_corners(ply *f, const property *p, corner_list *l)
 
 /* The places of the corners' values in the list, `width` of each: NULL where this face has none, or as many
  * as make no sense. */
-static mr_status
+static void
 places_of(ply *f, corner_list *l, size_t width, const uint32_t **places)
 {
 	size_t n = f->indices_count, first = l->had / width;
@@ -260,9 +262,9 @@ places_of(ply *f, corner_list *l, size_t width, const uint32_t **places)
 	if (l->count - l->had != width * n) {
 		l->odd += l->count > l->had;
 		l->count = l->had;
-		return MR_OK;
+		return;
 	}
-	MR_TRY(MR_RESERVE(f->ctx, l->place, 0, n, &l->place_room));
+	MR_RESERVE(f->ctx, l->place, 0, n, &l->place_room);
 	for (size_t i = 0; i < n; i++) {
 		const double *x = l->value + width * (first + i);
 		bool whole = isfinite(x[0]) && isfinite(x[1]) && (width == 2 || isfinite(x[2]));
@@ -270,11 +272,10 @@ places_of(ply *f, corner_list *l, size_t width, const uint32_t **places)
 	}
 	*places = n ? l->place : NULL;
 	l->had = l->count;
-	return MR_OK;
 }
 
 /* The triangles of strips; those that name a vertex twice only join strips. */
-static mr_status
+static void
 add_strips(ply *f)
 {
 	const uint32_t *s = f->indices;
@@ -289,9 +290,8 @@ add_strips(ply *f)
 		odd = (length & 1) == 0; /* every other one is turned over */
 		t[0] = s[i - 2 + odd], t[1] = s[i - 1 - odd], t[2] = s[i];
 		if (t[0] != t[1] && t[1] != t[2] && t[2] != t[0])
-			MR_TRY(mr_build_face(&f->b, t, NULL, NULL, 3));
+			mr_build_face(&f->b, t, NULL, NULL, 3);
 	}
-	return MR_OK;
 }
 
 /* A number of a group, an object or a material as its name. */
@@ -316,18 +316,20 @@ set_mark(ply *f, role r, double x, const void *where)
 	return mr_build_mark(&f->b, (mr_marking)mark, name, strlen(name));
 }
 
-static mr_status
+static void
 add_face(ply *f, kind k)
 {
 	const uint32_t *c = f->indices, *uv, *vn;
 
-	if (k == STRIPS)
-		return add_strips(f);
-	MR_TRY(places_of(f, &f->uv, 2, &uv));
-	MR_TRY(places_of(f, &f->vn, 3, &vn));
+	if (k == STRIPS) {
+		add_strips(f);
+		return;
+	}
+	places_of(f, &f->uv, 2, &uv);
+	places_of(f, &f->vn, 3, &vn);
 	if (f->indices_count == 3 && !uv && !vn && mr_build_triangle(&f->b, c[0], c[1], c[2]))
-		return MR_OK;
-	return mr_build_face(&f->b, c, uv, vn, f->indices_count);
+		return;
+	mr_build_face(&f->b, c, uv, vn, f->indices_count);
 }
 
 /* Names in their order, with faces or without. */
@@ -347,13 +349,12 @@ name_marks(ply *f, const element *e)
 }
 
 /* Keeps the row at hand as row `at` of the properties. */
-static mr_status
+static void
 keep_row(ply *f, const element *e, size_t at)
 {
 	for (size_t i = 0; i < e->properties; i++)
 		if (e->property[i].kept)
-			MR_TRY(mr_build_value(&f->b, e->property[i].kept, at, f->row[i]));
-	return MR_OK;
+			mr_build_value(&f->b, e->property[i].kept, at, f->row[i]);
 }
 
 static mr_status
@@ -375,8 +376,10 @@ read_face(ply *f, const element *e, uint64_t row)
 			MR_TRY(set_mark(f, p->role, f->row[i], where));
 	}
 	MR_TRY(end_row(f, e, begin));
-	MR_TRY(add_face(f, e->kind));
-	return f->b.faces > faces ? keep_row(f, e, faces) : MR_OK;
+	add_face(f, e->kind);
+	if (f->b.faces > faces)
+		keep_row(f, e, faces);
+	return MR_OK;
 }
 
 static mr_status

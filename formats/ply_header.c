@@ -76,14 +76,13 @@ header_property(ply *f, mr_scan *line)
 	if (!mr_scan_word(line, &w, &n))
 		return mr_scan_fail(&f->text, line->p, "a property lacks its name");
 	p.role = role_of(e->kind, p.list, w, n);
-	if (!(p.name = clean_name(f->ctx, w, n)))
-		return MR_EMEM;
+	p.name = clean_name(f->ctx, w, n);
 	for (size_t i = 0; i < e->properties && p.role != NONE; i++)
 		if (e->property[i].role == p.role)
 			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */
 	if (p.role == INDICES && p.value >= FLOAT)
 		return mr_scan_fail(&f->text, w, "indices are not of a whole type");
-	MR_TRY(MR_RESERVE(f->ctx, e->property, e->properties, 1, &e->room));
+	MR_RESERVE(f->ctx, e->property, e->properties, 1, &e->room);
 	e->property[e->properties++] = p;
 	return MR_OK;
 }
@@ -106,7 +105,7 @@ header_element(ply *f, mr_scan *line)
 	for (size_t i = 0; i < f->elements; i++)
 		if (e.kind != OTHER && f->element[i].kind == e.kind)
 			return mr_scan_fail(&f->text, w, "element %s is there twice", e.name);
-	MR_TRY(MR_RESERVE(f->ctx, f->element, f->elements, 1, &f->room));
+	MR_RESERVE(f->ctx, f->element, f->elements, 1, &f->room);
 	f->element[f->elements++] = e;
 	return MR_OK;
 }
@@ -139,7 +138,7 @@ header_comment(ply *f, mr_scan *line)
 	for (size_t i = 0; i < 3; i++)
 		if (mr_scan_accept(line, words[i])) {
 			named_list *l = &f->names[i];
-			MR_TRY(MR_RESERVE(f->ctx, l->name, l->count, 1, &l->room));
+			MR_RESERVE(f->ctx, l->name, l->count, 1, &l->room);
 			l->name[l->count++] = (mr_lines){ line->p, (size_t)(line->end - line->p) };
 			return MR_OK;
 		}
@@ -174,38 +173,36 @@ full_of(const element *e, const mr_rows *r, mr_role of)
 }
 
 /* Of vertices all are columns of rows; of faces, those that are nothing else. */
-static mr_status
+static void
 choose_vertex_properties(ply *f, const element *e)
 {
 	for (const property *p = e->property; p < e->property + e->properties; p++)
-		MR_TRY(mr_rows_add(&f->rows, p->list ? MR_NO_ROLE : mr_role_of(p->name, strlen(p->name)),
-		    p->name, strlen(p->name), p->list ? NULL : mr_ply_types[p->value].name));
+		mr_rows_add(&f->rows, p->list ? MR_NO_ROLE : mr_role_of(p->name, strlen(p->name)), p->name,
+		    strlen(p->name), p->list ? NULL : mr_ply_types[p->value].name);
 	f->rows.shades[0].full = full_of(e, &f->rows, MR_RED);
 	f->rows.shades[1].full = full_of(e, &f->rows, MR_ALPHA);
-	return mr_rows_begin(&f->rows);
+	mr_rows_begin(&f->rows);
 }
 
-static mr_status
+static void
 choose_face_properties(ply *f, element *e)
 {
 	demote_marks(f, e);
 	for (property *p = e->property; p < e->property + e->properties; p++)
 		if (p->role == NONE && !p->list)
-			MR_TRY(mr_build_property(&f->b, p->name, mr_ply_types[p->value].name, 'f', &p->kept));
-	return MR_OK;
+			mr_build_property(&f->b, p->name, mr_ply_types[p->value].name, 'f', &p->kept);
 }
 
 /* Those of vertices come first, whatever the order of the elements. */
-static mr_status
+static void
 choose_properties(ply *f)
 {
 	for (size_t i = 0; i < f->elements; i++)
 		if (f->element[i].kind == VERTEX)
-			MR_TRY(choose_vertex_properties(f, &f->element[i]));
+			choose_vertex_properties(f, &f->element[i]);
 	for (size_t i = 0; i < f->elements; i++)
 		if (f->element[i].kind == FACE)
-			MR_TRY(choose_face_properties(f, &f->element[i]));
-	return MR_OK;
+			choose_face_properties(f, &f->element[i]);
 }
 
 /* ---- the lines ---- */
@@ -224,7 +221,8 @@ mr_ply_header(ply *f)
 			if (!format)
 				return mr_scan_fail(&f->text, line.p, "the header lacks its format");
 			f->p = (const unsigned char *)f->text.p;
-			return choose_properties(f);
+			choose_properties(f);
+			return MR_OK;
 		}
 		if (first && !mr_scan_accept(&line, "ply"))
 			return mr_scan_fail(&f->text, line.p, "the file does not begin with 'ply'");

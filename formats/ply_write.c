@@ -117,19 +117,16 @@ choose_type(const mr_property *p, size_t n, bool text)
 	return t;
 }
 
-static mr_status
+static void
 choose_types(output *w)
 {
 	const mr_model *m = w->m;
 
 	w->type = MR_NEW(w->s->ctx, m->properties, type);
-	if (!w->type)
-		return MR_EMEM;
 	for (size_t i = 0; i < m->properties; i++) {
 		const mr_property *p = &m->property[i];
 		w->type[i] = choose_type(p, p->shape.element == 'f' ? m->nf : m->nv, w->text);
 	}
-	return MR_OK;
 }
 
 static void
@@ -296,14 +293,14 @@ put_face(const output *w, size_t face)
 	end_row(w);
 }
 
-static mr_status
+static void
 put(mr_sink *s, const mr_model *m, bool text)
 {
 	enum { MOST = 255 };
 	output w = { .s = s, .m = m, .text = text, .count = UCHAR };
 
-	MR_TRY(choose_types(&w));
-	MR_TRY(mr_faces_of(s, m, &w.faces));
+	choose_types(&w);
+	mr_faces_of(s, m, &w.faces);
 	if (w.faces.most * (m->corner_normal ? 3 : m->corner_texcoord ? 2 : 1) > MOST)
 		w.count = UINT;
 	put_header(&w);
@@ -311,17 +308,18 @@ put(mr_sink *s, const mr_model *m, bool text)
 		put_vertex(&w, i);
 	for (size_t i = 0; i < w.faces.count; i++)
 		put_face(&w, i);
-	return MR_OK;
 }
 
 mr_status
 mr_ply_write(mr_sink *s, const mr_model *m)
 {
-	return put(s, m, false);
+	put(s, m, false);
+	return MR_OK;
 }
 
 mr_status
 mr_ply_write_ascii(mr_sink *s, const mr_model *m)
 {
-	return put(s, m, true);
+	put(s, m, true);
+	return MR_OK;
 }

@@ -181,7 +181,7 @@ read_bytes(png_structp png, png_bytep to, png_size_t bytes)
 	s->left -= bytes;
 }
 
-static mr_status
+static void
 get_texts(mr_ctx *ctx, png_structp png, png_infop info, mr_gray *gray)
 {
 	png_textp text;
@@ -190,17 +190,12 @@ get_texts(mr_ctx *ctx, png_structp png, png_infop info, mr_gray *gray)
 
 	png_get_text(png, info, &text, &count);
 	texts = MR_NEW(ctx, (size_t)count, mr_png_text);
-	if (!texts)
-		return MR_EMEM;
 	for (int i = 0; i < count; i++) {
 		texts[i] = (mr_png_text){ mr_format(ctx, "%s", text[i].key),
 			mr_format(ctx, "%s", text[i].text) };
-		if (!texts[i].key || !texts[i].text)
-			return MR_EMEM;
 	}
 	gray->text = texts;
 	gray->texts = (size_t)count;
-	return MR_OK;
 }
 
 /* An arena's memory outlives the jump of a failure. */
@@ -223,20 +218,20 @@ decode_gray(mr_ctx *ctx, png_structp png, png_infop info, const source *s, mr_gr
 		    gray->width, gray->height, MOST, MOST);
 	MR_TRY(mr_image_fits(ctx, gray->width, gray->height, s->left, MR_PNG_GRAY_MOST));
 	gray->pixel = MR_NEW(ctx, gray->width * gray->height, uint16_t);
-	if (!gray->pixel)
-		return MR_EMEM;
 	swap_bytes(png, depth);
 	passes = png_set_interlace_handling(png);
 	for (int pass = 0; pass < passes; pass++)
 		for (size_t y = 0; y < gray->height; y++)
 			png_read_row(png, (png_bytep)(gray->pixel + y * gray->width), NULL);
 	png_read_end(png, info);
-	return get_texts(ctx, png, info, gray);
+	get_texts(ctx, png, info, gray);
+	return MR_OK;
 }
 
 static mr_status
 decode(mr_ctx *ctx, png_structp png, png_infop info, source *s, const char *sentence, mr_gray *gray)
 {
+	MR_ENTER(ctx);
 	if (setjmp(png_jmpbuf(png)))
 		return mr_fail(ctx, MR_EFORMAT, "%s", sentence);
 	png_set_read_fn(png, s, read_bytes);
@@ -272,15 +267,14 @@ mr_png_read_gray(mr_ctx *ctx, const char *path, mr_gray *gray)
 
 /* ---- mr-render ---- */
 
-/* keep: an arena that outlives what is drawn. */
 static mr_status
-render(mr_ctx *ctx, mr_ctx *keep, mr_frame *f, const mr_render_opts *o, const char *path)
+render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *o, const char *path)
 {
 	mr_gallery gallery = { 0 };
 	mr_image image;
 	mr_shot shot;
 
-	MR_TRY(mr_gallery_add_painted(ctx, keep, &gallery, f, o));
+	MR_TRY(mr_gallery_add_painted(ctx, ctx, &gallery, f, o));
 	MR_TRY(mr_shot_aim(ctx, &gallery, 0, 1, o, &shot));
 	MR_TRY(mr_shot_draw(ctx, &gallery, &shot, 0, o, &image));
 	return mr_png_write(ctx, path, &image);
@@ -299,14 +293,10 @@ mr_render(mr_ctx *ctx, mr_frame *f, const mr_render_opts *opts, const char *path
 {
 	static const mr_render_opts defaults = MR_RENDER_DEFAULTS;
 	mr_mark mark = mr_mark_take(ctx);
-	mr_status status;
-	mr_ctx keep;
 
+	MR_ENTER(ctx);
 	MR_TRY(check_options(ctx, opts ? opts : &defaults));
-	mr_ctx_init(&keep, ctx->threads);
-	keep.scratch = ctx->scratch;
-	status = render(ctx, &keep, f, opts ? opts : &defaults, path);
-	mr_ctx_free(&keep);
+	MR_TRY(render(ctx, f, opts ? opts : &defaults, path));
 	mr_mark_release(ctx, mark);
-	return status;
+	return MR_OK;
 }

@@ -99,18 +99,19 @@ read_point(ptx *f, const scan *s)
 		return mr_scan_fail(&f->text, where, "a coordinate is not finite");
 	x[0] = p.x, x[1] = p.y, x[2] = p.z;
 	memcpy(x + 7, m + 12, 3 * sizeof *m);
-	return mr_rows_put(&f->rows, x);
+	mr_rows_put(&f->rows, x);
+	return MR_OK;
 }
 
-static mr_status
+static void
 begin(ptx *f)
 {
 	static const mr_role roles[] = { MR_X, MR_Y, MR_Z, MR_NO_ROLE, MR_RED, MR_GREEN, MR_BLUE, MR_FROM_X,
 		MR_FROM_Y, MR_FROM_Z };
 
 	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
-		MR_TRY(mr_rows_add(&f->rows, roles[i], "intensity", strlen("intensity"), "double"));
-	return mr_rows_begin(&f->rows);
+		mr_rows_add(&f->rows, roles[i], "intensity", strlen("intensity"), "double");
+	mr_rows_begin(&f->rows);
 }
 
 mr_status
@@ -120,7 +121,7 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	scan s;
 
 	f.rows.b = &f.b;
-	MR_TRY(begin(&f));
+	begin(&f);
 	for (mr_skip_space(&f.text); f.text.p < f.text.end; mr_skip_space(&f.text)) {
 		MR_TRY(read_head(&f, &s));
 		MR_TRY(mr_rows_room(&f.rows, s.points));
@@ -128,7 +129,7 @@ mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 			MR_TRY(read_point(&f, &s));
 	}
 	mr_lost(ctx, NULL, f.grids, "grids of scans");
-	MR_TRY(mr_rows_end(&f.rows));
+	mr_rows_end(&f.rows);
 	return mr_build_finish(&f.b, m);
 }
 

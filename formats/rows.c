@@ -25,21 +25,18 @@ mr_role_of(const char *name, size_t bytes)
 	return MR_NO_ROLE;
 }
 
-mr_status
+void
 mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char *type)
 {
 	mr_ctx *ctx = r->b->ctx;
 	char *own = mr_alloc(ctx, bytes + 1, 1);
 
-	if (!own)
-		return MR_EMEM;
 	mr_clean_name(own, name, bytes, false);
-	MR_TRY(MR_RESERVE(ctx, r->column, r->columns, 1, &r->column_room));
+	MR_RESERVE(ctx, r->column, r->columns, 1, &r->column_room);
 	if (r->at[role])
 		role = MR_NO_ROLE;
 	r->column[r->columns++] = (mr_rows_column){ role, own, type, 0 };
 	r->at[role] = role == MR_NO_ROLE ? 0 : r->columns;
-	return MR_OK;
 }
 
 static void
@@ -56,7 +53,7 @@ demote(mr_rows *r, mr_role first, size_t n)
 		}
 }
 
-mr_status
+void
 mr_rows_begin(mr_rows *r)
 {
 	demote(r, MR_NX, 3);
@@ -67,8 +64,7 @@ mr_rows_begin(mr_rows *r)
 	demote(r, MR_FROM_X, 3);
 	for (mr_rows_column *c = r->column; c < r->column + r->columns; c++)
 		if (c->role == MR_NO_ROLE && c->type)
-			MR_TRY(mr_build_property(r->b, c->name, c->type, 'v', &c->property));
-	return MR_OK;
+			mr_build_property(r->b, c->name, c->type, 'v', &c->property);
 }
 
 mr_status
@@ -80,12 +76,14 @@ mr_rows_room(mr_rows *r, uint64_t more)
 	if (more >= MR_NONE - r->n)
 		return mr_fail(b->ctx, MR_ERANGE, "%llu vertices are more than indices can name",
 		    (unsigned long long)more + r->n);
-	MR_TRY(MR_RESERVE(b->ctx, b->p, r->n, n, &r->room[0]));
+	MR_RESERVE(b->ctx, b->p, r->n, n, &r->room[0]);
 	if (r->at[MR_NX])
-		MR_TRY(MR_RESERVE(b->ctx, b->normal, r->n, n, &r->room[1]));
+		MR_RESERVE(b->ctx, b->normal, r->n, n, &r->room[1]);
 	if (r->at[MR_FROM_X])
-		MR_TRY(MR_RESERVE(b->ctx, b->scanner, r->n, n, &r->room[2]));
-	return r->at[MR_U] ? MR_RESERVE(b->ctx, b->texcoord, 2 * r->n, 2 * n, &r->room[3]) : MR_OK;
+		MR_RESERVE(b->ctx, b->scanner, r->n, n, &r->room[2]);
+	if (r->at[MR_U])
+		MR_RESERVE(b->ctx, b->texcoord, 2 * r->n, 2 * n, &r->room[3]);
+	return MR_OK;
 }
 
 static mr_v3
@@ -101,7 +99,7 @@ mr_rows_position(const mr_rows *r, const double *x)
 }
 
 /* Where their types do not say what is full, alpha says it of colours, too. */
-static mr_status
+static void
 put_color(mr_rows *r, const double *x)
 {
 	bool together = r->shades[0].full == 0 && r->shades[1].full == 0;
@@ -114,14 +112,14 @@ put_color(mr_rows *r, const double *x)
 		r->odd_colors += !r->sparse;
 		c[0] = c[3] = (double)NAN;
 		if (!r->rgba)
-			return MR_OK;
+			return;
 	}
 	if (!r->rgba) {
-		MR_TRY(MR_RESERVE(r->b->ctx, r->rgba, 0, 4 * r->n + 4, &r->room[4]));
+		MR_RESERVE(r->b->ctx, r->rgba, 0, 4 * r->n + 4, &r->room[4]);
 		for (size_t i = 0; i < 4 * r->n; i++)
 			r->rgba[i] = NAN;
 	}
-	MR_TRY(MR_RESERVE(r->b->ctx, r->rgba, 4 * r->n, 4, &r->room[4]));
+	MR_RESERVE(r->b->ctx, r->rgba, 4 * r->n, 4, &r->room[4]);
 	to = r->rgba + 4 * r->n;
 	for (size_t k = 0; k < 4; k++) {
 		to[k] = (float)c[k];
@@ -131,10 +129,9 @@ put_color(mr_rows *r, const double *x)
 		if (k == 3 && together)
 			mr_shade_see(&r->shades[0], c[k]);
 	}
-	return MR_OK;
 }
 
-mr_status
+void
 mr_rows_put(mr_rows *r, const double *x)
 {
 	mr_builder *b = r->b;
@@ -154,26 +151,23 @@ mr_rows_put(mr_rows *r, const double *x)
 		r->odd_uv += !isfinite(*u) || !isfinite(*v);
 	}
 	if (r->at[MR_RED])
-		MR_TRY(put_color(r, x));
+		put_color(r, x);
 	for (size_t k = 0; k < r->columns; k++)
 		if (r->column[k].property)
-			MR_TRY(mr_build_value(b, r->column[k].property, i, x[k]));
+			mr_build_value(b, r->column[k].property, i, x[k]);
 	r->n++;
-	return MR_OK;
 }
 
 /* Colours are bytes; those that are none are white. */
-static mr_status
+static void
 finish_colors(mr_rows *r)
 {
 	mr_ctx *ctx = r->b->ctx;
 
 	mr_lost(ctx, NULL, r->odd_colors, "colors");
 	if (!r->rgba)
-		return MR_OK;
+		return;
 	r->b->color = MR_NEW(ctx, 4 * r->n, unsigned char);
-	if (!r->b->color)
-		return MR_EMEM;
 	for (int k = 0; k < 2; k++)
 		if (r->shades[k].full == 0)
 			r->shades[k].full = mr_shade_full(&r->shades[k]);
@@ -183,10 +177,9 @@ finish_colors(mr_rows *r)
 	}
 	for (int k = 0; k < 2; k++)
 		mr_shades_said(ctx, &r->shades[k]);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_rows_end(mr_rows *r)
 {
 	mr_builder *b = r->b;
@@ -198,5 +191,5 @@ mr_rows_end(mr_rows *r)
 		b->texcoord = NULL;
 	if (!mr_all_left(b->ctx, r->odd_scanner, r->n, "places of the scanner"))
 		b->scanner = NULL;
-	return finish_colors(r);
+	finish_colors(r);
 }

@@ -53,11 +53,10 @@ typedef struct mr_rows {
 } mr_rows;
 
 /* A column more; the first of a role has it.  The name is copied, cleaned. */
-mr_status
-mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char *type) MR_WARN_UNUSED;
+void mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char *type);
 
 /* Parts without the whole are properties from now on. */
-mr_status mr_rows_begin(mr_rows *r) MR_WARN_UNUSED;
+void mr_rows_begin(mr_rows *r);
 
 /* Room for rows; MR_ERANGE beyond what indices can name. */
 mr_status mr_rows_room(mr_rows *r, uint64_t more) MR_WARN_UNUSED;
@@ -66,9 +65,9 @@ mr_status mr_rows_room(mr_rows *r, uint64_t more) MR_WARN_UNUSED;
 mr_v3 mr_rows_position(const mr_rows *r, const double *x);
 
 /* The next row, whose position is finite, where there is room. */
-mr_status mr_rows_put(mr_rows *r, const double *x) MR_WARN_UNUSED;
+void mr_rows_put(mr_rows *r, const double *x);
 
 /* Gives the vertices to the builder; reports what was lost of them. */
-mr_status mr_rows_end(mr_rows *r) MR_WARN_UNUSED;
+void mr_rows_end(mr_rows *r);
 
 #endif

@@ -20,13 +20,9 @@ get_layers(mr_ctx *ctx, mr_frame *f, const char *list, layers *l)
 	for (const char *c = list; c && *c; c++)
 		most += *c == ',';
 	*l = (layers){ .name = MR_NEW(ctx, most, const char *), .model = MR_NEW(ctx, most, mr_model) };
-	if (!l->name || !l->model)
-		return MR_EMEM;
 	for (const char *c = list; l->count < most; l->count++) {
 		size_t bytes = c ? strcspn(c, ",") : 0;
 		const char *name = c ? mr_format(ctx, "%.*s", (int)bytes, c) : NULL;
-		if (c && !name)
-			return MR_EMEM;
 		MR_TRY(mr_layer_result(ctx, f, name, &l->name[l->count]));
 		MR_TRY(mr_model_complete(ctx, f, l->name[l->count], &l->model[l->count]));
 		c = c ? c + bytes + 1 : NULL;
@@ -67,59 +63,51 @@ is_pose(const mr_scene *scene, const mr_frame *f, const layers *l)
 	return true;
 }
 
-static mr_status
+static void
 add_node(mr_ctx *keep, mr_scene *scene, const char *frame, const char *layer, const mr_model *m)
 {
 	mr_scene_node n = { .take = scene->takes,
 		.frame = mr_format(keep, "%s", frame),
 		.layer = mr_format(keep, "%s", layer) };
 
-	if (!n.frame || !n.layer)
-		return MR_EMEM;
-	MR_TRY(mr_model_copy(keep, m, &n.model));
-	MR_TRY(MR_RESERVE(keep, scene->node, scene->nodes, 1, &scene->room));
+	mr_model_copy(keep, m, &n.model);
+	MR_RESERVE(keep, scene->node, scene->nodes, 1, &scene->room);
 	scene->node[scene->nodes++] = n;
-	return MR_OK;
 }
 
 /* A copy of n vectors; NULL of none. */
-static mr_status
+static void
 copy_vectors(mr_ctx *keep, const mr_v3 *from, size_t n, const mr_v3 **to)
 {
 	mr_v3 *copy = from ? MR_NEW(keep, n, mr_v3) : NULL;
 
-	if (from && !copy)
-		return MR_EMEM;
 	*to = from ? memcpy(copy, from, n * sizeof *from) : NULL;
-	return MR_OK;
 }
 
-static mr_status
+static void
 add_target(mr_ctx *keep, mr_scene_node *n, const mr_model *m)
 {
 	mr_target t;
 
-	MR_TRY(copy_vectors(keep, m->p, m->nv, &t.p));
-	MR_TRY(copy_vectors(keep, m->normal, m->nv, &t.normal));
-	MR_TRY(copy_vectors(keep, m->corner_normal, 3 * m->nf, &t.corner_normal));
-	MR_TRY(MR_RESERVE(keep, n->target, n->targets, 1, &n->target_room));
+	copy_vectors(keep, m->p, m->nv, &t.p);
+	copy_vectors(keep, m->normal, m->nv, &t.normal);
+	copy_vectors(keep, m->corner_normal, 3 * m->nf, &t.corner_normal);
+	MR_RESERVE(keep, n->target, n->targets, 1, &n->target_room);
 	n->target[n->targets++] = t;
-	return MR_OK;
 }
 
-static mr_status
+static void
 add_layers(mr_ctx *keep, mr_scene *scene, const mr_frame *f, const layers *l)
 {
 	if (is_pose(scene, f, l)) {
 		for (size_t i = 0; i < l->count; i++)
-			MR_TRY(add_target(keep, &scene->node[scene->open + i], &l->model[i]));
-		return MR_OK;
+			add_target(keep, &scene->node[scene->open + i], &l->model[i]);
+		return;
 	}
 	scene->open = scene->nodes;
 	scene->takes++;
 	for (size_t i = 0; i < l->count; i++)
-		MR_TRY(add_node(keep, scene, f->name, l->name[i], &l->model[i]));
-	return MR_OK;
+		add_node(keep, scene, f->name, l->name[i], &l->model[i]);
 }
 
 /* Poses have normals in the file where all of the node have some, the first too. */
@@ -151,5 +139,6 @@ mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char
 		if (pose && !has_normals_alike(&scene->node[scene->open + i], &l.model[i]))
 			mr_lost(ctx, l.name[i], 1, "normals of poses");
 	}
-	return add_layers(keep, scene, f, &l) < 0 ? mr_fail_as(ctx, keep, MR_EMEM) : MR_OK;
+	add_layers(keep, scene, f, &l);
+	return MR_OK;
 }

@@ -10,16 +10,15 @@ enum { HEADER = 84, RECORD = 50 };
 /* ---- what both have in common ---- */
 
 /* Joins equal corners; corner[] then holds the numbers of the vertices that are left in p. */
-static mr_status
+static void
 join_corners(mr_ctx *ctx, mr_v3 *p, size_t n, uint32_t *corner, size_t *nv)
 {
 	size_t next = 0;
 
-	MR_TRY(mr_weld(ctx, p, n, 0, corner, nv));
+	mr_weld(ctx, p, n, 0, corner, nv);
 	for (size_t i = 0; i < n; i++)
 		if (corner[i] == next)
 			p[next++] = p[i]; /* the first of its number; next <= i */
-	return MR_OK;
 }
 
 /* ---- binary ---- */
@@ -45,8 +44,6 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		return mr_fail(ctx, MR_ERANGE, "%zu triangles are more than indices can name", n);
 	corner = MR_NEW(ctx, 3 * n, uint32_t);
 	p = MR_NEW(ctx, 3 * n, mr_v3);
-	if (!corner || !p)
-		return MR_EMEM;
 	for (size_t i = 0; i < 3 * n; i++) {
 		size_t at = HEADER + i / 3 * RECORD + 12 + i % 3 * 12;
 		p[i] = mr_vec((double)mr_load_float(data + at, false),
@@ -58,7 +55,7 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		used += mr_load16(data + HEADER + (i + 1) * RECORD - 2, false) != 0;
 	mr_lost(ctx, NULL, used, "attributes of triangles");
 	mr_lost(ctx, NULL, size - HEADER - n * RECORD, "bytes behind the last triangle");
-	MR_TRY(join_corners(ctx, p, 3 * n, corner, &m->nv));
+	join_corners(ctx, p, 3 * n, corner, &m->nv);
 	m->p = p;
 	m->t = (const mr_tri *)corner;
 	m->nf = n;
@@ -85,11 +82,12 @@ end_facet(ascii *a, mr_scan *line)
 
 	if (n < 3)
 		return mr_scan_fail(&a->text, line->p, "a facet of %zu vertices", n);
-	if (n > 16 && !(c = MR_NEW(a->text.ctx, n, uint32_t)))
-		return MR_EMEM;
+	if (n > 16)
+		c = MR_NEW(a->text.ctx, n, uint32_t);
 	for (size_t i = 0; i < n; i++)
 		c[i] = (uint32_t)(a->first + i);
-	return mr_build_face(&a->b, c, NULL, NULL, n);
+	mr_build_face(&a->b, c, NULL, NULL, n);
+	return MR_OK;
 }
 
 static mr_status
@@ -233,9 +231,8 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		MR_TRY(read_line(&a, &line, &depth));
 	if (depth != OUTSIDE)
 		return mr_scan_fail(&a.text, a.text.end, "the file ends inside a solid");
-	if (!(map = MR_NEW(ctx, a.corners, uint32_t)))
-		return MR_EMEM;
-	MR_TRY(join_corners(ctx, a.p, a.corners, map, &nv));
+	map = MR_NEW(ctx, a.corners, uint32_t);
+	join_corners(ctx, a.p, a.corners, map, &nv);
 	for (size_t i = 0; i < a.b.corners; i++)
 		a.b.corner[i] = map[a.b.corner[i]];
 	a.b.nv = nv;
@@ -286,15 +283,14 @@ unit_normal(const mr_model *m, size_t f)
 	return mr_finite(n) ? n : mr_vec(0, 0, 0);
 }
 
-static mr_status
+static void
 note_isolated(mr_sink *s, const mr_model *m)
 {
 	size_t count;
 	bool *used;
 
-	MR_TRY(mr_vertices_used(s->ctx, m->t, m->nf, m->nv, &used, &count));
+	mr_vertices_used(s->ctx, m->t, m->nf, m->nv, &used, &count);
 	mr_lost(s->ctx, NULL, m->nv - count, "isolated vertices");
-	return MR_OK;
 }
 
 static mr_status
@@ -303,7 +299,8 @@ need_faces(mr_sink *s, const mr_model *m, unsigned keeps)
 	if (m->nf == 0)
 		return mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
 	mr_note_lost(s, m, MR_KEEPS_FACES | keeps);
-	return note_isolated(s, m);
+	note_isolated(s, m);
+	return MR_OK;
 }
 
 static char *
@@ -373,7 +370,7 @@ mr_stl_write_ascii(mr_sink *s, const mr_model *m)
 
 	MR_TRY(need_faces(s, m, MR_KEEPS_GROUP));
 	if (m->group)
-		MR_TRY(mr_lines_starts(s->ctx, m->groups, &start, &names));
+		mr_lines_starts(s->ctx, m->groups, &start, &names);
 	for (size_t f = 0; f < m->nf; f++) {
 		if (f == 0 || (m->group && m->group[f] != m->group[f - 1]))
 			put_solid(s, "solid", m, f, start, names);

@@ -399,11 +399,9 @@ add_columns(table *t)
 		                 ? mr_format(t->ctx, "%.*s", (int)c->name_bytes, c->name)
 		             : intensity ? mr_format(t->ctx, "intensity")
 		                         : mr_format(t->ctx, "column%zu", i + 1);
-		if (!name)
-			return MR_EMEM;
-		MR_TRY(mr_rows_add(&t->points, c->role, name, strlen(name), told ? "double" : NULL));
+		mr_rows_add(&t->points, c->role, name, strlen(name), told ? "double" : NULL);
 	}
-	MR_TRY(mr_rows_begin(&t->points));
+	mr_rows_begin(&t->points);
 	return mr_rows_room(&t->points, t->rows);
 }
 
@@ -421,7 +419,7 @@ fill(table *t)
 			continue;
 		if (!mr_finite(mr_rows_position(&t->points, x)))
 			return mr_scan_fail(&t->text, where, "a coordinate is not finite");
-		MR_TRY(mr_rows_put(&t->points, x));
+		mr_rows_put(&t->points, x);
 	}
 	return MR_OK;
 }
@@ -472,7 +470,7 @@ mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		guess_roles(&t);
 	MR_TRY(add_columns(&t));
 	MR_TRY(fill(&t));
-	MR_TRY(mr_rows_end(&t.points));
+	mr_rows_end(&t.points);
 	finish_normals(&t);
 	return mr_build_finish(&t.b, m);
 }

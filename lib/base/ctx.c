@@ -1,4 +1,5 @@
-/* The arena, a list of blocks that grow, and the sentences of failures. */
+/* The arena, a list of blocks that grow, the sentences of failures, and the way back where memory runs out.
+ */
 #include "base/ctx.h"
 
 #include "base/memory.h"
@@ -20,6 +21,14 @@ struct mr_block {
 	uint64_t serial;   /* from 1, growing towards the top */
 	size_t size, used; /* of the bytes behind the header */
 	char pad[ALIGN - sizeof(struct mr_block *) - sizeof(uint64_t) - 2 * sizeof(size_t)];
+};
+
+/* It lies in the arena itself, and is dropped when its own memory is released. */
+struct mr_owned {
+	mr_owned *below;
+	mr_mark at; /* behind it */
+	void (*drop)(void *object);
+	void *object;
 };
 
 void
@@ -203,14 +212,52 @@ told_to_fail(mr_ctx *ctx)
 	return ctx->fail_at && --ctx->fail_at == 0;
 }
 
-static void *
+#ifdef __wasm__
+void
+mr_unwind(mr_ctx *ctx)
+{
+	(void)ctx;
+	__builtin_trap();
+}
+#else
+void
+mr_entry_begin(mr_ctx *ctx, mr_entry *entry)
+{
+	entry->ctx = ctx;
+	entry->outer = ctx->entry;
+	entry->mark = mr_mark_take(ctx);
+	ctx->entry = entry;
+}
+
+void
+mr_entry_end(mr_entry *entry)
+{
+	entry->ctx->entry = entry->outer;
+}
+
+void
+mr_unwind(mr_ctx *ctx)
+{
+	mr_entry *entry = ctx->entry;
+
+	for (const mr_ctx *c = ctx; !entry && c->parent; c = c->parent)
+		entry = c->parent->entry;
+	if (!entry)
+		abort();
+	mr_fail_as(entry->ctx, ctx, MR_EMEM);
+	mr_mark_release(entry->ctx, entry->mark);
+	longjmp(entry->at, 1);
+}
+#endif
+
+_Noreturn static void
 no_memory(mr_ctx *ctx, size_t count, size_t size)
 {
 	char what[64];
 
 	snprintf(what, sizeof what, "%zu objects of %zu bytes", count, size);
 	mr_no_memory(ctx, what, (double)count * (double)size);
-	return NULL;
+	mr_unwind(ctx);
 }
 
 static mr_block *
@@ -227,31 +274,39 @@ block_new(mr_ctx *ctx, size_t size)
 	return ctx->top = b;
 }
 
-void *
-mr_alloc(mr_ctx *ctx, size_t count, size_t size)
+/* NULL where there is none, with errno. */
+static void *
+take(mr_ctx *ctx, size_t count, size_t size)
 {
 	mr_block *b = ctx->top;
 	size_t bytes;
 	void *p;
 
 	if (told_to_fail(ctx) || !product(count, size, &bytes))
-		return no_memory(ctx, count, size);
-	if (!b || b->size - b->used < bytes) {
+		return NULL;
+	if (!b || b->size - b->used < bytes)
 		b = block_new(ctx, bytes > LARGE ? bytes : SHARED);
-		if (!b)
-			return no_memory(ctx, count, size);
-	}
+	if (!b)
+		return NULL;
 	p = (char *)bytes_of(b) + b->used;
 	b->used += bytes;
 	return p;
 }
 
 void *
+mr_alloc(mr_ctx *ctx, size_t count, size_t size)
+{
+	void *p = take(ctx, count, size);
+
+	if (!p)
+		no_memory(ctx, count, size);
+	return p;
+}
+
+void *
 mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size)
 {
-	void *p = mr_alloc(ctx, count, size);
-
-	return p ? memset(p, 0, count * size) : NULL;
+	return memset(mr_alloc(ctx, count, size), 0, count * size);
 }
 
 /* The link to the block that holds `memory` and nothing else; NULL where there is none. */
@@ -287,16 +342,16 @@ mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size)
 
 	if (own) {
 		if (told_to_fail(ctx) || !product(count, size, &bytes) || !(p = resize(ctx, own, bytes)))
-			return no_memory(ctx, count, size);
+			no_memory(ctx, count, size);
 		return p;
 	}
 	p = mr_alloc(ctx, count, size);
-	if (p && used)
+	if (used)
 		memcpy(p, old, used * size);
 	return p;
 }
 
-mr_status
+void
 mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size_t *room)
 {
 	const size_t least = 1024 / size; /* objects: small arrays are not copied at every step */
@@ -304,18 +359,38 @@ mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size
 	void *p;
 
 	if (more <= *room - used)
-		return MR_OK;
+		return;
 	if (wanted < least)
 		wanted = least;
 	if (wanted - used < more)
 		wanted = more > SIZE_MAX - used ? SIZE_MAX : used + more; /* mr_grow refuses that */
 	memcpy(&p, array, sizeof p);                                      /* a pointer of any type */
 	p = mr_grow(ctx, p, used, wanted, size);
-	if (!p)
-		return MR_EMEM;
 	memcpy(array, &p, sizeof p);
 	*room = wanted;
-	return MR_OK;
+}
+
+mr_ctx *
+mr_keep(const mr_ctx *ctx, mr_ctx *keep)
+{
+	keep->threads = ctx->threads;
+	keep->listener = ctx->listener;
+	keep->scratch = ctx->scratch;
+	keep->parent = ctx;
+	return keep;
+}
+
+void
+mr_own(mr_ctx *ctx, void (*drop)(void *object), void *object)
+{
+	mr_owned *o = take(ctx, 1, sizeof *o);
+
+	if (!o) {
+		drop(object);
+		no_memory(ctx, 1, sizeof *o);
+	}
+	*o = (mr_owned){ ctx->owned, mr_mark_take(ctx), drop, object };
+	ctx->owned = o;
 }
 
 char *
@@ -328,8 +403,7 @@ mr_format(mr_ctx *ctx, const char *format, ...)
 	va_start(args, format);
 	n = vsnprintf(NULL, 0, format, args);
 	va_end(args);
-	if (n < 0 || !(text = mr_alloc(ctx, (size_t)n + 1, 1)))
-		return NULL;
+	text = mr_alloc(ctx, (size_t)n + 1, 1);
 	va_start(args, format);
 	vsnprintf(text, (size_t)n + 1, format, args);
 	va_end(args);
@@ -342,10 +416,21 @@ mr_mark_take(const mr_ctx *ctx)
 	return ctx->top ? (mr_mark){ ctx->top->serial, ctx->top->used } : (mr_mark){ 0, 0 };
 }
 
+static bool
+above(mr_mark a, mr_mark b)
+{
+	return a.serial > b.serial || (a.serial == b.serial && a.used > b.used);
+}
+
 /* The block of the mark may have gone with what grew out of it: then there is nothing of it to release. */
 void
 mr_mark_release(mr_ctx *ctx, mr_mark mark)
 {
+	while (ctx->owned && above(ctx->owned->at, mark)) {
+		mr_owned *o = ctx->owned;
+		ctx->owned = o->below;
+		o->drop(o->object);
+	}
 	while (ctx->top && ctx->top->serial > mark.serial) {
 		mr_block *b = ctx->top;
 		ctx->top = b->below;

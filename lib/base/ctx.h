@@ -8,6 +8,9 @@
  * Memory: everything is allocated from the context's arena and stays until the
  * arena is released below it: callers free nothing.  A function that needs
  * workspace allocates its outputs first, takes a mark, and releases to it.
+ * Where memory runs out, the public function that was called returns MR_EMEM:
+ * MR_ENTER.  Nothing in between sees it, so nothing in between holds what the
+ * arena does not know: mr_own.
  *
  * The rooms of lib/, and which may include which, stand in lib/README.md; base includes nothing but the C
  * library and POSIX.
@@ -18,6 +21,9 @@
 #include "base/banned.h"
 #include "mr.h"
 
+#ifndef __wasm__
+#include <setjmp.h>
+#endif
 #include <stdarg.h>
 
 _Static_assert(__BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__,
@@ -27,6 +33,7 @@ _Static_assert(sizeof(size_t) == 8, "mr is for machines of 64 bits: sizes of col
 #endif
 
 #define MR_PRINTF(f, a) __attribute__((format(printf, f, a)))
+#define MR_MEMORY       __attribute__((warn_unused_result, returns_nonnull))
 
 /* Returns from the calling function when `expr` fails; MR_OK and MR_END go on. */
 #define MR_TRY(expr)                                                                                         \
@@ -39,6 +46,8 @@ _Static_assert(sizeof(size_t) == 8, "mr is for machines of 64 bits: sizes of col
 enum { MR_ERROR_MAX = 512 };
 
 typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
+typedef struct mr_owned mr_owned; /* what the arena holds beside memory: ctx.c */
+typedef struct mr_entry mr_entry;
 
 struct mr_ctx {
 	unsigned threads; /* at least 1 */
@@ -55,7 +64,47 @@ struct mr_ctx {
 	mr_block *top;            /* newest block of the arena */
 	mr_block *spare;          /* a released block for the next that is wanted; NULL: none */
 	uint64_t blocks;          /* how many the arena ever had */
+	mr_owned *owned;          /* the newest */
+	mr_entry *entry;          /* where running out of memory leads */
+	const mr_ctx *parent;     /* or else its entry: mr_keep */
 };
+
+#ifdef __wasm__ /* there running out of memory ends the call, as an exception of JavaScript */
+#define MR_ENTER(ctx) ((void)(ctx))
+#else
+/* Where a public function was entered: private to MR_ENTER. */
+struct mr_entry {
+	mr_ctx *ctx;
+	mr_entry *outer; /* of a caller, to which what runs out of memory outside leads again */
+	mr_mark mark;
+	jmp_buf at;
+};
+
+void mr_entry_begin(mr_ctx *ctx, mr_entry *entry);
+void mr_entry_end(mr_entry *entry);
+
+/*
+ * The first statement of a public function that returns mr_status, or of one whose caller has something to
+ * close.  Where memory runs out below it, it returns MR_EMEM, with the sentence set, what the arena got since
+ * released, and its outputs as they were.
+ */
+#define MR_ENTER(context)                                                                                    \
+	mr_entry entry_ __attribute__((cleanup(mr_entry_end)));                                              \
+	mr_entry_begin((context), &entry_);                                                                  \
+	if (setjmp(entry_.at))                                                                               \
+	return MR_EMEM
+#endif
+
+/* An arena for what outlives the call, to be asked for in each: its threads, listener and way back are those
+ * of ctx. */
+mr_ctx *mr_keep(const mr_ctx *ctx, mr_ctx *keep);
+
+/* Gives up what runs out of memory, whose sentence is set, to the newest MR_ENTER, which there must be. */
+_Noreturn void mr_unwind(mr_ctx *ctx);
+
+/* When what the arena holds now is released, or this very call fails, drop(object) is called, once, before
+ * the memory goes. */
+void mr_own(mr_ctx *ctx, void (*drop)(void *object), void *object);
 
 /* Initialises a context with `threads` threads (0: all cores) and an empty arena. */
 void mr_ctx_init(mr_ctx *ctx, unsigned threads);
@@ -107,39 +156,34 @@ mr_unmeasured(void *result, size_t size)
 /* Seconds of a monotonic clock, for figures only: no result may depend on it. */
 double mr_seconds(void);
 
-/*
- * Memory for `count` objects of `size` bytes, 64-byte aligned, not initialised;
- * never NULL for a count of 0.  NULL, with the sentence set, when the product
- * overflows or memory cannot be had: `return MR_EMEM`.
- */
-void *mr_alloc(mr_ctx *ctx, size_t count, size_t size) MR_WARN_UNUSED;
+/* Memory for `count` objects of `size` bytes, 64-byte aligned, not initialised; never NULL. */
+void *mr_alloc(mr_ctx *ctx, size_t count, size_t size) MR_MEMORY;
 
 /* The same, zeroed. */
-void *mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size) MR_WARN_UNUSED;
+void *mr_alloc_zero(mr_ctx *ctx, size_t count, size_t size) MR_MEMORY;
 
 /*
  * Grows `old`, which holds `used` objects and came from mr_alloc of this arena
  * (or is NULL), to `count` objects.  The old place is not to be used again: where it
  * was large it is freed, else it stays until it is released.
  */
-void *mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size) MR_WARN_UNUSED;
+void *mr_grow(mr_ctx *ctx, void *old, size_t used, size_t count, size_t size) MR_MEMORY;
 
 /*
  * Makes room for `more` objects in an array that is filled step by step, by doubling: `used` of `*room` are
- * in use, and an array of NULL has no room.  Where memory cannot be had, both are as they were.
+ * in use, and an array of NULL has no room.
  *
- *	MR_TRY(MR_RESERVE(ctx, heap->p, heap->n, 1, &heap->room));
+ *	MR_RESERVE(ctx, heap->p, heap->n, 1, &heap->room);
  *	heap->p[heap->n++] = x;
  */
 #define MR_RESERVE(ctx, array, used, more, room)                                                             \
 	mr_reserve((ctx), &(array), sizeof *(array), (used), (more), (room))
-mr_status
-mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size_t *room) MR_WARN_UNUSED;
+void mr_reserve(mr_ctx *ctx, void *array, size_t size, size_t used, size_t more, size_t *room);
 
 #define MR_NEW(ctx, count, type)      ((type *)mr_alloc((ctx), (count), sizeof(type)))
 #define MR_NEW_ZERO(ctx, count, type) ((type *)mr_alloc_zero((ctx), (count), sizeof(type)))
 
-/* A formatted string in the arena; NULL when memory cannot be had. */
-char *mr_format(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3);
+/* A formatted string in the arena. */
+char *mr_format(mr_ctx *ctx, const char *format, ...) MR_PRINTF(2, 3) MR_MEMORY;
 
 #endif

@@ -45,28 +45,25 @@ put_in_slot(mr_name_table *n, size_t i)
 		*slot = (uint32_t)i + 1;
 }
 
-static mr_status
+static void
 widen_slots(mr_ctx *ctx, mr_name_table *n)
 {
 	size_t slots = n->slots ? 4 * n->slots : 64;
 	uint32_t *slot = MR_NEW_ZERO(ctx, slots, uint32_t);
 
-	if (!slot)
-		return MR_EMEM;
 	n->slot = slot;
 	n->slots = slots;
 	for (size_t i = 0; i < n->count; i++)
 		put_in_slot(n, i);
-	return MR_OK;
 }
 
 mr_status
 mr_name_add(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number)
 {
 	if (2 * n->count >= n->slots)
-		MR_TRY(widen_slots(ctx, n));
-	MR_TRY(MR_RESERVE(ctx, n->text, n->bytes, bytes + 1, &n->room));
-	MR_TRY(MR_RESERVE(ctx, n->start, n->count, 1, &n->start_room));
+		widen_slots(ctx, n);
+	MR_RESERVE(ctx, n->text, n->bytes, bytes + 1, &n->room);
+	MR_RESERVE(ctx, n->start, n->count, 1, &n->start_room);
 	memcpy(n->text + n->bytes, name, bytes);
 	n->text[n->bytes + bytes] = '\n';
 	n->start[n->count] = n->bytes;

@@ -93,18 +93,15 @@ mr_kth(double *x, size_t n, size_t k)
 	return x[k];
 }
 
-mr_status
+void
 mr_median(mr_ctx *ctx, const double *x, size_t n, double *median)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t m = n < MEDIAN_OF ? n : MEDIAN_OF;
 	double *some = MR_NEW(ctx, m, double);
 
-	if (!some)
-		return MR_EMEM;
 	for (size_t i = 0; i < m; i++)
 		some[i] = x[i * n / m];
 	*median = mr_kth(some, m, m / 2);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -18,6 +18,6 @@ void mr_sort_reals(double *x, size_t n);
 double mr_kth(double *x, size_t n, size_t k);
 
 /* The upper median of n > 0 numbers, of 10007 at equal strides where there are more. */
-mr_status mr_median(mr_ctx *ctx, const double *x, size_t n, double *median) MR_WARN_UNUSED;
+void mr_median(mr_ctx *ctx, const double *x, size_t n, double *median);
 
 #endif

@@ -17,7 +17,7 @@ slot_of(const mr_string_set *set, const char *text)
 	return &set->slot[i];
 }
 
-static mr_status
+static void
 make_room(mr_string_set *set)
 {
 	const mr_string_set old = *set;
@@ -25,16 +25,13 @@ make_room(mr_string_set *set)
 	char **slot;
 
 	if (old.slot && 2 * old.count <= old.mask)
-		return MR_OK;
+		return;
 	slot = MR_NEW_ZERO(&set->keep, mask + 1, char *);
-	if (!slot)
-		return MR_EMEM;
 	set->slot = slot;
 	set->mask = mask;
 	for (size_t i = 0; old.slot && i <= old.mask; i++)
 		if (old.slot[i])
 			*slot_of(set, old.slot[i]) = old.slot[i];
-	return MR_OK;
 }
 
 void
@@ -50,19 +47,16 @@ mr_string_set_has(const mr_string_set *set, const char *text)
 	return set->slot && *slot_of(set, text);
 }
 
-mr_status
+void
 mr_string_set_add(mr_ctx *ctx, mr_string_set *set, const char *text)
 {
 	char **slot;
 
-	if (make_room(set) < 0)
-		return mr_fail_as(ctx, &set->keep, MR_EMEM);
+	mr_keep(ctx, &set->keep);
+	make_room(set);
 	slot = slot_of(set, text);
 	if (*slot)
-		return MR_OK;
+		return;
 	*slot = mr_format(&set->keep, "%s", text);
-	if (!*slot)
-		return mr_fail_as(ctx, &set->keep, MR_EMEM);
 	set->count++;
-	return MR_OK;
 }

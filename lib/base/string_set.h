@@ -16,6 +16,6 @@ void mr_string_set_free(mr_string_set *set);
 bool mr_string_set_has(const mr_string_set *set, const char *text);
 
 /* Adds a copy where it is not there. */
-mr_status mr_string_set_add(mr_ctx *ctx, mr_string_set *set, const char *text);
+void mr_string_set_add(mr_ctx *ctx, mr_string_set *set, const char *text);
 
 #endif

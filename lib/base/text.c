@@ -5,18 +5,10 @@
 
 #include <math.h>
 
-static bool
-reserve(mr_text *t, size_t more)
-{
-	t->failed = t->failed || MR_RESERVE(t->ctx, t->s, t->n, more + 1, &t->room) != MR_OK;
-	return !t->failed;
-}
-
 static void
 add_bytes(mr_text *t, const char *s, size_t n)
 {
-	if (!reserve(t, n))
-		return;
+	MR_RESERVE(t->ctx, t->s, t->n, n + 1, &t->room);
 	memcpy(t->s + t->n, s, n);
 	t->n += n;
 	t->s[t->n] = '\0';
@@ -31,10 +23,9 @@ mr_text_add(mr_text *t, const char *format, ...)
 	va_start(args, format);
 	va_copy(again, args);
 	n = vsnprintf(NULL, 0, format, args);
-	if (n >= 0 && reserve(t, (size_t)n)) {
-		vsnprintf(t->s + t->n, (size_t)n + 1, format, again);
-		t->n += (size_t)n;
-	}
+	MR_RESERVE(t->ctx, t->s, t->n, (size_t)n + 1, &t->room);
+	vsnprintf(t->s + t->n, (size_t)n + 1, format, again);
+	t->n += (size_t)n;
 	va_end(again);
 	va_end(args);
 }
@@ -112,10 +103,4 @@ mr_text_figure(mr_text *t, const char *before, int digits, double x)
 		mr_text_add(t, "%s%.*g", before, digits, x);
 	else
 		mr_text_add(t, "%s-", before);
-}
-
-mr_status
-mr_text_done(const mr_text *t)
-{
-	return t->failed ? MR_EMEM : MR_OK;
 }

@@ -1,8 +1,5 @@
 /*
  * text.h -- a text that grows in the arena, and JSON in it.
- *
- * Contract: a failed allocation is remembered and told by mr_text_done, so a
- * report is written without a check on every line.
  */
 #ifndef MR_BASE_TEXT_H
 #define MR_BASE_TEXT_H
@@ -13,7 +10,6 @@ typedef struct mr_text {
 	mr_ctx *ctx;
 	char *s; /* NUL-terminated; NULL while empty */
 	size_t n, room;
-	bool failed;
 } mr_text;
 
 /* Appends, as by printf. */
@@ -51,8 +47,5 @@ mr_is_one_of(const char *name, const char *const *names)
 		names++;
 	return *names;
 }
-
-/* MR_EMEM where any of it was lost. */
-mr_status mr_text_done(const mr_text *t) MR_WARN_UNUSED;
 
 #endif

@@ -4,26 +4,31 @@
 #include <errno.h>
 #include <math.h>
 
+static void
+close_file(void *in)
+{
+	fclose(in);
+}
+
 static mr_status
 read_all(mr_ctx *ctx, const char *path, char **text, size_t *length)
 {
 	size_t room = 0, n = 0;
 	char *bytes = NULL;
 	FILE *in;
-	mr_status status;
+	mr_status status = MR_OK;
 
 	MR_TRY(mr_permit(ctx, path, false));
 	in = fopen(path, "rb");
 	if (!in)
 		return mr_fail(ctx, MR_EIO, "%s: %s", path, strerror(errno));
-	while ((status = MR_RESERVE(ctx, bytes, n, 4096, &room)) == MR_OK) {
+	mr_own(ctx, close_file, in);
+	do {
+		MR_RESERVE(ctx, bytes, n, 4096, &room);
 		n += fread(bytes + n, 1, room - 1 - n, in);
-		if (n < room - 1)
-			break;
-	}
-	if (status == MR_OK && ferror(in))
+	} while (n == room - 1);
+	if (ferror(in))
 		status = mr_fail(ctx, MR_EIO, "%s: %s", path, strerror(errno));
-	fclose(in);
 	if (status == MR_OK && memchr(bytes, 0, n))
 		status = mr_fail(ctx, MR_EFORMAT, "%s: a zero byte: not a text file", path);
 	if (status != MR_OK)
@@ -68,8 +73,6 @@ mr_lines_read(mr_ctx *ctx, const char *path, char ***line, size_t *count)
 	for (size_t k = 0; k < length; k++)
 		n += text[k] == '\n';
 	lines = MR_NEW(ctx, n, char *);
-	if (!lines)
-		return MR_EMEM;
 	for (char *at = text; i < n; i++) {
 		char *end = at + strcspn(at, "\n");
 		*end = '\0';

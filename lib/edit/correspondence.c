@@ -5,14 +5,12 @@
 #include "space/bvh.h"
 
 /* Gives each unlabelled vertex that hangs together with labelled ones the label that reaches it first. */
-static mr_status
+static void
 spread_labels(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t *label)
 {
 	uint32_t *queue = MR_NEW(ctx, m->nv, uint32_t);
 	size_t n = 0;
 
-	if (!queue)
-		return MR_EMEM;
 	for (uint32_t v = 0; v < m->nv; v++)
 		if (label[v] != MR_NONE)
 			queue[n++] = v;
@@ -25,19 +23,16 @@ spread_labels(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t *
 				label[w] = label[queue[next]];
 				queue[n++] = w;
 			}
-	return MR_OK;
 }
 
 /* Labels each vertex of the mesh with the nearest of the base vertices that lie on its faces, or, where none
  * does, with that of the neighbours nearest in connectivity.  lifted: the base on the mesh. */
-static mr_status
+static void
 label_vertices(mr_ctx *ctx, const mr_mesh *mesh, const mr_incidence *mesh_inc, const mr_mesh *lifted,
     const mr_incidence *inc, const mr_places *source, uint32_t *label)
 {
 	double *dist2 = MR_NEW(ctx, mesh->nv, double);
 
-	if (!dist2)
-		return MR_EMEM;
 	for (size_t i = 0; i < mesh->nv; i++) {
 		label[i] = MR_NONE;
 		dist2[i] = INFINITY;
@@ -54,7 +49,7 @@ label_vertices(mr_ctx *ctx, const mr_mesh *mesh, const mr_incidence *mesh_inc, c
 			}
 		}
 	}
-	return spread_labels(ctx, mesh, mesh_inc, label);
+	spread_labels(ctx, mesh, mesh_inc, label);
 }
 
 typedef struct walker {
@@ -191,15 +186,13 @@ improve(const walker *w, uint32_t i, uint32_t neighbour)
  * A walk downhill ends where every step leads away: on the underside of a plate below the vertex, say, if it
  * began there.  So vertices follow their neighbours that stand nearer, until none comes nearer.
  */
-static mr_status
+static void
 follow_neighbours(mr_ctx *ctx, const walker *w, const mr_incidence *inc)
 {
 	size_t n = w->mesh->nv, waiting = n;
 	uint32_t *queue = MR_NEW(ctx, n, uint32_t); /* a ring of those whose neighbours are to follow */
 	bool *queued = MR_NEW(ctx, n, bool);
 
-	if (!queue || !queued)
-		return MR_EMEM;
 	for (uint32_t i = 0; i < n; i++) {
 		queue[i] = i;
 		queued[i] = true;
@@ -216,7 +209,6 @@ follow_neighbours(mr_ctx *ctx, const walker *w, const mr_incidence *inc)
 				queued[v] = true;
 			}
 	}
-	return MR_OK;
 }
 
 mr_status
@@ -231,15 +223,13 @@ mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_in
 	walker w = { mesh, &lifted, inc, label, face, bary, dist2 };
 	mr_incidence mesh_inc;
 
-	if (!label || !on_mesh || !dist2)
-		return MR_EMEM;
 	MR_TRY(mr_incidence_build(ctx, mesh, &mesh_inc));
 	for (size_t j = 0; j < base->nv; j++)
 		on_mesh[j] = mr_place_point(mesh, mr_places_at(source, j));
 	lifted.p = on_mesh;
-	MR_TRY(label_vertices(ctx, mesh, &mesh_inc, &lifted, inc, source, label));
+	label_vertices(ctx, mesh, &mesh_inc, &lifted, inc, source, label);
 	mr_parallel(ctx, mesh->nv, 1024, walk_piece, &w);
-	MR_TRY(follow_neighbours(ctx, &w, &mesh_inc));
+	follow_neighbours(ctx, &w, &mesh_inc);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -62,14 +62,12 @@ count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
  * The free vertices whose component has a constrained neighbour: the others would make K singular.  part:
  * sets of one vertex each, which become the components' roots.
  */
-static mr_status
+static void
 find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored, uint32_t *part)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	bool *held = MR_NEW_ZERO(ctx, d->nv, bool);
 
-	if (!held)
-		return MR_EMEM;
 	for (int pass = 0; pass < 2; pass++)
 		for (size_t h = 0; h < 3 * m->nf; h++) {
 			uint32_t a = mr_he_from(m, (uint32_t)h), b = mr_he_to(m, (uint32_t)h);
@@ -84,11 +82,10 @@ find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored,
 		anchored[v] = d->region[v] == MR_REGION_FREE && held[part[v]];
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Counts the constrained vertices beside free ones with no constrained vertex k rings deep within k rings. */
-static mr_status
+static void
 count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -96,8 +93,6 @@ count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
 	uint8_t *back = MR_NEW(ctx, d->nv, uint8_t);
 	bool *deep = MR_NEW(ctx, d->nv, bool);
 
-	if (!depth || !back || !deep)
-		return MR_EMEM;
 	mr_patch_levels(m, anchored, k, depth);
 	for (size_t v = 0; v < d->nv; v++)
 		deep[v] = depth[v] >= k && d->region[v] != MR_REGION_FREE;
@@ -105,7 +100,6 @@ count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
 	for (size_t v = 0; v < d->nv; v++)
 		d->narrow += depth[v] == 1 && d->region[v] != MR_REGION_FREE && back[v] > k;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Says what becomes of parts that no constraint reaches.  follows: small ones, and then all that are to. */
@@ -153,15 +147,13 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 	mr_mesh stitched = *rest;
 	mr_patch patch;
 
-	if (!anchored || !follows || !part)
-		return MR_EMEM;
 	MR_TRY(count_regions(ctx, d, rest));
 	if (!d->opts.apart)
-		MR_TRY(mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched, follows));
-	MR_TRY(find_anchored(ctx, d, &stitched, anchored, part));
+		mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched, follows);
+	find_anchored(ctx, d, &stitched, anchored, part);
 	MR_TRY(settle_loose(ctx, d, rest, anchored, part, follows));
-	MR_TRY(count_narrow(ctx, d, rest, anchored));
-	MR_TRY(mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &patch));
+	count_narrow(ctx, d, rest, anchored);
+	mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &patch);
 	MR_TRY(mr_system_make(ctx, rest, &patch, &d->opts, started, &d->system));
 	return mr_energies_make(ctx, &d->system, d->region, d->lowest, &d->energies);
 }
@@ -172,33 +164,16 @@ mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint3
 {
 	mr_deform *d = MR_NEW_ZERO(ctx, 1, mr_deform);
 	mr_solver_opts *solver;
-	mr_status status;
 
-	if (!d)
-		return MR_EMEM;
 	d->opts = *opts;
 	d->nv = rest->nv;
 	d->region = MR_NEW(ctx, d->nv, uint32_t);
-	if (!d->region)
-		return MR_EMEM;
 	memcpy(d->region, region, d->nv * sizeof *region);
 	solver = &d->opts.solver; /* incomplete factors stall on systems of high order */
 	if (solver->precondition == MR_BY_ORDER && opts->order > (solver->kind == MR_BICGSTAB ? 1 : 2))
 		solver->precondition = MR_VCYCLES;
-	status = set_up(ctx, d, rest, ties);
-	if (status < 0)
-		mr_deform_free(d);
-	*deform = status < 0 ? NULL : d;
-	return status;
-}
-
-void
-mr_deform_free(mr_deform *d)
-{
-	if (!d)
-		return;
-	mr_energies_free(d->energies);
-	mr_system_free(&d->system);
+	*deform = d;
+	return set_up(ctx, d, rest, ties);
 }
 
 const uint32_t *
@@ -296,8 +271,6 @@ check_maps(mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps)
 	mr_mark mark = mr_mark_take(ctx);
 	bool *present = MR_NEW_ZERO(ctx, d->handles, bool);
 
-	if (!present)
-		return MR_EMEM;
 	for (size_t v = 0; v < d->nv; v++)
 		if (d->region[v] >= MR_REGION_HANDLE)
 			present[d->region[v] - MR_REGION_HANDLE] = true;
@@ -337,8 +310,6 @@ mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *ou
 	double started = mr_seconds();
 	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
 
-	if (!p)
-		return MR_EMEM;
 	memcpy(p, task->p0, d->nv * sizeof *p);
 	if (task->maps)
 		MR_TRY(check_maps(ctx, d, task->maps));
@@ -359,8 +330,6 @@ verify(mr_ctx *ctx, mr_deform *direct, const mr_deform_task *task, const mr_v3 *
 	double diagonal = mr_box_diagonal(mr_box_of(p, direct->nv)), most = 0;
 	mr_v3 *q = MR_NEW(ctx, direct->nv, mr_v3);
 
-	if (!q)
-		return MR_EMEM;
 	MR_TRY(mr_deform_solve(ctx, direct, task, q));
 	for (size_t v = 0; v < direct->nv; v++)
 		most = fmax(most, mr_dist(p[v], q[v]));
@@ -375,16 +344,14 @@ mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const mr
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_deform_opts opts = d->opts;
-	mr_deform *direct = NULL;
-	mr_status status;
+	mr_deform *direct;
 
 	opts.unsymmetric = false;
 	opts.solver.kind = MR_CHOLESKY;
 	MR_TRY(mr_deform_new(ctx, rest, ties, d->region, &opts, &direct));
-	status = verify(ctx, direct, task, p, error, condition);
-	mr_deform_free(direct);
+	MR_TRY(verify(ctx, direct, task, p, error, condition));
 	mr_mark_release(ctx, mark);
-	return status;
+	return MR_OK;
 }
 
 /* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5.

@@ -17,13 +17,10 @@ typedef struct mr_deform mr_deform;
  * Assembles and factors the system on the mesh `rest` with one region per vertex.  MR_EMESH where
  * there is no free or no constrained vertex, MR_ENUMERIC where the matrix is not positive definite.  ties: or
  * NULL.
- * *deform borrows nothing; its memory is the arena's and the solver's: free it before the arena goes.
+ * *deform borrows nothing.
  */
 mr_status mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
     const mr_deform_opts *opts, mr_deform **deform) MR_WARN_UNUSED;
-
-/* Accepts NULL. */
-void mr_deform_free(mr_deform *d);
 
 /* The figures of the set-up and of the last solve; remarks on what the user should know. */
 mr_solve_result mr_deform_report(mr_ctx *ctx, const mr_deform *d);

@@ -22,36 +22,24 @@ identify(const mr_frame *f, const char *layer, const char *rest, uint64_t part[M
 	}
 }
 
-void
-mr_deform_cache_free(mr_deform_cache *cache, mr_ctx *keep)
-{
-	if (!cache->deform)
-		return;
-	mr_deform_free(cache->deform);
-	mr_mark_release(keep, cache->mark);
-	cache->deform = NULL;
-}
-
 mr_status
-mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame *f, const mr_mesh *rest,
-    const char *column, const mr_deform_opts *opts, mr_deform **deform)
+mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mesh *rest, const char *column,
+    const mr_deform_opts *opts, mr_deform **deform)
 {
+	mr_ctx *keep = mr_keep(ctx, &cache->keep);
 	uint64_t part[MR_DEFORM_PARTS];
 	const uint32_t *region;
-	mr_status status;
+	mr_deform *made;
 	mr_ties ties;
 
 	identify(f, rest->name, column, part);
 	if (f->key || !cache->deform || memcmp(part, cache->part, sizeof part)) {
-		mr_deform_cache_free(cache, keep);
+		cache->deform = NULL;
+		mr_ctx_free(keep);
 		MR_TRY(mr_transfer_get(ctx, f, rest, &region));
 		MR_TRY(mr_transfer_ties(ctx, f, rest, &ties));
-		cache->mark = mr_mark_take(keep);
-		status = mr_deform_new(keep, rest, &ties, region, opts, &cache->deform);
-		if (status < 0) {
-			mr_mark_release(keep, cache->mark);
-			return mr_fail_as(ctx, keep, status);
-		}
+		MR_TRY(mr_fail_as(ctx, keep, mr_deform_new(keep, rest, &ties, region, opts, &made)));
+		cache->deform = made;
 		memcpy(cache->part, part, sizeof part);
 	}
 	*deform = cache->deform;
@@ -74,8 +62,6 @@ mr_deform_put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, co
 		return mr_fail(ctx, MR_ERANGE, "%s: %zu handles are more than a response holds, %d", m->name,
 		    handles, MOST);
 	response = MR_NEW(ctx, 4 * handles * m->nv, double);
-	if (!response)
-		return MR_EMEM;
 	MR_TRY(mr_deform_basis(ctx, d, p0, response));
 	return mr_layer_put_wide(ctx, f, m->name, "response", (uint8_t)(4 * handles), response, m->nv);
 }

@@ -13,23 +13,19 @@
 enum { MR_DEFORM_PARTS = 10 };
 
 typedef struct mr_deform_cache {
+	mr_ctx keep;                    /* of the system */
 	mr_deform *deform;              /* NULL: empty */
-	mr_mark mark;                   /* of the arena that outlives frames */
 	uint64_t part[MR_DEFORM_PARTS]; /* serials of the columns that it depends on */
 } mr_deform_cache;
 
 /*
  * The system on the mesh `rest`, the frame's layer with the positions of column `column`, under the regions
- * that mr_transfer_get finds; those that are the mesh's become columns of the layer too.  keep: the arena
- * that outlives frames; only the cache releases what it has there.
+ * that mr_transfer_get finds; those that are the mesh's become columns of the layer too.
  */
-mr_status mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_ctx *keep, mr_frame *f,
-    const mr_mesh *rest, const char *column, const mr_deform_opts *opts, mr_deform **deform);
+mr_status mr_deform_cache_get(mr_deform_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mesh *rest,
+    const char *column, const mr_deform_opts *opts, mr_deform **deform);
 
 /* Puts the responses to the handles of the layer m, by mr_deform_basis.  MR_EMESH without a handle. */
 mr_status mr_deform_put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, const mr_v3 *p0);
-
-/* Empties the cache. */
-void mr_deform_cache_free(mr_deform_cache *cache, mr_ctx *keep);
 
 #endif

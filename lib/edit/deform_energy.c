@@ -97,7 +97,7 @@ decompose_handle(turning *t, size_t j, mr_v3 w)
 }
 
 /* Polar decompositions of the maps. */
-static mr_status
+static void
 decompose(mr_ctx *ctx, turning *t)
 {
 	size_t n = t->e->count;
@@ -105,19 +105,16 @@ decompose(mr_ctx *ctx, turning *t)
 
 	t->whole = t->rotation = t->stretch = mr_mat3_identity();
 	if (!t->maps)
-		return MR_OK;
+		return;
 	t->log = MR_NEW(ctx, n, mr_v3);
 	t->by = MR_NEW(ctx, n, mr_mat3);
 	t->moves = MR_NEW(ctx, n, double);
-	if (!t->log || !t->by || !t->moves)
-		return MR_EMEM;
 	t->whole = linear_of(t, t->e->lowest);
 	t->rotation = mr_rotation_nearest(&t->whole);
 	t->stretch = mr_mat3_multiply_transposed(&t->rotation, &t->whole);
 	w = mr_rotation_log(&t->whole, turn_of(t->maps, t->e->lowest));
 	for (size_t j = 0; j < n; j++)
 		decompose_handle(t, j, w);
-	return MR_OK;
 }
 
 /* Energies */
@@ -370,7 +367,7 @@ mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr
 
 	for (size_t i = 0; i < e->s->patch.mesh.nv; i++)
 		e->rest[i] = p0[e->s->patch.vertex[i]];
-	MR_TRY(decompose(ctx, &t));
+	decompose(ctx, &t);
 	MR_TRY(
 	    mr_system_follow(ctx, e->s, whole, p0, t.turns && first ? source_of(ctx, &t, first) : NULL, p));
 	return rounds(ctx, e, &t, rounds_of(&e->s->opts, maps), whole, p0, p);
@@ -379,7 +376,7 @@ mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr
 /* Set-up */
 
 /* The regions that have weights, in their order. */
-static mr_status
+static void
 find_handles(mr_ctx *ctx, mr_energies *e)
 {
 	const mr_patch *patch = &e->s->patch;
@@ -391,14 +388,11 @@ find_handles(mr_ctx *ctx, mr_energies *e)
 		                                                : e->region[patch->vertex[i]] + (size_t)1;
 	present = MR_NEW_ZERO(ctx, regions, bool);
 	e->handle = MR_NEW(ctx, regions, uint32_t);
-	if (!present || !e->handle)
-		return MR_EMEM;
 	for (size_t i = patch->end[0]; i < patch->mesh.nv; i++)
 		present[e->region[patch->vertex[i]]] = true;
 	for (uint32_t r = MR_REGION_HANDLE; r < regions; r++)
 		if (present[r] && r != e->lowest)
 			e->handle[e->count++] = r;
-	return MR_OK;
 }
 
 /* Not beyond 0 and 1, with what is left of 1. */
@@ -451,8 +445,6 @@ make_room(mr_ctx *ctx, mr_energies *e)
 	e->map = MR_NEW(ctx, m->nv, mr_mat3);
 	e->corner = MR_NEW(ctx, 3 * m->nf, mr_v3);
 	e->source = MR_NEW(ctx, 3 * m->nv, double);
-	if (!e->cot || !e->weight || !e->rest || !e->q || !e->before || !e->map || !e->corner || !e->source)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		mr_cotangents(m->p[m->t[f].v[0]], m->p[m->t[f].v[1]], m->p[m->t[f].v[2]], e->cot[f]);
 	return mr_incidence_build(ctx, m, &e->around);
@@ -468,25 +460,16 @@ mr_energies_make(
 	*energies = NULL;
 	if (!s->solver || (!ways[s->opts.rotations].first && most == 0))
 		return MR_OK;
-	if (!(e = MR_NEW_ZERO(ctx, 1, mr_energies)))
-		return MR_EMEM;
+	e = MR_NEW_ZERO(ctx, 1, mr_energies);
 	e->s = s;
 	e->region = region;
 	e->lowest = lowest;
-	MR_TRY(find_handles(ctx, e));
+	find_handles(ctx, e);
 	MR_TRY(make_room(ctx, e));
 	MR_TRY(solve_weights(ctx, e));
-	MR_TRY(mr_sections_find(
-	    ctx, &s->patch.mesh, e->weight, e->count, (const double(*)[3])e->cot, &e->sections));
+	mr_sections_find(ctx, &s->patch.mesh, e->weight, e->count, (const double(*)[3])e->cot, &e->sections);
 	if (most > 0)
-		MR_TRY(mr_inside_make(ctx, &s->patch, region, &e->inside));
+		mr_inside_make(ctx, &s->patch, region, &e->inside);
 	*energies = e;
 	return most > 1 && s->opts.order > 1 ? mr_system_membrane(ctx, s, &e->membrane) : MR_OK;
-}
-
-void
-mr_energies_free(mr_energies *e)
-{
-	if (e)
-		mr_system_free(&e->membrane);
 }

@@ -34,9 +34,6 @@ typedef struct mr_energies mr_energies;
 mr_status mr_energies_make(mr_ctx *ctx, mr_deform_system *s, const uint32_t *region, uint32_t lowest,
     mr_energies **e) MR_WARN_UNUSED;
 
-/* Frees what is no arena's.  Accepts NULL. */
-void mr_energies_free(mr_energies *e);
-
 /*
  * As mr_system_follow, by the energies of s->opts.  maps NULL: the constraints go where p has them, which
  * tells no rotation.

@@ -8,7 +8,7 @@
 enum { NEAREST = 16 }; /* to a vertex: enough to tell a rotation */
 
 /* The vertices that follow, part by part. */
-static mr_status
+static void
 list_parts(mr_ctx *ctx, size_t nv, const bool *follows, const uint32_t *part, mr_loose *l)
 {
 	mr_mark mark;
@@ -22,8 +22,6 @@ list_parts(mr_ctx *ctx, size_t nv, const bool *follows, const uint32_t *part, mr
 	l->start = MR_NEW_ZERO(ctx, l->parts + 2, size_t);
 	mark = mr_mark_take(ctx);
 	number = MR_NEW(ctx, nv, uint32_t);
-	if (!l->vertex || !l->start || !number)
-		return MR_EMEM;
 	for (uint32_t v = 0, n = 0; v < nv; v++)
 		if (follows[v] && part[v] == v)
 			number[v] = n++;
@@ -36,7 +34,6 @@ list_parts(mr_ctx *ctx, size_t nv, const bool *follows, const uint32_t *part, mr
 		if (follows[v])
 			l->vertex[l->start[number[part[v]] + 1]++] = v;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* The anchors of part k: those nearest to some of its vertices, one that is nearest to several as often. */
@@ -75,7 +72,7 @@ mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, const bool *f
 	mr_v3 *at, *q;
 	mr_mark mark;
 
-	MR_TRY(list_parts(ctx, rest->nv, follows, part, l));
+	list_parts(ctx, rest->nv, follows, part, l);
 	l->anchor = MR_NEW(ctx, l->parts * MR_ANCHORS, uint32_t);
 	l->softness = MR_NEW(ctx, l->parts, double);
 	mark = mr_mark_take(ctx);
@@ -83,8 +80,6 @@ mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, const bool *f
 	nearest = MR_NEW(ctx, NEAREST * l->n, uint32_t);
 	at = MR_NEW(ctx, rest->nv, mr_v3);
 	q = MR_NEW(ctx, l->n, mr_v3);
-	if (!l->anchor || !l->softness || !lead || !nearest || !at || !q)
-		return MR_EMEM;
 	for (uint32_t v = 0; v < rest->nv; v++)
 		if (leads[v]) {
 			at[leading] = rest->p[v];

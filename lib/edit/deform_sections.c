@@ -68,7 +68,7 @@ find_levels(finder *s)
 }
 
 /* Sorts the faces by the levels that they meet. */
-static mr_status
+static void
 sort_faces(mr_ctx *ctx, finder *s)
 {
 	size_t next[LEVELS + 1];
@@ -81,11 +81,10 @@ sort_faces(mr_ctx *ctx, finder *s)
 		next[k] = s->start[k];
 		s->start[k + 1] += s->start[k];
 	}
-	MR_TRY(MR_RESERVE(ctx, s->face, 0, s->start[LEVELS + 1], &s->faces_room));
+	MR_RESERVE(ctx, s->face, 0, s->start[LEVELS + 1], &s->faces_room);
 	for (size_t f = 0; f < s->m->nf; f++)
 		for (int k = s->level[f].first; k <= s->level[f].last; k++)
 			s->face[next[k]++] = (uint32_t)f;
-	return MR_OK;
 }
 
 /* Parts the faces of a level into those that hang together. */
@@ -133,7 +132,7 @@ add_face(section *own, const mr_mesh *m, const uint32_t v[3], double energy)
 }
 
 /* Sums up the sections of a level, of the faces whose mean is beside it. */
-static mr_status
+static void
 sum_faces(mr_ctx *ctx, finder *s, int k)
 {
 	for (size_t n = s->start[k]; n < s->start[k + 1]; n++) {
@@ -146,7 +145,7 @@ sum_faces(mr_ctx *ctx, finder *s, int k)
 			continue;
 		made = &s->made[mr_sets_root(s->set, v[0])];
 		if (*made == MR_NONE) {
-			MR_TRY(MR_RESERVE(ctx, s->section, s->count, 1, &s->room));
+			MR_RESERVE(ctx, s->section, s->count, 1, &s->room);
 			s->section[s->count] = (section){ .faces = 0 };
 			*made = (uint32_t)s->count++;
 		}
@@ -154,10 +153,9 @@ sum_faces(mr_ctx *ctx, finder *s, int k)
 		add_face(&s->section[*made], s->m, v, share * energy_of(s, f));
 		s->of[s->weights * f + s->j][i] = *made;
 	}
-	return MR_OK;
 }
 
-mr_status
+void
 mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count, const double (*cot)[3],
     mr_sections *sections)
 {
@@ -168,27 +166,22 @@ mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t cou
 	s.level = MR_NEW(ctx, m->nf, levels);
 	s.set = MR_NEW(ctx, m->nv, uint32_t);
 	s.made = MR_NEW(ctx, m->nv, uint32_t);
-	if (!s.of || !s.weight || !s.level || !s.set || !s.made)
-		return MR_EMEM;
 	for (s.j = 0; s.j < count; s.j++) {
 		for (size_t v = 0; v < m->nv; v++)
 			s.weight[v] = weight[count * v + s.j];
 		find_levels(&s);
-		MR_TRY(sort_faces(ctx, &s));
+		sort_faces(ctx, &s);
 		for (int k = 0; k <= LEVELS; k++) {
 			join_faces(&s, k);
-			MR_TRY(sum_faces(ctx, &s, k));
+			sum_faces(ctx, &s, k);
 		}
 	}
 	*sections = (mr_sections){ MR_NEW(ctx, s.count, mr_v3), s.of };
-	if (!sections->center)
-		return MR_EMEM;
 	for (size_t i = 0; i < s.count; i++) {
 		const section *own = &s.section[i];
 		sections->center[i] = own->energy > 0 ? mr_mul(1 / own->energy, own->weighted)
 		                                      : mr_mul(1 / (double)own->faces, own->plain);
 	}
-	return MR_OK;
 }
 
 mr_v3

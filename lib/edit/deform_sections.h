@@ -14,8 +14,8 @@ typedef struct mr_sections {
 } mr_sections;
 
 /* weight: `count` for each vertex; cot: of the corners of each face. */
-mr_status mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count,
-    const double (*cot)[3], mr_sections *s) MR_WARN_UNUSED;
+void mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count,
+    const double (*cot)[3], mr_sections *s);
 
 /* The centroid of the section through a face, of which `weight` is the mean of weight j. */
 mr_v3 mr_section_at(const mr_sections *s, size_t count, size_t f, size_t j, double weight);

@@ -17,7 +17,7 @@
  * has no shape of its own to solve for, and bends for nothing to cancel what the large part bends.
  * stitched: its faces are rest's, or in the arena.
  */
-mr_status mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
-    mr_mesh *stitched, bool *follows) MR_WARN_UNUSED;
+void mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
+    mr_mesh *stitched, bool *follows);
 
 #endif

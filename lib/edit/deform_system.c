@@ -21,7 +21,7 @@ diagonal(const mr_sparse *l, size_t i)
  * one so small for the weights there that a row of L W L has that over its usual size: W stays finite, and
  * tiny holes, whose rows are 1e16 times the others', have a factor.
  */
-static mr_status
+static void
 weigh(mr_ctx *ctx, mr_deform_system *s)
 {
 	static const double smallest = 1e-8, largest = 1e8;
@@ -29,9 +29,7 @@ weigh(mr_ctx *ctx, mr_deform_system *s)
 	double mean = 0;
 
 	s->w = MR_NEW(ctx, n, double);
-	if (!s->w)
-		return MR_EMEM;
-	MR_TRY(mr_voronoi_areas(ctx, &s->patch.mesh, s->w));
+	mr_voronoi_areas(ctx, &s->patch.mesh, s->w);
 	for (size_t i = 0; i < n; i++)
 		mean += s->w[i] / (double)n;
 	for (size_t i = 0; i < n; i++) {
@@ -40,7 +38,6 @@ weigh(mr_ctx *ctx, mr_deform_system *s)
 		              ? 1
 		              : fmin(1 / fmax(s->w[i] / mean, smallest), largest / (d * d));
 	}
-	return MR_OK;
 }
 
 /* The weights w_ij = -L_ij of the edges at free vertices: the share that is negative. */
@@ -62,7 +59,7 @@ share_negative(const mr_sparse *l, size_t n)
  * The unknowns whose boundary conditions multigrid has wrong: within so many rings of the constraints that a
  * few dozen iterations do.  The membrane has none.
  */
-static mr_status
+static void
 find_strip(
     mr_ctx *ctx, const mr_deform_system *s, const mr_mesh *rest, const uint32_t *number, mr_hierarchy *h)
 {
@@ -70,8 +67,6 @@ find_strip(
 	bool *given = MR_NEW(ctx, rest->nv, bool);
 	uint32_t *strip = MR_NEW(ctx, s->patch.end[0], uint32_t);
 
-	if (!level || !given || !strip)
-		return MR_EMEM;
 	for (size_t v = 0; v < rest->nv; v++)
 		given[v] = number[v] == MR_NONE;
 	mr_patch_levels(rest, given, rings, level);
@@ -79,7 +74,6 @@ find_strip(
 		if (s->opts.order > 1 && level[s->patch.vertex[i]] <= rings)
 			strip[h->strip_count++] = i;
 	h->strip = strip;
-	return MR_OK;
 }
 
 /* The levels of multigrid, from remeshings of the whole surface. */
@@ -90,8 +84,6 @@ build_hierarchy(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest)
 	uint32_t *number = MR_NEW(ctx, rest->nv, uint32_t);
 	mr_coarser *level;
 
-	if (!number)
-		return MR_EMEM;
 	for (size_t v = 0; v < rest->nv; v++)
 		number[v] = MR_NONE;
 	for (size_t i = 0; i < n; i++)
@@ -100,7 +92,8 @@ build_hierarchy(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest)
 	MR_TRY(mr_sparse_power(ctx, &s->l, NULL, 1, n, false, &s->l_ff));
 	s->hierarchy = (mr_hierarchy){ &s->l_ff, s->w, s->opts.order, s->opts.unsymmetric, count, level, NULL,
 		0 };
-	return find_strip(ctx, s, rest, number, &s->hierarchy);
+	find_strip(ctx, s, rest, number, &s->hierarchy);
+	return MR_OK;
 }
 
 /* A row without any weight (all its faces are single points) asks for nothing: its vertex stays.  The rows of
@@ -149,20 +142,20 @@ open_solver(mr_ctx *ctx, mr_deform_system *s)
 
 	if (s->opts.solver.kind == MR_CHOLESKY) {
 		part = MR_NEW(ctx, n, int);
-		if (!part)
-			return MR_EMEM;
-		MR_TRY(mr_dissect(ctx, &s->l, s->patch.mesh.p, n, s->opts.order, part));
+		mr_dissect(ctx, &s->l, s->patch.mesh.p, n, s->opts.order, part);
 		system.part = part;
 	}
-	return mr_solver_open(ctx, &s->opts.solver, &system, &s->solver);
+	return mr_solver_open(ctx, s->solver, &s->opts.solver, &system);
 }
 
 static mr_status
 set_up(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest, double started)
 {
-	mr_mark mark = mr_mark_take(ctx);
 	mr_status status;
+	mr_mark mark;
 
+	s->solver = mr_solver_new(ctx);
+	mark = mr_mark_take(ctx);
 	MR_TRY(assemble(ctx, s));
 	if (mr_solver_multigrid(&s->opts.solver))
 		MR_TRY(build_hierarchy(ctx, s, rest));
@@ -180,7 +173,7 @@ set_up(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest, double started)
 	return say_why(ctx, s, status);
 }
 
-static mr_status
+static void
 make_workspace(mr_ctx *ctx, mr_deform_system *s)
 {
 	size_t n = s->patch.mesh.nv * MR_FIELD_WIDTH;
@@ -188,20 +181,18 @@ make_workspace(mr_ctx *ctx, mr_deform_system *s)
 		.stage = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) },
 		.r = MR_NEW(ctx, s->patch.end[0] * MR_FIELD_WIDTH, double) };
 
-	if (!f.u || !f.stage[0] || !f.stage[1] || !f.r)
-		return MR_EMEM;
 	s->work = f;
-	return MR_OK;
 }
 
 /* Its hierarchy is that of s without the strip, which the membrane does not need; nor is it refined. */
 mr_status
 mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	mr_mark mark;
 
 	*m = *s;
-	m->solver = NULL;
+	m->solver = mr_solver_new(ctx);
+	mark = mr_mark_take(ctx);
 	m->rounding = 0;
 	m->opts.tol = INFINITY;
 	m->opts.order = m->hierarchy.order = 1;
@@ -212,12 +203,6 @@ mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m)
 	if (!mr_solver_iterates(m->opts.solver.kind))
 		mr_mark_release(ctx, mark);
 	return MR_OK;
-}
-
-void
-mr_system_free(mr_deform_system *s)
-{
-	mr_solver_free(s->solver);
 }
 
 /* Solution */
@@ -258,15 +243,13 @@ find_residual(const mr_ctx *ctx, const mr_deform_system *s, mr_field *f)
  * The same in extended precision.  The weights are what they are in doubles, so the system that is solved
  * is the same; only the rounding of K u, which a bad condition blows up, is not.
  */
-static mr_status
+static void
 find_residual_long(mr_ctx *ctx, const mr_deform_system *s, mr_field *f)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t k = s->opts.order, n = s->patch.end[0], size = s->patch.mesh.nv * f->width;
 	long double *x = MR_NEW(ctx, size, long double), *y = MR_NEW(ctx, size, long double);
 
-	if (!x || !y)
-		return MR_EMEM;
 	for (size_t i = 0; i < size; i++)
 		x[i] = f->u[i];
 	for (size_t step = 1; step <= k; step++) {
@@ -283,7 +266,6 @@ find_residual_long(mr_ctx *ctx, const mr_deform_system *s, mr_field *f)
 		for (size_t i = 0; i < n; i++)
 			f->r[c * n + i] = (double)-x[i * f->width + c];
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static double
@@ -318,7 +300,7 @@ refine(mr_ctx *ctx, mr_deform_system *s, mr_field *f)
 
 	for (s->refinements = 0; s->refinements < MOST && last > enough * size; s->refinements++) {
 		double correction;
-		MR_TRY(find_residual_long(ctx, s, f));
+		find_residual_long(ctx, s, f);
 		MR_TRY(mr_solver_solve(ctx, s->solver, f->r, f->width));
 		correction = norm_of(f->r, n);
 		if (!(correction < 0.5 * last))
@@ -375,9 +357,9 @@ mr_system_make(mr_ctx *ctx, const mr_mesh *rest, const mr_patch *patch, const mr
     double started, mr_deform_system *s)
 {
 	*s = (mr_deform_system){ .opts = *opts, .patch = *patch };
-	MR_TRY(make_workspace(ctx, s));
+	make_workspace(ctx, s);
 	MR_TRY(mr_laplace_build(ctx, &s->patch.mesh, &s->l));
-	MR_TRY(weigh(ctx, s));
+	weigh(ctx, s);
 	if (s->patch.end[0] == 0)
 		return MR_OK;
 	s->negative = share_negative(&s->l, s->patch.end[0]);

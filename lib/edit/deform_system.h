@@ -43,10 +43,8 @@ typedef struct mr_deform_system {
 mr_status mr_system_make(mr_ctx *ctx, const mr_mesh *rest, const mr_patch *patch, const mr_deform_opts *opts,
     double started, mr_deform_system *s);
 
-/* The system of order 1 on the same patch.  m: to be freed; borrows s's. */
+/* The system of order 1 on the same patch.  m borrows s's. */
 mr_status mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m);
-
-void mr_system_free(mr_deform_system *s);
 
 /* The workspace as a field of this width, all 0. */
 mr_field mr_system_field(const mr_deform_system *s, size_t width);

@@ -19,7 +19,7 @@ open_sides(const mr_mesh *m, const mr_edges *edges, size_t e)
 
 /* A face back from each side of an edge where the patch ends, to a vertex of the same loop of them, which has
  * to go as one constraint goes. */
-mr_status
+void
 mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_inside *v)
 {
 	mr_mesh own = patch->mesh;
@@ -27,11 +27,9 @@ mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_in
 	mr_edges edges;
 
 	own.nf = patch->own; /* without the triangles between parts that touch */
-	MR_TRY(mr_edges_build(ctx, &own, &edges));
+	mr_edges_build(ctx, &own, &edges);
 	v->t = MR_NEW(ctx, 4 * own.nf, mr_tri); /* no edge has more open sides than faces */
 	v->nf = own.nf;
-	if (!v->t || !loop)
-		return MR_EMEM;
 	memcpy(v->t, own.t, own.nf * sizeof *v->t);
 	for (size_t e = 0; e < edges.count; e++) {
 		uint32_t h = edges.he[edges.start[e]], a = mr_he_from(&own, h), b = mr_he_to(&own, h);
@@ -39,7 +37,7 @@ mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_in
 		int sides = open_sides(&own, &edges, e);
 		if (sides != 0 && (r == MR_REGION_FREE || r != region[patch->vertex[b]])) {
 			v->t = NULL;
-			return MR_OK;
+			return;
 		}
 		if (sides != 0)
 			mr_sets_join(loop, a, b);
@@ -50,7 +48,6 @@ mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_in
 			v->t[v->nf++] = (mr_tri){ { mr_sets_root(loop, a), side > 0 ? b : a,
 			    side > 0 ? a : b } };
 	}
-	return MR_OK;
 }
 
 typedef struct solid {
@@ -108,8 +105,6 @@ mr_inside_keep(mr_ctx *ctx, mr_deform_system *s, const mr_inside *v, double leas
 	mr_field f = mr_system_field(s, 3);
 	size_t n = s->patch.end[0];
 
-	if (!g)
-		return MR_EMEM;
 	differentiate(v, &s->patch, p, g);
 	f.source = g;
 	MR_TRY(mr_system_solve(ctx, s, &f));

@@ -16,13 +16,13 @@ typedef struct mr_inside {
 } mr_inside;
 
 /* region: of each vertex of the mesh. */
-mr_status mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_inside *v);
+void mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_inside *v);
 
 /* Where the mesh has its vertices at p. */
 double mr_inside_volume(const mr_ctx *ctx, const mr_inside *v, const mr_patch *patch, const mr_v3 *p);
 
 /* Moves the free vertices by as much pressure as makes the volume `least`. */
-mr_status mr_inside_keep(
-    mr_ctx *ctx, mr_deform_system *s, const mr_inside *v, double least, mr_v3 *p) MR_WARN_UNUSED;
+mr_status
+mr_inside_keep(mr_ctx *ctx, mr_deform_system *s, const mr_inside *v, double least, mr_v3 *p) MR_WARN_UNUSED;
 
 #endif

@@ -165,7 +165,7 @@ all_corners_are_thicker(const encoder *e, const mr_foot *foot)
  * face: rays need be no longer than that.  For the few that this leaves they are longer by the face's longest
  * side: where one corner is thicker than that, all are thicker than the height.
  */
-static mr_status
+static void
 find_sound(mr_ctx *ctx, const encoder *e, const mr_sounding *base)
 {
 	const double enough = 1.001;
@@ -176,23 +176,22 @@ find_sound(mr_ctx *ctx, const encoder *e, const mr_sounding *base)
 	for (size_t i = 0; i < e->mesh->nv; i++)
 		if (e->foot[i].at.face != MR_NONE)
 			ask(e, &e->foot[i], enough * fabs(e->foot[i].height) + least);
-	MR_TRY(mr_thickness(ctx, base, e->thickness));
+	mr_thickness(ctx, base, e->thickness);
 	for (size_t i = 0; i < e->mesh->nv; i++) {
 		e->sound[i] = e->foot[i].at.face != MR_NONE && all_corners_are_thicker(e, &e->foot[i]);
 		left += e->foot[i].at.face != MR_NONE && !e->sound[i];
 	}
 	if (left == 0)
-		return MR_OK;
+		return;
 	memset(e->thickness, 0, base->m->nv * sizeof *e->thickness);
 	for (size_t i = 0; i < e->mesh->nv; i++)
 		if (e->foot[i].at.face != MR_NONE && !e->sound[i])
 			ask(e, &e->foot[i],
 			    enough * (fabs(e->foot[i].height) + longest_side(base->m, e->foot[i].at.face)));
-	MR_TRY(mr_thickness(ctx, base, e->thickness));
+	mr_thickness(ctx, base, e->thickness);
 	for (size_t i = 0; i < e->mesh->nv; i++)
 		if (e->foot[i].at.face != MR_NONE && !e->sound[i])
 			e->sound[i] = fabs(e->foot[i].height) < thickness_at(e, e->foot[i].at);
-	return MR_OK;
 }
 
 static void
@@ -267,8 +266,6 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	e.sound = MR_NEW(ctx, n, bool);
 	e.thickness = MR_NEW(ctx, base->nv, double);
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
-	if (!e.face || !e.bary || !e.offset || !e.height || !e.foot || !e.sound || !e.thickness || !e.tally)
-		return MR_EMEM;
 	MR_TRY(mr_sounding_build(ctx, base, &body));
 	e.ground = (mr_ground){ { base, body.normal }, body.inc, mr_mesh_tolerance(mesh, 1e-14) };
 	e.bvh = body.bvh;
@@ -277,7 +274,7 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	else
 		memset(e.face, 0xff, n * sizeof *e.face);
 	mr_parallel(ctx, n, GRAIN, find_feet, &e);
-	MR_TRY(find_sound(ctx, &e, &body));
+	find_sound(ctx, &e, &body);
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
 	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL, base->p,
 		NULL };
@@ -395,12 +392,10 @@ turn_frames(mr_ctx *ctx, const mr_mesh *rest, const mr_incidence *inc, mr_v3 *no
 	j->rest = (mr_phong){ rest, j->d->rest_normal };
 	if (!j->rest.normal) {
 		made = MR_NEW(ctx, rest->nv, mr_v3);
-		if (!made)
-			return MR_EMEM;
 		MR_TRY(mr_vertex_normals(ctx, rest, inc, made));
 		j->rest.normal = made;
 	}
-	MR_TRY(mr_turns(ctx, rest, j->surface.m, inc, &j->turn));
+	mr_turns(ctx, rest, j->surface.m, inc, &j->turn);
 	mr_parallel(ctx, rest->nv, 4096, turn_normals, &(turner){ j->turn, j->rest.normal, normal });
 	return MR_OK;
 }
@@ -414,8 +409,6 @@ mr_decode(
 	decoder j = { .surface = { base, normal }, .d = d, .gain = gain, .p = p };
 	mr_mesh rest = *base;
 
-	if (!normal)
-		return MR_EMEM;
 	rest.p = d->rest;
 	MR_TRY(
 	    d->rest ? turn_frames(ctx, &rest, inc, normal, &j) : mr_vertex_normals(ctx, base, inc, normal));
@@ -516,8 +509,6 @@ mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 {
 	uint32_t *print = MR_NEW(ctx, 2, uint32_t);
 
-	if (!print)
-		return MR_EMEM;
 	print_faces(base, print);
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->at.face, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->at.bary, d->n));

@@ -144,8 +144,6 @@ mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region, mr_handle
 		return mr_fail(ctx, MR_EMISSING, "no vertex of %s is in a handle", m->name);
 	r.count = MR_NEW_ZERO(ctx, r.n, size_t);
 	r.centroid = MR_NEW_ZERO(ctx, r.n, mr_v3);
-	if (!r.count || !r.centroid)
-		return MR_EMEM;
 	for (size_t v = 0; v < m->nv; v++)
 		if (region[v] >= MR_REGION_HANDLE) {
 			size_t i = region[v] - MR_REGION_HANDLE;
@@ -200,8 +198,6 @@ mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *row)
 
 	r.map = MR_NEW(ctx, r.n, mr_affine);
 	r.turn = MR_NEW_ZERO(ctx, r.n, mr_v3);
-	if (!r.map || !r.turn)
-		return MR_EMEM;
 	if (there)
 		MR_TRY(read_rows(ctx, f, "transform", 12, (double *)r.map, there));
 	if (there && mr_layer_has(f, "handles", "turn"))
@@ -229,7 +225,6 @@ no_such_handle(mr_ctx *ctx, const mr_handles *h, size_t handle)
 			mr_text_name(&used, &n, number);
 		}
 	mr_text_more(&used, n);
-	MR_TRY(mr_text_done(&used));
 	return mr_fail(
 	    ctx, MR_EMISSING, "no vertex is in handle %zu; handles in use: %s", handle, n ? used.s : "none");
 }
@@ -296,8 +291,7 @@ mr_handles_check_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t 
 	size_t *count;
 
 	MR_TRY(mr_handles_rows(ctx, f, 1, &row));
-	if (!(count = MR_NEW_ZERO(ctx, row.n, size_t)))
-		return MR_EMEM;
+	count = MR_NEW_ZERO(ctx, row.n, size_t);
 	for (size_t v = 0; v < m->nv; v++)
 		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE < row.n)
 			count[region[v] - MR_REGION_HANDLE]++;
@@ -306,7 +300,7 @@ mr_handles_check_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t 
 			mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
 					  .layer = m->name,
 					  .what = "a handle turns or scales, but has too few vertices to "
-			                          "hold that: select more" });
+						  "hold that: select more" });
 	return MR_OK;
 }
 
@@ -328,7 +322,7 @@ mr_handles_reselected(mr_ctx *ctx, mr_frame *f, const uint32_t *before, const ui
 		mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
 				  .count = others,
 				  .what = "posed handles have other vertices than their poses were set for: "
-		                          "mr-pose goes behind mr-select" });
+					  "mr-pose goes behind mr-select" });
 	return MR_OK;
 }
 
@@ -388,8 +382,6 @@ mr_script_read(mr_ctx *ctx, const char *path, mr_script *script)
 
 	MR_TRY(mr_lines_read(ctx, path, &line, &n));
 	r.line = MR_NEW(ctx, n, script_line);
-	if (!r.line)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		if (!strcmp(line[i], "frame")) {
 			r.frames++;

@@ -61,7 +61,7 @@ count_faces(const mr_mesh *m, const uint8_t *level, size_t rings)
 	return n;
 }
 
-mr_status
+void
 mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch)
 {
 	mr_patch r = { .mesh = { .name = m->name }, .vertex = MR_NEW(ctx, m->nv, uint32_t) };
@@ -70,14 +70,10 @@ mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, si
 	mr_v3 *p;
 	mr_tri *t;
 
-	if (!r.vertex || !level || !local)
-		return MR_EMEM;
 	mr_patch_levels(m, chosen, (uint8_t)rings, level);
 	number_vertices(m, level, rings, &r, local);
 	p = MR_NEW(ctx, r.end[rings], mr_v3);
 	t = MR_NEW(ctx, count_faces(m, level, rings), mr_tri);
-	if (!p || !t)
-		return MR_EMEM;
 	for (size_t i = 0; i < r.end[rings]; i++)
 		p[i] = m->p[r.vertex[i]];
 	for (size_t f = 0; f < m->nf; f++)
@@ -90,5 +86,4 @@ mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, si
 	r.mesh.p = p;
 	r.mesh.t = t;
 	*patch = r;
-	return MR_OK;
 }

@@ -29,7 +29,7 @@ void mr_patch_levels(const mr_mesh *m, const bool *chosen, uint8_t most, uint8_t
 
 /* The chosen vertices of m, of whose faces the first `own` count as such, and `rings` rings, 1 to
  * MR_PATCH_RINGS. */
-mr_status
+void
 mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch);
 
 #endif

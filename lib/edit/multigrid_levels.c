@@ -19,19 +19,16 @@ typedef struct stage {
 /* The next mesh */
 
 /* A vertex of the coarser mesh is an unknown where the corner nearest its place on the finer one is. */
-static mr_status
+static void
 number_coarse(mr_ctx *ctx, const stage *fine, const mr_places *map, stage *coarse)
 {
 	coarse->number = MR_NEW(ctx, coarse->m.nv, uint32_t);
-	if (!coarse->number)
-		return MR_EMEM;
 	coarse->n = 0;
 	for (size_t v = 0; v < coarse->m.nv; v++) {
 		const uint32_t *corner = fine->m.t[map->face[v]].v;
 		bool unknown = fine->number[corner[mr_largest(map->bary[v])]] != MR_NONE;
 		coarse->number[v] = unknown ? (uint32_t)coarse->n++ : MR_NONE;
 	}
-	return MR_OK;
 }
 
 /* Edges twice as long, of even triangles; areas matter little here. */
@@ -44,7 +41,8 @@ remesh_stage(mr_ctx *ctx, const stage *fine, stage *coarse, mr_places *map)
 	o.rounds = 3;
 	o.area_passes = 0;
 	MR_TRY(mr_remesh(ctx, &fine->m, &o, &coarse->m, map, NULL));
-	return number_coarse(ctx, fine, map, coarse);
+	number_coarse(ctx, fine, map, coarse);
+	return MR_OK;
 }
 
 /* Places of the finer vertices */
@@ -90,8 +88,6 @@ place_vertices(mr_ctx *ctx, const mr_places *map, walk *w)
 	w->face = MR_NEW(ctx, nv, uint32_t);
 	w->bary = MR_NEW_ZERO(ctx, nv, mr_v3);
 	w->queue = MR_NEW(ctx, nv, uint32_t);
-	if (!w->face || !w->bary || !w->queue)
-		return MR_EMEM;
 	MR_TRY(mr_topology_build(ctx, &w->coarse->m, &w->topo));
 	MR_TRY(mr_adjacency_build(ctx, &w->fine->m, &w->near));
 	seed(w, map);
@@ -141,8 +137,6 @@ prolong(mr_ctx *ctx, const walk *w, mr_sparse *p)
 		MR_NEW(ctx, 3 * n, double) };
 	uint32_t *vertex = MR_NEW(ctx, n, uint32_t);
 
-	if (!r.start || !r.index || !r.value || !vertex)
-		return MR_EMEM;
 	for (size_t v = 0; v < w->fine->m.nv; v++)
 		if (w->fine->number[v] != MR_NONE)
 			vertex[w->fine->number[v]] = (uint32_t)v;
@@ -162,8 +156,6 @@ mr_hierarchy_build(
 	stage fine = { *m, MR_NEW(ctx, m->nv, uint32_t), n };
 	size_t made = 0;
 
-	if (!levels || !fine.number)
-		return MR_EMEM;
 	memcpy(fine.number, number, m->nv * sizeof *number);
 	while (made < LEVELS_MAX && fine.n > COARSEST) {
 		stage coarse;

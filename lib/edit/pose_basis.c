@@ -39,21 +39,18 @@ respond(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
+void
 mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
     const mr_affine *t, mr_v3 *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_affine *change = MR_NEW(ctx, handles, mr_affine), identity = mr_identity();
 
-	if (!change)
-		return MR_EMEM;
 	for (size_t h = 0; h < handles; h++)
 		for (int i = 0; i < 12; i++)
 			change[h].m[i] = t[h].m[i] - identity.m[i];
 	mr_parallel(ctx, n, 4096, respond, &(response_job){ p0, response, handles, change, out });
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* By how many degrees handles a and b turn against each other; b = row->n: what is fixed. */
@@ -109,11 +106,9 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
 		return mr_fail(ctx, MR_ERANGE,
 		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
 		    column->shape.components, row.n);
-	if (!p)
-		return MR_EMEM;
 	for (size_t v = 0; v < m->nv; v++)
 		*degrees = fmax(*degrees, turn_across(&row, (const double *)response + 4 * row.n * v));
-	MR_TRY(mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p));
+	mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p);
 	mr_handles_drop(f);
 	MR_TRY(mr_detail_keep_before(ctx, f, m));
 	MR_TRY(mr_layer_move(ctx, f, m->name, MR_POSED, p, m->nv));

@@ -11,7 +11,7 @@
  * mr_deform_solve with the same maps where that is linear.  The identity gives p0 bit for bit.  response: n
  * rows of 4 handles values.  out: n, the caller's, may be p0.
  */
-mr_status mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
+void mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
     const mr_affine *t, mr_v3 *out);
 
 /*

@@ -60,8 +60,6 @@ check_handles(
 		if (region[v] >= FIRST && region[v] - FIRST >= handles)
 			handles = region[v] - FIRST + 1;
 	reached = MR_NEW_ZERO(ctx, handles, bool);
-	if (!reached)
-		return MR_EMEM;
 	for (size_t v = 0; v < base->nv; v++)
 		if (out[v] >= FIRST)
 			reached[out[v] - FIRST] = true;
@@ -71,7 +69,7 @@ check_handles(
 			    region[v] - FIRST,
 			    any_face_has(mesh, region, region[v])
 				? "it is smaller than a triangle, or farther from it than from others; "
-			          "select more, or remesh finer"
+				  "select more, or remesh finer"
 				: "none of its vertices has a face");
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -87,7 +85,7 @@ transfer_regions(mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const
 
 	if (!map) {
 		mr_note(ctx, "%s has no source map: regions are those of the closest points", base->name);
-		MR_TRY(mr_bvh_build(ctx, mesh, &bvh));
+		mr_bvh_build(ctx, mesh, &bvh);
 		j.bvh = bvh;
 	}
 	mr_parallel(ctx, base->nv, 1024, transfer, &j);
@@ -130,8 +128,6 @@ mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **
 	if (mapped)
 		MR_TRY(mr_source_map_get(ctx, f, &mesh, base->nv, &map));
 	r = MR_NEW(ctx, base->nv, uint32_t);
-	if (!r)
-		return MR_EMEM;
 	*region = r;
 	return transfer_regions(ctx, &mesh, on_mesh, mapped ? &map : NULL, base, r);
 }

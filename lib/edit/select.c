@@ -82,13 +82,9 @@ parse_rule(mr_ctx *ctx, const char *text, rule *r)
 	for (size_t i = 0; text[i]; i++)
 		terms += text[i] == '+';
 	r->term = MR_NEW(ctx, terms, mr_select_term);
-	if (!r->term)
-		return MR_EMEM;
 	for (;;) {
 		size_t n = term_length(text);
 		char *word = mr_format(ctx, "%.*s", (int)n, text);
-		if (!word)
-			return MR_EMEM;
 		MR_TRY(parse_term(ctx, word, &r->term[r->terms++]));
 		if (!text[n])
 			return MR_OK;
@@ -102,7 +98,7 @@ mr_selection_add(mr_ctx *ctx, mr_selection *s, uint32_t region, const char *opti
 	rule r = { .region = region, .option = option, .text = text };
 
 	MR_TRY(parse_rule(ctx, text, &r));
-	MR_TRY(MR_RESERVE(ctx, s->rule, s->n, 1, &s->room));
+	MR_RESERVE(ctx, s->rule, s->n, 1, &s->room);
 	s->rule[s->n++] = r;
 	return MR_OK;
 }
@@ -112,10 +108,8 @@ mr_selection_add_file(mr_ctx *ctx, mr_selection *s, const char *option, const ch
 {
 	rule r = { .option = option, .text = path, .file = MR_NEW(ctx, 1, mr_selection_file) };
 
-	if (!r.file)
-		return MR_EMEM;
 	MR_TRY(mr_selection_file_read(ctx, path, r.file));
-	MR_TRY(MR_RESERVE(ctx, s->rule, s->n, 1, &s->room));
+	MR_RESERVE(ctx, s->rule, s->n, 1, &s->room);
 	s->rule[s->n++] = r;
 	return MR_OK;
 }
@@ -173,7 +167,7 @@ apply_rule(
 }
 
 /* Counts the regions. */
-static mr_status
+static void
 report(mr_ctx *ctx, const uint32_t *region, size_t nv, mr_select_result *result)
 {
 	mr_select_result r = { 0 };
@@ -183,8 +177,6 @@ report(mr_ctx *ctx, const uint32_t *region, size_t nv, mr_select_result *result)
 		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE >= r.handle_count)
 			r.handle_count = region[v] - MR_REGION_HANDLE + 1;
 	handle = MR_NEW_ZERO(ctx, r.handle_count, size_t);
-	if (!handle)
-		return MR_EMEM;
 	for (size_t v = 0; v < nv; v++) {
 		r.fixed += region[v] == MR_REGION_FIXED;
 		r.free += region[v] == MR_REGION_FREE;
@@ -196,7 +188,6 @@ report(mr_ctx *ctx, const uint32_t *region, size_t nv, mr_select_result *result)
 	mr_note(ctx, "%zu fixed, %zu free, %zu in handles", r.fixed, r.free, r.handles);
 	if (result)
 		*result = r;
-	return MR_OK;
 }
 
 mr_status
@@ -208,12 +199,11 @@ mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups, c
 	mr_incidence inc;
 	mr_select_scene sc = { f, m, groups, &inc, mr_mesh_box(m), selected, 0 };
 
-	if (!one || !in || !selected)
-		return MR_EMEM;
 	memcpy(selected, region, m->nv * sizeof *region);
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	for (size_t i = 0; i < s->n; i++)
 		MR_TRY(apply_rule(ctx, &sc, &s->rule[i], s->may_miss, one, in, selected));
 	memcpy(region, selected, m->nv * sizeof *region);
-	return report(ctx, region, m->nv, result);
+	report(ctx, region, m->nv, result);
+	return MR_OK;
 }

@@ -87,8 +87,6 @@ parse_list(mr_ctx *ctx, const char *text, mr_select_term *t)
 	MR_TRY(parse_name(ctx, text, t));
 	MR_TRY(mr_lines_read(ctx, text, &line, &n));
 	t->list = MR_NEW(ctx, n, uint32_t);
-	if (!t->list)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		const char *at = line[i];
 		uint64_t v;
@@ -136,7 +134,7 @@ parse_column(mr_ctx *ctx, const char *text, mr_select_term *t)
 	if (t->x[0] > t->x[1])
 		return mr_fail(ctx, MR_EUSAGE, "the bound %g is above %g", t->x[0], t->x[1]);
 	t->name = mr_format(ctx, "%.*s", (int)(low - text), text);
-	return t->name ? MR_OK : MR_EMEM;
+	return MR_OK;
 }
 
 /* Evaluating */
@@ -226,8 +224,6 @@ eval_geodesic(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bo
 	mr_mark mark = mr_mark_take(ctx);
 	double r = length_of(s, t), *distance = MR_NEW(ctx, s->m->nv, double);
 
-	if (!distance)
-		return MR_EMEM;
 	MR_TRY(mr_geodesic_distances(ctx, s->m, point_of(t), r, distance));
 	for (size_t v = 0; v < s->m->nv; v++)
 		in[v] = distance[v] <= r;
@@ -237,7 +233,7 @@ eval_geodesic(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bo
 
 /* Adds the neighbours of what is in, ring by ring, as far as `rings` and while `may` (or all, if NULL)
  * allows. */
-static mr_status
+static void
 add_rings(mr_ctx *ctx, const mr_select_scene *s, size_t rings, const uint32_t *region, bool *in)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -245,8 +241,6 @@ add_rings(mr_ctx *ctx, const mr_select_scene *s, size_t rings, const uint32_t *r
 	uint32_t into = s->target == MR_REGION_FIXED ? MR_REGION_FREE : MR_REGION_FIXED;
 	size_t n = 0, next = 0;
 
-	if (!queue)
-		return MR_EMEM;
 	for (uint32_t v = 0; v < s->m->nv; v++)
 		if (in[v])
 			queue[n++] = v;
@@ -261,7 +255,6 @@ add_rings(mr_ctx *ctx, const mr_select_scene *s, size_t rings, const uint32_t *r
 					queue[n++] = w;
 				}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static mr_status
@@ -270,7 +263,8 @@ eval_rings(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool 
 	if (t->vertex >= s->m->nv)
 		return mr_fail(ctx, MR_ERANGE, "vertex %u, %s has %zu", t->vertex, s->m->name, s->m->nv);
 	in[t->vertex] = true;
-	return add_rings(ctx, s, t->count, NULL, in);
+	add_rings(ctx, s, t->count, NULL, in);
+	return MR_OK;
 }
 
 /* The part of vertex v. */
@@ -311,9 +305,7 @@ eval_spaced(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool
 	uint32_t *onto = MR_NEW(ctx, s->m->nv, uint32_t), taken = 0;
 	size_t count;
 
-	if (!onto)
-		return MR_EMEM;
-	MR_TRY(mr_weld(ctx, s->m->p, s->m->nv, distance, onto, &count));
+	mr_weld(ctx, s->m->p, s->m->nv, distance, onto, &count);
 	for (size_t v = 0; v < s->m->nv; v++)
 		if (onto[v] == taken) {
 			in[v] = true;
@@ -444,7 +436,8 @@ eval_grow(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *
 {
 	for (size_t v = 0; v < s->m->nv; v++)
 		in[v] = s->region[v] == s->target;
-	return add_rings(ctx, s, t->count, s->region, in);
+	add_rings(ctx, s, t->count, s->region, in);
+	return MR_OK;
 }
 
 static mr_status

@@ -84,7 +84,7 @@ parse_line(mr_ctx *ctx, const char *line, size_t number, mr_selection_file *file
 			    file->path, number, word, (unsigned long long)file->nv);
 		r.first = (uint32_t)first;
 		r.last = (uint32_t)last;
-		MR_TRY(MR_RESERVE(ctx, file->range, file->n, 1, room));
+		MR_RESERVE(ctx, file->range, file->n, 1, room);
 		file->range[file->n++] = r;
 	}
 	return MR_OK;
@@ -131,8 +131,6 @@ mr_selection_file_apply(
 
 	MR_TRY(check_model(ctx, file, m));
 	given = MR_NEW_ZERO(ctx, m->nv, bool);
-	if (!given)
-		return MR_EMEM;
 	*selected = 0;
 	for (size_t i = 0; i < file->n; i++)
 		for (size_t v = file->range[i].first; v <= file->range[i].last; v++) {

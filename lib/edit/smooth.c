@@ -29,7 +29,7 @@ typedef struct smoothing {
 } smoothing;
 
 /* The mean edge length and the boundary. */
-static mr_status
+static void
 study_edges(mr_ctx *ctx, smoothing *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -37,7 +37,7 @@ study_edges(mr_ctx *ctx, smoothing *s)
 	double sum = 0, mean;
 	mr_edges edges;
 
-	MR_TRY(mr_edges_build(ctx, m, &edges));
+	mr_edges_build(ctx, m, &edges);
 	for (size_t e = 0; e < edges.count; e++) {
 		uint32_t h = edges.he[edges.start[e]], a = mr_he_from(m, h), b = mr_he_to(m, h);
 		sum += mr_dist(m->p[a], m->p[b]);
@@ -49,7 +49,6 @@ study_edges(mr_ctx *ctx, smoothing *s)
 	s->edge2 = mean * mean;
 	s->found.mean_edge = mean;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Vertices without weights have nowhere to go: isolated ones, and those whose faces are all single points. */
@@ -91,7 +90,7 @@ choose_times(mr_ctx *ctx, smoothing *s, bool plain)
 		mr_mark mark = mr_mark_take(ctx);
 		mr_sounding body;
 		MR_TRY(mr_sounding_build(ctx, s->m, &body));
-		MR_TRY(mr_thickness(ctx, &body, s->time));
+		mr_thickness(ctx, &body, s->time);
 		mr_mark_release(ctx, mark);
 	}
 	for (size_t v = 0; v < s->m->nv; v++) {
@@ -108,12 +107,10 @@ study(mr_ctx *ctx, smoothing *s, bool plain)
 	s->area = MR_NEW(ctx, s->m->nv, double);
 	s->time = MR_NEW(ctx, s->m->nv, double);
 	s->stays = MR_NEW_ZERO(ctx, s->m->nv, bool);
-	if (!s->area || !s->time || !s->stays)
-		return MR_EMEM;
-	MR_TRY(study_edges(ctx, s));
+	study_edges(ctx, s);
 	MR_TRY(choose_times(ctx, s, plain));
 	MR_TRY(mr_laplace_build(ctx, s->m, &s->l));
-	MR_TRY(mr_voronoi_areas(ctx, s->m, s->area));
+	mr_voronoi_areas(ctx, s->m, s->area);
 	study_vertices(s);
 	return MR_OK;
 }
@@ -136,8 +133,6 @@ set_up(mr_ctx *ctx, smoothing *s, implicit_system *y)
 	*y = (implicit_system){
 		.mass = MR_NEW_ZERO(ctx, n, double), .z = MR_NEW(ctx, n, mr_v3), .r = MR_NEW(ctx, n, mr_v3)
 	};
-	if (!y->mass || !y->z || !y->r)
-		return MR_EMEM;
 	for (size_t v = 0; v < n; v++) {
 		double *diagonal = &s->l.value[mr_sparse_find(&s->l, (int)v, (int)v)];
 		if (s->stays[v]) {
@@ -258,8 +253,6 @@ taubin(mr_ctx *ctx, const smoothing *s, mr_v3 *p)
 	mr_v3 *lp = MR_NEW(ctx, n, mr_v3);
 	double *pace[] = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) };
 
-	if (!lp || !pace[0] || !pace[1])
-		return MR_EMEM;
 	paces(s, pace[0], pace[1]);
 	for (size_t i = 0; i < 2 * s->found.passes; i++) {
 		mr_progress(ctx, "smoothing", (double)i / (double)(2 * s->found.passes));
@@ -295,7 +288,7 @@ typedef struct part {
 
 /* How many of the parts of m have little of their area left, which their sum does not tell, and how many are
  * a single face. */
-static mr_status
+static void
 count_parts(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunken, size_t *single)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -304,10 +297,8 @@ count_parts(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunke
 	bool several;
 
 	*shrunken = *single = 0;
-	MR_TRY(mr_components_label(ctx, m, &of, &several));
+	mr_components_label(ctx, m, &of, &several);
 	parts = MR_NEW_ZERO(ctx, m->nv, part);
-	if (!parts)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		part *p = &parts[of[m->t[f].v[0]]];
 		p->rest += mr_norm(mr_face_cross(after, f)) - LITTLE * mr_norm(mr_face_cross(m, f));
@@ -318,11 +309,10 @@ count_parts(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunke
 		*single += parts[v].faces == 1;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* What is left of area and volume. */
-static mr_status
+static void
 measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 {
 	mr_mesh after = *s->m;
@@ -331,7 +321,7 @@ measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 	after.p = p;
 	s->found.area = mr_mesh_area(ctx, &after) / mr_mesh_area(ctx, s->m);
 	s->found.volume = mr_mesh_volume(ctx, &after) / s->found.volume;
-	MR_TRY(count_parts(ctx, s->m, &after, &shrunken, &single));
+	count_parts(ctx, s->m, &after, &shrunken, &single);
 	if (s->found.area < LITTLE || shrunken)
 		mr_found(ctx, &(mr_finding){ .kind = s->found.area < LITTLE ? MR_SHRUNK : MR_GONE,
 				  .layer = "base",
@@ -342,7 +332,6 @@ measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 		    ctx, &(mr_finding){ .kind = MR_LIMIT,
 			     .layer = s->m->name,
 			     .what = "most faces are alone and stay: mr-import --weld joins their corners" });
-	return MR_OK;
 }
 
 mr_status
@@ -356,7 +345,7 @@ mr_smooth(mr_ctx *ctx, const mr_mesh *m, const mr_smooth_opts *opts, mr_v3 *out,
 	MR_TRY(study(ctx, &s, opts->plain));
 	if (opts->time > 0 && s.edge2 > 0)
 		MR_TRY(opts->method == MR_SMOOTH_IMPLICIT ? implicit(ctx, &s, out) : taubin(ctx, &s, out));
-	MR_TRY(measure_rest(ctx, &s, out));
+	measure_rest(ctx, &s, out);
 	if (result)
 		*result = s.found;
 	mr_mark_release(ctx, mark);

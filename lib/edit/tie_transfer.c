@@ -50,7 +50,7 @@ list_candidates(const mr_mesh *mesh, const mr_contacts *c, const mr_mesh *base, 
 	return n;
 }
 
-static mr_status
+static void
 find_ties(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_detail *d, mr_ties *ties)
 {
 	const double touch = 0.001; /* of the diagonal */
@@ -60,24 +60,19 @@ find_ties(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_detail
 	size_t n, kept = 0;
 	bool several;
 
-	MR_TRY(mr_components_label(ctx, base, &component, &several));
+	mr_components_label(ctx, base, &component, &several);
 	if (!several)
-		return MR_OK;
-	MR_TRY(mr_contacts_find(ctx, mesh, touch * mr_mesh_diagonal(mesh), &contacts));
+		return;
+	mr_contacts_find(ctx, mesh, touch * mr_mesh_diagonal(mesh), &contacts);
 	c = MR_NEW(ctx, contacts.start[mesh->nv], candidate);
-	if (!c)
-		return MR_EMEM;
 	n = list_candidates(mesh, &contacts, base, d, component, c);
 	qsort(c, n, sizeof *c, by_order);
 	ties->tie = MR_NEW(ctx, n, mr_tie);
-	if (!ties->tie)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		if (i == 0 || c[i].vertex != c[i - 1].vertex || c[i].component != c[i - 1].component)
 			ties->tie[kept++] = (mr_tie){ c[i].vertex, c[i].face };
 	ties->n = kept;
 	ties->known = true;
-	return MR_OK;
 }
 
 mr_status
@@ -93,7 +88,7 @@ mr_transfer_ties(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_ties *ties)
 		return MR_OK;
 	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
 	MR_TRY(mr_detail_get(ctx, f, base, &detail));
-	MR_TRY(find_ties(ctx, &mesh, base, &detail, &found));
+	find_ties(ctx, &mesh, base, &detail, &found);
 	*ties = found;
 	return MR_OK;
 }

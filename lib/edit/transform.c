@@ -21,12 +21,11 @@ typedef struct mr_transform_step {
 	mr_affine map;
 } step;
 
-static mr_status
+static void
 add_step(mr_ctx *ctx, mr_transform *t, step_kind kind, const mr_affine *map)
 {
-	MR_TRY(MR_RESERVE(ctx, t->step, t->n, 1, &t->room));
+	MR_RESERVE(ctx, t->step, t->n, 1, &t->room);
 	t->step[t->n++] = (step){ kind, *map };
-	return MR_OK;
 }
 
 /* "-y": the axis, and its sign; false where it is none. */
@@ -140,10 +139,14 @@ mr_transform_add(mr_ctx *ctx, mr_transform *t, const char *what, const char *tex
 	mr_pose pose = MR_POSE_REST;
 	mr_affine map = mr_identity();
 
-	if (!strcmp(what, "center"))
-		return add_step(ctx, t, CENTER, &map);
-	if (!strcmp(what, "unit"))
-		return add_step(ctx, t, UNIT, &map);
+	if (!strcmp(what, "center")) {
+		add_step(ctx, t, CENTER, &map);
+		return MR_OK;
+	}
+	if (!strcmp(what, "unit")) {
+		add_step(ctx, t, UNIT, &map);
+		return MR_OK;
+	}
 	if (!strcmp(what, "up")) {
 		MR_TRY(parse_up(ctx, text, &map));
 	} else if (!strcmp(what, "matrix")) {
@@ -154,7 +157,8 @@ mr_transform_add(mr_ctx *ctx, mr_transform *t, const char *what, const char *tex
 			return mr_fail(ctx, MR_EUSAGE, "a scale of 0 leaves nothing: %s", text);
 		map = mr_pose_map(&pose, mr_vec(0, 0, 0), 1);
 	}
-	return add_step(ctx, t, MAP, &map);
+	add_step(ctx, t, MAP, &map);
+	return MR_OK;
 }
 
 /* ---- boxes ---- */
@@ -283,8 +287,6 @@ copy_rows(mr_ctx *ctx, mr_column *column, void *copy)
 	size_t width = mr_type_size(column->shape.type) * column->shape.components;
 	void *x = mr_alloc(ctx, (size_t)column->rows, width);
 
-	if (!x)
-		return MR_EMEM;
 	MR_TRY(mr_column_decode(ctx, column));
 	memcpy(x, column->data, (size_t)column->rows * width);
 	*(void **)copy = x;
@@ -468,11 +470,10 @@ warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr
 	old = mr_box_grain(before) / longest_side(before);
 	off = ldexp(mr_box_grain(after), -c->exponent) / longest_side(turned);
 	if (off > share && off > 4 * old && !isnan(old))
-		mr_found(ctx,
-		    &(mr_finding){ .kind = MR_ROUNDED,
-			.layer = column->layer,
-			.what = "positions, by doubles so far from the origin, are",
-			.count = 1 });
+		mr_found(ctx, &(mr_finding){ .kind = MR_ROUNDED,
+				  .layer = column->layer,
+				  .what = "positions, by doubles so far from the origin, are",
+				  .count = 1 });
 }
 
 static mr_status
@@ -559,7 +560,7 @@ check_poses(mr_ctx *ctx, mr_frame *f, const char *layer)
 }
 
 /* A layer that goes alone is no more where the others have it. */
-static mr_status
+static void
 cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
 {
 	size_t before = f->count;
@@ -569,9 +570,8 @@ cut_loose(mr_ctx *ctx, mr_frame *f, const char *layer)
 		if ((c->refers || !strcmp(c->name, "encoded")) && (!c->layer || !strcmp(c->layer, layer)))
 			mr_frame_drop(f, layer, c->name, 0);
 	if (f->count < before)
-		mr_found(ctx,
-		    &(mr_finding){ .kind = MR_STALE, .layer = layer, .what = "what tied it to other layers" });
-	return MR_OK;
+		mr_found(ctx, &(mr_finding){
+				  .kind = MR_STALE, .layer = layer, .what = "what tied it to other layers" });
 }
 
 static mr_status
@@ -587,7 +587,7 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 		return mr_layer_missing(ctx, f, layer, layer);
 	if (layer) {
 		MR_TRY(check_poses(ctx, f, layer));
-		MR_TRY(cut_loose(ctx, f, layer));
+		cut_loose(ctx, f, layer);
 	}
 	MR_TRY(check(ctx, f, layer, &c));
 	if (c.mirrors)
@@ -613,7 +613,8 @@ mr_transform_frame(mr_ctx *ctx, mr_frame *f, const char *layer, const double map
 {
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(transform(ctx, &done, layer, map));
 	*f = done;
 	return MR_OK;

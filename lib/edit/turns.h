@@ -14,7 +14,7 @@
  *
  * rest, now: the same vertices and faces; inc: of both.  turn: nv, the arena's.
  */
-mr_status mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc,
-    const mr_mat3 **turn) MR_WARN_UNUSED;
+void
+mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc, const mr_mat3 **turn);
 
 #endif

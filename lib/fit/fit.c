@@ -36,8 +36,6 @@ local_passes(mr_ctx *ctx, const mr_near *near, const mr_loop *l, const mr_v3 *po
 	uint32_t *nearest = MR_NEW(ctx, l->nv, uint32_t);
 	mr_sparse s;
 
-	if (!limit || !f || !nearest)
-		return MR_EMEM;
 	MR_TRY(mr_loop_limit_matrix(ctx, l, 0, &s));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
@@ -57,14 +55,12 @@ local(mr_ctx *ctx, mr_fit_surface *s, const mr_v3 *point, size_t n, const mr_fit
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_near *near;
-	mr_status status;
 
 	MR_TRY(mr_near_build(ctx, point, n, &near));
-	status = local_passes(ctx, near, &s->level[0], point, opts->step, passes, x);
-	mr_near_free(near);
+	MR_TRY(local_passes(ctx, near, &s->level[0], point, opts->step, passes, x));
 	mr_fit_surface_move(ctx, s, x);
 	mr_mark_release(ctx, mark);
-	return status;
+	return MR_OK;
 }
 
 /* Of level 2. */
@@ -104,7 +100,7 @@ report(mr_ctx *ctx, const mr_fit_surface *s, double edge, double noise, const mr
 }
 
 /* Takes the outliers of *n points out, and their feet; s: their sampling. */
-static mr_status
+static void
 drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, double *spacing,
     mr_fit_foot *foot, size_t *n, size_t *outliers)
 {
@@ -113,11 +109,9 @@ drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, dou
 	bool *outlier = MR_NEW(ctx, *n, bool);
 	size_t kept = 0;
 
-	if (!off || !outlier)
-		return MR_EMEM;
 	for (size_t i = 0; i < *n; i++)
 		off[i] = foot[i].dist;
-	MR_TRY(mr_find_outliers(ctx, s, off, least, outlier, outliers));
+	mr_find_outliers(ctx, s, off, least, outlier, outliers);
 	for (size_t i = 0; i < *n; i++) {
 		if (outlier[i])
 			continue;
@@ -127,7 +121,6 @@ drop_outliers(mr_ctx *ctx, const mr_sampling *s, double least, mr_v3 *point, dou
 	}
 	*n = kept;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Points for each control face, at most: more move it no further. */
@@ -143,10 +136,8 @@ take_points(mr_ctx *ctx, const mr_v3 *point, size_t *n, size_t faces, const mr_s
 	uint8_t *outlier = MR_NEW(ctx, some, uint8_t), *repeat = MR_NEW(ctx, some, uint8_t);
 	double *spacing = MR_NEW(ctx, some, double);
 
-	if (!outlier || !repeat || !spacing)
-		return MR_EMEM;
 	MR_TRY(mr_sampling_find(ctx, point, *n, known, s));
-	MR_TRY(mr_sampling_sort(ctx, point, s, p, s));
+	mr_sampling_sort(ctx, point, s, p, s);
 	for (size_t i = 0; i < some; i++) {
 		size_t from = i * *n / some;
 		p[i] = p[from];
@@ -171,8 +162,6 @@ check_valences(mr_ctx *ctx, const mr_mesh *control)
 	uint32_t *faces = MR_NEW_ZERO(ctx, control->nv, uint32_t), highest = 0;
 	double pairs = 0;
 
-	if (!faces)
-		return MR_EMEM;
 	for (size_t f = 0; f < control->nf; f++)
 		for (int k = 0; k < 3; k++)
 			faces[control->t[f].v[k]]++;
@@ -229,19 +218,16 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 
 	mr_unmeasured(&r, sizeof r);
 	MR_TRY(check(ctx, control, point, n));
-	if (!x || !foot || !sorted || !spacing)
-		return MR_EMEM;
 	if (is_local)
-		MR_TRY(mr_zorder_points(ctx, point, n, sorted));
+		mr_zorder_points(ctx, point, n, sorted);
 	else
 		MR_TRY(take_points(ctx, point, &n, control->nf, known, sorted, &sampling));
 	given = n;
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, crease, &s));
-	MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot));
+	mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot);
 	if (!is_local)
-		MR_TRY(drop_outliers(
-		    ctx, &sampling, MR_FIT_NEAR * edge, sorted, spacing, foot, &n, &r.outliers));
+		drop_outliers(ctx, &sampling, MR_FIT_NEAR * edge, sorted, spacing, foot, &n, &r.outliers);
 	noise = is_local || sampling.usual == 0 ? 0 : sampling.noise / sampling.usual;
 	before = mr_fit_measure(ctx, foot, n);
 	r.folded_edges_before = count_folds(ctx, &s);
@@ -252,10 +238,10 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	r.iterations = passes;
 	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)
-		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
+		mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot);
 	report(ctx, &s, edge, is_local ? 0 : sampling.noise, foot, n);
 	if (result) {
-		MR_TRY(mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot));
+		mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot);
 		after = mr_fit_measure(ctx, foot, n);
 		r.folded_edges_after = count_folds(ctx, &s);
 		put_distances(&before, &after, &r);

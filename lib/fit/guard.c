@@ -96,19 +96,16 @@ find_moves(layer *y)
 }
 
 /* Brings a level above the control mesh to where that is. */
-static mr_status
+static void
 refine(mr_ctx *ctx, layer *y)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	const mr_loop *level = y->g->level;
 	mr_v3 *p = MR_NEW(ctx, level[y->level].nv, mr_v3);
 
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_loop_values(ctx, level, y->level, 3, (const double *)y->g->control.to, (double *)p));
+	mr_loop_values(ctx, level, y->level, 3, (const double *)y->g->control.to, (double *)p);
 	mr_loop_limit(ctx, &level[y->level], p, y->to, NULL);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static mr_status
@@ -118,8 +115,9 @@ look(mr_ctx *ctx, void *arg)
 
 	find_moves(y);
 	if (y->level > 0)
-		MR_TRY(refine(ctx, y));
-	return mr_find_crossings(ctx, y->g->level, y->level, y->to, y->moves, y->crosses);
+		refine(ctx, y);
+	mr_find_crossings(ctx, y->g->level, y->level, y->to, y->moves, y->crosses);
+	return MR_OK;
 }
 
 /* Moves the control mesh as far as the layer lets it. */
@@ -163,7 +161,7 @@ rest(layer *y)
 			y->tangled[level[0].t[f].v[k]] |= crosses(y, f);
 }
 
-static mr_status
+static void
 layer_new(mr_ctx *ctx, guard *g, size_t level, double closed, layer *y)
 {
 	size_t nv = g->level[0].nv, fine_nv = g->level[level].nv;
@@ -171,10 +169,7 @@ layer_new(mr_ctx *ctx, guard *g, size_t level, double closed, layer *y)
 	*y = (layer){ g, level, closed, MR_NEW(ctx, fine_nv, mr_v3), MR_NEW(ctx, fine_nv, mr_v3),
 		MR_NEW(ctx, nv, mr_v3), MR_NEW(ctx, g->level[0].nf, bool),
 		MR_NEW_ZERO(ctx, g->level[level].nf, bool), MR_NEW(ctx, nv, bool) };
-	if (!y->from || !y->to || !y->seen || !y->moves || !y->crosses || !y->tangled)
-		return MR_EMEM;
 	memset(y->seen, 0xff, nv * sizeof *y->seen); /* nowhere */
-	return MR_OK;
 }
 
 mr_status
@@ -183,12 +178,10 @@ mr_fit_guard_new(
 {
 	guard *g = MR_NEW(ctx, 1, guard);
 
-	if (!g)
-		return MR_EMEM;
 	g->level = s->level;
 	g->patch = patch;
-	MR_TRY(layer_new(ctx, g, 0, MR_FOLD, &g->control));
-	MR_TRY(layer_new(ctx, g, MR_FIT_FINE, MR_NEAR_FOLD, &g->fine));
+	layer_new(ctx, g, 0, MR_FOLD, &g->control);
+	layer_new(ctx, g, MR_FIT_FINE, MR_NEAR_FOLD, &g->fine);
 	memcpy(g->control.to, x, s->level[0].nv * sizeof *x);
 	MR_TRY(look(ctx, &g->control));
 	MR_TRY(look(ctx, &g->fine));
@@ -211,7 +204,7 @@ mr_fit_crossing(const mr_fit_guard *g)
 /* Steps */
 
 /* Moves the motions of the corners of bad control faces half the way to the means of those around them. */
-static mr_status
+static void
 smooth(mr_ctx *ctx, const guard *g, mr_v3 *z)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -220,8 +213,6 @@ smooth(mr_ctx *ctx, const guard *g, mr_v3 *z)
 	double *count = MR_NEW_ZERO(ctx, l->nv, double);
 	bool *at = MR_NEW_ZERO(ctx, l->nv, bool);
 
-	if (!sum || !count || !at)
-		return MR_EMEM;
 	for (uint32_t f = 0; f < l->nf; f++) {
 		const uint32_t *v = l->t[f].v;
 		bool bad = is_bad(&g->control, f);
@@ -235,7 +226,6 @@ smooth(mr_ctx *ctx, const guard *g, mr_v3 *z)
 		if (at[v])
 			z[v] = mr_mul(0.5, mr_axpy(1 / count[v], sum[v], z[v]));
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static void
@@ -253,7 +243,7 @@ mr_fit_step(mr_ctx *ctx, mr_fit_guard *g, mr_v3 *x, mr_v3 *z, size_t *damped)
 	aim(g, z);
 	for (int i = 0; i < SMOOTHS; i++) {
 		MR_TRY(look(ctx, &g->control));
-		MR_TRY(smooth(ctx, g, z));
+		smooth(ctx, g, z);
 		aim(g, z);
 	}
 	MR_TRY(move(ctx, &g->fine, look_at_fine, RINGS));

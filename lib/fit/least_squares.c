@@ -13,7 +13,7 @@
  * point pulls as one at the limit does.  Where outliers were found there are others too near to be told by
  * where they lie: beyond the limit a point then pulls by the cube of the ratio less.
  */
-static mr_status
+static void
 weigh(mr_ctx *ctx, const mr_fit_foot *foot, const double *share, size_t n, double near, bool outliers,
     double *w)
 {
@@ -21,8 +21,6 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, const double *share, size_t n, doubl
 	mr_mark mark = mr_mark_take(ctx);
 	double *d = MR_NEW(ctx, n, double), most;
 
-	if (!d)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		d[i] = foot[i].dist;
 	most = fmax(limit * deviation * mr_kth(d, n, n / 2), near);
@@ -31,7 +29,6 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, const double *share, size_t n, doubl
 		w[i] = share[i] * (outliers ? pow(ratio, 4) : ratio);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /*
@@ -39,15 +36,13 @@ weigh(mr_ctx *ctx, const mr_fit_foot *foot, const double *share, size_t n, doubl
  * all.  Were each to count the same, the fairness would win where they are sparse.  By the points' own areas,
  * which vary by chance, clouds with noise are 2 % farther from the truth.
  */
-static mr_status
+static void
 share_area(mr_ctx *ctx, const mr_fit_foot *foot, const double *spacing, size_t n, size_t nf, double *share)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *sum = MR_NEW_ZERO(ctx, nf, double), all = 0;
 	size_t *count = MR_NEW_ZERO(ctx, nf, size_t);
 
-	if (!sum || !count)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		size_t f = foot[i].patch / MR_FIT_PATCHES;
 		sum[f] += spacing[i] * spacing[i];
@@ -59,7 +54,6 @@ share_area(mr_ctx *ctx, const mr_fit_foot *foot, const double *spacing, size_t n
 		share[i] = all > 0 ? sum[f] / (double)count[f] * (double)n / all : 1;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /*
@@ -89,19 +83,17 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, c
 	double edge = (1 << MR_FIT_LEVEL) * mr_mesh_edge_scale(ctx, &surface->m);
 	mr_fit_guard *guard;
 
-	if (!z || !w || !share)
-		return MR_EMEM;
 	MR_TRY(mr_fit_system_build(ctx, surface, x, form_kept(noise), &system));
 	MR_TRY(mr_fit_guard_new(ctx, surface, &system.patch, x, &guard));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
-		MR_TRY(share_area(ctx, foot, spacing, n, surface->level[0].nf, share));
-		MR_TRY(weigh(ctx, foot, share, n, MR_FIT_NEAR * edge, outliers, w));
-		MR_TRY(mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness));
+		share_area(ctx, foot, spacing, n, surface->level[0].nf, share);
+		weigh(ctx, foot, share, n, MR_FIT_NEAR * edge, outliers, w);
+		mr_fit_system_fill(ctx, &system, x, point, foot, w, n, opts->fairness);
 		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, guard, x, z, &result->damped));
 		mr_fit_surface_move(ctx, surface, x);
-		MR_TRY(mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot));
+		mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot);
 	}
 	result->cg_steps = (double)steps / (double)passes;
 	result->crossing_faces = mr_fit_crossing(guard);

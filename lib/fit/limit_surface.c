@@ -17,8 +17,6 @@ mr_fit_surface_build(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease,
 	MR_TRY(mr_loop_levels_marked(ctx, control, 180, crease, MR_FIT_FINE, r.level));
 	MR_TRY(mr_loop_limit_matrix(ctx, r.level, MR_FIT_LEVEL, &r.s));
 	r.node = MR_NEW(ctx, fine->nv, mr_v3);
-	if (!r.node)
-		return MR_EMEM;
 	r.m = (mr_mesh){ control->name, r.node, fine->t, fine->nv, fine->nf };
 	mr_fit_surface_move(ctx, &r, control->p);
 	*s = r;
@@ -199,7 +197,7 @@ attach(void *arg, size_t begin, size_t end)
 		settle(j->s, j->point[i], nearest(j, j->point[i], j->foot[i].face), &j->foot[i]);
 }
 
-mr_status
+void
 mr_fit_attach(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n, mr_fit_search search,
     mr_fit_foot *foot)
 {
@@ -207,10 +205,9 @@ mr_fit_attach(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n
 	mr_bvh *bvh = NULL;
 
 	if (search != MR_FIT_WALK)
-		MR_TRY(mr_bvh_build(ctx, &s->m, &bvh));
+		mr_bvh_build(ctx, &s->m, &bvh);
 	mr_parallel(ctx, n, GRAIN, attach, &(attach_job){ s, bvh, point, search, foot });
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static double

@@ -68,8 +68,8 @@ typedef enum mr_fit_search {
 } mr_fit_search;
 
 /* The feet of n points, the caller's. */
-mr_status mr_fit_attach(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n,
-    mr_fit_search search, mr_fit_foot *foot);
+void mr_fit_attach(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n, mr_fit_search search,
+    mr_fit_foot *foot);
 
 mr_fit_gap mr_fit_measure(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n);
 

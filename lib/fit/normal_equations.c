@@ -15,18 +15,15 @@ enum { GRAIN = 16, PIECE = 512 }; /* control faces */
 static const double SMALL = 1e-9;
 
 /* Rows of L: the vertex less the mean of its neighbours; none where it has none. */
-static mr_status
+static void
 star_rows(mr_ctx *ctx, const mr_fit_lists *l, double **row)
 {
 	double *r = MR_NEW(ctx, l->start[l->count], double);
 
-	if (!r)
-		return MR_EMEM;
 	for (size_t v = 0; v < l->count; v++)
 		for (size_t i = l->start[v], n = mr_fit_length(l, v) - 1; i < l->start[v + 1]; i++)
 			r[i] = n == 0 ? 0 : l->member[i] == (int)v ? 1 : -1 / (double)n;
 	*row = r;
-	return MR_OK;
 }
 
 typedef struct basis_job {
@@ -61,25 +58,19 @@ mr_fit_system_build(
 	mr_fit_system r = { .surface = surface, .form = form };
 	mr_v3 *home = MR_NEW(ctx, nv, mr_v3);
 
-	if (!home)
-		return MR_EMEM;
 	memcpy(home, x, nv * sizeof *home);
 	r.home = home;
 
-	MR_TRY(mr_fit_list_patches(ctx, surface, &r.patch));
-	MR_TRY(mr_fit_list_stars(ctx, &surface->level[0], &r.star));
-	MR_TRY(star_rows(ctx, &r.star, &r.star_row));
+	mr_fit_list_patches(ctx, surface, &r.patch);
+	mr_fit_list_stars(ctx, &surface->level[0], &r.star);
+	star_rows(ctx, &r.star, &r.star_row);
 	r.basis = MR_NEW_ZERO(ctx, MR_FIT_SLOTS * r.patch.start[r.patch.count], double);
 	r.b = MR_NEW(ctx, nv, mr_v3);
-	if (!r.basis || !r.b)
-		return MR_EMEM;
 	mr_parallel(ctx, r.patch.count, GRAIN, spread_basis, &(basis_job){ surface, &r.patch, r.basis });
 	MR_TRY(mr_fit_pattern(ctx, &r.patch, &r.star, nv, &r.a));
 	r.block = MR_NEW(ctx, (size_t)r.a.start[nv], mr_fit_block);
-	if (!r.block)
-		return MR_EMEM;
-	MR_TRY(mr_fit_place_pairs(ctx, &r.patch, &r.a, &r.patch_pairs, &r.patch_at));
-	MR_TRY(mr_fit_place_pairs(ctx, &r.star, &r.a, &r.star_pairs, &r.star_at));
+	mr_fit_place_pairs(ctx, &r.patch, &r.a, &r.patch_pairs, &r.patch_at);
+	mr_fit_place_pairs(ctx, &r.star, &r.a, &r.star_pairs, &r.star_at);
 	*system = r;
 	return MR_OK;
 }
@@ -87,14 +78,12 @@ mr_fit_system_build(
 /* Filling */
 
 /* The points on each control face, by index: order[start[f]] to order[start[f + 1]]. */
-static mr_status
+static void
 sort_points(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, size_t nf, size_t **start, uint32_t **order)
 {
 	size_t *s = MR_NEW_ZERO(ctx, nf + 2, size_t);
 	uint32_t *o = MR_NEW(ctx, n, uint32_t);
 
-	if (!s || !o)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		s[foot[i].patch / MR_FIT_PATCHES + 2]++;
 	for (size_t f = 0; f < nf; f++)
@@ -103,7 +92,6 @@ sort_points(mr_ctx *ctx, const mr_fit_foot *foot, size_t n, size_t nf, size_t **
 		o[s[foot[i].patch / MR_FIT_PATCHES + 1]++] = (uint32_t)i;
 	*start = s;
 	*order = o;
-	return MR_OK;
 }
 
 typedef struct fill_job {
@@ -221,7 +209,7 @@ most_pairs(const mr_fit_system *s)
 }
 
 /* Piece by piece, so that the pairs of all faces are never in memory at once. */
-static mr_status
+static void
 add_points(mr_ctx *ctx, mr_fit_system *s, fill_job j)
 {
 	const mr_fit_lists *l = &s->patch;
@@ -229,14 +217,11 @@ add_points(mr_ctx *ctx, mr_fit_system *s, fill_job j)
 	j.pair = MR_NEW(ctx, most_pairs(s), mr_fit_block);
 	j.sum = MR_NEW(ctx, l->start[l->count], mr_v3);
 	j.row = MR_NEW(ctx, l->start[l->count], double);
-	if (!j.pair || !j.sum || !j.row)
-		return MR_EMEM;
 	for (j.first = 0; j.first < l->count; j.first = j.last) {
 		j.last = j.first + PIECE < l->count ? j.first + PIECE : l->count;
 		mr_parallel(ctx, j.last - j.first, GRAIN, fill_patches, &j);
 		gather(&j);
 	}
-	return MR_OK;
 }
 
 /* Splits the points' part, slip A + (1 - slip) N with A the trace of N, into a multiple of the identity and a
@@ -256,22 +241,19 @@ split_trace(mr_fit_system *s)
  * How bare each vertex is: 1 where no point stands on the faces around it, 0 where as many do as it usually
  * has faces.  Twice as many or half of it: no model of 24 is off by 1 % more or less.
  */
-static mr_status
+static void
 measure_bare(mr_ctx *ctx, const mr_fit_system *s, const size_t *start, double **bare)
 {
 	const double enough = 6;
 	const mr_loop *l = &s->surface->level[0];
 	double *x = MR_NEW_ZERO(ctx, l->nv, double);
 
-	if (!x)
-		return MR_EMEM;
 	for (size_t f = 0; f < l->nf; f++)
 		for (int k = 0; k < 3; k++)
 			x[l->t[f].v[k]] += (double)(start[f + 1] - start[f]);
 	for (size_t v = 0; v < l->nv; v++)
 		x[v] = mr_fit_length(&s->star, v) == 1 ? 1 : fmax(0, 1 - x[v] / enough);
 	*bare = x;
-	return MR_OK;
 }
 
 /* L (x - c home) at vertex v: what it is bent by, beyond the share of what it was. */
@@ -311,7 +293,7 @@ add_fairness(mr_fit_system *s, const mr_v3 *x, const double *bare, double fairne
 	}
 }
 
-mr_status
+void
 mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *point, const mr_fit_foot *foot,
     const double *w, size_t n, double fairness)
 {
@@ -322,15 +304,14 @@ mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *p
 	uint32_t *order;
 	double *bare;
 
-	MR_TRY(sort_points(ctx, foot, n, s->patch.count, &start, &order));
-	MR_TRY(measure_bare(ctx, s, start, &bare));
+	sort_points(ctx, foot, n, s->patch.count, &start, &order);
+	measure_bare(ctx, s, start, &bare);
 	j.start = start;
 	j.order = order;
 	memset(s->block, 0, (size_t)s->a.start[nv] * sizeof *s->block);
 	memset(s->b, 0, nv * sizeof *s->b);
-	MR_TRY(add_points(ctx, s, j));
+	add_points(ctx, s, j);
 	split_trace(s);
 	add_fairness(s, x, bare, fairness);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

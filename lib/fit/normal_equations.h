@@ -52,7 +52,7 @@ mr_status mr_fit_system_build(
     mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, double form, mr_fit_system *system);
 
 /* The equations for n points with weights w at control vertices x, of which the surface is. */
-mr_status mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,
+void mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,
     const mr_fit_foot *foot, const double *w, size_t n, double fairness);
 
 #endif

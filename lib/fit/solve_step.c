@@ -25,8 +25,6 @@ complete(mr_ctx *ctx, const mr_sparse *lower, mr_sparse *full)
 	mr_sparse r = { n, MR_NEW(ctx, (size_t)n + 1, int), MR_NEW(ctx, nnz, int), MR_NEW(ctx, nnz, double) };
 	mr_sparse upper;
 
-	if (!r.start || !r.index || !r.value)
-		return MR_EMEM;
 	MR_TRY(mr_sparse_transpose(ctx, lower, (size_t)n, &upper));
 	for (int i = 0; i < n; i++) {
 		r.start[i] = used;

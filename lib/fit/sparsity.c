@@ -27,7 +27,7 @@ typedef struct writer {
 	int *seen; /* nv: the last list that each vertex is in, by number + 1 */
 } writer;
 
-static mr_status
+static void
 begin_lists(mr_ctx *ctx, writer *w, mr_fit_lists *l, size_t count, size_t nv)
 {
 	*w = (writer){ ctx, l, 0, 0, NULL };
@@ -35,20 +35,18 @@ begin_lists(mr_ctx *ctx, writer *w, mr_fit_lists *l, size_t count, size_t nv)
 	w->room = 14 * count + 64;
 	l->member = MR_NEW(ctx, w->room, int);
 	w->seen = MR_NEW_ZERO(ctx, nv, int);
-	return l->start && l->member && w->seen ? MR_OK : MR_EMEM;
 }
 
-static mr_status
+static void
 add_member(writer *w, int v)
 {
 	int number = (int)w->l->count + 1;
 
 	if (w->seen[v] == number)
-		return MR_OK;
+		return;
 	w->seen[v] = number;
-	MR_TRY(MR_RESERVE(w->ctx, w->l->member, w->used, 1, &w->room));
+	MR_RESERVE(w->ctx, w->l->member, w->used, 1, &w->room);
 	w->l->member[w->used++] = v;
-	return MR_OK;
 }
 
 static void
@@ -66,27 +64,26 @@ end_list(writer *w)
 	w->l->start[++w->l->count] = w->used;
 }
 
-mr_status
+void
 mr_fit_list_patches(mr_ctx *ctx, const mr_fit_surface *s, mr_fit_lists *l)
 {
 	size_t nf = s->level[0].nf;
 	writer w;
 
-	MR_TRY(begin_lists(ctx, &w, l, nf, s->level[0].nv));
+	begin_lists(ctx, &w, l, nf, s->level[0].nv);
 	for (size_t f = 0; f < nf; f++) {
 		uint32_t slot[MR_FIT_SLOTS];
 		begin_list(&w);
 		mr_fit_slots(s, f, slot);
 		for (int i = 0; i < MR_FIT_SLOTS; i++)
 			for (int e = s->s.start[slot[i]]; e < s->s.start[slot[i] + 1]; e++)
-				MR_TRY(add_member(&w, s->s.index[e]));
+				add_member(&w, s->s.index[e]);
 		end_list(&w);
 	}
-	return MR_OK;
 }
 
 /* The neighbours of v, or those along sharp edges alone. */
-static mr_status
+static void
 add_neighbours(writer *w, const mr_loop *l, const mr_mesh *m, uint32_t v, bool sharp)
 {
 	uint32_t first = l->topo.out[v], h = first;
@@ -95,38 +92,36 @@ add_neighbours(writer *w, const mr_loop *l, const mr_mesh *m, uint32_t v, bool s
 		uint32_t last = mr_he_prev(h);
 		bool is_sharp = l->topo.twin[h] == MR_NONE || (l->crease && l->crease[h]);
 		if (!sharp || is_sharp)
-			MR_TRY(add_member(w, (int)mr_he_to(m, h)));
+			add_member(w, (int)mr_he_to(m, h));
 		h = mr_he_ccw(&l->topo, h);
 		if (h == MR_NONE)
-			MR_TRY(add_member(w, (int)mr_he_from(m, last)));
+			add_member(w, (int)mr_he_from(m, last));
 		if (h == first)
 			break;
 	}
-	return MR_OK;
 }
 
 /* On a boundary or a crease the two along it; a corner has none, the end of a crease all. */
-mr_status
+void
 mr_fit_list_stars(mr_ctx *ctx, const mr_loop *level, mr_fit_lists *l)
 {
 	const mr_mesh m = { .t = level->t, .nv = level->nv, .nf = level->nf };
 	writer w;
 
-	MR_TRY(begin_lists(ctx, &w, l, level->nv, level->nv));
+	begin_lists(ctx, &w, l, level->nv, level->nv);
 	for (uint32_t v = 0; v < level->nv; v++) {
 		size_t own, sharp;
 		begin_list(&w);
-		MR_TRY(add_member(&w, (int)v));
+		add_member(&w, (int)v);
 		own = w.used;
-		MR_TRY(add_neighbours(&w, level, &m, v, true));
+		add_neighbours(&w, level, &m, v, true);
 		sharp = w.used - own;
 		if (sharp != 2)
 			w.used = own;
 		if (sharp < 2)
-			MR_TRY(add_neighbours(&w, level, &m, v, false));
+			add_neighbours(&w, level, &m, v, false);
 		end_list(&w);
 	}
-	return MR_OK;
 }
 
 typedef struct pattern {
@@ -149,21 +144,19 @@ add_pairs(pattern *p, const mr_fit_lists *l, size_t e, int v)
 		if (p->used == INT32_MAX)
 			return mr_fail(
 			    p->ctx, MR_ERANGE, "the matrix of %d rows has 2^31 entries or more", p->a->n);
-		MR_TRY(MR_RESERVE(p->ctx, p->a->index, (size_t)p->used, 1, &p->room));
+		MR_RESERVE(p->ctx, p->a->index, (size_t)p->used, 1, &p->room);
 		p->a->index[p->used++] = c;
 	}
 	return MR_OK;
 }
 
 /* The lists that each vertex is in. */
-static mr_status
+static void
 lists_of_vertices(mr_ctx *ctx, const mr_fit_lists *l, size_t nv, size_t **start, uint32_t **list)
 {
 	size_t *s = MR_NEW_ZERO(ctx, nv + 2, size_t), total = l->start[l->count];
 	uint32_t *in = MR_NEW(ctx, total, uint32_t);
 
-	if (!s || !in)
-		return MR_EMEM;
 	for (size_t i = 0; i < total; i++)
 		s[l->member[i] + 2]++;
 	for (size_t v = 0; v < nv; v++)
@@ -173,7 +166,6 @@ lists_of_vertices(mr_ctx *ctx, const mr_fit_lists *l, size_t nv, size_t **start,
 			in[s[l->member[i] + 1]++] = (uint32_t)e;
 	*start = s;
 	*list = in;
-	return MR_OK;
 }
 
 mr_status
@@ -185,10 +177,8 @@ mr_fit_pattern(mr_ctx *ctx, const mr_fit_lists *patch, const mr_fit_lists *star,
 	uint32_t *patches, *stars;
 
 	r.index = MR_NEW(ctx, p.room, int);
-	if (!r.start || !r.index || !p.seen)
-		return MR_EMEM;
-	MR_TRY(lists_of_vertices(ctx, patch, nv, &patch_start, &patches));
-	MR_TRY(lists_of_vertices(ctx, star, nv, &star_start, &stars));
+	lists_of_vertices(ctx, patch, nv, &patch_start, &patches);
+	lists_of_vertices(ctx, star, nv, &star_start, &stars);
 	for (size_t v = 0; v < nv; v++) {
 		int first = p.used;
 		r.start[v] = first;
@@ -200,28 +190,22 @@ mr_fit_pattern(mr_ctx *ctx, const mr_fit_lists *patch, const mr_fit_lists *star,
 	}
 	r.start[nv] = p.used;
 	r.value = MR_NEW(ctx, (size_t)p.used, double);
-	if (!r.value)
-		return MR_EMEM;
 	*a = r;
 	return MR_OK;
 }
 
-mr_status
+void
 mr_fit_place_pairs(mr_ctx *ctx, const mr_fit_lists *l, const mr_sparse *a, size_t **first, int **at)
 {
 	size_t *start = MR_NEW(ctx, l->count + 1, size_t), k = 0;
 	int *place;
 
-	if (!start)
-		return MR_EMEM;
 	for (size_t e = 0; e < l->count; e++) {
 		start[e] = k;
 		k += mr_fit_length(l, e) * (mr_fit_length(l, e) + 1) / 2;
 	}
 	start[l->count] = k;
 	place = MR_NEW(ctx, k, int);
-	if (!place)
-		return MR_EMEM;
 	k = 0;
 	for (size_t e = 0; e < l->count; e++)
 		for (size_t i = l->start[e]; i < l->start[e + 1]; i++) {
@@ -232,5 +216,4 @@ mr_fit_place_pairs(mr_ctx *ctx, const mr_fit_lists *l, const mr_sparse *a, size_
 		}
 	*first = start;
 	*at = place;
-	return MR_OK;
 }

@@ -24,10 +24,10 @@ mr_fit_length(const mr_fit_lists *l, size_t e)
 size_t mr_fit_find(const int *list, size_t n, int c);
 
 /* Of each control face, the vertices that its surface depends on; in the arena. */
-mr_status mr_fit_list_patches(mr_ctx *ctx, const mr_fit_surface *s, mr_fit_lists *l);
+void mr_fit_list_patches(mr_ctx *ctx, const mr_fit_surface *s, mr_fit_lists *l);
 
 /* Of each control vertex, itself and its neighbours, on the boundary the two along it; in the arena. */
-mr_status mr_fit_list_stars(mr_ctx *ctx, const mr_loop *level, mr_fit_lists *l);
+void mr_fit_list_stars(mr_ctx *ctx, const mr_loop *level, mr_fit_lists *l);
 
 /* The lower triangle of a matrix of nv rows that couples all vertices of each list, values not set; in the
  * arena. */
@@ -35,7 +35,6 @@ mr_status
 mr_fit_pattern(mr_ctx *ctx, const mr_fit_lists *patch, const mr_fit_lists *star, size_t nv, mr_sparse *a);
 
 /* Where the pairs (i, j <= i) of entries are in a, list after list: first has count + 1; in the arena. */
-mr_status
-mr_fit_place_pairs(mr_ctx *ctx, const mr_fit_lists *l, const mr_sparse *a, size_t **first, int **at);
+void mr_fit_place_pairs(mr_ctx *ctx, const mr_fit_lists *l, const mr_sparse *a, size_t **first, int **at);
 
 #endif

@@ -47,7 +47,7 @@ are_joined(const mr_ground *g, const uint32_t *component, uint32_t f, uint32_t v
 	return component[g->then.t[f].v[0]] == component[g->then.t[g->at.face[v]].v[0]];
 }
 
-mr_status
+void
 mr_chords_find(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_chords *found)
 {
 	mr_chords c = { .vertex = MR_NONE, .enough = INFINITY };
@@ -66,8 +66,8 @@ mr_chords_find(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, 
 		if (length(m->then, h) <= 4 * far)
 			continue;
 		if (!component) {
-			MR_TRY(mr_bvh_build(ctx, &g->then, &bvh));
-			MR_TRY(mr_components_label(ctx, &g->then, &component, &several));
+			mr_bvh_build(ctx, &g->then, &bvh);
+			mr_components_label(ctx, &g->then, &component, &several);
 		}
 		near = mr_bvh_closest(bvh, q);
 		off = mr_dist(carry(g, &now, &near, q), middle(m->now, m->then, h));
@@ -81,5 +81,4 @@ mr_chords_find(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, 
 		}
 	}
 	*found = c;
-	return MR_OK;
 }

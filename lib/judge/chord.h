@@ -11,6 +11,6 @@ typedef struct mr_chords {
 } mr_chords;
 
 /* Looks at edges longer than 4 far alone: across others base would have to turn by over two radians. */
-mr_status mr_chords_find(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_chords *found);
+void mr_chords_find(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_chords *found);
 
 #endif

@@ -285,16 +285,16 @@ visit(void *arg, uint32_t f, uint32_t g)
 	add_one(near ? j->harm : j->met, j->moved, g);
 }
 
-static mr_status
+static void
 search_all(mr_ctx *ctx, motion *j, tally *sum)
 {
 	*sum = (tally){ 0, 0 };
 	j->pairs = sum;
-	return mr_intersections_visit(ctx, NULL, j->after, j->moved, visit, j);
+	mr_intersections_visit(ctx, NULL, j->after, j->moved, visit, j);
 }
 
 /* More pairs than there were: where a surface intersects already, others go while some come. */
-static mr_status
+static void
 count_pairs(mr_ctx *ctx, const motion *m, tally *count)
 {
 	const double deep = 0.001; /* of the diagonal: parts that are nearer touch */
@@ -303,27 +303,22 @@ count_pairs(mr_ctx *ctx, const motion *m, tally *count)
 
 	*count = came;
 	if (went_as_one(m->before, m->after))
-		return MR_OK;
+		return;
 	forth.deep = forth.wide = deep * mr_mesh_diagonal(m->before);
 	forth.edge = MR_NEW(ctx, 3 * m->before->nf, uint32_t);
 	forth.moved = MR_NEW_ZERO(ctx, m->before->nf, bool);
-	if (!forth.edge || !forth.moved)
-		return MR_EMEM;
 	find_edges(&forth);
-	MR_TRY(search_all(ctx, &forth, &came));
+	search_all(ctx, &forth, &came);
 	if (came.near == 0 && came.far == 0)
-		return MR_OK;
+		return;
 	back = forth;
 	back.before = m->after;
 	back.after = m->before;
 	back.wide = INFINITY;                             /* what touched and has come apart did not pass */
 	back.harm = MR_NEW(ctx, m->before->nf, uint32_t); /* for no one */
 	back.met = MR_NEW(ctx, m->before->nf, uint32_t);
-	if (!back.harm || !back.met)
-		return MR_EMEM;
-	MR_TRY(search_all(ctx, &back, &went));
+	search_all(ctx, &back, &went);
 	*count = (tally){ less(came.near, went.near), less(came.far, went.far) };
-	return MR_OK;
 }
 
 /* A corner of the face that has most harm, of equal ones the lowest. */
@@ -338,7 +333,7 @@ worst_vertex(const mr_mesh *m, const uint32_t *harm)
 	return m->nf && harm[worst] ? m->t[worst].v[0] : MR_NONE;
 }
 
-mr_status
+void
 mr_harm_find(
     mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *after, size_t enough, mr_harm *harm)
 {
@@ -354,11 +349,9 @@ mr_harm_find(
 	tally pairs;
 
 	moved.p = after;
-	if (!j.fold || !j.harm || !j.met)
-		return MR_EMEM;
 	found.folds = count_folds(ctx, &j);
 	if (found.folds >= enough) {
-		MR_TRY(count_pairs(ctx, &j, &pairs));
+		count_pairs(ctx, &j, &pairs);
 		found.pairs = pairs.near;
 		found.far = pairs.far;
 	}
@@ -366,5 +359,4 @@ mr_harm_find(
 	found.far_vertex = worst_vertex(m, j.met);
 	*harm = found;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

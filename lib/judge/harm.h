@@ -20,8 +20,8 @@ typedef struct mr_harm {
 
 /* Of m, with its edges, after its vertices have gone to `after` (nv).  Intersections are looked for where
  * there are at least so many folds as `enough`; what moves as one rigid body costs no more than its folds. */
-mr_status mr_harm_find(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *after,
-    size_t enough, mr_harm *harm) MR_WARN_UNUSED;
+void mr_harm_find(
+    mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *after, size_t enough, mr_harm *harm);
 
 /* Whether faces f and g stand to each other as they did: where they touch, rounding decides whether they
  * intersect. */

@@ -152,7 +152,7 @@ keeps_volume(const fit *fits, size_t regions, double far, bool *turned)
 	return *turned || !moved;
 }
 
-mr_status
+void
 mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_held *held)
 {
 	const mr_mesh *mesh = m->then, *base = &g->then;
@@ -166,9 +166,7 @@ mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, m
 	for (size_t v = 0; v < base->nv; v++)
 		regions = g->region[v] < regions ? regions : (size_t)g->region[v] + 1;
 	fits = MR_NEW_ZERO(ctx, regions, fit);
-	if (!fits)
-		return MR_EMEM;
-	MR_TRY(mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count));
+	mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count);
 	fit_maps(g, regions, fits);
 	for (size_t v = 0; v < base->nv; v++) {
 		fit *f = &fits[g->region[v]];
@@ -184,5 +182,4 @@ mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, m
 	}
 	mr_mark_release(ctx, mark);
 	*held = h;
-	return MR_OK;
 }

@@ -23,6 +23,6 @@ typedef struct mr_held {
  * Counts those that are off by over `far`.  A map is fitted to the vertices of base that a handle has; a
  * region whose own are off by as much, because each was given a place, is left out.
  */
-mr_status mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_held *held);
+void mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_held *held);
 
 #endif

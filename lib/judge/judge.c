@@ -67,7 +67,7 @@ judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m
 	mr_detail detail;
 	mr_mesh base;
 
-	MR_TRY(mr_judge_contacts(ctx, m));
+	mr_judge_contacts(ctx, m);
 	MR_TRY(surface_of(ctx, after, "base", &base));
 	if (!base.t || !mr_layer_has(after, "mesh", "detail_face"))
 		return MR_OK;
@@ -80,18 +80,16 @@ judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m
 		return MR_OK;
 	MR_TRY(read_regions(ctx, after, "base", base.nv, &g.region));
 	MR_TRY(read_regions(ctx, after, "mesh", m->then->nv, &g.surface_region));
-	MR_TRY(mr_judge_detail(ctx, m, &g));
+	mr_judge_detail(ctx, m, &g);
 	return g.region && g.surface_region ? mr_judge_pose(ctx, m, &g) : MR_OK;
 }
 
 /* Of each vertex over d the region of the control vertices that it lies between; free where these differ. */
-static mr_status
+static void
 regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, const uint32_t **region)
 {
 	uint32_t *r = MR_NEW(ctx, d->m.nv, uint32_t);
 
-	if (!r)
-		return MR_EMEM;
 	memcpy(r, control, d->level[0].nv * sizeof *r);
 	for (size_t n = 1; n <= d->n; n++) {
 		const mr_loop *level = &d->level[n], *below = level - 1;
@@ -102,7 +100,6 @@ regions_of_levels(mr_ctx *ctx, const mr_domain *d, const uint32_t *control, cons
 		}
 	}
 	*region = r;
-	return MR_OK;
 }
 
 /* The displaced surface of a frame on its control mesh where that was encoded, over d: foot and surface. */
@@ -121,18 +118,16 @@ displaced_then(mr_ctx *ctx, mr_frame *f, size_t n, mr_mesh *control, mr_domain *
 	}
 	MR_TRY(mr_domain_of(ctx, f, control, n < all ? n : all, d));
 	*surface = MR_NEW(ctx, d->m.nv, mr_v3);
-	if (!*surface)
-		return MR_EMEM;
 	mr_domain_displace(ctx, d, height, 1, *surface);
 	return MR_OK;
 }
 
-static mr_status
+static void
 judge_motion(mr_ctx *ctx, const mr_mesh *then, const mr_v3 *now, mr_edges *edges, mr_motion *m)
 {
-	MR_TRY(mr_edges_build(ctx, then, edges));
+	mr_edges_build(ctx, then, edges);
 	*m = (mr_motion){ then, now, edges, mr_mesh_diagonal(then) };
-	return mr_judge_harm(ctx, m);
+	mr_judge_harm(ctx, m);
 }
 
 /* mesh, made of control and its heights: unposed and at a gain of 1 nothing has moved. */
@@ -158,7 +153,7 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 	surface = d.m;
 	surface.name = mesh->name;
 	surface.p = then;
-	MR_TRY(judge_motion(ctx, &surface, mesh->p, &edges, &m));
+	judge_motion(ctx, &surface, mesh->p, &edges, &m);
 	if (!mr_layer_has(after, "control", "region") || !mr_layer_has(after, "control", "encoded"))
 		return MR_OK;
 	g.then = control;
@@ -166,7 +161,7 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 	g.now = control.p;
 	g.foot = d.m.p;
 	MR_TRY(read_regions(ctx, after, "control", control.nv, &g.region));
-	MR_TRY(regions_of_levels(ctx, &d, g.region, &g.surface_region));
+	regions_of_levels(ctx, &d, g.region, &g.surface_region);
 	return mr_judge_pose(ctx, &m, &g);
 }
 
@@ -209,7 +204,7 @@ judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer,
 			return MR_OK;
 		*least = 2 * most;
 	}
-	MR_TRY(judge_motion(ctx, &then, now.p, &edges, &m));
+	judge_motion(ctx, &then, now.p, &edges, &m);
 	return judge_on_base(ctx, before, after, &m);
 }
 
@@ -219,6 +214,7 @@ mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least)
 	mr_mark mark = mr_mark_take(ctx);
 	const char *layer;
 
+	MR_ENTER(ctx);
 	if (!mr_listens(ctx))
 		return MR_OK;
 	MR_TRY(mr_layer_latest(ctx, after, &layer));

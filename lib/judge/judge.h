@@ -28,13 +28,13 @@ typedef struct mr_ground {
 } mr_ground;
 
 /* Folds and intersections that came. */
-mr_status mr_judge_harm(mr_ctx *ctx, const mr_motion *m);
+void mr_judge_harm(mr_ctx *ctx, const mr_motion *m);
 
 /* Parts that touched and do not any more. */
-mr_status mr_judge_contacts(mr_ctx *ctx, const mr_motion *m);
+void mr_judge_contacts(mr_ctx *ctx, const mr_motion *m);
 
 /* Edges that base does not account for: torn, or too long to follow it.  g: with places. */
-mr_status mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g);
+void mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g);
 
 /* Constrained vertices that are not where they belong, and the volume where handles only turn. */
 mr_status mr_judge_pose(mr_ctx *ctx, const mr_motion *m, const mr_ground *g);

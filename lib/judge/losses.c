@@ -33,6 +33,7 @@ mr_judge_losses(mr_ctx *ctx, mr_frame *before, mr_frame *after)
 {
 	bool standing;
 
+	MR_ENTER(ctx);
 	for (size_t i = 0; after->key && i < before->count; i++) {
 		const mr_column *c = &before->columns[i];
 		if (is_given(c) && mr_frame_has_layer(after, c->layer) && !is_there(after, c))

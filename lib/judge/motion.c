@@ -24,14 +24,14 @@ at_most(size_t a, size_t b)
 	return a < b ? a : b;
 }
 
-mr_status
+void
 mr_judge_harm(mr_ctx *ctx, const mr_motion *m)
 {
 	enum { FOLDS = 5, PAIRS = 20 }; /* fewer say nothing, but of few faces */
 	size_t nf = m->then->nf;
 	mr_harm h;
 
-	MR_TRY(mr_harm_find(ctx, m->then, m->edges, m->now, 0, &h));
+	mr_harm_find(ctx, m->then, m->edges, m->now, 0, &h);
 	if (h.folds > at_most(FOLDS, nf / 12))
 		report(ctx, m, (mr_finding){ .kind = MR_FOLDED, .count = h.folds, .of = m->edges->count },
 		    h.vertex);
@@ -39,10 +39,9 @@ mr_judge_harm(mr_ctx *ctx, const mr_motion *m)
 		report(ctx, m, (mr_finding){ .kind = MR_CROSSING, .count = h.pairs, .of = nf }, h.vertex);
 	if (h.far > PAIRS)
 		report(ctx, m, (mr_finding){ .kind = MR_COLLIDED, .count = h.far, .of = nf }, h.far_vertex);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_judge_contacts(mr_ctx *ctx, const mr_motion *m)
 {
 	const double touch = 0.003, apart = 0.005; /* of the diagonal */
@@ -50,14 +49,13 @@ mr_judge_contacts(mr_ctx *ctx, const mr_motion *m)
 	uint32_t widest;
 	size_t n;
 
-	MR_TRY(mr_contacts_find(ctx, m->then, touch * m->diagonal, &contacts));
+	mr_contacts_find(ctx, m->then, touch * m->diagonal, &contacts);
 	n = mr_contacts_open(&contacts, m->then, m->now, apart * m->diagonal, &widest);
 	if (n)
 		report(ctx, m, (mr_finding){ .kind = MR_APART, .count = n, .of = contacts.vertices }, widest);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g)
 {
 	enum { FEW = 5 };
@@ -68,7 +66,7 @@ mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g)
 	if (s.edges > FEW)
 		report(ctx, m, (mr_finding){ .kind = MR_TORN, .count = s.edges, .of = m->edges->count },
 		    s.vertex);
-	MR_TRY(mr_chords_find(ctx, m, g, far * m->diagonal, &c));
+	mr_chords_find(ctx, m, g, far * m->diagonal, &c);
 	if (c.edges)
 		report(ctx, m,
 		    (mr_finding){ .kind = MR_COARSE,
@@ -76,7 +74,6 @@ mr_judge_detail(mr_ctx *ctx, const mr_motion *m, const mr_ground *g)
 			.of = m->edges->count,
 			.limit = fmin(c.enough, mr_mesh_edge_scale(ctx, &g->then)) },
 		    c.vertex);
-	return MR_OK;
 }
 
 /* Handles that only turn ask for no other volume. */
@@ -103,7 +100,7 @@ mr_judge_pose(mr_ctx *ctx, const mr_motion *m, const mr_ground *g)
 	size_t missed;
 	mr_held h;
 
-	MR_TRY(mr_held_count(ctx, m, g, off * m->diagonal, &h));
+	mr_held_count(ctx, m, g, off * m->diagonal, &h);
 	missed = h.moved + h.missed + h.unscaled + h.faceless;
 	if (missed)
 		report(ctx, m,

@@ -36,16 +36,14 @@ add_areas(const mr_mesh *m, const uint32_t *part, double *area)
 }
 
 /* For each vertex of now, by its part, the part of then that a face of it is nearest to. */
-static mr_status
+static void
 match_parts(mr_ctx *ctx, const mr_mesh *then, const uint32_t *of, const mr_bvh *bvh, const mr_mesh *now,
     uint32_t **match)
 {
 	uint32_t *own, *to = MR_NEW(ctx, now->nv, uint32_t);
 	bool several;
 
-	MR_TRY(mr_components_label(ctx, now, &own, &several));
-	if (!to)
-		return MR_EMEM;
+	mr_components_label(ctx, now, &own, &several);
 	memset(to, 0xff, now->nv * sizeof *to);
 	for (size_t f = 0; f < now->nf; f++) {
 		const uint32_t *v = now->t[f].v;
@@ -58,11 +56,10 @@ match_parts(mr_ctx *ctx, const mr_mesh *then, const uint32_t *of, const mr_bvh *
 	for (size_t v = 0; v < now->nv; v++)
 		own[v] = own[v] == MR_NONE ? MR_NONE : to[own[v]];
 	*match = own;
-	return MR_OK;
 }
 
 /* Parts that have lost over half of their area. */
-static mr_status
+static void
 judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh, const mr_mesh *now, const uint32_t *of)
 {
 	const double half = 0.5;
@@ -71,9 +68,7 @@ judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh, const mr_mesh *
 	mr_finding f = { .kind = MR_GONE, .layer = now->name, .vertex = MR_NO_VERTEX };
 	uint32_t *match;
 
-	if (!was || !is)
-		return MR_EMEM;
-	MR_TRY(match_parts(ctx, then, of, bvh, now, &match));
+	match_parts(ctx, then, of, bvh, now, &match);
 	add_areas(then, of, was);
 	add_areas(now, match, is);
 	for (size_t v = 0; v < then->nv; v++) {
@@ -89,31 +84,27 @@ judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh, const mr_mesh *
 	}
 	if (f.count)
 		mr_found(ctx, &f);
-	return MR_OK;
 }
 
 enum { SAMPLES = 2048 };
 
 /* Corners at equal strides, and places in equal parts of the area. */
-static mr_status
+static void
 places_of(mr_ctx *ctx, const mr_mesh *m, mr_v3 **place, size_t *n)
 {
 	size_t all = 3 * m->nf, corners = all < 2 * SAMPLES ? all : 2 * SAMPLES;
 	mr_v3 *q = MR_NEW(ctx, corners + SAMPLES, mr_v3);
 
-	if (!q)
-		return MR_EMEM;
 	for (size_t i = 0; i < corners; i++) {
 		size_t h = i * all / corners;
 		q[i] = m->p[m->t[h / 3].v[h % 3]];
 	}
 	*place = q;
 	*n = corners + mr_spread_places(ctx, m, SAMPLES, q + corners);
-	return MR_OK;
 }
 
 /* The place of m that is farthest from `to`. */
-static mr_status
+static void
 farthest(mr_ctx *ctx, const mr_mesh *m, const mr_bvh *to, mr_v3 *at, double *far)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -121,20 +112,17 @@ farthest(mr_ctx *ctx, const mr_mesh *m, const mr_bvh *to, mr_v3 *at, double *far
 	double *distance;
 	mr_v3 *q;
 
-	MR_TRY(places_of(ctx, m, &q, &n));
+	places_of(ctx, m, &q, &n);
 	distance = MR_NEW(ctx, n, double);
-	if (!distance)
-		return MR_EMEM;
 	mr_bvh_distances(ctx, to, q, n, distance);
 	for (size_t i = 0; i < n; i++)
 		most = distance[i] > distance[most] ? i : most;
 	*at = q[most];
 	*far = distance[most];
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-static mr_status
+static void
 judge_distance(
     mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh_then, const mr_mesh *now, const mr_bvh *bvh)
 {
@@ -142,8 +130,8 @@ judge_distance(
 	double diagonal = mr_mesh_diagonal(then), far, back;
 	mr_v3 at, at_back;
 
-	MR_TRY(farthest(ctx, then, bvh, &at, &far));
-	MR_TRY(farthest(ctx, now, bvh_then, &at_back, &back));
+	farthest(ctx, then, bvh, &at, &far);
+	farthest(ctx, now, bvh_then, &at_back, &back);
 	if (fmax(far, back) > most * diagonal)
 		mr_found(ctx, &(mr_finding){ .kind = MR_DISTANT,
 				  .layer = now->name,
@@ -151,11 +139,10 @@ judge_distance(
 				  .placed = true,
 				  .vertex = MR_NO_VERTEX,
 				  .at = far >= back ? at : at_back });
-	return MR_OK;
 }
 
 /* Where what was there intersects already, a coarser surface has fewer pairs of it, or some more. */
-static mr_status
+static void
 judge_intersections(
     mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh_then, const mr_mesh *now, const mr_bvh *bvh)
 {
@@ -163,14 +150,12 @@ judge_intersections(
 	bool *crosses = MR_NEW(ctx, now->nf, bool);
 	size_t pairs, old, f = 0;
 
-	if (!crosses)
-		return MR_EMEM;
-	MR_TRY(mr_self_intersections(ctx, bvh, now, crosses, &pairs));
+	mr_self_intersections(ctx, bvh, now, crosses, &pairs);
 	if (pairs <= FEW)
-		return MR_OK;
-	MR_TRY(mr_self_intersections(ctx, bvh_then, then, NULL, &old));
+		return;
+	mr_self_intersections(ctx, bvh_then, then, NULL, &old);
 	if (pairs <= FEW + 2 * old)
-		return MR_OK;
+		return;
 	while (!crosses[f])
 		f++;
 	mr_found(ctx, &(mr_finding){ .kind = MR_CROSSING,
@@ -180,7 +165,6 @@ judge_intersections(
 			  .placed = true,
 			  .vertex = now->t[f].v[0],
 			  .at = now->p[now->t[f].v[0]] });
-	return MR_OK;
 }
 
 mr_status
@@ -193,11 +177,12 @@ mr_judge_remade(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
 	MR_TRY(judge_size(ctx, then, now));
 	if (!(mr_mesh_area(ctx, then) > 0 && mr_mesh_area(ctx, now) > 0))
 		return MR_OK;
-	MR_TRY(mr_components_label(ctx, then, &of, &several));
-	MR_TRY(mr_bvh_build(ctx, then, &bvh_then));
+	mr_components_label(ctx, then, &of, &several);
+	mr_bvh_build(ctx, then, &bvh_then);
 	if (several)
-		MR_TRY(judge_parts(ctx, then, bvh_then, now, of));
-	MR_TRY(mr_bvh_build(ctx, now, &bvh));
-	MR_TRY(judge_distance(ctx, then, bvh_then, now, bvh));
-	return judge_intersections(ctx, then, bvh_then, now, bvh);
+		judge_parts(ctx, then, bvh_then, now, of);
+	mr_bvh_build(ctx, now, &bvh);
+	judge_distance(ctx, then, bvh_then, now, bvh);
+	judge_intersections(ctx, then, bvh_then, now, bvh);
+	return MR_OK;
 }

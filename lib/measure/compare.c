@@ -24,8 +24,6 @@ with_faces(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out)
 		return mr_fail(
 		    ctx, MR_ERANGE, "%s: %zu points are more than %u", m->name, m->nv, (MR_NONE - 1) / 3);
 	t = MR_NEW(ctx, m->nv, mr_tri);
-	if (!t)
-		return MR_EMEM;
 	for (uint32_t i = 0; i < m->nv; i++)
 		t[i] = (mr_tri){ { i, i, i } };
 	out->t = t;
@@ -58,7 +56,7 @@ measure_deviation(const mr_mesh *a, const mr_mesh *b, mr_deviation *d)
 	d->rms = sqrt(square / (double)a->nv);
 }
 
-static mr_status
+static void
 measure_stretch(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, mr_deviation *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -66,7 +64,7 @@ measure_stretch(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, mr_deviation *d
 	mr_edges edges;
 	size_t n = 0;
 
-	MR_TRY(mr_edges_build(ctx, a, &edges));
+	mr_edges_build(ctx, a, &edges);
 	for (size_t e = 0; e < edges.count; e++) {
 		uint32_t h = edges.he[edges.start[e]], from = mr_he_from(a, h), to = mr_he_to(a, h);
 		double stretch = mr_dist(b->p[from], b->p[to]) / mr_dist(a->p[from], a->p[to]);
@@ -81,7 +79,6 @@ measure_stretch(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, mr_deviation *d
 	d->stretch_max = n ? high : NAN;
 	d->stretch_mean = n ? sum / (double)n : NAN;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static mr_distance
@@ -92,11 +89,9 @@ join(const mr_distance *a, const mr_distance *b)
 		a->samples + b->samples };
 }
 
-mr_status
-mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, mr_comparison *out)
+static mr_status
+compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *o, mr_comparison *out)
 {
-	static const mr_compare_opts defaults = MR_COMPARE_DEFAULTS;
-	const mr_compare_opts *o = opts ? opts : &defaults;
 	mr_mark mark = mr_mark_take(ctx);
 	mr_comparison c = { .corresponds = corresponds(a, b), .diagonal = mr_mesh_diagonal(b) };
 	double scale = fmax(mr_mesh_diagonal(a), c.diagonal);
@@ -110,9 +105,18 @@ mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opt
 	c.both = join(&c.ab, &c.ba);
 	if (c.corresponds) {
 		measure_deviation(a, b, &c.deviation);
-		MR_TRY(measure_stretch(ctx, a, b, &c.deviation));
+		measure_stretch(ctx, a, b, &c.deviation);
 	}
 	mr_mark_release(ctx, mark);
 	*out = c;
 	return MR_OK;
+}
+
+mr_status
+mr_compare(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_compare_opts *opts, mr_comparison *out)
+{
+	static const mr_compare_opts defaults = MR_COMPARE_DEFAULTS;
+
+	MR_ENTER(ctx);
+	return compare(ctx, a, b, opts ? opts : &defaults, out);
 }

@@ -177,8 +177,6 @@ measure(mr_ctx *ctx, job *j, size_t count, mr_body body, sums *total)
 	size_t grains = (count + GRAIN - 1) / GRAIN;
 
 	j->sums = MR_NEW(ctx, grains, sums);
-	if (!j->sums)
-		return MR_EMEM;
 	mr_parallel(ctx, count, GRAIN, body, j);
 	*total = SUMS_NONE;
 	for (size_t i = 0; i < grains; i++)
@@ -203,12 +201,11 @@ greater(const void *a, const void *b)
 	return x->bound > y->bound;
 }
 
-static mr_status
+static void
 push(mr_ctx *ctx, queue *q, const piece *x)
 {
-	MR_TRY(MR_RESERVE(ctx, q->p, q->n, 1, &q->room));
+	MR_RESERVE(ctx, q->p, q->n, 1, &q->room);
 	mr_queue_push(q->p, q->n++, sizeof *x, x, greater);
-	return MR_OK;
 }
 
 /* The four triangles between corners and midpoints of edges. */
@@ -267,7 +264,7 @@ enough_for(double max, double tolerance, double scale)
 	return max * (1 + tolerance) + ROUNDING * scale;
 }
 
-static mr_status
+static void
 push_faces(mr_ctx *ctx, const job *j, queue *q)
 {
 	for (size_t f = 0; f < j->a->nf; f++) {
@@ -277,13 +274,12 @@ push_faces(mr_ctx *ctx, const job *j, queue *q)
 		for (int i = 0; i < 3; i++)
 			x.v[i] = j->a->p[j->a->t[f].v[i]];
 		x.face = mr_bvh_closest(j->bvh, centroid(x.v)).at.face;
-		MR_TRY(push(ctx, q, &x));
+		push(ctx, q, &x);
 	}
-	return MR_OK;
 }
 
 /* Cuts the pieces of greatest bound until none is above `enough`, or the effort is spent. */
-static mr_status
+static void
 search(mr_ctx *ctx, job *j, queue *q, size_t effort, double tolerance, double scale, mr_distance *d)
 {
 	while (q->n && q->p[0].bound > j->enough && effort) {
@@ -297,13 +293,12 @@ search(mr_ctx *ctx, job *j, queue *q, size_t effort, double tolerance, double sc
 		j->enough = enough_for(d->max, tolerance, scale);
 		for (size_t i = 0; i < 4 * n; i++)
 			if (j->children[i].bound > j->enough)
-				MR_TRY(push(ctx, q, &j->children[i]));
+				push(ctx, q, &j->children[i]);
 	}
 	d->max_bound = fmax(j->enough, q->n ? q->p[0].bound : 0);
-	return MR_OK;
 }
 
-static mr_status
+static void
 bound_max(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_distance *d)
 {
 	size_t effort = opts->effort ? opts->effort : j->a->nf > EFFORT / 2 ? 2 * j->a->nf : EFFORT;
@@ -313,17 +308,15 @@ bound_max(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double scale, mr_dis
 	j->pieces = MR_NEW(ctx, BATCH, piece);
 	j->children = MR_NEW(ctx, (size_t)4 * BATCH, piece);
 	j->reached = MR_NEW(ctx, (size_t)4 * BATCH, double);
-	if (!j->pieces || !j->children || !j->reached)
-		return MR_EMEM;
 	j->enough = enough_for(d->max, opts->tolerance, scale);
 	for (size_t f = 0; f < j->a->nf; f++)
 		most = fmax(most, j->bound[f]);
 	if (most <= j->enough) {
 		d->max_bound = fmax(most, d->max);
-		return MR_OK;
+		return;
 	}
-	MR_TRY(push_faces(ctx, j, &q));
-	return search(ctx, j, &q, effort, opts->tolerance, scale, d);
+	push_faces(ctx, j, &q);
+	search(ctx, j, &q, effort, opts->tolerance, scale, d);
 }
 
 /* ---- one direction ---- */
@@ -354,15 +347,14 @@ measure_surface(mr_ctx *ctx, job *j, const mr_compare_opts *opts, double area, d
 	sums vertices, faces;
 
 	j->bound = MR_NEW(ctx, j->a->nf, double);
-	if (!j->bound)
-		return MR_EMEM;
 	j->piece_area = area / (double)samples;
 	MR_TRY(measure(ctx, j, j->a->nv, measure_vertices, &vertices));
 	MR_TRY(measure(ctx, j, j->a->nf, measure_faces, &faces));
 	*d = distance_of(&faces);
 	d->min = fmin(d->min, vertices.min);
 	d->max = fmax(d->max, vertices.max);
-	return bound_max(ctx, j, opts, scale, d);
+	bound_max(ctx, j, opts, scale, d);
+	return MR_OK;
 }
 
 static mr_status
@@ -384,12 +376,10 @@ mr_compare_one_way(mr_ctx *ctx, const mr_mesh *a, const mr_mesh *b, const mr_com
 	double area = opts->vertices_only ? 0 : mr_mesh_area(ctx, a);
 	mr_bvh *bvh;
 
-	MR_TRY(mr_bvh_build(ctx, b, &bvh));
+	mr_bvh_build(ctx, b, &bvh);
 	j.bvh = bvh;
 	if (a->nf > 0 && !opts->vertices_only) {
 		j.used = used_vertices(ctx, a);
-		if (!j.used)
-			return MR_EMEM;
 	}
 	if (area > 0)
 		MR_TRY(measure_surface(ctx, &j, opts, area, scale, out));

@@ -77,8 +77,6 @@ mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size
 	double *distance = MR_NEW(ctx, samples, double);
 	size_t n, bare = 0;
 
-	if (!q || !nearest || !distance)
-		return MR_EMEM;
 	n = mr_spread_places(ctx, m, samples, q);
 	MR_TRY(mr_near_query(ctx, cloud->near, q, n, 1, nearest, distance));
 	for (size_t i = 0; i < n; i++) {
@@ -95,7 +93,7 @@ mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size
 	return MR_OK;
 }
 
-mr_status
+void
 mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps)
 {
 	size_t n = cloud->n < samples ? cloud->n : samples;
@@ -104,14 +102,11 @@ mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_
 	double *distance = MR_NEW(ctx, n, double);
 	mr_bvh *bvh;
 
-	if (!p || !distance)
-		return MR_EMEM;
 	mr_at_strides(cloud->p, cloud->n, n, p);
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	mr_bvh_build(ctx, m, &bvh);
 	mr_bvh_distances(ctx, bvh, p, n, distance);
 	gaps->points = mr_gap_of(distance, n);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
@@ -122,10 +117,7 @@ mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling
 	double *spacing = MR_NEW(ctx, s->n, double);
 	mr_gap_cloud cloud = { .p = place, .spacing = spacing, .usual = s->usual };
 	mr_near *near;
-	mr_status status;
 
-	if (!place || !spacing)
-		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
 		if (!s->repeat[i] && !s->outlier[i]) {
 			place[cloud.n] = p[i];
@@ -133,11 +125,8 @@ mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling
 		}
 	MR_TRY(mr_near_build(ctx, place, cloud.n, &near));
 	cloud.near = near;
-	status = mr_gap_of_points(ctx, m, &cloud, MR_GAP_SAMPLES, gaps);
-	if (status == MR_OK)
-		status = mr_gap_of_surface(ctx, m, &cloud, MR_GAP_SAMPLES, gaps, NULL);
-	mr_near_free(near);
-	MR_TRY(status);
+	mr_gap_of_points(ctx, m, &cloud, MR_GAP_SAMPLES, gaps);
+	MR_TRY(mr_gap_of_surface(ctx, m, &cloud, MR_GAP_SAMPLES, gaps, NULL));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -179,7 +168,7 @@ static const double FAR_OF_MESH = 0.018, OFF = 0.005, OFF_MOST = 0.02;
 
 /* The distances of `from`'s places to bvh, n of equal parts of the area, then those of `corners` of its
  * corners. */
-static mr_status
+static void
 measure_to_mesh(
     mr_ctx *ctx, const mr_mesh *from, const mr_mesh *to, size_t samples, double off, mr_mesh_gaps *gaps)
 {
@@ -188,14 +177,12 @@ measure_to_mesh(
 	double *distance = MR_NEW(ctx, samples + corners, double);
 	mr_bvh *bvh;
 
-	if (!q || !distance)
-		return MR_EMEM;
 	n = mr_spread_places(ctx, from, samples, q);
 	for (size_t i = 0; i < corners; i++) {
 		size_t h = i * 3 * from->nf / corners;
 		q[n + i] = from->p[from->t[h / 3].v[h % 3]];
 	}
-	MR_TRY(mr_bvh_build(ctx, to, &bvh));
+	mr_bvh_build(ctx, to, &bvh);
 	mr_bvh_distances(ctx, bvh, q, n + corners, distance);
 	for (size_t i = 0; i < n + corners; i++) {
 		beyond += i < n && distance[i] > off;
@@ -206,21 +193,19 @@ measure_to_mesh(
 	}
 	gaps->off = fmax(gaps->off, n ? (double)beyond / (double)n : 0);
 	gaps->surface = mr_gap_of(distance, n);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples, mr_mesh_gaps *gaps)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double off = OFF * mr_mesh_diagonal(mesh);
 	mr_mesh_gaps g = { .widest = 0 };
 
-	MR_TRY(measure_to_mesh(ctx, mesh, surface, samples, off, &g));
-	MR_TRY(measure_to_mesh(ctx, surface, mesh, samples, off, &g));
+	measure_to_mesh(ctx, mesh, surface, samples, off, &g);
+	measure_to_mesh(ctx, surface, mesh, samples, off, &g);
 	*gaps = g;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 void

@@ -35,7 +35,7 @@ mr_status mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *c
     mr_gaps *gaps, mr_gap_spot *widest);
 
 /* gaps->points: of so many at equal strides. */
-mr_status
+void
 mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps);
 
 /* Both, of the points of a sampling, which are indexed for it. */
@@ -56,8 +56,8 @@ typedef struct mr_mesh_gaps {
 	double off; /* the share of the one that is too far from the other, of the two the larger */
 } mr_mesh_gaps;
 
-mr_status mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples,
-    mr_mesh_gaps *gaps) MR_WARN_UNUSED;
+void
+mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples, mr_mesh_gaps *gaps);
 
 /* Reports where a layer, the surface of a control mesh, is too far from the mesh that it is made of. */
 void mr_mesh_gaps_report(mr_ctx *ctx, const char *layer, const mr_mesh_gaps *gaps, const mr_mesh *mesh);

@@ -18,15 +18,13 @@ corner_at(const mr_mesh *m, uint32_t h, uint32_t v)
 	return mr_he_from(m, h) == v ? h : mr_he_next(h);
 }
 
-static mr_status
+static void
 count_components(mr_ctx *ctx, const mr_mesh *m, mr_census *c, size_t *used)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *parent = mr_sets_new(ctx, m->nv);
 	unsigned char *state = MR_NEW_ZERO(ctx, m->nv, unsigned char); /* 1: in a face; 2: in a proper one */
 
-	if (!parent || !state)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
 		bool proper = !mr_face_repeats(m, f);
@@ -43,7 +41,6 @@ count_components(mr_ctx *ctx, const mr_mesh *m, mr_census *c, size_t *used)
 		c->components += state[v] == 2 && mr_sets_root(parent, v) == v;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static void
@@ -58,31 +55,26 @@ join_corners(const mr_mesh *m, const mr_edges *edges, uint32_t *fan)
 	}
 }
 
-static mr_status
+static void
 count_fans(mr_ctx *ctx, const mr_mesh *m, uint32_t *fan, mr_census *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *fans = MR_NEW_ZERO(ctx, m->nv, uint32_t);
 
-	if (!fans)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		if (!mr_face_repeats(m, h / 3) && fan[h] == h)
 			c->nonmanifold_vertices += ++fans[mr_he_from(m, h)] == 2;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Boundary edges of one fan belong to one loop: each fan keeps the first it meets. */
-static mr_status
+static void
 count_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *fan, mr_census *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *first = MR_NEW(ctx, 3 * m->nf, uint32_t), *loop = mr_sets_new(ctx, c->boundary_edges),
 		 n = 0;
 
-	if (!first || !loop)
-		return MR_EMEM;
 	memset(first, 0xff, 3 * m->nf * sizeof *first);
 	for (size_t e = 0; e < edges->count; e++) {
 		uint32_t h = edges->he[edges->start[e]], corner[2] = { h, mr_he_next(h) };
@@ -99,22 +91,18 @@ count_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *fan,
 	for (uint32_t i = 0; i < n; i++)
 		c->boundary_loops += mr_sets_root(loop, i) == i;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-static mr_status
+static void
 count_fans_and_loops(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *fan = mr_sets_new(ctx, 3 * m->nf);
 
-	if (!fan)
-		return MR_EMEM;
 	join_corners(m, edges, fan);
-	MR_TRY(count_fans(ctx, m, fan, c));
-	MR_TRY(count_loops(ctx, m, edges, fan, c));
+	count_fans(ctx, m, fan, c);
+	count_loops(ctx, m, edges, fan, c);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* The two faces of an edge, as if oriented alike. */
@@ -149,7 +137,7 @@ top_vertex(const mr_mesh *m, uint32_t h)
 	return c > a && c > b ? c : MR_NONE;
 }
 
-static mr_status
+static void
 count_duplicates(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -158,8 +146,6 @@ count_duplicates(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census
 	for (size_t e = 0; e < edges->count; e++)
 		most = mr_edge_faces(edges, e) > most ? mr_edge_faces(edges, e) : most;
 	top = MR_NEW(ctx, most, uint32_t);
-	if (!top)
-		return MR_EMEM;
 	for (size_t e = 0; e < edges->count; e++) {
 		uint32_t n = mr_edge_faces(edges, e);
 		if (n < 2)
@@ -171,7 +157,6 @@ count_duplicates(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census
 			c->duplicate_faces += top[i] != MR_NONE && top[i] == top[i - 1];
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static void
@@ -184,7 +169,7 @@ count_degenerate(const mr_mesh *m, mr_census *c)
 	}
 }
 
-mr_status
+void
 mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *out)
 {
 	mr_census c = { 0 };
@@ -194,16 +179,15 @@ mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *
 		proper += !mr_face_repeats(m, f);
 	count_edges(m, edges, &c);
 	count_degenerate(m, &c);
-	MR_TRY(count_components(ctx, m, &c, &used));
-	MR_TRY(count_fans_and_loops(ctx, m, edges, &c));
-	MR_TRY(count_duplicates(ctx, m, edges, &c));
+	count_components(ctx, m, &c, &used);
+	count_fans_and_loops(ctx, m, edges, &c);
+	count_duplicates(ctx, m, edges, &c);
 	c.euler = (int64_t)used - (int64_t)edges->count + (int64_t)proper;
 	c.oriented = c.inconsistent_edges == 0;
 	c.manifold = c.nonmanifold_edges == 0 && c.nonmanifold_vertices == 0;
 	if (c.oriented && c.manifold) /* euler = 2 components - 2 genus - loops */
 		c.genus = (2 * (int64_t)c.components - (int64_t)c.boundary_loops - c.euler) / 2;
 	*out = c;
-	return MR_OK;
 }
 
 /* ---- sizes and shapes ---- */
@@ -249,18 +233,15 @@ edge_lengths(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
+static void
 measure_edges(mr_ctx *ctx, job *j, mr_geometry *g)
 {
 	mr_mark mark = mr_mark_take(ctx);
 
 	j->value = MR_NEW(ctx, j->edges->count, double);
-	if (!j->value)
-		return MR_EMEM;
 	mr_parallel(ctx, j->edges->count, 4096, edge_lengths, j);
 	g->edge = mr_spread_of(j->value, j->edges->count);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static double
@@ -288,7 +269,7 @@ face_angles(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
+static void
 measure_angles(mr_ctx *ctx, job *j, mr_geometry *g)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -296,8 +277,6 @@ measure_angles(mr_ctx *ctx, job *j, mr_geometry *g)
 	size_t n = 0;
 
 	j->angle = mr_alloc(ctx, j->m->nf, sizeof *j->angle);
-	if (!j->angle)
-		return MR_EMEM;
 	mr_parallel(ctx, j->m->nf, 4096, face_angles, j);
 	for (size_t f = 0; f < j->m->nf; f++) {
 		const double *a = j->angle[f];
@@ -312,7 +291,6 @@ measure_angles(mr_ctx *ctx, job *j, mr_geometry *g)
 	g->angle_max = n ? high : NAN;
 	g->angle_error = n ? sum / (double)n : NAN;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 void
@@ -326,7 +304,7 @@ mr_mark_boundary(const mr_mesh *m, const mr_edges *edges, bool *boundary)
 	}
 }
 
-static mr_status
+static void
 measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -334,8 +312,6 @@ measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
 	bool *boundary = MR_NEW(ctx, j->m->nv, bool);
 	size_t used = 0, regular = 0;
 
-	if (!valence || !boundary)
-		return MR_EMEM;
 	mr_mark_boundary(j->m, j->edges, boundary);
 	for (size_t e = 0; e < j->edges->count; e++) {
 		uint32_t h = j->edges->he[j->edges->start[e]];
@@ -348,10 +324,9 @@ measure_valence(mr_ctx *ctx, const job *j, mr_geometry *g)
 	}
 	g->valence6 = used ? (double)regular / (double)used : NAN;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geometry *out)
 {
 	mr_geometry g = { .box = mr_mesh_box(m), .volume = NAN };
@@ -361,23 +336,20 @@ mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geo
 	g.area = mr_mesh_area(ctx, m);
 	if (mr_edges_enclose(m, edges))
 		g.volume = mr_mesh_volume(ctx, m);
-	MR_TRY(measure_edges(ctx, &j, &g));
-	MR_TRY(measure_angles(ctx, &j, &g));
-	MR_TRY(measure_valence(ctx, &j, &g));
+	measure_edges(ctx, &j, &g);
+	measure_angles(ctx, &j, &g);
+	measure_valence(ctx, &j, &g);
 	*out = g;
-	return MR_OK;
 }
 
 /* ---- clouds ---- */
 
-static mr_status
+static void
 measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud_figures *c)
 {
 	double *spacing = MR_NEW(ctx, s->n, double);
 	size_t count = 0;
 
-	if (!spacing)
-		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
 		if (!s->repeat[i] && !s->outlier[i])
 			spacing[count++] = s->spacing[i];
@@ -385,7 +357,7 @@ measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud_figures *c)
 	c->outliers = s->outliers;
 	c->duplicates = s->n - s->places;
 	if (!(s->usual > 0))
-		return MR_OK;
+		return;
 	c->spacing = mr_spread_of(spacing, count);
 	c->usual = s->usual;
 	c->area = s->area;
@@ -393,7 +365,6 @@ measure_sampling(mr_ctx *ctx, const mr_sampling *s, mr_cloud_figures *c)
 	c->noise = s->noise;
 	c->noise_spacing = s->noise / s->usual;
 	c->noise_diagonal = s->noise / c->diagonal;
-	return MR_OK;
 }
 
 mr_status
@@ -405,8 +376,6 @@ mr_measure_points(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *samp
 	mr_sampling found;
 	size_t count = 0;
 
-	if (!finite)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		if (mr_finite(p[i]))
 			finite[count++] = p[i];
@@ -415,7 +384,7 @@ mr_measure_points(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *samp
 	c.diagonal = mr_box_diagonal(c.box);
 	c.usual = c.area = c.evenness = c.noise = c.noise_spacing = c.noise_diagonal = NAN;
 	MR_TRY(mr_sampling_find(ctx, finite, count, count == n ? sampling : NULL, &found));
-	MR_TRY(measure_sampling(ctx, &found, &c));
+	measure_sampling(ctx, &found, &c);
 	mr_mark_release(ctx, mark);
 	*out = c;
 	return MR_OK;
@@ -429,9 +398,10 @@ mr_measure_cloud(mr_ctx *ctx, mr_frame *f, const char *layer, mr_cloud_figures *
 	const void *p;
 	size_t n;
 
+	MR_ENTER(ctx);
 	MR_TRY(mr_layer_get(ctx, f, layer, "position", &p, &n));
 	/* where it breaks a law it is found anew; that is for --check to say */
-	if (mr_sampling_stored(ctx, f, layer, n, &sampling, &stored) == MR_EMEM)
-		return MR_EMEM;
+	if (mr_sampling_stored(ctx, f, layer, n, &sampling, &stored) < 0)
+		stored = false;
 	return mr_measure_points(ctx, p, n, stored ? &sampling : NULL, figures);
 }

@@ -10,11 +10,11 @@
 #include "mesh/edges.h"
 #include "space/sampling.h"
 
-mr_status mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *census);
+void mr_take_census(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_census *census);
 
 mr_spread mr_spread_of(const double *x, size_t n);
 
-mr_status mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geometry *geometry);
+void mr_measure_geometry(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_geometry *geometry);
 
 /* Marks the ends of boundary edges.  boundary: nv, the caller's. */
 void mr_mark_boundary(const mr_mesh *m, const mr_edges *edges, bool *boundary);

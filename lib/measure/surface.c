@@ -17,7 +17,7 @@ keep_interior(const mr_mesh *m, const mr_edges *edges, bool *boundary, double *a
 	return n;
 }
 
-static mr_status
+static void
 measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenness *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -26,9 +26,7 @@ measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenne
 	mr_spread s;
 	size_t n;
 
-	if (!area || !boundary)
-		return MR_EMEM;
-	MR_TRY(mr_voronoi_areas(ctx, m, area));
+	mr_voronoi_areas(ctx, m, area);
 	n = keep_interior(m, edges, boundary, area);
 	s = mr_spread_of(area, n);
 	for (size_t i = 0; i < n; i++)
@@ -36,7 +34,6 @@ measure_evenness(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, mr_evenne
 	*out = (mr_evenness){ n, s.mean, n ? error / ((double)n * s.mean) : NAN,
 		s.deviation / s.mean * (s.deviation / s.mean) };
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
@@ -46,13 +43,14 @@ mr_measure_surface(mr_ctx *ctx, const mr_mesh *m, bool intersections, mr_surface
 	mr_surface_figures s = { .intersections = MR_UNKNOWN };
 	mr_edges edges;
 
-	MR_TRY(mr_edges_build(ctx, m, &edges));
-	MR_TRY(mr_take_census(ctx, m, &edges, &s.census));
-	MR_TRY(mr_measure_geometry(ctx, m, &edges, &s.geometry));
-	MR_TRY(measure_evenness(ctx, m, &edges, &s.evenness));
+	MR_ENTER(ctx);
+	mr_edges_build(ctx, m, &edges);
+	mr_take_census(ctx, m, &edges, &s.census);
+	mr_measure_geometry(ctx, m, &edges, &s.geometry);
+	measure_evenness(ctx, m, &edges, &s.evenness);
 	mr_mark_release(ctx, mark);
 	if (intersections)
-		MR_TRY(mr_self_intersections(ctx, NULL, m, NULL, &s.intersections));
+		mr_self_intersections(ctx, NULL, m, NULL, &s.intersections);
 	*out = s;
 	return MR_OK;
 }

@@ -34,7 +34,7 @@ alike(mr_tri sorted_face, mr_tri other)
 	return !memcmp(&sorted_face, &o, sizeof o);
 }
 
-mr_status
+void
 mr_first_alike(mr_ctx *ctx, const mr_mesh *m, uint32_t *first)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -44,8 +44,6 @@ mr_first_alike(mr_ctx *ctx, const mr_mesh *m, uint32_t *first)
 	while (mask < 2 * m->nf)
 		mask *= 2;
 	slot = MR_NEW_ZERO(ctx, mask--, uint32_t); /* number of a face + 1 */
-	if (!slot)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		mr_tri key = sorted(m->t[f]);
 		size_t at = hash3(key) & mask;
@@ -56,5 +54,4 @@ mr_first_alike(mr_ctx *ctx, const mr_mesh *m, uint32_t *first)
 		first[f] = slot[at] - 1;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

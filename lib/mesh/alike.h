@@ -7,6 +7,6 @@
 #include "mesh/mesh.h"
 
 /* first[f]: the lowest face with the vertices of face f, in any order; m->nf of them, the caller's. */
-mr_status mr_first_alike(mr_ctx *ctx, const mr_mesh *m, uint32_t *first);
+void mr_first_alike(mr_ctx *ctx, const mr_mesh *m, uint32_t *first);
 
 #endif

@@ -71,7 +71,7 @@ add_lines(mr_ctx *ctx, mr_name_table *all, const char *text, size_t bytes, uint3
 	for (*count = 0; text <= end; (*count)++) {
 		const char *stop = memchr(text, '\n', (size_t)(end - text));
 		size_t n = (size_t)((stop ? stop : end) - text);
-		MR_TRY(MR_RESERVE(ctx, *number, *count, 1, &room));
+		MR_RESERVE(ctx, *number, *count, 1, &room);
 		MR_TRY(mr_name_number(ctx, all, text, n, &(*number)[*count]));
 		text += n + 1;
 	}
@@ -139,17 +139,16 @@ typedef struct following {
 } following;
 
 /* Counts the names of frame i that are one with another of it. */
-static mr_status
+static void
 note_namesakes(mr_ctx *ctx, following *w, size_t i, const uint32_t *number, size_t count, size_t known)
 {
-	MR_TRY(MR_RESERVE(ctx, w->frame, known, w->names.count - known, &w->room));
+	MR_RESERVE(ctx, w->frame, known, w->names.count - known, &w->room);
 	for (size_t k = known; k < w->names.count; k++)
 		w->frame[k] = 0;
 	for (size_t k = 0; k < count; k++) {
 		w->namesakes += w->frame[number[k]] == i + 1;
 		w->frame[number[k]] = (uint32_t)i + 1;
 	}
-	return MR_OK;
 }
 
 /* Names of frame i, of which x has the numbers. */
@@ -164,7 +163,7 @@ follow_names(mr_ctx *ctx, const joined *j, size_t i, const char *names, uint32_t
 		return MR_OK;
 	MR_TRY(mr_layer_get(ctx, j->frames[i], j->layer, names, &text, &bytes));
 	MR_TRY(add_lines(ctx, &w->names, text, bytes, &number, &count));
-	MR_TRY(note_namesakes(ctx, w, i, number, count, known));
+	note_namesakes(ctx, w, i, number, count, known);
 	for (size_t k = 0; k < n; k++) {
 		if (x[k] >= count)
 			return mr_fail(ctx, MR_ERANGE, "%s: row %zu of %s is %u of %zu", j->layer, k, j->name,
@@ -241,8 +240,6 @@ join_rows(mr_ctx *ctx, const joined *j, mr_frame *out)
 	size_t at = 0, n;
 	following w = { 0 };
 
-	if (!x)
-		return MR_EMEM;
 	for (size_t i = 0; i < j->n; i++) {
 		MR_TRY(copy_rows(ctx, j, i, x + at * width, &n));
 		if (j->first->shape.type == 'u')
@@ -450,7 +447,6 @@ join_lines(mr_ctx *ctx, const joined *j, const char *name, mr_frame *out)
 				mr_text_add(
 				    &all, "%.*s", (int)(n < INT_MAX ? n : INT_MAX), (const char *)line);
 		}
-	MR_TRY(mr_text_done(&all));
 	return all.s ? mr_frame_put(ctx, out, "", name, text, all.s, all.n) : MR_OK;
 }
 

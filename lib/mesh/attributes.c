@@ -257,8 +257,6 @@ mr_carried_begin(mr_ctx *ctx, mr_frame *f, size_t i, size_t before, size_t rows,
 	memcpy(c->name, column->name, sizeof c->name);
 	c->rows = column->shape.element == '-' ? (size_t)column->rows : rows;
 	c->to = mr_alloc(ctx, c->rows * c->shape.components, mr_type_size(c->shape.type));
-	if (!c->to)
-		return MR_EMEM;
 	if (column->shape.element == '-')
 		memcpy(c->to, c->from, c->rows * c->shape.components * mr_type_size(c->shape.type));
 	return MR_OK;

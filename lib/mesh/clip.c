@@ -109,19 +109,17 @@ take_face(clip *c, uint32_t f)
 				cut_face(c, 3 * f + k);
 }
 
-mr_status
+void
 mr_mesh_clip(mr_ctx *ctx, const mr_mesh *m, const double *value, mr_mesh *out)
 {
 	clip c = { .m = m, .value = value };
 	mr_edges edges;
 
-	MR_TRY(mr_edges_build(ctx, m, &edges));
+	mr_edges_build(ctx, m, &edges);
 	c.p = MR_NEW(ctx, m->nv + edges.count, mr_v3);
 	c.t = MR_NEW(ctx, 2 * m->nf, mr_tri);
 	c.vertex = MR_NEW(ctx, m->nv, uint32_t);
 	c.crossing = MR_NEW(ctx, 3 * m->nf, uint32_t);
-	if (!c.p || !c.t || !c.vertex || !c.crossing)
-		return MR_EMEM;
 	memset(c.vertex, 0xff, m->nv * sizeof *c.vertex);
 	memset(c.crossing, 0xff, 3 * m->nf * sizeof *c.crossing);
 	keep_vertices(&c);
@@ -133,5 +131,4 @@ mr_mesh_clip(mr_ctx *ctx, const mr_mesh *m, const double *value, mr_mesh *out)
 	c.out.p = c.p;
 	c.out.t = c.t;
 	*out = c.out;
-	return MR_OK;
 }

@@ -11,6 +11,6 @@
  * as the line runs through edges and no vertices.  It keeps a twentieth of an edge away from its ends.
  * Vertices that no face is left of go.  out: in the arena.
  */
-mr_status mr_mesh_clip(mr_ctx *ctx, const mr_mesh *m, const double *value, mr_mesh *out);
+void mr_mesh_clip(mr_ctx *ctx, const mr_mesh *m, const double *value, mr_mesh *out);
 
 #endif

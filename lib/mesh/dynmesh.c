@@ -68,18 +68,17 @@ link_twins(mr_dyn *d, uint32_t h, uint32_t g)
 		d->twin[g] = h;
 }
 
-mr_status
+void
 mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 {
 	if (d->free_v != MR_NONE) {
 		*v = d->free_v;
 		d->free_v = d->out[*v];
-		return MR_OK;
+		return;
 	}
 	if (d->nv == d->room_v)
-		MR_TRY(mr_dyn_room_v(ctx, d, d->room_v + d->room_v / 2));
+		mr_dyn_room_v(ctx, d, d->room_v + d->room_v / 2);
 	*v = (uint32_t)d->nv++;
-	return MR_OK;
 }
 
 mr_status
@@ -165,7 +164,7 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 
 	if (mr_dyn_on_curve(d, h))
 		MR_TRY(mr_curves_reserve(ctx, &d->curves, 2));
-	MR_TRY(mr_dyn_add_vertex(ctx, d, &m));
+	mr_dyn_add_vertex(ctx, d, &m);
 	MR_TRY(mr_dyn_add_face(ctx, d, &f));
 	if (g != MR_NONE)
 		MR_TRY(mr_dyn_add_face(ctx, d, &e));

@@ -167,7 +167,7 @@ mr_v3 mr_dyn_middle_around(const mr_dyn *d, uint32_t v);
  * caller's. */
 void mr_dyn_remove_vertex(mr_dyn *d, uint32_t v);
 void mr_dyn_remove_face(mr_dyn *d, uint32_t f);
-mr_status mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v);
+void mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v);
 mr_status mr_dyn_add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f);
 
 /* Makes h, which leaves v, or the boundary half-edge clockwise of it, the one that v keeps. */
@@ -198,11 +198,11 @@ bool mr_dyn_can_flip(const mr_dyn *d, uint32_t h);
 void mr_dyn_flip(mr_dyn *d, uint32_t h);
 
 /* Room for so many vertices, or faces, as there are at least. */
-mr_status mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room);
+void mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room);
 mr_status mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room);
 
 /* A copy in the arena, with no room to spare. */
-mr_status mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *copy);
+void mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *copy);
 
 /* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
@@ -211,7 +211,7 @@ mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);
  * Renumbers vertices along a space-filling curve, faces by their lowest vertex: neighbours come close in
  * memory.  Only after mr_dyn_compact.
  */
-mr_status mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
+void mr_dyn_order(mr_ctx *ctx, mr_dyn *d);
 
 /* A guard of its vertices' moves without a predicate; its holes are no faces. */
 mr_guard mr_dyn_guard(const mr_dyn *d);

@@ -65,7 +65,7 @@ first_place(const mr_dyn *d, uint32_t v)
 	return d->out[v];
 }
 
-mr_status
+void
 mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room)
 {
 	mr_v3 *p = mr_grow(ctx, d->p, d->nv, room, sizeof *p);
@@ -75,17 +75,14 @@ mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room)
 
 	float *scale = d->scale;
 
-	if (!p || !out || !at || !kind)
-		return MR_EMEM;
-	if (scale && !(scale = mr_grow(ctx, scale, d->nv, room, sizeof *scale)))
-		return MR_EMEM;
+	if (scale)
+		scale = mr_grow(ctx, scale, d->nv, room, sizeof *scale);
 	d->p = p;
 	d->out = out;
 	d->at = at;
 	d->kind = kind;
 	d->scale = scale;
 	d->room_v = room;
-	return MR_OK;
 }
 
 mr_status
@@ -94,8 +91,6 @@ mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
 	uint32_t *v = mr_grow(ctx, d->v, 3 * d->nf, 3 * room, sizeof *v);
 	uint32_t *twin = mr_grow(ctx, d->twin, 3 * d->nf, 3 * room, sizeof *twin);
 
-	if (!v || !twin)
-		return MR_EMEM;
 	if (room > (MR_NONE - 1) / 3)
 		return mr_fail(
 		    ctx, MR_ERANGE, "remeshing would take more than %zu faces", (size_t)(MR_NONE - 1) / 6);
@@ -117,7 +112,7 @@ mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feat
 {
 	mr_dyn d = { .free_v = MR_NONE, .free_f = MR_NONE };
 
-	MR_TRY(mr_dyn_room_v(ctx, &d, ample(m->nv)));
+	mr_dyn_room_v(ctx, &d, ample(m->nv));
 	MR_TRY(mr_dyn_room_f(ctx, &d, ample(m->nf)));
 	d.nv = m->nv;
 	d.nf = m->nf;
@@ -154,31 +149,28 @@ mr_dyn_view(const mr_dyn *d, const char *name)
 }
 
 /* A copy of n items of that size; NULL stays NULL. */
-static mr_status
+static void
 copy_array(mr_ctx *ctx, void *to, const void *from, size_t n, size_t size)
 {
 	void *copy = from ? mr_alloc(ctx, n, size) : NULL;
 
-	if (from && !copy)
-		return MR_EMEM;
 	if (from)
 		memcpy(copy, from, n * size);
 	memcpy(to, &copy, sizeof copy);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *c)
 {
 	*c = *d;
 	c->room_v = d->nv;
 	c->room_f = d->nf;
-	MR_TRY(copy_array(ctx, &c->p, d->p, d->nv, sizeof *d->p));
-	MR_TRY(copy_array(ctx, &c->out, d->out, d->nv, sizeof *d->out));
-	MR_TRY(copy_array(ctx, &c->at, d->at, d->nv, sizeof *d->at));
-	MR_TRY(copy_array(ctx, &c->kind, d->kind, d->nv, sizeof *d->kind));
-	MR_TRY(copy_array(ctx, &c->scale, d->scale, d->nv, sizeof *d->scale));
-	MR_TRY(copy_array(ctx, &c->v, d->v, 3 * d->nf, sizeof *d->v));
-	MR_TRY(copy_array(ctx, &c->twin, d->twin, 3 * d->nf, sizeof *d->twin));
-	return mr_curves_copy(ctx, &d->curves, &c->curves);
+	copy_array(ctx, &c->p, d->p, d->nv, sizeof *d->p);
+	copy_array(ctx, &c->out, d->out, d->nv, sizeof *d->out);
+	copy_array(ctx, &c->at, d->at, d->nv, sizeof *d->at);
+	copy_array(ctx, &c->kind, d->kind, d->nv, sizeof *d->kind);
+	copy_array(ctx, &c->scale, d->scale, d->nv, sizeof *d->scale);
+	copy_array(ctx, &c->v, d->v, 3 * d->nf, sizeof *d->v);
+	copy_array(ctx, &c->twin, d->twin, 3 * d->nf, sizeof *d->twin);
+	mr_curves_copy(ctx, &d->curves, &c->curves);
 }

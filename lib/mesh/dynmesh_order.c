@@ -3,34 +3,28 @@
 #include "mesh/zorder.h"
 
 /* Applies a permutation to an array of n objects: new[number[i]] = old[i]. */
-static mr_status
+static void
 permute(mr_ctx *ctx, void *array, size_t n, size_t size, const uint32_t *number)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	char *copy = mr_alloc(ctx, n, size), *to = array;
 
-	if (!copy)
-		return MR_EMEM;
 	memcpy(copy, array, n * size);
 	for (size_t i = 0; i < n; i++)
 		memcpy(to + number[i] * size, copy + i * size, size);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-static mr_status
+static void
 number_vertices(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *order = MR_NEW(ctx, d->nv, uint32_t);
 
-	if (!order)
-		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, d->p, d->nv, MR_ZORDER_CELLS, order));
+	mr_zorder(ctx, d->p, d->nv, MR_ZORDER_CELLS, order);
 	for (uint32_t i = 0; i < d->nv; i++)
 		number[order[i]] = i;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static uint32_t
@@ -43,14 +37,12 @@ lowest(const mr_dyn *d, size_t f)
 }
 
 /* By their lowest vertex: a counting sort. */
-static mr_status
+static void
 number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *next = MR_NEW_ZERO(ctx, d->nv + 1, uint32_t);
 
-	if (!next)
-		return MR_EMEM;
 	for (size_t f = 0; f < d->nf; f++)
 		next[lowest(d, f) + 1]++;
 	for (size_t v = 0; v < d->nv; v++)
@@ -58,22 +50,22 @@ number_faces(mr_ctx *ctx, const mr_dyn *d, uint32_t *number)
 	for (size_t f = 0; f < d->nf; f++)
 		number[f] = next[lowest(d, f)]++;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-static mr_status
+static void
 permute_vertices(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
 {
-	MR_TRY(permute(ctx, d->p, d->nv, sizeof *d->p, number));
-	MR_TRY(permute(ctx, d->out, d->nv, sizeof *d->out, number));
-	MR_TRY(permute(ctx, d->at, d->nv, sizeof *d->at, number));
-	MR_TRY(permute(ctx, d->kind, d->nv, sizeof *d->kind, number));
+	permute(ctx, d->p, d->nv, sizeof *d->p, number);
+	permute(ctx, d->out, d->nv, sizeof *d->out, number);
+	permute(ctx, d->at, d->nv, sizeof *d->at, number);
+	permute(ctx, d->kind, d->nv, sizeof *d->kind, number);
 	for (size_t h = 0; h < 3 * d->nf; h++)
 		d->v[h] = number[d->v[h]];
-	return d->scale ? permute(ctx, d->scale, d->nv, sizeof *d->scale, number) : MR_OK;
+	if (d->scale)
+		permute(ctx, d->scale, d->nv, sizeof *d->scale, number);
 }
 
-static mr_status
+static void
 permute_faces(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
 {
 	for (size_t h = 0; h < 3 * d->nf; h++)
@@ -81,25 +73,22 @@ permute_faces(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
 			d->twin[h] = 3 * number[d->twin[h] / 3] + d->twin[h] % 3;
 	for (size_t v = 0; v < d->nv; v++)
 		d->out[v] = 3 * number[d->out[v] / 3] + d->out[v] % 3;
-	MR_TRY(permute(ctx, d->v, d->nf, 3 * sizeof *d->v, number));
-	MR_TRY(permute(ctx, d->twin, d->nf, 3 * sizeof *d->twin, number));
-	return mr_curves_renumber(ctx, &d->curves, number);
+	permute(ctx, d->v, d->nf, 3 * sizeof *d->v, number);
+	permute(ctx, d->twin, d->nf, 3 * sizeof *d->twin, number);
+	mr_curves_renumber(ctx, &d->curves, number);
 }
 
-mr_status
+void
 mr_dyn_order(mr_ctx *ctx, mr_dyn *d)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *number = MR_NEW(ctx, d->nv > d->nf ? d->nv : d->nf, uint32_t);
 
-	if (!number)
-		return MR_EMEM;
-	MR_TRY(number_vertices(ctx, d, number));
-	MR_TRY(permute_vertices(ctx, d, number));
-	MR_TRY(number_faces(ctx, d, number));
-	MR_TRY(permute_faces(ctx, d, number));
+	number_vertices(ctx, d, number);
+	permute_vertices(ctx, d, number);
+	number_faces(ctx, d, number);
+	permute_faces(ctx, d, number);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Vertex v becomes w, which no face has. */
@@ -165,6 +154,6 @@ mr_dyn_compact(mr_ctx *ctx, mr_dyn *d)
 {
 	close_holes(d);
 	if (d->room_v > d->nv + d->nv / 3)
-		MR_TRY(mr_dyn_room_v(ctx, d, d->nv + d->nv / 8 + 16));
+		mr_dyn_room_v(ctx, d, d->nv + d->nv / 8 + 16);
 	return d->room_f > d->nf + d->nf / 3 ? mr_dyn_room_f(ctx, d, d->nf + d->nf / 8 + 32) : MR_OK;
 }

@@ -11,38 +11,36 @@ typedef struct cutter {
 	uint32_t *local; /* of each face of the mesh: its number in the patch, or MR_NONE */
 } cutter;
 
-static mr_status
+static void
 reach(cutter *c, uint32_t v, unsigned level)
 {
 	if (c->level[v] > 0)
-		return MR_OK;
-	MR_TRY(MR_RESERVE(c->ctx, c->queue, c->queued, 1, &c->room));
+		return;
+	MR_RESERVE(c->ctx, c->queue, c->queued, 1, &c->room);
 	c->level[v] = (uint8_t)level;
 	c->queue[c->queued++] = v;
-	return MR_OK;
 }
 
 /* One ring after the other; the last one is that of the outer corners of the rim's faces. */
-static mr_status
+static void
 flood(cutter *c, const uint32_t *vertex, size_t n)
 {
 	const mr_dyn *d = c->d;
 
 	for (size_t i = 0; i < n; i++)
-		MR_TRY(reach(c, vertex[i], 1));
+		reach(c, vertex[i], 1);
 	for (size_t i = 0; i < c->queued && c->level[c->queue[i]] <= c->rings + 1; i++) {
 		uint32_t v = c->queue[i], h = d->out[v];
 		do {
-			MR_TRY(reach(c, mr_dyn_to(d, h), c->level[v] + 1u));
-			MR_TRY(reach(c, mr_dyn_apex(d, h), c->level[v] + 1u));
+			reach(c, mr_dyn_to(d, h), c->level[v] + 1u);
+			reach(c, mr_dyn_apex(d, h), c->level[v] + 1u);
 			h = mr_dyn_ccw(d, h);
 		} while (h != MR_NONE && h != d->out[v]);
 	}
-	return MR_OK;
 }
 
 /* Numbers the faces that have a vertex within the rings. */
-static mr_status
+static void
 number_faces(cutter *c, mr_patch *p)
 {
 	const mr_dyn *d = c->d;
@@ -52,14 +50,13 @@ number_faces(cutter *c, mr_patch *p)
 		uint32_t h = d->out[c->queue[i]];
 		do {
 			if (c->local[h / 3] == MR_NONE) {
-				MR_TRY(MR_RESERVE(c->ctx, p->face, p->nf, 1, &room));
+				MR_RESERVE(c->ctx, p->face, p->nf, 1, &room);
 				c->local[h / 3] = (uint32_t)p->nf;
 				p->face[p->nf++] = h / 3;
 			}
 			h = mr_dyn_ccw(d, h);
 		} while (h != MR_NONE && h != d->out[c->queue[i]]);
 	}
-	return MR_OK;
 }
 
 /* The half-edge of the patch for one of the mesh; MR_NONE where it is not in. */
@@ -135,18 +132,14 @@ mr_patch_cut(mr_ctx *ctx, const mr_dyn *d, const uint32_t *vertex, size_t n, uns
 		MR_NEW(ctx, d->nf, uint32_t) };
 	mr_patch p = { .d = { .free_v = MR_NONE, .free_f = MR_NONE } };
 
-	if (!c.level || !c.local)
-		return MR_EMEM;
 	memset(c.local, 0xff, d->nf * sizeof *c.local);
-	MR_TRY(flood(&c, vertex, n));
-	MR_TRY(number_faces(&c, &p));
-	MR_TRY(mr_dyn_room_v(ctx, &p.d, 3 * p.nf + 32)); /* what is not used costs no memory */
+	flood(&c, vertex, n);
+	number_faces(&c, &p);
+	mr_dyn_room_v(ctx, &p.d, 3 * p.nf + 32); /* what is not used costs no memory */
 	MR_TRY(mr_dyn_room_f(ctx, &p.d, 2 * p.nf + 32));
 	p.of = MR_NEW(ctx, 3 * p.nf, uint32_t);
 	if (d->scale)
 		p.d.scale = MR_NEW(ctx, p.d.room_v, float);
-	if (!p.of || (d->scale && !p.d.scale))
-		return MR_EMEM;
 	MR_TRY(copy_faces(&c, &p));
 	copy_vertices(&c, &p);
 	*patch = p;
@@ -202,7 +195,7 @@ take_out(const sewer *w)
 			mr_dyn_remove_vertex(d, w->patch->of[v]);
 }
 
-static mr_status
+static void
 put_vertices(const sewer *w)
 {
 	const mr_dyn *p = &w->patch->d;
@@ -215,14 +208,13 @@ put_vertices(const sewer *w)
 			w->vertex[v] = w->patch->of[v];
 			continue;
 		}
-		MR_TRY(mr_dyn_add_vertex(w->ctx, d, &w->vertex[v]));
+		mr_dyn_add_vertex(w->ctx, d, &w->vertex[v]);
 		d->p[w->vertex[v]] = p->p[v];
 		d->at[w->vertex[v]] = p->at[v];
 		d->kind[w->vertex[v]] = p->kind[v];
 		if (d->scale)
 			d->scale[w->vertex[v]] = p->scale[v];
 	}
-	return MR_OK;
 }
 
 static uint32_t
@@ -265,11 +257,9 @@ mr_patch_paste(mr_ctx *ctx, mr_dyn *d, const mr_patch *patch)
 	sewer w = { ctx, d, patch, MR_NEW(ctx, p->nv, uint32_t), MR_NEW(ctx, p->nf, uint32_t),
 		MR_NEW(ctx, 3 * p->nf, uint32_t) };
 
-	if (!w.vertex || !w.face || !w.outer)
-		return MR_EMEM;
 	find_seam(&w);
 	take_out(&w);
-	MR_TRY(put_vertices(&w));
+	put_vertices(&w);
 	MR_TRY(put_faces(&w));
 	for (uint32_t v = 0; v < p->nv; v++)
 		if (p->kind[v] != MR_DEAD)

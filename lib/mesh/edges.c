@@ -58,7 +58,7 @@ begins(const table *t, size_t v, uint32_t i)
 	return i == t->start[v] || t->spoke[i].to != t->spoke[i - 1].to;
 }
 
-mr_status
+void
 mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 {
 	mr_edges e = { 0, NULL, MR_NEW(ctx, 3 * m->nf, uint32_t) };
@@ -66,8 +66,6 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 	mr_mark mark = mr_mark_take(ctx);
 	table t = { MR_NEW(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, mr_spoke) };
 
-	if (!e.he || !start || !t.start || !t.spoke)
-		return MR_EMEM;
 	fill(m, &t);
 	mr_parallel(ctx, m->nv, 4096, sort_vertices, &t);
 	for (size_t v = 0; v < m->nv; v++)
@@ -80,7 +78,6 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 	e.start = start;
 	mr_mark_release(ctx, mark);
 	*out = e;
-	return MR_OK;
 }
 
 bool

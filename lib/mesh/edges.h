@@ -19,7 +19,7 @@ typedef struct mr_edges {
 } mr_edges;
 
 /* The edges of m, in the arena. */
-mr_status mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *edges);
+void mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *edges);
 
 /* Whether two half-edges of one edge run along it in the same direction: their faces are not oriented alike.
  */

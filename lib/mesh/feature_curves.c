@@ -52,8 +52,6 @@ mr_curves_reserve(mr_ctx *ctx, mr_curves *c, size_t more)
 	if (grown.bits > MOST_BITS)
 		return mr_fail(ctx, MR_ERANGE, "more than %zu half-edges would lie on curves", c->count);
 	grown.slot = MR_NEW(ctx, (size_t)1 << grown.bits, mr_curve_slot);
-	if (!grown.slot)
-		return MR_EMEM;
 	clear(&grown);
 	refill(&grown, c->slot, slots_of(c));
 	*c = grown;
@@ -89,13 +87,13 @@ mr_curves_set(mr_curves *c, uint32_t h, uint32_t source)
 	}
 }
 
-mr_status
+void
 mr_curves_renumber(mr_ctx *ctx, mr_curves *c, const uint32_t *face)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_curves old;
 
-	MR_TRY(mr_curves_copy(ctx, c, &old));
+	mr_curves_copy(ctx, c, &old);
 	for (size_t i = 0; i < slots_of(&old); i++)
 		if (old.slot[i].half_edge != MR_NONE)
 			old.slot[i].half_edge = 3 * face[old.slot[i].half_edge / 3] +
@@ -104,20 +102,16 @@ mr_curves_renumber(mr_ctx *ctx, mr_curves *c, const uint32_t *face)
 		clear(c);
 	refill(c, old.slot, slots_of(&old));
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_curves_copy(mr_ctx *ctx, const mr_curves *c, mr_curves *copy)
 {
 	mr_curves r = *c;
 
 	if (c->slot) {
 		r.slot = MR_NEW(ctx, slots_of(c), mr_curve_slot);
-		if (!r.slot)
-			return MR_EMEM;
 		memcpy(r.slot, c->slot, slots_of(c) * sizeof *r.slot);
 	}
 	*copy = r;
-	return MR_OK;
 }

@@ -1,6 +1,6 @@
 /*
- * feature_curves.h -- which half-edges lie on curves, and on what half-edges of a source these do: a hash table,
- * since few half-edges do.
+ * feature_curves.h -- which half-edges lie on curves, and on what half-edges of a source these do: a hash
+ * table, since few half-edges do.
  *
  * Contract: all zero is an empty table.
  */
@@ -62,9 +62,9 @@ mr_status mr_curves_reserve(mr_ctx *ctx, mr_curves *c, size_t more);
 void mr_curves_set(mr_curves *c, uint32_t h, uint32_t source);
 
 /* Half-edge 3 f + i becomes 3 face[f] + i. */
-mr_status mr_curves_renumber(mr_ctx *ctx, mr_curves *c, const uint32_t *face);
+void mr_curves_renumber(mr_ctx *ctx, mr_curves *c, const uint32_t *face);
 
 /* A copy in the arena. */
-mr_status mr_curves_copy(mr_ctx *ctx, const mr_curves *c, mr_curves *copy);
+void mr_curves_copy(mr_ctx *ctx, const mr_curves *c, mr_curves *copy);
 
 #endif

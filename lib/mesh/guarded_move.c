@@ -23,11 +23,10 @@ typedef struct move {
 	unsigned round;
 } move;
 
-static mr_status
+static void
 list_new(mr_ctx *ctx, size_t room, list *l)
 {
 	*l = (list){ MR_NEW(ctx, room, uint32_t), 0, MR_NEW_ZERO(ctx, room, bool) };
-	return l->at && l->has ? MR_OK : MR_EMEM;
 }
 
 static void
@@ -140,16 +139,15 @@ hold_rings(move *w)
 	return any;
 }
 
-static mr_status
+static void
 move_new(mr_ctx *ctx, move *w)
 {
 	const mr_guard *g = w->g;
 
-	MR_TRY(list_new(ctx, g->nf, &w->face));
-	MR_TRY(list_new(ctx, g->nf, &w->next));
-	MR_TRY(list_new(ctx, g->nv, &w->vertex));
+	list_new(ctx, g->nf, &w->face);
+	list_new(ctx, g->nf, &w->next);
+	list_new(ctx, g->nv, &w->vertex);
 	w->bad = MR_NEW(ctx, g->nf, bool);
-	return w->bad ? MR_OK : MR_EMEM;
 }
 
 mr_status
@@ -158,7 +156,7 @@ mr_guarded_move(mr_ctx *ctx, const mr_guard *guard, const mr_v3 *from, mr_v3 *to
 	mr_mark mark = mr_mark_take(ctx);
 	move w = { .g = guard, .from = from, .to = to, .all = true };
 
-	MR_TRY(move_new(ctx, &w));
+	move_new(ctx, &w);
 	for (bool any = true; any; w.round++) {
 		if (guard->look)
 			MR_TRY(guard->look(ctx, guard->arg));

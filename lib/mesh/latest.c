@@ -50,7 +50,6 @@ put_lines(mr_ctx *ctx, mr_frame *f, const char *column, mr_text *lines)
 	const char *old;
 	size_t n;
 
-	MR_TRY(mr_text_done(lines));
 	MR_TRY(get_lines(ctx, f, column, &old, &n));
 	if (n == lines->n && (n == 0 || !memcmp(old, lines->s, n)))
 		return MR_OK;
@@ -164,9 +163,7 @@ find_latest(mr_ctx *ctx, mr_frame *f, const char *layer[2])
 		const char *one = f->columns[i].layer;
 		if (!*one || !has_line(text, n, one) || (found && !strcmp(layer[0], one)))
 			continue;
-		layer[found] = mr_format(ctx, "%s", one);
-		if (!layer[found++])
-			return MR_EMEM;
+		layer[found++] = mr_format(ctx, "%s", one);
 	}
 	return MR_OK;
 }

@@ -140,7 +140,7 @@ is_first_of_layer(const mr_frame *f, size_t i)
 	return true;
 }
 
-mr_status
+void
 mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **names)
 {
 	mr_text list = { .ctx = ctx };
@@ -153,7 +153,6 @@ mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **
 	}
 	mr_text_more(&list, n);
 	*names = n ? list.s : "";
-	return mr_text_done(&list);
 }
 
 /* In brackets: for make lint there is a macro of this name. */
@@ -164,7 +163,7 @@ mr_status(mr_layer_missing)(mr_ctx *ctx, const mr_frame *f, const char *names, c
 	for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
 		if (!strcmp(makers[i].layer, layer))
 			how = makers[i].how;
-	MR_TRY(mr_layer_names(ctx, f, NULL, &there));
+	mr_layer_names(ctx, f, NULL, &there);
 	return mr_fail(ctx, MR_EMISSING, "no layer %s%s%s; the frame has %s", names, *how ? ": " : "", how,
 	    *there ? there : "none");
 }
@@ -207,12 +206,14 @@ get_sized(mr_ctx *ctx, mr_frame *f, const char *layer,
 mr_status
 mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
+	MR_ENTER(ctx);
 	return get_sized(ctx, f, layer, mr_layer_points_of_any_size, m);
 }
 
 mr_status
 mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
+	MR_ENTER(ctx);
 	return get_sized(ctx, f, layer, mr_layer_mesh_of_any_size, m);
 }
 
@@ -420,8 +421,6 @@ copy_normals(
 		return MR_OK;
 	MR_TRY(mr_layer_get_rows(ctx, f, layer, name, rows, &data));
 	*copy = MR_NEW(ctx, rows * each, mr_v3);
-	if (!*copy)
-		return MR_EMEM;
 	memcpy(*copy, data, rows * each * sizeof **copy);
 	return MR_OK;
 }
@@ -441,7 +440,7 @@ move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 
 			    ctx, MR_ERANGE, "%s: %zu positions for %zu vertices", layer, nv, before.nv);
 		MR_TRY(copy_normals(ctx, f, layer, "normal", nv, 1, &normal));
 		MR_TRY(copy_normals(ctx, f, layer, "corner_normal", before.nf, 3, &corner));
-		MR_TRY(mr_turn_normals(ctx, &before, p, normal, corner));
+		mr_turn_normals(ctx, &before, p, normal, corner);
 	}
 	mr_layer_changed(f, layer, change);
 	MR_TRY(mr_layer_put(ctx, f, layer, "position", p, nv));
@@ -457,6 +456,7 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 {
 	const mr_column *p = mr_frame_find(f, layer, "position");
 
+	MR_ENTER(ctx);
 	MR_TRY(check_finite(ctx, m));
 	if (!p || p->rows != m->nv || !same_triangles(ctx, f, layer, m)) {
 		mr_layer_changed(f, layer, MR_RECONNECTED);
@@ -470,6 +470,7 @@ mr_layer_put_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 mr_status
 mr_layer_move(mr_ctx *ctx, mr_frame *f, const char *layer, mr_change change, const mr_v3 *p, size_t nv)
 {
+	MR_ENTER(ctx);
 	MR_TRY(check_finite(ctx, &(mr_mesh){ .name = layer, .p = p, .nv = nv }));
 	return move(ctx, f, layer, change, p, nv);
 }
@@ -484,8 +485,6 @@ mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	if (!normals)
 		return MR_OK;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
-	if (!normal)
-		return MR_EMEM;
 	MR_TRY(mr_vertex_normals(ctx, m, NULL, normal));
 	return mr_layer_put(ctx, f, layer, "normal", normal, m->nv);
 }
@@ -493,6 +492,7 @@ mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 mr_status
 mr_layer_put_region(mr_ctx *ctx, mr_frame *f, const char *layer, const uint32_t *region, size_t nv)
 {
+	MR_ENTER(ctx);
 	mr_layer_changed(f, layer, MR_RESELECTED);
 	return mr_layer_put(ctx, f, layer, "region", region, nv);
 }

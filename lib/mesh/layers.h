@@ -64,7 +64,7 @@ mr_status mr_layer_region(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nv
 mr_status mr_layer_crease(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf, const uint8_t **mark);
 
 /* The layers of a frame without `except` (NULL: all), as a list for a sentence: "" where there is none. */
-mr_status mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **names);
+void mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **names);
 
 /* MR_EMISSING: no layer of these names; which there are, and who makes `layer`, one of them. */
 mr_status mr_layer_missing(mr_ctx *ctx, const mr_frame *f, const char *names, const char *layer);

@@ -15,13 +15,11 @@ typedef struct spokes {
 	mr_spoke *spoke;
 } spokes;
 
-static mr_status
+static void
 spokes_build(mr_ctx *ctx, const mr_mesh *m, spokes *out)
 {
 	spokes s = { MR_NEW_ZERO(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, mr_spoke) };
 
-	if (!s.start || !s.spoke)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		for (int i = 0; i < 3; i++)
 			s.start[m->t[f].v[i] + 2]++;
@@ -32,7 +30,6 @@ spokes_build(mr_ctx *ctx, const mr_mesh *m, spokes *out)
 	for (size_t v = 0; v < m->nv; v++)
 		mr_spokes_sort(s.spoke + s.start[v], s.start[v + 1] - s.start[v]);
 	*out = s;
-	return MR_OK;
 }
 
 /* How many spokes of a end in b; *first is the first of them. */
@@ -130,10 +127,8 @@ mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo)
 	mr_mark mark = mr_mark_take(ctx);
 	spokes s;
 
-	if (!r.twin || !r.out)
-		return MR_EMEM;
 	MR_TRY(check_corners(ctx, m));
-	MR_TRY(spokes_build(ctx, m, &s));
+	spokes_build(ctx, m, &s);
 	MR_TRY(match_twins(ctx, m, &s, r.twin));
 	MR_TRY(choose_out(ctx, m, &s, &r));
 	mr_mark_release(ctx, mark);
@@ -147,8 +142,6 @@ mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a)
 	size_t *start = MR_NEW_ZERO(ctx, m->nv + 2, size_t);
 	uint32_t *face = MR_NEW(ctx, 3 * m->nf, uint32_t);
 
-	if (!start || !face)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		for (int i = 0; i < 3; i++)
 			start[m->t[f].v[i] + 2]++;
@@ -169,8 +162,6 @@ mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 	mr_mark mark = mr_mark_take(ctx);
 	mr_incidence inc;
 
-	if (!start || !adj)
-		return MR_EMEM;
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
 	for (uint32_t v = 0; v < m->nv; v++) {
 		size_t first = n;
@@ -227,19 +218,16 @@ mr_mesh_volume(const mr_ctx *ctx, const mr_mesh *m)
 	return mr_parallel_sum(ctx, m->nf, cone, &(cones){ m, mr_lerp(0.5, box.min, box.max) }) / 6;
 }
 
-mr_status
+void
 mr_vertices_used(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool **used, size_t *count)
 {
 	*used = MR_NEW_ZERO(ctx, nv, bool);
-	if (!*used)
-		return MR_EMEM;
 	*count = 0;
 	for (size_t c = 0; c < 3 * nf; c++) {
 		bool *own = &(*used)[t[c / 3].v[c % 3]];
 		*count += !*own;
 		*own = true;
 	}
-	return MR_OK;
 }
 
 mr_box
@@ -331,8 +319,6 @@ mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 
 	normals_job j = { m, inc, MR_NEW(ctx, m->nf, face_normal), normal };
 	mr_incidence own;
 
-	if (!j.face)
-		return MR_EMEM;
 	if (!inc) {
 		MR_TRY(mr_incidence_build(ctx, m, &own));
 		j.inc = &own;

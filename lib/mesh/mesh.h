@@ -123,8 +123,7 @@ mr_face_cross(const mr_mesh *m, size_t f)
 }
 
 /* Which of nv vertices have a face; *count: how many do. */
-mr_status mr_vertices_used(
-    mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool **used, size_t *count) MR_WARN_UNUSED;
+void mr_vertices_used(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, bool **used, size_t *count);
 
 double mr_mesh_area(const mr_ctx *ctx, const mr_mesh *m);
 

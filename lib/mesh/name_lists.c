@@ -9,7 +9,7 @@ const mr_naming mr_namings[MR_NAMINGS] = {
 	{ "material", "materials" },
 };
 
-mr_status
+void
 mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count)
 {
 	const char *end = text + bytes, *p = text;
@@ -19,8 +19,6 @@ mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts
 	for (size_t i = 0; i < bytes; i++)
 		n += text[i] == '\n';
 	start = MR_NEW(ctx, n + 1, const char *);
-	if (!start)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		const char *e = p < end ? memchr(p, '\n', (size_t)(end - p)) : NULL;
 		start[i] = p;
@@ -29,7 +27,6 @@ mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts
 	start[n] = end + 1;
 	*starts = start;
 	*count = n;
-	return MR_OK;
 }
 
 mr_status
@@ -42,7 +39,7 @@ mr_name_lists_of(mr_ctx *ctx, mr_frame *f, const char *layer, mr_name_lists *l)
 	for (size_t k = 0; k < MR_NAMINGS; k++)
 		if (mr_layer_has(f, layer, mr_namings[k].list)) {
 			MR_TRY(mr_layer_get(ctx, f, layer, mr_namings[k].list, &text, &bytes));
-			MR_TRY(mr_line_starts(ctx, text, bytes, &l->line[k], &l->count[k]));
+			mr_line_starts(ctx, text, bytes, &l->line[k], &l->count[k]);
 		}
 	return MR_OK;
 }
@@ -70,8 +67,6 @@ put_list(mr_ctx *ctx, const char **line, const uint32_t *number, size_t n, mr_fr
 	for (size_t i = 0; i < n; i++)
 		bytes += (size_t)(line[number[i] + 1] - line[number[i]]);
 	text = to = MR_NEW(ctx, bytes, char);
-	if (!text)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		size_t length = (size_t)(line[number[i] + 1] - line[number[i]]) - 1;
 		memcpy(to, line[number[i]], length);
@@ -92,8 +87,6 @@ cut(mr_ctx *ctx, const char **line, size_t count, mr_naming name, mr_frame *f, c
 	MR_TRY(mr_frame_get(ctx, f, layer, name.column, shape, &before, &n));
 	used = MR_NEW(ctx, n, uint32_t);
 	number = MR_NEW(ctx, n, uint32_t);
-	if (!used || !number)
-		return MR_EMEM;
 	memcpy(used, before, n * sizeof *used);
 	memcpy(number, before, n * sizeof *number);
 	left = mr_sort_unique(used, n);

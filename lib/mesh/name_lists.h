@@ -9,8 +9,7 @@
 
 /* Where the lines of a text begin, count + 1 of them, each behind the newline of the one before; in the
  * arena, over the text. */
-mr_status mr_line_starts(
-    mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count) MR_WARN_UNUSED;
+void mr_line_starts(mr_ctx *ctx, const char *text, size_t bytes, const char ***starts, size_t *count);
 
 enum { MR_NAMINGS = 3 };
 

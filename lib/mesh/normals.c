@@ -66,12 +66,11 @@ has_moved(const mr_mesh *m, const mr_v3 *p, size_t f)
 	return false;
 }
 
-static mr_status
+static void
 start(mr_ctx *ctx, groups *g)
 {
 	g->sum = MR_NEW_ZERO(ctx, g->n, mr_v3);
 	g->moved = MR_NEW_ZERO(ctx, g->n, bool);
-	return g->sum && g->moved ? MR_OK : MR_EMEM;
 }
 
 /* Adds what the face makes of the normals at its corners; normal: by corners where g->of says so. */
@@ -115,7 +114,7 @@ hash_of(uint32_t v, mr_v3 n)
 }
 
 /* Numbers the normals of each vertex that differ. */
-static mr_status
+static void
 group_corners(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *corner, groups *g)
 {
 	size_t corners = 3 * m->nf, mask = 64;
@@ -124,8 +123,6 @@ group_corners(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *corner, groups *g)
 	while (mask < corners + corners / 2)
 		mask *= 2;
 	slot = MR_NEW_ZERO(ctx, mask--, uint32_t);
-	if (!of || !first || !slot)
-		return MR_EMEM;
 	for (size_t i = 0; i < corners; i++) {
 		uint32_t v = m->t[i / 3].v[i % 3];
 		size_t at = hash_of(v, corner[i]) & mask;
@@ -141,32 +138,29 @@ group_corners(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *corner, groups *g)
 		of[i] = slot[at] - 1;
 	}
 	g->of = of;
-	return MR_OK;
 }
 
-static mr_status
+static void
 turn_all(mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p, groups *g, mr_v3 *normal, size_t n)
 {
-	MR_TRY(start(ctx, g));
+	start(ctx, g);
 	for (size_t f = 0; f < before->nf; f++)
 		add_face(before, p, f, normal, g);
 	for (size_t i = 0; i < n; i++)
 		normal[i] = result(g, g->of ? g->of[i] : i, normal[i]);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_turn_normals(mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p, mr_v3 *normal, mr_v3 *corner)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	groups vertices = { .n = before->nv }, corners = { 0 };
 
 	if (normal)
-		MR_TRY(turn_all(ctx, before, p, &vertices, normal, before->nv));
+		turn_all(ctx, before, p, &vertices, normal, before->nv);
 	if (corner) {
-		MR_TRY(group_corners(ctx, before, corner, &corners));
-		MR_TRY(turn_all(ctx, before, p, &corners, corner, 3 * before->nf));
+		group_corners(ctx, before, corner, &corners);
+		turn_all(ctx, before, p, &corners, corner, 3 * before->nf);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

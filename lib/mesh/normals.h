@@ -15,7 +15,6 @@
  * normal: nv, of vertices, in place; corner: 3 nf, of corners, in place, those of a vertex that are equal
  * being turned as one; either NULL.
  */
-mr_status mr_turn_normals(
-    mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p, mr_v3 *normal, mr_v3 *corner) MR_WARN_UNUSED;
+void mr_turn_normals(mr_ctx *ctx, const mr_mesh *before, const mr_v3 *p, mr_v3 *normal, mr_v3 *corner);
 
 #endif

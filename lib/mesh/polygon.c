@@ -109,7 +109,7 @@ cell_of(double v, double origin, double scale, size_t cells)
 }
 
 /* Sorts the reflex corners into cells, about one to a cell. */
-static mr_status
+static void
 grid_build(mr_ctx *ctx, polygon *g)
 {
 	point low = g->q[0], high = g->q[0];
@@ -130,8 +130,6 @@ grid_build(mr_ctx *ctx, polygon *g)
 	h->sy = high.y > low.y ? (double)h->ny / (high.y - low.y) : 0;
 	h->start = MR_NEW_ZERO(ctx, cells + 1, uint32_t);
 	h->member = MR_NEW(ctx, reflex, uint32_t);
-	if (!h->start || !h->member)
-		return MR_EMEM;
 	for (int pass = 0; pass < 2; pass++) {
 		for (size_t i = g->n; i-- > 0;) {
 			size_t c;
@@ -147,7 +145,6 @@ grid_build(mr_ctx *ctx, polygon *g)
 		for (size_t c = 0; pass == 0 && c < cells; c++)
 			h->start[c + 1] += h->start[c];
 	}
-	return MR_OK;
 }
 
 static bool
@@ -263,14 +260,12 @@ ears(mr_ctx *ctx, polygon *g, mr_tri *t)
 	g->queue = MR_NEW(ctx, 3 * n, uint32_t);
 	g->clipped = MR_NEW_ZERO(ctx, n, bool);
 	g->reflex = MR_NEW(ctx, n, bool);
-	if (!g->next || !g->prev || !g->queue || !g->clipped || !g->reflex)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		g->next[i] = (uint32_t)((i + 1) % n);
 		g->prev[i] = (uint32_t)((i + n - 1) % n);
 		g->reflex[i] = cross(g->q[(i + n - 1) % n], g->q[i], g->q[(i + 1) % n]) <= 0;
 	}
-	MR_TRY(grid_build(ctx, g));
+	grid_build(ctx, g);
 	clip_ears(g, t);
 	return MR_OK;
 }
@@ -390,8 +385,6 @@ put_in_order(mr_ctx *ctx, mr_tri *t, size_t n)
 	mr_tri *out = MR_NEW(ctx, n, mr_tri);
 	size_t count = 0;
 
-	if (!e || !twin || !queue || !out)
-		return MR_EMEM;
 	join_triangles(&m, 0, n, 3, e, twin);
 	for (uint32_t h = 0; h < 3 * n && count == 0; h++)
 		if (mr_he_from(&m, h) == 0 && mr_he_to(&m, h) == 1)
@@ -419,8 +412,8 @@ mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size
 	mr_status status = MR_OK;
 	size_t first;
 
-	if (n > sizeof small / sizeof *small && !(g.q = MR_NEW(ctx, n, point)))
-		return MR_EMEM;
+	if (n > sizeof small / sizeof *small)
+		g.q = MR_NEW(ctx, n, point);
 	project(&g, p, normal);
 	first = mr_norm2(normal) > 0 ? fan_corner(&g) : 0;
 	if (first < n)
@@ -490,7 +483,7 @@ longest_run(const uint32_t *number, size_t nf)
 	return most;
 }
 
-mr_status
+void
 mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out)
 {
 	const mr_mesh m = { .t = t, .nf = nf };
@@ -502,15 +495,13 @@ mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number
 
 	if (!number) {
 		*out = (mr_polygons){ .count = nf, .most = 3 };
-		return MR_OK;
+		return;
 	}
 	r.start = MR_NEW(ctx, nf + 1, size_t);
 	r.corner = MR_NEW(ctx, 3 * nf, uint32_t);
 	mark = mr_mark_take(ctx);
 	twin = MR_NEW(ctx, 3 * nf, uint32_t);
 	e = MR_NEW(ctx, 3 * longest_run(number, nf), edge);
-	if (!r.start || !r.corner || !twin || !e)
-		return MR_EMEM;
 	for (size_t f = 0, end; f < nf; f = end) {
 		bool one;
 		for (end = f + 1; end < nf && number[end] == number[f]; end++)
@@ -529,5 +520,4 @@ mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number
 	r.start[r.count] = n;
 	mr_mark_release(ctx, mark);
 	*out = r;
-	return MR_OK;
 }

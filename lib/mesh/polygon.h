@@ -47,7 +47,6 @@ mr_polygon_corner(const mr_polygons *p, size_t k)
  * a polygon that touches itself is found, too, as one around a hole; one with a vertex inside is none.
  * number: NULL where all are triangles.
  */
-mr_status mr_polygons_find(
-    mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out) MR_WARN_UNUSED;
+void mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out);
 
 #endif

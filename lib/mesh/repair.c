@@ -42,7 +42,7 @@ degenerate(const mr_mesh *m, size_t f)
 	return mr_face_repeats(m, f) || mr_norm2(mr_face_cross(m, f)) == 0;
 }
 
-static mr_status
+static void
 keep_faces(surface *s)
 {
 	uint32_t *first;
@@ -52,9 +52,7 @@ keep_faces(surface *s)
 	s->face_of = MR_NEW(s->ctx, s->m->nf, uint32_t);
 	mark = mr_mark_take(s->ctx);
 	first = MR_NEW(s->ctx, s->m->nf, uint32_t);
-	if (!s->t || !s->face_of || !first)
-		return MR_EMEM;
-	MR_TRY(mr_first_alike(s->ctx, s->m, first));
+	mr_first_alike(s->ctx, s->m, first);
 	for (size_t f = 0; f < s->m->nf; f++) {
 		if (degenerate(s->m, f)) {
 			s->r.degenerate++;
@@ -66,17 +64,16 @@ keep_faces(surface *s)
 		}
 	}
 	mr_mark_release(s->ctx, mark);
-	return MR_OK;
 }
 
 /* ---- edges ---- */
 
-static mr_status
+static void
 find_edges(surface *s)
 {
 	mr_mesh m = { .p = s->m->p, .t = s->t, .nv = s->m->nv, .nf = s->nf };
 
-	return mr_edges_build(s->ctx, &m, &s->edges);
+	mr_edges_build(s->ctx, &m, &s->edges);
 }
 
 static void
@@ -106,7 +103,7 @@ by_angle(const void *a, const void *b)
  * going round against it, the next, where that one runs the other way; these two are joined.  What is left
  * over gets a border.
  */
-static mr_status
+static void
 join_wedges(surface *s, const uint32_t *he, size_t n)
 {
 	mr_mark mark = mr_mark_take(s->ctx);
@@ -114,8 +111,6 @@ join_wedges(surface *s, const uint32_t *he, size_t n)
 	uint32_t f = from(s, he[0]), t = to(s, he[0]), a = f < t ? f : t, b = f < t ? t : f;
 	mr_v3 o = s->m->p[a], axis = mr_unit(mr_sub(s->m->p[b], o)), x = { 0, 0, 0 }, y;
 
-	if (!l)
-		return MR_EMEM;
 	for (size_t k = 0; k < n; k++) {
 		uint32_t h = he[k];
 		mr_v3 d = mr_sub(s->m->p[s->t[h / 3].v[(h + 2) % 3]], o);
@@ -137,10 +132,9 @@ join_wedges(surface *s, const uint32_t *he, size_t n)
 			join(s, l[k].h, before.h);
 	}
 	mr_mark_release(s->ctx, mark);
-	return MR_OK;
 }
 
-static mr_status
+static void
 pair_edges(surface *s)
 {
 	for (size_t i = 0; i < 3 * s->nf; i++)
@@ -152,10 +146,9 @@ pair_edges(surface *s)
 			join(s, he[0], he[1]);
 		else if (n > 2) {
 			s->r.split_edges++;
-			MR_TRY(join_wedges(s, he, n));
+			join_wedges(s, he, n);
 		}
 	}
-	return MR_OK;
 }
 
 /* ---- orientation ---- */
@@ -249,7 +242,7 @@ orient_part(const surface *s, const uint32_t *face, size_t n, bool closed, bool 
 		turned[face[k]] = !turned[face[k]];
 }
 
-static mr_status
+static void
 orient(surface *s)
 {
 	mr_mark mark = mr_mark_take(s->ctx);
@@ -257,8 +250,6 @@ orient(surface *s)
 	uint32_t *face = MR_NEW(s->ctx, s->nf, uint32_t);
 	bool closed;
 
-	if (!seen || !turned || !face)
-		return MR_EMEM;
 	for (uint32_t f = 0; f < s->nf; f++)
 		if (!seen[f]) {
 			size_t n;
@@ -270,7 +261,6 @@ orient(surface *s)
 		if (turned[f])
 			turn(s, f);
 	mr_mark_release(s->ctx, mark);
-	return MR_OK;
 }
 
 /* ---- vertices ---- */
@@ -330,7 +320,7 @@ part_copies(surface *s)
 }
 
 /* Numbers the roots in order of the vertices they come from, then of corners. */
-static mr_status
+static void
 number(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 {
 	size_t nv = 0, n = 3 * s->nf, used = 0;
@@ -338,8 +328,6 @@ number(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 		 *of;
 	mr_v3 *p;
 
-	if (!count || !name)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < n; h++)
 		if (s->root[h] == h) {
 			count[from(s, h) + 1]++;
@@ -351,8 +339,6 @@ number(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 	}
 	p = MR_NEW(s->ctx, nv, mr_v3);
 	of = MR_NEW(s->ctx, nv, uint32_t);
-	if (!p || !of)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < n; h++)
 		if (s->root[h] == h) {
 			name[h] = count[from(s, h)]++;
@@ -365,7 +351,6 @@ number(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 	s->r.split_vertices = nv - used;
 	*out = (mr_mesh){ .name = s->m->name, .p = p, .t = s->t, .nv = nv, .nf = s->nf };
 	*vertex_of = of;
-	return MR_OK;
 }
 
 static mr_status
@@ -375,22 +360,19 @@ repair(surface *s, mr_mesh *out, const uint32_t **vertex_of)
 
 	s->pair = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
 	mark = mr_mark_take(s->ctx);
-	if (!s->pair)
-		return MR_EMEM;
-	MR_TRY(find_edges(s));
-	MR_TRY(pair_edges(s));
-	MR_TRY(orient(s));
+	find_edges(s);
+	pair_edges(s);
+	orient(s);
 	mr_mark_release(s->ctx, mark);
 	s->root = MR_NEW(s->ctx, 3 * s->nf, uint32_t);
 	mark = mr_mark_take(s->ctx);
-	if (!s->root)
-		return MR_EMEM;
-	MR_TRY(find_edges(s)); /* turning moved half-edges */
+	find_edges(s); /* turning moved half-edges */
 	do
 		connect(s);
 	while (part_copies(s));
 	mr_mark_release(s->ctx, mark);
-	return number(s, out, vertex_of);
+	number(s, out, vertex_of);
+	return MR_OK;
 }
 
 mr_status
@@ -399,7 +381,7 @@ mr_repair(mr_ctx *ctx, const mr_mesh *m, mr_mesh *out, const uint32_t **vertex_o
 {
 	surface s = { .ctx = ctx, .m = m };
 
-	MR_TRY(keep_faces(&s));
+	keep_faces(&s);
 	if (s.nf == 0)
 		return mr_fail(
 		    ctx, MR_EMESH, "%s: none of %zu faces is left: all are degenerate", m->name, m->nf);

@@ -13,8 +13,7 @@
  * map: n new numbers, in order of first use, the caller's; *count: how many.  Time O(n) for eps below the
  * spacing.
  */
-mr_status
-mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count) MR_WARN_UNUSED;
+void mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count);
 
 /* What a repair did. */
 typedef struct mr_repair_report {

@@ -59,8 +59,6 @@ mr_subset_find(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *keep, mr_
 	const void *polygon = NULL;
 	mr_subset r = { vertex, face, 0, 0, number };
 
-	if (!vertex || !face || !number || !mark)
-		return MR_EMEM;
 	if (m->nf && mr_layer_has(f, m->name, "polygon"))
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "polygon", m->nf, &polygon));
 	r.nf = find_faces(m, polygon, keep, face);

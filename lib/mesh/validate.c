@@ -162,16 +162,13 @@ mr_check_made(mr_ctx *ctx, const mr_frame *f)
 	return MR_OK;
 }
 
-mr_status
+void
 mr_check_frame(mr_ctx *ctx, mr_frame *f, void (*broken)(void *user, const char *sentence), void *user)
 {
 	for (size_t i = 0; i < f->count; i++) {
 		mr_status status = check_column(ctx, f, &f->columns[i]);
-		if (status == MR_EMEM)
-			return status;
 		if (status < 0)
 			broken(user, ctx->error);
 	}
 	*ctx->error = '\0';
-	return MR_OK;
 }

@@ -15,8 +15,7 @@
  * Calls broken(user, sentence) for each law that the frame breaks.  MR_OK whatever they are;
  * only want of memory fails.
  */
-mr_status
-mr_check_frame(mr_ctx *ctx, mr_frame *f, void (*broken)(void *user, const char *sentence), void *user);
+void mr_check_frame(mr_ctx *ctx, mr_frame *f, void (*broken)(void *user, const char *sentence), void *user);
 
 /* MR_ERANGE where a number of a decoded column by convention is not finite, but for a corner without texture
  * coordinates. */

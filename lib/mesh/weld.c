@@ -77,50 +77,45 @@ put_in_slot(weld *w, uint32_t number)
 }
 
 /* A table of twice the size. */
-static mr_status
+static void
 widen(mr_ctx *ctx, weld *w)
 {
 	size_t size = 2 * (w->mask + 1);
 
 	w->slot = mr_grow(ctx, w->slot, 0, size, sizeof *w->slot);
-	if (!w->slot)
-		return MR_EMEM;
 	memset(w->slot, 0, size * sizeof *w->slot);
 	w->mask = size - 1;
 	for (uint32_t i = 0; i < w->used; i++)
 		put_in_slot(w, i);
-	return MR_OK;
 }
 
 /* The vertex stands for itself.  Most slots are empty: 27 are looked into for each vertex. */
-static mr_status
+static void
 add(mr_ctx *ctx, weld *w, mr_v3 p)
 {
-	MR_TRY(MR_RESERVE(ctx, w->stand, w->used, 1, &w->room));
+	MR_RESERVE(ctx, w->stand, w->used, 1, &w->room);
 	w->stand[w->used].p = p;
 	put_in_slot(w, (uint32_t)w->used++);
-	return w->used > w->mask / 8 ? widen(ctx, w) : MR_OK;
+	if (w->used > w->mask / 8)
+		widen(ctx, w);
 }
 
-mr_status
+void
 mr_weld(mr_ctx *ctx, const mr_v3 *p, size_t n, double eps, uint32_t *map, size_t *count)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double span = mr_box_diagonal(mr_box_of(p, n));
 	weld w = { .eps = eps > 1e-14 * span ? eps : 0, .mask = 31 };
-	mr_status status = MR_RESERVE(ctx, w.stand, 0, 1, &w.room);
 
-	if (status == MR_OK)
-		status = widen(ctx, &w);
-	for (size_t i = 0; i < n && status == MR_OK; i++) {
+	MR_RESERVE(ctx, w.stand, 0, 1, &w.room);
+	widen(ctx, &w);
+	for (size_t i = 0; i < n; i++) {
 		map[i] = find(&w, p[i], cell_of(&w, p[i]));
 		if (map[i] != MR_NONE)
 			continue;
 		map[i] = (uint32_t)w.used;
-		status = add(ctx, &w, p[i]);
+		add(ctx, &w, p[i]);
 	}
 	mr_mark_release(ctx, mark);
-	if (status == MR_OK)
-		*count = w.used;
-	return status;
+	*count = w.used;
 }

@@ -70,7 +70,7 @@ end_of_cell(const uint32_t *key, const uint32_t *order, size_t first, size_t n)
 }
 
 /* Puts those of one cell in order, cell by cell. */
-static mr_status
+static void
 sort_cells(mr_ctx *ctx, const mr_v3 *p, const uint32_t *key, size_t n, uint32_t *order)
 {
 	size_t most = 0;
@@ -81,10 +81,8 @@ sort_cells(mr_ctx *ctx, const mr_v3 *p, const uint32_t *key, size_t n, uint32_t 
 		most = end - i > most ? end - i : most;
 	}
 	if (most < 2)
-		return MR_OK;
+		return;
 	t = MR_NEW(ctx, most, tied);
-	if (!t)
-		return MR_EMEM;
 	for (size_t i = 0, end; i < n; i = end) {
 		end = end_of_cell(key, order, i, n);
 		if (end - i < 2)
@@ -95,10 +93,9 @@ sort_cells(mr_ctx *ctx, const mr_v3 *p, const uint32_t *key, size_t n, uint32_t 
 		for (size_t k = i; k < end; k++)
 			order[k] = t[k - i].index;
 	}
-	return MR_OK;
 }
 
-mr_status
+void
 mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -107,8 +104,6 @@ mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 	mr_v3 size = mr_sub(box.max, box.min);
 	double longest = fmax(size.x, fmax(size.y, size.z)), scale = longest > 0 ? cells / longest : 0;
 
-	if (!key || !other)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++) {
 		key[i] = spread(cell(p[i].x, box.min.x, scale)) |
 		         spread(cell(p[i].y, box.min.y, scale)) << 1 |
@@ -118,22 +113,18 @@ mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order)
 	sort_digit(key, 0, other, n, order);
 	sort_digit(key, 1, order, n, other);
 	sort_digit(key, 2, other, n, order);
-	MR_TRY(sort_cells(ctx, p, key, n, order));
+	sort_cells(ctx, p, key, n, order);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_zorder_points(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_v3 *sorted)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *order = MR_NEW(ctx, n, uint32_t);
 
-	if (!order)
-		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order));
+	mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order);
 	for (size_t i = 0; i < n; i++)
 		sorted[i] = p[order[i]];
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -13,9 +13,9 @@ enum { MR_ZORDER_CELLS = 1024 };
  * MR_ZORDER_CELLS; those of one cell by x, y, z, those of one place by index: so which place comes when does
  * not depend on the order of the points.  order: n < 2^32, the caller's.
  */
-mr_status mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order) MR_WARN_UNUSED;
+void mr_zorder(mr_ctx *ctx, const mr_v3 *p, size_t n, double cells, uint32_t *order);
 
 /* The points in that order, on the finest grid.  sorted: n, the caller's. */
-mr_status mr_zorder_points(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_v3 *sorted) MR_WARN_UNUSED;
+void mr_zorder_points(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_v3 *sorted);
 
 #endif

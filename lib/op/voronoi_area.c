@@ -21,7 +21,7 @@ corners_of(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
+void
 mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area)
 {
 	enum { BATCH = 1 << 17 };
@@ -29,8 +29,6 @@ mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area)
 	size_t room = m->nf < BATCH ? m->nf : BATCH;
 	corners_job j = { m, 0, mr_alloc(ctx, room, sizeof *j.part) };
 
-	if (!j.part)
-		return MR_EMEM;
 	memset(area, 0, m->nv * sizeof *area);
 	for (; j.first < m->nf; j.first += room) { /* added in the order of the faces */
 		size_t n = m->nf - j.first < room ? m->nf - j.first : room;
@@ -40,5 +38,4 @@ mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area)
 				area[m->t[j.first + i].v[k]] += j.part[i][k];
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

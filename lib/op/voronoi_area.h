@@ -12,7 +12,7 @@
  * Mixed Voronoi areas: circumcentric parts, edge midpoints in obtuse triangles.  0 for
  * a vertex without a face of positive area.  area: nv values, the caller's.
  */
-mr_status mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area);
+void mr_voronoi_areas(mr_ctx *ctx, const mr_mesh *m, double *area);
 
 /* The parts of the triangle a b c that belong to its corners; their sum is its area.  Zero where it has none.
  */

@@ -114,15 +114,13 @@ is_summit(const search *w, uint32_t v, crowd *c)
 	return true;
 }
 
-mr_status
+void
 mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	search w = { d, s, MR_NEW(ctx, d->nv, double), MR_NEW(ctx, d->nv, double) };
 	crowd c = { .now = 0 };
 
-	if (!w.defect || !w.total)
-		return MR_EMEM;
 	mr_parallel(ctx, d->nv, 1024, defect_body, &w);
 	mr_parallel(ctx, d->nv, 1024, total_body, &w);
 	*pinned = 0;
@@ -133,5 +131,4 @@ mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned)
 			++*pinned;
 		}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -14,6 +14,6 @@
  * Pins the vertices at the tips of the source, of which d is still a copy: they become corners.
  * *pinned: how many.
  */
-mr_status mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned);
+void mr_pin_tips(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, size_t *pinned);
 
 #endif

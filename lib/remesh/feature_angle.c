@@ -83,14 +83,12 @@ end_of_gap(const angles *w, int from)
 	return to;
 }
 
-mr_status
+void
 mr_feature_angle(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double *degrees)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	angles w = { m, topo, { 0 }, MR_NEW(ctx, m->nv, uint8_t) };
 
-	if (!w.ends)
-		return MR_EMEM;
 	add_up(&w);
 	*degrees = 180;
 	for (int from = FROM; from + GAP <= TO && w.beyond[from + GAP] > 0 && *degrees == 180; from++) {
@@ -99,5 +97,4 @@ mr_feature_angle(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double 
 			*degrees = (from + to) / 2;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -10,6 +10,6 @@
  * The angle in degrees between the normals of two faces, from 20 to 90, that tells m's sharp edges from the
  * others; 180 where it has none.
  */
-mr_status mr_feature_angle(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double *degrees);
+void mr_feature_angle(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double *degrees);
 
 #endif

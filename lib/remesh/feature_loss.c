@@ -5,19 +5,16 @@
  */
 static const double FAR = 0.25;
 
-static mr_status
+static void
 gather_curves(mr_ctx *ctx, const mr_dyn *d, mr_mesh *curves)
 {
 	mr_tri *t = MR_NEW(ctx, d->curves.count, mr_tri);
 	size_t n = 0;
 
-	if (!t)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (!mr_dyn_face_dead(d, h / 3) && mr_dyn_on_curve(d, h))
 			t[n++] = (mr_tri){ { d->v[h], mr_dyn_to(d, h), mr_dyn_to(d, h) } };
 	*curves = (mr_mesh){ "curves", d->p, t, d->nv, n };
-	return MR_OK;
 }
 
 static bool
@@ -32,7 +29,7 @@ length_at(const mr_remesh_source *s, uint32_t v)
 	return s->length ? s->length[v] : s->uniform;
 }
 
-mr_status
+void
 mr_feature_loss(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, size_t *edges, size_t *lost)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -42,10 +39,10 @@ mr_feature_loss(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, size_t 
 
 	*edges = *lost = 0;
 	if (s->curves->count == 0)
-		return MR_OK;
+		return;
 	most = 2 * mr_mesh_edge_scale(ctx, &view);
-	MR_TRY(gather_curves(ctx, d, &curves));
-	MR_TRY(mr_bvh_build(ctx, &curves, &bvh));
+	gather_curves(ctx, d, &curves);
+	mr_bvh_build(ctx, &curves, &bvh);
 	for (uint32_t h = 0; h < 3 * s->m->nf; h++)
 		if (is_sharp(s, h)) {
 			uint32_t a = mr_he_from(s->m, h), b = mr_he_to(s->m, h);
@@ -56,5 +53,4 @@ mr_feature_loss(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, size_t 
 			++*edges;
 		}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

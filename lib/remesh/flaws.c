@@ -153,21 +153,18 @@ normals_body(void *arg, size_t begin, size_t end)
 			j->normal[v] = find_normal(j->w, v);
 }
 
-mr_status
+void
 mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, bool sure, mr_flaws *w, size_t *count)
 {
 	mr_v3 *normal = MR_NEW_ZERO(ctx, d->nv, mr_v3);
 
 	*w = (mr_flaws){ d, s, { s->m, s->topo }, sure, MR_NEW(ctx, d->nf, uint8_t), NULL };
-	if (!w->state || !normal)
-		return MR_EMEM;
 	if (sure) {
 		mr_parallel(ctx, d->nv, GRAIN, normals_body, &(normals_job){ w, normal });
 		w->normal = normal;
 	}
 	*count = (size_t)mr_parallel_sum(ctx, d->nf, find_flaw, w);
 	w->normal = normal; /* few were asked for; from now on one thread asks */
-	return MR_OK;
 }
 
 /* The faces around v and those beside them; its place may be another. */

@@ -28,8 +28,8 @@ typedef struct mr_flaws {
 } mr_flaws;
 
 /* Looks at all faces; count: how many have a flaw, which become the suspects.  In the arena. */
-mr_status mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, bool sure, mr_flaws *w,
-    size_t *count) MR_WARN_UNUSED;
+void
+mr_flaws_find(mr_ctx *ctx, const mr_dyn *d, const mr_remesh_source *s, bool sure, mr_flaws *w, size_t *count);
 
 /* True where face f, which may be dead, or one of its edges has a flaw. */
 bool mr_is_flawed(const mr_flaws *w, uint32_t f);

@@ -143,18 +143,15 @@ glide_dislocations(flipper *w, unsigned reach)
 	return flips;
 }
 
-mr_status
+void
 mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, unsigned reach, size_t *flips)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	flipper w = { d, s, MR_NEW(ctx, d->nv, int) };
 
-	if (!w.excess)
-		return MR_EMEM;
 	mr_parallel(ctx, d->nv, 4096, excess_body, &w);
 	*flips = flip_gaining(&w);
 	if (reach > 0)
 		*flips += glide_dislocations(&w, reach < REACH_MAX ? reach : REACH_MAX);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

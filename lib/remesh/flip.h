@@ -13,7 +13,7 @@
  * glide for up to `reach` flips that keep the sum, if at the end of them one lowers it.  No flip turns
  * a face over or makes a needle.  *flips: how many, those of glides that came to nothing not counted.
  */
-mr_status mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, unsigned reach, size_t *flips);
+void mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, unsigned reach, size_t *flips);
 
 /*
  * True where the two faces after the flip of h face the way those before did together, within 60

@@ -6,15 +6,12 @@ static const double SLOPE = 0.5;
 static const double FIT = 1.25;      /* target over edge, at most: 4/5 of it is too short */
 static const double ENOUGH = 1.0001; /* lengths that differ by less are alike: floats */
 
-mr_status
+void
 mr_refine_begin(mr_ctx *ctx, mr_dyn *d)
 {
 	d->scale = MR_NEW(ctx, d->room_v, float);
-	if (!d->scale)
-		return MR_EMEM;
 	for (size_t v = 0; v < d->nv; v++)
 		d->scale[v] = 1;
-	return MR_OK;
 }
 
 /* Where b may be at most, given a. */

@@ -10,7 +10,7 @@
 #include "remesh/relax.h"
 
 /* Gives every vertex a factor of the target length, 1 to begin with. */
-mr_status mr_refine_begin(mr_ctx *ctx, mr_dyn *d);
+void mr_refine_begin(mr_ctx *ctx, mr_dyn *d);
 
 /* Lowers the factors at the ends of h to what keeps the edge from being too short: by 0.7 at most, and not
  * below 1/8.  Without factors nothing happens. */

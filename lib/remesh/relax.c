@@ -87,17 +87,14 @@ find_areas(mr_ctx *ctx, areas_job w)
 	mr_parallel(ctx, w.d->nv, GRAIN, areas_body, &w);
 }
 
-mr_status
+void
 mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double unit, double *area)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	float *part = MR_NEW(ctx, 3 * d->nf, float);
 
-	if (!part)
-		return MR_EMEM;
 	find_areas(ctx, (areas_job){ d, unit * unit, part, area });
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* a^e, quick for the exponents that there are by default. */
@@ -370,7 +367,7 @@ arrive_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
+static void
 pass_new(mr_ctx *ctx, pass *w)
 {
 	size_t nv = w->d->nv, p = nv * sizeof(mr_v3), parts = 3 * w->d->nf * sizeof *w->part;
@@ -379,14 +376,11 @@ pass_new(mr_ctx *ctx, pass *w)
 	w->gravity = w->o->gravity > 0 ? MR_NEW(ctx, nv, double) : NULL;
 	w->normal = MR_NEW(ctx, nv, direction);
 	w->at = MR_NEW(ctx, nv, uint32_t);
-	if (!shared || (w->o->gravity > 0 && !w->gravity) || !w->normal || !w->at)
-		return MR_EMEM;
 	w->part = (void *)shared;
 	w->p = (void *)shared;
 	w->from = w->to = mr_dyn_view(w->d, w->s->m->name);
 	w->to.p = w->p;
 	mr_parallel(ctx, nv, GRAIN, normals_body, w);
-	return MR_OK;
 }
 
 /* The masses of the vertices, where they have any. */
@@ -418,7 +412,7 @@ mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_relax_opts 
 	mr_mark mark = mr_mark_take(ctx);
 	pass w = { .d = d, .s = s, .o = o };
 
-	MR_TRY(pass_new(ctx, &w));
+	pass_new(ctx, &w);
 	for (size_t i = 1; i <= o->passes; i++) {
 		w.project = o->project && i == o->passes;
 		MR_TRY(one_pass(ctx, d, &w));

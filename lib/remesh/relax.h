@@ -49,6 +49,6 @@ mr_status mr_relax(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, const mr_r
 
 /* Mixed Voronoi areas (Meyer et al. 2003) of the vertices in squares of `unit`, a length like that of edges,
  * as precise as floats; 0 for dead ones.  area: d->nv values, the caller's. */
-mr_status mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double unit, double *area);
+void mr_dyn_areas(mr_ctx *ctx, const mr_dyn *d, double unit, double *area);
 
 #endif

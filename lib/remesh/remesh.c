@@ -49,18 +49,17 @@ square(double x)
 }
 
 /* 3. Flip edges to lower the deviation from valence 6 (4 on boundaries). */
-static mr_status
+static void
 regularize(remesher *r, unsigned reach)
 {
 	size_t flips;
 
-	MR_TRY(mr_regularize(r->ctx, &r->d, &r->source, reach, &flips));
+	mr_regularize(r->ctx, &r->d, &r->source, reach, &flips);
 	r->flips += flips;
-	return MR_OK;
 }
 
 /* Variance over squared mean of the areas of the inner vertices, in units of their squared lengths. */
-static mr_status
+static void
 area_variance(remesher *r, double *variance)
 {
 	const mr_dyn *d = &r->d;
@@ -68,9 +67,7 @@ area_variance(remesher *r, double *variance)
 	double *area, sum = 0, squares = 0, n = 0;
 
 	area = MR_NEW(r->ctx, d->nv, double);
-	if (!area)
-		return MR_EMEM;
-	MR_TRY(mr_dyn_areas(r->ctx, d, r->source.uniform, area));
+	mr_dyn_areas(r->ctx, d, r->source.uniform, area);
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (d->kind[v] != MR_DEAD && !mr_dyn_on_boundary(d, v)) {
 			double a = area[v] / square(mr_remesh_length(&r->source, d, v) / r->source.uniform);
@@ -80,7 +77,6 @@ area_variance(remesher *r, double *variance)
 		}
 	*variance = sum > 0 ? n * squares / (sum * sum) - 1 : 0;
 	mr_mark_release(r->ctx, mark);
-	return MR_OK;
 }
 
 /*
@@ -104,37 +100,36 @@ equalize_areas(remesher *r)
 	enum { EVERY = 5 };
 	mr_relax_opts o = { .damping = 0.6, .gravity = r->o->gravity, .project = r->o->project };
 
-	MR_TRY(area_variance(r, &r->variance[0]));
+	area_variance(r, &r->variance[0]);
 	r->variance[1] = r->variance[0];
 	for (size_t left = r->o->area_passes; left > 0; left -= o.passes) {
 		double before = r->variance[1];
 		o.passes = left < EVERY ? left : EVERY;
 		MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
 		if (o.passes == EVERY)
-			MR_TRY(regularize(r, 0));
-		MR_TRY(area_variance(r, &r->variance[1]));
+			regularize(r, 0);
+		area_variance(r, &r->variance[1]);
 		if (is_still(before, r->variance[1]))
 			break;
 	}
-	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
+	mr_mend_flaws(r->ctx, &r->d, &r->source, false);
+	return MR_OK;
 }
 
 /*
  * What is too dense is thinned before the first split, which bisects far more edges than it must; edges that
  * cannot be merged yet may be after the first round.
  */
-static mr_status
+static void
 thin_out(remesher *r)
 {
 	size_t before, enough = 8;
 
 	do {
 		before = r->changes.strung;
-		MR_TRY(mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes));
+		mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes);
 		r->changes.refused = 0;
 	} while (r->changes.strung - before > r->d.nv / enough);
-
-	return MR_OK;
 }
 
 /*
@@ -155,16 +150,17 @@ one_round(remesher *r, bool first)
 
 	for (double coarser = first ? mr_coarsest(&r->d, &r->source) : 1; coarser > 1; coarser /= 2) {
 		MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, coarser, &r->changes));
-		MR_TRY(thin_out(r));
+		thin_out(r);
 	}
 	MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, 1, &r->changes));
-	MR_TRY(mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes));
-	MR_TRY(mr_mend_needles(r->ctx, &r->d, &r->source, &r->changes));
+	mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes);
+	mr_mend_needles(r->ctx, &r->d, &r->source, &r->changes);
 	if (first)
 		MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* it leaves as many holes as vertices */
-	MR_TRY(regularize(r, REACH));
+	regularize(r, REACH);
 	MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
-	return mr_mend_flaws(r->ctx, &r->d, &r->source, false);
+	mr_mend_flaws(r->ctx, &r->d, &r->source, false);
+	return MR_OK;
 }
 
 static size_t
@@ -192,7 +188,8 @@ tidy(remesher *r)
 {
 	r->tidied = changes(r);
 	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
-	return mr_dyn_order(r->ctx, &r->d);
+	mr_dyn_order(r->ctx, &r->d);
+	return MR_OK;
 }
 
 /* How much finer and coarser than the uniform length adapted lengths may be. */
@@ -298,27 +295,25 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
 	r->feature = r->o->feature;
 	if (r->o->feature_auto)
-		MR_TRY(mr_feature_angle(r->ctx, m, topo, &r->feature));
+		mr_feature_angle(r->ctx, m, topo, &r->feature);
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->feature, &r->d));
 	if (r->o->feature_auto)
 		tell_features(r, m);
-	MR_TRY(mr_curves_copy(r->ctx, &r->d.curves, &r->curves));
+	mr_curves_copy(r->ctx, &r->d.curves, &r->curves);
 	if (adaptive > 0) {
 		r->length = MR_NEW(r->ctx, m->nv, double);
-		if (!r->length)
-			return MR_EMEM;
-		MR_TRY(mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
-		    uniform * ADAPTIVE_RANGE, r->length));
+		mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
+		    uniform * ADAPTIVE_RANGE, r->length);
 	} else {
-		MR_TRY(mr_sizing_curves(r->ctx, m, topo, &r->d, uniform, &r->length));
+		mr_sizing_curves(r->ctx, m, topo, &r->d, uniform, &r->length);
 	}
 	r->mean = r->length ? MR_NEW(r->ctx, m->nf, double) : NULL;
-	if (r->length && !r->mean)
-		return MR_EMEM;
 	r->source = (mr_remesh_source){ m, topo, &r->curves, r->length, r->mean, uniform };
 	find_means(r);
 	aim(r);
-	return r->o->project ? mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips) : MR_OK;
+	if (r->o->project)
+		mr_pin_tips(r->ctx, &r->d, &r->source, &r->tips);
+	return MR_OK;
 }
 
 /*
@@ -376,7 +371,7 @@ run(remesher *r)
 	size_t rounds = r->o->rounds;
 
 	if (rounds > 0)
-		MR_TRY(thin_out(r));
+		thin_out(r);
 	MR_TRY(check_demand(r));
 	for (size_t i = 0; i < rounds; i++) {
 		if (i > 0) {
@@ -387,7 +382,7 @@ run(remesher *r)
 		}
 		MR_TRY(one_round(r, i == 0));
 		mr_refine_grade(&r->d, &r->source);
-		MR_TRY(area_variance(r, &after));
+		area_variance(r, &after);
 		if (i >= SETTLED && is_still(before, after) && !misses(excess(r)))
 			rounds = i + 1;
 		before = after;
@@ -425,17 +420,14 @@ map_body(void *arg, size_t begin, size_t end)
 
 /* Where each vertex lies on the source: on its face the nearest point, which without projection may be
  * elsewhere. */
-static mr_status
+static void
 map_to_source(remesher *r, mr_places *map)
 {
 	uint32_t *face = MR_NEW(r->ctx, r->d.nv, uint32_t);
 	mr_v3 *bary = MR_NEW(r->ctx, r->d.nv, mr_v3);
 
-	if (!face || !bary)
-		return MR_EMEM;
 	mr_parallel(r->ctx, r->d.nv, GRAIN, map_body, &(mapping){ r, face, bary });
 	*map = (mr_places){ face, bary };
-	return MR_OK;
 }
 
 /* Triangles flipped and edges folded. */
@@ -449,24 +441,22 @@ count_flaws(remesher *r, const mr_places *map)
 	r->folded = mr_count_folds(r->ctx, &view, r->d.twin);
 }
 
-static mr_status
+static void
 look_at_sharp(remesher *r)
 {
-	MR_TRY(mr_feature_loss(r->ctx, &r->d, &r->source, &r->sharp[0], &r->sharp[1]));
+	mr_feature_loss(r->ctx, &r->d, &r->source, &r->sharp[0], &r->sharp[1]);
 	if (r->sharp[1])
 		mr_found(r->ctx,
 		    &(mr_finding){
 			.kind = MR_LOST, .layer = "base", .what = "sharp edges", .count = r->sharp[1] });
-	return MR_OK;
 }
 
 /* The map of the result as it is, without holes, and its flaws. */
-static mr_status
+static void
 settle(remesher *r, mr_places *map)
 {
-	MR_TRY(map_to_source(r, map));
+	map_to_source(r, map);
 	count_flaws(r, map);
-	return MR_OK;
 }
 
 static size_t
@@ -475,15 +465,14 @@ flaws_of(const remesher *r)
 	return r->flipped + r->folded;
 }
 
-static mr_status
+static void
 count_flawed(const remesher *r, size_t *count)
 {
 	mr_mark mark = mr_mark_take(r->ctx);
 	mr_flaws flaws;
 
-	MR_TRY(mr_flaws_find(r->ctx, &r->d, &r->source, true, &flaws, count));
+	mr_flaws_find(r->ctx, &r->d, &r->source, true, &flaws, count);
 	mr_mark_release(r->ctx, mark);
-	return MR_OK;
 }
 
 /* Finer where it is flawed, and one more round. */
@@ -491,8 +480,8 @@ static mr_status
 refine(remesher *r)
 {
 	if (!r->d.scale)
-		MR_TRY(mr_refine_begin(r->ctx, &r->d));
-	MR_TRY(mr_refine_flaws(r->ctx, &r->d, &r->source));
+		mr_refine_begin(r->ctx, &r->d);
+	mr_refine_flaws(r->ctx, &r->d, &r->source);
 	mr_refine_grade(&r->d, &r->source);
 	MR_TRY(one_round(r, false));
 	return equalize_areas(r);
@@ -508,10 +497,8 @@ cut_flaws(const remesher *r, mr_patch *patch)
 	size_t count, n = 0;
 	mr_flaws flaws;
 
-	MR_TRY(mr_flaws_find(r->ctx, d, &r->source, true, &flaws, &count));
+	mr_flaws_find(r->ctx, d, &r->source, true, &flaws, &count);
 	corner = MR_NEW(r->ctx, 3 * count, uint32_t);
-	if (!corner)
-		return MR_EMEM;
 	for (size_t h = 0; h < 3 * d->nf; h++)
 		if (flaws.state[h / 3] == MR_SUSPECT)
 			corner[n++] = d->v[h];
@@ -536,22 +523,22 @@ try_again(remesher *r)
 	mr_status status = MR_OK;
 
 	MR_TRY(cut_flaws(r, &patch));
-	MR_TRY(mr_dyn_copy(r->ctx, &patch.d, &part.d));
-	MR_TRY(count_flawed(&part, &least));
+	mr_dyn_copy(r->ctx, &patch.d, &part.d);
+	count_flawed(&part, &least);
 	left = least;
 	for (int i = 0; i < TRIES && (fewer || i == 1) && left > 0; i++) {
 		if (i > 0 && (status = refine(&part)) == MR_ERANGE)
 			break; /* more than may be: what was found stays */
 		MR_TRY(status);
-		MR_TRY(count_flawed(&part, &left));
+		count_flawed(&part, &left);
 		if (left > MANY * least || left > mr_mendable(&part.d))
 			break;
-		MR_TRY(mr_mend_flaws(r->ctx, &part.d, &part.source, true));
-		MR_TRY(count_flawed(&part, &left));
+		mr_mend_flaws(r->ctx, &part.d, &part.source, true);
+		count_flawed(&part, &left);
 		fewer = left < least;
 		if (fewer) {
 			least = left;
-			MR_TRY(mr_dyn_copy(r->ctx, &part.d, &patch.d));
+			mr_dyn_copy(r->ctx, &part.d, &patch.d);
 		}
 	}
 	r->changes = part.changes;
@@ -594,13 +581,13 @@ remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_
 	MR_TRY(run(&r));
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
 	mark = mr_mark_take(ctx);
-	MR_TRY(settle(&r, map));
+	settle(&r, map);
 	if (flaws_of(&r) > 0 && o->rounds > 0) {
 		mr_mark_release(ctx, mark);
 		MR_TRY(try_again(&r));
-		MR_TRY(settle(&r, map));
+		settle(&r, map);
 	}
-	MR_TRY(look_at_sharp(&r));
+	look_at_sharp(&r);
 	if (misses(excess(&r)))
 		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
 				  .layer = "base",

@@ -356,7 +356,7 @@ mr_mendable(const mr_dyn *d)
 	return 1000 + d->nf / 16;
 }
 
-mr_status
+void
 mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -364,11 +364,9 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last)
 	bool flawed;
 	size_t count;
 
-	MR_TRY(mr_flaws_find(ctx, d, s, last, &w.flaws, &count));
+	mr_flaws_find(ctx, d, s, last, &w.flaws, &count);
 	flawed = count > 0;
 	w.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
-	if (!w.mark)
-		return MR_EMEM;
 	for (int stage = 0; stage < (last ? 3 : 2) && flawed; stage++) {
 		w.least = least[stage];
 		for (int i = 0; i < PASSES && mend_suspects(&w); i++)
@@ -376,17 +374,16 @@ mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last)
 		flawed = free_stuck(&w);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_flaws flaws;
 	size_t count;
 
-	MR_TRY(mr_flaws_find(ctx, d, s, true, &flaws, &count));
+	mr_flaws_find(ctx, d, s, true, &flaws, &count);
 	for (uint32_t f = 0; f < d->nf && count > 0; f++)
 		if (flaws.state[f] == MR_SUSPECT && mr_is_flawed(&flaws, f))
 			for (uint32_t h = 3 * f; h < 3 * f + 3; h++) {
@@ -394,5 +391,4 @@ mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s)
 				mr_flaws_suspect(&flaws, d->v[h]);
 			}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

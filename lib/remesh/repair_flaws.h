@@ -20,9 +20,9 @@ size_t mr_mendable(const mr_dyn *d);
  * has been tried.  A merge leaves holes in the numbering.  As a last resort tips are unpinned and vertices of
  * a boundary or curve merged along it.
  */
-mr_status mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last);
+void mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last);
 
 /* Halves the target length around what is flawed; d->scale is there. */
-mr_status mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s);
+void mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s);
 
 #endif

@@ -150,21 +150,20 @@ typedef struct grader {
 	size_t n, room;
 } grader;
 
-static mr_status
+static void
 put(grader *w, uint32_t v)
 {
-	MR_TRY(MR_RESERVE(w->ctx, w->queue, w->n, 1, &w->room));
+	MR_RESERVE(w->ctx, w->queue, w->n, 1, &w->room);
 	mr_queue_push(w->queue, w->n++, sizeof *w->queue, &(front){ w->length[v], v }, is_before);
-	return MR_OK;
 }
 
 /* Lengths grow along edges from the shortest on, each vertex's once and for all (Dijkstra 1959). */
-static mr_status
+static void
 grade(grader *w, const mr_topology *topo)
 {
 	for (uint32_t v = 0; v < w->m->nv; v++)
 		if (topo->out[v] != MR_NONE)
-			MR_TRY(put(w, v));
+			put(w, v);
 	while (w->n > 0) {
 		front f;
 		uint32_t h;
@@ -176,11 +175,10 @@ grade(grader *w, const mr_topology *topo)
 			uint32_t side[2] = { mr_he_to(w->m, h), mr_he_from(w->m, mr_he_prev(h)) };
 			for (int i = 0; i < 2; i++)
 				if (limit(w->m, w->length, f.v, side[i]))
-					MR_TRY(put(w, side[i]));
+					put(w, side[i]);
 			h = mr_he_ccw(topo, h);
 		} while (h != MR_NONE && h != topo->out[f.v]);
 	}
-	return MR_OK;
 }
 
 /* Of an edge whose middle is `error` away from an arc of that curvature. */
@@ -192,7 +190,7 @@ length_for(double curvature, double error, double shortest, double longest)
 	return squared > shortest * shortest ? fmin(sqrt(squared), longest) : shortest;
 }
 
-mr_status
+void
 mr_sizing_curves(
     mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double uniform, double **length)
 {
@@ -201,8 +199,6 @@ mr_sizing_curves(
 	grader w = { .ctx = ctx, .m = m, .length = field };
 	bool shorter = false;
 
-	if (!field)
-		return MR_EMEM;
 	for (uint32_t v = 0; v < m->nv; v++) {
 		bool sharp = d->kind[v] == MR_CURVE && !mr_dyn_on_boundary(d, v);
 		field[v] = sharp ? length_along(d, v, uniform) : uniform;
@@ -211,12 +207,11 @@ mr_sizing_curves(
 	mark = mr_mark_take(ctx);
 	*length = shorter ? field : NULL;
 	if (shorter)
-		MR_TRY(grade(&w, topo));
+		grade(&w, topo);
 	mr_mark_release(ctx, shorter ? mark : begin);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
     double shortest, double longest, double *length)
 {
@@ -225,14 +220,11 @@ mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr
 		MR_NEW(ctx, m->nv, double) };
 	grader w = { .ctx = ctx, .m = m, .length = length };
 
-	if (!s.laplacian || !s.angle || !s.area)
-		return MR_EMEM;
-	MR_TRY(mr_voronoi_areas(ctx, m, s.area));
+	mr_voronoi_areas(ctx, m, s.area);
 	for (size_t f = 0; f < m->nf; f++)
 		add_face(m, f, &s);
 	for (uint32_t v = 0; v < m->nv; v++)
 		length[v] = length_for(largest_curvature(d, &s, v), error, shortest, longest);
-	MR_TRY(grade(&w, topo));
+	grade(&w, topo);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -13,8 +13,8 @@
  * the curve, since across it the surface ends or has an edge that is kept.  d: still a copy of m.  length:
  * nv, the caller's, in units of the model.
  */
-mr_status mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d,
-    double error, double shortest, double longest, double *length);
+void mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double error,
+    double shortest, double longest, double *length);
 
 /*
  * The uniform length, and where sharp edges turn within an edge shorter ones, down to an eighth, so that the
@@ -22,7 +22,7 @@ mr_status mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo
  * most half of the way along edges.  Not along boundaries: those of scans are ragged.  d: still a copy of m.
  * *length: nv in the arena, NULL where it is uniform everywhere.
  */
-mr_status mr_sizing_curves(
+void mr_sizing_curves(
     mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, const mr_dyn *d, double uniform, double **length);
 
 #endif

@@ -162,14 +162,13 @@ look_body(void *arg, size_t begin, size_t end)
 
 /* Looks at all edges, on all threads, for those that are due: few are, but for the first time, and what
  * changes after that is near what was changed. */
-static mr_status
+static void
 look_at_all(resampler *r)
 {
-	MR_TRY(MR_RESERVE(r->ctx, r->done->look, 0, r->d->nf, &r->done->room));
+	MR_RESERVE(r->ctx, r->done->look, 0, r->d->nf, &r->done->room);
 	r->look = r->done->look;
 	r->looks = r->d->nf;
 	mr_parallel(r->ctx, r->looks, GRAIN, look_body, r);
-	return MR_OK;
 }
 
 /* False where the edge of h was not due when it was looked at, and nothing has changed there since. */
@@ -274,7 +273,7 @@ mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser,
 {
 	resampler r = { .ctx = ctx, .d = d, .s = s, .coarser = coarser, .done = done, .is_due = too_long };
 
-	MR_TRY(look_at_all(&r));
+	look_at_all(&r);
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		while (may_be_due(&r, h) && is_edge(d, h) && too_long(&r, h)) {
 			uint32_t g = locally_longest(d, h), m;
@@ -471,20 +470,18 @@ try_collapse(resampler *r, uint32_t h, double slack)
 }
 
 /* 2. Collapse all edges that are shorter than 4/5 l into their midpoint. */
-mr_status
+void
 mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
 	resampler r = { .ctx = ctx, .d = d, .s = s, .coarser = 1, .done = done, .is_due = too_short };
 	mr_mark mark;
 
 	if (done->refused > 0 && !d->scale)
-		MR_TRY(mr_refine_begin(ctx, d));
-	MR_TRY(look_at_all(&r));
+		mr_refine_begin(ctx, d);
+	look_at_all(&r);
 	mark = mr_mark_take(ctx);
 	r.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	r.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t);
-	if (!r.mark || !r.strung)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (may_be_due(&r, h) && is_edge(d, h) && too_short(&r, h)) {
 			size_t refused = done->refused;
@@ -492,7 +489,6 @@ mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resample
 				mr_refine_edge(d, s, h);
 		}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Merges the ends of a side of h's face, the shortest first; true where one could be. */
@@ -515,7 +511,7 @@ collapse_a_side(resampler *r, uint32_t h)
 }
 
 /* Needles that the steps of the paper left: flips the longest side away, or takes the face out. */
-mr_status
+void
 mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -527,8 +523,6 @@ mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled 
 		.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t),
 		.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t) };
 
-	if (!r.mark || !r.strung)
-		return MR_EMEM;
 	for (uint32_t f = 0; f < d->nf; f++) {
 		const uint32_t *v = &d->v[3 * f];
 		uint32_t longest;
@@ -541,5 +535,4 @@ mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled 
 			collapse_a_side(&r, 3 * f);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

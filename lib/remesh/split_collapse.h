@@ -41,9 +41,9 @@ mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser,
 
 /* Merges the ends of edges that are shorter than 4/5 of their target, or squeezed.  Edges that are too long
  * already may hold on to what is merged, once for each vertex: it would be drawn along far else. */
-mr_status mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
+void mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 /* Takes out needles: flips their longest side away or merges the ends of a side. */
-mr_status mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
+void mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 #endif

@@ -13,8 +13,6 @@ mr_image_new(mr_ctx *ctx, size_t width, size_t height, mr_rgb color, mr_image *i
 		return mr_fail(ctx, MR_ERANGE, "a picture of %zux%zu pixels is larger than %dx%d", width,
 		    height, MOST, MOST);
 	pixel = MR_NEW(ctx, width * height, mr_rgb);
-	if (!pixel)
-		return MR_EMEM;
 	for (size_t i = 0; i < width * height; i++)
 		pixel[i] = color;
 	*image = (mr_image){ pixel, width, height };

@@ -45,8 +45,6 @@ take_mesh(mr_ctx *ctx, mr_ctx *keep, const mr_gallery *g, mr_frame *frame, mr_pa
 		m->t = before->subject.mesh.t;
 	else if (m->nf)
 		m->t = copy_of(keep, m->t, m->nf, sizeof *m->t);
-	if (!m->p || (m->nf && !m->t))
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	return MR_OK;
 }
 
@@ -62,8 +60,6 @@ take_normals(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_panel *p)
 		return MR_OK;
 	MR_TRY(mr_layer_get_rows(ctx, frame, p->layer, "normal", nv, &data));
 	normal = copy_of(keep, data, nv, sizeof *normal);
-	if (!normal)
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	for (size_t i = 0; i < nv; i++)
 		normal[i] = mr_finite(normal[i]) ? mr_unit(normal[i]) : mr_vec(0, 0, 0);
 	p->subject.normal = normal;
@@ -86,16 +82,13 @@ number_at(const mr_column *c, size_t row)
 	return c->shape.components == 1 ? x : length;
 }
 
-static mr_status
-take_numbers(mr_ctx *ctx, mr_ctx *keep, const mr_column *c, mr_panel *p)
+static void
+take_numbers(mr_ctx *keep, const mr_column *c, mr_panel *p)
 {
 	p->value = MR_NEW(keep, c->rows, double);
-	if (!p->value)
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	for (size_t i = 0; i < c->rows; i++)
 		p->value[i] = number_at(c, i);
 	p->coloring = MR_COLOR_NUMBERS;
-	return MR_OK;
 }
 
 static mr_rgb
@@ -112,13 +105,11 @@ kind_color(mr_panel *p, uint32_t kind)
 
 /* Colours, or numbers of kinds, which need no range to become colours. */
 static mr_status
-take_colors(mr_ctx *ctx, mr_ctx *keep, const mr_column *c, mr_panel *p)
+take_colors(mr_ctx *keep, const mr_column *c, mr_panel *p)
 {
 	mr_rgb *color = MR_NEW(keep, c->rows, mr_rgb);
 	bool own = c->shape.type == 'b';
 
-	if (!color)
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	p->coloring = own ? MR_COLOR_OWN : !strcmp(c->name, "region") ? MR_COLOR_REGIONS : MR_COLOR_KINDS;
 	for (size_t i = 0; i < c->rows; i++) {
 		const unsigned char *b = (const unsigned char *)c->data + i * c->shape.components;
@@ -154,24 +145,22 @@ take_column(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, const char *name, mr_pan
 	c = mr_frame_find(frame, p->layer, name); /* decoded */
 	if ((c->shape.type == 'b' && c->shape.components >= 3) ||
 	    (c->shape.type == 'u' && c->shape.components == 1))
-		return take_colors(ctx, keep, c, p);
-	return take_numbers(ctx, keep, c, p);
-}
-
-static mr_status
-push_panel(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_panel *p)
-{
-	if (MR_RESERVE(keep, g->panel, g->panels, 1, &g->panel_room) != MR_OK)
-		return mr_fail_as(ctx, keep, MR_EMEM);
-	g->panel[g->panels++] = *p;
+		return take_colors(keep, c, p);
+	take_numbers(keep, c, p);
 	return MR_OK;
 }
 
-static mr_status
-push_frame(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, const mr_shown *f)
+static void
+push_panel(mr_ctx *keep, mr_gallery *g, const mr_panel *p)
 {
-	if (MR_RESERVE(keep, g->frame, g->frames, 1, &g->frame_room) != MR_OK)
-		return mr_fail_as(ctx, keep, MR_EMEM);
+	MR_RESERVE(keep, g->panel, g->panels, 1, &g->panel_room);
+	g->panel[g->panels++] = *p;
+}
+
+static mr_status
+push_frame(mr_ctx *keep, mr_gallery *g, const mr_shown *f)
+{
+	MR_RESERVE(keep, g->frame, g->frames, 1, &g->frame_room);
 	g->frame[g->frames++] = *f;
 	return MR_OK;
 }
@@ -182,13 +171,12 @@ add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char 
 {
 	mr_panel p = { .layer = mr_format(keep, "%s", layer), .frame = mr_format(keep, "%s", frame->name) };
 
-	if (!p.layer || !p.frame)
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	MR_TRY(take_mesh(ctx, keep, g, frame, &p));
 	MR_TRY(take_normals(ctx, keep, frame, &p));
 	if (opts->color)
 		MR_TRY(take_column(ctx, keep, frame, opts->color, &p, colored));
-	return push_panel(ctx, keep, g, &p);
+	push_panel(keep, g, &p);
+	return MR_OK;
 }
 
 /* Adds the layers named in the list, or all that have positions. */
@@ -206,8 +194,6 @@ add_layers(
 	while (list) {
 		const char *comma = strchr(list, ',');
 		char *layer = mr_format(ctx, "%.*s", comma ? (int)(comma - list) : (int)strlen(list), list);
-		if (!layer)
-			return MR_EMEM;
 		MR_TRY(add_layer(ctx, keep, g, frame, layer, opts, colored));
 		list = comma ? comma + 1 : NULL;
 	}
@@ -224,8 +210,6 @@ mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const 
 	bool colored = false;
 	mr_status status;
 
-	if (!shown.name)
-		return mr_fail_as(ctx, keep, MR_EMEM);
 	status = add_layers(ctx, keep, g, frame, opts, &colored);
 	if (status == MR_OK && g->panels == shown.first)
 		status = mr_fail(ctx, MR_EMISSING, "the frame has no layer with positions: nothing to draw");
@@ -233,7 +217,7 @@ mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const 
 		status = mr_fail(ctx, MR_EMISSING, "no layer that is drawn has a column %s", opts->color);
 	shown.count = g->panels - shown.first;
 	if (status == MR_OK)
-		status = push_frame(ctx, keep, g, &shown);
+		status = push_frame(keep, g, &shown);
 	if (status != MR_OK)
 		g->panels = shown.first;
 	return status;

@@ -93,21 +93,18 @@ number_color(const mr_shot *s, double x)
 }
 
 /* The subject with its numbers made colours. */
-static mr_status
+static void
 color_subject(mr_ctx *ctx, const mr_shot *s, const mr_panel *p, mr_subject *m)
 {
 	mr_rgb *color;
 
 	*m = p->subject;
 	if (p->coloring != MR_COLOR_NUMBERS)
-		return MR_OK;
+		return;
 	color = MR_NEW(ctx, value_count(p), mr_rgb);
-	if (!color)
-		return MR_EMEM;
 	for (size_t i = 0; i < value_count(p); i++)
 		color[i] = number_color(s, p->value[i]);
 	m->color = color;
-	return MR_OK;
 }
 
 /* A line of text that grows to one side, with the room that is left to it. */
@@ -229,7 +226,7 @@ draw_panel(mr_ctx *ctx, const mr_gallery *g, const mr_shot *shot, size_t i, bool
 	const mr_panel *p = &g->panel[i];
 	mr_subject subject;
 
-	MR_TRY(color_subject(ctx, shot, p, &subject));
+	color_subject(ctx, shot, p, &subject);
 	MR_TRY(mr_raster(ctx, &subject, &shot->camera, o->wire, image));
 	if (o->labels)
 		draw_label(image, shot, p, several, o);

@@ -84,15 +84,13 @@ item_count(const mr_raster_view *v)
 }
 
 /* Lists, for each band, the items that may touch it, by index. */
-static mr_status
+static void
 fill_bands(mr_ctx *ctx, mr_raster_view *v)
 {
 	size_t bands = (v->h + BAND - 1) / BAND, items = item_count(v);
 	range x, y;
 
 	v->start = MR_NEW_ZERO(ctx, bands + 2, size_t);
-	if (!v->start)
-		return MR_EMEM;
 	for (size_t i = 0; i < items; i++)
 		if (item_extent(v, i, &x, &y))
 			for (size_t b = y.begin / BAND; b <= (y.end - 1) / BAND; b++)
@@ -100,13 +98,10 @@ fill_bands(mr_ctx *ctx, mr_raster_view *v)
 	for (size_t b = 1; b <= bands; b++)
 		v->start[b + 1] += v->start[b];
 	v->list = MR_NEW(ctx, v->start[bands + 1], uint32_t);
-	if (!v->list)
-		return MR_EMEM;
 	for (size_t i = 0; i < items; i++)
 		if (item_extent(v, i, &x, &y))
 			for (size_t b = y.begin / BAND; b <= (y.end - 1) / BAND; b++)
 				v->list[v->start[b + 1]++] = (uint32_t)i;
-	return MR_OK;
 }
 
 static void
@@ -235,12 +230,10 @@ mr_raster(mr_ctx *ctx, const mr_subject *subject, const mr_camera *camera, bool 
 	v.at = MR_NEW(ctx, subject->mesh.nv, mr_placed);
 	v.near = MR_NEW(ctx, v.w * v.h, float);
 	v.item = MR_NEW(ctx, v.w * v.h, uint32_t);
-	if (!v.at || !v.near || !v.item)
-		return MR_EMEM;
 	if (subject->mesh.nf == 0)
 		v.radius = covering_radius(&v) * SAMPLES;
 	mr_parallel(ctx, subject->mesh.nv, 4096, place_vertices, &v);
-	MR_TRY(fill_bands(ctx, &v));
+	fill_bands(ctx, &v);
 	mr_parallel(ctx, (v.h + BAND - 1) / BAND, 1, draw_bands, &v);
 	status = mr_shade(ctx, &v);
 	mr_mark_release(ctx, mark);

@@ -348,8 +348,6 @@ prepare_normals(mr_ctx *ctx, shading *s)
 
 	s->normal = MR_NEW(ctx, m->nv, mr_v3);
 	s->creased = MR_NEW(ctx, m->nv, bool);
-	if (!s->normal || !s->creased)
-		return MR_EMEM;
 	MR_TRY(mr_incidence_build(ctx, m, &s->around));
 	mr_parallel(ctx, m->nv, 1024, vertex_shades, s);
 	return MR_OK;
@@ -363,8 +361,6 @@ mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 	shading s = { .v = v };
 
 	s.pixel = MR_NEW(ctx, pixels, gathered);
-	if (!s.pixel)
-		return MR_EMEM;
 	prepare_tables(&s);
 	if (v->subject->mesh.nf)
 		MR_TRY(prepare_normals(ctx, &s));

@@ -59,8 +59,6 @@ carry(mr_ctx *ctx, job *j, const mr_v3 *vertex, const mr_carried *column, size_t
 
 	j->parent = MR_NEW(ctx, chunk * NEAREST, uint32_t);
 	j->weight = MR_NEW(ctx, chunk * NEAREST, double);
-	if (!nearest || !dist2 || !j->parent || !j->weight)
-		return MR_EMEM;
 	j->nearest = nearest;
 	j->dist2 = dist2;
 	for (j->first = 0; j->first < nv; j->first += chunk) {
@@ -83,21 +81,16 @@ mr_sample_columns(mr_ctx *ctx, const mr_domain *d, const double *height, const m
 	job j = { .d = d };
 	mr_sample_cloud c = { 0 };
 	uint32_t *of;
-	mr_status status;
 
-	if (!vertex)
-		return MR_EMEM;
 	mr_domain_displace(ctx, d, height, 1, vertex);
-	MR_TRY(mr_sampling_places(ctx, point, s, &p, &of, &c.n));
+	mr_sampling_places(ctx, point, s, &p, &of, &c.n);
 	c.p = p;
-	MR_TRY(mr_sample_place(ctx, d, &c, NULL));
+	mr_sample_place(ctx, d, &c, NULL);
 	MR_TRY(mr_near_build(ctx, p, c.n, &c.near));
 	j.c = &c;
 	j.of = of;
 	j.k = c.n < LOOKED_AT ? c.n : LOOKED_AT;
-	status = carry(ctx, &j, vertex, column, count);
-	mr_near_free(c.near);
-	MR_TRY(status);
+	MR_TRY(carry(ctx, &j, vertex, column, count));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -33,8 +33,6 @@ find_rough(mr_ctx *ctx, const mr_mesh *m, const mr_adjacency *adj, double *rough
 	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3), *around = MR_NEW(ctx, m->nv, mr_v3);
 	double *all = MR_NEW_ZERO(ctx, m->nv, double);
 
-	if (!normal || !around || !all)
-		return MR_EMEM;
 	MR_TRY(mr_vertex_normals(ctx, m, NULL, normal));
 	smooth_normals(adj, m->nv, normal, around);
 	memset(rough, 0, m->nv * sizeof *rough);
@@ -63,10 +61,8 @@ mr_find_crust(mr_ctx *ctx, const mr_mesh *surface, const mr_heights *e, double *
 	mr_mark mark = mr_mark_take(ctx);
 	double *rough = MR_NEW(ctx, e->n, double), all = 0, crust = 0;
 
-	if (!rough)
-		return MR_EMEM;
 	MR_TRY(find_rough(ctx, surface, &e->adj, rough));
-	MR_TRY(mr_heights_spread(ctx, e, ROUNDS, rough));
+	mr_heights_spread(ctx, e, ROUNDS, rough);
 	for (size_t f = 0; f < surface->nf; f++) {
 		const uint32_t *v = surface->t[f].v;
 		double area = mr_norm(mr_face_cross(surface, f));
@@ -155,8 +151,6 @@ mr_find_order(
 	order o = { surface, c, wish, k, n, index, 0, MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) };
 	double same = 0, square = 0;
 
-	if (!q || !index || !o.same || !o.square)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		q[i] = c->p[point_of(&o, i)];
 	o.most = most_of(&o, o.same);

@@ -16,8 +16,6 @@ mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e)
 {
 	mr_heights r = { .n = m->nv, .fair = MR_NEW(ctx, m->nv, double) };
 
-	if (!r.fair)
-		return MR_EMEM;
 	for (size_t i = 0; i < m->nv; i++)
 		r.fair[i] = fair;
 	MR_TRY(mr_adjacency_build(ctx, m, &r.adj));
@@ -25,18 +23,15 @@ mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e)
 	return MR_OK;
 }
 
-mr_status
+void
 mr_heights_add_data(mr_ctx *ctx, mr_heights *e)
 {
 	double *diagonal = MR_NEW(ctx, e->n, double), *b = MR_NEW(ctx, e->n, double);
 	double *beside = MR_NEW(ctx, e->adj.start[e->n], double);
 
-	if (!diagonal || !b || !beside)
-		return MR_EMEM;
 	e->diagonal = diagonal;
 	e->beside = beside;
 	e->b = b;
-	return MR_OK;
 }
 
 static double
@@ -156,8 +151,6 @@ mr_heights_minimise(mr_ctx *ctx, const mr_heights *e, double tol, size_t most, d
 	mr_preconditioner b = mr_jacobi_of(a.inverse, n);
 	mr_cg g = { .s = { n, 1 }, .apply = apply, .a = &a, .b = &b, .tol = tol, .most = most };
 
-	if (!r || !a.weight || !a.inverse || !a.u)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		a.weight[i] = fairness(e, i);
 	mr_parallel(ctx, n, GRAIN, invert_diagonal, &a);
@@ -192,13 +185,11 @@ add_ring(const mr_heights *e, part *p)
 		}
 }
 
-static mr_status
+static void
 part_new(mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, part *p, size_t *inner)
 {
 	p->number = MR_NEW(ctx, e->n, uint32_t);
 	p->vertex = MR_NEW(ctx, e->n, uint32_t);
-	if (!p->number || !p->vertex)
-		return MR_EMEM;
 	for (size_t i = 0; i < e->n; i++)
 		p->number[i] = MR_NONE;
 	for (size_t i = 0; i < count; i++)
@@ -208,11 +199,10 @@ part_new(mr_ctx *ctx, const mr_heights *e, const uint32_t *list, size_t count, p
 	add_ring(e, p);
 	*inner = p->n;
 	add_ring(e, p);
-	return MR_OK;
 }
 
 /* The energy of the part; those from `inner` on, whose own neighbours are not all there, have none. */
-static mr_status
+static void
 part_energy(mr_ctx *ctx, const mr_heights *e, const part *p, size_t count, size_t inner, mr_heights *out)
 {
 	size_t entries = 0;
@@ -223,11 +213,9 @@ part_energy(mr_ctx *ctx, const mr_heights *e, const part *p, size_t count, size_
 		entries += (size_t)degree(e, p->vertex[i]);
 	adj = MR_NEW(ctx, entries, uint32_t);
 	*out = (mr_heights){ .n = p->n, .fair = MR_NEW(ctx, p->n, double), .fixed = MR_NEW(ctx, p->n, bool) };
-	if (!start || !adj || !out->fair || !out->fixed)
-		return MR_EMEM;
 	out->adj = (mr_adjacency){ .start = start, .adj = adj };
 	start[p->n] = entries; /* what the data go by */
-	MR_TRY(mr_heights_add_data(ctx, out));
+	mr_heights_add_data(ctx, out);
 	entries = 0;
 	for (size_t i = 0; i < p->n; i++) {
 		uint32_t v = p->vertex[i];
@@ -241,7 +229,6 @@ part_energy(mr_ctx *ctx, const mr_heights *e, const part *p, size_t count, size_
 			adj[entries++] = p->number[e->adj.adj[k]];
 		}
 	}
-	return MR_OK;
 }
 
 mr_status
@@ -254,11 +241,9 @@ mr_heights_minimise_some(
 	double *x;
 	part p;
 
-	MR_TRY(part_new(ctx, e, list, count, &p, &inner));
+	part_new(ctx, e, list, count, &p, &inner);
 	x = MR_NEW(ctx, p.n, double);
-	if (!x)
-		return MR_EMEM;
-	MR_TRY(part_energy(ctx, e, &p, count, inner, &some));
+	part_energy(ctx, e, &p, count, inner, &some);
 	for (size_t i = 0; i < p.n; i++)
 		x[i] = h[p.vertex[i]];
 	MR_TRY(mr_heights_minimise(ctx, &some, tol, most, x, NULL));
@@ -269,15 +254,13 @@ mr_heights_minimise_some(
 }
 
 /* Fronts: each vertex next to the known takes the mean of its known neighbours, ring after ring. */
-static mr_status
+static void
 fill_rings(mr_ctx *ctx, const mr_heights *e, const bool *known, double *h)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *queue = MR_NEW(ctx, e->n, uint32_t), *ring = MR_NEW(ctx, e->n, uint32_t);
 	size_t head = 0, tail = 0;
 
-	if (!queue || !ring)
-		return MR_EMEM;
 	for (size_t i = 0; i < e->n; i++) {
 		ring[i] = known[i] ? 0 : UINT32_MAX;
 		if (known[i])
@@ -302,7 +285,6 @@ fill_rings(mr_ctx *ctx, const mr_heights *e, const bool *known, double *h)
 			h[i] = sum / count;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
@@ -320,10 +302,8 @@ mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double *h, size_t
 	*filled = count;
 	if (count == 0)
 		return MR_OK;
-	MR_TRY(fill_rings(ctx, e, known, h));
+	fill_rings(ctx, e, known, h);
 	plate.fixed = MR_NEW(ctx, e->n, bool);
-	if (!plate.fixed)
-		return MR_EMEM;
 	memcpy(plate.fixed, known, e->n * sizeof *known);
 	MR_TRY(mr_heights_minimise(ctx, &plate, 1e-4, count < e->n ? STEPS : 0, h, NULL));
 	mr_mark_release(ctx, mark);
@@ -378,15 +358,13 @@ find_spikes(void *arg, size_t begin, size_t end)
 		s->spike[i] = s->known[i] && sticks_out(s, i);
 }
 
-mr_status
+void
 mr_heights_drop_spikes(
     mr_ctx *ctx, const mr_heights *e, const mr_v3 *p, const double *h, bool *known, size_t *dropped)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	spikes s = { e, p, h, known, MR_NEW(ctx, e->n, bool) };
 
-	if (!s.spike)
-		return MR_EMEM;
 	mr_parallel(ctx, e->n, GRAIN, find_spikes, &s);
 	*dropped = 0;
 	for (size_t i = 0; i < e->n; i++) {
@@ -394,5 +372,4 @@ mr_heights_drop_spikes(
 		known[i] = known[i] && !s.spike[i];
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -26,7 +26,7 @@ typedef struct mr_heights {
 mr_status mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e);
 
 /* Adds A and b, not initialised; in the arena. */
-mr_status mr_heights_add_data(mr_ctx *ctx, mr_heights *e);
+void mr_heights_add_data(mr_ctx *ctx, mr_heights *e);
 
 /*
  * Comes closer to the minimum by conjugate gradients: until the gradient is `tol` times as long as at first,
@@ -50,7 +50,7 @@ mr_status mr_heights_fill(mr_ctx *ctx, mr_heights *e, const bool *known, double 
  * Takes back the heights that stick out: that differ from the median of the known ones around them by more
  * than an edge and than 6 times the median deviation from it.  *dropped: how many of `known` were cleared.
  */
-mr_status mr_heights_drop_spikes(
+void mr_heights_drop_spikes(
     mr_ctx *ctx, const mr_heights *e, const mr_v3 *p, const double *h, bool *known, size_t *dropped);
 
 #endif

@@ -143,8 +143,6 @@ search_all(mr_ctx *ctx, search *s)
 	size_t nv = s->d->m.nv, chunk = nv < CHUNK ? nv : CHUNK;
 	uint32_t *index = MR_NEW(ctx, chunk * s->k, uint32_t);
 
-	if (!index)
-		return MR_EMEM;
 	s->index = index;
 	for (s->first = 0; s->first < nv; s->first += chunk) {
 		size_t n = nv - s->first < chunk ? nv - s->first : chunk;
@@ -157,21 +155,18 @@ search_all(mr_ctx *ctx, search *s)
 }
 
 /* The median of the values at the vertices that were hit; 0 where none was. */
-static mr_status
+static void
 median_where(mr_ctx *ctx, const bool *hit, const double *value, size_t n, double *median)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *x = MR_NEW(ctx, n, double);
 	size_t count = 0;
 
-	if (!x)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		if (hit[i])
 			x[count++] = value[i];
 	*median = count ? mr_kth(x, count, count / 2) : 0;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
@@ -190,18 +185,16 @@ mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_
 		.radius = spread,
 		.hit = hit };
 
-	if (!deviation || !spread)
-		return MR_EMEM;
 	if (most > MR_SAMPLE_MOST)
 		most = MR_SAMPLE_MOST;
 	MR_TRY(search_all(ctx, &s));
-	MR_TRY(median_where(ctx, hit, deviation, nv, &noise));
-	MR_TRY(median_where(ctx, hit, spread, nv, &radius));
+	median_where(ctx, hit, deviation, nv, &noise);
+	median_where(ctx, hit, spread, nv, &radius);
 	grown = (double)neighbours * pow(wide * noise / fmax(radius, DBL_MIN), 2);
 	if (grown > 1.2 * (double)neighbours && most > neighbours) {
 		s.k = grown < (double)most ? (size_t)grown : most;
 		MR_TRY(search_all(ctx, &s));
-		MR_TRY(median_where(ctx, hit, deviation, nv, &noise));
+		median_where(ctx, hit, deviation, nv, &noise);
 	}
 	r->missed = 0;
 	for (size_t v = 0; v < nv; v++)

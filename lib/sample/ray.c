@@ -67,7 +67,7 @@ shoot(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
+void
 mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c, double *height,
     bool *hit, mr_sample_result *result)
 {
@@ -80,12 +80,11 @@ mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 		.height = height,
 		.hit = hit };
 
-	MR_TRY(mr_bvh_build(ctx, mesh, &bvh));
+	mr_bvh_build(ctx, mesh, &bvh);
 	r.bvh = bvh;
 	mr_parallel(ctx, d->m.nv, GRAIN, shoot, &r);
 	result->missed = 0;
 	for (size_t i = 0; i < d->m.nv; i++)
 		result->missed += !hit[i];
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

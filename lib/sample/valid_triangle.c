@@ -196,8 +196,6 @@ search_list(mr_ctx *ctx, const uint32_t *list, size_t n, search *s)
 	double *dist2 = MR_NEW(ctx, chunk * s->k, double);
 	mr_v3 *q = MR_NEW(ctx, chunk, mr_v3);
 
-	if (!index || !dist2 || !q)
-		return MR_EMEM;
 	s->index = index;
 	s->dist2 = dist2;
 	for (size_t first = 0; first < n; first += chunk) {
@@ -224,8 +222,6 @@ mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, s
 
 	s.k = neighbours < FIRST ? neighbours : FIRST;
 	s.points = MR_NEW(ctx, d->m.nv, uint8_t);
-	if (!list || !s.points)
-		return MR_EMEM;
 	for (uint32_t v = 0; v < d->m.nv; v++)
 		list[v] = v;
 	MR_TRY(search_list(ctx, list, d->m.nv, &s));

@@ -12,8 +12,6 @@ mr_solid_begin(mr_ctx *ctx, size_t nv, size_t nf, mr_solid_build *b)
 		return mr_fail(ctx, MR_ERANGE, "%zu vertices and %zu faces are too many", nv, nf);
 	r.p = MR_NEW(ctx, nv, mr_v3);
 	r.t = MR_NEW(ctx, nf, mr_tri);
-	if (!r.p || !r.t)
-		return MR_EMEM;
 	*b = r;
 	return MR_OK;
 }
@@ -38,7 +36,7 @@ mr_solid_add_quad(mr_solid_build *b, uint32_t i, uint32_t j, uint32_t k, uint32_
 	mr_solid_add_face(b, i, k, l);
 }
 
-mr_status
+void
 mr_weld_begin(mr_ctx *ctx, size_t nv, mr_solid_weld *w)
 {
 	mr_solid_weld r = { .mask = 15 };
@@ -47,10 +45,7 @@ mr_weld_begin(mr_ctx *ctx, size_t nv, mr_solid_weld *w)
 		r.mask = 2 * r.mask + 1;
 	r.key = MR_NEW_ZERO(ctx, r.mask + 1, uint64_t);
 	r.vertex = MR_NEW(ctx, r.mask + 1, uint32_t);
-	if (!r.key || !r.vertex)
-		return MR_EMEM;
 	*w = r;
-	return MR_OK;
 }
 
 uint32_t *

@@ -149,7 +149,7 @@ refine(mr_ctx *ctx, const mr_solid_build *old, mr_solid_build *b)
 
 	MR_TRY(mr_solid_begin(ctx, 4 * old->nv - 6, 4 * old->nf, b)); /* V + E, with E = 3 V - 6 */
 	mark = mr_mark_take(ctx);
-	MR_TRY(mr_weld_begin(ctx, 3 * old->nv, &w));
+	mr_weld_begin(ctx, 3 * old->nv, &w);
 	for (; b->nv < old->nv; b->nv++)
 		b->p[b->nv] = old->p[b->nv];
 	for (size_t f = 0; f < old->nf; f++) {
@@ -205,8 +205,6 @@ relax(mr_ctx *ctx, mr_solid_build *b, int rounds)
 	mr_v3 *other = MR_NEW(ctx, b->nv, mr_v3);
 	mr_adjacency a;
 
-	if (!other)
-		return MR_EMEM;
 	MR_TRY(mr_adjacency_build(ctx, &m, &a));
 	for (int i = 0; i < 2 * rounds; i++) { /* an even number: the result ends in b->p */
 		relaxing r = { &a, i % 2 ? other : b->p, i % 2 ? b->p : other };

@@ -169,13 +169,11 @@ mr_march(mr_ctx *ctx, mr_field field, void *arg, mr_box box, double step, mr_sol
 	l.n[1] = (size_t)ceil(size.y / step) + 1;
 	l.n[2] = (size_t)ceil(size.z / step) + 1;
 	l.f = MR_NEW(ctx, l.n[0] * l.n[1] * l.n[2], double);
-	if (!l.f)
-		return MR_EMEM;
 	mr_parallel(ctx, l.n[2], 1, fill_layers, &l);
 	march_all(&m);
 	MR_TRY(mr_solid_begin(ctx, m.faces, m.faces, b)); /* vertices are fewer: about half as many */
 	mark = mr_mark_take(ctx);
-	MR_TRY(mr_weld_begin(ctx, m.faces, &m.w));
+	mr_weld_begin(ctx, m.faces, &m.w);
 	m.b = b;
 	march_all(&m);
 	mr_mark_release(ctx, mark);

@@ -32,7 +32,7 @@ typedef struct mr_solid_weld {
 	size_t mask;
 } mr_solid_weld;
 
-mr_status mr_weld_begin(mr_ctx *ctx, size_t nv, mr_solid_weld *w);
+void mr_weld_begin(mr_ctx *ctx, size_t nv, mr_solid_weld *w);
 
 /* The slot of the key; *is_new where it was not there: the caller stores the vertex in it. */
 uint32_t *mr_weld_slot(mr_solid_weld *w, uint64_t key, bool *is_new);

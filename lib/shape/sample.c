@@ -36,8 +36,6 @@ mr_surface_sample(mr_ctx *ctx, const mr_mesh *m, size_t count, uint64_t seed, mr
 	double *sum = MR_NEW(ctx, m->nf, double), total = 0;
 	mr_random r = { seed };
 
-	if (!p || !normal || !sum)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		sum[f] = total += mr_norm(mr_face_cross(m, f));
 	if (!(total > 0))

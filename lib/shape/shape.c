@@ -108,10 +108,8 @@ geodesic_sphere(mr_ctx *ctx, size_t f, mr_solid_build *b)
 		return mr_fail(ctx, MR_ERANGE, "a geodesic sphere of frequency %zu is too large", f);
 	MR_TRY(mr_solid_begin(ctx, 10 * f * f + 2, 20 * f * f, b));
 	mark = mr_mark_take(ctx);
-	MR_TRY(mr_weld_begin(ctx, 10 * f * f + 2, &g.w));
+	mr_weld_begin(ctx, 10 * f * f + 2, &g.w);
 	rows = MR_NEW(ctx, 2 * (f + 1), uint32_t);
-	if (!rows)
-		return MR_EMEM;
 	g.corner[0] = mr_vec(0, 0, 1);
 	g.corner[11] = mr_vec(0, 0, -1);
 	for (int i = 0; i < 5; i++) {
@@ -355,7 +353,7 @@ cells_make(mr_ctx *ctx, cells *c, size_t sides, size_t genus, size_t n)
 		return mr_fail(ctx, MR_ERANGE, "%zu vertices are too many", n);
 	MR_TRY(mr_solid_begin(ctx, sides * c->s * c->s + 2 - 2 * genus, 2 * sides * c->s * c->s, c->b));
 	mark = mr_mark_take(ctx);
-	MR_TRY(mr_weld_begin(ctx, sides * c->s * c->s + 2, &c->w));
+	mr_weld_begin(ctx, sides * c->s * c->s + 2, &c->w);
 	for (size_t i = 0; i < c->count[0]; i++)
 		for (size_t j = 0; j < c->count[1]; j++)
 			for (size_t k = 0; k < c->count[2]; k++)

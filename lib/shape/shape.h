@@ -28,7 +28,7 @@ bool mr_solid_has_texcoords(mr_solid solid);
 
 /* Texture coordinates of the corners of a solid as it was made: a picture fills the square from 0 to 1,
  * around the axis where there is one.  corners: 6 nf, in the arena. */
-mr_status mr_solid_texcoords(mr_ctx *ctx, mr_solid solid, const mr_mesh *m, double **corners);
+void mr_solid_texcoords(mr_ctx *ctx, mr_solid solid, const mr_mesh *m, double **corners);
 
 /*
  * `count` points drawn uniformly by area with the seed, in the arena, each with the

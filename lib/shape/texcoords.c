@@ -77,13 +77,11 @@ mr_solid_has_texcoords(mr_solid solid)
 	       solid == MR_BUMPY;
 }
 
-mr_status
+void
 mr_solid_texcoords(mr_ctx *ctx, mr_solid solid, const mr_mesh *m, double **corners)
 {
 	double *uv = MR_NEW(ctx, 6 * m->nf, double);
 
-	if (!uv)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
 		const mr_v3 p[3] = { m->p[v[0]], m->p[v[1]], m->p[v[2]] };
@@ -97,5 +95,4 @@ mr_solid_texcoords(mr_ctx *ctx, mr_solid solid, const mr_mesh *m, double **corne
 		}
 	}
 	*corners = uv;
-	return MR_OK;
 }

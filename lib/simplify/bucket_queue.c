@@ -5,22 +5,19 @@
  */
 static const uint32_t FIRST = MR_NONE - MR_BUCKETS;
 
-mr_status
+void
 mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out)
 {
 	mr_buckets *b = MR_NEW_ZERO(ctx, 1, mr_buckets);
 	uint32_t *next = MR_NEW(ctx, n, uint32_t), *prev = MR_NEW(ctx, n, uint32_t);
 	uint32_t *head = MR_NEW(ctx, MR_BUCKETS, uint32_t);
 
-	if (!b || !next || !prev || !head)
-		return MR_EMEM;
 	memset(prev, 0xff, n * sizeof *prev);
 	memset(head, 0xff, MR_BUCKETS * sizeof *head);
 	b->next = next;
 	b->prev = prev;
 	b->head = head;
 	*out = b;
-	return MR_OK;
 }
 
 void

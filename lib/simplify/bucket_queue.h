@@ -19,7 +19,7 @@ typedef struct mr_buckets {
 } mr_buckets;
 
 /* An empty queue for items below n, which is at most 2^32 - 1 - MR_BUCKETS, in the arena. */
-mr_status mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out);
+void mr_buckets_new(mr_ctx *ctx, size_t n, mr_buckets **out);
 
 /* The bucket of a key >= 0: a greater key has no lower bucket. */
 static inline uint32_t

@@ -18,14 +18,12 @@ enum { MOST_POINTS_A_FACE = 8 };
 static const double LEAST = 0.1, MOST = 10;
 
 /* Sums at vertices become means over the faces around, round after round. */
-static mr_status
+static void
 spread(mr_ctx *ctx, const mr_mesh *m, double *sum)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *to = MR_NEW(ctx, m->nv, double), *faces = MR_NEW_ZERO(ctx, m->nv, double);
 
-	if (!to || !faces)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++)
 			faces[m->t[f].v[k]] += 3;
@@ -40,7 +38,6 @@ spread(mr_ctx *ctx, const mr_mesh *m, double *sum)
 		memcpy(sum, to, m->nv * sizeof *to);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* How many of n points, or of enough of them at equal strides, are nearest to each vertex; *used: of how
@@ -53,8 +50,6 @@ count_points(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double
 	uint32_t *nearest = MR_NEW(ctx, some, uint32_t);
 	mr_v3 *q = MR_NEW(ctx, some, mr_v3);
 
-	if (!nearest || !q)
-		return MR_EMEM;
 	mr_at_strides(point, n, some, q);
 	MR_TRY(mr_near_once(ctx, m->p, m->nv, q, some, 1, nearest, NULL));
 	for (size_t i = 0; i < some; i++)
@@ -99,8 +94,6 @@ mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, d
 	double *count = MR_NEW_ZERO(ctx, m->nv, double), *area = MR_NEW_ZERO(ctx, m->nv, double), all = 0;
 	size_t used;
 
-	if (!count || !area)
-		return MR_EMEM;
 	MR_TRY(count_points(ctx, m, point, n, count, &used));
 	for (size_t f = 0; f < m->nf; f++) {
 		double third = mr_norm(mr_face_cross(m, f)) / 6;
@@ -108,8 +101,8 @@ mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, d
 		for (int k = 0; k < 3; k++)
 			area[m->t[f].v[k]] += third;
 	}
-	MR_TRY(spread(ctx, m, count));
-	MR_TRY(spread(ctx, m, area));
+	spread(ctx, m, count);
+	spread(ctx, m, area);
 	for (size_t v = 0; v < m->nv; v++) {
 		double density = area[v] > 0 ? count[v] * all / (area[v] * (double)used) : 1;
 		weight[v] = fmin(fmax(density, LEAST), MOST);

@@ -115,8 +115,6 @@ points_along(mr_ctx *ctx, const finder *f, mr_v3 a, mr_v3 b, mr_v3 **p, size_t *
 	uint32_t *index = MR_NEW(ctx, kept, uint32_t);
 
 	*p = MR_NEW(ctx, kept, mr_v3);
-	if (!at || !index || !*p)
-		return MR_EMEM;
 	for (size_t i = 0; i < steps; i++)
 		at[i] = mr_lerp((double)i / (double)(steps - 1), a, b);
 	MR_TRY(mr_near_query(ctx, f->near, at, steps, NEAREST, index, NULL));
@@ -145,8 +143,6 @@ look_at(mr_ctx *ctx, const finder *f, uint32_t h, uint32_t g, bool *sharp)
 	*sharp = false;
 	MR_TRY(points_along(ctx, f, a, b, &p, &n));
 	work = MR_NEW(ctx, n, mr_v3);
-	if (!work)
-		return MR_EMEM;
 	if (fit_two(p, n, f->width, two, work) && is_sharp(two, n, f->width)) {
 		double off = 0;
 		for (int k = 0; k < 2; k++)
@@ -173,13 +169,11 @@ mark_edges(mr_ctx *ctx, const finder *f, const mr_topology *topo, uint8_t *mark)
 }
 
 /* Takes back what is short: of marked edges that hang together, fewer than PIECE. */
-static mr_status
+static void
 drop_pieces(mr_ctx *ctx, const mr_mesh *m, uint8_t *mark, size_t *count)
 {
 	uint32_t *set = mr_sets_new(ctx, m->nv), *half = MR_NEW_ZERO(ctx, m->nv, uint32_t);
 
-	if (!set || !half)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		if (mark[h])
 			mr_sets_join(set, mr_he_from(m, h), mr_he_to(m, h));
@@ -191,7 +185,6 @@ drop_pieces(mr_ctx *ctx, const mr_mesh *m, uint8_t *mark, size_t *count)
 		*count += mark[h];
 	}
 	*count /= 2;
-	return MR_OK;
 }
 
 mr_status
@@ -201,14 +194,11 @@ mr_find_creases(
 	mr_mark here = mr_mark_take(ctx);
 	finder f = { .m = m, .point = point, .points = n, .width = width };
 	mr_topology topo;
-	mr_status status;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	MR_TRY(mr_near_build(ctx, point, n, &f.near));
-	status = mark_edges(ctx, &f, &topo, mark);
-	mr_near_free(f.near);
-	MR_TRY(status);
-	MR_TRY(drop_pieces(ctx, m, mark, count));
+	MR_TRY(mark_edges(ctx, &f, &topo, mark));
+	drop_pieces(ctx, m, mark, count);
 	mr_mark_release(ctx, here);
 	return MR_OK;
 }

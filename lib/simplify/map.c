@@ -91,11 +91,9 @@ place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *st
 	mr_topology topo;
 	mr_bvh *bvh;
 
-	if (!face || !bary || !normal)
-		return MR_EMEM;
 	MR_TRY(mr_vertex_normals(ctx, from, NULL, normal));
 	MR_TRY(mr_topology_build(ctx, m, &topo));
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	mr_bvh_build(ctx, m, &bvh);
 	mr_parallel(
 	    ctx, from->nv, 1024, place_body, &(place_job){ m, &topo, bvh, from, normal, start, face, bary });
 	mr_mark_release(ctx, mark);
@@ -114,8 +112,6 @@ mr_simplify_source(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *out, const uint
 {
 	uint32_t *nearest = MR_NEW(ctx, out->nv, uint32_t);
 
-	if (!nearest)
-		return MR_EMEM;
 	for (size_t v = 0; v < out->nv; v++)
 		nearest[v] = MR_NONE;
 	for (uint32_t v = 0; v < m->nv; v++) {

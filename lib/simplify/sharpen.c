@@ -114,8 +114,6 @@ look_for_edges(
 	uint32_t *near = MR_NEW(ctx, all, uint32_t), *around = MR_NEW(ctx, all * AROUND, uint32_t);
 	mr_planes planes = { .normal = MR_NEW(ctx, all, mr_v3), .variation = MR_NEW(ctx, all, double) };
 
-	if (!at || !q || !near || !around || !planes.normal || !planes.variation)
-		return MR_EMEM;
 	mr_at_strides(m->p, m->nv, some, at);
 	MR_TRY(mr_near_query(ctx, index, at, some, NEAREST, near, NULL));
 	for (size_t i = 0; i < all; i++)
@@ -141,8 +139,6 @@ sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, const mr_ne
 	uint32_t *near = mr_alloc(ctx, m->nv, NEAREST * sizeof *near);
 	mr_planes planes;
 
-	if (!near)
-		return MR_EMEM;
 	MR_TRY(look_for_edges(ctx, m, point, index, width, any));
 	if (!*any)
 		return MR_OK;
@@ -158,12 +154,9 @@ mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double w
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_near *index;
-	mr_status status;
 
 	MR_TRY(mr_near_build(ctx, point, n, &index));
-	status = sharpen(ctx, m, point, n, index, width, to, any);
-	mr_near_free(index);
-	MR_TRY(status);
+	MR_TRY(sharpen(ctx, m, point, n, index, width, to, any));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

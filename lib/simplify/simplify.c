@@ -273,8 +273,6 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 	d.at = MR_NEW(s->ctx, m->nv, uint32_t);
 	d.kind = MR_NEW(s->ctx, m->nv, uint8_t);
 	d.v = MR_NEW(s->ctx, 3 * m->nf, uint32_t);
-	if (!d.p || !d.at || !d.kind || !d.v)
-		return MR_EMEM;
 	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
 	for (uint32_t v = 0; v < m->nv; v++) {
 		d.p[v] = mr_mul(s->scale, m->p[v]);
@@ -282,7 +280,7 @@ copy_mesh(simplifier *s, const mr_mesh *m)
 		d.kind[v] = d.out[v] == MR_NONE ? MR_DEAD : MR_SMOOTH;
 	}
 	MR_TRY(mr_dyn_compact(s->ctx, &d));
-	MR_TRY(mr_dyn_order(s->ctx, &d));
+	mr_dyn_order(s->ctx, &d);
 	s->d = d;
 	return MR_OK;
 }
@@ -295,13 +293,12 @@ begin(simplifier *s, const mr_mesh *m)
 	s->onto = mr_sets_new(s->ctx, s->d.nv);
 	s->mark = MR_NEW_ZERO(s->ctx, s->d.nv, uint8_t);
 	s->bucket = MR_NEW(s->ctx, 3 * s->d.nf, uint16_t);
-	if (!s->site || !s->onto || !s->mark || !s->bucket)
-		return MR_EMEM;
 	s->faces = s->d.nf;
 	for (uint32_t v = 0; v < s->d.nv; v++)
 		s->site[v].room = s->o->room ? s->o->room[s->d.at[v]] : INFINITY;
 	add_quadrics(s);
-	return mr_buckets_new(s->ctx, 3 * s->d.nf, &s->queue);
+	mr_buckets_new(s->ctx, 3 * s->d.nf, &s->queue);
+	return MR_OK;
 }
 
 /* Says of each vertex of the input which of the result it was merged into.  number: those of what lives. */
@@ -319,7 +316,7 @@ number_onto(simplifier *s, size_t nv, const uint32_t *number, uint32_t *onto)
 }
 
 /* The vertices that live, in the order of the input's numbers, and their faces. */
-static mr_status
+static void
 finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
 {
 	const mr_dyn *d = &s->d;
@@ -328,8 +325,6 @@ finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
 	uint32_t *number = MR_NEW(s->ctx, d->nv, uint32_t), nv = 0;
 	size_t nf = 0;
 
-	if (!p || !t || !number)
-		return MR_EMEM;
 	for (uint32_t v = 0; v < d->nv; v++)
 		if (s->onto[v] == v) {
 			number[v] = nv;
@@ -341,7 +336,6 @@ finish(simplifier *s, const mr_mesh *m, mr_mesh *out, uint32_t *onto)
 			    number[d->v[3 * f + 2]] } };
 	number_onto(s, m->nv, number, onto);
 	*out = (mr_mesh){ m->name, p, t, nv, nf };
-	return MR_OK;
 }
 
 mr_status
@@ -364,7 +358,7 @@ mr_simplify(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_opts *opts, mr_mesh
 	begun = mr_seconds();
 	merge_all(&s);
 	ended = mr_seconds();
-	MR_TRY(finish(&s, m, out, onto));
+	finish(&s, m, out, onto);
 	if (out->nf > s.target && s.target && s.most)
 		mr_note(ctx, "%s: %zu faces are left, not %zu: fewer would be too far off", m->name, out->nf,
 		    s.target);

@@ -34,11 +34,10 @@ check(mr_ctx *ctx, const cholesky *c)
 }
 
 static void
-cholesky_free(void *data)
+cholesky_drop(void *data)
 {
 	cholesky *c = data;
 
-	mr_supernodal_free(c->solve);
 	cholmod_free_factor(&c->factor, &c->common);
 	cholmod_finish(&c->common);
 }
@@ -53,8 +52,6 @@ analyse(mr_ctx *ctx, cholesky *c, cholmod_sparse *a, const int *part)
 	mr_mark mark = mr_mark_take(ctx);
 	int *order = MR_NEW(ctx, a->nrow, int), *member = MR_NEW(ctx, a->nrow, int);
 
-	if (!order || !member)
-		return MR_EMEM;
 	c->common.supernodal = CHOLMOD_SUPERNODAL;
 	c->common.print = 0;
 	c->common.nmethods = 1;
@@ -127,8 +124,8 @@ bytes_of(const cholmod_factor *f)
 	return (double)(f->xsize + f->maxcsize) * sizeof(double) + (double)f->ssize * sizeof(int);
 }
 
-/* OpenBLAS 0.3 tries for ever where its buffer of 128 MB cannot be had.  Where there is less than that the factor
- * is too large; where there seems to be more, its failure is one. */
+/* OpenBLAS 0.3 tries for ever where its buffer of 128 MB cannot be had.  Where there is less than that the
+ * factor is too large; where there seems to be more, its failure is one. */
 static mr_status
 check_room(mr_ctx *ctx)
 {
@@ -136,8 +133,8 @@ check_room(mr_ctx *ctx)
 	void *room;
 
 	if (mr_memory_available() < (double)buffer)
-		return mr_fail(ctx, MR_ERANGE, "the buffer of the BLAS takes %zu MB, more than there are",
-		    buffer >> 20);
+		return mr_fail(
+		    ctx, MR_ERANGE, "the buffer of the BLAS takes %zu MB, more than there are", buffer >> 20);
 	room = malloc(buffer);
 	free(room);
 	return room ? MR_OK
@@ -164,7 +161,7 @@ cholesky_setup(
 		    1e-6 * bytes, 1e-6 * opts->memory);
 	MR_TRY(factorize(ctx, c, &upper, system->vertex));
 	panels = panels_of(c->factor);
-	MR_TRY(mr_supernodal_new(ctx, &panels, &c->solve));
+	c->solve = mr_supernodal_new(ctx, &panels);
 	*report = (mr_solver_report){ .seconds_analyse = analysed - start,
 		.seconds_factor = mr_seconds() - analysed,
 		.rcond = cholmod_rcond(c->factor, &c->common),
@@ -184,4 +181,4 @@ cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_rep
 }
 
 const mr_solver_type mr_cholesky_type = { "cholesky", sizeof(cholesky), cholesky_setup, cholesky_solve,
-	cholesky_free };
+	cholesky_drop };

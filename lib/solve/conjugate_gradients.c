@@ -9,8 +9,6 @@ mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterati
 	double *p = MR_NEW_ZERO(ctx, s.n * s.width, double), *q = MR_NEW(ctx, s.n * s.width, double);
 	double rz[MR_WIDTH], last[MR_WIDTH] = { 0 }, pq[MR_WIDTH], rr[MR_WIDTH], f[MR_WIDTH], goal[MR_WIDTH];
 
-	if (!p || !q)
-		return MR_EMEM;
 	mr_multivector_dot(ctx, s, r, r, rr);
 	for (bool first = true, stuck; *iterations < g->most; first = false, ++*iterations) {
 		if (g->goal && mr_multivector_within(s, rr, g->goal))

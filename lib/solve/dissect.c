@@ -169,7 +169,7 @@ number_nodes(const bool *used, uint32_t nodes, uint32_t node, int *number, int *
 		number[node] = (*next)++;
 }
 
-static mr_status
+static void
 number_parts(mr_ctx *ctx, const dissection *d, int *part)
 {
 	uint32_t nodes = 0;
@@ -180,17 +180,14 @@ number_parts(mr_ctx *ctx, const dissection *d, int *part)
 		nodes = d->node[v] >= nodes ? d->node[v] + 1 : nodes;
 	used = MR_NEW_ZERO(ctx, nodes, bool);
 	number = MR_NEW(ctx, nodes, int);
-	if (!used || !number)
-		return MR_EMEM;
 	for (int v = 0; v < d->n; v++)
 		used[d->node[v]] = true;
 	number_nodes(used, nodes, 0, number, &next);
 	for (int v = 0; v < d->n; v++)
 		part[v] = number[d->node[v]];
-	return MR_OK;
 }
 
-mr_status
+void
 mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -206,14 +203,11 @@ mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t rea
 		.now = MR_NEW(ctx, 2 * pieces, piece),
 		.next = MR_NEW(ctx, 2 * pieces, piece) };
 
-	if (!d.order || !d.spare || !d.node || !d.side || !d.now || !d.next)
-		return MR_EMEM;
 	for (int i = 0; i < d.n; i++)
 		d.order[i] = i;
 	d.now[0] = (piece){ 0, d.n, 0 };
 	for (int depth = 0; count && depth < DEEPEST; depth++)
 		count = cut_level(ctx, &d, count);
-	MR_TRY(number_parts(ctx, &d, part));
+	number_parts(ctx, &d, part);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -13,6 +13,6 @@
  * below n; a separator's is higher than those of all that it separates, and of two parts no vertices are
  * within `reach` edges through either.  Neighbours from n on are not looked at.  part: n, the caller's.
  */
-mr_status mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part);
+void mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part);
 
 #endif

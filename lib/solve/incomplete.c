@@ -26,7 +26,7 @@ jacobi_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double 
 mr_preconditioner
 mr_jacobi_of(double *inverse, size_t n)
 {
-	return (mr_preconditioner){ jacobi_apply, NULL, inverse, (double)n };
+	return (mr_preconditioner){ jacobi_apply, inverse, (double)n };
 }
 
 mr_status
@@ -34,8 +34,6 @@ mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
 {
 	double *inverse = MR_NEW(ctx, (size_t)a->n, double);
 
-	if (!inverse)
-		return MR_EMEM;
 	for (int i = 0; i < a->n; i++) {
 		int e = mr_sparse_find(a, i, i);
 		if (e < 0 || a->value[e] == 0)
@@ -163,8 +161,6 @@ set_up(mr_ctx *ctx, const mr_sparse *a, bool laplacian, mr_preconditioner *b)
 	int *diagonal = MR_NEW(ctx, n, int), *at = MR_NEW(ctx, n, int);
 	bool done;
 
-	if (!c || !value || !diagonal || !at)
-		return MR_EMEM;
 	*c = (incomplete){ .f = { a->n, a->start, a->index, value }, .diagonal = diagonal };
 	MR_TRY(find_diagonal(ctx, c));
 	for (size_t i = 0; i < n; i++)
@@ -178,7 +174,7 @@ set_up(mr_ctx *ctx, const mr_sparse *a, bool laplacian, mr_preconditioner *b)
 		done = factor(c, a, shift, at);
 	if (!done)
 		return mr_fail(ctx, MR_ENUMERIC, "the matrix has no incomplete factors");
-	*b = (mr_preconditioner){ incomplete_apply, NULL, c, (double)nnz };
+	*b = (mr_preconditioner){ incomplete_apply, c, (double)nnz };
 	return MR_OK;
 }
 

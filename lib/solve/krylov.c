@@ -9,7 +9,6 @@
 #include <math.h>
 
 typedef struct krylov {
-	mr_ctx own; /* everything is here */
 	mr_solver_opts opts;
 	const mr_sparse *a; /* borrowed */
 	mr_preconditioner b;
@@ -20,16 +19,6 @@ typedef struct krylov {
 	mr_status (*iterate)(mr_ctx *ctx, struct krylov *k, mr_multivector s, const double *goal, double *x,
 	    double *r, size_t *iterations);
 } krylov;
-
-static void
-krylov_free(void *data)
-{
-	krylov *k = data;
-
-	if (k->b.free)
-		k->b.free(k->b.data);
-	mr_ctx_free(&k->own);
-}
 
 /* r = b - A x, and its largest share of b in any column */
 static double
@@ -57,8 +46,6 @@ solve_rows(mr_ctx *ctx, krylov *k, mr_multivector s, const double *b, double *x,
 	double *r = MR_NEW(ctx, s.n * s.width, double), goal[MR_WIDTH], before, after = INFINITY;
 	size_t iterations = 0;
 
-	if (!r)
-		return MR_EMEM;
 	mr_multivector_dot(ctx, s, b, b, goal);
 	for (size_t c = 0; c < s.width; c++)
 		goal[c] = k->opts.tol * sqrt(goal[c]);
@@ -92,8 +79,6 @@ krylov_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_repor
 	for (size_t c = 0; c < columns; c += MR_WIDTH) {
 		mr_multivector s = { n, columns - c < MR_WIDTH ? columns - c : MR_WIDTH };
 		double *rows = MR_NEW(ctx, n * s.width, double), *x = MR_NEW(ctx, n * s.width, double);
-		if (!rows || !x)
-			return MR_EMEM;
 		mr_multivector_gather(s, b + c * n, rows);
 		MR_TRY(solve_rows(ctx, k, s, rows, x, report));
 		mr_multivector_scatter(s, x, b + c * n);
@@ -135,7 +120,7 @@ typedef struct bicgstab {
 	double last[MR_WIDTH], alpha[MR_WIDTH], omega[MR_WIDTH];
 } bicgstab;
 
-static mr_status
+static void
 bicgstab_begin(mr_ctx *ctx, mr_multivector s, const double *r, bicgstab *b)
 {
 	size_t size = s.n * s.width;
@@ -143,10 +128,7 @@ bicgstab_begin(mr_ctx *ctx, mr_multivector s, const double *r, bicgstab *b)
 	*b = (bicgstab){ MR_NEW(ctx, size, double), MR_NEW_ZERO(ctx, size, double),
 		MR_NEW_ZERO(ctx, size, double), MR_NEW(ctx, size, double), MR_NEW(ctx, size, double),
 		.last = { 1, 1, 1, 1 } };
-	if (!b->shadow || !b->p || !b->v || !b->z || !b->t)
-		return MR_EMEM;
 	memcpy(b->shadow, r, size * sizeof *r);
-	return MR_OK;
 }
 
 /* The step of BiCG: false where it has broken down in every column. */
@@ -204,7 +186,7 @@ bicgstab_iterate(
 	bool stuck = false;
 	bicgstab b;
 
-	MR_TRY(bicgstab_begin(ctx, s, r, &b));
+	bicgstab_begin(ctx, s, r, &b);
 	mr_multivector_dot(ctx, s, r, r, rr);
 	for (; *iterations < k->opts.iterations && !mr_multivector_within(s, rr, goal) && !stuck;
 	     ++*iterations) {
@@ -230,8 +212,6 @@ cycle_iterate(
 	size_t size = s.n * s.width;
 	double *z = MR_NEW(ctx, size, double), *q = MR_NEW(ctx, size, double), rr[MR_WIDTH], begun[MR_WIDTH];
 
-	if (!z || !q)
-		return MR_EMEM;
 	mr_multivector_dot(ctx, s, r, r, rr);
 	memcpy(begun, rr, sizeof rr);
 	for (; *iterations < k->opts.iterations && !mr_multivector_within(s, rr, goal); ++*iterations) {
@@ -253,19 +233,17 @@ cycle_iterate(
 /* The solvers */
 
 static mr_status
-precondition(krylov *k, const mr_system *system)
+precondition(mr_ctx *ctx, krylov *k, const mr_system *system)
 {
-	mr_ctx *own = &k->own;
-
 	if (k->opts.kind == MR_VCYCLE)
-		return mr_vcycle_new(own, system->a, system->hierarchy, &k->b);
+		return mr_vcycle_new(ctx, system->a, system->hierarchy, &k->b);
 	if (k->opts.kind == MR_BICGSTAB && k->opts.precondition == MR_VCYCLES) /* a strip makes it stall */
-		return mr_cycles_new(own, system->hierarchy, &k->b);
+		return mr_cycles_new(ctx, system->hierarchy, &k->b);
 	if (mr_solver_multigrid(&k->opts))
-		return mr_multigrid_new(own, system->a, system->hierarchy, &k->b);
+		return mr_multigrid_new(ctx, system->a, system->hierarchy, &k->b);
 	if (k->opts.precondition == MR_JACOBI)
-		return mr_jacobi_new(own, system->a, &k->b);
-	return mr_incomplete_new(own, system->a, &k->b);
+		return mr_jacobi_new(ctx, system->a, &k->b);
+	return mr_incomplete_new(ctx, system->a, &k->b);
 }
 
 static mr_status
@@ -274,27 +252,20 @@ krylov_setup(
 {
 	double start = mr_seconds();
 	krylov *k = data;
-	mr_status status;
 
-	mr_ctx_init(&k->own, ctx->threads);
-	k->own.scratch = ctx->scratch;
 	k->opts = *opts;
 	k->a = system->a;
 	k->iterate = opts->kind == MR_VCYCLE     ? cycle_iterate
 	             : opts->kind == MR_BICGSTAB ? bicgstab_iterate
 	                                         : cg_iterate;
-	status = precondition(k, system);
-	if (status < 0)
-		return mr_fail_as(ctx, &k->own, status);
+	MR_TRY(precondition(ctx, k, system));
 	*report = (mr_solver_report){ .seconds_factor = mr_seconds() - start,
 		.nnz_factor = k->b.nnz,
 		.bytes_factor = k->b.nnz * (sizeof(double) + sizeof(int)) };
 	return MR_OK;
 }
 
-const mr_solver_type mr_cg_type = { "cg", sizeof(krylov), krylov_setup, krylov_solve, krylov_free };
-const mr_solver_type mr_bicgstab_type = { "bicgstab", sizeof(krylov), krylov_setup, krylov_solve,
-	krylov_free };
-const mr_solver_type mr_multigrid_type = { "multigrid", sizeof(krylov), krylov_setup, krylov_solve,
-	krylov_free };
-const mr_solver_type mr_vcycle_type = { "vcycle", sizeof(krylov), krylov_setup, krylov_solve, krylov_free };
+const mr_solver_type mr_cg_type = { "cg", sizeof(krylov), krylov_setup, krylov_solve, NULL };
+const mr_solver_type mr_bicgstab_type = { "bicgstab", sizeof(krylov), krylov_setup, krylov_solve, NULL };
+const mr_solver_type mr_multigrid_type = { "multigrid", sizeof(krylov), krylov_setup, krylov_solve, NULL };
+const mr_solver_type mr_vcycle_type = { "vcycle", sizeof(krylov), krylov_setup, krylov_solve, NULL };

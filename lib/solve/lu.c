@@ -27,36 +27,28 @@ check(mr_ctx *ctx, int status)
 }
 
 static void
-lu_free(void *data)
+lu_drop(void *data)
 {
 	lu *l = data;
 
 	umfpack_di_free_numeric(&l->numeric);
-	free(l->a.start);
-	free(l->a.index);
-	free(l->a.value);
 }
 
 static void *
-duplicate(const void *from, size_t count, size_t size)
+duplicate(mr_ctx *ctx, const void *from, size_t count, size_t size)
 {
-	void *p = malloc(count * size);
-
-	return p ? memcpy(p, from, count * size) : NULL;
+	return memcpy(mr_alloc(ctx, count, size), from, count * size);
 }
 
-static mr_status
-copy_matrix(mr_ctx *ctx, const mr_sparse *a, mr_sparse *copy)
+static mr_sparse
+copy_matrix(mr_ctx *ctx, const mr_sparse *a)
 {
 	size_t nnz = (size_t)a->start[a->n];
 
-	copy->n = a->n;
-	copy->start = duplicate(a->start, (size_t)a->n + 1, sizeof *a->start);
-	copy->index = duplicate(a->index, nnz, sizeof *a->index);
-	copy->value = duplicate(a->value, nnz, sizeof *a->value);
-	if (!copy->start || !copy->index || !copy->value)
-		return mr_fail(ctx, MR_EMEM, "no memory for a matrix of %zu entries", nnz);
-	return MR_OK;
+	return (mr_sparse){ .n = a->n,
+		.start = duplicate(ctx, a->start, (size_t)a->n + 1, sizeof *a->start),
+		.index = duplicate(ctx, a->index, nnz, sizeof *a->index),
+		.value = duplicate(ctx, a->value, nnz, sizeof *a->value) };
 }
 
 /* Our rows are UMFPACK's columns: it factors the transpose, and orders it by itself. */
@@ -70,7 +62,7 @@ lu_setup(
 	void *symbolic = NULL;
 	int status;
 
-	MR_TRY(copy_matrix(ctx, system->a, &l->a));
+	l->a = copy_matrix(ctx, system->a);
 	umfpack_di_defaults(l->control);
 	status = umfpack_di_symbolic(a->n, a->n, a->start, a->index, a->value, &symbolic, l->control, info);
 	analysed = mr_seconds();
@@ -103,8 +95,6 @@ lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *r
 	double *x = MR_NEW(ctx, n, double), info[UMFPACK_INFO];
 
 	(void)report;
-	if (!x)
-		return MR_EMEM;
 	for (size_t c = 0; c < columns; c++, b += n) {
 		MR_TRY(check(ctx, umfpack_di_solve(UMFPACK_At, l->a.start, l->a.index, l->a.value, x, b,
 				      l->numeric, l->control, info)));
@@ -114,4 +104,4 @@ lu_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *r
 	return MR_OK;
 }
 
-const mr_solver_type mr_lu_type = { "lu", sizeof(lu), lu_setup, lu_solve, lu_free };
+const mr_solver_type mr_lu_type = { "lu", sizeof(lu), lu_setup, lu_solve, lu_drop };

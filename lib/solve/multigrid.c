@@ -124,19 +124,16 @@ multigrid_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, doub
 /* Set-up */
 
 /* A row that asks for nothing gets a diagonal, so that its unknown stays 0. */
-static mr_status
+static void
 invert_diagonal(mr_ctx *ctx, level *l)
 {
 	mr_sparse *a = &l->a;
 
 	l->inverse = MR_NEW(ctx, (size_t)a->n, double);
-	if (!l->inverse)
-		return MR_EMEM;
 	for (int i = 0; i < a->n; i++) {
 		int e = mr_sparse_find(a, i, i);
 		l->inverse[i] = e >= 0 && a->value[e] > 0 ? 1 / a->value[e] : 1;
 	}
-	return MR_OK;
 }
 
 /* The greatest eigenvalue of D^-1 A by the power method, from a vector of changing signs, with a margin; 1
@@ -165,7 +162,7 @@ estimate_top(const mr_ctx *ctx, level *l)
 	l->top = margin * sqrt(last);
 }
 
-static mr_status
+static void
 make_workspace(mr_ctx *ctx, level *l)
 {
 	size_t n = (size_t)l->a.n * MR_WIDTH;
@@ -173,7 +170,6 @@ make_workspace(mr_ctx *ctx, level *l)
 	l->x = MR_NEW(ctx, n, double);
 	l->r = MR_NEW(ctx, n, double);
 	l->d = MR_NEW(ctx, n, double);
-	return l->x && l->r && l->d ? MR_OK : MR_EMEM;
 }
 
 /* The matrix of the level after l: P' A P. */
@@ -198,8 +194,6 @@ factor_coarsest(mr_ctx *ctx, multigrid *g)
 	int n = 0;
 
 	g->column = MR_NEW(ctx, (size_t)a.n * MR_WIDTH, double);
-	if (!lower.start || !lower.index || !lower.value || !g->column)
-		return MR_EMEM;
 	for (int i = 0; i < a.n; i++) {
 		double diagonal = 0;
 		for (int e = a.start[i]; e < a.start[i + 1] && a.index[e] <= i; e++)
@@ -212,32 +206,23 @@ factor_coarsest(mr_ctx *ctx, multigrid *g)
 		lower.value[n++] = diagonal > 0 ? diagonal : 1;
 		lower.start[i + 1] = n;
 	}
-	return mr_solver_new(ctx, MR_CHOLESKY, &lower, NULL, &g->coarsest);
-}
-
-static void
-multigrid_free(void *data)
-{
-	multigrid *g = data;
-
-	mr_solver_free(g->coarsest);
+	g->coarsest = mr_solver_new(ctx);
+	return mr_solver_direct(ctx, g->coarsest, MR_CHOLESKY, &lower, NULL);
 }
 
 static mr_status
 build(mr_ctx *ctx, const mr_hierarchy *h, const mr_sparse *a, multigrid *g, mr_preconditioner *b)
 {
-	*b = (mr_preconditioner){ multigrid_apply, multigrid_free, g, 0 };
+	*b = (mr_preconditioner){ multigrid_apply, g, 0 };
 	g->count = h->count + 1;
 	g->level = mr_alloc_zero(ctx, g->count, sizeof *g->level);
-	if (!g->level)
-		return MR_EMEM;
 	g->level[0].a = *a;
 	for (size_t i = 0; i < g->count; i++) {
 		level *l = &g->level[i];
 		if (i < h->count)
 			MR_TRY(coarsen(ctx, &h->level[i], l));
-		MR_TRY(make_workspace(ctx, l));
-		MR_TRY(invert_diagonal(ctx, l));
+		make_workspace(ctx, l);
+		invert_diagonal(ctx, l);
 		estimate_top(ctx, l);
 		b->nnz += l->a.start[l->a.n] + (i < h->count ? 2 * l->prolong.start[l->a.n] : 0);
 	}
@@ -250,11 +235,7 @@ mr_cycles_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b)
 	multigrid *g = MR_NEW_ZERO(ctx, 1, multigrid);
 	size_t n = (size_t)h->laplace->n;
 
-	if (!g)
-		return MR_EMEM;
 	g->mass = MR_NEW(ctx, n, double);
-	if (!g->mass)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		g->mass[i] = 1 / h->weight[i];
 	g->low = 0.25;
@@ -270,8 +251,6 @@ mr_vcycle_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_precond
 {
 	multigrid *g = MR_NEW_ZERO(ctx, 1, multigrid);
 
-	if (!g)
-		return MR_EMEM;
 	g->low = pow(0.25, (double)h->order);
 	g->degree = (size_t)1 << h->order;
 	g->applied = 1;

@@ -57,29 +57,21 @@ strip_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *
 	return solve_strip(ctx, t, s, t->r, z);
 }
 
-static void
-strip_free(void *data)
-{
-	strip *t = data;
-
-	if (t->cycles.free)
-		t->cycles.free(t->cycles.data);
-	mr_solver_free(t->exact);
-}
-
 static mr_status
 factor_strip(mr_ctx *ctx, strip *t)
 {
-	mr_mark mark = mr_mark_take(ctx);
+	mr_mark mark;
 	mr_sparse lower;
 
-	MR_TRY(mr_sparse_restrict(ctx, t->a, t->row, t->n, true, &lower));
-	MR_TRY(mr_solver_new(ctx, MR_CHOLESKY, &lower, NULL, &t->exact));
+	t->exact = mr_solver_new(ctx);
+	mark = mr_mark_take(ctx);
+	mr_sparse_restrict(ctx, t->a, t->row, t->n, true, &lower);
+	MR_TRY(mr_solver_direct(ctx, t->exact, MR_CHOLESKY, &lower, NULL));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
-static mr_status
+static void
 make_workspace(mr_ctx *ctx, strip *t)
 {
 	size_t n = (size_t)t->a->n * MR_WIDTH;
@@ -87,7 +79,6 @@ make_workspace(mr_ctx *ctx, strip *t)
 	t->column = MR_NEW(ctx, t->n * MR_WIDTH, double);
 	t->r = MR_NEW(ctx, n, double);
 	t->d = MR_NEW(ctx, n, double);
-	return t->column && t->r && t->d ? MR_OK : MR_EMEM;
 }
 
 mr_status
@@ -95,9 +86,7 @@ mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_prec
 {
 	strip *t = MR_NEW_ZERO(ctx, 1, strip);
 
-	if (!t)
-		return MR_EMEM;
-	*b = (mr_preconditioner){ strip_apply, strip_free, t, 0 };
+	*b = (mr_preconditioner){ strip_apply, t, 0 };
 	t->a = a;
 	t->row = h->strip;
 	t->n = h->strip_count;
@@ -105,7 +94,7 @@ mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_prec
 	b->nnz = t->cycles.nnz;
 	if (t->n == 0)
 		return MR_OK;
-	MR_TRY(make_workspace(ctx, t));
+	make_workspace(ctx, t);
 	MR_TRY(factor_strip(ctx, t));
 	b->nnz += mr_solver_reported(t->exact).nnz_factor;
 	return MR_OK;

@@ -204,14 +204,12 @@ vacant(void)
 }
 
 /* The entries of the matrix as MUMPS has them, counted from 1. */
-static mr_status
+static void
 put_matrix(mr_ctx *ctx, const mr_sparse *a, DMUMPS_STRUC_C *m)
 {
 	size_t count = (size_t)a->start[a->n];
 	int *row = MR_NEW(ctx, count, int), *column = MR_NEW(ctx, count, int);
 
-	if (!row || !column)
-		return MR_EMEM;
 	for (int i = 0; i < a->n; i++)
 		for (int k = a->start[i]; k < a->start[i + 1]; k++) {
 			row[k] = i + 1;
@@ -222,7 +220,6 @@ put_matrix(mr_ctx *ctx, const mr_sparse *a, DMUMPS_STRUC_C *m)
 	m->irn = row;
 	m->jcn = column;
 	m->a = a->value;
-	return MR_OK;
 }
 
 static double
@@ -251,7 +248,7 @@ cholesky_setup(
 	c->solver = i;
 	ask(OPEN, i, opts->memory);
 	start(m);
-	MR_TRY(put_matrix(ctx, system->a, m));
+	put_matrix(ctx, system->a, m);
 	code = factor(m, opts->memory, &analysed);
 	m->irn = m->jcn = NULL;
 	m->a = NULL;
@@ -281,7 +278,7 @@ cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_rep
 }
 
 static void
-cholesky_free(void *data)
+cholesky_drop(void *data)
 {
 	cholesky *c = data;
 
@@ -292,7 +289,7 @@ cholesky_free(void *data)
 }
 
 const mr_solver_type mr_cholesky_type = { "cholesky", sizeof(cholesky), cholesky_setup, cholesky_solve,
-	cholesky_free };
+	cholesky_drop };
 
 /* ---- the other ranks ---- */
 

@@ -2,7 +2,7 @@
  * preconditioner.h -- approximate inverses for the iterative solvers.
  *
  * Contract: z = B r with B fixed, and symmetric positive definite where the matrix is so.  Everything is in
- * the arena of the context that set it up, but for what `free` frees.
+ * the arena of the context that set it up.
  */
 #ifndef MR_SOLVE_PRECONDITIONER_H
 #define MR_SOLVE_PRECONDITIONER_H
@@ -12,7 +12,6 @@
 
 typedef struct mr_preconditioner {
 	mr_status (*apply)(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *z);
-	void (*free)(void *data); /* NULL: nothing beside the arena */
 	void *data;
 	double nnz; /* entries it holds */
 } mr_preconditioner;

@@ -7,55 +7,52 @@ static const mr_solver_type *const types[] = { &mr_cholesky_type, &mr_lu_type, &
 	&mr_multigrid_type, &mr_vcycle_type };
 
 struct mr_solver {
+	mr_ctx keep; /* of all that it has */
 	const mr_solver_type *type;
 	void *data;
 	mr_solver_report report;
 };
 
-void
-mr_solver_free(mr_solver *s)
+static void
+drop(void *solver)
 {
-	if (!s)
-		return;
-	if (s->data)
-		s->type->free(s->data);
-	free(s->data);
-	free(s);
+	mr_ctx_free(&((mr_solver *)solver)->keep);
+}
+
+mr_solver *
+mr_solver_new(mr_ctx *ctx)
+{
+	mr_solver *s = MR_NEW_ZERO(ctx, 1, mr_solver);
+
+	mr_own(ctx, drop, s);
+	return s;
 }
 
 mr_status
-mr_solver_open(mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, mr_solver **solver)
+mr_solver_open(mr_ctx *ctx, mr_solver *s, const mr_solver_opts *opts, const mr_system *system)
 {
-	mr_solver *s = calloc(1, sizeof *s);
+	mr_ctx *keep = mr_keep(ctx, &s->keep);
 	mr_status status;
 	int threads;
 
-	if (s) {
-		s->type = types[opts->kind];
-		s->data = calloc(1, s->type->size);
-	}
-	if (!s || !s->data) {
-		free(s);
-		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
-	}
+	mr_ctx_free(keep);
+	s->type = types[opts->kind];
+	s->data = mr_alloc_zero(keep, 1, s->type->size);
+	if (s->type->drop)
+		mr_own(keep, s->type->drop, s->data);
 	threads = mr_serial_begin();
-	status = s->type->setup(ctx, opts, system, s->data, &s->report);
+	status = s->type->setup(keep, opts, system, s->data, &s->report);
 	mr_serial_end(threads);
-	if (status < 0) {
-		mr_solver_free(s);
-		return mr_prefix(ctx, status, "%s", types[opts->kind]->name);
-	}
-	*solver = s;
-	return MR_OK;
+	return mr_prefix(ctx, mr_fail_as(ctx, keep, status), "%s", s->type->name);
 }
 
 mr_status
-mr_solver_new(mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, const int *part, mr_solver **solver)
+mr_solver_direct(mr_ctx *ctx, mr_solver *solver, mr_solver_kind kind, const mr_sparse *a, const int *part)
 {
 	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
 
 	opts.kind = kind;
-	return mr_solver_open(ctx, &opts, &(mr_system){ .a = a, .part = part }, solver);
+	return mr_solver_open(ctx, solver, &opts, &(mr_system){ .a = a, .part = part });
 }
 
 mr_status

@@ -2,7 +2,7 @@
  * solver.h -- one interface to every solver of sparse linear systems: matrix + right-hand sides -> x.
  *
  * Contract: a solver is set up once for a matrix and then solves for any number of
- * right-hand sides.  It is a handle over memory of its own: free it.  Results do not depend on
+ * right-hand sides.  The arena of its set-up owns it.  Results do not depend on
  * the number of threads.  A new solver is one file and one line of the table in solver.c.
  */
 #ifndef MR_SOLVE_SOLVER_H
@@ -29,7 +29,7 @@ mr_solver_iterates(mr_solver_kind kind)
 typedef enum mr_preconditioner_kind {
 	MR_BY_ORDER,   /* as MR_INCOMPLETE; who knows the order of the system chooses better */
 	MR_INCOMPLETE, /* factors without fill: incomplete Cholesky of a symmetric matrix, else incomplete LU
-	               */
+	                */
 	MR_JACOBI,     /* the diagonal */
 	MR_VCYCLES     /* A = L (W L)^(k-1): k V-cycles on L; of MR_CG a strip along the constraints, too */
 } mr_preconditioner_kind;
@@ -92,16 +92,19 @@ typedef struct mr_solver_report {
 	double residual;     /* its |b - A x| / |b|, of the worst right-hand side */
 } mr_solver_report;
 
+/* A solver for no matrix yet.  It outlives what the arena gets, and releases, before it is opened. */
+mr_solver *mr_solver_new(mr_ctx *ctx);
+
 /*
  * Sets up a solver.  MR_ENUMERIC where A is singular or, for MR_CHOLESKY, not positive definite; MR_ERANGE
  * where factors would exceed the memory allowed, before it is taken.
  */
 mr_status mr_solver_open(
-    mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, mr_solver **solver) MR_WARN_UNUSED;
+    mr_ctx *ctx, mr_solver *solver, const mr_solver_opts *opts, const mr_system *system) MR_WARN_UNUSED;
 
 /* The same for a direct solver with default options. */
-mr_status mr_solver_new(
-    mr_ctx *ctx, mr_solver_kind kind, const mr_sparse *a, const int *part, mr_solver **solver) MR_WARN_UNUSED;
+mr_status mr_solver_direct(
+    mr_ctx *ctx, mr_solver *solver, mr_solver_kind kind, const mr_sparse *a, const int *part) MR_WARN_UNUSED;
 
 /*
  * Replaces the right-hand sides b (`columns` of them, one after another, n values each) by the solutions x.
@@ -110,8 +113,5 @@ mr_status mr_solver_new(
 mr_status mr_solver_solve(mr_ctx *ctx, mr_solver *solver, double *b, size_t columns) MR_WARN_UNUSED;
 
 mr_solver_report mr_solver_reported(const mr_solver *solver);
-
-/* Accepts NULL. */
-void mr_solver_free(mr_solver *solver);
 
 #endif

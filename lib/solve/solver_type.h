@@ -2,8 +2,8 @@
  * solver_type.h -- what a solver provides to solver.c.
  *
  * Contract: `data` points to `size` zeroed bytes of the solver's own.  `setup` fills them and the report, as
- * `solve` does; `free` releases what they hold, also where setup has failed half-way.
- * Private to this room.
+ * `solve` does; `drop` releases what they hold beside the arena, also where setup has failed half-way; NULL:
+ * nothing. Private to this room.
  */
 #ifndef MR_SOLVE_SOLVER_TYPE_H
 #define MR_SOLVE_SOLVER_TYPE_H
@@ -16,7 +16,7 @@ typedef struct mr_solver_type {
 	mr_status (*setup)(mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data,
 	    mr_solver_report *report);
 	mr_status (*solve)(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report);
-	void (*free)(void *data);
+	void (*drop)(void *data);
 } mr_solver_type;
 
 extern const mr_solver_type mr_cholesky_type, mr_lu_type, mr_cg_type, mr_bicgstab_type, mr_multigrid_type,

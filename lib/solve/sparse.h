@@ -29,8 +29,8 @@ mr_sparse_sort(int *column, int n)
 	}
 }
 
-/* The row starts of a matrix whose row i has length[i] entries, which may be a->start + 1 itself; MR_ERANGE for 2^31
- * entries or more. */
+/* The row starts of a matrix whose row i has length[i] entries, which may be a->start + 1 itself; MR_ERANGE
+ * for 2^31 entries or more. */
 mr_status mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a);
 
 /* Where row i has its entry of a column; -1: nowhere. */
@@ -46,7 +46,7 @@ mr_sparse_find(const mr_sparse *a, int i, int column)
 
 /* The n rows listed, ascending, and their columns alone; with `lower` only entries on and below the diagonal.
  * out: in the arena. */
-mr_status mr_sparse_restrict(
+void mr_sparse_restrict(
     mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t n, bool lower, mr_sparse *out);
 
 /* The transpose of a matrix with `columns` columns.  t: in the arena. */
@@ -57,8 +57,8 @@ mr_status
 mr_sparse_multiply(mr_ctx *ctx, const mr_sparse *a, const mr_sparse *b, size_t columns, mr_sparse *c);
 
 /*
- * The first n rows and columns of L (W L)^(k-1), W = diag(w) with a weight per row of L, which is symmetric; with
- * `lower` only entries on and below the diagonal.  Entries (k-1 steps away from row n) of l are read, so
+ * The first n rows and columns of L (W L)^(k-1), W = diag(w) with a weight per row of L, which is symmetric;
+ * with `lower` only entries on and below the diagonal.  Entries (k-1 steps away from row n) of l are read, so
  * those rows must be complete.  out: in the arena.
  */
 mr_status mr_sparse_power(

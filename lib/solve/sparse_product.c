@@ -16,7 +16,7 @@ mr_sparse_starts(mr_ctx *ctx, const int *length, mr_sparse *a)
 	return MR_OK;
 }
 
-mr_status
+void
 mr_sparse_restrict(mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t n, bool lower, mr_sparse *out)
 {
 	mr_sparse r = { .n = (int)n, .start = MR_NEW(ctx, n + 1, int) };
@@ -31,8 +31,6 @@ mr_sparse_restrict(mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t 
 	r.value = MR_NEW(ctx, most, double);
 	mark = mr_mark_take(ctx);
 	number = MR_NEW(ctx, (size_t)a->n, uint32_t);
-	if (!r.start || !r.index || !r.value || !number)
-		return MR_EMEM;
 	memset(number, 0xff, (size_t)a->n * sizeof *number);
 	for (uint32_t i = 0; i < n; i++)
 		number[row[i]] = i;
@@ -47,7 +45,6 @@ mr_sparse_restrict(mr_ctx *ctx, const mr_sparse *a, const uint32_t *row, size_t 
 	r.start[n] = at;
 	mr_mark_release(ctx, mark);
 	*out = r;
-	return MR_OK;
 }
 
 mr_status
@@ -59,8 +56,6 @@ mr_sparse_transpose(mr_ctx *ctx, const mr_sparse *a, size_t columns, mr_sparse *
 	mr_mark mark = mr_mark_take(ctx);
 	int *next = MR_NEW(ctx, columns, int);
 
-	if (!r.start || !r.index || !r.value || !next)
-		return MR_EMEM;
 	for (size_t e = 0; e < nnz; e++)
 		r.start[a->index[e] + 1]++;
 	MR_TRY(mr_sparse_starts(ctx, r.start + 1, &r));
@@ -155,7 +150,7 @@ fill_rows(void *arg, size_t begin, size_t end)
 		}
 }
 
-static mr_status
+static void
 make_rows(mr_ctx *ctx, product_job *j)
 {
 	size_t n = (size_t)j->columns;
@@ -163,11 +158,8 @@ make_rows(mr_ctx *ctx, product_job *j)
 	for (size_t b = 0; b < j->blocks; b++) {
 		product_row r = { MR_NEW(ctx, n, int), MR_NEW_ZERO(ctx, n, int), MR_NEW(ctx, n, double), 0,
 			0 };
-		if (!r.list || !r.mark || !r.value)
-			return MR_EMEM;
 		j->row[b] = r;
 	}
-	return MR_OK;
 }
 
 /* Fills c, which has its number of rows. */
@@ -181,19 +173,15 @@ multiply(mr_ctx *ctx, product_job *j)
 	j->row = MR_NEW(ctx, j->blocks, product_row);
 	j->length = MR_NEW(ctx, n, int);
 	j->c.start = MR_NEW(ctx, n + 1, int);
-	if (!j->row || !j->length || !j->c.start)
-		return MR_EMEM;
 	mark = mr_mark_take(ctx);
-	MR_TRY(make_rows(ctx, j));
+	make_rows(ctx, j);
 	mr_parallel(ctx, j->blocks, 1, count_rows, j);
 	mr_mark_release(ctx, mark);
 	MR_TRY(mr_sparse_starts(ctx, j->length, &j->c));
 	j->c.index = MR_NEW(ctx, (size_t)j->c.start[n], int);
 	j->c.value = MR_NEW(ctx, (size_t)j->c.start[n], double);
-	if (!j->c.index || !j->c.value)
-		return MR_EMEM;
 	mark = mr_mark_take(ctx);
-	MR_TRY(make_rows(ctx, j));
+	make_rows(ctx, j);
 	mr_parallel(ctx, j->blocks, 1, fill_rows, j);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -210,16 +198,14 @@ mr_sparse_multiply(mr_ctx *ctx, const mr_sparse *a, const mr_sparse *b, size_t c
 }
 
 /* The first n rows and columns. */
-static mr_status
+static void
 crop(mr_ctx *ctx, const mr_sparse *l, size_t n, bool lower, mr_sparse *out)
 {
 	uint32_t *row = MR_NEW(ctx, n, uint32_t);
 
-	if (!row)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		row[i] = (uint32_t)i;
-	return mr_sparse_restrict(ctx, l, row, n, lower, out);
+	mr_sparse_restrict(ctx, l, row, n, lower, out);
 }
 
 mr_status
@@ -228,8 +214,10 @@ mr_sparse_power(
 {
 	mr_sparse rows = { (int)n, l->start, l->index, l->value };
 
-	if (k == 1)
-		return crop(ctx, l, n, lower, out);
+	if (k == 1) {
+		crop(ctx, l, n, lower, out);
+		return MR_OK;
+	}
 	for (size_t step = 2; step <= k; step++) {
 		product_job j = {
 			.a = &rows, .b = l, .w = w, .columns = step < k ? l->n : (int)n, .c.n = (int)n

@@ -158,7 +158,7 @@ find_targets(mr_supernodal *s, int *where)
 		set_targets(s, s->above[i], where, (int)l->n);
 }
 
-static mr_status
+static void
 set_up(mr_ctx *ctx, mr_supernodal *s)
 {
 	enum { PARTS = 8, LEAST = 50000 }; /* a subtree takes 25 microseconds or more */
@@ -167,13 +167,9 @@ set_up(mr_ctx *ctx, mr_supernodal *s)
 	size_t *weight = MR_NEW(ctx, l->count, size_t), *first = MR_NEW(ctx, l->count, size_t);
 	int *panel_of = MR_NEW(ctx, l->n, int);
 
-	s->target = malloc(rows * sizeof *s->target);
-	s->subtree = malloc(l->count * sizeof *s->subtree);
-	s->above = malloc(l->count * sizeof *s->above);
-	if (!weight || !first || !panel_of)
-		return MR_EMEM;
-	if (!s->target || !s->subtree || !s->above)
-		return mr_fail(ctx, MR_EMEM, "no memory to solve with %zu panels", l->count);
+	s->target = MR_NEW(ctx, rows, int);
+	s->subtree = MR_NEW(ctx, l->count, subtree);
+	s->above = MR_NEW(ctx, l->count, size_t);
 	for (size_t p = 0; p < l->count; p++) {
 		for (int c = l->first[p]; c < l->first[p + 1]; c++)
 			panel_of[c] = (int)p;
@@ -182,44 +178,19 @@ set_up(mr_ctx *ctx, mr_supernodal *s)
 	weigh(l, panel_of, weight, first);
 	choose_subtrees(s, panel_of, weight, first, total / PARTS > LEAST ? total / PARTS : LEAST);
 	place_rows(s, &shared, &panel);
-	s->x = aligned_alloc(64, (shared + 1) / 2 * 64);
-	s->panel = aligned_alloc(64, (panel + 1) / 2 * 64);
-	if (!s->x || !s->panel)
-		return mr_fail(ctx, MR_EMEM, "no memory to solve for %zu unknowns", l->n);
+	s->x = mr_alloc(ctx, (shared + 1) / 2, 64);
+	s->panel = mr_alloc(ctx, (panel + 1) / 2, 64);
 	find_targets(s, panel_of); /* which is not needed any more */
-	return MR_OK;
 }
 
-void
-mr_supernodal_free(mr_supernodal *s)
+mr_supernodal *
+mr_supernodal_new(mr_ctx *ctx, const mr_panels *factor)
 {
-	if (!s)
-		return;
-	free(s->target);
-	free(s->subtree);
-	free(s->above);
-	free(s->x);
-	free(s->panel);
-	free(s);
-}
+	mr_supernodal *s = MR_NEW_ZERO(ctx, 1, mr_supernodal);
 
-mr_status
-mr_supernodal_new(mr_ctx *ctx, const mr_panels *factor, mr_supernodal **supernodal)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_supernodal *s = calloc(1, sizeof *s);
-	mr_status status;
-
-	if (!s)
-		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
 	s->l = *factor;
-	status = set_up(ctx, s);
-	mr_mark_release(ctx, mark);
-	if (status < 0)
-		mr_supernodal_free(s);
-	else
-		*supernodal = s;
-	return status;
+	set_up(ctx, s);
+	return s;
 }
 
 /* A panel: l has nr rows, z as many.  Four columns are worked on together, so that a row of z serves four. */

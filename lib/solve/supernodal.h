@@ -2,7 +2,7 @@
  * supernodal.h -- solves with a supernodal Cholesky factor: L y = b, L' x = y, on several threads.
  *
  * Contract: a factor is dense panels of columns (supernodes) that share their rows.  Its values are borrowed;
- * what is set up beside them is on the heap.  Every sum is taken in an order that the factor alone decides,
+ * what is set up beside them is in the arena.  Every sum is taken in an order that the factor alone decides,
  * so results do not depend on the number of threads, nor on a BLAS.
  * Private to this room.
  */
@@ -26,13 +26,10 @@ typedef struct mr_panels {
 typedef struct mr_supernodal mr_supernodal;
 
 /* Prepares solves.  The arrays of the factor must outlive *s. */
-mr_status mr_supernodal_new(mr_ctx *ctx, const mr_panels *factor, mr_supernodal **s) MR_WARN_UNUSED;
+mr_supernodal *mr_supernodal_new(mr_ctx *ctx, const mr_panels *factor);
 
 /* Replaces the right-hand sides b (`columns` of them, n values each, in the system's order) by the solutions.
  */
 void mr_supernodal_solve(const mr_ctx *ctx, mr_supernodal *s, double *b, size_t columns);
-
-/* Accepts NULL. */
-void mr_supernodal_free(mr_supernodal *s);
 
 #endif

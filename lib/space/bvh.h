@@ -31,7 +31,7 @@ typedef struct mr_ray_hit {
 } mr_ray_hit;
 
 /* Builds the tree over all faces of m (finite positions, valid indices; degenerate faces allowed). */
-mr_status mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **bvh);
+void mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **bvh);
 
 /* How many faces are hidden. */
 size_t mr_bvh_hidden(const mr_bvh *bvh);

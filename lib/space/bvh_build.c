@@ -391,7 +391,7 @@ set_unit(builder *r)
 	bvh->scale = size > 0 ? ldexp(1, exponent > -1000 ? -exponent : 1000) : 1;
 }
 
-mr_status
+void
 mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 {
 	mr_bvh *bvh = MR_NEW(ctx, 1, mr_bvh);
@@ -401,8 +401,6 @@ mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 	builder b = { .prims = MR_NEW(ctx, m->nf, prim), .tasks = MR_NEW(ctx, m->nf / BVH_LEAF + 1, task) };
 	size_t next = 0;
 
-	if (!bvh || !nodes || !face || !b.prims || !b.tasks)
-		return MR_EMEM;
 	*bvh = (mr_bvh){ .mesh = m, .nodes = nodes, .face = face, .scale = 1 };
 	b.bvh = bvh;
 	b.task_size = m->nf / TASKS > TASK_LEAST ? m->nf / TASKS : TASK_LEAST;
@@ -419,7 +417,6 @@ mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 	}
 	mr_mark_release(ctx, mark);
 	*out = bvh;
-	return MR_OK;
 }
 
 size_t

@@ -38,17 +38,14 @@ label_node(mr_bvh_labels *l, uint32_t node)
 	return l->node[node] = label;
 }
 
-mr_status
+void
 mr_bvh_label(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *label, mr_bvh_labels *labels)
 {
 	mr_bvh_labels l = { bvh, label, MR_NEW(ctx, bvh_node_bound(bvh->mesh->nf), uint32_t) };
 
-	if (!l.node)
-		return MR_EMEM;
 	if (bvh->mesh->nf)
 		label_node(&l, 0);
 	*labels = l;
-	return MR_OK;
 }
 
 typedef struct search {

@@ -16,7 +16,7 @@ typedef struct mr_bvh_labels {
 } mr_bvh_labels;
 
 /* label: one a face, MR_NONE for what is alone; kept, as is bvh.  labels: in the arena. */
-mr_status mr_bvh_label(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *label, mr_bvh_labels *labels);
+void mr_bvh_label(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *label, mr_bvh_labels *labels);
 
 /*
  * Of the labels other than `own` that are at most sqrt(dist2) away the `most` nearest ones, and the nearest

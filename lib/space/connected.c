@@ -7,8 +7,8 @@
 #include "base/disjoint_sets.h"
 #include "mesh/zorder.h"
 
-/* Of a point, in its spacings.  Of the vertices of 61 meshes of one piece, as clouds, 52 keep 98 % in one part;
- * by 3 spacings 51, by 6 56, but then half of the six parts of hippo2 are joined. */
+/* Of a point, in its spacings.  Of the vertices of 61 meshes of one piece, as clouds, 52 keep 98 % in one
+ * part; by 3 spacings 51, by 6 56, but then half of the six parts of hippo2 are joined. */
 static const double REACH = 4;
 
 enum { LEAF = 8 };
@@ -31,7 +31,7 @@ by_size(const void *a, const void *b)
 }
 
 /* The sets as parts.  vertex: of each element, or NULL where they are the same. */
-static mr_status
+static void
 number_sets(mr_ctx *ctx, uint32_t *parent, const uint32_t *vertex, size_t n, mr_connected *c)
 {
 	mr_connected r = { .part = MR_NEW(ctx, n, uint32_t) };
@@ -45,8 +45,6 @@ number_sets(mr_ctx *ctx, uint32_t *parent, const uint32_t *vertex, size_t n, mr_
 	mark = mr_mark_take(ctx);
 	s = MR_NEW(ctx, r.parts, set);
 	at = MR_NEW(ctx, n, uint32_t);
-	if (!r.part || !r.size || !s || !at)
-		return MR_EMEM;
 	r.parts = 0;
 	for (uint32_t i = 0; i < n; i++) { /* the root of a set is its least element, so it comes first */
 		uint32_t root = mr_sets_root(parent, i), v = vertex ? vertex[i] : i;
@@ -66,20 +64,17 @@ number_sets(mr_ctx *ctx, uint32_t *parent, const uint32_t *vertex, size_t n, mr_
 		r.part[vertex ? vertex[i] : i] = at[mr_sets_root(parent, i)];
 	mr_mark_release(ctx, mark);
 	*c = r;
-	return MR_OK;
 }
 
-mr_status
+void
 mr_connected_by_faces(mr_ctx *ctx, const mr_mesh *m, mr_connected *c)
 {
 	uint32_t *parent = mr_sets_new(ctx, m->nv);
 
-	if (!parent)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 1; k < 3; k++)
 			mr_sets_join(parent, m->t[f].v[0], m->t[f].v[k]);
-	return number_sets(ctx, parent, NULL, m->nv, c);
+	number_sets(ctx, parent, NULL, m->nv, c);
 }
 
 /* ---- points ---- */
@@ -228,16 +223,14 @@ count_nodes(size_t n)
 	return nodes;
 }
 
-mr_status
+void
 mr_connected_by_reach(mr_ctx *ctx, const mr_v3 *p, size_t n, const double *reach, mr_connected *c)
 {
 	uint32_t *order = MR_NEW(ctx, n, uint32_t);
 	tree t = { MR_NEW(ctx, n, mr_v3), MR_NEW(ctx, n, double), mr_sets_new(ctx, n),
 		MR_NEW(ctx, count_nodes(n), node) };
 
-	if (!order || !t.p || !t.reach || !t.parent || !t.node)
-		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order));
+	mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order);
 	for (size_t i = 0; i < n; i++) {
 		t.p[i] = p[order[i]];
 		t.reach[i] = reach[order[i]];
@@ -246,7 +239,7 @@ mr_connected_by_reach(mr_ctx *ctx, const mr_v3 *p, size_t n, const double *reach
 		build(&t, (range){ 0, 0, n });
 		join_inside(&t, (range){ 0, 0, n });
 	}
-	return number_sets(ctx, t.parent, order, n, c);
+	number_sets(ctx, t.parent, order, n, c);
 }
 
 /* ---- layers ---- */
@@ -268,14 +261,15 @@ mr_connected_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, double distance, mr_
 {
 	double *reach;
 
-	if (m->nf)
-		return mr_connected_by_faces(ctx, m, c);
+	if (m->nf) {
+		mr_connected_by_faces(ctx, m, c);
+		return MR_OK;
+	}
 	reach = MR_NEW(ctx, m->nv, double);
-	if (!reach)
-		return MR_EMEM;
 	for (size_t i = 0; i < m->nv; i++)
 		reach[i] = distance;
 	if (!(distance > 0))
 		MR_TRY(reach_of_spacing(ctx, f, m, reach));
-	return mr_connected_by_reach(ctx, m->p, m->nv, reach, c);
+	mr_connected_by_reach(ctx, m->p, m->nv, reach, c);
+	return MR_OK;
 }

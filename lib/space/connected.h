@@ -16,14 +16,13 @@ typedef struct mr_connected {
 } mr_connected;
 
 /* Parts that are connected by faces; a vertex without a face is one.  In the arena. */
-mr_status mr_connected_by_faces(mr_ctx *ctx, const mr_mesh *m, mr_connected *c) MR_WARN_UNUSED;
+void mr_connected_by_faces(mr_ctx *ctx, const mr_mesh *m, mr_connected *c);
 
 /*
  * Parts of n finite points: two points are connected that are no farther from each other than each of them
  * reaches.  reach: n.  In the arena.
  */
-mr_status mr_connected_by_reach(
-    mr_ctx *ctx, const mr_v3 *p, size_t n, const double *reach, mr_connected *c) MR_WARN_UNUSED;
+void mr_connected_by_reach(mr_ctx *ctx, const mr_v3 *p, size_t n, const double *reach, mr_connected *c);
 
 /*
  * The parts of a layer: by its faces, or where it has none at a distance; 0: by the points' spacing, for

@@ -7,16 +7,14 @@
 
 #include <math.h>
 
-mr_status
+void
 mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
 {
 	uint32_t *set = mr_sets_new(ctx, m->nv);
 	size_t count;
 	bool *used;
 
-	if (!set)
-		return MR_EMEM;
-	MR_TRY(mr_vertices_used(ctx, m->t, m->nf, m->nv, &used, &count));
+	mr_vertices_used(ctx, m->t, m->nf, m->nv, &used, &count);
 	for (size_t f = 0; f < m->nf; f++) {
 		mr_sets_join(set, m->t[f].v[0], m->t[f].v[1]);
 		mr_sets_join(set, m->t[f].v[1], m->t[f].v[2]);
@@ -29,7 +27,6 @@ mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *s
 	for (size_t f = 1; f < m->nf; f++)
 		*several |= set[m->t[f].v[0]] != set[m->t[0].v[0]];
 	*component = set;
-	return MR_OK;
 }
 
 /* Vertices of the same component at the same place, in rings. */
@@ -123,7 +120,7 @@ put(grid *g, uint32_t v)
 	g->table[i] = v;
 }
 
-static mr_status
+static void
 find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 {
 	grid g = { .m = m, .component = component, .slots = 2 * m->nv + 1, .near = same_place(ctx, m) };
@@ -131,8 +128,6 @@ find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 	g.cell = g.near > 0 ? 4 * g.near : 1;
 	g.table = MR_NEW(ctx, g.slots, uint32_t);
 	*s = (slits){ MR_NEW(ctx, m->nv, uint32_t), MR_NEW(ctx, m->nv, uint32_t), false };
-	if (!g.table || !s->next || !s->face)
-		return MR_EMEM;
 	memset(g.table, 0xff, g.slots * sizeof *g.table);
 	for (uint32_t v = 0; v < m->nv; v++) {
 		uint32_t first;
@@ -149,7 +144,6 @@ find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 	for (size_t f = m->nf; f-- > 0;)
 		for (int k = 0; k < 3; k++)
 			s->face[m->t[f].v[k]] = (uint32_t)f;
-	return MR_OK;
 }
 
 typedef struct search {
@@ -219,58 +213,50 @@ list_contacts(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
+static void
 make_tree(mr_ctx *ctx, search *s)
 {
 	uint32_t *label = MR_NEW(ctx, s->m->nf, uint32_t);
 	mr_bvh *bvh;
 
-	if (!label)
-		return MR_EMEM;
 	for (size_t f = 0; f < s->m->nf; f++)
 		label[f] = s->component[s->m->t[f].v[0]];
-	MR_TRY(mr_bvh_build(ctx, s->m, &bvh));
-	return mr_bvh_label(ctx, bvh, label, &s->components);
+	mr_bvh_build(ctx, s->m, &bvh);
+	mr_bvh_label(ctx, bvh, label, &s->components);
 }
 
 /* Calls `each` with a search, where there is something to search for.  Its workspace is gone after that, so
  * that what was found lies below. */
-static mr_status
+static void
 search_by(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *c,
     void (*each)(void *arg, size_t begin, size_t end))
 {
 	mr_mark mark = mr_mark_take(ctx);
 	search s = { .m = m, .reach2 = reach * reach, .c = c };
 
-	MR_TRY(mr_components_label(ctx, m, &s.component, &s.several));
-	MR_TRY(find_slits(ctx, m, s.component, &s.slits));
+	mr_components_label(ctx, m, &s.component, &s.several);
+	find_slits(ctx, m, s.component, &s.slits);
 	if (s.several)
-		MR_TRY(make_tree(ctx, &s));
+		make_tree(ctx, &s);
 	if (s.several || s.slits.any)
 		mr_parallel(ctx, m->nv, 1024, each, &s);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts)
 {
 	mr_contacts c = { .start = MR_NEW_ZERO(ctx, m->nv + 1, size_t) };
 
-	if (!c.start)
-		return MR_EMEM;
-	MR_TRY(search_by(ctx, m, reach, &c, count_contacts));
+	search_by(ctx, m, reach, &c, count_contacts);
 	for (size_t v = 0; v < m->nv; v++) {
 		c.vertices += c.start[v + 1] > 0;
 		c.start[v + 1] += c.start[v];
 	}
 	c.at = MR_NEW(ctx, c.start[m->nv], mr_place);
-	if (!c.at)
-		return MR_EMEM;
 	if (c.vertices)
-		MR_TRY(search_by(ctx, m, reach, &c, list_contacts));
+		search_by(ctx, m, reach, &c, list_contacts);
 	*contacts = c;
-	return MR_OK;
 }
 
 static double

@@ -1,9 +1,8 @@
 /*
  * contact.h -- where the components of a surface touch, and where a component is slit.
  *
- * Components are of faces that share vertices; a slit is where vertices of one are at the same place, within a
- * millionth of the diagonal.
- * Contract: deterministic for any number of threads.
+ * Components are of faces that share vertices; a slit is where vertices of one are at the same place, within
+ * a millionth of the diagonal. Contract: deterministic for any number of threads.
  */
 #ifndef MR_SPACE_CONTACT_H
 #define MR_SPACE_CONTACT_H
@@ -11,7 +10,7 @@
 #include "mesh/mesh.h"
 
 /* component: of each vertex, the vertex that stands for it, MR_NONE where it has no face; in the arena. */
-mr_status mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several);
+void mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several);
 
 /* Other parts that a vertex may touch: at a place of a grid of boxes there are seven. */
 enum { MR_CONTACTS = 8 };
@@ -25,7 +24,7 @@ typedef struct mr_contacts {
 } mr_contacts;
 
 /* The vertices of m with points of other components within `reach`, or at a slit.  contacts: in the arena. */
-mr_status mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts);
+void mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts);
 
 /*
  * How many vertices have a contact wider than `width` after the vertices of m have gone to `after`, that was

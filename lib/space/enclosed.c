@@ -54,16 +54,14 @@ print_of_sides(const uint32_t v[3])
 }
 
 /* parts: one for each vertex, that of the vertex which stands for it; in the arena. */
-static mr_status
+static void
 find_parts(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, part **parts)
 {
 	part *found = MR_NEW_ZERO(ctx, m->nv, part);
 	uint32_t *of;
 	bool several;
 
-	if (!found)
-		return MR_EMEM;
-	MR_TRY(mr_components_label(ctx, m, &of, &several));
+	mr_components_label(ctx, m, &of, &several);
 	for (size_t f = 0; f < m->nf; f++) {
 		part *own = &found[of[m->t[f].v[0]]];
 		uint32_t apex = of[m->t[f].v[0]];
@@ -74,7 +72,6 @@ find_parts(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, part **parts)
 		own->now += p == m->p ? rest : tetrahedron(&m->t[f], p, apex);
 	}
 	*parts = found;
-	return MR_OK;
 }
 
 /* Six times. */
@@ -84,7 +81,7 @@ sum(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, double *rest, double *now)
 	mr_mark mark = mr_mark_take(ctx);
 	part *parts;
 
-	MR_TRY(find_parts(ctx, m, p, &parts));
+	find_parts(ctx, m, p, &parts);
 	*rest = *now = 0;
 	for (size_t v = 0; v < m->nv; v++)
 		if (encloses(&parts[v])) {

@@ -56,7 +56,7 @@ typedef struct march {
 } march;
 
 /* Gives v the distance d if that is nearer by more than `step` of the way it came over, |way|. */
-static mr_status
+static void
 relax(mr_ctx *ctx, march *j, uint32_t v, double d, double way)
 {
 	front *f = &j->front;
@@ -65,15 +65,14 @@ relax(mr_ctx *ctx, march *j, uint32_t v, double d, double way)
 	/* corners that are not settled yet can put the source too near: space is the shortest way of all */
 	d = fmax(d, mr_dist(j->m->p[v], j->source));
 	if (!(d < j->distance[v] - step * way))
-		return MR_OK;
+		return;
 	j->distance[v] = d;
-	MR_TRY(MR_RESERVE(ctx, f->queue, f->n, 1, &f->room));
+	MR_RESERVE(ctx, f->queue, f->n, 1, &f->room);
 	mr_queue_push(f->queue, f->n++, sizeof(entry), &(entry){ d, v }, before);
-	return MR_OK;
 }
 
 /* Looks from v and one more corner of the face at the third, both ways. */
-static mr_status
+static void
 relax_face(mr_ctx *ctx, march *j, uint32_t v, const uint32_t c[3])
 {
 	const mr_v3 *p = j->m->p;
@@ -83,9 +82,8 @@ relax_face(mr_ctx *ctx, march *j, uint32_t v, const uint32_t c[3])
 		uint32_t a = c[k], b = c[(k + 1) % 3], third = c[(k + 2) % 3];
 		double way = fmin(mr_dist(p[a], p[third]), mr_dist(p[b], p[third]));
 		if (third != v)
-			MR_TRY(relax(ctx, j, third, behind_edge(p[a], p[b], p[third], d[a], d[b]), way));
+			relax(ctx, j, third, behind_edge(p[a], p[b], p[third], d[a], d[b]), way);
 	}
-	return MR_OK;
 }
 
 static mr_closest
@@ -101,7 +99,7 @@ nearest_point(const mr_mesh *m, mr_v3 p)
 	return best;
 }
 
-mr_status
+void
 mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t face, mr_v3 source,
     double reach, double *distance)
 {
@@ -112,7 +110,7 @@ mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_
 		distance[v] = INFINITY;
 	for (int k = 0; k < 3 && face != MR_NONE; k++) {
 		uint32_t v = m->t[face].v[k];
-		MR_TRY(relax(ctx, &j, v, mr_dist(m->p[v], source), 0));
+		relax(ctx, &j, v, mr_dist(m->p[v], source), 0);
 	}
 	while (j.front.n > 0) {
 		entry e;
@@ -122,13 +120,12 @@ mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_
 		if (e.distance > distance[e.vertex])
 			continue;
 		for (size_t i = inc->start[e.vertex]; i < inc->start[e.vertex + 1]; i++)
-			MR_TRY(relax_face(ctx, &j, e.vertex, m->t[inc->face[i]].v));
+			relax_face(ctx, &j, e.vertex, m->t[inc->face[i]].v);
 	}
 	for (size_t v = 0; v < m->nv; v++)
 		if (distance[v] > reach)
 			distance[v] = INFINITY;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
@@ -139,7 +136,7 @@ mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, doub
 	mr_incidence inc;
 
 	MR_TRY(mr_incidence_build(ctx, m, &inc));
-	MR_TRY(mr_geodesic_from(ctx, m, &inc, source.at.face, source.point, reach, distance));
+	mr_geodesic_from(ctx, m, &inc, source.at.face, source.point, reach, distance);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

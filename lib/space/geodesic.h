@@ -13,7 +13,7 @@
 mr_status mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance);
 
 /* The same from a point on a face, MR_NONE: from nowhere; inc: of the mesh. */
-mr_status mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t face,
-    mr_v3 source, double reach, double *distance);
+void mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t face, mr_v3 source,
+    double reach, double *distance);
 
 #endif

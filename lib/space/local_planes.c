@@ -240,8 +240,6 @@ fit_all(mr_ctx *ctx, const mr_near *near, const mr_v3 *p, size_t n, size_t k, bo
 	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
 	double *dist2 = MR_NEW(ctx, chunk * k, double);
 
-	if (!index || !dist2)
-		return MR_EMEM;
 	for (size_t first = 0; first < n; first += chunk) {
 		size_t m = n - first < chunk ? n - first : chunk;
 		work w = { p, index, dist2, k, first, around, out };
@@ -261,18 +259,13 @@ mr_cloud_planes(mr_ctx *ctx, const mr_v3 *p, size_t n, size_t k, size_t links, b
 		.links = links };
 	mr_mark mark = mr_mark_take(ctx);
 	mr_near *near = NULL;
-	mr_status status;
 
 	if (k < 3 || k > MOST || links >= k)
 		return mr_fail(ctx, MR_ERANGE, "planes of %zu points and %zu links: 3 to %d are allowed", k,
 		    links, MOST);
-	if (!r.normal || !r.variation || !r.area || !r.neighbor)
-		return MR_EMEM;
 	MR_TRY(mr_near_build(ctx, p, n, &near));
-	status = fit_all(ctx, near, p, n, k, around, &r);
-	mr_near_free(near);
+	MR_TRY(fit_all(ctx, near, p, n, k, around, &r));
 	mr_mark_release(ctx, mark);
-	if (status == MR_OK)
-		*out = r;
-	return status;
+	*out = r;
+	return MR_OK;
 }

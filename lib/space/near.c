@@ -35,22 +35,25 @@ check(mr_ctx *ctx, const char *what, const mr_v3 *p, size_t n)
 }
 
 /* The lowest index of each position, in order. */
-static mr_status
+static void
 find_distinct(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t **original, size_t *rows)
 {
 	uint32_t *list = MR_NEW(ctx, n, uint32_t), *map, used = 0;
 	mr_mark mark = mr_mark_take(ctx);
 
 	map = MR_NEW(ctx, n, uint32_t);
-	if (!list || !map)
-		return MR_EMEM;
-	MR_TRY(mr_weld(ctx, p, n, 0, map, rows));
+	mr_weld(ctx, p, n, 0, map, rows);
 	for (uint32_t i = 0; i < n; i++)
 		if (map[i] == used)
 			list[used++] = i;
 	*original = list;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
+}
+
+static void
+drop(void *near)
+{
+	mr_tree_free(((mr_near *)near)->tree);
 }
 
 mr_status
@@ -62,15 +65,12 @@ mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
 		return mr_fail(ctx, MR_ERANGE, "an index of nearest points needs 1 to %d points, not %zu",
 		    INT32_MAX - 1, n);
 	MR_TRY(check(ctx, "point", p, n));
-	if (!near)
-		return MR_EMEM;
-	MR_TRY(find_distinct(ctx, p, n, &near->original, &near->rows));
+	find_distinct(ctx, p, n, &near->original, &near->rows);
 	near->row = mr_alloc(ctx, near->rows, sizeof *near->row);
-	if (!near->row)
-		return MR_EMEM;
 	for (size_t i = 0; i < near->rows; i++)
 		memcpy(near->row[i], &p[near->original[i]], sizeof *near->row);
 	near->p = p;
+	mr_own(ctx, drop, near);
 	near->tree = mr_tree_build((const double(*)[3])near->row, near->rows, LEAF);
 	if (!near->tree)
 		return mr_fail(ctx, MR_EMEM, "no memory for an index of %zu points", near->rows);
@@ -150,8 +150,6 @@ mr_near_query(
 	size_t *row = MR_NEW(ctx, chunk * found, size_t);
 	double *d = MR_NEW(ctx, chunk * found, double);
 
-	if (!row || !d)
-		return MR_EMEM;
 	MR_TRY(check(ctx, "query", q, nq));
 	for (size_t first = 0; first < nq && k > 0; first += chunk) {
 		size_t n = nq - first < chunk ? nq - first : chunk, at = first * k;
@@ -165,24 +163,15 @@ mr_near_query(
 	return MR_OK;
 }
 
-void
-mr_near_free(mr_near *near)
-{
-	if (!near)
-		return;
-	mr_tree_free(near->tree);
-	near->tree = NULL;
-}
-
 mr_status
 mr_near_once(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_v3 *q, size_t nq, size_t k, uint32_t *index,
     double *dist2)
 {
+	mr_mark mark = mr_mark_take(ctx);
 	mr_near *near;
-	mr_status status;
 
 	MR_TRY(mr_near_build(ctx, p, n, &near));
-	status = mr_near_query(ctx, near, q, nq, k, index, dist2);
-	mr_near_free(near);
-	return status;
+	MR_TRY(mr_near_query(ctx, near, q, nq, k, index, dist2));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }

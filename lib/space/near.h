@@ -12,7 +12,7 @@
 
 typedef struct mr_near mr_near;
 
-/* Builds the index over p[0] to p[n - 1], n >= 1, which must outlive it.  Free with mr_near_free. */
+/* Builds the index over p[0] to p[n - 1], n >= 1, which must outlive it. */
 mr_status mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **near) MR_WARN_UNUSED;
 
 /* How many points are left where each position counts once. */
@@ -27,11 +27,8 @@ size_t mr_near_distinct(const mr_near *near);
 mr_status mr_near_query(mr_ctx *ctx, const mr_near *near, const mr_v3 *q, size_t nq, size_t k,
     uint32_t *index, double *dist2) MR_WARN_UNUSED;
 
-/* The same of points that are asked for once: builds the index and frees it. */
+/* The same of points that are asked for once: builds the index and releases it. */
 mr_status mr_near_once(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_v3 *q, size_t nq, size_t k,
     uint32_t *index, double *dist2) MR_WARN_UNUSED;
-
-/* Accepts NULL. */
-void mr_near_free(mr_near *near);
 
 #endif

@@ -6,13 +6,13 @@
 /* In deviations; in spacings, that the surface is away at least. */
 static const double LIMIT = 2.5, AWAY = 1;
 
-mr_status
+void
 mr_find_outliers(
     mr_ctx *ctx, const mr_sampling *s, const double *off, double least, bool *outlier, size_t *count)
 {
 	double median, most;
 
-	MR_TRY(mr_median(ctx, off, s->n, &median));
+	mr_median(ctx, off, s->n, &median);
 	most = fmax(LIMIT * 1.4826 * median, least);
 	*count = 0;
 	for (size_t i = 0; i < s->n; i++) {
@@ -23,5 +23,4 @@ mr_find_outliers(
 		mr_note(ctx,
 		    "outliers, no nearer to the surface than to others, are left out: %zu of %zu points",
 		    *count, s->n);
-	return MR_OK;
 }

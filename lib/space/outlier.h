@@ -16,7 +16,7 @@
  *
  * outlier: s->n, the caller's.  *count: how many, of which it warns.
  */
-mr_status mr_find_outliers(mr_ctx *ctx, const mr_sampling *s, const double *off, double least, bool *outlier,
-    size_t *count) MR_WARN_UNUSED;
+void mr_find_outliers(
+    mr_ctx *ctx, const mr_sampling *s, const double *off, double least, bool *outlier, size_t *count);
 
 #endif

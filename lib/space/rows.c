@@ -36,8 +36,6 @@ mr_find_rows(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, mr_rows
 	double *along = MR_NEW(ctx, looks, double), *across = MR_NEW(ctx, looks, double);
 
 	*found = (mr_rows){ 0 };
-	if (!q || !index || !along || !across)
-		return MR_EMEM;
 	if (n <= NEXT)
 		return MR_OK;
 	mr_at_strides(p, n, looks, q);

@@ -78,7 +78,7 @@ typedef struct cloud {
 } cloud;
 
 /* place: of each of n points. */
-static mr_status
+static void
 find_places(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *place, uint8_t *repeat, cloud *c)
 {
 	mr_mark mark;
@@ -88,9 +88,7 @@ find_places(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *place, uint8_t *rep
 	c->n = 0;
 	mark = mr_mark_take(ctx);
 	order = MR_NEW(ctx, n, uint32_t);
-	if (!c->p || !order)
-		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order));
+	mr_zorder(ctx, p, n, MR_ZORDER_CELLS, order);
 	for (size_t i = 0; i < n; i++) {
 		mr_v3 q = p[order[i]], *last = &c->p[c->n - (c->n > 0)];
 		repeat[order[i]] = c->n > 0 && q.x == last->x && q.y == last->y && q.z == last->z;
@@ -99,7 +97,6 @@ find_places(mr_ctx *ctx, const mr_v3 *p, size_t n, uint32_t *place, uint8_t *rep
 		place[order[i]] = (uint32_t)(c->n - 1);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* c->nearest and c->spacing. */
@@ -111,8 +108,6 @@ find_spacing(mr_ctx *ctx, cloud *c)
 	uint32_t *index = MR_NEW(ctx, chunk * k, uint32_t);
 	double *dist2 = MR_NEW(ctx, chunk * k, double);
 
-	if (!index || !dist2)
-		return MR_EMEM;
 	for (size_t first = 0; first < c->n; first += chunk) {
 		size_t m = c->n - first < chunk ? c->n - first : chunk;
 		MR_TRY(mr_near_query(ctx, c->near, c->p + first, m, k, index, dist2));
@@ -186,21 +181,18 @@ outliers_around(const cloud *c, size_t i)
 }
 
 /* Among outliers a plane may be chance. */
-static mr_status
+static void
 spread(mr_ctx *ctx, cloud *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint8_t *lost = MR_NEW(ctx, c->n, uint8_t);
 
-	if (!lost)
-		return MR_EMEM;
 	for (int round = 0; round < ROUNDS; round++) {
 		for (size_t i = 0; i < c->n; i++)
 			lost[i] = c->outlier[i] || 2 * outliers_around(c, i) > c->around;
 		memcpy(c->outlier, lost, c->n);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static bool
@@ -251,7 +243,7 @@ join_reached(const cloud *c, const bool *reached, const uint32_t *list, size_t n
 
 /* Keeps the sparse ends of surfaces, however thin: regions of sparse points that dense ones lead to, unless
  * they are as uneven as what is strewn in space. */
-static mr_status
+static void
 keep_sparse_ends(mr_ctx *ctx, cloud *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -260,8 +252,6 @@ keep_sparse_ends(mr_ctx *ctx, cloud *c)
 	double *sum = MR_NEW_ZERO(ctx, c->n, double);
 	bool *reached = MR_NEW(ctx, c->n, bool);
 
-	if (!list || !region || !count || !sum || !reached)
-		return MR_EMEM;
 	n = reach_sparse(c, reached, list);
 	join_reached(c, reached, list, n, region);
 	for (size_t k = 0; k < n; k++) {
@@ -275,17 +265,14 @@ keep_sparse_ends(mr_ctx *ctx, cloud *c)
 			c->outlier[list[k]] = false;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-static mr_status
+static void
 find_outliers(mr_ctx *ctx, cloud *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *x = MR_NEW(ctx, c->n, double);
 
-	if (!x)
-		return MR_EMEM;
 	memcpy(x, c->spacing, c->n * sizeof *x);
 	c->usual = mr_kth(x, c->n, c->n / 2);
 	c->middle = mr_vec(0, 0, 0);
@@ -298,8 +285,8 @@ find_outliers(mr_ctx *ctx, cloud *c)
 	mr_parallel(ctx, c->n, GRAIN, judge, c);
 	for (size_t i = 0; i < c->n; i++)
 		c->outlier[i] = c->kind[i] >= DOUBTFUL;
-	MR_TRY(spread(ctx, c));
-	return keep_sparse_ends(ctx, c);
+	spread(ctx, c);
+	keep_sparse_ends(ctx, c);
 }
 
 /* ---- noise ---- */
@@ -340,8 +327,6 @@ look_at(mr_ctx *ctx, const cloud *c, size_t k, double *variation, double *noise)
 	uint32_t *index = MR_NEW(ctx, n * k, uint32_t);
 	look l = { c, k, index, MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) };
 
-	if (!q || !index || !l.variation || !l.residual)
-		return MR_EMEM;
 	mr_at_strides(c->p, c->n, n, q);
 	MR_TRY(mr_near_query(ctx, c->near, q, n, k, index, NULL));
 	mr_parallel(ctx, n, GRAIN, look_around, &l);
@@ -385,15 +370,13 @@ sum_up(mr_sampling *s, double *x, size_t count)
 }
 
 /* All but noise, by the columns. */
-static mr_status
+static void
 find_figures(mr_ctx *ctx, mr_sampling *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *x = MR_NEW(ctx, s->n, double);
 	size_t count = 0;
 
-	if (!x)
-		return MR_EMEM;
 	s->places = s->outliers = 0;
 	s->usual = s->area = s->evenness = 0;
 	for (size_t i = 0; i < s->n; i++) {
@@ -405,32 +388,28 @@ find_figures(mr_ctx *ctx, mr_sampling *s)
 	if (count > 0)
 		sum_up(s, x, count);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* c->p is there. */
 static mr_status
 find_of_places(mr_ctx *ctx, cloud *c, mr_sampling *s)
 {
-	mr_status status;
 
 	c->around = c->n < 1 + AROUND ? c->n - (c->n > 0) : AROUND;
 	c->nearest = MR_NEW(ctx, c->n * c->around, uint32_t);
 	c->spacing = MR_NEW_ZERO(ctx, c->n, double);
 	c->kind = MR_NEW(ctx, c->n, uint8_t);
 	c->outlier = MR_NEW_ZERO(ctx, c->n, uint8_t);
-	if (!c->nearest || !c->spacing || !c->kind || !c->outlier)
-		return MR_EMEM;
 	s->neighbours = NEAREST;
 	s->noise = 0;
 	if (c->n < 2)
 		return MR_OK;
 	MR_TRY(mr_near_build(ctx, c->p, c->n, &c->near));
-	status = find_spacing(ctx, c);
-	if (status == MR_OK)
-		status = find_noise(ctx, c, s);
-	mr_near_free(c->near);
-	return status == MR_OK && c->n >= FEW ? find_outliers(ctx, c) : status;
+	MR_TRY(find_spacing(ctx, c));
+	MR_TRY(find_noise(ctx, c, s));
+	if (c->n >= FEW)
+		find_outliers(ctx, c);
+	return MR_OK;
 }
 
 static mr_status
@@ -443,17 +422,15 @@ find(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_sampling *out)
 	mr_sampling s = { .spacing = spacing, .outlier = outlier, .repeat = repeat, .n = n };
 	cloud c;
 
-	if (!spacing || !outlier || !repeat || !place)
-		return MR_EMEM;
 	MR_TRY(mr_cloud_check_spread(ctx, p, n));
-	MR_TRY(find_places(ctx, p, n, place, repeat, &c));
+	find_places(ctx, p, n, place, repeat, &c);
 	MR_TRY(find_of_places(ctx, &c, &s));
 	for (size_t i = 0; i < n; i++) {
 		spacing[i] = c.spacing[place[i]];
 		outlier[i] = c.outlier[place[i]];
 	}
 	mr_mark_release(ctx, mark);
-	MR_TRY(find_figures(ctx, &s));
+	find_figures(ctx, &s);
 	*out = s;
 	return MR_OK;
 }
@@ -467,7 +444,7 @@ mr_sampling_find(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_sampling *known
 	return MR_OK;
 }
 
-mr_status
+void
 mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorted, mr_sampling *of_sorted)
 {
 	double *spacing = MR_NEW(ctx, s->n, double);
@@ -475,9 +452,7 @@ mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorte
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *order = MR_NEW(ctx, s->n, uint32_t);
 
-	if (!spacing || !outlier || !repeat || !order)
-		return MR_EMEM;
-	MR_TRY(mr_zorder(ctx, p, s->n, MR_ZORDER_CELLS, order));
+	mr_zorder(ctx, p, s->n, MR_ZORDER_CELLS, order);
 	for (size_t i = 0; i < s->n; i++) {
 		sorted[i] = p[order[i]];
 		spacing[i] = s->spacing[order[i]];
@@ -489,10 +464,9 @@ mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorte
 	of_sorted->spacing = spacing;
 	of_sorted->outlier = outlier;
 	of_sorted->repeat = repeat;
-	return MR_OK;
 }
 
-mr_status
+void
 mr_sampling_places(
     mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 **place, uint32_t **index, size_t *count)
 {
@@ -501,20 +475,16 @@ mr_sampling_places(
 	mr_mark mark;
 	size_t n = 0;
 
-	if (!q || !of)
-		return MR_EMEM;
 	mark = mr_mark_take(ctx);
 	kept = MR_NEW(ctx, s->n, mr_v3);
 	from = MR_NEW(ctx, s->n, uint32_t);
 	order = MR_NEW(ctx, s->n, uint32_t);
-	if (!kept || !from || !order)
-		return MR_EMEM;
 	for (uint32_t i = 0; i < s->n; i++)
 		if (!s->repeat[i] && !s->outlier[i]) {
 			kept[n] = p[i];
 			from[n++] = i;
 		}
-	MR_TRY(mr_zorder(ctx, kept, n, MR_ZORDER_CELLS, order));
+	mr_zorder(ctx, kept, n, MR_ZORDER_CELLS, order);
 	for (size_t i = 0; i < n; i++) {
 		q[i] = kept[order[i]];
 		of[i] = from[order[i]];
@@ -524,7 +494,6 @@ mr_sampling_places(
 	if (index)
 		*index = of;
 	*count = n;
-	return MR_OK;
 }
 
 /* ---- columns ---- */
@@ -575,7 +544,7 @@ mr_sampling_stored(mr_ctx *ctx, mr_frame *f, const char *layer, size_t n, mr_sam
 	MR_TRY(check_columns(ctx, layer, &s, whole));
 	s.noise = ((const double *)whole)[0];
 	s.neighbours = (size_t)((const double *)whole)[1];
-	MR_TRY(find_figures(ctx, &s));
+	find_figures(ctx, &s);
 	MR_TRY(check_usual(ctx, layer, &s));
 	*out = s;
 	*stored = true;
@@ -587,8 +556,6 @@ put_columns(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_sampling *s)
 {
 	double *whole = MR_NEW(ctx, 2, double);
 
-	if (!whole)
-		return MR_EMEM;
 	whole[0] = s->noise;
 	whole[1] = (double)s->neighbours;
 	MR_TRY(mr_layer_put(ctx, f, layer, "spacing", s->spacing, s->n));

@@ -54,12 +54,12 @@ mr_sampling_stored(mr_ctx *ctx, mr_frame *f, const char *layer, size_t n, mr_sam
 
 /* The n points along the Z curve, sorted (n, the caller's), and the sampling in that order, its columns in
  * the arena. */
-mr_status
+void
 mr_sampling_sort(mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 *sorted, mr_sampling *of_sorted);
 
 /* Those of the n points p that count, each place once, without outliers, along the Z curve, and their
  * indices (NULL: not wanted); in the arena. */
-mr_status mr_sampling_places(
+void mr_sampling_places(
     mr_ctx *ctx, const mr_v3 *p, const mr_sampling *s, mr_v3 **place, uint32_t **index, size_t *count);
 
 #endif

@@ -32,7 +32,8 @@ mr_status
 mr_cloud_scatter(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, double *scatter)
 {
 	static const size_t nearest[] = { 32, 128, WIDEST };
-	const size_t sizes = n < 16 * WIDEST ? 2 : 3, wide = nearest[sizes - 1], looks = n < LOOKS ? n : LOOKS;
+	const size_t sizes = n < 16 * WIDEST ? 2 : 3, wide = nearest[sizes - 1],
+		     looks = n < LOOKS ? n : LOOKS;
 	double *variation, least = 1;
 	uint32_t *index;
 	mr_mark mark;
@@ -46,8 +47,6 @@ mr_cloud_scatter(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, dou
 	q = MR_NEW(ctx, looks, mr_v3);
 	index = MR_NEW(ctx, looks * wide, uint32_t);
 	variation = MR_NEW(ctx, looks, double);
-	if (!q || !index || !variation)
-		return MR_EMEM;
 	mr_at_strides(p, n, looks, q);
 	MR_TRY(mr_near_query(ctx, near, q, looks, wide, index, NULL));
 	for (size_t i = 0; i < sizes; i++) {

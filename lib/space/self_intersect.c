@@ -335,7 +335,7 @@ look_at_pair(void *arg, uint32_t f, uint32_t g)
 		s->visit(s->arg, f, g);
 }
 
-mr_status
+void
 mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const bool *among,
     void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg)
 {
@@ -343,16 +343,13 @@ mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const b
 	search s = { m, among, MR_NEW(ctx, m->nf, bool), visit, arg };
 	mr_bvh *own;
 
-	if (!s.flat)
-		return MR_EMEM;
 	if (!bvh) {
-		MR_TRY(mr_bvh_build(ctx, m, &own));
+		mr_bvh_build(ctx, m, &own);
 		bvh = own;
 	}
 	mr_parallel(ctx, m->nf, 4096, find_flat, &s);
-	MR_TRY(mr_suspects_visit(ctx, bvh, look_at_pair, &s));
+	mr_suspects_visit(ctx, bvh, look_at_pair, &s);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 typedef struct counting {
@@ -376,17 +373,14 @@ count_pair(void *arg, uint32_t f, uint32_t g)
 }
 
 /* Faces with the same vertices intersect each other, and what the first of them does. */
-static mr_status
+static void
 find_alike(mr_ctx *ctx, const mr_mesh *m, counting *c)
 {
 	c->first = MR_NEW(ctx, m->nf, uint32_t);
 	c->alike = MR_NEW_ZERO(ctx, m->nf, size_t);
-	if (!c->first || !c->alike)
-		return MR_EMEM;
-	MR_TRY(mr_first_alike(ctx, m, c->first));
+	mr_first_alike(ctx, m, c->first);
 	for (size_t f = 0; f < m->nf; f++)
 		c->alike[c->first[f]]++;
-	return MR_OK;
 }
 
 static void
@@ -406,7 +400,7 @@ count_alike(const mr_mesh *m, counting *c)
 		c->crosses[f] = c->crosses[c->first[f]];
 }
 
-mr_status
+void
 mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -414,17 +408,16 @@ mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *cr
 	mr_bvh *own;
 
 	if (!bvh) {
-		MR_TRY(mr_bvh_build(ctx, m, &own));
+		mr_bvh_build(ctx, m, &own);
 		bvh = own;
 	}
 	if (mr_bvh_hidden(bvh))
-		MR_TRY(find_alike(ctx, m, &c));
+		find_alike(ctx, m, &c);
 	if (crosses)
 		memset(crosses, 0, m->nf * sizeof *crosses);
-	MR_TRY(mr_intersections_visit(ctx, bvh, m, NULL, count_pair, &c));
+	mr_intersections_visit(ctx, bvh, m, NULL, count_pair, &c);
 	if (c.first)
 		count_alike(m, &c);
 	mr_mark_release(ctx, mark);
 	*count = c.count;
-	return MR_OK;
 }

@@ -23,12 +23,11 @@ bool mr_triangle_degenerate(mr_v3 a, mr_v3 b, mr_v3 c);
  * m, where the caller has one, or NULL.  among: m->nf, faces of which one is to be of the pair, or NULL: all.
  * Faces without area are left out, and those that bvh hides.
  */
-mr_status mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const bool *among,
-    void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg) MR_WARN_UNUSED;
+void mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const bool *among,
+    void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg);
 
 /* How many pairs of faces intersect; faces without area are left out.  bvh: of m, where the caller has one,
  * or NULL.  crosses: m->nf, the caller's: which faces they are; or NULL, which is cheaper.  *count: pairs. */
-mr_status mr_self_intersections(
-    mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count) MR_WARN_UNUSED;
+void mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count);
 
 #endif

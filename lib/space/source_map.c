@@ -13,7 +13,7 @@ at_corner(int k)
 }
 
 /* Gives the vertices without a face the nearest point of the surface. */
-static mr_status
+static void
 place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -25,7 +25,7 @@ place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
 		if (face[v] != MR_NONE)
 			continue;
 		if (!bvh)
-			MR_TRY(mr_bvh_build(ctx, m, &bvh));
+			mr_bvh_build(ctx, m, &bvh);
 		c = mr_bvh_closest(bvh, m->p[v]);
 		face[v] = c.at.face;
 		bary[v] = c.at.bary;
@@ -35,17 +35,14 @@ place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
 		mr_note(ctx, "%s: %zu vertices have no face: they stay, over the nearest point", m->name,
 		    isolated);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map)
 {
 	uint32_t *face = MR_NEW(ctx, m->nv, uint32_t);
 	mr_v3 *bary = MR_NEW(ctx, m->nv, mr_v3);
 
-	if (!face || !bary)
-		return MR_EMEM;
 	memset(face, 0xff, m->nv * sizeof *face);
 	for (uint32_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++) {
@@ -55,9 +52,8 @@ mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map)
 			face[v] = f;
 			bary[v] = at_corner(k);
 		}
-	MR_TRY(place_isolated(ctx, m, face, bary));
+	place_isolated(ctx, m, face, bary);
 	*map = (mr_places){ face, bary };
-	return MR_OK;
 }
 
 /* True where each corner of the base is the same corner of the mesh: vertices without a face do not count. */
@@ -126,8 +122,6 @@ mr_source_map_compose(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, con
 	face = MR_NEW(ctx, n, uint32_t);
 	bary = MR_NEW(ctx, n, mr_v3);
 	mark = mr_mark_take(ctx);
-	if (!face || !bary)
-		return MR_EMEM;
 	MR_TRY(mr_topology_build(ctx, mesh, &topo));
 	compose_job j = { mesh, base, &topo, base_map, over, face, bary };
 	mr_parallel(ctx, n, 1024, compose_body, &j);

@@ -10,7 +10,7 @@
 
 /* The identity: each vertex of m at a corner of its lowest face; one without a face at the nearest point of
  * the surface.  map: in the arena. */
-mr_status mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map);
+void mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map);
 
 /*
  * Composes maps: `over` places n vertices on the base, `base_map` those of the base on the mesh;

@@ -26,7 +26,7 @@ typedef struct face_box {
 typedef struct suspects {
 	const mr_bvh *bvh;
 	mr_bvh_labels fans;   /* the fan that a face is of, or MR_NONE */
-	const mr_fan *fan;       /* NULL without any */
+	const mr_fan *fan;    /* NULL without any */
 	const uint32_t *node; /* all nodes, the root first */
 	size_t nodes;
 	face_box *box; /* in the order of the tree */
@@ -62,14 +62,12 @@ box_of_arc(const mr_mesh *m, uint32_t face, uint32_t apex)
 	return box;
 }
 
-static mr_status
+static void
 index_arcs(mr_ctx *ctx, const mr_mesh *m, mr_fan *fan)
 {
 	mr_v3 *p = MR_NEW(ctx, 2 * fan->n, mr_v3);
 	mr_tri *t = MR_NEW(ctx, fan->n, mr_tri);
 
-	if (!p || !t)
-		return MR_EMEM;
 	for (uint32_t i = 0; i < fan->n; i++) {
 		mr_box box = box_of_arc(m, fan->face[i], fan->apex);
 		p[2 * i] = box.min;
@@ -77,7 +75,7 @@ index_arcs(mr_ctx *ctx, const mr_mesh *m, mr_fan *fan)
 		t[i] = (mr_tri){ { 2 * i, 2 * i + 1, 2 * i } };
 	}
 	fan->boxes = (mr_mesh){ m->name, p, t, 2 * fan->n, fan->n };
-	return mr_bvh_build(ctx, &fan->boxes, &fan->bvh);
+	mr_bvh_build(ctx, &fan->boxes, &fan->bvh);
 }
 
 /* The corner with most faces, of equal ones the lowest. */
@@ -106,67 +104,56 @@ number_fans(const mr_mesh *m, const uint32_t *valence, uint32_t *fan_of)
 }
 
 /* The faces of each fan but those of which an earlier one has the same vertices.  label: one a face. */
-static mr_status
+static void
 gather(mr_ctx *ctx, const mr_mesh *m, const uint32_t *label, mr_fan *fan, uint32_t count)
 {
 	uint32_t *first = MR_NEW(ctx, m->nf, uint32_t);
 
-	if (!first)
-		return MR_EMEM;
-	MR_TRY(mr_first_alike(ctx, m, first));
+	mr_first_alike(ctx, m, first);
 	for (size_t f = 0; f < m->nf; f++)
 		if (label[f] != MR_NONE)
 			fan[label[f]].n += first[f] == f;
 	for (uint32_t i = 0; i < count; i++) {
 		fan[i].face = MR_NEW(ctx, fan[i].n, uint32_t);
-		if (!fan[i].face)
-			return MR_EMEM;
 		fan[i].n = 0;
 	}
 	for (uint32_t f = 0; f < m->nf; f++)
 		if (label[f] != MR_NONE && first[f] == f)
 			fan[label[f]].face[fan[label[f]].n++] = f;
 	for (uint32_t i = 0; i < count; i++)
-		MR_TRY(index_arcs(ctx, m, &fan[i]));
-	return MR_OK;
+		index_arcs(ctx, m, &fan[i]);
 }
 
-static mr_status
+static void
 make_fans(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *valence, suspects *s)
 {
 	const mr_mesh *m = bvh->mesh;
 	uint32_t *fan_of = MR_NEW(ctx, m->nv, uint32_t), *label = MR_NEW(ctx, m->nf, uint32_t), count;
 	mr_fan *fan;
 
-	if (!fan_of || !label)
-		return MR_EMEM;
 	count = number_fans(m, valence, fan_of);
 	if (count == 0)
-		return MR_OK;
+		return;
 	fan = MR_NEW_ZERO(ctx, count, mr_fan);
-	if (!fan)
-		return MR_EMEM;
 	for (uint32_t v = 0; v < m->nv; v++)
 		if (fan_of[v] != MR_NONE)
 			fan[fan_of[v]].apex = v;
 	for (size_t f = 0; f < m->nf; f++)
 		label[f] = fan_of[hub_of(&m->t[f], valence)];
-	MR_TRY(gather(ctx, m, label, fan, count));
+	gather(ctx, m, label, fan, count);
 	s->fan = fan;
-	return mr_bvh_label(ctx, bvh, label, &s->fans);
+	mr_bvh_label(ctx, bvh, label, &s->fans);
 }
 
-static mr_status
+static void
 find_fans(mr_ctx *ctx, const mr_mesh *m, suspects *s)
 {
 	uint32_t *valence = MR_NEW_ZERO(ctx, m->nv, uint32_t);
 
-	if (!valence)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++)
 		for (int i = 0; i < 3; i++)
 			valence[m->t[f].v[i]]++;
-	return make_fans(ctx, s->bvh, valence, s);
+	make_fans(ctx, s->bvh, valence, s);
 }
 
 /* Of a face in a fan: those of the same fan that its arc meets, and others that it may meet itself. */
@@ -294,14 +281,12 @@ cross_nodes(void *arg, size_t begin, size_t end)
 }
 
 /* The nodes are in no row: each stands where there was room for its subtree. */
-static mr_status
+static void
 list_nodes(mr_ctx *ctx, suspects *s)
 {
 	uint32_t *node = MR_NEW(ctx, bvh_node_bound(s->bvh->mesh->nf), uint32_t);
 	size_t n = 0;
 
-	if (!node)
-		return MR_EMEM;
 	node[n++] = 0;
 	for (size_t i = 0; i < n; i++)
 		for (int c = 0; c < BVH_WIDE; c++) {
@@ -311,7 +296,6 @@ list_nodes(mr_ctx *ctx, suspects *s)
 		}
 	s->node = node;
 	s->nodes = n;
-	return MR_OK;
 }
 
 /* No rounding takes apart what meets: all of it leaves the order of numbers as it is. */
@@ -333,23 +317,20 @@ find_boxes(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
+void
 mr_suspects_visit(mr_ctx *ctx, const mr_bvh *bvh, void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	size_t nf = bvh->mesh->nf;
 	suspects s = { .bvh = bvh, .box = MR_NEW(ctx, nf, face_box), .visit = visit, .arg = arg };
 
-	if (!s.box)
-		return MR_EMEM;
 	if (nf == 0)
-		return MR_OK;
-	MR_TRY(find_fans(ctx, bvh->mesh, &s));
-	MR_TRY(list_nodes(ctx, &s));
+		return;
+	find_fans(ctx, bvh->mesh, &s);
+	list_nodes(ctx, &s);
 	mr_parallel(ctx, nf, 4096, find_boxes, &s);
 	mr_parallel(ctx, s.nodes, 64, cross_nodes, &s);
 	if (s.fan)
 		mr_parallel(ctx, nf, 512, search_fans, &s);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

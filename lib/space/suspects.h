@@ -12,7 +12,7 @@
 
 /* Calls visit(arg, f, g) once for every pair of faces that may have more in common than a corner, among
  * others, from several threads at once. */
-mr_status mr_suspects_visit(mr_ctx *ctx, const mr_bvh *bvh, void (*visit)(void *arg, uint32_t f, uint32_t g),
-    void *arg) MR_WARN_UNUSED;
+void mr_suspects_visit(
+    mr_ctx *ctx, const mr_bvh *bvh, void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg);
 
 #endif

@@ -122,24 +122,20 @@ mr_sounding_build(mr_ctx *ctx, const mr_mesh *m, mr_sounding *body)
 	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3);
 	mr_bvh *bvh;
 
-	if (!inc || !normal)
-		return MR_EMEM;
 	MR_TRY(mr_incidence_build(ctx, m, inc));
 	MR_TRY(mr_vertex_normals(ctx, m, inc, normal));
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	mr_bvh_build(ctx, m, &bvh);
 	*body = (mr_sounding){ m, inc, normal, bvh };
 	return MR_OK;
 }
 
-mr_status
+void
 mr_thickness(mr_ctx *ctx, const mr_sounding *body, double *thickness)
 {
 	const mr_mesh *m = body->m;
 	mr_mark mark = mr_mark_take(ctx);
 	double *across = MR_NEW(ctx, m->nf, double);
 
-	if (!across)
-		return MR_EMEM;
 	spread(m, thickness);
 	mr_parallel(ctx, m->nf, 256, cast_faces,
 	    &(caster){ body, thickness, mr_mesh_tolerance(m, MR_RAY_BEGINS), across });
@@ -147,5 +143,4 @@ mr_thickness(mr_ctx *ctx, const mr_sounding *body, double *thickness)
 		thickness[v] = median_around(body->inc, v, across, thickness[v]);
 	walk(m, thickness);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

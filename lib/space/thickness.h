@@ -27,6 +27,6 @@ mr_status mr_sounding_build(mr_ctx *ctx, const mr_mesh *m, mr_sounding *body) MR
  * any mesh.  thickness, nv, has the most that matters at each vertex, and rays are no longer than that takes:
  * what is thicker, or has no other side, gets that or more.
  */
-mr_status mr_thickness(mr_ctx *ctx, const mr_sounding *body, double *thickness) MR_WARN_UNUSED;
+void mr_thickness(mr_ctx *ctx, const mr_sounding *body, double *thickness);
 
 #endif

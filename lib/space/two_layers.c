@@ -56,8 +56,6 @@ find_dense(mr_ctx *ctx, const mr_v3 *q, const double *apart, size_t looks, mr_la
 	size_t k = looks < AROUND ? looks : AROUND, dense = 0, most = 0;
 	uint32_t *index = MR_NEW(ctx, looks * k, uint32_t);
 
-	if (!index)
-		return MR_EMEM;
 	MR_TRY(mr_near_once(ctx, q, looks, q, looks, k, index, NULL));
 	for (size_t i = 0; i < looks; i++) {
 		size_t layered = 0;
@@ -83,8 +81,6 @@ mr_find_layers(mr_ctx *ctx, const mr_v3 *p, size_t n, const mr_near *near, doubl
 	double *apart = MR_NEW(ctx, looks, double), *all = MR_NEW(ctx, looks, double);
 
 	*found = (mr_layers){ 0 };
-	if (!q || !index || !apart || !all)
-		return MR_EMEM;
 	if (n < NEAREST)
 		return MR_OK;
 	mr_at_strides(p, n, looks, q);

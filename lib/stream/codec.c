@@ -5,25 +5,24 @@
 #include <limits.h>
 #include <zlib.h>
 
-/* zlib's memory is had from the heap like all other. */
+/* zlib's memory is the arena's. */
 static voidpf
 z_alloc(voidpf ctx, uInt count, uInt size)
 {
-	return mr_heap(ctx, NULL, (size_t)count * size);
+	return mr_alloc(ctx, count, size);
 }
 
 static void
 z_free(voidpf ctx, voidpf p)
 {
 	(void)ctx;
-	mr_memory_free(p);
+	(void)p;
 }
 
 static mr_status
 z_failed(mr_ctx *ctx, const char *what, int code)
 {
-	return code == Z_MEM_ERROR ? MR_EMEM /* mr_heap has set the sentence */
-	                           : mr_fail(ctx, MR_EFORMAT, "%s: zlib says %d", what, code);
+	return mr_fail(ctx, MR_EFORMAT, "%s: zlib says %d", what, code);
 }
 
 static uInt
@@ -84,8 +83,7 @@ mr_pack(mr_ctx *ctx, const mr_record *h, const void *data, const void **packed, 
 	bool fits;
 	int code;
 
-	if (!out || !(planes = MR_NEW(ctx, block_bytes(h), unsigned char)))
-		return MR_EMEM;
+	planes = MR_NEW(ctx, block_bytes(h), unsigned char);
 	code = deflateInit(&z, 1);
 	if (code != Z_OK) {
 		mr_mark_release(ctx, mark);
@@ -140,12 +138,10 @@ inflate_blocks(mr_ctx *ctx, z_stream *z, const mr_record *h, unsigned char *plan
 	for (uint64_t first = 0; first < h->rows; first += MR_PLANE_ROWS) {
 		size_t n = h->rows - first < MR_PLANE_ROWS ? (size_t)(h->rows - first) : MR_PLANE_ROWS;
 		if (!inflate_all(z, &left, planes, n * row, &code))
-			return code == Z_MEM_ERROR
-			           ? MR_EMEM
-			           : mr_fail(ctx, MR_EFORMAT,
-					 "%s%s%s: packed bytes break off or are damaged in row %llu of %llu",
-					 h->layer, *h->layer ? ": " : "", h->name, (unsigned long long)first,
-					 (unsigned long long)h->rows);
+			return mr_fail(ctx, MR_EFORMAT,
+			    "%s%s%s: packed bytes break off or are damaged in row %llu of %llu", h->layer,
+			    *h->layer ? ": " : "", h->name, (unsigned long long)first,
+			    (unsigned long long)h->rows);
 		mr_planes_join(planes, n, h->shape.components, size, data + first * row);
 	}
 	if (!at_end(z, &left, &code))
@@ -166,8 +162,6 @@ mr_unpack(mr_ctx *ctx, const mr_record *h, const void *packed, void *data)
 	mr_status status;
 	int code;
 
-	if (!planes)
-		return MR_EMEM;
 	code = inflateInit(&z);
 	status = code == Z_OK ? inflate_blocks(ctx, &z, h, planes, data) : z_failed(ctx, "unpacking", code);
 	inflateEnd(&z);

@@ -14,41 +14,34 @@ mr_frame_new(mr_ctx *ctx, const char *name, mr_frame **frame)
 	mr_frame *f;
 	char *copy;
 
+	MR_ENTER(ctx);
 	if (!mr_frame_name_valid(name, strlen(name)))
 		return mr_fail(ctx, MR_ERANGE, "a frame cannot be called '%s'", name);
 	f = MR_NEW(ctx, 1, mr_frame);
 	copy = mr_format(ctx, "%s", name);
-	if (!f || !copy)
-		return MR_EMEM;
 	*f = (mr_frame){ .name = copy, .key = true, .columns = MR_NEW(ctx, ROOM, mr_column), .room = ROOM };
-	if (!f->columns)
-		return MR_EMEM;
 	*frame = f;
 	return MR_OK;
 }
 
-mr_status
+void
 mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy)
 {
 	mr_column *columns = MR_NEW(ctx, frame->count + ROOM, mr_column);
 
-	if (!columns)
-		return MR_EMEM;
 	if (frame->count)
 		memcpy(columns, frame->columns, frame->count * sizeof *columns);
 	*copy = *frame;
 	copy->columns = columns;
 	copy->room = frame->count + ROOM;
-	return MR_OK;
 }
 
-mr_status
+void
 mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes)
 {
 	*frame = *copy;
 	if (result)
 		memcpy(result, found, bytes);
-	return MR_OK;
 }
 
 static mr_column *
@@ -134,17 +127,14 @@ mr_frame_get(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 static mr_status
 inflate_stored(mr_ctx *ctx, mr_stored *s)
 {
-	void *data = mr_heap(ctx, NULL, (size_t)s->head.size);
-	mr_status status;
-
-	if (!data)
+	MR_ENTER(ctx);
+	if (!s->inflated)
+		s->inflated = mr_heap(ctx, NULL, (size_t)s->head.size);
+	if (!s->inflated)
 		return MR_EMEM;
-	status = mr_unpack(ctx, &s->head, s->payload, data);
-	if (status != MR_OK) {
-		mr_memory_free(data);
-		return mr_prefix(ctx, status, "byte %llu", (unsigned long long)s->offset);
-	}
-	s->data = s->inflated = data;
+	MR_TRY(mr_prefix(ctx, mr_unpack(ctx, &s->head, s->payload, s->inflated), "byte %llu",
+	    (unsigned long long)s->offset));
+	s->data = s->inflated;
 	return MR_OK;
 }
 
@@ -171,7 +161,7 @@ append(mr_ctx *ctx, mr_frame *f, mr_column **column)
 {
 	if (f->count == MR_FRAME_COLUMNS)
 		return mr_fail(ctx, MR_ERANGE, "a frame has no more than %d columns", MR_FRAME_COLUMNS);
-	MR_TRY(MR_RESERVE(ctx, f->columns, f->count, 1, &f->room));
+	MR_RESERVE(ctx, f->columns, f->count, 1, &f->room);
 	*column = &f->columns[f->count++];
 	return MR_OK;
 }
@@ -184,6 +174,7 @@ mr_frame_put(mr_ctx *ctx, mr_frame *frame, const char *layer, const char *name, 
 	mr_column *c, put = { .shape = shape, .rows = rows, .data = data ? data : &nothing };
 	uint64_t size;
 
+	MR_ENTER(ctx);
 	if (*layer && !mr_name_valid(layer, MR_LAYER_MAX))
 		return mr_fail(ctx, MR_ERANGE, "a layer cannot be called '%s'", layer);
 	if (!mr_name_valid(name, MR_COLUMN_MAX))
@@ -224,8 +215,6 @@ mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **copy)
 	for (mr_column *c = frame->columns; c < frame->columns + frame->count; c++) {
 		size_t width = mr_type_size(c->shape.type) * c->shape.components;
 		void *data = mr_alloc(keep, (size_t)c->rows, width);
-		if (!data)
-			return MR_EMEM;
 		MR_TRY(mr_column_decode(ctx, c));
 		memcpy(data, c->data, (size_t)c->rows * width);
 		MR_TRY(mr_frame_put(keep, f, c->layer, c->name, c->shape, data, (size_t)c->rows));
@@ -290,8 +279,6 @@ mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
 
 	MR_TRY(lines_of(ctx, frame, "history", &old, &n));
 	text = mr_alloc(ctx, n + strlen(line) + 2, 1);
-	if (!text)
-		return MR_EMEM;
 	if (n)
 		memcpy(text, old, n);
 	if (n && text[n - 1] != '\n')
@@ -310,8 +297,6 @@ merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 	MR_TRY(lines_of(ctx, frame, name, &old, &n));
 	MR_TRY(lines_of(ctx, from, name, &more, &m));
 	text = mr_alloc(ctx, n + m, 1);
-	if (!text)
-		return MR_EMEM;
 	memcpy(text, old, n);
 	memcpy(text + n, more, m);
 	return mr_frame_put(ctx, frame, "", name, TEXT, text, n + m);

@@ -39,11 +39,10 @@ size_t mr_type_size(char type);
 
 /* Copies the list of columns, so that what is put into the copy stays out of `frame`; the rest is shared.
  * Tools work on such a copy, which becomes the frame at their end: one that fails has changed nothing. */
-mr_status mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
+void mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 
 /* What a tool ends with: its copy becomes the frame, and what it found the result, unless that is NULL. */
-mr_status
-mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes);
+void mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes);
 
 /* A copy of all that the frame has, decoded, which may outlive it: in the arena of `keep`. */
 mr_status mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **copy);
@@ -70,12 +69,13 @@ mr_status mr_frame_merge(mr_ctx *ctx, mr_frame *frame, mr_frame *from);
 mr_status mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line);
 
 /*
- * Says at the end of what was written that this process fails, and has said why, to those of its process group.
- * What cannot be written is not.
+ * Says at the end of what was written that this process fails, and has said why, to those of its process
+ * group. What cannot be written is not.
  */
 void mr_writer_fail(mr_ctx *ctx, mr_writer *w);
 
-/* Whether reading failed since the stream ends so, and the process that said why is of the same group as this. */
+/* Whether reading failed since the stream ends so, and the process that said why is of the same group as
+ * this. */
 bool mr_reader_told(const mr_reader *r);
 
 #endif

@@ -437,6 +437,7 @@ mr_reader_next(mr_ctx *ctx, mr_reader *r, mr_frame **frame)
 {
 	mr_status status;
 
+	MR_ENTER(ctx);
 	if (r->failed)
 		return mr_fail(ctx, MR_EFORMAT, "nothing can be read behind an error");
 	status = read_frame(ctx, r);

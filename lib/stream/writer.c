@@ -314,8 +314,6 @@ put(mr_ctx *ctx, mr_writer *w, const mr_frame *f)
 	bool *survives = MR_NEW_ZERO(ctx, w->count, bool);
 	bool key = f->key || w->whole;
 
-	if (!plans || !survives)
-		return MR_EMEM;
 	MR_TRY(reserve(ctx, w, f->count));
 	for (size_t i = 0; i < f->count; i++) {
 		plans[i].now = identify(&f->columns[i]);
@@ -340,6 +338,7 @@ mr_writer_put(mr_ctx *ctx, mr_writer *w, const mr_frame *frame)
 	mr_mark mark = mr_mark_take(ctx);
 	mr_status status;
 
+	MR_ENTER(ctx);
 	MR_TRY(check(ctx, w, frame));
 	status = put(ctx, w, frame);
 	mr_mark_release(ctx, mark);
@@ -349,6 +348,7 @@ mr_writer_put(mr_ctx *ctx, mr_writer *w, const mr_frame *frame)
 mr_status
 mr_writer_end(mr_ctx *ctx, mr_writer *w)
 {
+	MR_ENTER(ctx);
 	MR_TRY(check_open(ctx, w));
 	MR_TRY(emit_start(ctx, w));
 	MR_TRY(emit_structure(ctx, w, MR_STOP, "", ""));

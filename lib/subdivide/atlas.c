@@ -67,15 +67,13 @@ point(const mr_atlas *a, size_t i, size_t j)
 	return j * (2 * a->segments + 3 - j) / 2 + i;
 }
 
-mr_status
+void
 mr_atlas_fill(mr_ctx *ctx, const mr_tri *t, mr_atlas *a)
 {
 	size_t each = points(a), pieces = a->segments * a->segments;
 	double scale = (double)a->segments;
 	uint32_t *vertex = MR_NEW(ctx, a->faces * each, uint32_t);
 
-	if (!vertex)
-		return MR_EMEM;
 	for (size_t f = 0; f < a->faces * pieces; f++) {
 		mr_v3 at[3];
 		mr_loop_corners(a->level, f, at);
@@ -84,7 +82,6 @@ mr_atlas_fill(mr_ctx *ctx, const mr_tri *t, mr_atlas *a)
 			       point(a, (size_t)(at[k].y * scale), (size_t)(at[k].z * scale))] = t[f].v[k];
 	}
 	a->vertex = vertex;
-	return MR_OK;
 }
 
 /* ---- texels ---- */

@@ -36,7 +36,7 @@ mr_status mr_atlas_plan(
     mr_ctx *ctx, size_t faces, size_t level, size_t gutter, size_t most, mr_atlas *a) MR_WARN_UNUSED;
 
 /* Finds the vertices.  t: the triangles of the level, by Loop's numbering; a->vertex: in the arena. */
-mr_status mr_atlas_fill(mr_ctx *ctx, const mr_tri *t, mr_atlas *a) MR_WARN_UNUSED;
+void mr_atlas_fill(mr_ctx *ctx, const mr_tri *t, mr_atlas *a);
 
 /*
  * The texel in column x from the left and row y from the top.  In the gutter it has what lets bilinear

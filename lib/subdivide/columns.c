@@ -20,14 +20,12 @@ corners_of(const mr_refined *r, size_t f)
 }
 
 /* Each fine vertex between the corners of a triangle that it lies on; those of the mesh are themselves. */
-static mr_status
+static void
 find_vertices(mr_ctx *ctx, const mr_refined *r, mr_rows_from *rows)
 {
 	uint32_t *parent = MR_NEW_ZERO(ctx, 3 * r->fine.nv, uint32_t);
 	double *weight = MR_NEW_ZERO(ctx, 3 * r->fine.nv, double);
 
-	if (!parent || !weight)
-		return MR_EMEM;
 	for (size_t i = 0; i < r->m.nv; i++) {
 		parent[3 * i] = (uint32_t)i;
 		weight[3 * i] = 1;
@@ -43,7 +41,6 @@ find_vertices(mr_ctx *ctx, const mr_refined *r, mr_rows_from *rows)
 		}
 	}
 	*rows = (mr_rows_from){ r->fine.nv, 3, parent, weight };
-	return MR_OK;
 }
 
 /* The corners of fine triangles, between those of the one that each is a part of, some at a time. */
@@ -55,8 +52,6 @@ make_corners(mr_ctx *ctx, const mr_refined *r, const mr_carried *c)
 	uint32_t(*parent)[9] = mr_alloc(ctx, CHUNK, sizeof *parent);
 	double(*weight)[9] = mr_alloc(ctx, CHUNK, sizeof *weight);
 
-	if (!parent || !weight)
-		return MR_EMEM;
 	for (size_t first = 0; first < r->fine.nf; first += CHUNK) {
 		size_t n = r->fine.nf - first < CHUNK ? r->fine.nf - first : CHUNK;
 		for (size_t i = 0; i < n; i++) {
@@ -77,8 +72,6 @@ make_faces(mr_ctx *ctx, const mr_refined *r, mr_carried *c)
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *of = MR_NEW(ctx, r->fine.nf, uint32_t);
 
-	if (!of)
-		return MR_EMEM;
 	for (size_t f = 0; f < r->fine.nf; f++)
 		of[f] = corners_of(r, f).face;
 	c->kind = MR_LABEL;
@@ -88,26 +81,25 @@ make_faces(mr_ctx *ctx, const mr_refined *r, mr_carried *c)
 }
 
 /* Numbers, or bytes, by Loop's rules. */
-static mr_status
+static void
 by_loop(mr_ctx *ctx, const mr_refined *r, mr_carried *c)
 {
 	size_t width = c->shape.components, coarse = width * r->m.nv, fine = width * r->fine.nv;
 	mr_mark mark = mr_mark_take(ctx);
 	double *x, *y;
 
-	if (c->shape.type == 'd')
-		return mr_loop_values(ctx, r->level, r->n, width, c->from, c->to);
+	if (c->shape.type == 'd') {
+		mr_loop_values(ctx, r->level, r->n, width, c->from, c->to);
+		return;
+	}
 	x = MR_NEW(ctx, coarse, double);
 	y = MR_NEW(ctx, fine, double);
-	if (!x || !y)
-		return MR_EMEM;
 	for (size_t i = 0; i < coarse; i++)
 		x[i] = ((const uint8_t *)c->from)[i];
-	MR_TRY(mr_loop_values(ctx, r->level, r->n, width, x, y));
+	mr_loop_values(ctx, r->level, r->n, width, x, y);
 	for (size_t i = 0; i < fine; i++) /* averages, so from 0 to 255 */
 		((uint8_t *)c->to)[i] = (uint8_t)(y[i] + 0.5);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Those by convention that go along, and all that are none by convention. */
@@ -129,8 +121,10 @@ make(mr_ctx *ctx, const mr_refined *r, const mr_rows_from *vertices, mr_carried 
 	if (c->shape.element == 'f')
 		return c->kind != MR_LABEL && !strncmp(c->name, "corner_", 7) ? make_corners(ctx, r, c)
 		                                                              : make_faces(ctx, r, c);
-	if (c->shape.element == 'v' && c->kind == MR_MEAN && r->level)
-		return by_loop(ctx, r, c);
+	if (c->shape.element == 'v' && c->kind == MR_MEAN && r->level) {
+		by_loop(ctx, r, c);
+		return MR_OK;
+	}
 	if (c->shape.element == 'v')
 		mr_carried_make(ctx, c, 1, 0, *vertices);
 	return MR_OK;
@@ -144,14 +138,12 @@ mr_refine_columns(
 	mr_rows_from vertices = { 0 };
 	size_t n = 0;
 
-	if (!list)
-		return MR_EMEM;
 	for (size_t i = 0; i < f->count; i++) {
 		bool of_vertices = f->columns[i].shape.element == 'v';
 		if (!goes_along(&f->columns[i], layer, r))
 			continue;
 		if (of_vertices && !vertices.n)
-			MR_TRY(find_vertices(ctx, r, &vertices));
+			find_vertices(ctx, r, &vertices);
 		MR_TRY(mr_carried_begin(ctx, f, i, of_vertices ? r->m.nv : r->m.nf,
 		    of_vertices ? r->fine.nv : r->fine.nf, &list[n]));
 		MR_TRY(make(ctx, r, &vertices, &list[n++]));
@@ -161,15 +153,14 @@ mr_refine_columns(
 	return MR_OK;
 }
 
-mr_status
+void
 mr_refined_flat(mr_ctx *ctx, const mr_refined *r, mr_v3 *p)
 {
 	const mr_carried c = { .shape = { 'v', 'd', 3 }, .kind = MR_MEAN, .from = r->m.p, .to = p };
 	mr_mark mark = mr_mark_take(ctx);
 	mr_rows_from rows;
 
-	MR_TRY(find_vertices(ctx, r, &rows));
+	find_vertices(ctx, r, &rows);
 	mr_carried_make(ctx, &c, 1, 0, rows);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -30,6 +30,6 @@ mr_status mr_refine_columns(mr_ctx *ctx, mr_frame *f, const char *layer, const m
     mr_carried **out, size_t *count) MR_WARN_UNUSED;
 
 /* The fine vertices on the flat triangles of the mesh: fine.nv, the caller's. */
-mr_status mr_refined_flat(mr_ctx *ctx, const mr_refined *r, mr_v3 *p) MR_WARN_UNUSED;
+void mr_refined_flat(mr_ctx *ctx, const mr_refined *r, mr_v3 *p);
 
 #endif

@@ -5,7 +5,7 @@
 #include "base/parallel.h"
 #include "base/text.h"
 
-mr_status
+void
 mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n, mr_domain *d)
 {
 	const mr_loop *l = &level[n];
@@ -13,13 +13,10 @@ mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n
 	mr_mark mark = mr_mark_take(ctx);
 
 	p = MR_NEW(ctx, l->nv, mr_v3);
-	if (!limit || !normal || !p)
-		return MR_EMEM;
-	MR_TRY(mr_loop_values(ctx, level, n, 3, (const double *)control->p, (double *)p));
+	mr_loop_values(ctx, level, n, 3, (const double *)control->p, (double *)p);
 	mr_loop_limit(ctx, l, p, limit, normal);
 	mr_mark_release(ctx, mark);
 	*d = (mr_domain){ n, level, { control->name, limit, l->t, l->nv, l->nf }, normal };
-	return MR_OK;
 }
 
 mr_status
@@ -27,10 +24,9 @@ mr_domain_build(mr_ctx *ctx, const mr_mesh *control, size_t n, mr_domain *d)
 {
 	mr_loop *level = MR_NEW(ctx, n + 1, mr_loop);
 
-	if (!level)
-		return MR_EMEM;
 	MR_TRY(mr_loop_levels(ctx, control, 180, n, level));
-	return mr_domain_on(ctx, control, level, n, d);
+	mr_domain_on(ctx, control, level, n, d);
+	return MR_OK;
 }
 
 mr_status
@@ -39,53 +35,39 @@ mr_domain_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t n, mr_doma
 	mr_loop *level = MR_NEW(ctx, n + 1, mr_loop);
 	const uint8_t *mark;
 
-	if (!level)
-		return MR_EMEM;
 	MR_TRY(mr_layer_crease(ctx, f, control->name, control->nf, &mark));
 	MR_TRY(mr_loop_levels_marked(ctx, control, 180, mark, n, level));
-	return mr_domain_on(ctx, control, level, n, d);
-}
-
-static mr_status
-fill_cache(mr_level_cache *cache, mr_ctx *keep, mr_frame *f, const mr_mesh *m)
-{
-	mr_loop *l = MR_NEW(keep, cache->n + 1, mr_loop);
-	const uint8_t *mark;
-
-	if (!l)
-		return MR_EMEM;
-	MR_TRY(mr_layer_crease(keep, f, m->name, m->nf, &mark));
-	MR_TRY(mr_loop_levels_marked(keep, m, cache->crease, mark, cache->n, l));
-	cache->level = l;
+	mr_domain_on(ctx, control, level, n, d);
 	return MR_OK;
 }
 
 mr_status
-mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, mr_frame *f, const mr_mesh *m, double crease,
-    size_t n, const mr_loop **level)
+mr_level_cache_get(mr_level_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mesh *m, double crease, size_t n,
+    const mr_loop **level)
 {
 	const mr_column *mark = mr_frame_find(f, m->name, "crease");
 	uint64_t serial = mr_frame_find(f, m->name, "triangles")->serial,
 		 mark_serial = mark ? mark->serial : 0;
-	mr_status status;
+	mr_ctx *keep = mr_keep(ctx, &cache->keep);
+	const uint8_t *creases;
+	mr_loop *l;
 
 	*level = cache->level;
 	if (cache->level && !f->key && serial && serial == cache->serial && n == cache->n &&
 	    mark_serial == cache->mark_serial && crease == cache->crease &&
 	    crease >= 180) /* creases move with the positions */
 		return MR_OK;
-	if (cache->level)
-		mr_mark_release(keep, cache->mark);
-	*cache = (mr_level_cache){ .n = n,
-		.crease = crease,
-		.mark = mr_mark_take(keep),
-		.serial = serial,
-		.mark_serial = mark_serial };
-	status = fill_cache(cache, keep, f, m);
-	if (status != MR_OK)
-		mr_mark_release(keep, cache->mark);
-	*level = cache->level;
-	return status;
+	mr_ctx_free(keep);
+	cache->level = NULL;
+	MR_TRY(mr_layer_crease(ctx, f, m->name, m->nf, &creases));
+	l = MR_NEW(keep, n + 1, mr_loop);
+	MR_TRY(mr_fail_as(ctx, keep, mr_loop_levels_marked(keep, m, crease, creases, n, l)));
+	cache->n = n;
+	cache->crease = crease;
+	cache->serial = serial;
+	cache->mark_serial = mark_serial;
+	*level = cache->level = l;
+	return MR_OK;
 }
 
 static mr_status
@@ -233,8 +215,6 @@ mr_displacement_put(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const double *
 {
 	uint32_t *level = MR_NEW(ctx, 1, uint32_t);
 
-	if (!level)
-		return MR_EMEM;
 	*level = (uint32_t)d->n;
 	mr_frame_drop(f, "displacement", "range", 0);
 	mr_frame_drop(f, "control", "encoded", 0);

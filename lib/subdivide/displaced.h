@@ -28,24 +28,23 @@ mr_status mr_domain_of(mr_ctx *ctx, mr_frame *f, const mr_mesh *control, size_t 
 
 /* The domain on levels that stand, 0 to n, for the control mesh's positions: points and normals in the arena.
  */
-mr_status mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n, mr_domain *d);
+void mr_domain_on(mr_ctx *ctx, const mr_mesh *control, const mr_loop *level, size_t n, mr_domain *d);
 
 /*
  * Levels that serve frame after frame: they are used again where a delta frame has left the triangles as they
  * were, so they never change a byte of a result.  Zeroed, the cache is empty.
  */
 typedef struct mr_level_cache {
+	mr_ctx keep;
 	mr_loop *level; /* NULL: empty */
 	size_t n;
 	double crease;
-	mr_mark mark;                 /* of the arena that outlives frames */
 	uint64_t serial, mark_serial; /* of the layer's triangles, of its creases (0: none) */
 } mr_level_cache;
 
-/* Levels 0 to n of the frame's layer, which is m.  keep: the arena that outlives frames; only the cache
- * releases what it has there. */
-mr_status mr_level_cache_get(mr_level_cache *cache, mr_ctx *keep, mr_frame *f, const mr_mesh *m,
-    double crease, size_t n, const mr_loop **level);
+/* Levels 0 to n of the frame's layer, which is m. */
+mr_status mr_level_cache_get(mr_level_cache *cache, mr_ctx *ctx, mr_frame *f, const mr_mesh *m, double crease,
+    size_t n, const mr_loop **level);
 
 /* The level whose vertex count is nearest to `count`, in logarithm. */
 mr_status mr_domain_level(mr_ctx *ctx, const mr_mesh *control, size_t count, size_t *n);

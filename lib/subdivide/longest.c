@@ -56,7 +56,7 @@ hash_of(uint32_t a, uint32_t b)
 }
 
 /* Numbers the edges as they come. */
-static mr_status
+static void
 find_edges(pass *s)
 {
 	size_t corners = 3 * s->m.nf, mask = 64;
@@ -68,8 +68,6 @@ find_edges(pass *s)
 	s->edge = MR_NEW(s->ctx, corners, uint32_t);
 	s->pieces = MR_NEW(s->ctx, corners, uint32_t);
 	s->first = MR_NEW(s->ctx, corners, uint32_t);
-	if (!at || !slot || !s->edge || !s->pieces || !s->first)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < corners; h++) {
 		uint32_t a = mr_he_from(&s->m, h), b = mr_he_to(&s->m, h);
 		uint32_t low = a < b ? a : b, high = a < b ? b : a;
@@ -85,7 +83,6 @@ find_edges(pass *s)
 		}
 		s->edge[h] = slot[i] - 1;
 	}
-	return MR_OK;
 }
 
 static double
@@ -142,7 +139,7 @@ divide_edge(pass *s, mr_v3 low, mr_v3 high, uint32_t pieces)
 {
 	mr_v3 last = low, at = low;
 
-	MR_TRY(MR_RESERVE(s->ctx, s->p, s->nv, pieces, &s->p_room));
+	MR_RESERVE(s->ctx, s->p, s->nv, pieces, &s->p_room);
 	for (uint32_t k = 1; k <= pieces; k++) {
 		mr_v3 next = k < pieces ? mr_lerp((double)k / pieces, low, high) : high;
 		if (k > 1 && !mr_divides(at, last, next))
@@ -211,32 +208,31 @@ place(const pass *s, uint32_t f, mr_v3 at)
 	return mr_bary_point(at, s->m.p[v[0]], s->m.p[v[1]], s->m.p[v[2]]);
 }
 
-static mr_status
+static void
 emit(pass *s, uint32_t f, const point *a, const point *b, const point *c)
 {
 	const mr_v3 *whole = s->bary + 3 * (size_t)f;
 	const point *x[] = { a, b, c };
 
-	MR_TRY(MR_RESERVE(s->ctx, s->t, s->nf, 1, &s->t_room));
-	MR_TRY(MR_RESERVE(s->ctx, s->out_face, s->nf, 1, &s->face_room));
-	MR_TRY(MR_RESERVE(s->ctx, s->out_bary, 3 * s->nf, 3, &s->bary_room));
+	MR_RESERVE(s->ctx, s->t, s->nf, 1, &s->t_room);
+	MR_RESERVE(s->ctx, s->out_face, s->nf, 1, &s->face_room);
+	MR_RESERVE(s->ctx, s->out_bary, 3 * s->nf, 3, &s->bary_room);
 	s->t[s->nf] = (mr_tri){ { a->v, b->v, c->v } };
 	s->out_face[s->nf] = s->face[f];
 	for (size_t k = 0; k < 3; k++)
 		s->out_bary[3 * s->nf + k] = mr_bary_point(x[k]->at, whole[0], whole[1], whole[2]);
 	s->nf++;
-	return MR_OK;
 }
 
 /* The points from a to b, which are on edges, in row[i]: with new ones between them. */
-static mr_status
+static void
 fill_row(pass *s, uint32_t f, int i, point a, point b, size_t *n)
 {
 	mr_v3 p = place(s, f, a.at), q = place(s, f, b.at);
 	uint32_t pieces = (uint32_t)pieces_of(s, mr_dist(p, q));
 
-	MR_TRY(MR_RESERVE(s->ctx, s->row[i], 0, pieces + 1, &s->row_room[i]));
-	MR_TRY(MR_RESERVE(s->ctx, s->p, s->nv, pieces, &s->p_room));
+	MR_RESERVE(s->ctx, s->row[i], 0, pieces + 1, &s->row_room[i]);
+	MR_RESERVE(s->ctx, s->p, s->nv, pieces, &s->p_room);
 	s->row[i][0] = a;
 	for (uint32_t k = 1; k < pieces; k++) {
 		mr_v3 at = mr_lerp((double)k / pieces, a.at, b.at);
@@ -245,7 +241,6 @@ fill_row(pass *s, uint32_t f, int i, point a, point b, size_t *n)
 	}
 	s->row[i][pieces] = b;
 	*n = pieces + 1;
-	return MR_OK;
 }
 
 /*
@@ -253,7 +248,7 @@ fill_row(pass *s, uint32_t f, int i, point a, point b, size_t *n)
  * first `head` and the last `tail` steps of a are along the edges on which b begins and ends: no triangle of
  * such a step may have that end.
  */
-static mr_status
+static void
 zip(pass *s, uint32_t f, const point *a, size_t na, size_t head, size_t tail, const point *b, size_t nb)
 {
 	size_t i = 0, k = 0;
@@ -265,11 +260,10 @@ zip(pass *s, uint32_t f, const point *a, size_t na, size_t head, size_t tail, co
 		if (can_a && can_b)
 			take_a = mr_dist(place(s, f, a[i + 1].at), place(s, f, b[k].at)) <
 			         mr_dist(place(s, f, a[i].at), place(s, f, b[k + 1].at));
-		MR_TRY(emit(s, f, &a[i], &b[k], take_a ? &a[i + 1] : &b[k + 1]));
+		emit(s, f, &a[i], &b[k], take_a ? &a[i + 1] : &b[k + 1]);
 		i += take_a;
 		k += !take_a;
 	}
-	return MR_OK;
 }
 
 /* The two edges at the corner `top`, and how many pieces they have. */
@@ -309,21 +303,20 @@ pieces_before(uint32_t j, uint32_t n, uint32_t rows)
 }
 
 /* The third edge as the last row. */
-static mr_status
+static void
 last_row(pass *s, uint32_t f, const sides *d, int i, size_t *n)
 {
 	int edge = (d->top + 1) % 3;
 	uint32_t pieces = s->pieces[s->edge[3 * f + (uint32_t)edge]];
 
-	MR_TRY(MR_RESERVE(s->ctx, s->row[i], 0, pieces + 1, &s->row_room[i]));
+	MR_RESERVE(s->ctx, s->row[i], 0, pieces + 1, &s->row_room[i]);
 	for (uint32_t k = 0; k <= pieces; k++)
 		s->row[i][k] = on_edge(s, f, edge, edge, k);
 	*n = pieces + 1;
-	return MR_OK;
 }
 
 /* The row above, from the points that the left edge has below it to those of the right edge. */
-static mr_status
+static void
 build_chain(pass *s, uint32_t f, const sides *d, uint32_t j, int above, size_t n, size_t *head, size_t *tail)
 {
 	uint32_t l0 = pieces_before(j - 1, d->n_left, d->rows), l1 = pieces_before(j, d->n_left, d->rows),
@@ -332,37 +325,35 @@ build_chain(pass *s, uint32_t f, const sides *d, uint32_t j, int above, size_t n
 
 	*head = l1 - l0 - 1;
 	*tail = r1 - r0 - 1;
-	MR_TRY(MR_RESERVE(s->ctx, s->chain, 0, *head + n + *tail, &s->chain_room));
+	MR_RESERVE(s->ctx, s->chain, 0, *head + n + *tail, &s->chain_room);
 	for (uint32_t k = l1 - 1; k > l0; k--)
 		s->chain[at++] = on_edge(s, f, d->left, d->top, k);
 	memcpy(s->chain + at, s->row[above], n * sizeof *s->chain);
 	at += n;
 	for (uint32_t k = r0 + 1; k < r1; k++)
 		s->chain[at++] = on_edge(s, f, d->right, d->top, k);
-	return MR_OK;
 }
 
-static mr_status
+static void
 divide_face(pass *s, uint32_t f)
 {
 	sides d = choose_sides(s, f);
 	size_t above = 1, below, head, tail;
 
-	MR_TRY(MR_RESERVE(s->ctx, s->row[0], 0, 1, &s->row_room[0]));
+	MR_RESERVE(s->ctx, s->row[0], 0, 1, &s->row_room[0]);
 	s->row[0][0] = (point){ s->m.t[f].v[d.top], unit(d.top) };
 	for (uint32_t j = 1; j <= d.rows; j++) {
 		int i = (int)(j & 1);
 		uint32_t l = pieces_before(j, d.n_left, d.rows), r = pieces_before(j, d.n_right, d.rows);
 		if (j == d.rows)
-			MR_TRY(last_row(s, f, &d, i, &below));
+			last_row(s, f, &d, i, &below);
 		else
-			MR_TRY(fill_row(s, f, i, on_edge(s, f, d.left, d.top, l),
-			    on_edge(s, f, d.right, d.top, r), &below));
-		MR_TRY(build_chain(s, f, &d, j, 1 - i, above, &head, &tail));
-		MR_TRY(zip(s, f, s->chain, head + above + tail, head, tail, s->row[i], below));
+			fill_row(s, f, i, on_edge(s, f, d.left, d.top, l), on_edge(s, f, d.right, d.top, r),
+			    &below);
+		build_chain(s, f, &d, j, 1 - i, above, &head, &tail);
+		zip(s, f, s->chain, head + above + tail, head, tail, s->row[i], below);
 		above = below;
 	}
-	return MR_OK;
 }
 
 /* ---- the mesh ---- */
@@ -373,32 +364,29 @@ divide(pass *s, bool *more)
 {
 	s->p = NULL;
 	MR_TRY(check_size(s));
-	MR_TRY(find_edges(s));
-	MR_TRY(MR_RESERVE(s->ctx, s->p, 0, s->m.nv, &s->p_room));
+	find_edges(s);
+	MR_RESERVE(s->ctx, s->p, 0, s->m.nv, &s->p_room);
 	memcpy(s->p, s->m.p, s->m.nv * sizeof *s->p);
 	s->nv = s->m.nv;
 	MR_TRY(divide_edges(s, more));
 	for (uint32_t f = 0; *more && f < s->m.nf; f++)
-		MR_TRY(divide_face(s, f));
+		divide_face(s, f);
 	return MR_OK;
 }
 
 /* The mesh as it is. */
-static mr_status
+static void
 start(mr_ctx *ctx, const mr_mesh *m, mr_refined *r)
 {
 	uint32_t *face = MR_NEW(ctx, m->nf, uint32_t);
 	mr_v3 *bary = MR_NEW(ctx, 3 * m->nf, mr_v3);
 
-	if (!face || !bary)
-		return MR_EMEM;
 	for (size_t f = 0; f < m->nf; f++) {
 		face[f] = (uint32_t)f;
 		for (int k = 0; k < 3; k++)
 			bary[3 * f + (size_t)k] = unit(k);
 	}
 	*r = (mr_refined){ .m = *m, .fine = *m, .face = face, .bary = bary };
-	return MR_OK;
 }
 
 mr_status
@@ -407,7 +395,7 @@ mr_divide_longest(mr_ctx *ctx, const mr_mesh *m, double length, mr_refined *r)
 	enum { PASSES = 64 };
 	bool more = true;
 
-	MR_TRY(start(ctx, m, r));
+	start(ctx, m, r);
 	for (int i = 0; i < PASSES && more; i++) {
 		pass s = { .ctx = ctx, .length = length, .m = r->fine, .face = r->face, .bary = r->bary };
 		MR_TRY(divide(&s, &more));

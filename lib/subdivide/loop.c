@@ -7,9 +7,9 @@
 
 enum { GRAIN = 2048 };
 
-/* Marks the half-edges on both sides of edges that bend by more than `crease` degrees, or are marked; NULL: there
- * is none. */
-static mr_status
+/* Marks the half-edges on both sides of edges that bend by more than `crease` degrees, or are marked; NULL:
+ * there is none. */
+static void
 find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crease, const uint8_t *marked,
     const bool **out)
 {
@@ -17,8 +17,6 @@ find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crea
 	bool *sharp = MR_NEW_ZERO(ctx, 3 * m->nf, bool), any = false;
 
 	*out = NULL;
-	if (!sharp)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * m->nf; h++) {
 		uint32_t g = topo->twin[h];
 		if (g == MR_NONE || g < h)
@@ -31,7 +29,6 @@ find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double crea
 		*out = sharp;
 	else
 		mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
@@ -47,7 +44,7 @@ mr_loop_control_marked(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8
 
 	MR_TRY(mr_topology_build(ctx, m, &r.topo));
 	if (crease < 180 || mark)
-		MR_TRY(find_creases(ctx, m, &r.topo, crease, mark, &r.crease));
+		find_creases(ctx, m, &r.topo, crease, mark, &r.crease);
 	*l = r;
 	return MR_OK;
 }
@@ -197,8 +194,6 @@ mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine)
 	r.topo = (mr_topology){ MR_NEW(ctx, 3 * nf, uint32_t), MR_NEW(ctx, nv, uint32_t) };
 	r.edge = MR_NEW(ctx, odd, uint32_t);
 	r.crease = coarse->crease ? MR_NEW(ctx, 3 * nf, bool) : NULL;
-	if (!r.t || !r.topo.twin || !r.topo.out || !r.edge || (coarse->crease && !r.crease))
-		return MR_EMEM;
 	mr_parallel(ctx, half, r.piece, number_edges, &r);
 	mr_parallel(ctx, coarse->nf, GRAIN, cut_faces, &r);
 	mr_parallel(ctx, coarse->nv, GRAIN, leave_even, &r);
@@ -344,14 +339,12 @@ mr_loop_subdivide(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine,
 }
 
 /* To and fro between `out` and a workspace, so that the last level is in `out`. */
-mr_status
+void
 mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const double *in, double *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *work = n > 1 ? mr_alloc(ctx, level[n - 1].nv, width * sizeof *work) : NULL;
 
-	if (n > 1 && !work)
-		return MR_EMEM;
 	if (n == 0)
 		memcpy(out, in, level[0].nv * width * sizeof *out);
 	for (size_t i = 0; i < n; i++) {
@@ -360,7 +353,6 @@ mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const 
 		in = next;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 void

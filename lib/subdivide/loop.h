@@ -33,8 +33,8 @@ typedef struct mr_loop {
 mr_status mr_loop_control(mr_ctx *ctx, const mr_mesh *m, double crease, mr_loop *l);
 
 /* The same, and the edges that are marked on either side: 3 m->nf, 0 where one is not; NULL: none. */
-mr_status mr_loop_control_marked(
-    mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, mr_loop *l);
+mr_status
+mr_loop_control_marked(mr_ctx *ctx, const mr_mesh *m, double crease, const uint8_t *mark, mr_loop *l);
 
 /* The next level, in the arena.  MR_ERANGE where it would have 2^32 half-edges or more. */
 mr_status mr_loop_refine(mr_ctx *ctx, const mr_loop *coarse, mr_loop *fine);
@@ -51,7 +51,8 @@ mr_status mr_loop_levels_marked(
  * SIZE_MAX where that is too many. */
 size_t mr_loop_count(size_t nv, size_t nf, size_t boundary, size_t n);
 
-/* Where the corners of triangle f on level n are in the triangle of level 0 that it is a part of, f >> 2 n. */
+/* Where the corners of triangle f on level n are in the triangle of level 0 that it is a part of, f >> 2 n.
+ */
 void mr_loop_corners(size_t n, size_t f, mr_v3 at[3]);
 
 /*
@@ -62,8 +63,7 @@ void mr_loop_subdivide(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *
     const double *in, double *out);
 
 /* The same from level 0 to level n: in: level[0].nv rows; out: level[n].nv rows, the caller's, elsewhere. */
-mr_status
-mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const double *in, double *out);
+void mr_loop_values(mr_ctx *ctx, const mr_loop *level, size_t n, size_t width, const double *in, double *out);
 
 /* The odd rows alone: out has fine->nv - coarse->nv rows. */
 void mr_loop_predict(const mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, size_t width,

@@ -39,8 +39,8 @@ row_end(mr_ctx *ctx, row *r, rows *to)
 {
 	if (r->n > (size_t)INT32_MAX - to->used)
 		return mr_fail(ctx, MR_ERANGE, "the limit points have more than %d weights", INT32_MAX);
-	MR_TRY(MR_RESERVE(ctx, to->index, to->used, r->n, &to->index_room));
-	MR_TRY(MR_RESERVE(ctx, to->value, to->used, r->n, &to->room));
+	MR_RESERVE(ctx, to->index, to->used, r->n, &to->index_room);
+	MR_RESERVE(ctx, to->value, to->used, r->n, &to->room);
 	mr_sort_indices((uint32_t *)r->index, r->n); /* of the same order: none is negative */
 	for (size_t i = 0; i < r->n; i++) {
 		to->index[to->used] = r->index[i];
@@ -52,14 +52,11 @@ row_end(mr_ctx *ctx, row *r, rows *to)
 	return MR_OK;
 }
 
-static mr_status
+static void
 rows_begin(mr_ctx *ctx, size_t n, rows *a)
 {
 	*a = (rows){ .start = MR_NEW(ctx, n + 1, int) };
-	if (!a->start)
-		return MR_EMEM;
 	a->start[0] = 0;
-	return MR_OK;
 }
 
 /* The mask at v applied to the rows of the level. */
@@ -105,7 +102,7 @@ row_of_dart(row *r, const mr_loop *l, uint32_t v, unsigned n, const rows *from)
 static mr_status
 refine_rows(mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, row *r, const rows *in, rows *out)
 {
-	MR_TRY(rows_begin(ctx, fine->nv, out));
+	rows_begin(ctx, fine->nv, out);
 	for (uint32_t v = 0; v < coarse->nv; v++) {
 		row_of_mask(r, coarse, v, mr_loop_even_mask(mr_loop_kind_of(coarse, v)), in);
 		MR_TRY(row_end(ctx, r, out));
@@ -120,7 +117,7 @@ refine_rows(mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, row *r, con
 static mr_status
 limit_rows(mr_ctx *ctx, const mr_loop *l, row *r, const rows *in, rows *out)
 {
-	MR_TRY(rows_begin(ctx, l->nv, out));
+	rows_begin(ctx, l->nv, out);
 	for (uint32_t v = 0; v < l->nv; v++) {
 		mr_loop_kind kind = mr_loop_kind_of(l, v);
 		if (kind.shape == MR_LOOP_DART)
@@ -135,7 +132,7 @@ limit_rows(mr_ctx *ctx, const mr_loop *l, row *r, const rows *in, rows *out)
 static mr_status
 identity_rows(mr_ctx *ctx, size_t n, row *r, rows *out)
 {
-	MR_TRY(rows_begin(ctx, n, out));
+	rows_begin(ctx, n, out);
 	for (size_t v = 0; v < n; v++) {
 		r->weight[v] = 1;
 		r->index[r->n++] = (int)v;
@@ -151,8 +148,6 @@ mr_loop_limit_matrix(mr_ctx *ctx, const mr_loop *level, size_t n, mr_sparse *s)
 	row r = { MR_NEW(ctx, nv, double), MR_NEW_ZERO(ctx, nv, bool), MR_NEW(ctx, nv, int), 0 };
 	rows a, b;
 
-	if (!r.weight || !r.known || !r.index)
-		return MR_EMEM;
 	if (level[n].nv > INT32_MAX)
 		return mr_fail(ctx, MR_ERANGE, "%zu limit points are more than %d", level[n].nv, INT32_MAX);
 	MR_TRY(identity_rows(ctx, nv, &r, &a));

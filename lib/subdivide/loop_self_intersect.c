@@ -274,7 +274,7 @@ search(void *arg, size_t begin, size_t end)
 }
 
 /* Sorts the triangles of level 0, by merging: order and begin. */
-static mr_status
+static void
 sort_roots(mr_ctx *ctx, tree *x)
 {
 	size_t nf = x->level[0].nf;
@@ -283,8 +283,6 @@ sort_roots(mr_ctx *ctx, tree *x)
 	int axis = x->axis;
 
 	x->begin = MR_NEW(ctx, nf, float);
-	if (!from || !to || !x->begin)
-		return MR_EMEM;
 	for (size_t f = 0; f < nf; f++)
 		from[f] = (uint32_t)f;
 	for (size_t width = 1; width < nf; width *= 2) {
@@ -303,7 +301,6 @@ sort_roots(mr_ctx *ctx, tree *x)
 	x->order = from;
 	for (size_t f = 0; f < nf; f++)
 		x->begin[f] = d[from[f]].lo[axis];
-	return MR_OK;
 }
 
 static void
@@ -328,7 +325,7 @@ measure_roots(tree *x)
 	x->longest = nextafterf(x->longest, INFINITY);
 }
 
-mr_status
+void
 mr_find_crossings(
     mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, const bool *moved, bool *crosses)
 {
@@ -338,14 +335,11 @@ mr_find_crossings(
 	choose_units(&x);
 	for (size_t k = n + 1; k-- > 0;) {
 		x.node[k] = MR_NEW(ctx, level[k].nf, node);
-		if (!x.node[k])
-			return MR_EMEM;
 		x.level_of_job = k;
 		mr_parallel(ctx, level[k].nf, 4096, make_nodes, &x);
 	}
 	measure_roots(&x);
-	MR_TRY(sort_roots(ctx, &x));
+	sort_roots(ctx, &x);
 	mr_parallel(ctx, level[0].nf, GRAIN, search, &x);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

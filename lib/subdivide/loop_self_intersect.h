@@ -1,10 +1,10 @@
 /*
  * loop_self_intersect.h -- which triangles of a subdivided surface pass through others.
  *
- * Contract: as self_intersect.h, but triangles that touch and look the same way, to 60 degrees, are taken not to
- * cross, and so are regions that touch and whose normals all lie within a cone of that angle (after Volino,
- * Magnenat Thalmann 1994, without their test of the outlines): a smooth surface is then searched only where
- * it comes back to itself.
+ * Contract: as self_intersect.h, but triangles that touch and look the same way, to 60 degrees, are taken not
+ * to cross, and so are regions that touch and whose normals all lie within a cone of that angle (after
+ * Volino, Magnenat Thalmann 1994, without their test of the outlines): a smooth surface is then searched only
+ * where it comes back to itself.
  */
 #ifndef MR_SUBDIVIDE_LOOP_SELF_INTERSECT_H
 #define MR_SUBDIVIDE_LOOP_SELF_INTERSECT_H
@@ -16,7 +16,7 @@
  * caller's.  moved: of the triangles of level 0, those that a vertex has moved in since `crosses` was found,
  * so that only these and what is near them is looked at; NULL: all, and what `crosses` held does not count.
  */
-mr_status mr_find_crossings(
+void mr_find_crossings(
     mr_ctx *ctx, const mr_loop *level, size_t n, const mr_v3 *p, const bool *moved, bool *crosses);
 
 #endif

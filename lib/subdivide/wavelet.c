@@ -31,47 +31,44 @@ step(const mr_ctx *ctx, const mr_loop *fine, double sign, double *x, double *wor
 }
 
 /* Workspace for the odd vertices of level n, the most of any; none on level 0. */
-static mr_status
+static void
 reserve(mr_ctx *ctx, const mr_loop *level, size_t n, double **work)
 {
 	*work = MR_NEW(ctx, level[n].nv - level[n].coarse_nv, double);
-	return *work ? MR_OK : MR_EMEM;
 }
 
-mr_status
+void
 mr_wavelet_analyse(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *work;
 
-	MR_TRY(reserve(ctx, level, n, &work));
+	reserve(ctx, level, n, &work);
 	for (size_t i = n; i > 0; i--)
 		step(ctx, &level[i], -1, x, work);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_wavelet_synthesize(mr_ctx *ctx, const mr_loop *level, size_t n, double *x)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *work;
 
-	MR_TRY(reserve(ctx, level, n, &work));
+	reserve(ctx, level, n, &work);
 	for (size_t i = 1; i <= n; i++)
 		step(ctx, &level[i], 1, x, work);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_status
 mr_equalize(mr_ctx *ctx, const mr_loop *level, size_t n, const double *gain, double *x)
 {
-	MR_TRY(mr_wavelet_analyse(ctx, level, n, x));
+	mr_wavelet_analyse(ctx, level, n, x);
 	for (size_t i = 0; i <= n; i++)
 		for (size_t v = i ? level[i].coarse_nv : 0; v < level[i].nv; v++)
 			x[v] *= gain[i];
-	MR_TRY(mr_wavelet_synthesize(ctx, level, n, x));
+	mr_wavelet_synthesize(ctx, level, n, x);
 	for (size_t v = 0; v < level[n].nv; v++)
 		if (!isfinite(x[v]))
 			return mr_fail(

@@ -11,8 +11,8 @@
 
 /* Heights to coefficients and back, exactly the inverse to rounding; level: 0 to n; x: level[n].nv, changed
  * in place. */
-mr_status mr_wavelet_analyse(mr_ctx *ctx, const mr_loop *level, size_t n, double *x);
-mr_status mr_wavelet_synthesize(mr_ctx *ctx, const mr_loop *level, size_t n, double *x);
+void mr_wavelet_analyse(mr_ctx *ctx, const mr_loop *level, size_t n, double *x);
+void mr_wavelet_synthesize(mr_ctx *ctx, const mr_loop *level, size_t n, double *x);
 
 /* Multiplies the coefficients of level i by gain[i], i = 0 to n.  x: heights, changed in place.  MR_ERANGE
  * where one is not finite any more. */

@@ -1,5 +1,4 @@
-/* What the tools keep from frame to frame.  Nothing here knows a solver, which a tool that needs none shall
- * not load. */
+/* What the tools keep from frame to frame. */
 #include "tool/cache.h"
 
 mr_cache *
@@ -8,23 +7,31 @@ mr_cache_new(void)
 	return calloc(1, sizeof(mr_cache));
 }
 
+static void
+empty(void *what)
+{
+	mr_cache *cache = what;
+
+	mr_ctx_free(&cache->deform.keep);
+	mr_ctx_free(&cache->level.keep);
+	mr_ctx_free(&cache->connectivity.keep);
+}
+
 void
 mr_cache_delete(mr_cache *cache)
 {
 	if (!cache)
 		return;
-	if (cache->drop_deform)
-		cache->drop_deform(cache);
-	mr_ctx_free(&cache->deform_keep);
-	mr_ctx_free(&cache->level_keep);
-	mr_ctx_free(&cache->base_keep);
+	empty(cache);
 	free(cache);
 }
 
-mr_ctx *
-mr_cache_arena(const mr_ctx *ctx, mr_ctx *keep)
+mr_cache *
+mr_cache_for(mr_ctx *ctx, mr_cache *cache)
 {
-	keep->threads = ctx->threads;
-	keep->listener = ctx->listener;
-	return keep;
+	if (cache)
+		return cache;
+	cache = MR_NEW_ZERO(ctx, 1, mr_cache);
+	mr_own(ctx, empty, cache);
+	return cache;
 }

@@ -7,71 +7,46 @@
 #include "measure/gaps.h"
 #include "tool/cache.h"
 
-/* Whether what was kept of a column is still true of the frame; where it is not, the arena is emptied. */
+/* Whether what was kept of a column is still true of the frame. */
 static bool
-still_there(
-    const mr_ctx *ctx, const mr_frame *f, const char *layer, const char *name, uint64_t *kept, mr_ctx *keep)
+still_there(const mr_frame *f, const char *layer, const char *name, uint64_t kept)
 {
-	uint64_t serial = mr_frame_find(f, layer, name)->serial;
-
-	if (!f->key && serial && serial == *kept)
-		return true;
-	mr_ctx_free(mr_cache_arena(ctx, keep));
-	*kept = 0;
-	return false;
+	return !f->key && kept && mr_frame_find(f, layer, name)->serial == kept;
 }
 
 /* The faces around the vertices of base, which are to be those over which mesh was encoded. */
 static mr_status
-base_incidence(mr_ctx *ctx, mr_cache *cache, mr_frame *f, const mr_mesh *base, mr_incidence *inc)
+base_incidence(mr_ctx *ctx, mr_connectivity_cache *kept, mr_frame *f, const mr_mesh *base)
 {
-	mr_connectivity_cache *kept;
+	mr_ctx *keep = mr_keep(ctx, &kept->keep);
 
-	if (!cache) {
-		MR_TRY(mr_detail_check_faces(ctx, f, base));
-		return mr_incidence_build(ctx, base, inc);
-	}
-	kept = &cache->connectivity;
-	if (!still_there(ctx, f, base->name, "triangles", &kept->base_serial, &cache->base_keep)) {
-		MR_TRY(mr_detail_check_faces(ctx, f, base));
-		MR_TRY(mr_fail_as(
-		    ctx, &cache->base_keep, mr_incidence_build(&cache->base_keep, base, &kept->base)));
-		kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
-		kept->rest_serial = 0;
-		kept->rest_normal = NULL;
-	}
-	*inc = kept->base;
+	if (still_there(f, base->name, "triangles", kept->base_serial))
+		return MR_OK;
+	mr_ctx_free(keep);
+	kept->base_serial = kept->rest_serial = 0;
+	kept->rest_normal = NULL;
+	MR_TRY(mr_detail_check_faces(ctx, f, base));
+	MR_TRY(mr_fail_as(ctx, keep, mr_incidence_build(keep, base, &kept->base)));
+	kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
 	return MR_OK;
 }
 
 /* The normals of base where it was encoded, if that is known. */
 static mr_status
-rest_normals(mr_ctx *ctx, mr_cache *cache, const mr_frame *f, const mr_mesh *base, const mr_incidence *inc,
-    mr_detail *d)
+rest_normals(mr_ctx *ctx, mr_connectivity_cache *kept, const mr_frame *f, const mr_mesh *base, mr_detail *d)
 {
-	mr_connectivity_cache *kept = cache ? &cache->connectivity : NULL;
-	mr_ctx *keep = cache ? &cache->base_keep : ctx;
-	mr_v3 *normal = cache ? kept->rest_normal : NULL;
 	mr_mesh rest = *base;
-	uint64_t serial;
 
 	if (!d->rest)
 		return MR_OK;
-	rest.p = d->rest;
-	d->rest_normal = normal;
-	serial = mr_frame_find(f, base->name, "encoded")->serial;
-	if (normal && !f->key && serial && serial == kept->rest_serial)
+	if (!kept->rest_normal)
+		kept->rest_normal = MR_NEW(&kept->keep, base->nv, mr_v3);
+	d->rest_normal = kept->rest_normal;
+	if (still_there(f, base->name, "encoded", kept->rest_serial))
 		return MR_OK;
-	if (!normal)
-		normal = MR_NEW(keep, base->nv, mr_v3);
-	if (!normal)
-		return mr_fail_as(ctx, keep, MR_EMEM);
-	MR_TRY(mr_vertex_normals(ctx, &rest, inc, normal));
-	d->rest_normal = normal;
-	if (cache) {
-		kept->rest_normal = normal;
-		kept->rest_serial = serial;
-	}
+	rest.p = d->rest;
+	MR_TRY(mr_vertex_normals(ctx, &rest, &kept->base, kept->rest_normal));
+	kept->rest_serial = mr_frame_find(f, base->name, "encoded")->serial;
 	return MR_OK;
 }
 
@@ -94,27 +69,24 @@ respond(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 				  .layer = m->name,
 				  .value = degrees,
 				  .what = "a handle turns by over 60 degrees, where a basis thins what is "
-		                          "between: mr-solve does not" });
+					  "between: mr-solve does not" });
 	return MR_OK;
 }
 
 static mr_status
-decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
+decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_connectivity_cache *kept)
 {
-	mr_incidence inc;
 	mr_detail detail;
 	mr_mesh base;
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	MR_TRY(base_incidence(ctx, cache, f, &base, &inc));
+	MR_TRY(base_incidence(ctx, kept, f, &base));
 	MR_TRY(respond(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
-	MR_TRY(rest_normals(ctx, cache, f, &base, &inc, &detail));
+	MR_TRY(rest_normals(ctx, kept, f, &base, &detail));
 	p = MR_NEW(ctx, detail.n, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_decode(ctx, &base, &inc, &detail, o->gain, p));
+	MR_TRY(mr_decode(ctx, &base, &kept->base, &detail, o->gain, p));
 	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));
 	return mr_layer_followed(ctx, f, "base");
 }
@@ -173,11 +145,9 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	if (o->level != MR_UNKNOWN)
 		n = o->level;
 	MR_TRY(respond(ctx, f, &control));
-	MR_TRY(mr_cache_levels(ctx, cache, f, &control, 180, n, &refined));
-	MR_TRY(mr_domain_on(ctx, &control, refined, n, &d));
+	MR_TRY(mr_level_cache_get(&cache->level, ctx, f, &control, 180, n, &refined));
+	mr_domain_on(ctx, &control, refined, n, &d);
 	p = MR_NEW(ctx, d.m.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
 	mr_domain_displace(ctx, &d, height, o->gain, p);
 	d.m.p = p;
 	drop_columns(f);
@@ -255,7 +225,7 @@ decode(
 		    "%s has targets and has not gone there: mr-solve comes before",
 		    from == MR_FROM_DETAIL ? "base" : "control");
 	if (from == MR_FROM_DETAIL)
-		MR_TRY(decode_detail(ctx, f, o, cache));
+		MR_TRY(decode_detail(ctx, f, o, &cache->connectivity));
 	else
 		MR_TRY(decode_control(ctx, f, o, cache));
 	mr_frame_drop(f, "handles", NULL, 0);
@@ -271,7 +241,9 @@ mr_decode_frame(
 	mr_decode_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
-	MR_TRY(decode(ctx, &done, opts ? opts : &defaults, cache, result, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
+	MR_TRY(decode(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache), result, &r));
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

@@ -41,7 +41,9 @@ mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 	mr_encode_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(encode(ctx, &done, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

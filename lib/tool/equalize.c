@@ -6,35 +6,31 @@
 #include "tool/cache.h"
 
 /* The folds of the surface that heights make over d. */
-static mr_status
+static void
 count_folds(mr_ctx *ctx, const mr_domain *d, const double *height, size_t *folds)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *p = MR_NEW(ctx, d->m.nv, mr_v3);
 	mr_mesh m = d->m;
 
-	if (!p)
-		return MR_EMEM;
 	mr_domain_displace(ctx, d, height, 1, p);
 	m.p = p;
 	*folds = mr_count_folds(ctx, &m, d->level[d->n].topo.twin);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Reports where other heights fold the surface. */
-static mr_status
+static void
 look_for_folds(mr_ctx *ctx, const mr_domain *d, const double *before, const double *after)
 {
 	enum { FEW = 5 };
 	size_t folds[2];
 
-	MR_TRY(count_folds(ctx, d, before, &folds[0]));
-	MR_TRY(count_folds(ctx, d, after, &folds[1]));
+	count_folds(ctx, d, before, &folds[0]);
+	count_folds(ctx, d, after, &folds[1]);
 	if (folds[1] > folds[0] + FEW)
 		mr_found(ctx, &(mr_finding){
 				  .kind = MR_FOLDED, .layer = "displacement", .count = folds[1] - folds[0] });
-	return MR_OK;
 }
 
 static mr_status
@@ -56,15 +52,13 @@ equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *c
 		MR_TRY(mr_check_number(ctx, "gain", gain[i], -1e6, 1e6));
 	for (size_t i = 0; i <= n; i++)
 		all[i] = i < gains ? gain[i] : 1;
-	MR_TRY(mr_cache_levels(ctx, cache, f, &control, 180, n, &level));
+	MR_TRY(mr_level_cache_get(&cache->level, ctx, f, &control, 180, n, &level));
 	x = MR_NEW(ctx, level[n].nv, double);
-	if (!x)
-		return MR_EMEM;
 	memcpy(x, height, level[n].nv * sizeof *x);
 	MR_TRY(mr_equalize(ctx, level, n, all, x));
 	if (f->key) {
-		MR_TRY(mr_domain_on(ctx, &control, level, n, &d));
-		MR_TRY(look_for_folds(ctx, &d, height, x));
+		mr_domain_on(ctx, &control, level, n, &d);
+		look_for_folds(ctx, &d, height, x);
 	}
 	mr_frame_drop(f, "displacement", "range", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", x, level[n].nv));
@@ -76,8 +70,9 @@ mr_equalize_frame(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr
 {
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
-	MR_TRY(equalize(ctx, &done, gain, gains, cache));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
+	MR_TRY(equalize(ctx, &done, gain, gains, mr_cache_for(ctx, cache)));
 	*f = done;
 	return MR_OK;
 }

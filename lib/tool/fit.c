@@ -15,8 +15,6 @@ find_sampling(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_sampling *s)
 	if (!mr_sample_meets_faces(f, points->name))
 		return MR_OK;
 	none = MR_NEW_ZERO(ctx, s->n, uint8_t);
-	if (!none)
-		return MR_EMEM;
 	s->outlier = none;
 	s->outliers = 0;
 	return MR_OK;
@@ -33,10 +31,8 @@ get_points(mr_ctx *ctx, mr_frame *f, const char *from, mr_mesh *points)
 	MR_TRY(mr_layer_surface_or_points(ctx, f, from, points));
 	if (points->nf == 0)
 		return MR_OK;
-	MR_TRY(mr_vertices_used(ctx, points->t, points->nf, points->nv, &used, &count));
+	mr_vertices_used(ctx, points->t, points->nf, points->nv, &used, &count);
 	p = MR_NEW(ctx, count, mr_v3);
-	if (!p)
-		return MR_EMEM;
 	for (size_t v = 0; v < points->nv; v++)
 		if (used[v])
 			p[n++] = points->p[v];
@@ -68,8 +64,6 @@ fit(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *o, mr_fit_result *r)
 	if (!strcmp(layer, "control"))
 		MR_TRY(mr_sample_report_move(ctx, f, from));
 	p = MR_NEW(ctx, control.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
 	MR_TRY(mr_fit(ctx, &control, crease, points.p, points.nv, known, o, p, r));
 	return mr_layer_move(ctx, f, layer, MR_RESHAPED, p, control.nv);
 }
@@ -81,7 +75,9 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 	mr_fit_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(fit(ctx, &done, opts ? opts : &defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

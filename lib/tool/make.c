@@ -16,10 +16,8 @@ put_mesh(mr_ctx *ctx, mr_frame *f, const mr_make_opts *o, mr_mesh *m)
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3), *normal = MR_NEW(ctx, m->nv, mr_v3);
 	double *uv = NULL;
 
-	if (!p || !normal)
-		return MR_EMEM;
 	if (o->texcoords && mr_solid_has_texcoords(o->solid))
-		MR_TRY(mr_solid_texcoords(ctx, o->solid, m, &uv));
+		mr_solid_texcoords(ctx, o->solid, m, &uv);
 	if (o->noise > 0) {
 		MR_TRY(mr_vertex_normals(ctx, m, NULL, normal));
 		memcpy(p, m->p, m->nv * sizeof *p);
@@ -41,11 +39,9 @@ put_points(mr_ctx *ctx, mr_frame *f, const mr_make_opts *o, const mr_mesh *m)
 	return mr_layer_put(ctx, f, "points", "normal", normal, o->points);
 }
 
-mr_status
-mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame)
+static mr_status
+make(mr_ctx *ctx, const mr_make_opts *o, mr_frame **frame)
 {
-	static const mr_make_opts defaults = MR_MAKE_DEFAULTS;
-	const mr_make_opts *o = opts ? opts : &defaults;
 	mr_frame *f;
 	mr_mesh m;
 
@@ -57,4 +53,13 @@ mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame)
 	MR_TRY(o->points ? put_points(ctx, f, o, &m) : put_mesh(ctx, f, o, &m));
 	*frame = f;
 	return MR_OK;
+}
+
+mr_status
+mr_make(mr_ctx *ctx, const mr_make_opts *opts, mr_frame **frame)
+{
+	static const mr_make_opts defaults = MR_MAKE_DEFAULTS;
+
+	MR_ENTER(ctx);
+	return make(ctx, opts ? opts : &defaults, frame);
 }

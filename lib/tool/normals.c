@@ -18,17 +18,15 @@ typedef struct places {
 } places;
 
 /* The side of each place's normal, where something tells; NULL: nothing does. */
-static mr_status
+static void
 find_sides(mr_ctx *ctx, const places *q, const mr_normals_opts *o, const mr_v3 *there, const mr_v3 *scanner,
     const mr_v3 **side)
 {
 	mr_v3 *d = MR_NEW(ctx, q->n, mr_v3);
 
-	if (!d)
-		return MR_EMEM;
 	*side = NULL;
 	if (!o->from && !scanner && !(o->keep && there))
-		return MR_OK;
+		return;
 	for (size_t k = 0; k < q->n; k++) {
 		size_t i = q->of[k];
 		d[k] = mr_vec(0, 0, 0);
@@ -38,7 +36,6 @@ find_sides(mr_ctx *ctx, const places *q, const mr_normals_opts *o, const mr_v3 *
 			d[k] = mr_sub(o->from ? *o->from : scanner[i], q->p[k]);
 	}
 	*side = d;
-	return MR_OK;
 }
 
 /* Points that are no place have the normal of the nearest one. */
@@ -49,8 +46,6 @@ fill_others(mr_ctx *ctx, const mr_mesh *m, const mr_sampling *s, const places *q
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
 	size_t n = 0;
 
-	if (!other || !nearest || !p)
-		return MR_EMEM;
 	for (size_t i = 0; i < m->nv; i++)
 		if (s->repeat[i] || s->outlier[i]) {
 			p[n] = m->p[i];
@@ -89,13 +84,10 @@ finish(const mr_normals_opts *o, const mr_v3 *there, size_t n, mr_v3 *normal, mr
 static mr_status
 look_for_walls(mr_ctx *ctx, const mr_v3 *place, size_t n, const mr_sampling *s)
 {
-	mr_status status;
 	mr_near *near;
 
 	MR_TRY(mr_near_build(ctx, place, n, &near));
-	status = mr_report_layers(ctx, place, n, near, s->usual);
-	mr_near_free(near);
-	return status;
+	return mr_report_layers(ctx, place, n, near, s->usual);
 }
 
 static mr_status
@@ -115,11 +107,9 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 		s.neighbours = o->neighbours;
 	if (mr_layer_has(f, m->name, "scanner"))
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "scanner", m->nv, &scanner));
-	MR_TRY(mr_sampling_places(ctx, m->p, &s, &q.p, &q.of, &q.n));
-	MR_TRY(find_sides(ctx, &q, o, there, scanner, &side));
+	mr_sampling_places(ctx, m->p, &s, &q.p, &q.of, &q.n);
+	find_sides(ctx, &q, o, there, scanner, &side);
 	of_places = MR_NEW(ctx, q.n, mr_v3);
-	if (!of_places)
-		return MR_EMEM;
 	MR_TRY(mr_prefix(ctx, mr_places_normals(ctx, q.p, q.n, &s, side, of_places), "%s", m->name));
 	if (!side)
 		MR_TRY(look_for_walls(ctx, q.p, q.n, &s));
@@ -174,8 +164,6 @@ put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_resul
 	if (mr_layer_has(f, layer, "normal"))
 		MR_TRY(mr_layer_get_rows(ctx, f, layer, "normal", m.nv, &there));
 	normal = MR_NEW(ctx, m.nv, mr_v3);
-	if (!normal)
-		return MR_EMEM;
 	MR_TRY(m.nf ? of_surface(ctx, &m, o, normal) : of_points(ctx, f, &m, o, there, normal, r));
 	finish(o, there, m.nv, normal, r);
 	tell(ctx, &m, normal);
@@ -190,7 +178,9 @@ mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_norma
 	mr_normals_result r = { 0 };
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(put_normals(ctx, &done, opts ? opts : &defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

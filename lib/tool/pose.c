@@ -19,8 +19,9 @@ mr_pose_frame(mr_ctx *ctx, mr_frame *f, const char *layer, size_t handle, const 
 	mr_frame done;
 	mr_handles h;
 
+	MR_ENTER(ctx);
 	MR_TRY(check_pose(ctx, pose));
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(mr_handles_of_frame(ctx, &done, layer, &h));
 	MR_TRY(mr_motion_put(ctx, &done, &h, &motion, 0));
 	*f = done;

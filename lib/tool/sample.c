@@ -75,8 +75,6 @@ put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points,
 	size_t count = 0, bytes;
 	const void *types;
 
-	if (!carried)
-		return MR_EMEM;
 	MR_TRY(get_columns(ctx, f, points, d->m.nv, carried, &count));
 	if (count == 0)
 		return MR_OK;
@@ -109,8 +107,6 @@ sample(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *o, mr_sample_result *resu
 	MR_TRY(mr_sample_report_move(ctx, f, target.name));
 	MR_TRY(mr_domain_of(ctx, f, &control, n, &d));
 	height = MR_NEW(ctx, d.m.nv, double);
-	if (!height)
-		return MR_EMEM;
 	if (target.nf) {
 		MR_TRY(mr_sample_mesh(ctx, &d, &target, o, height, result));
 	} else {
@@ -131,7 +127,9 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 	mr_sample_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(sample(ctx, &done, opts ? opts : &defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

@@ -31,8 +31,6 @@ first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool reset, uint32_t *
 	const uint32_t *there;
 
 	*region = MR_NEW_ZERO(ctx, m->nv, uint32_t);
-	if (!*region)
-		return MR_EMEM;
 	if (reset || !mr_layer_has(f, m->name, "region"))
 		return MR_OK;
 	MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &there));
@@ -42,13 +40,13 @@ first_regions(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool reset, uint32_t *
 
 /* A handle that free vertices follow and that meets fixed ones too, as a half-selected hand does, tears or
  * folds there: nothing between them can give way. */
-static mr_status
+static void
 look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 {
 	mr_finding found = { .kind = MR_HANDLE,
 		.layer = m->name,
 		.what = "a handle meets fixed vertices with nothing free between: free a ring around it, or "
-		        "select "
+			"select "
 			"all of the limb" };
 	uint32_t regions = MR_REGION_HANDLE;
 	bool *leads;
@@ -56,8 +54,6 @@ look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 	for (size_t v = 0; v < m->nv; v++)
 		regions = region[v] < regions ? regions : region[v] + 1;
 	leads = MR_NEW_ZERO(ctx, regions, bool);
-	if (!leads)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		leads[region[mr_he_from(m, h)]] |= region[mr_he_to(m, h)] == MR_REGION_FREE;
 	for (uint32_t h = 0; h < 3 * m->nf; h++) {
@@ -73,7 +69,6 @@ look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 	}
 	if (found.count)
 		mr_found(ctx, &found);
-	return MR_OK;
 }
 
 /* Poses belong to the vertices that their handles had. */
@@ -123,7 +118,7 @@ select_by(
 	MR_TRY(mr_select(ctx, f, &m, groups, s, region, result));
 	MR_TRY(look_at_poses(ctx, f, &m, region));
 	look_at_others(ctx, f, layer);
-	MR_TRY(look_at_borders(ctx, &m, region));
+	look_at_borders(ctx, &m, region);
 	return mr_layer_put_region(ctx, f, layer, region, m.nv);
 }
 
@@ -134,9 +129,10 @@ mr_select_by(
 	mr_select_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(select_by(ctx, &done, s, opts, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }
 
 static mr_status
@@ -154,8 +150,6 @@ crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_c
 	MR_TRY(read_groups(ctx, f, &m, groups));
 	region = MR_NEW(ctx, m.nv, uint32_t);
 	keep = MR_NEW(ctx, m.nv, bool);
-	if (!region || !keep)
-		return MR_EMEM;
 	for (size_t v = 0; v < m.nv; v++) /* what is kept is said, or what is dropped is */
 		region[v] = mr_selection_begins(s) == MR_REGION_FREE ? MR_REGION_FIXED : MR_REGION_FREE;
 	MR_TRY(mr_select(ctx, f, &m, groups, s, region, NULL));
@@ -176,9 +170,10 @@ mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, m
 	mr_crop_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(crop_by(ctx, &done, layer, s, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }
 
 /* What the tool calls a rule for this region. */
@@ -199,8 +194,6 @@ add_rules(mr_ctx *ctx, const mr_rule *rules, size_t n, mr_selection *s)
 		const char *option;
 		MR_TRY(mr_check_number(ctx, "region", rules[i].region, 0, MR_REGION_HANDLE + 65535));
 		option = option_of(ctx, rules[i].region);
-		if (!option)
-			return MR_EMEM;
 		MR_TRY(mr_selection_add(ctx, s, rules[i].region, option, rules[i].predicate));
 	}
 	return MR_OK;
@@ -213,6 +206,7 @@ mr_select_frame(mr_ctx *ctx, mr_frame *f, const mr_rule *rules, size_t n, const 
 	static const mr_select_opts defaults = MR_SELECT_DEFAULTS;
 	mr_selection s = { 0 };
 
+	MR_ENTER(ctx);
 	MR_TRY(add_rules(ctx, rules, n, &s));
 	return mr_select_by(ctx, f, &s, opts ? opts : &defaults, result);
 }
@@ -223,6 +217,7 @@ mr_crop_frame(
 {
 	mr_selection s = { .may_miss = true };
 
+	MR_ENTER(ctx);
 	if (n == 0)
 		return mr_fail(ctx, MR_EUSAGE, "no rule says what is kept or dropped");
 	MR_TRY(add_rules(ctx, rules, n, &s));

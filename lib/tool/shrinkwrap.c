@@ -14,8 +14,6 @@ wrap_control(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, const mr_sampling 
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
 	p = MR_NEW(ctx, control.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
 	MR_TRY(mr_prefix(ctx, mr_wrap_template(ctx, points->p, points->nv, sampling, &control, o, p, result),
 	    "%s", points->name));
 	return mr_layer_move(ctx, f, "control", MR_RESHAPED, p, control.nv);
@@ -37,8 +35,6 @@ get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides
 			without += !mr_finite(sides->toward[i]) || !(mr_norm2(sides->toward[i]) > 0);
 	} else if (mr_layer_has(f, points->name, "scanner")) {
 		mr_v3 *toward = MR_NEW(ctx, points->nv, mr_v3);
-		if (!toward)
-			return MR_EMEM;
 		MR_TRY(mr_layer_get_rows(ctx, f, points->name, "scanner", points->nv, &data));
 		for (size_t i = 0; i < points->nv; i++)
 			toward[i] = mr_sub(((const mr_v3 *)data)[i], points->p[i]);
@@ -91,7 +87,9 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 	mr_wrap_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(shrinkwrap(ctx, &done, opts ? opts : &defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

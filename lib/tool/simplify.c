@@ -39,8 +39,6 @@ limit_by_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *point
 	if (!known || s.places == s.outliers)
 		return MR_OK;
 	room = MR_NEW(ctx, m->nv, double);
-	if (!room)
-		return MR_EMEM;
 	mean = sqrt(s.area / (double)(s.places - s.outliers));
 	for (size_t v = 0; v < m->nv; v++)
 		room[v] = OFF * mean / sqrt(o->weight[v]) + s.noise;
@@ -69,8 +67,6 @@ weigh(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, mr_simplify_opts *o)
 	if (o->weight || points->nv == 0)
 		return MR_OK;
 	weight = MR_NEW(ctx, m->nv, double);
-	if (!weight)
-		return MR_EMEM;
 	MR_TRY(mr_simplify_weigh(ctx, m, points->p, points->nv, weight));
 	o->weight = weight;
 	return MR_OK;
@@ -151,8 +147,6 @@ sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, double *width, mr_
 	bool any;
 
 	*sharp = *m;
-	if (!p)
-		return MR_EMEM;
 	MR_TRY(mr_sharpen(ctx, m, points->p, points->nv, *width, p, &any));
 	if (any)
 		sharp->p = p;
@@ -167,8 +161,6 @@ put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_mesh *points,
 {
 	uint8_t *mark = MR_NEW(ctx, 3 * out->nf, uint8_t);
 
-	if (!mark)
-		return MR_EMEM;
 	MR_TRY(mr_find_creases(ctx, out, points->p, points->nv, width, mark, count));
 	return *count ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
 }
@@ -196,8 +188,6 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
 		MR_TRY(limit_by_frame(ctx, f, &m, &points, &o));
 	onto = MR_NEW(ctx, m.nv, uint32_t);
-	if (!onto)
-		return MR_EMEM;
 	MR_TRY(crease_width(ctx, f, &m, &points, &o, &width));
 	sharp = m;
 	looked = width > 0;
@@ -222,7 +212,9 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 	mr_simplify_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(simplify(ctx, &done, opts ? *opts : defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

@@ -22,14 +22,12 @@ smooth(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *o, mr_smooth_result *r)
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
 	from_mesh = !strcmp(layer, "mesh");
 	p = MR_NEW(ctx, m.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
 	MR_TRY(mr_smooth(ctx, &m, o, p, r));
 	if (f->key && o->time > defaults.time && r->bounded == m.nv)
 		mr_found(
 		    ctx, &(mr_finding){ .kind = MR_LIMIT, .what = "the body is too thin for a longer time" });
 	if (from_mesh)
-		MR_TRY(mr_source_map_identity(ctx, &m, &map));
+		mr_source_map_identity(ctx, &m, &map);
 	m.p = p;
 	MR_TRY(mr_layer_put_mesh(ctx, f, "base", &m));
 	return from_mesh ? mr_source_map_put(ctx, f, &map, m.nv) : MR_OK;
@@ -41,7 +39,9 @@ mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_
 	mr_smooth_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
 	MR_TRY(smooth(ctx, &done, opts ? opts : &defaults, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

@@ -93,8 +93,6 @@ read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_solve_opts *o, mr
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
 	if (handles) {
 		maps = MR_NEW(ctx, 1, mr_deform_maps);
-		if (!maps)
-			return MR_EMEM;
 		MR_TRY(mr_handles_rows(ctx, f, 1, &row));
 		*maps = (mr_deform_maps){ row.map, row.turn, row.n };
 	}
@@ -197,10 +195,8 @@ verify(mr_ctx *ctx, mr_frame *f, const mr_mesh *rest, const mr_deform *d, const 
 	return mr_deform_verify(ctx, rest, &ties, d, task, p, &figures->error, &figures->condition);
 }
 
-/* keep: the arena of the system. */
 static mr_status
-solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_cache *kept,
-    mr_solve_result *result)
+solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, mr_solve_result *result)
 {
 	static const char *const reads[] = { "base", "control", NULL };
 	const char *layer, *column;
@@ -221,9 +217,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	rest = m;
 	MR_TRY(read_rest(ctx, f, posing, &rest, &column));
 	p = MR_NEW(ctx, m.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_deform_cache_get(kept, ctx, keep, f, &rest, column, &opts, &d));
+	MR_TRY(mr_deform_cache_get(kept, ctx, f, &rest, column, &opts, &d));
 	MR_TRY(check_target(ctx, &m, &task, mr_deform_region(d)));
 	if (task.maps)
 		MR_TRY(mr_handles_check_few(ctx, f, &m, mr_deform_region(d)));
@@ -249,30 +243,16 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_ctx *keep, mr_deform_
 	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);
 }
 
-static void
-drop_deform(mr_cache *cache)
-{
-	mr_deform_cache_free(&cache->deform, &cache->deform_keep);
-}
-
 mr_status
 mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache, mr_solve_result *result)
 {
 	static const mr_solve_opts defaults = MR_SOLVE_DEFAULTS;
-	const mr_solve_opts *o = opts ? opts : &defaults;
-	mr_deform_cache own = { 0 };
 	mr_solve_result r;
-	mr_status status;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
-	if (cache) {
-		cache->drop_deform = drop_deform;
-		status = solve(ctx, &done, o, mr_cache_arena(ctx, &cache->deform_keep), &cache->deform, &r);
-	} else {
-		status = solve(ctx, &done, o, ctx, &own, &r);
-		mr_deform_free(own.deform);
-	}
-	MR_TRY(status);
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
+	MR_TRY(solve(ctx, &done, opts ? opts : &defaults, &mr_cache_for(ctx, cache)->deform, &r));
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

@@ -20,14 +20,12 @@ typedef struct parts {
 
 /* Sorts n rows by part, those of one in ascending order.  part_of: of row i is that of vertex of[i], NULL: i.
  */
-static mr_status
+static void
 sort_rows(mr_ctx *ctx, const mr_connected *c, const mr_tri *t, size_t n, uint32_t **row, size_t **first)
 {
 	size_t *at = MR_NEW_ZERO(ctx, c->parts + 2, size_t);
 
 	*row = MR_NEW(ctx, n, uint32_t);
-	if (!at || !*row)
-		return MR_EMEM;
 	for (size_t i = 0; i < n; i++)
 		at[c->part[t ? t[i].v[0] : i] + 2]++;
 	for (size_t k = 2; k < c->parts + 2; k++)
@@ -35,7 +33,6 @@ sort_rows(mr_ctx *ctx, const mr_connected *c, const mr_tri *t, size_t n, uint32_
 	for (size_t i = 0; i < n; i++)
 		(*row)[at[c->part[t ? t[i].v[0] : i] + 1]++] = (uint32_t)i;
 	*first = at;
-	return MR_OK;
 }
 
 static mr_status
@@ -45,11 +42,9 @@ find_parts(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_split_opts *o, p
 	size_t least = o->least;
 
 	MR_TRY(mr_connected_of(ctx, f, m, o->distance * unit, &p->of));
-	MR_TRY(sort_rows(ctx, &p->of, NULL, m->nv, &p->vertex, &p->first_vertex));
-	MR_TRY(sort_rows(ctx, &p->of, m->t, m->nf, &p->face, &p->first_face));
+	sort_rows(ctx, &p->of, NULL, m->nv, &p->vertex, &p->first_vertex);
+	sort_rows(ctx, &p->of, m->t, m->nf, &p->face, &p->first_face);
 	p->number = MR_NEW(ctx, m->nv, uint32_t);
-	if (!p->number)
-		return MR_EMEM;
 	for (size_t i = 0; i < m->nv; i++)
 		p->number[p->vertex[i]] = (uint32_t)(i - p->first_vertex[p->of.part[p->vertex[i]]]);
 	if (least == 0)
@@ -94,28 +89,23 @@ take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, con
 		p->first_vertex[k + 1] - p->first_vertex[k], p->first_face[k + 1] - p->first_face[k],
 		p->number };
 
-	if (!part)
-		return MR_EMEM;
-	MR_TRY(mr_frame_copy(ctx, f, part));
+	mr_frame_copy(ctx, f, part);
 	keep_only(part, layer);
 	part->key = true;
 	part->name = mr_format(ctx, "%s-%zu", f->name, k + 1);
-	if (!part->name)
-		return MR_EMEM;
 	*out = part;
 	MR_TRY(mr_layer_keep(ctx, part, layer, &s));
 	return mr_name_lists_cut(ctx, names, part, layer);
 }
 
-static mr_status
+static void
 lose_layers(mr_ctx *ctx, const mr_frame *f, const char *layer)
 {
 	const char *others;
 
-	MR_TRY(mr_layer_names(ctx, f, layer, &others));
+	mr_layer_names(ctx, f, layer, &others);
 	if (*others)
 		mr_lost(ctx, layer, 1, others);
-	return MR_OK;
 }
 
 static void
@@ -129,12 +119,10 @@ tell(mr_ctx *ctx, const mr_mesh *m, const parts *p, mr_split_result *r)
 	mr_lost(ctx, m->name, r->dropped, "small parts");
 }
 
-mr_status
-mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***out, mr_split_result *result)
+static mr_status
+split(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o, mr_frame ***out, mr_split_result *result)
 {
 	static const char *const reads[] = { "mesh", "control", "points", NULL };
-	static const mr_split_opts defaults;
-	const mr_split_opts *o = opts ? opts : &defaults;
 	const char *layer;
 	mr_split_result r;
 	mr_name_lists names;
@@ -152,15 +140,22 @@ mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***
 		    ctx, MR_EUSAGE, "%s has faces, which connect it: --distance is of points", layer);
 	MR_TRY(find_parts(ctx, f, &m, o, &p));
 	part = MR_NEW(ctx, p.given, mr_frame *);
-	if (!part)
-		return MR_EMEM;
 	MR_TRY(mr_name_lists_of(ctx, f, layer, &names));
 	for (size_t k = 0; k < p.given; k++)
 		MR_TRY(take_part(ctx, f, layer, &p, &names, k, &part[k]));
-	MR_TRY(lose_layers(ctx, f, layer));
+	lose_layers(ctx, f, layer);
 	tell(ctx, &m, &p, &r);
 	*out = part;
 	if (result)
 		*result = r;
 	return MR_OK;
+}
+
+mr_status
+mr_split_frame(mr_ctx *ctx, mr_frame *f, const mr_split_opts *opts, mr_frame ***out, mr_split_result *result)
+{
+	static const mr_split_opts defaults;
+
+	MR_ENTER(ctx);
+	return split(ctx, f, opts ? opts : &defaults, out, result);
 }

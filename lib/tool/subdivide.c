@@ -7,7 +7,7 @@
 #include "tool/cache.h"
 
 /* The finer mesh, and its limit normals (NULL: not asked for). */
-static mr_status
+static void
 refine(mr_ctx *ctx, const mr_mesh *m, const mr_loop *level, const mr_subdivide_opts *o, mr_mesh *out,
     const mr_v3 **normal)
 {
@@ -17,21 +17,18 @@ refine(mr_ctx *ctx, const mr_mesh *m, const mr_loop *level, const mr_subdivide_o
 
 	*normal = NULL;
 	if (o->limit) {
-		MR_TRY(mr_domain_on(ctx, m, level, o->level, &d));
+		mr_domain_on(ctx, m, level, o->level, &d);
 		*normal = d.normal;
 		*out = d.m;
-		return MR_OK;
+		return;
 	}
 	p = MR_NEW(ctx, l->nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_loop_values(ctx, level, o->level, 3, (const double *)m->p, (double *)p));
+	mr_loop_values(ctx, level, o->level, 3, (const double *)m->p, (double *)p);
 	*out = (mr_mesh){ m->name, p, l->t, l->nv, l->nf };
-	return MR_OK;
 }
 
 /* Normals that went along from flat triangles turn with these as they become the finer surface. */
-static mr_status
+static void
 turn_normals(mr_ctx *ctx, const mr_refined *r, const mr_carried *carried, size_t n)
 {
 	mr_v3 *vertex = NULL, *corner = NULL, *p;
@@ -43,13 +40,11 @@ turn_normals(mr_ctx *ctx, const mr_refined *r, const mr_carried *carried, size_t
 		else if (!strcmp(carried[i].name, "corner_normal"))
 			corner = carried[i].to;
 	if (!vertex && !corner)
-		return MR_OK;
+		return;
 	p = MR_NEW(ctx, r->fine.nv, mr_v3);
-	if (!p)
-		return MR_EMEM;
-	MR_TRY(mr_refined_flat(ctx, r, p));
+	mr_refined_flat(ctx, r, p);
 	flat.p = p;
-	return mr_turn_normals(ctx, &flat, r->fine.p, vertex, corner);
+	mr_turn_normals(ctx, &flat, r->fine.p, vertex, corner);
 }
 
 /* limit: normals of the limit surface, or NULL. */
@@ -61,7 +56,7 @@ put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_refined *r, const mr_v
 
 	MR_TRY(mr_refine_columns(ctx, f, layer, r, &carried, &n));
 	if (r->level)
-		MR_TRY(turn_normals(ctx, r, carried, n));
+		turn_normals(ctx, r, carried, n);
 	if (strcmp(layer, "mesh")) {
 		mr_frame_drop(f, "mesh", NULL, 0);
 	} else if (r->fine.nv > r->m.nv) {
@@ -80,9 +75,10 @@ subdivide(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_subdivide_opts *o
 {
 	const mr_loop *level;
 
-	MR_TRY(mr_cache_levels(ctx, cache, f, m, o->crease, o->level, &level));
+	MR_TRY(mr_level_cache_get(&cache->level, ctx, f, m, o->crease, o->level, &level));
 	*r = (mr_refined){ .m = *m, .level = level, .n = o->level };
-	return refine(ctx, m, level, o, &r->fine, limit);
+	refine(ctx, m, level, o, &r->fine, limit);
+	return MR_OK;
 }
 
 /* Folds that the rules have made, where triangles are long and thin; those of the input stay, in two edges
@@ -147,7 +143,9 @@ mr_subdivide_frame(
 	mr_subdivide_result r;
 	mr_frame done;
 
-	MR_TRY(mr_frame_copy(ctx, f, &done));
-	MR_TRY(subdivide_frame(ctx, &done, opts ? opts : &defaults, cache, &r));
-	return mr_frame_finish(f, &done, result, &r, sizeof r);
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
+	MR_TRY(subdivide_frame(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache), &r));
+	mr_frame_finish(f, &done, result, &r, sizeof r);
+	return MR_OK;
 }

@@ -28,13 +28,12 @@ rows_of(const mr_grid *g)
 	return g->n[1] * g->n[2];
 }
 
-mr_status
+void
 mr_inside_new(mr_ctx *ctx, const mr_grid *g, mr_inside *in)
 {
 	in->g = g;
 	in->words = (g->n[0] + 63) / 64;
 	in->bit = MR_NEW_ZERO(ctx, in->words * rows_of(g), uint64_t);
-	return in->bit ? MR_OK : MR_EMEM;
 }
 
 /* The nodes of word w of a row that are not as the one before is. */
@@ -50,8 +49,6 @@ find_runs(mr_ctx *ctx, const mr_inside *in, runs *r)
 	size_t rows = rows_of(in->g), n = 0;
 
 	*r = (runs){ .g = in->g, .first = MR_NEW(ctx, rows + 1, size_t) };
-	if (!r->first)
-		return MR_EMEM;
 	for (size_t row = 0; row < rows; row++) {
 		r->first[row] = n++;
 		for (size_t w = 0; w < in->words; w++)
@@ -62,8 +59,6 @@ find_runs(mr_ctx *ctx, const mr_inside *in, runs *r)
 		return mr_fail(ctx, MR_ERANGE, "a volume of %zu runs is too large", n);
 	r->start = MR_NEW(ctx, n, uint32_t);
 	r->part = mr_sets_new(ctx, n);
-	if (!r->start || !r->part)
-		return MR_EMEM;
 	for (size_t row = 0; row < rows; row++) {
 		size_t at = r->first[row];
 		r->start[at++] = 0;
@@ -177,14 +172,12 @@ count_point(const runs *r, mr_v3 p, double area, tally *t)
 	}
 }
 
-static mr_status
+static void
 count_all(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, tally *t)
 {
 	t->points = MR_NEW_ZERO(ctx, r->n, uint32_t);
 	t->area = MR_NEW_ZERO(ctx, r->n, double);
 	t->wall = MR_NEW_ZERO(ctx, r->n, uint32_t);
-	if (!t->points || !t->area || !t->wall)
-		return MR_EMEM;
 	for (size_t row = 0; row < rows_of(r->g); row++)
 		for (size_t k = r->first[row] + 1; k < r->first[row + 1]; k++) {
 			t->wall[r->part[k]]++;
@@ -192,7 +185,6 @@ count_all(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, tally *t)
 		}
 	for (size_t i = 0; i < s->n; i++)
 		count_point(r, s->p[i], s->plane.area[i], t);
-	return MR_OK;
 }
 
 /*
@@ -210,14 +202,12 @@ is_supported(const mr_volume_cloud *s, const runs *r, const tally *t, uint32_t p
 
 /* Whether the runs of each part, by its root, are inside in the end; a part that is dropped becomes what is
  * around it, which has the lower root: the run before its first. */
-static mr_status
+static void
 judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool **inside, mr_cleaning *c)
 {
 	bool *in = MR_NEW_ZERO(ctx, r->n, bool);
 	uint32_t largest = 0;
 
-	if (!in)
-		return MR_EMEM;
 	for (size_t row = 0; row < rows_of(r->g); row++)
 		for (size_t k = r->first[row] + 1; k < r->first[row + 1]; k += 2)
 			if (largest == 0 || t->area[r->part[k]] > t->area[largest])
@@ -235,7 +225,6 @@ judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool
 			}
 		}
 	*inside = in;
-	return MR_OK;
 }
 
 static void
@@ -259,8 +248,8 @@ mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_inside *in, mr_cleanin
 
 	MR_TRY(find_runs(ctx, in, &r));
 	join_runs(&r);
-	MR_TRY(count_all(ctx, s, &r, &t));
-	MR_TRY(judge(ctx, s, &r, &t, &inside, &made));
+	count_all(ctx, s, &r, &t);
+	judge(ctx, s, &r, &t, &inside, &made);
 	turn_runs(&r, inside, in);
 	*c = made;
 	mr_mark_release(ctx, mark);

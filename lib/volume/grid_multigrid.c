@@ -32,7 +32,7 @@ nodes_of(const mr_grid_level *l)
 	return l->n[0] * l->n[1] * l->n[2];
 }
 
-mr_status
+void
 mr_multigrid_begin(
     mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, mr_grid_multigrid *m)
 {
@@ -46,15 +46,12 @@ mr_multigrid_begin(
 		l->u = i == 0 ? u : MR_NEW(ctx, nodes_of(l), float);
 		l->b = MR_NEW_ZERO(ctx, nodes_of(l), float);
 		l->screen = !screened ? NULL : i == 0 ? l->b : MR_NEW_ZERO(ctx, nodes_of(l), float);
-		if (!l->u || !l->b || (screened && !l->screen))
-			return MR_EMEM;
 		memset(l->u, 0, nodes_of(l) * sizeof *l->u);
 	}
 	m->slab = SLAB / layer < 4 ? 9 : 2 * (SLAB / layer / 2) + 1;
 	if (m->slab > n[2])
 		m->slab = n[2];
 	m->residual = MR_NEW(ctx, m->slab * layer, float);
-	return m->residual ? MR_OK : MR_EMEM;
 }
 
 /* A loop over the inner layers of a level. */

@@ -263,8 +263,6 @@ mr_isosurface(mr_ctx *ctx, const mr_grid *g, const float *f, mr_mesh *out)
 	mr_mark mark;
 
 	MR_TRY(check_faces(ctx, g, f));
-	if (!kinds)
-		return MR_EMEM;
 	for (unsigned inside = 0; inside < 256; inside++)
 		make_kind(inside, &kinds[inside]);
 	m.kinds = kinds;
@@ -274,12 +272,9 @@ mr_isosurface(mr_ctx *ctx, const mr_grid *g, const float *f, mr_mesh *out)
 		    ctx, MR_ERANGE, "an isosurface of %zu vertices and %zu faces is too large", m.nv, m.nf);
 	m.p = MR_NEW(ctx, m.nv, mr_v3);
 	m.t = MR_NEW(ctx, m.nf, mr_tri);
-	if (!m.p || !m.t)
-		return MR_EMEM;
 	mark = mr_mark_take(ctx);
 	for (int i = 0; i < 6; i++)
-		if (!(m.vertex[i / 2][i % 2] = MR_NEW(ctx, g->n[0] * g->n[1], uint32_t)))
-			return MR_EMEM;
+		m.vertex[i / 2][i % 2] = MR_NEW(ctx, g->n[0] * g->n[1], uint32_t);
 	m.nv = m.nf = 0;
 	add_layer(&m, 0);
 	for (size_t z = 0; z + 1 < g->n[2]; z++) {

@@ -273,8 +273,6 @@ look_beside(mr_ctx *ctx, leveling *l, run r, mr_volume_result *result)
 	int from = below ? r.first : r.last, to = below ? r.first - 1 : r.last + 1;
 	int64_t *sum = MR_NEW(ctx, blocks_of(l), int64_t), euler;
 
-	if (!sum)
-		return MR_EMEM;
 	MR_TRY(try_level(ctx, l, from, &euler));
 	memcpy(sum, l->sum, blocks_of(l) * sizeof *sum);
 	MR_TRY(try_level(ctx, l, to, &euler));
@@ -291,7 +289,8 @@ begin(mr_ctx *ctx, leveling *l)
 	for (unsigned inside = 0; inside < 256; inside++)
 		l->part[inside] = (int8_t)cube_part(inside);
 	l->sum = MR_NEW(ctx, blocks_of(l), int64_t);
-	return l->sum ? mr_inside_new(ctx, l->g, &l->at) : MR_EMEM;
+	mr_inside_new(ctx, l->g, &l->at);
+	return MR_OK;
 }
 
 mr_status

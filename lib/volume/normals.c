@@ -24,7 +24,7 @@ orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward, bool flat)
 	size_t untold = 0;
 
 	if (!flat)
-		MR_TRY(mr_volume_untold(ctx, s, toward, &untold));
+		mr_volume_untold(ctx, s, toward, &untold);
 	if (untold > 0)
 		MR_TRY(mr_volume_orient_outward(ctx, s));
 	if (untold == s->n)

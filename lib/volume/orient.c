@@ -125,14 +125,12 @@ find_kinds(void *arg, size_t begin, size_t end)
 		}
 }
 
-static mr_status
+static void
 sort_links(mr_ctx *ctx, const mr_volume_cloud *s, order *o)
 {
 	size_t links = s->n * s->plane.links, first[BINS + 1] = { 0 };
 
 	*o = (order){ s, MR_NEW(ctx, links, uint16_t), MR_NEW(ctx, links, uint32_t), 0 };
-	if (!o->kind || !o->sorted)
-		return MR_EMEM;
 	mr_parallel(ctx, s->n, GRAIN, find_kinds, o);
 	for (size_t l = 0; l < links; l++)
 		if (o->kind[l] != NONE)
@@ -143,7 +141,6 @@ sort_links(mr_ctx *ctx, const mr_volume_cloud *s, order *o)
 	for (size_t l = 0; l < links; l++)
 		if (o->kind[l] != NONE)
 			o->sorted[first[o->kind[l] / 2]++] = (uint32_t)l;
-	return MR_OK;
 }
 
 double
@@ -164,8 +161,6 @@ begin(mr_ctx *ctx, const mr_volume_cloud *s, const double *vote, const double *f
 	q->size = MR_NEW(ctx, s->n, uint32_t);
 	q->vote = MR_NEW(ctx, s->n, double);
 	q->flood = MR_NEW(ctx, s->n, double);
-	if (!q->parent || !q->sign || !q->size || !q->vote || !q->flood)
-		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++) {
 		q->parent[i] = (uint32_t)i;
 		q->sign[i] = 1;
@@ -188,7 +183,7 @@ mr_volume_orient(mr_ctx *ctx, mr_volume_cloud *s, double *vote, const double *fl
 		return mr_fail(ctx, MR_ERANGE, "%zu points are too many for a volume", s->n);
 	MR_TRY(begin(ctx, s, vote, flood, &q));
 	q.loud = apart ? mr_volume_loud(vote, s->n) : INFINITY;
-	MR_TRY(sort_links(ctx, s, &o));
+	sort_links(ctx, s, &o);
 	for (size_t k = 0; k < o.count; k++) {
 		uint32_t l = o.sorted[k];
 		join(&q, (uint32_t)(l / links), s->plane.neighbor[l], o.kind[l] & 1 ? -1 : 1);

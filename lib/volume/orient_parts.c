@@ -61,7 +61,7 @@ join_wrong(const mr_volume_cloud *s, const uint8_t *wrong, const double *at, par
 	}
 }
 
-mr_status
+void
 mr_volume_turn_parts(
     mr_ctx *ctx, mr_volume_cloud *s, const mr_grid *g, const float *u, double rise, size_t *turned)
 {
@@ -71,8 +71,6 @@ mr_volume_turn_parts(
 	parts q = { mr_sets_new(ctx, s->n), MR_NEW_ZERO(ctx, s->n, uint32_t),
 		MR_NEW_ZERO(ctx, s->n, double) };
 
-	if (!at || !wrong || !q.of || !q.size || !q.sum)
-		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
 		at[i] = mr_volume_at(g, u, s->p[i]);
 	for (size_t i = 0; i < s->n; i++)
@@ -88,5 +86,4 @@ mr_volume_turn_parts(
 		++*turned;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -25,8 +25,6 @@ mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward)
 	mr_mark mark = mr_mark_take(ctx);
 	double *vote = MR_NEW_ZERO(ctx, s->n, double);
 
-	if (!vote)
-		return MR_EMEM;
 	for (size_t i = 0; toward && i < s->n; i++)
 		vote[i] = side_of(s, toward, i);
 	MR_TRY(mr_volume_orient(ctx, s, vote, NULL, true));
@@ -46,15 +44,13 @@ join_links(const mr_volume_cloud *s, uint32_t *part)
 			mr_sets_join(part, (uint32_t)(l / s->plane.links), s->plane.neighbor[l]);
 }
 
-mr_status
+void
 mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, size_t *untold)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *part = mr_sets_new(ctx, s->n);
 	bool *told = MR_NEW_ZERO(ctx, s->n, bool);
 
-	if (!part || !told)
-		return MR_EMEM;
 	join_links(s, part);
 	for (uint32_t i = 0; i < s->n; i++)
 		if (side_of(s, toward, i) != 0)
@@ -63,7 +59,6 @@ mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, siz
 	for (uint32_t i = 0; i < s->n; i++)
 		*untold += !told[mr_sets_root(part, i)];
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 mr_volume_sides

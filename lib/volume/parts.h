@@ -37,7 +37,7 @@ mr_status mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s);
 mr_status mr_volume_orient_toward(mr_ctx *ctx, mr_volume_cloud *s, const mr_v3 *toward);
 
 /* How many points are of parts, by the links, in which no direction tells a side.  orient_toward.c */
-mr_status mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
+void mr_volume_untold(mr_ctx *ctx, const mr_volume_cloud *s, const mr_v3 *toward, size_t *untold);
 
 /* Reports MR_UNCERTAIN where neighbours on alike planes have signs that are not.  volume.c */
 void mr_volume_report_patches(mr_ctx *ctx, const mr_volume_cloud *s);
@@ -67,7 +67,7 @@ double mr_volume_loud(const double *vote, size_t n);
 
 /* Turns the normals of parts that are inside out over by the indicator u, which rises by so much across most
  * of the surface.  *turned: how many points these have.  orient_parts.c */
-mr_status mr_volume_turn_parts(
+void mr_volume_turn_parts(
     mr_ctx *ctx, mr_volume_cloud *s, const mr_grid *g, const float *u, double rise, size_t *turned);
 
 /* ---- grid_multigrid.c: (screen - Laplacian) u = b on the nodes, u = 0 on the faces of the grid ---- */
@@ -93,7 +93,7 @@ size_t mr_multigrid_nodes(size_t cells, size_t levels);
 size_t mr_multigrid_levels(size_t cells);
 
 /* Arrays for all levels, zero; u: that of the finest, the caller's. */
-mr_status mr_multigrid_begin(
+void mr_multigrid_begin(
     mr_ctx *ctx, const size_t n[3], size_t levels, float *u, bool screened, mr_grid_multigrid *m);
 
 /* The solution from scratch, coarse to fine; the screen of the coarser levels follows the finest's. */
@@ -118,7 +118,7 @@ typedef struct mr_grid_points {
 } mr_grid_points;
 
 /* Of the points of a depth, or of all (DEPTHS); grid is theirs. */
-mr_status mr_volume_field(
+void mr_volume_field(
     mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *grid, unsigned depth, mr_grid_points *f);
 
 /* to = divergence of the points' normals, weighted by area, in the units of the equation. */
@@ -146,7 +146,7 @@ typedef struct mr_inside {
 } mr_inside;
 
 /* All outside. */
-mr_status mr_inside_new(mr_ctx *ctx, const mr_grid *g, mr_inside *in);
+void mr_inside_new(mr_ctx *ctx, const mr_grid *g, mr_inside *in);
 
 /*
  * Turns parts of the inside, and cavities, whose walls have few points for their size; the largest part

@@ -32,7 +32,7 @@ find_planes(mr_ctx *ctx, const mr_sampling *of, mr_volume_cloud *s)
 
 	MR_TRY(mr_cloud_planes(ctx, s->p, s->n, near, near - 1 < LINKS ? near - 1 : LINKS,
 	    of->neighbours <= NEAREST, &s->plane));
-	MR_TRY(mr_median(ctx, s->plane.area, s->n, &area));
+	mr_median(ctx, s->plane.area, s->n, &area);
 	s->spacing = sqrt(area);
 	s->noise = sqrt((double)of->neighbours / NEAREST);
 	return MR_OK;
@@ -56,19 +56,16 @@ usual_area(const mr_volume_cloud *s, const double *area, size_t i)
 	return n > 0 ? least[n / 4] : area[i];
 }
 
-static mr_status
+static void
 limit_areas(mr_ctx *ctx, mr_volume_cloud *s)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *area = MR_NEW(ctx, s->n, double);
 
-	if (!area)
-		return MR_EMEM;
 	memcpy(area, s->plane.area, s->n * sizeof *area);
 	for (size_t i = 0; i < s->n; i++)
 		s->plane.area[i] = fmin(area[i], AREA_MOST * usual_area(s, area, i));
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* At equal strides along the curve, so that every place keeps its share: what is left may be less noisy. */
@@ -110,5 +107,6 @@ mr_volume_samples(
 	}
 	MR_TRY(find_planes(ctx, &of, s));
 	s->box = mr_box_of(s->p, s->n);
-	return limit_areas(ctx, s);
+	limit_areas(ctx, s);
+	return MR_OK;
 }

@@ -52,7 +52,7 @@ mr_volume_at(const mr_grid *g, const float *u, mr_v3 p)
 	return sum;
 }
 
-mr_status
+void
 mr_volume_field(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *grid, unsigned depth, mr_grid_points *f)
 {
 	size_t layers = grid->n[2] - 1, *at;
@@ -63,8 +63,6 @@ mr_volume_field(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *grid, unsi
 	f->order = MR_NEW(ctx, s->n, uint32_t);
 	mark = mr_mark_take(ctx);
 	at = MR_NEW(ctx, layers, size_t);
-	if (!f->first || !f->order || !at)
-		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
 		if (depth == DEPTHS || s->depth[i] == depth)
 			f->first[spot_of(grid, s->p[i], mr_vec(0, 0, 0)).x[2] + 1]++;
@@ -76,7 +74,6 @@ mr_volume_field(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *grid, unsi
 		if (depth == DEPTHS || s->depth[i] == depth)
 			f->order[at[spot_of(grid, s->p[i], mr_vec(0, 0, 0)).x[2]]++] = (uint32_t)i;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 typedef struct work {

@@ -239,8 +239,6 @@ orient_by_votes(mr_ctx *ctx, volume *v, const float *w)
 	mr_mark mark = mr_mark_take(ctx);
 	double *flood = MR_NEW(ctx, v->s.n, double);
 
-	if (!flood)
-		return MR_EMEM;
 	mr_parallel(ctx, v->s.n, GRAIN, measure_flood, &(across){ v, w, flood, 1, 0 });
 	MR_TRY(mr_volume_orient(ctx, &v->s, v->value, flood, true));
 	if (is_torn(v))
@@ -269,7 +267,7 @@ orient_by_flood(mr_ctx *ctx, volume *v, float *w)
 	mr_grid_level *l = &m.level[0];
 	size_t nodes = mr_grid_nodes(&v->grid[0]);
 
-	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, w, true, &m));
+	mr_multigrid_begin(ctx, v->grid[0].n, v->levels, w, true, &m);
 	/* the screen of a step; a coarser level's step is twice as long */
 	for (size_t d = v->depths; d-- > 0;) {
 		mr_volume_spread(ctx, &v->s, &v->f[d], NULL, m.level[d].screen);
@@ -300,7 +298,7 @@ measure_rise(void *arg, size_t begin, size_t end)
  * surface half is not what it has there: the greater one of the median rise of some points, halved, and the
  * median value at them.
  */
-static mr_status
+static void
 half_rise(mr_ctx *ctx, const volume *v, const float *u, double *half)
 {
 	enum { MOST = 10007 };
@@ -308,8 +306,6 @@ half_rise(mr_ctx *ctx, const volume *v, const float *u, double *half)
 	size_t m = v->s.n < MOST ? v->s.n : MOST;
 	double *rise = MR_NEW(ctx, m, double);
 
-	if (!rise)
-		return MR_EMEM;
 	*half = 0;
 	for (int reach = 1; reach <= 3; reach++) {
 		mr_parallel(ctx, m, GRAIN, measure_rise, &(across){ v, u, rise, reach, m });
@@ -319,7 +315,6 @@ half_rise(mr_ctx *ctx, const volume *v, const float *u, double *half)
 		rise[i] = mr_volume_at(&v->grid[0], u, v->s.p[i * v->s.n / m]);
 	*half = fmax(*half, mr_kth(rise, m, m / 2));
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Turns the normals over along which the indicator u rises and whose side is not seen; how many. */
@@ -378,7 +373,7 @@ settle(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 }
 
 /* Settles, and again as long as whole parts were the wrong way round, and fewer points each time. */
-static mr_status
+static void
 solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 {
 	size_t before = SIZE_MAX, turned;
@@ -387,14 +382,13 @@ solve_indicator(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 	v->found.rounds = 0;
 	settle(ctx, v, m);
 	for (int i = 0; i < PARTS_MOST && may_turn(v); i++) {
-		MR_TRY(half_rise(ctx, v, m->level[0].u, &half));
-		MR_TRY(mr_volume_turn_parts(ctx, &v->s, &v->grid[0], m->level[0].u, 2 * half, &turned));
+		half_rise(ctx, v, m->level[0].u, &half);
+		mr_volume_turn_parts(ctx, &v->s, &v->grid[0], m->level[0].u, 2 * half, &turned);
 		if (turned == 0 || turned >= before)
 			break;
 		before = turned;
 		settle(ctx, v, m);
 	}
-	return MR_OK;
 }
 
 /* How far from p along d, in steps, the value is above (rise 1) or below (-1) `at`, what it is at p: THIN at
@@ -430,24 +424,22 @@ measure_level(void *arg, size_t begin, size_t end)
 }
 
 /* Level 1's u = mean of the values of the points nearby; `far` where there are none. */
-static mr_status
+static void
 spread_values(mr_ctx *ctx, volume *v, mr_grid_multigrid *m, double far)
 {
 	static const float LITTLE = 0.05f; /* 0.01: 127 right; 0.2: 130, at distances 2 % longer */
 	size_t depths = m->levels < 1 + NEARBY ? m->levels : 1 + NEARBY;
 	mr_mark mark = mr_mark_take(ctx);
 	mr_grid g = v->grid[0];
-	float *weight[1 + NEARBY];
+	float *weight[1 + NEARBY] = { NULL };
 	mr_grid_points f;
 
 	for (size_t i = 1; i < depths; i++) {
 		weight[i] = MR_NEW_ZERO(ctx, m->level[i].n[0] * m->level[i].n[1] * m->level[i].n[2], float);
-		if (!weight[i])
-			return MR_EMEM;
 	}
 	g.step *= 2;
 	memcpy(g.n, m->level[1].n, sizeof g.n);
-	MR_TRY(mr_volume_field(ctx, &v->s, &g, DEPTHS, &f));
+	mr_volume_field(ctx, &v->s, &g, DEPTHS, &f);
 	mr_volume_spread(ctx, &v->s, &f, v->value, m->level[1].b);
 	/* NOLINTNEXTLINE(clang-analyzer-core.CallAndMessage) there are two levels at least */
 	mr_volume_spread(ctx, &v->s, &f, NULL, weight[1]);
@@ -467,7 +459,6 @@ spread_values(mr_ctx *ctx, volume *v, mr_grid_multigrid *m, double far)
 			l->u[k] = (l->b[k] + LITTLE * l->u[k]) / (weight[i][k] + LITTLE);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* f = value wanted nearby - indicator, in place of the indicator: positive on the faces of the grid. */
@@ -479,7 +470,7 @@ make_level(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 	size_t nodes = mr_grid_nodes(&v->grid[0]);
 	float *c = l->b;
 
-	MR_TRY(half_rise(ctx, v, l->u, &half));
+	half_rise(ctx, v, l->u, &half);
 	mr_parallel(ctx, v->s.n, GRAIN, measure_level, &(across){ v, l->u, v->value, 0, 0 });
 	if (!(half > 0))
 		return mr_fail(
@@ -487,7 +478,7 @@ make_level(mr_ctx *ctx, volume *v, mr_grid_multigrid *m)
 	v->found.level = half;
 	for (size_t i = 0; i < v->s.n; i++)
 		v->value[i] = fmax(LEVEL_LEAST * half, fmin(v->value[i], LEVEL_MOST * half));
-	MR_TRY(spread_values(ctx, v, m, half));
+	spread_values(ctx, v, m, half);
 	for (size_t i = 0; i < nodes; i++)
 		c[i] = (float)half;
 	mr_multigrid_prolong(ctx, l, &m->level[1], m->level[1].u, c, 0, 1);
@@ -505,8 +496,6 @@ begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
 	v->value = MR_NEW(ctx, v->s.n, double);
 	v->seen = MR_NEW(ctx, v->s.n, bool);
 	v->s.depth = MR_NEW(ctx, v->s.n, uint8_t);
-	if (!v->value || !v->seen || !v->s.depth)
-		return MR_EMEM;
 	for (size_t i = 0; i < v->s.n; i++) {
 		double side = sqrt(v->s.plane.area[i]) / v->grid[0].step;
 		v->s.depth[i] = 0;
@@ -521,7 +510,7 @@ begin(mr_ctx *ctx, const mr_volume_opts *opts, size_t n, volume *v)
 			for (int k = 0; k < 3; k++)
 				g->n[k] = (g->n[k] - 1) / 2 + 1;
 		}
-		MR_TRY(mr_volume_field(ctx, &v->s, g, d, &v->f[d]));
+		mr_volume_field(ctx, &v->s, g, d, &v->f[d]);
 	}
 	return MR_OK;
 }
@@ -537,8 +526,8 @@ fill_field(mr_ctx *ctx, volume *v, float *f)
 	MR_TRY(v->side.toward ? orient_by_sides(ctx, v) : orient_by_flood(ctx, v, f));
 	v->found.seconds_flood = mr_seconds() - start;
 	start = mr_seconds();
-	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m));
-	MR_TRY(solve_indicator(ctx, v, &m));
+	mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m);
+	solve_indicator(ctx, v, &m);
 	v->found.seconds_indicator = mr_seconds() - start;
 	start = mr_seconds();
 	MR_TRY(make_level(ctx, v, &m));
@@ -573,14 +562,14 @@ mr_volume_report_patches(mr_ctx *ctx, const mr_volume_cloud *s)
 
 /* Along a normal that is on the right side the indicator u falls: of clouds thick enough it hardly does at
  * 1.7 % of the points at most. */
-static mr_status
+static void
 report_sides(mr_ctx *ctx, volume *v, const float *u)
 {
 	static const double HARDLY = 0.25, SHARE = 0.03;
 	size_t unsure = 0, first = 0;
 	double half;
 
-	MR_TRY(half_rise(ctx, v, u, &half));
+	half_rise(ctx, v, u, &half);
 	mr_parallel(ctx, v->s.n, GRAIN, measure_across, &(across){ v, u, v->value, 1, 0 });
 	for (size_t i = v->s.n; i-- > 0;)
 		if (-v->value[i] < HARDLY * 2 * half) {
@@ -592,18 +581,17 @@ report_sides(mr_ctx *ctx, volume *v, const float *u)
 		    ctx, ": body or gaps are too thin to show which side is outside", v->s.p[first]);
 	else
 		mr_volume_report_patches(ctx, &v->s);
-	return MR_OK;
 }
 
 /* By the indicator, with f for the while. */
-static mr_status
+static void
 orient_body(mr_ctx *ctx, volume *v, float *f)
 {
 	mr_grid_multigrid m;
 
-	MR_TRY(mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m));
-	MR_TRY(solve_indicator(ctx, v, &m));
-	return report_sides(ctx, v, m.level[0].u);
+	mr_multigrid_begin(ctx, v->grid[0].n, v->levels, f, false, &m);
+	solve_indicator(ctx, v, &m);
+	report_sides(ctx, v, m.level[0].u);
 }
 
 mr_status
@@ -616,13 +604,11 @@ mr_volume_orient_outward(mr_ctx *ctx, mr_volume_cloud *s)
 
 	MR_TRY(begin(ctx, &opts, s->n, &v));
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
-	if (!f)
-		return MR_EMEM;
 	MR_TRY(orient_by_flood(ctx, &v, f));
 	if (v.sheet)
 		report_uncertain(ctx, ": outside is on both sides of the points", v.s.p[0]);
 	else
-		MR_TRY(orient_body(ctx, &v, f));
+		orient_body(ctx, &v, f);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -674,8 +660,6 @@ take_sides(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_outer_sides *side
 	uint32_t *of = MR_NEW(ctx, v->s.n, uint32_t);
 	mr_volume_sides judged;
 
-	if (!toward || !of)
-		return MR_EMEM;
 	MR_TRY(mr_near_once(ctx, point, n, v->s.p, v->s.n, 1, of, NULL));
 	for (size_t i = 0; i < v->s.n; i++)
 		toward[i] = sides->toward[of[i]];
@@ -703,7 +687,7 @@ take_points(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *opt
 	mr_v3 *p;
 
 	MR_TRY(mr_sampling_find(ctx, point, n, opts->sampling, &s));
-	MR_TRY(mr_sampling_places(ctx, point, &s, &p, NULL, places));
+	mr_sampling_places(ctx, point, &s, &p, NULL, places);
 	MR_TRY(mr_volume_samples(ctx, p, *places, &s, useful_share(p, *places, s.usual, opts), &v->s));
 	return opts->sides ? take_sides(ctx, point, n, opts->sides, v) : MR_OK;
 }
@@ -727,8 +711,6 @@ mr_volume_wrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_volume_opts *
 	v.found.seconds_planes = mr_seconds() - start;
 	MR_TRY(begin(ctx, opts, places, &v));
 	f = MR_NEW(ctx, mr_grid_nodes(&v.grid[0]), float);
-	if (!f)
-		return MR_EMEM;
 	mark = mr_mark_take(ctx);
 	MR_TRY(fill_field(ctx, &v, f));
 	mr_mark_release(ctx, mark);

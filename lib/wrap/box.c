@@ -88,8 +88,6 @@ mr_wrap_box(mr_ctx *ctx, mr_box at, const size_t edges[3], mr_mesh *out)
 		    edges[1], edges[2]);
 	b.p = MR_NEW(ctx, squares + 2, mr_v3);
 	b.t = MR_NEW(ctx, 2 * squares, mr_tri);
-	if (!b.p || !b.t)
-		return MR_EMEM;
 	for (size_t a = 0; a < 3; a++) {
 		make_side(&b, a, false);
 		make_side(&b, a, true);

@@ -16,22 +16,19 @@ look_at_extent(mr_ctx *ctx, mr_wrap_cloud *cloud)
 	return MR_OK;
 }
 
-static mr_status
+static void
 set_outliers_apart(mr_ctx *ctx, mr_wrap_cloud *cloud)
 {
 	const mr_sampling *s = &cloud->sampling;
 	mr_v3 *p = MR_NEW(ctx, s->outliers, mr_v3);
 	size_t n = 0;
 
-	if (!p)
-		return MR_EMEM;
 	for (size_t i = 0; i < s->n; i++)
 		if (s->outlier[i] && !s->repeat[i])
 			p[n++] = cloud->given[i];
 	cloud->outlier = p;
 	if (n > 0)
 		mr_note(ctx, "%zu outlier%s left out", n, mr_plural(n));
-	return MR_OK;
 }
 
 mr_status
@@ -50,13 +47,11 @@ mr_wrap_cloud_open(
 	MR_TRY(mr_sampling_find(ctx, point, n, sampling, s));
 	cloud->spacing = s->usual;
 	cloud->area = s->area;
-	MR_TRY(mr_sampling_places(ctx, point, s, &p, &index, &cloud->n));
+	mr_sampling_places(ctx, point, s, &p, &index, &cloud->n);
 	if (cloud->n < 4)
 		return mr_fail(ctx, MR_EMESH, "%zu points at %zu place%s: a closed surface needs 4 at least",
 		    n, cloud->n, mr_plural(cloud->n));
 	own = MR_NEW(ctx, cloud->n, double);
-	if (!own)
-		return MR_EMEM;
 	for (size_t i = 0; i < cloud->n; i++)
 		own[i] = s->spacing[index[i]];
 	cloud->p = p;
@@ -64,6 +59,6 @@ mr_wrap_cloud_open(
 	cloud->box = mr_box_of(p, cloud->n);
 	cloud->diagonal = mr_box_diagonal(cloud->box);
 	MR_TRY(look_at_extent(ctx, cloud));
-	MR_TRY(set_outliers_apart(ctx, cloud));
+	set_outliers_apart(ctx, cloud);
 	return mr_near_build(ctx, p, cloud->n, &cloud->near);
 }

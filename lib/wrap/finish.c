@@ -39,17 +39,15 @@ mr_wrap_remesh(mr_ctx *ctx, const mr_mesh *m, double length, mr_dyn *d)
 
 /* Of n places, from some of them at equal strides: adds those that are far from the surface to
  * c->unreached, the farthest to c->at; *distance: of the `some`, the caller's. */
-static mr_status
+static void
 look_at_places(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_bvh *bvh, const mr_v3 *p, size_t n,
     size_t some, double *distance, double *farthest, mr_wrap_cover *c)
 {
 	mr_v3 *q = MR_NEW(ctx, some, mr_v3), *sorted = MR_NEW(ctx, some, mr_v3);
 	size_t far = 0;
 
-	if (!q || !sorted)
-		return MR_EMEM;
 	mr_at_strides(p, n, some, q);
-	MR_TRY(mr_zorder_points(ctx, q, some, sorted)); /* what close ones look up is in the cache */
+	mr_zorder_points(ctx, q, some, sorted); /* what close ones look up is in the cache */
 	mr_bvh_distances(ctx, bvh, sorted, some, distance);
 	for (size_t i = 0; i < some; i++) {
 		far += distance[i] > MR_WRAP_LACKS * cloud->spacing;
@@ -59,7 +57,6 @@ look_at_places(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_bvh *bvh, const
 		}
 	}
 	c->unreached += some ? far * n / some : 0;
-	return MR_OK;
 }
 
 static size_t
@@ -77,15 +74,13 @@ mr_wrap_measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, size_
 	double *distance = MR_NEW(ctx, samples, double), farthest = 0;
 	mr_bvh *bvh;
 
-	if (!distance)
-		return MR_EMEM;
 	*c = (mr_wrap_cover){ 0 };
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
-	MR_TRY(look_at_places(
-	    ctx, cloud, bvh, cloud->outlier, outliers, at_most(outliers, samples), distance, &farthest, c));
-	MR_TRY(look_at_places(ctx, cloud, bvh, cloud->p, cloud->n, some, distance, &farthest, c));
+	mr_bvh_build(ctx, m, &bvh);
+	look_at_places(
+	    ctx, cloud, bvh, cloud->outlier, outliers, at_most(outliers, samples), distance, &farthest, c);
+	look_at_places(ctx, cloud, bvh, cloud->p, cloud->n, some, distance, &farthest, c);
 	c->gaps.points = mr_gap_of(distance, some);
-	MR_TRY(mr_self_intersections(ctx, bvh, m, NULL, &c->crossings));
+	mr_self_intersections(ctx, bvh, m, NULL, &c->crossings);
 	MR_TRY(mr_gap_of_surface(ctx, m, &places, samples, &c->gaps, NULL));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -109,8 +104,6 @@ mr_wrap_finish(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, m
 	mr_v3 *home = MR_NEW(ctx, w->d.nv, mr_v3);
 	double start = mr_seconds();
 
-	if (!home)
-		return MR_EMEM;
 	memcpy(home, w->d.p, w->d.nv * sizeof *home);
 	w->found.iterations = o->iterations ? o->iterations : ITERATIONS;
 	MR_TRY(mr_wrap_settle(ctx, cloud, o, w->found.iterations, &w->d));

@@ -65,7 +65,8 @@ find_crossings(mr_ctx *ctx, void *arg)
 	mr_mesh m = mr_dyn_view(w->d, "control");
 	size_t count;
 
-	return mr_self_intersections(ctx, NULL, &m, w->crosses, &count);
+	mr_self_intersections(ctx, NULL, &m, w->crosses, &count);
+	return MR_OK;
 }
 
 static bool
@@ -82,8 +83,6 @@ mr_wrap_part(mr_ctx *ctx, const mr_v3 *home, mr_dyn *d)
 	crossing w = { d, MR_NEW(ctx, d->nf, bool) };
 	mr_guard g = mr_dyn_guard(d);
 
-	if (!w.crosses)
-		return MR_EMEM;
 	g.halves = 2;
 	g.rings = 1;
 	g.look = find_crossings;

@@ -50,8 +50,6 @@ measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, support *s)
 	s->far = MR_NEW(ctx, m->nv, double);
 	s->near = MR_NEW(ctx, m->nv, double);
 	s->unit = MR_NEW(ctx, m->nv, double);
-	if (!nearest || !s->far || !s->near || !s->unit)
-		return MR_EMEM;
 	MR_TRY(mr_near_query(ctx, cloud->near, m->p, m->nv, 1, nearest, s->far));
 	for (size_t v = 0; v < m->nv; v++) {
 		double own = cloud->own[nearest[v]], d = sqrt(s->far[v]);
@@ -63,34 +61,28 @@ measure(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_mesh *m, support *s)
 }
 
 /* Whether the points hardly support even what they do not leave open. */
-static mr_status
+static void
 find_flicker(mr_ctx *ctx, const support *s, size_t nv, bool *flickers)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *d = MR_NEW(ctx, nv, double);
 	size_t n = 0;
 
-	if (!d)
-		return MR_EMEM;
 	for (size_t v = 0; v < nv; v++)
 		if (s->near[v] < SEEN)
 			d[n++] = s->near[v];
 	*flickers = n == 0 || mr_kth(d, n, 9 * n / 10) > FLICKERING;
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* Of the vertices without support, those joined by edges. */
-static mr_status
+static void
 find_regions(mr_ctx *ctx, const mr_mesh *m, const double *far, uint32_t **set)
 {
 	*set = mr_sets_new(ctx, m->nv);
-	if (!*set)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		if (far[mr_he_from(m, h)] > SUPPORTED && far[mr_he_to(m, h)] > SUPPORTED)
 			mr_sets_join(*set, mr_he_from(m, h), mr_he_to(m, h));
-	return MR_OK;
 }
 
 /* The place of each region, by its root, that is farthest from points.  spot: m->nv, all 0, the caller's. */
@@ -132,12 +124,10 @@ cut_openings(mr_ctx *ctx, const mr_wrap_cloud *cloud, int how, mr_wrap_lids *lid
 	uint32_t *set;
 	support s;
 
-	if (!value || !cut || !spot)
-		return MR_EMEM;
 	MR_TRY(measure(ctx, cloud, m, &s));
 	if (lids->flickers)
-		MR_TRY(find_flicker(ctx, &s, m->nv, &lids->flickers));
-	MR_TRY(find_regions(ctx, m, s.far, &set));
+		find_flicker(ctx, &s, m->nv, &lids->flickers);
+	find_regions(ctx, m, s.far, &set);
 	find_spots(m, s.far, set, spot);
 	for (uint32_t v = 0; v < m->nv; v++)
 		if (mr_sets_root(set, v) == v && s.far[v] > SUPPORTED)
@@ -145,7 +135,8 @@ cut_openings(mr_ctx *ctx, const mr_wrap_cloud *cloud, int how, mr_wrap_lids *lid
 	for (uint32_t v = 0; v < m->nv; v++)
 		value[v] = cut[mr_sets_root(set, v)] ? s.far[v] - SUPPORTED
 		                                     : fmin(s.far[v] - SUPPORTED, -0.01);
-	return mr_mesh_clip(ctx, m, value, m);
+	mr_mesh_clip(ctx, m, value, m);
+	return MR_OK;
 }
 
 /* The n ends, first and last, of the edges of m that have one face. */
@@ -156,8 +147,6 @@ find_rim(mr_ctx *ctx, const mr_mesh *m, uint32_t (**rim)[2], size_t *n)
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	*rim = mr_alloc(ctx, 3 * m->nf, sizeof **rim);
-	if (!*rim)
-		return MR_EMEM;
 	*n = 0;
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		if (topo.twin[h] == MR_NONE) {
@@ -176,8 +165,6 @@ strew_rim(mr_ctx *ctx, const mr_mesh *m, const double *far, mr_v3 **p, size_t *n
 
 	MR_TRY(find_rim(ctx, m, &rim, &edges));
 	*p = MR_NEW(ctx, POINTS_PER_EDGE * edges, mr_v3);
-	if (!*p)
-		return MR_EMEM;
 	*n = 0;
 	for (size_t i = 0; i < edges; i++)
 		for (size_t k = 0; k < POINTS_PER_EDGE && far[rim[i][0]] > RIM; k++)
@@ -195,8 +182,6 @@ draw_back(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_mesh *m)
 	mr_v3 *p;
 	size_t n;
 
-	if (!nearest || !value)
-		return MR_EMEM;
 	MR_TRY(measure(ctx, cloud, m, &s));
 	MR_TRY(strew_rim(ctx, m, s.far, &p, &n));
 	if (n == 0)
@@ -204,23 +189,21 @@ draw_back(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_mesh *m)
 	MR_TRY(mr_near_once(ctx, p, n, m->p, m->nv, 1, nearest, value));
 	for (size_t v = 0; v < m->nv; v++)
 		value[v] = BACK * s.unit[v] - sqrt(value[v]);
-	return mr_mesh_clip(ctx, m, value, m);
+	mr_mesh_clip(ctx, m, value, m);
+	return MR_OK;
 }
 
-static mr_status
+static void
 count_loops(mr_ctx *ctx, const mr_dyn *d, size_t *loops)
 {
 	uint32_t *set = mr_sets_new(ctx, d->nv);
 
-	if (!set)
-		return MR_EMEM;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (d->twin[h] == MR_NONE)
 			mr_sets_join(set, d->v[h], mr_dyn_to(d, h));
 	*loops = 0;
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		*loops += d->twin[h] == MR_NONE && set[d->v[h]] == d->v[h];
-	return MR_OK;
 }
 
 /* The vertices of the rim to the middle between themselves and their neighbours along it. */
@@ -231,8 +214,6 @@ smooth_rim(mr_ctx *ctx, mr_mesh *m)
 	uint32_t(*rim)[2];
 	size_t n;
 
-	if (!sum || !p)
-		return MR_EMEM;
 	MR_TRY(find_rim(ctx, m, &rim, &n));
 	memcpy(p, m->p, m->nv * sizeof *p);
 	for (int pass = 0; pass < SMOOTHINGS; pass++) {
@@ -277,7 +258,7 @@ mr_wrap_settle_open(
 mr_status
 mr_wrap_assess_open(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_wrap *w)
 {
-	MR_TRY(count_loops(ctx, &w->d, &w->lids.loops));
+	count_loops(ctx, &w->d, &w->lids.loops);
 	return mr_wrap_assess(ctx, cloud, w);
 }
 

@@ -27,7 +27,7 @@ typedef struct mr_wrap_cloud {
 } mr_wrap_cloud;
 
 /* Takes the n points and their sampling (NULL: found), and indexes those that count; MR_EMESH where they lie
- * on a line.  Close with mr_near_free(cloud->near), on failure too. */
+ * on a line. */
 mr_status mr_wrap_cloud_open(
     mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *sampling, mr_wrap_cloud *cloud);
 

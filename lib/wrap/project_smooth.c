@@ -21,8 +21,6 @@ mr_wrap_project(mr_ctx *ctx, const mr_wrap_cloud *cloud, double alpha, bool guar
 	uint32_t *nearest = MR_NEW(ctx, d->nv, uint32_t);
 	mr_v3 *to = MR_NEW(ctx, d->nv, mr_v3);
 
-	if (!nearest || !to)
-		return MR_EMEM;
 	MR_TRY(mr_near_query(ctx, cloud->near, d->p, d->nv, 1, nearest, NULL));
 	for (size_t v = 0; v < d->nv; v++)
 		to[v] = d->kind[v] == MR_DEAD ? d->p[v] : mr_lerp(alpha, d->p[v], cloud->p[nearest[v]]);
@@ -75,8 +73,6 @@ mr_wrap_smooth(mr_ctx *ctx, double lambda, bool guarded, mr_dyn *d)
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
 
-	if (!p)
-		return MR_EMEM;
 	mr_parallel(ctx, d->nv, GRAIN, smooth_body, &(smoothing){ d, lambda, p });
 	MR_TRY(move(ctx, guarded, p, d));
 	mr_mark_release(ctx, mark);

@@ -68,8 +68,6 @@ mr_wrap_settle(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, s
 	uint32_t *nearest = MR_NEW(ctx, d->nv * NEAREST, uint32_t);
 	settle s = { d, cloud, o, nearest, MR_NEW(ctx, d->nv, mr_v3) };
 
-	if (!nearest || !s.to)
-		return MR_EMEM;
 	for (size_t i = 0; i < iterations; i++) {
 		MR_TRY(mr_near_query(ctx, cloud->near, d->p, d->nv, NEAREST, nearest, NULL));
 		mr_parallel(ctx, d->nv, GRAIN, target_body, &s);

@@ -48,8 +48,6 @@ find_planes(mr_ctx *ctx, const mr_wrap_cloud *cloud, probes *q)
 	q->normal = MR_NEW(ctx, q->n, mr_v3);
 	p = MR_NEW(ctx, q->n, mr_v3);
 	nearest = MR_NEW(ctx, q->n * k, uint32_t);
-	if (!q->at || !q->normal || !p || !nearest)
-		return MR_EMEM;
 	for (size_t i = 0; i < q->n; i++) {
 		q->at[i] = (uint32_t)(i * cloud->n / q->n);
 		p[i] = cloud->p[q->at[i]];
@@ -89,8 +87,7 @@ find_axes(const probes *q, mr_v3 axis[3])
 	return (double)upright / (double)q->n;
 }
 
-/* The coordinates of the points along the first two axes.  Close with mr_near_free(flat->near), on failure
- * too. */
+/* The coordinates of the points along the first two axes. */
 static mr_status
 flatten(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 axis[3], mr_wrap_cloud *flat)
 {
@@ -98,8 +95,6 @@ flatten(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_v3 axis[3], mr_wrap_cl
 
 	*flat = *cloud;
 	flat->near = NULL;
-	if (!p)
-		return MR_EMEM;
 	for (size_t i = 0; i < cloud->n; i++)
 		p[i] = mr_vec(mr_dot(axis[0], cloud->p[i]), mr_dot(axis[1], cloud->p[i]), 0);
 	flat->p = p;
@@ -115,8 +110,6 @@ share_off(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, co
 	uint32_t *nearest = MR_NEW(ctx, q->n * PAIRS, uint32_t);
 	size_t off = 0, all = 0;
 
-	if (!p || !nearest)
-		return MR_EMEM;
 	for (size_t i = 0; i < q->n; i++)
 		p[i] = flat->p[q->at[i]];
 	MR_TRY(mr_near_query(ctx, flat->near, p, q->n, PAIRS, nearest, NULL));
@@ -135,7 +128,6 @@ mr_wrap_is_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3], bool *i
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_wrap_cloud flat;
-	mr_status status;
 	double off = 1;
 	probes q;
 
@@ -144,11 +136,8 @@ mr_wrap_is_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, mr_v3 axis[3], bool *i
 		return MR_OK;
 	MR_TRY(find_planes(ctx, cloud, &q));
 	if (find_axes(&q, axis) <= UPRIGHT_MOST) {
-		status = flatten(ctx, cloud, axis, &flat);
-		if (status == MR_OK)
-			status = share_off(ctx, cloud, &flat, &q, &off);
-		mr_near_free(flat.near);
-		MR_TRY(status);
+		MR_TRY(flatten(ctx, cloud, axis, &flat));
+		MR_TRY(share_off(ctx, cloud, &flat, &q, &off));
 	}
 	*is_sheet = off <= OFF_MOST;
 	mr_mark_release(ctx, mark);
@@ -171,8 +160,6 @@ make_lattice(mr_ctx *ctx, const mr_wrap_cloud *flat, double edge, mr_mesh *out)
 		    "the points lie so far apart that a lattice of %.0f x %.0f tells them", along, across);
 	p = MR_NEW(ctx, w * h, mr_v3);
 	next = t = MR_NEW(ctx, 2 * (w - 1) * (h - 1), mr_tri);
-	if (!p || !t)
-		return MR_EMEM;
 	for (size_t y = 0; y < h; y++)
 		for (size_t x = 0; x < w; x++)
 			p[y * w + x] = mr_vec(low.x - margin + ((double)x - (y % 2 ? 0.5 : 0)) * edge,
@@ -195,8 +182,6 @@ lift(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_cloud *flat, const m
 	uint32_t *nearest = MR_NEW(ctx, m->nv * HEIGHTS, uint32_t);
 	double *dist2 = MR_NEW(ctx, m->nv * HEIGHTS, double), least = flat->spacing * flat->spacing / 16;
 
-	if (!p || !nearest || !dist2)
-		return MR_EMEM;
 	MR_TRY(mr_near_query(ctx, flat->near, m->p, m->nv, HEIGHTS, nearest, dist2));
 	for (size_t v = 0; v < m->nv; v++) {
 		double height = 0, weights = 0;
@@ -235,10 +220,8 @@ mr_wrap_sheet(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, co
 	size_t openings;
 	mr_wrap_cloud flat;
 	mr_mesh m;
-	mr_status status = make_sheet(ctx, cloud, o, axis, &flat, lids, &m);
 
-	mr_near_free(flat.near);
-	MR_TRY(status);
+	MR_TRY(make_sheet(ctx, cloud, o, axis, &flat, lids, &m));
 	MR_TRY(mr_wrap_settle_open(ctx, cloud, o, &m, &w->d));
 	m = mr_dyn_view(&w->d, "control");
 	openings = lids->openings;

@@ -261,13 +261,10 @@ mr_shrinkwrap(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *samp
     const mr_outer_sides *sides, const mr_wrap_opts *opts, mr_mesh *out, mr_wrap_result *result)
 {
 	mr_wrap_cloud cloud;
-	mr_status status = mr_wrap_cloud_open(ctx, point, n, sampling, &cloud);
 
+	MR_TRY(mr_wrap_cloud_open(ctx, point, n, sampling, &cloud));
 	cloud.sides = sides;
-	if (status == MR_OK)
-		status = wrap(ctx, &cloud, opts, out, result);
-	mr_near_free(cloud.near);
-	return status;
+	return wrap(ctx, &cloud, opts, out, result);
 }
 
 /* By the steps of the paper, which turn no face, and at the end those of all that is near the points. */
@@ -298,10 +295,7 @@ mr_wrap_template(mr_ctx *ctx, const mr_v3 *point, size_t n, const mr_sampling *s
     const mr_wrap_opts *opts, mr_v3 *p, mr_wrap_result *result)
 {
 	mr_wrap_cloud cloud;
-	mr_status status = mr_wrap_cloud_open(ctx, point, n, sampling, &cloud);
 
-	if (status == MR_OK)
-		status = wrap_template(ctx, &cloud, start, opts, p, result);
-	mr_near_free(cloud.near);
-	return status;
+	MR_TRY(mr_wrap_cloud_open(ctx, point, n, sampling, &cloud));
+	return wrap_template(ctx, &cloud, start, opts, p, result);
 }

@@ -185,7 +185,7 @@ mesh_at(const surface *s, int state)
 static mr_status
 build_surface(mr_ctx *ctx, surface *s)
 {
-	MR_TRY(mr_edges_build(ctx, &s->m, &s->edges));
+	mr_edges_build(ctx, &s->m, &s->edges);
 	s->edge = MR_NEW(ctx, 3 * s->m.nf, uint32_t);
 	s->harm = MR_NEW(ctx, s->m.nf, mr_rgb);
 	if (!s->edge || !s->harm)
@@ -447,7 +447,7 @@ count_apart(mr_ctx *ctx, const edit *e, const surface *s, figures *figure)
 	mr_contacts contacts;
 	uint32_t widest;
 
-	MR_TRY(mr_contacts_find(ctx, &s->m, TOUCH * diagonal, &contacts));
+	mr_contacts_find(ctx, &s->m, TOUCH * diagonal, &contacts);
 	figure[BEFORE].apart = contacts.vertices;
 	for (int state = WARP; state <= AFTER; state++)
 		figure[state].apart = mr_contacts_open(
@@ -465,13 +465,13 @@ measure(mr_ctx *ctx, const edit *e, surface *s, figures *figure)
 		mr_census census;
 		mr_geometry geometry;
 		mr_harm harm;
-		MR_TRY(mr_take_census(ctx, &m, &s->edges, &census));
-		MR_TRY(mr_measure_geometry(ctx, &m, &s->edges, &geometry));
+		mr_take_census(ctx, &m, &s->edges, &census);
+		mr_measure_geometry(ctx, &m, &s->edges, &geometry);
 		figure[state].folds = census.folded_edges;
 		figure[state].volume = geometry.volume;
 		compare_edges(s, state, &figure[state]);
 		compare_faces(s, state, &figure[state]);
-		MR_TRY(mr_harm_find(ctx, &s->m, &s->edges, s->p[state], 0, &harm));
+		mr_harm_find(ctx, &s->m, &s->edges, s->p[state], 0, &harm);
 		figure[state].far_pairs = harm.far;
 	}
 	return MR_OK;

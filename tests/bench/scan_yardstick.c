@@ -138,7 +138,7 @@ mark_seen(mr_ctx *ctx, const cloud *c, bool *marked)
 	mr_bvh *bvh;
 	mr_ray_hit hit;
 
-	MR_TRY(mr_bvh_build(ctx, &c->truth, &bvh));
+	mr_bvh_build(ctx, &c->truth, &bvh);
 	for (size_t i = 0; i < c->n; i++) {
 		marked[i] = false;
 		for (int side = 0; side < 6 && !marked[i]; side++) {
@@ -164,7 +164,8 @@ cut(mr_ctx *ctx, cloud *c)
 	middle = (mr_coordinate(b.min, axis[1]) + mr_coordinate(b.max, axis[1])) / 2;
 	for (size_t v = 0; v < c->truth.nv; v++)
 		value[v] = mr_coordinate(c->truth.p[v], axis[1]) - middle;
-	return mr_mesh_clip(ctx, &c->truth, value, &c->truth);
+	mr_mesh_clip(ctx, &c->truth, value, &c->truth);
+	return MR_OK;
 }
 
 /* Without what the points leave open of it. */
@@ -183,7 +184,6 @@ open_truth(mr_ctx *ctx, cloud *c)
 		status = mr_wrap_cut(ctx, &points, MR_LIDS_AUTO, false, &m, &lids);
 		c->truth = lids.openings > 0 ? m : c->truth;
 	}
-	mr_near_free(points.near);
 	return status;
 }
 
@@ -338,9 +338,9 @@ measure_surface(mr_ctx *ctx, const mr_mesh *m, bool *crosses, figures *figure)
 	mr_edges edges;
 	size_t bent = 0, acute = 0;
 
-	MR_TRY(mr_edges_build(ctx, m, &edges));
-	MR_TRY(mr_take_census(ctx, m, &edges, &figure->census));
-	MR_TRY(mr_self_intersections(ctx, NULL, m, crosses, &figure->pairs));
+	mr_edges_build(ctx, m, &edges);
+	mr_take_census(ctx, m, &edges, &figure->census);
+	mr_self_intersections(ctx, NULL, m, crosses, &figure->pairs);
 	for (size_t e = 0; e < edges.count; e++) {
 		const uint32_t *h = edges.he + edges.start[e];
 		bent += mr_edge_faces(&edges, e) == 2 &&
@@ -389,7 +389,7 @@ measure_thin(mr_ctx *ctx, const mr_mesh *m, size_t points, double *thin)
 	mr_bvh *bvh;
 
 	MR_TRY(mr_surface_sample(ctx, m, PROBES, 1, &p, &normal));
-	MR_TRY(mr_bvh_build(ctx, m, &bvh));
+	mr_bvh_build(ctx, m, &bvh);
 	for (size_t i = 0; i < PROBES; i++) {
 		across[i] = diagonal;
 		for (int side = -1; side <= 1; side += 2)
@@ -437,7 +437,7 @@ draw(mr_ctx *ctx, const char *path, const mr_mesh *truth, const mr_mesh *m, cons
 
 	if (!harm || !p)
 		return MR_EMEM;
-	MR_TRY(mr_bvh_build(ctx, truth, &bvh));
+	mr_bvh_build(ctx, truth, &bvh);
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
 		mr_v3 middle = mr_mul(1. / 3, mr_add(m->p[v[0]], mr_add(m->p[v[1]], m->p[v[2]])));

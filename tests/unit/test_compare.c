@@ -344,28 +344,6 @@ threads_do_not_matter(void **state)
 	assert_memory_equal(&c[0].ba, &c[1].ba, sizeof c[0].ba);
 }
 
-static void
-memory_may_run_out(void **state)
-{
-	mr_compare_opts opts = MR_COMPARE_DEFAULTS;
-	mr_ctx ctx;
-
-	(void)state;
-	mr_ctx_init(&ctx, 1);
-	mr_mesh a = grid(&ctx, 3, 1, ramp), b = grid(&ctx, 4, 1, level);
-	opts.samples = 10;
-	for (uint64_t k = 1;; k++) {
-		mr_comparison c;
-		ctx.fail_at = k;
-		mr_status status = mr_compare(&ctx, &a, &b, &opts, &c);
-		if (status == MR_OK)
-			break;
-		assert_int_equal(status, MR_EMEM);
-		assert_true(k < 100);
-	}
-	mr_ctx_free(&ctx);
-}
-
 int
 main(void)
 {
@@ -379,7 +357,6 @@ main(void)
 		cmocka_unit_test(clouds_correspond),
 		cmocka_unit_test(a_fan_is_at_itself),
 		cmocka_unit_test(threads_do_not_matter),
-		cmocka_unit_test(memory_may_run_out),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

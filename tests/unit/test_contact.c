@@ -15,7 +15,7 @@ test_is_the_nearest_of_each(void **state)
 	mr_contacts c;
 
 	(void)state;
-	assert_int_equal(mr_contacts_find(&ctx, &m, reach, &c), MR_OK);
+	mr_contacts_find(&ctx, &m, reach, &c);
 	for (int part = 0; part < 3; part++)
 		for (size_t v = vertices[part]; v < vertices[part + 1]; v++) {
 			size_t next = c.start[v];
@@ -60,7 +60,7 @@ test_holds_to_all_neighbours(void **state)
 	(void)state;
 	for (int i = 1; i < 27; i++)
 		m = both(&m, &box, mr_vec(i % 3 * size.x, i / 3 % 3 * size.y, i / 9 * size.z));
-	assert_int_equal(mr_contacts_find(&ctx, &m, 1e-6, &c), MR_OK);
+	mr_contacts_find(&ctx, &m, 1e-6, &c);
 	assert_int_equal(box.nv, 8);
 	assert_int_equal(c.vertices, 27 * box.nv - 8);
 	for (size_t v = 13 * box.nv; v < 14 * box.nv; v++)
@@ -94,7 +94,7 @@ test_takes_no_square_of_time(void **state)
 		p[3 * f + 2] = mr_add(p[3 * f], mr_vec(0, small ? 1e-3 : 1, 0));
 		t[f] = (mr_tri){ { 3 * f, 3 * f + 1, 3 * f + 2 } };
 	}
-	assert_int_equal(mr_contacts_find(&ctx, &m, mr_mesh_edge_scale(&ctx, &m), &c), MR_OK);
+	mr_contacts_find(&ctx, &m, mr_mesh_edge_scale(&ctx, &m), &c);
 	assert_int_equal(c.start[m.nv], MR_CONTACTS * m.nv);
 	assert_true(mr_seconds() - started < 30);
 }
@@ -130,7 +130,7 @@ test_slits_are_contacts(void **state)
 	mr_contacts c;
 
 	(void)state;
-	assert_int_equal(mr_contacts_find(&ctx, &m, 1e-9, &c), MR_OK);
+	mr_contacts_find(&ctx, &m, 1e-9, &c);
 	assert_int_equal(c.vertices, 6);
 	assert_int_equal(c.start[m.nv], 6);
 	for (uint32_t v = 0; v < m.nv; v++)
@@ -156,9 +156,9 @@ test_slits_that_are_rounded(void **state)
 		for (size_t v = 0; v < m.nv; v++)
 			p[v] = mr_add(m.p[v], mr_vec(i / 7.0, 100.0 * i, -i / 3.0));
 		m.p = p;
-		assert_int_equal(mr_contacts_find(&ctx, &m, 1e-9, &c), MR_OK);
+		mr_contacts_find(&ctx, &m, 1e-9, &c);
 		assert_int_equal(c.start[m.nv], 6);
-		assert_int_equal(mr_contacts_find(&ctx, &wide, 1e-9, &c), MR_OK);
+		mr_contacts_find(&ctx, &wide, 1e-9, &c);
 		assert_int_equal(c.vertices, 0);
 	}
 }
@@ -170,7 +170,7 @@ test_one_component_has_none(void **state)
 	mr_contacts c;
 
 	(void)state;
-	assert_int_equal(mr_contacts_find(&ctx, &m, 10, &c), MR_OK);
+	mr_contacts_find(&ctx, &m, 10, &c);
 	assert_int_equal(c.vertices, 0);
 }
 
@@ -185,7 +185,7 @@ test_opens(void **state)
 	uint32_t widest;
 
 	(void)state;
-	assert_int_equal(mr_contacts_find(&ctx, &m, 0.02, &c), MR_OK);
+	mr_contacts_find(&ctx, &m, 0.02, &c);
 	assert_int_equal(c.vertices, m.nv);
 	memcpy(p, m.p, m.nv * sizeof *p);
 	for (size_t v = 0; v < a.nv; v++)

@@ -115,7 +115,7 @@ dense_operator(const mr_mesh *m, bool mean_areas)
 	size_t n = m->nv;
 	double *d = MR_NEW_ZERO(&ctx, n * n, double), *area = MR_NEW(&ctx, n, double);
 
-	assert_int_equal(mr_voronoi_areas(&ctx, m, area), MR_OK);
+	mr_voronoi_areas(&ctx, m, area);
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++) {
 			size_t i = m->t[f].v[k], j = m->t[f].v[(k + 1) % 3], l = m->t[f].v[(k + 2) % 3];
@@ -301,7 +301,7 @@ pose_by_basis(mr_deform *d, const mr_v3 *p, size_t n, const mr_affine *t, mr_v3 
 	double *response = MR_NEW(&ctx, 4 * handles * n, double);
 
 	assert_int_equal(mr_deform_basis(&ctx, d, p, response), MR_OK);
-	assert_int_equal(mr_pose_by_response(&ctx, p, n, response, handles, t, out), MR_OK);
+	mr_pose_by_response(&ctx, p, n, response, handles, t, out);
 }
 
 /* Tests */
@@ -342,7 +342,6 @@ test_relax_is_the_dense_solution(void **state)
 					dense_deform(
 					    &s[i].m, s[i].region, k, areas == MR_AREAS_MEAN, s[i].m.p, q);
 					assert_same(&s[i].m, p, q, 1e-9);
-					mr_deform_free(d);
 				}
 }
 
@@ -368,7 +367,6 @@ test_pose_is_the_dense_solution(void **state)
 			dense_deform(&s[i].m, s[i].region, k, false, q, q);
 			pose(d, p0, t, mr_deform_handles(d), p);
 			assert_same(&s[i].m, p, q, 1e-9);
-			mr_deform_free(d);
 		}
 }
 
@@ -390,7 +388,6 @@ test_plane_is_reproduced(void **state)
 		}
 		relax(d, q, q);
 		assert_same(&m, p, q, 1e-10);
-		mr_deform_free(d);
 	}
 }
 
@@ -408,7 +405,6 @@ test_symmetric_is_unsymmetric(void **state)
 			mr_deform *d = deform_of(&m, region, opts_of(k, MR_AREAS_VORONOI, lu));
 			p[lu] = places(&m);
 			pose(d, m.p, &t, 1, p[lu]);
-			mr_deform_free(d);
 		}
 		assert_same(&m, p[0], p[1], 1e-9);
 	}
@@ -437,7 +433,6 @@ test_identity_keeps_every_bit(void **state)
 			assert_memory_equal(p, p0, m.nv * sizeof *p);
 			pose_by_basis(d, p0, m.nv, t, p);
 			assert_memory_equal(p, p0, m.nv * sizeof *p);
-			mr_deform_free(d);
 		}
 }
 
@@ -459,7 +454,6 @@ test_rigid_motion_is_followed(void **state)
 		assert_same(&m, p, q, 1e-15);
 		pose_by_basis(d, m.p, m.nv, t, p);
 		assert_same(&m, p, q, 1e-13);
-		mr_deform_free(d);
 	}
 }
 
@@ -481,7 +475,6 @@ test_basis_is_the_pose(void **state)
 			pose(d, p0, t, h, p);
 			pose_by_basis(d, p0, m.nv, t, q);
 			assert_same(&m, p, q, 1e-9);
-			mr_deform_free(d);
 		}
 }
 
@@ -505,7 +498,6 @@ test_targets_are_reached(void **state)
 		pose(d, m.p, &t, 1, p);
 		assert_int_equal(mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, NULL, target }, q), MR_OK);
 		assert_memory_equal(p, q, m.nv * sizeof *p);
-		mr_deform_free(d);
 	}
 }
 
@@ -523,13 +515,11 @@ test_iterative_is_direct(void **state)
 		mr_deform_opts opts = opts_of(k, MR_AREAS_VORONOI, false);
 		mr_deform *d = deform_of(&m, region, opts);
 		pose(d, m.p, &t, 1, p);
-		mr_deform_free(d);
 		for (int kind = MR_CG; kind <= MR_VCYCLE; kind++) {
 			opts.solver.kind = (mr_solver_kind)kind;
 			d = deform_of(&m, region, opts);
 			pose(d, m.p, &t, 1, q);
 			assert_same(&m, p, q, 1e-6);
-			mr_deform_free(d);
 		}
 	}
 }
@@ -578,12 +568,10 @@ test_loose_components_follow(void **state)
 	pose(d, p, maps, 2, q);
 	for (size_t v = 0; v < two.nv; v++)
 		assert_true(mr_dist(q[v], mr_apply(&maps[0], p[v])) < 1e-10);
-	mr_deform_free(d);
 	opts.loose = MR_LOOSE_STAY;
 	d = deform_of(&two, region, opts);
 	pose(d, p, maps, 2, q);
 	assert_memory_equal(p + one.nv, q + one.nv, (one.nv + 1) * sizeof *p);
-	mr_deform_free(d);
 }
 
 /* The largest distance of the vertices of the first half from those of the second. */
@@ -617,13 +605,11 @@ test_parts_that_touch_stay_together(void **state)
 		pose(d, two.p, maps, 1, p);
 		assert_true(largest_distance(p, two.p, one.nv) > 0.3);
 		assert_true(widest_gap(&two, p) < 0.05);
-		mr_deform_free(d);
 		opts.apart = true;
 		d = deform_of(&two, region, opts);
 		pose(d, two.p, maps, 1, p);
 		assert_memory_equal(p, two.p, one.nv * sizeof *p);
 		assert_true(widest_gap(&two, p) > 0.7);
-		mr_deform_free(d);
 	}
 	for (size_t v = 0; v < one.nv; v++)
 		region[v] = region[v] == FIXED ? HANDLE + 1 : FREE;
@@ -633,7 +619,6 @@ test_parts_that_touch_stay_together(void **state)
 	for (size_t v = 0; v < two.nv; v++)
 		q[v] = mr_apply(&maps[0], two.p[v]);
 	assert_same(&two, p, q, 1e-12);
-	mr_deform_free(d);
 }
 
 /* Folded, needle, zero-area and repeated faces: finite results, or a sentence. */
@@ -665,7 +650,6 @@ test_degenerate_faces_give_no_nan(void **state)
 		relax(d, p, q);
 		for (size_t v = 0; v < m.nv; v++)
 			assert_true(mr_finite(q[v]));
-		mr_deform_free(d);
 	}
 }
 
@@ -697,8 +681,6 @@ test_refusals(void **state)
 	assert_int_equal(mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, &three, NULL }, p), MR_ERANGE);
 	assert_non_null(strstr(ctx.error, "handle 2 has no vertex"));
 	pose(d, m.p, t, 2, p);
-	mr_deform_free(d);
-	mr_deform_free(NULL);
 }
 
 static void
@@ -719,44 +701,7 @@ test_threads_and_runs_change_nothing(void **state)
 		if (run == 0)
 			memcpy(first, p, m.nv * sizeof *p);
 		assert_memory_equal(p, first, m.nv * sizeof *p);
-		mr_deform_free(d);
 	}
-}
-
-static void
-test_memory_failures_are_reported(void **state)
-{
-	mr_mesh m = torus(12, 8, 0.2);
-	uint32_t *region = bands(&m, 1, 0.3, 0.7, HANDLE + 1);
-	mr_deform_opts opts = MR_DEFORM_DEFAULTS;
-	mr_affine t[2] = { screw(1, 1, 1), mr_identity() };
-	mr_v3 *p = places(&m);
-	mr_deform_maps maps = { t, NULL, 2 };
-	double *response = MR_NEW(&ctx, 8 * m.nv, double);
-
-	(void)state;
-	opts.rotations = MR_ROTATIONS_INTERPOLATED;
-	opts.rounds = 2;
-	for (uint64_t k = 1;; k++) {
-		mr_mark mark = mr_mark_take(&ctx);
-		mr_deform *d = NULL;
-		mr_status status;
-		ctx.fail_at = k;
-		status = mr_deform_new(&ctx, &m, NULL, region, &opts, &d);
-		if (status == MR_OK)
-			status = mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, NULL, NULL }, p);
-		if (status == MR_OK)
-			status = mr_deform_solve(&ctx, d, &(mr_deform_task){ m.p, &maps, NULL }, p);
-		if (status == MR_OK)
-			status = mr_deform_basis(&ctx, d, m.p, response);
-		mr_deform_free(d);
-		mr_mark_release(&ctx, mark);
-		if (status == MR_OK)
-			break;
-		assert_int_equal(status, MR_EMEM);
-		assert_true(k < 200);
-	}
-	ctx.fail_at = 0;
 }
 
 int
@@ -777,7 +722,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_degenerate_faces_give_no_nan, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_refusals, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_threads_and_runs_change_nothing, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_memory_failures_are_reported, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

@@ -118,7 +118,6 @@ weights(const mr_mesh *m, const uint32_t *region, size_t k)
 	assert_int_equal(mr_deform_basis(&ctx, d, m->p, response), MR_OK);
 	for (size_t v = 0; v < m->nv; v++)
 		w[v] = fmin(fmax(response[4 * handles * v + 3], 0), 1);
-	mr_deform_free(d);
 	return w;
 }
 
@@ -145,7 +144,6 @@ test_twists_are_exact(void **state)
 			pose(d, m.p, &t, &w, 1, p);
 			assert_near(&m, p, q, 1e-11);
 		}
-		mr_deform_free(d);
 	}
 }
 
@@ -166,7 +164,6 @@ test_a_map_alone_turns_the_short_way(void **state)
 	assert_near(&m, p, q, 0);
 	pose(d, m.p, &t, &w, 1, q);
 	assert_true(mr_dist(p[20 * AROUND], q[20 * AROUND]) > 1.9);
-	mr_deform_free(d);
 }
 
 /* Nothing fixed, both ends turned against each other: what is between shares the difference. */
@@ -189,7 +186,6 @@ test_two_handles_share_a_twist(void **state)
 		}
 		pose(d, m.p, t, w, 2, p);
 		assert_near(&m, p, q, 1e-11);
-		mr_deform_free(d);
 	}
 }
 
@@ -217,7 +213,6 @@ test_tapers_are_exact(void **state)
 		}
 		pose(d, m.p, &t, &w, 1, p);
 		assert_near(&m, p, q, 1e-11);
-		mr_deform_free(d);
 	}
 }
 
@@ -262,7 +257,6 @@ test_bends_are_a_beams(void **state)
 		}
 		assert_near(&m, p, q, 2.5e-5 * degrees);
 	}
-	mr_deform_free(d);
 }
 
 /* A motion of all constraints is the whole's, whatever it is; without any, no bit changes. */
@@ -287,7 +281,6 @@ test_rigid_motions_are_exact(void **state)
 			pose(d, m.p, rest, NULL, 2, p);
 			assert_memory_equal(p, m.p, m.nv * sizeof *p);
 			t[1] = turning(zero, zero, mr_vec(1, 2, 3)); /* a move, and a turn of the whole */
-			mr_deform_free(d);
 			t[1] = t[0];
 		}
 }
@@ -308,8 +301,6 @@ test_moves_are_linear(void **state)
 	pose(d, m.p, &t, NULL, 1, p);
 	pose(linear, m.p, &t, NULL, 1, q);
 	assert_memory_equal(p, q, m.nv * sizeof *p);
-	mr_deform_free(d);
-	mr_deform_free(linear);
 }
 
 /* Dense, of the whole mesh */
@@ -321,7 +312,7 @@ dense_operator(const mr_mesh *m)
 	size_t n = m->nv;
 	double *d = MR_NEW_ZERO(&ctx, n * n, double), *area = MR_NEW(&ctx, n, double);
 
-	assert_int_equal(mr_voronoi_areas(&ctx, m, area), MR_OK);
+	mr_voronoi_areas(&ctx, m, area);
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++) {
 			size_t i = m->t[f].v[k], j = m->t[f].v[(k + 1) % 3];
@@ -378,7 +369,7 @@ turned_differentials(const mr_mesh *m, const mr_mat3 *r, mr_v3 *b)
 	double *area = MR_NEW(&ctx, m->nv, double);
 
 	memset(b, 0, m->nv * sizeof *b);
-	assert_int_equal(mr_voronoi_areas(&ctx, m, area), MR_OK);
+	mr_voronoi_areas(&ctx, m, area);
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
 		mr_mat3 mean = { { 0 } };
@@ -434,8 +425,6 @@ test_a_round_is_its_equation(void **state)
 		assert_true(scale > 1e-3); /* on the constraints it is none */
 		if (!(residual < 1e-9 * scale))
 			fail_msg("order %zu: %g of %g", k, residual, scale);
-		mr_deform_free(d);
-		mr_deform_free(one);
 	}
 }
 
@@ -478,7 +467,6 @@ test_rounds_make_it_more_rigid(void **state)
 		e = energy(&m, p);
 		assert_true(e < last);
 		last = e;
-		mr_deform_free(d);
 	}
 }
 
@@ -500,7 +488,6 @@ test_rounds_keep_stretches(void **state)
 		double s = weight[v], radius = hypot(p[v].y, p[v].z);
 		assert_true(fabs(radius - (1 + s)) < 0.06);
 	}
-	mr_deform_free(d);
 }
 
 /* The volume of a tube with flat ends. */
@@ -560,7 +547,6 @@ test_rounds_keep_volume(void **state)
 			mr_deform *d = deform_of(&kind[i], region, k, 6);
 			p[i] = places(&m);
 			pose(d, m.p, &t, &w, 1, p[i]);
-			mr_deform_free(d);
 		}
 		assert_true(volume_of(&m, p[0]) > least * whole);
 		assert_true(volume_of(&m, p[0]) < 0.98 * whole);
@@ -582,7 +568,6 @@ test_parts_that_touch_keep_volume(void **state)
 	(void)state;
 	pose(d, m.p, &map, &w, 1, q);
 	assert_true(volume_of(&one, q) + volume_of(&one, q + one.nv) > 1.8 * volume_of(&one, one.p));
-	mr_deform_free(d);
 }
 
 /* A domed sheet that is pushed through by what holds its middle encloses nothing to keep: it is where it
@@ -617,8 +602,6 @@ test_dents_are_not_blown_up(void **state)
 	pose(d, m.p, &map, &w, 1, q);
 	for (size_t v = 0; v < m.nv; v++)
 		assert_true(mr_dist(plain[v], q[v]) < 0.15);
-	mr_deform_free(none);
-	mr_deform_free(d);
 }
 
 static void
@@ -643,9 +626,7 @@ test_iterative_is_direct(void **state)
 		assert_int_equal(mr_deform_new(&ctx, &m, NULL, region, &opts, &d), MR_OK);
 		pose(d, m.p, &t, &w, 1, p);
 		assert_near(&m, p, q, 1e-7);
-		mr_deform_free(d);
 	}
-	mr_deform_free(direct);
 }
 
 /* Places that a turned handle takes tell the rounds alone where it turns. */
@@ -666,8 +647,6 @@ test_targets_have_rounds(void **state)
 	assert_true(energy(&m, q) < 0.3 * energy(&m, p));
 	assert_int_equal(mr_deform_solve(&ctx, some, &(mr_deform_task){ m.p, NULL, m.p }, q), MR_OK);
 	assert_memory_equal(q, m.p, m.nv * sizeof *q);
-	mr_deform_free(none);
-	mr_deform_free(some);
 }
 
 static void
@@ -689,7 +668,6 @@ test_threads_and_order_of_poses_change_nothing(void **state)
 		if (run == 0)
 			memcpy(first, p, m.nv * sizeof *p);
 		assert_memory_equal(p, first, m.nv * sizeof *p);
-		mr_deform_free(d);
 	}
 }
 

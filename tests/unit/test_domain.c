@@ -1,6 +1,6 @@
 /* Domains of displaced subdivision surfaces: prefixes, levels, displacing, and what a frame may hold. */
-#include "subdivide/displaced.h"
 #include "shapes.h"
+#include "subdivide/displaced.h"
 
 static mr_domain
 domain(const mr_mesh *m, size_t n)
@@ -124,23 +124,6 @@ test_frames(void **state)
 	refuse(&m, empty, "no layer displacement: mr-sample makes displacement; the frame has none");
 }
 
-static void
-test_lost_memory(void **state)
-{
-	mr_mesh m = shape(MR_CUBE, 2000);
-	mr_mark mark = mr_mark_take(&ctx);
-	mr_status status = MR_EMEM;
-	mr_domain d;
-
-	(void)state;
-	for (uint64_t k = 1; status == MR_EMEM; k++) {
-		mr_mark_release(&ctx, mark);
-		ctx.fail_at = k;
-		status = mr_domain_build(&ctx, &m, 2, &d);
-	}
-	assert_int_equal(status, MR_OK);
-}
-
 int
 main(void)
 {
@@ -149,7 +132,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_levels_by_count, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_displacing, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_frames, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_lost_memory, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

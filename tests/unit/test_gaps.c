@@ -103,7 +103,6 @@ areas_weigh(void **state)
 	assert_int_equal(mr_gap_of_surface(&ctx, &m, &(mr_gap_cloud){ &pole, &spacing, near, 1, spacing },
 			     SAMPLES, &g, &widest),
 	    MR_OK);
-	mr_near_free(near);
 	/* of the unit sphere: chords of length c cut off the share c^2 / 4, the mean is 4/3 */
 	assert_float_equal(g.surface.mean, 4.0 / 3, 0.01);
 	assert_float_equal(g.surface.max, 2, 0.01);

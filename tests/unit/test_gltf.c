@@ -143,7 +143,8 @@ nodes(void **state)
 	m = row_of(&ctx, 3, "", "{\"mesh\":0,\"matrix\":[-1,0,0,0, 0,1,0,0, 0,0,1,0, 5,6,7,1]}");
 	assert_v3(m.p[1], 4, 7, 7);
 	assert_face(&m, 0, 0, 2, 1);
-	m = row_of(&ctx, 3, "", "{\"mesh\":0,\"children\":[1]},{\"mesh\":0,\"name\":\"b\",\"scale\":[1,1,2]}");
+	m = row_of(
+	    &ctx, 3, "", "{\"mesh\":0,\"children\":[1]},{\"mesh\":0,\"name\":\"b\",\"scale\":[1,1,2]}");
 	assert_int_equal(m.nv, 6); /* meshes are not joined to each other */
 	assert_int_equal(m.nf, 2);
 	assert_int_equal(m.object[1], 1);
@@ -277,8 +278,7 @@ refused(void **state)
 	    "the file needs the extension KHR_draco_mesh_compression, which is not read");
 	refuses("\"scene\":0", "\"scene\":1", "scene names number 1 of 1 scenes");
 	refuses("{\"mesh\":0,", "{\"children\":[0],\"mesh\":0,", "node 0 hangs from itself");
-	refuses("{\"mesh\":0,", "{\"children\":[7],\"mesh\":0,",
-	    "node 0: a child is none of the 1 nodes");
+	refuses("{\"mesh\":0,", "{\"children\":[7],\"mesh\":0,", "node 0: a child is none of the 1 nodes");
 	refuses("{\"mesh\":0,", "{\"mesh\":3,", "node 0: mesh names number 3 of 1 meshes");
 	refuses("{\"mesh\":0,", "{\"scale\":[1,2],\"mesh\":0,", "node 0: scale has 2 numbers, not 3");
 	refuses("\"POSITION\":0", "\"POSITION\":9",
@@ -437,59 +437,6 @@ too_large_for_floats(void **state)
 	mr_ctx_free(&ctx);
 }
 
-/* The k-th allocation fails, for every k: reading, and writing a scene of poses, materials and a picture. */
-static void
-memory_fails(void **state)
-{
-	static const mr_v3 p[] = { { 0, 0, 0 }, { 1, 0, 0 }, { 0, 1, 0 } },
-			   q[] = { { 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 } };
-	static const mr_tri t[] = { { { 0, 1, 2 } } };
-	static const uint32_t none[] = { 0 };
-	static const double uv[] = { 0, 0, 1, 0, 0, 1 };
-	bytes glb = square_glb();
-	mr_target target = { .p = q };
-	mr_scene_node node = { .frame = "f",
-		.layer = "mesh",
-		.target = &target,
-		.targets = 1,
-		.model = { .p = p,
-		    .nv = 3,
-		    .t = t,
-		    .nf = 1,
-		    .texcoord = uv,
-		    .material = none,
-		    .object = none,
-		    .materials = { "ink", 3 },
-		    .objects = { "page", 4 },
-		    .mtllib = { "m.mtl", 5 } } };
-	const mr_scene scene = { .node = &node, .nodes = 1, .folder = "." };
-	size_t failures = 0;
-	FILE *f = fopen("m.mtl", "w");
-
-	(void)state;
-	assert_non_null(f);
-	assert_true(fputs("newmtl ink\nKd 0 0.5 1\nmap_Kd ink.png\n", f) >= 0 && fclose(f) == 0);
-	assert_non_null(f = fopen("ink.png", "w"));
-	assert_true(fputs("\x89PNG\r\n\x1a\n bytes as they are", f) >= 0 && fclose(f) == 0);
-	for (int writing = 0; writing < 2; writing++)
-		for (uint64_t k = 1;; k++) {
-			mr_ctx ctx;
-			mr_model m;
-			mr_status status;
-			begin(&ctx);
-			ctx.fail_at = k;
-			status = writing ? mr_scene_write(&ctx, "scene.glb", NULL, &scene, NULL)
-			                 : mr_model_parse(&ctx, "", NULL, glb.data, glb.size, &m);
-			assert_true(status == MR_OK || status == MR_EMEM);
-			mr_ctx_free(&ctx);
-			failures += status == MR_EMEM;
-			if (status == MR_OK)
-				break;
-		}
-	assert_true(failures > 20);
-	free(glb.data);
-}
-
 int
 main(void)
 {
@@ -497,7 +444,7 @@ main(void)
 		cmocka_unit_test(nodes), cmocka_unit_test(seam), cmocka_unit_test(text_with_uri),
 		cmocka_unit_test(accessors), cmocka_unit_test(left_out), cmocka_unit_test(refused),
 		cmocka_unit_test(chunks_refused), cmocka_unit_test(seams_come_back),
-		cmocka_unit_test(colors_come_back), cmocka_unit_test(too_large_for_floats), cmocka_unit_test(memory_fails) };
+		cmocka_unit_test(colors_come_back), cmocka_unit_test(too_large_for_floats) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);

@@ -69,7 +69,6 @@ equals_a_loop(void **state)
 				assert_memory_equal(index + i * MOST, expected, sizeof expected);
 				assert_memory_equal(dist2 + i * MOST, expected2, sizeof expected2);
 			}
-			mr_near_free(near);
 			mr_ctx_free(&ctx);
 		}
 }
@@ -92,7 +91,6 @@ equal_points_count_once(void **state)
 	assert_int_equal(mr_near_query(&ctx, near, p, 1, 2, index, NULL), MR_OK);
 	assert_int_equal(index[0], 0);
 	assert_int_equal(index[1], UINT32_MAX);
-	mr_near_free(near);
 	mr_ctx_free(&ctx);
 }
 
@@ -113,8 +111,6 @@ bad_input_is_refused(void **state)
 	assert_int_equal(mr_near_build(&ctx, p, 1, &near), MR_OK);
 	assert_int_equal(mr_near_query(&ctx, near, p, 2, 1, &index, NULL), MR_ERANGE);
 	assert_int_equal(mr_near_query(&ctx, near, p, 0, 1, NULL, NULL), MR_OK);
-	mr_near_free(near);
-	mr_near_free(NULL);
 	mr_ctx_free(&ctx);
 }
 

@@ -322,28 +322,6 @@ colors_at_the_ends(void **state)
 			assert_false(same(mr_color_region(r), mr_color_region(q)));
 }
 
-/* Each allocation fails in turn. */
-static void
-out_of_memory(void **state)
-{
-	mr_mesh m = made(MR_SPHERE, 100);
-	mr_camera c = camera_for(&m, mr_vec(0, 0, 1), 32, 32);
-	mr_status s = MR_EMEM;
-	mr_image image;
-
-	(void)state;
-	assert_int_equal(mr_image_new(&ctx, 32, 32, paper, &image), MR_OK);
-	for (uint64_t k = 1; s != MR_OK; k++) {
-		ctx.fail_at = k;
-		s = mr_raster(&ctx, &(mr_subject){ .mesh = m }, &c, false, &image);
-		ctx.fail_at = 0;
-		assert_true(s == MR_OK || s == MR_EMEM);
-		if (s != MR_OK)
-			assert_int_equal(covered_pixels(&image), 0);
-	}
-	assert_int_equal(mr_image_new(&ctx, 40000, 3, paper, &image), MR_ERANGE);
-}
-
 int
 main(void)
 {
@@ -359,7 +337,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(far_outside_is_cut, setup, teardown),
 		cmocka_unit_test_setup_teardown(text_stays_in_its_box, setup, teardown),
 		cmocka_unit_test_setup_teardown(colors_at_the_ends, setup, teardown),
-		cmocka_unit_test_setup_teardown(out_of_memory, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

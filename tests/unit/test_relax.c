@@ -60,15 +60,15 @@ areas_are_those_of_the_mesh(void **state)
 	want = MR_NEW(&ctx, x.d.nv, double);
 	for (int round = 0; round < 2; round++) {
 		double sum = 0;
-		assert_int_equal(mr_dyn_areas(&ctx, &x.d, 0.5, area), MR_OK);
+		mr_dyn_areas(&ctx, &x.d, 0.5, area);
 		for (uint32_t v = 0; v < x.d.nv; v++) {
 			assert_true(x.d.kind[v] != MR_DEAD || area[v] == 0);
 			sum += area[v] / 4;
 		}
 		assert_int_equal(mr_dyn_compact(&ctx, &x.d), MR_OK);
-		assert_int_equal(mr_dyn_areas(&ctx, &x.d, 0.5, area), MR_OK);
+		mr_dyn_areas(&ctx, &x.d, 0.5, area);
 		m = mr_dyn_view(&x.d, "view");
-		assert_int_equal(mr_voronoi_areas(&ctx, &m, want), MR_OK);
+		mr_voronoi_areas(&ctx, &m, want);
 		for (uint32_t v = 0; v < x.d.nv; v++)
 			assert_true(fabs(area[v] / 4 / want[v] - 1) < 1e-6);
 		assert_true(fabs(sum / mr_mesh_area(&ctx, &m) - 1) < 1e-7);
@@ -117,7 +117,7 @@ a_pass_is_the_formula(void **state)
 		area = MR_NEW(&ctx, x.m.nv, double);
 		mass = MR_NEW(&ctx, x.m.nv, double);
 		assert_int_equal(mr_adjacency_build(&ctx, &x.m, &adj), MR_OK);
-		assert_int_equal(mr_voronoi_areas(&ctx, &x.m, area), MR_OK);
+		mr_voronoi_areas(&ctx, &x.m, area);
 		for (size_t v = 0; v < x.m.nv; v++)
 			mass[v] = pow(area[v], gravity[i]);
 		assert_int_equal(mr_relax(&ctx, &x.d, &x.s, &o), MR_OK);
@@ -142,7 +142,7 @@ boundary_vertices_count_twice(void **state)
 	x.m.p = copy_of(x.d.p, x.d.nv); /* the same surface, with the vertices elsewhere */
 	mass = MR_NEW(&ctx, x.m.nv, double);
 	assert_int_equal(mr_adjacency_build(&ctx, &x.m, &adj), MR_OK);
-	assert_int_equal(mr_voronoi_areas(&ctx, &x.m, mass), MR_OK);
+	mr_voronoi_areas(&ctx, &x.m, mass);
 	for (uint32_t v = 0; v < x.m.nv; v++)
 		mass[v] *= x.d.kind[v] == MR_SMOOTH ? 1 : 2;
 	assert_int_equal(mr_relax(&ctx, &x.d, &x.s, &o), MR_OK);
@@ -224,7 +224,9 @@ static void
 no_face_turns_over(void **state)
 {
 	for (uint64_t seed = 1; seed < 20; seed++) {
-		mr_relax_opts o = { .damping = 1, .gravity = (double)(seed % 4), .passes = 1, .project = seed % 2 };
+		mr_relax_opts o = {
+			.damping = 1, .gravity = (double)(seed % 4), .passes = 1, .project = seed % 2
+		};
 		double worst = 1;
 		scene x;
 		(void)state;

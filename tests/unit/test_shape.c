@@ -206,28 +206,6 @@ refusals(void **state)
 	assert_ptr_equal(p, &point);
 }
 
-/* Each allocation fails in turn: MR_EMEM, and nothing else happens. */
-static void
-out_of_memory(void **state)
-{
-	(void)state;
-	for (int solid = 0; solid < MR_SOLIDS; solid++) {
-		for (uint64_t k = 1;; k++) {
-			mr_mesh m;
-			mr_status s;
-			ctx.fail_at = k;
-			s = mr_solid_make(&ctx,
-			    &(mr_make_opts){
-				.solid = (mr_solid)solid, .vertices = 500, .genus = 2, .open = false },
-			    &m);
-			ctx.fail_at = 0;
-			if (s == MR_OK)
-				break;
-			assert_int_equal(s, MR_EMEM);
-		}
-	}
-}
-
 int
 main(void)
 {
@@ -239,7 +217,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(sample_is_uniform, setup, teardown),
 		cmocka_unit_test_setup_teardown(noise_is_gaussian, setup, teardown),
 		cmocka_unit_test_setup_teardown(refusals, setup, teardown),
-		cmocka_unit_test_setup_teardown(out_of_memory, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

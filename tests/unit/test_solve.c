@@ -63,7 +63,7 @@ check_solver(mr_solver_kind kind, double drift, const int *part)
 
 	for (int i = 0; i < 3 * N; i++)
 		x[i] = mr_random_real(&r) - 0.5;
-	assert_int_equal(mr_solver_new(&ctx, kind, &given, part, &s), MR_OK);
+	assert_int_equal(mr_solver_direct(&ctx, s = mr_solver_new(&ctx), kind, &given, part), MR_OK);
 	memset(given.value, 0,
 	    (size_t)given.start[N] * sizeof *given.value); /* it need not outlive the set-up */
 	for (int run = 0; run < 2; run++) {                /* any number of times, any number of columns */
@@ -77,7 +77,6 @@ check_solver(mr_solver_kind kind, double drift, const int *part)
 	}
 	report = mr_solver_reported(s);
 	assert_true(report.nnz_factor >= 3 * N && report.rcond > 1e-6 && report.rcond <= 1);
-	mr_solver_free(s);
 }
 
 static void
@@ -106,7 +105,7 @@ test_subtrees(void **state)
 	(void)state;
 	for (int i = 0; i < COLUMNS * ROWS; i++)
 		x[i] = mr_random_real(&r) - 0.5;
-	assert_int_equal(mr_solver_new(&ctx, MR_CHOLESKY, &lower, NULL, &s), MR_OK);
+	assert_int_equal(mr_solver_direct(&ctx, s = mr_solver_new(&ctx), MR_CHOLESKY, &lower, NULL), MR_OK);
 	for (unsigned threads = 1; threads <= 4; threads++) {
 		ctx.threads = threads;
 		for (size_t c = 0; c < COLUMNS; c++)
@@ -119,7 +118,6 @@ test_subtrees(void **state)
 	for (size_t i = 0; i < COLUMNS * ROWS; i++)
 		if (!(fabs(b[i] - x[i]) < 1e-10))
 			fail_msg("x[%zu] is off by %g", i, b[i] - x[i]);
-	mr_solver_free(s);
 }
 
 static void
@@ -150,7 +148,7 @@ check_iterative(
 	for (unsigned threads = 1; threads <= 3; threads++) {
 		mr_solver *s = NULL;
 		ctx.threads = threads;
-		assert_int_equal(mr_solver_open(&ctx, &opts, &system, &s), MR_OK);
+		assert_int_equal(mr_solver_open(&ctx, s = mr_solver_new(&ctx), &opts, &system), MR_OK);
 		for (size_t c = 0; c < 6; c++)
 			apply(&a, x + c * N, b + c * N);
 		assert_int_equal(mr_solver_solve(&ctx, s, b, 6), MR_OK);
@@ -162,7 +160,6 @@ check_iterative(
 		assert_memory_equal(b, first, 6 * N * sizeof *b);
 		assert_in_range(mr_solver_reported(s).iterations, 1, most);
 		assert_true(mr_solver_reported(s).residual <= opts.tol);
-		mr_solver_free(s);
 	}
 }
 
@@ -315,10 +312,9 @@ test_multigrid_of_zeros(void **state)
 		opts.kind = (mr_solver_kind)kind;
 		opts.iterations = 10;
 		b[0] = 1;
-		assert_int_equal(mr_solver_open(&ctx, &opts, &system, &s), MR_OK);
+		assert_int_equal(mr_solver_open(&ctx, s = mr_solver_new(&ctx), &opts, &system), MR_OK);
 		assert_int_equal(mr_solver_solve(&ctx, s, b, 1), MR_ENUMERIC);
 		assert_null(strstr(ctx.error, "nan"));
-		mr_solver_free(s);
 	}
 }
 
@@ -337,11 +333,11 @@ test_no_convergence(void **state)
 		opts.iterations = 3;
 		for (int i = 0; i < N; i++)
 			b[i] = i % 5;
-		assert_int_equal(mr_solver_open(&ctx, &opts, &(mr_system){ .a = &a }, &s), MR_OK);
+		assert_int_equal(
+		    mr_solver_open(&ctx, s = mr_solver_new(&ctx), &opts, &(mr_system){ .a = &a }), MR_OK);
 		assert_int_equal(mr_solver_solve(&ctx, s, b, 1), MR_ENUMERIC);
 		assert_non_null(strstr(ctx.error, "no convergence: a relative residual of "));
 		assert_non_null(strstr(ctx.error, "after 3 iterations"));
-		mr_solver_free(s);
 	}
 }
 
@@ -353,12 +349,11 @@ test_memory(void **state)
 	for (int kind = MR_CHOLESKY; kind <= MR_LU; kind++) {
 		mr_sparse a = grid_matrix(0.1, 0, kind == MR_CHOLESKY);
 		mr_solver_opts opts = MR_SOLVER_DEFAULTS;
-		mr_solver *s = NULL;
 		opts.kind = (mr_solver_kind)kind;
 		opts.memory = 1000;
-		assert_int_equal(mr_solver_open(&ctx, &opts, &(mr_system){ .a = &a }, &s), MR_ERANGE);
+		assert_int_equal(
+		    mr_solver_open(&ctx, mr_solver_new(&ctx), &opts, &(mr_system){ .a = &a }), MR_ERANGE);
 		assert_non_null(strstr(ctx.error, "MB"));
-		assert_null(s);
 	}
 }
 
@@ -368,23 +363,21 @@ test_what_has_no_solution(void **state)
 	mr_sparse indefinite = grid_matrix(-1, 0, true), singular = grid_matrix(0, 0, false);
 	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
 	uint32_t *vertex = MR_NEW(&ctx, N, uint32_t);
-	mr_solver *s = NULL;
 
 	(void)state;
-	assert_int_equal(mr_solver_new(&ctx, MR_CHOLESKY, &indefinite, NULL, &s), MR_ENUMERIC);
+	assert_int_equal(
+	    mr_solver_direct(&ctx, mr_solver_new(&ctx), MR_CHOLESKY, &indefinite, NULL), MR_ENUMERIC);
 	assert_non_null(strstr(ctx.error, "not positive definite (at row "));
 	for (size_t i = 0; i < N; i++)
 		vertex[i] = 100000;
-	assert_int_equal(
-	    mr_solver_open(&ctx, &opts, &(mr_system){ .a = &indefinite, .vertex = vertex }, &s), MR_ENUMERIC);
+	assert_int_equal(mr_solver_open(&ctx, mr_solver_new(&ctx), &opts,
+			     &(mr_system){ .a = &indefinite, .vertex = vertex }),
+	    MR_ENUMERIC);
 	assert_non_null(strstr(ctx.error, "(at vertex 100000)"));
-	assert_null(s);
 	for (int e = singular.start[5]; e < singular.start[6]; e++)
 		singular.value[e] = 0;
-	assert_int_equal(mr_solver_new(&ctx, MR_LU, &singular, NULL, &s), MR_ENUMERIC);
+	assert_int_equal(mr_solver_direct(&ctx, mr_solver_new(&ctx), MR_LU, &singular, NULL), MR_ENUMERIC);
 	assert_non_null(strstr(ctx.error, "singular"));
-	assert_null(s);
-	mr_solver_free(NULL);
 }
 
 /* A program that has OpenBLAS take several threads still does so after a solver is set up. */
@@ -400,7 +393,6 @@ test_blas_threads(void **state)
 	  get = { dlsym(process, "openblas_get_num_threads") },
 	  levels = { dlsym(process, "omp_get_max_active_levels") };
 	mr_sparse a = grid_matrix(0.1, 0, true);
-	mr_solver *s = NULL;
 	int before, outer, inner;
 
 	(void)state;
@@ -410,7 +402,7 @@ test_blas_threads(void **state)
 	before = levels.get();
 	outer = mr_serial_begin();
 	assert_int_equal(get.get(), 1);
-	assert_int_equal(mr_solver_new(&ctx, MR_CHOLESKY, &a, NULL, &s), MR_OK);
+	assert_int_equal(mr_solver_direct(&ctx, mr_solver_new(&ctx), MR_CHOLESKY, &a, NULL), MR_OK);
 	inner = mr_serial_begin();
 	mr_serial_end(inner);
 	assert_int_equal(get.get(), 1);
@@ -418,7 +410,6 @@ test_blas_threads(void **state)
 	mr_serial_end(outer);
 	assert_int_equal(get.get(), 3);
 	assert_int_equal(levels.get(), before);
-	mr_solver_free(s);
 	dlclose(process);
 }
 
@@ -433,10 +424,10 @@ test_one_unknown(void **state)
 	for (int kind = MR_CHOLESKY; kind <= MR_LU; kind++) {
 		double b[2] = { 8, -2 };
 		mr_solver *s = NULL;
-		assert_int_equal(mr_solver_new(&ctx, (mr_solver_kind)kind, &a, NULL, &s), MR_OK);
+		assert_int_equal(
+		    mr_solver_direct(&ctx, s = mr_solver_new(&ctx), (mr_solver_kind)kind, &a, NULL), MR_OK);
 		assert_int_equal(mr_solver_solve(&ctx, s, b, 2), MR_OK);
 		assert_true(b[0] == 2 && b[1] == -0.5);
-		mr_solver_free(s);
 	}
 }
 

@@ -2,18 +2,6 @@
 #include "shapes.h"
 #include "wrap/parts.h"
 
-enum { POINTS = 120 };
-
-/* Points spread over the unit sphere by the golden angle. */
-static void
-sphere(mr_v3 p[POINTS])
-{
-	for (int i = 0; i < POINTS; i++) {
-		double z = 1 - (2 * i + 1.0) / POINTS, r = sqrt(1 - z * z), a = 2.399963229728653 * i;
-		p[i] = mr_vec(r * cos(a), r * sin(a), z);
-	}
-}
-
 static void
 test_box_is_closed_and_outward(void **state)
 {
@@ -91,7 +79,6 @@ test_crossings_are_taken_back(void **state)
 		assert_true(m.p[v].x > 0 || d.p[v].x == -0.01);
 	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &drawn, 1, &c), MR_OK);
 	assert_int_equal(c.crossings, 0);
-	mr_near_free(cloud.near);
 }
 
 /* Points on a cube, a wrap of it, and one that is longer and lacks a side of the cube. */
@@ -112,7 +99,6 @@ test_coverage_goes_both_ways(void **state)
 	assert_int_equal(mr_wrap_measure(&ctx, &cloud, &far, 1 << 20, &c), MR_OK);
 	assert_true(fabs(c.gaps.points.max - 0.5) < 1e-12); /* the middle of the side that is not there */
 	assert_true(c.gaps.surface.max > 2 && c.gaps.surface.max < 2.25);
-	mr_near_free(cloud.near);
 }
 
 /* A lattice of points, edges one long, of which those within `hole` of the middle are left out; a flat mesh
@@ -138,7 +124,6 @@ cut_over_a_hole(double hole, int how, mr_mesh *m)
 	for (size_t v = 0; v < m->nv; v++)
 		((mr_v3 *)m->p)[v] = mr_add(m->p[v], mr_mul(-10, mr_vec(1.5, sqrt(0.75), 0)));
 	assert_int_equal(mr_wrap_cut(&ctx, &cloud, how, false, m, &lids), MR_OK);
-	mr_near_free(cloud.near);
 	return lids;
 }
 
@@ -210,32 +195,6 @@ test_sheets_are_told_from_bodies(void **state)
 		assert_int_equal(mr_wrap_is_sheet(&ctx, &cloud, axis, &is_sheet), MR_OK);
 		assert_int_equal(is_sheet, cases[i].is_sheet);
 		assert_true(!is_sheet || fabs(axis[2].z) > 0.99);
-		mr_near_free(cloud.near);
-	}
-}
-
-static void
-test_memory_may_run_out(void **state)
-{
-	mr_v3 p[POINTS];
-
-	(void)state;
-	sphere(p);
-	for (int method = MR_WRAP_AUTO; method <= MR_WRAP_VOLUME; method++) {
-		mr_wrap_opts o = MR_WRAP_DEFAULTS;
-		mr_status status = MR_EMEM;
-		o.method = method;
-		o.iterations = 1;
-		for (uint64_t k = 1; status != MR_OK; k += k < 40 ? 1 : 7) {
-			mr_mark mark = mr_mark_take(&ctx);
-			mr_mesh out = { 0 };
-			ctx.fail_at = k;
-			status = mr_shrinkwrap(&ctx, p, POINTS, NULL, NULL, &o, &out, NULL);
-			ctx.fail_at = 0;
-			assert_true(status == MR_OK || status == MR_EMEM);
-			assert_true((status == MR_OK) == (out.nf > 0));
-			mr_mark_release(&ctx, mark);
-		}
 	}
 }
 
@@ -249,7 +208,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_coverage_goes_both_ways, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_wide_openings_are_cut_out, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_sheets_are_told_from_bodies, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_memory_may_run_out, setup, teardown),
 	};
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);

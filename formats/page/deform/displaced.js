@@ -42,7 +42,7 @@ export class DisplacedDeformer extends Poser {
 		const { position, response, columns: { response: { components, steps: { origin } } } } = this, handles = components / 4;
 		const places = [position, response, Float64Array.from(origin), flat(maps, handles), position].map((values) => library.put(values));
 
-		library.had(library.run.pose_by_response(places[0], position.length / 3, places[1], handles, ...places.slice(2)));
+		library.run.pose_by_response(places[0], position.length / 3, places[1], handles, ...places.slice(2));
 		const out = library.get(Float64Array, places[4], position.length);
 		library.free(...places);
 		return out;

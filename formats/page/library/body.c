@@ -31,7 +31,7 @@ whole_bary(mr_ctx *ctx, const double (*bary)[2], size_t n)
 {
 	mr_v3 *b = MR_NEW(ctx, n, mr_v3);
 
-	for (size_t i = 0; b && i < n; i++)
+	for (size_t i = 0; i < n; i++)
 		b[i] = mr_vec(bary[i][0], bary[i][1], 1 - bary[i][0] - bary[i][1]);
 	return b;
 }
@@ -47,8 +47,6 @@ begin(body *b)
 	b->mesh = MR_NEW(&b->ctx, w->n, mr_v3);
 	b->base_out = mr_alloc(&b->ctx, w->nv, sizeof *b->base_out);
 	b->out = mr_alloc(&b->ctx, w->n, sizeof *b->out);
-	if (!normal || !bary || !b->base || !b->mesh || !b->base_out || !b->out)
-		return MR_EMEM;
 	MR_TRY(mr_incidence_build(&b->ctx, &rest, &b->inc));
 	MR_TRY(mr_vertex_normals(&b->ctx, &rest, &b->inc, normal));
 	b->detail = (mr_detail){ w->n, { w->face, bary }, w->height, w->offset, w->rest, normal };
@@ -71,21 +69,19 @@ body_new(const whole *w)
 
 /* Places of n vertices by their response to maps about `origin`, a map for each handle; map: changed. */
 MR_EXPORT(pose_by_response)
-bool
+void
 pose_by_response(const mr_v3 *p, size_t n, const double *response, size_t handles, const mr_v3 *origin,
     mr_affine *map, mr_v3 *out)
 {
 	mr_ctx ctx;
-	mr_status status;
 
 	for (size_t h = 0; h < handles; h++) {
 		mr_v3 moved = mr_sub(mr_apply(&map[h], *origin), *origin);
 		map[h].m[3] = moved.x, map[h].m[7] = moved.y, map[h].m[11] = moved.z;
 	}
 	mr_ctx_init(&ctx, 1);
-	status = mr_pose_by_response(&ctx, p, n, response, handles, map, out);
+	mr_pose_by_response(&ctx, p, n, response, handles, map, out);
 	mr_ctx_free(&ctx);
-	return status == MR_OK;
 }
 
 static void
@@ -106,8 +102,8 @@ body_pose(body *b, mr_affine *map)
 	const whole *w = &b->w;
 	mr_mesh base = { "base", b->base, w->triangles, w->nv, w->nf };
 
-	if (!pose_by_response(w->position, w->nv, w->response, w->handles, &w->origin, map, b->base) ||
-	    mr_decode(&b->ctx, &base, &b->inc, &b->detail, 1, b->mesh) != MR_OK)
+	pose_by_response(w->position, w->nv, w->response, w->handles, &w->origin, map, b->base);
+	if (mr_decode(&b->ctx, &base, &b->inc, &b->detail, 1, b->mesh) != MR_OK)
 		return false;
 	to_floats(b->base, w->nv, b->base_out);
 	to_floats(b->mesh, w->n, b->out);

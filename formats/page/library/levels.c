@@ -37,15 +37,15 @@ levels_triangles(levels *l, size_t n)
 
 /* Heights on level n, which is made, from their coefficients: changed in place. */
 MR_EXPORT(levels_heights)
-bool
+void
 levels_heights(levels *l, size_t n, double *height)
 {
-	return mr_wavelet_synthesize(&l->ctx, l->level, n, height) == MR_OK;
+	mr_wavelet_synthesize(&l->ctx, l->level, n, height);
 }
 
 /* The surface on level n, which is made, over the control mesh at p, with these heights. */
 MR_EXPORT(levels_displaced)
-bool
+void
 levels_displaced(levels *l, size_t n, const mr_v3 *p, const double *height, mr_v3 *out)
 {
 	mr_mark mark = mr_mark_take(&l->ctx);
@@ -53,9 +53,7 @@ levels_displaced(levels *l, size_t n, const mr_v3 *p, const double *height, mr_v
 	mr_domain domain;
 
 	control.p = p;
-	if (mr_domain_on(&l->ctx, &control, l->level, n, &domain) != MR_OK)
-		return false;
+	mr_domain_on(&l->ctx, &control, l->level, n, &domain);
 	mr_domain_displace(&l->ctx, &domain, height, 1, out);
 	mr_mark_release(&l->ctx, mark);
-	return true;
 }

@@ -14,7 +14,7 @@ typedef struct surface {
 	mr_mesh m;
 	mr_v3 *p, *cross; /* of the vertices, and of the faces, as mr_face_cross has it */
 	mr_incidence around;
-	mr_bvh *bvh;    /* NULL: not made yet */
+	mr_bvh *bvh; /* NULL: not made yet */
 	double *distance;
 } surface;
 
@@ -32,14 +32,14 @@ surface_move(surface *s, const float (*p)[3])
 	s->bvh = NULL;
 }
 
-static mr_status
+static void
 begin(surface *s)
 {
 	s->p = MR_NEW(&s->ctx, s->m.nv, mr_v3);
 	s->cross = MR_NEW(&s->ctx, s->m.nf, mr_v3);
 	s->distance = MR_NEW(&s->ctx, s->m.nv, double);
 	s->m.p = s->p;
-	return s->p && s->cross && s->distance ? mr_incidence_build(&s->ctx, &s->m, &s->around) : MR_EMEM;
+	mr_incidence_build(&s->ctx, &s->m, &s->around);
 }
 
 MR_EXPORT(surface_free)
@@ -66,10 +66,8 @@ surface_new(size_t nv, const mr_tri *t, size_t nf)
 	mr_ctx_init(&s->tree, 1);
 	mr_ctx_init(&s->list, 1);
 	s->m = (mr_mesh){ "surface", NULL, t, nv, nf };
-	if (begin(s) == MR_OK)
-		return s;
-	surface_free(s);
-	return NULL;
+	begin(s);
+	return s;
 }
 
 /* Makes the tree, where it is not there. */
@@ -77,7 +75,9 @@ MR_EXPORT(surface_ready)
 bool
 surface_ready(surface *s)
 {
-	return s->bvh || mr_bvh_build(&s->tree, &s->m, &s->bvh) == MR_OK;
+	if (!s->bvh)
+		mr_bvh_build(&s->tree, &s->m, &s->bvh);
+	return true;
 }
 
 /* The face that a ray meets first, and where: ray[0] + t ray[1] in ray[0]; MR_NONE.  With its tree. */
@@ -111,14 +111,13 @@ surface_seen(const surface *s, const mr_v3 *eye, double near, uint32_t *vertex, 
 	return kept;
 }
 
-/* Room for a list of what is found; false: there is none. */
-static bool
+/* Room for a list of what is found. */
+static void
 make_list(surface *s, size_t n)
 {
 	mr_ctx_free(&s->list);
 	mr_ctx_init(&s->list, 1);
 	s->found = MR_NEW(&s->list, n, uint32_t);
-	return s->found;
 }
 
 /* The vertices no farther over the surface than that from a place on a face: how many; `found` has
@@ -129,10 +128,8 @@ surface_disc(surface *s, uint32_t face, const mr_v3 *place, double radius)
 {
 	size_t n = 0;
 
-	if (mr_geodesic_from(&s->list, &s->m, &s->around, face, *place, radius, s->distance) != MR_OK)
-		return 0;
-	if (!make_list(s, s->m.nv))
-		return 0;
+	mr_geodesic_from(&s->list, &s->m, &s->around, face, *place, radius, s->distance);
+	make_list(s, s->m.nv);
 	for (uint32_t v = 0; v < s->m.nv; v++)
 		if (s->distance[v] <= radius)
 			s->found[n++] = v;
@@ -161,7 +158,7 @@ within(const surface *s, mr_v3 normal, uint32_t f, double cosine)
 }
 
 /* Gives the corners of a vertex at a crease vertices of their own. */
-static mr_status
+static void
 part_vertex(surface *s, uint32_t v, size_t *room, size_t *faces, size_t *face_room)
 {
 	const uint32_t *f = s->around.face + s->around.start[v];
@@ -170,9 +167,9 @@ part_vertex(surface *s, uint32_t v, size_t *room, size_t *faces, size_t *face_ro
 	for (size_t i = 0; i < n; i++) {
 		size_t source_room = *room;
 		mr_v3 own = mr_unit(s->cross[f[i]]);
-		MR_TRY(MR_RESERVE(&s->ctx, s->source, s->n, 1, &source_room));
-		MR_TRY(MR_RESERVE(&s->ctx, s->end, s->n, 1, room));
-		MR_TRY(MR_RESERVE(&s->ctx, s->face, *faces, n, face_room));
+		MR_RESERVE(&s->ctx, s->source, s->n, 1, &source_room);
+		MR_RESERVE(&s->ctx, s->end, s->n, 1, room);
+		MR_RESERVE(&s->ctx, s->face, *faces, n, face_room);
 		for (size_t j = 0; j < n; j++)
 			if (j == i || within(s, own, f[j], CREASE))
 				s->face[(*faces)++] = f[j];
@@ -182,17 +179,14 @@ part_vertex(surface *s, uint32_t v, size_t *room, size_t *faces, size_t *face_ro
 		s->source[s->n] = v;
 		s->end[s->n++] = (uint32_t)*faces;
 	}
-	return MR_OK;
 }
 
-static mr_status
+static void
 part(surface *s)
 {
 	size_t room = 0, faces = 0, face_room = 0;
 
 	s->index = MR_NEW(&s->ctx, 3 * s->m.nf, uint32_t);
-	if (!s->index)
-		return MR_EMEM;
 	memcpy(s->index, s->m.t, 3 * s->m.nf * sizeof *s->index);
 	for (uint32_t v = 0; v < s->m.nv; v++) {
 		size_t first = s->around.start[v], n = s->around.start[v + 1] - first;
@@ -201,10 +195,9 @@ part(surface *s)
 		for (size_t i = 0; i < n && !bent; i++)
 			bent = !within(s, normal, s->around.face[first + i], BENT);
 		if (bent)
-			MR_TRY(part_vertex(s, v, &room, &faces, &face_room));
+			part_vertex(s, v, &room, &faces, &face_room);
 	}
 	s->normal = mr_alloc(&s->ctx, s->m.nv + s->n, sizeof *s->normal);
-	return s->normal ? MR_OK : MR_EMEM;
 }
 
 /* Parts its vertices where it has creases now: how many vertices there are beside its own, or MR_NONE; and of
@@ -213,7 +206,8 @@ MR_EXPORT(surface_part)
 size_t
 surface_part(surface *s)
 {
-	return part(s) == MR_OK ? s->n : MR_NONE;
+	part(s);
+	return s->n;
 }
 
 /* Unit normals of all these vertices, as they are now. */

@@ -64,7 +64,7 @@ class Surface {
 		const differences = (await this.parts.height.values()).subarray(0, this.vertices[level]);
 		const { levels } = await this.make(level), at = library.put(differences);
 
-		library.had(library.run.levels_heights(levels, level, at));
+		library.run.levels_heights(levels, level, at);
 		const heights = library.get(Float64Array, at, differences.length);
 		library.free(at);
 		return heights;
@@ -79,7 +79,7 @@ class Surface {
 		const height = await this.at(level).height.values();
 		const { levels } = await this.make(level), places = [library.put(p), library.put(height), library.take(24 * height.length)];
 
-		library.had(library.run.levels_displaced(levels, level, ...places));
+		library.run.levels_displaced(levels, level, ...places);
 		const out = library.get(Float64Array, places[2], 3 * height.length);
 		library.free(...places);
 		return out;
