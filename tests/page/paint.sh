@@ -1,4 +1,4 @@
-# Regions painted in the page: brush, lasso and parts give exactly the vertices that they should, undo takes them back, and what
+# Regions painted in the page: brush and parts give exactly the vertices that they should, undo takes them back, and what
 # is saved mr-select reads as those regions; malformed texts change nothing.
 . "$TOP/tests/page/begin"
 mr-make plane -n 2601 -o plane.mrs || exit

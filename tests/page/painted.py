@@ -52,8 +52,11 @@ def give(b, regions):
     b.eval("""(async () => {
         const { painter } = mrView, { work } = painter;
         work.painted = true;
-        await painter.done(work.regions.replace(%s, %s));
-    })()""" % (list(regions), list(regions.values())))
+        work.regions.begin();
+        for (const [v, region] of %s)
+            work.regions.set([v], region);
+        await painter.done(work.regions.end());
+    })()""" % json.dumps(list(regions.items())))
     b.settle()
 
 
@@ -68,14 +71,6 @@ def size(b, share):
     value = 100 * math.log(share / 0.002) / math.log(250)
     b.eval("(e => { e.value = %.9f; e.dispatchEvent(new Event('input')) })(document.getElementById('size'))" % value)
     return share
-
-
-def lasso(b, polygon):
-    b.mouse("mousePressed", *polygon[0])
-    for x, y in polygon[1:]:
-        b.mouse("mouseMoved", x, y, buttons=1)
-    b.mouse("mouseReleased", *polygon[-1])
-    b.settle()
 
 
 def read_back(stream, text):
@@ -130,31 +125,6 @@ class Picture3:
             if found and found[1] >= 0 and (best is None or found[0] < best[0]):
                 best = (found[0], i)
         return best and (best[1], [o + best[0] * k for o, k in zip(c.eye, d)])
-
-    def sees(self, v):
-        """True, False, or None where it is too close to say."""
-        d, doubt = sub(self.p[v], self.camera.eye), False
-        for i in self.near(*self.pixels[v]):
-            if v in self.t[i]:
-                continue
-            found = met(self.camera.eye, d, self.p, self.t[i])
-            if found and found[0] < 1 - 2e-6 and found[1] > 1e-4:
-                return False
-            doubt = doubt or (found is not None and found[0] < 1 + 1e-5)
-        return None if doubt else True
-
-
-def winding(polygon, x, y):
-    """Whether a place is inside of a polygon, by the sum of angles; None within a hundredth of a pixel of its line."""
-    total = 0
-    for (ax, ay), (bx, by) in zip(polygon, polygon[1:] + polygon[:1]):
-        ux, uy, vx, vy = ax - x, ay - y, bx - x, by - y
-        total += math.atan2(ux * vy - uy * vx, ux * vx + uy * vy)
-        ex, ey = bx - ax, by - ay
-        s = max(0, min(1, -(ux * ex + uy * ey) / (ex * ex + ey * ey or 1)))
-        if math.hypot(ux + s * ex, uy + s * ey) < 0.01:
-            return None
-    return abs(total) > math.pi
 
 
 def along_edges(p, t, face, place, reach):

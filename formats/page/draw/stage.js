@@ -151,7 +151,6 @@ export class Stage {
 			...place,
 			m: projection.elements,
 			eye: this.camera.position.toArray(),
-			near: this.camera.near,
 			far: this.camera.position.distanceTo(this.controls.target),
 		};
 	}

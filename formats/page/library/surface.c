@@ -1,4 +1,4 @@
-/* A surface as the page shows it: with what normals, what a ray meets, what the eye sees, discs over it. */
+/* A surface as the page shows it: with what normals, what a ray meets, discs over it. */
 #include "formats/page/library/export.h"
 #include "space/bvh.h"
 #include "space/geodesic.h"
@@ -91,24 +91,6 @@ surface_hit(const surface *s, mr_v3 ray[2])
 		return MR_NONE;
 	ray[0] = mr_axpy(hit.t, ray[1], ray[0]);
 	return hit.at.face;
-}
-
-/* Keeps those of n vertices before which, from `near` before the eye on, no face is; how many they are.  With
- * its tree. */
-MR_EXPORT(surface_seen)
-size_t
-surface_seen(const surface *s, const mr_v3 *eye, double near, uint32_t *vertex, size_t n)
-{
-	const double close = 1e-6;
-	size_t kept = 0;
-
-	for (size_t i = 0; i < n; i++) {
-		mr_v3 way = mr_sub(s->p[vertex[i]], *eye);
-		mr_ray_hit hit;
-		if (!mr_bvh_ray(s->bvh, *eye, way, near / mr_norm(way), 1 - close, &hit))
-			vertex[kept++] = vertex[i];
-	}
-	return kept;
 }
 
 /* Room for a list of what is found. */

@@ -1,4 +1,4 @@
-/* solid.js -- a surface that is drawn in the library's memory: how it is shaded, what a ray meets, what the eye sees, discs over it. */
+/* solid.js -- a surface that is drawn in the library's memory: how it is shaded, what a ray meets, discs over it. */
 import { library } from "../library/compile.js";
 
 const NONE = 0xffffffff;
@@ -59,16 +59,6 @@ export class Solid {
 
 		library.free(ray);
 		return face === NONE ? null : { face, at };
-	}
-
-	/* Those of these vertices before which there is no face, from `near` before the eye on. */
-	seen(eye, near, vertices) {
-		this.prepare();
-		const from = library.put(Float64Array.from(eye)), list = library.put(Uint32Array.from(vertices));
-		const seen = library.get(Uint32Array, list, library.run.surface_seen(this.at, from, near, list, vertices.length));
-
-		library.free(from, list);
-		return seen;
 	}
 
 	/* The vertices no farther than radius over the surface from a place on a face. */

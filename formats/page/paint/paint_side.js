@@ -53,8 +53,6 @@ function showButtons(painter) {
 	$("grow").disabled = !surface;
 	$("clear").disabled = painter.region === 0;
 	document.querySelector("#tools [value=part]").hidden = !surface;
-	$("through-row").hidden = !surface || !(painter.tool in painter.through);
-	$("through").checked = painter.through[painter.tool];
 }
 
 /* Brings the side to what is painted, and with what. */
@@ -82,10 +80,9 @@ export function connectPaint(painter) {
 	$("paint-undo").addEventListener("click", () => painter.back(false));
 	$("paint-redo").addEventListener("click", () => painter.back(true));
 	$("size").addEventListener("input", () => painter.resize(Number($("size").value)));
-	$("through").addEventListener("change", () => (painter.through[painter.tool] = $("through").checked));
 }
 
-const TOOLS = { p: "brush", l: "lasso", k: "part" };
+const TOOLS = { p: "brush", k: "part" };
 
 const KEYS = {
 	z: (painter) => painter.back(false),

@@ -32,7 +32,6 @@ export class Painter {
 		this.tool = "turn";
 		this.region = HANDLE + 1;
 		this.size = 50;
-		this.through = { brush: true, lasso: false };
 		this.strokes = new Strokes(this, app.stage);
 		this.takeAway = new TakeAway(this);
 		connectPaint(this);
@@ -140,17 +139,18 @@ export class Painter {
 		showPaint(this);
 	}
 
-	/* Shows it everywhere, when a change is done. */
-	done(vertices) {
-		this.changed(vertices);
-		return vertices.length || !this.work.painted ? this.show() : Promise.resolve();
+	/* Shows it everywhere, when a change is done; changes: whether there is any. */
+	done(changes) {
+		this.work.column.version++;
+		showPaint(this);
+		return changes || !this.work.painted ? this.show() : Promise.resolve();
 	}
 
 	/* Grow, clear, fill: `what` names it. */
 	async edit(what) {
 		const { work, region, layer } = this;
 
-		if (!work || work.regions.change || (what === "grow" && !layer.triangles) || (what === "clear" && region === FIXED))
+		if (!work || work.regions.before || (what === "grow" && !layer.triangles) || (what === "clear" && region === FIXED))
 			return undefined;
 		const t = what === "grow" ? await this.triangles() : null;
 		return work === this.work ? this.done(work.regions[what](region, t)) : undefined;
@@ -163,7 +163,7 @@ export class Painter {
 
 	/* Takes back the last change, or takes back that. */
 	back(forth) {
-		if (!this.work || this.work.regions.change)
+		if (!this.work || this.work.regions.before)
 			return Promise.resolve();
 		const { regions } = this.work;
 		return this.done(forth ? regions.redo() : regions.undo());

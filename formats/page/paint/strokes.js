@@ -1,14 +1,11 @@
 /*
- * strokes.js -- painting by mouse, pen or finger: a brush over the surface, a lasso around a part of the picture, a click on
- * a connected part.  Meanwhile the right button or two fingers turn the model, and so does a stroke that begins beside it.
+ * strokes.js -- painting by mouse, pen or finger: a brush over the surface, a click on a connected part.  Meanwhile the right button or two fingers turn the model, and so does a stroke that begins beside it.
  */
 import * as THREE from "three/build/three.module.js";
-import { within } from "./lasso.js";
 import { nearestPoint } from "../draw/pick.js";
 
 const NEAR = 9; /* pixels about a point */
 const REST = 150; /* milliseconds without a move */
-const FINE = 3; /* pixels between corners of a lasso */
 const $ = (id) => document.getElementById(id);
 
 /* The points in a ball. */
@@ -26,7 +23,7 @@ export class Strokes {
 		this.painter = painter;
 		this.stage = stage;
 		this.on = false;
-		this.stroke = null; /* { id, scene, last } of a brush, { id, scene, line } of a lasso */
+		this.stroke = null; /* { id, scene, last } */
 		const canvas = stage.canvas;
 		canvas.addEventListener("pointerdown", (e) => this.down(e));
 		canvas.addEventListener("pointermove", (e) => this.move(e));
@@ -85,15 +82,15 @@ export class Strokes {
 			return;
 		}
 		const scene = this.see(e.clientX, e.clientY), { tool } = this.painter;
-		const found = scene && tool !== "lasso" ? this.hit(scene, e.clientX, e.clientY) : null;
-		this.lead(tool !== "lasso" && !found);
-		if (!scene || (tool !== "lasso" && !found))
+		const found = scene && this.hit(scene, e.clientX, e.clientY);
+		this.lead(!found);
+		if (!found)
 			return;
 		this.stage.canvas.setPointerCapture(e.pointerId);
 		if (tool === "part")
 			this.part(scene, found);
 		else
-			this.begin(e, scene, tool);
+			this.begin(e, scene);
 	}
 
 	part({ drawn: { triangles } }, found) {
@@ -101,14 +98,10 @@ export class Strokes {
 			this.painter.part(triangles[3 * found.face]);
 	}
 
-	begin(e, scene, tool) {
-		const at = [e.clientX, e.clientY];
-
+	begin(e, scene) {
 		this.painter.work.regions.begin();
-		this.stroke = { id: e.pointerId, scene, line: tool === "lasso" ? [at] : null, last: at };
-		if (tool === "brush")
-			this.brush(...at);
-		this.drawLine();
+		this.stroke = { id: e.pointerId, scene, last: [e.clientX, e.clientY] };
+		this.brush(e.clientX, e.clientY);
 	}
 
 	move(e) {
@@ -118,14 +111,7 @@ export class Strokes {
 			this.prepare(e.clientX, e.clientY);
 		if (!this.stroke || e.pointerId !== this.stroke.id)
 			return;
-		const at = [e.clientX, e.clientY];
-		if (!this.stroke.line)
-			this.brushTo(...at);
-		else if (Math.hypot(at[0] - this.stroke.last[0], at[1] - this.stroke.last[1]) >= FINE) {
-			this.stroke.line.push(at);
-			this.stroke.last = at;
-			this.drawLine();
-		}
+		this.brushTo(e.clientX, e.clientY);
 	}
 
 	/* Readies the layer while the pointer rests, so that the next stroke does not wait for it. */
@@ -150,12 +136,12 @@ export class Strokes {
 	}
 
 	brush(x, y) {
-		const { painter } = this, { scene } = this.stroke, { drawn: { position, solid }, view } = scene, found = this.hit(scene, x, y);
+		const { painter } = this, { scene } = this.stroke, { drawn: { position, solid } } = scene, found = this.hit(scene, x, y);
 
 		if (!found)
 			return;
 		const disc = solid ? solid.disc(found.face, found.at, painter.radius) : ball(position, found.at, painter.radius);
-		const changed = painter.work.regions.set(solid && !painter.through.brush ? solid.seen(view.eye, view.near, disc) : disc, painter.region);
+		const changed = painter.work.regions.set(disc, painter.region);
 		if (changed.length)
 			painter.changed(changed);
 	}
@@ -166,18 +152,8 @@ export class Strokes {
 		this.lead(!this.on);
 		if (!stroke || e.pointerId !== stroke.id)
 			return;
-		if (stroke.line)
-			this.close(stroke);
 		this.stroke = null;
-		this.drawLine();
 		painter.done(painter.work.regions.end());
-	}
-
-	/* What the lasso holds is painted. */
-	close({ scene: { view, drawn: { position, solid } }, line }) {
-		const { painter } = this, held = within(position, view, line.map(([x, y]) => [x - view.left, y - view.top]));
-
-		painter.work.regions.set(solid && !painter.through.lasso ? solid.seen(view.eye, view.near, held) : held, painter.region);
 	}
 
 	/* As if the stroke had not begun: a second finger came, or another tool or model. */
@@ -187,14 +163,8 @@ export class Strokes {
 		if (!this.stroke)
 			return;
 		this.stroke = null;
-		this.drawLine();
-		this.painter.changed(work.regions.cancel());
-	}
-
-	drawLine() {
-		const box = $("stage").getBoundingClientRect(), line = (this.stroke && this.stroke.line) || [];
-
-		$("lasso").setAttribute("points", line.map(([x, y]) => (x - box.left) + "," + (y - box.top)).join(" "));
+		work.regions.cancel();
+		this.painter.done(true);
 	}
 
 	/* A circle about as large as the brush is there. */
