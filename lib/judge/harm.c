@@ -1,31 +1,268 @@
-/* Folds and intersections that a motion makes, looked for only where it is not rigid. */
+/* Folds and intersections that a motion makes, looked for in crowded cells of space. */
 #include "judge/harm.h"
 
-#include "base/parallel.h"
-#include "base/rotation.h"
+#include "mesh/edges.h"
 #include "mesh/fold.h"
+#include "space/contact.h"
 #include "space/self_intersect.h"
 
-enum { NEAR = 12 };
+/* Cells are marked in a set of bits by their hash: what is marked by chance is looked at in vain. */
+enum { BITS = 1 << 17, ACROSS = 4, SAMPLES = 1 << 14, SLOTS = 2 * SAMPLES, FEW = 2048 };
 
-typedef struct tally {
-	size_t near, far;
-} tally;
+typedef struct crowd {
+	mr_mesh then, now;
+	double cell;
+	uint32_t *bits;
+	bool any;
+	mr_v3 *normal_then, *normal; /* sums around the vertices */
+} crowd;
 
-typedef struct motion {
-	const mr_mesh *before, *after;
-	const mr_edges *edges;
-	bool *fold;     /* of the edges: new */
-	uint32_t *edge; /* of each half-edge; MR_NONE of a face that has a vertex twice */
-	double deep;    /* what passes by less rubs, */
-	double wide;    /* unless it was farther apart */
-	bool *moved;    /* of the faces */
-	uint32_t *harm; /* of the faces, by what is near */
-	uint32_t *met;  /* by what is far */
-	tally *pairs;
-} motion;
+typedef struct cell {
+	int at[3];
+} cell;
 
-/* Folds */
+static int
+cell_along(const crowd *c, double x)
+{
+	const double most = 1e9, off = 0.37; /* walls at 0 are in one cell */
+
+	x = floor(x / c->cell + off);
+	return (int)(x < -most ? -most : x < most ? x : most);
+}
+
+static cell
+cell_of(const crowd *c, mr_v3 p)
+{
+	return (cell){ { cell_along(c, p.x), cell_along(c, p.y), cell_along(c, p.z) } };
+}
+
+static uint32_t
+hash_of(cell c)
+{
+	uint64_t h = 0;
+
+	for (int k = 0; k < 3; k++)
+		h = (h ^ (uint32_t)c.at[k]) * 0x9e3779b97f4a7c15u;
+	return (uint32_t)(h >> 40);
+}
+
+static void
+mark(crowd *c, cell at)
+{
+	uint32_t h = hash_of(at) % BITS;
+
+	c->bits[h / 32] |= 1u << h % 32;
+	c->any = true;
+}
+
+static bool
+is_marked(const crowd *c, cell at)
+{
+	uint32_t h = hash_of(at) % BITS;
+
+	return c->bits[h / 32] >> h % 32 & 1;
+}
+
+/* The cells that a face's box meets; false where they are too many. */
+static bool
+cells_of_face(const crowd *c, size_t f, cell *low, cell *high)
+{
+	const uint32_t *v = c->now.t[f].v;
+	bool few = true;
+
+	*low = *high = cell_of(c, c->now.p[v[0]]);
+	for (int i = 1; i < 3; i++) {
+		cell at = cell_of(c, c->now.p[v[i]]);
+		for (int k = 0; k < 3; k++) {
+			low->at[k] = at.at[k] < low->at[k] ? at.at[k] : low->at[k];
+			high->at[k] = at.at[k] > high->at[k] ? at.at[k] : high->at[k];
+		}
+	}
+	for (int k = 0; k < 3; k++)
+		few &= high->at[k] - low->at[k] < ACROSS;
+	return few;
+}
+
+/* Large faces are always in a crowd. */
+static bool
+is_in_crowd(const crowd *c, size_t f)
+{
+	cell low, high, at;
+
+	if (!cells_of_face(c, f, &low, &high))
+		return true;
+	for (at.at[0] = low.at[0]; at.at[0] <= high.at[0]; at.at[0]++)
+		for (at.at[1] = low.at[1]; at.at[1] <= high.at[1]; at.at[1]++)
+			for (at.at[2] = low.at[2]; at.at[2] <= high.at[2]; at.at[2]++)
+				if (is_marked(c, at))
+					return true;
+	return false;
+}
+
+/* Faces that turn against those around them: of two that are folded one does, by the sum of normals at a
+ * corner that they share. */
+
+static void
+add_normals(mr_ctx *ctx, const mr_mesh *m, mr_v3 **normal)
+{
+	mr_v3 *sum = MR_NEW_ZERO(ctx, m->nv, mr_v3);
+
+	for (size_t f = 0; f < m->nf; f++) {
+		mr_v3 n = mr_face_cross(m, f);
+		for (int k = 0; k < 3; k++) {
+			mr_v3 *s = &sum[m->t[f].v[k]];
+			*s = mr_add(*s, n);
+		}
+	}
+	*normal = sum;
+}
+
+static bool
+is_against(mr_v3 n, mr_v3 sum)
+{
+	const double cosine = 0.3; /* that of 85 degrees, half of a fold, is less */
+	double d = mr_dot(n, sum);
+
+	return d <= 0 || d * d < cosine * cosine * mr_norm2(n) * mr_norm2(sum);
+}
+
+static bool
+turns_against(const mr_mesh *m, size_t f, const mr_v3 *sum)
+{
+	const uint32_t *v = m->t[f].v;
+	mr_v3 n = mr_face_cross(m, f);
+
+	return mr_norm2(n) > 0 &&
+	       (is_against(n, sum[v[0]]) || is_against(n, sum[v[1]]) || is_against(n, sum[v[2]]));
+}
+
+/* The least cosine that the face's normal has with the sums at its corners. */
+static double
+agreement(const mr_mesh *m, size_t f, const mr_v3 *sum)
+{
+	mr_v3 n = mr_unit(mr_face_cross(m, f));
+	double least = 1;
+
+	for (int k = 0; k < 3; k++)
+		least = fmin(least, mr_dot(n, mr_unit(sum[m->t[f].v[k]])));
+	return least;
+}
+
+static void
+mark_turned(crowd *c)
+{
+	const double more = 0.1;
+
+	for (size_t f = 0; f < c->now.nf; f++)
+		if (turns_against(&c->now, f, c->normal) &&
+		    agreement(&c->now, f, c->normal) < agreement(&c->then, f, c->normal_then) - more)
+			for (int k = 0; k < 3; k++)
+				mark(c, cell_of(c, c->now.p[c->now.t[f].v[k]]));
+}
+
+/* Cells that hold what was far apart, or sheets that came by each other, by vertices at equal strides. */
+
+typedef struct content {
+	cell at;
+	bool used, crowded;
+	size_t first, last;    /* vertices */
+	float low[3], high[3]; /* where it was, in cells */
+} content;
+
+static content *
+content_of(content *table, cell at)
+{
+	size_t i = hash_of(at) % SLOTS;
+
+	while (table[i].used && memcmp(&table[i].at, &at, sizeof at))
+		i = (i + 1) % SLOTS;
+	return &table[i];
+}
+
+/* How far b is before the sheet that a is on. */
+static double
+before_sheet(const mr_mesh *m, const mr_v3 *normal, size_t a, size_t b)
+{
+	return mr_dot(mr_unit(normal[a]), mr_sub(m->p[b], m->p[a]));
+}
+
+/* Whether b was on one side of the sheet that a is on, and is on the other: on a sheet that faces the other
+ * way, or one that was clearly apart. */
+static bool
+came_by(const crowd *c, size_t a, size_t b)
+{
+	const double clearly = 0.2;
+	double was = before_sheet(&c->then, c->normal_then, a, b),
+	       is = before_sheet(&c->now, c->normal, a, b);
+
+	return was * is < 0 && (mr_dot(c->normal[a], c->normal[b]) < 0 ||
+				   fabs(was) > clearly * mr_dist(c->then.p[a], c->then.p[b]));
+}
+
+static void
+add_vertex(const crowd *c, content *table, size_t v)
+{
+	const float far = 3; /* cells */
+	cell at = cell_of(c, c->now.p[v]);
+	content *x = content_of(table, at);
+
+	for (int k = 0; k < 3; k++) {
+		float was = (float)(mr_coordinate(c->then.p[v], k) / c->cell);
+		x->low[k] = x->used && x->low[k] < was ? x->low[k] : was;
+		x->high[k] = x->used && x->high[k] > was ? x->high[k] : was;
+		x->crowded |= x->high[k] - x->low[k] > far;
+	}
+	x->first = x->used ? x->first : v;
+	x->crowded |= x->used && (came_by(c, x->first, v) || came_by(c, x->last, v));
+	x->last = v;
+	x->at = at;
+	x->used = true;
+}
+
+static void
+mark_gathered(mr_ctx *ctx, crowd *c)
+{
+	content *table = MR_NEW_ZERO(ctx, SLOTS, content);
+	size_t stride = 1 + c->now.nv / SAMPLES;
+
+	for (size_t v = 0; v < c->now.nv; v += stride)
+		add_vertex(c, table, v);
+	for (size_t i = 0; i < SLOTS; i++)
+		if (table[i].crowded)
+			mark(c, table[i].at);
+}
+
+/* The faces in the crowd, as meshes; of a few all. */
+static void
+gather(mr_ctx *ctx, crowd *c)
+{
+	mr_tri *t = MR_NEW(ctx, c->now.nf, mr_tri);
+	size_t n = 0;
+
+	for (size_t f = 0; f < c->now.nf; f++)
+		if (c->now.nf <= FEW || is_in_crowd(c, f))
+			t[n++] = c->now.t[f];
+	c->now.t = c->then.t = t;
+	c->now.nf = c->then.nf = n;
+}
+
+static size_t
+less(size_t a, size_t b)
+{
+	return a > b ? a - b : 0;
+}
+
+/* A corner of the face that has most harm, of equal ones the lowest. */
+static uint32_t
+worst_vertex(const mr_mesh *m, const uint32_t *harm)
+{
+	size_t worst = 0;
+
+	for (size_t f = 1; f < m->nf; f++)
+		if (harm[f] > harm[worst])
+			worst = f;
+	return m->nf && harm[worst] ? m->t[worst].v[0] : MR_NONE;
+}
 
 /* Whether the faces at half-edges h and g of an edge are folded. */
 static bool
@@ -36,153 +273,23 @@ folded(const mr_mesh *m, uint32_t h, uint32_t g)
 	return mr_folds(mr_same_direction(m, h, g) ? mr_mul(-1, a) : a, b, MR_FOLD);
 }
 
-static bool
-folds_new(const mr_mesh *before, const mr_mesh *after, const mr_edges *edges, size_t e)
-{
-	const uint32_t *h = &edges->he[edges->start[e]];
-
-	return mr_edge_faces(edges, e) == 2 && folded(after, h[0], h[1]) && !folded(before, h[0], h[1]);
-}
-
 static void
-find_folds(void *arg, size_t begin, size_t end)
-{
-	motion *j = arg;
-
-	for (size_t e = begin; e < end; e++)
-		j->fold[e] = folds_new(j->before, j->after, j->edges, e);
-}
-
-static size_t
-less(size_t a, size_t b)
-{
-	return a > b ? a - b : 0;
-}
-
-static size_t
-count_folds(mr_ctx *ctx, motion *j)
+count_folds(mr_ctx *ctx, const crowd *c, uint32_t *harm, size_t *folds)
 {
 	size_t came = 0, went = 0;
+	mr_edges edges;
 
-	mr_parallel(ctx, j->edges->count, 4096, find_folds, j);
-	for (size_t e = 0; e < j->edges->count; e++)
-		for (uint32_t i = 0; i < 2 && j->fold[e]; i++) {
-			j->harm[j->edges->he[j->edges->start[e] + i] / 3]++;
-			came += i == 0;
-		}
-	for (size_t e = 0; came && e < j->edges->count; e++)
-		went += folds_new(j->after, j->before, j->edges, e);
-	return less(came, went);
-}
-
-/* Rigidity */
-
-static mr_v3
-centroid(const mr_v3 *p, size_t n)
-{
-	mr_v3 sum = mr_vec(0, 0, 0);
-
-	for (size_t i = 0; i < n; i++)
-		sum = mr_add(sum, p[i]);
-	return mr_mul(1 / fmax(1, (double)n), sum);
-}
-
-/* Whether all went as one rigid body, by the motion that fits best. */
-static bool
-went_as_one(const mr_mesh *before, const mr_mesh *after)
-{
-	const double little = 1e-9; /* of the diagonal */
-	mr_v3 from = centroid(before->p, before->nv), to = centroid(after->p, before->nv);
-	double most = mr_mesh_tolerance(before, little);
-	mr_mat3 c = { { 0 } };
-
-	for (size_t v = 0; v < before->nv; v++) {
-		mr_v3 x = mr_sub(before->p[v], from), y = mr_sub(after->p[v], to);
-		const double a[3] = { x.x, x.y, x.z }, b[3] = { y.x, y.y, y.z };
-		for (int i = 0; i < 9; i++)
-			c.m[i] += b[i / 3] * a[i % 3];
+	mr_edges_build(ctx, &c->now, &edges);
+	for (size_t e = 0; e < edges.count; e++) {
+		const uint32_t *h = &edges.he[edges.start[e]];
+		bool now = mr_edge_faces(&edges, e) == 2 && folded(&c->now, h[0], h[1]);
+		bool then = mr_edge_faces(&edges, e) == 2 && folded(&c->then, h[0], h[1]);
+		came += now && !then;
+		went += then && !now;
+		for (int i = 0; now && !then && i < 2; i++)
+			harm[h[i] / 3]++;
 	}
-	c = mr_rotation_nearest(&c);
-	for (size_t v = 0; v < before->nv; v++) {
-		mr_v3 y = mr_add(to, mr_mat3_apply(&c, mr_sub(before->p[v], from)));
-		if (!(mr_dist(y, after->p[v]) <= most))
-			return false;
-	}
-	return true;
-}
-
-static bool
-is_same(mr_v3 a, mr_v3 b)
-{
-	return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-static void
-find_edges(motion *j)
-{
-	memset(j->edge, 0xff, 3 * j->before->nf * sizeof *j->edge);
-	for (size_t e = 0; e < j->edges->count; e++)
-		for (uint32_t i = j->edges->start[e]; i < j->edges->start[e + 1]; i++)
-			j->edge[j->edges->he[i]] = (uint32_t)e;
-	for (size_t f = 0; f < j->before->nf; f++)
-		for (int k = 0; k < 3; k++) {
-			uint32_t v = j->before->t[f].v[k];
-			j->moved[f] |= !is_same(j->before->p[v], j->after->p[v]);
-		}
-}
-
-/* Near faces */
-
-/* Calls visit for each face over an edge of f. */
-static void
-for_neighbours(const motion *j, uint32_t f, void (*visit)(void *arg, uint32_t g), void *arg)
-{
-	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
-		for (uint32_t i = 0, e = j->edge[h]; e != MR_NONE && i < mr_edge_faces(j->edges, e); i++)
-			visit(arg, j->edges->he[j->edges->start[e] + i] / 3);
-}
-
-/* The faces near one, as far as they find room: in a table of open addresses. */
-enum { ROOM = 4096 };
-
-typedef struct patch {
-	size_t n;
-	uint32_t face[ROOM], slot[2 * ROOM];
-} patch;
-
-static size_t
-slot_of(const patch *s, uint32_t f)
-{
-	size_t i = f * 2654435761u % (2 * ROOM);
-
-	while (s->slot[i] != MR_NONE && s->slot[i] != f)
-		i = (i + 1) % (2 * ROOM);
-	return i;
-}
-
-static void
-patch_meets(void *arg, uint32_t g)
-{
-	patch *s = arg;
-	size_t i = slot_of(s, g);
-
-	if (s->slot[i] == MR_NONE && s->n < ROOM) {
-		s->slot[i] = g;
-		s->face[s->n++] = g;
-	}
-}
-
-static void
-gather_near(const motion *j, uint32_t f, patch *s)
-{
-	size_t done = 0;
-
-	s->n = 0;
-	memset(s->slot, 0xff, sizeof s->slot);
-	patch_meets(s, f);
-	for (int ring = 0; ring < NEAR; ring++)
-		for (size_t end = s->n; done < end; done++)
-			for_neighbours(j, s->face[done], patch_meets, s);
+	*folds = less(came, went);
 }
 
 /* Intersections */
@@ -192,17 +299,6 @@ corners(const mr_mesh *m, uint32_t f, mr_v3 p[3])
 {
 	for (int i = 0; i < 3; i++)
 		p[i] = m->p[m->t[f].v[i]];
-}
-
-static bool
-intersect(const mr_mesh *m, uint32_t f, uint32_t g)
-{
-	mr_v3 p[3], q[3];
-
-	corners(m, f, p);
-	corners(m, g, q);
-	return !mr_triangle_degenerate(p[0], p[1], p[2]) && !mr_triangle_degenerate(q[0], q[1], q[2]) &&
-	       mr_triangles_intersect(p, q);
 }
 
 bool
@@ -224,15 +320,14 @@ mr_faces_stand(const mr_mesh *before, const mr_mesh *after, uint32_t f, uint32_t
 	return true;
 }
 
-/* How far the corners p reach beyond the plane of q, on the side where they reach less; where they are all on
- * one side, less than 0 by their distance. */
+/* How far the corners p reach beyond the plane of q, on the side where they reach less. */
 static double
 reach(const mr_v3 p[3], const mr_v3 q[3])
 {
 	mr_v3 n = mr_unit(mr_cross(mr_sub(q[1], q[0]), mr_sub(q[2], q[0])));
-	double low = mr_dot(n, mr_sub(p[0], q[0])), high = low;
+	double low = 0, high = 0;
 
-	for (int i = 1; i < 3; i++) {
+	for (int i = 0; i < 3; i++) {
 		double d = mr_dot(n, mr_sub(p[i], q[0]));
 		low = fmin(low, d);
 		high = fmax(high, d);
@@ -240,123 +335,102 @@ reach(const mr_v3 p[3], const mr_v3 q[3])
 	return fmin(-low, high);
 }
 
-/* Whether faces go through each other by so much that they can be seen to, of small faces a tenth, or were as
- * far apart, as walls that go through each other at a small angle: others rub. */
+typedef struct tally {
+	const mr_mesh *then, *now;
+	const uint32_t *part;           /* of each vertex, of what hangs together in the crowd */
+	double deep;                    /* what passes by less rubs; of small faces a tenth */
+	uint32_t *near_harm, *far_harm; /* of the faces; NULL: for no one */
+	size_t near, far;
+} tally;
+
 static bool
-passes(const motion *j, uint32_t f, uint32_t g)
+goes_deep(const tally *s, uint32_t f, uint32_t g)
 {
 	const double share = 0.1;
 	mr_v3 p[3], q[3];
 	double size;
 
-	corners(j->after, f, p);
-	corners(j->after, g, q);
+	corners(s->now, f, p);
+	corners(s->now, g, q);
 	size = fmin(mr_box_diagonal(mr_box_of(p, 3)), mr_box_diagonal(mr_box_of(q, 3)));
-	if (fmin(reach(p, q), reach(q, p)) > fmin(j->deep, share * size))
-		return true;
-	corners(j->before, f, p);
-	corners(j->before, g, q);
-	return fmin(reach(p, q), reach(q, p)) < -j->wide;
+	return fmin(reach(p, q), reach(q, p)) > fmin(s->deep, share * size);
 }
 
 static void
-add_one(uint32_t *count, const bool *moved, uint32_t f)
+count_pair(void *arg, uint32_t f, uint32_t g)
 {
-	if (moved[f])
-		__atomic_fetch_add(&count[f], 1, __ATOMIC_RELAXED);
-}
+	tally *s = arg;
+	bool near = s->part[s->now->t[f].v[0]] == s->part[s->now->t[g].v[0]];
+	uint32_t *harm = near ? s->near_harm : s->far_harm;
 
-/* Those that intersect after and did not before. */
-static void
-visit(void *arg, uint32_t f, uint32_t g)
-{
-	const motion *j = arg;
-	patch around;
-	bool near;
-
-	if (intersect(j->before, f, g) || mr_faces_stand(j->before, j->after, f, g))
+	if (mr_faces_stand(s->then, s->now, f, g) || (!near && !goes_deep(s, f, g)))
 		return;
-	gather_near(j, f, &around);
-	near = around.slot[slot_of(&around, g)] == g;
-	if (!near && !passes(j, f, g))
-		return;
-	__atomic_fetch_add(near ? &j->pairs->near : &j->pairs->far, 1, __ATOMIC_RELAXED);
-	add_one(near ? j->harm : j->met, j->moved, f);
-	add_one(near ? j->harm : j->met, j->moved, g);
-}
-
-static void
-search_all(mr_ctx *ctx, motion *j, tally *sum)
-{
-	*sum = (tally){ 0, 0 };
-	j->pairs = sum;
-	mr_intersections_visit(ctx, NULL, j->after, j->moved, visit, j);
+	__atomic_fetch_add(near ? &s->near : &s->far, 1, __ATOMIC_RELAXED);
+	if (harm) {
+		__atomic_fetch_add(&harm[f], 1, __ATOMIC_RELAXED);
+		__atomic_fetch_add(&harm[g], 1, __ATOMIC_RELAXED);
+	}
 }
 
 /* More pairs than there were: where a surface intersects already, others go while some come. */
 static void
-count_pairs(mr_ctx *ctx, const motion *m, tally *count)
+count_pairs(mr_ctx *ctx, const crowd *c, uint32_t *near_harm, uint32_t *far_harm, mr_harm *h)
 {
-	const double deep = 0.001; /* of the diagonal: parts that are nearer touch */
-	motion forth = *m, back;
-	tally came = { 0, 0 }, went = { 0, 0 };
+	const double deep = 0.001 * mr_mesh_diagonal(&c->then);
+	uint32_t *part;
+	bool several;
+	tally came = { &c->then, &c->now, NULL, deep, near_harm, far_harm, 0, 0 }, went;
 
-	*count = came;
-	if (went_as_one(m->before, m->after))
+	mr_components_label(ctx, &c->now, &part, &several);
+	came.part = part;
+	mr_intersections_visit(ctx, NULL, &c->now, NULL, count_pair, &came);
+	if (!came.near && !came.far)
 		return;
-	forth.deep = forth.wide = deep * mr_mesh_diagonal(m->before);
-	forth.edge = MR_NEW(ctx, 3 * m->before->nf, uint32_t);
-	forth.moved = MR_NEW_ZERO(ctx, m->before->nf, bool);
-	find_edges(&forth);
-	search_all(ctx, &forth, &came);
-	if (came.near == 0 && came.far == 0)
-		return;
-	back = forth;
-	back.before = m->after;
-	back.after = m->before;
-	back.wide = INFINITY;                             /* what touched and has come apart did not pass */
-	back.harm = MR_NEW(ctx, m->before->nf, uint32_t); /* for no one */
-	back.met = MR_NEW(ctx, m->before->nf, uint32_t);
-	search_all(ctx, &back, &went);
-	*count = (tally){ less(came.near, went.near), less(came.far, went.far) };
+	went = (tally){ &c->now, &c->then, part, deep, NULL, NULL, 0, 0 };
+	mr_intersections_visit(ctx, NULL, &c->then, NULL, count_pair, &went);
+	h->pairs = less(came.near, went.near);
+	h->far = less(came.far, went.far);
 }
 
-/* A corner of the face that has most harm, of equal ones the lowest. */
-static uint32_t
-worst_vertex(const mr_mesh *m, const uint32_t *harm)
+static void
+look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
 {
-	size_t worst = 0;
+	uint32_t *near_harm, *far_harm;
 
-	for (size_t f = 1; f < m->nf; f++)
-		if (harm[f] > harm[worst])
-			worst = f;
-	return m->nf && harm[worst] ? m->t[worst].v[0] : MR_NONE;
+	gather(ctx, c);
+	near_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
+	far_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
+	count_folds(ctx, c, near_harm, &harm->folds);
+	count_pairs(ctx, c, near_harm, far_harm, harm);
+	harm->vertex = worst_vertex(&c->now, near_harm);
+	harm->far_vertex = worst_vertex(&c->now, far_harm);
+}
+
+/* Cells of some vertices each. */
+static double
+cell_size(const mr_motion *m)
+{
+	const double share = 0.02, vertices = 8;
+
+	return m->diagonal * fmax(share, sqrt(vertices / (double)m->then->nv));
 }
 
 void
-mr_harm_find(
-    mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, const mr_v3 *after, size_t enough, mr_harm *harm)
+mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	mr_mesh moved = *m;
-	motion j = { .before = m,
-		.after = &moved,
-		.edges = edges,
-		.fold = MR_NEW(ctx, edges->count, bool),
-		.harm = MR_NEW_ZERO(ctx, m->nf, uint32_t),
-		.met = MR_NEW_ZERO(ctx, m->nf, uint32_t) };
-	mr_harm found = { 0, MR_UNKNOWN, MR_UNKNOWN, MR_NONE, MR_NONE };
-	tally pairs;
+	crowd c = { .then = *m->then, .now = *m->then, .bits = MR_NEW_ZERO(ctx, BITS / 32, uint32_t) };
 
-	moved.p = after;
-	found.folds = count_folds(ctx, &j);
-	if (found.folds >= enough) {
-		count_pairs(ctx, &j, &pairs);
-		found.pairs = pairs.near;
-		found.far = pairs.far;
-	}
-	found.vertex = worst_vertex(m, j.harm);
-	found.far_vertex = worst_vertex(m, j.met);
-	*harm = found;
+	*harm = (mr_harm){ .vertex = MR_NONE, .far_vertex = MR_NONE };
+	c.now.p = m->now;
+	c.cell = cell_size(m);
+	if (!(m->diagonal > 0))
+		return;
+	add_normals(ctx, &c.then, &c.normal_then);
+	add_normals(ctx, &c.now, &c.normal);
+	mark_turned(&c);
+	mark_gathered(ctx, &c);
+	if (c.any || c.now.nf <= FEW)
+		look_at_crowd(ctx, &c, harm);
 	mr_mark_release(ctx, mark);
 }

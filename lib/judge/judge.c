@@ -2,6 +2,7 @@
 #include "judge/judge.h"
 
 #include "edit/detail.h"
+#include "space/contact.h"
 #include "subdivide/displaced.h"
 
 /* The layer's surface where it has one; t NULL: none. */
@@ -66,8 +67,9 @@ judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m
 	mr_ground g = { .then.name = "base" };
 	mr_detail detail;
 	mr_mesh base;
+	bool closed;
 
-	mr_judge_contacts(ctx, m);
+	mr_judge_contacts(ctx, m, &closed);
 	MR_TRY(surface_of(ctx, after, "base", &base));
 	if (!base.t || !mr_layer_has(after, "mesh", "detail_face"))
 		return MR_OK;
@@ -81,7 +83,9 @@ judge_on_base(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_motion *m
 	MR_TRY(read_regions(ctx, after, "base", base.nv, &g.region));
 	MR_TRY(read_regions(ctx, after, "mesh", m->then->nv, &g.surface_region));
 	mr_judge_detail(ctx, m, &g);
-	return g.region && g.surface_region ? mr_judge_pose(ctx, m, &g) : MR_OK;
+	if (g.region && g.surface_region)
+		mr_judge_pose(ctx, m, &g, closed);
+	return MR_OK;
 }
 
 /* Of each vertex over d the region of the control vertices that it lies between; free where these differ. */
@@ -122,11 +126,23 @@ displaced_then(mr_ctx *ctx, mr_frame *f, size_t n, mr_mesh *control, mr_domain *
 	return MR_OK;
 }
 
-static void
-judge_motion(mr_ctx *ctx, const mr_mesh *then, const mr_v3 *now, mr_edges *edges, mr_motion *m)
+/* The diagonal of some faces, nearly that of all. */
+static double
+diagonal_of(const mr_mesh *m)
 {
-	mr_edges_build(ctx, then, edges);
-	*m = (mr_motion){ then, now, edges, mr_mesh_diagonal(then) };
+	enum { LOOKS = 1 << 14 };
+	mr_box box = mr_box_empty();
+
+	for (size_t f = 0; f < m->nf; f += 1 + m->nf / LOOKS)
+		for (int k = 0; k < 3; k++)
+			mr_box_add(&box, m->p[m->t[f].v[k]]);
+	return mr_box_diagonal(box);
+}
+
+static void
+judge_motion(mr_ctx *ctx, const mr_mesh *then, const mr_v3 *now, mr_motion *m)
+{
+	*m = (mr_motion){ then, now, diagonal_of(then) };
 	mr_judge_harm(ctx, m);
 }
 
@@ -136,9 +152,9 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 {
 	mr_mesh control, surface;
 	mr_ground g = { .then.name = "control" };
-	mr_edges edges;
 	mr_motion m;
 	mr_domain d;
+	bool *boundary, open;
 	mr_v3 *then;
 	size_t n;
 
@@ -153,16 +169,17 @@ judge_on_control(mr_ctx *ctx, mr_frame *before, mr_frame *after, const mr_mesh *
 	surface = d.m;
 	surface.name = mesh->name;
 	surface.p = then;
-	judge_motion(ctx, &surface, mesh->p, &edges, &m);
+	judge_motion(ctx, &surface, mesh->p, &m);
 	if (!mr_layer_has(after, "control", "region") || !mr_layer_has(after, "control", "encoded"))
 		return MR_OK;
 	g.then = control;
 	MR_TRY(surface_of(ctx, after, "control", &control));
 	g.now = control.p;
-	g.foot = d.m.p;
 	MR_TRY(read_regions(ctx, after, "control", control.nv, &g.region));
 	regions_of_levels(ctx, &d, g.region, &g.surface_region);
-	return mr_judge_pose(ctx, &m, &g);
+	mr_boundary_label(ctx, mesh, &boundary, &open);
+	mr_judge_pose(ctx, &m, &g, !open);
+	return MR_OK;
 }
 
 /* What `layer` was, or was made of: the surface worked on last before; t NULL: none. */
@@ -182,7 +199,6 @@ static mr_status
 judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer, double *least)
 {
 	mr_mesh then, now;
-	mr_edges edges;
 	mr_motion m;
 
 	MR_TRY(surface_of(ctx, after, layer, &now));
@@ -194,8 +210,10 @@ judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer,
 		return judge_on_control(ctx, before, after, &now);
 	if (!then.t || (then.p == now.p && then.t == now.t))
 		return MR_OK;
-	if (!same_triangles(&then, &now))
-		return mr_judge_remade(ctx, &then, &now);
+	if (!same_triangles(&then, &now)) {
+		mr_judge_remade(ctx, &then, &now);
+		return MR_OK;
+	}
 	if (same_places(then.p, now.p, now.nv))
 		return MR_OK;
 	if (least) {
@@ -204,7 +222,7 @@ judge_surface(mr_ctx *ctx, mr_frame *before, mr_frame *after, const char *layer,
 			return MR_OK;
 		*least = 2 * most;
 	}
-	judge_motion(ctx, &then, now.p, &edges, &m);
+	judge_motion(ctx, &then, now.p, &m);
 	return judge_on_base(ctx, before, after, &m);
 }
 
@@ -214,7 +232,6 @@ mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least)
 	mr_mark mark = mr_mark_take(ctx);
 	const char *layer;
 
-	MR_ENTER(ctx);
 	if (!mr_listens(ctx))
 		return MR_OK;
 	MR_TRY(mr_layer_latest(ctx, after, &layer));

@@ -3,28 +3,24 @@
 
 #include "measure/gaps.h"
 #include "space/contact.h"
-#include "space/enclosed.h"
 #include "space/self_intersect.h"
 
 static const double MUCH = 0.1; /* of the area or volume */
 
-static mr_status
-judge_size(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
+static void
+judge_size(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now, bool several)
 {
 	double area = mr_mesh_area(ctx, then), lost = area > 0 ? 1 - mr_mesh_area(ctx, now) / area : 0,
 	       change = 0;
-	double volume, rest;
+	bool *boundary, open;
 
-	MR_TRY(mr_enclosed_volume(ctx, then, &volume));
-	if (volume > 0) {
-		MR_TRY(mr_enclosed_volume(ctx, now, &rest));
-		change = rest / volume - 1;
-	}
-	if (fabs(change) > fmax(MUCH, lost))
+	mr_boundary_label(ctx, then, &boundary, &open);
+	if (!open && !several) /* parts may be turned inside out */
+		change = mr_mesh_volume(ctx, now) / mr_mesh_volume(ctx, then) - 1;
+	if (fabs(change) > fmax(MUCH, lost) && isfinite(change))
 		mr_found(ctx, &(mr_finding){ .kind = MR_VOLUME, .layer = now->name, .value = change });
 	else if (lost > MUCH)
 		mr_found(ctx, &(mr_finding){ .kind = MR_SHRUNK, .layer = now->name, .value = lost });
-	return MR_OK;
 }
 
 /* The area of each part, by the vertex of `whole` that stands for it: of a face the nearest one of whole. */
@@ -167,22 +163,21 @@ judge_intersections(
 			  .at = now->p[now->t[f].v[0]] });
 }
 
-mr_status
+void
 mr_judge_remade(mr_ctx *ctx, const mr_mesh *then, const mr_mesh *now)
 {
 	mr_bvh *bvh_then, *bvh;
 	uint32_t *of;
 	bool several;
 
-	MR_TRY(judge_size(ctx, then, now));
-	if (!(mr_mesh_area(ctx, then) > 0 && mr_mesh_area(ctx, now) > 0))
-		return MR_OK;
 	mr_components_label(ctx, then, &of, &several);
+	judge_size(ctx, then, now, several);
+	if (!(mr_mesh_area(ctx, then) > 0 && mr_mesh_area(ctx, now) > 0))
+		return;
 	mr_bvh_build(ctx, then, &bvh_then);
 	if (several)
 		judge_parts(ctx, then, bvh_then, now, of);
 	mr_bvh_build(ctx, now, &bvh);
 	judge_distance(ctx, then, bvh_then, now, bvh);
 	judge_intersections(ctx, then, bvh_then, now, bvh);
-	return MR_OK;
 }

@@ -5,45 +5,60 @@
 #include "base/parallel.h"
 #include "space/bvh_labels.h"
 
-#include <math.h>
+#include <stdlib.h>
 
 void
 mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
 {
-	uint32_t *set = mr_sets_new(ctx, m->nv);
-	size_t count;
-	bool *used;
+	uint32_t *set = MR_NEW(ctx, m->nv, uint32_t);
 
-	mr_vertices_used(ctx, m->t, m->nf, m->nv, &used, &count);
+	memset(set, 0xff, m->nv * sizeof *set);
 	for (size_t f = 0; f < m->nf; f++) {
-		mr_sets_join(set, m->t[f].v[0], m->t[f].v[1]);
-		mr_sets_join(set, m->t[f].v[1], m->t[f].v[2]);
+		const uint32_t *v = m->t[f].v;
+		for (int k = 0; k < 3; k++)
+			if (set[v[k]] == MR_NONE)
+				set[v[k]] = v[k];
+		mr_sets_join(set, v[0], v[1]);
+		mr_sets_join(set, v[1], v[2]);
 	}
-	for (uint32_t v = 0; v < m->nv; v++)
-		set[v] = mr_sets_root(set, v);
-	for (uint32_t v = 0; v < m->nv; v++)
-		set[v] = used[v] ? set[v] : MR_NONE;
 	*several = false;
-	for (size_t f = 1; f < m->nf; f++)
-		*several |= set[m->t[f].v[0]] != set[m->t[0].v[0]];
+	for (uint32_t v = 0, first = MR_NONE; v < m->nv; v++) {
+		if (set[v] == MR_NONE)
+			continue;
+		set[v] = mr_sets_root(set, v);
+		first = first == MR_NONE ? set[v] : first;
+		*several |= set[v] != first;
+	}
 	*component = set;
+}
+
+/* Around an inner vertex each neighbour comes once before another one and once after it. */
+void
+mr_boundary_label(mr_ctx *ctx, const mr_mesh *m, bool **boundary, bool *any)
+{
+	uint32_t *sum = MR_NEW_ZERO(ctx, m->nv, uint32_t);
+	bool *at = MR_NEW(ctx, m->nv, bool);
+
+	for (size_t f = 0; f < m->nf; f++) {
+		const uint32_t *v = m->t[f].v;
+		sum[v[0]] += v[1] - v[2];
+		sum[v[1]] += v[2] - v[0];
+		sum[v[2]] += v[0] - v[1];
+	}
+	*any = false;
+	for (size_t v = 0; v < m->nv; v++) {
+		at[v] = sum[v] != 0;
+		*any |= at[v];
+	}
+	*boundary = at;
 }
 
 /* Vertices of the same component at the same place, in rings. */
 typedef struct slits {
 	uint32_t *next; /* itself where it is alone */
 	uint32_t *face; /* the first of each vertex */
-	bool any;
+	bool any, closed;
 } slits;
-
-/* A table of open addresses of the first vertices at each place, by cells. */
-typedef struct grid {
-	const mr_mesh *m;
-	const uint32_t *component;
-	uint32_t *table;
-	size_t slots;
-	double near, cell;
-} grid;
 
 /*
  * What is as near as this is at one place: sides of a seam are apart by what their coordinates were rounded
@@ -60,87 +75,70 @@ same_place(const mr_ctx *ctx, const mr_mesh *m)
 	    mr_mesh_tolerance(m, least), fmin(rounding * diagonal, edge * mr_mesh_edge_scale(ctx, m)));
 }
 
-static mr_v3
-cell_of(const grid *g, mr_v3 p)
+typedef struct mark {
+	double along;
+	uint32_t vertex;
+} mark;
+
+static int
+by_place(const void *a, const void *b)
 {
-	return mr_vec(floor(p.x / g->cell) + 0.0, floor(p.y / g->cell) + 0.0, floor(p.z / g->cell) + 0.0);
+	const mark *x = a, *y = b;
+
+	return x->along != y->along ? (x->along > y->along) - (x->along < y->along)
+	                            : (x->vertex > y->vertex) - (x->vertex < y->vertex);
 }
 
-static size_t
-slot_of(const grid *g, mr_v3 cell, uint32_t component)
+/* Along a direction that no mesh has edges across, so that few are level with each other. */
+static mark *
+sort_boundary(mr_ctx *ctx, const mr_mesh *m, const bool *boundary, size_t *n)
 {
-	uint64_t bits[3], hash = component;
+	const mr_v3 way = mr_unit(mr_vec(0.6180340, 0.3247180, 0.7166727));
+	mark *x = MR_NEW(ctx, m->nv, mark);
 
-	memcpy(bits, &cell, sizeof bits);
-	for (int i = 0; i < 3; i++)
-		hash = (hash ^ bits[i] ^ bits[i] >> 32) * 0x9e3779b97f4a7c15u;
-	return (size_t)(hash >> 20) % g->slots;
-}
-
-/* The lowest of the cell that is where v is, or `best`. */
-static uint32_t
-lowest_in(const grid *g, mr_v3 cell, uint32_t v, uint32_t best)
-{
-	size_t i = slot_of(g, cell, g->component[v]);
-
-	for (; g->table[i] != MR_NONE; i = (i + 1) % g->slots) {
-		uint32_t u = g->table[i];
-		if (u < best && g->component[u] == g->component[v] &&
-		    mr_dist(g->m->p[u], g->m->p[v]) <= g->near)
-			best = u;
-	}
-	return best;
-}
-
-/* The first vertex where v is, or v: in the cells that are near enough, mostly one or two. */
-static uint32_t
-first_at(const grid *g, uint32_t v)
-{
-	mr_v3 p = g->m->p[v], reach = mr_vec(g->near, g->near, g->near);
-	mr_v3 low = cell_of(g, mr_sub(p, reach)), high = cell_of(g, mr_add(p, reach));
-	int across = low.x != high.x ? 2 : 1, along = low.y != high.y ? 2 : 1, up = low.z != high.z ? 2 : 1;
-	uint32_t best = v;
-
-	for (int i = 0; i < across; i++)
-		for (int j = 0; j < along; j++)
-			for (int k = 0; k < up; k++)
-				best = lowest_in(g,
-				    mr_vec(i ? high.x : low.x, j ? high.y : low.y, k ? high.z : low.z), v,
-				    best);
-	return best;
+	*n = 0;
+	for (uint32_t v = 0; x && v < m->nv; v++)
+		if (boundary[v])
+			x[(*n)++] = (mark){ mr_dot(way, m->p[v]), v };
+	qsort(x, *n, sizeof *x, by_place);
+	return x;
 }
 
 static void
-put(grid *g, uint32_t v)
+join_rings(slits *s, uint32_t *ring, uint32_t a, uint32_t b)
 {
-	size_t i = slot_of(g, cell_of(g, g->m->p[v]), g->component[v]);
+	uint32_t next = s->next[a];
 
-	while (g->table[i] != MR_NONE)
-		i = (i + 1) % g->slots;
-	g->table[i] = v;
+	if (mr_sets_root(ring, a) == mr_sets_root(ring, b))
+		return;
+	mr_sets_join(ring, a, b);
+	s->next[a] = s->next[b];
+	s->next[b] = next;
+	s->any = true;
 }
 
 static void
 find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 {
-	grid g = { .m = m, .component = component, .slots = 2 * m->nv + 1, .near = same_place(ctx, m) };
+	double near = 0;
+	uint32_t *ring;
+	bool *boundary, any;
+	size_t n;
+	mark *x;
 
-	g.cell = g.near > 0 ? 4 * g.near : 1;
-	g.table = MR_NEW(ctx, g.slots, uint32_t);
-	*s = (slits){ MR_NEW(ctx, m->nv, uint32_t), MR_NEW(ctx, m->nv, uint32_t), false };
-	memset(g.table, 0xff, g.slots * sizeof *g.table);
-	for (uint32_t v = 0; v < m->nv; v++) {
-		uint32_t first;
-		s->next[v] = v;
-		if (component[v] == MR_NONE)
-			continue;
-		first = first_at(&g, v);
-		if (first == v)
-			put(&g, v);
-		s->any |= first != v;
-		s->next[v] = s->next[first];
-		s->next[first] = v;
-	}
+	*s = (slits){ .next = mr_sets_new(ctx, m->nv), .face = MR_NEW(ctx, m->nv, uint32_t) };
+	mr_boundary_label(ctx, m, &boundary, &any);
+	s->closed = !any;
+	if (!any)
+		return;
+	near = same_place(ctx, m);
+	ring = mr_sets_new(ctx, m->nv);
+	x = sort_boundary(ctx, m, boundary, &n);
+	for (size_t i = 0; i < n; i++)
+		for (size_t j = i + 1; j < n && x[j].along - x[i].along <= near; j++)
+			if (component[x[i].vertex] == component[x[j].vertex] &&
+			    mr_dist(m->p[x[i].vertex], m->p[x[j].vertex]) <= near)
+				join_rings(s, ring, x[i].vertex, x[j].vertex);
 	for (size_t f = m->nf; f-- > 0;)
 		for (int k = 0; k < 3; k++)
 			s->face[m->t[f].v[k]] = (uint32_t)f;
@@ -225,37 +223,28 @@ make_tree(mr_ctx *ctx, search *s)
 	mr_bvh_label(ctx, bvh, label, &s->components);
 }
 
-/* Calls `each` with a search, where there is something to search for.  Its workspace is gone after that, so
- * that what was found lies below. */
-static void
-search_by(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *c,
-    void (*each)(void *arg, size_t begin, size_t end))
-{
-	mr_mark mark = mr_mark_take(ctx);
-	search s = { .m = m, .reach2 = reach * reach, .c = c };
-
-	mr_components_label(ctx, m, &s.component, &s.several);
-	find_slits(ctx, m, s.component, &s.slits);
-	if (s.several)
-		make_tree(ctx, &s);
-	if (s.several || s.slits.any)
-		mr_parallel(ctx, m->nv, 1024, each, &s);
-	mr_mark_release(ctx, mark);
-}
-
 void
 mr_contacts_find(mr_ctx *ctx, const mr_mesh *m, double reach, mr_contacts *contacts)
 {
 	mr_contacts c = { .start = MR_NEW_ZERO(ctx, m->nv + 1, size_t) };
+	search s = { .m = m, .reach2 = reach * reach, .c = &c };
 
-	search_by(ctx, m, reach, &c, count_contacts);
+	mr_components_label(ctx, m, &s.component, &s.several);
+	find_slits(ctx, m, s.component, &s.slits);
+	c.closed = s.slits.closed;
+	*contacts = c;
+	if (!s.several && !s.slits.any)
+		return;
+	if (s.several)
+		make_tree(ctx, &s);
+	mr_parallel(ctx, m->nv, 1024, count_contacts, &s);
 	for (size_t v = 0; v < m->nv; v++) {
 		c.vertices += c.start[v + 1] > 0;
 		c.start[v + 1] += c.start[v];
 	}
 	c.at = MR_NEW(ctx, c.start[m->nv], mr_place);
 	if (c.vertices)
-		search_by(ctx, m, reach, &c, list_contacts);
+		mr_parallel(ctx, m->nv, 1024, list_contacts, &s);
 	*contacts = c;
 }
 

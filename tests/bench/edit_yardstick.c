@@ -55,7 +55,7 @@ typedef struct edit {
 } edit;
 
 typedef struct figures {
-	size_t folds, near_pairs, far_pairs; /* those that came with the motion */
+	size_t folds, near_pairs; /* those that came with the motion */
 	double volume;
 	double off;         /* share of the edges longer than twice or shorter than half what they were */
 	size_t apart;       /* vertices that touched another component */
@@ -464,15 +464,12 @@ measure(mr_ctx *ctx, const edit *e, surface *s, figures *figure)
 		mr_mesh m = mesh_at(s, state);
 		mr_census census;
 		mr_geometry geometry;
-		mr_harm harm;
 		mr_take_census(ctx, &m, &s->edges, &census);
 		mr_measure_geometry(ctx, &m, &s->edges, &geometry);
 		figure[state].folds = census.folded_edges;
 		figure[state].volume = geometry.volume;
 		compare_edges(s, state, &figure[state]);
 		compare_faces(s, state, &figure[state]);
-		mr_harm_find(ctx, &s->m, &s->edges, s->p[state], 0, &harm);
-		figure[state].far_pairs = harm.far;
 	}
 	return MR_OK;
 }
@@ -511,7 +508,6 @@ print_figures(const edit *e, const surface *s, const figures *figure, size_t lef
 	    s->m.nv, s->m.nf);
 	print_count("folds", figure, offsetof(figures, folds));
 	print_count("near_pairs", figure, offsetof(figures, near_pairs));
-	print_count("far_pairs", figure, offsetof(figures, far_pairs));
 	printf(",\"touching\":%zu,\"apart_warp\":%zu,\"apart\":%zu", b->apart, w->apart, a->apart);
 	print_real("off_warp", w->off);
 	print_real("off", a->off);

@@ -2,7 +2,6 @@
 #include "base/random.h"
 #include "edit/correspondence.h"
 #include "edit/detail.h"
-#include "judge/strayed.h"
 #include "shape/shape.h"
 #include "space/bvh.h"
 
@@ -482,50 +481,6 @@ bad_columns_are_refused(void **state)
 	mr_ctx_free(&ctx);
 }
 
-static mr_strayed
-strayed(const mr_mesh *m, const mr_v3 *now, const mr_edges *edges, const mr_mesh *rest, const mr_v3 *q,
-    const mr_detail *d)
-{
-	mr_motion motion = { .then = m, .now = now, .edges = edges, .diagonal = 2 };
-	mr_ground ground = { .then = *rest, .now = q, .at = d->at };
-
-	return mr_strayed_find(&motion, &ground);
-}
-
-/* Edges that change as base does have not strayed; those of a vertex that is thrown away have. */
-static void
-what_base_accounts_for_has_not_strayed(void **state)
-{
-	mr_mesh m, rest;
-	mr_ctx ctx;
-	mr_detail d;
-	mr_edges edges;
-	mr_strayed s;
-	mr_v3 *p, *q;
-
-	(void)state;
-	mr_ctx_init(&ctx, 1);
-	m = solid(&ctx, MR_SPHERE, 500);
-	rest = with_positions(m, m.p, "base");
-	assert_int_equal(mr_encode(&ctx, &m, &rest, NULL, &d, NULL), MR_OK);
-	mr_edges_build(&ctx, &m, &edges);
-	p = MR_NEW(&ctx, m.nv, mr_v3);
-	q = MR_NEW(&ctx, m.nv, mr_v3);
-	for (size_t v = 0; v < m.nv; v++)
-		p[v] = q[v] = mr_mul(3, m.p[v]);
-	s = strayed(&m, p, &edges, &rest, q, &d);
-	assert_true(s.edges == 0 && s.vertex == MR_NONE);
-	p[7] = mr_mul(9, m.p[7]);
-	s = strayed(&m, p, &edges, &rest, q, &d);
-	assert_true(s.edges >= 3 && s.edges < 12 && mr_dist(m.p[s.vertex], m.p[7]) < 0.5);
-	for (size_t v = 0; v < m.nv; v++)
-		p[v] = mr_mul(1e200, m.p[v]); /* lengths without a square */
-	m = with_positions(m, p, "mesh");
-	s = strayed(&m, p, &edges, &rest, q, &d);
-	assert_true(s.edges == 0 && s.vertex == MR_NONE);
-	mr_ctx_free(&ctx);
-}
-
 int
 main(void)
 {
@@ -542,7 +497,6 @@ main(void)
 		cmocka_unit_test(threads_do_not_matter),
 		cmocka_unit_test(degenerate_bases_lose_nothing_either),
 		cmocka_unit_test(bad_columns_are_refused),
-		cmocka_unit_test(what_base_accounts_for_has_not_strayed),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

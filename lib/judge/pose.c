@@ -1,10 +1,8 @@
-/* The maps of regions by least squares, and who is off them. */
-#include "judge/held.h"
+/* Constrained vertices that are not where the maps of their regions, fitted by least squares, have them; and
+ * the volume. */
+#include "judge/judge.h"
 
 #include "base/rotation.h"
-#include "mesh/layers.h"
-
-#include <math.h>
 
 /* to + A (x - from), from and to the means. */
 typedef struct fit {
@@ -56,13 +54,13 @@ linear_part(const fit *f)
 
 /* That of fixed vertices is the identity. */
 static void
-fit_maps(const mr_ground *g, size_t regions, fit *fits)
+fit_maps(const mr_ground *g, size_t regions, size_t stride, fit *fits)
 {
 	const mr_v3 *from = g->then.p, *to = g->now;
 	const uint32_t *region = g->region;
 	size_t nv = g->then.nv;
 
-	for (size_t v = 0; v < nv; v++) {
+	for (size_t v = 0; v < nv; v += stride) {
 		fit *f = &fits[region[v]];
 		f->n++;
 		f->from = mr_add(f->from, from[v]);
@@ -73,7 +71,7 @@ fit_maps(const mr_ground *g, size_t regions, fit *fits)
 		fits[r].to = r == MR_REGION_FIXED ? fits[r].from
 		                                  : mr_mul(1 / fmax(1, (double)fits[r].n), fits[r].to);
 	}
-	for (size_t v = 0; v < nv; v++) {
+	for (size_t v = 0; v < nv; v += stride) {
 		fit *f = &fits[region[v]];
 		mr_v3 x = mr_sub(from[v], f->from);
 		add_product(&f->xx, x, x);
@@ -91,35 +89,6 @@ map_of(const fit *f, mr_v3 from)
 	return mr_add(f->to, mr_mat3_apply(&f->yx, mr_sub(from, f->from)));
 }
 
-/* Where vertex v belongs if what stands on base turns with it and keeps its length. */
-static mr_v3
-turned(const mr_motion *m, const mr_ground *g, const fit *f, size_t v)
-{
-	mr_v3 foot = g->foot ? g->foot[v] : mr_place_point(&g->then, mr_places_at(&g->at, v));
-
-	return mr_add(map_of(f, foot), mr_mat3_apply(&f->turn, mr_sub(m->then->p[v], foot)));
-}
-
-static void
-count_vertex(
-    const mr_motion *m, const mr_ground *g, const fit *f, size_t v, bool faceless, double far, mr_held *h)
-{
-	uint32_t r = g->surface_region[v];
-	bool off = !f->given && (f->n || r == MR_REGION_FIXED) &&
-	           mr_dist(m->now[v], map_of(f, m->then->p[v])) > far;
-
-	if (!off)
-		return;
-	if (faceless)
-		h->faceless++;
-	else if (r == MR_REGION_FIXED)
-		h->moved++;
-	else if (mr_mat3_determinant(&f->yx) >= 0 && mr_dist(m->now[v], turned(m, g, f, v)) > far)
-		h->missed++;
-	else
-		h->unscaled++;
-}
-
 static bool
 is_rigid(const fit *f)
 {
@@ -128,15 +97,15 @@ is_rigid(const fit *f)
 	return !f->given && fabs(mr_mat3_determinant(&f->yx) - 1) < little;
 }
 
-/* keeps_volume of mr_held: handles turn, or are where they were.  far: that is no move. */
+/* Handles that only turn ask for no other volume: they turn, or are where they were.  far: that is no move.
+ */
 static bool
-keeps_volume(const fit *fits, size_t regions, double far, bool *turned)
+keeps_volume(const fit *fits, size_t regions, double far)
 {
 	const double least = MR_PI / 6; /* of a pull, which may change the volume, handles turn by less */
 	const fit *lowest = NULL;
-	bool moved = false;
+	bool moved = false, turned = false;
 
-	*turned = false;
 	for (size_t r = 0; r < regions; r++) {
 		const fit *own = &fits[r];
 		mr_mat3 between;
@@ -146,40 +115,82 @@ keeps_volume(const fit *fits, size_t regions, double far, bool *turned)
 			return false;
 		lowest = lowest ? lowest : own;
 		between = mr_mat3_multiply_transposed(&lowest->turn, &own->turn);
-		*turned |= mr_norm(mr_rotation_log(&between, mr_vec(0, 0, 0))) >= least;
+		turned |= mr_norm(mr_rotation_log(&between, mr_vec(0, 0, 0))) >= least;
 		moved |= mr_dist(own->to, map_of(lowest, own->from)) > far;
 	}
-	return *turned || !moved;
+	return turned || !moved;
+}
+
+enum { LOOKS = 1 << 14 };
+
+/* The volume of the closed surface as a share of what it was, by faces at equal strides. */
+static double
+volume_share(const mr_motion *m)
+{
+	const mr_mesh *then = m->then;
+	mr_v3 from = then->p[then->t[0].v[0]], to = m->now[then->t[0].v[0]];
+	double was = 0, is = 0;
+
+	for (size_t f = 0; f < then->nf; f += 1 + then->nf / LOOKS) {
+		const uint32_t *v = then->t[f].v;
+		was += mr_dot(mr_sub(then->p[v[0]], from),
+		    mr_cross(mr_sub(then->p[v[1]], from), mr_sub(then->p[v[2]], from)));
+		is += mr_dot(
+		    mr_sub(m->now[v[0]], to), mr_cross(mr_sub(m->now[v[1]], to), mr_sub(m->now[v[2]], to)));
+	}
+	return was != 0 ? is / was : 1;
+}
+
+static void
+judge_volume(mr_ctx *ctx, const mr_motion *m, bool kept)
+{
+	const double much = 0.1;
+	double share = volume_share(m);
+
+	if (share < 0)
+		mr_motion_found(ctx, m,
+		    (mr_finding){ .kind = MR_VOLUME, .value = share - 1, .what = ": it is inside out" },
+		    MR_NONE);
+	else if (kept && fabs(share - 1) > much)
+		mr_motion_found(ctx, m, (mr_finding){ .kind = MR_VOLUME, .value = share - 1 }, MR_NONE);
+}
+
+/* A region is left out whose own vertices are off its map, because each was given a place. */
+static void
+judge_places(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, const fit *fits, size_t regions, double far)
+{
+	size_t stride = 1 + m->then->nv / LOOKS, off = 0, looked = 0;
+
+	for (size_t v = 0; v < m->then->nv; v += stride) {
+		uint32_t r = g->surface_region[v];
+		if (r == MR_REGION_FREE || r >= regions)
+			continue;
+		looked++;
+		off += !fits[r].given && (fits[r].n || r == MR_REGION_FIXED) &&
+		       mr_dist(m->now[v], map_of(&fits[r], m->then->p[v])) > far;
+	}
+	if (off)
+		mr_motion_found(ctx, m,
+		    (mr_finding){ .kind = MR_MISSED, .count = off * stride, .of = looked * stride }, MR_NONE);
 }
 
 void
-mr_held_count(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, double far, mr_held *held)
+mr_judge_pose(mr_ctx *ctx, const mr_motion *m, const mr_ground *g, bool closed)
 {
-	const mr_mesh *mesh = m->then, *base = &g->then;
-	mr_mark mark = mr_mark_take(ctx);
-	size_t regions = MR_REGION_HANDLE;
-	mr_held h = { 0 };
-	size_t count;
-	bool *used;
+	const double far = 0.005 * m->diagonal;
+	const mr_mesh *base = &g->then;
+	size_t regions = MR_REGION_HANDLE, stride = 1 + base->nv / LOOKS;
 	fit *fits;
 
 	for (size_t v = 0; v < base->nv; v++)
 		regions = g->region[v] < regions ? regions : (size_t)g->region[v] + 1;
 	fits = MR_NEW_ZERO(ctx, regions, fit);
-	mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count);
-	fit_maps(g, regions, fits);
-	for (size_t v = 0; v < base->nv; v++) {
+	fit_maps(g, regions, stride, fits);
+	for (size_t v = 0; v < base->nv; v += stride) {
 		fit *f = &fits[g->region[v]];
 		f->given |= mr_dist(g->now[v], map_of(f, base->p[v])) > far;
 	}
-	h.keeps_volume = keeps_volume(fits, regions, far, &h.turned);
-	for (size_t v = 0; v < mesh->nv; v++) {
-		uint32_t r = g->surface_region[v];
-		h.fixed += used[v] && r == MR_REGION_FIXED;
-		h.handled += used[v] && r >= MR_REGION_HANDLE;
-		if (r != MR_REGION_FREE && r < regions)
-			count_vertex(m, g, &fits[r], v, !used[v], far, &h);
-	}
-	mr_mark_release(ctx, mark);
-	*held = h;
+	judge_places(ctx, m, g, fits, regions, far);
+	if (closed && m->then->nf)
+		judge_volume(ctx, m, keeps_volume(fits, regions, far));
 }
