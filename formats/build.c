@@ -262,7 +262,7 @@ mr_build_property(mr_builder *b, const char *name, const char *type, char elemen
 		if (*c == ' ')
 			*c = '_';
 	MR_RESERVE(b->ctx, b->kept, b->properties, 1, &b->property_room);
-	b->kept[b->properties++] = (mr_kept){ .p = { .name = own, .type = type, .shape = shape } };
+	b->kept[b->properties++] = (mr_kept){ .p = { .name = own, .shape = shape } };
 	*number = b->properties;
 }
 

@@ -57,9 +57,6 @@ bool mr_xyz_sniff(const unsigned char *data, size_t size);
 mr_status mr_xyz_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_xyz_write(mr_sink *s, const mr_model *m);
 
-/* The comment of an XYZ whose colours, all dark, would be taken for parts of 1. */
-#define MR_XYZ_BYTES "colors of 0 to 255"
-
 mr_status mr_pts_write(mr_sink *s, const mr_model *m);
 mr_status mr_pwn_write(mr_sink *s, const mr_model *m);
 
@@ -118,19 +115,17 @@ enum {
 	MR_KEEPS_TEXCOORD = 4,
 	MR_KEEPS_GROUP = 8,
 	MR_KEEPS_FACES = 16,
-	MR_KEEPS_CORNERS = 32, /* several normals and texture coordinates of a vertex */
+	MR_KEEPS_CORNERS = 32, /* several texture coordinates of a vertex */
 	MR_KEEPS_OBJECT = 64,
 	MR_KEEPS_MATERIAL = 128,
 	MR_KEEPS_SMOOTHING = 256,
 	MR_KEEPS_POLYGON = 512,
 	MR_KEEPS_PROPERTY = 1024,
 	MR_KEEPS_SCANNER = 2048,
-	MR_KEEPS_ALPHA = 4096
+	MR_KEEPS_ALPHA = 4096,
+	MR_KEEPS_CORNER_NORMAL = 8192
 };
 void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
-
-/* The value of row i. */
-double mr_property_value(const mr_property *p, size_t i);
 
 /* The model's faces, polygons as they were; reports those that no longer are. */
 void mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces);

@@ -439,14 +439,6 @@ mr_put_reals(mr_sink *s, const double *x, size_t n, char end)
 	mr_sink_fill(s, to);
 }
 
-double
-mr_property_value(const mr_property *p, size_t i)
-{
-	if (p->shape.type == 'd')
-		return ((const double *)p->data)[i];
-	return p->shape.type == 'u' ? ((const uint32_t *)p->data)[i] : ((const unsigned char *)p->data)[i];
-}
-
 void
 mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 {
@@ -456,7 +448,7 @@ mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
 		size_t rows;
 		const char *what;
 	} columns[] = { { m->normal, MR_KEEPS_NORMAL, m->nv, "normals" },
-		{ m->corner_normal, MR_KEEPS_CORNERS, 3 * m->nf, "normals of corners" },
+		{ m->corner_normal, MR_KEEPS_CORNER_NORMAL, 3 * m->nf, "normals of corners" },
 		{ m->color, MR_KEEPS_COLOR, m->nv, "colors" },
 		{ m->texcoord, MR_KEEPS_TEXCOORD, m->nv, "texture coordinates" },
 		{ m->corner_texcoord, MR_KEEPS_CORNERS, 3 * m->nf, "texture coordinates of corners" },

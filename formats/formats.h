@@ -31,7 +31,6 @@ void mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *
 /* A number that each vertex or each face has under a name of its own, as PLY has them. */
 typedef struct mr_property {
 	const char *name; /* at most MR_COLUMN_MAX bytes, of no column by convention */
-	const char *type; /* of PLY: char, uchar, short, ushort, int, uint, float or double */
 	mr_shape shape;   /* of one component: b uchar; u ushort or uint; d the others */
 	const void *data; /* nv or nf */
 } mr_property;

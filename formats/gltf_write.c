@@ -686,7 +686,7 @@ mr_glb_note_lost(mr_sink *s, const mr_model *m)
 {
 	mr_note_lost(s, m,
 	    MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_ALPHA | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES |
-		MR_KEEPS_CORNERS | MR_KEEPS_OBJECT | MR_KEEPS_MATERIAL);
+		MR_KEEPS_CORNERS | MR_KEEPS_CORNER_NORMAL | MR_KEEPS_OBJECT | MR_KEEPS_MATERIAL);
 	MR_TRY(mr_check_floats(s, m));
 	return mr_note_rounded(s, m);
 }

@@ -170,46 +170,34 @@ column_name(char to[MR_COLUMN_MAX + 1], const char *prefix, const char *name)
 			*c = '_';
 }
 
+/* Whether no column and no part of one is called so, in this layer or by convention in that of a surface. */
 static bool
-is_free(const mr_frame *f, const char *layer, const char *name)
+is_free(const mr_frame *f, const char *layer, const char *name, char element)
 {
 	return *name && mr_name_valid(name, MR_COLUMN_MAX) && !mr_column_known(layer, name) &&
-	       !mr_column_of_surfaces(name) && !mr_layer_has(f, layer, name);
+	       !mr_column_of_surfaces(name) && !mr_layer_has(f, layer, name) &&
+	       (element == 'f' || !mr_role_of(name, strlen(name)));
 }
 
-/* Its own name or, where there is such a column, as of vertices, or one by convention of this layer or of a
- * surface, a similar one. */
-static bool
-choose_name(const mr_frame *f, const char *layer, const char *name, char to[MR_COLUMN_MAX + 1])
-{
-	static const char *const prefixes[] = { "", "ply_", "ply_face_" };
-
-	for (size_t i = 0; i < sizeof prefixes / sizeof *prefixes; i++) {
-		column_name(to, prefixes[i], name);
-		if (is_free(f, layer, to))
-			return true;
-	}
-	return false;
-}
-
-/* The properties as columns, and for each a line of its name, its type and what it is called in PLY. */
+/* The properties as columns, under their own names or similar ones. */
 static mr_status
 put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
-	const char *text = "";
+	static const char *const prefixes[] = { "", "ply_", "ply_face_" };
 
-	for (size_t i = 0; i < m->properties; i++) {
-		const mr_property *p = &m->property[i];
-		char name[MR_COLUMN_MAX + 1];
-		if (!choose_name(f, layer, p->name, name)) {
+	for (const mr_property *p = m->property; p < m->property + m->properties; p++) {
+		char name[MR_COLUMN_MAX + 1] = "";
+		for (size_t i = 0;
+		     i < sizeof prefixes / sizeof *prefixes && !is_free(f, layer, name, p->shape.element);
+		     i++)
+			column_name(name, prefixes[i], p->name);
+		if (is_free(f, layer, name, p->shape.element))
+			MR_TRY(mr_frame_put(
+			    ctx, f, layer, name, p->shape, p->data, p->shape.element == 'f' ? m->nf : m->nv));
+		else
 			mr_tell(ctx, MR_LOST, 1, "property %s", p->name);
-			continue;
-		}
-		MR_TRY(mr_frame_put(
-		    ctx, f, layer, name, p->shape, p->data, p->shape.element == 'f' ? m->nf : m->nv));
-		text = mr_format(ctx, "%s%s%s %s %s", text, *text ? "\n" : "", name, p->type, p->name);
 	}
-	return *text ? mr_layer_put(ctx, f, layer, "properties", text, strlen(text)) : MR_OK;
+	return MR_OK;
 }
 
 mr_status
@@ -236,39 +224,16 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 	return put_properties(ctx, f, layer, m);
 }
 
-/* The word at *p, where one ends before `end` or there; skips the blank behind it. */
+/* What a column is called in files: as it was before put_properties gave it a similar name. */
 static const char *
-take_word(mr_ctx *ctx, const char **p, const char *end)
+name_of(const char *column)
 {
-	const char *from = *p;
+	const char *name = column + (strncmp(column, "ply_", 4)           ? 0
+					: strncmp(column, "ply_face_", 9) ? 4
+									  : 9);
+	mr_role role = mr_role_of(name, strlen(name));
 
-	while (*p < end && **p != ' ')
-		++*p;
-	from = mr_format(ctx, "%.*s", (int)(*p - from), from);
-	*p += *p < end;
-	return from;
-}
-
-/* What `properties` says of a column; else its own name, and the type of its shape. */
-static void
-describe(mr_ctx *ctx, mr_lines lines, const mr_column *c, mr_property *property)
-{
-	const char *p = lines.text, *end = p + lines.bytes;
-	size_t length = strlen(c->name);
-
-	property->name = c->name;
-	property->type = c->shape.type == 'b' ? "uchar" : c->shape.type == 'u' ? "uint" : "double";
-	while (p < end) {
-		const char *e = memchr(p, '\n', (size_t)(end - p));
-		e = e ? e : end;
-		if ((size_t)(e - p) > length && p[length] == ' ' && !memcmp(p, c->name, length)) {
-			p += length + 1;
-			property->type = take_word(ctx, &p, e);
-			property->name = take_word(ctx, &p, e);
-			return;
-		}
-		p = e + 1;
-	}
+	return role == MR_X || role == MR_Y || role == MR_Z ? column : name;
 }
 
 static bool
@@ -283,14 +248,9 @@ static mr_status
 get_properties(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 {
 	mr_property *property = MR_NEW(ctx, f->count, mr_property);
-	mr_lines types = { "", 0 };
 	const void *data;
 	size_t n = 0, rows;
 
-	if (mr_layer_has(f, layer, "properties")) {
-		MR_TRY(mr_layer_get(ctx, f, layer, "properties", &data, &types.bytes));
-		types.text = data;
-	}
 	for (int faces = 0; faces < 2; faces++)
 		for (size_t i = 0; i < f->count; i++) {
 			const mr_column *c = &f->columns[i];
@@ -300,8 +260,7 @@ get_properties(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 			if (rows != (faces ? m->nf : m->nv))
 				return mr_fail(ctx, MR_ERANGE, "%s: column %s has %zu rows, not %zu", layer,
 				    c->name, rows, faces ? m->nf : m->nv);
-			property[n] = (mr_property){ .shape = c->shape, .data = data };
-			describe(ctx, types, c, &property[n++]);
+			property[n++] = (mr_property){ name_of(c->name), c->shape, data };
 		}
 	m->property = property;
 	m->properties = n;

@@ -10,6 +10,7 @@ vertex_of(const mr_model *m, uint32_t corner)
 mr_status
 mr_off_write(mr_sink *s, const mr_model *m)
 {
+	mr_part part[MR_PARTS];
 	mr_polygons faces;
 
 	mr_note_lost(s, m,
@@ -18,17 +19,10 @@ mr_off_write(mr_sink *s, const mr_model *m)
 	mr_faces_of(s, m, &faces);
 	mr_print(s, "%s%s%sOFF\n", m->texcoord ? "ST" : "", m->color ? "C" : "", m->normal ? "N" : "");
 	mr_print(s, "%zu %zu 0\n", m->nv, faces.count);
+	mr_vertex_parts(m, part);
 	for (size_t i = 0; i < m->nv; i++) {
-		bool more = m->normal || m->color || m->texcoord;
-		mr_put_reals(s, &m->p[i].x, 3, more ? ' ' : '\n');
-		if (m->normal)
-			mr_put_reals(s, &m->normal[i].x, 3, m->color || m->texcoord ? ' ' : '\n');
-		if (m->color) {
-			const unsigned char *c = m->color + 4 * i;
-			mr_print(s, "%d %d %d %d%s", c[0], c[1], c[2], c[3], m->texcoord ? " " : "\n");
-		}
-		if (m->texcoord)
-			mr_put_reals(s, m->texcoord + 2 * i, 2, '\n');
+		mr_put_parts(s, part, 4, i, true);
+		mr_end_row(s);
 	}
 	for (size_t f = 0; f < faces.count; f++) {
 		mr_sink_fill(s, mr_count_write(mr_sink_room(s),

@@ -11,7 +11,7 @@
 
 /* A page in the making; starts zeroed. */
 typedef struct mr_page {
-	FILE *file;         /* without a name: the stream, until the page is written */
+	FILE *file; /* without a name: the stream, until the page is written */
 	mr_writer *writer;
 	size_t frames;
 	mr_page_pictures pictures;

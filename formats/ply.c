@@ -251,25 +251,22 @@ read_corners(ply *f, const property *p, corner_list *l)
 	return MR_OK;
 }
 
-/* The places of the corners' values in the list, `width` of each: NULL where this face has none, or as many
- * as make no sense. */
+/* The places of the corners' coordinates in the list: NULL where this face has none, or as many as make no
+ * sense. */
 static void
-places_of(ply *f, corner_list *l, size_t width, const uint32_t **places)
+places_of(ply *f, corner_list *l, const uint32_t **places)
 {
-	size_t n = f->indices_count, first = l->had / width;
+	size_t n = f->indices_count, first = l->had / 2;
 
 	*places = NULL;
-	if (l->count - l->had != width * n) {
+	if (l->count - l->had != 2 * n) {
 		l->odd += l->count > l->had;
 		l->count = l->had;
 		return;
 	}
 	MR_RESERVE(f->ctx, l->place, 0, n, &l->place_room);
-	for (size_t i = 0; i < n; i++) {
-		const double *x = l->value + width * (first + i);
-		bool whole = isfinite(x[0]) && isfinite(x[1]) && (width == 2 || isfinite(x[2]));
-		l->place[i] = whole ? (uint32_t)(first + i) : MR_NONE;
-	}
+	for (size_t i = first; i < first + n; i++)
+		l->place[i - first] = isfinite(l->value[2 * i] + l->value[2 * i + 1]) ? (uint32_t)i : MR_NONE;
 	*places = n ? l->place : NULL;
 	l->had = l->count;
 }
@@ -294,58 +291,18 @@ add_strips(ply *f)
 	}
 }
 
-/* A number of a group, an object or a material as its name. */
-static mr_status
-set_mark(ply *f, role r, double x, const void *where)
-{
-	static const char *const what[] = { "group", "object", "material" };
-	size_t mark = (size_t)(r - GROUP), i;
-	const named_list *l = &f->names[mark % 3];
-	char name[32];
-
-	if (!(x >= 0 && x < 4294967296.0 && x == floor(x)))
-		return bad(f, where, "%s %g", r == SMOOTHING ? "smoothing group" : what[mark], x);
-	if (r == SMOOTHING)
-		return mr_build_smoothing(&f->b, (uint32_t)x);
-	i = (size_t)x;
-	if (i < l->count) {
-		f->b.marks[mark].current = (uint32_t)(l->first + i);
-		return MR_OK;
-	}
-	snprintf(name, sizeof name, "%s%zu", what[mark], i);
-	return mr_build_mark(&f->b, (mr_marking)mark, name, strlen(name));
-}
-
 static void
 add_face(ply *f, kind k)
 {
-	const uint32_t *c = f->indices, *uv, *vn;
+	const uint32_t *c = f->indices, *uv;
 
 	if (k == STRIPS) {
 		add_strips(f);
 		return;
 	}
-	places_of(f, &f->uv, 2, &uv);
-	places_of(f, &f->vn, 3, &vn);
-	if (f->indices_count == 3 && !uv && !vn && mr_build_triangle(&f->b, c[0], c[1], c[2]))
-		return;
-	mr_build_face(&f->b, c, uv, vn, f->indices_count);
-}
-
-/* Names in their order, with faces or without. */
-static mr_status
-name_marks(ply *f, const element *e)
-{
-	for (size_t k = 0; k < 3; k++) {
-		named_list *l = &f->names[k];
-		mr_marks *marks = &f->b.marks[k];
-		if (!has(e, (role)(GROUP + k)) || marks->used)
-			continue;
-		for (size_t i = 0; i < l->count; i++)
-			MR_TRY(mr_build_new_mark(&f->b, (mr_marking)k, l->name[i].text, l->name[i].bytes));
-		l->first = marks->names.count - l->count;
-	}
-	return MR_OK;
+	places_of(f, &f->uv, &uv);
+	if (f->indices_count != 3 || uv || !mr_build_triangle(&f->b, c[0], c[1], c[2]))
+		mr_build_face(&f->b, c, uv, NULL, f->indices_count);
 }
 
 /* Keeps the row at hand as row `at` of the properties. */
@@ -365,15 +322,12 @@ read_face(ply *f, const element *e, uint64_t row)
 
 	for (size_t i = 0; i < e->properties; i++) {
 		const property *p = &e->property[i];
-		const void *where = here(f);
 		if (p->role == INDICES)
 			MR_TRY(read_indices(f, p, e->kind == STRIPS));
-		else if (p->role == UVS || p->role == NORMALS)
-			MR_TRY(read_corners(f, p, p->role == UVS ? &f->uv : &f->vn));
+		else if (p->role == UVS)
+			MR_TRY(read_corners(f, p, &f->uv));
 		else
 			MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
-		if (p->role >= GROUP)
-			MR_TRY(set_mark(f, p->role, f->row[i], where));
 	}
 	MR_TRY(end_row(f, e, begin));
 	add_face(f, e->kind);
@@ -388,7 +342,6 @@ read_faces(ply *f, const element *e)
 	MR_TRY(begin_rows(f, e));
 	if (e->rows && !has(e, INDICES))
 		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
-	MR_TRY(name_marks(f, e));
 	MR_TRY(mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0));
 	for (uint64_t row = 0; row < e->rows; row++)
 		MR_TRY(read_face(f, e, row));
@@ -412,7 +365,6 @@ lose_others(ply *f)
 {
 	mr_lost(f->ctx, NULL, f->textures, "names of textures");
 	mr_lost(f->ctx, NULL, f->uv.odd, "lists texcoord of another length");
-	mr_lost(f->ctx, NULL, f->vn.odd, "lists corner_normal of another length");
 	for (size_t i = 0; i < f->elements; i++) {
 		const element *e = &f->element[i];
 		if (e->kind == OTHER)
@@ -464,7 +416,6 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(read_elements(&f));
 	lose_others(&f);
 	f.b.uv = f.uv.value;
-	f.b.vn = (const mr_v3 *)f.vn.value;
 	return mr_build_finish(&f.b, m);
 }
 

@@ -20,7 +20,7 @@ typedef struct type_name {
 extern const type_name mr_ply_types[TYPES];
 
 /* What a property of faces is to us. */
-typedef enum role { NONE, INDICES, UVS, NORMALS, GROUP, OBJECT, MATERIAL, SMOOTHING } role;
+typedef enum role { NONE, INDICES, UVS } role;
 
 typedef struct property {
 	bool list;
@@ -39,13 +39,6 @@ typedef struct element {
 	property *property;
 	size_t properties, room;
 } element;
-
-/* Names by comments, in the order of the numbers that faces have. */
-typedef struct named_list {
-	mr_lines *name;
-	size_t count, room;
-	size_t first; /* the number of the first among the marks */
-} named_list;
 
 /* Values of a list that each corner of a face has some of. */
 typedef struct corner_list {
@@ -68,9 +61,8 @@ typedef struct ply {
 	mr_builder b;
 	uint32_t *indices; /* of the list at hand */
 	size_t indices_count, indices_room;
-	corner_list uv, vn;
-	named_list names[3]; /* of groups, objects, materials */
-	double *row;         /* of the row at hand, value by value */
+	corner_list uv;
+	double *row; /* of the row at hand, value by value */
 	size_t row_room;
 	mr_rows rows;    /* of vertices */
 	size_t textures; /* that are left out */

@@ -34,9 +34,7 @@ role_of(kind k, bool list, const char *w, size_t n)
 		role role;
 		const char *name;
 	} roles[] = { { true, INDICES, "vertex_indices" }, { true, INDICES, "vertex_index" },
-		{ true, UVS, "texcoord" }, { true, NORMALS, "corner_normal" }, { false, GROUP, "group" },
-		{ false, OBJECT, "object" }, { false, MATERIAL, "material" },
-		{ false, SMOOTHING, "smoothing" } };
+		{ true, UVS, "texcoord" } };
 
 	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
 		if (roles[i].list == list && is_word(w, n, roles[i].name) &&
@@ -129,39 +127,7 @@ header_format(ply *f, mr_scan *line, bool *seen)
 	return MR_OK;
 }
 
-/* A comment "group NAME" names the next group, as mr_ply_write has it, and so on. */
-static mr_status
-header_comment(ply *f, mr_scan *line)
-{
-	static const char *const words[] = { "group", "object", "material" };
-
-	for (size_t i = 0; i < 3; i++)
-		if (mr_scan_accept(line, words[i])) {
-			named_list *l = &f->names[i];
-			MR_RESERVE(f->ctx, l->name, l->count, 1, &l->room);
-			l->name[l->count++] = (mr_lines){ line->p, (size_t)(line->end - line->p) };
-			return MR_OK;
-		}
-	if (mr_scan_accept(line, "TextureFile"))
-		f->textures++;
-	else if (mr_scan_accept(line, "mtllib"))
-		return mr_build_library(&f->b, line->p, (size_t)(line->end - line->p));
-	return MR_OK;
-}
-
 /* ---- which properties are kept, and as what ---- */
-
-/* Numbers of groups, objects and materials need names, smoothing groups a type without sign: -1 is none. */
-static void
-demote_marks(ply *f, element *e)
-{
-	for (size_t i = 0; i < e->properties; i++) {
-		property *p = &e->property[i];
-		bool whole = p->value == UCHAR || p->value == USHORT || p->value == UINT;
-		if (p->role >= GROUP && (p->role == SMOOTHING ? !whole : !f->names[p->role - GROUP].count))
-			p->role = NONE;
-	}
-}
 
 /* What is full of a colour: bytes and 16 bits without sign say it. */
 static double
@@ -187,7 +153,6 @@ choose_vertex_properties(ply *f, const element *e)
 static void
 choose_face_properties(ply *f, element *e)
 {
-	demote_marks(f, e);
 	for (property *p = e->property; p < e->property + e->properties; p++)
 		if (p->role == NONE && !p->list)
 			mr_build_property(&f->b, p->name, mr_ply_types[p->value].name, 'f', &p->kept);
@@ -233,7 +198,7 @@ mr_ply_header(ply *f)
 		else if (mr_scan_accept(&line, "property"))
 			MR_TRY(header_property(f, &line));
 		else if (mr_scan_accept(&line, "comment"))
-			MR_TRY(header_comment(f, &line));
+			f->textures += mr_scan_accept(&line, "TextureFile");
 		else if (!mr_scan_accept(&line, "obj_info") && f->elements > 0 && mr_scan_word(&line, &w, &n))
 			return mr_scan_fail(
 			    &f->text, w, "'%s' begins no line of a PLY header", mr_word_shown(w, n, shown));

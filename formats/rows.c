@@ -1,7 +1,7 @@
 /* Rows by the roles of their columns; colours become bytes once all have been seen. */
 #include "formats/rows.h"
 
-#include "formats/scan.h"
+#include "formats/format.h"
 
 mr_role
 mr_role_of(const char *name, size_t bytes)
@@ -192,4 +192,62 @@ mr_rows_end(mr_rows *r)
 	if (!mr_all_left(b->ctx, r->odd_scanner, r->n, "places of the scanner"))
 		b->scanner = NULL;
 	finish_colors(r);
+}
+
+/* ---- written ---- */
+
+void
+mr_vertex_parts(const mr_model *m, mr_part part[MR_PARTS])
+{
+	part[0] = (mr_part){ m->p, 'd', 3, 3, "x y z" };
+	part[1] = (mr_part){ m->normal, 'd', 3, 3, "nx ny nz" };
+	part[2] = (mr_part){ m->color, 'b', 4, 4, "red green blue alpha" };
+	part[3] = (mr_part){ m->texcoord, 'd', 2, 2, "s t" };
+	part[4] = (mr_part){ m->scanner, 'd', 3, 3, "scanner_x scanner_y scanner_z" };
+}
+
+mr_part
+mr_property_part(const mr_property *p)
+{
+	return (mr_part){ p->data, p->shape.type, 1, 1, p->name };
+}
+
+static char *
+put_number(char *to, const mr_part *p, size_t at, bool text)
+{
+	if (p->type == 'd' && text)
+		to = mr_real_write(to, ((const double *)p->data)[at]);
+	else if (p->type == 'd')
+		return mr_store_double(to, ((const double *)p->data)[at]);
+	else if (p->type == 'u' && text)
+		to = mr_count_write(to, ((const uint32_t *)p->data)[at]);
+	else if (p->type == 'u')
+		return mr_store32(to, ((const uint32_t *)p->data)[at]);
+	else if (text)
+		to = mr_count_write(to, ((const unsigned char *)p->data)[at]);
+	else
+		*to++ = ((const char *)p->data)[at];
+	if (text)
+		*to++ = ' ';
+	return to;
+}
+
+void
+mr_put_parts(mr_sink *s, const mr_part *part, size_t parts, size_t i, bool text)
+{
+	for (const mr_part *p = part; p < part + parts; p++) {
+		char *to;
+		if (!p->data)
+			continue;
+		to = mr_sink_room(s);
+		for (size_t k = 0; k < p->width; k++)
+			to = put_number(to, p, p->stride * i + k, text);
+		mr_sink_fill(s, to);
+	}
+}
+
+void
+mr_end_row(mr_sink *s)
+{
+	s->buffer[s->used - 1] = '\n';
 }

@@ -9,6 +9,7 @@
 #define MR_ROWS_H
 
 #include "formats/build.h"
+#include "formats/bytes.h"
 
 typedef enum mr_role {
 	MR_NO_ROLE,
@@ -69,5 +70,27 @@ void mr_rows_put(mr_rows *r, const double *x);
 
 /* Gives the vertices to the builder; reports what was lost of them. */
 void mr_rows_end(mr_rows *r);
+
+/* ---- written ---- */
+
+/* Columns of what is written, side by side in memory. */
+typedef struct mr_part {
+	const void *data; /* NULL: not there */
+	char type;        /* of mr_shape: d, u or b */
+	size_t width, stride;
+	const char *names; /* of the columns, a blank between */
+} mr_part;
+
+/* The parts of a model's vertices: position, normal, colour, texture coordinates, the scanner's place. */
+enum { MR_PARTS = 5 };
+void mr_vertex_parts(const mr_model *m, mr_part part[MR_PARTS]);
+
+mr_part mr_property_part(const mr_property *p);
+
+/* Row i of the parts that are there: as text, a blank behind each number, or little-endian. */
+void mr_put_parts(mr_sink *s, const mr_part *part, size_t parts, size_t i, bool text);
+
+/* In text, the last blank of a row becomes its newline. */
+void mr_end_row(mr_sink *s);
 
 #endif

@@ -142,9 +142,6 @@ read_head(table *t)
 		comment = is_comment(&line);
 		while (comment && line.p < line.end && (*line.p == '#' || *line.p == '/'))
 			line.p++;
-		mr_skip_blanks(&line);
-		if (comment && mr_word_is(line.p, (size_t)(line.end - line.p), MR_XYZ_BYTES))
-			t->points.shades[0].full = 255;
 		if (!comment && !t->counted && is_one_count(line, &t->count))
 			t->counted = true;
 		else if (!t->named && (t->columns = names(line, t->column)) > 0)

@@ -307,7 +307,7 @@ is_list(const char *name)
 	for (size_t i = 0; i < MR_NAMINGS; i++)
 		if (!strcmp(mr_namings[i].list, name))
 			return true;
-	return !strcmp(name, "mtllib") || !strcmp(name, "properties");
+	return !strcmp(name, "mtllib");
 }
 
 /* *left: the column does not stay. */

@@ -24,8 +24,6 @@ const mr_column_info mr_columns[] = {
 	{ NULL, "materials", { '-', 't', 1 }, MR_LABEL, NULL, "names of the materials, one a line" },
 	{ NULL, "mtllib", { '-', 't', 1 }, MR_LABEL, NULL, "files of the materials, one a line" },
 	{ NULL, "smoothing", { 'f', 'u', 1 }, MR_LABEL, NULL, "smoothing group, 0 none" },
-	{ NULL, "properties", { '-', 't', 1 }, MR_LABEL, NULL,
-	    "types of the columns that PLY adds, one a line" },
 	{ NULL, "region", { 'v', 'u', 1 }, MR_LEAST, NULL, "0 fixed, 1 free, 2 + N handle N" },
 	{ NULL, "mesh_face", { 'v', 'u', 1 }, MR_NUMBER, "mesh", "triangle of mesh that the vertex lies on" },
 	{ NULL, "mesh_bary", { 'v', 'd', 3 }, MR_PLACE, "mesh", "barycentric coordinates in it" },

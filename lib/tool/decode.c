@@ -95,8 +95,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_connectivity
 static mr_status
 put_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
 {
-	size_t n = f->count, bytes;
-	const void *types;
+	size_t n = f->count;
 
 	for (size_t i = 0; i < n; i++) {
 		mr_column *c = &f->columns[i];
@@ -108,10 +107,7 @@ put_columns(mr_ctx *ctx, mr_frame *f, size_t nv)
 			    c->name, (unsigned long long)c->rows, nv);
 		MR_TRY(mr_frame_put(ctx, f, "mesh", c->name, c->shape, c->data, nv));
 	}
-	if (!mr_layer_has(f, "displacement", "properties"))
-		return MR_OK;
-	MR_TRY(mr_layer_get(ctx, f, "displacement", "properties", &types, &bytes));
-	return mr_layer_put(ctx, f, "mesh", "properties", types, bytes);
+	return MR_OK;
 }
 
 /* Takes those of before away, so that nothing is said to be lost that is not. */

@@ -66,14 +66,13 @@ get_columns(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, size_t nv, mr_carri
 	return MR_OK;
 }
 
-/* Puts what the points have beside their places, at the vertices, and what PLY calls it. */
+/* Puts what the points have beside their places, at the vertices. */
 static mr_status
 put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points, const mr_sampling *s,
     const double *height)
 {
 	mr_carried *carried = MR_NEW(ctx, f->count, mr_carried);
-	size_t count = 0, bytes;
-	const void *types;
+	size_t count = 0;
 
 	MR_TRY(get_columns(ctx, f, points, d->m.nv, carried, &count));
 	if (count == 0)
@@ -81,10 +80,7 @@ put_columns(mr_ctx *ctx, mr_frame *f, const mr_domain *d, const mr_mesh *points,
 	MR_TRY(mr_sample_columns(ctx, d, height, points->p, s, carried, count));
 	for (size_t i = 0; i < count; i++)
 		MR_TRY(mr_carried_put(ctx, f, "displacement", &carried[i]));
-	if (!mr_layer_has(f, points->name, "properties"))
-		return MR_OK;
-	MR_TRY(mr_layer_get(ctx, f, points->name, "properties", &types, &bytes));
-	return mr_layer_put(ctx, f, "displacement", "properties", types, bytes);
+	return MR_OK;
 }
 
 static mr_status

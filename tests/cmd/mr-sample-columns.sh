@@ -26,7 +26,7 @@ data = open(sys.argv[1], 'rb').read()
 at = data.index(b'end_header\n') + 11
 head = data[:at].decode().split('element face')[0]
 names = re.findall(r'property (\w+) (\w+)', head)
-row = struct.Struct('<' + ''.join({'double': 'd', 'float': 'f', 'uchar': 'B', 'ushort': 'H', 'int': 'i'}[t] for t, _ in names))
+row = struct.Struct('<' + ''.join({'double': 'd', 'float': 'f', 'uchar': 'B', 'ushort': 'H', 'int': 'i', 'uint': 'I'}[t] for t, _ in names))
 n = int(re.search(r'vertex (\d+)', head).group(1))
 print(' '.join(name for _, name in names))
 near, color, labels = 0, 0, 0
