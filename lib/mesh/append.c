@@ -10,7 +10,7 @@
 /* One column of a layer in all frames. */
 typedef struct joined {
 	mr_frame *const *frames;
-	size_t n, posable; /* how many have vertices that a handle moves */
+	size_t n;
 	const mr_column *first;
 	const char *layer, *name;
 } joined;
@@ -134,22 +134,7 @@ names_of(const char *column)
 typedef struct following {
 	uint64_t rows; /* of what they number: vertices, faces or polygons */
 	mr_name_table names;
-	uint32_t *frame; /* of each name the last one that has it, from 1 */
-	size_t room, namesakes;
 } following;
-
-/* Counts the names of frame i that are one with another of it. */
-static void
-note_namesakes(mr_ctx *ctx, following *w, size_t i, const uint32_t *number, size_t count, size_t known)
-{
-	MR_RESERVE(ctx, w->frame, known, w->names.count - known, &w->room);
-	for (size_t k = known; k < w->names.count; k++)
-		w->frame[k] = 0;
-	for (size_t k = 0; k < count; k++) {
-		w->namesakes += w->frame[number[k]] == i + 1;
-		w->frame[number[k]] = (uint32_t)i + 1;
-	}
-}
 
 /* Names of frame i, of which x has the numbers. */
 static mr_status
@@ -157,13 +142,12 @@ follow_names(mr_ctx *ctx, const joined *j, size_t i, const char *names, uint32_t
 {
 	const void *text = "";
 	uint32_t *number;
-	size_t bytes = 0, count, known = w->names.count;
+	size_t bytes = 0, count;
 
 	if (!mr_layer_has(j->frames[i], j->layer, names))
 		return MR_OK;
 	MR_TRY(mr_layer_get(ctx, j->frames[i], j->layer, names, &text, &bytes));
 	MR_TRY(add_lines(ctx, &w->names, text, bytes, &number, &count));
-	note_namesakes(ctx, w, i, number, count, known);
 	for (size_t k = 0; k < n; k++) {
 		if (x[k] >= count)
 			return mr_fail(ctx, MR_ERANGE, "%s: row %zu of %s is %u of %zu", j->layer, k, j->name,
@@ -246,7 +230,6 @@ join_rows(mr_ctx *ctx, const joined *j, mr_frame *out)
 			MR_TRY(follow(ctx, j, i, (uint32_t *)(void *)(x + at * width), n * each, &w));
 		at += n;
 	}
-	mr_lost(ctx, j->layer, w.namesakes, "names that stand for several");
 	return mr_frame_put(ctx, out, j->layer, j->name, j->first->shape, x, at);
 }
 
@@ -276,7 +259,7 @@ static bool
 is_of_one(const joined *j)
 {
 	if (!strcmp(j->layer, "handles"))
-		return frames_with(j, "handles") > 1 || j->posable > 1;
+		return j->n > 1;
 	if (!strcmp(j->layer, "displacement"))
 		return frames_with(j, "control") > 1 || frames_with(j, "displacement") > 1;
 	return frames_with(j, j->layer) > 1 && is_sampling(j);
@@ -341,52 +324,6 @@ came_before(const joined *j, size_t i, const char *name)
 	return false;
 }
 
-static bool
-has_surface(const mr_frame *f)
-{
-	for (size_t k = 0; k < f->count; k++)
-		if (*f->columns[k].layer && !mr_layer_no_surface(f->columns[k].layer))
-			return true;
-	return false;
-}
-
-/* Warns of points of frames without a surface, where others have a surface alone: what works on one layer
- * takes that. */
-static void
-warn_of_points(mr_ctx *ctx, const joined *j)
-{
-	size_t points = 0, surfaces = 0;
-
-	for (size_t i = 0; i < j->n; i++) {
-		bool surface = has_surface(j->frames[i]), has = mr_frame_has_layer(j->frames[i], j->layer);
-		points += has && !surface;
-		surfaces += surface && !has;
-	}
-	if (points && surfaces)
-		mr_found(ctx, &(mr_finding){ .kind = MR_LAYER,
-				  .what = "frames with points and no surface: -l points works on those" });
-}
-
-/* Warns of a layer that not all frames have: what works on it, or on another, leaves the rest out. */
-static void
-warn_of_absent(mr_ctx *ctx, const joined *j)
-{
-	size_t n = frames_with(j, j->layer), all = 0;
-
-	if (!strcmp(j->layer, "points"))
-		warn_of_points(ctx, j);
-	if (mr_layer_no_surface(j->layer))
-		return;
-	for (size_t i = 0; i < j->n; i++)
-		all += has_surface(j->frames[i]);
-	if (n < all)
-		mr_found(ctx, &(mr_finding){ .kind = MR_LAYER,
-				  .layer = j->layer,
-				  .what = "not all frames have the layer",
-				  .count = n,
-				  .of = all });
-}
-
 /* What triangles were, which several frames have more of. */
 static bool
 is_print(const joined *j)
@@ -397,7 +334,6 @@ is_print(const joined *j)
 static mr_status
 join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 {
-	warn_of_absent(ctx, j);
 	for (size_t i = 0; i < j->n; i++)
 		for (size_t k = 0; k < j->frames[i]->count; k++) {
 			const mr_column *c = &j->frames[i]->columns[k];
@@ -450,35 +386,12 @@ join_lines(mr_ctx *ctx, const joined *j, const char *name, mr_frame *out)
 	return all.s ? mr_frame_put(ctx, out, "", name, text, all.s, all.n) : MR_OK;
 }
 
-/* Whether a frame has vertices that a handle moves. */
-static mr_status
-find_posable(mr_ctx *ctx, mr_frame *f, bool *is)
-{
-	*is = false;
-	for (size_t i = 0; i < f->count; i++) {
-		mr_column *c = &f->columns[i];
-		const uint32_t *region;
-		if (strcmp(c->name, "region") || !same_shape(c->shape, (mr_shape){ 'v', 'u', 1 }))
-			continue;
-		MR_TRY(mr_column_decode(ctx, c));
-		region = c->data;
-		for (size_t k = 0; k < c->rows; k++)
-			*is |= region[k] >= MR_REGION_HANDLE;
-	}
-	return MR_OK;
-}
-
 mr_status
 mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 {
 	joined j = { .frames = frames, .n = n };
 	mr_frame *f;
 
-	for (size_t i = 0; i < n; i++) {
-		bool posable;
-		MR_TRY(find_posable(ctx, frames[i], &posable));
-		j.posable += posable;
-	}
 	MR_TRY(mr_frame_new(ctx, frames[0]->name, &f));
 	for (size_t i = 0; i < n; i++)
 		for (size_t k = 0; k < frames[i]->count; k++) {

@@ -250,7 +250,7 @@ clip_ears(polygon *g, mr_tri *t)
 	emit(t, g->prev[i], i, g->next[i]);
 }
 
-static mr_status
+static void
 ears(mr_ctx *ctx, polygon *g, mr_tri *t)
 {
 	size_t n = g->n;
@@ -267,15 +267,51 @@ ears(mr_ctx *ctx, polygon *g, mr_tri *t)
 	}
 	grid_build(ctx, g);
 	clip_ears(g, t);
+}
+
+/* The triangle with the edge from 0 to 1 comes first and begins with it: there mr_polygons_find begins, too.
+ */
+static void
+put_first(mr_tri *t, size_t n)
+{
+	for (size_t i = 0; i < n; i++)
+		for (int k = 0; k < 3; k++) {
+			mr_tri first = { { t[i].v[k], t[i].v[(k + 1) % 3], t[i].v[(k + 2) % 3] } };
+			if (first.v[0] != 0 || first.v[1] != 1)
+				continue;
+			t[i] = t[0];
+			t[0] = first;
+			return;
+		}
+}
+
+mr_status
+mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t)
+{
+	point small[32];
+	polygon g = { .corner = corner, .n = n, .q = small };
+	mr_mark mark = mr_mark_take(ctx);
+	mr_v3 normal = newell(p, corner, n);
+	size_t first;
+
+	if (n > sizeof small / sizeof *small)
+		g.q = MR_NEW(ctx, n, point);
+	project(&g, p, normal);
+	first = mr_norm2(normal) > 0 ? fan_corner(&g) : 0;
+	if (first < n)
+		fan(&g, first, t);
+	else
+		ears(ctx, &g, t);
+	put_first(t, n - 2);
+	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
-/* ---- which edges of triangles are one ---- */
+/* ---- triangles back to polygons ---- */
 
 typedef struct edge {
 	uint64_t ends; /* from, to */
 	uint32_t he;
-	uint32_t taken; /* of the first of equal ones: so many of them, from it on, have twins */
 } edge;
 
 static int
@@ -326,147 +362,53 @@ first_edge(const edge *e, size_t n, uint64_t ends)
 	return low;
 }
 
-/* The half-edge of an earlier triangle that runs against h and has no twin; MR_NONE where there is none. */
-static uint32_t
-free_twin(const mr_mesh *m, edge *e, size_t n, const uint32_t *twin, uint32_t h)
+/* Whether no edge runs against h. */
+static bool
+is_outer(const mr_mesh *m, const edge *e, size_t n, uint32_t h)
 {
 	uint64_t ends = ends_of(mr_he_to(m, h), mr_he_from(m, h));
-	size_t first = first_edge(e, n, ends), i = first;
+	size_t i = first_edge(e, n, ends);
 
-	if (i == n || e[i].ends != ends)
-		return MR_NONE;
-	i += e[first].taken;
-	while (i < n && e[i].ends == ends && twin[e[i].he] != MR_NONE)
-		i++;
-	e[first].taken = (uint32_t)(i - first);
-	return i < n && e[i].ends == ends && e[i].he < h / 3 * 3 ? e[i].he : MR_NONE;
+	return i == n || e[i].ends != ends;
 }
 
-/*
- * Joins each of the triangles first to end, but the first, to an earlier one: along `most` of its edges, the
- * first of them that can be.  twin: of their half-edges.  Returns how many were joined.
- */
-static size_t
-join_triangles(const mr_mesh *m, size_t first, size_t end, int most, edge *e, uint32_t *twin)
+/* The edge of the outline that begins at a vertex; MR_NONE where it is not exactly one. */
+static uint32_t
+outer_from(const mr_mesh *m, const edge *e, size_t n, uint32_t vertex)
 {
-	size_t n = 0, joined = 0;
+	uint32_t found = MR_NONE;
 
-	for (size_t h = 3 * first; h < 3 * end; h++) {
-		e[n++] = (edge){ ends_of(mr_he_from(m, (uint32_t)h), mr_he_to(m, (uint32_t)h)), (uint32_t)h,
-			0 };
-		twin[h] = MR_NONE;
+	for (size_t i = first_edge(e, n, ends_of(vertex, 0)); i < n && e[i].ends >> 32 == vertex; i++) {
+		if (!is_outer(m, e, n, e[i].he))
+			continue;
+		if (found != MR_NONE)
+			return MR_NONE;
+		found = e[i].he;
 	}
+	return found;
+}
+
+/* The polygon of triangles first to end: their outline, where it is one loop with all their corners; else
+ * false. */
+static bool
+find_outline(const mr_mesh *m, size_t first, size_t end, edge *e, uint32_t *corner)
+{
+	size_t n = 0, count = 0, corners = end - first + 2;
+	uint32_t h = (uint32_t)(3 * first), at;
+
+	for (uint32_t k = h; k < 3 * end; k++)
+		e[n++] = (edge){ ends_of(mr_he_from(m, k), mr_he_to(m, k)), k };
 	sort_edges(e, n);
-	for (size_t f = first + 1; f < end; f++) {
-		int edges = 0;
-		for (uint32_t h = (uint32_t)(3 * f); h < 3 * (f + 1) && edges < most; h++) {
-			uint32_t g = free_twin(m, e, n, twin, h);
-			if (g == MR_NONE)
-				continue;
-			twin[h] = g;
-			twin[g] = h;
-			edges++;
-		}
-		joined += edges > 0;
-	}
-	return joined;
-}
-
-/*
- * Puts the triangles of a polygon in the order of mr_polygons_find: the first begins with the edge from 0 to
- * 1, and each other one with the edge along which it is joined to an earlier one.
- */
-static mr_status
-put_in_order(mr_ctx *ctx, mr_tri *t, size_t n)
-{
-	const mr_mesh m = { .t = t, .nf = n };
-	edge *e = MR_NEW(ctx, 3 * n, edge);
-	uint32_t *twin = MR_NEW(ctx, 3 * n, uint32_t), *queue = MR_NEW(ctx, 3 * n, uint32_t);
-	mr_tri *out = MR_NEW(ctx, n, mr_tri);
-	size_t count = 0;
-
-	join_triangles(&m, 0, n, 3, e, twin);
-	for (uint32_t h = 0; h < 3 * n && count == 0; h++)
-		if (mr_he_from(&m, h) == 0 && mr_he_to(&m, h) == 1)
-			queue[count++] = h;
-	for (size_t i = 0; i < count && i < n; i++) {
-		uint32_t h = queue[i], a = mr_he_next(h), b = mr_he_prev(h);
-		out[i] = (mr_tri){ { mr_he_from(&m, h), mr_he_from(&m, a), mr_he_from(&m, b) } };
-		if (twin[a] != MR_NONE)
-			queue[count++] = twin[a];
-		if (twin[b] != MR_NONE)
-			queue[count++] = twin[b];
-	}
-	if (count == n)
-		memcpy(t, out, n * sizeof *t);
-	return MR_OK;
-}
-
-mr_status
-mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t)
-{
-	point small[32];
-	polygon g = { .corner = corner, .n = n, .q = small };
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 normal = newell(p, corner, n);
-	mr_status status = MR_OK;
-	size_t first;
-
-	if (n > sizeof small / sizeof *small)
-		g.q = MR_NEW(ctx, n, point);
-	project(&g, p, normal);
-	first = mr_norm2(normal) > 0 ? fan_corner(&g) : 0;
-	if (first < n)
-		fan(&g, first, t);
-	else
-		status = ears(ctx, &g, t);
-	if (status == MR_OK)
-		status = put_in_order(ctx, t, n - 2);
-	mr_mark_release(ctx, mark);
-	return status;
-}
-
-/* ---- triangles back to polygons ---- */
-
-/* The outline of k triangles from half-edge h, where it is a loop of k + 2 edges; else false. */
-static bool
-walk_outline(const uint32_t *twin, uint32_t h, size_t k, uint32_t *corner)
-{
-	uint32_t at = h;
-	size_t n = 0;
-
-	do {
-		if (n == k + 2)
-			return false;
-		corner[n++] = at;
-		for (at = mr_he_next(at); twin[at] != MR_NONE; at = mr_he_next(twin[at]))
-			;
-	} while (at != h);
-	return n == k + 2;
-}
-
-/* Whether an outline goes out to a vertex inside and straight back. */
-static bool
-has_spike(const mr_mesh *m, const uint32_t *corner, size_t n)
-{
-	for (size_t i = 0; i < n; i++)
-		if (mr_he_from(m, corner[i]) == mr_he_from(m, corner[(i + 2) % n]))
-			return true;
-	return false;
-}
-
-/* The polygon of triangles first to end; false where they are none. */
-static bool
-find_outline(const mr_mesh *m, size_t first, size_t end, edge *e, uint32_t *twin, uint32_t *corner)
-{
-	size_t k = end - first;
-	uint32_t h = (uint32_t)(3 * first);
-
-	if (join_triangles(m, first, end, 1, e, twin) != k - 1)
-		return false;
-	while (twin[h] != MR_NONE)
+	while (h < 3 * end && !is_outer(m, e, n, h))
 		h++;
-	return walk_outline(twin, h, k, corner) && !has_spike(m, corner, k + 2);
+	if (h == 3 * end)
+		return false;
+	at = h;
+	do {
+		corner[count++] = at;
+		at = outer_from(m, e, n, mr_he_to(m, at));
+	} while (at != h && at != MR_NONE && count < corners);
+	return at == h && count == corners;
 }
 
 /* The most triangles of one number behind each other. */
@@ -488,7 +430,6 @@ mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number
 {
 	const mr_mesh m = { .t = t, .nf = nf };
 	mr_polygons r = { 0 };
-	uint32_t *twin;
 	mr_mark mark;
 	size_t n = 0;
 	edge *e;
@@ -500,13 +441,12 @@ mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number
 	r.start = MR_NEW(ctx, nf + 1, size_t);
 	r.corner = MR_NEW(ctx, 3 * nf, uint32_t);
 	mark = mr_mark_take(ctx);
-	twin = MR_NEW(ctx, 3 * nf, uint32_t);
 	e = MR_NEW(ctx, 3 * longest_run(number, nf), edge);
 	for (size_t f = 0, end; f < nf; f = end) {
 		bool one;
 		for (end = f + 1; end < nf && number[end] == number[f]; end++)
 			;
-		one = end - f > 1 && find_outline(&m, f, end, e, twin, r.corner + n);
+		one = end - f > 1 && find_outline(&m, f, end, e, r.corner + n);
 		r.broken += end - f > 1 && !one;
 		for (size_t i = f; i < (one ? f + 1 : end); i++) {
 			size_t corners = one ? end - f + 2 : 3;

@@ -41,11 +41,9 @@ mr_polygon_corner(const mr_polygons *p, size_t k)
 }
 
 /*
- * The polygons of triangles that have the same number and stand one behind the other (the column `polygon`).
- * Each triangle but the first is joined to an earlier one along the first of its edges that has one to be
- * joined to; the polygon is the outline of all, from the first edge of the first triangle that is on it.  So
- * a polygon that touches itself is found, too, as one around a hole; one with a vertex inside is none.
- * number: NULL where all are triangles.
+ * The polygons of triangles that have the same number and stand one behind the other (the column `polygon`):
+ * their outline, from the first edge of the first triangle that is on it.  Where that meets a vertex twice,
+ * as around a hole, or leaves one out, they come as triangles. number: NULL where all are triangles.
  */
 void mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number, mr_polygons *out);
 

@@ -224,27 +224,23 @@ check_found(const mr_v3 *p, const uint32_t *corner, const size_t *size, size_t f
 	mr_ctx_free(&ctx);
 }
 
-/* Polygons come back from their triangles: from each corner on, concave, beside each other, around a hole. */
+/* Polygons come back from their triangles: from each corner on, concave, beside each other. */
 static void
 found_again(void **state)
 {
 	static const mr_v3 p[] = { { 0, 0, 0 }, { 9, 0, 0 }, { 9, 9, 0 }, { 0, 9, 0 }, { 3, 3, 0 },
 		{ 3, 6, 0 }, { 6, 6, 0 }, { 6, 3, 0 } };
-	static const uint32_t round[] = { 0, 1, 2, 3, 0, 4, 5, 6, 7, 4 }, dart[] = { 0, 1, 7, 2 };
-	static const size_t sizes[] = { 4, 3, 4, 10 };
+	static const uint32_t dart[] = { 0, 1, 7, 2 };
+	static const size_t sizes[] = { 4, 3, 4 };
 	uint32_t c[32];
 
 	(void)state;
-	for (size_t from = 0; from < 10; from++) {
-		for (size_t i = 0; i < 10; i++)
-			c[i] = round[(from + i) % 10];
-		check_found(p, c, &sizes[3], 1);
+	for (size_t from = 0; from < 4; from++) {
 		for (size_t i = 0; i < 4; i++)
 			c[i] = dart[(from + i) % 4];
 		check_found(p, c, &sizes[0], 1);
 		memcpy(c + 4, (uint32_t[]){ 4, 5, 6, 0, 7, 1, 2 }, 7 * sizeof *c);
-		memcpy(c + 11, round, sizeof round);
-		check_found(p, c, sizes, 4);
+		check_found(p, c, sizes, 3);
 	}
 }
 
