@@ -539,7 +539,7 @@ is_proper(const uint32_t *c, const uint32_t *v)
 }
 
 /* Triangles of a polygon, but those that name a vertex twice; of a triangle as the file has it. */
-static mr_status
+static void
 add_face(mr_builder *b, triangles *r, mr_tri *room, size_t face, size_t first)
 {
 	static const mr_tri whole = { { 0, 1, 2 } };
@@ -549,7 +549,7 @@ add_face(mr_builder *b, triangles *r, mr_tri *room, size_t face, size_t first)
 	if (n == 3)
 		room[0] = whole;
 	else
-		MR_TRY(mr_polygon_triangulate(b->ctx, b->p, c, n, room));
+		mr_polygon_triangulate(b->ctx, b->p, c, n, room);
 	for (size_t i = 0; i < n - 2; i++) {
 		const uint32_t *v = room[i].v;
 		if (n > 3 && !is_proper(c, v))
@@ -559,7 +559,6 @@ add_face(mr_builder *b, triangles *r, mr_tri *room, size_t face, size_t first)
 			r->place[3 * r->n + k] = (uint32_t)(first + v[k]);
 		r->face[r->n++] = (uint32_t)face;
 	}
-	return MR_OK;
 }
 
 static mr_status
@@ -578,7 +577,7 @@ triangulate(mr_builder *b, triangles *r)
 	room = MR_NEW(b->ctx, most, mr_tri);
 	for (size_t f = 0; f < b->faces; first += b->size[f++]) {
 		size_t before = r->n;
-		MR_TRY(add_face(b, r, room, f, first));
+		add_face(b, r, room, f, first);
 		b->skipped += r->n == before;
 	}
 	return r->n ? MR_OK

@@ -285,7 +285,7 @@ put_first(mr_tri *t, size_t n)
 		}
 }
 
-mr_status
+void
 mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t)
 {
 	point small[32];
@@ -304,7 +304,6 @@ mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size
 		ears(ctx, &g, t);
 	put_first(t, n - 2);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* ---- triangles back to polygons ---- */

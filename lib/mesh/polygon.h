@@ -14,8 +14,7 @@
  * t: n - 2 triangles of corners from 0 to n - 1, the caller's, in the order from which mr_polygons_find finds
  * the polygon again.
  */
-mr_status mr_polygon_triangulate(
-    mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t) MR_WARN_UNUSED;
+void mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size_t n, mr_tri *t);
 
 /* Faces of any number of corners, made of the triangles of a mesh. */
 typedef struct mr_polygons {
