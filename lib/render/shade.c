@@ -5,12 +5,11 @@
 #include "render/raster_parts.h"
 
 #include "base/parallel.h"
+#include "mesh/creases.h"
 
 static const mr_rgb INSIDE = { 126, 150, 190 }, LINE = { 38, 42, 50 };
 
 enum { LEVELS = 4096 };
-
-static const double CREASE = 0.70710678118654752; /* faces at more than 45 degrees are not shaded as one */
 
 /* What a pixel has gathered from its samples. */
 typedef struct gathered {
@@ -20,9 +19,7 @@ typedef struct gathered {
 
 typedef struct shading {
 	const mr_raster_view *v;
-	mr_incidence around; /* faces of each vertex;  */
-	mr_v3 *normal;       /* of vertices, unit */
-	bool *creased;       /* vertices with faces that are not shaded as one */
+	mr_creases creases;
 	gathered *pixel;
 	double linear[256];   /* of an sRGB value */
 	uint8_t srgb[LEVELS]; /* of a linear value, in LEVELS steps */
@@ -52,45 +49,6 @@ static uint8_t
 to_srgb(const shading *s, double c)
 {
 	return s->srgb[c > 0 ? c < 1 ? (size_t)(c * LEVELS) : LEVELS - 1 : 0];
-}
-
-/* Normals of vertices, from their faces weighted by area, and whether a face is far from them. */
-static void
-vertex_shades(void *arg, size_t begin, size_t end)
-{
-	const shading *s = arg;
-	const mr_mesh *m = &s->v->subject->mesh;
-	const double half = sqrt((1 + CREASE) / 2); /* cosine of half the angle */
-
-	for (size_t i = begin; i < end; i++) {
-		size_t first = s->around.start[i], last = s->around.start[i + 1];
-		mr_v3 sum = mr_vec(0, 0, 0);
-		bool creased = false;
-		for (size_t k = first; k < last; k++)
-			sum = mr_add(sum, mr_face_cross(m, s->around.face[k]));
-		sum = mr_unit(sum);
-		for (size_t k = first; k < last && !creased; k++) {
-			mr_v3 n = mr_face_cross(m, s->around.face[k]);
-			creased = mr_dot(n, sum) < half * mr_norm(n);
-		}
-		s->normal[i] = sum;
-		s->creased[i] = creased;
-	}
-}
-
-/* The normal of a face's corner at a creased vertex: of the faces there that are within the angle of it. */
-static mr_v3
-creased_normal(const shading *s, size_t face, uint32_t vertex)
-{
-	const mr_mesh *m = &s->v->subject->mesh;
-	mr_v3 own = mr_unit(mr_face_cross(m, face)), sum = mr_vec(0, 0, 0);
-
-	for (size_t k = s->around.start[vertex]; k < s->around.start[vertex + 1]; k++) {
-		mr_v3 n = mr_face_cross(m, s->around.face[k]);
-		if (mr_dot(n, own) >= CREASE * mr_norm(n))
-			sum = mr_add(sum, n);
-	}
-	return mr_unit(sum);
 }
 
 /* A face set up for shading: kept while a row stays on it. */
@@ -162,7 +120,7 @@ set_up_face(const shading *s, uint32_t face, facet *f)
 	for (int i = 0; i < 3; i++) {
 		f->p[i] = s->v->at[t[i]];
 		f->color[i] = item_color(s, t[i], face);
-		f->normal[i] = s->creased[t[i]] ? creased_normal(s, face, t[i]) : s->normal[t[i]];
+		f->normal[i] = mr_corner_normal(&s->creases, face, i);
 	}
 	f->area = (double)(f->p[1].x - f->p[0].x) * (double)(f->p[2].y - f->p[0].y) -
 	          (double)(f->p[1].y - f->p[0].y) * (double)(f->p[2].x - f->p[0].x);
@@ -341,29 +299,20 @@ finish_rows(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
-prepare_normals(mr_ctx *ctx, shading *s)
-{
-	const mr_mesh *m = &s->v->subject->mesh;
-
-	s->normal = MR_NEW(ctx, m->nv, mr_v3);
-	s->creased = MR_NEW(ctx, m->nv, bool);
-	MR_TRY(mr_incidence_build(ctx, m, &s->around));
-	mr_parallel(ctx, m->nv, 1024, vertex_shades, s);
-	return MR_OK;
-}
-
 mr_status
 mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 {
 	enum { ROWS = 8 };
 	size_t pixels = v->image->width * v->image->height;
 	shading s = { .v = v };
+	mr_incidence around;
 
 	s.pixel = MR_NEW(ctx, pixels, gathered);
 	prepare_tables(&s);
-	if (v->subject->mesh.nf)
-		MR_TRY(prepare_normals(ctx, &s));
+	if (v->subject->mesh.nf) {
+		MR_TRY(mr_incidence_build(ctx, &v->subject->mesh, &around));
+		mr_creases_find(ctx, &v->subject->mesh, &around, &s.creases);
+	}
 	mr_parallel(ctx, v->image->height, ROWS, gather_rows, &s);
 	mr_parallel(ctx, v->image->height, ROWS, finish_rows, &s);
 	return MR_OK;

@@ -1,24 +1,13 @@
 /* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that was picked. */
 import * as THREE from "three/build/three.module.js";
-import { PLAIN, regionColor } from "./colors.js";
+import { PLAIN } from "./colors.js";
 import { bodies, materialsFor, wornMaterial } from "./materials.js";
-import { apart, gather } from "../mesh/seams.js";
 import { Solid } from "../mesh/solid.js";
 import { edgesOf, spacingOf } from "../mesh/surface.js";
 
+const WHITE = [255, 255, 255];
+
 const attribute = (array, size, normalized) => new THREE.BufferAttribute(array, size, normalized);
-
-/* Three bytes a drawn vertex: of the row it stands for, or plain. */
-function spread(colors, source, count) {
-	const out = new Uint8Array(3 * count);
-
-	for (let i = 0; i < count; i++) {
-		const row = 3 * (source ? source[i] : i);
-		for (let c = 0; c < 3; c++)
-			out[3 * i + c] = colors ? colors[row + c] : PLAIN[c];
-	}
-	return out;
-}
 
 /*
  * What is drawn of a layer; `position` and `triangles` are those of the stream, around the centre.  before: what was
@@ -34,7 +23,6 @@ export class Drawn {
 		this.extent = extent;
 		this.group = new THREE.Group();
 		this.geometry = new THREE.BufferGeometry();
-		this.parts = null; /* how vertices are parted (seams.js); null: they are those of the surface */
 		if (triangles)
 			this.beSurface();
 		else
@@ -47,6 +35,7 @@ export class Drawn {
 		this.body = new THREE.Mesh(this.geometry, this.materials.body);
 		this.group.add(this.body);
 		this.shape(this.solid);
+		this.source = this.triangles;
 	}
 
 	/* So large that they about cover the surface. */
@@ -54,7 +43,8 @@ export class Drawn {
 		const n = this.position.length / 3;
 
 		this.materials.body.uniforms.size.value = 2.2 * spacingOf(this.position);
-		this.shape({ position: this.position, normal: normal ? Float32Array.from(normal) : new Float32Array(3 * n), index: null, source: null });
+		this.shape({ position: this.position, normal: normal ? Float32Array.from(normal) : new Float32Array(3 * n) });
+		this.source = Uint32Array.from({ length: n }, (_, v) => v);
 		this.group.add(new THREE.Points(this.geometry, this.materials.body));
 	}
 
@@ -69,17 +59,9 @@ export class Drawn {
 		this.group.add(this.mark);
 	}
 
-	shape(arrays) {
-		this.source = arrays.source;
-		this.count = arrays.position.length / 3;
-		this.geometry.setAttribute("position", attribute(arrays.position, 3));
-		this.geometry.setAttribute("normal", attribute(arrays.normal, 3));
-		for (const name of ["color", "tint", "uv"])
-			this.geometry.deleteAttribute(name);
-		this.geometry.clearGroups();
-		if (this.body)
-			this.body.material = this.materials.body;
-		this.geometry.setIndex(arrays.index ? attribute(arrays.index, 1) : null);
+	shape({ position, normal }) {
+		this.geometry.setAttribute("position", attribute(position, 3));
+		this.geometry.setAttribute("normal", attribute(normal, 3));
 		this.geometry.boundingSphere = new THREE.Sphere(new THREE.Vector3(), 2 * this.extent);
 	}
 
@@ -87,14 +69,8 @@ export class Drawn {
 	move(position) {
 		this.position.set(position);
 		this.solid.move(this.position);
-		this.solid.shade(this.position);
-		const arrays = this.parts ? gather(this.solid, this.parts) : this.solid;
-		for (const name of ["position", "normal"]) {
-			const { array } = this.geometry.attributes[name];
-			if (array !== arrays[name])
-				array.set(arrays[name]);
+		for (const name of ["position", "normal"])
 			this.geometry.attributes[name].needsUpdate = true;
-		}
 		this.geometry.boundingSphere.radius = Infinity; /* always in view: it may go anywhere */
 		if (this.edges)
 			this.edges.geometry.attributes.position.needsUpdate = true;
@@ -102,51 +78,59 @@ export class Drawn {
 			this.pointTo(this.marked);
 	}
 
+	/* Three bytes a drawn vertex: those of its row. */
+	colorBy(rows, rowOf) {
+		const out = new Uint8Array(3 * this.source.length);
+
+		for (let k = 0; k < this.source.length; k++)
+			for (let c = 0, row = 3 * rowOf(k); c < 3; c++)
+				out[3 * k + c] = rows[row + c];
+		this.geometry.setAttribute(this.solid ? "color" : "tint", attribute(out, 3, true));
+	}
+
 	/* colors: three bytes a vertex, or a face where perFace; null: plain. */
 	paint(colors, perFace) {
-		this.part(perFace);
-		this.geometry.setAttribute(this.solid ? "color" : "tint", attribute(spread(colors, this.source, this.count), 3, true));
+		const { source } = this, rowOf = perFace ? (k) => Math.floor(k / 3) : (k) => source[k];
+
+		this.undress();
+		this.colorBy(colors || PLAIN, colors ? rowOf : () => 0);
 	}
 
-	part(perFace) {
-		if (!this.solid || (perFace ? this.parts && !this.worn : !this.parts))
-			return;
-		this.worn = false;
-		this.parts = perFace ? apart(this.solid) : null;
-		this.shape(perFace ? { ...this.parts, ...gather(this.solid, this.parts) } : this.solid);
-	}
-
-	/* Dresses a surface (pictures.js): faces of one look stand together. */
-	wear({ looks, faces, places }) {
-		const order = Uint32Array.from(faces.keys()).sort((a, b) => faces[a] - faces[b] || a - b), n = 3 * faces.length;
-		const color = new Uint8Array(3 * n), uv = new Float32Array(2 * n), groups = [];
-
-		this.worn = true;
-		this.parts = apart(this.solid, order);
-		this.shape({ ...this.parts, ...gather(this.solid, this.parts) });
-		order.forEach((f, i) => {
-			const look = faces[f], { texture, color: plain } = looks[look];
-			for (let k = 3 * i; k < 3 * i + 3; k++)
-				color.set(texture ? [255, 255, 255] : plain, 3 * k);
-			uv.set(places.subarray(6 * f, 6 * f + 6), 6 * i);
-			if (groups.length === 0 || groups[groups.length - 1].look !== look)
-				groups.push({ look, start: 3 * i });
-		});
-		this.geometry.setAttribute("color", attribute(color, 3, true));
-		this.geometry.setAttribute("uv", attribute(uv, 2));
-		groups.forEach(({ start }, i) => this.geometry.addGroup(start, (i + 1 < groups.length ? groups[i + 1].start : n) - start, i));
-		this.body.material = groups.map(({ look }) => wornMaterial(this.materials, looks[look].texture));
-	}
-
-	/* Paints other regions at some vertices of what was painted by regions. */
-	repaintRegions(values, vertices) {
-		const { color, tint } = this.geometry.attributes, changed = color || tint;
+	/* Gives vertices another colour. */
+	repaint(vertices, color) {
+		const { color: ofSurface, tint } = this.geometry.attributes, colors = ofSurface || tint, { source } = this;
+		const changed = new Uint8Array(this.position.length / 3);
 
 		for (const v of vertices)
-			changed.array.set(regionColor(values[v]), 3 * v);
-		for (let i = values.length; this.source && i < this.source.length; i++)
-			changed.array.set(regionColor(values[this.source[i]]), 3 * i);
-		changed.needsUpdate = true;
+			changed[v] = 1;
+		for (let k = 0; k < source.length; k++)
+			if (changed[source[k]])
+				colors.array.set(color, 3 * k);
+		colors.needsUpdate = true;
+	}
+
+	undress() {
+		this.geometry.clearGroups();
+		this.geometry.setIndex(null);
+		this.geometry.deleteAttribute("uv");
+		if (this.body)
+			this.body.material = this.materials.body;
+	}
+
+	/* Dresses a surface (pictures.js): faces of one look are drawn together. */
+	wear({ looks, faces, places }) {
+		const order = Uint32Array.from(faces.keys()).sort((a, b) => faces[a] - faces[b] || a - b), groups = [];
+
+		this.undress();
+		this.colorBy(looks.flatMap(({ texture, color }) => (texture ? WHITE : color)), (k) => faces[Math.floor(k / 3)]);
+		this.geometry.setAttribute("uv", attribute(places, 2));
+		this.geometry.setIndex(attribute(Uint32Array.from({ length: 3 * order.length }, (_, k) => 3 * order[Math.floor(k / 3)] + k % 3), 1));
+		order.forEach((f, i) => {
+			if (groups.length === 0 || groups[groups.length - 1].look !== faces[f])
+				groups.push({ look: faces[f], start: 3 * i });
+		});
+		groups.forEach(({ start }, i) => this.geometry.addGroup(start, (i + 1 < groups.length ? groups[i + 1].start : 3 * order.length) - start, i));
+		this.body.material = groups.map(({ look }) => wornMaterial(this.materials, looks[look].texture));
 	}
 
 	look(flat, wire) {

@@ -4,46 +4,28 @@ import { library } from "../library/compile.js";
 const NONE = 0xffffffff;
 
 export class Solid {
-	/* position: of floats, and may change: then it is to be told by move().  Its creases are where they are now. */
+	/* position: of floats, and may change: then it is to be told by move(). */
 	constructor(position, triangles) {
-		this.vertices = position.length / 3;
-		this.at = library.had(library.run.surface_new(this.vertices, library.put(triangles), triangles.length / 3));
+		this.at = library.had(library.run.surface_new(position.length / 3, library.put(triangles), triangles.length / 3));
+		this.position = new Float32Array(3 * triangles.length); /* of corners */
+		this.normal = new Float32Array(3 * triangles.length);
 		this.move(position);
-		const parted = library.run.surface_part(this.at) >>> 0;
-		library.had(parted !== NONE);
-		this.index = this.read(Uint32Array, 1, triangles.length);
-		this.source = Uint32Array.from({ length: this.vertices + parted }, (_, v) => v);
-		this.source.set(this.read(Uint32Array, 2, parted), this.vertices);
-		this.position = new Float32Array(3 * this.source.length);
-		this.normal = new Float32Array(3 * this.source.length);
-		this.shade(position);
 	}
 
 	/* So many numbers of the k-th array that it has for the page (library/surface.c). */
 	read(Type, k, length, out) {
-		return library.get(Type, library.get(Uint32Array, this.at, 4)[k], length, out);
+		return library.get(Type, library.get(Uint32Array, this.at, 3)[k], length, out);
 	}
 
+	/* Places and normals of what is drawn: each face has three vertices of its own. */
 	move(position) {
 		const at = library.put(position);
 
 		library.run.surface_move(this.at, at);
 		library.free(at);
-	}
-
-	/* Places and normals of what is drawn: position, normal, index, and `source`, the vertex that each drawn one stands for. */
-	shade(p) {
-		const { position, source } = this;
-
-		position.set(p);
-		for (let i = p.length; i < position.length; i += 3) {
-			const v = 3 * source[i / 3];
-			position[i] = p[v];
-			position[i + 1] = p[v + 1];
-			position[i + 2] = p[v + 2];
-		}
-		library.run.surface_normals(this.at);
-		this.read(Float32Array, 3, position.length, this.normal);
+		library.run.surface_corners(this.at);
+		this.read(Float32Array, 1, this.position.length, this.position);
+		this.read(Float32Array, 2, this.normal.length, this.normal);
 	}
 
 	/* Makes what rays ask for, which takes a moment, where it is not there. */

@@ -3,6 +3,7 @@
  * changes.  A painted column stands in its frames for the stream's, so that colours, legend and cards know no other.
  */
 import { Regions, FIXED, HANDLE } from "./regions.js";
+import { regionColor } from "../draw/colors.js";
 import { connectPaint, showPaint } from "./paint_side.js";
 import { columnOf, ownRegion } from "../stream/stream.js";
 import { Strokes } from "./strokes.js";
@@ -126,13 +127,13 @@ export class Painter {
 		showPaint(this);
 	}
 
-	/* Shows what changed at these vertices, at once. */
+	/* Shows at once that these vertices are of the region now. */
 	changed(vertices) {
 		const { drawn, work } = this;
 
 		work.column.version++;
 		if (drawn && this.app.color === "region") {
-			drawn.repaintRegions(work.regions.values, vertices);
+			drawn.repaint(vertices, regionColor(this.region));
 			drawn.painted = null;
 		}
 		this.app.stage.ask();
