@@ -449,12 +449,6 @@ typedef enum mr_rotations_choice {
 	MR_ROTATIONS_CHOICES
 } mr_rotations_choice;
 
-typedef enum mr_loose_choice {
-	MR_LOOSE_FOLLOW, /* they move as the surface nearest to them does */
-	MR_LOOSE_STAY,
-	MR_LOOSE_REFUSE /* MR_EMESH */
-} mr_loose_choice;
-
 typedef struct mr_solve_opts {
 	size_t order;      /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
 	int solver;        /* mr_solver_choice */
@@ -462,31 +456,29 @@ typedef struct mr_solve_opts {
 	bool unsymmetric;  /* the paper's own system; else a row scaling of it, which is symmetric */
 	bool basis;        /* also put the response to every handle */
 	bool verify;       /* also find the error, by a direct solution, and the condition */
-	double tol;        /* relative residual to reach; 0: 1e-12 of direct solvers, else 1e-10 */
+	double tol;        /* relative residual that iterative solvers reach; 0: 1e-10 */
 	size_t iterations; /* at most */
 	double memory;     /* bytes that a factor may take; 0: what there is */
 	int precondition;  /* of CG and BiCGSTAB: 0 by order, 1 incomplete factors, 2 Jacobi, 3 multigrid */
 	int rotations;     /* mr_rotations_choice, of poses by handles */
 	size_t arap;       /* rounds of as-rigid-as-possible steps on top of a pose */
-	int loose;         /* mr_loose_choice, of parts without a constrained vertex */
-	bool apart;        /* parts that touch do not hold to each other */
+	bool apart;        /* parts neither hold to those that they touch, nor follow those near */
 	bool flatten;      /* without handles: the undeformed solve of the paper; else nothing moves */
 	const char *layer; /* NULL: base, else control */
 } mr_solve_opts;
 
 #define MR_SOLVE_DEFAULTS                                                                                    \
 	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                \
-	    MR_ROTATIONS_INTERPOLATED, 0, MR_LOOSE_FOLLOW, false, false, NULL)
+	    MR_ROTATIONS_INTERPOLATED, 0, false, false, NULL)
 
 typedef struct mr_solve_result {
 	size_t free, fixed, handle_vertices, handles;
 	size_t isolated_components, isolated_vertices; /* free, without a constrained vertex */
-	size_t narrow_strip_vertices; /* constrained ones with fewer than k rings behind them */
 	size_t nnz_matrix;
 	double negative_weights; /* share of the edges */
 	double nnz_factor, bytes_factor;
 	double seconds_assemble, seconds_analyse, seconds_factor, seconds_solve;
-	size_t iterations, refinements;
+	size_t iterations;
 	double rcond, residual;
 	double error, condition; /* of verify */
 } mr_solve_result;

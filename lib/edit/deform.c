@@ -3,7 +3,6 @@
 #include "edit/deform.h"
 
 #include "base/disjoint_sets.h"
-#include "base/text.h"
 #include "edit/deform_energy.h"
 #include "edit/deform_loose.h"
 #include "edit/deform_stitch.h"
@@ -15,7 +14,6 @@ struct mr_deform {
 	uint32_t lowest;  /* region that moves the whole: fixed, or the lowest handle's */
 	size_t handles;   /* the highest, and one */
 	size_t fixed, handled, loose, loose_vertices; /* vertices, and components without a constraint */
-	size_t narrow; /* constrained vertices with less than k rings behind them */
 	mr_deform_system system;
 	mr_energies *energies; /* NULL: poses are linear */
 	mr_loose followers;
@@ -84,24 +82,6 @@ find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored,
 	mr_mark_release(ctx, mark);
 }
 
-/* Counts the constrained vertices beside free ones with no constrained vertex k rings deep within k rings. */
-static void
-count_narrow(mr_ctx *ctx, mr_deform *d, const mr_mesh *m, const bool *anchored)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	uint8_t k = (uint8_t)d->opts.order, *depth = MR_NEW(ctx, d->nv, uint8_t);
-	uint8_t *back = MR_NEW(ctx, d->nv, uint8_t);
-	bool *deep = MR_NEW(ctx, d->nv, bool);
-
-	mr_patch_levels(m, anchored, k, depth);
-	for (size_t v = 0; v < d->nv; v++)
-		deep[v] = depth[v] >= k && d->region[v] != MR_REGION_FREE;
-	mr_patch_levels(m, deep, k, back);
-	for (size_t v = 0; v < d->nv; v++)
-		d->narrow += depth[v] == 1 && d->region[v] != MR_REGION_FREE && back[v] > k;
-	mr_mark_release(ctx, mark);
-}
-
 /* Says what becomes of parts that no constraint reaches.  follows: small ones, and then all that are to. */
 static mr_status
 settle_loose(
@@ -112,23 +92,16 @@ settle_loose(
 			d->loose_vertices++;
 			d->loose += part[v] == v;
 		}
-	if (d->loose && d->opts.loose == MR_LOOSE_REFUSE)
-		return mr_fail(ctx, MR_EMESH,
-		    "%s: %zu part%s (%zu of %zu vertices) without a constrained vertex: select some of them "
-		    "as fixed or handle",
-		    rest->name, d->loose, mr_plural(d->loose), d->loose_vertices, d->nv);
 	if (d->loose)
 		mr_found(ctx,
 		    &(mr_finding){ .kind = MR_UNHELD,
 			.layer = rest->name,
 			.count = d->loose,
-			.what =
-			    d->opts.loose == MR_LOOSE_STAY
-				? "parts without a constrained vertex stay"
-				: "parts without a constrained vertex follow the surface nearest to them" });
+			.what = d->opts.apart
+			            ? "parts without a constrained vertex stay"
+			            : "parts without a constrained vertex follow the surface nearest to them" });
 	for (size_t v = 0; v < d->nv; v++)
-		follows[v] = d->opts.loose == MR_LOOSE_FOLLOW && d->region[v] == MR_REGION_FREE &&
-		             !anchored[v];
+		follows[v] = !d->opts.apart && d->region[v] == MR_REGION_FREE && !anchored[v];
 	for (size_t v = 0; v < d->nv; v++)
 		anchored[v] |= d->region[v] != MR_REGION_FREE;
 	MR_TRY(mr_loose_make(ctx, rest, anchored, follows, part, &d->followers));
@@ -152,7 +125,6 @@ set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 		mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched, follows);
 	find_anchored(ctx, d, &stitched, anchored, part);
 	MR_TRY(settle_loose(ctx, d, rest, anchored, part, follows));
-	count_narrow(ctx, d, rest, anchored);
 	mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &patch);
 	MR_TRY(mr_system_make(ctx, rest, &patch, &d->opts, started, &d->system));
 	return mr_energies_make(ctx, &d->system, d->region, d->lowest, &d->energies);
@@ -209,28 +181,20 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 	if (s->solver && iterates)
 		mr_note(ctx, "%zu iterations", r.iterations);
 	if (!iterates && r.rcond < worst)
-		mr_note(
-		    ctx, "the system of order %zu is ill-conditioned, rcond %.1e", d->opts.order, r.rcond);
-	if (!iterates && s->residual > d->opts.tol)
 		mr_found(ctx, &(mr_finding){ .kind = MR_INEXACT,
-				  .value = s->residual,
-				  .what = "rounding keeps the residual over --tol" });
-	if (d->narrow)
-		mr_note(ctx, "%zu constrained vertices beside free ones have less than %zu rings behind them",
-		    d->narrow, d->opts.order);
+				  .value = r.rcond,
+				  .what = "the system is so ill-conditioned that rounding shows" });
 	return (mr_solve_result){ .free = s->patch.end[0],
 		.fixed = d->fixed,
 		.handle_vertices = d->handled,
 		.handles = d->handles,
 		.isolated_components = d->loose,
 		.isolated_vertices = d->loose_vertices,
-		.narrow_strip_vertices = d->narrow,
 		.nnz_matrix = s->nnz,
 		.negative_weights = s->negative,
 		.seconds_assemble = s->seconds_assemble,
 		.seconds_solve = d->seconds_solve,
 		.residual = s->residual,
-		.refinements = s->refinements,
 		.nnz_factor = r.nnz_factor,
 		.seconds_analyse = r.seconds_analyse,
 		.seconds_factor = r.seconds_factor,

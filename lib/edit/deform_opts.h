@@ -13,16 +13,14 @@ typedef struct mr_deform_opts {
 	bool unsymmetric;      /* the paper's own system; else a row scaling of it, which is symmetric */
 	mr_solver_opts solver; /* an unsymmetric system wants MR_LU or MR_BICGSTAB */
 	bool choose;           /* multigrid where the factor of the kind asked for exceeds the memory */
-	double tol;            /* a direct solution of a larger relative residual is refined */
 	int rotations;         /* mr_rotations_choice, of poses by maps */
 	size_t rounds;         /* of as-rigid-as-possible steps, on top of a pose */
-	int loose;             /* mr_loose_choice: what free components without a constraint do */
-	bool apart;            /* components that touch are not stitched to each other */
+	bool apart;            /* components neither hold to those that they touch, nor follow those near */
 } mr_deform_opts;
 
 #define MR_DEFORM_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		.order = 2, .areas = MR_AREAS_VORONOI, .solver = MR_SOLVER_DEFAULTS, .tol = 1e-12,           \
+		.order = 2, .areas = MR_AREAS_VORONOI, .solver = MR_SOLVER_DEFAULTS,           \
 		.rotations = MR_ROTATIONS_LINEAR                                                             \
 	}
 

@@ -184,7 +184,7 @@ make_workspace(mr_ctx *ctx, mr_deform_system *s)
 	s->work = f;
 }
 
-/* Its hierarchy is that of s without the strip, which the membrane does not need; nor is it refined. */
+/* Its hierarchy is that of s without the strip, which the membrane does not need. */
 mr_status
 mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m)
 {
@@ -193,8 +193,6 @@ mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m)
 	*m = *s;
 	m->solver = mr_solver_new(ctx);
 	mark = mr_mark_take(ctx);
-	m->rounding = 0;
-	m->opts.tol = INFINITY;
 	m->opts.order = m->hierarchy.order = 1;
 	m->opts.unsymmetric = m->hierarchy.scaled = false;
 	m->hierarchy.strip_count = 0;
@@ -239,35 +237,6 @@ find_residual(const mr_ctx *ctx, const mr_deform_system *s, mr_field *f)
 			f->r[c * n + i] = -x[i * f->width + c];
 }
 
-/*
- * The same in extended precision.  The weights are what they are in doubles, so the system that is solved
- * is the same; only the rounding of K u, which a bad condition blows up, is not.
- */
-static void
-find_residual_long(mr_ctx *ctx, const mr_deform_system *s, mr_field *f)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	size_t k = s->opts.order, n = s->patch.end[0], size = s->patch.mesh.nv * f->width;
-	long double *x = MR_NEW(ctx, size, long double), *y = MR_NEW(ctx, size, long double);
-
-	for (size_t i = 0; i < size; i++)
-		x[i] = f->u[i];
-	for (size_t step = 1; step <= k; step++) {
-		const double *w = step < k || s->opts.unsymmetric ? s->w : NULL;
-		size_t rows = s->patch.end[k - step];
-		long double *swap = x;
-		mr_sparse_apply_long(ctx, &s->l, w, rows, f->width, x, y);
-		for (size_t i = 0; step == 1 && f->source && i < rows * f->width; i++)
-			y[i] -= (w ? (long double)w[i / f->width] : 1) * f->source[i];
-		x = y;
-		y = swap;
-	}
-	for (size_t c = 0; c < f->width; c++)
-		for (size_t i = 0; i < n; i++)
-			f->r[c * n + i] = (double)-x[i * f->width + c];
-	mr_mark_release(ctx, mark);
-}
-
 static double
 norm_of(const double *r, size_t n)
 {
@@ -289,66 +258,18 @@ add_free(const mr_deform_system *s, mr_field *f)
 			f->u[i * f->width + c] += f->r[c * n + i];
 }
 
-/* Iterative refinement (Wilkinson 1963), while a correction is less than half the one before. */
-static mr_status
-refine(mr_ctx *ctx, mr_deform_system *s, mr_field *f)
-{
-	enum { MOST = 5 };
-	static const double enough = 1e-14; /* of the solution */
-	size_t n = s->patch.end[0] * f->width;
-	double size = norm_of(f->u, n), last = INFINITY;
-
-	for (s->refinements = 0; s->refinements < MOST && last > enough * size; s->refinements++) {
-		double correction;
-		find_residual_long(ctx, s, f);
-		MR_TRY(mr_solver_solve(ctx, s->solver, f->r, f->width));
-		correction = norm_of(f->r, n);
-		if (!(correction < 0.5 * last))
-			break;
-		add_free(s, f);
-		last = correction;
-	}
-	find_residual(ctx, s, f);
-	return MR_OK;
-}
-
-/* A large residual, or rounding, asks for refinement: poses of 3,000 to a million vertices, k = 1, 2, 3, were
- * off by a fifth of s->rounding at most. */
 mr_status
 mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f)
 {
-	static const double exact = 1e-9;
 	size_t n = s->patch.end[0] * f->width;
-	bool direct = !mr_solver_iterates(s->opts.solver.kind);
 	double scale;
 
-	s->refinements = 0;
 	find_residual(ctx, s, f);
 	scale = norm_of(f->r, n);
 	MR_TRY(mr_solver_solve(ctx, s->solver, f->r, f->width));
 	add_free(s, f);
 	find_residual(ctx, s, f);
-	if (direct && (s->rounding > exact || norm_of(f->r, n) > s->opts.tol * scale))
-		MR_TRY(refine(ctx, s, f));
 	s->residual = scale > 0 ? norm_of(f->r, n) / scale : 0;
-	return MR_OK;
-}
-
-/* How far from 1 rounding takes the solution that is 1, as the constraints are; where nothing is next to them
- * it is 0. */
-static mr_status
-find_rounding(mr_ctx *ctx, mr_deform_system *s)
-{
-	mr_field f = mr_system_field(s, 1);
-	size_t n = s->patch.end[0];
-
-	for (size_t i = n; i < s->patch.mesh.nv; i++)
-		f.u[i] = 1;
-	find_residual(ctx, s, &f);
-	MR_TRY(mr_solver_solve(ctx, s->solver, f.r, 1));
-	for (size_t i = 0; i < n; i++)
-		if (f.r[i] != 0)
-			s->rounding = fmax(s->rounding, fabs(f.r[i] - 1));
 	return MR_OK;
 }
 
@@ -363,8 +284,7 @@ mr_system_make(mr_ctx *ctx, const mr_mesh *rest, const mr_patch *patch, const mr
 	if (s->patch.end[0] == 0)
 		return MR_OK;
 	s->negative = share_negative(&s->l, s->patch.end[0]);
-	MR_TRY(set_up(ctx, s, rest, started));
-	return mr_solver_iterates(s->opts.solver.kind) ? MR_OK : find_rounding(ctx, s);
+	return set_up(ctx, s, rest, started);
 }
 
 /* T p, every bit kept by the identity, the sign of a zero too. */

@@ -33,10 +33,9 @@ typedef struct mr_deform_system {
 	mr_hierarchy hierarchy;
 	mr_solver *solver; /* NULL where nothing is to be solved */
 	mr_field work;     /* kept from solve to solve: fresh pages cost as much as the arithmetic */
-	size_t nnz, refinements;
+	size_t nnz;
 	double negative; /* share of the edges at free vertices whose weight is negative */
 	double seconds_assemble, residual;
-	double rounding; /* of a solution of size 1, before it is refined */
 } mr_deform_system;
 
 /* Assembles the system of the patch, which is of the mesh `rest`, and sets up its solver.  started: when. */

@@ -270,62 +270,6 @@ mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames)
 	return MR_OK;
 }
 
-/* Whether it does more than translate. */
-static bool
-turns_or_scales(const mr_handle_rows *row, size_t handle)
-{
-	const double little = 0.01;
-	mr_mat3 a = mr_affine_linear(&row->map[handle]), identity = mr_mat3_identity();
-	double most = mr_norm(row->turn[handle]);
-
-	for (int i = 0; i < 9; i++)
-		most = fmax(most, fabs(a.m[i] - identity.m[i]));
-	return most > little;
-}
-
-mr_status
-mr_handles_check_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region)
-{
-	const size_t enough = 3;
-	mr_handle_rows row;
-	size_t *count;
-
-	MR_TRY(mr_handles_rows(ctx, f, 1, &row));
-	count = MR_NEW_ZERO(ctx, row.n, size_t);
-	for (size_t v = 0; v < m->nv; v++)
-		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE < row.n)
-			count[region[v] - MR_REGION_HANDLE]++;
-	for (size_t i = 0; i < row.n; i++)
-		if (count[i] > 0 && count[i] < enough && turns_or_scales(&row, i))
-			mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
-					  .layer = m->name,
-					  .what = "a handle turns or scales, but has too few vertices to "
-						  "hold that: select more" });
-	return MR_OK;
-}
-
-mr_status
-mr_handles_reselected(mr_ctx *ctx, mr_frame *f, const uint32_t *before, const uint32_t *after, size_t nv)
-{
-	size_t others = 0, frames;
-	mr_handle_rows row;
-
-	if (!f->key || !mr_layer_has(f, "handles", "transform"))
-		return MR_OK;
-	MR_TRY(mr_handles_frames(ctx, f, &frames));
-	MR_TRY(mr_handles_rows(ctx, f, 0, &row));
-	for (size_t v = 0; v < nv; v++) {
-		size_t h = (before[v] >= MR_REGION_HANDLE ? before[v] : after[v]) - MR_REGION_HANDLE;
-		others += before[v] != after[v] && h < row.n && (frames > 0 || !mr_is_identity(&row.map[h]));
-	}
-	if (others)
-		mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
-				  .count = others,
-				  .what = "posed handles have other vertices than their poses were set for: "
-					  "mr-pose goes behind mr-select" });
-	return MR_OK;
-}
-
 /* Scripts */
 
 typedef struct mr_script_line {

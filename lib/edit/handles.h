@@ -54,17 +54,8 @@ mr_status mr_handles_rows(mr_ctx *ctx, mr_frame *f, size_t n, mr_handle_rows *ro
 mr_status mr_handles_pose(
     mr_ctx *ctx, const mr_handles *h, size_t handle, const mr_pose *pose, double share, mr_handle_rows *row);
 
-/* Tells of a handle that turns or scales and has too few vertices of m, which is posed, to hold that. */
-mr_status
-mr_handles_check_few(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region) MR_WARN_UNUSED;
-
 /* Handles that have posed are used up; for how many frames they go on (handles.frames) stays. */
 void mr_handles_drop(mr_frame *f);
-
-/* Tells, of key frames, of handles that are posed, or may be in a sequence, and have other vertices than they
- * had: before and after are the regions of nv vertices. */
-mr_status mr_handles_reselected(
-    mr_ctx *ctx, mr_frame *f, const uint32_t *before, const uint32_t *after, size_t nv) MR_WARN_UNUSED;
 
 /* How many deltas follow the key, as far as handles have said; 0: not known. */
 mr_status mr_handles_frames(mr_ctx *ctx, mr_frame *f, size_t *frames);

@@ -53,38 +53,8 @@ mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *respon
 	mr_mark_release(ctx, mark);
 }
 
-/* By how many degrees handles a and b turn against each other; b = row->n: what is fixed. */
-static double
-turn_between(const mr_handle_rows *row, size_t a, size_t b)
-{
-	mr_v3 fixed = { 0, 0, 0 };
-
-	return mr_dist(row->turn[a], b < row->n ? row->turn[b] : fixed) * 180 / MR_PI;
-}
-
-/* The largest turn of two constraints that have a share of this vertex. */
-static double
-turn_across(const mr_handle_rows *row, const double *response)
-{
-	const double least = 0.2; /* of a vertex half-way between two each has a half */
-	double degrees = 0, fixed = 1;
-
-	for (size_t a = 0; a < row->n; a++)
-		fixed -= response[4 * a + 3];
-	for (size_t a = 0; a < row->n; a++) {
-		if (response[4 * a + 3] < least)
-			continue;
-		for (size_t b = 0; b < a; b++)
-			if (response[4 * b + 3] >= least)
-				degrees = fmax(degrees, turn_between(row, a, b));
-		if (fixed >= least)
-			degrees = fmax(degrees, turn_between(row, a, row->n));
-	}
-	return degrees;
-}
-
 mr_status
-mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
+mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 {
 	const mr_column *column = mr_frame_find(f, m->name, "response");
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
@@ -92,7 +62,6 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
 	mr_handle_rows row;
 	mr_mesh posed;
 
-	*degrees = 0;
 	if (!mr_layer_has(f, "handles", "transform"))
 		return MR_OK;
 	if (!column)
@@ -106,8 +75,6 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees)
 		return mr_fail(ctx, MR_ERANGE,
 		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
 		    column->shape.components, row.n);
-	for (size_t v = 0; v < m->nv; v++)
-		*degrees = fmax(*degrees, turn_across(&row, (const double *)response + 4 * row.n * v));
 	mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p);
 	mr_handles_drop(f);
 	MR_TRY(mr_detail_keep_before(ctx, f, m));

@@ -16,10 +16,8 @@ void mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *r
 
 /*
  * Poses the frame's layer, which is m, by its column `response`, where the frame has handles; both are used
- * up.  MR_EMISSING where there are handles and no response.  m: with the posed positions.  *degrees: by how
- * much two constraints turn at most against each other across what is between them, which a response, being
- * linear, can not do well.
+ * up.  MR_EMISSING where there are handles and no response.  m: with the posed positions.
  */
-mr_status mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m, double *degrees);
+mr_status mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m);
 
 #endif

@@ -277,61 +277,19 @@ choose_passes(mr_ctx *ctx, const mr_smooth_opts *opts, smoothing *s)
 	return MR_OK;
 }
 
-/* A share of the area that is little to be left. */
-static const double LITTLE = 0.5;
-
-/* A part, at the vertex that stands for it: what is left of its area beyond little, and its faces. */
-typedef struct part {
-	double rest;
-	size_t faces;
-} part;
-
-/* How many of the parts of m have little of their area left, which their sum does not tell, and how many are
- * a single face. */
-static void
-count_parts(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *after, size_t *shrunken, size_t *single)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *of;
-	part *parts;
-	bool several;
-
-	*shrunken = *single = 0;
-	mr_components_label(ctx, m, &of, &several);
-	parts = MR_NEW_ZERO(ctx, m->nv, part);
-	for (size_t f = 0; f < m->nf; f++) {
-		part *p = &parts[of[m->t[f].v[0]]];
-		p->rest += mr_norm(mr_face_cross(after, f)) - LITTLE * mr_norm(mr_face_cross(m, f));
-		p->faces++;
-	}
-	for (size_t v = 0; v < m->nv; v++) {
-		*shrunken += parts[v].rest < 0;
-		*single += parts[v].faces == 1;
-	}
-	mr_mark_release(ctx, mark);
-}
-
 /* What is left of area and volume. */
 static void
 measure_rest(mr_ctx *ctx, smoothing *s, const mr_v3 *p)
 {
+	const double little = 0.5;
 	mr_mesh after = *s->m;
-	size_t shrunken, single;
 
 	after.p = p;
 	s->found.area = mr_mesh_area(ctx, &after) / mr_mesh_area(ctx, s->m);
 	s->found.volume = mr_mesh_volume(ctx, &after) / s->found.volume;
-	count_parts(ctx, s->m, &after, &shrunken, &single);
-	if (s->found.area < LITTLE || shrunken)
-		mr_found(ctx, &(mr_finding){ .kind = s->found.area < LITTLE ? MR_SHRUNK : MR_GONE,
-				  .layer = "base",
-				  .count = shrunken,
-				  .value = 1 - s->found.area });
-	if (single > s->m->nf / 2 && single > 1)
+	if (s->found.area < little)
 		mr_found(
-		    ctx, &(mr_finding){ .kind = MR_LIMIT,
-			     .layer = s->m->name,
-			     .what = "most faces are alone and stay: mr-import --weld joins their corners" });
+		    ctx, &(mr_finding){ .kind = MR_SHRUNK, .layer = "base", .value = 1 - s->found.area });
 }
 
 mr_status

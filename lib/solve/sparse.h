@@ -74,8 +74,4 @@ void mr_sparse_apply(const mr_ctx *ctx, const mr_sparse *a, const double *w, siz
 /* y = y + f A x, for all rows of A. */
 void mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width, const double *x, double *y);
 
-/* mr_sparse_apply in extended precision: for residuals that rounding would drown. */
-void mr_sparse_apply_long(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
-    const long double *x, long double *y);
-
 #endif

@@ -57,34 +57,3 @@ mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width, con
 {
 	mr_parallel(ctx, (size_t)a->n, GRAIN, apply_rows, &(apply_job){ a, NULL, f, width, x, y });
 }
-
-typedef struct apply_long_job {
-	const mr_sparse *a;
-	const double *w;
-	size_t width;
-	const long double *x;
-	long double *y;
-} apply_long_job;
-
-static void
-apply_rows_long(void *arg, size_t begin, size_t end)
-{
-	apply_long_job *j = arg;
-	const mr_sparse *a = j->a;
-
-	for (size_t i = begin; i < end; i++) {
-		long double sum[4] = { 0 };
-		for (int e = a->start[i]; e < a->start[i + 1]; e++)
-			for (size_t c = 0; c < j->width; c++)
-				sum[c] += a->value[e] * j->x[(size_t)a->index[e] * j->width + c];
-		for (size_t c = 0; c < j->width; c++)
-			j->y[i * j->width + c] = j->w ? j->w[i] * sum[c] : sum[c];
-	}
-}
-
-void
-mr_sparse_apply_long(const mr_ctx *ctx, const mr_sparse *a, const double *w, size_t rows, size_t width,
-    const long double *x, long double *y)
-{
-	mr_parallel(ctx, rows, GRAIN, apply_rows_long, &(apply_long_job){ a, w, width, x, y });
-}

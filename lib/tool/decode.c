@@ -2,7 +2,6 @@
  * surface, posed by its response first where handles are there. */
 #include "base/options.h"
 #include "edit/detail.h"
-#include "edit/handles.h"
 #include "edit/pose_basis.h"
 #include "measure/gaps.h"
 #include "tool/cache.h"
@@ -50,29 +49,6 @@ rest_normals(mr_ctx *ctx, mr_connectivity_cache *kept, const mr_frame *f, const 
 	return MR_OK;
 }
 
-/* Poses the layer by its response, which is linear: half-way to a handle that turns by 60 degrees a limb is
- * 0.87 times as wide, by 90 degrees 0.7. */
-static mr_status
-respond(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
-{
-	static const double most = 60;
-	const uint32_t *region;
-	double degrees;
-
-	if (mr_layer_has(f, "handles", "transform") && mr_layer_has(f, m->name, "region")) {
-		MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &region));
-		MR_TRY(mr_handles_check_few(ctx, f, m, region));
-	}
-	MR_TRY(mr_response_apply(ctx, f, m, &degrees));
-	if (degrees > most * (1 + 1e-9))
-		mr_found(ctx, &(mr_finding){ .kind = MR_HANDLE,
-				  .layer = m->name,
-				  .value = degrees,
-				  .what = "a handle turns by over 60 degrees, where a basis thins what is "
-					  "between: mr-solve does not" });
-	return MR_OK;
-}
-
 static mr_status
 decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_connectivity_cache *kept)
 {
@@ -82,7 +58,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_connectivity
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
 	MR_TRY(base_incidence(ctx, kept, f, &base));
-	MR_TRY(respond(ctx, f, &base));
+	MR_TRY(mr_response_apply(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
 	MR_TRY(rest_normals(ctx, kept, f, &base, &detail));
 	p = MR_NEW(ctx, detail.n, mr_v3);
@@ -140,7 +116,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 		    ctx, MR_ERANGE, "--level %zu, but displacement ends with level %zu", o->level, n);
 	if (o->level != MR_UNKNOWN)
 		n = o->level;
-	MR_TRY(respond(ctx, f, &control));
+	MR_TRY(mr_response_apply(ctx, f, &control));
 	MR_TRY(mr_level_cache_get(&cache->level, ctx, f, &control, 180, n, &refined));
 	mr_domain_on(ctx, &control, refined, n, &d);
 	p = MR_NEW(ctx, d.m.nv, mr_v3);

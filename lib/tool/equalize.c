@@ -1,37 +1,7 @@
 /* mr-equalize: wavelet analysis of the heights, a gain for each level, synthesis. */
-#include "mesh/fold.h"
-
 #include "base/options.h"
 #include "subdivide/wavelet.h"
 #include "tool/cache.h"
-
-/* The folds of the surface that heights make over d. */
-static void
-count_folds(mr_ctx *ctx, const mr_domain *d, const double *height, size_t *folds)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *p = MR_NEW(ctx, d->m.nv, mr_v3);
-	mr_mesh m = d->m;
-
-	mr_domain_displace(ctx, d, height, 1, p);
-	m.p = p;
-	*folds = mr_count_folds(ctx, &m, d->level[d->n].topo.twin);
-	mr_mark_release(ctx, mark);
-}
-
-/* Reports where other heights fold the surface. */
-static void
-look_for_folds(mr_ctx *ctx, const mr_domain *d, const double *before, const double *after)
-{
-	enum { FEW = 5 };
-	size_t folds[2];
-
-	count_folds(ctx, d, before, &folds[0]);
-	count_folds(ctx, d, after, &folds[1]);
-	if (folds[1] > folds[0] + FEW)
-		mr_found(ctx, &(mr_finding){
-				  .kind = MR_FOLDED, .layer = "displacement", .count = folds[1] - folds[0] });
-}
 
 static mr_status
 equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *cache)
@@ -40,7 +10,6 @@ equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *c
 	const mr_loop *level;
 	const double *height;
 	mr_mesh control;
-	mr_domain d;
 	size_t n;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
@@ -56,10 +25,6 @@ equalize(mr_ctx *ctx, mr_frame *f, const double *gain, size_t gains, mr_cache *c
 	x = MR_NEW(ctx, level[n].nv, double);
 	memcpy(x, height, level[n].nv * sizeof *x);
 	MR_TRY(mr_equalize(ctx, level, n, all, x));
-	if (f->key) {
-		mr_domain_on(ctx, &control, level, n, &d);
-		look_for_folds(ctx, &d, height, x);
-	}
 	mr_frame_drop(f, "displacement", "range", 0);
 	MR_TRY(mr_layer_put(ctx, f, "displacement", "height", x, level[n].nv));
 	return mr_layer_worked(ctx, f, "displacement");

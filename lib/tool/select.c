@@ -71,36 +71,6 @@ look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 		mr_found(ctx, &found);
 }
 
-/* Poses belong to the vertices that their handles had. */
-static mr_status
-look_at_poses(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *region)
-{
-	const uint32_t *before;
-
-	if (mr_layer_no_surface(m->name) || !mr_layer_has(f, m->name, "region"))
-		return MR_OK;
-	MR_TRY(mr_layer_region(ctx, f, m->name, m->nv, &before));
-	return mr_handles_reselected(ctx, f, before, region, m->nv);
-}
-
-/* mr-solve takes base, with the regions of mesh, else control. */
-static void
-look_at_others(mr_ctx *ctx, const mr_frame *f, const char *layer)
-{
-	bool base = mr_frame_has_layer(f, "base");
-
-	if (!f->key)
-		return;
-	if (!strcmp(layer, "mesh") && !base && mr_layer_has(f, "control", "region"))
-		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
-				  .what = "mr-solve goes by the regions of control, which these do not "
-					  "change: -l control does" });
-	if (!strcmp(layer, "control") && base)
-		mr_found(ctx,
-		    &(mr_finding){ .kind = MR_LIMIT,
-			.what = "mr-solve takes base, and not control, unless it is told -l control, too" });
-}
-
 static mr_status
 select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
@@ -116,8 +86,6 @@ select_by(
 	MR_TRY(read_groups(ctx, f, &m, groups));
 	MR_TRY(first_regions(ctx, f, &m, opts->reset, &region));
 	MR_TRY(mr_select(ctx, f, &m, groups, s, region, result));
-	MR_TRY(look_at_poses(ctx, f, &m, region));
-	look_at_others(ctx, f, layer);
 	look_at_borders(ctx, &m, region);
 	return mr_layer_put_region(ctx, f, layer, region, m.nv);
 }

@@ -23,9 +23,6 @@ smooth(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *o, mr_smooth_result *r)
 	from_mesh = !strcmp(layer, "mesh");
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	MR_TRY(mr_smooth(ctx, &m, o, p, r));
-	if (f->key && o->time > defaults.time && r->bounded == m.nv)
-		mr_found(
-		    ctx, &(mr_finding){ .kind = MR_LIMIT, .what = "the body is too thin for a longer time" });
 	if (from_mesh)
 		mr_source_map_identity(ctx, &m, &map);
 	m.p = p;

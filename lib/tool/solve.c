@@ -17,7 +17,6 @@ check_options(mr_ctx *ctx, const mr_solve_opts *o)
 	MR_TRY(mr_check_choice(ctx, "solver", o->solver, MR_SOLVER_VCYCLE));
 	MR_TRY(mr_check_choice(ctx, "areas", o->areas, MR_AREAS_MEAN));
 	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_CHOICES - 1));
-	MR_TRY(mr_check_choice(ctx, "loose", o->loose, MR_LOOSE_REFUSE));
 	MR_TRY(mr_check_choice(ctx, "precondition", o->precondition, 3));
 	MR_TRY(mr_check_number(ctx, "tol", o->tol, 0, 1));
 	MR_TRY(mr_check_number(ctx, "memory", o->memory, 0, 1e18));
@@ -49,7 +48,6 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	deform->unsymmetric = o->unsymmetric;
 	deform->rotations = o->basis || o->flatten ? MR_ROTATIONS_LINEAR : o->rotations;
 	deform->rounds = o->arap;
-	deform->loose = o->flatten && !o->basis && o->loose == MR_LOOSE_FOLLOW ? MR_LOOSE_STAY : o->loose;
 	deform->apart = o->apart || o->flatten;
 	deform->choose = o->solver == MR_SOLVER_AUTO && !o->unsymmetric;
 	deform->solver.kind = o->solver != MR_SOLVER_AUTO ? (mr_solver_kind)(o->solver - MR_SOLVER_CHOLESKY)
@@ -59,7 +57,7 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	deform->solver.iterations = o->iterations;
 	deform->solver.memory = o->memory > 0 ? o->memory : mr_memory_available();
 	if (o->tol > 0)
-		deform->tol = deform->solver.tol = o->tol;
+		deform->solver.tol = o->tol;
 	return MR_OK;
 }
 
@@ -219,8 +217,6 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	MR_TRY(mr_deform_cache_get(kept, ctx, f, &rest, column, &opts, &d));
 	MR_TRY(check_target(ctx, &m, &task, mr_deform_region(d)));
-	if (task.maps)
-		MR_TRY(mr_handles_check_few(ctx, f, &m, mr_deform_region(d)));
 	if (posing || o->flatten)
 		MR_TRY(mr_deform_solve(ctx, d, &task, p));
 	else

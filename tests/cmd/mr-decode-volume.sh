@@ -60,10 +60,3 @@ echo 'a control mesh that is posed does it to its displaced surface'
 mr-make cylinder --points 3000 -o points.mrs
 mr-make cylinder -n 500 | mr-export -f off - | mr-import -q -l control - | mr-cat --merge - points.mrs | mr-sample -q |
     ends z | mr-pose --rotate 0,0,1,90 | mr-solve --rotations linear | mr-decode 2>&1 >/dev/null | grep volume
-
-echo 'a handle that turns has vertices enough to hold that, or it is said'
-mr-make torus -n 3000 | mr-smooth -q | mr-remesh -q -r 6 | mr-select --free all --fixed below:x,0.2 --handle 0=above:x,0.95 |
-    mr-encode -o few.mrs
-mr-pose --rotate 0,1,0,20 --frames 3 few.mrs | mr-solve 2>&1 >/dev/null | grep handle
-mr-pose --translate 0,0,0.1 few.mrs | mr-solve 2>&1 >/dev/null | grep -c handle
-mr-solve --basis few.mrs | mr-encode | mr-pose --rotate 0,1,0,20 | mr-decode 2>&1 >/dev/null | grep turns

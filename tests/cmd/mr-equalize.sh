@@ -48,8 +48,3 @@ refused --gain 1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1 torus.mrs
 refused mesh.mrs
 mr-make torus -n 60 | mr-export -f off - | mr-import -l control - >control.mrs
 refused control.mrs
-
-echo 'fine heights that are so strong that the surface folds' >&2
-mr-make sphere -n 2000 --noise 1% | mr-simplify -q --to control -n 60 | mr-sample -q --level 3 -o heights.mrs
-mr-equalize -g 1,1,2,2 heights.mrs >/dev/null
-mr-equalize -g 1,1,10,40 heights.mrs 2>&1 >/dev/null | sed 's/[0-9][0-9]* folded/N folded/' >&2

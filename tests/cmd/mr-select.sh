@@ -35,13 +35,6 @@ echo 'two commands are one'
 mr-select --no-history --free all --handle 0=above:y,0.9 plane.mrs >one.mrs
 mr-select --no-history --free all plane.mrs | mr-select --no-history --handle 0=above:y,0.9 | cmp - one.mrs && echo same
 
-echo 'poses that were set for other vertices are told, but not of handles that stay, or at rest'
-mr-select --free all --handle 0=above:y,0.9 --handle 1=below:y,0.1 plane.mrs -o two.mrs
-mr-pose -r 1,0,0,90 two.mrs -o turned.mrs
-mr-select --fixed below:x,0.5+not:above:y,0.9 turned.mrs 2>&1 >out.mrs
-mr-select --reset --free all --handle 0=below:x,0 turned.mrs 2>&1 >out.mrs
-mr-pose -r 1,0,0,90 -F 3 two.mrs | mr-select --reset --free all --handle 0=below:x,0 2>&1 >out.mrs
-
 echo 'remarks'
 mr-select -v --free all --fixed below:x,0 plane.mrs 2>&1 >out.mrs
 

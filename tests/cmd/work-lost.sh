@@ -13,13 +13,10 @@ mr-make bumpy -n 1000 | mr-smooth | mr-remesh -q | mr-encode -q -o edit.mrs
 told mr-crop -l base --keep above:y,0.3 edit.mrs
 told mr-remesh -l base edit.mrs
 
-echo '-- a pose that mesh has not followed, and regions of which mr-solve takes others'
+echo '-- a pose that mesh has not followed'
 mr-make bumpy -n 1000 | mr-smooth | mr-remesh -q | mr-select --free all --fixed below:y,0.2 --handle 0=above:y,0.8 -o chosen.mrs
 mr-pose --translate 1,0,0 chosen.mrs | mr-solve | mr-encode 2>&1 >after.mrs | grep -o '\[stale\]'
 mr-encode chosen.mrs | mr-pose --translate 1,0,0 | mr-solve | mr-decode | mr-encode -o after.mrs
-mr-select --free above:y,0.3 --handle 0=above:y,0.8 scan.mrs | mr-pose --translate 0,0,1 | mr-solve | mr-decode -q -o posed.mrs
-mr-select --free below:y,0.6 --handle 0=below:y,0.2 posed.mrs 2>&1 >after.mrs | grep -o 'mr-solve.*'
-mr-smooth -l mesh posed.mrs | mr-select -l control --free below:y,0.6 2>&1 >after.mrs | grep -o 'mr-solve.*'
 
 echo '-- what was selected goes with the triangles, but where what is made of them has it'
 mr-make bumpy -n 1000 | mr-select --free all --handle 0=above:y,0.8 -o selected.mrs

@@ -568,7 +568,7 @@ test_loose_components_follow(void **state)
 	pose(d, p, maps, 2, q);
 	for (size_t v = 0; v < two.nv; v++)
 		assert_true(mr_dist(q[v], mr_apply(&maps[0], p[v])) < 1e-10);
-	opts.loose = MR_LOOSE_STAY;
+	opts.apart = true;
 	d = deform_of(&two, region, opts);
 	pose(d, p, maps, 2, q);
 	assert_memory_equal(p + one.nv, q + one.nv, (one.nv + 1) * sizeof *p);

@@ -228,25 +228,6 @@ test_powers_are_products(void **state)
 	}
 }
 
-static void
-test_extended_precision_agrees(void **state)
-{
-	mr_mesh m = sheet(8, 0.5);
-	double x[192], y[192];
-	long double xl[192], yl[192];
-	mr_random r = { 4 };
-	mr_sparse l;
-
-	(void)state;
-	assert_int_equal(mr_laplace_build(&ctx, &m, &l), MR_OK);
-	for (int i = 0; i < 192; i++)
-		xl[i] = x[i] = mr_random_real(&r);
-	mr_sparse_apply(&ctx, &l, NULL, 64, 3, x, y);
-	mr_sparse_apply_long(&ctx, &l, NULL, 64, 3, xl, yl);
-	for (int i = 0; i < 192; i++)
-		assert_near(y[i], (double)yl[i], 1e-14);
-}
-
 /* Parts that meet no lower part within `reach` edges are apart from each other: most vertices are in such. */
 static void
 test_dissection_separates(void **state)
@@ -298,7 +279,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_laplacian_is_the_energy, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_cotangents_of_flat_triangles, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_powers_are_products, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_extended_precision_agrees, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_dissection_separates, setup, teardown),
 	};
 
