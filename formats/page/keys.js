@@ -36,7 +36,7 @@ const KEYS = {
 
 /* Typing, and choosing by keys, is the control's own; a slider and a choice have no use for letters. */
 function isTyping({ target, key }) {
-	return target.matches("select, textarea, input:not([type=checkbox], [type=radio], [type=range])") ||
+	return target.matches("select, input:not([type=checkbox], [type=radio], [type=range])") ||
 		(target.matches("[type=radio]") && key.startsWith("Arrow")) || (target.matches("[type=range]") && key.length > 1);
 }
 

@@ -1,10 +1,10 @@
 """demo.py -- see demo.sh, which made the page and its streams."""
 import glob
-import json
 import subprocess
 
 from browser import Browser
 from checks import box, check, columns, end, length, sub
+from posed import pose_by
 
 GROUND = (244, 243, 240)
 POSE = "mr-pose -H 1 --rotate 0,0,1,20 --translate 0.1,0.2,0"
@@ -12,9 +12,8 @@ POSE = "mr-pose -H 1 --rotate 0,0,1,20 --translate 0.1,0.2,0"
 
 def posed(b, stream):
     """The line: of what the page does with it, and of what the pipe does."""
-    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(POSE))
-    b.settle()
-    line = b.eval("document.getElementById('line').value")
+    pose_by(b, POSE)
+    line = b.text("line")
     with open(stream, "rb") as file, open("made.mrs", "wb") as made:
         subprocess.run(["sh", "-c", line], stdin=file, stdout=made, stderr=subprocess.DEVNULL, check=True)
     want = columns("made.mrs")["mesh", "position"]

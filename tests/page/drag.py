@@ -4,7 +4,7 @@ import shlex
 
 from browser import Browser
 from checks import Camera, box, check, columns, end, length, sub
-from posed import line, places, same_layers, type_line
+from posed import line, places, same_layers, pose_by
 
 GIZMO = 0.6 / 7  # of the distance from the eye: what three.js has as 1
 
@@ -73,7 +73,7 @@ def gizmo(b):
     check(len(scale) == 3 and abs(scale[0] - 1 / 0.7) < 0.05 and scale[1:] == [1, 1], "scaled: " + line(b))
     same(b, "rest.mrs", line(b), "scaled")
     scaled = line(b)
-    type_line(b, scaled.replace(" | mr-decode", " | mr-pose -H 3 -r 1,0,0,-30"))
+    pose_by(b, scaled.replace(" | mr-decode", " | mr-pose -H 3 -r 1,0,0,-30"))
     same(b, "rest.mrs", line(b), "two handles")
     check(line(b).count("mr-pose") == 2, "two handles: " + line(b))
     for want in (scaled, turned, moved, ""):
@@ -106,40 +106,21 @@ def touch(b):
 
 
 LINES = ["mr-pose -H 1 --rotate 0,0,1,40 --translate 0.1,0.2,0 | mr-pose -H 3 --scale 1.4 | mr-decode",
-         "mr-pose -H 1 -s 1.2,0.8,1 -r 1,1,0,-75 --center 0.1,0.9,0 | mr-pose --handle 1 --translate 0,.1,-5e-2 | mr-pose -H 3 -t 0,-0.2,0",
-         "mr-pose -H 3 -r 0,0,2,200 -r 0,1,0,300|mr-decode"]
-
-TAKES = "nothing that the page takes"
-HOSTILE = [("rm -rf /", TAKES), ("mr-pose -H 1 -t 1,0,0; reboot", TAKES), ("mr-pose -H $(reboot)", TAKES), ("mr-pose -H 1 -t 1,2", TAKES),
-           ("mr-pose -H 1 -t nan,0,0", TAKES), ("mr-pose -H 1 -t 1e999,0,0", TAKES), ("mr-pose -H 1 -r 0,0,0,20", TAKES), ("mr-pose -H 1 -s 1,2", TAKES),
-           ("mr-pose -t 1,0,0", "handles in use: 1, 3"), ("mr-pose -H 7 -t 1,0,0", "handles in use: 1, 3"), ("mr-pose -H", TAKES),
-           ("mr-pose -H 1 --frames 4", TAKES), ("mr-pose -H 1 | mr-decode --gain 2", TAKES), ("mr-pose -H 1 | | mr-decode", TAKES),
-           ("mr-pose --__proto__ 1", TAKES), ("mr-pose -H 1 -t 1,0,0 <img src=x onerror=alert(1)>", TAKES), ("mr-pose -H 1 \u202e -t 1,0,0", TAKES),
-           ("mr-pose -H " + "9" * 100000, TAKES), ("</textarea><script>alert(1)</script>", TAKES)]
+         "mr-pose -H 1 -s 1.2,0.8,1 -r 1,1,0,-75 | mr-pose -H 3 -t 0,-0.2,0 | mr-decode",
+         "mr-pose -H 3 -r 0,1,0,300 | mr-decode"]
 
 
 def lines(b):
-    """All that mr-pose takes and the page can do; what it cannot is said, and changes nothing."""
+    """All that a drag can do."""
     b.open("rest.html")
     for text in LINES:
-        type_line(b, text)
-        check(b.text("said") == "", "%s: %s" % (text, b.text("said")))
-        same(b, "rest.mrs", text if "mr-decode" in text else text + " | mr-decode", text)
+        pose_by(b, text)
+        same(b, "rest.mrs", text, text)
         same(b, "rest.mrs", line(b), "the page's own line for " + text)
-    check(not b.eval("document.getElementById('far').hidden") and b.text("degrees") == "300", "no word on a turn by 300 degrees: " + b.text("degrees"))
+    check(not b.eval("document.getElementById('far').hidden") and b.text("degrees") == "300",
+          "no word on a turn by 300 degrees: " + b.text("degrees"))
     names = b.eval("[...document.getElementById('color').options].map(o => o.textContent)")
     check(names == ["plain", "region", "detail_height"], "columns to colour by: %s" % names)
-    kept, at = b.eval("mrView.posing.pose.line()"), places(b, "mesh")
-    for text, word in HOSTILE:
-        type_line(b, text)
-        check(word in b.text("said"), "%s: the page says '%s'" % (text[:60], b.text("said")))
-        check(len(b.text("said")) < 200, "%s: %d characters are said" % (text[:60], len(b.text("said"))))
-        check(b.eval("mrView.posing.pose.line()") == kept, "%s: changes the pose" % text[:60])
-    check(b.eval("document.querySelectorAll('img').length") == 0, "there are elements of the line")
-    type_line(b, kept)
-    low, high = box(at)  # rotations are found from those before, in single precision
-    off = max(length(sub(p, q)) for p, q in zip(places(b, "mesh"), at)) / length(sub(high, low))
-    check(off < 1e-6, "a line that is refused moves the mesh by %g of the diagonal" % off)
 
 
 def far(b):
@@ -149,7 +130,7 @@ def far(b):
     b.open("posed.html")
     same(b, "posed.mrs", "mr-decode", "posed by the stream")
     for text in ("mr-pose -H 3 -r 0,1,0,25 | mr-pose -H 1 -t 0.1,0,0.1 -s 0.9 | mr-decode", "mr-pose -H 1 -r 1,0,0,50 | mr-decode"):
-        type_line(b, text)
+        pose_by(b, text)
         same(b, "posed.mrs", text, "far: " + text)
     at = [p for p, (r,) in zip(places(b, "mesh"), values["mesh", "region"]) if r == 3]
     camera = Camera(values["mesh", "position"], b.canvas())
@@ -165,10 +146,10 @@ def far(b):
 def two(b):
     """Another model is posed by its own basis, in every layer that is switched on; what was dragged before stays behind."""
     b.open("two.html")
-    type_line(b, LINES[0])
+    pose_by(b, LINES[0])
     b.press("ArrowRight")
     check(line(b) == "" and places(b, "mesh") == [], "the pose of another model: " + line(b))
-    type_line(b, LINES[0])
+    pose_by(b, LINES[0])
     same(b, "far.mrs", LINES[0], "the second model")
     mesh = b.picture()
     b.call("Input.dispatchKeyEvent", type="keyDown", key="@", code="Digit2", modifiers=8)

@@ -8,8 +8,23 @@ from checks import box, check, columns, length, sub
 NEAR = 1e-5  # of the diagonal
 
 
-def type_line(b, text):
-    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(text))
+SHORT = {"-H": "--handle", "-t": "--translate", "-r": "--rotate", "-s": "--scale"}
+
+
+def pose_by(b, text):
+    """Poses handles as a line of commands does, each by one command, and takes the level that it names."""
+    poses = []
+    for command in text.split(" | "):
+        words = command.split()
+        options = {SHORT.get(k, k)[2:]: [float(x) for x in v.split(",")] for k, v in zip(words[1::2], words[2::2])}
+        if words[0] == "mr-pose":
+            scale = options.get("scale", [1])
+            poses.append({"handle": int(options["handle"][0]), "translate": options.get("translate", [0, 0, 0]),
+                          "rotate": options.get("rotate", [0, 0, 1, 0]), "scale": scale * 3 if len(scale) == 1 else scale})
+        else:
+            level = "%d" % options["level"][0] if "level" in options else "mrView.posing.pose.most"
+            b.eval("mrView.posing.pose.most !== null && mrView.change({ level: %s })" % level)
+    b.eval("mrView.posing.act(() => mrView.posing.pose.set(%s))" % json.dumps(poses))
     b.settle()
 
 
@@ -36,4 +51,4 @@ def same_layers(b, stream, line, what, layers):
 
 
 def line(b):
-    return b.eval("document.getElementById('line').value")
+    return b.eval("document.getElementById('line').textContent")

@@ -6,7 +6,7 @@ import subprocess
 from browser import Browser
 from checks import check, columns, end
 from painted import give, push, regions_of, text_of
-from posed import type_line
+from posed import pose_by
 
 
 def saved(b, button, name):
@@ -96,7 +96,7 @@ def poses(b):
     line = "mr-pose -H 1 --rotate 0,0,1,20 --translate 0.1,0,0.05 | mr-decode"
     for page, name, edited in (("handled", "bumpy", "control"), ("rest", "a-model", "base")):
         b.open(page + ".html")
-        type_line(b, line)
+        pose_by(b, line)
         b.eval("document.getElementById('take').open = true")
         b.settle()
         code, said = run(saved(b, "save-script", name + ".sh"), os.path.abspath(page + ".mrs"))

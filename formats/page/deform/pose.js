@@ -1,9 +1,10 @@
 /*
- * pose.js -- where handles go: poses in the order in which mr-pose applies them, lib/edit/handles.c, and the steps back and
- * forth between them.
+ * pose.js -- where handles go: a pose of each that was dragged, { handle, translate, rotate: axis and degrees, scale }, as
+ * mr-pose applies it, lib/edit/handles.c; the line of commands that does the same; the steps back and forth.
  */
 import { IDENTITY, add, apply, compose, exponential, norm, sub, times, unit } from "../mesh/rotation.js";
-import { lineOf, parseLine, rest } from "./poseline.js";
+
+const rest = (handle) => ({ handle, translate: [0, 0, 0], rotate: [0, 0, 1, 0], scale: [1, 1, 1] });
 
 /* About which axis a pose turns, by how many radians. */
 const turnOf = (pose) => times(pose.rotate[3] * Math.PI / 180, unit(pose.rotate.slice(0, 3)));
@@ -19,6 +20,24 @@ function mapOf(pose, centre) {
 
 /* A number of a line: to so many decimals, without a negative zero. */
 const rounded = (x, decimals) => Number(x.toFixed(decimals)) || 0;
+
+/* Empty where it is at rest. */
+function commandOf({ handle, translate, rotate, scale }) {
+	const options = [
+		scale.some((x) => x !== 1) && "--scale " + (scale.every((x) => x === scale[0]) ? scale[0] : scale.join(",")),
+		rotate[3] !== 0 && "--rotate " + rotate.join(","),
+		translate.some((x) => x !== 0) && "--translate " + translate.join(","),
+	].filter(Boolean);
+
+	return options.length ? ["mr-pose -H " + handle, ...options].join(" ") : "";
+}
+
+/* The line that makes the poses, on a level other than the finest if there is one; empty where all is at rest. */
+function lineOf(poses, level) {
+	const commands = poses.map(commandOf).filter(Boolean);
+
+	return commands.length ? [...commands, level === null ? "mr-decode" : "mr-decode --level " + level].join(" | ") : "";
+}
 
 export class Pose {
 	/*
@@ -36,15 +55,23 @@ export class Pose {
 		this.future = [];
 	}
 
-	/* The map of each handle, after all poses but those from `end` on. */
-	maps(end) {
-		const n = Math.max(this.centroids.length, this.start.length), maps = Array.from({ length: n }, (_, h) => this.start[h] || IDENTITY);
+	poseOf(handle) {
+		return this.poses.find((pose) => pose.handle === handle) || rest(handle);
+	}
 
-		for (const pose of this.poses.slice(0, end)) {
-			const map = maps[pose.handle];
-			maps[pose.handle] = compose(mapOf(pose, pose.center || apply(map, this.centroids[pose.handle])), map);
-		}
-		return maps;
+	/* Where a handle is as the stream has posed it, and its middle there. */
+	from(handle) {
+		const map = this.start[handle] || IDENTITY;
+
+		return { map, centre: this.numbers.includes(handle) ? apply(map, this.centroids[handle]) : null };
+	}
+
+	/* The map of each handle. */
+	maps() {
+		return Array.from({ length: Math.max(this.centroids.length, this.start.length) }, (_, handle) => {
+			const { map, centre } = this.from(handle);
+			return centre ? compose(mapOf(this.poseOf(handle), centre), map) : map;
+		});
 	}
 
 	/* The largest turn, in degrees. */
@@ -52,33 +79,23 @@ export class Pose {
 		return Math.max(0, ...this.poses.map((pose) => Math.abs(pose.rotate[3])));
 	}
 
-	/* The pose that dragging a handle changes: its last one, unless that has a centre of its own. */
-	live(handle) {
-		const last = this.poses.map((p) => p.handle).lastIndexOf(handle);
-
-		return last >= 0 && !this.poses[last].center ? last : -1;
-	}
-
-	/* Where that begins, and what it is: { centre, translate, turn, scale }. */
+	/* Where a pose begins, and what it is: { centre, translate, turn, scale }. */
 	grip(handle) {
-		const at = this.live(handle), pose = at < 0 ? rest(handle) : this.poses[at];
-		const map = this.maps(at < 0 ? undefined : at)[handle];
+		const pose = this.poseOf(handle);
 
-		return { centre: apply(map, this.centroids[handle]), translate: pose.translate, turn: turnOf(pose), scale: pose.scale };
+		return { centre: this.from(handle).centre, translate: pose.translate, turn: turnOf(pose), scale: pose.scale };
 	}
 
 	/* Changes it to these, as far as a line tells them. */
 	drag(handle, { translate, turn, scale }) {
-		const at = this.live(handle), angle = norm(turn) * 180 / Math.PI;
-		const pose = {
+		const angle = norm(turn) * 180 / Math.PI;
+
+		this.poses = [...this.poses.filter((pose) => pose.handle !== handle), {
 			handle,
 			translate: translate.map((x) => rounded(x, this.decimals)),
 			rotate: [...(angle > 0 ? unit(turn).map((x) => rounded(x, 6)) : [0, 0, 1]), rounded(angle, 3)],
 			scale: scale.map((x) => rounded(x, 5)),
-			center: null,
-		};
-
-		this.poses = at < 0 ? [...this.poses, pose] : this.poses.map((p, i) => (i === at ? pose : p));
+		}];
 	}
 
 	/* Keeps what there is now, to come back to: before a change. */
@@ -95,10 +112,9 @@ export class Pose {
 
 	/* Other poses, which can be undone. */
 	set(poses) {
-		if (lineOf(poses, null) === lineOf(this.poses, null))
-			return;
 		this.remember();
 		this.poses = poses;
+		this.settle();
 	}
 
 	step(from, to) {
@@ -118,13 +134,5 @@ export class Pose {
 
 	line() {
 		return lineOf(this.poses, this.level === this.most ? null : this.level);
-	}
-
-	/* Takes a line, and returns the level that it asks for, or null; throws an Error with a sentence, and then stays as it is. */
-	read(line) {
-		const poses = parseLine(line, this.numbers, this.most);
-
-		this.set(poses);
-		return poses.level;
 	}
 }

@@ -37,19 +37,7 @@ export class Posing {
 		$("undo").addEventListener("click", () => this.act(() => this.pose.undo()));
 		$("redo").addEventListener("click", () => this.act(() => this.pose.redo()));
 		$("reset").addEventListener("click", () => this.act(() => this.pose.set([])));
-		$("line").addEventListener("input", (e) => e.inputType === "insertFromPaste" && this.readLine());
-		$("line").addEventListener("change", () => this.readLine());
-		$("line").addEventListener("keydown", (e) => {
-			if (e.key === "Enter" && !e.isComposing) {
-				e.preventDefault();
-				this.readLine();
-			}
-		});
-		$("copy").addEventListener("click", () => {
-			$("said").textContent = "";
-			this.showLine();
-			return copy($("line"));
-		});
+		$("copy").addEventListener("click", () => copy($("line")));
 	}
 
 	/* Makes what the frame can be posed by, where that is another than before. */
@@ -159,12 +147,10 @@ export class Posing {
 
 	act(change) {
 		change();
-		$("said").textContent = "";
 		this.apply();
 	}
 
 	drag(to) {
-		$("said").textContent = "";
 		this.pose.drag(this.handle, to);
 		this.deform(this.pose.maps());
 		this.showLine();
@@ -233,27 +219,11 @@ export class Posing {
 	}
 
 	showLine() {
-		const degrees = this.pose.degrees();
+		const degrees = this.pose.degrees(), line = this.pose.line();
 
-		if (document.activeElement !== $("line") && $("said").textContent === "")
-			$("line").value = this.pose.line();
-		$("copy").disabled = this.pose.line() === "";
-		$("reads").hidden = this.pose.line() === "" || $("said").textContent !== "";
-		$("far").hidden = degrees <= FAR * (1 + 1e-9) || $("said").textContent !== "";
+		$("line").textContent = line;
+		$("copy").disabled = $("reads").hidden = line === "";
+		$("far").hidden = degrees <= FAR * (1 + 1e-9);
 		$("degrees").textContent = degrees.toFixed(0);
-	}
-
-	/* What is pasted or typed is applied when it is a whole line. */
-	readLine() {
-		try {
-			const level = this.pose.read($("line").value);
-			$("said").textContent = "";
-			this.apply();
-			if (level !== null && level !== this.pose.level)
-				this.app.change({ level });
-		} catch (error) {
-			$("said").textContent = error.message;
-			this.showLine();
-		}
 	}
 }

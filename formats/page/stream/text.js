@@ -36,12 +36,10 @@ export function place(coordinates, extent) {
 
 /* Copies what an element says; the clipboard is not there for every page from the disk: then what is selected is copied. */
 export async function copy(of) {
-	const button = of.parentElement.querySelector("button"), text = "value" in of ? of.value : of.textContent;
+	const button = of.parentElement.querySelector("button"), text = of.textContent;
 
 	if (!navigator.clipboard || !await navigator.clipboard.writeText(text).then(() => true, () => false)) {
 		getSelection().selectAllChildren(of);
-		if (of.select)
-			of.select();
 		document.execCommand("copy");
 	}
 	button.classList.add("copied");
