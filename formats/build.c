@@ -585,46 +585,15 @@ triangulate(mr_builder *b, triangles *r)
 			  b->faces);
 }
 
-/* Whether a face of the outlines is that of the file: the same corners from the same one on. */
-static bool
-is_same_face(const triangles *r, const mr_polygons *found, size_t i, size_t first, size_t n)
-{
-	const uint32_t *corner = found->corner + found->start[i];
-
-	if (found->start[i + 1] - found->start[i] != n)
-		return false;
-	for (size_t k = 0; k < n; k++)
-		if (r->place[corner[k]] != first + k)
-			return false;
-	return true;
-}
-
-/*
- * The numbers of the polygons.  One that touches itself along an edge cannot be told by its outline: its
- * triangles are faces of their own.
- */
-static void
-number_polygons(mr_builder *b, const triangles *r, const uint32_t **polygon)
+/* The numbers of the polygons, without those that have no triangle. */
+static const uint32_t *
+number_polygons(mr_builder *b, const triangles *r)
 {
 	uint32_t *number = MR_NEW(b->ctx, r->n, uint32_t), next = 0;
-	size_t face = 0, first = 0, torn = 0;
-	mr_polygons found;
 
-	mr_polygons_find(b->ctx, r->t, r->n, r->face, &found);
-	for (size_t i = 0, f = 0, end; f < r->n; f = end) {
-		bool same;
-		for (end = f; end < r->n && r->face[end] == r->face[f]; end++)
-			;
-		for (; face < r->face[f]; face++)
-			first += b->size[face];
-		same = is_same_face(r, &found, i, first, b->size[face]);
-		torn += !same;
-		i += found.start[i + 1] - found.start[i] == end - f + 2 ? 1 : end - f;
-		for (size_t k = f; k < end; k++)
-			number[k] = k == f || !same ? next++ : next - 1;
-	}
-	mr_lost(b->ctx, NULL, torn, "polygons that touch themselves");
-	*polygon = number;
+	for (size_t f = 0; f < r->n; f++)
+		number[f] = f > 0 && r->face[f] == r->face[f - 1] ? next - 1 : next++;
+	return number;
 }
 
 /* Rows of faces as rows of triangles. */
@@ -651,7 +620,7 @@ put_faces(mr_builder *b, mr_model *m)
 		MR_TRY(triangulate(b, &r));
 		m->t = r.t;
 		m->nf = r.n;
-		number_polygons(b, &r, &m->polygon);
+		m->polygon = number_polygons(b, &r);
 		spread(b, &r, m);
 		put_properties(b, r.face, m);
 		if (uv)

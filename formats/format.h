@@ -28,9 +28,9 @@ typedef struct mr_file_format {
 mr_status mr_model_parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data,
     size_t size, mr_model *m) MR_WARN_UNUSED;
 
-/* Text without the mark that begins UTF-8, that of UTF-16 as UTF-8, and with newlines for ends of lines that
- * are CR alone; what is no text stays as it is.  In the arena where it changes. */
-mr_status mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size) MR_WARN_UNUSED;
+/* Text without the mark that begins UTF-8, and with newlines for ends of lines that are CR alone; what is no
+ * text stays as it is.  In the arena where it changes. */
+void mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size);
 
 bool mr_obj_sniff(const unsigned char *data, size_t size);
 mr_status mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);

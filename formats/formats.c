@@ -176,61 +176,17 @@ normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
 	*data = copy;
 }
 
-/* The character at unit i of n, which moves behind it; half of one is U+FFFD. */
-static uint32_t
-from_units(const unsigned char *data, size_t n, bool big, size_t *i)
-{
-	uint32_t unit = mr_load16(data + 2 * (*i)++, big), low;
-
-	if (unit < 0xd800 || unit >= 0xe000)
-		return unit;
-	low = unit < 0xdc00 && *i < n ? mr_load16(data + 2 * *i, big) : 0;
-	if (low < 0xdc00 || low >= 0xe000)
-		return 0xfffd;
-	++*i;
-	return 0x10000 + ((unit - 0xd800) << 10) + (low - 0xdc00);
-}
-
-/* Text of 16-bit units, by the mark it begins with, as UTF-8. */
-static mr_status
-narrow(mr_ctx *ctx, const unsigned char **data, size_t *size)
-{
-	bool big = *size >= 2 && (*data)[0] == 0xfe && (*data)[1] == 0xff;
-	bool little = *size >= 2 && (*data)[0] == 0xff && (*data)[1] == 0xfe;
-	const unsigned char *units;
-	size_t n, bytes = 0;
-	char *copy, none[4];
-
-	if (!big && !little)
-		return MR_OK;
-	if (*size % 2)
-		return mr_fail(
-		    ctx, MR_EFORMAT, "UTF-16 of %zu bytes, which are odd: the file ends early", *size);
-	units = *data + 2;
-	n = *size / 2 - 1;
-	for (size_t i = 0; i < n;)
-		bytes += mr_utf8_write(none, from_units(units, n, big, &i));
-	copy = mr_alloc(ctx, bytes, 1);
-	*data = (const unsigned char *)copy;
-	*size = bytes;
-	for (size_t i = 0; i < n;)
-		copy += mr_utf8_write(copy, from_units(units, n, big, &i));
-	return MR_OK;
-}
-
-mr_status
+void
 mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
 {
 	if (mr_stl_is_binary(*data, *size)) /* begins with anything */
-		return MR_OK;
+		return;
 	if (*size >= 3 && (*data)[0] == 0xef && (*data)[1] == 0xbb && (*data)[2] == 0xbf) {
 		*data += 3;
 		*size -= 3;
 	}
-	MR_TRY(narrow(ctx, data, size));
 	if (*size)
 		normalise_lines(ctx, data, *size);
-	return MR_OK;
 }
 
 static mr_status
@@ -244,6 +200,9 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names);
 	if (size == 0)
 		return mr_fail(ctx, MR_EFORMAT, "the file is empty");
+	if (size > 1 && (!memcmp(data, "\xff\xfe", 2) || !memcmp(data, "\xfe\xff", 2)) &&
+	    !mr_stl_is_binary(data, size))
+		return mr_fail(ctx, MR_EFORMAT, "text of UTF-16 is not read: save it as UTF-8");
 	for (size_t i = 0; i < FORMATS && !found; i++)
 		if (formats[i].sniff && formats[i].sniff(data, size))
 			found = &formats[i];
@@ -292,7 +251,7 @@ parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *da
 	const mr_file_format *f = NULL;
 	mr_model got = { 0 };
 
-	MR_TRY(mr_as_text(ctx, &data, &size));
+	mr_as_text(ctx, &data, &size);
 	MR_TRY(find_reader(ctx, path, format, data, size, &f));
 	MR_TRY(f->read(ctx, data, size, &got));
 	if (got.nv == 0)

@@ -161,7 +161,7 @@ statements(finder *f, const unsigned char *data, size_t size)
 	mr_scan text, line;
 
 	MR_ENTER(f->ctx);
-	MR_TRY(mr_as_text(f->ctx, &data, &size));
+	mr_as_text(f->ctx, &data, &size);
 	if (size && memchr(data, 0, size))
 		return mr_fail(f->ctx, MR_EFORMAT, "a zero byte: not a text file");
 	memset(f->current, 0, f->count);

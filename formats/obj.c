@@ -506,26 +506,6 @@ are_of_vertices(const obj *o, const uint32_t *place, size_t astray, size_t n)
 	return !place && !astray && n == o->v_all;
 }
 
-/* Reports values, `width` numbers each, that no corner names; zeros were written for vertices without a face.
- */
-static void
-lose_unnamed(obj *o, const uint32_t *place, const double *x, size_t n, size_t width, const char *what)
-{
-	mr_mark mark = mr_mark_take(o->ctx);
-	bool *named = MR_NEW_ZERO(o->ctx, n, bool);
-	size_t lost = 0;
-
-	for (size_t c = 0; place && c < o->b.corners; c++)
-		if (place[c] != MR_NONE)
-			named[place[c]] = true;
-	for (size_t i = 0; i < n; i++, x += width) {
-		double sum = fabs(x[0]) + fabs(x[1]) + (width > 2 ? fabs(x[2]) : 0); /* of NaN neither */
-		lost += !named[i] && sum > 0;
-	}
-	mr_tell(o->ctx, MR_LOST, lost, "%s that no corner names", what);
-	mr_mark_release(o->ctx, mark);
-}
-
 static void
 finish_texcoords(obj *o)
 {
@@ -536,7 +516,6 @@ finish_texcoords(obj *o)
 			o->b.texcoord = o->uv;
 		return;
 	}
-	lose_unnamed(o, o->b.corner_uv, o->uv, o->vt, 2, what);
 	if (!mr_left_out(o->ctx, o->odd_texcoords, o->vt, what))
 		o->b.corner_uv = NULL;
 	mr_lost(o->ctx, NULL, o->no_texcoords, "texture coordinates that are not there");
@@ -547,8 +526,6 @@ finish_normals(obj *o)
 {
 	bool of_vertices = are_of_vertices(o, o->b.corner_vn, o->no_normals, o->vn);
 
-	if (!of_vertices)
-		lose_unnamed(o, o->b.corner_vn, &o->vn_values->x, o->vn, 3, "normals");
 	if (!mr_normals_left(o->ctx, o->vn_values, o->vn))
 		o->b.corner_vn = NULL;
 	else if (of_vertices)

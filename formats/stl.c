@@ -68,137 +68,59 @@ typedef struct ascii {
 	mr_scan text;
 	mr_builder b;
 	mr_v3 *p; /* corners of all facets */
-	size_t corners, room;
+	size_t corners, room, corner_room;
 	size_t first;  /* corner of the facet at hand */
 	size_t solids; /* so far */
+	bool inside;   /* of a solid */
 } ascii;
 
 /* Corners are vertices of their own until all are there; a facet is a face of them. */
 static mr_status
-end_facet(ascii *a, mr_scan *line)
+end_facet(ascii *a, const char *where)
 {
 	size_t n = a->corners - a->first;
-	uint32_t small[16], *c = small;
+	uint32_t small[16], *c = n > 16 ? MR_NEW(a->text.ctx, n, uint32_t) : small;
 
 	if (n < 3)
-		return mr_scan_fail(&a->text, line->p, "a facet of %zu vertices", n);
-	if (n > 16)
-		c = MR_NEW(a->text.ctx, n, uint32_t);
+		return mr_scan_fail(&a->text, where, "a facet of %zu vertices", n);
 	for (size_t i = 0; i < n; i++)
 		c[i] = (uint32_t)(a->first + i);
 	mr_build_face(&a->b, c, NULL, NULL, n);
 	return MR_OK;
 }
 
+/* What is left of the line is the name of a solid, which begins a group, but for a first one without a name.
+ */
 static mr_status
-add_vertex(ascii *a, mr_scan *line)
+name_solid(ascii *a, bool begins)
 {
-	if (a->corners == a->room)
-		return mr_scan_fail(&a->text, line->p, "more vertices than were counted");
-	return mr_scan_position(line, &a->p[a->corners++]);
-}
+	mr_scan line = { 0 };
 
-/* The name of a solid is what is left of its line; it begins a group, but for a first one without a name. */
-static mr_status
-begin_solid(ascii *a, mr_scan *line)
-{
-	mr_scan name;
-
-	mr_skip_blanks(line);
-	name = *line;
-	line->p = line->end;
-	return a->solids++ > 0 || name.p < name.end
-	           ? mr_build_new_mark(&a->b, MR_GROUP, name.p, (size_t)(name.end - name.p))
-	           : MR_OK;
-}
-
-static mr_status
-pass_name(ascii *a, mr_scan *line)
-{
-	(void)a;
-	line->p = line->end;
+	mr_skip_blanks(&a->text);
+	mr_scan_line(&a->text, &line);
+	if (begins && (a->solids++ > 0 || line.p < line.end))
+		return mr_build_new_mark(&a->b, MR_GROUP, line.p, (size_t)(line.end - line.p));
 	return MR_OK;
 }
 
+/* What stands behind a word; words that say nothing, as those of a normal, are passed over. */
 static mr_status
-pass_numbers(ascii *a, mr_scan *line)
+read_word(ascii *a, const char *w, size_t n)
 {
-	const char *w;
-	size_t n;
+	bool begins = mr_word_is(w, n, "solid");
 
-	(void)a;
-	for (int i = 0; i < 3; i++)
-		mr_scan_word(line, &w, &n);
-	return MR_OK;
-}
-
-static mr_status
-begin_loop(ascii *a, mr_scan *line)
-{
-	(void)line;
-	a->first = a->corners;
-	return MR_OK;
-}
-
-/* How deep a statement stands. */
-enum { OUTSIDE, IN_SOLID, IN_FACET, IN_LOOP };
-
-typedef struct statement {
-	const char *word;
-	int from, to;                               /* how deep */
-	mr_status (*read)(ascii *a, mr_scan *line); /* what is behind the word; NULL: nothing */
-} statement;
-
-static const statement statements[] = {
-	{ "vertex", IN_LOOP, IN_LOOP, add_vertex },
-	{ "facet", IN_SOLID, IN_FACET, NULL },
-	{ "normal", IN_FACET, IN_FACET, pass_numbers },
-	{ "outer", IN_FACET, IN_LOOP, begin_loop },
-	{ "loop", IN_LOOP, IN_LOOP, NULL },
-	{ "endloop", IN_LOOP, IN_FACET, end_facet },
-	{ "endfacet", IN_FACET, IN_SOLID, NULL },
-	{ "endsolid", IN_SOLID, OUTSIDE, pass_name },
-	{ "solid", OUTSIDE, IN_SOLID, begin_solid },
-	{ NULL, 0, 0, NULL },
-};
-
-/* The statement that a word begins; its own word is NULL where there is none. */
-static const statement *
-find_statement(const char *w, size_t n)
-{
-	const statement *s = statements;
-
-	while (s->word && !mr_word_is(w, n, s->word))
-		s++;
-	return s;
-}
-
-/* Reads on behind a word of the line, w; *depth is where it stands. */
-static mr_status
-read_statement(ascii *a, const char *w, size_t n, mr_scan *line, int *depth)
-{
-	const statement *s = find_statement(w, n);
-	char shown[MR_SHOWN];
-
-	if (!s->word)
-		return mr_scan_fail(
-		    &a->text, w, "'%s' begins no statement of STL", mr_word_shown(w, n, shown));
-	if (*depth != s->from)
-		return mr_scan_fail(&a->text, w, "'%s' stands where it may not", s->word);
-	*depth = s->to;
-	return s->read ? s->read(a, line) : MR_OK;
-}
-
-/* The statements of a line; what stands between them and is none is passed over. */
-static mr_status
-read_line(ascii *a, mr_scan *line, int *depth)
-{
-	const char *w;
-	size_t n;
-
-	for (bool first = true; mr_scan_word(line, &w, &n); first = false)
-		if (first || find_statement(w, n)->word)
-			MR_TRY(read_statement(a, w, n, line, depth));
+	if (begins || mr_word_is(w, n, "endsolid")) {
+		if (begins == a->inside)
+			return mr_scan_fail(&a->text, w, "'%.*s' stands where it may not", (int)n, w);
+		a->inside = begins;
+		return name_solid(a, begins);
+	}
+	if (mr_word_is(w, n, "outer"))
+		a->first = a->corners;
+	else if (mr_word_is(w, n, "endloop"))
+		return end_facet(a, w);
+	else if (mr_word_is(w, n, "vertex") && a->corners < a->room)
+		return mr_scan_position(&a->text, &a->p[a->corners++]);
 	return MR_OK;
 }
 
@@ -218,24 +140,22 @@ static mr_status
 read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	ascii a = { .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
+	const char *w;
 	uint32_t *map;
-	mr_scan line;
-	int depth = OUTSIDE;
-	size_t nv;
+	size_t n;
 
 	a.room = count_vertices(&a.text);
 	MR_TRY(mr_build_vertices(&a.b, a.room));
 	MR_TRY(mr_build_reserve(&a.b, a.room / 3));
 	a.p = a.b.p;
-	while (mr_scan_line(&a.text, &line))
-		MR_TRY(read_line(&a, &line, &depth));
-	if (depth != OUTSIDE)
+	while (mr_scan_word(&a.text, &w, &n))
+		MR_TRY(read_word(&a, w, n));
+	if (a.inside)
 		return mr_scan_fail(&a.text, a.text.end, "the file ends inside a solid");
 	map = MR_NEW(ctx, a.corners, uint32_t);
-	join_corners(ctx, a.p, a.corners, map, &nv);
+	join_corners(ctx, a.p, a.corners, map, &a.b.nv);
 	for (size_t i = 0; i < a.b.corners; i++)
 		a.b.corner[i] = map[a.b.corner[i]];
-	a.b.nv = nv;
 	return mr_build_finish(&a.b, m);
 }
 

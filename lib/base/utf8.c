@@ -27,15 +27,3 @@ mr_utf8(const unsigned char *s, size_t n, uint32_t *code)
 	*code = c;
 	return length;
 }
-
-size_t
-mr_utf8_write(char *to, uint32_t code)
-{
-	static const unsigned char first[] = { 0, 0, 0xc0, 0xe0, 0xf0 };
-	size_t length = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
-
-	for (size_t i = length; i-- > 1; code >>= 6)
-		to[i] = (char)(0x80 | (code & 0x3f));
-	to[0] = (char)(first[length] | code);
-	return length;
-}

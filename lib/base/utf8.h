@@ -7,9 +7,6 @@
 /* Bytes of the character that the n bytes at s begin with, and its code; 0: they begin with none. */
 size_t mr_utf8(const unsigned char *s, size_t n, uint32_t *code);
 
-/* Writes the character of a code; how many bytes it took, at most 4. */
-size_t mr_utf8_write(char *to, uint32_t code);
-
 /* True for the control characters of ASCII and of Latin 1. */
 static inline bool
 mr_is_control(uint32_t code)
