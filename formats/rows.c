@@ -62,9 +62,11 @@ mr_rows_begin(mr_rows *r)
 		demote(r, MR_RED, 4);
 	demote(r, MR_U, 2);
 	demote(r, MR_FROM_X, 3);
-	for (mr_rows_column *c = r->column; c < r->column + r->columns; c++)
+	for (size_t i = 0; i < r->columns; i++) {
+		mr_rows_column *c = &r->column[i];
 		if (c->role == MR_NO_ROLE && c->type)
 			mr_build_property(r->b, c->name, c->type, 'v', &c->property);
+	}
 }
 
 mr_status
