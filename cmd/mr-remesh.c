@@ -58,7 +58,6 @@ static const cmd_field figures[] = {
 	CMD_COUNTED(mr_remesh_result, folded),
 	CMD_MEASURED(mr_remesh_result, feature),
 	CMD_COUNTED(mr_remesh_result, sharp_edges),
-	CMD_COUNTED(mr_remesh_result, sharp_lost),
 	CMD_MEASURED(mr_remesh_result, seconds_rounds),
 	CMD_MEASURED(mr_remesh_result, seconds_areas),
 	{ 0 },

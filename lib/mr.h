@@ -333,7 +333,7 @@ typedef struct mr_remesh_result {
 	double area_variance_before, area_variance_after; /* of the Voronoi areas over their squared mean */
 	size_t flipped, folded; /* faces against the input; edges */
 	double feature;                 /* the angle from which edges are kept, 180: none are */
-	size_t sharp_edges, sharp_lost; /* of the input: kept, and those from which the kept ones are gone */
+	size_t sharp_edges; /* of the input: they are kept */
 	double seconds_rounds, seconds_areas;
 } mr_remesh_result;
 

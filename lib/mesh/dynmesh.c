@@ -68,8 +68,8 @@ link_twins(mr_dyn *d, uint32_t h, uint32_t g)
 		d->twin[g] = h;
 }
 
-void
-mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
+static void
+add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 {
 	if (d->free_v != MR_NONE) {
 		*v = d->free_v;
@@ -81,8 +81,8 @@ mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v)
 	*v = (uint32_t)d->nv++;
 }
 
-mr_status
-mr_dyn_add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
+static mr_status
+add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 {
 	if (d->free_f != MR_NONE) {
 		*f = d->free_f;
@@ -95,8 +95,8 @@ mr_dyn_add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 	return MR_OK;
 }
 
-void
-mr_dyn_remove_vertex(mr_dyn *d, uint32_t v)
+static void
+remove_vertex(mr_dyn *d, uint32_t v)
 {
 	d->kind[v] = MR_DEAD;
 	d->out[v] = d->free_v;
@@ -116,8 +116,8 @@ move_curve(mr_dyn *d, uint32_t h, uint32_t k)
 		mr_curves_set(&d->curves, k, curve);
 }
 
-void
-mr_dyn_remove_face(mr_dyn *d, uint32_t f)
+static void
+remove_face(mr_dyn *d, uint32_t f)
 {
 	for (uint32_t k = 3 * f; k < 3 * f + 3; k++)
 		move_curve(d, k, MR_NONE);
@@ -154,7 +154,7 @@ mr_dyn_can_split(const mr_dyn *d, uint32_t h)
 {
 	uint32_t g = d->twin[h];
 
-	return !mr_dyn_on_rim(d, h) && (g == MR_NONE || mr_dyn_apex(d, g) != mr_dyn_apex(d, h));
+	return g == MR_NONE || mr_dyn_apex(d, g) != mr_dyn_apex(d, h);
 }
 
 mr_status
@@ -164,10 +164,10 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 
 	if (mr_dyn_on_curve(d, h))
 		MR_TRY(mr_curves_reserve(ctx, &d->curves, 2));
-	mr_dyn_add_vertex(ctx, d, &m);
-	MR_TRY(mr_dyn_add_face(ctx, d, &f));
+	add_vertex(ctx, d, &m);
+	MR_TRY(add_face(ctx, d, &f));
 	if (g != MR_NONE)
-		MR_TRY(mr_dyn_add_face(ctx, d, &e));
+		MR_TRY(add_face(ctx, d, &e));
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
 	d->at[m] = mr_dyn_on_curve(d, h) ? mr_dyn_curve(d, h) : mr_dyn_place(d, a);
@@ -254,8 +254,6 @@ mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark)
 
 	if (d->kind[a] >= MR_CORNER || (d->kind[a] == MR_CURVE && !mr_dyn_on_curve(d, h)))
 		return false;
-	if (d->kind[b] == MR_RIM)
-		return false; /* it may have the same neighbours beyond */
 	if (g != MR_NONE && mr_dyn_on_boundary(d, a) && mr_dyn_on_boundary(d, b))
 		return false;
 	if (!apex_can_lose(d, h) || (g != MR_NONE && !apex_can_lose(d, g)))
@@ -269,8 +267,8 @@ mr_dyn_can_collapse(const mr_dyn *d, uint32_t h, uint8_t *mark)
 	return shared == (g == MR_NONE ? 1 : 2);
 }
 
-void
-mr_dyn_keep_out(mr_dyn *d, uint32_t v, uint32_t h)
+static void
+keep_out(mr_dyn *d, uint32_t v, uint32_t h)
 {
 	uint32_t g = h;
 
@@ -297,7 +295,7 @@ close_face(mr_dyn *d, uint32_t h)
 		mr_curves_set(&d->curves, ac, curve);
 	if (d->out[c] == p)
 		d->out[c] = cb;
-	mr_dyn_remove_face(d, f);
+	remove_face(d, f);
 }
 
 void
@@ -314,11 +312,11 @@ mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p)
 	close_face(d, h);
 	if (g != MR_NONE)
 		close_face(d, g);
-	mr_dyn_keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
+	keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
 	d->p[b] = p;
 	if (d->scale && d->scale[a] < d->scale[b])
 		d->scale[b] = d->scale[a];
-	mr_dyn_remove_vertex(d, a);
+	remove_vertex(d, a);
 }
 
 bool
@@ -330,8 +328,8 @@ mr_dyn_can_flip(const mr_dyn *d, uint32_t h)
 		return false;
 	c = mr_dyn_apex(d, h);
 	other = mr_dyn_apex(d, g);
-	if (c == other || (d->kind[c] == MR_RIM && d->kind[other] == MR_RIM))
-		return false; /* beyond the rim they may be joined */
+	if (c == other)
+		return false;
 	e = d->out[c];
 	do {
 		if (mr_dyn_to(d, e) == other || mr_dyn_apex(d, e) == other)

@@ -17,7 +17,6 @@ typedef enum mr_kind {
 	MR_SMOOTH, /* free on the surface */
 	MR_CURVE,  /* on a curve: slides along it */
 	MR_CORNER, /* stays */
-	MR_RIM,    /* of a patch (mesh/dynmesh_patch.h): stays, and so do the edges to others like it */
 	MR_DEAD    /* a hole in the numbering */
 } mr_kind;
 
@@ -97,13 +96,6 @@ mr_dyn_on_boundary(const mr_dyn *d, uint32_t v)
 	return d->twin[d->out[v]] == MR_NONE;
 }
 
-/* True where the edge of h stays with the rim of a patch. */
-static inline bool
-mr_dyn_on_rim(const mr_dyn *d, uint32_t h)
-{
-	return d->kind[d->v[h]] == MR_RIM && d->kind[mr_dyn_to(d, h)] == MR_RIM;
-}
-
 /* Twice the area times the unit normal of face f, with the vertices at p. */
 static inline mr_v3
 mr_dyn_cross(const mr_dyn *d, const mr_v3 *p, size_t f)
@@ -163,18 +155,7 @@ mr_v3 mr_dyn_normal_around(const mr_dyn *d, uint32_t v);
 /* The middle of the ends of the half-edges that leave v. */
 mr_v3 mr_dyn_middle_around(const mr_dyn *d, uint32_t v);
 
-/* Takes one out of the numbering, or fills a hole or adds a number; what is there, or belongs there, is the
- * caller's. */
-void mr_dyn_remove_vertex(mr_dyn *d, uint32_t v);
-void mr_dyn_remove_face(mr_dyn *d, uint32_t f);
-void mr_dyn_add_vertex(mr_ctx *ctx, mr_dyn *d, uint32_t *v);
-mr_status mr_dyn_add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f);
-
-/* Makes h, which leaves v, or the boundary half-edge clockwise of it, the one that v keeps. */
-void mr_dyn_keep_out(mr_dyn *d, uint32_t v, uint32_t h);
-
-/* False for the rim of a patch, and where both faces have the same vertices: the middle would be joined twice
- * to the third. */
+/* False where both faces have the same vertices: the middle would be joined twice to the third. */
 bool mr_dyn_can_split(const mr_dyn *d, uint32_t h);
 
 /* Splits the edge of h at position p; *middle is the new vertex, whose place is that of h's start or curve.
@@ -200,9 +181,6 @@ void mr_dyn_flip(mr_dyn *d, uint32_t h);
 /* Room for so many vertices, or faces, as there are at least. */
 void mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room);
 mr_status mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room);
-
-/* A copy in the arena, with no room to spare. */
-void mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *copy);
 
 /* Closes the holes; what is left keeps its order.  Gives room back where a quarter of it is not used. */
 mr_status mr_dyn_compact(mr_ctx *ctx, mr_dyn *d);

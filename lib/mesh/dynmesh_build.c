@@ -147,30 +147,3 @@ mr_dyn_view(const mr_dyn *d, const char *name)
 {
 	return (mr_mesh){ name, d->p, (const mr_tri *)(const void *)d->v, d->nv, d->nf };
 }
-
-/* A copy of n items of that size; NULL stays NULL. */
-static void
-copy_array(mr_ctx *ctx, void *to, const void *from, size_t n, size_t size)
-{
-	void *copy = from ? mr_alloc(ctx, n, size) : NULL;
-
-	if (from)
-		memcpy(copy, from, n * size);
-	memcpy(to, &copy, sizeof copy);
-}
-
-void
-mr_dyn_copy(mr_ctx *ctx, const mr_dyn *d, mr_dyn *c)
-{
-	*c = *d;
-	c->room_v = d->nv;
-	c->room_f = d->nf;
-	copy_array(ctx, &c->p, d->p, d->nv, sizeof *d->p);
-	copy_array(ctx, &c->out, d->out, d->nv, sizeof *d->out);
-	copy_array(ctx, &c->at, d->at, d->nv, sizeof *d->at);
-	copy_array(ctx, &c->kind, d->kind, d->nv, sizeof *d->kind);
-	copy_array(ctx, &c->scale, d->scale, d->nv, sizeof *d->scale);
-	copy_array(ctx, &c->v, d->v, 3 * d->nf, sizeof *d->v);
-	copy_array(ctx, &c->twin, d->twin, 3 * d->nf, sizeof *d->twin);
-	mr_curves_copy(ctx, &d->curves, &c->curves);
-}

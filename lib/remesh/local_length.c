@@ -60,9 +60,3 @@ mr_refine_edge(mr_dyn *d, const mr_remesh_source *s, uint32_t h)
 		*scale = fminf(*scale, most);
 	}
 }
-
-void
-mr_refine_vertex(mr_dyn *d, uint32_t v)
-{
-	d->scale[v] = fmaxf(LEAST, 0.5f * d->scale[v]);
-}

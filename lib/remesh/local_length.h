@@ -19,7 +19,4 @@ void mr_refine_edge(mr_dyn *d, const mr_remesh_source *s, uint32_t h);
 /* Lowers factors until lengths grow by at most half of the way along edges. */
 void mr_refine_grade(mr_dyn *d, const mr_remesh_source *s);
 
-/* Halves the target length at v, to an eighth at least. */
-void mr_refine_vertex(mr_dyn *d, uint32_t v);
-
 #endif

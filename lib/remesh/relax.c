@@ -242,7 +242,6 @@ move_body(void *arg, size_t begin, size_t end)
 			p = mr_project_curve(s->m, s->topo, s->curves, at, curve_move(w, v), &at).point;
 			break;
 		case MR_CORNER:
-		case MR_RIM:
 		case MR_DEAD:
 			break;
 		}

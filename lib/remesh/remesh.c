@@ -6,12 +6,10 @@
 
 #include "base/memory.h"
 #include "base/parallel.h"
-#include "mesh/dynmesh_patch.h"
+#include "mesh/dynmesh.h"
 #include "mesh/fold.h"
 #include "remesh/extremities.h"
 #include "remesh/feature_angle.h"
-#include "remesh/feature_loss.h"
-#include "remesh/flaws.h"
 #include "remesh/flip.h"
 #include "remesh/local_length.h"
 #include "remesh/orientation.h"
@@ -36,7 +34,7 @@ typedef struct remesher {
 	size_t flips, tips;
 	size_t tidied;          /* splits and collapses when neighbours were last brought together */
 	size_t flipped, folded; /* faces and edges, of the result */
-	size_t sharp[2];        /* edges of the input: kept, and lost all the same */
+	size_t sharp;           /* edges of the input */
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 	double seconds_rounds, seconds_areas;
@@ -263,17 +261,15 @@ misses(double excess)
 	return fabs(excess - 1) > 0.05;
 }
 
-static void
-tell_features(const remesher *r, const mr_mesh *m)
+/* The edges within the surface that are kept. */
+static size_t
+count_sharp(const mr_dyn *d)
 {
 	size_t edges = 0;
 
-	for (uint32_t h = 0; h < 3 * r->d.nf; h++)
-		edges += h < r->d.twin[h] && r->d.twin[h] != MR_NONE && mr_dyn_on_curve(&r->d, h);
-	if (r->feature < 180)
-		mr_note(r->ctx, "%s: %zu sharp edges of more than %g degrees", m->name, edges, r->feature);
-	else
-		mr_note(r->ctx, "%s: no sharp edges", m->name);
+	for (uint32_t h = 0; h < 3 * d->nf; h++)
+		edges += h < d->twin[h] && d->twin[h] != MR_NONE && mr_dyn_on_curve(d, h);
+	return edges;
 }
 
 /* The length of edges, before a number that is wanted is seen to. */
@@ -297,8 +293,9 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	if (r->o->feature_auto)
 		mr_feature_angle(r->ctx, m, topo, &r->feature);
 	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->feature, &r->d));
+	r->sharp = count_sharp(&r->d);
 	if (r->o->feature_auto)
-		tell_features(r, m);
+		mr_note(r->ctx, "%s: %zu sharp edges of more than %g degrees", m->name, r->sharp, r->feature);
 	mr_curves_copy(r->ctx, &r->d.curves, &r->curves);
 	if (adaptive > 0) {
 		r->length = MR_NEW(r->ctx, m->nv, double);
@@ -441,110 +438,12 @@ count_flaws(remesher *r, const mr_places *map)
 	r->folded = mr_count_folds(r->ctx, &view, r->d.twin);
 }
 
-static void
-look_at_sharp(remesher *r)
-{
-	mr_feature_loss(r->ctx, &r->d, &r->source, &r->sharp[0], &r->sharp[1]);
-	if (r->sharp[1])
-		mr_found(r->ctx,
-		    &(mr_finding){
-			.kind = MR_LOST, .layer = "base", .what = "sharp edges", .count = r->sharp[1] });
-}
-
 /* The map of the result as it is, without holes, and its flaws. */
 static void
 settle(remesher *r, mr_places *map)
 {
 	map_to_source(r, map);
 	count_flaws(r, map);
-}
-
-static size_t
-flaws_of(const remesher *r)
-{
-	return r->flipped + r->folded;
-}
-
-static void
-count_flawed(const remesher *r, size_t *count)
-{
-	mr_mark mark = mr_mark_take(r->ctx);
-	mr_flaws flaws;
-
-	mr_flaws_find(r->ctx, &r->d, &r->source, true, &flaws, count);
-	mr_mark_release(r->ctx, mark);
-}
-
-/* Finer where it is flawed, and one more round. */
-static mr_status
-refine(remesher *r)
-{
-	if (!r->d.scale)
-		mr_refine_begin(r->ctx, &r->d);
-	mr_refine_flaws(r->ctx, &r->d, &r->source);
-	mr_refine_grade(&r->d, &r->source);
-	MR_TRY(one_round(r, false));
-	return equalize_areas(r);
-}
-
-/* What is around the flaws, as far as finer edges there change anything. */
-static mr_status
-cut_flaws(const remesher *r, mr_patch *patch)
-{
-	enum { RINGS = 3 };
-	const mr_dyn *d = &r->d;
-	uint32_t *corner;
-	size_t count, n = 0;
-	mr_flaws flaws;
-
-	mr_flaws_find(r->ctx, d, &r->source, true, &flaws, &count);
-	corner = MR_NEW(r->ctx, 3 * count, uint32_t);
-	for (size_t h = 0; h < 3 * d->nf; h++)
-		if (flaws.state[h / 3] == MR_SUSPECT)
-			corner[n++] = d->v[h];
-	return mr_patch_cut(r->ctx, d, corner, n, RINGS, patch);
-}
-
-/*
- * The last resort, around the flaws that are left: once as it is, then with edges half as long there, as long
- * as that leaves fewer; the state with the fewest stays, the first of them.  Where the finer edges leave more
- * than MANY times as many, or there are more than are tried, the surface is thinner than they are all over:
- * of 63 such rounds 24 did: nine tenths of all flaws were theirs, and mending them took out a quarter of what
- * all took out.
- */
-static mr_status
-try_again(remesher *r)
-{
-	enum { TRIES = 4, MANY = 8 };
-	remesher part = *r;
-	mr_patch patch;
-	size_t least, left;
-	bool fewer = true;
-	mr_status status = MR_OK;
-
-	MR_TRY(cut_flaws(r, &patch));
-	mr_dyn_copy(r->ctx, &patch.d, &part.d);
-	count_flawed(&part, &least);
-	left = least;
-	for (int i = 0; i < TRIES && (fewer || i == 1) && left > 0; i++) {
-		if (i > 0 && (status = refine(&part)) == MR_ERANGE)
-			break; /* more than may be: what was found stays */
-		MR_TRY(status);
-		count_flawed(&part, &left);
-		if (left > MANY * least || left > mr_mendable(&part.d))
-			break;
-		mr_mend_flaws(r->ctx, &part.d, &part.source, true);
-		count_flawed(&part, &left);
-		fewer = left < least;
-		if (fewer) {
-			least = left;
-			mr_dyn_copy(r->ctx, &part.d, &patch.d);
-		}
-	}
-	r->changes = part.changes;
-	r->flips = part.flips;
-	MR_TRY(mr_patch_paste(r->ctx, &r->d, &patch));
-	return tidy(r);
 }
 
 static mr_remesh_result
@@ -562,8 +461,7 @@ report(const remesher *r)
 		.flipped = r->flipped,
 		.folded = r->folded,
 		.feature = r->feature,
-		.sharp_edges = r->sharp[0],
-		.sharp_lost = r->sharp[1],
+		.sharp_edges = r->sharp,
 		.seconds_rounds = r->seconds_rounds,
 		.seconds_areas = r->seconds_areas };
 }
@@ -582,12 +480,12 @@ remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_
 	MR_TRY(mr_dyn_compact(ctx, &r.d));
 	mark = mr_mark_take(ctx);
 	settle(&r, map);
-	if (flaws_of(&r) > 0 && o->rounds > 0) {
+	if (r.flipped + r.folded > 0 && o->rounds > 0) {
 		mr_mark_release(ctx, mark);
-		MR_TRY(try_again(&r));
+		mr_mend_flaws(ctx, &r.d, &r.source, true);
+		MR_TRY(tidy(&r));
 		settle(&r, map);
 	}
-	look_at_sharp(&r);
 	if (misses(excess(&r)))
 		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
 				  .layer = "base",

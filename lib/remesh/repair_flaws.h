@@ -7,13 +7,6 @@
 #include "remesh/relax.h"
 
 /*
- * How many flawed faces are tried: one of 16, and a thousand more.  Real models have less than one in 400, or
- * a few, while the tip of a spike, far off and thinner than its edges all the way, has half of all faces
- * flawed and takes minutes, for nothing.
- */
-size_t mr_mendable(const mr_dyn *d);
-
-/*
  * Around every flipped face (remesh/orientation.h) and every fold (mesh/fold.h): moves a vertex, on the
  * surface where it can be, flips an edge or merges two vertices, the first that leaves fewer of both there;
  * until nothing does, 8 times at most, then with worse shapes allowed.  Needles are made only when all else
@@ -21,8 +14,5 @@ size_t mr_mendable(const mr_dyn *d);
  * a boundary or curve merged along it.
  */
 void mr_mend_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, bool last);
-
-/* Halves the target length around what is flawed; d->scale is there. */
-void mr_refine_flaws(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s);
 
 #endif

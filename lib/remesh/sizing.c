@@ -110,7 +110,6 @@ largest_curvature(const mr_dyn *d, const sums *s, uint32_t v)
 	case MR_CURVE:
 		return curvature_along(d, v);
 	case MR_CORNER:
-	case MR_RIM:
 	case MR_DEAD:
 		break;
 	}

@@ -28,7 +28,7 @@ sed 's/ \.02$/ .005/' plate.off >thin.off && mr-import thin.off | mr-remesh -L .
 echo 'the sharp edges of a cube are found and kept, a sphere has none'
 for shape in cube sphere; do
 	mr-make $shape -n 3000 | mr-remesh --feature auto -v --stats stats.json 2>err >/dev/null && sed 's/.*): //' err | grep sharp
-	echo "$(figure feature stats.json) $(figure sharp_edges stats.json) $(figure sharp_lost stats.json)"
+	echo "$(figure feature stats.json) $(figure sharp_edges stats.json)"
 done
 echo 'as many as are wanted'
 for n in '--vertices 2000' '--faces 10000' '--vertices 5000 --adaptive 0.2%'; do

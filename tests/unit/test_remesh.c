@@ -1,6 +1,5 @@
 /* Laws of remeshing: topology, regularity, the source map, and the operations it is made of. */
 #include "op/voronoi_area.h"
-#include "remesh/feature_loss.h"
 #include "remesh/remesh.h"
 #include "remesh_scene.h"
 
@@ -252,32 +251,10 @@ sharp_edges_are_found_where_there_are_any(void **state)
 		assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, &result), MR_OK);
 		assert_true(shapes[i].sharp == (result.feature < 180));
 		assert_true(shapes[i].sharp == (result.sharp_edges > 0));
-		assert_int_equal(result.sharp_lost, 0);
 		if (shapes[i].sharp)
 			assert_true(fabs(mr_mesh_area(&ctx, &r) / mr_mesh_area(&ctx, &m) - 1) < 0.002);
 		mr_ctx_free(&ctx);
 	}
-}
-
-static void
-sharp_edges_that_are_gone_are_counted(void **state)
-{
-	size_t edges, lost;
-	scene x;
-
-	(void)state;
-	set_up(&x, shape(MR_CUBE, 1000), 40);
-	mr_feature_loss(&ctx, &x.d, &x.s, &edges, &lost);
-	assert_true(edges > 100 && lost == 0);
-	for (uint32_t h = 0; h < 3 * x.d.nf; h++)
-		if (x.d.p[x.d.v[h]].x < 0 && x.d.p[mr_dyn_to(&x.d, h)].x < 0)
-			mr_curves_set(&x.d.curves, h, MR_NONE);
-	mr_feature_loss(&ctx, &x.d, &x.s, &edges, &lost);
-	assert_true(lost > edges / 3 && lost < 2 * edges / 3);
-	for (uint32_t h = 0; h < 3 * x.d.nf; h++)
-		mr_curves_set(&x.d.curves, h, MR_NONE);
-	mr_feature_loss(&ctx, &x.d, &x.s, &edges, &lost);
-	assert_int_equal(lost, edges);
 }
 
 /* A block, 6 by 6 by 6, whose upright edges are rounded by a radius of 0.5 in 12 steps. */
@@ -304,8 +281,7 @@ rounded_block(void)
 	return (mr_mesh){ "block", p, t, 2 * N + 2, 4 * N };
 }
 
-/* Roundings smaller than an edge are followed: no sharp edge is gone, and edges are as long as ever
- * elsewhere. */
+/* Roundings smaller than an edge are followed, and edges are as long as ever elsewhere. */
 static void
 curves_are_followed_around_small_roundings(void **state)
 {
@@ -319,7 +295,6 @@ curves_are_followed_around_small_roundings(void **state)
 		o.feature = 40;
 		assert_int_equal(mr_remesh(&ctx, &m, &o, &out, &map, &result), MR_OK);
 		assert_int_equal(result.sharp_edges, 104);
-		assert_int_equal(result.sharp_lost, 0);
 		assert_true((double)out.nf < 10 * mr_mesh_area(&ctx, &m) / (length * length));
 		mr_ctx_free(&ctx);
 	}
@@ -572,7 +547,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, setup, teardown),
 		cmocka_unit_test_setup_teardown(sharp_edges_are_found_where_there_are_any, setup, teardown),
-		cmocka_unit_test_setup_teardown(sharp_edges_that_are_gone_are_counted, setup, teardown),
 		cmocka_unit_test_setup_teardown(curves_are_followed_around_small_roundings, setup, teardown),
 		cmocka_unit_test_setup_teardown(as_many_as_are_wanted, setup, teardown),
 		cmocka_unit_test_setup_teardown(boundary_loops_are_not_crushed, setup, teardown),
