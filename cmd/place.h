@@ -6,7 +6,7 @@
 #ifndef PLACE_H
 #define PLACE_H
 
-#include "base/string_set.h"
+#include "base/name_table.h"
 
 /* The name of standard input, or output. */
 static inline bool

@@ -158,23 +158,22 @@ unmarked(const mr_builder *b, mr_marking what)
 }
 
 /* The faces so far are not marked, for which there is a name, too. */
-static mr_status
+static void
 start_marks(mr_builder *b, mr_marking what)
 {
 	const char *none = unmarked(b, what);
 	mr_marks *k = &b->marks[what];
 
 	if (k->used)
-		return MR_OK;
+		return;
 	MR_RESERVE(b->ctx, k->of, 0, b->corner_room / 3 + b->faces + 64, &k->room);
 	if (b->faces) {
 		if (what != MR_SMOOTHING)
-			MR_TRY(mr_name_number(b->ctx, &k->names, none, strlen(none), &k->current));
+			k->current = mr_name_number(b->ctx, &k->names, none, strlen(none));
 		memset(k->of, 0, b->faces * sizeof *k->of);
 	}
 	k->used = true;
 	b->plain = false;
-	return MR_OK;
 }
 
 /* The name without blanks around it; where nothing is left, that of faces without a mark. */
@@ -196,18 +195,17 @@ mr_status
 mr_build_library(mr_builder *b, const char *name, size_t bytes)
 {
 	mr_lines bare = bare_name(b, MR_MATERIAL, name, bytes);
-	uint32_t number;
 
 	if (bare.bytes == 0)
 		return MR_OK;
 	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
 	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
-	return mr_name_number(b->ctx, &b->libraries, b->clean, bytes, &number);
+	mr_name_number(b->ctx, &b->libraries, b->clean, bytes);
+	return MR_OK;
 }
 
 /* How a name gets its number. */
-typedef mr_status
-number_name(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number);
+typedef uint32_t number_name(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes);
 
 static mr_status
 mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, number_name *number)
@@ -215,10 +213,11 @@ mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, number_name
 	mr_lines bare = bare_name(b, what, name, bytes);
 	mr_marks *k = &b->marks[what];
 
-	MR_TRY(start_marks(b, what));
+	start_marks(b, what);
 	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
 	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
-	return number(b->ctx, &k->names, b->clean, bytes, &k->current);
+	k->current = number(b->ctx, &k->names, b->clean, bytes);
+	return MR_OK;
 }
 
 mr_status
@@ -233,12 +232,11 @@ mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes
 	return mark(b, what, name, bytes, mr_name_add);
 }
 
-mr_status
+void
 mr_build_smoothing(mr_builder *b, uint32_t group)
 {
-	MR_TRY(start_marks(b, MR_SMOOTHING));
+	start_marks(b, MR_SMOOTHING);
 	b->marks[MR_SMOOTHING].current = group;
-	return MR_OK;
 }
 
 /* ---- properties ---- */

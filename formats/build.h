@@ -70,7 +70,7 @@ mr_status mr_build_library(mr_builder *b, const char *name, size_t bytes) MR_WAR
 mr_status mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
 
 /* The faces to come are of this smoothing group. */
-mr_status mr_build_smoothing(mr_builder *b, uint32_t group) MR_WARN_UNUSED;
+void mr_build_smoothing(mr_builder *b, uint32_t group);
 
 /*
  * A property under its name, of a type of PLY; those of vertices come before those of faces.  number: from 1.

@@ -327,8 +327,10 @@ smoothing(obj *o, mr_scan *line)
 
 	for (; p < line->end && mr_is_digit(*p) && group <= UINT32_MAX; p++)
 		group = 10 * group + (uint64_t)(*p - '0');
-	if (p > line->p ? group <= UINT32_MAX && (p == line->end || mr_is_blank(*p)) : begins(line, "off"))
-		return mr_build_smoothing(&o->b, (uint32_t)group);
+	if (p > line->p ? group <= UINT32_MAX && (p == line->end || mr_is_blank(*p)) : begins(line, "off")) {
+		mr_build_smoothing(&o->b, (uint32_t)group);
+		return MR_OK;
+	}
 	o->others++;
 	return MR_OK;
 }

@@ -3,7 +3,7 @@
 #ifndef MR_OUTNAME_H
 #define MR_OUTNAME_H
 
-#include "base/string_set.h"
+#include "base/name_table.h"
 
 /* The name for a frame, in the arena; no folder is read out of the frame's name.  MR_EUSAGE where the pattern
  * has another % in it. */

@@ -76,7 +76,7 @@ put_face(const output *w, size_t face)
 		mr_end_row(w->s);
 }
 
-static mr_status
+static void
 put(mr_sink *s, const mr_model *m, bool text)
 {
 	output w = { .s = s, .m = m, .text = text };
@@ -101,17 +101,18 @@ put(mr_sink *s, const mr_model *m, bool text)
 	}
 	for (size_t i = 0; i < w.faces.count; i++)
 		put_face(&w, i);
-	return MR_OK;
 }
 
 mr_status
 mr_ply_write(mr_sink *s, const mr_model *m)
 {
-	return put(s, m, false);
+	put(s, m, false);
+	return MR_OK;
 }
 
 mr_status
 mr_ply_write_ascii(mr_sink *s, const mr_model *m)
 {
-	return put(s, m, true);
+	put(s, m, true);
+	return MR_OK;
 }

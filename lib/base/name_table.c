@@ -57,29 +57,46 @@ widen_slots(mr_ctx *ctx, mr_name_table *n)
 		put_in_slot(n, i);
 }
 
-mr_status
-mr_name_add(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number)
+uint32_t
+mr_name_add(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes)
 {
+	uint32_t number = (uint32_t)n->count;
+
 	if (2 * n->count >= n->slots)
 		widen_slots(ctx, n);
 	MR_RESERVE(ctx, n->text, n->bytes, bytes + 1, &n->room);
 	MR_RESERVE(ctx, n->start, n->count, 1, &n->start_room);
 	memcpy(n->text + n->bytes, name, bytes);
 	n->text[n->bytes + bytes] = '\n';
-	n->start[n->count] = n->bytes;
+	n->start[n->count++] = n->bytes;
 	n->bytes += bytes + 1;
-	*number = (uint32_t)n->count++;
-	put_in_slot(n, *number);
-	return MR_OK;
+	put_in_slot(n, number);
+	return number;
 }
 
-mr_status
-mr_name_number(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number)
+uint32_t
+mr_name_number(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes)
 {
 	uint32_t found = n->count ? *find_slot(n, name, bytes) : 0;
 
-	if (found == 0)
-		return mr_name_add(ctx, n, name, bytes, number);
-	*number = found - 1;
-	return MR_OK;
+	return found ? found - 1 : mr_name_add(ctx, n, name, bytes);
+}
+
+void
+mr_string_set_free(mr_string_set *set)
+{
+	mr_ctx_free(&set->keep);
+	*set = (mr_string_set){ 0 };
+}
+
+bool
+mr_string_set_has(const mr_string_set *set, const char *text)
+{
+	return set->names.count && *find_slot(&set->names, text, strlen(text));
+}
+
+void
+mr_string_set_add(mr_ctx *ctx, mr_string_set *set, const char *text)
+{
+	mr_name_number(mr_keep(ctx, &set->keep), &set->names, text, strlen(text));
 }

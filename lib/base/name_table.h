@@ -17,11 +17,19 @@ typedef struct mr_name_table {
 size_t mr_name_length(const mr_name_table *n, size_t i);
 
 /* The number of the first that is called so; a new one where none is. */
-mr_status mr_name_number(
-    mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number) MR_WARN_UNUSED;
+uint32_t mr_name_number(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes);
 
 /* A new one, though there may be others that are called so. */
-mr_status
-mr_name_add(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes, uint32_t *number) MR_WARN_UNUSED;
+uint32_t mr_name_add(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes);
+
+/* Strings, each but once, that outlive the call.  Starts zeroed. */
+typedef struct mr_string_set {
+	mr_ctx keep;
+	mr_name_table names;
+} mr_string_set;
+
+void mr_string_set_free(mr_string_set *set);
+bool mr_string_set_has(const mr_string_set *set, const char *text);
+void mr_string_set_add(mr_ctx *ctx, mr_string_set *set, const char *text);
 
 #endif

@@ -61,7 +61,7 @@ all_have(const joined *j)
 /* ---- text ---- */
 
 /* number: of each line of the text among those of all frames; in the arena. */
-static mr_status
+static void
 add_lines(mr_ctx *ctx, mr_name_table *all, const char *text, size_t bytes, uint32_t **number, size_t *count)
 {
 	const char *end = text + bytes;
@@ -72,10 +72,9 @@ add_lines(mr_ctx *ctx, mr_name_table *all, const char *text, size_t bytes, uint3
 		const char *stop = memchr(text, '\n', (size_t)(end - text));
 		size_t n = (size_t)((stop ? stop : end) - text);
 		MR_RESERVE(ctx, *number, *count, 1, &room);
-		MR_TRY(mr_name_number(ctx, all, text, n, &(*number)[*count]));
+		(*number)[*count] = mr_name_number(ctx, all, text, n);
 		text += n + 1;
 	}
-	return MR_OK;
 }
 
 /* Texts of no row: lines of all. */
@@ -91,7 +90,7 @@ join_text(mr_ctx *ctx, const joined *j, mr_frame *out)
 		if (mr_layer_has(j->frames[i], j->layer, j->name)) {
 			MR_TRY(mr_frame_get(
 			    ctx, j->frames[i], j->layer, j->name, j->first->shape, &text, &bytes));
-			MR_TRY(add_lines(ctx, &l, text, bytes, &number, &count));
+			add_lines(ctx, &l, text, bytes, &number, &count);
 		}
 	return mr_frame_put(ctx, out, j->layer, j->name, j->first->shape, l.text, l.bytes - (l.bytes > 0));
 }
@@ -147,7 +146,7 @@ follow_names(mr_ctx *ctx, const joined *j, size_t i, const char *names, uint32_t
 	if (!mr_layer_has(j->frames[i], j->layer, names))
 		return MR_OK;
 	MR_TRY(mr_layer_get(ctx, j->frames[i], j->layer, names, &text, &bytes));
-	MR_TRY(add_lines(ctx, &w->names, text, bytes, &number, &count));
+	add_lines(ctx, &w->names, text, bytes, &number, &count);
 	for (size_t k = 0; k < n; k++) {
 		if (x[k] >= count)
 			return mr_fail(ctx, MR_ERANGE, "%s: row %zu of %s is %u of %zu", j->layer, k, j->name,
