@@ -53,9 +53,10 @@ label_vertices(mr_ctx *ctx, const mr_mesh *mesh, const mr_incidence *mesh_inc, c
 }
 
 typedef struct walker {
+	const mr_correspondence *c;
 	const mr_mesh *mesh, *lifted;
 	const mr_incidence *inc;
-	const uint32_t *label;
+	const bool *stands;
 	uint32_t *face;
 	mr_v3 *bary;
 	double *dist2; /* from there to the vertex */
@@ -145,10 +146,15 @@ walk_piece(void *arg, size_t begin, size_t end)
 	const walker *w = arg;
 
 	for (size_t i = begin; i < end; i++) {
-		w->face[i] = MR_NONE;
-		if (w->label[i] != MR_NONE) {
-			mr_closest c = walk(w, w->label[i], w->mesh->p[i]);
+		uint32_t label = w->c->label[i];
+		if (w->stands[i]) {
+			mr_v3 at = mr_place_point(w->lifted, (mr_place){ w->face[i], w->bary[i] });
+			w->dist2[i] = mr_norm2(mr_sub(at, w->mesh->p[i]));
+		} else if (label != MR_NONE) {
+			mr_closest c = walk(w, label, w->mesh->p[i]);
 			stand(w, i, &c);
+		} else {
+			w->face[i] = MR_NONE;
 		}
 	}
 }
@@ -169,7 +175,7 @@ improve(const walker *w, uint32_t i, uint32_t neighbour)
 	uint32_t face = w->face[neighbour];
 	mr_closest c;
 
-	if (!(w->dist2[neighbour] < w->dist2[i]) || face == w->face[i] ||
+	if (w->stands[i] || !(w->dist2[neighbour] < w->dist2[i]) || face == w->face[i] ||
 	    !may_be_nearer(w, face, w->mesh->p[i], nearer(w, i)))
 		return false;
 	c = mr_face_closest(w->lifted, face, w->mesh->p[i]);
@@ -182,6 +188,17 @@ improve(const walker *w, uint32_t i, uint32_t neighbour)
 	return true;
 }
 
+/* Whether a neighbour does not stand yet. */
+static bool
+has_other(const walker *w, const mr_incidence *inc, uint32_t u)
+{
+	for (size_t i = inc->start[u]; i < inc->start[u + 1]; i++)
+		for (int k = 0; k < 3; k++)
+			if (!w->stands[w->mesh->t[inc->face[i]].v[k]])
+				return true;
+	return false;
+}
+
 /*
  * A walk downhill ends where every step leads away: on the underside of a plate below the vertex, say, if it
  * began there.  So vertices follow their neighbours that stand nearer, until none comes nearer.
@@ -189,14 +206,15 @@ improve(const walker *w, uint32_t i, uint32_t neighbour)
 static void
 follow_neighbours(mr_ctx *ctx, const walker *w, const mr_incidence *inc)
 {
-	size_t n = w->mesh->nv, waiting = n;
+	size_t n = w->mesh->nv, waiting = 0;
 	uint32_t *queue = MR_NEW(ctx, n, uint32_t); /* a ring of those whose neighbours are to follow */
-	bool *queued = MR_NEW(ctx, n, bool);
+	bool *queued = MR_NEW_ZERO(ctx, n, bool);
 
-	for (uint32_t i = 0; i < n; i++) {
-		queue[i] = i;
-		queued[i] = true;
-	}
+	for (uint32_t i = 0; i < n; i++)
+		if (!w->stands[i] || has_other(w, inc, i)) {
+			queue[waiting++] = i;
+			queued[i] = true;
+		}
 	for (size_t first = 0; waiting > 0; first = (first + 1) % n, waiting--) {
 		uint32_t u = queue[first];
 		queued[u] = false;
@@ -211,25 +229,44 @@ follow_neighbours(mr_ctx *ctx, const walker *w, const mr_incidence *inc)
 	}
 }
 
-mr_status
+void
 mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_incidence *inc,
-    const mr_places *source, uint32_t *face, mr_v3 *bary)
+    const mr_places *source, mr_correspondence *c)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	uint32_t *label = MR_NEW(ctx, mesh->nv, uint32_t);
 	mr_v3 *on_mesh = MR_NEW(ctx, base->nv, mr_v3);
-	double *dist2 = MR_NEW(ctx, mesh->nv, double);
-	mr_mesh lifted = *base;
-	walker w = { mesh, &lifted, inc, label, face, bary, dist2 };
-	mr_incidence mesh_inc;
 
-	MR_TRY(mr_incidence_build(ctx, mesh, &mesh_inc));
+	*c = (mr_correspondence){
+		.mesh = mesh, .lifted = *base, .inc = inc, .label = MR_NEW(ctx, mesh->nv, uint32_t)
+	};
+	mr_incidence_build(ctx, mesh, &c->mesh_inc);
 	for (size_t j = 0; j < base->nv; j++)
 		on_mesh[j] = mr_place_point(mesh, mr_places_at(source, j));
-	lifted.p = on_mesh;
-	label_vertices(ctx, mesh, &mesh_inc, &lifted, inc, source, label);
-	mr_parallel(ctx, mesh->nv, 1024, walk_piece, &w);
-	follow_neighbours(ctx, &w, &mesh_inc);
+	c->lifted.p = on_mesh;
+	label_vertices(ctx, mesh, &c->mesh_inc, &c->lifted, inc, source, c->label);
+}
+
+mr_place
+mr_correspond_near(const mr_correspondence *c, size_t i)
+{
+	uint32_t v = c->label[i];
+	mr_place at = { MR_NONE, { 0, 0, 0 } };
+	const uint32_t *corner;
+
+	if (v == MR_NONE)
+		return at;
+	at.face = c->inc->face[c->inc->start[v]];
+	corner = c->lifted.t[at.face].v;
+	at.bary = mr_vec(corner[0] == v, corner[0] != v && corner[1] == v, corner[0] != v && corner[1] != v);
+	return at;
+}
+
+void
+mr_correspond_rest(mr_ctx *ctx, const mr_correspondence *c, const bool *stands, uint32_t *face, mr_v3 *bary)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	walker w = { c, c->mesh, &c->lifted, c->inc, stands, face, bary, MR_NEW(ctx, c->mesh->nv, double) };
+
+	mr_parallel(ctx, c->mesh->nv, 1024, walk_piece, &w);
+	follow_neighbours(ctx, &w, &c->mesh_inc);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

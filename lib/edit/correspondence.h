@@ -7,14 +7,28 @@
 
 #include "mesh/mesh.h"
 
+typedef struct mr_correspondence {
+	const mr_mesh *mesh;
+	mr_mesh lifted; /* the base with its vertices where the source map has them on the mesh */
+	const mr_incidence *inc;
+	mr_incidence mesh_inc;
+	uint32_t *
+	    label; /* of each vertex of the mesh, a vertex of the base that is near on the mesh, or MR_NONE */
+} mr_correspondence;
+
+/* inc: of the base.  In the arena. */
+void mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_incidence *inc,
+    const mr_places *source, mr_correspondence *c);
+
+/* The place of the base vertex that is near vertex i on the mesh; face MR_NONE without any. */
+mr_place mr_correspond_near(const mr_correspondence *c, size_t i);
+
 /*
- * The base with its vertices where the source map has them on the mesh is a second surface close to the mesh:
- * a vertex stands at its nearest place there, met by a walk from the base vertex that lies nearest to it on
- * the mesh. So neighbours stand side by side, and no vertex on another sheet, however close that is.  Face
- * MR_NONE where the map reaches nothing of a vertex's component.  inc: of the base.  at: as many as mesh has
- * vertices, the caller's.
+ * Places for the vertices that do not stand yet: the nearest on the lifted base, met by a walk from the base
+ * vertex near it or from where a neighbour stands, so that neighbours stand side by side, and no vertex on
+ * another sheet, however close that is.  face, bary: the caller's; those that stand have theirs.
  */
-mr_status mr_correspond(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_incidence *inc,
-    const mr_places *source, uint32_t *face, mr_v3 *bary);
+void
+mr_correspond_rest(mr_ctx *ctx, const mr_correspondence *c, const bool *stands, uint32_t *face, mr_v3 *bary);
 
 #endif

@@ -7,9 +7,8 @@
 #include "edit/phong_projection.h"
 #include "edit/turns.h"
 #include "space/bvh.h"
-#include "space/thickness.h"
 
-enum { GRAIN = 1024 };
+enum { GRAIN = 1024, LOOKS = 16 };
 
 /* o in the frame there */
 static mr_v3
@@ -46,34 +45,17 @@ typedef struct tally {
 typedef struct encoder {
 	mr_ground ground;
 	const mr_mesh *mesh;
-	const mr_bvh *bvh; /* of the base, where the source map reaches nothing */
-	mr_foot *foot;     /* that may be sound; else its face is MR_NONE */
-	bool *sound;       /* that are */
-	double *thickness; /* of the base, a vertex: as far as feet ask for it */
+	const mr_correspondence *map; /* NULL without a source map, and for all that it reaches nothing of: */
+	const mr_bvh *bvh;            /* of the base */
+	const mr_v3 *normal;          /* of mesh, of any length; NULL where it has no faces */
+	mr_foot *foot;
+	mr_v3 *stand; /* the feet's points */
+	bool *sound;  /* the feet are */
 	uint32_t *face;
 	mr_v3 *bary, *offset;
 	double *height;
 	tally *tally; /* one per piece */
 } encoder;
-
-static double
-thickness_at(const encoder *e, mr_place at)
-{
-	const uint32_t *v = e->ground.surface.m->t[at.face].v;
-
-	return at.bary.x * e->thickness[v[0]] + at.bary.y * e->thickness[v[1]] +
-	       at.bary.z * e->thickness[v[2]];
-}
-
-/*
- * A height is sound below the base's radius of curvature and its thickness.  Beyond, the normals on the way
- * meet or pass through another sheet, and any motion of the base tears the heights apart.
- */
-static bool
-below_curvature(const encoder *e, const mr_foot *foot)
-{
-	return fabs(foot->height) * mr_phong_curvature(&e->ground.surface, foot->at) < 1;
-}
 
 /* The full offset from the place where a vertex stands, for want of a sound height. */
 static void
@@ -91,107 +73,167 @@ keep_offset(const encoder *e, size_t i, mr_place at)
 static void
 keep_height(const encoder *e, size_t i, const mr_foot *foot)
 {
-	e->offset[i] = mr_vec(0, 0, 0);
 	e->face[i] = foot->at.face;
 	e->bary[i] = foot->at.bary;
 	e->height[i] = foot->height;
 }
 
+/*
+ * A height is sound below the base's radius of curvature: beyond, the normals on the way meet, and any motion
+ * of the base tears the heights apart.
+ */
+static bool
+is_sound(const encoder *e, const mr_foot *foot)
+{
+	return fabs(foot->height) * mr_phong_curvature(&e->ground.surface, foot->at) < 1;
+}
+
+/* Whether the foot is on a sheet that faces as mesh does. */
+static bool
+faces_alike(const encoder *e, size_t i, const mr_foot *foot)
+{
+	return !e->normal || mr_dot(e->normal[i], mr_phong_normal(&e->ground.surface, foot->at)) > 0;
+}
+
 /* A foot may be a little higher than the place where the vertex stands. */
 static bool
-find_foot(const encoder *e, mr_v3 p, mr_place start, mr_foot *foot, tally *t)
+walk_to_foot(const encoder *e, size_t i, mr_place start, tally *t)
 {
+	mr_v3 p = e->mesh->p[i];
 	double limit = 1.1 * mr_dist(p, mr_phong_point(&e->ground.surface, start)) + e->ground.tolerance;
 	mr_walk walk = { 0, 0 };
-	bool found = mr_foot_walk(&e->ground, p, start, limit, foot, &walk);
+	bool found = mr_foot_walk(&e->ground, p, start, limit, &e->foot[i], &walk);
 
 	t->steps += walk.steps;
 	t->crossed += walk.crossed;
-	t->searched += !found;
-	return found || mr_foot_search(&e->ground, p, start.face, foot);
+	return found;
 }
 
+static void
+settle(const encoder *e, size_t i, bool sound)
+{
+	e->sound[i] = sound;
+	if (sound)
+		e->stand[i] = mr_phong_point(&e->ground.surface, e->foot[i].at);
+}
+
+/* From the base vertex near by on the mesh. */
+static void
+find_easy_feet(void *arg, size_t begin, size_t end)
+{
+	const encoder *e = arg;
+	tally *t = &e->tally[begin / GRAIN];
+
+	for (size_t i = begin; i < end; i++) {
+		mr_place near = mr_correspond_near(e->map, i);
+		settle(e, i,
+		    near.face != MR_NONE && walk_to_foot(e, i, near, t) && is_sound(e, &e->foot[i]) &&
+			faces_alike(e, i, &e->foot[i]));
+		if (e->sound[i]) {
+			e->face[i] = e->foot[i].at.face;
+			e->bary[i] = e->foot[i].at.bary;
+		}
+	}
+}
+
+/* From the place where a vertex stands, and where that leads nowhere by a search of the sheet. */
 static void
 find_feet(void *arg, size_t begin, size_t end)
 {
 	const encoder *e = arg;
-	tally t = { 0 };
+	tally *t = &e->tally[begin / GRAIN];
 
 	for (size_t i = begin; i < end; i++) {
-		mr_v3 p = e->mesh->p[i];
+		bool found;
+		if (e->sound[i])
+			continue;
 		if (e->face[i] == MR_NONE) {
-			mr_place at = mr_bvh_closest(e->bvh, p).at;
+			mr_place at = mr_bvh_closest(e->bvh, e->mesh->p[i]).at;
 			e->face[i] = at.face;
 			e->bary[i] = at.bary;
 		}
-		if (!find_foot(e, p, (mr_place){ e->face[i], e->bary[i] }, &e->foot[i], &t) ||
-		    !below_curvature(e, &e->foot[i]))
-			e->foot[i].at.face = MR_NONE;
+		found = walk_to_foot(e, i, (mr_place){ e->face[i], e->bary[i] }, t);
+		t->searched += !found;
+		settle(e, i,
+		    (found || mr_foot_search(&e->ground, e->mesh->p[i], e->face[i], &e->foot[i])) &&
+			is_sound(e, &e->foot[i]));
 	}
-	e->tally[begin / GRAIN] = t;
 }
 
-/* Asks for the thickness that the corners of a foot's face have, as far as that matters. */
+/* Vertices side by side on mesh whose feet are far apart, as on another sheet, have none that are sound. */
 static void
-ask(const encoder *e, const mr_foot *foot, double most)
+part_far_feet(const encoder *e)
 {
-	const uint32_t *v = e->ground.surface.m->t[foot->at.face].v;
+	const double far2 = 16;
+	const mr_mesh *m = e->mesh;
 
-	for (int k = 0; k < 3; k++)
-		e->thickness[v[k]] = fmax(e->thickness[v[k]], most);
-}
-
-static double
-longest_side(const mr_mesh *m, uint32_t f)
-{
-	double longest = 0;
-
-	for (uint32_t h = 3 * f; h < 3 * f + 3; h++)
-		longest = fmax(longest, mr_dist(m->p[mr_he_from(m, h)], m->p[mr_he_to(m, h)]));
-	return longest;
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++) {
+			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
+			if (a > b || !e->sound[a] || !e->sound[b] ||
+			    !(mr_norm2(mr_sub(e->stand[a], e->stand[b])) >
+				far2 * mr_norm2(mr_sub(m->p[a], m->p[b]))))
+				continue;
+			e->sound[a] = e->sound[b] = false;
+		}
 }
 
 static bool
-all_corners_are_thicker(const encoder *e, const mr_foot *foot)
+all_sound(const encoder *e)
 {
-	const uint32_t *v = e->ground.surface.m->t[foot->at.face].v;
-	double least = fmin(e->thickness[v[0]], fmin(e->thickness[v[1]], e->thickness[v[2]]));
-
-	return fabs(foot->height) < least;
+	for (size_t i = 0; i < e->mesh->nv; i++)
+		if (!e->sound[i])
+			return false;
+	return true;
 }
 
-/*
- * Tells which feet are sound.  Where all corners of a face are thicker than the height over it, so is the
- * face: rays need be no longer than that.  For the few that this leaves they are longer by the face's longest
- * side: where one corner is thicker than that, all are thicker than the height.
- */
-static void
-find_sound(mr_ctx *ctx, const encoder *e, const mr_sounding *base)
+/* Normals of the mesh, as its faces' areas add up. */
+static const mr_v3 *
+mesh_normals(mr_ctx *ctx, const mr_mesh *m)
 {
-	const double enough = 1.001;
-	const double least = mr_mesh_tolerance(base->m, MR_RAY_BEGINS);
-	size_t left = 0;
+	mr_v3 *sum = m->nf ? MR_NEW_ZERO(ctx, m->nv, mr_v3) : NULL;
 
-	memset(e->thickness, 0, base->m->nv * sizeof *e->thickness);
-	for (size_t i = 0; i < e->mesh->nv; i++)
-		if (e->foot[i].at.face != MR_NONE)
-			ask(e, &e->foot[i], enough * fabs(e->foot[i].height) + least);
-	mr_thickness(ctx, base, e->thickness);
-	for (size_t i = 0; i < e->mesh->nv; i++) {
-		e->sound[i] = e->foot[i].at.face != MR_NONE && all_corners_are_thicker(e, &e->foot[i]);
-		left += e->foot[i].at.face != MR_NONE && !e->sound[i];
+	for (size_t f = 0; f < m->nf; f++) {
+		mr_v3 n = mr_face_cross(m, f);
+		for (int k = 0; k < 3; k++)
+			sum[m->t[f].v[k]] = mr_add(sum[m->t[f].v[k]], n);
 	}
-	if (left == 0)
-		return;
-	memset(e->thickness, 0, base->m->nv * sizeof *e->thickness);
+	return sum;
+}
+
+static bool
+any_astray(const encoder *e)
+{
 	for (size_t i = 0; i < e->mesh->nv; i++)
-		if (e->foot[i].at.face != MR_NONE && !e->sound[i])
-			ask(e, &e->foot[i],
-			    enough * (fabs(e->foot[i].height) + longest_side(base->m, e->foot[i].at.face)));
-	mr_thickness(ctx, base, e->thickness);
-	for (size_t i = 0; i < e->mesh->nv; i++)
-		if (e->foot[i].at.face != MR_NONE && !e->sound[i])
-			e->sound[i] = fabs(e->foot[i].height) < thickness_at(e, e->foot[i].at);
+		if (!e->sound[i] && e->face[i] == MR_NONE)
+			return true;
+	return false;
+}
+
+static void
+find_all_feet(mr_ctx *ctx, const mr_places *source, encoder *e)
+{
+	size_t n = e->mesh->nv;
+	mr_correspondence map;
+	mr_bvh *bvh;
+
+	memset(e->face, 0xff, n * sizeof *e->face);
+	if (source) {
+		mr_correspond(ctx, e->mesh, e->ground.surface.m, e->ground.inc, source, &map);
+		e->map = &map;
+		e->normal = mesh_normals(ctx, e->mesh);
+		mr_parallel(ctx, n, GRAIN, find_easy_feet, e);
+		part_far_feet(e);
+		if (all_sound(e))
+			return;
+		mr_correspond_rest(ctx, &map, e->sound, e->face, e->bary);
+	}
+	if (any_astray(e)) {
+		mr_bvh_build(ctx, e->ground.surface.m, &bvh);
+		e->bvh = bvh;
+	}
+	mr_parallel(ctx, n, GRAIN, find_feet, e);
+	part_far_feet(e);
 }
 
 static void
@@ -200,16 +242,20 @@ keep_piece(void *arg, size_t begin, size_t end)
 	const encoder *e = arg;
 	mr_detail d = { e->mesh->nv, { e->face, e->bary }, e->height, e->offset, NULL, NULL };
 	tally *t = &e->tally[begin / GRAIN];
+	double off;
 
 	for (size_t i = begin; i < end; i++) {
 		if (e->sound[i]) {
 			keep_height(e, i, &e->foot[i]);
+			t->height = fmax(t->height, fabs(e->height[i]));
 		} else {
 			keep_offset(e, i, (mr_place){ e->face[i], e->bary[i] });
 			t->offsets++;
 		}
-		t->residual = fmax(t->residual, mr_dist(displaced(&e->ground.surface, &d, i), e->mesh->p[i]));
-		t->height = fmax(t->height, fabs(e->height[i]));
+		if (e->sound[i] && i % LOOKS != 0)
+			continue;
+		off = mr_dist(displaced(&e->ground.surface, &d, i), e->mesh->p[i]);
+		t->residual = off > t->residual ? off : t->residual;
 	}
 }
 
@@ -237,52 +283,36 @@ report(const encoder *e, double diagonal)
 		.height_max = diagonal > 0 ? sum.height / diagonal : 0 };
 }
 
-static bool
-any_offset(const encoder *e)
-{
-	for (size_t i = 0; i < e->mesh->nv; i += GRAIN)
-		if (e->tally[i / GRAIN].offsets)
-			return true;
-	return false;
-}
-
 mr_status
 mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places *source, mr_detail *d,
     mr_encode_result *result)
 {
 	size_t n = mesh->nv;
-	double diagonal = mr_mesh_diagonal(mesh);
 	encoder e = { .mesh = mesh,
 		.face = MR_NEW(ctx, n, uint32_t),
 		.bary = MR_NEW(ctx, n, mr_v3),
-		.offset = MR_NEW(ctx, n, mr_v3),
+		.offset = MR_NEW_ZERO(ctx, n, mr_v3),
 		.height = MR_NEW(ctx, n, double) };
 	mr_mark mark = mr_mark_take(ctx);
-	mr_encode_result figures;
+	mr_v3 *normal = MR_NEW(ctx, base->nv, mr_v3);
+	mr_incidence inc;
 	mr_detail found;
-	mr_sounding body;
 
 	e.foot = MR_NEW(ctx, n, mr_foot);
-	e.sound = MR_NEW(ctx, n, bool);
-	e.thickness = MR_NEW(ctx, base->nv, double);
+	e.stand = MR_NEW(ctx, n, mr_v3);
+	e.sound = MR_NEW_ZERO(ctx, n, bool);
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
-	MR_TRY(mr_sounding_build(ctx, base, &body));
-	e.ground = (mr_ground){ { base, body.normal }, body.inc, mr_mesh_tolerance(mesh, 1e-14) };
-	e.bvh = body.bvh;
-	if (source)
-		MR_TRY(mr_correspond(ctx, mesh, base, body.inc, source, e.face, e.bary));
-	else
-		memset(e.face, 0xff, n * sizeof *e.face);
-	mr_parallel(ctx, n, GRAIN, find_feet, &e);
-	find_sound(ctx, &e, &body);
+	MR_TRY(mr_incidence_build(ctx, base, &inc));
+	MR_TRY(mr_vertex_normals(ctx, base, &inc, normal));
+	e.ground = (mr_ground){ { base, normal }, &inc, mr_mesh_tolerance(mesh, 1e-14) };
+	find_all_feet(ctx, source, &e);
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
-	found = (mr_detail){ n, { e.face, e.bary }, e.height, any_offset(&e) ? e.offset : NULL, base->p,
+	found = (mr_detail){ n, { e.face, e.bary }, e.height, all_sound(&e) ? NULL : e.offset, base->p,
 		NULL };
 	MR_TRY(mr_detail_check(ctx, &found, base)); /* products overflow far from the origin */
-	figures = report(&e, diagonal);
-	*d = found;
 	if (result)
-		*result = figures;
+		*result = report(&e, mr_mesh_diagonal(mesh));
+	*d = found;
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -325,7 +355,7 @@ mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 typedef struct decoder {
 	mr_phong surface; /* its normals as those at rest were turned */
 	mr_phong rest;
-	const mr_mat3 *turn; /* of the surface's vertices; NULL: offsets turn with the triangle */
+	const mr_turn *turn; /* of the surface's vertices; NULL: offsets turn with the triangle */
 	const mr_detail *d;
 	double gain;
 	mr_v3 *p;
@@ -335,14 +365,9 @@ typedef struct decoder {
 static mr_v3
 turned_offset(const decoder *j, mr_place at, mr_v3 o)
 {
-	const uint32_t *v = j->surface.m->t[at.face].v;
-	const double w[3] = { at.bary.x, at.bary.y, at.bary.z };
-	mr_mat3 sum = { { 0 } };
+	mr_mat3 turn = mr_turn_rotation(j->turn, j->surface.m->t[at.face].v, at.bary);
 
-	for (int k = 0; k < 3; k++)
-		sum = mr_mat3_axpy(w[k], &j->turn[v[k]], &sum);
-	sum = mr_rotation_nearest(&sum);
-	return mr_mat3_apply(&sum, offset_in(&j->rest, at, o));
+	return mr_mat3_apply(&turn, offset_in(&j->rest, at, o));
 }
 
 /* b + gain (h n + o) */
@@ -368,7 +393,7 @@ decode_piece(void *arg, size_t begin, size_t end)
 }
 
 typedef struct turner {
-	const mr_mat3 *turn;
+	const mr_turn *turn;
 	const mr_v3 *rest;
 	mr_v3 *normal;
 } turner;
@@ -379,7 +404,7 @@ turn_normals(void *arg, size_t begin, size_t end)
 	const turner *t = arg;
 
 	for (size_t v = begin; v < end; v++)
-		t->normal[v] = mr_mat3_apply(&t->turn[v], t->rest[v]);
+		t->normal[v] = mr_turn_normal(&t->turn[v], t->rest[v]);
 }
 
 /* Normals of the moved surface itself turn to and fro where it is crumpled a little, and tear apart what
@@ -395,7 +420,7 @@ turn_frames(mr_ctx *ctx, const mr_mesh *rest, const mr_incidence *inc, mr_v3 *no
 		MR_TRY(mr_vertex_normals(ctx, rest, inc, made));
 		j->rest.normal = made;
 	}
-	mr_turns(ctx, rest, j->surface.m, inc, &j->turn);
+	j->turn = mr_turns(ctx, rest, j->surface.m, inc);
 	mr_parallel(ctx, rest->nv, 4096, turn_normals, &(turner){ j->turn, j->rest.normal, normal });
 	return MR_OK;
 }

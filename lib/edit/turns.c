@@ -1,5 +1,8 @@
-/* The rotations of Sorkine, Alexa 2007 (As-rigid-as-possible surface modeling), section 2.1, of faces with
- * their normals and smoothed. */
+/*
+ * Deformation gradients of faces with their normals (Sumner, Popovic 2004: Deformation transfer for triangle
+ * meshes), weighted by area and smoothed.  With x1, x2 two sides, n the normal and A twice the area at rest,
+ * y1, y2 and m those now, A F = y1 (x2 x n)^T + y2 (n x x1)^T + A m n^T.
+ */
 #include "edit/turns.h"
 
 #include "base/parallel.h"
@@ -9,44 +12,42 @@ enum { GRAIN = 1024 };
 typedef struct turning {
 	const mr_mesh *rest, *now;
 	const mr_incidence *inc;
-	mr_mat3 *face, *vertex; /* sums of y x^T, x at rest and y now, of edges and normals */
+	mr_turn *face, *vertex;
+	double unit; /* of areas */
 } turning;
 
-/* s + f y x^T */
+/* d += y x^T */
 static void
-add_pair(mr_mat3 *s, double f, mr_v3 x, mr_v3 y)
+add_product(double d[9], mr_v3 y, mr_v3 x)
 {
-	const double row[3] = { f * y.x, f * y.y, f * y.z };
+	const double row[3] = { y.x, y.y, y.z };
 
 	for (int i = 0; i < 3; i++) {
-		s->m[3 * i] += row[i] * x.x;
-		s->m[3 * i + 1] += row[i] * x.y;
-		s->m[3 * i + 2] += row[i] * x.z;
+		d[3 * i] += row[i] * x.x;
+		d[3 * i + 1] += row[i] * x.y;
+		d[3 * i + 2] += row[i] * x.z;
 	}
 }
 
-/* The sides at unit mean length, so that faces count alike: of two, x1 and x2, and the third, x1 + x2, the
- * sum is y1 (2 x1 + x2)^T + y2 (x1 + 2 x2)^T.  The normal counts as that of an equilateral one, less where it
- * is thin. */
-static mr_mat3
-turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3])
+/* A (F - 1), and A, as floats have room for. */
+static mr_turn
+turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3], double unit)
 {
-	mr_mat3 s = { { 0 } };
-	mr_v3 x[3], y[3];
-	double all = 0;
+	mr_v3 x1 = mr_sub(rest->p[v[1]], rest->p[v[0]]), x2 = mr_sub(rest->p[v[2]], rest->p[v[0]]);
+	mr_v3 y1 = mr_sub(now->p[v[1]], now->p[v[0]]), y2 = mr_sub(now->p[v[2]], now->p[v[0]]);
+	mr_v3 n = mr_cross(x1, x2), m = mr_cross(y1, y2), scaled;
+	double area = mr_norm(n), d[9] = { 0 };
+	mr_turn t = { .area = (float)(unit * area) };
 
-	for (int k = 0; k < 3; k++) {
-		x[k] = mr_sub(rest->p[v[(k + 1) % 3]], rest->p[v[k]]);
-		y[k] = mr_sub(now->p[v[(k + 1) % 3]], now->p[v[k]]);
-		all += mr_norm2(x[k]);
-	}
-	if (all > 0) {
-		add_pair(&s, 2 / all, mr_axpy(2, x[0], x[1]), y[0]);
-		add_pair(&s, 2 / all, mr_axpy(2, x[1], x[0]), y[1]);
-	}
-	if (all > 0)
-		add_pair(&s, 12 / (all * all), mr_cross(x[0], x[1]), mr_cross(y[0], y[1]));
-	return s;
+	if (!(area > 0))
+		return t;
+	scaled = mr_mul(unit / area, n);
+	add_product(d, mr_sub(y1, x1), mr_cross(x2, scaled));
+	add_product(d, mr_sub(y2, x2), mr_cross(scaled, x1));
+	add_product(d, mr_sub(m, n), scaled);
+	for (int i = 0; i < 9; i++)
+		t.gradient[i] = (float)d[i];
+	return t;
 }
 
 static void
@@ -55,7 +56,15 @@ faces_from_places(void *arg, size_t begin, size_t end)
 	const turning *t = arg;
 
 	for (size_t f = begin; f < end; f++)
-		t->face[f] = turn_of_face(t->rest, t->now, t->rest->t[f].v);
+		t->face[f] = turn_of_face(t->rest, t->now, t->rest->t[f].v, t->unit);
+}
+
+static void
+add_turn(mr_turn *sum, const mr_turn *t)
+{
+	for (int i = 0; i < 9; i++)
+		sum->gradient[i] += t->gradient[i];
+	sum->area += t->area;
 }
 
 static void
@@ -65,8 +74,10 @@ faces_from_vertices(void *arg, size_t begin, size_t end)
 
 	for (size_t f = begin; f < end; f++) {
 		const uint32_t *v = t->rest->t[f].v;
-		t->face[f] = mr_mat3_axpy(1, &t->vertex[v[1]], &t->vertex[v[0]]);
-		t->face[f] = mr_mat3_axpy(1, &t->vertex[v[2]], &t->face[f]);
+		mr_turn s = t->vertex[v[0]];
+		add_turn(&s, &t->vertex[v[1]]);
+		add_turn(&s, &t->vertex[v[2]]);
+		t->face[f] = s;
 	}
 }
 
@@ -76,39 +87,70 @@ vertices_from_faces(void *arg, size_t begin, size_t end)
 	const turning *t = arg;
 
 	for (size_t v = begin; v < end; v++) {
-		mr_mat3 s = { { 0 } };
+		mr_turn s = { { 0 }, 0 };
 		for (size_t i = t->inc->start[v]; i < t->inc->start[v + 1]; i++)
-			s = mr_mat3_axpy(1, &t->face[t->inc->face[i]], &s);
+			add_turn(&s, &t->face[t->inc->face[i]]);
 		t->vertex[v] = s;
 	}
 }
 
-static void
-rotations(void *arg, size_t begin, size_t end)
-{
-	const turning *t = arg;
-
-	for (size_t v = begin; v < end; v++)
-		t->vertex[v] = mr_rotation_nearest(&t->vertex[v]);
-}
-
-void
-mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc, const mr_mat3 **turn)
+const mr_turn *
+mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc)
 {
 	/* 99 models bent, twisted and pulled: 150 folds and 2,587 pairs with 2, 139 and 2,523 with 3, 124 and
-	 * 2,411 with 5, 118 and 2,444 with 10; each is 5 % of the time of decoding */
+	 * 2,411 with 5, 118 and 2,444 with 10 */
 	enum { PASSES = 2 };
-	turning t = { rest, now, inc, .vertex = MR_NEW(ctx, rest->nv, mr_mat3) };
+	double size = mr_box_diagonal(mr_box_of(rest->p, rest->nv));
+	turning t = { rest, now, inc, .vertex = MR_NEW(ctx, rest->nv, mr_turn), .unit = 1 / (size * size) };
 	mr_mark mark = mr_mark_take(ctx);
 
-	t.face = MR_NEW(ctx, rest->nf, mr_mat3);
+	t.face = MR_NEW(ctx, rest->nf, mr_turn);
 	mr_parallel(ctx, rest->nf, GRAIN, faces_from_places, &t);
 	mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
 	for (int i = 0; i < PASSES; i++) {
 		mr_parallel(ctx, rest->nf, GRAIN, faces_from_vertices, &t);
 		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
 	}
-	mr_parallel(ctx, rest->nv, GRAIN, rotations, &t);
 	mr_mark_release(ctx, mark);
-	*turn = t.vertex;
+	return t.vertex;
+}
+
+/* f F / A */
+static mr_mat3
+gradient_of(const mr_turn *t, double f)
+{
+	mr_mat3 m = { { f, 0, 0, 0, f, 0, 0, 0, f } };
+
+	for (int i = 0; i < 9 && t->area > 0; i++)
+		m.m[i] += f * (double)t->gradient[i] / (double)t->area;
+	return m;
+}
+
+/* Normals go as the cross products of tangents do: by the cofactors. */
+mr_v3
+mr_turn_normal(const mr_turn *turn, mr_v3 n)
+{
+	const double clear = 1e-3;
+	mr_mat3 g = gradient_of(turn, 1), r;
+	const double *m = g.m;
+	mr_v3 x = mr_vec(m[0], m[3], m[6]), y = mr_vec(m[1], m[4], m[7]), z = mr_vec(m[2], m[5], m[8]);
+	mr_v3 to = mr_axpy(n.x, mr_cross(y, z), mr_axpy(n.y, mr_cross(z, x), mr_mul(n.z, mr_cross(x, y))));
+
+	if (mr_norm2(to) > clear && mr_norm2(to) < 1 / clear)
+		return mr_unit(to);
+	r = mr_rotation_nearest(&g);
+	return mr_mat3_apply(&r, n);
+}
+
+mr_mat3
+mr_turn_rotation(const mr_turn *turn, const uint32_t v[3], mr_v3 bary)
+{
+	const double w[3] = { bary.x, bary.y, bary.z };
+	mr_mat3 sum = { { 0 } };
+
+	for (int k = 0; k < 3; k++) {
+		mr_mat3 g = gradient_of(&turn[v[k]], w[k]);
+		sum = mr_mat3_axpy(1, &g, &sum);
+	}
+	return mr_rotation_nearest(&sum);
 }

@@ -7,14 +7,21 @@
 #include "base/rotation.h"
 #include "mesh/mesh.h"
 
+/* The gradient of the motion, some rings around a vertex, times their area: 0 exactly where nothing moved. */
+typedef struct mr_turn {
+	float gradient[9], area;
+} mr_turn;
+
 /*
- * The rotations that are nearest to what became of the faces around the vertices, some rings far: a smooth
- * field, as those of single faces, and as the normals of the moved surface, are not.  The identity to within
- * rounding where nothing moved.
- *
- * rest, now: the same vertices and faces; inc: of both.  turn: nv, the arena's.
+ * A smooth field, as the turns of single faces, and the normals of the moved surface, are not.
+ * rest, now: the same vertices and faces; inc: of both.  Returns nv, in the arena.
  */
-void
-mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc, const mr_mat3 **turn);
+const mr_turn *mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidence *inc);
+
+/* What becomes of the unit normal n of the surface at rest. */
+mr_v3 mr_turn_normal(const mr_turn *turn, mr_v3 n);
+
+/* The rotation nearest to what became of the surface at a place of a face. */
+mr_mat3 mr_turn_rotation(const mr_turn *turn, const uint32_t v[3], mr_v3 bary);
 
 #endif

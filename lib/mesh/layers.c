@@ -179,7 +179,8 @@ check_size(mr_ctx *ctx, const mr_mesh *m)
 
 	for (size_t i = 0; i < m->nv; i++) {
 		mr_v3 p = m->p[i];
-		most = fmax(most, fmax(fabs(p.x), fmax(fabs(p.y), fabs(p.z))));
+		for (int k = 0; k < 3; k++)
+			most = fabs(mr_coordinate(p, k)) > most ? fabs(mr_coordinate(p, k)) : most;
 	}
 	if (most == 0 || (most >= 1 / LARGEST && most <= LARGEST))
 		return MR_OK;

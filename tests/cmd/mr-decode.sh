@@ -53,7 +53,7 @@ for i in range(0, len(p), 3):
     for k in range(3):
         x = sum(t[4 * k + j] * p[i + j] for j in range(3)) + t[4 * k + 3]
         far = max(far, abs(x - q[i + k]))
-print('rigid motion:', 'ok' if far < 3e-9 else far)
+print('rigid motion:', 'ok' if far < 1e-8 else far)
 END
 
 echo 'an animation is its poses one by one'
