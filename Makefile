@@ -102,8 +102,8 @@ WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) $
 $(BUILD)/wasm/%.o: % $(BUILD)/flags | setup
 	@mkdir -p $(@D)
 	$(call say,compile)clang --target=wasm32-wasi --sysroot=$(WASI) -msimd128 -std=c11 \
-		$(if $(findstring edit,$<)$(findstring rotation,$<),-O3,-Os) -ffunction-sections -fno-math-errno -ffp-contract=off \
-		$(WARN) $(INCLUDE) -MMD -MP -c -o $@ $<
+		$(if $(findstring edit,$<)$(findstring rotation,$<),-O3,-Os) -ffunction-sections -fno-math-errno \
+		-ffp-contract=off $(WARN) $(INCLUDE) -MMD -MP -c -o $@ $<
 $(BUILD)/page/library.wasm: $(WASM)
 	@mkdir -p $(@D)
 	$(call say,link   )clang --target=wasm32-wasi --sysroot=$(WASI) -nostartfiles \

@@ -13,6 +13,6 @@ readme:
 	@tests/findings >$(BUILD)/findings.7 && cat $(BUILD)/findings.7 >man/mr-findings.7
 
 picture: demo/index.html
-	@PYTHONDONTWRITEBYTECODE=1 python3 tests/page/picture.py $< examples/page.png
+	@PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=tests python3 tests/page/picture.py $< examples/page.png
 
 .PHONY: table1 readme picture

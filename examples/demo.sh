@@ -32,7 +32,8 @@ figures() { # model
 	info $w.remeshed.mrs base >$w.after
 	mr-compare -a base -b base --json $w.smooth.mrs <$w.remeshed.mrs >$w.distance
 	mr-decode <$w.rest.mrs | mr-compare -a mesh -b mesh --json $w.original.mrs >$w.decoded
-	mr-pose $handle <$w.rest.mrs | mr-solve | mr-decode | mr-compare -a mesh -b mesh --json $w.original.mrs >$w.identity
+	mr-pose $handle <$w.rest.mrs | mr-solve | mr-decode |
+		mr-compare -a mesh -b mesh --json $w.original.mrs >$w.identity
 
 	grep -q "^$1 " work/remeshing || for state in before after; do
 		echo "$1 $state $(figure $w.$state vertices) $(figure $w.$state euler) $(figure $w.$state boundary_loops)" \
@@ -49,7 +50,8 @@ table() {
 	echo
 	echo "Remeshing: the base before and after (area error: mean relative deviation of interior Voronoi areas; angle error:"
 	echo "mean |angle - 60|; distance: Hausdorff, to the base before, of its diagonal)"
-	awk 'BEGIN { printf "%-12s %-7s %9s %7s %7s %7s %9s %9s %9s\n", "model", "", "vertices", "Euler", "loops", "area %",
+	awk 'BEGIN { printf "%-12s %-7s %9s %7s %7s %7s %9s %9s %9s\n",
+		"model", "", "vertices", "Euler", "loops", "area %",
 		"angle deg", "val. 6 %", "dist. %" }
 		{ printf "%-12s %-7s %9d %7d %7d %7.2f %9.2f %9.1f", $1, $2, $3, $4, $5, 100 * $6, $7, 100 * $8
 		if (NF > 8) printf " %9.3f", 100 * $9
@@ -112,7 +114,8 @@ touch work/remeshing
 if [ -n "$real" ]; then
 	edit bunny-pull bunny00 front '' '--free above:y,0.7 --handle 1=above:y,0.86' \
 	    '-H 1 --translate 0.12,0.3,0 --rotate 0,0,1,-10'
-	edit bunny-bend bunny00 front '' '--free above:y,0.2 --handle 1=above:y,0.72 --handle 1=above:y,0.48+below:x,0.36' \
+	edit bunny-bend bunny00 front '' \
+		'--free above:y,0.2 --handle 1=above:y,0.72 --handle 1=above:y,0.48+below:x,0.36' \
 	    '-H 1 --rotate 0,0,1,-30 --translate 0.02,0.12,0'
 	edit armadillo-twist armadillo front '' '--free above:y,0.25 --handle 1=above:y,0.62' \
 	    '-H 1 --rotate 0,1,0,80'
@@ -157,17 +160,20 @@ for i in $(seq 50); do
 	cat work/ring.mrs
 done | mr-render --sheet --columns 10 --size 96x96 --view front -c region --no-labels work/rings.png
 mr-make bumpy --texcoords ${MR_SMALL:+-n $MR_SMALL} -o work/dressed.mrs
-mr-smooth work/dressed.mrs | mr-remesh | mr-select --free all --fixed below:y,0.5 --handle 1=above:y,0.85 | mr-solve | mr-encode |
+mr-smooth work/dressed.mrs | mr-remesh | mr-select --free all --fixed below:y,0.5 --handle 1=above:y,0.85 |
+	mr-solve | mr-encode |
     mr-pose -H 1 --rotate 0,0,1,40 | mr-solve | mr-decode -o work/bent.mrs
 mr-cat work/dressed.mrs work/bent.mrs |
     mr-render --sheet --columns 2 --size $panel -l mesh --view front --texture work/rings.png --no-labels textured.png
 printf 'newmtl rings\nmap_Kd rings.png\n' >work/rings.mtl
-{ printf 'mtllib rings.mtl\nusemtl rings\n'; mr-export -f obj - <work/bent.mrs; } | mr-import | mr-export --materials work textured.glb
+{ printf 'mtllib rings.mtl\nusemtl rings\n'; mr-export -f obj - <work/bent.mrs; } | mr-import |
+	mr-export --materials work textured.glb
 
 rate() { # what, command line: frames a second
 	begin=$(date +%s.%N)
 	mr-pose -H 1 --rotate 0,1,0,80 --frames $frames work/basis.mrs | eval "$2" >/dev/null
-	echo "$1 $(date +%s.%N) $begin" | awk '{ printf "%-28s %7.1f frames/s\n", $1, '$frames' / ($2 - $3) }' >>work/rates
+	echo "$1 $(date +%s.%N) $begin" |
+		awk '{ printf "%-28s %7.1f frames/s\n", $1, '$frames' / ($2 - $3) }' >>work/rates
 }
 rate 'pose|solve|decode' 'mr-solve | mr-decode'
 rate 'pose|solve-linear|decode' 'mr-solve --rotations linear | mr-decode'

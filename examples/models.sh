@@ -11,10 +11,13 @@ fetch_models() {
 		root=
 		[ "$(id -u)" -eq 0 ] || root=sudo
 		cd cache && mkdir -p unpacked &&
-		    { apt-get download -q=2 libcgal-demo || { $root apt-get update -qq && apt-get download -q=2 libcgal-demo; }; } &&
+		    { apt-get download -q=2 libcgal-demo || { $root apt-get update -qq &&
+		    	apt-get download -q=2 libcgal-demo; }; } &&
 		    dpkg-deb -x libcgal-demo_*.deb unpacked && rm libcgal-demo_*.deb &&
-		    tar -xzf unpacked/usr/share/doc/libcgal-dev/data.tar.gz --strip-components=1 data/meshes/bunny00.off \
-			data/meshes/armadillo.off data/meshes/elephant.off data/meshes/lion-head.off data/points_3/kitten.xyz &&
+		    tar -xzf unpacked/usr/share/doc/libcgal-dev/data.tar.gz --strip-components=1 \
+		    	data/meshes/bunny00.off \
+			data/meshes/armadillo.off data/meshes/elephant.off data/meshes/lion-head.off \
+				data/points_3/kitten.xyz &&
 		    rm -r unpacked
 	) 2>cache/fetch.log
 }
@@ -26,7 +29,8 @@ if fetch_models; then
 	# The armadillo turns its back on the eye: it is turned about y, digit for digit.
 	mkdir -p cache/turned
 	awk 'function minus(x) { return x ~ /^-/ ? substr(x, 2) : "-" x }
-		NR > 2 && NF == 3 { $1 = minus($1); $3 = minus($3) } 1' cache/meshes/armadillo.off >cache/turned/armadillo.off
+		NR > 2 && NF == 3 { $1 = minus($1); $3 = minus($3) } 1' cache/meshes/armadillo.off \
+			>cache/turned/armadillo.off
 	model() { [ -e "cache/turned/$1.off" ] && echo "cache/turned/$1.off" || echo "cache/meshes/$1.off"; }
 	cloud() { [ -e "cache/points_3/$1.xyz" ] && echo "cache/points_3/$1.xyz" || model "$1"; }
 else

@@ -28,7 +28,8 @@ gap() { # stream: largest and mean distance from the points to the mesh, of the 
 row() { # scan: one line of the table
 	mr-info --json -l mesh <$w.result.mrs >$w.info
 	echo "$1 $(figure $w.2 places) $(figure $w.3 faces) $(figure $w.info vertices) $(figure $w.info genus)" \
-	    "$(gap $w.domain.mrs) $(gap $w.result.mrs) $(figure $w.5 tries_1) $(figure $w.5 tries_4) $(figure $w.5 tries_10)" \
+	    "$(gap $w.domain.mrs) $(gap $w.result.mrs) $(figure $w.5 tries_1)" \
+	    "$(figure $w.5 tries_4) $(figure $w.5 tries_10)" \
 	    "$(for n in 2 3 4 5 6; do figure $w.$n seconds; done | awk '{ s += $1 } END { print s }')" >>work/scans
 }
 
@@ -78,9 +79,11 @@ fi
 	echo
 	echo "Displaced subdivision surfaces from points alone: distance from the points to the surface, of the diagonal, without"
 	echo "and with displacement; vertices that find their triangle at the first try, by the fourth, and within ten"
-	awk 'BEGIN { printf "%-10s %7s %7s %8s %5s %10s %9s %10s %9s %6s %6s %6s %8s\n", "scan", "points", "control", "vertices", "genus",
+	awk 'BEGIN { printf "%-10s %7s %7s %8s %5s %10s %9s %10s %9s %6s %6s %6s %8s\n",
+		"scan", "points", "control", "vertices", "genus",
 		"domain max", "mean %", "result max", "mean %", "1", "4", "10", "seconds" }
-		{ printf "%-10s %7d %7d %8d %5d %10.3f %9.4f %10.3f %9.4f %6.1f %6.1f %6.1f %8.3f\n", $1, $2, $3, $4, $5, 100 * $6,
+		{ printf "%-10s %7d %7d %8d %5d %10.3f %9.4f %10.3f %9.4f %6.1f %6.1f %6.1f %8.3f\n",
+			$1, $2, $3, $4, $5, 100 * $6,
 		100 * $7, 100 * $8, 100 * $9, 100 * $10, 100 * $11, 100 * $12, $13 }' work/scans
 } | tee work/clouds.txt
 mv work/clouds.txt clouds.txt

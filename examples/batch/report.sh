@@ -47,7 +47,8 @@ made="$made; $(wc -l <"$work/failed.txt") failed"
 # numbers.
 find . -mindepth 2 -maxdepth 2 -name 'mr-*.json' | LC_ALL=C sort |
     xargs -r -d '\n' awk '{ print FILENAME "\t" $0 }' >"$work/all.json"
-sed 's,^\./\([^/]*\)[^	]*	{,\1\t,; s/}$//; s/"name":"\([^"\\]\|\\.\)*",//; s/"//g' "$work/all.json" >"$work/figures"
+sed 's,^\./\([^/]*\)[^	]*	{,\1\t,; s/}$//; s/"name":"\([^"\\]\|\\.\)*",//; s/"//g' "$work/all.json" \
+	>"$work/figures"
 awk -F '\t' '
 	pass == 0 { verdict[$1] = $2; next }
 	!($1 in verdict) { next }

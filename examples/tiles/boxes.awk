@@ -1,5 +1,5 @@
-# boxes.awk -- from the figures of a cloud, mr-info --json, the boxes of four tiles and of the seams between them, a name and a predicate a line;
-# fails where these did not come whole
+# boxes.awk -- from the figures of a cloud, mr-info --json, the boxes of four tiles and of the seams between them, a
+# name and a predicate a line; fails where these did not come whole
 function figure(name) {
 	match($0, "\"" name "\":[^,}]*")
 	return substr($0, RSTART + length(name) + 3, RLENGTH - length(name) - 3)

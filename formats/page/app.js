@@ -21,7 +21,8 @@ const QUARTER = [0.5, 0.35, 1];
 
 /* The most faces of a layer. */
 function mostFaces(frames) {
-	return frames.reduce((most, frame) => Math.max(most, ...layersOf(frame).map((l) => (l.triangles ? l.triangles.rows : 0))), 0);
+	return frames.reduce((most, frame) => Math.max(most, ...layersOf(frame).map((l) =>
+		(l.triangles ? l.triangles.rows : 0))), 0);
 }
 
 export class App {
@@ -30,7 +31,8 @@ export class App {
 		this.frames = frames;
 		this.stage = new Stage($("canvas"), $("foot"), mostFaces(frames) < FINE);
 		this.pictures = new Pictures(pictures, this.stage.renderer);
-		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, color: null, range: null };
+		this.choice = { frame: 0, visible: null, level: null, flat: false, wire: false, color: null,
+			range: null };
 		this.drawn = new Map(); /* layer: { position, triangles, drawn } */
 		this.group = null; /* the key frame that camera and centre are of */
 		this.color = ""; /* the column of the colours; none */
@@ -86,7 +88,8 @@ export class App {
 		await this.tellPicked();
 	}
 
-	/* The layers that are switched on; at first, and of another model that has none of them, the one that comes first. */
+	/* The layers that are switched on; at first, and of another model that has none of them, the one that comes
+	 * first. */
 	async visible(frame, layers) {
 		const { visible } = this.choice, there = visible && layers.some((l) => visible.has(l.name));
 
@@ -121,7 +124,8 @@ export class App {
 			this.group = frame.group;
 			this.choice.range = null;
 			this.picked = null;
-			this.centre = centreOf(boxOf(await layers[0].position.values()) || { low: [0, 0, 0], high: [0, 0, 0] });
+			this.centre = centreOf(boxOf(await layers[0].position.values()) ||
+				{ low: [0, 0, 0], high: [0, 0, 0] });
 			this.clear();
 		}
 		for (const layer of layers)
@@ -141,7 +145,8 @@ export class App {
 
 		if (old && old.position === layer.position && old.triangles === layer.triangles)
 			return;
-		const values = await layer.position.values(), position = centred(values, this.centre), box = boxOf(position);
+		const values = await layer.position.values(), position = centred(values, this.centre),
+			box = boxOf(position);
 		const extent = box ? Math.hypot(...box.low.map((x, c) => box.high[c] - x)) : 0;
 		const triangles = layer.triangles && layer.triangles.rows ? await layer.triangles.values() : null;
 		const normal = !triangles && layer.normal ? await layer.normal.values() : null;
@@ -194,15 +199,18 @@ export class App {
 		this.stage.ask();
 	}
 
-	/* Marks what was picked, as long as it is there, and says what it is, unless something else is picked meanwhile. */
+	/* Marks what was picked, as long as it is there, and says what it is, unless something else is picked
+	 * meanwhile. */
 	async tellPicked() {
 		const picked = this.picked, turn = ++this.telling, { frame, seen } = this.shown;
 		const layer = picked && seen.find((l) => l.name === picked.name && l.position.rows > picked.vertex);
-		const there = layer && (picked.face === null || (layer.triangles && layer.triangles.rows > picked.face));
+		const there = layer && (picked.face === null ||
+			(layer.triangles && layer.triangles.rows > picked.face));
 
 		this.mark(there ? layer : null, picked);
 		$("picked").setAttribute("aria-busy", "true");
-		const rows = there ? await rowsOf(frame, layer, picked, this.centre, this.drawn.get(layer.name).drawn.extent, this.color, this.posing.placesOf(layer.name)) : [];
+		const rows = there ? await rowsOf(frame, layer, picked, this.centre,
+			this.drawn.get(layer.name).drawn.extent, this.color, this.posing.placesOf(layer.name)) : [];
 		if (turn !== this.telling)
 			return;
 		tell($("picked"), rows);

@@ -30,10 +30,12 @@ async function paintBy(drawn, column, range) {
 	if (isKey(drawn.painted, key))
 		return;
 	drawn.painted = key;
-	drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) && column.element === "f");
+	drawn.paint(column ? paint(column, await column.values(), range) : null, Boolean(column) &&
+		column.element === "f");
 }
 
-/* What layers wear, or their own colours, unless they are all the same: black, where a format has a place for them and no more. */
+/* What layers wear, or their own colours, unless they are all the same: black, where a format has a place for them and
+ * no more. */
 async function ownColor(frame, all) {
 	if (all.some(({ layer }) => layer.wears))
 		return TEXTURE;
@@ -53,20 +55,24 @@ async function legend(frame, all, name, choice) {
 
 	if (kind === "number" && !choice.range) {
 		const ranges = columns.map((c, i) => rangeOf(c, values[i]));
-		choice.range = { low: Math.min(...ranges.map((r) => r.low)), high: Math.max(...ranges.map((r) => r.high)) };
+		choice.range = { low: Math.min(...ranges.map((r) => r.low)),
+			high: Math.max(...ranges.map((r) => r.high)) };
 	}
 	const kinds = kind === "region" || kind === "kind" ? kindsOf(values.flatMap((v) => kindsOf(v))) : [];
-	return { kind, range: choice.range, kinds, names: kinds.length ? await namesOf(frame, columns[0].layer, name) : [] };
+	return { kind, range: choice.range, kinds, names: kinds.length ? await namesOf(frame, columns[0].layer, name) :
+		[] };
 }
 
 /*
- * Colours a side by the choice { color, range }, whose range it finds where there is none; returns what colours: the one chosen,
- * before any is, what the layers wear or their own colours.
+ * Colours a side by the choice { color, range }, whose range it finds where there is none; returns what colours: the
+ * one chosen, before any is, what the layers wear or their own colours.
  */
 export async function colour({ frame, layers, drawn: by }, choice, pictures) {
 	const all = layers.map((layer) => ({ layer, drawn: by.get(layer.name).drawn }));
-	const names = [...new Set(all.flatMap(({ layer }) => [...(layer.wears ? [TEXTURE] : []), ...layer.colors.map((c) => c.name)]))];
-	const chosen = choice.color === null ? await ownColor(frame, all) : choice.color, name = names.includes(chosen) ? chosen : "";
+	const names = [...new Set(all.flatMap(({ layer }) => [...(layer.wears ? [TEXTURE] : []),
+		...layer.colors.map((c) => c.name)]))];
+	const chosen = choice.color === null ? await ownColor(frame, all) : choice.color,
+		name = names.includes(chosen) ? chosen : "";
 
 	listColors(names, name);
 	showLegend(name && name !== TEXTURE ? await legend(frame, all, name, choice) : null);

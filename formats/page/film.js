@@ -48,7 +48,8 @@ export class Film {
 		while (this.playing) {
 			const began = performance.now();
 			await this.turn(this.at + 1);
-			await new Promise((done) => setTimeout(done, Math.max(1000 / RATE - (performance.now() - began), 0)));
+			await new Promise((done) => setTimeout(done,
+				Math.max(1000 / RATE - (performance.now() - began), 0)));
 		}
 	}
 }

@@ -37,7 +37,8 @@ const KEYS = {
 /* Typing, and choosing by keys, is the control's own; a slider and a choice have no use for letters. */
 function isTyping({ target, key }) {
 	return target.matches("select, input:not([type=checkbox], [type=radio], [type=range])") ||
-		(target.matches("[type=radio]") && key.startsWith("Arrow")) || (target.matches("[type=range]") && key.length > 1);
+		(target.matches("[type=radio]") && key.startsWith("Arrow")) ||
+			(target.matches("[type=range]") && key.length > 1);
 }
 
 /* Keys that are not for the page: of the browser, of what is typed into, the space that presses a button. */
@@ -58,7 +59,8 @@ function goBack(event, key, painter) {
 
 /* The handle of a digit, or the layer: where there is no handle, and with shift. */
 function chooseNumber(event, choose) {
-	const digit = /^Digit\d$/.test(event.code) ? Number(event.code.slice(5)) : /^\d$/.test(event.key) ? Number(event.key) : NaN;
+	const digit = /^Digit\d$/.test(event.code) ? Number(event.code.slice(5)) : /^\d$/.test(event.key) ?
+		Number(event.key) : NaN;
 	const layer = document.querySelectorAll("#layers input")[digit - 1];
 
 	if (!event.shiftKey && choose(digit))
@@ -83,7 +85,8 @@ export function listen(forget, choose, painter) {
 	addEventListener("keydown", (event) => {
 		const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
 
-		if (!isOthers(event) && (event.ctrlKey || event.metaKey ? goBack(event, key, painter) : act(event, key)))
+		if (!isOthers(event) && (event.ctrlKey || event.metaKey ? goBack(event, key, painter) :
+			act(event, key)))
 			event.preventDefault();
 	});
 }

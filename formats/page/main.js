@@ -21,7 +21,8 @@ function onClick(canvas, act) {
 		down = e.isPrimary && e.button === 0 ? e : null;
 	});
 	canvas.addEventListener("pointerup", (e) => {
-		if (down && e.pointerId === down.pointerId && Math.hypot(e.clientX - down.clientX, e.clientY - down.clientY) < CLICK)
+		if (down && e.pointerId === down.pointerId &&
+			Math.hypot(e.clientX - down.clientX, e.clientY - down.clientY) < CLICK)
 			act(e.clientX, e.clientY);
 		down = null;
 	});

@@ -9,7 +9,8 @@ export function listModels(frames, go) {
 	const models = frames.map((_, i) => i).filter((i) => frames[i].group === i);
 
 	$("models").hidden = models.length < 2;
-	$("model").replaceChildren(...models.map((i) => Object.assign(element("option", titleOf(frames[i])), { value: i })));
+	$("model").replaceChildren(...models.map((i) => Object.assign(element("option", titleOf(frames[i])),
+		{ value: i })));
 	$("model").addEventListener("change", () => go(Number($("model").value)));
 }
 

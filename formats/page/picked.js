@@ -8,16 +8,19 @@ import { element, number, place } from "./stream/text.js";
 
 const NEAR = 9; /* pixels about a point */
 
-/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at }, at in the layer's floats; or null. */
+/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at }, at in the layer's floats; or
+ * null. */
 export function pickAt(ray) {
 	let best = null;
 
 	for (const [name, drawn] of ray.layers) {
 		const p = drawn.position;
 		if (drawn.triangles) {
-			const hit = drawn.solid.hit(ray.from, ray.along), t = hit && Math.hypot(...hit.at.map((x, c) => x - ray.from[c]));
+			const hit = drawn.solid.hit(ray.from, ray.along), t = hit &&
+				Math.hypot(...hit.at.map((x, c) => x - ray.from[c]));
 			if (hit && !(best && best.t <= t))
-				best = { name, t, face: hit.face, vertex: nearestCorner(p, drawn.triangles, hit.face, hit.at), at: hit.at };
+				best = { name, t, face: hit.face,
+					vertex: nearestCorner(p, drawn.triangles, hit.face, hit.at), at: hit.at };
 		} else {
 			const hit = nearestPoint(p, ray.projection, ray.right, ray.top, NEAR * ray.pixel, ray.aspect);
 			if (hit && !(best && best.t <= hit.t))
@@ -39,7 +42,8 @@ async function valueAt(frame, layer, column, row) {
 	return n > 1 && column.type === "d" ? all + " (length " + number(numberAt(column, values, row)) + ")" : all;
 }
 
-/* Rows of the card (posed: where its vertices are, around the centre, if not where the stream has them): what, the words for it, and whether a small window goes without. */
+/* Rows of the card (posed: where its vertices are, around the centre, if not where the stream has them): what, the
+ * words for it, and whether a small window goes without. */
 export async function rowsOf(frame, layer, picked, centre, extent, color, posed) {
 	const position = await layer.position.values(), v = picked.vertex;
 	const at = [0, 1, 2].map((c) => (posed ? posed[3 * v + c] + centre[c] : position[3 * v + c]));
@@ -63,6 +67,7 @@ export async function rowsOf(frame, layer, picked, centre, extent, color, posed)
 
 /* Fills the card. */
 export function tell(card, rows) {
-	card.replaceChildren(...rows.flatMap(([what, words, more]) => ["dt", "dd"].map((kind, i) => element(kind, i ? words : what, more ? "more" : ""))));
+	card.replaceChildren(...rows.flatMap(([what, words, more]) =>
+		["dt", "dd"].map((kind, i) => element(kind, i ? words : what, more ? "more" : ""))));
 	card.hidden = rows.length === 0;
 }

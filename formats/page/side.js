@@ -62,7 +62,8 @@ function kindItem(color, name) {
 function kindItems(legend) {
 	const regions = legend.kind === "region";
 	const items = legend.kinds.slice(0, MOST).map((kind) =>
-		kindItem((regions ? regionColor : kindColor)(kind), regions ? regionName(kind) : legend.names[kind] || String(kind)));
+		kindItem((regions ? regionColor : kindColor)(kind), regions ? regionName(kind) : legend.names[kind] ||
+			String(kind)));
 
 	if (legend.kinds.length > MOST)
 		items.push(element("li", "and " + count(legend.kinds.length - MOST) + " more"));
@@ -88,7 +89,8 @@ function sayFinding(line) {
 	const [tool, kind, layer, count, of, , , vertex, , , , what] = line.split("\t");
 	const many = count > 0 ? " (" + count + (of > 0 ? " of " + of : "") + ")" : "";
 
-	return tool + ": " + (layer ? layer + " " : "") + kind + many + (vertex ? ", vertex " + vertex : "") + (what ? ": " + what : "");
+	return tool + ": " + (layer ? layer + " " : "") + kind + many + (vertex ? ", vertex " + vertex : "") +
+		(what ? ": " + what : "");
 }
 
 export function showName(frame, history, findings) {

@@ -1,6 +1,6 @@
 /*
- * worker.js -- poses a base with the detail on it (library/body.c): told once what they are, then the handles' maps, it answers
- * with the places of both, in floats.
+ * worker.js -- poses a base with the detail on it (library/body.c): told once what they are, then the handles' maps, it
+ * answers with the places of both, in floats.
  */
 import { Library } from "./library/library.js";
 
@@ -10,7 +10,8 @@ let library, body, maps, sizes;
 /* The whole as body.c has it: places of arrays, how many of each, the origin of the response. */
 async function begin({ module, values, counts, origin }) {
 	library = await Library.load(module);
-	const parts = [Uint32Array.from([...ARRAYS.map((name) => library.put(values[name])), ...counts]), Float64Array.from(origin)];
+	const parts = [Uint32Array.from([...ARRAYS.map((name) => library.put(values[name])), ...counts]),
+		Float64Array.from(origin)];
 	const whole = library.put(new Uint8Array(await new Blob(parts).arrayBuffer()));
 
 	body = library.had(library.run.body_new(whole));

@@ -1,6 +1,7 @@
-# Lines have at most 120 columns, tabs at every eighth, but for rows of tables and what a page shows as it is.
+# Lines have at most 120 columns, tabs at every eighth, but for rows of tables and what is shown as it is.
 cd "$TOP" || exit
-find lib cmd formats man .github -type f ! -path 'formats/page/*' ! -name '*.png' | LC_ALL=C sort | while read -r file; do
+find lib cmd formats man examples .ci .github Makefile README.md -type f ! -name '*.png' ! -path '*/cache/*' |
+	LC_ALL=C sort | while read -r file; do
 	expand "$file" | LC_ALL=C.UTF-8 awk -v file="$file" '
 		/^\|/ || /^ *echo / { next }
 		length($0) > 120 { print file ":" NR ": " length($0) " columns" }'

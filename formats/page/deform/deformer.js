@@ -1,6 +1,6 @@
 /*
- * deformer.js -- what follows the handles, as mr-decode makes it when nothing moves any more: base and mesh, which a worker
- * poses, or the displaced surface over a control mesh (displaced.js).
+ * deformer.js -- what follows the handles, as mr-decode makes it when nothing moves any more: base and mesh, which a
+ * worker poses, or the displaced surface over a control mesh (displaced.js).
  */
 import { module } from "../library/compile.js";
 import { IDENTITY } from "../mesh/rotation.js";
@@ -8,12 +8,15 @@ import { textOf } from "../stream/data.js";
 import { columnOf } from "../stream/stream.js";
 
 /* Columns of the frame by other names. */
-export const columnsOf = (frame, named) => Object.fromEntries(Object.entries(named).map(([key, name]) => [key, columnOf(frame, ...name.split(" "))]));
+export const columnsOf = (frame, named) => Object.fromEntries(Object.entries(named).map(([key, name]) =>
+	[key, columnOf(frame, ...name.split(" "))]));
 
 /* The columns that it is made of; null where the frame has not all of them. */
 export function posedBy(frame) {
-	const columns = columnsOf(frame, { position: "base position", triangles: "base triangles", encoded: "base encoded", response: "base response",
-		face: "mesh detail_face", bary: "mesh detail_bary", height: "mesh detail_height", offset: "mesh detail_offset" });
+	const columns = columnsOf(frame, { position: "base position", triangles: "base triangles",
+		encoded: "base encoded", response: "base response",
+		face: "mesh detail_face", bary: "mesh detail_bary", height: "mesh detail_height",
+			offset: "mesh detail_offset" });
 
 	return columns.response && columns.height ? columns : null;
 }
@@ -21,7 +24,8 @@ export function posedBy(frame) {
 const less = (position, centre) => position.map((x, i) => x - centre[i % 3]);
 
 /* As many maps as a response is to, in a row. */
-export const flat = (maps, handles) => Float64Array.from({ length: 12 * handles }, (_, i) => (maps[Math.floor(i / 12)] || IDENTITY)[i % 12]);
+export const flat = (maps, handles) => Float64Array.from({ length: 12 * handles }, (_, i) =>
+	(maps[Math.floor(i / 12)] || IDENTITY)[i % 12]);
 
 /* What poses: prepare(centre) makes it ready, compute(maps) changes its `places`, of layers by their names. */
 export class Poser {
@@ -32,7 +36,8 @@ export class Poser {
 
 	/* Whether it is made of these. */
 	isOf(columns, centre) {
-		return centre === this.centre && Object.keys(columns).every((key) => columns[key] === this.columns[key]);
+		return centre === this.centre && Object.keys(columns).every((key) =>
+			columns[key] === this.columns[key]);
 	}
 
 	/* Poses by the handles' maps; what is asked meanwhile comes next, the last of it. */
@@ -61,8 +66,10 @@ export class Deformer extends Poser {
 	/* Reads the columns, around the centre, and waits for the places at rest. */
 	async prepare(centre) {
 		const keys = Object.keys(this.columns).filter((key) => this.columns[key]);
-		const values = Object.fromEntries(await Promise.all(keys.map(async (key) => [key, await this.columns[key].values()])));
-		const { components, steps: { origin } } = this.columns.response, { position, triangles, height } = values;
+		const values = Object.fromEntries(await Promise.all(keys.map(async (key) =>
+			[key, await this.columns[key].values()])));
+		const { components, steps: { origin } } = this.columns.response,
+			{ position, triangles, height } = values;
 
 		this.centre = centre;
 		this.handles = components / 4;

@@ -1,13 +1,15 @@
 /*
- * displaced.js -- a control mesh as its handles pose it, by its response to them, lib/edit/pose_basis.c, and the displaced surface
- * over it on the level that is shown, as mr-decode makes it: few vertices are posed, and then subdivided (mesh/levels.js).
+ * displaced.js -- a control mesh as its handles pose it, by its response to them, lib/edit/pose_basis.c, and the
+ * displaced surface over it on the level that is shown, as mr-decode makes it: few vertices are posed, and then
+ * subdivided (mesh/levels.js).
  */
 import { Poser, columnsOf, flat } from "./deformer.js";
 import { library } from "../library/compile.js";
 
 /* The columns that it is made of; null where the frame has not all of them. */
 export function controlOf(frame) {
-	const columns = columnsOf(frame, { position: "control position", triangles: "control triangles", response: "control response",
+	const columns = columnsOf(frame, { position: "control position", triangles: "control triangles",
+		response: "control response",
 		region: "control region", height: "displacement height" });
 
 	return frame.levels && columns.response ? columns : null;
@@ -39,8 +41,10 @@ export class DisplacedDeformer extends Poser {
 
 	/* The control mesh by these maps of the handles. */
 	posed(maps) {
-		const { position, response, columns: { response: { components, steps: { origin } } } } = this, handles = components / 4;
-		const places = [position, response, Float64Array.from(origin), flat(maps, handles), position].map((values) => library.put(values));
+		const { position, response, columns: { response: { components, steps: { origin } } } } = this,
+			handles = components / 4;
+		const places = [position, response, Float64Array.from(origin), flat(maps, handles),
+			position].map((values) => library.put(values));
 
 		library.run.pose_by_response(places[0], position.length / 3, places[1], handles, ...places.slice(2));
 		const out = library.get(Float64Array, places[4], position.length);
@@ -50,7 +54,8 @@ export class DisplacedDeformer extends Poser {
 
 	async compute(maps) {
 		const { level, surface, centre } = this, control = this.posed(maps);
-		const places = { control: less(control, centre), [surface.layer]: less(await surface.positionsOver(level, control), centre) };
+		const places = { control: less(control, centre),
+			[surface.layer]: less(await surface.positionsOver(level, control), centre) };
 
 		if (level === this.level)
 			this.places = places;
@@ -58,7 +63,8 @@ export class DisplacedDeformer extends Poser {
 
 	/* The region of the control vertex nearest to where a vertex of the surface is at rest. */
 	async regionAt(vertex) {
-		const at = (await this.surface.at(this.level).position.values()).subarray(3 * vertex, 3 * vertex + 3), p = this.position;
+		const at = (await this.surface.at(this.level).position.values()).subarray(3 * vertex, 3 * vertex + 3),
+			p = this.position;
 		let best = 0, least = Infinity;
 
 		for (let v = 0; v < p.length / 3; v++) {

@@ -31,8 +31,10 @@ async function startOf(frame) {
 const handled = (frame) => (ownRegion(frame, "mesh") ? "mesh" : "control");
 
 export async function poseOf(frame) {
-	const layer = handled(frame), region = await ownRegion(frame, layer).values(), position = await columnOf(frame, layer, "position").values();
+	const layer = handled(frame), region = await ownRegion(frame, layer).values(),
+		position = await columnOf(frame, layer, "position").values();
 	const box = boxOf(position);
 
-	return new Pose(centroidsOf(region, position), await startOf(frame), Math.hypot(...box.low.map((x, c) => box.high[c] - x)));
+	return new Pose(centroidsOf(region, position), await startOf(frame),
+		Math.hypot(...box.low.map((x, c) => box.high[c] - x)));
 }

@@ -1,6 +1,6 @@
 /*
- * pose.js -- where handles go: a pose of each that was dragged, { handle, translate, rotate: axis and degrees, scale }, as
- * mr-pose applies it, lib/edit/handles.c; the line of commands that does the same; the steps back and forth.
+ * pose.js -- where handles go: a pose of each that was dragged, { handle, translate, rotate: axis and degrees, scale },
+ * as mr-pose applies it, lib/edit/handles.c; the line of commands that does the same; the steps back and forth.
  */
 import { IDENTITY, add, apply, compose, exponential, norm, sub, times, unit } from "../mesh/rotation.js";
 
@@ -24,7 +24,8 @@ const rounded = (x, decimals) => Number(x.toFixed(decimals)) || 0;
 /* Empty where it is at rest. */
 function commandOf({ handle, translate, rotate, scale }) {
 	const options = [
-		scale.some((x) => x !== 1) && "--scale " + (scale.every((x) => x === scale[0]) ? scale[0] : scale.join(",")),
+		scale.some((x) => x !== 1) && "--scale " + (scale.every((x) => x === scale[0]) ? scale[0] :
+			scale.join(",")),
 		rotate[3] !== 0 && "--rotate " + rotate.join(","),
 		translate.some((x) => x !== 0) && "--translate " + translate.join(","),
 	].filter(Boolean);
@@ -36,13 +37,14 @@ function commandOf({ handle, translate, rotate, scale }) {
 function lineOf(poses, level) {
 	const commands = poses.map(commandOf).filter(Boolean);
 
-	return commands.length ? [...commands, level === null ? "mr-decode" : "mr-decode --level " + level].join(" | ") : "";
+	return commands.length ? [...commands, level === null ? "mr-decode" : "mr-decode --level " +
+		level].join(" | ") : "";
 }
 
 export class Pose {
 	/*
-	 * centroids: of the handles at rest, by number, holes where a number is not in use; start: maps that the stream has
-	 * already; extent: of the model.
+	 * centroids: of the handles at rest, by number, holes where a number is not in use; start: maps that the stream
+	 * has already; extent: of the model.
 	 */
 	constructor(centroids, start, extent) {
 		this.centroids = centroids;
@@ -83,7 +85,8 @@ export class Pose {
 	grip(handle) {
 		const pose = this.poseOf(handle);
 
-		return { centre: this.from(handle).centre, translate: pose.translate, turn: turnOf(pose), scale: pose.scale };
+		return { centre: this.from(handle).centre, translate: pose.translate, turn: turnOf(pose),
+			scale: pose.scale };
 	}
 
 	/* Changes it to these, as far as a line tells them. */

@@ -89,7 +89,8 @@ export class Posing {
 	}
 
 	deformerOf(frame, columns) {
-		return baseOf(frame) ? new Deformer(columns, () => this.posed()) : new DisplacedDeformer(frame, columns, () => this.posed());
+		return baseOf(frame) ? new Deformer(columns, () => this.posed()) :
+			new DisplacedDeformer(frame, columns, () => this.posed());
 	}
 
 	/* Goes to the level that is shown, of surfaces and in the line. */

@@ -12,7 +12,8 @@ export const regionColor = (region) => bytesOf(library.run.color_region(region))
 
 /* 256 steps, as bytes, for a range: where both signs are in it, white is 0 only where the range is even. */
 export function mapOf({ low, high }) {
-	return Uint8Array.from(Array.from({ length: 256 }, (_, i) => bytesOf(library.run.color_number(i / 255, low < 0 && high > 0))).flat());
+	return Uint8Array.from(Array.from({ length: 256 }, (_, i) =>
+		bytesOf(library.run.color_number(i / 255, low < 0 && high > 0))).flat());
 }
 
 export function regionName(region) {

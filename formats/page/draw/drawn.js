@@ -1,4 +1,5 @@
-/* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that was picked. */
+/* drawn.js -- one layer as three.js draws it: a surface with its edges, or points as small balls, and the vertex that
+ * was picked. */
 import * as THREE from "three/build/three.module.js";
 import { PLAIN } from "./colors.js";
 import { bodies, materialsFor, wornMaterial } from "./materials.js";
@@ -43,7 +44,8 @@ export class Drawn {
 		const n = this.position.length / 3;
 
 		this.materials.body.uniforms.size.value = 2.2 * spacingOf(this.position);
-		this.shape({ position: this.position, normal: normal ? Float32Array.from(normal) : new Float32Array(3 * n) });
+		this.shape({ position: this.position, normal: normal ? Float32Array.from(normal) :
+			new Float32Array(3 * n) });
 		this.source = Uint32Array.from({ length: n }, (_, v) => v);
 		this.group.add(new THREE.Points(this.geometry, this.materials.body));
 	}
@@ -98,7 +100,8 @@ export class Drawn {
 
 	/* Gives vertices another colour. */
 	repaint(vertices, color) {
-		const { color: ofSurface, tint } = this.geometry.attributes, colors = ofSurface || tint, { source } = this;
+		const { color: ofSurface, tint } = this.geometry.attributes, colors = ofSurface || tint,
+			{ source } = this;
 		const changed = new Uint8Array(this.position.length / 3);
 
 		for (const v of vertices)
@@ -122,14 +125,17 @@ export class Drawn {
 		const order = Uint32Array.from(faces.keys()).sort((a, b) => faces[a] - faces[b] || a - b), groups = [];
 
 		this.undress();
-		this.colorBy(looks.flatMap(({ texture, color }) => (texture ? WHITE : color)), (k) => faces[Math.floor(k / 3)]);
+		this.colorBy(looks.flatMap(({ texture, color }) => (texture ? WHITE : color)), (k) =>
+			faces[Math.floor(k / 3)]);
 		this.geometry.setAttribute("uv", attribute(places, 2));
-		this.geometry.setIndex(attribute(Uint32Array.from({ length: 3 * order.length }, (_, k) => 3 * order[Math.floor(k / 3)] + k % 3), 1));
+		this.geometry.setIndex(attribute(Uint32Array.from({ length: 3 * order.length }, (_, k) =>
+			3 * order[Math.floor(k / 3)] + k % 3), 1));
 		order.forEach((f, i) => {
 			if (groups.length === 0 || groups[groups.length - 1].look !== faces[f])
 				groups.push({ look: faces[f], start: 3 * i });
 		});
-		groups.forEach(({ start }, i) => this.geometry.addGroup(start, (i + 1 < groups.length ? groups[i + 1].start : 3 * order.length) - start, i));
+		groups.forEach(({ start }, i) => this.geometry.addGroup(start,
+			(i + 1 < groups.length ? groups[i + 1].start : 3 * order.length) - start, i));
 		this.body.material = groups.map(({ look }) => wornMaterial(this.materials, looks[look].texture));
 	}
 

@@ -1,4 +1,5 @@
-/* materials.js -- what layers are drawn with: lit surfaces, with a picture on them or none, edges, points as small balls. */
+/* materials.js -- what layers are drawn with: lit surfaces, with a picture on them or none, edges, points as small
+ * balls. */
 import * as THREE from "three/build/three.module.js";
 
 const POINT_VERTEX = `
@@ -38,7 +39,8 @@ function pointMaterial(fragmentShader, uniforms, more) {
 	return new THREE.ShaderMaterial({
 		vertexShader: POINT_VERTEX,
 		fragmentShader,
-		uniforms: { scale: { value: 1 }, ...Object.fromEntries(Object.entries(uniforms).map(([k, value]) => [k, { value }])) },
+		uniforms: { scale: { value: 1 }, ...Object.fromEntries(Object.entries(uniforms).map(([k, value]) =>
+			[k, { value }])) },
 		...more,
 	});
 }
@@ -74,7 +76,8 @@ export function materialsFor(surface) {
 		body: surface ? surfaceMaterial(null) : pointMaterial(POINT_FRAGMENT, { size: 1, least: 2, most: 24 }),
 		worn: new Map(), /* by the texture: the body's, with that */
 		edge: edgeMaterial(),
-		mark: pointMaterial(MARK_FRAGMENT, { size: 1, least: 13, most: 13 }, { depthTest: false, transparent: true }),
+		mark: pointMaterial(MARK_FRAGMENT, { size: 1, least: 13, most: 13 },
+			{ depthTest: false, transparent: true }),
 	};
 }
 

@@ -1,6 +1,6 @@
 /*
- * pictures.js -- the pictures of the page, decoded when they are asked for, and what a layer looks like that wears them: pictures
- * and colours of its faces.
+ * pictures.js -- the pictures of the page, decoded when they are asked for, and what a layer looks like that wears
+ * them: pictures and colours of its faces.
  */
 import * as THREE from "three/build/three.module.js";
 import { PLAIN } from "./colors.js";
@@ -39,7 +39,8 @@ export class Pictures {
 
 	async make(bytes) {
 		const bitmap = await createImageBitmap(new Blob([bytes]), { colorSpaceConversion: "none" });
-		const texture = new THREE.CanvasTexture(paper(bitmap, Math.min(this.renderer.capabilities.maxTextureSize, MOST)));
+		const texture = new THREE.CanvasTexture(paper(bitmap,
+			Math.min(this.renderer.capabilities.maxTextureSize, MOST)));
 
 		bitmap.close();
 		texture.wrapS = texture.wrapT = THREE.RepeatWrapping;
@@ -56,7 +57,8 @@ async function looksOf(wears, pictures) {
 		looks.push({ texture: await pictures.texture(wears.texture), color: PLAIN });
 	for (const [material, { color, picture }] of wears.materials) {
 		of.set(material, looks.length);
-		looks.push({ texture: picture === null ? null : await pictures.texture(picture), color: color || PLAIN });
+		looks.push({ texture: picture === null ? null : await pictures.texture(picture), color: color ||
+			PLAIN });
 	}
 	return { looks, of };
 }
@@ -87,17 +89,20 @@ function placed(places, k) {
 }
 
 /*
- * What a layer wears: the looks, which of them each face has, and the place of each corner.  A face without a place in its picture
- * has the colour of its material.
+ * What a layer wears: the looks, which of them each face has, and the place of each corner.  A face without a place in
+ * its picture has the colour of its material.
  */
 export async function costumeOf(layer, pictures) {
 	const { looks, of } = await looksOf(layer.wears, pictures), t = await layer.triangles.values();
-	const places = placesOf(layer.texcoord, layer.texcoord && await layer.texcoord.values(), t), faces = new Uint32Array(t.length / 3);
-	const material = layer.wears.texture === null && layer.material ? await layer.material.values() : null, bare = looks.map(() => 0);
+	const places = placesOf(layer.texcoord, layer.texcoord && await layer.texcoord.values(), t),
+		faces = new Uint32Array(t.length / 3);
+	const material = layer.wears.texture === null && layer.material ? await layer.material.values() : null,
+		bare = looks.map(() => 0);
 
 	for (let f = 0; f < faces.length; f++) {
 		const look = material ? of.get(material[f]) || 0 : 1;
-		faces[f] = placed(places, 3 * f) || !looks[look].texture ? look : bare[look] || (bare[look] = looks.push({ texture: null, color: looks[look].color }) - 1);
+		faces[f] = placed(places, 3 * f) || !looks[look].texture ? look : bare[look] ||
+			(bare[look] = looks.push({ texture: null, color: looks[look].color }) - 1);
 	}
 	return { looks, faces, places };
 }

@@ -15,7 +15,8 @@ export function canDraw() {
 
 /* Light that comes with the camera. */
 function lightUp(scene, camera) {
-	const lamp = new THREE.DirectionalLight(0xffffff, 0.56), sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.46);
+	const lamp = new THREE.DirectionalLight(0xffffff, 0.56),
+		sky = new THREE.HemisphereLight(0xffffff, 0xb8b4ac, 0.46);
 
 	lamp.position.set(-0.3, 0.5, 0.9);
 	camera.add(lamp);
@@ -59,7 +60,8 @@ export class Stage {
 
 	/* Where the eye stands, for a model with y upwards that looks along z. */
 	direction(x, y, z) {
-		return this.axis === "y" ? new THREE.Vector3(x, y, z) : this.axis === "z" ? new THREE.Vector3(x, -z, y) : new THREE.Vector3(y, z, x);
+		return this.axis === "y" ? new THREE.Vector3(x, y, z) : this.axis === "z" ?
+			new THREE.Vector3(x, -z, y) : new THREE.Vector3(y, z, x);
 	}
 
 	/* Shows all of a box from a direction; without one from where the eye is. */
@@ -94,9 +96,11 @@ export class Stage {
 
 	/* Where in the window the picture is: all of the canvas, or, of a low one, what is above the foot. */
 	place() {
-		const { left, top } = this.canvas.getBoundingClientRect(), { clientWidth: width, clientHeight: whole } = this.canvas;
+		const { left, top } = this.canvas.getBoundingClientRect(),
+			{ clientWidth: width, clientHeight: whole } = this.canvas;
 
-		return { left, top, width, height: whole < LOW ? Math.max(this.foot.getBoundingClientRect().top - top, 1) : whole };
+		return { left, top, width, height: whole < LOW ?
+			Math.max(this.foot.getBoundingClientRect().top - top, 1) : whole };
 	}
 
 	aspect() {
@@ -128,7 +132,8 @@ export class Stage {
 	}
 
 	draw() {
-		const { width, height } = this.place(), pixels = height * this.renderer.getPixelRatio() / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
+		const { width, height } = this.place(),
+			pixels = height * this.renderer.getPixelRatio() / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
 
 		cancelAnimationFrame(this.asked);
 		this.asked = 0;
@@ -139,14 +144,16 @@ export class Stage {
 		this.renderer.render(this.scene, this.camera);
 	}
 
-	/* Of a place of the window that is in the picture: where that is, and what the camera has there; null outside. */
+	/* Of a place of the window that is in the picture: where that is, and what the camera has there; null
+	 * outside. */
 	viewAt(clientX, clientY) {
 		const place = this.place(), x = clientX - place.left, y = clientY - place.top;
 
 		if (x < 0 || y < 0 || x >= place.width || y >= place.height)
 			return null;
 		this.aim();
-		const projection = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix, this.camera.matrixWorldInverse);
+		const projection = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix,
+			this.camera.matrixWorldInverse);
 		return {
 			...place,
 			m: projection.elements,
@@ -168,15 +175,16 @@ export class Stage {
 	}
 
 	/*
-	 * What a pick needs to know of a place of the window: the layers, the ray, and for points the projection with the
-	 * place in it; null outside.
+	 * What a pick needs to know of a place of the window: the layers, the ray, and for points the projection with
+	 * the place in it; null outside.
 	 */
 	rayAt(clientX, clientY) {
 		const view = this.viewAt(clientX, clientY);
 
 		if (!view)
 			return null;
-		const right = (clientX - view.left) / view.width * 2 - 1, top = 1 - (clientY - view.top) / view.height * 2;
+		const right = (clientX - view.left) / view.width * 2 - 1,
+			top = 1 - (clientY - view.top) / view.height * 2;
 		return {
 			layers: this.layers,
 			from: view.eye,

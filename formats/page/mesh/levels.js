@@ -1,7 +1,7 @@
 /*
- * levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it from control mesh and heights: a layer whose
- * columns are computed when they are asked for, on the level that is chosen.  The page's text names the layer, and the level
- * that it has at first.
+ * levels.js -- the displaced subdivision surface of a frame, as mr-decode makes it from control mesh and heights: a
+ * layer whose columns are computed when they are asked for, on the level that is chosen.  The page's text names the
+ * layer, and the level that it has at first.
  */
 import { Column } from "../stream/codec.js";
 import { library } from "../library/compile.js";
@@ -18,11 +18,12 @@ class Made extends Column {
 }
 
 /* The first rows of a column: those of the vertices of a coarser level. */
-const firstRows = (column, layer, rows) => new Made(layer, column.name, { element: "v", type: column.type, components: column.components, rows },
+const firstRows = (column, layer, rows) => new Made(layer, column.name,
+	{ element: "v", type: column.type, components: column.components, rows },
 	async () => (await column.values()).subarray(0, rows * column.components));
 
-/* Vertices of each level, which has 4 times the faces of the one before and a vertex more for each of its edges; the heights, as
- * many as the last level has vertices, say how many edges are boundaries. */
+/* Vertices of each level, which has 4 times the faces of the one before and a vertex more for each of its edges; the
+ * heights, as many as the last level has vertices, say how many edges are boundaries. */
 function countVertices({ position, triangles, height }, most) {
 	const faces = (level) => triangles.rows * (4 ** level - 1), twice = 2 * (height.rows - position.rows);
 	const boundary = most ? (twice - faces(most)) / (2 ** most - 1) : 0;
@@ -45,7 +46,8 @@ class Surface {
 		const { position, triangles, crease } = this.parts;
 		const [p, t, c] = await Promise.all([position.values(), triangles.values(), crease && crease.values()]);
 
-		return library.had(library.run.levels_new(library.put(p), position.rows, library.put(t), triangles.rows, library.put(c)));
+		return library.had(library.run.levels_new(library.put(p), position.rows, library.put(t), triangles.rows,
+			library.put(c)));
 	}
 
 	/* Makes this level, where it is not there: { levels, at }, and its triangles there. */
@@ -56,7 +58,8 @@ class Surface {
 	}
 
 	async triangles(level) {
-		return library.get(Uint32Array, (await this.make(level)).at, 3 * this.parts.triangles.rows * 4 ** level);
+		return library.get(Uint32Array, (await this.make(level)).at,
+			3 * this.parts.triangles.rows * 4 ** level);
 	}
 
 	/* Heights from how much each differs from what the level before predicts. */
@@ -77,7 +80,8 @@ class Surface {
 	/* Over the control mesh at p. */
 	async positionsOver(level, p) {
 		const height = await this.at(level).height.values();
-		const { levels } = await this.make(level), places = [library.put(p), library.put(height), library.take(24 * height.length)];
+		const { levels } = await this.make(level), places = [library.put(p), library.put(height),
+			library.take(24 * height.length)];
 
 		library.run.levels_displaced(levels, level, ...places);
 		const out = library.get(Float64Array, places[2], 3 * height.length);
@@ -90,8 +94,11 @@ class Surface {
 		const vertex = { element: "v", type: "d", rows: this.vertices[level] };
 
 		this.columns[level] = this.columns[level] || {
-			position: new Made(this.layer, "position", { ...vertex, components: 3 }, () => this.positions(level)),
-			triangles: new Made(this.layer, "triangles", { element: "f", type: "u", components: 3, rows: this.parts.triangles.rows * 4 ** level },
+			position: new Made(this.layer, "position", { ...vertex, components: 3 }, () =>
+				this.positions(level)),
+			triangles: new Made(this.layer, "triangles",
+				{ element: "f", type: "u", components: 3,
+					rows: this.parts.triangles.rows * 4 ** level },
 				() => this.triangles(level)),
 			height: new Made(this.layer, "height", { ...vertex, components: 1 }, () => this.heights(level)),
 			others: new Map(),
@@ -99,7 +106,8 @@ class Surface {
 		return this.columns[level];
 	}
 
-	/* What a column of the stream has of a level: the first of the vertices, all of the faces; undefined where it has not that. */
+	/* What a column of the stream has of a level: the first of the vertices, all of the faces; undefined where it
+	 * has not that. */
 	partOf(column, level) {
 		const { others, position, triangles } = this.at(level);
 
@@ -117,7 +125,8 @@ const surfaces = [];
 
 /* The surface of these parts, which frames of a film may share. */
 function surfaceOver(layer, most, parts) {
-	const same = surfaces.find((s) => s.layer === layer && s.most === most && Object.keys(parts).every((name) => s.parts[name] === parts[name]));
+	const same = surfaces.find((s) => s.layer === layer && s.most === most &&
+		Object.keys(parts).every((name) => s.parts[name] === parts[name]));
 
 	if (!same)
 		surfaces.push(new Surface(layer, most, parts));
@@ -132,14 +141,16 @@ export function addLevels(frame) {
 		return;
 	for (const name of ["position", "triangles", "crease"])
 		parts[name] = columnOf(frame, "control", name);
-	const others = [...frame.columns.values()].filter((c) => (c.layer === HEIGHTS || c.layer === layer) && c !== parts.height);
+	const others = [...frame.columns.values()].filter((c) => (c.layer === HEIGHTS || c.layer === layer) &&
+		c !== parts.height);
 	frame.levels = { surface: surfaceOver(layer, most, parts), first: level, others };
 	setLevel(frame, null);
 }
 
 /* Puts the frame's surface, where it has one, onto a level, or the nearest that it has; null: that of the stream. */
 export function setLevel(frame, level) {
-	const { surface, first, others, at: before } = frame.levels || {}, at = surface && (level === null ? first : Math.min(level, surface.most));
+	const { surface, first, others, at: before } = frame.levels || {}, at = surface &&
+		(level === null ? first : Math.min(level, surface.most));
 
 	if (!surface || at === before)
 		return;

@@ -1,4 +1,5 @@
-/* rotation.js -- vectors, affine maps as three rows of four, rotations and their logarithms, for the few that handles need. */
+/* rotation.js -- vectors, affine maps as three rows of four, rotations and their logarithms, for the few that handles
+ * need. */
 
 export const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0];
 

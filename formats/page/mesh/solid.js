@@ -6,7 +6,8 @@ const NONE = 0xffffffff;
 export class Solid {
 	/* position: of floats, and may change: then it is to be told by move(). */
 	constructor(position, triangles) {
-		this.at = library.had(library.run.surface_new(position.length / 3, library.put(triangles), triangles.length / 3));
+		this.at = library.had(library.run.surface_new(position.length / 3, library.put(triangles),
+			triangles.length / 3));
 		this.position = new Float32Array(3 * triangles.length); /* of corners */
 		this.normal = new Float32Array(3 * triangles.length);
 		this.move(position);
@@ -36,7 +37,8 @@ export class Solid {
 	/* The face that a ray meets first: { face, at }; null: none. */
 	hit(from, along) {
 		this.prepare();
-		const ray = library.put(Float64Array.from([...from, ...along])), face = library.run.surface_hit(this.at, ray) >>> 0;
+		const ray = library.put(Float64Array.from([...from, ...along])),
+			face = library.run.surface_hit(this.at, ray) >>> 0;
 		const at = Array.from(library.get(Float64Array, ray, 3));
 
 		library.free(ray);
@@ -45,7 +47,8 @@ export class Solid {
 
 	/* The vertices no farther than radius over the surface from a place on a face. */
 	disc(face, place, radius) {
-		const at = library.put(Float64Array.from(place)), n = library.run.surface_disc(this.at, face, at, radius);
+		const at = library.put(Float64Array.from(place)),
+			n = library.run.surface_disc(this.at, face, at, radius);
 
 		library.free(at);
 		return this.read(Uint32Array, 0, n);

@@ -1,4 +1,5 @@
-/* paint_side.js -- the part of the side for painting: tools, regions with the numbers of their vertices, what can be done. */
+/* paint_side.js -- the part of the side for painting: tools, regions with the numbers of their vertices, what can be
+ * done. */
 import { regionColor, regionName } from "../draw/colors.js";
 import { HANDLE } from "./regions.js";
 import { count } from "../stream/text.js";
@@ -42,7 +43,8 @@ function listRegions(painter) {
 function showSize(painter) {
 	$("size").value = painter.size;
 	$("size-is").textContent = Number((100 * painter.share).toPrecision(2)) + " %";
-	$("size-is").title = "Radius: " + Number(painter.radius.toPrecision(3)) + ", " + $("size-is").textContent + " of the diagonal";
+	$("size-is").title = "Radius: " + Number(painter.radius.toPrecision(3)) + ", " + $("size-is").textContent +
+		" of the diagonal";
 }
 
 function showButtons(painter) {
@@ -92,7 +94,8 @@ const KEYS = {
 	0: (painter) => painter.take(1),
 	"[": (painter) => painter.resize(painter.size - 5),
 	"]": (painter) => painter.resize(painter.size + 5),
-	...Object.fromEntries(Array.from({ length: HANDLES }, (_, i) => [i + 1, (painter) => painter.take(HANDLE + i + 1)])),
+	...Object.fromEntries(Array.from({ length: HANDLES }, (_, i) =>
+		[i + 1, (painter) => painter.take(HANDLE + i + 1)])),
 };
 
 /* Does what a key is for here; false: nothing.  While no tool paints, those of the tools are all. */

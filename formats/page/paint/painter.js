@@ -1,6 +1,7 @@
 /*
- * painter.js -- the regions that are painted: of which layer, with which tool, in which region; what a stroke or a button
- * changes.  A painted column stands in its frames for the stream's, so that colours, legend and cards know no other.
+ * painter.js -- the regions that are painted: of which layer, with which tool, in which region; what a stroke or a
+ * button changes.  A painted column stands in its frames for the stream's, so that colours, legend and cards know no
+ * other.
  */
 import { Regions, FIXED, HANDLE } from "./regions.js";
 import { regionColor } from "../draw/colors.js";
@@ -19,7 +20,8 @@ const radiusOf = (size) => LEAST * (MOST / LEAST) ** (size / 100);
 /* A column as the stream has them, whose values may change: then so does its version. */
 function columnFor(layer, origin, regions) {
 	return {
-		layer, name: "region", element: "v", type: "u", components: 1, rows: regions.values.length, origin, version: 0,
+		layer, name: "region", element: "v", type: "u", components: 1, rows: regions.values.length, origin,
+			version: 0,
 		values: async () => regions.values,
 	};
 }
@@ -38,11 +40,14 @@ export class Painter {
 		connectPaint(this);
 	}
 
-	/* Whether the work is of what the frame has: the same vertices, by their triangles, or points of the same frames. */
+	/* Whether the work is of what the frame has: the same vertices, by their triangles, or points of the same
+	 * frames. */
 	fits(work, frame) {
-		const position = columnOf(frame, work.name, "position"), triangles = columnOf(frame, work.name, "triangles");
+		const position = columnOf(frame, work.name, "position"),
+			triangles = columnOf(frame, work.name, "triangles");
 
-		return Boolean(position) && position.rows === work.rows && triangles === work.triangles && ownRegion(frame, work.name) === work.column.origin &&
+		return Boolean(position) && position.rows === work.rows && triangles === work.triangles &&
+			ownRegion(frame, work.name) === work.column.origin &&
 			(triangles || frame.group === work.group);
 	}
 
@@ -55,9 +60,11 @@ export class Painter {
 
 	/* Takes up the frame's work: of the layer that is seen of those that have regions, else the first. */
 	async meet(frame, layers, visible) {
-		const found = LAYERS.map((name) => layers.find((l) => l.name === name)).filter((l) => l && l.position.rows > 0);
+		const found = LAYERS.map((name) => layers.find((l) => l.name === name)).filter((l) => l &&
+			l.position.rows > 0);
 		const layer = found.find((l) => visible.has(l.name)) || found[0] || null;
-		const given = found.find((l) => ownRegion(frame, l.name)), work = layer && await this.workOf(frame, layer);
+		const given = found.find((l) => ownRegion(frame, l.name)), work = layer &&
+			await this.workOf(frame, layer);
 
 		if (work !== this.work)
 			this.strokes.forget();
@@ -69,19 +76,23 @@ export class Painter {
 
 	/* The work on a layer, as it was left, or that begins with the regions of the stream. */
 	async workOf(frame, { name, position, triangles }) {
-		const there = this.works.find((w) => w.name === name && this.fits(w, frame)), origin = ownRegion(frame, name);
+		const there = this.works.find((w) => w.name === name && this.fits(w, frame)),
+			origin = ownRegion(frame, name);
 
 		if (there)
 			return there;
-		const regions = new Regions(origin && origin.element === "v" && origin.type === "u" ? await origin.values() : null, position.rows);
-		const work = { name, rows: position.rows, triangles, group: frame.group, regions, column: columnFor(name, origin, regions), painted: false };
+		const regions = new Regions(origin && origin.element === "v" && origin.type === "u" ?
+			await origin.values() : null, position.rows);
+		const work = { name, rows: position.rows, triangles, group: frame.group, regions,
+			column: columnFor(name, origin, regions), painted: false };
 		this.works.push(work);
 		return work;
 	}
 
 	/* What is drawn of the layer; undefined where it is not seen. */
 	get drawn() {
-		const there = this.work && this.app.shown.seen.some((l) => l.name === this.work.name) && this.app.drawn.get(this.work.name);
+		const there = this.work && this.app.shown.seen.some((l) => l.name === this.work.name) &&
+			this.app.drawn.get(this.work.name);
 
 		return there ? there.drawn : undefined;
 	}
@@ -102,7 +113,8 @@ export class Painter {
 		if (!this.work)
 			return Promise.resolve();
 		this.work.painted = true;
-		return this.app.change({ visible: visible.has(this.work.name) ? visible : new Set([this.work.name]), color: "region" });
+		return this.app.change({ visible: visible.has(this.work.name) ? visible : new Set([this.work.name]),
+			color: "region" });
 	}
 
 	choose(tool) {
@@ -151,7 +163,8 @@ export class Painter {
 	async edit(what) {
 		const { work, region, layer } = this;
 
-		if (!work || work.regions.before || (what === "grow" && !layer.triangles) || (what === "clear" && region === FIXED))
+		if (!work || work.regions.before || (what === "grow" && !layer.triangles) ||
+			(what === "clear" && region === FIXED))
 			return undefined;
 		const t = what === "grow" ? await this.triangles() : null;
 		return work === this.work ? this.done(work.regions[what](region, t)) : undefined;

@@ -1,4 +1,5 @@
-/* regions.js -- the region of each vertex as it is painted: counts, changes that can be taken back, changes along edges. */
+/* regions.js -- the region of each vertex as it is painted: counts, changes that can be taken back, changes along
+ * edges. */
 export const FIXED = 0, FREE = 1, HANDLE = 2;
 const MOST = 32; /* changes that can be taken back */
 

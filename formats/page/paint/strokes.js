@@ -1,5 +1,6 @@
 /*
- * strokes.js -- painting by mouse, pen or finger: a brush over the surface, a click on a connected part.  Meanwhile the right button or two fingers turn the model, and so does a stroke that begins beside it.
+ * strokes.js -- painting by mouse, pen or finger: a brush over the surface, a click on a connected part.  Meanwhile the
+ * right button or two fingers turn the model, and so does a stroke that begins beside it.
  */
 import * as THREE from "three/build/three.module.js";
 import { nearestPoint } from "../draw/pick.js";
@@ -70,8 +71,10 @@ export class Strokes {
 
 		if (solid)
 			return solid.hit(view.eye, this.stage.along(view, x, y));
-		const found = nearestPoint(p, view.m, x / view.width * 2 - 1, 1 - y / view.height * 2, NEAR * 2 / view.height, view.width / view.height);
-		return found && { face: null, vertex: found.vertex, at: Array.from(p.subarray(3 * found.vertex, 3 * found.vertex + 3)) };
+		const found = nearestPoint(p, view.m, x / view.width * 2 - 1, 1 - y / view.height * 2,
+			NEAR * 2 / view.height, view.width / view.height);
+		return found && { face: null, vertex: found.vertex,
+			at: Array.from(p.subarray(3 * found.vertex, 3 * found.vertex + 3)) };
 	}
 
 	down(e) {
@@ -136,11 +139,13 @@ export class Strokes {
 	}
 
 	brush(x, y) {
-		const { painter } = this, { scene } = this.stroke, { drawn: { position, solid } } = scene, found = this.hit(scene, x, y);
+		const { painter } = this, { scene } = this.stroke, { drawn: { position, solid } } = scene,
+			found = this.hit(scene, x, y);
 
 		if (!found)
 			return;
-		const disc = solid ? solid.disc(found.face, found.at, painter.radius) : ball(position, found.at, painter.radius);
+		const disc = solid ? solid.disc(found.face, found.at, painter.radius) :
+			ball(position, found.at, painter.radius);
 		const changed = painter.work.regions.set(disc, painter.region);
 		if (changed.length)
 			painter.changed(changed);
@@ -169,7 +174,8 @@ export class Strokes {
 
 	/* A circle about as large as the brush is there. */
 	drawRing(clientX, clientY) {
-		const box = $("stage").getBoundingClientRect(), view = this.stage.viewAt(clientX, clientY), ring = $("ring");
+		const box = $("stage").getBoundingClientRect(), view = this.stage.viewAt(clientX, clientY),
+			ring = $("ring");
 
 		ring.hidden = !view || !this.painter.drawn;
 		if (ring.hidden)

@@ -1,6 +1,7 @@
 /*
- * takeaway.js -- painted regions out of the page: as a file for mr-select, and as a script that gives them to the page's stream.
- * No word of the script comes from the stream but for its file's name, of which fileOf keeps letters, digits and few signs.
+ * takeaway.js -- painted regions out of the page: as a file for mr-select, and as a script that gives them to the
+ * page's stream. No word of the script comes from the stream but for its file's name, of which fileOf keeps letters,
+ * digits and few signs.
  */
 import { HANDLE } from "./regions.js";
 import { write } from "./selection_file.js";
@@ -20,8 +21,10 @@ function save(name, text) {
 /* The commands from the stream to the one with the regions and, where these have handles, a basis. */
 function commandsOf({ name: layer, regions }, frame, pose, several) {
 	const has = (column) => Boolean(columnOf(frame, ...column.split(".")));
-	const { surface, at } = frame.levels || {}, first = ["mesh", "control", "points"].find((l) => has(l + ".position"));
-	const handles = layer !== "points" && [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0), onMesh = handles && layer === "mesh";
+	const { surface, at } = frame.levels || {}, first = ["mesh", "control", "points"].find((l) =>
+		has(l + ".position"));
+	const handles = layer !== "points" && [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0),
+		onMesh = handles && layer === "mesh";
 
 	return [
 		surface && surface.layer === layer && "mr-decode --from control --level " + at,
@@ -36,7 +39,8 @@ function commandsOf({ name: layer, regions }, frame, pose, several) {
 function script(name, text, commands) {
 	return [
 		"#!/bin/sh",
-		"# Makes " + name + "-painted.mrs: the stream of a page with the regions that were painted there; and a page of it.",
+		"# Makes " + name +
+			"-painted.mrs: the stream of a page with the regions that were painted there; and its page.",
 		"# usage: sh " + name + ".sh STREAM.mrs",
 		"[ $# -gt 0 ] || { echo 'usage: sh " + name + ".sh STREAM.mrs' >&2; exit 2; }",
 		"set -e",
@@ -53,7 +57,8 @@ function script(name, text, commands) {
 export class TakeAway {
 	constructor(painter) {
 		this.painter = painter;
-		$("save-regions").addEventListener("click", async () => save(this.name + ".regions", await this.text()));
+		$("save-regions").addEventListener("click", async () =>
+			save(this.name + ".regions", await this.text()));
 		$("save-script").addEventListener("click", async () => save(this.name + ".sh", await this.script()));
 	}
 
@@ -76,15 +81,18 @@ export class TakeAway {
 
 	/* The line of the page's pose, where it is of these regions and begins at rest; or an empty text. */
 	async pose(frame) {
-		const { pose } = this.painter.app.posing, { column, regions } = this.taken, own = column.origin && await column.origin.values();
+		const { pose } = this.painter.app.posing, { column, regions } = this.taken, own = column.origin &&
+			await column.origin.values();
 		const same = own && regions.values.every((r, v) => r === own[v]);
 
 		return pose && same && !columnOf(frame, "handles", "transform") ? pose.line() : "";
 	}
 
 	async script() {
-		const { frame } = this.painter.app.shown, several = this.painter.app.frames.some((f) => f.group !== frame.group);
+		const { frame } = this.painter.app.shown, several = this.painter.app.frames.some((f) =>
+			f.group !== frame.group);
 
-		return script(this.name, await this.text(), commandsOf(this.taken, frame, await this.pose(frame), several));
+		return script(this.name, await this.text(), commandsOf(this.taken, frame, await this.pose(frame),
+			several));
 	}
 }

@@ -1,6 +1,6 @@
 /*
- * codec.js -- the values of a column: raw, or packed (mr-stream 5, codec 1): differences of rows, their bytes in planes,
- * deflated.
+ * codec.js -- the values of a column: raw, or packed (mr-stream 5, codec 1): differences of rows, their bytes in
+ * planes, deflated.
  */
 import { library } from "../library/compile.js";
 
@@ -64,7 +64,8 @@ export class Column {
 
 	async read() {
 		const size = SIZE[this.stored || this.type], Kind = ARRAY[this.stored || this.type];
-		const values = new Kind(this.packed ? join(await inflate(this.bytes), this.rows, this.components, size) : this.bytes.slice().buffer);
+		const values = new Kind(this.packed ? join(await inflate(this.bytes), this.rows, this.components,
+			size) : this.bytes.slice().buffer);
 
 		return this.steps ? fromSums(values, this.components, this.steps) : values;
 	}
@@ -89,7 +90,8 @@ export class Column {
 
 class Copy extends Column {
 	constructor(of, layer, name) {
-		super({ of, layer, name, element: of.element, type: of.type, components: of.components, rows: of.rows });
+		super({ of, layer, name, element: of.element, type: of.type, components: of.components,
+			rows: of.rows });
 	}
 
 	values() {

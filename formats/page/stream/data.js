@@ -20,7 +20,8 @@ function join(parts) {
 
 /* The text that an element holds packed, which stays there. */
 export async function textOf(id) {
-	const stream = new Blob([decode(document.getElementById(id).textContent.trim())]).stream().pipeThrough(new DecompressionStream("gzip"));
+	const packed = new Blob([decode(document.getElementById(id).textContent.trim())]);
+	const stream = packed.stream().pipeThrough(new DecompressionStream("gzip"));
 
 	return new Response(stream).text();
 }

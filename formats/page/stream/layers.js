@@ -2,7 +2,8 @@
 import { columnOf, linesOf } from "./stream.js";
 
 /* Columns that are no values to colour by: places, and what poses or subdivides them. */
-const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded", "response", "crease", "texcoord", "corner_texcoord"]);
+const PLACES = new Set(["position", "triangles", "normal", "detail_face", "detail_bary", "detail_offset", "encoded",
+	"response", "crease", "texcoord", "corner_texcoord"]);
 
 /* In place of a column to colour by: no column's name has a blank. */
 export const TEXTURE = " texture";
@@ -19,9 +20,11 @@ export function layersOf(frame) {
 				triangles: columnOf(frame, column.layer, "triangles"),
 				normal: columnOf(frame, column.layer, "normal"),
 				wears: frame.wears && frame.wears.get(column.layer),
-				texcoord: columnOf(frame, column.layer, "corner_texcoord") || columnOf(frame, column.layer, "texcoord"),
+				texcoord: columnOf(frame, column.layer, "corner_texcoord") ||
+					columnOf(frame, column.layer, "texcoord"),
 				material: columnOf(frame, column.layer, "material"),
-				colors: [...frame.columns.values()].filter((c) => c.layer === column.layer && !PLACES.has(c.name) && (c.element === "v" || c.element === "f")),
+				colors: [...frame.columns.values()].filter((c) => c.layer === column.layer &&
+					!PLACES.has(c.name) && (c.element === "v" || c.element === "f")),
 			});
 	return layers;
 }

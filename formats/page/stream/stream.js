@@ -67,8 +67,8 @@ function wearing(frame, layer) {
 
 const given = (word, read) => (word === "-" ? null : read(word));
 
-/* What the page's text says: the file; how columns are stored, equal ones once, others as sums of steps; which layer is computed;
- * what layers wear. */
+/* What the page's text says: the file; how columns are stored, equal ones once, others as sums of steps; which layer is
+ * computed; what layers wear. */
 async function understand(frame) {
 	for (const line of await linesOf(frame, "", "page")) {
 		const [how, layer, name, ...more] = line.split(" ");
@@ -81,7 +81,9 @@ async function understand(frame) {
 		else if (how === "texture")
 			wearing(frame, layer).texture = Number(name);
 		else if (how === "material")
-			wearing(frame, layer).materials.set(Number(name), { color: given(more[0], (rgb) => rgb.split(",").map(Number)), picture: given(more[1], Number) });
+			wearing(frame, layer).materials.set(Number(name),
+				{ color: given(more[0], (rgb) => rgb.split(",").map(Number)),
+					picture: given(more[1], Number) });
 		else
 			columnOf(frame, layer, name).setSteps(Number(more[0] || 0), more.slice(1).map(Number));
 	}
@@ -126,7 +128,8 @@ export function titleOf(frame) {
 
 /* A name for files of the frame, after its stream's where that is known: of letters, digits and few signs. */
 export function fileOf(frame) {
-	return (frame.file || frame.name).replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[-.]+/, "").slice(0, 60) || "model";
+	return (frame.file || frame.name).replace(/[^A-Za-z0-9._-]+/g, "-").replace(/^[-.]+/, "").slice(0, 60) ||
+		"model";
 }
 
 /* The stream that a line for the shell reads. */
@@ -138,5 +141,6 @@ export function streamOf(frame) {
 export async function linesOf(frame, layer, name) {
 	const column = columnOf(frame, layer, name);
 
-	return column ? text.decode(await column.values()).split("\n").filter((line, i, all) => line || i < all.length - 1) : [];
+	return column ? text.decode(await column.values()).split("\n").filter((line, i, all) => line ||
+		i < all.length - 1) : [];
 }

@@ -1,4 +1,5 @@
-/* text.js -- names and numbers for people.  A name is foreign: it is only ever text, and keeps to its place in a line. */
+/* text.js -- names and numbers for people.  A name is foreign: it is only ever text, and keeps to its place in a
+ * line. */
 
 /* Controls, and what turns the direction of the text around, are shown as signs. */
 const UNSEEN = /[\u0000-\u001f\u007f-\u009f\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069]/g;
@@ -34,7 +35,8 @@ export function place(coordinates, extent) {
 	return coordinates.map((x) => String(Number(x.toFixed(decimals)))).join("  ");
 }
 
-/* Copies what an element says; the clipboard is not there for every page from the disk: then what is selected is copied. */
+/* Copies what an element says; the clipboard is not there for every page from the disk: then what is selected is
+ * copied. */
 export async function copy(of) {
 	const button = of.parentElement.querySelector("button"), text = of.textContent;
 
