@@ -2,6 +2,7 @@
 #include "formats/model.h"
 #include "formats/build.h"
 #include "formats/format.h"
+#include "mesh/mend.h"
 #include "mesh/normals.h"
 #include "mesh/validate.h"
 #include "stream/record.h"
@@ -70,27 +71,6 @@ mr_corner_texcoord(const mr_model *m, size_t c)
 }
 
 /* ---- attributes follow their vertices and faces ---- */
-
-void
-mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n)
-{
-	mr_property *property = MR_NEW(ctx, m->properties, mr_property);
-
-	for (size_t i = 0; i < COLUMNS; i++) {
-		const void *data = column_of(m, i);
-		if (columns[i].of_faces != of_faces || !data)
-			continue;
-		data = mr_gather(ctx, data, columns[i].bytes, of, n);
-		set_column(m, i, data);
-	}
-	for (size_t i = 0; i < m->properties; i++) {
-		mr_property *p = &property[i];
-		*p = m->property[i];
-		if ((p->shape.element == 'f') == of_faces)
-			p->data = mr_gather(ctx, p->data, mr_type_size(p->shape.type), of, n);
-	}
-	m->property = property;
-}
 
 /* A copy of n rows of `size` bytes; NULL stays NULL. */
 static void
@@ -341,7 +321,7 @@ judge_grain(mr_ctx *ctx, const mr_model *m, mr_box box)
 static mr_status
 import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame, mr_import_result *result)
 {
-	const char *name = mr_format_stem(ctx, path);
+	const char *name = mr_format_stem(ctx, path), *layer;
 	double unit;
 	mr_frame *f;
 	mr_model m;
@@ -356,16 +336,17 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	box = mr_mesh_box(&(mr_mesh){ .p = m.p, .nv = m.nv, .t = m.t, .nf = m.nf });
 	judge_grain(ctx, &m, box);
 	unit = o->weld_relative ? mr_box_diagonal(box) : 1;
-	if (o->weld)
-		MR_TRY(mr_model_weld(ctx, o->weld_distance * unit, &m));
-	if (o->repair)
-		MR_TRY(mr_prefix(ctx, mr_model_repair(ctx, &m), "%s", path));
+	layer = o->layer ? o->layer : m.nf ? "mesh" : "points";
 	MR_TRY(mr_frame_new(ctx, name, &f));
-	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, o->layer, &m), "%s", path));
+	MR_TRY(mr_prefix(ctx, mr_model_put(ctx, f, layer, &m), "%s", path));
+	if (o->weld)
+		MR_TRY(mr_layer_weld(ctx, f, layer, o->weld_distance * unit));
+	if (o->repair)
+		MR_TRY(mr_prefix(ctx, mr_layer_repair(ctx, f, layer), "%s", path));
 	*frame = f;
 	mr_libraries_missing(ctx, path, m.mtllib);
-	m.counts.vertices = m.nv;
-	m.counts.triangles = m.nf;
+	m.counts.vertices = mr_frame_find(f, layer, "position")->rows;
+	m.counts.triangles = m.nf ? mr_frame_find(f, layer, "triangles")->rows : 0;
 	if (result)
 		*result = m.counts;
 	return MR_OK;

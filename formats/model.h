@@ -10,20 +10,6 @@
 /* Drops the faces: what is left is a cloud. */
 void mr_model_to_points(mr_model *m);
 
-/* All that the model has of vertices, or of faces, for those that are left: row i is that of of[i]. Positions
- * and triangles stay. */
-void mr_model_gather(mr_ctx *ctx, mr_model *m, bool of_faces, const uint32_t *of, size_t n);
-
-/*
- * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes, but for
- * texture coordinates and normals, which become those of corners where they differ.  Faces that lose a corner
- * by it go; those that had a vertex twice before stay.  Reports what was done.
- */
-mr_status mr_model_weld(mr_ctx *ctx, double eps, mr_model *m) MR_WARN_UNUSED;
-
-/* mr_repair, attributes carried along.  Points stay as they are.  Reports what was done. */
-mr_status mr_model_repair(mr_ctx *ctx, mr_model *m) MR_WARN_UNUSED;
-
 /*
  * Puts the model as this layer, or, where `layer` is NULL, as `mesh`, without faces as `points`; the frame
  * borrows its arrays.

@@ -80,21 +80,35 @@ renumber(mr_tri *t, size_t n, const uint32_t *number)
 			t[f].v[k] = number[t[f].v[k]];
 }
 
-static mr_status
-keep_rows(mr_ctx *ctx, mr_frame *f, size_t i, const mr_subset *s)
+mr_status
+mr_layer_gather(mr_ctx *ctx, mr_frame *f, const char *layer, char element, const uint32_t *of, size_t n)
 {
-	bool faces = f->columns[i].shape.element == 'f';
-	mr_rows_from kept = { faces ? s->nf : s->nv, 1, faces ? s->face : s->vertex, NULL };
-	char layer[MR_LAYER_MAX + 1];
+	char name[MR_LAYER_MAX + 1];
 	mr_carried c;
 
-	memcpy(layer, f->columns[i].layer, sizeof layer);
-	MR_TRY(mr_carried_begin(ctx, f, i, (size_t)f->columns[i].rows, kept.n, &c));
-	c.kind = MR_LABEL;
-	mr_carried_make(ctx, &c, 1, 0, kept);
-	if (!strcmp(c.name, "triangles"))
-		renumber(c.to, kept.n, s->number);
-	return mr_carried_put(ctx, f, layer, &c);
+	snprintf(name, sizeof name, "%s", layer); /* which may be that of a column */
+	for (size_t i = 0; i < f->count; i++) {
+		if (strcmp(f->columns[i].layer, name) || f->columns[i].shape.element != element)
+			continue;
+		MR_TRY(mr_carried_begin(ctx, f, i, (size_t)f->columns[i].rows, n, &c));
+		c.kind = MR_LABEL;
+		mr_carried_make(ctx, &c, 1, 0, (mr_rows_from){ n, 1, of, NULL });
+		MR_TRY(mr_carried_put(ctx, f, name, &c));
+	}
+	return MR_OK;
+}
+
+/* The triangles by the numbers that their corners have now. */
+static mr_status
+renumber_faces(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
+{
+	mr_tri *own = MR_NEW(ctx, s->nf, mr_tri);
+	const void *t;
+
+	MR_TRY(mr_layer_get_rows(ctx, f, layer, "triangles", s->nf, &t));
+	memcpy(own, t, s->nf * sizeof *own);
+	renumber(own, s->nf, s->number);
+	return mr_frame_put(ctx, f, layer, "triangles", (mr_shape){ 'f', 'u', 3 }, own, s->nf);
 }
 
 mr_status
@@ -110,9 +124,10 @@ mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s)
 	if (detail)
 		on = *encoded;
 	mr_layer_drop_kind(f, layer, MR_SAMPLED); /* the neighbourhoods of the points are others now */
-	for (size_t i = 0; i < f->count; i++)
-		if (!strcmp(f->columns[i].layer, layer) && f->columns[i].shape.element != '-')
-			MR_TRY(keep_rows(ctx, f, i, s));
+	MR_TRY(mr_layer_gather(ctx, f, layer, 'v', s->vertex, s->nv));
+	MR_TRY(mr_layer_gather(ctx, f, layer, 'f', s->face, s->nf));
+	if (t)
+		MR_TRY(renumber_faces(ctx, f, layer, s));
 	mr_layer_renumbered(f, layer);
 	if (detail) /* what is left is still over the base on which it was encoded */
 		MR_TRY(mr_frame_pass(ctx, f, &on));

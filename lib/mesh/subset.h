@@ -27,4 +27,8 @@ mr_subset_find(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *keep, mr_
  */
 mr_status mr_layer_keep(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_subset *s) MR_WARN_UNUSED;
 
+/* Every column of the layer's vertices (element v) or faces (f) gets the rows of[0 .. n), as they are. */
+mr_status mr_layer_gather(
+    mr_ctx *ctx, mr_frame *f, const char *layer, char element, const uint32_t *of, size_t n) MR_WARN_UNUSED;
+
 #endif

@@ -1,0 +1,219 @@
+/* Rows of vertices, faces and corners follow those that are left. */
+#include "mesh/mend.h"
+
+#include "mesh/repair.h"
+#include "mesh/subset.h"
+
+static void
+report(mr_ctx *ctx, size_t count, const char *what)
+{
+	if (count)
+		mr_found(ctx, &(mr_finding){ .kind = MR_REPAIRED, .what = what, .count = count });
+}
+
+/* ---- weld ---- */
+
+static bool
+proper(mr_tri t)
+{
+	return t.v[0] != t.v[1] && t.v[1] != t.v[2] && t.v[2] != t.v[0];
+}
+
+/* How many vertices have another row than the one that stands for them. */
+static size_t
+count_others(const mr_column *c, const uint32_t *map, const uint32_t *of)
+{
+	size_t n = 0, bytes = c->shape.components * mr_type_size(c->shape.type);
+	const char *row = c->data;
+
+	for (size_t i = 0; i < c->rows; i++)
+		n += memcmp(row + bytes * i, row + bytes * of[map[i]], bytes) != 0;
+	return n;
+}
+
+/* The values of vertices as those of the corners there. */
+static mr_status
+to_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_column *vertex, const char *name)
+{
+	size_t width = vertex->shape.components;
+	const double *x = vertex->data;
+	double *corner = MR_NEW(ctx, 3 * width * m->nf, double);
+
+	for (size_t c = 0; c < 3 * m->nf; c++)
+		memcpy(corner + width * c, x + width * m->t[c / 3].v[c % 3], width * sizeof *x);
+	return mr_layer_put(ctx, f, m->name, name, corner, m->nf);
+}
+
+/* What differs between vertices that become one is the corners' from now on, or the first vertex's counts. */
+static mr_status
+keep_differences(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *map, const uint32_t *of)
+{
+	for (size_t i = f->count; i-- > 0;) {
+		mr_column *c = &f->columns[i];
+		bool normal = !strcmp(c->name, "normal"), texcoord = !strcmp(c->name, "texcoord");
+		size_t others;
+		if (strcmp(c->layer, m->name) || c->shape.element != 'v' || !strcmp(c->name, "position"))
+			continue;
+		MR_TRY(mr_column_decode(ctx, c));
+		others = count_others(c, map, of);
+		if (others && m->nf && (normal || texcoord)) {
+			mr_column own = *c;
+			mr_frame_drop(f, m->name, normal ? "normal" : "texcoord", 0);
+			MR_TRY(to_corners(ctx, f, m, &own, normal ? "corner_normal" : "corner_texcoord"));
+		} else
+			mr_lost(ctx, NULL, others, mr_format(ctx, "%s of joined vertices", c->name));
+	}
+	return MR_OK;
+}
+
+/* Faces by their new vertices, without those that had three corners and have not now. */
+static mr_status
+rename_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const uint32_t *map, double eps)
+{
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
+	uint32_t *of = MR_NEW(ctx, m->nf, uint32_t);
+	size_t kept = 0;
+
+	for (size_t i = 0; i < m->nf; i++) {
+		const uint32_t *v = m->t[i].v;
+		t[kept] = (mr_tri){ { map[v[0]], map[v[1]], map[v[2]] } };
+		of[kept] = (uint32_t)i;
+		kept += proper(t[kept]) || !proper(m->t[i]);
+	}
+	if (kept == 0)
+		return mr_fail(ctx, MR_EMESH, "welding within %g leaves no face of %zu", eps, m->nf);
+	mr_lost(ctx, NULL, m->nf - kept, "faces that welding collapses");
+	MR_TRY(mr_layer_gather(ctx, f, m->name, 'f', of, kept));
+	return mr_layer_put(ctx, f, m->name, "triangles", t, kept);
+}
+
+mr_status
+mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps)
+{
+	uint32_t *map, *of;
+	size_t n = 0, next = 0;
+	mr_mesh m;
+
+	MR_TRY(mr_layer_surface_or_points_of_any_size(ctx, f, layer, &m));
+	map = MR_NEW(ctx, m.nv, uint32_t);
+	of = MR_NEW(ctx, m.nv, uint32_t);
+	mr_weld(ctx, m.p, m.nv, eps, map, &n);
+	for (size_t i = 0; i < m.nv; i++)
+		if (map[i] == next)
+			of[next++] = (uint32_t)i;
+	report(ctx, m.nv - n, "vertices joined");
+	MR_TRY(keep_differences(ctx, f, &m, map, of));
+	MR_TRY(mr_layer_gather(ctx, f, layer, 'v', of, n));
+	return m.nf ? rename_faces(ctx, f, &m, map, eps) : MR_OK;
+}
+
+/* ---- repair ---- */
+
+/* One finding, whose words have the counts. */
+static void
+report_repair(mr_ctx *ctx, const mr_repair_report *r)
+{
+	const struct {
+		size_t count;
+		const char *what;
+	} lines[] = { { r->degenerate, "degenerate faces" }, { r->duplicate, "duplicate faces" },
+		{ r->isolated, "isolated vertices" }, { r->split_edges, "edges split" },
+		{ r->split_vertices, "vertices split" }, { r->flipped, "faces turned" },
+		{ r->cut_edges, "edges cut" } };
+	char what[256] = "";
+	size_t n = 0, all = 0;
+
+	for (size_t i = 0; i < sizeof lines / sizeof *lines; i++) {
+		all += lines[i].count;
+		if (lines[i].count)
+			n += (size_t)snprintf(what + n, sizeof what - n, "%s%zu %s", n ? ", " : "",
+			    lines[i].count, lines[i].what);
+	}
+	report(ctx, all, what);
+}
+
+/* A copy of a column of reals; NULL where there is none. */
+static mr_v3 *
+own_normals(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, size_t n)
+{
+	const mr_column *c = mr_frame_find(f, layer, name);
+	mr_v3 *own = c ? MR_NEW(ctx, n, mr_v3) : NULL;
+
+	return own ? memcpy(own, c->data, n * sizeof *own) : NULL;
+}
+
+/* n, or where it points against the surface, which was turned over there, the other way. */
+static mr_v3
+facing(mr_v3 n, bool flipped, mr_v3 surface)
+{
+	return flipped && mr_dot(n, surface) < 0 ? mr_sub(mr_vec(0, 0, 0), n) : n;
+}
+
+static mr_status
+turn_normals(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *flipped)
+{
+	mr_v3 *normal = own_normals(ctx, f, m->name, "normal", m->nv),
+	      *corner = own_normals(ctx, f, m->name, "corner_normal", 3 * m->nf),
+	      *surface = MR_NEW(ctx, m->nv, mr_v3);
+	bool *touched = MR_NEW_ZERO(ctx, m->nv, bool);
+
+	mr_vertex_normals(ctx, m, NULL, surface);
+	for (size_t c = 0; c < 3 * m->nf; c++) {
+		touched[m->t[c / 3].v[c % 3]] |= flipped[c / 3];
+		if (corner)
+			corner[c] = facing(corner[c], flipped[c / 3], mr_face_cross(m, c / 3));
+	}
+	for (size_t v = 0; normal && v < m->nv; v++)
+		normal[v] = facing(normal[v], touched[v], surface[v]);
+	if (normal)
+		MR_TRY(mr_layer_put(ctx, f, m->name, "normal", normal, m->nv));
+	return corner ? mr_layer_put(ctx, f, m->name, "corner_normal", corner, m->nf) : MR_OK;
+}
+
+/* What corners have, in the order of the corners that the faces have now. */
+static mr_status
+turn_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *flipped)
+{
+	static const char *const names[] = { "corner_texcoord", "corner_normal" };
+	uint32_t *of = MR_NEW(ctx, 3 * m->nf, uint32_t);
+
+	for (uint32_t i = 0; i < 3 * m->nf; i++)
+		of[i] = flipped[i / 3] && i % 3 ? i / 3 * 3 + 3 - i % 3 : i;
+	for (size_t k = 0; k < 2; k++)
+		for (size_t i = 0; i < f->count; i++) {
+			mr_carried c;
+			if (strcmp(f->columns[i].layer, m->name) || strcmp(f->columns[i].name, names[k]))
+				continue;
+			MR_TRY(mr_carried_begin(ctx, f, i, m->nf, m->nf, &c));
+			c.kind = MR_LABEL;
+			mr_carried_make(ctx, &c, 3, 0, (mr_rows_from){ 3 * m->nf, 1, of, NULL });
+			MR_TRY(mr_carried_put(ctx, f, m->name, &c));
+		}
+	return turn_normals(ctx, f, m, flipped);
+}
+
+mr_status
+mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer)
+{
+	const uint32_t *vertex_of, *face_of;
+	mr_repair_report r;
+	mr_mesh in, out;
+	bool *flipped;
+
+	if (!mr_layer_has(f, layer, "triangles"))
+		return MR_OK;
+	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &in));
+	MR_TRY(mr_repair(ctx, &in, &out, &vertex_of, &face_of, &r));
+	out.name = layer;
+	flipped = MR_NEW(ctx, out.nf, bool);
+	for (size_t i = 0; i < out.nf; i++)
+		flipped[i] = vertex_of[out.t[i].v[1]] != in.t[face_of[i]].v[1];
+	MR_TRY(mr_layer_gather(ctx, f, layer, 'v', vertex_of, out.nv));
+	MR_TRY(mr_layer_gather(ctx, f, layer, 'f', face_of, out.nf));
+	MR_TRY(mr_layer_put(ctx, f, layer, "position", out.p, out.nv));
+	MR_TRY(mr_layer_put(ctx, f, layer, "triangles", out.t, out.nf));
+	if (r.flipped)
+		MR_TRY(turn_corners(ctx, f, &out, flipped));
+	report_repair(ctx, &r);
+	return MR_OK;
+}

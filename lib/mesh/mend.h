@@ -1,0 +1,17 @@
+/* mend.h -- layers mended: welding and repair, with all that vertices, faces and corners have. */
+#ifndef MR_MESH_MEND_H
+#define MR_MESH_MEND_H
+
+#include "mesh/layers.h"
+
+/*
+ * Joins vertices within eps (0: equal ones); the lowest of them gives position and attributes, but for
+ * texture coordinates and normals, which become those of corners where they differ.  Faces that lose a corner
+ * by it go; those that had a vertex twice before stay.  Reports what was done.
+ */
+mr_status mr_layer_weld(mr_ctx *ctx, mr_frame *f, const char *layer, double eps) MR_WARN_UNUSED;
+
+/* mr_repair, attributes carried along.  Points stay as they are.  Reports what was done. */
+mr_status mr_layer_repair(mr_ctx *ctx, mr_frame *f, const char *layer) MR_WARN_UNUSED;
+
+#endif
