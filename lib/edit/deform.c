@@ -263,7 +263,7 @@ pose(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *p)
 		MR_TRY(mr_energies_follow(ctx, d->energies, &whole, task->p0, task->maps, p));
 	else if (d->system.solver)
 		MR_TRY(mr_system_follow(ctx, &d->system, &whole, task->p0, NULL, p));
-	mr_loose_follow(ctx, &d->followers, task->p0, p);
+	mr_loose_follow(&d->followers, task->p0, p);
 	return MR_OK;
 }
 

@@ -20,8 +20,8 @@ struct mr_energies {
 	double *weight;      /* count for each vertex */
 	double (*cot)[3];    /* of each face */
 	mr_incidence around; /* faces of each vertex */
-	mr_sections sections;
-	mr_inside inside; /* for rounds */
+	mr_section *section; /* count for each face */
+	mr_inside inside;    /* for rounds */
 	/* Workspace, kept from pose to pose. */
 	mr_v3 *rest, *q, *before; /* a vertex each */
 	mr_mat3 *map;             /* A of each vertex, less that of the whole */
@@ -143,39 +143,27 @@ interpolate(const turning *t, size_t i)
 	return mr_mat3_multiply(&r, &s);
 }
 
-static double
-spread(double a, double b, double c)
-{
-	double low = a < b ? a : b, high = a < b ? b : a;
-
-	return (c > high ? c : high) - (c < low ? c : low);
-}
-
 /* The place about which a face turns: the sections of several handles count by how much they turn there. */
 static mr_v3
-center_of(const turning *t, size_t f, const uint32_t v[3])
+center_of(const turning *t, size_t f)
 {
-	size_t n = t->e->count;
-	const double *a = t->e->weight + n * v[0], *b = t->e->weight + n * v[1], *c = t->e->weight + n * v[2];
+	const mr_section *s = t->e->section + t->e->count * f;
 	mr_v3 sum = mr_vec(0, 0, 0);
 	double all = 0;
 
-	for (size_t j = 0; j < n; j++) {
-		double share = spread(a[j], b[j], c[j]);
-		share *= share * t->moves[j];
-		if (!(share > 0))
-			continue;
-		sum = mr_axpy(share, mr_section_at(&t->e->sections, n, f, j, (a[j] + b[j] + c[j]) / 3), sum);
+	for (size_t j = 0; j < t->e->count; j++) {
+		double share = s[j].spread2 * t->moves[j];
+		sum = mr_axpy(share, s[j].center, sum);
 		all += share;
 	}
-	return all > 0 ? mr_mul(1 / all, sum) : t->e->rest[v[0]];
+	return all > 0 ? mr_mul(1 / all, sum) : t->e->rest[t->e->s->patch.mesh.t[f].v[0]];
 }
 
 static void
 place_about_section(const turning *t, size_t f, mr_v3 corner[3])
 {
 	const uint32_t *v = t->e->s->patch.mesh.t[f].v;
-	mr_v3 center = center_of(t, f, v);
+	mr_v3 center = center_of(t, f);
 
 	for (int k = 0; k < 3; k++)
 		corner[k] = mr_mat3_apply(&t->e->map[v[k]], mr_sub(t->e->rest[v[k]], center));
@@ -467,7 +455,7 @@ mr_energies_make(
 	find_handles(ctx, e);
 	MR_TRY(make_room(ctx, e));
 	MR_TRY(solve_weights(ctx, e));
-	mr_sections_find(ctx, &s->patch.mesh, e->weight, e->count, (const double(*)[3])e->cot, &e->sections);
+	e->section = mr_sections_find(ctx, &s->patch.mesh, e->weight, e->count, (const double(*)[3])e->cot);
 	if (most > 0)
 		mr_inside_make(ctx, &s->patch, region, &e->inside);
 	*energies = e;

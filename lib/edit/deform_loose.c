@@ -1,7 +1,6 @@
 /* Anchors of parts that follow, and the rigid motions that fit theirs. */
 #include "edit/deform_loose.h"
 
-#include "base/parallel.h"
 #include "base/rotation.h"
 #include "space/near.h"
 
@@ -38,17 +37,13 @@ list_parts(mr_ctx *ctx, size_t nv, const bool *follows, const uint32_t *part, mr
 
 /* The anchors of part k: those nearest to some of its vertices, one that is nearest to several as often. */
 static void
-choose_anchors(const mr_mesh *rest, const uint32_t *nearest, const uint32_t *lead, size_t k, mr_loose *l)
+choose_anchors(const uint32_t *nearest, const uint32_t *lead, size_t k, mr_loose *l)
 {
 	size_t begin = l->start[k], n = l->start[k + 1] - begin, asked = n < MR_ANCHORS ? n : MR_ANCHORS,
 	       at = 0;
 	size_t each = MR_ANCHORS / asked < NEAREST ? MR_ANCHORS / asked : NEAREST;
 	uint32_t *anchor = l->anchor + k * MR_ANCHORS;
-	mr_box box = mr_box_empty();
-	double size;
 
-	for (size_t i = 0; i < n; i++)
-		mr_box_add(&box, rest->p[l->vertex[begin + i]]);
 	for (size_t i = 0; i < asked; i++)
 		for (size_t j = 0; j < each; j++) {
 			uint32_t near = nearest[NEAREST * (begin + i * n / asked) + j];
@@ -57,10 +52,6 @@ choose_anchors(const mr_mesh *rest, const uint32_t *nearest, const uint32_t *lea
 		}
 	while (at < MR_ANCHORS)
 		anchor[at++] = MR_NONE;
-	/* With 4 of 55,659 edges of followers in 6 edits 19 are stretched by over 1.2, with 2 207, with 1
-	 * 2,453; one motion a part stretches none, but what hangs along a limb does not bend with it. */
-	size = 4 * mr_box_diagonal(box);
-	l->softness[k] = size * size;
 }
 
 mr_status
@@ -74,7 +65,6 @@ mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, const bool *f
 
 	list_parts(ctx, rest->nv, follows, part, l);
 	l->anchor = MR_NEW(ctx, l->parts * MR_ANCHORS, uint32_t);
-	l->softness = MR_NEW(ctx, l->parts, double);
 	mark = mr_mark_take(ctx);
 	lead = MR_NEW(ctx, rest->nv, uint32_t);
 	nearest = MR_NEW(ctx, NEAREST * l->n, uint32_t);
@@ -90,35 +80,36 @@ mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, const bool *f
 	if (l->n > 0)
 		MR_TRY(mr_near_once(ctx, at, leading, q, l->n, NEAREST, nearest, NULL));
 	for (size_t k = 0; k < l->parts; k++)
-		choose_anchors(rest, nearest, lead, k, l);
+		choose_anchors(nearest, lead, k, l);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
-/* The anchors of a follower, by weight. */
+/* The anchors of a part, all alike: one of them that is nearest to several vertices counts as often. */
 typedef struct anchors {
 	size_t n;
 	const uint32_t *vertex;
-	double weight[MR_ANCHORS]; /* sum to 1 */
-	mr_v3 center;              /* of them, at p0 */
+	mr_v3 center; /* of them, at p0 */
 } anchors;
 
-/* The nearer the more. */
+static mr_v3
+mean_of(const anchors *a, const mr_v3 *p)
+{
+	mr_v3 sum = mr_vec(0, 0, 0);
+
+	for (size_t k = 0; k < a->n; k++)
+		sum = mr_axpy(1 / (double)a->n, p[a->vertex[k]], sum);
+	return sum;
+}
+
 static anchors
-weigh(const mr_loose *l, size_t part, mr_v3 x, const mr_v3 *p0)
+anchors_of(const mr_loose *l, size_t part, const mr_v3 *p0)
 {
 	anchors a = { .vertex = l->anchor + part * MR_ANCHORS };
-	double sum = 0;
 
-	while (a.n < MR_ANCHORS && a.vertex[a.n] != MR_NONE) {
-		double soft = mr_norm2(mr_sub(p0[a.vertex[a.n]], x)) + l->softness[part];
-		a.weight[a.n] = soft > 0 ? 1 / (soft * soft) : 1;
-		sum += a.weight[a.n++];
-	}
-	for (size_t k = 0; k < a.n; k++) {
-		a.weight[k] /= sum;
-		a.center = mr_axpy(a.weight[k], p0[a.vertex[k]], a.center);
-	}
+	while (a.n < MR_ANCHORS && a.vertex[a.n] != MR_NONE)
+		a.n++;
+	a.center = mean_of(&a, p0);
 	return a;
 }
 
@@ -146,52 +137,31 @@ rotation_of(const anchors *a, const mr_v3 *p0, const mr_v3 *p, mr_v3 center)
 	for (size_t k = 0; k < a->n; k++) {
 		mr_v3 x = mr_sub(p0[a->vertex[k]], a->center), y = mr_sub(p[a->vertex[k]], center);
 		double from[3] = { x.x, x.y, x.z }, to[3] = { y.x, y.y, y.z };
-		spread += a->weight[k] * mr_norm2(x);
+		spread += mr_norm2(x);
 		for (int i = 0; i < 9; i++)
-			c.m[i] += a->weight[k] * to[i / 3] * from[i % 3];
+			c.m[i] += to[i / 3] * from[i % 3];
 	}
 	for (int i = 0; i < 3; i++)
 		c.m[4 * i] += least * spread;
 	return mr_rotation_nearest(&c);
 }
 
-static mr_v3
-followed(const anchors *a, const mr_v3 *p0, const mr_v3 *p, mr_v3 x)
-{
-	mr_v3 center = { 0, 0, 0 }, by;
-	mr_mat3 r;
-
-	if (shifted(a, p0, p, &by))
-		return mr_norm2(by) > 0 ? mr_add(x, by) : x;
-	for (size_t k = 0; k < a->n; k++)
-		center = mr_axpy(a->weight[k], p[a->vertex[k]], center);
-	r = rotation_of(a, p0, p, center);
-	return mr_add(center, mr_mat3_apply(&r, mr_sub(x, a->center)));
-}
-
-typedef struct follow_job {
-	const mr_loose *l;
-	const mr_v3 *p0;
-	mr_v3 *p;
-} follow_job;
-
-static void
-follow_parts(void *arg, size_t begin, size_t end)
-{
-	follow_job *j = arg;
-
-	for (size_t k = begin; k < end; k++)
-		for (size_t i = j->l->start[k]; i < j->l->start[k + 1]; i++) {
-			uint32_t v = j->l->vertex[i];
-			anchors a = weigh(j->l, k, j->p0[v], j->p0);
-			j->p[v] = followed(&a, j->p0, j->p, j->p0[v]);
-		}
-}
-
 void
-mr_loose_follow(const mr_ctx *ctx, const mr_loose *l, const mr_v3 *p0, mr_v3 *p)
+mr_loose_follow(const mr_loose *l, const mr_v3 *p0, mr_v3 *p)
 {
-	mr_parallel(ctx, l->parts, 1, follow_parts, &(follow_job){ l, p0, p });
+	for (size_t k = 0; k < l->parts; k++) {
+		anchors a = anchors_of(l, k, p0);
+		mr_v3 by, center = mean_of(&a, p);
+		bool shift = shifted(&a, p0, p, &by);
+		mr_mat3 r = shift ? mr_mat3_identity() : rotation_of(&a, p0, p, center);
+		for (size_t i = l->start[k]; i < l->start[k + 1]; i++) {
+			uint32_t v = l->vertex[i];
+			if (!shift)
+				p[v] = mr_add(center, mr_mat3_apply(&r, mr_sub(p0[v], a.center)));
+			else if (mr_norm2(by) > 0)
+				p[v] = mr_add(p0[v], by);
+		}
+	}
 }
 
 /* A row of 4 values a handle, (x, y, z, 1) times how much it moves: what (x, y, z) is at the follower is
@@ -202,7 +172,7 @@ respond(const anchors *a, size_t handles, mr_v3 off, const double *response, dou
 	for (size_t h = 0; h < handles; h++, row += 4) {
 		for (size_t k = 0; k < a->n; k++)
 			for (size_t c = 0; c < 4; c++)
-				row[c] += a->weight[k] * response[4 * (handles * a->vertex[k] + h) + c];
+				row[c] += response[4 * (handles * a->vertex[k] + h) + c] / (double)a->n;
 		row[0] += row[3] * off.x;
 		row[1] += row[3] * off.y;
 		row[2] += row[3] * off.z;
@@ -212,10 +182,11 @@ respond(const anchors *a, size_t handles, mr_v3 off, const double *response, dou
 void
 mr_loose_respond(const mr_loose *l, size_t handles, const mr_v3 *p0, double *response)
 {
-	for (size_t k = 0; k < l->parts; k++)
+	for (size_t k = 0; k < l->parts; k++) {
+		anchors a = anchors_of(l, k, p0);
 		for (size_t i = l->start[k]; i < l->start[k + 1]; i++) {
 			uint32_t v = l->vertex[i];
-			anchors a = weigh(l, k, p0[v], p0);
 			respond(&a, handles, mr_sub(p0[v], a.center), response, response + 4 * handles * v);
 		}
+	}
 }

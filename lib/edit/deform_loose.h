@@ -1,9 +1,8 @@
 /*
  * deform_loose.h -- parts that go along with the surface near them, as nothing else holds them.
  *
- * A vertex of such a part goes as the nearest vertices of the rest do, by the rigid motion that fits theirs
- * best (Schaefer, McPhail, Warren 2006: Image deformation using moving least squares): a small part moves as
- * one body. Private to this room.
+ * Such a part moves as one body, by the rigid motion that fits best that of the vertices of the rest nearest
+ * to it.  Private to this room.
  */
 #ifndef MR_EDIT_DEFORM_LOOSE_H
 #define MR_EDIT_DEFORM_LOOSE_H
@@ -18,7 +17,6 @@ typedef struct mr_loose {
 	uint32_t *vertex; /* n, part by part */
 	size_t *start;    /* parts + 1: the first vertex of each */
 	uint32_t *anchor; /* MR_ANCHORS a part; MR_NONE where there are fewer */
-	double *softness; /* of each part: squared distance within which anchors count alike */
 } mr_loose;
 
 /* Finds the anchors of the vertices that follow, among those that lead.  part: the vertex that stands for the
@@ -27,7 +25,7 @@ mr_status mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, con
     const uint32_t *part, mr_loose *l);
 
 /* p has all others where they go from p0; the followers go along. */
-void mr_loose_follow(const mr_ctx *ctx, const mr_loose *l, const mr_v3 *p0, mr_v3 *p);
+void mr_loose_follow(const mr_loose *l, const mr_v3 *p0, mr_v3 *p);
 
 /* The same of responses, which are linear: by the mean of the anchors'. */
 void mr_loose_respond(const mr_loose *l, size_t handles, const mr_v3 *p0, double *response);

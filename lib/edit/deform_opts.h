@@ -20,7 +20,7 @@ typedef struct mr_deform_opts {
 
 #define MR_DEFORM_DEFAULTS                                                                                   \
 	{                                                                                                    \
-		.order = 2, .areas = MR_AREAS_VORONOI, .solver = MR_SOLVER_DEFAULTS,           \
+		.order = 2, .areas = MR_AREAS_VORONOI, .solver = MR_SOLVER_DEFAULTS,                         \
 		.rotations = MR_ROTATIONS_LINEAR                                                             \
 	}
 

@@ -24,7 +24,7 @@ typedef struct levels {
 typedef struct finder {
 	const mr_mesh *m;
 	const double (*cot)[3];
-	uint32_t (*of)[2];
+	uint32_t (*of)[2]; /* of each face, the sections at the levels below and above */
 	size_t weights, j; /* the weight at hand */
 	double *weight;    /* its, of each vertex */
 	levels *level;     /* of each face */
@@ -151,17 +151,40 @@ sum_faces(mr_ctx *ctx, finder *s, int k)
 		}
 		share = i ? at - low : 1 - (at - low);
 		add_face(&s->section[*made], s->m, v, share * energy_of(s, f));
-		s->of[s->weights * f + s->j][i] = *made;
+		s->of[f][i] = *made;
 	}
 }
 
-void
-mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count, const double (*cot)[3],
-    mr_sections *sections)
+static mr_v3
+center_of(const section *s)
 {
+	return s->energy > 0 ? mr_mul(1 / s->energy, s->weighted) : mr_mul(1 / (double)s->faces, s->plain);
+}
+
+/* Between the sections of the levels below and above the face's mean. */
+static void
+place_sections(const finder *s, mr_section *out)
+{
+	for (size_t f = 0; f < s->m->nf; f++) {
+		const uint32_t *v = s->m->t[f].v, *of = s->of[f];
+		double a = s->weight[v[0]], b = s->weight[v[1]], c = s->weight[v[2]], at = level_of(s, f);
+		double spread = fmax(a, fmax(b, c)) - fmin(a, fmin(b, c));
+		mr_section *own = &out[s->weights * f + s->j];
+		own->spread2 = spread * spread;
+		if (spread > 0)
+			own->center = mr_lerp(
+			    at - below(at), center_of(&s->section[of[0]]), center_of(&s->section[of[1]]));
+	}
+}
+
+mr_section *
+mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count, const double (*cot)[3])
+{
+	mr_section *out = MR_NEW_ZERO(ctx, m->nf * count, mr_section);
+	mr_mark mark = mr_mark_take(ctx);
 	finder s = { .m = m, .cot = cot, .weights = count };
 
-	s.of = mr_alloc(ctx, m->nf * count, sizeof *s.of);
+	s.of = mr_alloc(ctx, m->nf, sizeof *s.of);
 	s.weight = MR_NEW(ctx, m->nv, double);
 	s.level = MR_NEW(ctx, m->nf, levels);
 	s.set = MR_NEW(ctx, m->nv, uint32_t);
@@ -169,26 +192,15 @@ mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t cou
 	for (s.j = 0; s.j < count; s.j++) {
 		for (size_t v = 0; v < m->nv; v++)
 			s.weight[v] = weight[count * v + s.j];
+		s.count = 0;
 		find_levels(&s);
 		sort_faces(ctx, &s);
 		for (int k = 0; k <= LEVELS; k++) {
 			join_faces(&s, k);
 			sum_faces(ctx, &s, k);
 		}
+		place_sections(&s, out);
 	}
-	*sections = (mr_sections){ MR_NEW(ctx, s.count, mr_v3), s.of };
-	for (size_t i = 0; i < s.count; i++) {
-		const section *own = &s.section[i];
-		sections->center[i] = own->energy > 0 ? mr_mul(1 / own->energy, own->weighted)
-		                                      : mr_mul(1 / (double)own->faces, own->plain);
-	}
-}
-
-mr_v3
-mr_section_at(const mr_sections *s, size_t count, size_t f, size_t j, double weight)
-{
-	const uint32_t *of = s->of[count * f + j];
-	double at = LEVELS * weight;
-
-	return mr_lerp(at - below(at), s->center[of[0]], s->center[of[1]]);
+	mr_mark_release(ctx, mark);
+	return out;
 }

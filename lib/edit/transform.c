@@ -302,70 +302,63 @@ turn_normal(const change *c, mr_v3 n)
 	return length > 0 ? mr_mul(length / mr_norm(turned), turned) : n;
 }
 
-/* What a column holds, rows of what width. */
+/* What a column holds, as far as it changes. */
 typedef enum column_sort {
 	OTHER,
 	POSITIONS,
 	NORMALS,
 	LENGTHS,
-	FIRST_LENGTH, /* the first number of a row */
-	OFFSETS,      /* in the frames of faces, whose first axis a mirror turns round */
-	TRIANGLES,
-	CORNERS, /* three rows for the corners of a face */
+	SAMPLES, /* the first number of a row is a length; of one number it is that */
+	OFFSETS, /* in the frames of faces, whose first axis a mirror turns round */
+	CORNERS, /* three parts of a row, for the corners of a face */
 	EDGES,   /* for its edges, the first from the first corner to the second */
-	BARYS,
 	RESPONSES,
 	MAPS,
 	TURNS
 } column_sort;
 
-static const struct {
-	const char *layer, *name; /* layer NULL: any */
-	mr_shape shape;           /* components 0: any number */
-	column_sort sort;
-	bool alike; /* only by a scale that is the same in every direction */
-} sorts[] = {
-	{ NULL, "position", { 'v', 'd', 3 }, POSITIONS, false },
-	{ NULL, "rest", { 'v', 'd', 3 }, POSITIONS, false },
-	{ NULL, "target", { 'v', 'd', 3 }, POSITIONS, false },
-	{ NULL, "encoded", { 'v', 'd', 3 }, POSITIONS, false },
-	{ "base", "before", { 'v', 'd', 3 }, POSITIONS, false },
-	{ NULL, "scanner", { 'v', 'd', 3 }, POSITIONS, false },
-	{ NULL, "normal", { 'v', 'd', 3 }, NORMALS, false },
-	{ NULL, "corner_normal", { 'f', 'd', 9 }, NORMALS, false },
-	{ NULL, "spacing", { 'v', 'd', 1 }, LENGTHS, false },
-	{ NULL, "sampling", { '-', 'd', 2 }, FIRST_LENGTH, false },
-	{ NULL, "triangles", { 'f', 'u', 3 }, TRIANGLES, false },
-	{ NULL, "corner_texcoord", { 'f', 'd', 6 }, CORNERS, false },
-	{ "control", "crease", { 'f', 'b', 3 }, EDGES, false },
-	{ NULL, "mesh_bary", { 'v', 'd', 3 }, BARYS, false },
-	{ NULL, "base_bary", { 'v', 'd', 3 }, BARYS, false },
-	{ NULL, "control_bary", { 'v', 'd', 3 }, BARYS, false },
-	{ "mesh", "detail_bary", { 'v', 'd', 3 }, BARYS, false },
-	{ "base", "source_bary", { 'v', 'd', 3 }, BARYS, false },
-	{ "mesh", "detail_height", { 'v', 'd', 1 }, LENGTHS, true },
-	{ "mesh", "detail_offset", { 'v', 'd', 3 }, OFFSETS, true },
-	{ "displacement", "height", { 'v', 'd', 1 }, LENGTHS, true },
-	{ "displacement", "range", { '-', 'd', 2 }, LENGTHS, true },
-	{ "base", "response", { 'v', 'd', 0 }, RESPONSES, true },
-	{ "control", "response", { 'v', 'd', 0 }, RESPONSES, true },
-	{ "handles", "transform", { 'v', 'd', 12 }, MAPS, true },
-	{ "handles", "turn", { 'v', 'd', 3 }, TURNS, true },
-};
+/* Of what a layer alone has, by the width of its rows. */
+static column_sort
+sort_of_own(const mr_column *c)
+{
+	if (c->shape.type != 'd')
+		return !strcmp(c->name, "triangles") ? CORNERS : !strcmp(c->name, "crease") ? EDGES : OTHER;
+	if (!strcmp(c->name, "response"))
+		return RESPONSES;
+	if (c->shape.components == 12)
+		return MAPS;
+	if (c->shape.components < 3)
+		return LENGTHS;
+	return !strcmp(c->name, "turn") ? TURNS : !strcmp(c->name, "detail_offset") ? OFFSETS : POSITIONS;
+}
 
-/* Which of them the column is, or how many there are. */
-static size_t
+static column_sort
 sort_of(const mr_column *c)
 {
-	size_t i = 0;
+	const mr_column_info *is = *c->layer ? mr_column_of(c->layer, c->name) : NULL;
 
-	for (; i < sizeof sorts / sizeof *sorts; i++)
-		if (*c->layer && !strcmp(sorts[i].name, c->name) &&
-		    sorts[i].shape.element == c->shape.element && sorts[i].shape.type == c->shape.type &&
-		    (!sorts[i].shape.components || sorts[i].shape.components == c->shape.components) &&
-		    (!sorts[i].layer || !strcmp(sorts[i].layer, c->layer)))
-			break;
-	return i;
+	if (!is || is->shape.element != c->shape.element || is->shape.type != c->shape.type ||
+	    (is->shape.components && is->shape.components != c->shape.components))
+		return OTHER;
+	switch (is->kind) {
+	case MR_OWN:
+		return sort_of_own(c);
+	case MR_SAMPLED:
+		return c->shape.type == 'd' ? SAMPLES : OTHER;
+	case MR_DIRECTION:
+		return NORMALS;
+	case MR_PLACE:
+		return CORNERS;
+	default:
+		return !strcmp(c->name, "corner_texcoord") ? CORNERS : OTHER;
+	}
+}
+
+/* Whether it follows only what scales alike in every direction. */
+static bool
+wants_alike(column_sort sort)
+{
+	return sort == LENGTHS || sort == OFFSETS || sort >= RESPONSES;
 }
 
 static void
@@ -437,7 +430,7 @@ map_values(const change *c, column_sort sort, double *x, size_t rows, size_t com
 		p[i] = map_turn(c, p[i]);
 	for (size_t i = 0; sort == OFFSETS && i < n / 3; i++)
 		p[i] = mr_mul(c->scale, mr_vec(c->mirrors ? -p[i].x : p[i].x, p[i].y, p[i].z));
-	for (size_t i = 0; (sort == LENGTHS || sort == FIRST_LENGTH) && i < n;
+	for (size_t i = 0; (sort == LENGTHS || sort == SAMPLES) && i < n;
 	     i += sort == LENGTHS ? 1 : components)
 		x[i] *= c->scale;
 	for (size_t i = 0; sort == MAPS && i < rows; i++)
@@ -446,45 +439,14 @@ map_values(const change *c, column_sort sort, double *x, size_t rows, size_t com
 		map_responses(c, x, n / 4);
 }
 
-/* The longest side, which is a number where the square of a diagonal is none. */
-static double
-longest_side(mr_box b)
-{
-	mr_v3 size = mr_sub(b.max, b.min);
-
-	return fmax(size.x, fmax(size.y, size.z));
-}
-
-/* Far from the origin, or near 0, doubles are too coarse for a model that is small there. */
-static void
-warn_of_rounding(mr_ctx *ctx, const change *c, const mr_column *column, const mr_v3 *mapped)
-{
-	const double share = 1e-7; /* of the longest side, as of what is written in float32 */
-	size_t n = (size_t)column->rows;
-	const mr_v3 *p = column->data;
-	mr_box before = mr_box_of(p, n), after = mr_box_of(mapped, n), turned = mr_box_empty();
-	double old, off;
-
-	for (size_t i = 0; i < n; i++)
-		mr_box_add(&turned, mr_mat3_apply(&c->unit, mr_sub(p[i], p[0])));
-	old = mr_box_grain(before) / longest_side(before);
-	off = ldexp(mr_box_grain(after), -c->exponent) / longest_side(turned);
-	if (off > share && off > 4 * old && !isnan(old))
-		mr_found(ctx, &(mr_finding){ .kind = MR_ROUNDED,
-				  .layer = column->layer,
-				  .what = "positions, by doubles so far from the origin, are",
-				  .count = 1 });
-}
-
 static mr_status
 map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_sort sort)
 {
 	size_t rows = (size_t)column->rows, components = column->shape.components;
-	bool corners = sort == TRIANGLES || sort == CORNERS || sort == BARYS ||
-	               (sort == NORMALS && column->shape.element == 'f');
+	bool corners = sort == CORNERS || (sort == NORMALS && column->shape.element == 'f');
 	void *x;
 
-	if ((sort == TRIANGLES || sort == CORNERS || sort == EDGES || sort == BARYS) && !c->mirrors)
+	if (sort == OTHER || ((sort == CORNERS || sort == EDGES) && !c->mirrors))
 		return MR_OK;
 	MR_TRY(copy_rows(ctx, column, &x));
 	if (corners && c->mirrors)
@@ -498,39 +460,29 @@ map_column(mr_ctx *ctx, mr_frame *f, mr_column *column, const change *c, column_
 			return mr_fail(ctx, MR_ERANGE, "%s: %s %zu is %s", column->layer, column->name, i,
 			    mr_finite(((const mr_v3 *)column->data)[i]) ? "mapped to infinity"
 									: "not finite");
-	if (!strcmp(column->name, "position"))
-		warn_of_rounding(ctx, c, column, x);
 	return mr_frame_put(ctx, f, column->layer, column->name, column->shape, x, rows);
 }
 
 /* ---- frames ---- */
-
-static bool
-is_sampling(const mr_column *c)
-{
-	const mr_column_info *info = mr_column_of(c->layer, c->name);
-
-	return info && info->kind == MR_SAMPLED;
-}
 
 /* MR_EMESH where a column cannot follow the map. */
 static mr_status
 check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 {
 	for (const mr_column *column = f->columns; column < f->columns + f->count; column++) {
-		size_t i = sort_of(column);
-		if ((layer && strcmp(layer, column->layer)) || i == sizeof sorts / sizeof *sorts ||
-		    !sorts[i].alike)
+		if ((layer && strcmp(layer, column->layer)) || !wants_alike(sort_of(column)))
 			continue;
 		if (c->unit_scale == 0)
 			return mr_fail(ctx, MR_EMESH,
-			    "%s: %s cannot be stretched in one direction more than in another: do that "
-			    "before it is made, or behind mr-decode with -l mesh",
+			    "%s: %s cannot be stretched in one direction more than in another: the mesh "
+			    "alone "
+			    "can",
 			    column->layer, column->name);
 		if (c->mirrors && !strcmp(column->layer, "displacement"))
 			return mr_fail(ctx, MR_EMESH,
-			    "displacement: %s follows the faces of control, which a mirror turns over: "
-			    "mirror before mr-sample, or behind mr-decode with -l mesh",
+			    "displacement: %s follows the faces of control, which a mirror turns over: the "
+			    "mesh "
+			    "alone can be mirrored",
 			    column->name);
 	}
 	return MR_OK;
@@ -540,21 +492,19 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 static mr_status
 check_poses(mr_ctx *ctx, mr_frame *f, const char *layer)
 {
-	static const struct {
-		const char *layer, *posed;
-	} parts[] = { { "mesh", "base" }, { "base", "base" }, { "control", "control" },
-		{ "displacement", "control" } };
-	bool posed;
+	static const char *const posed[] = { "base", "control" };
+	bool is;
 
-	if (strcmp(layer, "points") != 0 && mr_layer_has(f, "handles", "transform"))
+	if (!strcmp(layer, "points"))
+		return MR_OK;
+	if (mr_layer_has(f, "handles", "transform"))
 		return mr_fail(ctx, MR_EMESH, "%s cannot go alone: handles are posed beside it", layer);
-	for (size_t i = 0; i < sizeof parts / sizeof *parts; i++) {
-		MR_TRY(mr_layer_is_posed(ctx, f, parts[i].posed, &posed));
-		if (posed && !strcmp(layer, parts[i].layer))
+	for (size_t i = 0; i < 2; i++) {
+		MR_TRY(mr_layer_is_posed(ctx, f, posed[i], &is));
+		if (is)
 			return mr_fail(ctx, MR_EMESH,
-			    "%s cannot go alone: %s has moved, and mesh has not followed it: mr-decode comes "
-			    "before",
-			    layer, parts[i].posed);
+			    "%s cannot go alone: %s has moved, and mesh has not followed it", layer,
+			    posed[i]);
 	}
 	return MR_OK;
 }
@@ -594,15 +544,15 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 		mr_frame_drop(f, "base", "encoded_faces", 0);
 	for (size_t i = f->count; i-- > 0;) {
 		mr_column *column = &f->columns[i];
-		size_t sort = sort_of(column);
-		if (sort == sizeof sorts / sizeof *sorts || (layer && strcmp(layer, column->layer)))
+		column_sort sort = sort_of(column);
+		if (layer && strcmp(layer, column->layer))
 			continue;
-		if (!(c.unit_scale > 0) && is_sampling(column)) {
+		if (!(c.unit_scale > 0) && sort == SAMPLES) {
 			char of[MR_LAYER_MAX + 1];
 			memcpy(of, column->layer, sizeof of);
 			mr_frame_drop(f, of, column->name, 0);
 		} else {
-			MR_TRY(map_column(ctx, f, column, &c, sorts[sort].sort));
+			MR_TRY(map_column(ctx, f, column, &c, sort));
 		}
 	}
 	return MR_OK;

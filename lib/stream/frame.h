@@ -44,6 +44,15 @@ void mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 /* What a tool ends with: its copy becomes the frame, and what it found the result, unless that is NULL. */
 void mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes);
 
+/* How a tool's function ends: `work` is done on a copy of the frame, and finished. */
+#define MR_ON_COPY(ctx, frame, copy, result, found, work)                                                    \
+	mr_frame copy;                                                                                       \
+	MR_ENTER(ctx);                                                                                       \
+	mr_frame_copy((ctx), (frame), &copy);                                                                \
+	MR_TRY(work);                                                                                        \
+	mr_frame_finish((frame), &copy, (result), &(found), sizeof(found));                                  \
+	return MR_OK
+
 /* A copy of all that the frame has, decoded, which may outlive it: in the arena of `keep`. */
 mr_status mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **copy);
 

@@ -211,11 +211,7 @@ mr_decode_frame(
 {
 	static const mr_decode_opts defaults = MR_DECODE_DEFAULTS;
 	mr_decode_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(decode(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache), result, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r,
+	    decode(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache), result, &r));
 }

@@ -39,11 +39,6 @@ mr_status
 mr_encode_frame(mr_ctx *ctx, mr_frame *f, mr_encode_result *result)
 {
 	mr_encode_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(encode(ctx, &done, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, encode(ctx, &done, &r));
 }

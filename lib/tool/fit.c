@@ -73,11 +73,6 @@ mr_fit_frame(mr_ctx *ctx, mr_frame *f, const mr_fit_opts *opts, mr_fit_result *r
 {
 	static const mr_fit_opts defaults = MR_FIT_DEFAULTS;
 	mr_fit_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(fit(ctx, &done, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, fit(ctx, &done, opts ? opts : &defaults, &r));
 }

@@ -176,11 +176,6 @@ mr_normals_frame(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *opts, mr_norma
 {
 	static const mr_normals_opts defaults;
 	mr_normals_result r = { 0 };
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(put_normals(ctx, &done, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, put_normals(ctx, &done, opts ? opts : &defaults, &r));
 }

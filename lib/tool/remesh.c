@@ -38,11 +38,6 @@ mr_remesh_frame(mr_ctx *ctx, mr_frame *f, const mr_remesh_opts *opts, mr_remesh_
 {
 	static const mr_remesh_opts defaults = MR_REMESH_DEFAULTS;
 	mr_remesh_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(remesh(ctx, &done, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, remesh(ctx, &done, opts ? opts : &defaults, &r));
 }

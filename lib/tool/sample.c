@@ -121,11 +121,6 @@ mr_sample_frame(mr_ctx *ctx, mr_frame *f, const mr_sample_opts *opts, mr_sample_
 {
 	static const mr_sample_opts defaults = MR_SAMPLE_DEFAULTS;
 	mr_sample_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(sample(ctx, &done, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, sample(ctx, &done, opts ? opts : &defaults, &r));
 }

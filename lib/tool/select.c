@@ -95,12 +95,8 @@ mr_select_by(
     mr_ctx *ctx, mr_frame *f, const mr_selection *s, const mr_select_opts *opts, mr_select_result *result)
 {
 	mr_select_result r;
-	mr_frame done;
 
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(select_by(ctx, &done, s, opts, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, select_by(ctx, &done, s, opts, &r));
 }
 
 static mr_status
@@ -136,12 +132,8 @@ mr_status
 mr_crop_by(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_selection *s, mr_crop_result *result)
 {
 	mr_crop_result r;
-	mr_frame done;
 
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(crop_by(ctx, &done, layer, s, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, crop_by(ctx, &done, layer, s, &r));
 }
 
 /* What the tool calls a rule for this region. */

@@ -85,11 +85,6 @@ mr_shrinkwrap_frame(mr_ctx *ctx, mr_frame *f, const mr_wrap_opts *opts, mr_wrap_
 {
 	static const mr_wrap_opts defaults = MR_WRAP_DEFAULTS;
 	mr_wrap_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(shrinkwrap(ctx, &done, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, shrinkwrap(ctx, &done, opts ? opts : &defaults, &r));
 }

@@ -210,11 +210,6 @@ mr_simplify_frame(mr_ctx *ctx, mr_frame *f, const mr_simplify_opts *opts, mr_sim
 {
 	static const mr_simplify_opts defaults = MR_SIMPLIFY_DEFAULTS;
 	mr_simplify_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(simplify(ctx, &done, opts ? *opts : defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, simplify(ctx, &done, opts ? *opts : defaults, &r));
 }

@@ -34,11 +34,6 @@ mr_status
 mr_smooth_frame(mr_ctx *ctx, mr_frame *f, const mr_smooth_opts *opts, mr_smooth_result *result)
 {
 	mr_smooth_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(smooth(ctx, &done, opts ? opts : &defaults, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r, smooth(ctx, &done, opts ? opts : &defaults, &r));
 }

@@ -244,11 +244,7 @@ mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *ca
 {
 	static const mr_solve_opts defaults = MR_SOLVE_DEFAULTS;
 	mr_solve_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(solve(ctx, &done, opts ? opts : &defaults, &mr_cache_for(ctx, cache)->deform, &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r,
+	    solve(ctx, &done, opts ? opts : &defaults, &mr_cache_for(ctx, cache)->deform, &r));
 }

@@ -141,11 +141,7 @@ mr_subdivide_frame(
 {
 	static const mr_subdivide_opts defaults = MR_SUBDIVIDE_DEFAULTS;
 	mr_subdivide_result r;
-	mr_frame done;
 
-	MR_ENTER(ctx);
-	mr_frame_copy(ctx, f, &done);
-	MR_TRY(subdivide_frame(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache), &r));
-	mr_frame_finish(f, &done, result, &r, sizeof r);
-	return MR_OK;
+	MR_ON_COPY(ctx, f, done, result, r,
+	    subdivide_frame(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache), &r));
 }
