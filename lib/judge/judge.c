@@ -232,6 +232,7 @@ mr_judge(mr_ctx *ctx, mr_frame *before, mr_frame *after, double *least)
 	mr_mark mark = mr_mark_take(ctx);
 	const char *layer;
 
+	MR_ENTER(ctx);
 	if (!mr_listens(ctx))
 		return MR_OK;
 	MR_TRY(mr_layer_latest(ctx, after, &layer));
