@@ -241,12 +241,11 @@ mr_build_smoothing(mr_builder *b, uint32_t group)
 
 /* ---- properties ---- */
 
-/* One as it is read. */
+/* One as it is read: numbers, whatever its type is to be. */
 typedef struct mr_kept {
 	mr_property p;
-	void *data;
+	double *x;
 	size_t rows, room;
-	bool odd; /* a value is not of its type */
 } mr_kept;
 
 void
@@ -264,87 +263,68 @@ mr_build_property(mr_builder *b, const char *name, const char *type, char elemen
 	*number = b->properties;
 }
 
-static bool
-is_of_type(double x, char type)
-{
-	return type == 'd' || (x >= 0 && x <= (type == 'b' ? 255.0 : 4294967295.0) && x == floor(x));
-}
-
 /* Rows below n that no value has come for, of faces that another element names, are 0. */
 static void
 fill_rows(mr_builder *b, mr_kept *k, size_t n)
 {
-	size_t size = mr_type_size(k->p.shape.type);
-
 	if (k->rows >= n)
 		return;
-	mr_reserve(b->ctx, &k->data, size, k->rows, n - k->rows, &k->room);
-	memset((char *)k->data + k->rows * size, 0, (n - k->rows) * size);
-	k->rows = n;
+	MR_RESERVE(b->ctx, k->x, k->rows, n - k->rows, &k->room);
+	for (; k->rows < n; k->rows++)
+		k->x[k->rows] = 0;
 }
 
 void
 mr_build_value(mr_builder *b, size_t number, size_t row, double x)
 {
 	mr_kept *k = &b->kept[number - 1];
-	char type = k->p.shape.type;
 
-	if (row > k->rows)
-		fill_rows(b, k, row);
-	if (row >= k->room)
-		mr_reserve(b->ctx, &k->data, mr_type_size(type), row, 1, &k->room);
-	if (row == k->rows)
-		k->rows++;
-	if (!is_of_type(x, type)) {
-		k->odd = true;
-		x = 0;
-	}
-	if (type == 'd')
-		((double *)k->data)[row] = x;
-	else if (type == 'u')
-		((uint32_t *)k->data)[row] = (uint32_t)x;
-	else
-		((unsigned char *)k->data)[row] = (unsigned char)x;
+	fill_rows(b, k, row + 1);
+	k->x[row] = x;
 }
 
-/* Those that are kept, of triangles where faces are of several: `face` of each. */
+/* Values of a type: doubles where one is not of it. */
+static const void *
+narrow(mr_ctx *ctx, const double *x, size_t n, mr_shape *shape)
+{
+	const double most = shape->type == 'b' ? 255.0 : 4294967295.0;
+	unsigned char *byte;
+	uint32_t *whole;
+
+	for (size_t i = 0; i < n; i++)
+		if (!(x[i] >= 0 && x[i] <= most && x[i] == floor(x[i])))
+			shape->type = 'd';
+	if (shape->type == 'd')
+		return x;
+	byte = mr_alloc(ctx, n, mr_type_size(shape->type));
+	whole = (uint32_t *)(void *)byte;
+	for (size_t i = 0; i < n; i++)
+		if (shape->type == 'b')
+			byte[i] = (unsigned char)x[i];
+		else
+			whole[i] = (uint32_t)x[i];
+	return byte;
+}
+
+/* Those of triangles where faces are of several: `face` of each. */
 static void
 put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 {
 	mr_property *property = MR_NEW(b->ctx, b->properties, mr_property);
 
-	for (size_t i = 0; i < b->properties; i++) {
-		mr_kept *k = &b->kept[i];
+	for (mr_kept *k = b->kept; k < b->kept + b->properties; k++) {
+		bool of_faces = k->p.shape.element == 'f';
 		mr_property *p = &property[m->properties];
+		const double *x;
+		if (of_faces && m->nf == 0)
+			continue;
+		fill_rows(b, k, of_faces ? b->faces : m->nv);
+		x = of_faces && face ? mr_gather(b->ctx, k->x, sizeof *x, face, m->nf) : k->x;
 		*p = k->p;
-		if (p->shape.element == 'f' && m->nf == 0)
-			continue;
-		fill_rows(b, k, p->shape.element == 'f' ? b->faces : m->nv);
-		p->data = k->data;
-		mr_tell(b->ctx, MR_LOST, k->odd, "property %s", p->name);
-		if (k->odd)
-			continue;
-		if (p->shape.element == 'f' && face)
-			p->data = mr_gather(b->ctx, k->data, mr_type_size(p->shape.type), face, m->nf);
+		p->data = narrow(b->ctx, x, of_faces ? m->nf : m->nv, &p->shape);
 		m->properties++;
 	}
 	m->property = property;
-}
-
-void
-mr_build_properties(mr_builder *b, mr_model *m)
-{
-	put_properties(b, NULL, m);
-}
-
-void
-mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m)
-{
-	mr_v3 *from = MR_NEW(ctx, m->nv, mr_v3);
-
-	for (size_t i = 0; i < m->nv; i++)
-		from[i] = scanner;
-	m->scanner = from;
 }
 
 /* ---- attributes ---- */

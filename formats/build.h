@@ -74,16 +74,10 @@ void mr_build_smoothing(mr_builder *b, uint32_t group);
 
 /*
  * A property under its name, of a type of PLY; those of vertices come before those of faces.  number: from 1.
- * Its values come row by row; a whole type that one is not of drops it in the end.
+ * Its values come row by row; with one that is not of a whole type all are doubles.
  */
 void mr_build_property(mr_builder *b, const char *name, const char *type, char element, size_t *number);
 void mr_build_value(mr_builder *b, size_t number, size_t row, double x);
-
-/* Gives the properties alone to a model of points that its reader makes itself. */
-void mr_build_properties(mr_builder *b, mr_model *m);
-
-/* All points of the model were seen from there. */
-void mr_scanned_from(mr_ctx *ctx, mr_v3 scanner, mr_model *m);
 
 /* Reports values that are not finite as lost.  False where all n are. */
 bool mr_left_out(mr_ctx *ctx, size_t odd, size_t n, const char *what) MR_WARN_UNUSED;
@@ -157,6 +151,13 @@ bool mr_is_absent(const double *x, size_t width);
  */
 void mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, size_t width,
     const double *corner, double **vertex, size_t *seams);
+
+/*
+ * Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one
+ * that is none.  first: of each number, its first row.
+ */
+void mr_number_rows(
+    mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count);
 
 /*
  * Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one

@@ -284,50 +284,6 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 	return mr_prefix(ctx, status, "%s", strcmp(path, "-") ? path : "stdin");
 }
 
-/* ---- files that a model names ---- */
-
-/* Whether the file that `n` bytes name is there, seen from beside `path`. */
-static bool
-is_beside(const char *path, const char *name, size_t n)
-{
-	const char *slash = strrchr(path, '/');
-	int folder = *name == '/' || !slash ? 0 : (int)(slash + 1 - path);
-	char file[4096];
-	int bytes = snprintf(file, sizeof file, "%.*s%.*s", folder, path, (int)n, name);
-
-	return bytes > 0 && (size_t)bytes < sizeof file && access(file, F_OK) == 0;
-}
-
-/* A line names one file, whose name may have blanks in it, or several. */
-static bool
-are_beside(const char *path, const char *p, const char *end)
-{
-	if (is_beside(path, p, (size_t)(end - p)))
-		return true;
-	while (p < end) {
-		const char *e = memchr(p, ' ', (size_t)(end - p));
-		e = e ? e : end;
-		if (e > p && !is_beside(path, p, (size_t)(e - p)))
-			return false;
-		p = e < end ? e + 1 : end;
-	}
-	return true;
-}
-
-void
-mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files)
-{
-	const char *p = files.text, *end = files.bytes ? p + files.bytes : p;
-
-	while (files.bytes && strcmp(path, "-") && p < end) {
-		const char *e = memchr(p, '\n', (size_t)(end - p));
-		e = e ? e : end;
-		if (!are_beside(path, p, e))
-			mr_tell(ctx, MR_MISSING, 1, "%.*s", (int)(e - p), p);
-		p = e + 1;
-	}
-}
-
 /* ---- writing ---- */
 
 void

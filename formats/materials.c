@@ -257,3 +257,35 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	*count = f.count;
 	return MR_OK;
 }
+
+/* Whether there is such a file, seen from beside `path`, or all that the words name. */
+static bool
+are_beside(mr_ctx *ctx, const char *path, mr_scan line)
+{
+	const char *slash = strrchr(path, '/'), *name;
+	mr_scan words = line;
+	size_t n;
+	bool all = true;
+
+	for (bool whole = true; whole || mr_scan_word(&words, &name, &n); whole = false) {
+		const char *from = whole ? line.p : name;
+		size_t bytes = whole ? (size_t)(line.end - line.p) : n;
+		int folder = *from == '/' || !slash ? 0 : (int)(slash + 1 - path);
+		bool there = is_file(mr_format(ctx, "%.*s%.*s", folder, path, (int)bytes, from));
+		if (whole && there)
+			return true;
+		all &= whole || there;
+	}
+	return all;
+}
+
+void
+mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files)
+{
+	mr_scan text = { ctx, files.text, files.text, files.bytes ? files.text + files.bytes : files.text },
+		line;
+
+	while (strcmp(path, "-") && mr_scan_line(&text, &line))
+		if (!are_beside(ctx, path, line))
+			mr_tell(ctx, MR_MISSING, 1, "%.*s", (int)(line.end - line.p), line.p);
+}

@@ -29,4 +29,7 @@ extern const mr_material mr_material_plain;
 mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 
+/* Reports files of materials that are not where the model at `path` ("-": nowhere) names them. */
+void mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files);
+
 #endif

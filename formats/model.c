@@ -2,6 +2,7 @@
 #include "formats/model.h"
 #include "formats/build.h"
 #include "formats/format.h"
+#include "formats/materials.h"
 #include "mesh/mend.h"
 #include "mesh/normals.h"
 #include "mesh/validate.h"
@@ -362,87 +363,51 @@ mr_import(
 	return import(ctx, path, opts ? opts : &defaults, frame, result);
 }
 
+/* Whether a column of mesh is one that models have, other than places and triangles. */
 static bool
-same_triangles(const mr_model *a, const mr_model *b)
+is_of_model(const mr_column *c)
 {
-	return a->nv == b->nv && a->nf == b->nf && !memcmp(a->t, b->t, a->nf * sizeof *a->t);
+	bool is = is_property(c, "mesh", c->shape.element);
+
+	for (size_t i = 0; i < COLUMNS && !strcmp(c->layer, "mesh"); i++)
+		is |= !strcmp(c->name, columns[i].name);
+	for (size_t i = 0; i < NAMES && !strcmp(c->layer, "mesh"); i++)
+		is |= !strcmp(c->name, names[i].name);
+	return is;
 }
 
-/* The normals of a mesh on another surface of its triangles. */
-static void
-borrow_normals(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
+/* What mesh has and this layer of the same triangles has not; normals are turned with the surface. */
+static mr_status
+borrow(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *before, const mr_mesh *now)
 {
-	const mr_mesh before = { .name = "mesh", .p = mesh->p, .t = mesh->t, .nv = mesh->nv, .nf = mesh->nf };
-	mr_v3 *normal = NULL, *corner = NULL;
+	bool normals = mr_layer_has(f, layer, "normal") || mr_layer_has(f, layer, "corner_normal");
+	mr_v3 *own[2] = { NULL, NULL };
 
-	if (m->normal || m->corner_normal)
-		return;
-	if (mesh->normal)
-		normal = MR_NEW(ctx, m->nv, mr_v3);
-	if (mesh->corner_normal)
-		corner = MR_NEW(ctx, 3 * m->nf, mr_v3);
-	if (normal)
-		memcpy(normal, mesh->normal, m->nv * sizeof *normal);
-	if (corner)
-		memcpy(corner, mesh->corner_normal, 3 * m->nf * sizeof *corner);
-	m->normal = normal;
-	m->corner_normal = corner;
-	mr_turn_normals(ctx, &before, m->p, normal, corner);
-}
-
-static bool
-has_property(const mr_model *m, const char *name)
-{
-	for (size_t i = 0; i < m->properties; i++)
-		if (!strcmp(m->property[i].name, name))
-			return true;
-	return false;
-}
-
-static void
-borrow_properties(mr_ctx *ctx, const mr_model *mesh, mr_model *m)
-{
-	mr_property *all = MR_NEW(ctx, m->properties + mesh->properties, mr_property);
-	size_t n = 0;
-
-	for (int faces = 0; faces < 2; faces++) { /* those of vertices come first */
-		for (size_t i = 0; i < m->properties; i++)
-			if ((m->property[i].shape.element == 'f') == faces)
-				all[n++] = m->property[i];
-		for (size_t i = 0; i < mesh->properties; i++)
-			if ((mesh->property[i].shape.element == 'f') == faces &&
-			    !has_property(m, mesh->property[i].name))
-				all[n++] = mesh->property[i];
+	for (size_t i = 0, n = f->count; i < n; i++) {
+		mr_column c = f->columns[i];
+		bool normal = !strcmp(c.name, "normal"), turns = normal || !strcmp(c.name, "corner_normal");
+		if (!is_of_model(&c) || mr_layer_has(f, layer, c.name) || (turns && normals))
+			continue;
+		MR_TRY(mr_column_decode(ctx, &c));
+		if (turns) {
+			size_t bytes = (size_t)c.rows * c.shape.components * sizeof(double);
+			c.data = own[!normal] = memcpy(mr_alloc(ctx, bytes, 1), c.data, bytes);
+		}
+		MR_TRY(mr_frame_put(ctx, f, layer, c.name, c.shape, c.data, (size_t)c.rows));
 	}
-	m->property = all;
-	m->properties = n;
+	if (own[0] || own[1])
+		mr_turn_normals(ctx, before, now->p, own[0], own[1]);
+	return MR_OK;
 }
 
-/* What the mesh has and this layer has not, as far as the same triangles allow. */
+/* What mesh has and the layer, of other triangles, has not; polygons are none of it. */
 static void
-borrow(mr_ctx *ctx, mr_model *mesh, mr_model *m)
+lose_rest(mr_ctx *ctx, const mr_frame *f, const char *layer)
 {
-	borrow_normals(ctx, mesh, m);
-	for (size_t i = 0; i < COLUMNS; i++)
-		if (!column_of(m, i) && !strstr(columns[i].name, "normal"))
-			set_column(m, i, column_of(mesh, i));
-	for (size_t i = 0; i < NAMES; i++)
-		if (lines_of(m, i)->bytes == 0)
-			*lines_of(m, i) = *lines_of(mesh, i);
-	borrow_properties(ctx, mesh, m);
-}
-
-/* What the mesh has and the model, of other triangles, has not; polygons are none of it. */
-static void
-lose_rest(mr_ctx *ctx, const mr_model *mesh, const mr_model *m)
-{
-	for (size_t i = 0; i < COLUMNS; i++)
-		if (column_of(mesh, i) && !column_of(m, i) && strcmp(columns[i].name, "polygon"))
-			mr_lost(ctx, "mesh", columns[i].of_faces ? mesh->nf : mesh->nv, columns[i].name);
-	for (size_t i = 0; i < mesh->properties; i++)
-		if (!has_property(m, mesh->property[i].name))
-			mr_lost(ctx, "mesh", mesh->property[i].shape.element == 'f' ? mesh->nf : mesh->nv,
-			    mesh->property[i].name);
+	for (const mr_column *c = f->columns; c < f->columns + f->count; c++)
+		if (is_of_model(c) && c->shape.type != 't' && strcmp(c->name, "polygon") &&
+		    !mr_layer_has(f, layer, c->name))
+			mr_lost(ctx, "mesh", (size_t)c->rows, c->name);
 }
 
 static mr_status
@@ -461,20 +426,23 @@ lose_creases(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf)
 mr_status
 mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 {
-	mr_model mesh;
+	mr_mesh mesh, now;
+	mr_frame own;
 
 	MR_TRY(mr_model_get(ctx, f, layer, m));
 	if (f->key)
 		MR_TRY(lose_creases(ctx, f, layer, m->nf));
 	if (!strcmp(layer, "mesh") || m->nf == 0 || !mr_layer_has(f, "mesh", "triangles"))
 		return MR_OK;
-	MR_TRY(mr_model_get(ctx, f, "mesh", &mesh));
-	if (same_triangles(&mesh, m)) {
-		borrow(ctx, &mesh, m);
-		return MR_OK;
+	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, "mesh", &mesh));
+	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, &now));
+	if (mesh.nv == now.nv && mesh.nf == now.nf && !memcmp(mesh.t, now.t, now.nf * sizeof *now.t)) {
+		mr_frame_copy(ctx, f, &own);
+		MR_TRY(borrow(ctx, &own, layer, &mesh, &now));
+		return mr_model_get(ctx, &own, layer, m);
 	}
 	if (f->key)
-		lose_rest(ctx, &mesh, m);
+		lose_rest(ctx, f, layer);
 	return MR_OK;
 }
 

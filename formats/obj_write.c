@@ -1,5 +1,6 @@
 /* OBJ: polygons, corners with what the model has, and what the faces are marked with wherever it changes. */
 #include "formats/format.h"
+#include "formats/materials.h"
 
 /* The vt or vn lines: one for each vertex, or for each value that corners have. */
 typedef struct values {
