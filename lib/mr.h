@@ -625,7 +625,7 @@ MR_API mr_status mr_fit_frame(
 typedef enum mr_sample_method {
 	MR_SAMPLE_AUTO,     /* robust, where the points are noisy */
 	MR_SAMPLE_TRIANGLE, /* the paper's search for the valid triangle among the nearest points */
-	MR_SAMPLE_ROBUST    /* the nearest points' local surface, for noise and outliers */
+	MR_SAMPLE_ROBUST    /* those nearest to all points and fair, for noise and outliers */
 } mr_sample_method;
 
 typedef struct mr_sample_opts {
@@ -643,8 +643,6 @@ typedef struct mr_sample_result {
 	size_t outliers;
 	double tries_1, tries_4, tries_10;  /* shares of the vertices that so many triangles were tried for */
 	size_t missed, rejected;            /* vertices without a triangle, with none within the bounds */
-	size_t neighbours;                  /* of robust */
-	double noise;                       /* the same; a share of the diagonal */
 	size_t spikes, filled;              /* heights taken back, and filled in */
 	size_t refine_steps, mend_passes;   /* of conjugate gradients in the last pass; around folds */
 	double fairness, gap_mean, gap_max; /* gap: from the points, in shares of the diagonal */

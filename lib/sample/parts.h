@@ -67,7 +67,7 @@ typedef struct mr_sample_cloud {
 
 /* Finds the nearest faces of the domain: c->face and c->side, in the arena.  off: the distances from them,
  * c->n, the caller's, or NULL. */
-void mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off);
+mr_status mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off);
 
 /* True where the point may belong to the sheet that looks along n. */
 static inline bool
@@ -84,10 +84,8 @@ size_t mr_sights_near_sheet(const mr_sample_cloud *c, mr_v3 n, mr_sight *s, size
 /* Heights found by one search; hit says where.  r: gets the figures of it. */
 mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
     double *height, bool *hit, mr_sample_result *r);
-mr_status mr_sample_local(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
-    double *height, bool *hit, mr_sample_result *r);
 /* c: the mesh's vertices, placed. */
-void mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
+mr_status mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
     double *height, bool *hit, mr_sample_result *r);
 
 /*
@@ -99,13 +97,11 @@ size_t mr_find_folds(mr_ctx *ctx, const mr_mesh *surface, const mr_domain *d, co
 
 /* What the least squares weigh, beside the points, of which each counts 1. */
 typedef struct mr_fit_weights {
-	double fair;     /* of the fairness of the heights */
-	double pull;     /* of a height found */
-	double scale;    /* gaps beyond it count less */
-	bool robust;     /* so much less that outliers do not count */
-	size_t steps;    /* of conjugate gradients in a pass, at most */
-	double *against; /* gets what speaks against them: crust, or where robust, order; NULL: not asked */
-	double most;     /* of that: where there is more, nothing is reported */
+	double fair;  /* of the fairness of the heights */
+	double pull;  /* of a height found */
+	double scale; /* gaps beyond it count less */
+	bool robust;  /* so much less that outliers do not count */
+	size_t steps; /* of conjugate gradients in a pass, at most */
 } mr_fit_weights;
 
 /* What a point asks of the heights of its face's corners: sum c_i h_i = r. */
@@ -116,23 +112,9 @@ typedef struct mr_wish {
 	double gap; /* signed distance before the pass */
 } mr_wish;
 
-/* The share of the surface that is rough all over, as where heights follow noise.  e: of its domain.  crust.c
- */
-mr_status mr_find_crust(mr_ctx *ctx, const mr_mesh *surface, const mr_heights *e, double *share);
-
-/*
- * How alike the gaps of points are that lie side by side, from 0, where they are noise, to 1, where the
- * surface lacks a shape (their correlation).  wish: of each point.  crust.c
- */
-mr_status mr_find_order(
-    mr_ctx *ctx, const mr_mesh *surface, const mr_sample_cloud *c, const mr_wish *wish, double *order);
-
-/* x: of e's vertices, each so often to the mean of it and its neighbours'. */
-void mr_heights_spread(mr_ctx *ctx, const mr_heights *e, size_t rounds, double *x);
-
 /* Sets the fairness: `factor` where the heights are bent as in the middle, less where more, and more where
  * less. */
-void mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor);
+mr_status mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor);
 
 /*
  * Multiplies the fairness so that points that are left out come nearest to what the others tell.  e: with the

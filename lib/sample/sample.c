@@ -45,7 +45,7 @@ place_points(void *arg, size_t begin, size_t end)
 	}
 }
 
-void
+mr_status
 mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off)
 {
 	uint32_t *face = MR_NEW(ctx, c->n, uint32_t);
@@ -54,12 +54,15 @@ mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off
 	placing x = { .m = &d->m, .c = c, .off = off };
 	mr_bvh *bvh;
 
+	if (!face || !side)
+		return MR_EMEM;
 	c->face = face;
 	c->side = side;
-	mr_bvh_build(ctx, &d->m, &bvh);
+	MR_TRY(mr_bvh_build(ctx, &d->m, &bvh));
 	x.bvh = bvh;
 	mr_parallel(ctx, c->n, 256, place_points, &x);
 	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
 size_t
@@ -96,6 +99,8 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_sample_cloud *c)
 	double *spacing = MR_NEW(ctx, kept, double);
 	mr_near *near;
 
+	if (!p || !spacing)
+		return MR_EMEM;
 	kept = 0;
 	for (size_t i = 0; i < c->n; i++) {
 		if (outlier[i])
@@ -106,6 +111,7 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_sample_cloud *c)
 		c->side[kept++] = c->side[i];
 	}
 	MR_TRY(mr_near_build(ctx, p, kept, &near));
+	mr_near_free(c->near);
 	c->near = near;
 	c->p = p;
 	c->spacing = spacing;
@@ -121,8 +127,10 @@ place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_clo
 	double *off = MR_NEW(ctx, c->n, double);
 	bool *outlier = MR_NEW(ctx, c->n, bool);
 
-	mr_sample_place(ctx, d, c, off);
-	mr_find_outliers(ctx, s, off, 0, outlier, &r->outliers);
+	if (!off || !outlier)
+		return MR_EMEM;
+	MR_TRY(mr_sample_place(ctx, d, c, off));
+	MR_TRY(mr_find_outliers(ctx, s, off, 0, outlier, &r->outliers));
 	return r->outliers ? keep_points(ctx, outlier, c->n - r->outliers, c) : MR_OK;
 }
 
@@ -131,7 +139,7 @@ static mr_status
 mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, mr_sample_result *r)
 {
 	MR_TRY(mr_heights_new(ctx, &d->m, 1, e));
-	mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &r->spikes);
+	MR_TRY(mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &r->spikes));
 	return mr_heights_fill(ctx, e, hit, height, &r->filled);
 }
 
@@ -173,13 +181,15 @@ is_noisy(const mr_sampling *s)
  * Takes back the heights at creases and beside them: the triangles that a line met there cut corners off. The
  * fit finds others.  Without this sharp edges of fandisk are 0.10 % of the diagonal away, with it 0.04.
  */
-static void
+static mr_status
 leave_creases(mr_ctx *ctx, const mr_domain *d, bool *hit)
 {
 	const mr_loop *l = &d->level[d->n];
 	mr_mark mark = mr_mark_take(ctx);
 	bool *on = MR_NEW_ZERO(ctx, l->nv, bool);
 
+	if (!on)
+		return MR_EMEM;
 	for (size_t h = 0; l->crease && h < 3 * l->nf; h++)
 		if (l->crease[h]) /* on both sides */
 			on[l->t[h / 3].v[h % 3]] = true;
@@ -189,99 +199,34 @@ leave_creases(mr_ctx *ctx, const mr_domain *d, bool *hit)
 			hit[v[0]] = hit[v[1]] = hit[v[2]] = false;
 	}
 	mr_mark_release(ctx, mark);
+	return MR_OK;
 }
 
-/*
- * The share of crust from which on heights may be of noise, and the order up to which they are.  Of noise of
- * 0.2 spacings everywhere, and of 0.25 to 1 on a quarter or half of a ball, the crust is 0.2 to 0.9 and the
- * order 0.21 and less.  Of 23 clean uniform clouds the crust is 0.05 at most; of the vertices of 22 models it
- * is more in five, and of thin, slotted and pierced plates: there the order is 0.35 and more, and robust
- * heights would be twice as far from the truth.
- */
-static const double CRUST = 0.18, ORDER = 0.25;
-
-/* Of fewer points neither tells. */
-enum { FEW = 64 };
-
-/* Crust that is worth a warning where it is not of noise: in bodies as thin as the points are apart. */
-static const double CRUST_TOLD = 0.3;
-
-static mr_fit_weights
-weights_of(const mr_sample_cloud *c, bool robust, double *against)
-{
-	mr_fit_weights w = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
-
-	if (robust)
-		w = noisy_weights(c);
-	w.against = against;
-	w.most = robust ? ORDER : CRUST;
-	return w;
-}
-
-/* By one way.  against: as mr_fit_weights has it. */
+/* By triangles, or, robust, by the fit alone. */
 static mr_status
 find_heights(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_sample_opts *opts,
-    bool robust, double *against, double *height, mr_sample_result *r)
+    bool robust, double *height, mr_sample_result *r)
 {
-	mr_fit_weights weights = weights_of(c, robust, against);
+	mr_fit_weights weights = { .fair = 1e-2, .pull = 0.1, .scale = 5e-3 * c->diagonal, .steps = 50 };
 	size_t distinct = mr_near_distinct(c->near),
 	       k = opts->neighbours < distinct ? opts->neighbours : distinct;
 	mr_mark mark = mr_mark_take(ctx);
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
 	mr_heights e;
 
+	if (!hit)
+		return MR_EMEM;
 	if (robust)
-		MR_TRY(mr_sample_local(ctx, d, c, k, height, hit, r));
-	else
+		weights = noisy_weights(c);
+	memset(hit, 0, d->m.nv * sizeof *hit);
+	memset(height, 0, d->m.nv * sizeof *height);
+	if (!robust)
 		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
-	leave_creases(ctx, d, hit);
+	MR_TRY(leave_creases(ctx, d, hit));
 	MR_TRY(mend(ctx, d, &e, hit, height, r));
 	MR_TRY(mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height, r));
 	mr_mark_release(ctx, mark);
 	return MR_OK;
-}
-
-/* Says of heights that were found what had been held back. */
-static mr_status
-report_heights(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, double *height, mr_sample_result *r)
-{
-	mr_fit_weights weights = weights_of(c, false, NULL);
-	bool *hit = MR_NEW_ZERO(ctx, d->m.nv, bool);
-	mr_heights e;
-
-	MR_TRY(mr_heights_new(ctx, &d->m, 1, &e));
-	return mr_sample_refine(ctx, d, c, &weights, 0, &e, hit, height, r);
-}
-
-/*
- * Triangles made a crust: of noise, which may be too little, or on too little of the surface, to show among
- * all points, or of details as small as the points are apart.  What sees through noise is right where it
- * leaves noise of the points.
- */
-static mr_status
-see_through(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr_sample_opts *opts,
-    double crust, double *height, mr_sample_result *r)
-{
-	double *other = MR_NEW(ctx, d->m.nv, double), order;
-	mr_sample_result of_other = *r;
-
-	MR_TRY(find_heights(ctx, d, c, opts, true, &order, other, &of_other));
-	mr_note(ctx, "by triangles %.3g %% of the surface would be rough all over; %s", 100 * crust,
-	    order > ORDER ? "not of noise" : "of noise, which is seen through");
-	if (order <= ORDER) {
-		memcpy(height, other, d->m.nv * sizeof *height);
-		*r = of_other;
-		return MR_OK;
-	}
-	if (crust > CRUST_TOLD)
-		mr_found(ctx,
-		    &(mr_finding){ .kind = MR_ROUGH,
-			.value = crust,
-			.what = mr_format(ctx,
-			    "%.3g %% of the displaced surface is rough all over, by noise or as thin as the "
-			    "points are apart",
-			    100 * crust) });
-	return report_heights(ctx, d, c, height, r);
 }
 
 static mr_status
@@ -289,14 +234,10 @@ sample_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_cl
     const mr_sample_opts *opts, double *height, mr_sample_result *r)
 {
 	bool robust = opts->method == MR_SAMPLE_ROBUST || (opts->method == MR_SAMPLE_AUTO && is_noisy(s));
-	bool ask = opts->method == MR_SAMPLE_AUTO && !robust && opts->refine > 0 && c->n > FEW;
-	double crust = 0;
 
 	MR_TRY(place_cloud(ctx, d, s, c, r));
 	MR_TRY(check_points(ctx, d, c));
-	MR_TRY(find_heights(ctx, d, c, opts, robust, ask ? &crust : NULL, height, r));
-	if (crust > CRUST)
-		MR_TRY(see_through(ctx, d, c, opts, crust, height, r));
+	MR_TRY(find_heights(ctx, d, c, opts, robust, height, r));
 	report_filled(ctx, d, opts->refine > 0, r);
 	return MR_OK;
 }
@@ -310,18 +251,23 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 	mr_sample_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
 	mr_sampling sampling;
 	mr_sample_result r;
+	mr_status s;
 
 	if (n == 0)
 		return mr_fail(ctx, MR_EMESH, "no points to sample");
+	if (!sorted)
+		return MR_EMEM;
 	MR_TRY(mr_cloud_check_spread(ctx, point, n));
 	MR_TRY(mr_sampling_find(ctx, point, n, known, &sampling));
 	/* what close ones look up is in the cache */
-	mr_sampling_sort(ctx, point, &sampling, sorted, &sampling);
+	MR_TRY(mr_sampling_sort(ctx, point, &sampling, sorted, &sampling));
 	c.spacing = sampling.spacing;
 	c.usual = sampling.usual;
 	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
 	mr_unmeasured(&r, sizeof r);
-	MR_TRY(sample_cloud(ctx, d, &sampling, &c, opts, height, &r));
+	s = sample_cloud(ctx, d, &sampling, &c, opts, height, &r);
+	mr_near_free(c.near);
+	MR_TRY(s);
 	mr_mark_release(ctx, mark);
 	if (result)
 		*result = r;
@@ -329,7 +275,7 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 }
 
 /* A vertex that no face has is not to be reached. */
-static void
+static mr_status
 leave_isolated(mr_ctx *ctx, mr_sample_cloud *c)
 {
 	const mr_mesh *mesh = c->mesh;
@@ -337,8 +283,10 @@ leave_isolated(mr_ctx *ctx, mr_sample_cloud *c)
 	bool *used;
 	mr_v3 *p;
 
-	mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count);
+	MR_TRY(mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count));
 	p = MR_NEW(ctx, count, mr_v3);
+	if (!p)
+		return MR_EMEM;
 	for (size_t v = 0; v < mesh->nv; v++)
 		if (used[v]) {
 			p[n] = mesh->p[v];
@@ -347,6 +295,7 @@ leave_isolated(mr_ctx *ctx, mr_sample_cloud *c)
 		}
 	c->p = p;
 	c->n = n;
+	return MR_OK;
 }
 
 mr_status
@@ -360,10 +309,12 @@ mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 	mr_sample_result r;
 	mr_heights e;
 
+	if (!hit)
+		return MR_EMEM;
 	mr_unmeasured(&r, sizeof r);
-	mr_sample_place(ctx, d, &c, NULL);
-	mr_sample_rays(ctx, d, mesh, &c, height, hit, &r);
-	leave_isolated(ctx, &c);
+	MR_TRY(mr_sample_place(ctx, d, &c, NULL));
+	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit, &r));
+	MR_TRY(leave_isolated(ctx, &c));
 	MR_TRY(mend(ctx, d, &e, hit, height, &r));
 	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height, &r));
 	report_filled(ctx, d, false, &r);

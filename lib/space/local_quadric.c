@@ -6,7 +6,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { TERMS = MR_QUADRIC_TERMS };
+enum { TERMS = 6 };
 
 /* Solves A x = b in place (Cholesky); false where A is not positive definite. */
 static bool
@@ -35,39 +35,37 @@ solve(double a[TERMS][TERMS], double b[TERMS])
 	return true;
 }
 
-void
-mr_quadric_row(double x, double y, double row[TERMS])
+/* Coefficients of 1 x y xx rxy yy, r the root of 2: the norm of the last three is that of their matrix. */
+static void
+row_at(double x, double y, double row[TERMS])
 {
 	memcpy(row, (double[TERMS]){ 1, x, y, x * x, sqrt(2) * x * y, y * y }, TERMS * sizeof *row);
 }
 
-bool
-mr_quadric_fit(const double *row, const double *t, const double *weight, size_t n, double coefficient[TERMS])
+/* The quadric of least squares through n heights t; the quadratic terms shrink a little, which keeps the
+ * system definite. */
+static bool
+fit(const double *row, const double *t, size_t n, double coefficient[TERMS])
 {
-	double a[TERMS][TERMS] = { { 0 } }, b[TERMS] = { 0 }, sum = 0;
+	double a[TERMS][TERMS] = { { 0 } };
 
-	for (size_t k = 0; k < n; k++) {
-		const double *x = row + k * TERMS;
-		double w = weight[k];
-		sum += w;
+	memset(coefficient, 0, TERMS * sizeof *coefficient);
+	for (size_t k = 0; k < n; k++)
 		for (int i = 0; i < TERMS; i++) {
-			b[i] += w * x[i] * t[k];
+			const double *x = row + k * TERMS;
+			coefficient[i] += x[i] * t[k];
 			for (int j = 0; j <= i; j++)
-				a[i][j] += w * x[i] * x[j];
+				a[i][j] += x[i] * x[j];
 		}
-	}
 	for (int i = 1; i < TERMS; i++)
-		a[i][i] += (i < 3 ? 1e-6 : 1e-3) * sum;
-	if (!(sum > 0) || !solve(a, b))
-		return false;
-	memcpy(coefficient, b, sizeof b);
-	return true;
+		a[i][i] += (i < 3 ? 1e-6 : 1e-3) * (double)n;
+	return solve(a, coefficient);
 }
 
 double
 mr_quadric_residuals(const mr_v3 *q, size_t k, double *off)
 {
-	double a[6], value[3], row[MR_QUADRIC_POINTS * TERMS], t[MR_QUADRIC_POINTS], one[MR_QUADRIC_POINTS];
+	double a[6], value[3], row[MR_QUADRIC_POINTS * TERMS], t[MR_QUADRIC_POINTS];
 	double z[TERMS], radius2 = 0, radius, sum = 0;
 	mr_v3 axis[3], mean = mr_vec(0, 0, 0);
 
@@ -83,11 +81,10 @@ mr_quadric_residuals(const mr_v3 *q, size_t k, double *off)
 	for (size_t i = 0; i < k; i++) {
 		mr_v3 d = mr_mul(1 / radius, mr_sub(q[i], mean));
 		double x = mr_dot(d, axis[2]), y = mr_dot(d, axis[1]);
-		mr_quadric_row(x, y, row + i * TERMS);
+		row_at(x, y, row + i * TERMS);
 		t[i] = mr_dot(d, axis[0]);
-		one[i] = 1;
 	}
-	if (!mr_quadric_fit(row, t, one, k, z))
+	if (!fit(row, t, k, z))
 		return 0;
 	for (size_t i = 0; i < k; i++) {
 		off[i] = radius * t[i];

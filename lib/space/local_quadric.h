@@ -5,20 +5,6 @@
 #include "base/ctx.h"
 #include "base/vec.h"
 
-/* Coefficients of 1 x y xx rxy yy, r the root of 2: the norm of the last three is that of their matrix. */
-enum { MR_QUADRIC_TERMS = 6 };
-
-/* These at (x, y). */
-void mr_quadric_row(double x, double y, double row[MR_QUADRIC_TERMS]);
-
-/*
- * The quadric of least squares through n weighted heights t; row: n x 6, those of each, x and y of about 1.
- * The quadratic terms shrink a little, whatever the axes, which keeps the system definite.  False where it is
- * not, and the coefficients are as they were.
- */
-bool mr_quadric_fit(
-    const double *row, const double *t, const double *weight, size_t n, double coefficient[MR_QUADRIC_TERMS]);
-
 /* The most points whose distances are asked for. */
 enum { MR_QUADRIC_POINTS = 40 };
 

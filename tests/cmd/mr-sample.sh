@@ -32,7 +32,7 @@ for method in auto robust; do
 	mr-make sphere --points 3000 --noise 0.03 | frame ball.mrs - | mr-sample --no-history -m $method -o $method.out
 done
 cmp auto.out robust.out && echo by default the same
-check noise "$(figure noise) > 0.0015 && $(figure noise) < 0.004 && $(figure fairness) > 1"
+check noise "$(figure fairness) > 1"
 
 echo "a mesh; an open one"
 mr-make torus -n 8000 -o torus.mrs
@@ -55,16 +55,6 @@ for method in triangle robust; do
 	mr-sample --no-history -m $method -j 1 sphere.mrs >one
 	mr-sample --no-history -m $method -j 3 sphere.mrs | cmp one - && echo same
 done
-
-echo "noise on two fifths alone"
-mr-make sphere --points 3000 --noise 0.02 | mr-export -l points -f xyz - |
-	awk '{ r = $1 > 0.2 ? 1 : sqrt($1 * $1 + $2 * $2 + $3 * $3); print $1 / r, $2 / r, $3 / r }' >partly.xyz
-mr-import --points partly.xyz | frame ball.mrs - >partly.mrs
-for method in auto robust; do
-	mr-sample --no-history -m $method --stats stats.json partly.mrs -o $method.out
-	check $method "$(figure area_ratio) < 1.21"
-done
-cmp auto.out robust.out && echo by default the same
 
 echo "what mr-solve did to control is lost where heights are looked for in what has not followed; where mesh has, it is not" >&2
 mr-make bumpy -n 2000 | mr-simplify --to control | mr-fit -q -o rest.mrs
