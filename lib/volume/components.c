@@ -29,7 +29,7 @@ rows_of(const mr_grid *g)
 }
 
 void
-mr_inside_new(mr_ctx *ctx, const mr_grid *g, mr_inside *in)
+mr_filled_new(mr_ctx *ctx, const mr_grid *g, mr_filled *in)
 {
 	in->g = g;
 	in->words = (g->n[0] + 63) / 64;
@@ -44,7 +44,7 @@ changes(const uint64_t *row, size_t w)
 }
 
 static mr_status
-find_runs(mr_ctx *ctx, const mr_inside *in, runs *r)
+find_runs(mr_ctx *ctx, const mr_filled *in, runs *r)
 {
 	size_t rows = rows_of(in->g), n = 0;
 
@@ -228,7 +228,7 @@ judge(mr_ctx *ctx, const mr_volume_cloud *s, const runs *r, const tally *t, bool
 }
 
 static void
-turn_runs(const runs *r, const bool *inside, mr_inside *in)
+turn_runs(const runs *r, const bool *inside, mr_filled *in)
 {
 	for (size_t row = 0; row < rows_of(r->g); row++)
 		for (size_t k = r->first[row]; k < r->first[row + 1]; k++)
@@ -238,7 +238,7 @@ turn_runs(const runs *r, const bool *inside, mr_inside *in)
 }
 
 mr_status
-mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_inside *in, mr_cleaning *c)
+mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in, mr_cleaning *c)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_cleaning made = { 0, 0 };

@@ -27,7 +27,7 @@ typedef struct leveling {
 	const float *f;   /* negative inside, at the level that is wanted */
 	double rise;      /* of the indicator */
 	float offset;     /* of a level from that */
-	mr_inside at;     /* what is inside at it, cleaned */
+	mr_filled at;     /* what is inside at it, cleaned */
 	mr_cleaning *c;   /* what that left out */
 	size_t n[3];      /* blocks */
 	int8_t part[256]; /* of each cube */
@@ -289,7 +289,7 @@ begin(mr_ctx *ctx, leveling *l)
 	for (unsigned inside = 0; inside < 256; inside++)
 		l->part[inside] = (int8_t)cube_part(inside);
 	l->sum = MR_NEW(ctx, blocks_of(l), int64_t);
-	mr_inside_new(ctx, l->g, &l->at);
+	mr_filled_new(ctx, l->g, &l->at);
 	return MR_OK;
 }
 

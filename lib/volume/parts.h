@@ -139,20 +139,20 @@ typedef struct mr_cleaning {
 } mr_cleaning;
 
 /* Which nodes of a grid are inside: bits, x in rows of whole words; none on the faces of the grid. */
-typedef struct mr_inside {
+typedef struct mr_filled {
 	const mr_grid *g;
 	size_t words; /* of a row */
 	uint64_t *bit;
-} mr_inside;
+} mr_filled;
 
 /* All outside. */
-void mr_inside_new(mr_ctx *ctx, const mr_grid *g, mr_inside *in);
+void mr_filled_new(mr_ctx *ctx, const mr_grid *g, mr_filled *in);
 
 /*
  * Turns parts of the inside, and cavities, whose walls have few points for their size; the largest part
  * stays.
  */
-mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_inside *in, mr_cleaning *c);
+mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in, mr_cleaning *c);
 
 /* ---- level.c ---- */
 

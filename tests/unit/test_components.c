@@ -68,9 +68,9 @@ static mr_cleaning
 clean(const mr_volume_cloud *s, float *f)
 {
 	mr_cleaning c = { 99, 99 };
-	mr_inside in;
+	mr_filled in;
 
-	mr_inside_new(&ctx, &GRID, &in);
+	mr_filled_new(&ctx, &GRID, &in);
 	for (size_t i = 0; i < NODES; i++)
 		in.bit[i / N] |= (uint64_t)(f[i] < 0) << i % N;
 	assert_int_equal(mr_volume_clean(&ctx, s, &in, &c), MR_OK);
