@@ -51,23 +51,20 @@ average(void *arg, size_t begin, size_t end)
 }
 
 /* x: each so often to the mean of it and its neighbours'. */
-static mr_status
+static void
 spread(mr_ctx *ctx, const mr_heights *e, size_t rounds, double *x)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *w = MR_NEW(ctx, e->n, double);
 
-	if (!w)
-		return MR_EMEM;
 	for (size_t round = 0; round < rounds; round++) {
 		mr_parallel(ctx, e->n, GRAIN, average, &(means){ &e->adj, x, w });
 		memcpy(x, w, e->n * sizeof *x);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
-mr_status
+void
 mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor)
 {
 	/* what a ring or three show is the noise: of five models with 1 % of it the mean distance from the
@@ -78,16 +75,13 @@ mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double
 	mr_mark mark = mr_mark_take(ctx);
 	double *u = MR_NEW(ctx, e->n, double), *w = MR_NEW(ctx, e->n, double), middle;
 
-	if (!u || !w)
-		return MR_EMEM;
 	mr_parallel(ctx, e->n, GRAIN, square_differences, &(means){ &e->adj, height, u });
-	MR_TRY(spread(ctx, e, ROUNDS, u));
+	spread(ctx, e, ROUNDS, u);
 	memcpy(w, u, e->n * sizeof *w);
 	middle = mr_kth(w, e->n, e->n / 2);
 	for (size_t i = 0; i < e->n; i++)
 		e->fair[i] = factor * fmin(fmax(middle / fmax(u[i], DBL_MIN), least), most);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* The fit that is validated, of a part of the vertices; what it asks of others is as it was. */
@@ -234,8 +228,6 @@ mr_fairness_validate(mr_ctx *ctx, mr_heights *e, const mr_wish *wish, size_t n, 
 		MR_NEW_ZERO(ctx, e->n, double), MR_NEW(ctx, e->n, double) };
 	double exponent;
 
-	if (!x.taken || !x.list || !x.fair || !x.trial || !x.probe || !x.image)
-		return MR_EMEM;
 	memcpy(x.fair, e->fair, e->n * sizeof *x.fair);
 	take_part(&x, surface->nf);
 	build_probe(&x);

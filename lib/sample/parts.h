@@ -67,7 +67,7 @@ typedef struct mr_sample_cloud {
 
 /* Finds the nearest faces of the domain: c->face and c->side, in the arena.  off: the distances from them,
  * c->n, the caller's, or NULL. */
-mr_status mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off);
+void mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off);
 
 /* True where the point may belong to the sheet that looks along n. */
 static inline bool
@@ -85,7 +85,7 @@ size_t mr_sights_near_sheet(const mr_sample_cloud *c, mr_v3 n, mr_sight *s, size
 mr_status mr_sample_triangles(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, size_t neighbours,
     double *height, bool *hit, mr_sample_result *r);
 /* c: the mesh's vertices, placed. */
-mr_status mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
+void mr_sample_rays(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sample_cloud *c,
     double *height, bool *hit, mr_sample_result *r);
 
 /*
@@ -114,7 +114,7 @@ typedef struct mr_wish {
 
 /* Sets the fairness: `factor` where the heights are bent as in the middle, less where more, and more where
  * less. */
-mr_status mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor);
+void mr_fairness_adapt(mr_ctx *ctx, const mr_heights *e, const double *height, double factor);
 
 /*
  * Multiplies the fairness so that points that are left out come nearest to what the others tell.  e: with the

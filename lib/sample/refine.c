@@ -65,19 +65,16 @@ place_points(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
+static void
 median_gap(mr_ctx *ctx, const fit *x, double *median)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double *gap = MR_NEW(ctx, x->c->n, double);
 
-	if (!gap)
-		return MR_EMEM;
 	for (size_t i = 0; i < x->c->n; i++)
 		gap[i] = fabs(x->wish[i].gap);
 	*median = mr_kth(gap, x->c->n, x->c->n / 2);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static void
@@ -204,7 +201,7 @@ fit_pass(mr_ctx *ctx, fit *x, bool validated)
 	double median;
 
 	place_all(ctx, x);
-	MR_TRY(median_gap(ctx, x, &median));
+	median_gap(ctx, x, &median);
 	x->scale = fmax(x->weights->scale, 3 * 1.4826 * median);
 	weigh_points(x);
 	sort_by_face(x);
@@ -250,7 +247,7 @@ report_mesh(mr_ctx *ctx, const fit *x)
 {
 	mr_mesh_gaps gaps;
 
-	MR_TRY(mr_gaps_to_mesh(ctx, &x->surface, x->c->mesh, SAMPLES, &gaps));
+	mr_gaps_to_mesh(ctx, &x->surface, x->c->mesh, SAMPLES, &gaps);
 	x->found->gaps.surface = gaps.surface;
 	mr_mesh_gaps_report(ctx, "displacement", &gaps, x->c->mesh);
 	return MR_OK;
@@ -265,11 +262,9 @@ report_gaps(mr_ctx *ctx, const fit *x)
 	mr_gaps *gaps = &x->found->gaps;
 	double *gap = MR_NEW(ctx, c->n, double), median;
 
-	if (!gap)
-		return MR_EMEM;
 	for (size_t i = 0; i < c->n; i++)
 		gap[i] = fabs(x->wish[i].gap);
-	MR_TRY(median_gap(ctx, x, &median));
+	median_gap(ctx, x, &median);
 	if (c->near)
 		of_points = widest_of_points(c, gap, median);
 	gaps->points = mr_gap_of(gap, c->n);
@@ -299,7 +294,7 @@ report_rough(mr_ctx *ctx, const fit *x, size_t folds)
 		mr_found(ctx, &f);
 }
 
-static mr_status
+static void
 fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 {
 	x->d = d;
@@ -314,12 +309,8 @@ fit_new(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, fit *x)
 	x->bad = MR_NEW(ctx, d->m.nf, bool);
 	x->crosses = MR_NEW(ctx, d->m.nf, bool);
 	x->near = MR_NEW(ctx, d->m.nv, bool);
-	if (!x->p || !x->wish || !x->start || !x->order || !x->target || !x->pull || !x->bad || !x->crosses ||
-	    !x->near)
-		return MR_EMEM;
 	for (size_t i = 0; i < c->n; i++)
 		x->wish[i].face = c->face[i];
-	return MR_OK;
 }
 
 /* The vertices within a few rings of bad faces: x->near, and their list. */
@@ -357,8 +348,6 @@ mend_pass(mr_ctx *ctx, fit *x)
 	uint32_t *list = MR_NEW(ctx, x->d->m.nv, uint32_t);
 	size_t count;
 
-	if (!list)
-		return MR_EMEM;
 	count = find_near(x, list);
 	mr_parallel(ctx, x->c->n, GRAIN, place_points, x);
 	weigh_points(x);
@@ -377,13 +366,11 @@ find_bad(mr_ctx *ctx, fit *x, size_t *folds)
 	size_t roots = x->d->level[0].nf, parts = x->surface.nf / roots;
 	bool *moved = x->local ? MR_NEW_ZERO(ctx, roots, bool) : NULL;
 
-	if (x->local && !moved)
-		return MR_EMEM;
 	for (size_t f = 0; moved && f < x->surface.nf; f++)
 		for (int k = 0; k < 3; k++)
 			moved[f / parts] |= x->near[x->surface.t[f].v[k]];
 	mr_domain_displace(ctx, x->d, x->height, 1, x->p);
-	MR_TRY(mr_find_crossings(ctx, x->d->level, x->d->n, x->p, moved, x->crosses));
+	mr_find_crossings(ctx, x->d->level, x->d->n, x->p, moved, x->crosses);
 	*folds = mr_find_folds(ctx, &x->surface, x->d, x->crosses, x->bad);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -419,7 +406,7 @@ fit_all(mr_ctx *ctx, fit *x, size_t passes, size_t *folds)
 		mr_domain_displace(ctx, x->d, x->height, 1, x->p);
 		mr_find_folds(ctx, &x->surface, x->d, NULL, x->bad);
 		if (x->weights->robust && pass > 0)
-			MR_TRY(mr_fairness_adapt(ctx, x->e, x->height, x->fair));
+			mr_fairness_adapt(ctx, x->e, x->height, x->fair);
 		press(x);
 		MR_TRY(fit_pass(ctx, x, x->weights->robust && pass == 1));
 		mr_progress(ctx, "refining", (double)(pass + 1) / (double)passes);
@@ -434,9 +421,7 @@ count_shares(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, double *
 	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *nearest = MR_NEW(ctx, d->m.nv, uint32_t);
 
-	if (!nearest)
-		return MR_EMEM;
-	MR_TRY(mr_voronoi_areas(ctx, &d->m, share));
+	mr_voronoi_areas(ctx, &d->m, share);
 	MR_TRY(mr_near_query(ctx, c->near, d->m.p, d->m.nv, 1, nearest, NULL));
 	for (size_t v = 0; v < d->m.nv; v++) {
 		double own = c->spacing[nearest[v]] * c->spacing[nearest[v]];
@@ -460,8 +445,6 @@ set_weights(mr_ctx *ctx, const mr_domain *d, const bool *hit, fit *x)
 	bool shared = x->c->near && !x->weights->robust;
 	double *share = MR_NEW(ctx, d->m.nv, double);
 
-	if (!share)
-		return MR_EMEM;
 	for (size_t v = 0; v < d->m.nv; v++)
 		share[v] = 1;
 	if (shared)
@@ -483,8 +466,8 @@ mr_sample_refine(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, cons
 	fit x = { .found = r, .weights = weights, .e = e, .height = height, .fair = weights->fair };
 	size_t folds;
 
-	MR_TRY(fit_new(ctx, d, c, &x));
-	MR_TRY(mr_heights_add_data(ctx, e));
+	fit_new(ctx, d, c, &x);
+	mr_heights_add_data(ctx, e);
 	MR_TRY(set_weights(ctx, d, hit, &x));
 	MR_TRY(fit_all(ctx, &x, passes, &folds));
 	place_all(ctx, &x);

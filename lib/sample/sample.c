@@ -45,7 +45,7 @@ place_points(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
+void
 mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off)
 {
 	uint32_t *face = MR_NEW(ctx, c->n, uint32_t);
@@ -54,15 +54,12 @@ mr_sample_place(mr_ctx *ctx, const mr_domain *d, mr_sample_cloud *c, double *off
 	placing x = { .m = &d->m, .c = c, .off = off };
 	mr_bvh *bvh;
 
-	if (!face || !side)
-		return MR_EMEM;
 	c->face = face;
 	c->side = side;
-	MR_TRY(mr_bvh_build(ctx, &d->m, &bvh));
+	mr_bvh_build(ctx, &d->m, &bvh);
 	x.bvh = bvh;
 	mr_parallel(ctx, c->n, 256, place_points, &x);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 size_t
@@ -99,8 +96,6 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_sample_cloud *c)
 	double *spacing = MR_NEW(ctx, kept, double);
 	mr_near *near;
 
-	if (!p || !spacing)
-		return MR_EMEM;
 	kept = 0;
 	for (size_t i = 0; i < c->n; i++) {
 		if (outlier[i])
@@ -111,7 +106,6 @@ keep_points(mr_ctx *ctx, const bool *outlier, size_t kept, mr_sample_cloud *c)
 		c->side[kept++] = c->side[i];
 	}
 	MR_TRY(mr_near_build(ctx, p, kept, &near));
-	mr_near_free(c->near);
 	c->near = near;
 	c->p = p;
 	c->spacing = spacing;
@@ -127,10 +121,8 @@ place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_clo
 	double *off = MR_NEW(ctx, c->n, double);
 	bool *outlier = MR_NEW(ctx, c->n, bool);
 
-	if (!off || !outlier)
-		return MR_EMEM;
-	MR_TRY(mr_sample_place(ctx, d, c, off));
-	MR_TRY(mr_find_outliers(ctx, s, off, 0, outlier, &r->outliers));
+	mr_sample_place(ctx, d, c, off);
+	mr_find_outliers(ctx, s, off, 0, outlier, &r->outliers);
 	return r->outliers ? keep_points(ctx, outlier, c->n - r->outliers, c) : MR_OK;
 }
 
@@ -139,7 +131,7 @@ static mr_status
 mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, mr_sample_result *r)
 {
 	MR_TRY(mr_heights_new(ctx, &d->m, 1, e));
-	MR_TRY(mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &r->spikes));
+	mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &r->spikes);
 	return mr_heights_fill(ctx, e, hit, height, &r->filled);
 }
 
@@ -181,15 +173,13 @@ is_noisy(const mr_sampling *s)
  * Takes back the heights at creases and beside them: the triangles that a line met there cut corners off. The
  * fit finds others.  Without this sharp edges of fandisk are 0.10 % of the diagonal away, with it 0.04.
  */
-static mr_status
+static void
 leave_creases(mr_ctx *ctx, const mr_domain *d, bool *hit)
 {
 	const mr_loop *l = &d->level[d->n];
 	mr_mark mark = mr_mark_take(ctx);
 	bool *on = MR_NEW_ZERO(ctx, l->nv, bool);
 
-	if (!on)
-		return MR_EMEM;
 	for (size_t h = 0; l->crease && h < 3 * l->nf; h++)
 		if (l->crease[h]) /* on both sides */
 			on[l->t[h / 3].v[h % 3]] = true;
@@ -199,7 +189,6 @@ leave_creases(mr_ctx *ctx, const mr_domain *d, bool *hit)
 			hit[v[0]] = hit[v[1]] = hit[v[2]] = false;
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* By triangles, or, robust, by the fit alone. */
@@ -214,15 +203,13 @@ find_heights(mr_ctx *ctx, const mr_domain *d, const mr_sample_cloud *c, const mr
 	bool *hit = MR_NEW(ctx, d->m.nv, bool);
 	mr_heights e;
 
-	if (!hit)
-		return MR_EMEM;
 	if (robust)
 		weights = noisy_weights(c);
 	memset(hit, 0, d->m.nv * sizeof *hit);
 	memset(height, 0, d->m.nv * sizeof *height);
 	if (!robust)
 		MR_TRY(mr_sample_triangles(ctx, d, c, k, height, hit, r));
-	MR_TRY(leave_creases(ctx, d, hit));
+	leave_creases(ctx, d, hit);
 	MR_TRY(mend(ctx, d, &e, hit, height, r));
 	MR_TRY(mr_sample_refine(ctx, d, c, &weights, opts->refine, &e, hit, height, r));
 	mr_mark_release(ctx, mark);
@@ -251,23 +238,18 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 	mr_sample_cloud c = { .p = sorted, .n = n, .diagonal = mr_box_diagonal(mr_box_of(point, n)) };
 	mr_sampling sampling;
 	mr_sample_result r;
-	mr_status s;
 
 	if (n == 0)
 		return mr_fail(ctx, MR_EMESH, "no points to sample");
-	if (!sorted)
-		return MR_EMEM;
 	MR_TRY(mr_cloud_check_spread(ctx, point, n));
 	MR_TRY(mr_sampling_find(ctx, point, n, known, &sampling));
 	/* what close ones look up is in the cache */
-	MR_TRY(mr_sampling_sort(ctx, point, &sampling, sorted, &sampling));
+	mr_sampling_sort(ctx, point, &sampling, sorted, &sampling);
 	c.spacing = sampling.spacing;
 	c.usual = sampling.usual;
 	MR_TRY(mr_near_build(ctx, sorted, n, &c.near));
 	mr_unmeasured(&r, sizeof r);
-	s = sample_cloud(ctx, d, &sampling, &c, opts, height, &r);
-	mr_near_free(c.near);
-	MR_TRY(s);
+	MR_TRY(sample_cloud(ctx, d, &sampling, &c, opts, height, &r));
 	mr_mark_release(ctx, mark);
 	if (result)
 		*result = r;
@@ -275,7 +257,7 @@ mr_sample_points(mr_ctx *ctx, const mr_domain *d, const mr_v3 *point, size_t n, 
 }
 
 /* A vertex that no face has is not to be reached. */
-static mr_status
+static void
 leave_isolated(mr_ctx *ctx, mr_sample_cloud *c)
 {
 	const mr_mesh *mesh = c->mesh;
@@ -283,10 +265,8 @@ leave_isolated(mr_ctx *ctx, mr_sample_cloud *c)
 	bool *used;
 	mr_v3 *p;
 
-	MR_TRY(mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count));
+	mr_vertices_used(ctx, mesh->t, mesh->nf, mesh->nv, &used, &count);
 	p = MR_NEW(ctx, count, mr_v3);
-	if (!p)
-		return MR_EMEM;
 	for (size_t v = 0; v < mesh->nv; v++)
 		if (used[v]) {
 			p[n] = mesh->p[v];
@@ -295,7 +275,6 @@ leave_isolated(mr_ctx *ctx, mr_sample_cloud *c)
 		}
 	c->p = p;
 	c->n = n;
-	return MR_OK;
 }
 
 mr_status
@@ -309,12 +288,10 @@ mr_sample_mesh(mr_ctx *ctx, const mr_domain *d, const mr_mesh *mesh, const mr_sa
 	mr_sample_result r;
 	mr_heights e;
 
-	if (!hit)
-		return MR_EMEM;
 	mr_unmeasured(&r, sizeof r);
-	MR_TRY(mr_sample_place(ctx, d, &c, NULL));
-	MR_TRY(mr_sample_rays(ctx, d, mesh, &c, height, hit, &r));
-	MR_TRY(leave_isolated(ctx, &c));
+	mr_sample_place(ctx, d, &c, NULL);
+	mr_sample_rays(ctx, d, mesh, &c, height, hit, &r);
+	leave_isolated(ctx, &c);
 	MR_TRY(mend(ctx, d, &e, hit, height, &r));
 	MR_TRY(mr_sample_refine(ctx, d, &c, &weights, opts->refine, &e, hit, height, &r));
 	report_filled(ctx, d, false, &r);
