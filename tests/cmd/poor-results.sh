@@ -3,9 +3,6 @@ heard() { # what, the tool's words
 	echo "-- $1"
 	grep -o "$2" said | sort -u || sed 's/^/not heard: /' said
 }
-mr-make cylinder -n 3000 --noise 1% | mr-remesh --adaptive 5% --feature 40 2>said >out
-heard 'edges that are sharp by noise' 'sharp edges'
-
 mr-make bumpy -n 5000 | mr-smooth -q -t 200 | mr-remesh -q -r 4 | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.5 |
     mr-encode -q | mr-pose -H 1 --rotate 0,0,1,170 --scale 0.2 | mr-solve -q | mr-decode 2>said >out
 heard 'half a model shrunk in little room' '\[torn\]'
