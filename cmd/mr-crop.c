@@ -5,24 +5,19 @@
 static mr_selection selection = { .may_miss = true };
 
 static mr_status
-add_keep(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
+add(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
 {
-	(void)o;
-	return mr_selection_add(ctx, &selection, MR_REGION_FREE, "--keep ", predicate);
-}
+	bool keeps = !strcmp(o->name, "keep");
 
-static mr_status
-add_drop(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
-{
-	(void)o;
-	return mr_selection_add(ctx, &selection, MR_REGION_FIXED, "--drop ", predicate);
+	return mr_selection_add(ctx, &selection, keeps ? MR_REGION_FREE : MR_REGION_FIXED,
+	    keeps ? "--keep " : "--drop ", predicate);
 }
 
 static const cmd_opt table[] = {
 	{ 0, "keep", CMD_CALL, NULL, 0, 0, "P", "these vertices are kept; as the first option: they alone",
-	    add_keep },
+	    add },
 	{ 0, "drop", CMD_CALL, NULL, 0, 0, "P", "these vertices are dropped; as the first option: they alone",
-	    add_drop },
+	    add },
 	{ 0 },
 };
 

@@ -1,32 +1,17 @@
 /* mr-normals -- normals of points and surfaces.  See man/mr-normals.1. */
-#include "base/text_file.h"
 #include "cmd.h"
 
 static mr_normals_opts opts;
 static mr_v3 from;
 static int weights;
 
-static mr_status
-set_from(mr_ctx *ctx, const cmd_opt *o, const char *text)
-{
-	const char *at = text;
-	double x[3];
-
-	(void)o;
-	if (!mr_numbers(&at, 3, x) || *at)
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not three numbers with commas between them", text);
-	from = mr_vec(x[0], x[1], x[2]);
-	opts.from = &from;
-	return MR_OK;
-}
-
 static const cmd_opt table[] = {
 	{ 'n', "neighbours", CMD_COUNT, &opts.neighbours, 0, 128, "N",
 	    "points that show the plane of one, itself among them; 0: as the noise needs", NULL },
-	{ 'f', "from", CMD_CALL, NULL, 0, 0, "X,Y,Z",
+	{ 'f', "from", CMD_VECTOR, &from, 0, 0, "X,Y,Z",
 	    "where the points were seen from: normals point there (default: to the column scanner, else "
 	    "outward)",
-	    set_from },
+	    NULL },
 	{ 0, "keep", CMD_FLAG, &opts.keep, 0, 0, "", "keep the normals that are there and fit", NULL },
 	{ 0, "flip", CMD_FLAG, &opts.flip, 0, 0, "", "turn all over at the end", NULL },
 	{ 0, "weights", CMD_CHOICE, &weights, 0, 0, "angle|area", "of a surface: what faces weigh by", NULL },
@@ -37,6 +22,7 @@ static mr_status
 prepare(cmd *c)
 {
 	opts.by_area = weights == 1;
+	opts.from = cmd_given(c, "from") ? &from : NULL;
 	if (opts.neighbours == 1 || opts.neighbours == 2)
 		return mr_fail(&c->ctx, MR_EUSAGE, "--neighbours: %zu points show no plane", opts.neighbours);
 	return MR_OK;

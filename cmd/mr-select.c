@@ -7,17 +7,12 @@ static mr_select_opts opts = MR_SELECT_DEFAULTS;
 static mr_selection selection;
 
 static mr_status
-add_free(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
+add(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
 {
-	(void)o;
-	return mr_selection_add(ctx, &selection, MR_REGION_FREE, "--free ", predicate);
-}
+	bool frees = !strcmp(o->name, "free");
 
-static mr_status
-add_fixed(mr_ctx *ctx, const cmd_opt *o, const char *predicate)
-{
-	(void)o;
-	return mr_selection_add(ctx, &selection, MR_REGION_FIXED, "--fixed ", predicate);
+	return mr_selection_add(ctx, &selection, frees ? MR_REGION_FREE : MR_REGION_FIXED,
+	    frees ? "--free " : "--fixed ", predicate);
 }
 
 static mr_status
@@ -45,8 +40,8 @@ add_file(mr_ctx *ctx, const cmd_opt *o, const char *path)
 static const cmd_opt table[] = {
 	{ 0, "reset", CMD_FLAG, &opts.reset, 0, 0, NULL,
 	    "begin with all vertices fixed (default: with the regions there are)", NULL },
-	{ 0, "free", CMD_CALL, NULL, 0, 0, "P", "these vertices are free", add_free },
-	{ 0, "fixed", CMD_CALL, NULL, 0, 0, "P", "these vertices are fixed", add_fixed },
+	{ 0, "free", CMD_CALL, NULL, 0, 0, "P", "these vertices are free", add },
+	{ 0, "fixed", CMD_CALL, NULL, 0, 0, "P", "these vertices are fixed", add },
 	{ 0, "handle", CMD_CALL, NULL, 0, 0, "N=P", "these vertices are handle N", add_handle },
 	{ 0, "from", CMD_CALL, NULL, 0, 0, "FILE",
 	    "these vertices are what FILE says, as mr-view's page saves it", add_file },

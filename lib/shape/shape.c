@@ -159,7 +159,7 @@ torus_point(double u, double v)
 	return mr_vec(r * cos(a), r * sin(a), 0.4 * sin(b));
 }
 
-static const double KNOT_RADIUS = 0.45, KNOT_TUBE = 0.2;
+static const double KNOT_RADIUS = 0.45, KNOT_TUBE = 0.2, KNOT_LENGTH = 15.337059286565475; /* of the curve */
 
 /*
  * The curve runs on a torus, twice around it and three times around its tube; the
@@ -176,19 +176,6 @@ knot_point(double u, double v)
 	mr_v3 side = mr_cross(normal, mr_unit(mr_add(along, around)));
 
 	return mr_axpy(KNOT_TUBE * cos(w), normal, mr_axpy(KNOT_TUBE * sin(w), side, c));
-}
-
-static double
-knot_length(void)
-{
-	enum { STEPS = 1000 };
-	double length = 0;
-
-	for (int i = 0; i < STEPS; i++) {
-		double b = 6 * MR_PI * i / STEPS, r = 1 + KNOT_RADIUS * cos(b);
-		length += sqrt(4 * r * r + 9 * KNOT_RADIUS * KNOT_RADIUS) * 2 * MR_PI / STEPS;
-	}
-	return length;
 }
 
 static mr_status
@@ -397,7 +384,7 @@ make(mr_ctx *ctx, const mr_make_opts *o, size_t n, mr_solid_build *b)
 	case MR_CYLINDER:
 		return cylinder(ctx, n, o->open, b);
 	case MR_KNOT:
-		return tube(ctx, n, knot_length() / (2 * MR_PI * KNOT_TUBE), 24, knot_point, b);
+		return tube(ctx, n, KNOT_LENGTH / (2 * MR_PI * KNOT_TUBE), 24, knot_point, b);
 	case MR_BUMPY:
 		return mr_bumpy(ctx, n, b);
 	case MR_BOXES:
