@@ -18,7 +18,8 @@ DRAG = """(async () => {
 		times.normals.push(performance.now() - began);
 	}
 	return { vertices: [deformer.places.mesh.length / 3, deformer.places.base.length / 3],
-		...Object.fromEntries(Object.entries(times).map(([k, t]) => [k, (s => [s[s.length >> 1], s[0]])(t.sort((a, b) => a - b))])) };
+		...Object.fromEntries(Object.entries(times).map(([k, t]) => [k,
+			(s => [s[s.length >> 1], s[0]])(t.sort((a, b) => a - b))])) };
 })()""" % FRAMES
 
 with Browser(scale=1) as b:

@@ -3,7 +3,8 @@
 # The sources without their comments and strings, under the same names.
 for file in $(cd "$TOP" && find lib formats cmd -name '*.[ch]' ! -name banned.h -o -name '*.cc'); do
 	mkdir -p "${file%/*}"
-	sed -E 's/"([^"\\]|\\.)*"/""/g' "$TOP/$file" | sed -E 's,//.*,,; s,/\*.*\*/,,; /^[ \t]*\/\*/,/\*\//d; s,/\*.*,,' >"$file"
+	sed -E 's/"([^"\\]|\\.)*"/""/g' "$TOP/$file" |
+		sed -E 's,//.*,,; s,/\*.*\*/,,; /^[ \t]*\/\*/,/\*\//d; s,/\*.*,,' >"$file"
 done
 fail=0
 
@@ -20,7 +21,8 @@ bad=$(search 'printf|vprintf|puts|putchar|perror|exit|_exit|abort|assert|signal'
 bad=$(search 'socket|system|popen|fork|vfork|execl|execlp|execv|execve|execvp|posix_spawn|posix_spawnp' lib formats cmd)
 [ -z "$bad" ] || { echo "a connection or another program:"; echo "$bad"; fail=1; }
 # The way of libpng and libjpeg to fail, and ours where memory runs out.
-bad=$(search 'longjmp|setjmp' lib cmd $(ls formats/*.c | grep -vE 'formats/(png|jpeg).c') | grep -v '^lib/base/ctx\.[ch]:')
+bad=$(search 'longjmp|setjmp' lib cmd $(ls formats/*.c | grep -vE 'formats/(png|jpeg).c') |
+	grep -v '^lib/base/ctx\.[ch]:')
 [ -z "$bad" ] || { echo "jumps:"; echo "$bad"; fail=1; }
 bad=$(search 'rand|srand|random|drand48|time|gettimeofday|getenv|setlocale' lib formats)
 [ -z "$bad" ] || { echo "a result may depend on these:"; echo "$bad"; fail=1; }

@@ -1,5 +1,6 @@
-# What install writes is the same whatever the umask, and uninstall takes that away and nothing else; completions of bash, zsh
-# and fish have the options of --help, and are made without a tool that runs; a tarball of the sources gives itself again.
+# What install writes is the same whatever the umask, and uninstall takes that away and nothing else; completions of
+# bash, zsh and fish have the options of --help, and are made without a tool that runs; a tarball of the sources gives
+# itself again.
 [ -z "$SAN" ] || { echo "a build with sanitizers is not installed"; exit 77; }
 fail=0
 bad() {
@@ -10,7 +11,8 @@ run() {
 	make -s -C "$TOP" BUILD="$BUILD" PREFIX=/usr "$@" >make.log 2>&1 || { cat make.log; exit 1; }
 }
 listing() { # folder: names, modes, bytes
-	(cd "$1" && find . ! -type d -printf '%p %m %l\n' | LC_ALL=C sort && find . -type f -exec cksum {} + | LC_ALL=C sort)
+	(cd "$1" && find . ! -type d -printf '%p %m %l\n' | LC_ALL=C sort && find . -type f -exec cksum {} + |
+		LC_ALL=C sort)
 }
 
 (umask 077 && run DESTDIR="$PWD/tight" install) || exit
@@ -31,7 +33,8 @@ run DESTDIR="$PWD/shared" PREFIX=/opt/mr LIBDIR=/opt/mr/lib/x86 uninstall
 left=$(find shared ! -type d | grep -vE '/(mr-other|_mr-other|mr-solve.bak|libmr.so.0|mr.pc.in)$')
 [ -z "$left" ] || bad "uninstall leaves $left"
 for folder in $(find shared -type d); do
-	[ "$(cat "$folder"/mr-other "$folder"/_mr-other "$folder"/mr-solve.bak "$folder"/libmr.so.0 "$folder"/mr.pc.in | grep -c other)" -eq 5 ] ||
+	[ "$(cat "$folder"/mr-other "$folder"/_mr-other "$folder"/mr-solve.bak \
+		"$folder"/libmr.so.0 "$folder"/mr.pc.in | grep -c other)" -eq 5 ] ||
 	    bad "uninstall takes what is not its own from $folder"
 done
 
@@ -40,7 +43,8 @@ mkdir bare && (cd "$TOP" && cp -R .ci cmd "$OLDPWD/bare")
 bare/.ci/completions "$PWD/made" || bad "completions are not made"
 for tool in "$BUILD"/bin/mr-*; do
 	name=${tool##*/}
-	"$tool" --help | grep -E '^ +-' | sed 's/  *[^ -].*//' | grep -oE -- '(^| )--?[a-zA-Z][a-z-]*' | tr -d ' ' | sort -u >said
+	"$tool" --help | grep -E '^ +-' | sed 's/  *[^ -].*//' | grep -oE -- '(^| )--?[a-zA-Z][a-z-]*' | tr -d ' ' |
+		sort -u >said
 	grep -oE -- '( -s [a-zA-Z]| -l [a-z-]+)' "made/fish/$name.fish" | sed 's/ -s /-/; s/ -l /--/' | sort -u >fish
 	diff said fish || bad "$name: fish completes other options than --help has"
 	grep -oE -- "[{,'*]--?[a-zA-Z][a-z-]*" "made/zsh/_$name" | tr -d "{,'*" | sort -u >zsh
@@ -53,13 +57,15 @@ for tool in "$BUILD"/bin/mr-*; do
 	done
 done
 if command -v bash >/dev/null; then
-	answer=$(bash -c '. made/bash/mr-solve; COMP_WORDS=(mr-solve --solver = m); COMP_CWORD=3; _mr_solve; echo "${COMPREPLY[@]}"
+	answer=$(bash -c '. made/bash/mr-solve; COMP_WORDS=(mr-solve --solver = m)
+		COMP_CWORD=3; _mr_solve; echo "${COMPREPLY[@]}"
 		COMP_WORDS=(mr-solve --ver); COMP_CWORD=1; _mr_solve; echo "${COMPREPLY[@]}"')
 	[ "$answer" = "multigrid
 --verify --verbose --version" ] || bad "bash completes $answer"
 fi
 if command -v fish >/dev/null; then
-	answer=$(HOME=$PWD fish -c '. made/fish/mr-solve.fish; complete -C "mr-solve -s mu"; complete -C "mr-solve --veri"' | cut -f1)
+	answer=$(HOME=$PWD fish -c \
+		'. made/fish/mr-solve.fish; complete -C "mr-solve -s mu"; complete -C "mr-solve --veri"' | cut -f1)
 	[ "$answer" = "multigrid
 --verify" ] || bad "fish completes $answer"
 fi
@@ -68,7 +74,8 @@ if command -v zsh >/dev/null; then
 	cat >ask.zsh <<-'END'
 		zmodload zsh/zpty
 		zpty shell zsh -f -i
-		zpty -w shell 'PS1=; unsetopt zle_bracketed_paste; fpath=(made/zsh $fpath); autoload -Uz compinit; compinit -D -u; LISTMAX=0'
+		zpty -w shell 'PS1=; unsetopt zle_bracketed_paste; fpath=(made/zsh $fpath); autoload -Uz compinit' \
+			'; compinit -D -u; LISTMAX=0'
 		zpty -w shell 'bindkey "^I" complete-word; print READY'
 		zpty -r shell line '*READY*READY*'
 		zpty -w -n shell $'mr-solve --solver=mu\t --veri\t\n'

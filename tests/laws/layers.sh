@@ -26,12 +26,14 @@ for layer in $rooms; do
 done
 check formats "$below|formats/"
 
-# Within a room there is an order, too: no circle of files, but for a source, its header and the private ones between them.
+# Within a room there is an order, too: no circle of files, but for a source, its header and the private ones between
+# them.
 for room in $rooms; do
 	bad=$(includes lib/$room | sed -nE "s|^lib/$room/([a-z0-9_]+)\.[a-z]+:$room/([a-z0-9_]+)\.h\$|\1 \2|p" | awk '
 		$1 != $2 { reaches[$1, $2] = 1; file[$1]; file[$2] }
 		END {
-			for (k in file) for (i in file) if ((i, k) in reaches) for (j in file) if ((k, j) in reaches) reaches[i, j] = 1
+			for (k in file) for (i in file) if ((i, k) in reaches)
+				for (j in file) if ((k, j) in reaches) reaches[i, j] = 1
 			for (i in file) {
 				circle = ""
 				for (j in file) if ((i, j) in reaches && (j, i) in reaches) circle = circle " " j
@@ -54,7 +56,8 @@ climbs deform 'library|stream|mesh|draw'
 climbs paint 'library|stream|mesh|draw'
 
 # Quoted includes name their layer, so that the rule can be seen: no file beside the file, no climbing.
-bad=$(grep -rnE '^[ \t]*#[ \t]*include[ \t]*"' --include='*.[ch]' --include='*.cc' lib formats | grep -vE "\"(${house}([a-z]+/)*[a-z0-9_]+\.(h|inc)|mr\.h)\"")
+bad=$(grep -rnE '^[ \t]*#[ \t]*include[ \t]*"' --include='*.[ch]' --include='*.cc' lib formats |
+	grep -vE "\"(${house}([a-z]+/)*[a-z0-9_]+\.(h|inc)|mr\.h)\"")
 [ -z "$bad" ] || { echo "an include that does not name its layer:"; echo "$bad"; fail=1; }
 
 # A header that says it is private to its room is included by that room alone.
@@ -84,7 +87,8 @@ foreign 'tiny_obj_loader\.h' 'formats/obj_shim\.cc' 1
 
 # The shims and the numbers of text are the only C++ of the tools; and nothing outside the tests is in another language.
 for f in $(find lib formats cmd -name '*.cc' -o -name '*.cpp' -o -name '*.cxx' -o -name '*.hpp'); do
-	case $f in formats/obj_shim.cc | formats/numbers.cc | lib/space/near_shim.cc) ;; *) echo "$f: C++"; fail=1 ;; esac
+	case $f in formats/obj_shim.cc | formats/numbers.cc | lib/space/near_shim.cc) ;; *) echo "$f: C++"; fail=1 ;;
+		esac
 done
 
 # The top level is the house's.

@@ -19,7 +19,8 @@ cc -std=c11 "$TOP/examples/bend.c" -I"$prefix/include" "$prefix/lib/libmr.a" \
 	$(pkg-config --static --libs mr | sed 's/-lmr\b//') -o bend-static || exit
 
 # The header stands alone, and takes nothing away from who includes it.
-printf '#include <mr.h>\n#include <string.h>\n#include <stdlib.h>\nint main(void) { char s[4]; strcpy(s, "1"); return atoi(s) != 1; }\n' >alone.c
+printf '#include <mr.h>\n#include <string.h>\n#include <stdlib.h>\n%s\n' \
+	'int main(void) { char s[4]; strcpy(s, "1"); return atoi(s) != 1; }' >alone.c
 cc -std=c11 $warn alone.c $(pkg-config --cflags mr) -o alone && ./alone || bad "mr.h poisons"
 [ "$(ls "$prefix/include")" = mr.h ] || bad "installed headers: $(ls "$prefix/include")"
 
@@ -28,7 +29,8 @@ nm -D --defined-only "$prefix/lib/libmr.so" | awk '{ print $3 }' | sort >exporte
 sed -nE 's/^MR_API [^(]*[ *](mr_[a-z_0-9]+)\(.*/\1/p; /^MR_API [^(]*$/{ n; s/^[ \t]*(mr_[a-z_0-9]+)\(.*/\1/p; }' \
 	"$prefix/include/mr.h" | sort >declared
 diff declared exported || bad "libmr.so does not export what mr.h declares"
-sed -n 's/^ \(.*\)@Base .*/\1/p' "$TOP/.debian/libmr1.symbols" | diff - exported || bad ".debian/libmr1.symbols does not list what libmr.so exports"
+sed -n 's/^ \(.*\)@Base .*/\1/p' "$TOP/.debian/libmr1.symbols" | diff - exported ||
+	bad ".debian/libmr1.symbols does not list what libmr.so exports"
 
 mr-make bumpy -n 3000 | mr-export model.obj
 mr-import model.obj | mr-smooth | mr-remesh | mr-select --free all --fixed below:y,0.5 --handle 1=above:y,0.85 |
@@ -50,7 +52,8 @@ int main(void)
 	return mr_import(ctx, "pipe.obj", NULL, &f, NULL) < 0 || mr_render(ctx, f, NULL, "drawn.png") < 0;
 }
 END
-cc -std=c11 $warn draw.c $(pkg-config --cflags --libs mr) -o draw && ./draw && mr-import pipe.obj | mr-render tool.png || exit
+cc -std=c11 $warn draw.c $(pkg-config --cflags --libs mr) -o draw && ./draw && mr-import pipe.obj |
+	mr-render tool.png || exit
 cmp drawn.png tool.png || bad "mr_render draws something else"
 
 build uninstall

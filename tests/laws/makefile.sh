@@ -1,5 +1,5 @@
-# A changed header rebuilds what includes it and nothing else; changed flags rebuild everything; a staged install is whole;
-# make help-all tells of every target.
+# A changed header rebuilds what includes it and nothing else; changed flags rebuild everything; a staged install is
+# whole; make help-all tells of every target.
 command -v make >/dev/null || { echo "no make"; exit 77; }
 here=$PWD
 cd "$TOP" || exit
@@ -16,7 +16,8 @@ for target in $(sed -n 's/^\.PHONY: \(all units help help-all \)*//p' Makefile .
 done
 would=$(make -n -W lib/space/bvh.h all | grep -oE '[^ ]*\.cc?$' | sort -u)
 for source in $(echo "$would"); do
-	grep -qs 'lib/space/bvh.h' "$BUILD/$source.d" "$BUILD/wasm/$source.d" || { echo "rebuilt without reason: $source"; fail=1; }
+	grep -qs 'lib/space/bvh.h' "$BUILD/$source.d" "$BUILD/wasm/$source.d" ||
+		{ echo "rebuilt without reason: $source"; fail=1; }
 done
 for source in $(grep -lE 'include "space/bvh.h"' lib/*/*.c cmd/*.c); do
 	case " $(echo $would) " in
@@ -32,7 +33,8 @@ for source in cmd/mr-*.c; do
 	tool=$(basename "$source" .c)
 	[ -x "$here/stage/usr/bin/$tool" ] || { echo "not installed: $tool"; fail=1; }
 	[ -f "$here/stage/usr/share/man/man1/$tool.1" ] || { echo "not installed: $tool.1"; fail=1; }
-	grep -q -- --help "$here/stage/usr/share/bash-completion/completions/$tool" || { echo "no completion: $tool"; fail=1; }
+	grep -q -- --help "$here/stage/usr/share/bash-completion/completions/$tool" ||
+		{ echo "no completion: $tool"; fail=1; }
 done
 [ -f "$here/stage/usr/share/man/man7/mr.7" ] || { echo "not installed: mr.7"; fail=1; }
 # What solves nothing loads no solver, which takes longer than a small frame does.

@@ -1,5 +1,6 @@
-# The pages read well by both formatters, mandoc and groff, on a terminal of 80 columns: no warning, no row of a table on
-# more than one line, no word that only one of them shows (a macro's name as a word loses what is behind it under groff).
+# The pages read well by both formatters, mandoc and groff, on a terminal of 80 columns: no warning, no row of a table
+# on more than one line, no word that only one of them shows (a macro's name as a word loses what is behind it under
+# groff).
 for formatter in mandoc groff; do
 	command -v $formatter >/dev/null || { echo "no $formatter"; exit 77; }
 done
@@ -31,7 +32,8 @@ for page in "$TOP"/man/*.[1-9]; do
 		with_$formatter "$page" >$formatter 2>warnings || { echo "$name: $formatter fails"; fail=1; }
 		[ ! -s warnings ] || { echo "$name: $formatter warns:"; cat warnings; fail=1; }
 		plain <$formatter >lines
-		grep -vxF -f lines rows >broken && { echo "$name: $formatter breaks a row of a table:"; cat broken; fail=1; }
+		grep -vxF -f lines rows >broken &&
+			{ echo "$name: $formatter breaks a row of a table:"; cat broken; fail=1; }
 	done
 	[ "$(text mandoc)" = "$(text groff)" ] || { echo "$name: mandoc and groff show different words"; fail=1; }
 done

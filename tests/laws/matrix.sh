@@ -9,7 +9,8 @@ rm false/bin/mr-remesh
 wrong() { # what is to be said of mr-remesh, what it is
 	printf '#!/bin/sh\n%s\n' "$2" >false/bin/mr-remesh
 	chmod +x false/bin/mr-remesh
-	BUILD=$PWD/false "$TOP/tests/matrix/run" --small 'inside-out.obj remesh' >said 2>&1 && { echo "not found: $2"; exit 1; }
+	BUILD=$PWD/false "$TOP/tests/matrix/run" --small 'inside-out.obj remesh' >said 2>&1 &&
+		{ echo "not found: $2"; exit 1; }
 	grep -q "WRONG .*: $1" said && grep -q ' 1 wrong' said || { echo "$2:"; cat said; exit 1; }
 }
 wrong 'exit 139' 'kill -SEGV $$'

@@ -20,10 +20,12 @@ for page in README.md .github/CONTRIBUTING.md .github/CHANGES.md lib/README.md t
 		[ -e "$(dirname "$file")/$link" ] || { echo "$page names $link, which is not there"; fail=1; }
 	done
 	for target in $(grep -oE '(`|^)make [a-z][a-z0-9]*' "$file" | sed 's/.* //' | sort -u); do
-		grep -q "^$target:" "$TOP/Makefile" "$TOP"/.ci/*.mk || { echo "$page names make $target, which is not there"; fail=1; }
+		grep -q "^$target:" "$TOP/Makefile" "$TOP"/.ci/*.mk ||
+			{ echo "$page names make $target, which is not there"; fail=1; }
 	done
 	for bench in $(grep -oE 'make bench T=[a-z]+' "$file" | sed 's/.*=//' | sort -u); do
-		[ -e "$TOP/tests/bench/bench_$bench.sh" ] || [ $bench = NAME ] || { echo "$page names bench $bench, which is not there"; fail=1; }
+		[ -e "$TOP/tests/bench/bench_$bench.sh" ] || [ $bench = NAME ] ||
+			{ echo "$page names bench $bench, which is not there"; fail=1; }
 	done
 done
 exit $fail

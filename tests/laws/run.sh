@@ -24,7 +24,8 @@ try() { # expected last line, expected exit, arguments
 	shift 2
 	BUILD= LIMIT=2 top/tests/run "$@" >out 2>&1
 	code=$?
-	[ "$(tail -n 1 out)" = "$want" ] && [ $code -eq "$exit" ] || bad "run $*: exit $code, $(tail -n 1 out), not $want"
+	[ "$(tail -n 1 out)" = "$want" ] && [ $code -eq "$exit" ] ||
+		bad "run $*: exit $code, $(tail -n 1 out), not $want"
 }
 try '1 passed, 0 failed' 0 cmd/good
 try '1 passed, 0 failed' 0 cmd/kinds
@@ -40,5 +41,6 @@ try '0 passed, 0 failed' 1 no-such-test
 try '3 passed, 7 failed, 1 skipped' 1
 try '5 passed, 0 failed' 0 --bless
 try '5 passed, 0 failed' 0 cmd/
-grep -q one top/tests/cmd/wrong.out && [ "$(cat top/tests/cmd/exits.exit)" = 3 ] && grep -qx 'mr-a: \[folded\]' top/tests/cmd/kinds.err || bad "--bless wrote something else"
+grep -q one top/tests/cmd/wrong.out && [ "$(cat top/tests/cmd/exits.exit)" = 3 ] &&
+	grep -qx 'mr-a: \[folded\]' top/tests/cmd/kinds.err || bad "--bless wrote something else"
 exit $fail

@@ -1,7 +1,10 @@
-"""browser.py -- Chromium without a window, by its DevTools protocol over a pipe: opens a page, clicks, reads, takes pictures.
+"""browser.py -- Chromium without a window, by its DevTools protocol over a pipe: opens a page, clicks, reads, takes
+pictures.
 
-It draws by software, which takes most of the time of a test: half as fine as others do, unless a test asks for more, and not at all
-where a test asks for no picture.  A page may say nothing to the console and ask for no address but its own: what it does of either is in `said`.
+It draws by software, which takes most of the time of a test: half as fine as others do, unless a test asks for more,
+and not at all
+where a test asks for no picture.  A page may say nothing to the console and ask for no address but its own: what it
+does of either is in `said`.
 """
 import base64
 import functools
@@ -23,10 +26,12 @@ FLAGS = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=
 
 def draws():
     """Whether the browser starts on this machine and has WebGL, which a container may keep from it."""
-    page = "data:text/html,<script>document.write('WebGL ' + !!document.createElement('canvas').getContext('webgl'))</script>"
+    page = ("data:text/html,<script>document.write("
+            "'WebGL ' + !!document.createElement('canvas').getContext('webgl'))</script>")
     with tempfile.TemporaryDirectory(ignore_cleanup_errors=True) as profile:
         flags = [flag for flag in FLAGS if flag != "--remote-debugging-pipe"] + ["--user-data-dir=" + profile]
-        said = subprocess.run([PROGRAM, *flags, "--dump-dom", page], capture_output=True, timeout=60, check=False).stdout
+        said = subprocess.run([PROGRAM, *flags, "--dump-dom", page], capture_output=True, timeout=60,
+            check=False).stdout
     return b"WebGL true" in said
 
 
@@ -124,13 +129,15 @@ class Browser:
             self.said.append("log: " + what["entry"]["text"])
         elif kind == "Page.javascriptDialogOpening":
             self.said.append("dialog: " + what["message"])
-        elif kind == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("data:", "about:", "blob:")):
+        elif kind == "Network.requestWillBeSent" and not what["request"]["url"].startswith(("data:", "about:",
+            "blob:")):
             if what["request"]["url"] != self.url:
                 self.said.append("request: " + what["request"]["url"])
 
     def size(self, width, height, mobile=False, scale=None):
         self.scale = scale or self.scale
-        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=self.scale, mobile=mobile)
+        self.call("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=self.scale,
+            mobile=mobile)
 
     def draw(self, on):
         """Whether pages that are opened from now on draw."""
@@ -147,7 +154,8 @@ class Browser:
     def eval(self, script):
         got = self.call("Runtime.evaluate", expression=script, awaitPromise=True, returnByValue=True)
         if "exceptionDetails" in got:
-            raise RuntimeError(script + ": " + got["exceptionDetails"].get("exception", {}).get("description", "failed"))
+            raise RuntimeError(script + ": " + got["exceptionDetails"].get("exception", {}).get("description",
+                "failed"))
         return got["result"].get("value")
 
     def wait(self, condition, seconds=60):
@@ -164,7 +172,9 @@ class Browser:
         self.url = "file://" + os.path.abspath(path)
         began = time.monotonic()
         self.call("Page.navigate", url=self.url)
-        if not self.wait("document.readyState === 'complete' && !(document.getElementById('message')?.textContent ?? 'Reading').startsWith('Reading')",
+        if not self.wait(
+            "document.readyState === 'complete' && !(document.getElementById('message')?.textContent ?? "
+            "'Reading').startsWith('Reading')",
                          seconds):
             raise RuntimeError(path + ": not drawn after %d s" % seconds)
         self.settle()
@@ -205,16 +215,20 @@ class Browser:
 
     def canvas(self):
         """Its place in the window: left, top, width, height."""
-        return self.eval("(b => [b.left, b.top, b.width, b.height])(document.getElementById('canvas').getBoundingClientRect())")
+        return self.eval(
+            "(b => [b.left, b.top, b.width, b.height])(document.getElementById('canvas').getBoundingClientRect())")
 
     def picked(self):
         """The card of the picked vertex: what it says of what."""
-        return self.eval("Object.fromEntries([...document.querySelectorAll('#picked dt')].map(e => [e.textContent, e.nextSibling.textContent]))")
+        return self.eval(
+            "Object.fromEntries([...document.querySelectorAll('#picked dt')].map(e => [e.textContent, "
+            "e.nextSibling.textContent]))")
 
     def picture(self, path=None):
         """What the window shows: Picture."""
         assert not self.undrawn, "the page draws nothing"
-        data = base64.b64decode(self.call("Page.captureScreenshot", format="png", optimizeForSpeed=path is None)["data"])
+        data = base64.b64decode(self.call("Page.captureScreenshot", format="png",
+            optimizeForSpeed=path is None)["data"])
         if path:
             with open(path, "wb") as file:
                 file.write(data)
@@ -223,7 +237,8 @@ class Browser:
 
 def add(_, line, before, __):
     """Bytes of two rows, each modulo 256: every other one at once, with room for a carry."""
-    even, a, b = int.from_bytes(b"\0\xff" * (len(line) // 2 + 1), "big"), int.from_bytes(line, "big"), int.from_bytes(before, "big")
+    even, a, b = int.from_bytes(b"\0\xff" * (len(line) // 2 + 1), "big"), int.from_bytes(line,
+        "big"), int.from_bytes(before, "big")
     both = (a & even) + (b & even) & even | ((a >> 8 & even) + (b >> 8 & even) & even) << 8
     return both.to_bytes(len(line) + 2, "big")[2:]
 
@@ -239,7 +254,8 @@ def undo(how, line, before, n):
 
 
 class Picture:
-    """A PNG of 8 bits, by rows: equal to another of the same pixels; pixel(x, y) is red, green, blue at a place of the window."""
+    """A PNG of 8 bits, by rows: equal to another of the same pixels; pixel(x, y) is red, green, blue at a place of the
+    window."""
 
     def __init__(self, data, scale):
         self.data, self.scale = data, scale

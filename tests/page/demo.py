@@ -27,16 +27,22 @@ with Browser() as browser:
     files = sorted(glob.glob("demo/edits/*.mrs")) + sorted(glob.glob("demo/scans/*.mrs"))
     browser.open("demo/index.html")
     titles = browser.eval("[...document.querySelectorAll('#model option')].map(e => e.textContent)")
-    check(len(files) >= 7 and [t.split(":")[0] for t in titles] == [f.split("/")[-1][:-4] for f in files], "models: %s, of %s" % (titles, files))
+    check(len(files) >= 7 and [t.split(":")[0] for t in titles] == [f.split("/")[-1][:-4] for f in files],
+        "models: %s, of %s" % (titles, files))
     for i, stream in enumerate(files):
-        browser.eval("(e => { e.selectedIndex = %d; e.dispatchEvent(new Event('change')) })(document.getElementById('model'))" % i)
+        browser.eval("(e => { e.selectedIndex = %d; e.dispatchEvent(new Event('change')) "
+            "})(document.getElementById('model'))" % i)
         browser.settle()
         share = browser.picture().share(browser.canvas(), lambda p: max(abs(x - y) for x, y in zip(p, GROUND)) > 16)
-        check(0.03 < share < 0.9 and browser.text("message") == "", "%s: %.3f of the picture are drawn; %s" % (stream, share, browser.text("message")))
-        handles = browser.eval("document.getElementById('pose').hidden ? 0 : document.querySelectorAll('#handles button').length")
+        check(0.03 < share < 0.9 and browser.text("message") == "", "%s: %.3f of the picture are drawn; %s"
+            % (stream, share, browser.text("message")))
+        handles = browser.eval(
+            "document.getElementById('pose').hidden ? 0 : document.querySelectorAll('#handles button').length")
         edit = "/edits/" in stream and ".posed" not in stream
         check((handles > 0) == edit, "%s: %d handles" % (stream, handles))
-        check(browser.eval("document.querySelector('#layers input:checked').parentElement.querySelector('bdi').textContent") == "mesh", stream + ": the mesh is not shown first")
+        check(browser.eval(
+            "document.querySelector('#layers input:checked').parentElement.querySelector('bdi').textContent") == "mesh",
+                stream + ": the mesh is not shown first")
         if edit:
             posed(browser, stream)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)

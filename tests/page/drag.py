@@ -47,12 +47,14 @@ def gizmo(b):
     b.open("rest.html")
     camera, at = Camera(values["mesh", "position"], b.canvas()), centroid(values, 1)
     unit = GIZMO * length(sub(camera.eye, at))
-    check(line(b) == "" and b.eval("document.getElementById('modes').hidden"), "there is a pose before there is one: " + line(b))
+    check(line(b) == "" and b.eval("document.getElementById('modes').hidden"), "there is a pose before there is one: "
+        + line(b))
     b.press("1")
 
     def pixel(right, up, along=(0, 0, 0)):
         """A place of the gizmo: so far in the picture, and along the axes of the world."""
-        return camera.pixel([x + unit * (right * r + up * u + a) for x, r, u, a in zip(at, camera.right, camera.up, along)])
+        return camera.pixel([x + unit * (right * r + up * u + a) for x, r, u,
+            a in zip(at, camera.right, camera.up, along)])
 
     x, y = pixel(0, 0, (0.7, 0, 0))
     pull(b, x, y, x + 60, y + 8)
@@ -63,7 +65,8 @@ def gizmo(b):
     b.press("t")
     pull(b, *pixel(1.25 * math.cos(0.6), 1.25 * math.sin(0.6)), *pixel(1.25 * math.cos(1.1), 1.25 * math.sin(1.1)))
     turn = option(b, "--rotate")
-    check(len(turn) == 4 and abs(turn[3] - 28.6) < 4 and all(abs(a - c) < 0.2 for a, c in zip(turn, camera.back)), "turned: " + line(b))
+    check(len(turn) == 4 and abs(turn[3] - 28.6) < 4 and all(abs(a - c) < 0.2 for a, c in zip(turn, camera.back)),
+        "turned: " + line(b))
     same(b, "rest.mrs", line(b), "turned")
     turned = line(b)
     b.press("x")
@@ -124,12 +127,14 @@ def lines(b):
 
 
 def far(b):
-    """Far from the origin, with offsets, posed by the stream: shown so at once, and posed on from there; a click chooses a handle."""
+    """Far from the origin, with offsets, posed by the stream: shown so at once, and posed on from there; a click
+    chooses a handle."""
     values = columns("posed.mrs")
     check(any(x for o in values["mesh", "detail_offset"] for x in o), "there is no offset to be tried")
     b.open("posed.html")
     same(b, "posed.mrs", "mr-decode", "posed by the stream")
-    for text in ("mr-pose -H 3 -r 0,1,0,25 | mr-pose -H 1 -t 0.1,0,0.1 -s 0.9 | mr-decode", "mr-pose -H 1 -r 1,0,0,50 | mr-decode"):
+    for text in ("mr-pose -H 3 -r 0,1,0,25 | mr-pose -H 1 -t 0.1,0,0.1 -s 0.9 | mr-decode",
+        "mr-pose -H 1 -r 1,0,0,50 | mr-decode"):
         pose_by(b, text)
         same(b, "posed.mrs", text, "far: " + text)
     at = [p for p, (r,) in zip(places(b, "mesh"), values["mesh", "region"]) if r == 3]
@@ -144,7 +149,8 @@ def far(b):
 
 
 def two(b):
-    """Another model is posed by its own basis, in every layer that is switched on; what was dragged before stays behind."""
+    """Another model is posed by its own basis, in every layer that is switched on; what was dragged before stays
+    behind."""
     b.open("two.html")
     pose_by(b, LINES[0])
     b.press("ArrowRight")
@@ -166,8 +172,10 @@ def without_workers(b):
     """A browser that has none shows the model all the same, and says why its handles stay."""
     script = b.call("Page.addScriptToEvaluateOnNewDocument", source="delete window.Worker")["identifier"]
     b.open("rest.html")
-    check(not b.eval("document.getElementById('no-worker').hidden") and b.eval("document.getElementById('pose').hidden"), "nothing on workers")
-    check(b.text("message") == "" and b.eval("mrView.stage.layers.length") == 1, "without workers the page says '%s'" % b.text("message"))
+    check(not b.eval("document.getElementById('no-worker').hidden")
+        and b.eval("document.getElementById('pose').hidden"), "nothing on workers")
+    check(b.text("message") == "" and b.eval("mrView.stage.layers.length") == 1, "without workers the page says '%s'"
+        % b.text("message"))
     b.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
 
 

@@ -8,7 +8,8 @@ from posed import line, same_layers, pose_by
 def same(b, stream, line, what):
     """Whether control mesh and surface of the page are what the line makes of the stream, and are drawn so."""
     same_layers(b, stream, line, what, ("control", "mesh"))
-    drawn = b.eval("""[...mrView.stage.layers].map(([name, d]) => name + (d.position.length === mrView.posing.placesOf(name).length &&
+    drawn = b.eval("""[...mrView.stage.layers].map(([name, d]) =>
+        name + (d.position.length === mrView.posing.placesOf(name).length &&
         d.position.every((x, i) => x === mrView.posing.placesOf(name)[i])))""")
     check(drawn and all(name.endswith("true") for name in drawn), "%s: drawn otherwise: %s" % (what, drawn))
 
@@ -37,7 +38,8 @@ def gizmo(b):
     grip = b.eval("mrView.stage.gizmo.at.position.toArray().map((x, i) => x + mrView.centre[i])")
     check(length(sub(grip, at)) < 1e-5, "the gizmo is at %s, the handle at %s" % (grip, at))
     x, y = b.eval("""(() => {
-        const { gizmo, camera, canvas } = mrView.stage, p = gizmo.at.position.clone(), r = canvas.getBoundingClientRect();
+        const { gizmo, camera, canvas } = mrView.stage, p = gizmo.at.position.clone();
+        const r = canvas.getBoundingClientRect();
         p.x += 0.7 * camera.position.distanceTo(p) * 0.6 / 7;
         p.project(camera);
         return [r.left + (p.x + 1) / 2 * r.width, r.top + (1 - p.y) / 2 * r.height];
@@ -63,7 +65,8 @@ def gizmo(b):
 
 
 def far(b):
-    """Far from the origin, and posed by the stream: shown so, and posed on from there; a click on the surface chooses a handle."""
+    """Far from the origin, and posed by the stream: shown so, and posed on from there; a click on the surface chooses
+    a handle."""
     b.open("posed.html")
     show_both(b)
     same(b, "posed.mrs", "mr-decode", "posed by the stream")
@@ -75,8 +78,11 @@ def far(b):
     b.open("rest.html")
     b.eval("mrView.change({ visible: new Set(['mesh']) })")
     b.settle()
-    surface = b.eval("mrView.drawn.get('mesh').drawn.position.reduce((o, x, i, p) => (i % 3 === 1 && x > p[3 * o + 1] ? (i - 1) / 3 : o), 0)")
-    check(b.eval("mrView.posing.deformer.regionAt(%d).then(r => r)" % surface) == 3, "the top of the surface is not handle 1")
+    surface = b.eval(
+        "mrView.drawn.get('mesh').drawn.position.reduce((o, x, i, p) => (i % 3 === 1 && x > p[3 * o + 1] ? (i - 1) / "
+        "3 : o), 0)")
+    check(b.eval("mrView.posing.deformer.regionAt(%d).then(r => r)" % surface) == 3,
+        "the top of the surface is not handle 1")
 
 
 with Browser() as browser:

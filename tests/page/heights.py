@@ -1,4 +1,5 @@
-"""heights.py -- MESH.mrs LEVEL SHARE SEED: its mesh as a control mesh with some edges sharp, with random heights on a level, as a stream."""
+"""heights.py -- MESH.mrs LEVEL SHARE SEED: its mesh as a control mesh with some edges sharp, with random heights on a
+level, as a stream."""
 import random
 import struct
 import sys
@@ -36,5 +37,6 @@ sys.stdout.buffer.write(
     START + frame(
         b"key heights", column(b"control", b"position", b"v", b"d", p), column(b"control", b"triangles", b"f", b"u", t),
         column(b"control", b"crease", b"f", b"b", crease) if share else b"",
-        column(b"displacement", b"height", b"v", b"d", heights), column(b"displacement", b"level", b"-", b"u", [(level,)]),
+        column(b"displacement", b"height", b"v", b"d", heights),
+            column(b"displacement", b"level", b"-", b"u", [(level,)]),
         column(b"displacement", b"color", b"v", b"b", colors)) + END)

@@ -24,7 +24,8 @@ with Browser() as b:
         said = b.picked()
         check(said.get("layer") == layer and said.get("group") in GROUPS, "picked: %s" % said)
         check(b.text("history") == "<script>alert(1)</script> --\ufffd>", "history: " + b.text("history"))
-        check(b.eval("document.querySelectorAll('img, b, script:not([class])').length") == 1, "there are elements of the data")
+        check(b.eval("document.querySelectorAll('img, b, script:not([class])').length") == 1,
+            "there are elements of the data")
         b.press("ArrowRight")
     check(b.eval("typeof window.ran") == "undefined", "a name was run")
     check(b.said == [], "the page says to the console or asks for: %s" % b.said)

@@ -1,4 +1,5 @@
-# Names that would be markup, scripts or another direction of text, if they were anything but text: nothing of them is run.
+# Names that would be markup, scripts or another direction of text, if they were anything but text: nothing of them is
+# run.
 . "$TOP/tests/page/begin"
 python3 - >hostile.mrs <<'X'
 import struct, sys

@@ -24,26 +24,30 @@ def apart(a, b):
 def shown(b):
     """Level by the slider, faces by the switch of the layer."""
     return (b.eval("document.getElementById('level').valueAsNumber"), b.text("level-is"),
-            b.eval("[...document.querySelectorAll('#layers label')].map(e => [e.querySelector('bdi').textContent, e.querySelector('.size').textContent])"))
+            b.eval("[...document.querySelectorAll('#layers label')].map(e => [e.querySelector('bdi').textContent, "
+                "e.querySelector('.size').textContent])"))
 
 
 def each_level(b, name):
     """Vertices and triangles, and the colours, of every level; coarser by the slider, finer by the key."""
     levels, worst = len(glob.glob(name + "-[0-9].mrs")), 0
     b.open(name + ".html")
-    check(b.eval("document.getElementById('levels').hidden") == (levels == 1), "%s: the slider of %d levels" % (name, levels))
+    check(b.eval("document.getElementById('levels').hidden") == (levels == 1), "%s: the slider of %d levels"
+        % (name, levels))
     for j in [*range(levels - 1, -1, -1), *range(1, levels)]:
         if levels > 1:
             before = shown(b)[0]
             if j < before:
-                b.eval("(e => { e.value = %d; e.dispatchEvent(new Event('input')) })(document.getElementById('level'))" % j)
+                b.eval("(e => { e.value = %d; e.dispatchEvent(new Event('input')) })(document.getElementById('level'))"
+                    % j)
                 b.settle()
             elif j > before:
                 b.press("PageUp")
         want = columns("%s-%d.mrs" % (name, j))
         faces = "{:,} faces".format(len(want["mesh", "triangles"]))
         level, said, rows = shown(b)
-        check(levels == 1 or (level, said) == (j, "%d of %d" % (j, levels - 1)), "%s: level %d is shown as %s, %s" % (name, j, level, said))
+        check(levels == 1 or (level, said) == (j, "%d of %d" % (j, levels - 1)), "%s: level %d is shown as %s, %s"
+            % (name, j, level, said))
         check(["mesh", faces] in rows, "%s: level %d: layers %s" % (name, j, rows))
         check(values(b, "triangles") == want["mesh", "triangles"], "%s: level %d has other triangles" % (name, j))
         away = apart(want["mesh", "position"], values(b, "position"))
@@ -55,7 +59,8 @@ def each_level(b, name):
     off = max(abs(h - g) for h, (g,) in zip(heights, values(b, "height")))
     low, high = box(columns("%s-%d.mrs" % (name, levels - 1))["mesh", "position"])
     check(off < 1e-6 * length(sub(high, low)), "%s: heights differ by %g" % (name, off))
-    print("%s: %d levels, %d vertices, at most %.1e of the diagonal from mr-decode's" % (name, levels, len(heights), worst))
+    print("%s: %d levels, %d vertices, at most %.1e of the diagonal from mr-decode's"
+        % (name, levels, len(heights), worst))
 
 
 def pictures(b):
@@ -72,7 +77,8 @@ def pictures(b):
     check(names == ["", "height", "color"], "smooth: colours by %s" % names)
     b.open("sharp.html")
     b.press("1")
-    check(b.eval("[...document.getElementById('color').options].map(o => o.value)") == ["", "height", "color"], "creases are a colour")
+    check(b.eval("[...document.getElementById('color').options].map(o => o.value)") == ["", "height", "color"],
+        "creases are a colour")
 
 
 def stored(b):
@@ -88,7 +94,8 @@ def stored(b):
                  for x in range(left, left + width) for y in range(top, top + height))
     check(differ < 0.001 * width * height, "decoded: %d pixels differ from the mesh" % differ)
     b.open("other.html")
-    check(sorted(name for name, _ in shown(b)[2]) == ["control", "displacement", "mesh", "points"], "other: %s" % shown(b)[2])
+    check(sorted(name for name, _ in shown(b)[2]) == ["control", "displacement", "mesh", "points"], "other: %s"
+        % shown(b)[2])
     heights, control = (len(columns("scan.mrs")[key]) for key in (("displacement", "height"), ("control", "position")))
     check(len(values(b, "position", "displacement")) == heights, "other: the surface is not there")
     size, all_of_it = os.path.getsize("small.html"), os.path.getsize("stored.html")
@@ -106,7 +113,8 @@ def film(b):
         check(shown(b)[0] == finest - 1, "film: frame %d is on level %s" % (frame, shown(b)[0]))
     b.press("PageUp")
     want = columns("posed.mrs")["mesh", "position"]
-    check(apart(want, values(b, "position", frame=3)) < 1e-6, "film: the last frame is %g off" % apart(want, values(b, "position", frame=3)))
+    check(apart(want, values(b, "position", frame=3)) < 1e-6, "film: the last frame is %g off"
+        % apart(want, values(b, "position", frame=3)))
     b.press("ArrowRight")
     check(apart(want, values(b, "position")) > 0.05, "film: the first frame is the last")
 

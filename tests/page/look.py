@@ -35,7 +35,8 @@ def sphere(b):
 def layers(b):
     """The latest first; switches."""
     b.open("film.html")
-    rows = b.eval("[...document.querySelectorAll('#layers label')].map(e => [e.querySelector('bdi').textContent, e.querySelector('.size').textContent, e.querySelector('input').checked])")
+    rows = b.eval("[...document.querySelectorAll('#layers label')].map(e => [e.querySelector('bdi').textContent, "
+        "e.querySelector('.size').textContent, e.querySelector('input').checked])")
     values = columns("film.mrs")
     want = [[name, "{:,} faces".format(len(values[name, "triangles"])), name == "mesh"] for name in ("mesh", "base")]
     check(rows == want, "layers: %s, not %s" % (rows, want))
@@ -51,7 +52,8 @@ def layers(b):
 
 
 def look(b):
-    """Flat, edges, views, the other axis: each another picture, and the first one again behind it.  On the page as it was left."""
+    """Flat, edges, views, the other axis: each another picture, and the first one again behind it.  On the page as it
+    was left."""
     first = b.picture()
     for key, back in (("s", "s"), ("e", "e")):
         b.press(key)
@@ -60,7 +62,8 @@ def look(b):
         check(b.picture() == first, "key %s twice changes something" % key)
     b.press("v")
     front = b.picture()
-    check(front != first and b.eval("document.getElementById('view').selectedOptions[0].text") == "front", "no view from the front")
+    check(front != first and b.eval("document.getElementById('view').selectedOptions[0].text") == "front",
+        "no view from the front")
     b.choose("up", "z")
     check(b.picture() != front, "z upwards changes nothing")
     b.choose("up", "y")
@@ -77,7 +80,8 @@ def color(b):
     picture = b.picture()
     kinds = b.eval("[...document.querySelectorAll('#kinds li')].map(e => e.textContent)")
     check(kinds == ["fixed", "free", "handle 1"], "regions: %s" % kinds)
-    check(picture.share(b.canvas(), bluish) > 0.02 and picture.share(b.canvas(), orange) > 0.005, "regions have no colours")
+    check(picture.share(b.canvas(), bluish) > 0.02 and picture.share(b.canvas(), orange) > 0.005,
+        "regions have no colours")
     b.choose("color", "detail_height")
     heights = [h for (h,) in columns("film.mrs")["mesh", "detail_height"]]
     most = max(-min(heights), max(heights)) if min(heights) < 0 else max(heights)
@@ -104,7 +108,8 @@ def groups(b):
 
 
 def film(b):
-    """Frames by slider, keys and play; camera and switches stay, until there is another model.  On the page as it was left."""
+    """Frames by slider, keys and play; camera and switches stay, until there is another model.  On the page as it was
+    left."""
     first = b.picture()
     check(b.text("number") == "1 / 4" and b.text("name") == "bumpy", "film: %s %s" % (b.text("number"), b.text("name")))
     b.press("ArrowLeft")
@@ -125,7 +130,8 @@ def film(b):
     b.open("two.html")
     check(b.text("name") == "torus", "two: " + b.text("name"))
     b.press("ArrowRight")
-    check(b.text("name") == "cube" and b.picture().share(b.canvas(), lambda p: far(p, LIGHT)) > 0.1, "the other model is not in view")
+    check(b.text("name") == "cube" and b.picture().share(b.canvas(), lambda p: far(p, LIGHT)) > 0.1,
+        "the other model is not in view")
 
 
 def elsewhere(b):
@@ -142,7 +148,8 @@ def elsewhere(b):
     b.press("f")
     left, top, width, height = b.canvas()
     b.click(left + width / 2, top + height / 2)
-    boxes = b.eval("Object.fromEntries(['side', 'film', 'picked'].map(id => [id, (r => [r.left, r.top, r.right, r.bottom])(document.getElementById(id).getBoundingClientRect())]))")
+    boxes = b.eval("Object.fromEntries(['side', 'film', 'picked'].map(id => [id, (r => [r.left, r.top, r.right, "
+        "r.bottom])(document.getElementById(id).getBoundingClientRect())]))")
     for name, (x0, y0, x1, y1) in boxes.items():
         check(0 <= x0 < x1 <= 390 and 0 <= y0 < y1 <= 844, "phone: %s at %s" % (name, (x0, y0, x1, y1)))
     for one, other in (("side", "film"), ("side", "picked"), ("film", "picked")):
@@ -155,7 +162,8 @@ def elsewhere(b):
     check(b.picture().share(b.canvas(), lambda p: far(p, LIGHT)) > 0.02, "no points are drawn")
     check(b.eval("document.getElementById('shading').hidden"), "points have edges")
     b.open("void.html")
-    check(b.text("message") == "This frame has neither a surface nor points.", "void: the page says '%s'" % b.text("message"))
+    check(b.text("message") == "This frame has neither a surface nor points.", "void: the page says '%s'"
+        % b.text("message"))
 
 
 with Browser() as browser:

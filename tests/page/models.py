@@ -13,7 +13,8 @@ with Browser() as b:
         left, top, width, height = b.canvas()
         for name in names:
             b.choose("color", name)
-            share = b.picture().share((left, top, width, height), lambda p: max(abs(x - y) for x, y in zip(p, GROUND)) > 16)
+            share = b.picture().share((left, top, width, height),
+                lambda p: max(abs(x - y) for x, y in zip(p, GROUND)) > 16)
             check(0.01 < share < 0.9, "%s by %s: %.3f of the picture are drawn" % (page, name or "plain", share))
         check(b.text("message") == "", "%s says '%s'" % (page, b.text("message")))
         check(b.said == [], "%s: to the console, or asks for: %s" % (page, b.said))

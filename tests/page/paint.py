@@ -4,7 +4,8 @@ import subprocess
 
 from browser import Browser
 from checks import Camera, check, columns, end, length, sub
-from painted import (Picture3, along_edges, checksum, counts, diagonal, give, parse, push, read_back, regions_of, size, text_of)
+from painted import (Picture3, along_edges, checksum, counts, diagonal, give, parse, push, read_back, regions_of, size,
+    text_of)
 
 
 def mesh_of(stream):
@@ -24,7 +25,8 @@ def brush_on_plane(b):
     b.click(x, y)
     got = {v for v, r in enumerate(regions_of(b)) if r == 3}
     distances = [length(sub(q, at)) / radius for q in p]
-    check({v for v, d in enumerate(distances) if d < 0.995} <= got, "plane: the brush leaves out vertices within its radius")
+    check({v for v, d in enumerate(distances) if d < 0.995} <= got,
+        "plane: the brush leaves out vertices within its radius")
     check(got <= {v for v, d in enumerate(distances) if d <= 1 + 1e-6}, "plane: the brush paints beyond its radius")
     check(len(got) > 20, "plane: %d vertices at %g of the diagonal" % (len(got), share))
     b.press("z")
@@ -62,13 +64,17 @@ def brush_on_bumpy(b):
         b.click(x, y)
         after = regions_of(b)
         got = {v for v, r in enumerate(after) if r == 6}
-        check(all(after[v] == before[v] for v in range(len(p)) if v not in got), "bumpy: the brush changes other regions")
-        check(all(length(sub(p[v], at)) <= radius * (1 + 1e-5) for v in got), "bumpy: at %d, %d it paints beyond its radius" % (x, y))
+        check(all(after[v] == before[v] for v in range(len(p)) if v not in got),
+            "bumpy: the brush changes other regions")
+        check(all(length(sub(p[v], at)) <= radius * (1 + 1e-5) for v in got),
+            "bumpy: at %d, %d it paints beyond its radius" % (x, y))
         edges = along_edges(p, t, face, at, radius * 0.998)
         check(set(edges) <= got, "bumpy: at %d, %d it leaves out %s" % (x, y, sorted(set(edges) - got)[:5]))
-        subprocess.run(["mr-select", "--reset", "--handle", "4=geodesic:%.17g,%.17g,%.17g,%.17g" % (*at, radius), "bumpy.mrs", "-o", "geodesic.mrs"], check=True)
+        subprocess.run(["mr-select", "--reset", "--handle", "4=geodesic:%.17g,%.17g,%.17g,%.17g" % (*at, radius),
+            "bumpy.mrs", "-o", "geodesic.mrs"], check=True)
         other = {v for v, r in enumerate(columns("geodesic.mrs")["mesh", "region"]) if r[0] == 6}
-        check(len(got ^ other) <= max(1, 0.01 * len(other)), "bumpy: %d of %d vertices are others than mr-select's" % (len(got ^ other), len(other)))
+        check(len(got ^ other) <= max(1, 0.01 * len(other)), "bumpy: %d of %d vertices are others than mr-select's"
+            % (len(got ^ other), len(other)))
         b.press("z")
     check(tried > 8, "bumpy: %d places are on it" % tried)
     check(regions_of(b) == before, "bumpy: undo leaves something")
@@ -88,7 +94,8 @@ def edits(b):
     def step(what, want):
         what()
         got = regions_of(b)
-        check(got == want, "%d regions are others than they should be after %d steps" % (sum(x != y for x, y in zip(got, want)), len(states)))
+        check(got == want, "%d regions are others than they should be after %d steps"
+            % (sum(x != y for x, y in zip(got, want)), len(states)))
         states.append(want)
 
     def ring(want, region, into):
@@ -130,7 +137,8 @@ def small(b):
     text, t = text_of(b), mesh_of("small.mrs")[1]
     check(parse(text)[0] == "mr-selection 1 mesh 5 2 %s" % checksum(t), "small: the text begins %s" % parse(text)[0])
     check(read_back("small.mrs", text) == regions_of(b), "small: mr-select reads other regions")
-    check(b.eval("[...document.querySelectorAll('#regions button')].map(e => e.children[1].textContent)")[-1] == "handle 41", "small: handle 41 is not listed")
+    check(b.eval("[...document.querySelectorAll('#regions button')].map(e => e.children[1].textContent)")[-1]
+        == "handle 41", "small: handle 41 is not listed")
 
 
 def keyboard(b):
@@ -143,8 +151,10 @@ def keyboard(b):
         b.press(key)
     push(b, "fill")
     check(counts(b) == {"handle 7": len(regions_of(b))}, "keys: %s" % counts(b))
-    check(b.text("message") == "" and b.eval("document.getElementById('color').value") == "region", "a brush paints what is not seen")
-    check(b.eval("document.querySelector('#tools [value=brush]').getAttribute('aria-pressed')") == "true", "the brush is not marked")
+    check(b.text("message") == "" and b.eval("document.getElementById('color').value") == "region",
+        "a brush paints what is not seen")
+    check(b.eval("document.querySelector('#tools [value=brush]').getAttribute('aria-pressed')") == "true",
+        "the brush is not marked")
     check(b.text("size-is") == "4.2 %", "size: %s" % b.text("size-is"))
     b.press("Escape")
     b.press("1")
@@ -186,7 +196,8 @@ def points(b):
     got = {v for v, r in enumerate(regions_of(b)) if r == 3}
     want = {v for v, q in enumerate(p) if length(sub(q, p[near])) < 0.06 * diagonal(p)}
     check(got == want and len(got) > 5, "points: the ball has %d, not %d" % (len(got), len(want)))
-    check(b.eval("[document.getElementById('grow').disabled, document.querySelector('#tools [value=part]').hidden]") == [True, True], "points have edges")
+    check(b.eval("[document.getElementById('grow').disabled, document.querySelector('#tools [value=part]').hidden]")
+        == [True, True], "points have edges")
     got = regions_of(b)
     check(read_back("points.mrs", text_of(b)) == got, "points: mr-select reads other regions")
 
@@ -201,7 +212,8 @@ def touch(b):
     x, y = left + width / 2, top + height / 2
 
     def fingers(kind, *places):
-        b.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": u, "y": v, "id": i} for i, (u, v) in enumerate(places)])
+        b.call("Input.dispatchTouchEvent", type=kind, touchPoints=[{"x": u, "y": v, "id": i} for i,
+            (u, v) in enumerate(places)])
     fingers("touchStart", (x, y))
     fingers("touchMove", (x + 20, y))
     fingers("touchEnd")
@@ -232,7 +244,8 @@ STROKE = """new Promise(done => {
     canvas.setPointerCapture = () => {};
     const send = (kind, x) => {
         const began = performance.now();
-        canvas.dispatchEvent(new PointerEvent(kind, { clientX: box.left + x * box.width, clientY: box.top + 0.4 * box.height, button: 0, buttons: 1, isPrimary: true, pointerId: 1 }));
+        canvas.dispatchEvent(new PointerEvent(kind, { clientX: box.left + x * box.width,
+            clientY: box.top + 0.4 * box.height, button: 0, buttons: 1, isPrimary: true, pointerId: 1 }));
         times.push(performance.now() - began);
     };
     send("pointerdown", 0.4);
@@ -254,9 +267,11 @@ def million(b):
         painted = counts(b).get("handle 1", 0)
         b.press("z")
         moves.sort()
-        print("a million triangles: brush of %g %%, %d vertices in all: begun in %.0f ms, a step %.1f ms, the longest %.0f" % (100 * share, painted, first, moves[10], moves[-1]))
+        print("a million triangles: brush of %g %%, %d vertices in all: begun in %.0f ms, a step %.1f ms, the longest "
+            "%.0f" % (100 * share, painted, first, moves[10], moves[-1]))
         check(painted > 500, "a million triangles: %d vertices" % painted)
-        check(moves[10] < 120, "a million triangles: a step takes %.0f ms" % moves[10])  # 2 to 15 where nothing else runs
+        check(moves[10] < 120, "a million triangles: a step takes %.0f ms"
+            % moves[10])  # 2 to 15 where nothing else runs
 
 
 with Browser() as browser:

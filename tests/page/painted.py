@@ -62,7 +62,8 @@ def give(b, regions):
 
 def counts(b):
     """What the side says: {region: vertices}."""
-    said = b.eval("[...document.querySelectorAll('#regions button')].map(e => [e.children[1].textContent, e.children[2].textContent])")
+    said = b.eval("[...document.querySelectorAll('#regions button')].map(e => [e.children[1].textContent, "
+        "e.children[2].textContent])")
     return {name: int(n.replace(",", "")) for name, n in said if n}
 
 

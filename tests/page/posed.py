@@ -1,4 +1,5 @@
-"""posed.py -- handles that are dragged in the page: where it has vertices, and whether its line of commands has them there, too."""
+"""posed.py -- handles that are dragged in the page: where it has vertices, and whether its line of commands has them
+there, too."""
 import json
 import math
 import subprocess
@@ -20,7 +21,8 @@ def pose_by(b, text):
         if words[0] == "mr-pose":
             scale = options.get("scale", [1])
             poses.append({"handle": int(options["handle"][0]), "translate": options.get("translate", [0, 0, 0]),
-                          "rotate": options.get("rotate", [0, 0, 1, 0]), "scale": scale * 3 if len(scale) == 1 else scale})
+                          "rotate": options.get("rotate", [0, 0, 1, 0]), "scale": scale * 3 if len(scale) == 1
+                              else scale})
         else:
             level = "%d" % options["level"][0] if "level" in options else "mrView.posing.pose.most"
             b.eval("mrView.posing.pose.most !== null && mrView.change({ level: %s })" % level)
@@ -38,7 +40,8 @@ def same_layers(b, stream, line, what, layers):
     """Whether layers of the page are what the line makes of the stream."""
     b.settle()
     with open(stream, "rb") as file:
-        made = subprocess.run(["sh", "-c", line], stdin=file, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, check=False)
+        made = subprocess.run(["sh", "-c", line], stdin=file, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+            check=False)
     check(made.returncode == 0, "%s: exit %d of %s" % (what, made.returncode, line))
     with open("made.mrs", "wb") as file:
         file.write(made.stdout)

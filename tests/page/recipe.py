@@ -34,7 +34,8 @@ def run(script, *operands, stdin=subprocess.DEVNULL):
     os.mkdir("run")
     with open("run/script.sh", "w") as file:
         file.write(script)
-    done = subprocess.run(["sh", "script.sh", *operands], cwd="run", stdin=stdin, capture_output=True, text=True, check=False)
+    done = subprocess.run(["sh", "script.sh", *operands], cwd="run", stdin=stdin, capture_output=True, text=True,
+        check=False)
     return done.returncode, done.stdout + done.stderr
 
 
@@ -66,15 +67,18 @@ FORM = [("mesh", "position"), ("mesh", "triangles")]
 
 
 def saves(b, page, stream, name, layer="mesh", keys=()):
-    """The script of painted regions, run on the stream: these regions, the same model, and a page to drag their handles in."""
+    """The script of painted regions, run on the stream: these regions, the same model, and a page to drag their
+    handles in."""
     regions = paint(b, page + ".html", keys)
     code, said = run(saved(b, "save-script", name + ".sh"), os.path.abspath(stream))
     check(code == 0, "%s: the script fails: %s" % (page, said))
     made = "run/%s-painted" % name
     check(regions_in(made + ".mrs", layer) == regions, page + ": the script gives other regions")
-    check(len(columns(made + ".mrs")["base" if layer == "mesh" else layer, "response"][0]) % 4 == 0, page + ": there is no basis")
+    check(len(columns(made + ".mrs")["base" if layer == "mesh" else layer, "response"][0]) % 4 == 0, page
+        + ": there is no basis")
     b.open(made + ".html")
-    check(b.eval("document.getElementById('no-worker').hidden"), page + ": the page of the script has no handles to drag")
+    check(b.eval("document.getElementById('no-worker').hidden"), page
+        + ": the page of the script has no handles to drag")
     return made + ".mrs"
 
 
@@ -88,7 +92,8 @@ def scripts(b):
         made = saves(b, "scan", "scan.mrs", "bumpy", keys=["PageDown"] * steps)
         subprocess.run(["mr-decode", "-q", "--level", str(level), "scan.mrs", "-o", "level.mrs"], check=True)
         check(same(made, "level.mrs", *FORM), "level %d: the script gives another model" % level)
-    check(subprocess.run(["sh", "script.sh"], cwd="run", check=False, stderr=subprocess.DEVNULL).returncode == 2, "the script needs no stream")
+    check(subprocess.run(["sh", "script.sh"], cwd="run", check=False, stderr=subprocess.DEVNULL).returncode == 2,
+        "the script needs no stream")
 
 
 def poses(b):
@@ -101,8 +106,10 @@ def poses(b):
         b.settle()
         code, said = run(saved(b, "save-script", name + ".sh"), os.path.abspath(page + ".mrs"))
         check(code == 0, "%s: the script fails: %s" % (page, said))
-        subprocess.run(line.replace("mr-pose", "mr-pose -q", 1) + " -q -o posed.mrs", shell=True, stdin=open(page + ".mrs", "rb"), check=True)
-        check(same("run/%s-painted.mrs" % name, "posed.mrs", *FORM, (edited, "position")), page + ": the script gives another pose")
+        subprocess.run(line.replace("mr-pose", "mr-pose -q", 1) + " -q -o posed.mrs", shell=True,
+            stdin=open(page + ".mrs", "rb"), check=True)
+        check(same("run/%s-painted.mrs" % name, "posed.mrs", *FORM, (edited, "position")), page
+            + ": the script gives another pose")
     b.press("p")
     b.press("x")
     give(b, {0: 3, 1: 1, 2: 0})

@@ -1,15 +1,18 @@
-# What the page saves: a script that gives the page's stream the painted regions and a basis of their handles, and a file of
-# the regions; nothing of a history or a name is run.
+# What the page saves: a script that gives the page's stream the painted regions and a basis of their handles, and a
+# file of the regions; nothing of a history or a name is run.
 . "$TOP/tests/page/begin"
 mr-make bumpy -n 3000 | mr-export -q 'a model.off' || exit
 mr-import 'a model.off' | mr-smooth -t 5 | mr-remesh -o base.mrs || exit
-mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr-solve --basis --rotations linear | mr-encode |
+mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr-solve --basis --rotations linear |
+	mr-encode |
 	mr-pose -H 1 --rotate 0,0,1,20 | mr-decode -q -o edit.mrs || exit
-mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr-solve --basis | mr-encode -o rest.mrs || exit
+mr-select --free all --fixed below:y,0.2 --handle 1=above:y,0.8 base.mrs | mr-solve --basis |
+	mr-encode -o rest.mrs || exit
 mr-import 'a model.off' -o plain.mrs || exit
 mr-make torus -n 400 | mr-transform --translate 1,2,3 -o shape.mrs || exit
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 -o control.mrs || exit
-mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 | mr-decode -q -o scan.mrs || exit
+mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 |
+	mr-decode -q -o scan.mrs || exit
 mr-make bumpy --points 2000 | mr-shrinkwrap -q -m cube -r 4 | mr-simplify -q -n 200 | mr-sample -q -n 2 |
 	mr-select -q --free all --fixed below:y,0.2 --handle 1=above:y,0.8 | mr-solve -q --basis -o handled.mrs || exit
 python3 - <<'Y'

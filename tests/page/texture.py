@@ -19,12 +19,15 @@ def png(path, width, height, color, n):
         return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
     rows = b"".join(b"\0" + bytes(v for x in range(width) for v in color(x, y)) for y in range(height))
     with open(path, "wb") as file:
-        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[n], 0, 0, 0))
-                   + chunk(b"tEXt", b"Comment\0taken at home") + chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+        file.write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, {3: 2, 4: 6}[n], 0,
+            0, 0))
+                   + chunk(b"tEXt", b"Comment\0taken at home") + chunk(b"IDAT", zlib.compress(rows))
+                       + chunk(b"IEND", b""))
 
 
 def pictures():
-    """No two of twelve patches alike, so that a picture that is turned, mirrored or shifted looks otherwise; sizes are no powers of two."""
+    """No two of twelve patches alike, so that a picture that is turned, mirrored or shifted looks otherwise; sizes are
+    no powers of two."""
     tints = [(230, 60, 60), (60, 200, 60), (70, 90, 230), (230, 210, 60), (210, 70, 210), (60, 210, 210),
              (20, 110, 100), (240, 140, 40), (120, 70, 200), (100, 100, 100), (150, 230, 110), (250, 170, 190)]
     png("checks.png", 120, 90, lambda x, y: tints[y // 30 * 4 + x // 30], 3)
@@ -59,15 +62,21 @@ def as_rendered(b, model):
         pixels = pixels_of("%s-%s.png" % (model, view))
         width, height, paper = len(pixels[0]), len(pixels), pixels[0][0]
         right = [toward[2], 0, -toward[0]]
-        seen = [[sum(r * x for r, x in zip(axis, sub(p, middle))) for axis in (right, (0, 1, 0), toward)] for p in points]
+        seen = [[sum(r * x for r, x in zip(axis, sub(p, middle))) for axis in (right, (0, 1, 0), toward)]
+            for p in points]
         ends = [[end(p[c] / (far - p[2]) for p in seen) for end in (min, max)] for c in (0, 1)]
-        drawn = [[i for i, line in enumerate(lines) if any(is_far(p, paper, 24) for p in line[::4])] for lines in (list(zip(*pixels)), pixels)]
+        drawn = [[i for i, line in enumerate(lines) if any(is_far(p, paper, 24) for p in line[::4])]
+            for lines in (list(zip(*pixels)), pixels)]
         sizes = [(d[-1] - d[0] + 1, high - low) for d, (low, high) in zip(drawn, ends)]
         scale = max(sizes)[0] / max(sizes)[1]  # pixels of a unit at distance 1
-        aside = [round(s * scale * (low + high) / 2) for s, (low, high) in zip((1, -1), ends)]  # its middle is that of what is drawn
-        check(all(abs(n - size * scale) < 3 for n, size in sizes), "%s: %s of mr-render has another camera than is thought here" % (model, view))
+        aside = [round(s * scale * (low + high) / 2) for s, (low, high) in zip((1, -1),
+            ends)]  # its middle is that of what is drawn
+        check(all(abs(n - size * scale) < 3 for n, size in sizes),
+            "%s: %s of mr-render has another camera than is thought here" % (model, view))
         b.choose("view", ",".join(map(str, toward)))
-        b.eval("(({ camera, controls }, at, far, angle) => { camera.position.copy(controls.target).addScaledVector(camera.position.clone().set(...at), far); camera.fov = angle; mrView.stage.ask() })(mrView.stage, %s, %r, %r)"
+        b.eval("(({ camera, controls }, at, far, angle) => { "
+            "camera.position.copy(controls.target).addScaledVector(camera.position.clone().set(...at), far); "
+            "camera.fov = angle; mrView.stage.ask() })(mrView.stage, %s, %r, %r)"
                % (json.dumps(toward), far, 2 * math.degrees(math.atan(height / 2 / scale))))
         b.settle()
         picture, (left, top, w, h) = b.picture(), b.canvas()
@@ -81,8 +90,10 @@ def as_rendered(b, model):
                 elif is_far(mine, GROUND, 12):
                     inside += 1
                     others += is_far(bare(mine), bare(its))
-        print("%s from the %s: of %d pixels %d have another colour, %d more are drawn in one picture only" % (model, view, inside, others, edge))
-        check(inside > 4000 and others < 0.02 * inside and edge < 0.01 * inside, "%s: the picture lies otherwise than in mr-render's from the %s" % (model, view))
+        print("%s from the %s: of %d pixels %d have another colour, %d more are drawn in one picture only"
+            % (model, view, inside, others, edge))
+        check(inside > 4000 and others < 0.02 * inside and edge < 0.01 * inside,
+            "%s: the picture lies otherwise than in mr-render's from the %s" % (model, view))
         seen_colors = {bare(picture.pixel(left + x, top + y)) for y in range(0, height, 9) for x in range(0, width, 9)}
         check(len(seen_colors) > 20, "%s: no picture is drawn" % model)
 
@@ -94,7 +105,8 @@ def balls(b):
     check(b"taken" not in base64.b64decode(stored[0]), "what is said in the picture is in the page")
     b.open("sphere.html")
     options = b.eval("[...document.getElementById('color').options].map(o => o.text)")
-    check(options == ["plain", "texture"] and b.eval("document.getElementById('color').selectedOptions[0].text") == "texture", "colours: %s" % options)
+    check(options == ["plain", "texture"] and b.eval("document.getElementById('color').selectedOptions[0].text")
+        == "texture", "colours: %s" % options)
     worn = b.picture()
     b.choose("color", "")
     check(b.picture() != worn, "plain is not another colour")
@@ -124,18 +136,22 @@ def bright(b, points):
 def card(b):
     """A picture that repeats, twice over the first square; a material's colour; one that has neither."""
     b.open("card.html")
-    got = bright(b, [(0.06, 0.84), (0.2, 0.84), (0.56, 0.84), (0.7, 0.84), (0.06, 0.5), (0.06, 0.17), (1.5, 0.5), (2.5, 0.5)])
-    want = [(230, 60, 60), (60, 200, 60), (230, 60, 60), (60, 200, 60), (210, 70, 210), (120, 70, 200), (26, 51, 230), PLAIN]
+    got = bright(b, [(0.06, 0.84), (0.2, 0.84), (0.56, 0.84), (0.7, 0.84), (0.06, 0.5), (0.06, 0.17), (1.5, 0.5),
+        (2.5, 0.5)])
+    want = [(230, 60, 60), (60, 200, 60), (230, 60, 60), (60, 200, 60), (210, 70, 210), (120, 70, 200), (26, 51, 230),
+        PLAIN]
     for i, (p, q) in enumerate(zip(got, want)):
         pair = bare(p), bare(q)
         check(not is_far(*pair, 40), "the card: place %d is %s, not %s" % (i, p, q))
     names = b.eval("[...document.getElementById('color').options].map(o => o.text)")
     check("texture" in names and "material" in names, "the card: colours %s" % names)
     b.choose("color", "material")
-    check(b.eval("[...document.querySelectorAll('#kinds li')].map(e => e.textContent)") == ["picture", "colour", "neither"], "the card: kinds")
+    check(b.eval("[...document.querySelectorAll('#kinds li')].map(e => e.textContent)")
+        == ["picture", "colour", "neither"], "the card: kinds")
     b.open("clear.html")
     got = bright(b, [(0.125, 0.5), (0.375, 0.5)])
-    check(not is_far(bare(got[0]), (255, 0, 0), 40) and not is_far(bare(got[1]), (255, 255, 255), 40), "what is transparent is not white: %s" % got)
+    check(not is_far(bare(got[0]), (255, 0, 0), 40) and not is_far(bare(got[1]), (255, 255, 255), 40),
+        "what is transparent is not white: %s" % got)
 
 
 def pose(b):
@@ -148,11 +164,16 @@ def pose(b):
     line = "mr-pose -H 1 --translate 0.2,0.4,0 | mr-decode"
     b.open("posed.html")
     want = stage()
-    camera = b.eval("[mrView.stage.camera.position.toArray().map((x, c) => x + mrView.centre[c]), mrView.stage.controls.target.toArray().map((x, c) => x + mrView.centre[c])]")
+    camera = b.eval(
+        "[mrView.stage.camera.position.toArray().map((x, c) => x + mrView.centre[c]), "
+        "mrView.stage.controls.target.toArray().map((x, c) => x + mrView.centre[c])]")
     b.open("pose.html")
     rest = stage()
-    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))" % json.dumps(line))
-    b.eval("((eye, at) => { const { camera, controls } = mrView.stage, c = mrView.centre; camera.position.set(...eye.map((x, i) => x - c[i])); controls.target.set(...at.map((x, i) => x - c[i])); controls.update() })(...%s)" % json.dumps(camera))
+    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))"
+        % json.dumps(line))
+    b.eval("((eye, at) => { const { camera, controls } = mrView.stage, c = mrView.centre; "
+        "camera.position.set(...eye.map((x, i) => x - c[i])); controls.target.set(...at.map((x, i) => x - c[i])); "
+        "controls.update() })(...%s)" % json.dumps(camera))
     b.settle()
     got = stage()
     differ = sum(is_far(p, q, 24) for p, q in zip(got, want)) / len(want)

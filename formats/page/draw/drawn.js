@@ -100,15 +100,10 @@ export class Drawn {
 
 	/* Gives vertices another colour. */
 	repaint(vertices, color) {
-		const { color: ofSurface, tint } = this.geometry.attributes, colors = ofSurface || tint,
-			{ source } = this;
-		const changed = new Uint8Array(this.position.length / 3);
+		const { color: ofSurface, tint } = this.geometry.attributes, colors = ofSurface || tint;
 
-		for (const v of vertices)
-			changed[v] = 1;
-		for (let k = 0; k < source.length; k++)
-			if (changed[source[k]])
-				colors.array.set(color, 3 * k);
+		for (const k of this.solid ? this.solid.corners(vertices) : vertices)
+			colors.array.set(color, 3 * k);
 		colors.needsUpdate = true;
 	}
 

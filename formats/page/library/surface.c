@@ -115,6 +115,26 @@ surface_disc(surface *s, uint32_t face, const mr_v3 *place, double radius)
 	return n;
 }
 
+/* The corners that n vertices are of faces: how many; `found` has them. */
+MR_EXPORT(surface_corners_of)
+size_t
+surface_corners_of(surface *s, const uint32_t *vertex, size_t n)
+{
+	const size_t *start = s->around.start;
+	size_t corners = 0;
+
+	for (size_t i = 0; i < n; i++)
+		corners += start[vertex[i] + 1] - start[vertex[i]];
+	make_list(s, corners);
+	corners = 0;
+	for (size_t i = 0; i < n; i++)
+		for (size_t j = start[vertex[i]]; j < start[vertex[i] + 1]; j++)
+			for (uint32_t k = 3 * s->around.face[j]; k < 3 * s->around.face[j] + 3; k++)
+				if (s->m.t[k / 3].v[k % 3] == vertex[i])
+					s->found[corners++] = k;
+	return corners;
+}
+
 /* Places and normals of all corners, as they are now. */
 MR_EXPORT(surface_corners)
 void

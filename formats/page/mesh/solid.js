@@ -54,6 +54,15 @@ export class Solid {
 		return this.read(Uint32Array, 0, n);
 	}
 
+	/* The corners that vertices are of faces. */
+	corners(vertices) {
+		const at = library.put(Uint32Array.from(vertices)),
+			n = library.run.surface_corners_of(this.at, at, vertices.length);
+
+		library.free(at);
+		return this.read(Uint32Array, 0, n);
+	}
+
 	free() {
 		library.run.surface_free(this.at);
 	}
