@@ -171,8 +171,6 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 	d->p[m] = p;
 	d->kind[m] = mr_dyn_on_curve(d, h) ? MR_CURVE : MR_SMOOTH;
 	d->at[m] = mr_dyn_on_curve(d, h) ? mr_dyn_curve(d, h) : mr_dyn_place(d, a);
-	if (d->scale)
-		d->scale[m] = 0.5f * (d->scale[a] + d->scale[mr_dyn_to(d, h)]);
 	cut_face(d, h, m, f);
 	d->out[m] = 3 * f;
 	if (g == MR_NONE) {
@@ -314,8 +312,6 @@ mr_dyn_collapse(mr_dyn *d, uint32_t h, mr_v3 p)
 		close_face(d, g);
 	keep_out(d, b, ac != MR_NONE ? ac : mr_he_next(cb));
 	d->p[b] = p;
-	if (d->scale && d->scale[a] < d->scale[b])
-		d->scale[b] = d->scale[a];
 	remove_vertex(d, a);
 }
 

@@ -26,7 +26,6 @@ typedef struct mr_dyn {
 	uint32_t
 	    *at; /* place on the source surface: a face, or on a curve a half-edge (space/surface_walk.h) */
 	uint8_t *kind; /* mr_kind */
-	float *scale;  /* of the target length, at most 1: less where it is refined; NULL: nowhere */
 	size_t nv, room_v;
 	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
 	uint32_t *v, *twin;

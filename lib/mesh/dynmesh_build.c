@@ -73,15 +73,10 @@ mr_dyn_room_v(mr_ctx *ctx, mr_dyn *d, size_t room)
 	uint32_t *at = mr_grow(ctx, d->at, d->nv, room, sizeof *at);
 	uint8_t *kind = mr_grow(ctx, d->kind, d->nv, room, sizeof *kind);
 
-	float *scale = d->scale;
-
-	if (scale)
-		scale = mr_grow(ctx, scale, d->nv, room, sizeof *scale);
 	d->p = p;
 	d->out = out;
 	d->at = at;
 	d->kind = kind;
-	d->scale = scale;
 	d->room_v = room;
 }
 

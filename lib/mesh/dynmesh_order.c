@@ -61,8 +61,6 @@ permute_vertices(mr_ctx *ctx, mr_dyn *d, const uint32_t *number)
 	permute(ctx, d->kind, d->nv, sizeof *d->kind, number);
 	for (size_t h = 0; h < 3 * d->nf; h++)
 		d->v[h] = number[d->v[h]];
-	if (d->scale)
-		permute(ctx, d->scale, d->nv, sizeof *d->scale, number);
 }
 
 static void
@@ -105,8 +103,6 @@ move_vertex(mr_dyn *d, uint32_t v, uint32_t w)
 	d->out[w] = d->out[v];
 	d->at[w] = d->at[v];
 	d->kind[w] = d->kind[v];
-	if (d->scale)
-		d->scale[w] = d->scale[v];
 }
 
 /* Half-edge h becomes k. */

@@ -10,7 +10,6 @@ enum { REACH_MAX = 64 };
 
 typedef struct flipper {
 	mr_dyn *d;
-	const mr_remesh_source *s;
 	int *excess; /* of each vertex: its valence over the one it should have */
 } flipper;
 
@@ -36,7 +35,7 @@ folds_beside(const mr_dyn *d, mr_v3 normal, uint32_t h, uint32_t g)
 }
 
 bool
-mr_flip_is_good(const mr_dyn *d, const mr_remesh_source *s, uint32_t h)
+mr_flip_is_good(const mr_dyn *d, uint32_t h)
 {
 	uint32_t ia = d->v[h], ib = mr_dyn_to(d, h), ic = mr_dyn_apex(d, h), ie = mr_dyn_apex(d, d->twin[h]);
 	mr_v3 a = d->p[ia], b = d->p[ib], c = d->p[ic], e = d->p[ie];
@@ -48,9 +47,7 @@ mr_flip_is_good(const mr_dyn *d, const mr_remesh_source *s, uint32_t h)
 	       mr_dot(m1, n) > 0.5 * sqrt(nn * mr_norm2(m1)) && mr_dyn_shape(a, e, c) > MR_NEEDLE &&
 	       mr_dyn_shape(b, c, e) > MR_NEEDLE &&
 	       !folds_beside(d, m0, mr_he_next(d->twin[h]), mr_he_prev(h)) &&
-	       !folds_beside(d, m1, mr_he_next(h), mr_he_prev(d->twin[h])) &&
-	       !(d->scale && (mr_remesh_against(s, d, d->at, (uint32_t[]){ ia, ie, ic }, m0) ||
-				 mr_remesh_against(s, d, d->at, (uint32_t[]){ ib, ic, ie }, m1)));
+	       !folds_beside(d, m1, mr_he_next(h), mr_he_prev(d->twin[h]));
 }
 
 /* By how much flipping h would lower the sum of squared excesses: a^2 - (a - 1)^2 + ... */
@@ -85,7 +82,7 @@ flip_gaining(flipper *w)
 
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
 		if (!mr_dyn_face_dead(d, h / 3) && d->twin[h] != MR_NONE && h < d->twin[h] &&
-		    gain_of(w, h) > 0 && mr_dyn_can_flip(d, h) && mr_flip_is_good(d, w->s, h)) {
+		    gain_of(w, h) > 0 && mr_dyn_can_flip(d, h) && mr_flip_is_good(d, h)) {
 			flip(w, h);
 			flips++;
 		}
@@ -107,7 +104,7 @@ glide(flipper *w, uint32_t h, bool seven_at_end, unsigned reach, size_t *flips)
 	while (n < reach && h != MR_NONE && d->twin[h] != MR_NONE) {
 		int gain = gain_of(w, h);
 		uint32_t g = d->twin[h];
-		if (gain < 0 || !mr_dyn_can_flip(d, h) || !mr_flip_is_good(d, w->s, h))
+		if (gain < 0 || !mr_dyn_can_flip(d, h) || !mr_flip_is_good(d, h))
 			break;
 		flip(w, h);
 		made[n++] = mr_he_next(h);
@@ -144,10 +141,10 @@ glide_dislocations(flipper *w, unsigned reach)
 }
 
 void
-mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, unsigned reach, size_t *flips)
+mr_regularize(mr_ctx *ctx, mr_dyn *d, unsigned reach, size_t *flips)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	flipper w = { d, s, MR_NEW(ctx, d->nv, int) };
+	flipper w = { d, MR_NEW(ctx, d->nv, int) };
 
 	mr_parallel(ctx, d->nv, 4096, excess_body, &w);
 	*flips = flip_gaining(&w);

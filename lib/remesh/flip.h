@@ -5,7 +5,7 @@
 #ifndef MR_REMESH_FLIP_H
 #define MR_REMESH_FLIP_H
 
-#include "remesh/relax.h"
+#include "mesh/dynmesh.h"
 
 /*
  * Flips every edge whose flip lowers the sum of squared deviations from valence 6 (4 on the
@@ -13,12 +13,12 @@
  * glide for up to `reach` flips that keep the sum, if at the end of them one lowers it.  No flip turns
  * a face over or makes a needle.  *flips: how many, those of glides that came to nothing not counted.
  */
-void mr_regularize(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, unsigned reach, size_t *flips);
+void mr_regularize(mr_ctx *ctx, mr_dyn *d, unsigned reach, size_t *flips);
 
 /*
  * True where the two faces after the flip of h face the way those before did together, within 60
  * degrees, are not near a fold against those beside them, and are no needles.
  */
-bool mr_flip_is_good(const mr_dyn *d, const mr_remesh_source *s, uint32_t h);
+bool mr_flip_is_good(const mr_dyn *d, uint32_t h);
 
 #endif

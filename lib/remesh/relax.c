@@ -29,9 +29,7 @@ typedef struct pass {
 double
 mr_remesh_length(const mr_remesh_source *s, const mr_dyn *d, uint32_t v)
 {
-	double scale = d->scale ? d->scale[v] : 1;
-
-	return scale * (s->length ? s->mean[mr_dyn_place(d, v)] : s->uniform);
+	return s->length ? s->mean[mr_dyn_place(d, v)] : s->uniform;
 }
 
 typedef struct areas_job {
@@ -304,14 +302,6 @@ folds(const pass *w, uint32_t f)
 	return mr_folds_more(&w->from, &w->to, w->d->twin, f, MR_NEAR_FOLD);
 }
 
-static bool
-is_refined(const mr_dyn *d, size_t f)
-{
-	const uint32_t *v = &d->v[3 * f];
-
-	return d->scale && (d->scale[v[0]] < 1 || d->scale[v[1]] < 1 || d->scale[v[2]] < 1);
-}
-
 /*
  * True where the move turns face f by more than 60 degrees, folds it, or leaves it a worse needle than
  * before.  Folds are looked for where the face leaves the source's direction, which also tells what
@@ -332,7 +322,7 @@ turns(const void *arg, uint32_t f)
 	if (mr_dot(after, normal) < 0 && mr_remesh_against(w->s, w->d, w->at, v, after) &&
 	    !mr_remesh_against(w->s, w->d, w->d->at, v, before))
 		return true;
-	if ((!faces(after, normal) || is_refined(w->d, f)) && folds(w, f))
+	if (!faces(after, normal) && folds(w, f))
 		return true;
 	if (mr_dot(after, normal) >= 0 && !apart(before, after))
 		return false;

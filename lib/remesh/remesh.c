@@ -7,14 +7,11 @@
 #include "base/memory.h"
 #include "base/parallel.h"
 #include "mesh/dynmesh.h"
-#include "mesh/fold.h"
 #include "remesh/extremities.h"
 #include "remesh/feature_angle.h"
+#include "remesh/flaws.h"
 #include "remesh/flip.h"
-#include "remesh/local_length.h"
-#include "remesh/orientation.h"
 #include "remesh/relax.h"
-#include "remesh/repair_flaws.h"
 #include "remesh/sizing.h"
 #include "remesh/split_collapse.h"
 #include "subdivide/longest.h"
@@ -32,9 +29,9 @@ typedef struct remesher {
 	mr_resampled changes;
 	double feature; /* the angle from which an edge is kept */
 	size_t flips, tips;
-	size_t tidied;          /* splits and collapses when neighbours were last brought together */
-	size_t flipped, folded; /* faces and edges, of the result */
-	size_t sharp;           /* edges of the input */
+	size_t tidied;  /* splits and collapses when neighbours were last brought together */
+	mr_flaws flaws; /* of the result */
+	size_t sharp;   /* edges of the input */
 	double
 	    variance[2]; /* of the vertex areas over their squared mean, before and after the area passes */
 	double seconds_rounds, seconds_areas;
@@ -52,7 +49,7 @@ regularize(remesher *r, unsigned reach)
 {
 	size_t flips;
 
-	mr_regularize(r->ctx, &r->d, &r->source, reach, &flips);
+	mr_regularize(r->ctx, &r->d, reach, &flips);
 	r->flips += flips;
 }
 
@@ -110,7 +107,6 @@ equalize_areas(remesher *r)
 		if (is_still(before, r->variance[1]))
 			break;
 	}
-	mr_mend_flaws(r->ctx, &r->d, &r->source, false);
 	return MR_OK;
 }
 
@@ -126,7 +122,6 @@ thin_out(remesher *r)
 	do {
 		before = r->changes.strung;
 		mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes);
-		r->changes.refused = 0;
 	} while (r->changes.strung - before > r->d.nv / enough);
 }
 
@@ -152,12 +147,10 @@ one_round(remesher *r, bool first)
 	}
 	MR_TRY(mr_split_long(r->ctx, &r->d, &r->source, 1, &r->changes));
 	mr_collapse_short(r->ctx, &r->d, &r->source, &r->changes);
-	mr_mend_needles(r->ctx, &r->d, &r->source, &r->changes);
 	if (first)
 		MR_TRY(mr_dyn_compact(r->ctx, &r->d)); /* it leaves as many holes as vertices */
 	regularize(r, REACH);
 	MR_TRY(mr_relax(r->ctx, &r->d, &r->source, &o));
-	mr_mend_flaws(r->ctx, &r->d, &r->source, false);
 	return MR_OK;
 }
 
@@ -378,7 +371,6 @@ run(remesher *r)
 			had = now;
 		}
 		MR_TRY(one_round(r, i == 0));
-		mr_refine_grade(&r->d, &r->source);
 		area_variance(r, &after);
 		if (i >= SETTLED && is_still(before, after) && !misses(excess(r)))
 			rounds = i + 1;
@@ -427,25 +419,6 @@ map_to_source(remesher *r, mr_places *map)
 	*map = (mr_places){ face, bary };
 }
 
-/* Triangles flipped and edges folded. */
-static void
-count_flaws(remesher *r, const mr_places *map)
-{
-	const mr_facing facing = { r->source.m, r->source.topo };
-	mr_mesh view = mr_dyn_view(&r->d, r->source.m->name);
-
-	r->flipped = mr_count_flipped(&facing, &view, map);
-	r->folded = mr_count_folds(r->ctx, &view, r->d.twin);
-}
-
-/* The map of the result as it is, without holes, and its flaws. */
-static void
-settle(remesher *r, mr_places *map)
-{
-	map_to_source(r, map);
-	count_flaws(r, map);
-}
-
 static mr_remesh_result
 report(const remesher *r)
 {
@@ -458,8 +431,8 @@ report(const remesher *r)
 		.faces = r->d.nf,
 		.area_variance_before = r->variance[0],
 		.area_variance_after = r->variance[1],
-		.flipped = r->flipped,
-		.folded = r->folded,
+		.flipped = r->flaws.flipped,
+		.folded = r->flaws.folded,
 		.feature = r->feature,
 		.sharp_edges = r->sharp,
 		.seconds_rounds = r->seconds_rounds,
@@ -472,20 +445,17 @@ remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_
 {
 	remesher r = { .ctx = ctx, .o = o };
 	mr_topology topo;
-	mr_mark mark;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	MR_TRY(set_up(&r, m, &topo));
 	MR_TRY(run(&r));
-	MR_TRY(mr_dyn_compact(ctx, &r.d));
-	mark = mr_mark_take(ctx);
-	settle(&r, map);
-	if (r.flipped + r.folded > 0 && o->rounds > 0) {
-		mr_mark_release(ctx, mark);
-		mr_mend_flaws(ctx, &r.d, &r.source, true);
-		MR_TRY(tidy(&r));
-		settle(&r, map);
+	r.flaws = mr_flaws_count(&r.d, &r.source);
+	if (r.flaws.flipped + r.flaws.folded > 0 && o->rounds > 0) {
+		mr_mend_flaws(ctx, &r.d, &r.source);
+		r.flaws = mr_flaws_count(&r.d, &r.source);
 	}
+	MR_TRY(mr_dyn_compact(ctx, &r.d));
+	map_to_source(&r, map);
 	if (misses(excess(&r)))
 		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT,
 				  .layer = "base",

@@ -18,7 +18,7 @@ void mr_sizing_field(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, con
 
 /*
  * The uniform length, and where sharp edges turn within an edge shorter ones, down to an eighth, so that the
- * middle of an edge is at most a tenth of the uniform length away from the curve; elsewhere growing by at
+ * middle of an edge is at most an eighth of the uniform length away from the curve; elsewhere growing by at
  * most half of the way along edges.  Not along boundaries: those of scans are ragged.  d: still a copy of m.
  * *length: nv in the arena, NULL where it is uniform everywhere.
  */

@@ -2,9 +2,6 @@
 #include "remesh/split_collapse.h"
 
 #include "base/parallel.h"
-#include "remesh/collapse_check.h"
-#include "remesh/flip.h"
-#include "remesh/local_length.h"
 #include "space/surface_walk.h"
 
 /* The thresholds of steps 1 and 2 of the paper, relative to the target edge length. */
@@ -47,15 +44,10 @@ edge_length2(const mr_dyn *d, uint32_t h)
 static double
 target(const resampler *r, uint32_t h)
 {
-	const float *scale = r->d->scale;
-	uint32_t from = r->d->v[h], to = mr_dyn_to(r->d, h);
-	double a, b;
-
 	if (!r->s->length)
-		return scale ? r->s->uniform * fminf(scale[from], scale[to]) : r->s->uniform;
-	a = mr_remesh_length(r->s, r->d, from);
-	b = mr_remesh_length(r->s, r->d, to);
-	return a < b ? a : b;
+		return r->s->uniform;
+	return fmin(
+	    mr_remesh_length(r->s, r->d, r->d->v[h]), mr_remesh_length(r->s, r->d, mr_dyn_to(r->d, h)));
 }
 
 /* One half-edge of each edge that lives. */
@@ -426,12 +418,12 @@ cuts_curve(const mr_dyn *d, uint32_t a, uint32_t b, mr_v3 p)
 	return turns_sharply(d->p[x], p, d->p[y]) || makes_corner(d, y, b, p);
 }
 
-/* Merges the ends of h, if that makes no edge longer than `slack` times its target. */
-static bool
-try_collapse(resampler *r, uint32_t h, double slack)
+/* Merges the ends of h, where that makes no edge too long. */
+static void
+try_collapse(resampler *r, uint32_t h)
 {
 	mr_dyn *d = r->d;
-	double longest2 = square(slack * target(r, h));
+	double longest2 = square(LONG * target(r, h));
 	uint32_t a, b, at;
 	mr_v3 p, facing;
 	bool strung = false;
@@ -442,31 +434,25 @@ try_collapse(resampler *r, uint32_t h, double slack)
 	b = mr_dyn_to(d, h);
 	if (d->kind[a] == MR_SMOOTH) {
 		p = merged_position(d, r->s, a, b, &at);
-		if (overreaches(r, a, b, p, slack, longest2) || overreaches(r, b, a, p, slack, longest2))
-			return false;
+		if (overreaches(r, a, b, p, LONG, longest2) || overreaches(r, b, a, p, LONG, longest2))
+			return;
 	}
 	if (!mr_dyn_can_collapse(d, h, r->mark))
-		return false;
+		return;
 	p = merged_position(d, r->s, a, b, &at);
 	facing = mr_add(mr_dyn_normal_around(d, a), mr_dyn_normal_around(d, b));
 	if (!move_is_good(d, a, b, p, facing, longest2, &strung) ||
 	    !move_is_good(d, b, a, p, facing, longest2, &strung) ||
-	    (strung && (r->strung[a] || r->strung[b])))
-		return false;
-	if ((d->kind[a] == MR_CURVE && cuts_curve(d, a, b, p)) ||
-	    mr_merging_folds(d, r->s, a, b, p, facing)) {
-		r->done->refused++;
-		return false;
-	}
+	    (strung && (r->strung[a] || r->strung[b])) || (d->kind[a] == MR_CURVE && cuts_curve(d, a, b, p)))
+		return;
 	mr_dyn_collapse(d, h, p);
 	d->at[b] = at;
 	look_around(r, b);
 	r->strung[b] = strung;
 	r->done->strung += strung;
-	if ((strung || (d->scale && d->scale[b] < 1)) && d->kind[b] == MR_SMOOTH)
+	if (strung && d->kind[b] == MR_SMOOTH)
 		d->at[b] = mr_remesh_place(r->s, d, b, p, mr_dyn_normal_around(d, b)).at.face;
 	r->done->collapses++;
-	return true;
 }
 
 /* 2. Collapse all edges that are shorter than 4/5 l into their midpoint. */
@@ -476,63 +462,12 @@ mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resample
 	resampler r = { .ctx = ctx, .d = d, .s = s, .coarser = 1, .done = done, .is_due = too_short };
 	mr_mark mark;
 
-	if (done->refused > 0 && !d->scale)
-		mr_refine_begin(ctx, d);
 	look_at_all(&r);
 	mark = mr_mark_take(ctx);
 	r.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	r.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t);
 	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (may_be_due(&r, h) && is_edge(d, h) && too_short(&r, h)) {
-			size_t refused = done->refused;
-			if (!try_collapse(&r, h, LONG) && done->refused > refused)
-				mr_refine_edge(d, s, h);
-		}
-	mr_mark_release(ctx, mark);
-}
-
-/* Merges the ends of a side of h's face, the shortest first; true where one could be. */
-static bool
-collapse_a_side(resampler *r, uint32_t h)
-{
-	uint32_t side[3] = { h, mr_he_next(h), mr_he_prev(h) };
-
-	for (int i = 0; i < 3; i++)
-		for (int j = 2; j > i; j--)
-			if (edge_length2(r->d, side[j]) < edge_length2(r->d, side[j - 1])) {
-				uint32_t swap = side[j];
-				side[j] = side[j - 1];
-				side[j - 1] = swap;
-			}
-	for (int i = 0; i < 3; i++)
-		if (try_collapse(r, side[i], 2))
-			return true;
-	return false;
-}
-
-/* Needles that the steps of the paper left: flips the longest side away, or takes the face out. */
-void
-mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	resampler r = { .ctx = ctx,
-		.d = d,
-		.s = s,
-		.coarser = 1,
-		.done = done,
-		.mark = MR_NEW_ZERO(ctx, d->nv, uint8_t),
-		.strung = MR_NEW_ZERO(ctx, d->nv, uint8_t) };
-
-	for (uint32_t f = 0; f < d->nf; f++) {
-		const uint32_t *v = &d->v[3 * f];
-		uint32_t longest;
-		if (mr_dyn_face_dead(d, f) || mr_dyn_shape(d->p[v[0]], d->p[v[1]], d->p[v[2]]) >= MR_NEEDLE)
-			continue;
-		longest = longest_side(d, longest_side(d, 3 * f));
-		if (mr_dyn_can_flip(d, longest) && mr_flip_is_good(d, s, longest))
-			mr_dyn_flip(d, longest);
-		else
-			collapse_a_side(&r, 3 * f);
-	}
+		if (may_be_due(&r, h) && is_edge(d, h) && too_short(&r, h))
+			try_collapse(&r, h);
 	mr_mark_release(ctx, mark);
 }

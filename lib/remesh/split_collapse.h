@@ -11,10 +11,9 @@
 /* What was done, added up, and how. */
 typedef struct mr_resampled {
 	size_t splits, collapses;
-	size_t strung;  /* collapses of vertices that edges which are too long hold on to */
-	size_t refused; /* collapses that would have folded: from the next on, lengths give way there */
-	size_t most;    /* faces that there may be */
-	uint8_t *look;  /* workspace in the arena, kept from one call to the next */
+	size_t strung; /* collapses of vertices that edges which are too long hold on to */
+	size_t most;   /* faces that there may be */
+	uint8_t *look; /* workspace in the arena, kept from one call to the next */
 	size_t room;
 } mr_resampled;
 
@@ -42,8 +41,5 @@ mr_split_long(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, double coarser,
 /* Merges the ends of edges that are shorter than 4/5 of their target, or squeezed.  Edges that are too long
  * already may hold on to what is merged, once for each vertex: it would be drawn along far else. */
 void mr_collapse_short(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
-
-/* Takes out needles: flips their longest side away or merges the ends of a side. */
-void mr_mend_needles(mr_ctx *ctx, mr_dyn *d, const mr_remesh_source *s, mr_resampled *done);
 
 #endif

@@ -35,7 +35,7 @@ gain(const mr_dyn *d, uint32_t h)
 static bool
 may_flip(const scene *x, uint32_t h)
 {
-	return x->d.twin[h] != MR_NONE && mr_dyn_can_flip(&x->d, h) && mr_flip_is_good(&x->d, &x->s, h);
+	return x->d.twin[h] != MR_NONE && mr_dyn_can_flip(&x->d, h) && mr_flip_is_good(&x->d, h);
 }
 
 static mr_v3
@@ -57,7 +57,7 @@ is_good(double w, mr_v3 c, mr_v3 e)
 	scene x;
 
 	set_up(&x, (mr_mesh){ "roof", p, t, 4, 2 }, 180);
-	return mr_flip_is_good(&x.d, &x.s, 0);
+	return mr_flip_is_good(&x.d, 0);
 }
 
 /* In the plane: where the quadrangle is convex, and its new halves are no needles. */
@@ -114,7 +114,7 @@ a_flip_does_not_fold_what_is_beside(void **state)
 			scene x;
 			p[4] = mr_axpy(folded ? 0.4 : 1, way, mr_vec(0, 0, 0.005));
 			set_up(&x, (mr_mesh){ "flap", p, t, 5, 3 }, 180);
-			assert_int_equal(mr_flip_is_good(&x.d, &x.s, 0), !folded);
+			assert_int_equal(mr_flip_is_good(&x.d, 0), !folded);
 		}
 }
 
@@ -139,7 +139,7 @@ what_gains_is_flipped(void **state)
 		before = area_vector(&x.d);
 		do {
 			long sum = sum_of_squares(&x.d);
-			mr_regularize(&ctx, &x.d, &x.s, 0, &flips);
+			mr_regularize(&ctx, &x.d, 0, &flips);
 			assert_true(sum_of_squares(&x.d) <= sum - 2 * (long)flips);
 			assert_true(flips > 0 || sum_of_squares(&x.d) == sum);
 			assert_true(++rounds < 50);
@@ -147,7 +147,7 @@ what_gains_is_flipped(void **state)
 		assert_true(rounds > 1);
 		do { /* glides keep the sum but for their last flip */
 			long sum = sum_of_squares(&x.d);
-			mr_regularize(&ctx, &x.d, &x.s, 8, &flips);
+			mr_regularize(&ctx, &x.d, 8, &flips);
 			assert_true(flips > 0 ? sum_of_squares(&x.d) < sum : sum_of_squares(&x.d) == sum);
 		} while (flips > 0);
 		for (uint32_t h = 0; h < 3 * x.d.nf; h++)
@@ -216,7 +216,7 @@ dislocations_glide_until_they_meet(void **state)
 			}
 			sum = sum_of_squares(&x.d);
 			assert_int_equal(sum, regular + 4);
-			mr_regularize(&ctx, &x.d, &x.s, reach, &flips);
+			mr_regularize(&ctx, &x.d, reach, &flips);
 			if (apart == 1 || reach >= apart) {
 				assert_int_equal(flips, apart);
 				assert_int_equal(sum_of_squares(&x.d), regular);
@@ -243,7 +243,7 @@ a_dislocation_leaves_where_it_came_in(void **state)
 			for (uint32_t i = 0; i < in; i++)
 				mr_dyn_flip(&x.d, diagonal(&x.d, side % 2 ? N - 1 - i : i));
 			assert_true(sum_of_squares(&x.d) > regular);
-			mr_regularize(&ctx, &x.d, &x.s, in, &flips);
+			mr_regularize(&ctx, &x.d, in, &flips);
 			assert_int_equal(flips, in);
 			assert_int_equal(sum_of_squares(&x.d), regular);
 			mr_ctx_free(&ctx);

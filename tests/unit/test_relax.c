@@ -267,7 +267,7 @@ a_lattice_is_at_rest(void **state)
 }
 
 static void
-lengths_are_those_of_a_face_and_scaled(void **state)
+lengths_are_those_of_a_face(void **state)
 {
 	double *mean;
 	scene x;
@@ -281,10 +281,6 @@ lengths_are_those_of_a_face_and_scaled(void **state)
 	x.s.length = x.s.mean = mean;
 	for (uint32_t v = 0; v < x.d.nv; v++)
 		assert_true(mr_remesh_length(&x.s, &x.d, v) == 1 + x.d.at[v]);
-	x.d.scale = MR_NEW_ZERO(&ctx, x.d.nv, float);
-	x.d.scale[7] = 0.25f;
-	x.s.length = NULL;
-	assert_true(mr_remesh_length(&x.s, &x.d, 7) == 0.25 * x.s.uniform);
 }
 
 /* Between two sheets that look away from one another a place is on that which looks the way of the normal. */
@@ -374,7 +370,7 @@ main(void)
 		cmocka_unit_test_setup_teardown(curves_stay_and_become_even, setup, teardown),
 		cmocka_unit_test_setup_teardown(no_face_turns_over, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_lattice_is_at_rest, setup, teardown),
-		cmocka_unit_test_setup_teardown(lengths_are_those_of_a_face_and_scaled, setup, teardown),
+		cmocka_unit_test_setup_teardown(lengths_are_those_of_a_face, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_place_is_on_the_side_of_the_normal, setup, teardown),
 		cmocka_unit_test_setup_teardown(a_lost_place_is_found_from_the_neighbours, setup, teardown),
 		cmocka_unit_test_setup_teardown(threads_do_not_matter, setup, teardown),
