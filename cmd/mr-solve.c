@@ -13,7 +13,7 @@ static const cmd_opt table[] = {
 	{ 0, "areas", CMD_CHOICE, &opts.areas, 0, 0, "voronoi|mean",
 	    "each vertex its own area, or all the mean", NULL },
 	{ 0, "unsymmetric", CMD_FLAG, &opts.unsymmetric, 0, 0, "", "solve the paper's own system", NULL },
-	{ 0, "rotations", CMD_CHOICE, &opts.rotations, 0, 0, "interpolated|linear|fitted",
+	{ 0, "rotations", CMD_CHOICE, &opts.rotations, 0, 0, "interpolated|linear",
 	    "how a pose turns what is between its handles", NULL },
 	{ 0, "arap", CMD_COUNT, &opts.arap, 0, 1000, "N",
 	    "then so many rounds that make it as rigid as possible", NULL },

@@ -20,8 +20,6 @@ static const cmd_field figures[] = {
 	{ "seconds_subdivide", false, offsetof(mr_subdivide_result, seconds) },
 	CMD_COUNTED(mr_subdivide_result, vertices),
 	CMD_COUNTED(mr_subdivide_result, faces),
-	CMD_COUNTED(mr_subdivide_result, folded_before),
-	CMD_COUNTED(mr_subdivide_result, folded),
 	{ 0 },
 };
 

@@ -444,9 +444,7 @@ typedef enum mr_areas {
 
 typedef enum mr_rotations_choice {
 	MR_ROTATIONS_INTERPOLATED, /* their logarithms: any angle */
-	MR_ROTATIONS_LINEAR,       /* their matrices, as a response does: up to a third of a turn */
-	MR_ROTATIONS_FITTED,       /* the first, then as rigid as possible: up to half a turn */
-	MR_ROTATIONS_CHOICES
+	MR_ROTATIONS_LINEAR        /* their matrices, as a response does: up to a third of a turn */
 } mr_rotations_choice;
 
 typedef struct mr_solve_opts {
@@ -669,7 +667,6 @@ typedef struct mr_subdivide_opts {
 
 typedef struct mr_subdivide_result {
 	size_t vertices, faces;
-	size_t folded_before, folded; /* edges, by Loop's rules */
 	double seconds;
 } mr_subdivide_result;
 

@@ -2,7 +2,6 @@
 #include "edit/deform_cache.h"
 
 #include "edit/region_transfer.h"
-#include "edit/tie_transfer.h"
 
 /*
  * What the system depends on, as the reader numbers it: within a key frame and its deltas the same number is

@@ -209,17 +209,6 @@ place_about_face(const turning *t, size_t f, mr_v3 corner[3])
 
 static const energy interpolated = { interpolate, place_about_section }, rigid = { fit, place_about_face };
 
-/* By mr_rotations_choice: what a pose starts with, and how many rounds are rigid, of those that are not asked
- * for. */
-static const struct {
-	const energy *first;
-	size_t rounds;
-} ways[] = {
-	[MR_ROTATIONS_INTERPOLATED] = { &interpolated, 0 },
-	[MR_ROTATIONS_LINEAR] = { NULL, 0 },
-	[MR_ROTATIONS_FITTED] = { &interpolated, 5 },
-};
-
 /* Steps */
 
 /* Constraints that have maps have those. */
@@ -340,25 +329,20 @@ rounds(
 	return MR_OK;
 }
 
-static size_t
-rounds_of(const mr_deform_opts *o, bool maps)
-{
-	return o->rounds ? o->rounds : maps ? ways[o->rotations].rounds : 0;
-}
-
 mr_status
 mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr_v3 *p0,
     const mr_deform_maps *maps, mr_v3 *p)
 {
 	turning t = { .e = e, .maps = maps };
-	const energy *first = maps ? ways[e->s->opts.rotations].first : NULL;
+	const energy *first = maps && e->s->opts.rotations == MR_ROTATIONS_INTERPOLATED ? &interpolated
+	                                                                                : NULL;
 
 	for (size_t i = 0; i < e->s->patch.mesh.nv; i++)
 		e->rest[i] = p0[e->s->patch.vertex[i]];
 	decompose(ctx, &t);
 	MR_TRY(
 	    mr_system_follow(ctx, e->s, whole, p0, t.turns && first ? source_of(ctx, &t, first) : NULL, p));
-	return rounds(ctx, e, &t, rounds_of(&e->s->opts, maps), whole, p0, p);
+	return rounds(ctx, e, &t, e->s->opts.rounds, whole, p0, p);
 }
 
 /* Set-up */
@@ -442,11 +426,11 @@ mr_status
 mr_energies_make(
     mr_ctx *ctx, mr_deform_system *s, const uint32_t *region, uint32_t lowest, mr_energies **energies)
 {
-	size_t most = rounds_of(&s->opts, true);
+	size_t most = s->opts.rounds;
 	mr_energies *e;
 
 	*energies = NULL;
-	if (!s->solver || (!ways[s->opts.rotations].first && most == 0))
+	if (!s->solver || (s->opts.rotations == MR_ROTATIONS_LINEAR && most == 0))
 		return MR_OK;
 	e = MR_NEW_ZERO(ctx, 1, mr_energies);
 	e->s = s;

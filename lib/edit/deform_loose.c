@@ -4,8 +4,6 @@
 #include "base/rotation.h"
 #include "space/near.h"
 
-enum { NEAREST = 16 }; /* to a vertex: enough to tell a rotation */
-
 /* The vertices that follow, part by part. */
 static void
 list_parts(mr_ctx *ctx, size_t nv, const bool *follows, const uint32_t *part, mr_loose *l)
@@ -35,57 +33,43 @@ list_parts(mr_ctx *ctx, size_t nv, const bool *follows, const uint32_t *part, mr
 	mr_mark_release(ctx, mark);
 }
 
-/* The anchors of part k: those nearest to some of its vertices, one that is nearest to several as often. */
-static void
-choose_anchors(const uint32_t *nearest, const uint32_t *lead, size_t k, mr_loose *l)
-{
-	size_t begin = l->start[k], n = l->start[k + 1] - begin, asked = n < MR_ANCHORS ? n : MR_ANCHORS,
-	       at = 0;
-	size_t each = MR_ANCHORS / asked < NEAREST ? MR_ANCHORS / asked : NEAREST;
-	uint32_t *anchor = l->anchor + k * MR_ANCHORS;
-
-	for (size_t i = 0; i < asked; i++)
-		for (size_t j = 0; j < each; j++) {
-			uint32_t near = nearest[NEAREST * (begin + i * n / asked) + j];
-			if (near != MR_NONE)
-				anchor[at++] = lead[near];
-		}
-	while (at < MR_ANCHORS)
-		anchor[at++] = MR_NONE;
-}
-
+/* The anchors of a part are those nearest to the middle of its box. */
 mr_status
 mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, const bool *follows, const uint32_t *part,
     mr_loose *l)
 {
-	uint32_t *lead, *nearest;
+	uint32_t *lead;
 	size_t leading = 0;
-	mr_v3 *at, *q;
+	mr_v3 *at, *middle;
 	mr_mark mark;
 
 	list_parts(ctx, rest->nv, follows, part, l);
 	l->anchor = MR_NEW(ctx, l->parts * MR_ANCHORS, uint32_t);
 	mark = mr_mark_take(ctx);
 	lead = MR_NEW(ctx, rest->nv, uint32_t);
-	nearest = MR_NEW(ctx, NEAREST * l->n, uint32_t);
 	at = MR_NEW(ctx, rest->nv, mr_v3);
-	q = MR_NEW(ctx, l->n, mr_v3);
+	middle = MR_NEW(ctx, l->parts, mr_v3);
 	for (uint32_t v = 0; v < rest->nv; v++)
 		if (leads[v]) {
 			at[leading] = rest->p[v];
 			lead[leading++] = v;
 		}
-	for (size_t i = 0; i < l->n; i++)
-		q[i] = rest->p[l->vertex[i]];
-	if (l->n > 0)
-		MR_TRY(mr_near_once(ctx, at, leading, q, l->n, NEAREST, nearest, NULL));
-	for (size_t k = 0; k < l->parts; k++)
-		choose_anchors(nearest, lead, k, l);
+	for (size_t k = 0; k < l->parts; k++) {
+		mr_box box = mr_box_empty();
+		for (size_t i = l->start[k]; i < l->start[k + 1]; i++)
+			mr_box_add(&box, rest->p[l->vertex[i]]);
+		middle[k] = mr_lerp(0.5, box.min, box.max);
+	}
+	if (l->parts > 0)
+		MR_TRY(mr_near_once(ctx, at, leading, middle, l->parts, MR_ANCHORS, l->anchor, NULL));
+	for (size_t i = 0; i < l->parts * MR_ANCHORS; i++)
+		if (l->anchor[i] != MR_NONE)
+			l->anchor[i] = lead[l->anchor[i]];
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 
-/* The anchors of a part, all alike: one of them that is nearest to several vertices counts as often. */
+/* The anchors of a part, all alike. */
 typedef struct anchors {
 	size_t n;
 	const uint32_t *vertex;

@@ -2,8 +2,8 @@
  * levels. */
 #include "edit/multigrid_levels.h"
 
+#include "edit/correspondence.h"
 #include "remesh/remesh.h"
-#include "space/surface_walk.h"
 
 /* A quarter of the unknowns from level to level: 16 are more than there is memory for.  A coarsest level of
  * 100 takes as long as one of 400, one of 1600 takes 6 % longer, for its factor. */
@@ -45,68 +45,33 @@ remesh_stage(mr_ctx *ctx, const stage *fine, stage *coarse, mr_places *map)
 	return MR_OK;
 }
 
-/* Places of the finer vertices */
+/* Prolongation */
 
-typedef struct walk {
+/* Where the finer vertices are on the coarser mesh. */
+typedef struct places {
 	const stage *fine, *coarse;
-	mr_topology topo;  /* of the coarse mesh */
-	mr_adjacency near; /* of the fine one */
-	uint32_t *face;    /* of each fine vertex: a coarse face near it, MR_NONE while not reached */
+	uint32_t *face; /* MR_NONE: nowhere */
 	mr_v3 *bary;
-	uint32_t *queue;
-	size_t queued;
-} walk;
+} places;
 
-static void
-reach(walk *w, uint32_t v, uint32_t face)
-{
-	if (w->face[v] != MR_NONE)
-		return;
-	w->face[v] = face;
-	w->queue[w->queued++] = v;
-}
-
-/* The corners of the face that a coarse vertex came from lie near it; one without a face is near none. */
-static void
-seed(walk *w, const mr_places *map)
-{
-	for (size_t v = 0; v < w->fine->m.nv; v++)
-		w->face[v] = MR_NONE;
-	for (size_t c = 0; c < w->coarse->m.nv; c++)
-		for (int k = 0; k < 3 && w->topo.out[c] != MR_NONE; k++)
-			reach(w, w->fine->m.t[map->face[c]].v[k], w->topo.out[c] / 3);
-}
-
-/*
- * Each vertex walks on the coarse mesh from where a neighbour has arrived: it stays on its own sheet.
- */
 static mr_status
-place_vertices(mr_ctx *ctx, const mr_places *map, walk *w)
+place_vertices(mr_ctx *ctx, const mr_places *map, places *w)
 {
-	size_t nv = w->fine->m.nv;
+	bool *stands = MR_NEW_ZERO(ctx, w->fine->m.nv, bool);
+	mr_correspondence c;
+	mr_incidence inc;
 
-	w->face = MR_NEW(ctx, nv, uint32_t);
-	w->bary = MR_NEW_ZERO(ctx, nv, mr_v3);
-	w->queue = MR_NEW(ctx, nv, uint32_t);
-	MR_TRY(mr_topology_build(ctx, &w->coarse->m, &w->topo));
-	MR_TRY(mr_adjacency_build(ctx, &w->fine->m, &w->near));
-	seed(w, map);
-	for (size_t at = 0; at < w->queued; at++) {
-		uint32_t v = w->queue[at];
-		mr_closest c = mr_project_walk(&w->coarse->m, &w->topo, w->face[v], w->fine->m.p[v]);
-		w->face[v] = c.at.face;
-		w->bary[v] = c.at.bary;
-		for (size_t e = w->near.start[v]; e < w->near.start[v + 1]; e++)
-			reach(w, w->near.adj[e], c.at.face);
-	}
+	w->face = MR_NEW(ctx, w->fine->m.nv, uint32_t);
+	w->bary = MR_NEW_ZERO(ctx, w->fine->m.nv, mr_v3);
+	MR_TRY(mr_incidence_build(ctx, &w->coarse->m, &inc));
+	mr_correspond(ctx, &w->fine->m, &w->coarse->m, &inc, map, &c);
+	mr_correspond_rest(ctx, &c, stands, w->face, w->bary);
 	return MR_OK;
 }
 
-/* Prolongation */
-
 /* The entries of the row of v, ascending; constraints are 0 on every level. */
 static int
-row_of(const walk *w, size_t v, int *index, double *value)
+row_of(const places *w, size_t v, int *index, double *value)
 {
 	double b[3] = { w->bary[v].x, w->bary[v].y, w->bary[v].z };
 	int n = 0;
@@ -130,7 +95,7 @@ row_of(const walk *w, size_t v, int *index, double *value)
 }
 
 static mr_status
-prolong(mr_ctx *ctx, const walk *w, mr_sparse *p)
+prolong(mr_ctx *ctx, const places *w, mr_sparse *p)
 {
 	size_t n = w->fine->n;
 	mr_sparse r = { (int)n, MR_NEW(ctx, n + 1, int), MR_NEW(ctx, 3 * n, int),
@@ -159,7 +124,7 @@ mr_hierarchy_build(
 	memcpy(fine.number, number, m->nv * sizeof *number);
 	while (made < LEVELS_MAX && fine.n > COARSEST) {
 		stage coarse;
-		walk w = { .fine = &fine, .coarse = &coarse };
+		places w = { .fine = &fine, .coarse = &coarse };
 		mr_places map;
 		MR_TRY(remesh_stage(ctx, &fine, &coarse, &map));
 		if (coarse.n == 0 || coarse.n > fine.n / 2)

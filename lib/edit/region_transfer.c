@@ -1,8 +1,11 @@
-/* Each base vertex takes the region of the corner of the mesh that it lies nearest to. */
+/* Each base vertex takes the region of the corner of the mesh that it lies nearest to; contacts of the mesh
+ * are those of what its vertices stand on. */
 #include "edit/region_transfer.h"
 
 #include "base/parallel.h"
+#include "edit/detail.h"
 #include "space/bvh.h"
+#include "space/contact.h"
 
 typedef struct transfer_job {
 	const mr_mesh *mesh, *base;
@@ -36,16 +39,6 @@ transfer(void *arg, size_t begin, size_t end)
 	}
 }
 
-static bool
-any_face_has(const mr_mesh *m, const uint32_t *region, uint32_t which)
-{
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++)
-			if (region[m->t[f].v[k]] == which)
-				return true;
-	return false;
-}
-
 /* Every handle of the mesh must have a vertex of the base. */
 static mr_status
 check_handles(
@@ -65,12 +58,11 @@ check_handles(
 			reached[out[v] - FIRST] = true;
 	for (size_t v = 0; v < mesh->nv; v++)
 		if (region[v] >= FIRST && !reached[region[v] - FIRST])
-			return mr_fail(ctx, MR_EMESH, "%s: handle %u reaches no vertex: %s", base->name,
-			    region[v] - FIRST,
-			    any_face_has(mesh, region, region[v])
-				? "it is smaller than a triangle, or farther from it than from others; "
-				  "select more, or remesh finer"
-				: "none of its vertices has a face");
+			return mr_fail(ctx, MR_EMESH,
+			    "%s: handle %u reaches no vertex: it has no face, or is smaller than a triangle, "
+			    "or "
+			    "farther from it than from others",
+			    base->name, region[v] - FIRST);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -130,4 +122,83 @@ mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **
 	r = MR_NEW(ctx, base->nv, uint32_t);
 	*region = r;
 	return transfer_regions(ctx, &mesh, on_mesh, mapped ? &map : NULL, base, r);
+}
+
+/* Ties */
+
+typedef struct candidate {
+	uint32_t vertex, component, face;
+} candidate;
+
+static int
+by_order(const void *a, const void *b)
+{
+	const candidate *x = a, *y = b;
+
+	if (x->vertex != y->vertex)
+		return x->vertex < y->vertex ? -1 : 1;
+	if (x->component != y->component)
+		return x->component < y->component ? -1 : 1;
+	return (x->face > y->face) - (x->face < y->face);
+}
+
+/* The ties of all contacts of the mesh, of parts that are parts of the base too. */
+static size_t
+list_candidates(const mr_mesh *mesh, const mr_contacts *c, const mr_mesh *base, const mr_detail *d,
+    const uint32_t *component, candidate *out)
+{
+	size_t n = 0;
+
+	for (uint32_t v = 0; v < mesh->nv; v++)
+		for (size_t i = c->start[v]; i < c->start[v + 1]; i++) {
+			uint32_t on = nearest_corner(base, mr_places_at(&d->at, v)),
+				 face = d->at.face[nearest_corner(mesh, c->at[i])],
+				 other = component[base->t[face].v[0]];
+			if (component[on] != other)
+				out[n++] = (candidate){ on, other, face };
+		}
+	return n;
+}
+
+static void
+find_ties(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_detail *d, mr_ties *ties)
+{
+	const double touch = 0.001; /* of the diagonal */
+	candidate *c;
+	mr_contacts contacts;
+	uint32_t *component;
+	size_t n, kept = 0;
+	bool several;
+
+	mr_components_label(ctx, base, &component, &several);
+	if (!several)
+		return;
+	mr_contacts_find(ctx, mesh, touch * mr_mesh_diagonal(mesh), &contacts);
+	c = MR_NEW(ctx, contacts.start[mesh->nv], candidate);
+	n = list_candidates(mesh, &contacts, base, d, component, c);
+	qsort(c, n, sizeof *c, by_order);
+	ties->tie = MR_NEW(ctx, n, mr_tie);
+	for (size_t i = 0; i < n; i++)
+		if (i == 0 || c[i].vertex != c[i - 1].vertex || c[i].component != c[i - 1].component)
+			ties->tie[kept++] = (mr_tie){ c[i].vertex, c[i].face };
+	ties->n = kept;
+	ties->known = true;
+}
+
+mr_status
+mr_transfer_ties(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_ties *ties)
+{
+	mr_ties found = { 0 };
+	mr_detail detail;
+	mr_mesh mesh;
+
+	*ties = found;
+	if (strcmp(base->name, "base") || !mr_layer_has(f, "mesh", "detail_height") ||
+	    !mr_layer_has(f, "mesh", "triangles"))
+		return MR_OK;
+	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
+	MR_TRY(mr_detail_get(ctx, f, base, &detail));
+	find_ties(ctx, &mesh, base, &detail, &found);
+	*ties = found;
+	return MR_OK;
 }

@@ -1,9 +1,11 @@
 /*
- * region_transfer.h -- regions chosen on the mesh, as its base has them.
+ * region_transfer.h -- regions chosen on the mesh, and where its parts touch, as its base has them, which
+ * need not touch there: parts of few vertices shrink, or lose their corners.
  */
 #ifndef MR_EDIT_REGION_TRANSFER_H
 #define MR_EDIT_REGION_TRANSFER_H
 
+#include "edit/deform_opts.h"
 #include "space/source_map.h"
 
 /* True where the regions of the frame's layer are those of the mesh, not its own. */
@@ -20,5 +22,12 @@ mr_status mr_transfer_missing(mr_ctx *ctx, const mr_frame *f, const char *layer)
  * vertex of the base.  region: one per vertex of `base`.
  */
 mr_status mr_transfer_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const uint32_t **region);
+
+/*
+ * Of the frame's base, over which its mesh is encoded, one tie for each vertex and component that touch
+ * somewhere by the vertices of the mesh that stand on them.  None of another layer, or without detail.
+ * ties: in the arena.
+ */
+mr_status mr_transfer_ties(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_ties *ties);
 
 #endif

@@ -61,13 +61,13 @@ take_region(const char **at, uint32_t *region)
 
 /* A region, and vertices, "V", or ranges of them, "V-W". */
 static mr_status
-parse_line(mr_ctx *ctx, const char *line, size_t number, mr_selection_file *file, size_t *room)
+parse_line(mr_ctx *ctx, const char *line, size_t number, mr_selection_file *file)
 {
-	mr_selection_range r = { .line = number };
 	const char *at = line;
+	uint32_t region;
 	uint64_t first, last;
 
-	if (!take_region(&at, &r.region))
+	if (!take_region(&at, &region))
 		return mr_fail(ctx, MR_EFORMAT,
 		    "%s:%zu: '%.40s' is not fixed, free, or handle and its number up to 65535, and vertices",
 		    file->path, number, line);
@@ -82,10 +82,13 @@ parse_line(mr_ctx *ctx, const char *line, size_t number, mr_selection_file *file
 			    "%s:%zu: '%.40s' does not begin with a vertex, of %llu from 0, or a range as "
 			    "3-17",
 			    file->path, number, word, (unsigned long long)file->nv);
-		r.first = (uint32_t)first;
-		r.last = (uint32_t)last;
-		MR_RESERVE(ctx, file->range, file->n, 1, room);
-		file->range[file->n++] = r;
+		for (; first <= last; first++) {
+			if (file->region[first] != MR_NONE)
+				return mr_fail(ctx, MR_EFORMAT,
+				    "%s:%zu: vertex %llu has a region already, from this line or another",
+				    file->path, number, (unsigned long long)first);
+			file->region[first] = region;
+		}
 	}
 	return MR_OK;
 }
@@ -93,17 +96,19 @@ parse_line(mr_ctx *ctx, const char *line, size_t number, mr_selection_file *file
 mr_status
 mr_selection_file_read(mr_ctx *ctx, const char *path, mr_selection_file *file)
 {
-	size_t n, room = 0;
 	char **line;
+	size_t n;
 
 	*file = (mr_selection_file){ .path = path };
 	MR_TRY(mr_lines_read(ctx, path, &line, &n));
 	MR_TRY(parse_head(ctx, line[0], file));
+	if (file->nv >= MR_NONE)
+		return mr_fail(ctx, MR_EFORMAT, "%s:1: more vertices than a layer can have", path);
+	file->region = MR_NEW(ctx, file->nv, uint32_t);
+	memset(file->region, 0xff, file->nv * sizeof *file->region);
 	for (size_t i = 1; i < n; i++)
 		if (*line[i])
-			MR_TRY(parse_line(ctx, line[i], i + 1, file, &room));
-	if (file->n == 0)
-		return mr_fail(ctx, MR_EFORMAT, "%s: no line gives a vertex a region", path);
+			MR_TRY(parse_line(ctx, line[i], i + 1, file));
 	return MR_OK;
 }
 
@@ -127,19 +132,11 @@ mr_status
 mr_selection_file_apply(
     mr_ctx *ctx, const mr_selection_file *file, const mr_mesh *m, uint32_t *region, size_t *selected)
 {
-	bool *given;
-
 	MR_TRY(check_model(ctx, file, m));
-	given = MR_NEW_ZERO(ctx, m->nv, bool);
 	*selected = 0;
-	for (size_t i = 0; i < file->n; i++)
-		for (size_t v = file->range[i].first; v <= file->range[i].last; v++) {
-			if (given[v])
-				return mr_fail(ctx, MR_EFORMAT,
-				    "%s:%zu: vertex %zu has a region already, from this line or another",
-				    file->path, file->range[i].line, v);
-			given[v] = true;
-			region[v] = file->range[i].region;
+	for (size_t v = 0; v < m->nv; v++)
+		if (file->region[v] != MR_NONE) {
+			region[v] = file->region[v];
 			++*selected;
 		}
 	return MR_OK;

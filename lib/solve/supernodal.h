@@ -1,9 +1,8 @@
 /*
- * supernodal.h -- solves with a supernodal Cholesky factor: L y = b, L' x = y, on several threads.
+ * supernodal.h -- solves with a supernodal Cholesky factor: L y = b, L' x = y.
  *
- * Contract: a factor is dense panels of columns (supernodes) that share their rows.  Its values are borrowed;
- * what is set up beside them is in the arena.  Every sum is taken in an order that the factor alone decides,
- * so results do not depend on the number of threads, nor on a BLAS.
+ * Contract: a factor is dense panels of columns (supernodes) that share their rows.  Its values are borrowed.
+ * No sum depends on a BLAS.
  * Private to this room.
  */
 #ifndef MR_SOLVE_SUPERNODAL_H
@@ -12,9 +11,8 @@
 #include "base/ctx.h"
 
 /*
- * L, n x n, columns in an order in which those of a subtree of the elimination tree are consecutive.  Panel s
- * has the columns first[s] to first[s + 1] - 1 and the rows row[row_at[s]] to row[row_at[s + 1] - 1],
- * ascending from its own columns on; its values stand column by column from value[value_at[s]].
+ * L, n x n.  Panel s has the columns first[s] to first[s + 1] - 1 and the rows row[row_at[s]] to row[row_at[s
+ * + 1] - 1], ascending from its own columns on; its values stand column by column from value[value_at[s]].
  */
 typedef struct mr_panels {
 	size_t n, count;

@@ -136,19 +136,6 @@ of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *norma
 	return MR_OK;
 }
 
-static void
-tell(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *normal)
-{
-	size_t none = 0;
-
-	for (size_t i = 0; m->nf && i < m->nv; i++)
-		none += mr_norm2(normal[i]) == 0;
-	if (none)
-		mr_found(ctx,
-		    &(mr_finding){
-			.kind = MR_FILLED, .layer = m->name, .what = "normals", .count = none, .of = m->nv });
-}
-
 static mr_status
 put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_result *r)
 {
@@ -166,7 +153,6 @@ put_normals(mr_ctx *ctx, mr_frame *f, const mr_normals_opts *o, mr_normals_resul
 	normal = MR_NEW(ctx, m.nv, mr_v3);
 	MR_TRY(m.nf ? of_surface(ctx, &m, o, normal) : of_points(ctx, f, &m, o, there, normal, r));
 	finish(o, there, m.nv, normal, r);
-	tell(ctx, &m, normal);
 	mr_frame_drop(f, layer, "corner_normal", 0);
 	return mr_layer_put(ctx, f, layer, "normal", normal, m.nv);
 }

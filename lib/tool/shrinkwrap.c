@@ -25,14 +25,11 @@ static mr_status
 get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides)
 {
 	const void *data;
-	size_t without = 0;
 
 	*sides = (mr_outer_sides){ NULL, mr_layer_has(f, points->name, "normal") };
 	if (sides->normals) {
 		MR_TRY(mr_layer_get_rows(ctx, f, points->name, "normal", points->nv, &data));
 		sides->toward = data;
-		for (size_t i = 0; i < points->nv; i++)
-			without += !mr_finite(sides->toward[i]) || !(mr_norm2(sides->toward[i]) > 0);
 	} else if (mr_layer_has(f, points->name, "scanner")) {
 		mr_v3 *toward = MR_NEW(ctx, points->nv, mr_v3);
 		MR_TRY(mr_layer_get_rows(ctx, f, points->name, "scanner", points->nv, &data));
@@ -40,9 +37,6 @@ get_sides(mr_ctx *ctx, mr_frame *f, const mr_mesh *points, mr_outer_sides *sides
 			toward[i] = mr_sub(((const mr_v3 *)data)[i], points->p[i]);
 		sides->toward = toward;
 	}
-	if (without > 0)
-		mr_note(ctx, "%s: %zu of %zu normals are of length 0 or no numbers: left out", points->name,
-		    without, points->nv);
 	return MR_OK;
 }
 

@@ -6,7 +6,6 @@
 #include "edit/detail.h"
 #include "edit/handles.h"
 #include "edit/region_transfer.h"
-#include "edit/tie_transfer.h"
 #include "tool/cache.h"
 
 /* Each option by itself. */
@@ -16,7 +15,7 @@ check_options(mr_ctx *ctx, const mr_solve_opts *o)
 	MR_TRY(mr_check_number(ctx, "order", (double)o->order, 1, 3));
 	MR_TRY(mr_check_choice(ctx, "solver", o->solver, MR_SOLVER_VCYCLE));
 	MR_TRY(mr_check_choice(ctx, "areas", o->areas, MR_AREAS_MEAN));
-	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_CHOICES - 1));
+	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_LINEAR));
 	MR_TRY(mr_check_choice(ctx, "precondition", o->precondition, 3));
 	MR_TRY(mr_check_number(ctx, "tol", o->tol, 0, 1));
 	MR_TRY(mr_check_number(ctx, "memory", o->memory, 0, 1e18));
@@ -32,10 +31,7 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	*deform = (mr_deform_opts)MR_DEFORM_DEFAULTS;
 	MR_TRY(check_options(ctx, o));
 	if (o->layer && strcmp(o->layer, "base") && strcmp(o->layer, "control"))
-		return mr_fail(ctx, MR_EUSAGE,
-		    "--layer: %s cannot be solved for, only base or control: mr-smooth makes the base of a "
-		    "mesh",
-		    o->layer);
+		return mr_fail(ctx, MR_EUSAGE, "%s cannot be solved for, only base or control", o->layer);
 	if (o->unsymmetric && o->solver != MR_SOLVER_AUTO && o->solver != MR_SOLVER_LU &&
 	    o->solver != MR_SOLVER_BICGSTAB)
 		return mr_fail(ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
@@ -83,10 +79,10 @@ read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_solve_opts *o, mr
 		    ctx, MR_EMESH, "%s has targets, but there are handles too: drop one of them", m->name);
 	if (o->flatten && (handles || target))
 		return mr_fail(ctx, MR_EUSAGE,
-		    "--flatten comes before mr-pose, but the frame has handles or targets already");
+		    "the undeformed solve comes before a pose, but the frame has handles or targets already");
 	if (o->basis && (handles || target))
 		return mr_fail(ctx, MR_EUSAGE,
-		    "--basis comes before mr-pose, but the frame has handles or targets already");
+		    "a basis comes before a pose, but the frame has handles or targets already");
 	if (target)
 		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
 	if (handles) {
@@ -143,20 +139,6 @@ check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 	           : MR_OK;
 }
 
-/* The undeformed solve shrinks limbs and plates, and detail over them is not sound. */
-static void
-look_at_flattened(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
-{
-	const double little = 0.9;
-	mr_mesh flat = *m;
-	double share;
-
-	flat.p = p;
-	share = mr_mesh_area(ctx, &flat) / mr_mesh_area(ctx, m);
-	if (share < little)
-		mr_found(ctx, &(mr_finding){ .kind = MR_SHRUNK, .layer = m->name, .value = 1 - share });
-}
-
 /* Nothing is to be solved for: the positions are those of rest. */
 static mr_status
 keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
@@ -166,7 +148,7 @@ keep_rest(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_solve_result *result)
 	MR_TRY(mr_transfer_get(ctx, f, m, &region));
 	if (mr_transfer_applies(f, m->name))
 		MR_TRY(mr_layer_put(ctx, f, m->name, "region", region, m->nv));
-	mr_note(ctx, "%s stays as it is: there are neither handles nor --basis nor --flatten", m->name);
+	mr_note(ctx, "%s stays as it is: nothing poses it", m->name);
 	mr_unmeasured(result, sizeof *result);
 	return mr_layer_put(ctx, f, m->name, "rest", m->p, m->nv);
 }
@@ -225,8 +207,6 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 	MR_TRY(keep_encoded(ctx, f, &m, posing));
 	if (posing)
 		MR_TRY(mr_detail_keep_before(ctx, f, &m));
-	if (o->flatten)
-		look_at_flattened(ctx, &m, p);
 	if (posing)
 		drop_used(f, layer);
 	if (posing || o->flatten)

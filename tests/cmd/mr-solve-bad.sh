@@ -70,9 +70,8 @@ for apart in '' --apart; do
 	mr-export -f off -l base - <out.mrs | sed -n '7,11p'
 done
 mr-select --reset --handle 0=all two.mrs | mr-pose --translate 0,0,1 | mr-solve | mr-export -f off -l base - | sed -n '3,4p'
-echo '-- flattening after a pose, and a limb that it shrinks'
+echo '-- flattening after a pose'
 mr-pose s.mrs | try --flatten
-mr-make cylinder -n 2000 | mr-smooth | mr-select --free above:z,0.2 | mr-solve --flatten 2>&1 >out.mrs
 echo '-- a layer that is no base'
 mr-select --reset --free above:z,0.5 base.mrs | try -l mesh
 echo '-- a handle that goes beyond all numbers'

@@ -79,14 +79,14 @@ for other in lu cg multigrid; do
 	far q.off r.off 1e-6
 	sed 's/.*"error":\([^,}]*\).*/\1/' stats.json | awk '{ print "error", ($1 > 0 && $1 < 1e-6 ? "ok" : "bad") }'
 done
-mr-solve --rotations fitted posed.mrs -o q.mrs
+mr-solve --arap 5 posed.mrs -o q.mrs
 off q.mrs base >q.off
 for other in lu multigrid; do
-	mr-solve --rotations fitted -s $other --tol 1e-12 posed.mrs -o r.mrs
+	mr-solve --arap 5 -s $other --tol 1e-12 posed.mrs -o r.mrs
 	off r.mrs base >r.off
 	far q.off r.off 1e-6
 done
-mr-pose tube.mrs | mr-solve --rotations fitted --arap 4 -o q.mrs
+mr-pose tube.mrs | mr-solve --arap 4 -o q.mrs
 off q.mrs base >q.off
 off tube.mrs base | cmp - q.off && echo "rest is rest"
 
