@@ -3,47 +3,25 @@
 
 #include "mesh/layers.h"
 
-/* A copy in the arena that is kept, or NULL. */
+/* A copy in the arena that is kept. */
 static void *
 copy_of(mr_ctx *keep, const void *data, size_t count, size_t size)
 {
-	void *copy = mr_alloc(keep, count, size);
-
-	return copy ? memcpy(copy, data, count * size) : NULL;
-}
-
-/* The panel of the same layer in the frame before, or NULL. */
-static const mr_panel *
-panel_before(const mr_gallery *g, const char *layer)
-{
-	const mr_shown *f = g->frames ? &g->frame[g->frames - 1] : NULL;
-
-	for (size_t i = 0; f && i < f->count; i++)
-		if (!strcmp(g->panel[f->first + i].layer, layer))
-			return &g->panel[f->first + i];
-	return NULL;
+	return memcpy(mr_alloc(keep, count, size), data, count * size);
 }
 
 /* The surface, or points where the layer has no faces. */
 static mr_status
-take_mesh(mr_ctx *ctx, mr_ctx *keep, const mr_gallery *g, mr_frame *frame, mr_panel *p)
+take_mesh(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_panel *p)
 {
-	const mr_panel *before = panel_before(g, p->layer);
 	mr_mesh *m = &p->subject.mesh;
 
 	MR_TRY(mr_layer_surface_or_points(ctx, frame, p->layer, m));
 	if (m->nv == 0)
 		return mr_fail(ctx, MR_EMESH, "%s: the layer has no vertices to draw", p->layer);
 	m->name = p->layer;
-	p->position = mr_frame_find(frame, p->layer, "position")->serial;
-	p->triangles = m->nf ? mr_frame_find(frame, p->layer, "triangles")->serial : 0;
-	if (before && p->position && p->position == before->position)
-		m->p = before->subject.mesh.p;
-	else
-		m->p = copy_of(keep, m->p, m->nv, sizeof *m->p);
-	if (before && p->triangles && p->triangles == before->triangles)
-		m->t = before->subject.mesh.t;
-	else if (m->nf)
+	m->p = copy_of(keep, m->p, m->nv, sizeof *m->p);
+	if (m->nf)
 		m->t = copy_of(keep, m->t, m->nf, sizeof *m->t);
 	return MR_OK;
 }
@@ -171,7 +149,7 @@ add_layer(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const char 
 {
 	mr_panel p = { .layer = mr_format(keep, "%s", layer), .frame = mr_format(keep, "%s", frame->name) };
 
-	MR_TRY(take_mesh(ctx, keep, g, frame, &p));
+	MR_TRY(take_mesh(ctx, keep, frame, &p));
 	MR_TRY(take_normals(ctx, keep, frame, &p));
 	if (opts->color)
 		MR_TRY(take_column(ctx, keep, frame, opts->color, &p, colored));

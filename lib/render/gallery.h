@@ -24,8 +24,7 @@ typedef enum mr_coloring {
 typedef struct mr_panel {
 	const char *frame, *layer;
 	mr_subject subject;
-	uint64_t position, triangles; /* serials of its columns */
-	uint64_t worn[4];             /* of those that its paint is made of */
+	uint64_t worn[4]; /* serials of the columns that its paint is made of */
 	mr_coloring coloring;
 	double *value;    /* MR_COLOR_NUMBERS: as many as there would be colours */
 	uint32_t regions; /* MR_COLOR_REGIONS: bit r where region r is there */
@@ -47,8 +46,8 @@ typedef struct mr_gallery {
 } mr_gallery;
 
 /*
- * Adds a frame, copying what it needs into the arena `keep`; what did not change since
- * the frame before is shared.  MR_EMISSING where a layer or the column is nowhere in the frame.
+ * Adds a frame, copying what it needs into the arena `keep`.  MR_EMISSING where a layer or the column is
+ * nowhere in the frame.
  */
 mr_status
 mr_gallery_add(mr_ctx *ctx, mr_ctx *keep, mr_gallery *g, mr_frame *frame, const mr_render_opts *opts);
