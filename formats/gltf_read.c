@@ -65,18 +65,6 @@ find_accessors(reader *r, const json_t *json, part *p)
 	return mr_gltf_index(&r->g, json, "indices", "accessors", &p->indices);
 }
 
-/* The extension that holds what a primitive has, in a view of its own; NULL: none. */
-static const char *
-packed_by(const json_t *primitive)
-{
-	const char *name;
-	json_t *value;
-
-	json_object_foreach(json_object_get(primitive, "extensions"), name,
-	    value) if (json_object_get(value, "bufferView")) return name;
-	return NULL;
-}
-
 /* The number of rows of an accessor whose values a column of `width` is made of. */
 static mr_status
 count_rows(reader *r, size_t accessor, size_t width, size_t *rows)
@@ -86,10 +74,9 @@ count_rows(reader *r, size_t accessor, size_t width, size_t *rows)
 	if (accessor == MR_UNKNOWN)
 		return MR_OK;
 	MR_TRY(mr_accessor_open(&r->g, accessor, &a));
-	if (!a.data && r->packed)
-		return mr_gltf_needs(&r->g, r->packed);
 	if (!a.data)
-		return mr_fail(r->g.ctx, MR_EFORMAT, "accessor %zu has no buffer view", accessor);
+		return mr_fail(r->g.ctx, MR_EFORMAT,
+		    "accessor %zu has no buffer view: an extension may have packed it", accessor);
 	if (a.components < width || (width < 3 && a.components != width))
 		return mr_fail(r->g.ctx, MR_EFORMAT, "accessor %zu has rows of %zu numbers, not %zu",
 		    accessor, a.components, width);
@@ -146,7 +133,6 @@ add_part(reader *r, const json_t *json, const mr_gltf_instance *of)
 		return MR_OK;
 	}
 	MR_TRY(find_accessors(r, json, &p));
-	r->packed = packed_by(json);
 	if (p.position == MR_UNKNOWN) /* by the specification there is nothing to draw */
 		return MR_OK;
 	MR_TRY(count_part(r, &p));

@@ -258,25 +258,22 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	return MR_OK;
 }
 
-/* Whether there is such a file, seen from beside `path`, or all that the words name. */
+/* A line names one file, or several. */
 static bool
-are_beside(mr_ctx *ctx, const char *path, mr_scan line)
+are_there(const finder *f, mr_scan line)
 {
-	const char *slash = strrchr(path, '/'), *name;
-	mr_scan words = line;
+	bool there = find_file(f, line.p, (size_t)(line.end - line.p));
+	const char *word;
 	size_t n;
-	bool all = true;
 
-	for (bool whole = true; whole || mr_scan_word(&words, &name, &n); whole = false) {
-		const char *from = whole ? line.p : name;
-		size_t bytes = whole ? (size_t)(line.end - line.p) : n;
-		int folder = *from == '/' || !slash ? 0 : (int)(slash + 1 - path);
-		bool there = is_file(mr_format(ctx, "%.*s%.*s", folder, path, (int)bytes, from));
-		if (whole && there)
-			return true;
-		all &= whole || there;
+	if (there)
+		return true;
+	while (mr_scan_word(&line, &word, &n)) {
+		there = find_file(f, word, n);
+		if (!there)
+			return false;
 	}
-	return all;
+	return there;
 }
 
 void
@@ -284,8 +281,11 @@ mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files)
 {
 	mr_scan text = { ctx, files.text, files.text, files.bytes ? files.text + files.bytes : files.text },
 		line;
+	const char *slash = strrchr(path, '/');
+	const finder f = { .ctx = ctx,
+		.folder = slash ? mr_format(ctx, "%.*s", (int)(slash - path), path) : "." };
 
 	while (strcmp(path, "-") && mr_scan_line(&text, &line))
-		if (!are_beside(ctx, path, line))
+		if (!are_there(&f, line))
 			mr_tell(ctx, MR_MISSING, 1, "%.*s", (int)(line.end - line.p), line.p);
 }

@@ -73,55 +73,6 @@ mr_corner_texcoord(const mr_model *m, size_t c)
 
 /* ---- attributes follow their vertices and faces ---- */
 
-/* A copy of n rows of `size` bytes; NULL stays NULL. */
-static void
-copy_rows(mr_ctx *keep, const void **data, size_t n, size_t size)
-{
-	void *copy = *data ? mr_alloc(keep, n, size) : NULL;
-
-	*data = copy ? memcpy(copy, *data, n * size) : NULL;
-}
-
-static void
-copy_properties(mr_ctx *keep, mr_model *m)
-{
-	mr_property *property = MR_NEW(keep, m->properties, mr_property);
-
-	for (size_t i = 0; i < m->properties; i++) {
-		mr_property *p = &property[i];
-		*p = m->property[i];
-		p->name = mr_format(keep, "%s", p->name);
-		copy_rows(
-		    keep, &p->data, p->shape.element == 'f' ? m->nf : m->nv, mr_type_size(p->shape.type));
-	}
-	m->property = property;
-}
-
-void
-mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy)
-{
-	const void *p = m->p, *t = m->t;
-	mr_model made = *m;
-
-	copy_rows(keep, &p, m->nv, sizeof *m->p);
-	copy_rows(keep, &t, m->nf, sizeof *m->t);
-	made.p = p;
-	made.t = t;
-	for (size_t i = 0; i < COLUMNS; i++) {
-		const void *data = column_of(m, i);
-		copy_rows(keep, &data, columns[i].of_faces ? m->nf : m->nv, columns[i].bytes);
-		set_column(&made, i, data);
-	}
-	for (size_t i = 0; i < NAMES; i++) {
-		mr_lines *l = lines_of(&made, i);
-		const void *text = l->text;
-		copy_rows(keep, &text, l->bytes, 1);
-		l->text = text;
-	}
-	copy_properties(keep, &made);
-	*copy = made;
-}
-
 void
 mr_model_to_points(mr_model *m)
 {

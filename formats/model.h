@@ -27,9 +27,6 @@ mr_status mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mode
 /* The texture coordinates of a corner, whose v runs upwards; NULL: none. */
 const double *mr_corner_texcoord(const mr_model *m, size_t corner);
 
-/* A copy of the model and all that it has, in an arena that may outlive it. */
-void mr_model_copy(mr_ctx *keep, const mr_model *m, mr_model *copy);
-
 /* mr_export where the format is checked, and the file is the caller's to keep where `held` is not NULL. */
 mr_status mr_export_held(mr_ctx *ctx, mr_frame *f, const char *layer, const char *path, const char *format,
     mr_outfile *held) MR_WARN_UNUSED;

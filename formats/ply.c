@@ -135,46 +135,29 @@ read_value(ply *f, const element *e, uint64_t row, size_t i)
 	return next_value(f, t, &f->row[i]);
 }
 
-static size_t
-count_words(mr_scan t)
-{
-	const char *w;
-	size_t n = 0, bytes;
-
-	while (mr_scan_word(&t, &w, &bytes))
-		n++;
-	return n;
-}
-
-/* The row that began at `where` has been read: a number more in its line would move all that follows. */
+/* A number more in the line of a row would move all that follows. */
 static mr_status
-end_row(ply *f, const element *e, const void *where)
+end_row(ply *f, const element *e)
 {
-	mr_scan row = { f->ctx, f->text.start, where, f->text.p }, line;
-
 	if (!f->ascii)
 		return MR_OK;
 	mr_skip_blanks(&f->text);
 	if (f->text.p == f->text.end || *f->text.p == '\n')
 		return MR_OK;
-	mr_scan_line(&f->text, &line);
-	return mr_scan_fail(&f->text, line.p, "%zu numbers, where this %s has %zu",
-	    count_words(row) + count_words(line), e->name, count_words(row));
+	return mr_scan_fail(&f->text, f->text.p, "more numbers in a line than element %s has", e->name);
 }
 
 /* Reads a row's values; lists are passed over. */
 static mr_status
 read_row(ply *f, const element *e, uint64_t row)
 {
-	const void *where = here(f);
-
 	if (!f->ascii && bytes_left(f) < row_bytes(e, false))
 		return early(f, e, row);
 	for (size_t i = 0; i < e->properties; i++) {
 		const property *p = &e->property[i];
 		MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
 	}
-	return end_row(f, e, where);
+	return end_row(f, e);
 }
 
 static mr_status
@@ -318,7 +301,6 @@ static mr_status
 read_face(ply *f, const element *e, uint64_t row)
 {
 	size_t faces = f->b.faces;
-	const void *begin = here(f);
 
 	for (size_t i = 0; i < e->properties; i++) {
 		const property *p = &e->property[i];
@@ -329,7 +311,7 @@ read_face(ply *f, const element *e, uint64_t row)
 		else
 			MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
 	}
-	MR_TRY(end_row(f, e, begin));
+	MR_TRY(end_row(f, e));
 	add_face(f, e->kind);
 	if (f->b.faces > faces)
 		keep_row(f, e, faces);

@@ -63,16 +63,25 @@ is_pose(const mr_scene *scene, const mr_frame *f, const layers *l)
 	return true;
 }
 
-static void
-add_node(mr_ctx *keep, mr_scene *scene, const char *frame, const char *layer, const mr_model *m)
+/* The models of the layers of a copy that outlives the frame. */
+static mr_status
+add_nodes(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const layers *l)
 {
-	mr_scene_node n = { .take = scene->takes,
-		.frame = mr_format(keep, "%s", frame),
-		.layer = mr_format(keep, "%s", layer) };
+	mr_frame *own;
 
-	mr_model_copy(keep, m, &n.model);
-	MR_RESERVE(keep, scene->node, scene->nodes, 1, &scene->room);
-	scene->node[scene->nodes++] = n;
+	scene->open = scene->nodes;
+	scene->takes++;
+	MR_TRY(mr_frame_keep(ctx, keep, f, &own));
+	own->key = false; /* what is lost has been said */
+	MR_RESERVE(keep, scene->node, scene->nodes, l->count, &scene->room);
+	for (size_t i = 0; i < l->count; i++) {
+		mr_scene_node *n = &scene->node[scene->nodes++];
+		*n = (mr_scene_node){
+			.take = scene->takes, .frame = own->name, .layer = mr_format(keep, "%s", l->name[i])
+		};
+		MR_TRY(mr_fail_as(ctx, keep, mr_model_complete(keep, own, n->layer, &n->model)));
+	}
+	return MR_OK;
 }
 
 /* A copy of n vectors; NULL of none. */
@@ -94,20 +103,6 @@ add_target(mr_ctx *keep, mr_scene_node *n, const mr_model *m)
 	copy_vectors(keep, m->corner_normal, 3 * m->nf, &t.corner_normal);
 	MR_RESERVE(keep, n->target, n->targets, 1, &n->target_room);
 	n->target[n->targets++] = t;
-}
-
-static void
-add_layers(mr_ctx *keep, mr_scene *scene, const mr_frame *f, const layers *l)
-{
-	if (is_pose(scene, f, l)) {
-		for (size_t i = 0; i < l->count; i++)
-			add_target(keep, &scene->node[scene->open + i], &l->model[i]);
-		return;
-	}
-	scene->open = scene->nodes;
-	scene->takes++;
-	for (size_t i = 0; i < l->count; i++)
-		add_node(keep, scene, f->name, l->name[i], &l->model[i]);
 }
 
 /* Poses have normals in the file where all of the node have some, the first too. */
@@ -139,6 +134,7 @@ mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char
 		if (pose && !has_normals_alike(&scene->node[scene->open + i], &l.model[i]))
 			mr_lost(ctx, l.name[i], 1, "normals of poses");
 	}
-	add_layers(keep, scene, f, &l);
-	return MR_OK;
+	for (size_t i = 0; pose && i < l.count; i++)
+		add_target(keep, &scene->node[scene->open + i], &l.model[i]);
+	return pose ? MR_OK : add_nodes(ctx, keep, scene, f, &l);
 }

@@ -306,7 +306,7 @@ refused(void **state)
 	    "mesh 0, primitive 0: accessor 0: componentType is no whole number of 0 to 5126");
 	refuses("\"bufferView\":0,\"componentType\":5126,\"count\":6",
 	    "\"componentType\":5126,\"count\":4000000000",
-	    "mesh 0, primitive 0: accessor 0 has no buffer view");
+	    "mesh 0, primitive 0: accessor 0 has no buffer view: an extension may have packed it");
 }
 
 static void
