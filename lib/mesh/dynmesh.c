@@ -92,6 +92,8 @@ add_face(mr_ctx *ctx, mr_dyn *d, uint32_t *f)
 	if (d->nf == d->room_f)
 		MR_TRY(mr_dyn_room_f(ctx, d, d->room_f + d->room_f / 2));
 	*f = (uint32_t)d->nf++;
+	for (uint32_t h = 3 * *f; h < 3 * *f + 3 && d->curve; h++)
+		d->curve[h] = MR_NONE;
 	return MR_OK;
 }
 
@@ -103,24 +105,27 @@ remove_vertex(mr_dyn *d, uint32_t v)
 	d->free_v = v;
 }
 
-/* Takes the curve of h, where it has one, on to k (or MR_NONE); its ends are still those it had. */
+/* Puts h on a curve, or with MR_NONE on none. */
+static void
+set_curve(mr_dyn *d, uint32_t h, uint32_t curve)
+{
+	if (d->curve)
+		d->curve[h] = curve;
+}
+
+/* Takes the curve of h, where it has one, on to k. */
 static void
 move_curve(mr_dyn *d, uint32_t h, uint32_t k)
 {
-	uint32_t curve = mr_dyn_curve(d, h);
-
-	if (curve == MR_NONE)
-		return;
-	mr_curves_set(&d->curves, h, MR_NONE);
-	if (k != MR_NONE)
-		mr_curves_set(&d->curves, k, curve);
+	set_curve(d, k, mr_dyn_curve(d, h));
+	set_curve(d, h, MR_NONE);
 }
 
 static void
 remove_face(mr_dyn *d, uint32_t f)
 {
 	for (uint32_t k = 3 * f; k < 3 * f + 3; k++)
-		move_curve(d, k, MR_NONE);
+		set_curve(d, k, MR_NONE);
 	d->v[3 * f] = MR_NONE;
 	d->twin[3 * f] = d->free_f;
 	d->free_f = f;
@@ -136,8 +141,7 @@ cut_face(mr_dyn *d, uint32_t h, uint32_t m, uint32_t f)
 	uint32_t n = mr_he_next(h), b = d->v[n], c = d->v[mr_he_next(n)];
 	uint32_t mb = 3 * f, bc = 3 * f + 1, cm = 3 * f + 2;
 
-	if (mr_dyn_on_curve(d, h))
-		mr_curves_set(&d->curves, mb, mr_dyn_curve(d, h));
+	set_curve(d, mb, mr_dyn_curve(d, h));
 	move_curve(d, n, bc);
 	d->v[mb] = m;
 	d->v[bc] = b;
@@ -162,8 +166,6 @@ mr_dyn_split(mr_ctx *ctx, mr_dyn *d, uint32_t h, mr_v3 p, uint32_t *middle)
 {
 	uint32_t g = d->twin[h], a = d->v[h], m, f, e = MR_NONE;
 
-	if (mr_dyn_on_curve(d, h))
-		MR_TRY(mr_curves_reserve(ctx, &d->curves, 2));
 	add_vertex(ctx, d, &m);
 	MR_TRY(add_face(ctx, d, &f));
 	if (g != MR_NONE)
@@ -288,9 +290,9 @@ close_face(mr_dyn *d, uint32_t h)
 
 	link_twins(d, cb, ac);
 	if (cb != MR_NONE && curve != MR_NONE)
-		mr_curves_set(&d->curves, cb, curve);
+		set_curve(d, cb, curve);
 	if (ac != MR_NONE && curve != MR_NONE)
-		mr_curves_set(&d->curves, ac, curve);
+		set_curve(d, ac, curve);
 	if (d->out[c] == p)
 		d->out[c] = cb;
 	remove_face(d, f);

@@ -9,7 +9,6 @@
 #ifndef MR_MESH_DYNMESH_H
 #define MR_MESH_DYNMESH_H
 
-#include "mesh/feature_curves.h"
 #include "mesh/fold.h"
 #include "mesh/guarded_move.h"
 
@@ -29,7 +28,8 @@ typedef struct mr_dyn {
 	size_t nv, room_v;
 	uint32_t free_v; /* first hole, chained through out; MR_NONE: none */
 	uint32_t *v, *twin;
-	mr_curves curves; /* the half-edges on curves, each with a source half-edge of its curve */
+	uint32_t *curve; /* of each half-edge the one of the source on whose curve it is, or MR_NONE; NULL:
+	                    none is */
 	size_t nf, room_f;
 	uint32_t free_f; /* first hole, chained through twin[3 f] */
 } mr_dyn;
@@ -53,13 +53,11 @@ mr_dyn_to(const mr_dyn *d, uint32_t h)
 	return d->v[mr_he_next(h)];
 }
 
-/* The half-edge of the source that h lies on; MR_NONE where it lies on no curve, as is told by its ends but
- * for those of other curves: a look into the table is one into memory far away. */
+/* The half-edge of the source that h lies on; MR_NONE where it lies on no curve. */
 static inline uint32_t
 mr_dyn_curve(const mr_dyn *d, uint32_t h)
 {
-	bool smooth = d->kind[d->v[h]] == MR_SMOOTH || d->kind[mr_dyn_to(d, h)] == MR_SMOOTH;
-	return smooth ? MR_NONE : mr_curves_get(&d->curves, h);
+	return d->curve ? d->curve[h] : MR_NONE;
 }
 
 static inline bool

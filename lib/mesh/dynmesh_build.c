@@ -24,15 +24,18 @@ makes_curve(const mr_dyn *d, uint32_t h, double feature)
 	return g == MR_NONE || (feature < 180 && is_sharp(d, h, g, cos(feature * MR_PI / 180)));
 }
 
-static mr_status
+static void
 mark_curves(mr_ctx *ctx, mr_dyn *d, double feature)
 {
-	for (uint32_t h = 0; h < 3 * d->nf; h++)
-		if (makes_curve(d, h, feature)) {
-			MR_TRY(mr_curves_reserve(ctx, &d->curves, 1));
-			mr_curves_set(&d->curves, h, h);
+	for (uint32_t h = 0; h < 3 * d->nf; h++) {
+		if (!makes_curve(d, h, feature))
+			continue;
+		if (!d->curve) {
+			d->curve = MR_NEW(ctx, 3 * d->room_f, uint32_t);
+			memset(d->curve, 0xff, 3 * d->nf * sizeof *d->curve);
 		}
-	return MR_OK;
+		d->curve[h] = h;
+	}
 }
 
 /* The kind of v by the curve edges that meet there. */
@@ -91,6 +94,8 @@ mr_dyn_room_f(mr_ctx *ctx, mr_dyn *d, size_t room)
 		    ctx, MR_ERANGE, "remeshing would take more than %zu faces", (size_t)(MR_NONE - 1) / 6);
 	d->v = v;
 	d->twin = twin;
+	if (d->curve)
+		d->curve = mr_grow(ctx, d->curve, 3 * d->nf, 3 * room, sizeof *d->curve);
 	d->room_f = room;
 	return MR_OK;
 }
@@ -115,8 +120,8 @@ mr_dyn_build(mr_ctx *ctx, const mr_mesh *m, const mr_topology *topo, double feat
 	memcpy(d.out, topo->out, m->nv * sizeof *d.out);
 	memcpy(d.v, m->t, 3 * m->nf * sizeof *d.v);
 	memcpy(d.twin, topo->twin, 3 * m->nf * sizeof *d.twin);
-	MR_TRY(mark_curves(ctx, &d, feature));
-	memset(d.kind, MR_CORNER, m->nv); /* any may be on a curve */
+	mark_curves(ctx, &d, feature);
+	memset(d.kind, MR_SMOOTH, m->nv);
 	for (uint32_t v = 0; v < m->nv; v++) {
 		if (d.out[v] == MR_NONE) {
 			d.kind[v] = MR_DEAD; /* an isolated vertex: not part of the surface */

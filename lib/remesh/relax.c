@@ -237,7 +237,7 @@ move_body(void *arg, size_t begin, size_t end)
 			}
 			break;
 		case MR_CURVE: /* a curve is kept as it is: always on the source */
-			p = mr_project_curve(s->m, s->topo, s->curves, at, curve_move(w, v), &at).point;
+			p = mr_project_curve(s->m, s->topo, s->curve, at, curve_move(w, v), &at).point;
 			break;
 		case MR_CORNER:
 		case MR_DEAD:

@@ -14,9 +14,9 @@
 typedef struct mr_remesh_source {
 	const mr_mesh *m;
 	const mr_topology *topo;
-	const mr_curves *curves; /* of the source, by its own half-edges */
-	const double *length;    /* target edge length at each vertex; NULL: uniform */
-	const double *mean;      /* of its corners' at each face, where there are lengths */
+	const uint32_t *curve; /* as in mr_dyn, of the half-edges of the source */
+	const double *length;  /* target edge length at each vertex; NULL: uniform */
+	const double *mean;    /* of its corners' at each face, where there are lengths */
 	double uniform;
 } mr_remesh_source;
 

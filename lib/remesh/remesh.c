@@ -22,9 +22,9 @@ typedef struct remesher {
 	mr_ctx *ctx;
 	const mr_remesh_opts *o;
 	mr_remesh_source source;
-	mr_curves curves; /* of the source */
-	double *length;   /* at the vertices of the source; NULL: uniform */
-	double *mean;     /* at its faces */
+	uint32_t *curve; /* of the source */
+	double *length;  /* at the vertices of the source; NULL: uniform */
+	double *mean;    /* at its faces */
 	mr_dyn d;
 	mr_resampled changes;
 	double feature; /* the angle from which an edge is kept */
@@ -289,7 +289,10 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 	r->sharp = count_sharp(&r->d);
 	if (r->o->feature_auto)
 		mr_note(r->ctx, "%s: %zu sharp edges of more than %g degrees", m->name, r->sharp, r->feature);
-	mr_curves_copy(r->ctx, &r->d.curves, &r->curves);
+	if (r->d.curve) {
+		r->curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
+		memcpy(r->curve, r->d.curve, 3 * m->nf * sizeof *r->curve);
+	}
 	if (adaptive > 0) {
 		r->length = MR_NEW(r->ctx, m->nv, double);
 		mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
@@ -298,7 +301,7 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		mr_sizing_curves(r->ctx, m, topo, &r->d, uniform, &r->length);
 	}
 	r->mean = r->length ? MR_NEW(r->ctx, m->nf, double) : NULL;
-	r->source = (mr_remesh_source){ m, topo, &r->curves, r->length, r->mean, uniform };
+	r->source = (mr_remesh_source){ m, topo, r->curve, r->length, r->mean, uniform };
 	find_means(r);
 	aim(r);
 	if (r->o->project)

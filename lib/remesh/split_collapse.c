@@ -372,7 +372,7 @@ merged_position(const mr_dyn *d, const mr_remesh_source *s, uint32_t a, uint32_t
 	if (d->kind[a] != d->kind[b])
 		return d->p[b];
 	if (d->kind[b] == MR_CURVE)
-		return mr_project_curve(s->m, s->topo, s->curves, d->at[b], middle, at).point;
+		return mr_project_curve(s->m, s->topo, s->curve, d->at[b], middle, at).point;
 	return middle;
 }
 

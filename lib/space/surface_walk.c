@@ -73,14 +73,14 @@ mr_project_walk_around(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr
 /* The other curve half-edge at vertex v than the edge of h; MR_NONE where not exactly two curve edges meet.
  */
 static uint32_t
-other_curve(const mr_topology *topo, const mr_curves *curves, uint32_t v, uint32_t h)
+other_curve(const mr_topology *topo, const uint32_t *curve, uint32_t v, uint32_t h)
 {
 	uint32_t e = topo->out[v], found = MR_NONE;
 	unsigned n = 0;
 
 	do {
 		uint32_t p = mr_he_prev(e);
-		if (mr_curves_get(curves, e) != MR_NONE) {
+		if (curve[e] != MR_NONE) {
 			n++;
 			if (e != h && topo->twin[e] != h)
 				found = e;
@@ -97,14 +97,14 @@ other_curve(const mr_topology *topo, const mr_curves *curves, uint32_t v, uint32
 
 mr_closest
 mr_project_curve(
-    const mr_mesh *m, const mr_topology *topo, const mr_curves *curves, uint32_t h, mr_v3 q, uint32_t *on)
+    const mr_mesh *m, const mr_topology *topo, const uint32_t *curve, uint32_t h, mr_v3 q, uint32_t *on)
 {
 	mr_closest near = mr_side_closest(m, h, q);
 
 	for (;;) {
 		int corner = corner_of(near);
 		uint32_t next = corner < 0 ? MR_NONE
-		                           : other_curve(topo, curves, m->t[near.at.face].v[corner], h);
+		                           : other_curve(topo, curve, m->t[near.at.face].v[corner], h);
 		mr_closest p;
 		if (next == MR_NONE)
 			break;

@@ -8,7 +8,7 @@
 #ifndef MR_SPACE_SURFACE_WALK_H
 #define MR_SPACE_SURFACE_WALK_H
 
-#include "mesh/feature_curves.h"
+#include "mesh/mesh.h"
 #include "space/bvh.h"
 
 /* The nearest point met by walking from face f over edges and vertices. */
@@ -19,11 +19,11 @@ mr_closest mr_project_walk(const mr_mesh *m, const mr_topology *topo, uint32_t f
 mr_closest mr_project_walk_around(const mr_mesh *m, const mr_topology *topo, uint32_t f, mr_v3 q);
 
 /*
- * The nearest point on the curve that half-edge h lies on: walks along marked
- * half-edges and stops at vertices where other than two meet.
+ * The nearest point on the curve that half-edge h lies on: walks along half-edges
+ * whose `curve` is not MR_NONE and stops at vertices where other than two meet.
  * *on is the half-edge reached; it keeps h's direction only where the marks do.
  */
 mr_closest mr_project_curve(
-    const mr_mesh *m, const mr_topology *topo, const mr_curves *curves, uint32_t h, mr_v3 q, uint32_t *on);
+    const mr_mesh *m, const mr_topology *topo, const uint32_t *curve, uint32_t h, mr_v3 q, uint32_t *on);
 
 #endif

@@ -9,7 +9,7 @@
 typedef struct scene {
 	mr_mesh m;
 	mr_topology topo;
-	mr_curves curves;
+	uint32_t *curve;
 	mr_dyn d;
 	mr_remesh_source s;
 } scene;
@@ -21,8 +21,10 @@ set_up(scene *x, mr_mesh m, double feature)
 	x->m = m;
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
 	assert_int_equal(mr_dyn_build(&ctx, &x->m, &x->topo, feature, &x->d), MR_OK);
-	mr_curves_copy(&ctx, &x->d.curves, &x->curves);
-	x->s = (mr_remesh_source){ &x->m, &x->topo, &x->curves, NULL, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
+	x->curve = MR_NEW(&ctx, 3 * m.nf, uint32_t);
+	for (uint32_t h = 0; h < 3 * m.nf; h++)
+		x->curve[h] = mr_dyn_curve(&x->d, h);
+	x->s = (mr_remesh_source){ &x->m, &x->topo, x->curve, NULL, NULL, mr_mesh_edge_scale(&ctx, &x->m) };
 }
 
 /* Twins agree, out half-edges leave their vertices, boundary ones first. */

@@ -139,13 +139,13 @@ with_curves(const mr_mesh *m, const mr_topology *topo, double feature)
 }
 
 static void
-assert_on(const mr_mesh *m, const mr_curves *curves, mr_closest c, uint32_t on)
+assert_on(const mr_mesh *m, const uint32_t *curve, mr_closest c, uint32_t on)
 {
 	uint32_t k = on % 3;
 
 	assert_int_equal(on / 3, c.at.face);
 	assert_true(mr_coordinate(c.at.bary, (int)(k + 2) % 3) == 0); /* on that side */
-	assert_true(mr_curves_get(curves, on) != MR_NONE);
+	assert_true(curve[on] != MR_NONE);
 	assert_true(on < 3 * m->nf);
 }
 
@@ -164,7 +164,7 @@ an_edge_of_a_cube_ends_at_its_corners(void **state)
 		mr_v3 a, b, q, want;
 		uint32_t on;
 		mr_closest c;
-		if (mr_curves_get(&d.curves, h) == MR_NONE)
+		if (d.curve[h] == MR_NONE)
 			continue;
 		curves++;
 		a = m.p[mr_he_from(&m, h)];
@@ -173,9 +173,9 @@ an_edge_of_a_cube_ends_at_its_corners(void **state)
 		/* the coordinate in which the edge runs is free, the others are -1 or 1 */
 		want = mr_vec(a.x == b.x ? a.x : fmin(fmax(q.x, -1), 1),
 		    a.y == b.y ? a.y : fmin(fmax(q.y, -1), 1), a.z == b.z ? a.z : fmin(fmax(q.z, -1), 1));
-		c = mr_project_curve(&m, &topo, &d.curves, h, q, &on);
+		c = mr_project_curve(&m, &topo, d.curve, h, q, &on);
 		assert_place(&m, c, q);
-		assert_on(&m, &d.curves, c, on);
+		assert_on(&m, d.curve, c, on);
 		assert_true(mr_dist(c.point, want) < EPS);
 	}
 	assert_int_equal(curves, 2 * 12 * (size_t)lround(sqrt((double)(m.nv - 2) / 6)));
@@ -206,9 +206,9 @@ a_rim_is_walked_around(void **state)
 		mr_v3 rim = mr_lerp(0.5, m.p[mr_he_from(&m, h)], m.p[mr_he_to(&m, h)]);
 		if (topo.twin[h] != MR_NONE || mr_dot(mr_vec(rim.x, rim.y, 0), mr_sub(q, rim)) <= 0)
 			continue;
-		c = mr_project_curve(&m, &topo, &d.curves, h, q, &on);
+		c = mr_project_curve(&m, &topo, d.curve, h, q, &on);
 		assert_place(&m, c, q);
-		assert_on(&m, &d.curves, c, on);
+		assert_on(&m, d.curve, c, on);
 		assert_true(topo.twin[on] == MR_NONE);
 		for (uint32_t g = 0; g < 3 * m.nf; g++)
 			if (topo.twin[g] == MR_NONE && m.p[mr_he_from(&m, g)].z == z) {
