@@ -235,6 +235,25 @@ say_losses(
 	say(user, text);
 }
 
+/* Faces that are folded pass through others, and what does so is torn: one of them is said of a layer, and
+ * all are counted. */
+static bool
+comes_of(mr_finding_kind kind, mr_finding_kind cause)
+{
+	bool passes = kind == MR_COLLIDED || kind == MR_TORN;
+
+	return (cause == MR_FOLDED && (passes || kind == MR_CROSSING)) || (cause == MR_CROSSING && passes);
+}
+
+static bool
+is_implied(const findings *found, const mr_kept_finding *k)
+{
+	for (size_t i = 0; i < found->n; i++)
+		if (comes_of(k->f.kind, found->k[i].f.kind) && !strcmp(k->layer, found->k[i].layer))
+			return true;
+	return false;
+}
+
 void
 findings_say(
     const findings *found, const findings *known, void (*say)(void *user, const char *text), void *user)
@@ -245,7 +264,7 @@ findings_say(
 	for (size_t i = 0; i < found->n; i++) {
 		const mr_kept_finding *k = &found->k[i];
 		size_t n;
-		if (k->f.kind == MR_LOST || !is_news(known, k))
+		if (k->f.kind == MR_LOST || !is_news(known, k) || is_implied(found, k))
 			continue;
 		make_sentence(k, text, sizeof text - 20);
 		n = strlen(text);

@@ -175,8 +175,8 @@ improve(const walker *w, uint32_t i, uint32_t neighbour)
 	uint32_t face = w->face[neighbour];
 	mr_closest c;
 
-	if (w->stands[i] || !(w->dist2[neighbour] < w->dist2[i]) || face == w->face[i] ||
-	    !may_be_nearer(w, face, w->mesh->p[i], nearer(w, i)))
+	if (w->stands[i] || (!w->stands[neighbour] && !(w->dist2[neighbour] < w->dist2[i])) ||
+	    face == w->face[i] || !may_be_nearer(w, face, w->mesh->p[i], nearer(w, i)))
 		return false;
 	c = mr_face_closest(w->lifted, face, w->mesh->p[i]);
 	if (!(c.dist2 < nearer(w, i)))

@@ -96,17 +96,29 @@ faces_alike(const encoder *e, size_t i, const mr_foot *foot)
 }
 
 /* A foot may be a little higher than the place where the vertex stands. */
+static double
+limit_of(const encoder *e, size_t i, mr_place start)
+{
+	return 1.1 * mr_dist(e->mesh->p[i], mr_phong_point(&e->ground.surface, start)) + e->ground.tolerance;
+}
+
 static bool
 walk_to_foot(const encoder *e, size_t i, mr_place start, tally *t)
 {
-	mr_v3 p = e->mesh->p[i];
-	double limit = 1.1 * mr_dist(p, mr_phong_point(&e->ground.surface, start)) + e->ground.tolerance;
 	mr_walk walk = { 0, 0 };
-	bool found = mr_foot_walk(&e->ground, p, start, limit, &e->foot[i], &walk);
+	bool found = mr_foot_walk(
+	    &e->ground, e->mesh->p[i], start, limit_of(e, i, start), &e->foot[i], &walk);
 
 	t->steps += walk.steps;
 	t->crossed += walk.crossed;
 	return found;
+}
+
+static bool
+search_foot(const encoder *e, size_t i, mr_place start)
+{
+	return mr_foot_search(&e->ground, e->mesh->p[i], start.face, &e->foot[i]) &&
+	       fabs(e->foot[i].height) <= 2 * limit_of(e, i, start);
 }
 
 static void
@@ -115,6 +127,19 @@ settle(const encoder *e, size_t i, bool sound)
 	e->sound[i] = sound;
 	if (sound)
 		e->stand[i] = mr_phong_point(&e->ground.surface, e->foot[i].at);
+}
+
+/* Whether a height is about as large as the base's distance from the mesh is near by: else it may lead to
+ * another sheet. */
+static bool
+is_likely(const encoder *e, size_t i, mr_place start)
+{
+	const double much = 1.5, some = 0.05;
+	mr_v3 there = mr_phong_point(&e->ground.surface, start),
+	      on_mesh = mr_place_point(&e->map->lifted, start);
+
+	return fabs(e->foot[i].height) <=
+	       much * mr_dist(there, on_mesh) + some * mr_dist(e->mesh->p[i], on_mesh);
 }
 
 /* From the base vertex near by on the mesh. */
@@ -127,8 +152,8 @@ find_easy_feet(void *arg, size_t begin, size_t end)
 	for (size_t i = begin; i < end; i++) {
 		mr_place near = mr_correspond_near(e->map, i);
 		settle(e, i,
-		    near.face != MR_NONE && walk_to_foot(e, i, near, t) && is_sound(e, &e->foot[i]) &&
-			faces_alike(e, i, &e->foot[i]));
+		    near.face != MR_NONE && walk_to_foot(e, i, near, t) && is_likely(e, i, near) &&
+			is_sound(e, &e->foot[i]) && faces_alike(e, i, &e->foot[i]));
 		if (e->sound[i]) {
 			e->face[i] = e->foot[i].at.face;
 			e->bary[i] = e->foot[i].at.bary;
@@ -144,6 +169,7 @@ find_feet(void *arg, size_t begin, size_t end)
 	tally *t = &e->tally[begin / GRAIN];
 
 	for (size_t i = begin; i < end; i++) {
+		mr_place start;
 		bool found;
 		if (e->sound[i])
 			continue;
@@ -152,11 +178,10 @@ find_feet(void *arg, size_t begin, size_t end)
 			e->face[i] = at.face;
 			e->bary[i] = at.bary;
 		}
-		found = walk_to_foot(e, i, (mr_place){ e->face[i], e->bary[i] }, t);
+		start = (mr_place){ e->face[i], e->bary[i] };
+		found = walk_to_foot(e, i, start, t);
 		t->searched += !found;
-		settle(e, i,
-		    (found || mr_foot_search(&e->ground, e->mesh->p[i], e->face[i], &e->foot[i])) &&
-			is_sound(e, &e->foot[i]));
+		settle(e, i, (found || search_foot(e, i, start)) && is_sound(e, &e->foot[i]));
 	}
 }
 
@@ -170,11 +195,10 @@ part_far_feet(const encoder *e)
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++) {
 			uint32_t a = m->t[f].v[k], b = m->t[f].v[(k + 1) % 3];
-			if (a > b || !e->sound[a] || !e->sound[b] ||
-			    !(mr_norm2(mr_sub(e->stand[a], e->stand[b])) >
-				far2 * mr_norm2(mr_sub(m->p[a], m->p[b]))))
-				continue;
-			e->sound[a] = e->sound[b] = false;
+			if (a < b && e->sound[a] && e->sound[b] &&
+			    mr_norm2(mr_sub(e->stand[a], e->stand[b])) >
+				far2 * mr_norm2(mr_sub(m->p[a], m->p[b])))
+				e->sound[a] = e->sound[b] = false;
 		}
 }
 

@@ -86,13 +86,8 @@ choose_times(mr_ctx *ctx, smoothing *s, bool plain)
 
 	for (size_t v = 0; v < s->m->nv; v++)
 		s->time[v] = reach;
-	if (!plain && most > 0) {
-		mr_mark mark = mr_mark_take(ctx);
-		mr_sounding body;
-		MR_TRY(mr_sounding_build(ctx, s->m, &body));
-		mr_thickness(ctx, &body, s->time);
-		mr_mark_release(ctx, mark);
-	}
+	if (!plain && most > 0)
+		MR_TRY(mr_thickness(ctx, s->m, reach, s->time));
 	for (size_t v = 0; v < s->m->nv; v++) {
 		s->found.bounded += s->time[v] < reach;
 		s->time[v] = s->time[v] < reach ? share * s->time[v] * s->time[v] / passes : most;

@@ -3,101 +3,17 @@
 
 #include "mesh/edges.h"
 #include "mesh/fold.h"
+#include "space/cells.h"
 #include "space/contact.h"
 #include "space/self_intersect.h"
 
-/* Cells are marked in a set of bits by their hash: what is marked by chance is looked at in vain. */
-enum { BITS = 1 << 17, ACROSS = 4, SAMPLES = 1 << 14, SLOTS = 2 * SAMPLES, FEW = 2048 };
+enum { SAMPLES = 1 << 14, SLOTS = 2 * SAMPLES, FEW = 2048 };
 
 typedef struct crowd {
 	mr_mesh then, now;
-	double cell;
-	uint32_t *bits;
-	bool any;
+	mr_cells cells;
 	mr_v3 *normal_then, *normal; /* sums around the vertices */
 } crowd;
-
-typedef struct cell {
-	int at[3];
-} cell;
-
-static int
-cell_along(const crowd *c, double x)
-{
-	const double most = 1e9, off = 0.37; /* walls at 0 are in one cell */
-
-	x = floor(x / c->cell + off);
-	return (int)(x < -most ? -most : x < most ? x : most);
-}
-
-static cell
-cell_of(const crowd *c, mr_v3 p)
-{
-	return (cell){ { cell_along(c, p.x), cell_along(c, p.y), cell_along(c, p.z) } };
-}
-
-static uint32_t
-hash_of(cell c)
-{
-	uint64_t h = 0;
-
-	for (int k = 0; k < 3; k++)
-		h = (h ^ (uint32_t)c.at[k]) * 0x9e3779b97f4a7c15u;
-	return (uint32_t)(h >> 40);
-}
-
-static void
-mark(crowd *c, cell at)
-{
-	uint32_t h = hash_of(at) % BITS;
-
-	c->bits[h / 32] |= 1u << h % 32;
-	c->any = true;
-}
-
-static bool
-is_marked(const crowd *c, cell at)
-{
-	uint32_t h = hash_of(at) % BITS;
-
-	return c->bits[h / 32] >> h % 32 & 1;
-}
-
-/* The cells that a face's box meets; false where they are too many. */
-static bool
-cells_of_face(const crowd *c, size_t f, cell *low, cell *high)
-{
-	const uint32_t *v = c->now.t[f].v;
-	bool few = true;
-
-	*low = *high = cell_of(c, c->now.p[v[0]]);
-	for (int i = 1; i < 3; i++) {
-		cell at = cell_of(c, c->now.p[v[i]]);
-		for (int k = 0; k < 3; k++) {
-			low->at[k] = at.at[k] < low->at[k] ? at.at[k] : low->at[k];
-			high->at[k] = at.at[k] > high->at[k] ? at.at[k] : high->at[k];
-		}
-	}
-	for (int k = 0; k < 3; k++)
-		few &= high->at[k] - low->at[k] < ACROSS;
-	return few;
-}
-
-/* Large faces are always in a crowd. */
-static bool
-is_in_crowd(const crowd *c, size_t f)
-{
-	cell low, high, at;
-
-	if (!cells_of_face(c, f, &low, &high))
-		return true;
-	for (at.at[0] = low.at[0]; at.at[0] <= high.at[0]; at.at[0]++)
-		for (at.at[1] = low.at[1]; at.at[1] <= high.at[1]; at.at[1]++)
-			for (at.at[2] = low.at[2]; at.at[2] <= high.at[2]; at.at[2]++)
-				if (is_marked(c, at))
-					return true;
-	return false;
-}
 
 /* Faces that turn against those around them: of two that are folded one does, by the sum of normals at a
  * corner that they share. */
@@ -157,22 +73,22 @@ mark_turned(crowd *c)
 		if (turns_against(&c->now, f, c->normal) &&
 		    agreement(&c->now, f, c->normal) < agreement(&c->then, f, c->normal_then) - more)
 			for (int k = 0; k < 3; k++)
-				mark(c, cell_of(c, c->now.p[c->now.t[f].v[k]]));
+				mr_cells_mark(&c->cells, c->now.p[c->now.t[f].v[k]]);
 }
 
 /* Cells that hold what was far apart, or sheets that came by each other, by vertices at equal strides. */
 
 typedef struct content {
-	cell at;
+	mr_cell at;
 	bool used, crowded;
 	size_t first, last;    /* vertices */
 	float low[3], high[3]; /* where it was, in cells */
 } content;
 
 static content *
-content_of(content *table, cell at)
+content_of(content *table, mr_cell at)
 {
-	size_t i = hash_of(at) % SLOTS;
+	size_t i = mr_cell_hash(at) % SLOTS;
 
 	while (table[i].used && memcmp(&table[i].at, &at, sizeof at))
 		i = (i + 1) % SLOTS;
@@ -203,11 +119,11 @@ static void
 add_vertex(const crowd *c, content *table, size_t v)
 {
 	const float far = 3; /* cells */
-	cell at = cell_of(c, c->now.p[v]);
+	mr_cell at = mr_cell_of(&c->cells, c->now.p[v]);
 	content *x = content_of(table, at);
 
 	for (int k = 0; k < 3; k++) {
-		float was = (float)(mr_coordinate(c->then.p[v], k) / c->cell);
+		float was = (float)(mr_coordinate(c->then.p[v], k) / c->cells.size);
 		x->low[k] = x->used && x->low[k] < was ? x->low[k] : was;
 		x->high[k] = x->used && x->high[k] > was ? x->high[k] : was;
 		x->crowded |= x->high[k] - x->low[k] > far;
@@ -229,21 +145,7 @@ mark_gathered(mr_ctx *ctx, crowd *c)
 		add_vertex(c, table, v);
 	for (size_t i = 0; i < SLOTS; i++)
 		if (table[i].crowded)
-			mark(c, table[i].at);
-}
-
-/* The faces in the crowd, as meshes; of a few all. */
-static void
-gather(mr_ctx *ctx, crowd *c)
-{
-	mr_tri *t = MR_NEW(ctx, c->now.nf, mr_tri);
-	size_t n = 0;
-
-	for (size_t f = 0; f < c->now.nf; f++)
-		if (c->now.nf <= FEW || is_in_crowd(c, f))
-			t[n++] = c->now.t[f];
-	c->now.t = c->then.t = t;
-	c->now.nf = c->then.nf = n;
+			mr_cells_mark(&c->cells, c->now.p[table[i].first]);
 }
 
 static size_t
@@ -396,8 +298,12 @@ static void
 look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
 {
 	uint32_t *near_harm, *far_harm;
+	mr_tri *t = NULL;
 
-	gather(ctx, c);
+	if (c->now.nf > FEW) {
+		c->now.nf = c->then.nf = mr_cells_faces(ctx, &c->cells, &c->now, &t);
+		c->now.t = c->then.t = t;
+	}
 	near_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	far_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	count_folds(ctx, c, near_harm, &harm->folds);
@@ -419,18 +325,17 @@ void
 mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	crowd c = { .then = *m->then, .now = *m->then, .bits = MR_NEW_ZERO(ctx, BITS / 32, uint32_t) };
+	crowd c = { .then = *m->then, .now = *m->then, .cells = mr_cells_new(ctx, cell_size(m)) };
 
 	*harm = (mr_harm){ .vertex = MR_NONE, .far_vertex = MR_NONE };
 	c.now.p = m->now;
-	c.cell = cell_size(m);
 	if (!(m->diagonal > 0))
 		return;
 	add_normals(ctx, &c.then, &c.normal_then);
 	add_normals(ctx, &c.now, &c.normal);
 	mark_turned(&c);
 	mark_gathered(ctx, &c);
-	if (c.any || c.now.nf <= FEW)
+	if (c.cells.any || c.now.nf <= FEW)
 		look_at_crowd(ctx, &c, harm);
 	mr_mark_release(ctx, mark);
 }

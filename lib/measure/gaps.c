@@ -216,7 +216,7 @@ mr_mesh_gaps_report(mr_ctx *ctx, const char *layer, const mr_mesh_gaps *g, const
 	if (g->widest > FAR_OF_MESH * diagonal || g->off > OFF_MOST)
 		mr_found(ctx, &(mr_finding){ .kind = MR_DISTANT,
 				  .layer = layer,
-				  .what = "more faces, by mr-simplify --to control -n, come nearer",
+				  .what = "more faces come nearer",
 				  .value = g->widest / diagonal,
 				  .placed = true,
 				  .vertex = MR_NO_VERTEX,

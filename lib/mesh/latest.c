@@ -274,7 +274,8 @@ mr_layer_finished_or_warn(mr_ctx *ctx, mr_frame *f)
 	if (status != MR_EMISSING)
 		return status;
 	if (f->key)
-		mr_found(ctx, &(mr_finding){ .kind = MR_LIMIT, .what = ctx->error });
+		mr_found(
+		    ctx, &(mr_finding){ .kind = MR_LIMIT, .what = "a pose, or heights, are no surface yet" });
 	*ctx->error = '\0';
 	return MR_OK;
 }

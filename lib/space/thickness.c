@@ -6,25 +6,32 @@
 #include "space/bvh.h"
 
 typedef struct caster {
-	const mr_sounding *body;
-	const double *most; /* of the vertices */
-	double least;       /* where a ray begins */
-	double *across;     /* of each face */
+	const mr_mesh *m;
+	const mr_bvh *bvh;
+	const mr_v3 *normal; /* of the vertices */
+	double least, most;  /* where a ray begins and ends */
+	const double
+	    *known; /* of the vertices, the thickness; NULL: nothing, and one face of STRIDE is cast from */
+	double *across; /* of each face; INFINITY: not known */
 } caster;
+
+enum { STRIDE = 4 };
 
 /* The mean of the corners' normals; zero where they cancel. */
 static mr_v3
 direction_of(const caster *c, const uint32_t *v)
 {
-	const mr_v3 *n = c->body->normal;
-
-	return mr_unit(mr_add(n[v[0]], mr_add(n[v[1]], n[v[2]])));
+	return mr_unit(mr_add(c->normal[v[0]], mr_add(c->normal[v[1]], c->normal[v[2]])));
 }
 
-static double
-most_of(const caster *c, const uint32_t *v)
+/* Whether a face may be as thin as its edges are long, or nearly. */
+static bool
+is_thin(const caster *c, const uint32_t *v)
 {
-	return fmax(c->most[v[0]], fmax(c->most[v[1]], c->most[v[2]]));
+	const double edges = 6;
+	double side = mr_dist(c->m->p[v[0]], c->m->p[v[1]]) + mr_dist(c->m->p[v[1]], c->m->p[v[2]]);
+
+	return fmin(c->known[v[0]], fmin(c->known[v[1]], c->known[v[2]])) < fmin(c->most, edges / 2 * side);
 }
 
 static void
@@ -32,37 +39,37 @@ cast_faces(void *arg, size_t begin, size_t end)
 {
 	static const mr_v3 centre = { 1. / 3, 1. / 3, 1. / 3 };
 	caster *c = arg;
-	const mr_mesh *m = c->body->m;
 
 	for (size_t i = begin; i < end; i++) {
-		uint32_t f = mr_bvh_order(c->body->bvh)[i];
-		const uint32_t *v = m->t[f].v;
-		c->across[f] = most_of(c, v);
-		if (c->across[f] > c->least)
-			c->across[f] = mr_bvh_across(c->body->bvh, mr_place_point(m, (mr_place){ f, centre }),
-			    direction_of(c, v), c->least, c->across[f]);
+		uint32_t f = mr_bvh_order(c->bvh)[i];
+		const uint32_t *v = c->m->t[f].v;
+		if (c->known ? isfinite(c->across[f]) || !is_thin(c, v) : i % STRIDE != 0)
+			continue;
+		c->across[f] = mr_bvh_across(c->bvh, mr_place_point(c->m, (mr_place){ f, centre }),
+		    direction_of(c, v), c->least, c->most);
 	}
 }
 
-/* The lower median of the faces around a vertex: one ray that slips through a gap does not count. */
+/* The lower median of those faces around a vertex that are known: one ray that slips through a gap does not
+ * count. */
 static double
 median_around(const mr_incidence *inc, size_t v, const double *across, double most)
 {
 	enum { AROUND = 64 }; /* of more faces these */
-	size_t n = inc->start[v + 1] - inc->start[v];
 	double sorted[AROUND];
+	size_t n = 0;
 
-	if (n == 0)
-		return most;
-	n = n < AROUND ? n : AROUND;
-	for (size_t i = 0; i < n; i++) {
-		double x = across[inc->face[inc->start[v] + i]];
-		size_t k = i;
+	for (size_t i = inc->start[v]; i < inc->start[v + 1] && n < AROUND; i++) {
+		double x = across[inc->face[i]];
+		size_t k = n;
+		if (!isfinite(x))
+			continue;
 		for (; k > 0 && sorted[k - 1] > x; k--)
 			sorted[k] = sorted[k - 1];
 		sorted[k] = x;
+		n++;
 	}
-	return fmin(sorted[(n - 1) / 2], most);
+	return n ? fmin(sorted[(n - 1) / 2], most) : most;
 }
 
 /* thickness[a] <= thickness[b] + |a - b| over the edges of a face; true where that lowered one. */
@@ -100,47 +107,29 @@ walk(const mr_mesh *m, double *thickness)
 	}
 }
 
-/* What is asked for at a vertex concerns those around it, by as much less as they are off. */
-static void
-spread(const mr_mesh *m, double *most)
-{
-	double all = 0;
-
-	for (size_t v = 0; v < m->nv; v++)
-		all = fmax(all, most[v]);
-	for (size_t v = 0; v < m->nv; v++)
-		most[v] = all - most[v];
-	walk(m, most);
-	for (size_t v = 0; v < m->nv; v++)
-		most[v] = all - most[v];
-}
-
 mr_status
-mr_sounding_build(mr_ctx *ctx, const mr_mesh *m, mr_sounding *body)
+mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 {
-	mr_incidence *inc = MR_NEW(ctx, 1, mr_incidence);
+	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *normal = MR_NEW(ctx, m->nv, mr_v3);
+	caster c = { .m = m, .normal = normal, .most = most, .across = MR_NEW(ctx, m->nf, double) };
+	mr_incidence inc;
 	mr_bvh *bvh;
 
-	MR_TRY(mr_incidence_build(ctx, m, inc));
-	MR_TRY(mr_vertex_normals(ctx, m, inc, normal));
+	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	MR_TRY(mr_vertex_normals(ctx, m, &inc, normal));
 	mr_bvh_build(ctx, m, &bvh);
-	*body = (mr_sounding){ m, inc, normal, bvh };
-	return MR_OK;
-}
-
-void
-mr_thickness(mr_ctx *ctx, const mr_sounding *body, double *thickness)
-{
-	const mr_mesh *m = body->m;
-	mr_mark mark = mr_mark_take(ctx);
-	double *across = MR_NEW(ctx, m->nf, double);
-
-	spread(m, thickness);
-	mr_parallel(ctx, m->nf, 256, cast_faces,
-	    &(caster){ body, thickness, mr_mesh_tolerance(m, MR_RAY_BEGINS), across });
-	for (size_t v = 0; v < m->nv; v++)
-		thickness[v] = median_around(body->inc, v, across, thickness[v]);
-	walk(m, thickness);
+	c.bvh = bvh;
+	c.least = mr_mesh_tolerance(m, 1e-9); /* none meets the face that it leaves */
+	for (size_t f = 0; f < m->nf; f++)
+		c.across[f] = INFINITY;
+	for (int pass = 0; pass < 2; pass++) {
+		mr_parallel(ctx, m->nf, 256, cast_faces, &c);
+		for (size_t v = 0; v < m->nv; v++)
+			thickness[v] = median_around(&inc, v, c.across, most);
+		walk(m, thickness);
+		c.known = thickness;
+	}
 	mr_mark_release(ctx, mark);
+	return MR_OK;
 }

@@ -5,7 +5,7 @@ heard() { # what, the tool's words
 }
 mr-make bumpy -n 5000 | mr-smooth -q -t 200 | mr-remesh -q -r 4 | mr-select --free all --fixed below:y,0.3 --handle 1=above:y,0.5 |
     mr-encode -q | mr-pose -H 1 --rotate 0,0,1,170 --scale 0.2 | mr-solve -q | mr-decode 2>said >out
-heard 'half a model shrunk in little room' '\[torn\]'
+heard 'half a model shrunk in little room' '\[folded\]'
 
 # a disc whose lids are fans of long triangles
 mr-make sphere -n 42 -o sphere.mrs

@@ -2,24 +2,12 @@
 #include "shapes.h"
 #include "space/thickness.h"
 
-static mr_status
-thickness_at(const mr_mesh *m, double *d)
-{
-	mr_sounding body;
-
-	MR_TRY(mr_sounding_build(&ctx, m, &body));
-	mr_thickness(&ctx, &body, d);
-	return MR_OK;
-}
-
 static double *
 thickness_of(const mr_mesh *m, double most)
 {
 	double *d = MR_NEW(&ctx, m->nv, double);
 
-	for (size_t v = 0; v < m->nv; v++)
-		d[v] = most;
-	assert_int_equal(thickness_at(m, d), MR_OK);
+	assert_int_equal(mr_thickness(&ctx, m, most, d), MR_OK);
 	return d;
 }
 
@@ -31,7 +19,7 @@ test_sphere(void **state)
 
 	(void)state;
 	for (size_t v = 0; v < m.nv; v++)
-		assert_true(d[v] > 1.97 && d[v] <= 2);
+		assert_true(d[v] > 1.97 && d[v] <= 2.15); /* an edge more where no ray is */
 }
 
 /* A sheet has no other side, two have one: whichever way they are turned. */
@@ -79,22 +67,6 @@ test_walks(void **state)
 		assert_true(d[v] > 1.99 && d[v] < 3.5); /* a diameter, and a radius more on the ends */
 }
 
-/* What is asked for at one vertex alone is told there as if it were asked for everywhere. */
-static void
-test_asked_for_at_one_vertex(void **state)
-{
-	mr_mesh one = shape(MR_PLANE, 400), two = both(&one, &one, mr_vec(0.3, 0, 0.1));
-	double *all = thickness_of(&two, 5), *d = MR_NEW_ZERO(&ctx, two.nv, double);
-
-	(void)state;
-	for (size_t v = 0; v < two.nv; v += 50) {
-		memset(d, 0, two.nv * sizeof *d);
-		d[v] = 5;
-		assert_int_equal(thickness_at(&two, d), MR_OK);
-		assert_true(fabs(d[v] - all[v]) < 1e-5);
-	}
-}
-
 int
 main(void)
 {
@@ -102,7 +74,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_sphere, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_sheets, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_walks, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_asked_for_at_one_vertex, setup, teardown),
 	};
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);

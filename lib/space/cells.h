@@ -1,0 +1,32 @@
+/*
+ * cells.h -- a set of cubic cells of space, some of them marked, and the faces of a mesh in those.
+ */
+#ifndef MR_SPACE_CELLS_H
+#define MR_SPACE_CELLS_H
+
+#include "mesh/mesh.h"
+
+typedef struct mr_cell {
+	int at[3];
+} mr_cell;
+
+/* Cells are marked in a set of bits by their hash: what is marked by chance is looked at in vain. */
+typedef struct mr_cells {
+	double size;
+	uint32_t *bits;
+	bool any;
+} mr_cells;
+
+/* None is marked.  In the arena. */
+mr_cells mr_cells_new(mr_ctx *ctx, double size);
+
+mr_cell mr_cell_of(const mr_cells *c, mr_v3 p);
+uint32_t mr_cell_hash(mr_cell c);
+
+void mr_cells_mark(mr_cells *c, mr_v3 p);
+
+/* The faces of m whose boxes meet marked cells, and all that are larger than some cells; in the arena.
+ * Returns how many. */
+size_t mr_cells_faces(mr_ctx *ctx, const mr_cells *c, const mr_mesh *m, mr_tri **faces);
+
+#endif
