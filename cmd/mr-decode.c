@@ -32,11 +32,7 @@ prepare(cmd *c)
 static mr_status
 decode_frame(cmd *c, mr_frame *f)
 {
-	mr_decode_result result;
-
-	MR_TRY(mr_decode_frame(&c->ctx, f, &opts, c->cache, c->stats ? &result : NULL));
-	cmd_gaps(c, &result.gaps);
-	return MR_OK;
+	return mr_decode_frame(&c->ctx, f, &opts, c->cache);
 }
 
 const cmd_tool cmd_this = {

@@ -42,7 +42,7 @@ bend(mr_ctx *ctx, mr_frame *f, double degrees)
 	if (status == MR_OK)
 		status = mr_solve_frame(ctx, f, NULL, NULL, NULL);
 	if (status == MR_OK)
-		status = mr_decode_frame(ctx, f, NULL, NULL, NULL);
+		status = mr_decode_frame(ctx, f, NULL, NULL);
 	return status;
 }
 

@@ -453,7 +453,7 @@ typedef struct mr_solve_opts {
 	int areas;         /* mr_areas */
 	bool unsymmetric;  /* the paper's own system; else a row scaling of it, which is symmetric */
 	bool basis;        /* also put the response to every handle */
-	bool verify;       /* also find the error, by a direct solution, and the condition */
+	bool verify;       /* also estimate the condition */
 	double tol;        /* relative residual that iterative solvers reach; 0: 1e-10 */
 	size_t iterations; /* at most */
 	double memory;     /* bytes that a factor may take; 0: what there is */
@@ -478,7 +478,7 @@ typedef struct mr_solve_result {
 	double seconds_assemble, seconds_analyse, seconds_factor, seconds_solve;
 	size_t iterations;
 	double rcond, residual;
-	double error, condition; /* of verify */
+	double condition; /* of verify */
 } mr_solve_result;
 
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,
@@ -506,12 +506,7 @@ typedef struct mr_decode_opts {
 
 #define MR_DECODE_DEFAULTS MR_DEFAULTS(1, MR_FROM_ANY, MR_UNKNOWN)
 
-typedef struct mr_decode_result {
-	mr_gaps gaps; /* of heights, where the points and how they lie are known */
-} mr_decode_result;
-
-MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache,
-    mr_decode_result *result) MR_WARN_UNUSED;
+MR_API mr_status mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache) MR_WARN_UNUSED;
 
 /* Reconstruction: Jeong, Kim 2001 */
 

@@ -46,13 +46,8 @@ typedef struct mr_deform_task {
 /* MR_ERANGE where a map has no vertex to move.  out: nv, the caller's, may be p0. */
 mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out);
 
-/*
- * Solves the task by Cholesky too.  *error: the largest distance of a vertex of p from where that puts it, of
- * the diagonal; *condition: an estimate from below of the condition number of the system that is solved.
- * rest, ties: what d was made on.
- */
-mr_status mr_deform_verify(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const mr_deform *d,
-    const mr_deform_task *task, const mr_v3 *p, double *error, double *condition);
+/* An estimate from below of the condition number of the system that is solved. */
+mr_status mr_deform_condition(mr_ctx *ctx, mr_deform *d, double *condition);
 
 /*
  * The response of every vertex to the handles' affine maps, for mr_pose_by_response.

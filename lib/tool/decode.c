@@ -3,7 +3,6 @@
 #include "base/options.h"
 #include "edit/detail.h"
 #include "edit/pose_basis.h"
-#include "measure/gaps.h"
 #include "tool/cache.h"
 
 /* Whether what was kept of a column is still true of the frame. */
@@ -130,22 +129,6 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	return MR_OK;
 }
 
-/* How far mesh is from the points, where it is known how these lie. */
-static mr_status
-look_at_gaps(mr_ctx *ctx, mr_frame *f, mr_gaps *gaps)
-{
-	mr_sampling sampling;
-	mr_mesh points, mesh;
-	bool known;
-
-	if (!mr_layer_has(f, "points", "sampling"))
-		return MR_OK;
-	MR_TRY(mr_layer_points(ctx, f, "points", &points));
-	MR_TRY(mr_sampling_stored(ctx, f, "points", points.nv, &sampling, &known));
-	MR_TRY(mr_layer_mesh(ctx, f, "mesh", &mesh));
-	return known ? mr_gaps_measure(ctx, &mesh, points.p, &sampling, gaps) : MR_OK;
-}
-
 /* Whether it is the control mesh that handles pose, or else that, or the heights over it, that were worked on
  * last. */
 static mr_status
@@ -181,14 +164,11 @@ choose(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, int *from)
 	return MR_OK;
 }
 
-/* gaps: whether those are looked at. */
 static mr_status
-decode(
-    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache, bool gaps, mr_decode_result *result)
+decode(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
 {
 	int from;
 
-	mr_unmeasured(result, sizeof *result);
 	MR_TRY(mr_check_number(ctx, "gain", o->gain, -1e6, 1e6));
 	MR_TRY(mr_check_choice(ctx, "from", o->from, MR_FROM_CONTROL));
 	MR_TRY(choose(ctx, f, o, &from));
@@ -202,16 +182,18 @@ decode(
 		MR_TRY(decode_control(ctx, f, o, cache));
 	mr_frame_drop(f, "handles", NULL, 0);
 	mr_frame_drop(f, "base", "before", 0);
-	return gaps && from == MR_FROM_CONTROL ? look_at_gaps(ctx, f, &result->gaps) : MR_OK;
+	return MR_OK;
 }
 
 mr_status
-mr_decode_frame(
-    mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache, mr_decode_result *result)
+mr_decode_frame(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *opts, mr_cache *cache)
 {
 	static const mr_decode_opts defaults = MR_DECODE_DEFAULTS;
-	mr_decode_result r;
+	mr_frame done;
 
-	MR_ON_COPY(ctx, f, done, result, r,
-	    decode(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache), result, &r));
+	MR_ENTER(ctx);
+	mr_frame_copy(ctx, f, &done);
+	MR_TRY(decode(ctx, &done, opts ? opts : &defaults, mr_cache_for(ctx, cache)));
+	*f = done;
+	return MR_OK;
 }

@@ -166,16 +166,6 @@ keep_encoded(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, bool posing)
 }
 
 static mr_status
-verify(mr_ctx *ctx, mr_frame *f, const mr_mesh *rest, const mr_deform *d, const mr_deform_task *task,
-    const mr_v3 *p, mr_solve_result *figures)
-{
-	mr_ties ties;
-
-	MR_TRY(mr_transfer_ties(ctx, f, rest, &ties));
-	return mr_deform_verify(ctx, rest, &ties, d, task, p, &figures->error, &figures->condition);
-}
-
-static mr_status
 solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, mr_solve_result *result)
 {
 	static const char *const reads[] = { "base", "control", NULL };
@@ -215,7 +205,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 		MR_TRY(mr_deform_put_basis(ctx, f, &m, d, p));
 	*result = mr_deform_report(ctx, d);
 	if (o->verify)
-		MR_TRY(verify(ctx, f, &rest, d, &task, p, result));
+		MR_TRY(mr_deform_condition(ctx, d, &result->condition));
 	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);
 }
 

@@ -8,8 +8,10 @@ figure() { # name: a number of the last line of stats.json
 agree() { # k, label, options
 	k=$1 label=$2
 	shift 2
-	if mr-solve -k "$k" --tol 1e-10 --verify --stats stats.json "$@" posed.mrs -o /dev/null 2>error; then
-		echo "$model-k$k $label $(figure error) diagonals"
+	if mr-solve -k "$k" --tol 1e-10 --stats stats.json "$@" posed.mrs -o out.mrs 2>error; then
+		mr-solve -k "$k" -s cholesky posed.mrs -o direct.mrs
+		error=$(mr-compare --json -a base -b base direct.mrs <out.mrs | sed -n '$s/.*"hausdorff_relative":\([^,}]*\).*/\1/p')
+		echo "$model-k$k $label $error diagonals"
 		echo "$model k = $k by $label: $(figure free) free, residual $(figure residual), $(figure iterations) iterations, $(figure seconds_solve) s"
 	else
 		echo "$model k = $k by $label: $(cat error)"

@@ -28,10 +28,9 @@ for k in 1 2 3; do
 	# By iteration, which its tolerance limits.
 	for other in cg bicgstab 'bicgstab --unsymmetric' multigrid; do
 		[ $k -lt 3 ] || [ "$other" = multigrid ] || continue
-		mr-solve -k $k -s $other --tol 1e-12 --verify --stats stats.json posed.mrs -o r.mrs
+		mr-solve -k $k -s $other --tol 1e-12 posed.mrs -o r.mrs
 		off r.mrs base >r.off
 		far q.off r.off 1e-6
-		sed 's/.*"error":\([^,}]*\).*/\1/' stats.json | awk '{ print "error", ($1 > 0 && $1 < 1e-6 ? "ok" : "bad") }'
 	done
 
 	# By the basis, which is linear.
@@ -74,10 +73,9 @@ off q.mrs base >q.off
 off r.mrs base >r.off
 far q.off r.off 1e-3 | sed 's/ .*//' # what rounds change
 for other in lu cg multigrid; do
-	mr-solve --arap 4 -s $other --tol 1e-12 --verify --stats stats.json posed.mrs -o r.mrs
+	mr-solve --arap 4 -s $other --tol 1e-12 posed.mrs -o r.mrs
 	off r.mrs base >r.off
 	far q.off r.off 1e-6
-	sed 's/.*"error":\([^,}]*\).*/\1/' stats.json | awk '{ print "error", ($1 > 0 && $1 < 1e-6 ? "ok" : "bad") }'
 done
 mr-solve --arap 5 posed.mrs -o q.mrs
 off q.mrs base >q.off

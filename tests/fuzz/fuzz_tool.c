@@ -115,7 +115,7 @@ solve(const job *j)
 static mr_status
 decode(const job *j)
 {
-	return mr_decode_frame(j->ctx, j->f, NULL, j->cache, NULL);
+	return mr_decode_frame(j->ctx, j->f, NULL, j->cache);
 }
 
 static mr_status

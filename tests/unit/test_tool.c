@@ -74,7 +74,7 @@ test_basis_and_solve_agree(void **state)
 	rest = positions(ctx, a, &n);
 	prepare(ctx, a, false);
 	prepare(ctx, b, true);
-	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL), MR_OK);
 	p = positions(ctx, a, &n);
 	for (size_t i = 0; i < n; i++)
 		most = fmax(
@@ -86,8 +86,8 @@ test_basis_and_solve_agree(void **state)
 	linear.rotations = MR_ROTATIONS_LINEAR;
 	assert_int_equal(mr_solve_frame(ctx, a, &linear, NULL, NULL), MR_OK);
 	assert_int_equal(mr_pose_frame(ctx, b, NULL, 0, &pose), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL, NULL), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, b, NULL, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, a, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, b, NULL, NULL), MR_OK);
 	p = positions(ctx, a, &n);
 	q = positions(ctx, b, &n);
 	most = 0;
@@ -114,10 +114,10 @@ test_other_triangles_are_refused(void **state)
 	assert_non_null(t);
 	memcpy(t, base.t, base.nf * sizeof *t);
 	assert_int_equal(mr_frame_put(ctx, f, "base", "triangles", shape, t, base.nf), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL), MR_OK);
 	t[7] = (mr_tri){ { t[7].v[1], t[7].v[2], t[7].v[0] } };
 	assert_int_equal(mr_frame_put(ctx, f, "base", "triangles", shape, t, base.nf), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL, NULL), MR_EMESH);
+	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL), MR_EMESH);
 	mr_ctx_delete(ctx);
 }
 
@@ -249,7 +249,7 @@ test_options_that_cannot_be(void **state)
 	solve.order = 0;
 	assert_int_equal(mr_solve_frame(ctx, f, &solve, NULL, NULL), MR_EUSAGE);
 	decode.gain = INFINITY;
-	assert_int_equal(mr_decode_frame(ctx, f, &decode, NULL, NULL), MR_EUSAGE);
+	assert_int_equal(mr_decode_frame(ctx, f, &decode, NULL), MR_EUSAGE);
 	render.width = 0;
 	assert_int_equal(mr_render(ctx, f, &render, "no.png"), MR_EUSAGE);
 	make.noise = NAN;
@@ -329,7 +329,7 @@ test_results_agree_with_measures(void **state)
 	assert_int_equal(mr_fit_frame(ctx, f, NULL, &fitted), MR_OK);
 	assert_true(fitted.distance_rms_after < fitted.distance_rms_before);
 	assert_int_equal(mr_sample_frame(ctx, f, NULL, &sampled), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL, NULL), MR_OK);
+	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL), MR_OK);
 	assert_int_equal(mr_layer_mesh(ctx, f, "mesh", &m), MR_OK);
 	assert_int_equal(m.nv, sampled.vertices);
 	mr_ctx_delete(ctx);
