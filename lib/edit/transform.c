@@ -77,27 +77,11 @@ read_numbers(const char *at, double *x, size_t most, size_t *n)
 	}
 }
 
-/* The linear part at about size 1, by a power of two, which rounds nothing. */
-static mr_mat3
-unit_of(const mr_affine *map, int *exponent)
-{
-	mr_mat3 l = mr_affine_linear(map);
-	double largest = 0;
-
-	for (int i = 0; i < 9; i++)
-		largest = fmax(largest, fabs(l.m[i]));
-	frexp(largest, exponent);
-	for (int i = 0; i < 9; i++)
-		l.m[i] = ldexp(l.m[i], -*exponent);
-	return l;
-}
-
 /* Of what has infinities the positions tell. */
 static mr_status
 check_inverse(mr_ctx *ctx, const mr_affine *map)
 {
-	int exponent;
-	mr_mat3 l = unit_of(map, &exponent);
+	mr_mat3 l = mr_affine_linear(map);
 	double det = mr_mat3_determinant(&l);
 
 	if (det == 0 || isinf(1 / det))
@@ -231,22 +215,19 @@ cube_root(double x)
 
 typedef struct change {
 	mr_affine map, back;
-	mr_mat3 unit;   /* L 2^-exponent, of about size 1: its determinant neither vanishes nor is infinite */
-	mr_mat3 normal; /* its inverse, transposed */
-	int exponent;
-	double unit_scale; /* of lengths, by `unit`; 0: it depends on the direction */
-	double scale;      /* the same, by the map */
+	mr_mat3 linear, normal; /* L, L^-T */
+	double scale;           /* of lengths; 0: it depends on the direction */
 	bool mirrors;
 } change;
 
 static mr_affine
-inverse(const mr_affine *t, const mr_mat3 *inverse_transposed, int exponent)
+inverse(const mr_affine *t, const mr_mat3 *inverse_transposed)
 {
 	mr_affine i = mr_identity();
 	mr_v3 shift;
 
 	for (int k = 0; k < 9; k++)
-		i.m[4 * (k % 3) + k / 3] = ldexp(inverse_transposed->m[k], -exponent);
+		i.m[4 * (k % 3) + k / 3] = inverse_transposed->m[k];
 	shift = mr_apply(&i, mr_vec(t->m[3], t->m[7], t->m[11]));
 	i.m[3] = -shift.x;
 	i.m[7] = -shift.y;
@@ -257,15 +238,11 @@ inverse(const mr_affine *t, const mr_mat3 *inverse_transposed, int exponent)
 static change
 change_of(const mr_affine *map)
 {
-	change c = { .map = *map };
-	double det, s, off = 0;
-	mr_mat3 square;
-	const double *m = c.unit.m;
+	change c = { .map = *map, .linear = mr_affine_linear(map) };
+	mr_mat3 square = mr_mat3_multiply_transposed(&c.linear, &c.linear);
+	const double *m = c.linear.m;
+	double det = mr_mat3_determinant(&c.linear), s = cube_root(fabs(det)), off = 0;
 
-	c.unit = unit_of(map, &c.exponent);
-	square = mr_mat3_multiply_transposed(&c.unit, &c.unit);
-	det = mr_mat3_determinant(&c.unit);
-	s = cube_root(fabs(det));
 	c.mirrors = det < 0;
 	for (int i = 0; i < 3; i++)
 		for (int j = 0; j < 3; j++) {
@@ -274,9 +251,8 @@ change_of(const mr_affine *map)
 			                        det;
 			off = fmax(off, fabs(square.m[3 * i + j] - (i == j ? s * s : 0)));
 		}
-	c.back = inverse(map, &c.normal, c.exponent);
-	c.unit_scale = off <= 1e-9 * s * s ? s : 0;
-	c.scale = ldexp(c.unit_scale, c.exponent);
+	c.back = inverse(map, &c.normal);
+	c.scale = off <= 1e-9 * s * s ? s : 0;
 	return c;
 }
 
@@ -395,7 +371,7 @@ map_responses(const change *c, double *r, size_t rows)
 static mr_v3
 map_turn(const change *c, mr_v3 turn)
 {
-	return mr_mul((c->mirrors ? -1 : 1) / c->unit_scale, mr_mat3_apply(&c->unit, turn));
+	return mr_mul((c->mirrors ? -1 : 1) / c->scale, mr_mat3_apply(&c->linear, turn));
 }
 
 /* M T M^-1 = I + L (T - I) M^-1, so that what stays at rest does so to the bit. */
@@ -472,7 +448,7 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 	for (const mr_column *column = f->columns; column < f->columns + f->count; column++) {
 		if ((layer && strcmp(layer, column->layer)) || !wants_alike(sort_of(column)))
 			continue;
-		if (c->unit_scale == 0)
+		if (c->scale == 0)
 			return mr_fail(ctx, MR_EMESH,
 			    "%s: %s cannot be stretched in one direction more than in another: the mesh "
 			    "alone "
@@ -547,7 +523,7 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 		column_sort sort = sort_of(column);
 		if (layer && strcmp(layer, column->layer))
 			continue;
-		if (!(c.unit_scale > 0) && sort == SAMPLES) {
+		if (!(c.scale > 0) && sort == SAMPLES) {
 			char of[MR_LAYER_MAX + 1];
 			memcpy(of, column->layer, sizeof of);
 			mr_frame_drop(f, of, column->name, 0);
