@@ -14,7 +14,6 @@
 #include "remesh/relax.h"
 #include "remesh/sizing.h"
 #include "remesh/split_collapse.h"
-#include "subdivide/longest.h"
 
 enum { GRAIN = 1024 };
 
@@ -442,8 +441,8 @@ report(const remesher *r)
 		.seconds_areas = r->seconds_areas };
 }
 
-static mr_status
-remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
+mr_status
+mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
     mr_remesh_result *result)
 {
 	remesher r = { .ctx = ctx, .o = o };
@@ -466,61 +465,5 @@ remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_
 	if (result)
 		*result = report(&r);
 	*out = mr_dyn_view(&r.d, m->name);
-	return MR_OK;
-}
-
-/*
- * Whether over half of the area is of faces that are over LONG lengths long and under NARROW high: as many as
- * lie side by side on a rod of CAD.  Halved edge by edge, and merged between, they cross: of prisms of 32 to
- * 200 sides, 20 to 1,000 long, at lengths of 1, two in three came out with thousands of crossings or not in
- * minutes.  Of 160 models 9 have so many, none of which is the worse or the better for it.
- */
-static bool
-is_splintered(const mr_mesh *m, double length, double most)
-{
-	const double LONG = 4, NARROW = 0.5;
-	double splinters = 0, all = 0, pieces = 0;
-
-	for (size_t f = 0; f < m->nf; f++) {
-		const uint32_t *v = m->t[f].v;
-		double longest = sqrt(mr_dyn_longest2(m->p[v[0]], m->p[v[1]], m->p[v[2]])),
-		       twice = mr_norm(mr_face_cross(m, f));
-		bool splinter = longest > LONG * length && twice < NARROW * length * longest;
-		all += twice;
-		splinters += splinter ? twice : 0;
-		pieces += 2 * longest / length + twice / square(length);
-	}
-	return splinters > all / 2 && pieces < most;
-}
-
-/* Where places on the pieces are on the whole. */
-static void
-onto_whole(const mr_refined *r, size_t n, mr_places *map)
-{
-	for (size_t v = 0; v < n; v++) {
-		uint32_t *face = (uint32_t *)(uintptr_t)&map->face[v];
-		mr_v3 *at = (mr_v3 *)(uintptr_t)&map->bary[v], b = *at;
-		const mr_v3 *corner = r->bary + 3 * (size_t)*face;
-		*at = mr_axpy(b.x, corner[0], mr_axpy(b.y, corner[1], mr_mul(b.z, corner[2])));
-		*face = r->face[*face];
-	}
-}
-
-mr_status
-mr_remesh(mr_ctx *ctx, const mr_mesh *m, const mr_remesh_opts *o, mr_mesh *out, mr_places *map,
-    mr_remesh_result *result)
-{
-	double length = uniform_length(ctx, m, o);
-	mr_remesh_opts of_pieces = *o;
-	mr_refined pieces;
-
-	if (o->rounds == 0 || !is_splintered(m, length, most_faces(m, o)))
-		return remesh(ctx, m, o, out, map, result);
-	mr_note(ctx, "%s: long narrow faces are divided first", m->name);
-	MR_TRY(mr_divide_longest(ctx, m, length, &pieces));
-	of_pieces.length = length;
-	of_pieces.length_relative = false;
-	MR_TRY(remesh(ctx, &pieces.fine, &of_pieces, out, map, result));
-	onto_whole(&pieces, out->nv, map);
 	return MR_OK;
 }
