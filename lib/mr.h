@@ -542,7 +542,6 @@ typedef struct mr_volume_result {
 	double level, inside;  /* the indicator's value at the surface; share of the nodes */
 	size_t parts_dropped, cavities_filled, levels_alike; /* alike: around it, of the same topology */
 	double euler, euler_beside; /* Euler number; that of a level nearby which is not alike */
-	mr_v3 uncertain;            /* about where they differ */
 	double seconds_planes, seconds_flood, seconds_indicator, seconds_level, seconds_isosurface;
 } mr_volume_result;
 

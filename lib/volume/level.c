@@ -10,7 +10,7 @@
 
 #include <stdlib.h>
 
-enum { LEVELS = MR_VOLUME_LEVELS, MIDDLE = LEVELS / 2, LASTING = 3, BLOCK = 16 /* nodes a side */ };
+enum { LEVELS = MR_VOLUME_LEVELS, MIDDLE = LEVELS / 2, LASTING = 3 };
 
 /*
  * From the level that is wanted to the first or the last one, as a share of what the indicator rises to.  Of
@@ -29,16 +29,9 @@ typedef struct leveling {
 	float offset;     /* of a level from that */
 	mr_filled at;     /* what is inside at it, cleaned */
 	mr_cleaning *c;   /* what that left out */
-	size_t n[3];      /* blocks */
 	int8_t part[256]; /* of each cube */
-	int64_t *sum;     /* of each: what it has of half the Euler number */
+	int64_t *sum;     /* of each layer of cubes: what it has of half the Euler number */
 } leveling;
-
-static size_t
-blocks_of(const leveling *l)
-{
-	return l->n[0] * l->n[1] * l->n[2];
-}
 
 /*
  * What a cube has of half the Euler number, by which of its corners, x + 2 y + 4 z, are inside: its lowest
@@ -68,9 +61,10 @@ next_of(const uint64_t *row, size_t w, size_t words)
 }
 
 /* Cubes have parts where not all corners are alike. */
-static void
-count_row(const leveling *l, size_t y, size_t z, int64_t *sum)
+static int64_t
+count_row(const leveling *l, size_t y, size_t z)
 {
+	int64_t sum = 0;
 	size_t words = l->at.words;
 
 	for (size_t w = 0; w < words; w++) {
@@ -86,19 +80,22 @@ count_row(const leveling *l, size_t y, size_t z, int64_t *sum)
 			unsigned x = (unsigned)__builtin_ctzll(left), inside = 0;
 			for (unsigned c = 0; c < 8; c++)
 				inside |= (unsigned)(corner[c] >> x & 1) << c;
-			sum[(64 * w + x) / BLOCK] += l->part[inside];
+			sum += l->part[inside];
 		}
 	}
+	return sum;
 }
 
 static void
-count_blocks(void *arg, size_t begin, size_t end)
+count_layers(void *arg, size_t begin, size_t end)
 {
 	const leveling *l = arg;
 
-	for (size_t z = begin * BLOCK; z < end * BLOCK && z + 1 < l->g->n[2]; z++)
+	for (size_t z = begin; z < end; z++) {
+		l->sum[z] = 0;
 		for (size_t y = 0; y + 1 < l->g->n[1]; y++)
-			count_row(l, y, z, l->sum + (z / BLOCK * l->n[1] + y / BLOCK) * l->n[0]);
+			l->sum[z] += count_row(l, y, z);
+	}
 }
 
 /* The Euler number of the surface: twice that of the body. */
@@ -107,10 +104,9 @@ count_euler(mr_ctx *ctx, leveling *l)
 {
 	int64_t sum = 0;
 
-	memset(l->sum, 0, blocks_of(l) * sizeof *l->sum);
-	mr_parallel(ctx, l->n[2], 1, count_blocks, l);
-	for (size_t i = 0; i < blocks_of(l); i++)
-		sum += l->sum[i];
+	mr_parallel(ctx, l->g->n[2] - 1, 1, count_layers, l);
+	for (size_t z = 0; z + 1 < l->g->n[2]; z++)
+		sum += l->sum[z];
 	return 2 * sum;
 }
 
@@ -210,87 +206,22 @@ lasting_run(const int64_t *euler)
 	return best;
 }
 
-/* What half the Euler number rises by where the node comes inside after all lower ones. */
+/* The level beside the run, towards the middle or over it. */
 static int
-change_at(const leveling *l, const size_t at[3])
-{
-	const size_t *n = l->g->n, i = mr_grid_index(l->g, at[0], at[1], at[2]);
-	int change = 0;
-
-	for (unsigned own = 0; own < 8; own++) {
-		unsigned lower = 0;
-		for (unsigned c = 0; c < 8; c++) {
-			size_t j = i + (c & 1) + (c >> 1 & 1) * n[0] + (c >> 2) * n[0] * n[1] -
-			           ((own & 1) + (own >> 1 & 1) * n[0] + (own >> 2) * n[0] * n[1]);
-			lower |= (unsigned)(l->f[j] < l->f[i]) << c;
-		}
-		change += l->part[lower | 1u << own] - l->part[lower];
-	}
-	return change;
-}
-
-/* A node of the block where the number rises (sign 1) or falls (-1) between the levels; else its middle. */
-static mr_v3
-place_in(const leveling *l, const size_t block[3], double low, double high, int sign)
-{
-	size_t at[3], end[3];
-
-	for (int k = 0; k < 3; k++)
-		end[k] = (block[k] + 1) * BLOCK < l->g->n[k] - 1 ? (block[k] + 1) * BLOCK : l->g->n[k] - 1;
-	for (at[2] = block[2] * BLOCK; at[2] < end[2]; at[2]++)
-		for (at[1] = block[1] * BLOCK; at[1] < end[1]; at[1]++)
-			for (at[0] = block[0] * BLOCK; at[0] < end[0]; at[0]++) {
-				double f = (double)l->f[mr_grid_index(l->g, at[0], at[1], at[2])];
-				if (f >= low && f < high && !on_face(l->g, at[0], at[1], at[2]) &&
-				    sign * change_at(l, at) > 0)
-					return mr_grid_place(l->g, at[0], at[1], at[2]);
-			}
-	return mr_grid_place(
-	    l->g, block[0] * BLOCK + BLOCK / 2, block[1] * BLOCK + BLOCK / 2, block[2] * BLOCK + BLOCK / 2);
-}
-
-/* Where the number changes, in the block that changes most. */
-static mr_v3
-place_of_change(const leveling *l, const int64_t *before, int from, int to)
-{
-	size_t most = 0, block[3];
-	double low = offset_of(l, from < to ? from : to), high = offset_of(l, from < to ? to : from);
-
-	for (size_t i = 0; i < blocks_of(l); i++)
-		if (llabs(l->sum[i] - before[i]) > llabs(l->sum[most] - before[most]))
-			most = i;
-	block[0] = most % l->n[0];
-	block[1] = most / l->n[0] % l->n[1];
-	block[2] = most / l->n[0] / l->n[1];
-	return place_in(l, block, low, high, (l->sum[most] > before[most]) == (to > from) ? 1 : -1);
-}
-
-/* How the level beside the run differs, towards the middle or over it. */
-static mr_status
-look_beside(mr_ctx *ctx, leveling *l, run r, mr_volume_result *result)
+beside(run r)
 {
 	bool below = r.last == LEVELS - 1 || (r.first > 0 && r.first + r.last > 2 * MIDDLE);
-	int from = below ? r.first : r.last, to = below ? r.first - 1 : r.last + 1;
-	int64_t *sum = MR_NEW(ctx, blocks_of(l), int64_t), euler;
 
-	MR_TRY(try_level(ctx, l, from, &euler));
-	memcpy(sum, l->sum, blocks_of(l) * sizeof *sum);
-	MR_TRY(try_level(ctx, l, to, &euler));
-	result->euler_beside = (double)euler;
-	result->uncertain = place_of_change(l, sum, from, to);
-	return MR_OK;
+	return below ? r.first - 1 : r.last + 1;
 }
 
-static mr_status
+static void
 begin(mr_ctx *ctx, leveling *l)
 {
-	for (int k = 0; k < 3; k++)
-		l->n[k] = (l->g->n[k] + BLOCK - 1) / BLOCK;
 	for (unsigned inside = 0; inside < 256; inside++)
 		l->part[inside] = (int8_t)cube_part(inside);
-	l->sum = MR_NEW(ctx, blocks_of(l), int64_t);
+	l->sum = MR_NEW(ctx, l->g->n[2] - 1, int64_t);
 	mr_filled_new(ctx, l->g, &l->at);
-	return MR_OK;
 }
 
 mr_status
@@ -302,14 +233,14 @@ mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double 
 	int64_t euler[LEVELS];
 	run r;
 
-	MR_TRY(begin(ctx, &l));
+	begin(ctx, &l);
 	for (int i = 0; i < LEVELS; i++)
 		MR_TRY(try_level(ctx, &l, i, &euler[i]));
 	r = lasting_run(euler);
 	result->levels_alike = (size_t)(r.last - r.first) + 1;
 	result->euler = (double)euler[r.first];
 	if (result->levels_alike < LEVELS)
-		MR_TRY(look_beside(ctx, &l, r, result));
+		result->euler_beside = (double)euler[beside(r)];
 	MR_TRY(try_level(ctx, &l, nearest_of(r), &euler[r.first]));
 	take_level(&l, f);
 	mr_mark_release(ctx, mark);

@@ -159,7 +159,7 @@ mr_status mr_volume_clean(mr_ctx *ctx, const mr_volume_cloud *s, mr_filled *in, 
 /*
  * Moves f, negative inside, to the level whose topology lasts, and cleans it.  rise: of the indicator across
  * the surface, the unit of f.  Fills the result's euler, levels_alike and, where these are not all,
- * euler_beside and uncertain.
+ * euler_beside.
  */
 mr_status mr_volume_level(mr_ctx *ctx, const mr_volume_cloud *s, const mr_grid *g, double rise, float *f,
     mr_cleaning *c, mr_volume_result *result);

@@ -156,7 +156,7 @@ report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		report_uncertain(ctx, ": so few points hide handles", NULL);
 	else if (c->found.method == MR_WRAP_VOLUME && v->levels_alike < MR_VOLUME_LEVELS)
 		report_uncertain(
-		    ctx, mr_format(ctx, ": Euler number %g or %g", v->euler, v->euler_beside), &v->uncertain);
+		    ctx, mr_format(ctx, ": Euler number %g or %g", v->euler, v->euler_beside), NULL);
 	else if (l->doubtful > 0)
 		report_uncertain(ctx,
 		    mr_format(ctx, ": an opening %.3g sampling distances wide is %s, and may not be meant so",
