@@ -103,32 +103,22 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 
-/* Whether sharp edges are looked for; where they are to be but cannot, MR_EMISSING. */
-static mr_status
-wants_creases(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, const mr_simplify_opts *o, bool *wanted)
-{
-	bool can = !o->to && !strcmp(m->name, "control") && points->nv > 0;
-
-	*wanted = can && !o->smooth;
-	if (o->creases && !can)
-		return mr_fail(ctx, MR_EMISSING,
-		    "%s: sharp edges are kept of layer control by layer points, and one of them is not there",
-		    m->name);
-	return MR_OK;
-}
-
-/* The usual spacing of points that show sharp edges; 0: none are to be kept. */
+/* The usual spacing of points that show sharp edges; 0: none are to be kept.  MR_EMISSING where they are to
+ * be but cannot. */
 static mr_status
 crease_width(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *points, const mr_simplify_opts *o,
     double *width)
 {
 	const double noisy = 0.1; /* spacings: clean clouds have up to 0.08 */
+	bool can = !o->to && !strcmp(m->name, "control") && points->nv > 0;
 	mr_sampling s;
-	bool wanted;
 
 	*width = 0;
-	MR_TRY(wants_creases(ctx, m, points, o, &wanted));
-	if (!wanted)
+	if (o->creases && !can)
+		return mr_fail(ctx, MR_EMISSING,
+		    "%s: sharp edges are kept of layer control by layer points, and one of them is not there",
+		    m->name);
+	if (!can || o->smooth)
 		return MR_OK;
 	MR_TRY(mr_sampling_of(ctx, f, points, &s));
 	if (s.noise < noisy * s.usual)

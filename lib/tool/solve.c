@@ -117,14 +117,6 @@ read_rest(mr_ctx *ctx, mr_frame *f, bool posing, mr_mesh *rest, const char **col
 	return MR_OK;
 }
 
-/* What poses a frame is used up by that. */
-static void
-drop_used(mr_frame *f, const char *layer)
-{
-	mr_handles_drop(f);
-	mr_frame_drop(f, layer, "target", 0);
-}
-
 static mr_status
 check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 {
@@ -197,8 +189,10 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 	MR_TRY(keep_encoded(ctx, f, &m, posing));
 	if (posing)
 		MR_TRY(mr_detail_keep_before(ctx, f, &m));
-	if (posing)
-		drop_used(f, layer);
+	if (posing) { /* what poses a frame is used up by that */
+		mr_handles_drop(f);
+		mr_frame_drop(f, layer, "target", 0);
+	}
 	if (posing || o->flatten)
 		MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
 	if (o->basis)
