@@ -8,7 +8,8 @@ cpu() { # command line: its median
 }
 times_of() {
 	"$@" >out.mrs 2>err
-	times | sed -n 2p | sed 's/[ms]/ /g' | awk '{ print 60 * $1 + $2 + 60 * $3 + $4 }'
+	times >spent # in a pipe it would be of another shell
+	sed -n '2s/[ms]/ /gp' spent | awk '{ print 60 * $1 + $2 + 60 * $3 + $4 }'
 }
 compare() { # case, command line
 	case=$1
