@@ -17,7 +17,7 @@ compare() { # case, command line
 	doing=$(cpu "$@" -q)
 	both=$(cpu "$@")
 	echo "$case-doing mr $doing s"
-	echo "$case-judging mr $(echo "$both $doing" | awk '{ print $1 > $2 ? $1 - $2 : 0 }') s"
+	echo "$case-judging mr $(echo "$both $doing" | awk '{ print ($1 - $2) }') s"
 	echo "$case-share mr $(echo "$both $doing" | awk '{ print ($1 - $2) / $2 }') of-doing"
 }
 for file in ${MODELS:-stanford-bunny.obj.gz nefertiti.obj.gz igea.ply.gz}; do
