@@ -88,7 +88,12 @@ say_of_frame(cmd *c, const char *sentence)
 static void
 say_failure(cmd *c)
 {
-	say_of_frame(c, *c->ctx.error ? c->ctx.error : c->keep.error);
+	const mr_ctx *ctx = *c->ctx.error ? &c->ctx : &c->keep;
+	const char *remedy = findings_remedy(ctx->remedy);
+	char text[2 * MR_ERROR_MAX];
+
+	snprintf(text, sizeof text, "%s%s%s", ctx->error, remedy ? ": " : "", remedy ? remedy : "");
+	say_of_frame(c, text);
 }
 
 static _Noreturn void

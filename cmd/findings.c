@@ -73,6 +73,43 @@ static const entry table[MR_FINDING_KINDS] = {
 	    "Another layer than the latest is taken." },
 };
 
+/* What is said behind the sentence of a failure. */
+static const char *const remedies[MR_REMEDIES] = {
+	[MR_REPAIR] = "mr-import --repair mends that",
+	[MR_RESCALE] = "mr-transform --unit brings it to 1",
+	[MR_SELECT] = "mr-select makes them",
+	[MR_SELECT_FREE] = "mr-select --free selects some",
+	[MR_SELECT_HANDLE] = "mr-select --handle selects one",
+	[MR_ENCODE] = "mr-encode makes detail, and mr-sample a displacement",
+	[MR_ENCODE_AGAIN] = "mr-encode comes behind what changes them",
+	[MR_SOLVE_FIRST] = "mr-solve goes before this",
+	[MR_DECODE_FIRST] = "mr-decode goes before this, or -l names a layer to take as it is",
+	[MR_SOLVE_DECODE_FIRST] =
+	    "mr-solve | mr-decode goes before this, or -l names a layer to take as it is",
+	[MR_DECODE_CONTROL_FIRST] =
+	    "mr-decode --from control goes before this, or -l names a layer to take as it is",
+	[MR_RESPOND] = "mr-solve poses it, or makes it by --basis before mr-pose",
+	[MR_LESS_MEMORY] = "-s multigrid takes less memory, and mr-solve-mpi divides it among processes",
+	[MR_LOWER_ORDER] = "a lower -k may have a solution in doubles",
+	[MR_SOLVE_DIRECTLY] = "-s cholesky may solve it",
+	[MR_THIN_OUT] = "mr-split parts those of several bodies, mr-crop --keep spaced: thins those of one",
+	[MR_NAME_LAYER] = "-l names the one to take",
+	[MR_IMPORT] = "mr-import makes a stream of a model's file",
+	[MR_SCRATCH] = "--scratch takes what is large to a disk",
+	[MR_MAKE_MESH] = "mr-import reads mesh of a model with faces",
+	[MR_MAKE_POINTS] = "mr-import reads points of a cloud, and by --points of any model",
+	[MR_MAKE_BASE] = "mr-smooth or mr-remesh makes base of mesh",
+	[MR_MAKE_CONTROL] = "mr-shrinkwrap makes control of points, mr-simplify --to control of mesh",
+	[MR_MAKE_DISPLACEMENT] = "mr-sample makes displacement",
+	[MR_MAKE_HANDLES] = "mr-pose makes handles",
+};
+
+const char *
+findings_remedy(mr_remedy remedy)
+{
+	return remedies[remedy];
+}
+
 void
 findings_add(findings *all, const mr_kept_finding *k)
 {

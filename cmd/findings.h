@@ -56,4 +56,7 @@ void findings_count(mr_text *line, const findings *found);
 verdict findings_verdict(const findings *all, const char **why);
 const char *verdict_name(verdict v);
 
+/* What helps, behind the sentence of a failure; NULL: nothing that is known. */
+const char *findings_remedy(mr_remedy remedy);
+
 #endif

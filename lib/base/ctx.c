@@ -95,13 +95,16 @@ mr_status(mr_fail)(mr_ctx *ctx, mr_status status, const char *format, ...)
 	va_start(args, format);
 	vsnprintf(ctx->error, sizeof ctx->error, format, args);
 	va_end(args);
+	ctx->remedy = MR_NO_REMEDY;
 	return status;
 }
 
 mr_status
 mr_fail_as(mr_ctx *ctx, const mr_ctx *other, mr_status status)
 {
-	return status < 0 && other != ctx ? mr_fail(ctx, status, "%s", other->error) : status;
+	return status < 0 && other != ctx
+	           ? mr_advise(ctx, other->remedy, mr_fail(ctx, status, "%s", other->error))
+	           : status;
 }
 
 mr_status

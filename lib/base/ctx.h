@@ -45,6 +45,37 @@ _Static_assert(sizeof(size_t) == 8, "mr is for machines of 64 bits: sizes of col
 
 enum { MR_ERROR_MAX = 512 };
 
+/* What helps where something failed.  The words, which name tools and options, are the command's. */
+typedef enum mr_remedy {
+	MR_NO_REMEDY,
+	MR_REPAIR,
+	MR_RESCALE,
+	MR_SELECT,
+	MR_SELECT_FREE,
+	MR_SELECT_HANDLE,
+	MR_ENCODE,
+	MR_ENCODE_AGAIN,
+	MR_SOLVE_FIRST,
+	MR_DECODE_FIRST,
+	MR_SOLVE_DECODE_FIRST,
+	MR_DECODE_CONTROL_FIRST,
+	MR_RESPOND,
+	MR_LESS_MEMORY,
+	MR_LOWER_ORDER,
+	MR_SOLVE_DIRECTLY,
+	MR_THIN_OUT,
+	MR_NAME_LAYER,
+	MR_IMPORT,
+	MR_SCRATCH,
+	MR_MAKE_MESH, /* the layers of the table in mesh/layers.c, in its order */
+	MR_MAKE_POINTS,
+	MR_MAKE_BASE,
+	MR_MAKE_CONTROL,
+	MR_MAKE_DISPLACEMENT,
+	MR_MAKE_HANDLES,
+	MR_REMEDIES
+} mr_remedy;
+
 typedef struct mr_block mr_block; /* a piece of the arena: ctx.c */
 typedef struct mr_owned mr_owned; /* what the arena holds beside memory: ctx.c */
 typedef struct mr_entry mr_entry;
@@ -61,6 +92,7 @@ struct mr_ctx {
 	const char *scratch;      /* folder for what is large, memory.h; NULL: none */
 	uint64_t fail_at;         /* tests: the allocation that fails, 1 the next; 0 none */
 	char error[MR_ERROR_MAX]; /* the sentence of the last failure */
+	mr_remedy remedy;         /* against it */
 	mr_block *top;            /* newest block of the arena */
 	mr_block *spare;          /* a released block for the next that is wanted; NULL: none */
 	uint64_t blocks;          /* how many the arena ever had */
@@ -114,6 +146,14 @@ void mr_ctx_free(mr_ctx *ctx);
 
 /* Stores the sentence and returns `status`, for `return mr_fail(...)`. */
 mr_status mr_fail(mr_ctx *ctx, mr_status status, const char *format, ...) MR_PRINTF(3, 4);
+
+/* Behind mr_fail: what helps.  Returns `status`. */
+static inline mr_status
+mr_advise(mr_ctx *ctx, mr_remedy remedy, mr_status status)
+{
+	ctx->remedy = remedy;
+	return status;
+}
 
 /* Puts "text: " before the sentence of the last failure and returns `status` unchanged; good ones pass. */
 mr_status mr_prefix(mr_ctx *ctx, mr_status status, const char *format, ...) MR_PRINTF(3, 4);

@@ -159,8 +159,8 @@ mr_no_memory(mr_ctx *ctx, const char *what, double bytes)
 {
 	if (ctx->scratch && errno != ENOMEM)
 		return mr_fail(ctx, MR_EMEM, "no room for %s in %s: %s", what, ctx->scratch, strerror(errno));
-	return mr_fail(ctx, MR_EMEM, "no memory for %s%s", what,
-	    !ctx->scratch && bytes > LARGE ? ": --scratch takes what is large to a disk" : "");
+	return mr_advise(ctx, !ctx->scratch && bytes > LARGE ? MR_SCRATCH : MR_NO_REMEDY,
+	    mr_fail(ctx, MR_EMEM, "no memory for %s", what));
 }
 
 void

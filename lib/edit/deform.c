@@ -43,8 +43,8 @@ count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
 		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
 	if (free == 0 && d->handled == 0)
-		return mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu: select some by mr-select --free",
-		    rest->name, d->nv);
+		return mr_advise(ctx, MR_SELECT_FREE,
+		    mr_fail(ctx, MR_EMESH, "%s: no free vertex among %zu", rest->name, d->nv));
 	if (free == d->nv)
 		return mr_fail(ctx, MR_EMESH,
 		    "%s: all %zu vertices are free: nothing holds the surface; select some as fixed or "

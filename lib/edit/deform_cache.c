@@ -55,8 +55,8 @@ mr_deform_put_basis(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, mr_deform *d, co
 	double *response;
 
 	if (handles == 0)
-		return mr_fail(
-		    ctx, MR_EMESH, "%s: no handle to respond to: select one by mr-select --handle", m->name);
+		return mr_advise(
+		    ctx, MR_SELECT_HANDLE, mr_fail(ctx, MR_EMESH, "%s: no handle to respond to", m->name));
 	if (handles > MOST)
 		return mr_fail(ctx, MR_ERANGE, "%s: %zu handles are more than a response holds, %d", m->name,
 		    handles, MOST);

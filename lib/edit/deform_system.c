@@ -121,15 +121,14 @@ say_why(mr_ctx *ctx, const mr_deform_system *s, mr_status status)
 	bool iterates = mr_solver_iterates(s->opts.solver.kind);
 
 	if (status == MR_ERANGE && !iterates)
-		return mr_prefix(ctx, status,
-		    "%s: multigrid takes less memory than this, and mr-solve-mpi divides it among processes",
-		    s->patch.mesh.name);
+		return mr_advise(ctx, MR_LESS_MEMORY, mr_prefix(ctx, status, "%s", s->patch.mesh.name));
 	if (status == MR_ENUMERIC)
-		return mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices%s",
-		    s->patch.mesh.name, s->opts.order, s->patch.end[0],
-		    iterates ? " has no preconditioner of this kind in doubles (-s cholesky may solve it)"
-		    : s->opts.order > 1 ? " has no solution in doubles (a lower -k may have)"
-					: "");
+		return mr_advise(ctx,
+		    iterates            ? MR_SOLVE_DIRECTLY
+		    : s->opts.order > 1 ? MR_LOWER_ORDER
+					: MR_NO_REMEDY,
+		    mr_prefix(ctx, status, "%s: the system of order %zu with %zu free vertices",
+			s->patch.mesh.name, s->opts.order, s->patch.end[0]));
 	return status;
 }
 

@@ -486,7 +486,7 @@ mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 	size_t n;
 
 	if (!mr_layer_has(f, "mesh", "detail_height"))
-		return mr_fail(ctx, MR_EMISSING, "mesh has no detail: it comes from mr-encode");
+		return mr_advise(ctx, MR_ENCODE, mr_fail(ctx, MR_EMISSING, "mesh has no detail"));
 	MR_TRY(mr_layer_get(ctx, f, "mesh", "detail_height", &height, &n));
 	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_face", n, &face));
 	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_bary", n, &bary));
@@ -523,12 +523,11 @@ mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base)
 		return MR_OK;
 	MR_TRY(mr_layer_get_rows(ctx, f, base->name, "encoded_faces", 1, &known));
 	print_faces(base, print);
-	return memcmp(known, print, sizeof print) ? mr_fail(ctx, MR_EMESH,
-							"%s has other triangles than those over which mesh "
-							"was encoded: mr-encode comes after what "
-							"changes them",
-							base->name)
-	                                          : MR_OK;
+	if (!memcmp(known, print, sizeof print))
+		return MR_OK;
+	return mr_advise(ctx, MR_ENCODE_AGAIN,
+	    mr_fail(
+		ctx, MR_EMESH, "%s has other triangles than those over which mesh was encoded", base->name));
 }
 
 mr_status

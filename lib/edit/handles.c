@@ -168,7 +168,7 @@ mr_handles_of_frame(mr_ctx *ctx, mr_frame *f, const char *layer, mr_handles *h)
 	if (!layer)
 		layer = mr_layer_has(f, "mesh", "region") ? "mesh" : "control";
 	if (!mr_layer_has(f, layer, "region"))
-		return mr_fail(ctx, MR_EMISSING, "no regions: they come from mr-select");
+		return mr_advise(ctx, MR_SELECT, mr_fail(ctx, MR_EMISSING, "no regions"));
 	MR_TRY(mr_layer_points(ctx, f, layer, &m));
 	MR_TRY(mr_layer_region(ctx, f, layer, m.nv, &region));
 	return mr_handles_find(ctx, &m, region, h);

@@ -65,10 +65,8 @@ mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 	if (!mr_layer_has(f, "handles", "transform"))
 		return MR_OK;
 	if (!column)
-		return mr_fail(ctx, MR_EMISSING,
-		    "handles, but no %s.response: pose %s by mr-solve, or give it its response by mr-solve "
-		    "--basis before mr-pose",
-		    m->name, m->name);
+		return mr_advise(
+		    ctx, MR_RESPOND, mr_fail(ctx, MR_EMISSING, "handles, but no %s.response", m->name));
 	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
 	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &row));
 	if (column->shape.components != 4 * row.n)

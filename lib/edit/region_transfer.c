@@ -94,11 +94,10 @@ mr_transfer_applies(const mr_frame *f, const char *layer)
 mr_status
 mr_transfer_missing(mr_ctx *ctx, const mr_frame *f, const char *layer)
 {
-	if (strcmp(layer, "base") && mr_layer_has(f, "mesh", "region"))
-		return mr_fail(ctx, MR_EMISSING,
-		    "%s has no regions, though mesh has: mr-select -l %s selects those of %s", layer, layer,
-		    layer);
-	return mr_fail(ctx, MR_EMISSING, "%s has no regions: select some by mr-select", layer);
+	bool mesh_has = strcmp(layer, "base") && mr_layer_has(f, "mesh", "region");
+
+	return mr_advise(ctx, MR_SELECT,
+	    mr_fail(ctx, MR_EMISSING, "%s has no regions%s", layer, mesh_has ? ", though mesh has" : ""));
 }
 
 mr_status

@@ -56,7 +56,7 @@ const mr_column_info mr_columns[] = {
 	{ "base", "target", { 'v', 'd', 3 }, MR_OWN, NULL, "free positions of constrained vertices" },
 	{ "base", "response", { 'v', 'd', 0 }, MR_OWN, NULL,
 	    "what each handle's affine map does, 4 a handle" },
-	{ "control", "encoded", { 'v', 'd', 3 }, MR_OWN, NULL, "positions before mr-solve moved it" },
+	{ "control", "encoded", { 'v', 'd', 3 }, MR_OWN, NULL, "positions before it was moved" },
 	{ "control", "crease", { 'f', 'b', 3 }, MR_OWN, NULL,
 	    "1 where the edge from that corner on is sharp, else 0" },
 	{ "control", "rest", { 'v', 'd', 3 }, MR_OWN, NULL, "positions on which the system is assembled" },

@@ -59,29 +59,30 @@ put_lines(mr_ctx *ctx, mr_frame *f, const char *column, mr_text *lines)
 	return MR_OK;
 }
 
-/* The tools that are missing where what was done to a layer shows in no surface yet, with what that is; else
- * NULL. */
-static const char *
+/* What is to be done where what was done to a layer shows in no surface yet, with what that is. */
+static mr_remedy
 missing_tools(const mr_frame *f, const char *layer, const char **what)
 {
 	bool detail = mr_layer_has(f, "mesh", "detail_face"), heights = mr_frame_has_layer(f, "displacement");
 	bool response = mr_layer_has(f, "base", "response") || mr_layer_has(f, "control", "response");
 
 	if (!mr_frame_has_layer(f, layer))
-		return NULL;
+		return MR_NO_REMEDY;
 	if (!strcmp(layer, "handles") && mr_layer_has(f, "handles", "transform")) {
 		*what = "handles are posed, and nothing has followed them";
-		return response ? "mr-decode" : detail || heights ? "mr-solve | mr-decode" : "mr-solve";
+		return response            ? MR_DECODE_FIRST
+		       : detail || heights ? MR_SOLVE_DECODE_FIRST
+		                           : MR_SOLVE_FIRST;
 	}
 	if (!strcmp(layer, "base") && detail) {
 		*what = "base has moved, and mesh has not followed it";
-		return "mr-decode";
+		return MR_DECODE_FIRST;
 	}
 	if (!strcmp(layer, "displacement") || (!strcmp(layer, "control") && heights)) {
 		*what = "the heights over control are no surface yet";
-		return detail ? "mr-decode --from control" : "mr-decode";
+		return detail ? MR_DECODE_CONTROL_FIRST : MR_DECODE_FIRST;
 	}
-	return NULL;
+	return MR_NO_REMEDY;
 }
 
 /* Layers that another one is to follow. */
@@ -259,9 +260,8 @@ mr_layer_finished(mr_ctx *ctx, mr_frame *f)
 	MR_TRY(find_pending(ctx, f, pending));
 	for (int i = 0; i < LEADING; i++)
 		if (pending[i]) {
-			const char *tools = missing_tools(f, leading[i], &what);
-			return mr_fail(ctx, MR_EMISSING,
-			    "%s: %s goes before this, or -l names a layer to take as it is", what, tools);
+			mr_remedy remedy = missing_tools(f, leading[i], &what);
+			return mr_advise(ctx, remedy, mr_fail(ctx, MR_EMISSING, "%s", what));
 		}
 	return MR_OK;
 }
@@ -291,10 +291,10 @@ mr_layer_result(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer)
 		MR_TRY(find_latest(ctx, f, latest));
 	}
 	if (latest[1])
-		return mr_fail(ctx, MR_EMISSING,
-		    "%s and %s were each worked on last, in frames that were merged: -l names the one to "
-		    "take",
-		    latest[0], latest[1]);
+		return mr_advise(ctx, MR_NAME_LAYER,
+		    mr_fail(ctx, MR_EMISSING,
+			"%s and %s were each worked on last, in frames that were merged", latest[0],
+			latest[1]));
 	return mr_layer_choose(ctx, f, only ? only : latest[0], layers, layer);
 }
 

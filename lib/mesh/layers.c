@@ -118,17 +118,8 @@ check_indices(mr_ctx *ctx, const mr_mesh *m)
 	return MR_OK;
 }
 
-/* Which tools make a layer. */
-static const struct {
-	const char *layer, *how;
-} makers[] = {
-	{ "mesh", "mr-import reads mesh of a model with faces" },
-	{ "points", "mr-import reads points of a cloud, and by --points of any model" },
-	{ "base", "mr-smooth or mr-remesh makes base of mesh" },
-	{ "control", "mr-shrinkwrap makes control of points, mr-simplify --to control of mesh" },
-	{ "displacement", "mr-sample makes displacement" },
-	{ "handles", "mr-pose makes handles" },
-};
+/* In the order of what makes them: MR_MAKE_MESH and on. */
+static const char *const made[] = { "mesh", "points", "base", "control", "displacement", "handles" };
 
 static bool
 is_first_of_layer(const mr_frame *f, size_t i)
@@ -157,14 +148,15 @@ mr_layer_names(mr_ctx *ctx, const mr_frame *f, const char *except, const char **
 /* In brackets: for make lint there is a macro of this name. */
 mr_status(mr_layer_missing)(mr_ctx *ctx, const mr_frame *f, const char *names, const char *layer)
 {
-	const char *there, *how = "";
+	const char *there;
+	mr_remedy how = MR_NO_REMEDY;
 
-	for (size_t i = 0; i < sizeof makers / sizeof *makers; i++)
-		if (!strcmp(makers[i].layer, layer))
-			how = makers[i].how;
+	for (size_t i = 0; i < sizeof made / sizeof *made; i++)
+		if (!strcmp(made[i], layer))
+			how = (mr_remedy)(MR_MAKE_MESH + i);
 	mr_layer_names(ctx, f, NULL, &there);
-	return mr_fail(ctx, MR_EMISSING, "no layer %s%s%s; the frame has %s", names, *how ? ": " : "", how,
-	    *there ? there : "none");
+	return mr_advise(ctx, how,
+	    mr_fail(ctx, MR_EMISSING, "no layer %s; the frame has %s", names, *there ? there : "none"));
 }
 
 /* Up to here, and down to its inverse, every tool gives the same bits at every power of two; at 1e57 wraps
@@ -184,10 +176,10 @@ check_size(mr_ctx *ctx, const mr_mesh *m)
 	}
 	if (most == 0 || (most >= 1 / LARGEST && most <= LARGEST))
 		return MR_OK;
-	return mr_fail(ctx, MR_ERANGE,
-	    "%s: the largest coordinate is %.3g, and only %g to %g can be computed with: mr-transform --unit "
-	    "brings it to 1",
-	    m->name, most, 1 / LARGEST, LARGEST);
+	return mr_advise(ctx, MR_RESCALE,
+	    mr_fail(ctx, MR_ERANGE,
+		"%s: the largest coordinate is %.3g, and only %g to %g can be computed with", m->name, most,
+		1 / LARGEST, LARGEST));
 }
 
 /* What `get` gives, where it is of a size that can be computed with. */

@@ -57,9 +57,9 @@ check_corners(mr_ctx *ctx, const mr_mesh *m)
 	for (size_t f = 0; f < m->nf; f++) {
 		const uint32_t *v = m->t[f].v;
 		if (mr_face_repeats(m, f))
-			return mr_fail(ctx, MR_EMESH,
-			    "%s: face %zu (%u %u %u) has a vertex twice: mr-import --repair drops it",
-			    m->name, f, v[0], v[1], v[2]);
+			return mr_advise(ctx, MR_REPAIR,
+			    mr_fail(ctx, MR_EMESH, "%s: face %zu (%u %u %u) has a vertex twice", m->name, f,
+				v[0], v[1], v[2]));
 	}
 	return MR_OK;
 }
@@ -73,14 +73,13 @@ match_twins(mr_ctx *ctx, const mr_mesh *m, const spokes *s, uint32_t *twin)
 		uint32_t same = spokes_find(s, a, b, &along), opposite = spokes_find(s, b, a, &against);
 
 		if (same + opposite > 2)
-			return mr_fail(ctx, MR_EMESH,
-			    "%s: edge %u-%u has %u faces: mr-import --repair splits it", m->name, a, b,
-			    same + opposite);
+			return mr_advise(ctx, MR_REPAIR,
+			    mr_fail(ctx, MR_EMESH, "%s: edge %u-%u has %u faces", m->name, a, b,
+				same + opposite));
 		if (same > 1)
-			return mr_fail(ctx, MR_EMESH,
-			    "%s: the two faces at edge %u-%u have opposite orientations: mr-import --repair "
-			    "turns them, and slits what has one side",
-			    m->name, a, b);
+			return mr_advise(ctx, MR_REPAIR,
+			    mr_fail(ctx, MR_EMESH,
+				"%s: the two faces at edge %u-%u have opposite orientations", m->name, a, b));
 		twin[h] = opposite ? against->he : MR_NONE;
 	}
 	return MR_OK;
@@ -112,10 +111,9 @@ choose_out(mr_ctx *ctx, const mr_mesh *m, const spokes *s, mr_topology *topo)
 		}
 		topo->out[v] = h;
 		if (degree && fan_size(topo, h) != degree)
-			return mr_fail(ctx, MR_EMESH,
-			    "%s: the %u faces at vertex %u form more than one fan: mr-import --repair parts "
-			    "them",
-			    m->name, degree, v);
+			return mr_advise(ctx, MR_REPAIR,
+			    mr_fail(ctx, MR_EMESH, "%s: the %u faces at vertex %u form more than one fan",
+				m->name, degree, v));
 	}
 	return MR_OK;
 }

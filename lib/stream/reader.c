@@ -151,11 +151,10 @@ read_piece(mr_ctx *ctx, mr_reader *r, piece *p)
 		return MR_END;
 	}
 	if (stranger(r, header, got))
-		return mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here%s",
-		    (unsigned long long)p->offset,
-		    r->ended               ? ""
-		    : is_gzip(header, got) ? "; it is gzip, which gunzip unpacks"
-					   : "; mr-import makes a stream of a model's file");
+		return mr_advise(ctx, r->ended || is_gzip(header, got) ? MR_NO_REMEDY : MR_IMPORT,
+		    mr_fail(ctx, MR_EFORMAT, "byte %llu: this is not a stream: no START here%s",
+			(unsigned long long)p->offset,
+			!r->ended && is_gzip(header, got) ? "; it is gzip, which gunzip unpacks" : ""));
 	if (got < MR_HEADER)
 		return cut_off(ctx, r);
 	MR_TRY(mr_record_parse(ctx, header, p->offset, &p->head));

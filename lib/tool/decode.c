@@ -112,7 +112,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	MR_TRY(mr_displacement_get(ctx, f, &control, &n, &height));
 	if (o->level != MR_UNKNOWN && o->level > n)
 		return mr_fail(
-		    ctx, MR_ERANGE, "--level %zu, but displacement ends with level %zu", o->level, n);
+		    ctx, MR_ERANGE, "level %zu, but displacement ends with level %zu", o->level, n);
 	if (o->level != MR_UNKNOWN)
 		n = o->level;
 	MR_TRY(mr_response_apply(ctx, f, &control));
@@ -154,13 +154,12 @@ choose(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, int *from)
 	if (o->from != MR_FROM_ANY)
 		return MR_OK;
 	if (!detail && !mr_frame_has_layer(f, "displacement"))
-		return mr_fail(ctx, MR_EMISSING,
-		    "neither detail of mesh, which mr-encode makes, nor displacement, which mr-sample makes");
+		return mr_advise(
+		    ctx, MR_ENCODE, mr_fail(ctx, MR_EMISSING, "neither detail of mesh nor displacement"));
 	MR_TRY(is_control_latest(ctx, f, &control));
 	*from = detail && !control ? MR_FROM_DETAIL : MR_FROM_CONTROL;
 	if (*from == MR_FROM_DETAIL && o->level != MR_UNKNOWN)
-		return mr_fail(ctx, MR_EUSAGE, "--level has no effect on the detail that is here%s",
-		    mr_frame_has_layer(f, "displacement") ? ": --from control" : "");
+		return mr_fail(ctx, MR_EUSAGE, "a level has no effect on the detail that is here");
 	return MR_OK;
 }
 
@@ -173,9 +172,9 @@ decode(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
 	MR_TRY(mr_check_choice(ctx, "from", o->from, MR_FROM_CONTROL));
 	MR_TRY(choose(ctx, f, o, &from));
 	if (mr_layer_has(f, from == MR_FROM_DETAIL ? "base" : "control", "target"))
-		return mr_fail(ctx, MR_EMISSING,
-		    "%s has targets and has not gone there: mr-solve comes before",
-		    from == MR_FROM_DETAIL ? "base" : "control");
+		return mr_advise(ctx, MR_SOLVE_FIRST,
+		    mr_fail(ctx, MR_EMISSING, "%s has targets and has not gone there",
+			from == MR_FROM_DETAIL ? "base" : "control"));
 	if (from == MR_FROM_DETAIL)
 		MR_TRY(decode_detail(ctx, f, o, &cache->connectivity));
 	else

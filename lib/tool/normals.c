@@ -101,7 +101,7 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 	places q;
 
 	if (o->by_area)
-		return mr_fail(ctx, MR_EUSAGE, "%s has no faces: --weights is of surfaces", m->name);
+		return mr_fail(ctx, MR_EUSAGE, "%s has no faces: weights are of surfaces", m->name);
 	MR_TRY(mr_sampling_of(ctx, f, m, &s));
 	if (o->neighbours)
 		s.neighbours = o->neighbours;
@@ -123,8 +123,8 @@ static mr_status
 of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *normal)
 {
 	if (o->neighbours || o->from)
-		return mr_fail(
-		    ctx, MR_EUSAGE, "%s has faces: --neighbours and --from are of points", m->name);
+		return mr_fail(ctx, MR_EUSAGE,
+		    "%s has faces: neighbours and the place they are seen from are of points", m->name);
 	if (!o->by_area)
 		return mr_vertex_normals(ctx, m, NULL, normal);
 	memset(normal, 0, m->nv * sizeof *normal);

@@ -137,7 +137,7 @@ split(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o, mr_frame ***out, mr_spli
 		return mr_fail(ctx, MR_EMESH, "%s: there is no point", layer);
 	if (m.nf && o->distance > 0)
 		return mr_fail(
-		    ctx, MR_EUSAGE, "%s has faces, which connect it: --distance is of points", layer);
+		    ctx, MR_EUSAGE, "%s has faces, which connect it: a distance is of points", layer);
 	MR_TRY(find_parts(ctx, f, &m, o, &p));
 	part = MR_NEW(ctx, p.given, mr_frame *);
 	MR_TRY(mr_name_lists_of(ctx, f, layer, &names));

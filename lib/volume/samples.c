@@ -83,7 +83,6 @@ thin_out(mr_volume_cloud *s, double share, mr_sampling *of)
 }
 
 /* Of the diagonal: spacings that the grid tells. */
-static const double THINNER = 0.01;
 
 mr_status
 mr_volume_samples(
@@ -97,12 +96,12 @@ mr_volume_samples(
 	if (share < 1) {
 		thin_out(s, share, &of);
 		if (s->n < TOLD_LEAST)
-			return mr_fail(ctx, MR_ERANGE,
-			    "%zu points lie so far apart, for how near their neighbours are, that the grid "
-			    "tells "
-			    "%zu of them: mr-split parts those of several bodies, mr-crop --keep spaced:%.2g "
-			    "thins those of one",
-			    n, s->n, THINNER * mr_box_diagonal(mr_box_of(place, n)));
+			return mr_advise(ctx, MR_THIN_OUT,
+			    mr_fail(ctx, MR_ERANGE,
+				"%zu points lie so far apart, for how near their neighbours are, that the "
+			        "grid "
+				"tells %zu of them",
+				n, s->n));
 		MR_TRY(check(ctx, s, n));
 	}
 	MR_TRY(find_planes(ctx, &of, s));
