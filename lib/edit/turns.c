@@ -29,7 +29,7 @@ add_product(double d[9], mr_v3 y, mr_v3 x)
 	}
 }
 
-/* A (F - 1), and A, as floats have room for. */
+/* A (F - 1), and A. */
 static mr_turn
 turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3], double unit)
 {
@@ -37,7 +37,7 @@ turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3], doubl
 	mr_v3 y1 = mr_sub(now->p[v[1]], now->p[v[0]]), y2 = mr_sub(now->p[v[2]], now->p[v[0]]);
 	mr_v3 n = mr_cross(x1, x2), m = mr_cross(y1, y2), scaled;
 	double area = mr_norm(n), d[9] = { 0 };
-	mr_turn t = { .area = (float)(unit * area) };
+	mr_turn t = { .area = unit * area };
 
 	if (!(area > 0))
 		return t;
@@ -46,7 +46,7 @@ turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3], doubl
 	add_product(d, mr_sub(y2, x2), mr_cross(scaled, x1));
 	add_product(d, mr_sub(m, n), scaled);
 	for (int i = 0; i < 9; i++)
-		t.gradient[i] = (float)d[i];
+		t.gradient[i] = d[i];
 	return t;
 }
 
@@ -122,7 +122,7 @@ gradient_of(const mr_turn *t, double f)
 	mr_mat3 m = { { f, 0, 0, 0, f, 0, 0, 0, f } };
 
 	for (int i = 0; i < 9 && t->area > 0; i++)
-		m.m[i] += f * (double)t->gradient[i] / (double)t->area;
+		m.m[i] += f * t->gradient[i] / t->area;
 	return m;
 }
 

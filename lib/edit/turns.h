@@ -9,7 +9,7 @@
 
 /* The gradient of the motion, some rings around a vertex, times their area: 0 exactly where nothing moved. */
 typedef struct mr_turn {
-	float gradient[9], area;
+	double gradient[9], area;
 } mr_turn;
 
 /*

@@ -10,28 +10,14 @@ typedef struct caster {
 	const mr_bvh *bvh;
 	const mr_v3 *normal; /* of the vertices */
 	double least, most;  /* where a ray begins and ends */
-	const double
-	    *known; /* of the vertices, the thickness; NULL: nothing, and one face of STRIDE is cast from */
-	double *across; /* of each face; INFINITY: not known */
+	double *across;      /* of each face */
 } caster;
-
-enum { STRIDE = 4 };
 
 /* The mean of the corners' normals; zero where they cancel. */
 static mr_v3
 direction_of(const caster *c, const uint32_t *v)
 {
 	return mr_unit(mr_add(c->normal[v[0]], mr_add(c->normal[v[1]], c->normal[v[2]])));
-}
-
-/* Whether a face may be as thin as its edges are long, or nearly. */
-static bool
-is_thin(const caster *c, const uint32_t *v)
-{
-	const double edges = 6;
-	double side = mr_dist(c->m->p[v[0]], c->m->p[v[1]]) + mr_dist(c->m->p[v[1]], c->m->p[v[2]]);
-
-	return fmin(c->known[v[0]], fmin(c->known[v[1]], c->known[v[2]])) < fmin(c->most, edges / 2 * side);
 }
 
 static void
@@ -42,16 +28,12 @@ cast_faces(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		uint32_t f = mr_bvh_order(c->bvh)[i];
-		const uint32_t *v = c->m->t[f].v;
-		if (c->known ? isfinite(c->across[f]) || !is_thin(c, v) : i % STRIDE != 0)
-			continue;
 		c->across[f] = mr_bvh_across(c->bvh, mr_place_point(c->m, (mr_place){ f, centre }),
-		    direction_of(c, v), c->least, c->most);
+		    direction_of(c, c->m->t[f].v), c->least, c->most);
 	}
 }
 
-/* The lower median of those faces around a vertex that are known: one ray that slips through a gap does not
- * count. */
+/* The lower median of the faces around a vertex: one ray that slips through a gap does not count. */
 static double
 median_around(const mr_incidence *inc, size_t v, const double *across, double most)
 {
@@ -62,8 +44,6 @@ median_around(const mr_incidence *inc, size_t v, const double *across, double mo
 	for (size_t i = inc->start[v]; i < inc->start[v + 1] && n < AROUND; i++) {
 		double x = across[inc->face[i]];
 		size_t k = n;
-		if (!isfinite(x))
-			continue;
 		for (; k > 0 && sorted[k - 1] > x; k--)
 			sorted[k] = sorted[k - 1];
 		sorted[k] = x;
@@ -121,15 +101,10 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	mr_bvh_build(ctx, m, &bvh);
 	c.bvh = bvh;
 	c.least = mr_mesh_tolerance(m, 1e-9); /* none meets the face that it leaves */
-	for (size_t f = 0; f < m->nf; f++)
-		c.across[f] = INFINITY;
-	for (int pass = 0; pass < 2; pass++) {
-		mr_parallel(ctx, m->nf, 256, cast_faces, &c);
-		for (size_t v = 0; v < m->nv; v++)
-			thickness[v] = median_around(&inc, v, c.across, most);
-		walk(m, thickness);
-		c.known = thickness;
-	}
+	mr_parallel(ctx, m->nf, 256, cast_faces, &c);
+	for (size_t v = 0; v < m->nv; v++)
+		thickness[v] = median_around(&inc, v, c.across, most);
+	walk(m, thickness);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

@@ -1,6 +1,7 @@
 /* mr-subdivide: a finer mesh, and its layer's columns on it. */
 #include "base/options.h"
 #include "edit/detail.h"
+#include "mesh/fold.h"
 #include "mesh/normals.h"
 #include "subdivide/longest.h"
 #include "tool/cache.h"
@@ -80,6 +81,21 @@ subdivide(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_subdivide_opts *o
 	return MR_OK;
 }
 
+/* Folds that the rules have made, where triangles are long and thin; those of the input stay, in two edges
+ * each a step. */
+static void
+look_for_folds(mr_ctx *ctx, const mr_refined *r)
+{
+	size_t before, after;
+
+	if (!mr_listens(ctx))
+		return;
+	before = mr_count_folds(ctx, &r->m, r->level[0].topo.twin);
+	after = mr_count_folds(ctx, &r->fine, r->level[r->n].topo.twin);
+	if (after > before << r->n)
+		mr_found(ctx, &(mr_finding){ .kind = MR_FOLDED, .layer = "mesh", .count = after - before });
+}
+
 static mr_status
 divide(mr_ctx *ctx, const mr_mesh *m, const mr_subdivide_opts *o, mr_refined *r)
 {
@@ -110,6 +126,8 @@ subdivide_frame(
 	else
 		MR_TRY(subdivide(ctx, f, &m, o, cache, &r, &limit));
 	seconds = mr_seconds() - seconds;
+	if (r.level)
+		look_for_folds(ctx, &r);
 	*result = (mr_subdivide_result){ r.fine.nv, r.fine.nf, seconds };
 	MR_TRY(put(ctx, f, layer, &r, limit));
 	if (!strcmp(layer, "control")) { /* without its heights, as was asked for */

@@ -43,7 +43,7 @@ mr-import --points solid.xyz | mr-shrinkwrap -o solid.mrs 2>&1
 flaws control solid.mrs
 
 echo 'a cube drawn around limbs'
-mr-make knot --points 3000 | mr-shrinkwrap -m cube 2>&1 >/dev/null | grep -c crossing
+mr-make knot --points 3000 | mr-shrinkwrap -m cube 2>&1 >/dev/null | grep -c folded
 
 echo 'a bowl that is thinner than its points are apart, and one of one sheet'
 for outer in 1.03 1; do

@@ -121,7 +121,7 @@ test_frames(void **state)
 	assert_int_equal(mr_layer_put(&ctx, f, "displacement", "level", &level, 1), MR_OK);
 	refuse(&m, f, "displacement: level 16 of at most 15");
 	assert_int_equal(mr_frame_new(&ctx, "empty", &empty), MR_OK);
-	refuse(&m, empty, "no layer displacement: mr-sample makes displacement; the frame has none");
+	refuse(&m, empty, "no layer displacement; the frame has none");
 }
 
 int
