@@ -22,7 +22,7 @@ try() { # name, level: of NAME.mrs, which has control and displacement
 		END { exit !(n && i == n && !worse) }' back.obj glb.obj || bad "$1: GLB and OBJ give other surfaces"
 }
 
-mr-make bumpy -n 6000 --points 6000 | mr-shrinkwrap | mr-simplify | mr-fit | mr-sample -o bumpy.mrs && try bumpy 3
+mr-make bumpy -n 6000 --points 6000 | mr-shrinkwrap | mr-simplify | mr-fit | mr-sample -n 3 -o bumpy.mrs && try bumpy 3
 mr-map --write coarse --level 2 bumpy.mrs | mr-map --read coarse-height.png | mr-decode -o low.mrs
 mr-decode --level 2 bumpy.mrs | mr-compare --json -a mesh -b mesh low.mrs | grep -q '"vertex_max_relative":[0-9.]*e-0[6-9]' ||
     bad "a coarser level is another one"
