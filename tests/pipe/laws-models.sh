@@ -82,14 +82,16 @@ for file in own.obj own-little.ply own-big.ply "$DATA"/meshes/*; do
 	esac
 	mr-import "$file" 2>said | mr-export -f $format "out/$name" 2>>said || { echo "$name is not read"; exit 1; }
 	case $file in
-	own*) ! grep -v 'that no corner names' said || exit 1 ;; # of 300 that corners choose from
+	# Of 300 that corners choose from; the polygon around a hole.
+	own*) ! grep -v -e 'that no corner names' -e 'polygons that are none any more' said || exit 1 ;;
 	esac
 	# The largest are read by Python in no time that a test may take.
 	[ "$(wc -c <"$file")" -gt $most ] || printf '%s\t%s\t%s\n' $format "$file" "out/$name"
 done >list
 $python "$TOP/tests/pipe/same-model.py" <list || exit
-# In PLY all of an OBJ goes out and comes back, too.
+# In PLY faces and texture coordinates of corners go out and come back, too.
+sed -E '/^(vn|mtllib|o|g|s|usemtl)/d; /^f/s,/([0-9]*)/[0-9]*,/\1,g' own.obj >bare.obj
 for format in ply ply-ascii; do
-	mr-import own.obj | mr-export -f $format own.x && mr-import own.x | mr-export out/again.obj || exit
-	printf 'obj\town.obj\tout/again.obj\n' | $python "$TOP/tests/pipe/same-model.py" || exit
+	mr-import -q bare.obj | mr-export -q -f $format own.x && mr-import own.x | mr-export -q out/again.obj || exit
+	printf 'obj\tbare.obj\tout/again.obj\n' | $python "$TOP/tests/pipe/same-model.py" || exit
 done

@@ -57,7 +57,9 @@ awk 'BEGIN {
 touch box.mtl
 bend box.obj mr-cat
 [ "$(grep -c '^f [^ ]* [^ ]* [^ ]* [^ ]*$' bent.obj)" -eq 864 ] || bad 'not all quads came back'
-mr-export -i bent.mrs bent.ply && mr-import bent.ply | mr-export again.obj && corners again.obj >again && corners bent.obj | cmp - again || bad 'PLY differs'
+# PLY has no names of materials and objects.
+mr-export -q -i bent.mrs bent.ply && mr-import bent.ply | mr-export again.obj && corners again.obj >again &&
+    corners bent.obj | grep '^f' | cmp - again || bad 'PLY differs'
 # The sides that do not bend have their normals; at the other end all are turned by 30 degrees.
 mr-info bent.mrs | grep -q 'corner_normal  *f d9' || bad 'the normals are gone'
 awk '$1 == "vn" { if ($2 > 0.8660 && $2 < 0.8661 && $4 < -0.4999 && $4 > -0.5001) turned++; if ($2 == -1) rest++ }
