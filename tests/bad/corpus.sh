@@ -3,8 +3,8 @@
 [ -d "$DATA/malformed" ] || { echo 'no $DATA/malformed'; exit 77; }
 cat >table <<'X'
 assimp_OutOfMemory.off|line 2: 353535235358 vertices and 6 faces cannot be in the 289 bytes that follow
-assimp_box_UTF16BE.obj|8 12
-assimp_box_longline.obj|8 790 and a remark
+assimp_box_UTF16BE.obj|text of UTF-16 is not read: save it as UTF-8
+assimp_box_longline.obj|8 790
 assimp_box_without_lineending.obj|8 12
 assimp_crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply|line 7: '???' is no type of PLY
 assimp_cube_binary_header_with_RN_newline.ply|8 12
@@ -98,7 +98,7 @@ trimesh_empty.stl|stl without a vertex
 trimesh_jacked.obj|8 12 and a remark
 trimesh_multibody.stl|20 32
 trimesh_nancolor.obj|8 12 and a remark
-trimesh_negative_indices.obj|8 12 and a remark
+trimesh_negative_indices.obj|8 12
 trimesh_obj_empty.obj|obj without a vertex
 trimesh_obj_points.obj|8 0
 trimesh_obj_wireframe.obj|8 0 and a remark
