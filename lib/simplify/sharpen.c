@@ -18,7 +18,7 @@ static const double REACH = 3, FLAT = 0.002;
 
 /* Vertices that are looked at first, and the share of them that must be sharp. */
 enum { SOME = 512 };
-static const double SHARP = 0.02;
+static const double SHARP = 0.04;
 
 /* Of the normals' second moment, an eigenvalue in the largest: less is no plane of its own.  Two planes have
  * tan^2 of half the angle: so 35 degrees. */
@@ -104,7 +104,7 @@ move(mr_ctx *ctx, const mr_mesh *m, mr_v3 *to)
 	return mr_guarded_move(ctx, &guard, m->p, to);
 }
 
-/* Whether enough of some vertices, at equal strides, are near a sharp edge: 1.3 % are of smooth surfaces. */
+/* Whether enough of some vertices, at equal strides, are near a sharp edge: up to 2.5 % are of smooth surfaces. */
 static mr_status
 look_for_edges(
     mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, const mr_near *index, double width, bool *any)

@@ -44,6 +44,7 @@ void mr_frame_copy(mr_ctx *ctx, const mr_frame *frame, mr_frame *copy);
 /* What a tool ends with: its copy becomes the frame, and what it found the result, unless that is NULL. */
 void mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const void *found, size_t bytes);
 
+/* NOLINTBEGIN(bugprone-macro-parentheses): it declares the copy */
 /* How a tool's function ends: `work` is done on a copy of the frame, and finished. */
 #define MR_ON_COPY(ctx, frame, copy, result, found, work)                                                    \
 	mr_frame copy;                                                                                       \
@@ -52,6 +53,7 @@ void mr_frame_finish(mr_frame *frame, const mr_frame *copy, void *result, const 
 	MR_TRY(work);                                                                                        \
 	mr_frame_finish((frame), &copy, (result), &(found), sizeof(found));                                  \
 	return MR_OK
+/* NOLINTEND(bugprone-macro-parentheses) */
 
 /* A copy of all that the frame has, decoded, which may outlive it: in the arena of `keep`. */
 mr_status mr_frame_keep(mr_ctx *ctx, mr_ctx *keep, mr_frame *frame, mr_frame **copy);
