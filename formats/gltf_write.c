@@ -537,7 +537,7 @@ put_cloud(glb *w, const layer *l)
 
 	for (size_t i = 0; m->normal && i < m->nv; i++)
 		normals += is_direction(m->normal[i]);
-	mr_lost(w->ctx, NULL, normals % m->nv, "normals beside points without");
+	mr_lost(w->ctx, NULL, normals < m->nv ? normals : 0, "normals beside points without");
 	push(w, primitives, new_primitive(l, normals == m->nv, true, MR_UNKNOWN, MR_UNKNOWN, POINTS));
 	put_node(w, l, l->name, primitives);
 }

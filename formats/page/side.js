@@ -86,8 +86,8 @@ export function showLegend(legend) {
 
 /* A finding, as lib/base/finding.c writes it, in words. */
 function sayFinding(line) {
-	const [tool, kind, layer, count, of, , , vertex, , , , what] = line.split("\t");
-	const many = count > 0 ? " (" + count + (of > 0 ? " of " + of : "") + ")" : "";
+	const [tool, kind, layer, n, of, , , vertex, , , , what] = line.split("\t");
+	const many = n > 0 ? " (" + n + (of > 0 ? " of " + of : "") + ")" : "";
 
 	return tool + ": " + (layer ? layer + " " : "") + kind + many + (vertex ? ", vertex " + vertex : "") +
 		(what ? ": " + what : "");

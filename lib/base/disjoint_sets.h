@@ -16,14 +16,13 @@ mr_sets_begin(uint32_t *parent, size_t n)
 		parent[i] = (uint32_t)i;
 }
 
-/* The same in the arena; NULL where memory cannot be had. */
+/* The same in the arena. */
 static inline uint32_t *
 mr_sets_new(mr_ctx *ctx, size_t n)
 {
 	uint32_t *parent = MR_NEW(ctx, n, uint32_t);
 
-	if (parent)
-		mr_sets_begin(parent, n);
+	mr_sets_begin(parent, n);
 	return parent;
 }
 

@@ -238,19 +238,19 @@ static void
 find_all_feet(mr_ctx *ctx, const mr_places *source, encoder *e)
 {
 	size_t n = e->mesh->nv;
-	mr_correspondence map;
+	mr_correspondence *map = MR_NEW(ctx, 1, mr_correspondence);
 	mr_bvh *bvh;
 
 	memset(e->face, 0xff, n * sizeof *e->face);
 	if (source) {
-		mr_correspond(ctx, e->mesh, e->ground.surface.m, e->ground.inc, source, &map);
-		e->map = &map;
+		mr_correspond(ctx, e->mesh, e->ground.surface.m, e->ground.inc, source, map);
+		e->map = map;
 		e->normal = mesh_normals(ctx, e->mesh);
 		mr_parallel(ctx, n, GRAIN, find_easy_feet, e);
 		part_far_feet(e);
 		if (all_sound(e))
 			return;
-		mr_correspond_rest(ctx, &map, e->sound, e->face, e->bary);
+		mr_correspond_rest(ctx, map, e->sound, e->face, e->bary);
 	}
 	if (any_astray(e)) {
 		mr_bvh_build(ctx, e->ground.surface.m, &bvh);

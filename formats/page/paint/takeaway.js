@@ -18,13 +18,16 @@ function save(name, text) {
 	setTimeout(() => URL.revokeObjectURL(link.href), 10000);
 }
 
+function hasHandles(layer, regions) {
+	return layer !== "points" && [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0);
+}
+
 /* The commands from the stream to the one with the regions and, where these have handles, a basis. */
 function commandsOf({ name: layer, regions }, frame, pose, several) {
 	const has = (column) => Boolean(columnOf(frame, ...column.split(".")));
 	const { surface, at } = frame.levels || {}, first = ["mesh", "control", "points"].find((l) =>
 		has(l + ".position"));
-	const handles = layer !== "points" && [...regions.counts].some(([r, n]) => r >= HANDLE && n > 0),
-		onMesh = handles && layer === "mesh";
+	const handles = hasHandles(layer, regions), onMesh = handles && layer === "mesh";
 
 	return [
 		surface && surface.layer === layer && "mr-decode --from control --level " + at,
