@@ -390,10 +390,11 @@ mr_own(mr_ctx *ctx, void (*drop)(void *object), void *object)
 
 	if (!o) {
 		drop(object);
-		no_memory(ctx, 1, sizeof *o);
+		no_memory(ctx, 1, sizeof(mr_owned));
+	} else {
+		*o = (mr_owned){ ctx->owned, mr_mark_take(ctx), drop, object };
+		ctx->owned = o;
 	}
-	*o = (mr_owned){ ctx->owned, mr_mark_take(ctx), drop, object };
-	ctx->owned = o;
 }
 
 char *
