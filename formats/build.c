@@ -312,7 +312,8 @@ put_properties(mr_builder *b, const uint32_t *face, mr_model *m)
 {
 	mr_property *property = MR_NEW(b->ctx, b->properties, mr_property);
 
-	for (mr_kept *k = b->kept; k < b->kept + b->properties; k++) {
+	for (size_t i = 0; i < b->properties; i++) {
+		mr_kept *k = &b->kept[i];
 		bool of_faces = k->p.shape.element == 'f';
 		mr_property *p = &property[m->properties];
 		const double *x;

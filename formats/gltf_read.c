@@ -265,7 +265,8 @@ make_columns(reader *r)
 	mr_ctx *ctx = r->g.ctx;
 	bool normal = false, texcoord = false, color = false;
 
-	for (const part *p = r->part; p < r->part + r->parts; p++) {
+	for (size_t i = 0; i < r->parts; i++) {
+		const part *p = &r->part[i];
 		normal |= p->normal != MR_UNKNOWN;
 		texcoord |= p->texcoord != MR_UNKNOWN;
 		color |= p->color != MR_UNKNOWN;

@@ -117,7 +117,8 @@ put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
 	static const char *const prefixes[] = { "", "ply_", "ply_face_" };
 
-	for (const mr_property *p = m->property; p < m->property + m->properties; p++) {
+	for (size_t k = 0; k < m->properties; k++) {
+		const mr_property *p = &m->property[k];
 		char name[MR_COLUMN_MAX + 1] = "";
 		for (size_t i = 0;
 		     i < sizeof prefixes / sizeof *prefixes && !is_free(f, layer, name, p->shape.element);

@@ -183,7 +183,8 @@ can_hold(const pcd *f)
 static mr_status
 check_header(pcd *f)
 {
-	for (field *d = f->field; d < f->field + f->fields; d++) {
+	for (size_t i = 0; i < f->fields; i++) {
+		field *d = &f->field[i];
 		if (d->type == 'F' && d->size < 4)
 			return mr_scan_fail(&f->text, f->text.p, "a field of type F and %zu bytes", d->size);
 		d->offset = f->stride;

@@ -142,9 +142,11 @@ full_of(const element *e, const mr_rows *r, mr_role of)
 static void
 choose_vertex_properties(ply *f, const element *e)
 {
-	for (const property *p = e->property; p < e->property + e->properties; p++)
+	for (size_t i = 0; i < e->properties; i++) {
+		const property *p = &e->property[i];
 		mr_rows_add(&f->rows, p->list ? MR_NO_ROLE : mr_role_of(p->name, strlen(p->name)), p->name,
 		    strlen(p->name), p->list ? NULL : mr_ply_types[p->value].name);
+	}
 	f->rows.shades[0].full = full_of(e, &f->rows, MR_RED);
 	f->rows.shades[1].full = full_of(e, &f->rows, MR_ALPHA);
 	mr_rows_begin(&f->rows);
@@ -153,9 +155,11 @@ choose_vertex_properties(ply *f, const element *e)
 static void
 choose_face_properties(ply *f, element *e)
 {
-	for (property *p = e->property; p < e->property + e->properties; p++)
+	for (size_t i = 0; i < e->properties; i++) {
+		property *p = &e->property[i];
 		if (p->role == NONE && !p->list)
 			mr_build_property(&f->b, p->name, mr_ply_types[p->value].name, 'f', &p->kept);
+	}
 }
 
 /* Those of vertices come first, whatever the order of the elements. */
