@@ -299,13 +299,21 @@ add_face(obj *o, const mr_obj_corner *c, size_t n)
 	return MR_OK;
 }
 
+/* Nothing unwinds through tinyobj. */
+static mr_status
+enter_face(obj *o, const mr_obj_corner *c, size_t n)
+{
+	MR_ENTER(o->ctx);
+	return add_face(o, c, n);
+}
+
 static void
 face_call(void *user, const mr_obj_corner *c, int n)
 {
 	obj *o = user;
 
 	if (o->status == MR_OK)
-		o->status = add_face(o, c, (size_t)n);
+		o->status = enter_face(o, c, (size_t)n);
 }
 
 /* ---- names ---- */
@@ -467,13 +475,20 @@ next_for_tinyobj(obj *o, const char **begin, const char **end)
 	return MR_OK;
 }
 
+static mr_status
+enter_line(obj *o, const char **begin, const char **end)
+{
+	MR_ENTER(o->ctx);
+	return next_for_tinyobj(o, begin, end);
+}
+
 static bool
 line_call(void *user, const char **begin, const char **end)
 {
 	obj *o = user;
 
 	if (o->status == MR_OK)
-		o->status = next_for_tinyobj(o, begin, end);
+		o->status = enter_line(o, begin, end);
 	return o->status == MR_OK;
 }
 
