@@ -181,7 +181,7 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 	    d->handled, s->residual);
 	if (s->solver && iterates)
 		mr_note(ctx, "%zu iterations", r.iterations);
-	if (!iterates && r.rcond < worst)
+	if (!iterates && r.rcond > 0 && r.rcond < worst)
 		mr_found(ctx, &(mr_finding){ .kind = MR_INEXACT,
 				  .value = r.rcond,
 				  .what = "the system is so ill-conditioned that rounding shows" });

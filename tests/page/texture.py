@@ -9,6 +9,7 @@ import zlib
 
 from browser import Browser, Picture
 from checks import box, check, columns, end, length, sub
+from posed import pose_by
 
 GROUND, PLAIN = (244, 243, 240), (212, 204, 193)
 
@@ -169,8 +170,7 @@ def pose(b):
         "mrView.stage.controls.target.toArray().map((x, c) => x + mrView.centre[c])]")
     b.open("pose.html")
     rest = stage()
-    b.eval("(e => { e.value = %s; e.dispatchEvent(new Event('change')) })(document.getElementById('line'))"
-        % json.dumps(line))
+    pose_by(b, line)
     b.eval("((eye, at) => { const { camera, controls } = mrView.stage, c = mrView.centre; "
         "camera.position.set(...eye.map((x, i) => x - c[i])); controls.target.set(...at.map((x, i) => x - c[i])); "
         "controls.update() })(...%s)" % json.dumps(camera))
