@@ -96,14 +96,16 @@ parse_line(mr_ctx *ctx, const char *line, size_t number, mr_selection_file *file
 mr_status
 mr_selection_file_read(mr_ctx *ctx, const char *path, mr_selection_file *file)
 {
+	const uint64_t most = 1 << 28; /* vertices: a line can ask for as much memory as that takes, 1 GB */
 	char **line;
 	size_t n;
 
 	*file = (mr_selection_file){ .path = path };
 	MR_TRY(mr_lines_read(ctx, path, &line, &n));
 	MR_TRY(parse_head(ctx, line[0], file));
-	if (file->nv >= MR_NONE)
-		return mr_fail(ctx, MR_EFORMAT, "%s:1: more vertices than a layer can have", path);
+	if (file->nv > most)
+		return mr_fail(ctx, MR_EFORMAT, "%s:1: %llu vertices, and %llu are the most", path,
+		    (unsigned long long)file->nv, (unsigned long long)most);
 	file->region = MR_NEW(ctx, file->nv, uint32_t);
 	memset(file->region, 0xff, file->nv * sizeof *file->region);
 	for (size_t i = 1; i < n; i++)

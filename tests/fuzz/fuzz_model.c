@@ -88,8 +88,6 @@ read_regions(mr_ctx *ctx, const uint8_t *bytes, size_t n)
 
 	if (status != MR_OK || file.nv > MOST)
 		return status;
-	for (size_t i = 0; i < file.n; i++)
-		insist(file.range[i].first <= file.range[i].last && file.range[i].last < file.nv);
 	memset(region, 0, sizeof region);
 	m.nv = (size_t)file.nv;
 	status = mr_selection_file_apply(ctx, &file, &m, region, &selected);
@@ -102,6 +100,7 @@ read_any(mr_ctx *ctx, const char *format, const uint8_t *bytes, size_t n, mr_mod
 {
 	mr_image image;
 
+	MR_ENTER(ctx);
 	if (!strcmp(format, "regions"))
 		return read_regions(ctx, bytes, n);
 	if (!strcmp(format, "png"))

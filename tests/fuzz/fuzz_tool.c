@@ -240,7 +240,7 @@ render(const job *j)
 
 	o.width = 24;
 	o.height = 16;
-	o.raster.wire = j->way % 2;
+	o.wire = j->way % 2;
 	o.color = j->way % 3 ? NULL : "detail_height";
 	MR_TRY(mr_render(j->ctx, j->f, &o, path_of(path, ".png")));
 	unlink(path);
@@ -280,7 +280,7 @@ compare(const job *j)
 	MR_TRY(mr_layer_surface_or_points(j->ctx, j->f, "base", &b));
 	MR_TRY(mr_compare(j->ctx, &a, &b, &o, &r));
 	mr_report_comparison(&r, j->f, "mesh", "base", j->way % 2, &text);
-	return mr_text_done(&text);
+	return MR_OK;
 }
 
 static mr_status
@@ -327,6 +327,7 @@ one_frame(job *j)
 {
 	broken before = { 0 };
 
+	MR_ENTER(j->ctx);
 	mr_check_frame(j->ctx, j->f, count_broken, &before);
 	j->lawful = before.count == 0;
 	MR_TRY(the_tool()->run(j));
