@@ -8,7 +8,7 @@ static double megabytes;
 static const cmd_opt table[] = {
 	{ 'k', "order", CMD_COUNT, &opts.order, 1, 3, "K",
 	    "1 membrane, 2 thin plate, 3 minimal variation of curvature", NULL },
-	{ 's', "solver", CMD_CHOICE, &opts.solver, 0, 0, "auto|cholesky|lu|cg|bicgstab|multigrid|vcycle",
+	{ 's', "solver", CMD_CHOICE, &opts.solver, 0, 0, "auto|cholesky|lu|cg|multigrid|vcycle",
 	    "auto: cholesky, lu for --unsymmetric, multigrid where the factor is too large", NULL },
 	{ 0, "areas", CMD_CHOICE, &opts.areas, 0, 0, "voronoi|mean",
 	    "each vertex its own area, or all the mean", NULL },
@@ -27,8 +27,6 @@ static const cmd_opt table[] = {
 	{ 0, "iterations", CMD_COUNT, &opts.iterations, 1, 1e9, "N", "at most", NULL },
 	{ 0, "memory", CMD_REAL, &megabytes, 0, 1e12, "MB",
 	    "megabytes that a factor may take; 0: what there is", NULL },
-	{ 0, "precondition", CMD_CHOICE, &opts.precondition, 0, 0, "auto|incomplete|jacobi|multigrid",
-	    "of cg and bicgstab; auto: incomplete, multigrid for -k 3 and of bicgstab for -k 2", NULL },
 	{ 0, "verify", CMD_FLAG, &opts.verify, 0, 0, "", "estimate the condition of the system", NULL },
 	{ 0 },
 };

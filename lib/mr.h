@@ -434,7 +434,7 @@ MR_API mr_status mr_pose_frame(
 
 typedef enum mr_solver_choice {
 	MR_SOLVER_AUTO, /* Cholesky, LU of the unsymmetric system, multigrid where the factor is too large */
-	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_BICGSTAB, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
+	MR_SOLVER_CHOLESKY, MR_SOLVER_LU, MR_SOLVER_CG, MR_SOLVER_MULTIGRID, MR_SOLVER_VCYCLE
 } mr_solver_choice;
 
 typedef enum mr_areas {
@@ -457,7 +457,6 @@ typedef struct mr_solve_opts {
 	double tol;        /* relative residual that iterative solvers reach; 0: 1e-10 */
 	size_t iterations; /* at most */
 	double memory;     /* bytes that a factor may take; 0: what there is */
-	int precondition;  /* of CG and BiCGSTAB: 0 by order, 1 incomplete factors, 2 Jacobi, 3 multigrid */
 	int rotations;     /* mr_rotations_choice, of poses by handles */
 	size_t arap;       /* rounds of as-rigid-as-possible steps on top of a pose */
 	bool apart;        /* parts neither hold to those that they touch, nor follow those near */
@@ -466,7 +465,7 @@ typedef struct mr_solve_opts {
 } mr_solve_opts;
 
 #define MR_SOLVE_DEFAULTS                                                                                    \
-	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0, 0,                \
+	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0,                \
 	    MR_ROTATIONS_INTERPOLATED, 0, false, false, NULL)
 
 typedef struct mr_solve_result {

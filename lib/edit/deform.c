@@ -136,15 +136,11 @@ mr_deform_new(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint3
     const mr_deform_opts *opts, mr_deform **deform)
 {
 	mr_deform *d = MR_NEW_ZERO(ctx, 1, mr_deform);
-	mr_solver_opts *solver;
 
 	d->opts = *opts;
 	d->nv = rest->nv;
 	d->region = MR_NEW(ctx, d->nv, uint32_t);
 	memcpy(d->region, region, d->nv * sizeof *region);
-	solver = &d->opts.solver; /* incomplete factors stall on systems of high order */
-	if (solver->precondition == MR_BY_ORDER && opts->order > (solver->kind == MR_BICGSTAB ? 1 : 2))
-		solver->precondition = MR_VCYCLES;
 	*deform = d;
 	return set_up(ctx, d, rest, ties);
 }

@@ -11,7 +11,7 @@ typedef struct mr_deform_opts {
 	size_t order;          /* k: 1 membrane, 2 thin plate, 3 minimal variation of curvature */
 	int areas;             /* mr_areas */
 	bool unsymmetric;      /* the paper's own system; else a row scaling of it, which is symmetric */
-	mr_solver_opts solver; /* an unsymmetric system wants MR_LU or MR_BICGSTAB */
+	mr_solver_opts solver; /* an unsymmetric system wants MR_LU */
 	bool choose;           /* multigrid where the factor of the kind asked for exceeds the memory */
 	int rotations;         /* mr_rotations_choice, of poses by maps */
 	size_t rounds;         /* of as-rigid-as-possible steps, on top of a pose */

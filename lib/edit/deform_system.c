@@ -90,8 +90,7 @@ build_hierarchy(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest)
 		number[s->patch.vertex[i]] = (uint32_t)i;
 	MR_TRY(mr_hierarchy_build(ctx, rest, number, n, &level, &count));
 	MR_TRY(mr_sparse_power(ctx, &s->l, NULL, 1, n, false, &s->l_ff));
-	s->hierarchy = (mr_hierarchy){ &s->l_ff, s->w, s->opts.order, s->opts.unsymmetric, count, level, NULL,
-		0 };
+	s->hierarchy = (mr_hierarchy){ &s->l_ff, s->w, s->opts.order, count, level, NULL, 0 };
 	find_strip(ctx, s, rest, number, &s->hierarchy);
 	return MR_OK;
 }
@@ -156,7 +155,7 @@ set_up(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest, double started)
 	s->solver = mr_solver_new(ctx);
 	mark = mr_mark_take(ctx);
 	MR_TRY(assemble(ctx, s));
-	if (mr_solver_multigrid(&s->opts.solver))
+	if (mr_solver_multigrid(s->opts.solver.kind))
 		MR_TRY(build_hierarchy(ctx, s, rest));
 	s->seconds_assemble = mr_seconds() - started;
 	status = open_solver(ctx, s);
@@ -193,7 +192,7 @@ mr_system_membrane(mr_ctx *ctx, const mr_deform_system *s, mr_deform_system *m)
 	m->solver = mr_solver_new(ctx);
 	mark = mr_mark_take(ctx);
 	m->opts.order = m->hierarchy.order = 1;
-	m->opts.unsymmetric = m->hierarchy.scaled = false;
+	m->opts.unsymmetric = false;
 	m->hierarchy.strip_count = 0;
 	MR_TRY(assemble(ctx, m));
 	MR_TRY(say_why(ctx, m, open_solver(ctx, m)));

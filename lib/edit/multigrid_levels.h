@@ -1,6 +1,6 @@
 /*
- * multigrid_levels.h -- coarser and coarser remeshings of a surface as the levels of a multigrid solver (Botsch,
- * Kobbelt 2004, section 4.4).
+ * multigrid_levels.h -- coarser and coarser remeshings of a surface as the levels of a multigrid solver
+ * (Botsch, Kobbelt 2004, section 4.4).
  *
  * The levels are not nested: an unknown has the value that barycentric interpolation gives at its place on
  * the next coarser mesh.

@@ -29,21 +29,6 @@ mr_jacobi_of(double *inverse, size_t n)
 	return (mr_preconditioner){ jacobi_apply, inverse, (double)n };
 }
 
-mr_status
-mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
-{
-	double *inverse = MR_NEW(ctx, (size_t)a->n, double);
-
-	for (int i = 0; i < a->n; i++) {
-		int e = mr_sparse_find(a, i, i);
-		if (e < 0 || a->value[e] == 0)
-			return mr_fail(ctx, MR_ENUMERIC, "the matrix has no diagonal entry in row %d", i);
-		inverse[i] = 1 / a->value[e];
-	}
-	*b = mr_jacobi_of(inverse, (size_t)a->n);
-	return MR_OK;
-}
-
 /* (L U)^-1 */
 
 /* Eliminates row i; at[column]: place of the row's entry, or -1 before and after. */

@@ -1,5 +1,5 @@
 /*
- * The iterative solvers of stored matrices: conjugate gradients, BiCGSTAB (van der Vorst 1992) and V-cycles.
+ * The iterative solvers of stored matrices: conjugate gradients and V-cycles.
  * Each runs all right-hand sides at once, with scalars of their own: the matrix is read once for all.
  */
 #include "solve/conjugate_gradients.h"
@@ -87,13 +87,6 @@ krylov_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_repor
 	return MR_OK;
 }
 
-static void
-negate(mr_multivector s, const double *f, double *minus)
-{
-	for (size_t c = 0; c < s.width; c++)
-		minus[c] = -f[c];
-}
-
 /* Conjugate gradients */
 
 static void
@@ -111,94 +104,6 @@ cg_iterate(
 	};
 
 	return mr_cg_improve(ctx, &g, x, r, iterations);
-}
-
-/* BiCGSTAB, preconditioned from the right */
-
-typedef struct bicgstab {
-	double *shadow, *p, *v, *z, *t;
-	double last[MR_WIDTH], alpha[MR_WIDTH], omega[MR_WIDTH];
-} bicgstab;
-
-static void
-bicgstab_begin(mr_ctx *ctx, mr_multivector s, const double *r, bicgstab *b)
-{
-	size_t size = s.n * s.width;
-
-	*b = (bicgstab){ MR_NEW(ctx, size, double), MR_NEW_ZERO(ctx, size, double),
-		MR_NEW_ZERO(ctx, size, double), MR_NEW(ctx, size, double), MR_NEW(ctx, size, double),
-		.last = { 1, 1, 1, 1 } };
-	memcpy(b->shadow, r, size * sizeof *r);
-}
-
-/* The step of BiCG: false where it has broken down in every column. */
-static mr_status
-bicgstab_step(mr_ctx *ctx, krylov *k, mr_multivector s, const bool *done, bicgstab *b, double *x, double *r,
-    bool *stuck)
-{
-	double rho[MR_WIDTH], d[MR_WIDTH], f[MR_WIDTH];
-
-	mr_multivector_dot(ctx, s, b->shadow, r, rho);
-	negate(s, b->omega, f);
-	mr_multivector_add(ctx, s, f, b->v, b->p);
-	for (size_t c = 0; c < s.width; c++)
-		f[c] = mr_ratio(rho[c] * b->alpha[c], b->last[c] * b->omega[c]); /* beta */
-	mr_multivector_turn(ctx, s, f, r, b->p); /* p = r + beta (p - omega v) */
-	memcpy(b->last, rho, sizeof rho);
-	MR_TRY(k->b.apply(ctx, k->b.data, s, b->p, b->z));
-	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, b->z, b->v); /* v = A B p */
-	mr_multivector_dot(ctx, s, b->shadow, b->v, d);
-	*stuck = true;
-	for (size_t c = 0; c < s.width; c++) {
-		b->alpha[c] = done[c] ? 0 : mr_ratio(rho[c], d[c]);
-		*stuck = *stuck && b->alpha[c] == 0;
-	}
-	mr_multivector_add(ctx, s, b->alpha, b->z, x);
-	negate(s, b->alpha, f);
-	mr_multivector_add(ctx, s, f, b->v, r);
-	return MR_OK;
-}
-
-/* The step of steepest descent behind it. */
-static mr_status
-stabilize(mr_ctx *ctx, krylov *k, mr_multivector s, bicgstab *b, double *x, double *r)
-{
-	double d[MR_WIDTH], e[MR_WIDTH];
-
-	MR_TRY(k->b.apply(ctx, k->b.data, s, r, b->z));
-	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, b->z, b->t); /* t = A B r */
-	mr_multivector_dot(ctx, s, b->t, r, d);
-	mr_multivector_dot(ctx, s, b->t, b->t, e);
-	for (size_t c = 0; c < s.width; c++)
-		b->omega[c] = b->alpha[c] != 0 ? mr_ratio(d[c], e[c]) : 0;
-	mr_multivector_add(ctx, s, b->omega, b->z, x);
-	negate(s, b->omega, d);
-	mr_multivector_add(ctx, s, d, b->t, r);
-	return MR_OK;
-}
-
-static mr_status
-bicgstab_iterate(
-    mr_ctx *ctx, krylov *k, mr_multivector s, const double *goal, double *x, double *r, size_t *iterations)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	double rr[MR_WIDTH];
-	bool stuck = false;
-	bicgstab b;
-
-	bicgstab_begin(ctx, s, r, &b);
-	mr_multivector_dot(ctx, s, r, r, rr);
-	for (; *iterations < k->opts.iterations && !mr_multivector_within(s, rr, goal) && !stuck;
-	     ++*iterations) {
-		bool done[MR_WIDTH];
-		for (size_t c = 0; c < s.width; c++)
-			done[c] = rr[c] <= goal[c] * goal[c];
-		MR_TRY(bicgstab_step(ctx, k, s, done, &b, x, r, &stuck));
-		MR_TRY(stabilize(ctx, k, s, &b, x, r));
-		mr_multivector_dot(ctx, s, r, r, rr);
-	}
-	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 /* V-cycles alone */
@@ -237,12 +142,8 @@ precondition(mr_ctx *ctx, krylov *k, const mr_system *system)
 {
 	if (k->opts.kind == MR_VCYCLE)
 		return mr_vcycle_new(ctx, system->a, system->hierarchy, &k->b);
-	if (k->opts.kind == MR_BICGSTAB && k->opts.precondition == MR_VCYCLES) /* a strip makes it stall */
-		return mr_cycles_new(ctx, system->hierarchy, &k->b);
-	if (mr_solver_multigrid(&k->opts))
+	if (k->opts.kind == MR_MULTIGRID)
 		return mr_multigrid_new(ctx, system->a, system->hierarchy, &k->b);
-	if (k->opts.precondition == MR_JACOBI)
-		return mr_jacobi_new(ctx, system->a, &k->b);
 	return mr_incomplete_new(ctx, system->a, &k->b);
 }
 
@@ -255,9 +156,7 @@ krylov_setup(
 
 	k->opts = *opts;
 	k->a = system->a;
-	k->iterate = opts->kind == MR_VCYCLE     ? cycle_iterate
-	             : opts->kind == MR_BICGSTAB ? bicgstab_iterate
-	                                         : cg_iterate;
+	k->iterate = opts->kind == MR_VCYCLE ? cycle_iterate : cg_iterate;
 	MR_TRY(precondition(ctx, k, system));
 	*report = (mr_solver_report){ .seconds_factor = mr_seconds() - start,
 		.nnz_factor = k->b.nnz,
@@ -266,6 +165,5 @@ krylov_setup(
 }
 
 const mr_solver_type mr_cg_type = { "cg", sizeof(krylov), krylov_setup, krylov_solve, NULL };
-const mr_solver_type mr_bicgstab_type = { "bicgstab", sizeof(krylov), krylov_setup, krylov_solve, NULL };
 const mr_solver_type mr_multigrid_type = { "multigrid", sizeof(krylov), krylov_setup, krylov_solve, NULL };
 const mr_solver_type mr_vcycle_type = { "vcycle", sizeof(krylov), krylov_setup, krylov_solve, NULL };

@@ -24,7 +24,6 @@ typedef struct multigrid {
 	double low;     /* the spectrum is smoothed from low x top on */
 	size_t degree;  /* of the polynomial */
 	size_t applied; /* V-cycles of one application: k of L, 1 of A itself */
-	bool scaled;    /* the rows of A are scaled by W */
 	double *mass;   /* W^-1, between two of them */
 	mr_solver *coarsest;
 	double *column; /* its right-hand sides */
@@ -108,10 +107,7 @@ multigrid_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, doub
 	const multigrid *g = data;
 	const level *finest = g->level;
 
-	if (g->scaled)
-		mr_multivector_scale(ctx, s, g->mass, r, finest->r);
-	else
-		memcpy(finest->r, r, s.n * s.width * sizeof *r);
+	memcpy(finest->r, r, s.n * s.width * sizeof *r);
 	for (size_t k = 1; k <= g->applied; k++) {
 		MR_TRY(cycle(ctx, g, 0, s.width));
 		if (k < g->applied)
@@ -241,7 +237,6 @@ mr_cycles_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b)
 	g->low = 0.25;
 	g->degree = 2;
 	g->applied = h->order;
-	g->scaled = h->scaled;
 	return build(ctx, h, h->laplace, g, b);
 }
 

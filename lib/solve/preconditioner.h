@@ -19,9 +19,6 @@ typedef struct mr_preconditioner {
 /* D^-1, which is given: n values, kept by the caller. */
 mr_preconditioner mr_jacobi_of(double *inverse, size_t n);
 
-/* D^-1.  MR_ENUMERIC where a diagonal entry is zero. */
-mr_status mr_jacobi_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b);
-
 /*
  * (L U)^-1, L and U with the entries of A only; of a symmetric matrix that is incomplete Cholesky.  The
  * diagonal is raised until all pivots are positive (Manteuffel 1980).
@@ -41,8 +38,7 @@ mr_status mr_incomplete_laplacian_new(mr_ctx *ctx, const mr_sparse *a, mr_precon
  */
 mr_status mr_multigrid_new(mr_ctx *ctx, const mr_sparse *a, const mr_hierarchy *h, mr_preconditioner *b);
 
-/* (V W^-1)^(k-1) V, V a V-cycle on L, that times W^-1 where h->scaled: the inverse of A but for boundary
- * conditions. */
+/* (V W^-1)^(k-1) V, V a V-cycle on L: the inverse of A but for boundary conditions. */
 mr_status mr_cycles_new(mr_ctx *ctx, const mr_hierarchy *h, mr_preconditioner *b);
 
 /* A V-cycle on A = L (W L)^(k-1) itself. */

@@ -13,9 +13,8 @@
 typedef enum mr_solver_kind {
 	MR_CHOLESKY,  /* A symmetric positive definite, only its lower triangle given */
 	MR_LU,        /* A any square matrix, all of it given, as for those below */
-	MR_CG,        /* A symmetric positive definite */
-	MR_BICGSTAB,  /* A any square matrix */
-	MR_MULTIGRID, /* MR_CG with MR_VCYCLES */
+	MR_CG,        /* A symmetric positive definite; with incomplete factors */
+	MR_MULTIGRID, /* A = L (W L)^(k-1): conjugate gradients with k V-cycles on L */
 	MR_VCYCLE     /* A = L (W L)^(k-1): V-cycles on A itself, as the paper has it */
 } mr_solver_kind;
 
@@ -25,14 +24,6 @@ mr_solver_iterates(mr_solver_kind kind)
 {
 	return kind >= MR_CG;
 }
-
-typedef enum mr_preconditioner_kind {
-	MR_BY_ORDER,   /* as MR_INCOMPLETE; who knows the order of the system chooses better */
-	MR_INCOMPLETE, /* factors without fill: incomplete Cholesky of a symmetric matrix, else incomplete LU
-	                */
-	MR_JACOBI,     /* the diagonal */
-	MR_VCYCLES     /* A = L (W L)^(k-1): k V-cycles on L; of MR_CG a strip along the constraints, too */
-} mr_preconditioner_kind;
 
 /* A coarser level of a multigrid hierarchy: n unknowns, and what they give to those of the finer level. */
 typedef struct mr_coarser {
@@ -44,7 +35,6 @@ typedef struct mr_hierarchy {
 	const mr_sparse *laplace; /* L, restricted to the unknowns: n x n */
 	const double *weight;     /* the diagonal of W, of the unknowns */
 	size_t order;             /* k */
-	bool scaled;              /* A is W L (W L)^(k-1) instead */
 	size_t count;             /* coarser levels, at least 1, finest first */
 	const mr_coarser *level;
 	const uint32_t *strip; /* unknowns near the constraints, ascending, to be solved exactly */
@@ -61,7 +51,6 @@ typedef struct mr_system {
 
 typedef struct mr_solver_opts {
 	mr_solver_kind kind;
-	int precondition;  /* mr_preconditioner_kind, of CG and BiCGSTAB */
 	double tol;        /* iterative: |b - A x| <= tol |b| for each right-hand side */
 	size_t iterations; /* iterative: at most so many, else MR_ENUMERIC */
 	double memory;     /* bytes that factors may take; 0: no bound */
@@ -69,10 +58,9 @@ typedef struct mr_solver_opts {
 
 /* True where the system must have a hierarchy. */
 static inline bool
-mr_solver_multigrid(const mr_solver_opts *opts)
+mr_solver_multigrid(mr_solver_kind kind)
 {
-	return opts->kind >= MR_MULTIGRID ||
-	       (mr_solver_iterates(opts->kind) && opts->precondition == MR_VCYCLES);
+	return kind >= MR_MULTIGRID;
 }
 
 #define MR_SOLVER_DEFAULTS                                                                                   \

@@ -1,4 +1,5 @@
-/* Products of a sparse matrix and a few vectors.  Rows are summed in order: the same for any number of threads. */
+/* Products of a sparse matrix and a few vectors.  Rows are summed in order: the same for any number of
+ * threads. */
 #include "solve/sparse.h"
 
 #include "base/parallel.h"

@@ -16,7 +16,6 @@ check_options(mr_ctx *ctx, const mr_solve_opts *o)
 	MR_TRY(mr_check_choice(ctx, "solver", o->solver, MR_SOLVER_VCYCLE));
 	MR_TRY(mr_check_choice(ctx, "areas", o->areas, MR_AREAS_MEAN));
 	MR_TRY(mr_check_choice(ctx, "rotations", o->rotations, MR_ROTATIONS_LINEAR));
-	MR_TRY(mr_check_choice(ctx, "precondition", o->precondition, 3));
 	MR_TRY(mr_check_number(ctx, "tol", o->tol, 0, 1));
 	MR_TRY(mr_check_number(ctx, "memory", o->memory, 0, 1e18));
 	return mr_check_number(ctx, "iterations", (double)o->iterations, 1, 1e9);
@@ -26,17 +25,12 @@ check_options(mr_ctx *ctx, const mr_solve_opts *o)
 static mr_status
 choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 {
-	bool iterates = o->solver == MR_SOLVER_CG || o->solver == MR_SOLVER_BICGSTAB;
-
 	*deform = (mr_deform_opts)MR_DEFORM_DEFAULTS;
 	MR_TRY(check_options(ctx, o));
 	if (o->layer && strcmp(o->layer, "base") && strcmp(o->layer, "control"))
 		return mr_fail(ctx, MR_EUSAGE, "%s cannot be solved for, only base or control", o->layer);
-	if (o->unsymmetric && o->solver != MR_SOLVER_AUTO && o->solver != MR_SOLVER_LU &&
-	    o->solver != MR_SOLVER_BICGSTAB)
-		return mr_fail(ctx, MR_EUSAGE, "--unsymmetric wants -s lu or -s bicgstab");
-	if (o->precondition && !iterates)
-		return mr_fail(ctx, MR_EUSAGE, "--precondition is for -s cg and -s bicgstab");
+	if (o->unsymmetric && o->solver != MR_SOLVER_AUTO && o->solver != MR_SOLVER_LU)
+		return mr_fail(ctx, MR_EUSAGE, "--unsymmetric wants -s lu");
 	if (o->basis && o->arap)
 		return mr_fail(ctx, MR_EUSAGE, "--arap is for poses, and --basis comes before them");
 	deform->order = o->order;
@@ -49,7 +43,6 @@ choose_solver(mr_ctx *ctx, const mr_solve_opts *o, mr_deform_opts *deform)
 	deform->solver.kind = o->solver != MR_SOLVER_AUTO ? (mr_solver_kind)(o->solver - MR_SOLVER_CHOLESKY)
 	                      : o->unsymmetric            ? MR_LU
 	                                                  : MR_CHOLESKY;
-	deform->solver.precondition = o->precondition;
 	deform->solver.iterations = o->iterations;
 	deform->solver.memory = o->memory > 0 ? o->memory : mr_memory_available();
 	if (o->tol > 0)

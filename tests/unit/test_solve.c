@@ -130,10 +130,9 @@ test_lu(void **state)
 
 /* Iterative solvers: the same solutions, in few steps, however many threads there are. */
 static void
-check_iterative(
-    mr_solver_kind kind, int precondition, double drift, const mr_hierarchy *hierarchy, size_t most)
+check_iterative(mr_solver_kind kind, const mr_hierarchy *hierarchy, size_t most)
 {
-	mr_sparse a = hierarchy ? *hierarchy->laplace : grid_matrix(0.1, drift, false);
+	mr_sparse a = hierarchy ? *hierarchy->laplace : grid_matrix(0.1, 0, false);
 	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
 	mr_system system = { .a = &a, .hierarchy = hierarchy };
 	double *x = MR_NEW(&ctx, 6 * N, double), *b = MR_NEW(&ctx, 6 * N, double),
@@ -141,7 +140,6 @@ check_iterative(
 	mr_random r = { 1 };
 
 	opts.kind = kind;
-	opts.precondition = precondition;
 	opts.tol = 1e-13;
 	for (int i = 0; i < 6 * N; i++)
 		x[i] = mr_random_real(&r) - 0.5;
@@ -167,10 +165,7 @@ static void
 test_iterative(void **state)
 {
 	(void)state;
-	check_iterative(MR_CG, MR_JACOBI, 0, NULL, 120);
-	check_iterative(MR_CG, MR_INCOMPLETE, 0, NULL, 40);
-	check_iterative(MR_BICGSTAB, MR_JACOBI, 0.3, NULL, 80);
-	check_iterative(MR_BICGSTAB, MR_INCOMPLETE, 0.3, NULL, 25);
+	check_iterative(MR_CG, NULL, 40);
 }
 
 /* -y'' + y of the values on a line, those at its ends held: a matrix that nobody stores. */
@@ -282,14 +277,13 @@ test_multigrid(void **state)
 	(void)state;
 	for (int i = 0; i < N; i++)
 		weight[i] = 1;
-	check_iterative(MR_MULTIGRID, 0, 0, &h, 30);
-	check_iterative(MR_BICGSTAB, MR_VCYCLES, 0, &h, 20);
-	check_iterative(MR_VCYCLE, 0, 0, &h, 40);
+	check_iterative(MR_MULTIGRID, &h, 30);
+	check_iterative(MR_VCYCLE, &h, 40);
 	for (uint32_t i = 0; i < 2 * SIDE; i++)
 		strip[i] = i;
 	h.strip = strip;
 	h.strip_count = 2 * SIDE;
-	check_iterative(MR_MULTIGRID, 0, 0, &h, 30);
+	check_iterative(MR_MULTIGRID, &h, 30);
 }
 
 /* A level of zeros, as where all weights of a coarse level cancel, is smoothed to finite numbers. */
@@ -324,21 +318,18 @@ test_no_convergence(void **state)
 {
 	mr_sparse a = grid_matrix(1e-6, 0, false);
 	double *b = MR_NEW(&ctx, N, double);
+	mr_solver_opts opts = MR_SOLVER_DEFAULTS;
+	mr_solver *s = mr_solver_new(&ctx);
 
 	(void)state;
-	for (int kind = MR_CG; kind <= MR_BICGSTAB; kind++) {
-		mr_solver_opts opts = MR_SOLVER_DEFAULTS;
-		mr_solver *s = NULL;
-		opts.kind = (mr_solver_kind)kind;
-		opts.iterations = 3;
-		for (int i = 0; i < N; i++)
-			b[i] = i % 5;
-		assert_int_equal(
-		    mr_solver_open(&ctx, s = mr_solver_new(&ctx), &opts, &(mr_system){ .a = &a }), MR_OK);
-		assert_int_equal(mr_solver_solve(&ctx, s, b, 1), MR_ENUMERIC);
-		assert_non_null(strstr(ctx.error, "no convergence: a relative residual of "));
-		assert_non_null(strstr(ctx.error, "after 3 iterations"));
-	}
+	opts.kind = MR_CG;
+	opts.iterations = 3;
+	for (int i = 0; i < N; i++)
+		b[i] = i % 5;
+	assert_int_equal(mr_solver_open(&ctx, s, &opts, &(mr_system){ .a = &a }), MR_OK);
+	assert_int_equal(mr_solver_solve(&ctx, s, b, 1), MR_ENUMERIC);
+	assert_non_null(strstr(ctx.error, "no convergence: a relative residual of "));
+	assert_non_null(strstr(ctx.error, "after 3 iterations"));
 }
 
 /* Factors that exceed the memory are refused before they are there. */

@@ -195,7 +195,8 @@ test_wrong_options(void **state)
 	mr_rule rule = { MR_REGION_FREE, "abov:y,1" };
 
 	(void)state;
-	solve.precondition = 2;
+	solve.basis = true;
+	solve.arap = 2;
 	assert_int_equal(mr_solve_frame(ctx, f, &solve, NULL, NULL), MR_EUSAGE);
 	assert_int_equal(mr_select_frame(ctx, f, &rule, 1, NULL, NULL), MR_EUSAGE);
 	assert_int_equal(mr_export(ctx, f, NULL, "model.unknown", NULL), MR_EUSAGE);
