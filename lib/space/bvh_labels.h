@@ -1,6 +1,5 @@
 /*
- * bvh_labels.h -- of a mesh whose faces have labels, what is near or meets something among those of other
- * labels than one's own.
+ * bvh_labels.h -- of a mesh whose faces have labels, what is near of other labels than one's own.
  *
  * Contract: as that of bvh.h, but for the bound on what a query looks at.
  */
@@ -26,10 +25,5 @@ void mr_bvh_label(mr_ctx *ctx, const mr_bvh *bvh, const uint32_t *label, mr_bvh_
  */
 size_t mr_bvh_closest_others(
     const mr_bvh_labels *labels, mr_v3 q, uint32_t own, double dist2, size_t most, mr_closest *out);
-
-/* Calls visit(arg, face) for every face of another label than `own`, which is not MR_NONE, that the triangle
- * p may meet, as mr_bvh_overlap does. */
-bool mr_bvh_meet_others(const mr_bvh_labels *labels, uint32_t own, const mr_v3 p[3],
-    bool (*visit)(void *arg, uint32_t face), void *arg);
 
 #endif

@@ -1,10 +1,4 @@
-/*
- * suspects.h -- the pairs of faces of a mesh that may intersect.
- *
- * Contract: boxes of all faces around a vertex meet there, so that of the faces of a fan each would be
- * looked at with each.  Such faces intersect where their directions, as seen from the vertex, do: an index of
- * these tells the few that can.
- */
+/* suspects.h -- the pairs of faces of a mesh that may intersect. */
 #ifndef MR_SPACE_SUSPECTS_H
 #define MR_SPACE_SUSPECTS_H
 
