@@ -27,7 +27,6 @@ static const cmd_opt table[] = {
 	{ 0, "iterations", CMD_COUNT, &opts.iterations, 1, 1e9, "N", "at most", NULL },
 	{ 0, "memory", CMD_REAL, &megabytes, 0, 1e12, "MB",
 	    "megabytes that a factor may take; 0: what there is", NULL },
-	{ 0, "verify", CMD_FLAG, &opts.verify, 0, 0, "", "estimate the condition of the system", NULL },
 	{ 0 },
 };
 
@@ -46,7 +45,6 @@ static const cmd_field figures[] = {
 	CMD_MEASURED(mr_solve_result, seconds_factor),
 	CMD_COUNTED(mr_solve_result, iterations),
 	CMD_MEASURED(mr_solve_result, rcond),
-	CMD_MEASURED(mr_solve_result, condition),
 	{ 0 },
 };
 

@@ -453,7 +453,6 @@ typedef struct mr_solve_opts {
 	int areas;         /* mr_areas */
 	bool unsymmetric;  /* the paper's own system; else a row scaling of it, which is symmetric */
 	bool basis;        /* also put the response to every handle */
-	bool verify;       /* also estimate the condition */
 	double tol;        /* relative residual that iterative solvers reach; 0: 1e-10 */
 	size_t iterations; /* at most */
 	double memory;     /* bytes that a factor may take; 0: what there is */
@@ -465,7 +464,7 @@ typedef struct mr_solve_opts {
 } mr_solve_opts;
 
 #define MR_SOLVE_DEFAULTS                                                                                    \
-	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, false, 0, 20000, 0,                \
+	MR_DEFAULTS(2, MR_SOLVER_AUTO, MR_AREAS_VORONOI, false, false, 0, 20000, 0,                \
 	    MR_ROTATIONS_INTERPOLATED, 0, false, false, NULL)
 
 typedef struct mr_solve_result {
@@ -477,7 +476,6 @@ typedef struct mr_solve_result {
 	double seconds_assemble, seconds_analyse, seconds_factor, seconds_solve;
 	size_t iterations;
 	double rcond, residual;
-	double condition; /* of verify */
 } mr_solve_result;
 
 MR_API mr_status mr_solve_frame(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *opts, mr_cache *cache,

@@ -82,16 +82,17 @@ find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored,
 	mr_mark_release(ctx, mark);
 }
 
-/* Says what becomes of parts that no constraint reaches.  follows: small ones, and then all that are to. */
+/* Says what becomes of parts that no constraint reaches, and lets them follow. */
 static mr_status
-settle_loose(
-    mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, bool *anchored, const uint32_t *part, bool *follows)
+settle_loose(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part)
 {
-	for (size_t v = 0; v < d->nv; v++)
-		if (d->region[v] == MR_REGION_FREE && !anchored[v] && !follows[v]) {
-			d->loose_vertices++;
-			d->loose += part[v] == v;
-		}
+	bool *follows = MR_NEW(ctx, d->nv, bool);
+
+	for (size_t v = 0; v < d->nv; v++) {
+		follows[v] = d->region[v] == MR_REGION_FREE && !anchored[v];
+		d->loose_vertices += follows[v];
+		d->loose += follows[v] && part[v] == v;
+	}
 	if (d->loose)
 		mr_found(ctx,
 		    &(mr_finding){ .kind = MR_UNHELD,
@@ -101,31 +102,23 @@ settle_loose(
 			    d->opts.apart
 				? "parts without a constrained vertex stay"
 				: "parts without a constrained vertex follow the surface nearest to them" });
-	for (size_t v = 0; v < d->nv; v++)
-		follows[v] = !d->opts.apart && d->region[v] == MR_REGION_FREE && !anchored[v];
-	for (size_t v = 0; v < d->nv; v++)
-		anchored[v] |= d->region[v] != MR_REGION_FREE;
-	MR_TRY(mr_loose_make(ctx, rest, anchored, follows, part, &d->followers));
-	for (size_t v = 0; v < d->nv; v++)
-		anchored[v] &= d->region[v] == MR_REGION_FREE;
-	return MR_OK;
+	return d->opts.apart ? MR_OK : mr_loose_make(ctx, rest, follows, part, &d->followers);
 }
 
 static mr_status
 set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 {
 	double started = mr_seconds();
-	bool *anchored = MR_NEW(ctx, d->nv, bool), *follows = MR_NEW_ZERO(ctx, d->nv, bool);
+	bool *anchored = MR_NEW(ctx, d->nv, bool);
 	uint32_t *part = mr_sets_new(ctx, d->nv);
-	const mr_ties none = { 0 };
 	mr_mesh stitched = *rest;
 	mr_patch patch;
 
 	MR_TRY(count_regions(ctx, d, rest));
 	if (!d->opts.apart)
-		mr_stitch(ctx, rest, ties ? ties : &none, d->region, &stitched, follows);
+		stitched = mr_stitch(ctx, rest, ties ? ties : &(mr_ties){ 0 }, d->region);
 	find_anchored(ctx, d, &stitched, anchored, part);
-	MR_TRY(settle_loose(ctx, d, rest, anchored, part, follows));
+	MR_TRY(settle_loose(ctx, d, rest, anchored, part));
 	mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &patch);
 	MR_TRY(mr_system_make(ctx, rest, &patch, &d->opts, started, &d->system));
 	return mr_energies_make(ctx, &d->system, d->region, d->lowest, &d->energies);
@@ -197,8 +190,7 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 		.seconds_factor = r.seconds_factor,
 		.bytes_factor = r.bytes_factor,
 		.iterations = s->solver && iterates ? r.iterations : MR_UNKNOWN,
-		.rcond = iterates ? NAN : r.rcond,
-		.condition = NAN };
+		.rcond = iterates ? NAN : r.rcond };
 }
 
 /* Tasks */
@@ -242,52 +234,40 @@ check_maps(mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps)
 	return MR_OK;
 }
 
-/* Constraints go where the task has them, and all else follows.  p: p0 at first. */
+/* Constraints go where the maps have them, and all else follows.  p: p0 at first. */
 static mr_status
-pose(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *p)
+pose(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *p)
 {
-	mr_affine whole = task->maps ? mr_deform_map(task->maps, d->lowest) : mr_identity();
+	mr_affine whole = mr_deform_map(maps, d->lowest);
 
 	for (size_t v = 0; v < d->nv; v++) {
-		mr_affine map = task->maps ? mr_deform_map(task->maps, d->region[v]) : mr_identity();
+		mr_affine map = mr_deform_map(maps, d->region[v]);
 		if (!mr_is_identity(&map))
 			p[v] = mr_apply(&map, p[v]);
-		if (task->target && d->region[v] != MR_REGION_FREE)
-			p[v] = task->target[v];
 	}
 	if (d->energies)
-		MR_TRY(mr_energies_follow(ctx, d->energies, &whole, task->p0, task->maps, p));
+		MR_TRY(mr_energies_follow(ctx, d->energies, &whole, p0, maps, p));
 	else if (d->system.solver)
-		MR_TRY(mr_system_follow(ctx, &d->system, &whole, task->p0, NULL, p));
-	mr_loose_follow(&d->followers, task->p0, p);
+		MR_TRY(mr_system_follow(ctx, &d->system, &whole, p0, NULL, p));
+	mr_loose_follow(ctx, &d->followers, p0, p);
 	return MR_OK;
 }
 
 mr_status
-mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out)
+mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	double started = mr_seconds();
 	mr_v3 *p = MR_NEW(ctx, d->nv, mr_v3);
 
-	memcpy(p, task->p0, d->nv * sizeof *p);
-	if (task->maps)
-		MR_TRY(check_maps(ctx, d, task->maps));
-	if (task->maps || task->target)
-		MR_TRY(pose(ctx, d, task, p));
-	else
-		MR_TRY(relax(ctx, d, p));
+	memcpy(p, p0, d->nv * sizeof *p);
+	if (maps)
+		MR_TRY(check_maps(ctx, d, maps));
+	MR_TRY(maps ? pose(ctx, d, p0, maps, p) : relax(ctx, d, p));
 	memcpy(out, p, d->nv * sizeof *out);
 	mr_mark_release(ctx, mark);
 	d->seconds_solve = mr_seconds() - started;
 	return MR_OK;
-}
-
-mr_status
-mr_deform_condition(mr_ctx *ctx, mr_deform *d, double *condition)
-{
-	*condition = 1;
-	return d->system.solver ? mr_system_condition(ctx, &d->system, condition) : MR_OK;
 }
 
 /* Basis functions: Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5.

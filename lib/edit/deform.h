@@ -32,22 +32,12 @@ const uint32_t *mr_deform_region(const mr_deform *d);
 size_t mr_deform_handles(const mr_deform *d);
 
 /*
- * A surface p0 and what poses it, of the two at most one: handles' maps, p = T p0 + z, D^k z = 0 on the free
- * vertices, or where an energy has the differentials of p0 (deform_energy.h); or a place for each constrained
- * vertex, p = p0 + z, those of free ones not looked at.  Neither is the undeformed solve: constrained
- * vertices stay at p0, and D^k p = 0 on the free ones.
+ * Poses the surface p0 by maps of the handles, p = T p0 + z, D^k z = 0 on the free vertices, or where an
+ * energy has the differentials of p0 (deform_energy.h); maps NULL is the undeformed solve: constrained
+ * vertices stay at p0, and D^k p = 0 on the free ones.  MR_ERANGE where a map has no vertex to move.  out:
+ * nv, the caller's, may be p0.
  */
-typedef struct mr_deform_task {
-	const mr_v3 *p0;
-	const mr_deform_maps *maps;
-	const mr_v3 *target;
-} mr_deform_task;
-
-/* MR_ERANGE where a map has no vertex to move.  out: nv, the caller's, may be p0. */
-mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_deform_task *task, mr_v3 *out);
-
-/* An estimate from below of the condition number of the system that is solved. */
-mr_status mr_deform_condition(mr_ctx *ctx, mr_deform *d, double *condition);
+mr_status mr_deform_solve(mr_ctx *ctx, mr_deform *d, const mr_v3 *p0, const mr_deform_maps *maps, mr_v3 *out);
 
 /*
  * The response of every vertex to the handles' affine maps, for mr_pose_by_response.

@@ -32,14 +32,14 @@ struct mr_energies {
 /* A pose. */
 typedef struct turning {
 	const mr_energies *e;
-	const mr_deform_maps *maps; /* NULL: none, and nothing is known of rotations */
-	mr_mat3 whole;              /* of what moves the whole: R S */
-	mr_mat3 rotation, stretch;  /* R, S */
-	mr_v3 *log;                 /* of each handle's rotation relative to that */
-	mr_mat3 *by;                /* its stretch less that */
-	double *moves;              /* how much it does of both, squared */
-	bool turns;                 /* or stretches */
-	bool stretches;             /* beyond rounding */
+	const mr_deform_maps *maps;
+	mr_mat3 whole;             /* of what moves the whole: R S */
+	mr_mat3 rotation, stretch; /* R, S */
+	mr_v3 *log;                /* of each handle's rotation relative to that */
+	mr_mat3 *by;               /* its stretch less that */
+	double *moves;             /* how much it does of both, squared */
+	bool turns;                /* or stretches */
+	bool stretches;            /* beyond rounding */
 	const struct energy *energy;
 } turning;
 
@@ -103,9 +103,6 @@ decompose(mr_ctx *ctx, turning *t)
 	size_t n = t->e->count;
 	mr_v3 w;
 
-	t->whole = t->rotation = t->stretch = mr_mat3_identity();
-	if (!t->maps)
-		return;
 	t->log = MR_NEW(ctx, n, mr_v3);
 	t->by = MR_NEW(ctx, n, mr_mat3);
 	t->moves = MR_NEW(ctx, n, double);
@@ -211,7 +208,7 @@ static const energy interpolated = { interpolate, place_about_section }, rigid =
 
 /* Steps */
 
-/* Constraints that have maps have those. */
+/* Constraints have those of their handles. */
 static void
 local_step(void *arg, size_t begin, size_t end)
 {
@@ -219,8 +216,8 @@ local_step(void *arg, size_t begin, size_t end)
 	const mr_patch *patch = &t->e->s->patch;
 
 	for (size_t i = begin; i < end; i++) {
-		mr_mat3 a = t->maps && i >= patch->end[0] ? linear_of(t, t->e->region[patch->vertex[i]])
-		                                          : t->energy->local(t, i);
+		mr_mat3 a = i < patch->end[0] ? t->energy->local(t, i)
+		                              : linear_of(t, t->e->region[patch->vertex[i]]);
 		t->e->map[i] = mr_mat3_axpy(-1, &t->whole, &a);
 	}
 }
@@ -289,7 +286,7 @@ extrapolate(const turning *t, const mr_v3 *p, bool first)
 
 /*
  * How much of its volume the patch has to have, by the mean of what the stretches ask for; 0 where that is no
- * body but a sheet or a dent, which has lost most of it before any round, or places tell no stretch.  Rounds
+ * body but a sheet or a dent, which has lost most of it before any round.  Rounds
  * leave 42 to 97 % without this; all of it costs twice the stretch of edges that nine tenths cost.
  */
 static double
@@ -300,7 +297,7 @@ volume_to_keep(mr_ctx *ctx, const turning *t, const mr_v3 *p0, const mr_v3 *p)
 	size_t n = e->s->patch.end[0];
 	double rest, sum = 0;
 
-	if (!t->maps || !e->inside.t)
+	if (!e->inside.t)
 		return 0;
 	rest = mr_inside_volume(ctx, &e->inside, &e->s->patch, p0);
 	if (!(mr_inside_volume(ctx, &e->inside, &e->s->patch, p) / rest >= body))
@@ -334,14 +331,13 @@ mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr
     const mr_deform_maps *maps, mr_v3 *p)
 {
 	turning t = { .e = e, .maps = maps };
-	const energy *first = maps && e->s->opts.rotations == MR_ROTATIONS_INTERPOLATED ? &interpolated
-	                                                                                : NULL;
+	bool turns;
 
 	for (size_t i = 0; i < e->s->patch.mesh.nv; i++)
 		e->rest[i] = p0[e->s->patch.vertex[i]];
 	decompose(ctx, &t);
-	MR_TRY(
-	    mr_system_follow(ctx, e->s, whole, p0, t.turns && first ? source_of(ctx, &t, first) : NULL, p));
+	turns = t.turns && e->s->opts.rotations == MR_ROTATIONS_INTERPOLATED;
+	MR_TRY(mr_system_follow(ctx, e->s, whole, p0, turns ? source_of(ctx, &t, &interpolated) : NULL, p));
 	return rounds(ctx, e, &t, e->s->opts.rounds, whole, p0, p);
 }
 

@@ -34,10 +34,7 @@ typedef struct mr_energies mr_energies;
 mr_status mr_energies_make(mr_ctx *ctx, mr_deform_system *s, const uint32_t *region, uint32_t lowest,
     mr_energies **e) MR_WARN_UNUSED;
 
-/*
- * As mr_system_follow, by the energies of s->opts.  maps NULL: the constraints go where p has them, which
- * tells no rotation.
- */
+/* As mr_system_follow, by the energies of s->opts. */
 mr_status mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr_v3 *p0,
     const mr_deform_maps *maps, mr_v3 *p) MR_WARN_UNUSED;
 

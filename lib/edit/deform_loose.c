@@ -4,64 +4,23 @@
 #include "base/rotation.h"
 #include "space/near.h"
 
-/* The vertices that follow, part by part. */
-static void
-list_parts(mr_ctx *ctx, size_t nv, const bool *follows, const uint32_t *part, mr_loose *l)
-{
-	mr_mark mark;
-	uint32_t *number;
-
-	for (size_t v = 0; v < nv; v++) {
-		l->n += follows[v];
-		l->parts += follows[v] && part[v] == v;
-	}
-	l->vertex = MR_NEW(ctx, l->n, uint32_t);
-	l->start = MR_NEW_ZERO(ctx, l->parts + 2, size_t);
-	mark = mr_mark_take(ctx);
-	number = MR_NEW(ctx, nv, uint32_t);
-	for (uint32_t v = 0, n = 0; v < nv; v++)
-		if (follows[v] && part[v] == v)
-			number[v] = n++;
-	for (size_t v = 0; v < nv; v++)
-		if (follows[v])
-			l->start[number[part[v]] + 2]++;
-	for (size_t k = 2; k < l->parts + 2; k++)
-		l->start[k] += l->start[k - 1];
-	for (uint32_t v = 0; v < nv; v++)
-		if (follows[v])
-			l->vertex[l->start[number[part[v]] + 1]++] = v;
-	mr_mark_release(ctx, mark);
-}
-
 /* The anchors of a part are those nearest to the middle of its box. */
-mr_status
-mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, const bool *follows, const uint32_t *part,
-    mr_loose *l)
+static mr_status
+find_anchors(mr_ctx *ctx, const mr_mesh *rest, const mr_box *box, mr_loose *l)
 {
-	uint32_t *lead;
+	mr_mark mark = mr_mark_take(ctx);
+	uint32_t *lead = MR_NEW(ctx, rest->nv, uint32_t);
+	mr_v3 *at = MR_NEW(ctx, rest->nv, mr_v3), *middle = MR_NEW(ctx, l->parts, mr_v3);
 	size_t leading = 0;
-	mr_v3 *at, *middle;
-	mr_mark mark;
 
-	list_parts(ctx, rest->nv, follows, part, l);
-	l->anchor = MR_NEW(ctx, l->parts * MR_ANCHORS, uint32_t);
-	mark = mr_mark_take(ctx);
-	lead = MR_NEW(ctx, rest->nv, uint32_t);
-	at = MR_NEW(ctx, rest->nv, mr_v3);
-	middle = MR_NEW(ctx, l->parts, mr_v3);
 	for (uint32_t v = 0; v < rest->nv; v++)
-		if (leads[v]) {
+		if (l->part[v] == MR_NONE) {
 			at[leading] = rest->p[v];
 			lead[leading++] = v;
 		}
-	for (size_t k = 0; k < l->parts; k++) {
-		mr_box box = mr_box_empty();
-		for (size_t i = l->start[k]; i < l->start[k + 1]; i++)
-			mr_box_add(&box, rest->p[l->vertex[i]]);
-		middle[k] = mr_lerp(0.5, box.min, box.max);
-	}
-	if (l->parts > 0)
-		MR_TRY(mr_near_once(ctx, at, leading, middle, l->parts, MR_ANCHORS, l->anchor, NULL));
+	for (size_t k = 0; k < l->parts; k++)
+		middle[k] = mr_lerp(0.5, box[k].min, box[k].max);
+	MR_TRY(mr_near_once(ctx, at, leading, middle, l->parts, MR_ANCHORS, l->anchor, NULL));
 	for (size_t i = 0; i < l->parts * MR_ANCHORS; i++)
 		if (l->anchor[i] != MR_NONE)
 			l->anchor[i] = lead[l->anchor[i]];
@@ -69,94 +28,104 @@ mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *leads, const bool *f
 	return MR_OK;
 }
 
-/* The anchors of a part, all alike. */
-typedef struct anchors {
-	size_t n;
-	const uint32_t *vertex;
-	mr_v3 center; /* of them, at p0 */
-} anchors;
+mr_status
+mr_loose_make(mr_ctx *ctx, const mr_mesh *rest, const bool *follows, const uint32_t *root, mr_loose *l)
+{
+	mr_box *box;
+
+	*l = (mr_loose){ .nv = rest->nv, .part = MR_NEW(ctx, rest->nv, uint32_t) };
+	for (size_t v = 0; v < rest->nv; v++)
+		l->part[v] = follows[v] && root[v] == v ? (uint32_t)l->parts++ : MR_NONE;
+	if (!l->parts)
+		return MR_OK;
+	l->anchor = MR_NEW(ctx, l->parts * MR_ANCHORS, uint32_t);
+	box = MR_NEW(ctx, l->parts, mr_box);
+	for (size_t k = 0; k < l->parts; k++)
+		box[k] = mr_box_empty();
+	for (size_t v = 0; v < rest->nv; v++)
+		if (follows[v]) {
+			l->part[v] = l->part[root[v]];
+			mr_box_add(&box[l->part[v]], rest->p[v]);
+		}
+	return find_anchors(ctx, rest, box, l);
+}
+
+static size_t
+count_anchors(const uint32_t *anchor)
+{
+	size_t n = 0;
+
+	while (n < MR_ANCHORS && anchor[n] != MR_NONE)
+		n++;
+	return n;
+}
 
 static mr_v3
-mean_of(const anchors *a, const mr_v3 *p)
+mean_of(const uint32_t *anchor, size_t n, const mr_v3 *p)
 {
 	mr_v3 sum = mr_vec(0, 0, 0);
 
-	for (size_t k = 0; k < a->n; k++)
-		sum = mr_axpy(1 / (double)a->n, p[a->vertex[k]], sum);
+	for (size_t k = 0; k < n; k++)
+		sum = mr_axpy(1 / (double)n, p[anchor[k]], sum);
 	return sum;
 }
 
-static anchors
-anchors_of(const mr_loose *l, size_t part, const mr_v3 *p0)
+/* The rigid motion that takes the anchors from p0 to p; about an axis that they do not tell, no rotation, and
+ * none at all, bit for bit, where they all go the same way. */
+static mr_affine
+motion_of(const uint32_t *anchor, const mr_v3 *p0, const mr_v3 *p)
 {
-	anchors a = { .vertex = l->anchor + part * MR_ANCHORS };
-
-	while (a.n < MR_ANCHORS && a.vertex[a.n] != MR_NONE)
-		a.n++;
-	a.center = mean_of(&a, p0);
-	return a;
-}
-
-/* Whether the anchors all go the same way, bit for bit, and which. */
-static bool
-shifted(const anchors *a, const mr_v3 *p0, const mr_v3 *p, mr_v3 *by)
-{
-	*by = mr_sub(p[a->vertex[0]], p0[a->vertex[0]]);
-	for (size_t k = 1; k < a->n; k++) {
-		mr_v3 u = mr_sub(p[a->vertex[k]], p0[a->vertex[k]]);
-		if (u.x != by->x || u.y != by->y || u.z != by->z)
-			return false;
-	}
-	return true;
-}
-
-/* The rotation that takes the anchors from p0 to p; about an axis that they do not tell, none. */
-static mr_mat3
-rotation_of(const anchors *a, const mr_v3 *p0, const mr_v3 *p, mr_v3 center)
-{
-	const double least = 1e-12;
-	mr_mat3 c = { { 0 } };
+	static const double least = 1e-12;
+	size_t n = count_anchors(anchor);
+	mr_v3 from = mean_of(anchor, n, p0), to = mean_of(anchor, n, p),
+	      shift = mr_sub(p[*anchor], p0[*anchor]);
+	mr_mat3 c = { { 0 } }, r;
 	double spread = 0;
+	bool turns = false;
 
-	for (size_t k = 0; k < a->n; k++) {
-		mr_v3 x = mr_sub(p0[a->vertex[k]], a->center), y = mr_sub(p[a->vertex[k]], center);
-		double from[3] = { x.x, x.y, x.z }, to[3] = { y.x, y.y, y.z };
+	for (size_t k = 0; k < n; k++) {
+		mr_v3 x = mr_sub(p0[anchor[k]], from), y = mr_sub(p[anchor[k]], to);
+		mr_v3 by = mr_sub(p[anchor[k]], p0[anchor[k]]);
+		double x3[3] = { x.x, x.y, x.z }, y3[3] = { y.x, y.y, y.z };
+		turns |= by.x != shift.x || by.y != shift.y || by.z != shift.z;
 		spread += mr_norm2(x);
 		for (int i = 0; i < 9; i++)
-			c.m[i] += to[i / 3] * from[i % 3];
+			c.m[i] += y3[i / 3] * x3[i % 3];
 	}
 	for (int i = 0; i < 3; i++)
 		c.m[4 * i] += least * spread;
-	return mr_rotation_nearest(&c);
+	r = turns ? mr_rotation_nearest(&c) : mr_mat3_identity();
+	if (turns)
+		shift = mr_sub(to, mr_mat3_apply(&r, from));
+	return (mr_affine){ { r.m[0], r.m[1], r.m[2], shift.x, r.m[3], r.m[4], r.m[5], shift.y, r.m[6],
+	    r.m[7], r.m[8], shift.z } };
 }
 
 void
-mr_loose_follow(const mr_loose *l, const mr_v3 *p0, mr_v3 *p)
+mr_loose_follow(mr_ctx *ctx, const mr_loose *l, const mr_v3 *p0, mr_v3 *p)
 {
-	for (size_t k = 0; k < l->parts; k++) {
-		anchors a = anchors_of(l, k, p0);
-		mr_v3 by, center = mean_of(&a, p);
-		bool shift = shifted(&a, p0, p, &by);
-		mr_mat3 r = shift ? mr_mat3_identity() : rotation_of(&a, p0, p, center);
-		for (size_t i = l->start[k]; i < l->start[k + 1]; i++) {
-			uint32_t v = l->vertex[i];
-			if (!shift)
-				p[v] = mr_add(center, mr_mat3_apply(&r, mr_sub(p0[v], a.center)));
-			else if (mr_norm2(by) > 0)
-				p[v] = mr_add(p0[v], by);
-		}
-	}
+	mr_affine *motion = MR_NEW(ctx, l->parts, mr_affine);
+
+	for (size_t k = 0; k < l->parts; k++)
+		motion[k] = motion_of(l->anchor + k * MR_ANCHORS, p0, p);
+	for (size_t v = 0; l->parts && v < l->nv; v++)
+		if (l->part[v] != MR_NONE && !mr_is_identity(&motion[l->part[v]]))
+			p[v] = mr_apply(&motion[l->part[v]], p0[v]);
 }
 
 /* A row of 4 values a handle, (x, y, z, 1) times how much it moves: what (x, y, z) is at the follower is
  * known. */
 static void
-respond(const anchors *a, size_t handles, mr_v3 off, const double *response, double *row)
+respond(const uint32_t *anchor, size_t handles, const mr_v3 *p0, uint32_t v, double *response)
 {
+	size_t n = count_anchors(anchor);
+	mr_v3 off = mr_sub(p0[v], mean_of(anchor, n, p0));
+	double *row = response + 4 * handles * v;
+
 	for (size_t h = 0; h < handles; h++, row += 4) {
-		for (size_t k = 0; k < a->n; k++)
+		for (size_t k = 0; k < n; k++)
 			for (size_t c = 0; c < 4; c++)
-				row[c] += response[4 * (handles * a->vertex[k] + h) + c] / (double)a->n;
+				row[c] += response[4 * (handles * anchor[k] + h) + c] / (double)n;
 		row[0] += row[3] * off.x;
 		row[1] += row[3] * off.y;
 		row[2] += row[3] * off.z;
@@ -166,11 +135,7 @@ respond(const anchors *a, size_t handles, mr_v3 off, const double *response, dou
 void
 mr_loose_respond(const mr_loose *l, size_t handles, const mr_v3 *p0, double *response)
 {
-	for (size_t k = 0; k < l->parts; k++) {
-		anchors a = anchors_of(l, k, p0);
-		for (size_t i = l->start[k]; i < l->start[k + 1]; i++) {
-			uint32_t v = l->vertex[i];
-			respond(&a, handles, mr_sub(p0[v], a.center), response, response + 4 * handles * v);
-		}
-	}
+	for (uint32_t v = 0; l->parts && v < l->nv; v++)
+		if (l->part[v] != MR_NONE)
+			respond(l->anchor + l->part[v] * MR_ANCHORS, handles, p0, v, response);
 }

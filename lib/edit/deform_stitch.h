@@ -10,14 +10,8 @@
 
 #include "edit/deform_opts.h"
 
-/*
- * rest, and a triangle from each vertex that is near another component, to two corners of the face there; so
- * too for each of the ties.  None where all is constrained.  What is free, small beside what it is near, and
- * not among the ties, if those are known, gets none and is true in follows (one a vertex, false at first): it
- * has no shape of its own to solve for, and bends for nothing to cancel what the large part bends.
- * stitched: its faces are rest's, or in the arena.
- */
-void mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region,
-    mr_mesh *stitched, bool *follows);
+/* rest, and a triangle from each vertex that is near another component, to two corners of the face there; so
+ * too for each of the ties.  Its faces are rest's, or in the arena. */
+mr_mesh mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region);
 
 #endif

@@ -6,7 +6,6 @@
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
 #include "solve/dissect.h"
-#include "solve/multivector.h"
 
 /* Assembly */
 
@@ -316,44 +315,5 @@ mr_system_follow(
 		const double *z = f.u + 3 * i;
 		p[s->patch.vertex[i]] = mr_vec(moved(at.x, z[0]), moved(at.y, z[1]), moved(at.z, z[2]));
 	}
-	return MR_OK;
-}
-
-/* What a solution is worth */
-
-/* x / |x|; the norm of x. */
-static double
-normalize(double *x, size_t n)
-{
-	double norm = norm_of(x, n);
-
-	for (size_t i = 0; i < n && norm > 0; i++)
-		x[i] /= norm;
-	return norm;
-}
-
-/* By the power method (von Mises, Pollaczek-Geiringer 1929) on K and on its inverse. */
-mr_status
-mr_system_condition(mr_ctx *ctx, mr_deform_system *s, double *condition)
-{
-	enum { STEPS = 60 };
-	size_t n = s->patch.end[0];
-	mr_field f = mr_system_field(s, 1);
-	double greatest = 0, inverse = 0;
-
-	mr_rough_start(n, f.u);
-	for (int step = 0; step < STEPS; step++) {
-		normalize(f.u, n);
-		find_residual(ctx, s, &f);
-		memcpy(f.u, f.r, n * sizeof *f.u);
-		greatest = normalize(f.u, n);
-	}
-	mr_rough_start(n, f.r);
-	for (int step = 0; step < STEPS; step++) {
-		normalize(f.r, n);
-		MR_TRY(mr_solver_solve(ctx, s->solver, f.r, 1));
-		inverse = normalize(f.r, n);
-	}
-	*condition = greatest * inverse;
 	return MR_OK;
 }

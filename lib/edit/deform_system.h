@@ -58,7 +58,4 @@ mr_status mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f);
 mr_status mr_system_follow(mr_ctx *ctx, mr_deform_system *s, const mr_affine *whole, const mr_v3 *p0,
     const double *source, mr_v3 *p);
 
-/* An estimate of the condition number from below. */
-mr_status mr_system_condition(mr_ctx *ctx, mr_deform_system *s, double *condition);
-
 #endif

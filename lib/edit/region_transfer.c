@@ -181,7 +181,6 @@ find_ties(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_detail
 		if (i == 0 || c[i].vertex != c[i - 1].vertex || c[i].component != c[i - 1].component)
 			ties->tie[kept++] = (mr_tie){ c[i].vertex, c[i].face };
 	ties->n = kept;
-	ties->known = true;
 }
 
 mr_status

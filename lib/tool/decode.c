@@ -171,10 +171,6 @@ decode(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cache)
 	MR_TRY(mr_check_number(ctx, "gain", o->gain, -1e6, 1e6));
 	MR_TRY(mr_check_choice(ctx, "from", o->from, MR_FROM_CONTROL));
 	MR_TRY(choose(ctx, f, o, &from));
-	if (mr_layer_has(f, from == MR_FROM_DETAIL ? "base" : "control", "target"))
-		return mr_advise(ctx, MR_SOLVE_FIRST,
-		    mr_fail(ctx, MR_EMISSING, "%s has targets and has not gone there",
-			from == MR_FROM_DETAIL ? "base" : "control"));
 	if (from == MR_FROM_DETAIL)
 		MR_TRY(decode_detail(ctx, f, o, &cache->connectivity));
 	else

@@ -58,42 +58,21 @@ mr_solve_check(mr_ctx *ctx, const mr_solve_opts *opts)
 	return choose_solver(ctx, opts, &deform);
 }
 
-/* What poses the frame: the handles, or the places of base.target, or nothing. */
+/* The handles' maps; NULL where nothing poses the frame. */
 static mr_status
-read_task(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_solve_opts *o, mr_deform_task *task)
+read_maps(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_maps **maps)
 {
-	bool handles = mr_layer_has(f, "handles", "transform"), target = mr_layer_has(f, m->name, "target");
-	const void *places = NULL;
-	mr_deform_maps *maps = NULL;
 	mr_handle_rows row;
 
-	if (handles && target)
-		return mr_fail(
-		    ctx, MR_EMESH, "%s has targets, but there are handles too: drop one of them", m->name);
-	if (o->flatten && (handles || target))
-		return mr_fail(ctx, MR_EUSAGE,
-		    "the undeformed solve comes before a pose, but the frame has handles or targets already");
-	if (o->basis && (handles || target))
-		return mr_fail(ctx, MR_EUSAGE,
-		    "a basis comes before a pose, but the frame has handles or targets already");
-	if (target)
-		MR_TRY(mr_layer_get_rows(ctx, f, m->name, "target", m->nv, &places));
-	if (handles) {
-		maps = MR_NEW(ctx, 1, mr_deform_maps);
-		MR_TRY(mr_handles_rows(ctx, f, 1, &row));
-		*maps = (mr_deform_maps){ row.map, row.turn, row.n };
-	}
-	*task = (mr_deform_task){ m->p, maps, places };
-	return MR_OK;
-}
-
-/* Targets of free vertices are not looked at. */
-static mr_status
-check_target(mr_ctx *ctx, const mr_mesh *m, const mr_deform_task *task, const uint32_t *region)
-{
-	for (size_t v = 0; task->target && v < m->nv; v++)
-		if (region[v] != MR_REGION_FREE && !mr_finite(task->target[v]))
-			return mr_fail(ctx, MR_ERANGE, "%s: target %zu is not finite", m->name, v);
+	*maps = NULL;
+	if (!mr_layer_has(f, "handles", "transform"))
+		return MR_OK;
+	if (o->flatten || o->basis)
+		return mr_fail(ctx, MR_EUSAGE, "%s comes before a pose, but the frame has handles already",
+		    o->flatten ? "the undeformed solve" : "a basis");
+	MR_TRY(mr_handles_rows(ctx, f, 1, &row));
+	*maps = MR_NEW(ctx, 1, mr_deform_maps);
+	**maps = (mr_deform_maps){ row.map, row.turn, row.n };
 	return MR_OK;
 }
 
@@ -119,7 +98,7 @@ check_solution(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p)
 		bad += !mr_finite(p[v]);
 	return bad ? mr_fail(ctx, MR_ERANGE,
 			 "%s: %zu of %zu vertices go beyond all numbers: its coordinates, or those of its "
-			 "handles or targets, are too large",
+			 "handles, are too large",
 			 m->name, bad, m->nv)
 	           : MR_OK;
 }
@@ -155,7 +134,7 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 {
 	static const char *const reads[] = { "base", "control", NULL };
 	const char *layer, *column;
-	mr_deform_task task;
+	mr_deform_maps *maps;
 	mr_deform_opts opts;
 	mr_mesh m, rest;
 	mr_deform *d;
@@ -165,34 +144,29 @@ solve(mr_ctx *ctx, mr_frame *f, const mr_solve_opts *o, mr_deform_cache *kept, m
 	MR_TRY(choose_solver(ctx, o, &opts));
 	MR_TRY(mr_layer_choose(ctx, f, o->layer, reads, &layer));
 	MR_TRY(mr_layer_mesh(ctx, f, layer, &m));
-	MR_TRY(read_task(ctx, f, &m, o, &task));
-	posing = task.maps || task.target;
+	MR_TRY(read_maps(ctx, f, o, &maps));
+	posing = maps != NULL;
 	if (!posing && !o->basis && !o->flatten)
 		return keep_rest(ctx, f, &m, result);
 	rest = m;
 	MR_TRY(read_rest(ctx, f, posing, &rest, &column));
 	p = MR_NEW(ctx, m.nv, mr_v3);
 	MR_TRY(mr_deform_cache_get(kept, ctx, f, &rest, column, &opts, &d));
-	MR_TRY(check_target(ctx, &m, &task, mr_deform_region(d)));
 	if (posing || o->flatten)
-		MR_TRY(mr_deform_solve(ctx, d, &task, p));
+		MR_TRY(mr_deform_solve(ctx, d, m.p, maps, p));
 	else
 		memcpy(p, m.p, m.nv * sizeof *p);
 	MR_TRY(check_solution(ctx, &m, p));
 	MR_TRY(keep_encoded(ctx, f, &m, posing));
-	if (posing)
+	if (posing) {
 		MR_TRY(mr_detail_keep_before(ctx, f, &m));
-	if (posing) { /* what poses a frame is used up by that */
 		mr_handles_drop(f);
-		mr_frame_drop(f, layer, "target", 0);
 	}
 	if (posing || o->flatten)
 		MR_TRY(mr_layer_move(ctx, f, layer, MR_POSED, p, m.nv));
 	if (o->basis)
 		MR_TRY(mr_deform_put_basis(ctx, f, &m, d, p));
 	*result = mr_deform_report(ctx, d);
-	if (o->verify)
-		MR_TRY(mr_deform_condition(ctx, d, &result->condition));
 	return posing ? MR_OK : mr_layer_put(ctx, f, layer, "rest", m.p, m.nv);
 }
 

@@ -49,8 +49,8 @@ done >rows
 # What remeshing does to the system: before, on the smoothed model as it came, and after.
 worth() { # model; selected.mrs
 	for k in 1 2 3; do
-		mr-solve -k $k --flatten --verify --stats stats.json selected.mrs -o out.mrs || return
-		echo "$1 $2 $k $(figure negative_weights) $(figure condition)"
+		mr-solve -k $k --flatten --stats stats.json selected.mrs -o out.mrs || return
+		echo "$1 $2 $k $(figure negative_weights) $(figure rcond | awk '{ print $1 > 0 ? 1 / $1 : 0 }')"
 	done
 }
 models() {
@@ -87,7 +87,7 @@ done >worths
 		END { for (s in n) if (n[s] > 1) printf "%-18s %6.2f\n", s,
 			(n[s] * sxy[s] - sx[s] * sy[s]) / (n[s] * sxx[s] - sx[s] * sx[s]) }' rows | sort
 	echo
-	echo "Remeshing: edges with a negative cotangent weight, and the condition number, before and after"
+	echo "Remeshing: edges with a negative cotangent weight, and the condition number (of the factor, by CHOLMOD), before and after"
 	awk 'BEGIN { printf "%-10s %2s %10s %10s %10s %10s\n", "model", "k", "negative %", "after %", "condition", "after" }
 		$2 == "before" { negative[$1, $3] = $4; condition[$1, $3] = $5; next }
 		{ printf "%-10s %2d %10.3f %10.3f %10.1e %10.1e\n", $1, $3, 100 * negative[$1, $3], 100 * $4, condition[$1, $3], $5 }' worths

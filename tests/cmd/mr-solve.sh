@@ -119,31 +119,6 @@ grep -o '"free":[0-9]*' stats.json >one
 grep -o '"free":[0-9]*' other.json | cmp - one && [ -s one ] && echo "mesh decides"
 mr-render -l base -c region --size 40x30 -i p0.mrs p0.png && [ -s p0.png ] && echo drawn
 
-# Places for constrained vertices, here those that a handle takes, give what the handle gives.
-mr-solve -o p0.mrs s.mrs
-mr-pose --translate 0.2,0.1,0.3 p0.mrs -o posed.mrs
-mr-solve posed.mrs -o q.mrs
-cat >targets.py <<'END'
-import records, struct, sys
-columns = {}
-for layer, column, shape, rows, data in records.read(open('p0.mrs', 'rb').read()):
-    columns[layer, column] = data
-    if column == b'ENDFRAME':
-        place = list(struct.iter_unpack('<3d', columns[b'base', b'position']))
-        region = [r for r, in struct.iter_unpack('<I', columns[b'base', b'region'])]
-        place = [(x + 0.2, y + 0.1, z + 0.3) if r == 2 else (x, y, z) for (x, y, z), r in zip(place, region)]
-        target = b''.join(struct.pack('<3d', *p) for p in place)
-        sys.stdout.buffer.write(records.record(b'base', b'target', b'vd\3', len(place), target))
-    sys.stdout.buffer.write(records.record(layer, column, shape, rows, data))
-END
-python3 targets.py >targets.mrs
-mr-encode targets.mrs | mr-decode 2>&1 >out | grep -o "base has targets.*"
-mr-solve targets.mrs -o r.mrs
-off q.mrs base >q.off
-off r.mrs base >r.off
-far q.off r.off 1e-12
-mr-info -l base r.mrs | grep -c "^ *target" || true # used up
-
 # A control mesh keeps its shape, with its basis too: at rest no bit changes, and its poses are those of a solve.
 mr-make torus --points 3000 >points.mrs
 mr-make torus -n 300 | mr-export -f off - | mr-import -l control - | mr-cat --merge - points.mrs | mr-sample -n 2 |

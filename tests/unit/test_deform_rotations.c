@@ -75,7 +75,7 @@ pose(mr_deform *d, const mr_v3 *p, const mr_affine *t, const mr_v3 *turn, size_t
 {
 	mr_deform_maps maps = { t, turn, handles };
 
-	if (mr_deform_solve(&ctx, d, &(mr_deform_task){ p, &maps, NULL }, out) != MR_OK)
+	if (mr_deform_solve(&ctx, d, p, &maps, out) != MR_OK)
 		fail_msg("%s", ctx.error);
 }
 
@@ -629,26 +629,6 @@ test_iterative_is_direct(void **state)
 	}
 }
 
-/* Places that a turned handle takes tell the rounds alone where it turns. */
-static void
-test_targets_have_rounds(void **state)
-{
-	mr_mesh m = tube(61, 0.3);
-	uint32_t *region = ends(&m, FIXED);
-	mr_v3 w = mr_vec(0, 0, 1.5), *target = places(&m), *p = places(&m), *q = places(&m);
-	mr_affine t = turning(w, mr_vec(LENGTH / 2, 0, 0), mr_vec(0, 0, 0));
-	mr_deform *none = deform_of(&m, region, 1, 0), *some = deform_of(&m, region, 1, 8);
-
-	(void)state;
-	for (size_t v = 0; v < m.nv; v++)
-		target[v] = region[v] == HANDLE ? mr_apply(&t, m.p[v]) : m.p[v];
-	assert_int_equal(mr_deform_solve(&ctx, none, &(mr_deform_task){ m.p, NULL, target }, p), MR_OK);
-	assert_int_equal(mr_deform_solve(&ctx, some, &(mr_deform_task){ m.p, NULL, target }, q), MR_OK);
-	assert_true(energy(&m, q) < 0.3 * energy(&m, p));
-	assert_int_equal(mr_deform_solve(&ctx, some, &(mr_deform_task){ m.p, NULL, m.p }, q), MR_OK);
-	assert_memory_equal(q, m.p, m.nv * sizeof *q);
-}
-
 static void
 test_threads_and_order_of_poses_change_nothing(void **state)
 {
@@ -689,7 +669,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_parts_that_touch_keep_volume, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_dents_are_not_blown_up, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_iterative_is_direct, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_targets_have_rounds, setup, teardown),
 		cmocka_unit_test_setup_teardown(
 		    test_threads_and_order_of_poses_change_nothing, setup, teardown),
 	};

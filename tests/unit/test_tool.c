@@ -367,34 +367,6 @@ test_crop_keeps_what_is_chosen(void **state)
 	mr_ctx_delete(ctx);
 }
 
-/* Columns that another program put and that do not fit what they stand beside. */
-static void
-test_columns_that_do_not_fit_are_refused(void **state)
-{
-	static const mr_shape place = { 'v', 'd', 3 };
-	mr_ctx *ctx = context();
-	mr_pose pose = MR_POSE_REST;
-	mr_frame *f = creature(ctx);
-	mr_mesh base;
-	mr_v3 *target;
-
-	(void)state;
-	prepare(ctx, f, false);
-	assert_int_equal(mr_layer_mesh(ctx, f, "base", &base), MR_OK);
-	target = MR_NEW(ctx, base.nv, mr_v3);
-	assert_non_null(target);
-	memcpy(target, base.p, base.nv * sizeof *target);
-	target[7].z = NAN;
-	assert_int_equal(mr_frame_put(ctx, f, "base", "target", place, target, base.nv), MR_OK);
-	assert_int_equal(mr_solve_frame(ctx, f, NULL, NULL, NULL), MR_ERANGE);
-	assert_string_equal(mr_error(ctx), "base: target 7 is not finite");
-	target[7].z = 0;
-	assert_int_equal(mr_pose_frame(ctx, f, NULL, 0, &pose), MR_OK);
-	assert_int_equal(mr_solve_frame(ctx, f, NULL, NULL, NULL), MR_EMESH);
-	assert_non_null(strstr(mr_error(ctx), "there are handles too"));
-	mr_ctx_delete(ctx);
-}
-
 int
 main(void)
 {
@@ -404,8 +376,7 @@ main(void)
 		cmocka_unit_test(test_sentences_notes_and_columns), cmocka_unit_test(test_wrong_options),
 		cmocka_unit_test(test_options_that_cannot_be), cmocka_unit_test(test_defaults_and_nobody),
 		cmocka_unit_test(test_results_agree_with_measures),
-		cmocka_unit_test(test_crop_keeps_what_is_chosen),
-		cmocka_unit_test(test_columns_that_do_not_fit_are_refused) };
+		cmocka_unit_test(test_crop_keeps_what_is_chosen) };
 
 	cmocka_set_message_output(CM_OUTPUT_TAP);
 	return cmocka_run_group_tests(tests, NULL, NULL);
