@@ -159,16 +159,6 @@ void mr_corners_to_vertices(mr_ctx *ctx, const mr_tri *t, size_t nf, size_t nv, 
 void mr_number_rows(
     mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count);
 
-/*
- * Numbers rows of `width` doubles, at most three, in order of first use, equal ones alike; MR_NONE of one
- * that is none.  first: of each number, its first row.
- */
-void mr_number_rows(
-    mr_ctx *ctx, const double *x, size_t width, size_t n, uint32_t *number, uint32_t *first, size_t *count);
-
-/* Reports files of materials that are not where the model at `path` ("-": nowhere) names them. */
-void mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files);
-
 /* x[of[i]] for rows of `size` bytes, in the arena; NULL where memory cannot be had. */
 void *mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, size_t n) MR_WARN_UNUSED;
 

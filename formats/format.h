@@ -28,8 +28,7 @@ typedef struct mr_file_format {
 mr_status mr_model_parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data,
     size_t size, mr_model *m) MR_WARN_UNUSED;
 
-/* Text without the mark that begins UTF-8, and with newlines for ends of lines that are CR alone; what is no
- * text stays as it is.  In the arena where it changes. */
+/* Text without the mark that begins UTF-8; where all lines end in CR alone, with newlines, in the arena. */
 void mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size);
 
 bool mr_obj_sniff(const unsigned char *data, size_t size);

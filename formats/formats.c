@@ -138,55 +138,25 @@ mr_format_stem(mr_ctx *ctx, const char *path)
 
 /* ---- reading ---- */
 
-static bool
-holds(const unsigned char *data, size_t size, const char *word)
-{
-	const size_t n = strlen(word);
-	size_t i = 0;
-
-	while (i + n <= size && memcmp(data + i, word, n))
-		i++;
-	return i + n <= size;
-}
-
-/* The next CR that no LF follows; NULL: there is none. */
-static const unsigned char *
-lone_return(const unsigned char *p, const unsigned char *end)
-{
-	while ((p = memchr(p, '\r', (size_t)(end - p))) && p + 1 < end && p[1] == '\n')
-		p++;
-	return p;
-}
-
-/* In text a CR alone ends a line, too, for which a newline comes to stand in a copy. */
-static void
-normalise_lines(mr_ctx *ctx, const unsigned char **data, size_t size)
-{
-	const unsigned char *end = *data + size;
-	const size_t head = size < 4096 ? size : 4096;
-	unsigned char *copy;
-
-	if (memchr(*data, 0, size < 65536 ? size : 65536) || holds(*data, head, "binary") ||
-	    !lone_return(*data, end))
-		return;
-	copy = mr_alloc(ctx, size, 1);
-	memcpy(copy, *data, size);
-	for (const unsigned char *p = *data; (p = lone_return(p, end)); p++)
-		copy[p - *data] = '\n';
-	*data = copy;
-}
-
 void
 mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
 {
-	if (mr_stl_is_binary(*data, *size)) /* begins with anything */
+	const unsigned char *p = *data;
+	unsigned char *copy;
+	size_t head;
+
+	if (*size == 0 || mr_stl_is_binary(p, *size)) /* begins with anything */
 		return;
-	if (*size >= 3 && (*data)[0] == 0xef && (*data)[1] == 0xbb && (*data)[2] == 0xbf) {
-		*data += 3;
+	if (*size > 3 && !memcmp(p, "\xef\xbb\xbf", 3)) {
+		*data = p += 3;
 		*size -= 3;
 	}
-	if (*size)
-		normalise_lines(ctx, data, *size);
+	head = *size < 65536 ? *size : 65536;
+	if (memchr(p, '\n', head) || !memchr(p, '\r', head) || memchr(p, 0, head))
+		return;
+	*data = copy = mr_alloc(ctx, *size, 1);
+	for (size_t i = 0; i < *size; i++)
+		copy[i] = p[i] == '\r' ? '\n' : p[i];
 }
 
 static mr_status
@@ -200,14 +170,11 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 		return mr_fail(ctx, MR_EUSAGE, "unknown format '%s'; there are %s", format, names);
 	if (size == 0)
 		return mr_fail(ctx, MR_EFORMAT, "the file is empty");
-	if (size > 1 && (!memcmp(data, "\xff\xfe", 2) || !memcmp(data, "\xfe\xff", 2)) &&
-	    !mr_stl_is_binary(data, size))
-		return mr_fail(ctx, MR_EFORMAT, "text of UTF-16 is not read: save it as UTF-8");
 	for (size_t i = 0; i < FORMATS && !found; i++)
 		if (formats[i].sniff && formats[i].sniff(data, size))
 			found = &formats[i];
-	if (!found || (found == by_name("xyz") && by_suffix(path) == by_name("off")))
-		found = by_suffix(path); /* whose reader says what is wrong; an OFF may lack its keyword */
+	if (!found)
+		found = by_suffix(path); /* whose reader says what is wrong */
 	if (!found && size >= MR_MAGIC_BYTES && !memcmp(data, MR_MAGIC, MR_MAGIC_BYTES))
 		return mr_fail(ctx, MR_EFORMAT, "this is a stream already, for the tools behind mr-import");
 	if (!found)

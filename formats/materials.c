@@ -2,19 +2,19 @@
  * which others have added; the rest is for other programs. */
 #include "formats/materials.h"
 
+#include "base/name_table.h"
 #include "formats/format.h"
 
-#include <ctype.h>
 #include <sys/stat.h>
 
 typedef struct finder {
 	mr_ctx *ctx;
 	const char *folder;
-	const char **name; /* of the model's materials: count + 1 starts */
-	mr_material *list;
-	size_t count;
-	bool *known, *current; /* a file speaks of it; the statements at hand do */
-	size_t files, wrong;   /* that are there; statements without their numbers */
+	mr_name_table names; /* of the model's materials */
+	mr_material *list,
+	    *current;        /* current: that the statements at hand speak of; NULL: none of the model's */
+	bool *known;         /* a file speaks of it */
+	size_t files, wrong; /* that are there; statements without their numbers */
 } finder;
 
 const mr_material mr_material_plain = { .opacity = 1, .roughness = 0.9 };
@@ -52,32 +52,17 @@ find_file(const finder *f, const char *name, size_t bytes)
 
 /* ---- statements ---- */
 
-/* Skips the options of a picture and their values: numbers, on, off, or the one word of -imfchan and -type.
- */
-static void
-skip_options(mr_scan *t)
-{
-	while (mr_skip_blanks(t), t->end - t->p > 1 && *t->p == '-' && isalpha((unsigned char)t->p[1])) {
-		bool named = mr_scan_accept(t, "-imfchan") || mr_scan_accept(t, "-type");
-		const char *w;
-		size_t n;
-		double x;
-		mr_scan ahead;
-		if (named || !mr_scan_word(t, &w, &n))
-			mr_scan_word(t, &w, &n);
-		for (ahead = *t;
-		     mr_scan_word(&ahead, &w, &n) && (mr_word_is(w, n, "on") || mr_word_is(w, n, "off") ||
-							 mr_real_read(w, w + n, &x) == w + n);)
-			*t = ahead;
-	}
-}
-
+/* Behind options only the last word is the picture's name. */
 static const char *
 picture(finder *f, mr_scan *t)
 {
 	const char *found;
+	size_t n;
 
-	skip_options(t);
+	mr_skip_blanks(t);
+	if (t->p < t->end && *t->p == '-')
+		for (mr_scan ahead = *t; mr_scan_word(&ahead, &found, &n);)
+			t->p = found;
 	found = find_file(f, t->p, (size_t)(t->end - t->p));
 	mr_tell(f->ctx, MR_MISSING, !found, "%.*s", (int)(t->end - t->p), t->p);
 	return found;
@@ -126,7 +111,7 @@ describe(finder *f, mr_material *m, mr_scan *t)
 	if (mr_scan_accept(t, "Pm"))
 		return shares(t, &m->metal, 1);
 	if (mr_scan_accept(t, "d"))
-		return (void)mr_scan_accept(t, "-halo"), shares(t, &m->opacity, 1);
+		return shares(t, &m->opacity, 1);
 	if (mr_scan_accept(t, "Tr")) { /* the reverse, which some programs write as 1 for all */
 		if (shares(t, &clear, 1) == 0)
 			return false;
@@ -140,23 +125,22 @@ describe(finder *f, mr_material *m, mr_scan *t)
 
 /* The last description of a name holds. */
 static void
-begin_material(finder *f, const mr_scan *t)
+begin_material(finder *f, const mr_scan *t, size_t count)
 {
-	size_t bytes = (size_t)(t->end - t->p);
+	size_t bytes = (size_t)(t->end - t->p), i;
 	char *name = mr_alloc(f->ctx, bytes + 1, 1);
 
 	bytes = mr_clean_name(name, t->p, bytes, false);
-	for (size_t i = 0; i < f->count; i++) {
-		f->current[i] = bytes && (size_t)(f->name[i + 1] - f->name[i]) == bytes + 1 &&
-		                !memcmp(f->name[i], name, bytes);
-		f->known[i] |= f->current[i];
-		if (f->current[i])
-			f->list[i] = mr_material_plain;
+	i = mr_name_number(f->ctx, &f->names, name, bytes);
+	f->current = bytes && i < count ? &f->list[i] : NULL;
+	if (f->current) {
+		*f->current = mr_material_plain;
+		f->known[i] = true;
 	}
 }
 
 static mr_status
-statements(finder *f, const unsigned char *data, size_t size)
+statements(finder *f, size_t count, const unsigned char *data, size_t size)
 {
 	mr_scan text, line;
 
@@ -164,69 +148,75 @@ statements(finder *f, const unsigned char *data, size_t size)
 	mr_as_text(f->ctx, &data, &size);
 	if (size && memchr(data, 0, size))
 		return mr_fail(f->ctx, MR_EFORMAT, "a zero byte: not a text file");
-	memset(f->current, 0, f->count);
+	f->current = NULL;
 	text = mr_scan_of(f->ctx, data, size);
 	while (mr_scan_line(&text, &line)) {
 		while (line.end > line.p && mr_is_blank(line.end[-1]))
 			line.end--;
 		if (mr_scan_accept(&line, "newmtl")) {
 			mr_skip_blanks(&line);
-			begin_material(f, &line);
-		}
-		for (size_t i = 0; i < f->count; i++)
-			f->wrong += f->current[i] && !describe(f, &f->list[i],
-							 &(mr_scan){ f->ctx, line.start, line.p, line.end });
+			begin_material(f, &line, count);
+		} else if (f->current)
+			f->wrong += !describe(f, f->current, &line);
 	}
 	return MR_OK;
 }
 
-/* *there: whether there is such a file. */
+/* Nothing is read where the materials are not asked for. */
 static mr_status
-read_library(finder *f, const char *name, size_t bytes, bool *there)
+read_library(finder *f, size_t count, const char *path)
 {
-	const char *path = find_file(f, name, bytes);
 	mr_file_bytes b = { 0 };
 
-	*there = path != NULL;
-	if (!path)
+	if (!f->list)
 		return MR_OK;
 	f->files++;
 	MR_TRY(mr_file_bytes_read(f->ctx, path, &b));
-	return mr_prefix(f->ctx, mr_file_bytes_end(f->ctx, &b, statements(f, b.data, b.size)), "%s", path);
+	return mr_prefix(
+	    f->ctx, mr_file_bytes_end(f->ctx, &b, statements(f, count, b.data, b.size)), "%s", path);
 }
 
 /* A line names one file, whose name may have blanks in it, or several. */
 static mr_status
-read_libraries(finder *f, const char *line, size_t bytes)
+read_libraries(finder *f, size_t count, mr_lines files)
 {
-	mr_scan words = { f->ctx, line, line, line + bytes };
-	const char *name;
-	size_t n;
-	bool there;
+	mr_scan text = { f->ctx, files.text, files.text,
+		files.bytes ? files.text + files.bytes : files.text },
+		line;
 
-	MR_TRY(read_library(f, line, bytes, &there));
-	while (!there && mr_scan_word(&words, &name, &n)) {
-		bool found;
-		MR_TRY(read_library(f, name, n, &found));
-		mr_tell(f->ctx, MR_MISSING, !found, "%.*s", (int)n, name);
+	while (mr_scan_line(&text, &line)) {
+		const char *path = find_file(f, line.p, (size_t)(line.end - line.p)), *name;
+		bool there = true;
+		size_t n;
+		if (path) {
+			MR_TRY(read_library(f, count, path));
+			continue;
+		}
+		for (mr_scan words = line; mr_scan_word(&words, &name, &n);) {
+			path = find_file(f, name, n);
+			there = there && path;
+			if (path)
+				MR_TRY(read_library(f, count, path));
+		}
+		mr_tell(f->ctx, MR_MISSING, !there, "%.*s", (int)(line.end - line.p), line.p);
 	}
 	return MR_OK;
 }
 
 /* The model's materials that no file speaks of. */
 static void
-say_unknown(const finder *f)
+say_unknown(const finder *f, const char *const *name, size_t count)
 {
 	size_t unknown = 0, first = 0;
 
-	for (size_t i = f->count; i-- > 0;)
-		if (!f->known[i] && f->name[i + 1] > f->name[i] + 1) {
+	for (size_t i = count; i-- > 0;)
+		if (!f->known[i] && name[i + 1] > name[i] + 1) {
 			first = i;
 			unknown++;
 		}
 	if (f->files)
 		mr_tell(f->ctx, MR_MISSING, unknown, "material %.*s%s",
-		    (int)(f->name[first + 1] - f->name[first]) - 1, f->name[first],
+		    (int)(name[first + 1] - name[first]) - 1, name[first],
 		    unknown > 1 ? ", and others," : "");
 }
 
@@ -234,58 +224,31 @@ mr_status
 mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count)
 {
 	finder f = { .ctx = ctx, .folder = folder };
-	const char **library;
-	size_t libraries = 0;
+	const char **name;
 
 	*list = NULL;
 	*count = 0;
 	if (!m->material || !m->materials.text)
 		return MR_OK;
-	mr_lines_starts(ctx, m->materials, &f.name, &f.count);
-	f.list = MR_NEW(ctx, f.count, mr_material);
-	f.known = MR_NEW_ZERO(ctx, f.count, bool);
-	f.current = MR_NEW_ZERO(ctx, f.count, bool);
-	for (size_t i = 0; i < f.count; i++)
+	mr_lines_starts(ctx, m->materials, &name, count);
+	f.list = MR_NEW(ctx, *count, mr_material);
+	f.known = MR_NEW_ZERO(ctx, *count, bool);
+	for (size_t i = 0; i < *count; i++) {
 		f.list[i] = mr_material_plain;
-	if (m->mtllib.bytes)
-		mr_lines_starts(ctx, m->mtllib, &library, &libraries);
-	for (size_t i = 0; i < libraries; i++)
-		MR_TRY(read_libraries(&f, library[i], (size_t)(library[i + 1] - library[i]) - 1));
+		mr_name_add(ctx, &f.names, name[i], (size_t)(name[i + 1] - name[i]) - 1);
+	}
+	MR_TRY(read_libraries(&f, *count, m->mtllib));
 	mr_lost(ctx, NULL, f.wrong, "statements of materials");
-	say_unknown(&f);
+	say_unknown(&f, name, *count);
 	*list = f.list;
-	*count = f.count;
 	return MR_OK;
 }
 
-/* A line names one file, or several. */
-static bool
-are_there(const finder *f, mr_scan line)
-{
-	bool there = find_file(f, line.p, (size_t)(line.end - line.p));
-	const char *word;
-	size_t n;
-
-	if (there)
-		return true;
-	while (mr_scan_word(&line, &word, &n)) {
-		there = find_file(f, word, n);
-		if (!there)
-			return false;
-	}
-	return there;
-}
-
-void
+mr_status
 mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files)
 {
-	mr_scan text = { ctx, files.text, files.text, files.bytes ? files.text + files.bytes : files.text },
-		line;
 	const char *slash = strrchr(path, '/');
-	const finder f = { .ctx = ctx,
-		.folder = slash ? mr_format(ctx, "%.*s", (int)(slash - path), path) : "." };
+	finder f = { .ctx = ctx, .folder = slash ? mr_format(ctx, "%.*s", (int)(slash - path), path) : "." };
 
-	while (strcmp(path, "-") && mr_scan_line(&text, &line))
-		if (!are_there(&f, line))
-			mr_tell(ctx, MR_MISSING, 1, "%.*s", (int)(line.end - line.p), line.p);
+	return strcmp(path, "-") ? read_libraries(&f, 0, files) : MR_OK;
 }

@@ -30,6 +30,6 @@ mr_status mr_materials_find(
     mr_ctx *ctx, const mr_model *m, const char *folder, mr_material **list, size_t *count) MR_WARN_UNUSED;
 
 /* Reports files of materials that are not where the model at `path` ("-": nowhere) names them. */
-void mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files);
+mr_status mr_libraries_missing(mr_ctx *ctx, const char *path, mr_lines files) MR_WARN_UNUSED;
 
 #endif

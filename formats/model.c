@@ -297,7 +297,7 @@ import(mr_ctx *ctx, const char *path, const mr_import_opts *o, mr_frame **frame,
 	if (o->repair)
 		MR_TRY(mr_prefix(ctx, mr_layer_repair(ctx, f, layer), "%s", path));
 	*frame = f;
-	mr_libraries_missing(ctx, path, m.mtllib);
+	MR_TRY(mr_libraries_missing(ctx, path, m.mtllib));
 	m.counts.vertices = mr_frame_find(f, layer, "position")->rows;
 	m.counts.triangles = m.nf ? mr_frame_find(f, layer, "triangles")->rows : 0;
 	if (result)

@@ -1,7 +1,7 @@
 /*
  * Wavefront OBJ.  tinyobj reads faces, through obj_shim; this file reads v, vt and vn lines, whose numbers
- * must be exact, and names, which may have blanks in them, joins continued lines, and checks each face line
- * before tinyobj sees it: tinyobj takes any word for an index and lets indices wrap.
+ * must be exact, and names, which may have blanks in them, and checks each face line before tinyobj sees it:
+ * tinyobj takes any word for an index and lets indices wrap.
  */
 #include "formats/format.h"
 #include "formats/obj_shim.h"
@@ -10,18 +10,17 @@ typedef struct obj {
 	mr_ctx *ctx;
 	mr_scan text; /* of the whole file */
 	mr_builder b;
-	const char *line; /* the line at hand, for errors */
-	char *joined;     /* continued lines, put together, and lines that need a newline */
-	size_t joined_room;
+	const char *line; /* the face at hand, for errors */
+	char *face;       /* its line, as tinyobj reads it */
+	size_t face_room;
 	size_t v, vt, vn; /* lines so far */
 	size_t v_all, vt_all, vn_all, f_all;
-	double *uv;                                               /* vt_all pairs */
-	mr_v3 *vn_values;                                         /* vn_all */
-	mr_rows rows;                                             /* of vertices: positions and colours */
-	size_t lines_and_points, weights, alphas, depths, others; /* what is left out */
-	size_t odd_texcoords;                                     /* that are not finite */
+	double *uv;             /* vt_all pairs */
+	mr_v3 *vn_values;       /* vn_all */
+	mr_rows rows;           /* of vertices: positions and colours */
+	size_t numbers, others; /* what is left out: of vertices and texture coordinates; statements */
+	size_t odd_texcoords;   /* that are not finite */
 	size_t no_normals, no_texcoords; /* corners that name one that is not there */
-	bool slashes;                    /* the face at hand has a slash with nothing behind it */
 	uint32_t *corners;               /* of the face at hand: vertices, texture coordinates, normals */
 	size_t corner_room;
 	mr_status status; /* of the first failure, after which nothing is read */
@@ -41,50 +40,30 @@ continues(const char *begin, const char *end)
 	return true;
 }
 
-/* Puts a line that goes on behind a backslash together with what follows. */
+/* The text with lines that go on behind a backslash put together, and empty ones in place of what follows:
+ * each keeps its number.  In the arena where there are such lines. */
 static void
-join(obj *o, mr_scan *line)
+unfold(mr_scan *t)
 {
-	size_t n = 0;
-	bool more = true;
+	mr_scan rest = *t, line;
+	size_t empty = 0;
+	char *to;
 
-	while (more) {
-		size_t bytes = (size_t)(line->end - line->p);
-		more = continues(line->p, line->end);
-		MR_RESERVE(o->ctx, o->joined, n, bytes + 1, &o->joined_room);
-		memcpy(o->joined + n, line->p, bytes);
-		n += bytes;
+	if (!memchr(t->p, '\\', (size_t)(t->end - t->p)))
+		return;
+	to = mr_alloc(t->ctx, (size_t)(t->end - t->p) + 1, 1);
+	*t = (mr_scan){ t->ctx, to, to, to };
+	while (mr_scan_line(&rest, &line)) {
+		size_t n = (size_t)(line.end - line.p);
+		bool more = continues(line.p, line.end) && rest.p < rest.end;
+		memcpy(to, line.p, n);
+		to += n;
 		if (more)
-			o->joined[n - 1] = ' ';
-		more = more && mr_scan_line(&o->text, line);
+			to[-1] = ' ';
+		for (empty++; !more && empty > 0; empty--)
+			*to++ = '\n';
 	}
-	o->joined[n] = '\n';
-	*line = (mr_scan){ o->ctx, o->joined, o->joined, o->joined + n };
-}
-
-/* The next line, without leading blanks and joined where it goes on; MR_END at the end. */
-static mr_status
-next_line(obj *o, mr_scan *line)
-{
-	o->line = o->text.p < o->text.end ? o->text.p : o->line;
-	if (!mr_scan_line(&o->text, line))
-		return MR_END;
-	mr_skip_blanks(line);
-	if (continues(line->p, line->end))
-		join(o, line);
-	return MR_OK;
-}
-
-/* "line N: ..." for the line at hand: a failure found in a part of it says nothing of places. */
-static mr_status MR_PRINTF(2, 3) bad(obj *o, const char *format, ...)
-{
-	char sentence[MR_ERROR_MAX / 2];
-	va_list args;
-
-	va_start(args, format);
-	vsnprintf(sentence, sizeof sentence, format, args);
-	va_end(args);
-	return mr_scan_fail(&o->text, o->line, "%s", sentence);
+	t->end = to;
 }
 
 static bool
@@ -98,39 +77,19 @@ begins(const mr_scan *line, const char *word)
 
 /* ---- v, vt, vn ---- */
 
-/* A word that is nan or infinity, of any spelling. */
+/* The numbers of a line. */
 static mr_status
-odd_number(obj *o, mr_scan *line, const char *what, double *x)
-{
-	char shown[MR_SHOWN];
-	const char *w;
-	size_t n;
-
-	mr_scan_word(line, &w, &n);
-	return mr_word_not_finite(w, n, x)
-	           ? MR_OK
-	           : bad(o, "%s has '%s' for a number", what, mr_word_shown(w, n, shown));
-}
-
-/* The numbers of a line into x, which has a place more than `most`. */
-static mr_status
-numbers(obj *o, mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count)
+numbers(mr_scan *line, const char *what, size_t least, size_t most, double *x, size_t *count)
 {
 	size_t n = 0;
 
-	mr_skip_blanks(line);
-	for (; line->p < line->end && *line->p != '#'; n++) {
-		const char *e = mr_real_read(line->p, line->end, &x[n]);
+	for (; mr_skip_blanks(line), line->p < line->end && *line->p != '#'; n++) {
 		if (n == most)
-			return bad(o, "%s has more than %zu numbers", what, most);
-		if (e && (e == line->end || mr_is_blank(*e)))
-			line->p = e;
-		else
-			MR_TRY(odd_number(o, line, what, &x[n]));
-		mr_skip_blanks(line);
+			return mr_scan_fail(line, line->p, "%s has more than %zu numbers", what, most);
+		MR_TRY(mr_scan_real(line, what, &x[n]));
 	}
 	if (n < least)
-		return bad(o, "%s has %zu numbers, not %zu", what, n, least);
+		return mr_scan_fail(line, line->p, "%s has %zu numbers, not %zu", what, n, least);
 	*count = n;
 	return MR_OK;
 }
@@ -139,19 +98,18 @@ numbers(obj *o, mr_scan *line, const char *what, size_t least, size_t most, doub
 static mr_status
 position(obj *o, mr_scan *line)
 {
-	double x[8] = { 0 };
+	double x[7] = { 0 };
 	size_t n = 0;
 
-	MR_TRY(numbers(o, line, "a vertex", 3, 7, x, &n));
+	MR_TRY(numbers(line, "a vertex", 3, 7, x, &n));
 	if (n == 5)
-		return bad(o, "a vertex has 5 numbers, not 3, 4, 6 or 7");
+		return mr_scan_fail(line, line->p, "a vertex has 5 numbers, not 3, 4, 6 or 7");
 	if (!isfinite(x[0]) || !isfinite(x[1]) || !isfinite(x[2]))
-		return bad(o, "a coordinate is not finite");
-	o->weights += n == 4 && x[3] != 1;
+		return mr_scan_fail(line, line->p, "a coordinate is not finite");
+	o->numbers += (n == 4 && x[3] != 1) || (n > 6 && x[6] != 1);
 	o->rows.odd_colors += n > 4 && !isfinite(x[3] + x[4] + x[5]);
 	if (n <= 4)
 		x[3] = x[4] = x[5] = (double)NAN;
-	o->alphas += n > 6 && x[6] != 1;
 	o->v++;
 	mr_rows_put(&o->rows, x);
 	return MR_OK;
@@ -160,15 +118,15 @@ position(obj *o, mr_scan *line)
 static mr_status
 texcoord(obj *o, mr_scan *line)
 {
-	double x[4] = { 0 };
+	double x[3] = { 0 };
 	size_t n = 0;
 
-	MR_TRY(numbers(o, line, "a texture coordinate", 1, 3, x, &n));
+	MR_TRY(numbers(line, "a texture coordinate", 1, 3, x, &n));
 	if (!isfinite(x[0]) || !isfinite(x[1])) {
 		x[0] = x[1] = NAN; /* none */
 		o->odd_texcoords++;
 	}
-	o->depths += n == 3 && x[2] != 0;
+	o->numbers += n == 3 && x[2] != 0;
 	o->uv[2 * o->vt] = x[0];
 	o->uv[2 * o->vt + 1] = x[1];
 	o->vt++;
@@ -178,10 +136,10 @@ texcoord(obj *o, mr_scan *line)
 static mr_status
 normal(obj *o, mr_scan *line)
 {
-	double x[4] = { 0 };
+	double x[3] = { 0 };
 	size_t n;
 
-	MR_TRY(numbers(o, line, "a normal", 3, 3, x, &n));
+	MR_TRY(numbers(line, "a normal", 3, 3, x, &n));
 	o->vn_values[o->vn] = mr_vec(x[0], x[1], x[2]);
 	o->vn++;
 	return MR_OK;
@@ -205,51 +163,36 @@ index_end(const char *p, const char *end)
 
 /* v, v/vt, v//vn or v/vt/vn; an index after a slash may be left out. */
 static const char *
-corner_end(const char *p, const char *end, bool *open)
+corner_end(const char *p, const char *end)
 {
 	p = index_end(p, end);
 	for (int slash = 0; slash < 2 && p && p < end && *p == '/'; slash++) {
 		p++;
 		if (p < end && *p != '/' && !mr_is_blank(*p))
 			p = index_end(p, end);
-		else
-			*open = true;
 	}
 	return p && (p == end || mr_is_blank(*p)) ? p : NULL;
 }
 
+/* Up to a comment, which tinyobj would read. */
 static mr_status
-bad_corner(obj *o, const char *p, const char *end)
+check_face(mr_scan *line)
 {
-	mr_scan rest = { o->ctx, p, p, end };
 	char shown[MR_SHOWN];
-	const char *w;
+	mr_scan at = *line;
+	const char *w, *e;
 	size_t n;
 
-	mr_scan_word(&rest, &w, &n);
-	return bad(
-	    o, "'%s' is not a corner: v, v/vt, v//vn or v/vt/vn, counted from 1", mr_word_shown(w, n, shown));
-}
-
-static mr_status
-check_face(obj *o, mr_scan *line)
-{
-	const char *p = line->p + 1;
-
-	o->slashes = false;
-	while (p < line->end && mr_is_blank(*p))
-		p++;
-	while (p < line->end) {
-		const char *e = corner_end(p, line->end, &o->slashes);
-		if (*p == '#') { /* tinyobj would read on */
-			line->end = p;
-			break;
+	for (at.p++; mr_skip_blanks(&at), at.p < at.end && *at.p != '#'; at.p = e) {
+		e = corner_end(at.p, at.end);
+		if (!e) {
+			mr_scan_word(&at, &w, &n);
+			return mr_scan_fail(line, w,
+			    "'%s' is not a corner: v, v/vt, v//vn or v/vt/vn, counted from 1",
+			    mr_word_shown(w, n, shown));
 		}
-		if (!e)
-			return bad_corner(o, p, line->end);
-		for (p = e; p < line->end && mr_is_blank(*p); p++)
-			;
 	}
+	line->end = at.p;
 	return MR_OK;
 }
 
@@ -287,7 +230,7 @@ add_face(obj *o, const mr_obj_corner *c, size_t n)
 	v = o->corners, t = v + n, s = t + n;
 	for (size_t i = 0; i < n; i++) {
 		if (!resolve(c[i].v, o->v, o->v_all, &v[i]))
-			return bad(o, "vertex %d of %zu", c[i].v, o->v_all);
+			return mr_scan_fail(&o->text, o->line, "vertex %d of %zu", c[i].v, o->v_all);
 		t[i] = place_of(c[i].vt, o->vt, o->vt_all, &o->no_texcoords);
 		s[i] = place_of(c[i].vn, o->vn, o->vn_all, &o->no_normals);
 		uv |= t[i] != MR_NONE;
@@ -318,16 +261,8 @@ face_call(void *user, const mr_obj_corner *c, int n)
 
 /* ---- names ---- */
 
-/* What stands behind the statement's word. */
-static void
-skip_statement(mr_scan *line, const char *word)
-{
-	line->p += strlen(word);
-	mr_skip_blanks(line);
-}
-
 /* A number or "off"; other words count as left out. */
-static mr_status
+static void
 smoothing(obj *o, mr_scan *line)
 {
 	uint64_t group = 0;
@@ -335,12 +270,10 @@ smoothing(obj *o, mr_scan *line)
 
 	for (; p < line->end && mr_is_digit(*p) && group <= UINT32_MAX; p++)
 		group = 10 * group + (uint64_t)(*p - '0');
-	if (p > line->p ? group <= UINT32_MAX && (p == line->end || mr_is_blank(*p)) : begins(line, "off")) {
+	if (p > line->p ? group <= UINT32_MAX && (p == line->end || mr_is_blank(*p)) : begins(line, "off"))
 		mr_build_smoothing(&o->b, (uint32_t)group);
-		return MR_OK;
-	}
-	o->others++;
-	return MR_OK;
+	else
+		o->others++;
 }
 
 /* A statement that marks the faces to come, or names materials' files; false for any other. */
@@ -358,9 +291,10 @@ is_mark(obj *o, mr_scan *line, mr_status *status)
 		i++;
 	if (i == sizeof words / sizeof *words)
 		return false;
-	skip_statement(line, words[i].word);
+	line->p += strlen(words[i].word);
+	mr_skip_blanks(line);
 	if (words[i].what == MR_SMOOTHING)
-		*status = smoothing(o, line);
+		smoothing(o, line);
 	else if (words[i].what == MR_MARKINGS)
 		*status = mr_build_library(&o->b, line->p, (size_t)(line->end - line->p));
 	else
@@ -370,30 +304,19 @@ is_mark(obj *o, mr_scan *line, mr_status *status)
 
 /* ---- the file ---- */
 
-/* Statements whose loss changes no surface of vertices and faces. */
-static bool
-known(const mr_scan *line)
-{
-	static const char *const words[] = { "vp", "vw", "cstype", "deg", "bmat", "step", "curv", "curv2",
-		"surf", "parm", "trim", "hole", "scrv", "sp", "end", "con", "mg", "bevel", "c_interp",
-		"d_interp", "lod", "usemap", "maplib", "shadow_obj", "trace_obj", "ctech", "stech", "call",
-		"csh", "t", NULL };
-
-	for (const char *const *w = words; *w; w++)
-		if (begins(line, *w))
-			return true;
-	return false;
-}
-
+/* Of any other statement only that it begins as one. */
 static mr_status
-unknown_statement(obj *o, mr_scan *line)
+other_statement(obj *o, mr_scan *line)
 {
 	char shown[MR_SHOWN];
 	const char *w;
 	size_t n;
 
 	mr_scan_word(line, &w, &n);
-	return bad(o, "'%s' begins no statement of OBJ", mr_word_shown(w, n, shown));
+	if ((*w | 32) < 'a' || (*w | 32) > 'z')
+		return mr_scan_fail(line, w, "'%s' begins no statement of OBJ", mr_word_shown(w, n, shown));
+	o->others++;
+	return MR_OK;
 }
 
 /* Reads one line here; *pass where tinyobj is to see it. */
@@ -404,7 +327,7 @@ one_line(obj *o, mr_scan *line, bool *pass)
 	char c = left ? *line->p : '#', d = left > 1 ? line->p[1] : ' ';
 	mr_status status = MR_OK;
 
-	*pass = o->slashes = false;
+	*pass = false;
 	if (c == '#')
 		return MR_OK;
 	if (c == 'v' && mr_is_blank(d))
@@ -413,50 +336,37 @@ one_line(obj *o, mr_scan *line, bool *pass)
 		return line->p += 2, d == 't' ? texcoord(o, line) : normal(o, line);
 	if (c == 'f' && mr_is_blank(d)) {
 		*pass = true;
-		return check_face(o, line);
+		return check_face(line);
 	}
-	if (is_mark(o, line, &status))
-		return status;
-	if (begins(line, "l") || begins(line, "p"))
-		o->lines_and_points++;
-	else if (!known(line))
-		return unknown_statement(o, line);
-	else
-		o->others++;
-	return MR_OK;
+	return is_mark(o, line, &status) ? status : other_statement(o, line);
 }
 
-/*
- * A line for tinyobj: a copy where it lacks its newline, holds a blank that tinyobj does not know, or a slash
- * with nothing behind it: there tinyobj takes the next corner's index.
- */
+/* A line for tinyobj, which knows few blanks, and takes the next corner's index behind a slash with nothing
+ * behind it. */
 static void
 hand_over(obj *o, const mr_scan *line, const char **begin, const char **end)
 {
 	size_t n = (size_t)(line->end - line->p);
-	bool whole = line->end < o->text.end && *line->end == '\n' && line->p != o->joined && n > 1 &&
-	             !o->slashes;
 
-	for (size_t i = 0; whole && i < n; i++)
-		whole = (unsigned char)line->p[i] >= ' ' || line->p[i] == '\t';
-	if (whole) {
-		*begin = line->p;
-		*end = line->end + 1;
-		return;
-	}
-	if (o->joined_room < n + 2 || line->p == o->joined) {
-		o->joined_room = 2 * n + 256;
-		o->joined = mr_grow(o->ctx, NULL, 0, o->joined_room, 1);
-	}
-	o->joined[n] = ' ';
-	o->joined[n + 1] = '\n';
+	MR_RESERVE(o->ctx, o->face, 0, n + 2, &o->face_room);
+	o->face[n] = ' ';
+	o->face[n + 1] = '\n';
 	for (size_t i = n; i-- > 0;) {
 		char c = line->p[i];
-		bool open = c == '/' && o->slashes && o->joined[i + 1] == ' ';
-		o->joined[i] = open || (unsigned char)c < ' ' ? ' ' : c;
+		o->face[i] = mr_is_blank(c) || (c == '/' && o->face[i + 1] == ' ') ? ' ' : c;
 	}
-	*begin = o->joined;
-	*end = o->joined + n + 2;
+	*begin = o->face;
+	*end = o->face + n + 2;
+}
+
+/* The next line, without leading blanks. */
+static bool
+next_line(obj *o, mr_scan *line)
+{
+	if (!mr_scan_line(&o->text, line))
+		return false;
+	mr_skip_blanks(line);
+	return true;
 }
 
 static mr_status
@@ -466,11 +376,11 @@ next_for_tinyobj(obj *o, const char **begin, const char **end)
 	bool pass = false;
 
 	while (!pass) {
-		mr_status status = next_line(o, &line);
-		if (status != MR_OK)
-			return status;
+		if (!next_line(o, &line))
+			return MR_END;
 		MR_TRY(one_line(o, &line, &pass));
 	}
+	o->line = line.p;
 	hand_over(o, &line, begin, end);
 	return MR_OK;
 }
@@ -493,13 +403,12 @@ line_call(void *user, const char **begin, const char **end)
 }
 
 /* Counts the lines of each kind, so that arrays have their size and an index can be checked at once. */
-static mr_status
+static void
 count_lines(obj *o)
 {
 	mr_scan start = o->text, line;
-	mr_status status;
 
-	while ((status = next_line(o, &line)) == MR_OK) {
+	while (next_line(o, &line)) {
 		size_t left = (size_t)(line.end - line.p);
 		char c = left ? *line.p : '#', d = left > 1 ? line.p[1] : ' ';
 		if (c == 'v') {
@@ -511,7 +420,6 @@ count_lines(obj *o)
 			o->f_all += mr_is_blank(d);
 	}
 	o->text = start;
-	return status < 0 ? status : MR_OK;
 }
 
 /* ---- the model ---- */
@@ -558,10 +466,7 @@ finish(obj *o, mr_model *m)
 	mr_rows_end(&o->rows);
 	finish_texcoords(o);
 	finish_normals(o);
-	mr_lost(o->ctx, NULL, o->lines_and_points, "lines and points");
-	mr_lost(o->ctx, NULL, o->weights, "weights of vertices");
-	mr_lost(o->ctx, NULL, o->alphas, "alpha");
-	mr_lost(o->ctx, NULL, o->depths, "third texture coordinates");
+	mr_lost(o->ctx, NULL, o->numbers, "weights, alpha or third texture coordinates");
 	mr_lost(o->ctx, NULL, o->others, "other statements");
 	return mr_build_finish(&o->b, m);
 }
@@ -587,7 +492,8 @@ mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	};
 	mr_obj_calls calls = { line_call, face_call, &o };
 
-	MR_TRY(count_lines(&o));
+	unfold(&o.text);
+	count_lines(&o);
 	if (o.vn_all >= MR_NONE || o.vt_all >= MR_NONE)
 		return mr_fail(ctx, MR_ERANGE, "more normals or texture coordinates than indices can name");
 	MR_TRY(begin_vertices(&o));
@@ -616,7 +522,7 @@ mr_obj_sniff(const unsigned char *data, size_t size)
 		for (const char *const *w = words; *w; w++)
 			if (begins(&line, *w))
 				return true;
-		return known(&line) && !begins(&line, "end");
+		return false;
 	}
 	return false;
 }

@@ -188,7 +188,7 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 		put_vertex(s, m, i);
 	MR_TRY(put_values(s, m, &x[0]));
 	MR_TRY(put_values(s, m, &x[1]));
-	mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib);
+	MR_TRY(mr_libraries_missing(s->ctx, s->file.target ? s->path : "-", m->mtllib));
 	put_faces(s, m, x);
 	return MR_OK;
 }

@@ -1,8 +1,8 @@
 /*
- * Object File Format (Geomview), read: the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, which says what a
- * vertex has besides its position, then text or "BINARY".  Binary files are big-endian with a number of
- * colour components behind each face, as Geomview has them, or little-endian without, as others write them:
- * the one that fits the size to the byte is meant.
+ * Object File Format (Geomview): the keyword [ST][C][N]OFF, of MeshLab [C][N][ST]OFF, says what a
+ * vertex has besides its position; -f off reads a file without it, too.  Binary files are big-endian with a
+ * number of colour components behind each face, as Geomview has them, or little-endian without, as others
+ * write them.
  */
 #include "formats/format.h"
 
@@ -32,9 +32,9 @@ take(mr_scan *t, const char *s)
 	return true;
 }
 
-/* Reads the keyword; false where there is none.  `dimensions`: of those it announces, four or n. */
+/* Reads the keyword; false where there is none. */
 static bool
-keyword(off *f, bool *dimensions)
+keyword(off *f)
 {
 	mr_scan t = f->text;
 
@@ -43,29 +43,22 @@ keyword(off *f, bool *dimensions)
 	f->colors = take(&t, "C");
 	f->normals = take(&t, "N");
 	f->texcoords |= take(&t, "ST");
-	*dimensions = take(&t, "4") || take(&t, "n");
 	if (!take(&t, "OFF"))
 		return false;
 	if (t.p < t.end && !mr_is_blank(*t.p) && *t.p != '\n' && *t.p != '#' && !mr_is_digit(*t.p))
 		return false;
 	f->text.p = t.p;
 	mr_skip_blanks(&t);
-	if (take(&t, "BINARY")) {
-		mr_scan rest = t, line;
-		f->binary = true;
-		mr_scan_line(&rest, &line);
-		f->text.p = rest.p;
-	}
+	f->binary = take(&t, "BINARY");
+	if (f->binary && mr_scan_line(&t, &(mr_scan){ 0 }))
+		f->text.p = t.p;
 	return true;
 }
 
 bool
 mr_off_sniff(const unsigned char *data, size_t size)
 {
-	off f = { .text = mr_scan_of(NULL, data, size) };
-	bool dimensions;
-
-	return keyword(&f, &dimensions);
+	return keyword(&(off){ .text = mr_scan_of(NULL, data, size) });
 }
 
 /* ---- vertices ---- */
@@ -134,15 +127,7 @@ text_vertex(off *f)
 	return MR_OK;
 }
 
-static mr_status
-finish(off *f, mr_model *m)
-{
-	mr_lost(f->ctx, NULL, f->face_colors, "colors of faces");
-	mr_lost(f->ctx, NULL, f->ignored, "numbers behind vertices");
-	return mr_build_finish(&f->b, m);
-}
-
-/* ---- text ---- */
+/* ---- faces ---- */
 
 static mr_status
 text_face(off *f)
@@ -200,7 +185,7 @@ text_counts(off *f)
 }
 
 static mr_status
-read_text(off *f, mr_model *m)
+read_text(off *f)
 {
 	MR_TRY(text_counts(f));
 	MR_TRY(begin_vertices(f));
@@ -212,135 +197,92 @@ read_text(off *f, mr_model *m)
 		MR_TRY(text_face(f));
 	mr_skip_comments(&f->text);
 	mr_scan_rest(&f->text);
-	return finish(f, m);
+	return MR_OK;
 }
 
 /* ---- binary ---- */
 
-typedef struct layout {
-	bool big, face_colors;
-} layout;
-
-/* Walks over the faces; true where they end with the file. */
-static bool
-fits(const off *f, const unsigned char *p, const unsigned char *end, layout l)
+/* `words` of four bytes from p on; MR_EFORMAT where the file ends before them. */
+static mr_status
+need(const off *f, const unsigned char *p, uint64_t words)
 {
-	uint64_t left = (uint64_t)(end - p), nv, nf, vertices;
+	size_t left = (size_t)((const unsigned char *)f->text.end - p);
 
-	if (left < 12)
-		return false;
-	nv = mr_load32(p, l.big);
-	nf = mr_load32(p + 4, l.big);
-	vertices = nv * 4 * f->rows.columns;
-	if (vertices > left - 12)
-		return false;
-	for (p += 12 + vertices; nf > 0 && (size_t)(end - p) >= 4; nf--) {
-		uint64_t n = mr_load32(p, l.big);
-		p += 4;
-		if (4 * (n + l.face_colors) > (uint64_t)(end - p))
-			return false;
-		p += 4 * n;
-		if (l.face_colors) {
-			uint64_t colors = mr_load32(p, l.big);
-			p += 4;
-			if (4 * colors > (uint64_t)(end - p))
-				return false;
-			p += 4 * colors;
-		}
-	}
-	return nf == 0 && p == end;
+	return words <= left / 4
+	           ? MR_OK
+	           : mr_fail(f->ctx, MR_EFORMAT, "byte %zu: %llu numbers cannot be in %zu bytes",
+			 (size_t)((const char *)p - f->text.start), (unsigned long long)words, left);
 }
 
 static mr_status
-binary_vertices(off *f, const unsigned char *p, layout l)
+binary_face(off *f, const unsigned char **at, bool big)
 {
-	double x[MOST];
+	const unsigned char *p = *at;
+	size_t n;
 
-	MR_TRY(mr_rows_room(&f->rows, f->nv));
+	MR_TRY(need(f, p, 1));
+	n = mr_load32(p, big);
+	p += 4;
+	MR_TRY(need(f, p, (uint64_t)n + big));
+	MR_RESERVE(f->ctx, f->corner, 0, n, &f->corner_room);
+	for (size_t k = 0; k < n; k++, p += 4) {
+		f->corner[k] = mr_load32(p, big);
+		if (f->corner[k] >= f->nv)
+			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: vertex %u of %zu",
+			    (size_t)((const char *)p - f->text.start), f->corner[k], f->b.nv);
+	}
+	if (big) {
+		size_t colors = mr_load32(p, big);
+		f->face_colors += colors > 0;
+		p += 4;
+		MR_TRY(need(f, p, colors));
+		p += 4 * colors;
+	}
+	mr_build_face(&f->b, f->corner, NULL, NULL, n);
+	*at = p;
+	return MR_OK;
+}
+
+static mr_status
+read_binary(off *f)
+{
+	const unsigned char *p = (const unsigned char *)f->text.p;
+	const size_t width = (f->normals ? 6u : 3u) + (f->colors ? 4u : 0u) + (f->texcoords ? 2u : 0u);
+	double x[MOST];
+	bool big;
+
+	MR_TRY(need(f, p, 3));
+	big = mr_load32(p, false) > (size_t)(f->text.end - f->text.p) / 12; /* no other order has room */
+	f->nv = mr_load32(p, big);
+	f->nf = mr_load32(p + 4, big);
+	p += 12;
+	MR_TRY(need(f, p, width * f->nv));
+	MR_TRY(begin_vertices(f));
 	for (uint64_t i = 0; i < f->nv; i++) {
-		for (size_t k = 0; k < f->rows.columns; k++, p += 4)
-			x[k] = (double)mr_load_float(p, l.big);
+		for (size_t k = 0; k < width; k++, p += 4)
+			x[k] = (double)mr_load_float(p, big);
 		if (!mr_finite(mr_rows_position(&f->rows, x)))
 			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite",
-			    (size_t)((const char *)p - f->text.start) - 4 * f->rows.columns);
+			    (size_t)((const char *)p - f->text.start) - 4 * width);
 		mr_rows_put(&f->rows, x);
 	}
 	mr_rows_end(&f->rows);
+	for (uint64_t i = 0; i < f->nf; i++)
+		MR_TRY(binary_face(f, &p, big));
+	f->text.p = (const char *)p;
+	mr_scan_rest(&f->text);
 	return MR_OK;
-}
-
-static mr_status
-binary_faces(off *f, const unsigned char *p, layout l)
-{
-	for (uint64_t i = 0; i < f->nf; i++) {
-		size_t n = mr_load32(p, l.big);
-		MR_RESERVE(f->ctx, f->corner, 0, n, &f->corner_room);
-		p += 4;
-		for (size_t k = 0; k < n; k++, p += 4) {
-			f->corner[k] = mr_load32(p, l.big);
-			if (f->corner[k] >= f->nv)
-				return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: vertex %u of %zu",
-				    (size_t)((const char *)p - f->text.start), f->corner[k], f->b.nv);
-		}
-		if (l.face_colors) {
-			f->face_colors += mr_load32(p, l.big) > 0;
-			p += 4 + 4 * (size_t)mr_load32(p, l.big);
-		}
-		mr_build_face(&f->b, f->corner, NULL, NULL, n);
-	}
-	return MR_OK;
-}
-
-static mr_status
-read_binary(off *f, mr_model *m)
-{
-	static const layout layouts[] = { { true, true }, { false, false }, { false, true },
-		{ true, false } };
-	const unsigned char *p = (const unsigned char *)f->text.p, *end = (const unsigned char *)f->text.end;
-	size_t i = 0;
-
-	MR_TRY(begin_vertices(f));
-	while (i < 4 && !fits(f, p, end, layouts[i]))
-		i++;
-	if (i == 4)
-		return mr_fail(f->ctx, MR_EFORMAT,
-		    "byte %zu: the numbers of vertices and faces, in neither byte order, fit the %zu bytes",
-		    (size_t)(f->text.p - f->text.start), (size_t)(end - p));
-	f->nv = mr_load32(p, layouts[i].big);
-	f->nf = mr_load32(p + 4, layouts[i].big);
-	MR_TRY(binary_vertices(f, p + 12, layouts[i]));
-	MR_TRY(binary_faces(f, p + 12 + 4 * f->nv * f->rows.columns, layouts[i]));
-	return finish(f, m);
-}
-
-/* Of a text that begins with no keyword. */
-static mr_status
-check_variant(const off *f)
-{
-	char shown[MR_SHOWN];
-	mr_scan t = f->text;
-	const char *w;
-	size_t n;
-
-	mr_skip_comments(&t);
-	if (!mr_scan_word(&t, &w, &n) || n < 3 || memcmp(w + n - 3, "OFF", 3) != 0)
-		return MR_OK;
-	return mr_scan_fail(&f->text, w,
-	    "'%s' is not read: OFF is with ST, C and N before it, or C, N and ST",
-	    mr_word_shown(w, n, shown));
 }
 
 mr_status
 mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
 	off f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
-	bool dimensions;
 
 	f.rows.b = &f.b;
-	if (!keyword(&f, &dimensions))
-		MR_TRY(check_variant(&f));
-	else if (dimensions)
-		return mr_scan_fail(&f.text, f.text.p,
-		    "4OFF and nOFF are not read, which may have other than three dimensions");
-	return f.binary ? read_binary(&f, m) : read_text(&f, m);
+	keyword(&f);
+	MR_TRY(f.binary ? read_binary(&f) : read_text(&f));
+	mr_lost(ctx, NULL, f.face_colors, "colors of faces");
+	mr_lost(ctx, NULL, f.ignored, "numbers behind vertices");
+	return mr_build_finish(&f.b, m);
 }

@@ -97,56 +97,17 @@ mr_scan_accept(mr_scan *t, const char *word)
 	return true;
 }
 
-/* Skips what the text begins with, in either case of letters. */
-static bool
-begins(const char **p, const char *end, const char *what)
-{
-	size_t n = strlen(what);
-
-	if ((size_t)(end - *p) < n)
-		return false;
-	for (size_t i = 0; i < n; i++)
-		if (lower((*p)[i]) != what[i])
-			return false;
-	*p += n;
-	return true;
-}
-
-/* Behind the sign: nan, 1.#IND and the like. */
-static bool
-is_nan(const char *w, const char *end)
-{
-	if (begins(&w, end, "nan"))
-		return w == end || (*w == '(' && end[-1] == ')');
-	if (!begins(&w, end, "1.#") ||
-	    (!begins(&w, end, "ind") && !begins(&w, end, "qnan") && !begins(&w, end, "snan")))
-		return false;
-	while (w < end && *w == '0') /* of Windows */
-		w++;
-	return w == end;
-}
-
-static bool
-is_infinity(const char *w, const char *end)
-{
-	if (begins(&w, end, "1.#inf"))
-		while (w < end && *w == '0')
-			w++;
-	else if (!begins(&w, end, "inf") || (w < end && !begins(&w, end, "inity")))
-		return false;
-	return w == end;
-}
-
 bool
 mr_word_not_finite(const char *w, size_t n, double *x)
 {
-	const char *end = w + n;
-	bool minus = n && *w == '-', infinite;
+	bool minus = n && *w == '-';
+	size_t sign = n && (*w == '-' || *w == '+');
 
-	w += n && (*w == '-' || *w == '+');
-	infinite = is_infinity(w, end);
-	*x = !infinite ? (double)NAN : minus ? -(double)INFINITY : (double)INFINITY;
-	return infinite || is_nan(w, end);
+	*x = NAN;
+	if (mr_word_is(w + sign, n - sign, "nan") || mr_word_is(w + sign, n - sign, "nan(ind)"))
+		return true;
+	*x = minus ? -(double)INFINITY : (double)INFINITY;
+	return mr_word_is(w + sign, n - sign, "inf") || mr_word_is(w + sign, n - sign, "infinity");
 }
 
 const char *

@@ -79,8 +79,7 @@ mr_status mr_scan_count(mr_scan *t, const char *what, uint64_t most, uint64_t *n
 /* Three finite numbers. */
 mr_status mr_scan_position(mr_scan *t, mr_v3 *p);
 
-/* True for "nan", "-nan(ind)", "inf", "Infinity", "1.#QNAN" and the like, not for "infra" or "nancy".
- * *x: that value. */
+/* True for "nan", "-nan(ind)", "inf" and "Infinity" in any case of letters.  *x: that value. */
 bool mr_word_not_finite(const char *word, size_t bytes, double *x);
 
 /* The word as a sentence may show it: printable and not too long. */

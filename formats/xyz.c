@@ -1,9 +1,10 @@
 /*
- * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  Columns are told apart by names where
- * there are any, else by their number: 3 position; 6 normal, or colour where all are whole numbers of 0 to
- * 255 and some beyond 1; 7 intensity and colour, or colour and something; 9 and more colour and normal in
- * either order, the normal being the unit one.  Other columns are properties.  A first line with one whole
- * number is the number of points, behind which those of another cloud may stand in the same way.
+ * Points in columns: XYZ, PTS, PWN, and tables with a line of names.  Semicolons part the columns where the
+ * first row has one, else commas, else blanks.  Columns are told apart by names where there are any, else by
+ * their number: 3 position; 6 normal, or colour where all are whole numbers of 0 to 255 and some beyond 1;
+ * 7 intensity and colour, or colour and something; 9 and more colour and normal in either order.  Other
+ * columns are properties.  A first line with one whole number is the number of points, behind which those of
+ * another cloud may stand in the same way.
  */
 #include "formats/format.h"
 
@@ -24,6 +25,7 @@ typedef struct table {
 	bool named;      /* a line of names gave the roles */
 	bool in_comment; /* and was a comment: it may speak of something else */
 	bool counted;
+	char separator;
 	uint64_t count; /* as the file claims */
 	size_t columns, rows;
 	column column[COLUMNS];
@@ -39,15 +41,38 @@ separates(char c)
 	return mr_is_blank(c) || c == ',' || c == ';';
 }
 
-/* Goes on to the next cell; how many commas and semicolons stand before it: with two, one is empty. */
-static size_t
-skip_separators(mr_scan *line)
+/* What parts the cells of a line. */
+static char
+separator_of(const mr_scan *line)
 {
-	size_t commas = 0;
+	size_t n = (size_t)(line->end - line->p);
 
-	for (; line->p < line->end && separates(*line->p); line->p++)
-		commas += !mr_is_blank(*line->p);
-	return commas;
+	return memchr(line->p, ';', n) ? ';' : memchr(line->p, ',', n) ? ',' : ' ';
+}
+
+/* The end of the cell at hand. */
+static const char *
+cell_end(const mr_scan *line, char separator)
+{
+	const char *e = line->p;
+
+	while (e < line->end && (separator == ' ' ? !mr_is_blank(*e) : *e != separator))
+		e++;
+	return e;
+}
+
+/* Goes on behind a cell; false where something else than its end stands here. */
+static bool
+end_cell(mr_scan *line, char separator)
+{
+	const char *p = line->p;
+
+	mr_skip_blanks(line);
+	if (line->p == line->end)
+		return true;
+	if (separator == ' ')
+		return line->p > p;
+	return *line->p++ == separator;
 }
 
 static bool
@@ -69,45 +94,31 @@ next_row(mr_scan *text, mr_scan *line)
 	return false;
 }
 
-/* The end of the cell at hand. */
-static const char *
-cell_end(const mr_scan *line)
-{
-	const char *e = line->p;
-
-	while (e < line->end && !separates(*e))
-		e++;
-	return e;
-}
-
 /* ---- the lines before the rows ---- */
 
 /* Reads names with or without quotes; the number of columns, or 0 where x, y and z are not all there. */
 static size_t
 names(mr_scan line, column c[COLUMNS])
 {
+	const char separator = separator_of(&line);
 	bool there[MR_ROLES] = { false };
 	size_t n = 0;
 
-	for (;; n++) {
-		const char *w, *e;
-		for (size_t commas = skip_separators(&line), due = n > 0; commas > due && n < COLUMNS;
-		     commas--)
-			c[n++] = (column){ .name = line.p };
-		if (line.p == line.end || n == COLUMNS)
-			break;
-		w = line.p;
-		e = *w == '"' ? memchr(w + 1, '"', (size_t)(line.end - w - 1)) : cell_end(&line);
+	for (mr_skip_blanks(&line); line.p < line.end && n < COLUMNS; n++) {
+		bool quoted = *line.p == '"';
+		const char *w = line.p += quoted,
+			   *e = quoted ? memchr(w, '"', (size_t)(line.end - w)) : cell_end(&line, separator);
 		if (!e)
 			return 0;
-		line.p = *w == '"' ? e + 1 : e;
-		w += *w == '"';
+		line.p = e + quoted;
 		c[n] = (column){
 			.role = mr_role_of(w, (size_t)(e - w)), .name = w, .name_bytes = (size_t)(e - w)
 		};
 		if (c[n].role > MR_ALPHA)
 			c[n].role = MR_NO_ROLE;
 		there[c[n].role] = true;
+		end_cell(&line, separator);
+		mr_skip_blanks(&line);
 	}
 	return there[MR_X] && there[MR_Y] && there[MR_Z] ? n : 0;
 }
@@ -157,76 +168,40 @@ read_head(table *t)
 static mr_status
 row_values(const table *t, mr_scan *line, double x[COLUMNS], size_t *count)
 {
+	const char *comment = memchr(line->p, '#', (size_t)(line->end - line->p));
 	char shown[MR_SHOWN];
 	size_t n = 0;
 
-	for (;;) {
-		const char *w, *e;
-		if (skip_separators(line) > (n > 0))
-			return mr_scan_fail(&t->text, line->p, "column %zu is empty", n + 1);
-		if (line->p == line->end || *line->p == '#')
-			break;
+	line->end = comment && comment[-1] != '.' ? comment : line->end; /* 1.#INF is no 1 */
+	for (; line->p < line->end; n++) {
+		const char *w = line->p, *e = n < COLUMNS ? mr_real_read(w, line->end, &x[n]) : NULL;
 		if (n == COLUMNS)
-			return mr_scan_fail(&t->text, line->p, "more than %d columns", (int)COLUMNS);
-		w = line->p;
-		e = mr_real_read(w, line->end, &x[n]);
-		if (!e || (e < line->end && !separates(*e))) {
-			e = cell_end(line);
+			return mr_scan_fail(&t->text, w, "more than %d columns", (int)COLUMNS);
+		line->p = e ? e : w;
+		if (!e || !end_cell(line, t->separator)) {
+			line->p = w;
+			e = line->p = cell_end(line, t->separator);
+			if (e == w)
+				return mr_scan_fail(&t->text, w, "column %zu is empty", n + 1);
 			if (!mr_word_not_finite(w, (size_t)(e - w), &x[n]))
 				return mr_scan_fail(&t->text, w, "'%s' is not a number",
 				    mr_word_shown(w, (size_t)(e - w), shown));
+			end_cell(line, t->separator);
 		}
-		line->p = e;
-		n++;
+		mr_skip_blanks(line);
 	}
 	*count = n;
 	return MR_OK;
-}
-
-/* A comma in a word of a row that blanks or semicolons part, too: two numbers, or one with a decimal comma.
- * NULL: none, or in a word that can only be several numbers. */
-static const char *
-decimal_comma(mr_scan row)
-{
-	const char *found = NULL, *last = NULL;
-	bool bare = false;
-
-	for (const char *w = row.p; row.p < row.end && *row.p != '#'; w = row.p) {
-		const char *e = row.p = cell_end(&row);
-		size_t commas = skip_separators(&row);
-		if (row.p == row.end || *row.p == '#')
-			break;
-		bare |= *e == ';' || commas == 0;
-		if (*e != ',' || row.p != e + 1)
-			continue;
-		if (last == w || memchr(w, '.', (size_t)(e - w)))
-			return NULL;
-		found = found ? found : w;
-		last = row.p;
-	}
-	return bare ? found : NULL;
 }
 
 /* What the first row tells of the columns. */
 static mr_status
 begin_rows(table *t, const mr_scan *row, size_t n)
 {
-	const char *comma = decimal_comma(*row);
-	char shown[MR_SHOWN];
-
 	t->first_row = row->p;
-	if (comma)
-		return mr_scan_fail(&t->text, comma,
-		    "'%s' is two numbers, or one with a comma for a point: write a point, or commas between "
-		    "all",
-		    mr_word_shown(comma, strcspn(comma, " \t;\r\n"), shown));
 	if (n < 3)
 		return mr_scan_fail(&t->text, row->p, "%zu columns, where a point has 3 at least", n);
-	if (t->in_comment && n != t->columns) {
-		mr_tell(
-		    t->ctx, MR_GUESSED, 1, "a comment of %zu words names no columns of %zu", t->columns, n);
-		t->named = false;
-	}
+	t->named &= !t->in_comment || n == t->columns;
 	if (t->named && n != t->columns)
 		return mr_scan_fail(&t->text, row->p, "%zu columns, where %zu are named", n, t->columns);
 	t->columns = n;
@@ -257,6 +232,8 @@ survey(table *t)
 			t->count += more;
 			continue;
 		}
+		if (t->rows == 0)
+			t->separator = separator_of(&line);
 		MR_TRY(row_values(t, &line, x, &n));
 		if (t->rows == 0)
 			MR_TRY(begin_rows(t, &row, n));
@@ -334,13 +311,11 @@ assign(table *t, size_t at, mr_role first)
 		    at + 1, at + 3);
 }
 
-/* Of two triples a unit one is the normal; of two such the first, unless only that could be a colour. */
+/* Of two triples the second is the normal where it alone is unit, or where only the first can be a colour. */
 static void
 guess_pair(table *t)
 {
-	bool first = are_unit(t, 3), second = are_unit(t, 6);
-	bool behind = first && second ? are_shares(t, 3) && !are_shares(t, 6)
-	                              : second || (!first && could_be_color(t, 3));
+	bool behind = !are_unit(t, 3) && (are_unit(t, 6) || could_be_color(t, 3));
 	size_t normal = behind ? 6 : 3, color = behind ? 3 : 6;
 
 	assign(t, normal, MR_NX);
@@ -488,12 +463,13 @@ mr_xyz_sniff(const unsigned char *data, size_t size)
 		return false;
 	if (names(line, c))
 		return true;
-	for (skip_separators(&line); line.p < line.end && *line.p != '#'; n++, skip_separators(&line)) {
+	for (; line.p < line.end && *line.p != '#'; n++) {
 		double x;
 		const char *e = mr_real_read(line.p, line.end, &x);
 		if (!e || (e < line.end && !separates(*e)))
 			return false;
-		line.p = e;
+		for (line.p = e; line.p < line.end && separates(*line.p); line.p++)
+			;
 	}
 	return n >= 3;
 }

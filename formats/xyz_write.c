@@ -2,20 +2,6 @@
  * (position, normal). */
 #include "formats/format.h"
 
-/* No value is negative, and some normal is not unit. */
-static bool
-could_be_colors(const mr_v3 *normal, size_t n)
-{
-	bool odd = false;
-
-	for (size_t i = 0; i < n; i++) {
-		if (normal[i].x < 0 || normal[i].y < 0 || normal[i].z < 0)
-			return false;
-		odd |= mr_norm2(normal[i]) > 0 && !mr_has_unit_length(normal[i]);
-	}
-	return odd;
-}
-
 static void
 put_rows(mr_sink *s, const mr_part *part, size_t parts, size_t n)
 {
@@ -25,15 +11,15 @@ put_rows(mr_sink *s, const mr_part *part, size_t parts, size_t n)
 	}
 }
 
-/* A line of names, where columns without it may be something else. */
+/* A line of names where there are colours, which could be normals. */
 mr_status
 mr_xyz_write(mr_sink *s, const mr_model *m)
 {
 	mr_part part[MR_PARTS];
 
 	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
-	if (m->color || (m->normal && could_be_colors(m->normal, m->nv)))
-		mr_print(s, "# x y z%s%s\n", m->normal ? " nx ny nz" : "", m->color ? " red green blue" : "");
+	if (m->color)
+		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
 	mr_vertex_parts(m, part);
 	part[2].width = 3;
 	put_rows(s, part, 3, m->nv);

@@ -3,7 +3,7 @@
 [ -d "$DATA/malformed" ] || { echo 'no $DATA/malformed'; exit 77; }
 cat >table <<'X'
 assimp_OutOfMemory.off|line 2: 353535235358 vertices and 6 faces cannot be in the 289 bytes that follow
-assimp_box_UTF16BE.obj|text of UTF-16 is not read: save it as UTF-8
+assimp_box_UTF16BE.obj|line 1: '???#?' begins no statement of OBJ
 assimp_box_longline.obj|8 790
 assimp_box_without_lineending.obj|8 12
 assimp_crash-30d6d0f7c529b3b66b4131700b7a4580cd7082df.ply|line 7: '???' is no type of PLY
@@ -20,7 +20,7 @@ assimp_issue623.ply|line 15: a list of length 7.9418
 assimp_malformed.obj|line 23: vertex 12 of 8
 assimp_malformed2.obj|8 10
 assimp_multiple_spaces.obj|4 1 and a remark
-assimp_number_formats.obj|line 11: a vertex has '3.1+e2' for a number
+assimp_number_formats.obj|line 11: a vertex is '3.1+e2', not a number
 assimp_only_a_part_of_vertexcolors.obj|5 3 and a remark
 assimp_payload_JVN42386607|line 2: the format's version is not 1.0
 assimp_point_cloud.obj|3 0

@@ -46,7 +46,7 @@ echo '-- transparency and light are kept' >&2
 model red green blue >model.obj
 cat >m.mtl <<'MTL'
 newmtl red
-d -halo 0.25
+d 0.25
 Tr 1
 Ke 1 0 0
 Ka 0 0 0

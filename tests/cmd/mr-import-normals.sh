@@ -98,16 +98,6 @@ echo '-- the fourth number of a colour'
 printf 'v 0 0 0 1 0 0 0.5\nv 1 0 0 1 0 0\nv 0 1 0 0 0 1 0\nf 1 2 3\n' | mr-import -f obj | mr-export -f ply-ascii - | tail -n 4
 printf 'v 0 0 0 255 0 0 1\nv 1 0 0 1 0 0 0\nv 0 1 0 0 0 1 nan\nf 1 2 3\n' | mr-import -f obj | mr-export -f ply-ascii - | tail -n 4
 
-echo '-- normals that could be colours have names'
-for normal in '2 0 5' '1 0 1' '1 0 0' '-2 0 5'; do
-	printf "x y z nx ny nz\n0 0 0 $normal\n" | mr-import >whole.mrs
-	for format in xyz pwn; do
-		mr-export -f $format -i whole.mrs whole.$format
-		cat whole.$format
-		mr-import whole.$format | mr-export -f $format - | cmp whole.$format
-	done
-done
-
 echo 'twice as many rows as counted are points and normals where these have a length of 1'
 printf '2\n0 0 0\n1 0 0\n0 0 1\n0 .6 .8\n' | mr-import | mr-export -f xyz -
 printf '2\n0 0 0\n1 0 0\n5 5 5\n6 6 6\n' | mr-import | mr-export -f xyz -

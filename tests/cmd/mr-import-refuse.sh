@@ -26,7 +26,7 @@ refuse 'ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0
 refuse 'ply\nformat ascii 1.0\nelement vertex 0\nproperty float x\nproperty float y\nproperty float z\nend_header\n'
 refuse 'OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 7\n'
 refuse 'OFF\n4000000000 4000000000 0\n'
-refuse 'OFF BINARY\n\1\0\0\0\1\0\0\0\0\0\0\0'
+refuse 'OFF BINARY\n\1\0\0\0'
 refuse 'solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n'
 refuse 'solid a\nendsolid a\n'
 refuse '0 0 0\n1 2\n'
@@ -35,8 +35,8 @@ refuse '0 0 0\n0 0 inf\n'
 refuse '1,5 2,5 3,5\n4,5 5,5 6,5\n'
 refuse 'x;y;z\n1;2;3,5\n'
 refuse '2\n1,000.5 2,000.5 3,000.5\n1 2 3\n'
-printf '1,2,3 4,5,6\n7,8,9 0,1,0\n' | mr-import | mr-export -f xyz -
-printf '1.5,2.5;3\n1, 2, 3\n' | mr-import | mr-export -f xyz -
+refuse '1,2,3 4,5,6\n7,8,9 0,1,0\n'
+printf '1.5,2.5,3\n1, 2, 3\n' | mr-import | mr-export -f xyz -
 printf '\037\213\010\0' >file
 mr-import file
 echo $?

@@ -346,12 +346,12 @@ refusals(void **state)
 	refused("", TRIANGLE "f 1 2 1,5\n", "line 4: '1,5' is not a corner");
 	refused("", TRIANGLE "f 1 2\n", "none of the 1 faces has three corners");
 	refused("", "v 0 0\n", "line 1: a vertex has 2 numbers");
-	refused("", "v 0 0 0\nv 1,5 0 0\n", "line 2: a vertex has '1,5' for a number");
+	refused("", "v 0 0 0\nv 1,5 0 0\n", "line 2: a vertex is '1,5', not a number");
 	refused("", "v 0 0 0\nv nan 0 0\n", "line 2: a coordinate is not finite");
 	refused("", "v 0 0 0\nv 0 -inf 0\n", "line 2: a coordinate is not finite");
 	refused("", "v 0 0 0\nv 1e999 0 0\n", "line 2: a coordinate is not finite");
-	refused("", "v 0 0 0\n\nfoo 1 2\n", "line 3: 'foo' begins no statement of OBJ");
-	refused("", "v 0 0 0\nv 0 \\\n 0 \\\n x\n", "line 2: a vertex has 'x' for a number");
+	refused("", "v 0 0 0\n\n?foo 1 2\n", "line 3: '?foo' begins no statement of OBJ");
+	refused("", "v 0 0 0\nv 0 \\\n 0 \\\n x\n", "line 2: a vertex is 'x', not a number");
 	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", "line 13: vertex 3 of 3");
 	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1 -1\n", "line 13: vertex -1 of 3");
 	refused("", PLY FACE "0 0 0\n1 0 0\n0 1 0\n3 0 1\n", "line 14: ");
@@ -379,8 +379,7 @@ refusals(void **state)
 	refused("", "OFF\n3 1 0\n0.000 0.000 0.000\n1.000 0.000 0.000\n", "line 5: a coordinate is missing");
 	refused("", "OFF\n999999999 1 0\n0 0 0\n", "line 2: 999999999 vertices and 1 faces cannot be");
 	refused("", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n4000000 0 1 2\n", "line 6: a face of 4000000 corners");
-	refused("", "4OFF\n1 0 0\n0 0 0 1\n", "three dimensions");
-	refused("", "OFF BINARY\nabcdefghijklmnop", "byte 11");
+	refused("", "OFF BINARY\nabcdefghijklmnop", "byte 23: ");
 	refused("", "0 0 0\n1 2\n", "line 2: 2 columns, where line 1 has 3");
 	refused("", "0 0 0\n1 2 x\n", "line 2: 'x' is not a number");
 	refused("", "0 0 0\n1 2 nan\n", "line 2: a coordinate is not finite");
@@ -398,8 +397,8 @@ details(void **state)
 
 	(void)state;
 	mr_ctx_init(&ctx, 1);
-	ok(&ctx, parse(&ctx, "", "\357\273\277v 0 0 0 1 0.5 0\rv 1 0 0 0 0 1\rv 0 1 0 0 0 0\rf 1 2 3\r",
-		     &m)); /* BOM, CR */
+	ok(&ctx, parse(&ctx, "", "\357\273\277v 0 0 0 1 0.5 0\r\nv 1 0 0 0 0 1\nv 0 1 0 0 0 0\nf 1 2 3\n",
+		     &m)); /* BOM, CR LF */
 	assert_memory_equal(m.color, "\377\200\0\377\0\0\377\377\0\0\0\377", 12);
 	ok(&ctx, parse(&ctx, "", TRIANGLE "g a  b\nf 1 2 3\ng\nf 3 2 1\n", &m));
 	n = group_name(&m, 0, &name);
