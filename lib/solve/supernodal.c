@@ -3,14 +3,11 @@
 #include "solve/supernodal.h"
 
 #include "base/parallel.h"
+#include "base/vectors.h"
 
-/* Two of the right-hand sides: a vector of every 64-bit machine. */
-typedef double pair __attribute__((vector_size(2 * sizeof(double))));
-
-/* A row of x: the right-hand sides that are solved together, whatever their number. */
-typedef struct wide {
-	pair a, b;
-} wide;
+/* A row of x: the right-hand sides that are solved together, whatever their number.  Two registers where a
+ * machine has no wider ones, to the same bits. */
+typedef double wide __attribute__((vector_size(4 * sizeof(double))));
 
 enum { WIDTH = 4 };
 
@@ -49,39 +46,36 @@ mr_supernodal_new(mr_ctx *ctx, const mr_panels *factor)
 /* A panel: l has nr rows, z as many.  Four columns are worked on together, so that a row of z serves four. */
 
 /* z -= l y */
-static inline void
+static MR_INLINED void
 take(wide *z, double l, const wide *y)
 {
-	z->a -= l * y->a;
-	z->b -= l * y->b;
+	*z -= l * *y;
 }
 
-static inline void
+static MR_INLINED void
 divide(wide *z, double l)
 {
-	z->a /= l;
-	z->b /= l;
+	*z /= l;
 }
 
-static inline void
+static MR_INLINED void
 add(wide *z, const wide *y)
 {
-	z->a += y->a;
-	z->b += y->b;
+	*z += *y;
 }
 
 /*
  * Columns are too short for the machine to see what comes next, so it is told.  Beyond the factor, where this
  * may point, nothing is fetched.
  */
-static inline void
+static MR_INLINED void
 fetch(const double *l, size_t offset)
 {
 	__builtin_prefetch((const void *)((uintptr_t)l + offset * sizeof *l));
 }
 
 /* z[i] -= l[i][0..3] y[0..3] for the rows from begin to end - 1 */
-static void
+static MR_INLINED void
 subtract(const double *l, size_t nr, size_t begin, size_t end, const wide *y, wide *z)
 {
 	wide y0 = y[0], y1 = y[1], y2 = y[2], y3 = y[3];
@@ -99,7 +93,7 @@ subtract(const double *l, size_t nr, size_t begin, size_t end, const wide *y, wi
 }
 
 /* y[0..3] -= the sum of l[i][0..3] z[i] over those rows */
-static void
+static MR_INLINED void
 gather(const double *l, size_t nr, size_t begin, size_t end, const wide *z, wide *y)
 {
 	wide y0 = y[0], y1 = y[1], y2 = y[2], y3 = y[3];
@@ -120,7 +114,7 @@ gather(const double *l, size_t nr, size_t begin, size_t end, const wide *z, wide
 }
 
 /* L z = z in the panel's columns; what they take from the other rows is subtracted there. */
-static void
+static MR_INLINED void
 forward(const double *l, size_t nr, size_t nc, wide *z)
 {
 	for (size_t j = 0, end; j < nc; j = end) {
@@ -137,7 +131,7 @@ forward(const double *l, size_t nr, size_t nc, wide *z)
 }
 
 /* L' z = z in the panel's columns, the other rows given. */
-static void
+static MR_INLINED void
 backward(const double *l, size_t nr, size_t nc, wide *z)
 {
 	for (size_t j, end = nc; end > 0; end = j) {
@@ -155,7 +149,7 @@ backward(const double *l, size_t nr, size_t nc, wide *z)
 
 /* Panels in x */
 
-static void
+MR_VECTORS static void
 forward_panel(mr_supernodal *s, size_t p)
 {
 	const mr_panels *l = &s->l;
@@ -171,7 +165,7 @@ forward_panel(mr_supernodal *s, size_t p)
 		add(&s->x[row[i]], &z[i]);
 }
 
-static void
+MR_VECTORS static void
 backward_panel(mr_supernodal *s, size_t p)
 {
 	const mr_panels *l = &s->l;
@@ -204,7 +198,7 @@ read_rows(void *arg, size_t begin, size_t end)
 		double row[WIDTH] = { 0 };
 		for (size_t c = 0; c < e->columns; c++)
 			row[c] = b[c * n + from];
-		e->s->x[i] = (wide){ { row[0], row[1] }, { row[2], row[3] } };
+		e->s->x[i] = (wide){ row[0], row[1], row[2], row[3] };
 	}
 }
 
@@ -216,9 +210,8 @@ write_rows(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		const wide *x = &e->s->x[i];
-		const double row[WIDTH] = { x->a[0], x->a[1], x->b[0], x->b[1] };
 		for (size_t c = 0; c < e->columns; c++)
-			e->b[c * n + (size_t)e->s->l.permutation[i]] = row[c];
+			e->b[c * n + (size_t)e->s->l.permutation[i]] = (*x)[c];
 	}
 }
 

@@ -1,17 +1,8 @@
 /* Queries of the hierarchy: branch and bound, the nearer child first.  bvh_tree.h says why bounds are safe.
  */
 #include "base/parallel.h"
+#include "base/vectors.h"
 #include "space/bvh_tree.h"
-
-/* Four boxes at once where the processor can, to the same bits. */
-#if defined(__x86_64__) && defined(__GLIBC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) &&    \
-    !defined(__SANITIZE_THREAD__)
-#define VECTORS __attribute__((target_clones("avx2", "default")))
-#define INLINED inline __attribute__((always_inline))
-#else
-#define VECTORS
-#define INLINED inline
-#endif
 
 /* ---- the nearest point of a triangle ---- */
 
@@ -258,7 +249,7 @@ typedef struct ray {
 	double start[3], inverse[3]; /* in units of the mesh, for the boxes */
 } ray;
 
-static INLINED ray
+static MR_INLINED ray
 ray_make(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir)
 {
 	double d[3] = { dir.x, dir.y, dir.z };
@@ -279,7 +270,7 @@ ray_make(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir)
 }
 
 /* (x, y) in the sheared plane of the ray, z along it in units of t. */
-static INLINED mr_v3
+static MR_INLINED mr_v3
 shear(const ray *r, mr_v3 p)
 {
 	mr_v3 d = mr_sub(p, r->origin);
@@ -288,7 +279,7 @@ shear(const ray *r, mr_v3 p)
 	return mr_vec(c[r->kx] - r->sx * c[r->kz], c[r->ky] - r->sy * c[r->kz], r->sz * c[r->kz]);
 }
 
-static INLINED bool
+static MR_INLINED bool
 hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 {
 	double u, v, w, sum;
@@ -311,7 +302,7 @@ hit_triangle(const ray *r, mr_v3 a, mr_v3 b, mr_v3 c, mr_ray_hit *hit)
 
 /* How far along each of the four boxes the ray begins; infinite where it misses it.  NaN (0 times infinity)
  * bounds nothing. */
-static INLINED void
+static MR_INLINED void
 box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double out[BVH_WIDE])
 {
 	double enter[BVH_WIDE], leave[BVH_WIDE];
@@ -339,7 +330,7 @@ box_entries(const mr_bvh_node *d, const ray *r, double tmin, double tmax, double
 }
 
 /* both: hits before the origin count as those behind it. */
-static INLINED void
+static MR_INLINED void
 hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, bool both, mr_ray_hit *best)
 {
 	const mr_mesh *m = bvh->mesh;
@@ -355,7 +346,7 @@ hit_in_leaf(const mr_bvh *bvh, bvh_entry leaf, const ray *r, double tmin, bool b
 	}
 }
 
-static INLINED bool
+static MR_INLINED bool
 cast(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, bool both, mr_ray_hit *hit)
 {
 	mr_ray_hit best = { .at.face = MR_NONE, .t = tmax };
@@ -383,14 +374,13 @@ cast(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, bool 
 	return true;
 }
 
-/* Clones are static: their resolvers would be visible outside of the library. */
-VECTORS static bool
+MR_VECTORS static bool
 cast_first(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
 {
 	return cast(bvh, origin, dir, tmin, tmax, false, hit);
 }
 
-VECTORS static bool
+MR_VECTORS static bool
 cast_across(const mr_bvh *bvh, mr_v3 origin, mr_v3 dir, double tmin, double tmax, mr_ray_hit *hit)
 {
 	return cast(bvh, origin, dir, tmin, tmax, true, hit);
