@@ -20,7 +20,6 @@ done <<'END'
 SuiteSparse suitesparse-devel suitesparse suitesparse-dev suite-sparse
 Jansson jansson-devel jansson jansson-dev jansson
 libpng libpng-devel libpng libpng-dev libpng
-FLANN flann-devel flann - flann
 END
 grep -q 'TINYOBJLOADER_USE_DOUBLE' out || { echo "setup does not say how to come by tinyobjloader"; fail=1; }
 [ $fail -eq 0 ] || cat out
