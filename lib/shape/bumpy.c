@@ -1,11 +1,13 @@
 /*
  * The bumpy creature: a smooth implicit body around a skeleton, polygonised and relaxed
- * until its edges are about equal, refined by halving edges, under a skin of scales.
+ * until its edges are about equal, subdivided, under a skin of scales.
  */
-#include "shape/parts.h"
+#include "shape/shape.h"
 
 #include "base/parallel.h"
 #include "base/random.h"
+#include "subdivide/loop.h"
+#include "volume/isosurface.h"
 
 /* A round cone from a to b. */
 typedef struct bone {
@@ -74,15 +76,6 @@ body(mr_v3 x, mr_v3 *gradient)
 	return least - log(sum) / BLEND;
 }
 
-static double
-body_field(void *arg, mr_v3 x)
-{
-	mr_v3 gradient;
-
-	(void)arg;
-	return body(x, &gradient);
-}
-
 /* x brought to the body by Newton steps along the gradient. */
 static mr_v3
 project(mr_v3 x, int steps)
@@ -140,38 +133,6 @@ skin_point(mr_v3 x)
 	return mr_axpy(skin(x), mr_unit(gradient), x);
 }
 
-/* Splits each face in four, with new vertices in the middles of edges. */
-static mr_status
-refine(mr_ctx *ctx, const mr_solid_build *old, mr_solid_build *b)
-{
-	mr_mark mark;
-	mr_solid_weld w;
-
-	MR_TRY(mr_solid_begin(ctx, 4 * old->nv - 6, 4 * old->nf, b)); /* V + E, with E = 3 V - 6 */
-	mark = mr_mark_take(ctx);
-	mr_weld_begin(ctx, 3 * old->nv, &w);
-	for (; b->nv < old->nv; b->nv++)
-		b->p[b->nv] = old->p[b->nv];
-	for (size_t f = 0; f < old->nf; f++) {
-		const uint32_t *v = old->t[f].v;
-		uint32_t m[3];
-		for (int i = 0; i < 3; i++) {
-			uint32_t a = v[i], c = v[(i + 1) % 3];
-			bool is_new;
-			uint32_t *slot = mr_weld_slot(
-			    &w, a < c ? (uint64_t)a << 32 | c : (uint64_t)c << 32 | a, &is_new);
-			if (is_new)
-				*slot = mr_solid_add_vertex(b, mr_lerp(0.5, old->p[a], old->p[c]));
-			m[i] = *slot;
-		}
-		for (int i = 0; i < 3; i++)
-			mr_solid_add_face(b, v[i], m[i], m[(i + 2) % 3]);
-		mr_solid_add_face(b, m[0], m[1], m[2]);
-	}
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
 typedef struct relaxing {
 	const mr_adjacency *a;
 	const mr_v3 *from;
@@ -198,17 +159,16 @@ relax_body(void *arg, size_t begin, size_t end)
 }
 
 static mr_status
-relax(mr_ctx *ctx, mr_solid_build *b, int rounds)
+relax(mr_ctx *ctx, const mr_mesh *m, mr_v3 *p, int rounds)
 {
-	mr_mesh m = { .name = "bumpy", .p = b->p, .t = b->t, .nv = b->nv, .nf = b->nf };
 	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *other = MR_NEW(ctx, b->nv, mr_v3);
+	mr_v3 *other = MR_NEW(ctx, m->nv, mr_v3);
 	mr_adjacency a;
 
-	MR_TRY(mr_adjacency_build(ctx, &m, &a));
-	for (int i = 0; i < 2 * rounds; i++) { /* an even number: the result ends in b->p */
-		relaxing r = { &a, i % 2 ? other : b->p, i % 2 ? b->p : other };
-		mr_parallel(ctx, b->nv, 1024, relax_body, &r);
+	MR_TRY(mr_adjacency_build(ctx, m, &a));
+	for (int i = 0; i < 2 * rounds; i++) { /* an even number: the result ends in p */
+		relaxing r = { &a, i % 2 ? other : p, i % 2 ? p : other };
+		mr_parallel(ctx, m->nv, 1024, relax_body, &r);
 	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
@@ -223,22 +183,64 @@ clothe_body(void *arg, size_t begin, size_t end)
 		p[i] = skin_point(project(p[i], 3));
 }
 
-mr_status
-mr_bumpy(mr_ctx *ctx, size_t n, mr_solid_build *b)
+typedef struct sampling {
+	mr_grid g;
+	float *f;
+} sampling;
+
+static void
+sample_layers(void *arg, size_t begin, size_t end)
 {
-	enum { LEAST = 5000, MOST = 80000 };
+	const sampling *s = arg;
+	mr_v3 gradient;
+
+	for (size_t z = begin; z < end; z++)
+		for (size_t y = 0; y < s->g.n[1]; y++)
+			for (size_t x = 0; x < s->g.n[0]; x++)
+				s->f[mr_grid_index(&s->g, x, y, z)] = (float)body(
+				    mr_grid_place(&s->g, x, y, z), &gradient);
+}
+
+/* The body, of about so many vertices. */
+static mr_status
+polygonise(mr_ctx *ctx, double vertices, mr_mesh *m)
+{
+	sampling s = { .g = { .origin = SPACE.min, .step = sqrt(1.5 * AREA / vertices) } };
+	mr_v3 size = mr_sub(SPACE.max, SPACE.min);
+
+	for (int k = 0; k < 3; k++)
+		s.g.n[k] = (size_t)ceil(mr_coordinate(size, k) / s.g.step) + 1;
+	s.f = MR_NEW(ctx, mr_grid_nodes(&s.g), float);
+	mr_parallel(ctx, s.g.n[2], 1, sample_layers, &s);
+	return mr_isosurface(ctx, &s.g, s.f, m);
+}
+
+mr_status
+mr_bumpy(mr_ctx *ctx, size_t n, mr_mesh *m)
+{
+	enum { LEAST = 5000, MOST = 20000, LEVELS = 10 };
 	double vertices = n > LEAST ? (double)n : LEAST; /* fewer would cut off the ears */
-	int levels = 0;
+	mr_loop level[LEVELS + 1];
+	size_t levels = 0;
+	mr_mesh coarse, fine;
+	mr_v3 *p, *q;
 
 	for (; vertices > MOST; vertices /= 4)
 		levels++;
-	MR_TRY(mr_march(ctx, body_field, NULL, SPACE, sqrt(4.49 * AREA / vertices), b));
-	MR_TRY(relax(ctx, b, 8));
-	for (int i = 0; i < levels; i++) {
-		mr_solid_build old = *b;
-		MR_TRY(refine(ctx, &old, b));
-		MR_TRY(relax(ctx, b, 1));
-	}
-	mr_parallel(ctx, b->nv, 1024, clothe_body, b->p);
+	MR_TRY(polygonise(ctx, vertices, &coarse));
+	p = MR_NEW(ctx, coarse.nv, mr_v3);
+	memcpy(p, coarse.p, coarse.nv * sizeof *p);
+	MR_TRY(relax(ctx, &coarse, p, 8));
+	MR_TRY(mr_loop_levels(ctx, &coarse, 180, levels, level));
+	fine = (mr_mesh){
+		.name = "bumpy", .t = level[levels].t, .nv = level[levels].nv, .nf = level[levels].nf
+	};
+	q = MR_NEW(ctx, fine.nv, mr_v3);
+	mr_loop_values(ctx, level, levels, 3, (const double *)p, (double *)q);
+	if (levels)
+		MR_TRY(relax(ctx, &fine, q, 2));
+	mr_parallel(ctx, fine.nv, 1024, clothe_body, q);
+	fine.p = q;
+	*m = fine;
 	return MR_OK;
 }

@@ -1,5 +1,7 @@
 /* Solids by grids of quadrilaterals, of about as many vertices as asked for. */
-#include "shape/parts.h"
+#include "shape/shape.h"
+
+#include "mesh/repair.h"
 
 const char *const mr_solid_names[MR_SOLIDS] = { "sphere", "torus", "cube", "plane", "cylinder", "knot",
 	"bumpy", "boxes" };
@@ -11,144 +13,117 @@ whole(double x, size_t least)
 	return x > (double)least ? (size_t)(x + 0.5) : least;
 }
 
-/*
- * A geodesic sphere: each face of an icosahedron cut into f^2 triangles, its points
- * pushed out to the sphere.
- */
+/* What is made, piece by piece: each has vertices of its own, and equal ones are joined in the end. */
+typedef struct build {
+	mr_ctx *ctx;
+	mr_v3 *p;
+	mr_tri *t;
+	size_t nv, nf, room_v, room_f;
+} build;
 
-typedef struct corner_weight {
-	uint32_t corner, weight;
-} corner_weight;
-
-/* A point of an edge or face is known by the corners it lies between and its weights. */
-static uint64_t
-geodesic_key(const corner_weight in[3])
+static void
+add_vertex(build *b, mr_v3 p)
 {
-	enum { NO_CORNER = 15 };
-	corner_weight c[3] = { { NO_CORNER, 0 }, { NO_CORNER, 0 }, { NO_CORNER, 0 } };
-	size_t n = 0;
-
-	for (int i = 0; i < 3; i++) {
-		size_t j = n;
-		if (in[i].weight == 0)
-			continue;
-		for (; j > 0 && c[j - 1].corner > in[i].corner; j--)
-			c[j] = c[j - 1];
-		c[j] = in[i];
-		n++;
-	}
-	return (uint64_t)c[0].corner << 60 | (uint64_t)c[1].corner << 56 | (uint64_t)c[2].corner << 52 |
-	       (uint64_t)c[0].weight << 26 | c[1].weight;
-}
-
-typedef struct geodesic {
-	mr_solid_build *b;
-	mr_solid_weld w;
-	mr_v3 corner[12];
-	uint32_t frequency;
-} geodesic;
-
-/* The vertex i steps from corner a towards b and j towards c. */
-static uint32_t
-geodesic_vertex(geodesic *g, const uint32_t abc[3], uint32_t i, uint32_t j)
-{
-	corner_weight c[3] = { { abc[0], g->frequency - i - j }, { abc[1], i }, { abc[2], j } };
-	bool is_new;
-	uint32_t *slot = mr_weld_slot(&g->w, geodesic_key(c), &is_new);
-
-	if (is_new) {
-		mr_v3 p = mr_vec(0, 0, 0);
-		for (int k = 0; k < 3; k++)
-			p = mr_axpy(c[k].weight, g->corner[c[k].corner], p);
-		*slot = mr_solid_add_vertex(g->b, mr_unit(p));
-	}
-	return *slot;
+	MR_RESERVE(b->ctx, b->p, b->nv, 1, &b->room_v);
+	b->p[b->nv++] = p;
 }
 
 static void
-geodesic_face(geodesic *g, const uint32_t abc[3], uint32_t *rows)
+add_face(build *b, size_t i, size_t j, size_t k)
 {
-	uint32_t f = g->frequency, *row = rows, *next = rows + f + 1;
+	MR_RESERVE(b->ctx, b->t, b->nf, 1, &b->room_f);
+	b->t[b->nf++] = (mr_tri){ { (uint32_t)i, (uint32_t)j, (uint32_t)k } };
+}
 
-	for (uint32_t i = 0; i <= f; i++)
-		row[i] = geodesic_vertex(g, abc, i, 0);
-	for (uint32_t j = 0; j < f; j++) {
-		uint32_t *swap = row;
-		for (uint32_t i = 0; i < f - j; i++)
-			next[i] = geodesic_vertex(g, abc, i, j + 1);
-		for (uint32_t i = 0; i < f - j; i++) {
-			mr_solid_add_face(g->b, row[i], row[i + 1], next[i]);
+/* The place of vertex i, j of a grid. */
+typedef mr_v3 (*place)(const void *arg, size_t i, size_t j);
+
+/* A grid of nu by nv quadrilaterals of two faces each: corners 0 1 2 3 are i j, i + 1 j and on around, and
+ * `order` has the three of the one face, then the last of the other. */
+static void
+add_grid(build *b, size_t nu, size_t nv, const char *order, place at, const void *arg)
+{
+	size_t first = b->nv;
+
+	for (size_t i = 0; i <= nu; i++)
+		for (size_t j = 0; j <= nv; j++)
+			add_vertex(b, at(arg, i, j));
+	for (size_t i = 0; i < nu; i++)
+		for (size_t j = 0; j < nv; j++) {
+			size_t q = first + i * (nv + 1) + j, r = q + nv + 1,
+			       around[4] = { q, r, r + 1, q + 1 }, c[4];
+			for (int k = 0; k < 4; k++)
+				c[k] = around[order[k] - '0'];
+			add_face(b, c[0], c[1], c[2]);
+			add_face(b, c[0], c[2], c[3]);
+		}
+}
+
+/* A face of the icosahedron cut into f^2 triangles, its points pushed out to the sphere. */
+static void
+add_geodesic(build *b, const mr_v3 corner[3], size_t f)
+{
+	size_t row = b->nv;
+
+	for (size_t j = 0; j <= f; j++)
+		for (size_t i = 0; i <= f - j; i++) {
+			mr_v3 p = mr_mul((double)(f - i - j), corner[0]);
+			p = mr_axpy((double)j, corner[2], mr_axpy((double)i, corner[1], p));
+			add_vertex(b, mr_unit(p));
+		}
+	for (size_t j = 0; j < f; j++) {
+		size_t next = row + f - j + 1;
+		for (size_t i = 0; i < f - j; i++) {
+			add_face(b, row + i, row + i + 1, next + i);
 			if (i + 1 < f - j)
-				mr_solid_add_face(g->b, row[i + 1], next[i + 1], next[i]);
+				add_face(b, row + i + 1, next + i + 1, next + i);
 		}
 		row = next;
-		next = swap;
 	}
 }
 
-static size_t
-geodesic_frequency(size_t n)
+static void
+sphere(build *b, size_t n)
 {
-	return whole(sqrt((double)(n > 2 ? n - 2 : 0) / 10), 1);
-}
-
-static mr_status
-geodesic_sphere(mr_ctx *ctx, size_t f, mr_solid_build *b)
-{
-	static const uint32_t face[20][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 1 },
+	static const uint8_t face[20][3] = { { 0, 1, 2 }, { 0, 2, 3 }, { 0, 3, 4 }, { 0, 4, 5 }, { 0, 5, 1 },
 		{ 1, 6, 2 }, { 2, 7, 3 }, { 3, 8, 4 }, { 4, 9, 5 }, { 5, 10, 1 }, { 6, 7, 2 }, { 7, 8, 3 },
 		{ 8, 9, 4 }, { 9, 10, 5 }, { 10, 6, 1 }, { 11, 7, 6 }, { 11, 8, 7 }, { 11, 9, 8 },
 		{ 11, 10, 9 }, { 11, 6, 10 } };
-	geodesic g = { .b = b, .frequency = (uint32_t)f };
 	const double z = 1 / sqrt(5), r = 2 / sqrt(5);
-	mr_mark mark;
-	uint32_t *rows;
+	mr_v3 corner[12] = { [0] = { 0, 0, 1 }, [11] = { 0, 0, -1 } };
+	size_t f = whole(sqrt((double)(n > 2 ? n - 2 : 0) / 10), 1);
 
-	if (f >= 1 << 14)
-		return mr_fail(ctx, MR_ERANGE, "a geodesic sphere of frequency %zu is too large", f);
-	MR_TRY(mr_solid_begin(ctx, 10 * f * f + 2, 20 * f * f, b));
-	mark = mr_mark_take(ctx);
-	mr_weld_begin(ctx, 10 * f * f + 2, &g.w);
-	rows = MR_NEW(ctx, 2 * (f + 1), uint32_t);
-	g.corner[0] = mr_vec(0, 0, 1);
-	g.corner[11] = mr_vec(0, 0, -1);
 	for (int i = 0; i < 5; i++) {
 		double upper = 2 * MR_PI * i / 5, lower = upper + MR_PI / 5;
-		g.corner[1 + i] = mr_vec(r * cos(upper), r * sin(upper), z);
-		g.corner[6 + i] = mr_vec(r * cos(lower), r * sin(lower), -z);
+		corner[1 + i] = mr_vec(r * cos(upper), r * sin(upper), z);
+		corner[6 + i] = mr_vec(r * cos(lower), r * sin(lower), -z);
 	}
 	for (int i = 0; i < 20; i++)
-		geodesic_face(&g, face[i], rows);
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+		add_geodesic(b, (mr_v3[3]){ corner[face[i][0]], corner[face[i][1]], corner[face[i][2]] }, f);
 }
 
-/* Surfaces over a periodic rectangle [0, 1)^2 of nu by nv points. */
-static mr_status
-periodic_grid(mr_ctx *ctx, size_t nu, size_t nv, mr_v3 (*at)(double u, double v), mr_solid_build *b)
+/* A surface over the periodic rectangle [0, 1)^2. */
+typedef struct tube {
+	size_t nu, nv;
+	mr_v3 (*at)(double u, double v);
+} tube;
+
+static mr_v3
+tube_place(const void *arg, size_t i, size_t j)
 {
-	MR_TRY(mr_solid_begin(ctx, nu * nv, 2 * nu * nv, b));
-	for (size_t i = 0; i < nu; i++)
-		for (size_t j = 0; j < nv; j++)
-			mr_solid_add_vertex(b, at((double)i / (double)nu, (double)j / (double)nv));
-	for (size_t i = 0; i < nu; i++) {
-		for (size_t j = 0; j < nv; j++) {
-			size_t k = (i + 1) % nu, l = (j + 1) % nv;
-			mr_solid_add_quad(b, (uint32_t)(i * nv + j), (uint32_t)(k * nv + j),
-			    (uint32_t)(k * nv + l), (uint32_t)(i * nv + l));
-		}
-	}
-	return MR_OK;
+	const tube *t = arg;
+
+	return t->at((double)(i % t->nu) / (double)t->nu, (double)(j % t->nv) / (double)t->nv);
 }
 
-/* The periodic grid of about n points whose cells are squares where the lengths of the two circles stand in
- * `ratio`. */
-static mr_status
-tube(mr_ctx *ctx, size_t n, double ratio, size_t least, mr_v3 (*at)(double u, double v), mr_solid_build *b)
+/* Of about n points whose cells are squares where the lengths of the two circles stand in `ratio`. */
+static void
+add_tube(build *b, size_t n, double ratio, size_t least, mr_v3 (*at)(double u, double v))
 {
-	size_t nu = whole(sqrt((double)n * ratio), least), nv = whole((double)n / (double)nu, 3);
+	tube t = { .nu = whole(sqrt((double)n * ratio), least), .at = at };
 
-	return periodic_grid(ctx, nu, nv, at, b);
+	t.nv = whole((double)n / (double)t.nu, 3);
+	add_grid(b, t.nu, t.nv, "0123", tube_place, &t);
 }
 
 static mr_v3
@@ -178,95 +153,84 @@ knot_point(double u, double v)
 	return mr_axpy(KNOT_TUBE * cos(w), normal, mr_axpy(KNOT_TUBE * sin(w), side, c));
 }
 
-static mr_status
-plane(mr_ctx *ctx, size_t n, mr_solid_build *b)
+static mr_v3
+plane_place(const void *arg, size_t i, size_t j)
+{
+	const double half = (double)*(const size_t *)arg / 2;
+
+	return mr_vec((double)j / half - 1, (double)i / half - 1, 0);
+}
+
+static void
+plane(build *b, size_t n)
 {
 	size_t s = whole(sqrt((double)n) - 1, 1);
 
-	MR_TRY(mr_solid_begin(ctx, (s + 1) * (s + 1), 2 * s * s, b));
-	for (size_t i = 0; i <= s; i++)
-		for (size_t j = 0; j <= s; j++)
-			mr_solid_add_vertex(
-			    b, mr_vec(2 * (double)j / (double)s - 1, 2 * (double)i / (double)s - 1, 0));
-	for (size_t i = 0; i < s; i++) {
-		for (size_t j = 0; j < s; j++) {
-			uint32_t a = (uint32_t)(i * (s + 1) + j), c = (uint32_t)(a + s + 1);
-			mr_solid_add_quad(b, a, a + 1, c + 1, c);
-		}
-	}
-	return MR_OK;
+	add_grid(b, s, s, "0321", plane_place, &s);
 }
 
-/* A ring of `count` vertices of the given radius at height z; a ring of none is its centre. */
-static uint32_t
-add_ring(mr_solid_build *b, size_t count, double radius, double z)
+/* A ring of `count` vertices of the given radius at height z; a ring of none is its centre.  The first of
+ * them. */
+static size_t
+add_ring(build *b, size_t count, double radius, double z)
 {
-	uint32_t first = (uint32_t)b->nv;
+	size_t first = b->nv;
 
 	for (size_t i = 0; i < count; i++) {
 		double a = 2 * MR_PI * (double)i / (double)count;
-		mr_solid_add_vertex(b, mr_vec(radius * cos(a), radius * sin(a), z));
+		add_vertex(b, mr_vec(radius * cos(a), radius * sin(a), z));
 	}
 	if (count == 0)
-		mr_solid_add_vertex(b, mr_vec(0, 0, z));
+		add_vertex(b, mr_vec(0, 0, z));
 	return first;
 }
 
 /* Faces between two rings, the outer one of m vertices counter-clockwise seen from outside, the inner one of
  * n. */
 static void
-join_rings(mr_solid_build *b, uint32_t outer, size_t m, uint32_t inner, size_t n, bool flip)
+join_rings(build *b, size_t outer, size_t m, size_t inner, size_t n, bool flip)
 {
 	size_t i = 0, j = 0;
 
 	while (i < m || j < n) {
 		/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) the outer ring has vertices */
-		uint32_t a = outer + (uint32_t)(i % m), c = inner + (uint32_t)(n ? j % n : 0), d;
+		size_t a = outer + i % m, c = inner + (n ? j % n : 0), d;
 		bool step = j == n || (i < m && (i + 1) * n <= (j + 1) * m); /* the one behind goes on */
 
-		d = step ? outer + (uint32_t)(++i % m) : inner + (uint32_t)(++j % n);
-		if (flip)
-			mr_solid_add_face(b, a, c, d);
-		else
-			mr_solid_add_face(b, a, d, c);
+		d = step ? outer + ++i % m : inner + ++j % n;
+		add_face(b, a, flip ? c : d, flip ? d : c);
 	}
 }
 
 /* The caps are hexagonal: ring j of k has 6 j vertices, so edges are nearly as long as on the side. */
-static mr_status
-cylinder(mr_ctx *ctx, size_t n, bool open, mr_solid_build *b)
+static void
+cylinder(build *b, size_t n, bool open)
 {
 	/* 6 k (h + 1) + 2 (1 + 3 k (k - 1)) vertices with h = 4 k / (pi / 3) */
 	double quad = 72 / MR_PI + (open ? 0 : 6);
-	size_t k = whole(sqrt((double)n / quad), 1), h = whole(12 * (double)k / MR_PI, 1);
-	size_t side = 6 * k * (h + 1), cap = open ? 0 : 1 + 3 * k * (k - 1);
-	uint32_t bottom = 0, top = 0;
+	size_t k = whole(sqrt((double)n / quad), 1), h = whole(12 * (double)k / MR_PI, 1), bottom = 0,
+	       top = 0;
 
-	MR_TRY(mr_solid_begin(ctx, side + 2 * cap, 12 * k * h + (open ? 0 : 12 * k * k), b));
 	for (size_t i = 0; i <= h; i++)
 		top = add_ring(b, 6 * k, 1, 4 * (double)i / (double)h - 2);
 	for (size_t i = 0; i < h; i++)
-		join_rings(b, (uint32_t)(i * 6 * k), 6 * k, (uint32_t)((i + 1) * 6 * k), 6 * k, false);
+		join_rings(b, i * 6 * k, 6 * k, (i + 1) * 6 * k, 6 * k, false);
 	for (size_t j = open ? 0 : k; j > 0; j--) {
 		double radius = (double)(j - 1) / (double)k;
-		uint32_t low = add_ring(b, 6 * (j - 1), radius, -2);
-		uint32_t high = add_ring(b, 6 * (j - 1), radius, 2);
+		size_t low = add_ring(b, 6 * (j - 1), radius, -2), high = add_ring(b, 6 * (j - 1), radius, 2);
 		join_rings(b, bottom, 6 * j, low, 6 * (j - 1), true);
 		join_rings(b, top, 6 * j, high, 6 * (j - 1), false);
 		bottom = low;
 		top = high;
 	}
-	return MR_OK;
 }
 
 /* Surfaces of unit cells: the sides between a full and an empty one, cut into s^2 squares. */
 typedef struct cells {
-	mr_solid_build *b;
-	mr_solid_weld w;
 	size_t count[3]; /* cells along each axis */
 	size_t s;
-	bool holes; /* without the cells of odd first and middle second index */
-	mr_v3 size; /* of a cell */
+	bool holes;  /* without the cells of odd first and middle second index */
+	double size; /* of a cell */
 } cells;
 
 static bool
@@ -277,132 +241,131 @@ cell_full(const cells *c, const size_t i[3])
 	return !(c->holes && i[0] % 2 == 1 && i[1] == 1);
 }
 
-static uint32_t
-cells_vertex(cells *c, const size_t at[3])
+/* The side of a cell across an axis, the upper one or the lower one. */
+typedef struct side {
+	const cells *c;
+	const size_t *cell;
+	size_t axis, upper;
+} side;
+
+static mr_v3
+side_place(const void *arg, size_t a, size_t d)
 {
-	bool is_new;
-	uint32_t *slot = mr_weld_slot(&c->w, (uint64_t)at[0] << 42 | (uint64_t)at[1] << 21 | at[2], &is_new);
+	const side *o = arg;
+	const cells *c = o->c;
+	size_t at[3], u = (o->axis + 1) % 3, v = (o->axis + 2) % 3;
+	double x[3];
 
-	if (is_new) {
-		double x[3], s = (double)c->s;
-		for (int k = 0; k < 3; k++)
-			x[k] = (double)at[k] / s - 0.5 * (double)c->count[k];
-		*slot = mr_solid_add_vertex(
-		    c->b, mr_vec(c->size.x * x[0], c->size.y * x[1], c->size.z * x[2]));
-	}
-	return *slot;
-}
-
-/* The side of cell i across `axis`, the upper one or the lower one. */
-static void
-cells_side(cells *c, const size_t i[3], int axis, bool upper)
-{
-	int u = (axis + 1) % 3, v = (axis + 2) % 3;
-
-	for (size_t a = 0; a < c->s; a++) {
-		for (size_t d = 0; d < c->s; d++) {
-			uint32_t q[4];
-			for (size_t k = 0; k < 4; k++) {
-				size_t at[3];
-				at[axis] = (i[axis] + upper) * c->s;
-				at[u] = i[u] * c->s + a + (k == 1 || k == 2);
-				at[v] = i[v] * c->s + d + (k >= 2);
-				q[upper ? k : 3 - k] = cells_vertex(c, at);
-			}
-			mr_solid_add_quad(c->b, q[0], q[1], q[2], q[3]);
-		}
-	}
+	at[o->axis] = (o->cell[o->axis] + o->upper) * c->s;
+	at[u] = o->cell[u] * c->s + a;
+	at[v] = o->cell[v] * c->s + d;
+	for (int k = 0; k < 3; k++)
+		x[k] = c->size * ((double)at[k] / (double)c->s - 0.5 * (double)c->count[k]);
+	return mr_vec(x[0], x[1], x[2]);
 }
 
 static void
-cells_sides(cells *c, const size_t i[3])
+add_cell(build *b, const cells *c, const size_t cell[3])
 {
-	for (int axis = 0; axis < 3; axis++) {
-		for (int upper = 0; upper < 2; upper++) {
-			size_t beside[3] = { i[0], i[1], i[2] };
+	for (size_t axis = 0; axis < 3; axis++)
+		for (size_t upper = 0; upper < 2; upper++) {
+			size_t beside[3] = { cell[0], cell[1], cell[2] };
 			beside[axis] += upper ? 1 : (size_t)-1; /* below 0 wraps to outside */
 			if (!cell_full(c, beside))
-				cells_side(c, i, axis, upper);
+				add_grid(b, c->s, c->s, upper ? "0123" : "3210", side_place,
+				    &(side){ c, cell, axis, upper });
 		}
-	}
 }
 
 /* `sides` of the solid's cells are outside, `genus` is that of the whole: sides s^2 + 2 - 2 genus vertices.
  */
-static mr_status
-cells_make(mr_ctx *ctx, cells *c, size_t sides, size_t genus, size_t n)
+static void
+add_cells(build *b, cells *c, size_t sides, size_t genus, size_t n)
 {
 	double squares = (double)n - 2 + 2 * (double)genus;
-	mr_mark mark;
 
 	c->s = whole(sqrt(squares > 0 ? squares / (double)sides : 0), 1);
-	if ((c->count[0] > c->count[1] ? c->count[0] : c->count[1]) * c->s >= 1 << 21)
-		return mr_fail(ctx, MR_ERANGE, "%zu vertices are too many", n);
-	MR_TRY(mr_solid_begin(ctx, sides * c->s * c->s + 2 - 2 * genus, 2 * sides * c->s * c->s, c->b));
-	mark = mr_mark_take(ctx);
-	mr_weld_begin(ctx, sides * c->s * c->s + 2, &c->w);
 	for (size_t i = 0; i < c->count[0]; i++)
 		for (size_t j = 0; j < c->count[1]; j++)
 			for (size_t k = 0; k < c->count[2]; k++)
 				if (cell_full(c, (size_t[3]){ i, j, k }))
-					cells_sides(c, (size_t[3]){ i, j, k });
-	mr_mark_release(ctx, mark);
-	return MR_OK;
+					add_cell(b, c, (size_t[3]){ i, j, k });
 }
 
-static mr_status
-cube(mr_ctx *ctx, size_t n, mr_solid_build *b)
+static void
+cube(build *b, size_t n)
 {
-	cells c = { .b = b, .count = { 1, 1, 1 }, .size = { 2, 2, 2 } };
-
-	return cells_make(ctx, &c, 6, 0, n);
+	add_cells(b, &(cells){ .count = { 1, 1, 1 }, .size = 2 }, 6, 0, n);
 }
 
-static mr_status
-boxes(mr_ctx *ctx, size_t n, size_t genus, mr_solid_build *b)
+static void
+boxes(build *b, size_t n, size_t genus)
 {
-	cells c = { .b = b, .count = { 2 * genus + 1, 3, 1 }, .holes = true, .size = { 1, 1, 1 } };
+	cells c = { .count = { 2 * genus + 1, 3, 1 }, .holes = true, .size = 1 };
 	size_t flat = 2 * (3 * (2 * genus + 1) - genus), outer = 2 * (2 * genus + 1 + 3), inner = 4 * genus;
 
-	if (genus > 100000)
-		return mr_fail(ctx, MR_ERANGE, "a genus of %zu is too large", genus);
-	return cells_make(ctx, &c, flat + outer + inner, genus, n);
+	add_cells(b, &c, flat + outer + inner, genus, n);
 }
 
-static mr_status
-make(mr_ctx *ctx, const mr_make_opts *o, size_t n, mr_solid_build *b)
+static void
+make(build *b, const mr_make_opts *o, size_t n)
 {
 	switch (o->solid) {
 	case MR_SPHERE:
-		return geodesic_sphere(ctx, geodesic_frequency(n), b);
+		sphere(b, n);
+		break;
 	case MR_TORUS:
-		return tube(ctx, n, 1 / 0.4, 3, torus_point, b);
+		add_tube(b, n, 1 / 0.4, 3, torus_point);
+		break;
 	case MR_CUBE:
-		return cube(ctx, n, b);
+		cube(b, n);
+		break;
 	case MR_PLANE:
-		return plane(ctx, n, b);
+		plane(b, n);
+		break;
 	case MR_CYLINDER:
-		return cylinder(ctx, n, o->open, b);
+		cylinder(b, n, o->open);
+		break;
 	case MR_KNOT:
-		return tube(ctx, n, KNOT_LENGTH / (2 * MR_PI * KNOT_TUBE), 24, knot_point, b);
-	case MR_BUMPY:
-		return mr_bumpy(ctx, n, b);
+		add_tube(b, n, KNOT_LENGTH / (2 * MR_PI * KNOT_TUBE), 24, knot_point);
+		break;
 	case MR_BOXES:
-		return boxes(ctx, n, o->genus, b);
+		boxes(b, n, o->genus);
+		break;
+	case MR_BUMPY:
 	case MR_SOLIDS:
 		break;
 	}
-	return mr_fail(ctx, MR_ERANGE, "no shape has the number %d", (int)o->solid);
+}
+
+static void
+join_equal(mr_ctx *ctx, build *b)
+{
+	uint32_t *map = MR_NEW(ctx, b->nv, uint32_t);
+	size_t count;
+
+	mr_weld(ctx, b->p, b->nv, 0, map, &count);
+	for (size_t i = 0; i < b->nv; i++) /* a new number is never behind the old one */
+		b->p[map[i]] = b->p[i];
+	for (size_t f = 0; f < b->nf; f++)
+		for (int k = 0; k < 3; k++)
+			b->t[f].v[k] = map[b->t[f].v[k]];
+	b->nv = count;
 }
 
 mr_status
 mr_solid_make(mr_ctx *ctx, const mr_make_opts *o, mr_mesh *m)
 {
-	mr_solid_build b;
+	build b = { .ctx = ctx };
 
-	if (o->vertices >= MR_NONE)
+	if (o->vertices > MR_NONE / 8) /* a vertex has up to four copies, and twice as many faces */
 		return mr_fail(ctx, MR_ERANGE, "%zu vertices are too many", o->vertices);
-	MR_TRY(make(ctx, o, o->vertices ? o->vertices : o->solid == MR_BUMPY ? 30000 : 10000, &b));
+	if (o->genus > 100000)
+		return mr_fail(ctx, MR_ERANGE, "a genus of %zu is too large", o->genus);
+	if (o->solid == MR_BUMPY)
+		return mr_bumpy(ctx, o->vertices ? o->vertices : 30000, m);
+	make(&b, o, o->vertices ? o->vertices : 10000);
+	join_equal(ctx, &b);
 	*m = (mr_mesh){ .name = mr_solid_names[o->solid], .p = b.p, .t = b.t, .nv = b.nv, .nf = b.nf };
 	return MR_OK;
 }

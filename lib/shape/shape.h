@@ -24,6 +24,9 @@ extern const char *const mr_solid_names[MR_SOLIDS];
 /* The shape, in the arena; its name is the solid's. */
 mr_status mr_solid_make(mr_ctx *ctx, const mr_make_opts *opts, mr_mesh *m);
 
+/* The bumpy creature of about n vertices, in the arena. */
+mr_status mr_bumpy(mr_ctx *ctx, size_t n, mr_mesh *m);
+
 bool mr_solid_has_texcoords(mr_solid solid);
 
 /* Texture coordinates of the corners of a solid as it was made: a picture fills the square from 0 to 1,
