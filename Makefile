@@ -88,10 +88,9 @@ $(BUILD)/page/page.o: formats/page/page.S $(BUILD)/page/page.html $(BUILD)/flags
 	$(call say,compile)$(CC) -Wa,-I$(BUILD)/page -o $@ -c $<
 
 put = -e '/^<!-- $(1) -->$$/{r $(2)' -e 'd;}'
-$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/page/load.js $(BUILD)/page/main.gz \
-		$(BUILD)/page/worker.gz
+$(BUILD)/page/page.html: formats/page/page.html formats/page/page.css formats/page/load.js $(BUILD)/page/main.gz
 	$(call say,page   )sed $(call put,style,formats/page/page.css) $(call put,load,formats/page/load.js) \
-		$(call put,program,$(BUILD)/page/main.gz) $(call put,worker,$(BUILD)/page/worker.gz) $< >$@
+		$(call put,program,$(BUILD)/page/main.gz) $< >$@
 
 # The part of the library that the page runs, as WebAssembly, by the compiler that knows it.
 WASM    := $(patsubst %,$(BUILD)/wasm/%.o,$(wildcard formats/page/library/*.c) $(addprefix lib/, \
@@ -110,10 +109,10 @@ $(BUILD)/page/library.wasm: $(WASM)
 		-Wl,--no-entry,--gc-sections,--strip-all,--export=malloc,--export=free \
 		-nodefaultlibs -o $@ $^ -lc -lm
 
-# Of each program of the page one script of all its modules, three.js included, packed, as text.
-$(BUILD)/page/%.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/library.wasm | setup
+# One script of all modules of the page, three.js included, packed, as text.
+$(BUILD)/page/main.gz: $(filter %.js,$(PAGE)) $(BUILD)/page/library.wasm | setup
 	@mkdir -p $(@D)
-	$(call say,bundle )esbuild formats/page/$*.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
+	$(call say,bundle )esbuild formats/page/main.js --bundle --minify --format=iife --target=es2020 --charset=utf8 \
 		--alias:three=$(THREE) --alias:library.wasm=$(abspath $(BUILD))/page/library.wasm \
 		--loader:.wasm=binary --log-level=warning \
 		--outfile=$(@:.gz=.js) && gzip -9nc $(@:.gz=.js) | base64 -w 0 >$@ && echo >>$@

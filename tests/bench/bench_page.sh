@@ -1,6 +1,6 @@
 # Dragging a handle in the page of mr-view, in Chromium without a window, of many frames the median and the fastest,
-# drawing not counted: from the pose to base and mesh as mr-decode has them; what of that a worker computes; the normals
-# to draw with; and the size of the page.
+# drawing not counted: from the pose to base and mesh as mr-decode has them; the normals to draw with; and
+# the size of the page.
 command -v chromium >/dev/null || { echo "no Chromium: make check-page installs it"; exit 0; }
 page_of() { # name, what makes its mesh
 	name=$1

@@ -168,19 +168,8 @@ def two(b):
     check(line(b) == "" and b.text("name") == "bumpy", "back at %s: %s" % (b.text("name"), line(b)))
 
 
-def without_workers(b):
-    """A browser that has none shows the model all the same, and says why its handles stay."""
-    script = b.call("Page.addScriptToEvaluateOnNewDocument", source="delete window.Worker")["identifier"]
-    b.open("rest.html")
-    check(not b.eval("document.getElementById('no-worker').hidden")
-        and b.eval("document.getElementById('pose').hidden"), "nothing on workers")
-    check(b.text("message") == "" and b.eval("mrView.stage.layers.length") == 1, "without workers the page says '%s'"
-        % b.text("message"))
-    b.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
-
-
 with Browser() as browser:
-    for test in (gizmo, touch, lines, far, two, without_workers):
+    for test in (gizmo, touch, lines, far, two):
         browser.draw(test is two)
         test(browser)
     check(browser.said == [], "the page says to the console or asks for: %s" % browser.said)

@@ -77,7 +77,7 @@ def saves(b, page, stream, name, layer="mesh", keys=()):
     check(len(columns(made + ".mrs")["base" if layer == "mesh" else layer, "response"][0]) % 4 == 0, page
         + ": there is no basis")
     b.open(made + ".html")
-    check(b.eval("document.getElementById('no-worker').hidden"), page
+    check(layer != "mesh" or not b.eval("document.getElementById('pose').hidden"), page
         + ": the page of the script has no handles to drag")
     return made + ".mrs"
 

@@ -2,21 +2,26 @@
  * pose.js -- where handles go: a pose of each that was dragged, { handle, translate, rotate: axis and degrees, scale },
  * as mr-pose applies it, lib/edit/handles.c; the line of commands that does the same; the steps back and forth.
  */
-import { IDENTITY, add, apply, compose, exponential, norm, sub, times, unit } from "../mesh/rotation.js";
+import { Matrix4, Quaternion, Vector3 } from "three/build/three.module.js";
 
 const rest = (handle) => ({ handle, translate: [0, 0, 0], rotate: [0, 0, 1, 0], scale: [1, 1, 1] });
 
-/* About which axis a pose turns, by how many radians. */
-const turnOf = (pose) => times(pose.rotate[3] * Math.PI / 180, unit(pose.rotate.slice(0, 3)));
+const vector = (x) => new Vector3(...x);
+
+/* About which axis a pose turns, as long as the angle is in radians. */
+const turnOf = ({ rotate }) => vector(rotate).setLength(rotate[3] * Math.PI / 180);
 
 /* T x = R S (x - centre) + centre + translate */
 function mapOf(pose, centre) {
-	const r = exponential(turnOf(pose)), [sx, sy, sz] = pose.scale;
-	const t = [0, 3, 6].flatMap((i) => [r[i] * sx, r[i + 1] * sy, r[i + 2] * sz, 0]);
-	const shift = add(sub(centre, apply(t, centre)), pose.translate);
+	const turn = new Quaternion().setFromAxisAngle(vector(pose.rotate).normalize(), pose.rotate[3] * Math.PI / 180);
 
-	return t.map((x, i) => (i % 4 === 3 ? shift[(i - 3) / 4] : x));
+	return new Matrix4().compose(vector(centre).add(vector(pose.translate)), turn, vector(pose.scale)).multiply(
+		new Matrix4().makeTranslation(...centre.map((x) => -x)));
 }
+
+/* Maps are three rows of four. */
+const matrixOf = (map) => new Matrix4().set(...map, 0, 0, 0, 1);
+const rowsOf = (matrix) => matrix.clone().transpose().elements.slice(0, 12);
 
 /* A number of a line: to so many decimals, without a negative zero. */
 const rounded = (x, decimals) => Number(x.toFixed(decimals)) || 0;
@@ -63,16 +68,17 @@ export class Pose {
 
 	/* Where a handle is as the stream has posed it, and its middle there. */
 	from(handle) {
-		const map = this.start[handle] || IDENTITY;
+		const map = this.start[handle] ? matrixOf(this.start[handle]) : new Matrix4();
 
-		return { map, centre: this.numbers.includes(handle) ? apply(map, this.centroids[handle]) : null };
+		return { map, centre: this.numbers.includes(handle) ?
+			vector(this.centroids[handle]).applyMatrix4(map).toArray() : null };
 	}
 
 	/* The map of each handle. */
 	maps() {
 		return Array.from({ length: Math.max(this.centroids.length, this.start.length) }, (_, handle) => {
 			const { map, centre } = this.from(handle);
-			return centre ? compose(mapOf(this.poseOf(handle), centre), map) : map;
+			return rowsOf(centre ? mapOf(this.poseOf(handle), centre).multiply(map) : map);
 		});
 	}
 
@@ -91,12 +97,12 @@ export class Pose {
 
 	/* Changes it to these, as far as a line tells them. */
 	drag(handle, { translate, turn, scale }) {
-		const angle = norm(turn) * 180 / Math.PI;
+		const angle = turn.length() * 180 / Math.PI, axis = turn.clone().normalize().toArray();
 
 		this.poses = [...this.poses.filter((pose) => pose.handle !== handle), {
 			handle,
 			translate: translate.map((x) => rounded(x, this.decimals)),
-			rotate: [...(angle > 0 ? unit(turn).map((x) => rounded(x, 6)) : [0, 0, 1]), rounded(angle, 3)],
+			rotate: [...(angle > 0 ? axis.map((x) => rounded(x, 6)) : [0, 0, 1]), rounded(angle, 3)],
 			scale: scale.map((x) => rounded(x, 5)),
 		}];
 	}

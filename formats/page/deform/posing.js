@@ -1,17 +1,12 @@
 /* posing.js -- handles to drag, and the line of commands below them. */
 import { regionColor, regionName } from "../draw/colors.js";
-import { Deformer, posedBy as baseOf } from "./deformer.js";
-import { controlOf, DisplacedDeformer } from "./displaced.js";
+import { Poser, posedBy } from "./poser.js";
 import { HANDLE, poseOf } from "./handles.js";
-import { IDENTITY } from "../mesh/rotation.js";
 import { columnOf, ownRegion, streamOf } from "../stream/stream.js";
 import { copy } from "../stream/text.js";
 
 const $ = (id) => document.getElementById(id);
 const FAR = 60; /* degrees beyond which mr-decode warns */
-
-/* Base and mesh are posed where they can be, else control and the displaced surface; null: nothing. */
-const posedBy = (frame) => baseOf(frame) || controlOf(frame);
 
 export class Posing {
 	constructor(app) {
@@ -83,22 +78,16 @@ export class Posing {
 		this.start = this.next = this.pose = this.handle = this.deformer = null;
 		this.centre = centre;
 		if (columns)
-			this.deformer = await this.deformerOf(frame, columns).prepare(centre).catch(() => null);
-		$("no-worker").hidden = !columns || Boolean(this.deformer);
+			this.deformer = await new Poser(frame, columns, () => this.posed()).prepare(centre);
 		this.show();
-	}
-
-	deformerOf(frame, columns) {
-		return baseOf(frame) ? new Deformer(columns, () => this.posed()) :
-			new DisplacedDeformer(frame, columns, () => this.posed());
 	}
 
 	/* Goes to the level that is shown, of surfaces and in the line. */
 	follow(frame) {
 		if (!this.deformer || !this.pose)
 			return;
-		this.pose.most = baseOf(frame) ? null : frame.levels.surface.most;
-		this.pose.level = baseOf(frame) ? null : frame.levels.at;
+		this.pose.most = this.deformer.surface ? this.deformer.surface.most : null;
+		this.pose.level = this.deformer.surface ? frame.levels.at : null;
 		this.deformer.follow(frame);
 		if (this.deformer.working)
 			$("poseline").setAttribute("aria-busy", "true");
@@ -109,7 +98,7 @@ export class Posing {
 	apply() {
 		const maps = this.pose.maps();
 
-		if (this.moved || maps.some((map) => map.some((x, i) => x !== IDENTITY[i])))
+		if (this.moved || maps.some((map) => map.some((x, i) => x !== (i % 5 ? 0 : 1))))
 			this.deform(maps);
 		this.show();
 	}
@@ -126,14 +115,14 @@ export class Posing {
 		this.asked = this.asked || requestAnimationFrame(() => this.turn());
 	}
 
-	/* The workers have answered. */
+	/* There are places by the last maps. */
 	posed() {
 		this.fresh = true;
 		if (this.moved)
 			this.ask();
 	}
 
-	/* One picture of what the workers have answered, while they work on the next. */
+	/* One picture of what has been computed, and the next maps to be. */
 	turn() {
 		this.asked = 0;
 		if (this.next && this.moved)

@@ -1,11 +1,21 @@
 /* gizmo.js -- what a handle is dragged by: the arrows, rings and boxes of three.js, at one place of the stage. */
 import * as THREE from "three/build/three.module.js";
 import { TransformControls } from "three/examples/jsm/controls/TransformControls.js";
-import { logarithm, norm, unit } from "../mesh/rotation.js";
 
 const LEAST = 0.01; /* of a scale: less is flat, or inside out, by an accident of the hand */
 const SIZE = 0.6; /* about a sixth of the picture's height to either side */
 const MODES = { move: "translate", turn: "rotate", scale: "scale" };
+
+/* Of all vectors along the axis of a rotation, as long as its angle and whole turns, the one nearest to `near`. */
+function logarithm({ x, y, z, w }, near) {
+	const axis = new THREE.Vector3(x, y, z).multiplyScalar(w < 0 ? -2 : 2), whole = 2 * Math.PI;
+	const angle = 2 * Math.atan2(axis.length() / 2, Math.abs(w));
+
+	if (angle < 1e-6)
+		return axis.add(near.clone().setLength(whole * Math.round(near.length() / whole)));
+	axis.normalize();
+	return axis.multiplyScalar(angle + whole * Math.round((axis.dot(near) - angle) / whole));
+}
 
 export class Gizmo {
 	constructor(stage) {
@@ -41,9 +51,8 @@ export class Gizmo {
 		this.grip = grip;
 		this.centre = centre;
 		if (grip) {
-			const angle = norm(grip.turn);
 			this.at.position.fromArray(grip.centre.map((x, c) => x + grip.translate[c] - centre[c]));
-			this.at.quaternion.setFromAxisAngle(new THREE.Vector3(...unit(grip.turn)), angle);
+			this.at.quaternion.setFromAxisAngle(grip.turn.clone().normalize(), grip.turn.length());
 			this.at.scale.fromArray(grip.scale);
 			this.turn = grip.turn;
 		}

@@ -1,11 +1,10 @@
-/* compile.js -- the library of the page, compiled once for it and its workers. */
+/* compile.js -- the library of the page, once it is compiled. */
 import code from "library.wasm";
 import { Library } from "./library.js";
 
-export let module, library;
+export let library;
 
 /* Before anything asks for it. */
 export async function begin() {
-	module = await WebAssembly.compile(code);
-	library = await Library.load(module);
+	library = new Library((await WebAssembly.instantiate(code)).instance.exports);
 }

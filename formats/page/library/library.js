@@ -7,10 +7,6 @@ export class Library {
 		this.run = run;
 	}
 
-	static async load(module) {
-		return new Library((await WebAssembly.instantiate(module)).exports);
-	}
-
 	/* What it answered, unless that is 0: then there was no memory. */
 	had(answer) {
 		if (!answer)

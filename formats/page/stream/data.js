@@ -18,14 +18,6 @@ function join(parts) {
 	return bytes;
 }
 
-/* The text that an element holds packed, which stays there. */
-export async function textOf(id) {
-	const packed = new Blob([decode(document.getElementById(id).textContent.trim())]);
-	const stream = packed.stream().pipeThrough(new DecompressionStream("gzip"));
-
-	return new Response(stream).text();
-}
-
 /* The bytes of the pictures, which are taken out of the page. */
 export function takePictures() {
 	return [...document.querySelectorAll("script.picture")].map((block) => {
