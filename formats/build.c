@@ -150,6 +150,15 @@ mr_clean_name(char *to, const char *from, size_t bytes, bool no_slash)
 	return n;
 }
 
+const char *
+mr_clean_copy(mr_ctx *ctx, const char *from, size_t bytes)
+{
+	char *to = mr_alloc(ctx, bytes + 1, 1);
+
+	mr_clean_name(to, from, bytes, false);
+	return to;
+}
+
 /* The mark of faces that have none. */
 static const char *
 unmarked(const mr_builder *b, mr_marking what)

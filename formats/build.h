@@ -166,4 +166,7 @@ void *mr_gather(mr_ctx *ctx, const void *x, size_t size, const uint32_t *of, siz
  * NUL-terminated. */
 size_t mr_clean_name(char *to, const char *from, size_t bytes, bool no_slash);
 
+/* The same in the arena, '/' as it is. */
+const char *mr_clean_copy(mr_ctx *ctx, const char *from, size_t bytes);
+
 #endif

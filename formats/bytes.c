@@ -6,7 +6,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <zlib.h>
@@ -25,26 +24,11 @@ shown(const char *path, const char *standard)
 	return strcmp(path, "-") ? path : standard;
 }
 
-void
-mr_file_bytes_free(mr_file_bytes *b)
+mr_status
+mr_file_bytes_end(mr_file_bytes *b, mr_status status)
 {
 	mr_memory_free(b->memory);
-	if (b->map)
-		munmap(b->map, b->mapped);
-	if (b->map && b->fd != STDIN_FILENO)
-		close(b->fd);
 	*b = (mr_file_bytes){ 0 };
-}
-
-mr_status
-mr_file_bytes_end(mr_ctx *ctx, mr_file_bytes *b, mr_status status)
-{
-	struct stat st;
-
-	if (b->map && fstat(b->fd, &st) == 0 && (uintmax_t)st.st_size < b->mapped)
-		status = mr_fail(ctx, MR_EIO, "cut off to %lld of %zu bytes while it was read",
-		    (long long)st.st_size, b->mapped);
-	mr_file_bytes_free(b);
 	return status;
 }
 
@@ -63,7 +47,7 @@ widen(mr_ctx *ctx, unsigned char **memory, size_t *room, size_t least)
 	if (ctx->scratch || wanted <= HEAD || 2 * (double)wanted - (double)*room <= mr_memory_available())
 		p = mr_memory(ctx, *memory, wanted);
 	if (!p) {
-		snprintf(what, sizeof what, "more than %zu bytes", *room);
+		snprintf(what, sizeof what, "more than %zu bytes", *room ? *room : least - 1);
 		return mr_no_memory(ctx, what, (double)wanted);
 	}
 	*memory = p;
@@ -71,70 +55,32 @@ widen(mr_ctx *ctx, unsigned char **memory, size_t *room, size_t least)
 	return MR_OK;
 }
 
+/* All of a file; of a regular one it is known how much that is. */
 static mr_status
 read_all(mr_ctx *ctx, const char *path, int fd, mr_file_bytes *b)
 {
-	unsigned char *memory = NULL;
-	size_t size = 0, room = 0;
-
-	for (;;) {
-		mr_status status = room - size < CHUNK ? widen(ctx, &memory, &room, size + CHUNK) : MR_OK;
-		ssize_t n;
-		if (status < 0) {
-			mr_memory_free(memory);
-			return mr_prefix(ctx, status, "%s", path);
-		}
-		n = read(fd, memory + size, room - size);
-		if (n == 0)
-			break;
-		if (n < 0 && mr_retry(fd, POLLIN))
-			continue;
-		if (n < 0) {
-			mr_memory_free(memory);
-			return failed(ctx, path, "cannot read");
-		}
-		size += (size_t)n;
-	}
-	*b = (mr_file_bytes){ .data = memory, .size = size, .memory = memory };
-	return MR_OK;
-}
-
-/* Maps what a regular file has from here on; false where it is none, is empty or cannot be mapped. */
-static bool
-map_all(int fd, mr_file_bytes *b)
-{
 	struct stat st;
-	off_t here = lseek(fd, 0, SEEK_CUR);
-	size_t size;
-	void *map;
+	bool regular = fstat(fd, &st) == 0 && S_ISREG(st.st_mode);
+	unsigned char *memory = NULL;
+	size_t size = 0, room = 0, least = CHUNK + (regular ? (size_t)st.st_size : 0);
+	mr_status status;
+	ssize_t n = 1;
 
-	if (fstat(fd, &st) || !S_ISREG(st.st_mode) || here < 0 || st.st_size <= here)
-		return false;
-	size = (size_t)st.st_size;
-	map = mmap(NULL, size, PROT_READ, MAP_PRIVATE, fd, 0);
-	if (map == MAP_FAILED)
-		return false;
-	if (fd == STDIN_FILENO) /* as if it were read, for whoever reads on */
-		lseek(fd, 0, SEEK_END);
-	*b = (mr_file_bytes){ .data = (unsigned char *)map + here,
-		.size = size - (size_t)here,
-		.map = map,
-		.mapped = size,
-		.fd = fd };
-	return true;
-}
-
-/* The size that the trailer of the last member claims, where deflate could have made so much of these bytes.
- */
-static size_t
-claimed_size(const mr_file_bytes *b)
-{
-	const unsigned char *e = b->data + b->size;
-	size_t n = b->size < 18
-	               ? 0
-	               : (size_t)e[-4] | (size_t)e[-3] << 8 | (size_t)e[-2] << 16 | (size_t)e[-1] << 24;
-
-	return n / 1032 <= b->size ? n : 0;
+	while ((status = room - size < CHUNK ? widen(ctx, &memory, &room, size + least) : MR_OK) == MR_OK) {
+		least = CHUNK;
+		n = read(fd, memory + size, room - size);
+		if (n > 0)
+			size += (size_t)n;
+		else if (n == 0 || !mr_retry(fd, POLLIN))
+			break;
+	}
+	if (n < 0)
+		status = mr_fail(ctx, MR_EIO, "cannot read: %s", strerror(errno));
+	if (status < 0)
+		mr_memory_free(memory);
+	else
+		*b = (mr_file_bytes){ .data = memory, .size = size, .memory = memory };
+	return mr_prefix(ctx, status, "%s", path);
 }
 
 /* Whether these bytes begin another member, or may do so where they are cut off. */
@@ -149,17 +95,15 @@ may_be_gzip(const unsigned char *data, size_t size)
 static mr_status
 inflate_members(mr_ctx *ctx, z_stream *z, const mr_file_bytes *in, unsigned char **memory, size_t *size)
 {
-	const size_t claimed = claimed_size(in);
 	size_t room = 0, given = 0, done = 0;
 
-	MR_TRY(widen(ctx, memory, &room, claimed < HEAD ? claimed + 64 : HEAD));
 	for (;;) {
 		uInt piece = in->size - given > CHUNK ? CHUNK : (uInt)(in->size - given);
 		uInt space;
 		int r;
 
 		if (room == done)
-			MR_TRY(widen(ctx, memory, &room, done < claimed ? claimed + 64 : 0));
+			MR_TRY(widen(ctx, memory, &room, 4 * CHUNK));
 		space = room - done > CHUNK ? CHUNK : (uInt)(room - done);
 		z->next_in = (unsigned char *)(uintptr_t)(in->data + given);
 		z->avail_in = piece;
@@ -196,7 +140,7 @@ gunzip(mr_ctx *ctx, mr_file_bytes *b)
 		return mr_fail(ctx, MR_EMEM, "no memory to inflate");
 	status = inflate_members(ctx, &z, b, &memory, &size);
 	inflateEnd(&z);
-	status = mr_file_bytes_end(ctx, b, status);
+	mr_file_bytes_end(b, MR_OK);
 	if (status < 0)
 		mr_memory_free(memory);
 	else
@@ -209,16 +153,15 @@ mr_file_bytes_read(mr_ctx *ctx, const char *path, mr_file_bytes *b)
 {
 	const char *name = shown(path, "stdin");
 	mr_file_bytes got = { 0 };
-	mr_status status = MR_OK;
+	mr_status status;
 	int fd;
 
 	MR_TRY(mr_permit(ctx, path, false));
 	fd = strcmp(path, "-") ? open(path, O_RDONLY | O_CLOEXEC) : STDIN_FILENO;
 	if (fd < 0)
 		return failed(ctx, path, "cannot open");
-	if (!map_all(fd, &got))
-		status = read_all(ctx, name, fd, &got);
-	if (!got.map && fd != STDIN_FILENO)
+	status = read_all(ctx, name, fd, &got);
+	if (fd != STDIN_FILENO)
 		close(fd);
 	MR_TRY(status);
 	if (mr_is_gzip(got.data, got.size))

@@ -6,23 +6,19 @@
 
 #include "base/outfile.h"
 
-/* The bytes of a file: mapped, or read and inflated into memory of their own. */
+/* The bytes of a file, in memory of their own. */
 typedef struct mr_file_bytes {
 	const unsigned char *data;
 	size_t size;
-	void *memory; /* to free; NULL: mapped or empty */
-	void *map;    /* to unmap */
-	size_t mapped;
-	int fd; /* of the map */
+	void *memory; /* to free */
 } mr_file_bytes;
 
 /* Reads all of a file ("-": stdin), whether it can seek or not; inflates gzip.  End them with
  * mr_file_bytes_end. */
 mr_status mr_file_bytes_read(mr_ctx *ctx, const char *path, mr_file_bytes *b) MR_WARN_UNUSED;
 
-/* Frees the bytes of which `status` came.  It becomes MR_EIO where a mapped file has been cut since: there
- * were zeros to be read instead. */
-mr_status mr_file_bytes_end(mr_ctx *ctx, mr_file_bytes *b, mr_status status) MR_WARN_UNUSED;
+/* Frees the bytes, and returns the status of what was done with them.  Accepts zeroed ones. */
+mr_status mr_file_bytes_end(mr_file_bytes *b, mr_status status);
 
 /* By the bytes that gzip begins with. */
 static inline bool
@@ -30,9 +26,6 @@ mr_is_gzip(const unsigned char *data, size_t size)
 {
 	return size >= 3 && data[0] == 0x1f && data[1] == 0x8b && data[2] == 8;
 }
-
-/* Accepts a zeroed one. */
-void mr_file_bytes_free(mr_file_bytes *b);
 
 /* Where a writer puts its bytes.  The first failure is kept and reported by mr_sink_close. */
 typedef struct mr_sink {

@@ -107,24 +107,9 @@ mr_has_unit_length(mr_v3 n)
 /* Writes numbers with a blank between them, then `end`. */
 void mr_put_reals(mr_sink *s, const double *x, size_t n, char end);
 
-/* Reports as lost what the model has and the flags do not name. */
-enum {
-	MR_KEEPS_NORMAL = 1,
-	MR_KEEPS_COLOR = 2,
-	MR_KEEPS_TEXCOORD = 4,
-	MR_KEEPS_GROUP = 8,
-	MR_KEEPS_FACES = 16,
-	MR_KEEPS_CORNERS = 32, /* several texture coordinates of a vertex */
-	MR_KEEPS_OBJECT = 64,
-	MR_KEEPS_MATERIAL = 128,
-	MR_KEEPS_SMOOTHING = 256,
-	MR_KEEPS_POLYGON = 512,
-	MR_KEEPS_PROPERTY = 1024,
-	MR_KEEPS_SCANNER = 2048,
-	MR_KEEPS_ALPHA = 4096,
-	MR_KEEPS_CORNER_NORMAL = 8192
-};
-void mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps);
+/* Reports as lost what the model has and `keeps` does not name, a word each: columns by their names in a
+ * layer, "alpha" of colours, "property" and "faces". */
+void mr_note_lost(mr_sink *s, const mr_model *m, const char *keeps);
 
 /* The model's faces, polygons as they were; reports those that no longer are. */
 void mr_faces_of(mr_sink *s, const mr_model *m, mr_polygons *faces);
@@ -139,12 +124,18 @@ mr_status mr_note_rounded(mr_sink *s, const mr_model *m);
 mr_status mr_check_floats(mr_sink *s, const mr_model *m);
 
 /* A little- or big-endian value in memory. */
+static inline uint16_t
+mr_load16(const unsigned char *p, bool big)
+{
+	return (uint16_t)(big ? p[0] << 8 | p[1] : p[1] << 8 | p[0]);
+}
+
 static inline uint32_t
 mr_load32(const unsigned char *p, bool big)
 {
 	uint32_t v;
 	memcpy(&v, p, 4);
-	return big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap32(v);
+	return big ? __builtin_bswap32(v) : v;
 }
 
 static inline uint64_t
@@ -152,45 +143,25 @@ mr_load64(const unsigned char *p, bool big)
 {
 	uint64_t v;
 	memcpy(&v, p, 8);
-	return big == (__BYTE_ORDER__ == __ORDER_BIG_ENDIAN__) ? v : __builtin_bswap64(v);
-}
-
-static inline uint16_t
-mr_load16(const unsigned char *p, bool big)
-{
-	return (uint16_t)(big ? p[0] << 8 | p[1] : p[1] << 8 | p[0]);
-}
-
-static inline float
-mr_load_float(const unsigned char *p, bool big)
-{
-	uint32_t v = mr_load32(p, big);
-	float f;
-	memcpy(&f, &v, 4);
-	return f;
-}
-
-static inline double
-mr_load_double(const unsigned char *p, bool big)
-{
-	uint64_t v = mr_load64(p, big);
-	double d;
-	memcpy(&d, &v, 8);
-	return d;
+	return big ? __builtin_bswap64(v) : v;
 }
 
 /* A number of 1, 2, 4 or 8 bytes: I with a sign, U without, F a float of 4 or 8. */
 static inline double
 mr_load_number(const unsigned char *p, char kind, size_t bytes, bool big)
 {
-	uint64_t u;
+	uint64_t u = bytes == 1   ? *p
+	             : bytes == 2 ? mr_load16(p, big)
+	             : bytes == 4 ? mr_load32(p, big)
+	                          : mr_load64(p, big);
+	uint32_t v = (uint32_t)u;
+	float f;
+	double d;
 
+	memcpy(&f, &v, sizeof f);
+	memcpy(&d, &u, sizeof d);
 	if (kind == 'F')
-		return bytes == 8 ? mr_load_double(p, big) : (double)mr_load_float(p, big);
-	u = bytes == 1   ? *p
-	    : bytes == 2 ? mr_load16(p, big)
-	    : bytes == 4 ? mr_load32(p, big)
-	                 : mr_load64(p, big);
+		return bytes == 8 ? d : (double)f;
 	if (kind == 'U')
 		return (double)u;
 	return bytes == 1   ? (double)(int8_t)u
@@ -199,31 +170,42 @@ mr_load_number(const unsigned char *p, char kind, size_t bytes, bool big)
 	                    : (double)(int64_t)u;
 }
 
-/* A number as little-endian bytes; returns the end. */
+static inline double
+mr_load_float(const unsigned char *p, bool big)
+{
+	return mr_load_number(p, 'F', 4, big);
+}
+
+static inline double
+mr_load_double(const unsigned char *p, bool big)
+{
+	return mr_load_number(p, 'F', 8, big);
+}
+
+/* A value as bytes, little-endian as all machines are that this is for; returns the end. */
 static inline char *
 mr_store32(char *to, uint32_t v)
 {
-	v = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? v : __builtin_bswap32(v);
-	memcpy(to, &v, 4);
-	return to + 4;
+	return (char *)memcpy(to, &v, sizeof v) + sizeof v;
 }
 
 static inline char *
 mr_store_float(char *to, float f)
 {
-	uint32_t v;
-	memcpy(&v, &f, 4);
-	return mr_store32(to, v);
+	return (char *)memcpy(to, &f, sizeof f) + sizeof f;
 }
 
 static inline char *
 mr_store_double(char *to, double d)
 {
-	uint64_t v;
-	memcpy(&v, &d, 8);
-	v = __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__ ? v : __builtin_bswap64(v);
-	memcpy(to, &v, 8);
-	return to + 8;
+	return (char *)memcpy(to, &d, sizeof d) + sizeof d;
+}
+
+/* Three floats. */
+static inline char *
+mr_store_floats(char *to, mr_v3 a)
+{
+	return mr_store_float(mr_store_float(mr_store_float(to, (float)a.x), (float)a.y), (float)a.z);
 }
 
 #endif

@@ -245,7 +245,7 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 
 	MR_TRY(mr_file_bytes_read(ctx, path, &bytes));
 	status = mr_model_parse(ctx, path, format, bytes.data, bytes.size, m);
-	status = mr_file_bytes_end(ctx, &bytes, status);
+	status = mr_file_bytes_end(&bytes, status);
 	if (status == MR_EUSAGE)
 		return status;
 	return mr_prefix(ctx, status, "%s", strcmp(path, "-") ? path : "stdin");
@@ -319,38 +319,6 @@ mr_put_reals(mr_sink *s, const double *x, size_t n, char end)
 		*to++ = i + 1 < n ? ' ' : end;
 	}
 	mr_sink_fill(s, to);
-}
-
-void
-mr_note_lost(mr_sink *s, const mr_model *m, unsigned keeps)
-{
-	const struct {
-		const void *column;
-		unsigned kept;
-		size_t rows;
-		const char *what;
-	} columns[] = { { m->normal, MR_KEEPS_NORMAL, m->nv, "normals" },
-		{ m->corner_normal, MR_KEEPS_CORNER_NORMAL, 3 * m->nf, "normals of corners" },
-		{ m->color, MR_KEEPS_COLOR, m->nv, "colors" },
-		{ m->texcoord, MR_KEEPS_TEXCOORD, m->nv, "texture coordinates" },
-		{ m->corner_texcoord, MR_KEEPS_CORNERS, 3 * m->nf, "texture coordinates of corners" },
-		{ m->group, MR_KEEPS_GROUP, m->nf, "groups" },
-		{ m->object, MR_KEEPS_OBJECT, m->nf, "objects" },
-		{ m->material, MR_KEEPS_MATERIAL, m->nf, "materials" },
-		{ m->smoothing, MR_KEEPS_SMOOTHING, m->nf, "smoothing groups" },
-		{ m->polygon, MR_KEEPS_POLYGON, m->nf, "polygons" },
-		{ m->property, MR_KEEPS_PROPERTY, m->properties, "properties" },
-		{ m->scanner, MR_KEEPS_SCANNER, m->nv, "places of the scanner" },
-		{ m->t, MR_KEEPS_FACES, m->nf, "faces" } };
-	size_t clear = 0;
-
-	for (size_t i = 0; i < sizeof columns / sizeof *columns; i++)
-		if (columns[i].column && !(keeps & columns[i].kept))
-			mr_lost(s->ctx, NULL, columns[i].rows, columns[i].what);
-	for (size_t i = 0; m->color && i < m->nv; i++)
-		clear += m->color[4 * i + 3] < 255;
-	if ((keeps & (MR_KEEPS_COLOR | MR_KEEPS_ALPHA)) == MR_KEEPS_COLOR)
-		mr_lost(s->ctx, NULL, clear, "alpha");
 }
 
 void

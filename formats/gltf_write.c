@@ -108,14 +108,6 @@ set_bounds(glb *w, size_t accessor, json_t *min, json_t *max)
 	w->failed |= json_object_set_new(json, "min", min) || json_object_set_new(json, "max", max);
 }
 
-static char *
-put_floats(char *to, mr_v3 a)
-{
-	to = mr_store_float(to, (float)a.x);
-	to = mr_store_float(to, (float)a.y);
-	return mr_store_float(to, (float)a.z);
-}
-
 static mr_v3
 as_floats(mr_v3 a)
 {
@@ -171,7 +163,7 @@ embed(glb *w, const char *file, size_t *texture)
 		status = put_image(w, file, &b, texture);
 	else
 		mr_tell(w->ctx, MR_LOST, 1, "picture %s, which is neither PNG nor JPEG", file);
-	return mr_prefix(w->ctx, mr_file_bytes_end(w->ctx, &b, status), "%s", file);
+	return mr_prefix(w->ctx, mr_file_bytes_end(&b, status), "%s", file);
 }
 
 /* A reference to a texture, for "o*". */
@@ -248,7 +240,7 @@ put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_gltf_vertices 
 		mr_v3 x = as_floats(p[v->vertex[i]]);
 		if (from)
 			x = as_floats(mr_sub(x, as_floats(from[v->vertex[i]])));
-		to = put_floats(to, x);
+		to = mr_store_floats(to, x);
 		mr_box_add(&box, x);
 	}
 	set_bounds(w, *accessor, json_pack("[f, f, f]", box.min.x, box.min.y, box.min.z),
@@ -294,7 +286,7 @@ put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_gltf_vert
 		mr_v3 n = normal_of(m->normal, m->corner_normal, v, i);
 		if (pose)
 			n = mr_sub(normal_of(pose->normal, pose->corner_normal, v, i), n);
-		to = put_floats(to, n);
+		to = mr_store_floats(to, n);
 	}
 }
 
@@ -684,9 +676,7 @@ mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
 mr_status
 mr_glb_note_lost(mr_sink *s, const mr_model *m)
 {
-	mr_note_lost(s, m,
-	    MR_KEEPS_NORMAL | MR_KEEPS_COLOR | MR_KEEPS_ALPHA | MR_KEEPS_TEXCOORD | MR_KEEPS_FACES |
-		MR_KEEPS_CORNERS | MR_KEEPS_CORNER_NORMAL | MR_KEEPS_OBJECT | MR_KEEPS_MATERIAL);
+	mr_note_lost(s, m, "normal corner_normal color alpha texcoord corner_texcoord object material faces");
 	MR_TRY(mr_check_floats(s, m));
 	return mr_note_rounded(s, m);
 }

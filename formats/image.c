@@ -37,5 +37,5 @@ mr_image_read(mr_ctx *ctx, const char *path, mr_image *image)
 		status = mr_jpeg_read(ctx, b.data, b.size, image);
 	else
 		status = mr_fail(ctx, MR_EFORMAT, "neither a PNG nor a JPEG");
-	return mr_prefix(ctx, mr_file_bytes_end(ctx, &b, status), "%s", path);
+	return mr_prefix(ctx, mr_file_bytes_end(&b, status), "%s", path);
 }

@@ -133,21 +133,6 @@ color_shift(const unsigned char *d, const las *l)
 	return 0;
 }
 
-/* Whether a record of the header says where on Earth the points are. */
-static bool
-has_projection(const unsigned char *d, const las *l)
-{
-	const uint64_t most = mr_load32(d + 100, false);
-	uint64_t at = mr_load16(d + 94, false);
-
-	for (uint64_t n = 0; n < most && at + 54 <= l->offset; n++) {
-		if (!memcmp(d + at + 2, "LASF_Projection", 15))
-			return true;
-		at += 54 + (uint64_t)mr_load16(d + at + 20, false);
-	}
-	return false;
-}
-
 /* Whether any point has another value than 0, as a field has that is not told. */
 static bool
 is_told(const unsigned char *data, const las *l, size_t i)
@@ -218,7 +203,6 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(read_header(ctx, data, size, &l));
 	MR_TRY(read_points(ctx, data, &l, &r));
 	mr_lost(ctx, NULL, l.record - formats[l.format].bytes, "more bytes of each point");
-	mr_lost(ctx, NULL, has_projection(data, &l), "the coordinate system");
 	mr_rows_end(&r);
 	return mr_build_finish(&b, m);
 }

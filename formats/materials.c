@@ -173,7 +173,7 @@ read_library(finder *f, size_t count, const char *path)
 	f->files++;
 	MR_TRY(mr_file_bytes_read(f->ctx, path, &b));
 	return mr_prefix(
-	    f->ctx, mr_file_bytes_end(f->ctx, &b, statements(f, count, b.data, b.size)), "%s", path);
+	    f->ctx, mr_file_bytes_end(&b, statements(f, count, b.data, b.size)), "%s", path);
 }
 
 /* A line names one file, whose name may have blanks in it, or several. */

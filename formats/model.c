@@ -12,21 +12,21 @@
 
 /* What a model has of each vertex, or of each face, besides positions and triangles. */
 static const struct {
-	const char *name;
-	size_t at, bytes; /* of the pointer in the model; of a row */
+	const char *name, *what;
+	size_t at; /* of the pointer in the model */
 	bool of_faces;
 } columns[] = {
-	{ "normal", offsetof(mr_model, normal), sizeof(mr_v3), false },
-	{ "scanner", offsetof(mr_model, scanner), sizeof(mr_v3), false },
-	{ "color", offsetof(mr_model, color), 4, false },
-	{ "texcoord", offsetof(mr_model, texcoord), 2 * sizeof(double), false },
-	{ "corner_texcoord", offsetof(mr_model, corner_texcoord), 6 * sizeof(double), true },
-	{ "corner_normal", offsetof(mr_model, corner_normal), 3 * sizeof(mr_v3), true },
-	{ "group", offsetof(mr_model, group), sizeof(uint32_t), true },
-	{ "object", offsetof(mr_model, object), sizeof(uint32_t), true },
-	{ "material", offsetof(mr_model, material), sizeof(uint32_t), true },
-	{ "smoothing", offsetof(mr_model, smoothing), sizeof(uint32_t), true },
-	{ "polygon", offsetof(mr_model, polygon), sizeof(uint32_t), true },
+	{ "normal", "normals", offsetof(mr_model, normal), false },
+	{ "scanner", "places of the scanner", offsetof(mr_model, scanner), false },
+	{ "color", "colors", offsetof(mr_model, color), false },
+	{ "texcoord", "texture coordinates", offsetof(mr_model, texcoord), false },
+	{ "corner_texcoord", "texture coordinates of corners", offsetof(mr_model, corner_texcoord), true },
+	{ "corner_normal", "normals of corners", offsetof(mr_model, corner_normal), true },
+	{ "group", "groups", offsetof(mr_model, group), true },
+	{ "object", "objects", offsetof(mr_model, object), true },
+	{ "material", "materials", offsetof(mr_model, material), true },
+	{ "smoothing", "smoothing groups", offsetof(mr_model, smoothing), true },
+	{ "polygon", "polygons", offsetof(mr_model, polygon), true },
 };
 
 /* Names, and the column without which they say nothing. */
@@ -69,6 +69,43 @@ mr_corner_texcoord(const mr_model *m, size_t c)
 	return m->corner_texcoord ? m->corner_texcoord + 2 * c
 	       : m->texcoord      ? m->texcoord + 2 * (size_t)m->t[c / 3].v[c % 3]
 	                          : NULL;
+}
+
+/* ---- what formats have no place for ---- */
+
+/* Whether the word is in a list with blanks between. */
+static bool
+is_in(const char *list, const char *word)
+{
+	size_t n = strlen(word);
+
+	for (; *list; list += strspn(list, " ")) {
+		size_t k = strcspn(list, " ");
+		if (k == n && !memcmp(list, word, n))
+			return true;
+		list += k;
+	}
+	return false;
+}
+
+void
+mr_note_lost(mr_sink *s, const mr_model *m, const char *keeps)
+{
+	size_t clear = 0;
+
+	for (size_t i = 0; i < COLUMNS; i++)
+		if (column_of(m, i) && !is_in(keeps, columns[i].name)) {
+			size_t each = strncmp(columns[i].name, "corner_", 7) ? 1 : 3;
+			mr_lost(s->ctx, NULL, columns[i].of_faces ? each * m->nf : m->nv, columns[i].what);
+		}
+	if (!is_in(keeps, "property"))
+		mr_lost(s->ctx, NULL, m->properties, "properties");
+	if (!is_in(keeps, "faces"))
+		mr_lost(s->ctx, NULL, m->nf, "faces");
+	for (size_t i = 0; m->color && i < m->nv; i++)
+		clear += m->color[4 * i + 3] < 255;
+	if (is_in(keeps, "color") && !is_in(keeps, "alpha"))
+		mr_lost(s->ctx, NULL, clear, "alpha");
 }
 
 /* ---- attributes follow their vertices and faces ---- */

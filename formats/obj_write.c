@@ -182,7 +182,9 @@ mr_obj_write(mr_sink *s, const mr_model *m)
 	values x[2] = { { 't', 2, m->texcoord, m->corner_texcoord, NULL },
 		{ 'n', 3, (const double *)m->normal, (const double *)m->corner_normal, NULL } };
 
-	mr_note_lost(s, m, ~(unsigned)(MR_KEEPS_PROPERTY | MR_KEEPS_SCANNER | MR_KEEPS_ALPHA));
+	mr_note_lost(s, m,
+	    "normal corner_normal color texcoord corner_texcoord group object material smoothing polygon "
+	    "faces");
 	put_libraries(s, m->mtllib);
 	for (size_t i = 0; i < m->nv; i++)
 		put_vertex(s, m, i);

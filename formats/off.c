@@ -260,7 +260,7 @@ read_binary(off *f)
 	MR_TRY(begin_vertices(f));
 	for (uint64_t i = 0; i < f->nv; i++) {
 		for (size_t k = 0; k < width; k++, p += 4)
-			x[k] = (double)mr_load_float(p, big);
+			x[k] = mr_load_float(p, big);
 		if (!mr_finite(mr_rows_position(&f->rows, x)))
 			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite",
 			    (size_t)((const char *)p - f->text.start) - 4 * width);

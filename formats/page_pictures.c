@@ -118,7 +118,7 @@ find_picture(mr_ctx *ctx, mr_page_pictures *p, const char *path, size_t *number)
 			return MR_OK;
 		}
 	MR_TRY(mr_file_bytes_read(ctx, path, &b));
-	MR_TRY(mr_prefix(ctx, mr_file_bytes_end(ctx, &b, keep_picture(ctx, p, path, &b)), "%s", path));
+	MR_TRY(mr_prefix(ctx, mr_file_bytes_end(&b, keep_picture(ctx, p, path, &b)), "%s", path));
 	*number = p->count - 1;
 	return MR_OK;
 }

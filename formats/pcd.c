@@ -26,7 +26,6 @@ typedef struct pcd {
 	const unsigned char *planes; /* of packed ones: the fields, each of all points */
 	const field *rgb;            /* four bytes, blue first, in a whole number or in the bits of a float */
 	mr_v3 viewpoint;
-	bool turned; /* the viewpoint has an orientation */
 	mr_builder b;
 	mr_rows rows; /* of fields, then of colours, then of the viewpoint */
 	double x[COLUMNS];
@@ -51,42 +50,23 @@ field_names(pcd *f, mr_scan *line)
 	return MR_OK;
 }
 
+/* What a line says of each field: its SIZE, TYPE or COUNT. */
 static mr_status
-field_sizes(pcd *f, mr_scan *line)
-{
-	uint64_t n;
-
-	for (size_t i = 0; i < f->fields; i++) {
-		MR_TRY(mr_scan_count(line, "a field's size", 8, &n));
-		if (n != 1 && n != 2 && n != 4 && n != 8)
-			return mr_scan_fail(&f->text, line->p, "a field of %u bytes", (unsigned)n);
-		f->field[i].size = (size_t)n;
-	}
-	return MR_OK;
-}
-
-static mr_status
-field_types(pcd *f, mr_scan *line)
+field_words(pcd *f, mr_scan *line, char what)
 {
 	const char *w;
-	size_t n;
+	uint64_t n = 0;
+	size_t bytes;
 
-	for (size_t i = 0; i < f->fields; i++) {
-		if (!mr_scan_word(line, &w, &n) || n != 1 || !strchr("IUF", *w))
+	for (field *d = f->field; d < f->field + f->fields; d++) {
+		if (what != 'T')
+			MR_TRY(mr_scan_count(line, "a field's size or count", 1 << 20, &n));
+		else if (!mr_scan_word(line, &w, &bytes) || bytes != 1 || !strchr("IUF", *w))
 			return mr_scan_fail(&f->text, line->p, "a field's type is not I, U or F");
-		f->field[i].type = *w;
-	}
-	return MR_OK;
-}
-
-static mr_status
-field_counts(pcd *f, mr_scan *line)
-{
-	uint64_t n;
-
-	for (size_t i = 0; i < f->fields; i++) {
-		MR_TRY(mr_scan_count(line, "a field's count", 1 << 20, &n));
-		f->field[i].count = (size_t)n;
+		if (what == 'T')
+			d->type = *w;
+		else
+			*(what == 'S' ? &d->size : &d->count) = (size_t)n;
 	}
 	return MR_OK;
 }
@@ -100,20 +80,6 @@ data_kind(pcd *f, mr_scan *line)
 		f->binary = f->packed = true;
 	else if (!mr_scan_accept(line, "ascii"))
 		return mr_scan_fail(&f->text, line->p, "DATA is none of ascii, binary and binary_compressed");
-	return MR_OK;
-}
-
-/* A position and a quaternion, the real part first; files end behind the position, too. */
-static mr_status
-viewpoint(pcd *f, mr_scan *line)
-{
-	double q;
-
-	MR_TRY(mr_scan_position(line, &f->viewpoint));
-	for (int i = 0; i < 4 && (mr_skip_blanks(line), line->p < line->end); i++) {
-		MR_TRY(mr_scan_real(line, "the viewpoint's orientation", &q));
-		f->turned |= i > 0 && q != 0;
-	}
 	return MR_OK;
 }
 
@@ -171,13 +137,10 @@ add_columns(pcd *f)
 static bool
 can_hold(const pcd *f)
 {
-	uint64_t left = (uint64_t)(f->text.end - f->text.p);
+	uint64_t left = (uint64_t)(f->text.end - f->text.p) + 1;
 
-	if (f->packed)
-		/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) x, y and z have bytes */
-		return f->points <= left * SWELLS / f->stride;
-	/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) the same */
-	return f->points <= left / (f->binary ? f->stride : 2) + 1;
+	/* NOLINTNEXTLINE(clang-analyzer-core.DivideZero) x, y and z have bytes */
+	return f->points <= left * (f->packed ? SWELLS : 1) / (f->binary ? f->stride : 2) + 1;
 }
 
 static mr_status
@@ -185,8 +148,10 @@ check_header(pcd *f)
 {
 	for (size_t i = 0; i < f->fields; i++) {
 		field *d = &f->field[i];
-		if (d->type == 'F' && d->size < 4)
-			return mr_scan_fail(&f->text, f->text.p, "a field of type F and %zu bytes", d->size);
+		if ((d->size != 1 && d->size != 2 && d->size != 4 && d->size != 8) ||
+		    (d->type == 'F' && d->size < 4))
+			return mr_scan_fail(
+			    &f->text, f->text.p, "a field of type %c and %zu bytes", d->type, d->size);
 		d->offset = f->stride;
 		f->stride += f->binary ? d->size * d->count : d->count;
 	}
@@ -201,46 +166,47 @@ check_header(pcd *f)
 	return mr_rows_room(&f->rows, f->points);
 }
 
+/* One line of the header; *data: it is the last. */
 static mr_status
-read_header(pcd *f)
+header_line(pcd *f, mr_scan *line, bool *data)
 {
 	char shown[MR_SHOWN];
-	mr_scan line;
 	const char *w;
 	size_t n;
 
-	while (mr_scan_line(&f->text, &line)) {
+	*data = mr_scan_accept(line, "DATA");
+	if (*data)
+		return data_kind(f, line);
+	if (mr_scan_accept(line, "FIELDS") || mr_scan_accept(line, "COLUMNS"))
+		return field_names(f, line);
+	for (const char *const *k = (const char *const[]){ "SIZE", "TYPE", "COUNT", NULL }; *k; k++)
+		if (mr_scan_accept(line, *k))
+			return field_words(f, line, **k);
+	if (mr_scan_accept(line, "WIDTH"))
+		return mr_scan_count(line, "WIDTH", UINT32_MAX, &f->width);
+	if (mr_scan_accept(line, "HEIGHT"))
+		return mr_scan_count(line, "HEIGHT", UINT32_MAX, &f->height);
+	if (mr_scan_accept(line, "VIEWPOINT")) /* and how it is turned */
+		return mr_scan_position(line, &f->viewpoint);
+	if (mr_scan_accept(line, "POINTS"))
+		return f->has_points = true, mr_scan_count(line, "POINTS", UINT64_MAX / 16, &f->points);
+	if (mr_scan_accept(line, "VERSION") || !mr_scan_word(line, &w, &n))
+		return MR_OK;
+	return mr_scan_fail(&f->text, w, "'%s' begins no line of a PCD header", mr_word_shown(w, n, shown));
+}
+
+static mr_status
+read_header(pcd *f)
+{
+	mr_scan line;
+	bool data = false;
+
+	while (!data && mr_scan_line(&f->text, &line)) {
 		mr_skip_blanks(&line);
-		if (line.p == line.end || *line.p == '#')
-			continue;
-		if (mr_scan_accept(&line, "DATA")) {
-			MR_TRY(data_kind(f, &line));
-			return check_header(f);
-		}
-		if (mr_scan_accept(&line, "FIELDS") || mr_scan_accept(&line, "COLUMNS"))
-			MR_TRY(field_names(f, &line));
-		else if (mr_scan_accept(&line, "SIZE"))
-			MR_TRY(field_sizes(f, &line));
-		else if (mr_scan_accept(&line, "TYPE"))
-			MR_TRY(field_types(f, &line));
-		else if (mr_scan_accept(&line, "COUNT"))
-			MR_TRY(field_counts(f, &line));
-		else if (mr_scan_accept(&line, "WIDTH"))
-			MR_TRY(mr_scan_count(&line, "WIDTH", UINT32_MAX, &f->width));
-		else if (mr_scan_accept(&line, "HEIGHT"))
-			MR_TRY(mr_scan_count(&line, "HEIGHT", UINT32_MAX, &f->height));
-		else if (mr_scan_accept(&line, "POINTS")) {
-			MR_TRY(mr_scan_count(&line, "POINTS", UINT64_MAX / 16, &f->points));
-			f->has_points = true;
-		} else if (mr_scan_accept(&line, "VIEWPOINT")) {
-			MR_TRY(viewpoint(f, &line));
-		} else if (!mr_scan_accept(&line, "VERSION")) {
-			mr_scan_word(&line, &w, &n);
-			return mr_scan_fail(
-			    &f->text, w, "'%s' begins no line of a PCD header", mr_word_shown(w, n, shown));
-		}
+		if (line.p < line.end && *line.p != '#')
+			MR_TRY(header_line(f, &line, &data));
 	}
-	return mr_scan_fail(&f->text, f->text.end, "the header has no DATA");
+	return data ? check_header(f) : mr_scan_fail(&f->text, f->text.end, "the header has no DATA");
 }
 
 /* ---- LZF ---- */
@@ -408,7 +374,6 @@ say_rest(pcd *f)
 		mr_skip_comments(&f->text);
 	mr_scan_rest(&f->text);
 	mr_lost(f->ctx, NULL, f->width > 1 && f->height > 1, "the grid of points");
-	mr_lost(f->ctx, NULL, f->turned, "the viewpoint's orientation");
 }
 
 mr_status

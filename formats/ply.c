@@ -21,14 +21,6 @@ static mr_status MR_PRINTF(3, 4) bad(ply *f, const void *where, const char *form
 	    f->ctx, MR_EFORMAT, "byte %zu: %s", (size_t)((const unsigned char *)where - f->data), sentence);
 }
 
-static mr_status
-early(ply *f, const element *e, uint64_t row)
-{
-	return bad(f, f->ascii ? (const void *)f->text.end : f->end,
-	    "the file ends in row %llu of %llu of element %s", (unsigned long long)row + 1,
-	    (unsigned long long)e->rows, e->name);
-}
-
 static size_t
 bytes_left(const ply *f)
 {
@@ -78,8 +70,6 @@ next_length(ply *f, const property *p, size_t *n)
 	return MR_OK;
 }
 
-/* ---- vertices ---- */
-
 /* Bytes of a row without its lists' items: at least so many a row takes. */
 static size_t
 row_bytes(const element *e, bool ascii)
@@ -121,65 +111,6 @@ pass_list(ply *f, const property *p)
 	}
 	while (n-- > 0)
 		MR_TRY(mr_scan_real(&f->text, "an item of a list", &x));
-	return MR_OK;
-}
-
-/* Value i of the row at hand, which may be the first that is not there. */
-static mr_status
-read_value(ply *f, const element *e, uint64_t row, size_t i)
-{
-	type t = e->property[i].value;
-
-	if (!f->ascii && bytes_left(f) < mr_ply_types[t].bytes)
-		return early(f, e, row);
-	return next_value(f, t, &f->row[i]);
-}
-
-/* A number more in the line of a row would move all that follows. */
-static mr_status
-end_row(ply *f, const element *e)
-{
-	if (!f->ascii)
-		return MR_OK;
-	mr_skip_blanks(&f->text);
-	if (f->text.p == f->text.end || *f->text.p == '\n')
-		return MR_OK;
-	return mr_scan_fail(&f->text, f->text.p, "more numbers in a line than element %s has", e->name);
-}
-
-/* Reads a row's values; lists are passed over. */
-static mr_status
-read_row(ply *f, const element *e, uint64_t row)
-{
-	if (!f->ascii && bytes_left(f) < row_bytes(e, false))
-		return early(f, e, row);
-	for (size_t i = 0; i < e->properties; i++) {
-		const property *p = &e->property[i];
-		MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
-	}
-	return end_row(f, e);
-}
-
-static mr_status
-read_vertices(ply *f, const element *e)
-{
-	const size_t *at = f->rows.at;
-
-	if (!at[MR_X] || !at[MR_Y] || !at[MR_Z])
-		return bad(f, here(f), "element vertex lacks x, y or z");
-	MR_TRY(begin_rows(f, e));
-	MR_TRY(mr_rows_room(&f->rows, e->rows));
-	for (uint64_t i = 0; i < e->rows; i++) {
-		const void *where = here(f);
-		mr_v3 p;
-		MR_TRY(read_row(f, e, i));
-		p = mr_rows_position(&f->rows, f->row);
-		if (!mr_finite(p))
-			return bad(
-			    f, where, "position %zu (%g %g %g) is not finite", (size_t)i, p.x, p.y, p.z);
-		mr_rows_put(&f->rows, f->row);
-	}
-	mr_rows_end(&f->rows);
 	return MR_OK;
 }
 
@@ -297,45 +228,88 @@ keep_row(ply *f, const element *e, size_t at)
 			mr_build_value(&f->b, e->property[i].kept, at, f->row[i]);
 }
 
-static mr_status
-read_face(ply *f, const element *e, uint64_t row)
-{
-	size_t faces = f->b.faces;
+/* ---- rows ---- */
 
-	for (size_t i = 0; i < e->properties; i++) {
-		const property *p = &e->property[i];
-		if (p->role == INDICES)
-			MR_TRY(read_indices(f, p, e->kind == STRIPS));
-		else if (p->role == UVS)
-			MR_TRY(read_corners(f, p, &f->uv));
-		else
-			MR_TRY(p->list ? pass_list(f, p) : read_value(f, e, row, i));
-	}
-	MR_TRY(end_row(f, e));
-	add_face(f, e->kind);
-	if (f->b.faces > faces)
-		keep_row(f, e, faces);
-	return MR_OK;
+/* Value i of the row at hand, or its list. */
+static mr_status
+read_value(ply *f, const element *e, uint64_t row, size_t i)
+{
+	const property *p = &e->property[i];
+
+	if (p->role == INDICES)
+		return read_indices(f, p, e->kind == STRIPS);
+	if (p->role == UVS)
+		return read_corners(f, p, &f->uv);
+	if (p->list)
+		return pass_list(f, p);
+	if (!f->ascii && bytes_left(f) < mr_ply_types[p->value].bytes)
+		return bad(f, f->end, "the file ends in row %llu of %llu of element %s",
+		    (unsigned long long)row + 1, (unsigned long long)e->rows, e->name);
+	return next_value(f, p->value, &f->row[i]);
+}
+
+/* A number more in the line of a text would move all that follows. */
+static mr_status
+read_row(ply *f, const element *e, uint64_t row)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		MR_TRY(read_value(f, e, row, i));
+	if (!f->ascii)
+		return MR_OK;
+	mr_skip_blanks(&f->text);
+	if (f->text.p == f->text.end || *f->text.p == '\n')
+		return MR_OK;
+	return mr_scan_fail(&f->text, f->text.p, "more numbers in a line than element %s has", e->name);
 }
 
 static mr_status
-read_faces(ply *f, const element *e)
+put_vertex(ply *f, const void *where)
+{
+	mr_v3 p = mr_rows_position(&f->rows, f->row);
+
+	if (!mr_finite(p))
+		return bad(f, where, "position %zu (%g %g %g) is not finite", f->rows.n, p.x, p.y, p.z);
+	mr_rows_put(&f->rows, f->row);
+	return MR_OK;
+}
+
+/* Room for the rows of an element, which has what it needs. */
+static mr_status
+begin_element(ply *f, const element *e)
 {
 	MR_TRY(begin_rows(f, e));
+	if (e->kind == OTHER)
+		return MR_OK;
+	if (e->kind == VERTEX && !(f->rows.at[MR_X] && f->rows.at[MR_Y] && f->rows.at[MR_Z]))
+		return bad(f, here(f), "element vertex lacks x, y or z");
+	if (e->kind == VERTEX)
+		return mr_rows_room(&f->rows, e->rows);
 	if (e->rows && !has(e, INDICES))
 		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
-	MR_TRY(mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0));
-	for (uint64_t row = 0; row < e->rows; row++)
-		MR_TRY(read_face(f, e, row));
-	return MR_OK;
+	if (e->rows && !f->vertices)
+		return bad(f, here(f), "element %s before the vertices is not read", e->name);
+	return mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
 }
 
 static mr_status
-pass_rows(ply *f, const element *e)
+read_element(ply *f, const element *e)
 {
-	MR_TRY(begin_rows(f, e));
-	for (uint64_t row = 0; e->properties && row < e->rows; row++)
+	MR_TRY(begin_element(f, e));
+	for (uint64_t row = 0; e->properties && row < e->rows; row++) {
+		const void *where = here(f);
+		size_t faces = f->b.faces;
 		MR_TRY(read_row(f, e, row));
+		if (e->kind == VERTEX)
+			MR_TRY(put_vertex(f, where));
+		else if (e->kind != OTHER)
+			add_face(f, e->kind);
+		if (f->b.faces > faces)
+			keep_row(f, e, faces);
+	}
+	if (e->kind == VERTEX) {
+		mr_rows_end(&f->rows);
+		f->vertices = true;
+	}
 	return MR_OK;
 }
 
@@ -359,30 +333,6 @@ lose_others(ply *f)
 	}
 }
 
-static mr_status
-read_elements(ply *f)
-{
-	bool known = false;
-
-	for (size_t i = 0; i < f->elements; i++) {
-		const element *e = &f->element[i];
-		if (!known && (e->kind == FACE || e->kind == STRIPS) && e->rows)
-			return bad(f, here(f), "element %s before the vertices is not read", e->name);
-		MR_TRY(e->kind == VERTEX  ? read_vertices(f, e)
-		       : e->kind == OTHER ? pass_rows(f, e)
-					  : read_faces(f, e));
-		known |= e->kind == VERTEX;
-	}
-	if (!known)
-		return mr_fail(f->ctx, MR_EMESH, "ply without a vertex");
-	if (f->ascii)
-		mr_skip_comments(&f->text);
-	else
-		f->text.p = (const char *)f->p;
-	mr_scan_rest(&f->text);
-	return MR_OK;
-}
-
 mr_status
 mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
@@ -395,7 +345,15 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 	f.rows.b = &f.b;
 	MR_TRY(mr_ply_header(&f));
-	MR_TRY(read_elements(&f));
+	for (size_t i = 0; i < f.elements; i++)
+		MR_TRY(read_element(&f, &f.element[i]));
+	if (!f.vertices)
+		return mr_fail(ctx, MR_EMESH, "ply without a vertex");
+	if (f.ascii)
+		mr_skip_comments(&f.text);
+	else
+		f.text.p = (const char *)f.p;
+	mr_scan_rest(&f.text);
 	lose_others(&f);
 	f.b.uv = f.uv.value;
 	return mr_build_finish(&f.b, m);

@@ -65,6 +65,7 @@ typedef struct ply {
 	double *row; /* of the row at hand, value by value */
 	size_t row_room;
 	mr_rows rows;    /* of vertices */
+	bool vertices;   /* are read */
 	size_t textures; /* that are left out */
 } ply;
 

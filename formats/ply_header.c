@@ -43,17 +43,6 @@ role_of(kind k, bool list, const char *w, size_t n)
 	return NONE;
 }
 
-/* A name of a property, in the arena. */
-static const char *
-clean_name(mr_ctx *ctx, const char *w, size_t n)
-{
-	char *name = mr_alloc(ctx, n + 1, 1);
-
-	if (name)
-		mr_clean_name(name, w, n, false);
-	return name;
-}
-
 static mr_status
 header_property(ply *f, mr_scan *line)
 {
@@ -74,7 +63,7 @@ header_property(ply *f, mr_scan *line)
 	if (!mr_scan_word(line, &w, &n))
 		return mr_scan_fail(&f->text, line->p, "a property lacks its name");
 	p.role = role_of(e->kind, p.list, w, n);
-	p.name = clean_name(f->ctx, w, n);
+	p.name = mr_clean_copy(f->ctx, w, n);
 	for (size_t i = 0; i < e->properties && p.role != NONE; i++)
 		if (e->property[i].role == p.role)
 			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */

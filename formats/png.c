@@ -262,7 +262,7 @@ mr_png_read_gray(mr_ctx *ctx, const char *path, mr_gray *gray)
 
 	MR_TRY(mr_file_bytes_read(ctx, path, &b));
 	status = read_gray(ctx, (source){ b.data, b.size }, gray);
-	return mr_prefix(ctx, mr_file_bytes_end(ctx, &b, status), "%s", path);
+	return mr_prefix(ctx, mr_file_bytes_end(&b, status), "%s", path);
 }
 
 /* ---- mr-render ---- */

@@ -28,14 +28,10 @@ mr_role_of(const char *name, size_t bytes)
 void
 mr_rows_add(mr_rows *r, mr_role role, const char *name, size_t bytes, const char *type)
 {
-	mr_ctx *ctx = r->b->ctx;
-	char *own = mr_alloc(ctx, bytes + 1, 1);
-
-	mr_clean_name(own, name, bytes, false);
-	MR_RESERVE(ctx, r->column, r->columns, 1, &r->column_room);
+	MR_RESERVE(r->b->ctx, r->column, r->columns, 1, &r->column_room);
 	if (r->at[role])
 		role = MR_NO_ROLE;
-	r->column[r->columns++] = (mr_rows_column){ role, own, type, 0 };
+	r->column[r->columns++] = (mr_rows_column){ role, mr_clean_copy(r->b->ctx, name, bytes), type, 0 };
 	r->at[role] = role == MR_NO_ROLE ? 0 : r->columns;
 }
 

@@ -46,8 +46,8 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	p = MR_NEW(ctx, 3 * n, mr_v3);
 	for (size_t i = 0; i < 3 * n; i++) {
 		size_t at = HEADER + i / 3 * RECORD + 12 + i % 3 * 12;
-		p[i] = mr_vec((double)mr_load_float(data + at, false),
-		    (double)mr_load_float(data + at + 4, false), (double)mr_load_float(data + at + 8, false));
+		p[i] = mr_vec(mr_load_float(data + at, false), mr_load_float(data + at + 4, false),
+		    mr_load_float(data + at + 8, false));
 		if (!mr_finite(p[i]))
 			return mr_fail(ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite", at);
 	}
@@ -214,21 +214,13 @@ note_isolated(mr_sink *s, const mr_model *m)
 }
 
 static mr_status
-need_faces(mr_sink *s, const mr_model *m, unsigned keeps)
+need_faces(mr_sink *s, const mr_model *m, const char *keeps)
 {
 	if (m->nf == 0)
 		return mr_fail(s->ctx, MR_EMESH, "points cannot be written as stl, which has triangles only");
-	mr_note_lost(s, m, MR_KEEPS_FACES | keeps);
+	mr_note_lost(s, m, keeps);
 	note_isolated(s, m);
 	return MR_OK;
-}
-
-static char *
-put_floats(char *to, mr_v3 a)
-{
-	to = mr_store_float(to, (float)a.x);
-	to = mr_store_float(to, (float)a.y);
-	return mr_store_float(to, (float)a.z);
 }
 
 mr_status
@@ -236,14 +228,14 @@ mr_stl_write(mr_sink *s, const mr_model *m)
 {
 	char header[80] = "binary STL";
 
-	MR_TRY(need_faces(s, m, 0));
+	MR_TRY(need_faces(s, m, "faces"));
 	MR_TRY(mr_note_rounded(s, m));
 	mr_put(s, header, sizeof header);
 	mr_sink_fill(s, mr_store32(mr_sink_room(s), (uint32_t)m->nf));
 	for (size_t f = 0; f < m->nf; f++) {
-		char *to = put_floats(mr_sink_room(s), unit_normal(m, f));
+		char *to = mr_store_floats(mr_sink_room(s), unit_normal(m, f));
 		for (int k = 0; k < 3; k++)
-			to = put_floats(to, m->p[m->t[f].v[k]]);
+			to = mr_store_floats(to, m->p[m->t[f].v[k]]);
 		*to++ = 0;
 		*to++ = 0;
 		mr_sink_fill(s, to);
@@ -288,7 +280,7 @@ mr_stl_write_ascii(mr_sink *s, const mr_model *m)
 	const char **start = NULL;
 	size_t names = 0;
 
-	MR_TRY(need_faces(s, m, MR_KEEPS_GROUP));
+	MR_TRY(need_faces(s, m, "faces group"));
 	if (m->group)
 		mr_lines_starts(s->ctx, m->groups, &start, &names);
 	for (size_t f = 0; f < m->nf; f++) {

@@ -17,7 +17,7 @@ mr_xyz_write(mr_sink *s, const mr_model *m)
 {
 	mr_part part[MR_PARTS];
 
-	mr_note_lost(s, m, MR_KEEPS_NORMAL | MR_KEEPS_COLOR);
+	mr_note_lost(s, m, "normal color");
 	if (m->color)
 		mr_print(s, "# x y z%s red green blue\n", m->normal ? " nx ny nz" : "");
 	mr_vertex_parts(m, part);
@@ -37,8 +37,7 @@ mr_pts_write(mr_sink *s, const mr_model *m)
 	while (i < m->properties &&
 	       (strcmp(m->property[i].name, "intensity") || m->property[i].shape.element != 'v'))
 		i++;
-	mr_note_lost(
-	    s, m, MR_KEEPS_COLOR | (i < m->properties && m->properties == 1 ? MR_KEEPS_PROPERTY : 0));
+	mr_note_lost(s, m, i < m->properties && m->properties == 1 ? "color property" : "color");
 	mr_vertex_parts(m, part);
 	part[1] = i < m->properties ? mr_property_part(&m->property[i])
 	                            : (mr_part){ m->color ? &none : NULL, 'd', 1, 0, "" };
@@ -55,6 +54,6 @@ mr_pwn_write(mr_sink *s, const mr_model *m)
 
 	if (!m->normal)
 		return mr_fail(s->ctx, MR_EMISSING, "pwn is points with normals, and there are no normals");
-	mr_note_lost(s, m, MR_KEEPS_NORMAL);
+	mr_note_lost(s, m, "normal");
 	return mr_xyz_write(s, &own);
 }

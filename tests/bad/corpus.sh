@@ -29,8 +29,8 @@ assimp_testline.obj|8 0 and a remark
 assimp_testmixed.obj|8 12 and a remark
 assimp_triangle_with_empty_solid.stl|3 1
 assimp_triangle_with_two_solids.stl|6 2
-pdal_bad-geotiff-keys.las|10 0 and a remark
-pdal_bad_vlr_count.las|10 0 and a remark
+pdal_bad-geotiff-keys.las|10 0
+pdal_bad_vlr_count.las|10 0
 pdal_badheader.txt|line 1: 'X' is not a number
 pdal_crlf_test.txt|10 0
 pdal_gps-time-nan.las|1 0

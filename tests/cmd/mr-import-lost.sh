@@ -209,20 +209,6 @@ mr-export -f ply-ascii -i lists.mrs - >once.ply
 mr-import once.ply | mr-export -f ply-ascii - | cmp once.ply
 sed -n '/scanner/p; /group/p; /header/,$p' once.ply
 
-echo '-- records of a LAS' >&2
-python3 - <<'END'
-import struct
-record = lambda user, data, form: struct.pack("<H16sH" + form + "32s", 0, user, 1, len(data), b"") + data
-head = bytearray(375)
-records = record(b"other", b"abc", "H") + record(b"LASF_Projection", b"wkt", "H")
-head[0:4], head[24:26] = b"LASF", bytes((1, 4))
-struct.pack_into("<HIIBHI", head, 94, 375, 375 + len(records), 2, 0, 20, 1)
-struct.pack_into("<6d", head, 131, 1, 1, 1, 0, 0, 0)
-struct.pack_into("<QI", head, 235, 375 + len(records) + 20, 1)
-open("records.las", "wb").write(bytes(head) + records + struct.pack("<3i8x", 1, 2, 3) + record(b"more", b"def", "Q"))
-END
-mr-import records.las -o /dev/null
-
 echo '-- counts of a LAS that differ' >&2
 python3 - <<'END'
 import struct

@@ -159,7 +159,7 @@ written_damaged(void **state)
 		assert_int_equal(mr_model_write(&ctx, "fuzz", names[i], &m, NULL), MR_OK);
 		read_back("fuzz", &b);
 		damage(names[i], b.data, b.size);
-		mr_file_bytes_free(&b);
+		mr_file_bytes_end(&b, MR_OK);
 		mr_ctx_free(&ctx);
 	}
 }
@@ -199,7 +199,7 @@ gzip_damaged(void **state)
 		put_file("cut.gz", raw, n);
 		assert_true(mr_file_bytes_read(&ctx, "cut.gz", &b) < 0 ||
 			    n < 3); /* shorter than the signature: other bytes */
-		mr_file_bytes_free(&b);
+		mr_file_bytes_end(&b, MR_OK);
 	}
 	for (size_t i = 0; i < size; i++) {
 		raw[i] ^= 0x55;
