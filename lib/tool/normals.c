@@ -4,7 +4,6 @@
 #include "base/options.h"
 #include "mesh/layers.h"
 #include "space/near.h"
-#include "space/two_layers.h"
 
 /* A normal that is there fits where it is within 60 degrees of its place's plane: beyond it is of another
  * side. */
@@ -80,16 +79,6 @@ finish(const mr_normals_opts *o, const mr_v3 *there, size_t n, mr_v3 *normal, mr
 	r->agree = some ? (double)same / (double)some : NAN;
 }
 
-/* Where nothing but what the places enclose tells the sides, those of a thin wall are one sheet's. */
-static mr_status
-look_for_walls(mr_ctx *ctx, const mr_v3 *place, size_t n, const mr_sampling *s)
-{
-	mr_near *near;
-
-	MR_TRY(mr_near_build(ctx, place, n, &near));
-	return mr_report_layers(ctx, place, n, near, s->usual);
-}
-
 static mr_status
 of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, const mr_v3 *there,
     mr_v3 *normal, mr_normals_result *r)
@@ -111,8 +100,6 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 	find_sides(ctx, &q, o, there, scanner, &side);
 	of_places = MR_NEW(ctx, q.n, mr_v3);
 	MR_TRY(mr_prefix(ctx, mr_places_normals(ctx, q.p, q.n, &s, side, of_places), "%s", m->name));
-	if (!side)
-		MR_TRY(look_for_walls(ctx, q.p, q.n, &s));
 	for (size_t k = 0; k < q.n; k++)
 		normal[q.of[k]] = of_places[k];
 	r->outliers = s.outliers;

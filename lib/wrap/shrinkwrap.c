@@ -7,7 +7,6 @@
 #include "remesh/unfold.h"
 #include "space/rows.h"
 #include "space/scatter.h"
-#include "space/two_layers.h"
 #include "volume/volume.h"
 #include "wrap/parts.h"
 
@@ -146,7 +145,7 @@ report_uncertain(mr_ctx *ctx, const char *what, const mr_v3 *at)
 }
 
 /* Where its topology hangs on the level, on so few points, or on how wide openings may be. */
-static mr_status
+static void
 report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 {
 	const mr_volume_result *v = &c->found.volume;
@@ -162,9 +161,6 @@ report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    mr_format(ctx, ": an opening %.3g sampling distances wide is %s, and may not be meant so",
 			l->width, l->flickers || l->width <= MR_WRAP_OPENING ? "closed" : "left open"),
 		    &l->at);
-	else
-		return mr_report_layers(ctx, cloud->p, cloud->n, cloud->near, cloud->spacing);
-	return MR_OK;
 }
 
 /* Points in rows say little of what is between these: rows 5 times as far apart as their points make a sheet
@@ -249,7 +245,7 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	c.lids = (mr_wrap_lids){ 0 };
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	report_cover(ctx, cloud, &c);
-	MR_TRY(report_topology(ctx, cloud, &c));
+	report_topology(ctx, cloud, &c);
 	MR_TRY(report_scatter(ctx, cloud));
 	put_result(ctx, cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");

@@ -3,7 +3,6 @@
 #include "mesh/layers.h"
 #include "space/sampling.h"
 #include "space/scatter.h"
-#include "space/two_layers.h"
 #include "unit.h"
 
 enum { MOST = 12000 };
@@ -191,28 +190,6 @@ sparse_ends_are_none(void **state)
 	for (size_t i = 0; i < N; i++)
 		wrong += s.outlier[i];
 	assert_true(wrong * 1000 < N);
-}
-
-/* Of a sphere and one that is larger by a share of the spacing, as scans out of register are: told, and how
- * far apart; noise as large, or one layer, is not. */
-static void
-two_layers_are_told(void **state)
-{
-	enum { N = 6000 };
-
-	(void)state;
-	for (int kind = 0; kind < 4; kind++) { /* one layer, noise, two layers, two with noise */
-		double spacing = sphere(N, kind == 1 ? 0.35 : kind == 3 ? 0.1 : 0, 41 + (uint64_t)kind);
-		mr_layers l;
-		mr_near *near;
-		for (size_t i = 0; kind >= 2 && i < N; i += 2)
-			p[i] = mr_mul(1 + spacing, p[i]);
-		assert_int_equal(mr_near_build(&ctx, p, N, &near), MR_OK);
-		assert_int_equal(mr_find_layers(&ctx, p, N, near, spacing, &l), MR_OK);
-		assert_true(kind < 2 ? l.share < 0.002 : l.share > (kind == 2 ? 0.5 : 0.3));
-		if (kind >= 2)
-			near_to(l.apart, spacing, 0.2);
-	}
 }
 
 /* On a sphere next to nothing, even with noise of a spacing; of those that fill a ball nearly a third; of few
@@ -437,7 +414,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(outliers_are_found, setup, teardown),
 		cmocka_unit_test_setup_teardown(sparse_parts_are_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(sparse_ends_are_none, setup, teardown),
-		cmocka_unit_test_setup_teardown(two_layers_are_told, setup, teardown),
 		cmocka_unit_test_setup_teardown(scatter_tells_a_volume, setup, teardown),
 		cmocka_unit_test_setup_teardown(order_place_and_size_do_not_matter, setup, teardown),
 		cmocka_unit_test_setup_teardown(repeats_count_once, setup, teardown),
