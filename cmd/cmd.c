@@ -13,7 +13,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <malloc.h>
 #include <signal.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -809,22 +808,6 @@ account(cmd *c)
 }
 
 /*
- * Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones.  But to
- * have a page from the system again takes longer than to work through it, so that some are kept: a
- * stream of 200k vertices is decoded in 2.3 s of user and system time instead of 3.0.
- */
-static void
-return_memory(bool lean)
-{
-#ifdef M_MMAP_THRESHOLD
-	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 25);
-	mallopt(M_TRIM_THRESHOLD, lean ? 1 << 17 : 1 << 26);
-#else
-	(void)lean;
-#endif
-}
-
-/*
  * Where stdin, stdout or stderr is closed the next file that is opened would take its number, and messages
  * would be written into it: something stands there that can neither be read nor written as it would be.
  */
@@ -891,7 +874,7 @@ main(int argc, char **argv)
 
 	fill_closed();
 	signals_begin(c.name);
-	return_memory(c.tool->lean);
+	mr_memory_begin(c.tool->lean);
 	mr_ctx_init(&c.ctx, 0);
 	c.ctx.listener.user = &c;
 	c.ctx.permit = permit; /* options read files, too */

@@ -4,6 +4,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <malloc.h>
 #include <sys/mman.h>
 #include <unistd.h>
 
@@ -58,6 +59,29 @@ ask_for_huge_pages(char *begin, size_t size)
 #else
 	(void)begin;
 	(void)size;
+#endif
+}
+
+/*
+ * Large blocks go back to the system when they are freed: glibc would learn to keep ever larger ones.  But to
+ * have a page from the system again takes longer than to work through it, so that some are kept, and the heap
+ * begins with room for them.
+ */
+void
+mr_memory_begin(bool lean)
+{
+#ifdef M_MMAP_THRESHOLD
+	const int room = 31 << 20; /* a block on the heap, below the threshold */
+	char *volatile first;
+
+	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 25);
+	mallopt(M_TRIM_THRESHOLD, lean ? 1 << 17 : 1 << 26);
+	if (lean || !(first = malloc(room)))
+		return;
+	ask_for_huge_pages(first, room);
+	free(first);
+#else
+	(void)lean;
 #endif
 }
 

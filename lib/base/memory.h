@@ -12,6 +12,9 @@
  */
 void *mr_memory(const mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
 
+/* For a process that is ours, at its start: how it keeps memory that it has given back.  lean: none of it. */
+void mr_memory_begin(bool lean);
+
 /* The sentence where mr_memory has given none for `what`, so many bytes: MR_EMEM. */
 mr_status mr_no_memory(mr_ctx *ctx, const char *what, double bytes);
 

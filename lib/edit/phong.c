@@ -3,14 +3,10 @@
 #include "edit/phong.h"
 
 mr_v3
-mr_phong_normal(const mr_phong *s, mr_place at)
+mr_phong_face_normal(const mr_phong *s, uint32_t face)
 {
-	const uint32_t *v = s->m->t[at.face].v;
-	mr_v3 n = mr_bary_point(at.bary, s->normal[v[0]], s->normal[v[1]], s->normal[v[2]]);
+	mr_v3 n = mr_unit(mr_face_cross(s->m, face));
 
-	if (mr_norm2(n) > 0)
-		return mr_unit(n);
-	n = mr_unit(mr_face_cross(s->m, at.face));
 	return mr_norm2(n) > 0 ? n : mr_vec(0, 0, 1);
 }
 

@@ -27,8 +27,18 @@ mr_phong_point(const mr_phong *s, mr_place at)
 	return mr_place_point(s->m, at);
 }
 
+/* For where the vertices' normals cancel. */
+mr_v3 mr_phong_face_normal(const mr_phong *s, uint32_t face);
+
 /* n there; the face's own normal where the vertices' cancel. */
-mr_v3 mr_phong_normal(const mr_phong *s, mr_place at);
+static inline mr_v3
+mr_phong_normal(const mr_phong *s, mr_place at)
+{
+	const uint32_t *v = s->m->t[at.face].v;
+	mr_v3 n = mr_bary_point(at.bary, s->normal[v[0]], s->normal[v[1]], s->normal[v[2]]);
+
+	return mr_norm2(n) > 0 ? mr_unit(n) : mr_phong_face_normal(s, at.face);
+}
 
 /* The larger principal curvature there, without sign: how the Phong normal turns. */
 double mr_phong_curvature(const mr_phong *s, mr_place at);

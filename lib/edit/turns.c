@@ -6,18 +6,20 @@
 #include "edit/turns.h"
 
 #include "base/parallel.h"
+#include "base/vectors.h"
 
-enum { GRAIN = 1024 };
+enum { GRAIN = 1024, AREA = 9 };
 
 typedef struct turning {
 	const mr_mesh *rest, *now;
 	const mr_incidence *inc;
-	mr_turn *face, *vertex;
+	const mr_turn *from;
+	mr_turn *to;
 	double unit; /* of areas */
 } turning;
 
 /* d += y x^T */
-static void
+static MR_INLINED void
 add_product(double d[9], mr_v3 y, mr_v3 x)
 {
 	const double row[3] = { y.x, y.y, y.z };
@@ -30,67 +32,70 @@ add_product(double d[9], mr_v3 y, mr_v3 x)
 }
 
 /* A (F - 1), and A. */
-static mr_turn
+static MR_INLINED mr_turn
 turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3], double unit)
 {
 	mr_v3 x1 = mr_sub(rest->p[v[1]], rest->p[v[0]]), x2 = mr_sub(rest->p[v[2]], rest->p[v[0]]);
 	mr_v3 y1 = mr_sub(now->p[v[1]], now->p[v[0]]), y2 = mr_sub(now->p[v[2]], now->p[v[0]]);
 	mr_v3 n = mr_cross(x1, x2), m = mr_cross(y1, y2), scaled;
-	double area = mr_norm(n), d[9] = { 0 };
-	mr_turn t = { .area = unit * area };
+	double area = mr_norm(n);
+	mr_turn t = { { 0 } };
 
 	if (!(area > 0))
 		return t;
 	scaled = mr_mul(unit / area, n);
-	add_product(d, mr_sub(y1, x1), mr_cross(x2, scaled));
-	add_product(d, mr_sub(y2, x2), mr_cross(scaled, x1));
-	add_product(d, mr_sub(m, n), scaled);
-	for (int i = 0; i < 9; i++)
-		t.gradient[i] = d[i];
+	add_product(t.sum, mr_sub(y1, x1), mr_cross(x2, scaled));
+	add_product(t.sum, mr_sub(y2, x2), mr_cross(scaled, x1));
+	add_product(t.sum, mr_sub(m, n), scaled);
+	t.sum[AREA] = unit * area;
 	return t;
 }
 
-static void
+MR_VECTORS static void
 faces_from_places(void *arg, size_t begin, size_t end)
 {
 	const turning *t = arg;
 
 	for (size_t f = begin; f < end; f++)
-		t->face[f] = turn_of_face(t->rest, t->now, t->rest->t[f].v, t->unit);
+		t->to[f] = turn_of_face(t->rest, t->now, t->rest->t[f].v, t->unit);
 }
 
-static void
+static MR_INLINED void
 add_turn(mr_turn *sum, const mr_turn *t)
 {
-	for (int i = 0; i < 9; i++)
-		sum->gradient[i] += t->gradient[i];
-	sum->area += t->area;
+	for (int i = 0; i < 10; i++)
+		sum->sum[i] += t->sum[i];
 }
 
-static void
-faces_from_vertices(void *arg, size_t begin, size_t end)
-{
-	const turning *t = arg;
-
-	for (size_t f = begin; f < end; f++) {
-		const uint32_t *v = t->rest->t[f].v;
-		mr_turn s = t->vertex[v[0]];
-		add_turn(&s, &t->vertex[v[1]]);
-		add_turn(&s, &t->vertex[v[2]]);
-		t->face[f] = s;
-	}
-}
-
-static void
+MR_VECTORS static void
 vertices_from_faces(void *arg, size_t begin, size_t end)
 {
 	const turning *t = arg;
 
 	for (size_t v = begin; v < end; v++) {
-		mr_turn s = { { 0 }, 0 };
+		mr_turn s = { { 0 } };
 		for (size_t i = t->inc->start[v]; i < t->inc->start[v + 1]; i++)
-			add_turn(&s, &t->face[t->inc->face[i]]);
-		t->vertex[v] = s;
+			add_turn(&s, &t->from[t->inc->face[i]]);
+		t->to[v] = s;
+	}
+}
+
+/* By the sums of faces' corners. */
+MR_VECTORS static void
+vertices_from_vertices(void *arg, size_t begin, size_t end)
+{
+	const turning *t = arg;
+
+	for (size_t v = begin; v < end; v++) {
+		mr_turn s = { { 0 } };
+		for (size_t i = t->inc->start[v]; i < t->inc->start[v + 1]; i++) {
+			const uint32_t *corner = t->rest->t[t->inc->face[i]].v;
+			mr_turn f = t->from[corner[0]];
+			add_turn(&f, &t->from[corner[1]]);
+			add_turn(&f, &t->from[corner[2]]);
+			add_turn(&s, &f);
+		}
+		t->to[v] = s;
 	}
 }
 
@@ -101,18 +106,22 @@ mr_turns(mr_ctx *ctx, const mr_mesh *rest, const mr_mesh *now, const mr_incidenc
 	 * 2,411 with 5, 118 and 2,444 with 10 */
 	enum { PASSES = 2 };
 	double size = mr_box_diagonal(mr_box_of(rest->p, rest->nv));
-	turning t = { rest, now, inc, .vertex = MR_NEW(ctx, rest->nv, mr_turn), .unit = 1 / (size * size) };
+	turning t = { rest, now, inc, NULL, NULL, 1 / (size * size) };
+	mr_turn *vertex = MR_NEW(ctx, rest->nv, mr_turn), *other;
 	mr_mark mark = mr_mark_take(ctx);
 
-	t.face = MR_NEW(ctx, rest->nf, mr_turn);
+	t.to = other = MR_NEW(ctx, rest->nf > rest->nv ? rest->nf : rest->nv, mr_turn);
 	mr_parallel(ctx, rest->nf, GRAIN, faces_from_places, &t);
+	t.from = other;
+	t.to = vertex;
 	mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
-	for (int i = 0; i < PASSES; i++) {
-		mr_parallel(ctx, rest->nf, GRAIN, faces_from_vertices, &t);
-		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_faces, &t);
+	for (int i = 0; i < PASSES; i++) { /* an even number, so that the last is to `vertex` */
+		t.from = i % 2 ? other : vertex;
+		t.to = i % 2 ? vertex : other;
+		mr_parallel(ctx, rest->nv, GRAIN, vertices_from_vertices, &t);
 	}
 	mr_mark_release(ctx, mark);
-	return t.vertex;
+	return vertex;
 }
 
 /* f F / A */
@@ -121,8 +130,8 @@ gradient_of(const mr_turn *t, double f)
 {
 	mr_mat3 m = { { f, 0, 0, 0, f, 0, 0, 0, f } };
 
-	for (int i = 0; i < 9 && t->area > 0; i++)
-		m.m[i] += f * t->gradient[i] / t->area;
+	for (int i = 0; i < 9 && t->sum[AREA] > 0; i++)
+		m.m[i] += f * t->sum[i] / t->sum[AREA];
 	return m;
 }
 

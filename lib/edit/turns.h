@@ -7,9 +7,10 @@
 #include "base/rotation.h"
 #include "mesh/mesh.h"
 
-/* The gradient of the motion, some rings around a vertex, times their area: 0 exactly where nothing moved. */
+/* The gradient of the motion, some rings around a vertex, times their area, 0 exactly where nothing moved;
+ * and that area. */
 typedef struct mr_turn {
-	double gradient[9], area;
+	double sum[10];
 } mr_turn;
 
 /*

@@ -276,9 +276,9 @@ count_pair(void *arg, uint32_t f, uint32_t g)
 
 /* More pairs than there were: where a surface intersects already, others go while some come. */
 static void
-count_pairs(mr_ctx *ctx, const crowd *c, uint32_t *near_harm, uint32_t *far_harm, mr_harm *h)
+count_pairs(mr_ctx *ctx, const crowd *c, double diagonal, uint32_t *near_harm, uint32_t *far_harm, mr_harm *h)
 {
-	const double deep = 0.001 * mr_mesh_diagonal(&c->then);
+	const double deep = 0.001 * diagonal;
 	uint32_t *part;
 	bool several;
 	tally came = { &c->then, &c->now, NULL, deep, near_harm, far_harm, 0, 0 }, went;
@@ -295,7 +295,7 @@ count_pairs(mr_ctx *ctx, const crowd *c, uint32_t *near_harm, uint32_t *far_harm
 }
 
 static void
-look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
+look_at_crowd(mr_ctx *ctx, crowd *c, double diagonal, mr_harm *harm)
 {
 	uint32_t *near_harm, *far_harm;
 	mr_tri *t = NULL;
@@ -307,7 +307,7 @@ look_at_crowd(mr_ctx *ctx, crowd *c, mr_harm *harm)
 	near_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	far_harm = MR_NEW_ZERO(ctx, c->now.nf, uint32_t);
 	count_folds(ctx, c, near_harm, &harm->folds);
-	count_pairs(ctx, c, near_harm, far_harm, harm);
+	count_pairs(ctx, c, diagonal, near_harm, far_harm, harm);
 	harm->vertex = worst_vertex(&c->now, near_harm);
 	harm->far_vertex = worst_vertex(&c->now, far_harm);
 }
@@ -336,6 +336,6 @@ mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 	mark_turned(&c);
 	mark_gathered(ctx, &c);
 	if (c.cells.any || c.now.nf <= FEW)
-		look_at_crowd(ctx, &c, harm);
+		look_at_crowd(ctx, &c, m->diagonal, harm);
 	mr_mark_release(ctx, mark);
 }
