@@ -5,6 +5,7 @@
 #include "base/text.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
+#include "edit/pose_basis.h"
 #include "formats/bytes.h"
 #include "formats/formats.h"
 #include "formats/page_displaced.h"
@@ -125,32 +126,6 @@ round_number(double x)
 	return isfinite(y) ? y : x;
 }
 
-/* The box of places of the layer's vertices, of what is drawn. */
-static mr_status
-box_of_places(mr_ctx *ctx, mr_frame *f, const mr_column *c, mr_box *box)
-{
-	mr_mesh m;
-
-	MR_TRY(mr_layer_surface_or_points(ctx, f, c->layer, &m));
-	m.p = c->data;
-	*box = mr_mesh_box(&m);
-	return MR_OK;
-}
-
-/* Puts vertices that no face has, which are not drawn, where they make no step larger: to the box. */
-static void
-clamp_places(mr_ctx *ctx, mr_column *c, mr_box box)
-{
-	size_t n = (size_t)c->rows;
-	const mr_v3 *p = c->data;
-	mr_v3 *q = MR_NEW(ctx, n, mr_v3);
-
-	for (size_t i = 0; i < n; i++)
-		q[i] = mr_vec(fmin(fmax(p[i].x, box.min.x), box.max.x),
-		    fmin(fmax(p[i].y, box.min.y), box.max.y), fmin(fmax(p[i].z, box.min.z), box.max.z));
-	c->data = q;
-}
-
 /* Positions count from the corner of their box, so that they are whole steps wherever the model is. */
 static mr_steps
 steps_of_places(mr_box box)
@@ -238,7 +213,6 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_
 	mr_column c = *column;
 	double *rounded, centre[3];
 	mr_steps steps;
-	mr_box box;
 
 	if ((c.shape.type != 'd' && c.shape.type != 'u') || !strcmp(c.layer, "handles"))
 		return mr_frame_pass(ctx, to, column);
@@ -247,12 +221,7 @@ take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_
 		return mr_page_displaced_put(ctx, to, &c, d, notes);
 	if (is_posing(&c) && !strcmp(c.name, "response"))
 		MR_TRY(centre_response(ctx, from, &c, centre));
-	if (is_place(&c)) {
-		MR_TRY(box_of_places(ctx, from, &c, &box));
-		clamp_places(ctx, &c, box);
-		steps = steps_of_places(box);
-	} else
-		steps = steps_of_column(&c);
+	steps = is_place(&c) ? steps_of_places(mr_box_of(c.data, c.rows)) : steps_of_column(&c);
 	if (is_posing(&c) && !strcmp(c.name, "response"))
 		memcpy(steps.origin, centre, sizeof centre);
 	if (steps.components)
@@ -323,65 +292,28 @@ check_layers(mr_ctx *ctx, mr_frame *f, const char *list, const mr_page_displaced
 
 /* What mr-decode would refuse is refused here: the page trusts its numbers. */
 static mr_status
-check_response(mr_ctx *ctx, mr_frame *f, const mr_mesh *m)
-{
-	const mr_column *c = mr_frame_find(f, m->name, "response");
-	mr_handle_rows rows;
-	const void *response;
-	const double *x;
-
-	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
-	MR_TRY(mr_handles_rows(ctx, f, c->shape.components / 4, &rows));
-	if (c->shape.components != 4 * rows.n)
-		return mr_fail(ctx, MR_ERANGE,
-		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
-		    c->shape.components, rows.n);
-	x = response;
-	for (size_t i = 0; i < m->nv * c->shape.components; i++)
-		if (!isfinite(x[i]))
-			return mr_fail(ctx, MR_ERANGE, "%s: response %zu is not finite", m->name,
-			    i / c->shape.components);
-	return MR_OK;
-}
-
-static mr_status
 check_posing(mr_ctx *ctx, mr_frame *f)
 {
+	const double *response;
+	mr_handle_rows rows;
 	mr_detail detail;
 	mr_mesh base;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
 	MR_TRY(mr_detail_check_faces(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
-	return check_response(ctx, f, &base);
+	return mr_response_get(ctx, f, &base, &response, &rows);
 }
 
 static mr_status
 check_control_posing(mr_ctx *ctx, mr_frame *f)
 {
+	const double *response;
+	mr_handle_rows rows;
 	mr_mesh control;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "control", &control));
-	return check_response(ctx, f, &control);
-}
-
-/* The column before that one, of those that the page takes, of which it is a copy; or NULL.  Layers keep
- * their own positions, by which a page knows them. */
-static mr_status
-find_same(mr_ctx *ctx, mr_frame *f, size_t at, const bool *shown, const mr_column **same)
-{
-	mr_column *c = &f->columns[at];
-	bool found = false;
-
-	*same = NULL;
-	if (!*c->layer || c->rows == 0 || c->shape.element == '-' || !strcmp(c->name, "position"))
-		return MR_OK;
-	for (size_t i = 0; i < at && !found; i++) {
-		if (shown[i])
-			MR_TRY(mr_columns_same(ctx, &f->columns[i], c, &found));
-		*same = found ? &f->columns[i] : NULL;
-	}
-	return MR_OK;
+	return mr_response_get(ctx, f, &control, &response, &rows);
 }
 
 /* The surface of displacement goes by the name that mr-decode gives it, unless there is another mesh. */
@@ -395,19 +327,30 @@ surface_name(const mr_frame *f, const bool *shown)
 	return "mesh";
 }
 
+/* Whether base is where it was encoded: then its places say both. */
+static mr_status
+is_as_encoded(mr_ctx *ctx, mr_frame *f, bool *is)
+{
+	const mr_column *c = mr_frame_find(f, "base", "position");
+	size_t n = c->rows;
+	const void *now, *then;
+
+	MR_TRY(mr_layer_get_rows(ctx, f, "base", "position", n, &now));
+	MR_TRY(mr_layer_get_rows(ctx, f, "base", "encoded", n, &then));
+	*is = !memcmp(now, then, n * sizeof(mr_v3));
+	return MR_OK;
+}
+
 static mr_status
 take_columns(
     mr_ctx *ctx, mr_frame *from, const bool *shown, const mr_page_displaced *d, mr_frame *to, mr_text *notes)
 {
 	for (size_t i = 0; i < from->count; i++) {
-		const mr_column *c = &from->columns[i], *same;
-		if (!shown[i])
-			continue;
-		MR_TRY(find_same(ctx, from, i, shown, &same));
-		if (same)
-			mr_text_add(notes, "same %s %s %s %s\n", c->layer, c->name, same->layer, same->name);
-		else
-			MR_TRY(take_column(ctx, from, c, d, to, notes));
+		bool encoded = !strcmp(from->columns[i].name, "encoded"), same = false;
+		if (shown[i] && encoded)
+			MR_TRY(is_as_encoded(ctx, from, &same));
+		if (shown[i] && !same)
+			MR_TRY(take_column(ctx, from, &from->columns[i], d, to, notes));
 	}
 	if (d->there)
 		mr_text_add(notes, "surface %s %zu %zu\n", surface_name(from, shown), d->at, d->n);

@@ -63,17 +63,3 @@ mr_steps_put(mr_ctx *ctx, mr_frame *to, const mr_column *c, const mr_steps *s, m
 	mr_text_add(notes, "\n");
 	return mr_frame_put(ctx, to, c->layer, c->name, shape, sums, (size_t)c->rows);
 }
-
-mr_status
-mr_columns_same(mr_ctx *ctx, mr_column *a, mr_column *b, bool *same)
-{
-	size_t values = (size_t)a->rows * a->shape.components;
-
-	*same = false;
-	if (a->rows != b->rows || memcmp(&a->shape, &b->shape, sizeof a->shape))
-		return MR_OK;
-	MR_TRY(mr_column_decode(ctx, a));
-	MR_TRY(mr_column_decode(ctx, b));
-	*same = values == 0 || !memcmp(a->data, b->data, values * mr_type_size(a->shape.type));
-	return MR_OK;
-}

@@ -1,5 +1,5 @@
-/* page_steps.h -- columns of a page's stream: whole steps in place of numbers, and one in place of equal
- * ones. Layer rule: formats includes lib. */
+/* page_steps.h -- columns of a page's stream: whole steps in place of numbers.  Layer rule: formats includes
+ * lib. */
 #ifndef MR_PAGE_STEPS_H
 #define MR_PAGE_STEPS_H
 
@@ -28,8 +28,5 @@ double mr_step_of(double extent);
  */
 mr_status mr_steps_put(
     mr_ctx *ctx, mr_frame *to, const mr_column *column, const mr_steps *steps, mr_text *notes) MR_WARN_UNUSED;
-
-/* Whether the values of columns a and b are the same: *same.  Decodes both. */
-mr_status mr_columns_same(mr_ctx *ctx, mr_column *a, mr_column *b, bool *same) MR_WARN_UNUSED;
 
 #endif

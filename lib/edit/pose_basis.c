@@ -54,30 +54,43 @@ mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *respon
 }
 
 mr_status
+mr_response_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const double **response, mr_handle_rows *handles)
+{
+	size_t width = mr_frame_find(f, m->name, "response")->shape.components;
+	const void *values;
+
+	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &values));
+	MR_TRY(mr_handles_rows(ctx, f, width / 4, handles));
+	if (width != 4 * handles->n)
+		return mr_fail(ctx, MR_ERANGE,
+		    "%s: column response has %zu values a vertex, not 4 for each of %zu handles", m->name,
+		    width, handles->n);
+	*response = values;
+	for (size_t i = 0; i < m->nv * width; i++)
+		if (!isfinite((*response)[i]))
+			return mr_fail(ctx, MR_ERANGE, "%s: response %zu is not finite", m->name, i / width);
+	return MR_OK;
+}
+
+mr_status
 mr_response_apply(mr_ctx *ctx, mr_frame *f, mr_mesh *m)
 {
-	const mr_column *column = mr_frame_find(f, m->name, "response");
 	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
-	const void *response;
+	const double *response;
 	mr_handle_rows row;
 	mr_mesh posed;
 
 	if (!mr_layer_has(f, "handles", "transform"))
 		return MR_OK;
-	if (!column)
+	if (!mr_layer_has(f, m->name, "response"))
 		return mr_advise(
 		    ctx, MR_RESPOND, mr_fail(ctx, MR_EMISSING, "handles, but no %s.response", m->name));
-	MR_TRY(mr_layer_get_rows(ctx, f, m->name, "response", m->nv, &response));
-	MR_TRY(mr_handles_rows(ctx, f, column->shape.components / 4, &row));
-	if (column->shape.components != 4 * row.n)
-		return mr_fail(ctx, MR_ERANGE,
-		    "%s: column response has %u values a vertex, not 4 for each of %zu handles", m->name,
-		    column->shape.components, row.n);
+	MR_TRY(mr_response_get(ctx, f, m, &response, &row));
 	mr_pose_by_response(ctx, m->p, m->nv, response, row.n, row.map, p);
 	mr_handles_drop(f);
 	MR_TRY(mr_detail_keep_before(ctx, f, m));
 	MR_TRY(mr_layer_move(ctx, f, m->name, MR_POSED, p, m->nv));
-	MR_TRY(mr_layer_points(ctx, f, m->name, &posed)); /* a response that is not finite shows here */
+	MR_TRY(mr_layer_points(ctx, f, m->name, &posed)); /* what goes beyond all numbers shows here */
 	m->p = posed.p;
 	return MR_OK;
 }

@@ -4,7 +4,7 @@
 #ifndef MR_EDIT_POSE_BASIS_H
 #define MR_EDIT_POSE_BASIS_H
 
-#include "mesh/layers.h"
+#include "edit/handles.h"
 
 /*
  * p = p0 + sum over handles h of W_h (T_h - I), W_h the n x 4 block of the response; equal to
@@ -13,6 +13,10 @@
  */
 void mr_pose_by_response(mr_ctx *ctx, const mr_v3 *p0, size_t n, const double *response, size_t handles,
     const mr_affine *t, mr_v3 *out);
+
+/* The layer's response, which it has, to the frame's handles: finite. */
+mr_status
+mr_response_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const double **response, mr_handle_rows *handles);
 
 /*
  * Poses the frame's layer, which is m, by its column `response`, where the frame has handles; both are used

@@ -32,11 +32,11 @@ echo '-- positions, places and responses within 24 bits of the extent, other num
 cat >near.py <<'X'
 import records, sys
 def columns(path):
-	"""Of the first frame, as the page reads them: sums of steps as numbers, and what is stored once under each of its names."""
+	"""Of the first frame, as the page reads them: sums of steps as numbers; without a place of its own base is where it was encoded."""
 	out = records.first_frame(path)
 	for how, layer, name, *more in (line.split(" ") for line in out.get(("", "page"), b"").decode().splitlines()):
-		out[layer, name] = out[tuple(more)] if how == "same" else sums(out[layer, name], [float(x) for x in more])
-	return out
+		out[layer, name] = sums(out[layer, name], [float(x) for x in more])
+	return {("base", "encoded"): out["base", "position"], **out}
 def sums(stored, numbers):
 	width = len(stored[0])
 	before, at, rows = [0] * width, [0] * width, []

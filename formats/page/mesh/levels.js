@@ -17,9 +17,9 @@ class Made extends Column {
 	}
 }
 
-/* The first rows of a column: those of the vertices of a coarser level. */
+/* The first rows of a column: those of a coarser level. */
 const firstRows = (column, layer, rows) => new Made(layer, column.name,
-	{ element: "v", type: column.type, components: column.components, rows },
+	{ element: column.element, type: column.type, components: column.components, rows },
 	async () => (await column.values()).subarray(0, rows * column.components));
 
 /* Vertices of each level, which has 4 times the faces of the one before and a vertex more for each of its edges; the
@@ -109,14 +109,13 @@ class Surface {
 	/* What a column of the stream has of a level: the first of the vertices, all of the faces; undefined where it
 	 * has not that. */
 	partOf(column, level) {
-		const { others, position, triangles } = this.at(level);
+		const { others, position, triangles } = this.at(level), { element } = column,
+			{ rows } = element === "f" ? triangles : position;
 
-		if (column.element === "f")
-			return column.rows === triangles.rows ? column.called(this.layer, column.name) : undefined;
-		if (column.element !== "v" || column.rows < position.rows)
+		if (element === "f" ? column.rows !== rows : element !== "v" || column.rows < rows)
 			return undefined;
 		if (!others.has(column))
-			others.set(column, firstRows(column, this.layer, position.rows));
+			others.set(column, firstRows(column, this.layer, rows));
 		return others.get(column);
 	}
 }

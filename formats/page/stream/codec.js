@@ -76,25 +76,4 @@ export class Column {
 		this.type = step ? "d" : "u";
 		this.steps = { step, origin };
 	}
-
-	/* The same values as a column of another name: always the same object. */
-	called(layer, name) {
-		const key = layer + "\0" + name;
-
-		this.others = this.others || new Map();
-		if (!this.others.has(key))
-			this.others.set(key, new Copy(this, layer, name));
-		return this.others.get(key);
-	}
-}
-
-class Copy extends Column {
-	constructor(of, layer, name) {
-		super({ of, layer, name, element: of.element, type: of.type, components: of.components,
-			rows: of.rows });
-	}
-
-	values() {
-		return this.of.values();
-	}
 }

@@ -67,15 +67,13 @@ function wearing(frame, layer) {
 
 const given = (word, read) => (word === "-" ? null : read(word));
 
-/* What the page's text says: the file; how columns are stored, equal ones once, others as sums of steps; which layer is
+/* What the page's text says: the file; which columns are stored as sums of steps; which layer is
  * computed; what layers wear. */
 async function understand(frame) {
 	for (const line of await linesOf(frame, "", "page")) {
 		const [how, layer, name, ...more] = line.split(" ");
 		if (how === "file")
 			frame.file = line.slice(5);
-		else if (how === "same")
-			frame.columns.set(keyOf(layer, name), columnOf(frame, ...more).called(layer, name));
 		else if (how === "surface")
 			frame.displaced = { layer, level: Number(name), most: Number(more[0]) };
 		else if (how === "texture")
