@@ -200,24 +200,20 @@ bare_name(const mr_builder *b, mr_marking what, const char *name, size_t bytes)
 	return (mr_lines){ name, bytes };
 }
 
-mr_status
+void
 mr_build_library(mr_builder *b, const char *name, size_t bytes)
 {
 	mr_lines bare = bare_name(b, MR_MATERIAL, name, bytes);
 
 	if (bare.bytes == 0)
-		return MR_OK;
+		return;
 	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
 	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
 	mr_name_number(b->ctx, &b->libraries, b->clean, bytes);
-	return MR_OK;
 }
 
-/* How a name gets its number. */
-typedef uint32_t number_name(mr_ctx *ctx, mr_name_table *n, const char *name, size_t bytes);
-
-static mr_status
-mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, number_name *number)
+void
+mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, bool own)
 {
 	mr_lines bare = bare_name(b, what, name, bytes);
 	mr_marks *k = &b->marks[what];
@@ -225,20 +221,8 @@ mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, number_name
 	start_marks(b, what);
 	MR_RESERVE(b->ctx, b->clean, 0, bare.bytes + 1, &b->clean_room);
 	bytes = mr_clean_name(b->clean, bare.text, bare.bytes, false);
-	k->current = number(b->ctx, &k->names, b->clean, bytes);
-	return MR_OK;
-}
-
-mr_status
-mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
-{
-	return mark(b, what, name, bytes, mr_name_number);
-}
-
-mr_status
-mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes)
-{
-	return mark(b, what, name, bytes, mr_name_add);
+	k->current = own ? mr_name_add(b->ctx, &k->names, b->clean, bytes)
+	                 : mr_name_number(b->ctx, &k->names, b->clean, bytes);
 }
 
 void

@@ -60,14 +60,12 @@ mr_status mr_build_reserve(mr_builder *b, size_t faces) MR_WARN_UNUSED;
  */
 void mr_build_face(mr_builder *b, const uint32_t *corner, const uint32_t *uv, const uint32_t *vn, size_t n);
 
-/* The faces to come are marked with this name, cleaned and without blanks around it. */
-mr_status mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
+/* The faces to come are marked with this name, cleaned and without blanks around it; `own`: it is another
+ * than one of that name before. */
+void mr_build_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes, bool own);
 
 /* A file of materials more; none where it is the last one again. */
-mr_status mr_build_library(mr_builder *b, const char *name, size_t bytes) MR_WARN_UNUSED;
-
-/* The same, a mark of its own, though there may be others of that name. */
-mr_status mr_build_new_mark(mr_builder *b, mr_marking what, const char *name, size_t bytes) MR_WARN_UNUSED;
+void mr_build_library(mr_builder *b, const char *name, size_t bytes);
 
 /* The faces to come are of this smoothing group. */
 void mr_build_smoothing(mr_builder *b, uint32_t group);

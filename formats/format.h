@@ -84,7 +84,7 @@ mr_scan_of(mr_ctx *ctx, const unsigned char *data, size_t size)
 {
 	const char *p = (const char *)data;
 
-	return (mr_scan){ ctx, p, p, p + size };
+	return (mr_scan){ ctx, p, p, size ? p + size : p, false };
 }
 
 /* x as a float holds it.  By way of memory: GCC 12 loses pairs of these conversions where it vectorises them.

@@ -5,50 +5,35 @@
 
 enum { HEADER = 12, CHUNK = 8 };
 
-/* The next chunk, whose size has been checked; false behind the last. */
-static bool
-next_chunk(const unsigned char *data, size_t size, size_t *at, uint32_t *kind, size_t *bytes)
-{
-	if (size - *at < CHUNK || mr_load32(data + *at, false) > size - *at - CHUNK)
-		return false;
-	*bytes = mr_load32(data + *at, false);
-	*kind = mr_load32(data + *at + 4, false);
-	*at += CHUNK;
-	return true;
-}
-
 /* Finds the JSON of a GLB, and its bytes. */
 static mr_status
 open_chunks(
     mr_gltf *g, const unsigned char *data, size_t size, const unsigned char **json, size_t *json_bytes)
 {
-	size_t at = HEADER, all, bytes = 0;
-	uint32_t kind = 0;
+	size_t all = size < HEADER ? HEADER : mr_load32(data + 8, false);
 
-	if (size < HEADER)
-		return mr_fail(g->ctx, MR_EFORMAT, "byte %zu: the file ends in its header of %d bytes", size,
-		    (int)HEADER);
+	if (all > size || all < HEADER)
+		return mr_fail(
+		    g->ctx, MR_EFORMAT, "byte 8: the file should have %zu bytes, and has %zu", all, size);
 	if (mr_load32(data + 4, false) != 2)
 		return mr_fail(g->ctx, MR_EFORMAT, "byte 4: version %u of glTF is not read, 2 is",
 		    (unsigned)mr_load32(data + 4, false));
-	all = mr_load32(data + 8, false);
-	if (all > size)
-		return mr_fail(
-		    g->ctx, MR_EFORMAT, "byte 8: the file should have %zu bytes, and has %zu", all, size);
-	if (all < HEADER || !next_chunk(data, all, &at, &kind, json_bytes) || kind != MR_GLTF_JSON)
-		return mr_fail(g->ctx, MR_EFORMAT, "byte %d: no whole chunk of JSON", (int)HEADER);
-	*json = data + at;
-	at += *json_bytes;
-	while (at < all && kind != MR_GLTF_BIN) {
-		if (!next_chunk(data, all, &at, &kind, &bytes))
-			return mr_fail(g->ctx, MR_EFORMAT, "byte %zu: no whole chunk", at);
-		g->bin = data + at;
-		g->bin_bytes = bytes;
-		at += bytes;
+	*json = NULL;
+	for (size_t at = HEADER, bytes; all - at >= CHUNK; at += bytes) {
+		uint32_t kind = mr_load32(data + at + 4, false);
+		bytes = mr_load32(data + at, false);
+		at += CHUNK;
+		if (bytes > all - at)
+			return mr_fail(g->ctx, MR_EFORMAT, "byte %zu: no whole chunk", at - CHUNK);
+		if (kind == MR_GLTF_JSON && !*json) {
+			*json = data + at;
+			*json_bytes = bytes;
+		} else if (kind == MR_GLTF_BIN && !g->bin) {
+			g->bin = data + at;
+			g->bin_bytes = bytes;
+		}
 	}
-	if (kind != MR_GLTF_BIN)
-		g->bin = NULL;
-	return MR_OK;
+	return *json ? MR_OK : mr_fail(g->ctx, MR_EFORMAT, "byte %d: no chunk of JSON", (int)HEADER);
 }
 
 static mr_status
@@ -66,18 +51,15 @@ parse(mr_gltf *g, const unsigned char *json, size_t bytes)
 	return MR_OK;
 }
 
-/* 2, and of a later minor version what says that it needs 2.0 alone. */
 static mr_status
 check_version(const mr_gltf *g)
 {
-	const json_t *asset = json_object_get(g->root, "asset");
-	const char *least = json_string_value(json_object_get(asset, "minVersion")),
-		   *version = least ? least : json_string_value(json_object_get(asset, "version"));
+	const char *version = json_string_value(
+	    json_object_get(json_object_get(g->root, "asset"), "version"));
 
-	if (!version)
-		return mr_fail(g->ctx, MR_EFORMAT, "JSON: no version of glTF in it");
-	if (least ? strcmp(least, "2.0") != 0 : strncmp(version, "2.", 2) != 0)
-		return mr_fail(g->ctx, MR_EFORMAT, "version %.20s of glTF is not read, 2.0 is", version);
+	if (!version || strncmp(version, "2.", 2) != 0)
+		return mr_fail(g->ctx, MR_EFORMAT, "version %.20s of glTF is not read, 2.0 is",
+		    version ? version : "none");
 	return MR_OK;
 }
 
@@ -258,14 +240,12 @@ find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 	       *extensions = json_object_get(json, "extensions");
 	const char *text = json_string_value(uri), *data = text ? strstr(text, ";base64,") : NULL;
 
-	if (uri && !text)
-		return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu: its URI is no text", number);
 	if (text && strncmp(text, "data:", 5) != 0)
 		return mr_fail(g->ctx, MR_EFORMAT,
 		    "buffer %zu is in another file, %.100s: only what is in the file itself is read, as a "
 		    "glb has it",
 		    number, text);
-	if (text && !data)
+	if (uri && !data)
 		return mr_fail(
 		    g->ctx, MR_EFORMAT, "buffer %zu is in a URI without base 64, which is not read", number);
 	if (text)
@@ -298,9 +278,9 @@ open_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 	return MR_OK;
 }
 
-/* The bytes of a buffer view from `offset` on; stride: 0 where it has none. */
+/* The bytes of a buffer view; stride: 0 where it has none. */
 static mr_status
-open_view(mr_gltf *g, size_t number, size_t offset, mr_gltf_buffer *b, size_t *stride)
+open_view(mr_gltf *g, size_t number, mr_gltf_buffer *b, size_t *stride)
 {
 	const json_t *view = mr_gltf_at(g, "bufferViews", number);
 	mr_gltf_buffer of = { 0 };
@@ -316,10 +296,7 @@ open_view(mr_gltf *g, size_t number, size_t offset, mr_gltf_buffer *b, size_t *s
 	if (begin > of.bytes || bytes > of.bytes - begin)
 		return mr_fail(g->ctx, MR_EFORMAT, "buffer view %zu is outside its buffer of %zu bytes",
 		    number, of.bytes);
-	if (offset > bytes)
-		return mr_fail(g->ctx, MR_EFORMAT, "buffer view %zu has %zu bytes, of which %zu are left out",
-		    number, bytes, offset);
-	*b = (mr_gltf_buffer){ of.data + begin + offset, bytes - offset };
+	*b = (mr_gltf_buffer){ of.data + begin, bytes };
 	return MR_OK;
 }
 
@@ -358,15 +335,17 @@ find_rows(
 	*data = NULL;
 	if (view == MR_UNKNOWN)
 		return MR_OK;
-	MR_TRY(open_view(g, view, offset, &b, &step));
+	MR_TRY(open_view(g, view, &b, &step));
 	if (step == 0)
 		step = row;
 	if (step < row || step == 0)
 		return mr_fail(
 		    g->ctx, MR_EFORMAT, "rows of %zu bytes follow each other after %zu", row, step);
-	if (count && (b.bytes < row || count - 1 > (b.bytes - row) / step))
-		return mr_fail(g->ctx, MR_EFORMAT, "%zu rows cannot be in %zu bytes", count, b.bytes);
-	*data = b.data;
+	if (offset > b.bytes ||
+	    (count && (b.bytes - offset < row || count - 1 > (b.bytes - offset - row) / step)))
+		return mr_fail(g->ctx, MR_EFORMAT, "%zu rows cannot be in %zu bytes from %zu on", count,
+		    b.bytes, offset);
+	*data = b.data + offset;
 	*stride = step;
 	return MR_OK;
 }

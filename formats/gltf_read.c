@@ -34,7 +34,6 @@ typedef struct reader {
 	size_t odd_uv, odd_colors;
 	uint32_t *join;                    /* n: the vertex of the model */
 	uint32_t *index;                   /* of the part at hand */
-	const char *packed;                /* the extension that holds the primitive at hand; NULL: none */
 	size_t lines, targets, attributes; /* that are left out */
 } reader;
 
@@ -180,7 +179,7 @@ apply_to_normal(const mr_affine *a, mr_v3 n)
 	return determinant(a) < 0 ? mr_mul(-1, turned) : turned;
 }
 
-static mr_status
+static void
 read_positions(reader *r, const part *p, const mr_accessor *a)
 {
 	bool moves = !mr_is_identity(&p->of->map);
@@ -190,14 +189,10 @@ read_positions(reader *r, const part *p, const mr_accessor *a)
 		mr_v3 *x = &r->p[p->first + i];
 		if (moves)
 			*x = mr_apply(&p->of->map, *x);
-		if (!mr_finite(*x))
-			return mr_fail(
-			    r->g.ctx, MR_EFORMAT, "accessor %zu: position %zu is not finite", a->number, i);
 	}
-	return MR_OK;
 }
 
-static mr_status
+static void
 read_normals(reader *r, const part *p, const mr_accessor *a)
 {
 	bool moves = !mr_is_identity(&p->of->map);
@@ -208,11 +203,10 @@ read_normals(reader *r, const part *p, const mr_accessor *a)
 		if (moves && mr_finite(*n))
 			*n = apply_to_normal(&p->of->map, *n);
 	}
-	return MR_OK;
 }
 
 /* v runs down the picture in glTF, up in OBJ. */
-static mr_status
+static void
 read_texcoords(reader *r, const part *p, const mr_accessor *a)
 {
 	double *uv = r->uv + 2 * p->first;
@@ -222,11 +216,10 @@ read_texcoords(reader *r, const part *p, const mr_accessor *a)
 		uv[2 * i + 1] = 1 - uv[2 * i + 1];
 		r->odd_uv += !isfinite(uv[2 * i]) || !isfinite(uv[2 * i + 1]);
 	}
-	return MR_OK;
 }
 
 /* Colours are linear there. */
-static mr_status
+static void
 read_colors(reader *r, const part *p, const mr_accessor *a)
 {
 	mr_mark mark = mr_mark_take(r->g.ctx);
@@ -241,10 +234,9 @@ read_colors(reader *r, const part *p, const mr_accessor *a)
 		    &r->shades, i % 4 == 3 ? x[i] : mr_linear_to_srgb(x[i]));
 	}
 	mr_mark_release(r->g.ctx, mark);
-	return MR_OK;
 }
 
-typedef mr_status read_values(reader *r, const part *p, const mr_accessor *a);
+typedef void read_values(reader *r, const part *p, const mr_accessor *a);
 
 /* Values of vertices, unless the part before has read them. */
 static mr_status
@@ -255,7 +247,8 @@ read_column(reader *r, const part *p, size_t accessor, size_t before, read_value
 	if (accessor == MR_UNKNOWN || (!p->own && accessor == before))
 		return MR_OK;
 	MR_TRY(mr_accessor_open(&r->g, accessor, &a));
-	return read(r, p, &a);
+	read(r, p, &a);
+	return MR_OK;
 }
 
 /* What some parts have, the others have not yet. */
@@ -298,6 +291,9 @@ read_vertices(reader *r)
 		MR_TRY(read_column(r, p, p->texcoord, before->texcoord, read_texcoords));
 		MR_TRY(read_column(r, p, p->color, before->color, read_colors));
 	}
+	for (size_t i = 0; i < r->n; i++)
+		if (!mr_finite(r->p[i]))
+			return mr_fail(r->g.ctx, MR_EFORMAT, "position %zu is not finite", i);
 	if (r->normal && !mr_normals_left(r->g.ctx, r->normal, r->n))
 		r->normal = NULL;
 	if (!mr_left_out(r->g.ctx, r->odd_uv, r->n, "texture coordinates"))
@@ -405,7 +401,7 @@ add_face(reader *r, const part *p, size_t k, bool turned)
 }
 
 /* Names of n things, in their order; of several without a name each is called `what` and its number. */
-static mr_status
+static void
 name_marks(reader *r, mr_marking kind, const char *const *name, size_t n, const char *what)
 {
 	size_t unnamed = 0;
@@ -416,13 +412,12 @@ name_marks(reader *r, mr_marking kind, const char *const *name, size_t n, const 
 		const char *own = name[i]        ? name[i]
 		                  : unnamed == 1 ? ""
 		                                 : mr_format(r->g.ctx, "%s%zu", what, i);
-		MR_TRY(mr_build_new_mark(&r->b, kind, own, strlen(own)));
+		mr_build_mark(&r->b, kind, own, strlen(own), true);
 	}
-	return MR_OK;
 }
 
 /* Faces have objects where these have names or are several, and materials where there are any. */
-static mr_status
+static void
 name_all(reader *r)
 {
 	size_t objects = r->scene.count, materials = mr_gltf_size(&r->g, "materials");
@@ -431,12 +426,11 @@ name_all(reader *r)
 	for (size_t i = 0; i < objects; i++)
 		name[i] = r->scene.instance[i].name;
 	if (objects > 1 || (objects == 1 && *name))
-		MR_TRY(name_marks(r, MR_OBJECT, name, objects, "mesh"));
+		name_marks(r, MR_OBJECT, name, objects, "mesh");
 	for (size_t i = 0; i < materials; i++)
 		name[i] = mr_gltf_name(mr_gltf_at(&r->g, "materials", i));
 	if (materials > 1 || (materials == 1 && *name))
-		MR_TRY(name_marks(r, MR_MATERIAL, name, materials, "material"));
-	return MR_OK;
+		name_marks(r, MR_MATERIAL, name, materials, "material");
 }
 
 static mr_status
@@ -449,7 +443,7 @@ read_faces(reader *r, const part *p)
 	if (p->material != MR_UNKNOWN)
 		r->b.marks[MR_MATERIAL].current = (uint32_t)p->material;
 	else if (r->b.marks[MR_MATERIAL].used)
-		MR_TRY(mr_build_mark(&r->b, MR_MATERIAL, "", 0));
+		mr_build_mark(&r->b, MR_MATERIAL, "", 0, false);
 	r->index = NULL;
 	if (p->indices != MR_UNKNOWN) {
 		MR_TRY(mr_accessor_open(&r->g, p->indices, &a));
@@ -463,22 +457,17 @@ read_faces(reader *r, const part *p)
 
 /* ---- what is left out ---- */
 
-/* Whether a material has more than a name and pictures. */
+/* Whether a material has a colour, a light or is seen through. */
 static bool
 has_look(const json_t *material)
 {
 	const json_t *surface = json_object_get(material, "pbrMetallicRoughness"),
 		     *color = json_object_get(surface, "baseColorFactor");
-	const json_t *metal = json_object_get(surface, "metallicFactor"),
-		     *rough = json_object_get(surface, "roughnessFactor");
 
 	for (size_t i = 0; i < json_array_size(color); i++)
 		if (json_number_value(json_array_get(color, i)) != 1)
 			return true;
-	return (metal && json_number_value(metal) != mr_material_plain.metal) ||
-	       (rough && json_number_value(rough) != mr_material_plain.roughness) ||
-	       json_object_get(material, "emissiveFactor") || json_object_get(material, "alphaMode") ||
-	       json_object_get(material, "extensions");
+	return json_object_get(material, "emissiveFactor") || json_object_get(material, "alphaMode");
 }
 
 static void
@@ -511,7 +500,7 @@ read_document(reader *r, mr_model *m)
 	MR_TRY(read_vertices(r));
 	MR_TRY(join_vertices(r));
 	if (r->nf)
-		MR_TRY(name_all(r));
+		name_all(r);
 	for (size_t i = 0; i < r->parts; i++)
 		MR_TRY(read_faces(r, &r->part[i]));
 	say_left(r);

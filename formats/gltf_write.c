@@ -8,9 +8,6 @@
 
 enum { POINTS = 0, FRAMES_A_SECOND = 24 };
 
-/* What all corners of a face have. */
-enum { TEXCOORDS = 1, NORMALS = 2, KINDS = 4 };
-
 /* The document on its way.  What jansson has no memory for is noted, and told of in the end. */
 typedef struct glb {
 	mr_sink *s;
@@ -31,12 +28,11 @@ typedef struct layer {
 	const char *name; /* of its nodes, before that of an object */
 	mr_gltf_vertices v;
 	mr_face_names object, material;
-	uint32_t *kind;    /* of each face: what all its corners have */
-	uint32_t *face;    /* nf, by object, material and kind */
+	uint32_t *face;    /* nf, by object and material */
 	size_t *materials; /* of each of its names, the material of the document */
 	size_t position, normal, texcoord, color;
-	json_t *targets, *bare_targets; /* poses, and without their normals */
-	size_t sampler;                 /* of the poses' weights */
+	json_t *targets; /* poses */
+	size_t sampler;  /* of the poses' weights */
 } layer;
 
 /* ---- pieces of JSON and bytes ---- */
@@ -264,28 +260,36 @@ as_unit(mr_v3 n)
 	return fabs(mr_norm2(f) - 1) < 5e-4 ? f : as_floats(mr_unit(n));
 }
 
-/* The normal of a vertex; along z where none is known, as of isolated vertices. */
+/* The normal of a vertex; where none is known its triangle's, and along z that of an isolated one. */
 static mr_v3
-normal_of(const mr_v3 *of_vertices, const mr_v3 *of_corners, const mr_gltf_vertices *v, size_t i)
+normal_of(const mr_model *m, const mr_target *pose, const mr_gltf_vertices *v, size_t i)
 {
-	const mr_v3 *n = of_vertices ? of_vertices + v->vertex[i] : NULL;
+	uint32_t c = v->corner[i];
+	mr_v3 n = mr_vec(0, 0, 0);
 
-	if (of_corners)
-		n = v->corner[i] != MR_NONE ? of_corners + v->corner[i] : NULL;
-	return n && is_direction(*n) ? as_unit(*n) : mr_vec(0, 0, 1);
+	if (pose->corner_normal && c != MR_NONE)
+		n = pose->corner_normal[c];
+	else if (pose->normal)
+		n = pose->normal[v->vertex[i]];
+	if (!is_direction(n) && c != MR_NONE) {
+		const uint32_t *t = m->t[c / 3].v;
+		n = mr_cross(mr_sub(pose->p[t[1]], pose->p[t[0]]), mr_sub(pose->p[t[2]], pose->p[t[0]]));
+	}
+	return is_direction(n) ? as_unit(n) : mr_vec(0, 0, 1);
 }
 
 /* pose: NULL, or the one that turns them. */
 static void
 put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_gltf_vertices *v, size_t *accessor)
 {
+	const mr_target rest = { m->p, m->normal, m->corner_normal };
 	char *to = NULL;
 
 	new_values(w, v->count, 12, MR_GLTF_ARRAY, MR_GLTF_FLOAT, "VEC3", &to, accessor);
 	for (size_t i = 0; i < v->count; i++) {
-		mr_v3 n = normal_of(m->normal, m->corner_normal, v, i);
+		mr_v3 n = normal_of(m, &rest, v, i);
 		if (pose)
-			n = mr_sub(normal_of(pose->normal, pose->corner_normal, v, i), n);
+			n = mr_sub(normal_of(m, pose, v, i), n);
 		to = mr_store_floats(to, n);
 	}
 }
@@ -329,6 +333,20 @@ put_colors(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accesso
 			 json_array_get(w->accessors, *accessor), "normalized", json_true()) != 0;
 }
 
+/* Points have normals where all of them have some. */
+static bool
+has_normals(glb *w, const mr_model *m)
+{
+	size_t normals = 0;
+
+	if (m->nf)
+		return m->normal || m->corner_normal;
+	for (size_t i = 0; m->normal && i < m->nv; i++)
+		normals += is_direction(m->normal[i]);
+	mr_lost(w->ctx, NULL, normals < m->nv ? normals : 0, "normals beside points without");
+	return normals == m->nv;
+}
+
 static void
 put_vertices(glb *w, layer *l)
 {
@@ -336,7 +354,7 @@ put_vertices(glb *w, layer *l)
 
 	l->normal = l->texcoord = l->color = MR_UNKNOWN;
 	put_positions(w, m->p, NULL, &l->v, &l->position);
-	if (m->normal || m->corner_normal)
+	if (has_normals(w, m))
 		put_normals(w, m, NULL, &l->v, &l->normal);
 	if (m->texcoord || m->corner_texcoord)
 		put_texcoords(w, m, &l->v, &l->texcoord);
@@ -382,7 +400,6 @@ put_poses(glb *w, layer *l)
 			put_normals(w, &node->model, &node->target[i], &l->v, &normal);
 		push(w, l->targets,
 		    json_pack("{s:I, s:o*}", "POSITION", number(position), "NORMAL", index_of(normal)));
-		push(w, l->bare_targets, json_pack("{s:I}", "POSITION", number(position)));
 	}
 	if (node->targets)
 		put_weights(w, node->targets, &l->sampler);
@@ -390,34 +407,35 @@ put_poses(glb *w, layer *l)
 
 /* ---- primitives, meshes, nodes ---- */
 
-/* A primitive of vertices that have normals and texture coordinates, or not. */
+/* A primitive of the layer's vertices. */
 static json_t *
-new_primitive(const layer *l, bool normals, bool texcoords, size_t indices, size_t material, size_t mode)
+new_primitive(const layer *l, bool texcoords, size_t indices, size_t material, size_t mode)
 {
 	return json_pack("{s:{s:I, s:o*, s:o*, s:o*}, s:o*, s:o*, s:o*, s:o*}", "attributes", "POSITION",
-	    number(l->position), "NORMAL", index_of(normals ? l->normal : MR_UNKNOWN), "TEXCOORD_0",
+	    number(l->position), "NORMAL", index_of(l->normal), "TEXCOORD_0",
 	    index_of(texcoords ? l->texcoord : MR_UNKNOWN), "COLOR_0", index_of(l->color), "targets",
-	    filled(normals ? l->targets : l->bare_targets), "indices", index_of(indices), "material",
-	    index_of(material), "mode", index_of(mode));
+	    filled(l->targets), "indices", index_of(indices), "material", index_of(material), "mode",
+	    index_of(mode));
 }
 
-/* The primitive of faces `first` to `last` in the order. */
-static mr_status
+/* The primitive of faces `first` to `last` in the order; it has texture coordinates where a corner has some.
+ */
+static void
 put_primitive(glb *w, const layer *l, size_t first, size_t last, json_t *primitives)
 {
-	uint32_t f = l->face[first];
 	size_t accessor = 0;
+	bool texcoords = false;
 	char *to = NULL;
 
 	new_values(
 	    w, 3 * (last - first), 4, MR_GLTF_ELEMENTS, MR_GLTF_UNSIGNED_INT, "SCALAR", &to, &accessor);
 	for (size_t i = first; i < last; i++)
-		for (size_t k = 0; k < 3; k++)
-			to = mr_store32(to, l->v.index[3 * (size_t)l->face[i] + k]);
+		for (size_t c = 3 * (size_t)l->face[i]; c < 3 * (size_t)l->face[i] + 3; c++) {
+			to = mr_store32(to, l->v.index[c]);
+			texcoords |= has_texcoord(mr_corner_texcoord(&l->node->model, c));
+		}
 	push(w, primitives,
-	    new_primitive(
-		l, l->kind[f] & NORMALS, l->kind[f] & TEXCOORDS, accessor, material_of(w, l, f), MR_UNKNOWN));
-	return MR_OK;
+	    new_primitive(l, texcoords, accessor, material_of(w, l, l->face[first]), MR_UNKNOWN));
 }
 
 /* A node and its mesh; takes the primitives. */
@@ -450,88 +468,39 @@ object_name(glb *w, const layer *l, uint32_t object)
 static bool
 is_alike(const layer *l, uint32_t f, uint32_t g)
 {
-	return l->object.of[f] == l->object.of[g] && l->material.of[f] == l->material.of[g] &&
-	       l->kind[f] == l->kind[g];
+	return l->object.of[f] == l->object.of[g] && l->material.of[f] == l->material.of[g];
 }
 
 /* The primitives of one object, from face *at in the order on, which goes behind them. */
-static mr_status
+static void
 put_object(glb *w, const layer *l, size_t *at)
 {
 	uint32_t object = l->object.of[l->face[*at]];
-	char *name = object_name(w, l, object);
 	json_t *primitives = json_array();
-	mr_status status = MR_OK;
 
-	while (*at < l->node->model.nf && l->object.of[l->face[*at]] == object && status == MR_OK) {
+	while (*at < l->node->model.nf && l->object.of[l->face[*at]] == object) {
 		size_t end = *at + 1;
 		while (end < l->node->model.nf && is_alike(l, l->face[*at], l->face[end]))
 			end++;
-		status = put_primitive(w, l, *at, end, primitives);
+		put_primitive(w, l, *at, end, primitives);
 		*at = end;
 	}
-	if (status == MR_OK)
-		put_node(w, l, name, primitives);
-	else
-		json_decref(primitives);
-	return status;
+	put_node(w, l, object_name(w, l, object), primitives);
 }
 
-/* What all corners of each face have; what only some have is lost. */
-static void
-find_kinds(glb *w, layer *l)
-{
-	const mr_model *m = &l->node->model;
-	size_t some_normals = 0, some_texcoords = 0;
-
-	l->kind = MR_NEW(w->ctx, m->nf, uint32_t);
-	for (size_t f = 0; f < m->nf; f++) {
-		size_t texcoords = 0, normals = 0;
-		for (size_t c = 3 * f; c < 3 * f + 3; c++) {
-			const mr_v3 *n = m->corner_normal ? m->corner_normal + c
-			                 : m->normal      ? m->normal + m->t[f].v[c % 3]
-			                                  : NULL;
-			texcoords += has_texcoord(mr_corner_texcoord(m, c));
-			normals += n && is_direction(*n);
-		}
-		some_texcoords += texcoords % 3;
-		some_normals += normals % 3;
-		l->kind[f] = (texcoords == 3 ? TEXCOORDS : 0u) | (normals == 3 ? NORMALS : 0u);
-	}
-	mr_lost(w->ctx, NULL, some_normals, "normals of triangles that lack others");
-	mr_lost(w->ctx, NULL, some_texcoords, "texture coordinates of triangles that lack others");
-}
-
-/* Faces by object, material and kind. */
+/* Faces by object and material. */
 static void
 order_faces(glb *w, layer *l)
 {
 	const mr_model *m = &l->node->model;
 
-	find_kinds(w, l);
 	mr_face_names_find(w->ctx, m->object, m->objects, m->nf, &l->object);
 	mr_face_names_find(w->ctx, m->material, m->materials, m->nf, &l->material);
 	l->face = MR_NEW(w->ctx, m->nf, uint32_t);
 	for (size_t f = 0; f < m->nf; f++)
 		l->face[f] = (uint32_t)f;
-	mr_sort_by(w->ctx, l->kind, KINDS, l->face, m->nf);
 	mr_sort_by(w->ctx, l->material.of, l->material.count, l->face, m->nf);
 	mr_sort_by(w->ctx, l->object.of, l->object.count, l->face, m->nf);
-}
-
-/* Points have normals where all of them have some. */
-static void
-put_cloud(glb *w, const layer *l)
-{
-	const mr_model *m = &l->node->model;
-	json_t *primitives = json_array();
-	size_t normals = 0;
-
-	for (size_t i = 0; m->normal && i < m->nv; i++)
-		normals += is_direction(m->normal[i]);
-	mr_lost(w->ctx, NULL, normals < m->nv ? normals : 0, "normals beside points without");
-	push(w, primitives, new_primitive(l, normals == m->nv, true, MR_UNKNOWN, MR_UNKNOWN, POINTS));
-	put_node(w, l, l->name, primitives);
 }
 
 static mr_status
@@ -546,13 +515,14 @@ put_layer(glb *w, layer *l)
 	put_vertices(w, l);
 	put_poses(w, l);
 	if (m->nf == 0) {
-		put_cloud(w, l);
+		put_node(
+		    w, l, l->name, json_pack("[o]", new_primitive(l, true, MR_UNKNOWN, MR_UNKNOWN, POINTS)));
 		return MR_OK;
 	}
 	order_faces(w, l);
 	MR_TRY(put_materials(w, l));
 	while (at < m->nf)
-		MR_TRY(put_object(w, l, &at));
+		put_object(w, l, &at);
 	return MR_OK;
 }
 
@@ -578,11 +548,9 @@ put_scene(glb *w)
 	for (size_t i = 0; i < w->scene->nodes; i++) {
 		layer l = { .node = &w->scene->node[i],
 			.name = node_name(w->ctx, w->scene, &w->scene->node[i]),
-			.targets = json_array(),
-			.bare_targets = json_array() };
+			.targets = json_array() };
 		mr_status status = put_layer(w, &l);
 		json_decref(l.targets);
-		json_decref(l.bare_targets);
 		MR_TRY(status);
 	}
 	return MR_OK;

@@ -172,17 +172,14 @@ read_library(finder *f, size_t count, const char *path)
 		return MR_OK;
 	f->files++;
 	MR_TRY(mr_file_bytes_read(f->ctx, path, &b));
-	return mr_prefix(
-	    f->ctx, mr_file_bytes_end(&b, statements(f, count, b.data, b.size)), "%s", path);
+	return mr_prefix(f->ctx, mr_file_bytes_end(&b, statements(f, count, b.data, b.size)), "%s", path);
 }
 
 /* A line names one file, whose name may have blanks in it, or several. */
 static mr_status
 read_libraries(finder *f, size_t count, mr_lines files)
 {
-	mr_scan text = { f->ctx, files.text, files.text,
-		files.bytes ? files.text + files.bytes : files.text },
-		line;
+	mr_scan text = mr_scan_of(f->ctx, (const unsigned char *)files.text, files.bytes), line;
 
 	while (mr_scan_line(&text, &line)) {
 		const char *path = find_file(f, line.p, (size_t)(line.end - line.p)), *name;

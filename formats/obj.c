@@ -52,7 +52,7 @@ unfold(mr_scan *t)
 	if (!memchr(t->p, '\\', (size_t)(t->end - t->p)))
 		return;
 	to = mr_alloc(t->ctx, (size_t)(t->end - t->p) + 1, 1);
-	*t = (mr_scan){ t->ctx, to, to, to };
+	*t = (mr_scan){ t->ctx, to, to, to, false };
 	while (mr_scan_line(&rest, &line)) {
 		size_t n = (size_t)(line.end - line.p);
 		bool more = continues(line.p, line.end) && rest.p < rest.end;
@@ -278,7 +278,7 @@ smoothing(obj *o, mr_scan *line)
 
 /* A statement that marks the faces to come, or names materials' files; false for any other. */
 static bool
-is_mark(obj *o, mr_scan *line, mr_status *status)
+is_mark(obj *o, mr_scan *line)
 {
 	static const struct {
 		const char *word;
@@ -296,9 +296,9 @@ is_mark(obj *o, mr_scan *line, mr_status *status)
 	if (words[i].what == MR_SMOOTHING)
 		smoothing(o, line);
 	else if (words[i].what == MR_MARKINGS)
-		*status = mr_build_library(&o->b, line->p, (size_t)(line->end - line->p));
+		mr_build_library(&o->b, line->p, (size_t)(line->end - line->p));
 	else
-		*status = mr_build_mark(&o->b, words[i].what, line->p, (size_t)(line->end - line->p));
+		mr_build_mark(&o->b, words[i].what, line->p, (size_t)(line->end - line->p), false);
 	return true;
 }
 
@@ -325,7 +325,6 @@ one_line(obj *o, mr_scan *line, bool *pass)
 {
 	size_t left = (size_t)(line->end - line->p);
 	char c = left ? *line->p : '#', d = left > 1 ? line->p[1] : ' ';
-	mr_status status = MR_OK;
 
 	*pass = false;
 	if (c == '#')
@@ -338,7 +337,7 @@ one_line(obj *o, mr_scan *line, bool *pass)
 		*pass = true;
 		return check_face(line);
 	}
-	return is_mark(o, line, &status) ? status : other_statement(o, line);
+	return is_mark(o, line) ? MR_OK : other_statement(o, line);
 }
 
 /* A line for tinyobj, which knows few blanks, and takes the next corner's index behind a slash with nothing

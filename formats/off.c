@@ -9,7 +9,7 @@
 typedef struct off {
 	mr_ctx *ctx;
 	mr_scan text;
-	bool normals, colors, texcoords, binary;
+	bool normals, colors, texcoords;
 	mr_builder b;
 	mr_rows rows;
 	uint64_t nv, nf;
@@ -49,8 +49,8 @@ keyword(off *f)
 		return false;
 	f->text.p = t.p;
 	mr_skip_blanks(&t);
-	f->binary = take(&t, "BINARY");
-	if (f->binary && mr_scan_line(&t, &(mr_scan){ 0 }))
+	f->text.binary = take(&t, "BINARY");
+	if (f->text.binary && mr_scan_line(&t, &(mr_scan){ 0 }))
 		f->text.p = t.p;
 	return true;
 }
@@ -208,10 +208,9 @@ need(const off *f, const unsigned char *p, uint64_t words)
 {
 	size_t left = (size_t)((const unsigned char *)f->text.end - p);
 
-	return words <= left / 4
-	           ? MR_OK
-	           : mr_fail(f->ctx, MR_EFORMAT, "byte %zu: %llu numbers cannot be in %zu bytes",
-			 (size_t)((const char *)p - f->text.start), (unsigned long long)words, left);
+	return words <= left / 4 ? MR_OK
+	                         : mr_scan_fail(&f->text, p, "%llu numbers cannot be in %zu bytes",
+				       (unsigned long long)words, left);
 }
 
 static mr_status
@@ -228,8 +227,7 @@ binary_face(off *f, const unsigned char **at, bool big)
 	for (size_t k = 0; k < n; k++, p += 4) {
 		f->corner[k] = mr_load32(p, big);
 		if (f->corner[k] >= f->nv)
-			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: vertex %u of %zu",
-			    (size_t)((const char *)p - f->text.start), f->corner[k], f->b.nv);
+			return mr_scan_fail(&f->text, p, "vertex %u of %zu", f->corner[k], f->b.nv);
 	}
 	if (big) {
 		size_t colors = mr_load32(p, big);
@@ -262,8 +260,7 @@ read_binary(off *f)
 		for (size_t k = 0; k < width; k++, p += 4)
 			x[k] = mr_load_float(p, big);
 		if (!mr_finite(mr_rows_position(&f->rows, x)))
-			return mr_fail(f->ctx, MR_EFORMAT, "byte %zu: a coordinate is not finite",
-			    (size_t)((const char *)p - f->text.start) - 4 * width);
+			return mr_scan_fail(&f->text, p - 4 * width, "a coordinate is not finite");
 		mr_rows_put(&f->rows, x);
 	}
 	mr_rows_end(&f->rows);
@@ -281,7 +278,7 @@ mr_off_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 
 	f.rows.b = &f.b;
 	keyword(&f);
-	MR_TRY(f.binary ? read_binary(&f) : read_text(&f));
+	MR_TRY(f.text.binary ? read_binary(&f) : read_text(&f));
 	mr_lost(ctx, NULL, f.face_colors, "colors of faces");
 	mr_lost(ctx, NULL, f.ignored, "numbers behind vertices");
 	return mr_build_finish(&f.b, m);

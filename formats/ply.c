@@ -5,35 +5,18 @@
  */
 #include "formats/ply.h"
 
-/* ---- failures ---- */
-
-static mr_status MR_PRINTF(3, 4) bad(ply *f, const void *where, const char *format, ...)
-{
-	char sentence[MR_ERROR_MAX / 2];
-	va_list args;
-
-	va_start(args, format);
-	vsnprintf(sentence, sizeof sentence, format, args);
-	va_end(args);
-	if (f->ascii)
-		return mr_scan_fail(&f->text, where, "%s", sentence);
-	return mr_fail(
-	    f->ctx, MR_EFORMAT, "byte %zu: %s", (size_t)((const unsigned char *)where - f->data), sentence);
-}
-
 static size_t
 bytes_left(const ply *f)
 {
-	return f->ascii ? (size_t)(f->text.end - f->text.p) : (size_t)(f->end - f->p);
+	return (size_t)(f->text.end - f->text.p);
 }
 
 /* Where the next value stands. */
-static const void *
+static const char *
 here(ply *f)
 {
-	if (!f->ascii)
-		return f->p;
-	mr_skip_space(&f->text);
+	if (!f->text.binary)
+		mr_skip_space(&f->text);
 	return f->text.p;
 }
 
@@ -43,10 +26,11 @@ here(ply *f)
 static mr_status
 next_value(ply *f, type t, double *x)
 {
-	if (f->ascii)
+	if (!f->text.binary)
 		return mr_scan_real(&f->text, "a value", x); /* all its digits, even of a float */
-	*x = mr_load_number(f->p, mr_ply_types[t].kind, mr_ply_types[t].bytes, f->big);
-	f->p += mr_ply_types[t].bytes;
+	*x = mr_load_number(
+	    (const unsigned char *)f->text.p, mr_ply_types[t].kind, mr_ply_types[t].bytes, f->big);
+	f->text.p += mr_ply_types[t].bytes;
 	return MR_OK;
 }
 
@@ -54,18 +38,18 @@ next_value(ply *f, type t, double *x)
 static mr_status
 next_length(ply *f, const property *p, size_t *n)
 {
-	const void *where = here(f);
+	const char *where = here(f);
 	double x = 0;
-	size_t left, each = f->ascii ? 2 : mr_ply_types[p->value].bytes;
+	size_t left, each = !f->text.binary ? 2 : mr_ply_types[p->value].bytes;
 
-	if (!f->ascii && bytes_left(f) < mr_ply_types[p->count].bytes)
-		return bad(f, f->end, "the file ends before the length of a list");
+	if (f->text.binary && bytes_left(f) < mr_ply_types[p->count].bytes)
+		return mr_scan_fail(&f->text, f->text.end, "the file ends before the length of a list");
 	MR_TRY(next_value(f, p->count, &x));
-	left = bytes_left(f) + f->ascii;
+	left = bytes_left(f) + !f->text.binary;
 	if (!(x >= 0) || x != floor(x))
-		return bad(f, where, "a list of length %g", x);
+		return mr_scan_fail(&f->text, where, "a list of length %g", x);
 	if (x > (double)(left / each))
-		return bad(f, where, "a list of length %.17g, beyond the end of the file", x);
+		return mr_scan_fail(&f->text, where, "a list of length %.17g, beyond the end of the file", x);
 	*n = (size_t)x;
 	return MR_OK;
 }
@@ -89,10 +73,11 @@ row_bytes(const element *e, bool ascii)
 static mr_status
 begin_rows(ply *f, const element *e)
 {
-	size_t left = bytes_left(f), bytes = row_bytes(e, f->ascii);
+	size_t left = bytes_left(f), bytes = row_bytes(e, !f->text.binary);
 
-	if (e->rows && bytes && e->rows > (left + f->ascii) / bytes)
-		return bad(f, here(f), "%llu rows of element %s cannot be in the %zu bytes that are left",
+	if (e->rows && bytes && e->rows > (left + !f->text.binary) / bytes)
+		return mr_scan_fail(&f->text, here(f),
+		    "%llu rows of element %s cannot be in the %zu bytes that are left",
 		    (unsigned long long)e->rows, e->name, left);
 	MR_RESERVE(f->ctx, f->row, 0, e->properties, &f->row_room);
 	return MR_OK;
@@ -105,8 +90,8 @@ pass_list(ply *f, const property *p)
 	double x;
 
 	MR_TRY(next_length(f, p, &n));
-	if (!f->ascii) {
-		f->p += n * mr_ply_types[p->value].bytes;
+	if (f->text.binary) {
+		f->text.p += n * mr_ply_types[p->value].bytes;
 		return MR_OK;
 	}
 	while (n-- > 0)
@@ -126,18 +111,19 @@ read_indices(ply *f, const property *p, bool strips)
 	MR_RESERVE(f->ctx, f->indices, 0, n, &f->indices_room);
 	f->indices_count = n;
 	for (size_t i = 0; i < n; i++) {
-		const void *where = here(f);
+		const char *where = here(f);
 		uint64_t at;
 		double x = 0;
-		if (!f->ascii && (p->value == INT || p->value == UINT)) {
-			uint32_t raw = mr_load32(f->p, f->big); /* the usual case */
-			f->p += size;
+		if (f->text.binary && (p->value == INT || p->value == UINT)) {
+			uint32_t raw = mr_load32(
+			    (const unsigned char *)f->text.p, f->big); /* the usual case */
+			f->text.p += size;
 			if (raw < f->b.nv) {
 				f->indices[i] = raw;
 				continue;
 			}
 			x = p->value == INT ? (double)(int32_t)raw : (double)raw;
-		} else if (f->ascii && f->text.p < f->text.end && mr_is_digit(*f->text.p)) {
+		} else if (!f->text.binary && f->text.p < f->text.end && mr_is_digit(*f->text.p)) {
 			MR_TRY(mr_scan_count(&f->text, "an index", UINT32_MAX, &at));
 			x = (double)at;
 		} else
@@ -147,7 +133,7 @@ read_indices(ply *f, const property *p, bool strips)
 		else if (x >= 0 && x < (double)f->b.nv && x == floor(x))
 			f->indices[i] = (uint32_t)x;
 		else
-			return bad(f, where, "vertex %.17g of %zu", x, f->b.nv);
+			return mr_scan_fail(&f->text, where, "vertex %.17g of %zu", x, f->b.nv);
 	}
 	return MR_OK;
 }
@@ -242,8 +228,8 @@ read_value(ply *f, const element *e, uint64_t row, size_t i)
 		return read_corners(f, p, &f->uv);
 	if (p->list)
 		return pass_list(f, p);
-	if (!f->ascii && bytes_left(f) < mr_ply_types[p->value].bytes)
-		return bad(f, f->end, "the file ends in row %llu of %llu of element %s",
+	if (f->text.binary && bytes_left(f) < mr_ply_types[p->value].bytes)
+		return mr_scan_fail(&f->text, f->text.end, "the file ends in row %llu of %llu of element %s",
 		    (unsigned long long)row + 1, (unsigned long long)e->rows, e->name);
 	return next_value(f, p->value, &f->row[i]);
 }
@@ -254,7 +240,7 @@ read_row(ply *f, const element *e, uint64_t row)
 {
 	for (size_t i = 0; i < e->properties; i++)
 		MR_TRY(read_value(f, e, row, i));
-	if (!f->ascii)
+	if (f->text.binary)
 		return MR_OK;
 	mr_skip_blanks(&f->text);
 	if (f->text.p == f->text.end || *f->text.p == '\n')
@@ -263,12 +249,13 @@ read_row(ply *f, const element *e, uint64_t row)
 }
 
 static mr_status
-put_vertex(ply *f, const void *where)
+put_vertex(ply *f, const char *where)
 {
 	mr_v3 p = mr_rows_position(&f->rows, f->row);
 
 	if (!mr_finite(p))
-		return bad(f, where, "position %zu (%g %g %g) is not finite", f->rows.n, p.x, p.y, p.z);
+		return mr_scan_fail(
+		    &f->text, where, "position %zu (%g %g %g) is not finite", f->rows.n, p.x, p.y, p.z);
 	mr_rows_put(&f->rows, f->row);
 	return MR_OK;
 }
@@ -281,13 +268,13 @@ begin_element(ply *f, const element *e)
 	if (e->kind == OTHER)
 		return MR_OK;
 	if (e->kind == VERTEX && !(f->rows.at[MR_X] && f->rows.at[MR_Y] && f->rows.at[MR_Z]))
-		return bad(f, here(f), "element vertex lacks x, y or z");
+		return mr_scan_fail(&f->text, here(f), "element vertex lacks x, y or z");
 	if (e->kind == VERTEX)
 		return mr_rows_room(&f->rows, e->rows);
 	if (e->rows && !has(e, INDICES))
-		return bad(f, here(f), "element %s has no list of vertex_indices", e->name);
+		return mr_scan_fail(&f->text, here(f), "element %s has no list of vertex_indices", e->name);
 	if (e->rows && !f->vertices)
-		return bad(f, here(f), "element %s before the vertices is not read", e->name);
+		return mr_scan_fail(&f->text, here(f), "element %s before the vertices is not read", e->name);
 	return mr_build_reserve(&f->b, e->kind == FACE && e->rows < MR_NONE / 3 ? (size_t)e->rows : 0);
 }
 
@@ -296,7 +283,7 @@ read_element(ply *f, const element *e)
 {
 	MR_TRY(begin_element(f, e));
 	for (uint64_t row = 0; e->properties && row < e->rows; row++) {
-		const void *where = here(f);
+		const char *where = here(f);
 		size_t faces = f->b.faces;
 		MR_TRY(read_row(f, e, row));
 		if (e->kind == VERTEX)
@@ -336,12 +323,7 @@ lose_others(ply *f)
 mr_status
 mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 {
-	ply f = { .ctx = ctx,
-		.data = data,
-		.end = data + size,
-		.text = mr_scan_of(ctx, data, size),
-		.ascii = true,
-		.b = { .ctx = ctx } };
+	ply f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 
 	f.rows.b = &f.b;
 	MR_TRY(mr_ply_header(&f));
@@ -349,10 +331,8 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		MR_TRY(read_element(&f, &f.element[i]));
 	if (!f.vertices)
 		return mr_fail(ctx, MR_EMESH, "ply without a vertex");
-	if (f.ascii)
+	if (!f.text.binary)
 		mr_skip_comments(&f.text);
-	else
-		f.text.p = (const char *)f.p;
 	mr_scan_rest(&f.text);
 	lose_others(&f);
 	f.b.uv = f.uv.value;

@@ -52,10 +52,8 @@ typedef struct corner_list {
 
 typedef struct ply {
 	mr_ctx *ctx;
-	const unsigned char *data, *end;
-	mr_scan text;           /* the header, then the rows of a text file */
-	const unsigned char *p; /* the rows of a binary file */
-	bool ascii, big;
+	mr_scan text; /* the header, then the rows */
+	bool binary, big;
 	element *element;
 	size_t elements, room;
 	mr_builder b;

@@ -106,9 +106,9 @@ header_format(ply *f, mr_scan *line, bool *seen)
 
 	if (!mr_scan_word(line, &w, &n))
 		return mr_scan_fail(&f->text, line->p, "the format lacks its name");
-	f->ascii = is_word(w, n, "ascii");
+	f->binary = !is_word(w, n, "ascii");
 	f->big = is_word(w, n, "binary_big_endian");
-	if (!f->ascii && !f->big && !is_word(w, n, "binary_little_endian"))
+	if (f->binary && !f->big && !is_word(w, n, "binary_little_endian"))
 		return mr_scan_fail(&f->text, w, "'%s' is no format of PLY", mr_word_shown(w, n, shown));
 	if (!mr_scan_accept(line, "1.0"))
 		return mr_scan_fail(&f->text, line->p, "the format's version is not 1.0");
@@ -178,7 +178,7 @@ mr_ply_header(ply *f)
 		if (mr_scan_accept(&line, "end_header")) {
 			if (!format)
 				return mr_scan_fail(&f->text, line.p, "the header lacks its format");
-			f->p = (const unsigned char *)f->text.p;
+			f->text.binary = f->binary;
 			choose_properties(f);
 			return MR_OK;
 		}

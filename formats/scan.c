@@ -31,7 +31,7 @@ mr_line_number(const mr_scan *t, const char *where)
 }
 
 /* In brackets: for make lint there is a macro of this name. */
-mr_status(mr_scan_fail)(const mr_scan *t, const char *where, const char *format, ...)
+mr_status(mr_scan_fail)(const mr_scan *t, const void *where, const char *format, ...)
 {
 	char sentence[MR_ERROR_MAX / 2];
 	va_list args;
@@ -39,7 +39,8 @@ mr_status(mr_scan_fail)(const mr_scan *t, const char *where, const char *format,
 	va_start(args, format);
 	vsnprintf(sentence, sizeof sentence, format, args);
 	va_end(args);
-	return mr_fail(t->ctx, MR_EFORMAT, "line %zu: %s", mr_line_number(t, where), sentence);
+	return mr_fail(t->ctx, MR_EFORMAT, "%s %zu: %s", t->binary ? "byte" : "line",
+	    t->binary ? (size_t)((const char *)where - t->start) : mr_line_number(t, where), sentence);
 }
 
 bool
@@ -50,7 +51,8 @@ mr_scan_line(mr_scan *t, mr_scan *line)
 	if (t->p == t->end)
 		return false;
 	e = memchr(t->p, '\n', (size_t)(t->end - t->p));
-	*line = (mr_scan){ t->ctx, t->start, t->p, e ? e : t->end };
+	*line = *t;
+	line->end = e ? e : t->end;
 	t->p = e ? e + 1 : t->end;
 	if (line->end > line->p && line->end[-1] == '\r')
 		line->end--;

@@ -12,10 +12,11 @@
 #include "base/vec.h"
 #include "formats/numbers.h"
 
-/* A place in a text; the line number is found when an error needs it. */
+/* A place in a file; the line number is found when an error needs it. */
 typedef struct mr_scan {
 	mr_ctx *ctx;
 	const char *start, *p, *end;
+	bool binary; /* places are told by bytes */
 } mr_scan;
 
 char *mr_count_write(char *to, uint64_t n);
@@ -86,8 +87,8 @@ bool mr_word_not_finite(const char *word, size_t bytes, double *x);
 enum { MR_SHOWN = 40 };
 const char *mr_word_shown(const char *word, size_t bytes, char text[MR_SHOWN]);
 
-/* "line N: sentence" for the line of `where`. */
-mr_status mr_scan_fail(const mr_scan *t, const char *where, const char *format, ...) MR_PRINTF(3, 4);
+/* "line N: sentence" for the line of `where`, or "byte N: sentence". */
+mr_status mr_scan_fail(const mr_scan *t, const void *where, const char *format, ...) MR_PRINTF(3, 4);
 
 /* The number of the line, from 1. */
 size_t mr_line_number(const mr_scan *t, const char *where);

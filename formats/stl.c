@@ -91,7 +91,7 @@ end_facet(ascii *a, const char *where)
 
 /* What is left of the line is the name of a solid, which begins a group, but for a first one without a name.
  */
-static mr_status
+static void
 name_solid(ascii *a, bool begins)
 {
 	mr_scan line = { 0 };
@@ -99,8 +99,7 @@ name_solid(ascii *a, bool begins)
 	mr_skip_blanks(&a->text);
 	mr_scan_line(&a->text, &line);
 	if (begins && (a->solids++ > 0 || line.p < line.end))
-		return mr_build_new_mark(&a->b, MR_GROUP, line.p, (size_t)(line.end - line.p));
-	return MR_OK;
+		mr_build_mark(&a->b, MR_GROUP, line.p, (size_t)(line.end - line.p), true);
 }
 
 /* What stands behind a word; words that say nothing, as those of a normal, are passed over. */
@@ -113,9 +112,8 @@ read_word(ascii *a, const char *w, size_t n)
 		if (begins == a->inside)
 			return mr_scan_fail(&a->text, w, "'%.*s' stands where it may not", (int)n, w);
 		a->inside = begins;
-		return name_solid(a, begins);
-	}
-	if (mr_word_is(w, n, "outer"))
+		name_solid(a, begins);
+	} else if (mr_word_is(w, n, "outer"))
 		a->first = a->corners;
 	else if (mr_word_is(w, n, "endloop"))
 		return end_facet(a, w);
