@@ -27,7 +27,7 @@ typedef struct layer {
 	size_t level;
 	double closed;    /* cosine of the angle beyond which edges are not to close */
 	mr_v3 *from, *to; /* its vertices */
-	mr_v3 *seen;      /* the control vertices then */
+	mr_v3 *seen;      /* the same then */
 	bool *moves;      /* control faces whose surface had moved */
 	bool *crosses;    /* its faces that pass through others */
 	bool *tangled;    /* control vertices of such faces at the end of a step */
@@ -35,7 +35,6 @@ typedef struct layer {
 
 struct mr_fit_guard {
 	const mr_loop *level;
-	const mr_fit_lists *patch;
 	layer control, fine;
 };
 
@@ -82,17 +81,14 @@ is_bad(const void *arg, uint32_t f)
 static void
 find_moves(layer *y)
 {
-	const mr_fit_lists *l = y->g->patch;
-	const mr_v3 *x = y->g->control.to;
+	const mr_loop *l = &y->g->level[y->level];
 
-	for (size_t f = 0; f < l->count; f++) {
-		y->moves[f] = false;
-		for (size_t i = l->start[f]; i < l->start[f + 1]; i++) {
-			int v = l->member[i];
-			y->moves[f] |= memcmp(&y->seen[v], &x[v], sizeof *x) != 0;
-		}
+	memset(y->moves, 0, y->g->level[0].nf * sizeof *y->moves);
+	for (size_t h = 0; h < 3 * l->nf; h++) {
+		uint32_t v = l->t[h / 3].v[h % 3];
+		y->moves[h / 3 >> 2 * y->level] |= memcmp(&y->seen[v], &y->to[v], sizeof *y->to) != 0;
 	}
-	memcpy(y->seen, x, y->g->level[0].nv * sizeof *x);
+	memcpy(y->seen, y->to, l->nv * sizeof *y->to);
 }
 
 /* Brings a level above the control mesh to where that is. */
@@ -113,9 +109,9 @@ look(mr_ctx *ctx, void *arg)
 {
 	layer *y = arg;
 
-	find_moves(y);
 	if (y->level > 0)
 		refine(ctx, y);
+	find_moves(y);
 	mr_find_crossings(ctx, y->g->level, y->level, y->to, y->moves, y->crosses);
 	return MR_OK;
 }
@@ -167,19 +163,17 @@ layer_new(mr_ctx *ctx, guard *g, size_t level, double closed, layer *y)
 	size_t nv = g->level[0].nv, fine_nv = g->level[level].nv;
 
 	*y = (layer){ g, level, closed, MR_NEW(ctx, fine_nv, mr_v3), MR_NEW(ctx, fine_nv, mr_v3),
-		MR_NEW(ctx, nv, mr_v3), MR_NEW(ctx, g->level[0].nf, bool),
+		MR_NEW(ctx, fine_nv, mr_v3), MR_NEW(ctx, g->level[0].nf, bool),
 		MR_NEW_ZERO(ctx, g->level[level].nf, bool), MR_NEW(ctx, nv, bool) };
-	memset(y->seen, 0xff, nv * sizeof *y->seen); /* nowhere */
+	memset(y->seen, 0xff, fine_nv * sizeof *y->seen); /* nowhere */
 }
 
 mr_status
-mr_fit_guard_new(
-    mr_ctx *ctx, const mr_fit_surface *s, const mr_fit_lists *patch, const mr_v3 *x, mr_fit_guard **out)
+mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *x, mr_fit_guard **out)
 {
 	guard *g = MR_NEW(ctx, 1, guard);
 
 	g->level = s->level;
-	g->patch = patch;
 	layer_new(ctx, g, 0, MR_FOLD, &g->control);
 	layer_new(ctx, g, MR_FIT_FINE, MR_NEAR_FOLD, &g->fine);
 	memcpy(g->control.to, x, s->level[0].nv * sizeof *x);

@@ -7,14 +7,13 @@
 #ifndef MR_FIT_GUARD_H
 #define MR_FIT_GUARD_H
 
-#include "fit/normal_equations.h"
+#include "fit/limit_surface.h"
 
 /* The control mesh and the limit points of level 3, and what is wrong with them. */
 typedef struct mr_fit_guard mr_fit_guard;
 
-/* Looks at them where the control vertices are at x; patch: of mr_fit_system; in the arena. */
-mr_status mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *surface, const mr_fit_lists *patch,
-    const mr_v3 *x, mr_fit_guard **guard);
+/* Looks at them where the control vertices are at x; in the arena. */
+mr_status mr_fit_guard_new(mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, mr_fit_guard **guard);
 
 /* How many control faces have a surface that passes through another. */
 size_t mr_fit_crossing(const mr_fit_guard *guard);

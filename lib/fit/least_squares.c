@@ -6,7 +6,7 @@
 
 #include "base/sort.h"
 #include "fit/guard.h"
-#include "fit/solve_step.h"
+#include "fit/normal_equations.h"
 
 /*
  * Huber's weights: as least squares up to `limit` standard deviations, estimated from the median; beyond, a
@@ -84,7 +84,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, c
 	mr_fit_guard *guard;
 
 	MR_TRY(mr_fit_system_build(ctx, surface, x, form_kept(noise), &system));
-	MR_TRY(mr_fit_guard_new(ctx, surface, &system.patch, x, &guard));
+	MR_TRY(mr_fit_guard_new(ctx, surface, x, &guard));
 	for (size_t i = 0; i < passes; i++) {
 		mr_progress(ctx, "fitting", (double)i / (double)passes);
 		share_area(ctx, foot, spacing, n, surface->level[0].nf, share);

@@ -7,6 +7,8 @@
 #include "fit/normal_equations.h"
 
 #include "base/parallel.h"
+#include "base/sort.h"
+#include "solve/conjugate_gradients.h"
 
 enum { GRAIN = 16, PIECE = 512 }; /* control faces */
 
@@ -14,39 +16,125 @@ enum { GRAIN = 16, PIECE = 512 }; /* control faces */
  */
 static const double SMALL = 1e-9;
 
-/* Rows of L: the vertex less the mean of its neighbours; none where it has none. */
-static void
-star_rows(mr_ctx *ctx, const mr_fit_lists *l, double **row)
-{
-	double *r = MR_NEW(ctx, l->start[l->count], double);
+/* ---- which control vertices are coupled ---- */
 
-	for (size_t v = 0; v < l->count; v++)
-		for (size_t i = l->start[v], n = mr_fit_length(l, v) - 1; i < l->start[v + 1]; i++)
-			r[i] = n == 0 ? 0 : l->member[i] == (int)v ? 1 : -1 / (double)n;
-	*row = r;
+/* Of each control face the vertices that its surface depends on: those that its nodes do. */
+static mr_status
+patches_of(mr_ctx *ctx, const mr_fit_surface *s, mr_sparse *patch)
+{
+	size_t nf = s->level[0].nf;
+	mr_sparse nodes = { (int)nf, MR_NEW(ctx, nf + 1, int), MR_NEW(ctx, MR_FIT_SLOTS * nf, int),
+		MR_NEW_ZERO(ctx, MR_FIT_SLOTS * nf, double) };
+
+	nodes.start[0] = 0;
+	for (size_t f = 0; f < nf; f++) {
+		uint32_t slot[MR_FIT_SLOTS];
+		int first = nodes.start[f], n;
+		mr_fit_slots(s, f, slot);
+		n = (int)mr_sort_unique(slot, MR_FIT_SLOTS);
+		memcpy(nodes.index + first, slot, (size_t)n * sizeof *slot);
+		nodes.start[f + 1] = first + n;
+	}
+	return mr_sparse_multiply(ctx, &nodes, &s->s, s->level[0].nv, patch);
+}
+
+/* Lists the neighbours of v, or those along sharp edges alone; how many. */
+static size_t
+neighbours_of(const mr_loop *l, uint32_t v, bool sharp, uint32_t *list)
+{
+	const mr_mesh m = { .t = l->t, .nv = l->nv, .nf = l->nf };
+	uint32_t first = l->topo.out[v], h = first;
+	size_t n = 0;
+
+	while (h != MR_NONE) {
+		uint32_t last = mr_he_prev(h);
+		if (!sharp || l->topo.twin[h] == MR_NONE || (l->crease && l->crease[h]))
+			list[n++] = mr_he_to(&m, h);
+		h = mr_he_ccw(&l->topo, h);
+		if (h == MR_NONE)
+			list[n++] = mr_he_from(&m, last);
+		if (h == first)
+			break;
+	}
+	return n;
+}
+
+/* L: each vertex less the mean of its neighbours, on a boundary or a crease of the two along it; a corner has
+ * none, the end of a crease all. */
+static void
+stars_of(mr_ctx *ctx, const mr_loop *l, mr_sparse *star)
+{
+	size_t room = l->nv + 6 * l->nf;
+	mr_sparse r = { (int)l->nv, MR_NEW(ctx, l->nv + 1, int), MR_NEW(ctx, room, int),
+		MR_NEW(ctx, room, double) };
+
+	r.start[0] = 0;
+	for (uint32_t v = 0; v < l->nv; v++) {
+		uint32_t *list = (uint32_t *)r.index + r.start[v];
+		size_t n = neighbours_of(l, v, true, list + 1);
+		list[0] = v;
+		if (n < 2)
+			n = neighbours_of(l, v, false, list + 1);
+		else if (n > 2)
+			n = 0;
+		n = mr_sort_unique(list, n + 1);
+		for (size_t i = 0; i < n; i++)
+			r.value[r.start[v] + (int)i] = n == 1 ? 0 : list[i] == v ? 1 : -1 / (double)(n - 1);
+		r.start[v + 1] = r.start[v] + (int)n;
+	}
+	*star = r;
+}
+
+/* The pattern of the equations: all vertices of a patch, and of a star, are coupled with each other. */
+static mr_status
+couple(mr_ctx *ctx, const mr_sparse *patch, const mr_sparse *star, mr_sparse *a)
+{
+	int n = patch->n + star->n, entries = patch->start[patch->n];
+	size_t of_stars = (size_t)star->start[star->n], all = (size_t)entries + of_stars;
+	mr_sparse rows = { n, MR_NEW(ctx, (size_t)n + 1, int), MR_NEW(ctx, all, int),
+		MR_NEW_ZERO(ctx, all, double) },
+		  columns;
+
+	for (int i = 0; i <= patch->n; i++)
+		rows.start[i] = patch->start[i];
+	for (int i = 0; i <= star->n; i++)
+		rows.start[patch->n + i] = entries + star->start[i];
+	memcpy(rows.index, patch->index, (size_t)entries * sizeof *rows.index);
+	memcpy(rows.index + entries, star->index, of_stars * sizeof *rows.index);
+	MR_TRY(mr_sparse_transpose(ctx, &rows, (size_t)star->n, &columns));
+	return mr_sparse_multiply(ctx, &columns, &rows, (size_t)star->n, a);
+}
+
+static size_t
+length_of(const mr_sparse *a, size_t row)
+{
+	return (size_t)(a->start[row + 1] - a->start[row]);
 }
 
 typedef struct basis_job {
 	const mr_fit_surface *s;
-	const mr_fit_lists *l;
+	const mr_sparse *patch;
 	double *basis;
 } basis_job;
 
 static void
 spread_basis(void *arg, size_t begin, size_t end)
 {
-	basis_job *j = arg;
+	const basis_job *j = arg;
 	const mr_sparse *s = &j->s->s;
 
 	for (size_t f = begin; f < end; f++) {
-		const int *list = j->l->member + j->l->start[f];
-		size_t n = mr_fit_length(j->l, f);
-		double *to = j->basis + MR_FIT_SLOTS * j->l->start[f];
+		size_t n = length_of(j->patch, f);
+		double *to = j->basis + MR_FIT_SLOTS * (size_t)j->patch->start[f];
 		uint32_t slot[MR_FIT_SLOTS];
 		mr_fit_slots(j->s, f, slot);
 		for (size_t i = 0; i < MR_FIT_SLOTS; i++)
-			for (int e = s->start[slot[i]]; e < s->start[slot[i] + 1]; e++)
-				to[i * n + mr_fit_find(list, n, s->index[e])] = s->value[e];
+			for (int e = s->start[slot[i]], k = j->patch->start[f]; e < s->start[slot[i] + 1];
+			     e++) {
+				while (j->patch->index[k] != s->index[e])
+					k++;
+				to[i * n + (size_t)(k - j->patch->start[f])] = s->value[e];
+			}
 	}
 }
 
@@ -55,27 +143,23 @@ mr_fit_system_build(
     mr_ctx *ctx, const mr_fit_surface *surface, const mr_v3 *x, double form, mr_fit_system *system)
 {
 	size_t nv = surface->level[0].nv;
-	mr_fit_system r = { .surface = surface, .form = form };
-	mr_v3 *home = MR_NEW(ctx, nv, mr_v3);
+	mr_fit_system r = { .surface = surface, .form = form, .home = MR_NEW(ctx, nv, mr_v3) };
 
-	memcpy(home, x, nv * sizeof *home);
-	r.home = home;
-
-	mr_fit_list_patches(ctx, surface, &r.patch);
-	mr_fit_list_stars(ctx, &surface->level[0], &r.star);
-	star_rows(ctx, &r.star, &r.star_row);
-	r.basis = MR_NEW_ZERO(ctx, MR_FIT_SLOTS * r.patch.start[r.patch.count], double);
+	memcpy(r.home, x, nv * sizeof *r.home);
+	MR_TRY(patches_of(ctx, surface, &r.patch));
+	stars_of(ctx, &surface->level[0], &r.star);
+	MR_TRY(couple(ctx, &r.patch, &r.star, &r.a));
+	MR_TRY(mr_sparse_transpose(ctx, &r.star, nv, &r.around));
+	MR_TRY(mr_sparse_multiply(ctx, &r.around, &r.star, nv, &r.bending));
+	r.basis = MR_NEW_ZERO(ctx, MR_FIT_SLOTS * (size_t)r.patch.start[r.patch.n], double);
+	mr_parallel(ctx, (size_t)r.patch.n, GRAIN, spread_basis, &(basis_job){ surface, &r.patch, r.basis });
 	r.b = MR_NEW(ctx, nv, mr_v3);
-	mr_parallel(ctx, r.patch.count, GRAIN, spread_basis, &(basis_job){ surface, &r.patch, r.basis });
-	MR_TRY(mr_fit_pattern(ctx, &r.patch, &r.star, nv, &r.a));
 	r.block = MR_NEW(ctx, (size_t)r.a.start[nv], mr_fit_block);
-	mr_fit_place_pairs(ctx, &r.patch, &r.a, &r.patch_pairs, &r.patch_at);
-	mr_fit_place_pairs(ctx, &r.star, &r.a, &r.star_pairs, &r.star_at);
 	*system = r;
 	return MR_OK;
 }
 
-/* Filling */
+/* ---- filling ---- */
 
 /* The points on each control face, by index: order[start[f]] to order[start[f + 1]]. */
 static void
@@ -103,7 +187,8 @@ typedef struct fill_job {
 	const uint32_t *order;
 	double scale;       /* nv / n */
 	size_t first, last; /* control faces */
-	mr_fit_block *pair; /* of each pair of these faces, as patch_at */
+	size_t *pairs;      /* of each face: how many those before it have */
+	mr_fit_block *pair; /* of each pair of vertices of these faces */
 	mr_v3 *sum;         /* of each entry of patch */
 	double *row;        /* the same: workspace */
 } fill_job;
@@ -161,67 +246,85 @@ fill_patches(void *arg, size_t begin, size_t end)
 {
 	fill_job *j = arg;
 	const mr_fit_system *s = j->system;
-	const mr_fit_lists *l = &s->patch;
 
 	for (size_t f = j->first + begin; f < j->first + end; f++) {
-		size_t n = mr_fit_length(l, f);
-		double *row = j->row + l->start[f];
-		mr_fit_block *pair = j->pair + (s->patch_pairs[f] - s->patch_pairs[j->first]);
-		mr_v3 *sum = j->sum + l->start[f];
+		size_t n = length_of(&s->patch, f), at = (size_t)s->patch.start[f];
+		mr_fit_block *pair = j->pair + (j->pairs[f] - j->pairs[j->first]);
 		memset(pair, 0, n * (n + 1) / 2 * sizeof *pair);
-		memset(sum, 0, n * sizeof *sum);
+		memset(j->sum + at, 0, n * sizeof *j->sum);
 		for (size_t i = j->start[f]; i < j->start[f + 1]; i++) {
 			uint32_t k = j->order[i];
 			mr_v3 normal, r = mr_sub(j->point[k], mr_fit_place(s->surface, &j->foot[k], &normal));
-			row_of(s->basis + MR_FIT_SLOTS * l->start[f], n, &j->foot[k], row);
-			add_point(row, n, j->scale * j->w[k], r, direction_of(normal, r), pair, sum);
+			row_of(s->basis + MR_FIT_SLOTS * at, n, &j->foot[k], j->row + at);
+			add_point(j->row + at, n, j->scale * j->w[k], r, direction_of(normal, r), pair,
+			    j->sum + at);
 		}
 	}
 }
 
-/* Adds the pairs and sums of the faces to the equations, in their order. */
+static void
+add_block(mr_fit_block *to, const mr_fit_block *by)
+{
+	for (int i = 0; i < MR_FIT_BLOCK; i++)
+		to->m[i] += by->m[i];
+}
+
+/* Adds the pairs and sums of the faces to the equations, in their order, below the diagonal. */
 static void
 gather(const fill_job *j)
 {
 	mr_fit_system *s = j->system;
-	const mr_fit_lists *l = &s->patch;
-	size_t from = s->patch_pairs[j->first];
+	const mr_sparse *patch = &s->patch;
+	const mr_fit_block *pair = j->pair;
 
-	for (size_t k = from; k < s->patch_pairs[j->last]; k++)
-		for (int i = 0; i < MR_FIT_BLOCK; i++)
-			s->block[s->patch_at[k]].m[i] += j->pair[k - from].m[i];
-	for (size_t i = l->start[j->first]; i < l->start[j->last]; i++)
-		s->b[l->member[i]] = mr_add(s->b[l->member[i]], j->sum[i]);
+	for (size_t f = j->first; f < j->last; f++)
+		for (int i = patch->start[f]; i < patch->start[f + 1]; i++) {
+			int row = patch->index[i];
+			s->b[row] = mr_add(s->b[row], j->sum[i]);
+			for (int k = patch->start[f], e = s->a.start[row]; k <= i; k++) {
+				while (s->a.index[e] != patch->index[k])
+					e++;
+				add_block(&s->block[e], pair++);
+			}
+		}
 }
 
-/* Pairs of the largest piece. */
-static size_t
-most_pairs(const mr_fit_system *s)
+/* What is above the diagonal, by what is below. */
+static void
+mirror(mr_ctx *ctx, mr_fit_system *s)
 {
-	size_t most = 0, count = s->patch.count;
+	int *next = MR_NEW(ctx, (size_t)s->a.n, int);
 
-	for (size_t f = 0; f < count; f += PIECE) {
-		size_t last = f + PIECE < count ? f + PIECE : count,
-		       n = s->patch_pairs[last] - s->patch_pairs[f];
-		most = n > most ? n : most;
-	}
-	return most;
+	for (int i = 0; i < s->a.n; i++)
+		for (int e = s->a.start[i]; e < s->a.start[i + 1] && s->a.index[e] <= i; e++) {
+			if (s->a.index[e] < i)
+				s->block[next[s->a.index[e]]++] = s->block[e];
+			next[i] = e + 1;
+		}
 }
 
 /* Piece by piece, so that the pairs of all faces are never in memory at once. */
 static void
 add_points(mr_ctx *ctx, mr_fit_system *s, fill_job j)
 {
-	const mr_fit_lists *l = &s->patch;
+	size_t nf = (size_t)s->patch.n, entries = (size_t)s->patch.start[nf], most = 0;
 
-	j.pair = MR_NEW(ctx, most_pairs(s), mr_fit_block);
-	j.sum = MR_NEW(ctx, l->start[l->count], mr_v3);
-	j.row = MR_NEW(ctx, l->start[l->count], double);
-	for (j.first = 0; j.first < l->count; j.first = j.last) {
-		j.last = j.first + PIECE < l->count ? j.first + PIECE : l->count;
+	j.pairs = MR_NEW_ZERO(ctx, nf + 1, size_t);
+	for (size_t f = 0; f < nf; f++)
+		j.pairs[f + 1] = j.pairs[f] + length_of(&s->patch, f) * (length_of(&s->patch, f) + 1) / 2;
+	for (size_t f = 0; f < nf; f += PIECE) {
+		size_t n = j.pairs[f + PIECE < nf ? f + PIECE : nf] - j.pairs[f];
+		most = n > most ? n : most;
+	}
+	j.pair = MR_NEW(ctx, most, mr_fit_block);
+	j.sum = MR_NEW(ctx, entries, mr_v3);
+	j.row = MR_NEW(ctx, entries, double);
+	for (j.first = 0; j.first < nf; j.first = j.last) {
+		j.last = j.first + PIECE < nf ? j.first + PIECE : nf;
 		mr_parallel(ctx, j.last - j.first, GRAIN, fill_patches, &j);
 		gather(&j);
 	}
+	mirror(ctx, s);
 }
 
 /* Splits the points' part, slip A + (1 - slip) N with A the trace of N, into a multiple of the identity and a
@@ -252,44 +355,31 @@ measure_bare(mr_ctx *ctx, const mr_fit_system *s, const size_t *start, double **
 		for (int k = 0; k < 3; k++)
 			x[l->t[f].v[k]] += (double)(start[f + 1] - start[f]);
 	for (size_t v = 0; v < l->nv; v++)
-		x[v] = mr_fit_length(&s->star, v) == 1 ? 1 : fmax(0, 1 - x[v] / enough);
+		x[v] = length_of(&s->star, v) == 1 ? 1 : fmax(0, 1 - x[v] / enough);
 	*bare = x;
 }
 
-/* L (x - c home) at vertex v: what it is bent by, beyond the share of what it was. */
-static mr_v3
-bend_at(const mr_fit_system *s, const mr_v3 *x, double bare, size_t v)
-{
-	const mr_fit_lists *l = &s->star;
-	mr_v3 sum = { 0, 0, 0 };
-	double c = fmax(s->form, bare);
-
-	for (size_t i = l->start[v]; i < l->start[v + 1]; i++) {
-		int j = l->member[i];
-		sum = mr_axpy(s->star_row[i], mr_axpy(-c, s->home[j], x[j]), sum);
-	}
-	return sum;
-}
-
-/* fairness |L (x + z - c home)|^2: the outer product of each row of L, and -L (x - c home) times it;
- * and fairness bare |x + z - home|^2. */
+/* fairness |L (x + z - c home)|^2, of which x bends by L (x - c home), and fairness bare |x + z - home|^2. */
 static void
-add_fairness(mr_fit_system *s, const mr_v3 *x, const double *bare, double fairness)
+add_fairness(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const double *bare, double fairness)
 {
-	const mr_fit_lists *l = &s->star;
+	size_t nv = (size_t)s->a.n;
+	mr_v3 *bend = MR_NEW(ctx, nv, mr_v3), *form = MR_NEW(ctx, nv, mr_v3), *pull = MR_NEW(ctx, nv, mr_v3);
 
-	for (size_t v = 0; v < l->count; v++) {
-		const int *at = s->star_at + s->star_pairs[v];
-		mr_v3 bend = bend_at(s, x, bare[v], v);
-		for (size_t i = l->start[v]; i < l->start[v + 1]; i++) {
-			double c = fairness * s->star_row[i];
-			for (size_t k = l->start[v]; k <= i; k++)
-				s->a.value[*at++] += c * s->star_row[k];
-			s->b[l->member[i]] = mr_axpy(-c, bend, s->b[l->member[i]]);
+	mr_sparse_apply(ctx, &s->star, NULL, nv, 3, &x->x, &bend->x);
+	mr_sparse_apply(ctx, &s->star, NULL, nv, 3, &s->home->x, &form->x);
+	for (size_t v = 0; v < nv; v++)
+		bend[v] = mr_axpy(-fmax(s->form, bare[v]), form[v], bend[v]);
+	mr_sparse_apply(ctx, &s->around, NULL, nv, 3, &bend->x, &pull->x);
+	for (size_t v = 0; v < nv; v++) {
+		mr_v3 back = mr_axpy(bare[v], mr_sub(s->home[v], x[v]), mr_mul(-1, pull[v]));
+		s->b[v] = mr_axpy(fairness, back, s->b[v]);
+		for (int i = s->bending.start[v], e = s->a.start[v]; e < s->a.start[v + 1]; e++) {
+			if (i < s->bending.start[v + 1] && s->bending.index[i] == s->a.index[e])
+				s->a.value[e] += fairness * s->bending.value[i++];
+			if (s->a.index[e] == (int)v)
+				s->a.value[e] += fairness * bare[v] + SMALL;
 		}
-		/* the diagonal ends the row */
-		s->a.value[s->a.start[v + 1] - 1] += fairness * bare[v] + SMALL;
-		s->b[v] = mr_axpy(fairness * bare[v], mr_sub(s->home[v], x[v]), s->b[v]);
 	}
 }
 
@@ -304,7 +394,7 @@ mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *p
 	uint32_t *order;
 	double *bare;
 
-	sort_points(ctx, foot, n, s->patch.count, &start, &order);
+	sort_points(ctx, foot, n, (size_t)s->patch.n, &start, &order);
 	measure_bare(ctx, s, start, &bare);
 	j.start = start;
 	j.order = order;
@@ -312,6 +402,82 @@ mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *s, const mr_v3 *x, const mr_v3 *p
 	memset(s->b, 0, nv * sizeof *s->b);
 	add_points(ctx, s, j);
 	split_trace(s);
-	add_fairness(s, x, bare, fairness);
+	add_fairness(ctx, s, x, bare, fairness);
 	mr_mark_release(ctx, mark);
+}
+
+/* ---- solving ---- */
+
+/*
+ * Of the solution, in the norm of the energy.  On 16 models 1e-2 takes 3 steps of 10 less and leaves up to 3
+ * % more distance, 1e-4 takes 3 more and gains less than 0.1 %.
+ */
+static const double ACCURACY = 1e-3;
+
+enum { MOST_STEPS = 50 }; /* of which 16 models take 12 at most */
+
+/* z = B r for x, y and z: b is of one of them. */
+static mr_status
+precondition(mr_ctx *ctx, void *b, mr_multivector s, const double *r, double *z)
+{
+	const mr_preconditioner *common = b;
+
+	return common->apply(ctx, common->data, (mr_multivector){ s.n / 3, 3 }, r, z);
+}
+
+typedef struct product {
+	const mr_fit_system *system;
+	const mr_v3 *x;
+	mr_v3 *y;
+} product;
+
+static void
+apply_rows(void *arg, size_t begin, size_t end)
+{
+	const product *j = arg;
+	const mr_sparse *a = &j->system->a;
+
+	for (size_t i = begin; i < end; i++) {
+		mr_v3 y = { 0, 0, 0 };
+		for (int e = a->start[i]; e < a->start[i + 1]; e++) {
+			const double *m = j->system->block[e].m, common = a->value[e];
+			mr_v3 x = j->x[a->index[e]];
+			y.x += (common + m[0]) * x.x + m[3] * x.y + m[5] * x.z;
+			y.y += m[3] * x.x + (common + m[1]) * x.y + m[4] * x.z;
+			y.z += m[5] * x.x + m[4] * x.y + (common + m[2]) * x.z;
+		}
+		j->y[i] = y;
+	}
+}
+
+static void
+apply(const mr_ctx *ctx, const void *system, mr_multivector s, const double *x, double *y)
+{
+	mr_parallel(ctx, s.n / 3, GRAIN, apply_rows, &(product){ system, (const void *)x, (void *)y });
+}
+
+/*
+ * Conjugate gradients (Hestenes, Stiefel 1952), preconditioned by the incomplete Cholesky factor of the part
+ * of the matrix that x, y and z have in common: a ninth of the whole's entries.  A row has all vertices that
+ * a control face couples, so that there is nothing to gain by fill: complete factors save one step in thirty,
+ * and on thousands of control vertices take a quarter of the fit.
+ */
+mr_status
+mr_fit_solve(mr_ctx *ctx, mr_fit_system *system, mr_v3 *motion, size_t *steps)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t nv = (size_t)system->a.n;
+	mr_preconditioner b;
+	mr_cg g = { .s = { 3 * nv, 1 },
+		.apply = apply,
+		.a = system,
+		.b = &(mr_preconditioner){ .apply = precondition, .data = &b },
+		.tol = ACCURACY,
+		.most = *steps + MOST_STEPS };
+
+	MR_TRY(mr_incomplete_new(ctx, &system->a, &b));
+	memset(motion, 0, nv * sizeof *motion);
+	MR_TRY(mr_cg_improve(ctx, &g, (double *)motion, (double *)system->b, steps));
+	mr_mark_release(ctx, mark);
+	return MR_OK;
 }

@@ -16,7 +16,8 @@
 #ifndef MR_FIT_NORMAL_EQUATIONS_H
 #define MR_FIT_NORMAL_EQUATIONS_H
 
-#include "fit/sparsity.h"
+#include "fit/limit_surface.h"
+#include "solve/sparse.h"
 
 /*
  * The share of a point's distance along the surface that counts.  On 16 models 0.01 leaves 6 % less
@@ -34,17 +35,14 @@ typedef struct mr_fit_block {
 /* The matrix is a, the same for x, y and z, plus the blocks, which couple them. */
 typedef struct mr_fit_system {
 	const mr_fit_surface *surface;
-	const mr_v3 *home;       /* the control vertices to begin with */
-	double form;             /* the share of how they were bent that is no bending */
-	mr_fit_lists patch;      /* of each control face: the vertices that its surface depends on */
-	mr_fit_lists star;       /* of each control vertex: those in its row of L */
-	double *basis;           /* of each control face: 24 nodes x vertices of its list */
-	double *star_row;        /* of each entry of star: of L */
-	mr_sparse a;             /* lower triangle, positive definite */
-	mr_fit_block *block;     /* of each entry of a: of trace 0 */
-	int *patch_at, *star_at; /* where the pairs of a list's entries are in a */
-	size_t *patch_pairs, *star_pairs;
-	mr_v3 *b; /* right-hand side */
+	mr_v3 *home;                     /* the control vertices to begin with */
+	double form;                     /* the share of how they were bent that is no bending */
+	mr_sparse patch;                 /* of each control face: the vertices that its surface depends on */
+	double *basis;                   /* of each control face: 24 nodes x its vertices */
+	mr_sparse star, around, bending; /* L, its transpose, and L^T L */
+	mr_sparse a;                     /* positive definite */
+	mr_fit_block *block;             /* of each entry of a: of trace 0 */
+	mr_v3 *b;                        /* right-hand side */
 } mr_fit_system;
 
 /* The pattern of the equations, in the arena; x: where the control vertices begin. */
@@ -54,5 +52,9 @@ mr_status mr_fit_system_build(
 /* The equations for n points with weights w at control vertices x, of which the surface is. */
 void mr_fit_system_fill(mr_ctx *ctx, mr_fit_system *system, const mr_v3 *x, const mr_v3 *point,
     const mr_fit_foot *foot, const double *w, size_t n, double fairness);
+
+/* The motion of the control vertices, the caller's, to a thousandth; uses the right-hand side up.  *steps
+ * grows by those of the iteration. */
+mr_status mr_fit_solve(mr_ctx *ctx, mr_fit_system *system, mr_v3 *motion, size_t *steps);
 
 #endif
