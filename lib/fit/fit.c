@@ -84,18 +84,17 @@ put_distances(const mr_fit_gap *before, const mr_fit_gap *after, mr_fit_result *
 /* Where the result is poor: it folds, or the points, less their noise, are as far as the control mesh is
  * coarse. */
 static void
-report(mr_ctx *ctx, const mr_fit_surface *s, double edge, double noise, const mr_fit_foot *foot, size_t n)
+report(mr_ctx *ctx, const mr_fit_surface *s, double far, const mr_fit_result *r)
 {
-	mr_finding f = { .kind = MR_FOLDED, .layer = "control", .count = count_folds(ctx, s) };
-	double far = mr_fit_measure(ctx, foot, n).mean;
+	mr_finding f = { .kind = MR_FOLDED, .layer = "control", .count = r->folded_edges_after };
 
 	if (f.count > 0)
 		mr_found(ctx, &f);
 	f = (mr_finding){
 		.kind = MR_DISTANT, .layer = "control", .what = "a finer control mesh comes nearer"
 	};
-	f.value = far / mr_mesh_diagonal(&s->m);
-	if (far > FAR * edge + noise)
+	f.value = r->distance_mean_after / mr_mesh_diagonal(&s->m);
+	if (r->distance_mean_after > far)
 		mr_found(ctx, &f);
 }
 
@@ -225,7 +224,7 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	given = n;
 	memcpy(x, control->p, control->nv * sizeof *x);
 	MR_TRY(mr_fit_surface_build(ctx, control, crease, &s));
-	mr_fit_attach(ctx, &s, sorted, n, MR_FIT_ANEW, foot);
+	mr_fit_attach(ctx, &s, sorted, n, true, foot);
 	if (!is_local)
 		drop_outliers(ctx, &sampling, MR_FIT_NEAR * edge, sorted, spacing, foot, &n, &r.outliers);
 	noise = is_local || sampling.usual == 0 ? 0 : sampling.noise / sampling.usual;
@@ -238,15 +237,13 @@ mr_fit(mr_ctx *ctx, const mr_mesh *control, const uint8_t *crease, const mr_v3 *
 	r.iterations = passes;
 	r.seconds_iteration = (mr_seconds() - start) / (double)passes;
 	if (is_local)
-		mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot);
-	report(ctx, &s, edge, is_local ? 0 : sampling.noise, foot, n);
-	if (result) {
-		mr_fit_attach(ctx, &s, sorted, n, MR_FIT_CHECK, foot);
-		after = mr_fit_measure(ctx, foot, n);
-		r.folded_edges_after = count_folds(ctx, &s);
-		put_distances(&before, &after, &r);
+		mr_fit_attach(ctx, &s, sorted, n, true, foot);
+	after = mr_fit_measure(ctx, foot, n);
+	r.folded_edges_after = count_folds(ctx, &s);
+	put_distances(&before, &after, &r);
+	report(ctx, &s, FAR * edge + (is_local ? 0 : sampling.noise), &r);
+	if (result)
 		*result = r;
-	}
 	memcpy(out, x, control->nv * sizeof *out);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

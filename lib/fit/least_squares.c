@@ -93,7 +93,7 @@ mr_fit_least_squares(mr_ctx *ctx, mr_fit_surface *surface, const mr_v3 *point, c
 		MR_TRY(mr_fit_solve(ctx, &system, z, &steps));
 		MR_TRY(mr_fit_step(ctx, guard, x, z, &result->damped));
 		mr_fit_surface_move(ctx, surface, x);
-		mr_fit_attach(ctx, surface, point, n, MR_FIT_WALK, foot);
+		mr_fit_attach(ctx, surface, point, n, false, foot);
 	}
 	result->cg_steps = (double)steps / (double)passes;
 	result->crossing_faces = mr_fit_crossing(guard);

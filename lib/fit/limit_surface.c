@@ -170,22 +170,14 @@ typedef struct attach_job {
 	const mr_fit_surface *s;
 	const mr_bvh *bvh; /* NULL: walk */
 	const mr_v3 *point;
-	mr_fit_search search;
 	mr_fit_foot *foot;
 } attach_job;
 
 static mr_closest
 nearest(const attach_job *j, mr_v3 q, uint32_t face)
 {
-	mr_closest walked, other;
-
-	if (j->search == MR_FIT_ANEW)
-		return mr_bvh_closest(j->bvh, q);
-	walked = mr_project_walk(&j->s->m, &j->s->level[MR_FIT_LEVEL].topo, face, q);
-	if (j->search == MR_FIT_WALK)
-		return walked;
-	other = mr_bvh_closest_within(j->bvh, q, walked.dist2);
-	return other.at.face == MR_NONE ? walked : other;
+	return j->bvh ? mr_bvh_closest(j->bvh, q)
+	              : mr_project_walk(&j->s->m, &j->s->level[MR_FIT_LEVEL].topo, face, q);
 }
 
 static void
@@ -198,15 +190,15 @@ attach(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_fit_attach(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n, mr_fit_search search,
-    mr_fit_foot *foot)
+mr_fit_attach(
+    mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n, bool anew, mr_fit_foot *foot)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_bvh *bvh = NULL;
 
-	if (search != MR_FIT_WALK)
+	if (anew)
 		mr_bvh_build(ctx, &s->m, &bvh);
-	mr_parallel(ctx, n, GRAIN, attach, &(attach_job){ s, bvh, point, search, foot });
+	mr_parallel(ctx, n, GRAIN, attach, &(attach_job){ s, bvh, point, foot });
 	mr_mark_release(ctx, mark);
 }
 

@@ -60,16 +60,9 @@ void mr_fit_weights(mr_v3 bary, double w[MR_FIT_PATCH]);
 /* The place of a foot; normal: unit, zero where the surface has none. */
 mr_v3 mr_fit_place(const mr_fit_surface *s, const mr_fit_foot *foot, mr_v3 *normal);
 
-/* How a foot is found. */
-typedef enum mr_fit_search {
-	MR_FIT_ANEW, /* the nearest of the whole surface */
-	MR_FIT_WALK, /* by walking from the foot that is given */
-	MR_FIT_CHECK /* the nearest of the whole surface, which a walk comes near to */
-} mr_fit_search;
-
-/* The feet of n points, the caller's. */
-void mr_fit_attach(mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n, mr_fit_search search,
-    mr_fit_foot *foot);
+/* The feet of n points, the caller's: the nearest of the whole surface, or by walking from those given. */
+void mr_fit_attach(
+    mr_ctx *ctx, const mr_fit_surface *s, const mr_v3 *point, size_t n, bool anew, mr_fit_foot *foot);
 
 mr_fit_gap mr_fit_measure(const mr_ctx *ctx, const mr_fit_foot *foot, size_t n);
 
