@@ -195,21 +195,20 @@ has_gaps(const mr_model *m)
 }
 
 /* A surface gets the normals that are none from its faces. */
-static mr_status
+static void
 mend_normals(mr_ctx *ctx, mr_model *m)
 {
 	const mr_mesh mesh = { .name = "mesh", .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
 	mr_v3 *normal;
 
 	if (!m->nf || !m->normal || !has_gaps(m))
-		return MR_OK;
+		return;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
-	MR_TRY(mr_vertex_normals(ctx, &mesh, NULL, normal));
+	mr_vertex_normals(ctx, &mesh, NULL, normal);
 	for (size_t i = 0; i < m->nv; i++)
 		if (mr_norm2(m->normal[i]) > 0)
 			normal[i] = m->normal[i];
 	m->normal = normal;
-	return MR_OK;
 }
 
 static mr_status
@@ -223,7 +222,7 @@ parse(mr_ctx *ctx, const char *path, const char *format, const unsigned char *da
 	MR_TRY(f->read(ctx, data, size, &got));
 	if (got.nv == 0)
 		return mr_fail(ctx, MR_EMESH, "%s without a vertex", f->name);
-	MR_TRY(mend_normals(ctx, &got));
+	mend_normals(ctx, &got);
 	mr_note(ctx, "%s: %zu vertices, %zu triangles", f->name, got.nv, got.nf);
 	*m = got;
 	return MR_OK;

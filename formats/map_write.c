@@ -216,7 +216,7 @@ draw_normals(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
+static void
 displaced_normals(mr_ctx *ctx, mapping *m)
 {
 	mr_mesh surface = m->domain.m;
@@ -228,9 +228,8 @@ displaced_normals(mr_ctx *ctx, mapping *m)
 	p = MR_NEW(ctx, surface.nv, mr_v3);
 	mr_domain_displace(ctx, &m->domain, m->height, 1, p);
 	surface.p = p;
-	MR_TRY(mr_vertex_normals(ctx, &surface, NULL, m->normal));
+	mr_vertex_normals(ctx, &surface, NULL, m->normal);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static mr_status
@@ -238,7 +237,7 @@ write_normals(mr_ctx *ctx, mapping *m, const char *path)
 {
 	mr_mark mark = mr_mark_take(ctx);
 
-	MR_TRY(displaced_normals(ctx, m));
+	displaced_normals(ctx, m);
 	MR_TRY(mr_image_new(ctx, m->atlas.width, m->atlas.height, (mr_rgb){ 0, 0, 0 }, &m->image));
 	mr_parallel(ctx, m->atlas.height, GRAIN, draw_normals, m);
 	MR_TRY(mr_png_write(ctx, path, &m->image));

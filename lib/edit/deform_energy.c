@@ -400,7 +400,7 @@ solve_weights(mr_ctx *ctx, mr_energies *e)
 	return MR_OK;
 }
 
-static mr_status
+static void
 make_room(mr_ctx *ctx, mr_energies *e)
 {
 	const mr_mesh *m = &e->s->patch.mesh;
@@ -415,7 +415,7 @@ make_room(mr_ctx *ctx, mr_energies *e)
 	e->source = MR_NEW(ctx, 3 * m->nv, double);
 	for (size_t f = 0; f < m->nf; f++)
 		mr_cotangents(m->p[m->t[f].v[0]], m->p[m->t[f].v[1]], m->p[m->t[f].v[2]], e->cot[f]);
-	return mr_incidence_build(ctx, m, &e->around);
+	mr_incidence_build(ctx, m, &e->around);
 }
 
 mr_status
@@ -433,7 +433,7 @@ mr_energies_make(
 	e->region = region;
 	e->lowest = lowest;
 	find_handles(ctx, e);
-	MR_TRY(make_room(ctx, e));
+	make_room(ctx, e);
 	MR_TRY(solve_weights(ctx, e));
 	e->section = mr_sections_find(ctx, &s->patch.mesh, e->weight, e->count, (const double(*)[3])e->cot);
 	if (most > 0)

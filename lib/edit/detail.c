@@ -326,8 +326,8 @@ mr_encode(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_places
 	e.stand = MR_NEW(ctx, n, mr_v3);
 	e.sound = MR_NEW_ZERO(ctx, n, bool);
 	e.tally = MR_NEW_ZERO(ctx, (n + GRAIN - 1) / GRAIN, tally);
-	MR_TRY(mr_incidence_build(ctx, base, &inc));
-	MR_TRY(mr_vertex_normals(ctx, base, &inc, normal));
+	mr_incidence_build(ctx, base, &inc);
+	mr_vertex_normals(ctx, base, &inc, normal);
 	e.ground = (mr_ground){ { base, normal }, &inc, mr_mesh_tolerance(mesh, 1e-14) };
 	find_all_feet(ctx, source, &e);
 	mr_parallel(ctx, n, GRAIN, keep_piece, &e);
@@ -433,7 +433,7 @@ turn_normals(void *arg, size_t begin, size_t end)
 
 /* Normals of the moved surface itself turn to and fro where it is crumpled a little, and tear apart what
  * stands on them. */
-static mr_status
+static void
 turn_frames(mr_ctx *ctx, const mr_mesh *rest, const mr_incidence *inc, mr_v3 *normal, decoder *j)
 {
 	mr_v3 *made;
@@ -441,12 +441,11 @@ turn_frames(mr_ctx *ctx, const mr_mesh *rest, const mr_incidence *inc, mr_v3 *no
 	j->rest = (mr_phong){ rest, j->d->rest_normal };
 	if (!j->rest.normal) {
 		made = MR_NEW(ctx, rest->nv, mr_v3);
-		MR_TRY(mr_vertex_normals(ctx, rest, inc, made));
+		mr_vertex_normals(ctx, rest, inc, made);
 		j->rest.normal = made;
 	}
 	j->turn = mr_turns(ctx, rest, j->surface.m, inc);
 	mr_parallel(ctx, rest->nv, 4096, turn_normals, &(turner){ j->turn, j->rest.normal, normal });
-	return MR_OK;
 }
 
 mr_status
@@ -459,8 +458,10 @@ mr_decode(
 	mr_mesh rest = *base;
 
 	rest.p = d->rest;
-	MR_TRY(
-	    d->rest ? turn_frames(ctx, &rest, inc, normal, &j) : mr_vertex_normals(ctx, base, inc, normal));
+	if (d->rest)
+		turn_frames(ctx, &rest, inc, normal, &j);
+	else
+		mr_vertex_normals(ctx, base, inc, normal);
 	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
 	mr_mark_release(ctx, mark);
 	return MR_OK;

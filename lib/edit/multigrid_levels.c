@@ -54,7 +54,7 @@ typedef struct places {
 	mr_v3 *bary;
 } places;
 
-static mr_status
+static void
 place_vertices(mr_ctx *ctx, const mr_places *map, places *w)
 {
 	bool *stands = MR_NEW_ZERO(ctx, w->fine->m.nv, bool);
@@ -63,10 +63,9 @@ place_vertices(mr_ctx *ctx, const mr_places *map, places *w)
 
 	w->face = MR_NEW(ctx, w->fine->m.nv, uint32_t);
 	w->bary = MR_NEW_ZERO(ctx, w->fine->m.nv, mr_v3);
-	MR_TRY(mr_incidence_build(ctx, &w->coarse->m, &inc));
+	mr_incidence_build(ctx, &w->coarse->m, &inc);
 	mr_correspond(ctx, &w->fine->m, &w->coarse->m, &inc, map, &c);
 	mr_correspond_rest(ctx, &c, stands, w->face, w->bary);
-	return MR_OK;
 }
 
 /* The entries of the row of v, ascending; constraints are 0 on every level. */
@@ -129,7 +128,7 @@ mr_hierarchy_build(
 		MR_TRY(remesh_stage(ctx, &fine, &coarse, &map));
 		if (coarse.n == 0 || coarse.n > fine.n / 2)
 			break; /* as coarse as the topology allows */
-		MR_TRY(place_vertices(ctx, &map, &w));
+		place_vertices(ctx, &map, &w);
 		MR_TRY(prolong(ctx, &w, &levels[made].prolong));
 		levels[made].n = coarse.n;
 		made++;

@@ -200,7 +200,7 @@ mr_select(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_groups *groups, c
 	mr_select_scene sc = { f, m, groups, &inc, mr_mesh_box(m), selected, 0 };
 
 	memcpy(selected, region, m->nv * sizeof *region);
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	mr_incidence_build(ctx, m, &inc);
 	for (size_t i = 0; i < s->n; i++)
 		MR_TRY(apply_rule(ctx, &sc, &s->rule[i], s->may_miss, one, in, selected));
 	memcpy(region, selected, m->nv * sizeof *region);

@@ -224,7 +224,7 @@ eval_geodesic(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bo
 	mr_mark mark = mr_mark_take(ctx);
 	double r = length_of(s, t), *distance = MR_NEW(ctx, s->m->nv, double);
 
-	MR_TRY(mr_geodesic_distances(ctx, s->m, point_of(t), r, distance));
+	mr_geodesic_distances(ctx, s->m, point_of(t), r, distance);
 	for (size_t v = 0; v < s->m->nv; v++)
 		in[v] = distance[v] <= r;
 	mr_mark_release(ctx, mark);

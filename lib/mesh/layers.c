@@ -477,7 +477,7 @@ mr_layer_replace(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_mesh *m)
 	if (!normals)
 		return MR_OK;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
-	MR_TRY(mr_vertex_normals(ctx, m, NULL, normal));
+	mr_vertex_normals(ctx, m, NULL, normal);
 	return mr_layer_put(ctx, f, layer, "normal", normal, m->nv);
 }
 

@@ -135,7 +135,7 @@ mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo)
 	return MR_OK;
 }
 
-mr_status
+void
 mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a)
 {
 	size_t *start = MR_NEW_ZERO(ctx, m->nv + 2, size_t);
@@ -150,10 +150,9 @@ mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a)
 		for (int i = 0; i < 3; i++)
 			face[start[m->t[f].v[i] + 1]++] = f;
 	*a = (mr_incidence){ start, face };
-	return MR_OK;
 }
 
-mr_status
+void
 mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 {
 	size_t *start = MR_NEW(ctx, m->nv + 1, size_t), n = 0;
@@ -161,7 +160,7 @@ mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 	mr_mark mark = mr_mark_take(ctx);
 	mr_incidence inc;
 
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	mr_incidence_build(ctx, m, &inc);
 	for (uint32_t v = 0; v < m->nv; v++) {
 		size_t first = n;
 		start[v] = first;
@@ -176,7 +175,6 @@ mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a)
 	start[m->nv] = n;
 	mr_mark_release(ctx, mark);
 	*a = (mr_adjacency){ start, adj };
-	return MR_OK;
 }
 
 static double
@@ -349,7 +347,7 @@ normals_of_vertices(void *arg, size_t begin, size_t end)
 	}
 }
 
-mr_status
+void
 mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -357,11 +355,10 @@ mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 
 	mr_incidence own;
 
 	if (!inc) {
-		MR_TRY(mr_incidence_build(ctx, m, &own));
+		mr_incidence_build(ctx, m, &own);
 		j.inc = &own;
 	}
 	mr_parallel(ctx, m->nf, 4096, normals_of_faces, &j);
 	mr_parallel(ctx, m->nv, 4096, normals_of_vertices, &j);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -69,14 +69,14 @@ typedef struct mr_adjacency {
 	size_t *start;
 	uint32_t *adj;
 } mr_adjacency;
-mr_status mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a);
+void mr_adjacency_build(mr_ctx *ctx, const mr_mesh *m, mr_adjacency *a);
 
 /* Faces around each vertex, by index, of any mesh: face[start[i]] to face[start[i + 1]]. */
 typedef struct mr_incidence {
 	size_t *start;
 	uint32_t *face;
 } mr_incidence;
-mr_status mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a);
+void mr_incidence_build(mr_ctx *ctx, const mr_mesh *m, mr_incidence *a);
 
 /* Whether face f has a vertex twice. */
 static inline bool
@@ -162,6 +162,6 @@ double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
  * Unit vertex normals weighted by angle (Thuermer, Wuethrich 1998); zero where a vertex has no face of
  * positive area.  inc: of the mesh, where it is there already, or NULL.  normal: nv, the caller's.
  */
-mr_status mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal);
+void mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal);
 
 #endif

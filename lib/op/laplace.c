@@ -160,7 +160,7 @@ mr_laplace_build(mr_ctx *ctx, const mr_mesh *m, mr_sparse *l)
 	if (m->nv > INT32_MAX - 1)
 		return mr_fail(ctx, MR_ERANGE, "%s: %zu vertices are too many", m->name, m->nv);
 	mark = mr_mark_take(ctx);
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	mr_incidence_build(ctx, m, &inc);
 	j.inc = &inc;
 	count_long_rows(ctx, &j);
 	mr_parallel(ctx, m->nv, GRAIN, count_rows, &j);
@@ -170,7 +170,7 @@ mr_laplace_build(mr_ctx *ctx, const mr_mesh *m, mr_sparse *l)
 	r.value = MR_NEW(ctx, (size_t)r.start[m->nv], double);
 	mark = mr_mark_take(ctx);
 	j.cot = mr_alloc(ctx, m->nf, sizeof *j.cot);
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	mr_incidence_build(ctx, m, &inc);
 	mr_parallel(ctx, m->nf, GRAIN, cotangents_of, &j);
 	mr_parallel(ctx, m->nv, GRAIN, rows_of, &j);
 	mr_mark_release(ctx, mark);

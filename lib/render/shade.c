@@ -310,7 +310,7 @@ mr_shade(mr_ctx *ctx, const mr_raster_view *v)
 	s.pixel = MR_NEW(ctx, pixels, gathered);
 	prepare_tables(&s);
 	if (v->subject->mesh.nf) {
-		MR_TRY(mr_incidence_build(ctx, &v->subject->mesh, &around));
+		mr_incidence_build(ctx, &v->subject->mesh, &around);
 		mr_creases_find(ctx, &v->subject->mesh, &around, &s.creases);
 	}
 	mr_parallel(ctx, v->image->height, ROWS, gather_rows, &s);

@@ -11,16 +11,15 @@
 
 enum { GRAIN = 2048 };
 
-mr_status
+void
 mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e)
 {
 	mr_heights r = { .n = m->nv, .fair = MR_NEW(ctx, m->nv, double) };
 
 	for (size_t i = 0; i < m->nv; i++)
 		r.fair[i] = fair;
-	MR_TRY(mr_adjacency_build(ctx, m, &r.adj));
+	mr_adjacency_build(ctx, m, &r.adj);
 	*e = r;
-	return MR_OK;
 }
 
 void

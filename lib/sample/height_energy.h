@@ -23,7 +23,7 @@ typedef struct mr_heights {
 } mr_heights;
 
 /* The energy of m without A and b, f all `fair`; in the arena. */
-mr_status mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e);
+void mr_heights_new(mr_ctx *ctx, const mr_mesh *m, double fair, mr_heights *e);
 
 /* Adds A and b, not initialised; in the arena. */
 void mr_heights_add_data(mr_ctx *ctx, mr_heights *e);

@@ -130,7 +130,7 @@ place_cloud(mr_ctx *ctx, const mr_domain *d, const mr_sampling *s, mr_sample_clo
 static mr_status
 mend(mr_ctx *ctx, const mr_domain *d, mr_heights *e, bool *hit, double *height, mr_sample_result *r)
 {
-	MR_TRY(mr_heights_new(ctx, &d->m, 1, e));
+	mr_heights_new(ctx, &d->m, 1, e);
 	mr_heights_drop_spikes(ctx, e, d->m.p, height, hit, &r->spikes);
 	return mr_heights_fill(ctx, e, hit, height, &r->filled);
 }

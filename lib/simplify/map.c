@@ -91,7 +91,7 @@ place_all(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *from, const uint32_t *st
 	mr_topology topo;
 	mr_bvh *bvh;
 
-	MR_TRY(mr_vertex_normals(ctx, from, NULL, normal));
+	mr_vertex_normals(ctx, from, NULL, normal);
 	MR_TRY(mr_topology_build(ctx, m, &topo));
 	mr_bvh_build(ctx, m, &bvh);
 	mr_parallel(

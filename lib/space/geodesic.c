@@ -128,15 +128,14 @@ mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_
 	mr_mark_release(ctx, mark);
 }
 
-mr_status
+void
 mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_closest source = nearest_point(m, p);
 	mr_incidence inc;
 
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
+	mr_incidence_build(ctx, m, &inc);
 	mr_geodesic_from(ctx, m, &inc, source.at.face, source.point, reach, distance);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -10,7 +10,7 @@
  * the surface unfolds into the plane, to a few thousandths where it is curved.
  * distance: nv, the caller's.
  */
-mr_status mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance);
+void mr_geodesic_distances(mr_ctx *ctx, const mr_mesh *m, mr_v3 p, double reach, double *distance);
 
 /* The same from a point on a face, MR_NONE: from nowhere; inc: of the mesh. */
 void mr_geodesic_from(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, uint32_t face, mr_v3 source,

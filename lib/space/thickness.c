@@ -87,7 +87,7 @@ walk(const mr_mesh *m, double *thickness)
 	}
 }
 
-mr_status
+void
 mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 {
 	mr_mark mark = mr_mark_take(ctx);
@@ -96,8 +96,8 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	mr_incidence inc;
 	mr_bvh *bvh;
 
-	MR_TRY(mr_incidence_build(ctx, m, &inc));
-	MR_TRY(mr_vertex_normals(ctx, m, &inc, normal));
+	mr_incidence_build(ctx, m, &inc);
+	mr_vertex_normals(ctx, m, &inc, normal);
 	mr_bvh_build(ctx, m, &bvh);
 	c.bvh = bvh;
 	c.least = mr_mesh_tolerance(m, 1e-9); /* none meets the face that it leaves */
@@ -106,5 +106,4 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 		thickness[v] = median_around(&inc, v, c.across, most);
 	walk(m, thickness);
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }

@@ -13,6 +13,6 @@
  * one walks, as a local feature size does.  Of any mesh.  What is thicker than `most`, or has no other side,
  * gets that.  thickness: nv, the caller's.
  */
-mr_status mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness) MR_WARN_UNUSED;
+void mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness);
 
 #endif

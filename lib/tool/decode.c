@@ -24,28 +24,27 @@ base_incidence(mr_ctx *ctx, mr_connectivity_cache *kept, mr_frame *f, const mr_m
 	kept->base_serial = kept->rest_serial = 0;
 	kept->rest_normal = NULL;
 	MR_TRY(mr_detail_check_faces(ctx, f, base));
-	MR_TRY(mr_fail_as(ctx, keep, mr_incidence_build(keep, base, &kept->base)));
+	mr_incidence_build(keep, base, &kept->base);
 	kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
 	return MR_OK;
 }
 
 /* The normals of base where it was encoded, if that is known. */
-static mr_status
+static void
 rest_normals(mr_ctx *ctx, mr_connectivity_cache *kept, const mr_frame *f, const mr_mesh *base, mr_detail *d)
 {
 	mr_mesh rest = *base;
 
 	if (!d->rest)
-		return MR_OK;
+		return;
 	if (!kept->rest_normal)
 		kept->rest_normal = MR_NEW(&kept->keep, base->nv, mr_v3);
 	d->rest_normal = kept->rest_normal;
 	if (still_there(f, base->name, "encoded", kept->rest_serial))
-		return MR_OK;
+		return;
 	rest.p = d->rest;
-	MR_TRY(mr_vertex_normals(ctx, &rest, &kept->base, kept->rest_normal));
+	mr_vertex_normals(ctx, &rest, &kept->base, kept->rest_normal);
 	kept->rest_serial = mr_frame_find(f, base->name, "encoded")->serial;
-	return MR_OK;
 }
 
 static mr_status
@@ -59,7 +58,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_connectivity
 	MR_TRY(base_incidence(ctx, kept, f, &base));
 	MR_TRY(mr_response_apply(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
-	MR_TRY(rest_normals(ctx, kept, f, &base, &detail));
+	rest_normals(ctx, kept, f, &base, &detail);
 	p = MR_NEW(ctx, detail.n, mr_v3);
 	MR_TRY(mr_decode(ctx, &base, &kept->base, &detail, o->gain, p));
 	MR_TRY(mr_layer_move(ctx, f, "mesh", MR_POSED, p, detail.n));

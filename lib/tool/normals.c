@@ -112,8 +112,10 @@ of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *norma
 	if (o->neighbours || o->from)
 		return mr_fail(ctx, MR_EUSAGE,
 		    "%s has faces: neighbours and the place they are seen from are of points", m->name);
-	if (!o->by_area)
-		return mr_vertex_normals(ctx, m, NULL, normal);
+	if (!o->by_area) {
+		mr_vertex_normals(ctx, m, NULL, normal);
+		return MR_OK;
+	}
 	memset(normal, 0, m->nv * sizeof *normal);
 	for (size_t f = 0; f < m->nf; f++)
 		for (int k = 0; k < 3; k++)

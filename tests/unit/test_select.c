@@ -277,10 +277,10 @@ distances_on_the_plane_are_straight(void **state)
 	for (size_t i = 0; i < m.nv; i++) /* sheared until the triangles are obtuse, distances along */
 		p[i] = mr_vec(m.p[i].x + 1.5 * m.p[i].y, m.p[i].y, 0);
 	m.p = p;
-	assert_int_equal(mr_geodesic_distances(&ctx, &m, q, INFINITY, d), MR_OK);
+	mr_geodesic_distances(&ctx, &m, q, INFINITY, d);
 	for (size_t i = 0; i < m.nv; i++)
 		assert_true(fabs(d[i] - mr_dist(p[i], q)) <= 1e-4 * mr_dist(p[i], q) + 1e-12);
-	assert_int_equal(mr_geodesic_distances(&ctx, &m, q, 0.5, d), MR_OK);
+	mr_geodesic_distances(&ctx, &m, q, 0.5, d);
 	for (size_t i = 0; i < m.nv; i++)
 		assert_true(isfinite(d[i]) ? d[i] <= 0.5 : mr_dist(p[i], q) > 0.4999);
 	mr_ctx_free(&ctx);
@@ -296,7 +296,7 @@ distances_on_the_sphere_are_near(void **state)
 	mr_mesh m = solid(&ctx, MR_SPHERE, 10000);
 	double *d = MR_NEW(&ctx, m.nv, double);
 	mr_v3 q = mr_unit(mr_vec(0.3, 0.4, 0.5));
-	assert_int_equal(mr_geodesic_distances(&ctx, &m, q, INFINITY, d), MR_OK);
+	mr_geodesic_distances(&ctx, &m, q, INFINITY, d);
 	for (size_t i = 0; i < m.nv; i++) {
 		double arc = atan2(mr_norm(mr_cross(q, m.p[i])), mr_dot(q, m.p[i]));
 		if (fabs(d[i] - arc) > 0.01 * arc + 1e-4)
