@@ -2,11 +2,40 @@
 #include "mesh/edges.h"
 
 #include "base/parallel.h"
-#include "mesh/half_edge_sort.h"
+
+/* A half-edge as seen from its lower vertex. */
+typedef struct spoke {
+	uint32_t to, he;
+} spoke;
+
+static int
+compare_spokes(const void *a, const void *b)
+{
+	const spoke *x = a, *y = b;
+
+	return x->to != y->to ? (x->to > y->to) - (x->to < y->to) : (x->he > y->he) - (x->he < y->he);
+}
+
+/* Sorts the spokes of one vertex by `to`, then `he`: few, mostly. */
+static void
+sort_spokes(spoke *s, size_t n)
+{
+	if (n > 32) {
+		qsort(s, n, sizeof *s, compare_spokes);
+		return;
+	}
+	for (size_t i = 1; i < n; i++) {
+		spoke x = s[i];
+		size_t j = i;
+		for (; j > 0 && compare_spokes(&s[j - 1], &x) > 0; j--)
+			s[j] = s[j - 1];
+		s[j] = x;
+	}
+}
 
 typedef struct table {
 	uint32_t *start; /* nv + 1: the spokes of each vertex, the lower of an edge */
-	mr_spoke *spoke;
+	spoke *spoke;
 } table;
 
 static uint32_t
@@ -31,7 +60,7 @@ sort_vertices(void *arg, size_t begin, size_t end)
 	table *t = arg;
 
 	for (size_t v = begin; v < end; v++)
-		mr_spokes_sort(t->spoke + t->start[v], t->start[v + 1] - t->start[v]);
+		sort_spokes(t->spoke + t->start[v], t->start[v + 1] - t->start[v]);
 }
 
 /* A counting sort of the half-edges by their lower vertex. */
@@ -47,7 +76,7 @@ fill(const mr_mesh *m, table *t)
 	for (size_t f = 0; f < m->nf; f++)
 		for (uint32_t i = 0; i < 3 && !mr_face_repeats(m, f); i++) {
 			uint32_t h = (uint32_t)(3 * f) + i;
-			t->spoke[t->start[low(m, h) + 1]++] = (mr_spoke){ high(m, h), h };
+			t->spoke[t->start[low(m, h) + 1]++] = (spoke){ high(m, h), h };
 		}
 }
 
@@ -64,7 +93,7 @@ mr_edges_build(mr_ctx *ctx, const mr_mesh *m, mr_edges *out)
 	mr_edges e = { 0, NULL, MR_NEW(ctx, 3 * m->nf, uint32_t) };
 	uint32_t *start = MR_NEW(ctx, 3 * m->nf + 1, uint32_t);
 	mr_mark mark = mr_mark_take(ctx);
-	table t = { MR_NEW(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, mr_spoke) };
+	table t = { MR_NEW(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, spoke) };
 
 	fill(m, &t);
 	mr_parallel(ctx, m->nv, 4096, sort_vertices, &t);

@@ -8,49 +8,7 @@
 #include "base/parallel.h"
 #include "base/sort.h"
 #include "base/vectors.h"
-#include "mesh/half_edge_sort.h"
-
-/* The spokes of each vertex v, by `to`, then `he`: spoke[start[v]] to spoke[start[v + 1]]. */
-typedef struct spokes {
-	uint32_t *start;
-	mr_spoke *spoke;
-} spokes;
-
-static void
-spokes_build(mr_ctx *ctx, const mr_mesh *m, spokes *out)
-{
-	spokes s = { MR_NEW_ZERO(ctx, m->nv + 2, uint32_t), MR_NEW(ctx, 3 * m->nf, mr_spoke) };
-
-	for (size_t f = 0; f < m->nf; f++)
-		for (int i = 0; i < 3; i++)
-			s.start[m->t[f].v[i] + 2]++;
-	for (size_t v = 0; v <= m->nv; v++)
-		s.start[v + 1] += s.start[v];
-	for (uint32_t h = 0; h < 3 * m->nf; h++)
-		s.spoke[s.start[mr_he_from(m, h) + 1]++] = (mr_spoke){ mr_he_to(m, h), h };
-	for (size_t v = 0; v < m->nv; v++)
-		mr_spokes_sort(s.spoke + s.start[v], s.start[v + 1] - s.start[v]);
-	*out = s;
-}
-
-/* How many spokes of a end in b; *first is the first of them. */
-static uint32_t
-spokes_find(const spokes *s, uint32_t a, uint32_t b, const mr_spoke **first)
-{
-	uint32_t low = s->start[a], end = s->start[a + 1], high = end, n = 0;
-
-	while (low < high) {
-		uint32_t middle = low + (high - low) / 2;
-		if (s->spoke[middle].to < b)
-			low = middle + 1;
-		else
-			high = middle;
-	}
-	*first = s->spoke + low;
-	while (low + n < end && s->spoke[low + n].to == b)
-		n++;
-	return n;
-}
+#include "mesh/edges.h"
 
 static mr_status
 check_corners(mr_ctx *ctx, const mr_mesh *m)
@@ -66,22 +24,21 @@ check_corners(mr_ctx *ctx, const mr_mesh *m)
 }
 
 static mr_status
-match_twins(mr_ctx *ctx, const mr_mesh *m, const spokes *s, uint32_t *twin)
+match_twins(mr_ctx *ctx, const mr_mesh *m, const mr_edges *edges, uint32_t *twin)
 {
-	for (uint32_t h = 0; h < 3 * m->nf; h++) {
-		uint32_t a = mr_he_from(m, h), b = mr_he_to(m, h);
-		const mr_spoke *along, *against;
-		uint32_t same = spokes_find(s, a, b, &along), opposite = spokes_find(s, b, a, &against);
-
-		if (same + opposite > 2)
+	for (size_t e = 0; e < edges->count; e++) {
+		const uint32_t *h = edges->he + edges->start[e];
+		uint32_t n = mr_edge_faces(edges, e), a = mr_he_from(m, h[0]), b = mr_he_to(m, h[0]);
+		if (n > 2)
 			return mr_advise(ctx, MR_REPAIR,
-			    mr_fail(ctx, MR_EMESH, "%s: edge %u-%u has %u faces", m->name, a, b,
-				same + opposite));
-		if (same > 1)
+			    mr_fail(ctx, MR_EMESH, "%s: edge %u-%u has %u faces", m->name, a, b, n));
+		if (n == 2 && mr_same_direction(m, h[0], h[1]))
 			return mr_advise(ctx, MR_REPAIR,
 			    mr_fail(ctx, MR_EMESH,
 				"%s: the two faces at edge %u-%u have opposite orientations", m->name, a, b));
-		twin[h] = opposite ? against->he : MR_NONE;
+		twin[h[0]] = n == 2 ? h[1] : MR_NONE;
+		if (n == 2)
+			twin[h[1]] = h[0];
 	}
 	return MR_OK;
 }
@@ -99,23 +56,33 @@ fan_size(const mr_topology *topo, uint32_t h)
 	return n;
 }
 
+/* Whether a vertex rather keeps h than g: one of the boundary, or to the lower vertex. */
+static bool
+is_better(const mr_mesh *m, const uint32_t *twin, uint32_t h, uint32_t g)
+{
+	bool boundary = twin[h] == MR_NONE;
+
+	return boundary != (twin[g] == MR_NONE) ? boundary : mr_he_to(m, h) < mr_he_to(m, g);
+}
+
 /* Picks the half-edge that each vertex keeps, and finds vertices whose faces form several fans. */
 static mr_status
-choose_out(mr_ctx *ctx, const mr_mesh *m, const spokes *s, mr_topology *topo)
+choose_out(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo)
 {
-	for (uint32_t v = 0; v < m->nv; v++) {
-		uint32_t degree = s->start[v + 1] - s->start[v], h = MR_NONE;
-		for (uint32_t i = s->start[v]; i < s->start[v + 1]; i++) {
-			uint32_t g = s->spoke[i].he;
-			if (h == MR_NONE || (topo->twin[g] == MR_NONE && topo->twin[h] != MR_NONE))
-				h = g;
-		}
-		topo->out[v] = h;
-		if (degree && fan_size(topo, h) != degree)
+	uint32_t *degree = MR_NEW_ZERO(ctx, m->nv, uint32_t);
+
+	memset(topo->out, 0xff, m->nv * sizeof *topo->out);
+	for (uint32_t h = 0; h < 3 * m->nf; h++) {
+		uint32_t *out = &topo->out[mr_he_from(m, h)];
+		degree[mr_he_from(m, h)]++;
+		if (*out == MR_NONE || is_better(m, topo->twin, h, *out))
+			*out = h;
+	}
+	for (uint32_t v = 0; v < m->nv; v++)
+		if (degree[v] && fan_size(topo, topo->out[v]) != degree[v])
 			return mr_advise(ctx, MR_REPAIR,
 			    mr_fail(ctx, MR_EMESH, "%s: the %u faces at vertex %u form more than one fan",
-				m->name, degree, v));
-	}
+				m->name, degree[v], v));
 	return MR_OK;
 }
 
@@ -124,12 +91,12 @@ mr_topology_build(mr_ctx *ctx, const mr_mesh *m, mr_topology *topo)
 {
 	mr_topology r = { MR_NEW(ctx, 3 * m->nf, uint32_t), MR_NEW(ctx, m->nv, uint32_t) };
 	mr_mark mark = mr_mark_take(ctx);
-	spokes s;
+	mr_edges edges;
 
 	MR_TRY(check_corners(ctx, m));
-	spokes_build(ctx, m, &s);
-	MR_TRY(match_twins(ctx, m, &s, r.twin));
-	MR_TRY(choose_out(ctx, m, &s, &r));
+	mr_edges_build(ctx, m, &edges);
+	MR_TRY(match_twins(ctx, m, &edges, r.twin));
+	MR_TRY(choose_out(ctx, m, &r));
 	mr_mark_release(ctx, mark);
 	*topo = r;
 	return MR_OK;
