@@ -1,5 +1,5 @@
-/* A file without a name by O_TMPFILE, named by linkat(2), or under a random name, renamed. */
-#define _GNU_SOURCE /* O_TMPFILE, getentropy */
+/* A file under a random name beside its place, renamed at the end. */
+#define _DEFAULT_SOURCE /* getentropy, realpath */
 
 #include "base/outfile.h"
 
@@ -8,170 +8,28 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum { LINKS = 40, TRIES = 100 };
-
 static mr_status
 failed(mr_ctx *ctx, const char *path, const char *what)
 {
 	return mr_fail(ctx, MR_EIO, "%s: %s: %s", path, what, strerror(errno));
 }
 
-static mr_status
-no_memory(mr_ctx *ctx, const char *path)
-{
-	return mr_fail(ctx, MR_EMEM, "%s: no memory for its name", path);
-}
-
-/* The bytes of the folder's name, with the slash. */
-static size_t
-folder(const char *path)
-{
-	const char *slash = strrchr(path, '/');
-
-	return slash ? (size_t)(slash + 1 - path) : 0;
-}
-
-/* The folder of `path` and `name`; the caller's to free, NULL where there is no memory. */
-static char *
-beside(const char *path, const char *name)
-{
-	size_t n = folder(path), m = strlen(name) + 1;
-	char *both = malloc(n + m);
-
-	if (!both)
-		return NULL;
-	memcpy(both, path, n);
-	memcpy(both + n, name, m);
-	return both;
-}
-
-/* Where the name leads, whether something is there or not: a link keeps pointing to it. */
-static mr_status
-follow(mr_ctx *ctx, const char *path, char **target)
-{
-	char *at = strdup(path), to[4096];
-
-	for (int i = 0; at && i < LINKS; i++) {
-		ssize_t n = readlink(at, to, sizeof to - 1);
-		char *next;
-		if (n < 0) {
-			*target = at;
-			return MR_OK;
-		}
-		to[n] = '\0';
-		next = *to == '/' ? strdup(to) : beside(at, to);
-		free(at);
-		at = next;
-	}
-	if (!at)
-		return no_memory(ctx, path);
-	free(at);
-	errno = ELOOP;
-	return failed(ctx, path, "cannot create");
-}
-
 /* Another name in the target's folder: short, whatever the target's length. */
-static mr_status
-random_name(mr_ctx *ctx, mr_outfile *f)
+static char *
+random_name(const char *target)
 {
-	unsigned char r[8];
-	char name[32];
+	const char *slash = strrchr(target, '/');
+	size_t folder = slash ? (size_t)(slash + 1 - target) : 0, room = folder + 32;
+	char *name = malloc(room);
+	unsigned long long r;
 
-	if (getentropy(r, sizeof r))
-		return failed(ctx, f->path, "cannot create");
-	snprintf(name, sizeof name, "mr-%02x%02x%02x%02x%02x%02x%02x%02x~", r[0], r[1], r[2], r[3], r[4],
-	    r[5], r[6], r[7]);
-	free(f->temporary);
-	f->temporary = beside(f->target, name);
-	return f->temporary ? MR_OK : no_memory(ctx, f->path);
-}
-
-/*
- * Makes the file appear under a random name by `make`, which is 0 where it did.  The name is told before
- * there is such a file: an interrupt between the two finds nothing to remove.
- */
-static mr_status
-appear(mr_ctx *ctx, mr_outfile *f, int (*make)(mr_outfile *f))
-{
-	for (int i = 0; i < TRIES; i++) {
-		int error;
-		MR_TRY(random_name(ctx, f));
-		mr_unfinished(ctx, f->temporary, true);
-		if (make(f) == 0)
-			return MR_OK;
-		error = errno;
-		mr_unfinished(ctx, f->temporary, false);
-		free(f->temporary);
-		f->temporary = NULL;
-		errno = error;
-		if (error != EEXIST)
-			break;
+	if (name && getentropy(&r, sizeof r) == 0) {
+		snprintf(name, room, "%.*smr-%016llx~", (int)folder, target, r);
+		return name;
 	}
-	return failed(ctx, f->path, "cannot create");
+	free(name);
+	return NULL;
 }
-
-static int
-create(mr_outfile *f)
-{
-	f->fd = open(f->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-	return f->fd < 0;
-}
-
-#ifdef O_TMPFILE
-/* By what a file without a name is linked. */
-static int
-link_to(const mr_outfile *f, const char *name)
-{
-	char from[32];
-
-	snprintf(from, sizeof from, "/proc/self/fd/%d", f->fd);
-	return linkat(AT_FDCWD, from, AT_FDCWD, name, AT_SYMLINK_FOLLOW);
-}
-
-static int
-link_to_temporary(mr_outfile *f)
-{
-	return link_to(f, f->temporary);
-}
-
-static bool
-open_nameless(mr_outfile *f)
-{
-	char *where = beside(f->target, ".");
-
-	f->fd = where && access("/proc/self/fd", X_OK) == 0
-	            ? open(where, O_WRONLY | O_TMPFILE | O_CLOEXEC, 0666)
-	            : -1;
-	free(where);
-	return f->fd >= 0;
-}
-
-/* What has no name gets the target's where nothing is there, else one by which it can be renamed. */
-static mr_status
-give_first_name(mr_ctx *ctx, mr_outfile *f)
-{
-	if (f->temporary || link_to(f, f->target) == 0)
-		return MR_OK;
-	if (errno != EEXIST)
-		return failed(ctx, f->path, "cannot give it its name");
-	return appear(ctx, f, link_to_temporary);
-}
-#else
-static bool
-open_nameless(mr_outfile *f)
-{
-	(void)f;
-	return false;
-}
-
-static mr_status
-give_first_name(mr_ctx *ctx, mr_outfile *f)
-{
-	(void)ctx;
-	(void)f;
-	return MR_OK;
-}
-#endif
 
 static void
 forget(mr_ctx *ctx, mr_outfile *f)
@@ -185,8 +43,7 @@ forget(mr_ctx *ctx, mr_outfile *f)
 static mr_status
 give_name(mr_ctx *ctx, mr_outfile *f)
 {
-	MR_TRY(give_first_name(ctx, f));
-	if (f->temporary && rename(f->temporary, f->target))
+	if (rename(f->temporary, f->target))
 		return failed(ctx, f->path, "cannot rename into place");
 	forget(ctx, f);
 	return MR_OK;
@@ -203,26 +60,35 @@ keep_mode(mr_ctx *ctx, const struct stat *old, mr_outfile *f)
 		mr_note(ctx, "%s: cannot keep its mode: %s", f->path, strerror(errno));
 }
 
-/* old: what is there; NULL: nothing. */
+/* old: what is there; NULL: nothing.  The name is told before there is such a file: an interrupt between the
+ * two finds nothing to remove. */
 static mr_status
-open_file(mr_ctx *ctx, const struct stat *old, mr_outfile *f)
+open_file(mr_ctx *ctx, const struct stat *old, bool link, mr_outfile *f)
 {
 	if (old && access(f->path, W_OK))
 		return failed(ctx, f->path, "cannot write");
-	MR_TRY(follow(ctx, f->path, &f->target));
+	f->target = link ? realpath(f->path, NULL) : strdup(f->path);
+	if (!f->target)
+		return failed(ctx, f->path, "cannot create");
 	MR_TRY(mr_permit(ctx, f->target, true));
-	if (!open_nameless(f))
-		MR_TRY(appear(ctx, f, create));
+	f->temporary = random_name(f->target);
+	if (!f->temporary)
+		return failed(ctx, f->path, "cannot create");
+	mr_unfinished(ctx, f->temporary, true);
+	f->fd = open(f->temporary, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+	if (f->fd < 0)
+		return failed(ctx, f->path, "cannot create");
 	if (old)
 		keep_mode(ctx, old, f);
 	return MR_OK;
 }
 
+/* A device, a pipe, or what a link leads to where nothing is yet. */
 static mr_status
 open_directly(mr_ctx *ctx, mr_outfile *f)
 {
-	f->fd = open(f->path, O_WRONLY | O_CLOEXEC);
-	return f->fd < 0 ? failed(ctx, f->path, "cannot open") : MR_OK;
+	f->fd = open(f->path, O_WRONLY | O_CREAT | O_CLOEXEC, 0666);
+	return f->fd < 0 ? failed(ctx, f->path, "cannot create") : MR_OK;
 }
 
 /* Another descriptor of standard output, where that is the file: who writes to it goes on there; else -1. */
@@ -240,19 +106,19 @@ mr_status
 mr_outfile_open(mr_ctx *ctx, const char *path, mr_outfile *f)
 {
 	mr_outfile new = { .fd = -1, .path = strdup(path) };
-	struct stat st;
-	bool there = stat(path, &st) == 0;
+	struct stat st, own;
+	bool there = stat(path, &st) == 0, link = lstat(path, &own) == 0 && S_ISLNK(own.st_mode);
 	int through = there ? standard_output(&st) : -1;
 	mr_status status = MR_OK;
 
 	if (!new.path)
-		return no_memory(ctx, path);
+		return mr_fail(ctx, MR_EMEM, "%s: no memory for its name", path);
 	if (through >= 0)
 		new.fd = through;
-	else if (there && !S_ISREG(st.st_mode))
+	else if (there ? !S_ISREG(st.st_mode) : link)
 		status = open_directly(ctx, &new);
 	else
-		status = open_file(ctx, there ? &st : NULL, &new);
+		status = open_file(ctx, there ? &st : NULL, link, &new);
 	if (status < 0)
 		mr_outfile_drop(ctx, &new);
 	else
@@ -268,18 +134,17 @@ mr_sync(mr_ctx *ctx, int fd, const char *path)
 	           : MR_OK;
 }
 
-/* Of the name that it has now. */
+/* Of the name that it has now, which is cut to that of the folder. */
 static mr_status
 sync_folder(mr_ctx *ctx, const mr_outfile *f)
 {
-	char *where = beside(f->target, ".");
-	int fd = where ? open(where, O_RDONLY | O_DIRECTORY | O_CLOEXEC) : -1;
+	char *slash = strrchr(f->target, '/');
+	int fd = open(slash ? (slash[1] = '\0', f->target) : ".", O_RDONLY | O_DIRECTORY | O_CLOEXEC);
 	mr_status status = fd < 0 ? failed(ctx, f->path, "cannot bring its folder to the disk")
 	                          : mr_sync(ctx, fd, f->path);
 
 	if (fd >= 0)
 		close(fd);
-	free(where);
 	return status;
 }
 

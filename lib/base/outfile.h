@@ -1,9 +1,7 @@
 /*
  * outfile.h -- files that are seen whole or not at all: what was there stays until they have their name.
  *
- * Until then a file has none where the system can do that (Linux, on most file systems), so that whatever
- * ends the process leaves nothing behind; elsewhere it stands beside its place under a random name, which
- * ctx->unfinished is told.
+ * Until then a file stands beside its place under a random name, which ctx->unfinished is told.
  */
 #ifndef MR_BASE_OUTFILE_H
 #define MR_BASE_OUTFILE_H

@@ -1,21 +1,14 @@
 /*
  * Ear clipping: G. H. Meisters, Polygons have ears, American Mathematical Monthly 82, 1975; only reflex
- * corners can lie in an ear (D. Eberly, Triangulation by ear clipping), and a grid over them keeps polygons
- * of many corners quick.  The polygon is seen along the axis nearest to its Newell normal: coordinates are
- * dropped, not rotated, so that no sign is spoilt by rounding them.
+ * corners can lie in an ear (D. Eberly, Triangulation by ear clipping).  The polygon is seen along the axis
+ * nearest to its Newell normal: coordinates are dropped, not rotated, so that no sign is spoilt by rounding
+ * them.
  */
 #include "mesh/polygon.h"
 
 typedef struct point {
 	double x, y;
 } point;
-
-typedef struct grid {
-	uint32_t *start;  /* cells + 1 */
-	uint32_t *member; /* corners of each cell, by index */
-	size_t nx, ny;
-	double x0, y0, sx, sy; /* cells per unit */
-} grid;
 
 typedef struct polygon {
 	const uint32_t *corner;
@@ -24,8 +17,9 @@ typedef struct polygon {
 	uint32_t *next, *prev; /* of the corners not clipped yet */
 	uint32_t *queue;       /* 3 n: corners to try */
 	bool *clipped;
-	bool *reflex; /* reflex or straight, and not clipped */
-	grid g;
+	bool *reflex;        /* reflex or straight, and not clipped */
+	uint32_t *reflex_at; /* those that were in the beginning */
+	size_t reflexes;
 } polygon;
 
 /* Twice the signed area of a b c. */
@@ -100,53 +94,6 @@ fan_corner(const polygon *g)
 	return n;
 }
 
-static size_t
-cell_of(double v, double origin, double scale, size_t cells)
-{
-	double c = (v - origin) * scale;
-
-	return !(c > 0) ? 0 : c >= (double)cells ? cells - 1 : (size_t)c;
-}
-
-/* Sorts the reflex corners into cells, about one to a cell. */
-static void
-grid_build(mr_ctx *ctx, polygon *g)
-{
-	point low = g->q[0], high = g->q[0];
-	size_t reflex = 0, cells;
-	grid *h = &g->g;
-
-	for (size_t i = 0; i < g->n; i++) {
-		point a = g->q[i];
-		low = (point){ a.x < low.x ? a.x : low.x, a.y < low.y ? a.y : low.y };
-		high = (point){ a.x > high.x ? a.x : high.x, a.y > high.y ? a.y : high.y };
-		reflex += g->reflex[i];
-	}
-	h->nx = h->ny = 1 + (size_t)sqrt((double)reflex);
-	cells = h->nx * h->ny;
-	/* NOLINTNEXTLINE(clang-analyzer-core.uninitialized.Assign) every corner has its place */
-	h->x0 = low.x, h->y0 = low.y;
-	h->sx = high.x > low.x ? (double)h->nx / (high.x - low.x) : 0;
-	h->sy = high.y > low.y ? (double)h->ny / (high.y - low.y) : 0;
-	h->start = MR_NEW_ZERO(ctx, cells + 1, uint32_t);
-	h->member = MR_NEW(ctx, reflex, uint32_t);
-	for (int pass = 0; pass < 2; pass++) {
-		for (size_t i = g->n; i-- > 0;) {
-			size_t c;
-			if (!g->reflex[i])
-				continue;
-			c = cell_of(g->q[i].y, h->y0, h->sy, h->ny) * h->nx +
-			    cell_of(g->q[i].x, h->x0, h->sx, h->nx);
-			if (pass == 0)
-				h->start[c]++;
-			else
-				h->member[--h->start[c]] = (uint32_t)i;
-		}
-		for (size_t c = 0; pass == 0 && c < cells; c++)
-			h->start[c + 1] += h->start[c];
-	}
-}
-
 static bool
 same(point a, point b)
 {
@@ -157,21 +104,11 @@ same(point a, point b)
 static bool
 holds_corner(const polygon *g, point a, point b, point c)
 {
-	const grid *h = &g->g;
-	double x0 = fmin(a.x, fmin(b.x, c.x)), x1 = fmax(a.x, fmax(b.x, c.x));
-	double y0 = fmin(a.y, fmin(b.y, c.y)), y1 = fmax(a.y, fmax(b.y, c.y));
-	size_t i0 = cell_of(x0, h->x0, h->sx, h->nx), i1 = cell_of(x1, h->x0, h->sx, h->nx);
-	size_t j1 = cell_of(y1, h->y0, h->sy, h->ny);
-
-	for (size_t j = cell_of(y0, h->y0, h->sy, h->ny); j <= j1; j++) {
-		uint32_t end = h->start[j * h->nx + i1 + 1];
-		for (uint32_t m = h->start[j * h->nx + i0]; m < end; m++) {
-			point q = g->q[h->member[m]];
-			if (g->reflex[h->member[m]] && q.x >= x0 && q.x <= x1 && q.y >= y0 && q.y <= y1 &&
-			    cross(a, b, q) >= 0 && cross(b, c, q) >= 0 && cross(c, a, q) >= 0 &&
-			    !same(q, a) && !same(q, b) && !same(q, c))
-				return true;
-		}
+	for (size_t i = 0; i < g->reflexes; i++) {
+		point q = g->q[g->reflex_at[i]];
+		if (g->reflex[g->reflex_at[i]] && cross(a, b, q) >= 0 && cross(b, c, q) >= 0 &&
+		    cross(c, a, q) >= 0 && !same(q, a) && !same(q, b) && !same(q, c))
+			return true;
 	}
 	return false;
 }
@@ -260,12 +197,14 @@ ears(mr_ctx *ctx, polygon *g, mr_tri *t)
 	g->queue = MR_NEW(ctx, 3 * n, uint32_t);
 	g->clipped = MR_NEW_ZERO(ctx, n, bool);
 	g->reflex = MR_NEW(ctx, n, bool);
+	g->reflex_at = MR_NEW(ctx, n, uint32_t);
 	for (size_t i = 0; i < n; i++) {
 		g->next[i] = (uint32_t)((i + 1) % n);
 		g->prev[i] = (uint32_t)((i + n - 1) % n);
 		g->reflex[i] = cross(g->q[(i + n - 1) % n], g->q[i], g->q[(i + 1) % n]) <= 0;
+		if (g->reflex[i])
+			g->reflex_at[g->reflexes++] = (uint32_t)i;
 	}
-	grid_build(ctx, g);
 	clip_ears(g, t);
 }
 
@@ -308,81 +247,28 @@ mr_polygon_triangulate(mr_ctx *ctx, const mr_v3 *p, const uint32_t *corner, size
 
 /* ---- triangles back to polygons ---- */
 
-typedef struct edge {
-	uint64_t ends; /* from, to */
-	uint32_t he;
-} edge;
-
-static int
-compare_edges(const void *a, const void *b)
-{
-	const edge *x = a, *y = b;
-
-	return x->ends != y->ends ? (x->ends > y->ends) - (x->ends < y->ends)
-	                          : (x->he > y->he) - (x->he < y->he);
-}
-
-/* By insertion where they are few, as those of a polygon mostly are. */
-static void
-sort_edges(edge *e, size_t n)
-{
-	if (n > 48) {
-		qsort(e, n, sizeof *e, compare_edges);
-		return;
-	}
-	for (size_t i = 1; i < n; i++) {
-		edge x = e[i];
-		size_t j = i;
-		for (; j > 0 && compare_edges(&e[j - 1], &x) > 0; j--)
-			e[j] = e[j - 1];
-		e[j] = x;
-	}
-}
-
-static uint64_t
-ends_of(uint32_t from, uint32_t to)
-{
-	return (uint64_t)from << 32 | to;
-}
-
-/* The first of the sorted edges that has these ends or higher ones. */
-static size_t
-first_edge(const edge *e, size_t n, uint64_t ends)
-{
-	size_t low = 0;
-
-	while (low < n) {
-		size_t middle = (low + n) / 2;
-		if (e[middle].ends < ends)
-			low = middle + 1;
-		else
-			n = middle;
-	}
-	return low;
-}
-
-/* Whether no edge runs against h. */
+/* Whether no half-edge of triangles first to end runs against h. */
 static bool
-is_outer(const mr_mesh *m, const edge *e, size_t n, uint32_t h)
+is_outer(const mr_mesh *m, size_t first, size_t end, uint32_t h)
 {
-	uint64_t ends = ends_of(mr_he_to(m, h), mr_he_from(m, h));
-	size_t i = first_edge(e, n, ends);
-
-	return i == n || e[i].ends != ends;
+	for (uint32_t k = (uint32_t)(3 * first); k < 3 * end; k++)
+		if (mr_he_from(m, k) == mr_he_to(m, h) && mr_he_to(m, k) == mr_he_from(m, h))
+			return false;
+	return true;
 }
 
 /* The edge of the outline that begins at a vertex; MR_NONE where it is not exactly one. */
 static uint32_t
-outer_from(const mr_mesh *m, const edge *e, size_t n, uint32_t vertex)
+outer_from(const mr_mesh *m, size_t first, size_t end, uint32_t vertex)
 {
 	uint32_t found = MR_NONE;
 
-	for (size_t i = first_edge(e, n, ends_of(vertex, 0)); i < n && e[i].ends >> 32 == vertex; i++) {
-		if (!is_outer(m, e, n, e[i].he))
+	for (uint32_t h = (uint32_t)(3 * first); h < 3 * end; h++) {
+		if (mr_he_from(m, h) != vertex || !is_outer(m, first, end, h))
 			continue;
 		if (found != MR_NONE)
 			return MR_NONE;
-		found = e[i].he;
+		found = h;
 	}
 	return found;
 }
@@ -390,38 +276,21 @@ outer_from(const mr_mesh *m, const edge *e, size_t n, uint32_t vertex)
 /* The polygon of triangles first to end: their outline, where it is one loop with all their corners; else
  * false. */
 static bool
-find_outline(const mr_mesh *m, size_t first, size_t end, edge *e, uint32_t *corner)
+find_outline(const mr_mesh *m, size_t first, size_t end, uint32_t *corner)
 {
-	size_t n = 0, count = 0, corners = end - first + 2;
+	size_t count = 0, corners = end - first + 2;
 	uint32_t h = (uint32_t)(3 * first), at;
 
-	for (uint32_t k = h; k < 3 * end; k++)
-		e[n++] = (edge){ ends_of(mr_he_from(m, k), mr_he_to(m, k)), k };
-	sort_edges(e, n);
-	while (h < 3 * end && !is_outer(m, e, n, h))
+	while (h < 3 * end && !is_outer(m, first, end, h))
 		h++;
 	if (h == 3 * end)
 		return false;
 	at = h;
 	do {
 		corner[count++] = at;
-		at = outer_from(m, e, n, mr_he_to(m, at));
+		at = outer_from(m, first, end, mr_he_to(m, at));
 	} while (at != h && at != MR_NONE && count < corners);
 	return at == h && count == corners;
-}
-
-/* The most triangles of one number behind each other. */
-static size_t
-longest_run(const uint32_t *number, size_t nf)
-{
-	size_t most = 0;
-
-	for (size_t f = 0, end; f < nf; f = end) {
-		for (end = f + 1; end < nf && number[end] == number[f]; end++)
-			;
-		most = end - f > most ? end - f : most;
-	}
-	return most;
 }
 
 void
@@ -429,9 +298,7 @@ mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number
 {
 	const mr_mesh m = { .t = t, .nf = nf };
 	mr_polygons r = { 0 };
-	mr_mark mark;
 	size_t n = 0;
-	edge *e;
 
 	if (!number) {
 		*out = (mr_polygons){ .count = nf, .most = 3 };
@@ -439,13 +306,11 @@ mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number
 	}
 	r.start = MR_NEW(ctx, nf + 1, size_t);
 	r.corner = MR_NEW(ctx, 3 * nf, uint32_t);
-	mark = mr_mark_take(ctx);
-	e = MR_NEW(ctx, 3 * longest_run(number, nf), edge);
 	for (size_t f = 0, end; f < nf; f = end) {
 		bool one;
 		for (end = f + 1; end < nf && number[end] == number[f]; end++)
 			;
-		one = end - f > 1 && find_outline(&m, f, end, e, r.corner + n);
+		one = end - f > 1 && find_outline(&m, f, end, r.corner + n);
 		r.broken += end - f > 1 && !one;
 		for (size_t i = f; i < (one ? f + 1 : end); i++) {
 			size_t corners = one ? end - f + 2 : 3;
@@ -457,6 +322,5 @@ mr_polygons_find(mr_ctx *ctx, const mr_tri *t, size_t nf, const uint32_t *number
 		}
 	}
 	r.start[r.count] = n;
-	mr_mark_release(ctx, mark);
 	*out = r;
 }

@@ -158,20 +158,19 @@ relax_body(void *arg, size_t begin, size_t end)
 	}
 }
 
-static mr_status
+static void
 relax(mr_ctx *ctx, const mr_mesh *m, mr_v3 *p, int rounds)
 {
 	mr_mark mark = mr_mark_take(ctx);
 	mr_v3 *other = MR_NEW(ctx, m->nv, mr_v3);
 	mr_adjacency a;
 
-	MR_TRY(mr_adjacency_build(ctx, m, &a));
+	mr_adjacency_build(ctx, m, &a);
 	for (int i = 0; i < 2 * rounds; i++) { /* an even number: the result ends in p */
 		relaxing r = { &a, i % 2 ? other : p, i % 2 ? p : other };
 		mr_parallel(ctx, m->nv, 1024, relax_body, &r);
 	}
 	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static void
@@ -230,7 +229,7 @@ mr_bumpy(mr_ctx *ctx, size_t n, mr_mesh *m)
 	MR_TRY(polygonise(ctx, vertices, &coarse));
 	p = MR_NEW(ctx, coarse.nv, mr_v3);
 	memcpy(p, coarse.p, coarse.nv * sizeof *p);
-	MR_TRY(relax(ctx, &coarse, p, 8));
+	relax(ctx, &coarse, p, 8);
 	MR_TRY(mr_loop_levels(ctx, &coarse, 180, levels, level));
 	fine = (mr_mesh){
 		.name = "bumpy", .t = level[levels].t, .nv = level[levels].nv, .nf = level[levels].nf
@@ -238,7 +237,7 @@ mr_bumpy(mr_ctx *ctx, size_t n, mr_mesh *m)
 	q = MR_NEW(ctx, fine.nv, mr_v3);
 	mr_loop_values(ctx, level, levels, 3, (const double *)p, (double *)q);
 	if (levels)
-		MR_TRY(relax(ctx, &fine, q, 2));
+		relax(ctx, &fine, q, 2);
 	mr_parallel(ctx, fine.nv, 1024, clothe_body, q);
 	fine.p = q;
 	*m = fine;

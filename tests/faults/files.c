@@ -39,11 +39,7 @@ open(const char *path, int flags, ...)
 	mode_t mode = 0;
 	va_list args;
 
-	if (has("named") && (flags & O_TMPFILE) == O_TMPFILE) {
-		errno = EOPNOTSUPP;
-		return -1;
-	}
-	if (flags & (O_CREAT | O_TMPFILE)) {
+	if (flags & O_CREAT) {
 		va_start(args, flags);
 		mode = va_arg(args, mode_t);
 		va_end(args);

@@ -168,7 +168,7 @@ spiral(void **state)
 	check((const double(*)[2])xy, MOST, true);
 }
 
-static double big[40000][2];
+static double big[8000][2];
 
 /* Many corners: combs with teeth, in reasonable time; and many that cross, which must end, too. */
 static void
