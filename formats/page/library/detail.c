@@ -38,8 +38,8 @@ begin(detail *d, const parts *p)
 	mr_v3 *normal = MR_NEW(&d->ctx, p->nv, mr_v3);
 
 	d->base = (mr_mesh){ "base", p->rest, p->triangles, p->nv, p->nf };
-	MR_TRY(mr_incidence_build(&d->ctx, &d->base, &d->inc));
-	MR_TRY(mr_vertex_normals(&d->ctx, &d->base, &d->inc, normal));
+	mr_incidence_build(&d->ctx, &d->base, &d->inc);
+	mr_vertex_normals(&d->ctx, &d->base, &d->inc, normal);
 	d->of = (mr_detail){ p->n, { p->face, whole_bary(&d->ctx, p->bary, p->n) }, p->height, p->offset, p->rest,
 		normal };
 	return MR_OK;
