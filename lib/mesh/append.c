@@ -5,8 +5,6 @@
 #include "base/text.h"
 #include "mesh/name_lists.h"
 
-#include <limits.h>
-
 /* One column of a layer in all frames. */
 typedef struct joined {
 	mr_frame *const *frames;
@@ -30,15 +28,13 @@ same_shape(mr_shape a, mr_shape b)
 	return a.element == b.element && a.type == b.type && a.components == b.components;
 }
 
-/* Whether frame f, without the column, says what rows of zeros do. */
+/* Whether a frame without the column says what rows of zeros do. */
 static bool
-is_as_zero(const joined *j, const mr_frame *f)
+is_zero_by_default(const char *name)
 {
-	static const char *const none[] = { "crease", "smoothing", NULL };
+	static const char *const names[] = { "crease", "smoothing", "detail_offset", NULL };
 
-	if (!strcmp(j->name, "detail_offset"))
-		return mr_frame_find(f, j->layer, "detail_face") != NULL;
-	return mr_is_one_of(j->name, none);
+	return mr_is_one_of(name, names);
 }
 
 /* Whether every frame that has the layer, and rows of the element in it, has the column too.  Without
@@ -46,13 +42,12 @@ is_as_zero(const joined *j, const mr_frame *f)
 static bool
 all_have(const joined *j)
 {
-	if (!strcmp(j->name, "polygon"))
+	if (!strcmp(j->name, "polygon") || is_zero_by_default(j->name))
 		return true;
 	for (size_t i = 0; i < j->n; i++) {
 		const mr_column *c = mr_frame_find(j->frames[i], j->layer, j->name);
 		if (c ? !same_shape(c->shape, j->first->shape)
-		      : rows_of(j->frames[i], j->layer, j->first->shape.element) > 0 &&
-			    !is_as_zero(j, j->frames[i]))
+		      : rows_of(j->frames[i], j->layer, j->first->shape.element) > 0)
 			return false;
 	}
 	return true;
@@ -77,22 +72,27 @@ add_lines(mr_ctx *ctx, mr_name_table *all, const char *text, size_t bytes, uint3
 	}
 }
 
-/* Texts of no row: lines of all. */
+/* Texts of no row: the lines of all, each once; of no layer each ends with a newline. */
 static mr_status
 join_text(mr_ctx *ctx, const joined *j, mr_frame *out)
 {
+	const mr_shape shape = { '-', 't', 1 };
 	mr_name_table l = { 0 };
-	const void *text;
+	const char *text;
+	const void *data;
 	uint32_t *number;
 	size_t bytes, count;
 
 	for (size_t i = 0; i < j->n; i++)
 		if (mr_layer_has(j->frames[i], j->layer, j->name)) {
-			MR_TRY(mr_frame_get(
-			    ctx, j->frames[i], j->layer, j->name, j->first->shape, &text, &bytes));
+			MR_TRY(mr_frame_get(ctx, j->frames[i], j->layer, j->name, shape, &data, &bytes));
+			text = data;
+			bytes -= bytes > 0 && !*j->layer && text[bytes - 1] == '\n';
 			add_lines(ctx, &l, text, bytes, &number, &count);
 		}
-	return mr_frame_put(ctx, out, j->layer, j->name, j->first->shape, l.text, l.bytes - (l.bytes > 0));
+	if (l.bytes == 0)
+		return MR_OK;
+	return mr_frame_put(ctx, out, j->layer, j->name, shape, l.text, l.bytes - (*j->layer != 0));
 }
 
 /* ---- rows ---- */
@@ -156,16 +156,6 @@ follow_names(mr_ctx *ctx, const joined *j, size_t i, const char *names, uint32_t
 	return MR_OK;
 }
 
-static size_t
-polygons_of(const uint32_t *x, size_t n)
-{
-	uint32_t most = 0;
-
-	for (size_t k = 0; k < n; k++)
-		most = x[k] > most ? x[k] : most;
-	return n ? (size_t)most + 1 : 0;
-}
-
 /* x, n numbers of `more` rows, behind those of the frames before. */
 static mr_status
 follow_rows(mr_ctx *ctx, const joined *j, uint32_t *x, size_t n, size_t more, following *w)
@@ -188,7 +178,7 @@ follow(mr_ctx *ctx, const joined *j, size_t i, uint32_t *x, size_t n, following 
 		return follow_rows(ctx, j, x, n, rows_of(j->frames[i], info->refers, 'f'), w);
 	if (!strcmp(j->name, "triangles"))
 		return follow_rows(ctx, j, x, n, rows_of(j->frames[i], j->layer, 'v'), w);
-	return strcmp(j->name, "polygon") ? MR_OK : follow_rows(ctx, j, x, n, polygons_of(x, n), w);
+	return strcmp(j->name, "polygon") ? MR_OK : follow_rows(ctx, j, x, n, n, w);
 }
 
 /* The rows of frame i to x; *n: how many. */
@@ -245,12 +235,13 @@ frames_with(const joined *j, const char *layer)
 	return n;
 }
 
+/* What is of all points, or triangles, of its layer together. */
 static bool
-is_sampling(const joined *j)
+is_of_all_rows(const joined *j)
 {
 	const mr_column_info *info = mr_column_of(j->layer, j->name);
 
-	return info && info->kind == MR_SAMPLED;
+	return (info && info->kind == MR_SAMPLED) || !strcmp(j->name, "encoded_faces");
 }
 
 /* Whether the column belongs to one frame alone. */
@@ -261,26 +252,7 @@ is_of_one(const joined *j)
 		return j->n > 1;
 	if (!strcmp(j->layer, "displacement"))
 		return frames_with(j, "control") > 1 || frames_with(j, "displacement") > 1;
-	return frames_with(j, j->layer) > 1 && is_sampling(j);
-}
-
-/* Whether a column of no rows says the same in all frames with the layer. */
-static mr_status
-same_values(mr_ctx *ctx, const joined *j, bool *same)
-{
-	mr_shape shape = j->first->shape;
-	const void *a = NULL, *b;
-	size_t n = 0, m;
-
-	for (size_t i = 0; i < j->n && *same; i++)
-		if (mr_layer_has(j->frames[i], j->layer, j->name)) {
-			MR_TRY(mr_frame_get(ctx, j->frames[i], j->layer, j->name, shape, &b, &m));
-			*same = !a ||
-			        (n == m && !memcmp(a, b, n * mr_type_size(shape.type) * shape.components));
-			a = b;
-			n = m;
-		}
-	return MR_OK;
+	return frames_with(j, j->layer) > 1 && is_of_all_rows(j);
 }
 
 static bool
@@ -296,21 +268,14 @@ is_list(const char *name)
 static mr_status
 join_column(mr_ctx *ctx, const joined *j, mr_frame *out, bool *left)
 {
-	bool kept = true;
+	bool rows = j->first->shape.element != '-', list = j->first->shape.type == 't' && is_list(j->name);
 
-	*left = true;
-	if (j->first->shape.element != '-') {
-		*left = !all_have(j);
-		return *left ? MR_OK : join_rows(ctx, j, out);
-	}
-	if (j->first->shape.type == 't' && is_list(j->name)) {
-		*left = false;
-		return join_text(ctx, j, out);
-	}
-	kept = frames_with(j, j->layer) == 1 || all_have(j);
-	MR_TRY(same_values(ctx, j, &kept));
-	*left = !kept;
-	return kept ? mr_frame_pass(ctx, out, j->first) : MR_OK;
+	*left = rows ? !all_have(j) : !list && frames_with(j, j->layer) > 1;
+	if (*left)
+		return MR_OK;
+	return rows   ? join_rows(ctx, j, out)
+	       : list ? join_text(ctx, j, out)
+	              : mr_frame_pass(ctx, out, j->first);
 }
 
 /* Whether an earlier frame than i has the column. */
@@ -321,13 +286,6 @@ came_before(const joined *j, size_t i, const char *name)
 		if (mr_layer_has(j->frames[i], j->layer, name))
 			return true;
 	return false;
-}
-
-/* What triangles were, which several frames have more of. */
-static bool
-is_print(const joined *j)
-{
-	return !strcmp(j->name, "encoded_faces") && frames_with(j, j->layer) > 1;
 }
 
 static mr_status
@@ -341,12 +299,10 @@ join_layer(mr_ctx *ctx, joined *j, mr_frame *out)
 				continue;
 			j->first = c;
 			j->name = c->name;
-			if (is_print(j))
-				continue;
 			leave = is_of_one(j);
 			if (!leave)
 				MR_TRY(join_column(ctx, j, out, &leave));
-			if (leave && !is_sampling(j))
+			if (leave && !is_of_all_rows(j))
 				mr_lost(ctx, j->layer, 1, j->name);
 		}
 	return MR_OK;
@@ -366,28 +322,10 @@ seen_before(const joined *j, size_t i, size_t k)
 	return false;
 }
 
-/* A history, or pending layers, that another frame has, too, are told once. */
-static mr_status
-join_lines(mr_ctx *ctx, const joined *j, const char *name, mr_frame *out)
-{
-	const mr_shape text = { '-', 't', 1 };
-	mr_text all = { .ctx = ctx };
-	const void *line;
-	size_t n;
-
-	for (size_t i = 0; i < j->n; i++)
-		if (mr_layer_has(j->frames[i], "", name)) {
-			MR_TRY(mr_frame_get(ctx, j->frames[i], "", name, text, &line, &n));
-			if (!all.s || n > all.n || memcmp(all.s, line, n))
-				mr_text_add(
-				    &all, "%.*s", (int)(n < INT_MAX ? n : INT_MAX), (const char *)line);
-		}
-	return all.s ? mr_frame_put(ctx, out, "", name, text, all.s, all.n) : MR_OK;
-}
-
 mr_status
 mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 {
+	static const char *const texts[] = { "history", "findings", "pending" };
 	joined j = { .frames = frames, .n = n };
 	mr_frame *f;
 
@@ -398,9 +336,11 @@ mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 			if (*j.layer && !seen_before(&j, i, k))
 				MR_TRY(join_layer(ctx, &j, f));
 		}
-	MR_TRY(join_lines(ctx, &j, "history", f));
-	MR_TRY(join_lines(ctx, &j, "findings", f));
-	MR_TRY(join_lines(ctx, &j, "pending", f));
+	j.layer = "";
+	for (size_t i = 0; i < sizeof texts / sizeof *texts; i++) {
+		j.name = texts[i];
+		MR_TRY(join_text(ctx, &j, f));
+	}
 	MR_TRY(mr_layer_join_latest(ctx, frames, n, f));
 	*out = f;
 	return MR_OK;
