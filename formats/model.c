@@ -152,18 +152,15 @@ is_free(const mr_frame *f, const char *layer, const char *name, char element)
 static mr_status
 put_properties(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 {
-	static const char *const prefixes[] = { "", "ply_", "ply_face_" };
-
 	for (size_t k = 0; k < m->properties; k++) {
 		const mr_property *p = &m->property[k];
-		char name[MR_COLUMN_MAX + 1] = "";
-		for (size_t i = 0;
-		     i < sizeof prefixes / sizeof *prefixes && !is_free(f, layer, name, p->shape.element);
-		     i++)
-			column_name(name, prefixes[i], p->name);
-		if (is_free(f, layer, name, p->shape.element))
+		char element = p->shape.element, name[MR_COLUMN_MAX + 1];
+		column_name(name, "", p->name);
+		if (!is_free(f, layer, name, element))
+			column_name(name, "ply_", p->name);
+		if (is_free(f, layer, name, element))
 			MR_TRY(mr_frame_put(
-			    ctx, f, layer, name, p->shape, p->data, p->shape.element == 'f' ? m->nf : m->nv));
+			    ctx, f, layer, name, p->shape, p->data, element == 'f' ? m->nf : m->nv));
 		else
 			mr_tell(ctx, MR_LOST, 1, "property %s", p->name);
 	}
@@ -198,9 +195,7 @@ mr_model_put(mr_ctx *ctx, mr_frame *f, const char *layer, const mr_model *m)
 static const char *
 name_of(const char *column)
 {
-	const char *name = column + (strncmp(column, "ply_", 4)           ? 0
-					: strncmp(column, "ply_face_", 9) ? 4
-									  : 9);
+	const char *name = column + (strncmp(column, "ply_", 4) ? 0 : 4);
 	mr_role role = mr_role_of(name, strlen(name));
 
 	return role == MR_X || role == MR_Y || role == MR_Z ? column : name;
@@ -399,19 +394,6 @@ lose_rest(mr_ctx *ctx, const mr_frame *f, const char *layer)
 			mr_lost(ctx, "mesh", (size_t)c->rows, c->name);
 }
 
-static mr_status
-lose_creases(mr_ctx *ctx, mr_frame *f, const char *layer, size_t nf)
-{
-	const uint8_t *mark;
-	size_t sides = 0;
-
-	MR_TRY(mr_layer_crease(ctx, f, layer, nf, &mark));
-	for (size_t c = 0; mark && c < 3 * nf; c++)
-		sides += mark[c] != 0;
-	mr_lost(ctx, layer, (sides + 1) / 2, "creases");
-	return MR_OK;
-}
-
 mr_status
 mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 {
@@ -419,8 +401,6 @@ mr_model_complete(mr_ctx *ctx, mr_frame *f, const char *layer, mr_model *m)
 	mr_frame own;
 
 	MR_TRY(mr_model_get(ctx, f, layer, m));
-	if (f->key)
-		MR_TRY(lose_creases(ctx, f, layer, m->nf));
 	if (!strcmp(layer, "mesh") || m->nf == 0 || !mr_layer_has(f, "mesh", "triangles"))
 		return MR_OK;
 	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, "mesh", &mesh));

@@ -32,3 +32,9 @@ mr_real_write(char *to, double x)
 	    to, to + MR_REAL_MAX, x, plain ? std::chars_format::fixed : std::chars_format::scientific)
 	    .ptr;
 }
+
+char *
+mr_count_write(char *to, uint64_t n)
+{
+	return std::to_chars(to, to + MR_REAL_MAX, n).ptr;
+}

@@ -2,6 +2,8 @@
 #ifndef MR_NUMBERS_H
 #define MR_NUMBERS_H
 
+#include <stdint.h>
+
 #ifdef __cplusplus
 extern "C" {
 #endif
@@ -12,6 +14,9 @@ const char *mr_real_read(const char *p, const char *end, double *x);
 /* Writes x and returns the place behind it; at most MR_REAL_MAX bytes, no NUL. */
 enum { MR_REAL_MAX = 32 };
 char *mr_real_write(char *to, double x);
+
+/* The same of a whole number. */
+char *mr_count_write(char *to, uint64_t n);
 
 #ifdef __cplusplus
 }

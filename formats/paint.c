@@ -12,10 +12,7 @@ keep_corners(mr_ctx *keep, const mr_model *m, const double **corners)
 	double *uv = MR_NEW(keep, 6 * m->nf, double);
 
 	for (size_t c = 0; c < 3 * m->nf; c++)
-		memcpy(uv + 2 * c,
-		    m->corner_texcoord ? m->corner_texcoord + 2 * c
-				       : m->texcoord + 2 * (size_t)m->t[c / 3].v[c % 3],
-		    2 * sizeof *uv);
+		memcpy(uv + 2 * c, mr_corner_texcoord(m, c), 2 * sizeof *uv);
 	for (size_t i = 0; i < 6 * m->nf; i++)
 		if (!isfinite(uv[i]))
 			uv[i] = NAN;

@@ -4,20 +4,6 @@
 #include <inttypes.h>
 #include <math.h>
 
-char *
-mr_count_write(char *to, uint64_t n)
-{
-	char digit[20];
-	size_t count = 0;
-
-	do
-		digit[count++] = (char)('0' + n % 10);
-	while (n /= 10);
-	while (count)
-		*to++ = digit[--count];
-	return to;
-}
-
 /* ---- the cursor ---- */
 
 size_t

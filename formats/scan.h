@@ -19,8 +19,6 @@ typedef struct mr_scan {
 	bool binary; /* places are told by bytes */
 } mr_scan;
 
-char *mr_count_write(char *to, uint64_t n);
-
 static inline bool
 mr_is_blank(char c)
 {

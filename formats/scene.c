@@ -105,16 +105,6 @@ add_target(mr_ctx *keep, mr_scene_node *n, const mr_model *m)
 	n->target[n->targets++] = t;
 }
 
-/* Poses have normals in the file where all of the node have some, the first too. */
-static bool
-has_normals_alike(const mr_scene_node *n, const mr_model *m)
-{
-	const mr_target *last = n->targets ? &n->target[n->targets - 1] : NULL;
-	bool had = last ? last->normal || last->corner_normal : n->model.normal || n->model.corner_normal;
-
-	return had == (m->normal || m->corner_normal);
-}
-
 mr_status
 mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char *list)
 {
@@ -131,8 +121,6 @@ mr_scene_add(mr_ctx *ctx, mr_ctx *keep, mr_scene *scene, mr_frame *f, const char
 		mr_status status = pose ? mr_note_rounded(&losses, &l.model[i])
 		                        : mr_glb_note_lost(&losses, &l.model[i]);
 		MR_TRY(mr_prefix(ctx, status, "%s", l.name[i]));
-		if (pose && !has_normals_alike(&scene->node[scene->open + i], &l.model[i]))
-			mr_lost(ctx, l.name[i], 1, "normals of poses");
 	}
 	for (size_t i = 0; pose && i < l.count; i++)
 		add_target(keep, &scene->node[scene->open + i], &l.model[i]);

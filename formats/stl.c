@@ -67,11 +67,10 @@ read_binary(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 typedef struct ascii {
 	mr_scan text;
 	mr_builder b;
-	mr_v3 *p; /* corners of all facets */
-	size_t corners, room, corner_room;
-	size_t first;  /* corner of the facet at hand */
-	size_t solids; /* so far */
-	bool inside;   /* of a solid */
+	size_t corners, room; /* of all facets, in b.p */
+	size_t first;         /* corner of the facet at hand */
+	size_t solids;        /* so far */
+	bool inside;          /* of a solid */
 } ascii;
 
 /* Corners are vertices of their own until all are there; a facet is a face of them. */
@@ -117,21 +116,11 @@ read_word(ascii *a, const char *w, size_t n)
 		a->first = a->corners;
 	else if (mr_word_is(w, n, "endloop"))
 		return end_facet(a, w);
-	else if (mr_word_is(w, n, "vertex") && a->corners < a->room)
-		return mr_scan_position(&a->text, &a->p[a->corners++]);
+	else if (mr_word_is(w, n, "vertex")) {
+		MR_RESERVE(a->text.ctx, a->b.p, a->corners, 1, &a->room);
+		return mr_scan_position(&a->text, &a->b.p[a->corners++]);
+	}
 	return MR_OK;
-}
-
-/* How many vertices there can be, by the word before each. */
-static size_t
-count_vertices(const mr_scan *t)
-{
-	size_t n = 0;
-
-	for (const char *v = "vV"; *v; v++)
-		for (const char *p = t->p; p < t->end && (p = memchr(p, *v, (size_t)(t->end - p))); p++)
-			n += mr_scan_accept(&(mr_scan){ .p = p, .end = t->end }, "vertex");
-	return n;
 }
 
 static mr_status
@@ -142,16 +131,14 @@ read_ascii(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	uint32_t *map;
 	size_t n;
 
-	a.room = count_vertices(&a.text);
-	MR_TRY(mr_build_vertices(&a.b, a.room));
-	MR_TRY(mr_build_reserve(&a.b, a.room / 3));
-	a.p = a.b.p;
 	while (mr_scan_word(&a.text, &w, &n))
 		MR_TRY(read_word(&a, w, n));
+	if (a.corners >= MR_NONE)
+		return mr_fail(ctx, MR_ERANGE, "%zu corners are more than indices can name", a.corners);
 	if (a.inside)
 		return mr_scan_fail(&a.text, a.text.end, "the file ends inside a solid");
 	map = MR_NEW(ctx, a.corners, uint32_t);
-	join_corners(ctx, a.p, a.corners, map, &a.b.nv);
+	join_corners(ctx, a.b.p, a.corners, map, &a.b.nv);
 	for (size_t i = 0; i < a.b.corners; i++)
 		a.b.corner[i] = map[a.b.corner[i]];
 	return mr_build_finish(&a.b, m);
