@@ -1,9 +1,8 @@
 /* Control meshes for points: of how many faces, and what errors on parts weigh by how densely points lie
  * there. */
 #include "simplify/simplify.h"
-#include "space/near.h"
 
-enum { ROUNDS = 4, ENOUGH = 2 /* points a vertex */ };
+enum { ROUNDS = 4 };
 
 /*
  * Faces by the points, but at least so many as follow limbs and handles, or one for every so many points
@@ -17,46 +16,28 @@ enum { MOST_POINTS_A_FACE = 8 };
 /* Densities beyond these shares of the mean are cut off: gaps and outliers are no surface. */
 static const double LEAST = 0.1, MOST = 10;
 
-/* Sums at vertices become means over the faces around, round after round. */
+/* Values at vertices become means over the faces around, round after round. */
 static void
-spread(mr_ctx *ctx, const mr_mesh *m, double *sum)
+spread(mr_ctx *ctx, const mr_mesh *m, double *value)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	double *to = MR_NEW(ctx, m->nv, double), *faces = MR_NEW_ZERO(ctx, m->nv, double);
+	double *sum = MR_NEW(ctx, m->nv, double), *corners = MR_NEW(ctx, m->nv, double);
 
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++)
-			faces[m->t[f].v[k]] += 3;
 	for (int round = 0; round < ROUNDS; round++) {
-		memset(to, 0, m->nv * sizeof *to);
+		memset(sum, 0, m->nv * sizeof *sum);
+		memset(corners, 0, m->nv * sizeof *corners);
 		for (size_t f = 0; f < m->nf; f++) {
 			const uint32_t *v = m->t[f].v;
-			double all = sum[v[0]] + sum[v[1]] + sum[v[2]];
-			for (int k = 0; k < 3; k++)
-				to[v[k]] += all / faces[v[k]];
+			double all = value[v[0]] + value[v[1]] + value[v[2]];
+			for (int k = 0; k < 3; k++) {
+				sum[v[k]] += all;
+				corners[v[k]] += 3;
+			}
 		}
-		memcpy(sum, to, m->nv * sizeof *to);
+		for (size_t v = 0; v < m->nv; v++)
+			value[v] = corners[v] > 0 ? sum[v] / corners[v] : 1;
 	}
 	mr_mark_release(ctx, mark);
-}
-
-/* How many of n points, or of enough of them at equal strides, are nearest to each vertex; *used: of how
- * many. */
-static mr_status
-count_points(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double *count, size_t *used)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	size_t some = n < ENOUGH * m->nv ? n : ENOUGH * m->nv;
-	uint32_t *nearest = MR_NEW(ctx, some, uint32_t);
-	mr_v3 *q = MR_NEW(ctx, some, mr_v3);
-
-	mr_at_strides(point, n, some, q);
-	MR_TRY(mr_near_once(ctx, m->p, m->nv, q, some, 1, nearest, NULL));
-	for (size_t i = 0; i < some; i++)
-		count[nearest[i]]++;
-	*used = some;
-	mr_mark_release(ctx, mark);
-	return MR_OK;
 }
 
 static size_t
@@ -88,25 +69,19 @@ mr_simplify_most_faces_for(size_t n)
 }
 
 mr_status
-mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double *weight)
+mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, double *weight)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	double *count = MR_NEW_ZERO(ctx, m->nv, double), *area = MR_NEW_ZERO(ctx, m->nv, double), all = 0;
-	size_t used;
+	const mr_sampling *s = &c->sampling;
+	uint32_t *nearest = MR_NEW(ctx, m->nv, uint32_t);
+	double mean = s->area / (double)(s->places - s->outliers);
 
-	MR_TRY(count_points(ctx, m, point, n, count, &used));
-	for (size_t f = 0; f < m->nf; f++) {
-		double third = mr_norm(mr_face_cross(m, f)) / 6;
-		all += 3 * third;
-		for (int k = 0; k < 3; k++)
-			area[m->t[f].v[k]] += third;
-	}
-	spread(ctx, m, count);
-	spread(ctx, m, area);
+	MR_TRY(mr_near_query(ctx, c->near, m->p, m->nv, 1, nearest, NULL));
 	for (size_t v = 0; v < m->nv; v++) {
-		double density = area[v] > 0 ? count[v] * all / (area[v] * (double)used) : 1;
-		weight[v] = fmin(fmax(density, LEAST), MOST);
+		double own = s->spacing[nearest[v]];
+		weight[v] = own > 0 ? fmin(fmax(mean / (own * own), LEAST), MOST) : 1;
 	}
+	spread(ctx, m, weight);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

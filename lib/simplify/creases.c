@@ -4,7 +4,6 @@
 #include "base/disjoint_sets.h"
 #include "base/sort.h"
 #include "space/local_planes.h"
-#include "space/near.h"
 
 /* Points that far from an edge show its planes. */
 enum { NEAREST = 40, ROUNDS = 8, LEAST = 5 };
@@ -95,9 +94,7 @@ is_sharp(const plane two[2], size_t n, double width)
 
 typedef struct finder {
 	const mr_mesh *m;
-	const mr_v3 *point;
-	size_t points;
-	mr_near *near;
+	const mr_simplify_cloud *c;
 	double width;
 } finder;
 
@@ -109,7 +106,7 @@ points_along(mr_ctx *ctx, const finder *f, mr_v3 a, mr_v3 b, mr_v3 **p, size_t *
 	mr_v3 e = mr_sub(b, a);
 	double length = mr_norm(e), margin = length > 6 * f->width ? f->width / length : 0;
 	double stretches = length / (2 * f->width);
-	size_t steps = stretches <= (double)f->points ? (size_t)stretches + 2 : 0, count = 0,
+	size_t steps = stretches <= (double)f->c->n ? (size_t)stretches + 2 : 0, count = 0,
 	       kept = steps * NEAREST;
 	mr_v3 *at = MR_NEW(ctx, steps, mr_v3);
 	uint32_t *index = MR_NEW(ctx, kept, uint32_t);
@@ -117,13 +114,13 @@ points_along(mr_ctx *ctx, const finder *f, mr_v3 a, mr_v3 b, mr_v3 **p, size_t *
 	*p = MR_NEW(ctx, kept, mr_v3);
 	for (size_t i = 0; i < steps; i++)
 		at[i] = mr_lerp((double)i / (double)(steps - 1), a, b);
-	MR_TRY(mr_near_query(ctx, f->near, at, steps, NEAREST, index, NULL));
+	MR_TRY(mr_near_query(ctx, f->c->near, at, steps, NEAREST, index, NULL));
 	kept = mr_sort_unique(index, kept);
 	for (size_t i = 0; i < kept && index[i] != UINT32_MAX; i++) {
-		mr_v3 r = mr_sub(f->point[index[i]], a);
+		mr_v3 r = mr_sub(f->c->p[index[i]], a);
 		double t = mr_dot(r, e) / mr_norm2(e);
 		if (t >= margin && t <= 1 - margin && mr_norm(mr_axpy(-t, e, r)) <= REACH * f->width)
-			(*p)[count++] = f->point[index[i]];
+			(*p)[count++] = f->c->p[index[i]];
 	}
 	*n = count;
 	return MR_OK;
@@ -188,15 +185,13 @@ drop_pieces(mr_ctx *ctx, const mr_mesh *m, uint8_t *mark, size_t *count)
 }
 
 mr_status
-mr_find_creases(
-    mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double width, uint8_t *mark, size_t *count)
+mr_find_creases(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, uint8_t *mark, size_t *count)
 {
 	mr_mark here = mr_mark_take(ctx);
-	finder f = { .m = m, .point = point, .points = n, .width = width };
+	finder f = { m, c, c->sampling.usual };
 	mr_topology topo;
 
 	MR_TRY(mr_topology_build(ctx, m, &topo));
-	MR_TRY(mr_near_build(ctx, point, n, &f.near));
 	MR_TRY(mark_edges(ctx, &f, &topo, mark));
 	drop_pieces(ctx, m, mark, count);
 	mr_mark_release(ctx, here);

@@ -6,7 +6,6 @@
 #include "mesh/guarded_move.h"
 #include "simplify/creases.h"
 #include "space/local_planes.h"
-#include "space/near.h"
 
 /*
  * Points within REACH of a vertex count, if those around them lie in a plane: a sharp edge among them gives
@@ -104,10 +103,10 @@ move(mr_ctx *ctx, const mr_mesh *m, mr_v3 *to)
 	return mr_guarded_move(ctx, &guard, m->p, to);
 }
 
-/* Whether enough of some vertices, at equal strides, are near a sharp edge: up to 2.5 % are of smooth surfaces. */
+/* Whether enough of some vertices, at equal strides, are near a sharp edge: up to 2.5 % are of smooth
+ * surfaces. */
 static mr_status
-look_for_edges(
-    mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, const mr_near *index, double width, bool *any)
+look_for_edges(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, bool *any)
 {
 	size_t some = m->nv < SOME ? m->nv : SOME, all = some * NEAREST, sharp = 0;
 	mr_v3 *at = MR_NEW(ctx, some, mr_v3), *q = MR_NEW(ctx, all, mr_v3), p[AROUND];
@@ -115,48 +114,39 @@ look_for_edges(
 	mr_planes planes = { .normal = MR_NEW(ctx, all, mr_v3), .variation = MR_NEW(ctx, all, double) };
 
 	mr_at_strides(m->p, m->nv, some, at);
-	MR_TRY(mr_near_query(ctx, index, at, some, NEAREST, near, NULL));
+	MR_TRY(mr_near_query(ctx, c->near, at, some, NEAREST, near, NULL));
 	for (size_t i = 0; i < all; i++)
-		q[i] = near[i] == UINT32_MAX ? mr_vec(0, 0, 0) : point[near[i]];
-	MR_TRY(mr_near_query(ctx, index, q, all, AROUND, around, NULL));
+		q[i] = near[i] == UINT32_MAX ? mr_vec(0, 0, 0) : c->p[near[i]];
+	MR_TRY(mr_near_query(ctx, c->near, q, all, AROUND, around, NULL));
 	for (size_t i = 0; i < all; i++) {
 		size_t k = 0;
 		for (; k < AROUND && around[i * AROUND + k] != UINT32_MAX; k++)
-			p[k] = point[around[i * AROUND + k]];
+			p[k] = c->p[around[i * AROUND + k]];
 		planes.normal[i] = mr_plane_fit(p, k, &planes.variation[i]);
 		near[i] = near[i] == UINT32_MAX ? UINT32_MAX : (uint32_t)i;
 	}
 	for (size_t v = 0; v < some; v++)
-		sharp += mr_dist(sharp_place(&planes, q, near + NEAREST * v, width, at[v]), at[v]) > 0;
+		sharp += mr_dist(sharp_place(&planes, q, near + NEAREST * v, c->sampling.usual, at[v]),
+			     at[v]) > 0;
 	*any = (double)sharp > SHARP * (double)some;
 	return MR_OK;
 }
 
-static mr_status
-sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, const mr_near *index, double width,
-    mr_v3 *to, bool *any)
+mr_status
+mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_v3 *to, bool *any)
 {
+	mr_mark mark = mr_mark_take(ctx);
 	uint32_t *near = mr_alloc(ctx, m->nv, NEAREST * sizeof *near);
 	mr_planes planes;
 
-	MR_TRY(look_for_edges(ctx, m, point, index, width, any));
-	if (!*any)
-		return MR_OK;
-	MR_TRY(mr_cloud_planes(ctx, point, n, AROUND, 1, false, &planes));
-	MR_TRY(mr_near_query(ctx, index, m->p, m->nv, NEAREST, near, NULL));
-	for (size_t v = 0; v < m->nv; v++)
-		to[v] = sharp_place(&planes, point, near + NEAREST * v, width, m->p[v]);
-	return move(ctx, m, to);
-}
-
-mr_status
-mr_sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double width, mr_v3 *to, bool *any)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_near *index;
-
-	MR_TRY(mr_near_build(ctx, point, n, &index));
-	MR_TRY(sharpen(ctx, m, point, n, index, width, to, any));
+	MR_TRY(look_for_edges(ctx, m, c, any));
+	if (*any) {
+		MR_TRY(mr_cloud_planes(ctx, c->p, c->n, AROUND, 1, false, &planes));
+		MR_TRY(mr_near_query(ctx, c->near, m->p, m->nv, NEAREST, near, NULL));
+		for (size_t v = 0; v < m->nv; v++)
+			to[v] = sharp_place(&planes, c->p, near + NEAREST * v, c->sampling.usual, m->p[v]);
+		MR_TRY(move(ctx, m, to));
+	}
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }

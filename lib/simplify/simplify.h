@@ -4,7 +4,17 @@
 #ifndef MR_SIMPLIFY_H
 #define MR_SIMPLIFY_H
 
+#include "space/near.h"
+#include "space/sampling.h"
 #include "space/source_map.h"
+
+/* The points that a control mesh is for. */
+typedef struct mr_simplify_cloud {
+	const mr_v3 *p;
+	size_t n;
+	mr_near *near; /* alike */
+	mr_sampling sampling;
+} mr_simplify_cloud;
 
 /*
  * Simplifies an oriented manifold m, boundary allowed; its topology stays (link condition) and no triangle is
@@ -22,11 +32,11 @@ size_t mr_simplify_faces_for(mr_ctx *ctx, size_t n);
 size_t mr_simplify_most_faces_for(size_t n);
 
 /*
- * The weights that make a control mesh dense where n points are: areas of the surface m, near the points,
+ * The weights that make a control mesh dense where points are: areas of the surface m, near the points,
  * count by how densely they lie there, so that a point counts as much as any other.  weight: m->nv, the
  * caller's.
  */
-mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *point, size_t n, double *weight);
+mr_status mr_simplify_weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, double *weight);
 
 /*
  * Where the vertices of m lie on the result: the nearest point, where its face looks to the same side as the

@@ -5,7 +5,6 @@
 #include "edit/detail.h"
 #include "mesh/layers.h"
 #include "simplify/creases.h"
-#include "space/sampling.h"
 #include "tool/sample.h"
 
 /* By default, but for control meshes. */
@@ -17,57 +16,60 @@ static const double OFF = 0.5;
 
 /* The points that a control mesh is for: those of the frame, if there are any. */
 static mr_status
-read_points(mr_ctx *ctx, mr_frame *f, const char *result_layer, mr_mesh *points)
+read_points(mr_ctx *ctx, mr_frame *f, const char *result_layer, mr_simplify_cloud *c)
 {
-	*points = (mr_mesh){ 0 };
+	mr_mesh points;
+
+	*c = (mr_simplify_cloud){ .n = 0 };
 	if (strcmp(result_layer, "control") || !mr_frame_has_layer(f, "points"))
 		return MR_OK;
-	return mr_layer_points(ctx, f, "points", points);
+	MR_TRY(mr_layer_points(ctx, f, "points", &points));
+	if (points.nv == 0)
+		return MR_OK;
+	MR_TRY(mr_sampling_of(ctx, f, &points, &c->sampling));
+	if (c->sampling.places == c->sampling.outliers)
+		return MR_OK;
+	c->p = points.p;
+	c->n = points.nv;
+	return mr_near_build(ctx, c->p, c->n, &c->near);
 }
 
 /* The limits of a control mesh for points: as few faces as are enough for so many, or more where it would be
  * off. */
-static mr_status
-limit_by_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *points, mr_simplify_opts *o)
+static void
+limit_by_points(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opts *o)
 {
-	double *room, mean;
-	mr_sampling s;
-	bool known;
+	double *room = MR_NEW(ctx, m->nv, double);
+	double mean = sqrt(c->sampling.area / (double)(c->sampling.places - c->sampling.outliers));
 
-	o->faces = mr_simplify_faces_for(ctx, points->nv);
-	MR_TRY(mr_sampling_stored(ctx, f, points->name, points->nv, &s, &known));
-	if (!known || s.places == s.outliers)
-		return MR_OK;
-	room = MR_NEW(ctx, m->nv, double);
-	mean = sqrt(s.area / (double)(s.places - s.outliers));
 	for (size_t v = 0; v < m->nv; v++)
-		room[v] = OFF * mean / sqrt(o->weight[v]) + s.noise;
+		room[v] = OFF * mean / sqrt(o->weight[v]) + c->sampling.noise;
 	o->room = room;
-	o->most = mr_simplify_most_faces_for(points->nv);
-	return MR_OK;
+	o->faces = mr_simplify_faces_for(ctx, c->n);
+	o->most = mr_simplify_most_faces_for(c->n);
 }
 
 /* Where to stop where nothing says so.  A control mesh is made for the points, or for the mesh that it comes
  * from. */
-static mr_status
-limit_by_frame(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *points, mr_simplify_opts *o)
+static void
+limit_by_frame(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opts *o)
 {
-	if (points->nv > 0)
-		return limit_by_points(ctx, f, m, points, o);
-	o->faces = o->to && !strcmp(o->to, "control") ? mr_simplify_faces_for(ctx, m->nv)
-	                                              : m->nf / FACES_A_FACE;
-	return MR_OK;
+	if (c->n > 0)
+		limit_by_points(ctx, m, c, o);
+	else
+		o->faces = o->to && !strcmp(o->to, "control") ? mr_simplify_faces_for(ctx, m->nv)
+		                                              : m->nf / FACES_A_FACE;
 }
 
 static mr_status
-weigh(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, mr_simplify_opts *o)
+weigh(mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, mr_simplify_opts *o)
 {
 	double *weight;
 
-	if (o->weight || points->nv == 0)
+	if (o->weight || c->n == 0)
 		return MR_OK;
 	weight = MR_NEW(ctx, m->nv, double);
-	MR_TRY(mr_simplify_weigh(ctx, m, points->p, points->nv, weight));
+	MR_TRY(mr_simplify_weigh(ctx, m, c, weight));
 	o->weight = weight;
 	return MR_OK;
 }
@@ -103,55 +105,33 @@ replace(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *out, const ui
 	return mapped ? mr_source_map_put(ctx, f, &source, out->nv) : MR_OK;
 }
 
-/* The usual spacing of points that show sharp edges; 0: none are to be kept.  MR_EMISSING where they are to
- * be but cannot. */
+/* Whether points show sharp edges that are to be kept.  MR_EMISSING where these are to be but cannot. */
 static mr_status
-crease_width(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_mesh *points, const mr_simplify_opts *o,
-    double *width)
+may_be_sharp(
+    mr_ctx *ctx, const mr_mesh *m, const mr_simplify_cloud *c, const mr_simplify_opts *o, bool *sharp)
 {
 	const double noisy = 0.1; /* spacings: clean clouds have up to 0.08 */
-	bool can = !o->to && !strcmp(m->name, "control") && points->nv > 0;
-	mr_sampling s;
+	bool can = !o->to && !strcmp(m->name, "control") && c->n > 0,
+	     clean = c->sampling.noise < noisy * c->sampling.usual;
 
-	*width = 0;
+	*sharp = can && !o->smooth && clean;
 	if (o->creases && !can)
 		return mr_fail(ctx, MR_EMISSING,
 		    "%s: sharp edges are kept of layer control by layer points, and one of them is not there",
 		    m->name);
-	if (!can || o->smooth)
-		return MR_OK;
-	MR_TRY(mr_sampling_of(ctx, f, points, &s));
-	if (s.noise < noisy * s.usual)
-		*width = s.usual;
-	else if (o->creases)
+	if (o->creases && !clean)
 		mr_found(ctx, &(mr_finding){
 				  .kind = MR_LIMIT, .what = "the points are too noisy to show sharp edges" });
 	return MR_OK;
 }
 
-/* The surface to be simplified, sharp where the points are; *width becomes 0 where they hardly are. */
-static mr_status
-sharpen(mr_ctx *ctx, const mr_mesh *m, const mr_mesh *points, double *width, mr_mesh *sharp)
-{
-	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
-	bool any;
-
-	*sharp = *m;
-	MR_TRY(mr_sharpen(ctx, m, points->p, points->nv, *width, p, &any));
-	if (any)
-		sharp->p = p;
-	else
-		*width = 0;
-	return MR_OK;
-}
-
 /* Puts the creases of the result, if it has some. */
 static mr_status
-put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_mesh *points, double width, size_t *count)
+put_creases(mr_ctx *ctx, mr_frame *f, const mr_mesh *out, const mr_simplify_cloud *c, size_t *count)
 {
 	uint8_t *mark = MR_NEW(ctx, 3 * out->nf, uint8_t);
 
-	MR_TRY(mr_find_creases(ctx, out, points->p, points->nv, width, mark, count));
+	MR_TRY(mr_find_creases(ctx, out, c, mark, count));
 	return *count ? mr_layer_put(ctx, f, "control", "crease", mark, out->nf) : MR_OK;
 }
 
@@ -159,11 +139,11 @@ static mr_status
 simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 {
 	static const char *const reads[] = { "control", "base", "mesh", NULL };
-	mr_mesh m, points, sharp, out;
+	mr_simplify_cloud points;
+	mr_mesh m, surface, out;
 	const char *layer;
 	uint32_t *onto;
-	double width;
-	bool looked;
+	bool look, sharp;
 
 	MR_TRY(mr_check_number(ctx, "ratio", o.ratio, 0, 1));
 	MR_TRY(mr_check_number(ctx, "error", o.error, 0, 1e300));
@@ -176,20 +156,23 @@ simplify(mr_ctx *ctx, mr_frame *f, mr_simplify_opts o, mr_simplify_result *r)
 	MR_TRY(read_points(ctx, f, o.to ? o.to : layer, &points));
 	MR_TRY(weigh(ctx, &m, &points, &o));
 	if (!o.faces && !(o.ratio > 0) && !(o.error > 0))
-		MR_TRY(limit_by_frame(ctx, f, &m, &points, &o));
+		limit_by_frame(ctx, &m, &points, &o);
 	onto = MR_NEW(ctx, m.nv, uint32_t);
-	MR_TRY(crease_width(ctx, f, &m, &points, &o, &width));
-	sharp = m;
-	looked = width > 0;
-	if (looked)
-		MR_TRY(sharpen(ctx, &m, &points, &width, &sharp));
-	MR_TRY(mr_simplify(ctx, &sharp, &o, &out, onto, r));
-	r->creases = looked || o.creases ? 0 : MR_UNKNOWN;
-	if (points.nv > 0)
-		MR_TRY(mr_sample_report_move(ctx, f, points.name));
+	surface = m;
+	MR_TRY(may_be_sharp(ctx, &m, &points, &o, &look));
+	sharp = look;
+	if (look) {
+		mr_v3 *p = MR_NEW(ctx, m.nv, mr_v3);
+		MR_TRY(mr_sharpen(ctx, &m, &points, p, &sharp));
+		surface.p = sharp ? p : m.p;
+	}
+	MR_TRY(mr_simplify(ctx, &surface, &o, &out, onto, r));
+	r->creases = look || o.creases ? 0 : MR_UNKNOWN;
+	if (points.n > 0)
+		MR_TRY(mr_sample_report_move(ctx, f, "points"));
 	MR_TRY(o.to ? mr_layer_put_mesh(ctx, f, o.to, &out) : replace(ctx, f, &m, &out, onto));
-	if (width > 0)
-		MR_TRY(put_creases(ctx, f, &out, &points, width, &r->creases));
+	if (sharp)
+		MR_TRY(put_creases(ctx, f, &out, &points, &r->creases));
 	if (o.map && !o.to)
 		MR_TRY(put_map(ctx, f, o.map, &m, &out, onto));
 	return mr_layer_worked(ctx, f, o.to ? o.to : layer);

@@ -172,6 +172,7 @@ edges_beyond_the_points_are_not_sharp(void **state)
 {
 	mr_make_opts solid = MR_MAKE_DEFAULTS;
 	size_t count = 1;
+	mr_simplify_cloud c;
 	uint8_t *mark;
 	mr_mesh m;
 
@@ -179,8 +180,10 @@ edges_beyond_the_points_are_not_sharp(void **state)
 	solid.vertices = 200;
 	assert_int_equal(mr_solid_make(&ctx, &solid, &m), MR_OK);
 	mark = MR_NEW(&ctx, 3 * m.nf, uint8_t);
-	for (double width = 1e-3; width > 1e-300; width *= 1e-12) {
-		assert_int_equal(mr_find_creases(&ctx, &m, m.p, m.nv, width, mark, &count), MR_OK);
+	c = (mr_simplify_cloud){ .p = m.p, .n = m.nv };
+	assert_int_equal(mr_near_build(&ctx, m.p, m.nv, &c.near), MR_OK);
+	for (c.sampling.usual = 1e-3; c.sampling.usual > 1e-300; c.sampling.usual *= 1e-12) {
+		assert_int_equal(mr_find_creases(&ctx, &m, &c, mark, &count), MR_OK);
 		assert_int_equal(count, 0);
 	}
 }
