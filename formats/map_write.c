@@ -20,8 +20,7 @@ typedef struct mapping {
 	mr_domain domain;
 	mr_atlas atlas;
 	double low, high;
-	double *least, *greatest; /* of each row of texels */
-	size_t *count;            /* of each row: heights out of the range, or normals turned away */
+	size_t *count; /* of each row: heights out of the range, or normals turned away */
 	mr_gray gray;
 	mr_image image;
 	mr_v3 *normal; /* of the displaced surface */
@@ -35,38 +34,20 @@ height_of(const mapping *m, const mr_texel *t)
 	return m->height[t->v[0]] + m->height[t->v[1]] - m->height[t->v[2]];
 }
 
-static void
-find_rows(void *arg, size_t begin, size_t end)
-{
-	mapping *m = arg;
-
-	for (size_t y = begin; y < end; y++) {
-		double low = INFINITY, high = -INFINITY;
-		for (size_t x = 0; x < m->atlas.width; x++) {
-			mr_texel t = mr_atlas_texel(&m->atlas, x, y);
-			if (t.face != MR_NONE) {
-				low = fmin(low, height_of(m, &t));
-				high = fmax(high, height_of(m, &t));
-			}
-		}
-		m->least[y] = low;
-		m->greatest[y] = high;
-	}
-}
-
 /* Of what stands in the gutter, too. */
 static void
-find_range(mr_ctx *ctx, mapping *m)
+find_range(mapping *m)
 {
-	m->least = MR_NEW(ctx, m->atlas.height, double);
-	m->greatest = MR_NEW(ctx, m->atlas.height, double);
-	mr_parallel(ctx, m->atlas.height, GRAIN, find_rows, m);
 	m->low = INFINITY;
 	m->high = -INFINITY;
-	for (size_t y = 0; y < m->atlas.height; y++) {
-		m->low = fmin(m->low, m->least[y]);
-		m->high = fmax(m->high, m->greatest[y]);
-	}
+	for (size_t y = 0; y < m->atlas.height; y++)
+		for (size_t x = 0; x < m->atlas.width; x++) {
+			mr_texel t = mr_atlas_texel(&m->atlas, x, y);
+			if (t.face == MR_NONE)
+				continue;
+			m->low = fmin(m->low, height_of(m, &t));
+			m->high = fmax(m->high, height_of(m, &t));
+		}
 }
 
 static double
@@ -397,7 +378,7 @@ prepare(mr_ctx *ctx, mr_frame *f, const mr_map_opts *o, mapping *m)
 	m->low = o->low;
 	m->high = o->high;
 	if (!o->ranged)
-		find_range(ctx, m);
+		find_range(m);
 	return isfinite(m->high - m->low)
 	           ? MR_OK
 	           : mr_fail(ctx, MR_ERANGE, "displacement: no picture holds heights from %g to %g", m->low,

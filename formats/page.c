@@ -352,8 +352,12 @@ take_columns(
 		if (shown[i] && !same)
 			MR_TRY(take_column(ctx, from, &from->columns[i], d, to, notes));
 	}
-	if (d->there)
-		mr_text_add(notes, "surface %s %zu %zu\n", surface_name(from, shown), d->at, d->n);
+	if (!d->there)
+		return MR_OK;
+	mr_text_add(notes, "surface %s %zu", surface_name(from, shown), d->at);
+	for (size_t i = 0; i <= d->n; i++)
+		mr_text_add(notes, " %zu", d->level[i].nv);
+	mr_text_add(notes, "\n");
 	return MR_OK;
 }
 

@@ -7,7 +7,8 @@ import { Drawn } from "./draw/drawn.js";
 import { Pictures } from "./draw/pictures.js";
 import { firstLayer, layersOf } from "./stream/layers.js";
 import { setLevel, showLevel } from "./mesh/levels.js";
-import { pickAt, rowsOf, tell } from "./picked.js";
+import { hitAt } from "./draw/pick.js";
+import { rowsOf, tell } from "./picked.js";
 import { Painter } from "./paint/painter.js";
 import { Posing } from "./deform/posing.js";
 import { listLayers, offerShading, showName } from "./side.js";
@@ -180,7 +181,7 @@ export class App {
 
 		if (this.stage.gizmo.busy)
 			return;
-		this.picked = ray && pickAt(ray);
+		this.picked = ray && hitAt(ray, this.stage.layers);
 		if (this.picked)
 			await this.posing.take(this.shown.frame, this.picked);
 		await this.tellPicked();

@@ -2,33 +2,8 @@
 import { namesOf } from "./stream/layers.js";
 import { numberAt } from "./draw/column_colors.js";
 import { regionName } from "./draw/colors.js";
-import { nearestCorner, nearestPoint } from "./draw/pick.js";
 import { columnOf } from "./stream/stream.js";
 import { element, number, place } from "./stream/text.js";
-
-const NEAR = 9; /* pixels about a point */
-
-/* What is nearest to the eye under a ray of the stage: { name, vertex, face, at }, at in the layer's floats; or
- * null. */
-export function pickAt(ray) {
-	let best = null;
-
-	for (const [name, drawn] of ray.layers) {
-		const p = drawn.position;
-		if (drawn.triangles) {
-			const hit = drawn.solid.hit(ray.from, ray.along), t = hit &&
-				Math.hypot(...hit.at.map((x, c) => x - ray.from[c]));
-			if (hit && !(best && best.t <= t))
-				best = { name, t, face: hit.face,
-					vertex: nearestCorner(p, drawn.triangles, hit.face, hit.at), at: hit.at };
-		} else {
-			const hit = nearestPoint(p, ray.projection, ray.right, ray.top, NEAR * ray.pixel, ray.aspect);
-			if (hit && !(best && best.t <= hit.t))
-				best = { name, t: hit.t, face: null, vertex: hit.vertex, at: null };
-		}
-	}
-	return best;
-}
 
 /* What a value is called: a name of a kind, numbers of a row. */
 async function valueAt(frame, layer, column, row) {
@@ -56,7 +31,7 @@ export async function rowsOf(frame, layer, picked, centre, extent, color, posed)
 		rows.push(["face", String(picked.face)]);
 		rows.push(["corners", t.subarray(3 * picked.face, 3 * picked.face + 3).join("  "), true]);
 	}
-	if (picked.at)
+	if (picked.face !== null)
 		rows.push(["clicked", place(picked.at.map((x, c) => x + centre[c]), extent), true]);
 	if (region && region.element === "v")
 		rows.push(["region", await valueAt(frame, layer.name, region, v)]);

@@ -94,44 +94,6 @@ mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size
 }
 
 void
-mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps)
-{
-	size_t n = cloud->n < samples ? cloud->n : samples;
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *p = MR_NEW(ctx, n, mr_v3);
-	double *distance = MR_NEW(ctx, n, double);
-	mr_bvh *bvh;
-
-	mr_at_strides(cloud->p, cloud->n, n, p);
-	mr_bvh_build(ctx, m, &bvh);
-	mr_bvh_distances(ctx, bvh, p, n, distance);
-	gaps->points = mr_gap_of(distance, n);
-	mr_mark_release(ctx, mark);
-}
-
-mr_status
-mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling *s, mr_gaps *gaps)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_v3 *place = MR_NEW(ctx, s->n, mr_v3);
-	double *spacing = MR_NEW(ctx, s->n, double);
-	mr_gap_cloud cloud = { .p = place, .spacing = spacing, .usual = s->usual };
-	mr_near *near;
-
-	for (size_t i = 0; i < s->n; i++)
-		if (!s->repeat[i] && !s->outlier[i]) {
-			place[cloud.n] = p[i];
-			spacing[cloud.n++] = s->spacing[i];
-		}
-	MR_TRY(mr_near_build(ctx, place, cloud.n, &near));
-	cloud.near = near;
-	mr_gap_of_points(ctx, m, &cloud, MR_GAP_SAMPLES, gaps);
-	MR_TRY(mr_gap_of_surface(ctx, m, &cloud, MR_GAP_SAMPLES, gaps, NULL));
-	mr_mark_release(ctx, mark);
-	return MR_OK;
-}
-
-void
 mr_gaps_report(mr_ctx *ctx, const char *layer, const mr_gaps *g)
 {
 	if (g->bare > BARE_MOST)

@@ -7,7 +7,6 @@
 
 #include "mesh/mesh.h"
 #include "space/near.h"
-#include "space/sampling.h"
 
 /* The places that count of a cloud, as mr_sampling_places has them, their spacings and index. */
 typedef struct mr_gap_cloud {
@@ -21,8 +20,6 @@ typedef struct mr_gap_cloud {
 /* Of n distances, which are reordered; unmeasured of none. */
 mr_gap mr_gap_of(double *distance, size_t n);
 
-enum { MR_GAP_SAMPLES = 1 << 12 };
-
 /* Where a gap is widest for how the points lie there. */
 typedef struct mr_gap_spot {
 	double wide; /* in spacings: 0 of none */
@@ -33,13 +30,6 @@ typedef struct mr_gap_spot {
  * widest of them. */
 mr_status mr_gap_of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples,
     mr_gaps *gaps, mr_gap_spot *widest);
-
-/* gaps->points: of so many at equal strides. */
-void
-mr_gap_of_points(mr_ctx *ctx, const mr_mesh *m, const mr_gap_cloud *cloud, size_t samples, mr_gaps *gaps);
-
-/* Both, of the points of a sampling, which are indexed for it. */
-mr_status mr_gaps_measure(mr_ctx *ctx, const mr_mesh *m, const mr_v3 *p, const mr_sampling *s, mr_gaps *gaps);
 
 /* Reports where too much of a layer is bare. */
 void mr_gaps_report(mr_ctx *ctx, const char *layer, const mr_gaps *gaps);

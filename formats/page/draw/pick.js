@@ -1,7 +1,8 @@
 /* pick.js -- what is under a place of the picture: the corner of a triangle, the nearest point about it. */
+const NEAR = 9; /* pixels about a point */
 
 /* The corner of the face that is nearest to the place. */
-export function nearestCorner(p, index, face, place) {
+function nearestCorner(p, index, face, place) {
 	let best = Infinity, vertex = 0;
 
 	for (let k = 3 * face; k < 3 * face + 3; k++) {
@@ -19,7 +20,7 @@ export function nearestCorner(p, index, face, place) {
  * Of the points that are drawn within `radius` of the place (x, y), all in halves of the picture's height, the
  * nearest to the eye.  m: the 16 numbers of projection times view.
  */
-export function nearestPoint(p, m, x, y, radius, aspect) {
+function nearestPoint(p, m, x, y, radius, aspect) {
 	let best = Infinity, vertex = -1;
 
 	for (let i = 0; i < p.length; i += 3) {
@@ -34,4 +35,23 @@ export function nearestPoint(p, m, x, y, radius, aspect) {
 		}
 	}
 	return vertex < 0 ? null : { vertex, t: best };
+}
+
+/* What is nearest to the eye under a ray (stage.js) of layers, [name, drawn]: { name, face, vertex, at }, at in the
+ * layer's floats, face null of points; or null. */
+export function hitAt(ray, layers) {
+	let best = null;
+
+	for (const [name, { position: p, triangles, solid }] of layers) {
+		const hit = solid ? solid.hit(ray.from, ray.along) :
+			nearestPoint(p, ray.projection, ray.right, ray.top, NEAR * 2 / ray.height, ray.aspect);
+		if (!hit)
+			continue;
+		const at = hit.at || Array.from(p.subarray(3 * hit.vertex, 3 * hit.vertex + 3)),
+			t = hit.t || Math.hypot(...at.map((x, c) => x - ray.from[c]));
+		if (!best || t < best.t)
+			best = { name, t, at, face: solid ? hit.face : null,
+				vertex: solid ? nearestCorner(p, triangles, hit.face, at) : hit.vertex };
+	}
+	return best;
 }

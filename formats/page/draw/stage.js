@@ -144,56 +144,31 @@ export class Stage {
 		this.renderer.render(this.scene, this.camera);
 	}
 
-	/* Of a place of the window that is in the picture: where that is, and what the camera has there; null
-	 * outside. */
-	viewAt(clientX, clientY) {
-		const place = this.place(), x = clientX - place.left, y = clientY - place.top;
+	/* The ray through a place of the window, and for points the projection with the place in it; null where that is
+	 * not in the picture. */
+	rayAt(clientX, clientY) {
+		const { left, top, width, height } = this.place(), right = (clientX - left) / width * 2 - 1,
+			above = 1 - (clientY - top) / height * 2;
 
-		if (x < 0 || y < 0 || x >= place.width || y >= place.height)
+		if (!(right >= -1 && right < 1 && above > -1 && above <= 1))
 			return null;
 		this.aim();
-		const projection = new THREE.Matrix4().multiplyMatrices(this.camera.projectionMatrix,
-			this.camera.matrixWorldInverse);
+		const { position, projectionMatrix, matrixWorldInverse, aspect } = this.camera;
+		const at = new THREE.Vector3(right, above, 0.5).unproject(this.camera);
 		return {
-			...place,
-			m: projection.elements,
-			eye: this.camera.position.toArray(),
-			far: this.camera.position.distanceTo(this.controls.target),
-		};
-	}
-
-	/* The direction, of length 1, from the eye to a place of a view, from its top left corner. */
-	along(view, x, y) {
-		const at = new THREE.Vector3(x / view.width * 2 - 1, 1 - y / view.height * 2, 0.5);
-
-		return at.unproject(this.camera).sub(this.camera.position).normalize().toArray();
-	}
-
-	/* Pixels of a view that a length has which is perpendicular to it, at a depth. */
-	pixels(view, length, depth) {
-		return length / depth * view.height / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
-	}
-
-	/*
-	 * What a pick needs to know of a place of the window: the layers, the ray, and for points the projection with
-	 * the place in it; null outside.
-	 */
-	rayAt(clientX, clientY) {
-		const view = this.viewAt(clientX, clientY);
-
-		if (!view)
-			return null;
-		const right = (clientX - view.left) / view.width * 2 - 1,
-			top = 1 - (clientY - view.top) / view.height * 2;
-		return {
-			layers: this.layers,
-			from: view.eye,
-			along: this.along(view, clientX - view.left, clientY - view.top),
-			projection: view.m,
+			from: position.toArray(),
+			along: at.sub(position).normalize().toArray(),
+			projection: new THREE.Matrix4().multiplyMatrices(projectionMatrix, matrixWorldInverse).elements,
 			right,
-			top,
-			aspect: this.camera.aspect,
-			pixel: 2 / view.height,
+			top: above,
+			aspect,
+			height,
+			far: position.distanceTo(this.controls.target),
 		};
+	}
+
+	/* Pixels that a length has which is perpendicular to a ray, as far as what the eye looks at. */
+	pixels({ height, far }, length) {
+		return length / far * height / 2 / Math.tan(ANGLE / 2 * Math.PI / 180);
 	}
 }

@@ -22,22 +22,14 @@ const firstRows = (column, layer, rows) => new Made(layer, column.name,
 	{ element: column.element, type: column.type, components: column.components, rows },
 	async () => (await column.values()).subarray(0, rows * column.components));
 
-/* Vertices of each level, which has 4 times the faces of the one before and a vertex more for each of its edges; the
- * heights, as many as the last level has vertices, say how many edges are boundaries. */
-function countVertices({ position, triangles, height }, most) {
-	const faces = (level) => triangles.rows * (4 ** level - 1), twice = 2 * (height.rows - position.rows);
-	const boundary = most ? (twice - faces(most)) / (2 ** most - 1) : 0;
-
-	return Array.from({ length: most + 1 }, (_, i) => position.rows + (faces(i) + boundary * (2 ** i - 1)) / 2);
-}
-
 /* The surface over one control mesh with one set of heights; other frames may have the same. */
 class Surface {
-	constructor(layer, most, parts) {
+	/* vertices: how many each level has. */
+	constructor(layer, vertices, parts) {
 		this.layer = layer;
-		this.most = most;
+		this.vertices = vertices;
+		this.most = vertices.length - 1;
 		this.parts = parts;
-		this.vertices = countVertices(parts, most);
 		this.columns = []; /* of each level, those that have been asked for */
 	}
 
@@ -123,18 +115,18 @@ class Surface {
 const surfaces = [];
 
 /* The surface of these parts, which frames of a film may share. */
-function surfaceOver(layer, most, parts) {
-	const same = surfaces.find((s) => s.layer === layer && s.most === most &&
+function surfaceOver(layer, vertices, parts) {
+	const same = surfaces.find((s) => s.layer === layer && s.most === vertices.length - 1 &&
 		Object.keys(parts).every((name) => s.parts[name] === parts[name]));
 
 	if (!same)
-		surfaces.push(new Surface(layer, most, parts));
+		surfaces.push(new Surface(layer, vertices, parts));
 	return same || surfaces[surfaces.length - 1];
 }
 
 /* Gives a frame the surface that the page's text tells of, if it does. */
 export function addLevels(frame) {
-	const { layer, level, most } = frame.displaced || {}, parts = { height: columnOf(frame, HEIGHTS, "height") };
+	const { layer, level, vertices } = frame.displaced || {}, parts = { height: columnOf(frame, HEIGHTS, "height") };
 
 	if (!frame.displaced)
 		return;
@@ -142,7 +134,7 @@ export function addLevels(frame) {
 		parts[name] = columnOf(frame, "control", name);
 	const others = [...frame.columns.values()].filter((c) => (c.layer === HEIGHTS || c.layer === layer) &&
 		c !== parts.height);
-	frame.levels = { surface: surfaceOver(layer, most, parts), first: level, others };
+	frame.levels = { surface: surfaceOver(layer, vertices, parts), first: level, others };
 	setLevel(frame, null);
 }
 

@@ -29,14 +29,9 @@ export class Solid {
 		this.read(Float32Array, 2, this.normal.length, this.normal);
 	}
 
-	/* Makes what rays ask for, which takes a moment, where it is not there. */
-	prepare() {
-		library.had(library.run.surface_ready(this.at));
-	}
-
 	/* The face that a ray meets first: { face, at }; null: none. */
 	hit(from, along) {
-		this.prepare();
+		library.had(library.run.surface_ready(this.at)); /* makes what rays ask for, the first time */
 		const ray = library.put(Float64Array.from([...from, ...along])),
 			face = library.run.surface_hit(this.at, ray) >>> 0;
 		const at = Array.from(library.get(Float64Array, ray, 3));

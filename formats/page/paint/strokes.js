@@ -3,9 +3,8 @@
  * right button or two fingers turn the model, and so does a stroke that begins beside it.
  */
 import * as THREE from "three/build/three.module.js";
-import { nearestPoint } from "../draw/pick.js";
+import { hitAt } from "../draw/pick.js";
 
-const NEAR = 9; /* pixels about a point */
 const REST = 150; /* milliseconds without a move */
 const $ = (id) => document.getElementById(id);
 
@@ -24,7 +23,7 @@ export class Strokes {
 		this.painter = painter;
 		this.stage = stage;
 		this.on = false;
-		this.stroke = null; /* { id, scene, last } */
+		this.stroke = null; /* { id, last } */
 		const canvas = stage.canvas;
 		canvas.addEventListener("pointerdown", (e) => this.down(e));
 		canvas.addEventListener("pointermove", (e) => this.move(e));
@@ -58,23 +57,11 @@ export class Strokes {
 		this.cancel();
 	}
 
-	/* What is drawn of the layer, in the view at a place of the window: { view, drawn }; null: not there. */
-	see(clientX, clientY) {
-		const view = this.stage.viewAt(clientX, clientY), { drawn } = this.painter;
+	/* What of the layer is under a place of the window; null: nothing. */
+	hit(clientX, clientY) {
+		const ray = this.stage.rayAt(clientX, clientY), { drawn } = this.painter;
 
-		return view && drawn ? { view, drawn } : null;
-	}
-
-	/* What is under a place of the window: { face, at, vertex }; null: nothing. */
-	hit({ view, drawn: { position: p, solid } }, clientX, clientY) {
-		const x = clientX - view.left, y = clientY - view.top;
-
-		if (solid)
-			return solid.hit(view.eye, this.stage.along(view, x, y));
-		const found = nearestPoint(p, view.m, x / view.width * 2 - 1, 1 - y / view.height * 2,
-			NEAR * 2 / view.height, view.width / view.height);
-		return found && { face: null, vertex: found.vertex,
-			at: Array.from(p.subarray(3 * found.vertex, 3 * found.vertex + 3)) };
+		return ray && drawn ? hitAt(ray, [["", drawn]]) : null;
 	}
 
 	down(e) {
@@ -84,26 +71,26 @@ export class Strokes {
 			this.cancel();
 			return;
 		}
-		const scene = this.see(e.clientX, e.clientY), { tool } = this.painter;
-		const found = scene && this.hit(scene, e.clientX, e.clientY);
+		const found = this.hit(e.clientX, e.clientY), { tool } = this.painter;
+
 		this.lead(!found);
 		if (!found)
 			return;
 		this.stage.canvas.setPointerCapture(e.pointerId);
 		if (tool === "part")
-			this.part(scene, found);
+			this.part(found);
 		else
-			this.begin(e, scene);
+			this.begin(e);
 	}
 
-	part({ drawn: { triangles } }, found) {
-		if (triangles)
-			this.painter.part(triangles[3 * found.face]);
+	part({ face, vertex }) {
+		if (face !== null)
+			this.painter.part(vertex);
 	}
 
-	begin(e, scene) {
+	begin(e) {
 		this.painter.work.regions.begin();
-		this.stroke = { id: e.pointerId, scene, last: [e.clientX, e.clientY] };
+		this.stroke = { id: e.pointerId, last: [e.clientX, e.clientY] };
 		this.brush(e.clientX, e.clientY);
 	}
 
@@ -121,16 +108,15 @@ export class Strokes {
 	prepare(clientX, clientY) {
 		clearTimeout(this.resting);
 		this.resting = setTimeout(() => {
-			const scene = this.on && !this.stroke && this.see(clientX, clientY);
-			if (scene && scene.drawn.solid)
-				scene.drawn.solid.prepare();
+			if (this.on && !this.stroke)
+				this.hit(clientX, clientY);
 		}, REST);
 	}
 
 	/* Discs close enough to each other that the stroke has no notches. */
 	brushTo(x, y) {
-		const { last, scene: { view } } = this.stroke, [x0, y0] = last;
-		const step = Math.max(this.stage.pixels(view, this.painter.radius, view.far) / 3, 2);
+		const [x0, y0] = this.stroke.last, ray = this.stage.rayAt(x, y);
+		const step = Math.max(ray ? this.stage.pixels(ray, this.painter.radius) / 3 : 0, 2);
 		const n = Math.ceil(Math.hypot(x - x0, y - y0) / step);
 
 		for (let i = 1; i <= n; i++)
@@ -139,11 +125,11 @@ export class Strokes {
 	}
 
 	brush(x, y) {
-		const { painter } = this, { scene } = this.stroke, { drawn: { position, solid } } = scene,
-			found = this.hit(scene, x, y);
+		const { painter } = this, found = this.hit(x, y);
 
 		if (!found)
 			return;
+		const { position, solid } = painter.drawn;
 		const disc = solid ? solid.disc(found.face, found.at, painter.radius) :
 			ball(position, found.at, painter.radius);
 		const changed = painter.work.regions.set(disc, painter.region);
@@ -174,13 +160,13 @@ export class Strokes {
 
 	/* A circle about as large as the brush is there. */
 	drawRing(clientX, clientY) {
-		const box = $("stage").getBoundingClientRect(), view = this.stage.viewAt(clientX, clientY),
+		const box = $("stage").getBoundingClientRect(), ray = this.stage.rayAt(clientX, clientY),
 			ring = $("ring");
 
-		ring.hidden = !view || !this.painter.drawn;
+		ring.hidden = !ray || !this.painter.drawn;
 		if (ring.hidden)
 			return;
-		const size = 2 * this.stage.pixels(view, this.painter.radius, view.far);
+		const size = 2 * this.stage.pixels(ray, this.painter.radius);
 		ring.style.width = ring.style.height = size + "px";
 		ring.style.left = clientX - box.left - size / 2 + "px";
 		ring.style.top = clientY - box.top - size / 2 + "px";
