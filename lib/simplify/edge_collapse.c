@@ -104,29 +104,19 @@ minimize(const mr_quadric *q, const mr_quadric_factor *factor, mr_v3 x, int step
 	return x;
 }
 
-/* The sum of the quadrics of the ends of h about its start, and the offset that minimizes it. */
-typedef struct sum {
-	mr_quadric q;
-	mr_quadric_factor factor;
-	mr_v3 ab, x; /* the edge; the offset */
-	bool rim;    /* an end is on the boundary */
-} sum;
-
-static sum
-sum_of(const mr_dyn *d, const mr_site *site, uint32_t h, int steps)
+static mr_merge_sum
+sum_of(const mr_dyn *d, const mr_site *site, uint32_t h)
 {
 	const mr_site *a = &site[d->v[h]], *b = &site[mr_dyn_to(d, h)];
-	sum s = { .ab = mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]), .rim = a->rim || b->rim };
+	mr_merge_sum s = { .ab = mr_sub(d->p[mr_dyn_to(d, h)], d->p[d->v[h]]), .rim = a->rim || b->rim };
 	mr_quadric qb = mr_quadric_moved(&b->q, mr_mul(-1, s.ab));
 	double trace;
 
 	s.q = mr_quadric_sum(&a->q, &qb);
 	s.x = mr_mul(a->rim == b->rim ? 0.5 : a->rim ? 0 : 1, s.ab);
 	trace = s.q.xx + s.q.yy + s.q.zz;
-	if (trace > 0) {
+	if (trace > 0)
 		s.factor = mr_quadric_factor_of(&s.q, FLAT * trace);
-		s.x = minimize(&s.q, &s.factor, s.x, steps);
-	}
 	return s;
 }
 
@@ -160,34 +150,43 @@ uneven(const mr_dyn *d, const mr_site *site, uint32_t h, unsigned faces)
 }
 
 static double
-cost_of(const sum *s, double error)
+cost_of(const mr_merge_sum *s, double error)
 {
 	return error + LENGTH * s->q.area * mr_norm2(s->ab);
 }
 
-double
-mr_merge_bound(const mr_dyn *d, const mr_site *site, uint32_t h)
+/* Further towards the minimum, where there is one. */
+static void
+descend(mr_merge_sum *s, int steps)
 {
-	sum s = sum_of(d, site, h, 1);
+	if (s->factor.shift > 0)
+		s->x = minimize(&s->q, &s->factor, s->x, steps);
+}
 
-	return cost_of(&s, mr_quadric_at(&s.q, s.x));
+void
+mr_merge_begin(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m)
+{
+	m->edge = h;
+	m->sum = sum_of(d, site, h);
+	descend(&m->sum, 1);
+	m->cost = cost_of(&m->sum, mr_quadric_at(&m->sum.q, m->sum.x));
 }
 
 bool
-mr_merge_of(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m)
+mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m)
 {
-	sum s = sum_of(d, site, h, STEPS);
+	mr_merge_sum *s = &m->sum;
 	double error;
 
-	if (!ring_of(d, h, &m->ring))
+	if (!ring_of(d, m->edge, &m->ring))
 		return false;
-	if (!s.rim && s.factor.shift > 0)
-		s.x = keep_volume(d, &m->ring, h, &s.factor, s.x);
-	error = mr_quadric_at(&s.q, s.x);
-	m->edge = h;
-	m->p = mr_add(d->p[d->v[h]], s.x);
-	m->error2 = s.q.area > 0 ? error / s.q.area : 0;
-	m->cost = cost_of(&s, error) * uneven(d, site, h, m->ring.n);
+	descend(s, STEPS - 1);
+	if (!s->rim && s->factor.shift > 0)
+		s->x = keep_volume(d, &m->ring, m->edge, &s->factor, s->x);
+	error = mr_quadric_at(&s->q, s->x);
+	m->p = mr_add(d->p[d->v[m->edge]], s->x);
+	m->error2 = s->q.area > 0 ? error / s->q.area : 0;
+	m->cost = cost_of(s, error) * uneven(d, site, m->edge, m->ring.n);
 	return true;
 }
 

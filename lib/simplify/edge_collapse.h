@@ -25,22 +25,29 @@ typedef struct mr_site {
 	bool rim;     /* on the boundary */
 } mr_site;
 
+/* The sum of the quadrics of the ends of an edge about its start. */
+typedef struct mr_merge_sum {
+	mr_quadric q;
+	mr_quadric_factor factor;
+	mr_v3 ab, x; /* the edge; the offset that about minimizes it */
+	bool rim;    /* an end is on the boundary */
+} mr_merge_sum;
+
 typedef struct mr_merge {
 	uint32_t edge; /* one of its half-edges */
+	mr_merge_sum sum;
 	mr_merge_ring ring;
 	mr_v3 p;       /* where the merged vertex goes */
 	double cost;   /* by which merges are put in order */
 	double error2; /* mean squared distance of p to the planes of the faces merged into it, by area */
 } mr_merge;
 
-/* About a lower bound of the cost of the merge of h, at a part of the work. */
-double mr_merge_bound(const mr_dyn *d, const mr_site *site, uint32_t h);
-
-/*
- * What it is to merge the ends of h; site: of every vertex.  False where
- * the merged vertex would have more than MR_RING_MAX faces.
+/* Begins to tell what it is to merge the ends of h; the cost is about a lower bound.  site: of every vertex.
  */
-bool mr_merge_of(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m);
+void mr_merge_begin(const mr_dyn *d, const mr_site *site, uint32_t h, mr_merge *m);
+
+/* The rest of it.  False where the merged vertex would have more than MR_RING_MAX faces. */
+bool mr_merge_finish(const mr_dyn *d, const mr_site *site, mr_merge *m);
 
 /*
  * True where the merge turns no face by 78 degrees or more, leaves none whose shape (mr_dyn_shape) is below

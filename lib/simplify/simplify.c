@@ -48,9 +48,12 @@ compute_body(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		uint32_t h = (uint32_t)i;
+		mr_merge m;
 		s->bucket[h] = UNKNOWN;
-		if (!mr_dyn_face_dead(&s->d, h / 3) && edge_of(&s->d, h) == h)
-			s->bucket[h] = (uint16_t)mr_bucket_of((float)mr_merge_bound(&s->d, s->site, h));
+		if (mr_dyn_face_dead(&s->d, h / 3) || edge_of(&s->d, h) != h)
+			continue;
+		mr_merge_begin(&s->d, s->site, h, &m);
+		s->bucket[h] = (uint16_t)mr_bucket_of((float)m.cost);
 	}
 }
 
@@ -152,15 +155,16 @@ serve(simplifier *s, uint32_t h, uint32_t bucket)
 {
 	double limit = room_at(s, h);
 	uint32_t now;
-	mr_merge m;
+	mr_merge m; /* what it would be */
 
-	now = mr_bucket_of((float)mr_merge_bound(&s->d, s->site, h));
+	mr_merge_begin(&s->d, s->site, h, &m);
+	now = mr_bucket_of((float)m.cost);
 	if (now > bucket) {
 		enqueue(s, h, now);
 		return;
 	}
 	s->computed++;
-	if (!mr_merge_of(&s->d, s->site, h, &m) || m.error2 > limit * limit)
+	if (!mr_merge_finish(&s->d, s->site, &m) || m.error2 > limit * limit)
 		return;
 	now = mr_bucket_of((float)m.cost);
 	if (now > bucket) {
