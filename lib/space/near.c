@@ -50,17 +50,19 @@ typedef struct item {
 	uint32_t index;
 } item;
 
-/* The lowest index of each position. */
-static void
-find_distinct(mr_ctx *ctx, const mr_v3 *p, size_t n, item **items, size_t *count)
+/* The lowest index of each position; how many. */
+static size_t
+find_items(mr_ctx *ctx, const mr_v3 *p, size_t n, bool distinct, item *items)
 {
 	uint32_t *map = MR_NEW(ctx, n, uint32_t), used = 0;
+	size_t count;
 
-	*items = MR_NEW(ctx, n, item);
-	mr_weld(ctx, p, n, 0, map, count);
+	if (!distinct)
+		mr_weld(ctx, p, n, 0, map, &count);
 	for (uint32_t i = 0; i < n; i++)
-		if (map[i] == used)
-			(*items)[used++] = (item){ { p[i].x, p[i].y, p[i].z }, i };
+		if (distinct || map[i] == used)
+			items[used++] = (item){ { p[i].x, p[i].y, p[i].z }, i };
+	return used;
 }
 
 static uint32_t
@@ -138,8 +140,8 @@ build(item *p, size_t n, size_t blocks, split *s, block *b)
 	build(p + first, n - first, blocks - left, s + left, b + left);
 }
 
-mr_status
-mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
+static mr_status
+build_tree(mr_ctx *ctx, const mr_v3 *p, size_t n, bool distinct, mr_near **out)
 {
 	mr_near *near = MR_NEW(ctx, 1, mr_near);
 	mr_mark mark;
@@ -152,12 +154,25 @@ mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **out)
 	near->block = MR_NEW(ctx, (n + BLOCK - 1) / BLOCK, block);
 	near->split = MR_NEW(ctx, (n + BLOCK - 1) / BLOCK, split);
 	mark = mr_mark_take(ctx);
-	find_distinct(ctx, p, n, &items, &near->points);
+	items = MR_NEW(ctx, n, item);
+	near->points = find_items(ctx, p, n, distinct, items);
 	near->blocks = (near->points + BLOCK - 1) / BLOCK;
 	build(items, near->points, near->blocks, near->split, near->block);
 	mr_mark_release(ctx, mark);
 	*out = near;
 	return MR_OK;
+}
+
+mr_status
+mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **near)
+{
+	return build_tree(ctx, p, n, false, near);
+}
+
+mr_status
+mr_near_build_distinct(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **near)
+{
+	return build_tree(ctx, p, n, true, near);
 }
 
 size_t
@@ -174,12 +189,13 @@ typedef struct query {
 	size_t k, found;
 	uint32_t *index; /* the k nearest so far */
 	double *dist2;
+	double most; /* the largest of k; infinite where there are fewer */
 } query;
 
 static bool
-is_after(const query *q, size_t i, double dist2, uint32_t index)
+is_before(double dist2, uint32_t index, const query *q, size_t i)
 {
-	return q->dist2[i] > dist2 || (q->dist2[i] == dist2 && q->index[i] > index);
+	return dist2 < q->dist2[i] || (dist2 == q->dist2[i] && index < q->index[i]);
 }
 
 static void
@@ -187,12 +203,14 @@ insert(query *q, double dist2, uint32_t index)
 {
 	size_t j = q->found < q->k ? q->found++ : q->k - 1;
 
-	for (; j > 0 && is_after(q, j - 1, dist2, index); j--) {
+	for (; j > 0 && is_before(dist2, index, q, j - 1); j--) {
 		q->index[j] = q->index[j - 1];
 		q->dist2[j] = q->dist2[j - 1];
 	}
 	q->index[j] = index;
 	q->dist2[j] = dist2;
+	if (q->found == q->k)
+		q->most = q->dist2[q->k - 1];
 }
 
 static void
@@ -205,7 +223,8 @@ look_at_block(query *q, const block *b)
 		dist2[i] = x * x + y * y + z * z;
 	}
 	for (size_t i = 0; i < BLOCK; i++)
-		if (q->found < q->k ? dist2[i] < INFINITY : is_after(q, q->k - 1, dist2[i], b->index[i]))
+		if (dist2[i] < q->most ||
+		    (dist2[i] == q->most && q->found == q->k && b->index[i] < q->index[q->k - 1]))
 			insert(q, dist2[i], b->index[i]);
 }
 
@@ -230,7 +249,7 @@ look(query *q, const split *s, const block *b, size_t blocks)
 	old = q->off2[s->axis];
 	before = fmax(first ? behind : before, 0);
 	q->off2[s->axis] = fmax(old, before * before);
-	if (q->found < q->k || q->off2[0] + q->off2[1] + q->off2[2] <= q->dist2[q->k - 1]) {
+	if (q->off2[0] + q->off2[1] + q->off2[2] <= q->most) {
 		if (first)
 			look(q, s + left, b + left, blocks - left);
 		else
@@ -255,7 +274,7 @@ query_body(void *arg, size_t begin, size_t end)
 
 	for (size_t i = begin; i < end; i++) {
 		query q = { { w->q[i].x, w->q[i].y, w->q[i].z }, { 0, 0, 0 }, w->k, 0, w->index + i * w->k,
-			w->dist2 + i * w->k };
+			w->dist2 + i * w->k, INFINITY };
 		look(&q, near->split, near->block, near->blocks);
 		for (; q.found < q.k; q.found++) {
 			q.index[q.found] = UINT32_MAX;

@@ -15,6 +15,9 @@ typedef struct mr_near mr_near;
 /* Builds the index over p[0] to p[n - 1], n >= 1, in the arena. */
 mr_status mr_near_build(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **near) MR_WARN_UNUSED;
 
+/* The same of points none of which are at one position. */
+mr_status mr_near_build_distinct(mr_ctx *ctx, const mr_v3 *p, size_t n, mr_near **near) MR_WARN_UNUSED;
+
 /* How many points are left where each position counts once. */
 size_t mr_near_distinct(const mr_near *near);
 

@@ -404,7 +404,7 @@ find_of_places(mr_ctx *ctx, cloud *c, mr_sampling *s)
 	s->noise = 0;
 	if (c->n < 2)
 		return MR_OK;
-	MR_TRY(mr_near_build(ctx, c->p, c->n, &c->near));
+	MR_TRY(mr_near_build_distinct(ctx, c->p, c->n, &c->near));
 	MR_TRY(find_spacing(ctx, c));
 	MR_TRY(find_noise(ctx, c, s));
 	if (c->n >= FEW)

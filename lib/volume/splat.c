@@ -42,13 +42,19 @@ double
 mr_volume_at(const mr_grid *g, const float *u, mr_v3 p)
 {
 	spot s = spot_of(g, p, mr_vec(0, 0, 0));
-	double sum = 0;
+	const float *low = u + mr_grid_index(g, s.x[0], s.x[1], s.x[2]);
+	double w[3][2], sum = 0;
 
-	for (unsigned c = 0; c < 8; c++) {
-		size_t node;
-		double w = corner(g, &s, c, &node);
-		sum += w * (double)u[node];
+	for (int k = 0; k < 3; k++) {
+		w[k][0] = 1 - s.t[k];
+		w[k][1] = s.t[k];
 	}
+	for (size_t z = 0; z < 2; z++, low += g->n[0] * g->n[1])
+		for (size_t y = 0; y < 2; y++) {
+			const float *row = low + y * g->n[0];
+			sum += w[0][0] * w[1][y] * w[2][z] * (double)row[0];
+			sum += w[0][1] * w[1][y] * w[2][z] * (double)row[1];
+		}
 	return sum;
 }
 
