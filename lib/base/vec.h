@@ -248,4 +248,13 @@ mr_box_grain(mr_box b)
 	return nextafter(largest, INFINITY) - largest;
 }
 
+/* A share of the diagonal, or what a few operations round in there, if that is more. */
+static inline double
+mr_box_tolerance(mr_box b, double share)
+{
+	const double operations = 16;
+
+	return fmax(share * mr_box_diagonal(b), operations * mr_box_grain(b));
+}
+
 #endif

@@ -81,7 +81,7 @@ mark_turned(crowd *c)
 typedef struct content {
 	mr_cell at;
 	bool used, crowded;
-	size_t first, last;    /* vertices */
+	uint32_t first, last;  /* vertices */
 	float low[3], high[3]; /* where it was, in cells */
 } content;
 
@@ -116,7 +116,7 @@ came_by(const crowd *c, size_t a, size_t b)
 }
 
 static void
-add_vertex(const crowd *c, content *table, size_t v)
+add_vertex(const crowd *c, content *table, uint32_t v)
 {
 	const float far = 3; /* cells */
 	mr_cell at = mr_cell_of(&c->cells, c->now.p[v]);
@@ -139,9 +139,9 @@ static void
 mark_gathered(mr_ctx *ctx, crowd *c)
 {
 	content *table = MR_NEW_ZERO(ctx, SLOTS, content);
-	size_t stride = 1 + c->now.nv / SAMPLES;
+	uint32_t stride = 1 + (uint32_t)(c->now.nv / SAMPLES);
 
-	for (size_t v = 0; v < c->now.nv; v += stride)
+	for (uint32_t v = 0; v < c->now.nv; v += stride)
 		add_vertex(c, table, v);
 	for (size_t i = 0; i < SLOTS; i++)
 		if (table[i].crowded)

@@ -213,10 +213,7 @@ mr_mesh_diagonal(const mr_mesh *m)
 double
 mr_mesh_tolerance(const mr_mesh *m, double share)
 {
-	const double operations = 16;
-	mr_box b = mr_mesh_box(m);
-
-	return fmax(share * mr_box_diagonal(b), operations * mr_box_grain(b));
+	return mr_box_tolerance(mr_mesh_box(m), share);
 }
 
 double

@@ -14,8 +14,11 @@ cell_along(const mr_cells *c, double x)
 {
 	const double most = 1e9, off = 0.37; /* walls at 0 are in one cell */
 
-	x = floor(x / c->size + off);
-	return (int)(x < -most ? -most : x < most ? x : most);
+	int cell;
+
+	x = x / c->size + off;
+	cell = (int)(x < -most ? -most : x < most ? x : most);
+	return cell - (cell > x);
 }
 
 mr_cell
@@ -51,33 +54,27 @@ is_marked(const mr_cells *c, mr_cell at)
 	return c->bits[h / 32] >> h % 32 & 1;
 }
 
-/* The cells that a face's box meets; false where they are too many. */
-static bool
-cells_of_face(const mr_cells *c, const mr_mesh *m, size_t f, mr_cell *low, mr_cell *high)
-{
-	const uint32_t *v = m->t[f].v;
-	bool few = true;
+/* Where a vertex is. */
+typedef struct place {
+	mr_cell at;
+	bool marked;
+} place;
 
-	*low = *high = mr_cell_of(c, m->p[v[0]]);
-	for (int i = 1; i < 3; i++) {
-		mr_cell at = mr_cell_of(c, m->p[v[i]]);
-		for (int k = 0; k < 3; k++) {
-			low->at[k] = at.at[k] < low->at[k] ? at.at[k] : low->at[k];
-			high->at[k] = at.at[k] > high->at[k] ? at.at[k] : high->at[k];
-		}
-	}
-	for (int k = 0; k < 3; k++)
-		few &= high->at[k] - low->at[k] < ACROSS;
-	return few;
+static bool
+same(const mr_cell *a, const mr_cell *b)
+{
+	return a->at[0] == b->at[0] && a->at[1] == b->at[1] && a->at[2] == b->at[2];
 }
 
+/* Whether a box of cells has a marked one, or is of too many. */
 static bool
-meets_marked(const mr_cells *c, const mr_mesh *m, size_t f)
+any_marked(const mr_cells *c, mr_cell low, mr_cell high)
 {
-	mr_cell low, high, at;
+	mr_cell at;
 
-	if (!cells_of_face(c, m, f, &low, &high))
-		return true;
+	for (int k = 0; k < 3; k++)
+		if (high.at[k] - low.at[k] >= ACROSS)
+			return true;
 	for (at.at[0] = low.at[0]; at.at[0] <= high.at[0]; at.at[0]++)
 		for (at.at[1] = low.at[1]; at.at[1] <= high.at[1]; at.at[1]++)
 			for (at.at[2] = low.at[2]; at.at[2] <= high.at[2]; at.at[2]++)
@@ -86,14 +83,37 @@ meets_marked(const mr_cells *c, const mr_mesh *m, size_t f)
 	return false;
 }
 
+static bool
+meets_marked(const mr_cells *c, const place *vertex, const uint32_t v[3])
+{
+	const place *p = &vertex[v[0]];
+	mr_cell low = p->at, high = p->at;
+
+	if (same(&p->at, &vertex[v[1]].at) && same(&p->at, &vertex[v[2]].at))
+		return p->marked;
+	for (int i = 1; i < 3; i++)
+		for (int k = 0; k < 3; k++) {
+			int at = vertex[v[i]].at.at[k];
+			low.at[k] = at < low.at[k] ? at : low.at[k];
+			high.at[k] = at > high.at[k] ? at : high.at[k];
+		}
+	return any_marked(c, low, high);
+}
+
 size_t
 mr_cells_faces(mr_ctx *ctx, const mr_cells *c, const mr_mesh *m, mr_tri **faces)
 {
+	place *vertex = MR_NEW(ctx, m->nv, place);
+	mr_tri *t = MR_NEW(ctx, m->nf, mr_tri);
 	size_t n = 0;
 
-	*faces = MR_NEW(ctx, m->nf, mr_tri);
+	for (size_t v = 0; v < m->nv; v++) {
+		vertex[v].at = mr_cell_of(c, m->p[v]);
+		vertex[v].marked = is_marked(c, vertex[v].at);
+	}
 	for (size_t f = 0; f < m->nf; f++)
-		if (meets_marked(c, m, f))
-			(*faces)[n++] = m->t[f];
+		if (meets_marked(c, vertex, m->t[f].v))
+			t[n++] = m->t[f];
+	*faces = t;
 	return n;
 }

@@ -69,10 +69,10 @@ static double
 same_place(const mr_ctx *ctx, const mr_mesh *m)
 {
 	const double rounding = 1e-6, edge = 0.01, least = 1e-12;
-	double diagonal = mr_mesh_diagonal(m);
+	mr_box box = mr_mesh_box(m);
 
-	return fmax(
-	    mr_mesh_tolerance(m, least), fmin(rounding * diagonal, edge * mr_mesh_edge_scale(ctx, m)));
+	return fmax(mr_box_tolerance(box, least),
+	    fmin(rounding * mr_box_diagonal(box), edge * mr_mesh_edge_scale(ctx, m)));
 }
 
 typedef struct mark {
