@@ -89,15 +89,17 @@ count_rows(void *arg, size_t begin, size_t end)
 
 	for (size_t v = begin; v < end; v++) {
 		size_t n = neighbours(j, v);
+		uint32_t seen[LONG + 1];
 		int length = 1;
 		if (n >= LONG)
 			continue;
+		seen[0] = (uint32_t)v;
 		for (size_t i = 0; i < n; i++) {
-			uint32_t w = neighbour(j, v, i);
-			size_t first = 0;
-			while (first < i && neighbour(j, v, first) != w)
-				first++;
-			length += first == i && w != v;
+			int k = 0;
+			seen[length] = neighbour(j, v, i);
+			while (seen[k] != seen[length])
+				k++;
+			length += k == length;
 		}
 		j->l->start[v + 1] = length;
 	}

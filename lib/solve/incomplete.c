@@ -102,7 +102,8 @@ substitute(const incomplete *c, size_t width, const double *r, double *z)
 		double sum[MR_WIDTH], inverse = 1 / f->value[c->diagonal[i]];
 		for (size_t k = 0; k < width; k++)
 			sum[k] = z[(size_t)i * width + k];
-		for (int e = c->diagonal[i] + 1; e < f->start[i + 1]; e++)
+		for (int e = f->start[i + 1] - 1; e > c->diagonal[i];
+		     e--) /* the row that is waited for comes last */
 			for (size_t k = 0; k < width; k++)
 				sum[k] -= f->value[e] * z[(size_t)f->index[e] * width + k];
 		for (size_t k = 0; k < width; k++)

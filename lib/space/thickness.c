@@ -54,7 +54,7 @@ median_around(const mr_incidence *inc, size_t v, const double *across, double mo
 
 /* thickness[a] <= thickness[b] + |a - b| over the edges of a face; true where that lowered one. */
 static bool
-walk_face(const mr_mesh *m, size_t f, double *thickness)
+walk_face(const mr_mesh *m, size_t f, const double length[3], double *thickness)
 {
 	const double step = 1e-6; /* of a distance: less is not worth another round */
 	const uint32_t *v = m->t[f].v;
@@ -62,12 +62,11 @@ walk_face(const mr_mesh *m, size_t f, double *thickness)
 
 	for (int k = 0; k < 3; k++) {
 		uint32_t a = v[k], b = v[(k + 1) % 3];
-		double length = mr_dist(m->p[a], m->p[b]);
-		if (thickness[a] > (1 + step) * (thickness[b] + length)) {
-			thickness[a] = thickness[b] + length;
+		if (thickness[a] > (1 + step) * (thickness[b] + length[k])) {
+			thickness[a] = thickness[b] + length[k];
 			lowered = true;
-		} else if (thickness[b] > (1 + step) * (thickness[a] + length)) {
-			thickness[b] = thickness[a] + length;
+		} else if (thickness[b] > (1 + step) * (thickness[a] + length[k])) {
+			thickness[b] = thickness[a] + length[k];
 			lowered = true;
 		}
 	}
@@ -76,15 +75,22 @@ walk_face(const mr_mesh *m, size_t f, double *thickness)
 
 /* To and fro over the faces until nothing changes: a few rounds, as meshes lie in memory. */
 static void
-walk(const mr_mesh *m, double *thickness)
+walk(mr_ctx *ctx, const mr_mesh *m, double *thickness)
 {
+	mr_mark mark = mr_mark_take(ctx);
+	double(*length)[3] = mr_alloc(ctx, m->nf, sizeof *length);
+
+	for (size_t f = 0; f < m->nf; f++)
+		for (int k = 0; k < 3; k++)
+			length[f][k] = mr_dist(m->p[m->t[f].v[k]], m->p[m->t[f].v[(k + 1) % 3]]);
 	for (bool lowered = true; lowered;) {
 		lowered = false;
 		for (size_t f = 0; f < m->nf; f++)
-			lowered |= walk_face(m, f, thickness);
+			lowered |= walk_face(m, f, length[f], thickness);
 		for (size_t f = m->nf; lowered && f-- > 0;)
-			walk_face(m, f, thickness);
+			walk_face(m, f, length[f], thickness);
 	}
+	mr_mark_release(ctx, mark);
 }
 
 void
@@ -104,6 +110,6 @@ mr_thickness(mr_ctx *ctx, const mr_mesh *m, double most, double *thickness)
 	mr_parallel(ctx, m->nf, 256, cast_faces, &c);
 	for (size_t v = 0; v < m->nv; v++)
 		thickness[v] = median_around(&inc, v, c.across, most);
-	walk(m, thickness);
+	walk(ctx, m, thickness);
 	mr_mark_release(ctx, mark);
 }
