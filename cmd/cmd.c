@@ -874,7 +874,7 @@ main(int argc, char **argv)
 
 	fill_closed();
 	signals_begin(c.name);
-	mr_memory_begin(c.tool->lean);
+	mr_memory_begin();
 	mr_ctx_init(&c.ctx, 0);
 	c.ctx.listener.user = &c;
 	c.ctx.permit = permit; /* options read files, too */

@@ -53,7 +53,6 @@ typedef struct cmd_tool {
 	bool fixed_layers; /* works on what it works on: it has no -l */
 	bool caches;       /* `frame` has c->cache */
 	bool judged;       /* what becomes of the surface is looked at: mr_judge */
-	bool lean;         /* gives smaller blocks back to the system too, which costs time in many frames */
 } cmd_tool;
 
 struct cmd {

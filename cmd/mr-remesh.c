@@ -80,5 +80,4 @@ const cmd_tool cmd_this = {
 	.prepare = prepare,
 	.frame = remesh_frame,
 	.judged = true,
-	.lean = true,
 };

@@ -68,20 +68,21 @@ ask_for_huge_pages(char *begin, size_t size)
  * begins with room for them.
  */
 void
-mr_memory_begin(bool lean)
+mr_memory_begin(void)
 {
 #ifdef M_MMAP_THRESHOLD
-	const int room = 31 << 20; /* a block on the heap, below the threshold */
-	char *volatile first;
+	enum { BLOCKS = 3, SIZE = 31 << 20 }; /* below the threshold: on the heap */
+	char *volatile block[BLOCKS];
 
-	mallopt(M_MMAP_THRESHOLD, lean ? 1 << 18 : 1 << 25);
-	mallopt(M_TRIM_THRESHOLD, lean ? 1 << 17 : 1 << 26);
-	if (lean || !(first = malloc(room)))
-		return;
-	ask_for_huge_pages(first, room);
-	free(first);
-#else
-	(void)lean;
+	mallopt(M_MMAP_THRESHOLD, 1 << 25);
+	mallopt(M_TRIM_THRESHOLD, 1 << 27);
+	for (int i = 0; i < BLOCKS; i++) {
+		block[i] = malloc(SIZE);
+		if (block[i])
+			ask_for_huge_pages(block[i], SIZE);
+	}
+	for (int i = BLOCKS; i-- > 0;)
+		free(block[i]);
 #endif
 }
 

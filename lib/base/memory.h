@@ -12,8 +12,8 @@
  */
 void *mr_memory(const mr_ctx *ctx, void *old, size_t size) MR_WARN_UNUSED;
 
-/* For a process that is ours, at its start: how it keeps memory that it has given back.  lean: none of it. */
-void mr_memory_begin(bool lean);
+/* For a process that is ours, at its start: how it keeps memory that it has given back. */
+void mr_memory_begin(void);
 
 /* The sentence where mr_memory has given none for `what`, so many bytes: MR_EMEM. */
 mr_status mr_no_memory(mr_ctx *ctx, const char *what, double bytes);
