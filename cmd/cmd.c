@@ -232,12 +232,6 @@ base_name(const char *path)
 	return slash ? slash + 1 : path;
 }
 
-static bool
-is_filter_or_sink_of_streams(const cmd_tool *tool)
-{
-	return !tool->source && !tool->operands;
-}
-
 static void
 print_help(const cmd *c, const cmd_opt *standard)
 {
@@ -265,7 +259,7 @@ append_word(mr_text *line, const char *word)
 
 /* "mr 1.0: mr-smooth -t 20 -l mesh".  Other options that all tools share stay out of it: they do not change
  * the result.  Every key frame has the line, and there may be as many as names: it is cut to a page. */
-static mr_status
+static void
 compose_history(cmd *c, const cmd_args *args)
 {
 	enum { MOST = 4096 };
@@ -279,7 +273,6 @@ compose_history(cmd *c, const cmd_args *args)
 		mr_text_add(&line, " ...");
 	make_line(line.s);
 	c->state->history = line.s;
-	return MR_OK;
 }
 
 /* Whether the tool has this one of the options that tools share. */
@@ -336,6 +329,7 @@ parse_command_line(cmd *c, int argc, char **argv)
 	};
 	cmd_opt heeded[sizeof standard / sizeof *standard] = { { 0 } };
 	const cmd_opt *const tables[2] = { c->tool->options, heeded };
+	mr_status parsed;
 	size_t n = 0;
 
 	for (const cmd_opt *o = standard; o->name; o++)
@@ -343,10 +337,7 @@ parse_command_line(cmd *c, int argc, char **argv)
 			heeded[n] = *o;
 			heeded[n++].letter = takes(c->tool, o->letter) ? 0 : o->letter;
 		}
-	for (int i = 1; i < argc && strcmp(argv[i], "--"); i++) { /* before a mistake elsewhere can hide it */
-		s->help |= !strcmp(argv[i], "--help") || !strcmp(argv[i], "-h");
-		s->version |= !strcmp(argv[i], "--version") || !strcmp(argv[i], "-V");
-	}
+	parsed = cmd_parse(&c->ctx, argc, argv, tables, &s->args);
 	if (s->help)
 		print_help(c, heeded);
 	else if (s->version)
@@ -355,10 +346,10 @@ parse_command_line(cmd *c, int argc, char **argv)
 		die(c, fail_system(c, "stdout"));
 	if (s->help || s->version)
 		exit(EXIT_GOOD);
-	try(c, cmd_parse(&c->ctx, argc, argv, tables, &s->args));
+	try(c, parsed);
 	if (c->layer && cmd_list_lacks(c->layer)) /* what else it may be is the tool's: of one it is a list */
 		try(c, cmd_layer_name(c, "--layer", ""));
-	try(c, compose_history(c, &s->args));
+	compose_history(c, &s->args);
 	c->operands = s->args.operands;
 	c->operand_count = s->args.operand_count;
 	try(c, place_stdin_once(&c->ctx, c->operands, c->tool->names_output, c->operand_count));
@@ -554,7 +545,7 @@ cmd_figure(cmd *c, const char *name, double value)
 }
 
 /* One line of --stats: a JSON object. */
-static mr_status
+static void
 print_stats(cmd *c, double seconds)
 {
 	const struct cmd_state *s = c->state;
@@ -562,7 +553,7 @@ print_stats(cmd *c, double seconds)
 	mr_text line = { .ctx = &c->ctx };
 
 	if (!s->stats)
-		return MR_OK;
+		return;
 	mr_text_add(
 	    &line, "{\"tool\":\"%s\",\"frame\":%llu,\"name\":", c->name, (unsigned long long)c->frame);
 	mr_text_json(&line, name, strlen(name));
@@ -572,7 +563,6 @@ print_stats(cmd *c, double seconds)
 	mr_text_add(&line, "}\n");
 	if (fputs(line.s, s->stats) < 0 || fflush(s->stats))
 		die(c, fail_system(c, s->stats_path));
-	return MR_OK;
 }
 
 /* Frames */
@@ -602,7 +592,7 @@ cmd_send(cmd *c, const mr_frame *f)
 	MR_TRY(mr_check_made(&c->ctx, &with_history));
 	MR_TRY(mr_writer_put(&c->ctx, c->state->writer, &with_history));
 	if (c->tool->source) {
-		MR_TRY(print_stats(c, mr_seconds() - c->state->started));
+		print_stats(c, mr_seconds() - c->state->started);
 		begin_frame(c, NULL);
 	}
 	return MR_OK;
@@ -674,7 +664,7 @@ one_frame(cmd *c, mr_frame *f)
 	status = work_on(c, f);
 	clear_progress(c);
 	if (status >= 0)
-		try(c, print_stats(c, mr_seconds() - s->started));
+		print_stats(c, mr_seconds() - s->started);
 	else if (c->keep_going && status != MR_EUSAGE)
 		leave_out(c);
 	else
@@ -726,7 +716,7 @@ read_stream(cmd *c, const char *path)
 	}
 	if (isatty(fd))
 		die(c, mr_fail(&c->ctx, MR_EUSAGE, "%s is a terminal: pipe a stream in, or name a FILE%s",
-			   name, is_filter_or_sink_of_streams(c->tool) ? "" : " by -i"));
+			   name, c->tool->operands ? " by -i" : ""));
 	try(c, mr_prefix(&c->ctx, mr_reader_open(&c->ctx, fd, &reader), "%s", name));
 	while ((status = mr_reader_next(&c->ctx, reader, &frame)) == MR_OK)
 		one_frame(c, frame);

@@ -5,7 +5,7 @@
 
 /*
  * In a sentence {n} is the count, {of} " of 12" where that is known, {s} the plural of what is counted,
- * {layer}, {what}, {tool}, {pct} the value in percent, {value}, {limit}; {at} " at vertex 5 (x, y, z)".
+ * {layer}, {what}, {pct} the value in percent, {limit}; {at} " at vertex 5 (x, y, z)".
  */
 typedef struct entry {
 	verdict worst; /* what a frame with it is at most */
@@ -190,12 +190,8 @@ put_word(const mr_kept_finding *k, const char *name, char *text, size_t size)
 		snprintf(text, size, "%s", *k->layer ? k->layer : "frame");
 	else if (!strncmp(name, "{what}", 6))
 		snprintf(text, size, "%s", k->what);
-	else if (!strncmp(name, "{tool}", 6))
-		snprintf(text, size, "%s", k->tool);
 	else if (!strncmp(name, "{pct}", 5))
 		snprintf(text, size, "%.3g", 100 * f->value);
-	else if (!strncmp(name, "{value}", 7))
-		snprintf(text, size, "%.3g", f->value);
 	else if (!strncmp(name, "{limit}", 7))
 		snprintf(text, size, "%.3g", f->limit);
 	else if (!strncmp(name, "{at}", 4))

@@ -3,13 +3,12 @@
 #include "cmd.h"
 
 static mr_decode_opts opts = MR_DECODE_DEFAULTS;
-static size_t level;
 static int from;
 static bool blind;
 
 static const cmd_opt table[] = {
 	{ 'g', "gain", CMD_REAL, &opts.gain, -1e6, 1e6, "G", "multiply the detail by G", NULL },
-	{ 0, "level", CMD_COUNT, &level, 0, MR_LEVEL_MAX, "J",
+	{ 0, "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "J",
 	    "subdivisions of the control mesh (default: as many as have heights)", NULL },
 	{ 0, "from", CMD_CHOICE, &from, 0, 0, "detail|control",
 	    "what to put the mesh together from (default: what was worked on last)", NULL },
@@ -21,8 +20,6 @@ static const cmd_opt table[] = {
 static mr_status
 prepare(cmd *c)
 {
-	if (cmd_given(c, "level"))
-		opts.level = level;
 	if (cmd_given(c, "from"))
 		opts.from = MR_FROM_DETAIL + from;
 	c->no_check = blind;

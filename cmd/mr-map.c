@@ -4,7 +4,6 @@
 
 static mr_map_opts opts = MR_MAP_DEFAULTS;
 static const char *to, *from;
-static size_t level;
 static cmd_range range;
 static mr_string_set given;
 
@@ -12,7 +11,7 @@ static const cmd_opt table[] = {
 	{ 'w', "write", CMD_TEXT, &to, 0, 0, "NAME", "write NAME-height.png, NAME-normal.png and NAME.mtl",
 	    NULL },
 	{ 'r', "read", CMD_TEXT, &from, 0, 0, "PICTURE", "read the heights in this picture", NULL },
-	{ 'n', "level", CMD_COUNT, &level, 0, MR_LEVEL_MAX, "LEVEL",
+	{ 'n', "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "LEVEL",
 	    "subdivisions of the control mesh (default: as many as have heights, or as the picture says)",
 	    NULL },
 	{ 0, "range", CMD_RANGE, &range, 0, 0, "LOW,HIGH",
@@ -32,8 +31,6 @@ check(cmd *c)
 		return mr_fail(&c->ctx, MR_EUSAGE, "give one of --write NAME and --read PICTURE");
 	MR_TRY(cmd_idle(c, "size", from != NULL, "with --read"));
 	MR_TRY(cmd_idle(c, "gutter", from != NULL, "with --read"));
-	if (cmd_given(c, "level"))
-		opts.level = level;
 	opts.ranged = range.given;
 	opts.low = range.low;
 	opts.high = range.high;

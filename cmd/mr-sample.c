@@ -4,10 +4,9 @@
 #include "tool/sample.h"
 
 static mr_sample_opts opts = MR_SAMPLE_DEFAULTS;
-static const char *level_text;
 
 static const cmd_opt table[] = {
-	{ 'n', "level", CMD_TEXT, &level_text, 0, 0, "LEVEL",
+	{ 'n', "level", CMD_COUNT, &opts.level, 0, MR_LEVEL_MAX, "LEVEL",
 	    "subdivisions of the control mesh (default: as many vertices as points, at least 1)", NULL },
 	{ 'm', "method", CMD_CHOICE, &opts.method, 0, 0, "auto|triangle|robust", "how to find the heights",
 	    NULL },
@@ -17,14 +16,6 @@ static const cmd_opt table[] = {
 	    "passes that fit the heights to the points; 0: the paper's heights", NULL },
 	{ 0 },
 };
-
-static mr_status
-prepare(cmd *c)
-{
-	if (!level_text)
-		return MR_OK;
-	return cmd_parse_count(&c->ctx, "--level", level_text, 0, MR_LEVEL_MAX, &opts.level);
-}
 
 /* Options that look for heights in points alone. */
 static mr_status
@@ -73,6 +64,5 @@ sample_frame(cmd *c, mr_frame *f)
 const cmd_tool cmd_this = {
 	.summary = "sample the displacement of a subdivision surface to points or a mesh",
 	.options = table,
-	.prepare = prepare,
 	.frame = sample_frame,
 };

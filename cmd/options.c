@@ -179,22 +179,14 @@ parse_value(mr_ctx *ctx, const cmd_opt *o, const char *text)
 	return MR_OK;
 }
 
+/* The option of this letter, or where it is 0 of this name. */
 static const cmd_opt *
-find_short(const cmd_opt *const tables[2], char letter, int *table)
+find(const cmd_opt *const tables[2], char letter, const char *name, size_t length, int *table)
 {
 	for (*table = 0; *table < 2; ++*table)
 		for (const cmd_opt *o = tables[*table]; o && o->name; o++)
-			if (o->letter == letter)
-				return o;
-	return NULL;
-}
-
-static const cmd_opt *
-find_long(const cmd_opt *const tables[2], const char *name, size_t length, int *table)
-{
-	for (*table = 0; *table < 2; ++*table)
-		for (const cmd_opt *o = tables[*table]; o && o->name; o++)
-			if (strlen(o->name) == length && !memcmp(o->name, name, length))
+			if (letter ? o->letter == letter
+				   : strlen(o->name) == length && !memcmp(o->name, name, length))
 				return o;
 	return NULL;
 }
@@ -250,7 +242,7 @@ parse_long(parser *p)
 	const char *name = p->argv[p->at] + 2, *equals = strchr(name, '=');
 	size_t length = equals ? (size_t)(equals - name) : strlen(name);
 	int table, first = p->at;
-	const cmd_opt *o = find_long(p->tables, name, length, &table);
+	const cmd_opt *o = find(p->tables, 0, name, length, &table);
 
 	if (!o)
 		return mr_fail(p->ctx, MR_EUSAGE, "no option is called --%.*s", (int)length, name);
@@ -269,7 +261,7 @@ parse_short(parser *p)
 	bool noted = false;
 
 	while (*letters) {
-		const cmd_opt *o = find_short(p->tables, *letters, &table);
+		const cmd_opt *o = find(p->tables, *letters, NULL, 0, &table);
 		if (!o)
 			return mr_fail(p->ctx, MR_EUSAGE, "no option is called -%c", *letters);
 		letters++;
@@ -336,17 +328,13 @@ print_default(FILE *out, const cmd_opt *o)
 		    l.relative ? 100 * l.value : l.value);
 		break;
 	}
-	case CMD_VECTOR: {
-		mr_v3 v = *(mr_v3 *)o->value;
-		fprintf(out, " (default %.6g,%.6g,%.6g)", v.x, v.y, v.z);
-		break;
-	}
 	case CMD_SIZE:
 		fprintf(
 		    out, " (default %zux%zu)", ((cmd_size *)o->value)->width, ((cmd_size *)o->value)->height);
 		break;
 	case CMD_FLAG:
 	case CMD_OFF:
+	case CMD_VECTOR:
 	case CMD_RANGE:
 	case CMD_CALL:
 		break;

@@ -17,8 +17,10 @@
 
 typedef struct mr_file_format {
 	const char *name;
-	bool binary;                                           /* what is written is not for a terminal */
-	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by name or suffix only */
+	bool binary; /* what is written is not for a terminal */
+	const char
+	    *magic; /* what a file begins with behind blanks, or else, a bar between; NULL: sniff tells */
+	bool (*sniff)(const unsigned char *data, size_t size); /* NULL: by magic, name or suffix only */
 	mr_status (*read)(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 	mr_status (*write)(mr_sink *s, const mr_model *m);           /* NULL: read only */
 	mr_status (*write_scene)(mr_sink *s, const mr_scene *scene); /* NULL: holds one model */
@@ -35,7 +37,6 @@ bool mr_obj_sniff(const unsigned char *data, size_t size);
 mr_status mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_obj_write(mr_sink *s, const mr_model *m);
 
-bool mr_ply_sniff(const unsigned char *data, size_t size);
 mr_status mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_ply_write(mr_sink *s, const mr_model *m);
 mr_status mr_ply_write_ascii(mr_sink *s, const mr_model *m);
@@ -62,15 +63,11 @@ mr_status mr_pwn_write(mr_sink *s, const mr_model *m);
 bool mr_ptx_sniff(const unsigned char *data, size_t size);
 mr_status mr_ptx_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 
-bool mr_pcd_sniff(const unsigned char *data, size_t size);
 mr_status mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 
-bool mr_las_sniff(const unsigned char *data, size_t size);
 mr_status mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 
 /* A GLB, and the text of glTF that it may be without. */
-bool mr_glb_sniff(const unsigned char *data, size_t size);
-bool mr_gltf_sniff(const unsigned char *data, size_t size);
 mr_status mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m);
 mr_status mr_glb_write(mr_sink *s, const mr_model *m);
 mr_status mr_glb_write_scene(mr_sink *s, const mr_scene *scene);
@@ -119,9 +116,6 @@ void mr_coarse(mr_ctx *ctx, size_t count, size_t n, double share);
 
 /* Reports positions that float32 moves visibly; MR_ERANGE where one overflows it. */
 mr_status mr_note_rounded(mr_sink *s, const mr_model *m);
-
-/* MR_ERANGE where a normal or a texture coordinate is too large for a float. */
-mr_status mr_check_floats(mr_sink *s, const mr_model *m);
 
 /* A little- or big-endian value in memory. */
 static inline uint16_t

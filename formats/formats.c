@@ -10,20 +10,20 @@
 
 /* In the order of sniffing: what has a signature first, plain columns of numbers last. */
 static const mr_file_format formats[] = {
-	{ "glb", true, mr_glb_sniff, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
-	{ "gltf", false, mr_gltf_sniff, mr_gltf_read, NULL, NULL },
-	{ "ply", true, mr_ply_sniff, mr_ply_read, mr_ply_write, NULL },
-	{ "ply-ascii", false, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
-	{ "las", true, mr_las_sniff, mr_las_read, NULL, NULL },
-	{ "stl", true, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
-	{ "stl-ascii", false, NULL, mr_stl_read, mr_stl_write_ascii, NULL },
-	{ "off", false, mr_off_sniff, mr_off_read, mr_off_write, NULL },
-	{ "pcd", true, mr_pcd_sniff, mr_pcd_read, NULL, NULL },
-	{ "obj", false, mr_obj_sniff, mr_obj_read, mr_obj_write, NULL },
-	{ "ptx", false, mr_ptx_sniff, mr_ptx_read, NULL, NULL },
-	{ "xyz", false, mr_xyz_sniff, mr_xyz_read, mr_xyz_write, NULL },
-	{ "pts", false, NULL, mr_xyz_read, mr_pts_write, NULL },
-	{ "pwn", false, NULL, mr_xyz_read, mr_pwn_write, NULL },
+	{ "glb", true, "glTF", NULL, mr_gltf_read, mr_glb_write, mr_glb_write_scene },
+	{ "gltf", false, "{", NULL, mr_gltf_read, NULL, NULL },
+	{ "ply", true, "ply\n|ply\r|ply ", NULL, mr_ply_read, mr_ply_write, NULL },
+	{ "ply-ascii", false, NULL, NULL, mr_ply_read, mr_ply_write_ascii, NULL },
+	{ "las", true, "LASF", NULL, mr_las_read, NULL, NULL },
+	{ "stl", true, NULL, mr_stl_sniff, mr_stl_read, mr_stl_write, NULL },
+	{ "stl-ascii", false, NULL, NULL, mr_stl_read, mr_stl_write_ascii, NULL },
+	{ "off", false, NULL, mr_off_sniff, mr_off_read, mr_off_write, NULL },
+	{ "pcd", true, "# .PCD|VERSION|FIELDS", NULL, mr_pcd_read, NULL, NULL },
+	{ "obj", false, NULL, mr_obj_sniff, mr_obj_read, mr_obj_write, NULL },
+	{ "ptx", false, NULL, mr_ptx_sniff, mr_ptx_read, NULL, NULL },
+	{ "xyz", false, NULL, mr_xyz_sniff, mr_xyz_read, mr_xyz_write, NULL },
+	{ "pts", false, NULL, NULL, mr_xyz_read, mr_pts_write, NULL },
+	{ "pwn", false, NULL, NULL, mr_xyz_read, mr_pwn_write, NULL },
 };
 
 enum { FORMATS = sizeof formats / sizeof *formats };
@@ -159,6 +159,24 @@ mr_as_text(mr_ctx *ctx, const unsigned char **data, size_t *size)
 		copy[i] = p[i] == '\r' ? '\n' : p[i];
 }
 
+/* Whether the bytes are of the format. */
+static bool
+knows(const mr_file_format *f, const unsigned char *data, size_t size)
+{
+	mr_scan text = mr_scan_of(NULL, data, size);
+
+	if (!f->magic)
+		return f->sniff && f->sniff(data, size);
+	mr_skip_space(&text);
+	for (const char *m = f->magic; *m; m += *m == '|') {
+		size_t n = strcspn(m, "|");
+		if (n <= (size_t)(text.end - text.p) && !memcmp(text.p, m, n))
+			return true;
+		m += n;
+	}
+	return false;
+}
+
 static mr_status
 find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned char *data, size_t size,
     const mr_file_format **f)
@@ -171,7 +189,7 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	if (size == 0)
 		return mr_fail(ctx, MR_EFORMAT, "the file is empty");
 	for (size_t i = 0; i < FORMATS && !found; i++)
-		if (formats[i].sniff && formats[i].sniff(data, size))
+		if (knows(&formats[i], data, size))
 			found = &formats[i];
 	if (!found)
 		found = by_suffix(path); /* whose reader says what is wrong */
@@ -184,24 +202,17 @@ find_reader(mr_ctx *ctx, const char *path, const char *format, const unsigned ch
 	return MR_OK;
 }
 
-static bool
-has_gaps(const mr_model *m)
-{
-	size_t i = 0;
-
-	while (i < m->nv && mr_norm2(m->normal[i]) > 0)
-		i++;
-	return i < m->nv;
-}
-
 /* A surface gets the normals that are none from its faces. */
 static void
 mend_normals(mr_ctx *ctx, mr_model *m)
 {
 	const mr_mesh mesh = { .name = "mesh", .p = m->p, .t = m->t, .nv = m->nv, .nf = m->nf };
+	size_t none = 0;
 	mr_v3 *normal;
 
-	if (!m->nf || !m->normal || !has_gaps(m))
+	for (size_t i = 0; m->nf && m->normal && i < m->nv; i++)
+		none += mr_norm2(m->normal[i]) > 0 ? 0 : 1;
+	if (none == 0)
 		return;
 	normal = MR_NEW(ctx, m->nv, mr_v3);
 	mr_vertex_normals(ctx, &mesh, NULL, normal);
@@ -251,12 +262,6 @@ mr_model_read(mr_ctx *ctx, const char *path, const char *format, mr_model *m)
 }
 
 /* ---- writing ---- */
-
-void
-mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count)
-{
-	mr_line_starts(ctx, lines.text, lines.bytes, starts, count);
-}
 
 static mr_status
 write_into(mr_sink *s, const mr_file_format *f, const mr_model *m, const mr_scene *scene)
@@ -360,24 +365,4 @@ mr_note_rounded(mr_sink *s, const mr_model *m)
 	if (diagonal > 0 && off > share * diagonal) /* a single place is as near as floats are */
 		mr_coarse(s->ctx, changed, m->nv, off / diagonal);
 	return MR_OK;
-}
-
-/* NaN of a corner is none. */
-static mr_status
-check_floats(mr_ctx *ctx, const char *what, const double *x, size_t n)
-{
-	for (size_t i = 0; x && i < n; i++)
-		if (isinf(mr_as_float(x[i])))
-			return mr_fail(
-			    ctx, MR_ERANGE, "one of the %s, %g, is too large for float32", what, x[i]);
-	return MR_OK;
-}
-
-mr_status
-mr_check_floats(mr_sink *s, const mr_model *m)
-{
-	MR_TRY(check_floats(s->ctx, "normals", m->normal ? &m->normal->x : NULL, 3 * m->nv));
-	MR_TRY(check_floats(s->ctx, "normals", m->corner_normal ? &m->corner_normal->x : NULL, 9 * m->nf));
-	MR_TRY(check_floats(s->ctx, "texture coordinates", m->texcoord, 2 * m->nv));
-	return check_floats(s->ctx, "texture coordinates", m->corner_texcoord, 6 * m->nf);
 }

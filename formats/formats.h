@@ -23,10 +23,6 @@ typedef struct mr_lines {
 	size_t bytes;
 } mr_lines;
 
-/* Where each name starts: count + 1, the last a byte behind the newline that the last name lacks; in the
- * arena. */
-void mr_lines_starts(mr_ctx *ctx, mr_lines lines, const char ***starts, size_t *count);
-
 /* A number that each vertex or each face has under a name of its own, as PLY has them. */
 typedef struct mr_property {
 	const char *name; /* at most MR_COLUMN_MAX bytes, of no column by convention */

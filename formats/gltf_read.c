@@ -518,19 +518,3 @@ mr_gltf_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	mr_gltf_free(&r.g);
 	return status;
 }
-
-bool
-mr_glb_sniff(const unsigned char *data, size_t size)
-{
-	return size >= 4 && mr_load32(data, false) == MR_GLTF_MAGIC;
-}
-
-/* No other format begins with a brace. */
-bool
-mr_gltf_sniff(const unsigned char *data, size_t size)
-{
-	mr_scan text = mr_scan_of(NULL, data, size);
-
-	mr_skip_space(&text);
-	return text.p < text.end && *text.p == '{';
-}

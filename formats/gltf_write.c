@@ -2,9 +2,10 @@
  * poses as morph targets that an animation shows one after the other.  All of a layer share its vertices. */
 #include "base/text.h"
 #include "formats/gltf.h"
-#include "formats/gltf_vertices.h"
 #include "formats/image.h"
 #include "formats/materials.h"
+#include "formats/model.h"
+#include "mesh/name_lists.h"
 
 enum { POINTS = 0, FRAMES_A_SECOND = 24 };
 
@@ -22,18 +23,123 @@ typedef struct glb {
 	size_t unnamed; /* the material of faces without one; MR_UNKNOWN: not there yet */
 } glb;
 
+/* The vertices of a model in their order, behind them those that a seam of corners repeats. */
+typedef struct vertices {
+	size_t count;
+	uint32_t *vertex,
+	    *corner;     /* of each, the model's, and a corner that it stands for; MR_NONE: of no face */
+	uint32_t *index; /* 3 nf: the vertex of each corner */
+} vertices;
+
+/* Names of objects or materials, and which each face has: `count` for one without. */
+typedef struct face_names {
+	const char **start; /* count + 1 */
+	size_t count;
+	uint32_t *of; /* nf */
+} face_names;
+
 /* A layer on its way: accessors of its vertices, MR_UNKNOWN of what they have not. */
 typedef struct layer {
 	const mr_scene_node *node;
 	const char *name; /* of its nodes, before that of an object */
-	mr_gltf_vertices v;
-	mr_face_names object, material;
+	vertices v;
+	face_names object, material;
 	uint32_t *face;    /* nf, by object and material */
 	size_t *materials; /* of each of its names, the material of the document */
 	size_t position, normal, texcoord, color;
 	json_t *targets; /* poses */
 	size_t sampler;  /* of the poses' weights */
 } layer;
+
+/* ---- vertices and faces as the format has them ---- */
+
+/* Sorts `order` by key[order[i]], stably; keys are at most `most`. */
+static void
+sort_by(mr_ctx *ctx, const uint32_t *key, size_t most, uint32_t *order, size_t n)
+{
+	mr_mark mark = mr_mark_take(ctx);
+	size_t *start = MR_NEW_ZERO(ctx, most + 2, size_t);
+	uint32_t *to = MR_NEW(ctx, n, uint32_t);
+
+	for (size_t i = 0; i < n; i++)
+		start[key[order[i]] + 1]++;
+	for (size_t k = 0; k <= most; k++)
+		start[k + 1] += start[k];
+	for (size_t i = 0; i < n; i++)
+		to[start[key[order[i]]]++] = order[i];
+	memcpy(order, to, n * sizeof *to);
+	mr_mark_release(ctx, mark);
+}
+
+static void
+face_names_find(mr_ctx *ctx, const uint32_t *column, mr_lines lines, size_t nf, face_names *names)
+{
+	*names = (face_names){ .of = MR_NEW_ZERO(ctx, nf, uint32_t) };
+	if (!column || !lines.text)
+		return;
+	mr_line_starts(ctx, lines.text, lines.bytes, &names->start, &names->count);
+	for (size_t f = 0; f < nf; f++) {
+		uint32_t i = column[f];
+		bool named = i < names->count && names->start[i + 1] > names->start[i] + 1;
+		names->of[f] = named ? i : (uint32_t)names->count;
+	}
+}
+
+/* Numbers the corners by vertex, texture coordinates and normal: `key` of each three numbers. */
+static void
+make_keys(mr_ctx *ctx, const mr_model *m, double **key)
+{
+	size_t corners = 3 * m->nf, count;
+	uint32_t *uv = MR_NEW_ZERO(ctx, corners, uint32_t), *vn = MR_NEW_ZERO(ctx, corners, uint32_t),
+		 *first = MR_NEW(ctx, corners, uint32_t);
+
+	*key = MR_NEW(ctx, 3 * corners, double);
+	if (m->corner_texcoord)
+		mr_number_rows(ctx, m->corner_texcoord, 2, corners, uv, first, &count);
+	if (m->corner_normal)
+		mr_number_rows(ctx, &m->corner_normal->x, 3, corners, vn, first, &count);
+	for (size_t c = 0; c < corners; c++) {
+		(*key)[3 * c] = m->t[c / 3].v[c % 3];
+		(*key)[3 * c + 1] = uv[c];
+		(*key)[3 * c + 2] = vn[c] + 1.0; /* never all zero, which is none */
+	}
+}
+
+/* The first distinct corner of a vertex is that vertex, the others come behind all. */
+static void
+number_vertices(const mr_model *m, const uint32_t *first, size_t distinct, uint32_t *place, vertices *v)
+{
+	for (size_t i = 0; i < m->nv; i++) {
+		v->vertex[i] = (uint32_t)i;
+		v->corner[i] = MR_NONE;
+	}
+	v->count = m->nv;
+	for (size_t k = 0; k < distinct; k++) {
+		uint32_t vertex = m->t[first[k] / 3].v[first[k] % 3];
+		size_t at = v->corner[vertex] == MR_NONE ? vertex : v->count++;
+		v->vertex[at] = vertex;
+		v->corner[at] = first[k];
+		place[k] = (uint32_t)at;
+	}
+}
+
+static void
+vertices_find(mr_ctx *ctx, const mr_model *m, vertices *v)
+{
+	size_t corners = 3 * m->nf, distinct = 0;
+	uint32_t *number = MR_NEW(ctx, corners, uint32_t), *first = MR_NEW(ctx, corners, uint32_t), *place;
+	double *key;
+
+	make_keys(ctx, m, &key);
+	mr_number_rows(ctx, key, 3, corners, number, first, &distinct);
+	*v = (vertices){ .vertex = MR_NEW(ctx, m->nv + distinct, uint32_t),
+		.corner = MR_NEW(ctx, m->nv + distinct, uint32_t),
+		.index = number };
+	place = MR_NEW(ctx, distinct, uint32_t);
+	number_vertices(m, first, distinct, place, v);
+	for (size_t c = 0; c < corners; c++)
+		v->index[c] = place[number[c]];
+}
 
 /* ---- pieces of JSON and bytes ---- */
 
@@ -226,7 +332,7 @@ material_of(glb *w, const layer *l, size_t f)
 
 /* Positions, or how far a pose moves them: the difference of floats, so that nothing is rounded twice. */
 static void
-put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const mr_gltf_vertices *v, size_t *accessor)
+put_positions(glb *w, const mr_v3 *p, const mr_v3 *from, const vertices *v, size_t *accessor)
 {
 	mr_box box = mr_box_empty();
 	char *to = NULL;
@@ -262,7 +368,7 @@ as_unit(mr_v3 n)
 
 /* The normal of a vertex; where none is known its triangle's, and along z that of an isolated one. */
 static mr_v3
-normal_of(const mr_model *m, const mr_target *pose, const mr_gltf_vertices *v, size_t i)
+normal_of(const mr_model *m, const mr_target *pose, const vertices *v, size_t i)
 {
 	uint32_t c = v->corner[i];
 	mr_v3 n = mr_vec(0, 0, 0);
@@ -280,7 +386,7 @@ normal_of(const mr_model *m, const mr_target *pose, const mr_gltf_vertices *v, s
 
 /* pose: NULL, or the one that turns them. */
 static void
-put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_gltf_vertices *v, size_t *accessor)
+put_normals(glb *w, const mr_model *m, const mr_target *pose, const vertices *v, size_t *accessor)
 {
 	const mr_target rest = { m->p, m->normal, m->corner_normal };
 	char *to = NULL;
@@ -297,12 +403,12 @@ put_normals(glb *w, const mr_model *m, const mr_target *pose, const mr_gltf_vert
 static bool
 has_texcoord(const double *uv)
 {
-	return uv && isfinite(uv[0]) && isfinite(uv[1]);
+	return uv && isfinite(mr_as_float(uv[0]) + mr_as_float(uv[1]));
 }
 
 /* v runs down the picture in glTF. */
 static void
-put_texcoords(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accessor)
+put_texcoords(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
@@ -318,7 +424,7 @@ put_texcoords(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *acce
 
 /* Linear there, where sixteen bits give every byte back. */
 static void
-put_colors(glb *w, const mr_model *m, const mr_gltf_vertices *v, size_t *accessor)
+put_colors(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
 {
 	char *to = NULL;
 
@@ -494,13 +600,13 @@ order_faces(glb *w, layer *l)
 {
 	const mr_model *m = &l->node->model;
 
-	mr_face_names_find(w->ctx, m->object, m->objects, m->nf, &l->object);
-	mr_face_names_find(w->ctx, m->material, m->materials, m->nf, &l->material);
+	face_names_find(w->ctx, m->object, m->objects, m->nf, &l->object);
+	face_names_find(w->ctx, m->material, m->materials, m->nf, &l->material);
 	l->face = MR_NEW(w->ctx, m->nf, uint32_t);
 	for (size_t f = 0; f < m->nf; f++)
 		l->face[f] = (uint32_t)f;
-	mr_sort_by(w->ctx, l->material.of, l->material.count, l->face, m->nf);
-	mr_sort_by(w->ctx, l->object.of, l->object.count, l->face, m->nf);
+	sort_by(w->ctx, l->material.of, l->material.count, l->face, m->nf);
+	sort_by(w->ctx, l->object.of, l->object.count, l->face, m->nf);
 }
 
 static mr_status
@@ -511,7 +617,7 @@ put_layer(glb *w, layer *l)
 
 	if (m->nv == 0)
 		return mr_fail(w->ctx, MR_EMESH, "a layer without a vertex cannot be written as glb");
-	mr_gltf_vertices_find(w->ctx, m, &l->v);
+	vertices_find(w->ctx, m, &l->v);
 	put_vertices(w, l);
 	put_poses(w, l);
 	if (m->nf == 0) {
@@ -645,7 +751,6 @@ mr_status
 mr_glb_note_lost(mr_sink *s, const mr_model *m)
 {
 	mr_note_lost(s, m, "normal corner_normal color alpha texcoord corner_texcoord object material faces");
-	MR_TRY(mr_check_floats(s, m));
 	return mr_note_rounded(s, m);
 }
 

@@ -206,9 +206,3 @@ mr_las_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	mr_rows_end(&r);
 	return mr_build_finish(&b, m);
 }
-
-bool
-mr_las_sniff(const unsigned char *data, size_t size)
-{
-	return size >= 4 && !memcmp(data, "LASF", 4);
-}

@@ -4,6 +4,7 @@
 
 #include "base/name_table.h"
 #include "formats/format.h"
+#include "mesh/name_lists.h"
 
 #include <sys/stat.h>
 
@@ -227,7 +228,7 @@ mr_materials_find(mr_ctx *ctx, const mr_model *m, const char *folder, mr_materia
 	*count = 0;
 	if (!m->material || !m->materials.text)
 		return MR_OK;
-	mr_lines_starts(ctx, m->materials, &name, count);
+	mr_line_starts(ctx, m->materials.text, m->materials.bytes, &name, count);
 	f.list = MR_NEW(ctx, *count, mr_material);
 	f.known = MR_NEW_ZERO(ctx, *count, bool);
 	for (size_t i = 0; i < *count; i++) {

@@ -1,6 +1,7 @@
 /* OBJ: polygons, corners with what the model has, and what the faces are marked with wherever it changes. */
 #include "formats/format.h"
 #include "formats/materials.h"
+#include "mesh/name_lists.h"
 
 /* The vt or vn lines: one for each vertex, or for each value that corners have. */
 typedef struct values {
@@ -147,7 +148,7 @@ put_faces(mr_sink *s, const mr_model *m, const values x[2])
 
 	for (size_t k = 0; k < 3; k++)
 		if (all[k].of)
-			mr_lines_starts(s->ctx, names[k], &all[k].start, &all[k].names);
+			mr_line_starts(s->ctx, names[k].text, names[k].bytes, &all[k].start, &all[k].names);
 	mr_faces_of(s, m, &faces);
 	for (size_t i = 0; i < faces.count; i++) {
 		size_t f = mr_polygon_corner(&faces, mr_polygon_begin(&faces, i)) / 3;

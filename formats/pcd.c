@@ -392,13 +392,3 @@ mr_pcd_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 		mend_alpha(f.b.color, f.b.nv);
 	return mr_build_finish(&f.b, m);
 }
-
-bool
-mr_pcd_sniff(const unsigned char *data, size_t size)
-{
-	mr_scan text = mr_scan_of(NULL, data, size), line;
-
-	if (mr_scan_accept(&text, "VERSION") || mr_scan_accept(&text, "FIELDS"))
-		return true;
-	return mr_scan_line(&text, &line) && mr_scan_accept(&line, "#") && mr_scan_accept(&line, ".PCD");
-}

@@ -338,9 +338,3 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	f.b.uv = f.uv.value;
 	return mr_build_finish(&f.b, m);
 }
-
-bool
-mr_ply_sniff(const unsigned char *data, size_t size)
-{
-	return size >= 4 && !memcmp(data, "ply", 3) && (data[3] == '\n' || data[3] == '\r' || data[3] == ' ');
-}

@@ -3,6 +3,7 @@
  * begin with "solid", as a text does: its size tells, 84 bytes and 50 for each triangle.
  */
 #include "formats/format.h"
+#include "mesh/name_lists.h"
 #include "mesh/repair.h"
 
 enum { HEADER = 84, RECORD = 50 };
@@ -267,7 +268,7 @@ mr_stl_write_ascii(mr_sink *s, const mr_model *m)
 
 	MR_TRY(need_faces(s, m, "faces group"));
 	if (m->group)
-		mr_lines_starts(s->ctx, m->groups, &start, &names);
+		mr_line_starts(s->ctx, m->groups.text, m->groups.bytes, &start, &names);
 	for (size_t f = 0; f < m->nf; f++) {
 		if (f == 0 || (m->group && m->group[f] != m->group[f - 1]))
 			put_solid(s, "solid", m, f, start, names);
