@@ -93,7 +93,6 @@ static const char *const remedies[MR_REMEDIES] = {
 	[MR_LOWER_ORDER] = "a lower -k may have a solution in doubles",
 	[MR_SOLVE_DIRECTLY] = "-s cholesky may solve it",
 	[MR_THIN_OUT] = "mr-split parts those of several bodies, mr-crop --keep spaced: thins those of one",
-	[MR_NAME_LAYER] = "-l names the one to take",
 	[MR_IMPORT] = "mr-import makes a stream of a model's file",
 	[MR_SCRATCH] = "--scratch takes what is large to a disk",
 	[MR_MAKE_MESH] = "mr-import reads mesh of a model with faces",

@@ -65,7 +65,7 @@ cat_frame(cmd *c, mr_frame *f)
 	for (size_t i = 0; i < side_count; i++) {
 		mr_side *s = &sides[i];
 		MR_TRY(mr_side_take(&c->ctx, s, f->number));
-		MR_TRY(mr_prefix(&c->ctx, mr_layers_merge(&c->ctx, f, s->frame), "%s", s->path));
+		MR_TRY(mr_prefix(&c->ctx, mr_frame_merge(&c->ctx, f, s->frame), "%s", s->path));
 		f->key |= s->frame->key && s->frame->number == f->number;
 	}
 	return cmd_send(c, f);

@@ -300,7 +300,6 @@ check_posing(mr_ctx *ctx, mr_frame *f)
 	mr_mesh base;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	MR_TRY(mr_detail_check_faces(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
 	return mr_response_get(ctx, f, &base, &response, &rows);
 }

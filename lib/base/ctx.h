@@ -64,7 +64,6 @@ typedef enum mr_remedy {
 	MR_LOWER_ORDER,
 	MR_SOLVE_DIRECTLY,
 	MR_THIN_OUT,
-	MR_NAME_LAYER,
 	MR_IMPORT,
 	MR_SCRATCH,
 	MR_MAKE_MESH, /* the layers of the table in mesh/layers.c, in its order */

@@ -369,7 +369,7 @@ mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 {
 	for (size_t i = 0; i < d->n; i++)
 		MR_TRY(check_row(ctx, d, i, base->name, base->nf));
-	for (size_t i = 0; d->rest && i < base->nv; i++)
+	for (size_t i = 0; i < base->nv; i++)
 		if (!mr_finite(d->rest[i]))
 			return mr_fail(ctx, MR_ERANGE, "%s: encoded %zu (%g %g %g) is not finite", base->name,
 			    i, d->rest[i].x, d->rest[i].y, d->rest[i].z);
@@ -379,7 +379,7 @@ mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base)
 typedef struct decoder {
 	mr_phong surface; /* its normals as those at rest were turned */
 	mr_phong rest;
-	const mr_turn *turn; /* of the surface's vertices; NULL: offsets turn with the triangle */
+	const mr_turn *turn; /* of the surface's vertices */
 	const mr_detail *d;
 	double gain;
 	mr_v3 *p;
@@ -399,12 +399,11 @@ static mr_v3
 decode_vertex(const decoder *j, size_t i)
 {
 	mr_place at = mr_places_at(&j->d->at, i);
-	mr_v3 b = mr_phong_point(&j->surface, at), o;
+	mr_v3 b = mr_phong_point(&j->surface, at);
 
 	if (!has_offset(j->d, i))
 		return mr_axpy(j->gain * j->d->height[i], mr_phong_normal(&j->surface, at), b);
-	o = j->turn ? turned_offset(j, at, j->d->offset[i]) : offset_in(&j->surface, at, j->d->offset[i]);
-	return mr_axpy(j->gain, o, b);
+	return mr_axpy(j->gain, turned_offset(j, at, j->d->offset[i]), b);
 }
 
 static void
@@ -458,23 +457,10 @@ mr_decode(
 	mr_mesh rest = *base;
 
 	rest.p = d->rest;
-	if (d->rest)
-		turn_frames(ctx, &rest, inc, normal, &j);
-	else
-		mr_vertex_normals(ctx, base, inc, normal);
+	turn_frames(ctx, &rest, inc, normal, &j);
 	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
-}
-
-void
-mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p)
-{
-	mr_mesh rest = *base;
-	decoder j = { .surface = { &rest, d->rest_normal }, .d = d, .gain = gain, .p = p };
-
-	rest.p = d->rest;
-	mr_parallel(ctx, d->n, 4096, decode_piece, &j);
 }
 
 /* The columns */
@@ -482,7 +468,7 @@ mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, do
 mr_status
 mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 {
-	const void *face, *bary, *height, *offset = NULL, *rest = NULL;
+	const void *face, *bary, *height, *offset = NULL, *rest;
 	mr_detail r;
 	size_t n;
 
@@ -493,42 +479,11 @@ mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d)
 	MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_bary", n, &bary));
 	if (mr_layer_has(f, "mesh", "detail_offset"))
 		MR_TRY(mr_layer_get_rows(ctx, f, "mesh", "detail_offset", n, &offset));
-	if (mr_layer_has(f, base->name, "encoded"))
-		MR_TRY(mr_layer_get_rows(ctx, f, base->name, "encoded", base->nv, &rest));
+	MR_TRY(mr_layer_get_rows(ctx, f, base->name, "encoded", base->nv, &rest));
 	r = (mr_detail){ n, { face, bary }, height, offset, rest, NULL };
 	MR_TRY(mr_detail_check(ctx, &r, base));
 	*d = r;
 	return MR_OK;
-}
-
-/* A hash of the triangles, by FNV-1a of words; not for use against an adversary. */
-static void
-print_faces(const mr_mesh *m, uint32_t print[2])
-{
-	uint64_t h = 0xcbf29ce484222325u;
-
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++)
-			h = (h ^ m->t[f].v[k]) * 0x100000001b3u;
-	print[0] = (uint32_t)h;
-	print[1] = (uint32_t)(h >> 32);
-}
-
-mr_status
-mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base)
-{
-	const void *known;
-	uint32_t print[2];
-
-	if (!mr_layer_has(f, base->name, "encoded_faces"))
-		return MR_OK;
-	MR_TRY(mr_layer_get_rows(ctx, f, base->name, "encoded_faces", 1, &known));
-	print_faces(base, print);
-	if (!memcmp(known, print, sizeof print))
-		return MR_OK;
-	return mr_advise(ctx, MR_ENCODE_AGAIN,
-	    mr_fail(
-		ctx, MR_EMESH, "%s has other triangles than those over which mesh was encoded", base->name));
 }
 
 mr_status
@@ -556,14 +511,10 @@ mr_detail_keep_before(mr_ctx *ctx, mr_frame *f, const mr_mesh *before)
 mr_status
 mr_detail_put(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, const mr_detail *d)
 {
-	uint32_t *print = MR_NEW(ctx, 2, uint32_t);
-
-	print_faces(base, print);
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_face", d->at.face, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_bary", d->at.bary, d->n));
 	MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_height", d->height, d->n));
 	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded", d->rest, base->nv));
-	MR_TRY(mr_layer_put(ctx, f, base->name, "encoded_faces", print, 1));
 	mr_frame_drop(f, base->name, "before", 0);
 	if (d->offset)
 		MR_TRY(mr_layer_put(ctx, f, "mesh", "detail_offset", d->offset, d->n));

@@ -20,9 +20,7 @@ typedef struct mr_detail {
 	mr_places at; /* on the base */
 	const double *height;
 	const mr_v3 *offset; /* NULL: every vertex has a height */
-	/* Positions of the base where it was encoded, and its normals there.  rest NULL: not known, and
-	 * heights stand on the normals that the base has now, offsets turn with their triangles; rest_normal
-	 * NULL: to be made of rest. */
+	/* Positions of the base where it was encoded, and its normals there; NULL: to be made. */
 	const mr_v3 *rest, *rest_normal;
 } mr_detail;
 
@@ -44,16 +42,8 @@ mr_status mr_detail_check(mr_ctx *ctx, const mr_detail *d, const mr_mesh *base);
 mr_status mr_decode(
     mr_ctx *ctx, const mr_mesh *base, const mr_incidence *inc, const mr_detail *d, double gain, mr_v3 *p);
 
-/* Decodes onto the base as it was encoded: d has rest and rest_normal.  p: d->n, the caller's. */
-void mr_decode_at_rest(const mr_ctx *ctx, const mr_mesh *base, const mr_detail *d, double gain, mr_v3 *p);
-
 /* The detail of the frame's mesh, checked against the base.  MR_EMISSING without one.  d: the frame's. */
 mr_status mr_detail_get(mr_ctx *ctx, mr_frame *f, const mr_mesh *base, mr_detail *d);
-
-/* MR_EMESH where the frame's base has other triangles than those over which the mesh was encoded, if that is
- * known.
- */
-mr_status mr_detail_check_faces(mr_ctx *ctx, mr_frame *f, const mr_mesh *base);
 
 /*
  * Where base stood when its last pose began, which its posed positions do not tell: the column base.before,

@@ -516,8 +516,6 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 		cut_loose(ctx, f, layer);
 	}
 	MR_TRY(check(ctx, f, layer, &c));
-	if (c.mirrors)
-		mr_frame_drop(f, "base", "encoded_faces", 0);
 	for (size_t i = f->count; i-- > 0;) {
 		mr_column *column = &f->columns[i];
 		column_sort sort = sort_of(column);

@@ -325,7 +325,7 @@ seen_before(const joined *j, size_t i, size_t k)
 mr_status
 mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 {
-	static const char *const texts[] = { "history", "findings", "pending" };
+	static const char *const texts[] = { "history", "findings", "latest" };
 	joined j = { .frames = frames, .n = n };
 	mr_frame *f;
 
@@ -341,7 +341,6 @@ mr_frames_append(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame **out)
 		j.name = texts[i];
 		MR_TRY(join_text(ctx, &j, f));
 	}
-	MR_TRY(mr_layer_join_latest(ctx, frames, n, f));
 	*out = f;
 	return MR_OK;
 }

@@ -49,8 +49,6 @@ const mr_column_info mr_columns[] = {
 	    "triangle of mesh that the vertex lies on" },
 	{ "base", "source_bary", { 'v', 'd', 3 }, MR_PLACE, "mesh", "barycentric coordinates in it" },
 	{ "base", "encoded", { 'v', 'd', 3 }, MR_OWN, "mesh", "positions on which mesh was encoded" },
-	{ "base", "encoded_faces", { '-', 'u', 2 }, MR_OWN, "mesh",
-	    "fingerprint of the triangles that it had then" },
 	{ "base", "before", { 'v', 'd', 3 }, MR_OWN, NULL, "positions from which its last pose began" },
 	{ "base", "rest", { 'v', 'd', 3 }, MR_OWN, NULL, "positions on which the system is assembled" },
 	{ "base", "response", { 'v', 'd', 0 }, MR_OWN, NULL,

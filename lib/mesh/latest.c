@@ -1,5 +1,6 @@
-/* Which layer was worked on last, column `latest`, of which others no surface shows yet what was done to
- * them, column `pending`, and what a tool takes that shows or writes one layer. */
+/* The layers of a frame in the order in which they were worked on, the last one first: column `latest`, a
+ * line each.  From that follows what no surface shows yet, and what a tool takes that shows or writes one
+ * layer. */
 #include "base/text.h"
 #include "mesh/layers.h"
 
@@ -15,48 +16,67 @@ has_others(const mr_frame *f, const char *layer)
 	return false;
 }
 
-/* Whether a line of the text is this word. */
-static bool
-has_line(const char *text, size_t n, const char *word)
-{
-	size_t length = strlen(word);
-
-	for (const char *end = text + n, *stop; text < end; text = stop + 1) {
-		stop = memchr(text, '\n', (size_t)(end - text));
-		stop = stop ? stop : end;
-		if ((size_t)(stop - text) == length && !memcmp(text, word, length))
-			return true;
-	}
-	return false;
-}
-
-/* The lines of a column, none where it is not there. */
+/* The lines of the column, none where it is not there. */
 static mr_status
-get_lines(mr_ctx *ctx, mr_frame *f, const char *column, const char **text, size_t *n)
+get_order(mr_ctx *ctx, mr_frame *f, const char **text, size_t *n)
 {
 	const void *data = "";
 
 	*n = 0;
-	if (mr_layer_has(f, "", column))
-		MR_TRY(mr_frame_get(ctx, f, "", column, TEXT, &data, n));
+	if (mr_layer_has(f, "", "latest"))
+		MR_TRY(mr_frame_get(ctx, f, "", "latest", TEXT, &data, n));
 	*text = data;
 	return MR_OK;
 }
 
-/* Puts the lines that a frame does not have yet. */
-static mr_status
-put_lines(mr_ctx *ctx, mr_frame *f, const char *column, mr_text *lines)
+/* Where the layer's line begins; n: it has none. */
+static size_t
+place_of(const char *text, size_t n, const char *layer)
 {
-	const char *old;
-	size_t n;
+	size_t length = strlen(layer);
 
-	MR_TRY(get_lines(ctx, f, column, &old, &n));
-	if (n == lines->n && (n == 0 || !memcmp(old, lines->s, n)))
+	for (size_t at = 0, next; at < n; at = next + 1) {
+		const char *stop = memchr(text + at, '\n', n - at);
+		next = stop ? (size_t)(stop - text) : n;
+		if (next - at == length && !memcmp(text + at, layer, length))
+			return at;
+	}
+	return n;
+}
+
+/* Takes the layer's line away, or makes it the first. */
+static mr_status
+reorder(mr_ctx *ctx, mr_frame *f, const char *layer, bool first)
+{
+	mr_text lines = { .ctx = ctx };
+	const char *text;
+	size_t n, at, rest;
+
+	MR_TRY(get_order(ctx, f, &text, &n));
+	at = place_of(text, n, layer);
+	if (first ? n && at == 0 : at == n)
 		return MR_OK;
-	if (lines->n)
-		return mr_frame_put(ctx, f, "", column, TEXT, lines->s, lines->n);
-	mr_frame_drop(f, "", column, 0);
-	return MR_OK;
+	rest = at < n ? at + strlen(layer) + 1 : n;
+	if (first)
+		mr_text_add(&lines, "%s\n", layer);
+	mr_text_add(&lines, "%.*s", (int)at, text);
+	if (rest < n)
+		mr_text_add(&lines, "%.*s", (int)(n - rest), text + rest);
+	return mr_frame_put(ctx, f, "", "latest", TEXT, lines.s, lines.n);
+}
+
+mr_status
+mr_layer_worked(mr_ctx *ctx, mr_frame *f, const char *layer)
+{
+	bool alone = !mr_layer_has(f, "", "latest") && !has_others(f, layer);
+
+	return alone ? MR_OK : reorder(ctx, f, layer, true);
+}
+
+mr_status
+mr_layer_followed(mr_ctx *ctx, mr_frame *f, const char *layer)
+{
+	return reorder(ctx, f, layer, false);
 }
 
 /* What is to be done where what was done to a layer shows in no surface yet, with what that is. */
@@ -85,184 +105,50 @@ missing_tools(const mr_frame *f, const char *layer, const char **what)
 	return MR_NO_REMEDY;
 }
 
-/* Layers that another one is to follow. */
-enum { LEADING = 4 };
-static const char *const leading[LEADING] = { "handles", "base", "displacement", "control" };
-
-/* Says of each of those whether it was worked on, and no surface shows that yet. */
-static mr_status
-find_pending(mr_ctx *ctx, mr_frame *f, bool is[])
-{
-	const char *latest, *pending, *what;
-	size_t n, m;
-
-	MR_TRY(get_lines(ctx, f, "latest", &latest, &n));
-	MR_TRY(get_lines(ctx, f, "pending", &pending, &m));
-	for (int i = 0; i < LEADING; i++)
-		is[i] = (has_line(latest, n, leading[i]) || has_line(pending, m, leading[i])) &&
-		        missing_tools(f, leading[i], &what);
-	return MR_OK;
-}
-
-/* Puts those, but for one. */
-static mr_status
-put_pending(mr_ctx *ctx, mr_frame *f, const bool is[], const char *but)
-{
-	mr_text lines = { .ctx = ctx };
-
-	for (int i = 0; i < LEADING; i++)
-		if (is[i] && strcmp(leading[i], but) != 0)
-			mr_text_add(&lines, "%s\n", leading[i]);
-	return put_lines(ctx, f, "pending", &lines);
-}
-
-mr_status
-mr_layer_worked(mr_ctx *ctx, mr_frame *f, const char *layer)
-{
-	mr_text line = { .ctx = ctx };
-	bool pending[LEADING];
-
-	if (!mr_layer_has(f, "", "latest") && !has_others(f, layer))
-		return MR_OK;
-	MR_TRY(find_pending(ctx, f, pending));
-	mr_text_add(&line, "%s\n", layer);
-	MR_TRY(put_lines(ctx, f, "latest", &line));
-	return put_pending(ctx, f, pending, layer);
-}
-
 mr_status
 mr_layer_is_pending(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
 {
-	bool pending[LEADING];
+	const char *text, *what;
+	size_t n;
 
-	MR_TRY(find_pending(ctx, f, pending));
-	*is = false;
-	for (int i = 0; i < LEADING; i++)
-		*is |= pending[i] && !strcmp(leading[i], layer);
+	MR_TRY(get_order(ctx, f, &text, &n));
+	*is = place_of(text, n, layer) < n && missing_tools(f, layer, &what);
 	return MR_OK;
-}
-
-mr_status
-mr_layer_followed(mr_ctx *ctx, mr_frame *f, const char *layer)
-{
-	bool pending[LEADING];
-
-	MR_TRY(find_pending(ctx, f, pending));
-	return put_pending(ctx, f, pending, layer);
-}
-
-/* The layers that are there and said to be the latest, up to two: several where frames were merged. */
-static mr_status
-find_latest(mr_ctx *ctx, mr_frame *f, const char *layer[2])
-{
-	const char *text;
-	size_t n, found = 0;
-
-	layer[0] = layer[1] = NULL;
-	MR_TRY(get_lines(ctx, f, "latest", &text, &n));
-	for (size_t i = 0; i < f->count && found < 2; i++) {
-		const char *one = f->columns[i].layer;
-		if (!*one || !has_line(text, n, one) || (found && !strcmp(layer[0], one)))
-			continue;
-		layer[found++] = mr_format(ctx, "%s", one);
-	}
-	return MR_OK;
-}
-
-/* The first surface of a frame that does not say which is its latest, for want of others; NULL: it has none.
- */
-static const char *
-first_surface(const mr_frame *f)
-{
-	static const char *const surfaces[] = { "mesh", "control", "base" };
-
-	for (size_t i = 0; i < sizeof surfaces / sizeof *surfaces; i++)
-		if (mr_frame_has_layer(f, surfaces[i]))
-			return surfaces[i];
-	return NULL;
-}
-
-/* Adds the layers of a frame that were worked on last and are not there yet. */
-static mr_status
-add_latest(mr_ctx *ctx, mr_frame *f, mr_text *all)
-{
-	const char *layer[2];
-
-	MR_TRY(find_latest(ctx, f, layer));
-	if (!mr_layer_has(f, "", "latest"))
-		layer[0] = first_surface(f);
-	for (int i = 0; i < 2 && layer[i]; i++)
-		if (!has_line(all->n ? all->s : "", all->n, layer[i]))
-			mr_text_add(all, "%s\n", layer[i]);
-	return MR_OK;
-}
-
-/* Those of all frames; none where no frame says which it is. */
-static mr_status
-add_latest_of_all(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_text *all)
-{
-	bool said = false;
-
-	for (size_t i = 0; i < n; i++)
-		said |= mr_layer_has(frames[i], "", "latest");
-	for (size_t i = 0; said && i < n; i++)
-		MR_TRY(add_latest(ctx, frames[i], all));
-	return MR_OK;
-}
-
-mr_status
-mr_layer_join_latest(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame *out)
-{
-	mr_text all = { .ctx = ctx };
-
-	MR_TRY(add_latest_of_all(ctx, frames, n, &all));
-	return put_lines(ctx, out, "latest", &all);
-}
-
-mr_status
-mr_layers_merge(mr_ctx *ctx, mr_frame *f, mr_frame *from)
-{
-	mr_frame *const both[] = { f, from };
-	mr_text all = { .ctx = ctx };
-
-	MR_TRY(add_latest_of_all(ctx, both, 2, &all));
-	MR_TRY(mr_frame_merge(ctx, f, from));
-	return put_lines(ctx, f, "latest", &all);
 }
 
 mr_status
 mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer)
 {
-	const char *found[2];
-
-	MR_TRY(find_latest(ctx, f, found));
-	*layer = found[1] ? NULL : found[0];
-	return MR_OK;
-}
-
-mr_status
-mr_layer_is_latest(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is)
-{
 	const char *text;
-	size_t n;
+	size_t n, first;
 
-	MR_TRY(get_lines(ctx, f, "latest", &text, &n));
-	*is = has_line(text, n, layer);
+	MR_TRY(get_order(ctx, f, &text, &n));
+	*layer = NULL;
+	first = n;
+	for (size_t i = 0; i < f->count; i++) {
+		size_t at = place_of(text, n, f->columns[i].layer);
+		if (*f->columns[i].layer && at < first) {
+			first = at;
+			*layer = mr_format(ctx, "%s", f->columns[i].layer);
+		}
+	}
 	return MR_OK;
 }
 
 mr_status
 mr_layer_finished(mr_ctx *ctx, mr_frame *f)
 {
-	bool pending[LEADING];
-	const char *what;
+	static const char *const leading[] = { "handles", "base", "displacement", "control" };
 
-	MR_TRY(find_pending(ctx, f, pending));
-	for (int i = 0; i < LEADING; i++)
-		if (pending[i]) {
+	for (size_t i = 0; i < sizeof leading / sizeof *leading; i++) {
+		const char *what;
+		bool pending;
+		MR_TRY(mr_layer_is_pending(ctx, f, leading[i], &pending));
+		if (pending) {
 			mr_remedy remedy = missing_tools(f, leading[i], &what);
 			return mr_advise(ctx, remedy, mr_fail(ctx, MR_EMISSING, "%s", what));
 		}
+	}
 	return MR_OK;
 }
 
@@ -284,18 +170,12 @@ mr_status
 mr_layer_result(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer)
 {
 	static const char *const layers[] = { "mesh", "control", "points", "base", NULL };
-	const char *latest[2] = { NULL, NULL };
 
 	if (!only) {
 		MR_TRY(mr_layer_finished(ctx, f));
-		MR_TRY(find_latest(ctx, f, latest));
+		MR_TRY(mr_layer_latest(ctx, f, &only));
 	}
-	if (latest[1])
-		return mr_advise(ctx, MR_NAME_LAYER,
-		    mr_fail(ctx, MR_EMISSING,
-			"%s and %s were each worked on last, in frames that were merged", latest[0],
-			latest[1]));
-	return mr_layer_choose(ctx, f, only ? only : latest[0], layers, layer);
+	return mr_layer_choose(ctx, f, only, layers, layer);
 }
 
 mr_status

@@ -24,7 +24,6 @@ static const struct {
 	{ MR_RECONNECTED, NULL, "=", "objects" },
 	{ MR_RECONNECTED, NULL, "=", "materials" },
 	{ MR_RECONNECTED, NULL, "=", "mtllib" },
-	{ MR_RECONNECTED, "base", "base", "encoded_faces" },
 	{ MR_RESELECTED, NULL, "=", "response" },
 	{ MR_RESELECTED, "mesh", "base", "region" },
 	{ MR_RESELECTED, "mesh", "base", "response" },

@@ -78,30 +78,20 @@ mr_layer_choose(mr_ctx *ctx, mr_frame *f, const char *only, const char *const *l
 mr_status mr_layer_is_as_encoded(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
 
 /*
- * The layer that was worked on last (column `latest`, of no layer): made, moved, or given what stands over
- * it. mr_layer_put_mesh and mr_layer_move note it; a frame's only layer needs no note.  What was done to the
- * layers before and shows in no surface yet stays noted, in `pending`.
+ * Notes that the layer was worked on: made, moved, or given what stands over it (column `latest`, of no
+ * layer: all layers that were, the last one first).  mr_layer_put_mesh and mr_layer_move note it; a frame's
+ * only layer needs no note.
  */
 mr_status mr_layer_worked(mr_ctx *ctx, mr_frame *f, const char *layer);
+
+/* A surface shows now what was done to the layer: it is noted no more. */
+mr_status mr_layer_followed(mr_ctx *ctx, mr_frame *f, const char *layer);
 
 /* Whether no surface shows yet what was done to the layer. */
 mr_status mr_layer_is_pending(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
 
-/* A surface shows it now. */
-mr_status mr_layer_followed(mr_ctx *ctx, mr_frame *f, const char *layer);
-
-/* Notes the latest layers of all frames that have become `out`: of one that does not say which it is, its
- * surface.  Nothing where none does. */
-mr_status mr_layer_join_latest(mr_ctx *ctx, mr_frame *const *frames, size_t n, mr_frame *out);
-
-/* mr_frame_merge, and the same of the two. */
-mr_status mr_layers_merge(mr_ctx *ctx, mr_frame *f, mr_frame *from);
-
-/* That layer; NULL where it is not known, or frames with several were merged. */
+/* The layer that was worked on last; NULL where it is not known. */
 mr_status mr_layer_latest(mr_ctx *ctx, mr_frame *f, const char **layer);
-
-/* Whether the layer is that, or one of several. */
-mr_status mr_layer_is_latest(mr_ctx *ctx, mr_frame *f, const char *layer, bool *is);
 
 /* MR_EMISSING, with the tool that is missing, where what was done shows in no surface yet. */
 mr_status mr_layer_finished(mr_ctx *ctx, mr_frame *f);
@@ -111,7 +101,7 @@ mr_status mr_layer_finished_or_warn(mr_ctx *ctx, mr_frame *f);
 
 /*
  * The layer that a tool takes that shows or writes one: `only` where not NULL; else the latest; else mesh,
- * control, points or base.  MR_EMISSING where there is none, it is not finished, or several are the latest.
+ * control, points or base.  MR_EMISSING where there is none, or it is not finished.
  */
 mr_status mr_layer_result(mr_ctx *ctx, mr_frame *f, const char *only, const char **layer);
 

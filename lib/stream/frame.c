@@ -302,12 +302,12 @@ merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 	return mr_frame_put(ctx, frame, "", name, TEXT, text, n + m);
 }
 
-/* What frames have together, behind one another: their histories, and layers that were worked on. */
+/* What frames have together, behind one another. */
 static bool
 is_joined(const mr_column *c)
 {
-	return !*c->layer && (!strcmp(c->name, "history") || !strcmp(c->name, "findings") ||
-				 !strcmp(c->name, "latest") || !strcmp(c->name, "pending"));
+	return !*c->layer &&
+	       (!strcmp(c->name, "history") || !strcmp(c->name, "findings") || !strcmp(c->name, "latest"));
 }
 
 mr_status

@@ -12,7 +12,7 @@ still_there(const mr_frame *f, const char *layer, const char *name, uint64_t kep
 	return !f->key && kept && mr_frame_find(f, layer, name)->serial == kept;
 }
 
-/* The faces around the vertices of base, which are to be those over which mesh was encoded. */
+/* The faces around the vertices of base. */
 static mr_status
 base_incidence(mr_ctx *ctx, mr_connectivity_cache *kept, mr_frame *f, const mr_mesh *base)
 {
@@ -23,20 +23,17 @@ base_incidence(mr_ctx *ctx, mr_connectivity_cache *kept, mr_frame *f, const mr_m
 	mr_ctx_free(keep);
 	kept->base_serial = kept->rest_serial = 0;
 	kept->rest_normal = NULL;
-	MR_TRY(mr_detail_check_faces(ctx, f, base));
 	mr_incidence_build(keep, base, &kept->base);
 	kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
 	return MR_OK;
 }
 
-/* The normals of base where it was encoded, if that is known. */
+/* The normals of base where it was encoded. */
 static void
 rest_normals(mr_ctx *ctx, mr_connectivity_cache *kept, const mr_frame *f, const mr_mesh *base, mr_detail *d)
 {
 	mr_mesh rest = *base;
 
-	if (!d->rest)
-		return;
 	if (!kept->rest_normal)
 		kept->rest_normal = MR_NEW(&kept->keep, base->nv, mr_v3);
 	d->rest_normal = kept->rest_normal;
@@ -124,8 +121,7 @@ decode_control(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_cache *cach
 	MR_TRY(mr_layer_replace(ctx, f, "mesh", &d.m));
 	MR_TRY(mr_layer_followed(ctx, f, "control"));
 	MR_TRY(mr_layer_followed(ctx, f, "displacement"));
-	MR_TRY(put_columns(ctx, f, d.m.nv));
-	return MR_OK;
+	return put_columns(ctx, f, d.m.nv);
 }
 
 /* Whether it is the control mesh that handles pose, or else that, or the heights over it, that were worked on

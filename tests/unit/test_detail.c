@@ -387,7 +387,7 @@ static void
 a_crumpled_base_turns_the_detail_little(void **state)
 {
 	mr_ctx ctx;
-	mr_detail d, own;
+	mr_detail d;
 
 	(void)state;
 	mr_ctx_init(&ctx, 2);
@@ -397,9 +397,7 @@ a_crumpled_base_turns_the_detail_little(void **state)
 		p[i] = mr_mul(1.3, m.p[i]);
 	m = with_positions(m, p, "mesh");
 	assert_int_equal(mr_encode(&ctx, &m, &base, NULL, &d, NULL), MR_OK);
-	own = d;
-	own.rest = NULL;
-	assert_true(crumpling(&ctx, m, base, d) < 0.5 * crumpling(&ctx, m, base, own));
+	assert_true(crumpling(&ctx, m, base, d) < 0.004 * (double)m.nv);
 	mr_ctx_free(&ctx);
 }
 
@@ -459,7 +457,7 @@ bad_columns_are_refused(void **state)
 	mr_ctx_init(&ctx, 1);
 	m = solid(&ctx, MR_PLANE, 4);
 	m.name = "base";
-	mr_detail d = { 4, { face, bary }, height, NULL, NULL, NULL };
+	mr_detail d = { 4, { face, bary }, height, NULL, m.p, NULL };
 	assert_int_equal(mr_detail_check(&ctx, &d, &m), MR_ERANGE);
 	assert_string_equal(ctx.error, "mesh: detail_height 2 (nan) is not finite");
 	height[2] = 0;

@@ -97,30 +97,6 @@ test_basis_and_solve_agree(void **state)
 	mr_ctx_delete(ctx);
 }
 
-/* Something else turns the corners of one triangle of base, and says nothing of it. */
-static void
-test_other_triangles_are_refused(void **state)
-{
-	mr_ctx *ctx = mr_ctx_new(1);
-	mr_frame *f = creature(ctx);
-	mr_shape shape = { 'f', 'u', 3 };
-	mr_tri *t;
-	mr_mesh base;
-
-	(void)state;
-	prepare(ctx, f, false);
-	assert_int_equal(mr_layer_mesh(ctx, f, "base", &base), MR_OK);
-	t = MR_NEW(ctx, base.nf, mr_tri);
-	assert_non_null(t);
-	memcpy(t, base.t, base.nf * sizeof *t);
-	assert_int_equal(mr_frame_put(ctx, f, "base", "triangles", shape, t, base.nf), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL), MR_OK);
-	t[7] = (mr_tri){ { t[7].v[1], t[7].v[2], t[7].v[0] } };
-	assert_int_equal(mr_frame_put(ctx, f, "base", "triangles", shape, t, base.nf), MR_OK);
-	assert_int_equal(mr_decode_frame(ctx, f, NULL, NULL), MR_EMESH);
-	mr_ctx_delete(ctx);
-}
-
 /* A cache serves frames that are no deltas of one another, one after another, with the bytes of none. */
 static void
 test_cache_changes_nothing(void **state)
@@ -371,7 +347,6 @@ int
 main(void)
 {
 	static const struct CMUnitTest tests[] = { cmocka_unit_test(test_basis_and_solve_agree),
-		cmocka_unit_test(test_other_triangles_are_refused),
 		cmocka_unit_test(test_cache_changes_nothing),
 		cmocka_unit_test(test_sentences_notes_and_columns), cmocka_unit_test(test_wrong_options),
 		cmocka_unit_test(test_options_that_cannot_be), cmocka_unit_test(test_defaults_and_nobody),

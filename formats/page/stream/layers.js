@@ -31,8 +31,7 @@ export function layersOf(frame) {
 
 /* The name of the layer that is shown first: the one worked on last, else mesh, control, points or base (mr 7). */
 export async function firstLayer(frame, layers) {
-	const latest = (await linesOf(frame, "", "latest")).filter((line) => layers.some((l) => l.name === line));
-	const order = latest.length === 1 ? latest : ["mesh", "control", "points", "base"];
+	const order = [...await linesOf(frame, "", "latest"), "mesh", "control", "points", "base"];
 	const found = order.find((name) => layers.some((l) => l.name === name));
 
 	return found || layers[0].name;
