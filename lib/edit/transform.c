@@ -214,26 +214,11 @@ cube_root(double x)
 /* ---- columns ---- */
 
 typedef struct change {
-	mr_affine map, back;
+	mr_affine map;
 	mr_mat3 linear, normal; /* L, L^-T */
 	double scale;           /* of lengths; 0: it depends on the direction */
 	bool mirrors;
 } change;
-
-static mr_affine
-inverse(const mr_affine *t, const mr_mat3 *inverse_transposed)
-{
-	mr_affine i = mr_identity();
-	mr_v3 shift;
-
-	for (int k = 0; k < 9; k++)
-		i.m[4 * (k % 3) + k / 3] = inverse_transposed->m[k];
-	shift = mr_apply(&i, mr_vec(t->m[3], t->m[7], t->m[11]));
-	i.m[3] = -shift.x;
-	i.m[7] = -shift.y;
-	i.m[11] = -shift.z;
-	return i;
-}
 
 static change
 change_of(const mr_affine *map)
@@ -251,7 +236,6 @@ change_of(const mr_affine *map)
 			                        det;
 			off = fmax(off, fabs(square.m[3 * i + j] - (i == j ? s * s : 0)));
 		}
-	c.back = inverse(map, &c.normal);
 	c.scale = off <= 1e-9 * s * s ? s : 0;
 	return c;
 }
@@ -287,10 +271,7 @@ typedef enum column_sort {
 	SAMPLES, /* the first number of a row is a length; of one number it is that */
 	OFFSETS, /* in the frames of faces, whose first axis a mirror turns round */
 	CORNERS, /* three parts of a row, for the corners of a face */
-	EDGES,   /* for its edges, the first from the first corner to the second */
-	RESPONSES,
-	MAPS,
-	TURNS
+	EDGES    /* for its edges, the first from the first corner to the second */
 } column_sort;
 
 /* Of what a layer alone has, by the width of its rows. */
@@ -299,13 +280,9 @@ sort_of_own(const mr_column *c)
 {
 	if (c->shape.type != 'd')
 		return !strcmp(c->name, "triangles") ? CORNERS : !strcmp(c->name, "crease") ? EDGES : OTHER;
-	if (!strcmp(c->name, "response"))
-		return RESPONSES;
-	if (c->shape.components == 12)
-		return MAPS;
 	if (c->shape.components < 3)
 		return LENGTHS;
-	return !strcmp(c->name, "turn") ? TURNS : !strcmp(c->name, "detail_offset") ? OFFSETS : POSITIONS;
+	return !strcmp(c->name, "detail_offset") ? OFFSETS : POSITIONS;
 }
 
 static column_sort
@@ -334,7 +311,7 @@ sort_of(const mr_column *c)
 static bool
 wants_alike(column_sort sort)
 {
-	return sort == LENGTHS || sort == OFFSETS || sort >= RESPONSES;
+	return sort == LENGTHS || sort == OFFSETS;
 }
 
 static void
@@ -355,64 +332,22 @@ swap_corners(char *x, size_t rows, size_t width)
 		swap(x, x + width / 3, width / 3);
 }
 
-/* T_h acts on the mapped frame as M T_h M^-1, so what it multiplies is mapped: M (T_h - I) r = (M T_h M^-1 -
- * I) M r. */
-static void
-map_responses(const change *c, double *r, size_t rows)
-{
-	for (size_t i = 0; i < rows; i++, r += 4) {
-		const double *m = c->map.m, x = r[0], y = r[1], z = r[2];
-		for (int k = 0; k < 3; k++)
-			r[k] = m[4 * k] * x + m[4 * k + 1] * y + m[4 * k + 2] * z + m[4 * k + 3] * r[3];
-	}
-}
-
-/* An axis is turned by the rotation, and mirrors turn the other way round. */
-static mr_v3
-map_turn(const change *c, mr_v3 turn)
-{
-	return mr_mul((c->mirrors ? -1 : 1) / c->scale, mr_mat3_apply(&c->linear, turn));
-}
-
-/* M T M^-1 = I + L (T - I) M^-1, so that what stays at rest does so to the bit. */
-static mr_affine
-map_map(const change *c, const mr_affine *t)
-{
-	mr_affine rest = mr_identity(), by = *t, linear = c->map;
-
-	for (int i = 0; i < 12; i++)
-		by.m[i] -= rest.m[i];
-	linear.m[3] = linear.m[7] = linear.m[11] = 0;
-	by = mr_compose(&by, &c->back);
-	by = mr_compose(&linear, &by);
-	for (int i = 0; i < 12; i++)
-		by.m[i] += rest.m[i];
-	return by;
-}
-
 /* n values of a column of doubles in rows of `components`. */
 static void
 map_values(const change *c, column_sort sort, double *x, size_t rows, size_t components)
 {
 	size_t n = rows * components;
 	mr_v3 *p = (mr_v3 *)x;
-	mr_affine *t = (mr_affine *)x;
 
 	for (size_t i = 0; sort == POSITIONS && i < n / 3; i++)
 		p[i] = mr_apply(&c->map, p[i]);
 	for (size_t i = 0; sort == NORMALS && i < n / 3; i++)
 		p[i] = turn_normal(c, p[i]);
-	for (size_t i = 0; sort == TURNS && i < n / 3; i++)
-		p[i] = map_turn(c, p[i]);
 	for (size_t i = 0; sort == OFFSETS && i < n / 3; i++)
 		p[i] = mr_mul(c->scale, mr_vec(c->mirrors ? -p[i].x : p[i].x, p[i].y, p[i].z));
 	for (size_t i = 0; (sort == LENGTHS || sort == SAMPLES) && i < n;
 	     i += sort == LENGTHS ? 1 : components)
 		x[i] *= c->scale;
-	for (size_t i = 0; sort == MAPS && i < rows; i++)
-		t[i] = map_map(c, &t[i]);
-	if (sort == RESPONSES)
-		map_responses(c, x, n / 4);
 }
 
 static mr_status
@@ -464,17 +399,18 @@ check(mr_ctx *ctx, const mr_frame *f, const char *layer, const change *c)
 	return MR_OK;
 }
 
-/* MR_EMESH where a layer that goes alone would leave behind a pose that no surface shows yet. */
+/* MR_EMESH where a layer that goes alone would leave behind a pose that no surface shows yet, or handles are
+ * posed, whose maps are of where they are. */
 static mr_status
 check_poses(mr_ctx *ctx, mr_frame *f, const char *layer)
 {
 	static const char *const posed[] = { "base", "control" };
 	bool is;
 
-	if (!strcmp(layer, "points"))
-		return MR_OK;
 	if (mr_layer_has(f, "handles", "transform"))
-		return mr_fail(ctx, MR_EMESH, "%s cannot go alone: handles are posed beside it", layer);
+		return mr_advise(ctx, MR_SOLVE_FIRST, mr_fail(ctx, MR_EMESH, "handles are posed"));
+	if (!layer || !strcmp(layer, "points"))
+		return MR_OK;
 	for (size_t i = 0; i < 2; i++) {
 		MR_TRY(mr_layer_is_posed(ctx, f, posed[i], &is));
 		if (is)
@@ -511,10 +447,11 @@ transform(mr_ctx *ctx, mr_frame *f, const char *layer, const double map[12])
 	c = change_of(&t);
 	if (layer && !mr_frame_has_layer(f, layer))
 		return mr_layer_missing(ctx, f, layer, layer);
-	if (layer) {
-		MR_TRY(check_poses(ctx, f, layer));
+	MR_TRY(check_poses(ctx, f, layer));
+	if (layer)
 		cut_loose(ctx, f, layer);
-	}
+	for (size_t i = 0; i < 2; i++)
+		mr_frame_drop(f, i ? "base" : "control", "response", 0);
 	MR_TRY(check(ctx, f, layer, &c));
 	for (size_t i = f->count; i-- > 0;) {
 		mr_column *column = &f->columns[i];
