@@ -1,6 +1,7 @@
 /* Terms of a selection, in order: later ones win. */
 #include "edit/select.h"
 
+#include "edit/handles.h"
 #include "edit/select_parts.h"
 #include "edit/selection_file.h"
 #include "mesh/layers.h"
@@ -65,13 +66,13 @@ parse_term(mr_ctx *ctx, const char *text, mr_select_term *t)
 	if (text[strlen(t->predicate->name)] == '+')
 		return no_predicate(ctx, text + strlen(t->predicate->name) + 1);
 	colon = strchr(text, ':');
-	if ((colon != NULL) == (t->predicate->parse == NULL))
+	if ((colon != NULL) == (*t->predicate->fields == '\0'))
 		return mr_fail(ctx, MR_EUSAGE,
 		    colon ? "%s takes nothing: no colon" : "%s takes something: %s:...", t->predicate->name,
 		    t->predicate->name);
 	if (!colon)
 		return MR_OK;
-	return mr_prefix(ctx, t->predicate->parse(ctx, colon + 1, t), "%s", t->predicate->name);
+	return mr_prefix(ctx, mr_select_parse(ctx, colon + 1, t), "%s", t->predicate->name);
 }
 
 static mr_status
@@ -131,7 +132,11 @@ eval_rule(mr_ctx *ctx, const mr_select_scene *s, const rule *r, bool *one, bool 
 			return mr_fail(ctx, MR_EMESH, "%s%s: %s has no faces, which %s needs", r->option,
 			    r->text, s->m->name, t->predicate->name);
 		memset(one, false, s->m->nv);
-		MR_TRY(mr_prefix(ctx, t->predicate->eval(ctx, s, t, one), "%s%s", r->option, r->text));
+		for (size_t v = 0; t->predicate->holds && v < s->m->nv; v++)
+			one[v] = t->predicate->holds(s, t, s->m->p[v]);
+		if (t->predicate->eval)
+			MR_TRY(
+			    mr_prefix(ctx, t->predicate->eval(ctx, s, t, one), "%s%s", r->option, r->text));
 		for (size_t v = 0; v < s->m->nv; v++)
 			in[v] = in[v] && one[v] != t->negate;
 	}
@@ -170,21 +175,13 @@ apply_rule(
 static void
 report(mr_ctx *ctx, const uint32_t *region, size_t nv, mr_select_result *result)
 {
-	mr_select_result r = { 0 };
-	size_t *handle;
+	mr_regions all = mr_regions_of(ctx, region, nv);
+	mr_select_result r = { .fixed = all.count[MR_REGION_FIXED],
+		.free = all.count[MR_REGION_FREE],
+		.handle_count = all.n - MR_REGION_HANDLE,
+		.handle = all.count + MR_REGION_HANDLE };
 
-	for (size_t v = 0; v < nv; v++)
-		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE >= r.handle_count)
-			r.handle_count = region[v] - MR_REGION_HANDLE + 1;
-	handle = MR_NEW_ZERO(ctx, r.handle_count, size_t);
-	for (size_t v = 0; v < nv; v++) {
-		r.fixed += region[v] == MR_REGION_FIXED;
-		r.free += region[v] == MR_REGION_FREE;
-		if (region[v] >= MR_REGION_HANDLE)
-			handle[region[v] - MR_REGION_HANDLE]++;
-	}
 	r.handles = nv - r.fixed - r.free;
-	r.handle = handle;
 	mr_note(ctx, "%zu fixed, %zu free, %zu in handles", r.fixed, r.free, r.handles);
 	if (result)
 		*result = r;

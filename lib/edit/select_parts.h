@@ -11,13 +11,13 @@
 typedef struct mr_select_term {
 	const struct mr_predicate *predicate;
 	bool negate;
-	double x[6];      /* numbers, in the order written; of column: the bounds; of part: the distance */
-	bool relative;    /* the last of them is a share of the diagonal */
-	int axis;         /* above, below */
-	size_t count;     /* rings, grow; part: which, from 1 */
-	uint32_t vertex;  /* rings */
-	const char *name; /* group, column */
-	uint32_t *list;   /* vertices */
+	double x[6];       /* numbers and fractions, in the order written */
+	uint32_t whole[2]; /* whole numbers */
+	double length;
+	bool relative; /* that is a share of the diagonal */
+	int axis;
+	const char *name;
+	uint32_t *list; /* vertices */
 	size_t listed;
 } mr_select_term;
 
@@ -32,18 +32,23 @@ typedef struct mr_select_scene {
 	uint32_t target;        /* the region that the rule gives */
 } mr_select_scene;
 
-/* A kind of predicate: reads what stands behind its colon, sets in[v] where it holds (given all false). */
+/*
+ * A kind of predicate.  fields: what stands after its colon, a letter each, with commas between: n number,
+ * l length or share of the diagonal in %, f fraction, a axis, i whole number, c one from 1, s name, v file of
+ * vertices; what follows a ? may be left out.
+ */
 typedef struct mr_predicate {
-	const char *name;
-	/* NULL: nothing may stand there */
-	mr_status (*parse)(mr_ctx *ctx, const char *text, mr_select_term *t);
+	const char *name, *fields, *form; /* form: the fields in words */
+	bool (*holds)(const mr_select_scene *s, const mr_select_term *t, mr_v3 p); /* at a place; or */
+	/* sets in[v] where it holds, given all false */
 	mr_status (*eval)(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in);
-	size_t numbers; /* for parse_numbers */
-	bool length;    /* the last number is a length */
-	bool faces;     /* there must be faces */
+	bool faces; /* there must be faces */
 } mr_predicate;
 
 /* All of them; ends with a name of NULL. */
 extern const mr_predicate mr_predicates[];
+
+/* Reads what stands after the colon of the term's predicate. */
+mr_status mr_select_parse(mr_ctx *ctx, const char *text, mr_select_term *t);
 
 #endif

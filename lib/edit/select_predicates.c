@@ -1,6 +1,7 @@
 /* The predicates of a selection: how each is written, and for which vertices it holds. */
 #include "base/text_file.h"
 #include "edit/select_parts.h"
+#include "mesh/edges.h"
 #include "mesh/layers.h"
 #include "mesh/repair.h"
 #include "space/connected.h"
@@ -8,84 +9,14 @@
 
 /* Parsing */
 
+/* The vertices that a file lists. */
 static mr_status
-parse_numbers(mr_ctx *ctx, const char *text, mr_select_term *t)
-{
-	const mr_predicate *p = t->predicate;
-	const char *at = text;
-
-	if (!mr_numbers(&at, p->numbers, t->x))
-		return p->numbers == 1
-		           ? mr_fail(ctx, MR_EUSAGE, "'%s' is not a number", text)
-		           : mr_fail(ctx, MR_EUSAGE, "'%s' is not %zu numbers with commas between them", text,
-				 p->numbers);
-	if (p->length && *at == '%') {
-		at++;
-		t->relative = true;
-		t->x[p->numbers - 1] /= 100;
-	}
-	if (*at)
-		return mr_fail(ctx, MR_EUSAGE, "'%s' follows the numbers", at);
-	if (p->length && t->x[p->numbers - 1] < 0)
-		return mr_fail(ctx, MR_EUSAGE, "the length is negative");
-	return MR_OK;
-}
-
-static mr_status
-parse_halfspace(mr_ctx *ctx, const char *text, mr_select_term *t)
-{
-	MR_TRY(parse_numbers(ctx, text, t));
-	if (t->x[0] == 0 && t->x[1] == 0 && t->x[2] == 0)
-		return mr_fail(ctx, MR_EUSAGE, "'%s' has no direction", text);
-	return MR_OK;
-}
-
-static mr_status
-parse_axis(mr_ctx *ctx, const char *text, mr_select_term *t)
-{
-	const char *at = text + 1;
-
-	if (*text < 'x' || *text > 'z' || *at++ != ',' || !mr_numbers(&at, 1, t->x) || *at)
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not an axis x, y or z, a comma and a fraction", text);
-	if (t->x[0] < 0 || t->x[0] > 1)
-		return mr_fail(ctx, MR_EUSAGE, "the fraction %g is not between 0 and 1", t->x[0]);
-	t->axis = *text - 'x';
-	return MR_OK;
-}
-
-/* "VERTEX,RINGS", or of grow "RINGS". */
-static mr_status
-parse_rings(mr_ctx *ctx, const char *text, mr_select_term *t)
-{
-	bool vertex = t->predicate->numbers > 1;
-	const char *at = text;
-	uint64_t v = 0, k;
-
-	if (vertex && (!mr_whole(&at, MR_NONE - 1, &v) || *at++ != ','))
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a vertex, a comma and a number of rings", text);
-	if (!mr_whole(&at, MR_NONE, &k) || *at)
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not %s number of rings", text,
-		    vertex ? "a vertex, a comma and a" : "a");
-	t->vertex = (uint32_t)v;
-	t->count = (size_t)k;
-	return MR_OK;
-}
-
-static mr_status
-parse_name(mr_ctx *ctx, const char *text, mr_select_term *t)
-{
-	t->name = text;
-	return *text ? MR_OK : mr_fail(ctx, MR_EUSAGE, "a name is missing");
-}
-
-static mr_status
-parse_list(mr_ctx *ctx, const char *text, mr_select_term *t)
+read_list(mr_ctx *ctx, const char *path, mr_select_term *t)
 {
 	char **line;
 	size_t n;
 
-	MR_TRY(parse_name(ctx, text, t));
-	MR_TRY(mr_lines_read(ctx, text, &line, &n));
+	MR_TRY(mr_lines_read(ctx, path, &line, &n));
 	t->list = MR_NEW(ctx, n, uint32_t);
 	for (size_t i = 0; i < n; i++) {
 		const char *at = line[i];
@@ -94,58 +25,109 @@ parse_list(mr_ctx *ctx, const char *text, mr_select_term *t)
 			continue;
 		if (!mr_whole(&at, MR_NONE - 1, &v) || *at)
 			return mr_fail(
-			    ctx, MR_EFORMAT, "%s:%zu: '%.40s' is not a vertex", text, i + 1, line[i]);
+			    ctx, MR_EFORMAT, "%s:%zu: '%.40s' is not a vertex", path, i + 1, line[i]);
 		t->list[t->listed++] = (uint32_t)v;
 	}
 	return MR_OK;
 }
 
-/* "N", "N,DISTANCE" or "N,DISTANCE%". */
-static mr_status
-parse_part(mr_ctx *ctx, const char *text, mr_select_term *t)
+/* A name ends where so many commas are left as fields follow it. */
+static bool
+take_name(mr_ctx *ctx, const char **at, size_t fields, mr_select_term *t)
 {
+	const char *end = *at + strlen(*at);
+
+	for (; fields > 0 && end > *at; fields--)
+		while (end > *at && *--end != ',')
+			;
+	t->name = mr_format(ctx, "%.*s", (int)(end - *at), *at);
+	*at = end;
+	return *t->name;
+}
+
+static bool
+take_length(const char **at, mr_select_term *t)
+{
+	if (!mr_numbers(at, 1, &t->length) || t->length < 0)
+		return false;
+	t->relative = **at == '%';
+	t->length /= t->relative ? 100 : 1;
+	*at += t->relative;
+	return true;
+}
+
+static bool
+take_axis(const char **at, mr_select_term *t)
+{
+	t->axis = **at - 'x';
+	return **at >= 'x' && *(*at)++ <= 'z';
+}
+
+static bool
+take_whole(const char **at, uint32_t *whole)
+{
+	uint64_t x;
+
+	if (!mr_whole(at, MR_NONE, &x))
+		return false;
+	*whole = (uint32_t)x;
+	return true;
+}
+
+/* The field at hand, with what it is the n-th of its kind. */
+static bool
+take_field(
+    mr_ctx *ctx, const char *field, const char **at, size_t *numbers, size_t *wholes, mr_select_term *t)
+{
+	double *x = &t->x[*numbers];
+
+	switch (*field) {
+	case 'n':
+		++*numbers;
+		return mr_numbers(at, 1, x);
+	case 'f':
+		++*numbers;
+		return mr_numbers(at, 1, x) && *x >= 0 && *x <= 1;
+	case 'l':
+		return take_length(at, t);
+	case 'a':
+		return take_axis(at, t);
+	case 'i':
+		return take_whole(at, &t->whole[(*wholes)++]);
+	case 'c':
+		return take_whole(at, &t->whole[*wholes]) && t->whole[(*wholes)++] > 0;
+	default:
+		return take_name(ctx, at, strlen(field + 1), t);
+	}
+}
+
+mr_status
+mr_select_parse(mr_ctx *ctx, const char *text, mr_select_term *t)
+{
+	const mr_predicate *p = t->predicate;
+	size_t numbers = 0, wholes = 0;
 	const char *at = text;
-	uint64_t n;
 
-	if (!mr_whole(&at, MR_NONE, &n) || n == 0)
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not the number of a part, from 1", text);
-	t->count = (size_t)n;
-	if (!*at)
-		return MR_OK;
-	if (*at++ != ',' || !mr_numbers(&at, 1, t->x) || !(t->x[0] > 0))
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not a number, or one, a comma and a distance", text);
-	t->relative = *at == '%';
-	t->x[0] /= t->relative ? 100 : 1;
-	return at[t->relative] ? mr_fail(ctx, MR_EUSAGE, "'%s' follows the distance", at) : MR_OK;
+	for (const char *field = p->fields; *field; field++) {
+		if (*field == '?' && !*at)
+			break;
+		if (*field == '?')
+			continue;
+		if ((field > p->fields && *at++ != ',') || !take_field(ctx, field, &at, &numbers, &wholes, t))
+			return mr_fail(ctx, MR_EUSAGE, "'%s' is not %s", text, p->form);
+	}
+	if (*at)
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not %s", text, p->form);
+	return strchr(p->fields, 'v') ? read_list(ctx, t->name, t) : MR_OK;
 }
 
-/* The bounds are the last two words: a name may have commas. */
-static mr_status
-parse_column(mr_ctx *ctx, const char *text, mr_select_term *t)
-{
-	const char *low = text + strlen(text), *at;
+/* At a place */
 
-	for (int commas = 0; low > text && commas < 2;)
-		commas += *--low == ',';
-	at = low + 1;
-	if (low == text || !mr_numbers(&at, 2, t->x) || *at)
-		return mr_fail(
-		    ctx, MR_EUSAGE, "'%s' is not a name and two bounds, with commas between them", text);
-	if (t->x[0] > t->x[1])
-		return mr_fail(ctx, MR_EUSAGE, "the bound %g is above %g", t->x[0], t->x[1]);
-	t->name = mr_format(ctx, "%.*s", (int)(low - text), text);
-	return MR_OK;
-}
-
-/* Evaluating */
-
-/* The length that ends the term's numbers, in units of the model. */
+/* The term's length in units of the model. */
 static double
 length_of(const mr_select_scene *s, const mr_select_term *t)
 {
-	double r = t->x[t->predicate->numbers - 1];
-
-	return t->relative ? r * mr_box_diagonal(s->box) : r;
+	return t->relative ? t->length * mr_box_diagonal(s->box) : t->length;
 }
 
 static mr_v3
@@ -154,69 +136,51 @@ point_of(const mr_select_term *t)
 	return mr_vec(t->x[0], t->x[1], t->x[2]);
 }
 
-static mr_status
-eval_all(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
+static bool
+holds_everywhere(const mr_select_scene *s, const mr_select_term *t, mr_v3 p)
 {
-	(void)ctx, (void)t;
-	memset(in, true, s->m->nv);
-	return MR_OK;
+	(void)s, (void)t, (void)p;
+	return true;
 }
 
-static mr_status
-eval_sphere(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
+static bool
+in_sphere(const mr_select_scene *s, const mr_select_term *t, mr_v3 p)
 {
-	double r = length_of(s, t);
+	mr_v3 d = mr_sub(p, point_of(t));
 
-	(void)ctx;
-	for (size_t v = 0; v < s->m->nv; v++) {
-		mr_v3 d = mr_sub(s->m->p[v], point_of(t));
-		in[v] = hypot(hypot(d.x, d.y), d.z) <= r; /* whose squares doubles may not hold */
-	}
-	return MR_OK;
+	return hypot(hypot(d.x, d.y), d.z) <= length_of(s, t); /* whose squares doubles may not hold */
 }
 
-static mr_status
-eval_box(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
+static bool
+in_box(const mr_select_scene *s, const mr_select_term *t, mr_v3 p)
 {
-	(void)ctx;
-	for (size_t v = 0; v < s->m->nv; v++) {
-		in[v] = true;
-		for (int k = 0; k < 3; k++) {
-			double x = mr_coordinate(s->m->p[v], k);
-			in[v] = in[v] && x >= t->x[k] && x <= t->x[k + 3];
-		}
-	}
-	return MR_OK;
+	bool in = true;
+
+	(void)s;
+	for (int k = 0; k < 3; k++)
+		in &= mr_coordinate(p, k) >= t->x[k] && mr_coordinate(p, k) <= t->x[k + 3];
+	return in;
 }
 
-static mr_status
-eval_halfspace(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
+static bool
+in_halfspace(const mr_select_scene *s, const mr_select_term *t, mr_v3 p)
 {
-	(void)ctx;
-	for (size_t v = 0; v < s->m->nv; v++)
-		in[v] = mr_dot(point_of(t), s->m->p[v]) >= t->x[3];
-	return MR_OK;
+	(void)s;
+	return mr_dot(point_of(t), p) >= t->x[3];
 }
 
-/* Where the term's fraction of the bounding box is, along its axis. */
-static double
-level_of(const mr_select_scene *s, const mr_select_term *t)
+/* Above or below the term's fraction of the bounding box, along its axis. */
+static bool
+beyond_level(const mr_select_scene *s, const mr_select_term *t, mr_v3 p)
 {
 	double low = mr_coordinate(s->box.min, t->axis), high = mr_coordinate(s->box.max, t->axis);
+	double level = t->x[0] == 1 ? high : low + t->x[0] * (high - low);
+	double side = *t->predicate->name == 'a' ? 1 : -1;
 
-	return t->x[0] == 1 ? high : low + t->x[0] * (high - low);
+	return side * (mr_coordinate(p, t->axis) - level) >= 0;
 }
 
-static mr_status
-eval_above(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
-{
-	double level = level_of(s, t), side = *t->predicate->name == 'a' ? 1 : -1;
-
-	(void)ctx;
-	for (size_t v = 0; v < s->m->nv; v++)
-		in[v] = side * (mr_coordinate(s->m->p[v], t->axis) - level) >= 0;
-	return MR_OK;
-}
+/* Over the surface */
 
 static mr_status
 eval_geodesic(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
@@ -260,52 +224,47 @@ add_rings(mr_ctx *ctx, const mr_select_scene *s, size_t rings, const uint32_t *r
 static mr_status
 eval_rings(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
-	if (t->vertex >= s->m->nv)
-		return mr_fail(ctx, MR_ERANGE, "vertex %u, %s has %zu", t->vertex, s->m->name, s->m->nv);
-	in[t->vertex] = true;
-	add_rings(ctx, s, t->count, NULL, in);
+	uint32_t v = t->whole[0];
+
+	if (v >= s->m->nv)
+		return mr_fail(ctx, MR_ERANGE, "vertex %u, %s has %zu", v, s->m->name, s->m->nv);
+	in[v] = true;
+	add_rings(ctx, s, t->whole[1], NULL, in);
 	return MR_OK;
 }
 
-/* The part of vertex v. */
+/* Sets in[v] for the part of this number, or where that is MR_NONE, of vertex `of`. */
 static mr_status
-take_part(mr_ctx *ctx, const mr_select_scene *s, double distance, size_t v, bool *in)
+take_part(mr_ctx *ctx, const mr_select_scene *s, double distance, uint32_t part, size_t of, bool *in)
 {
 	mr_connected c;
 
 	MR_TRY(mr_connected_of(ctx, s->f, s->m, distance, &c));
-	for (size_t i = 0; i < s->m->nv; i++)
-		in[i] = c.part[i] == c.part[v];
+	if (part != MR_NONE && part >= c.parts)
+		return mr_fail(
+		    ctx, MR_EMESH, "there is no part %u: %s has %zu", part + 1, s->m->name, c.parts);
+	for (size_t v = 0; v < s->m->nv; v++)
+		in[v] = c.part[v] == (part == MR_NONE ? c.part[of] : part);
 	return MR_OK;
 }
 
 static mr_status
 eval_part(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
-	double distance = t->relative ? t->x[0] * mr_box_diagonal(s->box) : t->x[0];
-	mr_connected c;
-
-	if (distance > 0 && s->m->nf)
+	if (t->length > 0 && s->m->nf)
 		return mr_fail(
 		    ctx, MR_EMESH, "%s has faces, which connect it: a distance is of points", s->m->name);
-	MR_TRY(mr_connected_of(ctx, s->f, s->m, distance, &c));
-	if (t->count > c.parts)
-		return mr_fail(
-		    ctx, MR_EMESH, "there is no part %zu: %s has %zu", t->count, s->m->name, c.parts);
-	for (size_t i = 0; i < s->m->nv; i++)
-		in[i] = c.part[i] == t->count - 1;
-	return MR_OK;
+	return take_part(ctx, s, length_of(s, t), t->whole[0] - 1, 0, in);
 }
 
 /* Every vertex that no earlier one of these is within the distance of. */
 static mr_status
 eval_spaced(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
-	double distance = t->relative ? t->x[0] * mr_box_diagonal(s->box) : t->x[0];
 	uint32_t *onto = MR_NEW(ctx, s->m->nv, uint32_t), taken = 0;
 	size_t count;
 
-	mr_weld(ctx, s->m->p, s->m->nv, distance, onto, &count);
+	mr_weld(ctx, s->m->p, s->m->nv, length_of(s, t), onto, &count);
 	for (size_t v = 0; v < s->m->nv; v++)
 		if (onto[v] == taken) {
 			in[v] = true;
@@ -366,7 +325,7 @@ eval_component(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, b
 			nearest = v;
 		}
 	}
-	return take_part(ctx, s, 0, nearest, in);
+	return take_part(ctx, s, 0, MR_NONE, nearest, in);
 }
 
 /* The index of the line of `names` that is `name`; MR_NONE where there is none. */
@@ -405,28 +364,17 @@ eval_group(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool 
 	           : mr_fail(ctx, MR_EMISSING, "%s has no groups, objects or materials", s->m->name);
 }
 
-/* How many faces at v have the corner w too. */
-static size_t
-faces_at_edge(const mr_select_scene *s, uint32_t v, uint32_t w)
-{
-	size_t n = 0;
-
-	for (size_t i = s->inc->start[v]; i < s->inc->start[v + 1]; i++) {
-		const uint32_t *c = s->m->t[s->inc->face[i]].v;
-		n += c[0] == w || c[1] == w || c[2] == w;
-	}
-	return n;
-}
-
 static mr_status
 eval_boundary(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *in)
 {
-	(void)ctx, (void)t;
-	for (size_t f = 0; f < s->m->nf; f++)
-		for (int k = 0; k < 3; k++) {
-			uint32_t v = s->m->t[f].v[k], w = s->m->t[f].v[(k + 1) % 3];
-			if (v != w && faces_at_edge(s, v, w) == 1)
-				in[v] = in[w] = true;
+	mr_edges edges;
+
+	(void)t;
+	mr_edges_build(ctx, s->m, &edges);
+	for (size_t e = 0; e < edges.count; e++)
+		if (mr_edge_faces(&edges, e) == 1) {
+			uint32_t h = edges.he[edges.start[e]];
+			in[mr_he_from(s->m, h)] = in[mr_he_to(s->m, h)] = true;
 		}
 	return MR_OK;
 }
@@ -436,7 +384,7 @@ eval_grow(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *
 {
 	for (size_t v = 0; v < s->m->nv; v++)
 		in[v] = s->region[v] == s->target;
-	add_rings(ctx, s, t->count, s->region, in);
+	add_rings(ctx, s, t->whole[0], s->region, in);
 	return MR_OK;
 }
 
@@ -453,21 +401,22 @@ eval_list(mr_ctx *ctx, const mr_select_scene *s, const mr_select_term *t, bool *
 }
 
 const mr_predicate mr_predicates[] = {
-	{ "all", NULL, eval_all, 0, false, false },
-	{ "sphere", parse_numbers, eval_sphere, 4, true, false },
-	{ "box", parse_numbers, eval_box, 6, false, false },
-	{ "halfspace", parse_halfspace, eval_halfspace, 4, false, false },
-	{ "above", parse_axis, eval_above, 0, false, false },
-	{ "below", parse_axis, eval_above, 0, false, false },
-	{ "geodesic", parse_numbers, eval_geodesic, 4, true, true },
-	{ "rings", parse_rings, eval_rings, 2, false, true },
-	{ "component", parse_numbers, eval_component, 3, false, false },
-	{ "group", parse_name, eval_group, 0, false, true },
-	{ "boundary", NULL, eval_boundary, 0, false, true },
-	{ "grow", parse_rings, eval_grow, 1, false, true },
-	{ "vertices", parse_list, eval_list, 0, false, false },
-	{ "part", parse_part, eval_part, 0, false, false },
-	{ "spaced", parse_numbers, eval_spaced, 1, true, false },
-	{ "column", parse_column, eval_column, 0, false, false },
+	{ "all", "", "", holds_everywhere, NULL, false },
+	{ "sphere", "nnnl", "x,y,z,r", in_sphere, NULL, false },
+	{ "box", "nnnnnn", "x0,y0,z0,x1,y1,z1", in_box, NULL, false },
+	{ "halfspace", "nnnn", "nx,ny,nz,d", in_halfspace, NULL, false },
+	{ "above", "af", "x, y or z, a comma and a fraction from 0 to 1", beyond_level, NULL, false },
+	{ "below", "af", "x, y or z, a comma and a fraction from 0 to 1", beyond_level, NULL, false },
+	{ "geodesic", "nnnl", "x,y,z,r", NULL, eval_geodesic, true },
+	{ "rings", "ii", "a vertex, a comma and a number of rings", NULL, eval_rings, true },
+	{ "component", "nnn", "x,y,z", NULL, eval_component, false },
+	{ "group", "s", "a name", NULL, eval_group, true },
+	{ "boundary", "", "", NULL, eval_boundary, true },
+	{ "grow", "i", "a number of rings", NULL, eval_grow, true },
+	{ "vertices", "v", "the name of a file", NULL, eval_list, false },
+	{ "part", "c?l", "the number of a part, from 1, or one, a comma and a distance", NULL, eval_part,
+	    false },
+	{ "spaced", "l", "a distance", NULL, eval_spaced, false },
+	{ "column", "snn", "a name and two bounds, with commas between them", NULL, eval_column, false },
 	{ 0 },
 };
