@@ -4,7 +4,6 @@
  */
 #include "edit/smooth.h"
 
-#include "base/parallel.h"
 #include "base/text.h"
 #include "mesh/edges.h"
 #include "op/laplace.h"
@@ -12,8 +11,6 @@
 #include "solve/conjugate_gradients.h"
 #include "space/contact.h"
 #include "space/thickness.h"
-
-enum { GRAIN = 4096 };
 
 static const double TOLERANCE = 1e-10; /* of the motion's residual */
 
@@ -225,24 +222,10 @@ paces(const smoothing *s, double *forth, double *back)
 	}
 }
 
-typedef struct step_job {
-	const double *pace;
-	const mr_v3 *lp;
-	mr_v3 *p;
-} step_job;
-
-static void
-step(void *arg, size_t begin, size_t end)
-{
-	step_job *j = arg;
-
-	for (size_t v = begin; v < end; v++)
-		j->p[v] = mr_axpy(-j->pace[v], j->lp[v], j->p[v]);
-}
-
 static void
 taubin(mr_ctx *ctx, const smoothing *s, mr_v3 *p)
 {
+	static const double minus[MR_WIDTH] = { -1, -1, -1, -1 };
 	const size_t n = s->m->nv;
 	mr_v3 *lp = MR_NEW(ctx, n, mr_v3);
 	double *pace[] = { MR_NEW(ctx, n, double), MR_NEW(ctx, n, double) };
@@ -250,8 +233,8 @@ taubin(mr_ctx *ctx, const smoothing *s, mr_v3 *p)
 	paces(s, pace[0], pace[1]);
 	for (size_t i = 0; i < 2 * s->found.passes; i++) {
 		mr_progress(ctx, "smoothing", (double)i / (double)(2 * s->found.passes));
-		mr_sparse_apply(ctx, &s->l, NULL, n, 3, &p->x, &lp->x); /* p -= pace L p */
-		mr_parallel(ctx, n, GRAIN, step, &(step_job){ pace[i % 2], lp, p });
+		mr_sparse_apply(ctx, &s->l, pace[i % 2], n, 3, &p->x, &lp->x); /* p -= pace L p */
+		mr_multivector_add(ctx, (mr_multivector){ n, 3 }, minus, &lp->x, MR_ONE, &p->x);
 	}
 }
 

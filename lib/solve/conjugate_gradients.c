@@ -21,7 +21,7 @@ mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterati
 		}
 		if (!g->goal && mr_multivector_within(s, rz, goal))
 			break;
-		mr_multivector_turn(ctx, s, f, q, p); /* p = z + beta p */
+		mr_multivector_add(ctx, s, MR_ONE, q, f, p); /* p = z + beta p */
 		memcpy(last, rz, sizeof rz);
 		g->apply(ctx, g->a, s, p, q); /* q = A p */
 		mr_multivector_dot(ctx, s, p, q, pq);

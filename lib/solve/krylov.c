@@ -29,7 +29,7 @@ true_residual(const mr_ctx *ctx, const krylov *k, mr_multivector s, const double
 	double norm2[MR_WIDTH], worst = 0;
 
 	mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, x, r);
-	mr_multivector_turn(ctx, s, minus, b, r);
+	mr_multivector_add(ctx, s, MR_ONE, b, minus, r);
 	mr_multivector_dot(ctx, s, r, r, norm2);
 	for (size_t c = 0; c < s.width; c++) {
 		double share = sqrt(norm2[c]) * k->opts.tol / goal[c];
@@ -112,7 +112,7 @@ static mr_status
 cycle_iterate(
     mr_ctx *ctx, krylov *k, mr_multivector s, const double *goal, double *x, double *r, size_t *iterations)
 {
-	static const double one[MR_WIDTH] = { 1, 1, 1, 1 }, minus[MR_WIDTH] = { -1, -1, -1, -1 }, most = 1e6;
+	static const double minus[MR_WIDTH] = { -1, -1, -1, -1 }, most = 1e6;
 	mr_mark mark = mr_mark_take(ctx);
 	size_t size = s.n * s.width;
 	double *z = MR_NEW(ctx, size, double), *q = MR_NEW(ctx, size, double), rr[MR_WIDTH], begun[MR_WIDTH];
@@ -122,9 +122,9 @@ cycle_iterate(
 	for (; *iterations < k->opts.iterations && !mr_multivector_within(s, rr, goal); ++*iterations) {
 		bool diverges = false;
 		MR_TRY(k->b.apply(ctx, k->b.data, s, r, z));
-		mr_multivector_add(ctx, s, one, z, x);
+		mr_multivector_add(ctx, s, MR_ONE, z, MR_ONE, x);
 		mr_sparse_apply(ctx, k->a, NULL, s.n, s.width, z, q);
-		mr_multivector_add(ctx, s, minus, q, r);
+		mr_multivector_add(ctx, s, minus, q, MR_ONE, r);
 		mr_multivector_dot(ctx, s, r, r, rr);
 		for (size_t c = 0; c < s.width; c++)
 			diverges = diverges || !(rr[c] <= most * begun[c]);

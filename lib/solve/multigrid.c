@@ -95,7 +95,7 @@ cycle(mr_ctx *ctx, const multigrid *g, size_t at, size_t width)
 	mr_sparse_apply(ctx, &l->restrict_, NULL, (size_t)coarse->a.n, width, l->r, coarse->r);
 	MR_TRY(cycle(ctx, g, at + 1, width));
 	mr_sparse_apply(ctx, &l->prolong, NULL, s.n, width, coarse->x, l->d); /* d = P e */
-	mr_multivector_add(ctx, s, (const double[MR_WIDTH]){ 1, 1, 1, 1 }, l->d, l->x);
+	mr_multivector_add(ctx, s, MR_ONE, l->d, MR_ONE, l->x);
 	mr_sparse_add(ctx, &l->a, -1, width, l->d, l->r);
 	smooth(ctx, g, l, s, false);
 	return MR_OK;

@@ -43,7 +43,6 @@ find_residual(const mr_ctx *ctx, const strip *t, mr_multivector s, const double 
 static mr_status
 strip_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *z)
 {
-	static const double one[MR_WIDTH] = { 1, 1, 1, 1 };
 	const strip *t = data;
 
 	if (!t->exact)
@@ -52,7 +51,7 @@ strip_apply(mr_ctx *ctx, void *data, mr_multivector s, const double *r, double *
 	MR_TRY(solve_strip(ctx, t, s, r, z));
 	find_residual(ctx, t, s, r, z);
 	MR_TRY(t->cycles.apply(ctx, t->cycles.data, s, t->r, t->d));
-	mr_multivector_add(ctx, s, one, t->d, z);
+	mr_multivector_add(ctx, s, MR_ONE, t->d, MR_ONE, z);
 	find_residual(ctx, t, s, r, z);
 	return solve_strip(ctx, t, s, t->r, z);
 }

@@ -7,11 +7,13 @@ enum { GRAIN = 8192, PIECES = 128 };
 
 typedef struct multivector_job {
 	mr_multivector s;
-	const double *f, *a, *b;
+	const double *f, *g, *a, *b;
 	double *y, *z;
 	double (*partial)[MR_WIDTH]; /* sums of each piece of a batch */
 	size_t first;                /* row of the batch */
 } multivector_job;
+
+const double MR_ONE[MR_WIDTH] = { 1, 1, 1, 1 };
 
 typedef void rows_body(const multivector_job *j, size_t width, size_t begin, size_t end);
 
@@ -102,7 +104,7 @@ add_rows(const multivector_job *j, size_t width, size_t begin, size_t end)
 {
 	for (size_t i = begin; i < end; i++)
 		for (size_t c = 0; c < width; c++)
-			j->y[i * width + c] += j->f[c] * j->a[i * width + c];
+			j->y[i * width + c] = j->f[c] * j->a[i * width + c] + j->g[c] * j->y[i * width + c];
 }
 
 static void
@@ -112,29 +114,10 @@ add_piece(void *arg, size_t begin, size_t end)
 }
 
 void
-mr_multivector_add(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y)
+mr_multivector_add(
+    const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, const double *g, double *y)
 {
-	mr_parallel(ctx, s.n, GRAIN, add_piece, &(multivector_job){ .s = s, .f = f, .a = x, .y = y });
-}
-
-static inline void
-turn_rows(const multivector_job *j, size_t width, size_t begin, size_t end)
-{
-	for (size_t i = begin; i < end; i++)
-		for (size_t c = 0; c < width; c++)
-			j->y[i * width + c] = j->a[i * width + c] + j->f[c] * j->y[i * width + c];
-}
-
-static void
-turn_piece(void *arg, size_t begin, size_t end)
-{
-	by_width(turn_rows, arg, begin, end);
-}
-
-void
-mr_multivector_turn(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y)
-{
-	mr_parallel(ctx, s.n, GRAIN, turn_piece, &(multivector_job){ .s = s, .f = f, .a = x, .y = y });
+	mr_parallel(ctx, s.n, GRAIN, add_piece, &(multivector_job){ .s = s, .f = f, .g = g, .a = x, .y = y });
 }
 
 static inline void

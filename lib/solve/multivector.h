@@ -21,11 +21,11 @@ typedef struct mr_multivector {
 /* dot[c] = sum over i of a[i, c] b[i, c] */
 void mr_multivector_dot(const mr_ctx *ctx, mr_multivector s, const double *a, const double *b, double *dot);
 
-/* y = y + f[c] x, column by column */
-void mr_multivector_add(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y);
+/* y = f[c] x + g[c] y, column by column */
+void mr_multivector_add(
+    const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, const double *g, double *y);
 
-/* y = x + f[c] y */
-void mr_multivector_turn(const mr_ctx *ctx, mr_multivector s, const double *f, const double *x, double *y);
+extern const double MR_ONE[MR_WIDTH];
 
 /* x = x + f[c] p and r = r - f[c] q; rr[c] = sum over i of r[i, c]^2 */
 void mr_multivector_step(const mr_ctx *ctx, mr_multivector s, const double *f, const double *p,

@@ -21,21 +21,18 @@
 enum { START = -1, END = -2, ANALYSE = 1, FACTORIZE = 2, SOLVE = 3 }; /* its jobs */
 enum { SYMMETRIC_POSITIVE_DEFINITE = 1, WORLD = -987654 };
 
-/* INFOG(1): errors. */
+/* INFOG(1): errors; but for those of the matrix they are of space. */
 enum {
-	TOO_MANY_ENTRIES = -51,
-	NOT_POSITIVE_DEFINITE = -40,
-	SPACE_FOR_SOLVING = -11,
-	SPACE_OF_REALS = -9,
 	SPACE_OF_INTEGERS = -8,
-	NO_MEMORY = -13,
-	NO_INTEGERS = -7,
-	NO_REALS = -5,
+	SPACE_OF_REALS = -9,
 	SINGULAR = -10,
+	NOT_POSITIVE_DEFINITE = -40,
 	NO_ROOM = 1 /* ours: more than `memory` */
 };
 
-/* What rank 0 asks the others to do with a solver, one of SOLVERS at a time.  memory: see room_here. */
+/* What rank 0 asks the others to do with a solver, one of SOLVERS at a time; 0 is none.  memory: see
+ * room_here.
+ */
 typedef enum task { OPEN, APPLY, CLOSE, DISMISS } task;
 typedef struct order {
 	int task, solver;
@@ -44,9 +41,18 @@ typedef struct order {
 
 enum { SOLVERS = 16, TAG = 1 };
 
-static DMUMPS_STRUC_C *solvers[SOLVERS];
+static DMUMPS_STRUC_C *solvers[SOLVERS + 1];
 
 /* ---- what all ranks do together ---- */
+
+static int
+count_ranks(MPI_Comm of)
+{
+	int ranks;
+
+	MPI_Comm_size(of, &ranks);
+	return ranks;
+}
 
 static void
 call(DMUMPS_STRUC_C *m, int job)
@@ -55,20 +61,17 @@ call(DMUMPS_STRUC_C *m, int job)
 	dmumps_c(m);
 }
 
-/* Bytes that this process may take: an equal part of what its machine has, or of `memory` on that of rank 0.
- */
+/* Bytes that this process may take: an equal part of what its machine has, or of `memory` if that is less. */
 static double
 room_here(double memory)
 {
 	MPI_Comm machine;
-	int rank, first, ranks;
+	double room = mr_memory_available();
 
-	MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-	MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, rank, MPI_INFO_NULL, &machine);
-	MPI_Comm_size(machine, &ranks);
-	MPI_Allreduce(&rank, &first, 1, MPI_INT, MPI_MIN, machine);
+	MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &machine);
+	room = (memory > 0 && memory < room ? memory : room) / count_ranks(machine);
 	MPI_Comm_free(&machine);
-	return (first == 0 && memory > 0 ? memory : mr_memory_available()) / ranks;
+	return room;
 }
 
 /* How much the worst process would lack, in bytes; negative where there is room everywhere. */
@@ -100,107 +103,14 @@ factorize(DMUMPS_STRUC_C *m)
 static void
 start(DMUMPS_STRUC_C *m)
 {
-	int ranks;
-
 	/* Rank 0 has the mesh, too: of four, with a million vertices, it took 0.48 of what one takes, the
 	 * others 0.27; without a part of the factor it takes 0.27, the others 0.36. */
-	MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-	m->par = ranks < 4;
+	m->par = count_ranks(MPI_COMM_WORLD) < 4;
 	m->sym = SYMMETRIC_POSITIVE_DEFINITE;
 	m->comm_fortran = WORLD;
 	call(m, START);
 	for (int stream = 1; stream <= 4; stream++)
 		m->ICNTL(stream) = 0; /* it prints nothing */
-}
-
-/* Returns INFOG(1), or NO_ROOM; the matrix stands in rank 0's m, analysed: when the analysis was done. */
-static int
-factor(DMUMPS_STRUC_C *m, double memory, double *analysed)
-{
-	call(m, ANALYSE);
-	*analysed = mr_seconds();
-	if (m->INFOG(1) < 0)
-		return m->INFOG(1);
-	if (lacking(m, memory) > 0)
-		return NO_ROOM;
-	factorize(m);
-	return m->INFOG(1);
-}
-
-static void
-close_solver(int i)
-{
-	if (!solvers[i])
-		return;
-	call(solvers[i], END);
-	free(solvers[i]);
-	solvers[i] = NULL;
-}
-
-/* ---- rank 0 ---- */
-
-static void
-ask(task what, int solver, double memory)
-{
-	order o = { (int)what, solver, memory };
-	int ranks;
-
-	MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-	for (int rank = 1; rank < ranks; rank++)
-		MPI_Send(&o, sizeof o, MPI_BYTE, rank, TAG, MPI_COMM_WORLD);
-}
-
-void
-mr_mumps_dismiss(void)
-{
-	ask(DISMISS, 0, 0);
-}
-
-typedef struct cholesky {
-	DMUMPS_STRUC_C *m;
-	int solver;
-} cholesky;
-
-/* A failure in words. */
-static mr_status
-failed(mr_ctx *ctx, const DMUMPS_STRUC_C *m, int code)
-{
-	int ranks;
-
-	MPI_Comm_size(MPI_COMM_WORLD, &ranks);
-	switch (code) {
-	case NO_ROOM:
-		return mr_fail(ctx, MR_ERANGE,
-		    "the factor of %d rows takes %.3g MB of one of %d processes, more than it has", m->n,
-		    (double)m->INFOG(16), ranks);
-	case SPACE_OF_REALS:
-	case SPACE_OF_INTEGERS:
-	case SPACE_FOR_SOLVING:
-	case TOO_MANY_ENTRIES:
-		return mr_fail(ctx, MR_ERANGE, "the factor of %d rows is too large for %d process%s", m->n,
-		    ranks, ranks == 1 ? "" : "es");
-	case NO_MEMORY:
-	case NO_INTEGERS:
-	case NO_REALS:
-		return mr_fail(ctx, MR_EMEM, "no memory for the factor in one of %d process%s", ranks,
-		    ranks == 1 ? "" : "es");
-	case SINGULAR:
-	case NOT_POSITIVE_DEFINITE:
-		return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite");
-	default:
-		return mr_fail(ctx, MR_ENUMERIC, "MUMPS fails with %d, %d", code, m->INFOG(2));
-	}
-}
-
-/* The first place without a solver; SOLVERS: there is none. */
-static int
-vacant(void)
-{
-	int i = 0;
-
-	while (i < SOLVERS && solvers[i])
-		i++;
-	return i;
 }
 
 /* The entries of the matrix as MUMPS has them, counted from 1. */
@@ -222,6 +132,77 @@ put_matrix(mr_ctx *ctx, const mr_sparse *a, DMUMPS_STRUC_C *m)
 	m->a = a->value;
 }
 
+/* Returns INFOG(1), or NO_ROOM.  a: of rank 0, in whose arena MUMPS has it; when the analysis was done.  A
+ * rank without memory for as little as a solver ends the job. */
+static int
+open_solver(const order *o, mr_ctx *ctx, const mr_sparse *a, double *analysed)
+{
+	DMUMPS_STRUC_C *m = calloc(1, sizeof *m);
+
+	solvers[o->solver] = m;
+	if (!m)
+		MPI_Abort(MPI_COMM_WORLD, 1);
+	start(m);
+	if (a)
+		put_matrix(ctx, a, m);
+	call(m, ANALYSE);
+	*analysed = mr_seconds();
+	if (m->INFOG(1) >= 0 && lacking(m, o->memory) > 0)
+		return NO_ROOM;
+	if (m->INFOG(1) >= 0)
+		factorize(m);
+	return m->INFOG(1);
+}
+
+static void
+close_solver(int i)
+{
+	if (!solvers[i])
+		return;
+	call(solvers[i], END);
+	free(solvers[i]);
+	solvers[i] = NULL;
+}
+
+/* ---- rank 0 ---- */
+
+static order
+ask(task what, int solver, double memory)
+{
+	order o = { (int)what, solver, memory };
+
+	for (int rank = 1; rank < count_ranks(MPI_COMM_WORLD); rank++)
+		MPI_Send(&o, sizeof o, MPI_BYTE, rank, TAG, MPI_COMM_WORLD);
+	return o;
+}
+
+void
+mr_mumps_dismiss(void)
+{
+	ask(DISMISS, 0, 0);
+}
+
+typedef struct cholesky {
+	int solver;
+} cholesky;
+
+/* A failure in words. */
+static mr_status
+failed(mr_ctx *ctx, const DMUMPS_STRUC_C *m, int code)
+{
+	int ranks = count_ranks(MPI_COMM_WORLD);
+
+	if (code == SINGULAR || code == NOT_POSITIVE_DEFINITE)
+		return mr_fail(ctx, MR_ENUMERIC, "the matrix is not positive definite");
+	if (code == NO_ROOM)
+		return mr_fail(ctx, MR_ERANGE,
+		    "the factor of %d rows takes %.3g MB of one of %d processes, more than it has", m->n,
+		    (double)m->INFOG(16), ranks);
+	return mr_fail(ctx, MR_ERANGE,
+	    "the factor of %d rows is too large for %d process%s: MUMPS says %d, %d", m->n, ranks,
+	    ranks == 1 ? "" : "es", code, m->INFOG(2));
+}
+
 static double
 summed(int megabytes_or_millions)
 {
@@ -233,23 +214,20 @@ cholesky_setup(
     mr_ctx *ctx, const mr_solver_opts *opts, const mr_system *system, void *data, mr_solver_report *report)
 {
 	cholesky *c = data;
-	int i = vacant(), code;
+	int i = 1, code;
 	double started = mr_seconds(), analysed;
 	mr_mark mark = mr_mark_take(ctx);
 	DMUMPS_STRUC_C *m;
+	order o;
 
-	c->solver = SOLVERS;
-	if (i == SOLVERS)
+	while (i <= SOLVERS && solvers[i])
+		i++;
+	if (i > SOLVERS)
 		return mr_fail(ctx, MR_ERANGE, "more than %d solvers at a time", (int)SOLVERS);
-	m = calloc(1, sizeof *m);
-	if (!m)
-		return mr_fail(ctx, MR_EMEM, "no memory for a solver");
-	solvers[i] = c->m = m;
 	c->solver = i;
-	ask(OPEN, i, opts->memory);
-	start(m);
-	put_matrix(ctx, system->a, m);
-	code = factor(m, opts->memory, &analysed);
+	o = ask(OPEN, i, opts->memory);
+	code = open_solver(&o, ctx, system->a, &analysed);
+	m = solvers[i];
 	m->irn = m->jcn = NULL;
 	m->a = NULL;
 	mr_mark_release(ctx, mark);
@@ -265,24 +243,25 @@ cholesky_setup(
 static mr_status
 cholesky_solve(mr_ctx *ctx, void *data, double *b, size_t columns, mr_solver_report *report)
 {
-	cholesky *c = data;
+	const cholesky *c = data;
+	DMUMPS_STRUC_C *m = solvers[c->solver];
 
 	(void)report;
-	c->m->rhs = b;
-	c->m->nrhs = (int)columns;
-	c->m->lrhs = c->m->n;
+	m->rhs = b;
+	m->nrhs = (int)columns;
+	m->lrhs = m->n;
 	ask(APPLY, c->solver, 0);
-	call(c->m, SOLVE);
-	c->m->rhs = NULL;
-	return c->m->INFOG(1) < 0 ? failed(ctx, c->m, c->m->INFOG(1)) : MR_OK;
+	call(m, SOLVE);
+	m->rhs = NULL;
+	return m->INFOG(1) < 0 ? failed(ctx, m, m->INFOG(1)) : MR_OK;
 }
 
 static void
 cholesky_drop(void *data)
 {
-	cholesky *c = data;
+	const cholesky *c = data;
 
-	if (!c->m)
+	if (!c->solver)
 		return;
 	ask(CLOSE, c->solver, 0);
 	close_solver(c->solver);
@@ -311,30 +290,15 @@ next_order(void)
 	return o;
 }
 
-/* As cholesky_setup; a rank without memory for as little as this ends the job. */
-static void
-open_solver(const order *o)
-{
-	DMUMPS_STRUC_C *m = calloc(1, sizeof *m);
-	double analysed;
-
-	if (!m) {
-		MPI_Abort(MPI_COMM_WORLD, 1);
-		return;
-	}
-	solvers[o->solver] = m;
-	start(m);
-	factor(m, o->memory, &analysed);
-}
-
 void
 mr_mumps_serve(void)
 {
 	int threads = mr_serial_begin();
+	double analysed;
 
 	for (order o = next_order(); o.task != DISMISS; o = next_order()) {
 		if (o.task == OPEN)
-			open_solver(&o);
+			open_solver(&o, NULL, NULL, &analysed);
 		else if (o.task == APPLY)
 			call(solvers[o.solver], SOLVE);
 		else
