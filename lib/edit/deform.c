@@ -6,13 +6,15 @@
 #include "edit/deform_energy.h"
 #include "edit/deform_loose.h"
 #include "edit/deform_stitch.h"
+#include "edit/handles.h"
 
 struct mr_deform {
 	mr_deform_opts opts;
 	size_t nv;
 	uint32_t *region; /* nv */
-	uint32_t lowest;  /* region that moves the whole: fixed, or the lowest handle's */
-	size_t handles;   /* the highest, and one */
+	mr_regions regions;
+	uint32_t lowest; /* region that moves the whole: fixed, or the lowest handle's */
+	size_t handles;  /* the highest, and one */
 	size_t fixed, handled, loose, loose_vertices; /* vertices, and components without a constraint */
 	mr_deform_system system;
 	mr_energies *energies; /* NULL: poses are linear */
@@ -25,21 +27,18 @@ struct mr_deform {
 static mr_status
 count_regions(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest)
 {
-	size_t free = 0;
+	size_t free;
 
-	d->lowest = UINT32_MAX;
-	for (size_t v = 0; v < d->nv; v++) {
-		uint32_t r = d->region[v];
+	for (size_t v = 0; v < d->nv; v++)
 		if (!mr_finite(rest->p[v]))
 			return mr_fail(ctx, MR_ERANGE, "%s: rest position %zu is not finite", rest->name, v);
-		free += r == MR_REGION_FREE;
-		d->fixed += r == MR_REGION_FIXED;
-		if (r >= MR_REGION_HANDLE && r - MR_REGION_HANDLE >= d->handles)
-			d->handles = r - MR_REGION_HANDLE + 1;
-		if (r != MR_REGION_FREE && r < d->lowest)
-			d->lowest = r;
-	}
+	d->regions = mr_regions_of(ctx, d->region, d->nv);
+	d->handles = d->regions.n - MR_REGION_HANDLE;
+	free = d->regions.count[MR_REGION_FREE];
+	d->fixed = d->regions.count[MR_REGION_FIXED];
 	d->handled = d->nv - free - d->fixed;
+	while (d->lowest == MR_REGION_FREE || (d->lowest < d->regions.n && !d->regions.count[d->lowest]))
+		d->lowest++;
 	if (d->opts.unsymmetric && d->opts.solver.kind == MR_CHOLESKY)
 		return mr_fail(ctx, MR_EUSAGE, "the unsymmetric system has no Cholesky factor");
 	if (free == 0 && d->handled == 0)
@@ -82,16 +81,16 @@ find_anchored(mr_ctx *ctx, const mr_deform *d, const mr_mesh *m, bool *anchored,
 	mr_mark_release(ctx, mark);
 }
 
-/* Says what becomes of parts that no constraint reaches, and lets them follow. */
+/* Says what becomes of parts that no constraint reaches, but for small ones, and lets all of them follow. */
 static mr_status
-settle_loose(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part)
+settle_loose(
+    mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const bool *anchored, const uint32_t *part, bool *follows)
 {
-	bool *follows = MR_NEW(ctx, d->nv, bool);
-
 	for (size_t v = 0; v < d->nv; v++) {
-		follows[v] = d->region[v] == MR_REGION_FREE && !anchored[v];
-		d->loose_vertices += follows[v];
-		d->loose += follows[v] && part[v] == v;
+		bool loose = d->region[v] == MR_REGION_FREE && !anchored[v];
+		d->loose_vertices += loose && !follows[v];
+		d->loose += loose && !follows[v] && part[v] == v;
+		follows[v] = loose;
 	}
 	if (d->loose)
 		mr_found(ctx,
@@ -109,16 +108,16 @@ static mr_status
 set_up(mr_ctx *ctx, mr_deform *d, const mr_mesh *rest, const mr_ties *ties)
 {
 	double started = mr_seconds();
-	bool *anchored = MR_NEW(ctx, d->nv, bool);
+	bool *anchored = MR_NEW(ctx, d->nv, bool), *follows = MR_NEW_ZERO(ctx, d->nv, bool);
 	uint32_t *part = mr_sets_new(ctx, d->nv);
 	mr_mesh stitched = *rest;
 	mr_patch patch;
 
 	MR_TRY(count_regions(ctx, d, rest));
 	if (!d->opts.apart)
-		stitched = mr_stitch(ctx, rest, ties ? ties : &(mr_ties){ 0 }, d->region);
+		stitched = mr_stitch(ctx, rest, ties ? ties : &(mr_ties){ 0 }, d->region, follows);
 	find_anchored(ctx, d, &stitched, anchored, part);
-	MR_TRY(settle_loose(ctx, d, rest, anchored, part));
+	MR_TRY(settle_loose(ctx, d, rest, anchored, part, follows));
 	mr_patch_build(ctx, &stitched, rest->nf, anchored, d->opts.order, &patch);
 	MR_TRY(mr_system_make(ctx, rest, &patch, &d->opts, started, &d->system));
 	return mr_energies_make(ctx, &d->system, d->region, d->lowest, &d->energies);
@@ -195,42 +194,27 @@ mr_deform_report(mr_ctx *ctx, const mr_deform *d)
 
 /* Tasks */
 
-/* The undeformed solve. */
+/* The undeformed solve: nothing is left of the free vertices but what constraints make of them. */
 static mr_status
 relax(mr_ctx *ctx, mr_deform *d, mr_v3 *p)
 {
-	mr_deform_system *s = &d->system;
 	mr_box box = mr_box_of(p, d->nv);
-	mr_v3 origin = mr_lerp(0.5, box.min, box.max);
-	mr_field f;
+	mr_v3 *origin = MR_NEW(ctx, d->nv, mr_v3);
+	mr_affine whole = mr_identity();
 
-	if (!s->solver)
-		return MR_OK;
-	f = mr_system_field(s, 3);
-	for (size_t i = s->patch.end[0]; i < s->patch.mesh.nv; i++) {
-		mr_v3 x = mr_sub(p[s->patch.vertex[i]], origin);
-		memcpy(f.u + 3 * i, (double[]){ x.x, x.y, x.z }, 3 * sizeof *f.u);
-	}
-	MR_TRY(mr_system_solve(ctx, s, &f));
-	for (size_t i = 0; i < s->patch.end[0]; i++)
-		p[s->patch.vertex[i]] = mr_add(mr_vec(f.u[3 * i], f.u[3 * i + 1], f.u[3 * i + 2]), origin);
-	return MR_OK;
+	for (size_t v = 0; v < d->nv; v++)
+		origin[v] = mr_lerp(0.5, box.min, box.max);
+	return d->system.solver ? mr_system_follow(ctx, &d->system, &whole, origin, NULL, p) : MR_OK;
 }
 
 static mr_status
 check_maps(mr_ctx *ctx, const mr_deform *d, const mr_deform_maps *maps)
 {
-	mr_mark mark = mr_mark_take(ctx);
-	bool *present = MR_NEW_ZERO(ctx, d->handles, bool);
-
-	for (size_t v = 0; v < d->nv; v++)
-		if (d->region[v] >= MR_REGION_HANDLE)
-			present[d->region[v] - MR_REGION_HANDLE] = true;
 	for (size_t h = 0; h < maps->count; h++)
-		if (!mr_is_identity(&maps->t[h]) && (h >= d->handles || !present[h]))
+		if (!mr_is_identity(&maps->t[h]) &&
+		    (h >= d->handles || !d->regions.count[MR_REGION_HANDLE + h]))
 			return mr_fail(ctx, MR_ERANGE, "handles: handle %zu has no vertex of %s to move", h,
 			    d->system.patch.mesh.name);
-	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
 

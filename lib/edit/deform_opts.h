@@ -32,6 +32,7 @@ typedef struct mr_tie {
 typedef struct mr_ties {
 	size_t n;
 	mr_tie *tie;
+	bool known; /* all that touch are among them */
 } mr_ties;
 
 /* Where handles go: as many maps as `count`, those missing are the identity. */

@@ -3,6 +3,21 @@
 
 #include "space/contact.h"
 
+/* A component, at the vertex that stands for it. */
+typedef struct part {
+	mr_box box;
+	bool bound; /* has a constrained vertex, or a tie */
+	bool small; /* beside one that it is near, and not bound */
+} part;
+
+typedef struct seam {
+	const mr_mesh *rest;
+	const uint32_t *region, *component;
+	part *parts;
+	mr_tri *t; /* stitches, behind the faces */
+	size_t nf;
+} seam;
+
 /* The least height over an edge of what is as long as the longest edge: 0.87 of an equilateral triangle, 0 of
  * a line. */
 static double
@@ -32,39 +47,83 @@ stitch_of(const mr_mesh *m, mr_tie joint)
 	return best;
 }
 
-/* None where all three corners are constrained. */
 static void
-add_stitch(mr_tie joint, const mr_mesh *rest, const uint32_t *region, mr_tri *t, size_t *nf)
+compare_parts(part *a, const part *b)
 {
-	mr_tri stitch = stitch_of(rest, joint);
-	bool free = false;
+	static const double small = 0.25;
 
-	for (int k = 0; k < 3; k++)
-		free |= region[stitch.v[k]] == MR_REGION_FREE;
-	if (free)
-		t[(*nf)++] = stitch;
+	a->small |= !a->bound && mr_box_diagonal(a->box) < small * mr_box_diagonal(b->box);
+}
+
+static void
+measure_parts(mr_ctx *ctx, const mr_contacts *c, const mr_ties *ties, seam *s)
+{
+	const mr_mesh *m = s->rest;
+
+	s->parts = MR_NEW_ZERO(ctx, m->nv, part);
+	for (size_t v = 0; v < m->nv; v++)
+		s->parts[v].box = mr_box_empty();
+	for (size_t v = 0; v < m->nv; v++)
+		if (s->component[v] != MR_NONE) {
+			mr_box_add(&s->parts[s->component[v]].box, m->p[v]);
+			s->parts[s->component[v]].bound |= s->region[v] != MR_REGION_FREE;
+		}
+	for (size_t i = 0; i < ties->n; i++) {
+		s->parts[s->component[ties->tie[i].vertex]].bound = true;
+		s->parts[s->component[m->t[ties->tie[i].face].v[0]]].bound = true;
+	}
+	for (size_t v = 0; ties->known && v < m->nv; v++)
+		for (size_t i = c->start[v]; i < c->start[v + 1]; i++) {
+			part *own = &s->parts[s->component[v]],
+			     *other = &s->parts[s->component[m->t[c->at[i].face].v[0]]];
+			compare_parts(own, other);
+			compare_parts(other, own);
+		}
+}
+
+/* None where all three corners are constrained, or a part follows. */
+static void
+add_stitch(seam *s, uint32_t vertex, uint32_t face)
+{
+	mr_tri stitch = stitch_of(s->rest, (mr_tie){ vertex, face });
+	bool free = false, follows = false;
+
+	for (int k = 0; k < 3; k++) {
+		free |= s->region[stitch.v[k]] == MR_REGION_FREE;
+		follows |= s->parts[s->component[stitch.v[k]]].small;
+	}
+	if (free && !follows)
+		s->t[s->nf++] = stitch;
 }
 
 mr_mesh
-mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region)
+mr_stitch(mr_ctx *ctx, const mr_mesh *rest, const mr_ties *ties, const uint32_t *region, bool *follows)
 {
 	/* An edge.  Half of it, or one stitch a vertex, lets up to twice as many vertices come apart. */
 	double reach = mr_mesh_edge_scale(ctx, rest);
+	seam s = { .rest = rest, .region = region, .nf = rest->nf };
 	mr_mesh stitched = *rest;
 	mr_contacts contacts;
-	mr_tri *t;
+	uint32_t *component;
+	bool several;
 
 	mr_contacts_find(ctx, rest, reach, &contacts);
 	if (contacts.start[rest->nv] + ties->n == 0)
 		return stitched;
-	t = MR_NEW(ctx, rest->nf + contacts.start[rest->nv] + ties->n, mr_tri);
-	memcpy(t, rest->t, rest->nf * sizeof *t);
-	for (uint32_t v = 0; v < rest->nv; v++)
+	mr_components_label(ctx, rest, &component, &several);
+	s.component = component;
+	measure_parts(ctx, &contacts, ties, &s);
+	s.t = MR_NEW(ctx, rest->nf + contacts.start[rest->nv] + ties->n, mr_tri);
+	memcpy(s.t, rest->t, rest->nf * sizeof *s.t);
+	for (uint32_t v = 0; v < rest->nv; v++) {
+		follows[v] = component[v] != MR_NONE && s.parts[component[v]].small;
 		for (size_t i = contacts.start[v]; i < contacts.start[v + 1]; i++)
-			add_stitch((mr_tie){ v, contacts.at[i].face }, rest, region, t, &stitched.nf);
+			add_stitch(&s, v, contacts.at[i].face);
+	}
 	for (size_t i = 0; i < ties->n; i++)
-		add_stitch(ties->tie[i], rest, region, t, &stitched.nf);
-	stitched.t = t;
+		add_stitch(&s, ties->tie[i].vertex, ties->tie[i].face);
+	stitched.t = s.t;
+	stitched.nf = s.nf;
 	mr_note(
 	    ctx, "%s: %zu stitches hold parts that touch to each other", rest->name, stitched.nf - rest->nf);
 	return stitched;

@@ -132,22 +132,31 @@ mr_pose_map(const mr_pose *pose, mr_v3 center, double share)
 	return t;
 }
 
+mr_regions
+mr_regions_of(mr_ctx *ctx, const uint32_t *region, size_t nv)
+{
+	mr_regions r = { .n = MR_REGION_HANDLE };
+
+	for (size_t v = 0; v < nv; v++)
+		r.n = region[v] < r.n ? r.n : (size_t)region[v] + 1;
+	r.count = MR_NEW_ZERO(ctx, r.n, size_t);
+	for (size_t v = 0; v < nv; v++)
+		r.count[region[v]]++;
+	return r;
+}
+
 mr_status
 mr_handles_find(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region, mr_handles *h)
 {
-	mr_handles r = { 0 };
+	mr_regions all = mr_regions_of(ctx, region, m->nv);
+	mr_handles r = { all.n - MR_REGION_HANDLE, all.count + MR_REGION_HANDLE, NULL };
 
-	for (size_t v = 0; v < m->nv; v++)
-		if (region[v] >= MR_REGION_HANDLE && region[v] - MR_REGION_HANDLE >= r.n)
-			r.n = region[v] - MR_REGION_HANDLE + 1;
 	if (r.n == 0)
 		return mr_fail(ctx, MR_EMISSING, "no vertex of %s is in a handle", m->name);
-	r.count = MR_NEW_ZERO(ctx, r.n, size_t);
 	r.centroid = MR_NEW_ZERO(ctx, r.n, mr_v3);
 	for (size_t v = 0; v < m->nv; v++)
 		if (region[v] >= MR_REGION_HANDLE) {
 			size_t i = region[v] - MR_REGION_HANDLE;
-			r.count[i]++;
 			r.centroid[i] = mr_add(r.centroid[i], m->p[v]);
 		}
 	for (size_t i = 0; i < r.n; i++)

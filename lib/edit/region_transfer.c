@@ -4,6 +4,7 @@
 
 #include "base/parallel.h"
 #include "edit/detail.h"
+#include "edit/handles.h"
 #include "space/bvh.h"
 #include "space/contact.h"
 
@@ -44,25 +45,16 @@ static mr_status
 check_handles(
     mr_ctx *ctx, const mr_mesh *mesh, const uint32_t *region, const uint32_t *out, const mr_mesh *base)
 {
-	enum { FIRST = MR_REGION_HANDLE };
 	mr_mark mark = mr_mark_take(ctx);
-	size_t handles = 0;
-	bool *reached;
+	mr_regions want = mr_regions_of(ctx, region, mesh->nv), reached = mr_regions_of(ctx, out, base->nv);
 
-	for (size_t v = 0; v < mesh->nv; v++)
-		if (region[v] >= FIRST && region[v] - FIRST >= handles)
-			handles = region[v] - FIRST + 1;
-	reached = MR_NEW_ZERO(ctx, handles, bool);
-	for (size_t v = 0; v < base->nv; v++)
-		if (out[v] >= FIRST)
-			reached[out[v] - FIRST] = true;
-	for (size_t v = 0; v < mesh->nv; v++)
-		if (region[v] >= FIRST && !reached[region[v] - FIRST])
+	for (size_t r = MR_REGION_HANDLE; r < want.n; r++)
+		if (want.count[r] && (r >= reached.n || !reached.count[r]))
 			return mr_fail(ctx, MR_EMESH,
-			    "%s: handle %u reaches no vertex: it has no face, or is smaller than a triangle, "
-			    "or "
-			    "farther from it than from others",
-			    base->name, region[v] - FIRST);
+			    "%s: handle %zu reaches no vertex: it has no face, or is smaller than a "
+			    "triangle, "
+			    "or farther from it than from others",
+			    base->name, r - MR_REGION_HANDLE);
 	mr_mark_release(ctx, mark);
 	return MR_OK;
 }
@@ -181,6 +173,7 @@ find_ties(mr_ctx *ctx, const mr_mesh *mesh, const mr_mesh *base, const mr_detail
 		if (i == 0 || c[i].vertex != c[i - 1].vertex || c[i].component != c[i - 1].component)
 			ties->tie[kept++] = (mr_tie){ c[i].vertex, c[i].face };
 	ties->n = kept;
+	ties->known = true;
 }
 
 mr_status

@@ -48,12 +48,8 @@ look_at_borders(mr_ctx *ctx, const mr_mesh *m, const uint32_t *region)
 		.what = "a handle meets fixed vertices with nothing free between: free a ring around it, or "
 			"select "
 			"all of the limb" };
-	uint32_t regions = MR_REGION_HANDLE;
-	bool *leads;
+	bool *leads = MR_NEW_ZERO(ctx, mr_regions_of(ctx, region, m->nv).n, bool);
 
-	for (size_t v = 0; v < m->nv; v++)
-		regions = region[v] < regions ? regions : region[v] + 1;
-	leads = MR_NEW_ZERO(ctx, regions, bool);
 	for (uint32_t h = 0; h < 3 * m->nf; h++)
 		leads[region[mr_he_from(m, h)]] |= region[mr_he_to(m, h)] == MR_REGION_FREE;
 	for (uint32_t h = 0; h < 3 * m->nf; h++) {
