@@ -4,16 +4,12 @@
  */
 #include "solve/dissect.h"
 
-#include "base/parallel.h"
-
-enum { BINS = 64, SMALL = 2000, DEEPEST = 20 };
+enum { BINS = 64, SMALL = 2000 };
 enum { BELOW, ABOVE, SEPARATOR, PENDING };
 
-/* A part: vertices order[begin] to order[end - 1].  Those of node i are cut into nodes 2 i + 1 and 2 i + 2.
- */
+/* Vertices order[begin] to order[end - 1], which are of a node alone. */
 typedef struct piece {
-	int begin, end;
-	uint32_t node;
+	int begin, end, node;
 } piece;
 
 typedef struct dissection {
@@ -21,11 +17,10 @@ typedef struct dissection {
 	const mr_v3 *p;
 	int n;
 	size_t reach;
-	int *order, *spare;
-	uint32_t *node; /* of each vertex; neighbours are of the same node, or separators of earlier cuts */
+	int *order, *spare, *part;
+	int *node; /* of each vertex; neighbours are of the same node, or separators of earlier cuts */
 	uint8_t *side;
-	piece *now,
-	    *next; /* of a level, and of the one below: two for each, empty ones where it is not cut */
+	int nodes, parts; /* so far */
 } dissection;
 
 /* A cut across an axis, above the first `bins` of BINS equal slices from `low`. */
@@ -104,17 +99,17 @@ gather(dissection *d, const piece *b, uint8_t side, int begin)
 	return begin;
 }
 
-static void
-cut_piece(dissection *d, const piece *b, piece child[2])
+/* Cuts a piece into what is below, from begin to ends[0], above, to ends[1], and the separator; false where
+ * there is no good cut. */
+static bool
+cut_piece(dissection *d, const piece *b, int ends[2])
 {
 	cut c = { .cost = INFINITY };
-	int ends[3];
 
-	child[0] = child[1] = (piece){ 0, 0, 0 };
 	for (int axis = 0; axis < 3; axis++)
 		try_axis(d, b, axis, &c);
 	if (c.cost == INFINITY)
-		return;
+		return false;
 	for (int i = b->begin; i < b->end; i++)
 		d->side[d->order[i]] = bin_of(d, &c, d->order[i]) < c.bins ? BELOW : ABOVE;
 	for (size_t ring = 0; ring < d->reach; ring++)
@@ -123,91 +118,44 @@ cut_piece(dissection *d, const piece *b, piece child[2])
 	ends[0] = gather(d, b, BELOW, b->begin);
 	ends[1] = gather(d, b, ABOVE, ends[0]);
 	gather(d, b, SEPARATOR, ends[1]);
-	if (2 * (b->end - ends[1]) > b->end - b->begin)
-		return; /* the separator is most of it */
-	child[0] = (piece){ b->begin, ends[0], 2 * b->node + 1 };
-	child[1] = (piece){ ends[0], ends[1], 2 * b->node + 2 };
-	for (int k = 0; k < 2; k++)
-		for (int i = child[k].begin; i < child[k].end; i++)
-			d->node[d->order[i]] = child[k].node;
+	return 2 * (b->end - ends[1]) <= b->end - b->begin; /* else the separator is most of it */
 }
 
+/* Numbers a piece, what a cut leaves of it after what it parts. */
 static void
-cut_pieces(void *arg, size_t begin, size_t end)
+dissect(dissection *d, int begin, int end)
 {
-	dissection *d = arg;
+	piece own = { begin, end, d->nodes++ };
+	int ends[2];
 
-	for (size_t i = begin; i < end; i++)
-		cut_piece(d, &d->now[i], &d->next[2 * i]);
-}
-
-/* Cuts all pieces of a level; returns how many of the next are to be cut. */
-static size_t
-cut_level(const mr_ctx *ctx, dissection *d, size_t count)
-{
-	piece *swap = d->now;
-	size_t kept = 0;
-
-	mr_parallel(ctx, count, 1, cut_pieces, d);
-	for (size_t i = 0; i < 2 * count; i++)
-		if (d->next[i].end - d->next[i].begin > SMALL)
-			d->next[kept++] = d->next[i];
-	d->now = d->next;
-	d->next = swap;
-	return kept;
-}
-
-/* Numbers the nodes in use, children first. */
-static void
-number_nodes(const bool *used, uint32_t nodes, uint32_t node, int *number, int *next)
-{
-	if (node >= nodes)
-		return;
-	number_nodes(used, nodes, 2 * node + 1, number, next);
-	number_nodes(used, nodes, 2 * node + 2, number, next);
-	if (used[node])
-		number[node] = (*next)++;
-}
-
-static void
-number_parts(mr_ctx *ctx, const dissection *d, int *part)
-{
-	uint32_t nodes = 0;
-	bool *used;
-	int *number, next = 0;
-
-	for (int v = 0; v < d->n; v++)
-		nodes = d->node[v] >= nodes ? d->node[v] + 1 : nodes;
-	used = MR_NEW_ZERO(ctx, nodes, bool);
-	number = MR_NEW(ctx, nodes, int);
-	for (int v = 0; v < d->n; v++)
-		used[d->node[v]] = true;
-	number_nodes(used, nodes, 0, number, &next);
-	for (int v = 0; v < d->n; v++)
-		part[v] = number[d->node[v]];
+	for (int i = begin; i < end; i++)
+		d->node[d->order[i]] = own.node;
+	if (end - begin > SMALL && cut_piece(d, &own, ends)) {
+		dissect(d, begin, ends[0]);
+		dissect(d, ends[0], ends[1]);
+		begin = ends[1];
+	}
+	for (int i = begin; i < end; i++)
+		d->part[d->order[i]] = d->parts;
+	d->parts += begin < end;
 }
 
 void
 mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part)
 {
 	mr_mark mark = mr_mark_take(ctx);
-	size_t pieces = n / SMALL + 2, count = n > SMALL;
 	dissection d = { .l = l,
 		.p = p,
 		.n = (int)n,
 		.reach = reach,
 		.order = MR_NEW(ctx, n, int),
 		.spare = MR_NEW(ctx, n, int),
-		.node = MR_NEW_ZERO(ctx, n, uint32_t),
-		.side = MR_NEW(ctx, n, uint8_t),
-		.now = MR_NEW(ctx, 2 * pieces, piece),
-		.next = MR_NEW(ctx, 2 * pieces, piece) };
+		.part = part,
+		.node = MR_NEW(ctx, n, int),
+		.side = MR_NEW(ctx, n, uint8_t) };
 
 	for (int i = 0; i < d.n; i++)
 		d.order[i] = i;
-	d.now[0] = (piece){ 0, d.n, 0 };
-	for (int depth = 0; count && depth < DEEPEST; depth++)
-		count = cut_level(ctx, &d, count);
-	number_parts(ctx, &d, part);
+	dissect(&d, 0, d.n);
 	mr_mark_release(ctx, mark);
 }
