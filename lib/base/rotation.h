@@ -67,6 +67,30 @@ mr_mat3_determinant(const mr_mat3 *a)
 }
 
 /* The linear part of an affine map. */
+/* a + s y x^T */
+static inline void
+mr_mat3_add_product(mr_mat3 *a, double s, mr_v3 y, mr_v3 x)
+{
+	const double from[3] = { x.x, x.y, x.z }, to[3] = { y.x, y.y, y.z };
+
+	for (int i = 0; i < 9; i++)
+		a->m[i] += s * (to[i / 3] * from[i % 3]);
+}
+
+/* A^-T, by the cofactors. */
+static inline mr_mat3
+mr_mat3_inverse_transposed(const mr_mat3 *a)
+{
+	const double *m = a->m, det = mr_mat3_determinant(a);
+	mr_mat3 c;
+
+	for (int i = 0; i < 9; i++) {
+		int p = (i / 3 + 1) % 3 * 3, q = (i / 3 + 2) % 3 * 3, d = (i + 1) % 3, e = (i + 2) % 3;
+		c.m[i] = (m[p + d] * m[q + e] - m[p + e] * m[q + d]) / det;
+	}
+	return c;
+}
+
 static inline mr_mat3
 mr_affine_linear(const mr_affine *t)
 {

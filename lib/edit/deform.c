@@ -4,8 +4,7 @@
 
 #include "base/disjoint_sets.h"
 #include "edit/deform_energy.h"
-#include "edit/deform_loose.h"
-#include "edit/deform_stitch.h"
+#include "edit/deform_parts.h"
 #include "edit/handles.h"
 
 struct mr_deform {

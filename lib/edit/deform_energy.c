@@ -4,8 +4,6 @@
 
 #include "base/parallel.h"
 #include "base/rotation.h"
-#include "edit/deform_sections.h"
-#include "edit/deform_volume.h"
 #include "op/laplace.h"
 
 enum { GRAIN = 1024 };
@@ -181,9 +179,7 @@ fit(const turning *t, size_t i)
 			double w = e->cot[e->around.face[n]][(k + 2) % 3];
 			mr_v3 x = mr_mat3_apply(&s, mr_sub(e->rest[a], e->rest[b]));
 			mr_v3 y = mr_sub(e->q[a], e->q[b]);
-			mr_mat3 yx = { { y.x * x.x, y.x * x.y, y.x * x.z, y.y * x.x, y.y * x.y, y.y * x.z,
-			    y.z * x.x, y.z * x.y, y.z * x.z } };
-			sum = mr_mat3_axpy(w, &yx, &sum); /* symmetric at rest, to the bit */
+			mr_mat3_add_product(&sum, w, y, x); /* symmetric at rest, to the bit */
 		}
 	}
 	r = mr_rotation_nearest(&sum);

@@ -38,4 +38,42 @@ mr_status mr_energies_make(mr_ctx *ctx, mr_deform_system *s, const uint32_t *reg
 mr_status mr_energies_follow(mr_ctx *ctx, mr_energies *e, const mr_affine *whole, const mr_v3 *p0,
     const mr_deform_maps *maps, mr_v3 *p) MR_WARN_UNUSED;
 
+/*
+ * Sections through what turns: the level sets of weights, piece by piece, as a handle may hold several limbs
+ * and limbs may branch.
+ *
+ * Of a face and a weight: the centroid of the section through it, and by how much the weight differs across
+ * the face, squared.
+ */
+typedef struct mr_section {
+	mr_v3 center;
+	double spread2;
+} mr_section;
+
+/* weight: `count` for each vertex; cot: of the corners of each face.  Returns `count` for each face. */
+mr_section *
+mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t count, const double (*cot)[3]);
+
+/*
+ * The volume that a patch encloses, and the pressure that keeps it.  With g the derivative of the volume by
+ * the vertices, p moves along K^-1 g, the way of least energy, until the volume is right, which is a cubic of
+ * how far.
+ *
+ * The patch's own faces, and behind them those that close it over its rim, which go with the constraints.
+ */
+typedef struct mr_inside {
+	mr_tri *t; /* NULL: the patch ends at a boundary that is free, and encloses nothing */
+	size_t nf;
+} mr_inside;
+
+/* region: of each vertex of the mesh. */
+void mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_inside *v);
+
+/* Where the mesh has its vertices at p. */
+double mr_inside_volume(const mr_ctx *ctx, const mr_inside *v, const mr_patch *patch, const mr_v3 *p);
+
+/* Moves the free vertices by as much pressure as makes the volume `least`. */
+mr_status
+mr_inside_keep(mr_ctx *ctx, mr_deform_system *s, const mr_inside *v, double least, mr_v3 *p) MR_WARN_UNUSED;
+
 #endif

@@ -1,5 +1,5 @@
 /* Anchors of parts that follow, and the rigid motions that fit theirs. */
-#include "edit/deform_loose.h"
+#include "edit/deform_parts.h"
 
 #include "base/rotation.h"
 #include "space/near.h"
@@ -86,11 +86,9 @@ motion_of(const uint32_t *anchor, const mr_v3 *p0, const mr_v3 *p)
 	for (size_t k = 0; k < n; k++) {
 		mr_v3 x = mr_sub(p0[anchor[k]], from), y = mr_sub(p[anchor[k]], to);
 		mr_v3 by = mr_sub(p[anchor[k]], p0[anchor[k]]);
-		double x3[3] = { x.x, x.y, x.z }, y3[3] = { y.x, y.y, y.z };
 		turns |= by.x != shift.x || by.y != shift.y || by.z != shift.z;
 		spread += mr_norm2(x);
-		for (int i = 0; i < 9; i++)
-			c.m[i] += y3[i / 3] * x3[i % 3];
+		mr_mat3_add_product(&c, 1, y, x);
 	}
 	for (int i = 0; i < 3; i++)
 		c.m[4 * i] += least * spread;

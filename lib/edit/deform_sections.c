@@ -1,5 +1,5 @@
 /* Pieces of level sets, and the centroids of their faces. */
-#include "edit/deform_sections.h"
+#include "edit/deform_energy.h"
 
 #include "base/disjoint_sets.h"
 

@@ -1,5 +1,5 @@
 /* Triangles that join components where they touch. */
-#include "edit/deform_stitch.h"
+#include "edit/deform_parts.h"
 
 #include "space/contact.h"
 

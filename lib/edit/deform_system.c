@@ -5,7 +5,6 @@
 #include "edit/multigrid_levels.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
-#include "solve/dissect.h"
 
 /* Assembly */
 

@@ -1,5 +1,5 @@
 /* The volume of what is free, which rounds lose: pressure gives it back. */
-#include "edit/deform_volume.h"
+#include "edit/deform_energy.h"
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"

@@ -211,20 +211,6 @@ all_sound(const encoder *e)
 	return true;
 }
 
-/* Normals of the mesh, as its faces' areas add up. */
-static const mr_v3 *
-mesh_normals(mr_ctx *ctx, const mr_mesh *m)
-{
-	mr_v3 *sum = m->nf ? MR_NEW_ZERO(ctx, m->nv, mr_v3) : NULL;
-
-	for (size_t f = 0; f < m->nf; f++) {
-		mr_v3 n = mr_face_cross(m, f);
-		for (int k = 0; k < 3; k++)
-			sum[m->t[f].v[k]] = mr_add(sum[m->t[f].v[k]], n);
-	}
-	return sum;
-}
-
 static bool
 any_astray(const encoder *e)
 {
@@ -245,7 +231,7 @@ find_all_feet(mr_ctx *ctx, const mr_places *source, encoder *e)
 	if (source) {
 		mr_correspond(ctx, e->mesh, e->ground.surface.m, e->ground.inc, source, map);
 		e->map = map;
-		e->normal = mesh_normals(ctx, e->mesh);
+		e->normal = e->mesh->nf ? mr_area_normals(ctx, e->mesh) : NULL;
 		mr_parallel(ctx, n, GRAIN, find_easy_feet, e);
 		part_far_feet(e);
 		if (all_sound(e))

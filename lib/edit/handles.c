@@ -20,80 +20,55 @@ numbers(const char *text, size_t n, double *x)
 	return mr_numbers(&text, n, x) && !*text;
 }
 
-/* Beyond 1e12 degrees rounding takes over 1e-4 of them from an angle. */
-static mr_status
-set_rotation(mr_ctx *ctx, mr_pose *pose, const char *text)
-{
-	const double most = 1e12;
-	double x[4];
-
-	if (!numbers(text, 4, x))
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not an axis and an angle, ax,ay,az,degrees", text);
-	if (!(mr_norm(vector_of(x)) > 0))
-		return mr_fail(ctx, MR_EUSAGE, "the axis %s has no direction", text);
-	if (!(fabs(x[3]) <= most))
-		return mr_fail(ctx, MR_EUSAGE, "an angle of %g degrees is not exact: at most %g", x[3], most);
-	pose->axis = vector_of(x);
-	pose->degrees = x[3];
-	return MR_OK;
-}
-
-static mr_status
-set_scale(mr_ctx *ctx, mr_pose *pose, const char *text)
-{
-	double x[3];
-
-	if (numbers(text, 1, x))
-		x[1] = x[2] = x[0];
-	else if (!numbers(text, 3, x))
-		return mr_fail(
-		    ctx, MR_EUSAGE, "'%s' is not one factor, nor three with commas between them", text);
-	pose->scale = vector_of(x);
-	return MR_OK;
-}
-
-static mr_status
-set_vector(mr_ctx *ctx, mr_v3 *v, const char *text)
-{
-	double x[3];
-
-	if (!numbers(text, 3, x))
-		return mr_fail(ctx, MR_EUSAGE, "'%s' is not three numbers with commas between them", text);
-	*v = vector_of(x);
-	return MR_OK;
-}
-
 enum { TRANSLATE, ROTATE, SCALE, CENTER, WORDS };
 
-/* Which of the words of a pose it is; WORDS: none. */
+/* The words of a pose, and what each takes. */
+static const char *const words[WORDS][2] = { { "translate", "x,y,z" }, { "rotate", "ax,ay,az,degrees" },
+	{ "scale", "one factor, or three with commas between them" }, { "center", "x,y,z" } };
+
+/* Which of the words it is; WORDS: none. */
 static int
 word_number(const char *word)
 {
-	static const char *const words[WORDS] = { "translate", "rotate", "scale", "center" };
 	int i = 0;
 
-	while (i < WORDS && strcmp(word, words[i]) != 0)
+	while (i < WORDS && strcmp(word, words[i][0]) != 0)
 		i++;
 	return i;
+}
+
+/* Beyond 1e12 degrees rounding takes over 1e-4 of them from an angle. */
+static mr_status
+set_rotation(mr_ctx *ctx, mr_pose *pose, const double x[4])
+{
+	const double most = 1e12;
+
+	pose->axis = vector_of(x);
+	pose->degrees = x[3];
+	if (!(mr_norm(pose->axis) > 0))
+		return mr_fail(ctx, MR_EUSAGE, "the axis %g,%g,%g has no direction", x[0], x[1], x[2]);
+	if (!(fabs(x[3]) <= most))
+		return mr_fail(ctx, MR_EUSAGE, "an angle of %g degrees is not exact: at most %g", x[3], most);
+	return MR_OK;
 }
 
 mr_status
 mr_pose_set(mr_ctx *ctx, mr_pose *pose, const char *what, const char *text)
 {
-	switch (word_number(what)) {
-	case TRANSLATE:
-		return set_vector(ctx, &pose->translate, text);
-	case ROTATE:
-		return set_rotation(ctx, pose, text);
-	case SCALE:
-		return set_scale(ctx, pose, text);
-	case CENTER:
-		MR_TRY(set_vector(ctx, &pose->center, text));
-		pose->centered = true;
-		return MR_OK;
-	default:
+	int word = word_number(what);
+	double x[4];
+
+	if (word == WORDS)
 		return mr_fail(ctx, MR_EUSAGE, "'%s' is none of translate, rotate, scale, center", what);
-	}
+	if (word == SCALE && numbers(text, 1, x))
+		x[1] = x[2] = x[0];
+	else if (!numbers(text, word == ROTATE ? 4 : 3, x))
+		return mr_fail(ctx, MR_EUSAGE, "'%s' is not %s", text, words[word][1]);
+	if (word == ROTATE)
+		return set_rotation(ctx, pose, x);
+	*(word == TRANSLATE ? &pose->translate : word == SCALE ? &pose->scale : &pose->center) = vector_of(x);
+	pose->centered |= word == CENTER;
+	return MR_OK;
 }
 
 mr_status

@@ -225,17 +225,12 @@ change_of(const mr_affine *map)
 {
 	change c = { .map = *map, .linear = mr_affine_linear(map) };
 	mr_mat3 square = mr_mat3_multiply_transposed(&c.linear, &c.linear);
-	const double *m = c.linear.m;
 	double det = mr_mat3_determinant(&c.linear), s = cube_root(fabs(det)), off = 0;
 
 	c.mirrors = det < 0;
-	for (int i = 0; i < 3; i++)
-		for (int j = 0; j < 3; j++) {
-			int a = (i + 1) % 3, b = (i + 2) % 3, d = (j + 1) % 3, e = (j + 2) % 3;
-			c.normal.m[3 * i + j] = (m[3 * a + d] * m[3 * b + e] - m[3 * a + e] * m[3 * b + d]) /
-			                        det;
-			off = fmax(off, fabs(square.m[3 * i + j] - (i == j ? s * s : 0)));
-		}
+	c.normal = mr_mat3_inverse_transposed(&c.linear);
+	for (int i = 0; i < 9; i++)
+		off = fmax(off, fabs(square.m[i] - (i % 4 == 0 ? s * s : 0)));
 	c.scale = off <= 1e-9 * s * s ? s : 0;
 	return c;
 }

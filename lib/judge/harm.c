@@ -1,5 +1,5 @@
 /* Folds and intersections that a motion makes, looked for in crowded cells of space. */
-#include "judge/harm.h"
+#include "judge/judge.h"
 
 #include "mesh/edges.h"
 #include "mesh/fold.h"
@@ -17,21 +17,6 @@ typedef struct crowd {
 
 /* Faces that turn against those around them: of two that are folded one does, by the sum of normals at a
  * corner that they share. */
-
-static void
-add_normals(mr_ctx *ctx, const mr_mesh *m, mr_v3 **normal)
-{
-	mr_v3 *sum = MR_NEW_ZERO(ctx, m->nv, mr_v3);
-
-	for (size_t f = 0; f < m->nf; f++) {
-		mr_v3 n = mr_face_cross(m, f);
-		for (int k = 0; k < 3; k++) {
-			mr_v3 *s = &sum[m->t[f].v[k]];
-			*s = mr_add(*s, n);
-		}
-	}
-	*normal = sum;
-}
 
 static bool
 is_against(mr_v3 n, mr_v3 sum)
@@ -331,8 +316,8 @@ mr_harm_find(mr_ctx *ctx, const mr_motion *m, mr_harm *harm)
 	c.now.p = m->now;
 	if (!(m->diagonal > 0))
 		return;
-	add_normals(ctx, &c.then, &c.normal_then);
-	add_normals(ctx, &c.now, &c.normal);
+	c.normal_then = mr_area_normals(ctx, &c.then);
+	c.normal = mr_area_normals(ctx, &c.now);
 	mark_turned(&c);
 	mark_gathered(ctx, &c);
 	if (c.cells.any || c.now.nf <= FEW)

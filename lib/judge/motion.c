@@ -1,5 +1,5 @@
 /* What a motion did to a surface. */
-#include "judge/harm.h"
+#include "judge/judge.h"
 #include "space/contact.h"
 
 void

@@ -13,27 +13,6 @@ typedef struct fit {
 	bool given;     /* places of its own to each vertex */
 } fit;
 
-static void
-add_product(mr_mat3 *sum, mr_v3 a, mr_v3 b)
-{
-	const double x[3] = { a.x, a.y, a.z }, y[3] = { b.x, b.y, b.z };
-
-	for (int i = 0; i < 9; i++)
-		sum->m[i] += x[i / 3] * y[i % 3];
-}
-
-/* Of a symmetric matrix. */
-static mr_mat3
-inverse(const mr_mat3 *s)
-{
-	const double *m = s->m, f = 1 / mr_mat3_determinant(s);
-
-	return (mr_mat3){ { f * (m[4] * m[8] - m[5] * m[7]), f * (m[2] * m[7] - m[1] * m[8]),
-	    f * (m[1] * m[5] - m[2] * m[4]), f * (m[5] * m[6] - m[3] * m[8]), f * (m[0] * m[8] - m[2] * m[6]),
-	    f * (m[2] * m[3] - m[0] * m[5]), f * (m[3] * m[7] - m[4] * m[6]), f * (m[1] * m[6] - m[0] * m[7]),
-	    f * (m[0] * m[4] - m[1] * m[3]) } };
-}
-
 /* A, which turns where x has no extent. */
 static mr_mat3
 linear_part(const fit *f)
@@ -48,7 +27,7 @@ linear_part(const fit *f)
 	turn = mr_rotation_nearest(&turn);
 	xx = mr_mat3_axpy(little * extent, &identity, &f->xx);
 	yx = mr_mat3_axpy(little * extent, &turn, &f->yx);
-	xx = inverse(&xx);
+	xx = mr_mat3_inverse_transposed(&xx); /* symmetric */
 	return mr_mat3_multiply(&yx, &xx);
 }
 
@@ -74,8 +53,8 @@ fit_maps(const mr_ground *g, size_t regions, size_t stride, fit *fits)
 	for (size_t v = 0; v < nv; v += stride) {
 		fit *f = &fits[region[v]];
 		mr_v3 x = mr_sub(from[v], f->from);
-		add_product(&f->xx, x, x);
-		add_product(&f->yx, mr_sub(to[v], f->to), x);
+		mr_mat3_add_product(&f->xx, 1, x, x);
+		mr_mat3_add_product(&f->yx, 1, mr_sub(to[v], f->to), x);
 	}
 	for (size_t r = 0; r < regions; r++) {
 		fits[r].yx = r == MR_REGION_FIXED ? mr_mat3_identity() : linear_part(&fits[r]);

@@ -311,6 +311,19 @@ normals_of_vertices(void *arg, size_t begin, size_t end)
 	}
 }
 
+mr_v3 *
+mr_area_normals(mr_ctx *ctx, const mr_mesh *m)
+{
+	mr_v3 *sum = MR_NEW_ZERO(ctx, m->nv, mr_v3);
+
+	for (size_t f = 0; f < m->nf; f++) {
+		mr_v3 n = mr_face_cross(m, f);
+		for (int k = 0; k < 3; k++)
+			sum[m->t[f].v[k]] = mr_add(sum[m->t[f].v[k]], n);
+	}
+	return sum;
+}
+
 void
 mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal)
 {

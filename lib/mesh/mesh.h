@@ -164,4 +164,7 @@ double mr_mesh_edge_scale(const mr_ctx *ctx, const mr_mesh *m);
  */
 void mr_vertex_normals(mr_ctx *ctx, const mr_mesh *m, const mr_incidence *inc, mr_v3 *normal);
 
+/* For each vertex the sum of the normals of its faces, as long as twice their areas; in the arena. */
+mr_v3 *mr_area_normals(mr_ctx *ctx, const mr_mesh *m);
+
 #endif

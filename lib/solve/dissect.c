@@ -2,7 +2,7 @@
  * George 1973: Nested dissection of a regular finite element mesh; the cuts are across an axis, where the
  * fewest edges cross, as surfaces invite it.  The larger parts are left to minimum degree.
  */
-#include "solve/dissect.h"
+#include "solve/sparse.h"
 
 enum { BINS = 64, SMALL = 2000 };
 enum { BELOW, ABOVE, SEPARATOR, PENDING };

@@ -8,6 +8,7 @@
 #define MR_SOLVE_SPARSE_H
 
 #include "base/ctx.h"
+#include "base/vec.h"
 
 /* Row i: the columns index[k] and values value[k] for k from start[i] to start[i + 1]. */
 typedef struct mr_sparse {
@@ -73,5 +74,13 @@ void mr_sparse_apply(const mr_ctx *ctx, const mr_sparse *a, const double *w, siz
 
 /* y = y + f A x, for all rows of A. */
 void mr_sparse_add(const mr_ctx *ctx, const mr_sparse *a, double f, size_t width, const double *x, double *y);
+
+/*
+ * Nested dissection: cuts the vertices 0 to n - 1, at positions p and with the neighbours of l's rows, into
+ * parts and the separators between them, `reach` edges wide, until a part is small.  part[i] is a number
+ * below n; a separator's is higher than those of all that it separates, and of two parts no vertices are
+ * within `reach` edges through either.  Neighbours from n on are not looked at.  part: n, the caller's.
+ */
+void mr_dissect(mr_ctx *ctx, const mr_sparse *l, const mr_v3 *p, size_t n, size_t reach, int *part);
 
 #endif

@@ -109,6 +109,8 @@ of_points(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const mr_normals_opts *o, 
 static mr_status
 of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *normal)
 {
+	const mr_v3 *sum;
+
 	if (o->neighbours || o->from)
 		return mr_fail(ctx, MR_EUSAGE,
 		    "%s has faces: neighbours and the place they are seen from are of points", m->name);
@@ -116,12 +118,9 @@ of_surface(mr_ctx *ctx, const mr_mesh *m, const mr_normals_opts *o, mr_v3 *norma
 		mr_vertex_normals(ctx, m, NULL, normal);
 		return MR_OK;
 	}
-	memset(normal, 0, m->nv * sizeof *normal);
-	for (size_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++)
-			normal[m->t[f].v[k]] = mr_add(normal[m->t[f].v[k]], mr_face_cross(m, f));
+	sum = mr_area_normals(ctx, m);
 	for (size_t v = 0; v < m->nv; v++)
-		normal[v] = mr_unit(normal[v]);
+		normal[v] = mr_unit(sum[v]);
 	return MR_OK;
 }
 

@@ -17,7 +17,7 @@
  * Two limbs that meet are no wreck.
  */
 #include "base/disjoint_sets.h"
-#include "judge/harm.h"
+#include "judge/judge.h"
 #include "measure/measure.h"
 #include "mesh/fold.h"
 #include "space/contact.h"

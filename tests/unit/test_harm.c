@@ -1,5 +1,5 @@
 /* Folds and intersections that a motion makes, and those that it does not. */
-#include "judge/harm.h"
+#include "judge/judge.h"
 #include "shapes.h"
 
 static mr_harm

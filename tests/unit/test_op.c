@@ -2,7 +2,6 @@
 #include "base/random.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
-#include "solve/dissect.h"
 #include "unit.h"
 
 static void
