@@ -19,7 +19,7 @@ struct mr_energies {
 	double (*cot)[3];    /* of each face */
 	mr_incidence around; /* faces of each vertex */
 	mr_section *section; /* count for each face */
-	mr_inside inside;    /* for rounds */
+	mr_mesh inside;      /* for rounds */
 	/* Workspace, kept from pose to pose. */
 	mr_v3 *rest, *q, *before; /* a vertex each */
 	mr_mat3 *map;             /* A of each vertex, less that of the whole */
@@ -280,6 +280,15 @@ extrapolate(const turning *t, const mr_v3 *p, bool first)
 	}
 }
 
+static double
+volume_of(mr_ctx *ctx, const mr_energies *e, const mr_v3 *p)
+{
+	mr_mesh inside = e->inside;
+
+	inside.p = p;
+	return mr_mesh_volume(ctx, &inside);
+}
+
 /*
  * How much of its volume the patch has to have, by the mean of what the stretches ask for; 0 where that is no
  * body but a sheet or a dent, which has lost most of it before any round.  Rounds
@@ -295,8 +304,8 @@ volume_to_keep(mr_ctx *ctx, const turning *t, const mr_v3 *p0, const mr_v3 *p)
 
 	if (!e->inside.t)
 		return 0;
-	rest = mr_inside_volume(ctx, &e->inside, &e->s->patch, p0);
-	if (!(mr_inside_volume(ctx, &e->inside, &e->s->patch, p) / rest >= body))
+	rest = volume_of(ctx, e, p0);
+	if (!(volume_of(ctx, e, p) / rest >= body))
 		return 0;
 	for (size_t i = 0; i < n; i++) {
 		mr_mat3 s = stretch_at(t, i);
@@ -316,7 +325,7 @@ rounds(
 		mr_deform_system *s = round + 1 < count && e->membrane.solver ? &e->membrane : e->s;
 		extrapolate(t, p, round == 0);
 		MR_TRY(mr_system_follow(ctx, s, whole, p0, source_of(ctx, t, &rigid), p));
-		if (least != 0 && mr_inside_volume(ctx, &e->inside, &e->s->patch, p) / least < 1)
+		if (least != 0 && volume_of(ctx, e, p) / least < 1)
 			MR_TRY(mr_inside_keep(ctx, s, &e->inside, least, p));
 	}
 	return MR_OK;
@@ -433,7 +442,7 @@ mr_energies_make(
 	MR_TRY(solve_weights(ctx, e));
 	e->section = mr_sections_find(ctx, &s->patch.mesh, e->weight, e->count, (const double(*)[3])e->cot);
 	if (most > 0)
-		mr_inside_make(ctx, &s->patch, region, &e->inside);
+		e->inside = mr_inside_make(ctx, &s->patch, region);
 	*energies = e;
 	return most > 1 && s->opts.order > 1 ? mr_system_membrane(ctx, s, &e->membrane) : MR_OK;
 }

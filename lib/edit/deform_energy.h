@@ -59,21 +59,14 @@ mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t cou
  * the vertices, p moves along K^-1 g, the way of least energy, until the volume is right, which is a cubic of
  * how far.
  *
- * The patch's own faces, and behind them those that close it over its rim, which go with the constraints.
+ * What is enclosed has the patch's own faces, by the mesh's vertices, and behind them those that close it
+ * over its rim, which go with the constraints; none where the patch ends at a boundary that is free.  region:
+ * of each vertex of the mesh.
  */
-typedef struct mr_inside {
-	mr_tri *t; /* NULL: the patch ends at a boundary that is free, and encloses nothing */
-	size_t nf;
-} mr_inside;
-
-/* region: of each vertex of the mesh. */
-void mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region, mr_inside *v);
-
-/* Where the mesh has its vertices at p. */
-double mr_inside_volume(const mr_ctx *ctx, const mr_inside *v, const mr_patch *patch, const mr_v3 *p);
+mr_mesh mr_inside_make(mr_ctx *ctx, const mr_patch *patch, const uint32_t *region);
 
 /* Moves the free vertices by as much pressure as makes the volume `least`. */
-mr_status
-mr_inside_keep(mr_ctx *ctx, mr_deform_system *s, const mr_inside *v, double least, mr_v3 *p) MR_WARN_UNUSED;
+mr_status mr_inside_keep(
+    mr_ctx *ctx, mr_deform_system *s, const mr_mesh *inside, double least, mr_v3 *p) MR_WARN_UNUSED;
 
 #endif

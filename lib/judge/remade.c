@@ -82,59 +82,26 @@ judge_parts(mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh, const mr_mesh *
 		mr_found(ctx, &f);
 }
 
-enum { SAMPLES = 2048 };
-
-/* Corners at equal strides, and places in equal parts of the area. */
-static void
-places_of(mr_ctx *ctx, const mr_mesh *m, mr_v3 **place, size_t *n)
-{
-	size_t all = 3 * m->nf, corners = all < 2 * SAMPLES ? all : 2 * SAMPLES;
-	mr_v3 *q = MR_NEW(ctx, corners + SAMPLES, mr_v3);
-
-	for (size_t i = 0; i < corners; i++) {
-		size_t h = i * all / corners;
-		q[i] = m->p[m->t[h / 3].v[h % 3]];
-	}
-	*place = q;
-	*n = corners + mr_spread_places(ctx, m, SAMPLES, q + corners);
-}
-
-/* The place of m that is farthest from `to`. */
-static void
-farthest(mr_ctx *ctx, const mr_mesh *m, const mr_bvh *to, mr_v3 *at, double *far)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	size_t n, most = 0;
-	double *distance;
-	mr_v3 *q;
-
-	places_of(ctx, m, &q, &n);
-	distance = MR_NEW(ctx, n, double);
-	mr_bvh_distances(ctx, to, q, n, distance);
-	for (size_t i = 0; i < n; i++)
-		most = distance[i] > distance[most] ? i : most;
-	*at = q[most];
-	*far = distance[most];
-	mr_mark_release(ctx, mark);
-}
-
 static void
 judge_distance(
     mr_ctx *ctx, const mr_mesh *then, const mr_bvh *bvh_then, const mr_mesh *now, const mr_bvh *bvh)
 {
+	enum { SAMPLES = 4096 };
 	const double most = 0.05; /* of the diagonal */
-	double diagonal = mr_mesh_diagonal(then), far, back;
-	mr_v3 at, at_back;
+	double diagonal = mr_mesh_diagonal(then);
+	mr_mesh_gaps g = { .widest = 0 };
+	mr_mark mark = mr_mark_take(ctx);
 
-	farthest(ctx, then, bvh, &at, &far);
-	farthest(ctx, now, bvh_then, &at_back, &back);
-	if (fmax(far, back) > most * diagonal)
+	mr_gaps_add(ctx, then, bvh, SAMPLES, INFINITY, &g);
+	mr_gaps_add(ctx, now, bvh_then, SAMPLES, INFINITY, &g);
+	mr_mark_release(ctx, mark);
+	if (g.widest > most * diagonal)
 		mr_found(ctx, &(mr_finding){ .kind = MR_DISTANT,
 				  .layer = now->name,
-				  .value = fmax(far, back) / diagonal,
+				  .value = g.widest / diagonal,
 				  .placed = true,
 				  .vertex = MR_NO_VERTEX,
-				  .at = far >= back ? at : at_back });
+				  .at = g.at });
 }
 
 /* Where what was there intersects already, a coarser surface has fewer pairs of it, or some more. */

@@ -128,23 +128,19 @@ mr_gap_spots_report(mr_ctx *ctx, const char *layer, const mr_gaps *gaps, const m
  */
 static const double FAR_OF_MESH = 0.018, OFF = 0.005, OFF_MOST = 0.02;
 
-/* The distances of `from`'s places to bvh, n of equal parts of the area, then those of `corners` of its
- * corners. */
-static void
-measure_to_mesh(
-    mr_ctx *ctx, const mr_mesh *from, const mr_mesh *to, size_t samples, double off, mr_mesh_gaps *gaps)
+void
+mr_gaps_add(
+    mr_ctx *ctx, const mr_mesh *from, const mr_bvh *bvh, size_t samples, double off, mr_mesh_gaps *gaps)
 {
 	size_t corners = 3 * from->nf < samples ? 3 * from->nf : samples, n, beyond = 0;
 	mr_v3 *q = MR_NEW(ctx, samples + corners, mr_v3);
 	double *distance = MR_NEW(ctx, samples + corners, double);
-	mr_bvh *bvh;
 
 	n = mr_spread_places(ctx, from, samples, q);
 	for (size_t i = 0; i < corners; i++) {
 		size_t h = i * 3 * from->nf / corners;
 		q[n + i] = from->p[from->t[h / 3].v[h % 3]];
 	}
-	mr_bvh_build(ctx, to, &bvh);
 	mr_bvh_distances(ctx, bvh, q, n + corners, distance);
 	for (size_t i = 0; i < n + corners; i++) {
 		beyond += i < n && distance[i] > off;
@@ -163,9 +159,12 @@ mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t
 	mr_mark mark = mr_mark_take(ctx);
 	double off = OFF * mr_mesh_diagonal(mesh);
 	mr_mesh_gaps g = { .widest = 0 };
+	mr_bvh *bvh, *bvh_mesh;
 
-	measure_to_mesh(ctx, mesh, surface, samples, off, &g);
-	measure_to_mesh(ctx, surface, mesh, samples, off, &g);
+	mr_bvh_build(ctx, surface, &bvh);
+	mr_bvh_build(ctx, mesh, &bvh_mesh);
+	mr_gaps_add(ctx, mesh, bvh, samples, off, &g);
+	mr_gaps_add(ctx, surface, bvh_mesh, samples, off, &g);
 	*gaps = g;
 	mr_mark_release(ctx, mark);
 }

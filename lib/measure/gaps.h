@@ -6,6 +6,7 @@
 #define MR_MEASURE_GAPS_H
 
 #include "mesh/mesh.h"
+#include "space/bvh.h"
 #include "space/near.h"
 
 /* The places that count of a cloud, as mr_sampling_places has them, their spacings and index. */
@@ -45,6 +46,11 @@ typedef struct mr_mesh_gaps {
 	mr_v3 at;
 	double off; /* the share of the one that is too far from the other, of the two the larger */
 } mr_mesh_gaps;
+
+/* Adds to gaps how far places of `from`, so many in equal parts of its area, and as many of its corners are
+ * from what bvh is of; off: what is too far. */
+void mr_gaps_add(
+    mr_ctx *ctx, const mr_mesh *from, const mr_bvh *bvh, size_t samples, double off, mr_mesh_gaps *gaps);
 
 void
 mr_gaps_to_mesh(mr_ctx *ctx, const mr_mesh *surface, const mr_mesh *mesh, size_t samples, mr_mesh_gaps *gaps);

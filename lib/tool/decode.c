@@ -13,19 +13,18 @@ still_there(const mr_frame *f, const char *layer, const char *name, uint64_t kep
 }
 
 /* The faces around the vertices of base. */
-static mr_status
+static void
 base_incidence(mr_ctx *ctx, mr_connectivity_cache *kept, mr_frame *f, const mr_mesh *base)
 {
 	mr_ctx *keep = mr_keep(ctx, &kept->keep);
 
 	if (still_there(f, base->name, "triangles", kept->base_serial))
-		return MR_OK;
+		return;
 	mr_ctx_free(keep);
 	kept->base_serial = kept->rest_serial = 0;
 	kept->rest_normal = NULL;
 	mr_incidence_build(keep, base, &kept->base);
 	kept->base_serial = mr_frame_find(f, base->name, "triangles")->serial;
-	return MR_OK;
 }
 
 /* The normals of base where it was encoded. */
@@ -52,7 +51,7 @@ decode_detail(mr_ctx *ctx, mr_frame *f, const mr_decode_opts *o, mr_connectivity
 	mr_v3 *p;
 
 	MR_TRY(mr_layer_mesh(ctx, f, "base", &base));
-	MR_TRY(base_incidence(ctx, kept, f, &base));
+	base_incidence(ctx, kept, f, &base);
 	MR_TRY(mr_response_apply(ctx, f, &base));
 	MR_TRY(mr_detail_get(ctx, f, &base, &detail));
 	rest_normals(ctx, kept, f, &base, &detail);
