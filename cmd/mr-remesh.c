@@ -3,7 +3,6 @@
 
 static mr_remesh_opts opts = MR_REMESH_DEFAULTS;
 static cmd_length length, adaptive;
-static const char *feature = "180";
 
 static const cmd_opt table[] = {
 	{ 'L', "length", CMD_LENGTH, &length, 0, 1e300, "LENGTH", "target edge length; 0: by --ratio", NULL },
@@ -19,8 +18,8 @@ static const cmd_opt table[] = {
 	    "choose the length to give about so many; 0: do not", NULL },
 	{ 0, "faces", CMD_COUNT, &opts.faces, 0, 2e9, "N",
 	    "choose the length to give about so many; 0: do not", NULL },
-	{ 0, "feature", CMD_TEXT, &feature, 0, 0, "DEGREES|auto",
-	    "keep edges whose faces meet at more; auto: find the angle; 180: none", NULL },
+	{ 0, "feature", CMD_REAL, &opts.feature, 0, 180, "DEGREES",
+	    "keep edges whose faces meet at more; 180: none", NULL },
 	{ 0, "adaptive", CMD_LENGTH, &adaptive, 0, 1e300, "DISTANCE",
 	    "lengths by curvature: how far an edge may be from the surface; 0: uniform", NULL },
 	{ 0, "no-project", CMD_OFF, &opts.project, 0, 0, "", "let the vertices leave the surface", NULL },
@@ -34,9 +33,6 @@ prepare(cmd *c)
 	opts.length_relative = length.relative;
 	opts.adaptive = adaptive.value;
 	opts.adaptive_relative = adaptive.relative;
-	opts.feature_auto = strcmp(feature, "auto") == 0;
-	if (!opts.feature_auto)
-		MR_TRY(cmd_parse_real(&c->ctx, "--feature", feature, 0, 180, &opts.feature));
 	MR_TRY(cmd_idle(c, "ratio", length.value > 0, "with --length"));
 	MR_TRY(cmd_idle(c, "vertices", opts.faces > 0, "with --faces"));
 	MR_TRY(cmd_idle(c, "length", opts.faces + opts.vertices > 0, "with --vertices or --faces"));
@@ -56,7 +52,6 @@ static const cmd_field figures[] = {
 	CMD_MEASURED(mr_remesh_result, area_variance_after),
 	CMD_COUNTED(mr_remesh_result, flipped),
 	CMD_COUNTED(mr_remesh_result, folded),
-	CMD_MEASURED(mr_remesh_result, feature),
 	CMD_COUNTED(mr_remesh_result, sharp_edges),
 	CMD_MEASURED(mr_remesh_result, seconds_rounds),
 	CMD_MEASURED(mr_remesh_result, seconds_areas),

@@ -8,7 +8,6 @@
 #include "base/parallel.h"
 #include "mesh/dynmesh.h"
 #include "remesh/extremities.h"
-#include "remesh/feature_angle.h"
 #include "remesh/flaws.h"
 #include "remesh/flip.h"
 #include "remesh/relax.h"
@@ -26,9 +25,7 @@ typedef struct remesher {
 	double *mean;    /* at its faces */
 	mr_dyn d;
 	mr_resampled changes;
-	double feature; /* the angle from which an edge is kept */
 	size_t flips, tips;
-	size_t tidied;  /* splits and collapses when neighbours were last brought together */
 	mr_flaws flaws; /* of the result */
 	size_t sharp;   /* edges of the input */
 	double
@@ -153,30 +150,10 @@ one_round(remesher *r, bool first)
 	return MR_OK;
 }
 
-static size_t
-changes(const remesher *r)
-{
-	return r->changes.splits + r->changes.collapses;
-}
-
-/*
- * True where half as many edges as there are vertices were split or merged since, of more than a cache holds:
- * the noisy surface of a CT scan changes as much in every round, and without this its fifth took twice as
- * long as its second.  The lengths of smaller ones come out a little evener without it.
- */
-static bool
-is_untidy(const remesher *r)
-{
-	enum { CACHED = 1 << 18 };
-
-	return r->d.nv > CACHED && changes(r) - r->tidied > r->d.nv / 2;
-}
-
 /* Neighbours close together in memory. */
 static mr_status
 tidy(remesher *r)
 {
-	r->tidied = changes(r);
 	MR_TRY(mr_dyn_compact(r->ctx, &r->d));
 	mr_dyn_order(r->ctx, &r->d);
 	return MR_OK;
@@ -281,13 +258,8 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 
 	if (!(mr_mesh_area(r->ctx, m) > 0))
 		return mr_fail(r->ctx, MR_EMESH, "%s: the surface has no area", m->name);
-	r->feature = r->o->feature;
-	if (r->o->feature_auto)
-		mr_feature_angle(r->ctx, m, topo, &r->feature);
-	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->feature, &r->d));
+	MR_TRY(mr_dyn_build(r->ctx, m, topo, r->o->feature, &r->d));
 	r->sharp = count_sharp(&r->d);
-	if (r->o->feature_auto)
-		mr_note(r->ctx, "%s: %zu sharp edges of more than %g degrees", m->name, r->sharp, r->feature);
 	if (r->d.curve) {
 		r->curve = MR_NEW(r->ctx, 3 * m->nf, uint32_t);
 		memcpy(r->curve, r->d.curve, 3 * m->nf * sizeof *r->curve);
@@ -296,8 +268,6 @@ set_up(remesher *r, const mr_mesh *m, const mr_topology *topo)
 		r->length = MR_NEW(r->ctx, m->nv, double);
 		mr_sizing_field(r->ctx, m, topo, &r->d, adaptive, uniform / ADAPTIVE_RANGE,
 		    uniform * ADAPTIVE_RANGE, r->length);
-	} else {
-		mr_sizing_curves(r->ctx, m, topo, &r->d, uniform, &r->length);
 	}
 	r->mean = r->length ? MR_NEW(r->ctx, m->nf, double) : NULL;
 	r->source = (mr_remesh_source){ m, topo, r->curve, r->length, r->mean, uniform };
@@ -379,7 +349,7 @@ run(remesher *r)
 		before = after;
 		if (i + 1 == rounds && misses(excess(r)) && rounds < 2 * r->o->rounds)
 			rounds++; /* it was far more, or is thinner than its edges */
-		if (i == 0 || i + 1 == rounds || is_untidy(r))
+		if (i == 0 || i + 1 == rounds)
 			MR_TRY(tidy(r)); /* the first round changes most */
 		mr_progress(r->ctx, "remeshing", (double)(i + 1) / (double)(rounds + 1));
 	}
@@ -435,7 +405,6 @@ report(const remesher *r)
 		.area_variance_after = r->variance[1],
 		.flipped = r->flaws.flipped,
 		.folded = r->flaws.folded,
-		.feature = r->feature,
 		.sharp_edges = r->sharp,
 		.seconds_rounds = r->seconds_rounds,
 		.seconds_areas = r->seconds_areas };

@@ -25,11 +25,6 @@ mr-import plate.off | mr-remesh -L .1 --stats stats.json >/dev/null && echo "$(f
 echo 'edges of ten and of twenty times the thickness: what is folded is merged away'
 mr-import plate.off | mr-remesh -L .2 --stats stats.json >/dev/null && echo "$(figure flipped stats.json) $(figure folded stats.json)"
 sed 's/ \.02$/ .005/' plate.off >thin.off && mr-import thin.off | mr-remesh -L .1 --stats stats.json >/dev/null && echo "$(figure flipped stats.json) $(figure folded stats.json)"
-echo 'the sharp edges of a cube are found and kept, a sphere has none'
-for shape in cube sphere; do
-	mr-make $shape -n 3000 | mr-remesh --feature auto -v --stats stats.json 2>err >/dev/null && sed 's/.*): //' err | grep sharp
-	echo "$(figure feature stats.json) $(figure sharp_edges stats.json)"
-done
 echo 'as many as are wanted'
 for n in '--vertices 2000' '--faces 10000' '--vertices 5000 --adaptive 0.2%'; do
 	mr-make bumpy -n 4000 | mr-remesh $n --stats stats.json >/dev/null &&
@@ -88,7 +83,7 @@ mr-encode rod.mrs | mr-decode -o back.mrs && mr-compare -l mesh rod.mrs back.mrs
 
 echo 'bodies that share a wall: finer, more pairs of faces coincide, in the same places' >&2
 mr-make cube -n 12 -o cube.mrs
-mr-transform --translate 2,0,0 cube.mrs | mr-cat --append cube.mrs - | mr-remesh -L 8% --feature auto 2>&1 >out | sed 's/vertex.*/vertex/' >&2
+mr-transform --translate 2,0,0 cube.mrs | mr-cat --append cube.mrs - | mr-remesh -L 8% --feature 40 2>&1 >out | sed 's/vertex.*/vertex/' >&2
 
 echo 'so many vertices as a surface has room for, limbs thinner than an edge is long at half as many: no warning, none flat' >&2
 mr-make torus -n 1000 | mr-remesh --vertices 320 -o torus.mrs
@@ -118,5 +113,5 @@ BEGIN { n = 0; w = 0.06; r = 0.3; p(0, 0); p(1, 0); p(1, w)
 	for (i = 1; i < n - 1; i++) { print "f", 1, i + 2, i + 1; print "f", n + 1, n + i + 1, n + i + 2 }
 	for (i = 0; i < n; i++) { j = (i + 1) % n; print "f", i + 1, j + 1, n + j + 1; print "f", i + 1, n + j + 1, n + i + 1 } }' |
 	mr-import -f obj -o iron.mrs
-mr-remesh -r 20 --feature auto iron.mrs >/dev/null
-mr-remesh -r 6 --feature auto iron.mrs >/dev/null
+mr-remesh -r 20 --feature 40 iron.mrs >/dev/null
+mr-remesh -r 6 --feature 40 iron.mrs >/dev/null

@@ -70,7 +70,6 @@ remesh(const job *j)
 	o.adaptive = j->way % 3 == 1 ? 0.01 : 0;
 	o.adaptive_relative = true;
 	o.feature = j->way % 3 == 1 ? 40 : 180;
-	o.feature_auto = j->way % 3 == 2;
 	return mr_remesh_frame(j->ctx, j->f, &o, NULL);
 }
 

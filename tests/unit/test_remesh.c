@@ -224,82 +224,6 @@ what_is_no_manifold_is_refused_by_name(void **state)
 	assert_string_equal(ctx.error, "base: edge 0-1 has 3 faces");
 }
 
-/* What was made with edges has them found and kept; round and noisy surfaces have none. */
-static void
-sharp_edges_are_found_where_there_are_any(void **state)
-{
-	static const struct {
-		mr_solid solid;
-		double noise;
-		bool sharp;
-	} shapes[] = { { MR_CUBE, 0, true }, { MR_BOXES, 0, true }, { MR_CYLINDER, 0, true },
-		{ MR_SPHERE, 0, false }, { MR_TORUS, 0, false }, { MR_BUMPY, 0, false },
-		{ MR_SPHERE, 0.03, false }, { MR_KNOT, 0.01, false }, { MR_PLANE, 0, false } };
-	mr_remesh_opts o = MR_REMESH_DEFAULTS;
-
-	(void)state;
-	o.feature_auto = true;
-	for (size_t i = 0; i < sizeof shapes / sizeof *shapes; i++) {
-		mr_make_opts make = MR_MAKE_DEFAULTS;
-		mr_remesh_result result;
-		mr_places map;
-		mr_mesh m, r;
-		make.solid = shapes[i].solid;
-		make.vertices = 3000;
-		make.noise = shapes[i].noise;
-		assert_int_equal(mr_solid_make(&ctx, &make, &m), MR_OK);
-		assert_int_equal(mr_remesh(&ctx, &m, &o, &r, &map, &result), MR_OK);
-		assert_true(shapes[i].sharp == (result.feature < 180));
-		assert_true(shapes[i].sharp == (result.sharp_edges > 0));
-		if (shapes[i].sharp)
-			assert_true(fabs(mr_mesh_area(&ctx, &r) / mr_mesh_area(&ctx, &m) - 1) < 0.002);
-		mr_ctx_free(&ctx);
-	}
-}
-
-/* A block, 6 by 6 by 6, whose upright edges are rounded by a radius of 0.5 in 12 steps. */
-static mr_mesh
-rounded_block(void)
-{
-	enum { STEPS = 12, N = 4 * (STEPS + 1) };
-	mr_v3 *p = MR_NEW(&ctx, 2 * N + 2, mr_v3);
-	mr_tri *t = MR_NEW(&ctx, 4 * N, mr_tri);
-
-	for (uint32_t i = 0; i < N; i++) {
-		uint32_t next = (i + 1) % N, corner = i / (STEPS + 1);
-		double turn = MR_PI / 2 * (corner + (double)(i % (STEPS + 1)) / STEPS);
-		double x = corner == 0 || corner == 3 ? 2.5 : -2.5, y = corner < 2 ? 2.5 : -2.5;
-		p[i] = mr_vec(x + 0.5 * cos(turn), y + 0.5 * sin(turn), -3);
-		p[N + i] = mr_add(p[i], mr_vec(0, 0, 6));
-		t[4 * i] = (mr_tri){ { i, next, N + next } };
-		t[4 * i + 1] = (mr_tri){ { i, N + next, N + i } };
-		t[4 * i + 2] = (mr_tri){ { next, i, 2 * N } };
-		t[4 * i + 3] = (mr_tri){ { N + i, N + next, 2 * N + 1 } };
-	}
-	p[2 * N] = mr_vec(0, 0, -3);
-	p[2 * N + 1] = mr_vec(0, 0, 3);
-	return (mr_mesh){ "block", p, t, 2 * N + 2, 4 * N };
-}
-
-/* Roundings smaller than an edge are followed, and edges are as long as ever elsewhere. */
-static void
-curves_are_followed_around_small_roundings(void **state)
-{
-	(void)state;
-	for (double length = 0.7; length < 1.5; length += 0.2) {
-		mr_remesh_opts o = MR_REMESH_DEFAULTS;
-		mr_mesh m = rounded_block(), out;
-		mr_remesh_result result;
-		mr_places map;
-		o.length = length;
-		o.feature = 40;
-		assert_int_equal(mr_remesh(&ctx, &m, &o, &out, &map, &result), MR_OK);
-		assert_int_equal(result.sharp_edges, 104);
-		assert_true((double)out.nf < 10 * mr_mesh_area(&ctx, &m) / (length * length));
-		mr_ctx_free(&ctx);
-	}
-}
-
 /* Within 5 %, of closed and open surfaces, with one length or adapted ones. */
 static void
 as_many_as_are_wanted(void **state)
@@ -546,8 +470,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(threads_and_runs_do_not_change_a_byte, setup, teardown),
 		cmocka_unit_test_setup_teardown(random_operations_keep_a_manifold, setup, teardown),
 		cmocka_unit_test_setup_teardown(what_is_no_manifold_is_refused_by_name, setup, teardown),
-		cmocka_unit_test_setup_teardown(sharp_edges_are_found_where_there_are_any, setup, teardown),
-		cmocka_unit_test_setup_teardown(curves_are_followed_around_small_roundings, setup, teardown),
 		cmocka_unit_test_setup_teardown(as_many_as_are_wanted, setup, teardown),
 		cmocka_unit_test_setup_teardown(boundary_loops_are_not_crushed, setup, teardown),
 		cmocka_unit_test_setup_teardown(
