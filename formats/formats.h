@@ -6,7 +6,8 @@
  * position is finite, so a model that was read is a valid layer.  Text numbers
  * are read and written so that doubles survive bit for bit.  What a format
  * cannot hold is reported as a finding.
- * Layer rule: formats include base, mesh and themselves; zlib in bytes.c.
+ * Layer rule: formats include base, mesh and themselves; zlib in bytes.c, tinyobj
+ * in obj_shim.cc.
  */
 #ifndef MR_FORMATS_H
 #define MR_FORMATS_H

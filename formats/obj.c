@@ -1,11 +1,18 @@
-/* Wavefront OBJ: polygons, corners with texture coordinates and normals of their own, and what faces are
- * marked with.  Lines are counted first, so that an index can be checked at once. */
+/*
+ * Wavefront OBJ.  tinyobj reads faces, through obj_shim; this file reads v, vt and vn lines, whose numbers
+ * must be exact, and names, which may have blanks in them, and checks each face line before tinyobj sees it:
+ * tinyobj takes any word for an index and lets indices wrap.
+ */
 #include "formats/format.h"
+#include "formats/obj_shim.h"
 
 typedef struct obj {
 	mr_ctx *ctx;
 	mr_scan text; /* of the whole file */
 	mr_builder b;
+	const char *line; /* the face at hand, for errors */
+	char *face;       /* its line, as tinyobj reads it */
+	size_t face_room;
 	size_t v, vt, vn; /* lines so far */
 	size_t v_all, vt_all, vn_all, f_all;
 	double *uv;             /* vt_all pairs */
@@ -14,8 +21,9 @@ typedef struct obj {
 	size_t numbers, others; /* what is left out: of vertices and texture coordinates; statements */
 	size_t odd_texcoords;   /* that are not finite */
 	size_t no_normals, no_texcoords; /* corners that name one that is not there */
-	uint32_t *corner[3];             /* of the face at hand: vertices, texture coordinates, normals */
-	size_t room[3];
+	uint32_t *corners;               /* of the face at hand: vertices, texture coordinates, normals */
+	size_t corner_room;
+	mr_status status; /* of the first failure, after which nothing is read */
 } obj;
 
 /* ---- lines ---- */
@@ -139,46 +147,53 @@ normal(obj *o, mr_scan *line)
 
 /* ---- faces ---- */
 
-/* An index from 1, or from the last one back, of at most nine digits; *p goes behind it. */
-static bool
-read_index(const char **p, const char *end, int *index)
-{
-	bool back = *p < end && **p == '-';
-	const char *digits = *p += back;
-	int value = 0;
-
-	for (; *p < end && mr_is_digit(**p) && *p - digits < 9; ++*p)
-		value = 10 * value + (**p - '0');
-	*index = back ? -value : value;
-	return value != 0;
-}
-
-/* v, v/vt, v//vn or v/vt/vn, where an index after a slash may be left out: its end, or NULL where it is none.
- */
+/* Checks one index of at most nine digits, and not 0. */
 static const char *
-read_corner(const char *p, const char *end, int index[3])
+index_end(const char *p, const char *end)
 {
-	index[1] = index[2] = 0;
-	if (!read_index(&p, end, &index[0]))
-		return NULL;
-	for (int k = 1; k < 3 && p < end && *p == '/'; k++) {
+	const char *digits;
+	bool zero = true;
+
+	if (p < end && *p == '-')
 		p++;
-		if (p < end && *p != '/' && !mr_is_blank(*p) && !read_index(&p, end, &index[k]))
-			return NULL;
-	}
-	return p == end || mr_is_blank(*p) ? p : NULL;
+	for (digits = p; p < end && mr_is_digit(*p); p++)
+		zero &= *p == '0';
+	return p == digits || p - digits > 9 || zero ? NULL : p;
 }
 
+/* v, v/vt, v//vn or v/vt/vn; an index after a slash may be left out. */
+static const char *
+corner_end(const char *p, const char *end)
+{
+	p = index_end(p, end);
+	for (int slash = 0; slash < 2 && p && p < end && *p == '/'; slash++) {
+		p++;
+		if (p < end && *p != '/' && !mr_is_blank(*p))
+			p = index_end(p, end);
+	}
+	return p && (p == end || mr_is_blank(*p)) ? p : NULL;
+}
+
+/* Up to a comment, which tinyobj would read. */
 static mr_status
-bad_corner(mr_scan *line)
+check_face(mr_scan *line)
 {
 	char shown[MR_SHOWN];
-	const char *w;
+	mr_scan at = *line;
+	const char *w, *e;
 	size_t n;
 
-	mr_scan_word(line, &w, &n);
-	return mr_scan_fail(line, w, "'%s' is not a corner: v, v/vt, v//vn or v/vt/vn, counted from 1",
-	    mr_word_shown(w, n, shown));
+	for (at.p++; mr_skip_blanks(&at), at.p < at.end && *at.p != '#'; at.p = e) {
+		e = corner_end(at.p, at.end);
+		if (!e) {
+			mr_scan_word(&at, &w, &n);
+			return mr_scan_fail(line, w,
+			    "'%s' is not a corner: v, v/vt, v//vn or v/vt/vn, counted from 1",
+			    mr_word_shown(w, n, shown));
+		}
+	}
+	line->end = at.p;
+	return MR_OK;
 }
 
 /* The index from 0, or false where it is outside 0 .. all - 1. */
@@ -206,30 +221,42 @@ place_of(int index, size_t so_far, size_t all, size_t *odd)
 }
 
 static mr_status
-face(obj *o, mr_scan *line)
+add_face(obj *o, const mr_obj_corner *c, size_t n)
 {
 	bool uv = false, vn = false;
-	int index[3];
-	size_t n = 0;
+	uint32_t *v, *t, *s;
 
-	for (line->p++; mr_skip_blanks(line), line->p < line->end && *line->p != '#'; n++) {
-		const char *e = read_corner(line->p, line->end, index);
-		if (!e)
-			return bad_corner(line);
-		for (int k = 0; k < 3 && n == o->room[k]; k++)
-			MR_RESERVE(o->ctx, o->corner[k], n, 1, &o->room[k]);
-		if (!resolve(index[0], o->v, o->v_all, &o->corner[0][n]))
-			return mr_scan_fail(line, line->p, "vertex %d of %zu", index[0], o->v_all);
-		o->corner[1][n] = place_of(index[1], o->vt, o->vt_all, &o->no_texcoords);
-		o->corner[2][n] = place_of(index[2], o->vn, o->vn_all, &o->no_normals);
-		uv |= o->corner[1][n] != MR_NONE;
-		vn |= o->corner[2][n] != MR_NONE;
-		line->p = e;
+	MR_RESERVE(o->ctx, o->corners, 0, 3 * n, &o->corner_room);
+	v = o->corners, t = v + n, s = t + n;
+	for (size_t i = 0; i < n; i++) {
+		if (!resolve(c[i].v, o->v, o->v_all, &v[i]))
+			return mr_scan_fail(&o->text, o->line, "vertex %d of %zu", c[i].v, o->v_all);
+		t[i] = place_of(c[i].vt, o->vt, o->vt_all, &o->no_texcoords);
+		s[i] = place_of(c[i].vn, o->vn, o->vn_all, &o->no_normals);
+		uv |= t[i] != MR_NONE;
+		vn |= s[i] != MR_NONE;
 	}
-	if (n != 3 || uv || vn ||
-	    !mr_build_triangle(&o->b, o->corner[0][0], o->corner[0][1], o->corner[0][2]))
-		mr_build_face(&o->b, o->corner[0], uv ? o->corner[1] : NULL, vn ? o->corner[2] : NULL, n);
+	if (n == 3 && !uv && !vn && mr_build_triangle(&o->b, v[0], v[1], v[2]))
+		return MR_OK;
+	mr_build_face(&o->b, v, uv ? t : NULL, vn ? s : NULL, n);
 	return MR_OK;
+}
+
+/* Nothing unwinds through tinyobj. */
+static mr_status
+enter_face(obj *o, const mr_obj_corner *c, size_t n)
+{
+	MR_ENTER(o->ctx);
+	return add_face(o, c, n);
+}
+
+static void
+face_call(void *user, const mr_obj_corner *c, int n)
+{
+	obj *o = user;
+
+	if (o->status == MR_OK)
+		o->status = enter_face(o, c, (size_t)n);
 }
 
 /* ---- names ---- */
@@ -292,21 +319,43 @@ other_statement(obj *o, mr_scan *line)
 	return MR_OK;
 }
 
+/* Reads one line here; *pass where tinyobj is to see it. */
 static mr_status
-one_line(obj *o, mr_scan *line)
+one_line(obj *o, mr_scan *line, bool *pass)
 {
 	size_t left = (size_t)(line->end - line->p);
 	char c = left ? *line->p : '#', d = left > 1 ? line->p[1] : ' ';
 
+	*pass = false;
 	if (c == '#')
 		return MR_OK;
 	if (c == 'v' && mr_is_blank(d))
 		return line->p++, position(o, line);
 	if (c == 'v' && (d == 't' || d == 'n') && (left == 2 || mr_is_blank(line->p[2])))
 		return line->p += 2, d == 't' ? texcoord(o, line) : normal(o, line);
-	if (c == 'f' && mr_is_blank(d))
-		return face(o, line);
+	if (c == 'f' && mr_is_blank(d)) {
+		*pass = true;
+		return check_face(line);
+	}
 	return is_mark(o, line) ? MR_OK : other_statement(o, line);
+}
+
+/* A line for tinyobj, which knows few blanks, and takes the next corner's index behind a slash with nothing
+ * behind it. */
+static void
+hand_over(obj *o, const mr_scan *line, const char **begin, const char **end)
+{
+	size_t n = (size_t)(line->end - line->p);
+
+	MR_RESERVE(o->ctx, o->face, 0, n + 2, &o->face_room);
+	o->face[n] = ' ';
+	o->face[n + 1] = '\n';
+	for (size_t i = n; i-- > 0;) {
+		char c = line->p[i];
+		o->face[i] = mr_is_blank(c) || (c == '/' && o->face[i + 1] == ' ') ? ' ' : c;
+	}
+	*begin = o->face;
+	*end = o->face + n + 2;
 }
 
 /* The next line, without leading blanks. */
@@ -317,6 +366,39 @@ next_line(obj *o, mr_scan *line)
 		return false;
 	mr_skip_blanks(line);
 	return true;
+}
+
+static mr_status
+next_for_tinyobj(obj *o, const char **begin, const char **end)
+{
+	mr_scan line;
+	bool pass = false;
+
+	while (!pass) {
+		if (!next_line(o, &line))
+			return MR_END;
+		MR_TRY(one_line(o, &line, &pass));
+	}
+	o->line = line.p;
+	hand_over(o, &line, begin, end);
+	return MR_OK;
+}
+
+static mr_status
+enter_line(obj *o, const char **begin, const char **end)
+{
+	MR_ENTER(o->ctx);
+	return next_for_tinyobj(o, begin, end);
+}
+
+static bool
+line_call(void *user, const char **begin, const char **end)
+{
+	obj *o = user;
+
+	if (o->status == MR_OK)
+		o->status = enter_line(o, begin, end);
+	return o->status == MR_OK;
 }
 
 /* Counts the lines of each kind, so that arrays have their size and an index can be checked at once. */
@@ -407,7 +489,7 @@ mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	obj o = {
 		.ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx, .ungrouped = "default" }
 	};
-	mr_scan line;
+	mr_obj_calls calls = { line_call, face_call, &o };
 
 	unfold(&o.text);
 	count_lines(&o);
@@ -417,9 +499,9 @@ mr_obj_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	MR_TRY(mr_build_reserve(&o.b, o.f_all));
 	o.uv = MR_NEW(ctx, 2 * o.vt_all, double);
 	o.vn_values = MR_NEW(ctx, o.vn_all, mr_v3);
-	while (next_line(&o, &line))
-		MR_TRY(one_line(&o, &line));
-	return finish(&o, m);
+	if (!mr_obj_parse(&calls))
+		return mr_fail(ctx, MR_EMEM, "no memory for a line of the file");
+	return o.status < 0 ? o.status : finish(&o, m);
 }
 
 /* The first line that says something must be a statement of OBJ. */

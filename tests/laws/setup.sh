@@ -10,7 +10,7 @@ for command in sh awk cat cut grep id mktemp rm sed touch tr ldconfig; do
 done
 CC=no-such-compiler PATH=$PWD/bin bin/sh "$TOP/.ci/setup" build check >out 2>&1
 [ $? -eq 1 ] || { echo "setup does not fail without apt-get"; fail=1; }
-for package in gcc libsuitesparse-dev libcmocka-dev mandoc groff-base; do
+for package in gcc libsuitesparse-dev libtinyobjloader-dev libcmocka-dev mandoc groff-base; do
 	grep -q "^  $package " out || { echo "setup does not name $package"; fail=1; }
 done
 while read -r title fedora arch alpine homebrew; do
@@ -20,7 +20,9 @@ done <<'END'
 SuiteSparse suitesparse-devel suitesparse suitesparse-dev suite-sparse
 Jansson jansson-devel jansson jansson-dev jansson
 libpng libpng-devel libpng libpng-dev libpng
+FLANN flann-devel flann - flann
 END
+grep -q 'TINYOBJLOADER_USE_DOUBLE' out || { echo "setup does not say how to come by tinyobjloader"; fail=1; }
 [ $fail -eq 0 ] || cat out
 # No commands at all.
 PATH= /bin/sh "$TOP/.ci/setup" >out 2>&1 && { cat out; echo "setup goes well without commands"; fail=1; }
