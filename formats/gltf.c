@@ -42,6 +42,7 @@ parse(mr_gltf *g, const unsigned char *json, size_t bytes)
 	json_error_t error;
 
 	g->root = json_loadb((const char *)json, bytes, 0, &error);
+	mr_gltf_own(g->ctx, g->root);
 	if (!g->root && (json_error_code(&error) == json_error_out_of_memory || !*error.text))
 		return mr_fail(g->ctx, MR_EMEM, "no memory for %zu bytes of JSON", bytes);
 	if (!g->root)
@@ -63,8 +64,8 @@ check_version(const mr_gltf *g)
 	return MR_OK;
 }
 
-mr_status
-mr_gltf_needs(const mr_gltf *g, const char *extension)
+static mr_status
+needs(const mr_gltf *g, const char *extension)
 {
 	return mr_fail(
 	    g->ctx, MR_EFORMAT, "the file needs the extension %.60s, which is not read", extension);
@@ -84,41 +85,38 @@ check_extensions(const mr_gltf *g)
 		while (name && *h && strncmp(name, *h, strlen(*h)))
 			h++;
 		if (!name || !*h)
-			return mr_gltf_needs(g, name ? name : "without a name");
+			return needs(g, name ? name : "without a name");
 	}
 	return MR_OK;
 }
 
-static mr_status
-open_document(mr_gltf *g, const unsigned char *data, size_t size)
+static void
+drop_json(void *json)
 {
-	const unsigned char *json = data;
-	size_t bytes = size;
+	json_decref(json);
+}
 
-	if (size >= 4 && mr_load32(data, false) == MR_GLTF_MAGIC)
-		MR_TRY(open_chunks(g, data, size, &json, &bytes));
-	MR_TRY(parse(g, json, bytes));
-	MR_TRY(check_version(g));
-	return check_extensions(g);
+void
+mr_gltf_own(mr_ctx *ctx, json_t *json)
+{
+	if (json)
+		mr_own(ctx, drop_json, json);
 }
 
 mr_status
 mr_gltf_open(mr_ctx *ctx, const unsigned char *data, size_t size, mr_gltf *g)
 {
-	mr_gltf made = { .ctx = ctx };
-	mr_status status = open_document(&made, data, size);
+	const unsigned char *json = data;
+	size_t bytes = size;
 
-	if (status < 0)
-		mr_gltf_free(&made);
-	else
-		*g = made;
-	return status;
-}
-
-void
-mr_gltf_free(mr_gltf *g)
-{
-	json_decref(g->root);
+	*g = (mr_gltf){ .ctx = ctx };
+	if (size >= 4 && mr_load32(data, false) == MR_GLTF_MAGIC)
+		MR_TRY(open_chunks(g, data, size, &json, &bytes));
+	MR_TRY(parse(g, json, bytes));
+	MR_TRY(check_version(g));
+	MR_TRY(check_extensions(g));
+	g->buffer = MR_NEW_ZERO(ctx, mr_gltf_size(g, "buffers"), mr_gltf_buffer);
+	return MR_OK;
 }
 
 /* ---- values of the document ---- */
@@ -251,7 +249,7 @@ find_buffer(mr_gltf *g, size_t number, mr_gltf_buffer *b)
 	if (text)
 		return decode64(g, number, data + strlen(";base64,"), b);
 	if (json_object_size(extensions))
-		return mr_gltf_needs(g, json_object_iter_key(json_object_iter(extensions)));
+		return needs(g, json_object_iter_key(json_object_iter(extensions)));
 	if (number > 0 || !g->bin)
 		return mr_fail(g->ctx, MR_EFORMAT, "buffer %zu is not in the file", number);
 	*b = (mr_gltf_buffer){ g->bin, g->bin_bytes };

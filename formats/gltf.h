@@ -39,11 +39,11 @@ typedef struct mr_gltf {
 	mr_gltf_buffer *buffer; /* as many as the document has */
 } mr_gltf;
 
-/* Parses the file, a GLB or JSON, which must stay.  Free with mr_gltf_free. */
+/* Parses the file, a GLB or JSON, which must stay. */
 mr_status mr_gltf_open(mr_ctx *ctx, const unsigned char *data, size_t size, mr_gltf *g) MR_WARN_UNUSED;
 
-/* Accepts a zeroed one. */
-void mr_gltf_free(mr_gltf *g);
+/* Leaves it to the arena to drop the JSON; NULL is nothing. */
+void mr_gltf_own(mr_ctx *ctx, json_t *json);
 
 /* How many things the document has in an array of its root: "nodes". */
 size_t mr_gltf_size(const mr_gltf *g, const char *array);
@@ -64,29 +64,8 @@ mr_status mr_gltf_index(
 mr_status mr_gltf_numbers(const mr_gltf *g, const json_t *object, const char *key, size_t count, double *x,
     bool *there) MR_WARN_UNUSED;
 
-/* Refuses what only an extension can read. */
-mr_status mr_gltf_needs(const mr_gltf *g, const char *extension) MR_WARN_UNUSED;
-
 /* The name of a thing; NULL where it has none, or an empty one. */
 const char *mr_gltf_name(const json_t *thing);
-
-/* A mesh where a node puts it. */
-typedef struct mr_gltf_instance {
-	size_t mesh;
-	mr_affine map;
-	const char *name; /* of the node, or else of the mesh; NULL: none.  The document's */
-} mr_gltf_instance;
-
-typedef struct mr_gltf_scene {
-	mr_gltf_instance *instance;
-	size_t count;
-	size_t unseen;  /* nodes with a mesh that the scene does not show */
-	size_t several; /* nodes whose mesh EXT_mesh_gpu_instancing shows several times */
-} mr_gltf_scene;
-
-/* The meshes of the scene that is to be shown, or, where there is no scene and no node, all meshes as they
- * are. */
-mr_status mr_gltf_scene_find(const mr_gltf *g, mr_gltf_scene *s) MR_WARN_UNUSED;
 
 /* Values in a buffer. */
 typedef struct mr_accessor {

@@ -14,7 +14,7 @@ typedef struct glb {
 	mr_sink *s;
 	mr_ctx *ctx;
 	const mr_scene *scene;
-	json_t *nodes, *meshes, *views, *accessors, *materials, *images, *textures, *samplers, *channels;
+	json_t *root, *samplers, *channels; /* of the animation */
 	bool failed;
 	unsigned char *bin; /* the second chunk */
 	size_t bytes, room;
@@ -143,14 +143,34 @@ vertices_find(mr_ctx *ctx, const mr_model *m, vertices *v)
 
 /* ---- pieces of JSON and bytes ---- */
 
+static json_t *
+owned(glb *w, json_t *json)
+{
+	mr_gltf_own(w->ctx, json);
+	return json;
+}
+
 /* Appends to an array; its number there. */
 static size_t
-push(glb *w, json_t *array, json_t *thing)
+append(glb *w, json_t *array, json_t *thing)
 {
 	size_t n = json_array_size(array);
 
 	w->failed |= json_array_append_new(array, thing) != 0;
 	return n;
+}
+
+/* Appends to an array of the root, which comes with its first thing: the format forbids empty ones. */
+static size_t
+push(glb *w, const char *array, json_t *thing)
+{
+	json_t *list = json_object_get(w->root, array);
+
+	if (!list) {
+		list = json_array();
+		w->failed |= json_object_set_new(w->root, array, list) != 0;
+	}
+	return append(w, list, thing);
 }
 
 static json_int_t
@@ -179,7 +199,7 @@ new_view(glb *w, size_t bytes, size_t target, size_t *view, char **to)
 {
 	size_t padded = (bytes + 3) / 4 * 4;
 
-	*view = push(w, w->views,
+	*view = push(w, "bufferViews",
 	    json_pack("{s:i, s:I, s:I, s:o*}", "buffer", 0, "byteOffset", number(w->bytes), "byteLength",
 		number(bytes), "target", index_of(target)));
 	MR_RESERVE(w->ctx, w->bin, w->bytes, padded, &w->room);
@@ -196,7 +216,7 @@ new_values(glb *w, size_t count, size_t size, size_t target, size_t kind, const 
 	size_t view = 0;
 
 	new_view(w, size * count, target, &view, to);
-	*accessor = push(w, w->accessors,
+	*accessor = push(w, "accessors",
 	    json_pack("{s:I, s:I, s:I, s:s}", "bufferView", number(view), "componentType", number(kind),
 		"count", number(count), "type", type));
 }
@@ -205,7 +225,7 @@ new_values(glb *w, size_t count, size_t size, size_t target, size_t kind, const 
 static void
 set_bounds(glb *w, size_t accessor, json_t *min, json_t *max)
 {
-	json_t *json = json_array_get(w->accessors, accessor);
+	json_t *json = json_array_get(json_object_get(w->root, "accessors"), accessor);
 
 	w->failed |= json_object_set_new(json, "min", min) || json_object_set_new(json, "max", max);
 }
@@ -237,10 +257,10 @@ put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 	MR_ENTER(w->ctx);
 	new_view(w, b->size, MR_UNKNOWN, &view, &to);
 	memcpy(to, b->data, b->size);
-	image = push(w, w->images,
+	image = push(w, "images",
 	    json_pack("{s:I, s:s, s:s}", "bufferView", number(view), "mimeType", image_type(b), "name",
 		slash ? slash + 1 : file));
-	*texture = push(w, w->textures, json_pack("{s:I}", "source", number(image)));
+	*texture = push(w, "textures", json_pack("{s:I}", "source", number(image)));
 	return MR_OK;
 }
 
@@ -248,7 +268,7 @@ put_image(glb *w, const char *file, const mr_file_bytes *b, size_t *texture)
 static mr_status
 embed(glb *w, const char *file, size_t *texture)
 {
-	size_t known = json_array_size(w->textures);
+	size_t known = json_array_size(json_object_get(w->root, "textures"));
 	mr_file_bytes b = { 0 };
 	mr_status status = MR_OK;
 
@@ -311,7 +331,7 @@ put_materials(glb *w, layer *l)
 		MR_TRY(embed(w, look[i].file, &texture));
 		MR_TRY(embed(w, look[i].normals, &normals));
 		l->materials[i] = push(
-		    w, w->materials, new_material(&look[i], name[i], bytes, texture, normals));
+		    w, "materials", new_material(&look[i], name[i], bytes, texture, normals));
 	}
 	return MR_OK;
 }
@@ -324,7 +344,7 @@ material_of(glb *w, const layer *l, size_t f)
 		return l->materials[l->material.of[f]];
 	if (w->unnamed == MR_UNKNOWN)
 		w->unnamed = push(
-		    w, w->materials, new_material(&mr_material_plain, NULL, 0, MR_UNKNOWN, MR_UNKNOWN));
+		    w, "materials", new_material(&mr_material_plain, NULL, 0, MR_UNKNOWN, MR_UNKNOWN));
 	return w->unnamed;
 }
 
@@ -435,8 +455,8 @@ put_colors(glb *w, const mr_model *m, const vertices *v, size_t *accessor)
 		*to++ = (char)(x & 255);
 		*to++ = (char)(x >> 8);
 	}
-	w->failed |= json_object_set_new(
-			 json_array_get(w->accessors, *accessor), "normalized", json_true()) != 0;
+	w->failed |= json_object_set_new(json_array_get(json_object_get(w->root, "accessors"), *accessor),
+			 "normalized", json_true()) != 0;
 }
 
 /* Points have normals where all of them have some. */
@@ -486,7 +506,7 @@ put_weights(glb *w, size_t targets, size_t *sampler)
 	for (size_t i = 0; i < frames; i++)
 		for (size_t k = 0; k < targets; k++)
 			to = mr_store_float(to, i == k + 1 ? 1 : 0);
-	*sampler = push(
+	*sampler = append(
 	    w, w->samplers, json_pack("{s:I, s:I}", "input", number(input), "output", number(output)));
 }
 
@@ -504,7 +524,7 @@ put_poses(glb *w, layer *l)
 		put_positions(w, node->target[i].p, node->model.p, &l->v, &position);
 		if (turned)
 			put_normals(w, &node->model, &node->target[i], &l->v, &normal);
-		push(w, l->targets,
+		append(w, l->targets,
 		    json_pack("{s:I, s:o*}", "POSITION", number(position), "NORMAL", index_of(normal)));
 	}
 	if (node->targets)
@@ -540,7 +560,7 @@ put_primitive(glb *w, const layer *l, size_t first, size_t last, json_t *primiti
 			to = mr_store32(to, l->v.index[c]);
 			texcoords |= has_texcoord(mr_corner_texcoord(&l->node->model, c));
 		}
-	push(w, primitives,
+	append(w, primitives,
 	    new_primitive(l, texcoords, accessor, material_of(w, l, l->face[first]), MR_UNKNOWN));
 }
 
@@ -549,11 +569,11 @@ static void
 put_node(glb *w, const layer *l, const char *name, json_t *primitives)
 {
 	const char *own = *name ? name : NULL;
-	size_t mesh = push(w, w->meshes, json_pack("{s:o, s:s*}", "primitives", primitives, "name", own));
-	size_t node = push(w, w->nodes, json_pack("{s:I, s:s*}", "mesh", number(mesh), "name", own));
+	size_t mesh = push(w, "meshes", json_pack("{s:o, s:s*}", "primitives", primitives, "name", own));
+	size_t node = push(w, "nodes", json_pack("{s:I, s:s*}", "mesh", number(mesh), "name", own));
 
 	if (l->node->targets)
-		push(w, w->channels,
+		append(w, w->channels,
 		    json_pack("{s:I, s:{s:I, s:s}}", "sampler", number(l->sampler), "target", "node",
 			number(node), "path", "weights"));
 }
@@ -648,36 +668,20 @@ node_name(mr_ctx *ctx, const mr_scene *scene, const mr_scene_node *n)
 	    ctx, "%s%s%s", frames ? n->frame : "", frames && layers ? ": " : "", layers ? n->layer : "");
 }
 
-static mr_status
-put_scene(glb *w)
-{
-	for (size_t i = 0; i < w->scene->nodes; i++) {
-		layer l = { .node = &w->scene->node[i],
-			.name = node_name(w->ctx, w->scene, &w->scene->node[i]),
-			.targets = json_array() };
-		mr_status status = put_layer(w, &l);
-		json_decref(l.targets);
-		MR_TRY(status);
-	}
-	return MR_OK;
-}
-
 /* All nodes stand beside each other in one scene. */
-static json_t *
-new_root(glb *w)
+static void
+end_root(glb *w)
 {
-	json_t *list = json_array(), *animations = NULL;
+	size_t nodes = json_array_size(json_object_get(w->root, "nodes"));
+	json_t *list = json_array();
 
-	for (size_t i = 0; i < json_array_size(w->nodes); i++)
-		push(w, list, json_integer(number(i)));
+	for (size_t i = 0; i < nodes; i++)
+		append(w, list, json_integer(number(i)));
+	push(w, "scenes", json_pack("{s:o}", "nodes", list));
+	push(w, "buffers", json_pack("{s:I}", "byteLength", number(w->bytes)));
 	if (json_array_size(w->channels))
-		animations = json_pack("[{s:O, s:O}]", "samplers", w->samplers, "channels", w->channels);
-	return json_pack(
-	    "{s:{s:s, s:s}, s:i, s:[{s:o}], s:[{s:I}], s:o*, s:o*, s:o*, s:o*, s:o*, s:o*, s:o*, s:o*}",
-	    "asset", "version", "2.0", "generator", "mr " MR_VERSION, "scene", 0, "scenes", "nodes", list,
-	    "buffers", "byteLength", number(w->bytes), "animations", animations, "nodes", filled(w->nodes),
-	    "meshes", filled(w->meshes), "materials", filled(w->materials), "textures", filled(w->textures),
-	    "images", filled(w->images), "accessors", filled(w->accessors), "bufferViews", filled(w->views));
+		push(w, "animations",
+		    json_pack("{s:O, s:O}", "samplers", w->samplers, "channels", w->channels));
 }
 
 static void
@@ -715,36 +719,27 @@ add_text(const char *s, size_t n, void *text)
 }
 
 /* Into a text of ours: json_dumps leaves out a key for which it has no memory, and says that all is well. */
-static mr_status
-put_document(glb *w)
-{
-	mr_text json = { .ctx = w->ctx };
-	json_t *root;
-
-	MR_ENTER(w->ctx);
-	MR_TRY(put_scene(w));
-	root = new_root(w);
-	w->failed |= json_dump_callback(root, add_text, &json, JSON_COMPACT) != 0;
-	json_decref(root);
-	if (w->failed)
-		return mr_fail(w->ctx, MR_EMEM, "no memory for the JSON of a glb");
-	return put_chunks(w, json.s);
-}
-
 mr_status
 mr_glb_write_scene(mr_sink *s, const mr_scene *scene)
 {
 	glb w = { .s = s, .ctx = s->ctx, .scene = scene, .unnamed = MR_UNKNOWN };
-	json_t **const lists[] = { &w.nodes, &w.meshes, &w.views, &w.accessors, &w.materials, &w.images,
-		&w.textures, &w.samplers, &w.channels };
-	mr_status status;
+	mr_text json = { .ctx = w.ctx };
 
-	for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-		*lists[i] = json_array();
-	status = put_document(&w);
-	for (size_t i = 0; i < sizeof lists / sizeof *lists; i++)
-		json_decref(*lists[i]);
-	return status;
+	w.root = owned(&w, json_pack("{s:{s:s, s:s}, s:i}", "asset", "version", "2.0", "generator",
+			       "mr " MR_VERSION, "scene", 0));
+	w.samplers = owned(&w, json_array());
+	w.channels = owned(&w, json_array());
+	for (size_t i = 0; i < scene->nodes; i++) {
+		layer l = { .node = &scene->node[i],
+			.name = node_name(w.ctx, scene, &scene->node[i]),
+			.targets = owned(&w, json_array()) };
+		MR_TRY(put_layer(&w, &l));
+	}
+	end_root(&w);
+	w.failed |= json_dump_callback(w.root, add_text, &json, JSON_COMPACT) != 0;
+	if (w.failed)
+		return mr_fail(w.ctx, MR_EMEM, "no memory for the JSON of a glb");
+	return put_chunks(&w, json.s);
 }
 
 mr_status

@@ -3,7 +3,280 @@
  * any type in any order, lists, triangle strips.  Numbers of vertices and faces that are nothing to us are
  * kept under their names; other lists and elements are passed over.
  */
-#include "formats/ply.h"
+#include "formats/format.h"
+
+typedef enum type { CHAR, UCHAR, SHORT, USHORT, INT, UINT, FLOAT, DOUBLE, TYPES } type;
+
+typedef struct type_name {
+	const char *name, *alias;
+	unsigned char bytes;
+	char kind; /* as of mr_load_number */
+} type_name;
+
+/* What a property of faces is to us. */
+typedef enum role { NONE, INDICES, UVS } role;
+
+typedef struct property {
+	bool list;
+	type count, value; /* of a list: of its length and of its items */
+	role role;
+	const char *name;
+	size_t kept; /* of a face's: its number from 1 among the properties of the builder; 0: none of them */
+} property;
+
+typedef enum kind { OTHER, VERTEX, FACE, STRIPS } kind;
+
+typedef struct element {
+	kind kind;
+	char name[MR_SHOWN];
+	uint64_t rows;
+	property *property;
+	size_t properties, room;
+} element;
+
+/* Values of a list that each corner of a face has some of. */
+typedef struct corner_list {
+	double *value; /* of all faces */
+	size_t count, room;
+	size_t had;      /* the count before the face at hand */
+	size_t odd;      /* faces with as many as make no sense */
+	uint32_t *place; /* of the corners at hand */
+	size_t place_room;
+} corner_list;
+
+typedef struct ply {
+	mr_ctx *ctx;
+	mr_scan text; /* the header, then the rows */
+	bool binary, big;
+	element *element;
+	size_t elements, room;
+	mr_builder b;
+	uint32_t *indices; /* of the list at hand */
+	size_t indices_count, indices_room;
+	corner_list uv;
+	double *row; /* of the row at hand, value by value */
+	size_t row_room;
+	mr_rows rows;    /* of vertices */
+	bool vertices;   /* are read */
+	size_t textures; /* that are left out */
+} ply;
+
+/* The property of a role, or NULL. */
+static inline const property *
+find(const element *e, role r)
+{
+	for (size_t i = 0; i < e->properties; i++)
+		if (e->property[i].role == r)
+			return &e->property[i];
+	return NULL;
+}
+
+static inline bool
+has(const element *e, role r)
+{
+	return find(e, r);
+}
+
+/* ---- the header ---- */
+
+static const type_name types[TYPES] = { { "char", "int8", 1, 'I' }, { "uchar", "uint8", 1, 'U' },
+	{ "short", "int16", 2, 'I' }, { "ushort", "uint16", 2, 'U' }, { "int", "int32", 4, 'I' },
+	{ "uint", "uint32", 4, 'U' }, { "float", "float32", 4, 'F' }, { "double", "float64", 8, 'F' } };
+
+static bool
+is_word(const char *w, size_t n, const char *word)
+{
+	return n == strlen(word) && !memcmp(w, word, n);
+}
+
+static mr_status
+header_type(ply *f, mr_scan *line, type *t)
+{
+	char shown[MR_SHOWN];
+	const char *w;
+	size_t n;
+
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "a property lacks its type");
+	for (*t = 0; *t < TYPES; ++*t)
+		if (is_word(w, n, types[*t].name) || is_word(w, n, types[*t].alias))
+			return MR_OK;
+	return mr_scan_fail(&f->text, w, "'%s' is no type of PLY", mr_word_shown(w, n, shown));
+}
+
+static role
+role_of(kind k, bool list, const char *w, size_t n)
+{
+	static const struct {
+		bool list;
+		role role;
+		const char *name;
+	} roles[] = { { true, INDICES, "vertex_indices" }, { true, INDICES, "vertex_index" },
+		{ true, UVS, "texcoord" } };
+
+	for (size_t i = 0; i < sizeof roles / sizeof *roles; i++)
+		if (roles[i].list == list && is_word(w, n, roles[i].name) &&
+		    (k == FACE || (k == STRIPS && i < 2)))
+			return roles[i].role;
+	return NONE;
+}
+
+static mr_status
+header_property(ply *f, mr_scan *line)
+{
+	element *e = f->elements ? &f->element[f->elements - 1] : NULL;
+	property p = { 0 };
+	const char *w;
+	size_t n;
+
+	if (!e)
+		return mr_scan_fail(&f->text, line->p, "a property before any element");
+	p.list = mr_scan_accept(line, "list");
+	if (p.list) {
+		MR_TRY(header_type(f, line, &p.count));
+		if (p.count >= FLOAT)
+			return mr_scan_fail(&f->text, line->p, "the length of a list is not of a whole type");
+	}
+	MR_TRY(header_type(f, line, &p.value));
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "a property lacks its name");
+	p.role = role_of(e->kind, p.list, w, n);
+	p.name = mr_clean_copy(f->ctx, w, n);
+	for (size_t i = 0; i < e->properties && p.role != NONE; i++)
+		if (e->property[i].role == p.role)
+			p.role = NONE; /* the first of a name counts: "s" and "u" may both be there */
+	if (p.role == INDICES && p.value >= FLOAT)
+		return mr_scan_fail(&f->text, w, "indices are not of a whole type");
+	MR_RESERVE(f->ctx, e->property, e->properties, 1, &e->room);
+	e->property[e->properties++] = p;
+	return MR_OK;
+}
+
+static mr_status
+header_element(ply *f, mr_scan *line)
+{
+	element e = { 0 };
+	const char *w;
+	size_t n;
+
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "an element lacks its name");
+	mr_word_shown(w, n, e.name);
+	MR_TRY(mr_scan_count(line, "the number of an element", UINT64_MAX / 16, &e.rows));
+	e.kind = is_word(w, n, "vertex")      ? VERTEX
+	         : is_word(w, n, "face")      ? FACE
+	         : is_word(w, n, "tristrips") ? STRIPS
+	                                      : OTHER;
+	for (size_t i = 0; i < f->elements; i++)
+		if (e.kind != OTHER && f->element[i].kind == e.kind)
+			return mr_scan_fail(&f->text, w, "element %s is there twice", e.name);
+	MR_RESERVE(f->ctx, f->element, f->elements, 1, &f->room);
+	f->element[f->elements++] = e;
+	return MR_OK;
+}
+
+static mr_status
+header_format(ply *f, mr_scan *line, bool *seen)
+{
+	char shown[MR_SHOWN];
+	const char *w;
+	size_t n;
+
+	if (!mr_scan_word(line, &w, &n))
+		return mr_scan_fail(&f->text, line->p, "the format lacks its name");
+	f->binary = !is_word(w, n, "ascii");
+	f->big = is_word(w, n, "binary_big_endian");
+	if (f->binary && !f->big && !is_word(w, n, "binary_little_endian"))
+		return mr_scan_fail(&f->text, w, "'%s' is no format of PLY", mr_word_shown(w, n, shown));
+	if (!mr_scan_accept(line, "1.0"))
+		return mr_scan_fail(&f->text, line->p, "the format's version is not 1.0");
+	*seen = true;
+	return MR_OK;
+}
+
+/* ---- which properties are kept, and as what ---- */
+
+/* What is full of a colour: bytes and 16 bits without sign say it. */
+static double
+full_of(const element *e, const mr_rows *r, mr_role of)
+{
+	type t = r->at[of] ? e->property[r->at[of] - 1].value : DOUBLE;
+
+	return t <= UCHAR ? 255 : t == USHORT ? 65535 : 0;
+}
+
+/* Of vertices all are columns of rows; of faces, those that are nothing else. */
+static void
+choose_vertex_properties(ply *f, const element *e)
+{
+	for (size_t i = 0; i < e->properties; i++) {
+		const property *p = &e->property[i];
+		mr_rows_add(&f->rows, p->list ? MR_NO_ROLE : mr_role_of(p->name, strlen(p->name)), p->name,
+		    strlen(p->name), p->list ? NULL : types[p->value].name);
+	}
+	f->rows.shades[0].full = full_of(e, &f->rows, MR_RED);
+	f->rows.shades[1].full = full_of(e, &f->rows, MR_ALPHA);
+	mr_rows_begin(&f->rows);
+}
+
+static void
+choose_face_properties(ply *f, element *e)
+{
+	for (size_t i = 0; i < e->properties; i++) {
+		property *p = &e->property[i];
+		if (p->role == NONE && !p->list)
+			mr_build_property(&f->b, p->name, types[p->value].name, 'f', &p->kept);
+	}
+}
+
+/* Those of vertices come first, whatever the order of the elements. */
+static void
+choose_properties(ply *f)
+{
+	for (size_t i = 0; i < f->elements; i++)
+		if (f->element[i].kind == VERTEX)
+			choose_vertex_properties(f, &f->element[i]);
+	for (size_t i = 0; i < f->elements; i++)
+		if (f->element[i].kind == FACE)
+			choose_face_properties(f, &f->element[i]);
+}
+
+static mr_status
+read_header(ply *f)
+{
+	char shown[MR_SHOWN];
+	bool format = false, first = true;
+	mr_scan line;
+	const char *w;
+	size_t n;
+
+	while (mr_scan_line(&f->text, &line)) {
+		if (mr_scan_accept(&line, "end_header")) {
+			if (!format)
+				return mr_scan_fail(&f->text, line.p, "the header lacks its format");
+			f->text.binary = f->binary;
+			choose_properties(f);
+			return MR_OK;
+		}
+		if (first && !mr_scan_accept(&line, "ply"))
+			return mr_scan_fail(&f->text, line.p, "the file does not begin with 'ply'");
+		if (!first && mr_scan_accept(&line, "format"))
+			MR_TRY(header_format(f, &line, &format));
+		else if (mr_scan_accept(&line, "element"))
+			MR_TRY(header_element(f, &line));
+		else if (mr_scan_accept(&line, "property"))
+			MR_TRY(header_property(f, &line));
+		else if (mr_scan_accept(&line, "comment"))
+			f->textures += mr_scan_accept(&line, "TextureFile");
+		else if (!mr_scan_accept(&line, "obj_info") && f->elements > 0 && mr_scan_word(&line, &w, &n))
+			return mr_scan_fail(
+			    &f->text, w, "'%s' begins no line of a PLY header", mr_word_shown(w, n, shown));
+		first = false;
+	}
+	return mr_scan_fail(&f->text, f->text.end, "the header has no end_header");
+}
+
+/* ---- values ---- */
 
 static size_t
 bytes_left(const ply *f)
@@ -20,17 +293,14 @@ here(ply *f)
 	return f->text.p;
 }
 
-/* ---- values ---- */
-
 /* The next value; in a binary file its bytes are known to be there. */
 static mr_status
 next_value(ply *f, type t, double *x)
 {
 	if (!f->text.binary)
 		return mr_scan_real(&f->text, "a value", x); /* all its digits, even of a float */
-	*x = mr_load_number(
-	    (const unsigned char *)f->text.p, mr_ply_types[t].kind, mr_ply_types[t].bytes, f->big);
-	f->text.p += mr_ply_types[t].bytes;
+	*x = mr_load_number((const unsigned char *)f->text.p, types[t].kind, types[t].bytes, f->big);
+	f->text.p += types[t].bytes;
 	return MR_OK;
 }
 
@@ -40,9 +310,9 @@ next_length(ply *f, const property *p, size_t *n)
 {
 	const char *where = here(f);
 	double x = 0;
-	size_t left, each = !f->text.binary ? 2 : mr_ply_types[p->value].bytes;
+	size_t left, each = !f->text.binary ? 2 : types[p->value].bytes;
 
-	if (f->text.binary && bytes_left(f) < mr_ply_types[p->count].bytes)
+	if (f->text.binary && bytes_left(f) < types[p->count].bytes)
 		return mr_scan_fail(&f->text, f->text.end, "the file ends before the length of a list");
 	MR_TRY(next_value(f, p->count, &x));
 	left = bytes_left(f) + !f->text.binary;
@@ -63,8 +333,7 @@ row_bytes(const element *e, bool ascii)
 	for (size_t i = 0; i < e->properties; i++)
 		bytes += ascii
 		             ? 2
-		             : mr_ply_types[e->property[i].list ? e->property[i].count : e->property[i].value]
-		                   .bytes;
+		             : types[e->property[i].list ? e->property[i].count : e->property[i].value].bytes;
 	return bytes;
 }
 
@@ -91,7 +360,7 @@ pass_list(ply *f, const property *p)
 
 	MR_TRY(next_length(f, p, &n));
 	if (f->text.binary) {
-		f->text.p += n * mr_ply_types[p->value].bytes;
+		f->text.p += n * types[p->value].bytes;
 		return MR_OK;
 	}
 	while (n-- > 0)
@@ -105,7 +374,7 @@ pass_list(ply *f, const property *p)
 static mr_status
 read_indices(ply *f, const property *p, bool strips)
 {
-	size_t n = 0, size = mr_ply_types[p->value].bytes;
+	size_t n = 0, size = types[p->value].bytes;
 
 	MR_TRY(next_length(f, p, &n));
 	MR_RESERVE(f->ctx, f->indices, 0, n, &f->indices_room);
@@ -228,7 +497,7 @@ read_value(ply *f, const element *e, uint64_t row, size_t i)
 		return read_corners(f, p, &f->uv);
 	if (p->list)
 		return pass_list(f, p);
-	if (f->text.binary && bytes_left(f) < mr_ply_types[p->value].bytes)
+	if (f->text.binary && bytes_left(f) < types[p->value].bytes)
 		return mr_scan_fail(&f->text, f->text.end, "the file ends in row %llu of %llu of element %s",
 		    (unsigned long long)row + 1, (unsigned long long)e->rows, e->name);
 	return next_value(f, p->value, &f->row[i]);
@@ -326,7 +595,7 @@ mr_ply_read(mr_ctx *ctx, const unsigned char *data, size_t size, mr_model *m)
 	ply f = { .ctx = ctx, .text = mr_scan_of(ctx, data, size), .b = { .ctx = ctx } };
 
 	f.rows.b = &f.b;
-	MR_TRY(mr_ply_header(&f));
+	MR_TRY(read_header(&f));
 	for (size_t i = 0; i < f.elements; i++)
 		MR_TRY(read_element(&f, &f.element[i]));
 	if (!f.vertices)
