@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "base/vectors.h"
 
-enum { GRAIN = 1024, AREA = 9 };
+enum { GRAIN = 1024, AREA = 9, LANES = 8 };
 
 typedef struct turning {
 	const mr_mesh *rest, *now;
@@ -18,46 +18,69 @@ typedef struct turning {
 	double unit; /* of areas */
 } turning;
 
-/* d += y x^T */
-static MR_INLINED void
-add_product(double d[9], mr_v3 y, mr_v3 x)
-{
-	const double row[3] = { y.x, y.y, y.z };
+/* Some faces side by side: the coordinates of their corners at rest and now, and their turns. */
+typedef struct lanes {
+	double x[9][LANES], y[9][LANES], out[10][LANES];
+} lanes;
 
-	for (int i = 0; i < 3; i++) {
-		d[3 * i] += row[i] * x.x;
-		d[3 * i + 1] += row[i] * x.y;
-		d[3 * i + 2] += row[i] * x.z;
-	}
+static MR_INLINED mr_v3
+side(double p[9][LANES], int corner, int lane)
+{
+	double(*q)[LANES] = p + 3 * corner;
+
+	return mr_vec(q[0][lane] - p[0][lane], q[1][lane] - p[1][lane], q[2][lane] - p[2][lane]);
 }
 
-/* A (F - 1), and A. */
-static MR_INLINED mr_turn
-turn_of_face(const mr_mesh *rest, const mr_mesh *now, const uint32_t v[3], double unit)
+static MR_INLINED void
+put_row(lanes *f, int lane, int row, mr_v3 sum)
 {
-	mr_v3 x1 = mr_sub(rest->p[v[1]], rest->p[v[0]]), x2 = mr_sub(rest->p[v[2]], rest->p[v[0]]);
-	mr_v3 y1 = mr_sub(now->p[v[1]], now->p[v[0]]), y2 = mr_sub(now->p[v[2]], now->p[v[0]]);
-	mr_v3 n = mr_cross(x1, x2), m = mr_cross(y1, y2), scaled;
-	double area = mr_norm(n);
-	mr_turn t = { { 0 } };
+	f->out[3 * row][lane] = sum.x;
+	f->out[3 * row + 1][lane] = sum.y;
+	f->out[3 * row + 2][lane] = sum.z;
+}
 
-	if (!(area > 0))
-		return t;
-	scaled = mr_mul(unit / area, n);
-	add_product(t.sum, mr_sub(y1, x1), mr_cross(x2, scaled));
-	add_product(t.sum, mr_sub(y2, x2), mr_cross(scaled, x1));
-	add_product(t.sum, mr_sub(m, n), scaled);
-	t.sum[AREA] = unit * area;
-	return t;
+/* A (F - 1), and A; 0 of a face without area. */
+static MR_INLINED void
+turn_lanes(lanes *f, double unit)
+{
+	for (int i = 0; i < LANES; i++) {
+		mr_v3 x1 = side(f->x, 1, i), x2 = side(f->x, 2, i), y1 = side(f->y, 1, i),
+		      y2 = side(f->y, 2, i);
+		mr_v3 n = mr_cross(x1, x2), m = mr_cross(y1, y2), b1 = mr_sub(y1, x1), b2 = mr_sub(y2, x2);
+		double area = mr_norm(n);
+		mr_v3 scaled = mr_mul(area > 0 ? unit / area : 0, n), b3 = mr_sub(m, n);
+		mr_v3 a1 = mr_cross(x2, scaled), a2 = mr_cross(scaled, x1);
+		put_row(f, i, 0, mr_axpy(b3.x, scaled, mr_axpy(b2.x, a2, mr_mul(b1.x, a1))));
+		put_row(f, i, 1, mr_axpy(b3.y, scaled, mr_axpy(b2.y, a2, mr_mul(b1.y, a1))));
+		put_row(f, i, 2, mr_axpy(b3.z, scaled, mr_axpy(b2.z, a2, mr_mul(b1.z, a1))));
+		f->out[AREA][i] = unit * area;
+	}
 }
 
 MR_VECTORS static void
 faces_from_places(void *arg, size_t begin, size_t end)
 {
 	const turning *t = arg;
+	lanes s;
 
-	for (size_t f = begin; f < end; f++)
-		t->to[f] = turn_of_face(t->rest, t->now, t->rest->t[f].v, t->unit);
+	for (size_t first = begin; first < end; first += LANES) {
+		for (size_t i = 0; i < LANES; i++) {
+			const uint32_t *v = t->rest->t[first + i < end ? first + i : first].v;
+			for (int k = 0; k < 3; k++) {
+				mr_v3 x = t->rest->p[v[k]], y = t->now->p[v[k]];
+				s.x[3 * k][i] = x.x;
+				s.x[3 * k + 1][i] = x.y;
+				s.x[3 * k + 2][i] = x.z;
+				s.y[3 * k][i] = y.x;
+				s.y[3 * k + 1][i] = y.y;
+				s.y[3 * k + 2][i] = y.z;
+			}
+		}
+		turn_lanes(&s, t->unit);
+		for (size_t i = 0; i < LANES && first + i < end; i++)
+			for (int k = 0; k < 10; k++)
+				t->to[first + i].sum[k] = s.out[k][i];
+	}
 }
 
 static MR_INLINED void
@@ -130,8 +153,10 @@ gradient_of(const mr_turn *t, double f)
 {
 	mr_mat3 m = { { f, 0, 0, 0, f, 0, 0, 0, f } };
 
-	for (int i = 0; i < 9 && t->sum[AREA] > 0; i++)
-		m.m[i] += f * t->sum[i] / t->sum[AREA];
+	double share = t->sum[AREA] > 0 ? f / t->sum[AREA] : 0;
+
+	for (int i = 0; i < 9; i++)
+		m.m[i] += share * t->sum[i];
 	return m;
 }
 
