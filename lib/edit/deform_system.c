@@ -2,7 +2,6 @@
  * true areas, and posing by displacement, are ours. */
 #include "edit/deform_system.h"
 
-#include "edit/multigrid_levels.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
 

@@ -9,8 +9,35 @@
 #ifndef MR_EDIT_DEFORM_SYSTEM_H
 #define MR_EDIT_DEFORM_SYSTEM_H
 
-#include "edit/deform_opts.h"
-#include "edit/k_ring.h"
+#include "edit/deform.h"
+
+/*
+ * The part of a mesh that a local problem sees: chosen vertices and k rings around them.  A patch is a mesh
+ * of its own, numbered ring by ring, so what an operator that reaches r rings needs is always a prefix.  In
+ * the arena.
+ */
+enum { MR_PATCH_RINGS = 3 };
+
+/* The faces of the patch are those with a corner in ring `rings` - 1 or nearer. */
+typedef struct mr_patch {
+	mr_mesh mesh;
+	uint32_t *vertex; /* the patch's numbers to the mesh's; ascending in each ring */
+	size_t own;       /* its first faces, that are among the first `own` of the mesh */
+	size_t end[MR_PATCH_RINGS +
+		   1]; /* end[r]: how many vertices are at most r rings away; end[0] the chosen */
+} mr_patch;
+
+/*
+ * level[v] becomes the distance of vertex v from the nearest vertex with chosen[v], in edges, over
+ * paths that leave the chosen ones at once; `most` + 1 where it is more than `most`.  level: nv, the
+ * caller's.
+ */
+void mr_patch_levels(const mr_mesh *m, const bool *chosen, uint8_t most, uint8_t *level);
+
+/* The chosen vertices of m, of whose faces the first `own` count as such, and `rings` rings, 1 to
+ * MR_PATCH_RINGS. */
+void
+mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch);
 
 enum { MR_FIELD_WIDTH = 4 }; /* right-hand sides solved together, at most */
 
@@ -57,5 +84,13 @@ mr_status mr_system_solve(mr_ctx *ctx, mr_deform_system *s, mr_field *f);
  */
 mr_status mr_system_follow(mr_ctx *ctx, mr_deform_system *s, const mr_affine *whole, const mr_v3 *p0,
     const double *source, mr_v3 *p);
+
+/*
+ * Coarser levels of the mesh, an oriented manifold (else MR_EMESH).  number: of each vertex its unknown,
+ * below n, or MR_NONE where it is constrained.  level, count: as in mr_hierarchy, in the arena, and so is all
+ * that they hold; count is 0 where nothing can be coarsened.
+ */
+mr_status mr_hierarchy_build(
+    mr_ctx *ctx, const mr_mesh *m, const uint32_t *number, size_t n, mr_coarser **level, size_t *count);
 
 #endif

@@ -1,5 +1,5 @@
 /* Rings by breadth first, and the part that they make numbered anew. */
-#include "edit/k_ring.h"
+#include "edit/deform_system.h"
 
 /* Gives level r + 1 to the vertices that share a face with one of level r and have none yet. */
 static void
@@ -51,16 +51,6 @@ in_patch(const mr_mesh *m, size_t f, const uint8_t *level, size_t rings)
 	return level[v[0]] < rings || level[v[1]] < rings || level[v[2]] < rings;
 }
 
-static size_t
-count_faces(const mr_mesh *m, const uint8_t *level, size_t rings)
-{
-	size_t n = 0;
-
-	for (size_t f = 0; f < m->nf; f++)
-		n += in_patch(m, f, level, rings);
-	return n;
-}
-
 void
 mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, size_t rings, mr_patch *patch)
 {
@@ -73,7 +63,7 @@ mr_patch_build(mr_ctx *ctx, const mr_mesh *m, size_t own, const bool *chosen, si
 	mr_patch_levels(m, chosen, (uint8_t)rings, level);
 	number_vertices(m, level, rings, &r, local);
 	p = MR_NEW(ctx, r.end[rings], mr_v3);
-	t = MR_NEW(ctx, count_faces(m, level, rings), mr_tri);
+	t = MR_NEW(ctx, m->nf, mr_tri);
 	for (size_t i = 0; i < r.end[rings]; i++)
 		p[i] = m->p[r.vertex[i]];
 	for (size_t f = 0; f < m->nf; f++)

@@ -1,6 +1,6 @@
 /* Botsch, Kobbelt 2004: A remeshing approach to multiresolution modeling, section 4.4: multigrid on remeshed
  * levels. */
-#include "edit/multigrid_levels.h"
+#include "edit/deform_system.h"
 
 #include "edit/correspondence.h"
 #include "remesh/remesh.h"

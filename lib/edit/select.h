@@ -3,22 +3,7 @@
  *
  * A predicate is one word: terms joined by '+', all of which must hold; "not:" turns a
  * term round.  Lengths may be relative to the bounding-box diagonal, as "5%".
- *
- *	all                     every vertex
- *	sphere:x,y,z,r          no farther than r from the point
- *	box:x0,y0,z0,x1,y1,z1   inside the box
- *	halfspace:nx,ny,nz,d    n . x >= d
- *	above:z,0.8  below:z,0.2  axis, and fraction of the bounding box along it
- *	geodesic:x,y,z,r        no farther than r over the surface from its point nearest to x,y,z
- *	rings:V,K               at most K edges from vertex V
- *	component:x,y,z         connected with the vertex nearest to the point
- *	group:NAME              at a face of the group, or else of the object or the material of that name
- *	boundary                at an edge of one face
- *	grow:K                  the region that the rule gives, and the fixed vertices up to K edges from it
- *	vertices:FILE           the indices in the file, one a line
- *	part:N  part:N,d        of the N-th connected part by size, from 1; of points connected at a distance
- *	spaced:d                no two of them within d
- *	column:NAME,low,high    where the column's number is within these, or at a face where it is
+ * man/mr-select.1 has them all.
  */
 #ifndef MR_EDIT_SELECT_H
 #define MR_EDIT_SELECT_H

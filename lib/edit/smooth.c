@@ -8,7 +8,7 @@
 #include "mesh/edges.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
-#include "solve/conjugate_gradients.h"
+#include "solve/preconditioner.h"
 #include "space/contact.h"
 #include "space/thickness.h"
 

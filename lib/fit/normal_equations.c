@@ -8,7 +8,7 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "solve/conjugate_gradients.h"
+#include "solve/preconditioner.h"
 
 enum { GRAIN = 16, PIECE = 512 }; /* control faces */
 

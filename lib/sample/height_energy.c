@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "base/sort.h"
-#include "solve/conjugate_gradients.h"
+#include "solve/preconditioner.h"
 
 enum { GRAIN = 2048 };
 

@@ -1,5 +1,5 @@
 /* Hestenes, Stiefel 1952: Methods of conjugate gradients for solving linear systems. */
-#include "solve/conjugate_gradients.h"
+#include "solve/preconditioner.h"
 
 mr_status
 mr_cg_improve(mr_ctx *ctx, const mr_cg *g, double *x, double *r, size_t *iterations)

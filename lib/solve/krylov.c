@@ -2,7 +2,7 @@
  * The iterative solvers of stored matrices: conjugate gradients and V-cycles.
  * Each runs all right-hand sides at once, with scalars of their own: the matrix is read once for all.
  */
-#include "solve/conjugate_gradients.h"
+#include "solve/preconditioner.h"
 #include "solve/solver_type.h"
 #include "solve/sparse.h"
 

@@ -1,7 +1,7 @@
 /* The solvers: right solutions, and sentences for matrices that have none. */
 #include "base/random.h"
 #include "solve/blas_threads.h"
-#include "solve/conjugate_gradients.h"
+#include "solve/preconditioner.h"
 #include "unit.h"
 
 #include <dlfcn.h>
