@@ -4,11 +4,11 @@
  */
 #include "edit/smooth.h"
 
-#include "base/text.h"
 #include "mesh/edges.h"
 #include "op/laplace.h"
 #include "op/voronoi_area.h"
-#include "solve/preconditioner.h"
+#include "solve/multivector.h"
+#include "solve/solver.h"
 #include "space/contact.h"
 #include "space/thickness.h"
 
@@ -108,89 +108,55 @@ study(mr_ctx *ctx, smoothing *s, bool plain)
 
 /* Implicit */
 
-/* A pass of time t solves for the motion z: (M / t + L) z = -L p, which is p' = p + z. */
-typedef struct implicit_system {
-	double *mass; /* M / t, nv */
-	mr_preconditioner incomplete;
-	mr_v3 *z, *r; /* the motion, its residual */
-} implicit_system;
-
-/* Turns L into the matrix: vertices that stay have rows of their own, and are 0 wherever others look. */
-static mr_status
-set_up(mr_ctx *ctx, smoothing *s, implicit_system *y)
+/* Turns L into M / t + L: vertices that stay have rows of their own, and are 0 wherever others look.  Returns
+ * the diagonal of M / t. */
+static double *
+add_masses(mr_ctx *ctx, smoothing *s)
 {
-	const size_t n = s->m->nv;
+	double *mass = MR_NEW_ZERO(ctx, s->m->nv, double);
 
-	*y = (implicit_system){
-		.mass = MR_NEW_ZERO(ctx, n, double), .z = MR_NEW(ctx, n, mr_v3), .r = MR_NEW(ctx, n, mr_v3)
-	};
-	for (size_t v = 0; v < n; v++) {
+	for (size_t v = 0; v < s->m->nv; v++) {
 		double *diagonal = &s->l.value[mr_sparse_find(&s->l, (int)v, (int)v)];
 		if (s->stays[v]) {
 			for (int e = s->l.start[v]; e < s->l.start[v + 1]; e++)
 				s->l.value[e] = 0;
 			*diagonal = 1;
 		} else {
-			y->mass[v] = s->area[v] / s->time[v];
-			*diagonal += y->mass[v];
+			mass[v] = s->area[v] / s->time[v];
+			*diagonal += mass[v];
 		}
 	}
-	return mr_incomplete_laplacian_new(ctx, &s->l, &y->incomplete);
+	return mass;
 }
 
+/* -L p on the vertices that move, from the matrix that L has become. */
 static void
-apply(const mr_ctx *ctx, const void *a, mr_multivector s, const double *x, double *y)
+residual_of(const mr_ctx *ctx, const smoothing *s, const double *mass, const mr_v3 *p, mr_v3 *r)
 {
-	mr_sparse_apply(ctx, a, NULL, s.n, s.width, x, y);
-}
-
-/* r = -L p on the vertices that move, from the matrix that L has become. */
-static void
-begin_pass(mr_ctx *ctx, const smoothing *s, const implicit_system *y, const mr_v3 *p)
-{
-	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &y->r->x);
-	for (size_t v = 0; v < s->m->nv; v++) {
-		y->r[v] = s->stays[v] ? mr_vec(0, 0, 0) : mr_sub(mr_mul(y->mass[v], p[v]), y->r[v]);
-		y->z[v] = mr_vec(0, 0, 0);
-	}
-}
-
-static mr_status
-implicit_pass(mr_ctx *ctx, smoothing *s, implicit_system *y, mr_v3 *p)
-{
-	enum { MOST = 20000 };
-	double goal[MR_WIDTH];
-	mr_cg cg = { .s = { s->m->nv, 3 },
-		.apply = apply,
-		.a = &s->l,
-		.b = &y->incomplete,
-		.goal = goal,
-		.most = MOST };
-	size_t iterations = 0;
-
-	begin_pass(ctx, s, y, p);
-	mr_multivector_dot(ctx, cg.s, &y->r->x, &y->r->x, goal);
-	for (size_t c = 0; c < 3; c++)
-		goal[c] = TOLERANCE * sqrt(goal[c]);
-	MR_TRY(mr_cg_improve(ctx, &cg, &y->z->x, &y->r->x, &iterations));
-	if (iterations == MOST)
-		return mr_fail(
-		    ctx, MR_ENUMERIC, "%s: no smooth surface after %zu iterations", s->m->name, iterations);
-	s->found.iterations += iterations;
+	mr_sparse_apply(ctx, &s->l, NULL, s->m->nv, 3, &p->x, &r->x);
 	for (size_t v = 0; v < s->m->nv; v++)
-		p[v] = mr_add(p[v], y->z[v]);
-	return MR_OK;
+		r[v] = s->stays[v] ? mr_vec(0, 0, 0) : mr_sub(mr_mul(mass[v], p[v]), r[v]);
 }
 
+/* A pass of time t solves for the motion z: (M / t + L) z = -L p, which is p' = p + z. */
 static mr_status
 implicit(mr_ctx *ctx, smoothing *s, mr_v3 *p)
 {
-	implicit_system y;
+	const mr_solver_opts opts = { .kind = MR_CG, .tol = TOLERANCE, .iterations = 20000 };
+	const mr_multivector rows = { s->m->nv, 3 };
+	double *mass = add_masses(ctx, s), *b = MR_NEW(ctx, 3 * rows.n, double);
+	mr_solver *solver = mr_solver_new(ctx);
+	mr_v3 *z = MR_NEW(ctx, rows.n, mr_v3);
 
-	MR_TRY(set_up(ctx, s, &y));
+	MR_TRY(mr_solver_open(ctx, solver, &opts, &(mr_system){ .a = &s->l, .laplacian = true }));
 	for (size_t i = 0; i < s->found.passes; i++) {
 		mr_progress(ctx, "smoothing", (double)i / (double)s->found.passes);
-		MR_TRY(implicit_pass(ctx, s, &y, p));
+		residual_of(ctx, s, mass, p, z);
+		mr_multivector_scatter(rows, &z->x, b);
+		MR_TRY(mr_prefix(ctx, mr_solver_solve(ctx, solver, b, 3), "%s", s->m->name));
+		mr_multivector_gather(rows, b, &z->x);
+		mr_multivector_add(ctx, rows, MR_ONE, &z->x, MR_ONE, &p->x);
+		s->found.iterations += mr_solver_reported(solver).iterations;
 	}
 	return MR_OK;
 }

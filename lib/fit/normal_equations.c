@@ -475,7 +475,7 @@ mr_fit_solve(mr_ctx *ctx, mr_fit_system *system, mr_v3 *motion, size_t *steps)
 		.tol = ACCURACY,
 		.most = *steps + MOST_STEPS };
 
-	MR_TRY(mr_incomplete_new(ctx, &system->a, &b));
+	MR_TRY(mr_incomplete_new(ctx, &system->a, false, &b));
 	memset(motion, 0, nv * sizeof *motion);
 	MR_TRY(mr_cg_improve(ctx, &g, (double *)motion, (double *)system->b, steps));
 	mr_mark_release(ctx, mark);

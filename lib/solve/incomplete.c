@@ -135,8 +135,8 @@ find_diagonal(mr_ctx *ctx, incomplete *c)
 	return MR_OK;
 }
 
-static mr_status
-set_up(mr_ctx *ctx, const mr_sparse *a, bool laplacian, mr_preconditioner *b)
+mr_status
+mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, bool laplacian, mr_preconditioner *b)
 {
 	/* a first shift ten times as large or small: 17 % fewer iterations or 12 % more, as the model has it
 	 */
@@ -162,16 +162,4 @@ set_up(mr_ctx *ctx, const mr_sparse *a, bool laplacian, mr_preconditioner *b)
 		return mr_fail(ctx, MR_ENUMERIC, "the matrix has no incomplete factors");
 	*b = (mr_preconditioner){ incomplete_apply, c, (double)nnz };
 	return MR_OK;
-}
-
-mr_status
-mr_incomplete_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
-{
-	return set_up(ctx, a, false, b);
-}
-
-mr_status
-mr_incomplete_laplacian_new(mr_ctx *ctx, const mr_sparse *a, mr_preconditioner *b)
-{
-	return set_up(ctx, a, true, b);
 }
