@@ -28,10 +28,8 @@ typedef struct finder {
 	size_t weights, j; /* the weight at hand */
 	double *weight;    /* its, of each vertex */
 	levels *level;     /* of each face */
-	uint32_t *face;    /* those of each level, one level behind another */
-	size_t start[LEVELS + 2], faces_room;
-	uint32_t *set;  /* of vertices, those that faces of a level join */
-	uint32_t *made; /* of a set's root, its section */
+	uint32_t *set;     /* of vertices, those that faces of a level join */
+	uint32_t *made;    /* of a set's root, its section */
 	section *section;
 	size_t count, room;
 } finder;
@@ -67,41 +65,28 @@ find_levels(finder *s)
 	}
 }
 
-/* Sorts the faces by the levels that they meet. */
-static void
-sort_faces(mr_ctx *ctx, finder *s)
+static bool
+meets(const finder *s, size_t f, int k)
 {
-	size_t next[LEVELS + 1];
-
-	memset(s->start, 0, sizeof s->start);
-	for (size_t f = 0; f < s->m->nf; f++)
-		for (int k = s->level[f].first; k <= s->level[f].last; k++)
-			s->start[k + 1]++;
-	for (int k = 0; k <= LEVELS; k++) {
-		next[k] = s->start[k];
-		s->start[k + 1] += s->start[k];
-	}
-	MR_RESERVE(ctx, s->face, 0, s->start[LEVELS + 1], &s->faces_room);
-	for (size_t f = 0; f < s->m->nf; f++)
-		for (int k = s->level[f].first; k <= s->level[f].last; k++)
-			s->face[next[k]++] = (uint32_t)f;
+	return s->level[f].first <= k && k <= s->level[f].last;
 }
 
 /* Parts the faces of a level into those that hang together. */
 static void
 join_faces(finder *s, int k)
 {
-	for (size_t i = s->start[k]; i < s->start[k + 1]; i++)
-		for (int c = 0; c < 3; c++) {
-			uint32_t v = s->m->t[s->face[i]].v[c];
+	for (size_t f = 0; f < s->m->nf; f++)
+		for (int c = 0; meets(s, f, k) && c < 3; c++) {
+			uint32_t v = s->m->t[f].v[c];
 			s->set[v] = v;
 			s->made[v] = MR_NONE;
 		}
-	for (size_t i = s->start[k]; i < s->start[k + 1]; i++) {
-		const uint32_t *v = s->m->t[s->face[i]].v;
-		mr_sets_join(s->set, v[0], v[1]);
-		mr_sets_join(s->set, v[0], v[2]);
-	}
+	for (size_t f = 0; f < s->m->nf; f++)
+		if (meets(s, f, k)) {
+			const uint32_t *v = s->m->t[f].v;
+			mr_sets_join(s->set, v[0], v[1]);
+			mr_sets_join(s->set, v[0], v[2]);
+		}
 }
 
 /* Area times the squared gradient of the weight: what does not turn has no say. */
@@ -135,13 +120,12 @@ add_face(section *own, const mr_mesh *m, const uint32_t v[3], double energy)
 static void
 sum_faces(mr_ctx *ctx, finder *s, int k)
 {
-	for (size_t n = s->start[k]; n < s->start[k + 1]; n++) {
-		const size_t f = s->face[n];
+	for (size_t f = 0; f < s->m->nf; f++) {
 		const uint32_t *v = s->m->t[f].v;
 		double at = level_of(s, f), share;
 		int low = below(at), i = k - low;
 		uint32_t *made;
-		if (i < 0 || i > 1)
+		if (!meets(s, f, k) || i < 0 || i > 1)
 			continue;
 		made = &s->made[mr_sets_root(s->set, v[0])];
 		if (*made == MR_NONE) {
@@ -194,7 +178,6 @@ mr_sections_find(mr_ctx *ctx, const mr_mesh *m, const double *weight, size_t cou
 			s.weight[v] = weight[count * v + s.j];
 		s.count = 0;
 		find_levels(&s);
-		sort_faces(ctx, &s);
 		for (int k = 0; k <= LEVELS; k++) {
 			join_faces(&s, k);
 			sum_faces(ctx, &s, k);
