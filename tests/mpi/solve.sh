@@ -22,7 +22,7 @@ off() { mr-export -q -f off -l base - <"$1"; }
 near() { # stream, stream
 	off "$1" >one.off && off "$2" >other.off && near_off one.off other.off
 }
-near_off() { # file, file: no vertex is 1e-9 of the diagonal from where the other has it
+near_off() { # file, file: no vertex is 1e-8 of the diagonal from where the other has it
 	paste "$1" "$2" | awk 'NR > 2 && NF == 6 {
 			for (i = 1; i <= 3; i++) {
 				d = $i - $(i + 3); d = d < 0 ? -d : d; most = d > most ? d : most
@@ -31,7 +31,7 @@ near_off() { # file, file: no vertex is 1e-9 of the diagonal from where the othe
 			n++
 		}
 		END { size = sqrt((high[1] - low[1]) ^ 2 + (high[2] - low[2]) ^ 2 + (high[3] - low[3]) ^ 2)
-			printf "%.2g of the diagonal, %d vertices\n", most / size, n; exit !(n > 1000 && most <= 1e-9 * size) }'
+			printf "%.2g of the diagonal, %d vertices\n", most / size, n; exit !(n > 1000 && most <= 1e-8 * size) }'
 }
 for k in 1 2 3; do
 	mr-solve -k $k posed.mrs -o one.mrs || exit
