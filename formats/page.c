@@ -9,7 +9,7 @@
 #include "formats/bytes.h"
 #include "formats/formats.h"
 #include "formats/page_displaced.h"
-#include "formats/page_steps.h"
+#include "subdivide/wavelet.h"
 
 #include <errno.h>
 #include <unistd.h>
@@ -113,39 +113,120 @@ is_shown(const mr_frame *f, const mr_column *c, const char *layers, const mr_pag
 	return c->shape.components <= 4 && !mr_is_one_of(c->name, unseen);
 }
 
-/* The nearest of the numbers that have 24 significant bits, as a float has, whatever the exponent. */
-static double
-round_number(double x)
-{
-	uint64_t bits;
-	double y;
+/*
+ * What a column's values are: origin + step times a whole number; step 0: whole numbers as they are.  Of
+ * each row the first `components` are kept, and the page finds the others.  Rows of more than three values
+ * begin at 0, and their origin is only told.
+ */
+typedef struct whole_steps {
+	double step, origin[3];
+	uint8_t components;
+} whole_steps;
 
-	memcpy(&bits, &x, sizeof bits);
-	bits = (bits + (UINT64_C(1) << 28)) >> 29 << 29;
-	memcpy(&y, &bits, sizeof y);
-	return isfinite(y) ? y : x;
+/* The largest step, a power of two, of which the extent is less than 2^24; 1 where there is none to speak of.
+ */
+static double
+step_of(double extent)
+{
+	const double tiny = 1e-200;
+	int exponent;
+
+	if (!(extent > tiny))
+		return 1;
+	frexp(extent, &exponent);
+	return ldexp(1, exponent - 24);
+}
+
+/* 0, -1, 1, -2, ... as 0, 1, 2, 3, ... */
+static uint32_t
+unsign(uint32_t step)
+{
+	return step << 1 ^ (step >> 31 ? UINT32_MAX : 0);
+}
+
+/* The whole number of a value: modulo 2^32, as its differences are. */
+static uint32_t
+whole(const mr_column *c, const whole_steps *s, size_t at, size_t component)
+{
+	const double *x = c->data;
+	const uint32_t *u = c->data;
+	double origin = c->shape.components <= 3 ? s->origin[component] : 0;
+
+	return s->step > 0 ? (uint32_t)(int32_t)rint((x[at] - origin) / s->step) : u[at];
+}
+
+static void
+sum_steps(const mr_column *c, const whole_steps *s, uint32_t *sums)
+{
+	size_t rows = (size_t)c->rows, width = c->shape.components, kept = s->components;
+
+	for (size_t k = 0; k < kept; k++) {
+		uint32_t sum = 0, before = 0;
+		for (size_t i = 0; i < rows; i++) {
+			uint32_t now = whole(c, s, width * i + k, k);
+			sums[kept * i + k] = sum += unsign(now - before);
+			before = now;
+		}
+	}
+}
+
+/*
+ * Puts the column, decoded, as whole numbers of which the sums over the rows are stored: the packing of
+ * streams takes differences, which then are steps without a sign, the small ones, of either direction, with
+ * small numbers.  Steps that are not within 31 bits of the origin are not to be asked for.  A line in `notes`
+ * tells the page.
+ */
+static mr_status
+put_steps(mr_ctx *ctx, mr_frame *to, const mr_column *c, const whole_steps *s, mr_text *notes)
+{
+	mr_shape shape = { c->shape.element, 'u', s->components };
+	uint32_t *sums = MR_NEW(ctx, (size_t)c->rows * s->components, uint32_t);
+
+	sum_steps(c, s, sums);
+	mr_text_add(notes, "steps %s %s", c->layer, c->name);
+	if (s->step > 0)
+		mr_text_add(notes, " %.17g", s->step);
+	for (int k = 0; s->step > 0 && k < 3; k++)
+		mr_text_add(notes, " %.17g", s->origin[k]);
+	mr_text_add(notes, "\n");
+	return mr_frame_put(ctx, to, c->layer, c->name, shape, sums, (size_t)c->rows);
+}
+
+/*
+ * Puts the heights, as steps of 24 bits of the model: on level 0 as they are, of a vertex that a finer level
+ * adds the difference from what the level before predicts, which packs into less.
+ */
+static mr_status
+put_heights(mr_ctx *ctx, mr_frame *to, const mr_column *height, const mr_page_displaced *d, mr_text *notes)
+{
+	size_t n = d->level[d->n].nv;
+	double *x = MR_NEW(ctx, n, double), most = d->extent;
+	mr_column c = *height;
+
+	memcpy(x, d->height, n * sizeof *x);
+	mr_wavelet_analyse(ctx, d->level, d->n, x);
+	for (size_t i = 0; i < n; i++)
+		most = fmax(most, fabs(x[i]));
+	if (!isfinite(most))
+		return mr_fail(
+		    ctx, MR_ERANGE, "displacement: the heights differ by more than a number can tell");
+	c.data = x;
+	return put_steps(ctx, to, &c, &(whole_steps){ step_of(most), { 0 }, 1 }, notes);
 }
 
 /* Positions count from the corner of their box, so that they are whole steps wherever the model is. */
-static mr_steps
+static whole_steps
 steps_of_places(mr_box box)
 {
 	mr_v3 size = box.min.x <= box.max.x ? mr_sub(box.max, box.min) : mr_vec(0, 0, 0);
-	double extent = fmax(size.x, fmax(size.y, size.z)), step = mr_step_of(extent);
+	double extent = fmax(size.x, fmax(size.y, size.z)), step = step_of(extent);
 
 	if (!(step < extent)) /* one place, or next to it */
-		return (mr_steps){ 0 };
-	return (mr_steps){ step,
+		return (whole_steps){ 0 };
+	return (whole_steps){ step,
 		{ rint(box.min.x / step) * step, rint(box.min.y / step) * step,
 		    rint(box.min.z / step) * step },
 		3 };
-}
-
-/* Places in a picture. */
-static bool
-is_texcoord(const mr_column *c)
-{
-	return !strcmp(c->name, "texcoord") || !strcmp(c->name, "corner_texcoord");
 }
 
 static bool
@@ -154,25 +235,23 @@ is_place(const mr_column *c)
 	return !strcmp(c->name, "position") || (!strcmp(c->layer, "base") && !strcmp(c->name, "encoded"));
 }
 
-/* Of barycentric coordinates the third is what the two leave of 1. */
-static mr_steps
+/* Within 24 bits of the largest; of barycentric coordinates the third is what the two leave of 1. */
+static whole_steps
 steps_of_column(const mr_column *c)
 {
 	size_t n = (size_t)c->rows * c->shape.components;
+	uint8_t components = !strcmp(c->name, "detail_bary") ? 2 : c->shape.components;
 	const double *x = c->data;
 	double most = 0;
 
 	if (c->shape.type == 'u')
-		return (mr_steps){ 0, { 0 }, c->shape.components };
-	if (!(is_posing(c) || is_texcoord(c)) || !strcmp(c->name, "detail_offset"))
-		return (mr_steps){ 0 };
+		return (whole_steps){ 0, { 0 }, components };
 	for (size_t i = 0; i < n; i++) {
-		if (!isfinite(x[i])) /* a corner without a place in the picture */
-			return (mr_steps){ 0 };
+		if (!isfinite(x[i])) /* as of a corner without a place in the picture */
+			return (whole_steps){ 0 };
 		most = fmax(most, fabs(x[i]));
 	}
-	return (
-	    mr_steps){ mr_step_of(most), { 0 }, !strcmp(c->name, "detail_bary") ? 2 : c->shape.components };
+	return (whole_steps){ step_of(most), { 0 }, components };
 }
 
 /*
@@ -202,36 +281,28 @@ centre_response(mr_ctx *ctx, mr_frame *f, mr_column *c, double centre[3])
 
 /*
  * A browser draws with floats.  Positions are rounded by the model's extent, not by their distance from the
- * origin, and so are responses and barycentric coordinates by the largest.  Other numbers are, whatever their
- * size, within 24 bits of their own; the low bits of such doubles are zero, and packing takes them away.  The
- * handles' maps, which are few, are those of the stream.
+ * origin, other numbers by the largest.  The handles' maps, which are few, are those of the stream, and so
+ * are columns with what is no number.
  */
 static mr_status
 take_column(mr_ctx *ctx, mr_frame *from, const mr_column *column, const mr_page_displaced *d, mr_frame *to,
     mr_text *notes)
 {
 	mr_column c = *column;
-	double *rounded, centre[3];
-	mr_steps steps;
+	double centre[3] = { 0 };
+	whole_steps steps;
 
 	if ((c.shape.type != 'd' && c.shape.type != 'u') || !strcmp(c.layer, "handles"))
 		return mr_frame_pass(ctx, to, column);
 	MR_TRY(mr_column_decode(ctx, &c));
 	if (!strcmp(c.layer, "displacement") && !strcmp(c.name, "height"))
-		return mr_page_displaced_put(ctx, to, &c, d, notes);
-	if (is_posing(&c) && !strcmp(c.name, "response"))
+		return put_heights(ctx, to, &c, d, notes);
+	if (!strcmp(c.name, "response"))
 		MR_TRY(centre_response(ctx, from, &c, centre));
 	steps = is_place(&c) ? steps_of_places(mr_box_of(c.data, c.rows)) : steps_of_column(&c);
-	if (is_posing(&c) && !strcmp(c.name, "response"))
+	if (!strcmp(c.name, "response"))
 		memcpy(steps.origin, centre, sizeof centre);
-	if (steps.components)
-		return mr_steps_put(ctx, to, &c, &steps, notes);
-	if (!strcmp(c.name, "position")) /* one place */
-		return mr_frame_pass(ctx, to, &c);
-	rounded = MR_NEW(ctx, (size_t)c.rows * c.shape.components, double);
-	for (size_t i = 0; i < (size_t)c.rows * c.shape.components; i++)
-		rounded[i] = round_number(((const double *)c.data)[i]);
-	return mr_frame_put(ctx, to, c.layer, c.name, c.shape, rounded, (size_t)c.rows);
+	return steps.components ? put_steps(ctx, to, &c, &steps, notes) : mr_frame_pass(ctx, to, &c);
 }
 
 /* What is drawn must be a surface or points as any tool takes them: the page checks nothing. */

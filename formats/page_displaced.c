@@ -1,9 +1,6 @@
 /* Control mesh and heights, stored in place of the surface that they make. */
 #include "formats/page_displaced.h"
 
-#include "formats/page_steps.h"
-#include "subdivide/wavelet.h"
-
 /* The level that has as many vertices and faces as the mesh; false: none. */
 static bool
 find_level(const mr_page_displaced *d, const mr_mesh *mesh, size_t *at)
@@ -16,8 +13,8 @@ find_level(const mr_page_displaced *d, const mr_mesh *mesh, size_t *at)
 	return false;
 }
 
-mr_status
-mr_page_displaced_mesh(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, mr_mesh *m)
+static mr_status
+make_mesh(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, mr_mesh *m)
 {
 	mr_domain domain;
 	mr_mesh control;
@@ -46,7 +43,7 @@ compare_mesh(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
 		return MR_OK;
 	}
 	mark = mr_mark_take(ctx);
-	MR_TRY(mr_page_displaced_mesh(ctx, f, d, &made));
+	MR_TRY(make_mesh(ctx, f, d, &made));
 	d->is_mesh = !memcmp(made.p, mesh.p, mesh.nv * sizeof *mesh.p);
 	if (!d->is_mesh)
 		d->at = d->n;
@@ -78,23 +75,4 @@ mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d)
 		MR_TRY(compare_mesh(ctx, f, &r));
 	*d = r;
 	return MR_OK;
-}
-
-mr_status
-mr_page_displaced_put(
-    mr_ctx *ctx, mr_frame *to, const mr_column *height, const mr_page_displaced *d, mr_text *notes)
-{
-	size_t n = d->level[d->n].nv;
-	double *x = MR_NEW(ctx, n, double), most = d->extent;
-	mr_column c = *height;
-
-	memcpy(x, d->height, n * sizeof *x);
-	mr_wavelet_analyse(ctx, d->level, d->n, x);
-	for (size_t i = 0; i < n; i++)
-		most = fmax(most, fabs(x[i]));
-	if (!isfinite(most))
-		return mr_fail(
-		    ctx, MR_ERANGE, "displacement: the heights differ by more than a number can tell");
-	c.data = x;
-	return mr_steps_put(ctx, to, &c, &(mr_steps){ mr_step_of(most), { 0 }, 1 }, notes);
 }

@@ -3,7 +3,6 @@
 #ifndef MR_PAGE_DISPLACED_H
 #define MR_PAGE_DISPLACED_H
 
-#include "base/text.h"
 #include "subdivide/displaced.h"
 
 /* That of a frame; zeroed: there is none. */
@@ -18,17 +17,5 @@ typedef struct mr_page_displaced {
 
 /* Control mesh and heights, checked as mr-decode does.  MR_EMISSING where they are not there. */
 mr_status mr_page_displaced_get(mr_ctx *ctx, mr_frame *f, mr_page_displaced *d) MR_WARN_UNUSED;
-
-/* The surface on level `at`, in the arena. */
-mr_status
-mr_page_displaced_mesh(mr_ctx *ctx, mr_frame *f, const mr_page_displaced *d, mr_mesh *m) MR_WARN_UNUSED;
-
-/*
- * Puts the heights, as steps of 24 bits of the model: on level 0 as they are, of a vertex that a finer level
- * adds the difference from what the level before predicts, which packs into less.  A line in `notes` tells
- * the page of the surface.
- */
-mr_status mr_page_displaced_put(mr_ctx *ctx, mr_frame *to, const mr_column *height,
-    const mr_page_displaced *d, mr_text *notes) MR_WARN_UNUSED;
 
 #endif
