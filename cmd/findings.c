@@ -58,8 +58,6 @@ static const entry table[MR_FINDING_KINDS] = {
 	    "Outliers, or a part that the surface does not reach." },
 	[MR_BARE] = { VERDICT_POOR, 0.5, "{pct} % of the surface is far from all points{what}{at}", "",
 	    "The surface closes what points leave open." },
-	[MR_SCATTERED] = { VERDICT_POOR, 0, "{what}", "",
-	    "Points are noisy, stand in rows, or fill a volume rather than lie on a surface." },
 	[MR_ROUGH] = { VERDICT_POOR, 0, "{what}", "", "Heights are rough, or the displaced surface folds." },
 	[MR_FILLED] = { VERDICT_GOOD, 0, "{n}{of} {what} not found and filled in smoothly", "",
 	    "Nothing was found there, and neighbours give the value." },

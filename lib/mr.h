@@ -92,7 +92,7 @@ typedef struct mr_v3 {
 		X(DISTANT, "distant") X(GONE, "gone") X(LOST, "lost") X(STALE, "stale")                      \
 		    X(ROUNDED, "rounded") X(GUESSED, "guessed") X(MISSING, "missing")                        \
 			X(REPAIRED, "repaired") X(UNCERTAIN, "uncertain") X(UNREACHED, "unreached")          \
-			    X(BARE, "bare") X(SCATTERED, "scattered") X(ROUGH, "rough") X(FILLED, "filled")  \
+			    X(BARE, "bare") X(ROUGH, "rough") X(FILLED, "filled")  \
 				X(INEXACT, "inexact") X(UNHELD, "unheld") X(HANDLE, "handle")                \
 				    X(LIMIT, "limit") X(LAYER, "layer")
 

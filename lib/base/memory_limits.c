@@ -28,53 +28,26 @@ number_in(const char *path, const char *key)
 	return found;
 }
 
-/* The files of a control group, as Linux has them in both hierarchies (cgroups(7)). */
-typedef struct hierarchy {
-	const char *line; /* behind the number in /proc/self/cgroup */
-	const char *root, *limit, *taken, *files[2];
-} hierarchy;
-
-static const hierarchy hierarchies[] = {
-	{ "::", "/sys/fs/cgroup", "memory.max", "memory.current", { "inactive_file ", "active_file " } },
-	{ ":memory:", "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
-	    { "total_inactive_file ", "total_active_file " } },
-};
-
+/* The number in a file of a control group of Linux's unified hierarchy (cgroups(7)). */
 static double
-number_of(const hierarchy *h, const char *group, const char *file, const char *key)
+number_of(const char *group, const char *file, const char *key)
 {
 	char path[4096];
-	int n = snprintf(path, sizeof path, "%s%s/%s", h->root, group, file);
+	int n = snprintf(path, sizeof path, "/sys/fs/cgroup%s/%s", group, file);
 
 	return n < (int)sizeof path ? number_in(path, key) : NAN;
 }
 
 /* What a group may still take, NaN: it does not say: the files that the system keeps for it give way. */
 static double
-left_in(const hierarchy *h, const char *group)
+left_in(const char *group)
 {
-	double left = number_of(h, group, h->limit, NULL) - number_of(h, group, h->taken, NULL);
-
-	for (int k = 0; k < 2; k++)
-		left += fmax(0, number_of(h, group, "memory.stat", h->files[k]));
-	return left;
+	return number_of(group, "memory.max", NULL) - number_of(group, "memory.current", NULL) +
+	       fmax(0, number_of(group, "memory.stat", "inactive_file ")) +
+	       fmax(0, number_of(group, "memory.stat", "active_file "));
 }
 
-/* Of the group with this path, which is cut, and those around it; a container may show its own as the root.
- */
-static double
-left_around(const hierarchy *h, char *group)
-{
-	double least = INFINITY;
-
-	group[strcspn(group, "\n")] = '\0';
-	for (char *end = group + strlen(group); end; end = strrchr(group, '/')) {
-		*end = '\0';
-		least = fmin(least, left_in(h, group)); /* what is not a number does not count */
-	}
-	return least;
-}
-
+/* Of the process's group and those around it; a container may show its own as the root. */
 static double
 group_memory(void)
 {
@@ -82,13 +55,16 @@ group_memory(void)
 	double least = INFINITY;
 	char line[4096];
 
-	while (file && fgets(line, sizeof line, file))
-		for (size_t k = 0; k < sizeof hierarchies / sizeof *hierarchies; k++) {
-			const hierarchy *h = &hierarchies[k];
-			char *at = line + strspn(line, "0123456789");
-			if (!strncmp(at, h->line, strlen(h->line)))
-				least = fmin(least, left_around(h, at + strlen(h->line)));
+	while (file && fgets(line, sizeof line, file)) {
+		char *group = line + 3;
+		if (strncmp(line, "0::", 3))
+			continue;
+		group[strcspn(group, "\n")] = '\0';
+		for (char *end = group + strlen(group); end; end = strrchr(group, '/')) {
+			*end = '\0';
+			least = fmin(least, left_in(group)); /* what is not a number does not count */
 		}
+	}
 	if (file)
 		fclose(file);
 	return least;

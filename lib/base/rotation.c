@@ -85,24 +85,6 @@ largest_column(const sym4 *s, double q[4])
 	memcpy(q, column[best], sizeof column[best]);
 }
 
-/* Extreme numbers by a power of two, so that their squares are numbers. */
-static const double *
-scaled(const double m[9], double unit[9])
-{
-	static const double extreme = 1e100;
-	double most = 0;
-	int exponent;
-
-	for (int i = 0; i < 9; i++)
-		most = fmax(most, fabs(m[i]));
-	if ((most < extreme && most > 1 / extreme) || !(most > 0) || !isfinite(most))
-		return m;
-	frexp(most, &exponent);
-	for (int i = 0; i < 9; i++)
-		unit[i] = ldexp(m[i], -exponent);
-	return unit;
-}
-
 /*
  * The unit quaternion (scalar first, not negative) of the nearest rotation: squared again and again the
  * matrix becomes the projection on its largest eigenvectors, of which any column is one.  Its norm is its
@@ -113,8 +95,7 @@ nearest(const double m[9], double q[4])
 {
 	enum { MOST = 44 };
 	static const double one = 1 - 1e-15;
-	double unit[9];
-	sym4 s = horn(scaled(m, unit));
+	sym4 s = horn(m);
 	double trace = s.a00 + s.a11 + s.a22 + s.a33, length = 0;
 
 	if (!(trace > 0)) {

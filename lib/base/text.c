@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-static void
-add_bytes(mr_text *t, const char *s, size_t n)
+void
+mr_text_bytes(mr_text *t, const char *s, size_t n)
 {
 	MR_RESERVE(t->ctx, t->s, t->n, n + 1, &t->room);
 	memcpy(t->s + t->n, s, n);
@@ -36,21 +36,21 @@ mr_text_json(mr_text *t, const char *s, size_t n)
 	const unsigned char *p = (const unsigned char *)s;
 	uint32_t code;
 
-	add_bytes(t, "\"", 1);
+	mr_text_bytes(t, "\"", 1);
 	for (size_t i = 0, length; i < n; i += length) {
 		length = mr_utf8(p + i, n - i, &code);
 		if (length == 0) {
-			add_bytes(t, "\\ufffd", 6);
+			mr_text_bytes(t, "\\ufffd", 6);
 			length = 1;
 		} else if (p[i] == '"' || p[i] == '\\') {
 			mr_text_add(t, "\\%c", p[i]);
 		} else if (p[i] < 0x20 || p[i] == 0x7f) {
 			mr_text_add(t, "\\u%04x", p[i]);
 		} else {
-			add_bytes(t, s + i, length);
+			mr_text_bytes(t, s + i, length);
 		}
 	}
-	add_bytes(t, "\"", 1);
+	mr_text_bytes(t, "\"", 1);
 }
 
 void
@@ -62,10 +62,10 @@ mr_text_line(mr_text *t, const char *s, size_t n)
 	for (size_t i = 0, length; i < n; i += length) {
 		length = mr_utf8(p + i, n - i, &code);
 		if (length == 0 || mr_is_control(code)) {
-			add_bytes(t, "?", 1);
+			mr_text_bytes(t, "?", 1);
 			length = length ? length : 1;
 		} else {
-			add_bytes(t, s + i, length);
+			mr_text_bytes(t, s + i, length);
 		}
 	}
 }

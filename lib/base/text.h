@@ -15,6 +15,9 @@ typedef struct mr_text {
 /* Appends, as by printf. */
 void mr_text_add(mr_text *t, const char *format, ...) MR_PRINTF(2, 3);
 
+/* Appends n bytes as they are. */
+void mr_text_bytes(mr_text *t, const char *s, size_t n);
+
 /* Appends n bytes as a JSON string, quotes and all; bytes that are not UTF-8 become U+FFFD. */
 void mr_text_json(mr_text *t, const char *s, size_t n);
 

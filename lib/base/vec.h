@@ -208,13 +208,6 @@ mr_box_add(mr_box *b, mr_v3 p)
 	    p.z > b->max.z ? p.z : b->max.z);
 }
 
-static inline bool
-mr_box_has(mr_box b, mr_v3 p)
-{
-	return p.x >= b.min.x && p.x <= b.max.x && p.y >= b.min.y && p.y <= b.max.y && p.z >= b.min.z &&
-	       p.z <= b.max.z;
-}
-
 /* The bounding box of n points; empty (min > max) for none. */
 static inline mr_box
 mr_box_of(const mr_v3 *p, size_t n)

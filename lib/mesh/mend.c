@@ -132,64 +132,29 @@ report_repair(mr_ctx *ctx, const mr_repair_report *r)
 	report(ctx, all, what);
 }
 
-/* A copy of a column of reals; NULL where there is none. */
-static mr_v3 *
-own_normals(mr_ctx *ctx, mr_frame *f, const char *layer, const char *name, size_t n)
-{
-	const mr_column *c = mr_frame_find(f, layer, name);
-	mr_v3 *own = c ? MR_NEW(ctx, n, mr_v3) : NULL;
-
-	return own ? memcpy(own, c->data, n * sizeof *own) : NULL;
-}
-
-/* n, or where it points against the surface, which was turned over there, the other way. */
-static mr_v3
-facing(mr_v3 n, bool flipped, mr_v3 surface)
-{
-	return flipped && mr_dot(n, surface) < 0 ? mr_sub(mr_vec(0, 0, 0), n) : n;
-}
-
-static mr_status
-turn_normals(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *flipped)
-{
-	mr_v3 *normal = own_normals(ctx, f, m->name, "normal", m->nv),
-	      *corner = own_normals(ctx, f, m->name, "corner_normal", 3 * m->nf),
-	      *surface = MR_NEW(ctx, m->nv, mr_v3);
-	bool *touched = MR_NEW_ZERO(ctx, m->nv, bool);
-
-	mr_vertex_normals(ctx, m, NULL, surface);
-	for (size_t c = 0; c < 3 * m->nf; c++) {
-		touched[m->t[c / 3].v[c % 3]] |= flipped[c / 3];
-		if (corner)
-			corner[c] = facing(corner[c], flipped[c / 3], mr_face_cross(m, c / 3));
-	}
-	for (size_t v = 0; normal && v < m->nv; v++)
-		normal[v] = facing(normal[v], touched[v], surface[v]);
-	if (normal)
-		MR_TRY(mr_layer_put(ctx, f, m->name, "normal", normal, m->nv));
-	return corner ? mr_layer_put(ctx, f, m->name, "corner_normal", corner, m->nf) : MR_OK;
-}
-
-/* What corners have, in the order of the corners that the faces have now. */
+/* What corners have, in the order of the corners that the faces have now; normals of a file that is not
+ * oriented alike say nothing. */
 static mr_status
 turn_corners(mr_ctx *ctx, mr_frame *f, const mr_mesh *m, const bool *flipped)
 {
-	static const char *const names[] = { "corner_texcoord", "corner_normal" };
 	uint32_t *of = MR_NEW(ctx, 3 * m->nf, uint32_t);
 
 	for (uint32_t i = 0; i < 3 * m->nf; i++)
 		of[i] = flipped[i / 3] && i % 3 ? i / 3 * 3 + 3 - i % 3 : i;
-	for (size_t k = 0; k < 2; k++)
-		for (size_t i = 0; i < f->count; i++) {
-			mr_carried c;
-			if (strcmp(f->columns[i].layer, m->name) || strcmp(f->columns[i].name, names[k]))
-				continue;
-			MR_TRY(mr_carried_begin(ctx, f, i, m->nf, m->nf, &c));
-			c.kind = MR_LABEL;
-			mr_carried_make(ctx, &c, 3, 0, (mr_rows_from){ 3 * m->nf, 1, of, NULL });
-			MR_TRY(mr_carried_put(ctx, f, m->name, &c));
-		}
-	return turn_normals(ctx, f, m, flipped);
+	for (size_t i = 0; i < f->count; i++) {
+		mr_carried c;
+		if (strcmp(f->columns[i].layer, m->name) || strcmp(f->columns[i].name, "corner_texcoord"))
+			continue;
+		MR_TRY(mr_carried_begin(ctx, f, i, m->nf, m->nf, &c));
+		c.kind = MR_LABEL;
+		mr_carried_make(ctx, &c, 3, 0, (mr_rows_from){ 3 * m->nf, 1, of, NULL });
+		MR_TRY(mr_carried_put(ctx, f, m->name, &c));
+	}
+	mr_lost(ctx, m->name, mr_layer_has(f, m->name, "normal") || mr_layer_has(f, m->name, "corner_normal"),
+	    "normals of a surface whose faces are turned");
+	mr_frame_drop(f, m->name, "normal", 0);
+	mr_frame_drop(f, m->name, "corner_normal", 0);
+	return MR_OK;
 }
 
 mr_status

@@ -5,10 +5,8 @@
  * doubles, and deterministic: of several nearest triangles the one with the
  * lowest index is returned, however many threads built the tree.  The tree lives
  * in the arena; the mesh must outlive it.  Queries only read: any number of
- * threads may ask at once.  Of many faces with the same vertices, in the same order, and of many whose
- * corners are all at one place, some or all but one are hidden from every query; the lowest never is.  From
- * farther off than 2^36 sizes of the mesh a nearest point is farther than the nearest by 2^-35 of its
- * distance at most.
+ * threads may ask at once.  From farther off than 2^36 sizes of the mesh a nearest point is farther than the
+ * nearest by 2^-35 of its distance at most.
  */
 #ifndef MR_SPACE_BVH_H
 #define MR_SPACE_BVH_H
@@ -32,9 +30,6 @@ typedef struct mr_ray_hit {
 
 /* Builds the tree over all faces of m (finite positions, valid indices; degenerate faces allowed). */
 void mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **bvh);
-
-/* How many faces are hidden. */
-size_t mr_bvh_hidden(const mr_bvh *bvh);
 
 /* The nearest point of the surface; face MR_NONE where the mesh has no face.  Ties: the lowest face. */
 mr_closest mr_bvh_closest(const mr_bvh *bvh, mr_v3 q);

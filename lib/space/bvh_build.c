@@ -27,7 +27,6 @@ typedef struct task {
 	range r;
 	int depth;
 	size_t slot; /* its first bvh_node */
-	size_t hidden;
 } task;
 
 typedef struct builder {
@@ -35,8 +34,6 @@ typedef struct builder {
 	prim *prims;
 	task *tasks;
 	size_t task_count, task_size; /* ranges of at most task_size become tasks; 0: none */
-	size_t hidden;                /* faces, so far */
-	float most;                   /* of the mesh, in its units */
 } builder;
 
 static float
@@ -161,93 +158,17 @@ split(prim *p, size_t n, int depth)
 	return i > 0 && i < n ? i : n / 2;
 }
 
-static float
-slack(const builder *b, float x)
-{
-	return SLACK * fmaxf(b->most, fabsf(x));
-}
-
 static void
-set_child_box(const builder *r, mr_bvh_node *d, int c, const prim *p, size_t n)
+set_child_box(mr_bvh_node *d, int c, const prim *p, size_t n)
 {
 	fbox b = fbox_empty();
 
 	for (size_t i = 0; i < n; i++)
 		fbox_add(&b, p[i].lo, p[i].hi);
 	for (int k = 0; k < 3; k++) {
-		d->lo[k][c] = b.lo[k] - slack(r, b.lo[k]);
-		d->hi[k][c] = b.hi[k] + slack(r, b.hi[k]);
+		d->lo[k][c] = b.lo[k] - SLACK;
+		d->hi[k][c] = b.hi[k] + SLACK;
 	}
-}
-
-static bool
-at_one_place(mr_v3 a, mr_v3 b)
-{
-	return a.x == b.x && a.y == b.y && a.z == b.z;
-}
-
-/* Whether no query tells the faces apart, but by their number. */
-static bool
-same_face(const mr_mesh *m, uint32_t f, uint32_t g)
-{
-	const uint32_t *a = m->t[f].v, *b = m->t[g].v;
-
-	if (!memcmp(a, b, sizeof m->t->v))
-		return true;
-	for (int k = 0; k < 3; k++)
-		if (!at_one_place(m->p[a[k]], m->p[a[0]]) || !at_one_place(m->p[b[k]], m->p[a[0]]))
-			return false;
-	return true;
-}
-
-/*
- * Of faces with the same vertices every query would look at each, and no split parts them: moves the lowest
- * of each kind to the front, the others, which stay hidden, behind.  How many are in front.
- */
-static size_t
-hide_repeated(const mr_mesh *m, prim *p, size_t n)
-{
-	enum { KINDS = 16 };
-	size_t kept = 0;
-
-	for (size_t i = 0; i < n; i++) {
-		size_t kind = 0, kinds = kept < KINDS ? kept : KINDS;
-		prim x = p[i];
-		while (kind < kinds && !same_face(m, p[kind].face, x.face))
-			kind++;
-		if (kind == kinds) {
-			p[i] = p[kept];
-			p[kept++] = x;
-		} else if (x.face < p[kind].face) {
-			p[i] = p[kind];
-			p[kind] = x;
-		}
-	}
-	return kept;
-}
-
-static bool
-have_one_centroid(const prim *p, size_t n)
-{
-	for (size_t i = 1; i < n; i++)
-		for (int k = 0; k < 3; k++)
-			if (centroid(p + i, k) != centroid(p, k))
-				return false;
-	return true;
-}
-
-/* The range without what is hidden of faces that no split parts. */
-static range
-without_repeated(builder *b, range r)
-{
-	prim *p = b->prims + r.first;
-	size_t n;
-
-	if (r.n <= BVH_LEAF || !have_one_centroid(p, r.n))
-		return r;
-	n = hide_repeated(b->bvh->mesh, p, r.n);
-	b->hidden += r.n - n;
-	return (range){ r.first, n };
 }
 
 /* Cuts a range of more than BVH_LEAF prims, always the largest piece, until there are four. */
@@ -269,10 +190,10 @@ cut(prim *prims, range r, int depth, range out[BVH_WIDE])
 
 /* Builds the subtree of a range; its nodes take the places from *next on, the first its root. */
 static void
-build_range(builder *b, range whole, int depth, size_t *next)
+build_range(builder *b, range r, int depth, size_t *next)
 {
 	mr_bvh_node *d = &b->bvh->nodes[(*next)++];
-	range r = without_repeated(b, whole), part[BVH_WIDE] = { r };
+	range part[BVH_WIDE] = { r };
 	int parts = 1;
 
 	*d = (mr_bvh_node){ .child = { MR_NONE, MR_NONE, MR_NONE, MR_NONE } };
@@ -286,7 +207,7 @@ build_range(builder *b, range whole, int depth, size_t *next)
 		parts = BVH_WIDE;
 	}
 	for (int c = 0; c < parts; c++) {
-		set_child_box(b, d, c, b->prims + part[c].first, part[c].n);
+		set_child_box(d, c, b->prims + part[c].first, part[c].n);
 		if (part[c].n <= BVH_LEAF) {
 			d->child[c] = (uint32_t)part[c].first;
 			d->count[c] = (uint8_t)part[c].n;
@@ -294,7 +215,7 @@ build_range(builder *b, range whole, int depth, size_t *next)
 		}
 		d->child[c] = (uint32_t)*next;
 		if (part[c].n <= b->task_size) {
-			b->tasks[b->task_count++] = (task){ part[c], depth + 1, *next, 0 };
+			b->tasks[b->task_count++] = (task){ part[c], depth + 1, *next };
 			*next += bvh_node_bound(part[c].n);
 		} else {
 			build_range(b, part[c], depth + 1, next);
@@ -310,9 +231,7 @@ build_tasks(void *arg, size_t begin, size_t end)
 	b.task_size = 0;
 	for (size_t i = begin; i < end; i++) {
 		size_t next = b.tasks[i].slot;
-		b.hidden = 0;
 		build_range(&b, b.tasks[i].r, b.tasks[i].depth, &next);
-		b.tasks[i].hidden = b.hidden;
 	}
 }
 
@@ -335,44 +254,6 @@ fill_prims(void *arg, size_t begin, size_t end)
 	}
 }
 
-/* The box of the middle half of the vertices, along each axis, by some of them. */
-static mr_box
-box_of_most(const mr_mesh *m)
-{
-	enum { SOME = 255 };
-	size_t n = m->nv < SOME ? m->nv : SOME;
-	double x[SOME], low[3], high[3];
-
-	for (int k = 0; k < 3; k++) {
-		for (size_t i = 0; i < n; i++)
-			x[i] = mr_coordinate(m->p[i * m->nv / n], k);
-		low[k] = mr_kth(x, n, n / 4);
-		high[k] = mr_kth(x, n, n - 1 - n / 4);
-	}
-	return (mr_box){ { low[0], low[1], low[2] }, { high[0], high[1], high[2] } };
-}
-
-static mr_v3
-middle(mr_box b)
-{
-	return mr_vec(b.min.x / 2 + b.max.x / 2, b.min.y / 2 + b.max.y / 2, b.min.z / 2 + b.max.z / 2);
-}
-
-/* The centre is where most is where that is tiny beside the whole: floats are fine near 0. */
-static mr_v3
-find_center(builder *b, mr_box whole)
-{
-	const double tiny = 0x1p-12, least = 0x1p-100;
-	mr_box most = box_of_most(b->bvh->mesh);
-	double share = mr_box_diagonal(most) / mr_box_diagonal(whole);
-
-	b->most = 1;
-	if (!(share < tiny))
-		return middle(whole);
-	b->most = (float)fmax(share, least);
-	return middle(most);
-}
-
 /* Centre and scale: every position within [-1, 1] of the unit. */
 static void
 set_unit(builder *r)
@@ -383,7 +264,7 @@ set_unit(builder *r)
 	double size = 0;
 	int exponent;
 
-	bvh->center = find_center(r, b);
+	bvh->center = mr_vec(b.min.x / 2 + b.max.x / 2, b.min.y / 2 + b.max.y / 2, b.min.z / 2 + b.max.z / 2);
 	size = fmax(size, fmax(b.max.x - bvh->center.x, bvh->center.x - b.min.x));
 	size = fmax(size, fmax(b.max.y - bvh->center.y, bvh->center.y - b.min.y));
 	size = fmax(size, fmax(b.max.z - bvh->center.z, bvh->center.z - b.min.z));
@@ -411,16 +292,7 @@ mr_bvh_build(mr_ctx *ctx, const mr_mesh *m, mr_bvh **out)
 		mr_parallel(ctx, b.task_count, 1, build_tasks, &b);
 		for (size_t i = 0; i < m->nf; i++)
 			face[i] = b.prims[i].face;
-		bvh->hidden = b.hidden;
-		for (size_t i = 0; i < b.task_count; i++)
-			bvh->hidden += b.tasks[i].hidden;
 	}
 	mr_mark_release(ctx, mark);
 	*out = bvh;
-}
-
-size_t
-mr_bvh_hidden(const mr_bvh *bvh)
-{
-	return bvh->hidden;
 }

@@ -30,7 +30,6 @@ struct mr_bvh {
 	const mr_mesh *mesh;
 	mr_bvh_node *nodes; /* the root first */
 	uint32_t *face;
-	size_t hidden; /* faces that no leaf has: a lower one has the same vertices */
 	mr_v3 center;
 	double scale; /* a power of two: 1 / scale is the size of the mesh */
 };

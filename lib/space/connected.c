@@ -1,14 +1,11 @@
-/*
- * Components.  Those of points are found over a binary tree of boxes, two subtrees at a time (as Gray and
- * Moore 2000 do for such problems): what is out of reach, or of one component already, is not looked into.
- */
+/* Components.  Those of points are found over a binary tree of boxes: what is out of a point's reach, or of
+ * its component already, is not looked into. */
 #include "space/connected.h"
 
 #include "base/disjoint_sets.h"
 #include "mesh/zorder.h"
 
-/* Of a point, in its spacings.  Of the vertices of 61 meshes of one piece, as clouds, 52 keep 98 % in one
- * part; by 3 spacings 51, by 6 56, but then half of the six parts of hippo2 are joined. */
+/* Of a point, in its spacings. */
 static const double REACH = 4;
 
 enum { LEAF = 8 };
@@ -135,31 +132,16 @@ build(tree *t, range r)
 }
 
 static double
-gap(double low, double high, double other_low, double other_high)
+box_distance(const mr_box *b, mr_v3 p)
 {
-	return fmax(0, fmax(other_low - high, low - other_high));
-}
-
-static double
-box_distance(const mr_box *a, const mr_box *b)
-{
-	return mr_norm(mr_vec(gap(a->min.x, a->max.x, b->min.x, b->max.x),
-	    gap(a->min.y, a->max.y, b->min.y, b->max.y), gap(a->min.z, a->max.z, b->min.z, b->max.z)));
-}
-
-static void
-join_points(tree *t, range a, range b)
-{
-	for (size_t i = a.begin; i < a.end; i++)
-		for (size_t j = b.begin; j < b.end; j++)
-			if (mr_dist(t->p[i], t->p[j]) <= fmin(t->reach[i], t->reach[j]))
-				mr_sets_join(t->parent, (uint32_t)i, (uint32_t)j);
+	return mr_norm(mr_vec(fmax(0, fmax(b->min.x - p.x, p.x - b->max.x)),
+	    fmax(0, fmax(b->min.y - p.y, p.y - b->max.y)), fmax(0, fmax(b->min.z - p.z, p.z - b->max.z))));
 }
 
 static bool
-same_set(tree *t, range a, range b)
+same_set(tree *t, size_t i, size_t j)
 {
-	return mr_sets_root(t->parent, (uint32_t)a.begin) == mr_sets_root(t->parent, (uint32_t)b.begin);
+	return mr_sets_root(t->parent, (uint32_t)i) == mr_sets_root(t->parent, (uint32_t)j);
 }
 
 /* Whether all points of the node are known to be of one component. */
@@ -167,48 +149,32 @@ static bool
 is_one(tree *t, range r)
 {
 	node *n = &t->node[r.node];
+	bool one = true;
 
-	if (n->one || is_leaf(r)) {
-		for (size_t i = r.begin + 1; i < r.end && !n->one; i++)
-			if (!same_set(t, r, (range){ 0, i, i }))
-				return false;
-		return n->one = true;
-	}
-	n->one = t->node[child(r, 0).node].one && t->node[child(r, 1).node].one &&
-	         same_set(t, child(r, 0), child(r, 1));
-	return n->one;
+	if (n->one)
+		return true;
+	for (size_t i = r.begin + 1; is_leaf(r) && i < r.end && one; i++)
+		one = same_set(t, r.begin, i);
+	if (!is_leaf(r))
+		one = t->node[child(r, 0).node].one && t->node[child(r, 1).node].one &&
+		      same_set(t, r.begin, child(r, 1).begin);
+	return n->one = one;
 }
 
+/* Joins point i with those of the node that it is connected with. */
 static void
-join_nodes(tree *t, range a, range b)
+join_point(tree *t, size_t i, range r)
 {
-	const node *x = &t->node[a.node], *y = &t->node[b.node];
-	bool divide_b = is_leaf(a) || (!is_leaf(b) && b.end - b.begin > a.end - a.begin);
+	const node *n = &t->node[r.node];
 
-	if (box_distance(&x->box, &y->box) > fmin(x->reach, y->reach) ||
-	    (is_one(t, a) && is_one(t, b) && same_set(t, a, b)))
+	if (box_distance(&n->box, t->p[i]) > fmin(t->reach[i], n->reach) ||
+	    (is_one(t, r) && same_set(t, i, r.begin)))
 		return;
-	if (is_leaf(a) && is_leaf(b)) {
-		join_points(t, a, b);
-		return;
-	}
-	for (int k = 0; k < 2; k++)
-		if (divide_b)
-			join_nodes(t, a, child(b, k));
-		else
-			join_nodes(t, child(a, k), b);
-}
-
-static void
-join_inside(tree *t, range r)
-{
-	if (is_leaf(r)) {
-		join_points(t, r, r);
-		return;
-	}
-	join_inside(t, child(r, 0));
-	join_inside(t, child(r, 1));
-	join_nodes(t, child(r, 0), child(r, 1));
+	for (size_t j = r.begin; is_leaf(r) && j < r.end; j++)
+		if (mr_dist(t->p[i], t->p[j]) <= fmin(t->reach[i], t->reach[j]))
+			mr_sets_join(t->parent, (uint32_t)i, (uint32_t)j);
+	for (int k = 0; k < 2 && !is_leaf(r); k++)
+		join_point(t, i, child(r, k));
 	is_one(t, r);
 }
 
@@ -237,7 +203,8 @@ mr_connected_by_reach(mr_ctx *ctx, const mr_v3 *p, size_t n, const double *reach
 	}
 	if (n > 0) {
 		build(&t, (range){ 0, 0, n });
-		join_inside(&t, (range){ 0, 0, n });
+		for (size_t i = 0; i < n; i++)
+			join_point(&t, i, (range){ 0, 0, n });
 	}
 	number_sets(ctx, t.parent, order, n, c);
 }

@@ -3,9 +3,8 @@
 
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
+#include "mesh/repair.h"
 #include "space/bvh_labels.h"
-
-#include <stdlib.h>
 
 void
 mr_components_label(mr_ctx *ctx, const mr_mesh *m, uint32_t **component, bool *several)
@@ -75,70 +74,55 @@ same_place(const mr_ctx *ctx, const mr_mesh *m)
 	    fmin(rounding * mr_box_diagonal(box), edge * mr_mesh_edge_scale(ctx, m)));
 }
 
-typedef struct mark {
-	double along;
-	uint32_t vertex;
-} mark;
-
-static int
-by_place(const void *a, const void *b)
+/* The vertices of the boundary. */
+static uint32_t *
+list_boundary(mr_ctx *ctx, const mr_mesh *m, const bool *boundary, mr_v3 *p, size_t *n)
 {
-	const mark *x = a, *y = b;
-
-	return x->along != y->along ? (x->along > y->along) - (x->along < y->along)
-	                            : (x->vertex > y->vertex) - (x->vertex < y->vertex);
-}
-
-/* Along a direction that no mesh has edges across, so that few are level with each other. */
-static mark *
-sort_boundary(mr_ctx *ctx, const mr_mesh *m, const bool *boundary, size_t *n)
-{
-	const mr_v3 way = mr_unit(mr_vec(0.6180340, 0.3247180, 0.7166727));
-	mark *x = MR_NEW(ctx, m->nv, mark);
+	uint32_t *list = MR_NEW(ctx, m->nv, uint32_t);
 
 	*n = 0;
-	for (uint32_t v = 0; x && v < m->nv; v++)
-		if (boundary[v])
-			x[(*n)++] = (mark){ mr_dot(way, m->p[v]), v };
-	qsort(x, *n, sizeof *x, by_place);
-	return x;
+	for (uint32_t v = 0; v < m->nv; v++)
+		if (boundary[v]) {
+			p[*n] = m->p[v];
+			list[(*n)++] = v;
+		}
+	return list;
 }
 
-static void
-join_rings(slits *s, uint32_t *ring, uint32_t a, uint32_t b)
-{
-	uint32_t next = s->next[a];
-
-	if (mr_sets_root(ring, a) == mr_sets_root(ring, b))
-		return;
-	mr_sets_join(ring, a, b);
-	s->next[a] = s->next[b];
-	s->next[b] = next;
-	s->any = true;
-}
-
+/* Those of one component that are welded become rings. */
 static void
 find_slits(mr_ctx *ctx, const mr_mesh *m, const uint32_t *component, slits *s)
 {
-	double near = 0;
-	uint32_t *ring;
+	mr_v3 *p = MR_NEW(ctx, m->nv, mr_v3);
+	uint32_t *list, *place, *other, *head;
 	bool *boundary, any;
-	size_t n;
-	mark *x;
+	size_t n, places;
 
 	*s = (slits){ .next = mr_sets_new(ctx, m->nv), .face = MR_NEW(ctx, m->nv, uint32_t) };
 	mr_boundary_label(ctx, m, &boundary, &any);
 	s->closed = !any;
 	if (!any)
 		return;
-	near = same_place(ctx, m);
-	ring = mr_sets_new(ctx, m->nv);
-	x = sort_boundary(ctx, m, boundary, &n);
-	for (size_t i = 0; i < n; i++)
-		for (size_t j = i + 1; j < n && x[j].along - x[i].along <= near; j++)
-			if (component[x[i].vertex] == component[x[j].vertex] &&
-			    mr_dist(m->p[x[i].vertex], m->p[x[j].vertex]) <= near)
-				join_rings(s, ring, x[i].vertex, x[j].vertex);
+	list = list_boundary(ctx, m, boundary, p, &n);
+	place = MR_NEW(ctx, n, uint32_t);
+	mr_weld(ctx, p, n, same_place(ctx, m), place, &places);
+	head = MR_NEW(
+	    ctx, places, uint32_t); /* the first of each component at a place, and `other`, the next */
+	other = MR_NEW(ctx, m->nv, uint32_t);
+	memset(head, 0xff, places * sizeof *head);
+	for (size_t i = 0; i < n; i++) {
+		uint32_t v = list[i], u = head[place[i]];
+		while (u != MR_NONE && component[u] != component[v])
+			u = other[u];
+		if (u != MR_NONE) {
+			s->next[v] = s->next[u];
+			s->next[u] = v;
+			s->any = true;
+		} else {
+			other[v] = head[place[i]];
+			head[place[i]] = v;
+		}
+	}
 	for (size_t f = m->nf; f-- > 0;)
 		for (int k = 0; k < 3; k++)
 			s->face[m->t[f].v[k]] = (uint32_t)f;

@@ -23,43 +23,23 @@ enum {
 	GRAIN = 256
 };
 
-/*
- * A neighbourhood of more variation shows noise, or a sharp shape: the larger one sees through noise.  But
- * where the first had not so much more, and the larger has more than it, it is the shape. Mean error of the
- * normals on 53 closed meshes, of their vertices and of points strewn on them, with noise of 0 to 1.5
- * spacings: 16 % above that of the best of neighbourhoods up to 100 on one half of the meshes and 11 % on the
- * other; by the first alone 57 and 53 %.  The wraps of 49 of them by 6,000 points with noise of half a
- * spacing and 5 % outliers, and of one and 20 %: with 60 the mean distances both ways are 11 % longer than
- * with 40, with 100 18 %, with 25 and 30 within 2 % of these.
- */
+/* A neighbourhood of more variation shows noise, or a sharp shape: the larger one sees through noise.  But where
+ * the first had not so much more, and the larger has more than it, it is the shape. */
 static const double NOISY = 0.06, SURELY_NOISY = 0.12;
 
 /*
  * An outlier is so many times as far from its neighbours as half of these from theirs; or as all usually are,
- * and its nearest make no plane (of this variation); or it has mostly outliers around.  Of 5 % of outliers
- * strewn over the boxes of 41 closed meshes, those farther than three spacings from the surface: 98 % are
- * found on one half, 97 % on the other, for none of the other points; of the vertices of these meshes,
- * unevenly dense, 0.4 % and none are taken for some.  Twice as far instead of 2.5 times: 98 % and 98 %, but
- * 0.6 % and 0.04 % of the vertices, and 37 clouds are 3 % farther from their surfaces.
- *
- * But thin parts of a surface that is sampled ever more sparsely make no planes either.  There each point is
- * among the nearest of one that is less sparse, as between the surface and what is strewn none is, unless
- * noise and the strewn ones are many; and the variation of such regions is 0.00 to 0.09 on the mean, of
- * strewn ones 0.12.  Of clouds whose density varies 60 times, of 54 models, the mean distance from the truth
- * is 0.25 % of the diagonal without this, 0.10 with it.
+ * and its nearest make no plane (of this variation); or it has mostly outliers around.  Thin parts of a surface
+ * that is sampled ever more sparsely make no planes either: there dense points lead to the sparse ones.
  */
 static const double ALONE = 2.5, SPARSE = 2.5, UNEVEN = 0.05, STREWN = 0.1;
 enum { ROUNDS = 3 };
 
-/*
- * Few points far from all others, even if they make a plane, would have the cells of a grid, and the edges of
- * a box, as long as their way: outliers are, too, those so many usual spacings from their neighbours and so
- * many times as far from the middle as nearly all are.
- */
+/* Few points far from all others may make a plane: outliers are, too, those so many usual spacings from their
+ * neighbours and so many times as far from the middle as nearly all are. */
 static const double APART = 6, BEYOND = 2, NEARLY = 0.95;
 
-/* Of as few places as 100, 22 % of the outliers among a tenth were found, of 64 15 %, and as many others
- * taken for some. */
+/* Of fewer places there are no outliers. */
 enum { FEW = 64 };
 
 /* Of spacings. */

@@ -7,7 +7,6 @@
 #include "space/self_intersect.h"
 
 #include "base/parallel.h"
-#include "mesh/alike.h"
 #include "space/predicates.h"
 #include "space/suspects.h"
 
@@ -353,9 +352,7 @@ mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const b
 }
 
 typedef struct counting {
-	uint32_t *first; /* of the faces with the same vertices; NULL: none are hidden */
-	size_t *alike;   /* of the first: how many there are */
-	bool *crosses;   /* of the faces; or NULL */
+	bool *crosses; /* of the faces; or NULL */
 	size_t count;
 } counting;
 
@@ -363,61 +360,21 @@ static void
 count_pair(void *arg, uint32_t f, uint32_t g)
 {
 	counting *c = arg;
-	size_t pairs = c->first ? c->alike[f] * c->alike[g] : 1;
 
-	__atomic_fetch_add(&c->count, pairs, __ATOMIC_RELAXED);
-	if (c->crosses && pairs) {
+	__atomic_fetch_add(&c->count, 1, __ATOMIC_RELAXED);
+	if (c->crosses) {
 		__atomic_store_n(&c->crosses[f], true, __ATOMIC_RELAXED);
 		__atomic_store_n(&c->crosses[g], true, __ATOMIC_RELAXED);
 	}
 }
 
-/* Faces with the same vertices intersect each other, and what the first of them does. */
-static void
-find_alike(mr_ctx *ctx, const mr_mesh *m, counting *c)
-{
-	c->first = MR_NEW(ctx, m->nf, uint32_t);
-	c->alike = MR_NEW_ZERO(ctx, m->nf, size_t);
-	mr_first_alike(ctx, m, c->first);
-	for (size_t f = 0; f < m->nf; f++)
-		c->alike[c->first[f]]++;
-}
-
-static void
-count_alike(const mr_mesh *m, counting *c)
-{
-	for (size_t f = 0; f < m->nf; f++) {
-		size_t n = c->alike[f];
-		mr_v3 p[3];
-		corners(m, f, p);
-		if (n < 2 || mr_triangle_degenerate(p[0], p[1], p[2]))
-			continue;
-		c->count += n * (n - 1) / 2;
-		if (c->crosses)
-			c->crosses[f] = true;
-	}
-	for (size_t f = 0; c->crosses && f < m->nf; f++)
-		c->crosses[f] = c->crosses[c->first[f]];
-}
-
 void
 mr_self_intersections(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, bool *crosses, size_t *count)
 {
-	mr_mark mark = mr_mark_take(ctx);
 	counting c = { .crosses = crosses };
-	mr_bvh *own;
 
-	if (!bvh) {
-		mr_bvh_build(ctx, m, &own);
-		bvh = own;
-	}
-	if (mr_bvh_hidden(bvh))
-		find_alike(ctx, m, &c);
 	if (crosses)
 		memset(crosses, 0, m->nf * sizeof *crosses);
 	mr_intersections_visit(ctx, bvh, m, NULL, count_pair, &c);
-	if (c.first)
-		count_alike(m, &c);
-	mr_mark_release(ctx, mark);
 	*count = c.count;
 }

@@ -21,7 +21,7 @@ bool mr_triangle_degenerate(mr_v3 a, mr_v3 b, mr_v3 c);
 /*
  * Calls visit(arg, f, g) once for each pair of faces that intersect, from several threads at once.  bvh: of
  * m, where the caller has one, or NULL.  among: m->nf, faces of which one is to be of the pair, or NULL: all.
- * Faces without area are left out, and those that bvh hides.
+ * Faces without area are left out.
  */
 void mr_intersections_visit(mr_ctx *ctx, const mr_bvh *bvh, const mr_mesh *m, const bool *among,
     void (*visit)(void *arg, uint32_t f, uint32_t g), void *arg);

@@ -1,7 +1,7 @@
 /* Columns by name, in their order; values decoded and verified when they are asked for. */
 #include "stream/frame.h"
 
-#include "base/utf8.h"
+#include "base/text.h"
 #include "stream/stored.h"
 
 enum { ROOM = 16 };
@@ -237,28 +237,6 @@ mr_frame_drop(mr_frame *frame, const char *layer, const char *name, char element
 	frame->count = kept;
 }
 
-/* Copies a line of text and ends it; what is no character of a line, a control or a stray byte, becomes '?'.
- */
-static size_t
-clean_line(char *to, const char *line)
-{
-	const unsigned char *s = (const unsigned char *)line;
-	size_t n = strlen(line), used = 0, step;
-	uint32_t code;
-
-	for (size_t i = 0; i < n; i += step ? step : 1) {
-		step = mr_utf8(s + i, n - i, &code);
-		if (step == 0 || mr_is_control(code)) {
-			to[used++] = '?';
-		} else {
-			memcpy(to + used, s + i, step);
-			used += step;
-		}
-	}
-	to[used++] = '\n';
-	return used;
-}
-
 /* The lines of a column of no layer, or none. */
 static mr_status
 lines_of(mr_ctx *ctx, mr_frame *frame, const char *name, const void **text, size_t *n)
@@ -273,33 +251,33 @@ lines_of(mr_ctx *ctx, mr_frame *frame, const char *name, const void **text, size
 mr_status
 mr_frame_add_history(mr_ctx *ctx, mr_frame *frame, const char *line)
 {
+	mr_text text = { .ctx = ctx };
 	const void *old;
+	const char *lines;
 	size_t n;
-	char *text;
 
 	MR_TRY(lines_of(ctx, frame, "history", &old, &n));
-	text = mr_alloc(ctx, n + strlen(line) + 2, 1);
-	if (n)
-		memcpy(text, old, n);
-	if (n && text[n - 1] != '\n')
-		text[n++] = '\n';
-	n += clean_line(text + n, line);
-	return mr_frame_put(ctx, frame, "", "history", TEXT, text, n);
+	lines = old;
+	mr_text_bytes(&text, lines, n);
+	if (n && lines[n - 1] != '\n')
+		mr_text_bytes(&text, "\n", 1);
+	mr_text_line(&text, line, strlen(line));
+	mr_text_bytes(&text, "\n", 1);
+	return mr_frame_put(ctx, frame, "", "history", TEXT, text.s, text.n);
 }
 
 static mr_status
 merge_lines(mr_ctx *ctx, mr_frame *frame, mr_frame *from, const char *name)
 {
-	const void *old, *more;
-	size_t n, m;
-	char *text;
+	mr_text text = { .ctx = ctx };
+	const void *lines;
+	size_t n;
 
-	MR_TRY(lines_of(ctx, frame, name, &old, &n));
-	MR_TRY(lines_of(ctx, from, name, &more, &m));
-	text = mr_alloc(ctx, n + m, 1);
-	memcpy(text, old, n);
-	memcpy(text + n, more, m);
-	return mr_frame_put(ctx, frame, "", name, TEXT, text, n + m);
+	MR_TRY(lines_of(ctx, frame, name, &lines, &n));
+	mr_text_bytes(&text, lines, n);
+	MR_TRY(lines_of(ctx, from, name, &lines, &n));
+	mr_text_bytes(&text, lines, n);
+	return mr_frame_put(ctx, frame, "", name, TEXT, text.s, text.n);
 }
 
 /* What frames have together, behind one another. */

@@ -8,23 +8,6 @@
 
 enum { GRAIN = 2048 };
 
-/*
- * The neighbours l_j, j = 1 to n - 1, of a dart whose crease ends in neighbour 0: the left eigenvector of 1
- * solves 5 l_j = l_(j-1) + l_(j+1) + 8 beta with nothing from number 0 or n, whose rule is the curve's;
- * 4 l_0 = l_1 + l_(n-1) + 8 beta.
- */
-double
-mr_loop_dart_weight(unsigned n, unsigned j)
-{
-	const double mu = log((5 + sqrt(21)) / 2); /* x + 1 / x = 5, x = e^mu */
-	double beta = mr_loop_beta(n);
-
-	if (j == 0)
-		return 2 * beta + 0.5 * mr_loop_dart_weight(n, 1);
-	/* cosh((n/2 - j) mu) / cosh(n/2 mu), in terms that do not overflow */
-	return 8 * beta / 3 * (1 - (exp(-mu * j) + exp(-mu * (n - j))) / (1 + exp(-mu * n)));
-}
-
 typedef struct limiting {
 	const mr_loop *l;
 	const mr_v3 *p;
@@ -32,29 +15,11 @@ typedef struct limiting {
 } limiting;
 
 static mr_v3
-dart_point(const limiting *s, uint32_t v, unsigned n)
-{
-	mr_v3 sum = s->p[v];
-	double total = 1;
-	unsigned j = 0;
-
-	for (mr_loop_ring r = mr_loop_ring_from(s->l, mr_loop_sharp_spoke(s->l, v)); r.more;
-	     mr_loop_ring_step(&r), j++) {
-		double w = mr_loop_dart_weight(n, j);
-		sum = mr_axpy(w, s->p[r.to], sum);
-		total += w;
-	}
-	return mr_mul(1 / total, sum);
-}
-
-static mr_v3
 limit_point(const limiting *s, uint32_t v, mr_loop_kind kind)
 {
 	mr_loop_mask mask = mr_loop_limit_mask(kind);
 	mr_v3 sum;
 
-	if (kind.shape == MR_LOOP_DART)
-		return dart_point(s, v, kind.valence);
 	sum = mr_mul(mask.self, s->p[v]);
 	if (mask.self == 1)
 		return sum;
@@ -200,76 +165,12 @@ sharp_normal(const limiting *s, uint32_t v, mr_loop_shape shape)
 	return mr_unit(sum);
 }
 
-/* A dart's symmetric eigenvector: l_j = cos((n/2 - j) x) - cos(n/2 x) for j = 1 to n - 1, of eigenvalue
- * 3/8 + cos(x) / 4. */
-typedef struct dart_mode {
-	double x;
-	double self; /* the vertex's: 8 beta l = (2 cos(x) - 2) C, where C = -cos(n/2 x) */
-	double sum;  /* of l_1 to l_(n - 1) */
-} dart_mode;
-
-static double
-dart_mode_at(unsigned n, double x, unsigned j)
-{
-	return cos((0.5 * n - j) * x) - cos(0.5 * n * x);
-}
-
-/* What is zero for an eigenvector: its entries' sum, with l_0 from (2 cos(x) - 1) l_0 = 2 l_1 + 8 beta l. */
-static double
-dart_defect(unsigned n, double x, dart_mode *mode)
-{
-	double beta = mr_loop_beta(n), end = cos(0.5 * n * x);
-
-	mode->x = x;
-	mode->self = end * (1 - cos(x)) / (4 * beta);
-	mode->sum = sin(0.5 * (n - 1) * x) / sin(0.5 * x) - (n - 1) * end;
-	return (2 * cos(x) - 1) * (mode->self + mode->sum) + 2 * dart_mode_at(n, x, 1) +
-	       8 * beta * mode->self;
-}
-
-/* Its largest eigenvalue has x between pi / n and 3 pi / n. */
-static dart_mode
-dart_mode_find(unsigned n)
-{
-	double low = MR_PI / n, high = n > 3 ? 3 * low : MR_PI;
-	dart_mode mode;
-	bool rises = dart_defect(n, low, &mode) < 0;
-
-	for (int i = 0; i < 60; i++) {
-		double x = 0.5 * (low + high);
-		if ((dart_defect(n, x, &mode) < 0) == rises)
-			low = x;
-		else
-			high = x;
-	}
-	return mode;
-}
-
-/* The first of the ring is the crease's: the sine of 2 pi j / n, and the mode above. */
-static mr_v3
-dart_normal(const limiting *s, uint32_t v, unsigned n)
-{
-	uint32_t spoke = mr_loop_sharp_spoke(s->l, v);
-	dart_mode mode = dart_mode_find(n);
-	mr_loop_ring r = mr_loop_ring_from(s->l, spoke);
-	mr_v3 at = s->p[v];
-	mr_v3 a = mr_mul(mode.self + mode.sum, mr_sub(s->p[r.to], at)); /* -l_0 w_0 */
-	mr_v3 b = sector_read(s, v, &spoke).second_sine;
-
-	mr_loop_ring_step(&r);
-	for (unsigned j = 1; j < n; j++, mr_loop_ring_step(&r))
-		a = mr_axpy(-dart_mode_at(n, mode.x, j), mr_sub(s->p[r.to], at), a);
-	return normal_of(a, b);
-}
-
 static mr_v3
 limit_normal(const limiting *s, uint32_t v, mr_loop_kind kind)
 {
 	switch (kind.shape) {
 	case MR_LOOP_SMOOTH:
 		return smooth_normal(s, v, kind.valence);
-	case MR_LOOP_DART:
-		return dart_normal(s, v, kind.valence);
 	case MR_LOOP_CREASE:
 	case MR_LOOP_CORNER:
 		return sharp_normal(s, v, kind.shape);

@@ -84,21 +84,6 @@ row_of_edge(row *r, const mr_loop *l, uint32_t h, const rows *from)
 	row_add(r, 0.125, from, mr_loop_opposite(l, l->topo.twin[h]));
 }
 
-static void
-row_of_dart(row *r, const mr_loop *l, uint32_t v, unsigned n, const rows *from)
-{
-	uint32_t start = mr_loop_sharp_spoke(l, v);
-	double total = 1;
-	unsigned j = 0;
-
-	for (j = 0; j < n; j++)
-		total += mr_loop_dart_weight(n, j);
-	row_add(r, 1 / total, from, v);
-	j = 0;
-	for (mr_loop_ring g = mr_loop_ring_from(l, start); g.more; mr_loop_ring_step(&g), j++)
-		row_add(r, mr_loop_dart_weight(n, j) / total, from, g.to);
-}
-
 static mr_status
 refine_rows(mr_ctx *ctx, const mr_loop *coarse, const mr_loop *fine, row *r, const rows *in, rows *out)
 {
@@ -119,11 +104,7 @@ limit_rows(mr_ctx *ctx, const mr_loop *l, row *r, const rows *in, rows *out)
 {
 	rows_begin(ctx, l->nv, out);
 	for (uint32_t v = 0; v < l->nv; v++) {
-		mr_loop_kind kind = mr_loop_kind_of(l, v);
-		if (kind.shape == MR_LOOP_DART)
-			row_of_dart(r, l, v, kind.valence, in);
-		else
-			row_of_mask(r, l, v, mr_loop_limit_mask(kind), in);
+		row_of_mask(r, l, v, mr_loop_limit_mask(mr_loop_kind_of(l, v)), in);
 		MR_TRY(row_end(ctx, r, out));
 	}
 	return MR_OK;

@@ -95,21 +95,20 @@ mr_loop_sharp_spoke(const mr_loop *l, uint32_t v)
 
 typedef enum mr_loop_shape {
 	MR_LOOP_ALONE,  /* no face */
-	MR_LOOP_SMOOTH, /* no sharp edge */
-	MR_LOOP_DART,   /* one: the end of a crease */
+	MR_LOOP_SMOOTH, /* at most one sharp edge, the end of a crease */
 	MR_LOOP_CREASE, /* two: on a curve */
 	MR_LOOP_CORNER  /* more */
 } mr_loop_shape;
 
 typedef struct mr_loop_kind {
 	mr_loop_shape shape;
-	unsigned valence; /* of smooth vertices and darts */
+	unsigned valence; /* of smooth vertices */
 } mr_loop_kind;
 
 static inline mr_loop_kind
 mr_loop_kind_of(const mr_loop *l, uint32_t v)
 {
-	static const mr_loop_shape shapes[4] = { MR_LOOP_SMOOTH, MR_LOOP_DART, MR_LOOP_CREASE,
+	static const mr_loop_shape shapes[4] = { MR_LOOP_SMOOTH, MR_LOOP_SMOOTH, MR_LOOP_CREASE,
 		MR_LOOP_CORNER };
 	uint32_t h = l->topo.out[v];
 	unsigned n = 0, sharp = 0;
@@ -146,7 +145,6 @@ mr_loop_even_mask(mr_loop_kind kind)
 
 	switch (kind.shape) {
 	case MR_LOOP_SMOOTH:
-	case MR_LOOP_DART:
 		beta = mr_loop_beta(kind.valence);
 		return (mr_loop_mask){ 1 - kind.valence * beta, beta, beta };
 	case MR_LOOP_CREASE:
@@ -156,7 +154,7 @@ mr_loop_even_mask(mr_loop_kind kind)
 	}
 }
 
-/* Where it comes to lie in the limit; not for darts, whose neighbours differ. */
+/* Where it comes to lie in the limit. */
 static inline mr_loop_mask
 mr_loop_limit_mask(mr_loop_kind kind)
 {
@@ -172,11 +170,5 @@ mr_loop_limit_mask(mr_loop_kind kind)
 		return (mr_loop_mask){ 1, 0, 0 };
 	}
 }
-
-/*
- * The weights of a dart's neighbours in its limit, where the vertex itself has 1 before all are divided by
- * their sum: number j, counter-clockwise from the crease, of n.
- */
-double mr_loop_dart_weight(unsigned n, unsigned j);
 
 #endif

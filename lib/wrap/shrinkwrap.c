@@ -5,8 +5,6 @@
 #include "base/text.h"
 #include "measure/gaps.h"
 #include "remesh/unfold.h"
-#include "space/rows.h"
-#include "space/scatter.h"
 #include "volume/volume.h"
 #include "wrap/parts.h"
 
@@ -163,34 +161,6 @@ report_topology(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
 		    &l->at);
 }
 
-/* Points in rows say little of what is between these: rows 5 times as far apart as their points make a sheet
- * of a height field, 6 times a closed body. */
-static const double ROWS = 5;
-
-/* Balls, cubes and bars that points fill have 0.163 and more, clouds of surfaces 0.12 at most. */
-static const double SCATTERED = 0.16;
-
-static mr_status
-report_scatter(mr_ctx *ctx, const mr_wrap_cloud *cloud)
-{
-	mr_finding f = { .kind = MR_SCATTERED, .layer = "points" };
-	double scatter;
-	mr_rows r;
-
-	if (cloud->n < SURE_LEAST)
-		return MR_OK;
-	MR_TRY(mr_find_rows(ctx, cloud->p, cloud->n, cloud->near, &r));
-	MR_TRY(mr_cloud_scatter(ctx, cloud->p, cloud->n, cloud->near, &scatter));
-	if (r.across > ROWS * r.along)
-		f.what = mr_format(
-		    ctx, "points stand in rows %.3g apart, and %.3g along them", r.across, r.along);
-	else if (scatter > SCATTERED)
-		f.what = "points fill a volume rather than lie on a surface";
-	if (f.what)
-		mr_found(ctx, &f);
-	return MR_OK;
-}
-
 /* Where the wrap is poor. */
 static void
 report_cover(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap *c)
@@ -246,7 +216,6 @@ wrap(mr_ctx *ctx, const mr_wrap_cloud *cloud, const mr_wrap_opts *o, mr_mesh *ou
 	MR_TRY(wrap_by_method(ctx, cloud, o, &c));
 	report_cover(ctx, cloud, &c);
 	report_topology(ctx, cloud, &c);
-	MR_TRY(report_scatter(ctx, cloud));
 	put_result(ctx, cloud, &c, result);
 	*out = mr_dyn_view(&c.d, "control");
 	return MR_OK;

@@ -52,8 +52,8 @@ open("odd.mrs", "wb").write(records.changed(open("plain.mrs", "rb").read(), odd)
 X
 mr-info odd.mrs | grep history
 
-echo 'a face 30000 times, and a flat vertex with 6000 faces'
-awk 'BEGIN { print "OFF\n3 30000 0\n0 0 0\n1 0 0\n0 1 0"; for (i = 0; i < 30000; i++) print 3, 0, 1, 2 }' >many.off
+echo 'a face 300 times, and a flat vertex with 6000 faces'
+awk 'BEGIN { print "OFF\n3 300 0\n0 0 0\n1 0 0\n0 1 0"; for (i = 0; i < 300; i++) print 3, 0, 1, 2 }' >many.off
 awk 'BEGIN { n = 6000; print "OFF\n" n + 1, n, "0\n0 0 0"; for (i = 0; i < n; i++) print cos(6.28 * i / n), sin(6.28 * i / n), 0
 	for (i = 1; i <= n; i++) print 3, 0, i, i % n + 1 }' >disc.off
 for model in many disc; do

@@ -71,9 +71,3 @@ echo 'points whose distances are no numbers'
 mr-make sphere --points 200 | mr-export -f xyz - | awk '{ print $1, $2, $3 } END { for (i = 0; i < 400; i++) print i "e-300", 0, 0 }' >near.xyz
 mr-import near.xyz | mr-shrinkwrap >out
 echo "exit $?, $(wc -c <out) bytes"
-
-echo 'rows far apart' >&2
-awk 'BEGIN { for (j = 0; j < 20; j++) for (i = 0; i < 200; i++) print i / 20, j / 2, sin(i / 20) * cos(j / 2) }' >rows.xyz
-mr-import --points rows.xyz -o rows.mrs
-mr-shrinkwrap rows.mrs 2>&1 >out | grep -c scattered
-mr-crop --keep spaced:0.25 rows.mrs | mr-shrinkwrap | mr-info -l control | sed -n 's/^ *topology *//p'

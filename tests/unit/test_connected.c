@@ -174,7 +174,7 @@ appended_names_and_numbers_follow(void **state)
 {
 	mr_frame *f[3] = { plane("a", 9), plane("b", 4), plane("c", 4) }, *all;
 	const void *group, *polygon, *names;
-	const uint32_t first[] = { 0, 0, 1, 1, 2, 2, 3, 3, 4, 4, 5, 5 };
+	const uint32_t first[] = { 0, 0, 1, 1, 2, 2, 3, 3, 8, 8, 10, 10 };
 	const uint32_t numbers[] = { 0, 1, 0, 1, 0, 1, 0, 1, 1, 2, 2, 0 };
 	mr_mesh m;
 	size_t n;

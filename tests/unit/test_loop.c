@@ -274,17 +274,6 @@ test_limit_at_corners(void **state)
 	check_fan(f, true, 40, 1e-4);
 }
 
-static void
-test_limit_at_darts(void **state)
-{
-	(void)state;
-	for (unsigned n = 3; n <= 12; n++) {
-		fan f = fan_make(n, false, n);
-		f.sharp[n / 2] = true;
-		check_fan(f, false, n <= 5 ? 40 : 120, 1e-3);
-	}
-}
-
 /* Where every neighbour is 1 and the rest 0, and the reverse. */
 static void
 test_stencils(void **state)
@@ -530,7 +519,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(test_limit_on_the_boundary, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_limit_on_creases, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_limit_at_corners, setup, teardown),
-		cmocka_unit_test_setup_teardown(test_limit_at_darts, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_affine_invariance, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_a_cube_with_creases_is_a_cube, setup, teardown),
 		cmocka_unit_test_setup_teardown(test_limits_do_not_depend_on_the_level, setup, teardown),

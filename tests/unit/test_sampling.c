@@ -2,7 +2,6 @@
 #include "base/random.h"
 #include "mesh/layers.h"
 #include "space/sampling.h"
-#include "space/scatter.h"
 #include "unit.h"
 
 enum { MOST = 12000 };
@@ -190,31 +189,6 @@ sparse_ends_are_none(void **state)
 	for (size_t i = 0; i < N; i++)
 		wrong += s.outlier[i];
 	assert_true(wrong * 1000 < N);
-}
-
-/* On a sphere next to nothing, even with noise of a spacing; of those that fill a ball nearly a third; of few
- * nothing. */
-static void
-scatter_tells_a_volume(void **state)
-{
-	enum { N = 10000, FEW = 255 };
-
-	(void)state;
-	for (int kind = 0; kind < 4; kind++) { /* a surface, noise, a ball, one of few points */
-		size_t n = kind == 3 ? FEW : N;
-		double scatter;
-		mr_near *near;
-		sphere(N, kind == 1 ? 1 : 0, 51 + (uint64_t)kind);
-		for (size_t i = 0; kind >= 2 && i < N; i++) /* radii as the cube root of what is uniform */
-			p[i] = mr_mul(cbrt(fmod((double)(i + 1) * 0.6180339887, 1)), p[i]);
-		assert_int_equal(mr_near_build(&ctx, p, n, &near), MR_OK);
-		assert_int_equal(mr_cloud_scatter(&ctx, p, n, near, &scatter), MR_OK);
-		if (kind == 2)
-			assert_true(scatter > 0.18 && scatter < 1.0 / 3);
-		else
-			assert_true(scatter < (kind == 1 ? 0.06 : 0.01));
-		assert_true(kind < 3 || scatter == 0);
-	}
 }
 
 static void
@@ -414,7 +388,6 @@ main(void)
 		cmocka_unit_test_setup_teardown(outliers_are_found, setup, teardown),
 		cmocka_unit_test_setup_teardown(sparse_parts_are_none, setup, teardown),
 		cmocka_unit_test_setup_teardown(sparse_ends_are_none, setup, teardown),
-		cmocka_unit_test_setup_teardown(scatter_tells_a_volume, setup, teardown),
 		cmocka_unit_test_setup_teardown(order_place_and_size_do_not_matter, setup, teardown),
 		cmocka_unit_test_setup_teardown(repeats_count_once, setup, teardown),
 		cmocka_unit_test_setup_teardown(few_points_have_no_figures, setup, teardown),
