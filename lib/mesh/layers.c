@@ -181,31 +181,20 @@ check_size(mr_ctx *ctx, const mr_mesh *m)
 		1 / LARGEST, LARGEST));
 }
 
-/* What `get` gives, where it is of a size that can be computed with. */
-static mr_status
-get_sized(mr_ctx *ctx, mr_frame *f, const char *layer,
-    mr_status (*get)(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m), mr_mesh *m)
-{
-	mr_mesh r;
-
-	MR_TRY(get(ctx, f, layer, &r));
-	MR_TRY(check_size(ctx, &r));
-	*m = r;
-	return MR_OK;
-}
-
 mr_status
 mr_layer_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
 	MR_ENTER(ctx);
-	return get_sized(ctx, f, layer, mr_layer_points_of_any_size, m);
+	MR_TRY(mr_layer_points_of_any_size(ctx, f, layer, m));
+	return check_size(ctx, m);
 }
 
 mr_status
 mr_layer_mesh(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
 	MR_ENTER(ctx);
-	return get_sized(ctx, f, layer, mr_layer_mesh_of_any_size, m);
+	MR_TRY(mr_layer_mesh_of_any_size(ctx, f, layer, m));
+	return check_size(ctx, m);
 }
 
 mr_status
@@ -256,7 +245,8 @@ mr_layer_surface_or_points_of_any_size(mr_ctx *ctx, mr_frame *f, const char *lay
 mr_status
 mr_layer_surface_or_points(mr_ctx *ctx, mr_frame *f, const char *layer, mr_mesh *m)
 {
-	return get_sized(ctx, f, layer, mr_layer_surface_or_points_of_any_size, m);
+	MR_TRY(mr_layer_surface_or_points_of_any_size(ctx, f, layer, m));
+	return check_size(ctx, m);
 }
 
 /* Drops the columns of a name from every layer. */

@@ -23,14 +23,15 @@ enum {
 	GRAIN = 256
 };
 
-/* A neighbourhood of more variation shows noise, or a sharp shape: the larger one sees through noise.  But where
- * the first had not so much more, and the larger has more than it, it is the shape. */
+/* A neighbourhood of more variation shows noise, or a sharp shape: the larger one sees through noise.  But
+ * where the first had not so much more, and the larger has more than it, it is the shape. */
 static const double NOISY = 0.06, SURELY_NOISY = 0.12;
 
 /*
  * An outlier is so many times as far from its neighbours as half of these from theirs; or as all usually are,
- * and its nearest make no plane (of this variation); or it has mostly outliers around.  Thin parts of a surface
- * that is sampled ever more sparsely make no planes either: there dense points lead to the sparse ones.
+ * and its nearest make no plane (of this variation); or it has mostly outliers around.  Thin parts of a
+ * surface that is sampled ever more sparsely make no planes either: there dense points lead to the sparse
+ * ones.
  */
 static const double ALONE = 2.5, SPARSE = 2.5, UNEVEN = 0.05, STREWN = 0.1;
 enum { ROUNDS = 3 };

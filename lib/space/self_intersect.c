@@ -134,59 +134,12 @@ one_sided(const int s[3])
 	return (s[0] > 0 && s[1] > 0 && s[2] > 0) || (s[0] < 0 && s[1] < 0 && s[2] < 0);
 }
 
-/* Where the points of a triangle are along an axis, from an origin, whatever the rounding. */
-static void
-range_along(mr_v3 axis, const mr_v3 p[3], mr_v3 origin, double *low, double *high)
-{
-	*low = INFINITY;
-	*high = -INFINITY;
-	for (int i = 0; i < 3; i++) {
-		mr_v3 d = mr_sub(p[i], origin);
-		double x = axis.x * d.x, y = axis.y * d.y, z = axis.z * d.z,
-		       error = 8 * 0x1p-52 * (fabs(x) + fabs(y) + fabs(z)) + 1e-300;
-		*low = fmin(*low, x + y + z - error);
-		*high = fmax(*high, x + y + z + error);
-	}
-}
-
-/* Whether a plane through a side of p, square to p's own, surely has q beyond it. */
-static bool
-side_surely_parts(const mr_v3 p[3], const mr_v3 q[3])
-{
-	mr_v3 n = mr_cross(mr_sub(p[1], p[0]), mr_sub(p[2], p[0]));
-
-	for (int i = 0; i < 3; i++) {
-		mr_v3 axis = mr_cross(mr_sub(p[(i + 1) % 3], p[i]), n);
-		double low_p, high_p, low_q, high_q;
-		range_along(axis, p, p[i], &low_p, &high_p);
-		range_along(axis, q, p[i], &low_q, &high_q);
-		if (low_q > high_p)
-			return true;
-	}
-	return false;
-}
-
-/* Whether the corners of p lie by the plane of q so that it takes exact arithmetic to tell how. */
-static bool
-is_delicate(const mr_v3 p[3], const mr_v3 q[3])
-{
-	bool plain = true;
-	int side;
-
-	for (int i = 0; i < 3 && plain; i++)
-		plain = mr_orient3d_is_plain(q[0], q[1], q[2], p[i], &side);
-	return !plain;
-}
-
-/* Triangles without a common corner.  In a flat cap of many slivers most pairs are parted by a side of one.
- */
+/* Triangles without a common corner. */
 static bool
 apart_intersect(const mr_v3 p[3], const mr_v3 q[3])
 {
 	int sp[3], sq[3];
 
-	if (is_delicate(p, q) && (side_surely_parts(p, q) || side_surely_parts(q, p)))
-		return false;
 	sides(q, p, sp);
 	if (one_sided(sp))
 		return false;

@@ -2,7 +2,6 @@
 #include "space/source_map.h"
 
 #include "base/parallel.h"
-#include "space/bvh.h"
 #include "space/surface_walk.h"
 
 /* The unit vector of corner k. */
@@ -12,47 +11,20 @@ at_corner(int k)
 	return mr_vec(k == 0, k == 1, k == 2);
 }
 
-/* Gives the vertices without a face the nearest point of the surface. */
-static void
-place_isolated(mr_ctx *ctx, const mr_mesh *m, uint32_t *face, mr_v3 *bary)
-{
-	mr_mark mark = mr_mark_take(ctx);
-	mr_bvh *bvh = NULL;
-	size_t isolated = 0;
-
-	for (size_t v = 0; v < m->nv; v++) {
-		mr_closest c;
-		if (face[v] != MR_NONE)
-			continue;
-		if (!bvh)
-			mr_bvh_build(ctx, m, &bvh);
-		c = mr_bvh_closest(bvh, m->p[v]);
-		face[v] = c.at.face;
-		bary[v] = c.at.bary;
-		isolated++;
-	}
-	if (isolated)
-		mr_note(ctx, "%s: %zu vertices have no face: they stay, over the nearest point", m->name,
-		    isolated);
-	mr_mark_release(ctx, mark);
-}
-
 void
 mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map)
 {
-	uint32_t *face = MR_NEW(ctx, m->nv, uint32_t);
+	uint32_t *face = MR_NEW_ZERO(ctx, m->nv, uint32_t);
 	mr_v3 *bary = MR_NEW(ctx, m->nv, mr_v3);
 
-	memset(face, 0xff, m->nv * sizeof *face);
-	for (uint32_t f = 0; f < m->nf; f++)
-		for (int k = 0; k < 3; k++) {
+	for (size_t v = 0; v < m->nv; v++)
+		bary[v] = at_corner(0);
+	for (uint32_t f = (uint32_t)m->nf; f-- > 0;)
+		for (int k = 3; k-- > 0;) {
 			uint32_t v = m->t[f].v[k];
-			if (face[v] != MR_NONE)
-				continue;
 			face[v] = f;
 			bary[v] = at_corner(k);
 		}
-	place_isolated(ctx, m, face, bary);
 	*map = (mr_places){ face, bary };
 }
 

@@ -8,8 +8,8 @@
 
 #include "mesh/layers.h"
 
-/* The identity: each vertex of m at a corner of its lowest face; one without a face at the nearest point of
- * the surface.  map: in the arena. */
+/* The identity: each vertex of m at a corner of its lowest face; one without a face at a corner of the first.
+ * map: in the arena. */
 void mr_source_map_identity(mr_ctx *ctx, const mr_mesh *m, mr_places *map);
 
 /*

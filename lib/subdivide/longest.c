@@ -7,6 +7,8 @@
  */
 #include "subdivide/longest.h"
 
+#include "mesh/edges.h"
+
 /* Pieces exceed the length by rounding. */
 static const double SLACK = 1e-9;
 
@@ -20,7 +22,7 @@ typedef struct pass {
 	uint32_t *edge;       /* of each half-edge */
 	uint32_t *pieces;     /* of each edge */
 	uint32_t *first;      /* the first of its new vertices, from the end of the lower number on */
-	size_t edges;
+	mr_edges edges;
 	double most; /* triangles, no fewer than there will be */
 	mr_v3 *p;    /* the result */
 	mr_tri *t;
@@ -47,42 +49,23 @@ pieces_of(const pass *s, double length)
 
 /* ---- edges ---- */
 
-static size_t
-hash_of(uint32_t a, uint32_t b)
-{
-	uint64_t h = ((uint64_t)a << 32 | b) * 0x9e3779b97f4a7c15u;
-
-	return (size_t)(h ^ h >> 32);
-}
-
-/* Numbers the edges as they come. */
+/* Faces that have a vertex twice are none of an edge: they stay as they are. */
 static void
 find_edges(pass *s)
 {
-	size_t corners = 3 * s->m.nf, mask = 64;
-	uint32_t *slot, *at = MR_NEW(s->ctx, corners, uint32_t);
+	mr_edges edges;
 
-	while (mask < corners + corners / 2)
-		mask *= 2;
-	slot = MR_NEW_ZERO(s->ctx, mask--, uint32_t);
-	s->edge = MR_NEW(s->ctx, corners, uint32_t);
-	s->pieces = MR_NEW(s->ctx, corners, uint32_t);
-	s->first = MR_NEW(s->ctx, corners, uint32_t);
-	for (uint32_t h = 0; h < corners; h++) {
-		uint32_t a = mr_he_from(&s->m, h), b = mr_he_to(&s->m, h);
-		uint32_t low = a < b ? a : b, high = a < b ? b : a;
-		size_t i = hash_of(low, high) & mask;
-		for (; slot[i]; i = (i + 1) & mask) {
-			uint32_t g = at[slot[i] - 1], c = mr_he_from(&s->m, g), d = mr_he_to(&s->m, g);
-			if ((c < d ? c : d) == low && (c < d ? d : c) == high)
-				break;
-		}
-		if (slot[i] == 0) {
-			at[s->edges] = h;
-			slot[i] = (uint32_t)++s->edges;
-		}
-		s->edge[h] = slot[i] - 1;
-	}
+	mr_edges_build(s->ctx, &s->m, &edges);
+	s->edge = MR_NEW(s->ctx, 3 * s->m.nf, uint32_t);
+	s->pieces = MR_NEW(s->ctx, edges.count + 1, uint32_t);
+	s->first = MR_NEW(s->ctx, edges.count + 1, uint32_t);
+	s->edges = edges;
+	for (size_t h = 0; h < 3 * s->m.nf; h++)
+		s->edge[h] = (uint32_t)edges.count;
+	s->pieces[edges.count] = 1;
+	for (uint32_t e = 0; e < edges.count; e++)
+		for (uint32_t i = edges.start[e]; i < edges.start[e + 1]; i++)
+			s->edge[edges.he[i]] = e;
 }
 
 static double
@@ -160,15 +143,10 @@ divide_edge(pass *s, mr_v3 low, mr_v3 high, uint32_t pieces)
 static mr_status
 divide_edges(pass *s, bool *more)
 {
-	size_t done = 0;
-
 	*more = false;
-	for (uint32_t h = 0; h < 3 * s->m.nf; h++) {
-		uint32_t e = s->edge[h], a = mr_he_from(&s->m, h), b = mr_he_to(&s->m, h);
+	for (size_t e = 0; e < s->edges.count; e++) {
+		uint32_t h = s->edges.he[s->edges.start[e]], a = mr_he_from(&s->m, h), b = mr_he_to(&s->m, h);
 		uint32_t low = a < b ? a : b, high = a < b ? b : a;
-		if (e < done)
-			continue;
-		done++;
 		s->pieces[e] = (uint32_t)pieces_of(s, length_of(s, h));
 		s->first[e] = (uint32_t)s->nv;
 		MR_TRY(divide_edge(s, s->m.p[low], s->m.p[high], s->pieces[e]));
