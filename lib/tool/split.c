@@ -1,5 +1,4 @@
 /* mr-split: a frame for each part of a layer. */
-#include "mesh/name_lists.h"
 
 #include "base/options.h"
 #include "mesh/subset.h"
@@ -81,8 +80,7 @@ keep_only(mr_frame *f, const char *layer)
 }
 
 static mr_status
-take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, const mr_name_lists *names,
-    size_t k, mr_frame **out)
+take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, size_t k, mr_frame **out)
 {
 	mr_frame *part = MR_NEW(ctx, 1, mr_frame);
 	const mr_subset s = { p->vertex + p->first_vertex[k], p->face + p->first_face[k],
@@ -94,8 +92,7 @@ take_part(mr_ctx *ctx, const mr_frame *f, const char *layer, const parts *p, con
 	part->key = true;
 	part->name = mr_format(ctx, "%s-%zu", f->name, k + 1);
 	*out = part;
-	MR_TRY(mr_layer_keep(ctx, part, layer, &s));
-	return mr_name_lists_cut(ctx, names, part, layer);
+	return mr_layer_keep(ctx, part, layer, &s);
 }
 
 static void
@@ -125,7 +122,6 @@ split(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o, mr_frame ***out, mr_spli
 	static const char *const reads[] = { "mesh", "control", "points", NULL };
 	const char *layer;
 	mr_split_result r;
-	mr_name_lists names;
 	mr_frame **part;
 	mr_mesh m;
 	parts p;
@@ -140,9 +136,8 @@ split(mr_ctx *ctx, mr_frame *f, const mr_split_opts *o, mr_frame ***out, mr_spli
 		    ctx, MR_EUSAGE, "%s has faces, which connect it: a distance is of points", layer);
 	MR_TRY(find_parts(ctx, f, &m, o, &p));
 	part = MR_NEW(ctx, p.given, mr_frame *);
-	MR_TRY(mr_name_lists_of(ctx, f, layer, &names));
 	for (size_t k = 0; k < p.given; k++)
-		MR_TRY(take_part(ctx, f, layer, &p, &names, k, &part[k]));
+		MR_TRY(take_part(ctx, f, layer, &p, k, &part[k]));
 	lose_layers(ctx, f, layer);
 	tell(ctx, &m, &p, &r);
 	*out = part;

@@ -77,8 +77,7 @@ mr-import -q stray.obj | mr-split 2>&1 >out.mrs
 mr-export -f ply-ascii 'stray-%d.ply' <out.mrs && ls stray-*
 mr-import -q stray.obj | mr-split -n 1 | mr-info | grep -c '^stray'
 
-echo 'a part has the names of its triangles, and together they have all'
+echo 'parts have the names of all, and together they have them once'
 for i in 1 2 3; do printf 'o o%s\nusemtl m%s\nv %s 0 0\nv %s 1 0\nv %s 0 1\nf -3 -2 -1\n' $i $((i % 2)) $i $i $i; done >named.obj
 mr-split named.obj -o named.mrs && mr-export -f obj 'named-%d.obj' <named.mrs && grep -h '^o \|^usemtl' named-*.obj
-mr-info named.mrs | grep -E 'objects|materials' | sort | uniq -c
 mr-cat --append named.mrs | mr-export -f obj - | grep '^o \|^usemtl'
