@@ -7,7 +7,6 @@
 #include "mesh/repair.h"
 
 #include "base/disjoint_sets.h"
-#include "mesh/alike.h"
 #include "mesh/edges.h"
 
 typedef struct surface {
@@ -42,25 +41,42 @@ degenerate(const mr_mesh *m, size_t f)
 	return mr_face_repeats(m, f) || mr_norm2(mr_face_cross(m, f)) == 0;
 }
 
+static bool
+has(mr_tri t, uint32_t v)
+{
+	return t.v[0] == v || t.v[1] == v || t.v[2] == v;
+}
+
+/* Whether an earlier face has the vertices of face f. */
+static bool
+is_repeated(const mr_mesh *m, const mr_incidence *around, uint32_t f)
+{
+	const uint32_t *v = m->t[f].v;
+
+	for (size_t i = around->start[v[0]]; around->face[i] < f; i++)
+		if (has(m->t[around->face[i]], v[1]) && has(m->t[around->face[i]], v[2]))
+			return true;
+	return false;
+}
+
 static void
 keep_faces(surface *s)
 {
-	uint32_t *first;
+	mr_incidence around;
 	mr_mark mark;
 
 	s->t = MR_NEW(s->ctx, s->m->nf, mr_tri);
 	s->face_of = MR_NEW(s->ctx, s->m->nf, uint32_t);
 	mark = mr_mark_take(s->ctx);
-	first = MR_NEW(s->ctx, s->m->nf, uint32_t);
-	mr_first_alike(s->ctx, s->m, first);
-	for (size_t f = 0; f < s->m->nf; f++) {
+	mr_incidence_build(s->ctx, s->m, &around);
+	for (uint32_t f = 0; f < s->m->nf; f++) {
 		if (degenerate(s->m, f)) {
 			s->r.degenerate++;
-		} else if (first[f] != f) {
+		} else if (is_repeated(s->m, &around, f)) {
 			s->r.duplicate++;
 		} else {
 			s->t[s->nf] = s->m->t[f];
-			s->face_of[s->nf++] = (uint32_t)f;
+			s->face_of[s->nf++] = f;
 		}
 	}
 	mr_mark_release(s->ctx, mark);

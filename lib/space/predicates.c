@@ -189,35 +189,15 @@ mr_orient3d(mr_v3 a, mr_v3 b, mr_v3 c, mr_v3 d)
 	return mr_orient3d_is_plain(a, b, c, d, &side) ? side : exact3d(a, b, c, d);
 }
 
-static int
-exact2d(const double a[2], const double b[2], const double c[2])
-{
-	difference ax = subtract(a[0], c[0]), ay = subtract(a[1], c[1]), bx = subtract(b[0], c[0]),
-		   by = subtract(b[1], c[1]);
-	double h[MINOR];
-
-	return expansion_sign(minor(&ax, &ay, &bx, &by, h), h);
-}
-
-static void
-project(mr_v3 p, int dropped, double out[2])
-{
-	out[0] = dropped == 0 ? p.y : dropped == 1 ? p.z : p.x;
-	out[1] = dropped == 0 ? p.z : dropped == 1 ? p.x : p.y;
-}
-
+/* The volume over the triangle, of a top above one corner. */
 int
-mr_orient2d(mr_v3 a3, mr_v3 b3, mr_v3 c3, int dropped)
+mr_orient2d(mr_v3 a, mr_v3 b, mr_v3 c, int dropped)
 {
-	double a[2], b[2], c[2], left, right, bound;
+	mr_v3 p[3] = { a, b, c }, top;
 
-	project(a3, dropped, a);
-	project(b3, dropped, b);
-	project(c3, dropped, c);
-	left = (a[0] - c[0]) * (b[1] - c[1]);
-	right = (a[1] - c[1]) * (b[0] - c[0]);
-	bound = (3 + 16 * EPSILON) * EPSILON * (fabs(left) + fabs(right));
-	if (left - right > bound || right - left > bound)
-		return sign(left - right);
-	return exact2d(a, b, c);
+	for (int i = 0; i < 3; i++)
+		*(dropped == 0 ? &p[i].x : dropped == 1 ? &p[i].y : &p[i].z) = 0;
+	top = p[2];
+	*(dropped == 0 ? &top.x : dropped == 1 ? &top.y : &top.z) = 1;
+	return mr_orient3d(p[0], p[1], p[2], top);
 }
