@@ -5,7 +5,6 @@
 #include "base/text.h"
 #include "edit/detail.h"
 #include "edit/handles.h"
-#include "edit/pose_basis.h"
 #include "formats/bytes.h"
 #include "formats/formats.h"
 #include "formats/page_displaced.h"

@@ -39,6 +39,14 @@ mr_add(mr_v3 a, mr_v3 b)
 	return (mr_v3){ a.x + b.x, a.y + b.y, a.z + b.z };
 }
 
+/* a + by; adding nothing keeps every bit, the sign of a zero too. */
+static inline mr_v3
+mr_moved(mr_v3 a, mr_v3 by)
+{
+	return (mr_v3){ by.x == 0 ? a.x : a.x + by.x, by.y == 0 ? a.y : a.y + by.y,
+		by.z == 0 ? a.z : a.z + by.z };
+}
+
 static inline mr_v3
 mr_sub(mr_v3 a, mr_v3 b)
 {

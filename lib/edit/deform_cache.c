@@ -1,5 +1,5 @@
 /* The system of the last frame serves as long as nothing that it was made of has changed. */
-#include "edit/deform_cache.h"
+#include "edit/deform.h"
 
 #include "edit/region_transfer.h"
 

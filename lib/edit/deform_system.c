@@ -289,12 +289,6 @@ move(const mr_affine *t, mr_v3 p)
 	return mr_is_identity(t) ? p : mr_apply(t, p);
 }
 
-static double
-moved(double x, double by)
-{
-	return by == 0 ? x : x + by;
-}
-
 /* p = T p0 + z: what is solved for is z. */
 mr_status
 mr_system_follow(
@@ -311,7 +305,7 @@ mr_system_follow(
 	for (size_t i = 0; i < s->patch.end[0]; i++) {
 		mr_v3 at = move(whole, p0[s->patch.vertex[i]]);
 		const double *z = f.u + 3 * i;
-		p[s->patch.vertex[i]] = mr_vec(moved(at.x, z[0]), moved(at.y, z[1]), moved(at.z, z[2]));
+		p[s->patch.vertex[i]] = mr_moved(at, mr_vec(z[0], z[1], z[2]));
 	}
 	return MR_OK;
 }

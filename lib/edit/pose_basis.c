@@ -1,6 +1,5 @@
 /* Botsch, Kobbelt 2004: An intuitive framework for real-time freeform modeling, section 5: precomputed basis
  * functions. */
-#include "edit/pose_basis.h"
 
 #include "base/parallel.h"
 #include "edit/detail.h"
@@ -13,13 +12,6 @@ typedef struct response_job {
 	const mr_affine *change; /* T_h - I */
 	mr_v3 *out;
 } response_job;
-
-/* Adding nothing keeps every bit, the sign of a zero too. */
-static double
-moved(double x, double by)
-{
-	return by == 0 ? x : x + by;
-}
 
 static void
 respond(void *arg, size_t begin, size_t end)
@@ -35,7 +27,7 @@ respond(void *arg, size_t begin, size_t end)
 			z.y += m[4] * w[0] + m[5] * w[1] + m[6] * w[2] + m[7] * w[3];
 			z.z += m[8] * w[0] + m[9] * w[1] + m[10] * w[2] + m[11] * w[3];
 		}
-		j->out[i] = mr_vec(moved(j->p0[i].x, z.x), moved(j->p0[i].y, z.y), moved(j->p0[i].z, z.z));
+		j->out[i] = mr_moved(j->p0[i], z);
 	}
 }
 

@@ -1,6 +1,6 @@
 /* One thread for OpenMP and OpenBLAS while a solver is set up, by what the process has of them. */
 #define _GNU_SOURCE /* RTLD_DEFAULT */
-#include "solve/blas_threads.h"
+#include "solve/solver_type.h"
 
 #include <dlfcn.h>
 #include <pthread.h>

@@ -6,7 +6,6 @@
 #include "solve/mumps.h"
 
 #include "base/memory.h"
-#include "solve/blas_threads.h"
 #include "solve/solver_type.h"
 
 #include <dmumps_c.h>

@@ -1,5 +1,4 @@
 /* The table of solvers, and how each is called. */
-#include "solve/blas_threads.h"
 #include "solve/solver_type.h"
 
 /* The order of mr_solver_kind. */

@@ -21,4 +21,16 @@ typedef struct mr_solver_type {
 
 extern const mr_solver_type mr_cholesky_type, mr_lu_type, mr_cg_type, mr_multigrid_type, mr_vcycle_type;
 
+/*
+ * Keeps the libraries below the solvers to one thread.  CHOLMOD 3 starts a team of four OpenMP threads in
+ * loops too small for them, whatever the environment says (two to three times slower), and threads of the
+ * BLAS would change the order of sums.  Both are switched off where the process has them.  Calls may nest,
+ * and any thread may make them; after the last end everything is as it was.  Until then the BLAS of the
+ * process's other threads is serial, too: OpenBLAS keeps one number for all.
+ *
+ * Returns what mr_serial_end restores, in the same thread.
+ */
+int mr_serial_begin(void);
+void mr_serial_end(int before);
+
 #endif

@@ -6,7 +6,7 @@
 #ifndef MR_TOOL_CACHE_H
 #define MR_TOOL_CACHE_H
 
-#include "edit/deform_cache.h"
+#include "edit/deform.h"
 #include "subdivide/displaced.h"
 
 /* The faces around the vertices of base, and its normals where it was encoded: a delta mostly keeps them. */

@@ -2,7 +2,7 @@
  * surface, posed by its response first where handles are there. */
 #include "base/options.h"
 #include "edit/detail.h"
-#include "edit/pose_basis.h"
+#include "edit/handles.h"
 #include "tool/cache.h"
 
 /* Whether what was kept of a column is still true of the frame. */

@@ -1,7 +1,7 @@
 /* Boundary-constraint modelling against a dense solve of the paper's own definition, and its invariants. */
 #include "base/random.h"
 #include "edit/deform.h"
-#include "edit/pose_basis.h"
+#include "edit/handles.h"
 #include "mesh/layers.h"
 #include "op/voronoi_area.h"
 #include "shapes.h"

@@ -1,6 +1,6 @@
 /* The solvers: right solutions, and sentences for matrices that have none. */
 #include "base/random.h"
-#include "solve/blas_threads.h"
+#include "solve/solver_type.h"
 #include "solve/preconditioner.h"
 #include "unit.h"
 

@@ -1,6 +1,6 @@
 /* Surfaces that handles pose, for the page: places by a response, and the detail over a base, as of mr-decode. */
 #include "edit/detail.h"
-#include "edit/pose_basis.h"
+#include "edit/handles.h"
 #include "formats/page/library/export.h"
 
 /* What the page has of a detail, and frees: the places of these arrays, and how many there are. */
