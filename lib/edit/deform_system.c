@@ -152,7 +152,7 @@ set_up(mr_ctx *ctx, mr_deform_system *s, const mr_mesh *rest, double started)
 	s->solver = mr_solver_new(ctx);
 	mark = mr_mark_take(ctx);
 	MR_TRY(assemble(ctx, s));
-	if (mr_solver_multigrid(s->opts.solver.kind))
+	if (s->opts.solver.kind >= MR_MULTIGRID)
 		MR_TRY(build_hierarchy(ctx, s, rest));
 	s->seconds_assemble = mr_seconds() - started;
 	status = open_solver(ctx, s);

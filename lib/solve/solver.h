@@ -57,13 +57,6 @@ typedef struct mr_solver_opts {
 	double memory;     /* bytes that factors may take; 0: no bound */
 } mr_solver_opts;
 
-/* True where the system must have a hierarchy. */
-static inline bool
-mr_solver_multigrid(mr_solver_kind kind)
-{
-	return kind >= MR_MULTIGRID;
-}
-
 #define MR_SOLVER_DEFAULTS                                                                                   \
 	{                                                                                                    \
 		.kind = MR_CHOLESKY, .tol = 1e-10, .iterations = 20000                                       \
