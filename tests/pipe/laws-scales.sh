@@ -14,7 +14,10 @@ mr-make bumpy -n 1000 >mesh.mrs
 mr-make bumpy --points 2000 | mr-shrinkwrap -q | mr-simplify -q -n 200 >wrap.mrs
 mr-fit -q wrap.mrs >fit.mrs && mr-sample -q fit.mrs >heights.mrs
 mr-smooth mesh.mrs | mr-select --reset --free all --fixed below:z,0.2 --handle 1=above:z,0.8 >base.mrs
-mr-solve --basis base.mrs | mr-encode | mr-pose -H 1 --rotate 1,2,3,40 >posed.mrs
+pose() { # what is scaled is posed after that
+	mr-solve -q --basis <"$1" | mr-encode -q | mr-pose -H 1 --rotate 1,2,3,40 >"$2"
+}
+pose base.mrs posed.mrs
 
 powers=$([ -z "$LONG" ] && echo -96 96 || echo -96 -20 20 96)
 # A frame, and what is done to it.
@@ -60,13 +63,13 @@ unset IFS
 result() { # frame, what to do, result
 	eval "$2" -q '<"$1" >"$3" 2>err' || bad "$2 of $1: exit $?, $(cat err)"
 }
-for frame in mesh wrap fit heights base posed; do
-	for e in $powers; do
+for frame in mesh wrap fit heights base; do
+	for e in $powers -332 332; do
 		scale $e $frame.mrs $frame$e.mrs
 	done
-	for e in -332 332; do
-		scale $e $frame.mrs $frame$e.mrs
-	done
+done
+for e in $powers; do
+	pose base$e.mrs posed$e.mrs
 done
 while read -r frame job; do
 	result $frame.mrs "$job" one.mrs
@@ -76,7 +79,7 @@ while read -r frame job; do
 		scale $((-e)) other.mrs back.mrs
 		cmp -s at-one.mrs back.mrs || bad "$job at 2^$e: another result"
 	done
-	[ "$job" = mr-cat ] && continue
+	[ "$job" = mr-cat ] || [ $frame = posed ] && continue
 	for e in -332 332; do
 		eval "$job" '<$frame$e.mrs >other.mrs 2>err' && bad "$job at 2^$e: exit 0"
 		grep -q 'only 1e-30 to 1e+30 can be computed with: mr-transform --unit' err || bad "$job at 2^$e: $(cat err)"
@@ -92,7 +95,7 @@ for e in -96 96; do
 done
 for e in -332 332; do
 	for job in 'mr-render other.png' 'mr-compare -a mesh -b base'; do
-		eval "$job" '<posed$e.mrs >out 2>err' && bad "$job at 2^$e: exit 0"
+		eval "$job" '<base$e.mrs >out 2>err' && bad "$job at 2^$e: exit 0"
 		grep -q 'mr-transform --unit' err || bad "$job at 2^$e: $(cat err)"
 	done
 	mr-info mesh$e.mrs | grep -q 'invalid .*the largest coordinate' || bad "mr-info at 2^$e says nothing"

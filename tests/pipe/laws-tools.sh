@@ -8,11 +8,11 @@ bad() {
 
 # A frame that holds every layer that a filter may ask for.
 regions='--reset --free all --fixed below:z,0.2 --handle 1=above:z,0.8'
-mr-make bumpy -n 1000 | mr-smooth | mr-remesh | mr-select $regions | mr-solve --basis | mr-encode |
-    mr-pose -H 1 --rotate 0,0,1,30 >edit.mrs || exit
+mr-make bumpy -n 1000 | mr-smooth | mr-remesh | mr-select $regions | mr-solve --basis | mr-encode >edit.mrs || exit
 mr-make sphere --points 300 >points.mrs || exit
 mr-cat --merge edit.mrs points.mrs | mr-shrinkwrap -m cube -r 5 |
-    mr-sample -n 1 >all.mrs || exit
+    mr-sample -n 1 >still.mrs || exit
+mr-pose -H 1 --rotate 0,0,1,30 still.mrs >posed.mrs || exit
 mr-make sphere -n 500 | mr-export plain.off || exit
 
 # What a tool is given besides the stream.
@@ -53,6 +53,7 @@ try() {
 for path in "$BUILD"/bin/mr-*; do
 	tool=${path##*/}
 	set -- $(arguments "$tool")
+	[ "$tool" = mr-transform ] && cp still.mrs all.mrs || cp posed.mrs all.mrs
 
 	try "$tool" --help
 	[ $code -eq 0 ] && [ ! -s err ] && grep -q "^usage: $tool" out || bad "$tool --help: exit $code"
