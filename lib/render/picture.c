@@ -266,18 +266,7 @@ mr_shot_draw(
 static size_t
 choose_columns(size_t cells, double w, double h)
 {
-	size_t best = 1;
-	double least = INFINITY;
-
-	for (size_t n = 1; n <= cells; n++) {
-		double rows = (double)((cells + n - 1) / n),
-		       off = fabs(log((double)n * w / (rows * h) / 1.5));
-		if (off < least) {
-			least = off;
-			best = n;
-		}
-	}
-	return best;
+	return (size_t)fmax(1, rint(sqrt(1.5 * (double)cells * h / w)));
 }
 
 /* How a sheet is divided into cells of one frame each. */
